@@ -1,0 +1,34 @@
+# Everything Rhombic uses from the outside; each is a Debian 12 package (pipelines/install-packages.sh).
+
+find_package(ITK 5.2 REQUIRED)
+find_package(MPI REQUIRED COMPONENTS C CXX) # Debian's VTK links it without looking for it
+find_package(VTK 9.1 REQUIRED COMPONENTS
+             CommonCore CommonDataModel CommonSystem FiltersCore FiltersGeneral FiltersModeling FiltersSources IOGeometry IOLegacy IOPLY
+             IOXML RenderingCore RenderingOpenGL2 RenderingFreeType RenderingAnnotation)
+find_package(OpenImageIO 2.4 REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(yaml-cpp REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(ZLIB REQUIRED)
+
+# Debian's OpenImageIO target lists the include folder of an OpenCV that is not installed with it.
+get_target_property(_directories OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
+list(FILTER _directories EXCLUDE REGEX opencv)
+set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${_directories}")
+unset(_directories)
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_C_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+endif()
+
+# Compiler options of every target of this project.
+add_library(RhombicOptions INTERFACE)
+target_compile_options(RhombicOptions INTERFACE
+  -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+  -ffp-contract=off # the same bytes from every build
+  $<$<BOOL:${RHOMBIC_STRICT}>:-Werror>
+  $<$<BOOL:${RHOMBIC_SANITIZER}>:-fsanitize=${RHOMBIC_SANITIZER} -fno-omit-frame-pointer>)
+target_link_options(RhombicOptions INTERFACE $<$<BOOL:${RHOMBIC_SANITIZER}>:-fsanitize=${RHOMBIC_SANITIZER}>)

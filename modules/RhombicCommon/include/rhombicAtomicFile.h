@@ -1,0 +1,48 @@
+#ifndef rhombicAtomicFile_h
+#define rhombicAtomicFile_h
+
+#include <cstdint>
+#include <filesystem>
+
+namespace rhombic
+{
+
+/** \class AtomicFile
+ * \brief An output file that appears complete or not at all.
+ *
+ * The writer writes to GetTemporaryPath(), a hidden file beside the target with the target's extension. Commit() checks
+ * its size, flushes it to the disk and renames it over the target; without Commit() the destructor removes it, so
+ * an exception or a full disk leaves the target as it was.
+ *
+ * One thread per object; objects for different targets are independent.
+ */
+class AtomicFile
+{
+public:
+  /** Throws Failure(Output) when the target's folder is missing or can't be written, or the target is a folder. */
+  explicit AtomicFile(const std::filesystem::path & target);
+  ~AtomicFile();
+
+  AtomicFile(const AtomicFile &) = delete;
+  AtomicFile &
+  operator=(const AtomicFile &) = delete;
+
+  const std::filesystem::path &
+  GetTemporaryPath() const
+  {
+    return m_Temporary;
+  }
+
+  /** Publishes the file. Libraries' writers may report success on a full disk, so the size in bytes that a complete file
+   * has at least is given by the caller. Throws Failure(Output) when the file is smaller or can't be flushed or renamed. */
+  void
+  Commit(std::uintmax_t minimumSize);
+
+private:
+  std::filesystem::path m_Target;
+  std::filesystem::path m_Temporary;
+};
+
+} // namespace rhombic
+
+#endif

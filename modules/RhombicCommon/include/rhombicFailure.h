@@ -1,0 +1,55 @@
+#ifndef rhombicFailure_h
+#define rhombicFailure_h
+
+#include "itkMacro.h"
+
+#include <string>
+
+namespace rhombic
+{
+
+/** What went wrong, as a caller can act on it. The value is the exit code of the `rhombic` program. */
+enum class FailureKind : int
+{
+  Internal = 1,   ///< a defect in Rhombic or a library under it
+  Usage = 2,      ///< an option, preset or combination that makes no sense
+  NotFound = 3,   ///< no such file or folder, or no scan in it
+  Unreadable = 4, ///< the input is damaged, or of a kind that is not supported
+  Geometry = 5,   ///< the input's position in the patient can't be known
+  Empty = 6,      ///< there is no surface at this isovalue
+  Output = 7,     ///< the output can't be written
+  Partial = 8,    ///< some inputs of many failed
+  Memory = 9,     ///< it would need, or needed, more memory than there is
+  Display = 10    ///< no way to draw on this machine
+};
+
+/** \class Failure
+ * \brief The exception of every Rhombic module outside `namespace itk`.
+ *
+ * The description is one sentence for the person at the keyboard: what failed, where, and one thing to try. It derives
+ * from itk::ExceptionObject, so a host that catches ITK's exceptions catches it too.
+ */
+class Failure : public itk::ExceptionObject
+{
+public:
+  Failure(FailureKind kind, const std::string & description);
+
+  FailureKind
+  GetKind() const
+  {
+    return m_Kind;
+  }
+
+  const char *
+  GetNameOfClass() const override
+  {
+    return "Failure";
+  }
+
+private:
+  FailureKind m_Kind;
+};
+
+} // namespace rhombic
+
+#endif

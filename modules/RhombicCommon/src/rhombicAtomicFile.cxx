@@ -1,0 +1,108 @@
+#include "rhombicAtomicFile.h"
+
+#include "rhombicFailure.h"
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+namespace rhombic
+{
+namespace
+{
+
+[[noreturn]] void
+Fail(const fs::path & path, const std::string & why)
+{
+  throw Failure(FailureKind::Output, "Cannot write " + path.string() + ": " + why + ".");
+}
+
+/** Flushes a file or folder to the disk. Some file systems can't flush folders (EINVAL); that is no loss of data. */
+bool
+Flush(const fs::path & path, int flags)
+{
+  const int descriptor = open(path.c_str(), flags | O_CLOEXEC);
+  if (descriptor < 0)
+  {
+    return false;
+  }
+  const bool flushed = fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS;
+  close(descriptor);
+  return flushed;
+}
+
+fs::path
+FolderOf(const fs::path & path)
+{
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+} // namespace
+
+AtomicFile::AtomicFile(const fs::path & target)
+  : m_Target(target)
+{
+  std::error_code error;
+  if (target.filename().empty() || fs::is_directory(target, error))
+  {
+    Fail(target, "it is a folder; give a file name");
+  }
+  const fs::path folder = FolderOf(target);
+  if (!fs::is_directory(folder, error))
+  {
+    Fail(target, "the folder " + folder.string() + " does not exist; create it first");
+  }
+  if (fs::exists(target, error) && !fs::is_regular_file(target, error))
+  {
+    Fail(target, "it is not a regular file; give a file name");
+  }
+
+  static std::atomic<unsigned> counter{ 0 };
+  m_Temporary = folder / ("." + target.stem().string() + ".tmp-" + std::to_string(getpid()) + "-" +
+                          std::to_string(counter++) + target.extension().string());
+  const int descriptor = open(m_Temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (descriptor < 0)
+  {
+    Fail(target, std::string(std::strerror(errno)) + "; choose another folder or file name");
+  }
+  close(descriptor);
+}
+
+AtomicFile::~AtomicFile()
+{
+  if (!m_Temporary.empty())
+  {
+    std::error_code ignored; // nothing more can be done about a file that won't go
+    fs::remove(m_Temporary, ignored);
+  }
+}
+
+void
+AtomicFile::Commit(std::uintmax_t minimumSize)
+{
+  std::error_code error;
+  const auto      size = fs::file_size(m_Temporary, error);
+  if (error || size < minimumSize)
+  {
+    Fail(m_Target, "only " + std::to_string(error ? 0 : size) + " of at least " + std::to_string(minimumSize) +
+                     " bytes arrived; is the disk full?");
+  }
+  if (!Flush(m_Temporary, O_WRONLY))
+  {
+    Fail(m_Target, std::string(std::strerror(errno)) + " while flushing it to the disk");
+  }
+  fs::rename(m_Temporary, m_Target, error);
+  if (error)
+  {
+    Fail(m_Target, error.message());
+  }
+  m_Temporary.clear();
+  Flush(FolderOf(m_Target), O_RDONLY | O_DIRECTORY);
+}
+
+} // namespace rhombic

@@ -1,0 +1,4 @@
+itk_module(SurfaceRendering
+  DEPENDS RhombicCommon TriangleSurface
+  PRIVATE_DEPENDS SurfaceVTK VTK::RenderingCore VTK::RenderingOpenGL2 VTK::RenderingFreeType
+  DESCRIPTION "Surfaces drawn offscreen, without an X server, in anatomical views.")

@@ -1,0 +1,20 @@
+#ifndef itkTriangleSurfaceMeasures_h
+#define itkTriangleSurfaceMeasures_h
+
+#include "itkTriangleSurface.h"
+
+namespace itk
+{
+
+/** Sum of the triangles' areas in mm^2. Thread safe. */
+double
+ComputeArea(const TriangleSurface & surface);
+
+/** Enclosed volume in mm^3 by the divergence theorem, positive when the triangles face outwards. Meaningful for closed
+ * surfaces only. Thread safe. */
+double
+ComputeVolume(const TriangleSurface & surface);
+
+} // namespace itk
+
+#endif

@@ -1,0 +1,42 @@
+#ifndef itkTriangleSurfaceTopology_h
+#define itkTriangleSurfaceTopology_h
+
+#include "itkTriangleSurface.h"
+
+#include <iosfwd>
+
+namespace itk
+{
+
+/** \class TriangleSurfaceTopology
+ * \brief What the connectivity of a surface says, counted over its indices. */
+struct TriangleSurfaceTopology
+{
+  SizeValueType components = 0;            ///< sets of triangles connected through shared points
+  SizeValueType boundaryEdges = 0;         ///< edges with one triangle: the surface is open there
+  SizeValueType nonManifoldEdges = 0;      ///< edges with three or more triangles
+  SizeValueType misorientedEdges = 0;      ///< edges whose two triangles run along them in the same direction
+  SizeValueType nonManifoldPoints = 0;     ///< points whose triangles are not one fan
+  SizeValueType unusedPoints = 0;          ///< points of no triangle
+  SizeValueType degenerateTriangles = 0;   ///< triangles with a repeated point, a repeated position, or no area
+  OffsetValueType eulerCharacteristic = 0; ///< used points - edges + triangles; 2 for each sphere, 0 for each torus
+
+  /** Closed, oriented, manifold and free of degenerate triangles. */
+  bool
+  IsWatertight() const
+  {
+    return boundaryEdges == 0 && nonManifoldEdges == 0 && misorientedEdges == 0 && nonManifoldPoints == 0 &&
+           degenerateTriangles == 0;
+  }
+};
+
+/** Counts all of the above. Time O(n log n), memory about 40 bytes a triangle. Thread safe. */
+TriangleSurfaceTopology
+ComputeTopology(const TriangleSurface & surface);
+
+std::ostream &
+operator<<(std::ostream & os, const TriangleSurfaceTopology & topology);
+
+} // namespace itk
+
+#endif

@@ -1,0 +1,68 @@
+#include "itkTriangleSurface.h"
+
+#include <algorithm>
+
+namespace itk
+{
+
+SizeValueType
+TriangleSurface::GetMemorySize() const
+{
+  return m_Points.size() * sizeof(PointType) + m_Normals.size() * sizeof(NormalType) +
+         m_Triangles.size() * sizeof(TriangleType);
+}
+
+std::array<double, 6>
+TriangleSurface::GetBounds() const
+{
+  if (m_Points.empty())
+  {
+    return {};
+  }
+  PointType lowest = m_Points.front();
+  PointType highest = lowest;
+  for (const PointType & point : m_Points)
+  {
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      lowest[axis] = std::min(lowest[axis], point[axis]);
+      highest[axis] = std::max(highest[axis], point[axis]);
+    }
+  }
+  return { lowest[0], highest[0], lowest[1], highest[1], lowest[2], highest[2] };
+}
+
+void
+TriangleSurface::Initialize()
+{
+  Superclass::Initialize();
+  PointsContainer().swap(m_Points);
+  NormalsContainer().swap(m_Normals);
+  TrianglesContainer().swap(m_Triangles);
+}
+
+void
+TriangleSurface::Graft(const DataObject * data)
+{
+  const auto * const other = dynamic_cast<const Self *>(data);
+  if (other == nullptr)
+  {
+    itkExceptionMacro("Only another TriangleSurface can be grafted; got "
+                      << (data ? data->GetNameOfClass() : "nothing"));
+  }
+  m_Points = other->m_Points;
+  m_Normals = other->m_Normals;
+  m_Triangles = other->m_Triangles;
+  this->Modified();
+}
+
+void
+TriangleSurface::PrintSelf(std::ostream & os, Indent indent) const
+{
+  Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfPoints: " << m_Points.size() << std::endl;
+  os << indent << "NumberOfNormals: " << m_Normals.size() << std::endl;
+  os << indent << "NumberOfTriangles: " << m_Triangles.size() << std::endl;
+}
+
+} // namespace itk
