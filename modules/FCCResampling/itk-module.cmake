@@ -1,3 +1,3 @@
 itk_module(FCCResampling
-  DEPENDS FCCLattice FCCInterpolation
+  DEPENDS FCCLattice FCCInterpolation ITKCommon
   DESCRIPTION "Filters from Cartesian images to FCC images and back.")

@@ -1,0 +1,81 @@
+#ifndef itkFCCTetrahedron_h
+#define itkFCCTetrahedron_h
+
+#include "itkFCCLattice.h"
+
+namespace itk
+{
+
+/** \class FCCTetrahedron
+ * \brief The four sites around a point and their barycentric weights.
+ *
+ * The tetrahedra are those of the six-tetrahedra decomposition: the regular one in each unit cube, and the octahedron
+ * around each odd point cut in four about its x diagonal. They are the ones that FCCIsosurfaceFilter marches, so the
+ * level sets of this interpolant are exactly its `tetrahedra` surfaces.
+ *
+ * \ingroup FCCInterpolation
+ */
+struct FCCTetrahedron
+{
+  std::array<FCCLattice::SiteType, 4> sites;
+  std::array<double, 4>               weights; ///< not negative, and their sum is 1
+};
+
+/** The tetrahedron that holds a point given in lattice coordinates. On a face shared by several, any of them. */
+inline FCCTetrahedron
+LocateFCCTetrahedron(const std::array<double, 3> & point)
+{
+  // Within the unit cube, mirrored along x when needed so that its lowest corner is a site.
+  FCCLattice::SiteType  corner;
+  std::array<double, 3> local;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    const double lower = std::floor(point[axis]);
+    corner[axis] = static_cast<IndexValueType>(lower);
+    local[axis] = point[axis] - lower;
+  }
+  IndexValueType xStep = 1;
+  if (!FCCLattice::IsSite(corner))
+  {
+    corner[0] += 1;
+    local[0] = 1.0 - local[0];
+    xStep = -1;
+  }
+  const auto [a, b, c] = local;
+  const auto at = [&corner, xStep](IndexValueType x, IndexValueType y, IndexValueType z) {
+    return FCCLattice::SiteType{ corner[0] + xStep * x, corner[1] + y, corner[2] + z };
+  };
+
+  const std::array<double, 4> regular{
+    1.0 - (a + b + c) / 2.0, (a + b - c) / 2.0, (a + c - b) / 2.0, (b + c - a) / 2.0
+  };
+  // A negative weight says which of the cube's four odd corners is near: the point is in the octahedron around it. Its
+  // sites in this cube are the corner's neighbours along x, y and z; its fourth site is the far end of the row edge.
+  const auto octant = [&at](IndexValueType x, IndexValueType y, IndexValueType z, double alongX, double alongY, double alongZ) {
+    const IndexValueType inward = 1 - 2 * x;
+    const double         rest = 1.0 - alongY - alongZ;
+    return FCCTetrahedron{ { at(x + inward, y, z), at(x - inward, y, z), at(x, 1 - y, z), at(x, y, 1 - z) },
+                           { (rest + alongX) / 2.0, (rest - alongX) / 2.0, alongY, alongZ } };
+  };
+  if (regular[0] < 0.0)
+  {
+    return octant(1, 1, 1, 1.0 - a, 1.0 - b, 1.0 - c);
+  }
+  if (regular[1] < 0.0)
+  {
+    return octant(0, 0, 1, a, b, 1.0 - c);
+  }
+  if (regular[2] < 0.0)
+  {
+    return octant(0, 1, 0, a, 1.0 - b, c);
+  }
+  if (regular[3] < 0.0)
+  {
+    return octant(1, 0, 0, 1.0 - a, b, c);
+  }
+  return { { at(0, 0, 0), at(1, 1, 0), at(1, 0, 1), at(0, 1, 1) }, regular };
+}
+
+} // namespace itk
+
+#endif

@@ -1,0 +1,126 @@
+#ifndef itkCartesianToFCCImageFilter_h
+#define itkCartesianToFCCImageFilter_h
+
+#include "itkFCCImage.h"
+#include "itkImage.h"
+#include "itkImageToImageFilter.h"
+#include "itkSeparableTaps.h"
+
+namespace itk
+{
+
+/** \class CartesianToFCCImageFilter
+ * \brief Resamples a Cartesian volume onto the face-centered cubic lattice.
+ *
+ * By default the lattice has FCCLattice::NyquistDensity (0.7698) times as many samples per volume as the input, which
+ * carries the same band of frequencies in all directions, and the aspect of the input's voxels. Other densities are set
+ * by SetDensity(), or the lattice's spacing itself by SetOutputSpacing().
+ *
+ * The output has the input's direction. Its extent (see FCCImage) covers the input's, from the outer face of the first
+ * voxel to that of the last, and is centred on it; every input sample lies between output samples. Output index (0, 0, 0)
+ * is a sample whatever the input's start index. Where output samples lie up to a lattice unit beyond the outermost input
+ * samples, the field is constant along the axis.
+ *
+ * Values between samples come from a separable kernel (see SeparableTaps), the cubic B-spline with its prefilter by
+ * default, because linear interpolation blurs away what the lattice gains. B-splines overshoot at edges; integer outputs
+ * are rounded and clamped to the range of their type. Not-a-number spreads to all samples within the kernel's reach.
+ *
+ * The filter works row by row: a lattice row has constant y and z, so the rows of the input around it are blended once
+ * and then interpolated along x. Extra memory: about one input plane in float32 per thread. It asks for as much of
+ * the input as the requested output needs, and any part of the output has the same bytes whether it is computed alone or
+ * with the rest, by one thread or many.
+ *
+ * Overridden pipeline methods: VerifyPreconditions() (sensible parameters), GenerateOutputInformation() (places the lattice),
+ * GenerateInputRequestedRegion() (the kernel's reach).
+ *
+ * \ingroup FCCResampling
+ */
+template <typename TInputImage, typename TOutputImage = FCCImage<typename TInputImage::PixelType>>
+class ITK_TEMPLATE_EXPORT CartesianToFCCImageFilter : public ImageToImageFilter<TInputImage, TOutputImage>
+{
+public:
+  ITK_DISALLOW_COPY_AND_MOVE(CartesianToFCCImageFilter);
+
+  using Self = CartesianToFCCImageFilter;
+  using Superclass = ImageToImageFilter<TInputImage, TOutputImage>;
+  using Pointer = SmartPointer<Self>;
+  using ConstPointer = SmartPointer<const Self>;
+
+  itkNewMacro(Self);
+  itkTypeMacro(CartesianToFCCImageFilter, ImageToImageFilter);
+
+  using InputPixelType = typename TInputImage::PixelType;
+  using OutputPixelType = typename TOutputImage::PixelType;
+  using InputImageRegionType = typename TInputImage::RegionType;
+  using OutputImageRegionType = typename TOutputImage::RegionType;
+  using SpacingType = typename TOutputImage::SpacingType;
+
+  static_assert(std::is_base_of<FCCImage<OutputPixelType>, TOutputImage>::value, "The output must be an FCCImage");
+  static_assert(TInputImage::ImageDimension == 3, "The face-centered cubic lattice is three-dimensional");
+
+  /** Output samples per input sample, for the same volume. Default FCCLattice::NyquistDensity. Must be positive. */
+  itkSetMacro(Density, double);
+  itkGetConstMacro(Density, double);
+
+  /** Spacing of the output in mm, the unit of its lattice coordinates (see FCCImage). Default all 0: the spacing
+   * follows from the density and the input's spacing. */
+  itkSetMacro(OutputSpacing, SpacingType);
+  itkGetConstReferenceMacro(OutputSpacing, SpacingType);
+
+  /** How values between samples are computed. Default SeparableKernel::CubicBSpline. */
+  itkSetEnumMacro(Kernel, SeparableKernel);
+  itkGetEnumMacro(Kernel, SeparableKernel);
+
+protected:
+  CartesianToFCCImageFilter();
+  ~CartesianToFCCImageFilter() override = default;
+
+  void
+  PrintSelf(std::ostream & os, Indent indent) const override;
+
+  void
+  VerifyPreconditions() ITKv5_CONST override;
+
+  void
+  GenerateOutputInformation() override;
+
+  void
+  GenerateInputRequestedRegion() override;
+
+  void
+  DynamicThreadedGenerateData(const OutputImageRegionType & region) override;
+
+  /** Reports that all is done: the threads' last reports may have come from another thread than the observers'. */
+  void
+  AfterThreadedGenerateData() override
+  {
+    this->UpdateProgress(1.0f);
+  }
+
+private:
+  /** Taps for the samples of the output region along one axis; along x, for the rows of one parity. */
+  SeparableTaps
+  MakeTaps(unsigned int axis, const OutputImageRegionType & region, IndexValueType parity = 0) const;
+
+  double          m_Density{ FCCLattice::NyquistDensity };
+  SpacingType     m_OutputSpacing{ 0.0 };
+  SeparableKernel m_Kernel{ SeparableKernel::CubicBSpline };
+};
+
+} // namespace itk
+
+#ifndef ITK_MANUAL_INSTANTIATION
+#  include "itkCartesianToFCCImageFilter.hxx"
+#endif
+
+// Compiled once, in the library, for the pixel types of scans.
+namespace itk
+{
+extern template class CartesianToFCCImageFilter<Image<std::uint8_t, 3>>;
+extern template class CartesianToFCCImageFilter<Image<std::int16_t, 3>>;
+extern template class CartesianToFCCImageFilter<Image<std::uint16_t, 3>>;
+extern template class CartesianToFCCImageFilter<Image<std::int32_t, 3>>;
+extern template class CartesianToFCCImageFilter<Image<float, 3>>;
+} // namespace itk
+
+#endif

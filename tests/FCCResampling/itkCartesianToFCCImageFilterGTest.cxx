@@ -1,0 +1,447 @@
+#include "itkCartesianToFCCImageFilter.h"
+
+#include "itkBSplineInterpolateImageFunction.h"
+#include "itkCommand.h"
+#include "itkFCCToCartesianImageFilter.h"
+#include "itkImageRegionIteratorWithIndex.h"
+#include "itkLinearInterpolateImageFunction.h"
+#include "itkResampleImageFilter.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+
+namespace
+{
+
+template <typename TPixel>
+using Cartesian = itk::Image<TPixel, 3>;
+template <typename TPixel>
+using Filter = itk::CartesianToFCCImageFilter<Cartesian<TPixel>>;
+
+using FloatImage = Cartesian<float>;
+using FCCFloatImage = itk::FCCImage<float>;
+using PointType = itk::Point<double, 3>;
+
+FloatImage::DirectionType
+ObliqueLeftHandedDirection()
+{
+  FloatImage::DirectionType direction;
+  const double              c = std::cos(0.3);
+  const double              s = std::sin(0.3);
+  const double              rows[3][3] = { { c, 0, s }, { 0, -1, 0 }, { -s, 0, c } };
+  for (unsigned int row = 0; row < 3; ++row)
+  {
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      direction[row][axis] = rows[row][axis];
+    }
+  }
+  return direction;
+}
+
+template <typename TPixel = float>
+typename Cartesian<TPixel>::Pointer
+MakeImage(const itk::Size<3> & size, const itk::Index<3> & start = { { 0, 0, 0 } })
+{
+  auto image = Cartesian<TPixel>::New();
+  image->SetRegions(typename Cartesian<TPixel>::RegionType(start, size));
+  image->Allocate(true);
+  const double spacing[3] = { 0.7, 0.9, 2.0 };
+  const double origin[3] = { -30.0, 12.0, 100.0 };
+  image->SetSpacing(spacing);
+  image->SetOrigin(origin);
+  image->SetDirection(ObliqueLeftHandedDirection());
+  return image;
+}
+
+template <typename TPixel>
+void
+FillWithNoise(Cartesian<TPixel> & image, double low, double high)
+{
+  std::mt19937                           random(17);
+  std::uniform_real_distribution<double> value(low, high);
+  for (itk::ImageRegionIteratorWithIndex<Cartesian<TPixel>> it(&image, image.GetBufferedRegion()); !it.IsAtEnd(); ++it)
+  {
+    it.Set(static_cast<TPixel>(value(random)));
+  }
+}
+
+template <typename TImage>
+std::size_t
+Bytes(const TImage & image)
+{
+  return image.GetBufferedRegion().GetNumberOfPixels() * sizeof(typename TImage::PixelType);
+}
+
+TEST(CartesianToFCCImageFilter, PinsItsDefaults)
+{
+  const auto filter = Filter<float>::New();
+  EXPECT_EQ(filter->GetDensity(), itk::FCCLattice::NyquistDensity);
+  EXPECT_EQ(filter->GetOutputSpacing(), itk::Vector<double>(0.0));
+  EXPECT_EQ(filter->GetKernel(), itk::SeparableKernel::CubicBSpline);
+  std::ostringstream text;
+  filter->Print(text);
+  EXPECT_NE(text.str().find("CubicBSpline"), std::string::npos);
+}
+
+TEST(CartesianToFCCImageFilter, DefaultLatticeHasTheNyquistDensityAndTheInputsAspect)
+{
+  const auto image = MakeImage({ { 120, 110, 90 } });
+  const auto filter = Filter<float>::New();
+  filter->SetInput(image);
+  filter->UpdateOutputInformation();
+  const auto spacing = filter->GetOutput()->GetSpacing();
+  EXPECT_NEAR(spacing[0] / 0.7, std::sqrt(3.0) / 2.0, 1e-12);
+  EXPECT_NEAR(spacing[1] / spacing[0], 0.9 / 0.7, 1e-12);
+  EXPECT_NEAR(spacing[2] / spacing[0], 2.0 / 0.7, 1e-12);
+  const double ratio = static_cast<double>(filter->GetOutput()->GetLargestPossibleRegion().GetNumberOfPixels()) /
+                       static_cast<double>(image->GetLargestPossibleRegion().GetNumberOfPixels());
+  EXPECT_NEAR(ratio, itk::FCCLattice::NyquistDensity, 0.04) << "a little more at the borders";
+}
+
+TEST(CartesianToFCCImageFilter, ExtentCoversTheInputAndIsCentredOnIt)
+{
+  for (const itk::Size<3> size : { itk::Size<3>{ { 1, 1, 1 } }, itk::Size<3>{ { 7, 12, 3 } }, itk::Size<3>{ { 40, 1, 26 } } })
+  {
+    const auto image = MakeImage(size, { { 3, -2, 9 } });
+    const auto filter = Filter<float>::New();
+    filter->SetInput(image);
+    filter->UpdateOutputInformation();
+    const auto * const output = filter->GetOutput();
+    const auto         fccRegion = output->GetLargestPossibleRegion();
+    std::array<double, 3> lowest{ 1e9, 1e9, 1e9 };
+    std::array<double, 3> highest{ -1e9, -1e9, -1e9 };
+    for (unsigned int corner = 0; corner < 8; ++corner)
+    {
+      itk::ContinuousIndex<double, 3> index;
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        const bool upper = (corner >> axis & 1) != 0;
+        index[axis] = static_cast<double>(image->GetLargestPossibleRegion().GetIndex(axis)) +
+                      (upper ? static_cast<double>(size[axis]) - 0.5 : -0.5);
+      }
+      const auto lattice =
+        output->TransformPhysicalPointToLattice(image->TransformContinuousIndexToPhysicalPoint<double>(index));
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        lowest[axis] = std::min(lowest[axis], lattice[axis]);
+        highest[axis] = std::max(highest[axis], lattice[axis]);
+      }
+    }
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const double length = (axis == 0 ? 2.0 : 1.0) * static_cast<double>(fccRegion.GetSize(axis));
+      EXPECT_GE(lowest[axis], -0.5 - 1e-9);
+      EXPECT_LE(highest[axis], length - 0.5 + 1e-9);
+      EXPECT_NEAR(lowest[axis] + 0.5, length - 0.5 - highest[axis], 1e-9) << "centred";
+    }
+  }
+}
+
+TEST(CartesianToFCCImageFilter, ReproducesLinearFieldsOfTheWorldWithBothKernels)
+{
+  const auto image = MakeImage({ { 60, 58, 56 } }, { { -4, 5, 2 } });
+  const auto field = [](const PointType & p) { return 10.0 + 0.5 * p[0] - 0.25 * p[1] + 0.125 * p[2]; };
+  for (itk::ImageRegionIteratorWithIndex<FloatImage> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+  {
+    it.Set(static_cast<float>(field(image->TransformIndexToPhysicalPoint<double>(it.GetIndex()))));
+  }
+  for (const auto kernel : { itk::SeparableKernel::Linear, itk::SeparableKernel::CubicBSpline })
+  {
+    const auto filter = Filter<float>::New();
+    filter->SetInput(image);
+    filter->SetKernel(kernel);
+    filter->Update();
+    const auto * const output = filter->GetOutput();
+    // The spline's mirror images bend a slope at the ends; that dies out within a dozen samples.
+    const double margin = kernel == itk::SeparableKernel::Linear ? 0.0 : 12.0;
+    int          checked = 0;
+    for (itk::ImageRegionConstIteratorWithIndex<FCCFloatImage> it(output, output->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+    {
+      const auto point = output->TransformIndexToPhysicalPoint<double>(it.GetIndex());
+      const auto index = image->TransformPhysicalPointToContinuousIndex<double>(point);
+      bool       inside = true;
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        const double first = static_cast<double>(image->GetBufferedRegion().GetIndex(axis)) + margin;
+        const double last = static_cast<double>(image->GetBufferedRegion().GetUpperIndex()[axis]) - margin;
+        inside = inside && index[axis] >= first && index[axis] <= last;
+      }
+      if (inside)
+      {
+        ++checked;
+        ASSERT_NEAR(it.Get(), field(point), 2e-4) << it.GetIndex();
+      }
+    }
+    EXPECT_GT(checked, 10000);
+  }
+}
+
+TEST(CartesianToFCCImageFilter, AgreesWithITKsResamplerOnTheSameLattice)
+{
+  const auto image = MakeImage({ { 37, 29, 31 } });
+  FillWithNoise(*image, -1000.0, 3000.0);
+  for (const auto kernel : { itk::SeparableKernel::Linear, itk::SeparableKernel::CubicBSpline })
+  {
+    const auto filter = Filter<float>::New();
+    filter->SetInput(image);
+    filter->SetKernel(kernel);
+    filter->Update();
+    const auto * const output = filter->GetOutput();
+
+    const auto reference = itk::ResampleImageFilter<FloatImage, FCCFloatImage>::New();
+    reference->SetInput(image);
+    reference->SetOutputParametersFromImage(output);
+    if (kernel == itk::SeparableKernel::Linear)
+    {
+      reference->SetInterpolator(itk::LinearInterpolateImageFunction<FloatImage>::New());
+    }
+    else
+    {
+      reference->SetInterpolator(itk::BSplineInterpolateImageFunction<FloatImage>::New());
+    }
+    reference->Update();
+
+    int checked = 0;
+    for (itk::ImageRegionConstIteratorWithIndex<FCCFloatImage> it(output, output->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+    {
+      const auto point = output->TransformIndexToPhysicalPoint<double>(it.GetIndex());
+      const auto index = image->TransformPhysicalPointToContinuousIndex<double>(point);
+      bool       inside = true; // beyond the outermost samples the two extend the field differently
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        inside = inside && index[axis] >= 0.0 && index[axis] <= static_cast<double>(image->GetBufferedRegion().GetSize(axis) - 1);
+      }
+      if (inside)
+      {
+        ++checked;
+        ASSERT_NEAR(it.Get(), reference->GetOutput()->GetPixel(it.GetIndex()), 0.02) << it.GetIndex();
+      }
+    }
+    EXPECT_GT(checked, 20000);
+  }
+}
+
+template <typename TPixel>
+class CartesianToFCCPixelTypes : public testing::Test
+{};
+
+using PixelTypes = testing::Types<std::uint8_t, std::int16_t, std::uint16_t, std::int32_t, float>;
+TYPED_TEST_SUITE(CartesianToFCCPixelTypes, PixelTypes);
+
+TYPED_TEST(CartesianToFCCPixelTypes, KeepsConstants)
+{
+  const auto image = MakeImage<TypeParam>({ { 9, 8, 7 } });
+  image->FillBuffer(static_cast<TypeParam>(117));
+  const auto filter = Filter<TypeParam>::New();
+  filter->SetInput(image);
+  filter->Update();
+  const auto * const output = filter->GetOutput();
+  for (std::size_t n = 0; n < output->GetBufferedRegion().GetNumberOfPixels(); ++n)
+  {
+    ASSERT_NEAR(output->GetBufferPointer()[n], 117, 1e-4);
+  }
+}
+
+TYPED_TEST(CartesianToFCCPixelTypes, ClampsOvershootToTheTypesRange)
+{
+  const auto image = MakeImage<TypeParam>({ { 24, 24, 24 } });
+  using Limits = std::numeric_limits<TypeParam>;
+  const bool isFloat = std::is_same<TypeParam, float>::value;
+  const auto low = isFloat ? TypeParam(-1000) : Limits::lowest();
+  const auto high = isFloat ? TypeParam(1000) : Limits::max();
+  for (itk::ImageRegionIteratorWithIndex<Cartesian<TypeParam>> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+  {
+    it.Set(it.GetIndex()[0] < 12 ? low : high);
+  }
+  const auto filter = Filter<TypeParam>::New();
+  filter->SetInput(image);
+  filter->Update();
+  const auto * const output = filter->GetOutput();
+  bool               overshoots = false;
+  for (itk::ImageRegionConstIteratorWithIndex<itk::FCCImage<TypeParam>> it(output, output->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+  {
+    const auto x = image->template TransformPhysicalPointToContinuousIndex<double>(
+      output->template TransformIndexToPhysicalPoint<double>(it.GetIndex()))[0];
+    const double middle = 0.5 * (static_cast<double>(low) + static_cast<double>(high));
+    ASSERT_TRUE(x < 11.4 ? it.Get() < middle : x < 11.6 || it.Get() > middle) << "an overshoot wrapped around";
+    overshoots = overshoots || it.Get() > high;
+  }
+  EXPECT_EQ(overshoots, isFloat);
+}
+
+TEST(CartesianToFCCImageFilter, GivesTheSameBytesForAnyNumberOfThreads)
+{
+  const auto image = MakeImage<std::int16_t>({ { 33, 41, 19 } });
+  FillWithNoise(*image, -1000, 1000);
+  const auto single = Filter<std::int16_t>::New();
+  single->SetInput(image);
+  single->SetNumberOfWorkUnits(1);
+  single->Update();
+  for (const unsigned int units : { 2u, 3u, 7u, 64u })
+  {
+    const auto many = Filter<std::int16_t>::New();
+    many->SetInput(image);
+    many->SetNumberOfWorkUnits(units);
+    many->Update();
+    ASSERT_EQ(std::memcmp(single->GetOutput()->GetBufferPointer(), many->GetOutput()->GetBufferPointer(), Bytes(*single->GetOutput())), 0);
+  }
+}
+
+TEST(CartesianToFCCImageFilter, AnyRequestedRegionIsTheCropOfTheWholeAndNeedsOnlyItsSurroundings)
+{
+  const auto image = MakeImage({ { 50, 60, 70 } }, { { 5, -3, 0 } });
+  FillWithNoise(*image, -100, 100);
+  const auto whole = Filter<float>::New();
+  whole->SetInput(image);
+  whole->Update();
+  const auto all = whole->GetOutput()->GetLargestPossibleRegion();
+  std::mt19937 random(23);
+  for (int trial = 0; trial < 20; ++trial)
+  {
+    FCCFloatImage::RegionType region;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const auto begin = random() % all.GetSize(axis);
+      region.SetIndex(axis, static_cast<itk::IndexValueType>(begin));
+      region.SetSize(axis, 1 + random() % (all.GetSize(axis) - begin));
+    }
+    for (const auto kernel : { itk::SeparableKernel::Linear, itk::SeparableKernel::CubicBSpline })
+    {
+      whole->SetKernel(kernel);
+      whole->Update();
+      const auto part = Filter<float>::New();
+      part->SetInput(image);
+      part->SetKernel(kernel);
+      part->GetOutput()->SetRequestedRegion(region);
+      part->Update();
+      for (itk::ImageRegionConstIteratorWithIndex<FCCFloatImage> it(part->GetOutput(), region); !it.IsAtEnd(); ++it)
+      {
+        ASSERT_EQ(it.Get(), whole->GetOutput()->GetPixel(it.GetIndex()));
+      }
+      const double reach = kernel == itk::SeparableKernel::Linear ? 3.0 : 26.0;
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        const double step = (axis == 0 ? 2.0 : 1.0) * part->GetOutput()->GetSpacing()[axis] / image->GetSpacing()[axis];
+        EXPECT_LE(static_cast<double>(image->GetRequestedRegion().GetSize(axis)), step * static_cast<double>(region.GetSize(axis)) + reach);
+      }
+    }
+  }
+}
+
+TEST(CartesianToFCCImageFilter, HonoursAnExplicitSpacing)
+{
+  const auto image = MakeImage({ { 30, 30, 30 } });
+  const auto filter = Filter<float>::New();
+  filter->SetInput(image);
+  filter->SetOutputSpacing(itk::Vector<double>(1.5));
+  filter->UpdateOutputInformation();
+  EXPECT_EQ(filter->GetOutput()->GetSpacing(), itk::Vector<double>(1.5));
+  EXPECT_EQ(filter->GetOutput()->GetLargestPossibleRegion().GetSize(2), 40u) << "60 mm in steps of 1.5 mm";
+}
+
+TEST(CartesianToFCCImageFilter, RefusesNonsense)
+{
+  const auto image = MakeImage({ { 3, 3, 3 } });
+  const auto filter = Filter<float>::New();
+  filter->SetInput(image);
+  for (const double density : { 0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
+  {
+    filter->SetDensity(density);
+    EXPECT_THROW(filter->Update(), itk::ExceptionObject);
+  }
+  filter->SetDensity(1.0);
+  const double flat[3] = { 1.0, 0.0, 1.0 };
+  filter->SetOutputSpacing(flat);
+  EXPECT_THROW(filter->Update(), itk::ExceptionObject);
+  filter->SetOutputSpacing(itk::Vector<double>(1e-12));
+  EXPECT_THROW(filter->Update(), itk::ExceptionObject) << "more samples than can be counted";
+  EXPECT_THROW(Filter<float>::New()->Update(), itk::ExceptionObject) << "no input";
+}
+
+TEST(CartesianToFCCImageFilter, ReportsProgressAndStopsOnAbort)
+{
+  const auto image = MakeImage({ { 64, 64, 64 } });
+  const auto filter = Filter<float>::New();
+  filter->SetInput(image);
+  float      last = 0.0f;
+  bool       monotonic = true;
+  filter->AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) {
+    monotonic = monotonic && filter->GetProgress() >= last;
+    last = filter->GetProgress();
+  });
+  filter->Update();
+  EXPECT_TRUE(monotonic);
+  EXPECT_NEAR(last, 1.0f, 1e-3f);
+
+  const auto aborting = Filter<float>::New();
+  aborting->SetInput(image);
+  aborting->AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) { aborting->AbortGenerateDataOn(); });
+  EXPECT_THROW(aborting->Update(), itk::ProcessAborted);
+}
+
+TEST(FCCToCartesianImageFilter, BringsALinearFieldBackOntoTheReferenceGrid)
+{
+  const auto image = MakeImage({ { 40, 40, 40 } });
+  for (itk::ImageRegionIteratorWithIndex<FloatImage> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+  {
+    const auto p = image->TransformIndexToPhysicalPoint<double>(it.GetIndex());
+    it.Set(static_cast<float>(p[0] + 2 * p[1] - p[2]));
+  }
+  const auto there = Filter<float>::New();
+  there->SetInput(image);
+  there->SetKernel(itk::SeparableKernel::Linear);
+  const auto back = itk::FCCToCartesianImageFilter<FCCFloatImage>::New();
+  back->SetInput(there->GetOutput());
+  back->SetReferenceImage(image);
+  back->Update();
+  ASSERT_EQ(back->GetOutput()->GetLargestPossibleRegion(), image->GetLargestPossibleRegion());
+  for (itk::ImageRegionConstIteratorWithIndex<FloatImage> it(image, FloatImage::RegionType({ { 2, 2, 2 } }, { { 36, 36, 36 } })); !it.IsAtEnd(); ++it)
+  {
+    ASSERT_NEAR(back->GetOutput()->GetPixel(it.GetIndex()), it.Get(), 1e-3);
+  }
+}
+
+TEST(FCCToCartesianImageFilter, DefaultGridHasTheOriginalSpacingAndDirection)
+{
+  const auto image = MakeImage<std::int16_t>({ { 40, 30, 20 } });
+  image->FillBuffer(-1000);
+  const auto there = Filter<std::int16_t>::New();
+  there->SetInput(image);
+  const auto back = itk::FCCToCartesianImageFilter<itk::FCCImage<std::int16_t>>::New();
+  back->SetInput(there->GetOutput());
+  back->SetNumberOfWorkUnits(3);
+  back->Update();
+  const auto * const output = back->GetOutput();
+  EXPECT_EQ(output->GetDirection(), image->GetDirection());
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    EXPECT_NEAR(output->GetSpacing()[axis], image->GetSpacing()[axis], 1e-9);
+    EXPECT_NEAR(static_cast<double>(output->GetBufferedRegion().GetSize(axis)), static_cast<double>(image->GetBufferedRegion().GetSize(axis)), 2.0);
+  }
+  for (std::size_t n = 0; n < output->GetBufferedRegion().GetNumberOfPixels(); ++n)
+  {
+    ASSERT_EQ(output->GetBufferPointer()[n], -1000);
+  }
+}
+
+TEST(FCCToCartesianImageFilter, FillsOutsideWithTheDefaultPixelValue)
+{
+  const auto image = MakeImage({ { 10, 10, 10 } });
+  image->FillBuffer(5.0f);
+  const auto there = Filter<float>::New();
+  there->SetInput(image);
+  const auto reference = MakeImage({ { 10, 10, 10 } });
+  const double far[3] = { 1000.0, 0.0, 0.0 };
+  reference->SetOrigin(far);
+  const auto back = itk::FCCToCartesianImageFilter<FCCFloatImage>::New();
+  back->SetInput(there->GetOutput());
+  back->SetReferenceImage(reference);
+  back->SetDefaultPixelValue(-7.0f);
+  back->Update();
+  EXPECT_EQ(back->GetOutput()->GetPixel({ { 5, 5, 5 } }), -7.0f);
+}
+
+} // namespace
