@@ -78,6 +78,26 @@ TEST(TriangleSurface, GraftCopiesAndInitializeEmpties)
   EXPECT_THROW(target->Graft(itk::DataObject::New()), itk::ExceptionObject);
 }
 
+TEST(TriangleSurface, RemovesUnusedPointsOnly)
+{
+  auto surface = UnitTetrahedron();
+  surface->GetPoints().insert(surface->GetPoints().begin(), { 9, 9, 9 });
+  surface->GetPoints().push_back({ 8, 8, 8 });
+  surface->GetNormals() = { { 0, 0, 9 }, { 0, 0, 0 }, { 0, 0, 1 }, { 0, 0, 2 }, { 0, 0, 3 }, { 0, 0, 8 } };
+  for (auto & triangle : surface->GetTriangles())
+  {
+    for (auto & point : triangle)
+    {
+      ++point;
+    }
+  }
+  surface->RemoveUnusedPoints();
+  EXPECT_EQ(surface->GetPoints(), UnitTetrahedron()->GetPoints());
+  EXPECT_EQ(surface->GetTriangles(), UnitTetrahedron()->GetTriangles());
+  EXPECT_EQ(surface->GetNormals()[3][2], 3.0f);
+  EXPECT_TRUE(surface->HasNormals());
+}
+
 TEST(TriangleSurfaceTopology, ClosedTetrahedronIsWatertight)
 {
   const auto topology = ComputeTopology(*UnitTetrahedron());

@@ -103,6 +103,10 @@ public:
   std::array<double, 6>
   GetBounds() const;
 
+  /** Drops the points of no triangle, with their normals; the others keep their order. */
+  void
+  RemoveUnusedPoints();
+
   /** Back to no points, normals and triangles. */
   void
   Initialize() override;

@@ -33,6 +33,48 @@ TriangleSurface::GetBounds() const
 }
 
 void
+TriangleSurface::RemoveUnusedPoints()
+{
+  constexpr std::uint32_t    unused = 0;
+  constexpr std::uint32_t    used = 1;
+  std::vector<std::uint32_t> newId(m_Points.size(), unused);
+  for (const TriangleType & triangle : m_Triangles)
+  {
+    for (const std::uint32_t point : triangle)
+    {
+      newId[point] = used;
+    }
+  }
+  const bool    hasNormals = this->HasNormals();
+  std::uint32_t kept = 0;
+  for (std::size_t point = 0; point < newId.size(); ++point)
+  {
+    if (newId[point] == used)
+    {
+      m_Points[kept] = m_Points[point];
+      if (hasNormals)
+      {
+        m_Normals[kept] = m_Normals[point];
+      }
+      newId[point] = kept++;
+    }
+  }
+  m_Points.resize(kept);
+  if (hasNormals)
+  {
+    m_Normals.resize(kept);
+  }
+  for (TriangleType & triangle : m_Triangles)
+  {
+    for (std::uint32_t & point : triangle)
+    {
+      point = newId[point];
+    }
+  }
+  this->Modified();
+}
+
+void
 TriangleSurface::Initialize()
 {
   Superclass::Initialize();

@@ -1,0 +1,261 @@
+#ifndef itkFCCIsosurfaceFilter_hxx
+#define itkFCCIsosurfaceFilter_hxx
+
+#include "itkFCCEdgePoint.h"
+#include "itkMultiThreaderBase.h"
+
+#include <cmath>
+#include <limits>
+
+namespace itk
+{
+
+template <typename TInputImage>
+FCCIsosurfaceFilter<TInputImage>::FCCIsosurfaceFilter()
+{
+  this->SetNumberOfRequiredInputs(1);
+  this->SetNumberOfRequiredOutputs(1);
+  this->ProcessObject::SetNthOutput(0, this->MakeOutput(0));
+}
+
+template <typename TInputImage>
+void
+FCCIsosurfaceFilter<TInputImage>::SetInput(const InputImageType * image)
+{
+  this->ProcessObject::SetNthInput(0, const_cast<InputImageType *>(image));
+}
+
+template <typename TInputImage>
+auto
+FCCIsosurfaceFilter<TInputImage>::GetInput() const -> const InputImageType *
+{
+  return itkDynamicCastInDebugMode<const InputImageType *>(this->GetPrimaryInput());
+}
+
+template <typename TInputImage>
+TriangleSurface *
+FCCIsosurfaceFilter<TInputImage>::GetOutput()
+{
+  return itkDynamicCastInDebugMode<TriangleSurface *>(this->GetPrimaryOutput());
+}
+
+template <typename TInputImage>
+const TriangleSurface *
+FCCIsosurfaceFilter<TInputImage>::GetOutput() const
+{
+  return itkDynamicCastInDebugMode<const TriangleSurface *>(this->GetPrimaryOutput());
+}
+
+template <typename TInputImage>
+DataObject::Pointer
+FCCIsosurfaceFilter<TInputImage>::MakeOutput(DataObjectPointerArraySizeType)
+{
+  return TriangleSurface::New().GetPointer();
+}
+
+template <typename TInputImage>
+void
+FCCIsosurfaceFilter<TInputImage>::PrintSelf(std::ostream & os, Indent indent) const
+{
+  Superclass::PrintSelf(os, indent);
+  os << indent << "Isovalue: " << m_Isovalue << std::endl;
+  os << indent << "Closed: " << (m_Closed ? "On" : "Off") << std::endl;
+}
+
+template <typename TInputImage>
+void
+FCCIsosurfaceFilter<TInputImage>::VerifyPreconditions() ITKv5_CONST
+{
+  Superclass::VerifyPreconditions();
+  if (!std::isfinite(m_Isovalue))
+  {
+    itkExceptionMacro("Isovalue must be a finite number, not " << m_Isovalue << ".");
+  }
+}
+
+template <typename TInputImage>
+void
+FCCIsosurfaceFilter<TInputImage>::GenerateData()
+{
+  this->UpdateProgress(0.0f);
+  this->GetOutput()->Initialize();
+  const FCCSigns signs = this->Classify();
+  this->Fill(signs, this->Count(signs));
+  if (!m_Closed)
+  {
+    this->GetOutput()->RemoveUnusedPoints(); // on edges of no tetrahedron, at the ragged ends of rows
+  }
+  this->UpdateProgress(1.0f);
+}
+
+template <typename TInputImage>
+template <typename TWork>
+void
+FCCIsosurfaceFilter<TInputImage>::ForEachSlab(SizeValueType planes, float share, const TWork & work)
+{
+  constexpr SizeValueType planesPerSlab = 16;
+  const SizeValueType     slabs = (planes + planesPerSlab - 1) / planesPerSlab;
+  MultiThreaderBase *     threader = this->GetMultiThreader();
+  threader->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
+  threader->ParallelizeArray(
+    0,
+    slabs,
+    [&](SizeValueType slab) {
+      if (this->GetAbortGenerateData())
+      {
+        throw ProcessAborted(__FILE__, __LINE__);
+      }
+      const SizeValueType begin = slab * planesPerSlab;
+      work(begin, std::min(begin + planesPerSlab, planes));
+      this->IncrementProgress(share / static_cast<float>(slabs));
+    },
+    nullptr);
+}
+
+template <typename TInputImage>
+FCCSigns
+FCCIsosurfaceFilter<TInputImage>::Classify()
+{
+  const InputImageType * const image = this->GetInput();
+  const auto &                 region = image->GetBufferedRegion();
+  const SizeValueType          padding = m_Closed ? 1 : 0;
+  const auto                   shift = static_cast<IndexValueType>(padding);
+  FCCSigns                     signs(region.GetSize(0) + 2 * padding,
+                 region.GetSize(1) + 2 * padding,
+                 region.GetSize(2) + 2 * padding,
+                 FCCLattice::Parity(region.GetIndex(1) - shift, region.GetIndex(2) - shift));
+
+  const auto isovalue = m_Isovalue;
+  this->ForEachSlab(region.GetSize(2), 0.1f, [&](SizeValueType begin, SizeValueType end) {
+    for (SizeValueType k = begin; k < end; ++k)
+    {
+      for (SizeValueType j = 0; j < region.GetSize(1); ++j)
+      {
+        const PixelType * const    values = image->GetBufferPointer() + (k * region.GetSize(1) + j) * region.GetSize(0);
+        FCCSigns::WordType * const row = signs.GetRow(j + padding, k + padding);
+        for (SizeValueType i = 0; i < region.GetSize(0); ++i)
+        {
+          const SizeValueType bit = i + padding;
+          const auto          inside = static_cast<FCCSigns::WordType>(static_cast<double>(values[i]) >= isovalue);
+          row[bit / FCCSigns::WordBits] |= inside << (bit % FCCSigns::WordBits);
+        }
+      }
+    }
+  });
+  return signs;
+}
+
+template <typename TInputImage>
+auto
+FCCIsosurfaceFilter<TInputImage>::Count(const FCCSigns & signs) -> Layout
+{
+  const SizeValueType depth = signs.GetDepth();
+  Layout              layout{ std::vector<SizeValueType>(depth + 1),
+                 std::vector<SizeValueType>(depth + 1),
+                 std::vector<SizeValueType>(depth + 1) };
+  this->ForEachSlab(depth, 0.2f, [&](SizeValueType begin, SizeValueType end) {
+    for (SizeValueType k = begin; k < end; ++k)
+    {
+      layout.inPlane[k] = FCCCutEdges::Count(signs, FCCCutEdges::Group::InPlane, k);
+      layout.between[k] = FCCCutEdges::Count(signs, FCCCutEdges::Group::Between, k);
+      layout.triangles[k] = k + 1 < depth ? CountTriangles(signs, k) : 0;
+    }
+  });
+
+  SizeValueType points = 0;
+  SizeValueType triangles = 0;
+  for (SizeValueType k = 0; k <= depth; ++k)
+  {
+    const SizeValueType afterPlane = points + layout.inPlane[k];
+    const SizeValueType afterBetween = afterPlane + layout.between[k];
+    const SizeValueType afterTriangles = triangles + layout.triangles[k];
+    layout.inPlane[k] = points;
+    layout.between[k] = afterPlane;
+    layout.triangles[k] = triangles;
+    points = afterBetween;
+    triangles = afterTriangles;
+  }
+  if (points > std::numeric_limits<std::uint32_t>::max())
+  {
+    itkExceptionMacro("The surface would have " << points
+                                                << " points, more than 32-bit indices reach; resample at a lower density, or "
+                                                   "extract from a smaller region.");
+  }
+  return layout;
+}
+
+template <typename TInputImage>
+void
+FCCIsosurfaceFilter<TInputImage>::Fill(const FCCSigns & signs, const Layout & layout)
+{
+  const SizeValueType     depth = signs.GetDepth();
+  TriangleSurface * const surface = this->GetOutput();
+  surface->GetPoints().resize(layout.inPlane[depth]);
+  surface->GetNormals().resize(layout.inPlane[depth]);
+  surface->GetTriangles().resize(layout.triangles[depth]);
+
+  // With left-handed axes the triangles of the tables face inwards.
+  const auto & direction = this->GetInput()->GetDirection();
+  const bool   reversed = vnl_determinant(direction.GetVnlMatrix()) < 0.0;
+  const auto   idOf = [](SizeValueType id) { return static_cast<std::uint32_t>(id); };
+
+  this->ForEachSlab(depth, 0.7f, [&](SizeValueType begin, SizeValueType end) {
+    FCCCutEdges lower(signs, FCCCutEdges::Group::InPlane);
+    FCCCutEdges upper(signs, FCCCutEdges::Group::InPlane);
+    FCCCutEdges between(signs, FCCCutEdges::Group::Between);
+    lower.Find(begin, idOf(layout.inPlane[begin]));
+    for (SizeValueType k = begin; k < end; ++k)
+    {
+      between.Find(k, idOf(layout.between[k]));
+      upper.Find(k + 1, idOf(layout.inPlane[k + 1]));
+      this->FillPoints(signs, lower, FCCCutEdges::Group::InPlane, k);
+      this->FillPoints(signs, between, FCCCutEdges::Group::Between, k);
+      if (k + 1 < depth)
+      {
+        FillTriangles(
+          signs, k, lower, upper, between, reversed, surface->GetTriangles().data() + layout.triangles[k]);
+      }
+      std::swap(lower, upper);
+    }
+  });
+  surface->Modified();
+}
+
+template <typename TInputImage>
+void
+FCCIsosurfaceFilter<TInputImage>::FillPoints(const FCCSigns &    signs,
+                                             const FCCCutEdges & edges,
+                                             FCCCutEdges::Group  group,
+                                             SizeValueType       plane)
+{
+  const InputImageType * const       image = this->GetInput();
+  const auto                         first = image->GetBufferedRegion().GetIndex();
+  const IndexValueType               shift = m_Closed ? 1 : 0;
+  const FCCEdgePoint<InputImageType> edgePoint(*image, m_Isovalue, MinimumFraction);
+  TriangleSurface * const            surface = this->GetOutput();
+
+  for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
+  {
+    for (std::uint8_t type = FCCCutEdges::FirstType(group); type <= FCCCutEdges::LastType(group); ++type)
+    {
+      const FCCCutEdges::Row row = edges.GetRow(j, type);
+      for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
+      {
+        std::uint32_t id = row.before[word];
+        for (auto mask = row.mask[word]; mask != 0; mask &= mask - 1)
+        {
+          const auto     i = static_cast<IndexValueType>(word * FCCSigns::WordBits) + __builtin_ctzll(mask);
+          const Index<3> index{ { first[0] + i - shift,
+                                  first[1] + static_cast<IndexValueType>(j) - shift,
+                                  first[2] + static_cast<IndexValueType>(plane) - shift } };
+          edgePoint.Place(FCCLattice::SiteOf(index), FCCLattice::OwnedEdges[type], surface->GetPoints()[id], surface->GetNormals()[id]);
+          ++id;
+        }
+      }
+    }
+  }
+}
+
+} // namespace itk
+
+#endif

@@ -1,0 +1,302 @@
+#include "itkFCCMarching.h"
+
+#include <algorithm>
+
+namespace itk
+{
+namespace
+{
+
+using WordType = FCCSigns::WordType;
+using Cases = FCCMarchingCases;
+
+SizeValueType
+CountBits(WordType word)
+{
+  return static_cast<SizeValueType>(__builtin_popcountll(word));
+}
+
+/** The bits i + 1 of a row, for the bits i of one word. */
+WordType
+Next(const WordType * row, SizeValueType word)
+{
+  return row[word] >> 1 | row[word + 1] << (FCCSigns::WordBits - 1);
+}
+
+/** The bits i - 1 of a row, for the bits i of one word. */
+WordType
+Previous(const WordType * row, SizeValueType word)
+{
+  return row[word] << 1 | (word > 0 ? row[word - 1] >> (FCCSigns::WordBits - 1) : 0);
+}
+
+/** The bits of one word that stand for sites below \a count. */
+WordType
+Below(SizeValueType count, SizeValueType word)
+{
+  const SizeValueType first = word * FCCSigns::WordBits;
+  if (count <= first)
+  {
+    return 0;
+  }
+  const SizeValueType bits = count - first;
+  return bits >= FCCSigns::WordBits ? ~WordType{ 0 } : (WordType{ 1 } << bits) - 1;
+}
+
+/** Calls \a use(word number, mask of cut edges) for the edges of one type that a row owns. */
+template <typename TUse>
+void
+ForEachCutWord(const FCCSigns & signs, std::uint8_t type, SizeValueType j, SizeValueType k, const TUse & use)
+{
+  const auto & step = FCCLattice::OwnedEdges[type];
+  const auto   otherJ = static_cast<IndexValueType>(j) + step[1];
+  const auto   otherK = static_cast<IndexValueType>(k) + step[2];
+  if (otherJ < 0 || otherJ >= static_cast<IndexValueType>(signs.GetHeight()) ||
+      otherK >= static_cast<IndexValueType>(signs.GetDepth()))
+  {
+    return;
+  }
+  const WordType * const row = signs.GetRow(j, k);
+  const WordType * const other = signs.GetRow(static_cast<SizeValueType>(otherJ), static_cast<SizeValueType>(otherK));
+  const auto             shift = FCCLattice::OffsetOf(step, signs.GetParity(j, k))[0];
+  for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
+  {
+    switch (shift)
+    {
+      case 0:
+        use(word, row[word] ^ other[word]);
+        break;
+      case 1:
+        use(word, (row[word] ^ Next(other, word)) & Below(signs.GetWidth() - 1, word));
+        break;
+      default:
+        use(word, (row[word] ^ Previous(other, word)) & Below(signs.GetWidth(), word) & (word == 0 ? ~WordType{ 1 } : ~WordType{ 0 }));
+    }
+  }
+}
+
+/** The rows of a column, and the way from a pair to the next. */
+struct Column
+{
+  const WordType * rows[4];
+  IndexValueType   shift[Cases::Kinds]; ///< 1 when the next pair's index is one more than this pair's
+
+  Column(const FCCSigns & signs, SizeValueType j, SizeValueType k)
+    : rows{ signs.GetRow(j, k), signs.GetRow(j + 1, k), signs.GetRow(j, k + 1), signs.GetRow(j + 1, k + 1) }
+    , shift{ signs.GetParity(j, k), 1 - signs.GetParity(j, k) }
+  {}
+};
+
+/** The steps of one kind in one word of a column: the sites' signs, and which of the steps exist. */
+struct Steps
+{
+  WordType sites[Cases::Sites];
+  WordType regular;  ///< the next pair exists
+  WordType quarters; ///< the pair after the next exists, too
+
+  Steps(const FCCSigns & signs, const Column & column, unsigned int kind, SizeValueType word)
+    : regular(Below(signs.GetWidth() - static_cast<SizeValueType>(column.shift[kind]), word))
+    , quarters(Below(signs.GetWidth() - 1, word))
+  {
+    for (unsigned int place = 0; place < 2; ++place)
+    {
+      const WordType * const row = column.rows[Cases::PairRows[kind][place]];
+      const WordType * const next = column.rows[Cases::PairRows[1 - kind][place]];
+      sites[place] = row[word];
+      sites[2 + place] = column.shift[kind] == 0 ? next[word] : Next(next, word);
+      sites[4 + place] = Next(row, word);
+    }
+  }
+
+  /** Bits of the steps through which the surface passes. */
+  WordType
+  Active() const
+  {
+    const WordType any = sites[0] | sites[1] | sites[2] | sites[3];
+    const WordType all = sites[0] & sites[1] & sites[2] & sites[3];
+    return ((any & ~all) & regular) | (((any | sites[4] | sites[5]) & ~(all & sites[4] & sites[5])) & quarters);
+  }
+
+  /** One triangle for each tetrahedron with an odd number of sites inside, two for each with two. */
+  SizeValueType
+  CountTriangles() const
+  {
+    SizeValueType triangles = 0;
+    for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
+    {
+      const auto &   corners = Cases::TetrahedronSites[tetrahedron];
+      const WordType a = sites[corners[0]];
+      const WordType b = sites[corners[1]];
+      const WordType c = sites[corners[2]];
+      const WordType d = sites[corners[3]];
+      const WordType exists = tetrahedron == 0 ? regular : quarters;
+      const WordType odd = a ^ b ^ c ^ d;
+      const WordType two = (a | b | c | d) & ~(a & b & c & d) & ~odd;
+      triangles += CountBits(odd & exists) + 2 * CountBits(two & exists);
+    }
+    return triangles;
+  }
+
+  unsigned int
+  PatternOf(unsigned int bit) const
+  {
+    unsigned int pattern = 0;
+    for (unsigned int site = 0; site < Cases::Sites; ++site)
+    {
+      pattern |= static_cast<unsigned int>(sites[site] >> bit & 1) << site;
+    }
+    return pattern;
+  }
+};
+
+/** Finds the vertex ids of a column's steps. */
+class ColumnIds
+{
+public:
+  ColumnIds(const Column &      column,
+            SizeValueType       j,
+            const FCCCutEdges & lower,
+            const FCCCutEdges & upper,
+            const FCCCutEdges & between)
+  {
+    for (unsigned int kind = 0; kind < Cases::Kinds; ++kind)
+    {
+      const SizeValueType shiftOfPair[3] = { 0, static_cast<SizeValueType>(column.shift[kind]), 1 };
+      for (unsigned int edge = 0; edge < Cases::Edges; ++edge)
+      {
+        const Cases::EdgeOwner & owner = FCCMarchingTables.owners[kind][edge];
+        const bool               isBetween = owner.type >= FCCCutEdges::FirstType(FCCCutEdges::Group::Between);
+        const FCCCutEdges &      edges = isBetween ? between : (owner.row & 2) != 0 ? upper : lower;
+        m_Rows[kind][edge] = edges.GetRow(j + (owner.row & 1), owner.type);
+        m_Shift[kind][edge] = shiftOfPair[owner.pair];
+      }
+    }
+  }
+
+  std::uint32_t
+  GetId(unsigned int kind, unsigned int edge, SizeValueType i) const
+  {
+    return m_Rows[kind][edge].GetId(i + m_Shift[kind][edge]);
+  }
+
+private:
+  FCCCutEdges::Row m_Rows[Cases::Kinds][Cases::Edges];
+  SizeValueType    m_Shift[Cases::Kinds][Cases::Edges];
+};
+
+} // namespace
+
+FCCSigns::FCCSigns(SizeValueType  width,
+                   SizeValueType  height,
+                   SizeValueType  depth,
+                   IndexValueType parityOfFirstRow)
+  : m_Width(width)
+  , m_Height(height)
+  , m_Depth(depth)
+  , m_Stride((width + WordBits - 1) / WordBits + 1)
+  , m_ParityOfFirstRow(parityOfFirstRow)
+  , m_Words(m_Stride * height * depth, 0)
+{}
+
+FCCCutEdges::FCCCutEdges(const FCCSigns & signs, Group group)
+  : m_Signs(&signs)
+  , m_Group(group)
+  , m_Types(static_cast<SizeValueType>(LastType(group) - FirstType(group) + 1))
+  , m_Masks(signs.GetHeight() * m_Types * signs.GetNumberOfWords())
+  , m_Before(m_Masks.size())
+{}
+
+void
+FCCCutEdges::Find(SizeValueType k, std::uint32_t firstId)
+{
+  std::fill(m_Masks.begin(), m_Masks.end(), 0);
+  if (k < m_Signs->GetDepth())
+  {
+    for (SizeValueType j = 0; j < m_Signs->GetHeight(); ++j)
+    {
+      for (std::uint8_t type = FirstType(m_Group); type <= LastType(m_Group); ++type)
+      {
+        WordType * const masks = m_Masks.data() + this->FirstWordOf(j, type);
+        ForEachCutWord(*m_Signs, type, j, k, [masks](SizeValueType word, WordType mask) { masks[word] = mask; });
+      }
+    }
+  }
+  std::uint32_t id = firstId;
+  for (SizeValueType word = 0; word < m_Masks.size(); ++word)
+  {
+    m_Before[word] = id;
+    id += static_cast<std::uint32_t>(CountBits(m_Masks[word]));
+  }
+}
+
+SizeValueType
+FCCCutEdges::Count(const FCCSigns & signs, Group group, SizeValueType k)
+{
+  SizeValueType count = 0;
+  for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
+  {
+    for (std::uint8_t type = FirstType(group); type <= LastType(group); ++type)
+    {
+      ForEachCutWord(signs, type, j, k, [&count](SizeValueType, WordType mask) { count += CountBits(mask); });
+    }
+  }
+  return count;
+}
+
+SizeValueType
+CountTriangles(const FCCSigns & signs, SizeValueType k)
+{
+  SizeValueType triangles = 0;
+  for (SizeValueType j = 0; j + 1 < signs.GetHeight(); ++j)
+  {
+    const Column column(signs, j, k);
+    for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
+    {
+      for (unsigned int kind = 0; kind < Cases::Kinds; ++kind)
+      {
+        triangles += Steps(signs, column, kind, word).CountTriangles();
+      }
+    }
+  }
+  return triangles;
+}
+
+void
+FillTriangles(const FCCSigns &                signs,
+              SizeValueType                   k,
+              const FCCCutEdges &             lower,
+              const FCCCutEdges &             upper,
+              const FCCCutEdges &             between,
+              bool                            reversed,
+              TriangleSurface::TriangleType * triangles)
+{
+  const unsigned int second = reversed ? 2 : 1;
+  const unsigned int third = reversed ? 1 : 2;
+  for (SizeValueType j = 0; j + 1 < signs.GetHeight(); ++j)
+  {
+    const Column    column(signs, j, k);
+    const ColumnIds ids(column, j, lower, upper, between);
+    for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
+    {
+      for (unsigned int kind = 0; kind < Cases::Kinds; ++kind)
+      {
+        const Steps steps(signs, column, kind, word);
+        for (WordType active = steps.Active(); active != 0; active &= active - 1)
+        {
+          const auto          bit = static_cast<unsigned int>(__builtin_ctzll(active));
+          const SizeValueType i = word * FCCSigns::WordBits + bit;
+          const Cases::Case & found = FCCMarchingTables.cases[kind][steps.PatternOf(bit)];
+          const bool          hasQuarters = (steps.quarters >> bit & 1) != 0;
+          const unsigned int  count = hasQuarters ? found.triangles : found.regularTriangles;
+          for (unsigned int n = 0; n < count; ++n)
+          {
+            const auto & edges = found.edges[n];
+            *triangles++ = { ids.GetId(kind, edges[0], i), ids.GetId(kind, edges[second], i), ids.GetId(kind, edges[third], i) };
+          }
+        }
+      }
+    }
+  }
+}
+
+} // namespace itk
