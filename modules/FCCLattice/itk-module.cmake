@@ -1,3 +1,4 @@
 itk_module(FCCLattice
   DEPENDS ITKCommon
-  DESCRIPTION "Images sampled on the face-centered cubic lattice. The only place that knows the lattice's geometry.")
+  PRIVATE_DEPENDS RhombicCommon
+  DESCRIPTION "Images sampled on the face-centered cubic lattice, and their files. The only place that knows the lattice's geometry.")

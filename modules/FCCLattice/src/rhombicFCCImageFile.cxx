@@ -1,0 +1,325 @@
+#include "rhombicFCCImageFile.h"
+
+#include "rhombicAtomicFile.h"
+#include "rhombicFailure.h"
+
+#include <charconv>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+namespace rhombic
+{
+namespace
+{
+
+constexpr char latticeKey[] = "lattice:";
+constexpr char latticeValue[] = "fcc parity rows";
+
+[[noreturn]] void
+FailToRead(const fs::path & path, const std::string & why)
+{
+  throw Failure(FailureKind::Unreadable, "Cannot read " + path.string() + ": " + why + ".");
+}
+
+template <typename TPixel>
+constexpr const char *
+TypeName()
+{
+  if constexpr (std::is_same_v<TPixel, std::uint8_t>)
+  {
+    return "uint8";
+  }
+  else if constexpr (std::is_same_v<TPixel, std::int16_t>)
+  {
+    return "int16";
+  }
+  else if constexpr (std::is_same_v<TPixel, std::uint16_t>)
+  {
+    return "uint16";
+  }
+  else if constexpr (std::is_same_v<TPixel, std::int32_t>)
+  {
+    return "int32";
+  }
+  else
+  {
+    return "float";
+  }
+}
+
+/** Shortest text that reads back as the same number, whatever the locale. */
+std::string
+ToText(double value)
+{
+  char       text[32];
+  const auto end = std::to_chars(text, text + sizeof(text), value).ptr;
+  return std::string(text, end);
+}
+
+template <typename TNumber>
+std::vector<TNumber>
+ToNumbers(const std::string & text, std::size_t count, const fs::path & path)
+{
+  std::vector<TNumber> numbers;
+  const char *         next = text.data();
+  const char * const   end = next + text.size();
+  while (numbers.size() < count)
+  {
+    while (next != end && *next == ' ')
+    {
+      ++next;
+    }
+    TNumber    number{};
+    const auto parsed = std::from_chars(next, end, number);
+    if (parsed.ec != std::errc())
+    {
+      FailToRead(path, "its header has '" + text + "' where " + std::to_string(count) + " numbers are expected");
+    }
+    numbers.push_back(number);
+    next = parsed.ptr;
+  }
+  return numbers;
+}
+
+template <typename TPixel>
+std::string
+MakeHeader(const itk::FCCImage<TPixel> & image)
+{
+  const auto &       region = image.GetBufferedRegion();
+  const auto &       direction = image.GetDirection();
+  const auto &       spacing = image.GetSpacing();
+  const double       step[3] = { 2.0 * spacing[0], spacing[1], spacing[2] };
+  std::ostringstream header;
+  header.imbue(std::locale::classic());
+  header << "NRRD0005\n"
+         << "# Samples on the face-centered cubic lattice: index (i, j, k) is at lattice coordinates (2 i + p, j, k),\n"
+         << "# p = (j + k) mod 2; position = origin + direction * (spacing * coordinates), LPS mm. Indices begin at 'start'.\n"
+         << "# The space fields are those of the rows with p = 0, for readers that know Cartesian grids only.\n"
+         << "type: " << TypeName<TPixel>() << "\ndimension: 3\nspace: left-posterior-superior\nsizes:";
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    header << ' ' << region.GetSize(axis);
+  }
+  header << "\nspace directions:";
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    header << " (" << ToText(direction[0][axis] * step[axis]) << ',' << ToText(direction[1][axis] * step[axis]) << ','
+           << ToText(direction[2][axis] * step[axis]) << ')';
+  }
+  const auto first = image.template TransformLatticeToPhysicalPoint<double>(
+    { 2.0 * static_cast<double>(region.GetIndex(0)),
+      static_cast<double>(region.GetIndex(1)),
+      static_cast<double>(region.GetIndex(2)) });
+  header << "\nkinds: domain domain domain\nendian: little\nencoding: raw\nspace origin: (" << ToText(first[0]) << ','
+         << ToText(first[1]) << ',' << ToText(first[2]) << ")\n"
+         << latticeKey << '=' << latticeValue << "\nlattice spacing:=";
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    header << (axis > 0 ? " " : "") << ToText(spacing[axis]);
+  }
+  header << "\nlattice origin:=";
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    header << (axis > 0 ? " " : "") << ToText(image.GetOrigin()[axis]);
+  }
+  header << "\nlattice direction:=";
+  for (unsigned int n = 0; n < 9; ++n)
+  {
+    header << (n > 0 ? " " : "") << ToText(direction[n / 3][n % 3]);
+  }
+  header << "\nlattice start:=" << region.GetIndex(0) << ' ' << region.GetIndex(1) << ' ' << region.GetIndex(2) << "\n\n";
+  return header.str();
+}
+
+using Fields = std::map<std::string, std::string>;
+
+/** The header's fields ("name: value") and key/value pairs ("key:=value"); leaves the stream at the first sample. */
+Fields
+ReadHeader(std::istream & stream, const fs::path & path)
+{
+  constexpr std::size_t longest = 1 << 16;
+  std::string           line;
+  Fields                fields;
+  std::size_t           length = 0;
+  if (!std::getline(stream, line) || line.compare(0, 4, "NRRD") != 0)
+  {
+    FailToRead(path, "it is not a NRRD file");
+  }
+  while (std::getline(stream, line) && !line.empty())
+  {
+    length += line.size();
+    if (length > longest)
+    {
+      FailToRead(path, "its header does not end");
+    }
+    const auto pair = line.find(":=");
+    const auto field = line.find(": ");
+    if (line[0] == '#')
+    {
+      continue;
+    }
+    if (pair != std::string::npos)
+    {
+      fields[line.substr(0, pair) + ":"] = line.substr(pair + 2);
+    }
+    else if (field != std::string::npos)
+    {
+      fields[line.substr(0, field)] = line.substr(field + 2);
+    }
+  }
+  return fields;
+}
+
+template <typename TPixel>
+FCCVolume
+ReadSamples(std::istream & stream, Fields & fields, const fs::path & path)
+{
+  using ImageType = itk::FCCImage<TPixel>;
+  const auto sizes = ToNumbers<std::uint64_t>(fields["sizes"], 3, path);
+  const auto spacing = ToNumbers<double>(fields["lattice spacing:"], 3, path);
+  const auto origin = ToNumbers<double>(fields["lattice origin:"], 3, path);
+  const auto numbers = ToNumbers<double>(fields["lattice direction:"], 9, path);
+  const auto start = ToNumbers<std::int64_t>(fields["lattice start:"], 3, path);
+
+  const auto    begin = static_cast<std::uint64_t>(stream.tellg());
+  const auto    available = static_cast<std::uint64_t>(fs::file_size(path)) - begin;
+  std::uint64_t bytes = sizeof(TPixel);
+  for (const std::uint64_t size : sizes)
+  {
+    if (size == 0 || bytes > available / size)
+    {
+      FailToRead(path, "its header promises more samples than the file holds; it may have been cut off");
+    }
+    bytes *= size;
+  }
+  if (bytes != available)
+  {
+    FailToRead(path, "it holds more data than its header says");
+  }
+
+  auto                               image = ImageType::New();
+  typename ImageType::RegionType     region;
+  typename ImageType::DirectionType  direction;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    if (!(spacing[axis] > 0.0 && std::isfinite(spacing[axis])))
+    {
+      FailToRead(path, "its lattice spacing is not a positive number");
+    }
+    region.SetSize(axis, sizes[axis]);
+    region.SetIndex(axis, start[axis]);
+    for (unsigned int column = 0; column < 3; ++column)
+    {
+      direction[axis][column] = numbers[3 * axis + column];
+    }
+  }
+  if (!(std::abs(vnl_determinant(direction.GetVnlMatrix())) > 1e-6))
+  {
+    FailToRead(path, "its lattice direction is singular");
+  }
+  image->SetRegions(region);
+  image->SetSpacing(spacing.data());
+  image->SetOrigin(origin.data());
+  image->SetDirection(direction);
+  image->Allocate();
+  stream.read(reinterpret_cast<char *>(image->GetBufferPointer()), static_cast<std::streamsize>(bytes));
+  if (!stream)
+  {
+    FailToRead(path, "reading its samples failed");
+  }
+  return image;
+}
+
+} // namespace
+
+void
+WriteFCCImage(const FCCVolume & volume, const fs::path & path)
+{
+  AtomicFile  file(path);
+  std::size_t size = 0;
+  std::visit(
+    [&](const auto & image) {
+      using PixelType = typename std::decay_t<decltype(*image)>::PixelType;
+      const std::string header = MakeHeader(*image);
+      const std::size_t bytes = image->GetBufferedRegion().GetNumberOfPixels() * sizeof(PixelType);
+      std::ofstream     stream(file.GetTemporaryPath(), std::ios::binary | std::ios::trunc);
+      stream << header;
+      stream.write(reinterpret_cast<const char *>(image->GetBufferPointer()), static_cast<std::streamsize>(bytes));
+      stream.close();
+      if (!stream)
+      {
+        throw Failure(FailureKind::Output, "Cannot write " + path.string() + ": writing failed; is the disk full?");
+      }
+      size = header.size() + bytes;
+    },
+    volume);
+  file.Commit(size);
+}
+
+FCCVolume
+ReadFCCImage(const fs::path & path)
+{
+  std::error_code error;
+  if (!fs::is_regular_file(path, error))
+  {
+    throw Failure(FailureKind::NotFound, "There is no file " + path.string() + "; check the path.");
+  }
+  std::ifstream stream(path, std::ios::binary);
+  Fields        fields = ReadHeader(stream, path);
+  if (fields[latticeKey] != latticeValue)
+  {
+    FailToRead(path, "it is not a volume on the face-centered cubic lattice; give it as a scan instead");
+  }
+  if (fields["encoding"] != "raw" || fields["dimension"] != "3" || (fields["endian"] != "little" && fields["type"] != "uint8"))
+  {
+    FailToRead(path, "only raw, little-endian, three-dimensional lattice volumes are supported");
+  }
+  const std::string & type = fields["type"];
+  if (type == TypeName<std::uint8_t>())
+  {
+    return ReadSamples<std::uint8_t>(stream, fields, path);
+  }
+  if (type == TypeName<std::int16_t>())
+  {
+    return ReadSamples<std::int16_t>(stream, fields, path);
+  }
+  if (type == TypeName<std::uint16_t>())
+  {
+    return ReadSamples<std::uint16_t>(stream, fields, path);
+  }
+  if (type == TypeName<std::int32_t>())
+  {
+    return ReadSamples<std::int32_t>(stream, fields, path);
+  }
+  if (type == TypeName<float>())
+  {
+    return ReadSamples<float>(stream, fields, path);
+  }
+  FailToRead(path, "its sample type '" + type + "' is none of uint8, int16, uint16, int32, float");
+}
+
+bool
+IsFCCImageFile(const fs::path & path)
+{
+  std::error_code error;
+  std::ifstream   stream(path, std::ios::binary);
+  std::string     line;
+  if (!fs::is_regular_file(path, error) || !std::getline(stream, line) || line.compare(0, 4, "NRRD") != 0)
+  {
+    return false;
+  }
+  constexpr int mostLines = 100;
+  for (int n = 0; n < mostLines && std::getline(stream, line) && !line.empty(); ++n)
+  {
+    if (line == std::string(latticeKey) + "=" + latticeValue)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+} // namespace rhombic

@@ -1,0 +1,132 @@
+#include "rhombicFCCImageFile.h"
+
+#include "rhombicFailure.h"
+#include "rhombicTemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <cstring>
+#include <fstream>
+#include <numeric>
+
+namespace
+{
+
+using rhombic::Failure;
+using rhombic::FailureKind;
+using rhombic::FCCVolume;
+
+template <typename TPixel>
+typename itk::FCCImage<TPixel>::Pointer
+MakeImage()
+{
+  auto image = itk::FCCImage<TPixel>::New();
+  image->SetRegions(itk::ImageRegion<3>({ { -2, 3, 1 } }, { { 5, 4, 3 } }));
+  image->Allocate();
+  std::iota(image->GetBufferPointer(), image->GetBufferPointer() + 60, TPixel(3));
+  const double spacing[3] = { 0.1, 1.0 / 3.0, 2.5 };
+  const double origin[3] = { -123.456, 1e-3, 7.0 };
+  image->SetSpacing(spacing);
+  image->SetOrigin(origin);
+  typename itk::FCCImage<TPixel>::DirectionType direction;
+  direction.SetIdentity();
+  direction[0][0] = direction[1][1] = std::cos(1.0);
+  direction[1][0] = std::sin(1.0);
+  direction[0][1] = -std::sin(1.0);
+  image->SetDirection(direction);
+  return image;
+}
+
+template <typename TPixel>
+class FCCImageFileTypes : public testing::Test
+{};
+using PixelTypes = testing::Types<std::uint8_t, std::int16_t, std::uint16_t, std::int32_t, float>;
+TYPED_TEST_SUITE(FCCImageFileTypes, PixelTypes);
+
+TYPED_TEST(FCCImageFileTypes, ComesBackBitForBit)
+{
+  const rhombictest::TemporaryFolder folder;
+  const auto                         path = folder.Path() / "volume.fcc.nrrd";
+  const auto                         image = MakeImage<TypeParam>();
+  rhombic::WriteFCCImage(image, path);
+  EXPECT_TRUE(rhombic::IsFCCImageFile(path));
+  const FCCVolume volume = rhombic::ReadFCCImage(path);
+  const auto      read = std::get<typename itk::FCCImage<TypeParam>::Pointer>(volume);
+  EXPECT_EQ(read->GetBufferedRegion(), image->GetBufferedRegion());
+  EXPECT_EQ(read->GetSpacing(), image->GetSpacing());
+  EXPECT_EQ(read->GetOrigin(), image->GetOrigin());
+  EXPECT_EQ(read->GetDirection(), image->GetDirection());
+  EXPECT_EQ(std::memcmp(read->GetBufferPointer(), image->GetBufferPointer(), 60 * sizeof(TypeParam)), 0);
+}
+
+FailureKind
+KindOfReading(const std::filesystem::path & path)
+{
+  try
+  {
+    rhombic::ReadFCCImage(path);
+  }
+  catch (const Failure & failure)
+  {
+    EXPECT_NE(std::string(failure.GetDescription()).find(path.filename().string()), std::string::npos);
+    return failure.GetKind();
+  }
+  ADD_FAILURE() << path << " was read";
+  return FailureKind::Internal;
+}
+
+TEST(FCCImageFile, RefusesWhatIsDamagedOrSomethingElse)
+{
+  const rhombictest::TemporaryFolder folder;
+  const auto                         path = folder.Path() / "volume.fcc.nrrd";
+  EXPECT_EQ(KindOfReading(path), FailureKind::NotFound);
+  rhombic::WriteFCCImage(MakeImage<std::int16_t>(), path);
+  std::ifstream     stream(path, std::ios::binary);
+  const std::string whole((std::istreambuf_iterator<char>(stream)), {});
+
+  const auto refuses = [&](const std::string & content) {
+    std::ofstream(path, std::ios::binary) << content;
+    EXPECT_EQ(KindOfReading(path), FailureKind::Unreadable);
+  };
+  const auto replace = [&](const std::string & from, const std::string & to) {
+    std::string changed = whole;
+    changed.replace(changed.find(from), from.size(), to);
+    return changed;
+  };
+  refuses("");
+  refuses("not a NRRD file\n");
+  refuses(whole.substr(0, whole.size() - 1));
+  refuses(whole + "x");
+  refuses(whole.substr(0, 200));
+  refuses(replace("fcc parity rows", "something else"));
+  refuses(replace("int16", "block"));
+  refuses(replace("sizes: 5 4 3", "sizes: 5 4 18446744073709551615"));
+  refuses(replace("sizes: 5 4 3", "sizes: 5 4 0"));
+  refuses(replace("sizes: 5 4 3", "sizes: 5 4"));
+  refuses(replace("lattice spacing:=0.1", "lattice spacing:=-1"));
+  refuses(replace("lattice spacing:=0.1", "lattice spacing:=nan"));
+  refuses(replace("endian: little", "endian: big"));
+  EXPECT_FALSE(rhombic::IsFCCImageFile(folder.Path()));
+}
+
+TEST(FCCImageFile, DoesNotDependOnTheLocale)
+{
+  const rhombictest::TemporaryFolder folder;
+  const std::string                  before = std::setlocale(LC_ALL, nullptr);
+  std::setlocale(LC_ALL, "de_DE.UTF-8"); // has no effect where it is not installed
+  rhombic::WriteFCCImage(MakeImage<float>(), folder.Path() / "volume.nrrd");
+  const auto volume = rhombic::ReadFCCImage(folder.Path() / "volume.nrrd");
+  std::setlocale(LC_ALL, before.c_str());
+  EXPECT_EQ(std::get<itk::FCCImage<float>::Pointer>(volume)->GetOrigin()[0], -123.456);
+}
+
+TEST(FCCImageFile, LeavesNothingBehindWhenItCannotWrite)
+{
+  const rhombictest::TemporaryFolder folder;
+  EXPECT_THROW(rhombic::WriteFCCImage(MakeImage<float>(), folder.Path() / "missing" / "volume.nrrd"), Failure);
+  EXPECT_THROW(rhombic::WriteFCCImage(MakeImage<float>(), folder.Path()), Failure);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.Path()));
+}
+
+} // namespace
