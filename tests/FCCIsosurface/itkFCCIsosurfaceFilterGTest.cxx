@@ -81,6 +81,7 @@ TEST(FCCIsosurfaceFilter, PinsItsDefaults)
   const auto filter = Filter::New();
   EXPECT_EQ(filter->GetIsovalue(), 0.0);
   EXPECT_TRUE(filter->GetClosed());
+  EXPECT_FALSE(filter->GetInsideIsBelow());
   EXPECT_EQ(filter->GetOutput()->GetNumberOfTriangles(), 0u);
   std::ostringstream text;
   filter->Print(text);
@@ -328,6 +329,32 @@ TEST(FCCIsosurfaceFilter, TheSameWorldIsFoundInAnyOrientation)
       ASSERT_GT(cosine, 0.0);
     }
   }
+}
+
+TEST(FCCIsosurfaceFilter, InsideIsBelowTurnsTheSameSurfaceOver)
+{
+  // A hollow in a filled image: its surface is that of a ball of low values.
+  const double radius = 5.0;
+  const auto   image = fcctest::MakeImage(0.5, 7.0, [radius](const auto & p) { return fcctest::Sphere(p, radius); });
+  const auto   ball = Extract(image, 0.25);
+  for (itk::ImageRegionIteratorWithIndex<ImageType> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+  {
+    it.Set(-it.Get());
+  }
+  const auto filter = Filter::New();
+  filter->SetInput(image);
+  filter->SetIsovalue(-0.25);
+  filter->InsideIsBelowOn();
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetTriangles(), ball->GetTriangles());
+  EXPECT_EQ(filter->GetOutput()->GetPoints(), ball->GetPoints());
+  EXPECT_EQ(filter->GetOutput()->GetNormals(), ball->GetNormals());
+  EXPECT_GT(ComputeVolume(*filter->GetOutput()), 0.0);
+
+  image->SetPixel({ { 0, 0, 0 } }, std::numeric_limits<float>::quiet_NaN());
+  image->Modified();
+  filter->Update();
+  EXPECT_EQ(ComputeTopology(*filter->GetOutput()).components, 2u) << "not-a-number is outside here, too";
 }
 
 TEST(FCCIsosurfaceFilter, NormalsOfALinearFieldAreExactAlsoAtTheFaces)

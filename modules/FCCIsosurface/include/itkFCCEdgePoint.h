@@ -23,10 +23,11 @@ public:
   using SiteType = FCCLattice::SiteType;
   using VectorType = std::array<double, 3>;
 
-  FCCEdgePoint(const TInputImage & image, double isovalue, double minimumFraction)
+  FCCEdgePoint(const TInputImage & image, double isovalue, bool insideIsBelow, double minimumFraction)
     : m_Image(image)
     , m_Region(image.GetBufferedRegion())
     , m_Isovalue(isovalue)
+    , m_OutwardSign(insideIsBelow ? 1.0 : -1.0)
     , m_MinimumFraction(minimumFraction)
   {
     // A gradient is a row vector: it goes to the world by the inverse of the matrix that takes lattice steps there.
@@ -51,14 +52,14 @@ public:
     const bool     endsOutside = !this->IsSample(end);
 
     double     fraction = 0.5;
-    VectorType gradient;
+    VectorType outwards; // a normal in lattice coordinates, of any length
     if (startsOutside || endsOutside)
     {
       const SiteType inwardStep{ -step[0], -step[1], -step[2] };
       const double   toBorder =
         startsOutside ? this->FractionToBorder(end, inwardStep) : this->FractionToBorder(site, step);
       fraction = startsOutside ? 1.0 - toBorder : toBorder;
-      gradient = this->BorderGradient(startsOutside ? site : end);
+      outwards = this->BorderDirection(startsOutside ? site : end);
     }
     else
     {
@@ -67,13 +68,16 @@ public:
       const VectorType atEnd = this->GradientAt(end);
       for (unsigned int axis = 0; axis < 3; ++axis)
       {
-        gradient[axis] = (1.0 - fraction) * atSite[axis] + fraction * atEnd[axis];
+        outwards[axis] = m_OutwardSign * ((1.0 - fraction) * atSite[axis] + fraction * atEnd[axis]);
       }
-      if (!IsUsable(gradient))
+      if (!IsUsable(outwards))
       {
         // A flat or undefined neighbourhood: the values change along the edge at least.
-        const double sign = this->ValueAt(site) >= m_Isovalue ? -1.0 : 1.0;
-        gradient = { sign * static_cast<double>(step[0]), sign * static_cast<double>(step[1]), sign * static_cast<double>(step[2]) };
+        const double sign = this->ValueAt(site) >= m_Isovalue ? -m_OutwardSign : m_OutwardSign;
+        for (unsigned int axis = 0; axis < 3; ++axis)
+        {
+          outwards[axis] = sign * static_cast<double>(step[axis]);
+        }
       }
     }
 
@@ -83,20 +87,20 @@ public:
       coordinates[axis] = static_cast<double>(site[axis]) + fraction * static_cast<double>(step[axis]);
     }
     const auto world = m_Image.template TransformLatticeToPhysicalPoint<double>(coordinates);
-    VectorType outward{};
+    VectorType worldNormal{};
     double     squared = 0.0;
     for (unsigned int row = 0; row < 3; ++row)
     {
       point[row] = static_cast<float>(world[row]);
       for (unsigned int axis = 0; axis < 3; ++axis)
       {
-        outward[row] -= m_GradientToWorld[row][axis] * gradient[axis];
+        worldNormal[row] += m_GradientToWorld[row][axis] * outwards[axis];
       }
-      squared += outward[row] * outward[row];
+      squared += worldNormal[row] * worldNormal[row];
     }
     for (unsigned int row = 0; row < 3; ++row)
     {
-      normal[row] = static_cast<float>(outward[row] / std::sqrt(squared));
+      normal[row] = static_cast<float>(worldNormal[row] / std::sqrt(squared));
     }
   }
 
@@ -143,17 +147,17 @@ private:
     return nearest;
   }
 
-  /** Falling towards a site outside the image: across the faces of the extent beyond which it lies. */
+  /** Across the faces of the extent beyond which a site outside the image lies. */
   VectorType
-  BorderGradient(const SiteType & outside) const
+  BorderDirection(const SiteType & outside) const
   {
     const auto index = FCCLattice::IndexOf(outside);
-    VectorType gradient{};
+    VectorType direction{};
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      gradient[axis] = index[axis] < m_Region.GetIndex(axis) ? 1.0 : index[axis] > m_Region.GetUpperIndex()[axis] ? -1.0 : 0.0;
+      direction[axis] = index[axis] < m_Region.GetIndex(axis) ? -1.0 : index[axis] > m_Region.GetUpperIndex()[axis] ? 1.0 : 0.0;
     }
-    return gradient;
+    return direction;
   }
 
   /** Gradient in lattice coordinates from the twelve neighbours. Where one of two opposite neighbours is missing, its value
@@ -201,6 +205,7 @@ private:
   const TInputImage &              m_Image;
   typename TInputImage::RegionType m_Region;
   double                           m_Isovalue;
+  double                           m_OutwardSign; ///< of the gradient, to point outside
   double                           m_MinimumFraction;
   double                           m_GradientToWorld[3][3];
 };

@@ -12,8 +12,9 @@ namespace itk
 /** \class FCCIsosurfaceFilter
  * \brief The isosurface of an FCC image, by marching the six tetrahedra of each of the lattice's parallelepipeds.
  *
- * A sample is inside when its value is not below the isovalue; not-a-number is outside. Triangles are counter-clockwise seen
- * from outside, normals point towards lower values, points are in LPS mm. There is one point on each cut edge of the
+ * A sample is inside when its value is not below the isovalue, or with InsideIsBelow on, when it is (for lungs and other
+ * air); not-a-number is outside. Triangles are counter-clockwise seen from outside, normals point outside, points are
+ * in LPS mm. There is one point on each cut edge of the
  * tetrahedra, shared by all its triangles, where the values' linear interpolation crosses the isovalue, but at least
  * MinimumFraction of the edge away from both ends: so no triangle is degenerate, even where samples equal the isovalue.
  *
@@ -74,6 +75,11 @@ public:
   itkSetMacro(Isovalue, double);
   itkGetConstMacro(Isovalue, double);
 
+  /** Whether samples below the isovalue are inside instead of those at or above it. Default off. */
+  itkSetMacro(InsideIsBelow, bool);
+  itkGetConstMacro(InsideIsBelow, bool);
+  itkBooleanMacro(InsideIsBelow);
+
   /** Whether the surface is closed where a body reaches the image's border. Default on. */
   itkSetMacro(Closed, bool);
   itkGetConstMacro(Closed, bool);
@@ -123,6 +129,7 @@ private:
   ForEachSlab(SizeValueType planes, float share, const TWork & work);
 
   double m_Isovalue{ 0.0 };
+  bool   m_InsideIsBelow{ false };
   bool   m_Closed{ true };
 };
 

@@ -59,6 +59,7 @@ FCCIsosurfaceFilter<TInputImage>::PrintSelf(std::ostream & os, Indent indent) co
 {
   Superclass::PrintSelf(os, indent);
   os << indent << "Isovalue: " << m_Isovalue << std::endl;
+  os << indent << "InsideIsBelow: " << (m_InsideIsBelow ? "On" : "Off") << std::endl;
   os << indent << "Closed: " << (m_Closed ? "On" : "Off") << std::endl;
 }
 
@@ -126,6 +127,7 @@ FCCIsosurfaceFilter<TInputImage>::Classify()
                  FCCLattice::Parity(region.GetIndex(1) - shift, region.GetIndex(2) - shift));
 
   const auto isovalue = m_Isovalue;
+  const bool isBelow = m_InsideIsBelow;
   this->ForEachSlab(region.GetSize(2), 0.1f, [&](SizeValueType begin, SizeValueType end) {
     for (SizeValueType k = begin; k < end; ++k)
     {
@@ -136,8 +138,9 @@ FCCIsosurfaceFilter<TInputImage>::Classify()
         for (SizeValueType i = 0; i < region.GetSize(0); ++i)
         {
           const SizeValueType bit = i + padding;
-          const auto          inside = static_cast<FCCSigns::WordType>(static_cast<double>(values[i]) >= isovalue);
-          row[bit / FCCSigns::WordBits] |= inside << (bit % FCCSigns::WordBits);
+          const auto          value = static_cast<double>(values[i]);
+          const bool          inside = isBelow ? value < isovalue : value >= isovalue;
+          row[bit / FCCSigns::WordBits] |= static_cast<FCCSigns::WordType>(inside) << (bit % FCCSigns::WordBits);
         }
       }
     }
@@ -231,7 +234,7 @@ FCCIsosurfaceFilter<TInputImage>::FillPoints(const FCCSigns &    signs,
   const InputImageType * const       image = this->GetInput();
   const auto                         first = image->GetBufferedRegion().GetIndex();
   const IndexValueType               shift = m_Closed ? 1 : 0;
-  const FCCEdgePoint<InputImageType> edgePoint(*image, m_Isovalue, MinimumFraction);
+  const FCCEdgePoint<InputImageType> edgePoint(*image, m_Isovalue, m_InsideIsBelow, MinimumFraction);
   TriangleSurface * const            surface = this->GetOutput();
 
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
