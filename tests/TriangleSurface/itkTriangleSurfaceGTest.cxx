@@ -98,6 +98,31 @@ TEST(TriangleSurface, RemovesUnusedPointsOnly)
   EXPECT_TRUE(surface->HasNormals());
 }
 
+TEST(TriangleSurfaceComponents, AreFoundMeasuredAndKept)
+{
+  auto surface = UnitTetrahedron();
+  Append(*surface, *UnitTetrahedron(), 5.0f);
+  Append(*surface, *UnitTetrahedron(), -5.0f);
+  surface->GetPoints().push_back({ 7, 7, 7 });
+  for (std::size_t n = 4; n < 8; ++n)
+  {
+    surface->GetPoints()[n][2] *= 3.0f;
+  }
+  const auto components = FindComponents(*surface);
+  EXPECT_EQ(components.count, 3u);
+  EXPECT_EQ(components.ofPoint.front(), 0u);
+  EXPECT_EQ(components.ofPoint[11], 2u);
+  EXPECT_EQ(components.ofPoint.back(), itk::TriangleSurfaceComponents::None);
+  const auto volumes = ComputeComponentVolumes(*surface, components);
+  EXPECT_NEAR(volumes[0], 1.0 / 6.0, 1e-9);
+  EXPECT_NEAR(volumes[1], 0.5, 1e-9);
+
+  KeepComponents(*surface, components, { false, true, false });
+  EXPECT_EQ(surface->GetNumberOfPoints(), 4u);
+  EXPECT_NEAR(ComputeVolume(*surface), 0.5, 1e-9);
+  EXPECT_TRUE(ComputeTopology(*surface).IsWatertight());
+}
+
 TEST(TriangleSurfaceTopology, ClosedTetrahedronIsWatertight)
 {
   const auto topology = ComputeTopology(*UnitTetrahedron());

@@ -2,6 +2,7 @@
 #define itkTriangleSurfaceMeasures_h
 
 #include "itkTriangleSurface.h"
+#include "itkTriangleSurfaceComponents.h"
 
 namespace itk
 {
@@ -14,6 +15,10 @@ ComputeArea(const TriangleSurface & surface);
  * surfaces only. Thread safe. */
 double
 ComputeVolume(const TriangleSurface & surface);
+
+/** The same for each connected component. Thread safe. */
+std::vector<double>
+ComputeComponentVolumes(const TriangleSurface & surface, const TriangleSurfaceComponents & components);
 
 } // namespace itk
 

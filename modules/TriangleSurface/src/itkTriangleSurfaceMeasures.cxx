@@ -38,6 +38,13 @@ Dot(const Vector3 & a, const Vector3 & b)
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/** Six times the signed volume of the tetrahedron of a triangle and the surface's first point. */
+double
+SixfoldVolume(const TriangleSurface & surface, const TriangleSurface::TriangleType & triangle)
+{
+  return Dot(Relative(surface, triangle[0]), Cross(Relative(surface, triangle[1]), Relative(surface, triangle[2])));
+}
+
 } // namespace
 
 double
@@ -60,10 +67,20 @@ ComputeVolume(const TriangleSurface & surface)
   double sixfold = 0.0;
   for (const auto & triangle : surface.GetTriangles())
   {
-    sixfold += Dot(Relative(surface, triangle[0]),
-                   Cross(Relative(surface, triangle[1]), Relative(surface, triangle[2])));
+    sixfold += SixfoldVolume(surface, triangle);
   }
   return sixfold / 6.0;
+}
+
+std::vector<double>
+ComputeComponentVolumes(const TriangleSurface & surface, const TriangleSurfaceComponents & components)
+{
+  std::vector<double> volumes(components.count, 0.0);
+  for (const auto & triangle : surface.GetTriangles())
+  {
+    volumes[components.ofPoint[triangle[0]]] += SixfoldVolume(surface, triangle) / 6.0;
+  }
+  return volumes;
 }
 
 } // namespace itk

@@ -1,5 +1,7 @@
 #include "itkTriangleSurfaceTopology.h"
 
+#include "itkTriangleSurfaceComponents.h"
+
 #include <algorithm>
 #include <numeric>
 #include <ostream>
@@ -74,36 +76,6 @@ CountEdges(const std::vector<HalfEdge> & edges, TriangleSurfaceTopology & topolo
   }
   return distinct;
 }
-
-class DisjointSets
-{
-public:
-  explicit DisjointSets(std::size_t size)
-    : m_Parent(size)
-  {
-    std::iota(m_Parent.begin(), m_Parent.end(), 0u);
-  }
-
-  PointId
-  Find(PointId item)
-  {
-    while (m_Parent[item] != item)
-    {
-      m_Parent[item] = m_Parent[m_Parent[item]];
-      item = m_Parent[item];
-    }
-    return item;
-  }
-
-  void
-  Join(PointId a, PointId b)
-  {
-    m_Parent[Find(a)] = Find(b);
-  }
-
-private:
-  std::vector<PointId> m_Parent;
-};
 
 /** The links of one point are the triangle sides opposite to it. The point is manifold when they form a single path
  * (on a boundary) or a single cycle. */
@@ -187,26 +159,6 @@ CountFans(const TriangleSurface & surface, TriangleSurfaceTopology & topology)
   }
 }
 
-void
-CountComponents(const TriangleSurface & surface, TriangleSurfaceTopology & topology)
-{
-  DisjointSets      sets(surface.GetNumberOfPoints());
-  std::vector<char> used(surface.GetNumberOfPoints(), 0);
-  for (const auto & triangle : surface.GetTriangles())
-  {
-    sets.Join(triangle[0], triangle[1]);
-    sets.Join(triangle[1], triangle[2]);
-    for (const PointId point : triangle)
-    {
-      used[point] = 1;
-    }
-  }
-  for (std::size_t point = 0; point < used.size(); ++point)
-  {
-    topology.components += used[point] && sets.Find(static_cast<PointId>(point)) == point ? 1 : 0;
-  }
-}
-
 bool
 IsDegenerate(const TriangleSurface & surface, const TriangleSurface::TriangleType & triangle)
 {
@@ -230,7 +182,7 @@ ComputeTopology(const TriangleSurface & surface)
     triangles.begin(), triangles.end(), [&surface](const auto & triangle) { return IsDegenerate(surface, triangle); }));
   const SizeValueType edges = CountEdges(SortedHalfEdges(triangles), topology);
   CountFans(surface, topology);
-  CountComponents(surface, topology);
+  topology.components = FindComponents(surface).count;
   topology.eulerCharacteristic =
     static_cast<OffsetValueType>(surface.GetNumberOfPoints() - topology.unusedPoints + triangles.size()) -
     static_cast<OffsetValueType>(edges);
