@@ -1,0 +1,108 @@
+#include "rhombicAtomicFile.h"
+
+#include "rhombicFailure.h"
+#include "rhombicTemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+using rhombic::AtomicFile;
+using rhombic::Failure;
+
+void
+Write(const fs::path & path, const std::string & text)
+{
+  std::ofstream(path) << text;
+}
+
+std::string
+Read(const fs::path & path)
+{
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+std::size_t
+FilesIn(const fs::path & folder)
+{
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+TEST(AtomicFile, AppearsOnCommitOnly)
+{
+  const rhombictest::TemporaryFolder folder;
+  const fs::path                     target = folder.Path() / "picture.png";
+  AtomicFile                         file(target);
+  EXPECT_EQ(file.GetTemporaryPath().extension(), ".png") << "for writers that look at the extension";
+  EXPECT_EQ(file.GetTemporaryPath().parent_path(), folder.Path());
+  Write(file.GetTemporaryPath(), "complete");
+  EXPECT_FALSE(fs::exists(target));
+  file.Commit(8);
+  EXPECT_EQ(Read(target), "complete");
+  EXPECT_EQ(FilesIn(folder.Path()), 1u);
+}
+
+TEST(AtomicFile, KeepsTheOldFileWithoutCommit)
+{
+  const rhombictest::TemporaryFolder folder;
+  const fs::path                     target = folder.Path() / "mesh.stl";
+  Write(target, "old");
+  {
+    AtomicFile file(target);
+    Write(file.GetTemporaryPath(), "new");
+  }
+  EXPECT_EQ(Read(target), "old");
+  EXPECT_EQ(FilesIn(folder.Path()), 1u);
+}
+
+TEST(AtomicFile, RefusesAFileThatIsTooShort)
+{
+  const rhombictest::TemporaryFolder folder;
+  const fs::path                     target = folder.Path() / "mesh.stl";
+  Write(target, "old");
+  {
+    AtomicFile file(target);
+    Write(file.GetTemporaryPath(), "new");
+    EXPECT_THROW(file.Commit(4), Failure);
+  }
+  EXPECT_EQ(Read(target), "old");
+  EXPECT_EQ(FilesIn(folder.Path()), 1u);
+}
+
+TEST(AtomicFile, RefusesTargetsThatCannotBe)
+{
+  const rhombictest::TemporaryFolder folder;
+  for (const fs::path & target : { folder.Path(), folder.Path() / "", folder.Path() / "missing" / "x.png",
+                                   fs::path("/dev/null"), folder.Path() / (std::string(300, 'x') + ".png") })
+  {
+    try
+    {
+      AtomicFile file(target);
+      ADD_FAILURE() << target;
+    }
+    catch (const Failure & failure)
+    {
+      EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Output);
+      EXPECT_NE(std::string(failure.GetDescription()).find(target.string()), std::string::npos);
+    }
+  }
+  EXPECT_EQ(FilesIn(folder.Path()), 0u);
+}
+
+TEST(AtomicFile, TwoForTheSameTargetDoNotCollide)
+{
+  const rhombictest::TemporaryFolder folder;
+  AtomicFile                         first(folder.Path() / "a.png");
+  AtomicFile                         second(folder.Path() / "a.png");
+  EXPECT_NE(first.GetTemporaryPath(), second.GetTemporaryPath());
+}
+
+} // namespace
