@@ -1,0 +1,49 @@
+#ifndef rhombicSurfaceRequest_h
+#define rhombicSurfaceRequest_h
+
+#include "rhombicScene.h"
+
+#include <optional>
+#include <string>
+
+namespace rhombic
+{
+
+/** A surface to extract, and how to draw it. */
+struct SurfaceRequest
+{
+  /** Which side of the isovalue is inside. */
+  enum class Side
+  {
+    Above, ///< values at or above it
+    Below  ///< values below it: lungs and other air
+  };
+
+  /** Which connected parts are kept. */
+  enum class Parts
+  {
+    All,
+    Enclosed ///< the largest one that does not reach the scan's sides: the lungs, but not the air around the patient
+  };
+
+  std::string           name;
+  std::optional<double> isovalue; ///< in the scan's units; none: Otsu's threshold of the scan
+  Side                  side = Side::Above;
+  Parts                 parts = Parts::All;
+  Colour                colour{ 0.8, 0.8, 0.8 };
+  double                opacity = 1.0;
+};
+
+/** A colour written as #rrggbb. Throws Failure(Usage). */
+Colour
+ParseColour(const std::string & text);
+
+/** A surface written as name=threshold[,colour[,opacity]], where the threshold is a number or `otsu`. A threshold that
+ * begins with `<` takes what lies below it. Surfaces without a colour get the \a number-th of a palette. Throws
+ * Failure(Usage). */
+SurfaceRequest
+ParseSurfaceRequest(const std::string & text, std::size_t number);
+
+} // namespace rhombic
+
+#endif

@@ -1,0 +1,81 @@
+#ifndef rhombicEnclosedPart_h
+#define rhombicEnclosedPart_h
+
+#include "itkFCCImage.h"
+#include "itkTriangleSurface.h"
+#include "itkTriangleSurfaceComponents.h"
+#include "itkTriangleSurfaceMeasures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rhombic
+{
+
+/** The axis of the image that is nearest to the patient's long axis. */
+inline unsigned int
+LongAxisOf(const itk::ImageBase<3>::DirectionType & direction)
+{
+  constexpr unsigned int superior = 2;
+  unsigned int           found = 0;
+  for (unsigned int axis = 1; axis < 3; ++axis)
+  {
+    if (std::abs(direction[superior][axis]) > std::abs(direction[superior][found]))
+    {
+      found = axis;
+    }
+  }
+  return found;
+}
+
+/** Keeps the component with the largest volume among those that don't reach the sides of the scan, and removes the
+ * others. The sides are the extent's faces left, right, in front and at the back of the patient; at the top and the
+ * bottom organs are cut. Without such a component the surface becomes empty. */
+template <typename TPixel>
+void
+KeepEnclosedPart(itk::TriangleSurface & surface, const itk::FCCImage<TPixel> & image)
+{
+  const auto         components = itk::FindComponents(surface);
+  const auto         volumes = itk::ComputeComponentVolumes(surface, components);
+  const unsigned int longAxis = LongAxisOf(image.GetDirection());
+  const auto &       region = image.GetLargestPossibleRegion();
+  constexpr double   unitsPerIndex[3] = { 2.0, 1.0, 1.0 };
+  constexpr double   near = 0.25; // of a lattice unit: closed surfaces end on the extent's faces exactly
+
+  std::vector<bool> isEnclosed(components.count, true);
+  for (std::size_t n = 0; n < components.ofPoint.size(); ++n)
+  {
+    const auto & p = surface.GetPoints()[n];
+    itk::Point<double, 3> point;
+    std::copy(p.begin(), p.end(), point.Begin());
+    const auto coordinates = image.TransformPhysicalPointToLattice(point);
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const double begin = unitsPerIndex[axis] * static_cast<double>(region.GetIndex(axis)) - 0.5;
+      const double end = begin + unitsPerIndex[axis] * static_cast<double>(region.GetSize(axis));
+      if (axis != longAxis && (coordinates[axis] < begin + near || coordinates[axis] > end - near))
+      {
+        isEnclosed[components.ofPoint[n]] = false;
+      }
+    }
+  }
+  std::vector<bool> keep(components.count, false);
+  std::size_t       largest = components.count;
+  for (std::size_t component = 0; component < components.count; ++component)
+  {
+    if (isEnclosed[component] && volumes[component] > 0.0 &&
+        (largest == components.count || volumes[component] > volumes[largest]))
+    {
+      largest = component;
+    }
+  }
+  if (largest < components.count)
+  {
+    keep[largest] = true;
+  }
+  itk::KeepComponents(surface, components, keep);
+}
+
+} // namespace rhombic
+
+#endif

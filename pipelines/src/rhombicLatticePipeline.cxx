@@ -1,0 +1,143 @@
+#include "rhombicLatticePipeline.h"
+
+#include "rhombicEnclosedPart.h"
+#include "rhombicFailure.h"
+#include "rhombicObserveProgress.h"
+
+#include "itkCartesianToFCCImageFilter.h"
+#include "itkFCCIsosurfaceFilter.h"
+#include "itkFCCToCartesianImageFilter.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace rhombic
+{
+namespace
+{
+
+/** What the extents of an FCC image come to, in a few words. */
+template <typename TPixel>
+std::string
+Describe(const itk::FCCImage<TPixel> & image)
+{
+  const auto &       size = image.GetLargestPossibleRegion().GetSize();
+  const auto &       spacing = image.GetSpacing();
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << size[0] << " x " << size[1] << " x " << size[2] << " sites, spacing " << spacing[0] << " x " << spacing[1] << " x "
+       << spacing[2] << " mm";
+  return text.str();
+}
+
+void
+CheckSettings(const LatticeSettings & settings)
+{
+  if (!(settings.density > 0.0) || !(settings.density <= 64.0))
+  {
+    throw Failure(FailureKind::Usage,
+                  "The lattice's density must be above 0 and at most 64 sites per sample of the scan, not " +
+                    std::to_string(settings.density) + "; the default is 0.77.");
+  }
+  int given = 0;
+  for (const double spacing : settings.spacing)
+  {
+    given += spacing > 0.0 && std::isfinite(spacing) ? 1 : 0;
+    if (!(spacing >= 0.0))
+    {
+      throw Failure(FailureKind::Usage, "The lattice's spacing must be positive; give it in mm, for example 1.5.");
+    }
+  }
+  if (given != 0 && given != 3)
+  {
+    throw Failure(FailureKind::Usage, "The lattice's spacing must be given along all three axes, or for all at once.");
+  }
+}
+
+template <typename TFilter, typename TImage>
+auto
+RunFilter(TFilter & filter, const TImage & input, const std::string & step, const Events & events)
+{
+  ObserveProgress(filter, step, events);
+  filter.SetInput(input);
+  filter.Update();
+  typename TFilter::OutputImageType::Pointer output = filter.GetOutput();
+  output->DisconnectPipeline();
+  return output;
+}
+
+template <typename TPixel>
+itk::TriangleSurface::Pointer
+ExtractSurface(const itk::FCCImage<TPixel> & image, const SurfaceRequest & request, const Events & events)
+{
+  const auto filter = itk::FCCIsosurfaceFilter<itk::FCCImage<TPixel>>::New();
+  ObserveProgress(*filter, "extracting " + request.name, events);
+  filter->SetInput(&image);
+  filter->SetIsovalue(request.isovalue.value());
+  filter->SetInsideIsBelow(request.side == SurfaceRequest::Side::Below);
+  filter->Update();
+  itk::TriangleSurface::Pointer surface = filter->GetOutput();
+  surface->DisconnectPipeline();
+  if (request.parts == SurfaceRequest::Parts::Enclosed)
+  {
+    KeepEnclosedPart(*surface, image);
+  }
+  if (surface->GetNumberOfTriangles() == 0)
+  {
+    std::ostringstream sentence;
+    sentence.imbue(std::locale::classic());
+    sentence << "There is no surface for " << request.name << " at " << *request.isovalue
+             << (request.parts == SurfaceRequest::Parts::Enclosed ? " that the scan encloses" : "")
+             << "; try another threshold (rhombic info suggests some).";
+    throw Failure(FailureKind::Empty, sentence.str());
+  }
+  return surface;
+}
+
+} // namespace
+
+FCCVolume
+ScanToLattice(const ScanImage & image, const LatticeSettings & settings, const Events & events)
+{
+  CheckSettings(settings);
+  return std::visit(
+    [&](const auto & input) -> FCCVolume {
+      using InputType = typename std::decay_t<decltype(*input)>;
+      const auto filter = itk::CartesianToFCCImageFilter<InputType>::New();
+      filter->SetDensity(settings.density);
+      filter->SetOutputSpacing(settings.spacing.data());
+      filter->SetKernel(settings.kernel);
+      const auto output = RunFilter(*filter, input, "resampling", events);
+      events.Note("lattice: " + Describe(*output));
+      return output;
+    },
+    image);
+}
+
+ScanImage
+LatticeToScan(const FCCVolume & volume, const std::array<double, 3> & spacing, const Events & events)
+{
+  return std::visit(
+    [&](const auto & input) -> ScanImage {
+      using InputType = typename std::decay_t<decltype(*input)>;
+      const auto filter = itk::FCCToCartesianImageFilter<InputType>::New();
+      filter->SetOutputSpacing(spacing.data());
+      return RunFilter(*filter, input, "resampling", events);
+    },
+    volume);
+}
+
+std::vector<SceneSurface>
+LatticeToSurfaces(const FCCVolume & volume, const std::vector<SurfaceRequest> & requests, const Events & events)
+{
+  std::vector<SceneSurface> surfaces;
+  for (const SurfaceRequest & request : requests)
+  {
+    const auto surface = std::visit([&](const auto & image) { return ExtractSurface(*image, request, events); }, volume);
+    events.Note(request.name + ": " + std::to_string(surface->GetNumberOfTriangles()) + " triangles");
+    surfaces.push_back({ request.name, surface.GetPointer(), request.colour, request.opacity });
+  }
+  return surfaces;
+}
+
+} // namespace rhombic

@@ -1,0 +1,187 @@
+#include "rhombicPresets.h"
+
+#include "rhombicBuiltInPresets.h"
+#include "rhombicFailure.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <fstream>
+#include <numeric>
+#include <set>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+namespace rhombic
+{
+namespace
+{
+
+[[noreturn]] void
+FailToParse(const std::string & source, const std::string & why)
+{
+  throw Failure(FailureKind::Unreadable,
+                "The preset " + source + " " + why + "; compare it with those in pipelines/presets.");
+}
+
+void
+RefuseUnknownKeys(const YAML::Node & map, const std::set<std::string> & known, const std::string & source)
+{
+  if (!map.IsMap())
+  {
+    FailToParse(source, "is not made of keys and values");
+  }
+  for (const auto & entry : map)
+  {
+    if (known.count(entry.first.as<std::string>()) == 0)
+    {
+      FailToParse(source, "has the unknown key '" + entry.first.as<std::string>() + "'");
+    }
+  }
+}
+
+/** The value of a key that must be one of two words; \a otherwise when the key is missing. */
+bool
+IsSecondWord(const YAML::Node & value, const char * first, const char * second, const std::string & source)
+{
+  if (!value || value.as<std::string>() == first)
+  {
+    return false;
+  }
+  if (value.as<std::string>() != second)
+  {
+    FailToParse(source, "has '" + value.as<std::string>() + "' where '" + first + "' or '" + second + "' is expected");
+  }
+  return true;
+}
+
+SurfaceRequest
+ParseSurface(const YAML::Node & node, const std::string & source)
+{
+  RefuseUnknownKeys(node, { "name", "isovalue", "side", "parts", "colour", "opacity" }, source);
+  SurfaceRequest request;
+  request.name = node["name"].as<std::string>();
+  if (node["isovalue"].as<std::string>() != "otsu")
+  {
+    request.isovalue = node["isovalue"].as<double>();
+  }
+  const bool isBelow = IsSecondWord(node["side"], "above", "below", source);
+  const bool isEnclosed = IsSecondWord(node["parts"], "all", "enclosed", source);
+  request.side = isBelow ? SurfaceRequest::Side::Below : SurfaceRequest::Side::Above;
+  request.parts = isEnclosed ? SurfaceRequest::Parts::Enclosed : SurfaceRequest::Parts::All;
+  if (node["colour"])
+  {
+    request.colour = ParseColour(node["colour"].as<std::string>());
+  }
+  request.opacity = node["opacity"].as<double>(1.0);
+  return request;
+}
+
+/** Insertions, deletions and replacements that turn one word into the other (Levenshtein). */
+std::size_t
+EditDistance(const std::string & a, const std::string & b)
+{
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0u);
+  for (std::size_t i = 1; i <= a.size(); ++i)
+  {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j)
+    {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({ row[j] + 1, row[j - 1] + 1, replaced });
+    }
+  }
+  return row.back();
+}
+
+bool
+IsYamlPath(const std::string & text)
+{
+  const auto extension = fs::path(text).extension();
+  return extension == ".yaml" || extension == ".yml";
+}
+
+Preset
+ReadPreset(const fs::path & path)
+{
+  std::ifstream stream(path);
+  if (!stream)
+  {
+    throw Failure(FailureKind::NotFound, "There is no preset file " + path.string() + "; check the path.");
+  }
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return ParsePreset(text.str(), path.string());
+}
+
+} // namespace
+
+Preset
+ParsePreset(const std::string & yaml, const std::string & source)
+{
+  try
+  {
+    const YAML::Node root = YAML::Load(yaml);
+    RefuseUnknownKeys(root, { "name", "description", "surfaces" }, source);
+    Preset preset;
+    preset.name = root["name"].as<std::string>();
+    preset.description = root["description"].as<std::string>("");
+    for (const auto & node : root["surfaces"])
+    {
+      preset.surfaces.push_back(ParseSurface(node, source));
+    }
+    if (preset.surfaces.empty())
+    {
+      FailToParse(source, "has no surfaces");
+    }
+    return preset;
+  }
+  catch (const YAML::Exception & error)
+  {
+    FailToParse(source, "is not valid (line " + std::to_string(error.mark.line + 1) + ": " + error.msg + ")");
+  }
+}
+
+const std::vector<Preset> &
+GetPresets()
+{
+  static const std::vector<Preset> presets = [] {
+    std::vector<Preset> parsed;
+    for (const BuiltInPreset & builtIn : BuiltInPresets)
+    {
+      parsed.push_back(ParsePreset(builtIn.yaml, builtIn.name));
+    }
+    return parsed;
+  }();
+  return presets;
+}
+
+Preset
+FindPreset(const std::string & nameOrPath)
+{
+  if (IsYamlPath(nameOrPath))
+  {
+    return ReadPreset(nameOrPath);
+  }
+  const Preset * nearest = nullptr;
+  for (const Preset & preset : GetPresets())
+  {
+    if (preset.name == nameOrPath)
+    {
+      return preset;
+    }
+    if (nearest == nullptr || EditDistance(nameOrPath, preset.name) < EditDistance(nameOrPath, nearest->name))
+    {
+      nearest = &preset;
+    }
+  }
+  throw Failure(FailureKind::Usage,
+                "There is no preset '" + nameOrPath + "'; did you mean " + nearest->name +
+                  "? (rhombic render --list-presets shows all of them.)");
+}
+
+} // namespace rhombic
