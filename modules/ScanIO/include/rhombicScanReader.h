@@ -1,0 +1,43 @@
+#ifndef rhombicScanReader_h
+#define rhombicScanReader_h
+
+#include "rhombicScan.h"
+
+#include <filesystem>
+#include <string>
+
+namespace rhombic
+{
+
+/** \class ScanReadOptions
+ * \brief What to read when there is a choice. */
+struct ScanReadOptions
+{
+  /** Which DICOM series of a folder: its SeriesSummary::id, its SeriesInstanceUID, its place in the list (from 1), or
+   * its SeriesNumber. Empty, the default: the one with most slices. */
+  std::string series;
+};
+
+/** Reads a scan: a folder of DICOM slices, searched with its subfolders but without following symbolic links, or a
+ * NIfTI
+ * (.nii, .nii.gz, .hdr with .img), NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd) file. A DICOM file by itself is one
+ * slice, which is no volume, so its folder has to be named.
+ *
+ * Values are rescaled as the file says (HU for CT). The pixel type is the stored one where ScanImage has it and
+ * rescaling keeps it; otherwise int8 becomes int16; uint32, int64 and uint64 become int32 if all values fit and float
+ * if not; double becomes float; rescaled DICOM integers become the first of int16, uint16 and int32 that holds the
+ * range of their stored bits, or float where slope or intercept is no whole number; rescaled NIfTI becomes float.
+ *
+ * The geometry is the file's, in LPS millimetres, never assumed: slices come from ImagePositionPatient,
+ * ImageOrientationPatient and PixelSpacing only, NIfTI from its sform, else its qform. What can't be one regular
+ * volume (a missing or doubled slice, a gantry tilt, a sheared sform) is refused.
+ *
+ * Throws Failure: NotFound (no such path, or no scan in the folder), Usage (no such series), Unreadable (damaged, or
+ * colour, more than three dimensions, multi-frame, no image...), Geometry, Memory. Damaged DICOM may still end the
+ * process inside GDCM. While it runs, warnings of ITK and GDCM are off for the whole process; calls may run at the same
+ * time. */
+Scan ReadScan(const std::filesystem::path & path, const ScanReadOptions & options = {});
+
+} // namespace rhombic
+
+#endif
