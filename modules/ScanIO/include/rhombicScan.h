@@ -48,6 +48,7 @@ struct Scan
 
 /** Size, origin, spacing and direction, whatever the pixel type. */
 const itk::ImageBase<3> & GeometryOf(const ScanImage & image);
+const itk::ImageBase<3> & GeometryOf(ScanImage &&) = delete; // it would outlive the image
 
 /** "uint8", "int16", "uint16", "int32" or "float". */
 const char * PixelTypeName(const ScanImage & image);

@@ -25,8 +25,8 @@ struct ScanReadOptions
  *
  * Values are rescaled as the file says (HU for CT). The pixel type is the stored one where ScanImage has it and
  * rescaling keeps it; otherwise int8 becomes int16; uint32, int64 and uint64 become int32 if all values fit and float
- * if not; double becomes float; rescaled DICOM integers become the first of int16, uint16 and int32 that holds the
- * range of their stored bits, or float where slope or intercept is no whole number; rescaled NIfTI becomes float.
+ * if not; double becomes float; rescaled DICOM integers become the first of int16, uint16 and int32 that holds
+ * all values, or float where slope or intercept is no whole number; rescaled NIfTI becomes float.
  *
  * The geometry is the file's, in LPS millimetres, never assumed: slices come from ImagePositionPatient,
  * ImageOrientationPatient and PixelSpacing only, NIfTI from its sform, else its qform. What can't be one regular

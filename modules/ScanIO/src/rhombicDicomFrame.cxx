@@ -5,7 +5,9 @@
 #include <gdcmImageReader.h>
 #include <gdcmSequenceOfFragments.h>
 
-#include <cstring>
+#include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 namespace rhombic
@@ -26,28 +28,47 @@ CountPixels(const DicomSlice & slice)
   return static_cast<std::size_t>(slice.rows) * slice.columns;
 }
 
-/** GDCM leaves the rest of the picture unset when native pixels are cut off. */
-void
-RequireWholeNativePixels(const DicomSlice & slice, const gdcm::DataElement & pixels)
+std::uint32_t
+BigEndian(const unsigned char * bytes)
 {
-  const std::size_t needed = CountPixels(slice) * (slice.bitsAllocated / 8);
-  const auto * value = pixels.GetByteValue();
-  const std::size_t available = value ? static_cast<std::size_t>(value->GetLength()) : 0;
-  if (available < needed)
-  {
-    Refuse(slice, "it has " + std::to_string(available) + " of " + std::to_string(needed) + " bytes of pixels");
-  }
+  return std::uint32_t{ bytes[0] } << 24 | std::uint32_t{ bytes[1] } << 16 | std::uint32_t{ bytes[2] } << 8 | bytes[3];
 }
 
-std::uint32_t
-BigEndian(const std::string & bytes, std::size_t offset)
+/** GDCM makes up pixels that are cut off, and allocates whatever length an element claims: both are found out before it
+ * reads them. Encapsulated pixels have no length to check. */
+void
+RequireWholeNativePixels(const DicomSlice & slice)
 {
-  std::uint32_t value = 0;
-  for (std::size_t i = offset; i < offset + 4; ++i)
+  const gdcm::Tag pixelsTag(0x7fe0, 0x0010);
+  std::ifstream stream(slice.path, std::ios::binary);
+  gdcm::Reader reader;
+  reader.SetStream(stream);
+  if (!reader.ReadUpToTag(pixelsTag, { pixelsTag }) || !stream)
   {
-    value = value << 8 | static_cast<unsigned char>(bytes[i]);
+    Refuse(slice, "it has no pixels, or its header is damaged");
   }
-  return value;
+  const gdcm::TransferSyntax syntax = reader.GetFile().GetHeader().GetDataSetTransferSyntax();
+  if (syntax.IsEncapsulated())
+  {
+    return;
+  }
+  // GDCM stops behind the length of the element that it was told to skip.
+  const std::streamoff begin = stream.tellg();
+  unsigned char bytes[4] = {};
+  stream.seekg(begin - 4).read(reinterpret_cast<char *>(bytes), sizeof(bytes));
+  if (syntax != gdcm::TransferSyntax::ExplicitVRBigEndian)
+  {
+    std::reverse(std::begin(bytes), std::end(bytes));
+  }
+  const std::uintmax_t claimed = BigEndian(bytes);
+  const std::uintmax_t available = std::filesystem::file_size(slice.path) - static_cast<std::uintmax_t>(begin);
+  const std::uintmax_t needed = CountPixels(slice) * (slice.bitsAllocated / 8);
+  if (claimed < needed || available < claimed)
+  {
+    Refuse(slice,
+           "it has " + std::to_string(std::min(claimed, available)) + " of " +
+             std::to_string(std::max(claimed, needed)) + " bytes of pixels");
+  }
 }
 
 /** GDCM writes past its buffer when a JPEG 2000 picture is larger than the header says: its SIZ marker is compared
@@ -61,8 +82,9 @@ RequireSameSizeInJPEG2000(const DicomSlice & slice, const std::string & stream)
   {
     Refuse(slice, "its JPEG 2000 pixels have no header");
   }
-  const std::uint32_t width = BigEndian(stream, marker + 8) - BigEndian(stream, marker + 16);
-  const std::uint32_t height = BigEndian(stream, marker + 12) - BigEndian(stream, marker + 20);
+  const auto * const bytes = reinterpret_cast<const unsigned char *>(stream.data()) + marker;
+  const std::uint32_t width = BigEndian(bytes + 8) - BigEndian(bytes + 16);
+  const std::uint32_t height = BigEndian(bytes + 12) - BigEndian(bytes + 20);
   if (width != slice.columns || height != slice.rows)
   {
     Refuse(slice,
@@ -97,11 +119,14 @@ JoinFragments(const gdcm::SequenceOfFragments & fragments)
 }
 
 void
-RequireWholeEncapsulatedPixels(const DicomSlice & slice,
-                               const gdcm::DataElement & pixels,
-                               const gdcm::TransferSyntax & syntax)
+RequireWholeEncapsulatedPixels(const DicomSlice & slice, const gdcm::File & file)
 {
-  const gdcm::SequenceOfFragments * const fragments = pixels.GetSequenceOfFragments();
+  const gdcm::TransferSyntax syntax = file.GetHeader().GetDataSetTransferSyntax();
+  if (!syntax.IsEncapsulated())
+  {
+    return;
+  }
+  const auto * const fragments = file.GetDataSet().GetDataElement(gdcm::Tag(0x7fe0, 0x0010)).GetSequenceOfFragments();
   if (fragments == nullptr || fragments->GetNumberOfFragments() == 0)
   {
     Refuse(slice, "its compressed pixels are missing");
@@ -116,26 +141,6 @@ RequireWholeEncapsulatedPixels(const DicomSlice & slice,
     RequireSameSizeInJPEG2000(slice, stream);
   }
   RequireEndMarker(slice, stream);
-}
-
-void
-RequireWholePixels(const DicomSlice & slice, const gdcm::File & file)
-{
-  const gdcm::Tag pixelsTag(0x7fe0, 0x0010);
-  if (!file.GetDataSet().FindDataElement(pixelsTag))
-  {
-    Refuse(slice, "it has no pixels");
-  }
-  const gdcm::DataElement & pixels = file.GetDataSet().GetDataElement(pixelsTag);
-  const gdcm::TransferSyntax syntax = file.GetHeader().GetDataSetTransferSyntax();
-  if (syntax.IsEncapsulated())
-  {
-    RequireWholeEncapsulatedPixels(slice, pixels, syntax);
-  }
-  else
-  {
-    RequireWholeNativePixels(slice, pixels);
-  }
 }
 
 template <typename TStored>
@@ -159,13 +164,14 @@ Decode(const DicomSlice & slice, const gdcm::Image & image)
 DicomFrame
 DecodeDicomFrame(const DicomSlice & slice)
 {
+  RequireWholeNativePixels(slice);
   gdcm::ImageReader reader;
   reader.SetFileName(slice.path.c_str());
   if (!reader.Read())
   {
     Refuse(slice, "its pixels are damaged or compressed in a way that is not supported");
   }
-  RequireWholePixels(slice, reader.GetFile());
+  RequireWholeEncapsulatedPixels(slice, reader.GetFile());
 
   const gdcm::Image & image = reader.GetImage();
   switch (image.GetPixelFormat().GetScalarType())

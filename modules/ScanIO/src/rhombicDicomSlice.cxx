@@ -20,7 +20,7 @@ namespace
 
 const gdcm::Tag ClassUIDTag(0x0008, 0x0016);
 const gdcm::Tag ModalityTag(0x0008, 0x0060);
-const gdcm::Tag SeriesUIDTag(0x0020, 0x000d);
+const gdcm::Tag SeriesUIDTag(0x0020, 0x000e);
 const gdcm::Tag SeriesNumberTag(0x0020, 0x0011);
 const gdcm::Tag PositionTag(0x0020, 0x0032);
 const gdcm::Tag OrientationTag(0x0020, 0x0037);
@@ -272,7 +272,9 @@ ReadDicomSlice(const std::filesystem::path & path)
   reader.SetFileName(path.c_str());
   if (!reader.ReadSelectedTags(Tags))
   {
-    return {};
+    slice.isImage = false;
+    slice.refusal = "its DICOM header is damaged or of a transfer syntax that is not supported";
+    return slice;
   }
   ReadHeader(reader.GetFile().GetDataSet(), slice);
   return slice;

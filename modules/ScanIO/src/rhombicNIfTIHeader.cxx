@@ -30,8 +30,9 @@ public:
 
   explicit HeaderBytes(const std::string & bytes)
     : m_Bytes(bytes)
-    , m_Swap(this->Get<std::int32_t>(0) != static_cast<std::int32_t>(Size))
-  {}
+  {
+    m_Swap = this->Get<std::int32_t>(0) != static_cast<std::int32_t>(Size);
+  }
 
   template <typename TValue>
   TValue

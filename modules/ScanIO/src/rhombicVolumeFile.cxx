@@ -172,6 +172,7 @@ ReadVolumeFile(const fs::path & path)
   if (scan.format == "NIfTI")
   {
     geometry = ReadNIfTIGeometry(path, scan.notes);
+    CheckGeometry(geometry, path);
   }
   else if (scan.format == "MetaImage")
   {
@@ -184,8 +185,8 @@ ReadVolumeFile(const fs::path & path)
   if (scan.format != "NIfTI")
   {
     geometry = GeometryOf(*io, size);
+    CheckGeometry(geometry, path);
   }
-  CheckGeometry(geometry, path);
   scan.image = ReadVolumePixels(*io, geometry);
 
   if (const std::size_t count = CountNotFinite(scan.image); count > 0)

@@ -1,0 +1,354 @@
+#include "rhombicDicomTestFile.h"
+#include "rhombicScanTest.h"
+
+#include <array>
+#include <cmath>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+using rhombic::FailureKind;
+using rhombic::ReadScan;
+using Vector = itk::Vector<double, 3>;
+
+class DicomFolder : public ScanTest
+{};
+
+constexpr std::uint16_t Columns = 6;
+constexpr std::uint16_t Rows = 5;
+constexpr std::size_t Slices = 4;
+
+std::string
+Join(std::initializer_list<double> numbers)
+{
+  std::string text;
+  for (const double number : numbers)
+  {
+    char digits[32];
+    std::snprintf(digits, sizeof(digits), "%.9g", number);
+    text += (text.empty() ? "" : "\\") + std::string(digits);
+  }
+  return text;
+}
+
+/** Three perpendicular unit vectors along none of the axes. */
+struct Frame
+{
+  Vector row, column, normal;
+
+  Frame()
+  {
+    const double rowValues[3] = { 2 / 3.0, 2 / 3.0, 1 / 3.0 };
+    const double columnValues[3] = { -2 / 3.0, 1 / 3.0, 2 / 3.0 };
+    row = Vector(rowValues);
+    column = Vector(columnValues);
+    normal = itk::CrossProduct(row, column);
+  }
+};
+
+/** Its value names the pixel: slice, row, column; -1000 with a tenth. */
+std::int16_t
+ValueAt(std::size_t i, std::size_t j, std::size_t k)
+{
+  return static_cast<std::int16_t>(100 * k + 10 * j + i);
+}
+
+DicomTestFile
+MakeSlice(std::size_t k)
+{
+  DicomTestFile file(Columns, Rows);
+  std::vector<std::int16_t> pixels;
+  for (std::size_t j = 0; j < Rows; ++j)
+  {
+    for (std::size_t i = 0; i < Columns; ++i)
+    {
+      pixels.push_back(ValueAt(i, j, k));
+    }
+  }
+  file.SetPixels(pixels);
+  file.SetPosition(Join({ 0, 0, 2.5 * static_cast<double>(k) }));
+  return file;
+}
+
+/** Writes a plain stack of slices 2.5 mm apart, named so that the alphabet is not their order. */
+void
+WriteStack(const fs::path & folder, std::size_t slices = Slices)
+{
+  fs::create_directories(folder);
+  for (std::size_t k = 0; k < slices; ++k)
+  {
+    MakeSlice(k).Write(folder / ("image" + std::to_string(k * 3 % 7) + ".dcm"));
+  }
+}
+
+TEST_F(DicomFolder, ObliqueSeriesLiesWhereItsHeadersSay)
+{
+  const Frame frame;
+  const double rowSpacing = 0.75, columnSpacing = 0.5, pitch = 2.25;
+  const double corner[3] = { -12.5, 30, 7 };
+  for (std::size_t k = 0; k < Slices; ++k)
+  {
+    DicomTestFile file = MakeSlice(k);
+    const Vector position = Vector(corner) + frame.normal * (pitch * static_cast<double>(k));
+    file.SetPosition(Join({ position[0], position[1], position[2] }));
+    file.SetOrientation(
+      Join({ frame.row[0], frame.row[1], frame.row[2], frame.column[0], frame.column[1], frame.column[2] }));
+    file.SetText(0x00280030, "DS", Join({ rowSpacing, columnSpacing }));
+    file.SetText(0x00180050, "DS", "99"); // slice thickness and spacing tags say nothing about positions
+    file.SetText(0x00180088, "DS", "-77");
+    file.Write(m_Folder / (std::to_string((k * 5 + 2) % 11) + "-shuffled"));
+  }
+  std::ofstream(m_Folder / "notes.txt") << "no image";
+  std::ofstream(m_Folder / "fake.dcm") << "no image either";
+
+  const auto scan = ReadScan(m_Folder);
+  const auto & image = ImageOf<std::int16_t>(scan);
+  EXPECT_EQ(image.GetLargestPossibleRegion().GetSize(), (itk::Size<3>{ { Columns, Rows, Slices } }));
+  const itk::Index<3> index{ { 4, 1, 3 } };
+  itk::Point<double, 3> point;
+  image.TransformIndexToPhysicalPoint(index, point);
+  const Vector expected =
+    Vector(corner) + frame.row * (columnSpacing * 4) + frame.column * (rowSpacing * 1) + frame.normal * (pitch * 3);
+  ExpectNear(point, itk::Point<double, 3>(expected.GetDataPointer()), 1e-6);
+  EXPECT_EQ(image.GetPixel(index), ValueAt(4, 1, 3) - 1024);
+  EXPECT_NEAR(image.GetSpacing()[2], pitch, 1e-7);
+
+  EXPECT_EQ(scan.format, "DICOM");
+  EXPECT_EQ(scan.modality, "CT");
+  EXPECT_EQ(scan.filesSkipped, 2u);
+  EXPECT_TRUE(image.GetMetaDataDictionary().GetKeys().empty());
+  ASSERT_EQ(scan.series.size(), 1u);
+  EXPECT_TRUE(scan.series[0].chosen);
+  EXPECT_EQ(scan.series[0].size, (std::array<std::size_t, 3>{ Columns, Rows, Slices }));
+  EXPECT_EQ(scan.series[0].seriesNumber, "7");
+}
+
+TEST_F(DicomFolder, PixelTypesFollowWhatIsStored)
+{
+  const auto read = [this](std::uint16_t bits, bool isSigned, const char * slope, const char * intercept) {
+    for (std::size_t k = 0; k < 2; ++k)
+    {
+      DicomTestFile file(2, 2);
+      file.SetPosition(Join({ 0, 0, static_cast<double>(k) }));
+      file.SetShort(0x00280100, bits);
+      file.SetShort(0x00280101, bits);
+      file.SetShort(0x00280102, static_cast<std::uint16_t>(bits - 1));
+      file.SetShort(0x00280103, isSigned ? 1 : 0);
+      file.SetText(0x00281052, "DS", intercept);
+      file.SetText(0x00281053, "DS", slope);
+      if (bits == 8)
+      {
+        file.SetPixels(std::vector<std::uint8_t>{ 0, 1, 2, 200 });
+      }
+      else
+      {
+        file.SetPixels(std::vector<std::uint16_t>{ 0, 1, 2, isSigned ? std::uint16_t(0xffff) : std::uint16_t(60000) });
+      }
+      file.Write(m_Folder / std::to_string(k));
+    }
+    const auto scan = ReadScan(m_Folder);
+    const auto [lowest, highest] = rhombic::ComputeIntensityRange(scan.image);
+    return std::string(rhombic::PixelTypeName(scan.image)) + " " + Join({ lowest, highest });
+  };
+  EXPECT_EQ(read(8, false, "1", "0"), "uint8 0\\200");
+  EXPECT_EQ(read(16, false, "1", "0"), "uint16 0\\60000");
+  EXPECT_EQ(read(16, true, "1", "0"), "int16 -1\\2");
+  EXPECT_EQ(read(16, true, "2", "-1024"), "int16 -1026\\-1020");
+  EXPECT_EQ(read(16, false, "1", "5"), "uint16 5\\60005");
+  EXPECT_EQ(read(16, false, "1", "-1024"), "int32 -1024\\58976");
+  EXPECT_EQ(read(16, true, "0.5", "0"), "float -0.5\\1");
+}
+
+TEST_F(DicomFolder, LargestSeriesIsReadUnlessAnotherIsChosen)
+{
+  WriteStack(m_Folder / "a", 4);
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    DicomTestFile file = MakeSlice(k);
+    file.SetSeries("9.8.7", "20");
+    file.SetText(0x00080060, "CS", "MR");
+    file.Write(m_Folder / "a" / ("other" + std::to_string(k)));
+  }
+  const auto scan = ReadScan(m_Folder);
+  ASSERT_EQ(scan.series.size(), 2u);
+  EXPECT_TRUE(scan.series[0].chosen);
+  EXPECT_EQ(scan.modality, "CT");
+  ASSERT_EQ(scan.notes.size(), 1u);
+  EXPECT_NE(scan.notes[0].find("Series 2 (MR, 3 files"), std::string::npos) << scan.notes[0];
+  EXPECT_EQ(scan.notes[0].find("9.8.7"), std::string::npos) << "UIDs can lead to the patient";
+
+  for (const std::string & name : { std::string("2"), std::string("20"), std::string("9.8.7"), scan.series[1].id })
+  {
+    rhombic::ScanReadOptions options;
+    options.series = name;
+    EXPECT_EQ(ReadScan(m_Folder, options).modality, "MR") << name;
+  }
+  EXPECT_EQ(KindOfReading(m_Folder, scan.series[0].id, { "3" }), FailureKind::Usage);
+}
+
+TEST_F(DicomFolder, AmbiguousSeriesNumberIsRefused)
+{
+  WriteStack(m_Folder);
+  for (std::size_t k = 0; k < 2; ++k)
+  {
+    DicomTestFile file = MakeSlice(k);
+    file.SetSeries("9.8.7", "1"); // listed first; the other one is listed second
+    file.Write(m_Folder / ("other" + std::to_string(k)));
+  }
+  EXPECT_EQ(ReadScan(m_Folder, { "1" }).series[0].numberOfFiles, 2u) << "both its place and its number";
+  for (std::size_t k = 0; k < 2; ++k)
+  {
+    DicomTestFile file = MakeSlice(k);
+    file.SetSeries("9.8.7", "2");
+    file.Write(m_Folder / ("other" + std::to_string(k)));
+    file.SetSeries("9.8.6", "1");
+    file.Write(m_Folder / ("another" + std::to_string(k)));
+  }
+  EXPECT_NO_THROW(ReadScan(m_Folder, { "2" }));
+  EXPECT_EQ(KindOfReading(m_Folder, "id", { "8" }), FailureKind::Usage);
+}
+
+TEST_F(DicomFolder, MissingSliceIsRefused)
+{
+  WriteStack(m_Folder, 6);
+  fs::remove(m_Folder / "image2.dcm"); // k = 3
+  EXPECT_EQ(KindOfReading(m_Folder, "image6.dcm to image5.dcm it is 5 mm, elsewhere 2.5 mm"), FailureKind::Geometry);
+}
+
+TEST_F(DicomFolder, DoubledSliceIsRefused)
+{
+  WriteStack(m_Folder);
+  fs::copy(m_Folder / "image3.dcm", m_Folder / "image3-copy.dcm");
+  EXPECT_EQ(KindOfReading(m_Folder, "image3-copy.dcm and image3.dcm are at the same place"), FailureKind::Geometry);
+}
+
+TEST_F(DicomFolder, TiltIsRefused)
+{
+  for (std::size_t k = 0; k < Slices; ++k)
+  {
+    DicomTestFile file = MakeSlice(k);
+    const double z = 2.5 * static_cast<double>(k);
+    file.SetPosition(Join({ 0, z * std::tan(0.2), z }));
+    file.Write(m_Folder / std::to_string(k));
+  }
+  EXPECT_EQ(KindOfReading(m_Folder, "11.46 degrees"), FailureKind::Geometry);
+}
+
+TEST_F(DicomFolder, SliceOffTheLineIsRefused)
+{
+  WriteStack(m_Folder);
+  DicomTestFile file = MakeSlice(1);
+  file.SetPosition("0\\0.5\\2.5");
+  file.Write(m_Folder / "image3.dcm");
+  EXPECT_EQ(KindOfReading(m_Folder, "image3.dcm lies 0.5 mm off"), FailureKind::Geometry);
+}
+
+TEST_F(DicomFolder, MissingGeometryIsRefusedByName)
+{
+  const std::array<std::pair<std::uint32_t, const char *>, 3> fields{ { { 0x00200032, "ImagePositionPatient" },
+                                                                        { 0x00200037, "ImageOrientationPatient" },
+                                                                        { 0x00280030, "PixelSpacing" } } };
+  for (const auto & [tag, name] : fields)
+  {
+    for (std::size_t k = 0; k < Slices; ++k)
+    {
+      DicomTestFile file = MakeSlice(k);
+      file.Remove(tag);
+      file.Write(m_Folder / std::to_string(k));
+    }
+    EXPECT_EQ(KindOfReading(m_Folder, name), FailureKind::Geometry);
+    EXPECT_EQ(KindOfReading(m_Folder, m_Folder.string()), FailureKind::Geometry);
+  }
+}
+
+TEST_F(DicomFolder, UnusableGeometryIsRefused)
+{
+  const auto kindWith = [this](std::uint32_t tag, const char * text) {
+    for (std::size_t k = 0; k < Slices; ++k)
+    {
+      DicomTestFile file = MakeSlice(k);
+      file.SetText(tag, "DS", text);
+      file.Write(m_Folder / std::to_string(k));
+    }
+    return KindOfReading(m_Folder, m_Folder.string());
+  };
+  EXPECT_EQ(kindWith(0x00280030, "0\\1"), FailureKind::Geometry);
+  EXPECT_EQ(kindWith(0x00280030, "-1\\1"), FailureKind::Geometry);
+  EXPECT_EQ(kindWith(0x00200037, "1\\0\\0\\1\\0\\0"), FailureKind::Geometry);
+  EXPECT_EQ(kindWith(0x00200037, "1\\0\\0\\0\\nan\\0"), FailureKind::Geometry);
+  EXPECT_EQ(kindWith(0x00200032, "0\\0\\one"), FailureKind::Geometry);
+  EXPECT_EQ(kindWith(0x00200032, "0\\0\\0"), FailureKind::Geometry) << "all at one place";
+}
+
+TEST_F(DicomFolder, UnsupportedKindsOfImagesAreNamed)
+{
+  const auto kindWith = [this](const std::string & named, auto change) {
+    for (std::size_t k = 0; k < 2; ++k)
+    {
+      DicomTestFile file = MakeSlice(k);
+      change(file);
+      file.Write(m_Folder / std::to_string(k));
+    }
+    EXPECT_EQ(KindOfReading(m_Folder / "0", named), FailureKind::Unreadable) << "as a file";
+    return KindOfReading(m_Folder, named);
+  };
+  EXPECT_EQ(kindWith("colour", [](DicomTestFile & file) { file.SetShort(0x00280002, 3); }), FailureKind::Unreadable);
+  EXPECT_EQ(kindWith("colour", [](DicomTestFile & file) { file.SetText(0x00280004, "CS", "PALETTE COLOR"); }),
+            FailureKind::Unreadable);
+  EXPECT_EQ(kindWith("MONOCHROME1", [](DicomTestFile & file) { file.SetText(0x00280004, "CS", "MONOCHROME1"); }),
+            FailureKind::Unreadable);
+  EXPECT_EQ(kindWith("multi-frame", [](DicomTestFile & file) { file.SetText(0x00280008, "IS", "12"); }),
+            FailureKind::Unreadable);
+  EXPECT_EQ(
+    kindWith("SEG", [](DicomTestFile & file) { file.SetText(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.66.4"); }),
+    FailureKind::Unreadable);
+  EXPECT_EQ(kindWith("bits", [](DicomTestFile & file) { file.SetShort(0x00280100, 12); }), FailureKind::Unreadable);
+  EXPECT_EQ(kindWith("RescaleSlope", [](DicomTestFile & file) { file.SetText(0x00281053, "DS", "nan"); }),
+            FailureKind::Unreadable);
+  EXPECT_EQ(kindWith("samples", [](DicomTestFile & file) { file.SetShort(0x00280002, 0); }), FailureKind::Unreadable);
+}
+
+TEST_F(DicomFolder, CutOffPixelsAreRefused)
+{
+  WriteStack(m_Folder);
+  fs::resize_file(m_Folder / "image6.dcm", fs::file_size(m_Folder / "image6.dcm") - 10);
+  EXPECT_EQ(KindOfReading(m_Folder, "image6.dcm"), FailureKind::Unreadable);
+}
+
+TEST_F(DicomFolder, DamagedFilesBesideAGoodSeriesAreSkipped)
+{
+  WriteStack(m_Folder);
+  std::ofstream(m_Folder / "empty.dcm");
+  std::ofstream(m_Folder / "magic.dcm") << std::string(128, '\0') << "DICM";
+  std::ofstream(m_Folder / "odd.dcm") << std::string(128, '\0') << "DICM" << std::string("\2\0\0\0??\4\0\1\0\0\0", 12);
+  DicomTestFile report(1, 1);
+  report.Remove(0x00280010);
+  report.Remove(0x7fe00010);
+  report.Write(m_Folder / "report.dcm");
+  fs::create_symlink(m_Folder, m_Folder / "loop");
+  const auto scan = ReadScan(m_Folder);
+  EXPECT_EQ(scan.filesSkipped, 5u);
+  EXPECT_EQ(rhombic::GeometryOf(scan.image).GetLargestPossibleRegion().GetSize()[2], Slices);
+}
+
+TEST_F(DicomFolder, SingleFilesAreNoVolumes)
+{
+  WriteStack(m_Folder);
+  EXPECT_EQ(KindOfReading(m_Folder / "image0.dcm", "image0.dcm"), FailureKind::Geometry);
+  std::ofstream(m_Folder / "text.dcm") << "To whom it may concern";
+  EXPECT_EQ(KindOfReading(m_Folder / "text.dcm", "text.dcm"), FailureKind::Unreadable);
+}
+
+TEST_F(DicomFolder, FoldersWithoutDicom)
+{
+  EXPECT_EQ(KindOfReading(m_Folder / "nowhere", "nowhere"), FailureKind::NotFound);
+  EXPECT_EQ(KindOfReading(m_Folder, m_Folder.string()), FailureKind::NotFound);
+  std::ofstream(m_Folder / "readme.txt") << "text";
+  EXPECT_EQ(KindOfReading(m_Folder, m_Folder.string()), FailureKind::NotFound);
+  std::ofstream(m_Folder / "head.nii.gz") << "whatever";
+  EXPECT_EQ(KindOfReading(m_Folder, (m_Folder / "head.nii.gz").string()), FailureKind::NotFound);
+}
+
+} // namespace

@@ -1,0 +1,152 @@
+#ifndef rhombicDicomTestFile_h
+#define rhombicDicomTestFile_h
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+/** \class DicomTestFile
+ * \brief A DICOM slice in explicit little endian, written byte by byte, so that any field can be wrong or left out. */
+class DicomTestFile
+{
+public:
+  /** A CT slice with all that a volume needs, at the origin, along the axes, 1 mm pixels, 16 bits, values 0. */
+  DicomTestFile(std::uint16_t columns, std::uint16_t rows)
+  {
+    this->SetText(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.2");
+    this->SetText(0x00080018, "UI", "1.2.3.4");
+    this->SetText(0x00080060, "CS", "CT");
+    this->SetText(0x00100010, "PN", "Secret^Name");
+    this->SetText(0x0020000d, "UI", "1.2.3");
+    this->SetText(0x0020000e, "UI", "1.2.3.5");
+    this->SetSeries("1.2.3.4.5", "7");
+    this->SetPosition("0\\0\\0");
+    this->SetOrientation("1\\0\\0\\0\\1\\0");
+    this->SetShort(0x00280002, 1);
+    this->SetText(0x00280004, "CS", "MONOCHROME2");
+    this->SetShort(0x00280010, rows);
+    this->SetShort(0x00280011, columns);
+    this->SetText(0x00280030, "DS", "1\\1");
+    this->SetShort(0x00280100, 16);
+    this->SetShort(0x00280101, 16);
+    this->SetShort(0x00280102, 15);
+    this->SetShort(0x00280103, 1);
+    this->SetText(0x00281052, "DS", "-1024");
+    this->SetText(0x00281053, "DS", "1");
+    this->SetPixels(std::vector<std::int16_t>(static_cast<std::size_t>(columns) * rows));
+  }
+
+  void
+  SetText(std::uint32_t tag, const std::string & representation, std::string text)
+  {
+    if (text.size() % 2 != 0)
+    {
+      text += representation == "UI" ? '\0' : ' ';
+    }
+    m_Elements[tag] = { representation, text };
+  }
+
+  void
+  SetShort(std::uint32_t tag, std::uint16_t value)
+  {
+    m_Elements[tag] = { "US", LittleEndian(value, 2) };
+  }
+
+  void
+  SetSeries(const std::string & uid, const std::string & number)
+  {
+    this->SetText(0x0020000e, "UI", uid);
+    this->SetText(0x00200011, "IS", number);
+  }
+
+  void
+  SetPosition(const std::string & position)
+  {
+    this->SetText(0x00200032, "DS", position);
+  }
+
+  void
+  SetOrientation(const std::string & orientation)
+  {
+    this->SetText(0x00200037, "DS", orientation);
+  }
+
+  template <typename TPixel>
+  void
+  SetPixels(const std::vector<TPixel> & pixels)
+  {
+    std::string bytes;
+    for (const TPixel pixel : pixels)
+    {
+      bytes += LittleEndian(static_cast<std::uint32_t>(pixel), sizeof(TPixel));
+    }
+    m_Elements[0x7fe00010] = { sizeof(TPixel) == 1 ? "OB" : "OW", bytes };
+  }
+
+  void
+  Remove(std::uint32_t tag)
+  {
+    m_Elements.erase(tag);
+  }
+
+  void
+  Write(const std::filesystem::path & path, const std::string & transferSyntax = "1.2.840.10008.1.2.1") const
+  {
+    const std::map<std::uint32_t, Element> meta{ { 0x00020001, { "OB", std::string("\0\1", 2) } },
+                                                 { 0x00020002, { "UI", Even("1.2.840.10008.5.1.4.1.1.2") } },
+                                                 { 0x00020003, { "UI", Even("1.2.3.4") } },
+                                                 { 0x00020010, { "UI", Even(transferSyntax) } },
+                                                 { 0x00020012, { "UI", Even("1.2.3.6") } } };
+    const std::string metaBytes = Encode(meta);
+    const std::map<std::uint32_t, Element> length{
+      { 0x00020000, { "UL", LittleEndian(static_cast<std::uint32_t>(metaBytes.size()), 4) } }
+    };
+    std::ofstream file(path, std::ios::binary);
+    file << std::string(128, '\0') << "DICM" << Encode(length) << metaBytes << Encode(m_Elements);
+  }
+
+private:
+  struct Element
+  {
+    std::string representation;
+    std::string value;
+  };
+
+  static std::string
+  Even(const std::string & text)
+  {
+    return text.size() % 2 == 0 ? text : text + '\0';
+  }
+
+  static std::string
+  LittleEndian(std::uint32_t value, std::size_t size)
+  {
+    std::string bytes;
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      bytes += static_cast<char>(value >> 8 * i & 255);
+    }
+    return bytes;
+  }
+
+  static std::string
+  Encode(const std::map<std::uint32_t, Element> & elements)
+  {
+    std::string bytes;
+    for (const auto & [tag, element] : elements)
+    {
+      bytes += LittleEndian(tag >> 16, 2) + LittleEndian(tag & 0xffff, 2) + element.representation;
+      const bool isLong = element.representation == "OB" || element.representation == "OW";
+      bytes += (isLong ? std::string(2, '\0') : "") +
+               LittleEndian(static_cast<std::uint32_t>(element.value.size()), isLong ? 4 : 2) + element.value;
+    }
+    return bytes;
+  }
+
+  std::map<std::uint32_t, Element> m_Elements;
+};
+
+#endif
