@@ -71,25 +71,55 @@ RequireWholeNativePixels(const DicomSlice & slice)
   }
 }
 
-/** GDCM writes past its buffer when a JPEG 2000 picture is larger than the header says: its SIZ marker is compared
- * first. */
-void
-RequireSameSizeInJPEG2000(const DicomSlice & slice, const std::string & stream)
+struct PictureSize
 {
-  constexpr std::size_t sizeEnd = 24;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+};
+
+/** From the SIZ marker that JPEG 2000 begins with. */
+PictureSize
+SizeInJPEG2000(const std::string & stream)
+{
+  constexpr std::size_t needed = 24;
   const std::size_t marker = stream.find("\xff\x4f\xff\x51");
-  if (marker == std::string::npos || marker + sizeEnd > stream.size())
+  if (marker == std::string::npos || marker + needed > stream.size())
   {
-    Refuse(slice, "its JPEG 2000 pixels have no header");
+    return {};
   }
   const auto * const bytes = reinterpret_cast<const unsigned char *>(stream.data()) + marker;
-  const std::uint32_t width = BigEndian(bytes + 8) - BigEndian(bytes + 16);
-  const std::uint32_t height = BigEndian(bytes + 12) - BigEndian(bytes + 20);
-  if (width != slice.columns || height != slice.rows)
+  return { BigEndian(bytes + 8) - BigEndian(bytes + 16), BigEndian(bytes + 12) - BigEndian(bytes + 20) };
+}
+
+/** From the start-of-frame marker of JPEG or JPEG-LS, which comes after other segments. */
+PictureSize
+SizeInJPEG(const std::string & stream)
+{
+  constexpr std::size_t needed = 9;
+  const auto * const bytes = reinterpret_cast<const unsigned char *>(stream.data());
+  for (std::size_t segment = 2; segment + needed <= stream.size() && bytes[segment] == 0xff;)
+  {
+    const unsigned char code = bytes[segment + 1];
+    const bool isTable = code == 0xc4 || code == 0xc8 || code == 0xcc;
+    if ((code >= 0xc0 && code <= 0xcf && !isTable) || code == 0xf7)
+    {
+      const std::uint32_t both = BigEndian(bytes + segment + 5);
+      return { both & 0xffff, both >> 16 };
+    }
+    segment += 2 + (BigEndian(bytes + segment + 2) >> 16);
+  }
+  return {};
+}
+
+/** GDCM aborts or writes past its buffer when a compressed picture is not as large as the header says. */
+void
+RequireSameSize(const DicomSlice & slice, const PictureSize & size)
+{
+  if (size.width != slice.columns || size.height != slice.rows)
   {
     Refuse(slice,
-           "its JPEG 2000 pixels are " + std::to_string(width) + "x" + std::to_string(height) + ", its header says " +
-             std::to_string(slice.columns) + "x" + std::to_string(slice.rows));
+           "its compressed pixels are " + std::to_string(size.width) + "x" + std::to_string(size.height) +
+             ", its header says " + std::to_string(slice.columns) + "x" + std::to_string(slice.rows));
   }
 }
 
@@ -136,10 +166,8 @@ RequireWholeEncapsulatedPixels(const DicomSlice & slice, const gdcm::File & file
     return;
   }
   const std::string stream = JoinFragments(*fragments);
-  if (syntax == gdcm::TransferSyntax::JPEG2000 || syntax == gdcm::TransferSyntax::JPEG2000Lossless)
-  {
-    RequireSameSizeInJPEG2000(slice, stream);
-  }
+  const bool isJPEG2000 = syntax == gdcm::TransferSyntax::JPEG2000 || syntax == gdcm::TransferSyntax::JPEG2000Lossless;
+  RequireSameSize(slice, isJPEG2000 ? SizeInJPEG2000(stream) : SizeInJPEG(stream));
   RequireEndMarker(slice, stream);
 }
 
