@@ -82,7 +82,12 @@ ReadBeginning(const fs::path & path, std::size_t size)
   }
   std::string bytes(size, '\0');
   const int count = file.Read(bytes.data(), size);
-  bytes.resize(static_cast<std::size_t>(std::max(count, 0)));
+  if (count < 0)
+  {
+    throw Failure(FailureKind::Unreadable,
+                  "Cannot read " + path.string() + ": its compression is damaged; copy it again.");
+  }
+  bytes.resize(static_cast<std::size_t>(count));
   return bytes;
 }
 
