@@ -5,6 +5,8 @@ find_package(MPI REQUIRED COMPONENTS C CXX) # Debian's VTK links it without look
 find_package(VTK 9.1 REQUIRED COMPONENTS
              CommonCore CommonDataModel CommonSystem FiltersCore FiltersGeneral FiltersModeling FiltersSources IOGeometry IOLegacy IOPLY
              IOXML RenderingCore RenderingOpenGL2 RenderingFreeType RenderingAnnotation)
+find_package(OpenGL REQUIRED COMPONENTS EGL)
+find_package(X11 REQUIRED)
 find_package(OpenImageIO 2.4 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(yaml-cpp REQUIRED)

@@ -3,6 +3,7 @@
 # Makes one library target from a folder shaped like an ITK module:
 #   itk-module.cmake  its declaration, in ITK's own grammar (itk_module(<name> DEPENDS ... DESCRIPTION ...))
 #   include/          public headers        src/  sources, if any
+#   module-options.cmake  what the target needs beyond its dependencies, if anything
 #
 # Dependencies may be ITK modules (ITKCommon), modules of this project, or imported targets (VTK::CommonCore).
 # A module of this project must have been added before it is depended on, so the order of modules/CMakeLists.txt is
@@ -60,6 +61,7 @@ function(rhombic_add_module folder)
   target_include_directories(${module_name} ${scope} $<BUILD_INTERFACE:${folder}/include> $<INSTALL_INTERFACE:include/rhombic>)
   _rhombic_link(${module_name} ${scope} ${module_DEPENDS})
   _rhombic_link(${module_name} ${private_scope} ${module_PRIVATE_DEPENDS})
+  include("${folder}/module-options.cmake" OPTIONAL)
   add_library(Rhombic::${module_name} ALIAS ${module_name})
   if(RHOMBIC_BUILD_TESTING AND headers)
     _rhombic_add_header_test(${module_name} "${headers}")

@@ -1,0 +1,37 @@
+#ifndef rhombicPictureIO_h
+#define rhombicPictureIO_h
+
+#include "rhombicPicture.h"
+
+#include <filesystem>
+#include <string>
+
+namespace rhombic
+{
+
+/** All that a picture file says besides its pixels. Empty strings are left out. */
+struct PictureMetadata
+{
+  std::string software;    ///< the program and its version
+  std::string commandLine; ///< how the picture can be made again
+};
+
+/** Writes a picture in the format of the path's extension: .png, .jpg, .jpeg (quality 95), .tif, .tiff, or .exr (linear
+ * light, half floats). The same picture and metadata give the same bytes. The file is read back before it replaces an
+ * older one.
+ *
+ * Throws Failure: Usage when the extension is none of those or the picture has no pixels; Output when the file can't be
+ * written or does not hold what it should. Safe on several threads for different paths. */
+void
+WritePicture(const Picture & picture, const std::filesystem::path & path, const PictureMetadata & metadata);
+
+/** Reads a picture as 8-bit sRGB. Grey becomes three equal channels, an alpha channel is dropped, and the linear light
+ * of EXR is encoded.
+ *
+ * Throws Failure: NotFound when there is no such file; Unreadable when it is no picture or is damaged. */
+Picture
+ReadPicture(const std::filesystem::path & path);
+
+} // namespace rhombic
+
+#endif

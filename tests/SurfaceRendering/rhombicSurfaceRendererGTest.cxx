@@ -1,0 +1,534 @@
+#include "rhombicFailure.h"
+#include "rhombicSurfaceRenderer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+namespace
+{
+
+using namespace rhombic;
+
+constexpr Colour Red{ 0.9, 0.1, 0.1 };
+constexpr Colour Green{ 0.1, 0.8, 0.1 };
+constexpr Colour Blue{ 0.1, 0.1, 0.9 };
+
+using Point = std::array<double, 3>;
+
+/** A sphere with normals, from a grid of latitudes and longitudes. */
+itk::TriangleSurface::ConstPointer
+Sphere(const Point & centre, double radius)
+{
+  constexpr std::uint32_t rows = 48;
+  constexpr std::uint32_t columns = 96;
+  const double pi = std::acos(-1.0);
+  auto surface = itk::TriangleSurface::New();
+  for (std::uint32_t row = 0; row <= rows; ++row)
+  {
+    for (std::uint32_t column = 0; column <= columns; ++column)
+    {
+      const double latitude = pi * row / rows;
+      const double longitude = 2.0 * pi * column / columns;
+      const Point normal{ std::sin(latitude) * std::cos(longitude),
+                          std::sin(latitude) * std::sin(longitude),
+                          std::cos(latitude) };
+      surface->GetNormals().push_back(
+        { static_cast<float>(normal[0]), static_cast<float>(normal[1]), static_cast<float>(normal[2]) });
+      surface->GetPoints().push_back({ static_cast<float>(centre[0] + radius * normal[0]),
+                                       static_cast<float>(centre[1] + radius * normal[1]),
+                                       static_cast<float>(centre[2] + radius * normal[2]) });
+    }
+  }
+  for (std::uint32_t row = 0; row < rows; ++row)
+  {
+    for (std::uint32_t column = 0; column < columns; ++column)
+    {
+      const std::uint32_t first = row * (columns + 1) + column;
+      const std::uint32_t below = first + columns + 1;
+      surface->GetTriangles().push_back({ first, below, below + 1 });
+      surface->GetTriangles().push_back({ first, below + 1, first + 1 });
+    }
+  }
+  return surface.GetPointer();
+}
+
+SceneSurface
+Item(const itk::TriangleSurface * surface, const Colour & colour, double opacity = 1.0)
+{
+  return { "test", surface, colour, opacity };
+}
+
+RenderSettings
+Small(View view = View::Anterior)
+{
+  RenderSettings settings;
+  settings.width = 200;
+  settings.height = 160;
+  settings.view = view;
+  settings.orientationLabels = false;
+  return settings;
+}
+
+/** First and last column and row that are not the (black) background. */
+struct Box
+{
+  int left = 1 << 20;
+  int right = -1;
+  int top = 1 << 20;
+  int bottom = -1;
+};
+
+Box
+DrawnBox(const Picture & picture)
+{
+  Box box;
+  for (int y = 0; y < picture.height; ++y)
+  {
+    for (int x = 0; x < picture.width; ++x)
+    {
+      const auto * const pixel = picture.At(x, y);
+      if (pixel[0] + pixel[1] + pixel[2] > 24)
+      {
+        box.left = std::min(box.left, x);
+        box.right = std::max(box.right, x);
+        box.top = std::min(box.top, y);
+        box.bottom = std::max(box.bottom, y);
+      }
+    }
+  }
+  return box;
+}
+
+/** Mean position, from -1 (left, bottom) to 1 (right, top), of the pixels in which \a channel dominates. */
+std::array<double, 2>
+CentreOf(const Picture & picture, int channel)
+{
+  double sumX = 0.0;
+  double sumY = 0.0;
+  int count = 0;
+  for (int y = 0; y < picture.height; ++y)
+  {
+    for (int x = 0; x < picture.width; ++x)
+    {
+      const auto * const pixel = picture.At(x, y);
+      const int others = std::max(pixel[(channel + 1) % 3], pixel[(channel + 2) % 3]);
+      if (pixel[channel] > 60 && pixel[channel] > 2 * others)
+      {
+        sumX += x + 0.5;
+        sumY += y + 0.5;
+        ++count;
+      }
+    }
+  }
+  EXPECT_GT(count, 50);
+  return { 2.0 * sumX / count / picture.width - 1.0, 1.0 - 2.0 * sumY / count / picture.height };
+}
+
+FailureKind
+KindThrownBy(SurfaceRenderer & renderer, const std::vector<SceneSurface> & scene, const RenderSettings & settings)
+{
+  try
+  {
+    renderer.Render(scene, settings);
+  }
+  catch (const Failure & failure)
+  {
+    return failure.GetKind();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return FailureKind::Internal;
+}
+
+std::uint64_t
+HashOf(const Picture & picture)
+{
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const auto byte : picture.pixels)
+  {
+    hash = (hash ^ byte) * 1099511628211ULL;
+  }
+  return hash;
+}
+
+/** A translucent and an opaque surface with every effect on. */
+Picture
+DrawEverything()
+{
+  RenderSettings settings;
+  settings.width = 240;
+  settings.height = 200;
+  SurfaceRenderer renderer;
+  return renderer.Render({ Item(Sphere({ 0, 0, 0 }, 50), Red, 0.3),
+                           Item(Sphere({ 10, 0, 5 }, 25), Green),
+                           Item(Sphere({ 20, -15, 15 }, 20), Blue, 0.5) },
+                         settings);
+}
+
+class SurfaceRendererTest : public testing::Test
+{
+protected:
+  static void
+  SetUpTestSuite()
+  {
+    unsetenv("DISPLAY");
+  }
+};
+
+using SurfaceRendererBackend = SurfaceRendererTest;
+
+TEST_F(SurfaceRendererBackend, DrawsWithoutADisplay)
+{
+  const SurfaceRenderer renderer;
+  EXPECT_NE(renderer.GetBackendDescription().find("EGL"), std::string::npos);
+  EXPECT_NE(renderer.GetBackendDescription().find("OpenGL"), std::string::npos);
+}
+
+TEST_F(SurfaceRendererBackend, ProbesTellWhatWorksAndWhyNot)
+{
+  const auto probes = SurfaceRenderer::ProbeBackends();
+  ASSERT_EQ(probes.size(), 3u);
+  EXPECT_TRUE(probes[0].usable || probes[1].usable);
+  for (const auto & probe : probes)
+  {
+    EXPECT_FALSE(probe.name.empty());
+    EXPECT_FALSE(probe.detail.empty());
+  }
+  EXPECT_FALSE(probes[2].usable);
+  EXPECT_EQ(probes[2].detail, "DISPLAY is not set");
+}
+
+TEST_F(SurfaceRendererBackend, MissingBackendNamesThePackages)
+{
+  try
+  {
+    SurfaceRenderer{ RenderBackend::XDisplay };
+    FAIL() << "there is no X server";
+  }
+  catch (const Failure & failure)
+  {
+    EXPECT_EQ(failure.GetKind(), FailureKind::Display);
+    EXPECT_NE(std::string(failure.GetDescription()).find("libegl1"), std::string::npos);
+  }
+}
+
+TEST_F(SurfaceRendererBackend, UnreachableXServerIsAReason)
+{
+  setenv("DISPLAY", ":4095", 1);
+  const auto probes = SurfaceRenderer::ProbeBackends();
+  unsetenv("DISPLAY");
+  EXPECT_FALSE(probes[2].usable);
+  EXPECT_EQ(probes[2].detail, "the X server :4095 can't be reached");
+}
+
+TEST_F(SurfaceRendererTest, EveryViewShowsEachSideWhereItBelongs)
+{
+  // Red to the patient's left, green to the back, blue to the head, each alone visible where the view says.
+  const std::vector<SceneSurface> scene{ Item(Sphere({ 60, 0, 0 }, 12), Red),
+                                         Item(Sphere({ 0, 60, 0 }, 12), Green),
+                                         Item(Sphere({ 0, 0, 60 }, 12), Blue),
+                                         Item(Sphere({ -60, -60, -60 }, 6), { 1, 1, 1 }) };
+  SurfaceRenderer renderer;
+  for (const bool perspective : { false, true })
+  {
+    for (const View view : AllViews)
+    {
+      SCOPED_TRACE(NameOf(view));
+      auto settings = Small(view);
+      settings.perspective = perspective;
+      const auto picture = renderer.Render(scene, settings);
+      const auto frame = FrameOf(view);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const auto centre = CentreOf(picture, axis);
+        const std::array<int, 2> side{ frame.right[axis], frame.up[axis] };
+        for (int k = 0; k < 2; ++k)
+        {
+          if (side[k] != 0)
+          {
+            EXPECT_GT(side[k] * centre[k], 0.2);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_F(SurfaceRendererTest, AnteriorViewHasThePatientsLeftAtTheRight)
+{
+  SurfaceRenderer renderer;
+  const auto picture =
+    renderer.Render({ Item(Sphere({ 40, 0, 0 }, 15), Red), Item(Sphere({ -40, 0, 0 }, 15), Blue) }, Small());
+  EXPECT_GT(CentreOf(picture, 0)[0], 0.3);
+  EXPECT_LT(CentreOf(picture, 2)[0], -0.3);
+}
+
+TEST_F(SurfaceRendererTest, NearSurfaceHidesTheFarOne)
+{
+  SurfaceRenderer renderer;
+  const auto front = Item(Sphere({ 0, -40, 0 }, 20), Red);
+  const auto back = Item(Sphere({ 0, 40, 0 }, 15), Blue);
+  const auto isRed = [](const Picture & picture) {
+    const auto * const pixel = picture.At(picture.width / 2, picture.height / 2);
+    return pixel[0] > pixel[2];
+  };
+  EXPECT_TRUE(isRed(renderer.Render({ front, back }, Small(View::Anterior))));
+  EXPECT_FALSE(isRed(renderer.Render({ front, back }, Small(View::Posterior))));
+}
+
+TEST_F(SurfaceRendererTest, SceneFillsThePictureUpToTheMargin)
+{
+  SurfaceRenderer renderer;
+  // 0.02 of the shorter side: 3.2 pixels of 160; the sphere spans the height.
+  for (const bool perspective : { false, true })
+  {
+    auto settings = Small();
+    settings.perspective = perspective;
+    const auto box = DrawnBox(renderer.Render({ Item(Sphere({ 500, -300, 80 }, 30), Red) }, settings));
+    EXPECT_NEAR(box.top, 3, 1);
+    EXPECT_NEAR(box.bottom, 156, 1);
+    EXPECT_NEAR(box.left + box.right, 199, 2);
+    EXPECT_NEAR(box.right - box.left, box.bottom - box.top, 2);
+  }
+}
+
+TEST_F(SurfaceRendererTest, WideSceneTouchesTheSideMargins)
+{
+  SurfaceRenderer renderer;
+  for (const bool perspective : { false, true })
+  {
+    auto settings = Small();
+    settings.perspective = perspective;
+    const auto box = DrawnBox(
+      renderer.Render({ Item(Sphere({ 90, 0, 0 }, 10), Red), Item(Sphere({ -90, 50, 0 }, 10), Red) }, settings));
+    EXPECT_NEAR(box.left, 3, 1);
+    EXPECT_NEAR(box.right, 196, 1);
+    EXPECT_GT(box.top, 20);
+  }
+}
+
+TEST_F(SurfaceRendererTest, FlatAndTinyScenesAreDrawn)
+{
+  auto triangle = itk::TriangleSurface::New();
+  triangle->GetPoints() = { { 0, 0, 0 }, { 1e-3f, 0, 0 }, { 0, 0, 1e-3f } };
+  triangle->GetTriangles() = { { 0, 1, 2 } };
+  SurfaceRenderer renderer;
+  const auto box = DrawnBox(renderer.Render({ Item(triangle, Red) }, Small()));
+  EXPECT_GT(box.bottom - box.top, 60);
+}
+
+TEST_F(SurfaceRendererTest, FacingSurfaceHasItsColour)
+{
+  SurfaceRenderer renderer;
+  auto settings = Small();
+  settings.background = { 0.2, 0.4, 0.6 };
+  const auto picture = renderer.Render({ Item(Sphere({ 0, 0, 0 }, 30), { 0.5, 0.4, 0.3 }) }, settings);
+  const auto * const centre = picture.At(100, 80);
+  EXPECT_NEAR(centre[0] / 255.0, 0.5, 0.12);
+  EXPECT_NEAR(centre[1] / 255.0, 0.4, 0.12);
+  EXPECT_NEAR(centre[2] / 255.0, 0.3, 0.12);
+  const auto * const corner = picture.At(0, 0);
+  EXPECT_EQ(corner[0], 51);
+  EXPECT_EQ(corner[1], 102);
+  EXPECT_EQ(corner[2], 153);
+}
+
+TEST_F(SurfaceRendererTest, NoPartIsBlackOrBurntOut)
+{
+  SurfaceRenderer renderer;
+  auto settings = Small();
+  settings.background = { 1, 1, 1 };
+  const auto picture = renderer.Render({ Item(Sphere({ 0, 0, 0 }, 30), { 0.8, 0.8, 0.8 }) }, settings);
+  for (int x = 30; x < 170; ++x)
+  {
+    const auto * const pixel = picture.At(x, 80);
+    EXPECT_GT(pixel[0], 30) << "column " << x;
+  }
+  EXPECT_LT(picture.At(100, 80)[0], 250);
+}
+
+TEST_F(SurfaceRendererTest, SurfaceWithoutNormalsIsFaceted)
+{
+  auto bare = itk::TriangleSurface::New();
+  const auto sphere = Sphere({ 0, 0, 0 }, 30);
+  bare->GetPoints() = sphere->GetPoints();
+  bare->GetTriangles() = sphere->GetTriangles();
+  SurfaceRenderer renderer;
+  const auto smooth = renderer.Render({ Item(sphere, Red) }, Small());
+  const auto faceted = renderer.Render({ Item(bare, Red) }, Small());
+  EXPECT_NE(smooth.pixels, faceted.pixels);
+  EXPECT_NEAR(faceted.At(100, 80)[0], smooth.At(100, 80)[0], 12);
+}
+
+TEST_F(SurfaceRendererTest, TranslucentSurfaceShowsTheOneInside)
+{
+  const auto skin = Item(Sphere({ 0, 0, 0 }, 50), Red, 0.4);
+  const auto bone = Item(Sphere({ 0, 0, 0 }, 25), Blue);
+  SurfaceRenderer renderer;
+  const auto picture = renderer.Render({ skin, bone }, Small());
+  const auto * const centre = picture.At(100, 80);
+  EXPECT_GT(centre[0], 60);
+  EXPECT_GT(centre[2], 90);
+  EXPECT_EQ(picture.pixels, renderer.Render({ bone, skin }, Small()).pixels);
+}
+
+TEST_F(SurfaceRendererTest, NestedTranslucentSurfacesAreInOrder)
+{
+  const auto outer = Item(Sphere({ 0, 0, 0 }, 50), Red, 0.5);
+  const auto middle = Item(Sphere({ 0, 0, 0 }, 35), Green, 0.5);
+  const auto inner = Item(Sphere({ 0, 0, 0 }, 20), Blue, 0.5);
+  SurfaceRenderer renderer;
+  const auto picture = renderer.Render({ outer, middle, inner }, Small());
+  EXPECT_EQ(picture.pixels, renderer.Render({ inner, outer, middle }, Small()).pixels);
+  const auto * const centre = picture.At(100, 80);
+  EXPECT_GT(centre[0], centre[1]);
+  EXPECT_GT(centre[1], centre[2]);
+  EXPECT_GT(centre[2], 20);
+}
+
+TEST_F(SurfaceRendererTest, TranslucentSurfaceIsDenserAtItsOutline)
+{
+  SurfaceRenderer renderer;
+  auto settings = Small();
+  settings.background = { 1, 1, 1 };
+  const auto picture = renderer.Render({ Item(Sphere({ 0, 0, 0 }, 50), Red, 0.3) }, settings);
+  const int leftmost = 100 - 74;
+  EXPECT_LT(picture.At(leftmost, 80)[1], picture.At(100, 80)[1] - 30);
+}
+
+TEST_F(SurfaceRendererTest, NothingToDrawIsAFailure)
+{
+  SurfaceRenderer renderer;
+  const auto empty = itk::TriangleSurface::New();
+  EXPECT_EQ(KindThrownBy(renderer, {}, Small()), FailureKind::Empty);
+  EXPECT_EQ(KindThrownBy(renderer, { Item(empty, Red), Item(nullptr, Red) }, Small()), FailureKind::Empty);
+  const auto sphere = Item(Sphere({ 0, 0, 0 }, 50), Red);
+  EXPECT_EQ(renderer.Render({ Item(empty, Red), sphere }, Small()).pixels, renderer.Render({ sphere }, Small()).pixels);
+}
+
+TEST_F(SurfaceRendererTest, SettingsOutOfRangeAreFailures)
+{
+  SurfaceRenderer renderer;
+  const auto surface = Sphere({ 0, 0, 0 }, 50);
+  const std::vector<SceneSurface> scene{ Item(surface, Red) };
+  EXPECT_EQ(KindThrownBy(renderer, { Item(surface, Red, 0.0) }, Small()), FailureKind::Usage);
+  EXPECT_EQ(KindThrownBy(renderer, { Item(surface, Red, std::nan("")) }, Small()), FailureKind::Usage);
+  EXPECT_EQ(KindThrownBy(renderer, { Item(surface, { 0.0, 1.5, 0.0 }) }, Small()), FailureKind::Usage);
+  auto settings = Small();
+  settings.width = 0;
+  EXPECT_EQ(KindThrownBy(renderer, scene, settings), FailureKind::Usage);
+  settings.width = 100000;
+  EXPECT_EQ(KindThrownBy(renderer, scene, settings), FailureKind::Usage);
+  settings = Small();
+  settings.samples = 5;
+  EXPECT_EQ(KindThrownBy(renderer, scene, settings), FailureKind::Usage);
+}
+
+TEST_F(SurfaceRendererTest, LettersAreAtTheEdgesAndCanBeTurnedOff)
+{
+  SurfaceRenderer renderer;
+  for (const double grey : { 0.0, 0.5, 1.0 })
+  {
+    auto settings = Small();
+    settings.background = { grey, grey, grey };
+    settings.orientationLabels = true;
+    const auto lettered = renderer.Render({ Item(Sphere({ 0, 0, 0 }, 50), Red) }, settings);
+    settings.orientationLabels = false;
+    const auto plain = renderer.Render({ Item(Sphere({ 0, 0, 0 }, 50), Red) }, settings);
+    const auto contrast = [](const Picture & picture, int left, int top, int width, int height) {
+      int darkest = 255;
+      int brightest = 0;
+      for (int y = top; y < top + height; ++y)
+      {
+        for (int x = left; x < left + width; ++x)
+        {
+          darkest = std::min<int>(darkest, picture.At(x, y)[1]);
+          brightest = std::max<int>(brightest, picture.At(x, y)[1]);
+        }
+      }
+      return brightest - darkest;
+    };
+    const std::array<std::array<int, 4>, 4> edges{
+      { { 0, 70, 18, 20 }, { 182, 70, 18, 20 }, { 90, 0, 20, 17 }, { 90, 143, 20, 17 } }
+    };
+    for (const auto & edge : edges)
+    {
+      EXPECT_GT(contrast(lettered, edge[0], edge[1], edge[2], edge[3]), 80) << "on grey " << grey;
+    }
+    EXPECT_EQ(contrast(plain, 0, 70, 18, 20), 0);
+  }
+}
+
+TEST_F(SurfaceRendererTest, RenderersLiveSideBySide)
+{
+  const std::vector<SceneSurface> scene{ Item(Sphere({ 0, 0, 0 }, 50), Red, 0.5) };
+  SurfaceRenderer first;
+  const auto expected = first.Render(scene, Small());
+  {
+    SurfaceRenderer second;
+    EXPECT_EQ(second.Render(scene, Small()).pixels, expected.pixels);
+    EXPECT_EQ(first.Render(scene, Small()).pixels, expected.pixels);
+  }
+  EXPECT_EQ(first.Render(scene, Small()).pixels, expected.pixels);
+}
+
+TEST_F(SurfaceRendererTest, PicturesDoNotDependOnTheOnesBefore)
+{
+  const std::vector<SceneSurface> scene{ Item(Sphere({ 0, 0, 0 }, 50), Red) };
+  SurfaceRenderer renderer;
+  const auto expected = renderer.Render(scene, Small());
+  auto other = Small(View::Left);
+  other.width = 333;
+  other.samples = 3;
+  other.perspective = true;
+  other.orientationLabels = true;
+  other.background = { 1, 1, 1 };
+  renderer.Render({ Item(Sphere({ 10, 0, 0 }, 5), Blue, 0.3) }, other);
+  EXPECT_EQ(renderer.Render(scene, Small()).pixels, expected.pixels);
+}
+
+TEST_F(SurfaceRendererTest, NothingIsPrinted)
+{
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  DrawEverything();
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+constexpr const char * HashFileVariable = "RHOMBIC_TEST_HASH_FILE";
+
+TEST_F(SurfaceRendererTest, EffectsCombine)
+{
+  const auto picture = DrawEverything();
+  EXPECT_GT(CentreOf(picture, 2)[0], CentreOf(picture, 1)[0]);
+  if (const char * const file = std::getenv(HashFileVariable)) // set by the test below for another process
+  {
+    std::ofstream(file) << HashOf(picture);
+  }
+}
+
+TEST_F(SurfaceRendererTest, SameBytesWithAnyNumberOfThreads)
+{
+  const std::string expected = std::to_string(HashOf(DrawEverything()));
+  const std::string file = testing::TempDir() + "rhombic-picture-hash-" + std::to_string(getpid());
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").string();
+  for (const std::string threads : { "0", "1", "2", "5" })
+  {
+    const std::string command = std::string(HashFileVariable) + "='" + file + "' LP_NUM_THREADS=" + threads + " '" +
+                                program + "' --gtest_filter='*EffectsCombine' >/dev/null";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    std::string hash;
+    std::ifstream(file) >> hash;
+    EXPECT_EQ(hash, expected) << threads << " threads";
+  }
+  std::filesystem::remove(file);
+}
+
+} // namespace
