@@ -77,8 +77,8 @@ public:
       FailCall("eglBindAPI");
     }
     const EGLConfig config = ChooseConfig();
-    CreateSurface(config);
     CreateContext(config);
+    CreateSurface(config);
   }
 
   ~EGLContextOfDisplay() override
@@ -135,7 +135,8 @@ private:
     m_Surface = eglCreatePbufferSurface(m_Display, config, attributes);
     if (m_Surface == EGL_NO_SURFACE)
     {
-      FailCall("eglCreatePbufferSurface");
+      eglDestroyContext(m_Display, m_Context);
+      Fail("eglCreatePbufferSurface failed");
     }
   }
 
@@ -149,7 +150,6 @@ private:
     m_Context = eglCreateContext(m_Display, config, EGL_NO_CONTEXT, attributes);
     if (m_Context == EGL_NO_CONTEXT)
     {
-      eglDestroySurface(m_Display, m_Surface);
       FailCall("eglCreateContext");
     }
   }
