@@ -11,19 +11,18 @@ namespace rhombic
 /** How much two pictures differ. Errors are between sRGB components from 0 to 1. */
 struct PictureDifference
 {
-  double      meanError = 0.0;
-  double      rmsError = 0.0;
-  double      maxError = 0.0;
+  double meanError = 0.0;
+  double rmsError = 0.0;
+  double maxError = 0.0;
   std::size_t differingPixels = 0; ///< with a component that differs by more than the threshold
-  int         worstX = 0;          ///< column and row of the greatest error, from the top left
-  int         worstY = 0;
+  int worstX = 0;                  ///< column and row of the greatest error, from the top left
+  int worstY = 0;
 };
 
 /** Compares two pictures pixel by pixel; \a threshold is a difference of components from 0 to 1.
  *
  * Throws Failure(Usage) when the sizes differ or a picture has no pixels. Safe on several threads. */
-PictureDifference
-ComparePictures(const Picture & a, const Picture & b, double threshold);
+PictureDifference ComparePictures(const Picture & a, const Picture & b, double threshold);
 
 } // namespace rhombic
 

@@ -22,15 +22,13 @@ struct PictureMetadata
  *
  * Throws Failure: Usage when the extension is none of those or the picture has no pixels; Output when the file can't be
  * written or does not hold what it should. Safe on several threads for different paths. */
-void
-WritePicture(const Picture & picture, const std::filesystem::path & path, const PictureMetadata & metadata);
+void WritePicture(const Picture & picture, const std::filesystem::path & path, const PictureMetadata & metadata);
 
 /** Reads a picture as 8-bit sRGB. Grey becomes three equal channels, an alpha channel is dropped, and the linear light
  * of EXR is encoded.
  *
  * Throws Failure: NotFound when there is no such file; Unreadable when it is no picture or is damaged. */
-Picture
-ReadPicture(const std::filesystem::path & path);
+Picture ReadPicture(const std::filesystem::path & path);
 
 } // namespace rhombic
 
