@@ -187,6 +187,12 @@ ReadComponents(OIIO::ImageInput & input, OIIO::TypeDesc type, const fs::path & p
 } // namespace
 
 void
+CheckPicturePath(const fs::path & path)
+{
+  FormatOf(path);
+}
+
+void
 WritePicture(const Picture & picture, const fs::path & path, const PictureMetadata & metadata)
 {
   const PictureFormat format = FormatOf(path);

@@ -63,8 +63,8 @@ AtomicFile::AtomicFile(const fs::path & target)
   }
 
   static std::atomic<unsigned> counter{ 0 };
-  m_Temporary = folder / ("." + target.stem().string() + ".tmp-" + std::to_string(getpid()) + "-" +
-                          std::to_string(counter++) + target.extension().string());
+  m_Temporary = folder / (".tmp-" + std::to_string(getpid()) + "-" + std::to_string(counter++) + "-" +
+                          target.filename().string());
   const int descriptor = open(m_Temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (descriptor < 0)
   {

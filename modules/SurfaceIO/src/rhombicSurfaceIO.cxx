@@ -80,6 +80,12 @@ GetSurfaceFileExtensions()
 }
 
 void
+CheckSurfacePath(const fs::path & path)
+{
+  FormatOf(path);
+}
+
+void
 WriteSurface(const itk::TriangleSurface & surface, const fs::path & path)
 {
   const SurfaceFormat & format = FormatOf(path);

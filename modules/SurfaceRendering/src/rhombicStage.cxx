@@ -83,7 +83,7 @@ AddDepthPeeling(vtkRenderer * renderer)
 {
   renderer->UseDepthPeelingOn();
   renderer->SetOcclusionRatio(0.0); // until nothing changes, or
-  renderer->SetMaximumNumberOfPeels(100);
+  renderer->SetMaximumNumberOfPeels(4);
 }
 
 } // namespace

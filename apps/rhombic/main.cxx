@@ -1,0 +1,129 @@
+#include "rhombicCommands.h"
+#include "rhombicFailure.h"
+
+#include "itkMultiThreaderBase.h"
+
+#include <new>
+
+namespace
+{
+
+using namespace rhombic;
+
+struct Command
+{
+  const char * name;
+  const char * description;
+  CommandRun (*add)(CLI::App &);
+};
+
+constexpr Command commands[] = {
+  { "info", "What is in a scan: series, geometry, values, thresholds worth trying", AddInfoCommand },
+  { "render", "Pictures of a scan's surfaces", AddRenderCommand },
+  { "mesh", "A scan's surface as a file", AddMeshCommand },
+  { "resample", "A scan on the face-centered cubic lattice, and back", AddResampleCommand },
+  { "phantom", "The analytic test scan, with organs of known volume", AddPhantomCommand },
+  { "doctor", "What works on this machine", AddDoctorCommand },
+};
+
+constexpr char exitCodes[] = "Exit codes:\n"
+                             "  0  done\n"
+                             "  1  a defect in rhombic; please report it\n"
+                             "  2  wrong usage: an option, a preset, a file extension\n"
+                             "  3  no such file or folder, or no scan in it\n"
+                             "  4  the input is damaged or of a kind that is not supported\n"
+                             "  5  the input's position in the patient can't be known\n"
+                             "  6  there is no surface at this threshold\n"
+                             "  7  the output can't be written\n"
+                             "  8  some inputs of many failed\n"
+                             "  9  not enough memory\n"
+                             "  10 this machine can't draw (see rhombic doctor)";
+
+/** ITK begins its descriptions with the class and address of the object that failed. */
+std::string
+WithoutObject(const std::string & description)
+{
+  const auto end = description.find("): ");
+  return description.rfind("itk::ERROR", 0) == 0 && end != std::string::npos ? description.substr(end + 3) : description;
+}
+
+int
+Fail(Console & console, FailureKind kind, const std::string & sentence)
+{
+  console.Error(sentence);
+  return static_cast<int>(kind);
+}
+
+} // namespace
+
+int
+main(int argc, char ** argv)
+{
+  Console  console;
+  CLI::App app{ std::string("Rhombic: ") + RHOMBIC_DESCRIPTION, "rhombic" };
+  app.footer(exitCodes);
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.set_version_flag("--version", VersionText());
+
+  unsigned int threads = 0;
+  bool         isVerbose = false;
+  bool         isQuiet = false;
+  app.add_option("--threads", threads, "number of threads (default: all cores)")->check(CLI::Range(1u, 1024u));
+  const auto verbose = app.add_flag("-v,--verbose", isVerbose, "say more, with times");
+  app.add_flag("-q,--quiet", isQuiet, "say nothing but errors")->excludes(verbose);
+
+  const CommandRun * chosen = nullptr;
+  std::vector<CommandRun> runs;
+  runs.reserve(std::size(commands));
+  for (const Command & command : commands)
+  {
+    CLI::App * const parser = app.add_subcommand(command.name, command.description);
+    runs.push_back(command.add(*parser));
+    const CommandRun * const run = &runs.back();
+    parser->footer(exitCodes);
+    parser->callback([&chosen, run] { chosen = run; });
+  }
+
+  try
+  {
+    app.parse(argc, argv);
+    console.SetVerbosity(isQuiet ? Verbosity::Quiet : isVerbose ? Verbosity::Verbose : Verbosity::Normal);
+    if (threads > 0)
+    {
+      itk::MultiThreaderBase::SetGlobalMaximumNumberOfThreads(threads);
+      itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
+    }
+    (*chosen)({ &console, std::vector<std::string>(argv + 1, argv + argc) });
+    console.Finish();
+    return 0;
+  }
+  catch (const CLI::Success & help)
+  {
+    return app.exit(help);
+  }
+  catch (const CLI::ParseError & error)
+  {
+    return Fail(console, FailureKind::Usage, std::string(error.what()) + " (rhombic --help shows the usage).");
+  }
+  catch (const Failure & failure)
+  {
+    return Fail(console, failure.GetKind(), failure.GetDescription());
+  }
+  catch (const itk::MemoryAllocationError &)
+  {
+    return Fail(console, FailureKind::Memory, "There is not enough memory; try a lower --density or close other programs.");
+  }
+  catch (const std::bad_alloc &)
+  {
+    return Fail(console, FailureKind::Memory, "There is not enough memory; try a lower --density or close other programs.");
+  }
+  catch (const itk::ExceptionObject & error)
+  {
+    return Fail(console, FailureKind::Internal, WithoutObject(error.GetDescription()));
+  }
+  catch (const std::exception & error)
+  {
+    return Fail(console, FailureKind::Internal, error.what());
+  }
+}

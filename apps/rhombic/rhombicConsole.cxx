@@ -1,0 +1,86 @@
+#include "rhombicConsole.h"
+
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <unistd.h>
+
+namespace rhombic
+{
+
+Console::Console()
+  : m_IsTerminal(isatty(STDERR_FILENO) == 1)
+{
+  spdlog::set_default_logger(spdlog::stderr_logger_mt("rhombic"));
+  spdlog::set_pattern("%v");
+}
+
+void
+Console::SetVerbosity(Verbosity verbosity)
+{
+  m_Verbosity = verbosity;
+  spdlog::set_level(verbosity == Verbosity::Quiet ? spdlog::level::err : spdlog::level::info);
+  spdlog::set_pattern(verbosity == Verbosity::Verbose ? "[%H:%M:%S.%e] %v" : "%v");
+}
+
+Events
+Console::MakeEvents()
+{
+  return { [this](const std::string & line) { this->Note(line); },
+           [this](const std::string & step, double fraction) { this->Progress(step, fraction); } };
+}
+
+void
+Console::Note(const std::string & line)
+{
+  this->Finish();
+  spdlog::info("{}", line);
+}
+
+void
+Console::Error(const std::string & sentence)
+{
+  this->Finish();
+  spdlog::error("rhombic: {}", sentence);
+}
+
+void
+Console::Progress(const std::string & step, double fraction)
+{
+  const int percent = static_cast<int>(fraction * 100.0);
+  if (m_Verbosity == Verbosity::Quiet || (step == m_Step && percent == m_Percent))
+  {
+    return;
+  }
+  if (!m_IsTerminal)
+  {
+    if (m_Verbosity == Verbosity::Verbose && step != m_Step)
+    {
+      spdlog::info("{} ...", step);
+    }
+  }
+  else
+  {
+    constexpr int width = 30;
+    const int     filled = percent * width / 100;
+    const auto    bar = std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(width - filled), '.');
+    std::fprintf(stderr, "\r\033[K[%s] %3d %% %s", bar.c_str(), percent, step.c_str());
+    std::fflush(stderr);
+  }
+  m_Step = step;
+  m_Percent = percent;
+}
+
+void
+Console::Finish()
+{
+  if (m_IsTerminal && m_Percent >= 0)
+  {
+    std::fprintf(stderr, "\r\033[K");
+    std::fflush(stderr);
+  }
+  m_Percent = -1;
+}
+
+} // namespace rhombic

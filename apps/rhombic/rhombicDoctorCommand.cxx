@@ -1,0 +1,85 @@
+#include "rhombicCommands.h"
+#include "rhombicFailure.h"
+#include "rhombicPictureIO.h"
+#include "rhombicSurfaceRenderer.h"
+
+#include "itkMultiThreaderBase.h"
+#include "itkTriangleSurface.h"
+#include "itkVersion.h"
+
+#include <OpenImageIO/imageio.h>
+#include <vtkVersion.h>
+
+#include <fstream>
+#include <iostream>
+
+namespace rhombic
+{
+namespace
+{
+
+/** The kernel's estimate of what can be used without swapping, in MiB; 0 when it says nothing. */
+std::size_t
+AvailableMemory()
+{
+  std::ifstream stream("/proc/meminfo");
+  std::string   name;
+  std::size_t   kibibytes = 0;
+  std::string   unit;
+  while (stream >> name >> kibibytes)
+  {
+    if (name == "MemAvailable:")
+    {
+      return kibibytes / 1024;
+    }
+    std::getline(stream, unit);
+  }
+  return 0;
+}
+
+/** Draws one triangle: the whole way from a surface to a picture. */
+std::string
+TryToRender()
+{
+  auto triangle = itk::TriangleSurface::New();
+  triangle->GetPoints() = { { 0.0f, 0.0f, 0.0f }, { 10.0f, 0.0f, 0.0f }, { 0.0f, 0.0f, 10.0f } };
+  triangle->GetTriangles() = { { 0, 1, 2 } };
+  RenderSettings settings;
+  settings.width = 64;
+  settings.height = 64;
+  SurfaceRenderer renderer;
+  renderer.Render({ { "triangle", triangle.GetPointer(), { 1.0, 1.0, 1.0 }, 1.0 } }, settings);
+  return renderer.GetBackendDescription();
+}
+
+void
+Doctor()
+{
+  std::cout << VersionText();
+  std::cout << "threads      " << itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads() << '\n';
+  std::cout << "memory       " << AvailableMemory() << " MiB available\n";
+  std::cout << "reads        DICOM folders (uncompressed, JPEG, JPEG-LS, JPEG 2000, RLE), NIfTI-1, NRRD, MetaImage\n";
+  for (const BackendProbe & probe : SurfaceRenderer::ProbeBackends())
+  {
+    std::cout << "display      " << probe.name << ": " << (probe.usable ? "works, " : "no, ") << probe.detail << '\n';
+  }
+  std::cout << "rendering    works: " << TryToRender() << '\n';
+}
+
+} // namespace
+
+std::string
+VersionText()
+{
+  return "rhombic      " RHOMBIC_VERSION "\nITK          " + std::string(itk::Version::GetITKVersion()) + "\nVTK          " +
+         vtkVersion::GetVTKVersion() + "\nOpenImageIO  " + std::to_string(OIIO::openimageio_version() / 10000) + "." +
+         std::to_string(OIIO::openimageio_version() / 100 % 100) + "." + std::to_string(OIIO::openimageio_version() % 100) + "\n";
+}
+
+CommandRun
+AddDoctorCommand(CLI::App &)
+{
+  return [](const CommandContext &) { Doctor(); };
+}
+
+} // namespace rhombic

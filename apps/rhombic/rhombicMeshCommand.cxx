@@ -1,0 +1,45 @@
+#include "rhombicCommands.h"
+#include "rhombicFailure.h"
+#include "rhombicScanOptions.h"
+
+namespace rhombic
+{
+namespace
+{
+
+struct MeshOptions
+{
+  ScanOptions scan;
+  std::string threshold;
+  std::string mesh;
+};
+
+void
+Mesh(const MeshOptions & options, const CommandContext & context)
+{
+  MeshScanSettings settings;
+  settings.source = options.scan.GetSource();
+  if (options.threshold.empty() || options.mesh.empty())
+  {
+    throw Failure(FailureKind::Usage, "A threshold and a file are needed, for example -t 250.5 -o bone.stl.");
+  }
+  settings.surface = ParseSurfaceRequest("surface=" + options.threshold, 0);
+  settings.mesh = options.mesh;
+  MeshScan(settings, context.console->MakeEvents());
+  context.console->Note("mesh: " + settings.mesh.string());
+}
+
+} // namespace
+
+CommandRun
+AddMeshCommand(CLI::App & parser)
+{
+  const auto options = std::make_shared<MeshOptions>();
+  options->scan.AddSource(parser);
+  parser.add_option("-t,--threshold", options->threshold, "isovalue: a number in the scan's units, <number for what lies below, or otsu");
+  parser.add_option("-o,--output", options->mesh, "the mesh: .stl, .ply or .vtp, in LPS mm");
+  options->scan.AddLattice(parser);
+  return [options](const CommandContext & context) { Mesh(*options, context); };
+}
+
+} // namespace rhombic

@@ -1,0 +1,38 @@
+#include "rhombicCommands.h"
+#include "rhombicFailure.h"
+#include "rhombicPhantomFiles.h"
+
+namespace rhombic
+{
+namespace
+{
+
+struct PhantomOptions
+{
+  std::string     folder;
+  PhantomSettings settings;
+};
+
+void
+MakePhantom(const PhantomOptions & options, const CommandContext & context)
+{
+  if (options.folder.empty())
+  {
+    throw Failure(FailureKind::Usage, "No folder is named; give a new one with -o, for example -o phantom.");
+  }
+  WritePhantom(options.folder, options.settings);
+  context.console->Note("phantom: " + options.folder + " (a DICOM series, the same as NIfTI, its labels and organ table)");
+}
+
+} // namespace
+
+CommandRun
+AddPhantomCommand(CLI::App & parser)
+{
+  const auto options = std::make_shared<PhantomOptions>();
+  parser.add_option("-o,--output", options->folder, "a folder that is new or empty");
+  parser.add_option("--spacing", options->settings.spacing, "voxel size in mm")->capture_default_str();
+  return [options](const CommandContext & context) { MakePhantom(*options, context); };
+}
+
+} // namespace rhombic

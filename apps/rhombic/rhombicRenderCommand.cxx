@@ -1,0 +1,155 @@
+#include "rhombicCommands.h"
+#include "rhombicFailure.h"
+#include "rhombicPresets.h"
+#include "rhombicScanOptions.h"
+
+#include <charconv>
+#include <iostream>
+
+namespace rhombic
+{
+namespace
+{
+
+struct RenderOptions
+{
+  ScanOptions              scan;
+  std::string              picture;
+  std::string              preset;
+  std::vector<std::string> surfaces;
+  std::vector<std::string> views{ "anterior" };
+  std::string              size = "1200x1200";
+  std::string              background;
+  bool                     isPerspective = false;
+  bool                     hasNoLetters = false;
+  bool                     listsPresets = false;
+};
+
+void
+ListPresets()
+{
+  for (const Preset & preset : GetPresets())
+  {
+    std::cout << preset.name << "\n    " << preset.description << '\n';
+    for (const SurfaceRequest & surface : preset.surfaces)
+    {
+      std::cout << "    " << surface.name << (surface.side == SurfaceRequest::Side::Below ? " below " : " from ");
+      if (surface.isovalue)
+      {
+        std::cout << *surface.isovalue;
+      }
+      else
+      {
+        std::cout << "Otsu's threshold";
+      }
+      std::cout << (surface.opacity < 1.0 ? ", translucent" : "") << '\n';
+    }
+  }
+}
+
+/** "1200" or "1600x1200". */
+void
+ParseSize(const std::string & text, RenderSettings & render)
+{
+  const char * const end = text.data() + text.size();
+  auto               parsed = std::from_chars(text.data(), end, render.width);
+  render.height = render.width;
+  if (parsed.ec == std::errc() && parsed.ptr != end && *parsed.ptr == 'x')
+  {
+    parsed = std::from_chars(parsed.ptr + 1, end, render.height);
+  }
+  if (parsed.ec != std::errc() || parsed.ptr != end || render.width <= 0 || render.height <= 0)
+  {
+    throw Failure(FailureKind::Usage, "'" + text + "' is no picture size; write it as 1200 or 1600x1200.");
+  }
+}
+
+std::vector<View>
+ParseViews(const std::vector<std::string> & names)
+{
+  std::vector<View> views;
+  for (const std::string & name : names)
+  {
+    if (name == "all")
+    {
+      return { AllViews.begin(), AllViews.end() };
+    }
+    views.push_back(ViewFromName(name));
+  }
+  return views;
+}
+
+std::vector<SurfaceRequest>
+ParseSurfaces(const RenderOptions & options)
+{
+  std::vector<SurfaceRequest> requests;
+  if (!options.preset.empty())
+  {
+    requests = FindPreset(options.preset).surfaces;
+  }
+  for (const std::string & text : options.surfaces)
+  {
+    requests.push_back(ParseSurfaceRequest(text, requests.size()));
+  }
+  if (requests.empty())
+  {
+    throw Failure(FailureKind::Usage, "Nothing to show; choose a --preset (see --list-presets) or give --surface name=threshold.");
+  }
+  return requests;
+}
+
+void
+Render(const RenderOptions & options, const CommandContext & context)
+{
+  if (options.listsPresets)
+  {
+    ListPresets();
+    return;
+  }
+  RenderScanSettings settings;
+  settings.source = options.scan.GetSource();
+  if (options.picture.empty())
+  {
+    throw Failure(FailureKind::Usage, "No picture is named; give one with -o, for example -o picture.png.");
+  }
+  settings.picture = options.picture;
+  settings.surfaces = ParseSurfaces(options);
+  settings.views = ParseViews(options.views);
+  ParseSize(options.size, settings.render);
+  if (!options.background.empty())
+  {
+    settings.render.background = ParseColour(options.background);
+  }
+  settings.render.perspective = options.isPerspective;
+  settings.render.orientationLabels = !options.hasNoLetters;
+  settings.metadata = { "Rhombic " RHOMBIC_VERSION, DescribeCommandLine(context.arguments, settings.source.path.string()) };
+  for (const auto & picture : RenderScan(settings, context.console->MakeEvents()))
+  {
+    context.console->Note("picture: " + picture.string());
+  }
+}
+
+} // namespace
+
+CommandRun
+AddRenderCommand(CLI::App & parser)
+{
+  const auto options = std::make_shared<RenderOptions>();
+  options->scan.AddSource(parser);
+  parser.add_option("-o,--output", options->picture, "the picture: .png, .jpg, .tif or .exr");
+  parser.add_option("--preset", options->preset, "what to show: a preset's name, or a .yaml file like those of the project");
+  parser.add_option("--surface", options->surfaces, "name=threshold[,#rrggbb[,opacity]]; threshold: a number, <number for what lies below, or otsu; repeatable")
+    ->allow_extra_args(false);
+  parser.add_option("--view", options->views, "anterior, posterior, left, right, superior, inferior or all; repeatable")
+    ->allow_extra_args(false)
+    ->capture_default_str();
+  parser.add_option("--size", options->size, "width x height in pixels")->capture_default_str();
+  parser.add_option("--background", options->background, "#rrggbb (default black)");
+  parser.add_flag("--perspective", options->isPerspective, "perspective instead of parallel projection");
+  parser.add_flag("--no-letters", options->hasNoLetters, "leave out the orientation letters at the edges");
+  parser.add_flag("--list-presets", options->listsPresets, "list the presets and stop");
+  options->scan.AddLattice(parser);
+  return [options](const CommandContext & context) { Render(*options, context); };
+}
+
+} // namespace rhombic

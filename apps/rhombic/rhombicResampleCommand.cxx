@@ -1,0 +1,44 @@
+#include "rhombicCommands.h"
+#include "rhombicFailure.h"
+#include "rhombicScanOptions.h"
+
+namespace rhombic
+{
+namespace
+{
+
+struct ResampleOptions
+{
+  ScanOptions scan;
+  std::string volume;
+};
+
+void
+Resample(const ResampleOptions & options, const CommandContext & context)
+{
+  ResampleScanSettings settings;
+  settings.source = options.scan.GetSource();
+  if (options.volume.empty())
+  {
+    throw Failure(FailureKind::Usage, "No output is named; give one with -o, for example -o scan.fcc.nrrd.");
+  }
+  settings.volume = options.volume;
+  ResampleScan(settings, context.console->MakeEvents());
+  context.console->Note("volume: " + settings.volume.string());
+}
+
+} // namespace
+
+CommandRun
+AddResampleCommand(CLI::App & parser)
+{
+  const auto options = std::make_shared<ResampleOptions>();
+  options->scan.AddSource(parser);
+  parser.add_option("-o,--output",
+                    options->volume,
+                    "the lattice volume (.nrrd); when SCAN is one, the Cartesian volume (.nrrd, .nii, .nii.gz, .mha)");
+  options->scan.AddLattice(parser);
+  return [options](const CommandContext & context) { Resample(*options, context); };
+}
+
+} // namespace rhombic
