@@ -1,8 +1,6 @@
 #ifndef rhombicPhantom_h
 #define rhombicPhantom_h
 
-#include "rhombicPhantomSolids.h"
-
 #include "itkImage.h"
 
 #include <array>
@@ -12,6 +10,9 @@
 
 namespace rhombic
 {
+
+/** A point in LPS millimetres: x towards the patient's left, y to the back, z to the head. */
+using PhantomPoint = std::array<double, 3>;
 
 /** What is known of one organ of the phantom. */
 struct PhantomOrgan
@@ -49,10 +50,10 @@ struct PhantomEnclosure
   double volume;           ///< exact, in mm^3, of all points where the ideal CT is at least the threshold
 };
 
-/** What the isosurface at \a threshold, in Hounsfield units, encloses. A threshold between two tissues belongs to both
- * its ends' surfaces alike: 250.5 encloses the bones, the teeth and the marker; -300.5 everything but lungs and airway.
- * Throws Failure(Usage) for thresholds that the air around the body reaches (-1000 and less), or that are no numbers.
- */
+/** What the isosurface at \a threshold, in Hounsfield units, encloses: 250.5 the bones, the teeth and the marker;
+ * -300.5 everything but the lungs and the airway. A sampled scan's surface lies at the ideal place where the threshold
+ * is the mean of the two tissues; elsewhere it is off by a fraction of the spacing. Throws Failure(Usage) for
+ * thresholds that the air around the body reaches (-1000 and less), or that are no numbers. Thread-safe. */
 PhantomEnclosure PhantomEnclosedBy(double threshold);
 
 /** The CT in Hounsfield units; axes along LPS, air all around the body. Each voxel is the average of the ideal CT over

@@ -186,11 +186,11 @@ AddBrainAndSkull(Parts & parts, int muscle)
   {
     Add(parts, PhantomAirway, bone, PhantomEllipsoid({ side * 17, -42, 528 }, { 4.5, 10, 9 }));
     Add(parts, PhantomEyes, muscle, PhantomEllipsoid({ side * 30, -60, 563 }, { 11, 11, 11 }));
-    Add(
-      parts,
-      PhantomSkull,
-      muscle,
-      PhantomHoop({ 0, -5, 58, 60, false, side > 0 ? 0.8 : -1.45, side > 0 ? 1.45 : -0.8, 2.5, 4, 549 })); // cheekbone
+    Add(parts,
+        PhantomSkull,
+        muscle,
+        PhantomHoop(
+          { 0, -5, 58, 60, false, side > 0 ? 0.88 : -1.45, side > 0 ? 1.45 : -0.88, 2.5, 4, 549 })); // cheekbone
   }
 }
 
@@ -489,10 +489,10 @@ AddBelly(Parts & parts, int muscle)
                       2.1,
                       { { false, -56, 132, 39, 80, 66, 0.5 }, { false, 56, 132, 39, 80, 66, 0.5 } } }));
   Add(parts, PhantomLiver, belly, PhantomEllipsoid({ -43, -43, 177 }, { 46, 30, 33 }, { 0, 12, 0 }));
-  Add(parts, PhantomSpleen, belly, PhantomEllipsoid({ 71, -9, 168 }, { 14, 22, 24 }));
+  Add(parts, PhantomSpleen, belly, PhantomEllipsoid({ 71, -9, 173 }, { 14, 22, 21 }));
   Add(parts, PhantomStomach, belly, PhantomEllipsoid({ 49, -54, 174 }, { 32, 20, 29 }, { 0, -20, 0 }));
-  Add(parts, PhantomRightKidney, belly, PhantomEllipsoid({ -58, 10, 116 }, { 18, 15, 36 }));
-  Add(parts, PhantomLeftKidney, belly, PhantomEllipsoid({ 58, 9, 122 }, { 18, 15, 36 }));
+  Add(parts, PhantomRightKidney, belly, PhantomEllipsoid({ -58, 9, 113 }, { 18, 15, 36 }));
+  Add(parts, PhantomLeftKidney, belly, PhantomEllipsoid({ 58, 9, 116 }, { 18, 15, 36 }));
   Add(parts, PhantomBowel, belly, PhantomEllipsoid({ 0, -60, 82 }, { 76, 22, 36 }));
 }
 

@@ -1,6 +1,8 @@
 #ifndef rhombicPhantomSolids_h
 #define rhombicPhantomSolids_h
 
+#include "rhombicPhantom.h"
+
 #include <array>
 #include <memory>
 #include <utility>
@@ -8,10 +10,6 @@
 
 namespace rhombic
 {
-
-/** A point of the patient in LPS millimetres: x towards the Left, y to the back (Posterior), z to the head (Superior).
- */
-using PhantomPoint = std::array<double, 3>;
 
 /** The part of a line that lies in a solid, in millimetres along the line's axis; empty when last < first. */
 struct PhantomSpan

@@ -1,0 +1,75 @@
+#include "rhombicIntensities.h"
+
+#include "rhombicFailure.h"
+#include "rhombicScanPipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace
+{
+
+using rhombic::Failure;
+using rhombic::FailureKind;
+
+template <typename TPixel>
+typename itk::Image<TPixel, 3>::Pointer
+MakeImage(const std::vector<TPixel> & values)
+{
+  auto image = itk::Image<TPixel, 3>::New();
+  image->SetRegions(itk::Size<3>{ { values.size(), 1, 1 } });
+  image->Allocate();
+  std::copy(values.begin(), values.end(), image->GetBufferPointer());
+  return image;
+}
+
+TEST(Intensities, FindRangeAndTheThresholdBetweenTwoGroups)
+{
+  std::vector<std::int16_t> values;
+  for (int n = 0; n < 100; ++n)
+  {
+    values.push_back(static_cast<std::int16_t>(-1000 + n % 50));
+    values.push_back(static_cast<std::int16_t>(40 + n % 30));
+  }
+  const auto found = rhombic::ComputeIntensities(MakeImage(values));
+  EXPECT_EQ(found.lowest, -1000);
+  EXPECT_EQ(found.highest, 69);
+  EXPECT_GT(found.otsu, -951);
+  EXPECT_LT(found.otsu, 40);
+  EXPECT_NE(found.otsu, std::floor(found.otsu)) << "between whole numbers, so that no sample equals it";
+}
+
+TEST(Intensities, DoNotCountWhatIsNotFinite)
+{
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  const auto      found = rhombic::ComputeIntensities(MakeImage<float>({ nan, 1.0f, infinity, 3.0f, -infinity }));
+  EXPECT_EQ(found.lowest, 1.0);
+  EXPECT_EQ(found.highest, 3.0);
+  EXPECT_THROW(rhombic::ComputeIntensities(MakeImage<float>({ nan, nan })), Failure);
+  EXPECT_EQ(rhombic::ComputeIntensities(MakeImage<float>({ 2.0f, 2.0f })).otsu, 2.0);
+}
+
+TEST(ResolveIsovalues, FillsInOtsusAndRefusesWhatIsOutside)
+{
+  const rhombic::Intensities intensities{ -1000.0, 2000.0, -100.5 };
+  const auto                 resolved = rhombic::ResolveIsovalues({ rhombic::ParseSurfaceRequest("a=otsu", 0), rhombic::ParseSurfaceRequest("b=2000", 1) }, intensities);
+  EXPECT_EQ(resolved[0].isovalue, -100.5);
+  EXPECT_EQ(resolved[1].isovalue, 2000.0);
+  for (const char * text : { "bone=2000.5", "bone=-1000", "bone=-5000" })
+  {
+    try
+    {
+      rhombic::ResolveIsovalues({ rhombic::ParseSurfaceRequest(text, 0) }, intensities);
+      ADD_FAILURE() << text;
+    }
+    catch (const Failure & failure)
+    {
+      EXPECT_EQ(failure.GetKind(), FailureKind::Empty);
+      EXPECT_NE(std::string(failure.GetDescription()).find("from -1000 to 2000"), std::string::npos);
+    }
+  }
+}
+
+} // namespace

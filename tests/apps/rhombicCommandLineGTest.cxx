@@ -1,0 +1,309 @@
+#include "rhombicPictureComparison.h"
+#include "rhombicPictureIO.h"
+#include "rhombicProgram.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+using rhombictest::Outcome;
+using rhombictest::ReadText;
+using rhombictest::RunShell;
+using rhombictest::TemporaryFolder;
+
+const std::string phantomDicom = RHOMBIC_TESTDATA "/phantom/dicom";
+const std::string phantomNifti = RHOMBIC_TESTDATA "/phantom/phantom.nii.gz";
+
+Outcome
+Rhombic(const std::string & arguments, const fs::path & folder)
+{
+  return RunShell("rhombic " + arguments, folder);
+}
+
+std::set<std::string>
+FilesIn(const fs::path & folder)
+{
+  std::set<std::string> names;
+  for (const auto & entry : fs::directory_iterator(folder))
+  {
+    names.insert(entry.path().filename().string());
+  }
+  return names;
+}
+
+/** Column or row by column: how many pixels are bright. */
+std::vector<int>
+BrightPixels(const rhombic::Picture & picture, bool byColumn)
+{
+  constexpr int    bright = 90;
+  std::vector<int> counts(static_cast<std::size_t>(byColumn ? picture.width : picture.height), 0);
+  for (int y = 0; y < picture.height; ++y)
+  {
+    for (int x = 0; x < picture.width; ++x)
+    {
+      counts[static_cast<std::size_t>(byColumn ? x : y)] += picture.At(x, y)[0] > bright ? 1 : 0;
+    }
+  }
+  return counts;
+}
+
+struct ErrorCase
+{
+  const char * name;
+  const char * arguments;
+  int          exitCode;
+  const char * says;
+};
+
+// Files of the test's own folder: text.dcm, text.nii, empty/, file/, readonly/ and scan.nii.gz, a copy of the phantom.
+constexpr ErrorCase errorCases[] = {
+  { "NoCommand", "", 2, "subcommand" },
+  { "UnknownCommand", "paint", 2, "paint" },
+  { "UnknownOption", "render scan.nii.gz --sharpness 3", 2, "--sharpness" },
+  { "BadThreads", "--threads 0 info scan.nii.gz", 2, "threads" },
+  { "QuietAndVerbose", "-q -v info scan.nii.gz", 2, "verbose" },
+  { "NoScan", "render -o a.png --preset ct-bone", 2, "No scan" },
+  { "MissingPath", "render missing.nii.gz --preset ct-bone -o a.png", 3, "missing.nii.gz" },
+  { "MissingPathInfo", "info missing", 3, "missing" },
+  { "EmptyFolder", "render empty --preset ct-bone -o a.png", 3, "empty" },
+  { "TextNamedDicom", "render text.dcm --preset ct-bone -o a.png", 4, "text.dcm" },
+  { "TextNamedNifti", "render text.nii --preset ct-bone -o a.png", 4, "text.nii" },
+  { "TruncatedVolume", "mesh cut.nii.gz -t 250.5 -o a.stl", 4, "cut.nii.gz" },
+  { "TruncatedLattice", "mesh cut.fcc.nrrd -t 250.5 -o a.stl", 4, "cut.fcc.nrrd" },
+  { "UnknownPreset", "render scan.nii.gz --preset ct-bnoe -o a.png", 2, "did you mean ct-bone?" },
+  { "MissingPresetFile", "render scan.nii.gz --preset my.yaml -o a.png", 3, "my.yaml" },
+  { "NothingToShow", "render scan.nii.gz -o a.png", 2, "--list-presets" },
+  { "NoPicture", "render scan.nii.gz --preset ct-bone", 2, "-o" },
+  { "BadSurface", "render scan.nii.gz --surface bone -o a.png", 2, "bone=250.5" },
+  { "BadColour", "render scan.nii.gz --surface bone=250,red -o a.png", 2, "#rrggbb" },
+  { "BadOpacity", "render scan.nii.gz --surface bone=250,#ffffff,2 -o a.png", 2, "opacity" },
+  { "BadView", "render scan.nii.gz --preset ct-bone --view front -o a.png", 2, "front" },
+  { "BadSize", "render scan.nii.gz --preset ct-bone --size big -o a.png", 2, "1600x1200" },
+  { "HugeSize", "render scan.nii.gz --preset ct-bone --size 100000 -o a.png", 2, "4096" },
+  { "BadBackground", "render scan.nii.gz --preset ct-bone --background white -o a.png", 2, "#rrggbb" },
+  { "BadKernel", "render scan.nii.gz --preset ct-bone --kernel sharp -o a.png", 2, "sharp" },
+  { "BadDensity", "render scan.nii.gz --preset ct-bone --density 0 -o a.png", 2, "density" },
+  { "BadSpacing", "render scan.nii.gz --preset ct-bone --spacing 1,2 -o a.png", 2, "spacing" },
+  { "NegativeSpacing", "render scan.nii.gz --preset ct-bone --spacing=-1 -o a.png", 2, "spacing" },
+  { "BadSeries", "render dicom --series 7 --preset ct-bone -o a.png", 2, "7" },
+  { "ThresholdAboveTheRange", "render scan.nii.gz --surface bone=9000.5 -o a.png", 6, "run from -1000 to" },
+  { "ThresholdBelowTheRange", "mesh scan.nii.gz -t -9000 -o a.stl", 6, "run from -1000 to" },
+  { "NoThreshold", "mesh scan.nii.gz -o a.stl", 2, "-t" },
+  { "BadThreshold", "mesh scan.nii.gz -t high -o a.stl", 2, "number" },
+  { "UnknownPictureFormat", "render scan.nii.gz --preset ct-bone -o a.bmp2", 2, ".png" },
+  { "UnknownMeshFormat", "mesh scan.nii.gz -t 250.5 -o a.xyz", 2, ".stl" },
+  { "UnknownVolumeFormat", "resample scan.nii.gz -o a.xyz", 2, ".nrrd" },
+  { "UnknownVolumeFormatBack", "resample scan.fcc.nrrd -o a.xyz", 2, ".nii.gz" },
+  { "PictureFolderMissing", "render scan.nii.gz --preset ct-bone -o missing/a.png", 7, "missing" },
+  { "PictureIsAFolder", "render scan.nii.gz --preset ct-bone -o file", 7, "folder" },
+  { "MeshFolderMissing", "mesh scan.nii.gz -t 250.5 -o missing/a.stl", 7, "missing" },
+  { "VolumeFolderMissing", "resample scan.nii.gz -o missing/a.nrrd", 7, "missing" },
+  { "PictureIsADevice", "render scan.nii.gz --preset ct-bone -o /dev/full", 7, "/dev/full" },
+  { "OutputIsTheInput", "resample scan.nii.gz -o scan.nii.gz", 2, "input" },
+  { "PhantomWithoutFolder", "phantom", 2, "-o" },
+  { "PhantomIntoAFullFolder", "phantom -o file", 7, "file" },
+  { "PhantomTooFine", "phantom -o new --spacing 0.001", 2, "spacing" },
+};
+
+class CommandLineErrors : public testing::TestWithParam<ErrorCase>
+{};
+
+TEST_P(CommandLineErrors, AreOneSentenceAndTheDocumentedExitCode)
+{
+  const ErrorCase &     expected = GetParam();
+  const TemporaryFolder folder;
+  std::ofstream(folder.Path() / "text.dcm") << "this is not a DICOM file\n";
+  std::ofstream(folder.Path() / "text.nii") << "this is not a NIfTI file\n";
+  fs::create_directory(folder.Path() / "empty");
+  fs::create_directory(folder.Path() / "file");
+  std::ofstream(folder.Path() / "file" / "something") << "something\n";
+  fs::copy(phantomNifti, folder.Path() / "scan.nii.gz");
+  fs::create_directory_symlink(phantomDicom, folder.Path() / "dicom");
+  std::ofstream(folder.Path() / "cut.nii.gz", std::ios::binary) << ReadText(phantomNifti).substr(0, 3000);
+  ASSERT_EQ(Rhombic("-q resample scan.nii.gz --density 0.1 -o scan.fcc.nrrd", folder.Path()).exitCode, 0);
+  std::ofstream(folder.Path() / "cut.fcc.nrrd", std::ios::binary) << ReadText(folder.Path() / "scan.fcc.nrrd").substr(0, 3000);
+  const auto before = FilesIn(folder.Path());
+
+  const Outcome outcome = Rhombic("-q " + std::string(expected.arguments), folder.Path());
+  EXPECT_EQ(outcome.exitCode, expected.exitCode) << outcome.errors;
+  EXPECT_NE(outcome.errors.find(expected.says), std::string::npos) << outcome.errors;
+  EXPECT_EQ(outcome.errors.rfind("rhombic: ", 0), 0u) << outcome.errors;
+  EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+  EXPECT_EQ(outcome.errors.find(".cxx"), std::string::npos) << outcome.errors;
+  EXPECT_EQ(outcome.output, "");
+  EXPECT_EQ(FilesIn(folder.Path()), before) << "no partial files";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, CommandLineErrors, testing::ValuesIn(errorCases), [](const auto & error) { return std::string(error.param.name); });
+
+TEST(CommandLine, HelpAndVersionGoToStandardOutput)
+{
+  const TemporaryFolder folder;
+  const Outcome         help = Rhombic("--help", folder.Path());
+  EXPECT_EQ(help.exitCode, 0);
+  EXPECT_EQ(help.errors, "");
+  for (const char * word : { "info", "render", "mesh", "resample", "phantom", "doctor", "--threads", "--quiet", "Exit codes", "10" })
+  {
+    EXPECT_NE(help.output.find(word), std::string::npos) << word;
+  }
+  for (const char * command : { "info", "render", "mesh", "resample", "phantom", "doctor" })
+  {
+    const Outcome one = Rhombic(std::string(command) + " --help", folder.Path());
+    EXPECT_EQ(one.exitCode, 0);
+    EXPECT_NE(one.output.find("Exit codes"), std::string::npos);
+  }
+  const Outcome version = Rhombic("--version", folder.Path());
+  EXPECT_EQ(version.exitCode, 0);
+  for (const char * library : { "rhombic", "ITK", "VTK", "OpenImageIO" })
+  {
+    EXPECT_NE(version.output.find(library), std::string::npos);
+  }
+}
+
+TEST(CommandLine, InfoKnowsThePhantom)
+{
+  const TemporaryFolder folder;
+  const Outcome         text = Rhombic("info " + phantomDicom, folder.Path());
+  EXPECT_EQ(text.exitCode, 0) << text.errors;
+  for (const char * word : { "DICOM", "CT", "int16", "LPS", "250.5", "chosen" })
+  {
+    EXPECT_NE(text.output.find(word), std::string::npos) << word << text.output;
+  }
+  const Outcome json = Rhombic("info --json " + phantomNifti, folder.Path());
+  EXPECT_EQ(json.exitCode, 0);
+  EXPECT_EQ(json.output.front(), '{');
+  EXPECT_NE(json.output.find("\"orientation\": \"LPS\""), std::string::npos) << json.output;
+}
+
+TEST(CommandLine, DoctorFindsAWayToDraw)
+{
+  const TemporaryFolder folder;
+  const Outcome         outcome = Rhombic("doctor", folder.Path());
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("rendering    works"), std::string::npos) << outcome.output;
+}
+
+TEST(CommandLine, ListsPresets)
+{
+  const TemporaryFolder folder;
+  const Outcome         outcome = Rhombic("render --list-presets", folder.Path());
+  EXPECT_EQ(outcome.exitCode, 0);
+  for (const char * name : { "ct-bone", "ct-skin", "ct-lung", "ct-bone-skin", "mr-head" })
+  {
+    EXPECT_NE(outcome.output.find(std::string(name) + "\n"), std::string::npos);
+  }
+}
+
+TEST(CommandLine, SaysNothingWhenQuietAndPlainLinesWithoutATerminal)
+{
+  const TemporaryFolder folder;
+  const Outcome         quiet = Rhombic("-q mesh " + phantomNifti + " -t 250.5 -o a.stl", folder.Path());
+  EXPECT_EQ(quiet.errors + quiet.output, "");
+  const Outcome normal = Rhombic("mesh " + phantomNifti + " -t 250.5 -o a.stl", folder.Path());
+  EXPECT_NE(normal.errors.find("triangles"), std::string::npos);
+  EXPECT_EQ(normal.errors.find('\r'), std::string::npos) << "no progress bar outside a terminal";
+  EXPECT_EQ(normal.output, "");
+}
+
+// The marker on the phantom's chest is an F on the patient's left. Seen from the front it is on the picture's right, and
+// its stem is on its own left: neither mirrored, nor upside down.
+TEST(CommandLine, TheMarkerReadsAsAnFOnThePicturesRight)
+{
+  const TemporaryFolder folder;
+  const std::string     marker = " --surface marker=1700.5,#ffffff --no-letters --size 400 -o ";
+  ASSERT_EQ(Rhombic("phantom --spacing 3 -o p", folder.Path()).exitCode, 0);
+  for (const char * scan : { "p/dicom", "p/phantom.nii.gz" })
+  {
+    const std::string render = "render " + std::string(scan);
+    const Outcome     inBody = Rhombic(render + " --surface skin=-300.5,#000000,0.05" + marker + "body.png", folder.Path());
+    ASSERT_EQ(inBody.exitCode, 0) << inBody.errors;
+    const auto columns = BrightPixels(rhombic::ReadPicture(folder.Path() / "body.png"), true);
+    double     sum = 0.0;
+    double     weighted = 0.0;
+    for (std::size_t x = 0; x < columns.size(); ++x)
+    {
+      sum += columns[x];
+      weighted += columns[x] * static_cast<double>(x);
+    }
+    ASSERT_GT(sum, 0.0);
+    EXPECT_GT(weighted / sum, 210.0) << "patient's left is on the picture's right";
+
+    const Outcome alone = Rhombic(render + marker + "marker.png", folder.Path());
+    ASSERT_EQ(alone.exitCode, 0) << alone.errors;
+    const auto picture = rhombic::ReadPicture(folder.Path() / "marker.png");
+    const auto byColumn = BrightPixels(picture, true);
+    const auto byRow = BrightPixels(picture, false);
+    const auto tallest = std::max_element(byColumn.begin(), byColumn.end()) - byColumn.begin();
+    const auto widest = std::max_element(byRow.begin(), byRow.end()) - byRow.begin();
+    EXPECT_LT(tallest, 200) << "the stem is on the left";
+    EXPECT_LT(widest, 200) << "the long arm is at the top";
+  }
+}
+
+TEST(CommandLine, PicturesDoNotDependOnTheRouteOrTheThreads)
+{
+  const TemporaryFolder folder;
+  const std::string     options = " --preset ct-bone-skin --size 300 -o ";
+  ASSERT_EQ(Rhombic("render --threads 1 " + phantomDicom + options + "one.png", folder.Path()).exitCode, 0);
+  ASSERT_EQ(Rhombic("render --threads 5 " + phantomDicom + options + "five.png", folder.Path()).exitCode, 0);
+  ASSERT_EQ(Rhombic("render " + phantomNifti + options + "nifti.png", folder.Path()).exitCode, 0);
+  const auto one = rhombic::ReadPicture(folder.Path() / "one.png");
+  EXPECT_EQ(one.pixels, rhombic::ReadPicture(folder.Path() / "five.png").pixels);
+  const auto difference = rhombic::ComparePictures(one, rhombic::ReadPicture(folder.Path() / "nifti.png"), 0.1);
+  EXPECT_LT(difference.meanError, 1e-3) << "NIfTI keeps positions as 32-bit numbers";
+}
+
+TEST(CommandLine, MeshesHaveTheSameBytesForAnyNumberOfThreads)
+{
+  const TemporaryFolder folder;
+  for (const char * extension : { "stl", "ply", "vtp" })
+  {
+    const std::string options = " -t 250.5 " + phantomNifti + " -o ";
+    ASSERT_EQ(Rhombic("mesh --threads 1" + options + "one." + extension, folder.Path()).exitCode, 0);
+    ASSERT_EQ(Rhombic("mesh --threads 7" + options + "seven." + extension, folder.Path()).exitCode, 0);
+    EXPECT_EQ(ReadText(folder.Path() / (std::string("one.") + extension)), ReadText(folder.Path() / (std::string("seven.") + extension)));
+  }
+}
+
+TEST(CommandLine, TheLatticeVolumeGivesTheSameMeshAsTheScan)
+{
+  const TemporaryFolder folder;
+  const Outcome         outcome = RunShell("rhombic resample '" + phantomNifti + "' -o p.fcc.nrrd\n"
+                                   "rhombic mesh p.fcc.nrrd -t 250.5 -o a.stl\n"
+                                   "rhombic mesh '" + phantomNifti + "' -t 250.5 -o b.stl\n"
+                                   "cmp a.stl b.stl\n"
+                                   "rhombic info p.fcc.nrrd\n"
+                                   "rhombic resample p.fcc.nrrd -o back.nii.gz\n"
+                                   "rhombic info back.nii.gz\n",
+                                   folder.Path());
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("face-centered cubic"), std::string::npos) << outcome.output;
+}
+
+TEST(CommandLine, SeveralViewsGetTheirNames)
+{
+  const TemporaryFolder folder;
+  ASSERT_EQ(Rhombic("render " + phantomNifti + " --preset ct-bone --view all --size 64 -o p.jpg", folder.Path()).exitCode, 0);
+  EXPECT_EQ(FilesIn(folder.Path()), (std::set<std::string>{ "p-anterior.jpg", "p-posterior.jpg", "p-left.jpg", "p-right.jpg", "p-superior.jpg", "p-inferior.jpg" }));
+}
+
+TEST(CommandLine, MetadataNamesTheCommandButNeitherTheScanNorItsFolder)
+{
+  const TemporaryFolder folder;
+  fs::create_directory(folder.Path() / "DOE_JOHN");
+  fs::copy(phantomNifti, folder.Path() / "DOE_JOHN" / "doe_john_1970.nii.gz");
+  ASSERT_EQ(Rhombic("render DOE_JOHN/doe_john_1970.nii.gz --preset ct-bone --size 64 --output=DOE_JOHN/p.tif", folder.Path()).exitCode, 0);
+  const std::string bytes = ReadText(folder.Path() / "DOE_JOHN" / "p.tif");
+  EXPECT_NE(bytes.find("rhombic render SCAN --preset ct-bone --size 64 --output=p.tif"), std::string::npos);
+  EXPECT_NE(bytes.find("Rhombic 0."), std::string::npos);
+  EXPECT_EQ(bytes.find("DOE"), std::string::npos);
+  EXPECT_EQ(bytes.find("doe"), std::string::npos);
+}
+
+} // namespace
