@@ -209,7 +209,9 @@ TEST_P(PictureFormats, FullDiskLeavesTheOldFile)
 TEST_P(PictureFormats, DamagedFileIsUnreadable)
 {
   rhombic::WritePicture(TestPicture(), Path(), Metadata);
-  fs::resize_file(Path(), 40);
+  const auto size = fs::file_size(Path());
+  fs::resize_file(Path(), 20);
+  fs::resize_file(Path(), size); // zeros from byte 20
   EXPECT_EQ(KindOf([this] { rhombic::ReadPicture(Path()); }), FailureKind::Unreadable);
 }
 

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include <unistd.h>
 
@@ -378,6 +379,18 @@ TEST_F(SurfaceRendererTest, TranslucentSurfaceShowsTheOneInside)
   EXPECT_EQ(picture.pixels, renderer.Render({ bone, skin }, Small()).pixels);
 }
 
+TEST_F(SurfaceRendererTest, TranslucentSurfaceMixesWithTheBackground)
+{
+  SurfaceRenderer renderer;
+  auto settings = Small();
+  settings.background = { 0.0, 0.4, 1.0 };
+  const auto picture = renderer.Render({ Item(Sphere({ 0, 0, 0 }, 50), { 0.8, 0.4, 0.0 }, 0.3) }, settings);
+  const auto * const centre = picture.At(100, 80);
+  EXPECT_NEAR(centre[0] / 255.0, 0.3 * 0.8, 0.1); // lit a little more than an opaque surface
+  EXPECT_NEAR(centre[1] / 255.0, 0.4, 0.1);
+  EXPECT_NEAR(centre[2] / 255.0, 0.7, 0.05);
+}
+
 TEST_F(SurfaceRendererTest, NestedTranslucentSurfacesAreInOrder)
 {
   const auto outer = Item(Sphere({ 0, 0, 0 }, 50), Red, 0.5);
@@ -476,6 +489,23 @@ TEST_F(SurfaceRendererTest, RenderersLiveSideBySide)
     EXPECT_EQ(first.Render(scene, Small()).pixels, expected.pixels);
   }
   EXPECT_EQ(first.Render(scene, Small()).pixels, expected.pixels);
+}
+
+TEST_F(SurfaceRendererTest, ThreadsHaveTheirOwnRenderers)
+{
+  const auto expected = DrawEverything();
+  std::array<Picture, 2> pictures;
+  std::array<std::thread, 2> threads;
+  for (std::size_t i = 0; i < threads.size(); ++i)
+  {
+    threads[i] = std::thread([&picture = pictures[i]] { picture = DrawEverything(); });
+  }
+  for (auto & thread : threads)
+  {
+    thread.join();
+  }
+  EXPECT_EQ(pictures[0].pixels, expected.pixels);
+  EXPECT_EQ(pictures[1].pixels, expected.pixels);
 }
 
 TEST_F(SurfaceRendererTest, PicturesDoNotDependOnTheOnesBefore)

@@ -38,7 +38,9 @@ vtkRhombicMessages::DisplayText(const char * text)
 
 vtkRhombicMessages::Scope::Scope()
   : m_Messages(vtkSmartPointer<vtkRhombicMessages>::New())
+  , m_PreviousVerbosity(vtkLogger::GetCurrentVerbosityCutoff())
 {
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   m_Messages->m_Previous = vtkOutputWindow::GetInstance();
   vtkOutputWindow::SetInstance(m_Messages);
 }
@@ -46,4 +48,5 @@ vtkRhombicMessages::Scope::Scope()
 vtkRhombicMessages::Scope::~Scope()
 {
   vtkOutputWindow::SetInstance(m_Messages->m_Previous);
+  vtkLogger::SetStderrVerbosity(m_PreviousVerbosity);
 }

@@ -1,6 +1,7 @@
 #ifndef vtkRhombicMessages_h
 #define vtkRhombicMessages_h
 
+#include <vtkLogger.h>
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
 
@@ -10,7 +11,8 @@
 /** \class vtkRhombicMessages
  * \brief Keeps what VTK would print from this thread, as long as a vtkRhombicMessages::Scope lives.
  *
- * Messages of other threads go where they went before. */
+ * Messages of other threads go to the window where they went before. VTK also logs errors to the terminal, beside its
+ * window; meanwhile it does not, in any thread. */
 class vtkRhombicMessages : public vtkOutputWindow
 {
 public:
@@ -51,6 +53,7 @@ public:
 
 private:
   vtkSmartPointer<vtkRhombicMessages> m_Messages;
+  vtkLogger::Verbosity m_PreviousVerbosity;
 };
 
 #endif
