@@ -478,6 +478,33 @@ TEST_F(SurfaceRendererTest, LettersAreAtTheEdgesAndCanBeTurnedOff)
   }
 }
 
+TEST_F(SurfaceRendererTest, LettersAreAtTheEdgesTheyName)
+{
+  // An R has more ink than an L, and an H more than an F.
+  SurfaceRenderer renderer;
+  const auto ink = [](const Picture & picture, int left, int top, int width, int height) {
+    int sum = 0;
+    for (int y = top; y < top + height; ++y)
+    {
+      for (int x = left; x < left + width; ++x)
+      {
+        sum += picture.At(x, y)[1];
+      }
+    }
+    return sum;
+  };
+  const auto draw = [&renderer](View view) {
+    auto settings = Small(view);
+    settings.orientationLabels = true;
+    return renderer.Render({ Item(Sphere({ 0, 0, 0 }, 50), Red) }, settings);
+  };
+  const auto anterior = draw(View::Anterior);
+  EXPECT_GT(ink(anterior, 0, 70, 18, 20), 1.2 * ink(anterior, 182, 70, 18, 20));
+  EXPECT_GT(ink(anterior, 90, 0, 20, 17), 1.2 * ink(anterior, 90, 143, 20, 17));
+  const auto posterior = draw(View::Posterior);
+  EXPECT_LT(1.2 * ink(posterior, 0, 70, 18, 20), ink(posterior, 182, 70, 18, 20));
+}
+
 TEST_F(SurfaceRendererTest, RenderersLiveSideBySide)
 {
   const std::vector<SceneSurface> scene{ Item(Sphere({ 0, 0, 0 }, 50), Red, 0.5) };
