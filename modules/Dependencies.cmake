@@ -31,6 +31,8 @@ add_library(RhombicOptions INTERFACE)
 target_compile_options(RhombicOptions INTERFACE
   -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
   -ffp-contract=off # the same bytes from every build
-  $<$<BOOL:${RHOMBIC_STRICT}>:-Werror>
-  $<$<BOOL:${RHOMBIC_SANITIZER}>:-fsanitize=${RHOMBIC_SANITIZER} -fno-omit-frame-pointer>)
-target_link_options(RhombicOptions INTERFACE $<$<BOOL:${RHOMBIC_SANITIZER}>:-fsanitize=${RHOMBIC_SANITIZER}>)
+  $<$<BOOL:${RHOMBIC_STRICT}>:-Werror>)
+if(RHOMBIC_SANITIZER)
+  target_compile_options(RhombicOptions INTERFACE -fsanitize=${RHOMBIC_SANITIZER} -fno-omit-frame-pointer)
+  target_link_options(RhombicOptions INTERFACE -fsanitize=${RHOMBIC_SANITIZER})
+endif()

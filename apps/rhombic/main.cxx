@@ -102,6 +102,15 @@ main(int argc, char ** argv)
   {
     return app.exit(help);
   }
+  catch (const CLI::RequiredError & error)
+  {
+    // CLI11 reports a command that is missing also when there is one that it doesn't know.
+    const bool isUnknown = argc > 1 && argv[1][0] != '-';
+    return Fail(console,
+                FailureKind::Usage,
+                (isUnknown ? "There is no command '" + std::string(argv[1]) + "'" : std::string(error.what())) +
+                  "; rhombic --help lists the commands.");
+  }
   catch (const CLI::ParseError & error)
   {
     return Fail(console, FailureKind::Usage, std::string(error.what()) + " (rhombic --help shows the usage).");

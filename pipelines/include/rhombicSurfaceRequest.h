@@ -23,7 +23,7 @@ struct SurfaceRequest
   enum class Parts
   {
     All,
-    Enclosed ///< the largest one that does not reach the scan's sides: the lungs, but not the air around the patient
+    Enclosed ///< those that don't reach the scan's sides, without specks: the lungs, but not the air around the patient
   };
 
   std::string           name;

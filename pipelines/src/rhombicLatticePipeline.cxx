@@ -1,6 +1,6 @@
 #include "rhombicLatticePipeline.h"
 
-#include "rhombicEnclosedPart.h"
+#include "rhombicEnclosedParts.h"
 #include "rhombicFailure.h"
 #include "rhombicObserveProgress.h"
 
@@ -80,7 +80,7 @@ ExtractSurface(const itk::FCCImage<TPixel> & image, const SurfaceRequest & reque
   surface->DisconnectPipeline();
   if (request.parts == SurfaceRequest::Parts::Enclosed)
   {
-    KeepEnclosedPart(*surface, image);
+    KeepEnclosedParts(*surface, image);
   }
   if (surface->GetNumberOfTriangles() == 0)
   {

@@ -64,7 +64,7 @@ struct ErrorCase
 // Files of the test's own folder: text.dcm, text.nii, empty/, file/, readonly/ and scan.nii.gz, a copy of the phantom.
 constexpr ErrorCase errorCases[] = {
   { "NoCommand", "", 2, "subcommand" },
-  { "UnknownCommand", "paint", 2, "paint" },
+  { "UnknownCommand", "paint scan.nii.gz", 2, "paint" },
   { "UnknownOption", "render scan.nii.gz --sharpness 3", 2, "--sharpness" },
   { "BadThreads", "--threads 0 info scan.nii.gz", 2, "threads" },
   { "QuietAndVerbose", "-q -v info scan.nii.gz", 2, "verbose" },
@@ -110,6 +110,13 @@ constexpr ErrorCase errorCases[] = {
   { "PhantomIntoAFullFolder", "phantom -o file", 7, "file" },
   { "PhantomTooFine", "phantom -o new --spacing 0.001", 2, "spacing" },
 };
+
+/** How GoogleTest names the case. */
+void
+PrintTo(const ErrorCase & error, std::ostream * os)
+{
+  *os << "rhombic " << error.arguments;
+}
 
 class CommandLineErrors : public testing::TestWithParam<ErrorCase>
 {};

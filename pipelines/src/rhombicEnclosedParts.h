@@ -1,5 +1,5 @@
-#ifndef rhombicEnclosedPart_h
-#define rhombicEnclosedPart_h
+#ifndef rhombicEnclosedParts_h
+#define rhombicEnclosedParts_h
 
 #include "itkFCCImage.h"
 #include "itkTriangleSurface.h"
@@ -28,12 +28,12 @@ LongAxisOf(const itk::ImageBase<3>::DirectionType & direction)
   return found;
 }
 
-/** Keeps the component with the largest volume among those that don't reach the sides of the scan, and removes the
- * others. The sides are the extent's faces left, right, in front and at the back of the patient; at the top and the
- * bottom organs are cut. Without such a component the surface becomes empty. */
+/** Keeps the components that don't reach the sides of the scan and have at least a fiftieth of the volume of the largest
+ * one of them, which leaves out specks and keeps two lungs and an airway that are not connected. The sides are the
+ * extent's faces left, right, in front and at the back of the patient; at the top and the bottom organs are cut. */
 template <typename TPixel>
 void
-KeepEnclosedPart(itk::TriangleSurface & surface, const itk::FCCImage<TPixel> & image)
+KeepEnclosedParts(itk::TriangleSurface & surface, const itk::FCCImage<TPixel> & image)
 {
   const auto         components = itk::FindComponents(surface);
   const auto         volumes = itk::ComputeComponentVolumes(surface, components);
@@ -59,19 +59,16 @@ KeepEnclosedPart(itk::TriangleSurface & surface, const itk::FCCImage<TPixel> & i
       }
     }
   }
-  std::vector<bool> keep(components.count, false);
-  std::size_t       largest = components.count;
+  double largest = 0.0;
   for (std::size_t component = 0; component < components.count; ++component)
   {
-    if (isEnclosed[component] && volumes[component] > 0.0 &&
-        (largest == components.count || volumes[component] > volumes[largest]))
-    {
-      largest = component;
-    }
+    largest = isEnclosed[component] ? std::max(largest, volumes[component]) : largest;
   }
-  if (largest < components.count)
+  constexpr double  smallestShare = 1.0 / 50.0;
+  std::vector<bool> keep(components.count);
+  for (std::size_t component = 0; component < components.count; ++component)
   {
-    keep[largest] = true;
+    keep[component] = isEnclosed[component] && volumes[component] > 0.0 && volumes[component] >= smallestShare * largest;
   }
   itk::KeepComponents(surface, components, keep);
 }
