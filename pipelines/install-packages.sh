@@ -6,7 +6,7 @@ packages=(
   ca-certificates ccache cmake g++ git ninja-build pkg-config
   libinsighttoolkit5-dev libvtk9-dev
   libopenimageio-dev openimageio-tools
-  libegl-dev libegl1 libgl1-mesa-dri
+  libegl-dev libegl1 libgl1-mesa-dri libx11-dev
   libcli11-dev libyaml-cpp-dev nlohmann-json3-dev libspdlog-dev zlib1g-dev
   libgtest-dev
 )

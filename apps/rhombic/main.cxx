@@ -3,6 +3,7 @@
 
 #include "itkMultiThreaderBase.h"
 
+#include <cstdlib>
 #include <new>
 
 namespace
@@ -44,7 +45,8 @@ std::string
 WithoutObject(const std::string & description)
 {
   const auto end = description.find("): ");
-  return description.rfind("itk::ERROR", 0) == 0 && end != std::string::npos ? description.substr(end + 3) : description;
+  return description.rfind("itk::ERROR", 0) == 0 && end != std::string::npos ? description.substr(end + 3)
+                                                                             : description;
 }
 
 int
@@ -59,7 +61,8 @@ Fail(Console & console, FailureKind kind, const std::string & sentence)
 int
 main(int argc, char ** argv)
 {
-  Console  console;
+  setenv("EGL_LOG_LEVEL", "fatal", 0); // Mesa would warn of missing drivers beside our own sentence
+  Console console;
   CLI::App app{ std::string("Rhombic: ") + RHOMBIC_DESCRIPTION, "rhombic" };
   app.footer(exitCodes);
   app.require_subcommand(1);
@@ -67,8 +70,8 @@ main(int argc, char ** argv)
   app.set_version_flag("--version", VersionText());
 
   unsigned int threads = 0;
-  bool         isVerbose = false;
-  bool         isQuiet = false;
+  bool isVerbose = false;
+  bool isQuiet = false;
   app.add_option("--threads", threads, "number of threads (default: all cores)")->check(CLI::Range(1u, 1024u));
   const auto verbose = app.add_flag("-v,--verbose", isVerbose, "say more, with times");
   app.add_flag("-q,--quiet", isQuiet, "say nothing but errors")->excludes(verbose);
@@ -121,11 +124,13 @@ main(int argc, char ** argv)
   }
   catch (const itk::MemoryAllocationError &)
   {
-    return Fail(console, FailureKind::Memory, "There is not enough memory; try a lower --density or close other programs.");
+    return Fail(
+      console, FailureKind::Memory, "There is not enough memory; try a lower --density or close other programs.");
   }
   catch (const std::bad_alloc &)
   {
-    return Fail(console, FailureKind::Memory, "There is not enough memory; try a lower --density or close other programs.");
+    return Fail(
+      console, FailureKind::Memory, "There is not enough memory; try a lower --density or close other programs.");
   }
   catch (const itk::ExceptionObject & error)
   {

@@ -11,10 +11,10 @@ DescribeCommandLine(const std::vector<std::string> & arguments, const std::strin
   std::string text = "rhombic";
   for (const std::string & argument : arguments)
   {
-    const auto        equals = argument.rfind("-", 0) == 0 ? argument.find('=') : std::string::npos;
+    const auto equals = argument.rfind("-", 0) == 0 ? argument.find('=') : std::string::npos;
     const std::string option = equals == std::string::npos ? "" : argument.substr(0, equals + 1);
     const std::string value = argument.substr(option.size());
-    const bool        isPath = value.find('/') != std::string::npos;
+    const bool isPath = value.find('/') != std::string::npos;
     text += " " + option + (value == scan ? "SCAN" : isPath ? std::filesystem::path(value).filename().string() : value);
   }
   return text;

@@ -63,8 +63,9 @@ Console::Progress(const std::string & step, double fraction)
   else
   {
     constexpr int width = 30;
-    const int     filled = percent * width / 100;
-    const auto    bar = std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(width - filled), '.');
+    const int filled = percent * width / 100;
+    const auto bar =
+      std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(width - filled), '.');
     std::fprintf(stderr, "\r\033[K[%s] %3d %% %s", bar.c_str(), percent, step.c_str());
     std::fflush(stderr);
   }

@@ -11,8 +11,8 @@ namespace rhombic
 /** How much the program says on standard error. */
 enum class Verbosity
 {
-  Quiet,   ///< errors only
-  Normal,  ///< what was found and decided, and a progress bar on a terminal
+  Quiet,  ///< errors only
+  Normal, ///< what was found and decided, and a progress bar on a terminal
   Verbose ///< the same with the time before each line, and each step's name where there is no terminal
 };
 
@@ -23,31 +23,25 @@ class Console
 public:
   Console();
 
-  void
-  SetVerbosity(Verbosity verbosity);
+  void SetVerbosity(Verbosity verbosity);
 
   /** The functions through which a pipeline speaks to this console, which must outlive them. */
-  Events
-  MakeEvents();
+  Events MakeEvents();
 
-  void
-  Note(const std::string & line);
+  void Note(const std::string & line);
 
-  void
-  Error(const std::string & sentence);
+  void Error(const std::string & sentence);
 
   /** Ends the progress bar, if there is one. */
-  void
-  Finish();
+  void Finish();
 
 private:
-  void
-  Progress(const std::string & step, double fraction);
+  void Progress(const std::string & step, double fraction);
 
-  Verbosity   m_Verbosity = Verbosity::Normal;
-  bool        m_IsTerminal;
+  Verbosity m_Verbosity = Verbosity::Normal;
+  bool m_IsTerminal;
   std::string m_Step;
-  int         m_Percent = -1;
+  int m_Percent = -1;
 };
 
 } // namespace rhombic

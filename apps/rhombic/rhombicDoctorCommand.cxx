@@ -23,9 +23,9 @@ std::size_t
 AvailableMemory()
 {
   std::ifstream stream("/proc/meminfo");
-  std::string   name;
-  std::size_t   kibibytes = 0;
-  std::string   unit;
+  std::string name;
+  std::size_t kibibytes = 0;
+  std::string unit;
   while (stream >> name >> kibibytes)
   {
     if (name == "MemAvailable:")
@@ -71,9 +71,11 @@ Doctor()
 std::string
 VersionText()
 {
-  return "rhombic      " RHOMBIC_VERSION "\nITK          " + std::string(itk::Version::GetITKVersion()) + "\nVTK          " +
-         vtkVersion::GetVTKVersion() + "\nOpenImageIO  " + std::to_string(OIIO::openimageio_version() / 10000) + "." +
-         std::to_string(OIIO::openimageio_version() / 100 % 100) + "." + std::to_string(OIIO::openimageio_version() % 100) + "\n";
+  return "rhombic      " RHOMBIC_VERSION "\nITK          " + std::string(itk::Version::GetITKVersion()) +
+         "\nVTK          " + vtkVersion::GetVTKVersion() + "\nOpenImageIO  " +
+         std::to_string(OIIO::openimageio_version() / 10000) + "." +
+         std::to_string(OIIO::openimageio_version() / 100 % 100) + "." +
+         std::to_string(OIIO::openimageio_version() % 100) + "\n";
 }
 
 CommandRun

@@ -17,14 +17,14 @@ using Json = nlohmann::ordered_json;
 struct InfoOptions
 {
   ScanOptions scan;
-  bool        isJson = false;
+  bool isJson = false;
 };
 
 /** A threshold worth trying, and what it shows. */
 struct Suggestion
 {
   const char * surface;
-  double       isovalue;
+  double isovalue;
 };
 
 std::vector<Suggestion>
@@ -33,7 +33,8 @@ Suggest(const std::string & modality, const Intensities & intensities)
   std::vector<Suggestion> suggestions{ { "foreground (Otsu)", intensities.otsu } };
   if (modality == "CT" && intensities.lowest < -500.0)
   {
-    for (const Suggestion & organ : { Suggestion{ "skin", -300.5 }, Suggestion{ "lungs, below", -500.5 }, Suggestion{ "bone", 250.5 } })
+    for (const Suggestion & organ :
+         { Suggestion{ "skin", -300.5 }, Suggestion{ "lungs, below", -500.5 }, Suggestion{ "bone", 250.5 } })
     {
       if (organ.isovalue > intensities.lowest && organ.isovalue <= intensities.highest)
       {
@@ -49,7 +50,7 @@ std::string
 OrientationLetters(const itk::ImageBase<3>::DirectionType & direction)
 {
   constexpr char letters[3][2] = { { 'L', 'R' }, { 'P', 'A' }, { 'S', 'I' } };
-  std::string    text;
+  std::string text;
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
     unsigned int nearest = 0;
@@ -68,7 +69,7 @@ DescribeScan(const Scan & scan)
   const auto & geometry = GeometryOf(scan.image);
   const auto & size = geometry.GetLargestPossibleRegion().GetSize();
   const auto & direction = geometry.GetDirection();
-  const auto   intensities = ComputeIntensities(scan.image);
+  const auto intensities = ComputeIntensities(scan.image);
 
   Json json;
   json["format"] = scan.format;
@@ -158,15 +159,19 @@ Print(const Json & json)
     std::cout << name << std::string(name.size() < 14 ? 14 - name.size() : 1, ' ') << text << '\n';
   };
   line("format", ToText(json["format"]));
-  for (const auto & [key, unit] : { std::pair<const char *, const char *>{ "modality", "" }, { "pixelType", "" }, { "size", " samples" },
-                                    { "spacing", " mm" }, { "orientation", " (each axis runs towards)" } })
+  for (const auto & [key, unit] : { std::pair<const char *, const char *>{ "modality", "" },
+                                    { "pixelType", "" },
+                                    { "size", " samples" },
+                                    { "spacing", " mm" },
+                                    { "orientation", " (each axis runs towards)" } })
   {
     if (json.contains(key) && !ToText(json[key]).empty())
     {
       line(key, ToText(json[key]) + unit);
     }
   }
-  line("origin", ToText(json["origin"][0]) + ", " + ToText(json["origin"][1]) + ", " + ToText(json["origin"][2]) + " mm (LPS)");
+  line("origin",
+       ToText(json["origin"][0]) + ", " + ToText(json["origin"][1]) + ", " + ToText(json["origin"][2]) + " mm (LPS)");
   line("values", ToText(json["range"][0]) + " to " + ToText(json["range"][1]));
   for (const Json & suggestion : json["suggestedThresholds"])
   {
@@ -174,8 +179,9 @@ Print(const Json & json)
   }
   for (const Json & series : json.value("series", Json::array()))
   {
-    line("series " + series["number"].dump(), ToText(series["modality"]) + " " + ToText(series["size"]) + ", " + series["files"].dump() +
-                                                " files, id " + ToText(series["id"]) + (series["chosen"].get<bool>() ? "  <- chosen" : ""));
+    line("series " + series["number"].dump(),
+         ToText(series["modality"]) + " " + ToText(series["size"]) + ", " + series["files"].dump() + " files, id " +
+           ToText(series["id"]) + (series["chosen"].get<bool>() ? "  <- chosen" : ""));
   }
   for (const Json & note : json.value("notes", Json::array()))
   {
@@ -187,8 +193,8 @@ void
 Info(const InfoOptions & options)
 {
   const ScanSource source = options.scan.GetSource();
-  const Json       json =
-    IsFCCImageFile(source.path) ? DescribeLattice(ReadFCCImage(source.path)) : DescribeScan(ReadScan(source.path, source.read));
+  const Json json = IsFCCImageFile(source.path) ? DescribeLattice(ReadFCCImage(source.path))
+                                                : DescribeScan(ReadScan(source.path, source.read));
   if (options.isJson)
   {
     std::cout << json.dump(2) << '\n';

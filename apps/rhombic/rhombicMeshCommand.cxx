@@ -36,7 +36,9 @@ AddMeshCommand(CLI::App & parser)
 {
   const auto options = std::make_shared<MeshOptions>();
   options->scan.AddSource(parser);
-  parser.add_option("-t,--threshold", options->threshold, "isovalue: a number in the scan's units, <number for what lies below, or otsu");
+  parser.add_option("-t,--threshold",
+                    options->threshold,
+                    "isovalue: a number in the scan's units, <number for what lies below, or otsu");
   parser.add_option("-o,--output", options->mesh, "the mesh: .stl, .ply or .vtp, in LPS mm");
   options->scan.AddLattice(parser);
   return [options](const CommandContext & context) { Mesh(*options, context); };

@@ -9,7 +9,7 @@ namespace
 
 struct PhantomOptions
 {
-  std::string     folder;
+  std::string folder;
   PhantomSettings settings;
 };
 
@@ -21,7 +21,8 @@ MakePhantom(const PhantomOptions & options, const CommandContext & context)
     throw Failure(FailureKind::Usage, "No folder is named; give a new one with -o, for example -o phantom.");
   }
   WritePhantom(options.folder, options.settings);
-  context.console->Note("phantom: " + options.folder + " (a DICOM series, the same as NIfTI, its labels and organ table)");
+  context.console->Note("phantom: " + options.folder +
+                        " (a DICOM series, the same as NIfTI, its labels and organ table)");
 }
 
 } // namespace

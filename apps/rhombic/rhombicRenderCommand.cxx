@@ -13,16 +13,16 @@ namespace
 
 struct RenderOptions
 {
-  ScanOptions              scan;
-  std::string              picture;
-  std::string              preset;
+  ScanOptions scan;
+  std::string picture;
+  std::string preset;
   std::vector<std::string> surfaces;
   std::vector<std::string> views{ "anterior" };
-  std::string              size = "1200x1200";
-  std::string              background;
-  bool                     isPerspective = false;
-  bool                     hasNoLetters = false;
-  bool                     listsPresets = false;
+  std::string size = "1200x1200";
+  std::string background;
+  bool isPerspective = false;
+  bool hasNoLetters = false;
+  bool listsPresets = false;
 };
 
 void
@@ -52,7 +52,7 @@ void
 ParseSize(const std::string & text, RenderSettings & render)
 {
   const char * const end = text.data() + text.size();
-  auto               parsed = std::from_chars(text.data(), end, render.width);
+  auto parsed = std::from_chars(text.data(), end, render.width);
   render.height = render.width;
   if (parsed.ec == std::errc() && parsed.ptr != end && *parsed.ptr == 'x')
   {
@@ -93,7 +93,8 @@ ParseSurfaces(const RenderOptions & options)
   }
   if (requests.empty())
   {
-    throw Failure(FailureKind::Usage, "Nothing to show; choose a --preset (see --list-presets) or give --surface name=threshold.");
+    throw Failure(FailureKind::Usage,
+                  "Nothing to show; choose a --preset (see --list-presets) or give --surface name=threshold.");
   }
   return requests;
 }
@@ -122,7 +123,8 @@ Render(const RenderOptions & options, const CommandContext & context)
   }
   settings.render.perspective = options.isPerspective;
   settings.render.orientationLabels = !options.hasNoLetters;
-  settings.metadata = { "Rhombic " RHOMBIC_VERSION, DescribeCommandLine(context.arguments, settings.source.path.string()) };
+  settings.metadata = { "Rhombic " RHOMBIC_VERSION,
+                        DescribeCommandLine(context.arguments, settings.source.path.string()) };
   for (const auto & picture : RenderScan(settings, context.console->MakeEvents()))
   {
     context.console->Note("picture: " + picture.string());
@@ -137,10 +139,16 @@ AddRenderCommand(CLI::App & parser)
   const auto options = std::make_shared<RenderOptions>();
   options->scan.AddSource(parser);
   parser.add_option("-o,--output", options->picture, "the picture: .png, .jpg, .tif or .exr");
-  parser.add_option("--preset", options->preset, "what to show: a preset's name, or a .yaml file like those of the project");
-  parser.add_option("--surface", options->surfaces, "name=threshold[,#rrggbb[,opacity]]; threshold: a number, <number for what lies below, or otsu; repeatable")
+  parser.add_option(
+    "--preset", options->preset, "what to show: a preset's name, or a .yaml file like those of the project");
+  parser
+    .add_option(
+      "--surface",
+      options->surfaces,
+      "name=threshold[,#rrggbb[,opacity]]; threshold: a number, <number for what lies below, or otsu; repeatable")
     ->allow_extra_args(false);
-  parser.add_option("--view", options->views, "anterior, posterior, left, right, superior, inferior or all; repeatable")
+  parser
+    .add_option("--view", options->views, "anterior, posterior, left, right, superior, inferior or all; repeatable")
     ->allow_extra_args(false)
     ->capture_default_str();
   parser.add_option("--size", options->size, "width x height in pixels")->capture_default_str();

@@ -19,7 +19,7 @@ ParseSpacing(const std::string & text)
   {
     return spacing;
   }
-  std::size_t  count = 0;
+  std::size_t count = 0;
   const char * next = text.data();
   const char * end = next + text.size();
   while (count < 3)
@@ -40,7 +40,8 @@ ParseSpacing(const std::string & text)
   if (next != end || (count != 1 && count != 3))
   {
     throw Failure(FailureKind::Usage,
-                  "The spacing '" + text + "' is neither one positive number nor three; write --spacing 1.5 or 1,1,2 (mm).");
+                  "The spacing '" + text +
+                    "' is neither one positive number nor three; write --spacing 1.5 or 1,1,2 (mm).");
   }
   return count == 1 ? std::array<double, 3>{ spacing[0], spacing[0], spacing[0] } : spacing;
 }
@@ -51,7 +52,8 @@ void
 ScanOptions::AddSource(CLI::App & parser)
 {
   parser.add_option("SCAN", m_Path, "DICOM folder, or NIfTI, NRRD or MetaImage file, or a lattice volume (.fcc.nrrd)");
-  parser.add_option("--series", m_Series, "which DICOM series: id, UID, place in the list or SeriesNumber (default: most slices)");
+  parser.add_option(
+    "--series", m_Series, "which DICOM series: id, UID, place in the list or SeriesNumber (default: most slices)");
 }
 
 void

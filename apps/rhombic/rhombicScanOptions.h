@@ -17,21 +17,18 @@ class ScanOptions
 {
 public:
   /** The scan and, for DICOM folders, its series. */
-  void
-  AddSource(CLI::App & parser);
+  void AddSource(CLI::App & parser);
 
   /** Density, spacing and kernel. */
-  void
-  AddLattice(CLI::App & parser);
+  void AddLattice(CLI::App & parser);
 
   /** What was parsed. Throws Failure(Usage). */
-  ScanSource
-  GetSource() const;
+  ScanSource GetSource() const;
 
 private:
   std::string m_Path;
   std::string m_Series;
-  double      m_Density = itk::FCCLattice::NyquistDensity;
+  double m_Density = itk::FCCLattice::NyquistDensity;
   std::string m_Spacing;
   std::string m_Kernel = "cubic";
 };

@@ -8,8 +8,8 @@ namespace rhombic
 {
 
 /** \class Events
- * \brief What a pipeline tells its caller while it works. Both functions are called on the calling thread; either may be
- * empty. */
+ * \brief What a pipeline tells its caller while it works. Both functions are called on the calling thread; either may
+ * be empty. */
 struct Events
 {
   /** A finished step or a decision taken, one line. */

@@ -13,23 +13,20 @@ namespace rhombic
 /** A named list of surfaces for a kind of scan. */
 struct Preset
 {
-  std::string                 name;
-  std::string                 description;
+  std::string name;
+  std::string description;
   std::vector<SurfaceRequest> surfaces;
 };
 
 /** The presets of pipelines/presets/, which are built in, by name. */
-const std::vector<Preset> &
-GetPresets();
+const std::vector<Preset> & GetPresets();
 
-/** The built-in preset of that name, or the one in the YAML file of that path. Throws Failure: Usage for an unknown name,
- * suggesting the nearest; NotFound and Unreadable for files. */
-Preset
-FindPreset(const std::string & nameOrPath);
+/** The built-in preset of that name, or the one in the YAML file of that path. Throws Failure: Usage for an unknown
+ * name, suggesting the nearest; NotFound and Unreadable for files. */
+Preset FindPreset(const std::string & nameOrPath);
 
 /** A preset from YAML text; \a source names it in messages. Throws Failure(Unreadable). */
-Preset
-ParsePreset(const std::string & yaml, const std::string & source);
+Preset ParsePreset(const std::string & yaml, const std::string & source);
 
 } // namespace rhombic
 

@@ -18,53 +18,49 @@ namespace rhombic
 struct ScanSource
 {
   std::filesystem::path path; ///< anything ReadScan() reads, or a lattice volume that WriteFCCImage() wrote
-  ScanReadOptions       read;
-  LatticeSettings       lattice; ///< without effect on lattice volumes
+  ScanReadOptions read;
+  LatticeSettings lattice; ///< without effect on lattice volumes
 };
 
 /** From a scan to pictures of its surfaces. */
 struct RenderScanSettings
 {
-  ScanSource                  source;
+  ScanSource source;
   std::vector<SurfaceRequest> surfaces;
-  RenderSettings              render; ///< its view is set from the list below
-  std::vector<View>           views{ View::Anterior };
-  std::filesystem::path       picture; ///< with more than one view, the view's name is added to the stem
-  PictureMetadata             metadata;
+  RenderSettings render; ///< its view is set from the list below
+  std::vector<View> views{ View::Anterior };
+  std::filesystem::path picture; ///< with more than one view, the view's name is added to the stem
+  PictureMetadata metadata;
 };
 
 /** Renders a scan; returns the pictures' paths. Throws Failure. */
-std::vector<std::filesystem::path>
-RenderScan(const RenderScanSettings & settings, const Events & events);
+std::vector<std::filesystem::path> RenderScan(const RenderScanSettings & settings, const Events & events);
 
 /** From a scan to one surface file. */
 struct MeshScanSettings
 {
-  ScanSource            source;
-  SurfaceRequest        surface;
+  ScanSource source;
+  SurfaceRequest surface;
   std::filesystem::path mesh; ///< .stl, .ply or .vtp
 };
 
 /** Writes the surface of a scan. Throws Failure. */
-void
-MeshScan(const MeshScanSettings & settings, const Events & events);
+void MeshScan(const MeshScanSettings & settings, const Events & events);
 
 /** From a scan to a lattice volume, or from a lattice volume to a Cartesian one. */
 struct ResampleScanSettings
 {
-  ScanSource            source;
+  ScanSource source;
   std::filesystem::path volume; ///< .nrrd for a lattice volume; .nrrd, .nii, .nii.gz, .mha for a Cartesian one
 };
 
-/** Resamples a scan onto the lattice, or, when the source is a lattice volume, back; the source's lattice spacing is then
- * that of the grid. Throws Failure. */
-void
-ResampleScan(const ResampleScanSettings & settings, const Events & events);
+/** Resamples a scan onto the lattice, or, when the source is a lattice volume, back; the source's lattice spacing is
+ * then that of the grid. Throws Failure. */
+void ResampleScan(const ResampleScanSettings & settings, const Events & events);
 
-/** Makes sure that every request's isovalue is known and lies where there can be a surface. Throws Failure(Empty), naming
- * the volume's range. */
-std::vector<SurfaceRequest>
-ResolveIsovalues(std::vector<SurfaceRequest> requests, const Intensities & intensities);
+/** Makes sure that every request's isovalue is known and lies where there can be a surface. Throws Failure(Empty),
+ * naming the volume's range. */
+std::vector<SurfaceRequest> ResolveIsovalues(std::vector<SurfaceRequest> requests, const Intensities & intensities);
 
 } // namespace rhombic
 

@@ -26,23 +26,21 @@ struct SurfaceRequest
     Enclosed ///< those that don't reach the scan's sides, without specks: the lungs, but not the air around the patient
   };
 
-  std::string           name;
+  std::string name;
   std::optional<double> isovalue; ///< in the scan's units; none: Otsu's threshold of the scan
-  Side                  side = Side::Above;
-  Parts                 parts = Parts::All;
-  Colour                colour{ 0.8, 0.8, 0.8 };
-  double                opacity = 1.0;
+  Side side = Side::Above;
+  Parts parts = Parts::All;
+  Colour colour{ 0.8, 0.8, 0.8 };
+  double opacity = 1.0;
 };
 
 /** A colour written as #rrggbb. Throws Failure(Usage). */
-Colour
-ParseColour(const std::string & text);
+Colour ParseColour(const std::string & text);
 
 /** A surface written as name=threshold[,colour[,opacity]], where the threshold is a number or `otsu`. A threshold that
  * begins with `<` takes what lies below it. Surfaces without a colour get the \a number-th of a palette. Throws
  * Failure(Usage). */
-SurfaceRequest
-ParseSurfaceRequest(const std::string & text, std::size_t number);
+SurfaceRequest ParseSurfaceRequest(const std::string & text, std::size_t number);
 
 } // namespace rhombic
 

@@ -17,7 +17,7 @@ inline unsigned int
 LongAxisOf(const itk::ImageBase<3>::DirectionType & direction)
 {
   constexpr unsigned int superior = 2;
-  unsigned int           found = 0;
+  unsigned int found = 0;
   for (unsigned int axis = 1; axis < 3; ++axis)
   {
     if (std::abs(direction[superior][axis]) > std::abs(direction[superior][found]))
@@ -28,19 +28,19 @@ LongAxisOf(const itk::ImageBase<3>::DirectionType & direction)
   return found;
 }
 
-/** Keeps the components that don't reach the sides of the scan and have at least a fiftieth of the volume of the largest
- * one of them, which leaves out specks and keeps two lungs and an airway that are not connected. The sides are the
- * extent's faces left, right, in front and at the back of the patient; at the top and the bottom organs are cut. */
+/** Keeps the components that don't reach the sides of the scan and have at least a fiftieth of the volume of the
+ * largest one of them, which leaves out specks and keeps two lungs and an airway that are not connected. The sides are
+ * the extent's faces left, right, in front and at the back of the patient; at the top and the bottom organs are cut. */
 template <typename TPixel>
 void
 KeepEnclosedParts(itk::TriangleSurface & surface, const itk::FCCImage<TPixel> & image)
 {
-  const auto         components = itk::FindComponents(surface);
-  const auto         volumes = itk::ComputeComponentVolumes(surface, components);
+  const auto components = itk::FindComponents(surface);
+  const auto volumes = itk::ComputeComponentVolumes(surface, components);
   const unsigned int longAxis = LongAxisOf(image.GetDirection());
-  const auto &       region = image.GetLargestPossibleRegion();
-  constexpr double   unitsPerIndex[3] = { 2.0, 1.0, 1.0 };
-  constexpr double   near = 0.25; // of a lattice unit: closed surfaces end on the extent's faces exactly
+  const auto & region = image.GetLargestPossibleRegion();
+  constexpr double unitsPerIndex[3] = { 2.0, 1.0, 1.0 };
+  constexpr double near = 0.25; // of a lattice unit: closed surfaces end on the extent's faces exactly
 
   std::vector<bool> isEnclosed(components.count, true);
   for (std::size_t n = 0; n < components.ofPoint.size(); ++n)
@@ -64,11 +64,12 @@ KeepEnclosedParts(itk::TriangleSurface & surface, const itk::FCCImage<TPixel> & 
   {
     largest = isEnclosed[component] ? std::max(largest, volumes[component]) : largest;
   }
-  constexpr double  smallestShare = 1.0 / 50.0;
+  constexpr double smallestShare = 1.0 / 50.0;
   std::vector<bool> keep(components.count);
   for (std::size_t component = 0; component < components.count; ++component)
   {
-    keep[component] = isEnclosed[component] && volumes[component] > 0.0 && volumes[component] >= smallestShare * largest;
+    keep[component] =
+      isEnclosed[component] && volumes[component] > 0.0 && volumes[component] >= smallestShare * largest;
   }
   itk::KeepComponents(surface, components, keep);
 }

@@ -33,7 +33,9 @@ Compute(const TPixel * values, std::size_t count)
   Intensities found;
   found.lowest = std::numeric_limits<double>::infinity();
   found.highest = -found.lowest;
-  const auto isCounted = [](TPixel value) { return std::is_integral_v<TPixel> || std::isfinite(static_cast<double>(value)); };
+  const auto isCounted = [](TPixel value) {
+    return std::is_integral_v<TPixel> || std::isfinite(static_cast<double>(value));
+  };
   for (std::size_t n = 0; n < count; ++n)
   {
     if (isCounted(values[n]))
@@ -52,9 +54,9 @@ Compute(const TPixel * values, std::size_t count)
     return found;
   }
 
-  constexpr std::size_t      bins = 256;
+  constexpr std::size_t bins = 256;
   std::vector<itk::SizeValueType> frequencies(bins, 0);
-  const double               scale = static_cast<double>(bins) / (found.highest - found.lowest);
+  const double scale = static_cast<double>(bins) / (found.highest - found.lowest);
   for (std::size_t n = 0; n < count; ++n)
   {
     if (isCounted(values[n]))
@@ -63,10 +65,10 @@ Compute(const TPixel * values, std::size_t count)
       ++frequencies[std::min(bin, bins - 1)];
     }
   }
-  const auto                           histogram = Histogram::New();
-  Histogram::SizeType                  size(1);
-  Histogram::MeasurementVectorType     low(1);
-  Histogram::MeasurementVectorType     high(1);
+  const auto histogram = Histogram::New();
+  Histogram::SizeType size(1);
+  Histogram::MeasurementVectorType low(1);
+  Histogram::MeasurementVectorType high(1);
   size[0] = bins;
   low[0] = found.lowest;
   high[0] = found.highest;
@@ -85,7 +87,9 @@ Intensities
 ComputeOfAny(const TVolume & volume)
 {
   return std::visit(
-    [](const auto & image) { return Compute(image->GetBufferPointer(), image->GetBufferedRegion().GetNumberOfPixels()); },
+    [](const auto & image) {
+      return Compute(image->GetBufferPointer(), image->GetBufferedRegion().GetNumberOfPixels());
+    },
     volume);
 }
 

@@ -21,12 +21,12 @@ template <typename TPixel>
 std::string
 Describe(const itk::FCCImage<TPixel> & image)
 {
-  const auto &       size = image.GetLargestPossibleRegion().GetSize();
-  const auto &       spacing = image.GetSpacing();
+  const auto & size = image.GetLargestPossibleRegion().GetSize();
+  const auto & spacing = image.GetSpacing();
   std::ostringstream text;
   text.imbue(std::locale::classic());
-  text << size[0] << " x " << size[1] << " x " << size[2] << " sites, spacing " << spacing[0] << " x " << spacing[1] << " x "
-       << spacing[2] << " mm";
+  text << size[0] << " x " << size[1] << " x " << size[2] << " sites, spacing " << spacing[0] << " x " << spacing[1]
+       << " x " << spacing[2] << " mm";
   return text.str();
 }
 
@@ -133,7 +133,8 @@ LatticeToSurfaces(const FCCVolume & volume, const std::vector<SurfaceRequest> & 
   std::vector<SceneSurface> surfaces;
   for (const SurfaceRequest & request : requests)
   {
-    const auto surface = std::visit([&](const auto & image) { return ExtractSurface(*image, request, events); }, volume);
+    const auto surface =
+      std::visit([&](const auto & image) { return ExtractSurface(*image, request, events); }, volume);
     events.Note(request.name + ": " + std::to_string(surface->GetNumberOfTriangles()) + " triangles");
     surfaces.push_back({ request.name, surface.GetPointer(), request.colour, request.opacity });
   }

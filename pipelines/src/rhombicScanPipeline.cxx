@@ -31,15 +31,15 @@ Scan
 LoadScan(const ScanSource & source, const Events & events)
 {
   events.Progress("reading", 0.0);
-  Scan               scan = ReadScan(source.path, source.read);
-  const auto &       geometry = GeometryOf(scan.image);
-  const auto &       size = geometry.GetLargestPossibleRegion().GetSize();
-  const auto &       spacing = geometry.GetSpacing();
+  Scan scan = ReadScan(source.path, source.read);
+  const auto & geometry = GeometryOf(scan.image);
+  const auto & size = geometry.GetLargestPossibleRegion().GetSize();
+  const auto & spacing = geometry.GetSpacing();
   std::ostringstream text;
   text.imbue(std::locale::classic());
-  text << scan.format << (scan.modality.empty() ? "" : " " + scan.modality) << ": " << size[0] << " x " << size[1] << " x " << size[2]
-       << " samples, spacing " << spacing[0] << " x " << spacing[1] << " x " << spacing[2] << " mm, "
-       << PixelTypeName(scan.image);
+  text << scan.format << (scan.modality.empty() ? "" : " " + scan.modality) << ": " << size[0] << " x " << size[1]
+       << " x " << size[2] << " samples, spacing " << spacing[0] << " x " << spacing[1] << " x " << spacing[2]
+       << " mm, " << PixelTypeName(scan.image);
   events.Note(text.str());
   for (const std::string & note : scan.notes)
   {
@@ -67,9 +67,9 @@ LoadLattice(const ScanSource & source, std::vector<SurfaceRequest> & requests, c
 fs::path
 PathOfView(const fs::path & picture, View view, bool isOnlyOne)
 {
-  return isOnlyOne ? picture
-                   : picture.parent_path() /
-                       (picture.stem().string() + "-" + NameOf(view) + picture.extension().string());
+  return isOnlyOne
+           ? picture
+           : picture.parent_path() / (picture.stem().string() + "-" + NameOf(view) + picture.extension().string());
 }
 
 } // namespace
@@ -89,8 +89,8 @@ ResolveIsovalues(std::vector<SurfaceRequest> requests, const Intensities & inten
       std::ostringstream sentence;
       sentence.imbue(std::locale::classic());
       sentence << "The threshold " << *request.isovalue << " of " << request.name
-               << " is outside the scan's values, which run from " << intensities.lowest << " to " << intensities.highest
-               << "; choose one in between.";
+               << " is outside the scan's values, which run from " << intensities.lowest << " to "
+               << intensities.highest << "; choose one in between.";
       throw Failure(FailureKind::Empty, sentence.str());
     }
   }
@@ -109,8 +109,9 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
   CheckPicturePath(settings.picture);
   SurfaceRenderer renderer;
 
-  std::vector<SurfaceRequest>     requests = settings.surfaces;
-  const std::vector<SceneSurface> scene = LatticeToSurfaces(LoadLattice(settings.source, requests, events), requests, events);
+  std::vector<SurfaceRequest> requests = settings.surfaces;
+  const std::vector<SceneSurface> scene =
+    LatticeToSurfaces(LoadLattice(settings.source, requests, events), requests, events);
   for (std::size_t n = 0; n < pictures.size(); ++n)
   {
     events.Progress("rendering", static_cast<double>(n) / static_cast<double>(pictures.size()));
@@ -127,7 +128,7 @@ MeshScan(const MeshScanSettings & settings, const Events & events)
 {
   CheckOutput(settings.mesh, settings.source.path);
   CheckSurfacePath(settings.mesh);
-  std::vector<SurfaceRequest>     requests{ settings.surface };
+  std::vector<SurfaceRequest> requests{ settings.surface };
   const std::vector<SceneSurface> surfaces =
     LatticeToSurfaces(LoadLattice(settings.source, requests, events), requests, events);
   events.Progress("writing", 0.0);

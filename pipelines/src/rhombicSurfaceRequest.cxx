@@ -23,7 +23,7 @@ std::vector<std::string>
 Split(const std::string & text, char separator)
 {
   std::vector<std::string> parts;
-  std::size_t              begin = 0;
+  std::size_t begin = 0;
   for (auto end = text.find(separator); end != std::string::npos; end = text.find(separator, begin))
   {
     parts.push_back(text.substr(begin, end - begin));
@@ -36,7 +36,7 @@ Split(const std::string & text, char separator)
 std::optional<double>
 ParseNumber(const std::string & text)
 {
-  double     number = 0.0;
+  double number = 0.0;
   const auto end = text.data() + text.size();
   const auto parsed = std::from_chars(text.data(), end, number);
   if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(number))
@@ -52,7 +52,7 @@ Colour
 ParseColour(const std::string & text)
 {
   unsigned int value = 0;
-  const auto   end = text.data() + text.size();
+  const auto end = text.data() + text.size();
   if (text.size() != 7 || text[0] != '#' || std::from_chars(text.data() + 1, end, value, 16).ptr != end)
   {
     throw Failure(FailureKind::Usage, "'" + text + "' is no colour; write it as #rrggbb, for example #f1d691.");
@@ -66,14 +66,15 @@ ParseSurfaceRequest(const std::string & text, std::size_t number)
 {
   const auto refuse = [&text](const std::string & why) -> Failure {
     return Failure(FailureKind::Usage,
-                   "The surface '" + text + "' " + why + "; write name=threshold[,colour[,opacity]], for example bone=250.5,#f1d691,1.");
+                   "The surface '" + text + "' " + why +
+                     "; write name=threshold[,colour[,opacity]], for example bone=250.5,#f1d691,1.");
   };
-  const auto           equals = text.find('=');
+  const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
   {
     throw refuse("has no name or no threshold");
   }
-  const auto     fields = Split(text.substr(equals + 1), ',');
+  const auto fields = Split(text.substr(equals + 1), ',');
   SurfaceRequest request;
   request.name = text.substr(0, equals);
   request.colour = palette[number % palette.size()];

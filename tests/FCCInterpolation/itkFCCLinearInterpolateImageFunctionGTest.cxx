@@ -39,7 +39,7 @@ MakeImage()
 
 TEST(FCCTetrahedron, WeightsAreBarycentricCoordinatesOfSites)
 {
-  std::mt19937                           random(3);
+  std::mt19937 random(3);
   std::uniform_real_distribution<double> coordinate(-5.0, 5.0);
   for (int trial = 0; trial < 20000; ++trial)
   {
@@ -48,9 +48,9 @@ TEST(FCCTetrahedron, WeightsAreBarycentricCoordinatesOfSites)
     {
       point[static_cast<std::size_t>(trial / 4 % 3)] = std::round(point[0]); // on faces of the cells, too
     }
-    const auto            tetrahedron = itk::LocateFCCTetrahedron(point);
+    const auto tetrahedron = itk::LocateFCCTetrahedron(point);
     std::array<double, 3> sum{};
-    double                weights = 0.0;
+    double weights = 0.0;
     for (unsigned int corner = 0; corner < 4; ++corner)
     {
       ASSERT_TRUE(itk::FCCLattice::IsSite(tetrahedron.sites[corner]));
@@ -73,7 +73,7 @@ TEST(FCCTetrahedron, CutsOctahedraAboutTheirXDiagonal)
 {
   // The octahedron around (1, 0, 0): its centre lies half way between its two sites on the x axis.
   const auto tetrahedron = itk::LocateFCCTetrahedron({ 1.0, 1e-3, 1e-3 });
-  double     onAxis = 0.0;
+  double onAxis = 0.0;
   for (unsigned int corner = 0; corner < 4; ++corner)
   {
     const auto & site = tetrahedron.sites[corner];
@@ -85,9 +85,9 @@ TEST(FCCTetrahedron, CutsOctahedraAboutTheirXDiagonal)
 TEST(FCCLinearInterpolateImageFunction, ReproducesLinearFields)
 {
   const auto image = MakeImage();
-  auto       interpolator = Interpolator::New();
+  auto interpolator = Interpolator::New();
   interpolator->SetInputImage(image);
-  std::mt19937                           random(5);
+  std::mt19937 random(5);
   std::uniform_real_distribution<double> x(4.0, 11.0);
   std::uniform_real_distribution<double> y(-1.0, 5.0);
   std::uniform_real_distribution<double> z(4.0, 9.0);
@@ -120,7 +120,7 @@ TEST(FCCLinearInterpolateImageFunction, WorksInsideResampleImageFilter)
 {
   const auto image = MakeImage();
   using Cartesian = itk::Image<float, 3>;
-  const auto           resample = itk::ResampleImageFilter<ImageType, Cartesian>::New();
+  const auto resample = itk::ResampleImageFilter<ImageType, Cartesian>::New();
   const Cartesian::PointType origin = image->TransformLatticeToPhysicalPoint<double>({ 5, 0, 5 });
   resample->SetInput(image);
   resample->SetInterpolator(Interpolator::New());

@@ -32,8 +32,8 @@ Extract(const ImageType * image, double isovalue, bool closed = true, unsigned i
   return surface;
 }
 
-/** Triangles of the six-tetrahedra decomposition, found the slow way: by visiting every tetrahedron of the infinite lattice
- * near the image, everything outside the image being outside the surface. */
+/** Triangles of the six-tetrahedra decomposition, found the slow way: by visiting every tetrahedron of the infinite
+ * lattice near the image, everything outside the image being outside the surface. */
 itk::SizeValueType
 CountTrianglesByBruteForce(const ImageType & image, double isovalue)
 {
@@ -51,8 +51,8 @@ CountTrianglesByBruteForce(const ImageType & image, double isovalue)
     }
     return inside == 2 ? 2 : inside == 1 || inside == 3 ? 1 : 0;
   };
-  const auto         first = itk::FCCLattice::SiteOf(region.GetIndex());
-  const auto         last = itk::FCCLattice::SiteOf(region.GetUpperIndex());
+  const auto first = itk::FCCLattice::SiteOf(region.GetIndex());
+  const auto last = itk::FCCLattice::SiteOf(region.GetUpperIndex());
   itk::SizeValueType triangles = 0;
   for (auto z = first[2] - 3; z <= last[2] + 3; ++z)
   {
@@ -61,7 +61,10 @@ CountTrianglesByBruteForce(const ImageType & image, double isovalue)
       for (auto x = first[0] - 4; x <= last[0] + 4; ++x)
       {
         const auto flip = itk::FCCLattice::IsSite({ x, y, z }) ? 0 : 1;
-        triangles += trianglesOf({ { { x + flip, y, z }, { x + 1 - flip, y + 1, z }, { x + 1 - flip, y, z + 1 }, { x + flip, y + 1, z + 1 } } });
+        triangles += trianglesOf({ { { x + flip, y, z },
+                                     { x + 1 - flip, y + 1, z },
+                                     { x + 1 - flip, y, z + 1 },
+                                     { x + flip, y + 1, z + 1 } } });
         if (flip == 1) // an odd point: the octahedron around it, cut about its x diagonal
         {
           const Site ring[4] = { { x, y + 1, z }, { x, y, z + 1 }, { x, y - 1, z }, { x, y, z - 1 } };
@@ -100,7 +103,7 @@ TEST(FCCIsosurfaceFilter, NoiseOfAnySizeIsWatertightAndComplete)
       region.SetIndex(axis, static_cast<itk::IndexValueType>(random() % 7) - 3);
       region.SetSize(axis, 1 + random() % longest);
     }
-    const int  levels = 2 + static_cast<int>(random() % 5);
+    const int levels = 2 + static_cast<int>(random() % 5);
     const auto image = fcctest::MakeNoise(region, trial, levels);
     const auto isovalue = static_cast<double>(random() % static_cast<unsigned int>(levels)); // equal to many samples
     const auto surface = Extract(image, isovalue);
@@ -114,7 +117,7 @@ TEST(FCCIsosurfaceFilter, NoiseOfAnySizeIsWatertightAndComplete)
 TEST(FCCIsosurfaceFilter, CheckerboardsAndSingleSamplesAreWatertight)
 {
   const ImageType::RegionType region({ { 0, 0, 0 } }, { { 12, 13, 14 } });
-  auto                        image = fcctest::MakeNoise(region, 1, 2);
+  auto image = fcctest::MakeNoise(region, 1, 2);
   for (itk::ImageRegionIteratorWithIndex<ImageType> it(image, region); !it.IsAtEnd(); ++it)
   {
     it.Set(static_cast<float>((it.GetIndex()[0] + it.GetIndex()[2]) % 2));
@@ -144,12 +147,12 @@ TEST(FCCIsosurfaceFilter, NothingInsideOrUnknownValuesGiveNoSurface)
 TEST(FCCIsosurfaceFilter, NotANumberAndInfinityLeaveTheSurfaceWatertight)
 {
   const ImageType::RegionType region({ { 0, 0, 0 } }, { { 9, 9, 9 } });
-  const float                 odd[3] = { std::numeric_limits<float>::quiet_NaN(),
+  const float odd[3] = { std::numeric_limits<float>::quiet_NaN(),
                          std::numeric_limits<float>::infinity(),
                          -std::numeric_limits<float>::infinity() };
   for (unsigned int seed = 0; seed < 20; ++seed)
   {
-    const auto   image = fcctest::MakeNoise(region, seed, 4);
+    const auto image = fcctest::MakeNoise(region, seed, 4);
     std::mt19937 random(seed);
     for (itk::ImageRegionIteratorWithIndex<ImageType> it(image, region); !it.IsAtEnd(); ++it)
     {
@@ -169,9 +172,9 @@ TEST(FCCIsosurfaceFilter, SphereHasItsAreaVolumeAndDistance)
 {
   const double radius = 10.0;
   const double s = std::sqrt(3.0) / 2.0; // the density of the default lattice on a grid of spacing 1
-  const auto   image = fcctest::MakeImage(s, 13.0, [radius](const auto & p) { return fcctest::Sphere(p, radius); });
-  const auto   surface = Extract(image, 0.0);
-  const auto   topology = ComputeTopology(*surface);
+  const auto image = fcctest::MakeImage(s, 13.0, [radius](const auto & p) { return fcctest::Sphere(p, radius); });
+  const auto surface = Extract(image, 0.0);
+  const auto topology = ComputeTopology(*surface);
   EXPECT_TRUE(topology.IsWatertight()) << topology;
   EXPECT_EQ(topology.eulerCharacteristic, 2);
   EXPECT_NEAR(ComputeVolume(*surface) / (4.0 / 3.0 * pi * radius * radius * radius), 1.0, 0.006);
@@ -192,9 +195,9 @@ TEST(FCCIsosurfaceFilter, TorusHasItsGenusAreaAndVolume)
 {
   const double major = 9.0;
   const double minor = 4.0;
-  const auto   image = fcctest::MakeImage(0.6, 15.0, [=](const auto & p) { return fcctest::Torus(p, major, minor); });
-  const auto   surface = Extract(image, 0.0);
-  const auto   topology = ComputeTopology(*surface);
+  const auto image = fcctest::MakeImage(0.6, 15.0, [=](const auto & p) { return fcctest::Torus(p, major, minor); });
+  const auto surface = Extract(image, 0.0);
+  const auto topology = ComputeTopology(*surface);
   EXPECT_TRUE(topology.IsWatertight()) << topology;
   EXPECT_EQ(topology.eulerCharacteristic, 0);
   EXPECT_NEAR(ComputeVolume(*surface) / (2.0 * pi * pi * major * minor * minor), 1.0, 0.01);
@@ -207,8 +210,9 @@ TEST(FCCIsosurfaceFilter, TrianglesPerAreaAreThoseOfTheDecomposition)
 {
   const double radius = 24.0;
   const double s = std::cbrt(0.5);
-  const auto   image = fcctest::MakeImage(s, radius + 2.0, [radius](const auto & p) { return fcctest::Sphere(p, radius); });
-  const auto   surface = Extract(image, 0.0);
+  const auto image =
+    fcctest::MakeImage(s, radius + 2.0, [radius](const auto & p) { return fcctest::Sphere(p, radius); });
+  const auto surface = Extract(image, 0.0);
   const double perArea = static_cast<double>(surface->GetNumberOfTriangles()) / (4.0 * pi * radius * radius);
   EXPECT_NEAR(perArea / 8.322, 1.0, 0.01);
   // The same truth from the edges' lengths alone: a plane cuts each edge with a chance proportional to its projection.
@@ -231,7 +235,7 @@ TEST(FCCIsosurfaceFilter, ABodyThatFillsTheImageIsClosedOnItsExtent)
   const auto surface = Extract(image, 0.5);
   EXPECT_TRUE(ComputeTopology(*surface).IsWatertight());
   const std::array<double, 6> extent{ 0.5 * 3.5, 0.5 * 23.5, 0.7 * -1.5, 0.7 * 14.5, 0.9 * 2.5, 0.9 * 16.5 };
-  const auto                  bounds = surface->GetBounds();
+  const auto bounds = surface->GetBounds();
   for (unsigned int n = 0; n < 6; ++n)
   {
     EXPECT_NEAR(bounds[n], extent[n], 1e-5);
@@ -244,7 +248,7 @@ TEST(FCCIsosurfaceFilter, ABodyThatFillsTheImageIsClosedOnItsExtent)
   for (itk::SizeValueType n = 0; n < surface->GetNumberOfPoints(); ++n)
   {
     const auto & normal = surface->GetNormals()[n];
-    const bool   axial = std::abs(normal[0]) > 0.999f || std::abs(normal[1]) > 0.999f || std::abs(normal[2]) > 0.999f;
+    const bool axial = std::abs(normal[0]) > 0.999f || std::abs(normal[1]) > 0.999f || std::abs(normal[2]) > 0.999f;
     onFaces += axial ? 1 : 0;
   }
   EXPECT_GT(onFaces, surface->GetNumberOfPoints() * 3 / 4) << "the caps are flat";
@@ -291,7 +295,7 @@ TEST(FCCIsosurfaceFilter, NoiseLeftOpenIsStillManifold)
 TEST(FCCIsosurfaceFilter, TheSameWorldIsFoundInAnyOrientation)
 {
   const double radius = 6.0;
-  const auto   field = [radius](const ImageType::PointType & p) {
+  const auto field = [radius](const ImageType::PointType & p) {
     return radius - std::hypot(p[0] - 40.0, 1.3 * (p[1] + 25.0), p[2] - 3.0);
   };
   for (unsigned int variant = 0; variant < 16; ++variant)
@@ -316,7 +320,8 @@ TEST(FCCIsosurfaceFilter, TheSameWorldIsFoundInAnyOrientation)
     }
     const auto surface = Extract(image, 0.0);
     EXPECT_TRUE(ComputeTopology(*surface).IsWatertight());
-    EXPECT_NEAR(ComputeVolume(*surface), 4.0 / 3.0 * pi * radius * radius * radius / 1.3, 10.0) << "positive: not inside out";
+    EXPECT_NEAR(ComputeVolume(*surface), 4.0 / 3.0 * pi * radius * radius * radius / 1.3, 10.0)
+      << "positive: not inside out";
     const auto bounds = surface->GetBounds();
     EXPECT_NEAR(bounds[0], 34.0, 0.05);
     EXPECT_NEAR(bounds[3], -25.0 + radius / 1.3, 0.05);
@@ -335,8 +340,8 @@ TEST(FCCIsosurfaceFilter, InsideIsBelowTurnsTheSameSurfaceOver)
 {
   // A hollow in a filled image: its surface is that of a ball of low values.
   const double radius = 5.0;
-  const auto   image = fcctest::MakeImage(0.5, 7.0, [radius](const auto & p) { return fcctest::Sphere(p, radius); });
-  const auto   ball = Extract(image, 0.25);
+  const auto image = fcctest::MakeImage(0.5, 7.0, [radius](const auto & p) { return fcctest::Sphere(p, radius); });
+  const auto ball = Extract(image, 0.25);
   for (itk::ImageRegionIteratorWithIndex<ImageType> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
   {
     it.Set(-it.Get());
@@ -359,7 +364,7 @@ TEST(FCCIsosurfaceFilter, InsideIsBelowTurnsTheSameSurfaceOver)
 
 TEST(FCCIsosurfaceFilter, NormalsOfALinearFieldAreExactAlsoAtTheFaces)
 {
-  auto         image = fcctest::MakeImage(0.5, 3.0, [](const auto &) { return 0.0; });
+  auto image = fcctest::MakeImage(0.5, 3.0, [](const auto &) { return 0.0; });
   const double spacing[3] = { 0.4, 0.6, 1.1 };
   image->SetSpacing(spacing);
   for (itk::ImageRegionIteratorWithIndex<ImageType> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
@@ -374,7 +379,7 @@ TEST(FCCIsosurfaceFilter, NormalsOfALinearFieldAreExactAlsoAtTheFaces)
   {
     const auto & point = surface->GetPoints()[n];
     const auto & normal = surface->GetNormals()[n];
-    int          faces = 0; // of the image that are near
+    int faces = 0; // of the image that are near
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
       const double unitsPerIndex = axis == 0 ? 2.0 : 1.0;
@@ -411,7 +416,7 @@ TEST(FCCIsosurfaceFilter, ReportsProgressStopsOnAbortAndRefusesNonsense)
   filter->SetInput(image);
   filter->SetIsovalue(25.0);
   float last = 0.0f;
-  bool  monotonic = true;
+  bool monotonic = true;
   filter->AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) {
     monotonic = monotonic && filter->GetProgress() >= last;
     last = filter->GetProgress();

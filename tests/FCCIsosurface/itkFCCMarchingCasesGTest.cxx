@@ -38,9 +38,9 @@ TetrahedronOf(const std::uint8_t (&edges)[3])
 {
   for (int tetrahedron = 0; tetrahedron < 3; ++tetrahedron)
   {
-    const auto &                 sites = Cases::TetrahedronSites[tetrahedron];
+    const auto & sites = Cases::TetrahedronSites[tetrahedron];
     const std::set<std::uint8_t> set(sites, sites + 4);
-    bool                         all = true;
+    bool all = true;
     for (const auto edge : edges)
     {
       all = all && set.count(Cases::EdgeSites[edge][0]) != 0 && set.count(Cases::EdgeSites[edge][1]) != 0;
@@ -67,15 +67,16 @@ TEST_P(FCCMarchingCasesTest, TetrahedraFillAColumnStep)
     {
       const auto first = Cases::SiteOf(kind, 0);
       const auto coordinates = Cases::SiteOf(kind, site);
-      EXPECT_EQ((coordinates[0] + coordinates[1] + coordinates[2] - first[0] - first[1] - first[2]) % 2, 0) << "is a site";
+      EXPECT_EQ((coordinates[0] + coordinates[1] + coordinates[2] - first[0] - first[1] - first[2]) % 2, 0)
+        << "is a site";
     }
   }
 }
 
 TEST_P(FCCMarchingCasesTest, EdgesAreThoseOfTheTetrahedraAndHaveOwners)
 {
-  const unsigned int                  kind = GetParam();
-  std::set<std::pair<int, int>>       expected;
+  const unsigned int kind = GetParam();
+  std::set<std::pair<int, int>> expected;
   for (const auto & sites : Cases::TetrahedronSites)
   {
     for (int a = 0; a < 4; ++a)
@@ -92,7 +93,7 @@ TEST_P(FCCMarchingCasesTest, EdgesAreThoseOfTheTetrahedraAndHaveOwners)
     const unsigned int ends[2] = { Cases::EdgeSites[edge][0], Cases::EdgeSites[edge][1] };
     found.insert(std::minmax<int>(static_cast<int>(ends[0]), static_cast<int>(ends[1])));
     const auto owner = itk::FCCMarchingTables.owners[kind][edge];
-    int        owners = 0;
+    int owners = 0;
     for (unsigned int end = 0; end < 2; ++end)
     {
       const auto from = Cases::SiteOf(kind, ends[end]);
@@ -114,7 +115,7 @@ TEST_P(FCCMarchingCasesTest, EverySignPatternGivesOrientedTrianglesOnCutEdges)
   for (unsigned int pattern = 0; pattern < Cases::Cases; ++pattern)
   {
     const auto & entry = itk::FCCMarchingTables.cases[kind][pattern];
-    int          expected[3] = {};
+    int expected[3] = {};
     for (int tetrahedron = 0; tetrahedron < 3; ++tetrahedron)
     {
       int inside = 0;
@@ -145,7 +146,7 @@ TEST_P(FCCMarchingCasesTest, EverySignPatternGivesOrientedTrianglesOnCutEdges)
       for (const auto site : Cases::TetrahedronSites[tetrahedron])
       {
         const Vector position = PositionOf(kind, site);
-        double       side = 0.0;
+        double side = 0.0;
         for (unsigned int axis = 0; axis < 3; ++axis)
         {
           side += normal[axis] * (position[axis] - corners[0][axis]);

@@ -60,7 +60,7 @@ TEST(FCCImage, SamplesLieWhereTheFormulaSays)
     const auto & index = it.GetIndex();
     const double parity = ((index[1] + index[2]) % 2 + 2) % 2;
     const double lattice[3] = { 0.5 * (2.0 * index[0] + parity), 0.75 * index[1], 1.25 * index[2] };
-    const auto   point = image->TransformIndexToPhysicalPoint<double>(index);
+    const auto point = image->TransformIndexToPhysicalPoint<double>(index);
     for (unsigned int row = 0; row < 3; ++row)
     {
       double expected = image->GetOrigin()[row];
@@ -78,7 +78,7 @@ TEST(FCCImage, NearestNeighborsAreEquallyFarInAnIsotropicImage)
   auto image = MakeImage();
   image->SetSpacing(ImageType::SpacingType(0.8));
   const ImageType::IndexType center{ { 1, 4, 6 } };
-  const auto                 from = image->TransformIndexToPhysicalPoint<double>(center);
+  const auto from = image->TransformIndexToPhysicalPoint<double>(center);
   for (const auto & step : itk::FCCLattice::NearestNeighbors)
   {
     const auto to = image->TransformIndexToPhysicalPoint<double>(center + itk::FCCLattice::OffsetOf(step, 0));
@@ -91,7 +91,7 @@ TEST(FCCImage, PointsGoBackToTheirIndices)
   const auto image = MakeImage();
   for (itk::ImageRegionConstIteratorWithIndex<ImageType> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
   {
-    const auto           point = image->TransformIndexToPhysicalPoint<double>(it.GetIndex());
+    const auto point = image->TransformIndexToPhysicalPoint<double>(it.GetIndex());
     ImageType::IndexType index;
     EXPECT_TRUE(image->TransformPhysicalPointToIndex(point, index));
     EXPECT_EQ(index, it.GetIndex());
@@ -106,11 +106,11 @@ TEST(FCCImage, PointsGoBackToTheirIndices)
 
 TEST(FCCImage, KnowsWhatIsOutside)
 {
-  const auto                      image = MakeImage();
+  const auto image = MakeImage();
   itk::ContinuousIndex<double, 3> continuous;
-  ImageType::IndexType            index;
-  const double                    nan = std::numeric_limits<double>::quiet_NaN();
-  const auto                      at = [&image](double x, double y, double z) {
+  ImageType::IndexType index;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto at = [&image](double x, double y, double z) {
     return image->TransformLatticeToPhysicalPoint<double>({ x, y, z });
   };
   EXPECT_FALSE(image->TransformPhysicalPointToContinuousIndex(at(-4.6, 4, 6), continuous));
@@ -126,7 +126,7 @@ TEST(FCCImage, KnowsWhatIsOutside)
 TEST(FCCImage, IteratorsVisitEverySampleOnce)
 {
   const auto image = MakeImage();
-  float      value = 0;
+  float value = 0;
   for (itk::ImageRegionIteratorWithIndex<ImageType> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
   {
     it.Set(value++);

@@ -115,7 +115,8 @@ TEST(FCCLattice, IndexAndSiteAreInverse)
 
 TEST(FCCLattice, OffsetsOfStepsAgreeWithSites)
 {
-  for (const itk::Index<3> index : { itk::Index<3>{ { 4, 0, 0 } }, itk::Index<3>{ { -4, 1, 0 } }, itk::Index<3>{ { 0, -3, 2 } } })
+  for (const itk::Index<3> index :
+       { itk::Index<3>{ { 4, 0, 0 } }, itk::Index<3>{ { -4, 1, 0 } }, itk::Index<3>{ { 0, -3, 2 } } })
   {
     const Site site = Lattice::SiteOf(index);
     for (const Site & step : Lattice::NearestNeighbors)
@@ -128,13 +129,13 @@ TEST(FCCLattice, OffsetsOfStepsAgreeWithSites)
 
 TEST(FCCLattice, NearestSiteAgreesWithBruteForce)
 {
-  const auto                             sites = SitesNearOrigin(4);
-  std::mt19937                           random(7);
+  const auto sites = SitesNearOrigin(4);
+  std::mt19937 random(7);
   std::uniform_real_distribution<double> coordinate(-2.0, 2.0);
   for (int trial = 0; trial < 2000; ++trial)
   {
     const std::array<double, 3> point{ coordinate(random), coordinate(random), coordinate(random) };
-    double                      nearest = 1e9;
+    double nearest = 1e9;
     for (const Site & site : sites)
     {
       nearest = std::min(nearest, SquaredDistance(point, site));
@@ -148,10 +149,10 @@ TEST(FCCLattice, NearestSiteAgreesWithBruteForce)
 TEST(FCCLattice, VoronoiCellsShareSpaceEqually)
 {
   // The fraction of points nearest to the origin, out of a box with a known number of sites per volume.
-  std::mt19937                           random(11);
+  std::mt19937 random(11);
   std::uniform_real_distribution<double> coordinate(-2.0, 2.0);
-  constexpr int                          trials = 200000;
-  int                                    mine = 0;
+  constexpr int trials = 200000;
+  int mine = 0;
   for (int trial = 0; trial < trials; ++trial)
   {
     mine += Lattice::NearestSite({ coordinate(random), coordinate(random), coordinate(random) }) == Site{ 0, 0, 0 };
@@ -162,8 +163,8 @@ TEST(FCCLattice, VoronoiCellsShareSpaceEqually)
 TEST(FCCLattice, NyquistDensityIsThatOfEqualBalls)
 {
   EXPECT_DOUBLE_EQ(Lattice::NyquistDensity, 4.0 / (3.0 * std::sqrt(3.0)));
-  // The reciprocal lattice of D3 with unit s is body-centered with nearest neighbours at sqrt(3) / 2; at density rho its
-  // nearest neighbours must be as far as those of the reciprocal of the unit Cartesian grid.
+  // The reciprocal lattice of D3 with unit s is body-centered with nearest neighbours at sqrt(3) / 2; at density rho
+  // its nearest neighbours must be as far as those of the reciprocal of the unit Cartesian grid.
   const double s = std::cbrt(1.0 / (2.0 * Lattice::NyquistDensity));
   EXPECT_NEAR(std::sqrt(3.0) / 2.0 / s, 1.0, 1e-12);
 }

@@ -47,12 +47,12 @@ TYPED_TEST_SUITE(FCCImageFileTypes, PixelTypes);
 TYPED_TEST(FCCImageFileTypes, ComesBackBitForBit)
 {
   const rhombictest::TemporaryFolder folder;
-  const auto                         path = folder.Path() / "volume.fcc.nrrd";
-  const auto                         image = MakeImage<TypeParam>();
+  const auto path = folder.Path() / "volume.fcc.nrrd";
+  const auto image = MakeImage<TypeParam>();
   rhombic::WriteFCCImage(image, path);
   EXPECT_TRUE(rhombic::IsFCCImageFile(path));
   const FCCVolume volume = rhombic::ReadFCCImage(path);
-  const auto      read = std::get<typename itk::FCCImage<TypeParam>::Pointer>(volume);
+  const auto read = std::get<typename itk::FCCImage<TypeParam>::Pointer>(volume);
   EXPECT_EQ(read->GetBufferedRegion(), image->GetBufferedRegion());
   EXPECT_EQ(read->GetSpacing(), image->GetSpacing());
   EXPECT_EQ(read->GetOrigin(), image->GetOrigin());
@@ -79,10 +79,10 @@ KindOfReading(const std::filesystem::path & path)
 TEST(FCCImageFile, RefusesWhatIsDamagedOrSomethingElse)
 {
   const rhombictest::TemporaryFolder folder;
-  const auto                         path = folder.Path() / "volume.fcc.nrrd";
+  const auto path = folder.Path() / "volume.fcc.nrrd";
   EXPECT_EQ(KindOfReading(path), FailureKind::NotFound);
   rhombic::WriteFCCImage(MakeImage<std::int16_t>(), path);
-  std::ifstream     stream(path, std::ios::binary);
+  std::ifstream stream(path, std::ios::binary);
   const std::string whole((std::istreambuf_iterator<char>(stream)), {});
 
   const auto refuses = [&](const std::string & content) {
@@ -113,7 +113,7 @@ TEST(FCCImageFile, RefusesWhatIsDamagedOrSomethingElse)
 TEST(FCCImageFile, DoesNotDependOnTheLocale)
 {
   const rhombictest::TemporaryFolder folder;
-  const std::string                  before = std::setlocale(LC_ALL, nullptr);
+  const std::string before = std::setlocale(LC_ALL, nullptr);
   std::setlocale(LC_ALL, "de_DE.UTF-8"); // has no effect where it is not installed
   rhombic::WriteFCCImage(MakeImage<float>(), folder.Path() / "volume.nrrd");
   const auto volume = rhombic::ReadFCCImage(folder.Path() / "volume.nrrd");

@@ -28,9 +28,9 @@ FloatImage::DirectionType
 ObliqueLeftHandedDirection()
 {
   FloatImage::DirectionType direction;
-  const double              c = std::cos(0.3);
-  const double              s = std::sin(0.3);
-  const double              rows[3][3] = { { c, 0, s }, { 0, -1, 0 }, { -s, 0, c } };
+  const double c = std::cos(0.3);
+  const double s = std::sin(0.3);
+  const double rows[3][3] = { { c, 0, s }, { 0, -1, 0 }, { -s, 0, c } };
   for (unsigned int row = 0; row < 3; ++row)
   {
     for (unsigned int axis = 0; axis < 3; ++axis)
@@ -60,7 +60,7 @@ template <typename TPixel>
 void
 FillWithNoise(Cartesian<TPixel> & image, double low, double high)
 {
-  std::mt19937                           random(17);
+  std::mt19937 random(17);
   std::uniform_real_distribution<double> value(low, high);
   for (itk::ImageRegionIteratorWithIndex<Cartesian<TPixel>> it(&image, image.GetBufferedRegion()); !it.IsAtEnd(); ++it)
   {
@@ -103,14 +103,15 @@ TEST(CartesianToFCCImageFilter, DefaultLatticeHasTheNyquistDensityAndTheInputsAs
 
 TEST(CartesianToFCCImageFilter, ExtentCoversTheInputAndIsCentredOnIt)
 {
-  for (const itk::Size<3> size : { itk::Size<3>{ { 1, 1, 1 } }, itk::Size<3>{ { 7, 12, 3 } }, itk::Size<3>{ { 40, 1, 26 } } })
+  for (const itk::Size<3> size :
+       { itk::Size<3>{ { 1, 1, 1 } }, itk::Size<3>{ { 7, 12, 3 } }, itk::Size<3>{ { 40, 1, 26 } } })
   {
     const auto image = MakeImage(size, { { 3, -2, 9 } });
     const auto filter = Filter<float>::New();
     filter->SetInput(image);
     filter->UpdateOutputInformation();
     const auto * const output = filter->GetOutput();
-    const auto         fccRegion = output->GetLargestPossibleRegion();
+    const auto fccRegion = output->GetLargestPossibleRegion();
     std::array<double, 3> lowest{ 1e9, 1e9, 1e9 };
     std::array<double, 3> highest{ -1e9, -1e9, -1e9 };
     for (unsigned int corner = 0; corner < 8; ++corner)
@@ -157,12 +158,13 @@ TEST(CartesianToFCCImageFilter, ReproducesLinearFieldsOfTheWorldWithBothKernels)
     const auto * const output = filter->GetOutput();
     // The spline's mirror images bend a slope at the ends; that dies out within a dozen samples.
     const double margin = kernel == itk::SeparableKernel::Linear ? 0.0 : 12.0;
-    int          checked = 0;
-    for (itk::ImageRegionConstIteratorWithIndex<FCCFloatImage> it(output, output->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+    int checked = 0;
+    for (itk::ImageRegionConstIteratorWithIndex<FCCFloatImage> it(output, output->GetBufferedRegion()); !it.IsAtEnd();
+         ++it)
     {
       const auto point = output->TransformIndexToPhysicalPoint<double>(it.GetIndex());
       const auto index = image->TransformPhysicalPointToContinuousIndex<double>(point);
-      bool       inside = true;
+      bool inside = true;
       for (unsigned int axis = 0; axis < 3; ++axis)
       {
         const double first = static_cast<double>(image->GetBufferedRegion().GetIndex(axis)) + margin;
@@ -205,14 +207,16 @@ TEST(CartesianToFCCImageFilter, AgreesWithITKsResamplerOnTheSameLattice)
     reference->Update();
 
     int checked = 0;
-    for (itk::ImageRegionConstIteratorWithIndex<FCCFloatImage> it(output, output->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+    for (itk::ImageRegionConstIteratorWithIndex<FCCFloatImage> it(output, output->GetBufferedRegion()); !it.IsAtEnd();
+         ++it)
     {
       const auto point = output->TransformIndexToPhysicalPoint<double>(it.GetIndex());
       const auto index = image->TransformPhysicalPointToContinuousIndex<double>(point);
-      bool       inside = true; // beyond the outermost samples the two extend the field differently
+      bool inside = true; // beyond the outermost samples the two extend the field differently
       for (unsigned int axis = 0; axis < 3; ++axis)
       {
-        inside = inside && index[axis] >= 0.0 && index[axis] <= static_cast<double>(image->GetBufferedRegion().GetSize(axis) - 1);
+        inside = inside && index[axis] >= 0.0 &&
+                 index[axis] <= static_cast<double>(image->GetBufferedRegion().GetSize(axis) - 1);
       }
       if (inside)
       {
@@ -252,7 +256,8 @@ TYPED_TEST(CartesianToFCCPixelTypes, ClampsOvershootToTheTypesRange)
   const bool isFloat = std::is_same<TypeParam, float>::value;
   const auto low = isFloat ? TypeParam(-1000) : Limits::lowest();
   const auto high = isFloat ? TypeParam(1000) : Limits::max();
-  for (itk::ImageRegionIteratorWithIndex<Cartesian<TypeParam>> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+  for (itk::ImageRegionIteratorWithIndex<Cartesian<TypeParam>> it(image, image->GetBufferedRegion()); !it.IsAtEnd();
+       ++it)
   {
     it.Set(it.GetIndex()[0] < 12 ? low : high);
   }
@@ -260,8 +265,10 @@ TYPED_TEST(CartesianToFCCPixelTypes, ClampsOvershootToTheTypesRange)
   filter->SetInput(image);
   filter->Update();
   const auto * const output = filter->GetOutput();
-  bool               overshoots = false;
-  for (itk::ImageRegionConstIteratorWithIndex<itk::FCCImage<TypeParam>> it(output, output->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+  bool overshoots = false;
+  for (itk::ImageRegionConstIteratorWithIndex<itk::FCCImage<TypeParam>> it(output, output->GetBufferedRegion());
+       !it.IsAtEnd();
+       ++it)
   {
     const auto x = image->template TransformPhysicalPointToContinuousIndex<double>(
       output->template TransformIndexToPhysicalPoint<double>(it.GetIndex()))[0];
@@ -286,7 +293,10 @@ TEST(CartesianToFCCImageFilter, GivesTheSameBytesForAnyNumberOfThreads)
     many->SetInput(image);
     many->SetNumberOfWorkUnits(units);
     many->Update();
-    ASSERT_EQ(std::memcmp(single->GetOutput()->GetBufferPointer(), many->GetOutput()->GetBufferPointer(), Bytes(*single->GetOutput())), 0);
+    ASSERT_EQ(std::memcmp(single->GetOutput()->GetBufferPointer(),
+                          many->GetOutput()->GetBufferPointer(),
+                          Bytes(*single->GetOutput())),
+              0);
   }
 }
 
@@ -325,7 +335,8 @@ TEST(CartesianToFCCImageFilter, AnyRequestedRegionIsTheCropOfTheWholeAndNeedsOnl
       for (unsigned int axis = 0; axis < 3; ++axis)
       {
         const double step = (axis == 0 ? 2.0 : 1.0) * part->GetOutput()->GetSpacing()[axis] / image->GetSpacing()[axis];
-        EXPECT_LE(static_cast<double>(image->GetRequestedRegion().GetSize(axis)), step * static_cast<double>(region.GetSize(axis)) + reach);
+        EXPECT_LE(static_cast<double>(image->GetRequestedRegion().GetSize(axis)),
+                  step * static_cast<double>(region.GetSize(axis)) + reach);
       }
     }
   }
@@ -347,7 +358,8 @@ TEST(CartesianToFCCImageFilter, RefusesNonsense)
   const auto image = MakeImage({ { 3, 3, 3 } });
   const auto filter = Filter<float>::New();
   filter->SetInput(image);
-  for (const double density : { 0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
+  for (const double density :
+       { 0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
   {
     filter->SetDensity(density);
     EXPECT_THROW(filter->Update(), itk::ExceptionObject);
@@ -366,8 +378,8 @@ TEST(CartesianToFCCImageFilter, ReportsProgressAndStopsOnAbort)
   const auto image = MakeImage({ { 64, 64, 64 } });
   const auto filter = Filter<float>::New();
   filter->SetInput(image);
-  float      last = 0.0f;
-  bool       monotonic = true;
+  float last = 0.0f;
+  bool monotonic = true;
   filter->AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) {
     monotonic = monotonic && filter->GetProgress() >= last;
     last = filter->GetProgress();
@@ -398,7 +410,10 @@ TEST(FCCToCartesianImageFilter, BringsALinearFieldBackOntoTheReferenceGrid)
   back->SetReferenceImage(image);
   back->Update();
   ASSERT_EQ(back->GetOutput()->GetLargestPossibleRegion(), image->GetLargestPossibleRegion());
-  for (itk::ImageRegionConstIteratorWithIndex<FloatImage> it(image, FloatImage::RegionType({ { 2, 2, 2 } }, { { 36, 36, 36 } })); !it.IsAtEnd(); ++it)
+  for (itk::ImageRegionConstIteratorWithIndex<FloatImage> it(
+         image, FloatImage::RegionType({ { 2, 2, 2 } }, { { 36, 36, 36 } }));
+       !it.IsAtEnd();
+       ++it)
   {
     ASSERT_NEAR(back->GetOutput()->GetPixel(it.GetIndex()), it.Get(), 1e-3);
   }
@@ -419,7 +434,9 @@ TEST(FCCToCartesianImageFilter, DefaultGridHasTheOriginalSpacingAndDirection)
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
     EXPECT_NEAR(output->GetSpacing()[axis], image->GetSpacing()[axis], 1e-9);
-    EXPECT_NEAR(static_cast<double>(output->GetBufferedRegion().GetSize(axis)), static_cast<double>(image->GetBufferedRegion().GetSize(axis)), 2.0);
+    EXPECT_NEAR(static_cast<double>(output->GetBufferedRegion().GetSize(axis)),
+                static_cast<double>(image->GetBufferedRegion().GetSize(axis)),
+                2.0);
   }
   for (std::size_t n = 0; n < output->GetBufferedRegion().GetNumberOfPixels(); ++n)
   {

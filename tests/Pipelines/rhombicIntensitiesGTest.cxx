@@ -44,7 +44,7 @@ TEST(Intensities, DoNotCountWhatIsNotFinite)
 {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  const auto      found = rhombic::ComputeIntensities(MakeImage<float>({ nan, 1.0f, infinity, 3.0f, -infinity }));
+  const auto found = rhombic::ComputeIntensities(MakeImage<float>({ nan, 1.0f, infinity, 3.0f, -infinity }));
   EXPECT_EQ(found.lowest, 1.0);
   EXPECT_EQ(found.highest, 3.0);
   EXPECT_THROW(rhombic::ComputeIntensities(MakeImage<float>({ nan, nan })), Failure);
@@ -54,7 +54,8 @@ TEST(Intensities, DoNotCountWhatIsNotFinite)
 TEST(ResolveIsovalues, FillsInOtsusAndRefusesWhatIsOutside)
 {
   const rhombic::Intensities intensities{ -1000.0, 2000.0, -100.5 };
-  const auto                 resolved = rhombic::ResolveIsovalues({ rhombic::ParseSurfaceRequest("a=otsu", 0), rhombic::ParseSurfaceRequest("b=2000", 1) }, intensities);
+  const auto resolved = rhombic::ResolveIsovalues(
+    { rhombic::ParseSurfaceRequest("a=otsu", 0), rhombic::ParseSurfaceRequest("b=2000", 1) }, intensities);
   EXPECT_EQ(resolved[0].isovalue, -100.5);
   EXPECT_EQ(resolved[1].isovalue, 2000.0);
   for (const char * text : { "bone=2000.5", "bone=-1000", "bone=-5000" })

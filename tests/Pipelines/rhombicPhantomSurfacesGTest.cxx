@@ -37,9 +37,9 @@ CentroidX(const itk::TriangleSurface & surface)
   return sum / static_cast<double>(surface.GetNumberOfPoints());
 }
 
-// From the analytic body through sampling, resampling and extraction: what comes out is what went in. A surface lies where
-// the ideal one does when its threshold is half way between the tissues on both sides: air and skin at -485, muscle and
-// most bones at about 375, lungs and muscle at -400.
+// From the analytic body through sampling, resampling and extraction: what comes out is what went in. A surface lies
+// where the ideal one does when its threshold is half way between the tissues on both sides: air and skin at -485,
+// muscle and most bones at about 375, lungs and muscle at -400.
 TEST(PhantomSurfaces, EncloseTheKnownVolumes)
 {
   const auto skin = Extract("skin=-485.5");

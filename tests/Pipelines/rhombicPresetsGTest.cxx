@@ -47,10 +47,11 @@ TEST(Presets, AllBuiltInOnesParse)
 
 TEST(Presets, ReadEverythingASurfaceHas)
 {
-  const auto preset = rhombic::ParsePreset("name: x\ndescription: d\nsurfaces:\n"
-                                           "  - {name: a, isovalue: -500.5, side: below, parts: enclosed, colour: \"#0000ff\", opacity: 0.25}\n"
-                                           "  - {name: b, isovalue: otsu}\n",
-                                           "test");
+  const auto preset = rhombic::ParsePreset(
+    "name: x\ndescription: d\nsurfaces:\n"
+    "  - {name: a, isovalue: -500.5, side: below, parts: enclosed, colour: \"#0000ff\", opacity: 0.25}\n"
+    "  - {name: b, isovalue: otsu}\n",
+    "test");
   ASSERT_EQ(preset.surfaces.size(), 2u);
   EXPECT_EQ(preset.surfaces[0].isovalue, -500.5);
   EXPECT_EQ(preset.surfaces[0].side, SurfaceRequest::Side::Below);
@@ -69,12 +70,20 @@ TEST(Presets, SuggestTheNearestName)
 
 TEST(Presets, RefuseDamagedFiles)
 {
-  for (const char * yaml : { "", "just text", "[1, 2]", "name: x", "name: x\nsurfaces: []", "name: x\nsurfaces: [{name: a}]",
-                             "name: x\nsurfaces: [{name: a, isovalue: high}]", "name: x\nsurfaces: [{name: a, isovalue: 1, side: left}]",
-                             "name: x\ncolor: red\nsurfaces: [{name: a, isovalue: 1}]", "name: x\nsurfaces: [{name: a, isovalue: 1, colr: 2}]",
+  for (const char * yaml : { "",
+                             "just text",
+                             "[1, 2]",
+                             "name: x",
+                             "name: x\nsurfaces: []",
+                             "name: x\nsurfaces: [{name: a}]",
+                             "name: x\nsurfaces: [{name: a, isovalue: high}]",
+                             "name: x\nsurfaces: [{name: a, isovalue: 1, side: left}]",
+                             "name: x\ncolor: red\nsurfaces: [{name: a, isovalue: 1}]",
+                             "name: x\nsurfaces: [{name: a, isovalue: 1, colr: 2}]",
                              "name: [x\n" })
   {
-    const auto sentence = DescriptionOfFailure([yaml] { rhombic::ParsePreset(yaml, "broken.yaml"); }, FailureKind::Unreadable);
+    const auto sentence =
+      DescriptionOfFailure([yaml] { rhombic::ParsePreset(yaml, "broken.yaml"); }, FailureKind::Unreadable);
     EXPECT_NE(sentence.find("broken.yaml"), std::string::npos) << yaml;
   }
   DescriptionOfFailure([] { rhombic::FindPreset("missing.yaml"); }, FailureKind::NotFound);

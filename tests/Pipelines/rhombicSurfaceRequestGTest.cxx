@@ -35,8 +35,20 @@ TEST(SurfaceRequest, HasDefaultsAndOtherThresholds)
 
 TEST(SurfaceRequest, RefusesWhatItCannotRead)
 {
-  for (const char * text : { "", "bone", "=250", "bone=", "bone=abc", "bone=12x", "bone=nan", "bone=inf", "bone=1,red",
-                             "bone=1,#12345", "bone=1,#12345g", "bone=1,#123456,0", "bone=1,#123456,1.5", "bone=1,#123456,x",
+  for (const char * text : { "",
+                             "bone",
+                             "=250",
+                             "bone=",
+                             "bone=abc",
+                             "bone=12x",
+                             "bone=nan",
+                             "bone=inf",
+                             "bone=1,red",
+                             "bone=1,#12345",
+                             "bone=1,#12345g",
+                             "bone=1,#123456,0",
+                             "bone=1,#123456,1.5",
+                             "bone=1,#123456,x",
                              "bone=1,#123456,1,1" })
   {
     try

@@ -39,8 +39,8 @@ FilesIn(const fs::path & folder)
 TEST(AtomicFile, AppearsOnCommitOnly)
 {
   const rhombictest::TemporaryFolder folder;
-  const fs::path                     target = folder.Path() / "picture.png";
-  AtomicFile                         file(target);
+  const fs::path target = folder.Path() / "picture.png";
+  AtomicFile file(target);
   EXPECT_EQ(file.GetTemporaryPath().extension(), ".png") << "for writers that look at the extension";
   EXPECT_EQ(file.GetTemporaryPath().parent_path(), folder.Path());
   Write(file.GetTemporaryPath(), "complete");
@@ -53,7 +53,7 @@ TEST(AtomicFile, AppearsOnCommitOnly)
 TEST(AtomicFile, KeepsTheOldFileWithoutCommit)
 {
   const rhombictest::TemporaryFolder folder;
-  const fs::path                     target = folder.Path() / "mesh.stl";
+  const fs::path target = folder.Path() / "mesh.stl";
   Write(target, "old");
   {
     AtomicFile file(target);
@@ -66,7 +66,7 @@ TEST(AtomicFile, KeepsTheOldFileWithoutCommit)
 TEST(AtomicFile, RefusesAFileThatIsTooShort)
 {
   const rhombictest::TemporaryFolder folder;
-  const fs::path                     target = folder.Path() / "mesh.stl";
+  const fs::path target = folder.Path() / "mesh.stl";
   Write(target, "old");
   {
     AtomicFile file(target);
@@ -80,8 +80,11 @@ TEST(AtomicFile, RefusesAFileThatIsTooShort)
 TEST(AtomicFile, RefusesTargetsThatCannotBe)
 {
   const rhombictest::TemporaryFolder folder;
-  for (const fs::path & target : { folder.Path(), folder.Path() / "", folder.Path() / "missing" / "x.png",
-                                   fs::path("/dev/null"), folder.Path() / (std::string(300, 'x') + ".png") })
+  for (const fs::path & target : { folder.Path(),
+                                   folder.Path() / "",
+                                   folder.Path() / "missing" / "x.png",
+                                   fs::path("/dev/null"),
+                                   folder.Path() / (std::string(300, 'x') + ".png") })
   {
     try
     {
@@ -100,8 +103,8 @@ TEST(AtomicFile, RefusesTargetsThatCannotBe)
 TEST(AtomicFile, TwoForTheSameTargetDoNotCollide)
 {
   const rhombictest::TemporaryFolder folder;
-  AtomicFile                         first(folder.Path() / "a.png");
-  AtomicFile                         second(folder.Path() / "a.png");
+  AtomicFile first(folder.Path() / "a.png");
+  AtomicFile second(folder.Path() / "a.png");
   EXPECT_NE(first.GetTemporaryPath(), second.GetTemporaryPath());
 }
 

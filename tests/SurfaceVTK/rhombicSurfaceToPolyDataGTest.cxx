@@ -34,7 +34,7 @@ TEST(SurfaceToPolyData, HasTheSamePointsAndCells)
   ASSERT_EQ(polyData->GetNumberOfPoints(), 4);
   ASSERT_EQ(polyData->GetNumberOfCells(), 4);
   EXPECT_EQ(polyData->GetPoint(3)[2], 1.0);
-  vtkIdType         size = 0;
+  vtkIdType size = 0;
   const vtkIdType * corners = nullptr;
   polyData->GetPolys()->GetCellAtId(3, size, corners);
   ASSERT_EQ(size, 3);
@@ -44,7 +44,7 @@ TEST(SurfaceToPolyData, HasTheSamePointsAndCells)
 
 TEST(SurfaceToPolyData, KeepsTheSurfaceAliveAsLongAsAnyArray)
 {
-  vtkSmartPointer<vtkDataArray>          points;
+  vtkSmartPointer<vtkDataArray> points;
   itk::WeakPointer<itk::TriangleSurface> weak;
   {
     const auto surface = MakeSurface();

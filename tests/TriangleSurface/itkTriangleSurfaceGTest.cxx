@@ -69,7 +69,7 @@ TEST(TriangleSurface, VolumeFarFromTheOriginKeepsItsDigits)
 TEST(TriangleSurface, GraftCopiesAndInitializeEmpties)
 {
   const auto source = UnitTetrahedron();
-  auto       target = Surface::New();
+  auto target = Surface::New();
   target->Graft(source);
   EXPECT_EQ(target->GetPoints(), source->GetPoints());
   target->Initialize();
@@ -144,7 +144,7 @@ TEST(TriangleSurfaceTopology, FindsABoundary)
 
 TEST(TriangleSurfaceTopology, FindsAFlippedTriangle)
 {
-  auto   surface = UnitTetrahedron();
+  auto surface = UnitTetrahedron();
   auto & triangle = surface->GetTriangles().back();
   std::swap(triangle[0], triangle[1]);
   EXPECT_EQ(ComputeTopology(*surface).misorientedEdges, 3u);

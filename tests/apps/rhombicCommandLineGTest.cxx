@@ -41,7 +41,7 @@ FilesIn(const fs::path & folder)
 std::vector<int>
 BrightPixels(const rhombic::Picture & picture, bool byColumn)
 {
-  constexpr int    bright = 90;
+  constexpr int bright = 90;
   std::vector<int> counts(static_cast<std::size_t>(byColumn ? picture.width : picture.height), 0);
   for (int y = 0; y < picture.height; ++y)
   {
@@ -57,7 +57,7 @@ struct ErrorCase
 {
   const char * name;
   const char * arguments;
-  int          exitCode;
+  int exitCode;
   const char * says;
 };
 
@@ -123,7 +123,7 @@ class CommandLineErrors : public testing::TestWithParam<ErrorCase>
 
 TEST_P(CommandLineErrors, AreOneSentenceAndTheDocumentedExitCode)
 {
-  const ErrorCase &     expected = GetParam();
+  const ErrorCase & expected = GetParam();
   const TemporaryFolder folder;
   std::ofstream(folder.Path() / "text.dcm") << "this is not a DICOM file\n";
   std::ofstream(folder.Path() / "text.nii") << "this is not a NIfTI file\n";
@@ -134,7 +134,8 @@ TEST_P(CommandLineErrors, AreOneSentenceAndTheDocumentedExitCode)
   fs::create_directory_symlink(phantomDicom, folder.Path() / "dicom");
   std::ofstream(folder.Path() / "cut.nii.gz", std::ios::binary) << ReadText(phantomNifti).substr(0, 3000);
   ASSERT_EQ(Rhombic("-q resample scan.nii.gz --density 0.1 -o scan.fcc.nrrd", folder.Path()).exitCode, 0);
-  std::ofstream(folder.Path() / "cut.fcc.nrrd", std::ios::binary) << ReadText(folder.Path() / "scan.fcc.nrrd").substr(0, 3000);
+  std::ofstream(folder.Path() / "cut.fcc.nrrd", std::ios::binary)
+    << ReadText(folder.Path() / "scan.fcc.nrrd").substr(0, 3000);
   const auto before = FilesIn(folder.Path());
 
   const Outcome outcome = Rhombic("-q " + std::string(expected.arguments), folder.Path());
@@ -147,15 +148,18 @@ TEST_P(CommandLineErrors, AreOneSentenceAndTheDocumentedExitCode)
   EXPECT_EQ(FilesIn(folder.Path()), before) << "no partial files";
 }
 
-INSTANTIATE_TEST_SUITE_P(All, CommandLineErrors, testing::ValuesIn(errorCases), [](const auto & error) { return std::string(error.param.name); });
+INSTANTIATE_TEST_SUITE_P(All, CommandLineErrors, testing::ValuesIn(errorCases), [](const auto & error) {
+  return std::string(error.param.name);
+});
 
 TEST(CommandLine, HelpAndVersionGoToStandardOutput)
 {
   const TemporaryFolder folder;
-  const Outcome         help = Rhombic("--help", folder.Path());
+  const Outcome help = Rhombic("--help", folder.Path());
   EXPECT_EQ(help.exitCode, 0);
   EXPECT_EQ(help.errors, "");
-  for (const char * word : { "info", "render", "mesh", "resample", "phantom", "doctor", "--threads", "--quiet", "Exit codes", "10" })
+  for (const char * word :
+       { "info", "render", "mesh", "resample", "phantom", "doctor", "--threads", "--quiet", "Exit codes", "10" })
   {
     EXPECT_NE(help.output.find(word), std::string::npos) << word;
   }
@@ -176,7 +180,7 @@ TEST(CommandLine, HelpAndVersionGoToStandardOutput)
 TEST(CommandLine, InfoKnowsThePhantom)
 {
   const TemporaryFolder folder;
-  const Outcome         text = Rhombic("info " + phantomDicom, folder.Path());
+  const Outcome text = Rhombic("info " + phantomDicom, folder.Path());
   EXPECT_EQ(text.exitCode, 0) << text.errors;
   for (const char * word : { "DICOM", "CT", "int16", "LPS", "250.5", "chosen" })
   {
@@ -191,7 +195,7 @@ TEST(CommandLine, InfoKnowsThePhantom)
 TEST(CommandLine, DoctorFindsAWayToDraw)
 {
   const TemporaryFolder folder;
-  const Outcome         outcome = Rhombic("doctor", folder.Path());
+  const Outcome outcome = Rhombic("doctor", folder.Path());
   EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
   EXPECT_NE(outcome.output.find("rendering    works"), std::string::npos) << outcome.output;
 }
@@ -199,7 +203,7 @@ TEST(CommandLine, DoctorFindsAWayToDraw)
 TEST(CommandLine, ListsPresets)
 {
   const TemporaryFolder folder;
-  const Outcome         outcome = Rhombic("render --list-presets", folder.Path());
+  const Outcome outcome = Rhombic("render --list-presets", folder.Path());
   EXPECT_EQ(outcome.exitCode, 0);
   for (const char * name : { "ct-bone", "ct-skin", "ct-lung", "ct-bone-skin", "mr-head" })
   {
@@ -210,7 +214,7 @@ TEST(CommandLine, ListsPresets)
 TEST(CommandLine, SaysNothingWhenQuietAndPlainLinesWithoutATerminal)
 {
   const TemporaryFolder folder;
-  const Outcome         quiet = Rhombic("-q mesh " + phantomNifti + " -t 250.5 -o a.stl", folder.Path());
+  const Outcome quiet = Rhombic("-q mesh " + phantomNifti + " -t 250.5 -o a.stl", folder.Path());
   EXPECT_EQ(quiet.errors + quiet.output, "");
   const Outcome normal = Rhombic("mesh " + phantomNifti + " -t 250.5 -o a.stl", folder.Path());
   EXPECT_NE(normal.errors.find("triangles"), std::string::npos);
@@ -218,21 +222,21 @@ TEST(CommandLine, SaysNothingWhenQuietAndPlainLinesWithoutATerminal)
   EXPECT_EQ(normal.output, "");
 }
 
-// The marker on the phantom's chest is an F on the patient's left. Seen from the front it is on the picture's right, and
-// its stem is on its own left: neither mirrored, nor upside down.
+// The marker on the phantom's chest is an F on the patient's left. Seen from the front it is on the picture's right,
+// and its stem is on its own left: neither mirrored, nor upside down.
 TEST(CommandLine, TheMarkerReadsAsAnFOnThePicturesRight)
 {
   const TemporaryFolder folder;
-  const std::string     marker = " --surface marker=1700.5,#ffffff --no-letters --size 400 -o ";
+  const std::string marker = " --surface marker=1700.5,#ffffff --no-letters --size 400 -o ";
   ASSERT_EQ(Rhombic("phantom --spacing 3 -o p", folder.Path()).exitCode, 0);
   for (const char * scan : { "p/dicom", "p/phantom.nii.gz" })
   {
     const std::string render = "render " + std::string(scan);
-    const Outcome     inBody = Rhombic(render + " --surface skin=-300.5,#000000,0.05" + marker + "body.png", folder.Path());
+    const Outcome inBody = Rhombic(render + " --surface skin=-300.5,#000000,0.05" + marker + "body.png", folder.Path());
     ASSERT_EQ(inBody.exitCode, 0) << inBody.errors;
     const auto columns = BrightPixels(rhombic::ReadPicture(folder.Path() / "body.png"), true);
-    double     sum = 0.0;
-    double     weighted = 0.0;
+    double sum = 0.0;
+    double weighted = 0.0;
     for (std::size_t x = 0; x < columns.size(); ++x)
     {
       sum += columns[x];
@@ -256,7 +260,7 @@ TEST(CommandLine, TheMarkerReadsAsAnFOnThePicturesRight)
 TEST(CommandLine, PicturesDoNotDependOnTheRouteOrTheThreads)
 {
   const TemporaryFolder folder;
-  const std::string     options = " --preset ct-bone-skin --size 300 -o ";
+  const std::string options = " --preset ct-bone-skin --size 300 -o ";
   ASSERT_EQ(Rhombic("render --threads 1 " + phantomDicom + options + "one.png", folder.Path()).exitCode, 0);
   ASSERT_EQ(Rhombic("render --threads 5 " + phantomDicom + options + "five.png", folder.Path()).exitCode, 0);
   ASSERT_EQ(Rhombic("render " + phantomNifti + options + "nifti.png", folder.Path()).exitCode, 0);
@@ -274,20 +278,24 @@ TEST(CommandLine, MeshesHaveTheSameBytesForAnyNumberOfThreads)
     const std::string options = " -t 250.5 " + phantomNifti + " -o ";
     ASSERT_EQ(Rhombic("mesh --threads 1" + options + "one." + extension, folder.Path()).exitCode, 0);
     ASSERT_EQ(Rhombic("mesh --threads 7" + options + "seven." + extension, folder.Path()).exitCode, 0);
-    EXPECT_EQ(ReadText(folder.Path() / (std::string("one.") + extension)), ReadText(folder.Path() / (std::string("seven.") + extension)));
+    EXPECT_EQ(ReadText(folder.Path() / (std::string("one.") + extension)),
+              ReadText(folder.Path() / (std::string("seven.") + extension)));
   }
 }
 
 TEST(CommandLine, TheLatticeVolumeGivesTheSameMeshAsTheScan)
 {
   const TemporaryFolder folder;
-  const Outcome         outcome = RunShell("rhombic resample '" + phantomNifti + "' -o p.fcc.nrrd\n"
-                                   "rhombic mesh p.fcc.nrrd -t 250.5 -o a.stl\n"
-                                   "rhombic mesh '" + phantomNifti + "' -t 250.5 -o b.stl\n"
-                                   "cmp a.stl b.stl\n"
-                                   "rhombic info p.fcc.nrrd\n"
-                                   "rhombic resample p.fcc.nrrd -o back.nii.gz\n"
-                                   "rhombic info back.nii.gz\n",
+  const Outcome outcome = RunShell("rhombic resample '" + phantomNifti +
+                                     "' -o p.fcc.nrrd\n"
+                                     "rhombic mesh p.fcc.nrrd -t 250.5 -o a.stl\n"
+                                     "rhombic mesh '" +
+                                     phantomNifti +
+                                     "' -t 250.5 -o b.stl\n"
+                                     "cmp a.stl b.stl\n"
+                                     "rhombic info p.fcc.nrrd\n"
+                                     "rhombic resample p.fcc.nrrd -o back.nii.gz\n"
+                                     "rhombic info back.nii.gz\n",
                                    folder.Path());
   EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
   EXPECT_NE(outcome.output.find("face-centered cubic"), std::string::npos) << outcome.output;
@@ -296,8 +304,11 @@ TEST(CommandLine, TheLatticeVolumeGivesTheSameMeshAsTheScan)
 TEST(CommandLine, SeveralViewsGetTheirNames)
 {
   const TemporaryFolder folder;
-  ASSERT_EQ(Rhombic("render " + phantomNifti + " --preset ct-bone --view all --size 64 -o p.jpg", folder.Path()).exitCode, 0);
-  EXPECT_EQ(FilesIn(folder.Path()), (std::set<std::string>{ "p-anterior.jpg", "p-posterior.jpg", "p-left.jpg", "p-right.jpg", "p-superior.jpg", "p-inferior.jpg" }));
+  ASSERT_EQ(
+    Rhombic("render " + phantomNifti + " --preset ct-bone --view all --size 64 -o p.jpg", folder.Path()).exitCode, 0);
+  EXPECT_EQ(FilesIn(folder.Path()),
+            (std::set<std::string>{
+              "p-anterior.jpg", "p-posterior.jpg", "p-left.jpg", "p-right.jpg", "p-superior.jpg", "p-inferior.jpg" }));
 }
 
 TEST(CommandLine, MetadataNamesTheCommandButNeitherTheScanNorItsFolder)
@@ -305,7 +316,10 @@ TEST(CommandLine, MetadataNamesTheCommandButNeitherTheScanNorItsFolder)
   const TemporaryFolder folder;
   fs::create_directory(folder.Path() / "DOE_JOHN");
   fs::copy(phantomNifti, folder.Path() / "DOE_JOHN" / "doe_john_1970.nii.gz");
-  ASSERT_EQ(Rhombic("render DOE_JOHN/doe_john_1970.nii.gz --preset ct-bone --size 64 --output=DOE_JOHN/p.tif", folder.Path()).exitCode, 0);
+  ASSERT_EQ(
+    Rhombic("render DOE_JOHN/doe_john_1970.nii.gz --preset ct-bone --size 64 --output=DOE_JOHN/p.tif", folder.Path())
+      .exitCode,
+    0);
   const std::string bytes = ReadText(folder.Path() / "DOE_JOHN" / "p.tif");
   EXPECT_NE(bytes.find("rhombic render SCAN --preset ct-bone --size 64 --output=p.tif"), std::string::npos);
   EXPECT_NE(bytes.find("Rhombic 0."), std::string::npos);

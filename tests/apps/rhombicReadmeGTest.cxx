@@ -14,10 +14,10 @@ std::vector<std::string>
 Examples()
 {
   std::vector<std::string> blocks;
-  std::ifstream            readme(RHOMBIC_SOURCE "/README.md");
-  std::string              line;
-  bool                     isInSection = false;
-  bool                     isInBlock = false;
+  std::ifstream readme(RHOMBIC_SOURCE "/README.md");
+  std::string line;
+  bool isInSection = false;
+  bool isInBlock = false;
   while (std::getline(readme, line))
   {
     if (line.rfind("## ", 0) == 0)
@@ -52,7 +52,7 @@ TEST(Readme, ItsExamplesRunAndMakeWhatTheyName)
     const auto outcome = rhombictest::RunShell(example, folder.Path());
     EXPECT_EQ(outcome.exitCode, 0) << example << outcome.errors;
     std::istringstream words(example);
-    std::string        word;
+    std::string word;
     while (words >> word)
     {
       if (word == "-o")

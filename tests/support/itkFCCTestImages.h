@@ -14,13 +14,13 @@ namespace fcctest
 using ImageType = itk::FCCImage<float>;
 using PointType = ImageType::PointType;
 
-/** An isotropic image of spacing \a s around the world's origin, whose extent is about the cube of half width \a radius,
- * sampled from \a field(point). */
+/** An isotropic image of spacing \a s around the world's origin, whose extent is about the cube of half width \a
+ * radius, sampled from \a field(point). */
 template <typename TField>
 ImageType::Pointer
 MakeImage(double s, double radius, const TField & field)
 {
-  auto       image = ImageType::New();
+  auto image = ImageType::New();
   const auto half = static_cast<itk::IndexValueType>(std::ceil(radius / s));
   const auto halfX = (half + 1) / 2;
   image->SetRegions(ImageType::RegionType({ { -halfX, -half, -half } },
@@ -57,7 +57,7 @@ MakeNoise(const ImageType::RegionType & region, unsigned int seed, int levels)
   auto image = ImageType::New();
   image->SetRegions(region);
   image->Allocate();
-  std::mt19937                       random(seed);
+  std::mt19937 random(seed);
   std::uniform_int_distribution<int> value(0, levels - 1);
   for (itk::ImageRegionIteratorWithIndex<ImageType> it(image, region); !it.IsAtEnd(); ++it)
   {

@@ -10,11 +10,12 @@ namespace itk
 /** \class FCCLinearInterpolateImageFunction
  * \brief Linear interpolation in the tetrahedra of an FCC image.
  *
- * Continuous, reproduces linear fields, and costs four samples. Within the extent of the buffered region but outside its
- * outermost tetrahedra, the weights of the missing samples go to those that exist, so values stay within their range.
+ * Continuous, reproduces linear fields, and costs four samples. Within the extent of the buffered region but outside
+ * its outermost tetrahedra, the weights of the missing samples go to those that exist, so values stay within their
+ * range.
  *
- * Takes an FCCImage; a continuous index is (x / 2, y, z) in lattice coordinates (see FCCImage). Usable as the interpolator
- * of itk::ResampleImageFilter with an FCCImage as its input.
+ * Takes an FCCImage; a continuous index is (x / 2, y, z) in lattice coordinates (see FCCImage). Usable as the
+ * interpolator of itk::ResampleImageFilter with an FCCImage as its input.
  *
  * Thread safety: concurrent evaluations are safe.
  *
@@ -42,11 +43,9 @@ public:
   static_assert(std::is_base_of<FCCImage<typename TInputImage::PixelType>, TInputImage>::value,
                 "FCCLinearInterpolateImageFunction interpolates FCCImages only");
 
-  void
-  SetInputImage(const TInputImage * image) override;
+  void SetInputImage(const TInputImage * image) override;
 
-  OutputType
-  EvaluateAtContinuousIndex(const ContinuousIndexType & index) const override;
+  OutputType EvaluateAtContinuousIndex(const ContinuousIndexType & index) const override;
 
   /** One sample in each direction. */
   SizeType
@@ -63,7 +62,7 @@ protected:
 } // namespace itk
 
 #ifndef ITK_MANUAL_INSTANTIATION
-#  include "itkFCCLinearInterpolateImageFunction.hxx"
+#include "itkFCCLinearInterpolateImageFunction.hxx"
 #endif
 
 #endif

@@ -18,7 +18,7 @@ namespace itk
 struct FCCTetrahedron
 {
   std::array<FCCLattice::SiteType, 4> sites;
-  std::array<double, 4>               weights; ///< not negative, and their sum is 1
+  std::array<double, 4> weights; ///< not negative, and their sum is 1
 };
 
 /** The tetrahedron that holds a point given in lattice coordinates. On a face shared by several, any of them. */
@@ -26,7 +26,7 @@ inline FCCTetrahedron
 LocateFCCTetrahedron(const std::array<double, 3> & point)
 {
   // Within the unit cube, mirrored along x when needed so that its lowest corner is a site.
-  FCCLattice::SiteType  corner;
+  FCCLattice::SiteType corner;
   std::array<double, 3> local;
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
@@ -51,12 +51,13 @@ LocateFCCTetrahedron(const std::array<double, 3> & point)
   };
   // A negative weight says which of the cube's four odd corners is near: the point is in the octahedron around it. Its
   // sites in this cube are the corner's neighbours along x, y and z; its fourth site is the far end of the row edge.
-  const auto octant = [&at](IndexValueType x, IndexValueType y, IndexValueType z, double alongX, double alongY, double alongZ) {
-    const IndexValueType inward = 1 - 2 * x;
-    const double         rest = 1.0 - alongY - alongZ;
-    return FCCTetrahedron{ { at(x + inward, y, z), at(x - inward, y, z), at(x, 1 - y, z), at(x, y, 1 - z) },
-                           { (rest + alongX) / 2.0, (rest - alongX) / 2.0, alongY, alongZ } };
-  };
+  const auto octant =
+    [&at](IndexValueType x, IndexValueType y, IndexValueType z, double alongX, double alongY, double alongZ) {
+      const IndexValueType inward = 1 - 2 * x;
+      const double rest = 1.0 - alongY - alongZ;
+      return FCCTetrahedron{ { at(x + inward, y, z), at(x - inward, y, z), at(x, 1 - y, z), at(x, y, 1 - z) },
+                             { (rest + alongX) / 2.0, (rest - alongX) / 2.0, alongY, alongZ } };
+    };
   if (regular[0] < 0.0)
   {
     return octant(1, 1, 1, 1.0 - a, 1.0 - b, 1.0 - c);

@@ -11,8 +11,8 @@ namespace itk
 /** \class FCCEdgePoint
  * \brief Places the surface's point on a cut edge of an FCC image, and its normal.
  *
- * An edge may lead from a sample to a site outside the image (see FCCIsosurfaceFilter on closed surfaces). The image must be
- * buffered. Thread safe.
+ * An edge may lead from a sample to a site outside the image (see FCCIsosurfaceFilter on closed surfaces). The image
+ * must be buffered. Thread safe.
  *
  * \ingroup FCCIsosurface
  */
@@ -43,20 +43,21 @@ public:
     }
   }
 
-  /** The point on the edge from a site along a step, and the unit normal there. One end is inside, the other outside. */
+  /** The point on the edge from a site along a step, and the unit normal there. One end is inside, the other outside.
+   */
   void
   Place(const SiteType & site, const SiteType & step, std::array<float, 3> & point, std::array<float, 3> & normal) const
   {
     const SiteType end{ site[0] + step[0], site[1] + step[1], site[2] + step[2] };
-    const bool     startsOutside = !this->IsSample(site);
-    const bool     endsOutside = !this->IsSample(end);
+    const bool startsOutside = !this->IsSample(site);
+    const bool endsOutside = !this->IsSample(end);
 
-    double     fraction = 0.5;
+    double fraction = 0.5;
     VectorType outwards; // a normal in lattice coordinates, of any length
     if (startsOutside || endsOutside)
     {
       const SiteType inwardStep{ -step[0], -step[1], -step[2] };
-      const double   toBorder =
+      const double toBorder =
         startsOutside ? this->FractionToBorder(end, inwardStep) : this->FractionToBorder(site, step);
       fraction = startsOutside ? 1.0 - toBorder : toBorder;
       outwards = this->BorderDirection(startsOutside ? site : end);
@@ -88,7 +89,7 @@ public:
     }
     const auto world = m_Image.template TransformLatticeToPhysicalPoint<double>(coordinates);
     VectorType worldNormal{};
-    double     squared = 0.0;
+    double squared = 0.0;
     for (unsigned int row = 0; row < 3; ++row)
     {
       point[row] = static_cast<float>(world[row]);
@@ -133,7 +134,7 @@ private:
   FractionToBorder(const SiteType & site, const SiteType & step) const
   {
     constexpr double unitsPerIndex[3] = { 2.0, 1.0, 1.0 };
-    double           nearest = 1.0;
+    double nearest = 1.0;
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
       const double begin = unitsPerIndex[axis] * static_cast<double>(m_Region.GetIndex(axis)) - 0.5;
@@ -155,26 +156,28 @@ private:
     VectorType direction{};
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      direction[axis] = index[axis] < m_Region.GetIndex(axis) ? -1.0 : index[axis] > m_Region.GetUpperIndex()[axis] ? 1.0 : 0.0;
+      direction[axis] = index[axis] < m_Region.GetIndex(axis)          ? -1.0
+                        : index[axis] > m_Region.GetUpperIndex()[axis] ? 1.0
+                                                                       : 0.0;
     }
     return direction;
   }
 
-  /** Gradient in lattice coordinates from the twelve neighbours. Where one of two opposite neighbours is missing, its value
-   * is extrapolated from the other; where both are, their direction adds nothing. */
+  /** Gradient in lattice coordinates from the twelve neighbours. Where one of two opposite neighbours is missing, its
+   * value is extrapolated from the other; where both are, their direction adds nothing. */
   VectorType
   GradientAt(const SiteType & site) const
   {
     constexpr unsigned int directions = 6; // the other six are their opposites
-    VectorType             gradient{};
+    VectorType gradient{};
     for (unsigned int n = 0; n < directions; ++n)
     {
       const SiteType & d = FCCLattice::NearestNeighbors[n];
-      const SiteType   ahead{ site[0] + d[0], site[1] + d[1], site[2] + d[2] };
-      const SiteType   behind{ site[0] - d[0], site[1] - d[1], site[2] - d[2] };
-      const bool       hasAhead = this->IsSample(ahead);
-      const bool       hasBehind = this->IsSample(behind);
-      double           difference = 0.0;
+      const SiteType ahead{ site[0] + d[0], site[1] + d[1], site[2] + d[2] };
+      const SiteType behind{ site[0] - d[0], site[1] - d[1], site[2] - d[2] };
+      const bool hasAhead = this->IsSample(ahead);
+      const bool hasBehind = this->IsSample(behind);
+      double difference = 0.0;
       if (hasAhead && hasBehind)
       {
         difference = this->ValueAt(ahead) - this->ValueAt(behind);
@@ -202,12 +205,12 @@ private:
     return squared > 0.0 && std::isfinite(squared);
   }
 
-  const TInputImage &              m_Image;
+  const TInputImage & m_Image;
   typename TInputImage::RegionType m_Region;
-  double                           m_Isovalue;
-  double                           m_OutwardSign; ///< of the gradient, to point outside
-  double                           m_MinimumFraction;
-  double                           m_GradientToWorld[3][3];
+  double m_Isovalue;
+  double m_OutwardSign; ///< of the gradient, to point outside
+  double m_MinimumFraction;
+  double m_GradientToWorld[3][3];
 };
 
 } // namespace itk

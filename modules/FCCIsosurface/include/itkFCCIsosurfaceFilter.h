@@ -12,22 +12,22 @@ namespace itk
 /** \class FCCIsosurfaceFilter
  * \brief The isosurface of an FCC image, by marching the six tetrahedra of each of the lattice's parallelepipeds.
  *
- * A sample is inside when its value is not below the isovalue, or with InsideIsBelow on, when it is (for lungs and other
- * air); not-a-number is outside. Triangles are counter-clockwise seen from outside, normals point outside, points are
- * in LPS mm. There is one point on each cut edge of the
- * tetrahedra, shared by all its triangles, where the values' linear interpolation crosses the isovalue, but at least
- * MinimumFraction of the edge away from both ends: so no triangle is degenerate, even where samples equal the isovalue.
+ * A sample is inside when its value is not below the isovalue, or with InsideIsBelow on, when it is (for lungs and
+ * other air); not-a-number is outside. Triangles are counter-clockwise seen from outside, normals point outside, points
+ * are in LPS mm. There is one point on each cut edge of the tetrahedra, shared by all its triangles, where the values'
+ * linear interpolation crosses the isovalue, but at least MinimumFraction of the edge away from both ends: so no
+ * triangle is degenerate, even where samples equal the isovalue.
  *
- * All faces of the tetrahedra are triangles, so nothing is ambiguous and the surface is an oriented manifold for any input.
- * With Closed on (the default) everything beyond the image counts as outside, and where a body reaches the border, the
- * surface closes on the faces of the image's extent (see FCCImage), so that it encloses what the samples' Voronoi cells
- * enclose. With Closed off the surface ends at the outermost tetrahedra.
+ * All faces of the tetrahedra are triangles, so nothing is ambiguous and the surface is an oriented manifold for any
+ * input. With Closed on (the default) everything beyond the image counts as outside, and where a body reaches the
+ * border, the surface closes on the faces of the image's extent (see FCCImage), so that it encloses what the samples'
+ * Voronoi cells enclose. With Closed off the surface ends at the outermost tetrahedra.
  *
- * Method: A. Sahillioglu, "A marching algorithm for isosurface extraction from face-centered cubic lattices", Turk J Elec
- * Eng & Comp Sci 25 (2017), in passes that count, prefix-sum and fill as W. Schroeder et al., "Flying Edges" (2015) do for
- * Cartesian grids: classify samples into bits; count cut edges and triangles of each plane by counting bits; from
- * the sums, fill points and triangles of all planes independently. The output has the same bytes for any number of threads.
- * Normals are gradients from the twelve neighbours, sum d f(x + d) / 8, at the edge's ends, blended.
+ * Method: A. Sahillioglu, "A marching algorithm for isosurface extraction from face-centered cubic lattices", Turk J
+ * Elec Eng & Comp Sci 25 (2017), in passes that count, prefix-sum and fill as W. Schroeder et al., "Flying Edges"
+ * (2015) do for Cartesian grids: classify samples into bits; count cut edges and triangles of each plane by counting
+ * bits; from the sums, fill points and triangles of all planes independently. The output has the same bytes for any
+ * number of threads. Normals are gradients from the twelve neighbours, sum d f(x + d) / 8, at the edge's ends, blended.
  *
  * Memory: one bit a sample, and the surface.
  *
@@ -60,16 +60,12 @@ public:
   static constexpr double MinimumFraction = 1.0 / 1024.0;
 
   using Superclass::SetInput;
-  void
-  SetInput(const InputImageType * image);
-  const InputImageType *
-  GetInput() const;
+  void SetInput(const InputImageType * image);
+  const InputImageType * GetInput() const;
 
   using Superclass::GetOutput;
-  TriangleSurface *
-  GetOutput();
-  const TriangleSurface *
-  GetOutput() const;
+  TriangleSurface * GetOutput();
+  const TriangleSurface * GetOutput() const;
 
   /** The value at which the surface lies, in units of the pixels. Default 0. */
   itkSetMacro(Isovalue, double);
@@ -89,18 +85,14 @@ protected:
   FCCIsosurfaceFilter();
   ~FCCIsosurfaceFilter() override = default;
 
-  void
-  PrintSelf(std::ostream & os, Indent indent) const override;
+  void PrintSelf(std::ostream & os, Indent indent) const override;
 
   using Superclass::MakeOutput;
-  DataObject::Pointer
-  MakeOutput(DataObjectPointerArraySizeType index) override;
+  DataObject::Pointer MakeOutput(DataObjectPointerArraySizeType index) override;
 
-  void
-  VerifyPreconditions() ITKv5_CONST override;
+  void VerifyPreconditions() ITKv5_CONST override;
 
-  void
-  GenerateData() override;
+  void GenerateData() override;
 
 private:
   /** First point and triangle of each plane, and the totals at the end. */
@@ -111,32 +103,27 @@ private:
     std::vector<SizeValueType> triangles; ///< triangles between a plane and the next begin here
   };
 
-  FCCSigns
-  Classify();
+  FCCSigns Classify();
 
-  Layout
-  Count(const FCCSigns & signs);
+  Layout Count(const FCCSigns & signs);
 
-  void
-  Fill(const FCCSigns & signs, const Layout & layout);
+  void Fill(const FCCSigns & signs, const Layout & layout);
 
-  void
-  FillPoints(const FCCSigns & signs, const FCCCutEdges & edges, FCCCutEdges::Group group, SizeValueType plane);
+  void FillPoints(const FCCSigns & signs, const FCCCutEdges & edges, FCCCutEdges::Group group, SizeValueType plane);
 
   /** Calls \a work(begin, end) for slabs of planes, by several threads, and reports its share of the progress. */
   template <typename TWork>
-  void
-  ForEachSlab(SizeValueType planes, float share, const TWork & work);
+  void ForEachSlab(SizeValueType planes, float share, const TWork & work);
 
   double m_Isovalue{ 0.0 };
-  bool   m_InsideIsBelow{ false };
-  bool   m_Closed{ true };
+  bool m_InsideIsBelow{ false };
+  bool m_Closed{ true };
 };
 
 } // namespace itk
 
 #ifndef ITK_MANUAL_INSTANTIATION
-#  include "itkFCCIsosurfaceFilter.hxx"
+#include "itkFCCIsosurfaceFilter.hxx"
 #endif
 
 // Compiled once, in the library, for the pixel types of scans.

@@ -95,8 +95,8 @@ void
 FCCIsosurfaceFilter<TInputImage>::ForEachSlab(SizeValueType planes, float share, const TWork & work)
 {
   constexpr SizeValueType planesPerSlab = 16;
-  const SizeValueType     slabs = (planes + planesPerSlab - 1) / planesPerSlab;
-  MultiThreaderBase *     threader = this->GetMultiThreader();
+  const SizeValueType slabs = (planes + planesPerSlab - 1) / planesPerSlab;
+  MultiThreaderBase * threader = this->GetMultiThreader();
   threader->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
   threader->ParallelizeArray(
     0,
@@ -118,10 +118,10 @@ FCCSigns
 FCCIsosurfaceFilter<TInputImage>::Classify()
 {
   const InputImageType * const image = this->GetInput();
-  const auto &                 region = image->GetBufferedRegion();
-  const SizeValueType          padding = m_Closed ? 1 : 0;
-  const auto                   shift = static_cast<IndexValueType>(padding);
-  FCCSigns                     signs(region.GetSize(0) + 2 * padding,
+  const auto & region = image->GetBufferedRegion();
+  const SizeValueType padding = m_Closed ? 1 : 0;
+  const auto shift = static_cast<IndexValueType>(padding);
+  FCCSigns signs(region.GetSize(0) + 2 * padding,
                  region.GetSize(1) + 2 * padding,
                  region.GetSize(2) + 2 * padding,
                  FCCLattice::Parity(region.GetIndex(1) - shift, region.GetIndex(2) - shift));
@@ -133,13 +133,13 @@ FCCIsosurfaceFilter<TInputImage>::Classify()
     {
       for (SizeValueType j = 0; j < region.GetSize(1); ++j)
       {
-        const PixelType * const    values = image->GetBufferPointer() + (k * region.GetSize(1) + j) * region.GetSize(0);
+        const PixelType * const values = image->GetBufferPointer() + (k * region.GetSize(1) + j) * region.GetSize(0);
         FCCSigns::WordType * const row = signs.GetRow(j + padding, k + padding);
         for (SizeValueType i = 0; i < region.GetSize(0); ++i)
         {
           const SizeValueType bit = i + padding;
-          const auto          value = static_cast<double>(values[i]);
-          const bool          inside = isBelow ? value < isovalue : value >= isovalue;
+          const auto value = static_cast<double>(values[i]);
+          const bool inside = isBelow ? value < isovalue : value >= isovalue;
           row[bit / FCCSigns::WordBits] |= static_cast<FCCSigns::WordType>(inside) << (bit % FCCSigns::WordBits);
         }
       }
@@ -153,7 +153,7 @@ auto
 FCCIsosurfaceFilter<TInputImage>::Count(const FCCSigns & signs) -> Layout
 {
   const SizeValueType depth = signs.GetDepth();
-  Layout              layout{ std::vector<SizeValueType>(depth + 1),
+  Layout layout{ std::vector<SizeValueType>(depth + 1),
                  std::vector<SizeValueType>(depth + 1),
                  std::vector<SizeValueType>(depth + 1) };
   this->ForEachSlab(depth, 0.2f, [&](SizeValueType begin, SizeValueType end) {
@@ -180,9 +180,10 @@ FCCIsosurfaceFilter<TInputImage>::Count(const FCCSigns & signs) -> Layout
   }
   if (points > std::numeric_limits<std::uint32_t>::max())
   {
-    itkExceptionMacro("The surface would have " << points
-                                                << " points, more than 32-bit indices reach; resample at a lower density, or "
-                                                   "extract from a smaller region.");
+    itkExceptionMacro("The surface would have "
+                      << points
+                      << " points, more than 32-bit indices reach; resample at a lower density, or "
+                         "extract from a smaller region.");
   }
   return layout;
 }
@@ -191,7 +192,7 @@ template <typename TInputImage>
 void
 FCCIsosurfaceFilter<TInputImage>::Fill(const FCCSigns & signs, const Layout & layout)
 {
-  const SizeValueType     depth = signs.GetDepth();
+  const SizeValueType depth = signs.GetDepth();
   TriangleSurface * const surface = this->GetOutput();
   surface->GetPoints().resize(layout.inPlane[depth]);
   surface->GetNormals().resize(layout.inPlane[depth]);
@@ -199,8 +200,8 @@ FCCIsosurfaceFilter<TInputImage>::Fill(const FCCSigns & signs, const Layout & la
 
   // With left-handed axes the triangles of the tables face inwards.
   const auto & direction = this->GetInput()->GetDirection();
-  const bool   reversed = vnl_determinant(direction.GetVnlMatrix()) < 0.0;
-  const auto   idOf = [](SizeValueType id) { return static_cast<std::uint32_t>(id); };
+  const bool reversed = vnl_determinant(direction.GetVnlMatrix()) < 0.0;
+  const auto idOf = [](SizeValueType id) { return static_cast<std::uint32_t>(id); };
 
   this->ForEachSlab(depth, 0.7f, [&](SizeValueType begin, SizeValueType end) {
     FCCCutEdges lower(signs, FCCCutEdges::Group::InPlane);
@@ -215,8 +216,7 @@ FCCIsosurfaceFilter<TInputImage>::Fill(const FCCSigns & signs, const Layout & la
       this->FillPoints(signs, between, FCCCutEdges::Group::Between, k);
       if (k + 1 < depth)
       {
-        FillTriangles(
-          signs, k, lower, upper, between, reversed, surface->GetTriangles().data() + layout.triangles[k]);
+        FillTriangles(signs, k, lower, upper, between, reversed, surface->GetTriangles().data() + layout.triangles[k]);
       }
       std::swap(lower, upper);
     }
@@ -226,16 +226,16 @@ FCCIsosurfaceFilter<TInputImage>::Fill(const FCCSigns & signs, const Layout & la
 
 template <typename TInputImage>
 void
-FCCIsosurfaceFilter<TInputImage>::FillPoints(const FCCSigns &    signs,
+FCCIsosurfaceFilter<TInputImage>::FillPoints(const FCCSigns & signs,
                                              const FCCCutEdges & edges,
-                                             FCCCutEdges::Group  group,
-                                             SizeValueType       plane)
+                                             FCCCutEdges::Group group,
+                                             SizeValueType plane)
 {
-  const InputImageType * const       image = this->GetInput();
-  const auto                         first = image->GetBufferedRegion().GetIndex();
-  const IndexValueType               shift = m_Closed ? 1 : 0;
+  const InputImageType * const image = this->GetInput();
+  const auto first = image->GetBufferedRegion().GetIndex();
+  const IndexValueType shift = m_Closed ? 1 : 0;
   const FCCEdgePoint<InputImageType> edgePoint(*image, m_Isovalue, m_InsideIsBelow, MinimumFraction);
-  TriangleSurface * const            surface = this->GetOutput();
+  TriangleSurface * const surface = this->GetOutput();
 
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
   {
@@ -247,11 +247,14 @@ FCCIsosurfaceFilter<TInputImage>::FillPoints(const FCCSigns &    signs,
         std::uint32_t id = row.before[word];
         for (auto mask = row.mask[word]; mask != 0; mask &= mask - 1)
         {
-          const auto     i = static_cast<IndexValueType>(word * FCCSigns::WordBits) + __builtin_ctzll(mask);
+          const auto i = static_cast<IndexValueType>(word * FCCSigns::WordBits) + __builtin_ctzll(mask);
           const Index<3> index{ { first[0] + i - shift,
                                   first[1] + static_cast<IndexValueType>(j) - shift,
                                   first[2] + static_cast<IndexValueType>(plane) - shift } };
-          edgePoint.Place(FCCLattice::SiteOf(index), FCCLattice::OwnedEdges[type], surface->GetPoints()[id], surface->GetNormals()[id]);
+          edgePoint.Place(FCCLattice::SiteOf(index),
+                          FCCLattice::OwnedEdges[type],
+                          surface->GetPoints()[id],
+                          surface->GetNormals()[id]);
           ++id;
         }
       }

@@ -13,8 +13,8 @@ namespace itk
 /** \class FCCSigns
  * \brief One bit for each site of a box of the lattice: is it inside?
  *
- * Rows are stored as 64-bit words, bit i of a row being site i, followed by a spare zero word; bits past the last site are
- * zero. Rows are counted from (0, 0) whatever the image's start index, so the parity of that row is stored, too.
+ * Rows are stored as 64-bit words, bit i of a row being site i, followed by a spare zero word; bits past the last site
+ * are zero. Rows are counted from (0, 0) whatever the image's start index, so the parity of that row is stored, too.
  *
  * Thread safety: different rows can be written at once.
  *
@@ -68,19 +68,20 @@ public:
   }
 
 private:
-  SizeValueType         m_Width;
-  SizeValueType         m_Height;
-  SizeValueType         m_Depth;
-  SizeValueType         m_Stride;
-  IndexValueType        m_ParityOfFirstRow;
+  SizeValueType m_Width;
+  SizeValueType m_Height;
+  SizeValueType m_Depth;
+  SizeValueType m_Stride;
+  IndexValueType m_ParityOfFirstRow;
   std::vector<WordType> m_Words;
 };
 
 /** \class FCCCutEdges
- * \brief The edges that the surface cuts, among some types of owned edges of the rows of one plane, and their vertex ids.
+ * \brief The edges that the surface cuts, among some types of owned edges of the rows of one plane, and their vertex
+ * ids.
  *
- * Ids count the cut edges row by row, within a row type by type, within a type along x. An id is found from the mask of cut
- * edges by counting bits: no table of vertices, no search.
+ * Ids count the cut edges row by row, within a row type by type, within a type along x. An id is found from the mask of
+ * cut edges by counting bits: no table of vertices, no search.
  *
  * \ingroup FCCIsosurface
  */
@@ -99,12 +100,10 @@ public:
   FCCCutEdges(const FCCSigns & signs, Group group);
 
   /** Finds the cut edges owned by plane \a k and numbers them from \a firstId. Planes past the last own none. */
-  void
-  Find(SizeValueType k, std::uint32_t firstId);
+  void Find(SizeValueType k, std::uint32_t firstId);
 
   /** Number of cut edges owned by plane \a k, without finding their ids. */
-  static SizeValueType
-  Count(const FCCSigns & signs, Group group, SizeValueType k);
+  static SizeValueType Count(const FCCSigns & signs, Group group, SizeValueType k);
 
   static std::uint8_t
   FirstType(Group group)
@@ -120,14 +119,14 @@ public:
   /** The cut edges of one type and row. */
   struct Row
   {
-    const WordType *      mask;   ///< bit i: the edge owned by site i is cut
+    const WordType * mask;        ///< bit i: the edge owned by site i is cut
     const std::uint32_t * before; ///< id of the first cut edge of each word
 
     std::uint32_t
     GetId(SizeValueType i) const
     {
       const SizeValueType word = i / FCCSigns::WordBits;
-      const WordType      below = mask[word] & ((WordType{ 1 } << (i % FCCSigns::WordBits)) - 1);
+      const WordType below = mask[word] & ((WordType{ 1 } << (i % FCCSigns::WordBits)) - 1);
       return before[word] + static_cast<std::uint32_t>(__builtin_popcountll(below));
     }
   };
@@ -146,27 +145,25 @@ private:
     return (j * m_Types + (type - FirstType(m_Group))) * m_Signs->GetNumberOfWords();
   }
 
-  const FCCSigns *           m_Signs;
-  Group                      m_Group;
-  SizeValueType              m_Types;
-  std::vector<WordType>      m_Masks;
+  const FCCSigns * m_Signs;
+  Group m_Group;
+  SizeValueType m_Types;
+  std::vector<WordType> m_Masks;
   std::vector<std::uint32_t> m_Before;
 };
 
 /** Number of triangles between the planes \a k and \a k + 1. */
-SizeValueType
-CountTriangles(const FCCSigns & signs, SizeValueType k);
+SizeValueType CountTriangles(const FCCSigns & signs, SizeValueType k);
 
-/** The triangles between the planes \a k and \a k + 1, from the cut edges of plane \a k within it, of plane \a k + 1 within
- * it, and between the two. Writes as many as CountTriangles() says; \a reversed turns them all over. */
-void
-FillTriangles(const FCCSigns &                signs,
-              SizeValueType                   k,
-              const FCCCutEdges &             lower,
-              const FCCCutEdges &             upper,
-              const FCCCutEdges &             between,
-              bool                            reversed,
-              TriangleSurface::TriangleType * triangles);
+/** The triangles between the planes \a k and \a k + 1, from the cut edges of plane \a k within it, of plane \a k + 1
+ * within it, and between the two. Writes as many as CountTriangles() says; \a reversed turns them all over. */
+void FillTriangles(const FCCSigns & signs,
+                   SizeValueType k,
+                   const FCCCutEdges & lower,
+                   const FCCCutEdges & upper,
+                   const FCCCutEdges & between,
+                   bool reversed,
+                   TriangleSurface::TriangleType * triangles);
 
 } // namespace itk
 

@@ -12,9 +12,10 @@ namespace itk
  * \brief The triangles of one step of the column march, for every pattern of inside and outside.
  *
  * A *column* is the square prism between the rows A (j, k), B (j+1, k), C (j, k+1) and D (j+1, k+1). Rows A and D have
- * one parity, B and C the other, so along x the column's sites come in alternating *pairs* AD, BC, AD, BC ... one lattice
- * unit apart. Every tetrahedron of the six-tetrahedra decomposition that touches the prism lies in it, and spans two or
- * three consecutive pairs. A *step* is what starts at one pair; with the pair's rows called first and second:
+ * one parity, B and C the other, so along x the column's sites come in alternating *pairs* AD, BC, AD, BC ... one
+ * lattice unit apart. Every tetrahedron of the six-tetrahedra decomposition that touches the prism lies in it, and
+ * spans two or three consecutive pairs. A *step* is what starts at one pair; with the pair's rows called first and
+ * second:
  *
  *   sites  0, 1  first and second row of this pair
  *          2, 3  first and second row of the next pair, of the other kind
@@ -23,9 +24,9 @@ namespace itk
  *               {0 4 2 3}  the quarter of an octahedron about its diagonal 0-4
  *               {1 5 2 3}  the quarter of another octahedron about its diagonal 1-5
  *
- * There are two *kinds* of step: kind 0 starts at a pair AD, kind 1 at a pair BC. A *case* is a number of six bits; bit s is
- * set when site s is inside. Triangles are given by the edges of the tetrahedra on which their corners lie, and are
- * counter-clockwise seen from outside when the lattice's axes are right-handed.
+ * There are two *kinds* of step: kind 0 starts at a pair AD, kind 1 at a pair BC. A *case* is a number of six bits; bit
+ * s is set when site s is inside. Triangles are given by the edges of the tetrahedra on which their corners lie, and
+ * are counter-clockwise seen from outside when the lattice's axes are right-handed.
  *
  * The tables are derived here at compile time, from the sites' coordinates alone.
  *
@@ -67,7 +68,7 @@ struct FCCMarchingCases
   /** Where an edge is stored: its owner's row, which of FCCLattice::OwnedEdges it is, and the pair of its owner. */
   struct EdgeOwner
   {
-    Row          row = A;
+    Row row = A;
     std::uint8_t type = 0;
     std::uint8_t pair = 0; ///< 0: this pair, 1: the next, 2: the one after
   };
@@ -100,7 +101,8 @@ struct FCCMarchingCases
         bool matches = true;
         for (unsigned int axis = 0; axis < 3; ++axis)
         {
-          matches = matches && SiteOf(kind, other)[axis] - SiteOf(kind, owner)[axis] == FCCLattice::OwnedEdges[type][axis];
+          matches =
+            matches && SiteOf(kind, other)[axis] - SiteOf(kind, owner)[axis] == FCCLattice::OwnedEdges[type][axis];
         }
         if (matches)
         {
@@ -115,7 +117,8 @@ struct FCCMarchingCases
   EdgeBetween(unsigned int a, unsigned int b)
   {
     std::uint8_t edge = 0;
-    while (!((EdgeSites[edge][0] == a && EdgeSites[edge][1] == b) || (EdgeSites[edge][0] == b && EdgeSites[edge][1] == a)))
+    while (
+      !((EdgeSites[edge][0] == a && EdgeSites[edge][1] == b) || (EdgeSites[edge][0] == b && EdgeSites[edge][1] == a)))
     {
       ++edge;
     }
@@ -126,7 +129,7 @@ struct FCCMarchingCases
   static constexpr IndexValueType
   Orientation(unsigned int kind, unsigned int a, unsigned int b, unsigned int c, unsigned int d)
   {
-    IndexValueType     v[3][3] = {};
+    IndexValueType v[3][3] = {};
     const unsigned int ends[3] = { b, c, d };
     for (unsigned int row = 0; row < 3; ++row)
     {
@@ -148,8 +151,8 @@ struct FCCMarchingCases
     ++result.triangles;
   }
 
-  /** Adds the triangles of one tetrahedron. Its sites are put in order, those inside first; then the surface leaves through
-   * a triangle, or through a quadrilateral that is cut in two. */
+  /** Adds the triangles of one tetrahedron. Its sites are put in order, those inside first; then the surface leaves
+   * through a triangle, or through a quadrilateral that is cut in two. */
   static constexpr void
   AddTetrahedron(Case & result, unsigned int kind, unsigned int pattern, const std::uint8_t (&sites)[4])
   {
@@ -213,7 +216,7 @@ struct FCCMarchingCases
 
   struct Tables
   {
-    Case      cases[Kinds][Cases] = {};
+    Case cases[Kinds][Cases] = {};
     EdgeOwner owners[Kinds][Edges] = {};
   };
 

@@ -49,8 +49,8 @@ void
 ForEachCutWord(const FCCSigns & signs, std::uint8_t type, SizeValueType j, SizeValueType k, const TUse & use)
 {
   const auto & step = FCCLattice::OwnedEdges[type];
-  const auto   otherJ = static_cast<IndexValueType>(j) + step[1];
-  const auto   otherK = static_cast<IndexValueType>(k) + step[2];
+  const auto otherJ = static_cast<IndexValueType>(j) + step[1];
+  const auto otherK = static_cast<IndexValueType>(k) + step[2];
   if (otherJ < 0 || otherJ >= static_cast<IndexValueType>(signs.GetHeight()) ||
       otherK >= static_cast<IndexValueType>(signs.GetDepth()))
   {
@@ -58,7 +58,7 @@ ForEachCutWord(const FCCSigns & signs, std::uint8_t type, SizeValueType j, SizeV
   }
   const WordType * const row = signs.GetRow(j, k);
   const WordType * const other = signs.GetRow(static_cast<SizeValueType>(otherJ), static_cast<SizeValueType>(otherK));
-  const auto             shift = FCCLattice::OffsetOf(step, signs.GetParity(j, k))[0];
+  const auto shift = FCCLattice::OffsetOf(step, signs.GetParity(j, k))[0];
   for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
   {
     switch (shift)
@@ -70,7 +70,9 @@ ForEachCutWord(const FCCSigns & signs, std::uint8_t type, SizeValueType j, SizeV
         use(word, (row[word] ^ Next(other, word)) & Below(signs.GetWidth() - 1, word));
         break;
       default:
-        use(word, (row[word] ^ Previous(other, word)) & Below(signs.GetWidth(), word) & (word == 0 ? ~WordType{ 1 } : ~WordType{ 0 }));
+        use(word,
+            (row[word] ^ Previous(other, word)) & Below(signs.GetWidth(), word) &
+              (word == 0 ? ~WordType{ 1 } : ~WordType{ 0 }));
     }
   }
 }
@@ -79,7 +81,7 @@ ForEachCutWord(const FCCSigns & signs, std::uint8_t type, SizeValueType j, SizeV
 struct Column
 {
   const WordType * rows[4];
-  IndexValueType   shift[Cases::Kinds]; ///< 1 when the next pair's index is one more than this pair's
+  IndexValueType shift[Cases::Kinds]; ///< 1 when the next pair's index is one more than this pair's
 
   Column(const FCCSigns & signs, SizeValueType j, SizeValueType k)
     : rows{ signs.GetRow(j, k), signs.GetRow(j + 1, k), signs.GetRow(j, k + 1), signs.GetRow(j + 1, k + 1) }
@@ -124,7 +126,7 @@ struct Steps
     SizeValueType triangles = 0;
     for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
     {
-      const auto &   corners = Cases::TetrahedronSites[tetrahedron];
+      const auto & corners = Cases::TetrahedronSites[tetrahedron];
       const WordType a = sites[corners[0]];
       const WordType b = sites[corners[1]];
       const WordType c = sites[corners[2]];
@@ -153,8 +155,8 @@ struct Steps
 class ColumnIds
 {
 public:
-  ColumnIds(const Column &      column,
-            SizeValueType       j,
+  ColumnIds(const Column & column,
+            SizeValueType j,
             const FCCCutEdges & lower,
             const FCCCutEdges & upper,
             const FCCCutEdges & between)
@@ -165,8 +167,8 @@ public:
       for (unsigned int edge = 0; edge < Cases::Edges; ++edge)
       {
         const Cases::EdgeOwner & owner = FCCMarchingTables.owners[kind][edge];
-        const bool               isBetween = owner.type >= FCCCutEdges::FirstType(FCCCutEdges::Group::Between);
-        const FCCCutEdges &      edges = isBetween ? between : (owner.row & 2) != 0 ? upper : lower;
+        const bool isBetween = owner.type >= FCCCutEdges::FirstType(FCCCutEdges::Group::Between);
+        const FCCCutEdges & edges = isBetween ? between : (owner.row & 2) != 0 ? upper : lower;
         m_Rows[kind][edge] = edges.GetRow(j + (owner.row & 1), owner.type);
         m_Shift[kind][edge] = shiftOfPair[owner.pair];
       }
@@ -181,15 +183,12 @@ public:
 
 private:
   FCCCutEdges::Row m_Rows[Cases::Kinds][Cases::Edges];
-  SizeValueType    m_Shift[Cases::Kinds][Cases::Edges];
+  SizeValueType m_Shift[Cases::Kinds][Cases::Edges];
 };
 
 } // namespace
 
-FCCSigns::FCCSigns(SizeValueType  width,
-                   SizeValueType  height,
-                   SizeValueType  depth,
-                   IndexValueType parityOfFirstRow)
+FCCSigns::FCCSigns(SizeValueType width, SizeValueType height, SizeValueType depth, IndexValueType parityOfFirstRow)
   : m_Width(width)
   , m_Height(height)
   , m_Depth(depth)
@@ -262,19 +261,19 @@ CountTriangles(const FCCSigns & signs, SizeValueType k)
 }
 
 void
-FillTriangles(const FCCSigns &                signs,
-              SizeValueType                   k,
-              const FCCCutEdges &             lower,
-              const FCCCutEdges &             upper,
-              const FCCCutEdges &             between,
-              bool                            reversed,
+FillTriangles(const FCCSigns & signs,
+              SizeValueType k,
+              const FCCCutEdges & lower,
+              const FCCCutEdges & upper,
+              const FCCCutEdges & between,
+              bool reversed,
               TriangleSurface::TriangleType * triangles)
 {
   const unsigned int second = reversed ? 2 : 1;
   const unsigned int third = reversed ? 1 : 2;
   for (SizeValueType j = 0; j + 1 < signs.GetHeight(); ++j)
   {
-    const Column    column(signs, j, k);
+    const Column column(signs, j, k);
     const ColumnIds ids(column, j, lower, upper, between);
     for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
     {
@@ -283,15 +282,17 @@ FillTriangles(const FCCSigns &                signs,
         const Steps steps(signs, column, kind, word);
         for (WordType active = steps.Active(); active != 0; active &= active - 1)
         {
-          const auto          bit = static_cast<unsigned int>(__builtin_ctzll(active));
+          const auto bit = static_cast<unsigned int>(__builtin_ctzll(active));
           const SizeValueType i = word * FCCSigns::WordBits + bit;
           const Cases::Case & found = FCCMarchingTables.cases[kind][steps.PatternOf(bit)];
-          const bool          hasQuarters = (steps.quarters >> bit & 1) != 0;
-          const unsigned int  count = hasQuarters ? found.triangles : found.regularTriangles;
+          const bool hasQuarters = (steps.quarters >> bit & 1) != 0;
+          const unsigned int count = hasQuarters ? found.triangles : found.regularTriangles;
           for (unsigned int n = 0; n < count; ++n)
           {
             const auto & edges = found.edges[n];
-            *triangles++ = { ids.GetId(kind, edges[0], i), ids.GetId(kind, edges[second], i), ids.GetId(kind, edges[third], i) };
+            *triangles++ = { ids.GetId(kind, edges[0], i),
+                             ids.GetId(kind, edges[second], i),
+                             ids.GetId(kind, edges[third], i) };
           }
         }
       }

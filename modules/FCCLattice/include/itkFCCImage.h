@@ -11,25 +11,26 @@ namespace itk
 /** \class FCCImage
  * \brief A three-dimensional image sampled on the face-centered cubic lattice.
  *
- * Index (i, j, k) is the lattice site (2 i + p, j, k) with p = (j + k) mod 2 (see FCCLattice), in dense storage: memory is
- * the number of samples. The site with lattice coordinates (x, y, z) lies at
+ * Index (i, j, k) is the lattice site (2 i + p, j, k) with p = (j + k) mod 2 (see FCCLattice), in dense storage: memory
+ * is the number of samples. The site with lattice coordinates (x, y, z) lies at
  *
  *   point = Origin + Direction * (Spacing[0] x, Spacing[1] y, Spacing[2] z)     [LPS mm]
  *
  * so **Spacing is the unit of the lattice coordinates**, half the edge of the cubic FCC cell along each axis: nearest
- * neighbours are sqrt(2) Spacing apart, samples of one row 2 Spacing[0], and there are 1 / (2 s0 s1 s2) samples per mm^3.
- * Origin is the position of the lattice point (0, 0, 0), which is index (0, 0, 0) whether or not it is in the image.
- * Spacing may differ between the axes, and Direction may be any invertible matrix.
+ * neighbours are sqrt(2) Spacing apart, samples of one row 2 Spacing[0], and there are 1 / (2 s0 s1 s2) samples per
+ * mm^3. Origin is the position of the lattice point (0, 0, 0), which is index (0, 0, 0) whether or not it is in the
+ * image. Spacing may differ between the axes, and Direction may be any invertible matrix.
  *
- * The *extent* of an image is the box from half a lattice unit before its first sites to half a unit after its last ones
- * along each axis; points in it count as inside.
+ * The *extent* of an image is the box from half a lattice unit before its first sites to half a unit after its last
+ * ones along each axis; points in it count as inside.
  *
- * A continuous index is (x / 2, y, z): linear in the point. It equals the index in rows of parity 0; the samples of a row
- * of parity 1 lie at i + 1/2. Interpolators written for Cartesian images are therefore wrong on an FCCImage; use those of
- * FCCInterpolation. Pixel-wise filters, iterators, and itk::ResampleImageFilter with an FCCImage as its output work.
+ * A continuous index is (x / 2, y, z): linear in the point. It equals the index in rows of parity 0; the samples of a
+ * row of parity 1 lie at i + 1/2. Interpolators written for Cartesian images are therefore wrong on an FCCImage; use
+ * those of FCCInterpolation. Pixel-wise filters, iterators, and itk::ResampleImageFilter with an FCCImage as its output
+ * work.
  *
- * The transforms below hide those of ImageBase, which are not virtual, so an FCCImage must be used through its own type.
- * Unlike its superclass's, its SetSpacing() and SetOrigin() do what they say.
+ * The transforms below hide those of ImageBase, which are not virtual, so an FCCImage must be used through its own
+ * type. Unlike its superclass's, its SetSpacing() and SetOrigin() do what they say.
  *
  * Thread safety: that of itk::Image.
  *
@@ -100,70 +101,57 @@ public:
 
   /** Lattice coordinates of a point, any real numbers. */
   template <typename TCoordRep>
-  std::array<double, 3>
-  TransformPhysicalPointToLattice(const Point<TCoordRep, 3> & point) const;
+  std::array<double, 3> TransformPhysicalPointToLattice(const Point<TCoordRep, 3> & point) const;
 
   /** The point with the given lattice coordinates. */
   template <typename TCoordRep>
-  Point<TCoordRep, 3>
-  TransformLatticeToPhysicalPoint(const std::array<double, 3> & coordinates) const;
+  Point<TCoordRep, 3> TransformLatticeToPhysicalPoint(const std::array<double, 3> & coordinates) const;
 
   /** Whether lattice coordinates lie in the extent of a region of this image. */
-  static bool
-  IsInsideExtent(const std::array<double, 3> & coordinates, const RegionType & region);
+  static bool IsInsideExtent(const std::array<double, 3> & coordinates, const RegionType & region);
 
   /** Index of the sample whose Voronoi cell holds the point; returns whether it is in the largest possible region. */
   template <typename TCoordRep>
-  bool
-  TransformPhysicalPointToIndex(const Point<TCoordRep, 3> & point, IndexType & index) const;
+  bool TransformPhysicalPointToIndex(const Point<TCoordRep, 3> & point, IndexType & index) const;
 
   template <typename TCoordRep>
-  IndexType
-  TransformPhysicalPointToIndex(const Point<TCoordRep, 3> & point) const;
+  IndexType TransformPhysicalPointToIndex(const Point<TCoordRep, 3> & point) const;
 
   /** Continuous index of a point; returns whether it is in the extent of the largest possible region. */
   template <typename TCoordRep, typename TIndexRep>
-  bool
-  TransformPhysicalPointToContinuousIndex(const Point<TCoordRep, 3> &      point,
-                                          ContinuousIndex<TIndexRep, 3> & index) const;
+  bool TransformPhysicalPointToContinuousIndex(const Point<TCoordRep, 3> & point,
+                                               ContinuousIndex<TIndexRep, 3> & index) const;
 
   template <typename TIndexRep, typename TCoordRep>
-  ContinuousIndex<TIndexRep, 3>
-  TransformPhysicalPointToContinuousIndex(const Point<TCoordRep, 3> & point) const;
+  ContinuousIndex<TIndexRep, 3> TransformPhysicalPointToContinuousIndex(const Point<TCoordRep, 3> & point) const;
 
   template <typename TCoordRep, typename TIndexRep>
-  void
-  TransformContinuousIndexToPhysicalPoint(const ContinuousIndex<TIndexRep, 3> & index,
-                                          Point<TCoordRep, 3> &                 point) const;
+  void TransformContinuousIndexToPhysicalPoint(const ContinuousIndex<TIndexRep, 3> & index,
+                                               Point<TCoordRep, 3> & point) const;
 
   template <typename TCoordRep, typename TIndexRep>
-  Point<TCoordRep, 3>
-  TransformContinuousIndexToPhysicalPoint(const ContinuousIndex<TIndexRep, 3> & index) const;
+  Point<TCoordRep, 3> TransformContinuousIndexToPhysicalPoint(const ContinuousIndex<TIndexRep, 3> & index) const;
 
   template <typename TCoordRep>
-  void
-  TransformIndexToPhysicalPoint(const IndexType & index, Point<TCoordRep, 3> & point) const;
+  void TransformIndexToPhysicalPoint(const IndexType & index, Point<TCoordRep, 3> & point) const;
 
   template <typename TCoordRep>
-  Point<TCoordRep, 3>
-  TransformIndexToPhysicalPoint(const IndexType & index) const;
+  Point<TCoordRep, 3> TransformIndexToPhysicalPoint(const IndexType & index) const;
 
   /** Shares another FCCImage's pixels and takes over its geometry and regions. */
-  void
-  Graft(const Self * image);
+  void Graft(const Self * image);
 
 protected:
   FCCImage() = default;
   ~FCCImage() override = default;
 
-  void
-  Graft(const DataObject * data) override;
+  void Graft(const DataObject * data) override;
 };
 
 } // namespace itk
 
 #ifndef ITK_MANUAL_INSTANTIATION
-#  include "itkFCCImage.hxx"
+#include "itkFCCImage.hxx"
 #endif
 
 #endif

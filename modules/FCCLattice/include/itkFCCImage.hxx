@@ -77,7 +77,7 @@ FCCImage<TPixel>::TransformPhysicalPointToIndex(const Point<TCoordRep, 3> & poin
 template <typename TPixel>
 template <typename TCoordRep, typename TIndexRep>
 bool
-FCCImage<TPixel>::TransformPhysicalPointToContinuousIndex(const Point<TCoordRep, 3> &      point,
+FCCImage<TPixel>::TransformPhysicalPointToContinuousIndex(const Point<TCoordRep, 3> & point,
                                                           ContinuousIndex<TIndexRep, 3> & index) const
 {
   const auto coordinates = this->TransformPhysicalPointToLattice(point);
@@ -101,7 +101,7 @@ template <typename TPixel>
 template <typename TCoordRep, typename TIndexRep>
 void
 FCCImage<TPixel>::TransformContinuousIndexToPhysicalPoint(const ContinuousIndex<TIndexRep, 3> & index,
-                                                          Point<TCoordRep, 3> &                 point) const
+                                                          Point<TCoordRep, 3> & point) const
 {
   point = this->template TransformLatticeToPhysicalPoint<TCoordRep>(
     { 2.0 * static_cast<double>(index[0]), static_cast<double>(index[1]), static_cast<double>(index[2]) });

@@ -17,8 +17,8 @@ namespace itk
  * Voronoi cell of a site is a rhombic dodecahedron of volume 2. The Delaunay cells are one regular tetrahedron in each
  * unit cube (its four even corners) and one octahedron around each odd point (its six axis neighbours).
  *
- * Sites are stored densely in *rows* along x. Index (i, j, k) is the site (2 i + p, j, k), where p = (j + k) mod 2 is the
- * *parity* of the row: neighbouring rows are shifted by one unit against each other, which is half their step.
+ * Sites are stored densely in *rows* along x. Index (i, j, k) is the site (2 i + p, j, k), where p = (j + k) mod 2 is
+ * the *parity* of the row: neighbouring rows are shifted by one unit against each other, which is half their step.
  *
  * Everything here is constexpr or pure, so thread safe.
  *
@@ -104,9 +104,9 @@ struct FCCLattice
   static SiteType
   NearestSite(const std::array<double, 3> & point)
   {
-    SiteType     site;
+    SiteType site;
     unsigned int worst = 0;
-    double       worstError = -1.0;
+    double worstError = -1.0;
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
       const double rounded = std::floor(point[axis] + 0.5);

@@ -54,7 +54,7 @@ TypeName()
 std::string
 ToText(double value)
 {
-  char       text[32];
+  char text[32];
   const auto end = std::to_chars(text, text + sizeof(text), value).ptr;
   return std::string(text, end);
 }
@@ -64,15 +64,15 @@ std::vector<TNumber>
 ToNumbers(const std::string & text, std::size_t count, const fs::path & path)
 {
   std::vector<TNumber> numbers;
-  const char *         next = text.data();
-  const char * const   end = next + text.size();
+  const char * next = text.data();
+  const char * const end = next + text.size();
   while (numbers.size() < count)
   {
     while (next != end && *next == ' ')
     {
       ++next;
     }
-    TNumber    number{};
+    TNumber number{};
     const auto parsed = std::from_chars(next, end, number);
     if (parsed.ec != std::errc())
     {
@@ -88,15 +88,16 @@ template <typename TPixel>
 std::string
 MakeHeader(const itk::FCCImage<TPixel> & image)
 {
-  const auto &       region = image.GetBufferedRegion();
-  const auto &       direction = image.GetDirection();
-  const auto &       spacing = image.GetSpacing();
-  const double       step[3] = { 2.0 * spacing[0], spacing[1], spacing[2] };
+  const auto & region = image.GetBufferedRegion();
+  const auto & direction = image.GetDirection();
+  const auto & spacing = image.GetSpacing();
+  const double step[3] = { 2.0 * spacing[0], spacing[1], spacing[2] };
   std::ostringstream header;
   header.imbue(std::locale::classic());
   header << "NRRD0005\n"
          << "# Samples on the face-centered cubic lattice: index (i, j, k) is at lattice coordinates (2 i + p, j, k),\n"
-         << "# p = (j + k) mod 2; position = origin + direction * (spacing * coordinates), LPS mm. Indices begin at 'start'.\n"
+         << "# p = (j + k) mod 2; position = origin + direction * (spacing * coordinates), LPS mm. Indices begin at "
+            "'start'.\n"
          << "# The space fields are those of the rows with p = 0, for readers that know Cartesian grids only.\n"
          << "type: " << TypeName<TPixel>() << "\ndimension: 3\nspace: left-posterior-superior\nsizes:";
   for (unsigned int axis = 0; axis < 3; ++axis)
@@ -109,10 +110,10 @@ MakeHeader(const itk::FCCImage<TPixel> & image)
     header << " (" << ToText(direction[0][axis] * step[axis]) << ',' << ToText(direction[1][axis] * step[axis]) << ','
            << ToText(direction[2][axis] * step[axis]) << ')';
   }
-  const auto first = image.template TransformLatticeToPhysicalPoint<double>(
-    { 2.0 * static_cast<double>(region.GetIndex(0)),
-      static_cast<double>(region.GetIndex(1)),
-      static_cast<double>(region.GetIndex(2)) });
+  const auto first =
+    image.template TransformLatticeToPhysicalPoint<double>({ 2.0 * static_cast<double>(region.GetIndex(0)),
+                                                             static_cast<double>(region.GetIndex(1)),
+                                                             static_cast<double>(region.GetIndex(2)) });
   header << "\nkinds: domain domain domain\nendian: little\nencoding: raw\nspace origin: (" << ToText(first[0]) << ','
          << ToText(first[1]) << ',' << ToText(first[2]) << ")\n"
          << latticeKey << '=' << latticeValue << "\nlattice spacing:=";
@@ -130,7 +131,8 @@ MakeHeader(const itk::FCCImage<TPixel> & image)
   {
     header << (n > 0 ? " " : "") << ToText(direction[n / 3][n % 3]);
   }
-  header << "\nlattice start:=" << region.GetIndex(0) << ' ' << region.GetIndex(1) << ' ' << region.GetIndex(2) << "\n\n";
+  header << "\nlattice start:=" << region.GetIndex(0) << ' ' << region.GetIndex(1) << ' ' << region.GetIndex(2)
+         << "\n\n";
   return header.str();
 }
 
@@ -141,9 +143,9 @@ Fields
 ReadHeader(std::istream & stream, const fs::path & path)
 {
   constexpr std::size_t longest = 1 << 16;
-  std::string           line;
-  Fields                fields;
-  std::size_t           length = 0;
+  std::string line;
+  Fields fields;
+  std::size_t length = 0;
   if (!std::getline(stream, line) || line.compare(0, 4, "NRRD") != 0)
   {
     FailToRead(path, "it is not a NRRD file");
@@ -184,8 +186,8 @@ ReadSamples(std::istream & stream, Fields & fields, const fs::path & path)
   const auto numbers = ToNumbers<double>(fields["lattice direction:"], 9, path);
   const auto start = ToNumbers<std::int64_t>(fields["lattice start:"], 3, path);
 
-  const auto    begin = static_cast<std::uint64_t>(stream.tellg());
-  const auto    available = static_cast<std::uint64_t>(fs::file_size(path)) - begin;
+  const auto begin = static_cast<std::uint64_t>(stream.tellg());
+  const auto available = static_cast<std::uint64_t>(fs::file_size(path)) - begin;
   std::uint64_t bytes = sizeof(TPixel);
   for (const std::uint64_t size : sizes)
   {
@@ -200,9 +202,9 @@ ReadSamples(std::istream & stream, Fields & fields, const fs::path & path)
     FailToRead(path, "it holds more data than its header says");
   }
 
-  auto                               image = ImageType::New();
-  typename ImageType::RegionType     region;
-  typename ImageType::DirectionType  direction;
+  auto image = ImageType::New();
+  typename ImageType::RegionType region;
+  typename ImageType::DirectionType direction;
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
     if (!(spacing[axis] > 0.0 && std::isfinite(spacing[axis])))
@@ -238,14 +240,14 @@ ReadSamples(std::istream & stream, Fields & fields, const fs::path & path)
 void
 WriteFCCImage(const FCCVolume & volume, const fs::path & path)
 {
-  AtomicFile  file(path);
+  AtomicFile file(path);
   std::size_t size = 0;
   std::visit(
     [&](const auto & image) {
       using PixelType = typename std::decay_t<decltype(*image)>::PixelType;
       const std::string header = MakeHeader(*image);
       const std::size_t bytes = image->GetBufferedRegion().GetNumberOfPixels() * sizeof(PixelType);
-      std::ofstream     stream(file.GetTemporaryPath(), std::ios::binary | std::ios::trunc);
+      std::ofstream stream(file.GetTemporaryPath(), std::ios::binary | std::ios::trunc);
       stream << header;
       stream.write(reinterpret_cast<const char *>(image->GetBufferPointer()), static_cast<std::streamsize>(bytes));
       stream.close();
@@ -268,12 +270,13 @@ ReadFCCImage(const fs::path & path)
     throw Failure(FailureKind::NotFound, "There is no file " + path.string() + "; check the path.");
   }
   std::ifstream stream(path, std::ios::binary);
-  Fields        fields = ReadHeader(stream, path);
+  Fields fields = ReadHeader(stream, path);
   if (fields[latticeKey] != latticeValue)
   {
     FailToRead(path, "it is not a volume on the face-centered cubic lattice; give it as a scan instead");
   }
-  if (fields["encoding"] != "raw" || fields["dimension"] != "3" || (fields["endian"] != "little" && fields["type"] != "uint8"))
+  if (fields["encoding"] != "raw" || fields["dimension"] != "3" ||
+      (fields["endian"] != "little" && fields["type"] != "uint8"))
   {
     FailToRead(path, "only raw, little-endian, three-dimensional lattice volumes are supported");
   }
@@ -305,8 +308,8 @@ bool
 IsFCCImageFile(const fs::path & path)
 {
   std::error_code error;
-  std::ifstream   stream(path, std::ios::binary);
-  std::string     line;
+  std::ifstream stream(path, std::ios::binary);
+  std::string line;
   if (!fs::is_regular_file(path, error) || !std::getline(stream, line) || line.compare(0, 4, "NRRD") != 0)
   {
     return false;

@@ -17,21 +17,22 @@ namespace itk
  * by SetDensity(), or the lattice's spacing itself by SetOutputSpacing().
  *
  * The output has the input's direction. Its extent (see FCCImage) covers the input's, from the outer face of the first
- * voxel to that of the last, and is centred on it; every input sample lies between output samples. Output index (0, 0, 0)
- * is a sample whatever the input's start index. Where output samples lie up to a lattice unit beyond the outermost input
- * samples, the field is constant along the axis.
+ * voxel to that of the last, and is centred on it; every input sample lies between output samples. Output index (0, 0,
+ * 0) is a sample whatever the input's start index. Where output samples lie up to a lattice unit beyond the outermost
+ * input samples, the field is constant along the axis.
  *
  * Values between samples come from a separable kernel (see SeparableTaps), the cubic B-spline with its prefilter by
- * default, because linear interpolation blurs away what the lattice gains. B-splines overshoot at edges; integer outputs
- * are rounded and clamped to the range of their type. Not-a-number spreads to all samples within the kernel's reach.
+ * default, because linear interpolation blurs away what the lattice gains. B-splines overshoot at edges; integer
+ * outputs are rounded and clamped to the range of their type. Not-a-number spreads to all samples within the kernel's
+ * reach.
  *
  * The filter works row by row: a lattice row has constant y and z, so the rows of the input around it are blended once
  * and then interpolated along x. Extra memory: about one input plane in float32 per thread. It asks for as much of
- * the input as the requested output needs, and any part of the output has the same bytes whether it is computed alone or
- * with the rest, by one thread or many.
+ * the input as the requested output needs, and any part of the output has the same bytes whether it is computed alone
+ * or with the rest, by one thread or many.
  *
- * Overridden pipeline methods: VerifyPreconditions() (sensible parameters), GenerateOutputInformation() (places the lattice),
- * GenerateInputRequestedRegion() (the kernel's reach).
+ * Overridden pipeline methods: VerifyPreconditions() (sensible parameters), GenerateOutputInformation() (places the
+ * lattice), GenerateInputRequestedRegion() (the kernel's reach).
  *
  * \ingroup FCCResampling
  */
@@ -75,20 +76,15 @@ protected:
   CartesianToFCCImageFilter();
   ~CartesianToFCCImageFilter() override = default;
 
-  void
-  PrintSelf(std::ostream & os, Indent indent) const override;
+  void PrintSelf(std::ostream & os, Indent indent) const override;
 
-  void
-  VerifyPreconditions() ITKv5_CONST override;
+  void VerifyPreconditions() ITKv5_CONST override;
 
-  void
-  GenerateOutputInformation() override;
+  void GenerateOutputInformation() override;
 
-  void
-  GenerateInputRequestedRegion() override;
+  void GenerateInputRequestedRegion() override;
 
-  void
-  DynamicThreadedGenerateData(const OutputImageRegionType & region) override;
+  void DynamicThreadedGenerateData(const OutputImageRegionType & region) override;
 
   /** Reports that all is done: the threads' last reports may have come from another thread than the observers'. */
   void
@@ -99,18 +95,17 @@ protected:
 
 private:
   /** Taps for the samples of the output region along one axis; along x, for the rows of one parity. */
-  SeparableTaps
-  MakeTaps(unsigned int axis, const OutputImageRegionType & region, IndexValueType parity = 0) const;
+  SeparableTaps MakeTaps(unsigned int axis, const OutputImageRegionType & region, IndexValueType parity = 0) const;
 
-  double          m_Density{ FCCLattice::NyquistDensity };
-  SpacingType     m_OutputSpacing{ 0.0 };
+  double m_Density{ FCCLattice::NyquistDensity };
+  SpacingType m_OutputSpacing{ 0.0 };
   SeparableKernel m_Kernel{ SeparableKernel::CubicBSpline };
 };
 
 } // namespace itk
 
 #ifndef ITK_MANUAL_INSTANTIATION
-#  include "itkCartesianToFCCImageFilter.hxx"
+#include "itkCartesianToFCCImageFilter.hxx"
 #endif
 
 // Compiled once, in the library, for the pixel types of scans.

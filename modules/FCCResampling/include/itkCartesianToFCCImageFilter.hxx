@@ -33,11 +33,12 @@ Accumulate(const TPixel * row, float weight, SizeValueType length, bool first, f
   }
 }
 
-/** Weighted sum of consecutive values, in four lanes so that it becomes SIMD code and its order of additions is fixed. */
+/** Weighted sum of consecutive values, in four lanes so that it becomes SIMD code and its order of additions is fixed.
+ */
 inline float
 WeightedSum(const float * values, const float * weights, SizeValueType count)
 {
-  float         lanes[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
+  float lanes[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
   SizeValueType n = 0;
   for (; n + 4 <= count; n += 4)
   {
@@ -118,35 +119,36 @@ void
 CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateOutputInformation()
 {
   const TInputImage * const input = this->GetInput();
-  TOutputImage * const      output = this->GetOutput();
-  const auto &              region = input->GetLargestPossibleRegion();
+  TOutputImage * const output = this->GetOutput();
+  const auto & region = input->GetLargestPossibleRegion();
   if (region.GetNumberOfPixels() == 0)
   {
     itkExceptionMacro("The input has no samples; its size is " << region.GetSize() << ".");
   }
 
-  const double                  scale = std::cbrt(1.0 / (FCCLattice::CellVolume * m_Density));
-  OutputImageRegionType         outputRegion;
-  SpacingType                   spacing;
-  ContinuousIndex<double, 3>    first; // the lattice point (0, 0, 0) in the input
+  const double scale = std::cbrt(1.0 / (FCCLattice::CellVolume * m_Density));
+  OutputImageRegionType outputRegion;
+  SpacingType spacing;
+  ContinuousIndex<double, 3> first; // the lattice point (0, 0, 0) in the input
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
     const double inputSpacing = input->GetSpacing()[axis];
-    const auto   length = static_cast<double>(region.GetSize(axis));
+    const auto length = static_cast<double>(region.GetSize(axis));
     spacing[axis] = m_OutputSpacing[axis] > 0.0 ? m_OutputSpacing[axis] : scale * inputSpacing;
 
     // Along x a row's samples are two units apart and the rows of the other parity are shifted by one, so that covering
     // the input with both takes one unit more.
     constexpr double tolerance = 1e-9; // of a sample, against rounding
-    const double     step = spacing[axis] / inputSpacing;
-    const double     units = length / step;
-    const double     samples = axis == 0 ? (units + 1.0) / 2.0 : units;
-    const double     count = std::max(1.0, std::ceil(samples - tolerance));
-    const double     span = axis == 0 ? 2.0 * count - 1.0 : count - 1.0;
+    const double step = spacing[axis] / inputSpacing;
+    const double units = length / step;
+    const double samples = axis == 0 ? (units + 1.0) / 2.0 : units;
+    const double count = std::max(1.0, std::ceil(samples - tolerance));
+    const double span = axis == 0 ? 2.0 * count - 1.0 : count - 1.0;
     if (!(count < 1e9))
     {
       itkExceptionMacro("The lattice would have " << count << " samples along axis " << axis << " at a spacing of "
-                                                  << spacing[axis] << " mm; use a larger OutputSpacing or a smaller Density.");
+                                                  << spacing[axis]
+                                                  << " mm; use a larger OutputSpacing or a smaller Density.");
     }
     outputRegion.SetSize(axis, static_cast<SizeValueType>(count));
     first[axis] = static_cast<double>(region.GetIndex(axis)) + (length - 1.0 - span * step) / 2.0;
@@ -160,14 +162,14 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateOutputInformation(
 
 template <typename TInputImage, typename TOutputImage>
 SeparableTaps
-CartesianToFCCImageFilter<TInputImage, TOutputImage>::MakeTaps(unsigned int                  axis,
+CartesianToFCCImageFilter<TInputImage, TOutputImage>::MakeTaps(unsigned int axis,
                                                                const OutputImageRegionType & region,
-                                                               IndexValueType                parity) const
+                                                               IndexValueType parity) const
 {
-  const TInputImage * const  input = this->GetInput();
+  const TInputImage * const input = this->GetInput();
   const TOutputImage * const output = this->GetOutput();
   // The output's axes are the input's: along each, positions depend on one lattice coordinate alone.
-  const auto   first = input->template TransformPhysicalPointToContinuousIndex<double>(output->GetOrigin());
+  const auto first = input->template TransformPhysicalPointToContinuousIndex<double>(output->GetOrigin());
   const double start = first[axis] - static_cast<double>(input->GetLargestPossibleRegion().GetIndex(axis));
   const double step = output->GetSpacing()[axis] / input->GetSpacing()[axis];
 
@@ -185,9 +187,9 @@ void
 CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateInputRequestedRegion()
 {
   Superclass::GenerateInputRequestedRegion();
-  auto * const                  input = const_cast<TInputImage *>(this->GetInput());
+  auto * const input = const_cast<TInputImage *>(this->GetInput());
   const OutputImageRegionType & requested = this->GetOutput()->GetRequestedRegion();
-  InputImageRegionType          needed = input->GetLargestPossibleRegion();
+  InputImageRegionType needed = input->GetLargestPossibleRegion();
   if (requested.GetNumberOfPixels() > 0)
   {
     for (unsigned int axis = 0; axis < 3; ++axis)
@@ -207,11 +209,11 @@ template <typename TInputImage, typename TOutputImage>
 void
 CartesianToFCCImageFilter<TInputImage, TOutputImage>::DynamicThreadedGenerateData(const OutputImageRegionType & region)
 {
-  const TInputImage * const  input = this->GetInput();
-  TOutputImage * const       output = this->GetOutput();
+  const TInputImage * const input = this->GetInput();
+  TOutputImage * const output = this->GetOutput();
   const InputImageRegionType buffered = input->GetBufferedRegion();
-  const auto &               whole = input->GetLargestPossibleRegion();
-  TotalProgressReporter      progress(this, output->GetRequestedRegion().GetNumberOfPixels());
+  const auto & whole = input->GetLargestPossibleRegion();
+  TotalProgressReporter progress(this, output->GetRequestedRegion().GetNumberOfPixels());
 
   const SeparableTaps xTaps[2] = { this->MakeTaps(0, region, 0), this->MakeTaps(0, region, 1) };
   const SeparableTaps yTaps = this->MakeTaps(1, region);
@@ -259,7 +261,7 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::DynamicThreadedGenerateDat
       const typename TOutputImage::IndexType index{ { region.GetIndex(0),
                                                       region.GetIndex(1) + static_cast<IndexValueType>(j),
                                                       region.GetIndex(2) + static_cast<IndexValueType>(k) } };
-      const SeparableTaps &                  taps = xTaps[FCCLattice::Parity(index[1], index[2])];
+      const SeparableTaps & taps = xTaps[FCCLattice::Parity(index[1], index[2])];
       OutputPixelType * const outputRow = output->GetBufferPointer() + output->ComputeOffset(index);
       for (SizeValueType i = 0; i < region.GetSize(0); ++i)
       {

@@ -19,7 +19,8 @@ namespace itk
  * Voxels outside the FCC image's extent become DefaultPixelValue. The whole input is requested. Integer outputs are
  * rounded. The result does not depend on the number of threads.
  *
- * Overridden pipeline methods: GenerateOutputInformation() (places the grid), GenerateInputRequestedRegion() (all of it).
+ * Overridden pipeline methods: GenerateOutputInformation() (places the grid), GenerateInputRequestedRegion() (all of
+ * it).
  *
  * \ingroup FCCResampling
  */
@@ -61,20 +62,15 @@ protected:
   FCCToCartesianImageFilter();
   ~FCCToCartesianImageFilter() override = default;
 
-  void
-  PrintSelf(std::ostream & os, Indent indent) const override;
+  void PrintSelf(std::ostream & os, Indent indent) const override;
 
-  void
-  VerifyInputInformation() ITKv5_CONST override;
+  void VerifyInputInformation() ITKv5_CONST override;
 
-  void
-  GenerateOutputInformation() override;
+  void GenerateOutputInformation() override;
 
-  void
-  GenerateInputRequestedRegion() override;
+  void GenerateInputRequestedRegion() override;
 
-  void
-  DynamicThreadedGenerateData(const OutputImageRegionType & region) override;
+  void DynamicThreadedGenerateData(const OutputImageRegionType & region) override;
 
   /** Reports that all is done: the threads' last reports may have come from another thread than the observers'. */
   void
@@ -84,15 +80,15 @@ protected:
   }
 
 private:
-  SpacingType                                m_OutputSpacing{ 0.0 };
-  typename ReferenceImageType::ConstPointer  m_ReferenceImage;
-  OutputPixelType                            m_DefaultPixelValue{};
+  SpacingType m_OutputSpacing{ 0.0 };
+  typename ReferenceImageType::ConstPointer m_ReferenceImage;
+  OutputPixelType m_DefaultPixelValue{};
 };
 
 } // namespace itk
 
 #ifndef ITK_MANUAL_INSTANTIATION
-#  include "itkFCCToCartesianImageFilter.hxx"
+#include "itkFCCToCartesianImageFilter.hxx"
 #endif
 
 // Compiled once, in the library, for the pixel types of scans.

@@ -22,7 +22,8 @@ FCCToCartesianImageFilter<TInputImage, TOutputImage>::PrintSelf(std::ostream & o
   Superclass::PrintSelf(os, indent);
   os << indent << "OutputSpacing: " << m_OutputSpacing << std::endl;
   os << indent << "ReferenceImage: " << m_ReferenceImage.GetPointer() << std::endl;
-  os << indent << "DefaultPixelValue: " << static_cast<typename NumericTraits<OutputPixelType>::PrintType>(m_DefaultPixelValue)
+  os << indent
+     << "DefaultPixelValue: " << static_cast<typename NumericTraits<OutputPixelType>::PrintType>(m_DefaultPixelValue)
      << std::endl;
 }
 
@@ -46,7 +47,7 @@ void
 FCCToCartesianImageFilter<TInputImage, TOutputImage>::GenerateOutputInformation()
 {
   const TInputImage * const input = this->GetInput();
-  TOutputImage * const      output = this->GetOutput();
+  TOutputImage * const output = this->GetOutput();
   if (m_ReferenceImage)
   {
     output->SetLargestPossibleRegion(m_ReferenceImage->GetLargestPossibleRegion());
@@ -56,17 +57,17 @@ FCCToCartesianImageFilter<TInputImage, TOutputImage>::GenerateOutputInformation(
     return;
   }
 
-  const auto &          extent = input->GetLargestPossibleRegion();
-  const double          scale = std::cbrt(FCCLattice::CellVolume * FCCLattice::NyquistDensity);
+  const auto & extent = input->GetLargestPossibleRegion();
+  const double scale = std::cbrt(FCCLattice::CellVolume * FCCLattice::NyquistDensity);
   OutputImageRegionType region;
-  SpacingType           spacing;
+  SpacingType spacing;
   std::array<double, 3> first{}; // the first voxel's centre in lattice coordinates
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
     constexpr double tolerance = 1e-9; // of a voxel, against rounding
-    const double     unitsPerIndex = axis == 0 ? 2.0 : 1.0;
-    const double     units = unitsPerIndex * static_cast<double>(extent.GetSize(axis));
-    const double     begin = unitsPerIndex * static_cast<double>(extent.GetIndex(axis)) - 0.5;
+    const double unitsPerIndex = axis == 0 ? 2.0 : 1.0;
+    const double units = unitsPerIndex * static_cast<double>(extent.GetSize(axis));
+    const double begin = unitsPerIndex * static_cast<double>(extent.GetIndex(axis)) - 0.5;
     spacing[axis] = m_OutputSpacing[axis] > 0.0 ? m_OutputSpacing[axis] : scale * input->GetSpacing()[axis];
     const double step = spacing[axis] / input->GetSpacing()[axis];
     const double count = std::max(1.0, std::floor(units / step + tolerance));
@@ -91,9 +92,9 @@ void
 FCCToCartesianImageFilter<TInputImage, TOutputImage>::DynamicThreadedGenerateData(const OutputImageRegionType & region)
 {
   const TInputImage * const input = this->GetInput();
-  TOutputImage * const      output = this->GetOutput();
-  TotalProgressReporter     progress(this, output->GetRequestedRegion().GetNumberOfPixels());
-  const auto                interpolator = FCCLinearInterpolateImageFunction<TInputImage>::New();
+  TOutputImage * const output = this->GetOutput();
+  TotalProgressReporter progress(this, output->GetRequestedRegion().GetNumberOfPixels());
+  const auto interpolator = FCCLinearInterpolateImageFunction<TInputImage>::New();
   interpolator->SetInputImage(input);
 
   for (ImageScanlineIterator<TOutputImage> it(output, region); !it.IsAtEnd(); it.NextLine())
@@ -101,7 +102,7 @@ FCCToCartesianImageFilter<TInputImage, TOutputImage>::DynamicThreadedGenerateDat
     auto index = it.GetIndex();
     for (; !it.IsAtEndOfLine(); ++it, ++index[0])
     {
-      const auto                 point = output->template TransformIndexToPhysicalPoint<double>(index);
+      const auto point = output->template TransformIndexToPhysicalPoint<double>(index);
       ContinuousIndex<double, 3> continuous;
       input->TransformPhysicalPointToContinuousIndex(point, continuous);
       if (!interpolator->IsInsideBuffer(continuous))

@@ -18,9 +18,9 @@ enum class SeparableKernel : unsigned char
 /** \class SeparableTaps
  * \brief For each of a list of positions along one axis: the input samples its value is made of, and their weights.
  *
- * Every position has the same number of *taps*, consecutive samples from GetFirst() on. The weights depend on the position
- * and the axis' full length alone, not on which part of the axis is available, so any part of an output is the same
- * whether computed alone or with the rest.
+ * Every position has the same number of *taps*, consecutive samples from GetFirst() on. The weights depend on the
+ * position and the axis' full length alone, not on which part of the axis is available, so any part of an output is the
+ * same whether computed alone or with the rest.
  *
  * - Linear: two taps.
  * - CubicBSpline: interpolation with the cubic B-spline, prefilter included. The cardinal spline
@@ -64,9 +64,9 @@ public:
   }
 
 private:
-  SizeValueType              m_NumberOfTaps;
+  SizeValueType m_NumberOfTaps;
   std::vector<SizeValueType> m_First;
-  std::vector<float>         m_Weights;
+  std::vector<float> m_Weights;
 };
 
 } // namespace itk

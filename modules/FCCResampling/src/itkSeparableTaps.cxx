@@ -12,7 +12,7 @@ namespace
 /** Weights of the samples floor(position) - before ... of an axis without ends. */
 struct Kernel
 {
-  OffsetValueType     before;
+  OffsetValueType before;
   std::vector<double> weights;
 };
 
@@ -27,13 +27,12 @@ CardinalCubicBSplineKernel(double fraction)
 {
   constexpr OffsetValueType taps = 24;
   constexpr OffsetValueType before = taps / 2 - 1;
-  const double              pole = std::sqrt(3.0) - 2.0;
-  const double              t = fraction;
-  const double              u = 1.0 - fraction;
-  const double              spline[4] = { u * u * u / 6.0,
-                             2.0 / 3.0 - t * t * (2.0 - t) / 2.0,
-                             2.0 / 3.0 - u * u * (2.0 - u) / 2.0,
-                             t * t * t / 6.0 };
+  const double pole = std::sqrt(3.0) - 2.0;
+  const double t = fraction;
+  const double u = 1.0 - fraction;
+  const double spline[4] = {
+    u * u * u / 6.0, 2.0 / 3.0 - t * t * (2.0 - t) / 2.0, 2.0 / 3.0 - u * u * (2.0 - u) / 2.0, t * t * t / 6.0
+  };
   Kernel kernel{ before, std::vector<double>(taps) };
   for (OffsetValueType tap = 0; tap < taps; ++tap)
   {
@@ -83,9 +82,9 @@ SeparableTaps::SeparableTaps(SeparableKernel kernel, SizeValueType length, const
   for (std::size_t n = 0; n < positions.size(); ++n)
   {
     const double position = std::clamp(positions[n], 0.0, static_cast<double>(last));
-    const auto   sample = std::min(static_cast<OffsetValueType>(position), std::max<OffsetValueType>(last - 1, 0));
+    const auto sample = std::min(static_cast<OffsetValueType>(position), std::max<OffsetValueType>(last - 1, 0));
     const Kernel weights = MakeKernel(kernel, position - static_cast<double>(sample));
-    const auto   first = std::clamp<OffsetValueType>(sample - weights.before, 0, last + 1 - taps);
+    const auto first = std::clamp<OffsetValueType>(sample - weights.before, 0, last + 1 - taps);
 
     std::fill(sums.begin(), sums.end(), 0.0);
     for (std::size_t tap = 0; tap < weights.weights.size(); ++tap)
@@ -94,9 +93,10 @@ SeparableTaps::SeparableTaps(SeparableKernel kernel, SizeValueType length, const
       sums[static_cast<std::size_t>(Mirror(source, last + 1) - first)] += weights.weights[tap];
     }
     m_First[n] = static_cast<SizeValueType>(first);
-    std::transform(sums.begin(), sums.end(), m_Weights.begin() + static_cast<std::ptrdiff_t>(n * m_NumberOfTaps), [](double w) {
-      return static_cast<float>(w);
-    });
+    std::transform(sums.begin(),
+                   sums.end(),
+                   m_Weights.begin() + static_cast<std::ptrdiff_t>(n * m_NumberOfTaps),
+                   [](double w) { return static_cast<float>(w); });
   }
 }
 

@@ -17,8 +17,7 @@ struct PictureMetadata
 };
 
 /** Throws Failure(Usage) when WritePicture() would because of the extension: for asking before long work. */
-void
-CheckPicturePath(const std::filesystem::path & path);
+void CheckPicturePath(const std::filesystem::path & path);
 
 /** Writes a picture in the format of the path's extension: .png, .jpg, .jpeg (quality 95), .tif, .tiff, or .exr (linear
  * light, half floats). The same picture and metadata give the same bytes. The file is read back before it replaces an

@@ -10,9 +10,9 @@ namespace rhombic
 /** \class AtomicFile
  * \brief An output file that appears complete or not at all.
  *
- * The writer writes to GetTemporaryPath(), a hidden file beside the target whose name ends as the target's. Commit() checks
- * its size, flushes it to the disk and renames it over the target; without Commit() the destructor removes it, so
- * an exception or a full disk leaves the target as it was.
+ * The writer writes to GetTemporaryPath(), a hidden file beside the target whose name ends as the target's. Commit()
+ * checks its size, flushes it to the disk and renames it over the target; without Commit() the destructor removes it,
+ * so an exception or a full disk leaves the target as it was.
  *
  * One thread per object; objects for different targets are independent.
  */
@@ -24,8 +24,7 @@ public:
   ~AtomicFile();
 
   AtomicFile(const AtomicFile &) = delete;
-  AtomicFile &
-  operator=(const AtomicFile &) = delete;
+  AtomicFile & operator=(const AtomicFile &) = delete;
 
   const std::filesystem::path &
   GetTemporaryPath() const
@@ -33,10 +32,10 @@ public:
     return m_Temporary;
   }
 
-  /** Publishes the file. Libraries' writers may report success on a full disk, so the size in bytes that a complete file
-   * has at least is given by the caller. Throws Failure(Output) when the file is smaller or can't be flushed or renamed. */
-  void
-  Commit(std::uintmax_t minimumSize);
+  /** Publishes the file. Libraries' writers may report success on a full disk, so the size in bytes that a complete
+   * file has at least is given by the caller. Throws Failure(Output) when the file is smaller or can't be flushed or
+   * renamed. */
+  void Commit(std::uintmax_t minimumSize);
 
 private:
   std::filesystem::path m_Target;

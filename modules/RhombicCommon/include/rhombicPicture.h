@@ -14,8 +14,8 @@ struct Picture
 {
   static constexpr int Channels = 3;
 
-  int                       width = 0;
-  int                       height = 0;
+  int width = 0;
+  int height = 0;
   std::vector<std::uint8_t> pixels; ///< height * width * Channels bytes
 
   Picture() = default;
@@ -29,7 +29,8 @@ struct Picture
   const std::uint8_t *
   At(int x, int y) const
   {
-    return pixels.data() + (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * Channels;
+    return pixels.data() +
+           (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * Channels;
   }
 };
 

@@ -63,8 +63,8 @@ AtomicFile::AtomicFile(const fs::path & target)
   }
 
   static std::atomic<unsigned> counter{ 0 };
-  m_Temporary = folder / (".tmp-" + std::to_string(getpid()) + "-" + std::to_string(counter++) + "-" +
-                          target.filename().string());
+  m_Temporary =
+    folder / (".tmp-" + std::to_string(getpid()) + "-" + std::to_string(counter++) + "-" + target.filename().string());
   const int descriptor = open(m_Temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (descriptor < 0)
   {
@@ -86,11 +86,12 @@ void
 AtomicFile::Commit(std::uintmax_t minimumSize)
 {
   std::error_code error;
-  const auto      size = fs::file_size(m_Temporary, error);
+  const auto size = fs::file_size(m_Temporary, error);
   if (error || size < minimumSize)
   {
-    Fail(m_Target, "only " + std::to_string(error ? 0 : size) + " of at least " + std::to_string(minimumSize) +
-                     " bytes arrived; is the disk full?");
+    Fail(m_Target,
+         "only " + std::to_string(error ? 0 : size) + " of at least " + std::to_string(minimumSize) +
+           " bytes arrived; is the disk full?");
   }
   if (!Flush(m_Temporary, O_WRONLY))
   {

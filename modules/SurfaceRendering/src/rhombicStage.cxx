@@ -77,7 +77,9 @@ AddAmbientOcclusion(const std::vector<SceneSurface> & scene, vtkRenderer * rende
   renderer->SSAOBlurOn();
 }
 
-/** Draws translucent surfaces from the back to the front, pixel by pixel. */
+/** Draws translucent surfaces from the back to the front, pixel by pixel. Each peel finds the nearest and the farthest
+ * wall that are left. What remains after the last one is blended without being sorted: behind four near and four far
+ * walls that can't be seen, while each peel draws every triangle again. */
 void
 AddDepthPeeling(vtkRenderer * renderer)
 {

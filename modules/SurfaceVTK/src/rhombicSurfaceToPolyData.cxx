@@ -42,7 +42,7 @@ vtkSmartPointer<TArray>
 Wrap(const std::vector<TTuple> & tuples, int components, const SurfacePointer & surface)
 {
   constexpr int doNotFree = 1;
-  auto          array = vtkSmartPointer<TArray>::New();
+  auto array = vtkSmartPointer<TArray>::New();
   array->SetNumberOfComponents(components);
   // VTK's arrays have no const view; whoever holds the polydata promises not to write (see the header).
   auto * const values = reinterpret_cast<TValue *>(const_cast<TTuple *>(tuples.data()));
@@ -58,7 +58,7 @@ vtkSmartPointer<vtkPolyData>
 SurfaceToPolyData(const itk::TriangleSurface * surface)
 {
   const SurfacePointer keep(surface);
-  const auto           points = vtkSmartPointer<vtkPoints>::New();
+  const auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetData(Wrap<vtkFloatArray, float>(surface->GetPoints(), 3, keep));
 
   // uint32 indices read as int32 are the same bytes, as long as there are fewer than 2^31 points.

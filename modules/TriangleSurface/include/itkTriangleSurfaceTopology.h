@@ -31,11 +31,9 @@ struct TriangleSurfaceTopology
 };
 
 /** Counts all of the above. Time O(n log n), memory about 40 bytes a triangle. Thread safe. */
-TriangleSurfaceTopology
-ComputeTopology(const TriangleSurface & surface);
+TriangleSurfaceTopology ComputeTopology(const TriangleSurface & surface);
 
-std::ostream &
-operator<<(std::ostream & os, const TriangleSurfaceTopology & topology);
+std::ostream & operator<<(std::ostream & os, const TriangleSurfaceTopology & topology);
 
 } // namespace itk
 

@@ -35,8 +35,8 @@ TriangleSurface::GetBounds() const
 void
 TriangleSurface::RemoveUnusedPoints()
 {
-  constexpr std::uint32_t    unused = 0;
-  constexpr std::uint32_t    used = 1;
+  constexpr std::uint32_t unused = 0;
+  constexpr std::uint32_t used = 1;
   std::vector<std::uint32_t> newId(m_Points.size(), unused);
   for (const TriangleType & triangle : m_Triangles)
   {
@@ -45,7 +45,7 @@ TriangleSurface::RemoveUnusedPoints()
       newId[point] = used;
     }
   }
-  const bool    hasNormals = this->HasNormals();
+  const bool hasNormals = this->HasNormals();
   std::uint32_t kept = 0;
   for (std::size_t point = 0; point < newId.size(); ++point)
   {

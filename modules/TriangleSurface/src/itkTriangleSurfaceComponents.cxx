@@ -46,7 +46,7 @@ private:
 TriangleSurfaceComponents
 FindComponents(const TriangleSurface & surface)
 {
-  DisjointSets              sets(surface.GetNumberOfPoints());
+  DisjointSets sets(surface.GetNumberOfPoints());
   TriangleSurfaceComponents components;
   components.ofPoint.assign(surface.GetNumberOfPoints(), TriangleSurfaceComponents::None);
   for (const auto & triangle : surface.GetTriangles())

@@ -109,7 +109,7 @@ IsOneFan(std::vector<HalfEdge> & links)
     }
   }
   std::size_t visited = 0;
-  PointId     point = start;
+  PointId point = start;
   for (auto link = leaving(point); link != links.end() && link->from == point && visited < links.size();
        link = leaving(point))
   {
@@ -126,8 +126,8 @@ IsOneFan(std::vector<HalfEdge> & links)
 void
 CountFans(const TriangleSurface & surface, TriangleSurfaceTopology & topology)
 {
-  const auto &                triangles = surface.GetTriangles();
-  std::vector<std::uint64_t>  begin(surface.GetNumberOfPoints() + 1, 0);
+  const auto & triangles = surface.GetTriangles();
+  std::vector<std::uint64_t> begin(surface.GetNumberOfPoints() + 1, 0);
   for (const auto & triangle : triangles)
   {
     for (const PointId point : triangle)
@@ -137,7 +137,7 @@ CountFans(const TriangleSurface & surface, TriangleSurfaceTopology & topology)
   }
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   std::vector<HalfEdge> links(3 * triangles.size());
-  auto                  next = begin;
+  auto next = begin;
   for (const auto & triangle : triangles)
   {
     for (unsigned int corner = 0; corner < 3; ++corner)
@@ -177,7 +177,7 @@ TriangleSurfaceTopology
 ComputeTopology(const TriangleSurface & surface)
 {
   TriangleSurfaceTopology topology;
-  const auto &            triangles = surface.GetTriangles();
+  const auto & triangles = surface.GetTriangles();
   topology.degenerateTriangles = static_cast<SizeValueType>(std::count_if(
     triangles.begin(), triangles.end(), [&surface](const auto & triangle) { return IsDegenerate(surface, triangle); }));
   const SizeValueType edges = CountEdges(SortedHalfEdges(triangles), topology);
