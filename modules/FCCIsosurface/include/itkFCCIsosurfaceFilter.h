@@ -23,7 +23,7 @@ namespace itk
  * border, the surface closes on the faces of the image's extent (see FCCImage), so that it encloses what the samples'
  * Voronoi cells enclose. With Closed off the surface ends at the outermost tetrahedra.
  *
- * Method: A. Sahillioglu, "A marching algorithm for isosurface extraction from face-centered cubic lattices", Turk J
+ * Method: Y. Sahillioglu, "A marching algorithm for isosurface extraction from face-centered cubic lattices", Turk J
  * Elec Eng & Comp Sci 25 (2017), in passes that count, prefix-sum and fill as W. Schroeder et al., "Flying Edges"
  * (2015) do for Cartesian grids: classify samples into bits; count cut edges and triangles of each plane by counting
  * bits; from the sums, fill points and triangles of all planes independently. The output has the same bytes for any
