@@ -3,6 +3,8 @@
 #include "rhombicPictureIO.h"
 
 #include <OpenImageIO/imageio.h>
+#include "rhombicTemporaryFolder.h"
+
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -84,20 +86,14 @@ KindOf(const std::function<void()> & action)
 
 class PictureIO : public testing::Test
 {
-protected:
-  void
-  SetUp() override
-  {
-    std::string pattern = (fs::path(testing::TempDir()) / "rhombic-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    m_Folder = pattern;
-  }
+private:
+  const rhombictest::TemporaryFolder m_TemporaryFolder;
 
+protected:
   void
   TearDown() override
   {
     fs::permissions(m_Folder, fs::perms::owner_all);
-    fs::remove_all(m_Folder);
   }
 
   std::size_t
@@ -106,7 +102,7 @@ protected:
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(m_Folder), fs::directory_iterator()));
   }
 
-  fs::path m_Folder;
+  const fs::path m_Folder = m_TemporaryFolder.Path();
 };
 
 class PictureFormats

@@ -149,7 +149,7 @@ TEST_F(DicomFolder, PixelTypesFollowWhatIsStored)
       file.Write(m_Folder / std::to_string(k));
     }
     const auto scan = ReadScan(m_Folder);
-    const auto [lowest, highest] = rhombic::ComputeIntensityRange(scan.image);
+    const auto [lowest, highest] = rhombictest::IntensityRange(scan.image);
     return std::string(rhombic::PixelTypeName(scan.image)) + " " + Join({ lowest, highest });
   };
   EXPECT_EQ(read(8, false, "1", "0"), "uint8 0\\200");

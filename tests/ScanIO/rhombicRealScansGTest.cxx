@@ -33,7 +33,7 @@ std::string
 Describe(const rhombic::Scan & scan)
 {
   const auto size = rhombic::GeometryOf(scan.image).GetLargestPossibleRegion().GetSize();
-  const auto [lowest, highest] = rhombic::ComputeIntensityRange(scan.image);
+  const auto [lowest, highest] = rhombictest::IntensityRange(scan.image);
   return scan.modality + " " + rhombic::PixelTypeName(scan.image) + " " + std::to_string(size[0]) + "x" +
          std::to_string(size[1]) + "x" + std::to_string(size[2]) + " " + std::to_string(std::lround(lowest)) + ".." +
          std::to_string(std::lround(highest));

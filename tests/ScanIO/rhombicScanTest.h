@@ -3,34 +3,51 @@
 
 #include "rhombicFailure.h"
 #include "rhombicScanReader.h"
+#include "rhombicTemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <string>
-
-#include <unistd.h>
+#include <utility>
 
 /** A test with a folder of its own for input files. */
 class ScanTest : public testing::Test
 {
+private:
+  const rhombictest::TemporaryFolder m_TemporaryFolder;
+
 protected:
-  void
-  SetUp() override
-  {
-    std::string pattern = (std::filesystem::temp_directory_path() / "rhombic-scan-io-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    m_Folder = pattern;
-  }
-
-  void
-  TearDown() override
-  {
-    std::filesystem::remove_all(m_Folder);
-  }
-
-  std::filesystem::path m_Folder;
+  const std::filesystem::path m_Folder = m_TemporaryFolder.Path();
 };
+
+namespace rhombictest
+{
+
+/** The smallest and the largest of the finite values. */
+inline std::pair<double, double>
+IntensityRange(const rhombic::ScanImage & image)
+{
+  std::pair<double, double> range(std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest());
+  std::visit(
+    [&range](const auto & pixels) {
+      for (std::size_t n = 0; n < pixels->GetBufferedRegion().GetNumberOfPixels(); ++n)
+      {
+        const auto value = static_cast<double>(pixels->GetBufferPointer()[n]);
+        if (std::isfinite(value))
+        {
+          range.first = std::min(range.first, value);
+          range.second = std::max(range.second, value);
+        }
+      }
+    },
+    image);
+  return range;
+}
+
+} // namespace rhombictest
 
 /** Reads what must fail, silently, with one sentence that names \a named, and returns how. */
 inline rhombic::FailureKind

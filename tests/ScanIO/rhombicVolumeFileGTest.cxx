@@ -146,7 +146,7 @@ TEST_F(VolumeFile, RangeLeavesOutWhatIsNotFinite)
   image->SetPixel({ { 1, 0, 0 } }, -std::numeric_limits<float>::infinity());
   Write(image.GetPointer(), m_Folder / "a.mha");
   const auto scan = ReadScan(m_Folder / "a.mha");
-  EXPECT_EQ(rhombic::ComputeIntensityRange(scan.image), std::make_pair(0.0, 3.0));
+  EXPECT_EQ(rhombictest::IntensityRange(scan.image), std::make_pair(0.0, 3.0));
   ASSERT_EQ(scan.notes.size(), 1u);
   EXPECT_NE(scan.notes[0].find("2 values"), std::string::npos) << scan.notes[0];
 }

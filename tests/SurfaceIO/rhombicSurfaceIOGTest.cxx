@@ -17,6 +17,8 @@
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include "rhombicTemporaryFolder.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +29,6 @@
 #include <map>
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 namespace fs = std::filesystem;
 
@@ -136,28 +137,17 @@ KindOf(TAction action, const std::string & named)
 
 class SurfaceIO : public testing::Test
 {
+private:
+  const rhombictest::TemporaryFolder m_TemporaryFolder;
+
 protected:
-  void
-  SetUp() override
-  {
-    std::string pattern = (fs::temp_directory_path() / "rhombic-surface-io-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    m_Folder = pattern;
-  }
-
-  void
-  TearDown() override
-  {
-    fs::remove_all(m_Folder);
-  }
-
   std::size_t
   CountFiles() const
   {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(m_Folder), fs::directory_iterator()));
   }
 
-  fs::path m_Folder;
+  const fs::path m_Folder = m_TemporaryFolder.Path();
 };
 
 void

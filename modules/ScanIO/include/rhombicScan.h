@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -52,10 +51,6 @@ const itk::ImageBase<3> & GeometryOf(ScanImage &&) = delete; // it would outlive
 
 /** "uint8", "int16", "uint16", "int32" or "float". */
 const char * PixelTypeName(const ScanImage & image);
-
-/** The smallest and the largest value; values that are not finite don't count. Both are NaN when no value is finite.
- * One pass over the pixels. Thread safe. */
-std::pair<double, double> ComputeIntensityRange(const ScanImage & image);
 
 } // namespace rhombic
 
