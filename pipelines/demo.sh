@@ -12,12 +12,9 @@ cd "$(dirname "$0")/.."
 ./pipelines/build.sh release
 rhombic="$PWD/build/release/bin/rhombic"
 pictures="$PWD/build/demo"
+rm -rf "$pictures"
 mkdir -p "$pictures"
-
-if [ ! -e "$pictures/phantom/phantom.nii.gz" ]; then
-  rm -rf "$pictures/phantom"
-  "$rhombic" phantom -o "$pictures/phantom"
-fi
+"$rhombic" phantom -o "$pictures/phantom"
 "$rhombic" render "$pictures/phantom/dicom" --preset ct-bone-skin --view anterior --view left -o "$pictures/phantom.png"
 "$rhombic" render "$pictures/phantom/dicom" --preset ct-lung -o "$pictures/phantom-lungs.png"
 
@@ -25,12 +22,11 @@ if [ $# -gt 0 ]; then
   scan=$(cd "$start" && realpath "$1")
   shift
   if [ $# -eq 0 ]; then
-    # Raw numbers of an uncalibrated CT start at zero; Hounsfield units start far below.
-    if "$rhombic" info "$scan" | grep -q '^threshold .*bone'; then
-      set -- --preset ct-bone-skin
-    else
-      set -- --surface surface=otsu
-    fi
+    # info suggests a threshold for bone when the values are Hounsfield units.
+    case "$("$rhombic" info "$scan")" in
+      *bone*) set -- --preset ct-bone-skin ;;
+      *) set -- --surface surface=otsu ;;
+    esac
   fi
   "$rhombic" render "$scan" "$@" -o "$pictures/scan.png"
 fi

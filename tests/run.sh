@@ -6,4 +6,8 @@ cd "$(dirname "$0")/.."
 
 ./pipelines/install-packages.sh
 ./pipelines/build.sh dev
-exec ctest --preset dev --parallel "$(nproc)" "$@"
+log=build/dev/test.log
+status=0
+ctest --preset dev --parallel "$(nproc)" "$@" 2>&1 | tee "$log" || status=$?
+grep -E '^[0-9]+% tests passed' "$log" # after the lists of tests that were skipped or failed
+exit $status

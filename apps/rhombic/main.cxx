@@ -4,6 +4,7 @@
 #include "itkMultiThreaderBase.h"
 
 #include <cstdlib>
+#include <iostream>
 #include <new>
 
 namespace
@@ -36,18 +37,8 @@ constexpr char exitCodes[] = "Exit codes:\n"
                              "  5  the input's position in the patient can't be known\n"
                              "  6  there is no surface at this threshold\n"
                              "  7  the output can't be written\n"
-                             "  8  some inputs of many failed\n"
                              "  9  not enough memory\n"
                              "  10 this machine can't draw (see rhombic doctor)";
-
-/** ITK begins its descriptions with the class and address of the object that failed. */
-std::string
-WithoutObject(const std::string & description)
-{
-  const auto end = description.find("): ");
-  return description.rfind("itk::ERROR", 0) == 0 && end != std::string::npos ? description.substr(end + 3)
-                                                                             : description;
-}
 
 int
 Fail(Console & console, FailureKind kind, const std::string & sentence)
@@ -99,6 +90,10 @@ main(int argc, char ** argv)
     }
     (*chosen)({ &console, std::vector<std::string>(argv + 1, argv + argc) });
     console.Finish();
+    if (!std::cout.flush())
+    {
+      throw Failure(FailureKind::Output, "Cannot write to standard output; is the disk full, or the pipe closed?");
+    }
     return 0;
   }
   catch (const CLI::Success & help)
@@ -132,12 +127,8 @@ main(int argc, char ** argv)
     return Fail(
       console, FailureKind::Memory, "There is not enough memory; try a lower --density or close other programs.");
   }
-  catch (const itk::ExceptionObject & error)
-  {
-    return Fail(console, FailureKind::Internal, WithoutObject(error.GetDescription()));
-  }
   catch (const std::exception & error)
   {
-    return Fail(console, FailureKind::Internal, error.what());
+    return Fail(console, FailureKind::Internal, DescribeError(error) + "; this is a defect, please report it.");
   }
 }

@@ -5,17 +5,34 @@
 namespace rhombic
 {
 
+namespace
+{
+
 std::string
-DescribeCommandLine(const std::vector<std::string> & arguments, const std::string & scan)
+Describe(const std::string & value, const std::string & scan, const std::string & series)
+{
+  if (value == scan)
+  {
+    return "SCAN";
+  }
+  if (!series.empty() && value == series)
+  {
+    return "SERIES";
+  }
+  return value.find('/') == std::string::npos ? value : std::filesystem::path(value).filename().string();
+}
+
+} // namespace
+
+std::string
+DescribeCommandLine(const std::vector<std::string> & arguments, const std::string & scan, const std::string & series)
 {
   std::string text = "rhombic";
   for (const std::string & argument : arguments)
   {
     const auto equals = argument.rfind("-", 0) == 0 ? argument.find('=') : std::string::npos;
     const std::string option = equals == std::string::npos ? "" : argument.substr(0, equals + 1);
-    const std::string value = argument.substr(option.size());
-    const bool isPath = value.find('/') != std::string::npos;
-    text += " " + option + (value == scan ? "SCAN" : isPath ? std::filesystem::path(value).filename().string() : value);
+    text += " " + option + Describe(argument.substr(option.size()), scan, series);
   }
   return text;
 }

@@ -19,9 +19,9 @@ struct CommandContext
   std::vector<std::string> arguments; ///< after the program's name
 };
 
-/** The command line for metadata. Names of folders and scans may say who the patient is: only the last parts of paths
- * are kept, and SCAN stands for the scan. */
-std::string DescribeCommandLine(const std::vector<std::string> & arguments, const std::string & scan);
+/** The command line for metadata. Names of folders, scans and series may say who the patient is: only the last parts of
+ * paths are kept, and SCAN and SERIES stand for what was read. */
+std::string DescribeCommandLine(const std::vector<std::string> & arguments, const std::string & scan, const std::string & series);
 
 /** Does the command's work once its options are parsed. Throws Failure. */
 using CommandRun = std::function<void(const CommandContext &)>;

@@ -58,7 +58,7 @@ Doctor()
   std::cout << VersionText();
   std::cout << "threads      " << itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads() << '\n';
   std::cout << "memory       " << AvailableMemory() << " MiB available\n";
-  std::cout << "reads        DICOM folders (uncompressed, JPEG, JPEG-LS, JPEG 2000, RLE), NIfTI-1, NRRD, MetaImage\n";
+  std::cout << "built for    DICOM folders (uncompressed, JPEG, JPEG-LS, JPEG 2000, RLE), NIfTI-1, NRRD, MetaImage\n";
   for (const BackendProbe & probe : SurfaceRenderer::ProbeBackends())
   {
     std::cout << "display      " << probe.name << ": " << (probe.usable ? "works, " : "no, ") << probe.detail << '\n';

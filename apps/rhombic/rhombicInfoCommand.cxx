@@ -31,7 +31,8 @@ std::vector<Suggestion>
 Suggest(const std::string & modality, const Intensities & intensities)
 {
   std::vector<Suggestion> suggestions{ { "foreground (Otsu)", intensities.otsu } };
-  if (modality == "CT" && intensities.lowest < -500.0)
+  constexpr double nearAir = -900.0; // raw numbers of an uncalibrated CT don't go below 0
+  if ((modality == "CT" || modality.empty()) && intensities.lowest < nearAir)
   {
     for (const Suggestion & organ :
          { Suggestion{ "skin", -300.5 }, Suggestion{ "lungs, below", -500.5 }, Suggestion{ "bone", 250.5 } })
@@ -82,7 +83,7 @@ DescribeScan(const Scan & scan)
   {
     json["direction"].push_back({ direction[row][0], direction[row][1], direction[row][2] });
   }
-  json["orientation"] = OrientationLetters(direction);
+  json["orientation"] = scan.isOriented ? OrientationLetters(direction) : "unknown";
   json["range"] = { intensities.lowest, intensities.highest };
   for (const Suggestion & suggestion : Suggest(scan.modality, intensities))
   {
@@ -163,7 +164,7 @@ Print(const Json & json)
                                     { "pixelType", "" },
                                     { "size", " samples" },
                                     { "spacing", " mm" },
-                                    { "orientation", " (each axis runs towards)" } })
+                                    { "orientation", "" } })
   {
     if (json.contains(key) && !ToText(json[key]).empty())
     {
@@ -183,6 +184,10 @@ Print(const Json & json)
          ToText(series["modality"]) + " " + ToText(series["size"]) + ", " + series["files"].dump() + " files, id " +
            ToText(series["id"]) + (series["chosen"].get<bool>() ? "  <- chosen" : ""));
   }
+  if (json.value("filesSkipped", std::size_t{ 0 }) > 0)
+  {
+    line("skipped", json["filesSkipped"].dump() + " files that are no DICOM images");
+  }
   for (const Json & note : json.value("notes", Json::array()))
   {
     line("note", ToText(note));
@@ -197,7 +202,7 @@ Info(const InfoOptions & options)
                                                 : DescribeScan(ReadScan(source.path, source.read));
   if (options.isJson)
   {
-    std::cout << json.dump(2) << '\n';
+    std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
   }
   else
   {

@@ -23,7 +23,13 @@ Mesh(const MeshOptions & options, const CommandContext & context)
   {
     throw Failure(FailureKind::Usage, "A threshold and a file are needed, for example -t 250.5 -o bone.stl.");
   }
-  settings.surface = ParseSurfaceRequest("surface=" + options.threshold, 0);
+  settings.surface.name = "the mesh";
+  if (!ParseThreshold(options.threshold, settings.surface))
+  {
+    throw Failure(FailureKind::Usage,
+                  "The threshold '" + options.threshold +
+                    "' is no number; write -t 250.5, -t '<-500.5' for what lies below, or -t otsu.");
+  }
   settings.mesh = options.mesh;
   MeshScan(settings, context.console->MakeEvents());
   context.console->Note("mesh: " + settings.mesh.string());

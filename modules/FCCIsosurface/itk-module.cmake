@@ -1,3 +1,3 @@
 itk_module(FCCIsosurface
-  DEPENDS FCCLattice TriangleSurface
+  DEPENDS RhombicCommon FCCLattice TriangleSurface
   DESCRIPTION "Isosurfaces of FCC images by marching the lattice's tetrahedra.")

@@ -1,3 +1,3 @@
 itk_module(FCCResampling
-  DEPENDS FCCLattice FCCInterpolation ITKCommon
+  DEPENDS RhombicCommon FCCLattice FCCInterpolation ITKCommon
   DESCRIPTION "Filters from Cartesian images to FCC images and back.")

@@ -1,3 +1,3 @@
 itk_module(TriangleSurface
-  DEPENDS ITKCommon ITKMesh
+  DEPENDS ITKCommon
   DESCRIPTION "A compact triangle mesh as an ITK data object, with its topology audit, area and volume. No VTK.")

@@ -23,6 +23,10 @@ struct LatticeSettings
   itk::SeparableKernel kernel = itk::SeparableKernel::CubicBSpline;
 };
 
+/** Throws Failure(Usage) for settings that make no lattice of any scan. */
+void
+CheckLatticeSettings(const LatticeSettings & settings);
+
 /** The scan on the lattice, in its own pixel type (itk::CartesianToFCCImageFilter). Throws Failure: Usage for settings
  * that make no lattice, Memory. */
 FCCVolume ScanToLattice(const ScanImage & image, const LatticeSettings & settings, const Events & events);

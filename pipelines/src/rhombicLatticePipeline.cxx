@@ -8,6 +8,7 @@
 #include "itkFCCIsosurfaceFilter.h"
 #include "itkFCCToCartesianImageFilter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -30,37 +31,25 @@ Describe(const itk::FCCImage<TPixel> & image)
   return text.str();
 }
 
+/** Turns a lattice or grid that is too large to be made, which a filter finds out first, into words for the user. */
+template <typename TFilter>
 void
-CheckSettings(const LatticeSettings & settings)
+CheckSize(TFilter & filter)
 {
-  if (!(settings.density > 0.0) || !(settings.density <= 64.0))
+  try
   {
-    throw Failure(FailureKind::Usage,
-                  "The lattice's density must be above 0 and at most 64 sites per sample of the scan, not " +
-                    std::to_string(settings.density) + "; the default is 0.77.");
+    filter.UpdateOutputInformation();
   }
-  int given = 0;
-  for (const double spacing : settings.spacing)
+  catch (const itk::ExceptionObject & error)
   {
-    given += spacing > 0.0 && std::isfinite(spacing) ? 1 : 0;
-    if (!(spacing >= 0.0))
-    {
-      throw Failure(FailureKind::Usage, "The lattice's spacing must be positive; give it in mm, for example 1.5.");
-    }
-  }
-  if (given != 0 && given != 3)
-  {
-    throw Failure(FailureKind::Usage, "The lattice's spacing must be given along all three axes, or for all at once.");
+    throw Failure(FailureKind::Usage, DescribeError(error) + " (--spacing and --density).");
   }
 }
 
-template <typename TFilter, typename TImage>
-auto
-RunFilter(TFilter & filter, const TImage & input, const std::string & step, const Events & events)
+template <typename TFilter>
+typename TFilter::OutputImageType::Pointer
+TakeOutput(TFilter & filter)
 {
-  ObserveProgress(filter, step, events);
-  filter.SetInput(input);
-  filter.Update();
   typename TFilter::OutputImageType::Pointer output = filter.GetOutput();
   output->DisconnectPipeline();
   return output;
@@ -86,7 +75,7 @@ ExtractSurface(const itk::FCCImage<TPixel> & image, const SurfaceRequest & reque
   {
     std::ostringstream sentence;
     sentence.imbue(std::locale::classic());
-    sentence << "There is no surface for " << request.name << " at " << *request.isovalue
+    sentence << "Nothing can be extracted for " << request.name << " at " << *request.isovalue
              << (request.parts == SurfaceRequest::Parts::Enclosed ? " that the scan encloses" : "")
              << "; try another threshold (rhombic info suggests some).";
     throw Failure(FailureKind::Empty, sentence.str());
@@ -96,10 +85,28 @@ ExtractSurface(const itk::FCCImage<TPixel> & image, const SurfaceRequest & reque
 
 } // namespace
 
+void
+CheckLatticeSettings(const LatticeSettings & settings)
+{
+  if (!(settings.density > 0.0) || !(settings.density <= 64.0))
+  {
+    throw Failure(FailureKind::Usage,
+                  "The lattice's density must be above 0 and at most 64 sites per sample of the scan, not " +
+                    std::to_string(settings.density) + "; the default is 0.77.");
+  }
+  const auto isUsable = [](double spacing) { return spacing > 0.0 && std::isfinite(spacing); };
+  const bool isGiven = std::all_of(settings.spacing.begin(), settings.spacing.end(), isUsable);
+  if (!isGiven && settings.spacing != std::array<double, 3>{ 0.0, 0.0, 0.0 })
+  {
+    throw Failure(FailureKind::Usage,
+                  "The lattice's spacing must be a positive number along each axis; give it in mm, for example 1.5.");
+  }
+}
+
 FCCVolume
 ScanToLattice(const ScanImage & image, const LatticeSettings & settings, const Events & events)
 {
-  CheckSettings(settings);
+  CheckLatticeSettings(settings);
   return std::visit(
     [&](const auto & input) -> FCCVolume {
       using InputType = typename std::decay_t<decltype(*input)>;
@@ -107,7 +114,11 @@ ScanToLattice(const ScanImage & image, const LatticeSettings & settings, const E
       filter->SetDensity(settings.density);
       filter->SetOutputSpacing(settings.spacing.data());
       filter->SetKernel(settings.kernel);
-      const auto output = RunFilter(*filter, input, "resampling", events);
+      ObserveProgress(*filter, "resampling", events);
+      filter->SetInput(input);
+      CheckSize(*filter);
+      filter->Update();
+      const auto output = TakeOutput(*filter);
       events.Note("lattice: " + Describe(*output));
       return output;
     },
@@ -122,7 +133,11 @@ LatticeToScan(const FCCVolume & volume, const std::array<double, 3> & spacing, c
       using InputType = typename std::decay_t<decltype(*input)>;
       const auto filter = itk::FCCToCartesianImageFilter<InputType>::New();
       filter->SetOutputSpacing(spacing.data());
-      return RunFilter(*filter, input, "resampling", events);
+      ObserveProgress(*filter, "resampling", events);
+      filter->SetInput(input);
+      CheckSize(*filter);
+      filter->Update();
+      return TakeOutput(*filter);
     },
     volume);
 }

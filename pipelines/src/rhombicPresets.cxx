@@ -60,6 +60,13 @@ SurfaceRequest
 ParseSurface(const YAML::Node & node, const std::string & source)
 {
   RefuseUnknownKeys(node, { "name", "isovalue", "side", "parts", "colour", "opacity" }, source);
+  for (const char * key : { "name", "isovalue" })
+  {
+    if (!node[key])
+    {
+      FailToParse(source, "has a surface without " + std::string(key));
+    }
+  }
   SurfaceRequest request;
   request.name = node["name"].as<std::string>();
   if (node["isovalue"].as<std::string>() != "otsu")
@@ -75,6 +82,10 @@ ParseSurface(const YAML::Node & node, const std::string & source)
     request.colour = ParseColour(node["colour"].as<std::string>());
   }
   request.opacity = node["opacity"].as<double>(1.0);
+  if (!(request.opacity > 0.0 && request.opacity <= 1.0))
+  {
+    FailToParse(source, "has an opacity that is not above 0 and at most 1");
+  }
   return request;
 }
 
@@ -139,6 +150,14 @@ ParsePreset(const std::string & yaml, const std::string & source)
       FailToParse(source, "has no surfaces");
     }
     return preset;
+  }
+  catch (const Failure & failure)
+  {
+    if (failure.GetKind() == FailureKind::Unreadable)
+    {
+      throw;
+    }
+    FailToParse(source, "has a mistake: " + DescribeError(failure));
   }
   catch (const YAML::Exception & error)
   {

@@ -48,20 +48,28 @@ LoadScan(const ScanSource & source, const Events & events)
   return scan;
 }
 
-/** The lattice volume of a source, and the requests with their isovalues. */
-FCCVolume
-LoadLattice(const ScanSource & source, std::vector<SurfaceRequest> & requests, const Events & events)
+/** The surfaces of a source, and whether it is known how they lie in the patient. */
+struct LoadedSurfaces
+{
+  std::vector<SceneSurface> surfaces;
+  bool isOriented = true;
+};
+
+LoadedSurfaces
+LoadSurfaces(const ScanSource & source, const std::vector<SurfaceRequest> & requests, const Events & events)
 {
   if (IsFCCImageFile(source.path))
   {
     events.Progress("reading", 0.0);
-    FCCVolume volume = ReadFCCImage(source.path);
-    requests = ResolveIsovalues(std::move(requests), ComputeIntensities(volume));
-    return volume;
+    const FCCVolume volume = ReadFCCImage(source.path);
+    return { LatticeToSurfaces(volume, ResolveIsovalues(requests, ComputeIntensities(volume)), events) };
   }
-  const Scan scan = LoadScan(source, events);
-  requests = ResolveIsovalues(std::move(requests), ComputeIntensities(scan.image));
-  return ScanToLattice(scan.image, source.lattice, events);
+  CheckLatticeSettings(source.lattice);
+  Scan scan = LoadScan(source, events);
+  const auto resolved = ResolveIsovalues(requests, ComputeIntensities(scan.image));
+  const FCCVolume volume = ScanToLattice(scan.image, source.lattice, events);
+  scan.image = {}; // its memory is needed for the surfaces
+  return { LatticeToSurfaces(volume, resolved, events), scan.isOriented };
 }
 
 fs::path
@@ -86,6 +94,10 @@ ResolveIsovalues(std::vector<SurfaceRequest> requests, const Intensities & inten
     // At the lowest value or below everything is inside, above the highest nothing: in both cases there is no surface.
     if (!(*request.isovalue > intensities.lowest) || !(*request.isovalue <= intensities.highest))
     {
+      if (intensities.lowest == intensities.highest)
+      {
+        throw Failure(FailureKind::Empty, "All values of the scan are the same; check that it was exported completely.");
+      }
       std::ostringstream sentence;
       sentence.imbue(std::locale::classic());
       sentence << "The threshold " << *request.isovalue << " of " << request.name
@@ -108,16 +120,16 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
   }
   CheckPicturePath(settings.picture);
   SurfaceRenderer renderer;
+  renderer.CheckSettings(settings.render);
 
-  std::vector<SurfaceRequest> requests = settings.surfaces;
-  const std::vector<SceneSurface> scene =
-    LatticeToSurfaces(LoadLattice(settings.source, requests, events), requests, events);
+  const LoadedSurfaces loaded = LoadSurfaces(settings.source, settings.surfaces, events);
   for (std::size_t n = 0; n < pictures.size(); ++n)
   {
     events.Progress("rendering", static_cast<double>(n) / static_cast<double>(pictures.size()));
     RenderSettings render = settings.render;
     render.view = settings.views[n];
-    WritePicture(renderer.Render(scene, render), pictures[n], settings.metadata);
+    render.orientationLabels = render.orientationLabels && loaded.isOriented;
+    WritePicture(renderer.Render(loaded.surfaces, render), pictures[n], settings.metadata);
   }
   events.Progress("rendering", 1.0);
   return pictures;
@@ -128,11 +140,9 @@ MeshScan(const MeshScanSettings & settings, const Events & events)
 {
   CheckOutput(settings.mesh, settings.source.path);
   CheckSurfacePath(settings.mesh);
-  std::vector<SurfaceRequest> requests{ settings.surface };
-  const std::vector<SceneSurface> surfaces =
-    LatticeToSurfaces(LoadLattice(settings.source, requests, events), requests, events);
+  const LoadedSurfaces loaded = LoadSurfaces(settings.source, { settings.surface }, events);
   events.Progress("writing", 0.0);
-  WriteSurface(*surfaces.front().surface, settings.mesh);
+  WriteSurface(*loaded.surfaces.front().surface, settings.mesh);
   events.Progress("writing", 1.0);
 }
 

@@ -61,6 +61,16 @@ ParseColour(const std::string & text)
   return { component(16), component(8), component(0) };
 }
 
+bool
+ParseThreshold(const std::string & text, SurfaceRequest & request)
+{
+  const bool isBelow = !text.empty() && text[0] == '<';
+  const std::string number = isBelow ? text.substr(1) : text;
+  request.side = isBelow ? SurfaceRequest::Side::Below : SurfaceRequest::Side::Above;
+  request.isovalue = ParseNumber(number);
+  return request.isovalue.has_value() || number == "otsu";
+}
+
 SurfaceRequest
 ParseSurfaceRequest(const std::string & text, std::size_t number)
 {
@@ -79,14 +89,7 @@ ParseSurfaceRequest(const std::string & text, std::size_t number)
   request.name = text.substr(0, equals);
   request.colour = palette[number % palette.size()];
 
-  std::string threshold = fields[0];
-  if (!threshold.empty() && threshold[0] == '<')
-  {
-    request.side = SurfaceRequest::Side::Below;
-    threshold.erase(0, 1);
-  }
-  request.isovalue = ParseNumber(threshold);
-  if (!request.isovalue && threshold != "otsu")
+  if (!ParseThreshold(fields[0], request))
   {
     throw refuse("has a threshold that is no number");
   }

@@ -8,7 +8,10 @@
 #include <clocale>
 #include <cstring>
 #include <fstream>
+#include <locale>
 #include <numeric>
+
+#include <sys/stat.h>
 
 namespace
 {
@@ -107,16 +110,44 @@ TEST(FCCImageFile, RefusesWhatIsDamagedOrSomethingElse)
   refuses(replace("lattice spacing:=0.1", "lattice spacing:=-1"));
   refuses(replace("lattice spacing:=0.1", "lattice spacing:=nan"));
   refuses(replace("endian: little", "endian: big"));
+  refuses(replace("sizes: 5 4 3", "sizes: 5 4 3 3"));
+  refuses(replace("lattice origin:=-123.456", "lattice origin:=inf"));
+  refuses(replace("lattice start:=-2", "lattice start:=9223372036854775807"));
+  refuses("NRRD0005\n" + std::string(100000, 'x'));
   EXPECT_FALSE(rhombic::IsFCCImageFile(folder.Path()));
+  ASSERT_EQ(mkfifo((folder.Path() / "pipe").c_str(), 0600), 0);
+  EXPECT_FALSE(rhombic::IsFCCImageFile(folder.Path() / "pipe")) << "without waiting for a writer";
 }
+
+/** Numbers as a German writes them: 1.234,5. */
+class DecimalComma : public std::numpunct<char>
+{
+  char
+  do_decimal_point() const override
+  {
+    return ',';
+  }
+  char
+  do_thousands_sep() const override
+  {
+    return '.';
+  }
+  std::string
+  do_grouping() const override
+  {
+    return "\3";
+  }
+};
 
 TEST(FCCImageFile, DoesNotDependOnTheLocale)
 {
   const rhombictest::TemporaryFolder folder;
   const std::string before = std::setlocale(LC_ALL, nullptr);
   std::setlocale(LC_ALL, "de_DE.UTF-8"); // has no effect where it is not installed
+  const std::locale streams = std::locale::global(std::locale(std::locale::classic(), new DecimalComma));
   rhombic::WriteFCCImage(MakeImage<float>(), folder.Path() / "volume.nrrd");
   const auto volume = rhombic::ReadFCCImage(folder.Path() / "volume.nrrd");
+  std::locale::global(streams);
   std::setlocale(LC_ALL, before.c_str());
   EXPECT_EQ(std::get<itk::FCCImage<float>::Pointer>(volume)->GetOrigin()[0], -123.456);
 }

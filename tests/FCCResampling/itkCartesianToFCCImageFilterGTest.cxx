@@ -1,16 +1,20 @@
 #include "itkCartesianToFCCImageFilter.h"
 
 #include "itkBSplineInterpolateImageFunction.h"
+#include "itkCastImageFilter.h"
 #include "itkCommand.h"
+#include "itkFCCResamplingChecks.h"
 #include "itkFCCToCartesianImageFilter.h"
 #include "itkImageRegionIteratorWithIndex.h"
 #include "itkLinearInterpolateImageFunction.h"
 #include "itkResampleImageFilter.h"
+#include "itkStreamingImageFilter.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <random>
+#include <set>
 
 namespace
 {
@@ -379,14 +383,17 @@ TEST(CartesianToFCCImageFilter, ReportsProgressAndStopsOnAbort)
   const auto filter = Filter<float>::New();
   filter->SetInput(image);
   float last = 0.0f;
+  std::set<float> reported;
   bool monotonic = true;
   filter->AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) {
     monotonic = monotonic && filter->GetProgress() >= last;
     last = filter->GetProgress();
+    reported.insert(last);
   });
   filter->Update();
   EXPECT_TRUE(monotonic);
   EXPECT_NEAR(last, 1.0f, 1e-3f);
+  EXPECT_GT(reported.size(), 5u);
 
   const auto aborting = Filter<float>::New();
   aborting->SetInput(image);
@@ -441,6 +448,126 @@ TEST(FCCToCartesianImageFilter, DefaultGridHasTheOriginalSpacingAndDirection)
   for (std::size_t n = 0; n < output->GetBufferedRegion().GetNumberOfPixels(); ++n)
   {
     ASSERT_EQ(output->GetBufferPointer()[n], -1000);
+  }
+}
+
+TEST(CartesianToFCCImageFilter, RoundsExactly)
+{
+  for (const std::int32_t value : { 8388609, -8388609, 117, 0, -1 })
+  {
+    const auto image = MakeImage<std::int32_t>({ { 5, 5, 5 } });
+    image->FillBuffer(value);
+    const auto filter = Filter<std::int32_t>::New();
+    filter->SetInput(image);
+    filter->SetKernel(itk::SeparableKernel::Linear);
+    filter->Update();
+    EXPECT_EQ(filter->GetOutput()->GetPixel({ { 1, 2, 2 } }), value);
+  }
+  EXPECT_EQ(itk::RoundAndClamp<std::uint8_t>(254.5f), 255);
+  EXPECT_EQ(itk::RoundAndClamp<std::uint8_t>(300.7), 255);
+  EXPECT_EQ(itk::RoundAndClamp<std::uint8_t>(-3.0f), 0);
+  EXPECT_EQ(itk::RoundAndClamp<std::int16_t>(-2.5f), -3);
+  EXPECT_EQ(itk::RoundAndClamp<std::int32_t>(2147483647.0), 2147483647);
+  EXPECT_EQ(itk::RoundAndClamp<std::int32_t>(1e20f), 2147483647);
+  EXPECT_EQ(itk::RoundAndClamp<std::int32_t>(-1e20), -2147483647 - 1);
+  EXPECT_EQ(itk::RoundAndClamp<std::int16_t>(std::numeric_limits<float>::quiet_NaN()), -32768);
+}
+
+TEST(CartesianToFCCImageFilter, ReproducesQuadraticsInAllDirections)
+{
+  const auto image = MakeImage({ { 44, 44, 44 } });
+  const auto field = [](const auto & i) { return 0.5 * i[0] * i[1] - 0.25 * i[2] * i[2] + 0.1 * i[0] * i[2] - 3.0 * i[1]; };
+  for (itk::ImageRegionIteratorWithIndex<FloatImage> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+  {
+    it.Set(static_cast<float>(field(it.GetIndex())));
+  }
+  const auto filter = Filter<float>::New();
+  filter->SetInput(image);
+  filter->Update();
+  const auto * const output = filter->GetOutput();
+  int checked = 0;
+  for (itk::ImageRegionConstIteratorWithIndex<FCCFloatImage> it(output, output->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+  {
+    const auto point = output->TransformIndexToPhysicalPoint<double>(it.GetIndex());
+    const auto index = image->TransformPhysicalPointToContinuousIndex<double>(point);
+    if (std::min({ index[0], index[1], index[2] }) > 14.0 && std::max({ index[0], index[1], index[2] }) < 29.0)
+    {
+      ++checked;
+      ASSERT_NEAR(it.Get(), field(index), 5e-3) << "of values up to 400";
+    }
+  }
+  EXPECT_GT(checked, 1000);
+}
+
+TEST(CartesianToFCCImageFilter, StreamsAndFeedsPixelwiseFilters)
+{
+  const auto image = MakeImage<std::int16_t>({ { 30, 31, 32 } });
+  FillWithNoise(*image, -1000, 1000);
+  using LatticeType = itk::FCCImage<std::int16_t>;
+  const auto filter = Filter<std::int16_t>::New();
+  filter->SetInput(image);
+  filter->Update();
+  const auto streamed = Filter<std::int16_t>::New();
+  streamed->SetInput(image);
+  const auto streaming = itk::StreamingImageFilter<LatticeType, LatticeType>::New();
+  streaming->SetInput(streamed->GetOutput());
+  streaming->SetNumberOfStreamDivisions(5);
+  const auto cast = itk::CastImageFilter<LatticeType, FCCFloatImage>::New();
+  cast->SetInput(streaming->GetOutput());
+  cast->Update();
+  EXPECT_EQ(cast->GetOutput()->GetOrigin(), filter->GetOutput()->GetOrigin());
+  EXPECT_EQ(cast->GetOutput()->GetSpacing(), filter->GetOutput()->GetSpacing());
+  for (std::size_t n = 0; n < filter->GetOutput()->GetBufferedRegion().GetNumberOfPixels(); ++n)
+  {
+    ASSERT_EQ(cast->GetOutput()->GetBufferPointer()[n], filter->GetOutput()->GetBufferPointer()[n]);
+  }
+}
+
+TEST(FCCToCartesianImageFilter, FollowsAChangedReferenceAndRefusesNonsense)
+{
+  const auto image = MakeImage({ { 10, 10, 10 } });
+  image->FillBuffer(5.0f);
+  const auto there = Filter<float>::New();
+  there->SetInput(image);
+  const auto reference = MakeImage({ { 4, 5, 6 } });
+  const auto back = itk::FCCToCartesianImageFilter<FCCFloatImage>::New();
+  back->SetInput(there->GetOutput());
+  back->SetReferenceImage(reference);
+  back->Update();
+  EXPECT_EQ(back->GetOutput()->GetLargestPossibleRegion(), reference->GetLargestPossibleRegion());
+  reference->SetSpacing(itk::Vector<double>(0.25));
+  back->Update();
+  EXPECT_EQ(back->GetOutput()->GetSpacing(), itk::Vector<double>(0.25));
+
+  for (const double spacing : { std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN(), -1.0, 1e-13 })
+  {
+    const auto refusing = itk::FCCToCartesianImageFilter<FCCFloatImage>::New();
+    refusing->SetInput(there->GetOutput());
+    refusing->SetOutputSpacing(itk::Vector<double>(spacing));
+    EXPECT_THROW(refusing->Update(), itk::ExceptionObject) << spacing;
+  }
+}
+
+TEST(FCCToCartesianImageFilter, GivesTheSameBytesForAnyThreadsAndRegion)
+{
+  const auto image = MakeImage({ { 20, 21, 22 } });
+  FillWithNoise(*image, -100, 100);
+  const auto there = Filter<float>::New();
+  there->SetInput(image);
+  const auto whole = itk::FCCToCartesianImageFilter<FCCFloatImage>::New();
+  whole->SetInput(there->GetOutput());
+  whole->SetNumberOfWorkUnits(1);
+  whole->Update();
+  const auto part = itk::FCCToCartesianImageFilter<FCCFloatImage>::New();
+  part->SetInput(there->GetOutput());
+  part->SetNumberOfWorkUnits(7);
+  part->UpdateOutputInformation();
+  FloatImage::RegionType region({ { 3, 2, 5 } }, { { 11, 9, 10 } });
+  part->GetOutput()->SetRequestedRegion(region);
+  part->Update();
+  for (itk::ImageRegionConstIteratorWithIndex<FloatImage> it(part->GetOutput(), region); !it.IsAtEnd(); ++it)
+  {
+    ASSERT_EQ(it.Get(), whole->GetOutput()->GetPixel(it.GetIndex()));
   }
 }
 

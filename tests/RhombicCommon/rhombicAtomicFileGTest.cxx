@@ -100,6 +100,29 @@ TEST(AtomicFile, RefusesTargetsThatCannotBe)
   EXPECT_EQ(FilesIn(folder.Path()), 0u);
 }
 
+TEST(AtomicFile, GoesRoundTemporaryFilesLeftBehind)
+{
+  const rhombictest::TemporaryFolder folder;
+  fs::path next;
+  {
+    AtomicFile file(folder.Path() / "a.png");
+    next = file.GetTemporaryPath();
+  }
+  // What a killed process with the same number may have left: the names that would come next.
+  const std::string name = next.filename().string();
+  const auto number = std::stoul(name.substr(name.find('-', 5) + 1));
+  for (unsigned long n = number; n < number + 4; ++n)
+  {
+    std::string taken = name;
+    taken.replace(taken.find('-', 5) + 1, std::to_string(number).size(), std::to_string(n));
+    Write(folder.Path() / taken, "stale");
+  }
+  AtomicFile file(folder.Path() / "a.png");
+  Write(file.GetTemporaryPath(), "new");
+  file.Commit(3);
+  EXPECT_EQ(Read(folder.Path() / "a.png"), "new");
+}
+
 TEST(AtomicFile, TwoForTheSameTargetDoNotCollide)
 {
   const rhombictest::TemporaryFolder folder;

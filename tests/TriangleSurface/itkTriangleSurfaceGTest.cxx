@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace
 {
@@ -184,6 +185,8 @@ TEST(TriangleSurfaceTopology, FindsDegenerateTriangles)
   auto surface = UnitTetrahedron();
   surface->GetPoints()[3] = surface->GetPoints()[2];
   EXPECT_EQ(ComputeTopology(*surface).degenerateTriangles, 2u) << "those on the edge between the two corners";
+  surface->GetPoints()[3][1] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(ComputeTopology(*surface).degenerateTriangles, 3u) << "those at a position that is no number";
 }
 
 } // namespace

@@ -90,12 +90,19 @@ constexpr ErrorCase errorCases[] = {
   { "BadKernel", "render scan.nii.gz --preset ct-bone --kernel sharp -o a.png", 2, "sharp" },
   { "BadDensity", "render scan.nii.gz --preset ct-bone --density 0 -o a.png", 2, "density" },
   { "BadSpacing", "render scan.nii.gz --preset ct-bone --spacing 1,2 -o a.png", 2, "spacing" },
+  { "InfiniteSpacing", "render scan.nii.gz --preset ct-bone --spacing inf -o a.png", 2, "spacing" },
+  { "TooManySites", "mesh scan.nii.gz -t 250.5 --spacing 1e-7 -o a.stl", 2, "spacing" },
+  { "ColourForAMesh", "mesh scan.nii.gz -t 250.5,#ff0000 -o a.stl", 2, "threshold" },
+  { "BadPresetColour", "render scan.nii.gz --preset colour.yaml -o a.png", 4, "colour.yaml" },
+  { "BadPresetOpacity", "render scan.nii.gz --preset opacity.yaml -o a.png", 4, "opacity.yaml" },
+  { "PresetWithoutIsovalue", "render scan.nii.gz --preset bare.yaml -o a.png", 4, "isovalue" },
+  { "OutputClosed", "info scan.nii.gz >/dev/full", 7, "standard output" },
   { "NegativeSpacing", "render scan.nii.gz --preset ct-bone --spacing=-1 -o a.png", 2, "spacing" },
   { "BadSeries", "render dicom --series 7 --preset ct-bone -o a.png", 2, "7" },
   { "ThresholdAboveTheRange", "render scan.nii.gz --surface bone=9000.5 -o a.png", 6, "run from -1000 to" },
   { "ThresholdBelowTheRange", "mesh scan.nii.gz -t -9000 -o a.stl", 6, "run from -1000 to" },
   { "NoThreshold", "mesh scan.nii.gz -o a.stl", 2, "-t" },
-  { "BadThreshold", "mesh scan.nii.gz -t high -o a.stl", 2, "number" },
+  { "BadThreshold", "mesh scan.nii.gz -t high -o a.stl", 2, "no number" },
   { "UnknownPictureFormat", "render scan.nii.gz --preset ct-bone -o a.bmp2", 2, ".png" },
   { "UnknownMeshFormat", "mesh scan.nii.gz -t 250.5 -o a.xyz", 2, ".stl" },
   { "UnknownVolumeFormat", "resample scan.nii.gz -o a.xyz", 2, ".nrrd" },
@@ -127,6 +134,10 @@ TEST_P(CommandLineErrors, AreOneSentenceAndTheDocumentedExitCode)
   const TemporaryFolder folder;
   std::ofstream(folder.Path() / "text.dcm") << "this is not a DICOM file\n";
   std::ofstream(folder.Path() / "text.nii") << "this is not a NIfTI file\n";
+  const std::string preset = "name: p\nsurfaces: [{name: a, isovalue: 1, ";
+  std::ofstream(folder.Path() / "colour.yaml") << preset << "colour: red}]\n";
+  std::ofstream(folder.Path() / "opacity.yaml") << preset << "opacity: 7}]\n";
+  std::ofstream(folder.Path() / "bare.yaml") << "name: p\nsurfaces: [{name: a}]\n";
   fs::create_directory(folder.Path() / "empty");
   fs::create_directory(folder.Path() / "file");
   std::ofstream(folder.Path() / "file" / "something") << "something\n";
@@ -338,6 +349,9 @@ TEST(CommandLine, MetadataNamesTheCommandButNeitherTheScanNorItsFolder)
   const std::string bytes = ReadText(folder.Path() / "DOE_JOHN" / "p.tif");
   EXPECT_NE(bytes.find("rhombic render SCAN --preset ct-bone --size 64 --output=p.tif"), std::string::npos);
   EXPECT_NE(bytes.find("Rhombic 0."), std::string::npos);
+  ASSERT_EQ(
+    Rhombic("render " + phantomDicom + " --series 1 --preset ct-bone --size 64 -o s.tif", folder.Path()).exitCode, 0);
+  EXPECT_NE(ReadText(folder.Path() / "s.tif").find("--series SERIES"), std::string::npos);
   EXPECT_EQ(bytes.find("DOE"), std::string::npos);
   EXPECT_EQ(bytes.find("doe"), std::string::npos);
 }

@@ -10,7 +10,7 @@ namespace itk
 /** \class FCCLinearInterpolateImageFunction
  * \brief Linear interpolation in the tetrahedra of an FCC image.
  *
- * Continuous, reproduces linear fields, and costs four samples. Within the extent of the buffered region but outside
+ * Continuous within the outermost tetrahedra, reproduces linear fields, and costs four samples. Within the extent of the buffered region but outside
  * its outermost tetrahedra, the weights of the missing samples go to those that exist, so values stay within their
  * range.
  *
@@ -38,6 +38,7 @@ public:
   using typename Superclass::ContinuousIndexType;
   using typename Superclass::IndexType;
   using typename Superclass::OutputType;
+  using typename Superclass::PointType;
   using typename Superclass::SizeType;
 
   static_assert(std::is_base_of<FCCImage<typename TInputImage::PixelType>, TInputImage>::value,

@@ -10,8 +10,8 @@ namespace itk
  * \brief The four sites around a point and their barycentric weights.
  *
  * The tetrahedra are those of the six-tetrahedra decomposition: the regular one in each unit cube, and the octahedron
- * around each odd point cut in four about its x diagonal. They are the ones that FCCIsosurfaceFilter marches, so the
- * level sets of this interpolant are exactly its `tetrahedra` surfaces.
+ * around each odd point cut in four about its x diagonal. They are the ones that FCCIsosurfaceFilter marches, so its
+ * points lie on the level set of this interpolant, but those that it moves away from a sample.
  *
  * \ingroup FCCInterpolation
  */

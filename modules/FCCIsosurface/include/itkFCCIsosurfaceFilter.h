@@ -4,6 +4,7 @@
 #include "itkFCCImage.h"
 #include "itkFCCMarching.h"
 #include "itkProcessObject.h"
+#include "itkThreadFailure.h"
 #include "itkTriangleSurface.h"
 
 namespace itk
@@ -12,26 +13,33 @@ namespace itk
 /** \class FCCIsosurfaceFilter
  * \brief The isosurface of an FCC image, by marching the six tetrahedra of each of the lattice's parallelepipeds.
  *
- * A sample is inside when its value is not below the isovalue, or with InsideIsBelow on, when it is (for lungs and
- * other air); not-a-number is outside. Triangles are counter-clockwise seen from outside, normals point outside, points
- * are in LPS mm. There is one point on each cut edge of the tetrahedra, shared by all its triangles, where the values'
- * linear interpolation crosses the isovalue, but at least MinimumFraction of the edge away from both ends: so no
+ * A sample is inside when its value is not below the isovalue, or with InsideIsBelow on, when it is (for lungs and other
+ * air); not-a-number is outside. Triangles are counter-clockwise seen from outside, points are in LPS mm. There is one
+ * point on each cut edge of the tetrahedra, shared by all its triangles, where the values' linear interpolation crosses
+ * the isovalue, but at least MinimumFraction of the edge away from both ends (more where 32-bit positions need it): so no
  * triangle is degenerate, even where samples equal the isovalue.
  *
- * All faces of the tetrahedra are triangles, so nothing is ambiguous and the surface is an oriented manifold for any
- * input. With Closed on (the default) everything beyond the image counts as outside, and where a body reaches the
- * border, the surface closes on the faces of the image's extent (see FCCImage), so that it encloses what the samples'
- * Voronoi cells enclose. With Closed off the surface ends at the outermost tetrahedra.
+ * Each point has a normal: the gradient from the twelve neighbours, sum d f(x + d) / 8, at the edge's two ends, blended,
+ * and pointing outside; on the faces of the image's extent it is that of the face. In noise, where the gradient says
+ * little about the next edge, normals and triangles may disagree.
+ *
+ * All faces of the tetrahedra are triangles, so nothing is ambiguous. With Closed on (the default) everything beyond the
+ * image counts as outside, and where a body reaches the border, the surface closes on the faces of the image's extent
+ * (see FCCImage), so that it encloses what the samples' Voronoi cells enclose: the surface is a closed oriented manifold
+ * for any input. With Closed off the surface ends at the outermost tetrahedra: edges are manifold still, but where two of
+ * its parts end at one point of the border, they share that point.
  *
  * Method: Y. Sahillioglu, "A marching algorithm for isosurface extraction from face-centered cubic lattices", Turk J
- * Elec Eng & Comp Sci 25 (2017), in passes that count, prefix-sum and fill as W. Schroeder et al., "Flying Edges"
- * (2015) do for Cartesian grids: classify samples into bits; count cut edges and triangles of each plane by counting
- * bits; from the sums, fill points and triangles of all planes independently. The output has the same bytes for any
- * number of threads. Normals are gradients from the twelve neighbours, sum d f(x + d) / 8, at the edge's ends, blended.
+ * Elec Eng & Comp Sci 25 (2017), in passes that count, prefix-sum and fill as W. Schroeder et al., "Flying Edges" (2015)
+ * do for Cartesian grids: classify samples into bits; count cut edges and triangles of each plane by counting bits; from
+ * the sums, fill points and triangles of all planes independently. The output has the same bytes for any number of
+ * threads.
  *
- * Memory: one bit a sample, and the surface.
+ * Memory: the surface, a bit for each sample (rows are rounded up to words of 64 and have a spare one), and the cut edges
+ * of three planes per thread.
  *
- * Throws when the surface has 2^32 points or more. An isovalue outside the image's range gives an empty surface.
+ * Throws when the surface has 2^32 points or more, or when 32-bit positions can't tell its points apart. An isovalue
+ * outside the image's range gives an empty surface.
  *
  * The whole input is requested.
  *
@@ -103,6 +111,9 @@ private:
     std::vector<SizeValueType> triangles; ///< triangles between a plane and the next begin here
   };
 
+  /** MinimumFraction, or more where positions in float32 would not tell a point from the edge's end. */
+  double ComputeFraction() const;
+
   FCCSigns Classify();
 
   Layout Count(const FCCSigns & signs);
@@ -116,6 +127,7 @@ private:
   void ForEachSlab(SizeValueType planes, float share, const TWork & work);
 
   double m_Isovalue{ 0.0 };
+  double m_UsedFraction{ MinimumFraction };
   bool m_InsideIsBelow{ false };
   bool m_Closed{ true };
 };

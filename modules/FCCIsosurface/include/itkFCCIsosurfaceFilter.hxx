@@ -4,6 +4,7 @@
 #include "itkFCCEdgePoint.h"
 #include "itkMultiThreaderBase.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -80,6 +81,7 @@ FCCIsosurfaceFilter<TInputImage>::GenerateData()
 {
   this->UpdateProgress(0.0f);
   this->GetOutput()->Initialize();
+  m_UsedFraction = this->ComputeFraction();
   const FCCSigns signs = this->Classify();
   this->Fill(signs, this->Count(signs));
   if (!m_Closed)
@@ -90,27 +92,69 @@ FCCIsosurfaceFilter<TInputImage>::GenerateData()
 }
 
 template <typename TInputImage>
+double
+FCCIsosurfaceFilter<TInputImage>::ComputeFraction() const
+{
+  const InputImageType * const image = this->GetInput();
+  const auto & region = image->GetBufferedRegion();
+  double farthest = 0.0; // coordinate of the extent's corners
+  for (unsigned int corner = 0; corner < 8; ++corner)
+  {
+    std::array<double, 3> coordinates{};
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const double index = static_cast<double>((corner >> axis & 1) != 0 ? region.GetUpperIndex()[axis] + 1
+                                                                         : region.GetIndex(axis) - 1);
+      coordinates[axis] = axis == 0 ? 2.0 * index : index;
+    }
+    const auto point = image->template TransformLatticeToPhysicalPoint<double>(coordinates);
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      farthest = std::max(farthest, std::abs(point[axis]));
+    }
+  }
+  const auto & spacing = image->GetSpacing();
+  const double shortestEdge = std::sqrt(2.0) * std::min({ spacing[0], spacing[1], spacing[2] });
+  constexpr double steps = 8.0; // of float32 between two points, so that rounding can't bring them together
+  const double resolution = farthest * static_cast<double>(std::numeric_limits<float>::epsilon());
+  const double fraction = std::max(MinimumFraction, steps * resolution / shortestEdge);
+  if (!(fraction <= 0.25))
+  {
+    itkExceptionMacro("The image's edges of " << shortestEdge << " mm are too short to be told apart in 32-bit positions "
+                                              << farthest << " mm from the origin; move the origin nearer.");
+  }
+  return fraction;
+}
+
+template <typename TInputImage>
 template <typename TWork>
 void
 FCCIsosurfaceFilter<TInputImage>::ForEachSlab(SizeValueType planes, float share, const TWork & work)
 {
-  constexpr SizeValueType planesPerSlab = 16;
+  // Slabs share the work of finding cut edges at their borders: few planes keep threads busy, many save work.
+  constexpr SizeValueType mostPlanes = 16;
+  const SizeValueType units = std::max<SizeValueType>(1, this->GetNumberOfWorkUnits());
+  const SizeValueType planesPerSlab = std::clamp<SizeValueType>(planes / (4 * units), 1, mostPlanes);
   const SizeValueType slabs = (planes + planesPerSlab - 1) / planesPerSlab;
-  MultiThreaderBase * threader = this->GetMultiThreader();
+  ThreadFailure failure;
+  MultiThreaderBase * const threader = this->GetMultiThreader();
   threader->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
   threader->ParallelizeArray(
     0,
     slabs,
     [&](SizeValueType slab) {
-      if (this->GetAbortGenerateData())
-      {
-        throw ProcessAborted(__FILE__, __LINE__);
-      }
-      const SizeValueType begin = slab * planesPerSlab;
-      work(begin, std::min(begin + planesPerSlab, planes));
-      this->IncrementProgress(share / static_cast<float>(slabs));
+      failure.Capture([&] {
+        if (this->GetAbortGenerateData())
+        {
+          throw ProcessAborted(__FILE__, __LINE__);
+        }
+        const SizeValueType begin = slab * planesPerSlab;
+        work(begin, std::min(begin + planesPerSlab, planes));
+        this->IncrementProgress(share / static_cast<float>(slabs));
+      });
     },
     nullptr);
+  failure.Rethrow();
 }
 
 template <typename TInputImage>
@@ -234,7 +278,7 @@ FCCIsosurfaceFilter<TInputImage>::FillPoints(const FCCSigns & signs,
   const InputImageType * const image = this->GetInput();
   const auto first = image->GetBufferedRegion().GetIndex();
   const IndexValueType shift = m_Closed ? 1 : 0;
-  const FCCEdgePoint<InputImageType> edgePoint(*image, m_Isovalue, m_InsideIsBelow, MinimumFraction);
+  const FCCEdgePoint<InputImageType> edgePoint(*image, m_Isovalue, m_InsideIsBelow, m_UsedFraction);
   TriangleSurface * const surface = this->GetOutput();
 
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)

@@ -50,11 +50,6 @@ struct FCCLattice
                                                                 { 0, -1, -1 },
                                                                 { 0, 1, -1 } } };
 
-  /** The second neighbours, at distance 2. */
-  static constexpr std::array<SiteType, 6> SecondNeighbors{
-    { { 2, 0, 0 }, { 0, 2, 0 }, { 0, 0, 2 }, { -2, 0, 0 }, { 0, -2, 0 }, { 0, 0, -2 } }
-  };
-
   /** The edges of the six-tetrahedra decomposition that a site owns; the other seven at the site are owned by its
    * neighbours. First the row edge, the diagonal of an octahedron, then the nearest neighbours that come later in
    * storage: in the same plane of constant z (1 and 2) and in the next one (3 to 6). */

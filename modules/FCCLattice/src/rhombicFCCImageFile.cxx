@@ -81,6 +81,10 @@ ToNumbers(const std::string & text, std::size_t count, const fs::path & path)
     numbers.push_back(number);
     next = parsed.ptr;
   }
+  if (next != end)
+  {
+    FailToRead(path, "its header has '" + text + "' where " + std::to_string(count) + " numbers are expected");
+  }
   return numbers;
 }
 
@@ -138,24 +142,40 @@ MakeHeader(const itk::FCCImage<TPixel> & image)
 
 using Fields = std::map<std::string, std::string>;
 
-/** The header's fields ("name: value") and key/value pairs ("key:=value"); leaves the stream at the first sample. */
-Fields
-ReadHeader(std::istream & stream, const fs::path & path)
+/** One line of a header. A file that is none could have a first line of gigabytes, so \a budget, in bytes, is all that may
+ * be read. Returns false at the end of the file or of the budget. */
+bool
+ReadLine(std::istream & stream, std::size_t & budget, std::string & line)
 {
-  constexpr std::size_t longest = 1 << 16;
+  line.clear();
+  for (char letter = 0; budget > 0 && stream.get(letter); --budget)
+  {
+    if (letter == '\n')
+    {
+      return true;
+    }
+    line += letter;
+  }
+  return false;
+}
+
+/** The header's fields ("name: value") and key/value pairs ("key:=value"), none when there is no header; leaves the stream
+ * at the first sample. */
+Fields
+ReadHeader(std::istream & stream)
+{
+  std::size_t budget = 1 << 16;
   std::string line;
   Fields fields;
-  std::size_t length = 0;
-  if (!std::getline(stream, line) || line.compare(0, 4, "NRRD") != 0)
+  if (!ReadLine(stream, budget, line) || line.compare(0, 4, "NRRD") != 0)
   {
-    FailToRead(path, "it is not a NRRD file");
+    return {};
   }
-  while (std::getline(stream, line) && !line.empty())
+  while (ReadLine(stream, budget, line))
   {
-    length += line.size();
-    if (length > longest)
+    if (line.empty())
     {
-      FailToRead(path, "its header does not end");
+      return fields;
     }
     const auto pair = line.find(":=");
     const auto field = line.find(": ");
@@ -172,7 +192,7 @@ ReadHeader(std::istream & stream, const fs::path & path)
       fields[line.substr(0, field)] = line.substr(field + 2);
     }
   }
-  return fields;
+  return {};
 }
 
 template <typename TPixel>
@@ -193,7 +213,7 @@ ReadSamples(std::istream & stream, Fields & fields, const fs::path & path)
   {
     if (size == 0 || bytes > available / size)
     {
-      FailToRead(path, "its header promises more samples than the file holds; it may have been cut off");
+      FailToRead(path, "its header promises more samples than the file holds; it may have been cut off, so copy it again");
     }
     bytes *= size;
   }
@@ -210,6 +230,11 @@ ReadSamples(std::istream & stream, Fields & fields, const fs::path & path)
     if (!(spacing[axis] > 0.0 && std::isfinite(spacing[axis])))
     {
       FailToRead(path, "its lattice spacing is not a positive number");
+    }
+    constexpr std::int64_t farthest = std::int64_t{ 1 } << 40; // keeps sums of indices and sizes countable
+    if (!std::isfinite(origin[axis]) || start[axis] > farthest || start[axis] < -farthest)
+    {
+      FailToRead(path, "its lattice origin or start is out of range");
     }
     region.SetSize(axis, sizes[axis]);
     region.SetIndex(axis, start[axis]);
@@ -270,7 +295,7 @@ ReadFCCImage(const fs::path & path)
     throw Failure(FailureKind::NotFound, "There is no file " + path.string() + "; check the path.");
   }
   std::ifstream stream(path, std::ios::binary);
-  Fields fields = ReadHeader(stream, path);
+  Fields fields = ReadHeader(stream);
   if (fields[latticeKey] != latticeValue)
   {
     FailToRead(path, "it is not a volume on the face-centered cubic lattice; give it as a scan instead");
@@ -308,21 +333,14 @@ bool
 IsFCCImageFile(const fs::path & path)
 {
   std::error_code error;
-  std::ifstream stream(path, std::ios::binary);
-  std::string line;
-  if (!fs::is_regular_file(path, error) || !std::getline(stream, line) || line.compare(0, 4, "NRRD") != 0)
+  if (!fs::is_regular_file(path, error)) // opening a pipe would wait for its writer
   {
     return false;
   }
-  constexpr int mostLines = 100;
-  for (int n = 0; n < mostLines && std::getline(stream, line) && !line.empty(); ++n)
-  {
-    if (line == std::string(latticeKey) + "=" + latticeValue)
-    {
-      return true;
-    }
-  }
-  return false;
+  std::ifstream stream(path, std::ios::binary);
+  const Fields fields = ReadHeader(stream);
+  const auto lattice = fields.find(latticeKey);
+  return lattice != fields.end() && lattice->second == latticeValue;
 }
 
 } // namespace rhombic

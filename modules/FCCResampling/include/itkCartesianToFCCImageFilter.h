@@ -4,6 +4,7 @@
 #include "itkFCCImage.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
+#include "itkThreadFailure.h"
 #include "itkSeparableTaps.h"
 
 namespace itk
@@ -17,14 +18,16 @@ namespace itk
  * by SetDensity(), or the lattice's spacing itself by SetOutputSpacing().
  *
  * The output has the input's direction. Its extent (see FCCImage) covers the input's, from the outer face of the first
- * voxel to that of the last, and is centred on it; every input sample lies between output samples. Output index (0, 0,
- * 0) is a sample whatever the input's start index. Where output samples lie up to a lattice unit beyond the outermost
- * input samples, the field is constant along the axis.
+ * voxel to that of the last, and is centred on it; as long as the lattice's spacing is not larger than the voxels,
+ * every input sample lies between output samples. Output index (0, 0, 0) is a sample whatever the input's start index.
+ * Where output samples lie beyond the outermost input samples, the field is constant along the axis. Nothing is
+ * filtered out before sampling: at densities far below the default, smooth the input first.
  *
  * Values between samples come from a separable kernel (see SeparableTaps), the cubic B-spline with its prefilter by
  * default, because linear interpolation blurs away what the lattice gains. B-splines overshoot at edges; integer
- * outputs are rounded and clamped to the range of their type. Not-a-number spreads to all samples within the kernel's
- * reach.
+ * outputs are rounded and clamped to the range of their type. Arithmetic is in float32, which is exact for 16-bit
+ * pixels and good for 7 digits of wider ones. An input sample that is not finite makes all outputs within the kernel's
+ * reach, up to 24 samples along each axis, not a number: replace such samples before.
  *
  * The filter works row by row: a lattice row has constant y and z, so the rows of the input around it are blended once
  * and then interpolated along x. Extra memory: about one input plane in float32 per thread. It asks for as much of
@@ -86,20 +89,20 @@ protected:
 
   void DynamicThreadedGenerateData(const OutputImageRegionType & region) override;
 
-  /** Reports that all is done: the threads' last reports may have come from another thread than the observers'. */
   void
-  AfterThreadedGenerateData() override
-  {
-    this->UpdateProgress(1.0f);
-  }
+  AfterThreadedGenerateData() override;
 
 private:
+  void
+  Resample(const OutputImageRegionType & region);
+
   /** Taps for the samples of the output region along one axis; along x, for the rows of one parity. */
   SeparableTaps MakeTaps(unsigned int axis, const OutputImageRegionType & region, IndexValueType parity = 0) const;
 
   double m_Density{ FCCLattice::NyquistDensity };
   SpacingType m_OutputSpacing{ 0.0 };
   SeparableKernel m_Kernel{ SeparableKernel::CubicBSpline };
+  ThreadFailure m_ThreadFailure;
 };
 
 } // namespace itk

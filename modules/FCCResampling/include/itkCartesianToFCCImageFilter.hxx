@@ -1,11 +1,11 @@
 #ifndef itkCartesianToFCCImageFilter_hxx
 #define itkCartesianToFCCImageFilter_hxx
 
+#include "itkFCCResamplingChecks.h"
 #include "itkTotalProgressReporter.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace itk
 {
@@ -54,26 +54,6 @@ WeightedSum(const float * values, const float * weights, SizeValueType count)
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 
-/** Rounds half away from zero and clamps to the range of an integer type; not-a-number becomes its lowest value. */
-template <typename TPixel>
-TPixel
-ConvertTo(float value)
-{
-  if constexpr (std::is_integral_v<TPixel>)
-  {
-    constexpr auto lowest = static_cast<float>(std::numeric_limits<TPixel>::lowest());
-    // The largest float that the type holds: for 32 bits, float(max) would be one more than max.
-    constexpr float highest =
-      sizeof(TPixel) < 4 ? static_cast<float>(std::numeric_limits<TPixel>::max()) : 2147483520.0f;
-    const float clamped = value > lowest ? (value < highest ? value : highest) : lowest;
-    return static_cast<TPixel>(static_cast<std::int32_t>(clamped + (clamped < 0.0f ? -0.5f : 0.5f)));
-  }
-  else
-  {
-    return static_cast<TPixel>(value);
-  }
-}
-
 } // namespace CartesianToFCC
 
 template <typename TInputImage, typename TOutputImage>
@@ -103,14 +83,10 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::VerifyPreconditions() ITKv
     itkExceptionMacro("Density must be a positive number of output samples per input sample, not "
                       << m_Density << "; the default is " << FCCLattice::NyquistDensity << ".");
   }
-  const bool isDerived = m_OutputSpacing == SpacingType(0.0);
-  for (unsigned int axis = 0; axis < 3; ++axis)
+  if (!IsSpacingOrUnset(m_OutputSpacing))
   {
-    if (!isDerived && (!(m_OutputSpacing[axis] > 0.0) || !std::isfinite(m_OutputSpacing[axis])))
-    {
-      itkExceptionMacro("OutputSpacing must be positive along each axis, not "
-                        << m_OutputSpacing << "; set it to zero along all of them to derive it from Density.");
-    }
+    itkExceptionMacro("OutputSpacing must be positive along each axis, not "
+                      << m_OutputSpacing << "; set it to zero along all of them to derive it from Density.");
   }
 }
 
@@ -127,7 +103,7 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateOutputInformation(
   }
 
   const double scale = std::cbrt(1.0 / (FCCLattice::CellVolume * m_Density));
-  OutputImageRegionType outputRegion;
+  std::array<double, 3> counts{};
   SpacingType spacing;
   ContinuousIndex<double, 3> first; // the lattice point (0, 0, 0) in the input
   for (unsigned int axis = 0; axis < 3; ++axis)
@@ -144,14 +120,18 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateOutputInformation(
     const double samples = axis == 0 ? (units + 1.0) / 2.0 : units;
     const double count = std::max(1.0, std::ceil(samples - tolerance));
     const double span = axis == 0 ? 2.0 * count - 1.0 : count - 1.0;
-    if (!(count < 1e9))
-    {
-      itkExceptionMacro("The lattice would have " << count << " samples along axis " << axis << " at a spacing of "
-                                                  << spacing[axis]
-                                                  << " mm; use a larger OutputSpacing or a smaller Density.");
-    }
-    outputRegion.SetSize(axis, static_cast<SizeValueType>(count));
+    counts[axis] = count;
     first[axis] = static_cast<double>(region.GetIndex(axis)) + (length - 1.0 - span * step) / 2.0;
+  }
+  if (!IsCountable(counts))
+  {
+    itkExceptionMacro("The lattice would have " << counts[0] << " x " << counts[1] << " x " << counts[2]
+                                                << " samples; use a larger OutputSpacing or a smaller Density.");
+  }
+  OutputImageRegionType outputRegion;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    outputRegion.SetSize(axis, static_cast<SizeValueType>(counts[axis]));
   }
   output->SetLargestPossibleRegion(outputRegion);
   output->SetSpacing(spacing);
@@ -209,6 +189,21 @@ template <typename TInputImage, typename TOutputImage>
 void
 CartesianToFCCImageFilter<TInputImage, TOutputImage>::DynamicThreadedGenerateData(const OutputImageRegionType & region)
 {
+  m_ThreadFailure.Capture([&] { this->Resample(region); });
+}
+
+template <typename TInputImage, typename TOutputImage>
+void
+CartesianToFCCImageFilter<TInputImage, TOutputImage>::AfterThreadedGenerateData()
+{
+  m_ThreadFailure.Rethrow();
+  this->UpdateProgress(1.0f); // the threads' last reports may have come from another one than the observers'
+}
+
+template <typename TInputImage, typename TOutputImage>
+void
+CartesianToFCCImageFilter<TInputImage, TOutputImage>::Resample(const OutputImageRegionType & region)
+{
   const TInputImage * const input = this->GetInput();
   TOutputImage * const output = this->GetOutput();
   const InputImageRegionType buffered = input->GetBufferedRegion();
@@ -265,7 +260,7 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::DynamicThreadedGenerateDat
       OutputPixelType * const outputRow = output->GetBufferPointer() + output->ComputeOffset(index);
       for (SizeValueType i = 0; i < region.GetSize(0); ++i)
       {
-        outputRow[i] = CartesianToFCC::ConvertTo<OutputPixelType>(CartesianToFCC::WeightedSum(
+        outputRow[i] = RoundAndClamp<OutputPixelType>(CartesianToFCC::WeightedSum(
           row.data() + (taps.GetFirst(i) - xFirst), taps.GetWeights(i), taps.GetNumberOfTaps()));
       }
       progress.Completed(region.GetSize(0));

@@ -4,6 +4,7 @@
 #include "itkFCCImage.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
+#include "itkThreadFailure.h"
 
 namespace itk
 {
@@ -11,16 +12,18 @@ namespace itk
 /** \class FCCToCartesianImageFilter
  * \brief Resamples an FCC image onto a Cartesian grid by linear interpolation in the lattice's tetrahedra.
  *
- * The grid is that of the reference image if one is set. Otherwise it has the FCC image's direction, the spacing that
+ * The grid is that of the reference image if one is set, an optional second input. Otherwise it has the FCC image's direction, the spacing that
  * makes the FCC image's samples FCCLattice::NyquistDensity times as many as the grid's (or SetOutputSpacing()), and its
  * voxels tile the FCC image's extent, centred on it. So an image resampled onto the lattice with the default
  * density and back has its old spacing; use the reference image to get the very same grid.
  *
  * Voxels outside the FCC image's extent become DefaultPixelValue. The whole input is requested. Integer outputs are
- * rounded. The result does not depend on the number of threads.
+ * rounded and clamped to the range of their type. The result does not depend on the number of threads or on the
+ * requested region.
  *
- * Overridden pipeline methods: GenerateOutputInformation() (places the grid), GenerateInputRequestedRegion() (all of
- * it).
+ * Overridden pipeline methods: VerifyPreconditions() (sensible parameters), VerifyInputInformation() (the two inputs
+ * need not share a grid), GenerateOutputInformation() (places the grid), GenerateInputRequestedRegion() (all of the
+ * lattice, nothing of the reference).
  *
  * \ingroup FCCResampling
  */
@@ -51,8 +54,8 @@ public:
   itkGetConstReferenceMacro(OutputSpacing, SpacingType);
 
   /** A Cartesian image whose grid the output gets; its pixels are not looked at. Default none. */
-  itkSetConstObjectMacro(ReferenceImage, ReferenceImageType);
-  itkGetConstObjectMacro(ReferenceImage, ReferenceImageType);
+  itkSetInputMacro(ReferenceImage, ReferenceImageType);
+  itkGetInputMacro(ReferenceImage, ReferenceImageType);
 
   /** Value of voxels outside the input's extent. Default 0. */
   itkSetMacro(DefaultPixelValue, OutputPixelType);
@@ -64,7 +67,10 @@ protected:
 
   void PrintSelf(std::ostream & os, Indent indent) const override;
 
-  void VerifyInputInformation() ITKv5_CONST override;
+  void VerifyPreconditions() ITKv5_CONST override;
+
+  void VerifyInputInformation() ITKv5_CONST override
+  {}
 
   void GenerateOutputInformation() override;
 
@@ -72,17 +78,16 @@ protected:
 
   void DynamicThreadedGenerateData(const OutputImageRegionType & region) override;
 
-  /** Reports that all is done: the threads' last reports may have come from another thread than the observers'. */
   void
-  AfterThreadedGenerateData() override
-  {
-    this->UpdateProgress(1.0f);
-  }
+  AfterThreadedGenerateData() override;
 
 private:
+  void
+  Resample(const OutputImageRegionType & region);
+
   SpacingType m_OutputSpacing{ 0.0 };
-  typename ReferenceImageType::ConstPointer m_ReferenceImage;
   OutputPixelType m_DefaultPixelValue{};
+  ThreadFailure m_ThreadFailure;
 };
 
 } // namespace itk

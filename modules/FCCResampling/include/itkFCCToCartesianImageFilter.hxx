@@ -2,6 +2,7 @@
 #define itkFCCToCartesianImageFilter_hxx
 
 #include "itkFCCLinearInterpolateImageFunction.h"
+#include "itkFCCResamplingChecks.h"
 #include "itkImageScanlineIterator.h"
 #include "itkTotalProgressReporter.h"
 
@@ -11,6 +12,7 @@ namespace itk
 template <typename TInputImage, typename TOutputImage>
 FCCToCartesianImageFilter<TInputImage, TOutputImage>::FCCToCartesianImageFilter()
 {
+  this->AddOptionalInputName("ReferenceImage", 1);
   this->DynamicMultiThreadingOn();
   this->ThreaderUpdateProgressOff();
 }
@@ -21,7 +23,6 @@ FCCToCartesianImageFilter<TInputImage, TOutputImage>::PrintSelf(std::ostream & o
 {
   Superclass::PrintSelf(os, indent);
   os << indent << "OutputSpacing: " << m_OutputSpacing << std::endl;
-  os << indent << "ReferenceImage: " << m_ReferenceImage.GetPointer() << std::endl;
   os << indent
      << "DefaultPixelValue: " << static_cast<typename NumericTraits<OutputPixelType>::PrintType>(m_DefaultPixelValue)
      << std::endl;
@@ -29,16 +30,13 @@ FCCToCartesianImageFilter<TInputImage, TOutputImage>::PrintSelf(std::ostream & o
 
 template <typename TInputImage, typename TOutputImage>
 void
-FCCToCartesianImageFilter<TInputImage, TOutputImage>::VerifyInputInformation() ITKv5_CONST
+FCCToCartesianImageFilter<TInputImage, TOutputImage>::VerifyPreconditions() ITKv5_CONST
 {
-  // There is one input only; the superclass would compare its fake index geometry.
-  for (unsigned int axis = 0; axis < 3; ++axis)
+  Superclass::VerifyPreconditions();
+  if (!IsSpacingOrUnset(m_OutputSpacing))
   {
-    if (m_OutputSpacing[axis] < 0.0)
-    {
-      itkExceptionMacro("OutputSpacing must not be negative, but is "
-                        << m_OutputSpacing << "; set it to zero to derive it from the input's.");
-    }
+    itkExceptionMacro("OutputSpacing must be positive along each axis, not "
+                      << m_OutputSpacing << "; set it to zero along all of them to derive it from the input's.");
   }
 }
 
@@ -48,18 +46,15 @@ FCCToCartesianImageFilter<TInputImage, TOutputImage>::GenerateOutputInformation(
 {
   const TInputImage * const input = this->GetInput();
   TOutputImage * const output = this->GetOutput();
-  if (m_ReferenceImage)
+  if (const ReferenceImageType * const reference = this->GetReferenceImage())
   {
-    output->SetLargestPossibleRegion(m_ReferenceImage->GetLargestPossibleRegion());
-    output->SetSpacing(m_ReferenceImage->GetSpacing());
-    output->SetOrigin(m_ReferenceImage->GetOrigin());
-    output->SetDirection(m_ReferenceImage->GetDirection());
+    output->CopyInformation(reference);
     return;
   }
 
   const auto & extent = input->GetLargestPossibleRegion();
   const double scale = std::cbrt(FCCLattice::CellVolume * FCCLattice::NyquistDensity);
-  OutputImageRegionType region;
+  std::array<double, 3> counts{};
   SpacingType spacing;
   std::array<double, 3> first{}; // the first voxel's centre in lattice coordinates
   for (unsigned int axis = 0; axis < 3; ++axis)
@@ -70,9 +65,18 @@ FCCToCartesianImageFilter<TInputImage, TOutputImage>::GenerateOutputInformation(
     const double begin = unitsPerIndex * static_cast<double>(extent.GetIndex(axis)) - 0.5;
     spacing[axis] = m_OutputSpacing[axis] > 0.0 ? m_OutputSpacing[axis] : scale * input->GetSpacing()[axis];
     const double step = spacing[axis] / input->GetSpacing()[axis];
-    const double count = std::max(1.0, std::floor(units / step + tolerance));
-    region.SetSize(axis, static_cast<SizeValueType>(count));
-    first[axis] = begin + (units - (count - 1.0) * step) / 2.0;
+    counts[axis] = std::max(1.0, std::floor(units / step + tolerance));
+    first[axis] = begin + (units - (counts[axis] - 1.0) * step) / 2.0;
+  }
+  if (!IsCountable(counts))
+  {
+    itkExceptionMacro("The grid would have " << counts[0] << " x " << counts[1] << " x " << counts[2]
+                                             << " samples; use a larger OutputSpacing.");
+  }
+  OutputImageRegionType region;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    region.SetSize(axis, static_cast<SizeValueType>(counts[axis]));
   }
   output->SetLargestPossibleRegion(region);
   output->SetSpacing(spacing);
@@ -85,11 +89,30 @@ void
 FCCToCartesianImageFilter<TInputImage, TOutputImage>::GenerateInputRequestedRegion()
 {
   const_cast<TInputImage *>(this->GetInput())->SetRequestedRegionToLargestPossibleRegion();
+  if (const ReferenceImageType * const reference = this->GetReferenceImage())
+  {
+    const_cast<ReferenceImageType *>(reference)->SetRequestedRegion(reference->GetBufferedRegion());
+  }
 }
 
 template <typename TInputImage, typename TOutputImage>
 void
 FCCToCartesianImageFilter<TInputImage, TOutputImage>::DynamicThreadedGenerateData(const OutputImageRegionType & region)
+{
+  m_ThreadFailure.Capture([&] { this->Resample(region); });
+}
+
+template <typename TInputImage, typename TOutputImage>
+void
+FCCToCartesianImageFilter<TInputImage, TOutputImage>::AfterThreadedGenerateData()
+{
+  m_ThreadFailure.Rethrow();
+  this->UpdateProgress(1.0f); // the threads' last reports may have come from another one than the observers'
+}
+
+template <typename TInputImage, typename TOutputImage>
+void
+FCCToCartesianImageFilter<TInputImage, TOutputImage>::Resample(const OutputImageRegionType & region)
 {
   const TInputImage * const input = this->GetInput();
   TOutputImage * const output = this->GetOutput();
@@ -111,14 +134,7 @@ FCCToCartesianImageFilter<TInputImage, TOutputImage>::DynamicThreadedGenerateDat
         continue;
       }
       const double value = interpolator->EvaluateAtContinuousIndex(continuous);
-      if constexpr (std::is_integral_v<OutputPixelType>)
-      {
-        it.Set(Math::Round<OutputPixelType>(value));
-      }
-      else
-      {
-        it.Set(static_cast<OutputPixelType>(value));
-      }
+      it.Set(RoundAndClamp<OutputPixelType>(value));
     }
     progress.Completed(region.GetSize(0));
   }

@@ -42,7 +42,7 @@ public:
    *  \param positions in units of samples; 0 is the first sample */
   SeparableTaps(SeparableKernel kernel, SizeValueType length, const std::vector<double> & positions);
 
-  /** Taps of each position: a multiple of four, or all samples of a short axis. */
+  /** Taps of each position: 2 or 24, or all samples of a shorter axis. */
   SizeValueType
   GetNumberOfTaps() const
   {

@@ -2,11 +2,9 @@
 
 #include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
+#include "rhombicScanWriter.h"
 
 #include "gdcmWriter.h"
-#include "itkImageFileReader.h"
-#include "itkImageFileWriter.h"
-#include "itkNiftiImageIO.h"
 
 #include <algorithm>
 #include <cmath>
@@ -250,13 +248,19 @@ WriteSlice(const fs::path & path, const PhantomScan & scan, const PhantomSetting
   SetGeometry(dataset, scan, slice);
   SetPixels(dataset, scan, slice);
   writer.GetFile().GetHeader().SetDataSetTransferSyntax(gdcm::TransferSyntax::ExplicitVRLittleEndian);
-  writer.SetFileName(output.GetTemporaryPath().c_str());
+  std::ostringstream bytes; // GDCM ends the process when a disk is full
+  writer.SetStream(bytes);
   if (!writer.Write())
   {
-    Fail(path, "the DICOM writer failed; check the space on the disk");
+    Fail(path, "the DICOM writer failed");
   }
-  const auto & size = scan.GetLargestPossibleRegion().GetSize();
-  output.Commit(2 * size[0] * size[1]);
+  const std::string content = bytes.str();
+  std::ofstream stream(output.GetTemporaryPath(), std::ios::binary);
+  if (!stream.write(content.data(), static_cast<std::streamsize>(content.size())).flush())
+  {
+    Fail(path, "not all bytes arrived; check the space on the disk");
+  }
+  output.Commit(content.size());
 }
 
 void
@@ -268,32 +272,6 @@ WriteSeries(const fs::path & folder, const PhantomScan & scan, const PhantomSett
     std::ostringstream name;
     name << "slice-" << std::setw(4) << std::setfill('0') << slice + 1 << ".dcm";
     WriteSlice(folder / name.str(), scan, settings, slice);
-  }
-}
-
-/** ITK's NIfTI writer is silent about a full disk, so the file is read back. */
-template <typename TImage>
-void
-WriteNifti(const fs::path & path, const TImage & image)
-{
-  auto writer = itk::ImageFileWriter<TImage>::New();
-  writer->SetImageIO(itk::NiftiImageIO::New());
-  writer->SetFileName(path.string());
-  writer->SetInput(&image);
-  writer->UseCompressionOn();
-  writer->Update();
-
-  auto reader = itk::ImageFileReader<TImage>::New();
-  reader->SetImageIO(itk::NiftiImageIO::New());
-  reader->SetFileName(path.string());
-  reader->Update();
-  const auto count = image.GetLargestPossibleRegion().GetNumberOfPixels();
-  const auto region = reader->GetOutput()->GetLargestPossibleRegion();
-  const auto voxels = image.GetBufferPointer();
-  if (region != image.GetLargestPossibleRegion() ||
-      !std::equal(voxels, voxels + count, reader->GetOutput()->GetBufferPointer()))
-  {
-    Fail(path, "the file is incomplete; check the space on the disk");
   }
 }
 
@@ -341,8 +319,8 @@ WritePhantom(const fs::path & folder, const PhantomSettings & settings)
   {
     StagingFolder staging(folder);
     WriteSeries(staging.GetPath() / "dicom", *scan, settings);
-    WriteNifti(staging.GetPath() / "phantom.nii.gz", *scan);
-    WriteNifti(staging.GetPath() / "phantom-labels.nii.gz", *MakePhantomLabels(settings));
+    WriteScan(scan, staging.GetPath() / "phantom.nii.gz");
+    WriteScan(MakePhantomLabels(settings), staging.GetPath() / "phantom-labels.nii.gz");
     WriteTable(staging.GetPath() / "phantom-organs.csv");
     staging.Commit();
   }

@@ -116,7 +116,7 @@ WriteBytes(const std::vector<unsigned char> & bytes, const fs::path & file)
 {
   std::ofstream stream(file, std::ios::binary);
   stream.write(reinterpret_cast<const char *>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  return stream.flush() ? "" : "not all bytes arrived; is the disk full?";
+  return stream.flush() ? "" : "not all bytes arrived; check the space on the disk";
 }
 
 /** In memory first where possible: on a full disk, libjpeg ends the process and libpng prints. */
@@ -146,7 +146,7 @@ VerifyFile(const Picture & picture, const fs::path & file, const PictureFormat &
                         (!format.isLossless || written.pixels == picture.pixels);
     if (!isSame)
     {
-      FailWriting(target, "the file does not hold the same pixels; is the disk full?");
+      FailWriting(target, "the file does not hold the same pixels; check the space on the disk");
     }
   }
   catch (const Failure & failure)
@@ -155,7 +155,7 @@ VerifyFile(const Picture & picture, const fs::path & file, const PictureFormat &
     {
       throw;
     }
-    FailWriting(target, "the file can't be read back; is the disk full?");
+    FailWriting(target, "the file can't be read back; check the space on the disk");
   }
 }
 

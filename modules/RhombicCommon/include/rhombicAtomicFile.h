@@ -10,7 +10,7 @@ namespace rhombic
 /** \class AtomicFile
  * \brief An output file that appears complete or not at all.
  *
- * The writer writes to GetTemporaryPath(), a hidden file beside the target whose name ends as the target's. Commit()
+ * The writer writes to GetTemporaryPath(), a hidden file beside the target with the target's extension. Commit()
  * checks its size, flushes it to the disk and renames it over the target; without Commit() the destructor removes it,
  * so an exception or a full disk leaves the target as it was.
  *

@@ -18,7 +18,6 @@ enum class FailureKind : int
   Geometry = 5,   ///< the input's position in the patient can't be known
   Empty = 6,      ///< there is no surface at this isovalue
   Output = 7,     ///< the output can't be written
-  Partial = 8,    ///< some inputs of many failed
   Memory = 9,     ///< it would need, or needed, more memory than there is
   Display = 10    ///< no way to draw on this machine
 };
@@ -49,6 +48,11 @@ public:
 private:
   FailureKind m_Kind;
 };
+
+/** What an exception of a library says, as part of a sentence: on one line, and without the class and address of the
+ * object that threw, which ITK puts first. */
+std::string
+DescribeError(const std::exception & error);
 
 } // namespace rhombic
 

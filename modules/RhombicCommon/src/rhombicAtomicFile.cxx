@@ -42,6 +42,14 @@ FolderOf(const fs::path & path)
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
+/** What writers tell the format from: .png, but .nii.gz. */
+std::string
+ExtensionOf(const fs::path & path)
+{
+  const std::string last = path.extension().string();
+  return last == ".gz" ? path.stem().extension().string() + last : last;
+}
+
 } // namespace
 
 AtomicFile::AtomicFile(const fs::path & target)
@@ -57,15 +65,25 @@ AtomicFile::AtomicFile(const fs::path & target)
   {
     Fail(target, "the folder " + folder.string() + " does not exist; create it first");
   }
-  if (fs::exists(target, error) && !fs::is_regular_file(target, error))
+  const fs::file_type type = fs::status(target, error).type();
+  if (type == fs::file_type::none)
+  {
+    Fail(target, error.message() + "; choose another file name");
+  }
+  if (type != fs::file_type::not_found && type != fs::file_type::regular)
   {
     Fail(target, "it is not a regular file; give a file name");
   }
 
+  // A temporary file of that name may be left from a process that was killed and had the same number.
   static std::atomic<unsigned> counter{ 0 };
-  m_Temporary =
-    folder / (".tmp-" + std::to_string(getpid()) + "-" + std::to_string(counter++) + "-" + target.filename().string());
-  const int descriptor = open(m_Temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  int descriptor = -1;
+  do
+  {
+    m_Temporary =
+      folder / (".tmp-" + std::to_string(getpid()) + "-" + std::to_string(counter++) + ExtensionOf(target));
+    descriptor = open(m_Temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  } while (descriptor < 0 && errno == EEXIST);
   if (descriptor < 0)
   {
     Fail(target, std::string(std::strerror(errno)) + "; choose another folder or file name");

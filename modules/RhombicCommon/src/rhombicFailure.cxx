@@ -1,5 +1,7 @@
 #include "rhombicFailure.h"
 
+#include <algorithm>
+
 namespace rhombic
 {
 
@@ -7,5 +9,20 @@ Failure::Failure(FailureKind kind, const std::string & description)
   : itk::ExceptionObject("Rhombic", 0, description)
   , m_Kind(kind)
 {}
+
+std::string
+DescribeError(const std::exception & error)
+{
+  const auto * const fromITK = dynamic_cast<const itk::ExceptionObject *>(&error);
+  std::string text = fromITK != nullptr ? fromITK->GetDescription() : error.what();
+  const auto end = text.find("): ");
+  if ((text.rfind("ITK ", 0) == 0 || text.rfind("itk::", 0) == 0) && end != std::string::npos)
+  {
+    text.erase(0, end + 3);
+  }
+  text.erase(std::min(text.find('\n'), text.size()));
+  text.erase(text.find_last_not_of(" .:") + 1);
+  return text;
+}
 
 } // namespace rhombic

@@ -39,6 +39,7 @@ struct Scan
 {
   ScanImage image;                   ///< with an empty metadata dictionary: no patient data travels on
   std::string format;                ///< "DICOM", "NIfTI", "NRRD" or "MetaImage"
+  bool isOriented = true; ///< false when the file does not say how it lies in the patient: left and right are a guess
   std::string modality;              ///< DICOM's: CT (values are HU), MR, ...; empty when unknown
   std::vector<SeriesSummary> series; ///< all in the folder; empty for other formats than DICOM
   std::size_t filesSkipped = 0;      ///< files in the folder that are no DICOM images, symbolic links included

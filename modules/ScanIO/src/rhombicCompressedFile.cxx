@@ -4,6 +4,8 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <new>
 #include <vector>
 
 #include <zlib.h>
@@ -109,6 +111,42 @@ CountBytes(const fs::path & path, std::uintmax_t enough)
   }
   const bool isComplete = file.Close();
   return count > 0 || (count == 0 && isComplete) ? total : 0;
+}
+
+std::uintmax_t
+CountInflated(const fs::path & path, std::uintmax_t offset, std::uintmax_t enough)
+{
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(static_cast<std::streamoff>(offset));
+  constexpr int zlibOrGzip = 15 + 32; // zlib's window bits, and 32 for either header
+  z_stream stream{};
+  if (inflateInit2(&stream, zlibOrGzip) != Z_OK)
+  {
+    throw std::bad_alloc();
+  }
+  std::vector<char> packed(1 << 16);
+  std::vector<Bytef> unpacked(1 << 18);
+  std::uintmax_t total = 0;
+  int state = Z_OK;
+  while (state == Z_OK && total < enough)
+  {
+    if (stream.avail_in == 0)
+    {
+      file.read(packed.data(), static_cast<std::streamsize>(packed.size()));
+      stream.next_in = reinterpret_cast<Bytef *>(packed.data());
+      stream.avail_in = static_cast<uInt>(file.gcount());
+      if (stream.avail_in == 0)
+      {
+        break;
+      }
+    }
+    stream.next_out = unpacked.data();
+    stream.avail_out = static_cast<uInt>(unpacked.size());
+    state = inflate(&stream, Z_NO_FLUSH);
+    total += unpacked.size() - stream.avail_out;
+  }
+  inflateEnd(&stream);
+  return total;
 }
 
 } // namespace rhombic

@@ -16,6 +16,10 @@ std::string ReadBeginning(const std::filesystem::path & path, std::size_t size);
  * that is damaged or cut off counts as empty. */
 std::uintmax_t CountBytes(const std::filesystem::path & path, std::uintmax_t enough);
 
+/** How many bytes a zlib or gzip stream that begins at \a offset of a file unpacks to: counting ends at \a enough, and a
+ * stream that is damaged or cut off counts up to there. */
+std::uintmax_t CountInflated(const std::filesystem::path & path, std::uintmax_t offset, std::uintmax_t enough);
+
 } // namespace rhombic
 
 #endif

@@ -8,6 +8,7 @@
 #include "rhombicVolumeFile.h"
 
 #include <algorithm>
+#include <fstream>
 
 namespace fs = std::filesystem;
 
@@ -55,6 +56,39 @@ NoteOthers(const std::vector<SeriesSummary> & summaries)
   return notes;
 }
 
+/** Why a file that GDCM could not make sense of may be a slice all the same; empty when it is something else. */
+std::string
+DamageOf(const fs::path & path)
+{
+  constexpr std::streamoff magicOffset = 128;
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+  {
+    return "can't be opened";
+  }
+  char magic[4] = {};
+  file.seekg(magicOffset).read(magic, sizeof(magic));
+  return std::string(magic, sizeof(magic)) == "DICM" ? "is damaged" : "";
+}
+
+/** One note for all damaged files: a slice that is missing at an end leaves no gap that could be seen. */
+void
+NoteDamaged(const std::vector<std::string> & damaged, std::vector<std::string> & notes)
+{
+  constexpr std::size_t named = 3;
+  if (damaged.empty())
+  {
+    return;
+  }
+  std::string list;
+  for (std::size_t n = 0; n < std::min(named, damaged.size()); ++n)
+  {
+    list += (n > 0 ? ", " : "") + damaged[n];
+  }
+  notes.push_back("Slices may be missing: " + list +
+                  (damaged.size() > named ? " and " + std::to_string(damaged.size() - named) + " more" : "") + ".");
+}
+
 } // namespace
 
 Scan
@@ -66,6 +100,7 @@ ReadDicomFolder(const fs::path & folder, const std::string & wanted)
   scan.format = "DICOM";
   scan.filesSkipped = files.symbolicLinks;
   std::vector<DicomSlice> slices;
+  std::vector<std::string> damaged;
   for (const fs::path & path : files.paths)
   {
     auto slice = ReadDicomSlice(path);
@@ -76,6 +111,10 @@ ReadDicomFolder(const fs::path & folder, const std::string & wanted)
     else
     {
       ++scan.filesSkipped;
+      if (const std::string damage = slice ? "" : DamageOf(path); !damage.empty())
+      {
+        damaged.push_back(path.filename().string() + " " + damage);
+      }
     }
   }
   if (slices.empty())
@@ -88,6 +127,7 @@ ReadDicomFolder(const fs::path & folder, const std::string & wanted)
   scan.series = Summarize(series, chosen);
   scan.modality = scan.series[chosen].modality;
   scan.notes = NoteOthers(scan.series);
+  NoteDamaged(damaged, scan.notes);
 
   const VolumeGeometry geometry = StackSlices(series[chosen].slices);
   scan.image = ReadDicomPixels(series[chosen].slices, geometry);

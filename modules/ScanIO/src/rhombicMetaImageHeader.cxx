@@ -1,5 +1,6 @@
 #include "rhombicMetaImageHeader.h"
 
+#include "rhombicCompressedFile.h"
 #include "rhombicFailure.h"
 
 #include <algorithm>
@@ -95,7 +96,9 @@ CheckMetaImageData(const fs::path & path)
   }
   if (name == "LIST" || name.find('%') != std::string::npos)
   {
-    return;
+    throw Failure(FailureKind::Unreadable,
+                  "Cannot read " + path.string() +
+                    ": its pixels are spread over several files, which is not supported; write it as one file.");
   }
   const bool isLocal = name == "LOCAL" || name == "Local" || name == "local";
   const fs::path data = isLocal ? path : path.parent_path() / name;
@@ -107,11 +110,14 @@ CheckMetaImageData(const fs::path & path)
                   "Cannot read " + path.string() + ": its pixels should be in " + data.string() +
                     ", which is missing; put the two files into one folder.");
   }
-  const bool isRaw =
-    !IsTrue(header.Get("CompressedData")) && (header.Get("BinaryData").empty() || IsTrue(header.Get("BinaryData")));
+  if (!header.Get("BinaryData").empty() && !IsTrue(header.Get("BinaryData")))
+  {
+    return; // numbers as text, of any length
+  }
   const auto needed = SizeOfPixels(header);
-  const auto pixels = available - (isLocal ? std::min(header.size, available) : 0);
-  if (isRaw && pixels < needed)
+  const auto begin = isLocal ? std::min(header.size, available) : 0;
+  const auto pixels = IsTrue(header.Get("CompressedData")) ? CountInflated(data, begin, needed) : available - begin;
+  if (pixels < needed)
   {
     throw Failure(FailureKind::Unreadable,
                   "Cannot read " + path.string() + ": " + data.string() + " has " + std::to_string(pixels) + " of " +

@@ -335,13 +335,14 @@ Affine
 ChooseAffine(const fs::path & path,
              const HeaderBytes & header,
              const itk::Size<3> & size,
-             std::vector<std::string> & notes)
+             Scan & scan)
 {
   const bool hasSform = header.Get<std::int16_t>(SformCodeField) > 0;
   const bool hasQform = header.Get<std::int16_t>(QformCodeField) > 0;
   if (!hasSform && !hasQform)
   {
-    notes.push_back(path.string() + " does not say how it lies in the patient; left and right are a guess.");
+    scan.isOriented = false;
+    scan.notes.push_back(path.string() + " does not say how it lies in the patient; left and right are a guess.");
     return Unoriented(header);
   }
   const Affine chosen = hasSform ? Sform(header) : Qform(header);
@@ -351,7 +352,7 @@ ChooseAffine(const fs::path & path,
     constexpr double tolerance = 1e-2; // of a voxel: the quaternion is rounded to float32
     if (distance > tolerance * chosen[0].GetNorm())
     {
-      notes.push_back(path.string() + " gives two positions in the patient, up to " +
+      scan.notes.push_back(path.string() + " gives two positions in the patient, up to " +
                       std::to_string(distance * MillimetresPerUnit(header)) +
                       " mm apart; its sform was used, not its qform.");
     }
@@ -402,7 +403,7 @@ ToLPSMillimetres(Affine affine, double millimetresPerUnit, const itk::Size<3> & 
 } // namespace
 
 VolumeGeometry
-ReadNIfTIGeometry(const fs::path & path, std::vector<std::string> & notes)
+ReadNIfTIGeometry(const fs::path & path, Scan & scan)
 {
   fs::path headerPath = path;
   if (path.extension() == ".img" || (path.extension() == ".gz" && path.stem().extension() == ".img"))
@@ -417,7 +418,7 @@ ReadNIfTIGeometry(const fs::path & path, std::vector<std::string> & notes)
   CheckNumbers(headerPath, header);
   CheckPixels(headerPath, header, size[0] * size[1] * size[2] * pixelSize);
 
-  return ToLPSMillimetres(ChooseAffine(headerPath, header, size, notes), MillimetresPerUnit(header), size);
+  return ToLPSMillimetres(ChooseAffine(headerPath, header, size, scan), MillimetresPerUnit(header), size);
 }
 
 } // namespace rhombic

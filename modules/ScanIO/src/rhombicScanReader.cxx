@@ -47,22 +47,6 @@ Read(const fs::path & path, const ScanReadOptions & options)
   return ReadVolumeFile(path);
 }
 
-/** What an exception of a library says, without its class names, addresses and line breaks. */
-std::string
-Clean(const std::exception & exception)
-{
-  const auto * const fromITK = dynamic_cast<const itk::ExceptionObject *>(&exception);
-  std::string text = fromITK ? fromITK->GetDescription() : exception.what();
-  const auto prefixEnd = text.find("): ");
-  if (text.compare(0, 4, "ITK ") == 0 || text.compare(0, 5, "itk::") == 0)
-  {
-    text.erase(0, prefixEnd == std::string::npos ? 0 : prefixEnd + 3);
-  }
-  text.erase(std::min(text.find('\n'), text.size()));
-  text.erase(text.find_last_not_of(" .:") + 1);
-  return text;
-}
-
 } // namespace
 
 Scan
@@ -92,7 +76,7 @@ ReadScan(const fs::path & path, const ScanReadOptions & options)
   catch (const std::exception & exception)
   {
     throw Failure(FailureKind::Unreadable,
-                  "Cannot read " + path.string() + ": " + Clean(exception) + "; it may be damaged, so copy it again.");
+                  "Cannot read " + path.string() + ": " + DescribeError(exception) + "; it may be damaged, so copy it again.");
   }
 }
 

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 
 namespace fs = std::filesystem;
 
@@ -139,18 +140,31 @@ ReadInformation(itk::ImageIOBase & io, const fs::path & path, const std::string 
   }
 }
 
+/** Puts the lowest finite value in the place of values that are not finite, which would spread when the scan is resampled.
+ * Returns how many there were. */
 std::size_t
-CountNotFinite(const ScanImage & image)
+ReplaceNotFinite(const ScanImage & image)
 {
   const auto * const pointer = std::get_if<itk::Image<float, 3>::Pointer>(&image);
   if (pointer == nullptr)
   {
     return 0;
   }
-  const float * const begin = (*pointer)->GetBufferPointer();
-  return static_cast<std::size_t>(std::count_if(begin,
-                                                begin + (*pointer)->GetBufferedRegion().GetNumberOfPixels(),
-                                                [](float value) { return !std::isfinite(value); }));
+  float * const begin = (*pointer)->GetBufferPointer();
+  float * const end = begin + (*pointer)->GetBufferedRegion().GetNumberOfPixels();
+  float lowest = std::numeric_limits<float>::max();
+  std::size_t count = 0;
+  for (const float * value = begin; value != end; ++value)
+  {
+    const bool isFinite = std::isfinite(*value);
+    count += isFinite ? 0 : 1;
+    lowest = isFinite ? std::min(lowest, *value) : lowest;
+  }
+  if (count > 0)
+  {
+    std::replace_if(begin, end, [](float value) { return !std::isfinite(value); }, lowest);
+  }
+  return count;
 }
 
 } // namespace
@@ -171,7 +185,7 @@ ReadVolumeFile(const fs::path & path)
   VolumeGeometry geometry;
   if (scan.format == "NIfTI")
   {
-    geometry = ReadNIfTIGeometry(path, scan.notes);
+    geometry = ReadNIfTIGeometry(path, scan);
     CheckGeometry(geometry, path);
   }
   else if (scan.format == "MetaImage")
@@ -187,11 +201,17 @@ ReadVolumeFile(const fs::path & path)
     geometry = GeometryOf(*io, size);
     CheckGeometry(geometry, path);
   }
+  if (scan.format == "NRRD" && !io->GetMetaDataDictionary().HasKey("NRRD_space"))
+  {
+    scan.isOriented = false;
+    scan.notes.push_back(path.string() + " does not say how it lies in the patient; left and right are a guess.");
+  }
   scan.image = ReadVolumePixels(*io, geometry);
 
-  if (const std::size_t count = CountNotFinite(scan.image); count > 0)
+  if (const std::size_t count = ReplaceNotFinite(scan.image); count > 0)
   {
-    scan.notes.push_back(path.string() + " holds " + std::to_string(count) + " values that are not finite numbers.");
+    scan.notes.push_back(path.string() + " holds " + std::to_string(count) +
+                         " values that are not finite numbers; the lowest value took their place.");
   }
   return scan;
 }

@@ -76,7 +76,8 @@ WriteVTP(const itk::TriangleSurface & surface, const std::filesystem::path & pat
 
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
-  return claimed && !error && IsComplete(surface, path, size) ? size : std::numeric_limits<std::uintmax_t>::max();
+  // The size it must have is not known beforehand; one more than it has says that it is incomplete.
+  return claimed && !error && IsComplete(surface, path, size) ? size : (error ? 1 : size + 1);
 }
 
 } // namespace rhombic

@@ -38,6 +38,9 @@ public:
    * Memory when the scene does not fit; Display when the graphics library reports an error. */
   Picture Render(const std::vector<SceneSurface> & scene, const RenderSettings & settings);
 
+  /** Throws Failure(Usage) when Render() would because of the settings: for asking before long work. */
+  void CheckSettings(const RenderSettings & settings) const;
+
   /** One line: backend, renderer and OpenGL version. */
   std::string GetBackendDescription() const;
 

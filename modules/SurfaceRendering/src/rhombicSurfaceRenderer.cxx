@@ -48,7 +48,7 @@ CheckErrors(const vtkRhombicMessages::Scope & messages)
       FailureKind::Display,
       "Drawing failed: " +
         (messages.GetFirstError().empty() ? "OpenGL error " + std::to_string(error) : messages.GetFirstError()) +
-        "; try another backend.");
+        "; try a smaller picture (rhombic doctor tells what draws here).");
   }
 }
 
@@ -112,10 +112,16 @@ public:
     }
   }
 
+  void
+  Check(const RenderSettings & settings) const
+  {
+    rhombic::CheckSettings(settings, m_LargestSide);
+  }
+
   Picture
   Render(const std::vector<SceneSurface> & scene, const RenderSettings & settings)
   {
-    CheckSettings(settings, m_LargestSide);
+    Check(settings);
     const auto drawable = DrawableSurfaces(scene);
     const CurrentGLContext current(*m_Context.context);
     const vtkRhombicMessages::Scope messages;
@@ -169,6 +175,12 @@ SurfaceRenderer::Render(const std::vector<SceneSurface> & scene, const RenderSet
                   "There is not enough memory to draw " + std::to_string(settings.width) + " x " +
                     std::to_string(settings.height) + " pixels of this scene; try fewer triangles, samples or pixels.");
   }
+}
+
+void
+SurfaceRenderer::CheckSettings(const RenderSettings & settings) const
+{
+  m_Implementation->Check(settings);
 }
 
 std::string

@@ -18,7 +18,7 @@ namespace itk
  * triples and triangles are uint32 index triples, each in one contiguous array, ready to be handed to a file writer or
  * a graphics library without a copy.
  *
- * Points are in LPS millimetres. Triangles are counter-clockwise seen from outside; outside is where values are lower.
+ * Points are in LPS millimetres. Triangles are counter-clockwise seen from outside.
  * Normals are unit vectors pointing outside, one a point, or absent altogether.
  *
  * Thread safety: concurrent readers are safe; a writer needs exclusive access.

@@ -18,7 +18,7 @@ struct TriangleSurfaceTopology
   SizeValueType misorientedEdges = 0;      ///< edges whose two triangles run along them in the same direction
   SizeValueType nonManifoldPoints = 0;     ///< points whose triangles are not one fan
   SizeValueType unusedPoints = 0;          ///< points of no triangle
-  SizeValueType degenerateTriangles = 0;   ///< triangles with a repeated point, a repeated position, or no area
+  SizeValueType degenerateTriangles = 0;   ///< triangles with a repeated point, a repeated position, no area, or a position that is not finite
   OffsetValueType eulerCharacteristic = 0; ///< used points - edges + triangles; 2 for each sphere, 0 for each torus
 
   /** Closed, oriented, manifold and free of degenerate triangles. */

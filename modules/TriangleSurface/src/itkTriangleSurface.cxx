@@ -86,11 +86,14 @@ TriangleSurface::Initialize()
 void
 TriangleSurface::Graft(const DataObject * data)
 {
+  if (data == nullptr)
+  {
+    return;
+  }
   const auto * const other = dynamic_cast<const Self *>(data);
   if (other == nullptr)
   {
-    itkExceptionMacro("Only another TriangleSurface can be grafted; got "
-                      << (data ? data->GetNameOfClass() : "nothing"));
+    itkExceptionMacro("Only another TriangleSurface can be grafted; got " << data->GetNameOfClass());
   }
   m_Points = other->m_Points;
   m_Normals = other->m_Normals;

@@ -3,6 +3,7 @@
 #include "itkTriangleSurfaceComponents.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <ostream>
 
@@ -167,8 +168,10 @@ IsDegenerate(const TriangleSurface & surface, const TriangleSurface::TriangleTyp
   const auto & c = surface.GetPoints()[triangle[2]];
   const double u[3] = { double(b[0]) - a[0], double(b[1]) - a[1], double(b[2]) - a[2] };
   const double v[3] = { double(c[0]) - a[0], double(c[1]) - a[1], double(c[2]) - a[2] };
-  const bool hasArea = u[1] * v[2] != u[2] * v[1] || u[2] * v[0] != u[0] * v[2] || u[0] * v[1] != u[1] * v[0];
-  return !hasArea; // a repeated point or position has no area either
+  const double normal[3] = { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
+  const bool hasArea = normal[0] != 0.0 || normal[1] != 0.0 || normal[2] != 0.0;
+  const bool isFinite = std::isfinite(normal[0]) && std::isfinite(normal[1]) && std::isfinite(normal[2]);
+  return !(hasArea && isFinite); // a repeated point or position has no area either
 }
 
 } // namespace

@@ -1,0 +1,62 @@
+#ifndef itkFCCResamplingChecks_h
+#define itkFCCResamplingChecks_h
+
+#include "itkImageRegion.h"
+#include "itkVector.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+namespace itk
+{
+
+/** Whether a spacing is positive along all axes, or zero along all: to be derived. */
+inline bool
+IsSpacingOrUnset(const Vector<double, 3> & spacing)
+{
+  bool isPositive = true;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    isPositive = isPositive && spacing[axis] > 0.0 && std::isfinite(spacing[axis]);
+  }
+  return isPositive || spacing == Vector<double, 3>(0.0);
+}
+
+/** Whether so many samples along each axis can be counted and addressed. */
+inline bool
+IsCountable(const std::array<double, 3> & counts)
+{
+  constexpr double most = 1099511627776.0; // 2^40
+  return counts[0] * counts[1] * counts[2] <= most;
+}
+
+/** Rounds half away from zero and clamps to the range of an integer type; not-a-number becomes its lowest value. */
+template <typename TPixel, typename TReal>
+TPixel
+RoundAndClamp(TReal value)
+{
+  if constexpr (std::is_integral_v<TPixel>)
+  {
+    static_assert(sizeof(TPixel) < 4 || std::is_same_v<TPixel, std::int32_t>,
+                  "Pixels are integers of 8 or 16 bits, signed ones of 32, or real numbers");
+    // Half more than a whole number must be exact: float does for 16 bits, double for 32.
+    using RealType = std::conditional_t<sizeof(TPixel) < 4, TReal, double>;
+    constexpr auto lowest = static_cast<RealType>(std::numeric_limits<TPixel>::lowest());
+    constexpr auto highest = static_cast<RealType>(std::numeric_limits<TPixel>::max());
+    const auto real = static_cast<RealType>(value);
+    const RealType clamped = real > lowest ? (real < highest ? real : highest) : lowest;
+    const RealType half = clamped < RealType(0) ? RealType(-0.5) : RealType(0.5);
+    return static_cast<TPixel>(static_cast<std::int64_t>(clamped + half));
+  }
+  else
+  {
+    return static_cast<TPixel>(value);
+  }
+}
+
+} // namespace itk
+
+#endif

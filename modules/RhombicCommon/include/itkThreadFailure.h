@@ -1,0 +1,57 @@
+#ifndef itkThreadFailure_h
+#define itkThreadFailure_h
+
+#include <exception>
+#include <mutex>
+#include <utility>
+
+namespace itk
+{
+
+/** \class ThreadFailure
+ * \brief Carries the first exception of a filter's threads to the thread that called it.
+ *
+ * The thread pool of ITK 5.2 drops exceptions of all its threads but the calling one, and the filter's Update() would
+ * return as if all were well. Every thread works inside Capture(); after they have joined, the caller says Rethrow().
+ *
+ * Thread safety: Capture() may run on any number of threads at once.
+ */
+class ThreadFailure
+{
+public:
+  template <typename TWork>
+  void
+  Capture(const TWork & work)
+  {
+    try
+    {
+      work();
+    }
+    catch (...)
+    {
+      const std::lock_guard<std::mutex> lock(m_Mutex);
+      if (!m_First)
+      {
+        m_First = std::current_exception();
+      }
+    }
+  }
+
+  /** Throws what was captured first, if anything was, and forgets it. */
+  void
+  Rethrow()
+  {
+    if (const std::exception_ptr first = std::exchange(m_First, nullptr))
+    {
+      std::rethrow_exception(first);
+    }
+  }
+
+private:
+  std::mutex m_Mutex;
+  std::exception_ptr m_First;
+};
+
+} // namespace itk
+
+#endif
