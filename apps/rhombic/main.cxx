@@ -3,6 +3,7 @@
 
 #include "itkMultiThreaderBase.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <new>
@@ -103,10 +104,10 @@ main(int argc, char ** argv)
   catch (const CLI::RequiredError & error)
   {
     // CLI11 reports a command that is missing also when there is one that it doesn't know.
-    const bool isUnknown = argc > 1 && argv[1][0] != '-';
+    const char * const * const word = std::find_if(argv + 1, argv + argc, [](const char * a) { return a[0] != '-'; });
     return Fail(console,
                 FailureKind::Usage,
-                (isUnknown ? "There is no command '" + std::string(argv[1]) + "'" : std::string(error.what())) +
+                (word != argv + argc ? "There is no command '" + std::string(*word) + "'" : std::string(error.what())) +
                   "; rhombic --help lists the commands.");
   }
   catch (const CLI::ParseError & error)

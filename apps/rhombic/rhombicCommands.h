@@ -21,21 +21,29 @@ struct CommandContext
 
 /** The command line for metadata. Names of folders, scans and series may say who the patient is: only the last parts of
  * paths are kept, and SCAN and SERIES stand for what was read. */
-std::string DescribeCommandLine(const std::vector<std::string> & arguments, const std::string & scan, const std::string & series);
+std::string
+DescribeCommandLine(const std::vector<std::string> & arguments, const std::string & scan, const std::string & series);
 
 /** Does the command's work once its options are parsed. Throws Failure. */
 using CommandRun = std::function<void(const CommandContext &)>;
 
 /** Each adds its options to the parser and returns what to run. */
-CommandRun AddInfoCommand(CLI::App & parser);
-CommandRun AddRenderCommand(CLI::App & parser);
-CommandRun AddMeshCommand(CLI::App & parser);
-CommandRun AddResampleCommand(CLI::App & parser);
-CommandRun AddPhantomCommand(CLI::App & parser);
-CommandRun AddDoctorCommand(CLI::App & parser);
+CommandRun
+AddInfoCommand(CLI::App & parser);
+CommandRun
+AddRenderCommand(CLI::App & parser);
+CommandRun
+AddMeshCommand(CLI::App & parser);
+CommandRun
+AddResampleCommand(CLI::App & parser);
+CommandRun
+AddPhantomCommand(CLI::App & parser);
+CommandRun
+AddDoctorCommand(CLI::App & parser);
 
 /** Versions of the program and the libraries it runs with, a line each. */
-std::string VersionText();
+std::string
+VersionText();
 
 } // namespace rhombic
 

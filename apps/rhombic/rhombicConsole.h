@@ -23,20 +23,26 @@ class Console
 public:
   Console();
 
-  void SetVerbosity(Verbosity verbosity);
+  void
+  SetVerbosity(Verbosity verbosity);
 
   /** The functions through which a pipeline speaks to this console, which must outlive them. */
-  Events MakeEvents();
+  Events
+  MakeEvents();
 
-  void Note(const std::string & line);
+  void
+  Note(const std::string & line);
 
-  void Error(const std::string & sentence);
+  void
+  Error(const std::string & sentence);
 
   /** Ends the progress bar, if there is one. */
-  void Finish();
+  void
+  Finish();
 
 private:
-  void Progress(const std::string & step, double fraction);
+  void
+  Progress(const std::string & step, double fraction);
 
   Verbosity m_Verbosity = Verbosity::Normal;
   bool m_IsTerminal;

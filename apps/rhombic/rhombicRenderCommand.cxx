@@ -124,7 +124,8 @@ Render(const RenderOptions & options, const CommandContext & context)
   settings.render.perspective = options.isPerspective;
   settings.render.orientationLabels = !options.hasNoLetters;
   settings.metadata = { "Rhombic " RHOMBIC_VERSION,
-                        DescribeCommandLine(context.arguments, settings.source.path.string(), settings.source.read.series) };
+                        DescribeCommandLine(
+                          context.arguments, settings.source.path.string(), settings.source.read.series) };
   for (const auto & picture : RenderScan(settings, context.console->MakeEvents()))
   {
     context.console->Note("picture: " + picture.string());

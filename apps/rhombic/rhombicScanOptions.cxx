@@ -59,7 +59,12 @@ ScanOptions::AddSource(CLI::App & parser)
 void
 ScanOptions::AddLattice(CLI::App & parser)
 {
-  parser.add_option("--density", m_Density, "lattice sites per sample of the scan (this and the next two: without effect when SCAN is a lattice volume)")->capture_default_str();
+  parser
+    .add_option(
+      "--density",
+      m_Density,
+      "lattice sites per sample of the scan (this and the next two: without effect when SCAN is a lattice volume)")
+    ->capture_default_str();
   parser.add_option("--spacing", m_Spacing, "lattice spacing in mm, one number or x,y,z, instead of a density");
   parser.add_option("--kernel", m_Kernel, "how values between samples are computed: cubic (B-spline) or linear")
     ->capture_default_str();

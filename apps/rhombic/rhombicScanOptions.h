@@ -17,13 +17,16 @@ class ScanOptions
 {
 public:
   /** The scan and, for DICOM folders, its series. */
-  void AddSource(CLI::App & parser);
+  void
+  AddSource(CLI::App & parser);
 
   /** Density, spacing and kernel. */
-  void AddLattice(CLI::App & parser);
+  void
+  AddLattice(CLI::App & parser);
 
   /** What was parsed. Throws Failure(Usage). */
-  ScanSource GetSource() const;
+  ScanSource
+  GetSource() const;
 
 private:
   std::string m_Path;

@@ -16,9 +16,11 @@ struct Intensities
 };
 
 /** Throws Failure(Unreadable) when no value is finite. */
-Intensities ComputeIntensities(const ScanImage & image);
+Intensities
+ComputeIntensities(const ScanImage & image);
 
-Intensities ComputeIntensities(const FCCVolume & volume);
+Intensities
+ComputeIntensities(const FCCVolume & volume);
 
 } // namespace rhombic
 

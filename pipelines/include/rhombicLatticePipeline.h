@@ -29,17 +29,18 @@ CheckLatticeSettings(const LatticeSettings & settings);
 
 /** The scan on the lattice, in its own pixel type (itk::CartesianToFCCImageFilter). Throws Failure: Usage for settings
  * that make no lattice, Memory. */
-FCCVolume ScanToLattice(const ScanImage & image, const LatticeSettings & settings, const Events & events);
+FCCVolume
+ScanToLattice(const ScanImage & image, const LatticeSettings & settings, const Events & events);
 
 /** The volume on a Cartesian grid of the given spacing in mm; 0: that which makes the lattice's samples 0.77 times as
  * many (itk::FCCToCartesianImageFilter). */
-ScanImage LatticeToScan(const FCCVolume & volume, const std::array<double, 3> & spacing, const Events & events);
+ScanImage
+LatticeToScan(const FCCVolume & volume, const std::array<double, 3> & spacing, const Events & events);
 
 /** A closed isosurface of the volume for each request, in its order. The requests' isovalues must be known.
  * Throws Failure(Empty) when a surface has no triangle. */
-std::vector<SceneSurface> LatticeToSurfaces(const FCCVolume & volume,
-                                            const std::vector<SurfaceRequest> & requests,
-                                            const Events & events);
+std::vector<SceneSurface>
+LatticeToSurfaces(const FCCVolume & volume, const std::vector<SurfaceRequest> & requests, const Events & events);
 
 } // namespace rhombic
 

@@ -19,14 +19,17 @@ struct Preset
 };
 
 /** The presets of pipelines/presets/, which are built in, by name. */
-const std::vector<Preset> & GetPresets();
+const std::vector<Preset> &
+GetPresets();
 
 /** The built-in preset of that name, or the one in the YAML file of that path. Throws Failure: Usage for an unknown
  * name, suggesting the nearest; NotFound and Unreadable for files. */
-Preset FindPreset(const std::string & nameOrPath);
+Preset
+FindPreset(const std::string & nameOrPath);
 
 /** A preset from YAML text; \a source names it in messages. Throws Failure(Unreadable). */
-Preset ParsePreset(const std::string & yaml, const std::string & source);
+Preset
+ParsePreset(const std::string & yaml, const std::string & source);
 
 } // namespace rhombic
 

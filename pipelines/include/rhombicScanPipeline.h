@@ -34,7 +34,8 @@ struct RenderScanSettings
 };
 
 /** Renders a scan; returns the pictures' paths. Throws Failure. */
-std::vector<std::filesystem::path> RenderScan(const RenderScanSettings & settings, const Events & events);
+std::vector<std::filesystem::path>
+RenderScan(const RenderScanSettings & settings, const Events & events);
 
 /** From a scan to one surface file. */
 struct MeshScanSettings
@@ -45,7 +46,8 @@ struct MeshScanSettings
 };
 
 /** Writes the surface of a scan. Throws Failure. */
-void MeshScan(const MeshScanSettings & settings, const Events & events);
+void
+MeshScan(const MeshScanSettings & settings, const Events & events);
 
 /** From a scan to a lattice volume, or from a lattice volume to a Cartesian one. */
 struct ResampleScanSettings
@@ -56,11 +58,13 @@ struct ResampleScanSettings
 
 /** Resamples a scan onto the lattice, or, when the source is a lattice volume, back; the source's lattice spacing is
  * then that of the grid. Throws Failure. */
-void ResampleScan(const ResampleScanSettings & settings, const Events & events);
+void
+ResampleScan(const ResampleScanSettings & settings, const Events & events);
 
 /** Makes sure that every request's isovalue is known and lies where there can be a surface. Throws Failure(Empty),
  * naming the volume's range. */
-std::vector<SurfaceRequest> ResolveIsovalues(std::vector<SurfaceRequest> requests, const Intensities & intensities);
+std::vector<SurfaceRequest>
+ResolveIsovalues(std::vector<SurfaceRequest> requests, const Intensities & intensities);
 
 } // namespace rhombic
 

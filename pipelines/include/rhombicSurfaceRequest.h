@@ -35,17 +35,19 @@ struct SurfaceRequest
 };
 
 /** A colour written as #rrggbb. Throws Failure(Usage). */
-Colour ParseColour(const std::string & text);
+Colour
+ParseColour(const std::string & text);
 
-/** A threshold written as a number, `<number` for what lies below, or `otsu`. Returns whether it is one of these; then the
- * request's isovalue and side are set. */
+/** A threshold written as a number, `<number` for what lies below, or `otsu`. Returns whether it is one of these; then
+ * the request's isovalue and side are set. */
 bool
 ParseThreshold(const std::string & text, SurfaceRequest & request);
 
 /** A surface written as name=threshold[,colour[,opacity]], where the threshold is a number or `otsu`. A threshold that
  * begins with `<` takes what lies below it. Surfaces without a colour get the \a number-th of a palette. Throws
  * Failure(Usage). */
-SurfaceRequest ParseSurfaceRequest(const std::string & text, std::size_t number);
+SurfaceRequest
+ParseSurfaceRequest(const std::string & text, std::size_t number);
 
 } // namespace rhombic
 

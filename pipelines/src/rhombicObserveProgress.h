@@ -9,7 +9,8 @@ namespace rhombic
 {
 
 /** Passes a filter's progress on as that of one step. \a events must outlive the filter's work. */
-void ObserveProgress(itk::ProcessObject & filter, const std::string & step, const Events & events);
+void
+ObserveProgress(itk::ProcessObject & filter, const std::string & step, const Events & events);
 
 } // namespace rhombic
 

@@ -96,7 +96,8 @@ ResolveIsovalues(std::vector<SurfaceRequest> requests, const Intensities & inten
     {
       if (intensities.lowest == intensities.highest)
       {
-        throw Failure(FailureKind::Empty, "All values of the scan are the same; check that it was exported completely.");
+        throw Failure(FailureKind::Empty,
+                      "All values of the scan are the same; check that it was exported completely.");
       }
       std::ostringstream sentence;
       sentence.imbue(std::locale::classic());

@@ -476,7 +476,9 @@ TEST(CartesianToFCCImageFilter, RoundsExactly)
 TEST(CartesianToFCCImageFilter, ReproducesQuadraticsInAllDirections)
 {
   const auto image = MakeImage({ { 44, 44, 44 } });
-  const auto field = [](const auto & i) { return 0.5 * i[0] * i[1] - 0.25 * i[2] * i[2] + 0.1 * i[0] * i[2] - 3.0 * i[1]; };
+  const auto field = [](const auto & i) {
+    return 0.5 * i[0] * i[1] - 0.25 * i[2] * i[2] + 0.1 * i[0] * i[2] - 3.0 * i[1];
+  };
   for (itk::ImageRegionIteratorWithIndex<FloatImage> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
   {
     it.Set(static_cast<float>(field(it.GetIndex())));
@@ -486,7 +488,8 @@ TEST(CartesianToFCCImageFilter, ReproducesQuadraticsInAllDirections)
   filter->Update();
   const auto * const output = filter->GetOutput();
   int checked = 0;
-  for (itk::ImageRegionConstIteratorWithIndex<FCCFloatImage> it(output, output->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+  for (itk::ImageRegionConstIteratorWithIndex<FCCFloatImage> it(output, output->GetBufferedRegion()); !it.IsAtEnd();
+       ++it)
   {
     const auto point = output->TransformIndexToPhysicalPoint<double>(it.GetIndex());
     const auto index = image->TransformPhysicalPointToContinuousIndex<double>(point);
@@ -539,7 +542,8 @@ TEST(FCCToCartesianImageFilter, FollowsAChangedReferenceAndRefusesNonsense)
   back->Update();
   EXPECT_EQ(back->GetOutput()->GetSpacing(), itk::Vector<double>(0.25));
 
-  for (const double spacing : { std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN(), -1.0, 1e-13 })
+  for (const double spacing :
+       { std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN(), -1.0, 1e-13 })
   {
     const auto refusing = itk::FCCToCartesianImageFilter<FCCFloatImage>::New();
     refusing->SetInput(there->GetOutput());

@@ -67,7 +67,7 @@ TEST(PhantomSurfaces, TheMarkerIsOnThePatientsLeftInFront)
 {
   const auto marker = Extract("marker=1800.5");
   EXPECT_GT(CentroidX(*marker), 20.0) << "LPS: left is +x";
- const auto bounds = marker->GetBounds();
+  const auto bounds = marker->GetBounds();
   const auto skin = Extract("skin=-485.5")->GetBounds();
   EXPECT_LT(bounds[3], (skin[2] + skin[3]) / 2) << "LPS: the front is -y";
 }

@@ -331,6 +331,10 @@ TEST_F(DicomFolder, DamagedFilesBesideAGoodSeriesAreSkipped)
   const auto scan = ReadScan(m_Folder);
   EXPECT_EQ(scan.filesSkipped, 5u);
   EXPECT_EQ(rhombic::GeometryOf(scan.image).GetLargestPossibleRegion().GetSize()[2], Slices);
+  ASSERT_EQ(scan.notes.size(), 1u);
+  EXPECT_NE(scan.notes[0].find("Slices may be missing"), std::string::npos) << scan.notes[0];
+  EXPECT_NE(scan.notes[0].find("odd.dcm"), std::string::npos) << scan.notes[0];
+  EXPECT_EQ(scan.notes[0].find("empty.dcm"), std::string::npos) << scan.notes[0];
 }
 
 TEST_F(DicomFolder, SingleFilesAreNoVolumes)

@@ -139,7 +139,7 @@ TEST_F(VolumeFile, FormatsAreNamed)
   EXPECT_EQ(KindOfReading(m_Folder / "a.mha", "a.mha", { "2" }), FailureKind::Usage);
 }
 
-TEST_F(VolumeFile, RangeLeavesOutWhatIsNotFinite)
+TEST_F(VolumeFile, WhatIsNotFiniteBecomesTheLowestValue)
 {
   auto image = MakeVolume<float>(3);
   image->SetPixel({ { 0, 0, 0 } }, std::nanf(""));
@@ -149,6 +149,30 @@ TEST_F(VolumeFile, RangeLeavesOutWhatIsNotFinite)
   EXPECT_EQ(rhombictest::IntensityRange(scan.image), std::make_pair(0.0, 3.0));
   ASSERT_EQ(scan.notes.size(), 1u);
   EXPECT_NE(scan.notes[0].find("2 values"), std::string::npos) << scan.notes[0];
+  const auto & pixels = *std::get<itk::Image<float, 3>::Pointer>(scan.image);
+  EXPECT_EQ(pixels.GetPixel({ { 0, 0, 0 } }), 0.0f);
+  EXPECT_EQ(pixels.GetPixel({ { 1, 0, 0 } }), 0.0f);
+}
+
+TEST_F(VolumeFile, CutOffCompressedMetaImageIsRefused)
+{
+  Write(MakeVolume<std::int16_t>(3).GetPointer(), m_Folder / "whole.mha", true);
+  EXPECT_NO_THROW(ReadScan(m_Folder / "whole.mha"));
+  fs::copy(m_Folder / "whole.mha", m_Folder / "cut.mha");
+  fs::resize_file(m_Folder / "cut.mha", fs::file_size(m_Folder / "whole.mha") - 20);
+  EXPECT_EQ(KindOfReading(m_Folder / "cut.mha", "cut.mha"), FailureKind::Unreadable);
+}
+
+TEST_F(VolumeFile, NRRDWithoutSpaceIsNoted)
+{
+  std::ofstream(m_Folder / "bare.nrrd")
+    << "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n\n01234567";
+  const auto bare = ReadScan(m_Folder / "bare.nrrd");
+  EXPECT_FALSE(bare.isOriented);
+  ASSERT_EQ(bare.notes.size(), 1u);
+  EXPECT_NE(bare.notes[0].find("left and right"), std::string::npos);
+  Write(MakeVolume<std::int16_t>(3).GetPointer(), m_Folder / "full.nrrd");
+  EXPECT_TRUE(ReadScan(m_Folder / "full.nrrd").isOriented);
 }
 
 TEST_F(VolumeFile, TrailingSingleDimensionIsDropped)
@@ -282,6 +306,13 @@ TEST_F(VolumeFile, NIfTIWithoutOrientationIsNoted)
   const auto scan = ReadScan(path);
   ASSERT_EQ(scan.notes.size(), 1u);
   EXPECT_NE(scan.notes[0].find("left and right"), std::string::npos) << scan.notes[0];
+}
+
+TEST_F(VolumeFile, ScansSayWhetherTheyAreOriented)
+{
+  EXPECT_FALSE(ReadScan(WritePatched(m_Folder, 252, std::int32_t(0))).isOriented);
+  Write(MakeVolume<std::int16_t>(3).GetPointer(), m_Folder / "a.nii");
+  EXPECT_TRUE(ReadScan(m_Folder / "a.nii").isOriented);
 }
 
 TEST_F(VolumeFile, NIfTIWithTwoPositionsIsNotedAndTheSformUsed)

@@ -288,10 +288,9 @@ TEST(CommandLine, PicturesAreThoseCommitted)
   const Outcome outcome =
     Rhombic("render " + phantomDicom + " --preset ct-bone-skin --size 300x400 -o p.png", folder.Path());
   ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
-  const auto difference =
-    rhombic::ComparePictures(rhombic::ReadPicture(folder.Path() / "p.png"),
-                             rhombic::ReadPicture(RHOMBIC_TESTDATA "/pictures/phantom-8mm.png"),
-                             0.1);
+  const auto difference = rhombic::ComparePictures(rhombic::ReadPicture(folder.Path() / "p.png"),
+                                                   rhombic::ReadPicture(RHOMBIC_TESTDATA "/pictures/phantom-8mm.png"),
+                                                   0.1);
   EXPECT_LT(difference.meanError, 2e-3);
   EXPECT_LT(difference.differingPixels, 300u) << "of 120,000";
 }

@@ -28,7 +28,8 @@ public:
     std::filesystem::remove_all(m_Path, ignored);
   }
   TemporaryFolder(const TemporaryFolder &) = delete;
-  TemporaryFolder & operator=(const TemporaryFolder &) = delete;
+  TemporaryFolder &
+  operator=(const TemporaryFolder &) = delete;
 
   const std::filesystem::path &
   Path() const

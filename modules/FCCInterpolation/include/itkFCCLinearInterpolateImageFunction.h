@@ -10,9 +10,9 @@ namespace itk
 /** \class FCCLinearInterpolateImageFunction
  * \brief Linear interpolation in the tetrahedra of an FCC image.
  *
- * Continuous within the outermost tetrahedra, reproduces linear fields, and costs four samples. Within the extent of the buffered region but outside
- * its outermost tetrahedra, the weights of the missing samples go to those that exist, so values stay within their
- * range.
+ * Continuous within the outermost tetrahedra, reproduces linear fields, and costs four samples. Within the extent of
+ * the buffered region but outside its outermost tetrahedra, the weights of the missing samples go to those that exist,
+ * so values stay within their range.
  *
  * Takes an FCCImage; a continuous index is (x / 2, y, z) in lattice coordinates (see FCCImage). Usable as the
  * interpolator of itk::ResampleImageFilter with an FCCImage as its input.
@@ -44,9 +44,11 @@ public:
   static_assert(std::is_base_of<FCCImage<typename TInputImage::PixelType>, TInputImage>::value,
                 "FCCLinearInterpolateImageFunction interpolates FCCImages only");
 
-  void SetInputImage(const TInputImage * image) override;
+  void
+  SetInputImage(const TInputImage * image) override;
 
-  OutputType EvaluateAtContinuousIndex(const ContinuousIndexType & index) const override;
+  OutputType
+  EvaluateAtContinuousIndex(const ContinuousIndexType & index) const override;
 
   /** One sample in each direction. */
   SizeType

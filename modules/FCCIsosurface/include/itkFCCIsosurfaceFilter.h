@@ -13,30 +13,30 @@ namespace itk
 /** \class FCCIsosurfaceFilter
  * \brief The isosurface of an FCC image, by marching the six tetrahedra of each of the lattice's parallelepipeds.
  *
- * A sample is inside when its value is not below the isovalue, or with InsideIsBelow on, when it is (for lungs and other
- * air); not-a-number is outside. Triangles are counter-clockwise seen from outside, points are in LPS mm. There is one
- * point on each cut edge of the tetrahedra, shared by all its triangles, where the values' linear interpolation crosses
- * the isovalue, but at least MinimumFraction of the edge away from both ends (more where 32-bit positions need it): so no
- * triangle is degenerate, even where samples equal the isovalue.
+ * A sample is inside when its value is not below the isovalue, or with InsideIsBelow on, when it is (for lungs and
+ * other air); not-a-number is outside. Triangles are counter-clockwise seen from outside, points are in LPS mm. There
+ * is one point on each cut edge of the tetrahedra, shared by all its triangles, where the values' linear interpolation
+ * crosses the isovalue, but at least MinimumFraction of the edge away from both ends (more where 32-bit positions need
+ * it): so no triangle is degenerate, even where samples equal the isovalue.
  *
- * Each point has a normal: the gradient from the twelve neighbours, sum d f(x + d) / 8, at the edge's two ends, blended,
- * and pointing outside; on the faces of the image's extent it is that of the face. In noise, where the gradient says
- * little about the next edge, normals and triangles may disagree.
+ * Each point has a normal: the gradient from the twelve neighbours, sum d f(x + d) / 8, at the edge's two ends,
+ * blended, and pointing outside; on the faces of the image's extent it is that of the face. In noise, where the
+ * gradient says little about the next edge, normals and triangles may disagree.
  *
- * All faces of the tetrahedra are triangles, so nothing is ambiguous. With Closed on (the default) everything beyond the
- * image counts as outside, and where a body reaches the border, the surface closes on the faces of the image's extent
- * (see FCCImage), so that it encloses what the samples' Voronoi cells enclose: the surface is a closed oriented manifold
- * for any input. With Closed off the surface ends at the outermost tetrahedra: edges are manifold still, but where two of
- * its parts end at one point of the border, they share that point.
+ * All faces of the tetrahedra are triangles, so nothing is ambiguous. With Closed on (the default) everything beyond
+ * the image counts as outside, and where a body reaches the border, the surface closes on the faces of the image's
+ * extent (see FCCImage), so that it encloses what the samples' Voronoi cells enclose: the surface is a closed oriented
+ * manifold for any input. With Closed off the surface ends at the outermost tetrahedra: edges are manifold still, but
+ * where two of its parts end at one point of the border, they share that point.
  *
  * Method: Y. Sahillioglu, "A marching algorithm for isosurface extraction from face-centered cubic lattices", Turk J
- * Elec Eng & Comp Sci 25 (2017), in passes that count, prefix-sum and fill as W. Schroeder et al., "Flying Edges" (2015)
- * do for Cartesian grids: classify samples into bits; count cut edges and triangles of each plane by counting bits; from
- * the sums, fill points and triangles of all planes independently. The output has the same bytes for any number of
- * threads.
+ * Elec Eng & Comp Sci 25 (2017), in passes that count, prefix-sum and fill as W. Schroeder et al., "Flying Edges"
+ * (2015) do for Cartesian grids: classify samples into bits; count cut edges and triangles of each plane by counting
+ * bits; from the sums, fill points and triangles of all planes independently. The output has the same bytes for any
+ * number of threads.
  *
- * Memory: the surface, a bit for each sample (rows are rounded up to words of 64 and have a spare one), and the cut edges
- * of three planes per thread.
+ * Memory: the surface, a bit for each sample (rows are rounded up to words of 64 and have a spare one), and the cut
+ * edges of three planes per thread.
  *
  * Throws when the surface has 2^32 points or more, or when 32-bit positions can't tell its points apart. An isovalue
  * outside the image's range gives an empty surface.
@@ -68,12 +68,16 @@ public:
   static constexpr double MinimumFraction = 1.0 / 1024.0;
 
   using Superclass::SetInput;
-  void SetInput(const InputImageType * image);
-  const InputImageType * GetInput() const;
+  void
+  SetInput(const InputImageType * image);
+  const InputImageType *
+  GetInput() const;
 
   using Superclass::GetOutput;
-  TriangleSurface * GetOutput();
-  const TriangleSurface * GetOutput() const;
+  TriangleSurface *
+  GetOutput();
+  const TriangleSurface *
+  GetOutput() const;
 
   /** The value at which the surface lies, in units of the pixels. Default 0. */
   itkSetMacro(Isovalue, double);
@@ -93,14 +97,18 @@ protected:
   FCCIsosurfaceFilter();
   ~FCCIsosurfaceFilter() override = default;
 
-  void PrintSelf(std::ostream & os, Indent indent) const override;
+  void
+  PrintSelf(std::ostream & os, Indent indent) const override;
 
   using Superclass::MakeOutput;
-  DataObject::Pointer MakeOutput(DataObjectPointerArraySizeType index) override;
+  DataObject::Pointer
+  MakeOutput(DataObjectPointerArraySizeType index) override;
 
-  void VerifyPreconditions() ITKv5_CONST override;
+  void
+  VerifyPreconditions() ITKv5_CONST override;
 
-  void GenerateData() override;
+  void
+  GenerateData() override;
 
 private:
   /** First point and triangle of each plane, and the totals at the end. */
@@ -112,19 +120,25 @@ private:
   };
 
   /** MinimumFraction, or more where positions in float32 would not tell a point from the edge's end. */
-  double ComputeFraction() const;
+  double
+  ComputeFraction() const;
 
-  FCCSigns Classify();
+  FCCSigns
+  Classify();
 
-  Layout Count(const FCCSigns & signs);
+  Layout
+  Count(const FCCSigns & signs);
 
-  void Fill(const FCCSigns & signs, const Layout & layout);
+  void
+  Fill(const FCCSigns & signs, const Layout & layout);
 
-  void FillPoints(const FCCSigns & signs, const FCCCutEdges & edges, FCCCutEdges::Group group, SizeValueType plane);
+  void
+  FillPoints(const FCCSigns & signs, const FCCCutEdges & edges, FCCCutEdges::Group group, SizeValueType plane);
 
   /** Calls \a work(begin, end) for slabs of planes, by several threads, and reports its share of the progress. */
   template <typename TWork>
-  void ForEachSlab(SizeValueType planes, float share, const TWork & work);
+  void
+  ForEachSlab(SizeValueType planes, float share, const TWork & work);
 
   double m_Isovalue{ 0.0 };
   double m_UsedFraction{ MinimumFraction };

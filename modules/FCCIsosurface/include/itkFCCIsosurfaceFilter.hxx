@@ -103,8 +103,8 @@ FCCIsosurfaceFilter<TInputImage>::ComputeFraction() const
     std::array<double, 3> coordinates{};
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      const double index = static_cast<double>((corner >> axis & 1) != 0 ? region.GetUpperIndex()[axis] + 1
-                                                                         : region.GetIndex(axis) - 1);
+      const double index =
+        static_cast<double>((corner >> axis & 1) != 0 ? region.GetUpperIndex()[axis] + 1 : region.GetIndex(axis) - 1);
       coordinates[axis] = axis == 0 ? 2.0 * index : index;
     }
     const auto point = image->template TransformLatticeToPhysicalPoint<double>(coordinates);
@@ -120,8 +120,9 @@ FCCIsosurfaceFilter<TInputImage>::ComputeFraction() const
   const double fraction = std::max(MinimumFraction, steps * resolution / shortestEdge);
   if (!(fraction <= 0.25))
   {
-    itkExceptionMacro("The image's edges of " << shortestEdge << " mm are too short to be told apart in 32-bit positions "
-                                              << farthest << " mm from the origin; move the origin nearer.");
+    itkExceptionMacro("The image's edges of " << shortestEdge
+                                              << " mm are too short to be told apart in 32-bit positions " << farthest
+                                              << " mm from the origin; move the origin nearer.");
   }
   return fraction;
 }

@@ -100,10 +100,12 @@ public:
   FCCCutEdges(const FCCSigns & signs, Group group);
 
   /** Finds the cut edges owned by plane \a k and numbers them from \a firstId. Planes past the last own none. */
-  void Find(SizeValueType k, std::uint32_t firstId);
+  void
+  Find(SizeValueType k, std::uint32_t firstId);
 
   /** Number of cut edges owned by plane \a k, without finding their ids. */
-  static SizeValueType Count(const FCCSigns & signs, Group group, SizeValueType k);
+  static SizeValueType
+  Count(const FCCSigns & signs, Group group, SizeValueType k);
 
   static std::uint8_t
   FirstType(Group group)
@@ -153,17 +155,19 @@ private:
 };
 
 /** Number of triangles between the planes \a k and \a k + 1. */
-SizeValueType CountTriangles(const FCCSigns & signs, SizeValueType k);
+SizeValueType
+CountTriangles(const FCCSigns & signs, SizeValueType k);
 
 /** The triangles between the planes \a k and \a k + 1, from the cut edges of plane \a k within it, of plane \a k + 1
  * within it, and between the two. Writes as many as CountTriangles() says; \a reversed turns them all over. */
-void FillTriangles(const FCCSigns & signs,
-                   SizeValueType k,
-                   const FCCCutEdges & lower,
-                   const FCCCutEdges & upper,
-                   const FCCCutEdges & between,
-                   bool reversed,
-                   TriangleSurface::TriangleType * triangles);
+void
+FillTriangles(const FCCSigns & signs,
+              SizeValueType k,
+              const FCCCutEdges & lower,
+              const FCCCutEdges & upper,
+              const FCCCutEdges & between,
+              bool reversed,
+              TriangleSurface::TriangleType * triangles);
 
 } // namespace itk
 

@@ -101,51 +101,64 @@ public:
 
   /** Lattice coordinates of a point, any real numbers. */
   template <typename TCoordRep>
-  std::array<double, 3> TransformPhysicalPointToLattice(const Point<TCoordRep, 3> & point) const;
+  std::array<double, 3>
+  TransformPhysicalPointToLattice(const Point<TCoordRep, 3> & point) const;
 
   /** The point with the given lattice coordinates. */
   template <typename TCoordRep>
-  Point<TCoordRep, 3> TransformLatticeToPhysicalPoint(const std::array<double, 3> & coordinates) const;
+  Point<TCoordRep, 3>
+  TransformLatticeToPhysicalPoint(const std::array<double, 3> & coordinates) const;
 
   /** Whether lattice coordinates lie in the extent of a region of this image. */
-  static bool IsInsideExtent(const std::array<double, 3> & coordinates, const RegionType & region);
+  static bool
+  IsInsideExtent(const std::array<double, 3> & coordinates, const RegionType & region);
 
   /** Index of the sample whose Voronoi cell holds the point; returns whether it is in the largest possible region. */
   template <typename TCoordRep>
-  bool TransformPhysicalPointToIndex(const Point<TCoordRep, 3> & point, IndexType & index) const;
+  bool
+  TransformPhysicalPointToIndex(const Point<TCoordRep, 3> & point, IndexType & index) const;
 
   template <typename TCoordRep>
-  IndexType TransformPhysicalPointToIndex(const Point<TCoordRep, 3> & point) const;
+  IndexType
+  TransformPhysicalPointToIndex(const Point<TCoordRep, 3> & point) const;
 
   /** Continuous index of a point; returns whether it is in the extent of the largest possible region. */
   template <typename TCoordRep, typename TIndexRep>
-  bool TransformPhysicalPointToContinuousIndex(const Point<TCoordRep, 3> & point,
-                                               ContinuousIndex<TIndexRep, 3> & index) const;
+  bool
+  TransformPhysicalPointToContinuousIndex(const Point<TCoordRep, 3> & point,
+                                          ContinuousIndex<TIndexRep, 3> & index) const;
 
   template <typename TIndexRep, typename TCoordRep>
-  ContinuousIndex<TIndexRep, 3> TransformPhysicalPointToContinuousIndex(const Point<TCoordRep, 3> & point) const;
+  ContinuousIndex<TIndexRep, 3>
+  TransformPhysicalPointToContinuousIndex(const Point<TCoordRep, 3> & point) const;
 
   template <typename TCoordRep, typename TIndexRep>
-  void TransformContinuousIndexToPhysicalPoint(const ContinuousIndex<TIndexRep, 3> & index,
-                                               Point<TCoordRep, 3> & point) const;
+  void
+  TransformContinuousIndexToPhysicalPoint(const ContinuousIndex<TIndexRep, 3> & index,
+                                          Point<TCoordRep, 3> & point) const;
 
   template <typename TCoordRep, typename TIndexRep>
-  Point<TCoordRep, 3> TransformContinuousIndexToPhysicalPoint(const ContinuousIndex<TIndexRep, 3> & index) const;
+  Point<TCoordRep, 3>
+  TransformContinuousIndexToPhysicalPoint(const ContinuousIndex<TIndexRep, 3> & index) const;
 
   template <typename TCoordRep>
-  void TransformIndexToPhysicalPoint(const IndexType & index, Point<TCoordRep, 3> & point) const;
+  void
+  TransformIndexToPhysicalPoint(const IndexType & index, Point<TCoordRep, 3> & point) const;
 
   template <typename TCoordRep>
-  Point<TCoordRep, 3> TransformIndexToPhysicalPoint(const IndexType & index) const;
+  Point<TCoordRep, 3>
+  TransformIndexToPhysicalPoint(const IndexType & index) const;
 
   /** Shares another FCCImage's pixels and takes over its geometry and regions. */
-  void Graft(const Self * image);
+  void
+  Graft(const Self * image);
 
 protected:
   FCCImage() = default;
   ~FCCImage() override = default;
 
-  void Graft(const DataObject * data) override;
+  void
+  Graft(const DataObject * data) override;
 };
 
 } // namespace itk

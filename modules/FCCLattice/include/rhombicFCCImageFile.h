@@ -20,14 +20,17 @@ using FCCVolume = std::variant<itk::FCCImage<std::uint8_t>::Pointer,
 /** Writes an FCC image as a NRRD file (raw, little-endian) with its lattice in key/value pairs; the format is described
  * in modules/FCCLattice/README.md. The file appears whole or not at all. Throws Failure(Output). Thread safe for
  * different paths. */
-void WriteFCCImage(const FCCVolume & volume, const std::filesystem::path & path);
+void
+WriteFCCImage(const FCCVolume & volume, const std::filesystem::path & path);
 
 /** Reads what WriteFCCImage() wrote, bit for bit. Throws Failure(NotFound) when there is no such file, and
  * Failure(Unreadable) when it is damaged, too short, or not a volume on this lattice. Thread safe. */
-FCCVolume ReadFCCImage(const std::filesystem::path & path);
+FCCVolume
+ReadFCCImage(const std::filesystem::path & path);
 
 /** Whether a file says of itself that it is such a volume. False for files that can't be read. */
-bool IsFCCImageFile(const std::filesystem::path & path);
+bool
+IsFCCImageFile(const std::filesystem::path & path);
 
 } // namespace rhombic
 

@@ -142,8 +142,8 @@ MakeHeader(const itk::FCCImage<TPixel> & image)
 
 using Fields = std::map<std::string, std::string>;
 
-/** One line of a header. A file that is none could have a first line of gigabytes, so \a budget, in bytes, is all that may
- * be read. Returns false at the end of the file or of the budget. */
+/** One line of a header. A file that is none could have a first line of gigabytes, so \a budget, in bytes, is all that
+ * may be read. Returns false at the end of the file or of the budget. */
 bool
 ReadLine(std::istream & stream, std::size_t & budget, std::string & line)
 {
@@ -159,8 +159,8 @@ ReadLine(std::istream & stream, std::size_t & budget, std::string & line)
   return false;
 }
 
-/** The header's fields ("name: value") and key/value pairs ("key:=value"), none when there is no header; leaves the stream
- * at the first sample. */
+/** The header's fields ("name: value") and key/value pairs ("key:=value"), none when there is no header; leaves the
+ * stream at the first sample. */
 Fields
 ReadHeader(std::istream & stream)
 {
@@ -213,7 +213,8 @@ ReadSamples(std::istream & stream, Fields & fields, const fs::path & path)
   {
     if (size == 0 || bytes > available / size)
     {
-      FailToRead(path, "its header promises more samples than the file holds; it may have been cut off, so copy it again");
+      FailToRead(path,
+                 "its header promises more samples than the file holds; it may have been cut off, so copy it again");
     }
     bytes *= size;
   }

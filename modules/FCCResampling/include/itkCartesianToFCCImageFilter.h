@@ -79,15 +79,20 @@ protected:
   CartesianToFCCImageFilter();
   ~CartesianToFCCImageFilter() override = default;
 
-  void PrintSelf(std::ostream & os, Indent indent) const override;
+  void
+  PrintSelf(std::ostream & os, Indent indent) const override;
 
-  void VerifyPreconditions() ITKv5_CONST override;
+  void
+  VerifyPreconditions() ITKv5_CONST override;
 
-  void GenerateOutputInformation() override;
+  void
+  GenerateOutputInformation() override;
 
-  void GenerateInputRequestedRegion() override;
+  void
+  GenerateInputRequestedRegion() override;
 
-  void DynamicThreadedGenerateData(const OutputImageRegionType & region) override;
+  void
+  DynamicThreadedGenerateData(const OutputImageRegionType & region) override;
 
   void
   AfterThreadedGenerateData() override;
@@ -97,7 +102,8 @@ private:
   Resample(const OutputImageRegionType & region);
 
   /** Taps for the samples of the output region along one axis; along x, for the rows of one parity. */
-  SeparableTaps MakeTaps(unsigned int axis, const OutputImageRegionType & region, IndexValueType parity = 0) const;
+  SeparableTaps
+  MakeTaps(unsigned int axis, const OutputImageRegionType & region, IndexValueType parity = 0) const;
 
   double m_Density{ FCCLattice::NyquistDensity };
   SpacingType m_OutputSpacing{ 0.0 };

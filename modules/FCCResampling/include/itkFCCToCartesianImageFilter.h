@@ -12,10 +12,10 @@ namespace itk
 /** \class FCCToCartesianImageFilter
  * \brief Resamples an FCC image onto a Cartesian grid by linear interpolation in the lattice's tetrahedra.
  *
- * The grid is that of the reference image if one is set, an optional second input. Otherwise it has the FCC image's direction, the spacing that
- * makes the FCC image's samples FCCLattice::NyquistDensity times as many as the grid's (or SetOutputSpacing()), and its
- * voxels tile the FCC image's extent, centred on it. So an image resampled onto the lattice with the default
- * density and back has its old spacing; use the reference image to get the very same grid.
+ * The grid is that of the reference image if one is set, an optional second input. Otherwise it has the FCC image's
+ * direction, the spacing that makes the FCC image's samples FCCLattice::NyquistDensity times as many as the grid's (or
+ * SetOutputSpacing()), and its voxels tile the FCC image's extent, centred on it. So an image resampled onto the
+ * lattice with the default density and back has its old spacing; use the reference image to get the very same grid.
  *
  * Voxels outside the FCC image's extent become DefaultPixelValue. The whole input is requested. Integer outputs are
  * rounded and clamped to the range of their type. The result does not depend on the number of threads or on the
@@ -65,18 +65,24 @@ protected:
   FCCToCartesianImageFilter();
   ~FCCToCartesianImageFilter() override = default;
 
-  void PrintSelf(std::ostream & os, Indent indent) const override;
+  void
+  PrintSelf(std::ostream & os, Indent indent) const override;
 
-  void VerifyPreconditions() ITKv5_CONST override;
+  void
+  VerifyPreconditions() ITKv5_CONST override;
 
-  void VerifyInputInformation() ITKv5_CONST override
+  void
+  VerifyInputInformation() ITKv5_CONST override
   {}
 
-  void GenerateOutputInformation() override;
+  void
+  GenerateOutputInformation() override;
 
-  void GenerateInputRequestedRegion() override;
+  void
+  GenerateInputRequestedRegion() override;
 
-  void DynamicThreadedGenerateData(const OutputImageRegionType & region) override;
+  void
+  DynamicThreadedGenerateData(const OutputImageRegionType & region) override;
 
   void
   AfterThreadedGenerateData() override;

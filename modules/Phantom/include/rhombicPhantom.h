@@ -25,7 +25,8 @@ struct PhantomOrgan
 };
 
 /** The organs by label, without the air around the body (label 0, -1000 HU). Thread-safe. */
-const std::vector<PhantomOrgan> & PhantomOrgans();
+const std::vector<PhantomOrgan> &
+PhantomOrgans();
 
 /** How the phantom is sampled. */
 struct PhantomSettings
@@ -37,11 +38,13 @@ using PhantomScan = itk::Image<std::int16_t, 3>;
 using PhantomLabels = itk::Image<std::uint8_t, 3>;
 
 /** The label of a point; points on a border belong to the inner organ. Thread-safe. */
-int PhantomLabelAt(const PhantomPoint & point);
+int
+PhantomLabelAt(const PhantomPoint & point);
 
 /** The ideal, unsampled CT in Hounsfield units: -1000 in the air, otherwise that of the organ at the point.
  * Thread-safe. */
-double PhantomHounsfieldAt(const PhantomPoint & point);
+double
+PhantomHounsfieldAt(const PhantomPoint & point);
 
 /** What a surface at a threshold encloses. */
 struct PhantomEnclosure
@@ -54,17 +57,20 @@ struct PhantomEnclosure
  * -300.5 everything but the lungs and the airway. A sampled scan's surface lies at the ideal place where the threshold
  * is the mean of the two tissues; elsewhere it is off by a fraction of the spacing. Throws Failure(Usage) for
  * thresholds that the air around the body reaches (-1000 and less), or that are no numbers. Thread-safe. */
-PhantomEnclosure PhantomEnclosedBy(double threshold);
+PhantomEnclosure
+PhantomEnclosedBy(double threshold);
 
 /** The CT in Hounsfield units; axes along LPS, air all around the body. Each voxel is the average of the ideal CT over
  * a cube about its centre, rounded. As in a scanner, cubes overlap: their side is twice the spacing, but at most 4 mm,
  * and at least the spacing. Between two tissues, the surface at the mean of both is then where it should be to a few
  * hundredths of the spacing. The same voxels for any number of threads. Throws Failure(Usage) for a spacing out of
  * range, Failure(Memory). */
-PhantomScan::Pointer MakePhantomScan(const PhantomSettings & settings = {});
+PhantomScan::Pointer
+MakePhantomScan(const PhantomSettings & settings = {});
 
 /** The label at each voxel's centre, on the grid of MakePhantomScan(). Throws as it does. */
-PhantomLabels::Pointer MakePhantomLabels(const PhantomSettings & settings = {});
+PhantomLabels::Pointer
+MakePhantomLabels(const PhantomSettings & settings = {});
 
 } // namespace rhombic
 

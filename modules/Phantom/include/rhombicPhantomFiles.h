@@ -20,7 +20,8 @@ namespace rhombic
  *
  * Throws Failure(Output) for a folder that holds anything, whose parent is missing, or that can't be written, and as
  * MakePhantomScan() does. */
-void WritePhantom(const std::filesystem::path & folder, const PhantomSettings & settings = {});
+void
+WritePhantom(const std::filesystem::path & folder, const PhantomSettings & settings = {});
 
 } // namespace rhombic
 

@@ -50,7 +50,8 @@ struct PhantomPart
 
 /** The body's parts, each after the one that holds it. A point belongs to the last part that contains it. Thread-safe.
  */
-const std::vector<PhantomPart> & PhantomParts();
+const std::vector<PhantomPart> &
+PhantomParts();
 
 } // namespace rhombic
 

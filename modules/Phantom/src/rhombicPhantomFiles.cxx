@@ -67,7 +67,8 @@ public:
   }
 
   StagingFolder(const StagingFolder &) = delete;
-  StagingFolder & operator=(const StagingFolder &) = delete;
+  StagingFolder &
+  operator=(const StagingFolder &) = delete;
 
   const fs::path &
   GetPath() const

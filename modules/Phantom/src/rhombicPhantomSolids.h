@@ -36,16 +36,20 @@ public:
   virtual ~PhantomSolid() = default;
 
   /** The axis (0, 1 or 2) of the lines that GetSpan() takes. */
-  virtual unsigned GetAxis() const = 0;
+  virtual unsigned
+  GetAxis() const = 0;
 
   /** Where the line through \a point along GetAxis() is in the solid. The point's own coordinate on that axis is not
    * used. */
-  virtual PhantomSpan GetSpan(const PhantomPoint & point) const = 0;
+  virtual PhantomSpan
+  GetSpan(const PhantomPoint & point) const = 0;
 
-  virtual PhantomBounds GetBounds() const = 0;
+  virtual PhantomBounds
+  GetBounds() const = 0;
 
   /** In cubic millimetres: a closed form, or Gauss quadrature of smooth functions to rounding error. */
-  virtual double GetVolume() const = 0;
+  virtual double
+  GetVolume() const = 0;
 
   bool
   Contains(const PhantomPoint & point) const
@@ -74,7 +78,8 @@ public:
     : PhantomProfile(std::vector<Knot>{ { 0.0, constant } })
   {}
 
-  double operator()(double place) const;
+  double
+  operator()(double place) const;
 
   const std::vector<Knot> &
   GetKnots() const
@@ -131,27 +136,35 @@ public:
 
   /** The loft that lies inside this one at a depth, in millimetres, that is a function of z. Reliefs keep their
    * heights. */
-  PhantomLoft Inset(const PhantomProfile & depth) const;
+  PhantomLoft
+  Inset(const PhantomProfile & depth) const;
 
   /** The y of the front surface; only inside the cross-sections' x and z. */
-  double GetFront(double x, double z) const;
+  double
+  GetFront(double x, double z) const;
 
   /** The distance from the centre, along x, of the side surface where no relief reaches; 0 outside the cross-sections.
    */
-  double GetSide(double y, double z) const;
+  double
+  GetSide(double y, double z) const;
 
   unsigned
   GetAxis() const override
   {
     return 1;
   }
-  PhantomSpan GetSpan(const PhantomPoint & point) const override;
-  PhantomBounds GetBounds() const override;
-  double GetVolume() const override;
+  PhantomSpan
+  GetSpan(const PhantomPoint & point) const override;
+  PhantomBounds
+  GetBounds() const override;
+  double
+  GetVolume() const override;
 
 private:
-  double GetCap(double z) const;
-  double GetRelief(bool front, double x, double z) const;
+  double
+  GetCap(double z) const;
+  double
+  GetRelief(bool front, double x, double z) const;
 
   Shape m_Shape;
 };
@@ -169,9 +182,12 @@ public:
   {
     return 1;
   }
-  PhantomSpan GetSpan(const PhantomPoint & point) const override;
-  PhantomBounds GetBounds() const override;
-  double GetVolume() const override;
+  PhantomSpan
+  GetSpan(const PhantomPoint & point) const override;
+  PhantomBounds
+  GetBounds() const override;
+  double
+  GetVolume() const override;
 
 private:
   PhantomPoint m_Centre;
@@ -191,9 +207,12 @@ public:
   {
     return 1;
   }
-  PhantomSpan GetSpan(const PhantomPoint & point) const override;
-  PhantomBounds GetBounds() const override;
-  double GetVolume() const override;
+  PhantomSpan
+  GetSpan(const PhantomPoint & point) const override;
+  PhantomBounds
+  GetBounds() const override;
+  double
+  GetVolume() const override;
 
 private:
   PhantomPoint m_First;
@@ -232,16 +251,19 @@ public:
   {
     return 2;
   }
-  PhantomSpan GetSpan(const PhantomPoint & point) const override;
+  PhantomSpan
+  GetSpan(const PhantomPoint & point) const override;
   PhantomBounds
   GetBounds() const override
   {
     return m_Bounds;
   }
-  double GetVolume() const override;
+  double
+  GetVolume() const override;
 
 private:
-  PhantomBounds ComputeBounds() const;
+  PhantomBounds
+  ComputeBounds() const;
 
   Shape m_Shape;
   double m_RelativeThickness;
@@ -263,9 +285,12 @@ public:
   {
     return 1;
   }
-  PhantomSpan GetSpan(const PhantomPoint & point) const override;
-  PhantomBounds GetBounds() const override;
-  double GetVolume() const override;
+  PhantomSpan
+  GetSpan(const PhantomPoint & point) const override;
+  PhantomBounds
+  GetBounds() const override;
+  double
+  GetVolume() const override;
 
 private:
   std::shared_ptr<const PhantomLoft> m_Loft;
@@ -300,9 +325,12 @@ public:
   {
     return 0;
   }
-  PhantomSpan GetSpan(const PhantomPoint & point) const override;
-  PhantomBounds GetBounds() const override;
-  double GetVolume() const override;
+  PhantomSpan
+  GetSpan(const PhantomPoint & point) const override;
+  PhantomBounds
+  GetBounds() const override;
+  double
+  GetVolume() const override;
 
 private:
   std::shared_ptr<const PhantomLoft> m_Loft;

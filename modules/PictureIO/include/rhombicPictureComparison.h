@@ -22,7 +22,8 @@ struct PictureDifference
 /** Compares two pictures pixel by pixel; \a threshold is a difference of components from 0 to 1.
  *
  * Throws Failure(Usage) when the sizes differ or a picture has no pixels. Safe on several threads. */
-PictureDifference ComparePictures(const Picture & a, const Picture & b, double threshold);
+PictureDifference
+ComparePictures(const Picture & a, const Picture & b, double threshold);
 
 } // namespace rhombic
 

@@ -17,7 +17,8 @@ struct PictureMetadata
 };
 
 /** Throws Failure(Usage) when WritePicture() would because of the extension: for asking before long work. */
-void CheckPicturePath(const std::filesystem::path & path);
+void
+CheckPicturePath(const std::filesystem::path & path);
 
 /** Writes a picture in the format of the path's extension: .png, .jpg, .jpeg (quality 95), .tif, .tiff, or .exr (linear
  * light, half floats). The same picture and metadata give the same bytes. The file is read back before it replaces an
@@ -25,13 +26,15 @@ void CheckPicturePath(const std::filesystem::path & path);
  *
  * Throws Failure: Usage when the extension is none of those or the picture has no pixels; Output when the file can't be
  * written or does not hold what it should. Safe on several threads for different paths. */
-void WritePicture(const Picture & picture, const std::filesystem::path & path, const PictureMetadata & metadata);
+void
+WritePicture(const Picture & picture, const std::filesystem::path & path, const PictureMetadata & metadata);
 
 /** Reads a picture as 8-bit sRGB. Grey becomes three equal channels, an alpha channel is dropped, and the linear light
  * of EXR is encoded.
  *
  * Throws Failure: NotFound when there is no such file; Unreadable when it is no picture or is damaged. */
-Picture ReadPicture(const std::filesystem::path & path);
+Picture
+ReadPicture(const std::filesystem::path & path);
 
 } // namespace rhombic
 

@@ -21,7 +21,8 @@ struct PictureFormat
 };
 
 /** The format of the path's extension, in any case of letters. Throws Failure(Usage), listing the known extensions. */
-PictureFormat FormatOf(const std::filesystem::path & path);
+PictureFormat
+FormatOf(const std::filesystem::path & path);
 
 } // namespace rhombic
 

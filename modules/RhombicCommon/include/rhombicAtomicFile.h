@@ -24,7 +24,8 @@ public:
   ~AtomicFile();
 
   AtomicFile(const AtomicFile &) = delete;
-  AtomicFile & operator=(const AtomicFile &) = delete;
+  AtomicFile &
+  operator=(const AtomicFile &) = delete;
 
   const std::filesystem::path &
   GetTemporaryPath() const
@@ -35,7 +36,8 @@ public:
   /** Publishes the file. Libraries' writers may report success on a full disk, so the size in bytes that a complete
    * file has at least is given by the caller. Throws Failure(Output) when the file is smaller or can't be flushed or
    * renamed. */
-  void Commit(std::uintmax_t minimumSize);
+  void
+  Commit(std::uintmax_t minimumSize);
 
 private:
   std::filesystem::path m_Target;

@@ -80,8 +80,7 @@ AtomicFile::AtomicFile(const fs::path & target)
   int descriptor = -1;
   do
   {
-    m_Temporary =
-      folder / (".tmp-" + std::to_string(getpid()) + "-" + std::to_string(counter++) + ExtensionOf(target));
+    m_Temporary = folder / (".tmp-" + std::to_string(getpid()) + "-" + std::to_string(counter++) + ExtensionOf(target));
     descriptor = open(m_Temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   } while (descriptor < 0 && errno == EEXIST);
   if (descriptor < 0)

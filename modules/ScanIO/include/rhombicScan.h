@@ -37,21 +37,24 @@ struct SeriesSummary
  * \brief A volume and what is known about its origin. */
 struct Scan
 {
-  ScanImage image;                   ///< with an empty metadata dictionary: no patient data travels on
-  std::string format;                ///< "DICOM", "NIfTI", "NRRD" or "MetaImage"
+  ScanImage image;        ///< with an empty metadata dictionary: no patient data travels on
+  std::string format;     ///< "DICOM", "NIfTI", "NRRD" or "MetaImage"
   bool isOriented = true; ///< false when the file does not say how it lies in the patient: left and right are a guess
-  std::string modality;              ///< DICOM's: CT (values are HU), MR, ...; empty when unknown
+  std::string modality;   ///< DICOM's: CT (values are HU), MR, ...; empty when unknown
   std::vector<SeriesSummary> series; ///< all in the folder; empty for other formats than DICOM
   std::size_t filesSkipped = 0;      ///< files in the folder that are no DICOM images, symbolic links included
   std::vector<std::string> notes;    ///< what the reader had to assume or leave out, a sentence each
 };
 
 /** Size, origin, spacing and direction, whatever the pixel type. */
-const itk::ImageBase<3> & GeometryOf(const ScanImage & image);
-const itk::ImageBase<3> & GeometryOf(ScanImage &&) = delete; // it would outlive the image
+const itk::ImageBase<3> &
+GeometryOf(const ScanImage & image);
+const itk::ImageBase<3> &
+GeometryOf(ScanImage &&) = delete; // it would outlive the image
 
 /** "uint8", "int16", "uint16", "int32" or "float". */
-const char * PixelTypeName(const ScanImage & image);
+const char *
+PixelTypeName(const ScanImage & image);
 
 } // namespace rhombic
 

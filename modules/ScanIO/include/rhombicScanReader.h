@@ -36,7 +36,8 @@ struct ScanReadOptions
  * colour, more than three dimensions, multi-frame, no image...), Geometry, Memory. Damaged DICOM may still end the
  * process inside GDCM. While it runs, warnings of ITK and GDCM are off for the whole process; calls may run at the same
  * time. */
-Scan ReadScan(const std::filesystem::path & path, const ScanReadOptions & options = {});
+Scan
+ReadScan(const std::filesystem::path & path, const ScanReadOptions & options = {});
 
 } // namespace rhombic
 

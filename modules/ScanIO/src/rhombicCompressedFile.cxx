@@ -42,7 +42,8 @@ public:
   }
 
   GzipFile(const GzipFile &) = delete;
-  GzipFile & operator=(const GzipFile &) = delete;
+  GzipFile &
+  operator=(const GzipFile &) = delete;
 
   /** Bytes read, 0 at the end, negative for damage. */
   int

@@ -20,7 +20,8 @@ using DicomFrame = std::variant<std::vector<std::uint8_t>,
 
 /** Decodes the pixels of a slice with GDCM. Throws Failure(Unreadable) when they are missing, cut off or of another
  * size than the header says. */
-DicomFrame DecodeDicomFrame(const DicomSlice & slice);
+DicomFrame
+DecodeDicomFrame(const DicomSlice & slice);
 
 } // namespace rhombic
 

@@ -12,7 +12,8 @@ namespace rhombic
 
 /** Decodes slices, in their order, into one volume of rescaled values. Throws Failure(Unreadable), naming the file, for
  * pixels that are missing, cut off, or not as the header says. */
-ScanImage ReadDicomPixels(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry);
+ScanImage
+ReadDicomPixels(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry);
 
 } // namespace rhombic
 

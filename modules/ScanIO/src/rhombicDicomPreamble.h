@@ -16,7 +16,8 @@ struct DicomPreamble
 
 /** Looks for "DICM" and walks the file meta information behind it, which GDCM aborts on when it is damaged. Files of
  * the time before DICOM had a preamble count as not DICOM. */
-DicomPreamble ReadDicomPreamble(const std::filesystem::path & path);
+DicomPreamble
+ReadDicomPreamble(const std::filesystem::path & path);
 
 } // namespace rhombic
 

@@ -41,7 +41,8 @@ struct DicomSlice
 
 /** Reads the header of a file; nothing when the file is not DICOM. Files on which GDCM is known to abort are told by
  * their first bytes and count as not DICOM. */
-std::optional<DicomSlice> ReadDicomSlice(const std::filesystem::path & path);
+std::optional<DicomSlice>
+ReadDicomSlice(const std::filesystem::path & path);
 
 } // namespace rhombic
 

@@ -15,7 +15,8 @@ namespace rhombic
  * Throws Failure(Geometry), naming files, when a slice has no plane, there is only one, two are at one place, the steps
  * differ by more than max(0.01 mm, a thousandth) (a slice is missing, say), a slice lies off the line of the others by
  * more than that, or the line is tilted against the normal by more than 0.001 rad (gantry tilt). */
-VolumeGeometry StackSlices(std::vector<DicomSlice> & slices);
+VolumeGeometry
+StackSlices(std::vector<DicomSlice> & slices);
 
 } // namespace rhombic
 

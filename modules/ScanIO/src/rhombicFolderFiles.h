@@ -18,7 +18,8 @@ struct FolderFiles
 
 /** Lists a folder and its subfolders. Symbolic links are counted, not followed; devices and pipes are left out, and so
  * are folders that may not be read. Throws Failure(Usage) for more than 16 levels of folders or 200,000 files. */
-FolderFiles ListFiles(const std::filesystem::path & folder);
+FolderFiles
+ListFiles(const std::filesystem::path & folder);
 
 } // namespace rhombic
 

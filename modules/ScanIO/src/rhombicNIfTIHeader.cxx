@@ -332,10 +332,7 @@ IsFinite(const Affine & affine)
 }
 
 Affine
-ChooseAffine(const fs::path & path,
-             const HeaderBytes & header,
-             const itk::Size<3> & size,
-             Scan & scan)
+ChooseAffine(const fs::path & path, const HeaderBytes & header, const itk::Size<3> & size, Scan & scan)
 {
   const bool hasSform = header.Get<std::int16_t>(SformCodeField) > 0;
   const bool hasQform = header.Get<std::int16_t>(QformCodeField) > 0;
@@ -353,8 +350,8 @@ ChooseAffine(const fs::path & path,
     if (distance > tolerance * chosen[0].GetNorm())
     {
       scan.notes.push_back(path.string() + " gives two positions in the patient, up to " +
-                      std::to_string(distance * MillimetresPerUnit(header)) +
-                      " mm apart; its sform was used, not its qform.");
+                           std::to_string(distance * MillimetresPerUnit(header)) +
+                           " mm apart; its sform was used, not its qform.");
     }
   }
   return chosen;

@@ -16,7 +16,8 @@ namespace rhombic
  * Refuses, as Failure(Unreadable), all that ITK 5.2.1 reads wrongly or can't survive: NIfTI-2, Analyze, more than
  * one volume, vector and colour pixels, numbers that are not finite, and pixels that are missing, cut off or
  * damaged: compressed pixels are unpacked once to find out. */
-VolumeGeometry ReadNIfTIGeometry(const std::filesystem::path & path, Scan & scan);
+VolumeGeometry
+ReadNIfTIGeometry(const std::filesystem::path & path, Scan & scan);
 
 } // namespace rhombic
 

@@ -13,7 +13,8 @@ public:
   ~QuietLibraries();
 
   QuietLibraries(const QuietLibraries &) = delete;
-  QuietLibraries & operator=(const QuietLibraries &) = delete;
+  QuietLibraries &
+  operator=(const QuietLibraries &) = delete;
 };
 
 } // namespace rhombic

@@ -76,7 +76,8 @@ ReadScan(const fs::path & path, const ScanReadOptions & options)
   catch (const std::exception & exception)
   {
     throw Failure(FailureKind::Unreadable,
-                  "Cannot read " + path.string() + ": " + DescribeError(exception) + "; it may be damaged, so copy it again.");
+                  "Cannot read " + path.string() + ": " + DescribeError(exception) +
+                    "; it may be damaged, so copy it again.");
   }
 }
 

@@ -140,8 +140,8 @@ ReadInformation(itk::ImageIOBase & io, const fs::path & path, const std::string 
   }
 }
 
-/** Puts the lowest finite value in the place of values that are not finite, which would spread when the scan is resampled.
- * Returns how many there were. */
+/** Puts the lowest finite value in the place of values that are not finite, which would spread when the scan is
+ * resampled. Returns how many there were. */
 std::size_t
 ReplaceNotFinite(const ScanImage & image)
 {
@@ -162,7 +162,8 @@ ReplaceNotFinite(const ScanImage & image)
   }
   if (count > 0)
   {
-    std::replace_if(begin, end, [](float value) { return !std::isfinite(value); }, lowest);
+    std::replace_if(
+      begin, end, [](float value) { return !std::isfinite(value); }, lowest);
   }
   return count;
 }

@@ -18,12 +18,12 @@ struct VolumeGeometry
 };
 
 /** The geometry of a volume whose voxel (i, j, k) is at origin + i step_0 + j step_1 + k step_2. */
-VolumeGeometry MakeGeometry(const itk::Size<3> & size,
-                            const itk::Point<double, 3> & origin,
-                            const itk::Vector<double, 3> steps[3]);
+VolumeGeometry
+MakeGeometry(const itk::Size<3> & size, const itk::Point<double, 3> & origin, const itk::Vector<double, 3> steps[3]);
 
 /** Throws Failure(Geometry) unless all numbers are finite, spacings positive and axes perpendicular within 1e-3. */
-void CheckGeometry(const VolumeGeometry & geometry, const std::filesystem::path & path);
+void
+CheckGeometry(const VolumeGeometry & geometry, const std::filesystem::path & path);
 
 /** An image of this geometry, its pixels not set. */
 template <typename TPixel>

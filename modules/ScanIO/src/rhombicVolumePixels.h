@@ -11,7 +11,8 @@ namespace rhombic
 
 /** Reads the pixels of a volume of single numbers whose information \a io has read, converted as ReadScan() says.
  * Throws ITK's exceptions. */
-ScanImage ReadVolumePixels(itk::ImageIOBase & io, const VolumeGeometry & geometry);
+ScanImage
+ReadVolumePixels(itk::ImageIOBase & io, const VolumeGeometry & geometry);
 
 } // namespace rhombic
 

@@ -28,7 +28,8 @@ public:
   }
 
   BlockWriter(const BlockWriter &) = delete;
-  BlockWriter & operator=(const BlockWriter &) = delete;
+  BlockWriter &
+  operator=(const BlockWriter &) = delete;
 
   void
   Append(const void * data, std::size_t size)

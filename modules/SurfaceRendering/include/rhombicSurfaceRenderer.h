@@ -28,7 +28,8 @@ public:
   ~SurfaceRenderer();
 
   SurfaceRenderer(const SurfaceRenderer &) = delete;
-  SurfaceRenderer & operator=(const SurfaceRenderer &) = delete;
+  SurfaceRenderer &
+  operator=(const SurfaceRenderer &) = delete;
 
   /** The picture of all surfaces, as large as fits between the picture's margins. Surfaces without triangles are left
    * out. Surfaces that have no normals are drawn faceted. Translucent surfaces show their near walls only, more opaque
@@ -36,16 +37,20 @@ public:
    *
    * Throws Failure: Empty when no surface has a triangle; Usage for a setting, colour or opacity out of range;
    * Memory when the scene does not fit; Display when the graphics library reports an error. */
-  Picture Render(const std::vector<SceneSurface> & scene, const RenderSettings & settings);
+  Picture
+  Render(const std::vector<SceneSurface> & scene, const RenderSettings & settings);
 
   /** Throws Failure(Usage) when Render() would because of the settings: for asking before long work. */
-  void CheckSettings(const RenderSettings & settings) const;
+  void
+  CheckSettings(const RenderSettings & settings) const;
 
   /** One line: backend, renderer and OpenGL version. */
-  std::string GetBackendDescription() const;
+  std::string
+  GetBackendDescription() const;
 
   /** Tries every backend in the order of preference. Never throws for a backend that does not work. */
-  static std::vector<BackendProbe> ProbeBackends();
+  static std::vector<BackendProbe>
+  ProbeBackends();
 
 private:
   class Implementation;

@@ -42,16 +42,20 @@ struct EdgeLetters
 
 /** The patient stands upright in the anterior, posterior and lateral views. In the superior and inferior views the
  * front of the body is up; the inferior one is the axial slice's usual orientation. */
-ViewFrame FrameOf(View view);
+ViewFrame
+FrameOf(View view);
 
 /** L, R (left, right), A, P (anterior, posterior), H or F (head, foot) at each edge of the picture. */
-EdgeLetters EdgeLettersOf(View view);
+EdgeLetters
+EdgeLettersOf(View view);
 
 /** "anterior", "posterior", "left", "right", "superior" or "inferior". */
-std::string NameOf(View view);
+std::string
+NameOf(View view);
 
 /** The view of that name, in any case of letters. Throws Failure(Usage), listing the names, when there is none. */
-View ViewFromName(const std::string & name);
+View
+ViewFromName(const std::string & name);
 
 } // namespace rhombic
 

@@ -9,7 +9,8 @@
 
 // GLEW, which finds OpenGL's functions for VTK, finds them all without an X server, and then fails only for GLX's own.
 // No one here calls those, so this definition, exported by the program (see module-options.cmake), takes GLEW's place.
-extern "C" unsigned int glxewInit();
+extern "C" unsigned int
+glxewInit();
 
 extern "C" unsigned int
 glxewInit()

@@ -18,13 +18,16 @@ public:
   virtual ~GLContext() = default;
 
   GLContext(const GLContext &) = delete;
-  GLContext & operator=(const GLContext &) = delete;
+  GLContext &
+  operator=(const GLContext &) = delete;
 
   /** Makes OpenGL calls of this thread go to this context. Throws Failure(Display). */
-  virtual void MakeCurrent() = 0;
+  virtual void
+  MakeCurrent() = 0;
 
   /** Leaves this thread without a context. */
-  virtual void Release() = 0;
+  virtual void
+  Release() = 0;
 };
 
 /** \class CurrentGLContext
@@ -43,16 +46,20 @@ public:
   }
 
   CurrentGLContext(const CurrentGLContext &) = delete;
-  CurrentGLContext & operator=(const CurrentGLContext &) = delete;
+  CurrentGLContext &
+  operator=(const CurrentGLContext &) = delete;
 
 private:
   GLContext & m_Context;
 };
 
 /** One for each backend. Each throws Failure(Display) with the reason when the backend does not work here. */
-std::unique_ptr<GLContext> CreateDeviceContext();
-std::unique_ptr<GLContext> CreateSurfacelessContext();
-std::unique_ptr<GLContext> CreateXDisplayContext();
+std::unique_ptr<GLContext>
+CreateDeviceContext();
+std::unique_ptr<GLContext>
+CreateSurfacelessContext();
+std::unique_ptr<GLContext>
+CreateXDisplayContext();
 
 /** A context, and one line about it: backend, renderer and OpenGL version. */
 struct DescribedGLContext
@@ -62,10 +69,12 @@ struct DescribedGLContext
 };
 
 /** The context of \a backend, proved to give OpenGL 3.2 or newer. Throws Failure(Display) with what to install. */
-DescribedGLContext CreateGLContext(RenderBackend backend);
+DescribedGLContext
+CreateGLContext(RenderBackend backend);
 
 /** Creates a context of every backend, one after the other. */
-std::vector<BackendProbe> ProbeGLContexts();
+std::vector<BackendProbe>
+ProbeGLContexts();
 
 } // namespace rhombic
 

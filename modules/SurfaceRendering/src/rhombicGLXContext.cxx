@@ -63,7 +63,8 @@ public:
   }
 
   XErrorTrap(const XErrorTrap &) = delete;
-  XErrorTrap & operator=(const XErrorTrap &) = delete;
+  XErrorTrap &
+  operator=(const XErrorTrap &) = delete;
 
   bool
   Caught() const

@@ -9,10 +9,12 @@ namespace rhombic
 {
 
 /** Pixels of the picture that the letters need at each edge. */
-double OrientationLabelMargin(const RenderSettings & settings);
+double
+OrientationLabelMargin(const RenderSettings & settings);
 
 /** Writes the view's letters at the middle of the picture's edges, black or white against the background. */
-void AddOrientationLabels(const RenderSettings & settings, vtkRenderer * renderer);
+void
+AddOrientationLabels(const RenderSettings & settings, vtkRenderer * renderer);
 
 } // namespace rhombic
 

@@ -11,7 +11,8 @@ namespace rhombic
  *
  * This is as fast in software as OpenGL's multisampling, which smooths outlines only and excludes depth peeling; a
  * filter such as FXAA is faster and breaks thin bones into dots. */
-Picture MeanOfSamples(const std::uint8_t * drawn, int width, int height, int samples);
+Picture
+MeanOfSamples(const std::uint8_t * drawn, int width, int height, int samples);
 
 } // namespace rhombic
 

@@ -12,7 +12,8 @@ namespace rhombic
 {
 
 /** Surfaces, lights, camera and letters, ready to be drawn by a window of width x height times samples. */
-vtkSmartPointer<vtkRenderer> SetStage(const std::vector<SceneSurface> & scene, const RenderSettings & settings);
+vtkSmartPointer<vtkRenderer>
+SetStage(const std::vector<SceneSurface> & scene, const RenderSettings & settings);
 
 } // namespace rhombic
 

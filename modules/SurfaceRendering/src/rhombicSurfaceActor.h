@@ -10,7 +10,8 @@ namespace rhombic
 {
 
 /** Draws the surface in its colour and opacity. The surface must not change as long as the actor lives. */
-vtkSmartPointer<vtkActor> MakeSurfaceActor(const SceneSurface & item);
+vtkSmartPointer<vtkActor>
+MakeSurfaceActor(const SceneSurface & item);
 
 } // namespace rhombic
 

@@ -69,7 +69,8 @@ public:
   }
 
   RendererInWindow(const RendererInWindow &) = delete;
-  RendererInWindow & operator=(const RendererInWindow &) = delete;
+  RendererInWindow &
+  operator=(const RendererInWindow &) = delete;
 
 private:
   vtkRenderWindow * m_Window;

@@ -17,9 +17,11 @@ class vtkRhombicMessages : public vtkOutputWindow
 {
 public:
   vtkTypeMacro(vtkRhombicMessages, vtkOutputWindow);
-  static vtkRhombicMessages * New();
+  static vtkRhombicMessages *
+  New();
 
-  void DisplayText(const char * text) override;
+  void
+  DisplayText(const char * text) override;
 
   /** The first error, without VTK's decoration, or nothing. */
   const std::string &
@@ -43,7 +45,8 @@ public:
   ~Scope();
 
   Scope(const Scope &) = delete;
-  Scope & operator=(const Scope &) = delete;
+  Scope &
+  operator=(const Scope &) = delete;
 
   const std::string &
   GetFirstError() const

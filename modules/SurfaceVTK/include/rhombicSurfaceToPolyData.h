@@ -12,7 +12,8 @@ namespace rhombic
 /** The surface as VTK sees it: points and normals share the surface's memory, and so do the triangle indices; only
  * VTK's cell offsets (4 bytes a triangle) are new. The surface stays alive as long as any of the arrays does, and must
  * not be changed meanwhile. Points and normals are float32, connectivity int32. */
-vtkSmartPointer<vtkPolyData> SurfaceToPolyData(const itk::TriangleSurface * surface);
+vtkSmartPointer<vtkPolyData>
+SurfaceToPolyData(const itk::TriangleSurface * surface);
 
 } // namespace rhombic
 

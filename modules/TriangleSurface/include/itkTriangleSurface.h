@@ -96,26 +96,32 @@ public:
   }
 
   /** Bytes held by the three arrays. */
-  SizeValueType GetMemorySize() const;
+  SizeValueType
+  GetMemorySize() const;
 
   /** Smallest and largest coordinate along each axis in mm: {xmin, xmax, ymin, ymax, zmin, zmax}. All 0 without points.
    */
-  std::array<double, 6> GetBounds() const;
+  std::array<double, 6>
+  GetBounds() const;
 
   /** Drops the points of no triangle, with their normals; the others keep their order. */
-  void RemoveUnusedPoints();
+  void
+  RemoveUnusedPoints();
 
   /** Back to no points, normals and triangles. */
-  void Initialize() override;
+  void
+  Initialize() override;
 
   /** Takes over a copy of another TriangleSurface's arrays. */
-  void Graft(const DataObject * data) override;
+  void
+  Graft(const DataObject * data) override;
 
 protected:
   TriangleSurface() = default;
   ~TriangleSurface() override = default;
 
-  void PrintSelf(std::ostream & os, Indent indent) const override;
+  void
+  PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
   PointsContainer m_Points;

@@ -21,12 +21,12 @@ struct TriangleSurfaceComponents
 
 /** Sets of triangles connected through shared points. Nearly linear in time; 4 bytes a point, twice that while it
  * runs. Thread safe. */
-TriangleSurfaceComponents FindComponents(const TriangleSurface & surface);
+TriangleSurfaceComponents
+FindComponents(const TriangleSurface & surface);
 
 /** Removes the triangles of the components for which \a keep is false, and their points. */
-void KeepComponents(TriangleSurface & surface,
-                    const TriangleSurfaceComponents & components,
-                    const std::vector<bool> & keep);
+void
+KeepComponents(TriangleSurface & surface, const TriangleSurfaceComponents & components, const std::vector<bool> & keep);
 
 } // namespace itk
 

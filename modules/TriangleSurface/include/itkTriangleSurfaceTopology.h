@@ -12,13 +12,14 @@ namespace itk
  * \brief What the connectivity of a surface says, counted over its indices. */
 struct TriangleSurfaceTopology
 {
-  SizeValueType components = 0;            ///< sets of triangles connected through shared points
-  SizeValueType boundaryEdges = 0;         ///< edges with one triangle: the surface is open there
-  SizeValueType nonManifoldEdges = 0;      ///< edges with three or more triangles
-  SizeValueType misorientedEdges = 0;      ///< edges whose two triangles run along them in the same direction
-  SizeValueType nonManifoldPoints = 0;     ///< points whose triangles are not one fan
-  SizeValueType unusedPoints = 0;          ///< points of no triangle
-  SizeValueType degenerateTriangles = 0;   ///< triangles with a repeated point, a repeated position, no area, or a position that is not finite
+  SizeValueType components = 0;        ///< sets of triangles connected through shared points
+  SizeValueType boundaryEdges = 0;     ///< edges with one triangle: the surface is open there
+  SizeValueType nonManifoldEdges = 0;  ///< edges with three or more triangles
+  SizeValueType misorientedEdges = 0;  ///< edges whose two triangles run along them in the same direction
+  SizeValueType nonManifoldPoints = 0; ///< points whose triangles are not one fan
+  SizeValueType unusedPoints = 0;      ///< points of no triangle
+  SizeValueType degenerateTriangles =
+    0; ///< triangles with a repeated point, a repeated position, no area, or a position that is not finite
   OffsetValueType eulerCharacteristic = 0; ///< used points - edges + triangles; 2 for each sphere, 0 for each torus
 
   /** Closed, oriented, manifold and free of degenerate triangles. */
@@ -31,9 +32,11 @@ struct TriangleSurfaceTopology
 };
 
 /** Counts all of the above. Time O(n log n), memory about 40 bytes a triangle. Thread safe. */
-TriangleSurfaceTopology ComputeTopology(const TriangleSurface & surface);
+TriangleSurfaceTopology
+ComputeTopology(const TriangleSurface & surface);
 
-std::ostream & operator<<(std::ostream & os, const TriangleSurfaceTopology & topology);
+std::ostream &
+operator<<(std::ostream & os, const TriangleSurfaceTopology & topology);
 
 } // namespace itk
 
