@@ -1,3 +1,4 @@
+#include "rhombicAtomicFile.h"
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
 
@@ -54,6 +55,7 @@ int
 main(int argc, char ** argv)
 {
   setenv("EGL_LOG_LEVEL", "fatal", 0); // Mesa would warn of missing drivers beside our own sentence
+  RemoveTemporaryFilesOnSignals();
   Console console;
   CLI::App app{ std::string("Rhombic: ") + RHOMBIC_DESCRIPTION, "rhombic" };
   app.footer(exitCodes);

@@ -28,7 +28,7 @@ Mesh(const MeshOptions & options, const CommandContext & context)
   {
     throw Failure(FailureKind::Usage,
                   "The threshold '" + options.threshold +
-                    "' is no number; write -t 250.5, -t '<-500.5' for what lies below, or -t otsu.");
+                    "' is no number; write -t -300.5, -t '<-500.5' for what lies below, or -t otsu.");
   }
   settings.mesh = options.mesh;
   MeshScan(settings, context.console->MakeEvents());

@@ -5,8 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <fstream>
 #include <sstream>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace fs = std::filesystem;
 
@@ -121,6 +125,30 @@ TEST(AtomicFile, GoesRoundTemporaryFilesLeftBehind)
   Write(file.GetTemporaryPath(), "new");
   file.Commit(3);
   EXPECT_EQ(Read(folder.Path() / "a.png"), "new");
+}
+
+TEST(AtomicFile, GoesWithTheProcessThatASignalEnds)
+{
+  const rhombictest::TemporaryFolder folder;
+  for (const int signal : { SIGINT, SIGTERM, SIGHUP })
+  {
+    const pid_t child = fork();
+    if (child == 0)
+    {
+      rhombic::RemoveTemporaryFilesOnSignals();
+      AtomicFile finished(folder.Path() / "finished.png");
+      Write(finished.GetTemporaryPath(), "all");
+      finished.Commit(3);
+      AtomicFile first(folder.Path() / "first.png");
+      AtomicFile second(folder.Path() / "second.png");
+      raise(signal);
+      _exit(0);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal);
+    EXPECT_EQ(FilesIn(folder.Path()), 1u) << "the finished one";
+  }
 }
 
 TEST(AtomicFile, TwoForTheSameTargetDoNotCollide)

@@ -44,6 +44,11 @@ private:
   std::filesystem::path m_Temporary;
 };
 
+/** From now on SIGINT, SIGTERM and SIGHUP remove the temporary files of all AtomicFiles before they end the process as
+ * they always do. For programs; a library leaves signals to its host. */
+void
+RemoveTemporaryFilesOnSignals();
+
 } // namespace rhombic
 
 #endif

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 
 #include <fcntl.h>
@@ -50,6 +51,51 @@ ExtensionOf(const fs::path & path)
   return last == ".gz" ? path.stem().extension().string() + last : last;
 }
 
+/** Names of temporary files where a signal handler can find them: it may neither lock nor allocate. Files beyond the
+ * number of places are simply not listed. */
+constexpr std::size_t listedFiles = 64;
+std::atomic<const char *> temporaryFiles[listedFiles];
+
+void
+List(const fs::path & path)
+{
+  for (auto & place : temporaryFiles)
+  {
+    const char * empty = nullptr;
+    if (place.compare_exchange_strong(empty, path.c_str()))
+    {
+      return;
+    }
+  }
+}
+
+void
+Unlist(const fs::path & path)
+{
+  for (auto & place : temporaryFiles)
+  {
+    const char * listed = path.c_str();
+    if (place.compare_exchange_strong(listed, nullptr))
+    {
+      return;
+    }
+  }
+}
+
+extern "C" void
+RemoveTemporaryFiles(int signal)
+{
+  for (const auto & place : temporaryFiles)
+  {
+    if (const char * const path = place.load())
+    {
+      unlink(path);
+    }
+  }
+  std::signal(signal, SIG_DFL);
+  raise(signal);
+}
+
 } // namespace
 
 AtomicFile::AtomicFile(const fs::path & target)
@@ -88,12 +134,14 @@ AtomicFile::AtomicFile(const fs::path & target)
     Fail(target, std::string(std::strerror(errno)) + "; choose another folder or file name");
   }
   close(descriptor);
+  List(m_Temporary);
 }
 
 AtomicFile::~AtomicFile()
 {
   if (!m_Temporary.empty())
   {
+    Unlist(m_Temporary);
     std::error_code ignored; // nothing more can be done about a file that won't go
     fs::remove(m_Temporary, ignored);
   }
@@ -119,8 +167,18 @@ AtomicFile::Commit(std::uintmax_t minimumSize)
   {
     Fail(m_Target, error.message());
   }
+  Unlist(m_Temporary);
   m_Temporary.clear();
   Flush(FolderOf(m_Target), O_RDONLY | O_DIRECTORY);
+}
+
+void
+RemoveTemporaryFilesOnSignals()
+{
+  for (const int signal : { SIGINT, SIGTERM, SIGHUP })
+  {
+    std::signal(signal, RemoveTemporaryFiles);
+  }
 }
 
 } // namespace rhombic
