@@ -1,6 +1,7 @@
 #include "rhombicFCCImageFile.h"
 
 #include "rhombicFailure.h"
+#include "rhombicGermanNumbers.h"
 #include "rhombicTemporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -119,32 +120,12 @@ TEST(FCCImageFile, RefusesWhatIsDamagedOrSomethingElse)
   EXPECT_FALSE(rhombic::IsFCCImageFile(folder.Path() / "pipe")) << "without waiting for a writer";
 }
 
-/** Numbers as a German writes them: 1.234,5. */
-class DecimalComma : public std::numpunct<char>
-{
-  char
-  do_decimal_point() const override
-  {
-    return ',';
-  }
-  char
-  do_thousands_sep() const override
-  {
-    return '.';
-  }
-  std::string
-  do_grouping() const override
-  {
-    return "\3";
-  }
-};
-
 TEST(FCCImageFile, DoesNotDependOnTheLocale)
 {
   const rhombictest::TemporaryFolder folder;
   const std::string before = std::setlocale(LC_ALL, nullptr);
   std::setlocale(LC_ALL, "de_DE.UTF-8"); // has no effect where it is not installed
-  const std::locale streams = std::locale::global(std::locale(std::locale::classic(), new DecimalComma));
+  const std::locale streams = std::locale::global(std::locale(std::locale::classic(), new rhombictest::GermanNumbers));
   rhombic::WriteFCCImage(MakeImage<float>(), folder.Path() / "volume.nrrd");
   const auto volume = rhombic::ReadFCCImage(folder.Path() / "volume.nrrd");
   std::locale::global(streams);

@@ -151,6 +151,15 @@ TEST(AtomicFile, GoesWithTheProcessThatASignalEnds)
   }
 }
 
+TEST(AtomicFile, LeavesIgnoredSignalsIgnored)
+{
+  const auto before = std::signal(SIGHUP, SIG_IGN); // as nohup does
+  rhombic::RemoveTemporaryFilesOnSignals();
+  EXPECT_EQ(std::signal(SIGHUP, before), SIG_IGN);
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
 TEST(AtomicFile, TwoForTheSameTargetDoNotCollide)
 {
   const rhombictest::TemporaryFolder folder;

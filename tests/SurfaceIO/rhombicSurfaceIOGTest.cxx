@@ -17,6 +17,7 @@
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include "rhombicGermanNumbers.h"
 #include "rhombicTemporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -208,34 +209,13 @@ TEST_F(SurfaceIO, SurfaceWithoutNormals)
   ExpectSameSurface(*FromPolyData(*ReadWith<vtkXMLPolyDataReader>(m_Folder / "sphere.vtp")), *sphere);
 }
 
-/** Decimal commas and grouped thousands, as German has them, without that locale installed. */
-class GermanNumbers : public std::numpunct<char>
-{
-protected:
-  char
-  do_decimal_point() const override
-  {
-    return ',';
-  }
-  char
-  do_thousands_sep() const override
-  {
-    return '.';
-  }
-  std::string
-  do_grouping() const override
-  {
-    return "\3";
-  }
-};
-
 TEST_F(SurfaceIO, SameBytesAgainAndInAnotherLocale)
 {
   const auto sphere = MakeSphere(4);
   for (const std::string extension : { ".stl", ".ply", ".vtp" })
   {
     WriteSurface(*sphere, m_Folder / ("first" + extension));
-    const std::locale before = std::locale::global(std::locale(std::locale::classic(), new GermanNumbers));
+    const std::locale before = std::locale::global(std::locale(std::locale::classic(), new rhombictest::GermanNumbers));
     EXPECT_NO_THROW(WriteSurface(*sphere, m_Folder / ("second" + extension))) << extension;
     std::locale::global(before);
     EXPECT_EQ(ReadBytes(m_Folder / ("first" + extension)), ReadBytes(m_Folder / ("second" + extension))) << extension;

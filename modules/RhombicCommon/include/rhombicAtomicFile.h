@@ -45,7 +45,8 @@ private:
 };
 
 /** From now on SIGINT, SIGTERM and SIGHUP remove the temporary files of all AtomicFiles before they end the process as
- * they always do. For programs; a library leaves signals to its host. */
+ * they always do. Signals that are ignored, as SIGHUP is under nohup, stay so. For programs; a library leaves signals
+ * to its host. */
 void
 RemoveTemporaryFilesOnSignals();
 

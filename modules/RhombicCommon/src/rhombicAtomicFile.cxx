@@ -177,7 +177,10 @@ RemoveTemporaryFilesOnSignals()
 {
   for (const int signal : { SIGINT, SIGTERM, SIGHUP })
   {
-    std::signal(signal, RemoveTemporaryFiles);
+    if (std::signal(signal, RemoveTemporaryFiles) == SIG_IGN)
+    {
+      std::signal(signal, SIG_IGN);
+    }
   }
 }
 
