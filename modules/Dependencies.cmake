@@ -12,6 +12,7 @@ find_package(yaml-cpp REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(HWY REQUIRED)
 
 # Debian's OpenImageIO target lists the include folder of an OpenCV that is not installed with it.
 get_target_property(_directories OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
