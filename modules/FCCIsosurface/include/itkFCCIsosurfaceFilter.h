@@ -3,6 +3,7 @@
 
 #include "itkFCCImage.h"
 #include "itkFCCMarching.h"
+#include "itkFCCPointKernels.h"
 #include "itkProcessObject.h"
 #include "itkThreadFailure.h"
 #include "itkTriangleSurface.h"
@@ -132,8 +133,8 @@ private:
   void
   Fill(const FCCSigns & signs, const Layout & layout);
 
-  void
-  FillPoints(const FCCSigns & signs, const FCCCutEdges & edges, FCCCutEdges::Group group, SizeValueType plane);
+  FCCFrame
+  MakeFrame() const;
 
   /** Calls \a work(begin, end) for slabs of planes, by several threads, and reports its share of the progress. */
   template <typename TWork>

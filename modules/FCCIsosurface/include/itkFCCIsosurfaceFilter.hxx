@@ -1,7 +1,7 @@
 #ifndef itkFCCIsosurfaceFilter_hxx
 #define itkFCCIsosurfaceFilter_hxx
 
-#include "itkFCCEdgePoint.h"
+#include "itkFCCEdgePoints.h"
 #include "itkMultiThreaderBase.h"
 
 #include <algorithm>
@@ -171,8 +171,6 @@ FCCIsosurfaceFilter<TInputImage>::Classify()
                  region.GetSize(2) + 2 * padding,
                  FCCLattice::Parity(region.GetIndex(1) - shift, region.GetIndex(2) - shift));
 
-  const auto isovalue = m_Isovalue;
-  const bool isBelow = m_InsideIsBelow;
   this->ForEachSlab(region.GetSize(2), 0.1f, [&](SizeValueType begin, SizeValueType end) {
     for (SizeValueType k = begin; k < end; ++k)
     {
@@ -180,12 +178,10 @@ FCCIsosurfaceFilter<TInputImage>::Classify()
       {
         const PixelType * const values = image->GetBufferPointer() + (k * region.GetSize(1) + j) * region.GetSize(0);
         FCCSigns::WordType * const row = signs.GetRow(j + padding, k + padding);
-        for (SizeValueType i = 0; i < region.GetSize(0); ++i)
+        FCCRowKernels::Classify(values, region.GetSize(0), m_Isovalue, m_InsideIsBelow, row);
+        if (m_Closed)
         {
-          const SizeValueType bit = i + padding;
-          const auto value = static_cast<double>(values[i]);
-          const bool inside = isBelow ? value < isovalue : value >= isovalue;
-          row[bit / FCCSigns::WordBits] |= static_cast<FCCSigns::WordType>(inside) << (bit % FCCSigns::WordBits);
+          signs.ShiftRow(j + padding, k + padding);
         }
       }
     }
@@ -246,19 +242,40 @@ FCCIsosurfaceFilter<TInputImage>::Fill(const FCCSigns & signs, const Layout & la
   // With left-handed axes the triangles of the tables face inwards.
   const auto & direction = this->GetInput()->GetDirection();
   const bool reversed = vnl_determinant(direction.GetVnlMatrix()) < 0.0;
+  const InputImageType * const image = this->GetInput();
+  const ImageRegion<3> & region = image->GetBufferedRegion();
+  const SizeValueType margin = m_Closed ? 1 : 0;
+  const FCCEdgePoints edgePoints(region, this->MakeFrame(), false, m_UsedFraction, margin);
+  const auto readRow = [&](SizeValueType j, SizeValueType k, float * values) {
+    FCCRowKernels::Subtract(image->GetBufferPointer() + (k * region.GetSize(1) + j) * region.GetSize(0),
+                            region.GetSize(0),
+                            m_Isovalue,
+                            values);
+  };
   const auto idOf = [](SizeValueType id) { return static_cast<std::uint32_t>(id); };
 
   this->ForEachSlab(depth, 0.7f, [&](SizeValueType begin, SizeValueType end) {
     FCCCutEdges lower(signs, FCCCutEdges::Group::InPlane);
     FCCCutEdges upper(signs, FCCCutEdges::Group::InPlane);
     FCCCutEdges between(signs, FCCCutEdges::Group::Between);
+    FCCFieldPlanes field({ region.GetSize(0), region.GetSize(1), region.GetSize(2) },
+                         FCCLattice::Parity(region.GetIndex(1) - 1, region.GetIndex(2) - 1),
+                         readRow);
+    std::vector<bool> wanted(signs.GetHeight() * 1000, true);
     lower.Find(begin, idOf(layout.inPlane[begin]));
     for (SizeValueType k = begin; k < end; ++k)
     {
       between.Find(k, idOf(layout.between[k]));
       upper.Find(k + 1, idOf(layout.inPlane[k + 1]));
-      this->FillPoints(signs, lower, FCCCutEdges::Group::InPlane, k);
-      this->FillPoints(signs, between, FCCCutEdges::Group::Between, k);
+      const SizeValueType plane = k + 1 - margin;
+      for (SizeValueType near = plane > 0 ? plane - 1 : 0; near <= std::min(plane + 2, region.GetSize(2) + 1); ++near)
+      {
+        field.LoadValues(near);
+      }
+      field.LoadGradients(plane, wanted);
+      field.LoadGradients(plane + 1, wanted);
+      edgePoints.Place(signs, lower, k, field, surface->GetPoints().data(), surface->GetNormals().data());
+      edgePoints.Place(signs, between, k, field, surface->GetPoints().data(), surface->GetNormals().data());
       if (k + 1 < depth)
       {
         FillTriangles(signs, k, lower, upper, between, reversed, surface->GetTriangles().data() + layout.triangles[k]);
@@ -270,41 +287,24 @@ FCCIsosurfaceFilter<TInputImage>::Fill(const FCCSigns & signs, const Layout & la
 }
 
 template <typename TInputImage>
-void
-FCCIsosurfaceFilter<TInputImage>::FillPoints(const FCCSigns & signs,
-                                             const FCCCutEdges & edges,
-                                             FCCCutEdges::Group group,
-                                             SizeValueType plane)
+FCCFrame
+FCCIsosurfaceFilter<TInputImage>::MakeFrame() const
 {
   const InputImageType * const image = this->GetInput();
-  const auto first = image->GetBufferedRegion().GetIndex();
-  const IndexValueType shift = m_Closed ? 1 : 0;
-  const FCCEdgePoint<InputImageType> edgePoint(*image, m_Isovalue, m_InsideIsBelow, m_UsedFraction);
-  TriangleSurface * const surface = this->GetOutput();
-
-  for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
+  FCCFrame frame;
+  frame.outwardSign = m_InsideIsBelow ? 1.0 : -1.0;
+  const auto & direction = image->GetDirection();
+  const auto & inverse = image->GetInverseDirection();
+  for (unsigned int row = 0; row < 3; ++row)
   {
-    for (std::uint8_t type = FCCCutEdges::FirstType(group); type <= FCCCutEdges::LastType(group); ++type)
+    frame.origin[row] = image->GetOrigin()[row];
+    for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      const FCCCutEdges::Row row = edges.GetRow(j, type);
-      for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
-      {
-        std::uint32_t id = row.before[word];
-        for (auto mask = row.mask[word]; mask != 0; mask &= mask - 1)
-        {
-          const auto i = static_cast<IndexValueType>(word * FCCSigns::WordBits) + __builtin_ctzll(mask);
-          const Index<3> index{ { first[0] + i - shift,
-                                  first[1] + static_cast<IndexValueType>(j) - shift,
-                                  first[2] + static_cast<IndexValueType>(plane) - shift } };
-          edgePoint.Place(FCCLattice::SiteOf(index),
-                          FCCLattice::OwnedEdges[type],
-                          surface->GetPoints()[id],
-                          surface->GetNormals()[id]);
-          ++id;
-        }
-      }
+      frame.matrix[row][axis] = direction[row][axis] * image->GetSpacing()[axis];
+      frame.gradientToWorld[row][axis] = inverse[axis][row] / image->GetSpacing()[axis];
     }
   }
+  return frame;
 }
 
 } // namespace itk

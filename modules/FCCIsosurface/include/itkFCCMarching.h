@@ -67,6 +67,10 @@ public:
     return m_Words.data() + (k * m_Height + j) * m_Stride;
   }
 
+  /** Moves the bits of a row one site up; there must be room. */
+  void
+  ShiftRow(SizeValueType j, SizeValueType k);
+
 private:
   SizeValueType m_Width;
   SizeValueType m_Height;
@@ -106,6 +110,22 @@ public:
   /** Number of cut edges owned by plane \a k, without finding their ids. */
   static SizeValueType
   Count(const FCCSigns & signs, Group group, SizeValueType k);
+
+  std::uint32_t
+  GetFirstId() const
+  {
+    return m_Before.front();
+  }
+  std::uint8_t
+  GetFirstType() const
+  {
+    return FirstType(m_Group);
+  }
+  std::uint8_t
+  GetLastType() const
+  {
+    return LastType(m_Group);
+  }
 
   static std::uint8_t
   FirstType(Group group)

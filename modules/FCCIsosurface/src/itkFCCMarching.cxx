@@ -197,6 +197,19 @@ FCCSigns::FCCSigns(SizeValueType width, SizeValueType height, SizeValueType dept
   , m_Words(m_Stride * height * depth, 0)
 {}
 
+void
+FCCSigns::ShiftRow(SizeValueType j, SizeValueType k)
+{
+  WordType * const row = this->GetRow(j, k);
+  WordType carried = 0;
+  for (SizeValueType word = 0; word < this->GetNumberOfWords(); ++word)
+  {
+    const WordType bits = row[word];
+    row[word] = bits << 1 | carried;
+    carried = bits >> (WordBits - 1);
+  }
+}
+
 FCCCutEdges::FCCCutEdges(const FCCSigns & signs, Group group)
   : m_Signs(&signs)
   , m_Group(group)

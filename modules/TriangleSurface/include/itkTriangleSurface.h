@@ -1,6 +1,7 @@
 #ifndef itkTriangleSurface_h
 #define itkTriangleSurface_h
 
+#include "itkBulkAllocator.h"
 #include "itkDataObject.h"
 #include "itkObjectFactory.h"
 
@@ -41,9 +42,9 @@ public:
   using PointType = std::array<float, 3>;
   using NormalType = std::array<float, 3>;
   using TriangleType = std::array<std::uint32_t, 3>;
-  using PointsContainer = std::vector<PointType>;
-  using NormalsContainer = std::vector<NormalType>;
-  using TrianglesContainer = std::vector<TriangleType>;
+  using PointsContainer = std::vector<PointType, BulkAllocator<PointType>>;
+  using NormalsContainer = std::vector<NormalType, BulkAllocator<NormalType>>;
+  using TrianglesContainer = std::vector<TriangleType, BulkAllocator<TriangleType>>;
 
   /** The arrays themselves. After changing one through the non-const accessor, call Modified(). */
   PointsContainer &

@@ -1,0 +1,193 @@
+#include "itkFCCEdgePoints.h"
+
+#include <algorithm>
+
+namespace itk
+{
+namespace
+{
+
+/** The rows of values and gradients along the line of one type of edge, shifted so that element i belongs to the edge
+ * that site i owns. */
+struct EdgeRows
+{
+  const float * values[4] = {}; ///< at the places -1, 0, 1, 2 along the line; the outer ones for cubics only
+  const float * gradients[2][3] = {};
+
+  EdgeRows() = default;
+
+  EdgeRows(const FCCFieldPlanes & field,
+           const FCCLattice::SiteType & step,
+           SizeValueType j,
+           SizeValueType k,
+           bool cubic,
+           bool withGradients)
+  {
+    const IndexValueType parity = field.GetParity(j, k);
+    for (IndexValueType place = cubic ? -1 : 0; place <= (cubic ? 2 : 1); ++place)
+    {
+      const auto offset = FCCLattice::OffsetOf({ place * step[0], place * step[1], place * step[2] }, parity);
+      const SizeValueType row = j + static_cast<SizeValueType>(offset[1]);
+      const SizeValueType plane = k + static_cast<SizeValueType>(offset[2]);
+      values[place + 1] = field.GetValues(row, plane) + offset[0];
+      if (withGradients && (place == 0 || place == 1))
+      {
+        for (unsigned int axis = 0; axis < 3; ++axis)
+        {
+          gradients[place][axis] = field.GetGradients(axis, row, plane) + offset[0];
+        }
+      }
+    }
+  }
+
+  void
+  Gather(SizeValueType i, FCCEdgeBatch & batch) const
+  {
+    const SizeValueType n = batch.count;
+    for (unsigned int place = 0; place < 4; ++place)
+    {
+      if (values[place] != nullptr)
+      {
+        batch.value[place][n] = values[place][i];
+      }
+    }
+    if (gradients[0][0] != nullptr)
+    {
+      for (unsigned int end = 0; end < 2; ++end)
+      {
+        for (unsigned int axis = 0; axis < 3; ++axis)
+        {
+          batch.gradient[end][axis][n] = gradients[end][axis][i];
+        }
+      }
+    }
+  }
+};
+
+} // namespace
+
+FCCEdgePoints::FCCEdgePoints(const ImageRegion<3> & region,
+                             const FCCFrame & frame,
+                             bool cubic,
+                             double minimumFraction,
+                             SizeValueType margin)
+  : m_Region(region)
+  , m_Frame(frame)
+  , m_Cubic(cubic)
+  , m_MinimumFraction(minimumFraction)
+  , m_Margin(margin)
+{}
+
+void
+FCCEdgePoints::Place(const FCCSigns & signs,
+                     const FCCCutEdges & edges,
+                     SizeValueType k,
+                     const FCCFieldPlanes & field,
+                     TriangleSurface::PointType * points,
+                     TriangleSurface::NormalType * normals) const
+{
+  const SizeValueType toField = 1 - m_Margin; // the field's sites are counted from a layer around the image always
+  const SizeValueType width = m_Region.GetSize(0);
+  FCCEdgeBatch batch{};
+  std::uint32_t id = edges.GetFirstId();
+  const auto flush = [&] {
+    FCCPointKernels::PlaceOnEdges(
+      batch, m_Frame, m_Cubic, m_MinimumFraction, points + id, normals != nullptr ? normals + id : nullptr);
+    id += static_cast<std::uint32_t>(batch.count);
+    batch.count = 0;
+  };
+
+  for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
+  {
+    for (std::uint8_t type = edges.GetFirstType(); type <= edges.GetLastType(); ++type)
+    {
+      const SiteType & step = FCCLattice::OwnedEdges[type];
+      const SizeValueType row = j + toField;
+      const SizeValueType plane = k + toField;
+      const SizeValueType otherRow = row + static_cast<SizeValueType>(step[1]);
+      const SizeValueType otherPlane = plane + static_cast<SizeValueType>(step[2]);
+      const bool isRealRow = field.IsReal(1, row) && field.IsReal(2, plane);
+      const bool isOtherRealRow = field.IsReal(1, otherRow) && field.IsReal(2, otherPlane);
+      const auto offset = static_cast<SizeValueType>(FCCLattice::OffsetOf(step, field.GetParity(row, plane))[0]);
+      const EdgeRows rows = isRealRow && isOtherRealRow
+                              ? EdgeRows(field, step, row, plane, m_Cubic, normals != nullptr)
+                              : EdgeRows();
+      const FCCCutEdges::Row cut = edges.GetRow(j, type);
+      const SiteType firstSite = FCCLattice::SiteOf({ { m_Region.GetIndex(0) - static_cast<IndexValueType>(m_Margin),
+                                                        m_Region.GetIndex(1) + static_cast<IndexValueType>(row) - 1,
+                                                        m_Region.GetIndex(2) + static_cast<IndexValueType>(plane) - 1 } });
+      for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
+      {
+        for (auto mask = cut.mask[word]; mask != 0; mask &= mask - 1)
+        {
+          const SizeValueType i = word * FCCSigns::WordBits + static_cast<SizeValueType>(__builtin_ctzll(mask));
+          const SizeValueType place = i + toField;
+          const SiteType site{ firstSite[0] + 2 * static_cast<IndexValueType>(i), firstSite[1], firstSite[2] };
+          const bool isReal = isRealRow && place - 1 < width;
+          const bool isOtherReal = isOtherRealRow && place + offset - 1 < width;
+          if (isReal && isOtherReal)
+          {
+            rows.Gather(place, batch);
+          }
+          else
+          {
+            this->GatherBorder(site, step, !isReal, batch);
+          }
+          for (unsigned int axis = 0; axis < 3; ++axis)
+          {
+            batch.site[axis][batch.count] = static_cast<double>(site[axis]);
+            batch.step[axis][batch.count] = static_cast<float>(step[axis]);
+          }
+          if (++batch.count == FCCEdgeBatch::Capacity)
+          {
+            flush();
+          }
+        }
+      }
+    }
+  }
+  flush();
+}
+
+/** Values that put the point on the extent's face, and gradients that make its normal the face's. */
+void
+FCCEdgePoints::GatherBorder(const SiteType & site, const SiteType & step, bool startsOutside, FCCEdgeBatch & batch) const
+{
+  const SiteType end{ site[0] + step[0], site[1] + step[1], site[2] + step[2] };
+  const double fraction = startsOutside ? 1.0 - this->FractionToBorder(end, { -step[0], -step[1], -step[2] })
+                                        : this->FractionToBorder(site, step);
+  for (unsigned int place = 0; place < 4; ++place)
+  {
+    batch.value[place][batch.count] = static_cast<float>(fraction + 1.0 - static_cast<double>(place));
+  }
+  const Index<3> outside = FCCLattice::IndexOf(startsOutside ? site : end);
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    const double outwards = outside[axis] < m_Region.GetIndex(axis)          ? -1.0
+                            : outside[axis] > m_Region.GetUpperIndex()[axis] ? 1.0
+                                                                             : 0.0;
+    batch.gradient[0][axis][batch.count] = static_cast<float>(m_Frame.outwardSign * outwards);
+    batch.gradient[1][axis][batch.count] = batch.gradient[0][axis][batch.count];
+  }
+}
+
+/** How far along a step that leaves the image its extent ends. */
+double
+FCCEdgePoints::FractionToBorder(const SiteType & site, const SiteType & step) const
+{
+  constexpr double unitsPerIndex[3] = { 2.0, 1.0, 1.0 };
+  double nearest = 1.0;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    const double begin = unitsPerIndex[axis] * static_cast<double>(m_Region.GetIndex(axis)) - 0.5;
+    const double end = begin + unitsPerIndex[axis] * static_cast<double>(m_Region.GetSize(axis));
+    const double border = step[axis] > 0 ? end : begin;
+    if (step[axis] != 0)
+    {
+      nearest = std::min(nearest, (border - static_cast<double>(site[axis])) / static_cast<double>(step[axis]));
+    }
+  }
+  return nearest;
+}
+
+} // namespace itk

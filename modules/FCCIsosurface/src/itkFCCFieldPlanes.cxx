@@ -1,0 +1,189 @@
+#include "itkFCCFieldPlanes.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace itk
+{
+
+FCCFieldPlanes::FCCFieldPlanes(const std::array<SizeValueType, 3> & size,
+                               IndexValueType parityOfFirstRow,
+                               RowReader readRow)
+  : m_Size{ size[0] + 2, size[1] + 2, size[2] + 2 }
+  , m_ParityOfFirstRow(parityOfFirstRow)
+  , m_ReadRow(std::move(readRow))
+{
+  constexpr SizeValueType block = FCCRowKernels::Block;
+  m_Stride = (m_Size[0] + block - 1) / block * block + 2 * block;
+}
+
+void
+FCCFieldPlanes::LoadValues(SizeValueType k)
+{
+  Plane & plane = m_Values[k % m_Values.size()];
+  if (plane.number == k)
+  {
+    return;
+  }
+  plane.samples.resize(m_Stride * m_Size[1]);
+  plane.number = k;
+  if (this->IsReal(2, k))
+  {
+    for (SizeValueType j = 1; j + 1 < m_Size[1]; ++j)
+    {
+      m_ReadRow(j - 1, k - 1, plane.GetRow(j, m_Stride) + 1);
+    }
+    this->ExtrapolateWithin(plane, k);
+  }
+  else
+  {
+    const bool isFirst = k == 0;
+    this->LoadValues(isFirst ? 1 : k - 1);
+    if (m_Size[2] > 3)
+    {
+      this->LoadValues(isFirst ? 2 : k - 2);
+    }
+    this->ExtrapolatePlane(m_Values, k);
+  }
+}
+
+void
+FCCFieldPlanes::LoadCoefficients(SizeValueType k)
+{
+  Plane & plane = m_Coefficients[k % m_Coefficients.size()];
+  if (plane.number == k)
+  {
+    return;
+  }
+  plane.samples.resize(m_Stride * m_Size[1]);
+  plane.number = k;
+  if (this->IsReal(2, k))
+  {
+    for (SizeValueType near = k - 1; near <= k + 1; ++near)
+    {
+      this->LoadValues(near);
+    }
+    for (SizeValueType j = 1; j + 1 < m_Size[1]; ++j)
+    {
+      FCCRowKernels::NeighborRows neighbors;
+      this->GetNeighborRows(m_Values, j, k, neighbors);
+      FCCRowKernels::QuasiInterpolate(this->GetValues(j, k), neighbors, m_Size[0], plane.GetRow(j, m_Stride));
+    }
+    this->ExtrapolateWithin(plane, k);
+  }
+  else
+  {
+    const bool isFirst = k == 0;
+    this->LoadCoefficients(isFirst ? 1 : k - 1);
+    if (m_Size[2] > 3)
+    {
+      this->LoadCoefficients(isFirst ? 2 : k - 2);
+    }
+    this->ExtrapolatePlane(m_Coefficients, k);
+  }
+}
+
+void
+FCCFieldPlanes::LoadGradients(SizeValueType k, const std::vector<bool> & wanted)
+{
+  auto & planes = m_Gradients[k % m_Gradients.size()];
+  if (planes[0].number == k || !this->IsReal(2, k))
+  {
+    return;
+  }
+  for (SizeValueType near = k - 1; near <= k + 1; ++near)
+  {
+    this->LoadCoefficients(near);
+  }
+  for (Plane & plane : planes)
+  {
+    plane.samples.resize(m_Stride * m_Size[1]);
+    plane.number = k;
+  }
+  for (SizeValueType j = 1; j + 1 < m_Size[1]; ++j)
+  {
+    FCCRowKernels::NeighborRows neighbors;
+    this->GetNeighborRows(m_Coefficients, j, k, neighbors);
+    float * const gradient[3] = { planes[0].GetRow(j, m_Stride),
+                                  planes[1].GetRow(j, m_Stride),
+                                  planes[2].GetRow(j, m_Stride) };
+    for (SizeValueType block = 0; block < this->GetNumberOfBlocks(); ++block)
+    {
+      if (wanted[j * this->GetNumberOfBlocks() + block])
+      {
+        FCCRowKernels::Gradient(neighbors, block * FCCRowKernels::Block, gradient);
+      }
+    }
+  }
+}
+
+/** The layer around the image, in a plane whose real sites are known: the ends of rows, then the rows beyond. */
+void
+FCCFieldPlanes::ExtrapolateWithin(Plane & plane, SizeValueType k) const
+{
+  const SizeValueType last = m_Size[0] - 1;
+  for (SizeValueType j = 1; j + 1 < m_Size[1]; ++j)
+  {
+    float * const row = plane.GetRow(j, m_Stride);
+    row[0] = last > 2 ? 2.0f * row[1] - row[2] : row[1];
+    row[last] = last > 2 ? 2.0f * row[last - 1] - row[last - 2] : row[1];
+  }
+  const SizeValueType end = m_Size[1] - 1;
+  const bool isThick = end > 2;
+  this->ExtrapolateRow(plane.GetRow(1, m_Stride),
+                       isThick ? plane.GetRow(2, m_Stride) : nullptr,
+                       this->GetParity(0, k),
+                       plane.GetRow(0, m_Stride));
+  this->ExtrapolateRow(plane.GetRow(end - 1, m_Stride),
+                       isThick ? plane.GetRow(end - 2, m_Stride) : nullptr,
+                       this->GetParity(end, k),
+                       plane.GetRow(end, m_Stride));
+}
+
+/** A whole plane beyond the image, from the two next to it. */
+template <typename TPlanes>
+void
+FCCFieldPlanes::ExtrapolatePlane(TPlanes & planes, SizeValueType k) const
+{
+  const SizeValueType near = k == 0 ? 1 : k - 1;
+  const SizeValueType far = k == 0 ? 2 : k - 2;
+  const bool isThick = m_Size[2] > 3;
+  for (SizeValueType j = 0; j < m_Size[1]; ++j)
+  {
+    this->ExtrapolateRow(planes[near % planes.size()].GetRow(j, m_Stride),
+                         isThick ? planes[far % planes.size()].GetRow(j, m_Stride) : nullptr,
+                         this->GetParity(j, k),
+                         planes[k % planes.size()].GetRow(j, m_Stride));
+  }
+}
+
+/** Sites two rows apart lie on a line through the middle of two neighbours in the row between. */
+void
+FCCFieldPlanes::ExtrapolateRow(const float * near, const float * far, IndexValueType parity, float * row) const
+{
+  const auto last = static_cast<IndexValueType>(m_Size[0]) - 1;
+  for (IndexValueType i = 0; i <= last; ++i)
+  {
+    const float left = near[std::max<IndexValueType>(i + parity - 1, 0)];
+    const float right = near[std::min<IndexValueType>(i + parity, last)];
+    row[i] = far != nullptr ? (left + right) - far[i] : 0.5f * (left + right);
+  }
+}
+
+template <typename TPlanes>
+void
+FCCFieldPlanes::GetNeighborRows(const TPlanes & planes,
+                                SizeValueType j,
+                                SizeValueType k,
+                                FCCRowKernels::NeighborRows & rows) const
+{
+  const IndexValueType parity = this->GetParity(j, k);
+  for (unsigned int n = 0; n < 12; ++n)
+  {
+    const auto offset = FCCLattice::OffsetOf(FCCLattice::NearestNeighbors[n], parity);
+    const SizeValueType plane = k + static_cast<SizeValueType>(offset[2]);
+    rows[n] = planes[plane % planes.size()].GetRow(j + static_cast<SizeValueType>(offset[1]), m_Stride) + offset[0];
+  }
+}
+
+} // namespace itk

@@ -1,0 +1,104 @@
+#ifndef itkBulkAllocator_h
+#define itkBulkAllocator_h
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <utility>
+
+#ifdef __linux__
+#  include <sys/mman.h>
+#endif
+
+namespace itk
+{
+
+/** \class BulkAllocator
+ * \brief Allocator for arrays of millions of plain elements that are filled by several threads.
+ *
+ * Growing a container leaves new elements uninitialised, so memory is first touched by the thread that fills it. Large
+ * blocks ask the system for huge pages: a mesh of 300 MB costs 150 page faults instead of 75,000.
+ *
+ * \ingroup TriangleSurface
+ */
+template <typename T>
+class BulkAllocator
+{
+public:
+  using value_type = T;
+
+  BulkAllocator() noexcept = default;
+
+  template <typename U>
+  BulkAllocator(const BulkAllocator<U> &) noexcept
+  {}
+
+  T *
+  allocate(std::size_t count)
+  {
+    if (count > static_cast<std::size_t>(-1) / (2 * sizeof(T)))
+    {
+      throw std::bad_array_new_length();
+    }
+    const std::size_t bytes = count * sizeof(T);
+    if (bytes < HugeFrom)
+    {
+      return static_cast<T *>(::operator new(bytes));
+    }
+    void * const block = std::aligned_alloc(HugePage, (bytes + HugePage - 1) / HugePage * HugePage);
+    if (block == nullptr)
+    {
+      throw std::bad_alloc();
+    }
+#ifdef MADV_HUGEPAGE
+    madvise(block, bytes, MADV_HUGEPAGE); // a hint: without huge pages all is well, but slower
+#endif
+    return static_cast<T *>(block);
+  }
+
+  void
+  deallocate(T * block, std::size_t count) noexcept
+  {
+    if (count * sizeof(T) < HugeFrom)
+    {
+      ::operator delete(block);
+    }
+    else
+    {
+      std::free(block);
+    }
+  }
+
+  template <typename U, typename... TArguments>
+  void
+  construct(U * element, TArguments &&... arguments)
+  {
+    if constexpr (sizeof...(TArguments) == 0)
+    {
+      ::new (static_cast<void *>(element)) U;
+    }
+    else
+    {
+      ::new (static_cast<void *>(element)) U(std::forward<TArguments>(arguments)...);
+    }
+  }
+
+  friend bool
+  operator==(const BulkAllocator &, const BulkAllocator &) noexcept
+  {
+    return true;
+  }
+  friend bool
+  operator!=(const BulkAllocator &, const BulkAllocator &) noexcept
+  {
+    return false;
+  }
+
+private:
+  static constexpr std::size_t HugePage = std::size_t{ 1 } << 21;
+  static constexpr std::size_t HugeFrom = 2 * HugePage;
+};
+
+} // namespace itk
+
+#endif
