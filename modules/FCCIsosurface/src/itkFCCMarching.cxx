@@ -1,10 +1,16 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "itkFCCMarching.cxx"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
 #include "itkFCCMarching.h"
 
 #include <algorithm>
 
+HWY_BEFORE_NAMESPACE();
 namespace itk
 {
-namespace
+namespace HWY_NAMESPACE
 {
 
 using WordType = FCCSigns::WordType;
@@ -186,68 +192,40 @@ private:
   SizeValueType m_Shift[Cases::Kinds][Cases::Edges];
 };
 
-} // namespace
-
-FCCSigns::FCCSigns(SizeValueType width, SizeValueType height, SizeValueType depth, IndexValueType parityOfFirstRow)
-  : m_Width(width)
-  , m_Height(height)
-  , m_Depth(depth)
-  , m_Stride((width + WordBits - 1) / WordBits + 1)
-  , m_ParityOfFirstRow(parityOfFirstRow)
-  , m_Words(m_Stride * height * depth, 0)
-{}
-
+/** Masks of the cut edges of some types that plane \a k owns, row by row, within a row type by type. */
 void
-FCCSigns::ShiftRow(SizeValueType j, SizeValueType k)
+FindCutEdges(const FCCSigns & signs, std::uint8_t firstType, std::uint8_t lastType, SizeValueType k, WordType * masks)
 {
-  WordType * const row = this->GetRow(j, k);
-  WordType carried = 0;
-  for (SizeValueType word = 0; word < this->GetNumberOfWords(); ++word)
+  const SizeValueType words = signs.GetNumberOfWords();
+  for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
   {
-    const WordType bits = row[word];
-    row[word] = bits << 1 | carried;
-    carried = bits >> (WordBits - 1);
+    for (std::uint8_t type = firstType; type <= lastType; ++type, masks += words)
+    {
+      std::fill(masks, masks + words, 0);
+      ForEachCutWord(signs, type, j, k, [masks](SizeValueType word, WordType mask) { masks[word] = mask; });
+    }
   }
 }
 
-FCCCutEdges::FCCCutEdges(const FCCSigns & signs, Group group)
-  : m_Signs(&signs)
-  , m_Group(group)
-  , m_Types(static_cast<SizeValueType>(LastType(group) - FirstType(group) + 1))
-  , m_Masks(signs.GetHeight() * m_Types * signs.GetNumberOfWords())
-  , m_Before(m_Masks.size())
-{}
-
+/** Id of the first bit of each mask. */
 void
-FCCCutEdges::Find(SizeValueType k, std::uint32_t firstId)
+NumberBits(const WordType * masks, SizeValueType count, std::uint32_t firstId, std::uint32_t * before)
 {
-  std::fill(m_Masks.begin(), m_Masks.end(), 0);
-  if (k < m_Signs->GetDepth())
-  {
-    for (SizeValueType j = 0; j < m_Signs->GetHeight(); ++j)
-    {
-      for (std::uint8_t type = FirstType(m_Group); type <= LastType(m_Group); ++type)
-      {
-        WordType * const masks = m_Masks.data() + this->FirstWordOf(j, type);
-        ForEachCutWord(*m_Signs, type, j, k, [masks](SizeValueType word, WordType mask) { masks[word] = mask; });
-      }
-    }
-  }
   std::uint32_t id = firstId;
-  for (SizeValueType word = 0; word < m_Masks.size(); ++word)
+  for (SizeValueType word = 0; word < count; ++word)
   {
-    m_Before[word] = id;
-    id += static_cast<std::uint32_t>(CountBits(m_Masks[word]));
+    before[word] = id;
+    id += static_cast<std::uint32_t>(CountBits(masks[word]));
   }
 }
 
 SizeValueType
-FCCCutEdges::Count(const FCCSigns & signs, Group group, SizeValueType k)
+CountCutEdges(const FCCSigns & signs, std::uint8_t firstType, std::uint8_t lastType, SizeValueType k)
 {
   SizeValueType count = 0;
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
   {
-    for (std::uint8_t type = FirstType(group); type <= LastType(group); ++type)
+    for (std::uint8_t type = firstType; type <= lastType; ++type)
     {
       ForEachCutWord(signs, type, j, k, [&count](SizeValueType, WordType mask) { count += CountBits(mask); });
     }
@@ -313,4 +291,89 @@ FillTriangles(const FCCSigns & signs,
   }
 }
 
+} // namespace HWY_NAMESPACE
 } // namespace itk
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace itk
+{
+namespace
+{
+HWY_EXPORT(FindCutEdges);
+HWY_EXPORT(NumberBits);
+HWY_EXPORT(CountCutEdges);
+HWY_EXPORT(CountTriangles);
+HWY_EXPORT(FillTriangles);
+} // namespace
+
+FCCSigns::FCCSigns(SizeValueType width, SizeValueType height, SizeValueType depth, IndexValueType parityOfFirstRow)
+  : m_Width(width)
+  , m_Height(height)
+  , m_Depth(depth)
+  , m_Stride((width + WordBits - 1) / WordBits + 1)
+  , m_ParityOfFirstRow(parityOfFirstRow)
+  , m_Words(m_Stride * height * depth, 0)
+{}
+
+void
+FCCSigns::ShiftRow(SizeValueType j, SizeValueType k)
+{
+  WordType * const row = this->GetRow(j, k);
+  WordType carried = 0;
+  for (SizeValueType word = 0; word < this->GetNumberOfWords(); ++word)
+  {
+    const WordType bits = row[word];
+    row[word] = bits << 1 | carried;
+    carried = bits >> (WordBits - 1);
+  }
+}
+
+FCCCutEdges::FCCCutEdges(const FCCSigns & signs, Group group)
+  : m_Signs(&signs)
+  , m_Group(group)
+  , m_Types(static_cast<SizeValueType>(LastType(group) - FirstType(group) + 1))
+  , m_Masks(signs.GetHeight() * m_Types * signs.GetNumberOfWords())
+  , m_Before(m_Masks.size())
+{}
+
+void
+FCCCutEdges::Find(SizeValueType k, std::uint32_t firstId)
+{
+  if (k < m_Signs->GetDepth())
+  {
+    HWY_DYNAMIC_DISPATCH(FindCutEdges)(*m_Signs, FirstType(m_Group), LastType(m_Group), k, m_Masks.data());
+  }
+  else
+  {
+    std::fill(m_Masks.begin(), m_Masks.end(), 0);
+  }
+  HWY_DYNAMIC_DISPATCH(NumberBits)(m_Masks.data(), m_Masks.size(), firstId, m_Before.data());
+}
+
+SizeValueType
+FCCCutEdges::Count(const FCCSigns & signs, Group group, SizeValueType k)
+{
+  return HWY_DYNAMIC_DISPATCH(CountCutEdges)(signs, FirstType(group), LastType(group), k);
+}
+
+SizeValueType
+CountTriangles(const FCCSigns & signs, SizeValueType k)
+{
+  return HWY_DYNAMIC_DISPATCH(CountTriangles)(signs, k);
+}
+
+void
+FillTriangles(const FCCSigns & signs,
+              SizeValueType k,
+              const FCCCutEdges & lower,
+              const FCCCutEdges & upper,
+              const FCCCutEdges & between,
+              bool reversed,
+              TriangleSurface::TriangleType * triangles)
+{
+  HWY_DYNAMIC_DISPATCH(FillTriangles)(signs, k, lower, upper, between, reversed, triangles);
+}
+
+} // namespace itk
+#endif
