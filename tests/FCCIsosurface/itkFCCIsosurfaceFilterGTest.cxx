@@ -25,6 +25,7 @@ Extract(const ImageType * image, double isovalue, bool closed = true, unsigned i
   const auto filter = Filter::New();
   filter->SetInput(image);
   filter->SetIsovalue(isovalue);
+  filter->SetMode(itk::FCCIsosurfaceMode::Tetrahedra); // the other modes are tested apart
   filter->SetClosed(closed);
   filter->SetNumberOfWorkUnits(workUnits);
   filter->Update();
@@ -84,6 +85,9 @@ TEST(FCCIsosurfaceFilter, PinsItsDefaults)
 {
   const auto filter = Filter::New();
   EXPECT_EQ(filter->GetIsovalue(), 0.0);
+  EXPECT_EQ(filter->GetIsovalues().size(), 1u);
+  EXPECT_EQ(filter->GetMode(), itk::FCCIsosurfaceMode::Lean);
+  EXPECT_TRUE(filter->GetComputeNormals());
   EXPECT_TRUE(filter->GetClosed());
   EXPECT_FALSE(filter->GetInsideIsBelow());
   EXPECT_EQ(filter->GetOutput()->GetNumberOfTriangles(), 0u);
@@ -351,6 +355,7 @@ TEST(FCCIsosurfaceFilter, InsideIsBelowTurnsTheSameSurfaceOver)
   const auto filter = Filter::New();
   filter->SetInput(image);
   filter->SetIsovalue(-0.25);
+  filter->SetMode(itk::FCCIsosurfaceMode::Tetrahedra);
   filter->InsideIsBelowOn();
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetTriangles(), ball->GetTriangles());

@@ -1,10 +1,10 @@
 #ifndef itkFCCEdgePoints_h
 #define itkFCCEdgePoints_h
 
+#include "itkFCCExtent.h"
 #include "itkFCCFieldPlanes.h"
 #include "itkFCCMarching.h"
 #include "itkFCCPointKernels.h"
-#include "itkImageRegion.h"
 
 namespace itk
 {
@@ -34,11 +34,19 @@ public:
                 double minimumFraction,
                 SizeValueType margin);
 
-  /** Places the points on some edges owned by plane \a k of the signs, and their normals unless null. The arrays are
-   * those of the whole surface. */
+  /** Some of the edges that the sites of a plane store. */
+  struct Edges
+  {
+    std::uint8_t firstType;
+    std::uint8_t lastType;
+    std::function<const FCCSigns::WordType *(SizeValueType j, std::uint8_t type)> masks; ///< bit i: that of site i
+  };
+
+  /** Places the points on some edges of plane \a k of the signs, row by row, within a row type by type, and their
+   * normals unless null. The arrays begin with the first of these points. */
   void
   Place(const FCCSigns & signs,
-        const FCCCutEdges & edges,
+        const Edges & edges,
         SizeValueType k,
         const FCCFieldPlanes & field,
         TriangleSurface::PointType * points,
@@ -50,10 +58,7 @@ private:
   void
   GatherBorder(const SiteType & site, const SiteType & step, bool startsOutside, FCCEdgeBatch & batch) const;
 
-  double
-  FractionToBorder(const SiteType & site, const SiteType & step) const;
-
-  ImageRegion<3> m_Region;
+  FCCExtent m_Extent;
   FCCFrame m_Frame;
   bool m_Cubic;
   double m_MinimumFraction;

@@ -22,7 +22,7 @@ namespace itk
  *
  * Planes are computed when asked for, and the last few of each kind are kept: ask in ascending order.
  *
- * Memory: 13 planes of float32. Thread safety: each thread uses its own.
+ * Memory: 14 planes of float32. Thread safety: each thread uses its own.
  *
  * \ingroup FCCIsosurface
  */
@@ -57,14 +57,14 @@ public:
     return m_Stride / FCCRowKernels::Block - 2;
   }
 
-  /** Makes the values of a plane available; the last four planes are. */
+  /** Makes the values of a plane available; the last five planes are. */
   void
   LoadValues(SizeValueType k);
 
   /** Makes the gradients of a plane available where blocks of FCCRowKernels::Block sites are wanted; the last two
-   * planes are. \param wanted one bit a block, rows of GetNumberOfBlocks() bits */
+   * planes are. \param wanted not zero for those, rows of GetNumberOfBlocks() */
   void
-  LoadGradients(SizeValueType k, const std::vector<bool> & wanted);
+  LoadGradients(SizeValueType k, const std::vector<std::uint8_t> & wanted);
 
   const float *
   GetValues(SizeValueType j, SizeValueType k) const
@@ -125,7 +125,7 @@ private:
   IndexValueType m_ParityOfFirstRow;
   RowReader m_ReadRow;
   SizeValueType m_Stride;
-  std::array<Plane, 4> m_Values;
+  std::array<Plane, 5> m_Values;
   std::array<Plane, 3> m_Coefficients;
   std::array<std::array<Plane, 3>, 2> m_Gradients;
 };

@@ -1,6 +1,7 @@
 #ifndef itkFCCIsosurfaceFilter_h
 #define itkFCCIsosurfaceFilter_h
 
+#include "itkFCCFieldPlanes.h"
 #include "itkFCCImage.h"
 #include "itkFCCMarching.h"
 #include "itkFCCPointKernels.h"
@@ -11,33 +12,54 @@
 namespace itk
 {
 
+/** How FCCIsosurfaceFilter puts triangles through the lattice's cells. All modes give a closed (with Closed on),
+ * oriented manifold for any input; T is the number of triangles for the surface area and density at which marching
+ * cubes needs 1. */
+enum class FCCIsosurfaceMode : unsigned char
+{
+  Tetrahedra,      ///< six tetrahedra a parallelepiped, points by linear interpolation: the paper's text. T = 2.33
+  Octahedra,       ///< regular tetrahedra and whole octahedra. T = 1.89
+  Parallelepipeds, ///< whole parallelepipeds, as marching cubes has cubes: the paper's counts. T = 0.94
+  Fine,            ///< as Tetrahedra, points by cubic interpolation: the most accurate. T = 2.33
+  Lean             ///< as Fine, points gathered at sites: the fewest and best-shaped triangles. T = 0.65
+};
+
 /** \class FCCIsosurfaceFilter
- * \brief The isosurface of an FCC image, by marching the six tetrahedra of each of the lattice's parallelepipeds.
+ * \brief Isosurfaces of an FCC image, by marching the lattice's cells.
  *
  * A sample is inside when its value is not below the isovalue, or with InsideIsBelow on, when it is (for lungs and
- * other air); not-a-number is outside. Triangles are counter-clockwise seen from outside, points are in LPS mm. There
- * is one point on each cut edge of the tetrahedra, shared by all its triangles, where the values' linear interpolation
- * crosses the isovalue, but at least MinimumFraction of the edge away from both ends (more where 32-bit positions need
- * it): so no triangle is degenerate, even where samples equal the isovalue.
+ * other air); not-a-number is outside and counted. Triangles are counter-clockwise seen from outside, points are in LPS
+ * mm. One output for each isovalue, in their order; the volume is read once for all.
  *
- * Each point has a normal: the gradient from the twelve neighbours, sum d f(x + d) / 8, at the edge's two ends,
- * blended, and pointing outside; on the faces of the image's extent it is that of the face. In noise, where the
- * gradient says little about the next edge, normals and triangles may disagree.
+ * What is between the samples depends on the mode, see FCCIsosurfaceMode:
+ * - Tetrahedra, Octahedra, Parallelepipeds: there is one point on each cut edge of the cells, where linear
+ *   interpolation crosses the isovalue.
+ * - Fine: the tetrahedra with points where the cubic through four samples on the edge's line crosses it.
+ * - Lean (default): each of these points moves to the nearer end of its edge; those of one site become one vertex, on
+ *   the surface of the samples' reconstruction about the site, and triangles that lose a side vanish. A third of the
+ *   triangles of Tetrahedra, and of far better shape, for about the accuracy of marching cubes; where it would change
+ *   the surface's topology, points stay as in Fine (see FCCSplitSites).
+ * Points on edges stay at least MinimumFraction of the edge away from both ends (more where 32-bit positions need it):
+ * so no triangle is degenerate, even where samples equal the isovalue.
  *
- * All faces of the tetrahedra are triangles, so nothing is ambiguous. With Closed on (the default) everything beyond
- * the image counts as outside, and where a body reaches the border, the surface closes on the faces of the image's
- * extent (see FCCImage), so that it encloses what the samples' Voronoi cells enclose: the surface is a closed oriented
- * manifold for any input. With Closed off the surface ends at the outermost tetrahedra: edges are manifold still, but
- * where two of its parts end at one point of the border, they share that point.
+ * Each point has a normal, unless ComputeNormals is off: the gradient of the box spline that quasi-interpolates the
+ * samples (see FCCFieldPlanes), at the edge's two ends, blended, or at the vertex, pointing outside; on the faces of
+ * the image's extent it is that of the face. In noise, where the gradient says little about the next edge, normals and
+ * triangles may disagree.
+ *
+ * With Closed on (the default) everything beyond the image counts as outside, and where a body reaches the border, the
+ * surface closes on the faces of the image's extent (see FCCImage), so that it encloses what the samples' Voronoi cells
+ * enclose. With Closed off the surface ends at the outermost cells: edges are manifold still, but where two of its
+ * parts end at one point of the border, they share that point.
  *
  * Method: Y. Sahillioglu, "A marching algorithm for isosurface extraction from face-centered cubic lattices", Turk J
- * Elec Eng & Comp Sci 25 (2017), in passes that count, prefix-sum and fill as W. Schroeder et al., "Flying Edges"
- * (2015) do for Cartesian grids: classify samples into bits; count cut edges and triangles of each plane by counting
- * bits; from the sums, fill points and triangles of all planes independently. The output has the same bytes for any
- * number of threads.
+ * Elec Eng & Comp Sci 25 (2017); for Lean G. Treece, R. Prager, A. Gee, "Regularised marching tetrahedra" (1999); in
+ * passes that count, prefix-sum and fill as W. Schroeder et al., "Flying Edges" (2015) do for Cartesian grids: classify
+ * samples into bits; count points and triangles of each plane; from the sums, fill all planes independently. The output
+ * has the same bytes for any number of threads and any processor.
  *
- * Memory: the surface, a bit for each sample (rows are rounded up to words of 64 and have a spare one), and the cut
- * edges of three planes per thread.
+ * Memory: the surface, a bit for each sample and isovalue (rows are rounded up to words of 64 and have a spare one; one
+ * more for Lean), and about 20 planes of the volume in float32 for each thread.
  *
  * Throws when the surface has 2^32 points or more, or when 32-bit positions can't tell its points apart. An isovalue
  * outside the image's range gives an empty surface.
@@ -74,15 +96,44 @@ public:
   const InputImageType *
   GetInput() const;
 
-  using Superclass::GetOutput;
+  /** The surface of the first isovalue, or of the \a n-th. */
   TriangleSurface *
-  GetOutput();
+  GetOutput(DataObjectPointerArraySizeType n = 0);
   const TriangleSurface *
-  GetOutput() const;
+  GetOutput(DataObjectPointerArraySizeType n = 0) const;
 
-  /** The value at which the surface lies, in units of the pixels. Default 0. */
-  itkSetMacro(Isovalue, double);
-  itkGetConstMacro(Isovalue, double);
+  /** The values at which surfaces lie, in units of the pixels: at least one, all finite. Default 0. */
+  void
+  SetIsovalues(const std::vector<double> & isovalues);
+  const std::vector<double> &
+  GetIsovalues() const
+  {
+    return m_Isovalues;
+  }
+
+  /** One isovalue, or the first of several. */
+  void
+  SetIsovalue(double isovalue)
+  {
+    this->SetIsovalues({ isovalue });
+  }
+  double
+  GetIsovalue() const
+  {
+    return m_Isovalues.front();
+  }
+
+  /** How the surface is put through the cells. Default FCCIsosurfaceMode::Lean. */
+  itkSetEnumMacro(Mode, FCCIsosurfaceMode);
+  itkGetEnumMacro(Mode, FCCIsosurfaceMode);
+
+  /** Whether points get normals. Default on. */
+  itkSetMacro(ComputeNormals, bool);
+  itkGetConstMacro(ComputeNormals, bool);
+  itkBooleanMacro(ComputeNormals);
+
+  /** Samples of the last update that were not a number; they count as outside. */
+  itkGetConstMacro(NumberOfUndefinedSamples, SizeValueType);
 
   /** Whether samples below the isovalue are inside instead of those at or above it. Default off. */
   itkSetMacro(InsideIsBelow, bool);
@@ -124,25 +175,42 @@ private:
   double
   ComputeFraction() const;
 
-  FCCSigns
-  Classify();
+  FCCFrame
+  MakeFrame() const;
+
+  FCCFieldPlanes::RowReader
+  MakeRowReader(double isovalue) const;
+
+  /** With left-handed axes the triangles of the tables face inwards. */
+  bool
+  IsLeftHanded() const;
+
+  /** The signs for each isovalue, with a layer of sites outside around the image if \a margin is 1. */
+  std::vector<FCCSigns>
+  Classify(SizeValueType margin);
+
+  void
+  ExtractTetrahedra(const FCCSigns & signs, double isovalue, TriangleSurface & surface);
+
+  void
+  ExtractLean(const FCCSigns & signs, double isovalue, TriangleSurface & surface);
 
   Layout
   Count(const FCCSigns & signs);
 
   void
-  Fill(const FCCSigns & signs, const Layout & layout);
-
-  FCCFrame
-  MakeFrame() const;
+  Allocate(TriangleSurface & surface, SizeValueType points, SizeValueType triangles) const;
 
   /** Calls \a work(begin, end) for slabs of planes, by several threads, and reports its share of the progress. */
   template <typename TWork>
   void
   ForEachSlab(SizeValueType planes, float share, const TWork & work);
 
-  double m_Isovalue{ 0.0 };
+  std::vector<double> m_Isovalues{ 0.0 };
+  FCCIsosurfaceMode m_Mode{ FCCIsosurfaceMode::Lean };
   double m_UsedFraction{ MinimumFraction };
+  SizeValueType m_NumberOfUndefinedSamples{ 0 };
+  bool m_ComputeNormals{ true };
   bool m_InsideIsBelow{ false };
   bool m_Closed{ true };
 };

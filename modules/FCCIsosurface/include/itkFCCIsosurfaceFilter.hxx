@@ -2,9 +2,11 @@
 #define itkFCCIsosurfaceFilter_hxx
 
 #include "itkFCCEdgePoints.h"
+#include "itkFCCLeanSurface.h"
 #include "itkMultiThreaderBase.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -35,16 +37,40 @@ FCCIsosurfaceFilter<TInputImage>::GetInput() const -> const InputImageType *
 
 template <typename TInputImage>
 TriangleSurface *
-FCCIsosurfaceFilter<TInputImage>::GetOutput()
+FCCIsosurfaceFilter<TInputImage>::GetOutput(DataObjectPointerArraySizeType n)
 {
-  return itkDynamicCastInDebugMode<TriangleSurface *>(this->GetPrimaryOutput());
+  return itkDynamicCastInDebugMode<TriangleSurface *>(this->ProcessObject::GetOutput(n));
 }
 
 template <typename TInputImage>
 const TriangleSurface *
-FCCIsosurfaceFilter<TInputImage>::GetOutput() const
+FCCIsosurfaceFilter<TInputImage>::GetOutput(DataObjectPointerArraySizeType n) const
 {
-  return itkDynamicCastInDebugMode<const TriangleSurface *>(this->GetPrimaryOutput());
+  return itkDynamicCastInDebugMode<const TriangleSurface *>(this->ProcessObject::GetOutput(n));
+}
+
+template <typename TInputImage>
+void
+FCCIsosurfaceFilter<TInputImage>::SetIsovalues(const std::vector<double> & isovalues)
+{
+  if (isovalues == m_Isovalues)
+  {
+    return;
+  }
+  if (isovalues.empty())
+  {
+    itkExceptionMacro("There must be at least one isovalue.");
+  }
+  m_Isovalues = isovalues;
+  this->SetNumberOfIndexedOutputs(isovalues.size());
+  for (std::size_t n = 0; n < isovalues.size(); ++n)
+  {
+    if (this->ProcessObject::GetOutput(n) == nullptr)
+    {
+      this->ProcessObject::SetNthOutput(n, this->MakeOutput(n));
+    }
+  }
+  this->Modified();
 }
 
 template <typename TInputImage>
@@ -59,7 +85,16 @@ void
 FCCIsosurfaceFilter<TInputImage>::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);
-  os << indent << "Isovalue: " << m_Isovalue << std::endl;
+  os << indent << "Isovalues:";
+  for (const double isovalue : m_Isovalues)
+  {
+    os << ' ' << isovalue;
+  }
+  os << std::endl;
+  constexpr const char * modes[] = { "Tetrahedra", "Octahedra", "Parallelepipeds", "Fine", "Lean" };
+  os << indent << "Mode: " << modes[static_cast<unsigned int>(m_Mode)] << std::endl;
+  os << indent << "ComputeNormals: " << (m_ComputeNormals ? "On" : "Off") << std::endl;
+  os << indent << "NumberOfUndefinedSamples: " << m_NumberOfUndefinedSamples << std::endl;
   os << indent << "InsideIsBelow: " << (m_InsideIsBelow ? "On" : "Off") << std::endl;
   os << indent << "Closed: " << (m_Closed ? "On" : "Off") << std::endl;
 }
@@ -69,9 +104,12 @@ void
 FCCIsosurfaceFilter<TInputImage>::VerifyPreconditions() ITKv5_CONST
 {
   Superclass::VerifyPreconditions();
-  if (!std::isfinite(m_Isovalue))
+  for (const double isovalue : m_Isovalues)
   {
-    itkExceptionMacro("Isovalue must be a finite number, not " << m_Isovalue << ".");
+    if (!std::isfinite(isovalue))
+    {
+      itkExceptionMacro("Isovalue must be a finite number, not " << isovalue << ".");
+    }
   }
 }
 
@@ -80,13 +118,29 @@ void
 FCCIsosurfaceFilter<TInputImage>::GenerateData()
 {
   this->UpdateProgress(0.0f);
-  this->GetOutput()->Initialize();
   m_UsedFraction = this->ComputeFraction();
-  const FCCSigns signs = this->Classify();
-  this->Fill(signs, this->Count(signs));
-  if (!m_Closed)
+  const bool isLean = m_Mode == FCCIsosurfaceMode::Lean;
+  const std::vector<FCCSigns> signs = this->Classify(m_Closed || isLean ? 1 : 0);
+  for (std::size_t n = 0; n < m_Isovalues.size(); ++n)
   {
-    this->GetOutput()->RemoveUnusedPoints(); // on edges of no tetrahedron, at the ragged ends of rows
+    TriangleSurface & surface = *this->GetOutput(n);
+    surface.Initialize();
+    switch (m_Mode)
+    {
+      case FCCIsosurfaceMode::Lean:
+        this->ExtractLean(signs[n], m_Isovalues[n], surface);
+        break;
+      case FCCIsosurfaceMode::Octahedra:
+      case FCCIsosurfaceMode::Parallelepipeds:
+        itkExceptionMacro("not there yet");
+      default:
+        this->ExtractTetrahedra(signs[n], m_Isovalues[n], surface);
+    }
+    if (!m_Closed)
+    {
+      surface.RemoveUnusedPoints(); // on edges of no cell, at the ragged ends of rows
+    }
+    surface.Modified();
   }
   this->UpdateProgress(1.0f);
 }
@@ -159,34 +213,112 @@ FCCIsosurfaceFilter<TInputImage>::ForEachSlab(SizeValueType planes, float share,
 }
 
 template <typename TInputImage>
-FCCSigns
-FCCIsosurfaceFilter<TInputImage>::Classify()
+std::vector<FCCSigns>
+FCCIsosurfaceFilter<TInputImage>::Classify(SizeValueType margin)
 {
   const InputImageType * const image = this->GetInput();
   const auto & region = image->GetBufferedRegion();
-  const SizeValueType padding = m_Closed ? 1 : 0;
-  const auto shift = static_cast<IndexValueType>(padding);
-  FCCSigns signs(region.GetSize(0) + 2 * padding,
-                 region.GetSize(1) + 2 * padding,
-                 region.GetSize(2) + 2 * padding,
-                 FCCLattice::Parity(region.GetIndex(1) - shift, region.GetIndex(2) - shift));
-
+  const auto shift = static_cast<IndexValueType>(margin);
+  const FCCSigns blank(region.GetSize(0) + 2 * margin,
+                       region.GetSize(1) + 2 * margin,
+                       region.GetSize(2) + 2 * margin,
+                       FCCLattice::Parity(region.GetIndex(1) - shift, region.GetIndex(2) - shift));
+  std::vector<FCCSigns> signs(m_Isovalues.size(), blank);
+  std::atomic<SizeValueType> undefined{ 0 };
   this->ForEachSlab(region.GetSize(2), 0.1f, [&](SizeValueType begin, SizeValueType end) {
+    SizeValueType undefinedInSlab = 0;
     for (SizeValueType k = begin; k < end; ++k)
     {
       for (SizeValueType j = 0; j < region.GetSize(1); ++j)
       {
         const PixelType * const values = image->GetBufferPointer() + (k * region.GetSize(1) + j) * region.GetSize(0);
-        FCCSigns::WordType * const row = signs.GetRow(j + padding, k + padding);
-        FCCRowKernels::Classify(values, region.GetSize(0), m_Isovalue, m_InsideIsBelow, row);
-        if (m_Closed)
+        if constexpr (std::is_floating_point_v<PixelType>)
         {
-          signs.ShiftRow(j + padding, k + padding);
+          for (SizeValueType i = 0; i < region.GetSize(0); ++i)
+          {
+            undefinedInSlab += values[i] != values[i] ? 1 : 0;
+          }
+        }
+        for (std::size_t n = 0; n < signs.size(); ++n)
+        {
+          FCCRowKernels::Classify(
+            values, region.GetSize(0), m_Isovalues[n], m_InsideIsBelow, signs[n].GetRow(j + margin, k + margin));
+          if (margin > 0)
+          {
+            signs[n].ShiftRow(j + margin, k + margin);
+          }
         }
       }
     }
+    undefined += undefinedInSlab;
   });
+  m_NumberOfUndefinedSamples = undefined;
   return signs;
+}
+
+template <typename TInputImage>
+void
+FCCIsosurfaceFilter<TInputImage>::Allocate(TriangleSurface & surface,
+                                           SizeValueType points,
+                                           SizeValueType triangles) const
+{
+  if (points > std::numeric_limits<std::uint32_t>::max())
+  {
+    itkExceptionMacro("The surface would have "
+                      << points
+                      << " points, more than 32-bit indices reach; resample at a lower density, or "
+                         "extract from a smaller region.");
+  }
+  surface.GetPoints().resize(points);
+  surface.GetNormals().resize(m_ComputeNormals ? points : 0);
+  surface.GetTriangles().resize(triangles);
+}
+
+template <typename TInputImage>
+FCCFieldPlanes::RowReader
+FCCIsosurfaceFilter<TInputImage>::MakeRowReader(double isovalue) const
+{
+  const InputImageType * const image = this->GetInput();
+  const auto & size = image->GetBufferedRegion().GetSize();
+  return [image, size, isovalue](SizeValueType j, SizeValueType k, float * values) {
+    FCCRowKernels::Subtract(image->GetBufferPointer() + (k * size[1] + j) * size[0], size[0], isovalue, values);
+  };
+}
+
+template <typename TInputImage>
+bool
+FCCIsosurfaceFilter<TInputImage>::IsLeftHanded() const
+{
+  return vnl_determinant(this->GetInput()->GetDirection().GetVnlMatrix()) < 0.0;
+}
+
+template <typename TInputImage>
+void
+FCCIsosurfaceFilter<TInputImage>::ExtractLean(const FCCSigns & signs, double isovalue, TriangleSurface & surface)
+{
+  const InputImageType * const image = this->GetInput();
+  const auto & size = image->GetBufferedRegion().GetSize();
+  FCCLeanSurface lean(signs,
+                      image->GetBufferedRegion(),
+                      this->MakeFrame(),
+                      m_InsideIsBelow,
+                      m_UsedFraction,
+                      this->MakeRowReader(isovalue));
+  const float share = 0.9f / static_cast<float>(m_Isovalues.size());
+  const SizeValueType planes = signs.GetDepth();
+  this->ForEachSlab(planes, 0.3f * share, [&](SizeValueType begin, SizeValueType end) { lean.FindSplits(begin, end); });
+  lean.Close([&](SizeValueType i, SizeValueType j, SizeValueType k) {
+    float value;
+    FCCRowKernels::Subtract(
+      image->GetBufferPointer() + ((k - 1) * size[1] + j - 1) * size[0] + i - 1, 1, isovalue, &value);
+    return value;
+  });
+  this->ForEachSlab(planes, 0.2f * share, [&](SizeValueType begin, SizeValueType end) { lean.Count(begin, end); });
+  lean.Finish();
+  this->Allocate(surface, lean.GetNumberOfPoints(), lean.GetNumberOfTriangles());
+  this->ForEachSlab(planes, 0.5f * share, [&](SizeValueType begin, SizeValueType end) {
+    lean.Fill(begin, end, this->IsLeftHanded(), surface);
+  });
 }
 
 template <typename TInputImage>
@@ -197,7 +329,7 @@ FCCIsosurfaceFilter<TInputImage>::Count(const FCCSigns & signs) -> Layout
   Layout layout{ std::vector<SizeValueType>(depth + 1),
                  std::vector<SizeValueType>(depth + 1),
                  std::vector<SizeValueType>(depth + 1) };
-  this->ForEachSlab(depth, 0.2f, [&](SizeValueType begin, SizeValueType end) {
+  this->ForEachSlab(depth, 0.2f / static_cast<float>(m_Isovalues.size()), [&](SizeValueType begin, SizeValueType end) {
     for (SizeValueType k = begin; k < end; ++k)
     {
       layout.inPlane[k] = FCCCutEdges::Count(signs, FCCCutEdges::Group::InPlane, k);
@@ -219,71 +351,70 @@ FCCIsosurfaceFilter<TInputImage>::Count(const FCCSigns & signs) -> Layout
     points = afterBetween;
     triangles = afterTriangles;
   }
-  if (points > std::numeric_limits<std::uint32_t>::max())
-  {
-    itkExceptionMacro("The surface would have "
-                      << points
-                      << " points, more than 32-bit indices reach; resample at a lower density, or "
-                         "extract from a smaller region.");
-  }
   return layout;
 }
 
 template <typename TInputImage>
 void
-FCCIsosurfaceFilter<TInputImage>::Fill(const FCCSigns & signs, const Layout & layout)
+FCCIsosurfaceFilter<TInputImage>::ExtractTetrahedra(const FCCSigns & signs, double isovalue, TriangleSurface & surface)
 {
+  const Layout layout = this->Count(signs);
   const SizeValueType depth = signs.GetDepth();
-  TriangleSurface * const surface = this->GetOutput();
-  surface->GetPoints().resize(layout.inPlane[depth]);
-  surface->GetNormals().resize(layout.inPlane[depth]);
-  surface->GetTriangles().resize(layout.triangles[depth]);
-
-  // With left-handed axes the triangles of the tables face inwards.
-  const auto & direction = this->GetInput()->GetDirection();
-  const bool reversed = vnl_determinant(direction.GetVnlMatrix()) < 0.0;
+  this->Allocate(surface, layout.inPlane[depth], layout.triangles[depth]);
   const InputImageType * const image = this->GetInput();
   const ImageRegion<3> & region = image->GetBufferedRegion();
   const SizeValueType margin = m_Closed ? 1 : 0;
-  const FCCEdgePoints edgePoints(region, this->MakeFrame(), false, m_UsedFraction, margin);
-  const auto readRow = [&](SizeValueType j, SizeValueType k, float * values) {
-    FCCRowKernels::Subtract(image->GetBufferPointer() + (k * region.GetSize(1) + j) * region.GetSize(0),
-                            region.GetSize(0),
-                            m_Isovalue,
-                            values);
-  };
+  const bool isCubic = m_Mode == FCCIsosurfaceMode::Fine;
+  const bool reversed = this->IsLeftHanded();
+  const FCCEdgePoints edgePoints(region, this->MakeFrame(), isCubic, m_UsedFraction, margin);
+  const auto readRow = this->MakeRowReader(isovalue);
   const auto idOf = [](SizeValueType id) { return static_cast<std::uint32_t>(id); };
 
-  this->ForEachSlab(depth, 0.7f, [&](SizeValueType begin, SizeValueType end) {
-    FCCCutEdges lower(signs, FCCCutEdges::Group::InPlane);
-    FCCCutEdges upper(signs, FCCCutEdges::Group::InPlane);
-    FCCCutEdges between(signs, FCCCutEdges::Group::Between);
+  this->ForEachSlab(depth, 0.7f / static_cast<float>(m_Isovalues.size()), [&](SizeValueType begin, SizeValueType end) {
     FCCFieldPlanes field({ region.GetSize(0), region.GetSize(1), region.GetSize(2) },
                          FCCLattice::Parity(region.GetIndex(1) - 1, region.GetIndex(2) - 1),
                          readRow);
-    std::vector<bool> wanted(signs.GetHeight() * 1000, true);
+    std::vector<std::uint8_t> blocks;
+    const auto loadAround = [&](SizeValueType k) {
+      const SizeValueType plane = k + 1 - margin;
+      for (SizeValueType near = plane > 0 ? plane - 1 : 0; near < std::min(plane + 2, region.GetSize(2) + 2); ++near)
+      {
+        field.LoadValues(near);
+      }
+      if (m_ComputeNormals && k < depth)
+      {
+        FindBorderBlocks(signs, k, FCCRowKernels::Block, field.GetNumberOfBlocks(), 1 - margin, blocks);
+        field.LoadGradients(plane, blocks);
+      }
+    };
+    FCCCutEdges lower(signs, FCCCutEdges::Group::InPlane);
+    FCCCutEdges upper(signs, FCCCutEdges::Group::InPlane);
+    FCCCutEdges between(signs, FCCCutEdges::Group::Between);
     lower.Find(begin, idOf(layout.inPlane[begin]));
+    loadAround(begin);
     for (SizeValueType k = begin; k < end; ++k)
     {
       between.Find(k, idOf(layout.between[k]));
       upper.Find(k + 1, idOf(layout.inPlane[k + 1]));
-      const SizeValueType plane = k + 1 - margin;
-      for (SizeValueType near = plane > 0 ? plane - 1 : 0; near <= std::min(plane + 2, region.GetSize(2) + 1); ++near)
+      loadAround(k + 1);
+      for (const FCCCutEdges * const edges : { &lower, &between })
       {
-        field.LoadValues(near);
+        edgePoints.Place(signs,
+                         { edges->GetFirstType(),
+                           edges->GetLastType(),
+                           [edges](SizeValueType j, std::uint8_t type) { return edges->GetRow(j, type).mask; } },
+                         k,
+                         field,
+                         surface.GetPoints().data() + edges->GetFirstId(),
+                         m_ComputeNormals ? surface.GetNormals().data() + edges->GetFirstId() : nullptr);
       }
-      field.LoadGradients(plane, wanted);
-      field.LoadGradients(plane + 1, wanted);
-      edgePoints.Place(signs, lower, k, field, surface->GetPoints().data(), surface->GetNormals().data());
-      edgePoints.Place(signs, between, k, field, surface->GetPoints().data(), surface->GetNormals().data());
       if (k + 1 < depth)
       {
-        FillTriangles(signs, k, lower, upper, between, reversed, surface->GetTriangles().data() + layout.triangles[k]);
+        FillTriangles(signs, k, lower, upper, between, reversed, surface.GetTriangles().data() + layout.triangles[k]);
       }
       std::swap(lower, upper);
     }
   });
-  surface->Modified();
 }
 
 template <typename TInputImage>

@@ -1,6 +1,7 @@
 #ifndef itkFCCPointKernels_h
 #define itkFCCPointKernels_h
 
+#include "itkFCCRowKernels.h"
 #include "itkTriangleSurface.h"
 
 #include <array>
@@ -16,9 +17,9 @@ namespace itk
 struct FCCFrame
 {
   std::array<double, 3> origin;
-  std::array<std::array<double, 3>, 3> matrix;           ///< [world axis][lattice axis]
+  std::array<std::array<double, 3>, 3> matrix;          ///< [world axis][lattice axis]
   std::array<std::array<double, 3>, 3> gradientToWorld; ///< [world axis][lattice axis]
-  double outwardSign;                                    ///< of a gradient, to point outside
+  double outwardSign;                                   ///< of a gradient, to point outside
 };
 
 /** \class FCCEdgeBatch
@@ -35,6 +36,23 @@ struct FCCEdgeBatch
   float gradient[2][3][Capacity]; ///< at both ends, in lattice coordinates
   float step[3][Capacity];        ///< from the edge's first end to the other
   double site[3][Capacity];       ///< the first end
+};
+
+/** \class FCCClusterBlock
+ * \brief A block of sites in a row, each of which gathers the crossings that it owns in one vertex.
+ *
+ * \ingroup FCCIsosurface
+ */
+struct FCCClusterBlock
+{
+  static constexpr SizeValueType Lanes = FCCRowKernels::Block;
+  static constexpr unsigned int Directions = 14;
+
+  const float * values;                ///< at the sites, less the isovalue
+  const float * neighbors[Directions]; ///< at their neighbours: FCCLattice::OwnedEdges and their opposites
+  const float * gradient[3];           ///< at the sites, in lattice coordinates
+  std::uint32_t owned[Directions];     ///< bit n: site n owns its crossing in this direction
+  double site[3];                      ///< the first site
 };
 
 /** \class FCCPointKernels
@@ -56,6 +74,15 @@ struct FCCPointKernels
                double minimumFraction,
                TriangleSurface::PointType * points,
                TriangleSurface::NormalType * normals);
+
+  /** Vertices of a block's sites: the mean of the owned crossings, moved onto the surface of the field's second-order
+   * expansion about the site, by at most half the distance of nearest neighbours. The expansion has the given gradient
+   * and the second differences of the twelve nearest neighbours. Values of lanes that own nothing are undefined. */
+  static void
+  PlaceClusters(const FCCClusterBlock & block,
+                const FCCFrame & frame,
+                TriangleSurface::PointType (&points)[FCCClusterBlock::Lanes],
+                TriangleSurface::NormalType (&normals)[FCCClusterBlock::Lanes]);
 };
 
 } // namespace itk

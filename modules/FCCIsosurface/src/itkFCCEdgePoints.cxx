@@ -1,7 +1,5 @@
 #include "itkFCCEdgePoints.h"
 
-#include <algorithm>
-
 namespace itk
 {
 namespace
@@ -71,7 +69,7 @@ FCCEdgePoints::FCCEdgePoints(const ImageRegion<3> & region,
                              bool cubic,
                              double minimumFraction,
                              SizeValueType margin)
-  : m_Region(region)
+  : m_Extent(region)
   , m_Frame(frame)
   , m_Cubic(cubic)
   , m_MinimumFraction(minimumFraction)
@@ -80,26 +78,26 @@ FCCEdgePoints::FCCEdgePoints(const ImageRegion<3> & region,
 
 void
 FCCEdgePoints::Place(const FCCSigns & signs,
-                     const FCCCutEdges & edges,
+                     const Edges & edges,
                      SizeValueType k,
                      const FCCFieldPlanes & field,
                      TriangleSurface::PointType * points,
                      TriangleSurface::NormalType * normals) const
 {
   const SizeValueType toField = 1 - m_Margin; // the field's sites are counted from a layer around the image always
-  const SizeValueType width = m_Region.GetSize(0);
+  const ImageRegion<3> & region = m_Extent.GetRegion();
+  const SizeValueType width = region.GetSize(0);
   FCCEdgeBatch batch{};
-  std::uint32_t id = edges.GetFirstId();
   const auto flush = [&] {
-    FCCPointKernels::PlaceOnEdges(
-      batch, m_Frame, m_Cubic, m_MinimumFraction, points + id, normals != nullptr ? normals + id : nullptr);
-    id += static_cast<std::uint32_t>(batch.count);
+    FCCPointKernels::PlaceOnEdges(batch, m_Frame, m_Cubic, m_MinimumFraction, points, normals);
+    points += batch.count;
+    normals += normals != nullptr ? batch.count : 0;
     batch.count = 0;
   };
 
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
   {
-    for (std::uint8_t type = edges.GetFirstType(); type <= edges.GetLastType(); ++type)
+    for (std::uint8_t type = edges.firstType; type <= edges.lastType; ++type)
     {
       const SiteType & step = FCCLattice::OwnedEdges[type];
       const SizeValueType row = j + toField;
@@ -109,16 +107,16 @@ FCCEdgePoints::Place(const FCCSigns & signs,
       const bool isRealRow = field.IsReal(1, row) && field.IsReal(2, plane);
       const bool isOtherRealRow = field.IsReal(1, otherRow) && field.IsReal(2, otherPlane);
       const auto offset = static_cast<SizeValueType>(FCCLattice::OffsetOf(step, field.GetParity(row, plane))[0]);
-      const EdgeRows rows = isRealRow && isOtherRealRow
-                              ? EdgeRows(field, step, row, plane, m_Cubic, normals != nullptr)
-                              : EdgeRows();
-      const FCCCutEdges::Row cut = edges.GetRow(j, type);
-      const SiteType firstSite = FCCLattice::SiteOf({ { m_Region.GetIndex(0) - static_cast<IndexValueType>(m_Margin),
-                                                        m_Region.GetIndex(1) + static_cast<IndexValueType>(row) - 1,
-                                                        m_Region.GetIndex(2) + static_cast<IndexValueType>(plane) - 1 } });
+      const EdgeRows rows =
+        isRealRow && isOtherRealRow ? EdgeRows(field, step, row, plane, m_Cubic, normals != nullptr) : EdgeRows();
+      const FCCSigns::WordType * const cut = edges.masks(j, type);
+      const SiteType firstSite =
+        FCCLattice::SiteOf({ { region.GetIndex(0) - static_cast<IndexValueType>(m_Margin),
+                               region.GetIndex(1) + static_cast<IndexValueType>(row) - 1,
+                               region.GetIndex(2) + static_cast<IndexValueType>(plane) - 1 } });
       for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
       {
-        for (auto mask = cut.mask[word]; mask != 0; mask &= mask - 1)
+        for (auto mask = cut[word]; mask != 0; mask &= mask - 1)
         {
           const SizeValueType i = word * FCCSigns::WordBits + static_cast<SizeValueType>(__builtin_ctzll(mask));
           const SizeValueType place = i + toField;
@@ -151,43 +149,24 @@ FCCEdgePoints::Place(const FCCSigns & signs,
 
 /** Values that put the point on the extent's face, and gradients that make its normal the face's. */
 void
-FCCEdgePoints::GatherBorder(const SiteType & site, const SiteType & step, bool startsOutside, FCCEdgeBatch & batch) const
+FCCEdgePoints::GatherBorder(const SiteType & site,
+                            const SiteType & step,
+                            bool startsOutside,
+                            FCCEdgeBatch & batch) const
 {
   const SiteType end{ site[0] + step[0], site[1] + step[1], site[2] + step[2] };
-  const double fraction = startsOutside ? 1.0 - this->FractionToBorder(end, { -step[0], -step[1], -step[2] })
-                                        : this->FractionToBorder(site, step);
+  const double fraction = startsOutside ? 1.0 - m_Extent.FractionToBorder(end, { -step[0], -step[1], -step[2] })
+                                        : m_Extent.FractionToBorder(site, step);
   for (unsigned int place = 0; place < 4; ++place)
   {
     batch.value[place][batch.count] = static_cast<float>(fraction + 1.0 - static_cast<double>(place));
   }
-  const Index<3> outside = FCCLattice::IndexOf(startsOutside ? site : end);
+  const auto direction = m_Extent.DirectionTo(startsOutside ? site : end);
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    const double outwards = outside[axis] < m_Region.GetIndex(axis)          ? -1.0
-                            : outside[axis] > m_Region.GetUpperIndex()[axis] ? 1.0
-                                                                             : 0.0;
-    batch.gradient[0][axis][batch.count] = static_cast<float>(m_Frame.outwardSign * outwards);
+    batch.gradient[0][axis][batch.count] = static_cast<float>(m_Frame.outwardSign * direction[axis]);
     batch.gradient[1][axis][batch.count] = batch.gradient[0][axis][batch.count];
   }
-}
-
-/** How far along a step that leaves the image its extent ends. */
-double
-FCCEdgePoints::FractionToBorder(const SiteType & site, const SiteType & step) const
-{
-  constexpr double unitsPerIndex[3] = { 2.0, 1.0, 1.0 };
-  double nearest = 1.0;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    const double begin = unitsPerIndex[axis] * static_cast<double>(m_Region.GetIndex(axis)) - 0.5;
-    const double end = begin + unitsPerIndex[axis] * static_cast<double>(m_Region.GetSize(axis));
-    const double border = step[axis] > 0 ? end : begin;
-    if (step[axis] != 0)
-    {
-      nearest = std::min(nearest, (border - static_cast<double>(site[axis])) / static_cast<double>(step[axis]));
-    }
-  }
-  return nearest;
 }
 
 } // namespace itk

@@ -14,7 +14,8 @@ FCCFieldPlanes::FCCFieldPlanes(const std::array<SizeValueType, 3> & size,
   , m_ReadRow(std::move(readRow))
 {
   constexpr SizeValueType block = FCCRowKernels::Block;
-  m_Stride = (m_Size[0] + block - 1) / block * block + 2 * block;
+  constexpr SizeValueType word = 64; // rows are also read by the words of their signs
+  m_Stride = (m_Size[0] + word - 1) / word * word + 2 * block;
 }
 
 void
@@ -84,7 +85,7 @@ FCCFieldPlanes::LoadCoefficients(SizeValueType k)
 }
 
 void
-FCCFieldPlanes::LoadGradients(SizeValueType k, const std::vector<bool> & wanted)
+FCCFieldPlanes::LoadGradients(SizeValueType k, const std::vector<std::uint8_t> & wanted)
 {
   auto & planes = m_Gradients[k % m_Gradients.size()];
   if (planes[0].number == k || !this->IsReal(2, k))

@@ -192,6 +192,64 @@ private:
   SizeValueType m_Shift[Cases::Kinds][Cases::Edges];
 };
 
+/** Masks of the cut edges of one type that a row owns; returns all of them together. */
+WordType
+FindCutEdgesOfRow(const FCCSigns & signs, std::uint8_t type, SizeValueType j, SizeValueType k, WordType * masks)
+{
+  std::fill(masks, masks + signs.GetNumberOfWords(), 0);
+  WordType any = 0;
+  ForEachCutWord(signs, type, j, k, [masks, &any](SizeValueType word, WordType mask) {
+    masks[word] = mask;
+    any |= mask;
+  });
+  return any;
+}
+
+/** Bits of the sites of a row that have a neighbour on the other side of the surface. */
+void
+FindBorderSites(const FCCSigns & signs, SizeValueType j, SizeValueType k, WordType * border)
+{
+  const SizeValueType words = signs.GetNumberOfWords();
+  const WordType * const row = signs.GetRow(j, k);
+  std::fill(border, border + words, 0);
+  for (unsigned int direction = 0; direction < 2 * FCCLattice::OwnedEdges.size(); ++direction)
+  {
+    const auto & edge = FCCLattice::OwnedEdges[direction % FCCLattice::OwnedEdges.size()];
+    const IndexValueType sign = direction < FCCLattice::OwnedEdges.size() ? 1 : -1;
+    const SizeValueType otherJ = j + static_cast<SizeValueType>(sign * edge[1]);
+    const SizeValueType otherK = k + static_cast<SizeValueType>(sign * edge[2]);
+    if (otherJ >= signs.GetHeight() || otherK >= signs.GetDepth())
+    {
+      continue;
+    }
+    const WordType * const other = signs.GetRow(otherJ, otherK);
+    const auto shift =
+      FCCLattice::OffsetOf({ sign * edge[0], sign * edge[1], sign * edge[2] }, signs.GetParity(j, k))[0];
+    if (shift == 0)
+    {
+      for (SizeValueType word = 0; word < words; ++word)
+      {
+        border[word] |= row[word] ^ other[word];
+      }
+    }
+    else if (shift == 1)
+    {
+      for (SizeValueType word = 0; word < words; ++word)
+      {
+        border[word] |= row[word] ^ Next(other, word);
+      }
+    }
+    else
+    {
+      border[0] |= row[0] ^ other[0] << 1;
+      for (SizeValueType word = 1; word < words; ++word)
+      {
+        border[word] |= row[word] ^ (other[word] << 1 | other[word - 1] >> (FCCSigns::WordBits - 1));
+      }
+    }
+  }
+}
+
 /** Masks of the cut edges of some types that plane \a k owns, row by row, within a row type by type. */
 void
 FindCutEdges(const FCCSigns & signs, std::uint8_t firstType, std::uint8_t lastType, SizeValueType k, WordType * masks)
@@ -201,8 +259,7 @@ FindCutEdges(const FCCSigns & signs, std::uint8_t firstType, std::uint8_t lastTy
   {
     for (std::uint8_t type = firstType; type <= lastType; ++type, masks += words)
     {
-      std::fill(masks, masks + words, 0);
-      ForEachCutWord(signs, type, j, k, [masks](SizeValueType word, WordType mask) { masks[word] = mask; });
+      FindCutEdgesOfRow(signs, type, j, k, masks);
     }
   }
 }
@@ -300,6 +357,8 @@ namespace itk
 {
 namespace
 {
+HWY_EXPORT(FindCutEdgesOfRow);
+HWY_EXPORT(FindBorderSites);
 HWY_EXPORT(FindCutEdges);
 HWY_EXPORT(NumberBits);
 HWY_EXPORT(CountCutEdges);
@@ -355,6 +414,41 @@ SizeValueType
 FCCCutEdges::Count(const FCCSigns & signs, Group group, SizeValueType k)
 {
   return HWY_DYNAMIC_DISPATCH(CountCutEdges)(signs, FirstType(group), LastType(group), k);
+}
+
+void
+FindBorderBlocks(const FCCSigns & signs,
+                 SizeValueType k,
+                 SizeValueType block,
+                 SizeValueType blocksOfRow,
+                 SizeValueType offset,
+                 std::vector<std::uint8_t> & blocks)
+{
+  blocks.assign((signs.GetHeight() + 2 * offset) * blocksOfRow, 0);
+  std::vector<FCCSigns::WordType> border(signs.GetNumberOfWords());
+  for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
+  {
+    HWY_DYNAMIC_DISPATCH(FindBorderSites)(signs, j, k, border.data());
+    std::uint8_t * const row = blocks.data() + (j + offset) * blocksOfRow;
+    for (SizeValueType i = 0; i < signs.GetWidth(); i += block)
+    {
+      const SizeValueType bit = i % FCCSigns::WordBits;
+      if ((border[i / FCCSigns::WordBits] >> bit & ((FCCSigns::WordType{ 1 } << block) - 1)) != 0)
+      {
+        row[i / block] = 1;
+        if (offset > 0 && i / block + 1 < blocksOfRow)
+        {
+          row[i / block + 1] = 1;
+        }
+      }
+    }
+  }
+}
+
+bool
+FindCutEdges(const FCCSigns & signs, std::uint8_t type, SizeValueType j, SizeValueType k, FCCSigns::WordType * masks)
+{
+  return HWY_DYNAMIC_DISPATCH(FindCutEdgesOfRow)(signs, type, j, k, masks) != 0;
 }
 
 SizeValueType

@@ -3,6 +3,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "itkFCCLattice.h"
 #include "itkFCCPointKernels.h"
 
 #include <limits>
@@ -125,8 +126,7 @@ PlaceOnEdges(const FCCEdgeBatch & batch,
     for (std::size_t n = 0; n < Capacity; ++n)
     {
       const float t = fraction[n];
-      outwards[axis][n] =
-        sign * ((1.0f - t) * batch.gradient[0][axis][n] + t * batch.gradient[1][axis][n]);
+      outwards[axis][n] = sign * ((1.0f - t) * batch.gradient[0][axis][n] + t * batch.gradient[1][axis][n]);
     }
   }
   for (std::size_t n = 0; n < Capacity; ++n)
@@ -172,6 +172,147 @@ PlaceOnEdges(const FCCEdgeBatch & batch,
   }
 }
 
+HWY_ATTR void
+PlaceClusters(const FCCClusterBlock & block,
+              const FCCFrame & frame,
+              float * HWY_RESTRICT points,
+              float * HWY_RESTRICT normals)
+{
+  constexpr std::size_t lanes = FCCClusterBlock::Lanes;
+  alignas(64) float dx[lanes] = {};
+  alignas(64) float dy[lanes] = {};
+  alignas(64) float dz[lanes] = {};
+  alignas(64) float count[lanes] = {};
+  for (unsigned int direction = 0; direction < FCCClusterBlock::Directions; ++direction)
+  {
+    if (block.owned[direction] == 0)
+    {
+      continue;
+    }
+    const float * const neighbor = block.neighbors[direction];
+    const auto & step = FCCLattice::OwnedEdges[direction % 7];
+    const float sign = direction < 7 ? 1.0f : -1.0f;
+    const float x = sign * static_cast<float>(step[0]);
+    const float y = sign * static_cast<float>(step[1]);
+    const float z = sign * static_cast<float>(step[2]);
+    for (std::size_t n = 0; n < lanes; ++n)
+    {
+      const bool owns = (block.owned[direction] >> n & 1U) != 0;
+      const float crossing = block.values[n] / (block.values[n] - neighbor[n]);
+      const float t = crossing >= 0.0f && crossing <= 0.5f ? crossing : 0.5f;
+      const float used = owns ? t : 0.0f;
+      dx[n] += used * x;
+      dy[n] += used * y;
+      dz[n] += used * z;
+      count[n] += owns ? 1.0f : 0.0f;
+    }
+  }
+
+  const auto second = [&block](std::size_t n, unsigned int direction) {
+    return (block.neighbors[direction][n] + block.neighbors[direction + 7][n]) - 2.0f * block.values[n];
+  };
+  alignas(64) float outwards[3][lanes];
+  alignas(64) float lattice[3][lanes];
+  for (std::size_t n = 0; n < lanes; ++n)
+  {
+    // Second differences along (1, 1, 0), (-1, 1, 0), (1, 0, 1), (-1, 0, 1), (0, 1, 1), (0, -1, 1) give the Hessian.
+    const float a = second(n, 1);
+    const float b = second(n, 2);
+    const float c = second(n, 3);
+    const float d = second(n, 4);
+    const float e = second(n, 5);
+    const float f = second(n, 6);
+    const float xy = 0.25f * (a - b);
+    const float xz = 0.25f * (c - d);
+    const float yz = 0.25f * (e - f);
+    const float p = a + b;
+    const float q = c + d;
+    const float r = e + f;
+    const float xx = 0.25f * ((p + q) - r);
+    const float yy = 0.25f * ((p + r) - q);
+    const float zz = 0.25f * ((q + r) - p);
+
+    const float g0 = block.gradient[0][n];
+    const float g1 = block.gradient[1][n];
+    const float g2 = block.gradient[2][n];
+    const float startX = dx[n] / count[n];
+    const float startY = dy[n] / count[n];
+    const float startZ = dz[n] / count[n];
+    float x = startX;
+    float y = startY;
+    float z = startZ;
+    float gx = 0.0f;
+    float gy = 0.0f;
+    float gz = 0.0f;
+    constexpr int steps = 3;
+    for (int step = 0; step <= steps; ++step)
+    {
+      const float hx = (xx * x + xy * y) + xz * z;
+      const float hy = (xy * x + yy * y) + yz * z;
+      const float hz = (xz * x + yz * y) + zz * z;
+      gx = g0 + hx;
+      gy = g1 + hy;
+      gz = g2 + hz;
+      const float value = block.values[n] + (((g0 + 0.5f * hx) * x + (g1 + 0.5f * hy) * y) + (g2 + 0.5f * hz) * z);
+      const float squared = (gx * gx + gy * gy) + gz * gz;
+      const float length = step < steps ? value / squared : 0.0f;
+      x -= length * gx;
+      y -= length * gy;
+      z -= length * gz;
+    }
+    constexpr float farthest = 0.70710678f;
+    const float moveX = x - startX;
+    const float moveY = y - startY;
+    const float moveZ = z - startZ;
+    const float moved = (moveX * moveX + moveY * moveY) + moveZ * moveZ;
+    const float keep = moved <= farthest * farthest ? 1.0f : farthest / __builtin_sqrtf(moved);
+    const bool isUsable = moved <= std::numeric_limits<float>::max();
+    lattice[0][n] = isUsable ? startX + keep * moveX : startX;
+    lattice[1][n] = isUsable ? startY + keep * moveY : startY;
+    lattice[2][n] = isUsable ? startZ + keep * moveZ : startZ;
+
+    const float sum = (__builtin_fabsf(gx) + __builtin_fabsf(gy)) + __builtin_fabsf(gz);
+    const bool hasNormal = sum > 0.0f && sum <= std::numeric_limits<float>::max();
+    const float scale = static_cast<float>(frame.outwardSign) / sum;
+    // Without a gradient: away from the site if it is inside, towards it otherwise; both is better than nothing.
+    const float side =
+      block.values[n] >= 0.0f ? -static_cast<float>(frame.outwardSign) : static_cast<float>(frame.outwardSign);
+    outwards[0][n] = hasNormal ? scale * gx : side * (startX + 1e-3f);
+    outwards[1][n] = hasNormal ? scale * gy : side * startY;
+    outwards[2][n] = hasNormal ? scale * gz : side * startZ;
+  }
+
+  alignas(64) float world[3][lanes];
+  alignas(64) float normal[3][lanes];
+  for (int row = 0; row < 3; ++row)
+  {
+    const double a = frame.matrix[row][0];
+    const double b = frame.matrix[row][1];
+    const double c = frame.matrix[row][2];
+    const double start = ((a * block.site[0] + b * block.site[1]) + c * block.site[2]) + frame.origin[row];
+    const auto p = static_cast<float>(frame.gradientToWorld[row][0]);
+    const auto q = static_cast<float>(frame.gradientToWorld[row][1]);
+    const auto r = static_cast<float>(frame.gradientToWorld[row][2]);
+    for (std::size_t n = 0; n < lanes; ++n)
+    {
+      const double x = 2.0 * static_cast<double>(n) + static_cast<double>(lattice[0][n]);
+      world[row][n] = static_cast<float>(
+        ((a * x + b * static_cast<double>(lattice[1][n])) + c * static_cast<double>(lattice[2][n])) + start);
+      normal[row][n] = (p * outwards[0][n] + q * outwards[1][n]) + r * outwards[2][n];
+    }
+  }
+  for (std::size_t n = 0; n < lanes; ++n)
+  {
+    const float squared = (normal[0][n] * normal[0][n] + normal[1][n] * normal[1][n]) + normal[2][n] * normal[2][n];
+    const float inverse = 1.0f / __builtin_sqrtf(squared);
+    for (int row = 0; row < 3; ++row)
+    {
+      points[3 * n + row] = world[row][n];
+      normals[3 * n + row] = normal[row][n] * inverse;
+    }
+  }
+}
+
 } // namespace HWY_NAMESPACE
 } // namespace itk
 HWY_AFTER_NAMESPACE();
@@ -182,7 +323,8 @@ namespace itk
 namespace
 {
 HWY_EXPORT(PlaceOnEdges);
-}
+HWY_EXPORT(PlaceClusters);
+} // namespace
 
 void
 FCCPointKernels::PlaceOnEdges(const FCCEdgeBatch & batch,
@@ -192,13 +334,21 @@ FCCPointKernels::PlaceOnEdges(const FCCEdgeBatch & batch,
                               TriangleSurface::PointType * points,
                               TriangleSurface::NormalType * normals)
 {
+  if (batch.count == 0)
+  {
+    return;
+  }
   HWY_DYNAMIC_DISPATCH(PlaceOnEdges)
-  (batch,
-   frame,
-   cubic,
-   minimumFraction,
-   points->data(),
-   normals != nullptr ? normals->data() : nullptr);
+  (batch, frame, cubic, minimumFraction, points->data(), normals != nullptr ? normals->data() : nullptr);
+}
+
+void
+FCCPointKernels::PlaceClusters(const FCCClusterBlock & block,
+                               const FCCFrame & frame,
+                               TriangleSurface::PointType (&points)[FCCClusterBlock::Lanes],
+                               TriangleSurface::NormalType (&normals)[FCCClusterBlock::Lanes])
+{
+  HWY_DYNAMIC_DISPATCH(PlaceClusters)(block, frame, points[0].data(), normals[0].data());
 }
 
 } // namespace itk

@@ -81,7 +81,7 @@ SubtractRow(const TPixel * values, std::size_t count, double isovalue, float * H
 
 #define ITK_FCC_PIXEL_KERNELS(Name, Pixel)                                                                             \
   HWY_ATTR void Classify##Name(                                                                                        \
-    const Pixel * values, std::size_t count, Pixel threshold, bool isBelow, std::uint64_t * words)                    \
+    const Pixel * values, std::size_t count, Pixel threshold, bool isBelow, std::uint64_t * words)                     \
   {                                                                                                                    \
     ClassifyRow(values, count, threshold, isBelow, words);                                                             \
   }                                                                                                                    \
@@ -96,6 +96,25 @@ ITK_FCC_PIXEL_KERNELS(UInt16, std::uint16_t)
 ITK_FCC_PIXEL_KERNELS(Int32, std::int32_t)
 ITK_FCC_PIXEL_KERNELS(Float, float)
 #undef ITK_FCC_PIXEL_KERNELS
+
+HWY_ATTR std::uint64_t
+CompareSumsOfWord(const float * values, const float * others, bool isAbove)
+{
+  const hn::ScalableTag<float> tag;
+  const std::size_t lanes = hn::Lanes(tag);
+  std::uint64_t word = 0;
+  for (std::size_t lane = 0; lane < 64; lane += lanes)
+  {
+    const auto sum = hn::Add(hn::LoadU(tag, values + lane), hn::LoadU(tag, others + lane));
+    const auto mask = isAbove ? hn::Gt(sum, hn::Zero(tag)) : hn::Lt(sum, hn::Zero(tag));
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(tag, mask, bytes);
+    std::uint64_t bits;
+    std::memcpy(&bits, bytes, sizeof bits);
+    word |= bits << lane;
+  }
+  return word;
+}
 
 HWY_ATTR void
 QuasiInterpolateRow(const float * values, const float * const * n, std::size_t count, float * HWY_RESTRICT coefficients)
@@ -114,11 +133,16 @@ QuasiInterpolateRow(const float * values, const float * const * n, std::size_t c
 }
 
 HWY_ATTR void
-GradientBlock(const float * const * n, std::size_t first, float * HWY_RESTRICT gx, float * HWY_RESTRICT gy, float * HWY_RESTRICT gz)
+GradientBlock(const float * const * n,
+              std::size_t first,
+              float * HWY_RESTRICT gx,
+              float * HWY_RESTRICT gy,
+              float * HWY_RESTRICT gz)
 {
   for (std::size_t i = first; i < first + FCCRowKernels::Block; ++i)
   {
-    // Differences along the neighbours' six directions: (1, 1, 0), (-1, 1, 0), (1, 0, 1), (-1, 0, 1), (0, 1, 1), (0, -1, 1).
+    // Differences along the neighbours' six directions: (1, 1, 0), (-1, 1, 0), (1, 0, 1), (-1, 0, 1), (0, 1, 1), (0,
+    // -1, 1).
     const float a = n[0][i] - n[6][i];
     const float b = n[1][i] - n[7][i];
     const float c = n[2][i] - n[8][i];
@@ -151,6 +175,7 @@ HWY_EXPORT(SubtractInt16);
 HWY_EXPORT(SubtractUInt16);
 HWY_EXPORT(SubtractInt32);
 HWY_EXPORT(SubtractFloat);
+HWY_EXPORT(CompareSumsOfWord);
 HWY_EXPORT(QuasiInterpolateRow);
 HWY_EXPORT(GradientBlock);
 
@@ -214,8 +239,7 @@ ClassifyAll(SizeValueType count, bool inside, std::uint64_t * words)
     }                                                                                                                  \
   }                                                                                                                    \
   template <>                                                                                                          \
-  void FCCRowKernels::Subtract(                                                                                        \
-    const Pixel * values, SizeValueType count, double isovalue, float * differences)                                   \
+  void FCCRowKernels::Subtract(const Pixel * values, SizeValueType count, double isovalue, float * differences)        \
   {                                                                                                                    \
     HWY_DYNAMIC_DISPATCH(Subtract##Name)(values, count, isovalue, differences);                                        \
   }
@@ -226,6 +250,12 @@ ITK_FCC_PIXEL_KERNELS(UInt16, std::uint16_t)
 ITK_FCC_PIXEL_KERNELS(Int32, std::int32_t)
 ITK_FCC_PIXEL_KERNELS(Float, float)
 #undef ITK_FCC_PIXEL_KERNELS
+
+std::uint64_t
+FCCRowKernels::CompareSums(const float * values, const float * others, bool isAbove)
+{
+  return HWY_DYNAMIC_DISPATCH(CompareSumsOfWord)(values, others, isAbove);
+}
 
 void
 FCCRowKernels::QuasiInterpolate(const float * values,

@@ -7,7 +7,7 @@
 #include <utility>
 
 #ifdef __linux__
-#  include <sys/mman.h>
+#include <sys/mman.h>
 #endif
 
 namespace itk

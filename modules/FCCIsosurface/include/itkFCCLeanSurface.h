@@ -1,0 +1,83 @@
+#ifndef itkFCCLeanSurface_h
+#define itkFCCLeanSurface_h
+
+#include "itkFCCClusterPoints.h"
+#include "itkFCCEdgePoints.h"
+#include "itkFCCSplitSites.h"
+
+namespace itk
+{
+
+/** \class FCCLeanSurface
+ * \brief A surface with few, well-shaped triangles: the tetrahedra's, whose points have gathered at lattice sites.
+ *
+ * Every point of the tetrahedra's surface belongs to the nearer end of its edge. All points of one site become one
+ * vertex, which is moved onto the reconstructed surface, and triangles that lose a side vanish (G. Treece, R. Prager,
+ * A. Gee, "Regularised marching tetrahedra", 1999), but where the surface would not stay a manifold of the same
+ * topology (see FCCSplitSites).
+ *
+ * Passes, each over slabs of planes in any order and by any number of threads: find sites to split (FindSplits, then
+ * Close once), count (Count, then Finish once), fill.
+ *
+ * \ingroup FCCIsosurface
+ */
+class FCCLeanSurface
+{
+public:
+  /** \param signs with a layer of sites around the image */
+  FCCLeanSurface(const FCCSigns & signs,
+                 const ImageRegion<3> & region,
+                 const FCCFrame & frame,
+                 bool insideIsBelow,
+                 double minimumFraction,
+                 FCCFieldPlanes::RowReader readRow);
+
+  void
+  FindSplits(SizeValueType begin, SizeValueType end);
+
+  void
+  Close(const FCCSplitSites::ValueReader & valueAt)
+  {
+    m_Splits.Close(valueAt, m_InsideIsBelow);
+  }
+
+  void
+  Count(SizeValueType begin, SizeValueType end);
+
+  /** Sums up the counts. */
+  void
+  Finish();
+
+  SizeValueType
+  GetNumberOfPoints() const
+  {
+    return m_FirstPoint.back();
+  }
+  SizeValueType
+  GetNumberOfTriangles() const
+  {
+    return m_FirstTriangle.back();
+  }
+
+  /** The surface must have its final size. */
+  void
+  Fill(SizeValueType begin, SizeValueType end, bool reversed, TriangleSurface & surface) const;
+
+private:
+  FCCFieldPlanes
+  MakeField() const;
+
+  const FCCSigns & m_Signs;
+  ImageRegion<3> m_Region;
+  FCCFrame m_Frame;
+  bool m_InsideIsBelow;
+  double m_MinimumFraction;
+  FCCFieldPlanes::RowReader m_ReadRow;
+  FCCSplitSites m_Splits;
+  std::vector<SizeValueType> m_FirstPoint;    ///< of each plane; counts until Finish()
+  std::vector<SizeValueType> m_FirstTriangle; ///< between each plane and the next; counts until Finish()
+};
+
+} // namespace itk
+
+#endif

@@ -1,0 +1,496 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "itkFCCLeanMarching.cxx"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "itkFCCClusterCases.h"
+#include "itkFCCLeanMarching.h"
+
+// clang-format off
+#ifndef itkFCCLeanMarching_tables
+#define itkFCCLeanMarching_tables
+// clang-format on
+namespace itk
+{
+
+/** What follows from FCCMarchingCases for one kind of step. */
+struct FCCLeanTables
+{
+  using Cases = FCCMarchingCases;
+
+  /** The surface's polygon in a tetrahedron: the edges of its corners, in order. */
+  struct Polygon
+  {
+    std::uint8_t corners = 0;
+    std::uint8_t edges[4] = {};
+    std::uint8_t decider = 0; ///< place of the edge from the lowest corner inside to the lowest one outside
+  };
+
+  std::uint8_t storingEnd[Cases::Edges] = {};             ///< which of EdgeSites stores the edge
+  std::uint8_t cornerEdges[Cases::Tetrahedra][4][3] = {}; ///< edges at a corner of a tetrahedron
+  std::uint8_t cornerEnds[Cases::Tetrahedra][4][3] = {};  ///< which of EdgeSites the corner is
+  Polygon polygons[Cases::Tetrahedra][16] = {};           ///< by the corners inside
+  std::uint64_t use[Cases::Tetrahedra][4][4] = {};        ///< by the corner left out, for each corner
+};
+
+/** The lowest of some corners of a tetrahedron by z, then y, then x. */
+constexpr unsigned int
+LowestSite(unsigned int kind, const std::uint8_t (&sites)[4], unsigned int corners)
+{
+  unsigned int lowest = FCCMarchingCases::Sites;
+  for (unsigned int corner = 0; corner < 4; ++corner)
+  {
+    if ((corners >> corner & 1) == 0)
+    {
+      continue;
+    }
+    if (lowest == FCCMarchingCases::Sites)
+    {
+      lowest = sites[corner];
+      continue;
+    }
+    const auto candidate = FCCMarchingCases::SiteOf(kind, sites[corner]);
+    const auto best = FCCMarchingCases::SiteOf(kind, lowest);
+    for (unsigned int axis = 3; axis-- > 0;)
+    {
+      if (candidate[axis] != best[axis])
+      {
+        lowest = candidate[axis] < best[axis] ? sites[corner] : lowest;
+        break;
+      }
+    }
+  }
+  return lowest;
+}
+
+constexpr FCCLeanTables
+MakeFCCLeanTables(unsigned int kind)
+{
+  using Cases = FCCMarchingCases;
+  FCCLeanTables tables;
+  for (unsigned int edge = 0; edge < Cases::Edges; ++edge)
+  {
+    const Cases::EdgeOwner owner = Cases::OwnerOf(kind, edge);
+    const unsigned int first = Cases::EdgeSites[edge][0];
+    tables.storingEnd[edge] = Cases::RowOf(kind, first) == owner.row && first / 2 == owner.pair ? 0 : 1;
+  }
+  for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
+  {
+    const auto & sites = Cases::TetrahedronSites[tetrahedron];
+    for (unsigned int corner = 0; corner < 4; ++corner)
+    {
+      for (unsigned int other = 0, n = 0; other < 4; ++other)
+      {
+        if (other != corner)
+        {
+          const std::uint8_t edge = Cases::EdgeBetween(sites[corner], sites[other]);
+          tables.cornerEdges[tetrahedron][corner][n] = edge;
+          tables.cornerEnds[tetrahedron][corner][n] = Cases::EdgeSites[edge][0] == sites[corner] ? 0 : 1;
+          ++n;
+        }
+      }
+    }
+    for (unsigned int inside = 0; inside < 16; ++inside)
+    {
+      unsigned int pattern = 0;
+      for (unsigned int corner = 0; corner < 4; ++corner)
+      {
+        pattern |= (inside >> corner & 1) << sites[corner];
+      }
+      Cases::Case found;
+      Cases::AddTetrahedron(found, kind, pattern, sites);
+      FCCLeanTables::Polygon & polygon = tables.polygons[tetrahedron][inside];
+      if (found.triangles > 0)
+      {
+        polygon.corners = static_cast<std::uint8_t>(2 + found.triangles);
+        for (unsigned int n = 0; n < 3; ++n)
+        {
+          polygon.edges[n] = found.edges[0][n];
+        }
+        polygon.edges[3] = found.edges[1][2]; // triangles 0 1 2 and 0 2 3
+        const std::uint8_t decider =
+          Cases::EdgeBetween(LowestSite(kind, sites, inside), LowestSite(kind, sites, ~inside));
+        while (polygon.edges[polygon.decider] != decider)
+        {
+          ++polygon.decider;
+        }
+      }
+    }
+    for (unsigned int left = 0; left < 4; ++left)
+    {
+      for (unsigned int a = 0; a < 4; ++a)
+      {
+        if (a == left)
+        {
+          continue;
+        }
+        tables.use[tetrahedron][left][a] += std::uint64_t{ 1 } << 56;
+        for (unsigned int b = 0; b < 4; ++b)
+        {
+          if (b != left && b != a)
+          {
+            const std::uint8_t edge = Cases::EdgeBetween(sites[a], sites[b]);
+            const unsigned int end = Cases::EdgeSites[edge][0] == sites[a] ? 0 : 1;
+            if (tables.storingEnd[edge] == end)
+            {
+              tables.use[tetrahedron][left][a] += std::uint64_t{ 1 } << (8 * Cases::OwnerOf(kind, edge).type);
+            }
+          }
+        }
+      }
+    }
+  }
+  return tables;
+}
+
+inline constexpr FCCLeanTables FCCLeanTablesOfKind[FCCMarchingCases::Kinds] = { MakeFCCLeanTables(0),
+                                                                                MakeFCCLeanTables(1) };
+
+} // namespace itk
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace itk
+{
+namespace HWY_NAMESPACE
+{
+
+using WordType = FCCSigns::WordType;
+using Cases = FCCMarchingCases;
+
+/** Bits of a row from site \a shift on, 0 or 1. */
+WordType
+Shifted(const WordType * row, SizeValueType shift, SizeValueType word)
+{
+  return shift == 0 ? row[word] : row[word] >> 1 | row[word + 1] << (FCCSigns::WordBits - 1);
+}
+
+/** Where the sites and edges of a column's steps of one kind are found. */
+struct LeanColumn
+{
+  const WordType * signs[Cases::Sites];
+  const WordType * owned[Cases::Edges][2]; ///< by either end of EdgeSites
+  const WordType * singles[Cases::Edges];
+  SizeValueType siteShift[Cases::Sites];
+  SizeValueType edgeShift[Cases::Edges];
+  SizeValueType singleRow[Cases::Edges];
+  bool siteIsUpper[Cases::Sites];
+  bool edgeIsUpper[Cases::Edges];
+  SizeValueType siteRow[Cases::Sites];
+
+  LeanColumn(const FCCSigns & allSigns,
+             unsigned int kind,
+             SizeValueType j,
+             SizeValueType k,
+             const FCCClusterPlane & lower,
+             const FCCClusterPlane & upper)
+  {
+    const auto parity = static_cast<SizeValueType>(allSigns.GetParity(j, k));
+    const SizeValueType shiftOfPair[3] = { 0, kind == 0 ? parity : 1 - parity, 1 };
+    for (unsigned int site = 0; site < Cases::Sites; ++site)
+    {
+      const Cases::Row row = Cases::RowOf(kind, site);
+      siteRow[site] = j + (row & 1);
+      siteIsUpper[site] = (row & 2) != 0;
+      siteShift[site] = shiftOfPair[site / 2];
+      signs[site] = allSigns.GetRow(siteRow[site], k + (row >> 1));
+    }
+    for (unsigned int edge = 0; edge < Cases::Edges; ++edge)
+    {
+      const Cases::EdgeOwner & owner = FCCMarchingTables.owners[kind][edge];
+      const SizeValueType row = j + (owner.row & 1);
+      edgeIsUpper[edge] = (owner.row & 2) != 0;
+      const FCCClusterPlane & plane = edgeIsUpper[edge] ? upper : lower;
+      const unsigned int end = FCCLeanTablesOfKind[kind].storingEnd[edge];
+      owned[edge][end] = plane.GetOwners().GetFirst(row, owner.type);
+      owned[edge][1 - end] = plane.GetOwners().GetSecond(row, owner.type);
+      singleRow[edge] = row * FCCClusterPlane::Types + owner.type;
+      singles[edge] = plane.GetSingles().GetRow(singleRow[edge]);
+      edgeShift[edge] = shiftOfPair[owner.pair];
+    }
+  }
+};
+
+/** One word of a column's steps: signs and ownership, and which tetrahedra keep a triangle between clusters. */
+struct LeanSteps
+{
+  WordType signs[Cases::Sites];
+  WordType owned[Cases::Edges][2];
+  WordType owners[Cases::Tetrahedra][4]; ///< the corner owns a crossing in the tetrahedron
+  WordType spanned[Cases::Tetrahedra];   ///< three or four corners do
+
+  /** Returns whether there are any crossings. */
+  bool
+  Load(const LeanColumn & column, const FCCLeanTables & tables, SizeValueType word)
+  {
+    WordType any = 0;
+    for (unsigned int edge = 0; edge < Cases::Edges; ++edge)
+    {
+      for (unsigned int end = 0; end < 2; ++end)
+      {
+        owned[edge][end] = Shifted(column.owned[edge][end], column.edgeShift[edge], word);
+        any |= owned[edge][end];
+      }
+    }
+    if (any == 0)
+    {
+      return false;
+    }
+    for (unsigned int site = 0; site < Cases::Sites; ++site)
+    {
+      signs[site] = Shifted(column.signs[site], column.siteShift[site], word);
+    }
+    for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
+    {
+      for (unsigned int corner = 0; corner < 4; ++corner)
+      {
+        const auto & edges = tables.cornerEdges[tetrahedron][corner];
+        const auto & ends = tables.cornerEnds[tetrahedron][corner];
+        owners[tetrahedron][corner] = owned[edges[0]][ends[0]] | owned[edges[1]][ends[1]] | owned[edges[2]][ends[2]];
+      }
+      const auto & w = owners[tetrahedron];
+      spanned[tetrahedron] = (w[0] & w[1] & (w[2] | w[3])) | (w[2] & w[3] & (w[0] | w[1]));
+    }
+    return true;
+  }
+
+  unsigned int
+  PatternOf(unsigned int tetrahedron, unsigned int bit) const
+  {
+    const auto & sites = Cases::TetrahedronSites[tetrahedron];
+    unsigned int pattern = 0;
+    for (unsigned int corner = 0; corner < 4; ++corner)
+    {
+      pattern |= static_cast<unsigned int>(signs[sites[corner]] >> bit & 1) << corner;
+      pattern |= static_cast<unsigned int>(owners[tetrahedron][corner] >> bit & 1) << (4 + corner);
+    }
+    return pattern;
+  }
+};
+
+SizeValueType
+CountTriangleUse(const FCCSigns & signs,
+                 SizeValueType k,
+                 const FCCClusterPlane & lower,
+                 const FCCClusterPlane & upper,
+                 FCCTriangleUse & lowerUse,
+                 FCCTriangleUse & upperUse)
+{
+  SizeValueType count = 0;
+  for (SizeValueType j = 0; j + 1 < signs.GetHeight(); ++j)
+  {
+    for (unsigned int kind = 0; kind < Cases::Kinds; ++kind)
+    {
+      const FCCLeanTables & tables = FCCLeanTablesOfKind[kind];
+      const LeanColumn column(signs, kind, j, k, lower, upper);
+      std::uint64_t * uses[Cases::Sites];
+      for (unsigned int site = 0; site < Cases::Sites; ++site)
+      {
+        auto & use = column.siteIsUpper[site] ? upperUse : lowerUse;
+        uses[site] = use.counts.data() + column.siteRow[site] * use.stride + column.siteShift[site];
+      }
+      for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
+      {
+        LeanSteps steps;
+        if (!steps.Load(column, tables, word))
+        {
+          continue;
+        }
+        for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
+        {
+          const auto & sites = Cases::TetrahedronSites[tetrahedron];
+          for (WordType mask = steps.spanned[tetrahedron]; mask != 0; mask &= mask - 1)
+          {
+            const auto bit = static_cast<unsigned int>(__builtin_ctzll(mask));
+            const SizeValueType i = word * FCCSigns::WordBits + bit;
+            const auto & found = FCCClusterTables.cases[kind][tetrahedron][steps.PatternOf(tetrahedron, bit)];
+            for (unsigned int n = 0; n < found.triangles; ++n)
+            {
+              const auto & corners = found.corners[n];
+              const unsigned int left = 6u - corners[0] - corners[1] - corners[2];
+              for (const std::uint8_t corner : corners)
+              {
+                uses[sites[corner]][i] += tables.use[tetrahedron][left][corner];
+              }
+              ++count;
+            }
+          }
+        }
+      }
+    }
+  }
+  return count;
+}
+
+/** Writes the triangles of a tetrahedron with single crossings. */
+SizeValueType
+FillMixedTetrahedron(const LeanColumn & column,
+                     const FCCLeanTables & tables,
+                     const LeanSteps & steps,
+                     const WordType * singles,
+                     unsigned int tetrahedron,
+                     unsigned int bit,
+                     SizeValueType i,
+                     const FCCClusterPlane & lower,
+                     const FCCClusterPlane & upper,
+                     bool reversed,
+                     TriangleSurface::TriangleType * triangles)
+{
+  unsigned int inside = 0;
+  for (unsigned int corner = 0; corner < 4; ++corner)
+  {
+    inside |= static_cast<unsigned int>(steps.signs[Cases::TetrahedronSites[tetrahedron][corner]] >> bit & 1) << corner;
+  }
+  const auto & polygon = tables.polygons[tetrahedron][inside];
+  std::uint32_t vertices[4] = {};
+  bool deciderIsInside = false;
+  for (unsigned int n = 0; n < polygon.corners; ++n)
+  {
+    const std::uint8_t edge = polygon.edges[n];
+    const std::uint8_t owner = Cases::EdgeSites[edge][(steps.owned[edge][0] >> bit & 1) != 0 ? 0 : 1];
+    if ((singles[edge] >> bit & 1) != 0)
+    {
+      const FCCClusterPlane & plane = column.edgeIsUpper[edge] ? upper : lower;
+      vertices[n] = plane.GetSingles().GetNumber(column.singleRow[edge], i + column.edgeShift[edge]);
+    }
+    else
+    {
+      const FCCClusterPlane & plane = column.siteIsUpper[owner] ? upper : lower;
+      vertices[n] = plane.GetClusters().GetNumber(column.siteRow[owner], i + column.siteShift[owner]);
+    }
+    if (n == polygon.decider)
+    {
+      deciderIsInside = (steps.signs[owner] >> bit & 1) != 0;
+    }
+  }
+  // Quadrilaterals are cut from the decider to the opposite corner when its owner is inside, else the other way.
+  const unsigned int start = polygon.corners == 4 ? (polygon.decider + (deciderIsInside ? 0 : 1)) % 2 : 0;
+  SizeValueType count = 0;
+  for (unsigned int n = 2; n < polygon.corners; ++n)
+  {
+    const std::uint32_t a = vertices[start];
+    const std::uint32_t b = vertices[(start + n - 1) % polygon.corners];
+    const std::uint32_t c = vertices[(start + n) % polygon.corners];
+    if (a != b && b != c && c != a)
+    {
+      if (triangles != nullptr)
+      {
+        triangles[count] = { a, reversed ? c : b, reversed ? b : c };
+      }
+      ++count;
+    }
+  }
+  return count;
+}
+
+SizeValueType
+FillLeanTriangles(const FCCSigns & signs,
+                  SizeValueType k,
+                  const FCCClusterPlane & lower,
+                  const FCCClusterPlane & upper,
+                  bool reversed,
+                  TriangleSurface::TriangleType * triangles)
+{
+  const unsigned int second = reversed ? 2 : 1;
+  const unsigned int third = reversed ? 1 : 2;
+  SizeValueType count = 0;
+  for (SizeValueType j = 0; j + 1 < signs.GetHeight(); ++j)
+  {
+    for (unsigned int kind = 0; kind < Cases::Kinds; ++kind)
+    {
+      const FCCLeanTables & tables = FCCLeanTablesOfKind[kind];
+      const LeanColumn column(signs, kind, j, k, lower, upper);
+      for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
+      {
+        LeanSteps steps;
+        if (!steps.Load(column, tables, word))
+        {
+          continue;
+        }
+        WordType singles[Cases::Edges];
+        for (unsigned int edge = 0; edge < Cases::Edges; ++edge)
+        {
+          singles[edge] = Shifted(column.singles[edge], column.edgeShift[edge], word);
+        }
+        for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
+        {
+          const auto & sites = Cases::TetrahedronSites[tetrahedron];
+          WordType mixed = 0;
+          for (unsigned int corner = 0; corner < 4; ++corner)
+          {
+            for (const std::uint8_t edge : tables.cornerEdges[tetrahedron][corner])
+            {
+              mixed |= singles[edge];
+            }
+          }
+          for (WordType mask = steps.spanned[tetrahedron] | mixed; mask != 0; mask &= mask - 1)
+          {
+            const auto bit = static_cast<unsigned int>(__builtin_ctzll(mask));
+            const SizeValueType i = word * FCCSigns::WordBits + bit;
+            TriangleSurface::TriangleType * const next = triangles != nullptr ? triangles + count : nullptr;
+            if ((mixed >> bit & 1) != 0)
+            {
+              count +=
+                FillMixedTetrahedron(column, tables, steps, singles, tetrahedron, bit, i, lower, upper, reversed, next);
+              continue;
+            }
+            const auto & found = FCCClusterTables.cases[kind][tetrahedron][steps.PatternOf(tetrahedron, bit)];
+            if (next != nullptr)
+            {
+              const auto vertexOf = [&](unsigned int corner) {
+                const unsigned int site = sites[corner];
+                const FCCClusterPlane & plane = column.siteIsUpper[site] ? upper : lower;
+                return plane.GetClusters().GetNumber(column.siteRow[site], i + column.siteShift[site]);
+              };
+              for (unsigned int n = 0; n < found.triangles; ++n)
+              {
+                const auto & corners = found.corners[n];
+                next[n] = { vertexOf(corners[0]), vertexOf(corners[second]), vertexOf(corners[third]) };
+              }
+            }
+            count += found.triangles;
+          }
+        }
+      }
+    }
+  }
+  return count;
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace itk
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace itk
+{
+namespace
+{
+HWY_EXPORT(CountTriangleUse);
+HWY_EXPORT(FillLeanTriangles);
+} // namespace
+
+SizeValueType
+CountTriangleUse(const FCCSigns & signs,
+                 SizeValueType k,
+                 const FCCClusterPlane & lower,
+                 const FCCClusterPlane & upper,
+                 FCCTriangleUse & lowerUse,
+                 FCCTriangleUse & upperUse)
+{
+  return HWY_DYNAMIC_DISPATCH(CountTriangleUse)(signs, k, lower, upper, lowerUse, upperUse);
+}
+
+SizeValueType
+FillLeanTriangles(const FCCSigns & signs,
+                  SizeValueType k,
+                  const FCCClusterPlane & lower,
+                  const FCCClusterPlane & upper,
+                  bool reversed,
+                  TriangleSurface::TriangleType * triangles)
+{
+  return HWY_DYNAMIC_DISPATCH(FillLeanTriangles)(signs, k, lower, upper, reversed, triangles);
+}
+
+} // namespace itk
+#endif

@@ -1,0 +1,202 @@
+#include "itkFCCLeanSurface.h"
+
+#include <utility>
+
+namespace itk
+{
+
+FCCLeanSurface::FCCLeanSurface(const FCCSigns & signs,
+                               const ImageRegion<3> & region,
+                               const FCCFrame & frame,
+                               bool insideIsBelow,
+                               double minimumFraction,
+                               FCCFieldPlanes::RowReader readRow)
+  : m_Signs(signs)
+  , m_Region(region)
+  , m_Frame(frame)
+  , m_InsideIsBelow(insideIsBelow)
+  , m_MinimumFraction(minimumFraction)
+  , m_ReadRow(std::move(readRow))
+  , m_Splits(signs)
+  , m_FirstPoint(signs.GetDepth() + 1)
+  , m_FirstTriangle(signs.GetDepth() + 1)
+{}
+
+FCCFieldPlanes
+FCCLeanSurface::MakeField() const
+{
+  return FCCFieldPlanes(
+    { m_Region.GetSize(0), m_Region.GetSize(1), m_Region.GetSize(2) }, m_Signs.GetParity(0, 0), m_ReadRow);
+}
+
+namespace
+{
+
+/** The planes around the one that is worked at: each is found once, from the one below it. */
+class PlaneSequence
+{
+public:
+  PlaneSequence(const FCCSigns & signs, FCCFieldPlanes & field, bool insideIsBelow, const FCCSigns * split)
+    : m_Signs(signs)
+    , m_Field(field)
+    , m_InsideIsBelow(insideIsBelow)
+    , m_Split(split)
+    , m_Planes{ FCCClusterPlane(signs), FCCClusterPlane(signs), FCCClusterPlane(signs) }
+  {}
+
+  /** Finds plane \a k, with vertices numbered from \a first on. Returns the number after the last. */
+  std::uint32_t
+  Find(SizeValueType k, std::uint32_t first = 0)
+  {
+    for (SizeValueType near = k; near < std::min(k + 2, m_Signs.GetDepth()); ++near)
+    {
+      m_Field.LoadValues(near);
+    }
+    return this->Get(k).Find(k, this->Get(k + m_Planes.size() - 1), m_Field, m_InsideIsBelow, m_Split, first);
+  }
+
+  FCCClusterPlane &
+  Get(SizeValueType k)
+  {
+    return m_Planes[k % m_Planes.size()];
+  }
+
+private:
+  const FCCSigns & m_Signs;
+  FCCFieldPlanes & m_Field;
+  bool m_InsideIsBelow;
+  const FCCSigns * m_Split;
+  std::array<FCCClusterPlane, 3> m_Planes;
+};
+
+} // namespace
+
+void
+FCCLeanSurface::FindSplits(SizeValueType begin, SizeValueType end)
+{
+  FCCFieldPlanes field = this->MakeField();
+  PlaneSequence planes(m_Signs, field, m_InsideIsBelow, nullptr);
+  const SizeValueType stride = m_Signs.GetNumberOfWords() * FCCSigns::WordBits + 1;
+  std::array<FCCTriangleUse, 3> uses;
+  for (FCCTriangleUse & use : uses)
+  {
+    use.stride = stride;
+    use.counts.resize(stride * m_Signs.GetHeight());
+  }
+  const auto useOf = [&uses](SizeValueType k) -> FCCTriangleUse & { return uses[k % uses.size()]; };
+
+  // The triangles below the first plane use its sites and edges, too.
+  const SizeValueType first = begin > 0 ? begin - 1 : 0;
+  planes.Find(first);
+  for (SizeValueType k = first; k < end; ++k)
+  {
+    planes.Find(k + 1);
+    CountTriangleUse(m_Signs, k, planes.Get(k), planes.Get(k + 1), useOf(k), useOf(k + 1));
+    if (k >= begin)
+    {
+      m_Splits.FindSeeds(k, planes.Get(k), useOf(k), k > 0 ? &useOf(k - 1) : nullptr);
+    }
+    if (k > 0)
+    {
+      std::fill(useOf(k - 1).counts.begin(), useOf(k - 1).counts.end(), 0);
+    }
+  }
+}
+
+void
+FCCLeanSurface::Count(SizeValueType begin, SizeValueType end)
+{
+  FCCFieldPlanes field = this->MakeField();
+  PlaneSequence planes(m_Signs, field, m_InsideIsBelow, &m_Splits.GetBits());
+  if (begin > 0)
+  {
+    planes.Find(begin - 1);
+  }
+  std::uint32_t points = planes.Find(begin);
+  m_FirstPoint[begin] = points;
+  for (SizeValueType k = begin; k < end; ++k)
+  {
+    const std::uint32_t pointsBefore = std::exchange(points, planes.Find(k + 1, points));
+    if (k + 1 < end)
+    {
+      m_FirstPoint[k + 1] = points - pointsBefore;
+    }
+    m_FirstTriangle[k] =
+      k + 1 < m_Signs.GetDepth() ? FillLeanTriangles(m_Signs, k, planes.Get(k), planes.Get(k + 1), false, nullptr) : 0;
+  }
+}
+
+void
+FCCLeanSurface::Finish()
+{
+  const auto sumUp = [](std::vector<SizeValueType> & counts) {
+    SizeValueType sum = 0;
+    for (SizeValueType & count : counts)
+    {
+      sum += std::exchange(count, sum);
+    }
+  };
+  sumUp(m_FirstPoint);
+  sumUp(m_FirstTriangle);
+}
+
+void
+FCCLeanSurface::Fill(SizeValueType begin, SizeValueType end, bool reversed, TriangleSurface & surface) const
+{
+  FCCFieldPlanes field = this->MakeField();
+  PlaneSequence planes(m_Signs, field, m_InsideIsBelow, &m_Splits.GetBits());
+  const FCCClusterPoints clusterPoints(m_Region, m_Frame);
+  const FCCEdgePoints edgePoints(m_Region, m_Frame, true, m_MinimumFraction, 1);
+  std::vector<std::uint8_t> blocks;
+  const auto loadAround = [&](SizeValueType k) {
+    for (SizeValueType near = k > 0 ? k - 1 : 0; near < std::min(k + 2, m_Signs.GetDepth()); ++near)
+    {
+      field.LoadValues(near);
+    }
+    if (k < m_Signs.GetDepth())
+    {
+      FindBorderBlocks(m_Signs, k, FCCRowKernels::Block, field.GetNumberOfBlocks(), 0, blocks);
+      field.LoadGradients(k, blocks);
+    }
+  };
+
+  if (begin > 0)
+  {
+    planes.Find(begin - 1);
+  }
+  planes.Find(begin, static_cast<std::uint32_t>(m_FirstPoint[begin]));
+  loadAround(begin);
+  for (SizeValueType k = begin; k < end; ++k)
+  {
+    const auto firstOfNext = static_cast<std::uint32_t>(m_FirstPoint[k + 1]);
+    planes.Find(k + 1, firstOfNext);
+    loadAround(k + 1);
+    const FCCClusterPlane & plane = planes.Get(k);
+    TriangleSurface::PointType * const points = surface.GetPoints().data();
+    TriangleSurface::NormalType * const normals = surface.HasNormals() ? surface.GetNormals().data() : nullptr;
+    const auto place = [&](SizeValueType first, const auto & placeAt) {
+      placeAt(points + first, normals != nullptr ? normals + first : nullptr);
+    };
+    place(m_FirstPoint[k],
+          [&](auto * point, auto * normal) { clusterPoints.Place(m_Signs, plane, k, field, point, normal); });
+    place(plane.GetSingles().GetBefore(0)[0], [&](auto * point, auto * normal) {
+      edgePoints.Place(m_Signs,
+                       { 0,
+                         FCCClusterPlane::Types - 1,
+                         [&plane](SizeValueType j, std::uint8_t type) {
+                           return plane.GetSingles().GetRow(j * FCCClusterPlane::Types + type);
+                         } },
+                       k,
+                       field,
+                       point,
+                       normal);
+    });
+    if (k + 1 < m_Signs.GetDepth())
+    {
+      FillLeanTriangles(
+        m_Signs, k, plane, planes.Get(k + 1), reversed, surface.GetTriangles().data() + m_FirstTriangle[k]);
+    }
+  }
+}
+
+} // namespace itk
