@@ -1,0 +1,35 @@
+#ifndef rhombicExtractSurface_h
+#define rhombicExtractSurface_h
+
+#include "itkFCCImage.h"
+#include "itkTriangleSurface.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace rhombic
+{
+
+/** A way to extract a surface from the lattice. */
+enum class ExtractionMode : unsigned char
+{
+  Tetrahedra
+};
+
+/** All modes there are. */
+const std::vector<ExtractionMode> &
+GetExtractionModes();
+
+/** "tetrahedra", ... */
+const char *
+NameOf(ExtractionMode mode);
+
+/** The surface of an image, by as many threads as ITK is set to use. It ends at the image's border, as those of VTK do.
+ * Normals are made where the mode can't leave them out. For std::int16_t and float. */
+template <typename TPixel>
+itk::TriangleSurface::Pointer
+ExtractSurface(const itk::FCCImage<TPixel> * image, double isovalue, ExtractionMode mode, bool normals);
+
+} // namespace rhombic
+
+#endif
