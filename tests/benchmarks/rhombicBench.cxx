@@ -1,6 +1,7 @@
 #include "rhombicBenchSections.h"
 #include "rhombicFailure.h"
 #include "rhombicFieldSampling.h"
+#include "rhombicJSONFile.h"
 #include "rhombicMachine.h"
 #include "rhombicScanReader.h"
 #include "rhombicShapeFields.h"
@@ -9,7 +10,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 #include <set>
 
@@ -210,12 +210,7 @@ Run(const Options & options)
   }
   if (!options.json.empty())
   {
-    std::ofstream file(options.json);
-    file << report.dump(2) << '\n' << std::flush;
-    if (!file)
-    {
-      throw Failure(FailureKind::Output, "Cannot write " + options.json + "; is there a folder for it, and space?");
-    }
+    WriteJSONFile(options.json, report);
   }
 }
 

@@ -28,19 +28,20 @@ itk::TriangleSurface::Pointer
 ExtractSurface(const itk::FCCImage<TPixel> * image,
                double isovalue,
                [[maybe_unused]] ExtractionMode mode,
-               [[maybe_unused]] bool normals)
+               [[maybe_unused]] bool normals,
+               bool closed)
 {
   const auto filter = itk::FCCIsosurfaceFilter<itk::FCCImage<TPixel>>::New();
   filter->SetInput(image);
   filter->SetIsovalue(isovalue);
-  filter->SetClosed(false);
+  filter->SetClosed(closed);
   filter->Update();
   return filter->GetOutput();
 }
 
 template itk::TriangleSurface::Pointer
-ExtractSurface<std::int16_t>(const itk::FCCImage<std::int16_t> *, double, ExtractionMode, bool);
+ExtractSurface<std::int16_t>(const itk::FCCImage<std::int16_t> *, double, ExtractionMode, bool, bool);
 template itk::TriangleSurface::Pointer
-ExtractSurface<float>(const itk::FCCImage<float> *, double, ExtractionMode, bool);
+ExtractSurface<float>(const itk::FCCImage<float> *, double, ExtractionMode, bool, bool);
 
 } // namespace rhombic
