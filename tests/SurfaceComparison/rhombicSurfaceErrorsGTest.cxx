@@ -127,12 +127,39 @@ TEST(FieldProjection, EndsOnTheSurfaceStraightBelowThePoint)
     }
   }
   EXPECT_GT(near, 100U);
-  EXPECT_GE(resolved, 0.98 * near);
+  EXPECT_EQ(resolved, near);
 }
 
-TEST(FieldProjection, SaysWhereThereIsNoAnswer)
+TEST(FieldProjection, FindsTheSurfaceFromWhereThereIsNoGradient)
 {
-  EXPECT_FALSE(ProjectOntoField(SphereField({ 0, 0, 0 }, 3.0), { 0, 0, 0 }).isResolved);
+  const FieldProjection projection = ProjectOntoField(SphereField({ 0, 0, 0 }, 2.0), { 0, 0, 0 });
+  EXPECT_TRUE(projection.isResolved);
+  EXPECT_NEAR(projection.distance, 2.0, 1e-3);
+}
+
+TEST(FieldProjection, SaysWhereNoSurfaceIsNear)
+{
+  const FieldProjection projection = ProjectOntoField(SphereField({ 0, 0, 0 }, 4.0), { 0, 0, 0 });
+  EXPECT_FALSE(projection.isResolved);
+  EXPECT_EQ(projection.distance, 3.0);
+}
+
+TEST(FieldProjection, IsNeverFartherThanTheSurfaceAlongAnyAxis)
+{
+  const BandLimitedField field(0.75, 8);
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> coordinate(0.0, 40.0);
+  for (unsigned int i = 0; i < 500; ++i)
+  {
+    const Vector3 point{ coordinate(random), coordinate(random), coordinate(random) };
+    const double distance = ProjectOntoField(field, point).distance;
+    const bool isInside = field.Evaluate(point) >= 0.0;
+    for (double x = 0.05; x < distance - 0.1; x += 0.05)
+    {
+      EXPECT_EQ(field.Evaluate({ point[0] + x, point[1], point[2] }) >= 0.0, isInside) << x << " < " << distance;
+      EXPECT_EQ(field.Evaluate({ point[0], point[1], point[2] - x }) >= 0.0, isInside) << x << " < " << distance;
+    }
+  }
 }
 
 TEST(SurfaceErrors, OfAFineSphereThatIsTooLarge)

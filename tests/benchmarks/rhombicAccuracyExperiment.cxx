@@ -126,10 +126,10 @@ MakeField(const AccuracyCase & experiment, unsigned int size, std::uint64_t seed
   const Vector3 center{ half + uniform(), half + uniform(), half + uniform() };
   if (experiment.name == std::string("sphere"))
   {
-    return std::make_unique<SphereField>(center, 0.3 * size);
+    return std::make_unique<SphereField>(center, 0.325 * size);
   }
   const Vector3 axis{ uniform(), uniform(), uniform() };
-  return std::make_unique<TorusField>(center, axis, 0.25 * size, 0.1 * size);
+  return std::make_unique<TorusField>(center, axis, 0.27 * size, 0.125 * size);
 }
 
 std::vector<AccuracyResult>

@@ -14,11 +14,9 @@ namespace rhombic
  *
  *   sqrt(2 / n) sum cos(2 pi (k . p + phase)),
  *
- * whose wave vectors k are evenly distributed in a ball and whose phases are random. Its mean is 0 and its variance 1,
- * and with many waves its values are nearly Gaussian; the surface at 0 halves space. The same numbers give the same
- * field on every machine.
- *
- * Sines are computed to 1e-10.
+ * over n waves, whose wave vectors k are evenly distributed in a ball and whose phases are random. Its mean is 0 and
+ * its variance 1, and with many waves its values are nearly Gaussian; the surface at 0 halves space. The same numbers
+ * give the same field on every machine, up to rounding.
  */
 class BandLimitedField : public ReferenceField
 {
@@ -29,7 +27,7 @@ public:
   /** \param bandLimit length of the longest wave vector, in fractions of the Nyquist frequency of a Cartesian grid of
    *  spacing 1, which is half a wave per unit
    *  \param seed of the random numbers
-   *  \param numberOfWaves rounded up to an even number */
+   *  \param numberOfWaves rounded up to a multiple of 8 */
   BandLimitedField(double bandLimit, std::uint64_t seed, unsigned int numberOfWaves = DefaultNumberOfWaves);
 
   double
@@ -39,16 +37,10 @@ public:
   Evaluate(const Vector3 & point, Vector3 & gradient) const override;
 
 private:
-  /** Two waves side by side, as the processor computes them. */
-  struct WavePair
-  {
-    double x[2]; ///< waves per unit along each axis
-    double y[2];
-    double z[2];
-    double phase[2]; ///< in waves
-  };
-
-  std::vector<WavePair> m_Waves;
+  std::vector<double> m_X; ///< waves per unit along each axis
+  std::vector<double> m_Y;
+  std::vector<double> m_Z;
+  std::vector<double> m_Phases; ///< in waves
   double m_Amplitude;
 };
 

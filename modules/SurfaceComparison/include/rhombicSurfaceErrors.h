@@ -38,7 +38,7 @@ struct SurfaceErrors
   double meanQuality = 0.0;
   double poorFraction = 0.0; ///< triangles of a quality below PoorQuality
 
-  double unresolvedFraction = 0.0; ///< of the area, whose distance is a guess (see FieldProjection)
+  double unresolvedFraction = 0.0; ///< of the area: farther than three units from the true surface
 
   static constexpr double PoorQuality = 0.2;
 };
