@@ -49,7 +49,7 @@ Verdict(const std::vector<AccuracyTarget> & targets)
   std::string verdict;
   for (const AccuracyTarget & target : targets)
   {
-    const int digits = target.what == "no manifold" ? 0 : 2;
+    const int digits = target.what == "no manifold" ? 0 : 3;
     verdict += (verdict.empty() ? "" : ", ") + target.what + " " + Fixed(target.value, digits) +
                (target.isUpperLimit ? " <= " : " >= ") + Fixed(target.limit, digits) +
                (target.IsReached() ? " ok" : " MISSED");
