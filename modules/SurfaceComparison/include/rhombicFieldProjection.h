@@ -1,0 +1,30 @@
+#ifndef rhombicFieldProjection_h
+#define rhombicFieldProjection_h
+
+#include "rhombicReferenceField.h"
+
+namespace rhombic
+{
+
+/** \class FieldProjection
+ * \brief The point of a field's surface that is nearest to another point. */
+struct FieldProjection
+{
+  Vector3 point{};
+  Vector3 normal{};        ///< of the surface there, of length 1, pointing outside
+  double distance = 0.0;   ///< between the two points, not negative
+  bool isResolved = false; ///< false when there is no surface within three units; distance is then 3 units
+};
+
+/** Projects a point near a field's surface onto it. A Newton step along the gradient begins; from then on the next
+ * guess is the foot of the perpendicular from the point onto the tangent plane at the last one, so the search settles
+ * where the gradient runs through the point. Where that does not settle, or ends farther away than 0.4 units,
+ * the surface is also looked for along 26 directions around the point, and the nearest find is the answer.
+ * \param unit a length that is small for the field: no step is longer than a quarter of it, and the search has settled
+ * when a step is shorter than 1e-4 of it */
+FieldProjection
+ProjectOntoField(const ReferenceField & field, const Vector3 & point, double unit = 1.0);
+
+} // namespace rhombic
+
+#endif

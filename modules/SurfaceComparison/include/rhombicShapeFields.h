@@ -1,0 +1,72 @@
+#ifndef rhombicShapeFields_h
+#define rhombicShapeFields_h
+
+#include "rhombicReferenceField.h"
+
+namespace rhombic
+{
+
+/** \class SphereField
+ * \brief The signed distance to a sphere, radius - |p - center|. Its gradient is 0 at the center, where it has none. */
+class SphereField : public ReferenceField
+{
+public:
+  SphereField(const Vector3 & center, double radius);
+
+  double
+  Evaluate(const Vector3 & point) const override;
+
+  double
+  Evaluate(const Vector3 & point, Vector3 & gradient) const override;
+
+private:
+  Vector3 m_Center;
+  double m_Radius;
+};
+
+/** \class TorusField
+ * \brief The signed distance to a torus: minor - the distance to its circle, of radius major, about an axis through the
+ * center. Its gradient is 0 on the axis and on the circle, where it has none. */
+class TorusField : public ReferenceField
+{
+public:
+  /** \param center of the circle
+   *  \param axis normal of the circle's plane, of any length but 0
+   *  \param major radius of the circle
+   *  \param minor radius of the tube, below major */
+  TorusField(const Vector3 & center, const Vector3 & axis, double major, double minor);
+
+  double
+  Evaluate(const Vector3 & point) const override;
+
+  double
+  Evaluate(const Vector3 & point, Vector3 & gradient) const override;
+
+private:
+  Vector3 m_Center;
+  Vector3 m_Axis; ///< of length 1
+  double m_Major;
+  double m_Minor;
+};
+
+/** \class GyroidField
+ * \brief sin x cos y + sin y cos z + sin z cos x, with x, y, z in units of period / 2 pi: a surface that fills any
+ * volume evenly, in all directions (A. H. Schoen 1970). */
+class GyroidField : public ReferenceField
+{
+public:
+  explicit GyroidField(double period);
+
+  double
+  Evaluate(const Vector3 & point) const override;
+
+  double
+  Evaluate(const Vector3 & point, Vector3 & gradient) const override;
+
+private:
+  double m_WaveNumber; ///< 2 pi / period
+};
+
+} // namespace rhombic
+
+#endif

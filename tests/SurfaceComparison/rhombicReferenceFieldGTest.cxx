@@ -1,0 +1,148 @@
+#include "rhombicBandLimitedField.h"
+#include "rhombicFieldSampling.h"
+#include "rhombicShapeFields.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <random>
+
+using namespace rhombic;
+
+namespace
+{
+
+void
+ExpectGradientMatchesDifferences(const ReferenceField & field)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> coordinate(-8.0, 8.0);
+  constexpr double step = 1e-4;
+  for (unsigned int i = 0; i < 200; ++i)
+  {
+    const Vector3 point{ coordinate(random), coordinate(random), coordinate(random) };
+    Vector3 gradient;
+    EXPECT_DOUBLE_EQ(field.Evaluate(point), field.Evaluate(point, gradient));
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      Vector3 before = point;
+      Vector3 after = point;
+      before[axis] -= step;
+      after[axis] += step;
+      EXPECT_NEAR(gradient[axis], (field.Evaluate(after) - field.Evaluate(before)) / (2.0 * step), 1e-5);
+    }
+  }
+}
+
+} // namespace
+
+TEST(SphereField, IsTheSignedDistance)
+{
+  const SphereField sphere({ 1.0, 2.0, 3.0 }, 5.0);
+  EXPECT_DOUBLE_EQ(sphere.Evaluate({ 1.0, 2.0, 3.0 }), 5.0);
+  EXPECT_DOUBLE_EQ(sphere.Evaluate({ 1.0, 8.0, 3.0 }), -1.0);
+  ExpectGradientMatchesDifferences(sphere);
+}
+
+TEST(TorusField, IsTheSignedDistance)
+{
+  const TorusField torus({ 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 }, 6.0, 2.0);
+  EXPECT_DOUBLE_EQ(torus.Evaluate({ 6.0, 0.0, 0.0 }), 2.0);
+  EXPECT_DOUBLE_EQ(torus.Evaluate({ 0.0, 6.0, 2.5 }), -0.5);
+  EXPECT_DOUBLE_EQ(torus.Evaluate({ 0.0, 9.0, 0.0 }), -1.0);
+  ExpectGradientMatchesDifferences(TorusField({ 0.3, -0.2, 0.1 }, { 1.0, 2.0, -1.0 }, 6.0, 2.0));
+}
+
+TEST(GyroidField, RepeatsAndHasItsGradient)
+{
+  const GyroidField gyroid(12.0);
+  EXPECT_NEAR(gyroid.Evaluate({ 1.0, 2.0, 3.0 }), gyroid.Evaluate({ 13.0, -10.0, 27.0 }), 1e-12);
+  ExpectGradientMatchesDifferences(gyroid);
+}
+
+TEST(BandLimitedField, HasItsGradient)
+{
+  ExpectGradientMatchesDifferences(BandLimitedField(0.75, 3));
+}
+
+TEST(BandLimitedField, IsTheSameForTheSameSeedOnly)
+{
+  const Vector3 point{ 1.0, 2.0, 3.0 };
+  EXPECT_EQ(BandLimitedField(0.5, 3).Evaluate(point), BandLimitedField(0.5, 3).Evaluate(point));
+  EXPECT_NE(BandLimitedField(0.5, 3).Evaluate(point), BandLimitedField(0.5, 4).Evaluate(point));
+}
+
+TEST(BandLimitedField, HasMeanZeroAndVarianceOne)
+{
+  double sum = 0.0;
+  double squares = 0.0;
+  unsigned int count = 0;
+  for (unsigned int seed = 0; seed < 20; ++seed)
+  {
+    const BandLimitedField field(0.5, seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> coordinate(0.0, 200.0);
+    for (unsigned int i = 0; i < 1000; ++i, ++count)
+    {
+      const double value = field.Evaluate({ coordinate(random), coordinate(random), coordinate(random) });
+      sum += value;
+      squares += value * value;
+    }
+  }
+  EXPECT_NEAR(sum / count, 0.0, 0.03);
+  EXPECT_NEAR(squares / count, 1.0, 0.03);
+}
+
+TEST(BandLimitedField, HasNothingBeyondItsLimit)
+{
+  // Along a line, the power at a frequency: a field of limit K has waves up to K / 2 per unit. The Hann window's
+  // sidelobes are below 1e-6 a few bins on.
+  constexpr double limit = 0.5;
+  constexpr unsigned int length = 512;
+  constexpr double pi = 3.141592653589793;
+  const BandLimitedField field(limit, 11);
+  const auto powerAt = [&](double frequency) {
+    double real = 0.0;
+    double imaginary = 0.0;
+    for (unsigned int i = 0; i < length; ++i)
+    {
+      const double window = 0.5 - 0.5 * std::cos(2.0 * pi * i / length);
+      const double value = window * field.Evaluate({ static_cast<double>(i), 0.5, 0.25 }) / length;
+      real += value * std::cos(2.0 * pi * frequency * i);
+      imaginary += value * std::sin(2.0 * pi * frequency * i);
+    }
+    return real * real + imaginary * imaginary;
+  };
+  double inside = 0.0;
+  for (double frequency = 0.0; frequency < limit / 2.0; frequency += 1.0 / length)
+  {
+    inside = std::max(inside, powerAt(frequency));
+  }
+  for (double frequency = limit / 2.0 + 0.03; frequency < 0.5; frequency += 1.0 / length)
+  {
+    EXPECT_LT(powerAt(frequency), 1e-6 * inside) << frequency;
+  }
+  EXPECT_GT(powerAt(0.2) + powerAt(0.22) + powerAt(0.18), 1e-4 * inside) << "nothing near the limit either";
+}
+
+TEST(FieldSampling, GridAndLatticeHoldTheFieldAtTheirPoints)
+{
+  const BandLimitedField field(0.5, 3);
+  const auto grid = SampleOnGrid<float>(field, 6, 1.5);
+  EXPECT_FLOAT_EQ(grid->GetPixel({ { 2, 3, 5 } }), static_cast<float>(field.Evaluate({ 3.0, 4.5, 7.5 })));
+
+  const auto lattice = SampleOnLattice<float>(field, 10.0, 0.5); // s = 1
+  EXPECT_FLOAT_EQ(lattice->GetPixel({ { 2, 3, 4 } }), static_cast<float>(field.Evaluate({ 5.0, 3.0, 4.0 })));
+  const auto & size = lattice->GetLargestPossibleRegion().GetSize();
+  EXPECT_GE(2 * size[0] - 1, 11U);
+  EXPECT_EQ(size[1], 11U);
+  EXPECT_EQ(size[2], 11U);
+}
+
+TEST(FieldSampling, IntegersAreScaledAndRounded)
+{
+  const SphereField sphere({ 0.0, 0.0, 0.0 }, 5.0);
+  const auto grid = SampleOnGrid<std::int16_t>(sphere, 3, 1.0, 10.0);
+  EXPECT_EQ(grid->GetPixel({ { 1, 1, 0 } }), 36); // 50 - 14.14
+}

@@ -1,0 +1,31 @@
+# cmake -DPROGRAM=... -DARGUMENTS=... -DREPORT=... -DPOSITIVE=... -P check-report.cmake
+#
+# Runs a program that measures, and looks at the report that it writes: it must have results, and in each of them that
+# has one of the POSITIVE figures, the figure must be above 0; each figure must occur.
+
+file(REMOVE "${REPORT}")
+execute_process(COMMAND "${PROGRAM}" ${ARGUMENTS} --json "${REPORT}" RESULT_VARIABLE status)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "${PROGRAM} ended with ${status}")
+endif()
+file(READ "${REPORT}" report)
+string(JSON count LENGTH "${report}" results)
+if(count EQUAL 0)
+  message(FATAL_ERROR "${REPORT} has no results")
+endif()
+math(EXPR last "${count} - 1")
+foreach(figure IN LISTS POSITIVE)
+  set(found 0)
+  foreach(i RANGE ${last})
+    string(JSON value ERROR_VARIABLE missing GET "${report}" results ${i} ${figure})
+    if(NOT missing)
+      math(EXPR found "${found} + 1")
+      if(NOT value GREATER 0)
+        message(FATAL_ERROR "${REPORT}: ${figure} of result ${i} is ${value}")
+      endif()
+    endif()
+  endforeach()
+  if(found EQUAL 0)
+    message(FATAL_ERROR "${REPORT} has no ${figure}")
+  endif()
+endforeach()
