@@ -86,6 +86,7 @@ TEST(FCCIsosurfaceFilter, PinsItsDefaults)
   EXPECT_EQ(filter->GetIsovalue(), 0.0);
   EXPECT_TRUE(filter->GetClosed());
   EXPECT_FALSE(filter->GetInsideIsBelow());
+  EXPECT_EQ(filter->GetMode(), itk::FCCIsosurfaceMode::Tetrahedra);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfTriangles(), 0u);
   std::ostringstream text;
   filter->Print(text);

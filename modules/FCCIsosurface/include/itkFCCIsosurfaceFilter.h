@@ -2,7 +2,8 @@
 #define itkFCCIsosurfaceFilter_h
 
 #include "itkFCCImage.h"
-#include "itkFCCMarching.h"
+#include "itkFCCCellMarching.h"
+#include "itkFCCIsosurfaceMode.h"
 #include "itkProcessObject.h"
 #include "itkThreadFailure.h"
 #include "itkTriangleSurface.h"
@@ -93,6 +94,10 @@ public:
   itkGetConstMacro(Closed, bool);
   itkBooleanMacro(Closed);
 
+  /** The cells that are marched. Default Tetrahedra. */
+  itkSetEnumMacro(Mode, FCCIsosurfaceMode);
+  itkGetEnumMacro(Mode, FCCIsosurfaceMode);
+
 protected:
   FCCIsosurfaceFilter();
   ~FCCIsosurfaceFilter() override = default;
@@ -116,8 +121,27 @@ private:
   {
     std::vector<SizeValueType> inPlane;   ///< ids of points on edges within a plane begin here
     std::vector<SizeValueType> between;   ///< ids of points on edges to the next plane begin here
-    std::vector<SizeValueType> triangles; ///< triangles between a plane and the next begin here
+    std::vector<SizeValueType> triangles; ///< triangles between a plane and the next, or of a layer of cells
   };
+
+  bool
+  MarchesWholeCells() const
+  {
+    return m_Mode == FCCIsosurfaceMode::Octahedra || m_Mode == FCCIsosurfaceMode::Parallelepipeds;
+  }
+
+  FCCCellScheme
+  GetCellScheme() const
+  {
+    return m_Mode == FCCIsosurfaceMode::Octahedra ? FCCCellScheme::Octahedra : FCCCellScheme::Parallelepipeds;
+  }
+
+  /** The types of edges with points. */
+  std::uint8_t
+  GetUsedEdgeTypes() const
+  {
+    return this->MarchesWholeCells() ? GetEdgeTypes(this->GetCellScheme()) : FCCCutEdges::AllTypes;
+  }
 
   /** MinimumFraction, or more where positions in float32 would not tell a point from the edge's end. */
   double
@@ -132,6 +156,10 @@ private:
   void
   Fill(const FCCSigns & signs, const Layout & layout);
 
+  /** Fill(), for whole cells. */
+  void
+  FillCells(const FCCSigns & signs, const Layout & layout);
+
   void
   FillPoints(const FCCSigns & signs, const FCCCutEdges & edges, FCCCutEdges::Group group, SizeValueType plane);
 
@@ -144,6 +172,7 @@ private:
   double m_UsedFraction{ MinimumFraction };
   bool m_InsideIsBelow{ false };
   bool m_Closed{ true };
+  FCCIsosurfaceMode m_Mode{ FCCIsosurfaceMode::Tetrahedra };
 };
 
 } // namespace itk

@@ -62,6 +62,7 @@ FCCIsosurfaceFilter<TInputImage>::PrintSelf(std::ostream & os, Indent indent) co
   os << indent << "Isovalue: " << m_Isovalue << std::endl;
   os << indent << "InsideIsBelow: " << (m_InsideIsBelow ? "On" : "Off") << std::endl;
   os << indent << "Closed: " << (m_Closed ? "On" : "Off") << std::endl;
+  os << indent << "Mode: " << m_Mode << std::endl;
 }
 
 template <typename TInputImage>
@@ -73,6 +74,10 @@ FCCIsosurfaceFilter<TInputImage>::VerifyPreconditions() ITKv5_CONST
   {
     itkExceptionMacro("Isovalue must be a finite number, not " << m_Isovalue << ".");
   }
+  if (m_Mode != FCCIsosurfaceMode::Tetrahedra && !this->MarchesWholeCells())
+  {
+    itkExceptionMacro("Mode " << m_Mode << " is not available; use Tetrahedra, Octahedra or Parallelepipeds.");
+  }
 }
 
 template <typename TInputImage>
@@ -83,10 +88,18 @@ FCCIsosurfaceFilter<TInputImage>::GenerateData()
   this->GetOutput()->Initialize();
   m_UsedFraction = this->ComputeFraction();
   const FCCSigns signs = this->Classify();
-  this->Fill(signs, this->Count(signs));
+  const Layout layout = this->Count(signs);
+  if (this->MarchesWholeCells())
+  {
+    this->FillCells(signs, layout);
+  }
+  else
+  {
+    this->Fill(signs, layout);
+  }
   if (!m_Closed)
   {
-    this->GetOutput()->RemoveUnusedPoints(); // on edges of no tetrahedron, at the ragged ends of rows
+    this->GetOutput()->RemoveUnusedPoints(); // on edges of no marched cell, at the ragged ends of rows
   }
   this->UpdateProgress(1.0f);
 }
@@ -201,12 +214,20 @@ FCCIsosurfaceFilter<TInputImage>::Count(const FCCSigns & signs) -> Layout
   Layout layout{ std::vector<SizeValueType>(depth + 1),
                  std::vector<SizeValueType>(depth + 1),
                  std::vector<SizeValueType>(depth + 1) };
+  const std::uint8_t types = this->GetUsedEdgeTypes();
   this->ForEachSlab(depth, 0.2f, [&](SizeValueType begin, SizeValueType end) {
     for (SizeValueType k = begin; k < end; ++k)
     {
-      layout.inPlane[k] = FCCCutEdges::Count(signs, FCCCutEdges::Group::InPlane, k);
-      layout.between[k] = FCCCutEdges::Count(signs, FCCCutEdges::Group::Between, k);
-      layout.triangles[k] = k + 1 < depth ? CountTriangles(signs, k) : 0;
+      layout.inPlane[k] = FCCCutEdges::Count(signs, FCCCutEdges::Group::InPlane, k, types);
+      layout.between[k] = FCCCutEdges::Count(signs, FCCCutEdges::Group::Between, k, types);
+      if (this->MarchesWholeCells())
+      {
+        layout.triangles[k] = CountCellTriangles(signs, this->GetCellScheme(), k, m_Closed);
+      }
+      else
+      {
+        layout.triangles[k] = k + 1 < depth ? CountTriangles(signs, k) : 0;
+      }
     }
   });
 
@@ -271,6 +292,55 @@ FCCIsosurfaceFilter<TInputImage>::Fill(const FCCSigns & signs, const Layout & la
 
 template <typename TInputImage>
 void
+FCCIsosurfaceFilter<TInputImage>::FillCells(const FCCSigns & signs, const Layout & layout)
+{
+  const SizeValueType depth = signs.GetDepth();
+  TriangleSurface * const surface = this->GetOutput();
+  surface->GetPoints().resize(layout.inPlane[depth]);
+  surface->GetNormals().resize(layout.inPlane[depth]);
+  surface->GetTriangles().resize(layout.triangles[depth]);
+
+  // With left-handed axes the triangles of the tables face inwards.
+  const auto & direction = this->GetInput()->GetDirection();
+  const bool reversed = vnl_determinant(direction.GetVnlMatrix()) < 0.0;
+  const std::uint8_t types = this->GetUsedEdgeTypes();
+  const auto idOf = [](SizeValueType id) { return static_cast<std::uint32_t>(id); };
+
+  this->ForEachSlab(depth, 0.7f, [&](SizeValueType begin, SizeValueType end) {
+    // Of the planes before, at and after a layer; no edges are cut before the first plane.
+    using Group = FCCCutEdges::Group;
+    FCCCutEdges inPlane[3] = { { signs, Group::InPlane, types },
+                               { signs, Group::InPlane, types },
+                               { signs, Group::InPlane, types } };
+    FCCCutEdges between[2] = { { signs, Group::Between, types }, { signs, Group::Between, types } };
+    if (begin > 0)
+    {
+      inPlane[0].Find(begin - 1, idOf(layout.inPlane[begin - 1]));
+      between[0].Find(begin - 1, idOf(layout.between[begin - 1]));
+    }
+    inPlane[1].Find(begin, idOf(layout.inPlane[begin]));
+    for (SizeValueType k = begin; k < end; ++k)
+    {
+      between[1].Find(k, idOf(layout.between[k]));
+      inPlane[2].Find(k + 1, idOf(layout.inPlane[k + 1]));
+      this->FillPoints(signs, inPlane[1], Group::InPlane, k);
+      this->FillPoints(signs, between[1], Group::Between, k);
+      FillCellTriangles(signs,
+                        this->GetCellScheme(),
+                        k,
+                        { { &inPlane[0], &inPlane[1], &inPlane[2] }, { &between[0], &between[1] } },
+                        m_Closed,
+                        reversed,
+                        surface->GetTriangles().data() + layout.triangles[k]);
+      std::rotate(std::begin(inPlane), std::begin(inPlane) + 1, std::end(inPlane));
+      std::swap(between[0], between[1]);
+    }
+  });
+  surface->Modified();
+}
+
+template <typename TInputImage>
+void
 FCCIsosurfaceFilter<TInputImage>::FillPoints(const FCCSigns & signs,
                                              const FCCCutEdges & edges,
                                              FCCCutEdges::Group group,
@@ -286,6 +356,10 @@ FCCIsosurfaceFilter<TInputImage>::FillPoints(const FCCSigns & signs,
   {
     for (std::uint8_t type = FCCCutEdges::FirstType(group); type <= FCCCutEdges::LastType(group); ++type)
     {
+      if (!edges.HasType(type))
+      {
+        continue;
+      }
       const FCCCutEdges::Row row = edges.GetRow(j, type);
       for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
       {

@@ -97,7 +97,10 @@ public:
     Between
   };
 
-  FCCCutEdges(const FCCSigns & signs, Group group);
+  /** Bits of the types of FCCLattice::OwnedEdges that a decomposition of space into cells has. */
+  static constexpr std::uint8_t AllTypes = 0x7f;
+
+  FCCCutEdges(const FCCSigns & signs, Group group, std::uint8_t types = AllTypes);
 
   /** Finds the cut edges owned by plane \a k and numbers them from \a firstId. Planes past the last own none. */
   void
@@ -105,7 +108,7 @@ public:
 
   /** Number of cut edges owned by plane \a k, without finding their ids. */
   static SizeValueType
-  Count(const FCCSigns & signs, Group group, SizeValueType k);
+  Count(const FCCSigns & signs, Group group, SizeValueType k, std::uint8_t types = AllTypes);
 
   static std::uint8_t
   FirstType(Group group)
@@ -116,6 +119,13 @@ public:
   LastType(Group group)
   {
     return group == Group::InPlane ? 2 : 6;
+  }
+
+  /** Whether edges of a type have points. */
+  bool
+  HasType(std::uint8_t type) const
+  {
+    return (m_Types >> type & 1) != 0;
   }
 
   /** The cut edges of one type and row. */
@@ -144,12 +154,14 @@ private:
   SizeValueType
   FirstWordOf(SizeValueType j, std::uint8_t type) const
   {
-    return (j * m_Types + (type - FirstType(m_Group))) * m_Signs->GetNumberOfWords();
+    const auto typesBefore = static_cast<SizeValueType>(__builtin_popcount(m_Types & ((1u << type) - 1)));
+    return (j * m_NumberOfTypes + typesBefore) * m_Signs->GetNumberOfWords();
   }
 
   const FCCSigns * m_Signs;
   Group m_Group;
-  SizeValueType m_Types;
+  unsigned int m_Types; ///< bits of the types in the group
+  SizeValueType m_NumberOfTypes;
   std::vector<WordType> m_Masks;
   std::vector<std::uint32_t> m_Before;
 };

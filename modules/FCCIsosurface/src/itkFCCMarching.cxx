@@ -197,11 +197,12 @@ FCCSigns::FCCSigns(SizeValueType width, SizeValueType height, SizeValueType dept
   , m_Words(m_Stride * height * depth, 0)
 {}
 
-FCCCutEdges::FCCCutEdges(const FCCSigns & signs, Group group)
+FCCCutEdges::FCCCutEdges(const FCCSigns & signs, Group group, std::uint8_t types)
   : m_Signs(&signs)
   , m_Group(group)
-  , m_Types(static_cast<SizeValueType>(LastType(group) - FirstType(group) + 1))
-  , m_Masks(signs.GetHeight() * m_Types * signs.GetNumberOfWords())
+  , m_Types(types & ((2u << LastType(group)) - (1u << FirstType(group))))
+  , m_NumberOfTypes(static_cast<SizeValueType>(__builtin_popcount(m_Types)))
+  , m_Masks(signs.GetHeight() * m_NumberOfTypes * signs.GetNumberOfWords())
   , m_Before(m_Masks.size())
 {}
 
@@ -215,8 +216,11 @@ FCCCutEdges::Find(SizeValueType k, std::uint32_t firstId)
     {
       for (std::uint8_t type = FirstType(m_Group); type <= LastType(m_Group); ++type)
       {
-        WordType * const masks = m_Masks.data() + this->FirstWordOf(j, type);
-        ForEachCutWord(*m_Signs, type, j, k, [masks](SizeValueType word, WordType mask) { masks[word] = mask; });
+        if (this->HasType(type))
+        {
+          WordType * const masks = m_Masks.data() + this->FirstWordOf(j, type);
+          ForEachCutWord(*m_Signs, type, j, k, [masks](SizeValueType word, WordType mask) { masks[word] = mask; });
+        }
       }
     }
   }
@@ -229,14 +233,17 @@ FCCCutEdges::Find(SizeValueType k, std::uint32_t firstId)
 }
 
 SizeValueType
-FCCCutEdges::Count(const FCCSigns & signs, Group group, SizeValueType k)
+FCCCutEdges::Count(const FCCSigns & signs, Group group, SizeValueType k, std::uint8_t types)
 {
   SizeValueType count = 0;
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
   {
     for (std::uint8_t type = FirstType(group); type <= LastType(group); ++type)
     {
-      ForEachCutWord(signs, type, j, k, [&count](SizeValueType, WordType mask) { count += CountBits(mask); });
+      if ((types >> type & 1) != 0)
+      {
+        ForEachCutWord(signs, type, j, k, [&count](SizeValueType, WordType mask) { count += CountBits(mask); });
+      }
     }
   }
   return count;
