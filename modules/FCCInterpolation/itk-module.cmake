@@ -1,3 +1,3 @@
 itk_module(FCCInterpolation
-  DEPENDS FCCLattice ITKImageFunction
+  DEPENDS RhombicCommon FCCLattice ITKImageFunction
   DESCRIPTION "Values between the samples of an FCC image.")

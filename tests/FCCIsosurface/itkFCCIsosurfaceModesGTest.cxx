@@ -182,13 +182,10 @@ TEST_P(FCCIsosurfaceModes, OpenSurfacesHaveManifoldEdges)
   }
 }
 
-std::string
-NameOf(const testing::TestParamInfo<Mode> & info)
-{
-  static const std::string names[] = { "Tetrahedra", "Octahedra", "Parallelepipeds", "Fine", "Lean" };
-  return names[static_cast<unsigned int>(info.param)];
-}
-
-INSTANTIATE_TEST_SUITE_P(All, FCCIsosurfaceModes, testing::Values(Mode::Tetrahedra, Mode::Fine, Mode::Lean), NameOf);
+INSTANTIATE_TEST_SUITE_P(
+  All,
+  FCCIsosurfaceModes,
+  testing::Values(Mode::Tetrahedra, Mode::Octahedra, Mode::Parallelepipeds, Mode::Fine, Mode::Lean),
+  testing::PrintToStringParamName());
 
 } // namespace

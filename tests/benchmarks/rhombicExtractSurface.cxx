@@ -8,7 +8,11 @@ namespace rhombic
 const std::vector<ExtractionMode> &
 GetExtractionModes()
 {
-  static const std::vector<ExtractionMode> modes{ ExtractionMode::Tetrahedra };
+  static const std::vector<ExtractionMode> modes{ ExtractionMode::Tetrahedra,
+                                                  ExtractionMode::Octahedra,
+                                                  ExtractionMode::Parallelepipeds,
+                                                  ExtractionMode::Fine,
+                                                  ExtractionMode::Lean };
   return modes;
 }
 
@@ -19,20 +23,26 @@ NameOf(ExtractionMode mode)
   {
     case ExtractionMode::Tetrahedra:
       return "tetrahedra";
+    case ExtractionMode::Octahedra:
+      return "octahedra";
+    case ExtractionMode::Parallelepipeds:
+      return "parallelepipeds";
+    case ExtractionMode::Fine:
+      return "fine";
+    case ExtractionMode::Lean:
+      return "lean";
   }
   return "";
 }
 
 template <typename TPixel>
 itk::TriangleSurface::Pointer
-ExtractSurface(const itk::FCCImage<TPixel> * image,
-               double isovalue,
-               [[maybe_unused]] ExtractionMode mode,
-               [[maybe_unused]] bool normals,
-               bool closed)
+ExtractSurface(const itk::FCCImage<TPixel> * image, double isovalue, ExtractionMode mode, bool normals, bool closed)
 {
   const auto filter = itk::FCCIsosurfaceFilter<itk::FCCImage<TPixel>>::New();
   filter->SetInput(image);
+  filter->SetMode(mode);
+  filter->SetComputeNormals(normals);
   filter->SetIsovalue(isovalue);
   filter->SetClosed(closed);
   filter->Update();

@@ -2,6 +2,7 @@
 #define rhombicExtractSurface_h
 
 #include "itkFCCImage.h"
+#include "itkFCCIsosurfaceMode.h"
 #include "itkTriangleSurface.h"
 
 #include <cstdint>
@@ -10,11 +11,7 @@
 namespace rhombic
 {
 
-/** A way to extract a surface from the lattice. */
-enum class ExtractionMode : unsigned char
-{
-  Tetrahedra
-};
+using ExtractionMode = itk::FCCIsosurfaceMode;
 
 /** All modes there are. */
 const std::vector<ExtractionMode> &

@@ -37,8 +37,7 @@ public:
   /** Some of the edges that the sites of a plane store. */
   struct Edges
   {
-    std::uint8_t firstType;
-    std::uint8_t lastType;
+    std::uint8_t types;                                                                  ///< bits of their types
     std::function<const FCCSigns::WordType *(SizeValueType j, std::uint8_t type)> masks; ///< bit i: that of site i
   };
 
@@ -63,6 +62,36 @@ private:
   bool m_Cubic;
   double m_MinimumFraction;
   SizeValueType m_Margin;
+};
+
+/** \class FCCEdgePointFiller
+ * \brief Fills the points and normals of a surface, plane by plane, from the edges that the planes' sites store.
+ *
+ * Ask for planes in ascending order. Thread safety: each thread uses its own.
+ *
+ * \ingroup FCCIsosurface
+ */
+class FCCEdgePointFiller
+{
+public:
+  /** \param margin 1 when signs count sites from a layer around the image, otherwise 0 */
+  FCCEdgePointFiller(const FCCSigns & signs,
+                     const ImageRegion<3> & region,
+                     SizeValueType margin,
+                     const FCCEdgePoints & edgePoints,
+                     FCCFieldPlanes::RowReader readRow);
+
+  /** The points on some edges stored by plane \a k of the signs. The surface must have its size; normals are left out
+   * where it has none. */
+  void
+  Fill(SizeValueType k, const FCCCutEdges & inPlane, const FCCCutEdges & between, TriangleSurface & surface);
+
+private:
+  const FCCSigns & m_Signs;
+  const FCCEdgePoints & m_EdgePoints;
+  SizeValueType m_ToField; ///< from a plane of the signs to that of the field
+  FCCFieldPlanes m_Field;
+  std::vector<std::uint8_t> m_Blocks;
 };
 
 } // namespace itk

@@ -61,6 +61,17 @@ public:
   void
   LoadValues(SizeValueType k);
 
+  /** The same for planes \a k - 1 to \a k + 1, as far as there are any. */
+  void
+  LoadValuesAround(SizeValueType k);
+
+  /** Whether the gradients of a plane have been loaded, and no later one's in their place. */
+  bool
+  HasGradients(SizeValueType k) const
+  {
+    return m_Gradients[k % m_Gradients.size()][0].number == k;
+  }
+
   /** Makes the gradients of a plane available where blocks of FCCRowKernels::Block sites are wanted; the last two
    * planes are. \param wanted not zero for those, rows of GetNumberOfBlocks() */
   void

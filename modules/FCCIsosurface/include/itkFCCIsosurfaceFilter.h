@@ -3,7 +3,9 @@
 
 #include "itkFCCFieldPlanes.h"
 #include "itkFCCImage.h"
-#include "itkFCCMarching.h"
+#include "itkFCCCellMarching.h"
+#include "itkFCCEdgePoints.h"
+#include "itkFCCIsosurfaceMode.h"
 #include "itkFCCPointKernels.h"
 #include "itkProcessObject.h"
 #include "itkThreadFailure.h"
@@ -11,18 +13,6 @@
 
 namespace itk
 {
-
-/** How FCCIsosurfaceFilter puts triangles through the lattice's cells. All modes give a closed (with Closed on),
- * oriented manifold for any input; T is the number of triangles for the surface area and density at which marching
- * cubes needs 1. */
-enum class FCCIsosurfaceMode : unsigned char
-{
-  Tetrahedra,      ///< six tetrahedra a parallelepiped, points by linear interpolation: the paper's text. T = 2.33
-  Octahedra,       ///< regular tetrahedra and whole octahedra. T = 1.89
-  Parallelepipeds, ///< whole parallelepipeds, as marching cubes has cubes: the paper's counts. T = 0.94
-  Fine,            ///< as Tetrahedra, points by cubic interpolation: the most accurate. T = 2.33
-  Lean             ///< as Fine, points gathered at sites: the fewest and best-shaped triangles. T = 0.65
-};
 
 /** \class FCCIsosurfaceFilter
  * \brief Isosurfaces of an FCC image, by marching the lattice's cells.
@@ -166,9 +156,10 @@ private:
   /** First point and triangle of each plane, and the totals at the end. */
   struct Layout
   {
-    std::vector<SizeValueType> inPlane;   ///< ids of points on edges within a plane begin here
-    std::vector<SizeValueType> between;   ///< ids of points on edges to the next plane begin here
-    std::vector<SizeValueType> triangles; ///< triangles between a plane and the next begin here
+    std::vector<SizeValueType> inPlane; ///< ids of points on edges within a plane begin here
+    std::vector<SizeValueType> between; ///< ids of points on edges to the next plane begin here
+    std::vector<SizeValueType>
+      triangles; ///< triangles between a plane and the next, or of a layer of cells, begin here
   };
 
   /** MinimumFraction, or more where positions in float32 would not tell a point from the edge's end. */
@@ -180,6 +171,12 @@ private:
 
   FCCFieldPlanes::RowReader
   MakeRowReader(double isovalue) const;
+
+  FCCEdgePoints
+  MakeEdgePoints() const;
+
+  FCCEdgePointFiller
+  MakeFiller(const FCCSigns & signs, double isovalue, const FCCEdgePoints & edgePoints) const;
 
   /** With left-handed axes the triangles of the tables face inwards. */
   bool
@@ -195,8 +192,17 @@ private:
   void
   ExtractLean(const FCCSigns & signs, double isovalue, TriangleSurface & surface);
 
+  void
+  ExtractCells(const FCCSigns & signs, double isovalue, FCCCellScheme scheme, TriangleSurface & surface);
+
+  /** Counts the cut edges of some types, and with them sizes the surface. \a countTriangles(k) says how many triangles
+   * the plane or layer k has. */
+  template <typename TCount>
   Layout
-  Count(const FCCSigns & signs);
+  CountAndAllocate(const FCCSigns & signs,
+                   std::uint8_t types,
+                   const TCount & countTriangles,
+                   TriangleSurface & surface);
 
   void
   Allocate(TriangleSurface & surface, SizeValueType points, SizeValueType triangles) const;

@@ -91,8 +91,7 @@ FCCIsosurfaceFilter<TInputImage>::PrintSelf(std::ostream & os, Indent indent) co
     os << ' ' << isovalue;
   }
   os << std::endl;
-  constexpr const char * modes[] = { "Tetrahedra", "Octahedra", "Parallelepipeds", "Fine", "Lean" };
-  os << indent << "Mode: " << modes[static_cast<unsigned int>(m_Mode)] << std::endl;
+  os << indent << "Mode: " << m_Mode << std::endl;
   os << indent << "ComputeNormals: " << (m_ComputeNormals ? "On" : "Off") << std::endl;
   os << indent << "NumberOfUndefinedSamples: " << m_NumberOfUndefinedSamples << std::endl;
   os << indent << "InsideIsBelow: " << (m_InsideIsBelow ? "On" : "Off") << std::endl;
@@ -131,9 +130,13 @@ FCCIsosurfaceFilter<TInputImage>::GenerateData()
         this->ExtractLean(signs[n], m_Isovalues[n], surface);
         break;
       case FCCIsosurfaceMode::Octahedra:
+        this->ExtractCells(signs[n], m_Isovalues[n], FCCCellScheme::Octahedra, surface);
+        break;
       case FCCIsosurfaceMode::Parallelepipeds:
-        itkExceptionMacro("not there yet");
-      default:
+        this->ExtractCells(signs[n], m_Isovalues[n], FCCCellScheme::Parallelepipeds, surface);
+        break;
+      case FCCIsosurfaceMode::Tetrahedra:
+      case FCCIsosurfaceMode::Fine:
         this->ExtractTetrahedra(signs[n], m_Isovalues[n], surface);
     }
     if (!m_Closed)
@@ -286,6 +289,25 @@ FCCIsosurfaceFilter<TInputImage>::MakeRowReader(double isovalue) const
 }
 
 template <typename TInputImage>
+FCCEdgePoints
+FCCIsosurfaceFilter<TInputImage>::MakeEdgePoints() const
+{
+  const bool isCubic = m_Mode == FCCIsosurfaceMode::Fine;
+  return FCCEdgePoints(
+    this->GetInput()->GetBufferedRegion(), this->MakeFrame(), isCubic, m_UsedFraction, m_Closed ? 1 : 0);
+}
+
+template <typename TInputImage>
+FCCEdgePointFiller
+FCCIsosurfaceFilter<TInputImage>::MakeFiller(const FCCSigns & signs,
+                                             double isovalue,
+                                             const FCCEdgePoints & edgePoints) const
+{
+  return FCCEdgePointFiller(
+    signs, this->GetInput()->GetBufferedRegion(), m_Closed ? 1 : 0, edgePoints, this->MakeRowReader(isovalue));
+}
+
+template <typename TInputImage>
 bool
 FCCIsosurfaceFilter<TInputImage>::IsLeftHanded() const
 {
@@ -322,8 +344,12 @@ FCCIsosurfaceFilter<TInputImage>::ExtractLean(const FCCSigns & signs, double iso
 }
 
 template <typename TInputImage>
+template <typename TCount>
 auto
-FCCIsosurfaceFilter<TInputImage>::Count(const FCCSigns & signs) -> Layout
+FCCIsosurfaceFilter<TInputImage>::CountAndAllocate(const FCCSigns & signs,
+                                                   std::uint8_t types,
+                                                   const TCount & countTriangles,
+                                                   TriangleSurface & surface) -> Layout
 {
   const SizeValueType depth = signs.GetDepth();
   Layout layout{ std::vector<SizeValueType>(depth + 1),
@@ -332,9 +358,9 @@ FCCIsosurfaceFilter<TInputImage>::Count(const FCCSigns & signs) -> Layout
   this->ForEachSlab(depth, 0.2f / static_cast<float>(m_Isovalues.size()), [&](SizeValueType begin, SizeValueType end) {
     for (SizeValueType k = begin; k < end; ++k)
     {
-      layout.inPlane[k] = FCCCutEdges::Count(signs, FCCCutEdges::Group::InPlane, k);
-      layout.between[k] = FCCCutEdges::Count(signs, FCCCutEdges::Group::Between, k);
-      layout.triangles[k] = k + 1 < depth ? CountTriangles(signs, k) : 0;
+      layout.inPlane[k] = FCCCutEdges::Count(signs, FCCCutEdges::Group::InPlane, k, types);
+      layout.between[k] = FCCCutEdges::Count(signs, FCCCutEdges::Group::Between, k, types);
+      layout.triangles[k] = countTriangles(k);
     }
   });
 
@@ -351,6 +377,7 @@ FCCIsosurfaceFilter<TInputImage>::Count(const FCCSigns & signs) -> Layout
     points = afterBetween;
     triangles = afterTriangles;
   }
+  this->Allocate(surface, points, triangles);
   return layout;
 }
 
@@ -358,61 +385,79 @@ template <typename TInputImage>
 void
 FCCIsosurfaceFilter<TInputImage>::ExtractTetrahedra(const FCCSigns & signs, double isovalue, TriangleSurface & surface)
 {
-  const Layout layout = this->Count(signs);
   const SizeValueType depth = signs.GetDepth();
-  this->Allocate(surface, layout.inPlane[depth], layout.triangles[depth]);
-  const InputImageType * const image = this->GetInput();
-  const ImageRegion<3> & region = image->GetBufferedRegion();
-  const SizeValueType margin = m_Closed ? 1 : 0;
-  const bool isCubic = m_Mode == FCCIsosurfaceMode::Fine;
+  const Layout layout = this->CountAndAllocate(
+    signs,
+    FCCCutEdges::AllTypes,
+    [&](SizeValueType k) { return k + 1 < depth ? CountTriangles(signs, k) : 0; },
+    surface);
   const bool reversed = this->IsLeftHanded();
-  const FCCEdgePoints edgePoints(region, this->MakeFrame(), isCubic, m_UsedFraction, margin);
-  const auto readRow = this->MakeRowReader(isovalue);
+  const FCCEdgePoints edgePoints = this->MakeEdgePoints();
   const auto idOf = [](SizeValueType id) { return static_cast<std::uint32_t>(id); };
 
   this->ForEachSlab(depth, 0.7f / static_cast<float>(m_Isovalues.size()), [&](SizeValueType begin, SizeValueType end) {
-    FCCFieldPlanes field({ region.GetSize(0), region.GetSize(1), region.GetSize(2) },
-                         FCCLattice::Parity(region.GetIndex(1) - 1, region.GetIndex(2) - 1),
-                         readRow);
-    std::vector<std::uint8_t> blocks;
-    const auto loadAround = [&](SizeValueType k) {
-      const SizeValueType plane = k + 1 - margin;
-      for (SizeValueType near = plane > 0 ? plane - 1 : 0; near < std::min(plane + 2, region.GetSize(2) + 2); ++near)
-      {
-        field.LoadValues(near);
-      }
-      if (m_ComputeNormals && k < depth)
-      {
-        FindBorderBlocks(signs, k, FCCRowKernels::Block, field.GetNumberOfBlocks(), 1 - margin, blocks);
-        field.LoadGradients(plane, blocks);
-      }
-    };
+    FCCEdgePointFiller filler = this->MakeFiller(signs, isovalue, edgePoints);
     FCCCutEdges lower(signs, FCCCutEdges::Group::InPlane);
     FCCCutEdges upper(signs, FCCCutEdges::Group::InPlane);
     FCCCutEdges between(signs, FCCCutEdges::Group::Between);
     lower.Find(begin, idOf(layout.inPlane[begin]));
-    loadAround(begin);
     for (SizeValueType k = begin; k < end; ++k)
     {
       between.Find(k, idOf(layout.between[k]));
       upper.Find(k + 1, idOf(layout.inPlane[k + 1]));
-      loadAround(k + 1);
-      for (const FCCCutEdges * const edges : { &lower, &between })
-      {
-        edgePoints.Place(signs,
-                         { edges->GetFirstType(),
-                           edges->GetLastType(),
-                           [edges](SizeValueType j, std::uint8_t type) { return edges->GetRow(j, type).mask; } },
-                         k,
-                         field,
-                         surface.GetPoints().data() + edges->GetFirstId(),
-                         m_ComputeNormals ? surface.GetNormals().data() + edges->GetFirstId() : nullptr);
-      }
+      filler.Fill(k, lower, between, surface);
       if (k + 1 < depth)
       {
         FillTriangles(signs, k, lower, upper, between, reversed, surface.GetTriangles().data() + layout.triangles[k]);
       }
       std::swap(lower, upper);
+    }
+  });
+}
+
+template <typename TInputImage>
+void
+FCCIsosurfaceFilter<TInputImage>::ExtractCells(const FCCSigns & signs,
+                                               double isovalue,
+                                               FCCCellScheme scheme,
+                                               TriangleSurface & surface)
+{
+  const std::uint8_t types = GetEdgeTypes(scheme);
+  const Layout layout = this->CountAndAllocate(
+    signs, types, [&](SizeValueType k) { return CountCellTriangles(signs, scheme, k, m_Closed); }, surface);
+  const bool reversed = this->IsLeftHanded();
+  const FCCEdgePoints edgePoints = this->MakeEdgePoints();
+  const auto idOf = [](SizeValueType id) { return static_cast<std::uint32_t>(id); };
+
+  const float share = 0.7f / static_cast<float>(m_Isovalues.size());
+  this->ForEachSlab(signs.GetDepth(), share, [&](SizeValueType begin, SizeValueType end) {
+    // Of the planes before, at and after a layer; no edges are cut before the first plane.
+    using Group = FCCCutEdges::Group;
+    FCCCutEdges inPlane[3] = { { signs, Group::InPlane, types },
+                               { signs, Group::InPlane, types },
+                               { signs, Group::InPlane, types } };
+    FCCCutEdges between[2] = { { signs, Group::Between, types }, { signs, Group::Between, types } };
+    if (begin > 0)
+    {
+      inPlane[0].Find(begin - 1, idOf(layout.inPlane[begin - 1]));
+      between[0].Find(begin - 1, idOf(layout.between[begin - 1]));
+    }
+    inPlane[1].Find(begin, idOf(layout.inPlane[begin]));
+    FCCEdgePointFiller filler = this->MakeFiller(signs, isovalue, edgePoints);
+    for (SizeValueType k = begin; k < end; ++k)
+    {
+      between[1].Find(k, idOf(layout.between[k]));
+      inPlane[2].Find(k + 1, idOf(layout.inPlane[k + 1]));
+      filler.Fill(k, inPlane[1], between[1], surface);
+      FillCellTriangles(signs,
+                        scheme,
+                        k,
+                        { { &inPlane[0], &inPlane[1], &inPlane[2] }, { &between[0], &between[1] } },
+                        m_Closed,
+                        reversed,
+                        surface.GetTriangles().data() + layout.triangles[k]);
+      std::rotate(std::begin(inPlane), std::begin(inPlane) + 1, std::end(inPlane));
+      std::swap(between[0], between[1]);
     }
   });
 }

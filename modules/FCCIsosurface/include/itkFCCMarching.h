@@ -101,7 +101,10 @@ public:
     Between
   };
 
-  FCCCutEdges(const FCCSigns & signs, Group group);
+  /** Bits of the types of FCCLattice::OwnedEdges that a decomposition of space into cells has. */
+  static constexpr std::uint8_t AllTypes = 0x7f;
+
+  FCCCutEdges(const FCCSigns & signs, Group group, std::uint8_t types = AllTypes);
 
   /** Finds the cut edges owned by plane \a k and numbers them from \a firstId. Planes past the last own none. */
   void
@@ -109,33 +112,24 @@ public:
 
   /** Number of cut edges owned by plane \a k, without finding their ids. */
   static SizeValueType
-  Count(const FCCSigns & signs, Group group, SizeValueType k);
+  Count(const FCCSigns & signs, Group group, SizeValueType k, std::uint8_t types = AllTypes);
 
   std::uint32_t
   GetFirstId() const
   {
-    return m_Before.front();
+    return m_FirstId;
   }
+  /** Bits of the types with points, of those in the group. */
   std::uint8_t
-  GetFirstType() const
+  GetTypes() const
   {
-    return FirstType(m_Group);
-  }
-  std::uint8_t
-  GetLastType() const
-  {
-    return LastType(m_Group);
+    return m_Types;
   }
 
-  static std::uint8_t
-  FirstType(Group group)
+  static bool
+  IsBetween(std::uint8_t type)
   {
-    return group == Group::InPlane ? 0 : 3;
-  }
-  static std::uint8_t
-  LastType(Group group)
-  {
-    return group == Group::InPlane ? 2 : 6;
+    return type >= 3;
   }
 
   /** The cut edges of one type and row. */
@@ -164,12 +158,14 @@ private:
   SizeValueType
   FirstWordOf(SizeValueType j, std::uint8_t type) const
   {
-    return (j * m_Types + (type - FirstType(m_Group))) * m_Signs->GetNumberOfWords();
+    const auto typesBefore = static_cast<SizeValueType>(__builtin_popcount(m_Types & ((1u << type) - 1)));
+    return (j * m_NumberOfTypes + typesBefore) * m_Signs->GetNumberOfWords();
   }
 
   const FCCSigns * m_Signs;
-  Group m_Group;
-  SizeValueType m_Types;
+  std::uint8_t m_Types;
+  SizeValueType m_NumberOfTypes;
+  std::uint32_t m_FirstId{ 0 };
   std::vector<WordType> m_Masks;
   std::vector<std::uint32_t> m_Before;
 };

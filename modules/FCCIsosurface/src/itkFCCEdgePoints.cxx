@@ -1,5 +1,8 @@
 #include "itkFCCEdgePoints.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace itk
 {
 namespace
@@ -97,8 +100,9 @@ FCCEdgePoints::Place(const FCCSigns & signs,
 
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
   {
-    for (std::uint8_t type = edges.firstType; type <= edges.lastType; ++type)
+    for (unsigned int types = edges.types; types != 0; types &= types - 1)
     {
+      const auto type = static_cast<std::uint8_t>(__builtin_ctz(types));
       const SiteType & step = FCCLattice::OwnedEdges[type];
       const SizeValueType row = j + toField;
       const SizeValueType plane = k + toField;
@@ -166,6 +170,46 @@ FCCEdgePoints::GatherBorder(const SiteType & site,
   {
     batch.gradient[0][axis][batch.count] = static_cast<float>(m_Frame.outwardSign * direction[axis]);
     batch.gradient[1][axis][batch.count] = batch.gradient[0][axis][batch.count];
+  }
+}
+
+FCCEdgePointFiller::FCCEdgePointFiller(const FCCSigns & signs,
+                                       const ImageRegion<3> & region,
+                                       SizeValueType margin,
+                                       const FCCEdgePoints & edgePoints,
+                                       FCCFieldPlanes::RowReader readRow)
+  : m_Signs(signs)
+  , m_EdgePoints(edgePoints)
+  , m_ToField(1 - margin)
+  , m_Field({ region.GetSize(0), region.GetSize(1), region.GetSize(2) },
+            FCCLattice::Parity(region.GetIndex(1) - 1, region.GetIndex(2) - 1),
+            std::move(readRow))
+{}
+
+void
+FCCEdgePointFiller::Fill(SizeValueType k,
+                         const FCCCutEdges & inPlane,
+                         const FCCCutEdges & between,
+                         TriangleSurface & surface)
+{
+  for (SizeValueType end = k; end < std::min(k + 2, m_Signs.GetDepth()); ++end) // the planes of the edges' ends
+  {
+    m_Field.LoadValuesAround(end + m_ToField);
+    if (surface.HasNormals() && !m_Field.HasGradients(end + m_ToField))
+    {
+      FindBorderBlocks(m_Signs, end, FCCRowKernels::Block, m_Field.GetNumberOfBlocks(), m_ToField, m_Blocks);
+      m_Field.LoadGradients(end + m_ToField, m_Blocks);
+    }
+  }
+  for (const FCCCutEdges * const edges : { &inPlane, &between })
+  {
+    m_EdgePoints.Place(
+      m_Signs,
+      { edges->GetTypes(), [edges](SizeValueType j, std::uint8_t type) { return edges->GetRow(j, type).mask; } },
+      k,
+      m_Field,
+      surface.GetPoints().data() + edges->GetFirstId(),
+      surface.HasNormals() ? surface.GetNormals().data() + edges->GetFirstId() : nullptr);
   }
 }
 

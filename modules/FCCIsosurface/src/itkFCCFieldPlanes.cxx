@@ -49,6 +49,15 @@ FCCFieldPlanes::LoadValues(SizeValueType k)
 }
 
 void
+FCCFieldPlanes::LoadValuesAround(SizeValueType k)
+{
+  for (SizeValueType near = k > 0 ? k - 1 : 0; near < std::min(k + 2, m_Size[2]); ++near)
+  {
+    this->LoadValues(near);
+  }
+}
+
+void
 FCCFieldPlanes::LoadCoefficients(SizeValueType k)
 {
   Plane & plane = m_Coefficients[k % m_Coefficients.size()];
@@ -60,10 +69,7 @@ FCCFieldPlanes::LoadCoefficients(SizeValueType k)
   plane.number = k;
   if (this->IsReal(2, k))
   {
-    for (SizeValueType near = k - 1; near <= k + 1; ++near)
-    {
-      this->LoadValues(near);
-    }
+    this->LoadValuesAround(k);
     for (SizeValueType j = 1; j + 1 < m_Size[1]; ++j)
     {
       FCCRowKernels::NeighborRows neighbors;
@@ -88,7 +94,7 @@ void
 FCCFieldPlanes::LoadGradients(SizeValueType k, const std::vector<std::uint8_t> & wanted)
 {
   auto & planes = m_Gradients[k % m_Gradients.size()];
-  if (planes[0].number == k || !this->IsReal(2, k))
+  if (this->HasGradients(k) || !this->IsReal(2, k))
   {
     return;
   }

@@ -149,10 +149,7 @@ FCCLeanSurface::Fill(SizeValueType begin, SizeValueType end, bool reversed, Tria
   const FCCEdgePoints edgePoints(m_Region, m_Frame, true, m_MinimumFraction, 1);
   std::vector<std::uint8_t> blocks;
   const auto loadAround = [&](SizeValueType k) {
-    for (SizeValueType near = k > 0 ? k - 1 : 0; near < std::min(k + 2, m_Signs.GetDepth()); ++near)
-    {
-      field.LoadValues(near);
-    }
+    field.LoadValuesAround(k);
     if (k < m_Signs.GetDepth())
     {
       FindBorderBlocks(m_Signs, k, FCCRowKernels::Block, field.GetNumberOfBlocks(), 0, blocks);
@@ -181,8 +178,7 @@ FCCLeanSurface::Fill(SizeValueType begin, SizeValueType end, bool reversed, Tria
           [&](auto * point, auto * normal) { clusterPoints.Place(m_Signs, plane, k, field, point, normal); });
     place(plane.GetSingles().GetBefore(0)[0], [&](auto * point, auto * normal) {
       edgePoints.Place(m_Signs,
-                       { 0,
-                         FCCClusterPlane::Types - 1,
+                       { FCCCutEdges::AllTypes,
                          [&plane](SizeValueType j, std::uint8_t type) {
                            return plane.GetSingles().GetRow(j * FCCClusterPlane::Types + type);
                          } },

@@ -173,7 +173,7 @@ public:
       for (unsigned int edge = 0; edge < Cases::Edges; ++edge)
       {
         const Cases::EdgeOwner & owner = FCCMarchingTables.owners[kind][edge];
-        const bool isBetween = owner.type >= FCCCutEdges::FirstType(FCCCutEdges::Group::Between);
+        const bool isBetween = FCCCutEdges::IsBetween(owner.type);
         const FCCCutEdges & edges = isBetween ? between : (owner.row & 2) != 0 ? upper : lower;
         m_Rows[kind][edge] = edges.GetRow(j + (owner.row & 1), owner.type);
         m_Shift[kind][edge] = shiftOfPair[owner.pair];
@@ -252,14 +252,14 @@ FindBorderSites(const FCCSigns & signs, SizeValueType j, SizeValueType k, WordTy
 
 /** Masks of the cut edges of some types that plane \a k owns, row by row, within a row type by type. */
 void
-FindCutEdges(const FCCSigns & signs, std::uint8_t firstType, std::uint8_t lastType, SizeValueType k, WordType * masks)
+FindCutEdges(const FCCSigns & signs, unsigned int types, SizeValueType k, WordType * masks)
 {
   const SizeValueType words = signs.GetNumberOfWords();
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
   {
-    for (std::uint8_t type = firstType; type <= lastType; ++type, masks += words)
+    for (unsigned int left = types; left != 0; left &= left - 1, masks += words)
     {
-      FindCutEdgesOfRow(signs, type, j, k, masks);
+      FindCutEdgesOfRow(signs, static_cast<std::uint8_t>(__builtin_ctz(left)), j, k, masks);
     }
   }
 }
@@ -277,13 +277,14 @@ NumberBits(const WordType * masks, SizeValueType count, std::uint32_t firstId, s
 }
 
 SizeValueType
-CountCutEdges(const FCCSigns & signs, std::uint8_t firstType, std::uint8_t lastType, SizeValueType k)
+CountCutEdges(const FCCSigns & signs, unsigned int types, SizeValueType k)
 {
   SizeValueType count = 0;
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
   {
-    for (std::uint8_t type = firstType; type <= lastType; ++type)
+    for (unsigned int left = types; left != 0; left &= left - 1)
     {
+      const auto type = static_cast<std::uint8_t>(__builtin_ctz(left));
       ForEachCutWord(signs, type, j, k, [&count](SizeValueType, WordType mask) { count += CountBits(mask); });
     }
   }
@@ -388,20 +389,33 @@ FCCSigns::ShiftRow(SizeValueType j, SizeValueType k)
   }
 }
 
-FCCCutEdges::FCCCutEdges(const FCCSigns & signs, Group group)
+namespace
+{
+
+/** Of some types, those within a plane (0 to 2) or between it and the next (3 to 6). */
+std::uint8_t
+TypesOfGroup(FCCCutEdges::Group group, std::uint8_t types)
+{
+  return types & (group == FCCCutEdges::Group::InPlane ? 0x07 : 0x78);
+}
+
+} // namespace
+
+FCCCutEdges::FCCCutEdges(const FCCSigns & signs, Group group, std::uint8_t types)
   : m_Signs(&signs)
-  , m_Group(group)
-  , m_Types(static_cast<SizeValueType>(LastType(group) - FirstType(group) + 1))
-  , m_Masks(signs.GetHeight() * m_Types * signs.GetNumberOfWords())
+  , m_Types(TypesOfGroup(group, types))
+  , m_NumberOfTypes(static_cast<SizeValueType>(__builtin_popcount(m_Types)))
+  , m_Masks(signs.GetHeight() * m_NumberOfTypes * signs.GetNumberOfWords())
   , m_Before(m_Masks.size())
 {}
 
 void
 FCCCutEdges::Find(SizeValueType k, std::uint32_t firstId)
 {
+  m_FirstId = firstId;
   if (k < m_Signs->GetDepth())
   {
-    HWY_DYNAMIC_DISPATCH(FindCutEdges)(*m_Signs, FirstType(m_Group), LastType(m_Group), k, m_Masks.data());
+    HWY_DYNAMIC_DISPATCH(FindCutEdges)(*m_Signs, m_Types, k, m_Masks.data());
   }
   else
   {
@@ -411,9 +425,9 @@ FCCCutEdges::Find(SizeValueType k, std::uint32_t firstId)
 }
 
 SizeValueType
-FCCCutEdges::Count(const FCCSigns & signs, Group group, SizeValueType k)
+FCCCutEdges::Count(const FCCSigns & signs, Group group, SizeValueType k, std::uint8_t types)
 {
-  return HWY_DYNAMIC_DISPATCH(CountCutEdges)(signs, FirstType(group), LastType(group), k);
+  return HWY_DYNAMIC_DISPATCH(CountCutEdges)(signs, TypesOfGroup(group, types), k);
 }
 
 void

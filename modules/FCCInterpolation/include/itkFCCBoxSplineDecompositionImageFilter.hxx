@@ -1,0 +1,122 @@
+#ifndef itkFCCBoxSplineDecompositionImageFilter_hxx
+#define itkFCCBoxSplineDecompositionImageFilter_hxx
+
+#include "itkFCCBoxSpline.h"
+#include "itkFCCMirror.h"
+#include "itkMultiThreaderBase.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace itk
+{
+
+template <typename TInputImage, typename TOutputImage>
+void
+FCCBoxSplineDecompositionImageFilter<TInputImage, TOutputImage>::PrintSelf(std::ostream & os, Indent indent) const
+{
+  Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfIterations: " << m_NumberOfIterations << std::endl;
+}
+
+template <typename TInputImage, typename TOutputImage>
+void
+FCCBoxSplineDecompositionImageFilter<TInputImage, TOutputImage>::GenerateInputRequestedRegion()
+{
+  const_cast<TInputImage *>(this->GetInput())->SetRequestedRegionToLargestPossibleRegion();
+}
+
+template <typename TInputImage, typename TOutputImage>
+void
+FCCBoxSplineDecompositionImageFilter<TInputImage, TOutputImage>::EnlargeOutputRequestedRegion(DataObject * output)
+{
+  output->SetRequestedRegionToLargestPossibleRegion();
+}
+
+template <typename TInputImage, typename TOutputImage>
+void
+FCCBoxSplineDecompositionImageFilter<TInputImage, TOutputImage>::GenerateData()
+{
+  this->UpdateProgress(0.0f);
+  this->AllocateOutputs();
+  CoefficientType * const output = this->GetOutput()->GetBufferPointer();
+  constexpr double toQuasiInterpolant = 1.0;
+  constexpr double fastest = 1.5; // makes the largest factor of the error's parts, 1 - gain * eigenvalue, smallest
+  this->Correct(this->GetInput()->GetBufferPointer(), toQuasiInterpolant, output);
+
+  std::vector<CoefficientType> previous(m_NumberOfIterations > 0 ? this->GetOutput()->GetPixelContainer()->Size() : 0);
+  for (unsigned int iteration = 0; iteration < m_NumberOfIterations; ++iteration)
+  {
+    std::copy_n(output, previous.size(), previous.begin());
+    this->Correct(previous.data(), fastest, output);
+  }
+  this->UpdateProgress(1.0f);
+}
+
+template <typename TInputImage, typename TOutputImage>
+template <typename TPixel>
+void
+FCCBoxSplineDecompositionImageFilter<TInputImage, TOutputImage>::Correct(const TPixel * coefficients,
+                                                                         double gain,
+                                                                         CoefficientType * target)
+{
+  const auto & region = this->GetOutput()->GetBufferedRegion();
+  const InputPixelType * const samples = this->GetInput()->GetBufferPointer();
+  const auto width = static_cast<IndexValueType>(region.GetSize(0));
+  const auto height = static_cast<IndexValueType>(region.GetSize(1));
+  const auto depth = static_cast<IndexValueType>(region.GetSize(2));
+  const IndexValueType parityOfFirstRow = FCCLattice::Parity(region.GetIndex(1), region.GetIndex(2));
+  const auto correctRow = [=](IndexValueType j, IndexValueType k) {
+    const auto rowAt = [=](IndexValueType stepY, IndexValueType stepZ) {
+      return coefficients +
+             (MirrorIntoRange(k + stepZ, 0, depth - 1) * height + MirrorIntoRange(j + stepY, 0, height - 1)) * width;
+    };
+    const IndexValueType row = (k * height + j) * width;
+    const IndexValueType parity = (parityOfFirstRow + j + k) & 1;
+    const TPixel * const sides[4] = { rowAt(-1, 0), rowAt(1, 0), rowAt(0, -1), rowAt(0, 1) };
+    const TPixel * const corners[4] = { rowAt(-1, -1), rowAt(1, -1), rowAt(-1, 1), rowAt(1, 1) };
+    for (IndexValueType i = 0; i < width; ++i)
+    {
+      // The neighbours before and after in x; those beyond the ends are mirrored onto the other one.
+      const IndexValueType before = std::max<IndexValueType>(i + parity - 1, 0);
+      const IndexValueType after = std::min(i + parity, width - 1);
+      double sum = 0.0;
+      for (unsigned int n = 0; n < 4; ++n)
+      {
+        sum += static_cast<double>(sides[n][before]) + static_cast<double>(sides[n][after]) +
+               static_cast<double>(corners[n][i]);
+      }
+      const auto own = static_cast<double>(coefficients[row + i]);
+      const double splineAtSite = FCCBoxSpline::AtSite * own + FCCBoxSpline::AtNearestNeighbor * sum;
+      target[row + i] =
+        static_cast<CoefficientType>(own + gain * (static_cast<double>(samples[row + i]) - splineAtSite));
+    }
+  };
+
+  const float share = 1.0f / static_cast<float>((m_NumberOfIterations + 1) * region.GetSize(2));
+  ThreadFailure failure;
+  MultiThreaderBase * const threader = this->GetMultiThreader();
+  threader->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
+  threader->ParallelizeArray(
+    0,
+    region.GetSize(2),
+    [&](SizeValueType k) {
+      failure.Capture([&] {
+        if (this->GetAbortGenerateData())
+        {
+          throw ProcessAborted(__FILE__, __LINE__);
+        }
+        for (IndexValueType j = 0; j < height; ++j)
+        {
+          correctRow(j, static_cast<IndexValueType>(k));
+        }
+        this->IncrementProgress(share);
+      });
+    },
+    nullptr);
+  failure.Rethrow();
+}
+
+} // namespace itk
+
+#endif

@@ -1,0 +1,230 @@
+#ifndef itkFCCCellCases_h
+#define itkFCCCellCases_h
+
+#include "itkFCCCell.h"
+
+#include <array>
+#include <limits>
+
+namespace itk
+{
+
+/** \class FCCCellCases
+ * \brief The triangles of a cell of the lattice, for every pattern of inside and outside, with no point but those on
+ * its edges.
+ *
+ * A *case* is a number with one bit for each corner of the cell; bit c is set when corner c is inside. On each face the
+ * surface leaves *segments* between cut edges; segments join to *loops*, and each loop is cut into triangles by
+ * *diagonals*, given by the edges on which their corners lie, counter-clockwise seen from outside when the lattice's
+ * axes are right-handed.
+ *
+ * A face with two cut edges has one segment. A quadrilateral whose opposite corners are inside is *ambiguous*: the
+ * corners at the ends of its short diagonal are taken as connected, so the segments cut off the other two. It is what
+ * marching the two triangles beside the short diagonal gives, which can't be cut itself. Both cells at a face see
+ * the same segments, so the surface has no cracks.
+ *
+ * Why the surface is a manifold for any signs: each cut edge is on one segment of each face around it, so the triangles
+ * at its point form one fan, unless two of them share an edge with other triangles, too. Segments differ, as they lie
+ * on different faces or on different sides of one. Two edges are common to several cells only if they lie on a common
+ * face; so it is enough that no diagonal joins two edges of one face. Among the ways to cut a loop into triangles
+ * without such a diagonal, the one with the least sum of squared lengths of the diagonals is taken, points being at the
+ * middle of their edges. Nor is then any triangle degenerate: three points on the border of a convex cell are collinear
+ * on a face only.
+ *
+ * The tables are derived here at compile time. The idea that segments on faces, loops and then triangles are found by
+ * rule is from J. Bloomenthal, "Polygonization of implicit surfaces", Computer Aided Geometric Design 5 (1988); the
+ * cutting of loops is the dynamic programme of G. T. Klincsek, "Minimal triangulations of polygonal domains" (1980).
+ *
+ * \tparam VCorners corners of the cell
+ *
+ * \ingroup FCCIsosurface
+ */
+template <unsigned int VCorners>
+struct FCCCellCases
+{
+  /** A loop passes each of n edges once and has n - 2 triangles. */
+  static constexpr unsigned int MaximumTriangles = FCCCell::MaximumEdges - 2;
+
+  struct Case
+  {
+    std::uint8_t triangles = 0;
+    std::uint8_t edges[MaximumTriangles][3] = {}; ///< the edges of each triangle's corners
+  };
+
+  /** The segments of one case: the edge that follows an edge in its loop. */
+  struct Segments
+  {
+    std::uint8_t next[FCCCell::MaximumEdges] = {};
+    bool isCut[FCCCell::MaximumEdges] = {};
+  };
+
+  struct Loop
+  {
+    unsigned int size = 0;
+    std::uint8_t edges[FCCCell::MaximumEdges] = {};
+  };
+
+  std::array<Case, 1u << VCorners> cases{};
+  bool hasDiagonalOnFace = false; ///< in any of the cases
+
+  static constexpr bool
+  IsInside(unsigned int pattern, unsigned int corner)
+  {
+    return (pattern >> corner & 1) != 0;
+  }
+
+  static constexpr std::uint8_t
+  EdgeBetween(const FCCCell & cell, unsigned int a, unsigned int b)
+  {
+    std::uint8_t edge = 0;
+    while (!((cell.edges[edge].owner == a && cell.edges[edge].end == b) ||
+             (cell.edges[edge].owner == b && cell.edges[edge].end == a)))
+    {
+      ++edge;
+    }
+    return edge;
+  }
+
+  /** On an ambiguous face: whether its inside corners are nearer to each other than its outside corners. */
+  static constexpr bool
+  AreInsideCornersConnected(const FCCCell & cell, const FCCCell::Face & face, unsigned int pattern)
+  {
+    const unsigned int inside = IsInside(pattern, face.corners[0]) ? 0 : 1;
+    const auto squaredDiagonal = [&cell, &face](unsigned int first) {
+      return FCCCell::SquaredLength(
+        FCCCell::Subtract(cell.corners[face.corners[first + 2]], cell.corners[face.corners[first]]));
+    };
+    return squaredDiagonal(inside) < squaredDiagonal(1 - inside);
+  }
+
+  /** Adds the segments of one face. Along its border the surface is met in turn on the way out and on the way in. A
+   * segment with the inside on its left leads from a way in to the next way out, around inside corners, or where they
+   * are connected, back to the way out before, around outside corners. */
+  static constexpr void
+  AddSegments(Segments & segments, const FCCCell & cell, const FCCCell::Face & face, unsigned int pattern)
+  {
+    std::uint8_t crossings[FCCCell::MaximumFaceCorners] = {};
+    bool isWayIn[FCCCell::MaximumFaceCorners] = {};
+    unsigned int size = 0;
+    for (unsigned int n = 0; n < face.size; ++n)
+    {
+      const unsigned int corner = face.corners[n];
+      const unsigned int next = face.corners[(n + 1) % face.size];
+      if (IsInside(pattern, corner) != IsInside(pattern, next))
+      {
+        crossings[size] = EdgeBetween(cell, corner, next);
+        isWayIn[size] = IsInside(pattern, next);
+        ++size;
+      }
+    }
+    const bool isAmbiguous = size == 4;
+    const unsigned int toWayOut = isAmbiguous && AreInsideCornersConnected(cell, face, pattern) ? size - 1 : 1;
+    for (unsigned int n = 0; n < size; ++n)
+    {
+      segments.isCut[crossings[n]] = true;
+      if (isWayIn[n])
+      {
+        segments.next[crossings[n]] = crossings[(n + toWayOut) % size];
+      }
+    }
+  }
+
+  /** Squared length, times four, of a diagonal between the middles of two edges. */
+  static constexpr IndexValueType
+  DiagonalCost(const FCCCell & cell, unsigned int a, unsigned int b)
+  {
+    constexpr IndexValueType prohibitive = 1000000; // for repeated edges
+    FCCCell::SiteType step{};
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      step[axis] = cell.corners[cell.edges[a].owner][axis] + cell.corners[cell.edges[a].end][axis] -
+                   cell.corners[cell.edges[b].owner][axis] - cell.corners[cell.edges[b].end][axis];
+    }
+    return cell.onOneFace[a][b] ? prohibitive : FCCCell::SquaredLength(step);
+  }
+
+  /** Cuts a loop into triangles: between each two of its points, the best third one, from short stretches to long. */
+  constexpr void
+  AddTriangles(Case & result, const FCCCell & cell, const Loop & loop)
+  {
+    IndexValueType cost[FCCCell::MaximumEdges][FCCCell::MaximumEdges] = {}; // of a stretch with its closing diagonal
+    std::uint8_t third[FCCCell::MaximumEdges][FCCCell::MaximumEdges] = {};
+    for (unsigned int length = 2; length < loop.size; ++length)
+    {
+      for (unsigned int first = 0; first + length < loop.size; ++first)
+      {
+        const unsigned int last = first + length;
+        IndexValueType least = std::numeric_limits<IndexValueType>::max();
+        for (unsigned int between = first + 1; between < last; ++between)
+        {
+          const IndexValueType sum = cost[first][between] + cost[between][last];
+          if (sum < least)
+          {
+            least = sum;
+            third[first][last] = static_cast<std::uint8_t>(between);
+          }
+        }
+        const bool isDiagonal = length + 1 < loop.size; // or else the loop's last segment
+        cost[first][last] = least + (isDiagonal ? DiagonalCost(cell, loop.edges[first], loop.edges[last]) : 0);
+      }
+    }
+
+    std::uint8_t stretches[FCCCell::MaximumEdges][2] = { { 0, static_cast<std::uint8_t>(loop.size - 1) } };
+    unsigned int waiting = 1;
+    while (waiting > 0)
+    {
+      --waiting;
+      const std::uint8_t first = stretches[waiting][0];
+      const std::uint8_t last = stretches[waiting][1];
+      const std::uint8_t between = third[first][last];
+      auto & triangle = result.edges[result.triangles++];
+      triangle[0] = loop.edges[first];
+      triangle[1] = loop.edges[between];
+      triangle[2] = loop.edges[last];
+      const bool isClosing = last - first + 1u < loop.size;
+      hasDiagonalOnFace = hasDiagonalOnFace || (isClosing && cell.onOneFace[triangle[0]][triangle[2]]);
+      if (last - between > 1)
+      {
+        stretches[waiting][0] = between;
+        stretches[waiting++][1] = last;
+      }
+      if (between - first > 1)
+      {
+        stretches[waiting][0] = first;
+        stretches[waiting++][1] = between;
+      }
+    }
+  }
+
+  static constexpr FCCCellCases
+  Of(const FCCCell & cell)
+  {
+    FCCCellCases result;
+    for (unsigned int pattern = 0; pattern < result.cases.size(); ++pattern)
+    {
+      Segments segments;
+      for (unsigned int face = 0; face < cell.numberOfFaces; ++face)
+      {
+        AddSegments(segments, cell, cell.faces[face], pattern);
+      }
+      for (unsigned int start = 0; start < cell.numberOfEdges; ++start)
+      {
+        Loop loop;
+        for (auto edge = static_cast<std::uint8_t>(start); segments.isCut[edge]; edge = segments.next[edge])
+        {
+          segments.isCut[edge] = false; // once around
+          loop.edges[loop.size++] = edge;
+        }
+        if (loop.size > 0)
+        {
+          result.AddTriangles(result.cases[pattern], cell, loop);
+        }
+      }
+    }
+    return result;
+  }
+};
+
+} // namespace itk
+
+#endif
