@@ -1,7 +1,7 @@
 #ifndef itkFCCClusterPlane_h
 #define itkFCCClusterPlane_h
 
-#include "itkFCCCrossingOwners.h"
+#include "itkFCCSplitSites.h"
 
 namespace itk
 {
@@ -61,12 +61,11 @@ private:
 };
 
 /** \class FCCClusterPlane
- * \brief The vertices of one plane: sites that gather the crossings they own, and crossings that stay single.
+ * \brief The vertices of one plane, by the sites that own the crossings they are made of.
  *
- * A site that owns crossings is a *cluster*: they all become one vertex. Where that would not leave the surface a
- * manifold the site is *split*, and the crossings it owns are single.
- *
- * Vertices of a plane are numbered clusters first, row by row, then single crossings by the row and type of their edge.
+ * All crossings of a site make one vertex; those of a split site (see FCCSplitSites) make several. Vertices are numbered
+ * site by site: first those of the sites that are whole, row by row, then those of the split ones, row by row and by
+ * the lowest direction of their crossings.
  *
  * Thread safety: each thread uses its own.
  *
@@ -77,21 +76,19 @@ class FCCClusterPlane
 public:
   using WordType = FCCSigns::WordType;
   static constexpr std::uint8_t Types = FCCCrossingOwners::Types;
-
-  /** The edges at a site: FCCLattice::OwnedEdges, which it stores, and their opposites, which its neighbours do. */
-  static constexpr unsigned int Directions = 2 * Types;
+  static constexpr unsigned int Directions = FCCSiteStar::Directions;
 
   explicit FCCClusterPlane(const FCCSigns & signs);
 
-  /** Finds owners and clusters of plane \a k from its values and the plane below it, which must have been found last;
-   * \a below is not looked at for plane 0. With \a split, those sites are split, and vertices are numbered from
-   * \a first on; returns the number after the last. */
+  /** Finds owners and vertices of plane \a k from its values and the plane below it, which must have been found last;
+   * \a below is not looked at for plane 0. Vertices are numbered from \a first on; returns the number after the last.
+   * Without \a splits all sites are whole, and no vertex is numbered. */
   std::uint32_t
   Find(SizeValueType k,
        const FCCClusterPlane & below,
        const FCCFieldPlanes & field,
        bool insideIsBelow,
-       const FCCSigns * split,
+       const FCCSplitSites * splits,
        std::uint32_t first);
 
   const FCCCrossingOwners &
@@ -100,18 +97,46 @@ public:
     return m_Owners;
   }
 
-  /** One row of bits for each row of sites: it is a cluster, not split. */
+  /** One row of bits for each row of sites: it owns crossings and is whole. */
   const FCCNumberedBits &
-  GetClusters() const
+  GetWholes() const
   {
-    return m_Clusters;
+    return m_Wholes;
   }
 
-  /** One row of bits for each row and type of edges, the type running fastest: its crossing is single. */
-  const FCCNumberedBits &
-  GetSingles() const
+  /** A split site. */
+  struct Parts
   {
-    return m_Singles;
+    SizeValueType i;
+    SizeValueType j;
+    unsigned int owned;  ///< directions of the crossings it owns
+    unsigned int lone;   ///< those that are vertices by themselves; the others gather in connected parts
+    unsigned int lowest; ///< the lowest direction of each vertex
+    std::uint32_t first; ///< number of the first vertex
+  };
+  const std::vector<Parts> &
+  GetParts() const
+  {
+    return m_Parts;
+  }
+
+  /** The vertex of a split site's crossing in a direction. */
+  std::uint32_t
+  GetVertex(SizeValueType j, SizeValueType i, unsigned int direction) const
+  {
+    const Parts & parts = m_Parts[m_Split.GetNumber(j, i)];
+    const unsigned int lowest =
+      (parts.lone >> direction & 1) != 0
+        ? direction
+        : static_cast<unsigned int>(__builtin_ctz(FCCSiteStar::PartOf(parts.owned, direction)));
+    return parts.first + static_cast<std::uint32_t>(__builtin_popcount(parts.lowest & ((1U << lowest) - 1)));
+  }
+
+  /** Bits of the edges that a row stores: the owner of the crossing is split. */
+  const WordType *
+  GetSplitRow(SizeValueType j, std::uint8_t type) const
+  {
+    return m_SplitCrossings.data() + (j * Types + type) * m_Owners.GetStride();
   }
 
   /** Bit n of the result: the site owns the crossing of its edge in direction n. */
@@ -130,13 +155,18 @@ private:
   FindOwned(SizeValueType j, SizeValueType k, const FCCClusterPlane & below);
 
   void
-  FindSingles(SizeValueType j, SizeValueType k, const FCCSigns & split);
+  FindSplitCrossings(SizeValueType j, SizeValueType k, const FCCSplitSites & splits);
+
+  std::uint32_t
+  NumberParts(SizeValueType k, const FCCSplitSites & splits, std::uint32_t first);
 
   const FCCSigns * m_Signs;
   FCCCrossingOwners m_Owners;
   std::vector<WordType> m_Owned;
-  FCCNumberedBits m_Clusters;
-  FCCNumberedBits m_Singles;
+  std::vector<WordType> m_SplitCrossings;
+  FCCNumberedBits m_Wholes;
+  FCCNumberedBits m_Split;
+  std::vector<Parts> m_Parts;
 };
 
 } // namespace itk

@@ -2,7 +2,7 @@
 #define itkFCCClusterPoints_h
 
 #include "itkFCCClusterPlane.h"
-#include "itkFCCExtent.h"
+#include "itkFCCEdgePoints.h"
 #include "itkFCCPointKernels.h"
 
 namespace itk
@@ -11,9 +11,9 @@ namespace itk
 /** \class FCCClusterPoints
  * \brief Places the vertices of sites that gather their crossings.
  *
- * Vertices of sites in the image are moved onto the reconstructed surface (see FCCPointKernels::PlaceClusters()). Those
- * of sites in the layer around it, where a closed surface ends, stay the mean of their crossings with the faces of the
- * image's extent.
+ * Vertices of sites in the image are moved onto the reconstructed surface (see FCCPointKernels::PlaceClusters()), but
+ * those of one crossing alone, which are points on its edge. Those of sites in the layer around the image, where a
+ * closed surface ends, stay the mean of their crossings with the faces of the image's extent.
  *
  * Thread safety: immutable.
  *
@@ -22,13 +22,15 @@ namespace itk
 class FCCClusterPoints
 {
 public:
-  FCCClusterPoints(const ImageRegion<3> & region, const FCCFrame & frame)
+  FCCClusterPoints(const ImageRegion<3> & region, const FCCFrame & frame, double minimumFraction)
     : m_Extent(region)
     , m_Frame(frame)
+    , m_MinimumFraction(minimumFraction)
+    , m_EdgePoints(region, frame, true, minimumFraction, 1)
   {}
 
-  /** Places the vertices of the clusters of plane \a k, row by row, and their normals unless null. The arrays begin
-   * with the first of them. The field must have loaded the values around the plane and its gradients. */
+  /** Places the vertices of plane \a k, and their normals unless null. The arrays begin with the first of them. The
+   * field must have loaded the values two planes around and the gradients of the plane and those next to it. */
   void
   Place(const FCCSigns & signs,
         const FCCClusterPlane & plane,
@@ -40,6 +42,32 @@ public:
 private:
   using SiteType = FCCLattice::SiteType;
 
+  /** How far a vertex moves from its crossings' mean onto the surface, in units of the distance of nearest neighbours;
+   * in parts of a split site, also of the mean's distance from the site, so that they stay apart. */
+  static constexpr float FarthestOfWhole = 0.5f;
+  static constexpr float FarthestOfPart = 0.25f;
+
+  SiteType
+  SiteOf(SizeValueType i, SizeValueType j, SizeValueType k) const;
+
+  /** The rows of the field around a row of sites in the image. */
+  struct Rows;
+
+  TriangleSurface::PointType *
+  PlaceWholes(const FCCSigns & signs,
+              const FCCClusterPlane & plane,
+              SizeValueType k,
+              const FCCFieldPlanes & field,
+              TriangleSurface::PointType * points,
+              TriangleSurface::NormalType * normals) const;
+
+  void
+  PlaceParts(const FCCClusterPlane & plane,
+             SizeValueType k,
+             const FCCFieldPlanes & field,
+             TriangleSurface::PointType * points,
+             TriangleSurface::NormalType * normals) const;
+
   void
   PlaceOnBorder(const SiteType & site,
                 unsigned int owned,
@@ -48,6 +76,8 @@ private:
 
   FCCExtent m_Extent;
   FCCFrame m_Frame;
+  double m_MinimumFraction;
+  FCCEdgePoints m_EdgePoints;
 };
 
 } // namespace itk

@@ -51,6 +51,22 @@ public:
         TriangleSurface::PointType * points,
         TriangleSurface::NormalType * normals) const;
 
+  /** Adds to a batch the edge from a site along a step. The site is counted as the field's are. */
+  void
+  Gather(const std::array<SizeValueType, 3> & site,
+         const FCCLattice::SiteType & step,
+         const FCCFieldPlanes & field,
+         bool withGradients,
+         FCCEdgeBatch & batch) const;
+
+  /** Places the points of a batch and empties it. */
+  void
+  PlaceBatch(FCCEdgeBatch & batch, TriangleSurface::PointType * points, TriangleSurface::NormalType * normals) const
+  {
+    FCCPointKernels::PlaceOnEdges(batch, m_Frame, m_Cubic, m_MinimumFraction, points, normals);
+    batch.count = 0;
+  }
+
 private:
   using SiteType = FCCLattice::SiteType;
 

@@ -22,7 +22,7 @@ namespace itk
  *
  * Planes are computed when asked for, and the last few of each kind are kept: ask in ascending order.
  *
- * Memory: 14 planes of float32. Thread safety: each thread uses its own.
+ * Memory: 18 planes of float32. Thread safety: each thread uses its own.
  *
  * \ingroup FCCIsosurface
  */
@@ -57,7 +57,7 @@ public:
     return m_Stride / FCCRowKernels::Block - 2;
   }
 
-  /** Makes the values of a plane available; the last five planes are. */
+  /** Makes the values of a plane available; the last six planes are. */
   void
   LoadValues(SizeValueType k);
 
@@ -72,7 +72,7 @@ public:
     return m_Gradients[k % m_Gradients.size()][0].number == k;
   }
 
-  /** Makes the gradients of a plane available where blocks of FCCRowKernels::Block sites are wanted; the last two
+  /** Makes the gradients of a plane available where blocks of FCCRowKernels::Block sites are wanted; the last three
    * planes are. \param wanted not zero for those, rows of GetNumberOfBlocks() */
   void
   LoadGradients(SizeValueType k, const std::vector<std::uint8_t> & wanted);
@@ -136,9 +136,9 @@ private:
   IndexValueType m_ParityOfFirstRow;
   RowReader m_ReadRow;
   SizeValueType m_Stride;
-  std::array<Plane, 5> m_Values;
+  std::array<Plane, 6> m_Values;
   std::array<Plane, 3> m_Coefficients;
-  std::array<std::array<Plane, 3>, 2> m_Gradients;
+  std::array<std::array<Plane, 3>, 3> m_Gradients;
 };
 
 } // namespace itk

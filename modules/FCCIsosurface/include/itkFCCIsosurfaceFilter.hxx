@@ -329,7 +329,7 @@ FCCIsosurfaceFilter<TInputImage>::ExtractLean(const FCCSigns & signs, double iso
   const float share = 0.9f / static_cast<float>(m_Isovalues.size());
   const SizeValueType planes = signs.GetDepth();
   this->ForEachSlab(planes, 0.3f * share, [&](SizeValueType begin, SizeValueType end) { lean.FindSplits(begin, end); });
-  lean.Close([&](SizeValueType i, SizeValueType j, SizeValueType k) {
+  lean.Resolve([&](SizeValueType i, SizeValueType j, SizeValueType k) {
     float value;
     FCCRowKernels::Subtract(
       image->GetBufferPointer() + ((k - 1) * size[1] + j - 1) * size[0] + i - 1, 1, isovalue, &value);

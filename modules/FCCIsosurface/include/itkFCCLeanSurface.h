@@ -2,8 +2,7 @@
 #define itkFCCLeanSurface_h
 
 #include "itkFCCClusterPoints.h"
-#include "itkFCCEdgePoints.h"
-#include "itkFCCSplitSites.h"
+#include "itkFCCLeanMarching.h"
 
 namespace itk
 {
@@ -17,7 +16,7 @@ namespace itk
  * topology (see FCCSplitSites).
  *
  * Passes, each over slabs of planes in any order and by any number of threads: find sites to split (FindSplits, then
- * Close once), count (Count, then Finish once), fill.
+ * Resolve once), count (Count, then Finish once), fill.
  *
  * \ingroup FCCIsosurface
  */
@@ -36,9 +35,9 @@ public:
   FindSplits(SizeValueType begin, SizeValueType end);
 
   void
-  Close(const FCCSplitSites::ValueReader & valueAt)
+  Resolve(const FCCSplitSites::ValueReader & valueAt)
   {
-    m_Splits.Close(valueAt, m_InsideIsBelow);
+    m_Splits.Resolve(valueAt, m_InsideIsBelow);
   }
 
   void

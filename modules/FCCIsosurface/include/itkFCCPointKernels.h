@@ -53,6 +53,8 @@ struct FCCClusterBlock
   const float * gradient[3];           ///< at the sites, in lattice coordinates
   std::uint32_t owned[Directions];     ///< bit n: site n owns its crossing in this direction
   double site[3];                      ///< the first site
+  float minimumFraction;               ///< of an edge that a crossing stays away from the site
+  float farthest; ///< that a vertex moves, in units of the distance of nearest neighbours
 };
 
 /** \class FCCPointKernels
@@ -76,7 +78,7 @@ struct FCCPointKernels
                TriangleSurface::NormalType * normals);
 
   /** Vertices of a block's sites: the mean of the owned crossings, moved onto the surface of the field's second-order
-   * expansion about the site, by at most half the distance of nearest neighbours. The expansion has the given gradient
+   * expansion about the site, at most as far as the block says. The expansion has the given gradient
    * and the second differences of the twelve nearest neighbours. Values of lanes that own nothing are undefined. */
   static void
   PlaceClusters(const FCCClusterBlock & block,

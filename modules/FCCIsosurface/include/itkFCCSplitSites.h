@@ -1,26 +1,64 @@
 #ifndef itkFCCSplitSites_h
 #define itkFCCSplitSites_h
 
-#include "itkFCCLeanMarching.h"
+#include "itkFCCCrossingOwners.h"
 
 #include <functional>
+#include <mutex>
 
 namespace itk
 {
 
-/** \class FCCSplitSites
- * \brief Which sites must not gather the crossings they own, so that the surface stays a manifold.
+/** For each site of a plane: how many triangles between clusters use it and the edges that it stores, one byte each.
+ * Bytes 0 to 6 are FCCLattice::OwnedEdges, byte 7 is the site. */
+struct FCCTriangleUse
+{
+  SizeValueType stride; ///< sites from a row to the next
+  std::vector<std::uint64_t> counts;
+};
+
+/** \class FCCSiteStar
+ * \brief The edges at a site, and what sets of their crossings look like.
  *
- * The surface before clustering, the tetrahedra's, is a manifold mesh. Gathering disjoint sets of its points leaves a
- * manifold of the same topology when
- *  1. the points of each set, with the edges and triangles between them, form a disk (a contractible patch),
+ * Directions 0 to 6 are FCCLattice::OwnedEdges, which the site stores, 7 to 13 their opposites, which its neighbours
+ * do. The crossings of two edges are *adjacent* when the edges' far ends are.
+ *
+ * \ingroup FCCIsosurface
+ */
+struct FCCSiteStar
+{
+  static constexpr unsigned int Directions = 2 * FCCLattice::OwnedEdges.size();
+
+  static constexpr FCCLattice::SiteType
+  StepOf(unsigned int direction)
+  {
+    const auto & step = FCCLattice::OwnedEdges[direction % FCCLattice::OwnedEdges.size()];
+    const IndexValueType sign = direction < FCCLattice::OwnedEdges.size() ? 1 : -1;
+    return { sign * step[0], sign * step[1], sign * step[2] };
+  }
+
+  /** Whether the crossings of a set of directions form a disk with the edges and triangles between them: they are
+   * connected, and points - edges + triangles = 1. Thread safe. */
+  static bool
+  IsDisk(unsigned int set);
+
+  /** The directions of a set that are connected with one of them. Thread safe. */
+  static unsigned int
+  PartOf(unsigned int set, unsigned int direction);
+};
+
+/** \class FCCSplitSites
+ * \brief Which sites must not gather all the crossings they own, so that the surface stays a manifold.
+ *
+ * The surface before clustering, the tetrahedra's, is a manifold mesh. Gathering disjoint sets of its points, each into
+ * one vertex, leaves a manifold of the same topology when
+ *  1. the points of each set, with the edges and triangles between them, form a disk,
  *  2. no two vertices afterwards have an edge between them that is used by more than two triangles,
- *  3. each vertex afterwards is used by at least three triangles.
- * A site is split if it breaks 1, or if it is an end of an edge that breaks 2 or breaks 3 itself, were all sites to
- * gather their crossings. Then the points of split sites are single, and the edges from them to the remaining sets may
- * break 2: such a set is split, too, until there are none. Whether an edge between a single point and a set breaks 2
- * does not depend on other sets, so the outcome does not depend on the order; and it ends, at the latest with the mesh
- * of the tetrahedra.
+ *  3. each vertex of a set is used by at least three triangles afterwards.
+ * All sites begin with one set each: all the crossings they own. A set that breaks a condition is divided: first into
+ * the parts that are connected, and one that breaks a condition still, into its points. This ends, at the latest with
+ * the mesh of the tetrahedra. Whether an edge breaks 2 depends on nothing but the sets of its two ends, so only the
+ * surroundings of what was divided need to be looked at again.
  *
  * \ingroup FCCIsosurface
  */
@@ -32,31 +70,34 @@ public:
   /** The value at a site, counted as signs are, less the isovalue, in float32. */
   using ValueReader = std::function<float(SizeValueType i, SizeValueType j, SizeValueType k)>;
 
+  /** \param signs with a layer of sites around the image; must outlive this */
   explicit FCCSplitSites(const FCCSigns & signs);
 
-  /** Splits the sites of a plane that break a condition by themselves. \a use and \a useBelow are complete counts of
-   * this plane's edges and the plane's below; they are cleared where they were looked at. Rows of other planes may be
-   * found at the same time. */
+  /** Says that a site breaks condition 1, or may break the others. Thread safe. */
   void
-  FindSeeds(SizeValueType k,
-            const FCCClusterPlane & plane,
-            const FCCTriangleUse & use,
-            const FCCTriangleUse * useBelow);
+  Suspect(const std::vector<FCCLattice::SiteType> & indices);
 
-  /** Splits more sites until all conditions hold. */
+  /** Divides what has to be. */
   void
-  Close(const ValueReader & valueAt, bool insideIsBelow);
+  Resolve(const ValueReader & valueAt, bool insideIsBelow);
 
   /** One bit for each site: it is split. */
-  const FCCSigns &
-  GetBits() const
+  const WordType *
+  GetRow(SizeValueType j, SizeValueType k) const
   {
-    return m_Split;
+    return m_Split.GetRow(j, k);
   }
+
+  /** The directions of a split site whose crossings are points of their own; the others gather in connected parts. */
+  unsigned int
+  GetLone(SizeValueType i, SizeValueType j, SizeValueType k) const;
 
 private:
   const FCCSigns & m_Signs;
   FCCSigns m_Split;
+  std::vector<FCCLattice::SiteType> m_Suspects; ///< indices
+  std::mutex m_Mutex;
+  std::vector<std::pair<SizeValueType, std::uint16_t>> m_Lone; ///< by the number of the site, ascending
 };
 
 } // namespace itk

@@ -56,8 +56,9 @@ FCCClusterPlane::FCCClusterPlane(const FCCSigns & signs)
   : m_Signs(&signs)
   , m_Owners(signs)
   , m_Owned(signs.GetHeight() * Directions * m_Owners.GetStride())
-  , m_Clusters(signs.GetHeight(), signs.GetNumberOfWords())
-  , m_Singles(signs.GetHeight() * Types, signs.GetNumberOfWords())
+  , m_SplitCrossings(signs.GetHeight() * Types * m_Owners.GetStride())
+  , m_Wholes(signs.GetHeight(), signs.GetNumberOfWords())
+  , m_Split(signs.GetHeight(), signs.GetNumberOfWords())
 {}
 
 std::uint32_t
@@ -65,46 +66,69 @@ FCCClusterPlane::Find(SizeValueType k,
                       const FCCClusterPlane & below,
                       const FCCFieldPlanes & field,
                       bool insideIsBelow,
-                      const FCCSigns * split,
+                      const FCCSplitSites * splits,
                       std::uint32_t first)
 {
   m_Owners.Find(k, field, insideIsBelow);
-  m_Clusters.Clear();
+  m_Wholes.Clear();
+  m_Split.Clear();
+  std::fill(m_SplitCrossings.begin(), m_SplitCrossings.end(), 0);
   if (k < m_Signs->GetDepth())
   {
     for (SizeValueType j = 0; j < m_Signs->GetHeight(); ++j)
     {
       this->FindOwned(j, k, below);
-      WordType * const clusters = m_Clusters.GetRow(j);
+      WordType * const wholes = m_Wholes.GetRow(j);
       for (unsigned int direction = 0; direction < Directions; ++direction)
       {
         const WordType * const owned = this->GetOwnedRow(j, direction);
         for (SizeValueType word = 0; word < m_Signs->GetNumberOfWords(); ++word)
         {
-          clusters[word] |= owned[word];
+          wholes[word] |= owned[word];
         }
       }
-    }
-  }
-  if (split == nullptr)
-  {
-    return first;
-  }
-  m_Singles.Clear();
-  if (k < m_Signs->GetDepth())
-  {
-    for (SizeValueType j = 0; j < m_Signs->GetHeight(); ++j)
-    {
-      WordType * const clusters = m_Clusters.GetRow(j);
-      const WordType * const splitRow = split->GetRow(j, k);
-      for (SizeValueType word = 0; word < m_Signs->GetNumberOfWords(); ++word)
+      if (splits != nullptr)
       {
-        clusters[word] &= ~splitRow[word];
+        WordType * const split = m_Split.GetRow(j);
+        const WordType * const splitSites = splits->GetRow(j, k);
+        for (SizeValueType word = 0; word < m_Signs->GetNumberOfWords(); ++word)
+        {
+          split[word] = wholes[word] & splitSites[word];
+          wholes[word] &= ~splitSites[word];
+        }
+        this->FindSplitCrossings(j, k, *splits);
       }
-      this->FindSingles(j, k, *split);
     }
   }
-  return m_Singles.Number(m_Clusters.Number(first));
+  return splits == nullptr ? first : this->NumberParts(k, *splits, m_Wholes.Number(first));
+}
+
+std::uint32_t
+FCCClusterPlane::NumberParts(SizeValueType k, const FCCSplitSites & splits, std::uint32_t first)
+{
+  m_Split.Number(0);
+  m_Parts.clear();
+  for (SizeValueType j = 0; j < m_Signs->GetHeight(); ++j)
+  {
+    for (SizeValueType word = 0; word < m_Signs->GetNumberOfWords(); ++word)
+    {
+      for (WordType mask = m_Split.GetRow(j)[word]; mask != 0; mask &= mask - 1)
+      {
+        const SizeValueType i = word * FCCSigns::WordBits + static_cast<SizeValueType>(__builtin_ctzll(mask));
+        Parts parts{ i, j, this->GetOwned(j, i), splits.GetLone(i, j, k), 0, first };
+        parts.lowest = parts.lone;
+        for (unsigned int left = parts.owned & ~parts.lone; left != 0;)
+        {
+          const auto direction = static_cast<unsigned int>(__builtin_ctz(left));
+          parts.lowest |= 1U << direction;
+          left &= ~FCCSiteStar::PartOf(parts.owned, direction);
+        }
+        m_Parts.push_back(parts);
+        first += static_cast<std::uint32_t>(__builtin_popcount(parts.lowest));
+      }
+    }
+  }
+  return first;
 }
 
 void
@@ -131,12 +155,11 @@ FCCClusterPlane::FindOwned(SizeValueType j, SizeValueType k, const FCCClusterPla
   }
 }
 
-/** Crossings of the edges that a row stores whose owners are split. */
 void
-FCCClusterPlane::FindSingles(SizeValueType j, SizeValueType k, const FCCSigns & split)
+FCCClusterPlane::FindSplitCrossings(SizeValueType j, SizeValueType k, const FCCSplitSites & splits)
 {
   const SizeValueType words = m_Signs->GetNumberOfWords();
-  const WordType * const here = split.GetRow(j, k);
+  const WordType * const here = splits.GetRow(j, k);
   for (std::uint8_t type = 0; type < Types; ++type)
   {
     const auto & step = FCCLattice::OwnedEdges[type];
@@ -146,14 +169,14 @@ FCCClusterPlane::FindSingles(SizeValueType j, SizeValueType k, const FCCSigns & 
     {
       continue;
     }
-    WordType * const singles = m_Singles.GetRow(j * Types + type);
+    WordType * const crossings = m_SplitCrossings.data() + (j * Types + type) * m_Owners.GetStride();
     const auto offset = FCCLattice::OffsetOf(step, m_Signs->GetParity(j, k))[0];
-    MoveBits(split.GetRow(otherJ, otherK), words, -offset, singles);
+    MoveBits(splits.GetRow(otherJ, otherK), words, -offset, crossings);
     const WordType * const first = m_Owners.GetFirst(j, type);
     const WordType * const second = m_Owners.GetSecond(j, type);
     for (SizeValueType word = 0; word < words; ++word)
     {
-      singles[word] = (first[word] & here[word]) | (second[word] & singles[word]);
+      crossings[word] = (first[word] & here[word]) | (second[word] & crossings[word]);
     }
   }
 }

@@ -92,10 +92,10 @@ FCCEdgePoints::Place(const FCCSigns & signs,
   const SizeValueType width = region.GetSize(0);
   FCCEdgeBatch batch{};
   const auto flush = [&] {
-    FCCPointKernels::PlaceOnEdges(batch, m_Frame, m_Cubic, m_MinimumFraction, points, normals);
-    points += batch.count;
-    normals += normals != nullptr ? batch.count : 0;
-    batch.count = 0;
+    const SizeValueType count = batch.count;
+    this->PlaceBatch(batch, points, normals);
+    points += count;
+    normals += normals != nullptr ? count : 0;
   };
 
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
@@ -149,6 +149,40 @@ FCCEdgePoints::Place(const FCCSigns & signs,
     }
   }
   flush();
+}
+
+void
+FCCEdgePoints::Gather(const std::array<SizeValueType, 3> & site,
+                      const SiteType & step,
+                      const FCCFieldPlanes & field,
+                      bool withGradients,
+                      FCCEdgeBatch & batch) const
+{
+  const auto [i, j, k] = site;
+  const auto offset = FCCLattice::OffsetOf(step, field.GetParity(j, k));
+  const SizeValueType end[3] = { i + static_cast<SizeValueType>(offset[0]),
+                                 j + static_cast<SizeValueType>(offset[1]),
+                                 k + static_cast<SizeValueType>(offset[2]) };
+  const bool isReal = field.IsReal(0, i) && field.IsReal(1, j) && field.IsReal(2, k);
+  const bool isOtherReal = field.IsReal(0, end[0]) && field.IsReal(1, end[1]) && field.IsReal(2, end[2]);
+  const auto & first = m_Extent.GetRegion().GetIndex();
+  const SiteType lattice = FCCLattice::SiteOf({ { first[0] + static_cast<IndexValueType>(i) - 1,
+                                                  first[1] + static_cast<IndexValueType>(j) - 1,
+                                                  first[2] + static_cast<IndexValueType>(k) - 1 } });
+  if (isReal && isOtherReal)
+  {
+    EdgeRows(field, step, j, k, m_Cubic, withGradients).Gather(i, batch);
+  }
+  else
+  {
+    this->GatherBorder(lattice, step, !isReal, batch);
+  }
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    batch.site[axis][batch.count] = static_cast<double>(lattice[axis]);
+    batch.step[axis][batch.count] = static_cast<float>(step[axis]);
+  }
+  ++batch.count;
 }
 
 /** Values that put the point on the extent's face, and gradients that make its normal the face's. */

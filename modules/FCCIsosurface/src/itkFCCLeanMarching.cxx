@@ -170,12 +170,11 @@ struct LeanColumn
 {
   const WordType * signs[Cases::Sites];
   const WordType * owned[Cases::Edges][2]; ///< by either end of EdgeSites
-  const WordType * singles[Cases::Edges];
+  const WordType * split[Cases::Edges]; ///< the owner is split
   SizeValueType siteShift[Cases::Sites];
   SizeValueType edgeShift[Cases::Edges];
-  SizeValueType singleRow[Cases::Edges];
+  std::uint8_t edgeType[Cases::Edges];
   bool siteIsUpper[Cases::Sites];
-  bool edgeIsUpper[Cases::Edges];
   SizeValueType siteRow[Cases::Sites];
 
   LeanColumn(const FCCSigns & allSigns,
@@ -199,13 +198,12 @@ struct LeanColumn
     {
       const Cases::EdgeOwner & owner = FCCMarchingTables.owners[kind][edge];
       const SizeValueType row = j + (owner.row & 1);
-      edgeIsUpper[edge] = (owner.row & 2) != 0;
-      const FCCClusterPlane & plane = edgeIsUpper[edge] ? upper : lower;
+      const FCCClusterPlane & plane = (owner.row & 2) != 0 ? upper : lower;
       const unsigned int end = FCCLeanTablesOfKind[kind].storingEnd[edge];
       owned[edge][end] = plane.GetOwners().GetFirst(row, owner.type);
       owned[edge][1 - end] = plane.GetOwners().GetSecond(row, owner.type);
-      singleRow[edge] = row * FCCClusterPlane::Types + owner.type;
-      singles[edge] = plane.GetSingles().GetRow(singleRow[edge]);
+      split[edge] = plane.GetSplitRow(row, owner.type);
+      edgeType[edge] = owner.type;
       edgeShift[edge] = shiftOfPair[owner.pair];
     }
   }
@@ -322,12 +320,12 @@ CountTriangleUse(const FCCSigns & signs,
   return count;
 }
 
-/** Writes the triangles of a tetrahedron with single crossings. */
+/** Writes the triangles of a tetrahedron with crossings of split sites. */
 SizeValueType
 FillMixedTetrahedron(const LeanColumn & column,
                      const FCCLeanTables & tables,
                      const LeanSteps & steps,
-                     const WordType * singles,
+                     const WordType * split,
                      unsigned int tetrahedron,
                      unsigned int bit,
                      SizeValueType i,
@@ -347,17 +345,15 @@ FillMixedTetrahedron(const LeanColumn & column,
   for (unsigned int n = 0; n < polygon.corners; ++n)
   {
     const std::uint8_t edge = polygon.edges[n];
-    const std::uint8_t owner = Cases::EdgeSites[edge][(steps.owned[edge][0] >> bit & 1) != 0 ? 0 : 1];
-    if ((singles[edge] >> bit & 1) != 0)
-    {
-      const FCCClusterPlane & plane = column.edgeIsUpper[edge] ? upper : lower;
-      vertices[n] = plane.GetSingles().GetNumber(column.singleRow[edge], i + column.edgeShift[edge]);
-    }
-    else
-    {
-      const FCCClusterPlane & plane = column.siteIsUpper[owner] ? upper : lower;
-      vertices[n] = plane.GetClusters().GetNumber(column.siteRow[owner], i + column.siteShift[owner]);
-    }
+    const unsigned int end = (steps.owned[edge][0] >> bit & 1) != 0 ? 0 : 1;
+    const std::uint8_t owner = Cases::EdgeSites[edge][end];
+    const FCCClusterPlane & plane = column.siteIsUpper[owner] ? upper : lower;
+    const SizeValueType row = column.siteRow[owner];
+    const SizeValueType site = i + column.siteShift[owner];
+    const unsigned int direction =
+      column.edgeType[edge] + (tables.storingEnd[edge] == end ? 0U : unsigned{ FCCClusterPlane::Types });
+    vertices[n] =
+      (split[edge] >> bit & 1) != 0 ? plane.GetVertex(row, site, direction) : plane.GetWholes().GetNumber(row, site);
     if (n == polygon.decider)
     {
       deciderIsInside = (steps.signs[owner] >> bit & 1) != 0;
@@ -407,10 +403,10 @@ FillLeanTriangles(const FCCSigns & signs,
         {
           continue;
         }
-        WordType singles[Cases::Edges];
+        WordType split[Cases::Edges];
         for (unsigned int edge = 0; edge < Cases::Edges; ++edge)
         {
-          singles[edge] = Shifted(column.singles[edge], column.edgeShift[edge], word);
+          split[edge] = Shifted(column.split[edge], column.edgeShift[edge], word);
         }
         for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
         {
@@ -420,7 +416,7 @@ FillLeanTriangles(const FCCSigns & signs,
           {
             for (const std::uint8_t edge : tables.cornerEdges[tetrahedron][corner])
             {
-              mixed |= singles[edge];
+              mixed |= split[edge];
             }
           }
           for (WordType mask = steps.spanned[tetrahedron] | mixed; mask != 0; mask &= mask - 1)
@@ -431,7 +427,7 @@ FillLeanTriangles(const FCCSigns & signs,
             if ((mixed >> bit & 1) != 0)
             {
               count +=
-                FillMixedTetrahedron(column, tables, steps, singles, tetrahedron, bit, i, lower, upper, reversed, next);
+                FillMixedTetrahedron(column, tables, steps, split, tetrahedron, bit, i, lower, upper, reversed, next);
               continue;
             }
             const auto & found = FCCClusterTables.cases[kind][tetrahedron][steps.PatternOf(tetrahedron, bit)];
@@ -440,7 +436,7 @@ FillLeanTriangles(const FCCSigns & signs,
               const auto vertexOf = [&](unsigned int corner) {
                 const unsigned int site = sites[corner];
                 const FCCClusterPlane & plane = column.siteIsUpper[site] ? upper : lower;
-                return plane.GetClusters().GetNumber(column.siteRow[site], i + column.siteShift[site]);
+                return plane.GetWholes().GetNumber(column.siteRow[site], i + column.siteShift[site]);
               };
               for (unsigned int n = 0; n < found.triangles; ++n)
               {

@@ -36,11 +36,11 @@ namespace
 class PlaneSequence
 {
 public:
-  PlaneSequence(const FCCSigns & signs, FCCFieldPlanes & field, bool insideIsBelow, const FCCSigns * split)
+  PlaneSequence(const FCCSigns & signs, FCCFieldPlanes & field, bool insideIsBelow, const FCCSplitSites * splits)
     : m_Signs(signs)
     , m_Field(field)
     , m_InsideIsBelow(insideIsBelow)
-    , m_Split(split)
+    , m_Splits(splits)
     , m_Planes{ FCCClusterPlane(signs), FCCClusterPlane(signs), FCCClusterPlane(signs) }
   {}
 
@@ -52,7 +52,7 @@ public:
     {
       m_Field.LoadValues(near);
     }
-    return this->Get(k).Find(k, this->Get(k + m_Planes.size() - 1), m_Field, m_InsideIsBelow, m_Split, first);
+    return this->Get(k).Find(k, this->Get(k + m_Planes.size() - 1), m_Field, m_InsideIsBelow, m_Splits, first);
   }
 
   FCCClusterPlane &
@@ -65,9 +65,40 @@ private:
   const FCCSigns & m_Signs;
   FCCFieldPlanes & m_Field;
   bool m_InsideIsBelow;
-  const FCCSigns * m_Split;
+  const FCCSplitSites * m_Splits;
   std::array<FCCClusterPlane, 3> m_Planes;
 };
+
+/** The sites of a plane that break a condition of FCCSplitSites, and the first ends of edges that do, by a count of all
+ * triangles at the plane's sites and edges. */
+void
+FindSuspects(const FCCSigns & signs,
+             SizeValueType k,
+             const FCCClusterPlane & plane,
+             const FCCTriangleUse & use,
+             std::vector<FCCLattice::SiteType> & suspects)
+{
+  constexpr std::uint64_t tooMany = 0xFCFCFCFCFCFCFC; // more than two; counts of edges are even
+  constexpr std::uint64_t fewest = 3;
+  for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
+  {
+    const FCCSigns::WordType * const wholes = plane.GetWholes().GetRow(j);
+    for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
+    {
+      for (FCCSigns::WordType mask = wholes[word]; mask != 0; mask &= mask - 1)
+      {
+        const SizeValueType i = word * FCCSigns::WordBits + static_cast<SizeValueType>(__builtin_ctzll(mask));
+        const std::uint64_t counts = use.counts[j * use.stride + i];
+        if ((counts & tooMany) != 0 || counts >> 56 < fewest || !FCCSiteStar::IsDisk(plane.GetOwned(j, i)))
+        {
+          suspects.push_back({ static_cast<IndexValueType>(i),
+                               static_cast<IndexValueType>(j),
+                               static_cast<IndexValueType>(k) });
+        }
+      }
+    }
+  }
+}
 
 } // namespace
 
@@ -77,7 +108,8 @@ FCCLeanSurface::FindSplits(SizeValueType begin, SizeValueType end)
   FCCFieldPlanes field = this->MakeField();
   PlaneSequence planes(m_Signs, field, m_InsideIsBelow, nullptr);
   const SizeValueType stride = m_Signs.GetNumberOfWords() * FCCSigns::WordBits + 1;
-  std::array<FCCTriangleUse, 3> uses;
+  std::vector<FCCLattice::SiteType> suspects;
+  std::array<FCCTriangleUse, 2> uses;
   for (FCCTriangleUse & use : uses)
   {
     use.stride = stride;
@@ -94,20 +126,18 @@ FCCLeanSurface::FindSplits(SizeValueType begin, SizeValueType end)
     CountTriangleUse(m_Signs, k, planes.Get(k), planes.Get(k + 1), useOf(k), useOf(k + 1));
     if (k >= begin)
     {
-      m_Splits.FindSeeds(k, planes.Get(k), useOf(k), k > 0 ? &useOf(k - 1) : nullptr);
+      FindSuspects(m_Signs, k, planes.Get(k), useOf(k), suspects);
     }
-    if (k > 0)
-    {
-      std::fill(useOf(k - 1).counts.begin(), useOf(k - 1).counts.end(), 0);
-    }
+    std::fill(useOf(k).counts.begin(), useOf(k).counts.end(), 0);
   }
+  m_Splits.Suspect(suspects);
 }
 
 void
 FCCLeanSurface::Count(SizeValueType begin, SizeValueType end)
 {
   FCCFieldPlanes field = this->MakeField();
-  PlaneSequence planes(m_Signs, field, m_InsideIsBelow, &m_Splits.GetBits());
+  PlaneSequence planes(m_Signs, field, m_InsideIsBelow, &m_Splits);
   if (begin > 0)
   {
     planes.Find(begin - 1);
@@ -144,9 +174,8 @@ void
 FCCLeanSurface::Fill(SizeValueType begin, SizeValueType end, bool reversed, TriangleSurface & surface) const
 {
   FCCFieldPlanes field = this->MakeField();
-  PlaneSequence planes(m_Signs, field, m_InsideIsBelow, &m_Splits.GetBits());
-  const FCCClusterPoints clusterPoints(m_Region, m_Frame);
-  const FCCEdgePoints edgePoints(m_Region, m_Frame, true, m_MinimumFraction, 1);
+  PlaneSequence planes(m_Signs, field, m_InsideIsBelow, &m_Splits);
+  const FCCClusterPoints clusterPoints(m_Region, m_Frame, m_MinimumFraction);
   std::vector<std::uint8_t> blocks;
   const auto loadAround = [&](SizeValueType k) {
     field.LoadValuesAround(k);
@@ -160,37 +189,28 @@ FCCLeanSurface::Fill(SizeValueType begin, SizeValueType end, bool reversed, Tria
   if (begin > 0)
   {
     planes.Find(begin - 1);
+    loadAround(begin - 1);
   }
   planes.Find(begin, static_cast<std::uint32_t>(m_FirstPoint[begin]));
   loadAround(begin);
   for (SizeValueType k = begin; k < end; ++k)
   {
-    const auto firstOfNext = static_cast<std::uint32_t>(m_FirstPoint[k + 1]);
-    planes.Find(k + 1, firstOfNext);
+    planes.Find(k + 1, static_cast<std::uint32_t>(m_FirstPoint[k + 1]));
     loadAround(k + 1);
-    const FCCClusterPlane & plane = planes.Get(k);
-    TriangleSurface::PointType * const points = surface.GetPoints().data();
-    TriangleSurface::NormalType * const normals = surface.HasNormals() ? surface.GetNormals().data() : nullptr;
-    const auto place = [&](SizeValueType first, const auto & placeAt) {
-      placeAt(points + first, normals != nullptr ? normals + first : nullptr);
-    };
-    place(m_FirstPoint[k],
-          [&](auto * point, auto * normal) { clusterPoints.Place(m_Signs, plane, k, field, point, normal); });
-    place(plane.GetSingles().GetBefore(0)[0], [&](auto * point, auto * normal) {
-      edgePoints.Place(m_Signs,
-                       { FCCCutEdges::AllTypes,
-                         [&plane](SizeValueType j, std::uint8_t type) {
-                           return plane.GetSingles().GetRow(j * FCCClusterPlane::Types + type);
-                         } },
-                       k,
-                       field,
-                       point,
-                       normal);
-    });
+    clusterPoints.Place(m_Signs,
+                        planes.Get(k),
+                        k,
+                        field,
+                        surface.GetPoints().data() + m_FirstPoint[k],
+                        surface.HasNormals() ? surface.GetNormals().data() + m_FirstPoint[k] : nullptr);
     if (k + 1 < m_Signs.GetDepth())
     {
-      FillLeanTriangles(
-        m_Signs, k, plane, planes.Get(k + 1), reversed, surface.GetTriangles().data() + m_FirstTriangle[k]);
+      FillLeanTriangles(m_Signs,
+                        k,
+                        planes.Get(k),
+                        planes.Get(k + 1),
+                        reversed,
+                        surface.GetTriangles().data() + m_FirstTriangle[k]);
     }
   }
 }

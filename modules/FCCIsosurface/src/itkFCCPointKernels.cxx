@@ -199,7 +199,8 @@ PlaceClusters(const FCCClusterBlock & block,
     {
       const bool owns = (block.owned[direction] >> n & 1U) != 0;
       const float crossing = block.values[n] / (block.values[n] - neighbor[n]);
-      const float t = crossing >= 0.0f && crossing <= 0.5f ? crossing : 0.5f;
+      const float least = crossing >= block.minimumFraction ? crossing : block.minimumFraction;
+      const float t = crossing >= 0.0f && crossing <= 0.5f ? least : 0.5f;
       const float used = owns ? t : 0.0f;
       dx[n] += used * x;
       dy[n] += used * y;
@@ -260,7 +261,7 @@ PlaceClusters(const FCCClusterBlock & block,
       y -= length * gy;
       z -= length * gz;
     }
-    constexpr float farthest = 0.70710678f;
+    const float farthest = block.farthest * 1.41421356f;
     const float moveX = x - startX;
     const float moveY = y - startY;
     const float moveZ = z - startZ;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <bitset>
+#include <deque>
+#include <unordered_map>
 
 namespace itk
 {
@@ -10,168 +12,170 @@ namespace
 {
 
 using SiteType = FCCLattice::SiteType;
-constexpr unsigned int Directions = FCCClusterPlane::Directions;
+constexpr unsigned int Directions = FCCSiteStar::Directions;
 
-SiteType
-StepOf(unsigned int direction)
+constexpr SiteType
+operator+(const SiteType & a, const SiteType & b)
 {
-  const SiteType & step = FCCLattice::OwnedEdges[direction % FCCClusterPlane::Types];
-  const IndexValueType sign = direction < FCCClusterPlane::Types ? 1 : -1;
-  return { sign * step[0], sign * step[1], sign * step[2] };
+  return { a[0] + b[0], a[1] + b[1], a[2] + b[2] };
 }
 
-bool
-IsEdge(const SiteType & step)
+/** The direction of a step, or Directions if there is no such edge. */
+unsigned int
+DirectionOf(const SiteType & step)
 {
   for (unsigned int direction = 0; direction < Directions; ++direction)
   {
-    if (StepOf(direction) == step)
+    if (FCCSiteStar::StepOf(direction) == step)
     {
-      return true;
+      return direction;
     }
   }
-  return false;
+  return Directions;
 }
 
 bool
-AreAdjacent(const SiteType & a, const SiteType & b)
+AreAdjacent(unsigned int a, unsigned int b)
 {
-  return IsEdge({ b[0] - a[0], b[1] - a[1], b[2] - a[2] });
+  const SiteType from = FCCSiteStar::StepOf(a);
+  const SiteType to = FCCSiteStar::StepOf(b);
+  return DirectionOf({ to[0] - from[0], to[1] - from[1], to[2] - from[2] }) != Directions;
 }
 
-/** For each set of a site's directions: do the crossings of those edges form a disk? The crossings of two adjacent
- * edges are joined by an edge of the surface, those of three by a triangle. A connected set is a disk when points -
- * edges + triangles = 1. */
-class DiskTable
+/** The edges and triangles between the crossings of a site, as sets of directions. */
+struct Star
 {
-public:
-  DiskTable()
+  std::array<unsigned int, Directions> adjacent{};
+  std::vector<unsigned int> edges;
+  std::vector<std::array<unsigned int, 3>> tetrahedra; ///< the far corners of those at the site
+  std::bitset<1U << Directions> isDisk;
+
+  Star()
   {
-    std::vector<unsigned int> edges;
-    std::vector<unsigned int> triangles;
-    std::array<unsigned int, Directions> adjacent{};
     for (unsigned int a = 0; a < Directions; ++a)
     {
       for (unsigned int b = 0; b < a; ++b)
       {
-        if (!AreAdjacent(StepOf(a), StepOf(b)))
+        if (AreAdjacent(a, b))
         {
-          continue;
-        }
-        edges.push_back(1U << a | 1U << b);
-        adjacent[a] |= 1U << b;
-        adjacent[b] |= 1U << a;
-        for (unsigned int c = 0; c < b; ++c)
-        {
-          if (AreAdjacent(StepOf(a), StepOf(c)) && AreAdjacent(StepOf(b), StepOf(c)))
+          edges.push_back(1U << a | 1U << b);
+          adjacent[a] |= 1U << b;
+          adjacent[b] |= 1U << a;
+          for (unsigned int c = 0; c < b; ++c)
           {
-            triangles.push_back(1U << a | 1U << b | 1U << c);
+            if (AreAdjacent(a, c) && AreAdjacent(b, c))
+            {
+              tetrahedra.push_back({ a, b, c });
+            }
           }
         }
       }
     }
-    const auto countWithin = [](const std::vector<unsigned int> & parts, unsigned int set) {
-      return std::count_if(parts.begin(), parts.end(), [set](unsigned int part) { return (part & set) == part; });
-    };
     for (unsigned int set = 1; set < 1U << Directions; ++set)
     {
-      unsigned int reached = set & ~(set - 1);
-      for (unsigned int before = 0; before != reached;)
+      auto characteristic = static_cast<int>(std::bitset<Directions>(set).count());
+      for (const unsigned int edge : edges)
       {
-        before = reached;
-        for (unsigned int direction = 0; direction < Directions; ++direction)
-        {
-          reached |= (reached >> direction & 1) != 0 ? adjacent[direction] & set : 0;
-        }
+        characteristic -= (edge & set) == edge ? 1 : 0;
       }
-      const auto points = static_cast<std::ptrdiff_t>(std::bitset<Directions>(set).count());
-      m_IsDisk[set] = reached == set && points - countWithin(edges, set) + countWithin(triangles, set) == 1;
+      for (const auto & [a, b, c] : tetrahedra)
+      {
+        characteristic += (set >> a & set >> b & set >> c & 1) != 0 ? 1 : 0;
+      }
+      isDisk[set] = characteristic == 1 && this->PartOf(set, static_cast<unsigned int>(__builtin_ctz(set))) == set;
     }
   }
 
-  bool
-  IsDisk(unsigned int set) const
+  unsigned int
+  PartOf(unsigned int set, unsigned int direction) const
   {
-    return m_IsDisk[set];
-  }
-
-private:
-  std::bitset<1U << Directions> m_IsDisk;
-};
-
-/** The sites adjacent to both ends of an edge, in the order in which its tetrahedra follow each other around it, as
- * steps from its first end. */
-struct EdgeRing
-{
-  std::vector<SiteType> sites;
-
-  explicit EdgeRing(const SiteType & step)
-  {
-    std::vector<SiteType> common;
-    for (unsigned int direction = 0; direction < Directions; ++direction)
+    unsigned int part = 1U << direction;
+    for (unsigned int added = part; added != 0;)
     {
-      if (AreAdjacent(StepOf(direction), step))
+      unsigned int next = 0;
+      for (; added != 0; added &= added - 1)
       {
-        common.push_back(StepOf(direction));
+        next |= adjacent[static_cast<unsigned int>(__builtin_ctz(added))];
       }
+      added = next & set & ~part;
+      part |= added;
     }
-    sites.push_back(common.front());
-    while (sites.size() < common.size())
-    {
-      const auto next = std::find_if(common.begin(), common.end(), [this](const SiteType & site) {
-        return AreAdjacent(site, sites.back()) && std::find(sites.begin(), sites.end(), site) == sites.end();
-      });
-      sites.push_back(*next);
-    }
+    return part;
   }
 };
 
-const DiskTable &
-GetDiskTable()
+const Star &
+GetStar()
 {
-  static const DiskTable table;
-  return table;
+  static const Star star;
+  return star;
 }
 
-const std::vector<EdgeRing> &
-GetEdgeRings()
-{
-  static const std::vector<EdgeRing> rings = [] {
-    std::vector<EdgeRing> made;
-    for (unsigned int direction = 0; direction < Directions; ++direction)
-    {
-      made.emplace_back(StepOf(direction));
-    }
-    return made;
-  }();
-  return rings;
-}
+/** A vertex in the making: its site's number and the lowest direction of its crossings, or Whole. */
+using VertexType = std::uint64_t;
+constexpr unsigned int Whole = 15;
 
-/** Looks at the surface around single crossings, site by site. Sites are given in lattice coordinates whose rows have
- * the parity of the signs'. */
-class Surroundings
+/** Resolves one surface. Sites are in lattice coordinates whose rows have the parity of the signs'. */
+class Resolver
 {
 public:
-  Surroundings(const FCCSigns & signs, const FCCSplitSites::ValueReader & valueAt, bool insideIsBelow)
+  Resolver(const FCCSigns & signs, const FCCSplitSites::ValueReader & valueAt, bool insideIsBelow)
     : m_Signs(signs)
     , m_ValueAt(valueAt)
     , m_InsideIsBelow(insideIsBelow)
   {}
 
-  SiteType
-  SiteOf(SizeValueType i, SizeValueType j, SizeValueType k) const
+  void
+  Run(const std::vector<SiteType> & suspects)
   {
-    return { 2 * static_cast<IndexValueType>(i) + m_Signs.GetParity(j, k),
-             static_cast<IndexValueType>(j),
-             static_cast<IndexValueType>(k) };
+    for (const auto & [i, j, k] : suspects)
+    {
+      const SiteType site{ 2 * i + m_Signs.GetParity(static_cast<SizeValueType>(j), static_cast<SizeValueType>(k)),
+                           j,
+                           k };
+      if (!FCCSiteStar::IsDisk(this->OwnedBy(site)))
+      {
+        this->Divide(site);
+        this->FindTriangles(site);
+        this->EnqueueNeighbors();
+      }
+      this->Enqueue(site);
+    }
+    while (!m_Queue.empty())
+    {
+      const SiteType site = m_Queue.front();
+      m_Queue.pop_front();
+      m_Queued.erase(this->NumberOf(site));
+      this->Check(site);
+    }
   }
 
+  /** The sites that are not whole, and the directions of those of their crossings that are alone. */
+  struct Parts
+  {
+    unsigned int owned;
+    unsigned int lone;
+  };
+  const std::unordered_map<SizeValueType, Parts> &
+  GetParts() const
+  {
+    return m_Parts;
+  }
+
+private:
   std::array<SizeValueType, 3>
   IndexOf(const SiteType & site) const
   {
     const auto j = static_cast<SizeValueType>(site[1]);
     const auto k = static_cast<SizeValueType>(site[2]);
     return { static_cast<SizeValueType>((site[0] - m_Signs.GetParity(j, k)) / 2), j, k };
+  }
+
+  SizeValueType
+  NumberOf(const SiteType & site) const
+  {
+    const auto [i, j, k] = this->IndexOf(site);
+    return (k * m_Signs.GetHeight() + j) * m_Signs.GetWidth() + i;
   }
 
   bool
@@ -186,46 +190,6 @@ public:
            (m_Signs.GetRow(j, k)[i / FCCSigns::WordBits] >> (i % FCCSigns::WordBits) & 1) != 0;
   }
 
-  /** The end that owns the crossing between two sites, of which one is inside. */
-  SiteType
-  OwnerOf(const SiteType & a, const SiteType & b) const
-  {
-    const bool aIsInside = this->IsInside(a);
-    const SiteType & inside = aIsInside ? a : b;
-    const SiteType & outside = aIsInside ? b : a;
-    if (!this->IsReal(outside))
-    {
-      return outside;
-    }
-    const float sum = this->ValueAt(a) + this->ValueAt(b);
-    return (m_InsideIsBelow ? sum > 0.0f : sum < 0.0f) ? inside : outside;
-  }
-
-  /** The owners of the crossings around that of an edge, in order. */
-  std::vector<SiteType>
-  OwnersAround(const SiteType & site, unsigned int direction) const
-  {
-    const auto add = [](const SiteType & a, const SiteType & b) {
-      return SiteType{ a[0] + b[0], a[1] + b[1], a[2] + b[2] };
-    };
-    const SiteType end = add(site, StepOf(direction));
-    const auto & ring = GetEdgeRings()[direction].sites;
-    std::vector<SiteType> owners;
-    for (std::size_t n = 0; n < ring.size(); ++n)
-    {
-      const SiteType here = add(site, ring[n]);
-      const SiteType next = add(site, ring[(n + 1) % ring.size()]);
-      owners.push_back(this->IsInside(here) == this->IsInside(site) ? this->OwnerOf(end, here)
-                                                                    : this->OwnerOf(site, here));
-      if (this->IsInside(here) != this->IsInside(next) && this->IsCutAcross(site, end, here, next))
-      {
-        owners.push_back(this->OwnerOf(here, next));
-      }
-    }
-    return owners;
-  }
-
-private:
   bool
   IsReal(const SiteType & site) const
   {
@@ -240,44 +204,258 @@ private:
     return m_ValueAt(i, j, k);
   }
 
-  /** Whether the quadrilateral between two sites inside and two outside is cut from the crossing of a and b to that of
-   * c and d. FillLeanTriangles() says how it is cut. */
+  /** As FCCCrossingOwners has it. */
   bool
-  IsCutAcross(const SiteType & a, const SiteType & b, const SiteType & c, const SiteType & d) const
+  InsideOwns(const SiteType & inside, const SiteType & outside) const
   {
-    const auto isLower = [](const SiteType & x, const SiteType & y) {
-      return std::array<IndexValueType, 3>{ x[2], x[1], x[0] } < std::array<IndexValueType, 3>{ y[2], y[1], y[0] };
-    };
-    SiteType lowestInside;
-    SiteType lowestOutside;
-    bool hasInside = false;
-    bool hasOutside = false;
-    for (const SiteType & site : { a, b, c, d })
+    if (!this->IsReal(outside))
     {
-      if (this->IsInside(site))
+      return false;
+    }
+    const float sum = this->ValueAt(inside) + this->ValueAt(outside);
+    return m_InsideIsBelow ? sum > 0.0f : sum < 0.0f;
+  }
+
+  unsigned int
+  OwnedBy(const SiteType & site) const
+  {
+    const bool isInside = this->IsInside(site);
+    unsigned int owned = 0;
+    for (unsigned int direction = 0; direction < Directions; ++direction)
+    {
+      const SiteType end = site + FCCSiteStar::StepOf(direction);
+      if (this->IsInside(end) != isInside &&
+          this->InsideOwns(isInside ? site : end, isInside ? end : site) == isInside)
       {
-        lowestInside = !hasInside || isLower(site, lowestInside) ? site : lowestInside;
-        hasInside = true;
-      }
-      else
-      {
-        lowestOutside = !hasOutside || isLower(site, lowestOutside) ? site : lowestOutside;
-        hasOutside = true;
+        owned |= 1U << direction;
       }
     }
-    const bool cutAtDecider = this->OwnerOf(lowestInside, lowestOutside) == lowestInside;
-    // The decider is one of the two crossings in question when its ends are both of a and b, or neither is.
-    const bool hasFirst = lowestInside == a || lowestInside == b;
-    const bool hasSecond = lowestOutside == a || lowestOutside == b;
-    return cutAtDecider == (hasFirst == hasSecond);
+    return owned;
+  }
+
+  void
+  Enqueue(const SiteType & site)
+  {
+    if (m_Queued.emplace(this->NumberOf(site), true).second)
+    {
+      m_Queue.push_back(site);
+    }
+  }
+
+  /** From one set to its connected parts; those that are no disk, to points. */
+  void
+  Divide(const SiteType & site)
+  {
+    const unsigned int owned = this->OwnedBy(site);
+    unsigned int lone = 0;
+    for (unsigned int left = owned; left != 0;)
+    {
+      const unsigned int part = FCCSiteStar::PartOf(owned, static_cast<unsigned int>(__builtin_ctz(left)));
+      lone |= FCCSiteStar::IsDisk(part) ? 0 : part;
+      left &= ~part;
+    }
+    m_Parts[this->NumberOf(site)] = { owned, lone };
+  }
+
+  /** The vertex that the crossing between two sites belongs to, and its owner. */
+  VertexType
+  VertexOf(const SiteType & inside, const SiteType & outside, SiteType & owner) const
+  {
+    const bool insideOwns = this->InsideOwns(inside, outside);
+    owner = insideOwns ? inside : outside;
+    const SiteType & other = insideOwns ? outside : inside;
+    const SizeValueType number = this->NumberOf(owner);
+    const auto found = m_Parts.find(number);
+    if (found == m_Parts.end())
+    {
+      return number * 16 + Whole;
+    }
+    const unsigned int direction = DirectionOf({ other[0] - owner[0], other[1] - owner[1], other[2] - owner[2] });
+    const auto & [owned, lone] = found->second;
+    return number * 16 + ((lone >> direction & 1) != 0
+                            ? direction
+                            : static_cast<unsigned int>(__builtin_ctz(FCCSiteStar::PartOf(owned, direction))));
+  }
+
+  /** Counts the triangles around a site's vertices and divides those that break a condition. */
+  void
+  Check(const SiteType & site)
+  {
+    this->FindTriangles(site);
+    const SizeValueType number = this->NumberOf(site);
+    const auto parts = m_Parts.find(number);
+    const bool isWhole = parts == m_Parts.end();
+    if (isWhole)
+    {
+      if (!this->Breaks(number * 16 + Whole))
+      {
+        return;
+      }
+      this->Divide(site);
+    }
+    else
+    {
+      unsigned int broken = 0;
+      auto & [owned, lone] = parts->second;
+      for (unsigned int left = owned & ~lone; left != 0;)
+      {
+        const auto direction = static_cast<unsigned int>(__builtin_ctz(left));
+        const unsigned int part = FCCSiteStar::PartOf(owned, direction);
+        const bool isPoint = (part & (part - 1)) == 0;
+        broken |= !isPoint && this->Breaks(number * 16 + direction) ? part : 0;
+        left &= ~part;
+      }
+      if (broken == 0)
+      {
+        return;
+      }
+      lone |= broken;
+    }
+    this->Enqueue(site);
+    this->EnqueueNeighbors();
+  }
+
+  /** The sites whose vertices share triangles, as they were before, with those found last. */
+  void
+  EnqueueNeighbors()
+  {
+    for (const SiteType & neighbor : m_Neighbors)
+    {
+      this->Enqueue(neighbor);
+    }
+  }
+
+  /** The triangles in all tetrahedra at a site, and the owners of their corners. */
+  void
+  FindTriangles(const SiteType & site)
+  {
+    m_Triangles.clear();
+    m_Neighbors.clear();
+    for (const auto & far : GetStar().tetrahedra)
+    {
+      this->AddTriangles({ site,
+                           site + FCCSiteStar::StepOf(far[0]),
+                           site + FCCSiteStar::StepOf(far[1]),
+                           site + FCCSiteStar::StepOf(far[2]) });
+    }
+  }
+
+  /** Whether a vertex has fewer than three triangles, or an edge with more than two. */
+  bool
+  Breaks(VertexType vertex) const
+  {
+    constexpr std::size_t fewest = 3;
+    std::size_t triangles = 0;
+    std::array<std::pair<VertexType, unsigned int>, 48> ends;
+    std::size_t count = 0;
+    for (const auto & triangle : m_Triangles)
+    {
+      if (std::find(triangle.begin(), triangle.end(), vertex) == triangle.end())
+      {
+        continue;
+      }
+      ++triangles;
+      for (const VertexType end : triangle)
+      {
+        if (end == vertex)
+        {
+          continue;
+        }
+        const auto last = ends.begin() + static_cast<std::ptrdiff_t>(count);
+        const auto found = std::find_if(ends.begin(), last, [end](const auto & known) { return known.first == end; });
+        if (found == last)
+        {
+          ends[count++] = { end, 1 };
+        }
+        else if (++found->second > 2)
+        {
+          return true;
+        }
+      }
+    }
+    return triangles < fewest;
+  }
+
+  /** The triangles that a tetrahedron keeps. */
+  void
+  AddTriangles(const std::array<SiteType, 4> & sites)
+  {
+    std::array<SiteType, 4> inside;
+    std::array<SiteType, 4> outside;
+    std::size_t insides = 0;
+    std::size_t outsides = 0;
+    for (const SiteType & site : sites)
+    {
+      (this->IsInside(site) ? inside[insides++] : outside[outsides++]) = site;
+    }
+    if (insides == 0 || outsides == 0)
+    {
+      return;
+    }
+    const auto vertexOf = [this, &inside, &outside](std::size_t in, std::size_t out) {
+      SiteType owner;
+      const VertexType vertex = this->VertexOf(inside[in], outside[out], owner);
+      m_Neighbors.push_back(owner);
+      return vertex;
+    };
+    if (insides == 2)
+    {
+      // Cut as FillLeanTriangles() cuts: from the lowest pair's crossing when its owner is inside, else across.
+      const auto isLower = [](const SiteType & a, const SiteType & b) {
+        return std::array<IndexValueType, 3>{ a[2], a[1], a[0] } < std::array<IndexValueType, 3>{ b[2], b[1], b[0] };
+      };
+      const std::size_t lowIn = isLower(inside[0], inside[1]) ? 0 : 1;
+      const std::size_t lowOut = isLower(outside[0], outside[1]) ? 0 : 1;
+      const VertexType corners[4] = { vertexOf(lowIn, lowOut),
+                                      vertexOf(lowIn, 1 - lowOut),
+                                      vertexOf(1 - lowIn, 1 - lowOut),
+                                      vertexOf(1 - lowIn, lowOut) };
+      const std::size_t start = this->InsideOwns(inside[lowIn], outside[lowOut]) ? 0 : 1;
+      this->AddTriangle(corners[start], corners[start + 1], corners[start + 2]);
+      this->AddTriangle(corners[start], corners[start + 2], corners[(start + 3) % 4]);
+    }
+    else if (insides == 1)
+    {
+      this->AddTriangle(vertexOf(0, 0), vertexOf(0, 1), vertexOf(0, 2));
+    }
+    else
+    {
+      this->AddTriangle(vertexOf(0, 0), vertexOf(1, 0), vertexOf(2, 0));
+    }
+  }
+
+  void
+  AddTriangle(VertexType a, VertexType b, VertexType c)
+  {
+    if (a != b && b != c && c != a)
+    {
+      m_Triangles.push_back({ a, b, c });
+    }
   }
 
   const FCCSigns & m_Signs;
   const FCCSplitSites::ValueReader & m_ValueAt;
   bool m_InsideIsBelow;
+  std::unordered_map<SizeValueType, Parts> m_Parts;
+  std::deque<SiteType> m_Queue;
+  std::unordered_map<SizeValueType, bool> m_Queued;
+  std::vector<std::array<VertexType, 3>> m_Triangles;
+  std::vector<SiteType> m_Neighbors;
 };
 
 } // namespace
+
+bool
+FCCSiteStar::IsDisk(unsigned int set)
+{
+  return GetStar().isDisk[set];
+}
+
+unsigned int
+FCCSiteStar::PartOf(unsigned int set, unsigned int direction)
+{
+  return GetStar().PartOf(set, direction);
+}
 
 FCCSplitSites::FCCSplitSites(const FCCSigns & signs)
   : m_Signs(signs)
@@ -285,102 +463,37 @@ FCCSplitSites::FCCSplitSites(const FCCSigns & signs)
 {}
 
 void
-FCCSplitSites::FindSeeds(SizeValueType k,
-                         const FCCClusterPlane & plane,
-                         const FCCTriangleUse & use,
-                         const FCCTriangleUse * useBelow)
+FCCSplitSites::Suspect(const std::vector<SiteType> & indices)
 {
-  constexpr std::uint64_t tooMany = 0xFCFCFCFCFCFCFC; // counts of edges are even
-  constexpr std::uint64_t fewest = 3;
-  const DiskTable & disks = GetDiskTable();
-  for (SizeValueType j = 0; j < m_Signs.GetHeight(); ++j)
-  {
-    WordType * const split = m_Split.GetRow(j, k);
-    const WordType * const clusters = plane.GetClusters().GetRow(j);
-    for (SizeValueType word = 0; word < m_Signs.GetNumberOfWords(); ++word)
-    {
-      for (WordType mask = clusters[word]; mask != 0; mask &= mask - 1)
-      {
-        const auto bit = static_cast<SizeValueType>(__builtin_ctzll(mask));
-        const SizeValueType i = word * FCCSigns::WordBits + bit;
-        const std::uint64_t counts = use.counts[j * use.stride + i];
-        bool isSplit = (counts & tooMany) != 0 || counts >> 56 < fewest || !disks.IsDisk(plane.GetOwned(j, i));
-        // Edges that the neighbours store.
-        for (unsigned int type = 0; type < FCCClusterPlane::Types && !isSplit; ++type)
-        {
-          const auto & step = FCCLattice::OwnedEdges[type];
-          const FCCTriangleUse * const from = step[2] == 1 ? useBelow : &use;
-          const SizeValueType fromJ = j - static_cast<SizeValueType>(step[1]);
-          if (from == nullptr || fromJ >= m_Signs.GetHeight())
-          {
-            continue;
-          }
-          const auto offset =
-            FCCLattice::OffsetOf(step, m_Signs.GetParity(fromJ, k - static_cast<SizeValueType>(step[2])))[0];
-          const SizeValueType fromI = i - static_cast<SizeValueType>(offset);
-          isSplit =
-            fromI < m_Signs.GetWidth() && (from->counts[fromJ * from->stride + fromI] >> (8 * type) & 0xFC) != 0;
-        }
-        split[word] |= static_cast<WordType>(isSplit) << bit;
-      }
-    }
-  }
+  const std::lock_guard<std::mutex> lock(m_Mutex);
+  m_Suspects.insert(m_Suspects.end(), indices.begin(), indices.end());
 }
 
 void
-FCCSplitSites::Close(const ValueReader & valueAt, bool insideIsBelow)
+FCCSplitSites::Resolve(const ValueReader & valueAt, bool insideIsBelow)
 {
-  const Surroundings surroundings(m_Signs, valueAt, insideIsBelow);
-  std::vector<SiteType> toVisit;
-  for (SizeValueType k = 0; k < m_Split.GetDepth(); ++k)
+  std::sort(m_Suspects.begin(), m_Suspects.end(), [](const SiteType & a, const SiteType & b) {
+    return std::array<IndexValueType, 3>{ a[2], a[1], a[0] } < std::array<IndexValueType, 3>{ b[2], b[1], b[0] };
+  });
+  Resolver resolver(m_Signs, valueAt, insideIsBelow);
+  resolver.Run(m_Suspects);
+  std::vector<SiteType>().swap(m_Suspects);
+  for (const auto & [number, parts] : resolver.GetParts())
   {
-    for (SizeValueType j = 0; j < m_Split.GetHeight(); ++j)
-    {
-      for (SizeValueType word = 0; word < m_Split.GetNumberOfWords(); ++word)
-      {
-        for (WordType mask = m_Split.GetRow(j, k)[word]; mask != 0; mask &= mask - 1)
-        {
-          const auto bit = static_cast<SizeValueType>(__builtin_ctzll(mask));
-          toVisit.push_back(surroundings.SiteOf(word * FCCSigns::WordBits + bit, j, k));
-        }
-      }
-    }
+    const SizeValueType i = number % m_Split.GetWidth();
+    const SizeValueType row = number / m_Split.GetWidth();
+    m_Split.GetRow(row % m_Split.GetHeight(), row / m_Split.GetHeight())[i / FCCSigns::WordBits] |=
+      WordType{ 1 } << (i % FCCSigns::WordBits);
+    m_Lone.emplace_back(number, static_cast<std::uint16_t>(parts.lone));
   }
-  const auto splitBit = [&](const SiteType & site) -> std::pair<WordType *, WordType> {
-    const auto [i, j, k] = surroundings.IndexOf(site);
-    return { m_Split.GetRow(j, k) + i / FCCSigns::WordBits, WordType{ 1 } << (i % FCCSigns::WordBits) };
-  };
-  while (!toVisit.empty())
-  {
-    const SiteType site = toVisit.back();
-    toVisit.pop_back();
-    for (unsigned int direction = 0; direction < Directions; ++direction)
-    {
-      const SiteType step = StepOf(direction);
-      const SiteType end{ site[0] + step[0], site[1] + step[1], site[2] + step[2] };
-      if (surroundings.IsInside(site) == surroundings.IsInside(end) || surroundings.OwnerOf(site, end) != site)
-      {
-        continue;
-      }
-      const std::vector<SiteType> owners = surroundings.OwnersAround(site, direction);
-      for (std::size_t n = 0; n < owners.size(); ++n)
-      {
-        // A run of one owner begins here; a second one elsewhere would make an edge of four triangles.
-        const SiteType & owner = owners[n];
-        SizeValueType runs = 0;
-        for (std::size_t m = 0; m < owners.size(); ++m)
-        {
-          runs += owners[m] == owner && owners[(m + owners.size() - 1) % owners.size()] != owner ? 1 : 0;
-        }
-        const auto [word, bit] = splitBit(owner);
-        if (runs > 1 && (*word & bit) == 0)
-        {
-          *word |= bit;
-          toVisit.push_back(owner);
-        }
-      }
-    }
-  }
+  std::sort(m_Lone.begin(), m_Lone.end());
+}
+
+unsigned int
+FCCSplitSites::GetLone(SizeValueType i, SizeValueType j, SizeValueType k) const
+{
+  const SizeValueType number = (k * m_Split.GetHeight() + j) * m_Split.GetWidth() + i;
+  return std::lower_bound(m_Lone.begin(), m_Lone.end(), std::make_pair(number, std::uint16_t{ 0 }))->second;
 }
 
 } // namespace itk
