@@ -3,9 +3,6 @@
 
 #include "itkFCCLattice.h"
 
-#include <algorithm>
-#include <utility>
-
 namespace itk
 {
 
@@ -14,17 +11,22 @@ namespace itk
  *
  * The projection of a six-dimensional cube along the six pairs of nearest neighbours: a function phi of lattice
  * coordinates, piecewise cubic, with continuous first derivatives, not zero within the truncated octahedron |x| < 2,
- * |y| < 2, |z| < 2, |x| + |y| + |z| < 3. Its sum over the sites is 1 everywhere, and the sums of phi(p - s) c(s) over
- * the sites s contain all quadratic polynomials. At a site phi is 1/2, at its nearest neighbours 1/24, at those beyond
- * 0.
+ * |y| < 2, |z| < 2, |x| + |y| + |z| < 3. Its sum over the sites is 1 everywhere, and the *splines*, the sums of
+ * c(s) phi(p - s) over the sites s, contain all quadratic polynomials. At a site phi is 1/2, at its nearest neighbours
+ * 1/24, at those beyond 0.
  *
- * The pieces are those of M. Kim, A. Entezari and J. Peters, "Box spline reconstruction on the face-centered cubic
- * lattice", IEEE Trans. Visualization and Computer Graphics 14 (2008). Here they are joined: for x >= y >= z >= 0 in
+ * The formula is that of M. Kim, A. Entezari and J. Peters, "Box spline reconstruction on the face-centered cubic
+ * lattice", IEEE Trans. Visualization and Computer Graphics 14 (2008), with its pieces joined: for x >= y >= z >= 0 in
  * the support, with (t)+ = max(t, 0),
  *
  *   24 phi = (3 - x - y - z)^2 (3 - x - y + 2 z) - 4 (1 - x)+^3 - 4 (1 - y)+^3
  *            - 3 (1 - x - y - z)+^2 - (1 - x - y + z)+^2 (4 - x - y - 2 z)
  *            + (x - y + z - 1)+^2 (4 - x - 2 y - z) + (x - y - z - 1)+^2 (5 - 2 x - y - z)
+ *
+ * The borders of the pieces of all shifted phi cut each unit cube into the regular tetrahedron of its odd corners, and
+ * four pieces at its sites. Within each of these, the same 16 sites reach a point, and a spline is one cubic polynomial
+ * (Cubic); all pieces of one shape are the same but for reflections, so there are two tables of polynomials, derived
+ * here at compile time.
  *
  * Everything here is pure, so thread safe.
  *
@@ -38,179 +40,328 @@ struct FCCBoxSpline
   static constexpr double AtSite = 1.0 / 2.0;
   static constexpr double AtNearestNeighbor = 1.0 / 24.0;
 
-  /** Sites around a point in whose support it can lie: no fewer but on the border of a support. */
   static constexpr unsigned int SupportSize = 16;
   using SupportType = std::array<SiteType, SupportSize>;
 
-  /** phi and its gradient, in lattice coordinates. */
+  enum Shape : unsigned char
+  {
+    Octant, ///< of an octahedron around a site: x, y, z > 0 and x + y + z < 1 from it
+    Cube    ///< the tetrahedron of a unit cube's odd corners, from a corner that is a site
+  };
+
+  /** The part of space around a point where splines are one polynomial. */
+  struct Piece
+  {
+    Shape shape;
+    SiteType origin;    ///< of the piece's own coordinates
+    SiteType direction; ///< 1 or -1 for each axis: theirs
+    SupportType sites;  ///< the sites s with phi(p - s) > 0 for the points p within the piece
+  };
+
+  /** A value and its gradient, in lattice coordinates. */
   struct Jet
   {
     double value = 0.0;
     PointType gradient{};
   };
 
-  static double
-  Value(const PointType & point)
-  {
-    return ValueAndGradient(point).value;
-  }
+  /** The monomials are the products of three of 1, x, y and z, in the order 1, x, y, z, xx, xy, ... yzz, zzz. */
+  static constexpr unsigned int NumberOfMonomials = 20;
 
-  static Jet
-  ValueAndGradient(const PointType & point)
+  /** A spline within a piece. */
+  struct Cubic
   {
-    // All permutations and reflections of the axes are symmetries: sort.
-    unsigned int axes[3] = { 0, 1, 2 };
-    const PointType absolute{ std::abs(point[0]), std::abs(point[1]), std::abs(point[2]) };
-    const auto order = [&axes, &absolute](unsigned int a, unsigned int b) {
-      if (absolute[axes[a]] < absolute[axes[b]])
-      {
-        std::swap(axes[a], axes[b]);
-      }
-    };
-    order(0, 1);
-    order(1, 2);
-    order(0, 1);
-    const double x = absolute[axes[0]];
-    const double y = absolute[axes[1]];
-    const double z = absolute[axes[2]];
-    Jet jet;
-    if (!(x < 2.0 && x + y + z < 3.0))
+    std::array<double, NumberOfMonomials> coefficients; ///< times 24, in the piece's own coordinates
+    SiteType origin;
+    SiteType direction;
+
+    PointType
+    ToPiece(const PointType & point) const
     {
+      PointType local;
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        local[axis] = static_cast<double>(direction[axis]) * (point[axis] - static_cast<double>(origin[axis]));
+      }
+      return local;
+    }
+
+    double
+    GetValue(const PointType & point) const
+    {
+      const auto [x, y, z] = this->ToPiece(point);
+      const auto & q = coefficients;
+      const double ofX = q[1] + x * (q[4] + x * q[10] + y * q[11] + z * q[12]) + y * (q[5] + y * q[13] + z * q[14]) +
+                         z * (q[6] + z * q[15]);
+      const double ofY = q[2] + y * (q[7] + y * q[16] + z * q[17]) + z * (q[8] + z * q[18]);
+      const double ofZ = q[3] + z * (q[9] + z * q[19]);
+      return (q[0] + x * ofX + y * ofY + z * ofZ) * AtNearestNeighbor;
+    }
+
+    Jet
+    GetJet(const PointType & point) const
+    {
+      const auto [x, y, z] = this->ToPiece(point);
+      const auto & q = coefficients;
+      const double slope[3] = {
+        q[1] + x * (2.0 * q[4] + 3.0 * x * q[10] + 2.0 * (y * q[11] + z * q[12])) + y * (q[5] + y * q[13] + z * q[14]) +
+          z * (q[6] + z * q[15]),
+        q[2] + x * (q[5] + x * q[11] + z * q[14]) + y * (2.0 * (q[7] + x * q[13] + z * q[17]) + 3.0 * y * q[16]) +
+          z * (q[8] + z * q[18]),
+        q[3] + x * (q[6] + x * q[12] + y * q[14]) + y * (q[8] + y * q[17]) +
+          z * (2.0 * (q[9] + x * q[15] + y * q[18]) + 3.0 * z * q[19]),
+      };
+      Jet jet{ this->GetValue(point), {} };
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        jet.gradient[axis] = static_cast<double>(direction[axis]) * slope[axis] * AtNearestNeighbor;
+      }
       return jet;
     }
+  };
 
-    const auto positive = [](double t) { return std::max(t, 0.0); };
-    const double a = 3.0 - x - y - z;
-    const double aFactor = 3.0 - x - y + 2.0 * z;
-    const double b = positive(1.0 - x);
-    const double c = positive(1.0 - y);
-    const double d = positive(1.0 - x - y - z);
-    const double e = positive(1.0 - x - y + z);
-    const double eFactor = 4.0 - x - y - 2.0 * z;
-    const double f = positive(x - y + z - 1.0);
-    const double fFactor = 4.0 - x - 2.0 * y - z;
-    const double g = positive(x - y - z - 1.0);
-    const double gFactor = 5.0 - 2.0 * x - y - z;
-    jet.value = (a * a * aFactor - 4.0 * (b * b * b + c * c * c) - 3.0 * d * d - e * e * eFactor + f * f * fFactor +
-                 g * g * gFactor) /
-                24.0;
+  /** The piece that holds a point; on the border between several, any of them. */
+  static Piece
+  FindPiece(const PointType & point);
 
-    // Terms of the derivatives that several share: of t^2 F, 2 t F dt + t^2 dF.
-    const double a1 = 2.0 * a * aFactor;
-    const double e1 = 2.0 * e * eFactor;
-    const double f1 = 2.0 * f * fFactor;
-    const double g1 = 2.0 * g * gFactor;
-    const double common = -a1 + 6.0 * d;
-    const double sorted[3] = {
-      common - a * a + 12.0 * b * b + e1 + e * e + f1 - f * f + g1 - 2.0 * g * g,
-      common - a * a + 12.0 * c * c + e1 + e * e - f1 - 2.0 * f * f - g1 - g * g,
-      common + 2.0 * a * a - e1 + 2.0 * e * e + f1 - f * f - g1 - g * g,
-    };
-    for (unsigned int place = 0; place < 3; ++place)
-    {
-      const unsigned int axis = axes[place];
-      jet.gradient[axis] = (point[axis] < 0.0 ? -sorted[place] : sorted[place]) / 24.0;
-    }
-    return jet;
-  }
+  /** The spline of the coefficients of a piece's sites, in their order. */
+  static Cubic
+  MakeCubic(const Piece & piece, const std::array<double, SupportSize> & coefficients);
 
-  /** The sites with phi(point - site) > 0, and where the point is on the border of supports, some more, with 0 there.
-   *
-   * The borders of all supports cut each unit cube into the regular tetrahedron of its odd corners and four pieces at
-   * its sites, so which sites reach a point is the same within each of these. */
-  static SupportType
-  FindSupport(const PointType & point)
-  {
-    // Within the unit cube, mirrored along x when needed so that its lowest corner is a site.
-    SiteType corner;
-    PointType local;
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      const double lower = std::floor(point[axis]);
-      corner[axis] = static_cast<IndexValueType>(lower);
-      local[axis] = point[axis] - lower;
-    }
-    SiteType direction{ 1, 1, 1 };
-    if (!FCCLattice::IsSite(corner))
-    {
-      corner[0] += 1;
-      local[0] = 1.0 - local[0];
-      direction[0] = -1;
-    }
-
-    constexpr SiteType cubeSites[4] = { { 0, 0, 0 }, { 1, 1, 0 }, { 1, 0, 1 }, { 0, 1, 1 } };
-    for (const SiteType & site : cubeSites)
-    {
-      double distance = 0.0;
-      SiteType near;
-      SiteType inward;
-      for (unsigned int axis = 0; axis < 3; ++axis)
-      {
-        distance += site[axis] == 0 ? local[axis] : 1.0 - local[axis];
-        near[axis] = corner[axis] + direction[axis] * site[axis];
-        inward[axis] = site[axis] == 0 ? direction[axis] : -direction[axis];
-      }
-      if (distance < 1.0)
-      {
-        return Place(SupportAtSite, near, inward);
-      }
-    }
-    return Place(SupportOfCube, corner, direction);
-  }
+  /** phi and its gradient. For many sites at a time, MakeCubic() is faster. */
+  static Jet
+  Evaluate(const PointType & point);
 
 private:
-  static SupportType
-  Place(const SupportType & steps, const SiteType & origin, const SiteType & direction)
-  {
-    SupportType sites;
-    for (unsigned int n = 0; n < SupportSize; ++n)
-    {
-      for (unsigned int axis = 0; axis < 3; ++axis)
-      {
-        sites[n][axis] = origin[axis] + direction[axis] * steps[n][axis];
-      }
-    }
-    return sites;
-  }
+  /** An affine function of the piece's coordinates: the factors of 1, x, y and z. */
+  using AffineType = std::array<IndexValueType, 4>;
+  using MonomialsType = std::array<IndexValueType, NumberOfMonomials>;
 
-  /** The sites that reach a point, given in quarters of the lattice's unit. */
-  static constexpr SupportType
-  SitesThatReach(const SiteType & quarters)
+  struct Table
   {
-    SupportType sites{};
-    unsigned int size = 0;
-    for (IndexValueType z = -2; z <= 2; ++z)
+    SupportType sites{};                                  ///< in the piece's coordinates
+    double polynomials[NumberOfMonomials][SupportSize]{}; ///< 24 phi(p - s)
+  };
+
+  static constexpr unsigned int
+  MonomialOf(unsigned int a, unsigned int b, unsigned int c)
+  {
+    const unsigned int lowest = a < b ? (a < c ? a : c) : (b < c ? b : c);
+    const unsigned int highest = a > b ? (a > c ? a : c) : (b > c ? b : c);
+    const unsigned int middle = a + b + c - lowest - highest;
+    unsigned int monomial = 0;
+    for (unsigned int first = 0; first < 4; ++first)
     {
-      for (IndexValueType y = -2; y <= 2; ++y)
+      for (unsigned int second = first; second < 4; ++second)
       {
-        for (IndexValueType x = -2; x <= 2; ++x)
+        for (unsigned int third = second; third < 4; ++third, ++monomial)
         {
-          const SiteType site{ x, y, z };
-          bool isReached = FCCLattice::IsSite(site);
-          IndexValueType sum = 0;
-          for (unsigned int axis = 0; axis < 3; ++axis)
+          if (first == lowest && second == middle && third == highest)
           {
-            const IndexValueType difference = quarters[axis] - 4 * site[axis];
-            const IndexValueType distance = difference < 0 ? -difference : difference;
-            sum += distance;
-            isReached = isReached && distance < 8;
-          }
-          if (isReached && sum < 12)
-          {
-            sites[size++] = site;
+            return monomial;
           }
         }
       }
     }
-    return sites;
+    return NumberOfMonomials;
   }
 
-  static const SupportType SupportAtSite; ///< in the octant x, y, z > 0 of the site (0, 0, 0)
-  static const SupportType SupportOfCube; ///< in the middle of the unit cube on the site (0, 0, 0)
+  /** \a sum += \a scale * \a squared^2 * \a factor */
+  static constexpr void
+  AddTerm(MonomialsType & sum, IndexValueType scale, const AffineType & squared, const AffineType & factor)
+  {
+    for (unsigned int a = 0; a < 4; ++a)
+    {
+      for (unsigned int b = 0; b < 4; ++b)
+      {
+        for (unsigned int c = 0; c < 4; ++c)
+        {
+          sum[MonomialOf(a, b, c)] += scale * squared[a] * squared[b] * factor[c];
+        }
+      }
+    }
+  }
+
+  /** 24 phi(p - site) for the points of the piece in which a point lies that is given in tenths. */
+  static constexpr MonomialsType
+  PolynomialOf(const SiteType & site, const SiteType & tenths)
+  {
+    // |x|, |y| and |z| from the site, as functions, and in the order of their values at the given point.
+    AffineType sorted[3]{};
+    IndexValueType values[3]{};
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const IndexValueType difference = tenths[axis] - 10 * site[axis];
+      const IndexValueType sign = difference < 0 ? -1 : 1;
+      unsigned int place = axis;
+      for (; place > 0 && values[place - 1] < sign * difference; --place)
+      {
+        values[place] = values[place - 1];
+        sorted[place] = sorted[place - 1];
+      }
+      values[place] = sign * difference;
+      sorted[place] = { -sign * site[axis], 0, 0, 0 };
+      sorted[place][axis + 1] = sign;
+    }
+    const auto affine = [&sorted](IndexValueType one, IndexValueType x, IndexValueType y, IndexValueType z) {
+      AffineType result{};
+      for (unsigned int n = 0; n < 4; ++n)
+      {
+        result[n] = (n == 0 ? one : 0) + x * sorted[0][n] + y * sorted[1][n] + z * sorted[2][n];
+      }
+      return result;
+    };
+    MonomialsType sum{};
+    const auto addWherePositive =
+      [&sum, &tenths](IndexValueType scale, const AffineType & squared, const AffineType & factor) {
+        const IndexValueType value =
+          10 * squared[0] + squared[1] * tenths[0] + squared[2] * tenths[1] + squared[3] * tenths[2];
+        if (value > 0)
+        {
+          AddTerm(sum, scale, squared, factor);
+        }
+      };
+    addWherePositive(1, affine(3, -1, -1, -1), affine(3, -1, -1, 2));
+    addWherePositive(-4, affine(1, -1, 0, 0), affine(1, -1, 0, 0));
+    addWherePositive(-4, affine(1, 0, -1, 0), affine(1, 0, -1, 0));
+    addWherePositive(-3, affine(1, -1, -1, -1), affine(1, 0, 0, 0));
+    addWherePositive(-1, affine(1, -1, -1, 1), affine(4, -1, -1, -2));
+    addWherePositive(1, affine(-1, 1, -1, 1), affine(4, -1, -2, -1));
+    addWherePositive(1, affine(-1, 1, -1, -1), affine(5, -2, -1, -1));
+    return sum;
+  }
+
+  static constexpr bool
+  IsReached(const SiteType & site, const SiteType & tenths)
+  {
+    IndexValueType sum = 0;
+    bool isNear = true;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const IndexValueType difference = tenths[axis] - 10 * site[axis];
+      const IndexValueType distance = difference < 0 ? -difference : difference;
+      sum += distance;
+      isNear = isNear && distance < 20;
+    }
+    return isNear && sum < 30;
+  }
+
+  static constexpr Table
+  MakeTable(const SiteType & tenths)
+  {
+    Table table;
+    unsigned int size = 0;
+    for (IndexValueType z = -1; z <= 2; ++z)
+    {
+      for (IndexValueType y = -1; y <= 2; ++y)
+      {
+        for (IndexValueType x = -1; x <= 2; ++x)
+        {
+          const SiteType site{ x, y, z };
+          if (FCCLattice::IsSite(site) && IsReached(site, tenths))
+          {
+            const MonomialsType polynomial = PolynomialOf(site, tenths);
+            for (unsigned int n = 0; n < NumberOfMonomials; ++n)
+            {
+              table.polynomials[n][size] = static_cast<double>(polynomial[n]);
+            }
+            table.sites[size++] = site;
+          }
+        }
+      }
+    }
+    return table;
+  }
+
+  static const Table Tables[2]; ///< for each shape
 };
 
-inline constexpr FCCBoxSpline::SupportType FCCBoxSpline::SupportAtSite = FCCBoxSpline::SitesThatReach({ 1, 1, 1 });
-inline constexpr FCCBoxSpline::SupportType FCCBoxSpline::SupportOfCube = FCCBoxSpline::SitesThatReach({ 2, 2, 2 });
+inline constexpr FCCBoxSpline::Table FCCBoxSpline::Tables[2] = { FCCBoxSpline::MakeTable({ 3, 2, 1 }),
+                                                                 FCCBoxSpline::MakeTable({ 6, 5, 4 }) };
+
+inline auto
+FCCBoxSpline::FindPiece(const PointType & point) -> Piece
+{
+  // Within the unit cube, mirrored along x when needed so that its lowest corner is a site.
+  Piece piece{ Cube, {}, { 1, 1, 1 }, {} };
+  PointType local;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    const double lower = std::floor(point[axis]);
+    piece.origin[axis] = static_cast<IndexValueType>(lower);
+    local[axis] = point[axis] - lower;
+  }
+  if (!FCCLattice::IsSite(piece.origin))
+  {
+    piece.origin[0] += 1;
+    piece.direction[0] = -1;
+    local[0] = 1.0 - local[0];
+  }
+
+  constexpr SiteType cubeSites[4] = { { 0, 0, 0 }, { 1, 1, 0 }, { 1, 0, 1 }, { 0, 1, 1 } };
+  for (const SiteType & site : cubeSites)
+  {
+    double distance = 0.0;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      distance += site[axis] == 0 ? local[axis] : 1.0 - local[axis];
+    }
+    if (distance < 1.0)
+    {
+      piece.shape = Octant;
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        piece.origin[axis] += piece.direction[axis] * site[axis];
+        piece.direction[axis] *= 1 - 2 * site[axis];
+      }
+      break;
+    }
+  }
+  for (unsigned int n = 0; n < SupportSize; ++n)
+  {
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      piece.sites[n][axis] = piece.origin[axis] + piece.direction[axis] * Tables[piece.shape].sites[n][axis];
+    }
+  }
+  return piece;
+}
+
+inline auto
+FCCBoxSpline::MakeCubic(const Piece & piece, const std::array<double, SupportSize> & coefficients) -> Cubic
+{
+  Cubic cubic{ {}, piece.origin, piece.direction };
+  for (unsigned int monomial = 0; monomial < NumberOfMonomials; ++monomial)
+  {
+    double sum = 0.0;
+    for (unsigned int n = 0; n < SupportSize; ++n)
+    {
+      sum += Tables[piece.shape].polynomials[monomial][n] * coefficients[n];
+    }
+    cubic.coefficients[monomial] = sum;
+  }
+  return cubic;
+}
+
+inline auto
+FCCBoxSpline::Evaluate(const PointType & point) -> Jet
+{
+  constexpr double farthest = 2.0;
+  for (const double coordinate : point)
+  {
+    if (!(std::abs(coordinate) <= farthest)) // false for NaN, too
+    {
+      return {};
+    }
+  }
+  const Piece piece = FindPiece(point);
+  std::array<double, SupportSize> coefficients{};
+  for (unsigned int n = 0; n < SupportSize; ++n)
+  {
+    coefficients[n] = piece.sites[n] == SiteType{ 0, 0, 0 } ? 1.0 : 0.0;
+  }
+  return MakeCubic(piece, coefficients).GetJet(point);
+}
 
 } // namespace itk
 

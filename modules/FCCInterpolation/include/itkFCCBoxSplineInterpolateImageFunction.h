@@ -89,9 +89,12 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
-  /** Value and gradient in lattice coordinates. */
-  FCCBoxSpline::Jet
-  EvaluateJet(const ContinuousIndexType & index) const;
+  static FCCBoxSpline::PointType
+  ToLattice(const ContinuousIndexType & index);
+
+  /** The spline in the piece around a point in lattice coordinates. */
+  FCCBoxSpline::Cubic
+  CubicAt(const FCCBoxSpline::PointType & point) const;
 
   unsigned int m_NumberOfIterations{ 0 };
   CoefficientImageType::Pointer m_Coefficients;

@@ -55,32 +55,29 @@ FCCBoxSplineInterpolateImageFunction<TInputImage, TCoordRep>::SetInputImage(cons
 }
 
 template <typename TInputImage, typename TCoordRep>
-FCCBoxSpline::Jet
-FCCBoxSplineInterpolateImageFunction<TInputImage, TCoordRep>::EvaluateJet(const ContinuousIndexType & index) const
+FCCBoxSpline::PointType
+FCCBoxSplineInterpolateImageFunction<TInputImage, TCoordRep>::ToLattice(const ContinuousIndexType & index)
 {
-  const FCCBoxSpline::PointType point{ 2.0 * static_cast<double>(index[0]),
-                                       static_cast<double>(index[1]),
-                                       static_cast<double>(index[2]) };
+  return { 2.0 * static_cast<double>(index[0]), static_cast<double>(index[1]), static_cast<double>(index[2]) };
+}
+
+template <typename TInputImage, typename TCoordRep>
+FCCBoxSpline::Cubic
+FCCBoxSplineInterpolateImageFunction<TInputImage, TCoordRep>::CubicAt(const FCCBoxSpline::PointType & point) const
+{
   const auto & region = m_Coefficients->GetBufferedRegion();
-  FCCBoxSpline::Jet sum;
-  for (const FCCLattice::SiteType & site : FCCBoxSpline::FindSupport(point))
+  const FCCBoxSpline::Piece piece = FCCBoxSpline::FindPiece(point);
+  std::array<double, FCCBoxSpline::SupportSize> coefficients;
+  for (unsigned int n = 0; n < FCCBoxSpline::SupportSize; ++n)
   {
-    IndexType sample = FCCLattice::IndexOf(site);
+    IndexType sample = FCCLattice::IndexOf(piece.sites[n]);
     if (!region.IsInside(sample))
     {
       sample = MirrorIntoRegion(sample, region);
     }
-    const auto coefficient = static_cast<double>(m_Coefficients->GetPixel(sample));
-    const FCCBoxSpline::Jet jet = FCCBoxSpline::ValueAndGradient({ point[0] - static_cast<double>(site[0]),
-                                                                   point[1] - static_cast<double>(site[1]),
-                                                                   point[2] - static_cast<double>(site[2]) });
-    sum.value += coefficient * jet.value;
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      sum.gradient[axis] += coefficient * jet.gradient[axis];
-    }
+    coefficients[n] = static_cast<double>(m_Coefficients->GetPixel(sample));
   }
-  return sum;
+  return FCCBoxSpline::MakeCubic(piece, coefficients);
 }
 
 template <typename TInputImage, typename TCoordRep>
@@ -88,7 +85,8 @@ auto
 FCCBoxSplineInterpolateImageFunction<TInputImage, TCoordRep>::EvaluateAtContinuousIndex(
   const ContinuousIndexType & index) const -> OutputType
 {
-  return static_cast<OutputType>(this->EvaluateJet(index).value);
+  const FCCBoxSpline::PointType point = ToLattice(index);
+  return static_cast<OutputType>(this->CubicAt(point).GetValue(point));
 }
 
 template <typename TInputImage, typename TCoordRep>
@@ -119,7 +117,8 @@ FCCBoxSplineInterpolateImageFunction<TInputImage, TCoordRep>::EvaluateValueAndDe
   OutputType & value,
   CovariantVectorType & derivative) const
 {
-  const FCCBoxSpline::Jet jet = this->EvaluateJet(index);
+  const FCCBoxSpline::PointType point = ToLattice(index);
+  const FCCBoxSpline::Jet jet = this->CubicAt(point).GetJet(point);
   value = static_cast<OutputType>(jet.value);
   for (unsigned int row = 0; row < 3; ++row)
   {
