@@ -128,7 +128,7 @@ public:
     const unsigned int lowest =
       (parts.lone >> direction & 1) != 0
         ? direction
-        : static_cast<unsigned int>(__builtin_ctz(FCCSiteStar::PartOf(parts.owned, direction)));
+        : static_cast<unsigned int>(__builtin_ctz(FCCSiteStar::PartOf(parts.owned & ~parts.lone, direction)));
     return parts.first + static_cast<std::uint32_t>(__builtin_popcount(parts.lowest & ((1U << lowest) - 1)));
   }
 

@@ -121,7 +121,7 @@ FCCClusterPlane::NumberParts(SizeValueType k, const FCCSplitSites & splits, std:
         {
           const auto direction = static_cast<unsigned int>(__builtin_ctz(left));
           parts.lowest |= 1U << direction;
-          left &= ~FCCSiteStar::PartOf(parts.owned, direction);
+          left &= ~FCCSiteStar::PartOf(parts.owned & ~parts.lone, direction);
         }
         m_Parts.push_back(parts);
         first += static_cast<std::uint32_t>(__builtin_popcount(parts.lowest));

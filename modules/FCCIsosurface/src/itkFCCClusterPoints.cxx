@@ -143,7 +143,7 @@ FCCClusterPoints::PlaceParts(const FCCClusterPlane & plane,
     {
       const auto lowest = static_cast<unsigned int>(__builtin_ctz(left));
       const unsigned int part =
-        (parts.lone >> lowest & 1) != 0 ? 1U << lowest : FCCSiteStar::PartOf(parts.owned, lowest);
+        (parts.lone >> lowest & 1) != 0 ? 1U << lowest : FCCSiteStar::PartOf(parts.owned & ~parts.lone, lowest);
       TriangleSurface::PointType blockPoints[Lanes];
       TriangleSurface::NormalType blockNormals[Lanes];
       if ((part & (part - 1)) == 0)

@@ -257,6 +257,14 @@ private:
     m_Parts[this->NumberOf(site)] = { owned, lone };
   }
 
+  static unsigned int
+  LowestOf(const Parts & parts, unsigned int direction)
+  {
+    return (parts.lone >> direction & 1) != 0
+             ? direction
+             : static_cast<unsigned int>(__builtin_ctz(FCCSiteStar::PartOf(parts.owned & ~parts.lone, direction)));
+  }
+
   /** The vertex that the crossing between two sites belongs to, and its owner. */
   VertexType
   VertexOf(const SiteType & inside, const SiteType & outside, SiteType & owner) const
@@ -271,10 +279,7 @@ private:
       return number * 16 + Whole;
     }
     const unsigned int direction = DirectionOf({ other[0] - owner[0], other[1] - owner[1], other[2] - owner[2] });
-    const auto & [owned, lone] = found->second;
-    return number * 16 + ((lone >> direction & 1) != 0
-                            ? direction
-                            : static_cast<unsigned int>(__builtin_ctz(FCCSiteStar::PartOf(owned, direction))));
+    return number * 16 + LowestOf(found->second, direction);
   }
 
   /** Counts the triangles around a site's vertices and divides those that break a condition. */
@@ -295,24 +300,65 @@ private:
     }
     else
     {
-      unsigned int broken = 0;
-      auto & [owned, lone] = parts->second;
-      for (unsigned int left = owned & ~lone; left != 0;)
-      {
-        const auto direction = static_cast<unsigned int>(__builtin_ctz(left));
-        const unsigned int part = FCCSiteStar::PartOf(owned, direction);
-        const bool isPoint = (part & (part - 1)) == 0;
-        broken |= !isPoint && this->Breaks(number * 16 + direction) ? part : 0;
-        left &= ~part;
-      }
-      if (broken == 0)
+      const std::vector<SiteType> neighbors = m_Neighbors;
+      if (!this->DivideParts(site, parts->second))
       {
         return;
       }
-      lone |= broken;
+      m_Neighbors = neighbors;
     }
     this->Enqueue(site);
     this->EnqueueNeighbors();
+  }
+
+  /** Divides the parts of a site that break a condition: where that helps, by making a point of one of their crossings,
+   * else of all. Returns whether there were any. */
+  bool
+  DivideParts(const SiteType & site, Parts & parts)
+  {
+    const unsigned int broken = this->FindBroken(site, parts);
+    for (unsigned int left = broken; left != 0;)
+    {
+      const unsigned int part =
+        FCCSiteStar::PartOf(parts.owned & ~parts.lone, static_cast<unsigned int>(__builtin_ctz(left)));
+      left &= ~part;
+      const unsigned int lone = parts.lone;
+      parts.lone = lone | part;
+      for (unsigned int candidates = part; candidates != 0; candidates &= candidates - 1)
+      {
+        const unsigned int point = candidates & ~(candidates - 1);
+        const Parts tried{ parts.owned, lone | point };
+        if (!FCCSiteStar::IsDisk(part & ~point))
+        {
+          continue;
+        }
+        parts.lone = tried.lone;
+        this->FindTriangles(site);
+        if ((this->FindBroken(site, parts) & part) == 0)
+        {
+          break;
+        }
+        parts.lone = lone | part;
+      }
+    }
+    return broken != 0;
+  }
+
+  /** The crossings of the parts that break a condition, by the triangles found last. */
+  unsigned int
+  FindBroken(const SiteType & site, const Parts & parts) const
+  {
+    const SizeValueType number = this->NumberOf(site);
+    unsigned int broken = 0;
+    for (unsigned int left = parts.owned & ~parts.lone; left != 0;)
+    {
+      const auto lowest = static_cast<unsigned int>(__builtin_ctz(left));
+      const unsigned int part = FCCSiteStar::PartOf(parts.owned & ~parts.lone, lowest);
+      const bool isPoint = (part & (part - 1)) == 0;
+      broken |= !isPoint && this->Breaks(number * 16 + lowest) ? part : 0;
+      left &= ~part;
+    }
+    return broken;
   }
 
   /** The sites whose vertices share triangles, as they were before, with those found last. */
