@@ -43,6 +43,9 @@ public:
   std::uint32_t
   Number(std::uint32_t first);
 
+  SizeValueType
+  Count() const;
+
   void
   Clear();
 

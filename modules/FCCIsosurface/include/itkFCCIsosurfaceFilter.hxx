@@ -328,15 +328,13 @@ FCCIsosurfaceFilter<TInputImage>::ExtractLean(const FCCSigns & signs, double iso
                       this->MakeRowReader(isovalue));
   const float share = 0.9f / static_cast<float>(m_Isovalues.size());
   const SizeValueType planes = signs.GetDepth();
-  this->ForEachSlab(planes, 0.3f * share, [&](SizeValueType begin, SizeValueType end) { lean.FindSplits(begin, end); });
+  this->ForEachSlab(planes, 0.5f * share, [&](SizeValueType begin, SizeValueType end) { lean.Count(begin, end); });
   lean.Resolve([&](SizeValueType i, SizeValueType j, SizeValueType k) {
     float value;
     FCCRowKernels::Subtract(
       image->GetBufferPointer() + ((k - 1) * size[1] + j - 1) * size[0] + i - 1, 1, isovalue, &value);
     return value;
   });
-  this->ForEachSlab(planes, 0.2f * share, [&](SizeValueType begin, SizeValueType end) { lean.Count(begin, end); });
-  lean.Finish();
   this->Allocate(surface, lean.GetNumberOfPoints(), lean.GetNumberOfTriangles());
   this->ForEachSlab(planes, 0.5f * share, [&](SizeValueType begin, SizeValueType end) {
     lean.Fill(begin, end, this->IsLeftHanded(), surface);

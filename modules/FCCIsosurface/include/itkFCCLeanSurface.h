@@ -15,8 +15,7 @@ namespace itk
  * A. Gee, "Regularised marching tetrahedra", 1999), but where the surface would not stay a manifold of the same
  * topology (see FCCSplitSites).
  *
- * Passes, each over slabs of planes in any order and by any number of threads: find sites to split (FindSplits, then
- * Resolve once), count (Count, then Finish once), fill.
+ * Count all slabs of planes, in any order and by any number of threads; Resolve once; Fill all slabs.
  *
  * \ingroup FCCIsosurface
  */
@@ -31,21 +30,13 @@ public:
                  double minimumFraction,
                  FCCFieldPlanes::RowReader readRow);
 
-  void
-  FindSplits(SizeValueType begin, SizeValueType end);
-
-  void
-  Resolve(const FCCSplitSites::ValueReader & valueAt)
-  {
-    m_Splits.Resolve(valueAt, m_InsideIsBelow);
-  }
-
+  /** Counts points and triangles, and looks for sites that might have to be split. */
   void
   Count(SizeValueType begin, SizeValueType end);
 
-  /** Sums up the counts. */
+  /** Splits sites, and sums up the counts. */
   void
-  Finish();
+  Resolve(const FCCSplitSites::ValueReader & valueAt);
 
   SizeValueType
   GetNumberOfPoints() const
@@ -73,8 +64,8 @@ private:
   double m_MinimumFraction;
   FCCFieldPlanes::RowReader m_ReadRow;
   FCCSplitSites m_Splits;
-  std::vector<SizeValueType> m_FirstPoint;    ///< of each plane; counts until Finish()
-  std::vector<SizeValueType> m_FirstTriangle; ///< between each plane and the next; counts until Finish()
+  std::vector<SizeValueType> m_FirstPoint;    ///< of each plane; counts until Resolve()
+  std::vector<SizeValueType> m_FirstTriangle; ///< between each plane and the next; counts until Resolve()
 };
 
 } // namespace itk

@@ -170,10 +170,6 @@ private:
   std::vector<std::uint32_t> m_Before;
 };
 
-/** The masks of the cut edges of one type that a row owns. Returns whether there are any. */
-bool
-FindCutEdges(const FCCSigns & signs, std::uint8_t type, SizeValueType j, SizeValueType k, FCCSigns::WordType * masks);
-
 /** For each block of \a block sites of plane \a k, row by row: is there one in it with a neighbour on the other side of
  * the surface? Sites are counted from \a offset on within the blocks. */
 void

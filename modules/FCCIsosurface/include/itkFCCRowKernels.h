@@ -34,10 +34,6 @@ struct FCCRowKernels
   static void
   Subtract(const TPixel * values, SizeValueType count, double isovalue, float * differences);
 
-  /** One bit for each of 64 pairs of values: is their sum below zero, or with \a isAbove, above? */
-  static std::uint64_t
-  CompareSums(const float * values, const float * others, bool isAbove);
-
   /** The twelve neighbours' rows of a row of sites, shifted so that element i is the neighbour of site i, in the order
    * of FCCLattice::NearestNeighbors. */
   using NeighborRows = const float * [12];

@@ -45,6 +45,11 @@ struct FCCSiteStar
   /** The directions of a set that are connected with one of them. Thread safe. */
   static unsigned int
   PartOf(unsigned int set, unsigned int direction);
+
+  /** How many vertices the crossings in the directions \a owned make when each of \a lone is one by itself and the
+   * others gather in connected parts. Thread safe. */
+  static SizeValueType
+  CountParts(unsigned int owned, unsigned int lone);
 };
 
 /** \class FCCSplitSites
@@ -77,9 +82,13 @@ public:
   void
   Suspect(const std::vector<FCCLattice::SiteType> & indices);
 
-  /** Divides what has to be. */
+  /** Divides what has to be. The numbers of points of each plane and of triangles above it are those of whole sites
+   * before, and right afterwards. */
   void
-  Resolve(const ValueReader & valueAt, bool insideIsBelow);
+  Resolve(const ValueReader & valueAt,
+          bool insideIsBelow,
+          std::vector<SizeValueType> & points,
+          std::vector<SizeValueType> & triangles);
 
   /** One bit for each site: it is split. */
   const WordType *

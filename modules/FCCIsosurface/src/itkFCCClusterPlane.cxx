@@ -1,11 +1,55 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "itkFCCClusterPlane.cxx"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
 #include "itkFCCClusterPlane.h"
 
 #include <algorithm>
 
+HWY_BEFORE_NAMESPACE();
+namespace itk
+{
+namespace HWY_NAMESPACE
+{
+namespace
+{
+
+SizeValueType
+CountBits(const FCCSigns::WordType * bits, SizeValueType words)
+{
+  SizeValueType count = 0;
+  for (SizeValueType word = 0; word < words; ++word)
+  {
+    count += static_cast<SizeValueType>(__builtin_popcountll(bits[word]));
+  }
+  return count;
+}
+
+std::uint32_t
+NumberBits(const FCCSigns::WordType * bits, SizeValueType words, std::uint32_t first, std::uint32_t * before)
+{
+  for (SizeValueType word = 0; word < words; ++word)
+  {
+    before[word] = first;
+    first += static_cast<std::uint32_t>(__builtin_popcountll(bits[word]));
+  }
+  return first;
+}
+
+} // namespace
+} // namespace HWY_NAMESPACE
+} // namespace itk
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace itk
 {
 namespace
 {
+
+HWY_EXPORT(CountBits);
+HWY_EXPORT(NumberBits);
 
 using WordType = FCCSigns::WordType;
 
@@ -38,12 +82,13 @@ MoveBits(const WordType * row, SizeValueType words, IndexValueType by, WordType 
 std::uint32_t
 FCCNumberedBits::Number(std::uint32_t first)
 {
-  for (SizeValueType word = 0; word < m_Bits.size(); ++word)
-  {
-    m_Before[word] = first;
-    first += static_cast<std::uint32_t>(__builtin_popcountll(m_Bits[word]));
-  }
-  return first;
+  return HWY_DYNAMIC_DISPATCH(NumberBits)(m_Bits.data(), m_Bits.size(), first, m_Before.data());
+}
+
+SizeValueType
+FCCNumberedBits::Count() const
+{
+  return HWY_DYNAMIC_DISPATCH(CountBits)(m_Bits.data(), m_Bits.size());
 }
 
 void
@@ -196,3 +241,4 @@ FCCClusterPlane::GetOwned(SizeValueType j, SizeValueType i) const
 }
 
 } // namespace itk
+#endif

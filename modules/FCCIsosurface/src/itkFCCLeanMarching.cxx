@@ -154,15 +154,17 @@ namespace itk
 {
 namespace HWY_NAMESPACE
 {
+namespace
+{
 
 using WordType = FCCSigns::WordType;
 using Cases = FCCMarchingCases;
 
 /** Bits of a row from site \a shift on, 0 or 1. */
-WordType
+HWY_INLINE WordType
 Shifted(const WordType * row, SizeValueType shift, SizeValueType word)
 {
-  return shift == 0 ? row[word] : row[word] >> 1 | row[word + 1] << (FCCSigns::WordBits - 1);
+  return row[word] >> shift | row[word + 1] << 1 << (FCCSigns::WordBits - 1 - shift);
 }
 
 /** Where the sites and edges of a column's steps of one kind are found. */
@@ -453,6 +455,7 @@ FillLeanTriangles(const FCCSigns & signs,
   return count;
 }
 
+} // namespace
 } // namespace HWY_NAMESPACE
 } // namespace itk
 HWY_AFTER_NAMESPACE();

@@ -103,7 +103,7 @@ FindSuspects(const FCCSigns & signs,
 } // namespace
 
 void
-FCCLeanSurface::FindSplits(SizeValueType begin, SizeValueType end)
+FCCLeanSurface::Count(SizeValueType begin, SizeValueType end)
 {
   FCCFieldPlanes field = this->MakeField();
   PlaneSequence planes(m_Signs, field, m_InsideIsBelow, nullptr);
@@ -123,9 +123,12 @@ FCCLeanSurface::FindSplits(SizeValueType begin, SizeValueType end)
   for (SizeValueType k = first; k < end; ++k)
   {
     planes.Find(k + 1);
-    CountTriangleUse(m_Signs, k, planes.Get(k), planes.Get(k + 1), useOf(k), useOf(k + 1));
+    const SizeValueType triangles =
+      CountTriangleUse(m_Signs, k, planes.Get(k), planes.Get(k + 1), useOf(k), useOf(k + 1));
     if (k >= begin)
     {
+      m_FirstTriangle[k] = triangles;
+      m_FirstPoint[k] = planes.Get(k).GetWholes().Count();
       FindSuspects(m_Signs, k, planes.Get(k), useOf(k), suspects);
     }
     std::fill(useOf(k).counts.begin(), useOf(k).counts.end(), 0);
@@ -134,40 +137,17 @@ FCCLeanSurface::FindSplits(SizeValueType begin, SizeValueType end)
 }
 
 void
-FCCLeanSurface::Count(SizeValueType begin, SizeValueType end)
+FCCLeanSurface::Resolve(const FCCSplitSites::ValueReader & valueAt)
 {
-  FCCFieldPlanes field = this->MakeField();
-  PlaneSequence planes(m_Signs, field, m_InsideIsBelow, &m_Splits);
-  if (begin > 0)
+  m_Splits.Resolve(valueAt, m_InsideIsBelow, m_FirstPoint, m_FirstTriangle);
+  for (std::vector<SizeValueType> * const counts : { &m_FirstPoint, &m_FirstTriangle })
   {
-    planes.Find(begin - 1);
-  }
-  std::uint32_t points = planes.Find(begin);
-  m_FirstPoint[begin] = points;
-  for (SizeValueType k = begin; k < end; ++k)
-  {
-    const std::uint32_t pointsBefore = std::exchange(points, planes.Find(k + 1, points));
-    if (k + 1 < end)
-    {
-      m_FirstPoint[k + 1] = points - pointsBefore;
-    }
-    m_FirstTriangle[k] =
-      k + 1 < m_Signs.GetDepth() ? FillLeanTriangles(m_Signs, k, planes.Get(k), planes.Get(k + 1), false, nullptr) : 0;
-  }
-}
-
-void
-FCCLeanSurface::Finish()
-{
-  const auto sumUp = [](std::vector<SizeValueType> & counts) {
     SizeValueType sum = 0;
-    for (SizeValueType & count : counts)
+    for (SizeValueType & count : *counts)
     {
       sum += std::exchange(count, sum);
     }
-  };
-  sumUp(m_FirstPoint);
-  sumUp(m_FirstTriangle);
+  }
 }
 
 void

@@ -12,32 +12,34 @@ namespace itk
 {
 namespace HWY_NAMESPACE
 {
+namespace
+{
 
 using WordType = FCCSigns::WordType;
 using Cases = FCCMarchingCases;
 
-SizeValueType
+HWY_INLINE SizeValueType
 CountBits(WordType word)
 {
   return static_cast<SizeValueType>(__builtin_popcountll(word));
 }
 
 /** The bits i + 1 of a row, for the bits i of one word. */
-WordType
+HWY_INLINE WordType
 Next(const WordType * row, SizeValueType word)
 {
   return row[word] >> 1 | row[word + 1] << (FCCSigns::WordBits - 1);
 }
 
 /** The bits i - 1 of a row, for the bits i of one word. */
-WordType
+HWY_INLINE WordType
 Previous(const WordType * row, SizeValueType word)
 {
   return row[word] << 1 | (word > 0 ? row[word - 1] >> (FCCSigns::WordBits - 1) : 0);
 }
 
 /** The bits of one word that stand for sites below \a count. */
-WordType
+HWY_INLINE WordType
 Below(SizeValueType count, SizeValueType word)
 {
   const SizeValueType first = word * FCCSigns::WordBits;
@@ -192,19 +194,6 @@ private:
   SizeValueType m_Shift[Cases::Kinds][Cases::Edges];
 };
 
-/** Masks of the cut edges of one type that a row owns; returns all of them together. */
-WordType
-FindCutEdgesOfRow(const FCCSigns & signs, std::uint8_t type, SizeValueType j, SizeValueType k, WordType * masks)
-{
-  std::fill(masks, masks + signs.GetNumberOfWords(), 0);
-  WordType any = 0;
-  ForEachCutWord(signs, type, j, k, [masks, &any](SizeValueType word, WordType mask) {
-    masks[word] = mask;
-    any |= mask;
-  });
-  return any;
-}
-
 /** Bits of the sites of a row that have a neighbour on the other side of the surface. */
 void
 FindBorderSites(const FCCSigns & signs, SizeValueType j, SizeValueType k, WordType * border)
@@ -259,7 +248,12 @@ FindCutEdges(const FCCSigns & signs, unsigned int types, SizeValueType k, WordTy
   {
     for (unsigned int left = types; left != 0; left &= left - 1, masks += words)
     {
-      FindCutEdgesOfRow(signs, static_cast<std::uint8_t>(__builtin_ctz(left)), j, k, masks);
+      std::fill(masks, masks + words, 0);
+      ForEachCutWord(signs,
+                     static_cast<std::uint8_t>(__builtin_ctz(left)),
+                     j,
+                     k,
+                     [masks](SizeValueType word, WordType mask) { masks[word] = mask; });
     }
   }
 }
@@ -349,6 +343,7 @@ FillTriangles(const FCCSigns & signs,
   }
 }
 
+} // namespace
 } // namespace HWY_NAMESPACE
 } // namespace itk
 HWY_AFTER_NAMESPACE();
@@ -358,7 +353,6 @@ namespace itk
 {
 namespace
 {
-HWY_EXPORT(FindCutEdgesOfRow);
 HWY_EXPORT(FindBorderSites);
 HWY_EXPORT(FindCutEdges);
 HWY_EXPORT(NumberBits);
@@ -457,12 +451,6 @@ FindBorderBlocks(const FCCSigns & signs,
       }
     }
   }
-}
-
-bool
-FindCutEdges(const FCCSigns & signs, std::uint8_t type, SizeValueType j, SizeValueType k, FCCSigns::WordType * masks)
-{
-  return HWY_DYNAMIC_DISPATCH(FindCutEdgesOfRow)(signs, type, j, k, masks) != 0;
 }
 
 SizeValueType

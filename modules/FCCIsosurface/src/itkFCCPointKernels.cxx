@@ -13,6 +13,8 @@ namespace itk
 {
 namespace HWY_NAMESPACE
 {
+namespace
+{
 
 constexpr std::size_t Capacity = FCCEdgeBatch::Capacity;
 
@@ -314,6 +316,7 @@ PlaceClusters(const FCCClusterBlock & block,
   }
 }
 
+} // namespace
 } // namespace HWY_NAMESPACE
 } // namespace itk
 HWY_AFTER_NAMESPACE();

@@ -16,6 +16,8 @@ namespace itk
 {
 namespace HWY_NAMESPACE
 {
+namespace
+{
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -97,25 +99,6 @@ ITK_FCC_PIXEL_KERNELS(Int32, std::int32_t)
 ITK_FCC_PIXEL_KERNELS(Float, float)
 #undef ITK_FCC_PIXEL_KERNELS
 
-HWY_ATTR std::uint64_t
-CompareSumsOfWord(const float * values, const float * others, bool isAbove)
-{
-  const hn::ScalableTag<float> tag;
-  const std::size_t lanes = hn::Lanes(tag);
-  std::uint64_t word = 0;
-  for (std::size_t lane = 0; lane < 64; lane += lanes)
-  {
-    const auto sum = hn::Add(hn::LoadU(tag, values + lane), hn::LoadU(tag, others + lane));
-    const auto mask = isAbove ? hn::Gt(sum, hn::Zero(tag)) : hn::Lt(sum, hn::Zero(tag));
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(tag, mask, bytes);
-    std::uint64_t bits;
-    std::memcpy(&bits, bytes, sizeof bits);
-    word |= bits << lane;
-  }
-  return word;
-}
-
 HWY_ATTR void
 QuasiInterpolateRow(const float * values, const float * const * n, std::size_t count, float * HWY_RESTRICT coefficients)
 {
@@ -155,6 +138,7 @@ GradientBlock(const float * const * n,
   }
 }
 
+} // namespace
 } // namespace HWY_NAMESPACE
 } // namespace itk
 HWY_AFTER_NAMESPACE();
@@ -175,7 +159,6 @@ HWY_EXPORT(SubtractInt16);
 HWY_EXPORT(SubtractUInt16);
 HWY_EXPORT(SubtractInt32);
 HWY_EXPORT(SubtractFloat);
-HWY_EXPORT(CompareSumsOfWord);
 HWY_EXPORT(QuasiInterpolateRow);
 HWY_EXPORT(GradientBlock);
 
@@ -250,12 +233,6 @@ ITK_FCC_PIXEL_KERNELS(UInt16, std::uint16_t)
 ITK_FCC_PIXEL_KERNELS(Int32, std::int32_t)
 ITK_FCC_PIXEL_KERNELS(Float, float)
 #undef ITK_FCC_PIXEL_KERNELS
-
-std::uint64_t
-FCCRowKernels::CompareSums(const float * values, const float * others, bool isAbove)
-{
-  return HWY_DYNAMIC_DISPATCH(CompareSumsOfWord)(values, others, isAbove);
-}
 
 void
 FCCRowKernels::QuasiInterpolate(const float * values,

@@ -150,6 +150,44 @@ public:
     }
   }
 
+  /** Adds to the number of triangles above each plane what splitting has changed. */
+  void
+  AddChange(std::vector<SizeValueType> & triangles) const
+  {
+    for (const auto & [number, parts] : m_Parts)
+    {
+      const SiteType site = this->SiteOf(number);
+      for (const auto & far : GetStar().tetrahedra)
+      {
+        const std::array<SiteType, 4> sites = TetrahedronAt(site, far);
+        std::array<Corner, 4> corners;
+        const std::size_t count = this->FindPolygon(sites, corners);
+        // A tetrahedron with crossings of several split sites is counted at the lowest of them.
+        SizeValueType lowest = ~SizeValueType{ 0 };
+        for (std::size_t n = 0; n < count; ++n)
+        {
+          const bool isSplit = corners[n].vertex % 16 != Whole;
+          lowest = isSplit ? std::min(lowest, this->NumberOf(corners[n].owner)) : lowest;
+        }
+        if (lowest != number)
+        {
+          continue;
+        }
+        const auto plane = static_cast<std::size_t>(
+          std::min({ sites[0][2], sites[1][2], sites[2][2], sites[3][2] }));
+        for (std::size_t n = 2; n < count; ++n)
+        {
+          const Corner & a = corners[0];
+          const Corner & b = corners[n - 1];
+          const Corner & c = corners[n];
+          triangles[plane] += AreDistinct(a.vertex, b.vertex, c.vertex) ? 1 : 0;
+          triangles[plane] -=
+            AreDistinct(this->NumberOf(a.owner), this->NumberOf(b.owner), this->NumberOf(c.owner)) ? 1 : 0;
+        }
+      }
+    }
+  }
+
   /** The sites that are not whole, and the directions of those of their crossings that are alone. */
   struct Parts
   {
@@ -176,6 +214,17 @@ private:
   {
     const auto [i, j, k] = this->IndexOf(site);
     return (k * m_Signs.GetHeight() + j) * m_Signs.GetWidth() + i;
+  }
+
+  SiteType
+  SiteOf(SizeValueType number) const
+  {
+    const SizeValueType i = number % m_Signs.GetWidth();
+    const SizeValueType j = number / m_Signs.GetWidth() % m_Signs.GetHeight();
+    const SizeValueType k = number / m_Signs.GetWidth() / m_Signs.GetHeight();
+    return { 2 * static_cast<IndexValueType>(i) + m_Signs.GetParity(j, k),
+             static_cast<IndexValueType>(j),
+             static_cast<IndexValueType>(k) };
   }
 
   bool
@@ -379,11 +428,29 @@ private:
     m_Neighbors.clear();
     for (const auto & far : GetStar().tetrahedra)
     {
-      this->AddTriangles({ site,
-                           site + FCCSiteStar::StepOf(far[0]),
-                           site + FCCSiteStar::StepOf(far[1]),
-                           site + FCCSiteStar::StepOf(far[2]) });
+      std::array<Corner, 4> corners;
+      const std::size_t count = this->FindPolygon(TetrahedronAt(site, far), corners);
+      for (std::size_t n = 0; n < count; ++n)
+      {
+        m_Neighbors.push_back(corners[n].owner);
+      }
+      for (std::size_t n = 2; n < count; ++n)
+      {
+        if (AreDistinct(corners[0].vertex, corners[n - 1].vertex, corners[n].vertex))
+        {
+          m_Triangles.push_back({ corners[0].vertex, corners[n - 1].vertex, corners[n].vertex });
+        }
+      }
     }
+  }
+
+  static std::array<SiteType, 4>
+  TetrahedronAt(const SiteType & site, const std::array<unsigned int, 3> & far)
+  {
+    return { site,
+             site + FCCSiteStar::StepOf(far[0]),
+             site + FCCSiteStar::StepOf(far[1]),
+             site + FCCSiteStar::StepOf(far[2]) };
   }
 
   /** Whether a vertex has fewer than three triangles, or an edge with more than two. */
@@ -422,9 +489,17 @@ private:
     return triangles < fewest;
   }
 
-  /** The triangles that a tetrahedron keeps. */
-  void
-  AddTriangles(const std::array<SiteType, 4> & sites)
+  /** A corner of the surface's polygon in a tetrahedron. */
+  struct Corner
+  {
+    VertexType vertex;
+    SiteType owner;
+  };
+
+  /** Finds the polygon, 3 or 4 corners in order, or none. One of 4 is to be cut from corner 0 to corner 2, as
+   * FillLeanTriangles() does: from the crossing of the lowest two corners when its owner is inside, else across. */
+  std::size_t
+  FindPolygon(const std::array<SiteType, 4> & sites, std::array<Corner, 4> & corners) const
   {
     std::array<SiteType, 4> inside;
     std::array<SiteType, 4> outside;
@@ -436,47 +511,41 @@ private:
     }
     if (insides == 0 || outsides == 0)
     {
-      return;
+      return 0;
     }
-    const auto vertexOf = [this, &inside, &outside](std::size_t in, std::size_t out) {
-      SiteType owner;
-      const VertexType vertex = this->VertexOf(inside[in], outside[out], owner);
-      m_Neighbors.push_back(owner);
-      return vertex;
+    const auto cornerAt = [this, &inside, &outside](std::size_t in, std::size_t out) {
+      Corner corner;
+      corner.vertex = this->VertexOf(inside[in], outside[out], corner.owner);
+      return corner;
     };
     if (insides == 2)
     {
-      // Cut as FillLeanTriangles() cuts: from the lowest pair's crossing when its owner is inside, else across.
       const auto isLower = [](const SiteType & a, const SiteType & b) {
         return std::array<IndexValueType, 3>{ a[2], a[1], a[0] } < std::array<IndexValueType, 3>{ b[2], b[1], b[0] };
       };
       const std::size_t lowIn = isLower(inside[0], inside[1]) ? 0 : 1;
       const std::size_t lowOut = isLower(outside[0], outside[1]) ? 0 : 1;
-      const VertexType corners[4] = { vertexOf(lowIn, lowOut),
-                                      vertexOf(lowIn, 1 - lowOut),
-                                      vertexOf(1 - lowIn, 1 - lowOut),
-                                      vertexOf(1 - lowIn, lowOut) };
-      const std::size_t start = this->InsideOwns(inside[lowIn], outside[lowOut]) ? 0 : 1;
-      this->AddTriangle(corners[start], corners[start + 1], corners[start + 2]);
-      this->AddTriangle(corners[start], corners[start + 2], corners[(start + 3) % 4]);
+      corners = { cornerAt(lowIn, lowOut),
+                  cornerAt(lowIn, 1 - lowOut),
+                  cornerAt(1 - lowIn, 1 - lowOut),
+                  cornerAt(1 - lowIn, lowOut) };
+      if (!this->InsideOwns(inside[lowIn], outside[lowOut]))
+      {
+        std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+      }
+      return 4;
     }
-    else if (insides == 1)
+    for (std::size_t n = 0; n < 3; ++n)
     {
-      this->AddTriangle(vertexOf(0, 0), vertexOf(0, 1), vertexOf(0, 2));
+      corners[n] = insides == 1 ? cornerAt(0, n) : cornerAt(n, 0);
     }
-    else
-    {
-      this->AddTriangle(vertexOf(0, 0), vertexOf(1, 0), vertexOf(2, 0));
-    }
+    return 3;
   }
 
-  void
-  AddTriangle(VertexType a, VertexType b, VertexType c)
+  static bool
+  AreDistinct(VertexType a, VertexType b, VertexType c)
   {
-    if (a != b && b != c && c != a)
-    {
-      m_Triangles.push_back({ a, b, c });
-    }
+    return a != b && b != c && c != a;
   }
 
   const FCCSigns & m_Signs;
@@ -495,6 +564,17 @@ bool
 FCCSiteStar::IsDisk(unsigned int set)
 {
   return GetStar().isDisk[set];
+}
+
+SizeValueType
+FCCSiteStar::CountParts(unsigned int owned, unsigned int lone)
+{
+  auto parts = static_cast<SizeValueType>(__builtin_popcount(lone));
+  for (unsigned int left = owned & ~lone; left != 0; ++parts)
+  {
+    left &= ~PartOf(owned & ~lone, static_cast<unsigned int>(__builtin_ctz(left)));
+  }
+  return parts;
 }
 
 unsigned int
@@ -516,7 +596,10 @@ FCCSplitSites::Suspect(const std::vector<SiteType> & indices)
 }
 
 void
-FCCSplitSites::Resolve(const ValueReader & valueAt, bool insideIsBelow)
+FCCSplitSites::Resolve(const ValueReader & valueAt,
+                       bool insideIsBelow,
+                       std::vector<SizeValueType> & points,
+                       std::vector<SizeValueType> & triangles)
 {
   std::sort(m_Suspects.begin(), m_Suspects.end(), [](const SiteType & a, const SiteType & b) {
     return std::array<IndexValueType, 3>{ a[2], a[1], a[0] } < std::array<IndexValueType, 3>{ b[2], b[1], b[0] };
@@ -524,8 +607,10 @@ FCCSplitSites::Resolve(const ValueReader & valueAt, bool insideIsBelow)
   Resolver resolver(m_Signs, valueAt, insideIsBelow);
   resolver.Run(m_Suspects);
   std::vector<SiteType>().swap(m_Suspects);
+  resolver.AddChange(triangles);
   for (const auto & [number, parts] : resolver.GetParts())
   {
+    points[number / m_Split.GetWidth() / m_Split.GetHeight()] += FCCSiteStar::CountParts(parts.owned, parts.lone) - 1;
     const SizeValueType i = number % m_Split.GetWidth();
     const SizeValueType row = number / m_Split.GetWidth();
     m_Split.GetRow(row % m_Split.GetHeight(), row / m_Split.GetHeight())[i / FCCSigns::WordBits] |=
