@@ -66,9 +66,9 @@ private:
 /** \class FCCClusterPlane
  * \brief The vertices of one plane, by the sites that own the crossings they are made of.
  *
- * All crossings of a site make one vertex; those of a split site (see FCCSplitSites) make several. Vertices are numbered
- * site by site: first those of the sites that are whole, row by row, then those of the split ones, row by row and by
- * the lowest direction of their crossings.
+ * All crossings of a site make one vertex; those of a split site (see FCCSplitSites) make several. Vertices are
+ * numbered site by site: first those of the sites that are whole, row by row, then those of the split ones, row by row
+ * and by the lowest direction of their crossings.
  *
  * Thread safety: each thread uses its own.
  *

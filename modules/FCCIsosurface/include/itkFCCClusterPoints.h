@@ -3,7 +3,6 @@
 
 #include "itkFCCClusterPlane.h"
 #include "itkFCCEdgePoints.h"
-#include "itkFCCPointKernels.h"
 
 namespace itk
 {
@@ -53,20 +52,18 @@ private:
   /** The rows of the field around a row of sites in the image. */
   struct Rows;
 
-  TriangleSurface::PointType *
+  /** Vertices that are placed batch by batch, in order. */
+  class Output;
+
+  void
   PlaceWholes(const FCCSigns & signs,
               const FCCClusterPlane & plane,
               SizeValueType k,
               const FCCFieldPlanes & field,
-              TriangleSurface::PointType * points,
-              TriangleSurface::NormalType * normals) const;
+              Output & output) const;
 
   void
-  PlaceParts(const FCCClusterPlane & plane,
-             SizeValueType k,
-             const FCCFieldPlanes & field,
-             TriangleSurface::PointType * points,
-             TriangleSurface::NormalType * normals) const;
+  PlaceParts(const FCCClusterPlane & plane, SizeValueType k, const FCCFieldPlanes & field, Output & output) const;
 
   void
   PlaceOnBorder(const SiteType & site,

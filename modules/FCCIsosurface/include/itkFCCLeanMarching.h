@@ -17,8 +17,8 @@ CountTriangleUse(const FCCSigns & signs,
                  FCCTriangleUse & lowerUse,
                  FCCTriangleUse & upperUse);
 
-/** The triangles between the planes \a k and \a k + 1, with numbered vertices. Returns how many they are; writes none
- * when \a triangles is null. \a reversed turns them all over. */
+/** The triangles between the planes \a k and \a k + 1, with numbered vertices. Returns how many they are.
+ * \a reversed turns them all over. */
 SizeValueType
 FillLeanTriangles(const FCCSigns & signs,
                   SizeValueType k,

@@ -1,7 +1,7 @@
 #ifndef itkFCCPointKernels_h
 #define itkFCCPointKernels_h
 
-#include "itkFCCRowKernels.h"
+#include "itkFCCLattice.h"
 #include "itkTriangleSurface.h"
 
 #include <array>
@@ -38,23 +38,25 @@ struct FCCEdgeBatch
   double site[3][Capacity];       ///< the first end
 };
 
-/** \class FCCClusterBlock
- * \brief A block of sites in a row, each of which gathers the crossings that it owns in one vertex.
+/** \class FCCClusterBatch
+ * \brief Sites that gather the crossings they own in one vertex, collected so that many are placed at once.
  *
  * \ingroup FCCIsosurface
  */
-struct FCCClusterBlock
+struct FCCClusterBatch
 {
-  static constexpr SizeValueType Lanes = FCCRowKernels::Block;
-  static constexpr unsigned int Directions = 14;
+  static constexpr SizeValueType Capacity = 16;
+  static constexpr unsigned int Directions = 2 * FCCLattice::OwnedEdges.size();
 
-  const float * values;                ///< at the sites, less the isovalue
-  const float * neighbors[Directions]; ///< at their neighbours: FCCLattice::OwnedEdges and their opposites
-  const float * gradient[3];           ///< at the sites, in lattice coordinates
-  std::uint32_t owned[Directions];     ///< bit n: site n owns its crossing in this direction
-  double site[3];                      ///< the first site
-  float minimumFraction;               ///< of an edge that a crossing stays away from the site
-  float farthest; ///< that a vertex moves, in units of the distance of nearest neighbours
+  SizeValueType count = 0;
+  float value[Capacity];                ///< at the sites, less the isovalue
+  float neighbor[Directions][Capacity]; ///< at their neighbours: FCCLattice::OwnedEdges and their opposites
+  float gradient[3][Capacity];          ///< at the sites, in lattice coordinates
+  std::uint32_t owned[Capacity];        ///< bit n: direction n has a crossing that the vertex gathers
+  float site[3][Capacity];              ///< in lattice coordinates, from the origin below
+  double origin[3];                     ///< in lattice coordinates
+  float minimumFraction;                ///< of an edge that a crossing stays away from the site
+  float farthest;                       ///< that a vertex moves, in units of the distance of nearest neighbours
 };
 
 /** \class FCCPointKernels
@@ -77,14 +79,14 @@ struct FCCPointKernels
                TriangleSurface::PointType * points,
                TriangleSurface::NormalType * normals);
 
-  /** Vertices of a block's sites: the mean of the owned crossings, moved onto the surface of the field's second-order
-   * expansion about the site, at most as far as the block says. The expansion has the given gradient
-   * and the second differences of the twelve nearest neighbours. Values of lanes that own nothing are undefined. */
+  /** Vertices of sites: the mean of the gathered crossings, moved onto the surface of the field's second-order
+   * expansion about the site, at most as far as the batch says. The expansion has the given gradient and the second
+   * differences of the twelve nearest neighbours. Whole batches are written. */
   static void
-  PlaceClusters(const FCCClusterBlock & block,
+  PlaceClusters(const FCCClusterBatch & batch,
                 const FCCFrame & frame,
-                TriangleSurface::PointType (&points)[FCCClusterBlock::Lanes],
-                TriangleSurface::NormalType (&normals)[FCCClusterBlock::Lanes]);
+                TriangleSurface::PointType (&points)[FCCClusterBatch::Capacity],
+                TriangleSurface::NormalType (&normals)[FCCClusterBatch::Capacity]);
 };
 
 } // namespace itk

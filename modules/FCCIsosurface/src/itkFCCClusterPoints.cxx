@@ -1,6 +1,8 @@
 #include "itkFCCClusterPoints.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace itk
 {
@@ -8,8 +10,7 @@ namespace
 {
 
 constexpr unsigned int Directions = FCCSiteStar::Directions;
-static_assert(Directions == FCCClusterBlock::Directions, "one edge to each neighbour");
-constexpr SizeValueType Lanes = FCCClusterBlock::Lanes;
+static_assert(Directions == FCCClusterBatch::Directions, "one edge to each neighbour");
 
 } // namespace
 
@@ -34,25 +35,106 @@ struct FCCClusterPoints::Rows
       gradient[axis] = field.GetGradients(axis, j, k);
     }
   }
+};
 
-  /** The block of sites from \a i on; what they own is left open. */
-  FCCClusterBlock
-  GetBlock(SizeValueType i, const SiteType & firstSite) const
+class FCCClusterPoints::Output
+{
+public:
+  Output(const FCCFrame & frame,
+         const SiteType & origin,
+         float minimumFraction,
+         float farthest,
+         TriangleSurface::PointType * points,
+         TriangleSurface::NormalType * normals)
+    : m_Frame(frame)
+    , m_Points(points)
+    , m_Normals(normals)
   {
-    FCCClusterBlock block{};
-    block.values = values + i;
+    m_Batch.minimumFraction = minimumFraction;
+    m_Batch.farthest = farthest;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      m_Batch.origin[axis] = static_cast<double>(origin[axis]);
+    }
+  }
+
+  bool
+  HasNormals() const
+  {
+    return m_Normals != nullptr;
+  }
+
+  /** Adds the vertex of the crossings that a site owns. */
+  void
+  AddCluster(const Rows & rows, SizeValueType i, SizeValueType j, unsigned int owned, IndexValueType parity)
+  {
+    const SizeValueType n = m_Batch.count;
+    m_Batch.value[n] = rows.values[i];
     for (unsigned int direction = 0; direction < Directions; ++direction)
     {
-      block.neighbors[direction] = neighbors[direction] + i;
+      m_Batch.neighbor[direction][n] = rows.neighbors[direction][i];
     }
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      block.gradient[axis] = gradient[axis] + i;
-      block.site[axis] = static_cast<double>(firstSite[axis]);
+      m_Batch.gradient[axis][n] = rows.gradient[axis][i];
     }
-    block.site[0] += 2.0 * static_cast<double>(i);
-    return block;
+    m_Batch.owned[n] = owned;
+    m_Batch.site[0][n] = static_cast<float>(2 * static_cast<IndexValueType>(i) + parity);
+    m_Batch.site[1][n] = static_cast<float>(j);
+    m_Batch.site[2][n] = 0.0f;
+    if (++m_Batch.count == FCCClusterBatch::Capacity)
+    {
+      this->Flush();
+    }
   }
+
+  /** Adds a vertex that has its place. */
+  void
+  Add(const TriangleSurface::PointType & point, const TriangleSurface::NormalType & normal)
+  {
+    this->Flush();
+    *m_Points++ = point;
+    if (m_Normals != nullptr)
+    {
+      *m_Normals++ = normal;
+    }
+  }
+
+  /** Places what has been added. */
+  void
+  Flush()
+  {
+    if (m_Batch.count == 0)
+    {
+      return;
+    }
+    TriangleSurface::PointType points[FCCClusterBatch::Capacity];
+    TriangleSurface::NormalType normals[FCCClusterBatch::Capacity];
+    FCCPointKernels::PlaceClusters(m_Batch, m_Frame, points, normals);
+    m_Points = std::copy(points, points + m_Batch.count, m_Points);
+    if (m_Normals != nullptr)
+    {
+      m_Normals = std::copy(normals, normals + m_Batch.count, m_Normals);
+    }
+    m_Batch.count = 0;
+  }
+
+  TriangleSurface::PointType *
+  GetPoints() const
+  {
+    return m_Points;
+  }
+  TriangleSurface::NormalType *
+  GetNormals() const
+  {
+    return m_Normals;
+  }
+
+private:
+  const FCCFrame & m_Frame;
+  FCCClusterBatch m_Batch{};
+  TriangleSurface::PointType * m_Points;
+  TriangleSurface::NormalType * m_Normals;
 };
 
 void
@@ -63,127 +145,99 @@ FCCClusterPoints::Place(const FCCSigns & signs,
                         TriangleSurface::PointType * points,
                         TriangleSurface::NormalType * normals) const
 {
-  TriangleSurface::PointType * const parts = this->PlaceWholes(signs, plane, k, field, points, normals);
-  this->PlaceParts(plane, k, field, parts, normals != nullptr ? normals + (parts - points) : nullptr);
+  SiteType origin = this->SiteOf(0, 0, k);
+  origin[0] -= field.GetParity(0, k);
+  Output wholes(m_Frame, origin, 0.0f, FarthestOfWhole, points, normals);
+  this->PlaceWholes(signs, plane, k, field, wholes);
+  const auto minimumFraction = static_cast<float>(m_MinimumFraction);
+  Output parts(m_Frame, origin, minimumFraction, FarthestOfPart, wholes.GetPoints(), wholes.GetNormals());
+  this->PlaceParts(plane, k, field, parts);
 }
 
-TriangleSurface::PointType *
+void
 FCCClusterPoints::PlaceWholes(const FCCSigns & signs,
                               const FCCClusterPlane & plane,
                               SizeValueType k,
                               const FCCFieldPlanes & field,
-                              TriangleSurface::PointType * points,
-                              TriangleSurface::NormalType * normals) const
+                              Output & output) const
 {
-  constexpr SizeValueType blocksPerWord = FCCSigns::WordBits / Lanes;
-  constexpr FCCSigns::WordType lanesOfBlock = (FCCSigns::WordType{ 1 } << Lanes) - 1;
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
   {
     const FCCSigns::WordType * const wholes = plane.GetWholes().GetRow(j);
     const bool isRealRow = field.IsReal(1, j) && field.IsReal(2, k);
-    const SiteType firstSite = this->SiteOf(0, j, k);
+    std::optional<Rows> rows;
     for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
     {
-      if (wholes[word] == 0)
+      for (FCCSigns::WordType mask = wholes[word]; mask != 0; mask &= mask - 1)
       {
-        continue;
-      }
-      for (SizeValueType block = word * blocksPerWord; block < (word + 1) * blocksPerWord; ++block)
-      {
-        const SizeValueType shift = block % blocksPerWord * Lanes;
-        FCCSigns::WordType mask = wholes[word] >> shift & lanesOfBlock;
-        if (mask == 0)
+        const SizeValueType i = word * FCCSigns::WordBits + static_cast<SizeValueType>(__builtin_ctzll(mask));
+        const unsigned int owned = plane.GetOwned(j, i);
+        if (isRealRow && field.IsReal(0, i))
         {
-          continue;
+          if (!rows)
+          {
+            rows.emplace(field, j, k);
+          }
+          output.AddCluster(*rows, i, j, owned, field.GetParity(j, k));
         }
-        TriangleSurface::PointType blockPoints[Lanes];
-        TriangleSurface::NormalType blockNormals[Lanes];
-        if (isRealRow)
+        else
         {
-          FCCClusterBlock sites = Rows(field, j, k).GetBlock(block * Lanes, firstSite);
-          sites.farthest = FarthestOfWhole;
-          for (unsigned int direction = 0; direction < Directions; ++direction)
-          {
-            sites.owned[direction] =
-              static_cast<std::uint32_t>(plane.GetOwnedRow(j, direction)[word] >> shift & lanesOfBlock);
-          }
-          FCCPointKernels::PlaceClusters(sites, m_Frame, blockPoints, blockNormals);
-        }
-        for (; mask != 0; mask &= mask - 1)
-        {
-          const auto lane = static_cast<SizeValueType>(__builtin_ctzll(mask));
-          const SizeValueType i = block * Lanes + lane;
-          if (!isRealRow || !field.IsReal(0, i))
-          {
-            this->PlaceOnBorder(this->SiteOf(i, j, k), plane.GetOwned(j, i), blockPoints[lane], blockNormals[lane]);
-          }
-          *points++ = blockPoints[lane];
-          if (normals != nullptr)
-          {
-            *normals++ = blockNormals[lane];
-          }
+          TriangleSurface::PointType point;
+          TriangleSurface::NormalType normal;
+          this->PlaceOnBorder(this->SiteOf(i, j, k), owned, point, normal);
+          output.Add(point, normal);
         }
       }
     }
   }
-  return points;
+  output.Flush();
 }
 
 void
 FCCClusterPoints::PlaceParts(const FCCClusterPlane & plane,
                              SizeValueType k,
                              const FCCFieldPlanes & field,
-                             TriangleSurface::PointType * points,
-                             TriangleSurface::NormalType * normals) const
+                             Output & output) const
 {
   for (const FCCClusterPlane::Parts & parts : plane.GetParts())
   {
-    const bool isReal = field.IsReal(0, parts.i) && field.IsReal(1, parts.j) && field.IsReal(2, k);
+    const auto [i, j] = std::make_pair(parts.i, parts.j);
+    const bool isReal = field.IsReal(0, i) && field.IsReal(1, j) && field.IsReal(2, k);
     for (unsigned int left = parts.lowest; left != 0; left &= left - 1)
     {
       const auto lowest = static_cast<unsigned int>(__builtin_ctz(left));
       const unsigned int part =
         (parts.lone >> lowest & 1) != 0 ? 1U << lowest : FCCSiteStar::PartOf(parts.owned & ~parts.lone, lowest);
-      TriangleSurface::PointType blockPoints[Lanes];
-      TriangleSurface::NormalType blockNormals[Lanes];
-      if ((part & (part - 1)) == 0)
+      const bool isPoint = (part & (part - 1)) == 0;
+      if (isReal && !isPoint)
+      {
+        output.AddCluster(Rows(field, j, k), i, j, part, field.GetParity(j, k));
+        continue;
+      }
+      TriangleSurface::PointType point;
+      TriangleSurface::NormalType normal;
+      if (isPoint)
       {
         FCCEdgeBatch batch{};
-        m_EdgePoints.Gather(
-          { parts.i, parts.j, k }, FCCSiteStar::StepOf(lowest), field, normals != nullptr, batch);
-        m_EdgePoints.PlaceBatch(batch, blockPoints, normals != nullptr ? blockNormals : nullptr);
-      }
-      else if (isReal)
-      {
-        FCCClusterBlock site = Rows(field, parts.j, k).GetBlock(parts.i, this->SiteOf(0, parts.j, k));
-        site.farthest = FarthestOfPart;
-        site.minimumFraction = static_cast<float>(m_MinimumFraction);
-        for (unsigned int direction = 0; direction < Directions; ++direction)
-        {
-          site.owned[direction] = part >> direction & 1;
-        }
-        FCCPointKernels::PlaceClusters(site, m_Frame, blockPoints, blockNormals);
+        m_EdgePoints.Gather({ i, j, k }, FCCSiteStar::StepOf(lowest), field, output.HasNormals(), batch);
+        m_EdgePoints.PlaceBatch(batch, &point, output.HasNormals() ? &normal : nullptr);
       }
       else
       {
-        this->PlaceOnBorder(this->SiteOf(parts.i, parts.j, k), part, blockPoints[0], blockNormals[0]);
+        this->PlaceOnBorder(this->SiteOf(i, j, k), part, point, normal);
       }
-      *points++ = blockPoints[0];
-      if (normals != nullptr)
-      {
-        *normals++ = blockNormals[0];
-      }
+      output.Add(point, normal);
     }
   }
+  output.Flush();
 }
 
 FCCLattice::SiteType
 FCCClusterPoints::SiteOf(SizeValueType i, SizeValueType j, SizeValueType k) const
 {
   const auto & first = m_Extent.GetRegion().GetIndex();
-  const SiteType firstSite = FCCLattice::SiteOf({ { first[0] - 1,
-                                                    first[1] + static_cast<IndexValueType>(j) - 1,
-                                                    first[2] + static_cast<IndexValueType>(k) - 1 } });
+  const SiteType firstSite = FCCLattice::SiteOf(
+    { { first[0] - 1, first[1] + static_cast<IndexValueType>(j) - 1, first[2] + static_cast<IndexValueType>(k) - 1 } });
   return { firstSite[0] + 2 * static_cast<IndexValueType>(i), firstSite[1], firstSite[2] };
 }
 

@@ -55,10 +55,10 @@ FindOwnersOfRow(const WordType * signs,
 {
   for (std::size_t word = 0; word < words; ++word)
   {
-    const WordType other = shift == 0  ? otherSigns[word]
-                           : shift > 0 ? otherSigns[word] >> 1 | otherSigns[word + 1] << (FCCSigns::WordBits - 1)
-                                       : otherSigns[word] << 1 |
-                                           (word > 0 ? otherSigns[word - 1] >> (FCCSigns::WordBits - 1) : 0);
+    const WordType other =
+      shift == 0  ? otherSigns[word]
+      : shift > 0 ? otherSigns[word] >> 1 | otherSigns[word + 1] << (FCCSigns::WordBits - 1)
+                  : otherSigns[word] << 1 | (word > 0 ? otherSigns[word - 1] >> (FCCSigns::WordBits - 1) : 0);
     const WordType cut = signs[word] ^ other;
     WordType owned = firstOwns ? cut : 0;
     if (values != nullptr && cut != 0)

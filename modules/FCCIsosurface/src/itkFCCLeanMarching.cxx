@@ -172,12 +172,14 @@ struct LeanColumn
 {
   const WordType * signs[Cases::Sites];
   const WordType * owned[Cases::Edges][2]; ///< by either end of EdgeSites
-  const WordType * split[Cases::Edges]; ///< the owner is split
+  const WordType * split[Cases::Edges];    ///< the owner is split
   SizeValueType siteShift[Cases::Sites];
   SizeValueType edgeShift[Cases::Edges];
   std::uint8_t edgeType[Cases::Edges];
   bool siteIsUpper[Cases::Sites];
   SizeValueType siteRow[Cases::Sites];
+  const WordType * wholes[Cases::Sites];
+  const std::uint32_t * before[Cases::Sites]; ///< numbers of the first vertices of the words of wholes
 
   LeanColumn(const FCCSigns & allSigns,
              unsigned int kind,
@@ -195,6 +197,9 @@ struct LeanColumn
       siteIsUpper[site] = (row & 2) != 0;
       siteShift[site] = shiftOfPair[site / 2];
       signs[site] = allSigns.GetRow(siteRow[site], k + (row >> 1));
+      const FCCNumberedBits & numbers = (siteIsUpper[site] ? upper : lower).GetWholes();
+      wholes[site] = numbers.GetRow(siteRow[site]);
+      before[site] = numbers.GetBefore(siteRow[site]);
     }
     for (unsigned int edge = 0; edge < Cases::Edges; ++edge)
     {
@@ -211,6 +216,16 @@ struct LeanColumn
   }
 };
 
+/** The vertex of a site that is whole. */
+HWY_INLINE std::uint32_t
+VertexOfWhole(const LeanColumn & column, unsigned int site, SizeValueType step)
+{
+  const SizeValueType i = step + column.siteShift[site];
+  const SizeValueType word = i / FCCSigns::WordBits;
+  const WordType below = column.wholes[site][word] & ((WordType{ 1 } << (i % FCCSigns::WordBits)) - 1);
+  return column.before[site][word] + static_cast<std::uint32_t>(__builtin_popcountll(below));
+}
+
 /** One word of a column's steps: signs and ownership, and which tetrahedra keep a triangle between clusters. */
 struct LeanSteps
 {
@@ -224,21 +239,23 @@ struct LeanSteps
   Load(const LeanColumn & column, const FCCLeanTables & tables, SizeValueType word)
   {
     WordType any = 0;
+    WordType all = ~WordType{ 0 };
+    for (unsigned int site = 0; site < Cases::Sites; ++site)
+    {
+      signs[site] = Shifted(column.signs[site], column.siteShift[site], word);
+      any |= signs[site];
+      all &= signs[site];
+    }
+    if (any == all)
+    {
+      return false;
+    }
     for (unsigned int edge = 0; edge < Cases::Edges; ++edge)
     {
       for (unsigned int end = 0; end < 2; ++end)
       {
         owned[edge][end] = Shifted(column.owned[edge][end], column.edgeShift[edge], word);
-        any |= owned[edge][end];
       }
-    }
-    if (any == 0)
-    {
-      return false;
-    }
-    for (unsigned int site = 0; site < Cases::Sites; ++site)
-    {
-      signs[site] = Shifted(column.signs[site], column.siteShift[site], word);
     }
     for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
     {
@@ -355,7 +372,7 @@ FillMixedTetrahedron(const LeanColumn & column,
     const unsigned int direction =
       column.edgeType[edge] + (tables.storingEnd[edge] == end ? 0U : unsigned{ FCCClusterPlane::Types });
     vertices[n] =
-      (split[edge] >> bit & 1) != 0 ? plane.GetVertex(row, site, direction) : plane.GetWholes().GetNumber(row, site);
+      (split[edge] >> bit & 1) != 0 ? plane.GetVertex(row, site, direction) : VertexOfWhole(column, owner, i);
     if (n == polygon.decider)
     {
       deciderIsInside = (steps.signs[owner] >> bit & 1) != 0;
@@ -371,11 +388,7 @@ FillMixedTetrahedron(const LeanColumn & column,
     const std::uint32_t c = vertices[(start + n) % polygon.corners];
     if (a != b && b != c && c != a)
     {
-      if (triangles != nullptr)
-      {
-        triangles[count] = { a, reversed ? c : b, reversed ? b : c };
-      }
-      ++count;
+      triangles[count++] = { a, reversed ? c : b, reversed ? b : c };
     }
   }
   return count;
@@ -425,7 +438,7 @@ FillLeanTriangles(const FCCSigns & signs,
           {
             const auto bit = static_cast<unsigned int>(__builtin_ctzll(mask));
             const SizeValueType i = word * FCCSigns::WordBits + bit;
-            TriangleSurface::TriangleType * const next = triangles != nullptr ? triangles + count : nullptr;
+            TriangleSurface::TriangleType * const next = triangles + count;
             if ((mixed >> bit & 1) != 0)
             {
               count +=
@@ -433,18 +446,15 @@ FillLeanTriangles(const FCCSigns & signs,
               continue;
             }
             const auto & found = FCCClusterTables.cases[kind][tetrahedron][steps.PatternOf(tetrahedron, bit)];
-            if (next != nullptr)
+            std::uint32_t vertices[4];
+            for (unsigned int corner = 0; corner < 4; ++corner)
             {
-              const auto vertexOf = [&](unsigned int corner) {
-                const unsigned int site = sites[corner];
-                const FCCClusterPlane & plane = column.siteIsUpper[site] ? upper : lower;
-                return plane.GetWholes().GetNumber(column.siteRow[site], i + column.siteShift[site]);
-              };
-              for (unsigned int n = 0; n < found.triangles; ++n)
-              {
-                const auto & corners = found.corners[n];
-                next[n] = { vertexOf(corners[0]), vertexOf(corners[second]), vertexOf(corners[third]) };
-              }
+              vertices[corner] = VertexOfWhole(column, sites[corner], i);
+            }
+            for (unsigned int n = 0; n < found.triangles; ++n)
+            {
+              const auto & corners = found.corners[n];
+              next[n] = { vertices[corners[0]], vertices[corners[second]], vertices[corners[third]] };
             }
             count += found.triangles;
           }

@@ -91,9 +91,8 @@ FindSuspects(const FCCSigns & signs,
         const std::uint64_t counts = use.counts[j * use.stride + i];
         if ((counts & tooMany) != 0 || counts >> 56 < fewest || !FCCSiteStar::IsDisk(plane.GetOwned(j, i)))
         {
-          suspects.push_back({ static_cast<IndexValueType>(i),
-                               static_cast<IndexValueType>(j),
-                               static_cast<IndexValueType>(k) });
+          suspects.push_back(
+            { static_cast<IndexValueType>(i), static_cast<IndexValueType>(j), static_cast<IndexValueType>(k) });
         }
       }
     }
@@ -185,12 +184,8 @@ FCCLeanSurface::Fill(SizeValueType begin, SizeValueType end, bool reversed, Tria
                         surface.HasNormals() ? surface.GetNormals().data() + m_FirstPoint[k] : nullptr);
     if (k + 1 < m_Signs.GetDepth())
     {
-      FillLeanTriangles(m_Signs,
-                        k,
-                        planes.Get(k),
-                        planes.Get(k + 1),
-                        reversed,
-                        surface.GetTriangles().data() + m_FirstTriangle[k]);
+      FillLeanTriangles(
+        m_Signs, k, planes.Get(k), planes.Get(k + 1), reversed, surface.GetTriangles().data() + m_FirstTriangle[k]);
     }
   }
 }

@@ -249,11 +249,10 @@ FindCutEdges(const FCCSigns & signs, unsigned int types, SizeValueType k, WordTy
     for (unsigned int left = types; left != 0; left &= left - 1, masks += words)
     {
       std::fill(masks, masks + words, 0);
-      ForEachCutWord(signs,
-                     static_cast<std::uint8_t>(__builtin_ctz(left)),
-                     j,
-                     k,
-                     [masks](SizeValueType word, WordType mask) { masks[word] = mask; });
+      ForEachCutWord(
+        signs, static_cast<std::uint8_t>(__builtin_ctz(left)), j, k, [masks](SizeValueType word, WordType mask) {
+          masks[word] = mask;
+        });
     }
   }
 }

@@ -175,23 +175,18 @@ PlaceOnEdges(const FCCEdgeBatch & batch,
 }
 
 HWY_ATTR void
-PlaceClusters(const FCCClusterBlock & block,
+PlaceClusters(const FCCClusterBatch & batch,
               const FCCFrame & frame,
               float * HWY_RESTRICT points,
               float * HWY_RESTRICT normals)
 {
-  constexpr std::size_t lanes = FCCClusterBlock::Lanes;
+  constexpr std::size_t lanes = FCCClusterBatch::Capacity;
   alignas(64) float dx[lanes] = {};
   alignas(64) float dy[lanes] = {};
   alignas(64) float dz[lanes] = {};
   alignas(64) float count[lanes] = {};
-  for (unsigned int direction = 0; direction < FCCClusterBlock::Directions; ++direction)
+  for (unsigned int direction = 0; direction < FCCClusterBatch::Directions; ++direction)
   {
-    if (block.owned[direction] == 0)
-    {
-      continue;
-    }
-    const float * const neighbor = block.neighbors[direction];
     const auto & step = FCCLattice::OwnedEdges[direction % 7];
     const float sign = direction < 7 ? 1.0f : -1.0f;
     const float x = sign * static_cast<float>(step[0]);
@@ -199,32 +194,36 @@ PlaceClusters(const FCCClusterBlock & block,
     const float z = sign * static_cast<float>(step[2]);
     for (std::size_t n = 0; n < lanes; ++n)
     {
-      const bool owns = (block.owned[direction] >> n & 1U) != 0;
-      const float crossing = block.values[n] / (block.values[n] - neighbor[n]);
-      const float least = crossing >= block.minimumFraction ? crossing : block.minimumFraction;
+      const auto owns = static_cast<float>(static_cast<std::int32_t>(batch.owned[n] >> direction & 1U));
+      const float crossing = batch.value[n] / (batch.value[n] - batch.neighbor[direction][n]);
+      const float least = crossing >= batch.minimumFraction ? crossing : batch.minimumFraction;
       const float t = crossing >= 0.0f && crossing <= 0.5f ? least : 0.5f;
-      const float used = owns ? t : 0.0f;
+      const float used = owns * t;
       dx[n] += used * x;
       dy[n] += used * y;
       dz[n] += used * z;
-      count[n] += owns ? 1.0f : 0.0f;
+      count[n] += owns;
     }
   }
 
-  const auto second = [&block](std::size_t n, unsigned int direction) {
-    return (block.neighbors[direction][n] + block.neighbors[direction + 7][n]) - 2.0f * block.values[n];
-  };
+  alignas(64) float second[6][lanes]; // differences along (1,1,0), (-1,1,0), (1,0,1), (-1,0,1), (0,1,1), (0,-1,1)
+  for (unsigned int pair = 0; pair < 6; ++pair)
+  {
+    for (std::size_t n = 0; n < lanes; ++n)
+    {
+      second[pair][n] = (batch.neighbor[1 + pair][n] + batch.neighbor[8 + pair][n]) - 2.0f * batch.value[n];
+    }
+  }
   alignas(64) float outwards[3][lanes];
   alignas(64) float lattice[3][lanes];
   for (std::size_t n = 0; n < lanes; ++n)
   {
-    // Second differences along (1, 1, 0), (-1, 1, 0), (1, 0, 1), (-1, 0, 1), (0, 1, 1), (0, -1, 1) give the Hessian.
-    const float a = second(n, 1);
-    const float b = second(n, 2);
-    const float c = second(n, 3);
-    const float d = second(n, 4);
-    const float e = second(n, 5);
-    const float f = second(n, 6);
+    const float a = second[0][n];
+    const float b = second[1][n];
+    const float c = second[2][n];
+    const float d = second[3][n];
+    const float e = second[4][n];
+    const float f = second[5][n];
     const float xy = 0.25f * (a - b);
     const float xz = 0.25f * (c - d);
     const float yz = 0.25f * (e - f);
@@ -235,9 +234,9 @@ PlaceClusters(const FCCClusterBlock & block,
     const float yy = 0.25f * ((p + r) - q);
     const float zz = 0.25f * ((q + r) - p);
 
-    const float g0 = block.gradient[0][n];
-    const float g1 = block.gradient[1][n];
-    const float g2 = block.gradient[2][n];
+    const float g0 = batch.gradient[0][n];
+    const float g1 = batch.gradient[1][n];
+    const float g2 = batch.gradient[2][n];
     const float startX = dx[n] / count[n];
     const float startY = dy[n] / count[n];
     const float startZ = dz[n] / count[n];
@@ -256,14 +255,14 @@ PlaceClusters(const FCCClusterBlock & block,
       gx = g0 + hx;
       gy = g1 + hy;
       gz = g2 + hz;
-      const float value = block.values[n] + (((g0 + 0.5f * hx) * x + (g1 + 0.5f * hy) * y) + (g2 + 0.5f * hz) * z);
+      const float value = batch.value[n] + (((g0 + 0.5f * hx) * x + (g1 + 0.5f * hy) * y) + (g2 + 0.5f * hz) * z);
       const float squared = (gx * gx + gy * gy) + gz * gz;
       const float length = step < steps ? value / squared : 0.0f;
       x -= length * gx;
       y -= length * gy;
       z -= length * gz;
     }
-    const float farthest = block.farthest * 1.41421356f;
+    const float farthest = batch.farthest * 1.41421356f;
     const float moveX = x - startX;
     const float moveY = y - startY;
     const float moveZ = z - startZ;
@@ -279,7 +278,7 @@ PlaceClusters(const FCCClusterBlock & block,
     const float scale = static_cast<float>(frame.outwardSign) / sum;
     // Without a gradient: away from the site if it is inside, towards it otherwise; both is better than nothing.
     const float side =
-      block.values[n] >= 0.0f ? -static_cast<float>(frame.outwardSign) : static_cast<float>(frame.outwardSign);
+      batch.value[n] >= 0.0f ? -static_cast<float>(frame.outwardSign) : static_cast<float>(frame.outwardSign);
     outwards[0][n] = hasNormal ? scale * gx : side * (startX + 1e-3f);
     outwards[1][n] = hasNormal ? scale * gy : side * startY;
     outwards[2][n] = hasNormal ? scale * gz : side * startZ;
@@ -292,15 +291,16 @@ PlaceClusters(const FCCClusterBlock & block,
     const double a = frame.matrix[row][0];
     const double b = frame.matrix[row][1];
     const double c = frame.matrix[row][2];
-    const double start = ((a * block.site[0] + b * block.site[1]) + c * block.site[2]) + frame.origin[row];
+    const double start = ((a * batch.origin[0] + b * batch.origin[1]) + c * batch.origin[2]) + frame.origin[row];
     const auto p = static_cast<float>(frame.gradientToWorld[row][0]);
     const auto q = static_cast<float>(frame.gradientToWorld[row][1]);
     const auto r = static_cast<float>(frame.gradientToWorld[row][2]);
     for (std::size_t n = 0; n < lanes; ++n)
     {
-      const double x = 2.0 * static_cast<double>(n) + static_cast<double>(lattice[0][n]);
-      world[row][n] = static_cast<float>(
-        ((a * x + b * static_cast<double>(lattice[1][n])) + c * static_cast<double>(lattice[2][n])) + start);
+      const double x = static_cast<double>(batch.site[0][n]) + static_cast<double>(lattice[0][n]);
+      const double y = static_cast<double>(batch.site[1][n]) + static_cast<double>(lattice[1][n]);
+      const double z = static_cast<double>(batch.site[2][n]) + static_cast<double>(lattice[2][n]);
+      world[row][n] = static_cast<float>(((a * x + b * y) + c * z) + start);
       normal[row][n] = (p * outwards[0][n] + q * outwards[1][n]) + r * outwards[2][n];
     }
   }
@@ -347,12 +347,12 @@ FCCPointKernels::PlaceOnEdges(const FCCEdgeBatch & batch,
 }
 
 void
-FCCPointKernels::PlaceClusters(const FCCClusterBlock & block,
+FCCPointKernels::PlaceClusters(const FCCClusterBatch & batch,
                                const FCCFrame & frame,
-                               TriangleSurface::PointType (&points)[FCCClusterBlock::Lanes],
-                               TriangleSurface::NormalType (&normals)[FCCClusterBlock::Lanes])
+                               TriangleSurface::PointType (&points)[FCCClusterBatch::Capacity],
+                               TriangleSurface::NormalType (&normals)[FCCClusterBatch::Capacity])
 {
-  HWY_DYNAMIC_DISPATCH(PlaceClusters)(block, frame, points[0].data(), normals[0].data());
+  HWY_DYNAMIC_DISPATCH(PlaceClusters)(batch, frame, points[0].data(), normals[0].data());
 }
 
 } // namespace itk

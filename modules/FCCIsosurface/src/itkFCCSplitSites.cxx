@@ -173,8 +173,7 @@ public:
         {
           continue;
         }
-        const auto plane = static_cast<std::size_t>(
-          std::min({ sites[0][2], sites[1][2], sites[2][2], sites[3][2] }));
+        const auto plane = static_cast<std::size_t>(std::min({ sites[0][2], sites[1][2], sites[2][2], sites[3][2] }));
         for (std::size_t n = 2; n < count; ++n)
         {
           const Corner & a = corners[0];
@@ -273,8 +272,7 @@ private:
     for (unsigned int direction = 0; direction < Directions; ++direction)
     {
       const SiteType end = site + FCCSiteStar::StepOf(direction);
-      if (this->IsInside(end) != isInside &&
-          this->InsideOwns(isInside ? site : end, isInside ? end : site) == isInside)
+      if (this->IsInside(end) != isInside && this->InsideOwns(isInside ? site : end, isInside ? end : site) == isInside)
       {
         owned |= 1U << direction;
       }
@@ -447,10 +445,9 @@ private:
   static std::array<SiteType, 4>
   TetrahedronAt(const SiteType & site, const std::array<unsigned int, 3> & far)
   {
-    return { site,
-             site + FCCSiteStar::StepOf(far[0]),
-             site + FCCSiteStar::StepOf(far[1]),
-             site + FCCSiteStar::StepOf(far[2]) };
+    return {
+      site, site + FCCSiteStar::StepOf(far[0]), site + FCCSiteStar::StepOf(far[1]), site + FCCSiteStar::StepOf(far[2])
+    };
   }
 
   /** Whether a vertex has fewer than three triangles, or an edge with more than two. */
