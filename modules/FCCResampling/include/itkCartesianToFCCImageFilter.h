@@ -37,7 +37,8 @@ namespace itk
  * any processor.
  *
  * Overridden pipeline methods: VerifyPreconditions() (sensible parameters), GenerateOutputInformation() (places the
- * lattice), GenerateInputRequestedRegion() (the kernel's reach).
+ * lattice), GenerateInputRequestedRegion() (the kernel's reach), BeforeThreadedGenerateData() (large memory pages for
+ * the output).
  *
  * \ingroup FCCResampling
  */
