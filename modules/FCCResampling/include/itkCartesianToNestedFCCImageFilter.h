@@ -27,7 +27,7 @@ namespace itk
  *
  * The filter asks for as much of the input as the requested output needs. Any part of the output has the same bytes
  * whether it is computed alone or with the rest, by one thread or many, on any processor. Extra memory: about 1 MiB per
- * thread, more for rows of more than 1000 samples.
+ * thread, more for rows of more than 2500 samples.
  *
  * Overridden pipeline methods: GenerateOutputInformation() (places the lattice), GenerateInputRequestedRegion() (the
  * half-band filter's reach), BeforeThreadedGenerateData() (large memory pages for the output).
