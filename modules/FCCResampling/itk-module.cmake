@@ -1,3 +1,4 @@
 itk_module(FCCResampling
   DEPENDS RhombicCommon FCCLattice FCCInterpolation ITKCommon
+  PRIVATE_DEPENDS hwy::hwy
   DESCRIPTION "Filters from Cartesian images to FCC images and back.")

@@ -27,15 +27,18 @@ namespace itk
  * default, because linear interpolation blurs away what the lattice gains. B-splines overshoot at edges; integer
  * outputs are rounded and clamped to the range of their type. Arithmetic is in float32, which is exact for 16-bit
  * pixels and good for 7 digits of wider ones. An input sample that is not finite makes all outputs within the kernel's
- * reach, up to 24 samples along each axis, not a number: replace such samples before.
+ * reach, up to 5 samples along each axis, not a number: replace such samples before.
  *
- * The filter works row by row: a lattice row has constant y and z, so the rows of the input around it are blended once
- * and then interpolated along x. Extra memory: about one input plane in float32 per thread. It asks for as much of
- * the input as the requested output needs, and any part of the output has the same bytes whether it is computed alone
- * or with the rest, by one thread or many.
+ * The kernel is applied along y, z, and x in turn. A lattice row lies at constant y and z, so that each of these is a
+ * pass over whole rows (see RowArithmetic); the input is converted to float32 a row at a time, and worked on in blocks
+ * whose intermediate results fit a processor's cache. Extra memory: 1 MiB per thread, or ten input rows for each of
+ * eight output rows if that is more. The filter asks for as much of the input as the requested output needs, and any
+ * part of the output has the same bytes whether it is computed alone or with the rest, by one thread or many, on
+ * any processor.
  *
  * Overridden pipeline methods: VerifyPreconditions() (sensible parameters), GenerateOutputInformation() (places the
- * lattice), GenerateInputRequestedRegion() (the kernel's reach).
+ * lattice), GenerateInputRequestedRegion() (the kernel's reach), BeforeThreadedGenerateData() (large memory pages for
+ * the output).
  *
  * \ingroup FCCResampling
  */
@@ -90,6 +93,9 @@ protected:
 
   void
   GenerateInputRequestedRegion() override;
+
+  void
+  BeforeThreadedGenerateData() override;
 
   void
   DynamicThreadedGenerateData(const OutputImageRegionType & region) override;

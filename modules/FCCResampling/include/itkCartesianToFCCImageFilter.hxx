@@ -2,6 +2,8 @@
 #define itkCartesianToFCCImageFilter_hxx
 
 #include "itkFCCResamplingChecks.h"
+#include "itkHugePages.h"
+#include "itkRowArithmetic.h"
 #include "itkTotalProgressReporter.h"
 
 #include <algorithm>
@@ -9,52 +11,6 @@
 
 namespace itk
 {
-namespace CartesianToFCC
-{
-
-/** sum[x] = or += weight * row[x]; the first term of a sum sets, the others add. */
-template <typename TPixel>
-void
-Accumulate(const TPixel * row, float weight, SizeValueType length, bool first, float * sum)
-{
-  if (first)
-  {
-    for (SizeValueType x = 0; x < length; ++x)
-    {
-      sum[x] = weight * static_cast<float>(row[x]);
-    }
-  }
-  else
-  {
-    for (SizeValueType x = 0; x < length; ++x)
-    {
-      sum[x] += weight * static_cast<float>(row[x]);
-    }
-  }
-}
-
-/** Weighted sum of consecutive values, in four lanes so that it becomes SIMD code and its order of additions is fixed.
- */
-inline float
-WeightedSum(const float * values, const float * weights, SizeValueType count)
-{
-  float lanes[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
-  SizeValueType n = 0;
-  for (; n + 4 <= count; n += 4)
-  {
-    for (SizeValueType lane = 0; lane < 4; ++lane)
-    {
-      lanes[lane] += weights[n + lane] * values[n + lane];
-    }
-  }
-  for (SizeValueType lane = 0; n < count; ++n, ++lane)
-  {
-    lanes[lane] += weights[n] * values[n];
-  }
-  return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
-}
-
-} // namespace CartesianToFCC
 
 template <typename TInputImage, typename TOutputImage>
 CartesianToFCCImageFilter<TInputImage, TOutputImage>::CartesianToFCCImageFilter()
@@ -70,7 +26,7 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::PrintSelf(std::ostream & o
   Superclass::PrintSelf(os, indent);
   os << indent << "Density: " << m_Density << std::endl;
   os << indent << "OutputSpacing: " << m_OutputSpacing << std::endl;
-  os << indent << "Kernel: " << (m_Kernel == SeparableKernel::Linear ? "Linear" : "CubicBSpline") << std::endl;
+  os << indent << "Kernel: " << m_Kernel << std::endl;
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -187,6 +143,15 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateInputRequestedRegi
 
 template <typename TInputImage, typename TOutputImage>
 void
+CartesianToFCCImageFilter<TInputImage, TOutputImage>::BeforeThreadedGenerateData()
+{
+  TOutputImage * const output = this->GetOutput();
+  AdviseHugePages(output->GetBufferPointer(),
+                  output->GetBufferedRegion().GetNumberOfPixels() * sizeof(OutputPixelType));
+}
+
+template <typename TInputImage, typename TOutputImage>
+void
 CartesianToFCCImageFilter<TInputImage, TOutputImage>::DynamicThreadedGenerateData(const OutputImageRegionType & region)
 {
   m_ThreadFailure.Capture([&] { this->Resample(region); });
@@ -214,12 +179,11 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::Resample(const OutputImage
   const SeparableTaps yTaps = this->MakeTaps(1, region);
   const SeparableTaps zTaps = this->MakeTaps(2, region);
 
-  // Samples of the input, counted from its first one, that this region needs along x and y.
+  // Samples of the input along x, counted from its first one, that this region needs.
   const SizeValueType xFirst = xTaps[0].GetFirst(0);
   const SizeValueType xCount = xTaps[1].GetFirst(region.GetSize(0) - 1) + xTaps[1].GetNumberOfTaps() - xFirst;
-  const SizeValueType yFirst = yTaps.GetFirst(0);
-  const SizeValueType yCount = yTaps.GetFirst(region.GetSize(1) - 1) + yTaps.GetNumberOfTaps() - yFirst;
-
+  const RowArithmetic::RowTaps rowTaps[2] = { { xTaps[0], region.GetSize(0), xFirst },
+                                              { xTaps[1], region.GetSize(0), xFirst } };
   const auto inputRow = [&](SizeValueType y, SizeValueType z) {
     typename TInputImage::IndexType index = whole.GetIndex();
     index[0] += static_cast<IndexValueType>(xFirst);
@@ -228,42 +192,68 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::Resample(const OutputImage
     return input->GetBufferPointer() + input->ComputeOffset(index);
   };
 
-  std::vector<float> plane(xCount * yCount);
-  std::vector<float> row(xCount);
-  for (SizeValueType k = 0; k < region.GetSize(2); ++k)
+  // Blocks of output rows such that the slabs they are blended from, along z, stay in the second-level cache.
+  constexpr SizeValueType cachedSamples = 256 * 1024;
+  const SizeValueType stride = RowArithmetic::PaddedLength(xCount);
+  const SizeValueType zCount = zTaps.GetNumberOfTaps();
+  const SizeValueType yCount = yTaps.GetNumberOfTaps();
+  const SizeValueType blockSize =
+    std::clamp<SizeValueType>(cachedSamples / (zCount * stride), 8, std::max<SizeValueType>(8, region.GetSize(1)));
+
+  // Rows and slabs are kept in rings: a sample's place is its y or z modulo the ring's length.
+  std::vector<float> rowRing(yCount * stride);
+  std::vector<float> slabRing(zCount * blockSize * stride);
+  std::vector<float> row(stride);
+  std::vector<float> values(rowTaps[0].GetPaddedLength());
+  std::vector<const float *> terms(std::max(yCount, zCount));
+
+  for (SizeValueType blockBegin = 0; blockBegin < region.GetSize(1); blockBegin += blockSize)
   {
-    for (SizeValueType y = 0; y < yCount; ++y)
+    const SizeValueType blockEnd = std::min(blockBegin + blockSize, region.GetSize(1));
+
+    // The input's plane z at the y of the block's output rows.
+    const auto makeSlab = [&](SizeValueType z) {
+      SizeValueType nextRow = 0;
+      for (SizeValueType j = blockBegin; j < blockEnd; ++j)
+      {
+        const SizeValueType first = yTaps.GetFirst(j);
+        for (nextRow = std::max(nextRow, first); nextRow < first + yCount; ++nextRow)
+        {
+          RowArithmetic::ConvertFrom(inputRow(nextRow, z), xCount, rowRing.data() + nextRow % yCount * stride);
+        }
+        for (SizeValueType tap = 0; tap < yCount; ++tap)
+        {
+          terms[tap] = rowRing.data() + (first + tap) % yCount * stride;
+        }
+        float * const slabRow = slabRing.data() + (z % zCount * blockSize + (j - blockBegin)) * stride;
+        RowArithmetic::Blend(terms.data(), yTaps.GetWeights(j), yCount, xCount, slabRow);
+      }
+    };
+
+    SizeValueType nextSlab = 0;
+    for (SizeValueType k = 0; k < region.GetSize(2); ++k)
     {
-      for (SizeValueType tap = 0; tap < zTaps.GetNumberOfTaps(); ++tap)
+      const SizeValueType first = zTaps.GetFirst(k);
+      for (nextSlab = std::max(nextSlab, first); nextSlab < first + zCount; ++nextSlab)
       {
-        CartesianToFCC::Accumulate(inputRow(yFirst + y, zTaps.GetFirst(k) + tap),
-                                   zTaps.GetWeights(k)[tap],
-                                   xCount,
-                                   tap == 0,
-                                   plane.data() + y * xCount);
+        makeSlab(nextSlab);
       }
-    }
-    for (SizeValueType j = 0; j < region.GetSize(1); ++j)
-    {
-      for (SizeValueType tap = 0; tap < yTaps.GetNumberOfTaps(); ++tap)
+      for (SizeValueType j = blockBegin; j < blockEnd; ++j)
       {
-        CartesianToFCC::Accumulate(plane.data() + (yTaps.GetFirst(j) - yFirst + tap) * xCount,
-                                   yTaps.GetWeights(j)[tap],
-                                   xCount,
-                                   tap == 0,
-                                   row.data());
+        for (SizeValueType tap = 0; tap < zCount; ++tap)
+        {
+          terms[tap] = slabRing.data() + ((first + tap) % zCount * blockSize + (j - blockBegin)) * stride;
+        }
+        RowArithmetic::Blend(terms.data(), zTaps.GetWeights(k), zCount, xCount, row.data());
+
+        const typename TOutputImage::IndexType index{ { region.GetIndex(0),
+                                                        region.GetIndex(1) + static_cast<IndexValueType>(j),
+                                                        region.GetIndex(2) + static_cast<IndexValueType>(k) } };
+        RowArithmetic::Interpolate(row.data(), rowTaps[FCCLattice::Parity(index[1], index[2])], values.data());
+        RowArithmetic::RoundTo(
+          values.data(), region.GetSize(0), output->GetBufferPointer() + output->ComputeOffset(index));
+        progress.Completed(region.GetSize(0));
       }
-      const typename TOutputImage::IndexType index{ { region.GetIndex(0),
-                                                      region.GetIndex(1) + static_cast<IndexValueType>(j),
-                                                      region.GetIndex(2) + static_cast<IndexValueType>(k) } };
-      const SeparableTaps & taps = xTaps[FCCLattice::Parity(index[1], index[2])];
-      OutputPixelType * const outputRow = output->GetBufferPointer() + output->ComputeOffset(index);
-      for (SizeValueType i = 0; i < region.GetSize(0); ++i)
-      {
-        outputRow[i] = RoundAndClamp<OutputPixelType>(CartesianToFCC::WeightedSum(
-          row.data() + (taps.GetFirst(i) - xFirst), taps.GetWeights(i), taps.GetNumberOfTaps()));
-      }
-      progress.Completed(region.GetSize(0));
     }
   }
 }

@@ -4,6 +4,7 @@
 #include "itkImageRegion.h"
 #include "itkVector.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -31,6 +32,19 @@ IsCountable(const std::array<double, 3> & counts)
 {
   constexpr double most = 1099511627776.0; // 2^40
   return counts[0] * counts[1] * counts[2] <= most;
+}
+
+/** The sample of an axis that a sample beyond its ends is the mirror image of, about the first and last sample. */
+inline OffsetValueType
+MirroredSample(OffsetValueType sample, OffsetValueType length)
+{
+  if (length == 1)
+  {
+    return 0;
+  }
+  const OffsetValueType period = 2 * (length - 1);
+  const OffsetValueType folded = ((sample % period) + period) % period;
+  return std::min(folded, period - folded);
 }
 
 /** Rounds half away from zero and clamps to the range of an integer type; not-a-number becomes its lowest value. */
