@@ -70,12 +70,12 @@ private:
 };
 
 /** The sites of a plane that break a condition of FCCSplitSites, and the first ends of edges that do, by a count of all
- * triangles at the plane's sites and edges. */
+ * triangles at the plane's sites and edges. The counts are zero afterwards. */
 void
-FindSuspects(const FCCSigns & signs,
+TakeSuspects(const FCCSigns & signs,
              SizeValueType k,
              const FCCClusterPlane & plane,
-             const FCCTriangleUse & use,
+             FCCTriangleUse & use,
              std::vector<FCCLattice::SiteType> & suspects)
 {
   constexpr std::uint64_t tooMany = 0xFCFCFCFCFCFCFC; // more than two; counts of edges are even
@@ -88,7 +88,7 @@ FindSuspects(const FCCSigns & signs,
       for (FCCSigns::WordType mask = wholes[word]; mask != 0; mask &= mask - 1)
       {
         const SizeValueType i = word * FCCSigns::WordBits + static_cast<SizeValueType>(__builtin_ctzll(mask));
-        const std::uint64_t counts = use.counts[j * use.stride + i];
+        const std::uint64_t counts = std::exchange(use.counts[j * use.stride + i], 0);
         if ((counts & tooMany) != 0 || counts >> 56 < fewest || !FCCSiteStar::IsDisk(plane.GetOwned(j, i)))
         {
           suspects.push_back(
@@ -122,15 +122,19 @@ FCCLeanSurface::Count(SizeValueType begin, SizeValueType end)
   for (SizeValueType k = first; k < end; ++k)
   {
     planes.Find(k + 1);
+    const bool isLast = k + 1 == m_Signs.GetDepth();
     const SizeValueType triangles =
-      CountTriangleUse(m_Signs, k, planes.Get(k), planes.Get(k + 1), useOf(k), useOf(k + 1));
+      isLast ? 0 : CountTriangleUse(m_Signs, k, planes.Get(k), planes.Get(k + 1), useOf(k), useOf(k + 1));
     if (k >= begin)
     {
       m_FirstTriangle[k] = triangles;
       m_FirstPoint[k] = planes.Get(k).GetWholes().Count();
-      FindSuspects(m_Signs, k, planes.Get(k), useOf(k), suspects);
+      TakeSuspects(m_Signs, k, planes.Get(k), useOf(k), suspects);
     }
-    std::fill(useOf(k).counts.begin(), useOf(k).counts.end(), 0);
+    else
+    {
+      std::fill(useOf(k).counts.begin(), useOf(k).counts.end(), 0);
+    }
   }
   m_Splits.Suspect(suspects);
 }
