@@ -207,10 +207,13 @@ private:
   void
   Allocate(TriangleSurface & surface, SizeValueType points, SizeValueType triangles) const;
 
+  /** Slabs share the work of finding cut edges at their borders: few planes keep threads busy, many save work. */
+  static constexpr SizeValueType PlanesOfSlab = 16;
+
   /** Calls \a work(begin, end) for slabs of planes, by several threads, and reports its share of the progress. */
   template <typename TWork>
   void
-  ForEachSlab(SizeValueType planes, float share, const TWork & work);
+  ForEachSlab(SizeValueType planes, float share, const TWork & work, SizeValueType mostPlanes = PlanesOfSlab);
 
   std::vector<double> m_Isovalues{ 0.0 };
   FCCIsosurfaceMode m_Mode{ FCCIsosurfaceMode::Lean };

@@ -187,10 +187,11 @@ FCCIsosurfaceFilter<TInputImage>::ComputeFraction() const
 template <typename TInputImage>
 template <typename TWork>
 void
-FCCIsosurfaceFilter<TInputImage>::ForEachSlab(SizeValueType planes, float share, const TWork & work)
+FCCIsosurfaceFilter<TInputImage>::ForEachSlab(SizeValueType planes,
+                                              float share,
+                                              const TWork & work,
+                                              SizeValueType mostPlanes)
 {
-  // Slabs share the work of finding cut edges at their borders: few planes keep threads busy, many save work.
-  constexpr SizeValueType mostPlanes = 16;
   const SizeValueType units = std::max<SizeValueType>(1, this->GetNumberOfWorkUnits());
   const SizeValueType planesPerSlab = std::clamp<SizeValueType>(planes / (4 * units), 1, mostPlanes);
   const SizeValueType slabs = (planes + planesPerSlab - 1) / planesPerSlab;
@@ -329,12 +330,12 @@ FCCIsosurfaceFilter<TInputImage>::ExtractLean(const FCCSigns & signs, double iso
   const float share = 0.9f / static_cast<float>(m_Isovalues.size());
   const SizeValueType planes = signs.GetDepth();
   this->ForEachSlab(planes, 0.5f * share, [&](SizeValueType begin, SizeValueType end) { lean.Count(begin, end); });
-  lean.Resolve([&](SizeValueType i, SizeValueType j, SizeValueType k) {
-    float value;
-    FCCRowKernels::Subtract(
-      image->GetBufferPointer() + ((k - 1) * size[1] + j - 1) * size[0] + i - 1, 1, isovalue, &value);
-    return value;
-  });
+  lean.Resolve(
+    [&](SizeValueType i, SizeValueType j, SizeValueType k) {
+      const auto pixel = image->GetBufferPointer()[((k - 1) * size[1] + j - 1) * size[0] + i - 1];
+      return static_cast<float>(static_cast<double>(pixel) - isovalue);
+    },
+    [this](SizeValueType count, const auto & work) { this->ForEachSlab(count, 0.0f, work, 1024); });
   this->Allocate(surface, lean.GetNumberOfPoints(), lean.GetNumberOfTriangles());
   this->ForEachSlab(planes, 0.5f * share, [&](SizeValueType begin, SizeValueType end) {
     lean.Fill(begin, end, this->IsLeftHanded(), surface);

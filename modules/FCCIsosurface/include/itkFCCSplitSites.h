@@ -61,9 +61,9 @@ struct FCCSiteStar
  *  2. no two vertices afterwards have an edge between them that is used by more than two triangles,
  *  3. each vertex of a set is used by at least three triangles afterwards.
  * All sites begin with one set each: all the crossings they own. A set that breaks a condition is divided: first into
- * the parts that are connected, and one that breaks a condition still, into its points. This ends, at the latest with
- * the mesh of the tetrahedra. Whether an edge breaks 2 depends on nothing but the sets of its two ends, so only the
- * surroundings of what was divided need to be looked at again.
+ * the parts that are connected; a part that breaks a condition still gives up one point, if that helps, or else all.
+ * This ends, at the latest with the mesh of the tetrahedra. Whether an edge breaks 2 depends on nothing but the sets of
+ * its two ends, so only the surroundings of what was divided need to be looked at again.
  *
  * \ingroup FCCIsosurface
  */
@@ -78,15 +78,21 @@ public:
   /** \param signs with a layer of sites around the image; must outlive this */
   explicit FCCSplitSites(const FCCSigns & signs);
 
-  /** Says that a site breaks condition 1, or may break the others. Thread safe. */
+  /** Runs work(begin, end) for pieces of a count, by several threads. */
+  using ParallelFor =
+    std::function<void(SizeValueType count, const std::function<void(SizeValueType begin, SizeValueType end)> & work)>;
+
+  /** Says that sites may break a condition; of the two ends of an edge that breaks 2, one will do. Sites are numbered
+   * along x, then y, then z. Thread safe. */
   void
-  Suspect(const std::vector<FCCLattice::SiteType> & indices);
+  Suspect(const std::vector<SizeValueType> & sites);
 
   /** Divides what has to be. The numbers of points of each plane and of triangles above it are those of whole sites
    * before, and right afterwards. */
   void
   Resolve(const ValueReader & valueAt,
           bool insideIsBelow,
+          const ParallelFor & parallelFor,
           std::vector<SizeValueType> & points,
           std::vector<SizeValueType> & triangles);
 
@@ -104,7 +110,7 @@ public:
 private:
   const FCCSigns & m_Signs;
   FCCSigns m_Split;
-  std::vector<FCCLattice::SiteType> m_Suspects; ///< indices
+  std::vector<SizeValueType> m_Suspects;
   std::mutex m_Mutex;
   std::vector<std::pair<SizeValueType, std::uint16_t>> m_Lone; ///< by the number of the site, ascending
 };

@@ -76,7 +76,7 @@ TakeSuspects(const FCCSigns & signs,
              SizeValueType k,
              const FCCClusterPlane & plane,
              FCCTriangleUse & use,
-             std::vector<FCCLattice::SiteType> & suspects)
+             std::vector<SizeValueType> & suspects)
 {
   constexpr std::uint64_t tooMany = 0xFCFCFCFCFCFCFC; // more than two; counts of edges are even
   constexpr std::uint64_t fewest = 3;
@@ -91,8 +91,7 @@ TakeSuspects(const FCCSigns & signs,
         const std::uint64_t counts = std::exchange(use.counts[j * use.stride + i], 0);
         if ((counts & tooMany) != 0 || counts >> 56 < fewest || !FCCSiteStar::IsDisk(plane.GetOwned(j, i)))
         {
-          suspects.push_back(
-            { static_cast<IndexValueType>(i), static_cast<IndexValueType>(j), static_cast<IndexValueType>(k) });
+          suspects.push_back((k * signs.GetHeight() + j) * signs.GetWidth() + i);
         }
       }
     }
@@ -107,7 +106,7 @@ FCCLeanSurface::Count(SizeValueType begin, SizeValueType end)
   FCCFieldPlanes field = this->MakeField();
   PlaneSequence planes(m_Signs, field, m_InsideIsBelow, nullptr);
   const SizeValueType stride = m_Signs.GetNumberOfWords() * FCCSigns::WordBits + 1;
-  std::vector<FCCLattice::SiteType> suspects;
+  std::vector<SizeValueType> suspects;
   std::array<FCCTriangleUse, 2> uses;
   for (FCCTriangleUse & use : uses)
   {
@@ -140,9 +139,9 @@ FCCLeanSurface::Count(SizeValueType begin, SizeValueType end)
 }
 
 void
-FCCLeanSurface::Resolve(const FCCSplitSites::ValueReader & valueAt)
+FCCLeanSurface::Resolve(const FCCSplitSites::ValueReader & valueAt, const FCCSplitSites::ParallelFor & parallelFor)
 {
-  m_Splits.Resolve(valueAt, m_InsideIsBelow, m_FirstPoint, m_FirstTriangle);
+  m_Splits.Resolve(valueAt, m_InsideIsBelow, parallelFor, m_FirstPoint, m_FirstTriangle);
   for (std::vector<SizeValueType> * const counts : { &m_FirstPoint, &m_FirstTriangle })
   {
     SizeValueType sum = 0;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bitset>
-#include <deque>
 #include <unordered_map>
 
 namespace itk
@@ -13,14 +13,18 @@ namespace
 
 using SiteType = FCCLattice::SiteType;
 constexpr unsigned int Directions = FCCSiteStar::Directions;
+constexpr unsigned int NoDirection = Directions;
 
-constexpr SiteType
-operator+(const SiteType & a, const SiteType & b)
+/** A site's neighbours by direction, and the site itself: all sites of the tetrahedra around it. */
+constexpr unsigned int Sites = Directions + 1;
+constexpr unsigned int Center = Directions;
+
+SiteType
+StepTo(unsigned int site)
 {
-  return { a[0] + b[0], a[1] + b[1], a[2] + b[2] };
+  return site == Center ? SiteType{ 0, 0, 0 } : FCCSiteStar::StepOf(site);
 }
 
-/** The direction of a step, or Directions if there is no such edge. */
 unsigned int
 DirectionOf(const SiteType & step)
 {
@@ -31,65 +35,104 @@ DirectionOf(const SiteType & step)
       return direction;
     }
   }
-  return Directions;
+  return NoDirection;
 }
 
-bool
-AreAdjacent(unsigned int a, unsigned int b)
-{
-  const SiteType from = FCCSiteStar::StepOf(a);
-  const SiteType to = FCCSiteStar::StepOf(b);
-  return DirectionOf({ to[0] - from[0], to[1] - from[1], to[2] - from[2] }) != Directions;
-}
-
-/** The edges and triangles between the crossings of a site, as sets of directions. */
+/** The surroundings of a site, which are the same for all sites. */
 struct Star
 {
+  /** An edge between two sites of the surroundings. */
+  struct Edge
+  {
+    std::uint8_t ends[2];
+    std::uint8_t directions[2]; ///< from either end to the other
+  };
+
+  /** The surface's polygon in a tetrahedron. One of 4 corners is to be cut from corner 0 to corner 2, as
+   * FillLeanTriangles() does, when the first corner's owner is inside, else from corner 1 to corner 3. */
+  struct Polygon
+  {
+    std::uint8_t corners = 0;
+    std::uint8_t edges[4] = {};
+  };
+
+  struct Tetrahedron
+  {
+    std::uint8_t sites[4];
+    Polygon polygons[16]; ///< by the corners inside
+  };
+
+  std::array<std::array<std::uint8_t, Sites>, Sites> direction{}; ///< from one site to another, or NoDirection
+  std::array<std::array<std::uint8_t, Sites>, Sites> edge{};      ///< between two sites
   std::array<unsigned int, Directions> adjacent{};
-  std::vector<unsigned int> edges;
-  std::vector<std::array<unsigned int, 3>> tetrahedra; ///< the far corners of those at the site
+  std::vector<Edge> edges;
+  std::vector<Tetrahedron> tetrahedra;
   std::bitset<1U << Directions> isDisk;
 
   Star()
   {
+    for (unsigned int a = 0; a < Sites; ++a)
+    {
+      for (unsigned int b = 0; b < Sites; ++b)
+      {
+        const SiteType from = StepTo(a);
+        const SiteType to = StepTo(b);
+        direction[a][b] = static_cast<std::uint8_t>(DirectionOf({ to[0] - from[0], to[1] - from[1], to[2] - from[2] }));
+      }
+    }
+    for (unsigned int a = 0; a < Sites; ++a)
+    {
+      for (unsigned int b = 0; b < a; ++b)
+      {
+        if (direction[a][b] != NoDirection)
+        {
+          edge[a][b] = edge[b][a] = static_cast<std::uint8_t>(edges.size());
+          edges.push_back(
+            { { static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b) }, { direction[a][b], direction[b][a] } });
+        }
+      }
+    }
     for (unsigned int a = 0; a < Directions; ++a)
     {
       for (unsigned int b = 0; b < a; ++b)
       {
-        if (AreAdjacent(a, b))
+        if (direction[a][b] == NoDirection)
         {
-          edges.push_back(1U << a | 1U << b);
-          adjacent[a] |= 1U << b;
-          adjacent[b] |= 1U << a;
-          for (unsigned int c = 0; c < b; ++c)
+          continue;
+        }
+        adjacent[a] |= 1U << b;
+        adjacent[b] |= 1U << a;
+        for (unsigned int c = 0; c < b; ++c)
+        {
+          if (direction[a][c] != NoDirection && direction[b][c] != NoDirection)
           {
-            if (AreAdjacent(a, c) && AreAdjacent(b, c))
-            {
-              tetrahedra.push_back({ a, b, c });
-            }
+            this->AddTetrahedron({ Center, a, b, c });
           }
         }
       }
     }
     for (unsigned int set = 1; set < 1U << Directions; ++set)
     {
+      // Points - edges + triangles of the surface between the crossings of the center's edges.
       auto characteristic = static_cast<int>(std::bitset<Directions>(set).count());
-      for (const unsigned int edge : edges)
+      for (unsigned int a = 0; a < Directions; ++a)
       {
-        characteristic -= (edge & set) == edge ? 1 : 0;
+        const unsigned int later = adjacent[a] & ~((2U << a) - 1);
+        characteristic -= (set >> a & 1) != 0 ? static_cast<int>(std::bitset<Directions>(later & set).count()) : 0;
       }
-      for (const auto & [a, b, c] : tetrahedra)
+      for (const Tetrahedron & tetrahedron : tetrahedra)
       {
-        characteristic += (set >> a & set >> b & set >> c & 1) != 0 ? 1 : 0;
+        const auto & far = tetrahedron.sites;
+        characteristic += (set >> far[1] & set >> far[2] & set >> far[3] & 1) != 0 ? 1 : 0;
       }
       isDisk[set] = characteristic == 1 && this->PartOf(set, static_cast<unsigned int>(__builtin_ctz(set))) == set;
     }
   }
 
   unsigned int
-  PartOf(unsigned int set, unsigned int direction) const
+  PartOf(unsigned int set, unsigned int from) const
   {
-    unsigned int part = 1U << direction;
+    unsigned int part = 1U << from;
     for (unsigned int added = part; added != 0;)
     {
       unsigned int next = 0;
@@ -102,6 +145,54 @@ struct Star
     }
     return part;
   }
+
+private:
+  /** Whether one site comes before another by z, then y, then x, as sites are numbered. */
+  static bool
+  IsLower(unsigned int a, unsigned int b)
+  {
+    const SiteType first = StepTo(a);
+    const SiteType second = StepTo(b);
+    return std::array<IndexValueType, 3>{ first[2], first[1], first[0] } <
+           std::array<IndexValueType, 3>{ second[2], second[1], second[0] };
+  }
+
+  void
+  AddTetrahedron(const std::array<unsigned int, 4> & sites)
+  {
+    Tetrahedron tetrahedron;
+    std::copy(sites.begin(), sites.end(), tetrahedron.sites);
+    for (unsigned int pattern = 1; pattern < 15; ++pattern)
+    {
+      std::vector<unsigned int> inside;
+      std::vector<unsigned int> outside;
+      for (unsigned int corner = 0; corner < 4; ++corner)
+      {
+        ((pattern >> corner & 1) != 0 ? inside : outside).push_back(sites[corner]);
+      }
+      std::sort(inside.begin(), inside.end(), IsLower);
+      std::sort(outside.begin(), outside.end(), IsLower);
+      Polygon & polygon = tetrahedron.polygons[pattern];
+      const auto add = [&](std::size_t in, std::size_t out) {
+        polygon.edges[polygon.corners++] = edge[inside[in]][outside[out]];
+      };
+      if (inside.size() == 2)
+      {
+        add(0, 0);
+        add(0, 1);
+        add(1, 1);
+        add(1, 0);
+      }
+      else
+      {
+        for (std::size_t n = 0; n < 3; ++n)
+        {
+          add(inside.size() == 1 ? 0 : n, inside.size() == 1 ? n : 0);
+        }
+      }
+    }
+    tetrahedra.push_back(tetrahedron);
+  }
 };
 
 const Star &
@@ -111,432 +202,200 @@ GetStar()
   return star;
 }
 
-/** A vertex in the making: its site's number and the lowest direction of its crossings, or Whole. */
-using VertexType = std::uint64_t;
-constexpr unsigned int Whole = 15;
+/** A split site: the directions of the crossings it owns, and of those that are alone. */
+struct Parts
+{
+  unsigned int owned;
+  unsigned int lone;
 
-/** Resolves one surface. Sites are in lattice coordinates whose rows have the parity of the signs'. */
-class Resolver
+  /** The lowest direction of the vertex that the crossing in a direction belongs to. */
+  unsigned int
+  LowestOf(unsigned int direction) const
+  {
+    return (lone >> direction & 1) != 0
+             ? direction
+             : static_cast<unsigned int>(__builtin_ctz(GetStar().PartOf(owned & ~lone, direction)));
+  }
+};
+using PartsOfSites = std::unordered_map<SizeValueType, Parts>;
+
+/** A vertex within the surroundings of a site: its owner and the lowest direction of its crossings, or Whole. */
+using VertexType = std::uint8_t;
+constexpr unsigned int Whole = 15;
+static_assert(Sites * 16 <= 256, "a vertex has a number of 8 bits");
+
+/** The surface around one site, as it is while the parts of other sites do not change. */
+class Surroundings
 {
 public:
-  Resolver(const FCCSigns & signs, const FCCSplitSites::ValueReader & valueAt, bool insideIsBelow)
-    : m_Signs(signs)
-    , m_ValueAt(valueAt)
-    , m_InsideIsBelow(insideIsBelow)
-  {}
-
-  void
-  Run(const std::vector<SiteType> & suspects)
+  Surroundings(const FCCSigns & signs,
+               const FCCSigns & split,
+               const PartsOfSites & parts,
+               const FCCSplitSites::ValueReader & valueAt,
+               bool insideIsBelow,
+               const SiteType & index)
   {
-    for (const auto & [i, j, k] : suspects)
+    const Star & star = GetStar();
+    const IndexValueType parity =
+      signs.GetParity(static_cast<SizeValueType>(index[1]), static_cast<SizeValueType>(index[2]));
+    const SizeValueType size[3] = { signs.GetWidth(), signs.GetHeight(), signs.GetDepth() };
+    float value[Sites] = {};
+    bool isReal[Sites] = {};
+    for (unsigned int site = 0; site < Sites; ++site)
     {
-      const SiteType site{ 2 * i + m_Signs.GetParity(static_cast<SizeValueType>(j), static_cast<SizeValueType>(k)),
-                           j,
-                           k };
-      if (!FCCSiteStar::IsDisk(this->OwnedBy(site)))
+      const auto offset = FCCLattice::OffsetOf(StepTo(site), parity);
+      bool isThere = true;
+      isReal[site] = true;
+      SizeValueType place[3];
+      for (unsigned int axis = 0; axis < 3; ++axis)
       {
-        this->Divide(site);
-        this->FindTriangles(site);
-        this->EnqueueNeighbors();
+        place[axis] = static_cast<SizeValueType>(index[axis] + offset[axis]);
+        isThere = isThere && place[axis] < size[axis];
+        isReal[site] = isReal[site] && place[axis] - 1 < size[axis] - 2;
       }
-      this->Enqueue(site);
-    }
-    while (!m_Queue.empty())
-    {
-      const SiteType site = m_Queue.front();
-      m_Queue.pop_front();
-      m_Queued.erase(this->NumberOf(site));
-      this->Check(site);
-    }
-  }
-
-  /** Adds to the number of triangles above each plane what splitting has changed. */
-  void
-  AddChange(std::vector<SizeValueType> & triangles) const
-  {
-    for (const auto & [number, parts] : m_Parts)
-    {
-      const SiteType site = this->SiteOf(number);
-      for (const auto & far : GetStar().tetrahedra)
+      const auto [i, j, k] = place;
+      m_Number[site] = (k * size[1] + j) * size[0] + i;
+      const auto bit = [&](const FCCSigns & bits) {
+        return (bits.GetRow(j, k)[i / FCCSigns::WordBits] >> (i % FCCSigns::WordBits) & 1) != 0;
+      };
+      if (isReal[site])
       {
-        const std::array<SiteType, 4> sites = TetrahedronAt(site, far);
-        std::array<Corner, 4> corners;
-        const std::size_t count = this->FindPolygon(sites, corners);
-        // A tetrahedron with crossings of several split sites is counted at the lowest of them.
-        SizeValueType lowest = ~SizeValueType{ 0 };
-        for (std::size_t n = 0; n < count; ++n)
-        {
-          const bool isSplit = corners[n].vertex % 16 != Whole;
-          lowest = isSplit ? std::min(lowest, this->NumberOf(corners[n].owner)) : lowest;
-        }
-        if (lowest != number)
-        {
-          continue;
-        }
-        const auto plane = static_cast<std::size_t>(std::min({ sites[0][2], sites[1][2], sites[2][2], sites[3][2] }));
-        for (std::size_t n = 2; n < count; ++n)
-        {
-          const Corner & a = corners[0];
-          const Corner & b = corners[n - 1];
-          const Corner & c = corners[n];
-          triangles[plane] += AreDistinct(a.vertex, b.vertex, c.vertex) ? 1 : 0;
-          triangles[plane] -=
-            AreDistinct(this->NumberOf(a.owner), this->NumberOf(b.owner), this->NumberOf(c.owner)) ? 1 : 0;
-        }
+        value[site] = valueAt(i, j, k);
+        m_Inside |= static_cast<unsigned int>(bit(signs)) << site;
+      }
+      if (isThere && bit(split))
+      {
+        m_Split |= 1U << site;
+        m_Parts[site] = parts.at(m_Number[site]);
       }
     }
-  }
-
-  /** The sites that are not whole, and the directions of those of their crossings that are alone. */
-  struct Parts
-  {
-    unsigned int owned;
-    unsigned int lone;
-  };
-  const std::unordered_map<SizeValueType, Parts> &
-  GetParts() const
-  {
-    return m_Parts;
-  }
-
-private:
-  std::array<SizeValueType, 3>
-  IndexOf(const SiteType & site) const
-  {
-    const auto j = static_cast<SizeValueType>(site[1]);
-    const auto k = static_cast<SizeValueType>(site[2]);
-    return { static_cast<SizeValueType>((site[0] - m_Signs.GetParity(j, k)) / 2), j, k };
-  }
-
-  SizeValueType
-  NumberOf(const SiteType & site) const
-  {
-    const auto [i, j, k] = this->IndexOf(site);
-    return (k * m_Signs.GetHeight() + j) * m_Signs.GetWidth() + i;
-  }
-
-  SiteType
-  SiteOf(SizeValueType number) const
-  {
-    const SizeValueType i = number % m_Signs.GetWidth();
-    const SizeValueType j = number / m_Signs.GetWidth() % m_Signs.GetHeight();
-    const SizeValueType k = number / m_Signs.GetWidth() / m_Signs.GetHeight();
-    return { 2 * static_cast<IndexValueType>(i) + m_Signs.GetParity(j, k),
-             static_cast<IndexValueType>(j),
-             static_cast<IndexValueType>(k) };
-  }
-
-  bool
-  IsInside(const SiteType & site) const
-  {
-    if (site[0] < 0 || site[1] < 0 || site[2] < 0)
+    for (std::size_t n = 0; n < star.edges.size(); ++n)
     {
-      return false;
-    }
-    const auto [i, j, k] = this->IndexOf(site);
-    return i < m_Signs.GetWidth() && j < m_Signs.GetHeight() && k < m_Signs.GetDepth() &&
-           (m_Signs.GetRow(j, k)[i / FCCSigns::WordBits] >> (i % FCCSigns::WordBits) & 1) != 0;
-  }
-
-  bool
-  IsReal(const SiteType & site) const
-  {
-    const auto [i, j, k] = this->IndexOf(site);
-    return i - 1 < m_Signs.GetWidth() - 2 && j - 1 < m_Signs.GetHeight() - 2 && k - 1 < m_Signs.GetDepth() - 2;
-  }
-
-  float
-  ValueAt(const SiteType & site) const
-  {
-    const auto [i, j, k] = this->IndexOf(site);
-    return m_ValueAt(i, j, k);
-  }
-
-  /** As FCCCrossingOwners has it. */
-  bool
-  InsideOwns(const SiteType & inside, const SiteType & outside) const
-  {
-    if (!this->IsReal(outside))
-    {
-      return false;
-    }
-    const float sum = this->ValueAt(inside) + this->ValueAt(outside);
-    return m_InsideIsBelow ? sum > 0.0f : sum < 0.0f;
-  }
-
-  unsigned int
-  OwnedBy(const SiteType & site) const
-  {
-    const bool isInside = this->IsInside(site);
-    unsigned int owned = 0;
-    for (unsigned int direction = 0; direction < Directions; ++direction)
-    {
-      const SiteType end = site + FCCSiteStar::StepOf(direction);
-      if (this->IsInside(end) != isInside && this->InsideOwns(isInside ? site : end, isInside ? end : site) == isInside)
-      {
-        owned |= 1U << direction;
-      }
-    }
-    return owned;
-  }
-
-  void
-  Enqueue(const SiteType & site)
-  {
-    if (m_Queued.emplace(this->NumberOf(site), true).second)
-    {
-      m_Queue.push_back(site);
-    }
-  }
-
-  /** From one set to its connected parts; those that are no disk, to points. */
-  void
-  Divide(const SiteType & site)
-  {
-    const unsigned int owned = this->OwnedBy(site);
-    unsigned int lone = 0;
-    for (unsigned int left = owned; left != 0;)
-    {
-      const unsigned int part = FCCSiteStar::PartOf(owned, static_cast<unsigned int>(__builtin_ctz(left)));
-      lone |= FCCSiteStar::IsDisk(part) ? 0 : part;
-      left &= ~part;
-    }
-    m_Parts[this->NumberOf(site)] = { owned, lone };
-  }
-
-  static unsigned int
-  LowestOf(const Parts & parts, unsigned int direction)
-  {
-    return (parts.lone >> direction & 1) != 0
-             ? direction
-             : static_cast<unsigned int>(__builtin_ctz(FCCSiteStar::PartOf(parts.owned & ~parts.lone, direction)));
-  }
-
-  /** The vertex that the crossing between two sites belongs to, and its owner. */
-  VertexType
-  VertexOf(const SiteType & inside, const SiteType & outside, SiteType & owner) const
-  {
-    const bool insideOwns = this->InsideOwns(inside, outside);
-    owner = insideOwns ? inside : outside;
-    const SiteType & other = insideOwns ? outside : inside;
-    const SizeValueType number = this->NumberOf(owner);
-    const auto found = m_Parts.find(number);
-    if (found == m_Parts.end())
-    {
-      return number * 16 + Whole;
-    }
-    const unsigned int direction = DirectionOf({ other[0] - owner[0], other[1] - owner[1], other[2] - owner[2] });
-    return number * 16 + LowestOf(found->second, direction);
-  }
-
-  /** Counts the triangles around a site's vertices and divides those that break a condition. */
-  void
-  Check(const SiteType & site)
-  {
-    this->FindTriangles(site);
-    const SizeValueType number = this->NumberOf(site);
-    const auto parts = m_Parts.find(number);
-    const bool isWhole = parts == m_Parts.end();
-    if (isWhole)
-    {
-      if (!this->Breaks(number * 16 + Whole))
-      {
-        return;
-      }
-      this->Divide(site);
-    }
-    else
-    {
-      const std::vector<SiteType> neighbors = m_Neighbors;
-      if (!this->DivideParts(site, parts->second))
-      {
-        return;
-      }
-      m_Neighbors = neighbors;
-    }
-    this->Enqueue(site);
-    this->EnqueueNeighbors();
-  }
-
-  /** Divides the parts of a site that break a condition: where that helps, by making a point of one of their crossings,
-   * else of all. Returns whether there were any. */
-  bool
-  DivideParts(const SiteType & site, Parts & parts)
-  {
-    const unsigned int broken = this->FindBroken(site, parts);
-    for (unsigned int left = broken; left != 0;)
-    {
-      const unsigned int part =
-        FCCSiteStar::PartOf(parts.owned & ~parts.lone, static_cast<unsigned int>(__builtin_ctz(left)));
-      left &= ~part;
-      const unsigned int lone = parts.lone;
-      parts.lone = lone | part;
-      for (unsigned int candidates = part; candidates != 0; candidates &= candidates - 1)
-      {
-        const unsigned int point = candidates & ~(candidates - 1);
-        const Parts tried{ parts.owned, lone | point };
-        if (!FCCSiteStar::IsDisk(part & ~point))
-        {
-          continue;
-        }
-        parts.lone = tried.lone;
-        this->FindTriangles(site);
-        if ((this->FindBroken(site, parts) & part) == 0)
-        {
-          break;
-        }
-        parts.lone = lone | part;
-      }
-    }
-    return broken != 0;
-  }
-
-  /** The crossings of the parts that break a condition, by the triangles found last. */
-  unsigned int
-  FindBroken(const SiteType & site, const Parts & parts) const
-  {
-    const SizeValueType number = this->NumberOf(site);
-    unsigned int broken = 0;
-    for (unsigned int left = parts.owned & ~parts.lone; left != 0;)
-    {
-      const auto lowest = static_cast<unsigned int>(__builtin_ctz(left));
-      const unsigned int part = FCCSiteStar::PartOf(parts.owned & ~parts.lone, lowest);
-      const bool isPoint = (part & (part - 1)) == 0;
-      broken |= !isPoint && this->Breaks(number * 16 + lowest) ? part : 0;
-      left &= ~part;
-    }
-    return broken;
-  }
-
-  /** The sites whose vertices share triangles, as they were before, with those found last. */
-  void
-  EnqueueNeighbors()
-  {
-    for (const SiteType & neighbor : m_Neighbors)
-    {
-      this->Enqueue(neighbor);
-    }
-  }
-
-  /** The triangles in all tetrahedra at a site, and the owners of their corners. */
-  void
-  FindTriangles(const SiteType & site)
-  {
-    m_Triangles.clear();
-    m_Neighbors.clear();
-    for (const auto & far : GetStar().tetrahedra)
-    {
-      std::array<Corner, 4> corners;
-      const std::size_t count = this->FindPolygon(TetrahedronAt(site, far), corners);
-      for (std::size_t n = 0; n < count; ++n)
-      {
-        m_Neighbors.push_back(corners[n].owner);
-      }
-      for (std::size_t n = 2; n < count; ++n)
-      {
-        if (AreDistinct(corners[0].vertex, corners[n - 1].vertex, corners[n].vertex))
-        {
-          m_Triangles.push_back({ corners[0].vertex, corners[n - 1].vertex, corners[n].vertex });
-        }
-      }
-    }
-  }
-
-  static std::array<SiteType, 4>
-  TetrahedronAt(const SiteType & site, const std::array<unsigned int, 3> & far)
-  {
-    return {
-      site, site + FCCSiteStar::StepOf(far[0]), site + FCCSiteStar::StepOf(far[1]), site + FCCSiteStar::StepOf(far[2])
-    };
-  }
-
-  /** Whether a vertex has fewer than three triangles, or an edge with more than two. */
-  bool
-  Breaks(VertexType vertex) const
-  {
-    constexpr std::size_t fewest = 3;
-    std::size_t triangles = 0;
-    std::array<std::pair<VertexType, unsigned int>, 48> ends;
-    std::size_t count = 0;
-    for (const auto & triangle : m_Triangles)
-    {
-      if (std::find(triangle.begin(), triangle.end(), vertex) == triangle.end())
+      const auto [a, b] = star.edges[n].ends;
+      if (this->IsInside(a) == this->IsInside(b))
       {
         continue;
       }
-      ++triangles;
-      for (const VertexType end : triangle)
+      const unsigned int inside = this->IsInside(a) ? a : b;
+      const unsigned int outside = this->IsInside(a) ? b : a;
+      const float sum = value[a] + value[b];
+      const bool insideOwns = isReal[outside] && (insideIsBelow ? sum > 0.0f : sum < 0.0f);
+      m_Owner[n] = static_cast<std::uint8_t>(insideOwns ? inside : outside);
+      if (m_Owner[n] == Center)
       {
-        if (end == vertex)
-        {
-          continue;
-        }
-        const auto last = ends.begin() + static_cast<std::ptrdiff_t>(count);
-        const auto found = std::find_if(ends.begin(), last, [end](const auto & known) { return known.first == end; });
-        if (found == last)
-        {
-          ends[count++] = { end, 1 };
-        }
-        else if (++found->second > 2)
-        {
-          return true;
-        }
+        m_Owned |= 1U << star.edges[n].directions[a == Center ? 0 : 1];
       }
+      m_Owners |= 1U << m_Owner[n];
     }
-    return triangles < fewest;
   }
 
-  /** A corner of the surface's polygon in a tetrahedron. */
-  struct Corner
+  unsigned int
+  GetOwned() const
   {
-    VertexType vertex;
-    SiteType owner;
-  };
+    return m_Owned;
+  }
+  bool
+  IsSplit() const
+  {
+    return this->IsSplit(Center);
+  }
+  const Parts &
+  GetParts() const
+  {
+    return m_Parts[Center];
+  }
+  SizeValueType
+  GetNumber() const
+  {
+    return m_Number[Center];
+  }
 
-  /** Finds the polygon, 3 or 4 corners in order, or none. One of 4 is to be cut from corner 0 to corner 2, as
-   * FillLeanTriangles() does: from the crossing of the lowest two corners when its owner is inside, else across. */
-  std::size_t
-  FindPolygon(const std::array<SiteType, 4> & sites, std::array<Corner, 4> & corners) const
+  /** Numbers of the sites that own crossings around here. */
+  template <typename TUse>
+  void
+  ForEachOwner(const TUse & use) const
   {
-    std::array<SiteType, 4> inside;
-    std::array<SiteType, 4> outside;
-    std::size_t insides = 0;
-    std::size_t outsides = 0;
-    for (const SiteType & site : sites)
+    for (unsigned int left = m_Owners; left != 0; left &= left - 1)
     {
-      (this->IsInside(site) ? inside[insides++] : outside[outsides++]) = site;
+      use(m_Number[__builtin_ctz(left)]);
     }
-    if (insides == 0 || outsides == 0)
+  }
+
+  /** Divides the site until none of its sets breaks a condition. Returns whether it was changed. */
+  bool
+  Divide()
+  {
+    const bool wasSplit = this->IsSplit();
+    if (!wasSplit)
     {
-      return 0;
-    }
-    const auto cornerAt = [this, &inside, &outside](std::size_t in, std::size_t out) {
-      Corner corner;
-      corner.vertex = this->VertexOf(inside[in], outside[out], corner.owner);
-      return corner;
-    };
-    if (insides == 2)
-    {
-      const auto isLower = [](const SiteType & a, const SiteType & b) {
-        return std::array<IndexValueType, 3>{ a[2], a[1], a[0] } < std::array<IndexValueType, 3>{ b[2], b[1], b[0] };
-      };
-      const std::size_t lowIn = isLower(inside[0], inside[1]) ? 0 : 1;
-      const std::size_t lowOut = isLower(outside[0], outside[1]) ? 0 : 1;
-      corners = { cornerAt(lowIn, lowOut),
-                  cornerAt(lowIn, 1 - lowOut),
-                  cornerAt(1 - lowIn, 1 - lowOut),
-                  cornerAt(1 - lowIn, lowOut) };
-      if (!this->InsideOwns(inside[lowIn], outside[lowOut]))
+      this->FindTriangles();
+      if (m_Owned == 0 || (GetStar().isDisk[m_Owned] && !this->Breaks(VertexOf(Center, Whole))))
       {
-        std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+        return false;
       }
-      return 4;
+      m_Split |= 1U << Center;
+      m_Parts[Center] = { m_Owned, 0 };
+      this->ForEachPart([this](unsigned int part) { m_Parts[Center].lone |= GetStar().isDisk[part] ? 0 : part; });
     }
-    for (std::size_t n = 0; n < 3; ++n)
+    bool changed = !wasSplit;
+    for (;;)
     {
-      corners[n] = insides == 1 ? cornerAt(0, n) : cornerAt(n, 0);
+      this->FindTriangles();
+      const unsigned int broken = this->FindBroken();
+      if (broken == 0)
+      {
+        return changed;
+      }
+      this->DividePart(GetStar().PartOf(broken, static_cast<unsigned int>(__builtin_ctz(broken))));
+      changed = true;
     }
-    return 3;
+  }
+
+  /** Calls use(plane relative to the site's, change) for the tetrahedra whose lowest split owner is the site: by how
+   * many triangles splitting has changed them. */
+  template <typename TUse>
+  void
+  ForEachChange(const TUse & use) const
+  {
+    for (const Star::Tetrahedron & tetrahedron : GetStar().tetrahedra)
+    {
+      const Star::Polygon & polygon = this->PolygonOf(tetrahedron);
+      bool isMine = false;
+      bool isOthers = false;
+      VertexType now[4];
+      VertexType whole[4];
+      this->GetCorners(polygon, now);
+      for (unsigned int n = 0; n < polygon.corners; ++n)
+      {
+        const unsigned int owner = now[n] / 16;
+        whole[n] = VertexOf(owner, Whole);
+        isMine = isMine || owner == Center;
+        isOthers = isOthers || (this->IsSplit(owner) && m_Number[owner] < m_Number[Center]);
+      }
+      if (!isMine || isOthers)
+      {
+        continue;
+      }
+      IndexValueType plane = 0;
+      for (const std::uint8_t site : tetrahedron.sites)
+      {
+        plane = std::min(plane, StepTo(site)[2]);
+      }
+      OffsetValueType change = 0;
+      for (unsigned int n = 2; n < polygon.corners; ++n)
+      {
+        change += AreDistinct(now[0], now[n - 1], now[n]) ? 1 : 0;
+        change -= AreDistinct(whole[0], whole[n - 1], whole[n]) ? 1 : 0;
+      }
+      use(plane, change);
+    }
+  }
+
+private:
+  static VertexType
+  VertexOf(unsigned int owner, unsigned int lowest)
+  {
+    return static_cast<VertexType>(owner * 16 + lowest);
   }
 
   static bool
@@ -545,14 +404,144 @@ private:
     return a != b && b != c && c != a;
   }
 
-  const FCCSigns & m_Signs;
-  const FCCSplitSites::ValueReader & m_ValueAt;
-  bool m_InsideIsBelow;
-  std::unordered_map<SizeValueType, Parts> m_Parts;
-  std::deque<SiteType> m_Queue;
-  std::unordered_map<SizeValueType, bool> m_Queued;
-  std::vector<std::array<VertexType, 3>> m_Triangles;
-  std::vector<SiteType> m_Neighbors;
+  bool
+  IsInside(unsigned int site) const
+  {
+    return (m_Inside >> site & 1) != 0;
+  }
+  bool
+  IsSplit(unsigned int site) const
+  {
+    return (m_Split >> site & 1) != 0;
+  }
+
+  template <typename TUse>
+  void
+  ForEachPart(const TUse & use) const
+  {
+    const unsigned int gathered = m_Parts[Center].owned & ~m_Parts[Center].lone;
+    for (unsigned int left = gathered; left != 0;)
+    {
+      const unsigned int part = GetStar().PartOf(gathered, static_cast<unsigned int>(__builtin_ctz(left)));
+      left &= ~part;
+      use(part);
+    }
+  }
+
+  const Star::Polygon &
+  PolygonOf(const Star::Tetrahedron & tetrahedron) const
+  {
+    unsigned int pattern = 0;
+    for (unsigned int corner = 0; corner < 4; ++corner)
+    {
+      pattern |= (m_Inside >> tetrahedron.sites[corner] & 1) << corner;
+    }
+    return tetrahedron.polygons[pattern];
+  }
+
+  /** The vertices of a polygon, so that one of 4 is to be cut from corner 0 to corner 2. */
+  void
+  GetCorners(const Star::Polygon & polygon, VertexType (&corners)[4]) const
+  {
+    const unsigned int start = polygon.corners == 4 && !this->IsInside(m_Owner[polygon.edges[0]]) ? 1 : 0;
+    for (unsigned int n = 0; n < polygon.corners; ++n)
+    {
+      const std::uint8_t edge = polygon.edges[(n + start) % polygon.corners];
+      const unsigned int owner = m_Owner[edge];
+      const Star::Edge & ends = GetStar().edges[edge];
+      corners[n] = VertexOf(
+        owner, this->IsSplit(owner) ? m_Parts[owner].LowestOf(ends.directions[ends.ends[0] == owner ? 0 : 1]) : Whole);
+    }
+  }
+
+  void
+  FindTriangles()
+  {
+    m_NumberOfTriangles = 0;
+    for (const Star::Tetrahedron & tetrahedron : GetStar().tetrahedra)
+    {
+      const Star::Polygon & polygon = this->PolygonOf(tetrahedron);
+      VertexType corners[4];
+      this->GetCorners(polygon, corners);
+      for (unsigned int n = 2; n < polygon.corners; ++n)
+      {
+        if (AreDistinct(corners[0], corners[n - 1], corners[n]))
+        {
+          m_Triangles[m_NumberOfTriangles++] = { corners[0], corners[n - 1], corners[n] };
+        }
+      }
+    }
+  }
+
+  /** Whether a vertex has fewer than three triangles, or an edge with more than two. */
+  bool
+  Breaks(VertexType vertex) const
+  {
+    constexpr unsigned int fewest = 3;
+    unsigned int triangles = 0;
+    std::uint8_t uses[256] = {};
+    for (unsigned int n = 0; n < m_NumberOfTriangles; ++n)
+    {
+      const auto & triangle = m_Triangles[n];
+      if (triangle[0] != vertex && triangle[1] != vertex && triangle[2] != vertex)
+      {
+        continue;
+      }
+      ++triangles;
+      for (const VertexType end : triangle)
+      {
+        if (end != vertex && ++uses[end] > 2)
+        {
+          return true;
+        }
+      }
+    }
+    return triangles < fewest;
+  }
+
+  /** The crossings of the site's parts that break a condition, by the triangles found last. */
+  unsigned int
+  FindBroken() const
+  {
+    unsigned int broken = 0;
+    this->ForEachPart([this, &broken](unsigned int part) {
+      const bool isPoint = (part & (part - 1)) == 0;
+      const auto lowest = static_cast<unsigned int>(__builtin_ctz(part));
+      broken |= !isPoint && this->Breaks(VertexOf(Center, lowest)) ? part : 0;
+    });
+    return broken;
+  }
+
+  /** Makes a point of one crossing of a part, where that leaves a part that breaks no condition, else of all. */
+  void
+  DividePart(unsigned int part)
+  {
+    const unsigned int lone = m_Parts[Center].lone;
+    for (unsigned int left = part; left != 0; left &= left - 1)
+    {
+      const unsigned int point = left & ~(left - 1);
+      if (GetStar().isDisk[part & ~point])
+      {
+        m_Parts[Center].lone = lone | point;
+        this->FindTriangles();
+        if ((this->FindBroken() & part) == 0)
+        {
+          return;
+        }
+      }
+    }
+    m_Parts[Center].lone = lone | part;
+  }
+
+  unsigned int m_Inside{ 0 };
+  unsigned int m_Split{ 0 };
+  unsigned int m_Owned{ 0 };
+  unsigned int m_Owners{ 0 };
+  SizeValueType m_Number[Sites];
+  Parts m_Parts[Sites];
+  std::uint8_t m_Owner[64];
+  unsigned int m_NumberOfTriangles{ 0 };
+  std::array<VertexType, 3> m_Triangles[48];
 };
 
 } // namespace
@@ -586,35 +575,85 @@ FCCSplitSites::FCCSplitSites(const FCCSigns & signs)
 {}
 
 void
-FCCSplitSites::Suspect(const std::vector<SiteType> & indices)
+FCCSplitSites::Suspect(const std::vector<SizeValueType> & sites)
 {
   const std::lock_guard<std::mutex> lock(m_Mutex);
-  m_Suspects.insert(m_Suspects.end(), indices.begin(), indices.end());
+  m_Suspects.insert(m_Suspects.end(), sites.begin(), sites.end());
 }
 
 void
 FCCSplitSites::Resolve(const ValueReader & valueAt,
                        bool insideIsBelow,
+                       const ParallelFor & parallelFor,
                        std::vector<SizeValueType> & points,
                        std::vector<SizeValueType> & triangles)
 {
-  std::sort(m_Suspects.begin(), m_Suspects.end(), [](const SiteType & a, const SiteType & b) {
-    return std::array<IndexValueType, 3>{ a[2], a[1], a[0] } < std::array<IndexValueType, 3>{ b[2], b[1], b[0] };
-  });
-  Resolver resolver(m_Signs, valueAt, insideIsBelow);
-  resolver.Run(m_Suspects);
-  std::vector<SiteType>().swap(m_Suspects);
-  resolver.AddChange(triangles);
-  for (const auto & [number, parts] : resolver.GetParts())
+  const SizeValueType width = m_Signs.GetWidth();
+  const SizeValueType height = m_Signs.GetHeight();
+  PartsOfSites parts;
+  const auto surroundingsOf = [&](SizeValueType number) {
+    return Surroundings(m_Signs,
+                        m_Split,
+                        parts,
+                        valueAt,
+                        insideIsBelow,
+                        { static_cast<IndexValueType>(number % width),
+                          static_cast<IndexValueType>(number / width % height),
+                          static_cast<IndexValueType>(number / width / height) });
+  };
+
+  // In rounds: sites are divided as if the others stayed as they were before the round.
+  std::vector<SizeValueType> sites = std::move(m_Suspects);
+  while (!sites.empty())
   {
-    points[number / m_Split.GetWidth() / m_Split.GetHeight()] += FCCSiteStar::CountParts(parts.owned, parts.lone) - 1;
-    const SizeValueType i = number % m_Split.GetWidth();
-    const SizeValueType row = number / m_Split.GetWidth();
-    m_Split.GetRow(row % m_Split.GetHeight(), row / m_Split.GetHeight())[i / FCCSigns::WordBits] |=
-      WordType{ 1 } << (i % FCCSigns::WordBits);
-    m_Lone.emplace_back(number, static_cast<std::uint16_t>(parts.lone));
+    std::sort(sites.begin(), sites.end());
+    sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
+    std::vector<std::pair<SizeValueType, Parts>> divided;
+    std::vector<SizeValueType> next;
+    parallelFor(sites.size(), [&](SizeValueType begin, SizeValueType end) {
+      std::vector<std::pair<SizeValueType, Parts>> dividedHere;
+      std::vector<SizeValueType> nextHere;
+      for (SizeValueType n = begin; n < end; ++n)
+      {
+        Surroundings surroundings = surroundingsOf(sites[n]);
+        if (surroundings.Divide())
+        {
+          dividedHere.emplace_back(sites[n], surroundings.GetParts());
+          surroundings.ForEachOwner([&](SizeValueType owner) { nextHere.push_back(owner); });
+        }
+      }
+      const std::lock_guard<std::mutex> lock(m_Mutex);
+      divided.insert(divided.end(), dividedHere.begin(), dividedHere.end());
+      next.insert(next.end(), nextHere.begin(), nextHere.end());
+    });
+    for (const auto & [number, newParts] : divided)
+    {
+      parts[number] = newParts;
+      const SizeValueType i = number % width;
+      m_Split.GetRow(number / width % height, number / width / height)[i / FCCSigns::WordBits] |=
+        WordType{ 1 } << (i % FCCSigns::WordBits);
+    }
+    sites = std::move(next);
+  }
+
+  m_Lone.reserve(parts.size());
+  for (const auto & [number, found] : parts)
+  {
+    m_Lone.emplace_back(number, static_cast<std::uint16_t>(found.lone));
+    points[number / width / height] += FCCSiteStar::CountParts(found.owned, found.lone) - 1;
   }
   std::sort(m_Lone.begin(), m_Lone.end());
+  std::vector<std::atomic<SizeValueType>> changes(triangles.size());
+  parallelFor(m_Lone.size(), [&](SizeValueType begin, SizeValueType end) {
+    for (SizeValueType n = begin; n < end; ++n)
+    {
+      const SizeValueType number = m_Lone[n].first;
+      surroundingsOf(number).ForEachChange([&](IndexValueType plane, OffsetValueType change) {
+        changes[number / width / height + static_cast<SizeValueType>(plane)] += static_cast<SizeValueType>(change);
+      });
+    }
+  });
+  std::transform(triangles.begin(), triangles.end(), changes.begin(), triangles.begin(), std::plus<>());
 }
 
 unsigned int
