@@ -602,38 +602,49 @@ FCCSplitSites::Resolve(const ValueReader & valueAt,
                           static_cast<IndexValueType>(number / width / height) });
   };
 
-  // In rounds: sites are divided as if the others stayed as they were before the round.
-  std::vector<SizeValueType> sites = std::move(m_Suspects);
-  while (!sites.empty())
+  // No two sites of one color are neighbours, so those of a color can be divided at once.
+  constexpr unsigned int colors = 8;
+  const auto colorOf = [width, height](SizeValueType number) {
+    return (number % width & 1) | (number / width % height & 1) << 1 | (number / width / height & 1) << 2;
+  };
+  std::vector<SizeValueType> suspects = std::move(m_Suspects);
+  while (!suspects.empty())
   {
-    std::sort(sites.begin(), sites.end());
-    sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
-    std::vector<std::pair<SizeValueType, Parts>> divided;
-    std::vector<SizeValueType> next;
-    parallelFor(sites.size(), [&](SizeValueType begin, SizeValueType end) {
-      std::vector<std::pair<SizeValueType, Parts>> dividedHere;
-      std::vector<SizeValueType> nextHere;
-      for (SizeValueType n = begin; n < end; ++n)
-      {
-        Surroundings surroundings = surroundingsOf(sites[n]);
-        if (surroundings.Divide())
-        {
-          dividedHere.emplace_back(sites[n], surroundings.GetParts());
-          surroundings.ForEachOwner([&](SizeValueType owner) { nextHere.push_back(owner); });
-        }
-      }
-      const std::lock_guard<std::mutex> lock(m_Mutex);
-      divided.insert(divided.end(), dividedHere.begin(), dividedHere.end());
-      next.insert(next.end(), nextHere.begin(), nextHere.end());
-    });
-    for (const auto & [number, newParts] : divided)
+    std::sort(suspects.begin(), suspects.end());
+    suspects.erase(std::unique(suspects.begin(), suspects.end()), suspects.end());
+    std::array<std::vector<SizeValueType>, colors> sites;
+    for (const SizeValueType number : suspects)
     {
-      parts[number] = newParts;
-      const SizeValueType i = number % width;
-      m_Split.GetRow(number / width % height, number / width / height)[i / FCCSigns::WordBits] |=
-        WordType{ 1 } << (i % FCCSigns::WordBits);
+      sites[colorOf(number)].push_back(number);
     }
-    sites = std::move(next);
+    suspects.clear();
+    for (const std::vector<SizeValueType> & sitesOfColor : sites)
+    {
+      std::vector<std::pair<SizeValueType, Parts>> divided;
+      parallelFor(sitesOfColor.size(), [&](SizeValueType begin, SizeValueType end) {
+        std::vector<std::pair<SizeValueType, Parts>> dividedHere;
+        std::vector<SizeValueType> owners;
+        for (SizeValueType n = begin; n < end; ++n)
+        {
+          Surroundings surroundings = surroundingsOf(sitesOfColor[n]);
+          if (surroundings.Divide())
+          {
+            dividedHere.emplace_back(sitesOfColor[n], surroundings.GetParts());
+            surroundings.ForEachOwner([&](SizeValueType owner) { owners.push_back(owner); });
+          }
+        }
+        const std::lock_guard<std::mutex> lock(m_Mutex);
+        divided.insert(divided.end(), dividedHere.begin(), dividedHere.end());
+        suspects.insert(suspects.end(), owners.begin(), owners.end());
+      });
+      for (const auto & [number, newParts] : divided)
+      {
+        parts[number] = newParts;
+        const SizeValueType i = number % width;
+        m_Split.GetRow(number / width % height, number / width / height)[i / FCCSigns::WordBits] |=
+          WordType{ 1 } << (i % FCCSigns::WordBits);
+      }
+    }
   }
 
   m_Lone.reserve(parts.size());

@@ -37,16 +37,17 @@ private:
   SurfacePointer m_Surface;
 };
 
-template <typename TArray, typename TValue, typename TTuple>
+template <typename TArray, typename TValue, typename TTuples>
 vtkSmartPointer<TArray>
-Wrap(const std::vector<TTuple> & tuples, int components, const SurfacePointer & surface)
+Wrap(const TTuples & tuples, int components, const SurfacePointer & surface)
 {
+  using TupleType = typename TTuples::value_type;
   constexpr int doNotFree = 1;
   auto array = vtkSmartPointer<TArray>::New();
   array->SetNumberOfComponents(components);
   // VTK's arrays have no const view; whoever holds the polydata promises not to write (see the header).
-  auto * const values = reinterpret_cast<TValue *>(const_cast<TTuple *>(tuples.data()));
-  array->SetArray(values, static_cast<vtkIdType>(tuples.size() * sizeof(TTuple) / sizeof(TValue)), doNotFree);
+  auto * const values = reinterpret_cast<TValue *>(const_cast<TupleType *>(tuples.data()));
+  array->SetArray(values, static_cast<vtkIdType>(tuples.size() * sizeof(TupleType) / sizeof(TValue)), doNotFree);
   const auto keeper = vtkSmartPointer<SurfaceKeeper>::Take(SurfaceKeeper::New(surface));
   array->AddObserver(vtkCommand::UserEvent, keeper);
   return array;
