@@ -69,6 +69,7 @@ public:
   AddCluster(const Rows & rows, SizeValueType i, SizeValueType j, unsigned int owned, IndexValueType parity)
   {
     const SizeValueType n = m_Batch.count;
+    this->Skip(m_Vertices[n]);
     m_Batch.value[n] = rows.values[i];
     for (unsigned int direction = 0; direction < Directions; ++direction)
     {
@@ -88,16 +89,38 @@ public:
     }
   }
 
+  /** Where a vertex belongs. */
+  struct Vertex
+  {
+    TriangleSurface::PointType * point;
+    TriangleSurface::NormalType * normal; ///< or null
+
+    void
+    Set(const TriangleSurface::PointType & newPoint, const TriangleSurface::NormalType & newNormal) const
+    {
+      *point = newPoint;
+      if (normal != nullptr)
+      {
+        *normal = newNormal;
+      }
+    }
+  };
+
+  /** Leaves a vertex out, to be placed later. */
+  void
+  Skip(Vertex & vertex)
+  {
+    vertex = { m_Points++, m_Normals };
+    m_Normals += m_Normals != nullptr ? 1 : 0;
+  }
+
   /** Adds a vertex that has its place. */
   void
   Add(const TriangleSurface::PointType & point, const TriangleSurface::NormalType & normal)
   {
-    this->Flush();
-    *m_Points++ = point;
-    if (m_Normals != nullptr)
-    {
-      *m_Normals++ = normal;
-    }
+    Vertex vertex;
+    this->Skip(vertex);
+    vertex.Set(point, normal);
   }
 
   /** Places what has been added. */
@@ -111,10 +134,9 @@ public:
     TriangleSurface::PointType points[FCCClusterBatch::Capacity];
     TriangleSurface::NormalType normals[FCCClusterBatch::Capacity];
     FCCPointKernels::PlaceClusters(m_Batch, m_Frame, points, normals);
-    m_Points = std::copy(points, points + m_Batch.count, m_Points);
-    if (m_Normals != nullptr)
+    for (SizeValueType n = 0; n < m_Batch.count; ++n)
     {
-      m_Normals = std::copy(normals, normals + m_Batch.count, m_Normals);
+      m_Vertices[n].Set(points[n], normals[n]);
     }
     m_Batch.count = 0;
   }
@@ -133,6 +155,7 @@ public:
 private:
   const FCCFrame & m_Frame;
   FCCClusterBatch m_Batch{};
+  Vertex m_Vertices[FCCClusterBatch::Capacity];
   TriangleSurface::PointType * m_Points;
   TriangleSurface::NormalType * m_Normals;
 };
@@ -199,6 +222,19 @@ FCCClusterPoints::PlaceParts(const FCCClusterPlane & plane,
                              const FCCFieldPlanes & field,
                              Output & output) const
 {
+  // Points on edges are placed batch by batch, too, out of order.
+  FCCEdgeBatch lone{};
+  Output::Vertex loneVertices[FCCEdgeBatch::Capacity];
+  const auto placeLone = [&] {
+    TriangleSurface::PointType points[FCCEdgeBatch::Capacity];
+    TriangleSurface::NormalType normals[FCCEdgeBatch::Capacity];
+    const SizeValueType count = lone.count;
+    m_EdgePoints.PlaceBatch(lone, points, output.HasNormals() ? normals : nullptr);
+    for (SizeValueType n = 0; n < count; ++n)
+    {
+      loneVertices[n].Set(points[n], normals[n]);
+    }
+  };
   for (const FCCClusterPlane::Parts & parts : plane.GetParts())
   {
     const auto [i, j] = std::make_pair(parts.i, parts.j);
@@ -214,22 +250,26 @@ FCCClusterPoints::PlaceParts(const FCCClusterPlane & plane,
         output.AddCluster(Rows(field, j, k), i, j, part, field.GetParity(j, k));
         continue;
       }
-      TriangleSurface::PointType point;
-      TriangleSurface::NormalType normal;
       if (isPoint)
       {
-        FCCEdgeBatch batch{};
-        m_EdgePoints.Gather({ i, j, k }, FCCSiteStar::StepOf(lowest), field, output.HasNormals(), batch);
-        m_EdgePoints.PlaceBatch(batch, &point, output.HasNormals() ? &normal : nullptr);
+        output.Skip(loneVertices[lone.count]);
+        m_EdgePoints.Gather({ i, j, k }, FCCSiteStar::StepOf(lowest), field, output.HasNormals(), lone);
+        if (lone.count == FCCEdgeBatch::Capacity)
+        {
+          placeLone();
+        }
       }
       else
       {
+        TriangleSurface::PointType point;
+        TriangleSurface::NormalType normal;
         this->PlaceOnBorder(this->SiteOf(i, j, k), part, point, normal);
+        output.Add(point, normal);
       }
-      output.Add(point, normal);
     }
   }
   output.Flush();
+  placeLone();
 }
 
 FCCLattice::SiteType

@@ -29,8 +29,9 @@ struct FCCLeanTables
   std::uint8_t storingEnd[Cases::Edges] = {};             ///< which of EdgeSites stores the edge
   std::uint8_t cornerEdges[Cases::Tetrahedra][4][3] = {}; ///< edges at a corner of a tetrahedron
   std::uint8_t cornerEnds[Cases::Tetrahedra][4][3] = {};  ///< which of EdgeSites the corner is
-  Polygon polygons[Cases::Tetrahedra][16] = {};           ///< by the corners inside
-  std::uint64_t use[Cases::Tetrahedra][4][4] = {};        ///< by the corner left out, for each corner
+  std::uint8_t edges[Cases::Tetrahedra][6] = {};
+  Polygon polygons[Cases::Tetrahedra][16] = {};    ///< by the corners inside
+  std::uint64_t use[Cases::Tetrahedra][4][4] = {}; ///< by the corner left out, for each corner
 };
 
 /** The lowest of some corners of a tetrahedron by z, then y, then x. */
@@ -88,6 +89,13 @@ MakeFCCLeanTables(unsigned int kind)
           tables.cornerEnds[tetrahedron][corner][n] = Cases::EdgeSites[edge][0] == sites[corner] ? 0 : 1;
           ++n;
         }
+      }
+    }
+    for (unsigned int a = 0, n = 0; a < 4; ++a)
+    {
+      for (unsigned int b = a + 1; b < 4; ++b)
+      {
+        tables.edges[tetrahedron][n++] = Cases::EdgeBetween(sites[a], sites[b]);
       }
     }
     for (unsigned int inside = 0; inside < 16; ++inside)
@@ -235,11 +243,14 @@ struct LeanSteps
   WordType spanned[Cases::Tetrahedra];   ///< three or four corners do
 
   /** Returns whether there are any crossings. */
-  bool
-  Load(const LeanColumn & column, const FCCLeanTables & tables, SizeValueType word)
+  template <unsigned int Kind>
+  HWY_INLINE bool
+  Load(const LeanColumn & column, SizeValueType word)
   {
+    constexpr const FCCLeanTables & tables = FCCLeanTablesOfKind[Kind]; // loops unroll, so that no table is left
     WordType any = 0;
     WordType all = ~WordType{ 0 };
+#pragma GCC unroll 6
     for (unsigned int site = 0; site < Cases::Sites; ++site)
     {
       signs[site] = Shifted(column.signs[site], column.siteShift[site], word);
@@ -250,15 +261,19 @@ struct LeanSteps
     {
       return false;
     }
+#pragma GCC unroll 12
     for (unsigned int edge = 0; edge < Cases::Edges; ++edge)
     {
+#pragma GCC unroll 2
       for (unsigned int end = 0; end < 2; ++end)
       {
         owned[edge][end] = Shifted(column.owned[edge][end], column.edgeShift[edge], word);
       }
     }
+#pragma GCC unroll 3
     for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
     {
+#pragma GCC unroll 4
       for (unsigned int corner = 0; corner < 4; ++corner)
       {
         const auto & edges = tables.cornerEdges[tetrahedron][corner];
@@ -285,6 +300,65 @@ struct LeanSteps
   }
 };
 
+/** Whether the rows of a column have any site inside. */
+bool
+HasInside(const FCCSigns & signs, SizeValueType j, SizeValueType k)
+{
+  WordType any = 0;
+  for (SizeValueType row = 0; row < 4; ++row)
+  {
+    const WordType * const words = signs.GetRow(j + (row & 1), k + (row >> 1));
+    for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
+    {
+      any |= words[word];
+    }
+  }
+  return any != 0;
+}
+
+template <unsigned int Kind>
+SizeValueType
+CountColumnUse(const LeanColumn & column, SizeValueType words, FCCTriangleUse & lowerUse, FCCTriangleUse & upperUse)
+{
+  constexpr const FCCLeanTables & tables = FCCLeanTablesOfKind[Kind];
+  SizeValueType count = 0;
+  std::uint64_t * uses[Cases::Sites];
+  for (unsigned int site = 0; site < Cases::Sites; ++site)
+  {
+    auto & use = column.siteIsUpper[site] ? upperUse : lowerUse;
+    uses[site] = use.counts.data() + column.siteRow[site] * use.stride + column.siteShift[site];
+  }
+  for (SizeValueType word = 0; word < words; ++word)
+  {
+    LeanSteps steps;
+    if (!steps.Load<Kind>(column, word))
+    {
+      continue;
+    }
+    for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
+    {
+      const auto & sites = Cases::TetrahedronSites[tetrahedron];
+      for (WordType mask = steps.spanned[tetrahedron]; mask != 0; mask &= mask - 1)
+      {
+        const auto bit = static_cast<unsigned int>(__builtin_ctzll(mask));
+        const SizeValueType i = word * FCCSigns::WordBits + bit;
+        const auto & found = FCCClusterTables.cases[Kind][tetrahedron][steps.PatternOf(tetrahedron, bit)];
+        for (unsigned int n = 0; n < found.triangles; ++n)
+        {
+          const auto & corners = found.corners[n];
+          const unsigned int left = 6u - corners[0] - corners[1] - corners[2];
+          for (const std::uint8_t corner : corners)
+          {
+            uses[sites[corner]][i] += tables.use[tetrahedron][left][corner];
+          }
+        }
+        count += found.triangles;
+      }
+    }
+  }
+  return count;
+}
+
 SizeValueType
 CountTriangleUse(const FCCSigns & signs,
                  SizeValueType k,
@@ -296,44 +370,11 @@ CountTriangleUse(const FCCSigns & signs,
   SizeValueType count = 0;
   for (SizeValueType j = 0; j + 1 < signs.GetHeight(); ++j)
   {
-    for (unsigned int kind = 0; kind < Cases::Kinds; ++kind)
+    if (HasInside(signs, j, k))
     {
-      const FCCLeanTables & tables = FCCLeanTablesOfKind[kind];
-      const LeanColumn column(signs, kind, j, k, lower, upper);
-      std::uint64_t * uses[Cases::Sites];
-      for (unsigned int site = 0; site < Cases::Sites; ++site)
-      {
-        auto & use = column.siteIsUpper[site] ? upperUse : lowerUse;
-        uses[site] = use.counts.data() + column.siteRow[site] * use.stride + column.siteShift[site];
-      }
-      for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
-      {
-        LeanSteps steps;
-        if (!steps.Load(column, tables, word))
-        {
-          continue;
-        }
-        for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
-        {
-          const auto & sites = Cases::TetrahedronSites[tetrahedron];
-          for (WordType mask = steps.spanned[tetrahedron]; mask != 0; mask &= mask - 1)
-          {
-            const auto bit = static_cast<unsigned int>(__builtin_ctzll(mask));
-            const SizeValueType i = word * FCCSigns::WordBits + bit;
-            const auto & found = FCCClusterTables.cases[kind][tetrahedron][steps.PatternOf(tetrahedron, bit)];
-            for (unsigned int n = 0; n < found.triangles; ++n)
-            {
-              const auto & corners = found.corners[n];
-              const unsigned int left = 6u - corners[0] - corners[1] - corners[2];
-              for (const std::uint8_t corner : corners)
-              {
-                uses[sites[corner]][i] += tables.use[tetrahedron][left][corner];
-              }
-              ++count;
-            }
-          }
-        }
-      }
+      const SizeValueType words = signs.GetNumberOfWords();
+      count += CountColumnUse<0>(LeanColumn(signs, 0, j, k, lower, upper), words, lowerUse, upperUse);
+      count += CountColumnUse<1>(LeanColumn(signs, 1, j, k, lower, upper), words, lowerUse, upperUse);
     }
   }
   return count;
@@ -394,6 +435,69 @@ FillMixedTetrahedron(const LeanColumn & column,
   return count;
 }
 
+template <unsigned int Kind>
+SizeValueType
+FillColumn(const LeanColumn & column,
+           SizeValueType words,
+           const FCCClusterPlane & lower,
+           const FCCClusterPlane & upper,
+           bool reversed,
+           TriangleSurface::TriangleType * triangles)
+{
+  constexpr const FCCLeanTables & tables = FCCLeanTablesOfKind[Kind];
+  const unsigned int second = reversed ? 2 : 1;
+  const unsigned int third = reversed ? 1 : 2;
+  SizeValueType count = 0;
+  for (SizeValueType word = 0; word < words; ++word)
+  {
+    LeanSteps steps;
+    if (!steps.Load<Kind>(column, word))
+    {
+      continue;
+    }
+    WordType split[Cases::Edges];
+#pragma GCC unroll 12
+    for (unsigned int edge = 0; edge < Cases::Edges; ++edge)
+    {
+      split[edge] = Shifted(column.split[edge], column.edgeShift[edge], word);
+    }
+    for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
+    {
+      const auto & sites = Cases::TetrahedronSites[tetrahedron];
+      WordType mixed = 0;
+      for (const std::uint8_t edge : tables.edges[tetrahedron])
+      {
+        mixed |= split[edge];
+      }
+      for (WordType mask = steps.spanned[tetrahedron] | mixed; mask != 0; mask &= mask - 1)
+      {
+        const auto bit = static_cast<unsigned int>(__builtin_ctzll(mask));
+        const SizeValueType i = word * FCCSigns::WordBits + bit;
+        TriangleSurface::TriangleType * const next = triangles + count;
+        if ((mixed >> bit & 1) != 0)
+        {
+          count +=
+            FillMixedTetrahedron(column, tables, steps, split, tetrahedron, bit, i, lower, upper, reversed, next);
+          continue;
+        }
+        const auto & found = FCCClusterTables.cases[Kind][tetrahedron][steps.PatternOf(tetrahedron, bit)];
+        std::uint32_t vertices[4];
+        for (unsigned int corner = 0; corner < 4; ++corner)
+        {
+          vertices[corner] = VertexOfWhole(column, sites[corner], i);
+        }
+        for (unsigned int n = 0; n < found.triangles; ++n)
+        {
+          const auto & corners = found.corners[n];
+          next[n] = { vertices[corners[0]], vertices[corners[second]], vertices[corners[third]] };
+        }
+        count += found.triangles;
+      }
+    }
+  }
+  return count;
+}
+
 SizeValueType
 FillLeanTriangles(const FCCSigns & signs,
                   SizeValueType k,
@@ -402,67 +506,17 @@ FillLeanTriangles(const FCCSigns & signs,
                   bool reversed,
                   TriangleSurface::TriangleType * triangles)
 {
-  const unsigned int second = reversed ? 2 : 1;
-  const unsigned int third = reversed ? 1 : 2;
-  SizeValueType count = 0;
+  const TriangleSurface::TriangleType * const first = triangles;
   for (SizeValueType j = 0; j + 1 < signs.GetHeight(); ++j)
   {
-    for (unsigned int kind = 0; kind < Cases::Kinds; ++kind)
+    if (HasInside(signs, j, k))
     {
-      const FCCLeanTables & tables = FCCLeanTablesOfKind[kind];
-      const LeanColumn column(signs, kind, j, k, lower, upper);
-      for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
-      {
-        LeanSteps steps;
-        if (!steps.Load(column, tables, word))
-        {
-          continue;
-        }
-        WordType split[Cases::Edges];
-        for (unsigned int edge = 0; edge < Cases::Edges; ++edge)
-        {
-          split[edge] = Shifted(column.split[edge], column.edgeShift[edge], word);
-        }
-        for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
-        {
-          const auto & sites = Cases::TetrahedronSites[tetrahedron];
-          WordType mixed = 0;
-          for (unsigned int corner = 0; corner < 4; ++corner)
-          {
-            for (const std::uint8_t edge : tables.cornerEdges[tetrahedron][corner])
-            {
-              mixed |= split[edge];
-            }
-          }
-          for (WordType mask = steps.spanned[tetrahedron] | mixed; mask != 0; mask &= mask - 1)
-          {
-            const auto bit = static_cast<unsigned int>(__builtin_ctzll(mask));
-            const SizeValueType i = word * FCCSigns::WordBits + bit;
-            TriangleSurface::TriangleType * const next = triangles + count;
-            if ((mixed >> bit & 1) != 0)
-            {
-              count +=
-                FillMixedTetrahedron(column, tables, steps, split, tetrahedron, bit, i, lower, upper, reversed, next);
-              continue;
-            }
-            const auto & found = FCCClusterTables.cases[kind][tetrahedron][steps.PatternOf(tetrahedron, bit)];
-            std::uint32_t vertices[4];
-            for (unsigned int corner = 0; corner < 4; ++corner)
-            {
-              vertices[corner] = VertexOfWhole(column, sites[corner], i);
-            }
-            for (unsigned int n = 0; n < found.triangles; ++n)
-            {
-              const auto & corners = found.corners[n];
-              next[n] = { vertices[corners[0]], vertices[corners[second]], vertices[corners[third]] };
-            }
-            count += found.triangles;
-          }
-        }
-      }
+      const SizeValueType words = signs.GetNumberOfWords();
+      triangles += FillColumn<0>(LeanColumn(signs, 0, j, k, lower, upper), words, lower, upper, reversed, triangles);
+      triangles += FillColumn<1>(LeanColumn(signs, 1, j, k, lower, upper), words, lower, upper, reversed, triangles);
     }
   }
-  return count;
+  return static_cast<SizeValueType>(triangles - first);
 }
 
 } // namespace

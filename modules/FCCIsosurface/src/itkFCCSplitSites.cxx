@@ -58,8 +58,9 @@ struct Star
 
   struct Tetrahedron
   {
-    std::uint8_t sites[4];
-    Polygon polygons[16]; ///< by the corners inside
+    std::uint8_t sites[4]; ///< the center first
+    unsigned int far;      ///< the directions of the others
+    Polygon polygons[16];  ///< by the corners inside
   };
 
   std::array<std::array<std::uint8_t, Sites>, Sites> direction{}; ///< from one site to another, or NoDirection
@@ -68,6 +69,7 @@ struct Star
   std::vector<Edge> edges;
   std::vector<Tetrahedron> tetrahedra;
   std::bitset<1U << Directions> isDisk;
+  std::vector<std::uint64_t> lowest; ///< by a set of directions: 4 bits a direction, the lowest connected with it
 
   Star()
   {
@@ -111,8 +113,19 @@ struct Star
         }
       }
     }
+    lowest.resize(1U << Directions);
     for (unsigned int set = 1; set < 1U << Directions; ++set)
     {
+      for (unsigned int left = set; left != 0;)
+      {
+        const auto first = static_cast<unsigned int>(__builtin_ctz(left));
+        const unsigned int part = this->PartOf(set, first);
+        for (unsigned int members = part; members != 0; members &= members - 1)
+        {
+          lowest[set] |= std::uint64_t{ first } << (4 * __builtin_ctz(members));
+        }
+        left &= ~part;
+      }
       // Points - edges + triangles of the surface between the crossings of the center's edges.
       auto characteristic = static_cast<int>(std::bitset<Directions>(set).count());
       for (unsigned int a = 0; a < Directions; ++a)
@@ -162,6 +175,7 @@ private:
   {
     Tetrahedron tetrahedron;
     std::copy(sites.begin(), sites.end(), tetrahedron.sites);
+    tetrahedron.far = 1U << sites[1] | 1U << sites[2] | 1U << sites[3];
     for (unsigned int pattern = 1; pattern < 15; ++pattern)
     {
       std::vector<unsigned int> inside;
@@ -214,7 +228,7 @@ struct Parts
   {
     return (lone >> direction & 1) != 0
              ? direction
-             : static_cast<unsigned int>(__builtin_ctz(GetStar().PartOf(owned & ~lone, direction)));
+             : static_cast<unsigned int>(GetStar().lowest[owned & ~lone] >> (4 * direction) & 15);
   }
 };
 using PartsOfSites = std::unordered_map<SizeValueType, Parts>;
@@ -359,8 +373,11 @@ public:
   {
     for (const Star::Tetrahedron & tetrahedron : GetStar().tetrahedra)
     {
+      if ((tetrahedron.far & m_Owned) == 0)
+      {
+        continue;
+      }
       const Star::Polygon & polygon = this->PolygonOf(tetrahedron);
-      bool isMine = false;
       bool isOthers = false;
       VertexType now[4];
       VertexType whole[4];
@@ -369,10 +386,9 @@ public:
       {
         const unsigned int owner = now[n] / 16;
         whole[n] = VertexOf(owner, Whole);
-        isMine = isMine || owner == Center;
         isOthers = isOthers || (this->IsSplit(owner) && m_Number[owner] < m_Number[Center]);
       }
-      if (!isMine || isOthers)
+      if (isOthers)
       {
         continue;
       }
@@ -443,10 +459,11 @@ private:
   void
   GetCorners(const Star::Polygon & polygon, VertexType (&corners)[4]) const
   {
-    const unsigned int start = polygon.corners == 4 && !this->IsInside(m_Owner[polygon.edges[0]]) ? 1 : 0;
+    unsigned int place = polygon.corners == 4 && !this->IsInside(m_Owner[polygon.edges[0]]) ? 1 : 0;
     for (unsigned int n = 0; n < polygon.corners; ++n)
     {
-      const std::uint8_t edge = polygon.edges[(n + start) % polygon.corners];
+      const std::uint8_t edge = polygon.edges[place];
+      place = place + 1 == polygon.corners ? 0 : place + 1;
       const unsigned int owner = m_Owner[edge];
       const Star::Edge & ends = GetStar().edges[edge];
       corners[n] = VertexOf(
@@ -454,12 +471,17 @@ private:
     }
   }
 
+  /** The triangles in the tetrahedra with crossings that the site owns: all that have its vertices. */
   void
   FindTriangles()
   {
     m_NumberOfTriangles = 0;
     for (const Star::Tetrahedron & tetrahedron : GetStar().tetrahedra)
     {
+      if ((tetrahedron.far & m_Owned) == 0)
+      {
+        continue;
+      }
       const Star::Polygon & polygon = this->PolygonOf(tetrahedron);
       VertexType corners[4];
       this->GetCorners(polygon, corners);
