@@ -171,6 +171,15 @@ TEST_P(FCCIsosurfaceModes, UndefinedSamplesAreCounted)
 
 TEST_P(FCCIsosurfaceModes, OpenSurfacesHaveManifoldEdges)
 {
+  const auto plane = fcctest::MakeImage(0.5, 4.0, [](const auto & p) { return 0.3 * p[0] + 0.5 * p[1] + p[2]; });
+  EXPECT_TRUE(ComputeTopology(*Extract(plane, 0.1, GetParam())).IsWatertight());
+  const auto open = Extract(plane, 0.1, GetParam(), false, 2, false);
+  EXPECT_GT(ComputeTopology(*open).boundaryEdges, 0u);
+  for (const auto & point : open->GetPoints())
+  {
+    ASSERT_NEAR(0.3 * point[0] + 0.5 * point[1] + point[2], 0.1, 0.002) << "on the plane, not on the border's faces";
+  }
+
   std::mt19937 random(9);
   for (unsigned int trial = 0; trial < 100; ++trial)
   {

@@ -28,15 +28,17 @@ public:
     , m_EdgePoints(region, frame, true, minimumFraction, 1)
   {}
 
-  /** Places the vertices of plane \a k, and their normals unless null. The arrays begin with the first of them. The
-   * field must have loaded the values two planes around and the gradients of the plane and those next to it. */
+  /** Places the vertices of plane \a k, and their normals unless null, and says of each, unless null, whether its site
+   * is outside the image. The arrays begin with the first of them. The field must have loaded the values two planes
+   * around and the gradients of the plane and those next to it. */
   void
   Place(const FCCSigns & signs,
         const FCCClusterPlane & plane,
         SizeValueType k,
         const FCCFieldPlanes & field,
         TriangleSurface::PointType * points,
-        TriangleSurface::NormalType * normals) const;
+        TriangleSurface::NormalType * normals,
+        std::uint8_t * areOutside) const;
 
 private:
   using SiteType = FCCLattice::SiteType;

@@ -337,9 +337,18 @@ FCCIsosurfaceFilter<TInputImage>::ExtractLean(const FCCSigns & signs, double iso
     },
     [this](SizeValueType count, const auto & work) { this->ForEachSlab(count, 0.0f, work, 1024); });
   this->Allocate(surface, lean.GetNumberOfPoints(), lean.GetNumberOfTriangles());
+  std::vector<std::uint8_t> areOutside(m_Closed ? 0 : lean.GetNumberOfPoints());
   this->ForEachSlab(planes, 0.5f * share, [&](SizeValueType begin, SizeValueType end) {
-    lean.Fill(begin, end, this->IsLeftHanded(), surface);
+    lean.Fill(begin, end, this->IsLeftHanded(), surface, m_Closed ? nullptr : areOutside.data());
   });
+  if (!m_Closed)
+  {
+    auto & triangles = surface.GetTriangles();
+    const auto closes = [&areOutside](const TriangleSurface::TriangleType & triangle) {
+      return (areOutside[triangle[0]] | areOutside[triangle[1]] | areOutside[triangle[2]]) != 0;
+    };
+    triangles.erase(std::remove_if(triangles.begin(), triangles.end(), closes), triangles.end());
+  }
 }
 
 template <typename TInputImage>

@@ -49,9 +49,11 @@ public:
     return m_FirstTriangle.back();
   }
 
-  /** The surface must have its final size. */
+  /** The surface must have its final size; normals are left out where it has none. With \a areOutside, one byte a point
+   * says whether its site is outside the image: triangles of such points are those that close the surface. */
   void
-  Fill(SizeValueType begin, SizeValueType end, bool reversed, TriangleSurface & surface) const;
+  Fill(SizeValueType begin, SizeValueType end, bool reversed, TriangleSurface & surface, std::uint8_t * areOutside)
+    const;
 
 private:
   FCCFieldPlanes

@@ -45,10 +45,12 @@ public:
          float minimumFraction,
          float farthest,
          TriangleSurface::PointType * points,
-         TriangleSurface::NormalType * normals)
+         TriangleSurface::NormalType * normals,
+         std::uint8_t * areOutside)
     : m_Frame(frame)
     , m_Points(points)
     , m_Normals(normals)
+    , m_AreOutside(areOutside)
   {
     m_Batch.minimumFraction = minimumFraction;
     m_Batch.farthest = farthest;
@@ -57,6 +59,11 @@ public:
       m_Batch.origin[axis] = static_cast<double>(origin[axis]);
     }
   }
+
+  /** Goes on where another one ended. */
+  Output(const FCCFrame & frame, const SiteType & origin, float minimumFraction, float farthest, const Output & before)
+    : Output(frame, origin, minimumFraction, farthest, before.m_Points, before.m_Normals, before.m_AreOutside)
+  {}
 
   bool
   HasNormals() const
@@ -69,7 +76,7 @@ public:
   AddCluster(const Rows & rows, SizeValueType i, SizeValueType j, unsigned int owned, IndexValueType parity)
   {
     const SizeValueType n = m_Batch.count;
-    this->Skip(m_Vertices[n]);
+    this->Skip(m_Vertices[n], false);
     m_Batch.value[n] = rows.values[i];
     for (unsigned int direction = 0; direction < Directions; ++direction)
     {
@@ -108,18 +115,22 @@ public:
 
   /** Leaves a vertex out, to be placed later. */
   void
-  Skip(Vertex & vertex)
+  Skip(Vertex & vertex, bool isOutside)
   {
     vertex = { m_Points++, m_Normals };
     m_Normals += m_Normals != nullptr ? 1 : 0;
+    if (m_AreOutside != nullptr)
+    {
+      *m_AreOutside++ = isOutside ? 1 : 0;
+    }
   }
 
-  /** Adds a vertex that has its place. */
+  /** Adds a vertex on the border, which has its place. */
   void
-  Add(const TriangleSurface::PointType & point, const TriangleSurface::NormalType & normal)
+  AddOutside(const TriangleSurface::PointType & point, const TriangleSurface::NormalType & normal)
   {
     Vertex vertex;
-    this->Skip(vertex);
+    this->Skip(vertex, true);
     vertex.Set(point, normal);
   }
 
@@ -141,23 +152,13 @@ public:
     m_Batch.count = 0;
   }
 
-  TriangleSurface::PointType *
-  GetPoints() const
-  {
-    return m_Points;
-  }
-  TriangleSurface::NormalType *
-  GetNormals() const
-  {
-    return m_Normals;
-  }
-
 private:
   const FCCFrame & m_Frame;
   FCCClusterBatch m_Batch{};
   Vertex m_Vertices[FCCClusterBatch::Capacity];
   TriangleSurface::PointType * m_Points;
   TriangleSurface::NormalType * m_Normals;
+  std::uint8_t * m_AreOutside;
 };
 
 void
@@ -166,14 +167,15 @@ FCCClusterPoints::Place(const FCCSigns & signs,
                         SizeValueType k,
                         const FCCFieldPlanes & field,
                         TriangleSurface::PointType * points,
-                        TriangleSurface::NormalType * normals) const
+                        TriangleSurface::NormalType * normals,
+                        std::uint8_t * areOutside) const
 {
   SiteType origin = this->SiteOf(0, 0, k);
   origin[0] -= field.GetParity(0, k);
-  Output wholes(m_Frame, origin, 0.0f, FarthestOfWhole, points, normals);
+  Output wholes(m_Frame, origin, 0.0f, FarthestOfWhole, points, normals, areOutside);
   this->PlaceWholes(signs, plane, k, field, wholes);
   const auto minimumFraction = static_cast<float>(m_MinimumFraction);
-  Output parts(m_Frame, origin, minimumFraction, FarthestOfPart, wholes.GetPoints(), wholes.GetNormals());
+  Output parts(m_Frame, origin, minimumFraction, FarthestOfPart, wholes);
   this->PlaceParts(plane, k, field, parts);
 }
 
@@ -208,7 +210,7 @@ FCCClusterPoints::PlaceWholes(const FCCSigns & signs,
           TriangleSurface::PointType point;
           TriangleSurface::NormalType normal;
           this->PlaceOnBorder(this->SiteOf(i, j, k), owned, point, normal);
-          output.Add(point, normal);
+          output.AddOutside(point, normal);
         }
       }
     }
@@ -252,7 +254,7 @@ FCCClusterPoints::PlaceParts(const FCCClusterPlane & plane,
       }
       if (isPoint)
       {
-        output.Skip(loneVertices[lone.count]);
+        output.Skip(loneVertices[lone.count], !isReal);
         m_EdgePoints.Gather({ i, j, k }, FCCSiteStar::StepOf(lowest), field, output.HasNormals(), lone);
         if (lone.count == FCCEdgeBatch::Capacity)
         {
@@ -264,7 +266,7 @@ FCCClusterPoints::PlaceParts(const FCCClusterPlane & plane,
         TriangleSurface::PointType point;
         TriangleSurface::NormalType normal;
         this->PlaceOnBorder(this->SiteOf(i, j, k), part, point, normal);
-        output.Add(point, normal);
+        output.AddOutside(point, normal);
       }
     }
   }

@@ -169,10 +169,13 @@ void
 FCCFieldPlanes::ExtrapolateRow(const float * near, const float * far, IndexValueType parity, float * row) const
 {
   const auto last = static_cast<IndexValueType>(m_Size[0]) - 1;
+  const auto nearAt = [near, last](IndexValueType i) {
+    return i < 0 ? 2.0f * near[0] - near[1] : i > last ? 2.0f * near[last] - near[last - 1] : near[i];
+  };
   for (IndexValueType i = 0; i <= last; ++i)
   {
-    const float left = near[std::max<IndexValueType>(i + parity - 1, 0)];
-    const float right = near[std::min<IndexValueType>(i + parity, last)];
+    const float left = nearAt(i + parity - 1);
+    const float right = nearAt(i + parity);
     row[i] = far != nullptr ? (left + right) - far[i] : 0.5f * (left + right);
   }
 }

@@ -153,7 +153,11 @@ FCCLeanSurface::Resolve(const FCCSplitSites::ValueReader & valueAt, const FCCSpl
 }
 
 void
-FCCLeanSurface::Fill(SizeValueType begin, SizeValueType end, bool reversed, TriangleSurface & surface) const
+FCCLeanSurface::Fill(SizeValueType begin,
+                     SizeValueType end,
+                     bool reversed,
+                     TriangleSurface & surface,
+                     std::uint8_t * areOutside) const
 {
   FCCFieldPlanes field = this->MakeField();
   PlaneSequence planes(m_Signs, field, m_InsideIsBelow, &m_Splits);
@@ -184,7 +188,8 @@ FCCLeanSurface::Fill(SizeValueType begin, SizeValueType end, bool reversed, Tria
                         k,
                         field,
                         surface.GetPoints().data() + m_FirstPoint[k],
-                        surface.HasNormals() ? surface.GetNormals().data() + m_FirstPoint[k] : nullptr);
+                        surface.HasNormals() ? surface.GetNormals().data() + m_FirstPoint[k] : nullptr,
+                        areOutside != nullptr ? areOutside + m_FirstPoint[k] : nullptr);
     if (k + 1 < m_Signs.GetDepth())
     {
       FillLeanTriangles(
