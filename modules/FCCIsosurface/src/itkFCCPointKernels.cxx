@@ -62,9 +62,10 @@ CrossCubically(const FCCEdgeBatch & batch, float * HWY_RESTRICT fraction)
       high = isBeyond ? x : high;
       low = isBeyond ? low : x;
       const float next = x - value / slope;
-      x = next > low && next < high ? next : 0.5f * (low + high);
+      x = next >= low && next <= high ? next : 0.5f * (low + high);
     }
-    fraction[n] = x >= -0.5f && x <= 0.5f ? x + 0.5f : fraction[n];
+    const bool isCubic = __builtin_fabsf(c2) + __builtin_fabsf(c3) <= std::numeric_limits<float>::max();
+    fraction[n] = isCubic ? x + 0.5f : fraction[n]; // else a value nearby is infinite or not a number
   }
 }
 
