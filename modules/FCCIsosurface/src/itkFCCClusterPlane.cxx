@@ -117,7 +117,6 @@ FCCClusterPlane::Find(SizeValueType k,
   m_Owners.Find(k, field, insideIsBelow);
   m_Wholes.Clear();
   m_Split.Clear();
-  std::fill(m_SplitCrossings.begin(), m_SplitCrossings.end(), 0);
   if (k < m_Signs->GetDepth())
   {
     for (SizeValueType j = 0; j < m_Signs->GetHeight(); ++j)
@@ -210,13 +209,25 @@ FCCClusterPlane::FindSplitCrossings(SizeValueType j, SizeValueType k, const FCCS
     const auto & step = FCCLattice::OwnedEdges[type];
     const SizeValueType otherJ = j + static_cast<SizeValueType>(step[1]);
     const SizeValueType otherK = k + static_cast<SizeValueType>(step[2]);
+    WordType * const crossings = m_SplitCrossings.data() + (j * Types + type) * m_Owners.GetStride();
     if (otherJ >= m_Signs->GetHeight() || otherK >= m_Signs->GetDepth())
     {
+      std::fill(crossings, crossings + words, 0);
       continue;
     }
-    WordType * const crossings = m_SplitCrossings.data() + (j * Types + type) * m_Owners.GetStride();
+    const WordType * const there = splits.GetRow(otherJ, otherK);
+    WordType any = 0;
+    for (SizeValueType word = 0; word < words; ++word)
+    {
+      any |= here[word] | there[word];
+    }
+    if (any == 0)
+    {
+      std::fill(crossings, crossings + words, 0);
+      continue;
+    }
     const auto offset = FCCLattice::OffsetOf(step, m_Signs->GetParity(j, k))[0];
-    MoveBits(splits.GetRow(otherJ, otherK), words, -offset, crossings);
+    MoveBits(there, words, -offset, crossings);
     const WordType * const first = m_Owners.GetFirst(j, type);
     const WordType * const second = m_Owners.GetSecond(j, type);
     for (SizeValueType word = 0; word < words; ++word)

@@ -1,6 +1,7 @@
 #include "itkFCCEdgePoints.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace itk
@@ -14,8 +15,6 @@ struct EdgeRows
 {
   const float * values[4] = {}; ///< at the places -1, 0, 1, 2 along the line; the outer ones for cubics only
   const float * gradients[2][3] = {};
-
-  EdgeRows() = default;
 
   EdgeRows(const FCCFieldPlanes & field,
            const FCCLattice::SiteType & step,
@@ -111,8 +110,7 @@ FCCEdgePoints::Place(const FCCSigns & signs,
       const bool isRealRow = field.IsReal(1, row) && field.IsReal(2, plane);
       const bool isOtherRealRow = field.IsReal(1, otherRow) && field.IsReal(2, otherPlane);
       const auto offset = static_cast<SizeValueType>(FCCLattice::OffsetOf(step, field.GetParity(row, plane))[0]);
-      const EdgeRows rows =
-        isRealRow && isOtherRealRow ? EdgeRows(field, step, row, plane, m_Cubic, normals != nullptr) : EdgeRows();
+      std::optional<EdgeRows> rows; // most rows have no cut edges of a type
       const FCCSigns::WordType * const cut = edges.masks(j, type);
       const SiteType firstSite =
         FCCLattice::SiteOf({ { region.GetIndex(0) - static_cast<IndexValueType>(m_Margin),
@@ -129,7 +127,11 @@ FCCEdgePoints::Place(const FCCSigns & signs,
           const bool isOtherReal = isOtherRealRow && place + offset - 1 < width;
           if (isReal && isOtherReal)
           {
-            rows.Gather(place, batch);
+            if (!rows)
+            {
+              rows.emplace(field, step, row, plane, m_Cubic, normals != nullptr);
+            }
+            rows->Gather(place, batch);
           }
           else
           {
