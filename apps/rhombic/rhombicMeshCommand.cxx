@@ -30,6 +30,7 @@ Mesh(const MeshOptions & options, const CommandContext & context)
                   "The threshold '" + options.threshold +
                     "' is no number; write -t -300.5, -t '<-500.5' for what lies below, or -t otsu.");
   }
+  settings.mode = options.scan.GetMode();
   settings.mesh = options.mesh;
   MeshScan(settings, context.console->MakeEvents());
   context.console->Note("mesh: " + settings.mesh.string());
@@ -46,6 +47,7 @@ AddMeshCommand(CLI::App & parser)
                     options->threshold,
                     "isovalue: a number in the scan's units, <number for what lies below, or otsu");
   parser.add_option("-o,--output", options->mesh, "the mesh: .stl, .ply or .vtp, in LPS mm");
+  options->scan.AddExtraction(parser);
   options->scan.AddLattice(parser);
   return [options](const CommandContext & context) { Mesh(*options, context); };
 }

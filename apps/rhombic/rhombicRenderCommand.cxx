@@ -109,6 +109,7 @@ Render(const RenderOptions & options, const CommandContext & context)
   }
   RenderScanSettings settings;
   settings.source = options.scan.GetSource();
+  settings.mode = options.scan.GetMode();
   if (options.picture.empty())
   {
     throw Failure(FailureKind::Usage, "No picture is named; give one with -o, for example -o picture.png.");
@@ -157,6 +158,7 @@ AddRenderCommand(CLI::App & parser)
   parser.add_flag("--perspective", options->isPerspective, "perspective instead of parallel projection");
   parser.add_flag("--no-letters", options->hasNoLetters, "leave out the orientation letters at the edges");
   parser.add_flag("--list-presets", options->listsPresets, "list the presets and stop");
+  options->scan.AddExtraction(parser);
   options->scan.AddLattice(parser);
   return [options](const CommandContext & context) { Render(*options, context); };
 }

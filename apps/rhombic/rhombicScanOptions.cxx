@@ -59,22 +59,63 @@ ScanOptions::AddSource(CLI::App & parser)
 void
 ScanOptions::AddLattice(CLI::App & parser)
 {
+  CLI::Option * const density =
+    parser
+      .add_option(
+        "--density",
+        m_Density,
+        "lattice sites per sample of the scan (this and the next three: without effect when SCAN is a lattice volume)")
+      ->capture_default_str();
+  CLI::Option * const spacing =
+    parser.add_option("--spacing", m_Spacing, "lattice spacing in mm, one number or x,y,z, instead of a density");
+  CLI::Option * const kernel =
+    parser
+      .add_option("--kernel", m_Kernel, "how values between samples are computed: cubic (B-spline), linear or lanczos")
+      ->capture_default_str();
   parser
-    .add_option(
-      "--density",
-      m_Density,
-      "lattice sites per sample of the scan (this and the next two: without effect when SCAN is a lattice volume)")
+    .add_flag("--nested",
+              m_Nested,
+              "instead: every other sample of the scan, without interpolation, after a half-band filter; density 0.5")
+    ->excludes(density)
+    ->excludes(spacing)
+    ->excludes(kernel);
+}
+
+void
+ScanOptions::AddExtraction(CLI::App & parser)
+{
+  parser
+    .add_option("--mode",
+                m_Mode,
+                "triangles: lean (a third as many, well-shaped, as close as marching cubes), fine (closest to the "
+                "truth), tetrahedra, octahedra or parallelepipeds")
     ->capture_default_str();
-  parser.add_option("--spacing", m_Spacing, "lattice spacing in mm, one number or x,y,z, instead of a density");
-  parser.add_option("--kernel", m_Kernel, "how values between samples are computed: cubic (B-spline) or linear")
-    ->capture_default_str();
+}
+
+itk::FCCIsosurfaceMode
+ScanOptions::GetMode() const
+{
+  using Mode = itk::FCCIsosurfaceMode;
+  static const std::map<std::string, Mode> modes{ { "lean", Mode::Lean },
+                                                  { "fine", Mode::Fine },
+                                                  { "tetrahedra", Mode::Tetrahedra },
+                                                  { "octahedra", Mode::Octahedra },
+                                                  { "parallelepipeds", Mode::Parallelepipeds } };
+  const auto mode = modes.find(m_Mode);
+  if (mode == modes.end())
+  {
+    throw Failure(FailureKind::Usage,
+                  "There is no mode '" + m_Mode + "'; use lean, fine, tetrahedra, octahedra or parallelepipeds.");
+  }
+  return mode->second;
 }
 
 ScanSource
 ScanOptions::GetSource() const
 {
   static const std::map<std::string, itk::SeparableKernel> kernels{ { "cubic", itk::SeparableKernel::CubicBSpline },
-                                                                    { "linear", itk::SeparableKernel::Linear } };
+                                                                    { "linear", itk::SeparableKernel::Linear },
+                                                                    { "lanczos", itk::SeparableKernel::Lanczos4 } };
   if (m_Path.empty())
   {
     throw Failure(FailureKind::Usage, "No scan is given; name a DICOM folder or a volume file (see --help).");
@@ -82,7 +123,7 @@ ScanOptions::GetSource() const
   const auto kernel = kernels.find(m_Kernel);
   if (kernel == kernels.end())
   {
-    throw Failure(FailureKind::Usage, "There is no kernel '" + m_Kernel + "'; use cubic or linear.");
+    throw Failure(FailureKind::Usage, "There is no kernel '" + m_Kernel + "'; use cubic, linear or lanczos.");
   }
   ScanSource source;
   source.path = m_Path;
@@ -90,6 +131,7 @@ ScanOptions::GetSource() const
   source.lattice.density = m_Density;
   source.lattice.spacing = ParseSpacing(m_Spacing);
   source.lattice.kernel = kernel->second;
+  source.lattice.nested = m_Nested;
   return source;
 }
 

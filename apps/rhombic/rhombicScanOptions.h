@@ -20,13 +20,21 @@ public:
   void
   AddSource(CLI::App & parser);
 
-  /** Density, spacing and kernel. */
+  /** Density, spacing, kernel, or the nested lattice. */
   void
   AddLattice(CLI::App & parser);
+
+  /** How surfaces are extracted from the lattice. */
+  void
+  AddExtraction(CLI::App & parser);
 
   /** What was parsed. Throws Failure(Usage). */
   ScanSource
   GetSource() const;
+
+  /** What was parsed. Throws Failure(Usage). */
+  itk::FCCIsosurfaceMode
+  GetMode() const;
 
 private:
   std::string m_Path;
@@ -34,6 +42,8 @@ private:
   double m_Density = itk::FCCLattice::NyquistDensity;
   std::string m_Spacing;
   std::string m_Kernel = "cubic";
+  std::string m_Mode = "lean";
+  bool m_Nested = false;
 };
 
 } // namespace rhombic

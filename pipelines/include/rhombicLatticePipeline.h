@@ -6,6 +6,7 @@
 #include "rhombicScan.h"
 #include "rhombicSurfaceRequest.h"
 
+#include "itkFCCIsosurfaceMode.h"
 #include "itkFCCLattice.h"
 #include "itkSeparableTaps.h"
 
@@ -21,13 +22,15 @@ struct LatticeSettings
   double density = itk::FCCLattice::NyquistDensity; ///< lattice sites per sample of the scan
   std::array<double, 3> spacing{ 0.0, 0.0, 0.0 };   ///< of the lattice in mm (see itk::FCCImage); 0: from the density
   itk::SeparableKernel kernel = itk::SeparableKernel::CubicBSpline;
+  bool nested = false; ///< instead: every other sample of the scan, without interpolation; density 0.5
 };
 
 /** Throws Failure(Usage) for settings that make no lattice of any scan. */
 void
 CheckLatticeSettings(const LatticeSettings & settings);
 
-/** The scan on the lattice, in its own pixel type (itk::CartesianToFCCImageFilter). Throws Failure: Usage for settings
+/** The scan on the lattice, in its own pixel type (itk::CartesianToFCCImageFilter, or
+ * itk::CartesianToNestedFCCImageFilter). Throws Failure: Usage for settings
  * that make no lattice, Memory. */
 FCCVolume
 ScanToLattice(const ScanImage & image, const LatticeSettings & settings, const Events & events);
@@ -37,10 +40,14 @@ ScanToLattice(const ScanImage & image, const LatticeSettings & settings, const E
 ScanImage
 LatticeToScan(const FCCVolume & volume, const std::array<double, 3> & spacing, const Events & events);
 
-/** A closed isosurface of the volume for each request, in its order. The requests' isovalues must be known.
- * Throws Failure(Empty) when a surface has no triangle. */
+/** A closed isosurface of the volume for each request, in its order, made as the mode says. The requests' isovalues
+ * must be known; those on the same side of theirs are extracted in one pass over the volume. Throws Failure(Empty) when
+ * a surface has no triangle. */
 std::vector<SceneSurface>
-LatticeToSurfaces(const FCCVolume & volume, const std::vector<SurfaceRequest> & requests, const Events & events);
+LatticeToSurfaces(const FCCVolume & volume,
+                  const std::vector<SurfaceRequest> & requests,
+                  itk::FCCIsosurfaceMode mode,
+                  const Events & events);
 
 } // namespace rhombic
 

@@ -27,6 +27,7 @@ struct RenderScanSettings
 {
   ScanSource source;
   std::vector<SurfaceRequest> surfaces;
+  itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
   RenderSettings render; ///< its view is set from the list below
   std::vector<View> views{ View::Anterior };
   std::filesystem::path picture; ///< with more than one view, the view's name is added to the stem
@@ -42,6 +43,7 @@ struct MeshScanSettings
 {
   ScanSource source;
   SurfaceRequest surface;
+  itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
   std::filesystem::path mesh; ///< .stl, .ply or .vtp
 };
 

@@ -5,6 +5,7 @@
 #include "rhombicObserveProgress.h"
 
 #include "itkCartesianToFCCImageFilter.h"
+#include "itkCartesianToNestedFCCImageFilter.h"
 #include "itkFCCIsosurfaceFilter.h"
 #include "itkFCCToCartesianImageFilter.h"
 
@@ -55,23 +56,11 @@ TakeOutput(TFilter & filter)
   return output;
 }
 
-template <typename TPixel>
-itk::TriangleSurface::Pointer
-ExtractSurface(const itk::FCCImage<TPixel> & image, const SurfaceRequest & request, const Events & events)
+/** Throws Failure(Empty) when there is no triangle. */
+void
+CheckSurface(const itk::TriangleSurface & surface, const SurfaceRequest & request)
 {
-  const auto filter = itk::FCCIsosurfaceFilter<itk::FCCImage<TPixel>>::New();
-  ObserveProgress(*filter, "extracting " + request.name, events);
-  filter->SetInput(&image);
-  filter->SetIsovalue(request.isovalue.value());
-  filter->SetInsideIsBelow(request.side == SurfaceRequest::Side::Below);
-  filter->Update();
-  itk::TriangleSurface::Pointer surface = filter->GetOutput();
-  surface->DisconnectPipeline();
-  if (request.parts == SurfaceRequest::Parts::Enclosed)
-  {
-    KeepEnclosedParts(*surface, image);
-  }
-  if (surface->GetNumberOfTriangles() == 0)
+  if (surface.GetNumberOfTriangles() == 0)
   {
     std::ostringstream sentence;
     sentence.imbue(std::locale::classic());
@@ -80,7 +69,56 @@ ExtractSurface(const itk::FCCImage<TPixel> & image, const SurfaceRequest & reque
              << "; try another threshold (rhombic info suggests some).";
     throw Failure(FailureKind::Empty, sentence.str());
   }
-  return surface;
+}
+
+/** Extracts the surfaces of those requests that are on one side of their isovalues. */
+template <typename TPixel>
+void
+ExtractSide(const itk::FCCImage<TPixel> & image,
+            const std::vector<SurfaceRequest> & requests,
+            SurfaceRequest::Side side,
+            itk::FCCIsosurfaceMode mode,
+            const Events & events,
+            std::vector<itk::TriangleSurface::Pointer> & surfaces)
+{
+  std::vector<std::size_t> places;
+  std::vector<double> isovalues;
+  std::string names;
+  for (std::size_t n = 0; n < requests.size(); ++n)
+  {
+    if (requests[n].side == side)
+    {
+      places.push_back(n);
+      isovalues.push_back(requests[n].isovalue.value());
+      names += (names.empty() ? "" : ", ") + requests[n].name;
+    }
+  }
+  if (places.empty())
+  {
+    return;
+  }
+  const auto filter = itk::FCCIsosurfaceFilter<itk::FCCImage<TPixel>>::New();
+  ObserveProgress(*filter, "extracting " + names, events);
+  filter->SetInput(&image);
+  filter->SetIsovalues(isovalues);
+  filter->SetMode(mode);
+  filter->SetInsideIsBelow(side == SurfaceRequest::Side::Below);
+  filter->Update();
+  if (filter->GetNumberOfUndefinedSamples() > 0)
+  {
+    events.Note(std::to_string(filter->GetNumberOfUndefinedSamples()) +
+                " samples are not a number and count as outside");
+  }
+  for (std::size_t n = 0; n < places.size(); ++n)
+  {
+    surfaces[places[n]] = filter->GetOutput(n);
+    surfaces[places[n]]->DisconnectPipeline();
+    if (requests[places[n]].parts == SurfaceRequest::Parts::Enclosed)
+    {
+      KeepEnclosedParts(*surfaces[places[n]], image);
+    }
+    CheckSurface(*surfaces[places[n]], requests[places[n]]);
+  }
 }
 
 } // namespace
@@ -110,17 +148,24 @@ ScanToLattice(const ScanImage & image, const LatticeSettings & settings, const E
   return std::visit(
     [&](const auto & input) -> FCCVolume {
       using InputType = typename std::decay_t<decltype(*input)>;
+      const auto run = [&](auto & filter) -> FCCVolume {
+        ObserveProgress(filter, "resampling", events);
+        filter.SetInput(input);
+        CheckSize(filter);
+        filter.Update();
+        const auto output = TakeOutput(filter);
+        events.Note("lattice: " + Describe(*output));
+        return output;
+      };
+      if (settings.nested)
+      {
+        return run(*itk::CartesianToNestedFCCImageFilter<InputType>::New());
+      }
       const auto filter = itk::CartesianToFCCImageFilter<InputType>::New();
       filter->SetDensity(settings.density);
       filter->SetOutputSpacing(settings.spacing.data());
       filter->SetKernel(settings.kernel);
-      ObserveProgress(*filter, "resampling", events);
-      filter->SetInput(input);
-      CheckSize(*filter);
-      filter->Update();
-      const auto output = TakeOutput(*filter);
-      events.Note("lattice: " + Describe(*output));
-      return output;
+      return run(*filter);
     },
     image);
 }
@@ -143,15 +188,22 @@ LatticeToScan(const FCCVolume & volume, const std::array<double, 3> & spacing, c
 }
 
 std::vector<SceneSurface>
-LatticeToSurfaces(const FCCVolume & volume, const std::vector<SurfaceRequest> & requests, const Events & events)
+LatticeToSurfaces(const FCCVolume & volume,
+                  const std::vector<SurfaceRequest> & requests,
+                  itk::FCCIsosurfaceMode mode,
+                  const Events & events)
 {
-  std::vector<SceneSurface> surfaces;
-  for (const SurfaceRequest & request : requests)
+  std::vector<itk::TriangleSurface::Pointer> extracted(requests.size());
+  for (const auto side : { SurfaceRequest::Side::Above, SurfaceRequest::Side::Below })
   {
-    const auto surface =
-      std::visit([&](const auto & image) { return ExtractSurface(*image, request, events); }, volume);
-    events.Note(request.name + ": " + std::to_string(surface->GetNumberOfTriangles()) + " triangles");
-    surfaces.push_back({ request.name, surface.GetPointer(), request.colour, request.opacity });
+    std::visit([&](const auto & image) { ExtractSide(*image, requests, side, mode, events, extracted); }, volume);
+  }
+  std::vector<SceneSurface> surfaces;
+  for (std::size_t n = 0; n < requests.size(); ++n)
+  {
+    const SurfaceRequest & request = requests[n];
+    events.Note(request.name + ": " + std::to_string(extracted[n]->GetNumberOfTriangles()) + " triangles");
+    surfaces.push_back({ request.name, extracted[n].GetPointer(), request.colour, request.opacity });
   }
   return surfaces;
 }

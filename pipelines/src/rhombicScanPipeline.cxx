@@ -56,20 +56,23 @@ struct LoadedSurfaces
 };
 
 LoadedSurfaces
-LoadSurfaces(const ScanSource & source, const std::vector<SurfaceRequest> & requests, const Events & events)
+LoadSurfaces(const ScanSource & source,
+             const std::vector<SurfaceRequest> & requests,
+             itk::FCCIsosurfaceMode mode,
+             const Events & events)
 {
   if (IsFCCImageFile(source.path))
   {
     events.Progress("reading", 0.0);
     const FCCVolume volume = ReadFCCImage(source.path);
-    return { LatticeToSurfaces(volume, ResolveIsovalues(requests, ComputeIntensities(volume)), events) };
+    return { LatticeToSurfaces(volume, ResolveIsovalues(requests, ComputeIntensities(volume)), mode, events) };
   }
   CheckLatticeSettings(source.lattice);
   Scan scan = LoadScan(source, events);
   const auto resolved = ResolveIsovalues(requests, ComputeIntensities(scan.image));
   const FCCVolume volume = ScanToLattice(scan.image, source.lattice, events);
   scan.image = {}; // its memory is needed for the surfaces
-  return { LatticeToSurfaces(volume, resolved, events), scan.isOriented };
+  return { LatticeToSurfaces(volume, resolved, mode, events), scan.isOriented };
 }
 
 fs::path
@@ -123,7 +126,7 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
   SurfaceRenderer renderer;
   renderer.CheckSettings(settings.render);
 
-  const LoadedSurfaces loaded = LoadSurfaces(settings.source, settings.surfaces, events);
+  const LoadedSurfaces loaded = LoadSurfaces(settings.source, settings.surfaces, settings.mode, events);
   for (std::size_t n = 0; n < pictures.size(); ++n)
   {
     events.Progress("rendering", static_cast<double>(n) / static_cast<double>(pictures.size()));
@@ -141,7 +144,7 @@ MeshScan(const MeshScanSettings & settings, const Events & events)
 {
   CheckOutput(settings.mesh, settings.source.path);
   CheckSurfacePath(settings.mesh);
-  const LoadedSurfaces loaded = LoadSurfaces(settings.source, { settings.surface }, events);
+  const LoadedSurfaces loaded = LoadSurfaces(settings.source, { settings.surface }, settings.mode, events);
   events.Progress("writing", 0.0);
   WriteSurface(*loaded.surfaces.front().surface, settings.mesh);
   events.Progress("writing", 1.0);

@@ -9,6 +9,7 @@
 namespace
 {
 
+using Mode = itk::FCCIsosurfaceMode;
 using rhombic::SurfaceRequest;
 
 const rhombic::FCCVolume &
@@ -19,11 +20,11 @@ PhantomOnTheLattice()
 }
 
 itk::TriangleSurface::ConstPointer
-Extract(const std::string & request, SurfaceRequest::Parts parts = SurfaceRequest::Parts::All)
+Extract(const std::string & request, SurfaceRequest::Parts parts = SurfaceRequest::Parts::All, Mode mode = Mode::Lean)
 {
   SurfaceRequest parsed = rhombic::ParseSurfaceRequest(request, 0);
   parsed.parts = parts;
-  return rhombic::LatticeToSurfaces(PhantomOnTheLattice(), { parsed }, {}).front().surface;
+  return rhombic::LatticeToSurfaces(PhantomOnTheLattice(), { parsed }, mode, {}).front().surface;
 }
 
 double
@@ -40,15 +41,59 @@ CentroidX(const itk::TriangleSurface & surface)
 // From the analytic body through sampling, resampling and extraction: what comes out is what went in. A surface lies
 // where the ideal one does when its threshold is half way between the tissues on both sides: air and skin at -485,
 // muscle and most bones at about 375, lungs and muscle at -400.
-TEST(PhantomSurfaces, EncloseTheKnownVolumes)
+TEST(PhantomSurfaces, EncloseTheKnownVolumesInEveryMode)
 {
-  const auto skin = Extract("skin=-485.5");
-  EXPECT_TRUE(ComputeTopology(*skin).IsWatertight());
-  EXPECT_NEAR(ComputeVolume(*skin) / rhombic::PhantomEnclosedBy(-485.5).volume, 1.0, 0.002);
+  for (const Mode mode : { Mode::Tetrahedra, Mode::Octahedra, Mode::Parallelepipeds, Mode::Fine, Mode::Lean })
+  {
+    const auto skin = Extract("skin=-485.5", SurfaceRequest::Parts::All, mode);
+    EXPECT_TRUE(ComputeTopology(*skin).IsWatertight()) << mode;
+    EXPECT_NEAR(ComputeVolume(*skin) / rhombic::PhantomEnclosedBy(-485.5).volume, 1.0, 0.002) << mode;
 
-  const auto bone = Extract("bone=375.5");
-  EXPECT_TRUE(ComputeTopology(*bone).IsWatertight());
-  EXPECT_NEAR(ComputeVolume(*bone) / rhombic::PhantomEnclosedBy(375.5).volume, 1.0, 0.02);
+    const auto bone = Extract("bone=375.5", SurfaceRequest::Parts::All, mode);
+    EXPECT_TRUE(ComputeTopology(*bone).IsWatertight()) << mode;
+    EXPECT_NEAR(ComputeVolume(*bone) / rhombic::PhantomEnclosedBy(375.5).volume, 1.0, 0.02) << mode;
+  }
+}
+
+TEST(PhantomSurfaces, LeanHasAThirdOfTheTriangles)
+{
+  const auto lean = Extract("skin=-485.5")->GetNumberOfTriangles();
+  const auto fine = Extract("skin=-485.5", SurfaceRequest::Parts::All, Mode::Fine)->GetNumberOfTriangles();
+  EXPECT_LT(lean, fine * 2 / 5);
+  EXPECT_GT(lean, fine / 5);
+}
+
+TEST(PhantomSurfaces, SeveralRequestsGiveTheSurfacesOfEach)
+{
+  const std::vector<std::string> texts{ "lungs=<-400.5", "skin=-485.5", "bone=375.5" };
+  std::vector<SurfaceRequest> requests;
+  for (const std::string & text : texts)
+  {
+    requests.push_back(rhombic::ParseSurfaceRequest(text, 0));
+  }
+  const auto together = rhombic::LatticeToSurfaces(PhantomOnTheLattice(), requests, Mode::Lean, {});
+  ASSERT_EQ(together.size(), texts.size());
+  for (std::size_t n = 0; n < texts.size(); ++n)
+  {
+    EXPECT_EQ(together[n].name, requests[n].name);
+    EXPECT_TRUE(together[n].surface->GetPoints() == Extract(texts[n])->GetPoints());
+    EXPECT_TRUE(together[n].surface->GetTriangles() == Extract(texts[n])->GetTriangles());
+  }
+}
+
+TEST(PhantomSurfaces, TheNestedLatticeAndLanczosHoldTheSameBody)
+{
+  rhombic::LatticeSettings nested;
+  nested.nested = true;
+  rhombic::LatticeSettings lanczos;
+  lanczos.kernel = itk::SeparableKernel::Lanczos4;
+  for (const auto & settings : { nested, lanczos })
+  {
+    const auto volume = rhombic::ScanToLattice(rhombic::MakePhantomScan(), settings, {});
+    const auto skin =
+      rhombic::LatticeToSurfaces(volume, { rhombic::ParseSurfaceRequest("skin=-485.5", 0) }, Mode::Lean, {});
+    EXPECT_NEAR(ComputeVolume(*skin.front().surface) / rhombic::PhantomEnclosedBy(-485.5).volume, 1.0, 0.01);
+  }
 }
 
 TEST(PhantomSurfaces, TheEnclosedAirIsTheLungsAndTheAirway)

@@ -74,7 +74,7 @@ MakeSphere(double radius, unsigned int cuts)
     surface->GetPoints().push_back(scaled(radius));
     surface->GetNormals().push_back(scaled(1.0));
   }
-  surface->GetTriangles() = triangles;
+  surface->GetTriangles().assign(triangles.begin(), triangles.end());
   return surface;
 }
 
