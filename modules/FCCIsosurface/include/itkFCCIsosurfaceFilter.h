@@ -208,7 +208,7 @@ private:
   Allocate(TriangleSurface & surface, SizeValueType points, SizeValueType triangles) const;
 
   /** Slabs share the work of finding cut edges at their borders: few planes keep threads busy, many save work. */
-  static constexpr SizeValueType PlanesOfSlab = 16;
+  static constexpr SizeValueType PlanesOfSlab = 64;
 
   /** Calls \a work(begin, end) for slabs of planes, by several threads, and reports its share of the progress. */
   template <typename TWork>

@@ -189,18 +189,21 @@ struct LeanColumn
   const WordType * wholes[Cases::Sites];
   const std::uint32_t * before[Cases::Sites]; ///< numbers of the first vertices of the words of wholes
 
-  LeanColumn(const FCCSigns & allSigns,
-             unsigned int kind,
-             SizeValueType j,
-             SizeValueType k,
-             const FCCClusterPlane & lower,
-             const FCCClusterPlane & upper)
+  /** Kind is known to the compiler, so that no table is left. */
+  template <unsigned int Kind>
+  HWY_INLINE void
+  Find(const FCCSigns & allSigns,
+       SizeValueType j,
+       SizeValueType k,
+       const FCCClusterPlane & lower,
+       const FCCClusterPlane & upper)
   {
     const auto parity = static_cast<SizeValueType>(allSigns.GetParity(j, k));
-    const SizeValueType shiftOfPair[3] = { 0, kind == 0 ? parity : 1 - parity, 1 };
+    const SizeValueType shiftOfPair[3] = { 0, Kind == 0 ? parity : 1 - parity, 1 };
+#pragma GCC unroll 6
     for (unsigned int site = 0; site < Cases::Sites; ++site)
     {
-      const Cases::Row row = Cases::RowOf(kind, site);
+      const Cases::Row row = Cases::RowOf(Kind, site);
       siteRow[site] = j + (row & 1);
       siteIsUpper[site] = (row & 2) != 0;
       siteShift[site] = shiftOfPair[site / 2];
@@ -209,12 +212,13 @@ struct LeanColumn
       wholes[site] = numbers.GetRow(siteRow[site]);
       before[site] = numbers.GetBefore(siteRow[site]);
     }
+#pragma GCC unroll 12
     for (unsigned int edge = 0; edge < Cases::Edges; ++edge)
     {
-      const Cases::EdgeOwner & owner = FCCMarchingTables.owners[kind][edge];
+      const Cases::EdgeOwner & owner = FCCMarchingTables.owners[Kind][edge];
       const SizeValueType row = j + (owner.row & 1);
       const FCCClusterPlane & plane = (owner.row & 2) != 0 ? upper : lower;
-      const unsigned int end = FCCLeanTablesOfKind[kind].storingEnd[edge];
+      const unsigned int end = FCCLeanTablesOfKind[Kind].storingEnd[edge];
       owned[edge][end] = plane.GetOwners().GetFirst(row, owner.type);
       owned[edge][1 - end] = plane.GetOwners().GetSecond(row, owner.type);
       split[edge] = plane.GetSplitRow(row, owner.type);
@@ -373,8 +377,11 @@ CountTriangleUse(const FCCSigns & signs,
     if (HasInside(signs, j, k))
     {
       const SizeValueType words = signs.GetNumberOfWords();
-      count += CountColumnUse<0>(LeanColumn(signs, 0, j, k, lower, upper), words, lowerUse, upperUse);
-      count += CountColumnUse<1>(LeanColumn(signs, 1, j, k, lower, upper), words, lowerUse, upperUse);
+      LeanColumn column;
+      column.Find<0>(signs, j, k, lower, upper);
+      count += CountColumnUse<0>(column, words, lowerUse, upperUse);
+      column.Find<1>(signs, j, k, lower, upper);
+      count += CountColumnUse<1>(column, words, lowerUse, upperUse);
     }
   }
   return count;
@@ -512,8 +519,11 @@ FillLeanTriangles(const FCCSigns & signs,
     if (HasInside(signs, j, k))
     {
       const SizeValueType words = signs.GetNumberOfWords();
-      triangles += FillColumn<0>(LeanColumn(signs, 0, j, k, lower, upper), words, lower, upper, reversed, triangles);
-      triangles += FillColumn<1>(LeanColumn(signs, 1, j, k, lower, upper), words, lower, upper, reversed, triangles);
+      LeanColumn column;
+      column.Find<0>(signs, j, k, lower, upper);
+      triangles += FillColumn<0>(column, words, lower, upper, reversed, triangles);
+      column.Find<1>(signs, j, k, lower, upper);
+      triangles += FillColumn<1>(column, words, lower, upper, reversed, triangles);
     }
   }
   return static_cast<SizeValueType>(triangles - first);

@@ -104,6 +104,7 @@ struct Steps
   WordType regular;  ///< the next pair exists
   WordType quarters; ///< the pair after the next exists, too
 
+  HWY_INLINE
   Steps(const FCCSigns & signs, const Column & column, unsigned int kind, SizeValueType word)
     : regular(Below(signs.GetWidth() - static_cast<SizeValueType>(column.shift[kind]), word))
     , quarters(Below(signs.GetWidth() - 1, word))
@@ -169,9 +170,11 @@ public:
             const FCCCutEdges & upper,
             const FCCCutEdges & between)
   {
+#pragma GCC unroll 2
     for (unsigned int kind = 0; kind < Cases::Kinds; ++kind)
     {
       const SizeValueType shiftOfPair[3] = { 0, static_cast<SizeValueType>(column.shift[kind]), 1 };
+#pragma GCC unroll 12
       for (unsigned int edge = 0; edge < Cases::Edges; ++edge)
       {
         const Cases::EdgeOwner & owner = FCCMarchingTables.owners[kind][edge];
@@ -293,6 +296,7 @@ CountTriangles(const FCCSigns & signs, SizeValueType k)
     const Column column(signs, j, k);
     for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
     {
+#pragma GCC unroll 2
       for (unsigned int kind = 0; kind < Cases::Kinds; ++kind)
       {
         triangles += Steps(signs, column, kind, word).CountTriangles();
@@ -319,6 +323,7 @@ FillTriangles(const FCCSigns & signs,
     const ColumnIds ids(column, j, lower, upper, between);
     for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
     {
+#pragma GCC unroll 2
       for (unsigned int kind = 0; kind < Cases::Kinds; ++kind)
       {
         const Steps steps(signs, column, kind, word);

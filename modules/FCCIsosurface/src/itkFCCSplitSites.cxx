@@ -299,7 +299,6 @@ public:
       {
         m_Owned |= 1U << star.edges[n].directions[a == Center ? 0 : 1];
       }
-      m_Owners |= 1U << m_Owner[n];
     }
   }
 
@@ -324,15 +323,34 @@ public:
     return m_Number[Center];
   }
 
-  /** Numbers of the sites that own crossings around here. */
+  /** Numbers of the sites whose sets have an edge of more than two triangles with a point of this site. Its sets have
+   * none, when it has been divided. */
   template <typename TUse>
   void
-  ForEachOwner(const TUse & use) const
+  ForEachBrokenNeighbor(const TUse & use) const
   {
-    for (unsigned int left = m_Owners; left != 0; left &= left - 1)
+    const auto check = [this, &use](unsigned int point) {
+      const VertexType vertex = VertexOf(Center, static_cast<unsigned int>(__builtin_ctz(point)));
+      std::uint8_t uses[256] = {};
+      this->CountUses(vertex, uses);
+      for (unsigned int end = 0; end < Sites * 16; ++end)
+      {
+        if (uses[end] > 2)
+        {
+          use(m_Number[end / 16]);
+        }
+      }
+    };
+    for (unsigned int left = m_Parts[Center].lone; left != 0; left &= left - 1)
     {
-      use(m_Number[__builtin_ctz(left)]);
+      check(left & ~(left - 1));
     }
+    this->ForEachPart([&check](unsigned int part) {
+      if ((part & (part - 1)) == 0)
+      {
+        check(part);
+      }
+    });
   }
 
   /** Divides the site until none of its sets breaks a condition. Returns whether it was changed. */
@@ -500,25 +518,29 @@ private:
   Breaks(VertexType vertex) const
   {
     constexpr unsigned int fewest = 3;
-    unsigned int triangles = 0;
     std::uint8_t uses[256] = {};
+    return this->CountUses(vertex, uses) < fewest ||
+           std::any_of(uses, uses + Sites * 16, [](std::uint8_t count) { return count > 2; });
+  }
+
+  /** Counts the triangles of a vertex, altogether and those at the edge to each other vertex. */
+  unsigned int
+  CountUses(VertexType vertex, std::uint8_t (&uses)[256]) const
+  {
+    unsigned int triangles = 0;
     for (unsigned int n = 0; n < m_NumberOfTriangles; ++n)
     {
       const auto & triangle = m_Triangles[n];
-      if (triangle[0] != vertex && triangle[1] != vertex && triangle[2] != vertex)
+      if (triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex)
       {
-        continue;
-      }
-      ++triangles;
-      for (const VertexType end : triangle)
-      {
-        if (end != vertex && ++uses[end] > 2)
+        ++triangles;
+        for (const VertexType end : triangle)
         {
-          return true;
+          uses[end] = static_cast<std::uint8_t>(uses[end] + (end != vertex ? 1 : 0));
         }
       }
     }
-    return triangles < fewest;
+    return triangles;
   }
 
   /** The crossings of the site's parts that break a condition, by the triangles found last. */
@@ -558,7 +580,6 @@ private:
   unsigned int m_Inside{ 0 };
   unsigned int m_Split{ 0 };
   unsigned int m_Owned{ 0 };
-  unsigned int m_Owners{ 0 };
   SizeValueType m_Number[Sites];
   Parts m_Parts[Sites];
   std::uint8_t m_Owner[64];
@@ -645,19 +666,19 @@ FCCSplitSites::Resolve(const ValueReader & valueAt,
       std::vector<std::pair<SizeValueType, Parts>> divided;
       parallelFor(sitesOfColor.size(), [&](SizeValueType begin, SizeValueType end) {
         std::vector<std::pair<SizeValueType, Parts>> dividedHere;
-        std::vector<SizeValueType> owners;
+        std::vector<SizeValueType> broken;
         for (SizeValueType n = begin; n < end; ++n)
         {
           Surroundings surroundings = surroundingsOf(sitesOfColor[n]);
           if (surroundings.Divide())
           {
             dividedHere.emplace_back(sitesOfColor[n], surroundings.GetParts());
-            surroundings.ForEachOwner([&](SizeValueType owner) { owners.push_back(owner); });
+            surroundings.ForEachBrokenNeighbor([&](SizeValueType number) { broken.push_back(number); });
           }
         }
         const std::lock_guard<std::mutex> lock(m_Mutex);
         divided.insert(divided.end(), dividedHere.begin(), dividedHere.end());
-        suspects.insert(suspects.end(), owners.begin(), owners.end());
+        suspects.insert(suspects.end(), broken.begin(), broken.end());
       });
       for (const auto & [number, newParts] : divided)
       {
