@@ -5,6 +5,7 @@
 #include "itkTriangleSurfaceTopology.h"
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <cmath>
 
@@ -115,6 +116,22 @@ TEST_P(FCCIsosurfaceModes, AnyNumberOfThreadsGivesTheSameBytes)
     EXPECT_TRUE(one->GetNormals() == more->GetNormals());
     EXPECT_TRUE(one->GetTriangles() == more->GetTriangles());
   }
+}
+
+TEST_P(FCCIsosurfaceModes, AnyInstructionSetGivesTheSameBytes)
+{
+  const auto image = fcctest::MakeNoise({ { { 0, 0, 0 } }, { { 150, 20, 20 } } }, 8, 40);
+  const auto expected = Extract(image, 31.0, GetParam());
+  for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1)
+  {
+    const std::int64_t target = left & -left;
+    hwy::SetSupportedTargetsForTest(target);
+    const auto found = Extract(image, 31.0, GetParam());
+    EXPECT_TRUE(expected->GetPoints() == found->GetPoints()) << hwy::TargetName(target);
+    EXPECT_TRUE(expected->GetNormals() == found->GetNormals()) << hwy::TargetName(target);
+    EXPECT_TRUE(expected->GetTriangles() == found->GetTriangles()) << hwy::TargetName(target);
+  }
+  hwy::SetSupportedTargetsForTest(0);
 }
 
 TEST_P(FCCIsosurfaceModes, SeveralIsovaluesGiveTheSurfacesOfEach)

@@ -84,12 +84,6 @@ public:
   }
 
   const float *
-  GetCoefficients(SizeValueType j, SizeValueType k) const
-  {
-    return m_Coefficients[k % m_Coefficients.size()].GetRow(j, m_Stride);
-  }
-
-  const float *
   GetGradients(unsigned int axis, SizeValueType j, SizeValueType k) const
   {
     return m_Gradients[k % m_Gradients.size()][axis].GetRow(j, m_Stride);
