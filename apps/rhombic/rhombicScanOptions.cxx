@@ -85,10 +85,11 @@ void
 ScanOptions::AddExtraction(CLI::App & parser)
 {
   parser
-    .add_option("--mode",
-                m_Mode,
-                "triangles: lean (a third as many, well-shaped, as close as marching cubes), fine (closest to the "
-                "truth), tetrahedra, octahedra or parallelepipeds")
+    .add_option(
+      "--mode",
+      m_Mode,
+      "triangles: lean (a third to half as many as tetrahedra; on smooth surfaces well-shaped and as close as "
+      "marching cubes), fine (closest to the truth), tetrahedra, octahedra or parallelepipeds")
     ->capture_default_str();
 }
 

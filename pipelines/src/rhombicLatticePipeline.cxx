@@ -71,9 +71,10 @@ CheckSurface(const itk::TriangleSurface & surface, const SurfaceRequest & reques
   }
 }
 
-/** Extracts the surfaces of those requests that are on one side of their isovalues. */
+/** Extracts the surfaces of those requests that are on one side of their isovalues. Returns how many samples are not a
+ * number. */
 template <typename TPixel>
-void
+itk::SizeValueType
 ExtractSide(const itk::FCCImage<TPixel> & image,
             const std::vector<SurfaceRequest> & requests,
             SurfaceRequest::Side side,
@@ -95,7 +96,7 @@ ExtractSide(const itk::FCCImage<TPixel> & image,
   }
   if (places.empty())
   {
-    return;
+    return 0;
   }
   const auto filter = itk::FCCIsosurfaceFilter<itk::FCCImage<TPixel>>::New();
   ObserveProgress(*filter, "extracting " + names, events);
@@ -104,11 +105,6 @@ ExtractSide(const itk::FCCImage<TPixel> & image,
   filter->SetMode(mode);
   filter->SetInsideIsBelow(side == SurfaceRequest::Side::Below);
   filter->Update();
-  if (filter->GetNumberOfUndefinedSamples() > 0)
-  {
-    events.Note(std::to_string(filter->GetNumberOfUndefinedSamples()) +
-                " samples are not a number and count as outside");
-  }
   for (std::size_t n = 0; n < places.size(); ++n)
   {
     surfaces[places[n]] = filter->GetOutput(n);
@@ -117,8 +113,8 @@ ExtractSide(const itk::FCCImage<TPixel> & image,
     {
       KeepEnclosedParts(*surfaces[places[n]], image);
     }
-    CheckSurface(*surfaces[places[n]], requests[places[n]]);
   }
+  return filter->GetNumberOfUndefinedSamples();
 }
 
 } // namespace
@@ -194,14 +190,23 @@ LatticeToSurfaces(const FCCVolume & volume,
                   const Events & events)
 {
   std::vector<itk::TriangleSurface::Pointer> extracted(requests.size());
+  itk::SizeValueType undefined = 0;
   for (const auto side : { SurfaceRequest::Side::Above, SurfaceRequest::Side::Below })
   {
-    std::visit([&](const auto & image) { ExtractSide(*image, requests, side, mode, events, extracted); }, volume);
+    const auto extract = [&](const auto & image) {
+      return ExtractSide(*image, requests, side, mode, events, extracted);
+    };
+    undefined = std::max(undefined, std::visit(extract, volume));
+  }
+  if (undefined > 0)
+  {
+    events.Note(std::to_string(undefined) + " samples are not a number and count as outside");
   }
   std::vector<SceneSurface> surfaces;
   for (std::size_t n = 0; n < requests.size(); ++n)
   {
     const SurfaceRequest & request = requests[n];
+    CheckSurface(*extracted[n], request);
     events.Note(request.name + ": " + std::to_string(extracted[n]->GetNumberOfTriangles()) + " triangles");
     surfaces.push_back({ request.name, extracted[n].GetPointer(), request.colour, request.opacity });
   }

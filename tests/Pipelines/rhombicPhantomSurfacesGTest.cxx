@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace
 {
 
@@ -59,9 +61,12 @@ TEST(PhantomSurfaces, EncloseTheKnownVolumesInEveryMode)
 TEST(PhantomSurfaces, LeanHasAThirdOfTheTriangles)
 {
   const auto lean = Extract("skin=-485.5")->GetNumberOfTriangles();
-  const auto fine = Extract("skin=-485.5", SurfaceRequest::Parts::All, Mode::Fine)->GetNumberOfTriangles();
-  EXPECT_LT(lean, fine * 2 / 5);
-  EXPECT_GT(lean, fine / 5);
+  for (const Mode mode : { Mode::Tetrahedra, Mode::Fine })
+  {
+    const auto other = Extract("skin=-485.5", SurfaceRequest::Parts::All, mode)->GetNumberOfTriangles();
+    EXPECT_LT(lean, other * 2 / 5) << mode;
+    EXPECT_GT(lean, other / 5) << mode;
+  }
 }
 
 TEST(PhantomSurfaces, SeveralRequestsGiveTheSurfacesOfEach)
@@ -80,6 +85,47 @@ TEST(PhantomSurfaces, SeveralRequestsGiveTheSurfacesOfEach)
     EXPECT_TRUE(together[n].surface->GetPoints() == Extract(texts[n])->GetPoints());
     EXPECT_TRUE(together[n].surface->GetTriangles() == Extract(texts[n])->GetTriangles());
   }
+}
+
+TEST(PhantomSurfaces, RequestsOnOneSideShareAPass)
+{
+  std::vector<SurfaceRequest> requests;
+  for (const char * const text : { "skin=-485.5", "lungs=<-400.5", "bone=375.5" })
+  {
+    requests.push_back(rhombic::ParseSurfaceRequest(text, 0));
+  }
+  std::vector<std::string> steps;
+  double last = 0.0;
+  rhombic::Events events;
+  events.progress = [&](const std::string & step, double fraction) {
+    if (steps.empty() || steps.back() != step)
+    {
+      steps.push_back(step);
+    }
+    last = fraction;
+  };
+  rhombic::LatticeToSurfaces(PhantomOnTheLattice(), requests, Mode::Lean, events);
+  EXPECT_EQ(steps, (std::vector<std::string>{ "extracting skin, bone", "extracting lungs" }));
+  EXPECT_EQ(last, 1.0);
+}
+
+TEST(PhantomSurfaces, SamplesThatAreNotANumberAreNotedOnce)
+{
+  const auto image = itk::FCCImage<float>::New();
+  image->SetRegions(itk::Size<3>{ { 8, 16, 16 } });
+  image->Allocate();
+  image->FillBuffer(0.0f);
+  image->SetPixel({ { 4, 8, 8 } }, 2.0f);
+  image->SetPixel({ { 1, 2, 3 } }, std::numeric_limits<float>::quiet_NaN());
+  image->SetPixel({ { 5, 6, 7 } }, std::numeric_limits<float>::quiet_NaN());
+  std::vector<std::string> notes;
+  rhombic::Events events;
+  events.note = [&notes](const std::string & line) { notes.push_back(line); };
+  const std::vector<SurfaceRequest> requests{ rhombic::ParseSurfaceRequest("spot=1", 0),
+                                              rhombic::ParseSurfaceRequest("rest=<1", 1) };
+  rhombic::LatticeToSurfaces(image, requests, Mode::Lean, events);
+  ASSERT_EQ(notes.size(), 3u);
+  EXPECT_EQ(notes.front(), "2 samples are not a number and count as outside");
 }
 
 TEST(PhantomSurfaces, TheNestedLatticeAndLanczosHoldTheSameBody)

@@ -90,6 +90,8 @@ constexpr ErrorCase errorCases[] = {
   { "BadKernel", "render scan.nii.gz --preset ct-bone --kernel sharp -o a.png", 2, "sharp" },
   { "BadMode", "mesh scan.nii.gz -t 250.5 --mode thin -o a.stl", 2, "use lean, fine" },
   { "NestedWithADensity", "mesh scan.nii.gz -t 250.5 --nested --density 1 -o a.stl", 2, "--nested" },
+  { "BadModeOfAPicture", "render scan.nii.gz --preset ct-bone --mode thin -o a.png", 2, "use lean, fine" },
+  { "NestedWithASpacing", "render scan.nii.gz --preset ct-bone --nested --spacing 2 -o a.png", 2, "--nested" },
   { "NestedWithAKernel", "resample scan.nii.gz --nested --kernel linear -o a.nrrd", 2, "--nested" },
   { "BadDensity", "render scan.nii.gz --preset ct-bone --density 0 -o a.png", 2, "density" },
   { "BadSpacing", "render scan.nii.gz --preset ct-bone --spacing 1,2 -o a.png", 2, "spacing" },
@@ -308,6 +310,41 @@ TEST(CommandLine, MeshesHaveTheSameBytesForAnyNumberOfThreads)
     ASSERT_EQ(Rhombic("mesh --threads 7" + options + "seven." + extension, folder.Path()).exitCode, 0);
     EXPECT_EQ(ReadText(folder.Path() / (std::string("one.") + extension)),
               ReadText(folder.Path() / (std::string("seven.") + extension)));
+  }
+}
+
+TEST(CommandLine, ModesAndLatticesGiveDifferentMeshesLeanBeingTheDefault)
+{
+  const TemporaryFolder folder;
+  const auto mesh = [&folder](const std::string & options) {
+    const Outcome outcome = Rhombic("mesh " + phantomNifti + " -t 250.5 -o a.stl " + options, folder.Path());
+    EXPECT_EQ(outcome.exitCode, 0) << options << outcome.errors;
+    return ReadText(folder.Path() / "a.stl");
+  };
+  std::set<std::string> meshes;
+  const std::vector<std::string> choices{ "--mode fine",      "--mode tetrahedra",
+                                          "--mode octahedra", "--mode parallelepipeds",
+                                          "--kernel linear",  "--kernel lanczos",
+                                          "--nested",         "--mode fine --nested" };
+  for (const std::string & options : choices)
+  {
+    EXPECT_TRUE(meshes.insert(mesh(options)).second) << options;
+  }
+  const std::string usual = mesh("");
+  EXPECT_TRUE(meshes.insert(usual).second);
+  EXPECT_EQ(mesh("--mode lean --kernel cubic"), usual);
+}
+
+TEST(CommandLine, RendersWithEveryMode)
+{
+  const TemporaryFolder folder;
+  for (const char * mode : { "lean", "fine", "tetrahedra", "octahedra", "parallelepipeds" })
+  {
+    const std::string picture = std::string(mode) + ".png";
+    const Outcome outcome = Rhombic(
+      "render " + phantomNifti + " --preset ct-bone-skin --size 64 --mode " + mode + " -o " + picture, folder.Path());
+    EXPECT_EQ(outcome.exitCode, 0) << mode << outcome.errors;
+    EXPECT_TRUE(fs::exists(folder.Path() / picture));
   }
 }
 

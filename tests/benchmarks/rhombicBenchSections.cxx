@@ -9,6 +9,7 @@
 #include "itkLinearInterpolateImageFunction.h"
 #include "itkMultiThreaderBase.h"
 #include "itkResampleImageFilter.h"
+#include "itkWindowedSincInterpolateImageFunction.h"
 
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
@@ -208,11 +209,12 @@ MeasureResampling(const BenchInput & input, const BenchSettings & settings)
     const char * name;
     const char * referenceName;
     Reference reference;
-    double target;
+    std::optional<double> target;
     bool isSlow;
   };
   using LinearType = itk::LinearInterpolateImageFunction<VolumeType, double>;
   using CubicType = itk::BSplineInterpolateImageFunction<VolumeType, double, double>; // its default order is 3
+  using LanczosType = itk::WindowedSincInterpolateImageFunction<VolumeType, 4, itk::Function::LanczosWindowFunction<4>>;
   const Kernel kernels[] = { { itk::SeparableKernel::Linear,
                                "linear",
                                "itk::ResampleImageFilter, linear",
@@ -224,6 +226,14 @@ MeasureResampling(const BenchInput & input, const BenchSettings & settings)
                                "itk::ResampleImageFilter, cubic B-spline",
                                [&](const LatticeType * lattice) { return ResampleWithITK<CubicType>(input, lattice); },
                                20.0,
+                               true },
+                             { itk::SeparableKernel::Lanczos4,
+                               "Lanczos",
+                               "itk::ResampleImageFilter, windowed sinc",
+                               [&](const LatticeType * lattice) {
+                                 return ResampleWithITK<LanczosType>(input, lattice);
+                               },
+                               std::nullopt,
                                true } };
 
   std::vector<BenchResult> results;
