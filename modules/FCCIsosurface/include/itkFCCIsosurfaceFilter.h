@@ -26,9 +26,10 @@ namespace itk
  *   interpolation crosses the isovalue.
  * - Fine: the tetrahedra with points where the cubic through four samples on the edge's line crosses it.
  * - Lean (default): each of these points moves to the nearer end of its edge; those of one site become one vertex, on
- *   the surface of the samples' reconstruction about the site, and triangles that lose a side vanish. A third of the
- *   triangles of Tetrahedra, and of far better shape, for about the accuracy of marching cubes; where it would change
- *   the surface's topology, points stay as in Fine (see FCCSplitSites).
+ *   the surface of the samples' reconstruction about the site, and triangles that lose a side vanish. On smooth
+ *   surfaces that is a third of the triangles of Tetrahedra, and of far better shape, for the accuracy of marching
+ *   cubes. Where it would change the surface's topology, a site's points gather in parts or stay as in Fine (see
+ *   FCCSplitSites), so rough surfaces gain less; at sharp steps in coarse scans triangles may fold.
  * Points on edges stay at least MinimumFraction of the edge away from both ends (more where 32-bit positions need it):
  * so no triangle is degenerate, even where samples equal the isovalue.
  *
