@@ -29,8 +29,8 @@ public:
   {}
 
   /** Places the vertices of plane \a k, and their normals unless null, and says of each, unless null, whether its site
-   * is outside the image. The arrays begin with the first of them. The field must have loaded the values two planes
-   * around and the gradients of the plane and those next to it. */
+   * is outside the image. The arrays begin with the first of them. The field must have loaded the
+   * coefficients around the plane, if that is one of the image. */
   void
   Place(const FCCSigns & signs,
         const FCCClusterPlane & plane,
@@ -51,8 +51,8 @@ private:
   SiteType
   SiteOf(SizeValueType i, SizeValueType j, SizeValueType k) const;
 
-  /** The rows of the field around a row of sites in the image. */
-  struct Rows;
+  /** The field around the sites of one row in the image. */
+  class Row;
 
   /** Vertices that are placed batch by batch, in order. */
   class Output;

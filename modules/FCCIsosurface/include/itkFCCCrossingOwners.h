@@ -59,9 +59,6 @@ private:
     return (j * Types + type) * this->GetStride();
   }
 
-  void
-  Give(SizeValueType i, bool toFirst, WordType * first, WordType * second) const;
-
   const FCCSigns * m_Signs;
   std::vector<WordType> m_First;
   std::vector<WordType> m_Second;

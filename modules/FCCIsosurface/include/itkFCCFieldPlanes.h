@@ -22,7 +22,8 @@ namespace itk
  *
  * Planes are computed when asked for, and the last few of each kind are kept: ask in ascending order.
  *
- * Memory: 18 planes of float32. Thread safety: each thread uses its own.
+ * Memory: planes of float32, 6 of values, 3 of coefficients and 8 of gradients, each kind once it is asked for. Thread
+ * safety: each thread uses its own.
  *
  * \ingroup FCCIsosurface
  */
@@ -69,13 +70,33 @@ public:
   bool
   HasGradients(SizeValueType k) const
   {
-    return m_Gradients[k % m_Gradients.size()][0].number == k;
+    return m_Gradients[k % m_Gradients.size()].number == k;
   }
 
-  /** Makes the gradients of a plane available where blocks of FCCRowKernels::Block sites are wanted; the last three
+  /** Makes the gradients of a plane available where blocks of FCCRowKernels::Block sites are wanted; the last two
    * planes are. \param wanted not zero for those, rows of GetNumberOfBlocks() */
   void
   LoadGradients(SizeValueType k, const std::vector<std::uint8_t> & wanted);
+
+  /** Makes the coefficients of planes \a k - 1 to \a k + 1 available. The plane must be one of the image. */
+  void
+  LoadCoefficientsAround(SizeValueType k);
+
+  /** The gradients of one block of sites, at their places in a row of \a gradients: GradientStride floats a site. The
+   * coefficients around the plane must have been loaded, and the row be one of the image. */
+  void
+  ComputeGradients(SizeValueType j, SizeValueType k, SizeValueType block, float * gradients) const;
+
+  /** The gradient of the values themselves at one site of the image, from its twelve neighbours. */
+  std::array<float, 3>
+  GetGradientOfValues(SizeValueType i, SizeValueType j, SizeValueType k) const;
+
+  /** Floats of a row of gradients, with the margin that kernels need. */
+  SizeValueType
+  GetLengthOfGradients() const
+  {
+    return FCCRowKernels::GradientStride * m_Stride;
+  }
 
   const float *
   GetValues(SizeValueType j, SizeValueType k) const
@@ -83,10 +104,11 @@ public:
     return m_Values[k % m_Values.size()].GetRow(j, m_Stride);
   }
 
+  /** FCCRowKernels::GradientStride floats a site. */
   const float *
-  GetGradients(unsigned int axis, SizeValueType j, SizeValueType k) const
+  GetGradients(SizeValueType j, SizeValueType k) const
   {
-    return m_Gradients[k % m_Gradients.size()][axis].GetRow(j, m_Stride);
+    return m_Gradients[k % m_Gradients.size()].GetRow(j, this->GetLengthOfGradients());
   }
 
 private:
@@ -132,7 +154,7 @@ private:
   SizeValueType m_Stride;
   std::array<Plane, 6> m_Values;
   std::array<Plane, 3> m_Coefficients;
-  std::array<std::array<Plane, 3>, 3> m_Gradients;
+  std::array<Plane, 2> m_Gradients;
 };
 
 } // namespace itk

@@ -26,6 +26,9 @@ public:
   using WordType = std::uint64_t;
   static constexpr SizeValueType WordBits = 64;
 
+  /** Words that may be read beyond the last row, so that rows can be read by whole vectors. */
+  static constexpr SizeValueType WordsBeyond = 8;
+
   FCCSigns(SizeValueType width, SizeValueType height, SizeValueType depth, IndexValueType parityOfFirstRow);
 
   SizeValueType

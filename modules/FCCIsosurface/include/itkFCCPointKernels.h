@@ -33,7 +33,7 @@ struct FCCEdgeBatch
 
   SizeValueType count = 0;
   float value[4][Capacity];       ///< at the places -1, 0, 1, 2 along the edge's line, less the isovalue
-  float gradient[2][3][Capacity]; ///< at both ends, in lattice coordinates
+  float gradient[2][Capacity][4]; ///< x, y, z and nothing, at both ends, in lattice coordinates
   float step[3][Capacity];        ///< from the edge's first end to the other
   double site[3][Capacity];       ///< the first end
 };

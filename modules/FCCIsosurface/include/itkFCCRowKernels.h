@@ -43,9 +43,12 @@ struct FCCRowKernels
   static void
   QuasiInterpolate(const float * values, const NeighborRows & neighbors, SizeValueType count, float * coefficients);
 
-  /** One block of gradients in lattice coordinates, sum of d f(x + d) / 8 over the neighbours, three rows. */
+  /** Floats that a gradient takes in memory: x, y, z and nothing, so that it is read at once. */
+  static constexpr SizeValueType GradientStride = 4;
+
+  /** One block of a row's gradients in lattice coordinates, sum of d f(x + d) / 8 over the neighbours. */
   static void
-  Gradient(const NeighborRows & neighbors, SizeValueType first, float * const (&gradient)[3]);
+  Gradient(const NeighborRows & neighbors, SizeValueType first, float * gradients);
 };
 
 } // namespace itk

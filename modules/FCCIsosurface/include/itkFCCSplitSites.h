@@ -15,6 +15,12 @@ struct FCCTriangleUse
 {
   SizeValueType stride; ///< sites from a row to the next
   std::vector<std::uint64_t> counts;
+
+  std::uint64_t *
+  GetRow(SizeValueType j)
+  {
+    return counts.data() + j * stride;
+  }
 };
 
 /** \class FCCSiteStar

@@ -101,7 +101,7 @@ FCCClusterPlane::FCCClusterPlane(const FCCSigns & signs)
   : m_Signs(&signs)
   , m_Owners(signs)
   , m_Owned(signs.GetHeight() * Directions * m_Owners.GetStride())
-  , m_SplitCrossings(signs.GetHeight() * Types * m_Owners.GetStride())
+  , m_SplitCrossings(signs.GetHeight() * Types * m_Owners.GetStride() + FCCSigns::WordsBeyond)
   , m_Wholes(signs.GetHeight(), signs.GetNumberOfWords())
   , m_Split(signs.GetHeight(), signs.GetNumberOfWords())
 {}

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <vector>
 
 namespace itk
 {
@@ -14,27 +14,81 @@ static_assert(Directions == FCCClusterBatch::Directions, "one edge to each neigh
 
 } // namespace
 
-struct FCCClusterPoints::Rows
+class FCCClusterPoints::Row
 {
-  const float * values;
-  const float * neighbors[Directions];
-  const float * gradient[3];
+public:
+  explicit Row(const FCCFieldPlanes & field)
+    : m_Field(field)
+    , m_HasGradients(field.GetNumberOfBlocks())
+    , m_Gradients(field.GetLengthOfGradients())
+  {}
 
-  Rows(const FCCFieldPlanes & field, SizeValueType j, SizeValueType k)
-    : values(field.GetValues(j, k))
+  /** Goes to the row (\a j, \a k), unless there already. */
+  void
+  GoTo(SizeValueType j, SizeValueType k)
   {
+    if (m_IsSomewhere && m_J == j && m_K == k)
+    {
+      return;
+    }
+    m_IsSomewhere = true;
+    m_J = j;
+    m_K = k;
+    m_Values = m_Field.GetValues(j, k);
     for (unsigned int direction = 0; direction < Directions; ++direction)
     {
-      const auto offset = FCCLattice::OffsetOf(FCCSiteStar::StepOf(direction), field.GetParity(j, k));
-      neighbors[direction] =
-        field.GetValues(j + static_cast<SizeValueType>(offset[1]), k + static_cast<SizeValueType>(offset[2])) +
+      const auto offset = FCCLattice::OffsetOf(FCCSiteStar::StepOf(direction), m_Field.GetParity(j, k));
+      m_Neighbors[direction] =
+        m_Field.GetValues(j + static_cast<SizeValueType>(offset[1]), k + static_cast<SizeValueType>(offset[2])) +
         offset[0];
     }
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      gradient[axis] = field.GetGradients(axis, j, k);
-    }
+    std::fill(m_HasGradients.begin(), m_HasGradients.end(), 0);
   }
+
+  IndexValueType
+  GetParity() const
+  {
+    return m_Field.GetParity(m_J, m_K);
+  }
+  SizeValueType
+  GetJ() const
+  {
+    return m_J;
+  }
+
+  float
+  GetValue(SizeValueType i) const
+  {
+    return m_Values[i];
+  }
+  float
+  GetNeighbor(unsigned int direction, SizeValueType i) const
+  {
+    return m_Neighbors[direction][i];
+  }
+
+  /** The gradient's x, y and z; those of the sites nearby are computed with it. */
+  const float *
+  GetGradient(SizeValueType i)
+  {
+    const SizeValueType block = i / FCCRowKernels::Block;
+    if (m_HasGradients[block] == 0)
+    {
+      m_Field.ComputeGradients(m_J, m_K, block, m_Gradients.data());
+      m_HasGradients[block] = 1;
+    }
+    return m_Gradients.data() + FCCRowKernels::GradientStride * i;
+  }
+
+private:
+  const FCCFieldPlanes & m_Field;
+  bool m_IsSomewhere{ false };
+  SizeValueType m_J{ 0 };
+  SizeValueType m_K{ 0 };
+  const float * m_Values{ nullptr };
+  const float * m_Neighbors[Directions] = {};
+  std::vector<std::uint8_t> m_HasGradients;
+  std::vector<float> m_Gradients;
 };
 
 class FCCClusterPoints::Output
@@ -71,24 +125,25 @@ public:
     return m_Normals != nullptr;
   }
 
-  /** Adds the vertex of the crossings that a site owns. */
+  /** Adds the vertex of crossings that a site of the row owns. */
   void
-  AddCluster(const Rows & rows, SizeValueType i, SizeValueType j, unsigned int owned, IndexValueType parity)
+  AddCluster(Row & row, SizeValueType i, unsigned int owned)
   {
     const SizeValueType n = m_Batch.count;
     this->Skip(m_Vertices[n], false);
-    m_Batch.value[n] = rows.values[i];
+    m_Batch.value[n] = row.GetValue(i);
     for (unsigned int direction = 0; direction < Directions; ++direction)
     {
-      m_Batch.neighbor[direction][n] = rows.neighbors[direction][i];
+      m_Batch.neighbor[direction][n] = row.GetNeighbor(direction, i);
     }
+    const float * const gradient = row.GetGradient(i);
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      m_Batch.gradient[axis][n] = rows.gradient[axis][i];
+      m_Batch.gradient[axis][n] = gradient[axis];
     }
     m_Batch.owned[n] = owned;
-    m_Batch.site[0][n] = static_cast<float>(2 * static_cast<IndexValueType>(i) + parity);
-    m_Batch.site[1][n] = static_cast<float>(j);
+    m_Batch.site[0][n] = static_cast<float>(2 * static_cast<IndexValueType>(i) + row.GetParity());
+    m_Batch.site[1][n] = static_cast<float>(row.GetJ());
     m_Batch.site[2][n] = 0.0f;
     if (++m_Batch.count == FCCClusterBatch::Capacity)
     {
@@ -186,11 +241,11 @@ FCCClusterPoints::PlaceWholes(const FCCSigns & signs,
                               const FCCFieldPlanes & field,
                               Output & output) const
 {
+  Row row(field);
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
   {
     const FCCSigns::WordType * const wholes = plane.GetWholes().GetRow(j);
     const bool isRealRow = field.IsReal(1, j) && field.IsReal(2, k);
-    std::optional<Rows> rows;
     for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
     {
       for (FCCSigns::WordType mask = wholes[word]; mask != 0; mask &= mask - 1)
@@ -199,11 +254,8 @@ FCCClusterPoints::PlaceWholes(const FCCSigns & signs,
         const unsigned int owned = plane.GetOwned(j, i);
         if (isRealRow && field.IsReal(0, i))
         {
-          if (!rows)
-          {
-            rows.emplace(field, j, k);
-          }
-          output.AddCluster(*rows, i, j, owned, field.GetParity(j, k));
+          row.GoTo(j, k);
+          output.AddCluster(row, i, owned);
         }
         else
         {
@@ -237,6 +289,7 @@ FCCClusterPoints::PlaceParts(const FCCClusterPlane & plane,
       loneVertices[n].Set(points[n], normals[n]);
     }
   };
+  Row row(field);
   for (const FCCClusterPlane::Parts & parts : plane.GetParts())
   {
     const auto [i, j] = std::make_pair(parts.i, parts.j);
@@ -249,7 +302,8 @@ FCCClusterPoints::PlaceParts(const FCCClusterPlane & plane,
       const bool isPoint = (part & (part - 1)) == 0;
       if (isReal && !isPoint)
       {
-        output.AddCluster(Rows(field, j, k), i, j, part, field.GetParity(j, k));
+        row.GoTo(j, k);
+        output.AddCluster(row, i, part);
         continue;
       }
       if (isPoint)

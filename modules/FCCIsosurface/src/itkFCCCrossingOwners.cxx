@@ -24,9 +24,8 @@ HWY_INLINE WordType
 CompareSums(const float * values, const float * others, bool isAbove)
 {
   const hn::ScalableTag<float> tag;
-  const std::size_t lanes = hn::Lanes(tag);
   WordType word = 0;
-  for (std::size_t lane = 0; lane < FCCSigns::WordBits; lane += lanes)
+  for (std::size_t lane = 0; lane < FCCSigns::WordBits; lane += hn::Lanes(tag))
   {
     const auto sum = hn::Add(hn::LoadU(tag, values + lane), hn::LoadU(tag, others + lane));
     const auto mask = isAbove ? hn::Gt(sum, hn::Zero(tag)) : hn::Lt(sum, hn::Zero(tag));
@@ -39,35 +38,103 @@ CompareSums(const float * values, const float * others, bool isAbove)
   return word;
 }
 
-/** The owners of the crossings of one type of edges in a row. \a shift leads from a site to the edge's other end in its
- * row. Without \a values the edges lead into or out of the image: \a firstOwns says whose they are. */
-void
-FindOwnersOfRow(const WordType * signs,
-                const WordType * otherSigns,
-                std::ptrdiff_t shift,
-                std::size_t words,
-                const float * values,
-                const float * others,
-                bool insideIsBelow,
-                bool firstOwns,
-                WordType * first,
-                WordType * second)
+/** The cut edges of a row: sites that differ from those of another row, moved by \a Shift. */
+template <int Shift>
+HWY_INLINE void
+FindCuts(const WordType * signs, const WordType * others, std::size_t words, WordType * cuts)
 {
   for (std::size_t word = 0; word < words; ++word)
   {
-    const WordType other =
-      shift == 0  ? otherSigns[word]
-      : shift > 0 ? otherSigns[word] >> 1 | otherSigns[word + 1] << (FCCSigns::WordBits - 1)
-                  : otherSigns[word] << 1 | (word > 0 ? otherSigns[word - 1] >> (FCCSigns::WordBits - 1) : 0);
-    const WordType cut = signs[word] ^ other;
-    WordType owned = firstOwns ? cut : 0;
-    if (values != nullptr && cut != 0)
+    const WordType other = Shift == 0  ? others[word]
+                           : Shift > 0 ? others[word] >> 1 | others[word + 1] << (FCCSigns::WordBits - 1)
+                                       : others[word] << 1 | others[word - 1] >> (FCCSigns::WordBits - 1);
+    cuts[word] = signs[word] ^ other;
+  }
+}
+
+/** Finds the owners of a plane's crossings, rows as FCCCrossingOwners stores them. */
+void
+FindOwners(const FCCSigns & signs,
+           const FCCFieldPlanes & field,
+           SizeValueType k,
+           bool insideIsBelow,
+           SizeValueType stride,
+           WordType * firsts,
+           WordType * seconds)
+{
+  const SizeValueType words = signs.GetNumberOfWords();
+  const SizeValueType last = signs.GetWidth() - 1;
+  const auto bitOf = [](SizeValueType i, SizeValueType word) {
+    return i / FCCSigns::WordBits == word ? WordType{ 1 } << (i % FCCSigns::WordBits) : 0;
+  };
+  for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
+  {
+    const bool isReal = field.IsReal(1, j) && field.IsReal(2, k);
+    const WordType * const row = signs.GetRow(j, k);
+    for (const auto & step : FCCLattice::OwnedEdges)
     {
-      const std::size_t begin = word * FCCSigns::WordBits;
-      owned = cut & ~(signs[word] ^ CompareSums(values + begin, others + begin, insideIsBelow));
+      WordType * const first = firsts;
+      WordType * const second = seconds;
+      firsts += stride;
+      seconds += stride;
+      const SizeValueType otherJ = j + static_cast<SizeValueType>(step[1]);
+      const SizeValueType otherK = k + static_cast<SizeValueType>(step[2]);
+      if (otherJ >= signs.GetHeight() || otherK >= signs.GetDepth())
+      {
+        std::fill(first, first + words, 0);
+        std::fill(second, second + words, 0);
+        continue;
+      }
+      const WordType * const others = signs.GetRow(otherJ, otherK);
+      const auto offset = FCCLattice::OffsetOf(step, signs.GetParity(j, k))[0];
+      switch (offset)
+      {
+        case 0:
+          FindCuts<0>(row, others, words, second);
+          break;
+        case 1:
+          FindCuts<1>(row, others, words, second);
+          break;
+        default:
+          FindCuts<-1>(row, others, words, second); // the word before a row is the spare one of another
+      }
+      if (!isReal || !field.IsReal(1, otherJ) || !field.IsReal(2, otherK))
+      {
+        if (!isReal)
+        {
+          std::copy(second, second + words, first);
+          std::fill(second, second + words, 0);
+        }
+        else
+        {
+          std::fill(first, first + words, 0);
+        }
+        continue;
+      }
+      const float * const values = field.GetValues(j, k);
+      const float * const otherValues = field.GetValues(otherJ, otherK) + offset;
+      for (SizeValueType word = 0; word < words; ++word)
+      {
+        const WordType cut = second[word];
+        WordType owned = 0;
+        if (cut != 0)
+        {
+          const SizeValueType begin = word * FCCSigns::WordBits;
+          owned = ~(row[word] ^ CompareSums(values + begin, otherValues + begin, insideIsBelow));
+        }
+        first[word] = cut & owned;
+        second[word] = cut & ~owned;
+      }
+      // At the ends of rows, crossings belong to the sites outside the image.
+      for (const SizeValueType word : { SizeValueType{ 0 }, words - 1, (last - 1) / FCCSigns::WordBits })
+      {
+        const WordType cut = first[word] | second[word];
+        const WordType leaves = (offset == 1 ? bitOf(last - 1, word) : 0) | (offset == -1 ? bitOf(1, word) : 0);
+        const WordType owned = (first[word] | bitOf(0, word) | bitOf(last, word)) & ~leaves;
+        first[word] = cut & owned;
+        second[word] = cut & ~owned;
+      }
     }
-    first[word] = owned;
-    second[word] = cut & ~owned;
   }
 }
 
@@ -81,12 +148,12 @@ namespace itk
 {
 namespace
 {
-HWY_EXPORT(FindOwnersOfRow);
+HWY_EXPORT(FindOwners);
 }
 
 FCCCrossingOwners::FCCCrossingOwners(const FCCSigns & signs)
   : m_Signs(&signs)
-  , m_First(signs.GetHeight() * Types * this->GetStride())
+  , m_First(signs.GetHeight() * Types * this->GetStride() + FCCSigns::WordsBeyond)
   , m_Second(m_First.size())
 {}
 
@@ -99,63 +166,8 @@ FCCCrossingOwners::Find(SizeValueType k, const FCCFieldPlanes & field, bool insi
     std::fill(m_Second.begin(), m_Second.end(), 0);
     return;
   }
-  const SizeValueType words = m_Signs->GetNumberOfWords();
-  for (SizeValueType j = 0; j < m_Signs->GetHeight(); ++j)
-  {
-    for (std::uint8_t type = 0; type < Types; ++type)
-    {
-      WordType * const first = m_First.data() + this->OffsetOf(j, type);
-      WordType * const second = m_Second.data() + this->OffsetOf(j, type);
-      const auto & step = FCCLattice::OwnedEdges[type];
-      const SizeValueType otherJ = j + static_cast<SizeValueType>(step[1]);
-      const SizeValueType otherK = k + static_cast<SizeValueType>(step[2]);
-      if (otherJ >= m_Signs->GetHeight() || otherK >= m_Signs->GetDepth())
-      {
-        std::fill(first, first + words, 0);
-        std::fill(second, second + words, 0);
-        continue;
-      }
-      const auto offset = FCCLattice::OffsetOf(step, field.GetParity(j, k))[0];
-      const bool isReal = field.IsReal(1, j) && field.IsReal(2, k);
-      const bool isOtherReal = field.IsReal(1, otherJ) && field.IsReal(2, otherK);
-      const bool areReal = isReal && isOtherReal;
-      HWY_DYNAMIC_DISPATCH(FindOwnersOfRow)
-      (m_Signs->GetRow(j, k),
-       m_Signs->GetRow(otherJ, otherK),
-       offset,
-       words,
-       areReal ? field.GetValues(j, k) : nullptr,
-       areReal ? field.GetValues(otherJ, otherK) + offset : nullptr,
-       insideIsBelow,
-       !isReal,
-       first,
-       second);
-      if (areReal)
-      {
-        const SizeValueType last = m_Signs->GetWidth() - 1;
-        this->Give(0, true, first, second);
-        this->Give(last, true, first, second);
-        if (offset == 1)
-        {
-          this->Give(last - 1, false, first, second);
-        }
-        if (offset == -1)
-        {
-          this->Give(1, false, first, second);
-        }
-      }
-    }
-  }
-}
-
-/** Gives the crossing of a site's edge, if there is one, to one end: that outside the image. */
-void
-FCCCrossingOwners::Give(SizeValueType i, bool toFirst, WordType * first, WordType * second) const
-{
-  const SizeValueType word = i / FCCSigns::WordBits;
-  const WordType crossing = (first[word] | second[word]) & WordType{ 1 } << (i % FCCSigns::WordBits);
-  first[word] = toFirst ? first[word] | crossing : first[word] & ~crossing;
-  second[word] = toFirst ? second[word] & ~crossing : second[word] | crossing;
+  HWY_DYNAMIC_DISPATCH(FindOwners)
+  (*m_Signs, field, k, insideIsBelow, this->GetStride(), m_First.data(), m_Second.data());
 }
 
 } // namespace itk

@@ -1,6 +1,7 @@
 #include "itkFCCEdgePoints.h"
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -13,8 +14,8 @@ namespace
  * that site i owns. */
 struct EdgeRows
 {
-  const float * values[4] = {}; ///< at the places -1, 0, 1, 2 along the line; the outer ones for cubics only
-  const float * gradients[2][3] = {};
+  const float * values[4] = {};    ///< at the places -1, 0, 1, 2 along the line; the outer ones for cubics only
+  const float * gradients[2] = {}; ///< FCCRowKernels::GradientStride floats a site
 
   EdgeRows(const FCCFieldPlanes & field,
            const FCCLattice::SiteType & step,
@@ -32,10 +33,7 @@ struct EdgeRows
       values[place + 1] = field.GetValues(row, plane) + offset[0];
       if (withGradients && (place == 0 || place == 1))
       {
-        for (unsigned int axis = 0; axis < 3; ++axis)
-        {
-          gradients[place][axis] = field.GetGradients(axis, row, plane) + offset[0];
-        }
+        gradients[place] = field.GetGradients(row, plane) + FCCRowKernels::GradientStride * offset[0];
       }
     }
   }
@@ -51,14 +49,12 @@ struct EdgeRows
         batch.value[place][n] = values[place][i];
       }
     }
-    if (gradients[0][0] != nullptr)
+    if (gradients[0] != nullptr)
     {
       for (unsigned int end = 0; end < 2; ++end)
       {
-        for (unsigned int axis = 0; axis < 3; ++axis)
-        {
-          batch.gradient[end][axis][n] = gradients[end][axis][i];
-        }
+        std::memcpy(
+          batch.gradient[end][n], gradients[end] + FCCRowKernels::GradientStride * i, sizeof batch.gradient[end][n]);
       }
     }
   }
@@ -173,7 +169,14 @@ FCCEdgePoints::Gather(const std::array<SizeValueType, 3> & site,
                                                   first[2] + static_cast<IndexValueType>(k) - 1 } });
   if (isReal && isOtherReal)
   {
-    EdgeRows(field, step, j, k, m_Cubic, withGradients).Gather(i, batch);
+    EdgeRows(field, step, j, k, m_Cubic, false).Gather(i, batch);
+    if (withGradients)
+    {
+      const auto gradient = field.GetGradientOfValues(i, j, k);
+      const auto otherGradient = field.GetGradientOfValues(end[0], end[1], end[2]);
+      std::copy(gradient.begin(), gradient.end(), batch.gradient[0][batch.count]);
+      std::copy(otherGradient.begin(), otherGradient.end(), batch.gradient[1][batch.count]);
+    }
   }
   else
   {
@@ -204,8 +207,8 @@ FCCEdgePoints::GatherBorder(const SiteType & site,
   const auto direction = m_Extent.DirectionTo(startsOutside ? site : end);
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    batch.gradient[0][axis][batch.count] = static_cast<float>(m_Frame.outwardSign * direction[axis]);
-    batch.gradient[1][axis][batch.count] = batch.gradient[0][axis][batch.count];
+    batch.gradient[0][batch.count][axis] = static_cast<float>(m_Frame.outwardSign * direction[axis]);
+    batch.gradient[1][batch.count][axis] = batch.gradient[0][batch.count][axis];
   }
 }
 

@@ -91,34 +91,57 @@ FCCFieldPlanes::LoadCoefficients(SizeValueType k)
 }
 
 void
-FCCFieldPlanes::LoadGradients(SizeValueType k, const std::vector<std::uint8_t> & wanted)
+FCCFieldPlanes::LoadCoefficientsAround(SizeValueType k)
 {
-  auto & planes = m_Gradients[k % m_Gradients.size()];
-  if (this->HasGradients(k) || !this->IsReal(2, k))
-  {
-    return;
-  }
   for (SizeValueType near = k - 1; near <= k + 1; ++near)
   {
     this->LoadCoefficients(near);
   }
-  for (Plane & plane : planes)
+}
+
+void
+FCCFieldPlanes::ComputeGradients(SizeValueType j, SizeValueType k, SizeValueType block, float * gradients) const
+{
+  FCCRowKernels::NeighborRows neighbors;
+  this->GetNeighborRows(m_Coefficients, j, k, neighbors);
+  FCCRowKernels::Gradient(neighbors, block * FCCRowKernels::Block, gradients);
+}
+
+std::array<float, 3>
+FCCFieldPlanes::GetGradientOfValues(SizeValueType i, SizeValueType j, SizeValueType k) const
+{
+  FCCRowKernels::NeighborRows neighbors;
+  this->GetNeighborRows(m_Values, j, k, neighbors);
+  std::array<float, 3> gradient{};
+  for (unsigned int n = 0; n < 12; ++n)
   {
-    plane.samples.resize(m_Stride * m_Size[1]);
-    plane.number = k;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      gradient[axis] += 0.125f * static_cast<float>(FCCLattice::NearestNeighbors[n][axis]) * neighbors[n][i];
+    }
   }
+  return gradient;
+}
+
+void
+FCCFieldPlanes::LoadGradients(SizeValueType k, const std::vector<std::uint8_t> & wanted)
+{
+  if (this->HasGradients(k) || !this->IsReal(2, k))
+  {
+    return;
+  }
+  this->LoadCoefficientsAround(k);
+  Plane & plane = m_Gradients[k % m_Gradients.size()];
+  plane.samples.resize(this->GetLengthOfGradients() * m_Size[1]);
+  plane.number = k;
   for (SizeValueType j = 1; j + 1 < m_Size[1]; ++j)
   {
-    FCCRowKernels::NeighborRows neighbors;
-    this->GetNeighborRows(m_Coefficients, j, k, neighbors);
-    float * const gradient[3] = { planes[0].GetRow(j, m_Stride),
-                                  planes[1].GetRow(j, m_Stride),
-                                  planes[2].GetRow(j, m_Stride) };
+    float * const gradients = plane.GetRow(j, this->GetLengthOfGradients());
     for (SizeValueType block = 0; block < this->GetNumberOfBlocks(); ++block)
     {
       if (wanted[j * this->GetNumberOfBlocks() + block])
       {
-        FCCRowKernels::Gradient(neighbors, block * FCCRowKernels::Block, gradient);
+        this->ComputeGradients(j, k, block, gradients);
       }
     }
   }

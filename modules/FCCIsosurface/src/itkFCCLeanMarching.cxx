@@ -3,8 +3,9 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "itkFCCClusterCases.h"
 #include "itkFCCLeanMarching.h"
+
+#include <algorithm>
 
 // clang-format off
 #ifndef itkFCCLeanMarching_tables
@@ -26,12 +27,19 @@ struct FCCLeanTables
     std::uint8_t decider = 0; ///< place of the edge from the lowest corner inside to the lowest one outside
   };
 
+  /** The triangle of three corners of a tetrahedron. */
+  struct Triangle
+  {
+    std::uint8_t corners[3] = {}; ///< counter-clockwise seen from outside when the corner left out is outside
+    std::uint64_t use[3] = {};    ///< what it adds to FCCTriangleUse at these corners
+  };
+
   std::uint8_t storingEnd[Cases::Edges] = {};             ///< which of EdgeSites stores the edge
   std::uint8_t cornerEdges[Cases::Tetrahedra][4][3] = {}; ///< edges at a corner of a tetrahedron
   std::uint8_t cornerEnds[Cases::Tetrahedra][4][3] = {};  ///< which of EdgeSites the corner is
   std::uint8_t edges[Cases::Tetrahedra][6] = {};
-  Polygon polygons[Cases::Tetrahedra][16] = {};    ///< by the corners inside
-  std::uint64_t use[Cases::Tetrahedra][4][4] = {}; ///< by the corner left out, for each corner
+  Polygon polygons[Cases::Tetrahedra][16] = {};  ///< by the corners inside
+  Triangle triangles[Cases::Tetrahedra][4] = {}; ///< by the corner left out
 };
 
 /** The lowest of some corners of a tetrahedron by z, then y, then x. */
@@ -126,23 +134,32 @@ MakeFCCLeanTables(unsigned int kind)
     }
     for (unsigned int left = 0; left < 4; ++left)
     {
-      for (unsigned int a = 0; a < 4; ++a)
+      FCCLeanTables::Triangle & triangle = tables.triangles[tetrahedron][left];
+      for (unsigned int corner = 0, n = 0; corner < 4; ++corner)
       {
-        if (a == left)
+        if (corner != left)
         {
-          continue;
+          triangle.corners[n++] = static_cast<std::uint8_t>(corner);
         }
-        tables.use[tetrahedron][left][a] += std::uint64_t{ 1 } << 56;
-        for (unsigned int b = 0; b < 4; ++b)
+      }
+      const auto & found = triangle.corners;
+      if (Cases::Orientation(kind, sites[found[0]], sites[found[1]], sites[found[2]], sites[left]) < 0)
+      {
+        const std::uint8_t second = triangle.corners[1];
+        triangle.corners[1] = triangle.corners[2];
+        triangle.corners[2] = second;
+      }
+      for (unsigned int n = 0; n < 3; ++n)
+      {
+        triangle.use[n] = std::uint64_t{ 1 } << 56;
+        for (unsigned int m = 0; m < 3; ++m)
         {
-          if (b != left && b != a)
+          if (m != n)
           {
-            const std::uint8_t edge = Cases::EdgeBetween(sites[a], sites[b]);
-            const unsigned int end = Cases::EdgeSites[edge][0] == sites[a] ? 0 : 1;
-            if (tables.storingEnd[edge] == end)
-            {
-              tables.use[tetrahedron][left][a] += std::uint64_t{ 1 } << (8 * Cases::OwnerOf(kind, edge).type);
-            }
+            const std::uint8_t edge = Cases::EdgeBetween(sites[found[n]], sites[found[m]]);
+            const unsigned int end = Cases::EdgeSites[edge][0] == sites[found[n]] ? 0 : 1;
+            triangle.use[n] +=
+              tables.storingEnd[edge] == end ? std::uint64_t{ 1 } << (8 * Cases::OwnerOf(kind, edge).type) : 0;
           }
         }
       }
@@ -165,142 +182,262 @@ namespace HWY_NAMESPACE
 namespace
 {
 
+namespace hn = hwy::HWY_NAMESPACE;
 using WordType = FCCSigns::WordType;
 using Cases = FCCMarchingCases;
 
-/** Bits of a row from site \a shift on, 0 or 1. */
-HWY_INLINE WordType
-Shifted(const WordType * row, SizeValueType shift, SizeValueType word)
-{
-  return row[word] >> shift | row[word + 1] << 1 << (FCCSigns::WordBits - 1 - shift);
-}
-
-/** Where the sites and edges of a column's steps of one kind are found. */
+/** The four rows of a column, by FCCMarchingCases::Row. */
 struct LeanColumn
 {
-  const WordType * signs[Cases::Sites];
-  const WordType * owned[Cases::Edges][2]; ///< by either end of EdgeSites
-  const WordType * split[Cases::Edges];    ///< the owner is split
-  SizeValueType siteShift[Cases::Sites];
-  SizeValueType edgeShift[Cases::Edges];
-  std::uint8_t edgeType[Cases::Edges];
-  bool siteIsUpper[Cases::Sites];
-  SizeValueType siteRow[Cases::Sites];
-  const WordType * wholes[Cases::Sites];
-  const std::uint32_t * before[Cases::Sites]; ///< numbers of the first vertices of the words of wholes
-
-  /** Kind is known to the compiler, so that no table is left. */
-  template <unsigned int Kind>
-  HWY_INLINE void
-  Find(const FCCSigns & allSigns,
-       SizeValueType j,
-       SizeValueType k,
-       const FCCClusterPlane & lower,
-       const FCCClusterPlane & upper)
+  struct Row
   {
-    const auto parity = static_cast<SizeValueType>(allSigns.GetParity(j, k));
-    const SizeValueType shiftOfPair[3] = { 0, Kind == 0 ? parity : 1 - parity, 1 };
-#pragma GCC unroll 6
-    for (unsigned int site = 0; site < Cases::Sites; ++site)
+    const WordType * signs;
+    const WordType * first; ///< owners of crossings, type by type
+    const WordType * second;
+    const WordType * split;
+    const WordType * wholes;
+    const std::uint32_t * before; ///< numbers of the first vertices of the words of wholes
+  };
+
+  Row rows[4];
+  SizeValueType stride; ///< from a type to the next
+
+  LeanColumn(const FCCSigns & signs,
+             SizeValueType j,
+             SizeValueType k,
+             const FCCClusterPlane & lower,
+             const FCCClusterPlane & upper)
+    : stride(lower.GetOwners().GetStride())
+  {
+    for (SizeValueType row = 0; row < 4; ++row)
     {
-      const Cases::Row row = Cases::RowOf(Kind, site);
-      siteRow[site] = j + (row & 1);
-      siteIsUpper[site] = (row & 2) != 0;
-      siteShift[site] = shiftOfPair[site / 2];
-      signs[site] = allSigns.GetRow(siteRow[site], k + (row >> 1));
-      const FCCNumberedBits & numbers = (siteIsUpper[site] ? upper : lower).GetWholes();
-      wholes[site] = numbers.GetRow(siteRow[site]);
-      before[site] = numbers.GetBefore(siteRow[site]);
-    }
-#pragma GCC unroll 12
-    for (unsigned int edge = 0; edge < Cases::Edges; ++edge)
-    {
-      const Cases::EdgeOwner & owner = FCCMarchingTables.owners[Kind][edge];
-      const SizeValueType row = j + (owner.row & 1);
-      const FCCClusterPlane & plane = (owner.row & 2) != 0 ? upper : lower;
-      const unsigned int end = FCCLeanTablesOfKind[Kind].storingEnd[edge];
-      owned[edge][end] = plane.GetOwners().GetFirst(row, owner.type);
-      owned[edge][1 - end] = plane.GetOwners().GetSecond(row, owner.type);
-      split[edge] = plane.GetSplitRow(row, owner.type);
-      edgeType[edge] = owner.type;
-      edgeShift[edge] = shiftOfPair[owner.pair];
+      const FCCClusterPlane & plane = (row & 2) != 0 ? upper : lower;
+      const SizeValueType y = j + (row & 1);
+      rows[row] = { signs.GetRow(y, k + (row >> 1)),   plane.GetOwners().GetFirst(y, 0),
+                    plane.GetOwners().GetSecond(y, 0), plane.GetSplitRow(y, 0),
+                    plane.GetWholes().GetRow(y),       plane.GetWholes().GetBefore(y) };
     }
   }
 };
 
-/** The vertex of a site that is whole. */
-HWY_INLINE std::uint32_t
-VertexOfWhole(const LeanColumn & column, unsigned int site, SizeValueType step)
-{
-  const SizeValueType i = step + column.siteShift[site];
-  const SizeValueType word = i / FCCSigns::WordBits;
-  const WordType below = column.wholes[site][word] & ((WordType{ 1 } << (i % FCCSigns::WordBits)) - 1);
-  return column.before[site][word] + static_cast<std::uint32_t>(__builtin_popcountll(below));
-}
-
-/** One word of a column's steps: signs and ownership, and which tetrahedra keep a triangle between clusters. */
+/** The steps of one kind. \tparam Shift 1 when the next pair's index is one more than this pair's, else 0. All loops
+ * over its tables unroll, so that none is left. */
+template <unsigned int Kind, unsigned int Shift>
 struct LeanSteps
 {
-  WordType signs[Cases::Sites];
-  WordType owned[Cases::Edges][2];
-  WordType owners[Cases::Tetrahedra][4]; ///< the corner owns a crossing in the tetrahedron
-  WordType spanned[Cases::Tetrahedra];   ///< three or four corners do
+  static constexpr const FCCLeanTables & Tables = FCCLeanTablesOfKind[Kind];
+  static constexpr unsigned int ShiftOfPair[3] = { 0, Shift, 1 };
 
-  /** Returns whether there are any crossings. */
-  template <unsigned int Kind>
-  HWY_INLINE bool
-  Load(const LeanColumn & column, SizeValueType word)
+  static constexpr unsigned int
+  RowOf(unsigned int site)
   {
-    constexpr const FCCLeanTables & tables = FCCLeanTablesOfKind[Kind]; // loops unroll, so that no table is left
-    WordType any = 0;
-    WordType all = ~WordType{ 0 };
-#pragma GCC unroll 6
-    for (unsigned int site = 0; site < Cases::Sites; ++site)
-    {
-      signs[site] = Shifted(column.signs[site], column.siteShift[site], word);
-      any |= signs[site];
-      all &= signs[site];
-    }
-    if (any == all)
-    {
-      return false;
-    }
-#pragma GCC unroll 12
-    for (unsigned int edge = 0; edge < Cases::Edges; ++edge)
-    {
-#pragma GCC unroll 2
-      for (unsigned int end = 0; end < 2; ++end)
-      {
-        owned[edge][end] = Shifted(column.owned[edge][end], column.edgeShift[edge], word);
-      }
-    }
-#pragma GCC unroll 3
-    for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
-    {
-#pragma GCC unroll 4
-      for (unsigned int corner = 0; corner < 4; ++corner)
-      {
-        const auto & edges = tables.cornerEdges[tetrahedron][corner];
-        const auto & ends = tables.cornerEnds[tetrahedron][corner];
-        owners[tetrahedron][corner] = owned[edges[0]][ends[0]] | owned[edges[1]][ends[1]] | owned[edges[2]][ends[2]];
-      }
-      const auto & w = owners[tetrahedron];
-      spanned[tetrahedron] = (w[0] & w[1] & (w[2] | w[3])) | (w[2] & w[3] & (w[0] | w[1]));
-    }
-    return true;
+    return Cases::RowOf(Kind, site);
   }
 
-  unsigned int
-  PatternOf(unsigned int tetrahedron, unsigned int bit) const
+  /** The place of a step's site in its row. */
+  static constexpr SizeValueType
+  PlaceOf(unsigned int site, SizeValueType i)
   {
-    const auto & sites = Cases::TetrahedronSites[tetrahedron];
-    unsigned int pattern = 0;
-    for (unsigned int corner = 0; corner < 4; ++corner)
+    return i + ShiftOfPair[site / 2];
+  }
+
+  static constexpr Cases::EdgeOwner
+  OwnerOf(unsigned int edge)
+  {
+    return FCCMarchingTables.owners[Kind][edge];
+  }
+
+  /** The row that says of an edge's crossing whether one of EdgeSites owns it. */
+  static HWY_INLINE const WordType *
+  OwnedRow(const LeanColumn & column, unsigned int edge, unsigned int end)
+  {
+    const LeanColumn::Row & row = column.rows[OwnerOf(edge).row];
+    return (Tables.storingEnd[edge] == end ? row.first : row.second) + OwnerOf(edge).type * column.stride;
+  }
+
+  static HWY_INLINE const WordType *
+  SplitRow(const LeanColumn & column, unsigned int edge)
+  {
+    return column.rows[OwnerOf(edge).row].split + OwnerOf(edge).type * column.stride;
+  }
+
+  /** A bit of a row that belongs to a pair. */
+  static HWY_INLINE bool
+  Test(const WordType * row, unsigned int pair, SizeValueType i)
+  {
+    const SizeValueType place = i + ShiftOfPair[pair];
+    return (row[place / FCCSigns::WordBits] >> (place % FCCSigns::WordBits) & 1) != 0;
+  }
+  static HWY_INLINE bool
+  IsInside(const LeanColumn & column, unsigned int site, SizeValueType i)
+  {
+    return Test(column.rows[RowOf(site)].signs, site / 2, i);
+  }
+  static HWY_INLINE bool
+  IsOwnedBy(const LeanColumn & column, unsigned int edge, unsigned int end, SizeValueType i)
+  {
+    return Test(OwnedRow(column, edge, end), OwnerOf(edge).pair, i);
+  }
+  static HWY_INLINE bool
+  IsSplit(const LeanColumn & column, unsigned int edge, SizeValueType i)
+  {
+    return Test(SplitRow(column, edge), OwnerOf(edge).pair, i);
+  }
+
+  /** The vertex of a site that is whole. */
+  static HWY_INLINE std::uint32_t
+  VertexOfWhole(const LeanColumn & column, unsigned int site, SizeValueType i)
+  {
+    const LeanColumn::Row & row = column.rows[RowOf(site)];
+    const SizeValueType place = PlaceOf(site, i);
+    const SizeValueType word = place / FCCSigns::WordBits;
+    const WordType below = row.wholes[word] & ((WordType{ 1 } << (place % FCCSigns::WordBits)) - 1);
+    return row.before[word] + static_cast<std::uint32_t>(__builtin_popcountll(below));
+  }
+
+  /** Words that are worked at together, whatever the width of vectors: the order of triangles depends on it. */
+  static constexpr SizeValueType Together = 8;
+  static_assert(Together <= FCCSigns::WordsBeyond, "whole groups of words are read");
+
+  /** Some words of bits. */
+  struct Group
+  {
+    alignas(64) WordType words[Together];
+  };
+
+  using Tag = hn::CappedTag<WordType, Together>;
+  using Words = hn::Vec<Tag>;
+
+  /** Calls use(tetrahedron, corner left out, number of a word, its bits, which may be none) for the triangles between
+   * clusters, and with \a WithMixed, useMixed(tetrahedron, number of a word, its bits) for the tetrahedra with
+   * crossings of split sites, which have no others. */
+  template <bool WithMixed, typename TUse, typename TMixed>
+  static HWY_INLINE void
+  ForEachTriangle(const LeanColumn & column, SizeValueType numberOfWords, const TUse & use, const TMixed & useMixed)
+  {
+    Group triangles[Cases::Tetrahedra][4];
+    Group mixed[Cases::Tetrahedra];
+    for (SizeValueType word = 0; word < numberOfWords; word += Together)
     {
-      pattern |= static_cast<unsigned int>(signs[sites[corner]] >> bit & 1) << corner;
-      pattern |= static_cast<unsigned int>(owners[tetrahedron][corner] >> bit & 1) << (4 + corner);
+      if (!Find<WithMixed>(column, word, numberOfWords, triangles, mixed))
+      {
+        continue;
+      }
+      const SizeValueType end = std::min(numberOfWords - word, Together);
+#pragma GCC unroll 3
+      for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
+      {
+#pragma GCC unroll 4
+        for (unsigned int left = 0; left < 4; ++left)
+        {
+          for (SizeValueType n = 0; n < end; ++n)
+          {
+            use(tetrahedron, left, word + n, triangles[tetrahedron][left].words[n]);
+          }
+        }
+        if (WithMixed)
+        {
+          for (SizeValueType n = 0; n < end; ++n)
+          {
+            useMixed(tetrahedron, word + n, mixed[tetrahedron].words[n]);
+          }
+        }
+      }
     }
-    return pattern;
+  }
+
+private:
+  /** Words of a row that belongs to a pair. */
+  static HWY_INLINE Words
+  Load(const WordType * row, unsigned int pair, SizeValueType word)
+  {
+    const Tag tag;
+    const Words words = hn::LoadU(tag, row + word);
+    return ShiftOfPair[pair] == 0 ? words
+                                  : hn::Or(hn::ShiftRight<1>(words), hn::ShiftLeft<63>(hn::LoadU(tag, row + word + 1)));
+  }
+
+  /** Finds the triangles of a group of words, by tetrahedron and the corner left out. Returns whether there may be any.
+   */
+  template <bool WithMixed>
+  static HWY_INLINE bool
+  Find(const LeanColumn & column,
+       SizeValueType first,
+       SizeValueType end,
+       Group (&triangles)[Cases::Tetrahedra][4],
+       Group (&mixed)[Cases::Tetrahedra])
+  {
+    const Tag tag;
+    bool isAny = false;
+    for (SizeValueType place = 0; place < Together && first + place < end; place += hn::Lanes(tag))
+    {
+      const SizeValueType word = first + place;
+      Words inside[Cases::Sites];
+      Words any = hn::Zero(tag);
+      Words all = hn::Not(hn::Zero(tag));
+#pragma GCC unroll 6
+      for (unsigned int site = 0; site < Cases::Sites; ++site)
+      {
+        inside[site] = Load(column.rows[RowOf(site)].signs, site / 2, word);
+        any = hn::Or(any, inside[site]);
+        all = hn::And(all, inside[site]);
+      }
+      const Words crossed = hn::AndNot(all, any);
+      isAny = isAny || !hn::AllTrue(tag, hn::Eq(crossed, hn::Zero(tag)));
+      if (!isAny && hn::Lanes(tag) == Together)
+      {
+        return false;
+      }
+      Words split[Cases::Edges];
+      if (WithMixed)
+      {
+#pragma GCC unroll 12
+        for (unsigned int edge = 0; edge < Cases::Edges; ++edge)
+        {
+          split[edge] = Load(SplitRow(column, edge), OwnerOf(edge).pair, word);
+        }
+      }
+#pragma GCC unroll 3
+      for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
+      {
+        const auto & sites = Cases::TetrahedronSites[tetrahedron];
+        Words owns[4];
+#pragma GCC unroll 4
+        for (unsigned int corner = 0; corner < 4; ++corner)
+        {
+          owns[corner] = hn::Zero(tag);
+#pragma GCC unroll 3
+          for (unsigned int n = 0; n < 3; ++n)
+          {
+            const unsigned int edge = Tables.cornerEdges[tetrahedron][corner][n];
+            const WordType * const row = OwnedRow(column, edge, Tables.cornerEnds[tetrahedron][corner][n]);
+            owns[corner] = hn::Or(owns[corner], Load(row, OwnerOf(edge).pair, word));
+          }
+        }
+        Words clusters = crossed;
+        if (WithMixed)
+        {
+          Words anySplit = hn::Zero(tag);
+#pragma GCC unroll 6
+          for (unsigned int n = 0; n < 6; ++n)
+          {
+            anySplit = hn::Or(anySplit, split[Tables.edges[tetrahedron][n]]);
+          }
+          hn::Store(hn::And(crossed, anySplit), tag, mixed[tetrahedron].words + place);
+          clusters = hn::AndNot(anySplit, crossed);
+        }
+#pragma GCC unroll 4
+        for (unsigned int left = 0; left < 4; ++left)
+        {
+          // The corner left out owns nothing, or all four own a crossing each: then it is one of those outside.
+          const auto & corners = Tables.triangles[tetrahedron][left].corners;
+          const Words spanned = hn::And(owns[corners[0]], hn::And(owns[corners[1]], owns[corners[2]]));
+          const Words excluded = hn::And(owns[left], inside[sites[left]]);
+          hn::Store(hn::AndNot(excluded, hn::And(spanned, clusters)), tag, triangles[tetrahedron][left].words + place);
+        }
+      }
+    }
+    return isAny;
   }
 };
 
@@ -320,46 +457,59 @@ HasInside(const FCCSigns & signs, SizeValueType j, SizeValueType k)
   return any != 0;
 }
 
-template <unsigned int Kind>
-SizeValueType
-CountColumnUse(const LeanColumn & column, SizeValueType words, FCCTriangleUse & lowerUse, FCCTriangleUse & upperUse)
+/** Calls work(column, LeanSteps) for all steps between two planes. */
+template <typename TWork>
+HWY_INLINE void
+ForEachColumn(const FCCSigns & signs,
+              SizeValueType k,
+              const FCCClusterPlane & lower,
+              const FCCClusterPlane & upper,
+              const TWork & work)
 {
-  constexpr const FCCLeanTables & tables = FCCLeanTablesOfKind[Kind];
-  SizeValueType count = 0;
-  std::uint64_t * uses[Cases::Sites];
-  for (unsigned int site = 0; site < Cases::Sites; ++site)
+  for (SizeValueType j = 0; j + 1 < signs.GetHeight(); ++j)
   {
-    auto & use = column.siteIsUpper[site] ? upperUse : lowerUse;
-    uses[site] = use.counts.data() + column.siteRow[site] * use.stride + column.siteShift[site];
-  }
-  for (SizeValueType word = 0; word < words; ++word)
-  {
-    LeanSteps steps;
-    if (!steps.Load<Kind>(column, word))
+    if (!HasInside(signs, j, k))
     {
       continue;
     }
-    for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
+    const LeanColumn column(signs, j, k, lower, upper);
+    if (signs.GetParity(j, k) == 0)
     {
-      const auto & sites = Cases::TetrahedronSites[tetrahedron];
-      for (WordType mask = steps.spanned[tetrahedron]; mask != 0; mask &= mask - 1)
-      {
-        const auto bit = static_cast<unsigned int>(__builtin_ctzll(mask));
-        const SizeValueType i = word * FCCSigns::WordBits + bit;
-        const auto & found = FCCClusterTables.cases[Kind][tetrahedron][steps.PatternOf(tetrahedron, bit)];
-        for (unsigned int n = 0; n < found.triangles; ++n)
-        {
-          const auto & corners = found.corners[n];
-          const unsigned int left = 6u - corners[0] - corners[1] - corners[2];
-          for (const std::uint8_t corner : corners)
-          {
-            uses[sites[corner]][i] += tables.use[tetrahedron][left][corner];
-          }
-        }
-        count += found.triangles;
-      }
+      work(j, column, LeanSteps<0, 0>{});
+      work(j, column, LeanSteps<1, 1>{});
+    }
+    else
+    {
+      work(j, column, LeanSteps<0, 1>{});
+      work(j, column, LeanSteps<1, 0>{});
     }
   }
+}
+
+template <typename TSteps>
+SizeValueType
+CountColumnUse(const LeanColumn & column, SizeValueType words, std::uint64_t * const (&uses)[4])
+{
+  SizeValueType count = 0;
+  TSteps::template ForEachTriangle<false>(
+    column,
+    words,
+    [&](unsigned int tetrahedron, unsigned int left, SizeValueType word, WordType bits) HWY_ATTR
+    __attribute__((always_inline)) {
+      const FCCLeanTables::Triangle & triangle = TSteps::Tables.triangles[tetrahedron][left];
+      count += static_cast<SizeValueType>(__builtin_popcountll(bits));
+      for (; bits != 0; bits &= bits - 1)
+      {
+        const SizeValueType i = word * FCCSigns::WordBits + static_cast<SizeValueType>(__builtin_ctzll(bits));
+#pragma GCC unroll 3
+        for (unsigned int n = 0; n < 3; ++n)
+        {
+          const unsigned int site = Cases::TetrahedronSites[tetrahedron][triangle.corners[n]];
+          uses[TSteps::RowOf(site)][TSteps::PlaceOf(site, i)] += triangle.use[n];
+        }
+      }
+    },
+    [](unsigned int, SizeValueType, WordType) {});
   return count;
 }
 
@@ -372,30 +522,22 @@ CountTriangleUse(const FCCSigns & signs,
                  FCCTriangleUse & upperUse)
 {
   SizeValueType count = 0;
-  for (SizeValueType j = 0; j + 1 < signs.GetHeight(); ++j)
-  {
-    if (HasInside(signs, j, k))
-    {
-      const SizeValueType words = signs.GetNumberOfWords();
-      LeanColumn column;
-      column.Find<0>(signs, j, k, lower, upper);
-      count += CountColumnUse<0>(column, words, lowerUse, upperUse);
-      column.Find<1>(signs, j, k, lower, upper);
-      count += CountColumnUse<1>(column, words, lowerUse, upperUse);
-    }
-  }
+  ForEachColumn(signs, k, lower, upper, [&](SizeValueType j, const LeanColumn & column, auto steps) HWY_ATTR {
+    std::uint64_t * const uses[4] = {
+      lowerUse.GetRow(j), lowerUse.GetRow(j + 1), upperUse.GetRow(j), upperUse.GetRow(j + 1)
+    };
+    count += CountColumnUse<decltype(steps)>(column, signs.GetNumberOfWords(), uses);
+  });
   return count;
 }
 
 /** Writes the triangles of a tetrahedron with crossings of split sites. */
+template <typename TSteps>
 SizeValueType
 FillMixedTetrahedron(const LeanColumn & column,
-                     const FCCLeanTables & tables,
-                     const LeanSteps & steps,
-                     const WordType * split,
                      unsigned int tetrahedron,
-                     unsigned int bit,
                      SizeValueType i,
+                     SizeValueType j,
                      const FCCClusterPlane & lower,
                      const FCCClusterPlane & upper,
                      bool reversed,
@@ -404,26 +546,31 @@ FillMixedTetrahedron(const LeanColumn & column,
   unsigned int inside = 0;
   for (unsigned int corner = 0; corner < 4; ++corner)
   {
-    inside |= static_cast<unsigned int>(steps.signs[Cases::TetrahedronSites[tetrahedron][corner]] >> bit & 1) << corner;
+    const bool isInside = TSteps::IsInside(column, Cases::TetrahedronSites[tetrahedron][corner], i);
+    inside |= static_cast<unsigned int>(isInside) << corner;
   }
-  const auto & polygon = tables.polygons[tetrahedron][inside];
+  const auto & polygon = TSteps::Tables.polygons[tetrahedron][inside];
   std::uint32_t vertices[4] = {};
   bool deciderIsInside = false;
   for (unsigned int n = 0; n < polygon.corners; ++n)
   {
     const std::uint8_t edge = polygon.edges[n];
-    const unsigned int end = (steps.owned[edge][0] >> bit & 1) != 0 ? 0 : 1;
+    const unsigned int end = TSteps::IsOwnedBy(column, edge, 0, i) ? 0 : 1;
     const std::uint8_t owner = Cases::EdgeSites[edge][end];
-    const FCCClusterPlane & plane = column.siteIsUpper[owner] ? upper : lower;
-    const SizeValueType row = column.siteRow[owner];
-    const SizeValueType site = i + column.siteShift[owner];
-    const unsigned int direction =
-      column.edgeType[edge] + (tables.storingEnd[edge] == end ? 0U : unsigned{ FCCClusterPlane::Types });
-    vertices[n] =
-      (split[edge] >> bit & 1) != 0 ? plane.GetVertex(row, site, direction) : VertexOfWhole(column, owner, i);
+    if (TSteps::IsSplit(column, edge, i))
+    {
+      const unsigned int row = TSteps::RowOf(owner);
+      const unsigned int direction =
+        TSteps::OwnerOf(edge).type + (TSteps::Tables.storingEnd[edge] == end ? 0U : unsigned{ FCCClusterPlane::Types });
+      vertices[n] = ((row & 2) != 0 ? upper : lower).GetVertex(j + (row & 1), TSteps::PlaceOf(owner, i), direction);
+    }
+    else
+    {
+      vertices[n] = TSteps::VertexOfWhole(column, owner, i);
+    }
     if (n == polygon.decider)
     {
-      deciderIsInside = (steps.signs[owner] >> bit & 1) != 0;
+      deciderIsInside = TSteps::IsInside(column, owner, i);
     }
   }
   // Quadrilaterals are cut from the decider to the opposite corner when its owner is inside, else the other way.
@@ -442,69 +589,6 @@ FillMixedTetrahedron(const LeanColumn & column,
   return count;
 }
 
-template <unsigned int Kind>
-SizeValueType
-FillColumn(const LeanColumn & column,
-           SizeValueType words,
-           const FCCClusterPlane & lower,
-           const FCCClusterPlane & upper,
-           bool reversed,
-           TriangleSurface::TriangleType * triangles)
-{
-  constexpr const FCCLeanTables & tables = FCCLeanTablesOfKind[Kind];
-  const unsigned int second = reversed ? 2 : 1;
-  const unsigned int third = reversed ? 1 : 2;
-  SizeValueType count = 0;
-  for (SizeValueType word = 0; word < words; ++word)
-  {
-    LeanSteps steps;
-    if (!steps.Load<Kind>(column, word))
-    {
-      continue;
-    }
-    WordType split[Cases::Edges];
-#pragma GCC unroll 12
-    for (unsigned int edge = 0; edge < Cases::Edges; ++edge)
-    {
-      split[edge] = Shifted(column.split[edge], column.edgeShift[edge], word);
-    }
-    for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
-    {
-      const auto & sites = Cases::TetrahedronSites[tetrahedron];
-      WordType mixed = 0;
-      for (const std::uint8_t edge : tables.edges[tetrahedron])
-      {
-        mixed |= split[edge];
-      }
-      for (WordType mask = steps.spanned[tetrahedron] | mixed; mask != 0; mask &= mask - 1)
-      {
-        const auto bit = static_cast<unsigned int>(__builtin_ctzll(mask));
-        const SizeValueType i = word * FCCSigns::WordBits + bit;
-        TriangleSurface::TriangleType * const next = triangles + count;
-        if ((mixed >> bit & 1) != 0)
-        {
-          count +=
-            FillMixedTetrahedron(column, tables, steps, split, tetrahedron, bit, i, lower, upper, reversed, next);
-          continue;
-        }
-        const auto & found = FCCClusterTables.cases[Kind][tetrahedron][steps.PatternOf(tetrahedron, bit)];
-        std::uint32_t vertices[4];
-        for (unsigned int corner = 0; corner < 4; ++corner)
-        {
-          vertices[corner] = VertexOfWhole(column, sites[corner], i);
-        }
-        for (unsigned int n = 0; n < found.triangles; ++n)
-        {
-          const auto & corners = found.corners[n];
-          next[n] = { vertices[corners[0]], vertices[corners[second]], vertices[corners[third]] };
-        }
-        count += found.triangles;
-      }
-    }
-  }
-  return count;
-}
-
 SizeValueType
 FillLeanTriangles(const FCCSigns & signs,
                   SizeValueType k,
@@ -513,20 +597,35 @@ FillLeanTriangles(const FCCSigns & signs,
                   bool reversed,
                   TriangleSurface::TriangleType * triangles)
 {
-  const TriangleSurface::TriangleType * const first = triangles;
-  for (SizeValueType j = 0; j + 1 < signs.GetHeight(); ++j)
-  {
-    if (HasInside(signs, j, k))
-    {
-      const SizeValueType words = signs.GetNumberOfWords();
-      LeanColumn column;
-      column.Find<0>(signs, j, k, lower, upper);
-      triangles += FillColumn<0>(column, words, lower, upper, reversed, triangles);
-      column.Find<1>(signs, j, k, lower, upper);
-      triangles += FillColumn<1>(column, words, lower, upper, reversed, triangles);
-    }
-  }
-  return static_cast<SizeValueType>(triangles - first);
+  TriangleSurface::TriangleType * next = triangles;
+  ForEachColumn(signs, k, lower, upper, [&](SizeValueType j, const LeanColumn & column, auto steps) HWY_ATTR {
+    using Steps = decltype(steps);
+    Steps::template ForEachTriangle<true>(
+      column,
+      signs.GetNumberOfWords(),
+      [&](unsigned int tetrahedron, unsigned int left, SizeValueType word, WordType bits) HWY_ATTR
+      __attribute__((always_inline)) {
+        const auto & sites = Cases::TetrahedronSites[tetrahedron];
+        const auto & corners = Steps::Tables.triangles[tetrahedron][left].corners;
+        for (; bits != 0; bits &= bits - 1)
+        {
+          const SizeValueType i = word * FCCSigns::WordBits + static_cast<SizeValueType>(__builtin_ctzll(bits));
+          const std::uint32_t a = Steps::VertexOfWhole(column, sites[corners[0]], i);
+          const std::uint32_t b = Steps::VertexOfWhole(column, sites[corners[1]], i);
+          const std::uint32_t c = Steps::VertexOfWhole(column, sites[corners[2]], i);
+          const bool turned = Steps::IsInside(column, sites[left], i) != reversed;
+          *next++ = { a, turned ? c : b, turned ? b : c };
+        }
+      },
+      [&](unsigned int tetrahedron, SizeValueType word, WordType bits) HWY_ATTR {
+        for (; bits != 0; bits &= bits - 1)
+        {
+          const SizeValueType i = word * FCCSigns::WordBits + static_cast<SizeValueType>(__builtin_ctzll(bits));
+          next += FillMixedTetrahedron<Steps>(column, tetrahedron, i, j, lower, upper, reversed, next);
+        }
+      });
+  });
+  return static_cast<SizeValueType>(next - triangles);
 }
 
 } // namespace

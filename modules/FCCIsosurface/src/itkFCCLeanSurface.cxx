@@ -162,27 +162,19 @@ FCCLeanSurface::Fill(SizeValueType begin,
   FCCFieldPlanes field = this->MakeField();
   PlaneSequence planes(m_Signs, field, m_InsideIsBelow, &m_Splits);
   const FCCClusterPoints clusterPoints(m_Region, m_Frame, m_MinimumFraction);
-  std::vector<std::uint8_t> blocks;
-  const auto loadAround = [&](SizeValueType k) {
-    field.LoadValuesAround(k);
-    if (k < m_Signs.GetDepth())
-    {
-      FindBorderBlocks(m_Signs, k, FCCRowKernels::Block, field.GetNumberOfBlocks(), 0, blocks);
-      field.LoadGradients(k, blocks);
-    }
-  };
 
   if (begin > 0)
   {
     planes.Find(begin - 1);
-    loadAround(begin - 1);
   }
   planes.Find(begin, static_cast<std::uint32_t>(m_FirstPoint[begin]));
-  loadAround(begin);
   for (SizeValueType k = begin; k < end; ++k)
   {
     planes.Find(k + 1, static_cast<std::uint32_t>(m_FirstPoint[k + 1]));
-    loadAround(k + 1);
+    if (field.IsReal(2, k))
+    {
+      field.LoadCoefficientsAround(k);
+    }
     clusterPoints.Place(m_Signs,
                         planes.Get(k),
                         k,

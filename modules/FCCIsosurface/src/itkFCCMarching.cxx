@@ -371,7 +371,7 @@ FCCSigns::FCCSigns(SizeValueType width, SizeValueType height, SizeValueType dept
   , m_Depth(depth)
   , m_Stride((width + WordBits - 1) / WordBits + 1)
   , m_ParityOfFirstRow(parityOfFirstRow)
-  , m_Words(m_Stride * height * depth, 0)
+  , m_Words(m_Stride * height * depth + WordsBeyond, 0)
 {}
 
 void

@@ -16,6 +16,8 @@ namespace HWY_NAMESPACE
 namespace
 {
 
+namespace hn = hwy::HWY_NAMESPACE;
+
 constexpr std::size_t Capacity = FCCEdgeBatch::Capacity;
 
 /** Fractions of the edges at which the line through the values at both ends crosses zero. */
@@ -124,12 +126,19 @@ PlaceOnEdges(const FCCEdgeBatch & batch,
 
   alignas(64) float outwards[3][Capacity];
   const auto sign = static_cast<float>(frame.outwardSign);
-  for (int axis = 0; axis < 3; ++axis)
+  const hn::CappedTag<float, Capacity> tag;
+  for (std::size_t n = 0; n < Capacity; n += hn::Lanes(tag))
   {
-    for (std::size_t n = 0; n < Capacity; ++n)
+    hn::Vec<decltype(tag)> first[4];
+    hn::Vec<decltype(tag)> second[4];
+    hn::LoadInterleaved4(tag, batch.gradient[0][n], first[0], first[1], first[2], first[3]);
+    hn::LoadInterleaved4(tag, batch.gradient[1][n], second[0], second[1], second[2], second[3]);
+    const auto t = hn::Load(tag, fraction + n);
+    const auto rest = hn::Sub(hn::Set(tag, 1.0f), t);
+    for (int axis = 0; axis < 3; ++axis)
     {
-      const float t = fraction[n];
-      outwards[axis][n] = sign * ((1.0f - t) * batch.gradient[0][axis][n] + t * batch.gradient[1][axis][n]);
+      const auto gradient = hn::Add(hn::Mul(rest, first[axis]), hn::Mul(t, second[axis]));
+      hn::Store(hn::Mul(hn::Set(tag, sign), gradient), tag, outwards[axis] + n);
     }
   }
   for (std::size_t n = 0; n < Capacity; ++n)

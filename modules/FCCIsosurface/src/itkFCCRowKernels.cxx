@@ -116,25 +116,27 @@ QuasiInterpolateRow(const float * values, const float * const * n, std::size_t c
 }
 
 HWY_ATTR void
-GradientBlock(const float * const * n,
-              std::size_t first,
-              float * HWY_RESTRICT gx,
-              float * HWY_RESTRICT gy,
-              float * HWY_RESTRICT gz)
+GradientBlock(const float * const * n, std::size_t first, float * HWY_RESTRICT gradients)
 {
-  for (std::size_t i = first; i < first + FCCRowKernels::Block; ++i)
+  const hn::CappedTag<float, FCCRowKernels::Block> tag;
+  const auto eighth = hn::Set(tag, 0.125f);
+  for (std::size_t i = first; i < first + FCCRowKernels::Block; i += hn::Lanes(tag))
   {
-    // Differences along the neighbours' six directions: (1, 1, 0), (-1, 1, 0), (1, 0, 1), (-1, 0, 1), (0, 1, 1), (0,
-    // -1, 1).
-    const float a = n[0][i] - n[6][i];
-    const float b = n[1][i] - n[7][i];
-    const float c = n[2][i] - n[8][i];
-    const float d = n[3][i] - n[9][i];
-    const float e = n[4][i] - n[10][i];
-    const float f = n[5][i] - n[11][i];
-    gx[i] = 0.125f * ((a - b) + (c - d));
-    gy[i] = 0.125f * ((a + b) + (e - f));
-    gz[i] = 0.125f * ((c + d) + (e + f));
+    const auto differenceAlong = [&](unsigned int neighbor) HWY_ATTR {
+      return hn::Sub(hn::LoadU(tag, n[neighbor] + i), hn::LoadU(tag, n[neighbor + 6] + i));
+    };
+    const auto a = differenceAlong(0); // (1, 1, 0)
+    const auto b = differenceAlong(1); // (-1, 1, 0)
+    const auto c = differenceAlong(2); // (1, 0, 1)
+    const auto d = differenceAlong(3); // (-1, 0, 1)
+    const auto e = differenceAlong(4); // (0, 1, 1)
+    const auto f = differenceAlong(5); // (0, -1, 1)
+    hn::StoreInterleaved4(hn::Mul(eighth, hn::Add(hn::Sub(a, b), hn::Sub(c, d))),
+                          hn::Mul(eighth, hn::Add(hn::Add(a, b), hn::Sub(e, f))),
+                          hn::Mul(eighth, hn::Add(hn::Add(c, d), hn::Add(e, f))),
+                          hn::Zero(tag),
+                          tag,
+                          gradients + 4 * i);
   }
 }
 
@@ -244,9 +246,9 @@ FCCRowKernels::QuasiInterpolate(const float * values,
 }
 
 void
-FCCRowKernels::Gradient(const NeighborRows & neighbors, SizeValueType first, float * const (&gradient)[3])
+FCCRowKernels::Gradient(const NeighborRows & neighbors, SizeValueType first, float * gradients)
 {
-  HWY_DYNAMIC_DISPATCH(GradientBlock)(neighbors, first, gradient[0], gradient[1], gradient[2]);
+  HWY_DYNAMIC_DISPATCH(GradientBlock)(neighbors, first, gradients);
 }
 
 } // namespace itk
