@@ -331,9 +331,14 @@ FCCIsosurfaceFilter<TInputImage>::ExtractLean(const FCCSigns & signs, double iso
   const SizeValueType planes = signs.GetDepth();
   this->ForEachSlab(planes, 0.5f * share, [&](SizeValueType begin, SizeValueType end) { lean.Count(begin, end); });
   lean.Resolve(
-    [&](SizeValueType i, SizeValueType j, SizeValueType k) {
-      const auto pixel = image->GetBufferPointer()[((k - 1) * size[1] + j - 1) * size[0] + i - 1];
-      return static_cast<float>(static_cast<double>(pixel) - isovalue);
+    [&](const std::array<SizeValueType, 3> * sites, unsigned int wanted, float * values) {
+      for (; wanted != 0; wanted &= wanted - 1)
+      {
+        const auto n = static_cast<unsigned int>(__builtin_ctz(wanted));
+        const auto [i, j, k] = sites[n];
+        const auto pixel = image->GetBufferPointer()[((k - 1) * size[1] + j - 1) * size[0] + i - 1];
+        values[n] = static_cast<float>(static_cast<double>(pixel) - isovalue);
+      }
     },
     [this](SizeValueType count, const auto & work) { this->ForEachSlab(count, 0.0f, work, 1024); });
   this->Allocate(surface, lean.GetNumberOfPoints(), lean.GetNumberOfTriangles());

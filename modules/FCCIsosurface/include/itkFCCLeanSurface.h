@@ -36,7 +36,7 @@ public:
 
   /** Splits sites, and sums up the counts. */
   void
-  Resolve(const FCCSplitSites::ValueReader & valueAt, const FCCSplitSites::ParallelFor & parallelFor);
+  Resolve(const FCCSplitSites::ValueReader & readValues, const FCCSplitSites::ParallelFor & parallelFor);
 
   SizeValueType
   GetNumberOfPoints() const

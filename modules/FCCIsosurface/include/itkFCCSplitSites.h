@@ -3,6 +3,7 @@
 
 #include "itkFCCCrossingOwners.h"
 
+#include <array>
 #include <functional>
 #include <mutex>
 
@@ -78,8 +79,9 @@ class FCCSplitSites
 public:
   using WordType = FCCSigns::WordType;
 
-  /** The value at a site, counted as signs are, less the isovalue, in float32. */
-  using ValueReader = std::function<float(SizeValueType i, SizeValueType j, SizeValueType k)>;
+  /** Reads the values at sites, counted as signs are, less the isovalue, in float32: those of the bits of \a wanted. */
+  using ValueReader =
+    std::function<void(const std::array<SizeValueType, 3> * sites, unsigned int wanted, float * values)>;
 
   /** \param signs with a layer of sites around the image; must outlive this */
   explicit FCCSplitSites(const FCCSigns & signs);
@@ -96,7 +98,7 @@ public:
   /** Divides what has to be. The numbers of points of each plane and of triangles above it are those of whole sites
    * before, and right afterwards. */
   void
-  Resolve(const ValueReader & valueAt,
+  Resolve(const ValueReader & readValues,
           bool insideIsBelow,
           const ParallelFor & parallelFor,
           std::vector<SizeValueType> & points,

@@ -139,9 +139,9 @@ FCCLeanSurface::Count(SizeValueType begin, SizeValueType end)
 }
 
 void
-FCCLeanSurface::Resolve(const FCCSplitSites::ValueReader & valueAt, const FCCSplitSites::ParallelFor & parallelFor)
+FCCLeanSurface::Resolve(const FCCSplitSites::ValueReader & readValues, const FCCSplitSites::ParallelFor & parallelFor)
 {
-  m_Splits.Resolve(valueAt, m_InsideIsBelow, parallelFor, m_FirstPoint, m_FirstTriangle);
+  m_Splits.Resolve(readValues, m_InsideIsBelow, parallelFor, m_FirstPoint, m_FirstTriangle);
   for (std::vector<SizeValueType> * const counts : { &m_FirstPoint, &m_FirstTriangle })
   {
     SizeValueType sum = 0;

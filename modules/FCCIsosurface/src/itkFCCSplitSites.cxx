@@ -69,7 +69,6 @@ struct Star
   std::vector<Edge> edges;
   std::vector<Tetrahedron> tetrahedra;
   std::bitset<1U << Directions> isDisk;
-  std::vector<std::uint64_t> lowest; ///< by a set of directions: 4 bits a direction, the lowest connected with it
 
   Star()
   {
@@ -113,19 +112,8 @@ struct Star
         }
       }
     }
-    lowest.resize(1U << Directions);
     for (unsigned int set = 1; set < 1U << Directions; ++set)
     {
-      for (unsigned int left = set; left != 0;)
-      {
-        const auto first = static_cast<unsigned int>(__builtin_ctz(left));
-        const unsigned int part = this->PartOf(set, first);
-        for (unsigned int members = part; members != 0; members &= members - 1)
-        {
-          lowest[set] |= std::uint64_t{ first } << (4 * __builtin_ctz(members));
-        }
-        left &= ~part;
-      }
       // Points - edges + triangles of the surface between the crossings of the center's edges.
       auto characteristic = static_cast<int>(std::bitset<Directions>(set).count());
       for (unsigned int a = 0; a < Directions; ++a)
@@ -216,19 +204,52 @@ GetStar()
   return star;
 }
 
-/** A split site: the directions of the crossings it owns, and of those that are alone. */
+/** A split site: the directions of the crossings it owns, and of those that are alone; the others gather in connected
+ * parts. */
 struct Parts
 {
-  unsigned int owned;
-  unsigned int lone;
+  unsigned int owned = 0;
+  unsigned int lone = 0;
+  std::uint64_t lowest = 0; ///< four bits a direction: the lowest direction of the vertex that its crossing belongs to
 
-  /** The lowest direction of the vertex that the crossing in a direction belongs to. */
+  Parts() = default;
+
+  Parts(unsigned int allOwned, unsigned int allLone)
+    : owned(allOwned)
+    , lone(allLone)
+  {
+    for (unsigned int left = lone; left != 0; left &= left - 1)
+    {
+      const auto direction = static_cast<unsigned int>(__builtin_ctz(left));
+      lowest |= std::uint64_t{ direction } << (4 * direction);
+    }
+    this->ForEachPart([this](unsigned int part) {
+      const auto first = static_cast<std::uint64_t>(__builtin_ctz(part));
+      for (; part != 0; part &= part - 1)
+      {
+        lowest |= first << (4 * __builtin_ctz(part));
+      }
+    });
+  }
+
+  /** Calls use(directions) for each connected part of the crossings that are not alone. */
+  template <typename TUse>
+  void
+  ForEachPart(const TUse & use) const
+  {
+    const unsigned int gathered = owned & ~lone;
+    for (unsigned int left = gathered; left != 0;)
+    {
+      const unsigned int part = GetStar().PartOf(gathered, static_cast<unsigned int>(__builtin_ctz(left)));
+      left &= ~part;
+      use(part);
+    }
+  }
+
   unsigned int
   LowestOf(unsigned int direction) const
   {
-    return (lone >> direction & 1) != 0
-             ? direction
-             : static_cast<unsigned int>(GetStar().lowest[owned & ~lone] >> (4 * direction) & 15);
+    return static_cast<unsigned int>(lowest >> (4 * direction) & 15);
   }
 };
 using PartsOfSites = std::unordered_map<SizeValueType, Parts>;
@@ -245,36 +266,35 @@ public:
   Surroundings(const FCCSigns & signs,
                const FCCSigns & split,
                const PartsOfSites & parts,
-               const FCCSplitSites::ValueReader & valueAt,
+               const FCCSplitSites::ValueReader & readValues,
                bool insideIsBelow,
                const SiteType & index)
   {
     const Star & star = GetStar();
+    std::array<SizeValueType, 3> places[Sites];
     const IndexValueType parity =
       signs.GetParity(static_cast<SizeValueType>(index[1]), static_cast<SizeValueType>(index[2]));
     const SizeValueType size[3] = { signs.GetWidth(), signs.GetHeight(), signs.GetDepth() };
-    float value[Sites] = {};
-    bool isReal[Sites] = {};
     for (unsigned int site = 0; site < Sites; ++site)
     {
       const auto offset = FCCLattice::OffsetOf(StepTo(site), parity);
       bool isThere = true;
-      isReal[site] = true;
-      SizeValueType place[3];
+      bool isReal = true;
+      auto & place = places[site];
       for (unsigned int axis = 0; axis < 3; ++axis)
       {
         place[axis] = static_cast<SizeValueType>(index[axis] + offset[axis]);
         isThere = isThere && place[axis] < size[axis];
-        isReal[site] = isReal[site] && place[axis] - 1 < size[axis] - 2;
+        isReal = isReal && place[axis] - 1 < size[axis] - 2;
       }
       const auto [i, j, k] = place;
       m_Number[site] = (k * size[1] + j) * size[0] + i;
       const auto bit = [&](const FCCSigns & bits) {
         return (bits.GetRow(j, k)[i / FCCSigns::WordBits] >> (i % FCCSigns::WordBits) & 1) != 0;
       };
-      if (isReal[site])
+      if (isReal)
       {
-        value[site] = valueAt(i, j, k);
+        m_Real |= 1U << site;
         m_Inside |= static_cast<unsigned int>(bit(signs)) << site;
       }
       if (isThere && bit(split))
@@ -283,6 +303,8 @@ public:
         m_Parts[site] = parts.at(m_Number[site]);
       }
     }
+    float values[Sites] = {};
+    readValues(places, m_Real, values);
     for (std::size_t n = 0; n < star.edges.size(); ++n)
     {
       const auto [a, b] = star.edges[n].ends;
@@ -292,35 +314,21 @@ public:
       }
       const unsigned int inside = this->IsInside(a) ? a : b;
       const unsigned int outside = this->IsInside(a) ? b : a;
-      const float sum = value[a] + value[b];
-      const bool insideOwns = isReal[outside] && (insideIsBelow ? sum > 0.0f : sum < 0.0f);
+      const float sum = values[a] + values[b];
+      const bool insideOwns = (m_Real >> outside & 1) != 0 && (insideIsBelow ? sum > 0.0f : sum < 0.0f);
       m_Owner[n] = static_cast<std::uint8_t>(insideOwns ? inside : outside);
       if (m_Owner[n] == Center)
       {
         m_Owned |= 1U << star.edges[n].directions[a == Center ? 0 : 1];
       }
     }
+    this->FindPolygons();
   }
 
-  unsigned int
-  GetOwned() const
-  {
-    return m_Owned;
-  }
-  bool
-  IsSplit() const
-  {
-    return this->IsSplit(Center);
-  }
   const Parts &
   GetParts() const
   {
     return m_Parts[Center];
-  }
-  SizeValueType
-  GetNumber() const
-  {
-    return m_Number[Center];
   }
 
   /** Numbers of the sites whose sets have an edge of more than two triangles with a point of this site. Its sets have
@@ -331,21 +339,13 @@ public:
   {
     const auto check = [this, &use](unsigned int point) {
       const VertexType vertex = VertexOf(Center, static_cast<unsigned int>(__builtin_ctz(point)));
-      std::uint8_t uses[256] = {};
-      this->CountUses(vertex, uses);
-      for (unsigned int end = 0; end < Sites * 16; ++end)
-      {
-        if (uses[end] > 2)
-        {
-          use(m_Number[end / 16]);
-        }
-      }
+      this->CountUses(vertex, [&](VertexType end) { use(m_Number[end / 16]); });
     };
     for (unsigned int left = m_Parts[Center].lone; left != 0; left &= left - 1)
     {
       check(left & ~(left - 1));
     }
-    this->ForEachPart([&check](unsigned int part) {
+    m_Parts[Center].ForEachPart([&check](unsigned int part) {
       if ((part & (part - 1)) == 0)
       {
         check(part);
@@ -357,7 +357,7 @@ public:
   bool
   Divide()
   {
-    const bool wasSplit = this->IsSplit();
+    const bool wasSplit = this->IsSplit(Center);
     if (!wasSplit)
     {
       this->FindTriangles();
@@ -366,8 +366,9 @@ public:
         return false;
       }
       m_Split |= 1U << Center;
-      m_Parts[Center] = { m_Owned, 0 };
-      this->ForEachPart([this](unsigned int part) { m_Parts[Center].lone |= GetStar().isDisk[part] ? 0 : part; });
+      unsigned int lone = 0;
+      Parts(m_Owned, 0).ForEachPart([&lone](unsigned int part) { lone |= GetStar().isDisk[part] ? 0 : part; });
+      m_Parts[Center] = Parts(m_Owned, lone);
     }
     bool changed = !wasSplit;
     for (;;)
@@ -389,19 +390,15 @@ public:
   void
   ForEachChange(const TUse & use) const
   {
-    for (const Star::Tetrahedron & tetrahedron : GetStar().tetrahedra)
+    for (unsigned int p = 0; p < m_NumberOfPolygons; ++p)
     {
-      if ((tetrahedron.far & m_Owned) == 0)
-      {
-        continue;
-      }
-      const Star::Polygon & polygon = this->PolygonOf(tetrahedron);
-      bool isOthers = false;
+      const Polygon & polygon = m_Polygons[p];
       VertexType now[4];
       VertexType whole[4];
-      this->GetCorners(polygon, now);
+      bool isOthers = false;
       for (unsigned int n = 0; n < polygon.corners; ++n)
       {
+        now[n] = this->CurrentOf(polygon.vertices[n]);
         const unsigned int owner = now[n] / 16;
         whole[n] = VertexOf(owner, Whole);
         isOthers = isOthers || (this->IsSplit(owner) && m_Number[owner] < m_Number[Center]);
@@ -411,7 +408,7 @@ public:
         continue;
       }
       IndexValueType plane = 0;
-      for (const std::uint8_t site : tetrahedron.sites)
+      for (const std::uint8_t site : polygon.tetrahedron->sites)
       {
         plane = std::min(plane, StepTo(site)[2]);
       }
@@ -449,66 +446,78 @@ private:
     return (m_Split >> site & 1) != 0;
   }
 
-  template <typename TUse>
-  void
-  ForEachPart(const TUse & use) const
+  /** The vertices of the surface's polygon in a tetrahedron. One of 4 is to be cut from the first to the third. */
+  struct Polygon
   {
-    const unsigned int gathered = m_Parts[Center].owned & ~m_Parts[Center].lone;
-    for (unsigned int left = gathered; left != 0;)
-    {
-      const unsigned int part = GetStar().PartOf(gathered, static_cast<unsigned int>(__builtin_ctz(left)));
-      left &= ~part;
-      use(part);
-    }
-  }
+    const Star::Tetrahedron * tetrahedron;
+    std::uint8_t corners;
+    VertexType vertices[4]; ///< those of the site itself by their direction, whatever the sets it has
+  };
 
-  const Star::Polygon &
-  PolygonOf(const Star::Tetrahedron & tetrahedron) const
-  {
-    unsigned int pattern = 0;
-    for (unsigned int corner = 0; corner < 4; ++corner)
-    {
-      pattern |= (m_Inside >> tetrahedron.sites[corner] & 1) << corner;
-    }
-    return tetrahedron.polygons[pattern];
-  }
-
-  /** The vertices of a polygon, so that one of 4 is to be cut from corner 0 to corner 2. */
+  /** The polygons with crossings that the site owns. */
   void
-  GetCorners(const Star::Polygon & polygon, VertexType (&corners)[4]) const
+  FindPolygons()
   {
-    unsigned int place = polygon.corners == 4 && !this->IsInside(m_Owner[polygon.edges[0]]) ? 1 : 0;
-    for (unsigned int n = 0; n < polygon.corners; ++n)
-    {
-      const std::uint8_t edge = polygon.edges[place];
-      place = place + 1 == polygon.corners ? 0 : place + 1;
-      const unsigned int owner = m_Owner[edge];
-      const Star::Edge & ends = GetStar().edges[edge];
-      corners[n] = VertexOf(
-        owner, this->IsSplit(owner) ? m_Parts[owner].LowestOf(ends.directions[ends.ends[0] == owner ? 0 : 1]) : Whole);
-    }
-  }
-
-  /** The triangles in the tetrahedra with crossings that the site owns: all that have its vertices. */
-  void
-  FindTriangles()
-  {
-    m_NumberOfTriangles = 0;
     for (const Star::Tetrahedron & tetrahedron : GetStar().tetrahedra)
     {
       if ((tetrahedron.far & m_Owned) == 0)
       {
         continue;
       }
-      const Star::Polygon & polygon = this->PolygonOf(tetrahedron);
-      VertexType corners[4];
-      this->GetCorners(polygon, corners);
+      unsigned int pattern = 0;
+      for (unsigned int corner = 0; corner < 4; ++corner)
+      {
+        pattern |= (m_Inside >> tetrahedron.sites[corner] & 1) << corner;
+      }
+      const Star::Polygon & found = tetrahedron.polygons[pattern];
+      Polygon & polygon = m_Polygons[m_NumberOfPolygons++];
+      polygon.tetrahedron = &tetrahedron;
+      polygon.corners = found.corners;
+      unsigned int place = found.corners == 4 && !this->IsInside(m_Owner[found.edges[0]]) ? 1 : 0;
+      for (unsigned int n = 0; n < found.corners; ++n)
+      {
+        const std::uint8_t edge = found.edges[place];
+        place = place + 1 == found.corners ? 0 : place + 1;
+        const unsigned int owner = m_Owner[edge];
+        const Star::Edge & ends = GetStar().edges[edge];
+        const unsigned int direction = ends.directions[ends.ends[0] == owner ? 0 : 1];
+        polygon.vertices[n] = VertexOf(owner,
+                                       owner == Center        ? direction
+                                       : this->IsSplit(owner) ? m_Parts[owner].LowestOf(direction)
+                                                              : Whole);
+      }
+    }
+  }
+
+  /** The vertex of a polygon with the sets that the site has now. */
+  VertexType
+  CurrentOf(VertexType vertex) const
+  {
+    if (vertex < VertexOf(Center, 0))
+    {
+      return vertex;
+    }
+    return VertexOf(Center, this->IsSplit(Center) ? m_Parts[Center].LowestOf(vertex % 16) : Whole);
+  }
+
+  /** The triangles of these polygons: all that have vertices of the site. */
+  void
+  FindTriangles()
+  {
+    m_NumberOfTriangles = 0;
+    for (unsigned int p = 0; p < m_NumberOfPolygons; ++p)
+    {
+      const Polygon & polygon = m_Polygons[p];
+      const VertexType first = this->CurrentOf(polygon.vertices[0]);
+      VertexType last = this->CurrentOf(polygon.vertices[1]);
       for (unsigned int n = 2; n < polygon.corners; ++n)
       {
-        if (AreDistinct(corners[0], corners[n - 1], corners[n]))
+        const VertexType next = this->CurrentOf(polygon.vertices[n]);
+        if (AreDistinct(first, last, next))
         {
-          m_Triangles[m_NumberOfTriangles++] = { corners[0], corners[n - 1], corners[n] };
+          m_Triangles[m_NumberOfTriangles++] = { first, last, next };
         }
+        last = next;
       }
     }
   }
@@ -518,16 +527,17 @@ private:
   Breaks(VertexType vertex) const
   {
     constexpr unsigned int fewest = 3;
-    std::uint8_t uses[256] = {};
-    return this->CountUses(vertex, uses) < fewest ||
-           std::any_of(uses, uses + Sites * 16, [](std::uint8_t count) { return count > 2; });
+    bool hasBrokenEdge = false;
+    return this->CountUses(vertex, [&](VertexType) { hasBrokenEdge = true; }) < fewest || hasBrokenEdge;
   }
 
-  /** Counts the triangles of a vertex, altogether and those at the edge to each other vertex. */
+  /** Counts the triangles of a vertex, and calls use(vertex) for the other ends of its edges with more than two. */
+  template <typename TUse>
   unsigned int
-  CountUses(VertexType vertex, std::uint8_t (&uses)[256]) const
+  CountUses(VertexType vertex, const TUse & use) const
   {
     unsigned int triangles = 0;
+    std::uint8_t uses[256] = {};
     for (unsigned int n = 0; n < m_NumberOfTriangles; ++n)
     {
       const auto & triangle = m_Triangles[n];
@@ -536,7 +546,10 @@ private:
         ++triangles;
         for (const VertexType end : triangle)
         {
-          uses[end] = static_cast<std::uint8_t>(uses[end] + (end != vertex ? 1 : 0));
+          if (end != vertex && ++uses[end] == 3)
+          {
+            use(end);
+          }
         }
       }
     }
@@ -548,7 +561,7 @@ private:
   FindBroken() const
   {
     unsigned int broken = 0;
-    this->ForEachPart([this, &broken](unsigned int part) {
+    m_Parts[Center].ForEachPart([this, &broken](unsigned int part) {
       const bool isPoint = (part & (part - 1)) == 0;
       const auto lowest = static_cast<unsigned int>(__builtin_ctz(part));
       broken |= !isPoint && this->Breaks(VertexOf(Center, lowest)) ? part : 0;
@@ -566,7 +579,7 @@ private:
       const unsigned int point = left & ~(left - 1);
       if (GetStar().isDisk[part & ~point])
       {
-        m_Parts[Center].lone = lone | point;
+        m_Parts[Center] = Parts(m_Owned, lone | point);
         this->FindTriangles();
         if ((this->FindBroken() & part) == 0)
         {
@@ -574,15 +587,18 @@ private:
         }
       }
     }
-    m_Parts[Center].lone = lone | part;
+    m_Parts[Center] = Parts(m_Owned, lone | part);
   }
 
+  unsigned int m_Real{ 0 };
   unsigned int m_Inside{ 0 };
   unsigned int m_Split{ 0 };
   unsigned int m_Owned{ 0 };
   SizeValueType m_Number[Sites];
   Parts m_Parts[Sites];
   std::uint8_t m_Owner[64];
+  unsigned int m_NumberOfPolygons{ 0 };
+  Polygon m_Polygons[24];
   unsigned int m_NumberOfTriangles{ 0 };
   std::array<VertexType, 3> m_Triangles[48];
 };
@@ -625,7 +641,7 @@ FCCSplitSites::Suspect(const std::vector<SizeValueType> & sites)
 }
 
 void
-FCCSplitSites::Resolve(const ValueReader & valueAt,
+FCCSplitSites::Resolve(const ValueReader & readValues,
                        bool insideIsBelow,
                        const ParallelFor & parallelFor,
                        std::vector<SizeValueType> & points,
@@ -638,7 +654,7 @@ FCCSplitSites::Resolve(const ValueReader & valueAt,
     return Surroundings(m_Signs,
                         m_Split,
                         parts,
-                        valueAt,
+                        readValues,
                         insideIsBelow,
                         { static_cast<IndexValueType>(number % width),
                           static_cast<IndexValueType>(number / width % height),
