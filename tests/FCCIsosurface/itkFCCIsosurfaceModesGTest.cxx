@@ -173,6 +173,54 @@ TEST_P(FCCIsosurfaceModes, NormalsAreUnitVectorsOutwardsOrAbsent)
   EXPECT_TRUE(filter->GetOutput()->GetPoints() == surface->GetPoints());
 }
 
+// Skin in a head scan of thick pixels: a step, blurred less than the pixels are wide, at an isovalue near its top.
+TEST_P(FCCIsosurfaceModes, NormalsAgreeWithTheTrianglesOnASharpStep)
+{
+  const auto image = ImageType::New();
+  image->SetRegions(ImageType::SizeType{ { 24, 48, 90 } });
+  image->Allocate();
+  ImageType::SpacingType spacing;
+  spacing[0] = 2.8;
+  spacing[1] = 2.8;
+  spacing[2] = 1.3;
+  image->SetSpacing(spacing);
+  for (itk::ImageRegionIteratorWithIndex<ImageType> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+  {
+    const auto point = image->TransformIndexToPhysicalPoint<double>(it.GetIndex());
+    const double distance = 50.0 - std::hypot(point[0] - 66.0, point[1] - 66.0, point[2] - 58.0);
+    it.Set(static_cast<float>(500.0 + 500.0 * std::erf(distance / 1.2)));
+  }
+  const auto surface = Extract(image, 850.5, GetParam());
+
+  std::vector<itk::Vector<double, 3>> facets(surface->GetNumberOfPoints(), itk::Vector<double, 3>(0.0));
+  const auto & points = surface->GetPoints();
+  for (const auto & triangle : surface->GetTriangles())
+  {
+    itk::Vector<double, 3> edges[2];
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      edges[0][axis] = points[triangle[1]][axis] - points[triangle[0]][axis];
+      edges[1][axis] = points[triangle[2]][axis] - points[triangle[0]][axis];
+    }
+    for (const auto corner : triangle)
+    {
+      facets[corner] += itk::CrossProduct(edges[0], edges[1]);
+    }
+  }
+  itk::SizeValueType against = 0;
+  double cosines = 0.0;
+  for (itk::SizeValueType n = 0; n < facets.size(); ++n)
+  {
+    const auto & normal = surface->GetNormals()[n];
+    const double cosine =
+      (normal[0] * facets[n][0] + normal[1] * facets[n][1] + normal[2] * facets[n][2]) / facets[n].GetNorm();
+    against += cosine < 0.0 ? 1 : 0;
+    cosines += cosine;
+  }
+  EXPECT_LE(against, facets.size() / 1000);
+  EXPECT_GT(cosines / static_cast<double>(facets.size()), 0.9);
+}
+
 TEST_P(FCCIsosurfaceModes, UndefinedSamplesAreCounted)
 {
   const auto image = fcctest::MakeNoise({ { { 0, 0, 0 } }, { { 5, 6, 7 } } }, 7, 4);

@@ -51,8 +51,7 @@ public:
         TriangleSurface::PointType * points,
         TriangleSurface::NormalType * normals) const;
 
-  /** Adds to a batch the edge from a site along a step. The site is counted as the field's are. Gradients are those of
-   * the values, since this is for few edges. */
+  /** Adds to a batch the edge from a site along a step. The site is counted as the field's are. */
   void
   Gather(const std::array<SizeValueType, 3> & site,
          const FCCLattice::SiteType & step,

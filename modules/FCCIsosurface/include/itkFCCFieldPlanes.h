@@ -22,7 +22,7 @@ namespace itk
  *
  * Planes are computed when asked for, and the last few of each kind are kept: ask in ascending order.
  *
- * Memory: planes of float32, 6 of values, 3 of coefficients and 8 of gradients, each kind once it is asked for. Thread
+ * Memory: planes of float32, 6 of values, 3 of coefficients and 12 of gradients, each kind once it is asked for. Thread
  * safety: each thread uses its own.
  *
  * \ingroup FCCIsosurface
@@ -73,7 +73,7 @@ public:
     return m_Gradients[k % m_Gradients.size()].number == k;
   }
 
-  /** Makes the gradients of a plane available where blocks of FCCRowKernels::Block sites are wanted; the last two
+  /** Makes the gradients of a plane available where blocks of FCCRowKernels::Block sites are wanted; the last three
    * planes are. \param wanted not zero for those, rows of GetNumberOfBlocks() */
   void
   LoadGradients(SizeValueType k, const std::vector<std::uint8_t> & wanted);
@@ -86,10 +86,6 @@ public:
    * coefficients around the plane must have been loaded, and the row be one of the image. */
   void
   ComputeGradients(SizeValueType j, SizeValueType k, SizeValueType block, float * gradients) const;
-
-  /** The gradient of the values themselves at one site of the image, from its twelve neighbours. */
-  std::array<float, 3>
-  GetGradientOfValues(SizeValueType i, SizeValueType j, SizeValueType k) const;
 
   /** Floats of a row of gradients, with the margin that kernels need. */
   SizeValueType
@@ -154,7 +150,7 @@ private:
   SizeValueType m_Stride;
   std::array<Plane, 6> m_Values;
   std::array<Plane, 3> m_Coefficients;
-  std::array<Plane, 2> m_Gradients;
+  std::array<Plane, 3> m_Gradients;
 };
 
 } // namespace itk

@@ -52,6 +52,7 @@ struct FCCClusterBatch
   float value[Capacity];                ///< at the sites, less the isovalue
   float neighbor[Directions][Capacity]; ///< at their neighbours: FCCLattice::OwnedEdges and their opposites
   float gradient[3][Capacity];          ///< at the sites, in lattice coordinates
+  float farGradient[3][Capacity];       ///< the mean at the far ends of their owned edges, for normals
   std::uint32_t owned[Capacity];        ///< bit n: direction n has a crossing that the vertex gathers
   float site[3][Capacity];              ///< in lattice coordinates, from the origin below
   double origin[3];                     ///< in lattice coordinates
@@ -79,9 +80,12 @@ struct FCCPointKernels
                TriangleSurface::PointType * points,
                TriangleSurface::NormalType * normals);
 
-  /** Vertices of sites: the mean of the gathered crossings, moved onto the surface of the field's second-order
-   * expansion about the site, at most as far as the batch says. The expansion has the given gradient and the second
-   * differences of the twelve nearest neighbours. Whole batches are written. */
+  /** Vertices of sites: the mean of the gathered crossings, each where the parabola through the values before, at and
+   * after the site crosses zero, moved onto the surface of the field's second-order expansion about the site. The
+   * expansion has the given gradient and the second differences of the twelve nearest neighbours. Where that surface is
+   * further away than the batch says, the field is no such thing, and the mean stays. Normals are along the gradient,
+   * interpolated between the site and its edges' far ends; where the values do not fall that way, along that of the
+   * crossed edges alone. Whole batches are written. */
   static void
   PlaceClusters(const FCCClusterBatch & batch,
                 const FCCFrame & frame,

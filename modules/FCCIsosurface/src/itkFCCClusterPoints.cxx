@@ -67,10 +67,14 @@ public:
     return m_Neighbors[direction][i];
   }
 
-  /** The gradient's x, y and z; those of the sites nearby are computed with it. */
+  /** The gradient's x, y and z. Unless the field has loaded them, those of the sites nearby are computed with it. */
   const float *
   GetGradient(SizeValueType i)
   {
+    if (m_Field.HasGradients(m_K))
+    {
+      return m_Field.GetGradients(m_J, m_K) + FCCRowKernels::GradientStride * i;
+    }
     const SizeValueType block = i / FCCRowKernels::Block;
     if (m_HasGradients[block] == 0)
     {
@@ -78,6 +82,38 @@ public:
       m_HasGradients[block] = 1;
     }
     return m_Gradients.data() + FCCRowKernels::GradientStride * i;
+  }
+
+  /** The mean of the gradients at the neighbours in some directions. The field must have loaded them; those outside the
+   * image have none. */
+  std::array<float, 3>
+  GetFarGradient(SizeValueType i, unsigned int directions) const
+  {
+    std::array<float, 3> sum{};
+    float count = 0.0f;
+    for (; directions != 0; directions &= directions - 1)
+    {
+      const auto direction = static_cast<unsigned int>(__builtin_ctz(directions));
+      const auto offset = FCCLattice::OffsetOf(FCCSiteStar::StepOf(direction), this->GetParity());
+      const SizeValueType place[3] = { i + static_cast<SizeValueType>(offset[0]),
+                                       m_J + static_cast<SizeValueType>(offset[1]),
+                                       m_K + static_cast<SizeValueType>(offset[2]) };
+      if (m_Field.IsReal(0, place[0]) && m_Field.IsReal(1, place[1]) && m_Field.IsReal(2, place[2]))
+      {
+        const float * const gradient =
+          m_Field.GetGradients(place[1], place[2]) + FCCRowKernels::GradientStride * place[0];
+        for (unsigned int axis = 0; axis < 3; ++axis)
+        {
+          sum[axis] += gradient[axis];
+        }
+        count += 1.0f;
+      }
+    }
+    for (float & component : sum)
+    {
+      component /= std::max(count, 1.0f);
+    }
+    return sum;
   }
 
 private:
@@ -137,9 +173,11 @@ public:
       m_Batch.neighbor[direction][n] = row.GetNeighbor(direction, i);
     }
     const float * const gradient = row.GetGradient(i);
+    const auto farGradient = this->HasNormals() ? row.GetFarGradient(i, owned) : std::array<float, 3>{};
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
       m_Batch.gradient[axis][n] = gradient[axis];
+      m_Batch.farGradient[axis][n] = farGradient[axis];
     }
     m_Batch.owned[n] = owned;
     m_Batch.site[0][n] = static_cast<float>(2 * static_cast<IndexValueType>(i) + row.GetParity());

@@ -169,14 +169,7 @@ FCCEdgePoints::Gather(const std::array<SizeValueType, 3> & site,
                                                   first[2] + static_cast<IndexValueType>(k) - 1 } });
   if (isReal && isOtherReal)
   {
-    EdgeRows(field, step, j, k, m_Cubic, false).Gather(i, batch);
-    if (withGradients)
-    {
-      const auto gradient = field.GetGradientOfValues(i, j, k);
-      const auto otherGradient = field.GetGradientOfValues(end[0], end[1], end[2]);
-      std::copy(gradient.begin(), gradient.end(), batch.gradient[0][batch.count]);
-      std::copy(otherGradient.begin(), otherGradient.end(), batch.gradient[1][batch.count]);
-    }
+    EdgeRows(field, step, j, k, m_Cubic, withGradients).Gather(i, batch);
   }
   else
   {

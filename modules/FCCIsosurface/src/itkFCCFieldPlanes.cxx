@@ -107,22 +107,6 @@ FCCFieldPlanes::ComputeGradients(SizeValueType j, SizeValueType k, SizeValueType
   FCCRowKernels::Gradient(neighbors, block * FCCRowKernels::Block, gradients);
 }
 
-std::array<float, 3>
-FCCFieldPlanes::GetGradientOfValues(SizeValueType i, SizeValueType j, SizeValueType k) const
-{
-  FCCRowKernels::NeighborRows neighbors;
-  this->GetNeighborRows(m_Values, j, k, neighbors);
-  std::array<float, 3> gradient{};
-  for (unsigned int n = 0; n < 12; ++n)
-  {
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      gradient[axis] += 0.125f * static_cast<float>(FCCLattice::NearestNeighbors[n][axis]) * neighbors[n][i];
-    }
-  }
-  return gradient;
-}
-
 void
 FCCFieldPlanes::LoadGradients(SizeValueType k, const std::vector<std::uint8_t> & wanted)
 {

@@ -162,6 +162,25 @@ FCCLeanSurface::Fill(SizeValueType begin,
   FCCFieldPlanes field = this->MakeField();
   PlaneSequence planes(m_Signs, field, m_InsideIsBelow, &m_Splits);
   const FCCClusterPoints clusterPoints(m_Region, m_Frame, m_MinimumFraction);
+  std::vector<std::uint8_t> blocks;
+  const auto loadAround = [&](SizeValueType k) {
+    if (!surface.HasNormals())
+    {
+      if (field.IsReal(2, k))
+      {
+        field.LoadCoefficientsAround(k);
+      }
+      return;
+    }
+    for (SizeValueType near = k > 0 ? k - 1 : 0; near < std::min(k + 2, m_Signs.GetDepth()); ++near)
+    {
+      if (!field.HasGradients(near))
+      {
+        FindBorderBlocks(m_Signs, near, FCCRowKernels::Block, field.GetNumberOfBlocks(), 0, blocks);
+        field.LoadGradients(near, blocks);
+      }
+    }
+  };
 
   if (begin > 0)
   {
@@ -171,10 +190,7 @@ FCCLeanSurface::Fill(SizeValueType begin,
   for (SizeValueType k = begin; k < end; ++k)
   {
     planes.Find(k + 1, static_cast<std::uint32_t>(m_FirstPoint[k + 1]));
-    if (field.IsReal(2, k))
-    {
-      field.LoadCoefficientsAround(k);
-    }
+    loadAround(k);
     clusterPoints.Place(m_Signs,
                         planes.Get(k),
                         k,

@@ -195,8 +195,13 @@ PlaceClusters(const FCCClusterBatch & batch,
   alignas(64) float dy[lanes] = {};
   alignas(64) float dz[lanes] = {};
   alignas(64) float count[lanes] = {};
+  alignas(64) float way[lanes] = {};        // sum of the fractions of edges before their crossings
+  alignas(64) float along[3][lanes] = {};   // sum of the edges' steps
+  alignas(64) float crossed[3][lanes] = {}; // the same, each by how much values change along it
   for (unsigned int direction = 0; direction < FCCClusterBatch::Directions; ++direction)
   {
+    const float * const after = batch.neighbor[direction];
+    const float * const before = batch.neighbor[(direction + 7) % FCCClusterBatch::Directions];
     const auto & step = FCCLattice::OwnedEdges[direction % 7];
     const float sign = direction < 7 ? 1.0f : -1.0f;
     const float x = sign * static_cast<float>(step[0]);
@@ -205,14 +210,29 @@ PlaceClusters(const FCCClusterBatch & batch,
     for (std::size_t n = 0; n < lanes; ++n)
     {
       const auto owns = static_cast<float>(static_cast<std::int32_t>(batch.owned[n] >> direction & 1U));
-      const float crossing = batch.value[n] / (batch.value[n] - batch.neighbor[direction][n]);
+      const float change = after[n] - batch.value[n];
+      const float curvature = 0.5f * (after[n] + before[n]) - batch.value[n];
+      const float slope = 0.5f * (after[n] - before[n]);
+      const float discriminant = slope * slope - 4.0f * curvature * batch.value[n];
+      const float root = __builtin_sqrtf(discriminant >= 0.0f ? discriminant : 0.0f);
+      const float linear = -batch.value[n] / change;
+      const float parabolic = 2.0f * batch.value[n] / (-slope - (change > 0.0f ? root : -root));
+      const float crossing = parabolic >= 0.0f && parabolic <= 1.0f ? parabolic : linear;
       const float least = crossing >= batch.minimumFraction ? crossing : batch.minimumFraction;
       const float t = crossing >= 0.0f && crossing <= 0.5f ? least : 0.5f;
       const float used = owns * t;
       dx[n] += used * x;
       dy[n] += used * y;
       dz[n] += used * z;
+      way[n] += used;
       count[n] += owns;
+      along[0][n] += owns * x;
+      along[1][n] += owns * y;
+      along[2][n] += owns * z;
+      const float ownChange = owns != 0.0f ? change : 0.0f; // which need not be finite
+      crossed[0][n] += ownChange * x;
+      crossed[1][n] += ownChange * y;
+      crossed[2][n] += ownChange * z;
     }
   }
 
@@ -253,21 +273,17 @@ PlaceClusters(const FCCClusterBatch & batch,
     float x = startX;
     float y = startY;
     float z = startZ;
-    float gx = 0.0f;
-    float gy = 0.0f;
-    float gz = 0.0f;
     constexpr int steps = 3;
-    for (int step = 0; step <= steps; ++step)
+    for (int step = 0; step < steps; ++step)
     {
       const float hx = (xx * x + xy * y) + xz * z;
       const float hy = (xy * x + yy * y) + yz * z;
       const float hz = (xz * x + yz * y) + zz * z;
-      gx = g0 + hx;
-      gy = g1 + hy;
-      gz = g2 + hz;
+      const float gx = g0 + hx;
+      const float gy = g1 + hy;
+      const float gz = g2 + hz;
       const float value = batch.value[n] + (((g0 + 0.5f * hx) * x + (g1 + 0.5f * hy) * y) + (g2 + 0.5f * hz) * z);
-      const float squared = (gx * gx + gy * gy) + gz * gz;
-      const float length = step < steps ? value / squared : 0.0f;
+      const float length = value / ((gx * gx + gy * gy) + gz * gz);
       x -= length * gx;
       y -= length * gy;
       z -= length * gz;
@@ -277,12 +293,21 @@ PlaceClusters(const FCCClusterBatch & batch,
     const float moveY = y - startY;
     const float moveZ = z - startZ;
     const float moved = (moveX * moveX + moveY * moveY) + moveZ * moveZ;
-    const float keep = moved <= farthest * farthest ? 1.0f : farthest / __builtin_sqrtf(moved);
-    const bool isUsable = moved <= std::numeric_limits<float>::max();
-    lattice[0][n] = isUsable ? startX + keep * moveX : startX;
-    lattice[1][n] = isUsable ? startY + keep * moveY : startY;
-    lattice[2][n] = isUsable ? startZ + keep * moveZ : startZ;
+    const bool isUsable = moved <= farthest * farthest;
+    lattice[0][n] = isUsable ? x : startX;
+    lattice[1][n] = isUsable ? y : startY;
+    lattice[2][n] = isUsable ? z : startZ;
 
+    const float t = way[n] / count[n];
+    const float nx = (1.0f - t) * g0 + t * batch.farGradient[0][n];
+    const float ny = (1.0f - t) * g1 + t * batch.farGradient[1][n];
+    const float nz = (1.0f - t) * g2 + t * batch.farGradient[2][n];
+    const float rise = (nx * along[0][n] + ny * along[1][n]) + nz * along[2][n];
+    const bool rises = batch.value[n] < 0.0f; // along the crossed edges
+    const bool isPlausible = rises ? rise > 0.0f : rise < 0.0f;
+    const float gx = isPlausible ? nx : crossed[0][n];
+    const float gy = isPlausible ? ny : crossed[1][n];
+    const float gz = isPlausible ? nz : crossed[2][n];
     const float sum = (__builtin_fabsf(gx) + __builtin_fabsf(gy)) + __builtin_fabsf(gz);
     const bool hasNormal = sum > 0.0f && sum <= std::numeric_limits<float>::max();
     const float scale = static_cast<float>(frame.outwardSign) / sum;
