@@ -116,6 +116,7 @@ public:
     unsigned int lone;   ///< those that are vertices by themselves; the others gather in connected parts
     unsigned int lowest; ///< the lowest direction of each vertex
     std::uint32_t first; ///< number of the first vertex
+    std::uint64_t place; ///< four bits a direction: which of the site's vertices its crossing belongs to
   };
   const std::vector<Parts> &
   GetParts() const
@@ -128,11 +129,7 @@ public:
   GetVertex(SizeValueType j, SizeValueType i, unsigned int direction) const
   {
     const Parts & parts = m_Parts[m_Split.GetNumber(j, i)];
-    const unsigned int lowest =
-      (parts.lone >> direction & 1) != 0
-        ? direction
-        : static_cast<unsigned int>(__builtin_ctz(FCCSiteStar::PartOf(parts.owned & ~parts.lone, direction)));
-    return parts.first + static_cast<std::uint32_t>(__builtin_popcount(parts.lowest & ((1U << lowest) - 1)));
+    return parts.first + static_cast<std::uint32_t>(parts.place >> (4 * direction) & 15);
   }
 
   /** Bits of the edges that a row stores: the owner of the crossing is split. */

@@ -83,9 +83,10 @@ struct FCCPointKernels
   /** Vertices of sites: the mean of the gathered crossings, each where the parabola through the values before, at and
    * after the site crosses zero, moved onto the surface of the field's second-order expansion about the site. The
    * expansion has the given gradient and the second differences of the twelve nearest neighbours. Where that surface is
-   * further away than the batch says, the field is no such thing, and the mean stays. Normals are along the gradient,
-   * interpolated between the site and its edges' far ends; where the values do not fall that way, along that of the
-   * crossed edges alone. Whole batches are written. */
+   * further away than the batch says, the field is no such thing, and the mean stays. Normals are along that
+   * expansion's gradient where it is within 30 degrees of the one interpolated between the site and its edges' far
+   * ends, else along the latter; where the values do not change that way, along the changes of the crossed edges. Whole
+   * batches are written. */
   static void
   PlaceClusters(const FCCClusterBatch & batch,
                 const FCCFrame & frame,

@@ -159,16 +159,20 @@ FCCClusterPlane::NumberParts(SizeValueType k, const FCCSplitSites & splits, std:
       for (WordType mask = m_Split.GetRow(j)[word]; mask != 0; mask &= mask - 1)
       {
         const SizeValueType i = word * FCCSigns::WordBits + static_cast<SizeValueType>(__builtin_ctzll(mask));
-        Parts parts{ i, j, this->GetOwned(j, i), splits.GetLone(i, j, k), 0, first };
-        parts.lowest = parts.lone;
-        for (unsigned int left = parts.owned & ~parts.lone; left != 0;)
+        Parts parts{ i, j, this->GetOwned(j, i), splits.GetLone(i, j, k), 0, first, 0 };
+        for (unsigned int left = parts.owned; left != 0; ++first)
         {
-          const auto direction = static_cast<unsigned int>(__builtin_ctz(left));
-          parts.lowest |= 1U << direction;
-          left &= ~FCCSiteStar::PartOf(parts.owned & ~parts.lone, direction);
+          const auto lowest = static_cast<unsigned int>(__builtin_ctz(left));
+          const bool isLone = (parts.lone >> lowest & 1) != 0;
+          const unsigned int part = isLone ? 1U << lowest : FCCSiteStar::PartOf(parts.owned & ~parts.lone, lowest);
+          for (unsigned int members = part; members != 0; members &= members - 1)
+          {
+            parts.place |= std::uint64_t{ first - parts.first } << (4 * __builtin_ctz(members));
+          }
+          parts.lowest |= 1U << lowest;
+          left &= ~part;
         }
         m_Parts.push_back(parts);
-        first += static_cast<std::uint32_t>(__builtin_popcount(parts.lowest));
       }
     }
   }

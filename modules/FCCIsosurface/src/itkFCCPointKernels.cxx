@@ -184,6 +184,80 @@ PlaceOnEdges(const FCCEdgeBatch & batch,
   }
 }
 
+/** What a batch's sites own, a lane each. */
+struct ClusterCrossings
+{
+  alignas(64) float mean[3][FCCClusterBatch::Capacity];     ///< of the crossings, from the site
+  alignas(64) float fraction[FCCClusterBatch::Capacity];    ///< of the edges before their crossings, the mean
+  alignas(64) float along[3][FCCClusterBatch::Capacity];    ///< sum of the edges' steps
+  alignas(64) float changing[3][FCCClusterBatch::Capacity]; ///< the same, each by how much the values change along it
+};
+
+/** Finds the crossings of parabolas with zero, one through the values before, at and after the site for each edge. */
+HWY_ATTR void
+FindCrossings(const FCCClusterBatch & batch, ClusterCrossings & crossings)
+{
+  const hn::CappedTag<float, FCCClusterBatch::Capacity> tag;
+  const hn::RebindToUnsigned<decltype(tag)> unsignedTag;
+  using Lanes = hn::Vec<decltype(tag)>;
+  const Lanes zero = hn::Zero(tag);
+  const Lanes half = hn::Set(tag, 0.5f);
+  const Lanes one = hn::Set(tag, 1.0f);
+  const Lanes least = hn::Set(tag, batch.minimumFraction);
+  for (std::size_t n = 0; n < FCCClusterBatch::Capacity; n += hn::Lanes(tag))
+  {
+    const Lanes value = hn::LoadU(tag, batch.value + n);
+    const auto owned = hn::LoadU(unsignedTag, batch.owned + n);
+    Lanes count = zero;
+    Lanes way = zero;
+    Lanes sum[3] = { zero, zero, zero };
+    Lanes along[3] = { zero, zero, zero };
+    Lanes changing[3] = { zero, zero, zero };
+    for (unsigned int direction = 0; direction < FCCClusterBatch::Directions; ++direction)
+    {
+      const unsigned int opposite = (direction + 7) % FCCClusterBatch::Directions;
+      const Lanes after = hn::LoadU(tag, batch.neighbor[direction] + n);
+      const Lanes before = hn::LoadU(tag, batch.neighbor[opposite] + n);
+      const Lanes change = hn::Sub(after, value);
+      const Lanes curvature = hn::Sub(hn::Mul(half, hn::Add(after, before)), value);
+      const Lanes slope = hn::Mul(half, hn::Sub(after, before));
+      const Lanes discriminant = hn::Sub(hn::Mul(slope, slope), hn::Mul(hn::Mul(hn::Set(tag, 4.0f), curvature), value));
+      const Lanes root = hn::Sqrt(hn::IfThenElseZero(hn::Ge(discriminant, zero), discriminant));
+      const Lanes turned = hn::IfThenElse(hn::Gt(change, zero), root, hn::Neg(root));
+      const Lanes parabolic = hn::Div(hn::Mul(hn::Set(tag, -2.0f), value), hn::Add(slope, turned));
+      const Lanes linear = hn::Div(hn::Neg(value), change);
+      const auto isParabolic = hn::And(hn::Ge(parabolic, zero), hn::Le(parabolic, one));
+      const Lanes crossing = hn::IfThenElse(isParabolic, parabolic, linear);
+      const auto isNear = hn::And(hn::Ge(crossing, zero), hn::Le(crossing, half));
+      const Lanes apart = hn::IfThenElse(hn::Ge(crossing, least), crossing, least);
+      const Lanes fraction = hn::IfThenElse(isNear, apart, half);
+
+      const auto bit = hn::Set(unsignedTag, 1U << direction);
+      const auto owns = hn::RebindMask(tag, hn::Eq(hn::And(owned, bit), bit));
+      const Lanes ownFraction = hn::IfThenElseZero(owns, fraction);
+      const Lanes ownStep = hn::IfThenElseZero(owns, one);
+      const Lanes ownChange = hn::IfThenElseZero(owns, change);
+      count = hn::Add(count, ownStep);
+      way = hn::Add(way, ownFraction);
+      const auto & step = FCCLattice::OwnedEdges[direction % 7];
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        const auto component = hn::Set(tag, static_cast<float>(direction < 7 ? step[axis] : -step[axis]));
+        sum[axis] = hn::Add(sum[axis], hn::Mul(ownFraction, component));
+        along[axis] = hn::Add(along[axis], hn::Mul(ownStep, component));
+        changing[axis] = hn::Add(changing[axis], hn::Mul(ownChange, component));
+      }
+    }
+    hn::Store(hn::Div(way, count), tag, crossings.fraction + n);
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      hn::Store(hn::Div(sum[axis], count), tag, crossings.mean[axis] + n);
+      hn::Store(along[axis], tag, crossings.along[axis] + n);
+      hn::Store(changing[axis], tag, crossings.changing[axis] + n);
+    }
+  }
+}
+
 HWY_ATTR void
 PlaceClusters(const FCCClusterBatch & batch,
               const FCCFrame & frame,
@@ -191,50 +265,8 @@ PlaceClusters(const FCCClusterBatch & batch,
               float * HWY_RESTRICT normals)
 {
   constexpr std::size_t lanes = FCCClusterBatch::Capacity;
-  alignas(64) float dx[lanes] = {};
-  alignas(64) float dy[lanes] = {};
-  alignas(64) float dz[lanes] = {};
-  alignas(64) float count[lanes] = {};
-  alignas(64) float way[lanes] = {};        // sum of the fractions of edges before their crossings
-  alignas(64) float along[3][lanes] = {};   // sum of the edges' steps
-  alignas(64) float crossed[3][lanes] = {}; // the same, each by how much values change along it
-  for (unsigned int direction = 0; direction < FCCClusterBatch::Directions; ++direction)
-  {
-    const float * const after = batch.neighbor[direction];
-    const float * const before = batch.neighbor[(direction + 7) % FCCClusterBatch::Directions];
-    const auto & step = FCCLattice::OwnedEdges[direction % 7];
-    const float sign = direction < 7 ? 1.0f : -1.0f;
-    const float x = sign * static_cast<float>(step[0]);
-    const float y = sign * static_cast<float>(step[1]);
-    const float z = sign * static_cast<float>(step[2]);
-    for (std::size_t n = 0; n < lanes; ++n)
-    {
-      const auto owns = static_cast<float>(static_cast<std::int32_t>(batch.owned[n] >> direction & 1U));
-      const float change = after[n] - batch.value[n];
-      const float curvature = 0.5f * (after[n] + before[n]) - batch.value[n];
-      const float slope = 0.5f * (after[n] - before[n]);
-      const float discriminant = slope * slope - 4.0f * curvature * batch.value[n];
-      const float root = __builtin_sqrtf(discriminant >= 0.0f ? discriminant : 0.0f);
-      const float linear = -batch.value[n] / change;
-      const float parabolic = 2.0f * batch.value[n] / (-slope - (change > 0.0f ? root : -root));
-      const float crossing = parabolic >= 0.0f && parabolic <= 1.0f ? parabolic : linear;
-      const float least = crossing >= batch.minimumFraction ? crossing : batch.minimumFraction;
-      const float t = crossing >= 0.0f && crossing <= 0.5f ? least : 0.5f;
-      const float used = owns * t;
-      dx[n] += used * x;
-      dy[n] += used * y;
-      dz[n] += used * z;
-      way[n] += used;
-      count[n] += owns;
-      along[0][n] += owns * x;
-      along[1][n] += owns * y;
-      along[2][n] += owns * z;
-      const float ownChange = owns != 0.0f ? change : 0.0f; // which need not be finite
-      crossed[0][n] += ownChange * x;
-      crossed[1][n] += ownChange * y;
-      crossed[2][n] += ownChange * z;
-    }
-  }
+  ClusterCrossings crossings;
+  FindCrossings(batch, crossings);
 
   alignas(64) float second[6][lanes]; // differences along (1,1,0), (-1,1,0), (1,0,1), (-1,0,1), (0,1,1), (0,-1,1)
   for (unsigned int pair = 0; pair < 6; ++pair)
@@ -267,9 +299,9 @@ PlaceClusters(const FCCClusterBatch & batch,
     const float g0 = batch.gradient[0][n];
     const float g1 = batch.gradient[1][n];
     const float g2 = batch.gradient[2][n];
-    const float startX = dx[n] / count[n];
-    const float startY = dy[n] / count[n];
-    const float startZ = dz[n] / count[n];
+    const float startX = crossings.mean[0][n];
+    const float startY = crossings.mean[1][n];
+    const float startZ = crossings.mean[2][n];
     float x = startX;
     float y = startY;
     float z = startZ;
@@ -298,16 +330,27 @@ PlaceClusters(const FCCClusterBatch & batch,
     lattice[1][n] = isUsable ? y : startY;
     lattice[2][n] = isUsable ? z : startZ;
 
-    const float t = way[n] / count[n];
-    const float nx = (1.0f - t) * g0 + t * batch.farGradient[0][n];
-    const float ny = (1.0f - t) * g1 + t * batch.farGradient[1][n];
-    const float nz = (1.0f - t) * g2 + t * batch.farGradient[2][n];
-    const float rise = (nx * along[0][n] + ny * along[1][n]) + nz * along[2][n];
-    const bool rises = batch.value[n] < 0.0f; // along the crossed edges
-    const bool isPlausible = rises ? rise > 0.0f : rise < 0.0f;
-    const float gx = isPlausible ? nx : crossed[0][n];
-    const float gy = isPlausible ? ny : crossed[1][n];
-    const float gz = isPlausible ? nz : crossed[2][n];
+    // The expansion's gradient is the most accurate one where it agrees with that interpolated along the edges.
+    const float ex = g0 + ((xx * x + xy * y) + xz * z);
+    const float ey = g1 + ((xy * x + yy * y) + yz * z);
+    const float ez = g2 + ((xz * x + yz * y) + zz * z);
+    const float t = crossings.fraction[n];
+    const float ix = (1.0f - t) * g0 + t * batch.farGradient[0][n];
+    const float iy = (1.0f - t) * g1 + t * batch.farGradient[1][n];
+    const float iz = (1.0f - t) * g2 + t * batch.farGradient[2][n];
+    constexpr float agreement = 0.75f; // squared cosine of the largest angle between the two
+    const float product = (ex * ix + ey * iy) + ez * iz;
+    const float squares = ((ex * ex + ey * ey) + ez * ez) * ((ix * ix + iy * iy) + iz * iz);
+    const bool agree = isUsable & (product > 0.0f) & (product * product >= agreement * squares);
+    const float nx = agree ? ex : ix;
+    const float ny = agree ? ey : iy;
+    const float nz = agree ? ez : iz;
+    const float rise = (nx * crossings.along[0][n] + ny * crossings.along[1][n]) + nz * crossings.along[2][n];
+    const bool isRising = batch.value[n] < 0.0f; // along the crossed edges
+    const bool isPlausible = (isRising & (rise > 0.0f)) | (!isRising & (rise < 0.0f));
+    const float gx = isPlausible ? nx : crossings.changing[0][n];
+    const float gy = isPlausible ? ny : crossings.changing[1][n];
+    const float gz = isPlausible ? nz : crossings.changing[2][n];
     const float sum = (__builtin_fabsf(gx) + __builtin_fabsf(gy)) + __builtin_fabsf(gz);
     const bool hasNormal = sum > 0.0f && sum <= std::numeric_limits<float>::max();
     const float scale = static_cast<float>(frame.outwardSign) / sum;
