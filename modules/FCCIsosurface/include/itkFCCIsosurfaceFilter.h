@@ -29,13 +29,13 @@ namespace itk
  *   the surface of the samples' reconstruction about the site, and triangles that lose a side vanish. On smooth
  *   surfaces that is a third of the triangles of Tetrahedra, and of far better shape, for the accuracy of marching
  *   cubes. Where it would change the surface's topology, a site's points gather in parts or stay as in Fine (see
- *   FCCSplitSites), so rough surfaces gain less; at sharp steps in coarse scans triangles may fold.
+ *   FCCSplitSites), so rough surfaces gain less, and noisy ones take longer.
  * Points on edges stay at least MinimumFraction of the edge away from both ends (more where 32-bit positions need it):
  * so no triangle is degenerate, even where samples equal the isovalue.
  *
  * Each point has a normal, unless ComputeNormals is off: the gradient of the box spline that quasi-interpolates the
- * samples (see FCCFieldPlanes), at the edge's two ends, blended, or at the vertex, pointing outside; on the faces of
- * the image's extent it is that of the face. In noise, where the gradient says little about the next edge, normals and
+ * samples (see FCCFieldPlanes), at the edge's two ends, blended, or at the vertex (see
+ * FCCPointKernels::PlaceClusters()), pointing outside; on the faces of the image's extent it is that of the face. In noise, where the gradient says little about the next edge, normals and
  * triangles may disagree.
  *
  * With Closed on (the default) everything beyond the image counts as outside, and where a body reaches the border, the
