@@ -35,8 +35,8 @@ namespace itk
  *
  * Each point has a normal, unless ComputeNormals is off: the gradient of the box spline that quasi-interpolates the
  * samples (see FCCFieldPlanes), at the edge's two ends, blended, or at the vertex (see
- * FCCPointKernels::PlaceClusters()), pointing outside; on the faces of the image's extent it is that of the face. In noise, where the gradient says little about the next edge, normals and
- * triangles may disagree.
+ * FCCPointKernels::PlaceClusters()), pointing outside; on the faces of the image's extent it is that of the face. In
+ * noise, where the gradient says little about the next edge, normals and triangles may disagree.
  *
  * With Closed on (the default) everything beyond the image counts as outside, and where a body reaches the border, the
  * surface closes on the faces of the image's extent (see FCCImage), so that it encloses what the samples' Voronoi cells
