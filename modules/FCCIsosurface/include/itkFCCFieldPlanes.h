@@ -22,8 +22,8 @@ namespace itk
  *
  * Planes are computed when asked for, and the last few of each kind are kept: ask in ascending order.
  *
- * Memory: planes of float32, 6 of values, 3 of coefficients and 12 of gradients, each kind once it is asked for. Thread
- * safety: each thread uses its own.
+ * Memory: planes of float32, 6 of values, 3 of coefficients and 4 for each of gradients, once they are asked for.
+ * Thread safety: each thread uses its own.
  *
  * \ingroup FCCIsosurface
  */
@@ -35,8 +35,12 @@ public:
 
   /** \param size of the image, without the layer around it
    *  \param parityOfFirstRow that of the first row of the layer around it
-   *  \param readRow reads the image */
-  FCCFieldPlanes(const std::array<SizeValueType, 3> & size, IndexValueType parityOfFirstRow, RowReader readRow);
+   *  \param readRow reads the image
+   *  \param planesOfGradients how many are kept */
+  FCCFieldPlanes(const std::array<SizeValueType, 3> & size,
+                 IndexValueType parityOfFirstRow,
+                 RowReader readRow,
+                 SizeValueType planesOfGradients);
 
   IndexValueType
   GetParity(SizeValueType j, SizeValueType k) const
@@ -73,7 +77,7 @@ public:
     return m_Gradients[k % m_Gradients.size()].number == k;
   }
 
-  /** Makes the gradients of a plane available where blocks of FCCRowKernels::Block sites are wanted; the last three
+  /** Makes the gradients of a plane available where blocks of FCCRowKernels::Block sites are wanted; the last few
    * planes are. \param wanted not zero for those, rows of GetNumberOfBlocks() */
   void
   LoadGradients(SizeValueType k, const std::vector<std::uint8_t> & wanted);
@@ -150,7 +154,7 @@ private:
   SizeValueType m_Stride;
   std::array<Plane, 6> m_Values;
   std::array<Plane, 3> m_Coefficients;
-  std::array<Plane, 3> m_Gradients;
+  std::vector<Plane> m_Gradients;
 };
 
 } // namespace itk

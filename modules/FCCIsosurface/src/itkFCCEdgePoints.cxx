@@ -215,7 +215,8 @@ FCCEdgePointFiller::FCCEdgePointFiller(const FCCSigns & signs,
   , m_ToField(1 - margin)
   , m_Field({ region.GetSize(0), region.GetSize(1), region.GetSize(2) },
             FCCLattice::Parity(region.GetIndex(1) - 1, region.GetIndex(2) - 1),
-            std::move(readRow))
+            std::move(readRow),
+            2)
 {}
 
 void

@@ -8,10 +8,12 @@ namespace itk
 
 FCCFieldPlanes::FCCFieldPlanes(const std::array<SizeValueType, 3> & size,
                                IndexValueType parityOfFirstRow,
-                               RowReader readRow)
+                               RowReader readRow,
+                               SizeValueType planesOfGradients)
   : m_Size{ size[0] + 2, size[1] + 2, size[2] + 2 }
   , m_ParityOfFirstRow(parityOfFirstRow)
   , m_ReadRow(std::move(readRow))
+  , m_Gradients(planesOfGradients)
 {
   constexpr SizeValueType block = FCCRowKernels::Block;
   constexpr SizeValueType word = 64; // rows are also read by the words of their signs

@@ -26,7 +26,7 @@ FCCFieldPlanes
 FCCLeanSurface::MakeField() const
 {
   return FCCFieldPlanes(
-    { m_Region.GetSize(0), m_Region.GetSize(1), m_Region.GetSize(2) }, m_Signs.GetParity(0, 0), m_ReadRow);
+    { m_Region.GetSize(0), m_Region.GetSize(1), m_Region.GetSize(2) }, m_Signs.GetParity(0, 0), m_ReadRow, 3);
 }
 
 namespace
