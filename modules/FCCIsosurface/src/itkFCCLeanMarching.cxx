@@ -457,7 +457,7 @@ HasInside(const FCCSigns & signs, SizeValueType j, SizeValueType k)
   return any != 0;
 }
 
-/** Calls work(column, LeanSteps) for all steps between two planes. */
+/** Calls work(row, column, LeanSteps) for all steps between two planes. */
 template <typename TWork>
 HWY_INLINE void
 ForEachColumn(const FCCSigns & signs,
