@@ -341,11 +341,12 @@ FCCIsosurfaceFilter<TInputImage>::ExtractLean(const FCCSigns & signs, double iso
       }
     },
     [this](SizeValueType count, const auto & work) { this->ForEachSlab(count, 0.0f, work, 1024); });
-  this->Allocate(surface, lean.GetNumberOfPoints(), lean.GetNumberOfTriangles());
+  this->Allocate(surface, lean.GetNumberOfPoints(), lean.GetMostTriangles());
   std::vector<std::uint8_t> areOutside(m_Closed ? 0 : lean.GetNumberOfPoints());
   this->ForEachSlab(planes, 0.5f * share, [&](SizeValueType begin, SizeValueType end) {
     lean.Fill(begin, end, this->IsLeftHanded(), surface, m_Closed ? nullptr : areOutside.data());
   });
+  lean.Finish(surface);
   if (!m_Closed)
   {
     auto & triangles = surface.GetTriangles();

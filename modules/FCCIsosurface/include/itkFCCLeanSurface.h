@@ -34,7 +34,7 @@ public:
   void
   Count(SizeValueType begin, SizeValueType end);
 
-  /** Splits sites, and sums up the counts. */
+  /** Splits sites, and sums up how many points there are and how many triangles there may be. */
   void
   Resolve(const FCCSplitSites::ValueReader & readValues, const FCCSplitSites::ParallelFor & parallelFor);
 
@@ -43,17 +43,22 @@ public:
   {
     return m_FirstPoint.back();
   }
+  /** No surface has more: how many there are is known when they are. */
   SizeValueType
-  GetNumberOfTriangles() const
+  GetMostTriangles() const
   {
     return m_FirstTriangle.back();
   }
 
-  /** The surface must have its final size; normals are left out where it has none. With \a areOutside, one byte a point
-   * says whether its site is outside the image: triangles of such points are those that close the surface. */
+  /** Fills a slab of planes. The surface must have room for all points and triangles; normals are left out where it has
+   * none. With \a areOutside, one byte a point says whether its site is outside the image: triangles of such points are
+   * those that close the surface. */
   void
-  Fill(SizeValueType begin, SizeValueType end, bool reversed, TriangleSurface & surface, std::uint8_t * areOutside)
-    const;
+  Fill(SizeValueType begin, SizeValueType end, bool reversed, TriangleSurface & surface, std::uint8_t * areOutside);
+
+  /** Moves the triangles of all slabs together. */
+  void
+  Finish(TriangleSurface & surface) const;
 
 private:
   FCCFieldPlanes
@@ -67,7 +72,8 @@ private:
   FCCFieldPlanes::RowReader m_ReadRow;
   FCCSplitSites m_Splits;
   std::vector<SizeValueType> m_FirstPoint;    ///< of each plane; counts until Resolve()
-  std::vector<SizeValueType> m_FirstTriangle; ///< between each plane and the next; counts until Resolve()
+  std::vector<SizeValueType> m_FirstTriangle; ///< where there is room for those of a slab that begins at the plane
+  std::vector<SizeValueType> m_Filled;        ///< triangles of the slab that began at the plane
 };
 
 } // namespace itk

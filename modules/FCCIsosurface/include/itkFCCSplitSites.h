@@ -96,7 +96,7 @@ public:
   Suspect(const std::vector<SizeValueType> & sites);
 
   /** Divides what has to be. The numbers of points of each plane and of triangles above it are those of whole sites
-   * before, and right afterwards. */
+   * before; afterwards, points are right, and triangles at least as many as there will be. */
   void
   Resolve(const ValueReader & readValues,
           bool insideIsBelow,

@@ -1,5 +1,6 @@
 #include "itkFCCLeanSurface.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace itk
@@ -20,6 +21,7 @@ FCCLeanSurface::FCCLeanSurface(const FCCSigns & signs,
   , m_Splits(signs)
   , m_FirstPoint(signs.GetDepth() + 1)
   , m_FirstTriangle(signs.GetDepth() + 1)
+  , m_Filled(signs.GetDepth())
 {}
 
 FCCFieldPlanes
@@ -157,7 +159,7 @@ FCCLeanSurface::Fill(SizeValueType begin,
                      SizeValueType end,
                      bool reversed,
                      TriangleSurface & surface,
-                     std::uint8_t * areOutside) const
+                     std::uint8_t * areOutside)
 {
   FCCFieldPlanes field = this->MakeField();
   PlaneSequence planes(m_Signs, field, m_InsideIsBelow, &m_Splits);
@@ -186,6 +188,8 @@ FCCLeanSurface::Fill(SizeValueType begin,
   {
     planes.Find(begin - 1);
   }
+  TriangleSurface::TriangleType * const triangles = surface.GetTriangles().data() + m_FirstTriangle[begin];
+  SizeValueType filled = 0;
   planes.Find(begin, static_cast<std::uint32_t>(m_FirstPoint[begin]));
   for (SizeValueType k = begin; k < end; ++k)
   {
@@ -200,10 +204,24 @@ FCCLeanSurface::Fill(SizeValueType begin,
                         areOutside != nullptr ? areOutside + m_FirstPoint[k] : nullptr);
     if (k + 1 < m_Signs.GetDepth())
     {
-      FillLeanTriangles(
-        m_Signs, k, planes.Get(k), planes.Get(k + 1), reversed, surface.GetTriangles().data() + m_FirstTriangle[k]);
+      filled += FillLeanTriangles(m_Signs, k, planes.Get(k), planes.Get(k + 1), reversed, triangles + filled);
     }
   }
+  m_Filled[begin] = filled;
+}
+
+void
+FCCLeanSurface::Finish(TriangleSurface & surface) const
+{
+  auto & triangles = surface.GetTriangles();
+  auto end = triangles.begin();
+  for (SizeValueType k = 0; k < m_Signs.GetDepth(); ++k)
+  {
+    const auto first = triangles.begin() + static_cast<std::ptrdiff_t>(m_FirstTriangle[k]);
+    const auto last = first + static_cast<std::ptrdiff_t>(m_Filled[k]);
+    end = first == end ? last : std::copy(first, last, end);
+  }
+  triangles.erase(end, triangles.end());
 }
 
 } // namespace itk

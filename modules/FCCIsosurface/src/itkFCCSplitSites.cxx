@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bitset>
 #include <unordered_map>
 
@@ -384,42 +383,19 @@ public:
     }
   }
 
-  /** Calls use(plane relative to the site's, change) for the tetrahedra whose lowest split owner is the site: by how
-   * many triangles splitting has changed them. */
-  template <typename TUse>
-  void
-  ForEachChange(const TUse & use) const
+  /** The most triangles that the tetrahedra with crossings of the site can have, between the plane below and its own,
+   * and between its own and the one above: those before clustering. */
+  std::array<SizeValueType, 2>
+  GetMostTriangles() const
   {
+    std::array<SizeValueType, 2> most{};
     for (unsigned int p = 0; p < m_NumberOfPolygons; ++p)
     {
-      const Polygon & polygon = m_Polygons[p];
-      VertexType now[4];
-      VertexType whole[4];
-      bool isOthers = false;
-      for (unsigned int n = 0; n < polygon.corners; ++n)
-      {
-        now[n] = this->CurrentOf(polygon.vertices[n]);
-        const unsigned int owner = now[n] / 16;
-        whole[n] = VertexOf(owner, Whole);
-        isOthers = isOthers || (this->IsSplit(owner) && m_Number[owner] < m_Number[Center]);
-      }
-      if (isOthers)
-      {
-        continue;
-      }
-      IndexValueType plane = 0;
-      for (const std::uint8_t site : polygon.tetrahedron->sites)
-      {
-        plane = std::min(plane, StepTo(site)[2]);
-      }
-      OffsetValueType change = 0;
-      for (unsigned int n = 2; n < polygon.corners; ++n)
-      {
-        change += AreDistinct(now[0], now[n - 1], now[n]) ? 1 : 0;
-        change -= AreDistinct(whole[0], whole[n - 1], whole[n]) ? 1 : 0;
-      }
-      use(plane, change);
+      const auto & sites = m_Polygons[p].tetrahedron->sites;
+      const bool isBelow = std::any_of(sites, sites + 4, [](std::uint8_t site) { return StepTo(site)[2] < 0; });
+      most[isBelow ? 0 : 1] += m_Polygons[p].corners - 2;
     }
+    return most;
   }
 
 private:
@@ -679,16 +655,22 @@ FCCSplitSites::Resolve(const ValueReader & readValues,
     suspects.clear();
     for (const std::vector<SizeValueType> & sitesOfColor : sites)
     {
-      std::vector<std::pair<SizeValueType, Parts>> divided;
+      struct Divided
+      {
+        SizeValueType number;
+        Parts parts;
+        std::array<SizeValueType, 2> mostTriangles;
+      };
+      std::vector<Divided> divided;
       parallelFor(sitesOfColor.size(), [&](SizeValueType begin, SizeValueType end) {
-        std::vector<std::pair<SizeValueType, Parts>> dividedHere;
+        std::vector<Divided> dividedHere;
         std::vector<SizeValueType> broken;
         for (SizeValueType n = begin; n < end; ++n)
         {
           Surroundings surroundings = surroundingsOf(sitesOfColor[n]);
           if (surroundings.Divide())
           {
-            dividedHere.emplace_back(sitesOfColor[n], surroundings.GetParts());
+            dividedHere.push_back({ sitesOfColor[n], surroundings.GetParts(), surroundings.GetMostTriangles() });
             surroundings.ForEachBrokenNeighbor([&](SizeValueType number) { broken.push_back(number); });
           }
         }
@@ -696,9 +678,18 @@ FCCSplitSites::Resolve(const ValueReader & readValues,
         divided.insert(divided.end(), dividedHere.begin(), dividedHere.end());
         suspects.insert(suspects.end(), broken.begin(), broken.end());
       });
-      for (const auto & [number, newParts] : divided)
+      for (const auto & [number, newParts, mostTriangles] : divided)
       {
-        parts[number] = newParts;
+        const bool isNew = parts.insert_or_assign(number, newParts).second;
+        if (isNew)
+        {
+          const SizeValueType k = number / width / height;
+          triangles[k] += mostTriangles[1];
+          if (k > 0)
+          {
+            triangles[k - 1] += mostTriangles[0];
+          }
+        }
         const SizeValueType i = number % width;
         m_Split.GetRow(number / width % height, number / width / height)[i / FCCSigns::WordBits] |=
           WordType{ 1 } << (i % FCCSigns::WordBits);
@@ -713,17 +704,6 @@ FCCSplitSites::Resolve(const ValueReader & readValues,
     points[number / width / height] += FCCSiteStar::CountParts(found.owned, found.lone) - 1;
   }
   std::sort(m_Lone.begin(), m_Lone.end());
-  std::vector<std::atomic<SizeValueType>> changes(triangles.size());
-  parallelFor(m_Lone.size(), [&](SizeValueType begin, SizeValueType end) {
-    for (SizeValueType n = begin; n < end; ++n)
-    {
-      const SizeValueType number = m_Lone[n].first;
-      surroundingsOf(number).ForEachChange([&](IndexValueType plane, OffsetValueType change) {
-        changes[number / width / height + static_cast<SizeValueType>(plane)] += static_cast<SizeValueType>(change);
-      });
-    }
-  });
-  std::transform(triangles.begin(), triangles.end(), changes.begin(), triangles.begin(), std::plus<>());
 }
 
 unsigned int
