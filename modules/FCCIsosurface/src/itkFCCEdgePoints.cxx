@@ -14,8 +14,10 @@ namespace
  * that site i owns. */
 struct EdgeRows
 {
-  const float * values[4] = {};    ///< at the places -1, 0, 1, 2 along the line; the outer ones for cubics only
-  const float * gradients[2] = {}; ///< FCCRowKernels::GradientStride floats a site
+  const float * values[4] = {};        ///< at the places -1, 0, 1, 2 along the line; the outer ones for cubics only
+  const float * gradients[2] = {};     ///< FCCRowKernels::GradientStride floats a site
+  const float * nearMiddle[4] = {};    ///< around the middle of an edge along x, for cubics only
+  const float * aroundEnds[2][4] = {}; ///< further away, on either side of the middle
 
   EdgeRows(const FCCFieldPlanes & field,
            const FCCLattice::SiteType & step,
@@ -36,6 +38,22 @@ struct EdgeRows
         gradients[place] = field.GetGradients(row, plane) + FCCRowKernels::GradientStride * offset[0];
       }
     }
+    if (cubic && step[1] == 0 && step[2] == 0)
+    {
+      const auto rowAt = [&](const FCCLattice::SiteType & place) {
+        const auto offset = FCCLattice::OffsetOf(place, parity);
+        return field.GetValues(j + static_cast<SizeValueType>(offset[1]), k + static_cast<SizeValueType>(offset[2])) +
+               offset[0];
+      };
+      for (unsigned int n = 0; n < 4; ++n)
+      {
+        const IndexValueType sign = n < 2 ? 1 : -1;
+        const IndexValueType other = n % 2 == 0 ? sign : -sign;
+        nearMiddle[n] = rowAt({ step[0] / 2, n % 2 == 0 ? sign : 0, n % 2 == 0 ? 0 : sign });
+        aroundEnds[0][n] = rowAt({ 0, sign, other });
+        aroundEnds[1][n] = rowAt({ step[0], sign, other });
+      }
+    }
   }
 
   void
@@ -49,6 +67,10 @@ struct EdgeRows
         batch.value[place][n] = values[place][i];
       }
     }
+    if (nearMiddle[0] != nullptr)
+    {
+      this->PassThroughMiddle(i, batch);
+    }
     if (gradients[0] != nullptr)
     {
       for (unsigned int end = 0; end < 2; ++end)
@@ -57,6 +79,25 @@ struct EdgeRows
           batch.gradient[end][n], gradients[end] + FCCRowKernels::GradientStride * i, sizeof batch.gradient[end][n]);
       }
     }
+  }
+
+private:
+  /** Moves the outer values of an edge along x, so that the cubic has the value of the field at the edge's middle. On
+   * this line samples are further apart than around it: without them steps look like stairs. The middle is that of an
+   * octahedron: its value follows, up to third order, from those at the 6 corners and the 8 sites above its faces. */
+  void
+  PassThroughMiddle(SizeValueType i, FCCEdgeBatch & batch) const
+  {
+    const SizeValueType n = batch.count;
+    const auto mean = [i](const float * const(&rows)[4]) {
+      return 0.25f * ((rows[0][i] + rows[1][i]) + (rows[2][i] + rows[3][i]));
+    };
+    const float ends = 0.5f * (batch.value[1][n] + batch.value[2][n]);
+    const float outer = 0.5f * (batch.value[0][n] + batch.value[3][n]);
+    const float middle = mean(nearMiddle) + 0.5f * (ends - 0.5f * (mean(aroundEnds[0]) + mean(aroundEnds[1])));
+    const float move = (9.0f * ends - 8.0f * middle) - outer;
+    batch.value[0][n] += move;
+    batch.value[3][n] += move;
   }
 };
 

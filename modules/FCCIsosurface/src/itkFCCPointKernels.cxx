@@ -193,7 +193,11 @@ struct ClusterCrossings
   alignas(64) float changing[3][FCCClusterBatch::Capacity]; ///< the same, each by how much the values change along it
 };
 
-/** Finds the crossings of parabolas with zero, one through the values before, at and after the site for each edge. */
+/** Directions to the four sites around the middle of the edge along x, and of its opposite. */
+constexpr unsigned int AroundMiddle[2][4] = { { 1, 3, 9, 11 }, { 2, 4, 8, 10 } };
+
+/** Finds the crossings of parabolas with zero, one for each edge: through the values before, at and after the site, but
+ * for edges along x, where sites are further apart, through those at the ends and the mean around the middle. */
 HWY_ATTR void
 FindCrossings(const FCCClusterBatch & batch, ClusterCrossings & crossings)
 {
@@ -215,9 +219,18 @@ FindCrossings(const FCCClusterBatch & batch, ClusterCrossings & crossings)
     Lanes changing[3] = { zero, zero, zero };
     for (unsigned int direction = 0; direction < FCCClusterBatch::Directions; ++direction)
     {
+      const bool isAlongX = direction % 7 == 0;
       const unsigned int opposite = (direction + 7) % FCCClusterBatch::Directions;
       const Lanes after = hn::LoadU(tag, batch.neighbor[direction] + n);
-      const Lanes before = hn::LoadU(tag, batch.neighbor[opposite] + n);
+      Lanes before = hn::LoadU(tag, batch.neighbor[opposite] + n);
+      if (isAlongX)
+      {
+        const unsigned int(&around)[4] = AroundMiddle[direction / 7];
+        const auto at = [&](unsigned int place) { return hn::LoadU(tag, batch.neighbor[around[place]] + n); };
+        const Lanes sum4 = hn::Add(hn::Add(at(0), at(1)), hn::Add(at(2), at(3)));
+        const Lanes ends = hn::Add(hn::Mul(hn::Set(tag, 6.0f), value), hn::Mul(hn::Set(tag, 3.0f), after));
+        before = hn::Sub(ends, hn::Add(sum4, sum4));
+      }
       const Lanes change = hn::Sub(after, value);
       const Lanes curvature = hn::Sub(hn::Mul(half, hn::Add(after, before)), value);
       const Lanes slope = hn::Mul(half, hn::Sub(after, before));
@@ -228,7 +241,7 @@ FindCrossings(const FCCClusterBatch & batch, ClusterCrossings & crossings)
       const Lanes linear = hn::Div(hn::Neg(value), change);
       const auto isParabolic = hn::And(hn::Ge(parabolic, zero), hn::Le(parabolic, one));
       const Lanes crossing = hn::IfThenElse(isParabolic, parabolic, linear);
-      const auto isNear = hn::And(hn::Ge(crossing, zero), hn::Le(crossing, half));
+      const auto isNear = hn::And(hn::Ge(crossing, zero), hn::Le(crossing, isAlongX ? hn::Sub(one, least) : half));
       const Lanes apart = hn::IfThenElse(hn::Ge(crossing, least), crossing, least);
       const Lanes fraction = hn::IfThenElse(isNear, apart, half);
 
