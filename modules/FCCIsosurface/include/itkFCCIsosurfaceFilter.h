@@ -24,7 +24,8 @@ namespace itk
  * What is between the samples depends on the mode, see FCCIsosurfaceMode:
  * - Tetrahedra, Octahedra, Parallelepipeds: there is one point on each cut edge of the cells, where linear
  *   interpolation crosses the isovalue.
- * - Fine: the tetrahedra with points where the cubic through four samples on the edge's line crosses it.
+ * - Fine: the tetrahedra with points where the cubic through four samples on the edge's line crosses it, or for the
+ *   longer edges along x, one that also passes through the value in their middle, which the sites around tell.
  * - Lean (default): each of these points moves to the nearer end of its edge; those of one site become one vertex, on
  *   the surface of the samples' reconstruction about the site, and triangles that lose a side vanish. On smooth
  *   surfaces that is a third of the triangles of Tetrahedra, and of far better shape, for the accuracy of marching
