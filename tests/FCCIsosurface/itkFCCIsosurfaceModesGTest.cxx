@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace
 {
@@ -173,8 +175,9 @@ TEST_P(FCCIsosurfaceModes, NormalsAreUnitVectorsOutwardsOrAbsent)
   EXPECT_TRUE(filter->GetOutput()->GetPoints() == surface->GetPoints());
 }
 
-// Skin in a head scan of thick pixels: a step, blurred less than the pixels are wide, at an isovalue near its top.
-TEST_P(FCCIsosurfaceModes, NormalsAgreeWithTheTrianglesOnASharpStep)
+/** Skin in a head scan of thick pixels: a ball's step, blurred less than the pixels are wide. */
+ImageType::Pointer
+MakeSharpStep()
 {
   const auto image = ImageType::New();
   image->SetRegions(ImageType::SizeType{ { 24, 48, 90 } });
@@ -190,21 +193,55 @@ TEST_P(FCCIsosurfaceModes, NormalsAgreeWithTheTrianglesOnASharpStep)
     const double distance = 50.0 - std::hypot(point[0] - 66.0, point[1] - 66.0, point[2] - 58.0);
     it.Set(static_cast<float>(500.0 + 500.0 * std::erf(distance / 1.2)));
   }
-  const auto surface = Extract(image, 850.5, GetParam());
+  return image;
+}
 
-  std::vector<itk::Vector<double, 3>> facets(surface->GetNumberOfPoints(), itk::Vector<double, 3>(0.0));
-  const auto & points = surface->GetPoints();
-  for (const auto & triangle : surface->GetTriangles())
+using VectorType = itk::Vector<double, 3>;
+
+/** A triangle's normal, twice its area long. */
+VectorType
+FacetOf(const Surface & surface, const Surface::TriangleType & triangle)
+{
+  VectorType edges[2];
+  for (unsigned int end = 0; end < 2; ++end)
   {
-    itk::Vector<double, 3> edges[2];
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      edges[0][axis] = points[triangle[1]][axis] - points[triangle[0]][axis];
-      edges[1][axis] = points[triangle[2]][axis] - points[triangle[0]][axis];
+      edges[end][axis] = surface.GetPoints()[triangle[end + 1]][axis] - surface.GetPoints()[triangle[0]][axis];
     }
+  }
+  return itk::CrossProduct(edges[0], edges[1]);
+}
+
+/** The share of edges where the surface turns by more than a right angle. */
+double
+ComputeFoldedFraction(const Surface & surface)
+{
+  std::map<std::pair<unsigned int, unsigned int>, VectorType> facets; // by edge, of the first triangle there
+  itk::SizeValueType folded = 0;
+  for (const auto & triangle : surface.GetTriangles())
+  {
+    const VectorType facet = FacetOf(surface, triangle);
+    for (unsigned int corner = 0; corner < 3; ++corner)
+    {
+      const auto [first, isFirst] =
+        facets.emplace(std::minmax({ triangle[corner], triangle[(corner + 1) % 3] }), facet);
+      folded += !isFirst && first->second * facet < 0.0 ? 1 : 0;
+    }
+  }
+  return static_cast<double>(folded) / static_cast<double>(facets.size());
+}
+
+TEST_P(FCCIsosurfaceModes, NormalsAgreeWithTheTrianglesOnASharpStep)
+{
+  const auto surface = Extract(MakeSharpStep(), 850.5, GetParam());
+
+  std::vector<VectorType> facets(surface->GetNumberOfPoints(), VectorType(0.0));
+  for (const auto & triangle : surface->GetTriangles())
+  {
     for (const auto corner : triangle)
     {
-      facets[corner] += itk::CrossProduct(edges[0], edges[1]);
+      facets[corner] += FacetOf(*surface, triangle);
     }
   }
   itk::SizeValueType against = 0;
@@ -219,6 +256,20 @@ TEST_P(FCCIsosurfaceModes, NormalsAgreeWithTheTrianglesOnASharpStep)
   }
   EXPECT_LE(against, facets.size() / 1000);
   EXPECT_GT(cosines / static_cast<double>(facets.size()), 0.9);
+}
+
+// Points of linear interpolation look like stairs there: along x, samples are further apart than along z.
+TEST(FCCIsosurfaceOfASharpStep, HardlyFoldsInFineAndLean)
+{
+  const auto image = MakeSharpStep();
+  for (const double isovalue : { 150.5, 500.5, 850.5 })
+  {
+    for (const Mode mode : { Mode::Fine, Mode::Lean })
+    {
+      EXPECT_LT(ComputeFoldedFraction(*Extract(image, isovalue, mode)), 0.005) << mode << " at " << isovalue;
+    }
+    EXPECT_GT(ComputeFoldedFraction(*Extract(image, isovalue, Mode::Tetrahedra)), 0.05) << isovalue;
+  }
 }
 
 TEST_P(FCCIsosurfaceModes, UndefinedSamplesAreCounted)

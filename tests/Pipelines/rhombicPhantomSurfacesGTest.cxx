@@ -53,8 +53,7 @@ TEST(PhantomSurfaces, EncloseTheKnownVolumesInEveryMode)
 
     const auto bone = Extract("bone=375.5", SurfaceRequest::Parts::All, mode);
     EXPECT_TRUE(ComputeTopology(*bone).IsWatertight()) << mode;
-    const double tolerance = mode == Mode::Lean ? 0.025 : 0.02; // larger triangles cut more off thin round bones
-    EXPECT_NEAR(ComputeVolume(*bone) / rhombic::PhantomEnclosedBy(375.5).volume, 1.0, tolerance) << mode;
+    EXPECT_NEAR(ComputeVolume(*bone) / rhombic::PhantomEnclosedBy(375.5).volume, 1.0, 0.02) << mode;
   }
 }
 

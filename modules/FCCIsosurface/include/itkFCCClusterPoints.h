@@ -10,7 +10,7 @@ namespace itk
 /** \class FCCClusterPoints
  * \brief Places the vertices of sites that gather their crossings.
  *
- * Vertices of sites in the image are moved onto the reconstructed surface (see FCCPointKernels::PlaceClusters()), but
+ * Vertices of sites in the image are moved to the reconstructed surface (see FCCPointKernels::PlaceClusters()), but
  * those of one crossing alone, which are points on its edge. Those of sites in the layer around the image, where a
  * closed surface ends, stay the mean of their crossings with the faces of the image's extent.
  *
@@ -43,7 +43,7 @@ public:
 private:
   using SiteType = FCCLattice::SiteType;
 
-  /** How far a vertex moves from its crossings' mean onto the surface, in units of the distance of nearest neighbours;
+  /** How far a vertex moves from its crossings' mean to the surface, in units of the distance of nearest neighbours;
    * in parts of a split site, also of the mean's distance from the site, so that they stay apart. */
   static constexpr float FarthestOfWhole = 0.5f;
   static constexpr float FarthestOfPart = 0.25f;

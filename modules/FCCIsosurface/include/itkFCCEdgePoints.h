@@ -25,7 +25,8 @@ class FCCEdgePoints
 public:
   /** \param region the image's samples
    *  \param frame from lattice coordinates to the world
-   *  \param cubic whether values are interpolated by the cubic through four samples instead of linearly
+   *  \param cubic whether values are interpolated by the cubic through four samples instead of linearly; along x,
+   *         where these are further apart than those around, by one that passes through the edge's middle, too
    *  \param minimumFraction of an edge that a point stays away from its ends
    *  \param margin 1 when signs count sites from a layer around the image, otherwise 0 */
   FCCEdgePoints(const ImageRegion<3> & region,

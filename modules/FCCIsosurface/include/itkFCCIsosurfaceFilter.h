@@ -26,11 +26,11 @@ namespace itk
  *   interpolation crosses the isovalue.
  * - Fine: the tetrahedra with points where the cubic through four samples on the edge's line crosses it, or for the
  *   longer edges along x, one that also passes through the value in their middle, which the sites around tell.
- * - Lean (default): each of these points moves to the nearer end of its edge; those of one site become one vertex, on
- *   the surface of the samples' reconstruction about the site, and triangles that lose a side vanish. On smooth
- *   surfaces that is a third of the triangles of Tetrahedra, and of far better shape, for the accuracy of marching
- *   cubes. Where it would change the surface's topology, a site's points gather in parts or stay as in Fine (see
- *   FCCSplitSites), so rough surfaces gain less, and noisy ones take longer.
+ * - Lean (default): each of these points moves to the nearer end of its edge; those of one site become one vertex, so
+ *   that triangles straddle the surface of the samples' reconstruction about the site, and triangles that lose a side
+ *   vanish. On smooth surfaces that is a third of the triangles of Tetrahedra, and of far better shape, nearer to the
+ *   truth than marching cubes. Where it would change the surface's topology, a site's points gather in parts or stay
+ *   as in Fine (see FCCSplitSites), so rough surfaces gain less, and noisy ones take longer.
  * Points on edges stay at least MinimumFraction of the edge away from both ends (more where 32-bit positions need it):
  * so no triangle is degenerate, even where samples equal the isovalue.
  *

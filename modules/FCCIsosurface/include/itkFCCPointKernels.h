@@ -81,12 +81,12 @@ struct FCCPointKernels
                TriangleSurface::NormalType * normals);
 
   /** Vertices of sites: the mean of the gathered crossings, each where the parabola through the values before, at and
-   * after the site crosses zero, moved onto the surface of the field's second-order expansion about the site. The
-   * expansion has the given gradient and the second differences of the twelve nearest neighbours. Where that surface is
-   * further away than the batch says, the field is no such thing, and the mean stays. Normals are along that
-   * expansion's gradient where it is within 30 degrees of the one interpolated between the site and its edges' far
-   * ends, else along the latter; where the values do not change that way, along the changes of the crossed edges. Whole
-   * batches are written. */
+   * after the site crosses zero (along x, at both ends and in the middle of the edge), moved to where triangles
+   * straddle the surface of the field's second-order expansion about the site. The expansion has the given gradient and
+   * the second differences of the twelve nearest neighbours. Where that is further away than the batch says, the field
+   * is no such thing, and the mean stays. Normals are along that expansion's gradient where it is within 30 degrees of
+   * the one interpolated between the site and its edges' far ends, else along the latter; where the values do not
+   * change that way, along the changes of the crossed edges. Whole batches are written. */
   static void
   PlaceClusters(const FCCClusterBatch & batch,
                 const FCCFrame & frame,
