@@ -184,9 +184,9 @@ Print(const Json & json)
          ToText(series["modality"]) + " " + ToText(series["size"]) + ", " + series["files"].dump() + " files, id " +
            ToText(series["id"]) + (series["chosen"].get<bool>() ? "  <- chosen" : ""));
   }
-  if (json.value("filesSkipped", std::size_t{ 0 }) > 0)
+  for (const auto & [reason, count] : json.value("filesSkipped", Json::object()).items())
   {
-    line("skipped", json["filesSkipped"].dump() + " files that are no DICOM images");
+    line("skipped", count.dump() + " " + reason);
   }
   for (const Json & note : json.value("notes", Json::array()))
   {

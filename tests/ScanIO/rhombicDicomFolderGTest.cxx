@@ -117,7 +117,7 @@ TEST_F(DicomFolder, ObliqueSeriesLiesWhereItsHeadersSay)
 
   EXPECT_EQ(scan.format, "DICOM");
   EXPECT_EQ(scan.modality, "CT");
-  EXPECT_EQ(scan.filesSkipped, 2u);
+  EXPECT_EQ(scan.filesSkipped.at("no DICOM images"), 2u);
   EXPECT_TRUE(image.GetMetaDataDictionary().GetKeys().empty());
   ASSERT_EQ(scan.series.size(), 1u);
   EXPECT_TRUE(scan.series[0].chosen);
@@ -185,7 +185,7 @@ TEST_F(DicomFolder, LargestSeriesIsReadUnlessAnotherIsChosen)
     options.series = name;
     EXPECT_EQ(ReadScan(m_Folder, options).modality, "MR") << name;
   }
-  EXPECT_EQ(KindOfReading(m_Folder, scan.series[0].id, { "3" }), FailureKind::Usage);
+  EXPECT_EQ(KindOfReading(m_Folder, scan.series[0].id, Series("3")), FailureKind::Usage);
 }
 
 TEST_F(DicomFolder, AmbiguousSeriesNumberIsRefused)
@@ -197,7 +197,7 @@ TEST_F(DicomFolder, AmbiguousSeriesNumberIsRefused)
     file.SetSeries("9.8.7", "1"); // listed first; the other one is listed second
     file.Write(m_Folder / ("other" + std::to_string(k)));
   }
-  EXPECT_EQ(ReadScan(m_Folder, { "1" }).series[0].numberOfFiles, 2u) << "both its place and its number";
+  EXPECT_EQ(ReadScan(m_Folder, Series("1")).series[0].numberOfFiles, 2u) << "both its place and its number";
   for (std::size_t k = 0; k < 2; ++k)
   {
     DicomTestFile file = MakeSlice(k);
@@ -206,8 +206,8 @@ TEST_F(DicomFolder, AmbiguousSeriesNumberIsRefused)
     file.SetSeries("9.8.6", "1");
     file.Write(m_Folder / ("another" + std::to_string(k)));
   }
-  EXPECT_NO_THROW(ReadScan(m_Folder, { "2" }));
-  EXPECT_EQ(KindOfReading(m_Folder, "id", { "8" }), FailureKind::Usage);
+  EXPECT_NO_THROW(ReadScan(m_Folder, Series("2")));
+  EXPECT_EQ(KindOfReading(m_Folder, "id", Series("8")), FailureKind::Usage);
 }
 
 TEST_F(DicomFolder, MissingSliceIsRefused)
@@ -329,7 +329,8 @@ TEST_F(DicomFolder, DamagedFilesBesideAGoodSeriesAreSkipped)
   report.Write(m_Folder / "report.dcm");
   fs::create_symlink(m_Folder, m_Folder / "loop");
   const auto scan = ReadScan(m_Folder);
-  EXPECT_EQ(scan.filesSkipped, 5u);
+  EXPECT_EQ(scan.filesSkipped.at("no DICOM images"), 4u);
+  EXPECT_EQ(scan.filesSkipped.at("symbolic links"), 1u);
   EXPECT_EQ(rhombic::GeometryOf(scan.image).GetLargestPossibleRegion().GetSize()[2], Slices);
   ASSERT_EQ(scan.notes.size(), 1u);
   EXPECT_NE(scan.notes[0].find("Slices may be missing"), std::string::npos) << scan.notes[0];

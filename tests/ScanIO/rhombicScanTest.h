@@ -49,6 +49,15 @@ IntensityRange(const rhombic::ScanImage & image)
 
 } // namespace rhombictest
 
+/** Options that choose a series. */
+inline rhombic::ScanReadOptions
+Series(const std::string & name)
+{
+  rhombic::ScanReadOptions options;
+  options.series = name;
+  return options;
+}
+
 /** Reads what must fail, silently, with one sentence that names \a named, and returns how. */
 inline rhombic::FailureKind
 KindOfReading(const std::filesystem::path & path,

@@ -136,7 +136,7 @@ TEST_F(VolumeFile, FormatsAreNamed)
   EXPECT_EQ(ReadScan(m_Folder / "a.nii.gz").format, "NIfTI");
   EXPECT_EQ(ReadScan(m_Folder / "a.nrrd").format, "NRRD");
   EXPECT_EQ(ReadScan(m_Folder / "a.mha").format, "MetaImage");
-  EXPECT_EQ(KindOfReading(m_Folder / "a.mha", "a.mha", { "2" }), FailureKind::Usage);
+  EXPECT_EQ(KindOfReading(m_Folder / "a.mha", "a.mha", Series("2")), FailureKind::Usage);
 }
 
 TEST_F(VolumeFile, WhatIsNotFiniteBecomesTheLowestValue)

@@ -6,6 +6,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -33,17 +35,63 @@ struct SeriesSummary
   bool chosen = false;               ///< whether it is the one that was read
 };
 
+/** Slices that follow each other at the same distance. */
+struct SliceBlock
+{
+  std::size_t numberOfSteps = 0;
+  double step = 0; ///< along the slices' normal, in mm
+};
+
+/** Slices that are missing from a stack. */
+struct SliceGap
+{
+  double position = 0; ///< of the slice before the gap along the slices' normal, in mm
+  double step = 0;     ///< to the slice behind it
+  std::size_t numberOfMissing = 0;
+};
+
+/** How a DICOM volume is stacked. */
+struct StackReport
+{
+  double tiltDegrees = 0;   ///< between the line of the slices and their normal
+  double firstPosition = 0; ///< of the first and the last slice along the normal, in mm
+  double lastPosition = 0;
+  std::vector<SliceBlock> blocks; ///< one for an even stack
+  std::vector<SliceGap> gaps;
+};
+
+/** Which of a NIfTI file's affines was used. */
+struct AffineReport
+{
+  std::string source;      ///< "sform", "qform" or "none"
+  double disagreement = 0; ///< of the other one at the volume's corners, in mm
+};
+
 /** \class Scan
- * \brief A volume and what is known about its origin. */
+ * \brief A volume and what is known about it. Holds nothing about the patient. */
 struct Scan
 {
-  ScanImage image;        ///< with an empty metadata dictionary: no patient data travels on
+  /** With an empty metadata dictionary. Its direction may be sheared (a tilted gantry, a sheared affine). */
+  ScanImage image;
+
+  /** Where the first sample of each slice is when the slices are not evenly placed; empty otherwise. All slices have
+   * the image's in-plane axes; its third axis then leads from the first to the last slice. */
+  std::vector<itk::Point<double, 3>> sliceOrigins;
+
   std::string format;     ///< "DICOM", "NIfTI", "NRRD" or "MetaImage"
   bool isOriented = true; ///< false when the file does not say how it lies in the patient: left and right are a guess
   std::string modality;   ///< DICOM's: CT (values are HU), MR, ...; empty when unknown
-  std::vector<SeriesSummary> series; ///< all in the folder; empty for other formats than DICOM
-  std::size_t filesSkipped = 0;      ///< files in the folder that are no DICOM images, symbolic links included
-  std::vector<std::string> notes;    ///< what the reader had to assume or leave out, a sentence each
+  std::string encoding;   ///< transfer syntax, or compression of the voxels, in words
+  std::vector<SeriesSummary> series;               ///< all in the folder; empty for other formats than DICOM
+  std::map<std::string, std::size_t> filesSkipped; ///< how many files of a folder were left out, by reason
+  std::string choice;                              ///< why the series that was read was chosen
+  std::optional<StackReport> stack;                ///< of DICOM volumes
+  std::optional<AffineReport> affine;              ///< of NIfTI volumes
+  std::string scaling;                             ///< from stored to rescaled values, in words; empty for none
+  std::optional<double> paddingValue; ///< of samples outside the scanner's view, rescaled; the lowest other value took
+                                      ///< their place
+  std::size_t numberOfPaddingSamples = 0;
+  std::vector<std::string> notes; ///< what the reader had to assume, repair or leave out, a sentence each
 };
 
 /** Size, origin, spacing and direction, whatever the pixel type. */

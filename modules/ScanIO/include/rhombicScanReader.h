@@ -3,19 +3,53 @@
 
 #include "rhombicScan.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace rhombic
 {
 
+class VoxelDecoder;
+
 /** \class ScanReadOptions
- * \brief What to read when there is a choice. */
+ * \brief What to read when there is a choice, and what to accept. */
 struct ScanReadOptions
 {
+  /** What to do with what is not as it should be. */
+  enum class Policy
+  {
+    Refuse,
+    Accept
+  };
+
   /** Which DICOM series of a folder: its SeriesSummary::id, its SeriesInstanceUID, its place in the list (from 1), or
-   * its SeriesNumber. Empty, the default: the one with most slices. */
+   * its SeriesNumber. Empty, the default: the only one, or that with at least twice as many slices as any other. */
   std::string series;
+
+  /** Stacks of slices that are tilted or unevenly spaced, and sheared volumes: accepted (Scan::sliceOrigins, a sheared
+   * direction) or refused. */
+  Policy onIrregular = Policy::Accept;
+
+  /** Stacks from which slices are missing: refused, or accepted with the others in their true positions. */
+  Policy onGap = Policy::Refuse;
+
+  /** Which volume of a file that holds several, from 0; a file of several is refused without. */
+  std::optional<std::size_t> frame;
+
+  /** Whether Analyze 7.5 files are read, whose orientation is unknown. */
+  bool acceptsAnalyze = false;
+
+  /** Whether symbolic links in folders are followed. */
+  bool followsLinks = false;
+
+  /** Bytes that the volume may take; 0, the default: half of the memory that is free. */
+  std::uintmax_t maximumMemory = 0;
+
+  /** What unpacks voxels through libraries that damaged files can crash; none: this process. Not owned. */
+  VoxelDecoder * decoder = nullptr;
 };
 
 /** Reads a scan: a folder of DICOM slices, searched with its subfolders but without following symbolic links, or a

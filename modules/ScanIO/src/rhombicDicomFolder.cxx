@@ -98,7 +98,10 @@ ReadDicomFolder(const fs::path & folder, const std::string & wanted)
 
   Scan scan;
   scan.format = "DICOM";
-  scan.filesSkipped = files.symbolicLinks;
+  if (files.symbolicLinks > 0)
+  {
+    scan.filesSkipped["symbolic links"] = files.symbolicLinks;
+  }
   std::vector<DicomSlice> slices;
   std::vector<std::string> damaged;
   for (const fs::path & path : files.paths)
@@ -110,7 +113,7 @@ ReadDicomFolder(const fs::path & folder, const std::string & wanted)
     }
     else
     {
-      ++scan.filesSkipped;
+      ++scan.filesSkipped["no DICOM images"];
       if (const std::string damage = slice ? "" : DamageOf(path); !damage.empty())
       {
         damaged.push_back(path.filename().string() + " " + damage);

@@ -1,0 +1,66 @@
+#ifndef rhombicVoxelDecoder_h
+#define rhombicVoxelDecoder_h
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+
+namespace rhombic
+{
+
+/** Voxels that a library is to unpack. */
+struct VoxelRequest
+{
+  /** The library. */
+  enum class Source
+  {
+    DicomFile, ///< all frames of a DICOM file with compressed pixels, by GDCM
+    VolumeFile ///< a NRRD or MetaImage file, by ITK
+  };
+
+  Source source = Source::DicomFile;
+  std::filesystem::path path;
+  std::size_t size = 0; ///< bytes that must come out, in this machine's byte order
+};
+
+/** Unpacked voxels. */
+class VoxelBuffer
+{
+public:
+  VoxelBuffer() = default;
+  virtual ~VoxelBuffer() = default;
+  VoxelBuffer(const VoxelBuffer &) = delete;
+  VoxelBuffer &
+  operator=(const VoxelBuffer &) = delete;
+
+  /** VoxelRequest::size bytes, aligned for any number, valid as long as this object. */
+  virtual const std::byte *
+  GetData() const = 0;
+};
+
+/** \class VoxelDecoder
+ * \brief Runs the libraries that unpack voxels, which damaged files can crash.
+ *
+ * InProcessDecoder runs them in this process, IsolatedDecoder in processes of their own. */
+class VoxelDecoder
+{
+public:
+  VoxelDecoder() = default;
+  virtual ~VoxelDecoder() = default;
+  VoxelDecoder(const VoxelDecoder &) = delete;
+  VoxelDecoder &
+  operator=(const VoxelDecoder &) = delete;
+
+  /** How many requests are worth making at once. */
+  virtual unsigned int
+  GetNumberOfWorkers() const = 0;
+
+  /** Unpacks the voxels of one file. Any number of threads may call it at once. Throws Failure: Unreadable, naming the
+   * file, when it is damaged, not supported, of another size, or when its decoder crashed or took too long; Memory. */
+  virtual std::unique_ptr<VoxelBuffer>
+  Decode(const VoxelRequest & request) = 0;
+};
+
+} // namespace rhombic
+
+#endif
