@@ -1,6 +1,7 @@
 #include "rhombicAtomicFile.h"
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
+#include "rhombicIsolatedDecoder.h"
 
 #include "itkMultiThreaderBase.h"
 
@@ -91,7 +92,8 @@ main(int argc, char ** argv)
       itk::MultiThreaderBase::SetGlobalMaximumNumberOfThreads(threads);
       itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
     }
-    (*chosen)({ &console, std::vector<std::string>(argv + 1, argv + argc) });
+    IsolatedDecoder decoder(threads); // before there are more threads
+    (*chosen)({ &console, &decoder, std::vector<std::string>(argv + 1, argv + argc) });
     console.Finish();
     if (!std::cout.flush())
     {

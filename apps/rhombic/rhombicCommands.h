@@ -2,6 +2,7 @@
 #define rhombicCommands_h
 
 #include "rhombicConsole.h"
+#include "rhombicVoxelDecoder.h"
 
 #include <CLI/CLI.hpp>
 
@@ -16,6 +17,7 @@ namespace rhombic
 struct CommandContext
 {
   Console * console;
+  VoxelDecoder * decoder;             ///< for all files that are read
   std::vector<std::string> arguments; ///< after the program's name
 };
 

@@ -18,7 +18,7 @@ void
 Mesh(const MeshOptions & options, const CommandContext & context)
 {
   MeshScanSettings settings;
-  settings.source = options.scan.GetSource();
+  settings.source = options.scan.GetSource(context);
   if (options.threshold.empty() || options.mesh.empty())
   {
     throw Failure(FailureKind::Usage, "A threshold and a file are needed, for example -t 250.5 -o bone.stl.");

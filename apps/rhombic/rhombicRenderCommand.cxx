@@ -108,7 +108,7 @@ Render(const RenderOptions & options, const CommandContext & context)
     return;
   }
   RenderScanSettings settings;
-  settings.source = options.scan.GetSource();
+  settings.source = options.scan.GetSource(context);
   settings.mode = options.scan.GetMode();
   if (options.picture.empty())
   {

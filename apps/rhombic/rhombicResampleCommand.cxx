@@ -17,7 +17,7 @@ void
 Resample(const ResampleOptions & options, const CommandContext & context)
 {
   ResampleScanSettings settings;
-  settings.source = options.scan.GetSource();
+  settings.source = options.scan.GetSource(context);
   if (options.volume.empty())
   {
     throw Failure(FailureKind::Usage, "No output is named; give one with -o, for example -o scan.fcc.nrrd.");

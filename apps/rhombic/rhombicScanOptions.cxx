@@ -2,7 +2,9 @@
 
 #include "rhombicFailure.h"
 
+#include <cctype>
 #include <charconv>
+#include <cmath>
 #include <map>
 
 namespace rhombic
@@ -46,6 +48,39 @@ ParseSpacing(const std::string & text)
   return count == 1 ? std::array<double, 3>{ spacing[0], spacing[0], spacing[0] } : spacing;
 }
 
+/** Bytes written as a number and, maybe, K, M, G or T (of 1024); 0 for no text. */
+std::uintmax_t
+ParseMemory(const std::string & text)
+{
+  if (text.empty())
+  {
+    return 0;
+  }
+  static const std::string units = "KMGT";
+  double number = 0.0;
+  const char * const end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, number);
+  const std::string unit(parsed.ptr, end);
+  const auto power = unit.empty() ? 0 : units.find(static_cast<char>(std::toupper(unit[0]))) + 1;
+  const double bytes = std::ldexp(number, static_cast<int>(10 * power));
+  if (parsed.ec != std::errc() || unit.size() > 1 || (!unit.empty() && power == 0) || !(bytes >= 1.0) || bytes > 1e18)
+  {
+    throw Failure(FailureKind::Usage, "'" + text + "' is no amount of memory; write it as --max-memory 8G or 500M.");
+  }
+  return static_cast<std::uintmax_t>(bytes);
+}
+
+/** One of two words. */
+ScanReadOptions::Policy
+ParsePolicy(const std::string & option, const std::string & text, const std::string & accept)
+{
+  if (text != accept && text != "error")
+  {
+    throw Failure(FailureKind::Usage, "There is no " + option + " " + text + "; use " + accept + " or error.");
+  }
+  return text == accept ? ScanReadOptions::Policy::Accept : ScanReadOptions::Policy::Refuse;
+}
+
 } // namespace
 
 void
@@ -53,7 +88,21 @@ ScanOptions::AddSource(CLI::App & parser)
 {
   parser.add_option("SCAN", m_Path, "DICOM folder, or NIfTI, NRRD or MetaImage file, or a lattice volume (.fcc.nrrd)");
   parser.add_option(
-    "--series", m_Series, "which DICOM series: id, UID, place in the list or SeriesNumber (default: most slices)");
+    "--series",
+    m_Series,
+    "which DICOM series: id, UID, place in the list or SeriesNumber (default: the one with most slices by far)");
+  parser.add_option("--frame", m_Frame, "which volume of a file that holds several, from 0");
+  parser
+    .add_option("--on-irregular",
+                m_OnIrregular,
+                "tilted, sheared or unevenly spaced scans: resample from their true places, or error")
+    ->capture_default_str();
+  parser.add_option("--on-gap", m_OnGap, "missing or damaged slices: error, or interpolate across the gap")
+    ->capture_default_str();
+  parser.add_option(
+    "--max-memory", m_MaximumMemory, "most memory for a volume, as 8G or 500M (default: half of what is free)");
+  parser.add_flag("--analyze", m_AcceptsAnalyze, "read Analyze 7.5 files, which do not say where left and right are");
+  parser.add_flag("--follow-links", m_FollowsLinks, "follow symbolic links in folders");
 }
 
 void
@@ -112,7 +161,7 @@ ScanOptions::GetMode() const
 }
 
 ScanSource
-ScanOptions::GetSource() const
+ScanOptions::GetSource(const CommandContext & context) const
 {
   static const std::map<std::string, itk::SeparableKernel> kernels{ { "cubic", itk::SeparableKernel::CubicBSpline },
                                                                     { "linear", itk::SeparableKernel::Linear },
@@ -129,6 +178,13 @@ ScanOptions::GetSource() const
   ScanSource source;
   source.path = m_Path;
   source.read.series = m_Series;
+  source.read.frame = m_Frame;
+  source.read.onIrregular = ParsePolicy("--on-irregular", m_OnIrregular, "resample");
+  source.read.onGap = ParsePolicy("--on-gap", m_OnGap, "interpolate");
+  source.read.maximumMemory = ParseMemory(m_MaximumMemory);
+  source.read.acceptsAnalyze = m_AcceptsAnalyze;
+  source.read.followsLinks = m_FollowsLinks;
+  source.read.decoder = context.decoder;
   source.lattice.density = m_Density;
   source.lattice.spacing = ParseSpacing(m_Spacing);
   source.lattice.kernel = kernel->second;

@@ -1,11 +1,13 @@
 #ifndef rhombicScanOptions_h
 #define rhombicScanOptions_h
 
+#include "rhombicCommands.h"
 #include "rhombicScanPipeline.h"
 
 #include <CLI/CLI.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace rhombic
@@ -16,7 +18,7 @@ namespace rhombic
 class ScanOptions
 {
 public:
-  /** The scan and, for DICOM folders, its series. */
+  /** The scan, which of its parts to read, and what to accept. */
   void
   AddSource(CLI::App & parser);
 
@@ -28,9 +30,9 @@ public:
   void
   AddExtraction(CLI::App & parser);
 
-  /** What was parsed. Throws Failure(Usage). */
+  /** What was parsed, to be read with the program's decoder. Throws Failure(Usage). */
   ScanSource
-  GetSource() const;
+  GetSource(const CommandContext & context) const;
 
   /** What was parsed. Throws Failure(Usage). */
   itk::FCCIsosurfaceMode
@@ -39,6 +41,12 @@ public:
 private:
   std::string m_Path;
   std::string m_Series;
+  std::string m_OnIrregular = "resample";
+  std::string m_OnGap = "error";
+  std::string m_MaximumMemory;
+  std::optional<std::size_t> m_Frame;
+  bool m_AcceptsAnalyze = false;
+  bool m_FollowsLinks = false;
   double m_Density = itk::FCCLattice::NyquistDensity;
   std::string m_Spacing;
   std::string m_Kernel = "cubic";

@@ -117,7 +117,7 @@ TEST_F(DicomFolder, ObliqueSeriesLiesWhereItsHeadersSay)
 
   EXPECT_EQ(scan.format, "DICOM");
   EXPECT_EQ(scan.modality, "CT");
-  EXPECT_EQ(scan.filesSkipped.at("no DICOM images"), 2u);
+  EXPECT_EQ(scan.filesSkipped.at("not DICOM"), 2u);
   EXPECT_TRUE(image.GetMetaDataDictionary().GetKeys().empty());
   ASSERT_EQ(scan.series.size(), 1u);
   EXPECT_TRUE(scan.series[0].chosen);
@@ -161,10 +161,10 @@ TEST_F(DicomFolder, PixelTypesFollowWhatIsStored)
   EXPECT_EQ(read(16, true, "0.5", "0"), "float -0.5\\1");
 }
 
-TEST_F(DicomFolder, LargestSeriesIsReadUnlessAnotherIsChosen)
+TEST_F(DicomFolder, LargestSeriesByFarIsReadUnlessAnotherIsChosen)
 {
   WriteStack(m_Folder / "a", 4);
-  for (std::size_t k = 0; k < 3; ++k)
+  for (std::size_t k = 0; k < 2; ++k)
   {
     DicomTestFile file = MakeSlice(k);
     file.SetSeries("9.8.7", "20");
@@ -176,7 +176,7 @@ TEST_F(DicomFolder, LargestSeriesIsReadUnlessAnotherIsChosen)
   EXPECT_TRUE(scan.series[0].chosen);
   EXPECT_EQ(scan.modality, "CT");
   ASSERT_EQ(scan.notes.size(), 1u);
-  EXPECT_NE(scan.notes[0].find("Series 2 (MR, 3 files"), std::string::npos) << scan.notes[0];
+  EXPECT_NE(scan.notes[0].find("Series 2 (MR, 2 files"), std::string::npos) << scan.notes[0];
   EXPECT_EQ(scan.notes[0].find("9.8.7"), std::string::npos) << "UIDs can lead to the patient";
 
   for (const std::string & name : { std::string("2"), std::string("20"), std::string("9.8.7"), scan.series[1].id })
@@ -186,6 +186,12 @@ TEST_F(DicomFolder, LargestSeriesIsReadUnlessAnotherIsChosen)
     EXPECT_EQ(ReadScan(m_Folder, options).modality, "MR") << name;
   }
   EXPECT_EQ(KindOfReading(m_Folder, scan.series[0].id, Series("3")), FailureKind::Usage);
+
+  DicomTestFile third = MakeSlice(2);
+  third.SetSeries("9.8.7", "20");
+  third.SetText(0x00080060, "CS", "MR");
+  third.Write(m_Folder / "a" / "other2");
+  EXPECT_EQ(KindOfReading(m_Folder, "3 slices, id " + scan.series[1].id), FailureKind::Usage) << "4 are not twice 3";
 }
 
 TEST_F(DicomFolder, AmbiguousSeriesNumberIsRefused)
@@ -214,7 +220,36 @@ TEST_F(DicomFolder, MissingSliceIsRefused)
 {
   WriteStack(m_Folder, 6);
   fs::remove(m_Folder / "image2.dcm"); // k = 3
-  EXPECT_EQ(KindOfReading(m_Folder, "image6.dcm to image5.dcm it is 5 mm, elsewhere 2.5 mm"), FailureKind::Geometry);
+  EXPECT_EQ(KindOfReading(m_Folder, "1 slice is missing at 7.5 mm, between image6.dcm and image5.dcm"),
+            FailureKind::Geometry);
+}
+
+TEST_F(DicomFolder, GapIsAcceptedWithTheOtherSlicesInTheirPlaces)
+{
+  WriteStack(m_Folder, 6);
+  fs::remove(m_Folder / "image2.dcm"); // k = 3
+  rhombic::ScanReadOptions options;
+  options.onGap = rhombic::ScanReadOptions::Policy::Accept;
+  const auto scan = ReadScan(m_Folder, options);
+  ASSERT_EQ(scan.sliceOrigins.size(), 5u);
+  EXPECT_EQ(scan.sliceOrigins[2][2], 5.0);
+  EXPECT_EQ(scan.sliceOrigins[3][2], 10.0);
+  ASSERT_EQ(scan.stack->gaps.size(), 1u);
+  EXPECT_EQ(scan.stack->gaps[0].position, 5.0);
+  EXPECT_EQ(scan.stack->gaps[0].numberOfMissing, 1u);
+  EXPECT_EQ(ImageOf<std::int16_t>(scan).GetPixel({ { 0, 0, 3 } }), ValueAt(0, 0, 4) - 1024);
+}
+
+TEST_F(DicomFolder, DamagedSliceIsAGap)
+{
+  WriteStack(m_Folder, 6);
+  fs::resize_file(m_Folder / "image2.dcm", fs::file_size(m_Folder / "image2.dcm") - 10); // k = 3
+  EXPECT_EQ(KindOfReading(m_Folder, "image2.dcm"), FailureKind::Unreadable);
+  rhombic::ScanReadOptions options;
+  options.onGap = rhombic::ScanReadOptions::Policy::Accept;
+  const auto scan = ReadScan(m_Folder, options);
+  EXPECT_EQ(scan.sliceOrigins.size(), 5u);
+  EXPECT_NE(scan.notes.at(0).find("image2.dcm"), std::string::npos) << scan.notes[0];
 }
 
 TEST_F(DicomFolder, DoubledSliceIsRefused)
@@ -224,25 +259,124 @@ TEST_F(DicomFolder, DoubledSliceIsRefused)
   EXPECT_EQ(KindOfReading(m_Folder, "image3-copy.dcm and image3.dcm are at the same place"), FailureKind::Geometry);
 }
 
-TEST_F(DicomFolder, TiltIsRefused)
+rhombic::ScanReadOptions
+RefuseIrregular()
 {
+  rhombic::ScanReadOptions options;
+  options.onIrregular = rhombic::ScanReadOptions::Policy::Refuse;
+  return options;
+}
+
+TEST_F(DicomFolder, TiltedSlicesStayWhereTheyAre)
+{
+  const double shift = std::tan(0.2);
   for (std::size_t k = 0; k < Slices; ++k)
   {
     DicomTestFile file = MakeSlice(k);
     const double z = 2.5 * static_cast<double>(k);
-    file.SetPosition(Join({ 0, z * std::tan(0.2), z }));
+    file.SetPosition(Join({ 0, z * shift, z }));
     file.Write(m_Folder / std::to_string(k));
   }
-  EXPECT_EQ(KindOfReading(m_Folder, "11.46 degrees"), FailureKind::Geometry);
+  const auto scan = ReadScan(m_Folder);
+  EXPECT_TRUE(scan.sliceOrigins.empty()) << "their steps are even";
+  EXPECT_NEAR(scan.stack->tiltDegrees, 11.459, 1e-3);
+  itk::Point<double, 3> point;
+  rhombic::GeometryOf(scan.image).TransformIndexToPhysicalPoint(itk::Index<3>{ { 1, 2, 3 } }, point);
+  const double expected[3] = { 1, 2 + 7.5 * shift, 7.5 };
+  ExpectNear(point, itk::Point<double, 3>(expected), 1e-6);
+  EXPECT_EQ(KindOfReading(m_Folder, "11.46 degrees", RefuseIrregular()), FailureKind::Geometry);
 }
 
-TEST_F(DicomFolder, SliceOffTheLineIsRefused)
+TEST_F(DicomFolder, UnevenSlicesStayWhereTheyAre)
 {
-  WriteStack(m_Folder);
-  DicomTestFile file = MakeSlice(1);
-  file.SetPosition("0\\0.5\\2.5");
-  file.Write(m_Folder / "image3.dcm");
-  EXPECT_EQ(KindOfReading(m_Folder, "image3.dcm lies 0.5 mm off"), FailureKind::Geometry);
+  const double positions[Slices] = { 0, 2.5, 6.2, 7 };
+  for (std::size_t k = 0; k < Slices; ++k)
+  {
+    DicomTestFile file = MakeSlice(k);
+    file.SetPosition(Join({ 0, k == 1 ? 0.5 : 0, positions[k] }));
+    file.Write(m_Folder / std::to_string(k));
+  }
+  const auto scan = ReadScan(m_Folder);
+  ASSERT_EQ(scan.sliceOrigins.size(), Slices);
+  for (std::size_t k = 0; k < Slices; ++k)
+  {
+    EXPECT_EQ(scan.sliceOrigins[k][1], k == 1 ? 0.5 : 0);
+    EXPECT_EQ(scan.sliceOrigins[k][2], positions[k]);
+  }
+  EXPECT_EQ(scan.stack->blocks.size(), 3u);
+  EXPECT_EQ(KindOfReading(m_Folder, "uneven", RefuseIrregular()), FailureKind::Geometry);
+}
+
+TEST_F(DicomFolder, SlicesAtOnePlaceAreToldApartByTheirKind)
+{
+  for (std::size_t k = 0; k < Slices; ++k)
+  {
+    DicomTestFile file = MakeSlice(k);
+    file.SetText(0x00080008, "CS", "ORIGINAL\\PRIMARY\\M");
+    file.Write(m_Folder / ("magnitude" + std::to_string(k)));
+    file.SetText(0x00080008, "CS", "ORIGINAL\\PRIMARY\\P");
+    file.Write(m_Folder / ("phase" + std::to_string(k)));
+  }
+  EXPECT_EQ(KindOfReading(m_Folder, "PRIMARY\\P"), FailureKind::Usage);
+  const auto scan = ReadScan(m_Folder, Series("2"));
+  EXPECT_EQ(scan.series[1].kind, "ORIGINAL\\PRIMARY\\P");
+  EXPECT_EQ(scan.series[1].size[2], Slices);
+}
+
+TEST_F(DicomFolder, SeriesWithoutUIDAreToldApartByTheirFolder)
+{
+  for (const char * folder : { "a", "b" })
+  {
+    fs::create_directory(m_Folder / folder);
+    for (std::size_t k = 0; k < Slices; ++k)
+    {
+      DicomTestFile file = MakeSlice(k);
+      file.Remove(0x0020000e);
+      file.Write(m_Folder / folder / std::to_string(k));
+    }
+  }
+  EXPECT_EQ(KindOfReading(m_Folder, "more than one volume"), FailureKind::Usage);
+  EXPECT_EQ(ReadScan(m_Folder, Series("1")).series.size(), 2u);
+}
+
+TEST_F(DicomFolder, PaddingTakesTheLowestOtherValue)
+{
+  for (std::size_t k = 0; k < Slices; ++k)
+  {
+    DicomTestFile file = MakeSlice(k);
+    std::vector<std::int16_t> pixels(static_cast<std::size_t>(Columns) * Rows, 40);
+    pixels[0] = -2000;
+    pixels[1] = -1990;
+    pixels[2] = 7;
+    file.SetPixels(pixels);
+    file.SetShort(0x00280120, static_cast<std::uint16_t>(-2000));
+    file.SetShort(0x00280121, static_cast<std::uint16_t>(-1990));
+    file.Write(m_Folder / std::to_string(k));
+  }
+  const auto scan = ReadScan(m_Folder);
+  EXPECT_EQ(scan.paddingValue, -3024.0);
+  EXPECT_EQ(scan.numberOfPaddingSamples, 2 * Slices);
+  const auto & image = ImageOf<std::int16_t>(scan);
+  EXPECT_EQ(image.GetPixel({ { 0, 0, 1 } }), 7 - 1024);
+  EXPECT_EQ(image.GetPixel({ { 1, 0, 1 } }), 7 - 1024);
+  EXPECT_EQ(image.GetPixel({ { 3, 0, 1 } }), 40 - 1024);
+}
+
+TEST_F(DicomFolder, BitsBesideTheValuesAreIgnored)
+{
+  for (std::size_t k = 0; k < 2; ++k)
+  {
+    DicomTestFile file = MakeSlice(k);
+    std::vector<std::uint16_t> pixels(static_cast<std::size_t>(Columns) * Rows, 0x8000 | 100);
+    pixels[0] = 0xfffe;
+    file.SetPixels(pixels);
+    file.SetShort(0x00280101, 12);
+    file.SetShort(0x00280102, 11);
+    file.Write(m_Folder / std::to_string(k));
+  }
+  const auto scan = ReadScan(m_Folder);
+  EXPECT_EQ(ImageOf<std::int16_t>(scan).GetPixel({ { 0, 0, 0 } }), -2 - 1024) << "12 bits, signed";
+  EXPECT_EQ(ImageOf<std::int16_t>(scan).GetPixel({ { 1, 0, 0 } }), 100 - 1024) << "an overlay above them";
 }
 
 TEST_F(DicomFolder, MissingGeometryIsRefusedByName)
@@ -329,7 +463,9 @@ TEST_F(DicomFolder, DamagedFilesBesideAGoodSeriesAreSkipped)
   report.Write(m_Folder / "report.dcm");
   fs::create_symlink(m_Folder, m_Folder / "loop");
   const auto scan = ReadScan(m_Folder);
-  EXPECT_EQ(scan.filesSkipped.at("no DICOM images"), 4u);
+  EXPECT_EQ(scan.filesSkipped.at("not DICOM"), 1u) << "empty.dcm";
+  EXPECT_EQ(scan.filesSkipped.at("damaged"), 2u) << "magic.dcm, odd.dcm";
+  EXPECT_EQ(scan.filesSkipped.at("DICOM without image (reports, plans, DICOMDIR)"), 1u);
   EXPECT_EQ(scan.filesSkipped.at("symbolic links"), 1u);
   EXPECT_EQ(rhombic::GeometryOf(scan.image).GetLargestPossibleRegion().GetSize()[2], Slices);
   ASSERT_EQ(scan.notes.size(), 1u);

@@ -30,8 +30,10 @@ struct SeriesSummary
   std::size_t number = 0;   ///< place in the list, from 1
   std::string seriesNumber; ///< as the scanner counted (0020,0011); may be empty or not unique
   std::string modality;     ///< CT, MR, ...; may be empty
+  std::string kind;         ///< what tells it from others of the same scan: ImageType, echo, ...; may be empty
   std::size_t numberOfFiles = 0;
-  std::array<std::size_t, 3> size{}; ///< columns, rows, files
+  std::array<std::size_t, 3> size{}; ///< columns, rows, slices
+  std::string problem;               ///< why it can't be read, as "it is ..."; empty when it can
   bool chosen = false;               ///< whether it is the one that was read
 };
 

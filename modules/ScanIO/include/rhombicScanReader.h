@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -50,6 +51,9 @@ struct ScanReadOptions
 
   /** What unpacks voxels through libraries that damaged files can crash; none: this process. Not owned. */
   VoxelDecoder * decoder = nullptr;
+
+  /** Told, on the calling thread, how much of a DICOM series is read, from 0 to 1; may be empty. */
+  std::function<void(double)> progress;
 };
 
 /** Reads a scan: a folder of DICOM slices, searched with its subfolders but without following symbolic links, or a

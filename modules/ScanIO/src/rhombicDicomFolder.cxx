@@ -5,10 +5,13 @@
 #include "rhombicDicomStack.h"
 #include "rhombicFailure.h"
 #include "rhombicFolderFiles.h"
+#include "rhombicInProcessDecoder.h"
+#include "rhombicTransferSyntax.h"
 #include "rhombicVolumeFile.h"
 
 #include <algorithm>
-#include <fstream>
+#include <set>
+#include <sstream>
 
 namespace fs = std::filesystem;
 
@@ -28,15 +31,33 @@ RefuseFolder(const fs::path & folder, const FolderFiles & files)
     why = "it holds no DICOM images; to read " + volume->filename().string() +
           ", give the file itself: " + volume->string();
   }
+  else if (files.unreadableFolders > 0)
+  {
+    why = "it, or a folder in it, may not be read by you; ask its owner for permission";
+  }
   else if (files.symbolicLinks > 0)
   {
-    why = "it holds symbolic links, which are not followed, and no DICOM images; copy the files they lead to";
+    why =
+      "it holds symbolic links, which are not followed, and no DICOM images; have them followed with --follow-links";
   }
   else if (files.paths.empty())
   {
     why = "it is empty; give the folder that holds the scan";
   }
   throw Failure(FailureKind::NotFound, "Found no scan in " + folder.string() + ": " + why + ".");
+}
+
+/** The first names of a list, and how many more there are. */
+std::string
+Shorten(const std::vector<std::string> & names)
+{
+  constexpr std::size_t named = 3;
+  std::string list;
+  for (std::size_t n = 0; n < std::min(named, names.size()); ++n)
+  {
+    list += (n > 0 ? ", " : "") + names[n];
+  }
+  return list + (names.size() > named ? " and " + std::to_string(names.size() - named) + " more" : "");
 }
 
 /** What is put into the log about the series that were not read. */
@@ -50,112 +71,208 @@ NoteOthers(const std::vector<SeriesSummary> & summaries)
     {
       notes.push_back("Series " + std::to_string(summary.number) + " (" +
                       (summary.modality.empty() ? "modality unknown" : summary.modality) + ", " +
-                      std::to_string(summary.numberOfFiles) + " files, id " + summary.id + ") was not read.");
+                      std::to_string(summary.numberOfFiles) + " files, id " + summary.id + ") was not read" +
+                      (summary.problem.empty() ? "" : ": " + summary.problem) + ".");
     }
   }
   return notes;
 }
 
-/** Why a file that GDCM could not make sense of may be a slice all the same; empty when it is something else. */
-std::string
-DamageOf(const fs::path & path)
+/** The slices of a folder's files; what else there is goes to the scan's report. */
+std::vector<DicomSlice>
+CollectSlices(const FolderFiles & files, Scan & scan)
 {
-  constexpr std::streamoff magicOffset = 128;
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-  {
-    return "can't be opened";
-  }
-  char magic[4] = {};
-  file.seekg(magicOffset).read(magic, sizeof(magic));
-  return std::string(magic, sizeof(magic)) == "DICM" ? "is damaged" : "";
-}
-
-/** One note for all damaged files: a slice that is missing at an end leaves no gap that could be seen. */
-void
-NoteDamaged(const std::vector<std::string> & damaged, std::vector<std::string> & notes)
-{
-  constexpr std::size_t named = 3;
-  if (damaged.empty())
-  {
-    return;
-  }
-  std::string list;
-  for (std::size_t n = 0; n < std::min(named, damaged.size()); ++n)
-  {
-    list += (n > 0 ? ", " : "") + damaged[n];
-  }
-  notes.push_back("Slices may be missing: " + list +
-                  (damaged.size() > named ? " and " + std::to_string(damaged.size() - named) + " more" : "") + ".");
-}
-
-} // namespace
-
-Scan
-ReadDicomFolder(const fs::path & folder, const std::string & wanted)
-{
-  const FolderFiles files = ListFiles(folder);
-
-  Scan scan;
-  scan.format = "DICOM";
   if (files.symbolicLinks > 0)
   {
     scan.filesSkipped["symbolic links"] = files.symbolicLinks;
+  }
+  if (files.others > 0)
+  {
+    scan.filesSkipped["devices or pipes"] = files.others;
   }
   std::vector<DicomSlice> slices;
   std::vector<std::string> damaged;
   for (const fs::path & path : files.paths)
   {
-    auto slice = ReadDicomSlice(path);
-    if (slice && slice->isImage)
+    std::error_code error;
+    const auto found = ReadDicomSlices(path);
+    if (found.empty())
     {
-      slices.push_back(std::move(*slice));
+      ++scan.filesSkipped[IsReadable(path) ? "not DICOM" : "not readable"];
+      if (!IsReadable(path))
+      {
+        damaged.push_back(path.filename().string() + " can't be opened");
+      }
+    }
+    else if (found.front().kind == DicomSlice::Kind::NoImage)
+    {
+      const bool isDamaged =
+        !found.front().file->pixelDamage.empty() && found.front().refusal == found.front().file->pixelDamage;
+      ++scan.filesSkipped[isDamaged ? "damaged" : "DICOM without image (reports, plans, DICOMDIR)"];
+      if (isDamaged)
+      {
+        damaged.push_back(path.filename().string() + " is damaged");
+      }
     }
     else
     {
-      ++scan.filesSkipped["no DICOM images"];
-      if (const std::string damage = slice ? "" : DamageOf(path); !damage.empty())
-      {
-        damaged.push_back(path.filename().string() + " " + damage);
-      }
+      slices.insert(slices.end(), found.begin(), found.end());
     }
   }
+  if (!damaged.empty())
+  {
+    // A slice that is missing at an end leaves no gap that could be seen.
+    scan.notes.push_back("Slices may be missing: " + Shorten(damaged) + ".");
+  }
+  return slices;
+}
+
+std::string
+DescribeScaling(const std::vector<DicomSlice> & slices)
+{
+  const DicomSlice & first = slices.front();
+  const auto isSame = [&first](const DicomSlice & slice) {
+    return slice.slope == first.slope && slice.intercept == first.intercept;
+  };
+  if (!std::all_of(slices.begin(), slices.end(), isSame))
+  {
+    return "each slice has its own slope and intercept";
+  }
+  if (first.slope == 1 && first.intercept == 0)
+  {
+    return "";
+  }
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << "slope " << first.slope << ", intercept " << first.intercept;
+  return text.str();
+}
+
+void
+NoteCompression(const std::vector<DicomSlice> & slices, Scan & scan)
+{
+  std::set<std::string> names;
+  bool isLossy = false;
+  for (const DicomSlice & slice : slices)
+  {
+    const TransferSyntax syntax = FindTransferSyntax(slice.file->format.transferSyntax);
+    names.insert(syntax.name);
+    isLossy = isLossy || syntax.isLossy;
+  }
+  for (const std::string & name : names)
+  {
+    scan.encoding += (scan.encoding.empty() ? "" : ", ") + name;
+  }
+  if (isLossy)
+  {
+    scan.notes.push_back("The values may have been compressed with loss (" + scan.encoding + ").");
+  }
+}
+
+/** Leaves out the slices of files that failed. */
+std::vector<DicomSlice>
+Without(std::vector<DicomSlice> slices, const std::map<fs::path, std::string> & failures)
+{
+  const auto failed = [&failures](const DicomSlice & slice) { return failures.count(slice.file->path) != 0; };
+  slices.erase(std::remove_if(slices.begin(), slices.end(), failed), slices.end());
+  return slices;
+}
+
+/** Stacks and reads slices. A file that can't be read counts as a gap: the options say whether that is accepted. */
+void
+ReadStack(std::vector<DicomSlice> slices, const ScanReadOptions & options, Scan & scan)
+{
+  InProcessDecoder inProcess;
+  VoxelDecoder & decoder = options.decoder != nullptr ? *options.decoder : inProcess;
+
+  DicomStack stack = StackSlices(slices, options);
+  DicomPixels pixels = ReadDicomPixels(slices, stack.geometry, decoder, options.progress);
+  while (!pixels.failures.empty())
+  {
+    const std::string & sentence = pixels.failures.begin()->second;
+    const std::size_t others = pixels.failures.size() - 1;
+    if (options.onGap == ScanReadOptions::Policy::Refuse || pixels.failures.size() + 2 > slices.size())
+    {
+      throw Failure(FailureKind::Unreadable,
+                    others == 0 ? sentence : sentence + " (And " + std::to_string(others) + " more files.)");
+    }
+    for (const auto & [path, failure] : pixels.failures)
+    {
+      scan.notes.push_back("A slice was left out. " + failure);
+    }
+    slices = Without(std::move(slices), pixels.failures);
+    stack = StackSlices(slices, options);
+    pixels = ReadDicomPixels(slices, stack.geometry, decoder, options.progress);
+  }
+  scan.image = pixels.image;
+  scan.sliceOrigins = stack.sliceOrigins;
+  scan.stack = stack.report;
+  scan.scaling = DescribeScaling(slices);
+  scan.paddingValue = pixels.paddingValue;
+  scan.numberOfPaddingSamples = pixels.numberOfPaddingSamples;
+  scan.notes.insert(scan.notes.end(), stack.notes.begin(), stack.notes.end());
+  NoteCompression(slices, scan);
+}
+
+Scan
+ReadSlices(const std::vector<DicomSlice> & slices, Scan scan, const fs::path & path, const ScanReadOptions & options)
+{
+  const std::vector<DicomSeries> series = GroupIntoSeries(slices);
+  const SeriesChoice choice = ChooseSeries(series, options.series, path);
+  scan.format = "DICOM";
+  scan.series = Summarize(series, choice.index);
+  scan.choice = choice.reason;
+  scan.modality = scan.series[choice.index].modality;
+  const auto others = NoteOthers(scan.series);
+  scan.notes.insert(scan.notes.end(), others.begin(), others.end());
+  ReadStack(series[choice.index].slices, options, scan);
+  return scan;
+}
+
+} // namespace
+
+Scan
+ReadDicomFolder(const fs::path & folder, const ScanReadOptions & options)
+{
+  const FolderFiles files = ListFiles(folder, options.followsLinks);
+  Scan scan;
+  const std::vector<DicomSlice> slices = CollectSlices(files, scan);
   if (slices.empty())
   {
     RefuseFolder(folder, files);
   }
-
-  std::vector<DicomSeries> series = GroupIntoSeries(slices);
-  const std::size_t chosen = ChooseSeries(series, wanted, folder);
-  scan.series = Summarize(series, chosen);
-  scan.modality = scan.series[chosen].modality;
-  scan.notes = NoteOthers(scan.series);
-  NoteDamaged(damaged, scan.notes);
-
-  const VolumeGeometry geometry = StackSlices(series[chosen].slices);
-  scan.image = ReadDicomPixels(series[chosen].slices, geometry);
-  return scan;
+  return ReadSlices(slices, std::move(scan), folder, options);
 }
 
-void
-RefuseSingleDicomFile(const fs::path & path)
+Scan
+ReadDicomFile(const fs::path & path, const ScanReadOptions & options)
 {
-  const auto slice = ReadDicomSlice(path);
-  if (!slice)
+  const std::vector<DicomSlice> slices = ReadDicomSlices(path);
+  if (slices.empty())
   {
     throw Failure(FailureKind::Unreadable,
                   "Cannot read " + path.string() +
                     ": it is neither DICOM nor named like NIfTI, NRRD or MetaImage; check where it came from.");
   }
-  if (!slice->refusal.empty())
+  if (!slices.front().refusal.empty())
   {
     throw Failure(FailureKind::Unreadable,
-                  "Cannot read " + path.string() + ": " + slice->refusal +
+                  "Cannot read " + path.string() + ": " + slices.front().refusal +
                     "; give a folder of plain CT, MR or PET slices.");
   }
-  throw Failure(FailureKind::Geometry,
-                "Cannot read " + path.string() +
-                  ": it is a single slice, which is no volume; give the folder of the whole series.");
+  if (!slices.front().file->pixelDamage.empty())
+  {
+    throw Failure(FailureKind::Unreadable,
+                  "Cannot read " + path.string() + ": " + slices.front().file->pixelDamage +
+                    "; copy it again from its source.");
+  }
+  if (slices.size() == 1)
+  {
+    throw Failure(FailureKind::Geometry,
+                  "Cannot read " + path.string() +
+                    ": it is a single slice, which is no volume; give the folder of the whole series.");
+  }
+  return ReadSlices(slices, Scan(), path, options);
 }
 
 } // namespace rhombic

@@ -1,23 +1,22 @@
 #ifndef rhombicDicomFolder_h
 #define rhombicDicomFolder_h
 
-#include "rhombicScan.h"
+#include "rhombicScanReader.h"
 
 #include <filesystem>
-#include <string>
 
 namespace rhombic
 {
 
 /** Reads a series (see ScanReadOptions::series) of the DICOM slices in a folder and its subfolders. Throws Failure and
- * GDCM's exceptions. */
+ * the exceptions of libraries. */
 Scan
-ReadDicomFolder(const std::filesystem::path & folder, const std::string & series);
+ReadDicomFolder(const std::filesystem::path & folder, const ScanReadOptions & options);
 
-/** Says why a single file that is not named like a volume can't be read: what kind of DICOM it is, or that it is none.
- */
-[[noreturn]] void
-RefuseSingleDicomFile(const std::filesystem::path & path);
+/** Reads a single DICOM file that holds a volume: an enhanced multi-frame object or a segmentation. Throws Failure,
+ * also for other files, saying what they are. */
+Scan
+ReadDicomFile(const std::filesystem::path & path, const ScanReadOptions & options);
 
 } // namespace rhombic
 

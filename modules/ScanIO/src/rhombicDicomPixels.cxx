@@ -1,11 +1,16 @@
 #include "rhombicDicomPixels.h"
 
-#include "rhombicDicomFrame.h"
+#include "rhombicFailure.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstring>
+#include <fstream>
 #include <limits>
+#include <mutex>
 #include <optional>
+#include <thread>
 #include <type_traits>
 
 namespace rhombic
@@ -13,50 +18,330 @@ namespace rhombic
 namespace
 {
 
-/** False, with nothing written, when a value is beyond an integer pixel type. */
-template <typename TPixel, typename TStored>
-bool
-Rescale(const DicomSlice & slice, const std::vector<TStored> & stored, TPixel * pixels)
+/** The slices that come from one file. */
+struct FileSlices
 {
-  const auto rescale = [&slice](TStored value) { return slice.slope * static_cast<double>(value) + slice.intercept; };
-  if constexpr (std::is_integral_v<TPixel>)
+  std::shared_ptr<const DicomImageFile> file;
+  std::vector<std::size_t> places; ///< in the stack
+};
+
+std::vector<FileSlices>
+GroupByFile(const std::vector<DicomSlice> & slices)
+{
+  std::map<const DicomImageFile *, std::size_t> indices;
+  std::vector<FileSlices> files;
+  for (std::size_t place = 0; place < slices.size(); ++place)
   {
-    const auto [lowest, highest] = std::minmax_element(stored.begin(), stored.end());
-    const auto [first, last] = std::minmax({ rescale(*lowest), rescale(*highest) });
-    if (first < std::numeric_limits<TPixel>::lowest() || last > std::numeric_limits<TPixel>::max())
+    const auto [found, isNew] = indices.emplace(slices[place].file.get(), files.size());
+    if (isNew)
     {
-      return false;
+      files.push_back({ slices[place].file, {} });
+    }
+    files[found->second].places.push_back(place);
+  }
+  return files;
+}
+
+[[noreturn]] void
+Refuse(const DicomImageFile & file, const std::string & why)
+{
+  throw Failure(FailureKind::Unreadable,
+                "Cannot read " + file.path.string() + ": " + why + "; copy it again from its source.");
+}
+
+/** Turns stored pixels into the numbers they mean, before rescaling (PS3.5, 8.1.1). */
+template <typename TRaw>
+class StoredValue
+{
+public:
+  explicit StoredValue(const DicomPixelFormat & format)
+    : m_Left(static_cast<int>(8 * sizeof(std::int64_t)) - 1 - static_cast<int>(format.highBit))
+    , m_Right(static_cast<int>(8 * sizeof(std::int64_t)) - static_cast<int>(format.bitsStored))
+    , m_IsSigned(format.isSigned)
+  {}
+
+  std::int64_t
+  operator()(TRaw raw) const
+  {
+    const std::uint64_t atTop = std::uint64_t{ raw } << m_Left;
+    return m_IsSigned ? static_cast<std::int64_t>(atTop) >> m_Right : static_cast<std::int64_t>(atTop >> m_Right);
+  }
+
+private:
+  int m_Left;
+  int m_Right;
+  bool m_IsSigned;
+};
+
+/** Padding may use bits that values don't: it is told by all the bits that there are. */
+template <typename TRaw>
+bool
+IsPadding(TRaw raw, const DicomPixelFormat & format)
+{
+  const auto value =
+    format.isSigned ? std::int64_t{ static_cast<std::make_signed_t<TRaw>>(raw) } : static_cast<std::int64_t>(raw);
+  return value >= format.padding->first && value <= format.padding->second;
+}
+
+/** What was found in a slice. */
+struct SliceValues
+{
+  double lowest = std::numeric_limits<double>::max(); ///< without padding
+  double highest = std::numeric_limits<double>::lowest();
+  std::vector<std::uint32_t> padding; ///< places of padding in the slice
+};
+
+/** The range of a slice's rescaled values, and where it is padded. */
+template <typename TRaw>
+SliceValues
+FindValues(const DicomSlice & slice, const TRaw * stored, std::size_t count)
+{
+  const DicomPixelFormat & format = slice.file->format;
+  const StoredValue<TRaw> valueOf(format);
+  std::int64_t lowest = std::numeric_limits<std::int64_t>::max();
+  std::int64_t highest = std::numeric_limits<std::int64_t>::lowest();
+  SliceValues values;
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    if (format.padding && IsPadding(stored[n], format))
+    {
+      values.padding.push_back(static_cast<std::uint32_t>(n));
+      continue;
+    }
+    lowest = std::min(lowest, valueOf(stored[n]));
+    highest = std::max(highest, valueOf(stored[n]));
+  }
+  if (lowest <= highest)
+  {
+    const double first = slice.slope * static_cast<double>(lowest) + slice.intercept;
+    const double last = slice.slope * static_cast<double>(highest) + slice.intercept;
+    std::tie(values.lowest, values.highest) = std::minmax(first, last);
+  }
+  return values;
+}
+
+template <typename TPixel>
+bool
+FitsInto(const SliceValues & values)
+{
+  const bool isEmpty = values.lowest > values.highest;
+  return !std::is_integral_v<TPixel> || isEmpty ||
+         (values.lowest >= static_cast<double>(std::numeric_limits<TPixel>::lowest()) &&
+          values.highest <= static_cast<double>(std::numeric_limits<TPixel>::max()));
+}
+
+/** Writes rescaled values, arbitrary ones where there is padding, or nothing when the values don't fit. */
+template <typename TRaw, typename TPixel>
+SliceValues
+Rescale(const DicomSlice & slice, const TRaw * stored, TPixel * pixels)
+{
+  const DicomPixelFormat & format = slice.file->format;
+  const StoredValue<TRaw> valueOf(format);
+  const std::size_t count = static_cast<std::size_t>(format.columns) * format.rows;
+  const SliceValues values = FindValues(slice, stored, count);
+  if (FitsInto<TPixel>(values) && values.padding.size() < count)
+  {
+    const auto rescale = [&](TRaw raw) {
+      const double value = slice.slope * static_cast<double>(valueOf(raw)) + slice.intercept;
+      return static_cast<TPixel>(std::clamp(value, values.lowest, values.highest));
+    };
+    std::transform(stored, stored + count, pixels, rescale);
+  }
+  return values;
+}
+
+template <typename TPixel>
+SliceValues
+Rescale(const DicomSlice & slice, const std::byte * stored, TPixel * pixels)
+{
+  switch (slice.file->format.bitsAllocated)
+  {
+    case 8:
+      return Rescale(slice, reinterpret_cast<const std::uint8_t *>(stored), pixels);
+    case 16:
+      return Rescale(slice, reinterpret_cast<const std::uint16_t *>(stored), pixels);
+    default:
+      return Rescale(slice, reinterpret_cast<const std::uint32_t *>(stored), pixels);
+  }
+}
+
+void
+SwapBytes(std::vector<std::byte> & bytes, std::size_t size)
+{
+  for (auto value = bytes.begin(); value != bytes.end(); value += static_cast<std::ptrdiff_t>(size))
+  {
+    std::reverse(value, value + static_cast<std::ptrdiff_t>(size));
+  }
+}
+
+/** One frame of pixels that are not compressed. */
+std::vector<std::byte>
+ReadNativeFrame(const DicomImageFile & file, std::size_t frame)
+{
+  std::vector<std::byte> bytes(file.format.FrameBytes());
+  std::ifstream stream(file.path, std::ios::binary);
+  stream.seekg(static_cast<std::streamoff>(file.pixels.offset + frame * bytes.size()));
+  if (!stream.read(reinterpret_cast<char *>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
+  {
+    Refuse(file, "its pixels are cut off");
+  }
+  if (file.format.isBigEndian)
+  {
+    SwapBytes(bytes, file.format.bitsAllocated / 8);
+  }
+  return bytes;
+}
+
+/** Calls `take(place, stored)` for each slice of a file. */
+template <typename TTake>
+void
+ForEachFrame(const FileSlices & one, const std::vector<DicomSlice> & slices, VoxelDecoder & decoder, TTake take)
+{
+  const DicomImageFile & file = *one.file;
+  const std::size_t frameBytes = file.format.FrameBytes();
+  if (!file.pixelDamage.empty())
+  {
+    Refuse(file, file.pixelDamage);
+  }
+  if (file.format.isEncapsulated)
+  {
+    const auto buffer = decoder.Decode({ VoxelRequest::Source::DicomFile, file.path, frameBytes * file.format.frames });
+    for (const std::size_t place : one.places)
+    {
+      take(place, buffer->GetData() + slices[place].frame * frameBytes);
+    }
+    return;
+  }
+  for (const std::size_t place : one.places)
+  {
+    take(place, ReadNativeFrame(file, slices[place].frame).data());
+  }
+}
+
+/** Calls `work(n)` for all n below \a count on several threads, this one among them, which reports how far it got.
+ * Work that returns false ends it all early. */
+template <typename TWork>
+void
+InParallel(std::size_t count, std::size_t threads, const std::function<void(double)> & progress, TWork work)
+{
+  std::atomic<std::size_t> next{ 0 };
+  std::atomic<std::size_t> done{ 0 };
+  const auto run = [&](bool reports) {
+    for (std::size_t n = next++; n < count; n = next++)
+    {
+      if (!work(n))
+      {
+        next = count;
+      }
+      ++done;
+      if (reports && progress)
+      {
+        progress(static_cast<double>(done) / static_cast<double>(count));
+      }
+    }
+  };
+  std::vector<std::thread> helpers;
+  for (std::size_t n = 1; n < std::min(threads, count); ++n)
+  {
+    helpers.emplace_back(run, false);
+  }
+  run(true);
+  for (std::thread & helper : helpers)
+  {
+    helper.join();
+  }
+}
+
+/** Puts the lowest other value in the place of padding. */
+template <typename TPixel>
+void
+ReplacePadding(const std::vector<SliceValues> & values, TPixel * pixels, std::size_t sliceSize, DicomPixels & result)
+{
+  double lowest = std::numeric_limits<double>::max();
+  for (const SliceValues & slice : values)
+  {
+    lowest = std::min(lowest, slice.lowest);
+    result.numberOfPaddingSamples += slice.padding.size();
+  }
+  const auto replacement = lowest < std::numeric_limits<double>::max() ? static_cast<TPixel>(lowest) : TPixel{};
+  for (std::size_t k = 0; k < values.size(); ++k)
+  {
+    for (const std::uint32_t place : values[k].padding)
+    {
+      pixels[k * sliceSize + place] = replacement;
     }
   }
-  std::transform(
-    stored.begin(), stored.end(), pixels, [&rescale](TStored value) { return static_cast<TPixel>(rescale(value)); });
-  return true;
 }
 
 /** Nothing when a value is beyond an integer pixel type. */
 template <typename TPixel>
-std::optional<ScanImage>
-ReadAs(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry)
+std::optional<DicomPixels>
+ReadAs(const std::vector<DicomSlice> & slices,
+       const VolumeGeometry & geometry,
+       VoxelDecoder & decoder,
+       const std::function<void(double)> & progress)
 {
   const auto image = NewImage<TPixel>(geometry);
-  TPixel * pixels = image->GetBufferPointer();
-  for (const DicomSlice & slice : slices)
-  {
-    const DicomFrame frame = DecodeDicomFrame(slice);
-    if (!std::visit([&](const auto & stored) { return Rescale(slice, stored, pixels); }, frame))
+  const std::size_t sliceSize = geometry.size[0] * geometry.size[1];
+  const std::vector<FileSlices> files = GroupByFile(slices);
+  std::vector<SliceValues> values(slices.size());
+  std::atomic<bool> fits{ true };
+  DicomPixels result;
+  std::exception_ptr fatal;
+  std::mutex guard;
+  const auto readFile = [&](std::size_t n) {
+    try
     {
-      return {};
+      ForEachFrame(files[n], slices, decoder, [&](std::size_t place, const std::byte * stored) {
+        values[place] = Rescale(slices[place], stored, image->GetBufferPointer() + place * sliceSize);
+        if (!FitsInto<TPixel>(values[place]))
+        {
+          fits = false;
+        }
+      });
     }
-    pixels += geometry.size[0] * geometry.size[1];
+    catch (const Failure & failure)
+    {
+      const std::lock_guard<std::mutex> lock(guard);
+      if (failure.GetKind() != FailureKind::Unreadable)
+      {
+        fatal = std::current_exception();
+        return false;
+      }
+      result.failures.emplace(files[n].file->path, failure.GetDescription());
+    }
+    catch (...)
+    {
+      const std::lock_guard<std::mutex> lock(guard);
+      fatal = std::current_exception();
+      return false;
+    }
+    return fits.load();
+  };
+  InParallel(files.size(), decoder.GetNumberOfWorkers(), progress, readFile);
+  if (fatal)
+  {
+    std::rethrow_exception(fatal);
   }
-  return ScanImage(image);
+  if (!result.failures.empty())
+  {
+    return result;
+  }
+  if (!fits)
+  {
+    return {};
+  }
+  ReplacePadding(values, image->GetBufferPointer(), sliceSize, result);
+  result.image = image;
+  return result;
 }
 
 bool
 AreStoredAsIs(const std::vector<DicomSlice> & slices, unsigned int bits)
 {
   return std::all_of(slices.begin(), slices.end(), [bits](const DicomSlice & slice) {
-    return slice.slope == 1 && slice.intercept == 0 && slice.bitsAllocated == bits && !slice.isSigned;
+    return slice.slope == 1 && slice.intercept == 0 && slice.file->format.bitsAllocated == bits &&
+           !slice.file->format.isSigned;
   });
 }
 
@@ -68,28 +353,46 @@ AreWholeNumbers(const std::vector<DicomSlice> & slices)
   });
 }
 
+std::optional<double>
+PaddingValueOf(const std::vector<DicomSlice> & slices)
+{
+  const DicomSlice & first = slices.front();
+  return first.file->format.padding
+           ? std::optional<double>(first.slope * static_cast<double>(first.file->format.padding->first) +
+                                   first.intercept)
+           : std::nullopt;
+}
+
 } // namespace
 
-ScanImage
-ReadDicomPixels(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry)
+DicomPixels
+ReadDicomPixels(const std::vector<DicomSlice> & slices,
+                const VolumeGeometry & geometry,
+                VoxelDecoder & decoder,
+                const std::function<void(double)> & progress)
 {
-  std::optional<ScanImage> image;
+  std::optional<DicomPixels> pixels;
   if (AreStoredAsIs(slices, 8))
   {
-    image = ReadAs<std::uint8_t>(slices, geometry);
+    pixels = ReadAs<std::uint8_t>(slices, geometry, decoder, progress);
   }
   else if (AreStoredAsIs(slices, 16))
   {
-    image = ReadAs<std::uint16_t>(slices, geometry);
+    pixels = ReadAs<std::uint16_t>(slices, geometry, decoder, progress);
   }
   // Headers promise more than the values use (GE's 16 bits less 1024), so the smallest type is tried first.
-  if (!image && AreWholeNumbers(slices))
+  if (!pixels && AreWholeNumbers(slices))
   {
-    image = ReadAs<std::int16_t>(slices, geometry);
-    image = image ? image : ReadAs<std::uint16_t>(slices, geometry);
-    image = image ? image : ReadAs<std::int32_t>(slices, geometry);
+    pixels = ReadAs<std::int16_t>(slices, geometry, decoder, progress);
+    pixels = pixels ? std::move(pixels) : ReadAs<std::uint16_t>(slices, geometry, decoder, progress);
+    pixels = pixels ? std::move(pixels) : ReadAs<std::int32_t>(slices, geometry, decoder, progress);
   }
-  return image ? *image : *ReadAs<float>(slices, geometry);
+  if (!pixels)
+  {
+    pixels = ReadAs<float>(slices, geometry, decoder, progress);
+  }
+  pixels->paddingValue = PaddingValueOf(slices);
+  return std::move(*pixels);
 }
 
 } // namespace rhombic

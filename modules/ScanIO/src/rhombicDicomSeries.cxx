@@ -1,5 +1,6 @@
 #include "rhombicDicomSeries.h"
 
+#include "rhombicDicomStack.h"
 #include "rhombicFailure.h"
 
 #include <algorithm>
@@ -15,6 +16,8 @@ namespace rhombic
 namespace
 {
 
+using Slices = std::vector<DicomSlice>;
+
 bool
 HaveSameAxes(const SlicePlane & first, const SlicePlane & second)
 {
@@ -23,12 +26,84 @@ HaveSameAxes(const SlicePlane & first, const SlicePlane & second)
          (first.rowStep - second.rowStep).GetNorm() <= tolerance * first.rowStep.GetNorm();
 }
 
-bool
-BelongTogether(const DicomSlice & first, const DicomSlice & second)
+/** What all slices of a series have in common, but for their axes. */
+auto
+KeyOf(const DicomSlice & slice)
 {
-  return first.seriesUID == second.seriesUID && first.rows == second.rows && first.columns == second.columns &&
-         first.refusal == second.refusal && first.plane.has_value() == second.plane.has_value() &&
-         (!first.plane || HaveSameAxes(*first.plane, *second.plane));
+  const bool isAlone = slice.kind == DicomSlice::Kind::Segmentation;
+  const std::filesystem::path & path = slice.file->path;
+  return std::make_tuple(slice.seriesUID,
+                         isAlone                   ? path
+                         : slice.seriesUID.empty() ? path.parent_path()
+                                                   : std::filesystem::path(),
+                         slice.kind,
+                         slice.file->format.rows,
+                         slice.file->format.columns,
+                         slice.refusal,
+                         slice.plane.has_value());
+}
+
+std::vector<Slices>
+GroupByKeyAndAxes(const Slices & slices)
+{
+  std::map<decltype(KeyOf(slices.front())), std::vector<Slices>> groups;
+  for (const DicomSlice & slice : slices)
+  {
+    std::vector<Slices> & group = groups[KeyOf(slice)];
+    const auto found = std::find_if(group.begin(), group.end(), [&slice](const Slices & part) {
+      return !slice.plane || HaveSameAxes(*part.front().plane, *slice.plane);
+    });
+    (found == group.end() ? group.emplace_back() : *found).push_back(slice);
+  }
+  std::vector<Slices> all;
+  for (auto & [key, group] : groups)
+  {
+    std::move(group.begin(), group.end(), std::back_inserter(all));
+  }
+  return all;
+}
+
+/** Slices by one of their distinctions, or by all of them. */
+std::vector<DicomSeries>
+SplitBy(const Slices & slices, std::size_t first, std::size_t last)
+{
+  std::map<std::string, Slices> parts;
+  for (const DicomSlice & slice : slices)
+  {
+    std::string kind;
+    for (std::size_t n = first; n < last; ++n)
+    {
+      kind += (kind.empty() || slice.distinctions[n].empty() ? "" : " ") + slice.distinctions[n];
+    }
+    parts[kind].push_back(slice);
+  }
+  std::vector<DicomSeries> series;
+  for (auto & [kind, part] : parts)
+  {
+    series.push_back({ "", parts.size() > 1 ? kind : "", std::move(part) });
+  }
+  return series;
+}
+
+/** Splits a series with several slices at one place by the first distinction that leaves none such; if there is no such
+ * distinction, by all of them, and if that does not help either, not at all. */
+std::vector<DicomSeries>
+SplitDuplicates(const Slices & slices)
+{
+  const auto isUnique = [](const DicomSeries & series) { return !HaveDuplicates(series.slices); };
+  constexpr std::size_t all = DicomSlice::NumberOfDistinctions;
+  if (slices.front().kind == DicomSlice::Kind::Scan && HaveDuplicates(slices))
+  {
+    for (std::size_t n = 0; n <= all; ++n)
+    {
+      auto parts = n < all ? SplitBy(slices, n, n + 1) : SplitBy(slices, 0, all);
+      if (std::all_of(parts.begin(), parts.end(), isUnique))
+      {
+        return parts;
+      }
+    }
+  }
+  return { { "", "", slices } };
 }
 
 /** FNV-1a, 64 bits, in hexadecimal: the UID itself could lead to the patient. */
@@ -69,7 +144,8 @@ ListSeries(const std::vector<DicomSeries> & series)
   {
     const DicomSlice & slice = series[i].slices.front();
     list += (i > 0 ? ", " : "") + std::to_string(i + 1) + " (" + (slice.modality.empty() ? "?" : slice.modality) +
-            ", " + std::to_string(series[i].slices.size()) + " files, id " + series[i].id + ")";
+            ", " + std::to_string(series[i].slices.size()) + " slices" +
+            (series[i].kind.empty() ? "" : ", " + series[i].kind) + ", id " + series[i].id + ")";
   }
   return list;
 }
@@ -99,18 +175,64 @@ FindWanted(const std::vector<DicomSeries> & series, const std::string & wanted, 
   return *found.begin();
 }
 
+/** Places of the series in the order of what they are good for, the best first. */
+std::vector<std::size_t>
+RankSeries(const std::vector<DicomSeries> & series)
+{
+  const auto rank = [&series](std::size_t i) {
+    const DicomSlice & slice = series[i].slices.front();
+    return std::make_tuple(slice.refusal.empty(), slice.kind == DicomSlice::Kind::Scan, series[i].slices.size());
+  };
+  std::vector<std::size_t> places(series.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    places[i] = i;
+  }
+  std::stable_sort(places.begin(), places.end(), [&rank](std::size_t first, std::size_t second) {
+    return rank(first) > rank(second);
+  });
+  return places;
+}
+
+SeriesChoice
+ChooseBest(const std::vector<DicomSeries> & series, const std::filesystem::path & folder)
+{
+  const std::vector<std::size_t> places = RankSeries(series);
+  const DicomSeries & best = series[places[0]];
+  if (series.size() == 1)
+  {
+    return { 0, "it is the only series" };
+  }
+  const DicomSeries & next = series[places[1]];
+  const auto isRival = [&best](const DicomSeries & other) {
+    return other.slices.front().refusal.empty() && other.slices.front().kind == best.slices.front().kind &&
+           other.slices.size() > 1;
+  };
+  if (!isRival(next))
+  {
+    return { places[0], "it is the only series that can be a volume" };
+  }
+  if (best.slices.size() < 2 * next.slices.size())
+  {
+    throw Failure(FailureKind::Usage,
+                  "There is more than one volume in " + folder.string() + "; choose one with --series and an id from " +
+                    ListSeries(series) + ".");
+  }
+  return { places[0],
+           "it has the most slices by far (" + std::to_string(best.slices.size()) + ", the next has " +
+             std::to_string(next.slices.size()) + ")" };
+}
+
 } // namespace
 
 std::vector<DicomSeries>
 GroupIntoSeries(const std::vector<DicomSlice> & slices)
 {
   std::vector<DicomSeries> series;
-  for (const DicomSlice & slice : slices)
+  for (const Slices & group : GroupByKeyAndAxes(slices))
   {
-    const auto found = std::find_if(series.begin(), series.end(), [&slice](const DicomSeries & one) {
-      return BelongTogether(one.slices.front(), slice);
-    });
-    (found == series.end() ? series.emplace_back() : *found).slices.push_back(slice);
+    auto parts = SplitDuplicates(group);
+    std::move(parts.begin(), parts.end(), std::back_inserter(series));
   }
   std::stable_sort(series.begin(), series.end(), [](const DicomSeries & first, const DicomSeries & second) {
     const auto key = [](const DicomSeries & one) {
@@ -124,33 +246,19 @@ GroupIntoSeries(const std::vector<DicomSlice> & slices)
   return series;
 }
 
-std::size_t
+SeriesChoice
 ChooseSeries(const std::vector<DicomSeries> & series, const std::string & wanted, const std::filesystem::path & folder)
 {
-  std::size_t chosen = 0;
-  if (wanted.empty())
-  {
-    const auto rank = [](const DicomSeries & one) {
-      return std::make_pair(one.slices.front().refusal.empty(), one.slices.size());
-    };
-    const auto best =
-      std::max_element(series.begin(), series.end(), [&rank](const DicomSeries & first, const DicomSeries & second) {
-        return rank(first) < rank(second);
-      });
-    chosen = static_cast<std::size_t>(best - series.begin());
-  }
-  else
-  {
-    chosen = FindWanted(series, wanted, folder);
-  }
-  const DicomSlice & slice = series[chosen].slices.front();
+  const SeriesChoice choice = wanted.empty() ? ChooseBest(series, folder)
+                                             : SeriesChoice{ FindWanted(series, wanted, folder), "it was asked for" };
+  const DicomSlice & slice = series[choice.index].slices.front();
   if (!slice.refusal.empty())
   {
     throw Failure(FailureKind::Unreadable,
-                  "Cannot read " + slice.path.string() + ": " + slice.refusal +
+                  "Cannot read " + slice.file->path.string() + ": " + slice.refusal +
                     "; give a series of plain CT, MR or PET slices.");
   }
-  return chosen;
+  return choice;
 }
 
 std::vector<SeriesSummary>
@@ -160,13 +268,20 @@ Summarize(const std::vector<DicomSeries> & series, std::size_t chosen)
   for (std::size_t i = 0; i < series.size(); ++i)
   {
     const DicomSlice & slice = series[i].slices.front();
+    std::set<std::filesystem::path> files;
+    for (const DicomSlice & one : series[i].slices)
+    {
+      files.insert(one.file->path);
+    }
     SeriesSummary summary;
     summary.id = series[i].id;
     summary.number = i + 1;
     summary.seriesNumber = slice.seriesNumber;
     summary.modality = slice.modality;
-    summary.numberOfFiles = series[i].slices.size();
-    summary.size = { slice.columns, slice.rows, series[i].slices.size() };
+    summary.kind = series[i].kind;
+    summary.numberOfFiles = files.size();
+    summary.size = { slice.file->format.columns, slice.file->format.rows, series[i].slices.size() };
+    summary.problem = slice.refusal;
     summary.chosen = i == chosen;
     summaries.push_back(summary);
   }

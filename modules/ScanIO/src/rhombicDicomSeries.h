@@ -9,21 +9,31 @@
 namespace rhombic
 {
 
-/** Slices that may make a volume: of one SeriesInstanceUID, orientation, size and pixel spacing. */
+/** Slices that may make a volume: of one SeriesInstanceUID, kind, orientation, size and pixel spacing. When there would
+ * be two at one place, also of one image type, echo, time, stack or acquisition, whichever tells them apart. */
 struct DicomSeries
 {
-  std::string id; ///< SeriesSummary::id
+  std::string id;   ///< SeriesSummary::id
+  std::string kind; ///< SeriesSummary::kind
   std::vector<DicomSlice> slices;
 };
 
-/** Splits slices into series, in the order of series number, then UID. */
+/** Splits slices into series, in the order of series number, then UID, then size. Files without UID are told apart by
+ * their folder. */
 std::vector<DicomSeries>
 GroupIntoSeries(const std::vector<DicomSlice> & slices);
 
-/** The index of the series that is wanted (see ScanReadOptions::series), or, when \a wanted is empty, of the one
- * with most slices among those that can be volumes. Throws Failure(Usage) when there is none or more than one such
- * series, Failure(Unreadable) when none of them can be a volume. */
-std::size_t
+/** Which series to read. */
+struct SeriesChoice
+{
+  std::size_t index = 0;
+  std::string reason;
+};
+
+/** The series that is wanted (see ScanReadOptions::series); when \a wanted is empty, the only one that can be a volume,
+ * or that with at least twice as many slices as any other. Throws Failure(Usage), listing them, when that leaves none
+ * or more than one, Failure(Unreadable) when none of them can be a volume. */
+SeriesChoice
 ChooseSeries(const std::vector<DicomSeries> & series, const std::string & wanted, const std::filesystem::path & folder);
 
 std::vector<SeriesSummary>

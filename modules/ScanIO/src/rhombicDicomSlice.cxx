@@ -1,283 +1,347 @@
 #include "rhombicDicomSlice.h"
 
-#include "rhombicDicomPreamble.h"
+#include "rhombicDicomTags.h"
+#include "rhombicTransferSyntax.h"
 
-#include <gdcmReader.h>
-#include <gdcmTag.h>
-
-#include <array>
-#include <charconv>
+#include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <set>
-#include <vector>
+#include <string_view>
 
 namespace rhombic
 {
 namespace
 {
 
-const gdcm::Tag ClassUIDTag(0x0008, 0x0016);
-const gdcm::Tag ModalityTag(0x0008, 0x0060);
-const gdcm::Tag SeriesUIDTag(0x0020, 0x000e);
-const gdcm::Tag SeriesNumberTag(0x0020, 0x0011);
-const gdcm::Tag PositionTag(0x0020, 0x0032);
-const gdcm::Tag OrientationTag(0x0020, 0x0037);
-const gdcm::Tag SamplesTag(0x0028, 0x0002);
-const gdcm::Tag PhotometricTag(0x0028, 0x0004);
-const gdcm::Tag FramesTag(0x0028, 0x0008);
-const gdcm::Tag RowsTag(0x0028, 0x0010);
-const gdcm::Tag ColumnsTag(0x0028, 0x0011);
-const gdcm::Tag PixelSpacingTag(0x0028, 0x0030);
-const gdcm::Tag BitsAllocatedTag(0x0028, 0x0100);
-const gdcm::Tag BitsStoredTag(0x0028, 0x0101);
-const gdcm::Tag PixelRepresentationTag(0x0028, 0x0103);
-const gdcm::Tag InterceptTag(0x0028, 0x1052);
-const gdcm::Tag SlopeTag(0x0028, 0x1053);
-
-const std::set<gdcm::Tag> Tags{ ClassUIDTag,
-                                ModalityTag,
-                                SeriesUIDTag,
-                                SeriesNumberTag,
-                                PositionTag,
-                                OrientationTag,
-                                SamplesTag,
-                                PhotometricTag,
-                                FramesTag,
-                                RowsTag,
-                                ColumnsTag,
-                                PixelSpacingTag,
-                                BitsAllocatedTag,
-                                BitsStoredTag,
-                                InterceptTag,
-                                SlopeTag,
-                                PixelRepresentationTag };
-
-std::string
-TextOf(const gdcm::DataSet & dataSet, const gdcm::Tag & tag)
-{
-  const gdcm::ByteValue * const value =
-    dataSet.FindDataElement(tag) ? dataSet.GetDataElement(tag).GetByteValue() : nullptr;
-  std::string text = value ? std::string(value->GetPointer(), value->GetLength()) : std::string();
-  const std::string padding(" \0", 2);
-  text.erase(text.find_last_not_of(padding) + 1);
-  text.erase(0, text.find_first_not_of(padding));
-  return text;
-}
-
-unsigned int
-ShortOf(const gdcm::DataSet & dataSet, const gdcm::Tag & tag)
-{
-  const gdcm::ByteValue * const value =
-    dataSet.FindDataElement(tag) ? dataSet.GetDataElement(tag).GetByteValue() : nullptr;
-  std::uint16_t number = 0;
-  if (value != nullptr && value->GetLength() >= sizeof(number))
-  {
-    std::memcpy(&number, value->GetPointer(), sizeof(number)); // GDCM has put it into this machine's byte order
-  }
-  return number;
-}
-
-/** Finite decimal numbers separated by backslashes; nothing when there is anything else among them. */
-std::vector<double>
-ParseNumbers(const std::string & text)
-{
-  std::vector<double> numbers;
-  for (std::size_t begin = 0; begin <= text.size();)
-  {
-    const std::size_t end = std::min(text.find('\\', begin), text.size());
-    std::string part = text.substr(begin, end - begin);
-    part.erase(part.find_last_not_of(' ') + 1);
-    part.erase(0, part.find_first_not_of(" +"));
-    double number = 0;
-    const auto result = std::from_chars(part.data(), part.data() + part.size(), number);
-    if (result.ec != std::errc() || result.ptr != part.data() + part.size() || !std::isfinite(number))
-    {
-      return {};
-    }
-    numbers.push_back(number);
-    begin = end + 1;
-  }
-  return numbers;
-}
-
-/** Fills in the plane, or says why there is none. */
-void
-ReadPlane(const gdcm::DataSet & dataSet, DicomSlice & slice)
-{
-  const auto position = ParseNumbers(TextOf(dataSet, PositionTag));
-  const auto orientation = ParseNumbers(TextOf(dataSet, OrientationTag));
-  const auto spacing = ParseNumbers(TextOf(dataSet, PixelSpacingTag));
-  if (position.size() != 3)
-  {
-    slice.planeProblem = "it has no usable ImagePositionPatient";
-    return;
-  }
-  if (orientation.size() != 6)
-  {
-    slice.planeProblem = "it has no usable ImageOrientationPatient";
-    return;
-  }
-  if (spacing.size() != 2 || spacing[0] <= 0 || spacing[1] <= 0)
-  {
-    slice.planeProblem = "it has no usable PixelSpacing";
-    return;
-  }
-  SlicePlane plane;
-  itk::Vector<double, 3> alongRow(orientation.data());
-  itk::Vector<double, 3> alongColumn(orientation.data() + 3);
-  constexpr double tolerance = 1e-3;
-  if (std::abs(alongRow.GetNorm() - 1) > tolerance || std::abs(alongColumn.GetNorm() - 1) > tolerance ||
-      std::abs(alongRow * alongColumn) > tolerance)
-  {
-    slice.planeProblem = "the two axes of its ImageOrientationPatient are not perpendicular unit vectors";
-    return;
-  }
-  alongRow.Normalize();
-  alongColumn.Normalize();
-  plane.position = itk::Point<double, 3>(position.data());
-  plane.columnStep = alongRow * spacing[1]; // DICOM gives the distance between rows first
-  plane.rowStep = alongColumn * spacing[0];
-  slice.plane = plane;
-}
-
 /** What kind of object a file is that is no plain slice, by its SOP class; empty for the others. */
 std::string
 SpecialClass(const std::string & uid)
 {
-  static const std::array<std::pair<const char *, const char *>, 9> classes{ {
-    { "1.2.840.10008.5.1.4.1.1.66.4", "a DICOM segmentation (SEG)" },
+  static const std::map<std::string, std::string> classes{
     { "1.2.840.10008.5.1.4.1.1.30", "a parametric map" },
     { "1.2.840.10008.5.1.4.1.1.481.2", "a radiotherapy dose (RTDOSE)" },
-    { "1.2.840.10008.5.1.4.1.1.2.1", "an enhanced multi-frame CT" },
-    { "1.2.840.10008.5.1.4.1.1.2.2", "an enhanced multi-frame CT" },
-    { "1.2.840.10008.5.1.4.1.1.4.1", "an enhanced multi-frame MR" },
-    { "1.2.840.10008.5.1.4.1.1.4.4", "an enhanced multi-frame MR" },
-    { "1.2.840.10008.5.1.4.1.1.130", "an enhanced multi-frame PET" },
-    { "1.2.840.10008.5.1.4.1.1.128.1", "an enhanced multi-frame PET" },
-  } };
-  for (const auto & [classUID, name] : classes)
-  {
-    if (uid == classUID)
-    {
-      return name;
-    }
-  }
-  return "";
+  };
+  const auto found = classes.find(uid);
+  return found == classes.end() ? "" : found->second;
 }
 
-/** Why the file can't be a slice of a volume, as "it ...". */
-std::string
-FindRefusal(const gdcm::DataSet & dataSet, const DicomSlice & slice)
+bool
+IsSegmentation(const DicomDataSet & dataSet)
 {
-  const std::string special = SpecialClass(TextOf(dataSet, ClassUIDTag));
-  const auto frames = ParseNumbers(TextOf(dataSet, FramesTag));
-  const std::string photometric = TextOf(dataSet, PhotometricTag);
-  if (!special.empty())
-  {
-    return "it is " + special;
-  }
-  if (!slice.isImage)
-  {
-    return "it holds no image (a report, plan or the like)";
-  }
-  if (!frames.empty() && frames[0] > 1)
-  {
-    return "it is a multi-frame image";
-  }
-  if (photometric == "MONOCHROME1")
-  {
-    return "its grey values are inverted (MONOCHROME1)";
-  }
-  if (photometric == "PALETTE COLOR" || ShortOf(dataSet, SamplesTag) > 1)
-  {
-    return "it is a colour image";
-  }
-  if (photometric != "MONOCHROME2" || ShortOf(dataSet, SamplesTag) != 1)
-  {
-    return "its kind of pixels (photometric interpretation, samples per pixel) is not supported";
-  }
-  if ((slice.bitsAllocated != 8 && slice.bitsAllocated != 16 && slice.bitsAllocated != 32) || slice.bitsStored == 0 ||
-      slice.bitsStored > slice.bitsAllocated)
-  {
-    return "its pixels have " + std::to_string(slice.bitsStored) + " of " + std::to_string(slice.bitsAllocated) +
-           " bits, which is not supported";
-  }
-  if (!std::isfinite(slice.slope) || slice.slope == 0 || !std::isfinite(slice.intercept))
-  {
-    return "its RescaleSlope or RescaleIntercept is no usable number";
-  }
-  return "";
-}
-
-double
-ReadScaling(const gdcm::DataSet & dataSet, const gdcm::Tag & tag, double absent)
-{
-  const std::string text = TextOf(dataSet, tag);
-  const auto numbers = ParseNumbers(text);
-  return text.empty() ? absent : numbers.size() == 1 ? numbers[0] : std::nan("");
+  const std::string uid = dataSet.GetText(DicomTags::SOPClassUID);
+  return uid == "1.2.840.10008.5.1.4.1.1.66.4" || uid == "1.2.840.10008.5.1.4.1.1.66.7";
 }
 
 /** Keeps what a code may hold, so that no other text travels on. */
 std::string
 CodeOf(std::string text)
 {
-  text.erase(std::remove_if(text.begin(),
-                            text.end(),
-                            [](char letter) {
-                              return !((letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9') ||
-                                       letter == '-');
-                            }),
-             text.end());
+  const auto isOfCode = [](char letter) {
+    return (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9') || letter == '-';
+  };
+  text.erase(std::remove_if(text.begin(), text.end(), [&](char letter) { return !isOfCode(letter); }), text.end());
   return text.substr(0, 16);
 }
 
-void
-ReadHeader(const gdcm::DataSet & dataSet, DicomSlice & slice)
+/** What may stand in the codes that tell slices apart (CS, DS, IS, and the short texts that stacks are named by). */
+std::string
+DistinctionOf(std::string text)
 {
-  slice.seriesUID = TextOf(dataSet, SeriesUIDTag);
-  slice.seriesNumber = CodeOf(TextOf(dataSet, SeriesNumberTag));
-  slice.modality = CodeOf(TextOf(dataSet, ModalityTag));
-  slice.rows = ShortOf(dataSet, RowsTag);
-  slice.columns = ShortOf(dataSet, ColumnsTag);
-  slice.isImage = slice.rows > 0 && slice.columns > 0;
-  slice.bitsAllocated = ShortOf(dataSet, BitsAllocatedTag);
-  slice.bitsStored = ShortOf(dataSet, BitsStoredTag);
-  slice.isSigned = ShortOf(dataSet, PixelRepresentationTag) == 1;
-  slice.slope = ReadScaling(dataSet, SlopeTag, 1);
-  slice.intercept = ReadScaling(dataSet, InterceptTag, 0);
-  ReadPlane(dataSet, slice);
-  slice.refusal = FindRefusal(dataSet, slice);
+  constexpr std::size_t longest = 64;
+  const auto isAllowed = [](unsigned char letter) {
+    return std::isalnum(letter) != 0 ||
+           std::string_view("\\_ -+./").find(static_cast<char>(letter)) != std::string_view::npos;
+  };
+  text.erase(std::remove_if(text.begin(), text.end(), [&](unsigned char letter) { return !isAllowed(letter); }),
+             text.end());
+  return text.substr(0, longest);
+}
+
+DicomPixelFormat
+ReadPixelFormat(const DicomHeader & header)
+{
+  const DicomDataSet & dataSet = header.dataSet;
+  DicomPixelFormat format;
+  format.transferSyntax = header.transferSyntax;
+  format.isBigEndian = dataSet.isBigEndian;
+  format.isEncapsulated = header.isEncapsulated;
+  format.columns = dataSet.GetShort(DicomTags::Columns).value_or(0);
+  format.rows = dataSet.GetShort(DicomTags::Rows).value_or(0);
+  const auto frames = dataSet.GetDecimals(DicomTags::NumberOfFrames);
+  format.frames =
+    frames.empty() || !(frames[0] >= 1 && frames[0] < 4294967296.0) ? 1 : static_cast<std::size_t>(frames[0]);
+  format.bitsAllocated = dataSet.GetShort(DicomTags::BitsAllocated).value_or(0);
+  format.bitsStored = dataSet.GetShort(DicomTags::BitsStored).value_or(0);
+  format.highBit = dataSet.GetShort(DicomTags::HighBit).value_or(static_cast<std::uint16_t>(format.bitsStored - 1));
+  format.isSigned = dataSet.GetShort(DicomTags::PixelRepresentation) == 1;
+
+  const auto stored = [&format](std::uint16_t value) {
+    return format.isSigned ? std::int64_t{ static_cast<std::int16_t>(value) } : std::int64_t{ value };
+  };
+  if (const auto value = dataSet.GetShort(DicomTags::PixelPaddingValue))
+  {
+    const std::int64_t first = stored(*value);
+    const std::int64_t last = stored(dataSet.GetShort(DicomTags::PixelPaddingRangeLimit).value_or(*value));
+    format.padding = std::minmax(first, last);
+  }
+  return format;
+}
+
+/** Whether all pixels that the header promises are in the file; why not otherwise. */
+std::string
+FindPixelDamage(const DicomHeader & header, const DicomPixelFormat & format)
+{
+  if (!header.damage.empty())
+  {
+    return header.damage;
+  }
+  if (!header.hasPixels)
+  {
+    return "it has no pixels";
+  }
+  const PixelCodec codec = FindTransferSyntax(format.transferSyntax).codec;
+  if (format.isEncapsulated != (codec != PixelCodec::None))
+  {
+    return "its transfer syntax and the form of its pixels contradict each other";
+  }
+  if (format.isEncapsulated)
+  {
+    return header.fragments.size() < format.frames ? "its compressed pixels are missing" : "";
+  }
+  const std::uintmax_t pixels = std::uintmax_t{ format.columns } * format.rows * format.frames;
+  const std::uintmax_t needed = (pixels * format.bitsAllocated + 7) / 8;
+  const std::uintmax_t claimed = header.pixels.size;
+  const std::uintmax_t available = header.fileSize - header.pixels.offset;
+  if (claimed < needed || available < claimed)
+  {
+    return "it has " + std::to_string(std::min(claimed, available)) + " of " +
+           std::to_string(std::max(claimed, needed)) + " bytes of pixels";
+  }
+  return "";
+}
+
+/** Why the image can't be a slice of a volume, as "it ...". */
+std::string
+FindRefusal(const DicomDataSet & dataSet, const DicomPixelFormat & format)
+{
+  const std::string special = SpecialClass(dataSet.GetText(DicomTags::SOPClassUID));
+  const std::string photometric = dataSet.GetText(DicomTags::PhotometricInterpretation);
+  const auto samples = dataSet.GetShort(DicomTags::SamplesPerPixel).value_or(0);
+  const TransferSyntax syntax = FindTransferSyntax(format.transferSyntax);
+  if (!special.empty())
+  {
+    return "it is " + special;
+  }
+  if (syntax.codec == PixelCodec::Unsupported)
+  {
+    return "its transfer syntax " + CodeOf(format.transferSyntax) + " (" + syntax.name + ") is not supported";
+  }
+  if (photometric == "MONOCHROME1")
+  {
+    return "its grey values are inverted (MONOCHROME1)";
+  }
+  if (photometric == "PALETTE COLOR" || samples > 1)
+  {
+    return "it is a colour image";
+  }
+  if (photometric != "MONOCHROME2" || samples != 1)
+  {
+    return "its kind of pixels (photometric interpretation, samples per pixel) is not supported";
+  }
+  const bool isByteWise = format.bitsAllocated == 8 || format.bitsAllocated == 16 || format.bitsAllocated == 32;
+  if ((!isByteWise && !(IsSegmentation(dataSet) && format.bitsAllocated == 1)) || format.bitsStored == 0 ||
+      format.bitsStored > format.bitsAllocated || format.highBit >= format.bitsAllocated ||
+      format.highBit + 1 < format.bitsStored)
+  {
+    return "its pixels have " + std::to_string(format.bitsStored) + " of " + std::to_string(format.bitsAllocated) +
+           " bits, which is not supported";
+  }
+  if (!dataSet.GetItems(DicomTags::ModalityLUTSequence).empty())
+  {
+    return "its values go through a table (Modality LUT), which is not supported";
+  }
+  return "";
+}
+
+/** The items of the functional groups that are a frame's own, or shared by all frames. */
+class FunctionalGroups
+{
+public:
+  FunctionalGroups(const DicomDataSet & dataSet, std::size_t frame)
+    : m_Shared(dataSet.GetItem(DicomTags::SharedFunctionalGroupsSequence))
+    , m_Frame(dataSet.GetItems(DicomTags::PerFrameFunctionalGroupsSequence)[frame])
+  {}
+
+  const DicomDataSet &
+  Get(DicomTag sequence) const
+  {
+    return m_Frame.Has(sequence) ? m_Frame.GetItem(sequence) : m_Shared.GetItem(sequence);
+  }
+
+private:
+  const DicomDataSet & m_Shared;
+  const DicomDataSet & m_Frame;
+};
+
+/** Fills in slope and intercept, or says that they are no numbers. */
+void
+ReadScaling(const DicomDataSet & dataSet, DicomSlice & slice)
+{
+  const auto read = [&dataSet](DicomTag tag, double absent) {
+    const auto numbers = dataSet.GetDecimals(tag);
+    return dataSet.GetText(tag).empty() ? absent : numbers.size() == 1 ? numbers[0] : std::nan("");
+  };
+  slice.slope = read(DicomTags::RescaleSlope, 1);
+  slice.intercept = read(DicomTags::RescaleIntercept, 0);
+  if (slice.refusal.empty() && (!std::isfinite(slice.slope) || slice.slope == 0 || !std::isfinite(slice.intercept)))
+  {
+    slice.refusal = "its RescaleSlope or RescaleIntercept is no usable number";
+  }
+}
+
+/** A plain slice: all of it is in the data set itself. */
+void
+ReadPlainSlice(const DicomDataSet & dataSet, DicomSlice & slice)
+{
+  const auto named = [&dataSet](const char * name, DicomTag tag) {
+    const std::string value = DistinctionOf(dataSet.GetText(tag));
+    return value.empty() ? "" : name + value;
+  };
+  slice.distinctions = { named("", DicomTags::ImageType),
+                         named("echo time ", DicomTags::EchoTime) + named(" echo ", DicomTags::EchoNumbers),
+                         named("time ", DicomTags::TemporalPositionIdentifier),
+                         named("stack ", DicomTags::StackID),
+                         named("acquisition ", DicomTags::AcquisitionNumber) };
+  ReadScaling(dataSet, slice);
+  slice.plane = MakeSlicePlane(dataSet.GetDecimals(DicomTags::ImagePositionPatient),
+                               dataSet.GetDecimals(DicomTags::ImageOrientationPatient),
+                               dataSet.GetDecimals(DicomTags::PixelSpacing),
+                               slice.planeProblem);
+}
+
+/** A frame of an enhanced object (PS3.3, C.7.6.16). */
+void
+ReadFrame(const DicomDataSet & dataSet, std::size_t frame, DicomSlice & slice)
+{
+  const FunctionalGroups groups(dataSet, frame);
+  const DicomDataSet & content = groups.Get(DicomTags::FrameContentSequence);
+  const auto echo = groups.Get(DicomTags::MREchoSequence).GetDouble(DicomTags::EffectiveEchoTime);
+  const auto times = content.GetShorts(DicomTags::TemporalPositionIndex);
+  slice.frame = frame;
+  const std::string stack = DistinctionOf(content.GetText(DicomTags::StackID));
+  slice.distinctions = { DistinctionOf(groups.Get(DicomTags::MRImageFrameTypeSequence).GetText(DicomTags::FrameType) +
+                                       groups.Get(DicomTags::CTImageFrameTypeSequence).GetText(DicomTags::FrameType)),
+                         echo ? "echo time " + std::to_string(*echo) : "",
+                         times.empty() ? "" : "time " + std::to_string(times[0]),
+                         stack.empty() ? "" : "stack " + stack,
+                         "" };
+  ReadScaling(groups.Get(DicomTags::PixelValueTransformationSequence), slice);
+  slice.plane =
+    MakeSlicePlane(groups.Get(DicomTags::PlanePositionSequence).GetDecimals(DicomTags::ImagePositionPatient),
+                   groups.Get(DicomTags::PlaneOrientationSequence).GetDecimals(DicomTags::ImageOrientationPatient),
+                   groups.Get(DicomTags::PixelMeasuresSequence).GetDecimals(DicomTags::PixelSpacing),
+                   slice.planeProblem);
 }
 
 } // namespace
 
-std::optional<DicomSlice>
-ReadDicomSlice(const std::filesystem::path & path)
+std::optional<SlicePlane>
+MakeSlicePlane(const std::vector<double> & position,
+               const std::vector<double> & orientation,
+               const std::vector<double> & spacing,
+               std::string & problem)
 {
-  const DicomPreamble preamble = ReadDicomPreamble(path);
-  if (!preamble.isDicom)
+  if (position.size() != 3)
+  {
+    problem = "it has no usable ImagePositionPatient";
+    return {};
+  }
+  if (orientation.size() != 6)
+  {
+    problem = "it has no usable ImageOrientationPatient";
+    return {};
+  }
+  if (spacing.size() != 2 || spacing[0] <= 0 || spacing[1] <= 0)
+  {
+    problem = "it has no usable PixelSpacing";
+    return {};
+  }
+  itk::Vector<double, 3> alongRow(orientation.data());
+  itk::Vector<double, 3> alongColumn(orientation.data() + 3);
+  constexpr double tolerance = 1e-3;
+  if (std::abs(alongRow.GetNorm() - 1) > tolerance || std::abs(alongColumn.GetNorm() - 1) > tolerance ||
+      std::abs(alongRow * alongColumn) > tolerance)
+  {
+    problem = "the two axes of its ImageOrientationPatient are not perpendicular unit vectors";
+    return {};
+  }
+  alongRow.Normalize();
+  alongColumn.Normalize();
+  SlicePlane plane;
+  plane.position = itk::Point<double, 3>(position.data());
+  plane.columnStep = alongRow * spacing[1]; // DICOM gives the distance between rows first
+  plane.rowStep = alongColumn * spacing[0];
+  return plane;
+}
+
+std::vector<DicomSlice>
+ReadDicomSlices(const std::filesystem::path & path)
+{
+  const auto header = ReadDicomHeader(path);
+  if (!header)
   {
     return {};
   }
+  const DicomDataSet & dataSet = header->dataSet;
+  const auto file = std::make_shared<DicomImageFile>();
+  file->path = path;
+  file->format = ReadPixelFormat(*header);
+  file->pixels = header->pixels;
+  file->fragments = header->fragments;
+  file->pixelDamage = FindPixelDamage(*header, file->format);
+
   DicomSlice slice;
-  slice.path = path;
-  if (preamble.transferSyntax == "1.2.840.10008.1.2.1.99")
+  slice.file = file;
+  slice.seriesUID = dataSet.GetText(DicomTags::SeriesInstanceUID);
+  slice.seriesNumber = CodeOf(dataSet.GetText(DicomTags::SeriesNumber));
+  slice.modality = CodeOf(dataSet.GetText(DicomTags::Modality));
+  if (file->format.rows == 0 || file->format.columns == 0 || (!header->hasPixels && header->damage.empty()))
   {
-    slice.refusal = "it is deflated as a whole, which is not supported";
-    return slice;
+    const bool isUnreadable = FindTransferSyntax(header->transferSyntax).codec == PixelCodec::Unsupported;
+    slice.kind = isUnreadable ? DicomSlice::Kind::Scan : DicomSlice::Kind::NoImage;
+    slice.refusal = isUnreadable             ? FindRefusal(dataSet, file->format)
+                    : header->damage.empty() ? "it holds no image (a report, plan or the like)"
+                                             : header->damage;
+    return { slice };
   }
-  gdcm::Reader reader;
-  reader.SetFileName(path.c_str());
-  if (!reader.ReadSelectedTags(Tags))
+  slice.kind = IsSegmentation(dataSet) ? DicomSlice::Kind::Segmentation : DicomSlice::Kind::Scan;
+  slice.refusal = FindRefusal(dataSet, file->format);
+
+  const std::size_t frames = dataSet.GetItems(DicomTags::PerFrameFunctionalGroupsSequence).size();
+  if (frames == 0 && file->format.frames == 1)
   {
-    slice.isImage = false;
-    slice.refusal = "its DICOM header is damaged or of a transfer syntax that is not supported";
-    return slice;
+    ReadPlainSlice(dataSet, slice);
+    return { slice };
   }
-  ReadHeader(reader.GetFile().GetDataSet(), slice);
-  return slice;
+  if (frames != file->format.frames)
+  {
+    slice.refusal =
+      slice.refusal.empty() ? "it is a multi-frame image that does not say where its frames are" : slice.refusal;
+    return { slice };
+  }
+  std::vector<DicomSlice> slices(frames, slice);
+  for (std::size_t frame = 0; frame < frames; ++frame)
+  {
+    ReadFrame(dataSet, frame, slices[frame]);
+  }
+  return slices;
+}
+
+std::string
+NameOf(const DicomSlice & slice)
+{
+  return slice.file->path.filename().string() +
+         (slice.file->format.frames > 1 ? " (frame " + std::to_string(slice.frame + 1) + ")" : "");
 }
 
 } // namespace rhombic

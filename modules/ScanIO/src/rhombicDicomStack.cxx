@@ -15,19 +15,14 @@ namespace
 
 using Slices = std::vector<DicomSlice>;
 using Vector = itk::Vector<double, 3>;
+using Policy = ScanReadOptions::Policy;
 
 [[noreturn]] void
 Refuse(const Slices & slices, const std::string & why, const std::string & advice)
 {
   throw Failure(FailureKind::Geometry,
-                "The slices in " + slices.front().path.parent_path().string() + " make no regular volume: " + why +
-                  "; " + advice + ".");
-}
-
-std::string
-NameOf(const DicomSlice & slice)
-{
-  return slice.path.filename().string();
+                "The slices in " + slices.front().file->path.parent_path().string() +
+                  " make no regular volume: " + why + "; " + advice + ".");
 }
 
 std::string
@@ -39,6 +34,18 @@ Rounded(double number)
   return text;
 }
 
+/** Enough of two paths to tell them apart. */
+std::string
+NamesOf(const DicomSlice & first, const DicomSlice & second)
+{
+  const auto folder = [](const DicomSlice & slice) { return slice.file->path.parent_path(); };
+  const bool areTogether = folder(first) == folder(second);
+  const auto name = [&](const DicomSlice & slice) {
+    return areTogether ? NameOf(slice) : (folder(slice) / NameOf(slice)).string();
+  };
+  return name(first) + " and " + name(second);
+}
+
 void
 RequirePlanes(const Slices & slices)
 {
@@ -47,19 +54,19 @@ RequirePlanes(const Slices & slices)
     if (!slice.plane)
     {
       throw Failure(FailureKind::Geometry,
-                    "Cannot place " + slice.path.string() + " in the patient: " + slice.planeProblem +
+                    "Cannot place " + slice.file->path.string() + " in the patient: " + slice.planeProblem +
                       "; export the series again from its source.");
     }
   }
   if (slices.size() < 2)
   {
     throw Failure(FailureKind::Geometry,
-                  "There is only one slice, " + slices.front().path.string() +
+                  "There is only one slice, " + slices.front().file->path.string() +
                     ", in the series, and one slice is no volume; give the folder of the whole series.");
   }
 }
 
-/** The distance of each slice along the normal, which is ascending. */
+/** Sorts by the distance along the normal, and returns the distances. */
 std::vector<double>
 SortAlongNormal(Slices & slices)
 {
@@ -69,108 +76,212 @@ SortAlongNormal(Slices & slices)
     return slice.plane->position.GetVectorFromOrigin() * normal;
   };
   std::sort(slices.begin(), slices.end(), [&distance](const DicomSlice & first, const DicomSlice & second) {
+    const auto key = [&](const DicomSlice & slice) { return std::tie(slice.file->path, slice.frame); };
     const double difference = distance(first) - distance(second);
-    return difference < 0 || (difference == 0 && first.path < second.path);
+    return difference < 0 || (difference == 0 && key(first) < key(second));
   });
   std::vector<double> distances;
   std::transform(slices.begin(), slices.end(), std::back_inserter(distances), distance);
   return distances;
 }
 
-void
-RequireUniquePositions(const Slices & slices, const std::vector<double> & steps)
+std::vector<double>
+StepsOf(const std::vector<double> & distances)
 {
-  const double largest = *std::max_element(steps.begin(), steps.end());
-  for (std::size_t i = 0; i < steps.size(); ++i)
-  {
-    if (steps[i] <= 0.01 * largest)
-    {
-      Refuse(slices,
-             NameOf(slices[i]) + " and " + NameOf(slices[i + 1]) + " are at the same place",
-             "put one set of slices into a folder of its own");
-    }
-  }
-}
-
-void
-RequireNoTilt(const Slices & slices, double normalExtent)
-{
-  const Vector line = slices.back().plane->position - slices.front().plane->position;
-  const double angle = std::acos(std::min(1.0, normalExtent / line.GetNorm()));
-  constexpr double tolerance = 1e-3;
-  if (angle > tolerance)
-  {
-    Refuse(slices,
-           "they are sheared by " + Rounded(angle * 180 / itk::Math::pi) +
-             " degrees against their normal, as a tilted CT gantry does",
-           "this version does not straighten them, so resample the series first");
-  }
-}
-
-double
-ToleranceFor(double step)
-{
-  const double tolerance = std::max(0.01, 1e-3 * step); // mm
-  return std::min(tolerance, 0.1 * step);
-}
-
-void
-RequireUniformSteps(const Slices & slices, const std::vector<double> & steps)
-{
-  std::vector<double> sorted = steps;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-  const double usual = sorted[sorted.size() / 2];
-  for (std::size_t i = 0; i < steps.size(); ++i)
-  {
-    if (std::abs(steps[i] - usual) > ToleranceFor(usual))
-    {
-      Refuse(slices,
-             "from " + NameOf(slices[i]) + " to " + NameOf(slices[i + 1]) + " it is " + Rounded(steps[i]) +
-               " mm, elsewhere " + Rounded(usual) + " mm",
-             steps[i] > usual ? "look for missing slices" : "look for slices of another reconstruction");
-    }
-  }
-}
-
-void
-RequireLine(const Slices & slices, const Vector & step)
-{
-  for (std::size_t i = 0; i < slices.size(); ++i)
-  {
-    const Vector expected = step * static_cast<double>(i);
-    const Vector actual = slices[i].plane->position - slices.front().plane->position;
-    const double distance = (actual - expected).GetNorm();
-    if (distance > ToleranceFor(step.GetNorm()))
-    {
-      Refuse(slices,
-             NameOf(slices[i]) + " lies " + Rounded(distance) + " mm off the regular line of slices",
-             "export the series again from its source");
-    }
-  }
-}
-
-} // namespace
-
-VolumeGeometry
-StackSlices(std::vector<DicomSlice> & slices)
-{
-  RequirePlanes(slices);
-  const std::vector<double> distances = SortAlongNormal(slices);
   std::vector<double> steps;
   for (std::size_t i = 1; i < distances.size(); ++i)
   {
     steps.push_back(distances[i] - distances[i - 1]);
   }
-  RequireUniquePositions(slices, steps);
-  RequireNoTilt(slices, distances.back() - distances.front());
-  RequireUniformSteps(slices, steps);
+  return steps;
+}
+
+/** The first step that is none; their number when there is no such. */
+std::size_t
+FindDuplicate(const std::vector<double> & steps)
+{
+  const double largest = *std::max_element(steps.begin(), steps.end());
+  const auto found =
+    std::find_if(steps.begin(), steps.end(), [largest](double step) { return step <= 0.01 * largest; });
+  return static_cast<std::size_t>(found - steps.begin());
+}
+
+double
+ToleranceFor(double step)
+{
+  constexpr double millimetres = 0.01;
+  return std::min(millimetres, 0.1 * step);
+}
+
+double
+MedianOf(std::vector<double> steps)
+{
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+std::vector<SliceBlock>
+FindBlocks(const std::vector<double> & steps)
+{
+  std::vector<SliceBlock> blocks;
+  for (const double step : steps)
+  {
+    if (blocks.empty() || std::abs(step - blocks.back().step) > ToleranceFor(step))
+    {
+      blocks.push_back({ 0, step });
+    }
+    SliceBlock & block = blocks.back();
+    const auto count = static_cast<double>(block.numberOfSteps);
+    block.step = (block.step * count + step) / (count + 1);
+    ++block.numberOfSteps;
+  }
+  return blocks;
+}
+
+std::vector<SliceGap>
+FindGaps(const std::vector<double> & distances, const std::vector<double> & steps)
+{
+  constexpr double tolerance = 0.05; // of a step
+  const double usual = MedianOf(steps);
+  std::vector<SliceGap> gaps;
+  for (std::size_t i = 0; i < steps.size(); ++i)
+  {
+    const double ratio = std::round(steps[i] / usual);
+    if (ratio >= 2 && std::abs(steps[i] - ratio * usual) <= tolerance * usual)
+    {
+      gaps.push_back({ distances[i], steps[i], static_cast<std::size_t>(ratio) - 1 });
+    }
+  }
+  return gaps;
+}
+
+/** The largest distance of a slice from its place on the line of equal steps from the first to the last. */
+double
+DistanceFromLine(const Slices & slices, const Vector & step)
+{
+  double largest = 0;
+  for (std::size_t i = 0; i < slices.size(); ++i)
+  {
+    const Vector actual = slices[i].plane->position - slices.front().plane->position;
+    largest = std::max(largest, (actual - step * static_cast<double>(i)).GetNorm());
+  }
+  return largest;
+}
+
+double
+TiltOf(const Slices & slices, double normalExtent)
+{
+  const Vector line = slices.back().plane->position - slices.front().plane->position;
+  return std::acos(std::min(1.0, normalExtent / line.GetNorm()));
+}
+
+/** Where slices are missing, and how many. */
+std::string
+DescribeGaps(const Slices & slices, const std::vector<double> & distances, const std::vector<SliceGap> & gaps)
+{
+  const SliceGap & gap = gaps.front();
+  const auto behind = std::upper_bound(distances.begin(), distances.end(), gap.position) - distances.begin();
+  const auto index = static_cast<std::size_t>(behind);
+  return std::to_string(gap.numberOfMissing) + (gap.numberOfMissing > 1 ? " slices are" : " slice is") +
+         " missing at " + Rounded(gap.position + gap.step / static_cast<double>(gap.numberOfMissing + 1)) +
+         " mm, between " + NamesOf(slices[index - 1], slices[index]) +
+         (gaps.size() > 1 ? ", and there are " + std::to_string(gaps.size() - 1) + " more gaps" : "");
+}
+
+std::string
+DescribeBlocks(const std::vector<SliceBlock> & blocks)
+{
+  constexpr std::size_t named = 4;
+  std::string text;
+  for (std::size_t n = 0; n < std::min(named, blocks.size()); ++n)
+  {
+    text += (n > 0 ? ", " : "") + std::to_string(blocks[n].numberOfSteps) + " of " + Rounded(blocks[n].step) + " mm";
+  }
+  return text + (blocks.size() > named ? ", ..." : "");
+}
+
+} // namespace
+
+bool
+HaveDuplicates(const std::vector<DicomSlice> & slices)
+{
+  Slices sorted = slices;
+  const auto hasPlane = [](const DicomSlice & slice) { return slice.plane.has_value(); };
+  if (slices.size() < 2 || !std::all_of(slices.begin(), slices.end(), hasPlane))
+  {
+    return false;
+  }
+  const auto steps = StepsOf(SortAlongNormal(sorted));
+  return FindDuplicate(steps) < steps.size();
+}
+
+DicomStack
+StackSlices(std::vector<DicomSlice> & slices, const ScanReadOptions & options)
+{
+  RequirePlanes(slices);
+  const std::vector<double> distances = SortAlongNormal(slices);
+  const std::vector<double> steps = StepsOf(distances);
+  if (const std::size_t i = FindDuplicate(steps); i < steps.size())
+  {
+    Refuse(slices,
+           NamesOf(slices[i], slices[i + 1]) + " are at the same place",
+           "put one set of slices into a folder of its own");
+  }
+
+  DicomStack stack;
+  stack.report.tiltDegrees = TiltOf(slices, distances.back() - distances.front()) * 180 / itk::Math::pi;
+  stack.report.firstPosition = distances.front();
+  stack.report.lastPosition = distances.back();
+  stack.report.blocks = FindBlocks(steps);
+  stack.report.gaps = FindGaps(distances, steps);
 
   const SlicePlane & first = *slices.front().plane;
-  const Vector sliceStep = (slices.back().plane->position - first.position) / static_cast<double>(steps.size());
-  RequireLine(slices, sliceStep);
-  const itk::Size<3> size{ { slices.front().columns, slices.front().rows, slices.size() } };
-  const Vector axes[3] = { first.columnStep, first.rowStep, sliceStep };
-  return MakeGeometry(size, first.position, axes);
+  const Vector step = (slices.back().plane->position - first.position) / static_cast<double>(steps.size());
+  const double offLine = DistanceFromLine(slices, step);
+  const bool isEven = offLine <= ToleranceFor(MedianOf(steps));
+  const bool hasGaps = !isEven && !stack.report.gaps.empty();
+  const bool isTilted = stack.report.tiltDegrees * itk::Math::pi / 180 > 1e-3;
+  if (hasGaps)
+  {
+    const std::string gaps = DescribeGaps(slices, distances, stack.report.gaps);
+    if (options.onGap == Policy::Refuse)
+    {
+      Refuse(slices, gaps, "find the missing files, or take values across the gap with --on-gap=interpolate");
+    }
+    stack.notes.push_back("Values are interpolated where slices are missing: " + gaps + ".");
+  }
+  else if (!isEven)
+  {
+    const std::string blocks = "the steps between them are uneven: " + DescribeBlocks(stack.report.blocks) +
+                               "; slices are up to " + Rounded(offLine) + " mm off a regular line";
+    if (options.onIrregular == Policy::Refuse)
+    {
+      Refuse(slices, blocks, "leave out --on-irregular=error to have them resampled from their true places");
+    }
+    stack.notes.push_back("The slices are resampled from their true places, because " + blocks + ".");
+  }
+  if (isTilted)
+  {
+    const std::string tilt = "they are sheared by " + Rounded(stack.report.tiltDegrees) +
+                             " degrees against their normal, as a tilted CT gantry does";
+    if (options.onIrregular == Policy::Refuse)
+    {
+      Refuse(slices, tilt, "leave out --on-irregular=error to have them resampled from their true places");
+    }
+    stack.notes.push_back("The slices are resampled from their true places: " + tilt + ".");
+  }
+  if (!isEven)
+  {
+    for (const DicomSlice & slice : slices)
+    {
+      stack.sliceOrigins.push_back(slice.plane->position);
+    }
+  }
+  const itk::Size<3> size{ { slices.front().file->format.columns, slices.front().file->format.rows, slices.size() } };
+  const Vector axes[3] = { first.columnStep, first.rowStep, step };
+  stack.geometry = MakeGeometry(size, first.position, axes);
+  return stack;
 }
 
 } // namespace rhombic

@@ -2,6 +2,7 @@
 #define rhombicDicomStack_h
 
 #include "rhombicDicomSlice.h"
+#include "rhombicScanReader.h"
 #include "rhombicVolumeGeometry.h"
 
 #include <vector>
@@ -9,14 +10,30 @@
 namespace rhombic
 {
 
-/** Sorts slices of one orientation along their normal and says where the volume is that they make. The step between
- * slices comes from their positions alone.
+/** Where the volume is that slices make. */
+struct DicomStack
+{
+  VolumeGeometry geometry;                         ///< sheared when the gantry was tilted
+  std::vector<itk::Point<double, 3>> sliceOrigins; ///< see Scan::sliceOrigins
+  StackReport report;
+  std::vector<std::string> notes;
+};
+
+/** Sorts slices of one orientation along their normal and says where the volume is that they make. The steps between
+ * slices come from their positions alone.
  *
- * Throws Failure(Geometry), naming files, when a slice has no plane, there is only one, two are at one place, the steps
- * differ by more than max(0.01 mm, a thousandth) (a slice is missing, say), a slice lies off the line of the others by
- * more than that, or the line is tilted against the normal by more than 0.001 rad (gantry tilt). */
-VolumeGeometry
-StackSlices(std::vector<DicomSlice> & slices);
+ * The slices of an even stack are within 0.01 mm (or a tenth of a step) of a line with equal steps; the line need not
+ * be the normal. Steps of two or more times the usual one, the median, within a twentieth of it, are gaps. Everything
+ * else is an uneven stack, whose slices keep their own places.
+ *
+ * Throws Failure(Geometry), naming files: when a slice has no plane, there is only one, two are at one place, for gaps
+ * and for tilted (by more than 0.001 rad) or uneven stacks as the options say. */
+DicomStack
+StackSlices(std::vector<DicomSlice> & slices, const ScanReadOptions & options);
+
+/** Whether two slices are at one place along their normal, within a hundredth of the largest step. */
+bool
+HaveDuplicates(const std::vector<DicomSlice> & slices);
 
 } // namespace rhombic
 

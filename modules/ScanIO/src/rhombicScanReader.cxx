@@ -27,7 +27,7 @@ Read(const fs::path & path, const ScanReadOptions & options)
   }
   if (fs::is_directory(status))
   {
-    return ReadDicomFolder(path, options.series);
+    return ReadDicomFolder(path, options);
   }
   if (!fs::is_regular_file(status))
   {
@@ -36,7 +36,7 @@ Read(const fs::path & path, const ScanReadOptions & options)
   }
   if (!IsVolumeFileName(path))
   {
-    RefuseSingleDicomFile(path);
+    return ReadDicomFile(path, options);
   }
   if (!options.series.empty())
   {

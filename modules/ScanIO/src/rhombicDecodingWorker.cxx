@@ -1,0 +1,168 @@
+#include "rhombicDecodingWorker.h"
+
+#include "rhombicDecodingMessages.h"
+#include "rhombicFailure.h"
+#include "rhombicVoxelDecoding.h"
+
+#include <algorithm>
+#include <fstream>
+#include <new>
+
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+namespace rhombic
+{
+namespace
+{
+
+void
+Limit(int resource, rlim_t value)
+{
+  rlimit limit{};
+  getrlimit(resource, &limit);
+  limit.rlim_cur = std::min(value, limit.rlim_max);
+  setrlimit(resource, &limit);
+}
+
+/** Bytes of addresses that this process has. */
+std::uint64_t
+AddressSpace()
+{
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+std::uint64_t
+SecondsUsed()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) + 1;
+}
+
+/** Limits that last as long as the worker: no core files, no files of its own but what its libraries print. */
+void
+LimitFiles(int output)
+{
+  constexpr rlim_t mostOutput = 1 << 20;
+  constexpr rlim_t mostFiles = 64;
+  Limit(RLIMIT_CORE, 0);
+  Limit(RLIMIT_FSIZE, mostOutput);
+  Limit(RLIMIT_NOFILE, mostFiles);
+  dup2(output, STDOUT_FILENO);
+  dup2(output, STDERR_FILENO);
+}
+
+void
+LimitRequest(const WorkerRequest & request)
+{
+  Limit(RLIMIT_AS, AddressSpace() + request.memory);
+  Limit(RLIMIT_CPU, SecondsUsed() + request.seconds);
+}
+
+/** Memory that is shared with the program. */
+class SharedVoxels
+{
+public:
+  SharedVoxels(int descriptor, std::size_t size)
+    : m_Size(size)
+    , m_Address(mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0))
+  {
+    if (m_Address == MAP_FAILED)
+    {
+      throw std::bad_alloc();
+    }
+  }
+  ~SharedVoxels()
+  {
+    munmap(m_Address, m_Size);
+  }
+  SharedVoxels(const SharedVoxels &) = delete;
+  SharedVoxels &
+  operator=(const SharedVoxels &) = delete;
+
+  std::byte *
+  GetData()
+  {
+    return static_cast<std::byte *>(m_Address);
+  }
+
+private:
+  std::size_t m_Size;
+  void * m_Address;
+};
+
+/** What libraries printed since the last call; they have other ways to say what is normal. */
+std::string
+TakeOutput(int output)
+{
+  std::fflush(nullptr);
+  std::string text(LongestMessageText / 4, '\0');
+  const ssize_t count = pread(output, text.data(), text.size(), 0);
+  text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
+  if (ftruncate(output, 0) == 0)
+  {
+    lseek(output, 0, SEEK_SET);
+  }
+  return text.substr(0, text.find('\n'));
+}
+
+/** Throws for codecs that only warn of damage: the voxels are then made up in part. */
+void
+Work(const ReceivedMessage<WorkerRequest> & request, int output)
+{
+  SharedVoxels voxels(request.descriptor.Get(), request.message.size);
+  DecodeVoxels({ request.message.source, request.text, request.message.size }, voxels.GetData());
+  if (const std::string warning = TakeOutput(output); !warning.empty())
+  {
+    throw Failure(FailureKind::Unreadable,
+                  "Cannot read " + request.text + ": its pixels are damaged, its decoder says (" + warning +
+                    "); copy it again from its source.");
+  }
+}
+
+} // namespace
+
+void
+RunDecodingWorker(int socket)
+{
+  const FileDescriptor output(memfd_create("output", MFD_CLOEXEC));
+  LimitFiles(output.Get());
+  while (const auto request = ReceiveMessage<WorkerRequest>(socket))
+  {
+    WorkerReply reply;
+    reply.size = request->message.size;
+    std::string sentence;
+    LimitRequest(request->message);
+    try
+    {
+      Work(*request, output.Get());
+    }
+    catch (const Failure & failure)
+    {
+      reply.failure = static_cast<std::int32_t>(failure.GetKind());
+      sentence = failure.GetDescription();
+    }
+    catch (const std::bad_alloc &)
+    {
+      reply.failure = static_cast<std::int32_t>(FailureKind::Memory);
+    }
+    catch (const std::exception & error)
+    {
+      reply.failure = static_cast<std::int32_t>(FailureKind::Unreadable);
+      sentence = "Cannot read " + request->text + ": " + DescribeError(error) + "; copy it again from its source.";
+    }
+    SendMessage(socket, reply, sentence);
+    if (reply.failure != 0)
+    {
+      break;
+    }
+  }
+  _exit(0);
+}
+
+} // namespace rhombic

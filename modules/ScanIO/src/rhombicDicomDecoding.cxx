@@ -1,0 +1,109 @@
+#include "rhombicDicomDecoding.h"
+
+#include "rhombicCompressedFrame.h"
+#include "rhombicDicomSlice.h"
+#include "rhombicFailure.h"
+
+#include <gdcmImageReader.h>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+namespace rhombic
+{
+namespace
+{
+
+[[noreturn]] void
+Refuse(const fs::path & path, const std::string & why)
+{
+  throw Failure(FailureKind::Unreadable,
+                "Cannot read " + path.string() + ": " + why + "; copy it again from its source.");
+}
+
+/** The compressed stream of each frame. A frame may be spread over fragments, each but the first going on where the
+ * last one ended; there is no other way to tell than the marker that streams begin with. */
+std::vector<std::string>
+ReadFrames(const DicomImageFile & image, PixelCodec codec)
+{
+  std::ifstream file(image.path, std::ios::binary);
+  std::vector<std::string> frames;
+  for (const ByteRange & fragment : image.fragments)
+  {
+    std::string bytes(fragment.size, '\0');
+    file.seekg(static_cast<std::streamoff>(fragment.offset));
+    if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+    {
+      Refuse(image.path, "its compressed pixels are cut off");
+    }
+    const std::string_view marker = codec == PixelCodec::JPEG2000 ? "\xff\x4f" : "\xff\xd8";
+    const bool isBeginning = codec == PixelCodec::RunLength || std::string_view(bytes).substr(0, 2) == marker;
+    if (frames.empty() || (image.format.frames > 1 && isBeginning))
+    {
+      frames.push_back(std::move(bytes));
+    }
+    else
+    {
+      frames.back() += bytes;
+    }
+  }
+  return frames;
+}
+
+void
+CheckFrames(const DicomImageFile & image)
+{
+  const PixelCodec codec = FindTransferSyntax(image.format.transferSyntax).codec;
+  const std::vector<std::string> frames = ReadFrames(image, codec);
+  if (frames.size() != image.format.frames)
+  {
+    Refuse(image.path,
+           "it has " + std::to_string(frames.size()) + " compressed frames, its header says " +
+             std::to_string(image.format.frames));
+  }
+  for (const std::string & frame : frames)
+  {
+    if (const std::string damage = FindFrameDamage(frame, codec, image.format); !damage.empty())
+    {
+      Refuse(image.path, damage);
+    }
+  }
+}
+
+} // namespace
+
+void
+DecodeDicomFile(const fs::path & path, std::byte * voxels, std::size_t size)
+{
+  const std::vector<DicomSlice> slices = ReadDicomSlices(path);
+  if (slices.empty())
+  {
+    Refuse(path, "it is not DICOM");
+  }
+  const DicomImageFile & image = *slices.front().file;
+  if (!image.pixelDamage.empty() || !image.format.isEncapsulated)
+  {
+    Refuse(path, image.pixelDamage.empty() ? "its pixels are not compressed" : image.pixelDamage);
+  }
+  CheckFrames(image);
+
+  gdcm::ImageReader reader;
+  reader.SetFileName(path.c_str());
+  if (!reader.Read())
+  {
+    Refuse(path, "its pixels are damaged or compressed in a way that is not supported");
+  }
+  if (reader.GetImage().GetBufferLength() != size)
+  {
+    Refuse(path, "its pixels are of another size than its header says");
+  }
+  if (!reader.GetImage().GetBuffer(reinterpret_cast<char *>(voxels)))
+  {
+    Refuse(path, "its pixels can't be decoded");
+  }
+}
+
+} // namespace rhombic

@@ -1,0 +1,94 @@
+#ifndef rhombicDicomHeader_h
+#define rhombicDicomHeader_h
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rhombic
+{
+
+/** Group and element of a DICOM tag: 0x00280010 is Rows. */
+using DicomTag = std::uint32_t;
+
+/** \class DicomDataSet
+ * \brief Those elements of a DICOM data set that say what its image is and where it lies, and none that says whose. */
+class DicomDataSet
+{
+public:
+  bool
+  Has(DicomTag tag) const;
+
+  /** The value without padding; empty when absent. */
+  std::string
+  GetText(DicomTag tag) const;
+
+  /** Decimal numbers separated by backslashes (DS, IS); empty when there is anything else among them, or one that is
+   * not finite. */
+  std::vector<double>
+  GetDecimals(DicomTag tag) const;
+
+  /** The first 16-bit number (US). */
+  std::optional<std::uint16_t>
+  GetShort(DicomTag tag) const;
+
+  /** The first 64-bit real number (FD). */
+  std::optional<double>
+  GetDouble(DicomTag tag) const;
+
+  /** The 16-bit numbers (US). */
+  std::vector<std::uint16_t>
+  GetShorts(DicomTag tag) const;
+
+  /** The items of a sequence; none when absent. */
+  const std::vector<DicomDataSet> &
+  GetItems(DicomTag tag) const;
+
+  /** The first item of a sequence, or an empty data set. */
+  const DicomDataSet &
+  GetItem(DicomTag tag) const;
+
+  std::map<DicomTag, std::string> values; ///< as stored
+  std::map<DicomTag, std::vector<DicomDataSet>> sequences;
+  bool isBigEndian = false;
+};
+
+/** A part of a file. */
+struct ByteRange
+{
+  std::uintmax_t offset = 0;
+  std::uintmax_t size = 0;
+};
+
+/** What precedes the pixels of a DICOM file, and where these are. */
+struct DicomHeader
+{
+  std::string transferSyntax; ///< UID; empty when the file does not say
+  DicomDataSet dataSet;
+  std::uintmax_t fileSize = 0;
+  bool hasPixels = false;
+  bool isEncapsulated = false;      ///< whether the pixels are fragments of compressed streams
+  ByteRange pixels;                 ///< as claimed: its end may lie behind that of the file
+  std::vector<ByteRange> fragments; ///< of encapsulated pixels, without the table of offsets, inside the file
+  std::string damage;               ///< "its ..." when the file ends or turns into nonsense before its end
+};
+
+/** Reads a file up to its pixels. Nothing when it is not DICOM: no "DICM" behind the preamble, nor a data set right at
+ * the beginning, as files of the time before DICOM have.
+ *
+ * Made for files that nobody has checked: no length is believed before it is compared with the file's, sequences end at
+ * 64 levels, and memory stays below a few times the wanted elements' size. Throws nothing but std::bad_alloc. */
+std::optional<DicomHeader>
+ParseDicomHeader(std::istream & file, std::uintmax_t fileSize);
+
+std::optional<DicomHeader>
+ReadDicomHeader(const std::filesystem::path & path);
+
+} // namespace rhombic
+
+#endif

@@ -1,0 +1,52 @@
+#include "rhombicInProcessDecoder.h"
+
+#include "rhombicVoxelDecoding.h"
+
+#include <vector>
+
+namespace rhombic
+{
+namespace
+{
+
+class VectorBuffer : public VoxelBuffer
+{
+public:
+  explicit VectorBuffer(std::size_t size)
+    : m_Bytes(size)
+  {}
+
+  const std::byte *
+  GetData() const override
+  {
+    return m_Bytes.data();
+  }
+
+  std::byte *
+  GetData()
+  {
+    return m_Bytes.data();
+  }
+
+private:
+  std::vector<std::byte> m_Bytes;
+};
+
+} // namespace
+
+unsigned int
+InProcessDecoder::GetNumberOfWorkers() const
+{
+  return 1;
+}
+
+std::unique_ptr<VoxelBuffer>
+InProcessDecoder::Decode(const VoxelRequest & request)
+{
+  auto buffer = std::make_unique<VectorBuffer>(request.size);
+  const std::lock_guard<std::mutex> lock(m_Mutex);
+  DecodeVoxels(request, buffer->GetData());
+  return buffer;
+}
+
+} // namespace rhombic

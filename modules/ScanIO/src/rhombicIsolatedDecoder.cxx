@@ -1,0 +1,322 @@
+#include "rhombicIsolatedDecoder.h"
+
+#include "rhombicDecodingMessages.h"
+#include "rhombicDecodingServer.h"
+#include "rhombicFailure.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <mutex>
+#include <new>
+#include <thread>
+#include <vector>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace rhombic
+{
+namespace
+{
+
+/** A process that unpacks voxels, and the socket to it. */
+struct Worker
+{
+  pid_t pid = -1;
+  FileDescriptor socket;
+};
+
+/** Memory of a fixed size that another process can be given. */
+class SharedMemory
+{
+public:
+  explicit SharedMemory(std::size_t size)
+    : m_Descriptor(memfd_create("voxels", MFD_CLOEXEC | MFD_ALLOW_SEALING))
+    , m_Size(size)
+  {
+    if (m_Descriptor.Get() < 0 || ftruncate(m_Descriptor.Get(), static_cast<off_t>(size)) != 0)
+    {
+      throw std::bad_alloc();
+    }
+    // Or the worker could take away pages that this process reads.
+    fcntl(m_Descriptor.Get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW);
+    m_Address = mmap(nullptr, size, PROT_READ, MAP_SHARED, m_Descriptor.Get(), 0);
+    if (m_Address == MAP_FAILED)
+    {
+      throw std::bad_alloc();
+    }
+  }
+  ~SharedMemory()
+  {
+    munmap(m_Address, m_Size);
+  }
+  SharedMemory(const SharedMemory &) = delete;
+  SharedMemory &
+  operator=(const SharedMemory &) = delete;
+
+  int
+  GetDescriptor() const
+  {
+    return m_Descriptor.Get();
+  }
+
+  const std::byte *
+  GetData() const
+  {
+    return static_cast<const std::byte *>(m_Address);
+  }
+
+private:
+  FileDescriptor m_Descriptor;
+  std::size_t m_Size;
+  void * m_Address = nullptr;
+};
+
+class SharedBuffer : public VoxelBuffer
+{
+public:
+  explicit SharedBuffer(std::size_t size)
+    : m_Memory(size)
+  {}
+
+  const std::byte *
+  GetData() const override
+  {
+    return m_Memory.GetData();
+  }
+
+  int
+  GetDescriptor() const
+  {
+    return m_Memory.GetDescriptor();
+  }
+
+private:
+  SharedMemory m_Memory;
+};
+
+/** How a worker ended that did not answer, as part of a sentence. */
+std::string
+DescribeEnd(int status, unsigned int seconds)
+{
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+  {
+    return "its decoder took more than " + std::to_string(seconds) + " seconds";
+  }
+  if (WIFSIGNALED(status))
+  {
+    const char * const name = sigabbrev_np(WTERMSIG(status));
+    return "its decoder crashed (SIG" + std::string(name == nullptr ? "?" : name) + ")";
+  }
+  return "its decoder ended without an answer";
+}
+
+Failure
+UnreadableBecause(const VoxelRequest & request, const std::string & why)
+{
+  return Failure(FailureKind::Unreadable,
+                 "Cannot read " + request.path.string() + ": " + why +
+                   "; it is damaged, so copy it again from its source.");
+}
+
+} // namespace
+
+/** The server and the workers that are idle. */
+class IsolatedDecoder::Pool
+{
+public:
+  Pool(unsigned int size, const Limits & limits)
+    : m_Size(size)
+    , m_Limits(limits)
+  {
+    FileDescriptor otherEnd;
+    if (!MakeSocketPair(m_Socket, otherEnd))
+    {
+      throw this->NoProcess();
+    }
+    m_Server = fork();
+    if (m_Server == 0)
+    {
+      m_Socket.Close();
+      RunDecodingServer(otherEnd.Get());
+    }
+    if (m_Server < 0)
+    {
+      throw this->NoProcess();
+    }
+  }
+
+  ~Pool()
+  {
+    m_Idle.clear();
+    m_Socket.Close();
+    while (waitpid(m_Server, nullptr, 0) < 0 && errno == EINTR)
+    {}
+  }
+
+  unsigned int
+  GetSize() const
+  {
+    return m_Size;
+  }
+
+  std::unique_ptr<VoxelBuffer>
+  Decode(const VoxelRequest & request)
+  {
+    auto buffer = std::make_unique<SharedBuffer>(std::max<std::size_t>(request.size, 1));
+    Worker worker = this->TakeWorker();
+    WorkerRequest message;
+    message.source = request.source;
+    message.size = request.size;
+    message.memory = m_Limits.memory + 5 * std::uint64_t{ request.size };
+    message.seconds = m_Limits.seconds + request.size / (4u << 20);
+    if (!SendMessage(worker.socket.Get(), message, request.path.string(), buffer->GetDescriptor()))
+    {
+      throw this->EndOf(std::move(worker), request, message);
+    }
+    const auto reply =
+      this->WaitForReply(worker, message) ? ReceiveMessage<WorkerReply>(worker.socket.Get()) : std::nullopt;
+    if (!reply || reply->message.mark != WorkerReply::Mark || reply->message.size != request.size)
+    {
+      throw this->EndOf(std::move(worker), request, message);
+    }
+    if (reply->message.failure != 0)
+    {
+      this->WaitForEnd(worker);
+      throw this->FailureOf(*reply, request);
+    }
+    this->GiveBack(std::move(worker));
+    return buffer;
+  }
+
+private:
+  static Failure
+  NoProcess()
+  {
+    return Failure(FailureKind::Internal,
+                   std::string("Cannot start a process that decodes files: ") + std::strerror(errno) +
+                     "; close other programs.");
+  }
+
+  Worker
+  TakeWorker()
+  {
+    const std::lock_guard<std::mutex> lock(m_Mutex);
+    if (!m_Idle.empty())
+    {
+      Worker worker = std::move(m_Idle.back());
+      m_Idle.pop_back();
+      return worker;
+    }
+    Worker worker;
+    FileDescriptor otherEnd;
+    if (!MakeSocketPair(worker.socket, otherEnd))
+    {
+      throw NoProcess();
+    }
+    SendMessage(m_Socket.Get(), ServerRequest{ ServerRequest::Kind::Start, 0 }, {}, otherEnd.Get());
+    const auto reply = ReceiveMessage<ServerReply>(m_Socket.Get());
+    if (!reply || reply->message.pid <= 0)
+    {
+      throw NoProcess();
+    }
+    worker.pid = reply->message.pid;
+    return worker;
+  }
+
+  void
+  GiveBack(Worker worker)
+  {
+    const std::lock_guard<std::mutex> lock(m_Mutex);
+    m_Idle.push_back(std::move(worker));
+  }
+
+  /** False when it took too long. */
+  bool
+  WaitForReply(const Worker & worker, const WorkerRequest & message) const
+  {
+    pollfd waiting{ worker.socket.Get(), POLLIN, 0 };
+    const auto milliseconds =
+      static_cast<int>(std::min<std::uint64_t>(message.seconds * m_Limits.patience * 1000, 1u << 30));
+    int ready = 0;
+    do
+    {
+      ready = poll(&waiting, 1, milliseconds);
+    } while (ready < 0 && errno == EINTR);
+    return ready > 0;
+  }
+
+  int
+  WaitForEnd(const Worker & worker)
+  {
+    const std::lock_guard<std::mutex> lock(m_Mutex);
+    SendMessage(m_Socket.Get(), ServerRequest{ ServerRequest::Kind::Wait, worker.pid });
+    const auto reply = ReceiveMessage<ServerReply>(m_Socket.Get());
+    return reply ? reply->message.status : 0;
+  }
+
+  /** What became of a worker that gave no answer, or none that makes sense. */
+  Failure
+  EndOf(Worker worker, const VoxelRequest & request, const WorkerRequest & message)
+  {
+    pollfd closed{ worker.socket.Get(), POLLIN, 0 };
+    const bool hangs = poll(&closed, 1, 0) == 0;
+    kill(worker.pid, SIGKILL); // without effect on one that has ended: the server has not waited for it yet
+    const int status = this->WaitForEnd(worker);
+    const auto seconds = static_cast<unsigned int>(message.seconds);
+    return UnreadableBecause(request,
+                             hangs ? "its decoder took more than " + std::to_string(seconds * m_Limits.patience) +
+                                       " seconds on the clock"
+                                   : DescribeEnd(status, seconds));
+  }
+
+  Failure
+  FailureOf(const ReceivedMessage<WorkerReply> & reply, const VoxelRequest & request) const
+  {
+    if (reply.message.failure == static_cast<std::int32_t>(FailureKind::Memory))
+    {
+      return UnreadableBecause(
+        request, "its decoder wanted more than " + std::to_string(m_Limits.memory >> 20) + " MiB besides its voxels");
+    }
+    std::string sentence = reply.text;
+    std::replace_if(
+      sentence.begin(), sentence.end(), [](unsigned char letter) { return letter < ' ' || letter == 127; }, ' ');
+    return Failure(FailureKind::Unreadable, sentence);
+  }
+
+  unsigned int m_Size;
+  Limits m_Limits;
+  FileDescriptor m_Socket; ///< to the server
+  pid_t m_Server = -1;
+  std::mutex m_Mutex; ///< for what is said to the server, and the idle workers
+  std::vector<Worker> m_Idle;
+};
+
+IsolatedDecoder::IsolatedDecoder(unsigned int workers)
+  : IsolatedDecoder(workers, Limits())
+{}
+
+IsolatedDecoder::IsolatedDecoder(unsigned int workers, const Limits & limits)
+  : m_Pool(std::make_unique<Pool>(workers > 0 ? workers : std::max(1u, std::thread::hardware_concurrency()), limits))
+{}
+
+IsolatedDecoder::~IsolatedDecoder() = default;
+
+unsigned int
+IsolatedDecoder::GetNumberOfWorkers() const
+{
+  return m_Pool->GetSize();
+}
+
+std::unique_ptr<VoxelBuffer>
+IsolatedDecoder::Decode(const VoxelRequest & request)
+{
+  return m_Pool->Decode(request);
+}
+
+} // namespace rhombic

@@ -1,0 +1,43 @@
+#ifndef rhombicScanReport_h
+#define rhombicScanReport_h
+
+#include "rhombicFCCImageFile.h"
+#include "rhombicScan.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace rhombic
+{
+
+/** A report that keeps the order in which it was written. */
+using Report = nlohmann::ordered_json;
+
+/** The geometry report of a scan: what was read, why that, where it lies, and what had to be assumed or repaired.
+ * Lengths are in mm, positions in LPS. Holds nothing about the patient. Intensities, which take a pass over the scan,
+ * are ReportIntensities()'s. */
+Report
+ReportScan(const Scan & scan);
+
+/** The same for a volume that is on the lattice already. */
+Report
+ReportLattice(const FCCVolume & volume);
+
+/** The range of values, and thresholds worth trying for that modality. */
+Report
+ReportIntensities(const Scan & scan);
+Report
+ReportIntensities(const FCCVolume & volume);
+
+/** As JSON text; what is not UTF-8 in it is replaced. */
+std::string
+ToJson(const Report & report);
+
+/** For each image axis, the letter of the anatomical direction nearest to it: LPS for LPS. */
+std::string
+OrientationLetters(const itk::ImageBase<3>::DirectionType & direction);
+
+} // namespace rhombic
+
+#endif

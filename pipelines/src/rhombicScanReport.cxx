@@ -1,0 +1,192 @@
+#include "rhombicScanReport.h"
+
+#include "rhombicIntensities.h"
+
+#include "vnl/vnl_det.h"
+
+#include <cmath>
+#include <vector>
+
+namespace rhombic
+{
+namespace
+{
+
+/** A threshold worth trying, and what it shows. */
+struct Suggestion
+{
+  const char * surface;
+  double isovalue;
+};
+
+std::vector<Suggestion>
+Suggest(const std::string & modality, const Intensities & intensities)
+{
+  std::vector<Suggestion> suggestions{ { "foreground (Otsu)", intensities.otsu } };
+  constexpr double nearAir = -900.0; // raw numbers of an uncalibrated CT don't go below 0
+  if ((modality == "CT" || modality.empty()) && intensities.lowest < nearAir)
+  {
+    for (const Suggestion & organ :
+         { Suggestion{ "skin", -300.5 }, Suggestion{ "lungs, below", -500.5 }, Suggestion{ "bone", 250.5 } })
+    {
+      if (organ.isovalue > intensities.lowest && organ.isovalue <= intensities.highest)
+      {
+        suggestions.push_back(organ);
+      }
+    }
+  }
+  return suggestions;
+}
+
+Report
+ReportRange(const std::string & modality, const Intensities & intensities)
+{
+  Report report;
+  report["range"] = { intensities.lowest, intensities.highest };
+  for (const Suggestion & suggestion : Suggest(modality, intensities))
+  {
+    report["suggestedThresholds"].push_back({ { "surface", suggestion.surface }, { "isovalue", suggestion.isovalue } });
+  }
+  return report;
+}
+
+Report
+ToArray(const double * numbers)
+{
+  return { numbers[0], numbers[1], numbers[2] };
+}
+
+void
+ReportGrid(const itk::ImageBase<3> & grid, bool isOriented, Report & report)
+{
+  const auto & size = grid.GetLargestPossibleRegion().GetSize();
+  const auto & direction = grid.GetDirection();
+  report["size"] = { size[0], size[1], size[2] };
+  report["spacing"] = ToArray(grid.GetSpacing().GetDataPointer());
+  report["origin"] = ToArray(grid.GetOrigin().GetDataPointer());
+  for (unsigned int row = 0; row < 3; ++row)
+  {
+    report["direction"].push_back({ direction[row][0], direction[row][1], direction[row][2] });
+  }
+  report["orientation"] = isOriented ? OrientationLetters(direction) : "unknown";
+  report["handedness"] = vnl_det(direction.GetVnlMatrix()) > 0 ? "right" : "left";
+}
+
+Report
+ReportStack(const StackReport & stack)
+{
+  Report report;
+  report["tiltDegrees"] = stack.tiltDegrees;
+  report["firstPosition"] = stack.firstPosition;
+  report["lastPosition"] = stack.lastPosition;
+  report["blocks"] = Report::array();
+  for (const SliceBlock & block : stack.blocks)
+  {
+    report["blocks"].push_back({ { "steps", block.numberOfSteps }, { "step", block.step } });
+  }
+  report["gaps"] = Report::array();
+  for (const SliceGap & gap : stack.gaps)
+  {
+    report["gaps"].push_back(
+      { { "position", gap.position }, { "step", gap.step }, { "missingSlices", gap.numberOfMissing } });
+  }
+  return report;
+}
+
+Report
+ReportSeries(const SeriesSummary & series)
+{
+  Report report;
+  report["number"] = series.number;
+  report["id"] = series.id;
+  report["seriesNumber"] = series.seriesNumber;
+  report["modality"] = series.modality;
+  report["kind"] = series.kind;
+  report["files"] = series.numberOfFiles;
+  report["size"] = series.size;
+  report["problem"] = series.problem;
+  report["chosen"] = series.chosen;
+  return report;
+}
+
+} // namespace
+
+std::string
+OrientationLetters(const itk::ImageBase<3>::DirectionType & direction)
+{
+  constexpr char letters[3][2] = { { 'L', 'R' }, { 'P', 'A' }, { 'S', 'I' } };
+  std::string text;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    unsigned int nearest = 0;
+    for (unsigned int row = 1; row < 3; ++row)
+    {
+      nearest = std::abs(direction[row][axis]) > std::abs(direction[nearest][axis]) ? row : nearest;
+    }
+    text += letters[nearest][direction[nearest][axis] < 0.0 ? 1 : 0];
+  }
+  return text;
+}
+
+Report
+ReportScan(const Scan & scan)
+{
+  Report report;
+  report["format"] = scan.format;
+  report["modality"] = scan.modality;
+  report["encoding"] = scan.encoding;
+  report["pixelType"] = PixelTypeName(scan.image);
+  report["scaling"] = scan.scaling;
+  ReportGrid(GeometryOf(scan.image), scan.isOriented, report);
+  if (scan.stack)
+  {
+    report["stack"] = ReportStack(*scan.stack);
+    report["stack"]["isEven"] = scan.sliceOrigins.empty();
+  }
+  if (scan.affine)
+  {
+    report["affine"] = { { "source", scan.affine->source }, { "disagreement", scan.affine->disagreement } };
+  }
+  if (scan.paddingValue)
+  {
+    report["padding"] = { { "value", *scan.paddingValue }, { "samples", scan.numberOfPaddingSamples } };
+  }
+  report["series"] = Report::array();
+  for (const SeriesSummary & series : scan.series)
+  {
+    report["series"].push_back(ReportSeries(series));
+  }
+  report["choice"] = scan.choice;
+  report["filesSkipped"] = scan.filesSkipped.empty() ? Report::object() : Report(scan.filesSkipped);
+  report["notes"] = scan.notes;
+  return report;
+}
+
+Report
+ReportLattice(const FCCVolume & volume)
+{
+  Report report;
+  report["format"] = "lattice volume (face-centered cubic)";
+  std::visit([&report](const auto & image) { ReportGrid(*image, true, report); }, volume);
+  return report;
+}
+
+Report
+ReportIntensities(const Scan & scan)
+{
+  return ReportRange(scan.modality, ComputeIntensities(scan.image));
+}
+
+Report
+ReportIntensities(const FCCVolume & volume)
+{
+  return ReportRange("other", ComputeIntensities(volume));
+}
+
+std::string
+ToJson(const Report & report)
+{
+  return report.dump(2, ' ', false, Report::error_handler_t::replace);
+}
+
+} // namespace rhombic
