@@ -572,6 +572,7 @@ TEST(AnatomicalColours, DoNotDependOnHowANameIsWritten)
   {
     EXPECT_EQ(AnatomicalColour(name, 9), AnatomicalColour("kidney_left", 2)) << name;
   }
+  EXPECT_EQ(AnatomicalColour("L1 vertebra", 1), AnatomicalColour("vertebrae_T11", 2));
   EXPECT_NE(AnatomicalColour("urinary bladder", 1), AnatomicalColour("gallbladder", 1));
   EXPECT_NE(AnatomicalColour("pulmonary vein", 1), AnatomicalColour("renal vein", 1));
 }

@@ -62,7 +62,8 @@ constexpr Rule Rules[] = {
 
   // vessels: those of the lungs carry the other blood
   { "pulmonary", "arter", { 76, 108, 206 } },
-  { "pulmonary", "ve", { 216, 72, 84 } },
+  { "pulmonary", "vein", { 216, 72, 84 } },
+  { "pulmonary", "ven", { 216, 72, 84 } },
   { "portal", "", { 112, 78, 176 } },
   { "cava", "inferior", { 44, 74, 158 } },
   { "cava", "", { 60, 104, 196 } },
@@ -71,6 +72,7 @@ constexpr Rule Rules[] = {
   { "vein", "", Vein },
   { "venous", "", Vein },
   { "sinus", "sagittal", Vein },
+  { "sinus", "", { 206, 220, 226 } },
   { "jugular", "", Vein },
   { "aorta", "", { 224, 30, 30 } },
   { "aortic", "", { 224, 30, 30 } },
@@ -105,7 +107,7 @@ constexpr Rule Rules[] = {
   { "thalamus", "", { 146, 176, 108 } },
   { "caudate", "", { 132, 168, 206 } },
   { "putamen", "", { 206, 126, 168 } },
-  { "pallidum", "", { 126, 126, 194 } },
+  { "pallid", "", { 126, 126, 194 } },
   { "accumbens", "", { 226, 154, 70 } },
   { "corpus", "callosum", { 252, 246, 214 } },
   { "cerebr", "", { 226, 170, 162 } },
@@ -231,7 +233,7 @@ constexpr Rule Rules[] = {
   { "bladder", "", { 238, 216, 128 } },
   { "duodenum", "", { 226, 146, 70 } },
   { "colon", "", { 186, 128, 96 } },
-  { "rect", "", { 168, 104, 84 } },
+  { "rectum", "", { 168, 104, 84 } },
   { "bowel", "large", { 186, 128, 96 } },
   { "bowel", "", { 230, 158, 136 } },
   { "intestin", "large", { 186, 128, 96 } },
@@ -246,7 +248,7 @@ constexpr Rule Rules[] = {
 
   // the whole
   { "skin", "", { 226, 174, 140 } },
-  { "face", "", { 226, 174, 140 } },
+  { "face.", "", { 226, 174, 140 } },
   { "body", "", { 226, 174, 140 } },
   { "trunc", "", { 226, 174, 140 } },
   { "extremit", "", { 218, 164, 130 } },
@@ -358,7 +360,8 @@ AnatomicalColour(const std::string & name, std::int32_t value)
   {
     return ColourOfValue(value);
   }
-  const bool isLeft = HasWord(words, "left.") || HasWord(words, "sinist") || words.back() == "l" || words[0] == "l";
+  const bool beginsWithL = words.size() > 1 && words[0] == "l" && !IsDigit(words[1][0]); // L1 is a vertebra
+  const bool isLeft = HasWord(words, "left.") || HasWord(words, "sinist") || words.back() == "l" || beginsWithL;
   const Colour sided = Lighten(rule->colour, isLeft ? 0.2 : 0.0);
   return Lighten(sided, HasOddNumber(words) ? -0.1 : 0.0);
 }
