@@ -1,0 +1,294 @@
+#include "rhombicLabelTableFormats.h"
+
+#include "rhombicAnatomicalColours.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <map>
+
+namespace rhombic
+{
+namespace
+{
+
+/** The table of what \a parseRow makes of each line. */
+template <typename TParseRow>
+LabelTable
+CollectRows(const std::vector<TextLine> & lines, const std::string & source, const TParseRow & parseRow)
+{
+  LabelCollector collector;
+  for (const TextLine & line : lines)
+  {
+    const TablePlace place{ source, line.number };
+    collector.Add(parseRow(line.text, place), place);
+  }
+  return collector.Take();
+}
+
+std::string_view
+WithoutQuotes(std::string_view text)
+{
+  const bool isQuoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
+  return isQuoted ? text.substr(1, text.size() - 2) : text;
+}
+
+/** A row `value name red green blue alpha`; the name may have spaces. The opacity is alpha's. */
+Label
+ParseNamedRow(std::string_view line, const TablePlace & place)
+{
+  const std::vector<std::string_view> words = WordsOf(line);
+  if (words.size() < 6)
+  {
+    RefuseTable(place,
+                "it has " + std::to_string(words.size()) +
+                  " words, not a value, a name, red, green, blue and alpha; add what is missing");
+  }
+  const auto * const numbers = &words[words.size() - 4];
+  const auto * const nameBegin = words[1].data();
+  const auto * const nameEnd = numbers[-1].data() + numbers[-1].size();
+  const std::string_view name(nameBegin, static_cast<std::size_t>(nameEnd - nameBegin));
+
+  Label label;
+  label.value = LabelValue(words[0], place);
+  label.name = SanitizeLabelName(WithoutQuotes(name), label.value);
+  label.colour = ByteColour(numbers[0], numbers[1], numbers[2], place);
+  label.opacity = WholeNumber(numbers[3], 0, 255, "alpha", place) / 255.0;
+  return label;
+}
+
+/** A table with a header that names its columns. */
+class ColumnTable
+{
+public:
+  ColumnTable(const std::vector<TextLine> & lines, char separator, const std::string & source)
+    : m_Separator(separator)
+  {
+    const TablePlace place{ source, lines.front().number };
+    const std::vector<std::string> names = FieldsOf(lines.front().text, separator, place);
+    for (std::size_t column = 0; column < names.size(); ++column)
+    {
+      m_Columns.insert({ LowerCase(names[column]), column });
+    }
+    m_NumberOfColumns = names.size();
+  }
+
+  /** The fields of a row by column, "" where a row ends early. */
+  std::vector<std::string>
+  ReadRow(std::string_view line, const TablePlace & place) const
+  {
+    std::vector<std::string> fields = FieldsOf(line, m_Separator, place);
+    if (fields.size() > m_NumberOfColumns)
+    {
+      RefuseTable(place,
+                  "it has " + std::to_string(fields.size()) + " fields, more than the header's " +
+                    std::to_string(m_NumberOfColumns) + "; put texts with separators in double quotes");
+    }
+    fields.resize(m_NumberOfColumns);
+    return fields;
+  }
+
+  /** A field of a row, "" for a column that the table lacks. */
+  std::string
+  Get(const std::vector<std::string> & row, const std::string & column) const
+  {
+    const auto found = m_Columns.find(column);
+    return found == m_Columns.end() ? "" : row[found->second];
+  }
+
+private:
+  char m_Separator;
+  std::map<std::string, std::size_t> m_Columns; ///< by name in lower case
+  std::size_t m_NumberOfColumns = 0;
+};
+
+std::vector<TextLine>
+WithoutHeader(const std::vector<TextLine> & lines)
+{
+  return { lines.begin() + 1, lines.end() };
+}
+
+std::array<std::uint8_t, 3>
+HexColour(std::string_view text, const TablePlace & place)
+{
+  unsigned int number = 0;
+  const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), number, 16);
+  if (text.size() != 7 || text[0] != '#' || error != std::errc() || end != text.data() + text.size())
+  {
+    RefuseTable(place, "its colour is " + Quoted(text) + ", not like #1a2b3c; correct it");
+  }
+  return { static_cast<std::uint8_t>(number >> 16),
+           static_cast<std::uint8_t>(number >> 8),
+           static_cast<std::uint8_t>(number) };
+}
+
+bool
+IsNumber(std::string_view word)
+{
+  return !word.empty() && word.find_first_not_of("0123456789.-") == std::string_view::npos;
+}
+
+bool
+LooksLikeITKSNAPRow(std::string_view line)
+{
+  const std::vector<std::string_view> words = WordsOf(line);
+  return words.size() >= 8 && std::all_of(words.begin(), words.begin() + 7, IsNumber) && words[7].front() == '"';
+}
+
+bool
+LooksLikeNamedRow(std::string_view line)
+{
+  const std::vector<std::string_view> words = WordsOf(line);
+  return words.size() >= 6 && IsNumber(words[0]) && !IsNumber(words[1]) &&
+         std::all_of(words.end() - 4, words.end(), IsNumber);
+}
+
+/** Whether every label would be invisible if the last number were the opacity. */
+bool
+IsAlphaAlwaysZero(const std::vector<TextLine> & lines)
+{
+  return std::all_of(
+    lines.begin(), lines.end(), [](const TextLine & line) { return WordsOf(line.text).back() == "0"; });
+}
+
+bool
+HasColumns(std::string_view header, char separator, const std::string & first, const std::string & second)
+{
+  const std::string lower = LowerCase(header);
+  if (std::count(lower.begin(), lower.end(), '"') % 2 != 0)
+  {
+    return false;
+  }
+  const std::vector<std::string> names = FieldsOf(lower, separator, { lower });
+  return std::count(names.begin(), names.end(), first) > 0 && std::count(names.begin(), names.end(), second) > 0;
+}
+
+} // namespace
+
+LabelTableFormat
+RecogniseLabelTable(std::string_view text, const std::vector<TextLine> & lines, const std::string & source)
+{
+  if (lines.empty() || text.find('\0') != std::string_view::npos)
+  {
+    return LabelTableFormat::None;
+  }
+  const std::string_view first = lines.front().text;
+  if (HasColumns(first, ',', "labelvalue", "name"))
+  {
+    return LabelTableFormat::SlicerCSV;
+  }
+  if (HasColumns(first, '\t', "index", "name"))
+  {
+    return LabelTableFormat::BIDS;
+  }
+
+  constexpr std::size_t longestBeginning = 4096;
+  const std::string beginning = LowerCase(text.substr(0, longestBeginning));
+  const auto says = [&beginning](const char * words) { return beginning.find(words) != std::string::npos; };
+  if (says("itk-snap label description") || LooksLikeITKSNAPRow(first))
+  {
+    return LabelTableFormat::ITKSNAP;
+  }
+  if (says("# color procedural file"))
+  {
+    return LabelTableFormat::SlicerProcedural;
+  }
+  if (says("# color table file") || LowerCase(std::filesystem::path(source).extension().string()) == ".ctbl")
+  {
+    return LabelTableFormat::SlicerText;
+  }
+  if (says("#no. label name") || says("# freesurfer"))
+  {
+    return LabelTableFormat::FreeSurfer;
+  }
+  if (LooksLikeNamedRow(first))
+  {
+    return IsAlphaAlwaysZero(lines) ? LabelTableFormat::FreeSurfer : LabelTableFormat::SlicerText;
+  }
+  return LabelTableFormat::None;
+}
+
+LabelTable
+ParseITKSNAPTable(const std::vector<TextLine> & lines, const std::string & source)
+{
+  return CollectRows(lines, source, [](std::string_view line, const TablePlace & place) {
+    const std::size_t quote = std::min(line.find('"'), line.size());
+    const std::vector<std::string_view> words = WordsOf(line.substr(0, quote));
+    const std::string_view name = line.substr(quote);
+    if (words.size() != 7 || name.size() < 2 || name.back() != '"')
+    {
+      RefuseTable(place, "it is not like `1 255 0 0 1 1 1 \"liver\"`; write it like this");
+    }
+    Label label;
+    label.value = LabelValue(words[0], place);
+    label.name = SanitizeLabelName(WithoutQuotes(name), label.value);
+    label.colour = ByteColour(words[1], words[2], words[3], place);
+    label.opacity = RealNumber(words[4], 0, 1, "the opacity", place);
+    const bool isShown = WholeNumber(words[5], 0, 1, "the visibility", place) == 1;
+    const bool isShownAsMesh = WholeNumber(words[6], 0, 1, "the visibility of the mesh", place) == 1;
+    label.isVisible = isShown && isShownAsMesh;
+    return label;
+  });
+}
+
+LabelTable
+ParseSlicerTable(const std::vector<TextLine> & lines, const std::string & source)
+{
+  return CollectRows(lines, source, [](std::string_view line, const TablePlace & place) {
+    Label label = ParseNamedRow(line, place);
+    label.isVisible = label.opacity > 0;
+    return label;
+  });
+}
+
+LabelTable
+ParseFreeSurferTable(const std::vector<TextLine> & lines, const std::string & source)
+{
+  return CollectRows(lines, source, [](std::string_view line, const TablePlace & place) {
+    Label label = ParseNamedRow(line, place);
+    label.opacity = 1 - label.opacity;
+    label.isVisible = label.opacity > 0;
+    return label;
+  });
+}
+
+LabelTable
+ParseSlicerCSV(const std::vector<TextLine> & lines, const std::string & source)
+{
+  const ColumnTable table(lines, ',', source);
+  return CollectRows(WithoutHeader(lines), source, [&table](std::string_view line, const TablePlace & place) {
+    const std::vector<std::string> row = table.ReadRow(line, place);
+    const std::string red = table.Get(row, "color_r");
+    const std::string green = table.Get(row, "color_g");
+    const std::string blue = table.Get(row, "color_b");
+    const std::string alpha = table.Get(row, "color_a");
+    const bool hasColour = !red.empty() || !green.empty() || !blue.empty();
+
+    Label label;
+    label.value = LabelValue(table.Get(row, "labelvalue"), place);
+    label.name = SanitizeLabelName(table.Get(row, "name"), label.value);
+    label.colour = hasColour ? ByteColour(red, green, blue, place) : AnatomicalColour(label.name, label.value);
+    label.opacity = alpha.empty() ? 1 : WholeNumber(alpha, 0, 255, "alpha", place) / 255.0;
+    label.isVisible = label.opacity > 0;
+    return label;
+  });
+}
+
+LabelTable
+ParseBIDSTable(const std::vector<TextLine> & lines, const std::string & source)
+{
+  const ColumnTable table(lines, '\t', source);
+  return CollectRows(WithoutHeader(lines), source, [&table](std::string_view line, const TablePlace & place) {
+    const std::vector<std::string> row = table.ReadRow(line, place);
+    const std::string colour = table.Get(row, "color");
+    const bool hasColour = !colour.empty() && colour != "n/a";
+
+    Label label;
+    label.value = LabelValue(table.Get(row, "index"), place);
+    label.name = SanitizeLabelName(table.Get(row, "name"), label.value);
+    label.colour = hasColour ? HexColour(colour, place) : AnatomicalColour(label.name, label.value);
+    return label;
+  });
+}
+
+} // namespace rhombic
