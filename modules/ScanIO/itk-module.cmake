@@ -1,4 +1,4 @@
 itk_module(ScanIO
   DEPENDS RhombicCommon ITKCommon
-  PRIVATE_DEPENDS ITKIOImageBase ITKGDCM ITKIONIFTI ITKIONRRD ITKIOMeta ZLIB::ZLIB
-  DESCRIPTION "DICOM folders, NIfTI, NRRD and MetaImage volumes as ITK images in LPS millimetres.")
+  PRIVATE_DEPENDS ITKIOImageBase ITKGDCM ITKIONIFTI ITKIONRRD ITKIOMeta ITKExpat ZLIB::ZLIB
+  DESCRIPTION "DICOM folders, NIfTI, NRRD and MetaImage volumes and label maps as ITK images in LPS millimetres.")

@@ -46,13 +46,13 @@ public:
     {
       text += representation == "UI" ? '\0' : ' ';
     }
-    m_Elements[tag] = { representation, text };
+    m_Elements[tag] = { representation, text, false };
   }
 
   void
   SetShort(std::uint32_t tag, std::uint16_t value)
   {
-    m_Elements[tag] = { "US", LittleEndian(value, 2) };
+    m_Elements[tag] = { "US", LittleEndian(value, 2), false };
   }
 
   void
@@ -83,7 +83,45 @@ public:
     {
       bytes += LittleEndian(static_cast<std::uint32_t>(pixel), sizeof(TPixel));
     }
-    m_Elements[0x7fe00010] = { sizeof(TPixel) == 1 ? "OB" : "OW", bytes };
+    m_Elements[0x7fe00010] = { sizeof(TPixel) == 1 ? "OB" : "OW", bytes, false };
+  }
+
+  /** Compressed pixels; written with the transfer syntax of their kind. */
+  void
+  SetFragments(const std::vector<std::string> & fragments)
+  {
+    std::string bytes = LittleEndian(0xe000fffe, 4) + LittleEndian(0, 4);
+    for (const std::string & fragment : fragments)
+    {
+      const std::string even = Even(fragment);
+      bytes += LittleEndian(0xe000fffe, 4) + LittleEndian(static_cast<std::uint32_t>(even.size()), 4) + even;
+    }
+    m_Elements[0x7fe00010] = { "OB", bytes + LittleEndian(0xe0ddfffe, 4) + LittleEndian(0, 4), true };
+  }
+
+  void
+  SetLongBytes(std::uint32_t tag, const std::string & bytes)
+  {
+    m_Elements[tag] = { "OB", bytes, false };
+  }
+
+  /** A sequence whose one item holds a sequence, and so on. */
+  void
+  SetNestedSequences(std::uint32_t tag, int depth)
+  {
+    const std::string begin = LittleEndian(tag >> 16, 2) + LittleEndian(tag & 0xffff, 2) + "SQ" + std::string(2, '\0') +
+                              LittleEndian(0xffffffff, 4);
+    const std::string item = LittleEndian(0xe000fffe, 4) + LittleEndian(0xffffffff, 4);
+    std::string bytes;
+    for (int level = 0; level < depth; ++level)
+    {
+      bytes += item + begin;
+    }
+    for (int level = 0; level < depth; ++level)
+    {
+      bytes += LittleEndian(0xe0ddfffe, 4) + LittleEndian(0, 4) + LittleEndian(0xe00dfffe, 4) + LittleEndian(0, 4);
+    }
+    m_Elements[tag] = { "SQ", bytes, false };
   }
 
   void
@@ -95,14 +133,14 @@ public:
   void
   Write(const std::filesystem::path & path, const std::string & transferSyntax = "1.2.840.10008.1.2.1") const
   {
-    const std::map<std::uint32_t, Element> meta{ { 0x00020001, { "OB", std::string("\0\1", 2) } },
-                                                 { 0x00020002, { "UI", Even("1.2.840.10008.5.1.4.1.1.2") } },
-                                                 { 0x00020003, { "UI", Even("1.2.3.4") } },
-                                                 { 0x00020010, { "UI", Even(transferSyntax) } },
-                                                 { 0x00020012, { "UI", Even("1.2.3.6") } } };
+    const std::map<std::uint32_t, Element> meta{ { 0x00020001, { "OB", std::string("\0\1", 2), false } },
+                                                 { 0x00020002, { "UI", Even("1.2.840.10008.5.1.4.1.1.2"), false } },
+                                                 { 0x00020003, { "UI", Even("1.2.3.4"), false } },
+                                                 { 0x00020010, { "UI", Even(transferSyntax), false } },
+                                                 { 0x00020012, { "UI", Even("1.2.3.6"), false } } };
     const std::string metaBytes = Encode(meta);
     const std::map<std::uint32_t, Element> length{
-      { 0x00020000, { "UL", LittleEndian(static_cast<std::uint32_t>(metaBytes.size()), 4) } }
+      { 0x00020000, { "UL", LittleEndian(static_cast<std::uint32_t>(metaBytes.size()), 4), false } }
     };
     std::ofstream file(path, std::ios::binary);
     file << std::string(128, '\0') << "DICM" << Encode(length) << metaBytes << Encode(m_Elements);
@@ -113,6 +151,7 @@ private:
   {
     std::string representation;
     std::string value;
+    bool hasNoLength = false;
   };
 
   static std::string
@@ -139,9 +178,10 @@ private:
     for (const auto & [tag, element] : elements)
     {
       bytes += LittleEndian(tag >> 16, 2) + LittleEndian(tag & 0xffff, 2) + element.representation;
-      const bool isLong = element.representation == "OB" || element.representation == "OW";
-      bytes += (isLong ? std::string(2, '\0') : "") +
-               LittleEndian(static_cast<std::uint32_t>(element.value.size()), isLong ? 4 : 2) + element.value;
+      const std::string & type = element.representation;
+      const bool isLong = type == "OB" || type == "OW" || type == "SQ";
+      const auto length = element.hasNoLength ? 0xffffffff : static_cast<std::uint32_t>(element.value.size());
+      bytes += (isLong ? std::string(2, '\0') : "") + LittleEndian(length, isLong ? 4 : 2) + element.value;
     }
     return bytes;
   }

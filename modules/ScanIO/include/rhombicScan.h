@@ -1,6 +1,8 @@
 #ifndef rhombicScan_h
 #define rhombicScan_h
 
+#include "rhombicLabelTable.h"
+
 #include "itkImage.h"
 
 #include <array>
@@ -79,6 +81,9 @@ struct Scan
   /** Where the first sample of each slice is when the slices are not evenly placed; empty otherwise. All slices have
    * the image's in-plane axes; its third axis then leads from the first to the last slice. */
   std::vector<itk::Point<double, 3>> sliceOrigins;
+
+  /** Names and colours of a label map's values, where its file has them; empty for other scans. */
+  LabelTable labels;
 
   std::string format;     ///< "DICOM", "NIfTI", "NRRD" or "MetaImage"
   bool isOriented = true; ///< false when the file does not say how it lies in the patient: left and right are a guess

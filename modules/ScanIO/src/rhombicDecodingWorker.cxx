@@ -4,6 +4,10 @@
 #include "rhombicFailure.h"
 #include "rhombicVoxelDecoding.h"
 
+#include "itkObject.h"
+
+#include <gdcmTrace.h>
+
 #include <algorithm>
 #include <fstream>
 #include <new>
@@ -96,7 +100,17 @@ private:
   void * m_Address;
 };
 
-/** What libraries printed since the last call; they have other ways to say what is normal. */
+/** What libraries print is then about damage: GDCM's errors, and what libjpeg thinks of a stream. */
+void
+SilenceWarnings()
+{
+  itk::Object::SetGlobalWarningDisplay(false);
+  gdcm::Trace::SetDebug(false);
+  gdcm::Trace::SetWarning(false);
+  gdcm::Trace::SetError(true);
+}
+
+/** What libraries printed since the last call. */
 std::string
 TakeOutput(int output)
 {
@@ -132,6 +146,7 @@ RunDecodingWorker(int socket)
 {
   const FileDescriptor output(memfd_create("output", MFD_CLOEXEC));
   LimitFiles(output.Get());
+  SilenceWarnings();
   while (const auto request = ReceiveMessage<WorkerRequest>(socket))
   {
     WorkerReply reply;

@@ -1,6 +1,7 @@
 #include "rhombicDicomFolder.h"
 
 #include "rhombicDicomPixels.h"
+#include "rhombicDicomSegmentation.h"
 #include "rhombicDicomSeries.h"
 #include "rhombicDicomStack.h"
 #include "rhombicFailure.h"
@@ -225,7 +226,16 @@ ReadSlices(const std::vector<DicomSlice> & slices, Scan scan, const fs::path & p
   scan.modality = scan.series[choice.index].modality;
   const auto others = NoteOthers(scan.series);
   scan.notes.insert(scan.notes.end(), others.begin(), others.end());
-  ReadStack(series[choice.index].slices, options, scan);
+  const std::vector<DicomSlice> & chosen = series[choice.index].slices;
+  if (chosen.front().kind == DicomSlice::Kind::Segmentation)
+  {
+    ReadDicomSegmentation(chosen, scan);
+    NoteCompression(chosen, scan);
+  }
+  else
+  {
+    ReadStack(chosen, options, scan);
+  }
   return scan;
 }
 
@@ -266,7 +276,7 @@ ReadDicomFile(const fs::path & path, const ScanReadOptions & options)
                   "Cannot read " + path.string() + ": " + slices.front().file->pixelDamage +
                     "; copy it again from its source.");
   }
-  if (slices.size() == 1)
+  if (slices.size() == 1 && slices.front().kind == DicomSlice::Kind::Scan)
   {
     throw Failure(FailureKind::Geometry,
                   "Cannot read " + path.string() +

@@ -318,6 +318,11 @@ ReadDicomSlices(const std::filesystem::path & path)
   slice.refusal = FindRefusal(dataSet, file->format);
 
   const std::size_t frames = dataSet.GetItems(DicomTags::PerFrameFunctionalGroupsSequence).size();
+  if (frames == 0 && slice.kind == DicomSlice::Kind::Segmentation && slice.refusal.empty())
+  {
+    slice.refusal = "it is a DICOM segmentation (SEG) that does not say where its frames are";
+    return { slice };
+  }
   if (frames == 0 && file->format.frames == 1)
   {
     ReadPlainSlice(dataSet, slice);

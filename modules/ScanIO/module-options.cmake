@@ -1,2 +1,0 @@
-# Reads the XML of label tables in NIfTI files.
-_rhombic_link(${module_name} PRIVATE ITKExpat)

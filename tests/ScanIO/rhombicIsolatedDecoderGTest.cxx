@@ -1,0 +1,246 @@
+#include "rhombicDicomTestFile.h"
+#include "rhombicInProcessDecoder.h"
+#include "rhombicIsolatedDecoder.h"
+#include "rhombicScanTest.h"
+
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+using rhombic::Failure;
+using rhombic::FailureKind;
+using rhombic::IsolatedDecoder;
+using rhombic::VoxelRequest;
+
+constexpr const char * RunLengths = "1.2.840.10008.1.2.5";
+constexpr std::uint16_t Size = 8;
+constexpr std::size_t Bytes = 2 * Size * Size;
+
+/** A frame of 16-bit pixels that all have one value, as run lengths (PS3.5, annex G). */
+std::string
+RunLengthFrame(std::uint16_t value)
+{
+  const auto number = [](std::uint32_t n) {
+    std::string bytes(4, '\0');
+    std::memcpy(bytes.data(), &n, 4);
+    return bytes;
+  };
+  const std::string run{ static_cast<char>(-(Size * Size - 1)) };
+  const std::string high = run + static_cast<char>(value >> 8);
+  const std::string low = run + static_cast<char>(value & 255);
+  return number(2) + number(64) + number(66) + std::string(52, '\0') + high + low;
+}
+
+DicomTestFile
+MakeSlice(std::size_t k)
+{
+  DicomTestFile file(Size, Size);
+  file.SetFragments({ RunLengthFrame(static_cast<std::uint16_t>(300 + k)) });
+  file.SetPosition("0\\0\\" + std::to_string(2 * k));
+  return file;
+}
+
+/** Its private sequence is so deep that GDCM crashes on it; readers that step over it do not. */
+DicomTestFile
+MakeDeadlySlice(std::size_t k)
+{
+  DicomTestFile file = MakeSlice(k);
+  file.SetText(0x00090010, "LO", "RHOMBIC TEST");
+  file.SetNestedSequences(0x00091001, 20000);
+  return file;
+}
+
+class IsolatedDecoding : public ScanTest
+{
+protected:
+  fs::path
+  Write(const DicomTestFile & file, const std::string & name) const
+  {
+    file.Write(m_Folder / name, RunLengths);
+    return m_Folder / name;
+  }
+
+  /** The sentence that decoding fails with. */
+  static std::string
+  FailureOf(rhombic::VoxelDecoder & decoder, const fs::path & path)
+  {
+    try
+    {
+      decoder.Decode({ VoxelRequest::Source::DicomFile, path, Bytes });
+    }
+    catch (const Failure & failure)
+    {
+      EXPECT_EQ(failure.GetKind(), FailureKind::Unreadable);
+      const std::string sentence = failure.GetDescription();
+      EXPECT_NE(sentence.find(path.string()), std::string::npos) << sentence;
+      return sentence;
+    }
+    return "none";
+  }
+};
+
+TEST_F(IsolatedDecoding, GivesTheBytesThatDecodingInProcessGives)
+{
+  IsolatedDecoder isolated(2);
+  rhombic::InProcessDecoder inProcess;
+  for (std::size_t k = 0; k < 5; ++k)
+  {
+    const VoxelRequest request{ VoxelRequest::Source::DicomFile, this->Write(MakeSlice(k), std::to_string(k)), Bytes };
+    const auto one = isolated.Decode(request);
+    const auto other = inProcess.Decode(request);
+    EXPECT_EQ(std::memcmp(one->GetData(), other->GetData(), Bytes), 0);
+    std::uint16_t first = 0;
+    std::memcpy(&first, one->GetData(), sizeof(first));
+    EXPECT_EQ(first, 300 + k);
+  }
+}
+
+TEST_F(IsolatedDecoding, SurvivesACrash)
+{
+  IsolatedDecoder decoder(1);
+  const fs::path good = this->Write(MakeSlice(0), "good");
+  const fs::path deadly = this->Write(MakeDeadlySlice(1), "deadly");
+  for (int n = 0; n < 3; ++n)
+  {
+    EXPECT_NE(FailureOf(decoder, deadly).find("its decoder crashed (SIG"), std::string::npos)
+      << FailureOf(decoder, deadly);
+    EXPECT_EQ(FailureOf(decoder, good), "none");
+  }
+}
+
+TEST_F(IsolatedDecoding, SurvivesAHang)
+{
+  const fs::path pipe = m_Folder / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  IsolatedDecoder::Limits limits;
+  limits.seconds = 1;
+  limits.patience = 1;
+  IsolatedDecoder decoder(1, limits);
+  EXPECT_NE(FailureOf(decoder, pipe).find("took more than 1 seconds"), std::string::npos);
+  EXPECT_EQ(FailureOf(decoder, this->Write(MakeSlice(0), "good")), "none");
+}
+
+TEST_F(IsolatedDecoding, LimitsMemory)
+{
+  IsolatedDecoder::Limits limits;
+  limits.memory = 8 << 20;
+  IsolatedDecoder decoder(1, limits);
+  DicomTestFile file = MakeSlice(0);
+  file.SetText(0x00090010, "LO", "RHOMBIC TEST");
+  file.SetLongBytes(0x00091001, std::string(32 << 20, 'x')); // GDCM keeps all of a file
+  EXPECT_NE(FailureOf(decoder, this->Write(file, "large")), "none");
+  EXPECT_EQ(FailureOf(decoder, this->Write(MakeSlice(0), "good")), "none");
+}
+
+TEST_F(IsolatedDecoding, ServesManyThreads)
+{
+  IsolatedDecoder decoder(3);
+  const fs::path good = this->Write(MakeSlice(0), "good");
+  const fs::path deadly = this->Write(MakeDeadlySlice(1), "deadly");
+  std::vector<std::thread> threads;
+  for (int n = 0; n < 6; ++n)
+  {
+    threads.emplace_back([&, n] {
+      for (int i = 0; i < 10; ++i)
+      {
+        const bool isGood = (n + i) % 3 != 0;
+        EXPECT_EQ(FailureOf(decoder, isGood ? good : deadly) == "none", isGood);
+      }
+    });
+  }
+  for (std::thread & thread : threads)
+  {
+    thread.join();
+  }
+}
+
+/** Direct children of this process that are alive or not waited for. */
+std::string
+Children()
+{
+  const std::string task = "/proc/self/task/" + std::to_string(getpid());
+  std::ifstream file(task + "/children");
+  return { std::istreambuf_iterator<char>(file), {} };
+}
+
+TEST_F(IsolatedDecoding, LeavesNoProcessBehind)
+{
+  const std::string before = Children();
+  {
+    IsolatedDecoder decoder(2);
+    FailureOf(decoder, this->Write(MakeSlice(0), "good"));
+    EXPECT_NE(Children(), before);
+  }
+  EXPECT_EQ(Children(), before);
+}
+
+TEST_F(IsolatedDecoding, EndsWithAProgramThatIsKilled)
+{
+  const fs::path good = this->Write(MakeSlice(0), "good");
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  const pid_t program = fork();
+  if (program == 0)
+  {
+    close(ends[0]);
+    IsolatedDecoder decoder(1);
+    FailureOf(decoder, good);
+    raise(SIGKILL);
+  }
+  close(ends[1]);
+  waitpid(program, nullptr, 0);
+  char nothing = 0;
+  EXPECT_EQ(read(ends[0], &nothing, 1), 0) << "whoever still had the pipe open would hold this up";
+  close(ends[0]);
+}
+
+TEST_F(IsolatedDecoding, FolderNamesTheFileThatCrashes)
+{
+  for (std::size_t k = 0; k < 5; ++k)
+  {
+    this->Write(k == 2 ? MakeDeadlySlice(k) : MakeSlice(k), "slice" + std::to_string(k));
+  }
+  IsolatedDecoder decoder(2);
+  rhombic::ScanReadOptions options;
+  options.decoder = &decoder;
+  EXPECT_EQ(KindOfReading(m_Folder, "slice2: its decoder crashed", options), FailureKind::Unreadable);
+  options.onGap = rhombic::ScanReadOptions::Policy::Accept;
+  const auto scan = rhombic::ReadScan(m_Folder, options);
+  EXPECT_EQ(scan.sliceOrigins.size(), 4u);
+  EXPECT_EQ(ImageOf<std::int16_t>(scan).GetPixel({ { 0, 0, 2 } }), 303 - 1024);
+  EXPECT_NE(scan.notes.at(0).find("slice2"), std::string::npos) << scan.notes[0];
+}
+
+TEST_F(IsolatedDecoding, RefusesDamagedRunLengths)
+{
+  IsolatedDecoder decoder(1);
+  const auto sentenceOf = [&](std::string frame) {
+    DicomTestFile file = MakeSlice(0);
+    file.SetFragments({ std::move(frame) });
+    return FailureOf(decoder, this->Write(file, "damaged"));
+  };
+  std::string tooShort = RunLengthFrame(300);
+  tooShort[64] = static_cast<char>(-(Size * Size - 2));
+  std::string tooLong = RunLengthFrame(300);
+  tooLong[66] = static_cast<char>(-(Size * Size));
+  std::string noTable = RunLengthFrame(300);
+  noTable[0] = 15;
+  std::string behindEnd = RunLengthFrame(300);
+  behindEnd[8] = 127;
+  for (const std::string & frame : { tooShort, tooLong, noTable, behindEnd, std::string("short") })
+  {
+    EXPECT_NE(sentenceOf(frame).find("run lengths"), std::string::npos) << sentenceOf(frame);
+  }
+}
+
+} // namespace
