@@ -4,8 +4,11 @@
 #include "itkFCCImage.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
-#include "itkThreadFailure.h"
 #include "itkSeparableTaps.h"
+#include "itkSliceStackPlanes.h"
+#include "itkThreadFailure.h"
+
+#include <vector>
 
 namespace itk
 {
@@ -78,6 +81,24 @@ public:
   itkSetEnumMacro(Kernel, SeparableKernel);
   itkGetEnumMacro(Kernel, SeparableKernel);
 
+  using SliceOriginsType = std::vector<typename TInputImage::PointType>;
+
+  /** Where the first sample of each slice along the input's third axis is, for stacks whose slices are unevenly spaced
+   * or shifted against each other. Default empty: where the input's geometry puts them. As many as the slices, in their
+   * order, which must be that along their normal. */
+  void
+  SetSliceOrigins(const SliceOriginsType & sliceOrigins);
+  const SliceOriginsType &
+  GetSliceOrigins() const
+  {
+    return m_SliceOrigins;
+  }
+
+  /** What output samples beside a slanted input get. Default zero; best a value of the background, the input's lowest,
+   * say. */
+  itkSetMacro(OutsideValue, OutputPixelType);
+  itkGetConstMacro(OutsideValue, OutputPixelType);
+
 protected:
   CartesianToFCCImageFilter();
   ~CartesianToFCCImageFilter() override = default;
@@ -104,15 +125,28 @@ protected:
   AfterThreadedGenerateData() override;
 
 private:
+  /** Whether the samples are those of a SliceStack rather than of perpendicular axes. */
+  bool
+  IsSlanted() const;
+
   void
   Resample(const OutputImageRegionType & region);
+
+  void
+  ResampleStack(const OutputImageRegionType & region);
 
   /** Taps for the samples of the output region along one axis; along x, for the rows of one parity. */
   SeparableTaps
   MakeTaps(unsigned int axis, const OutputImageRegionType & region, IndexValueType parity = 0) const;
 
+  /** How a part of the output is made of the stack, which must outlive the answer. */
+  SliceStackPlanes
+  MakePlanes(const SliceStack & stack, const OutputImageRegionType & region) const;
+
   double m_Density{ FCCLattice::NyquistDensity };
   SpacingType m_OutputSpacing{ 0.0 };
+  SliceOriginsType m_SliceOrigins;
+  OutputPixelType m_OutsideValue{};
   SeparableKernel m_Kernel{ SeparableKernel::CubicBSpline };
   ThreadFailure m_ThreadFailure;
 };

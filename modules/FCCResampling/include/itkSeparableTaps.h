@@ -47,8 +47,14 @@ operator<<(std::ostream & os, SeparableKernel kernel);
  * - Lanczos4: sinc(x) sinc(x / 4), eight taps, normalised to a sum of 1. Keeps more of the highest frequencies than the
  *   spline, but does not reproduce even linear fields exactly, hence its errors for smooth fields.
  *
- * Samples beyond the ends are mirror images about the first and last one, as itk::BSplineInterpolateImageFunction has
- * them.
+ * Where samples are not at even steps, their positions are given. Both higher kernels then are, in double:
+ *
+ * - the natural cubic spline through the ten samples around the position. It reproduces linear fields exactly up to the
+ *   ends, and at even steps differs from CubicBSpline by UNEVEN_ERROR. In a step more than 2.5 times as long as
+ *   a neighbouring one (missing slices) the spline would overshoot edges by more than a third, so it is linear there.
+ *
+ * Samples beyond the ends of evenly placed ones are mirror images about the first and last one, as
+ * itk::BSplineInterpolateImageFunction has them.
  *
  * Positions outside the samples, [0, length - 1], are moved to the nearest end: the field is constant out there.
  *
@@ -63,6 +69,12 @@ public:
    *  \param length number of samples on the whole axis, at least 1
    *  \param positions in units of samples; 0 is the first sample */
   SeparableTaps(SeparableKernel kernel, SizeValueType length, const std::vector<double> & positions);
+
+  /** For samples that are not evenly placed.
+   *
+   *  \param samples positions of the samples, increasing, at least one; in any unit
+   *  \param positions in the same unit */
+  SeparableTaps(SeparableKernel kernel, const std::vector<double> & samples, const std::vector<double> & positions);
 
   /** Taps of each position: 2, 10 or 8, or all samples of a shorter axis. */
   SizeValueType
