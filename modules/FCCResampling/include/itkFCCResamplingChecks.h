@@ -66,6 +66,10 @@ IsInsideVoxels(double position, SizeValueType length)
 inline OffsetValueType
 MirroredSample(OffsetValueType sample, OffsetValueType length)
 {
+  if (sample >= 0 && sample < length)
+  {
+    return sample;
+  }
   if (length == 1)
   {
     return 0;

@@ -47,11 +47,19 @@ operator<<(std::ostream & os, SeparableKernel kernel);
  * - Lanczos4: sinc(x) sinc(x / 4), eight taps, normalised to a sum of 1. Keeps more of the highest frequencies than the
  *   spline, but does not reproduce even linear fields exactly, hence its errors for smooth fields.
  *
- * Where samples are not at even steps, their positions are given. Both higher kernels then are, in double:
+ * Where samples are not at even steps, their true positions are given, and both higher kernels are the natural cubic
+ * spline through the ten samples around the position. It reproduces linear fields exactly, up to the ends. Root mean
+ * square errors for a wave of root mean square 1, by its length in samples:
  *
- * - the natural cubic spline through the ten samples around the position. It reproduces linear fields exactly up to the
- *   ends, and at even steps differs from CubicBSpline by UNEVEN_ERROR. In a step more than 2.5 times as long as
- *   a neighbouring one (missing slices) the spline would overshoot edges by more than a third, so it is linear there.
+ *     samples                        kernel         32        16        8         4
+ *     even                           CubicBSpline   2.6e-6    2.7e-5    3.2e-4    1.7e-2
+ *     even                           spline         1.0e-5    2.8e-5    4.8e-4    1.7e-2
+ *     blocks of ten, steps 1 and 1/2 spline         0.8e-5    2.7e-5    4.0e-4    1.2e-2
+ *     the same                       Linear         2.4e-3    9.1e-3    3.7e-2    1.4e-1
+ *
+ * In a step more than 2.5 times as long as one beside it (missing samples) the spline would overshoot an edge by more
+ * than a third of its height, and the field is linear there. CubicBSpline, applied to samples as if they were even,
+ * would bend a linear field by up to 8 % of the change of the step wherever that changes.
  *
  * Samples beyond the ends of evenly placed ones are mirror images about the first and last one, as
  * itk::BSplineInterpolateImageFunction has them.

@@ -14,17 +14,22 @@ namespace itk
 namespace
 {
 
+constexpr std::size_t CubicTaps = 10;
+constexpr OffsetValueType CubicBefore = CubicTaps / 2 - 1;
+constexpr std::size_t Knots = 4; // of the cubic B-splines that reach a position
+
 /** Weights of the samples floor(position) - before ... of an axis without ends. */
 struct Kernel
 {
   OffsetValueType before;
-  std::vector<double> weights;
+  std::size_t count;
+  std::array<double, CubicTaps> weights{}; // more than count are 0
 };
 
 Kernel
 LinearKernel(double fraction)
 {
-  return { 0, { 1.0 - fraction, fraction } };
+  return { 0, 2, { 1.0 - fraction, fraction } };
 }
 
 /** Solves a small system of equations by Gauss-Jordan elimination, for several right-hand sides at once. */
@@ -63,10 +68,6 @@ Solve(std::array<std::array<double, VSize>, VSize> matrix, std::array<std::array
   }
   return sides;
 }
-
-constexpr std::size_t CubicTaps = 10;
-constexpr OffsetValueType CubicBefore = CubicTaps / 2 - 1;
-constexpr std::size_t Knots = 4; // of the cubic B-splines that reach a position
 
 /** [tap][knot]: how much of a sample the coefficient of a B-spline is, that is, the prefilter cut to the taps.
  *
@@ -139,7 +140,7 @@ CubicBSplineKernel(double fraction)
   const double spline[Knots] = {
     u * u * u / 6.0, 2.0 / 3.0 - t * t * (2.0 - t) / 2.0, 2.0 / 3.0 - u * u * (2.0 - u) / 2.0, t * t * t / 6.0
   };
-  Kernel kernel{ CubicBefore, std::vector<double>(CubicTaps) };
+  Kernel kernel{ CubicBefore, CubicTaps };
   for (std::size_t tap = 0; tap < CubicTaps; ++tap)
   {
     for (std::size_t knot = 0; knot < Knots; ++knot)
@@ -154,7 +155,7 @@ Kernel
 Lanczos4Kernel(double fraction)
 {
   constexpr std::size_t radius = 4;
-  Kernel kernel{ radius - 1, std::vector<double>(2 * radius) };
+  Kernel kernel{ radius - 1, 2 * radius };
   double sum = 0.0;
   for (std::size_t tap = 0; tap < 2 * radius; ++tap)
   {
@@ -259,7 +260,7 @@ operator<<(std::ostream & os, SeparableKernel kernel)
 }
 
 SeparableTaps::SeparableTaps(SeparableKernel kernel, SizeValueType length, const std::vector<double> & positions)
-  : m_NumberOfTaps(std::min<SizeValueType>(length, MakeKernel(kernel, 0.0).weights.size()))
+  : m_NumberOfTaps(std::min<SizeValueType>(length, MakeKernel(kernel, 0.0).count))
   , m_First(positions.size())
   , m_Weights(positions.size() * m_NumberOfTaps)
 {
@@ -274,7 +275,7 @@ SeparableTaps::SeparableTaps(SeparableKernel kernel, SizeValueType length, const
     const auto first = std::clamp<OffsetValueType>(sample - weights.before, 0, last + 1 - taps);
 
     std::fill(sums.begin(), sums.end(), 0.0);
-    for (std::size_t tap = 0; tap < weights.weights.size(); ++tap)
+    for (std::size_t tap = 0; tap < weights.count; ++tap)
     {
       const auto source = sample - weights.before + static_cast<OffsetValueType>(tap);
       sums[static_cast<std::size_t>(MirroredSample(source, last + 1) - first)] += weights.weights[tap];
