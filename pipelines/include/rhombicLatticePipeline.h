@@ -30,10 +30,10 @@ void
 CheckLatticeSettings(const LatticeSettings & settings);
 
 /** The scan on the lattice, in its own pixel type (itk::CartesianToFCCImageFilter, or
- * itk::CartesianToNestedFCCImageFilter). Throws Failure: Usage for settings
- * that make no lattice, Memory. */
+ * itk::CartesianToNestedFCCImageFilter). Where its slices are tilted, sheared or unevenly spaced, what is beside them
+ * gets its lowest value. Throws Failure: Usage for settings that make no lattice, or none of such a scan, Memory. */
 FCCVolume
-ScanToLattice(const ScanImage & image, const LatticeSettings & settings, const Events & events);
+ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events & events);
 
 /** The volume on a Cartesian grid of the given spacing in mm; 0: that which makes the lattice's samples 0.77 times as
  * many (itk::FCCToCartesianImageFilter). */

@@ -2,11 +2,13 @@
 
 #include "rhombicEnclosedParts.h"
 #include "rhombicFailure.h"
+#include "rhombicIntensities.h"
 #include "rhombicObserveProgress.h"
 
 #include "itkCartesianToFCCImageFilter.h"
 #include "itkCartesianToNestedFCCImageFilter.h"
 #include "itkFCCIsosurfaceFilter.h"
+#include "itkFCCResamplingChecks.h"
 #include "itkFCCToCartesianImageFilter.h"
 
 #include <algorithm>
@@ -54,6 +56,13 @@ TakeOutput(TFilter & filter)
   typename TFilter::OutputImageType::Pointer output = filter.GetOutput();
   output->DisconnectPipeline();
   return output;
+}
+
+/** Whether the scan's samples are not those of perpendicular, evenly divided axes. */
+bool
+IsSlanted(const Scan & scan)
+{
+  return !scan.sliceOrigins.empty() || !itk::AreAxesPerpendicular(GeometryOf(scan.image).GetDirection());
 }
 
 /** Throws Failure(Empty) when there is no triangle. */
@@ -138,9 +147,16 @@ CheckLatticeSettings(const LatticeSettings & settings)
 }
 
 FCCVolume
-ScanToLattice(const ScanImage & image, const LatticeSettings & settings, const Events & events)
+ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events & events)
 {
   CheckLatticeSettings(settings);
+  const bool isSlanted = IsSlanted(scan);
+  if (isSlanted && settings.nested)
+  {
+    throw Failure(FailureKind::Usage,
+                  "The scan's slices are tilted, sheared or unevenly spaced, so that no lattice is nested in it; "
+                  "leave out --nested.");
+  }
   return std::visit(
     [&](const auto & input) -> FCCVolume {
       using InputType = typename std::decay_t<decltype(*input)>;
@@ -161,9 +177,14 @@ ScanToLattice(const ScanImage & image, const LatticeSettings & settings, const E
       filter->SetDensity(settings.density);
       filter->SetOutputSpacing(settings.spacing.data());
       filter->SetKernel(settings.kernel);
+      if (isSlanted)
+      {
+        filter->SetSliceOrigins(scan.sliceOrigins);
+        filter->SetOutsideValue(static_cast<typename InputType::PixelType>(ComputeIntensities(scan.image).lowest));
+      }
       return run(*filter);
     },
-    image);
+    scan.image);
 }
 
 ScanImage

@@ -70,7 +70,7 @@ LoadSurfaces(const ScanSource & source,
   CheckLatticeSettings(source.lattice);
   Scan scan = LoadScan(source, events);
   const auto resolved = ResolveIsovalues(requests, ComputeIntensities(scan.image));
-  const FCCVolume volume = ScanToLattice(scan.image, source.lattice, events);
+  const FCCVolume volume = ScanToLattice(scan, source.lattice, events);
   scan.image = {}; // its memory is needed for the surfaces
   return { LatticeToSurfaces(volume, resolved, mode, events), scan.isOriented };
 }
@@ -168,7 +168,7 @@ ResampleScan(const ResampleScanSettings & settings, const Events & events)
       throw Failure(FailureKind::Usage,
                     "A lattice volume is a NRRD file; give " + settings.volume.string() + " the extension .nrrd.");
     }
-    const FCCVolume volume = ScanToLattice(LoadScan(settings.source, events).image, settings.source.lattice, events);
+    const FCCVolume volume = ScanToLattice(LoadScan(settings.source, events), settings.source.lattice, events);
     events.Progress("writing", 0.0);
     WriteFCCImage(volume, settings.volume);
   }

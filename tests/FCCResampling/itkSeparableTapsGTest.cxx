@@ -1,9 +1,12 @@
 #include "itkSeparableTaps.h"
 
+#include "itkMath.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace
 {
@@ -146,6 +149,114 @@ TEST(SeparableTaps, WeightsSumToOneOnAxesOfAnyLength)
         ASSERT_NEAR(Evaluate(taps, std::vector<double>(length, 1.0), n), 1.0, 1e-6);
       }
     }
+  }
+}
+
+std::vector<double>
+PlaceSamples(std::size_t count, const std::function<double(std::size_t)> & step)
+{
+  std::vector<double> samples{ -3.0 };
+  while (samples.size() < count)
+  {
+    samples.push_back(samples.back() + step(samples.size()));
+  }
+  return samples;
+}
+
+/** Positions in between, a few outside, and the samples themselves. */
+std::vector<double>
+PositionsAmong(const std::vector<double> & samples)
+{
+  std::vector<double> positions = samples;
+  for (std::size_t n = 0; n + 1 < samples.size(); ++n)
+  {
+    for (const double part : { 0.1, 0.25, 0.5, 0.8 })
+    {
+      positions.push_back(samples[n] + part * (samples[n + 1] - samples[n]));
+    }
+  }
+  positions.push_back(samples.front() - 2.0);
+  positions.push_back(samples.back() + 2.0);
+  return positions;
+}
+
+TEST(SeparableTaps, OfUnevenSamplesInterpolateAndReproduceLinesUpToTheEnds)
+{
+  for (const SeparableKernel kernel :
+       { SeparableKernel::Linear, SeparableKernel::CubicBSpline, SeparableKernel::Lanczos4 })
+  {
+    for (const std::size_t count : { 1u, 2u, 3u, 4u, 9u, 10u, 11u, 40u })
+    {
+      const auto samples = PlaceSamples(count, [](std::size_t n) { return n % 11 == 5 ? 7.0 : 0.5 + 0.5 * (n % 3); });
+      std::vector<double> noise;
+      for (std::size_t n = 0; n < count; ++n)
+      {
+        noise.push_back(static_cast<double>((n * 7919) % 101));
+      }
+      const auto positions = PositionsAmong(samples);
+      const SeparableTaps taps(kernel, samples, positions);
+      for (std::size_t n = 0; n < positions.size(); ++n)
+      {
+        const double inside = std::clamp(positions[n], samples.front(), samples.back());
+        ASSERT_NEAR(Evaluate(taps, samples, n), inside, 2e-5) << kernel << count;
+        ASSERT_NEAR(Evaluate(taps, std::vector<double>(count, 1.0), n), 1.0, 1e-6);
+        if (n < count)
+        {
+          ASSERT_NEAR(Evaluate(taps, noise, n), noise[n], 1e-4) << "a sample itself";
+        }
+      }
+    }
+  }
+}
+
+/** Root mean square error, over positions away from the ends, for a wave of root mean square 1. */
+double
+WaveError(const SeparableTaps & taps,
+          const std::vector<double> & samples,
+          const std::vector<double> & positions,
+          double length)
+{
+  double squares = 0.0;
+  int count = 0;
+  for (const double phase : { 0.0, 0.3, 0.6, 0.9, 1.2, 1.5 })
+  {
+    const auto wave = [&](double x) { return std::sqrt(2.0) * std::cos(2.0 * itk::Math::pi * x / length + phase); };
+    std::vector<double> values(samples.size());
+    std::transform(samples.begin(), samples.end(), values.begin(), wave);
+    for (std::size_t n = 0; n < positions.size(); ++n)
+    {
+      if (positions[n] > samples[12] && positions[n] < samples[samples.size() - 13])
+      {
+        const double error = Evaluate(taps, values, n) - wave(positions[n]);
+        squares += error * error;
+        ++count;
+      }
+    }
+  }
+  return std::sqrt(squares / count);
+}
+
+TEST(SeparableTaps, OfUnevenSamplesAreAboutAsAccurateAsOfEvenOnes)
+{
+  const auto even = PlaceSamples(80, [](std::size_t) { return 1.0; });
+  const auto blocks = PlaceSamples(80, [](std::size_t n) { return n / 10 % 2 == 0 ? 1.0 : 0.5; });
+  for (const double length : { 32.0, 16.0, 8.0, 4.0 })
+  {
+    const auto evenPositions = PositionsAmong(even);
+    auto indices = evenPositions;
+    std::transform(indices.begin(), indices.end(), indices.begin(), [](double x) { return x + 3.0; });
+    const auto blockPositions = PositionsAmong(blocks);
+    const SeparableTaps spline(SeparableKernel::CubicBSpline, even.size(), indices);
+    const SeparableTaps natural(SeparableKernel::CubicBSpline, even, evenPositions);
+    const SeparableTaps uneven(SeparableKernel::CubicBSpline, blocks, blockPositions);
+    const SeparableTaps linear(SeparableKernel::Linear, blocks, blockPositions);
+    const double errors[] = { WaveError(spline, even, evenPositions, length),
+                              WaveError(natural, even, evenPositions, length),
+                              WaveError(uneven, blocks, blockPositions, length),
+                              WaveError(linear, blocks, blockPositions, length) };
+    EXPECT_LT(errors[1], 1.6 * errors[0] + 1e-5) << length;
+    EXPECT_LT(errors[2], 1.6 * errors[0] + 1e-5) << length;
+    EXPECT_LT(errors[2], 0.1 * errors[3]) << length;
   }
 }
 

@@ -14,10 +14,18 @@ namespace
 using Mode = itk::FCCIsosurfaceMode;
 using rhombic::SurfaceRequest;
 
+rhombic::Scan
+PhantomScan()
+{
+  rhombic::Scan scan;
+  scan.image = rhombic::MakePhantomScan();
+  return scan;
+}
+
 const rhombic::FCCVolume &
 PhantomOnTheLattice()
 {
-  static const rhombic::FCCVolume volume = rhombic::ScanToLattice(rhombic::MakePhantomScan(), {}, {});
+  static const rhombic::FCCVolume volume = rhombic::ScanToLattice(PhantomScan(), {}, {});
   return volume;
 }
 
@@ -135,7 +143,7 @@ TEST(PhantomSurfaces, TheNestedLatticeAndLanczosHoldTheSameBody)
   lanczos.kernel = itk::SeparableKernel::Lanczos4;
   for (const auto & settings : { nested, lanczos })
   {
-    const auto volume = rhombic::ScanToLattice(rhombic::MakePhantomScan(), settings, {});
+    const auto volume = rhombic::ScanToLattice(PhantomScan(), settings, {});
     const auto skin =
       rhombic::LatticeToSurfaces(volume, { rhombic::ParseSurfaceRequest("skin=-485.5", 0) }, Mode::Lean, {});
     EXPECT_NEAR(ComputeVolume(*skin.front().surface) / rhombic::PhantomEnclosedBy(-485.5).volume, 1.0, 0.01);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace itk
 {
@@ -27,6 +28,27 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::PrintSelf(std::ostream & o
   os << indent << "Density: " << m_Density << std::endl;
   os << indent << "OutputSpacing: " << m_OutputSpacing << std::endl;
   os << indent << "Kernel: " << m_Kernel << std::endl;
+  os << indent << "SliceOrigins: " << m_SliceOrigins.size() << std::endl;
+  os << indent << "OutsideValue: " << static_cast<typename NumericTraits<OutputPixelType>::PrintType>(m_OutsideValue)
+     << std::endl;
+}
+
+template <typename TInputImage, typename TOutputImage>
+void
+CartesianToFCCImageFilter<TInputImage, TOutputImage>::SetSliceOrigins(const SliceOriginsType & sliceOrigins)
+{
+  if (m_SliceOrigins != sliceOrigins)
+  {
+    m_SliceOrigins = sliceOrigins;
+    this->Modified();
+  }
+}
+
+template <typename TInputImage, typename TOutputImage>
+bool
+CartesianToFCCImageFilter<TInputImage, TOutputImage>::IsSlanted() const
+{
+  return !m_SliceOrigins.empty() || !AreAxesPerpendicular(this->GetInput()->GetDirection());
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -58,26 +80,42 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateOutputInformation(
     itkExceptionMacro("The input has no samples; its size is " << region.GetSize() << ".");
   }
 
+  std::optional<SliceStack> stack;
+  SpacingType inputSpacing = input->GetSpacing();
+  SpacingType lengths;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    lengths[axis] = static_cast<double>(region.GetSize(axis));
+  }
+  if (this->IsSlanted())
+  {
+    stack.emplace(*input, m_SliceOrigins);
+    inputSpacing = stack->GetPitch();
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      lengths[axis] = (stack->GetHighest()[axis] - stack->GetLowest()[axis]) / inputSpacing[axis];
+    }
+  }
+
   const double scale = std::cbrt(1.0 / (FCCLattice::CellVolume * m_Density));
   std::array<double, 3> counts{};
   SpacingType spacing;
-  ContinuousIndex<double, 3> first; // the lattice point (0, 0, 0) in the input
+  SpacingType first; // from the middle of the input's first sample to the lattice point (0, 0, 0), in samples
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    const double inputSpacing = input->GetSpacing()[axis];
-    const auto length = static_cast<double>(region.GetSize(axis));
-    spacing[axis] = m_OutputSpacing[axis] > 0.0 ? m_OutputSpacing[axis] : scale * inputSpacing;
+    const double length = lengths[axis];
+    spacing[axis] = m_OutputSpacing[axis] > 0.0 ? m_OutputSpacing[axis] : scale * inputSpacing[axis];
 
     // Along x a row's samples are two units apart and the rows of the other parity are shifted by one, so that covering
     // the input with both takes one unit more.
     constexpr double tolerance = 1e-9; // of a sample, against rounding
-    const double step = spacing[axis] / inputSpacing;
+    const double step = spacing[axis] / inputSpacing[axis];
     const double units = length / step;
     const double samples = axis == 0 ? (units + 1.0) / 2.0 : units;
     const double count = std::max(1.0, std::ceil(samples - tolerance));
     const double span = axis == 0 ? 2.0 * count - 1.0 : count - 1.0;
     counts[axis] = count;
-    first[axis] = static_cast<double>(region.GetIndex(axis)) + (length - 1.0 - span * step) / 2.0;
+    first[axis] = (length - 1.0 - span * step) / 2.0;
   }
   if (!IsCountable(counts))
   {
@@ -91,8 +129,26 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateOutputInformation(
   }
   output->SetLargestPossibleRegion(outputRegion);
   output->SetSpacing(spacing);
-  output->SetDirection(input->GetDirection());
-  output->SetOrigin(input->template TransformContinuousIndexToPhysicalPoint<double>(first));
+  if (stack)
+  {
+    output->SetDirection(stack->GetDirection());
+    SpacingType frame = stack->GetLowest();
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      frame[axis] += (0.5 + first[axis]) * inputSpacing[axis];
+    }
+    output->SetOrigin(stack->TransformFrameToPoint(frame));
+  }
+  else
+  {
+    output->SetDirection(input->GetDirection());
+    ContinuousIndex<double, 3> index;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      index[axis] = static_cast<double>(region.GetIndex(axis)) + first[axis];
+    }
+    output->SetOrigin(input->template TransformContinuousIndexToPhysicalPoint<double>(index));
+  }
   output->SetNumberOfComponentsPerPixel(1);
 }
 
@@ -119,6 +175,20 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::MakeTaps(unsigned int axis
 }
 
 template <typename TInputImage, typename TOutputImage>
+SliceStackPlanes
+CartesianToFCCImageFilter<TInputImage, TOutputImage>::MakePlanes(const SliceStack & stack,
+                                                                 const OutputImageRegionType & region) const
+{
+  const TOutputImage * const output = this->GetOutput();
+  return SliceStackPlanes(stack,
+                          m_Kernel,
+                          this->GetInput()->GetLargestPossibleRegion().GetSize(),
+                          stack.TransformPointToFrame(output->GetOrigin()),
+                          output->GetSpacing(),
+                          region);
+}
+
+template <typename TInputImage, typename TOutputImage>
 void
 CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateInputRequestedRegion()
 {
@@ -126,7 +196,14 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateInputRequestedRegi
   auto * const input = const_cast<TInputImage *>(this->GetInput());
   const OutputImageRegionType & requested = this->GetOutput()->GetRequestedRegion();
   InputImageRegionType needed = input->GetLargestPossibleRegion();
-  if (requested.GetNumberOfPixels() > 0)
+  if (requested.GetNumberOfPixels() > 0 && this->IsSlanted())
+  {
+    const SliceStack stack(*input, m_SliceOrigins);
+    const auto samples = this->MakePlanes(stack, requested).FindNeededSamples();
+    needed.SetIndex(needed.GetIndex() + (samples.GetIndex() - typename TInputImage::IndexType{ { 0, 0, 0 } }));
+    needed.SetSize(samples.GetSize());
+  }
+  else if (requested.GetNumberOfPixels() > 0)
   {
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
@@ -154,7 +231,7 @@ template <typename TInputImage, typename TOutputImage>
 void
 CartesianToFCCImageFilter<TInputImage, TOutputImage>::DynamicThreadedGenerateData(const OutputImageRegionType & region)
 {
-  m_ThreadFailure.Capture([&] { this->Resample(region); });
+  m_ThreadFailure.Capture([&] { this->IsSlanted() ? this->ResampleStack(region) : this->Resample(region); });
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -254,6 +331,113 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::Resample(const OutputImage
           values.data(), region.GetSize(0), output->GetBufferPointer() + output->ComputeOffset(index));
         progress.Completed(region.GetSize(0));
       }
+    }
+  }
+}
+
+template <typename TInputImage, typename TOutputImage>
+void
+CartesianToFCCImageFilter<TInputImage, TOutputImage>::ResampleStack(const OutputImageRegionType & region)
+{
+  const TInputImage * const input = this->GetInput();
+  TOutputImage * const output = this->GetOutput();
+  const auto & whole = input->GetLargestPossibleRegion();
+  TotalProgressReporter progress(this, output->GetRequestedRegion().GetNumberOfPixels());
+
+  const SliceStack stack(*input, m_SliceOrigins);
+  const SliceStackPlanes planes = this->MakePlanes(stack, region);
+  const auto needed = planes.FindNeededSamples();
+  const auto xFirst = static_cast<SizeValueType>(needed.GetIndex(0));
+  const SizeValueType xCount = needed.GetSize(0);
+  const SeparableTaps & zTaps = planes.GetSliceTaps();
+  const SizeValueType zCount = zTaps.GetNumberOfTaps();
+
+  const SizeValueType stride = RowArithmetic::PaddedLength(xCount);
+  std::vector<float> sliceRows(zCount * stride);
+  std::vector<const float *> sliceTerms(zCount);
+  for (SizeValueType tap = 0; tap < zCount; ++tap)
+  {
+    sliceTerms[tap] = sliceRows.data() + tap * stride;
+  }
+  const auto blendSlices = [&](SizeValueType k, SizeValueType y, float * blend) {
+    auto index = whole.GetIndex();
+    index[0] += static_cast<IndexValueType>(xFirst);
+    index[1] += static_cast<IndexValueType>(y);
+    index[2] += static_cast<IndexValueType>(zTaps.GetFirst(k));
+    for (SizeValueType tap = 0; tap < zCount; ++tap, ++index[2])
+    {
+      RowArithmetic::ConvertFrom(
+        input->GetBufferPointer() + input->ComputeOffset(index), xCount, sliceRows.data() + tap * stride);
+    }
+    RowArithmetic::Blend(sliceTerms.data(), zTaps.GetWeights(k), zCount, xCount, blend);
+  };
+
+  // The sites of a row, and which of them lie in the input.
+  struct SiteRow
+  {
+    SizeValueType begin;
+    SizeValueType end;
+    RowArithmetic::RowTaps taps;
+  };
+  const auto makeSiteRow = [&](SizeValueType k, double row, IndexValueType parity) -> SiteRow {
+    const std::vector<double> columns = planes.GetColumns(k, row, parity);
+    const auto isInside = [&](double column) { return IsInsideVoxels(column, whole.GetSize(0)); };
+    const auto begin = std::find_if(columns.begin(), columns.end(), isInside);
+    const auto end = std::find_if_not(begin, columns.end(), isInside);
+    return { static_cast<SizeValueType>(begin - columns.begin()),
+             static_cast<SizeValueType>(end - columns.begin()),
+             { planes.MakeColumnTaps(columns), columns.size(), xFirst } };
+  };
+
+  // Blends of the slices' rows in a ring, as in Resample().
+  std::vector<float> ring;
+  std::vector<const float *> terms;
+  std::vector<float> row(stride);
+  std::vector<float> values;
+  for (SizeValueType k = 0; k < region.GetSize(2); ++k)
+  {
+    const std::vector<double> rows = planes.GetRows(k);
+    const SeparableTaps yTaps = planes.MakeRowTaps(rows);
+    const SizeValueType yCount = yTaps.GetNumberOfTaps();
+    ring.resize(yCount * stride);
+    terms.resize(yCount);
+    std::optional<SiteRow> siteRows[2];
+    SizeValueType nextRow = 0;
+    for (SizeValueType j = 0; j < region.GetSize(1); ++j)
+    {
+      const typename TOutputImage::IndexType index{ { region.GetIndex(0),
+                                                      region.GetIndex(1) + static_cast<IndexValueType>(j),
+                                                      region.GetIndex(2) + static_cast<IndexValueType>(k) } };
+      OutputPixelType * const outputRow = output->GetBufferPointer() + output->ComputeOffset(index);
+      const IndexValueType parity = FCCLattice::Parity(index[1], index[2]);
+      auto & sites = siteRows[parity];
+      if (!sites || stack.AreRowsShifted())
+      {
+        sites.emplace(makeSiteRow(k, rows[j], parity));
+      }
+      if (IsInsideVoxels(rows[j], whole.GetSize(1)) && sites->begin < sites->end)
+      {
+        const SizeValueType first = yTaps.GetFirst(j);
+        for (nextRow = std::max(nextRow, first); nextRow < first + yCount; ++nextRow)
+        {
+          blendSlices(k, nextRow, ring.data() + nextRow % yCount * stride);
+        }
+        for (SizeValueType tap = 0; tap < yCount; ++tap)
+        {
+          terms[tap] = ring.data() + (first + tap) % yCount * stride;
+        }
+        RowArithmetic::Blend(terms.data(), yTaps.GetWeights(j), yCount, xCount, row.data());
+        values.resize(sites->taps.GetPaddedLength());
+        RowArithmetic::Interpolate(row.data(), sites->taps, values.data());
+        RowArithmetic::RoundTo(values.data(), region.GetSize(0), outputRow);
+        std::fill(outputRow, outputRow + sites->begin, m_OutsideValue);
+        std::fill(outputRow + sites->end, outputRow + region.GetSize(0), m_OutsideValue);
+      }
+      else
+      {
+        std::fill(outputRow, outputRow + region.GetSize(0), m_OutsideValue);
+      }
+      progress.Completed(region.GetSize(0));
     }
   }
 }

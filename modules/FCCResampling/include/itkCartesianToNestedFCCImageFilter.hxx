@@ -80,6 +80,11 @@ CartesianToNestedFCCImageFilter<TInputImage, TOutputImage>::GenerateOutputInform
   {
     itkExceptionMacro("The input has no samples; its size is " << region.GetSize() << ".");
   }
+  if (!AreAxesPerpendicular(input->GetDirection()))
+  {
+    itkExceptionMacro("The input's axes are not perpendicular to each other, so that every other sample of it is no "
+                      "face-centered cubic lattice; resample it with CartesianToFCCImageFilter instead.");
+  }
   OutputImageRegionType outputRegion;
   outputRegion.SetSize(0, (region.GetSize(0) + 1) / 2);
   outputRegion.SetSize(1, region.GetSize(1));

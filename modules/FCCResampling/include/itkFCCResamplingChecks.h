@@ -2,6 +2,7 @@
 #define itkFCCResamplingChecks_h
 
 #include "itkImageRegion.h"
+#include "itkMatrix.h"
 #include "itkVector.h"
 
 #include <algorithm>
@@ -26,6 +27,25 @@ IsSpacingOrUnset(const Vector<double, 3> & spacing)
   return isPositive || spacing == Vector<double, 3>(0.0);
 }
 
+/** Cosine of the angle between axes that count as perpendicular. */
+constexpr double AxesTolerance = 1e-6;
+
+/** Whether the columns of an image's direction are perpendicular to each other. */
+inline bool
+AreAxesPerpendicular(const Matrix<double, 3, 3> & direction)
+{
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    const auto column = direction.GetVnlMatrix().get_column(axis);
+    const auto next = direction.GetVnlMatrix().get_column((axis + 1) % 3);
+    if (std::abs(dot_product(column, next)) > AxesTolerance * column.magnitude() * next.magnitude())
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 /** Whether so many samples along each axis can be counted and addressed. */
 inline bool
 IsCountable(const std::array<double, 3> & counts)
@@ -34,10 +54,22 @@ IsCountable(const std::array<double, 3> & counts)
   return counts[0] * counts[1] * counts[2] <= most;
 }
 
+/** Whether a position, 0 being the first sample, lies in the voxels of an axis of \a length samples. */
+inline bool
+IsInsideVoxels(double position, SizeValueType length)
+{
+  constexpr double tolerance = 1e-6; // against rounding
+  return position >= -0.5 - tolerance && position <= static_cast<double>(length) - 0.5 + tolerance;
+}
+
 /** The sample of an axis that a sample beyond its ends is the mirror image of, about the first and last sample. */
 inline OffsetValueType
 MirroredSample(OffsetValueType sample, OffsetValueType length)
 {
+  if (sample >= 0 && sample < length)
+  {
+    return sample;
+  }
   if (length == 1)
   {
     return 0;

@@ -47,8 +47,22 @@ operator<<(std::ostream & os, SeparableKernel kernel);
  * - Lanczos4: sinc(x) sinc(x / 4), eight taps, normalised to a sum of 1. Keeps more of the highest frequencies than the
  *   spline, but does not reproduce even linear fields exactly, hence its errors for smooth fields.
  *
- * Samples beyond the ends are mirror images about the first and last one, as itk::BSplineInterpolateImageFunction has
- * them.
+ * Where samples are not at even steps, their true positions are given, and both higher kernels are the natural cubic
+ * spline through the ten samples around the position. It reproduces linear fields exactly, up to the ends. Root mean
+ * square errors for a wave of root mean square 1, by its length in samples:
+ *
+ *     samples                        kernel         32        16        8         4
+ *     even                           CubicBSpline   2.6e-6    2.7e-5    3.2e-4    1.7e-2
+ *     even                           spline         1.0e-5    2.8e-5    4.8e-4    1.7e-2
+ *     blocks of ten, steps 1 and 1/2 spline         0.8e-5    2.7e-5    4.0e-4    1.2e-2
+ *     the same                       Linear         2.4e-3    9.1e-3    3.7e-2    1.4e-1
+ *
+ * In a step more than 2.5 times as long as one beside it (missing samples) the spline would overshoot an edge by more
+ * than a third of its height, and the field is linear there. CubicBSpline, applied to samples as if they were even,
+ * would bend a linear field by up to 8 % of the change of the step wherever that changes.
+ *
+ * Samples beyond the ends of evenly placed ones are mirror images about the first and last one, as
+ * itk::BSplineInterpolateImageFunction has them.
  *
  * Positions outside the samples, [0, length - 1], are moved to the nearest end: the field is constant out there.
  *
@@ -63,6 +77,12 @@ public:
    *  \param length number of samples on the whole axis, at least 1
    *  \param positions in units of samples; 0 is the first sample */
   SeparableTaps(SeparableKernel kernel, SizeValueType length, const std::vector<double> & positions);
+
+  /** For samples that are not evenly placed.
+   *
+   *  \param samples positions of the samples, increasing, at least one; in any unit
+   *  \param positions in the same unit */
+  SeparableTaps(SeparableKernel kernel, const std::vector<double> & samples, const std::vector<double> & positions);
 
   /** Taps of each position: 2, 10 or 8, or all samples of a shorter axis. */
   SizeValueType

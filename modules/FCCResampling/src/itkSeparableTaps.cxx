@@ -14,17 +14,22 @@ namespace itk
 namespace
 {
 
+constexpr std::size_t CubicTaps = 10;
+constexpr OffsetValueType CubicBefore = CubicTaps / 2 - 1;
+constexpr std::size_t Knots = 4; // of the cubic B-splines that reach a position
+
 /** Weights of the samples floor(position) - before ... of an axis without ends. */
 struct Kernel
 {
   OffsetValueType before;
-  std::vector<double> weights;
+  std::size_t count;
+  std::array<double, CubicTaps> weights{}; // more than count are 0
 };
 
 Kernel
 LinearKernel(double fraction)
 {
-  return { 0, { 1.0 - fraction, fraction } };
+  return { 0, 2, { 1.0 - fraction, fraction } };
 }
 
 /** Solves a small system of equations by Gauss-Jordan elimination, for several right-hand sides at once. */
@@ -63,10 +68,6 @@ Solve(std::array<std::array<double, VSize>, VSize> matrix, std::array<std::array
   }
   return sides;
 }
-
-constexpr std::size_t CubicTaps = 10;
-constexpr OffsetValueType CubicBefore = CubicTaps / 2 - 1;
-constexpr std::size_t Knots = 4; // of the cubic B-splines that reach a position
 
 /** [tap][knot]: how much of a sample the coefficient of a B-spline is, that is, the prefilter cut to the taps.
  *
@@ -139,7 +140,7 @@ CubicBSplineKernel(double fraction)
   const double spline[Knots] = {
     u * u * u / 6.0, 2.0 / 3.0 - t * t * (2.0 - t) / 2.0, 2.0 / 3.0 - u * u * (2.0 - u) / 2.0, t * t * t / 6.0
   };
-  Kernel kernel{ CubicBefore, std::vector<double>(CubicTaps) };
+  Kernel kernel{ CubicBefore, CubicTaps };
   for (std::size_t tap = 0; tap < CubicTaps; ++tap)
   {
     for (std::size_t knot = 0; knot < Knots; ++knot)
@@ -154,7 +155,7 @@ Kernel
 Lanczos4Kernel(double fraction)
 {
   constexpr std::size_t radius = 4;
-  Kernel kernel{ radius - 1, std::vector<double>(2 * radius) };
+  Kernel kernel{ radius - 1, 2 * radius };
   double sum = 0.0;
   for (std::size_t tap = 0; tap < 2 * radius; ++tap)
   {
@@ -185,6 +186,62 @@ MakeKernel(SeparableKernel kernel, double fraction)
   itkGenericExceptionMacro("There is no such SeparableKernel: " << static_cast<int>(kernel) << ".");
 }
 
+/** Whether the step from sample \a n to the next is so much longer than one beside it that a spline would overshoot. */
+bool
+IsAbrupt(const std::vector<double> & samples, std::size_t n)
+{
+  constexpr double ratio = 2.5;
+  const double step = samples[n + 1] - samples[n];
+  return (n > 0 && step > ratio * (samples[n] - samples[n - 1])) ||
+         (n + 2 < samples.size() && step > ratio * (samples[n + 2] - samples[n + 1]));
+}
+
+/** Weights, at a position between \a samples \a n and \a n + 1, of \a count samples from \a first on: the natural cubic
+ * spline through them.
+ *
+ * The spline is a f[n] + b f[n + 1] + c m[n] + d m[n + 1], where m are its second derivatives, which solve A m = R f
+ * with the tridiagonal matrices A and R. A is symmetric, so that c and d are turned into weights by solving A w = (c,
+ * d). */
+std::vector<double>
+NaturalSplineWeights(const std::vector<double> & samples,
+                     std::size_t first,
+                     std::size_t count,
+                     std::size_t n,
+                     double position)
+{
+  const double * const x = samples.data() + first;
+  const std::size_t left = n - first;
+  const double step = x[left + 1] - x[left];
+  const double b = (position - x[left]) / step;
+  const double a = 1.0 - b;
+  std::vector<double> weights(count);
+  weights[left] = a;
+  weights[left + 1] = b;
+
+  std::vector<double> sides(count);
+  sides[left] = (a * a * a - a) * step * step / 6.0;
+  sides[left + 1] = (b * b * b - b) * step * step / 6.0;
+  std::vector<double> pivots(count);
+  for (std::size_t k = 1; k + 1 < count; ++k)
+  {
+    const double before = x[k] - x[k - 1];
+    const double factor = k > 1 ? before / pivots[k - 1] : 0.0;
+    pivots[k] = 2.0 * (x[k + 1] - x[k - 1]) - factor * before;
+    sides[k] -= k > 1 ? factor * sides[k - 1] : 0.0;
+  }
+  double next = 0.0;
+  for (std::size_t k = count - 1; k-- > 1;)
+  {
+    const double before = x[k] - x[k - 1];
+    const double after = x[k + 1] - x[k];
+    next = (sides[k] - after * next) / pivots[k];
+    weights[k - 1] += 6.0 / before * next;
+    weights[k] -= (6.0 / before + 6.0 / after) * next;
+    weights[k + 1] += 6.0 / after * next;
+  }
+  return weights;
+}
+
 } // namespace
 
 std::ostream &
@@ -203,7 +260,7 @@ operator<<(std::ostream & os, SeparableKernel kernel)
 }
 
 SeparableTaps::SeparableTaps(SeparableKernel kernel, SizeValueType length, const std::vector<double> & positions)
-  : m_NumberOfTaps(std::min<SizeValueType>(length, MakeKernel(kernel, 0.0).weights.size()))
+  : m_NumberOfTaps(std::min<SizeValueType>(length, MakeKernel(kernel, 0.0).count))
   , m_First(positions.size())
   , m_Weights(positions.size() * m_NumberOfTaps)
 {
@@ -218,7 +275,7 @@ SeparableTaps::SeparableTaps(SeparableKernel kernel, SizeValueType length, const
     const auto first = std::clamp<OffsetValueType>(sample - weights.before, 0, last + 1 - taps);
 
     std::fill(sums.begin(), sums.end(), 0.0);
-    for (std::size_t tap = 0; tap < weights.weights.size(); ++tap)
+    for (std::size_t tap = 0; tap < weights.count; ++tap)
     {
       const auto source = sample - weights.before + static_cast<OffsetValueType>(tap);
       sums[static_cast<std::size_t>(MirroredSample(source, last + 1) - first)] += weights.weights[tap];
@@ -228,6 +285,37 @@ SeparableTaps::SeparableTaps(SeparableKernel kernel, SizeValueType length, const
                    sums.end(),
                    m_Weights.begin() + static_cast<std::ptrdiff_t>(n * m_NumberOfTaps),
                    [](double w) { return static_cast<float>(w); });
+  }
+}
+
+SeparableTaps::SeparableTaps(SeparableKernel kernel,
+                             const std::vector<double> & samples,
+                             const std::vector<double> & positions)
+  : m_NumberOfTaps(std::min<SizeValueType>(samples.size(), kernel == SeparableKernel::Linear ? 2 : CubicTaps))
+  , m_First(positions.size())
+  , m_Weights(positions.size() * m_NumberOfTaps)
+{
+  for (std::size_t n = 0; n < positions.size(); ++n)
+  {
+    float * const weights = m_Weights.data() + n * m_NumberOfTaps;
+    if (samples.size() == 1)
+    {
+      weights[0] = 1.0f;
+      continue;
+    }
+    const double position = std::clamp(positions[n], samples.front(), samples.back());
+    const auto upper = std::upper_bound(samples.begin() + 1, samples.end() - 1, position);
+    const auto sample = static_cast<OffsetValueType>(upper - samples.begin()) - 1;
+    const auto before = static_cast<OffsetValueType>(m_NumberOfTaps / 2) - 1;
+    const auto most = static_cast<OffsetValueType>(samples.size() - m_NumberOfTaps);
+    m_First[n] = static_cast<SizeValueType>(std::clamp<OffsetValueType>(sample - before, 0, most));
+
+    const auto left = static_cast<std::size_t>(sample);
+    const bool isLinear = IsAbrupt(samples, left);
+    const auto window =
+      NaturalSplineWeights(samples, isLinear ? left : m_First[n], isLinear ? 2 : m_NumberOfTaps, left, position);
+    const std::size_t start = isLinear ? left - m_First[n] : 0;
+    std::transform(window.begin(), window.end(), weights + start, [](double w) { return static_cast<float>(w); });
   }
 }
 
