@@ -1,3 +1,4 @@
+#include "rhombicBenchReading.h"
 #include "rhombicBenchSections.h"
 #include "rhombicFailure.h"
 #include "rhombicFieldSampling.h"
@@ -183,6 +184,10 @@ Run(const Options & options)
         results.insert(results.end(), more.begin(), more.end());
       }
     };
+    if (isWanted("reading") && !options.scan.empty())
+    {
+      results = MeasureReading(options.scan, settings);
+    }
     measure("extraction", MeasureExtraction);
     measure("resampling", MeasureResampling);
     measure("pipeline", MeasurePipeline);
@@ -233,7 +238,7 @@ main(int argc, char ** argv)
     ->capture_default_str();
   app.add_option("--what", options.what, "what to measure, separated by commas")
     ->delimiter(',')
-    ->check(CLI::IsMember({ "extraction", "resampling", "pipeline", "memory", "floor", "all" }))
+    ->check(CLI::IsMember({ "extraction", "resampling", "pipeline", "memory", "floor", "reading", "all" }))
     ->capture_default_str();
   app.add_option("--repeat", options.repeats, "pairs whose median is reported")
     ->check(CLI::Range(1, 1000))

@@ -33,7 +33,8 @@ public:
   VoxelBuffer &
   operator=(const VoxelBuffer &) = delete;
 
-  /** VoxelRequest::size bytes, aligned for any number, valid as long as this object. */
+  /** VoxelRequest::size bytes, aligned for any number, valid as long as this object, which must not outlive the
+   * decoder. */
   virtual const std::byte *
   GetData() const = 0;
 };

@@ -76,7 +76,8 @@ struct ServerReply
   int status = 0; ///< of the ended worker, as waitpid() has it
 };
 
-/** What the program asks a worker, beside the file's path; memory to write the voxels to comes with it. */
+/** What the program asks a worker, beside the file's path. Memory to write the voxels to comes with it, unless that of
+ * the last request is large enough. */
 struct WorkerRequest
 {
   VoxelRequest::Source source = VoxelRequest::Source::DicomFile;

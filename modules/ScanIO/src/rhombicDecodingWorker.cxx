@@ -2,6 +2,7 @@
 
 #include "rhombicDecodingMessages.h"
 #include "rhombicFailure.h"
+#include "rhombicSystemCallFilter.h"
 #include "rhombicVoxelDecoding.h"
 
 #include "itkObject.h"
@@ -12,8 +13,10 @@
 #include <fstream>
 #include <new>
 
+#include <malloc.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/time.h>
 #include <unistd.h>
 
@@ -72,22 +75,30 @@ LimitRequest(const WorkerRequest & request)
 class SharedVoxels
 {
 public:
-  SharedVoxels(int descriptor, std::size_t size)
-    : m_Size(size)
-    , m_Address(mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0))
+  SharedVoxels() = default;
+  ~SharedVoxels()
   {
+    this->Unmap();
+  }
+  SharedVoxels(const SharedVoxels &) = delete;
+  SharedVoxels &
+  operator=(const SharedVoxels &) = delete;
+
+  /** Throws std::bad_alloc. */
+  void
+  Map(int descriptor)
+  {
+    this->Unmap();
+    struct stat status
+    {};
+    fstat(descriptor, &status);
+    m_Size = static_cast<std::size_t>(status.st_size);
+    m_Address = mmap(nullptr, m_Size, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
     if (m_Address == MAP_FAILED)
     {
       throw std::bad_alloc();
     }
   }
-  ~SharedVoxels()
-  {
-    munmap(m_Address, m_Size);
-  }
-  SharedVoxels(const SharedVoxels &) = delete;
-  SharedVoxels &
-  operator=(const SharedVoxels &) = delete;
 
   std::byte *
   GetData()
@@ -96,8 +107,17 @@ public:
   }
 
 private:
-  std::size_t m_Size;
-  void * m_Address;
+  void
+  Unmap()
+  {
+    if (m_Address != MAP_FAILED)
+    {
+      munmap(m_Address, m_Size);
+    }
+  }
+
+  std::size_t m_Size = 0;
+  void * m_Address = MAP_FAILED;
 };
 
 /** What libraries print is then about damage: GDCM's errors, and what libjpeg thinks of a stream. */
@@ -127,9 +147,12 @@ TakeOutput(int output)
 
 /** Throws for codecs that only warn of damage: the voxels are then made up in part. */
 void
-Work(const ReceivedMessage<WorkerRequest> & request, int output)
+Work(const ReceivedMessage<WorkerRequest> & request, SharedVoxels & voxels, int output)
 {
-  SharedVoxels voxels(request.descriptor.Get(), request.message.size);
+  if (request.descriptor.Get() >= 0)
+  {
+    voxels.Map(request.descriptor.Get());
+  }
   DecodeVoxels({ request.message.source, request.text, request.message.size }, voxels.GetData());
   if (const std::string warning = TakeOutput(output); !warning.empty())
   {
@@ -137,6 +160,15 @@ Work(const ReceivedMessage<WorkerRequest> & request, int output)
                   "Cannot read " + request.text + ": its pixels are damaged, its decoder says (" + warning +
                     "); copy it again from its source.");
   }
+}
+
+/** Codecs take and give back the same large blocks for each file: no need to get them from the system anew. */
+void
+KeepFreedMemory()
+{
+  constexpr int largest = 64 << 20;
+  mallopt(M_MMAP_THRESHOLD, largest);
+  mallopt(M_TRIM_THRESHOLD, largest);
 }
 
 } // namespace
@@ -147,6 +179,9 @@ RunDecodingWorker(int socket)
   const FileDescriptor output(memfd_create("output", MFD_CLOEXEC));
   LimitFiles(output.Get());
   SilenceWarnings();
+  KeepFreedMemory();
+  ForbidThreadsProgramsAndSockets(); // OpenJPEG's threads would only be in the way of other workers
+  SharedVoxels voxels;
   while (const auto request = ReceiveMessage<WorkerRequest>(socket))
   {
     WorkerReply reply;
@@ -155,7 +190,7 @@ RunDecodingWorker(int socket)
     LimitRequest(request->message);
     try
     {
-      Work(*request, output.Get());
+      Work(*request, voxels, output.Get());
     }
     catch (const Failure & failure)
     {

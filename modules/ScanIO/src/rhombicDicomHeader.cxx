@@ -119,6 +119,50 @@ HasLongLength(const std::string & representation)
   return types.count(representation) != 0;
 }
 
+/** Reads a file a piece at a time: its own buffer would be thrown away by each step over an element. */
+class Pieces
+{
+public:
+  explicit Pieces(std::istream & file)
+    : m_File(file)
+  {}
+
+  /** False when the file ends before. */
+  bool
+  Read(std::uintmax_t position, char * bytes, std::size_t count)
+  {
+    constexpr std::size_t pieceSize = 1 << 15;
+    while (count > 0)
+    {
+      if (position < m_Begin || position >= m_Begin + m_Piece.size())
+      {
+        m_Piece.resize(pieceSize);
+        m_Begin = position;
+        m_File.clear();
+        m_File.seekg(static_cast<std::streamoff>(position));
+        m_File.read(m_Piece.data(), static_cast<std::streamsize>(m_Piece.size()));
+        m_Piece.resize(static_cast<std::size_t>(std::max<std::streamsize>(m_File.gcount(), 0)));
+        if (m_Piece.empty())
+        {
+          return false;
+        }
+      }
+      const auto offset = static_cast<std::size_t>(position - m_Begin);
+      const std::size_t available = std::min(count, m_Piece.size() - offset);
+      std::memcpy(bytes, m_Piece.data() + offset, available);
+      position += available;
+      bytes += available;
+      count -= available;
+    }
+    return true;
+  }
+
+private:
+  std::istream & m_File;
+  std::string m_Piece;
+  std::uintmax_t m_Begin = 0;
+};
+
 class Parser
 {
 public:
@@ -168,6 +212,13 @@ public:
     return transferSyntax;
   }
 
+  bool
+  HasBytes(std::uintmax_t position, const std::string & expected)
+  {
+    std::string bytes(expected.size(), '\0');
+    return m_File.Read(position, bytes.data(), bytes.size()) && bytes == expected;
+  }
+
   void
   MoveTo(std::uintmax_t position)
   {
@@ -175,11 +226,7 @@ public:
     {
       throw Damage{ "its header ends too early" };
     }
-    if (position != m_Position)
-    {
-      m_File.seekg(static_cast<std::streamoff>(position));
-      m_Position = position;
-    }
+    m_Position = position;
   }
 
   /** The bytes to come, without moving on; zero behind the end of the file. */
@@ -190,8 +237,7 @@ public:
     TNumber number{};
     if (m_Position + sizeof(number) <= m_Size)
     {
-      m_File.read(reinterpret_cast<char *>(&number), sizeof(number));
-      m_File.seekg(static_cast<std::streamoff>(m_Position));
+      m_File.Read(m_Position, reinterpret_cast<char *>(&number), sizeof(number));
     }
     return number;
   }
@@ -200,7 +246,7 @@ private:
   void
   Read(char * bytes, std::size_t count)
   {
-    if (count > m_Size - m_Position || !m_File.read(bytes, static_cast<std::streamsize>(count)))
+    if (count > m_Size - m_Position || !m_File.Read(m_Position, bytes, count))
     {
       throw Damage{ "its header ends too early" };
     }
@@ -396,7 +442,7 @@ private:
     throw Damage{ "its compressed pixels have no end" };
   }
 
-  std::istream & m_File;
+  Pieces m_File;
   std::uintmax_t m_Size;
   std::uintmax_t m_Position = 0;
 };
@@ -515,26 +561,21 @@ std::optional<DicomHeader>
 ParseDicomHeader(std::istream & file, std::uintmax_t fileSize)
 {
   constexpr std::uintmax_t preamble = 128;
+  const std::string magic = "DICM";
   const std::string bigEndian = "1.2.840.10008.1.2.2";
   const std::string deflated = "1.2.840.10008.1.2.1.99";
 
   DicomHeader header;
   header.fileSize = fileSize;
   Parser parser(file, fileSize);
-  char magic[4] = {};
-  if (fileSize >= preamble + sizeof(magic))
-  {
-    file.seekg(preamble).read(magic, sizeof(magic));
-    file.seekg(0);
-  }
-  const bool hasPreamble = std::memcmp(magic, "DICM", sizeof(magic)) == 0;
+  const bool hasPreamble = parser.HasBytes(preamble, magic);
   if (!hasPreamble && !LooksLikeDataSet(parser.Peek<std::uint64_t>()))
   {
     return {};
   }
   try
   {
-    parser.MoveTo(hasPreamble ? preamble + sizeof(magic) : 0);
+    parser.MoveTo(hasPreamble ? preamble + magic.size() : 0);
     header.transferSyntax = parser.ReadMetaInformation();
     if (header.transferSyntax != deflated)
     {

@@ -54,17 +54,19 @@ template <typename TRaw>
 class StoredValue
 {
 public:
+  using ValueType = std::conditional_t<sizeof(TRaw) < 4, std::int32_t, std::int64_t>;
+
   explicit StoredValue(const DicomPixelFormat & format)
-    : m_Left(static_cast<int>(8 * sizeof(std::int64_t)) - 1 - static_cast<int>(format.highBit))
-    , m_Right(static_cast<int>(8 * sizeof(std::int64_t)) - static_cast<int>(format.bitsStored))
+    : m_Left(static_cast<int>(8 * sizeof(ValueType)) - 1 - static_cast<int>(format.highBit))
+    , m_Right(static_cast<int>(8 * sizeof(ValueType)) - static_cast<int>(format.bitsStored))
     , m_IsSigned(format.isSigned)
   {}
 
-  std::int64_t
+  ValueType
   operator()(TRaw raw) const
   {
-    const std::uint64_t atTop = std::uint64_t{ raw } << m_Left;
-    return m_IsSigned ? static_cast<std::int64_t>(atTop) >> m_Right : static_cast<std::int64_t>(atTop >> m_Right);
+    const auto atTop = static_cast<std::make_unsigned_t<ValueType>>(raw) << m_Left;
+    return m_IsSigned ? static_cast<ValueType>(atTop) >> m_Right : static_cast<ValueType>(atTop >> m_Right);
   }
 
 private:
@@ -98,18 +100,28 @@ FindValues(const DicomSlice & slice, const TRaw * stored, std::size_t count)
 {
   const DicomPixelFormat & format = slice.file->format;
   const StoredValue<TRaw> valueOf(format);
-  std::int64_t lowest = std::numeric_limits<std::int64_t>::max();
-  std::int64_t highest = std::numeric_limits<std::int64_t>::lowest();
+  using ValueType = typename StoredValue<TRaw>::ValueType;
+  ValueType lowest = std::numeric_limits<ValueType>::max();
+  ValueType highest = std::numeric_limits<ValueType>::lowest();
+  const auto take = [&](TRaw raw) {
+    lowest = std::min(lowest, valueOf(raw));
+    highest = std::max(highest, valueOf(raw));
+  };
   SliceValues values;
-  for (std::size_t n = 0; n < count; ++n)
+  if (!format.padding)
   {
-    if (format.padding && IsPadding(stored[n], format))
+    std::for_each(stored, stored + count, take);
+  }
+  for (std::size_t n = 0; n < count && format.padding; ++n)
+  {
+    if (IsPadding(stored[n], format))
     {
       values.padding.push_back(static_cast<std::uint32_t>(n));
-      continue;
     }
-    lowest = std::min(lowest, valueOf(stored[n]));
-    highest = std::max(highest, valueOf(stored[n]));
+    else
+    {
+      take(stored[n]);
+    }
   }
   if (lowest <= highest)
   {
@@ -139,7 +151,18 @@ Rescale(const DicomSlice & slice, const TRaw * stored, TPixel * pixels)
   const StoredValue<TRaw> valueOf(format);
   const std::size_t count = static_cast<std::size_t>(format.columns) * format.rows;
   const SliceValues values = FindValues(slice, stored, count);
-  if (FitsInto<TPixel>(values) && values.padding.size() < count)
+  if (!FitsInto<TPixel>(values) || values.padding.size() == count)
+  {
+    return values;
+  }
+  if (std::is_integral_v<TPixel> && slice.slope == 1 && !format.padding)
+  {
+    // The intercept is a whole number too, or the pixels would be float.
+    const auto intercept = static_cast<typename StoredValue<TRaw>::ValueType>(slice.intercept);
+    std::transform(
+      stored, stored + count, pixels, [&](TRaw raw) { return static_cast<TPixel>(valueOf(raw) + intercept); });
+  }
+  else
   {
     const auto rescale = [&](TRaw raw) {
       const double value = slice.slope * static_cast<double>(valueOf(raw)) + slice.intercept;

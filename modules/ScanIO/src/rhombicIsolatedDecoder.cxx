@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
+#include <iostream>
 #include <mutex>
 #include <new>
 #include <thread>
@@ -23,13 +25,6 @@ namespace rhombic
 {
 namespace
 {
-
-/** A process that unpacks voxels, and the socket to it. */
-struct Worker
-{
-  pid_t pid = -1;
-  FileDescriptor socket;
-};
 
 /** Memory of a fixed size that another process can be given. */
 class SharedMemory
@@ -65,6 +60,12 @@ public:
     return m_Descriptor.Get();
   }
 
+  std::size_t
+  GetSize() const
+  {
+    return m_Size;
+  }
+
   const std::byte *
   GetData() const
   {
@@ -77,27 +78,12 @@ private:
   void * m_Address = nullptr;
 };
 
-class SharedBuffer : public VoxelBuffer
+/** A process that unpacks voxels, the socket to it, and where it puts the voxels. */
+struct Worker
 {
-public:
-  explicit SharedBuffer(std::size_t size)
-    : m_Memory(size)
-  {}
-
-  const std::byte *
-  GetData() const override
-  {
-    return m_Memory.GetData();
-  }
-
-  int
-  GetDescriptor() const
-  {
-    return m_Memory.GetDescriptor();
-  }
-
-private:
-  SharedMemory m_Memory;
+  pid_t pid = -1;
+  FileDescriptor socket;
+  std::unique_ptr<SharedMemory> memory;
 };
 
 /** How a worker ended that did not answer, as part of a sentence. */
@@ -139,6 +125,9 @@ public:
     {
       throw this->NoProcess();
     }
+    std::fflush(nullptr); // or the copies would print it again
+    std::cout.flush();
+    std::cerr.flush();
     m_Server = fork();
     if (m_Server == 0)
     {
@@ -168,14 +157,14 @@ public:
   std::unique_ptr<VoxelBuffer>
   Decode(const VoxelRequest & request)
   {
-    auto buffer = std::make_unique<SharedBuffer>(std::max<std::size_t>(request.size, 1));
     Worker worker = this->TakeWorker();
     WorkerRequest message;
     message.source = request.source;
     message.size = request.size;
     message.memory = m_Limits.memory + 5 * std::uint64_t{ request.size };
     message.seconds = m_Limits.seconds + request.size / (4u << 20);
-    if (!SendMessage(worker.socket.Get(), message, request.path.string(), buffer->GetDescriptor()))
+    const int newMemory = ProvideMemory(worker, request.size);
+    if (!SendMessage(worker.socket.Get(), message, request.path.string(), newMemory))
     {
       throw this->EndOf(std::move(worker), request, message);
     }
@@ -190,11 +179,48 @@ public:
       this->WaitForEnd(worker);
       throw this->FailureOf(*reply, request);
     }
-    this->GiveBack(std::move(worker));
-    return buffer;
+    return std::make_unique<WorkersBuffer>(*this, std::move(worker));
   }
 
 private:
+  /** Voxels in the memory of a worker, which is free for other work afterwards. */
+  class WorkersBuffer : public VoxelBuffer
+  {
+  public:
+    WorkersBuffer(Pool & pool, Worker worker)
+      : m_Pool(pool)
+      , m_Worker(std::move(worker))
+    {}
+
+    ~WorkersBuffer() override
+    {
+      m_Pool.GiveBack(std::move(m_Worker));
+    }
+
+    const std::byte *
+    GetData() const override
+    {
+      return m_Worker.memory->GetData();
+    }
+
+  private:
+    Pool & m_Pool;
+    Worker m_Worker;
+  };
+
+  /** Makes sure that a worker has so much memory for voxels; returns the descriptor of what is new, or -1. */
+  static int
+  ProvideMemory(Worker & worker, std::size_t size)
+  {
+    if (worker.memory && worker.memory->GetSize() >= size)
+    {
+      return -1;
+    }
+    worker.memory.reset();
+    worker.memory = std::make_unique<SharedMemory>(std::max<std::size_t>(size, 1));
+    return worker.memory->GetDescriptor();
+  }
+
   static Failure
   NoProcess()
   {
@@ -232,6 +258,12 @@ private:
   void
   GiveBack(Worker worker)
   {
+    constexpr std::size_t largestToKeep = 64 << 20;
+    if (worker.memory->GetSize() > largestToKeep)
+    {
+      this->End(std::move(worker));
+      return;
+    }
     const std::lock_guard<std::mutex> lock(m_Mutex);
     m_Idle.push_back(std::move(worker));
   }
@@ -249,6 +281,13 @@ private:
       ready = poll(&waiting, 1, milliseconds);
     } while (ready < 0 && errno == EINTR);
     return ready > 0;
+  }
+
+  void
+  End(Worker worker)
+  {
+    worker.socket.Close();
+    this->WaitForEnd(worker);
   }
 
   int

@@ -1,0 +1,14 @@
+#ifndef rhombicSystemCallFilter_h
+#define rhombicSystemCallFilter_h
+
+namespace rhombic
+{
+
+/** From now on this process can start no threads, processes or programs, and open no sockets: these calls fail with
+ * EPERM. Without effect on kernels that can't do it, and on processors other than x86-64 and ARM64. Can't be undone. */
+void
+ForbidThreadsProgramsAndSockets();
+
+} // namespace rhombic
+
+#endif

@@ -1,0 +1,73 @@
+#include "rhombicBenchReading.h"
+
+#include "rhombicFailure.h"
+#include "rhombicIsolatedDecoder.h"
+#include "rhombicScanReader.h"
+
+#include "itkGDCMImageIO.h"
+#include "itkGDCMSeriesFileNames.h"
+#include "itkImageSeriesReader.h"
+
+#include <cstring>
+#include <filesystem>
+
+namespace rhombic
+{
+namespace
+{
+
+using VolumeType = itk::Image<std::int16_t, 3>;
+
+VolumeType::Pointer
+ReadWithITK(const std::vector<std::string> & names)
+{
+  const auto reader = itk::ImageSeriesReader<VolumeType>::New();
+  reader->SetImageIO(itk::GDCMImageIO::New());
+  reader->SetFileNames(names);
+  reader->Update();
+  return reader->GetOutput();
+}
+
+bool
+AreSame(const VolumeType & first, const ScanImage & other)
+{
+  const auto * const second = std::get_if<VolumeType::Pointer>(&other);
+  const auto & region = first.GetBufferedRegion();
+  return second != nullptr && (*second)->GetBufferedRegion() == region &&
+         std::memcmp(first.GetBufferPointer(),
+                     (*second)->GetBufferPointer(),
+                     region.GetNumberOfPixels() * sizeof(std::int16_t)) == 0;
+}
+
+} // namespace
+
+std::vector<BenchResult>
+MeasureReading(const std::string & path, const BenchSettings & settings)
+{
+  if (!std::filesystem::is_directory(path))
+  {
+    return {};
+  }
+  const auto search = itk::GDCMSeriesFileNames::New();
+  search->SetInputDirectory(path);
+  const std::vector<std::string> names = search->GetInputFileNames();
+
+  IsolatedDecoder decoder(settings.threads);
+  ScanReadOptions options;
+  options.decoder = &decoder;
+  if (!AreSame(*ReadWithITK(names), ReadScan(path, options).image))
+  {
+    throw Failure(FailureKind::Internal, "Two readers of " + path + " do not agree; the times mean nothing.");
+  }
+  BenchResult result;
+  result.section = "reading";
+  result.candidate = "ReadScan";
+  result.reference = "itk::ImageSeriesReader";
+  result.threads = settings.threads;
+  result.times = TimePairs(
+    settings.repeats, [&] { return ReadWithITK(names); }, [&] { return ReadScan(path, options).image; });
+  result.target = settings.threads > 1 ? std::optional<double>(1.5) : std::nullopt;
+  return { result };
+}
+
+} // namespace rhombic
