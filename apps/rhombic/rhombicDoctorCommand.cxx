@@ -1,5 +1,6 @@
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
+#include "rhombicMemoryBudget.h"
 #include "rhombicPictureIO.h"
 #include "rhombicSurfaceRenderer.h"
 
@@ -10,32 +11,12 @@
 #include <OpenImageIO/imageio.h>
 #include <vtkVersion.h>
 
-#include <fstream>
 #include <iostream>
 
 namespace rhombic
 {
 namespace
 {
-
-/** The kernel's estimate of what can be used without swapping, in MiB; 0 when it says nothing. */
-std::size_t
-AvailableMemory()
-{
-  std::ifstream stream("/proc/meminfo");
-  std::string name;
-  std::size_t kibibytes = 0;
-  std::string unit;
-  while (stream >> name >> kibibytes)
-  {
-    if (name == "MemAvailable:")
-    {
-      return kibibytes / 1024;
-    }
-    std::getline(stream, unit);
-  }
-  return 0;
-}
 
 /** Draws one triangle: the whole way from a surface to a picture. */
 std::string
@@ -57,7 +38,7 @@ Doctor()
 {
   std::cout << VersionText();
   std::cout << "threads      " << itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads() << '\n';
-  std::cout << "memory       " << AvailableMemory() << " MiB available\n";
+  std::cout << "memory       " << DescribeBytes(FreeMemory()) << " free\n";
   std::cout << "built for    DICOM folders (uncompressed, JPEG, JPEG-LS, JPEG 2000, RLE), NIfTI-1, NRRD, MetaImage\n";
   for (const BackendProbe & probe : SurfaceRenderer::ProbeBackends())
   {

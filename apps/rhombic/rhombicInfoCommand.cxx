@@ -1,4 +1,5 @@
 #include "rhombicCommands.h"
+#include "rhombicLabelPipeline.h"
 #include "rhombicScanOptions.h"
 #include "rhombicScanReport.h"
 
@@ -13,6 +14,8 @@ namespace
 struct InfoOptions
 {
   ScanOptions scan;
+  std::string labels;
+  std::string labelTable;
   bool isJson = false;
 };
 
@@ -88,6 +91,17 @@ PrintSeries(const Report & report)
 }
 
 void
+PrintLabels(const Report & labels)
+{
+  for (const Report & label : labels)
+  {
+    PrintLine("label " + label["value"].dump(),
+              ToText(label["name"]) + ", " + ToText(label["colour"]) + ", " + label["voxels"].dump() + " voxels, " +
+                ToText(label["millilitres"]) + " ml");
+  }
+}
+
+void
 Print(const Report & report)
 {
   const auto text = [&report](const char * key) { return report.contains(key) ? ToText(report[key]) : ""; };
@@ -117,10 +131,11 @@ Print(const Report & report)
   {
     PrintLine("padding", report["padding"]["samples"].dump() + " samples of " + ToText(report["padding"]["value"]));
   }
-  for (const Report & suggestion : report["suggestedThresholds"])
+  for (const Report & suggestion : report.value("suggestedThresholds", Report::array()))
   {
     PrintLine("threshold", ToText(suggestion["isovalue"]) + "  " + ToText(suggestion["surface"]));
   }
+  PrintLabels(report.value("labels", Report::array()));
   if (report.contains("series"))
   {
     PrintSeries(report);
@@ -141,6 +156,36 @@ Print(const Report & report)
   }
 }
 
+/** The choices among the scan's parts are not those among its label map's. */
+ScanReadOptions
+OptionsOfLabels(ScanReadOptions options)
+{
+  options.series.clear();
+  options.frame.reset();
+  return options;
+}
+
+/** The labels of the scan if it is a label map, and those of the label map that was named for it. */
+void
+AddLabels(const Scan & scan, const ScanSource & source, const InfoOptions & options, Report & report)
+{
+  if (!options.labels.empty())
+  {
+    const LabelMap map =
+      ReadLabelMap({ options.labels, options.labelTable }, OptionsOfLabels(source.read), scan, source.path);
+    report["labels"] = ReportLabels(map.labels);
+    for (const std::string & note : map.scan.notes)
+    {
+      report["notes"].push_back(note);
+    }
+  }
+  else if (!options.labelTable.empty() || !scan.labels.empty() || LooksLikeLabelMap(scan))
+  {
+    report["labels"] = ReportLabels(FindLabels(scan, { source.path, options.labelTable }));
+    report.erase("suggestedThresholds");
+  }
+}
+
 void
 Info(const InfoOptions & options, const CommandContext & context)
 {
@@ -157,6 +202,11 @@ Info(const InfoOptions & options, const CommandContext & context)
     const Scan scan = ReadScan(source.path, source.read);
     report = ReportScan(scan);
     report.update(ReportIntensities(scan));
+    AddLabels(scan, source, options, report);
+    for (const std::string & note : scan.fileNotes)
+    {
+      report["notes"].push_back(note);
+    }
   }
   if (options.isJson)
   {
@@ -175,6 +225,10 @@ AddInfoCommand(CLI::App & parser)
 {
   const auto options = std::make_shared<InfoOptions>();
   options->scan.AddSource(parser);
+  parser.add_option("--labels", options->labels, "a label map of the scan: NIfTI, NRRD, MetaImage or DICOM SEG");
+  parser.add_option("--label-table",
+                    options->labelTable,
+                    "names and colours of labels (ITK-SNAP, Slicer, FreeSurfer, BIDS; default: in or beside the map)");
   parser.add_flag("--json", options->isJson, "as JSON, on standard output");
   return [options](const CommandContext & context) { Info(*options, context); };
 }

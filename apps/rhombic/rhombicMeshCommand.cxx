@@ -32,6 +32,7 @@ Mesh(const MeshOptions & options, const CommandContext & context)
   }
   settings.mode = options.scan.GetMode();
   settings.mesh = options.mesh;
+  settings.provenance = options.scan.GetProvenance(context);
   MeshScan(settings, context.console->MakeEvents());
   context.console->Note("mesh: " + settings.mesh.string());
 }
@@ -49,6 +50,7 @@ AddMeshCommand(CLI::App & parser)
   parser.add_option("-o,--output", options->mesh, "the mesh: .stl, .ply or .vtp, in LPS mm");
   options->scan.AddExtraction(parser);
   options->scan.AddLattice(parser);
+  options->scan.AddSidecar(parser);
   return [options](const CommandContext & context) { Mesh(*options, context); };
 }
 

@@ -124,9 +124,7 @@ Render(const RenderOptions & options, const CommandContext & context)
   }
   settings.render.perspective = options.isPerspective;
   settings.render.orientationLabels = !options.hasNoLetters;
-  settings.metadata = { "Rhombic " RHOMBIC_VERSION,
-                        DescribeCommandLine(
-                          context.arguments, settings.source.path.string(), settings.source.read.series) };
+  settings.provenance = options.scan.GetProvenance(context);
   for (const auto & picture : RenderScan(settings, context.console->MakeEvents()))
   {
     context.console->Note("picture: " + picture.string());
@@ -160,6 +158,7 @@ AddRenderCommand(CLI::App & parser)
   parser.add_flag("--list-presets", options->listsPresets, "list the presets and stop");
   options->scan.AddExtraction(parser);
   options->scan.AddLattice(parser);
+  options->scan.AddSidecar(parser);
   return [options](const CommandContext & context) { Render(*options, context); };
 }
 

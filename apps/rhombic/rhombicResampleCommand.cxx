@@ -23,6 +23,7 @@ Resample(const ResampleOptions & options, const CommandContext & context)
     throw Failure(FailureKind::Usage, "No output is named; give one with -o, for example -o scan.fcc.nrrd.");
   }
   settings.volume = options.volume;
+  settings.provenance = options.scan.GetProvenance(context);
   ResampleScan(settings, context.console->MakeEvents());
   context.console->Note("volume: " + settings.volume.string());
 }
@@ -38,6 +39,7 @@ AddResampleCommand(CLI::App & parser)
                     options->volume,
                     "the lattice volume (.nrrd); when SCAN is one, the Cartesian volume (.nrrd, .nii, .nii.gz, .mha)");
   options->scan.AddLattice(parser);
+  options->scan.AddSidecar(parser);
   return [options](const CommandContext & context) { Resample(*options, context); };
 }
 

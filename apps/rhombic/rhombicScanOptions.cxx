@@ -131,6 +131,18 @@ ScanOptions::AddLattice(CLI::App & parser)
 }
 
 void
+ScanOptions::AddSidecar(CLI::App & parser)
+{
+  parser.add_flag("--no-sidecar", m_HasNoSidecar, "do not write the report beside each output (OUTPUT.json)");
+}
+
+Provenance
+ScanOptions::GetProvenance(const CommandContext & context) const
+{
+  return { "Rhombic " RHOMBIC_VERSION, DescribeCommandLine(context.arguments, m_Path, m_Series), !m_HasNoSidecar };
+}
+
+void
 ScanOptions::AddExtraction(CLI::App & parser)
 {
   parser
@@ -189,6 +201,7 @@ ScanOptions::GetSource(const CommandContext & context) const
   source.lattice.spacing = ParseSpacing(m_Spacing);
   source.lattice.kernel = kernel->second;
   source.lattice.nested = m_Nested;
+  source.lattice.maximumMemory = source.read.maximumMemory;
   return source;
 }
 

@@ -30,6 +30,14 @@ public:
   void
   AddExtraction(CLI::App & parser);
 
+  /** Whether reports are written beside outputs. */
+  void
+  AddSidecar(CLI::App & parser);
+
+  /** For the outputs of a command on the source. */
+  Provenance
+  GetProvenance(const CommandContext & context) const;
+
   /** What was parsed, to be read with the program's decoder. Throws Failure(Usage). */
   ScanSource
   GetSource(const CommandContext & context) const;
@@ -47,6 +55,7 @@ private:
   std::optional<std::size_t> m_Frame;
   bool m_AcceptsAnalyze = false;
   bool m_FollowsLinks = false;
+  bool m_HasNoSidecar = false;
   double m_Density = itk::FCCLattice::NyquistDensity;
   std::string m_Spacing;
   std::string m_Kernel = "cubic";

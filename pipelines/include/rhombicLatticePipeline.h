@@ -11,6 +11,7 @@
 #include "itkSeparableTaps.h"
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace rhombic
@@ -22,7 +23,8 @@ struct LatticeSettings
   double density = itk::FCCLattice::NyquistDensity; ///< lattice sites per sample of the scan
   std::array<double, 3> spacing{ 0.0, 0.0, 0.0 };   ///< of the lattice in mm (see itk::FCCImage); 0: from the density
   itk::SeparableKernel kernel = itk::SeparableKernel::CubicBSpline;
-  bool nested = false; ///< instead: every other sample of the scan, without interpolation; density 0.5
+  std::uintmax_t maximumMemory = 0; ///< for scan and lattice, in bytes; 0: the lattice takes half of what is free
+  bool nested = false;              ///< instead: every other sample of the scan, without interpolation; density 0.5
 };
 
 /** Throws Failure(Usage) for settings that make no lattice of any scan. */
@@ -31,7 +33,8 @@ CheckLatticeSettings(const LatticeSettings & settings);
 
 /** The scan on the lattice, in its own pixel type (itk::CartesianToFCCImageFilter, or
  * itk::CartesianToNestedFCCImageFilter). Where its slices are tilted, sheared or unevenly spaced, what is beside them
- * gets its lowest value. Throws Failure: Usage for settings that make no lattice, or none of such a scan, Memory. */
+ * gets its lowest value. Throws Failure: Usage for settings that make no lattice, or none of such a scan; Memory,
+ * before any work, for a lattice that is too large. */
 FCCVolume
 ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events & events);
 

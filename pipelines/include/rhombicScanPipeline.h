@@ -6,6 +6,7 @@
 #include "rhombicLatticePipeline.h"
 #include "rhombicPictureIO.h"
 #include "rhombicScanReader.h"
+#include "rhombicSidecar.h"
 #include "rhombicSurfaceRequest.h"
 
 #include <filesystem>
@@ -31,10 +32,10 @@ struct RenderScanSettings
   RenderSettings render; ///< its view is set from the list below
   std::vector<View> views{ View::Anterior };
   std::filesystem::path picture; ///< with more than one view, the view's name is added to the stem
-  PictureMetadata metadata;
+  Provenance provenance;
 };
 
-/** Renders a scan; returns the pictures' paths. Throws Failure. */
+/** Renders a scan; returns the pictures' paths. Like the others, writes a sidecar for each output. Throws Failure. */
 std::vector<std::filesystem::path>
 RenderScan(const RenderScanSettings & settings, const Events & events);
 
@@ -45,6 +46,7 @@ struct MeshScanSettings
   SurfaceRequest surface;
   itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
   std::filesystem::path mesh; ///< .stl, .ply or .vtp
+  Provenance provenance;
 };
 
 /** Writes the surface of a scan. Throws Failure. */
@@ -56,6 +58,7 @@ struct ResampleScanSettings
 {
   ScanSource source;
   std::filesystem::path volume; ///< .nrrd for a lattice volume; .nrrd, .nii, .nii.gz, .mha for a Cartesian one
+  Provenance provenance;
 };
 
 /** Resamples a scan onto the lattice, or, when the source is a lattice volume, back; the source's lattice spacing is

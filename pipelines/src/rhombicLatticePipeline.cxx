@@ -3,6 +3,7 @@
 #include "rhombicEnclosedParts.h"
 #include "rhombicFailure.h"
 #include "rhombicIntensities.h"
+#include "rhombicMemoryBudget.h"
 #include "rhombicObserveProgress.h"
 
 #include "itkCartesianToFCCImageFilter.h"
@@ -13,12 +14,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 namespace rhombic
 {
 namespace
 {
+
+/** Refuses a lattice that would not fit, naming a density that would. */
+template <typename TPixel>
+void
+RequireLatticeMemory(const itk::FCCImage<TPixel> & lattice, const Scan & scan, const LatticeSettings & settings)
+{
+  const std::uintmax_t bytes = lattice.GetLargestPossibleRegion().GetNumberOfPixels() * sizeof(TPixel);
+  const bool isGiven = settings.maximumMemory > 0;
+  const std::uintmax_t scanBytes =
+    isGiven ? GeometryOf(scan.image).GetLargestPossibleRegion().GetNumberOfPixels() * sizeof(TPixel) : 0;
+  const std::uintmax_t allowed = MemoryAllowance(settings.maximumMemory);
+  const double fitting = allowed > scanBytes ? 0.95 * settings.density * static_cast<double>(allowed - scanBytes) /
+                                                 static_cast<double>(bytes)
+                                             : 0.0;
+  std::ostringstream advice;
+  advice.imbue(std::locale::classic());
+  advice << std::setprecision(2) << "use a coarser lattice with --density " << fitting;
+  RequireMemory(
+    bytes + scanBytes, settings.maximumMemory, "The lattice", fitting >= 0.001 ? advice.str() : "crop the scan");
+}
 
 /** What the extents of an FCC image come to, in a few words. */
 template <typename TPixel>
@@ -164,6 +186,7 @@ ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events 
         ObserveProgress(filter, "resampling", events);
         filter.SetInput(input);
         CheckSize(filter);
+        RequireLatticeMemory(*filter.GetOutput(), scan, settings);
         filter.Update();
         const auto output = TakeOutput(filter);
         events.Note("lattice: " + Describe(*output));

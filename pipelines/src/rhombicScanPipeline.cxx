@@ -31,7 +31,9 @@ Scan
 LoadScan(const ScanSource & source, const Events & events)
 {
   events.Progress("reading", 0.0);
-  Scan scan = ReadScan(source.path, source.read);
+  ScanReadOptions options = source.read;
+  options.progress = [&events](double fraction) { events.Progress("reading", fraction); };
+  Scan scan = ReadScan(source.path, options);
   const auto & geometry = GeometryOf(scan.image);
   const auto & size = geometry.GetLargestPossibleRegion().GetSize();
   const auto & spacing = geometry.GetSpacing();
@@ -41,19 +43,63 @@ LoadScan(const ScanSource & source, const Events & events)
        << " x " << size[2] << " samples, spacing " << spacing[0] << " x " << spacing[1] << " x " << spacing[2]
        << " mm, " << PixelTypeName(scan.image);
   events.Note(text.str());
-  for (const std::string & note : scan.notes)
+  for (const auto * const notes : { &scan.notes, &scan.fileNotes })
   {
-    events.Note(note);
+    for (const std::string & note : *notes)
+    {
+      events.Note(note);
+    }
   }
   return scan;
 }
 
-/** The surfaces of a source, and whether it is known how they lie in the patient. */
+/** A scan's report for outputs: the names of its path and file may be the patient's. */
+Report
+ReportWithoutNames(const Scan & scan, const fs::path & path)
+{
+  Report report = ReportScan(scan);
+  for (Report & note : report["notes"])
+  {
+    auto text = note.get<std::string>();
+    for (const std::string & name : { path.string(), path.filename().string(), path.stem().string() })
+    {
+      for (std::size_t at = text.find(name); !name.empty() && at != std::string::npos; at = text.find(name, at + 4))
+      {
+        text.replace(at, name.size(), "SCAN");
+      }
+    }
+    note = text;
+  }
+  return report;
+}
+
+/** What came out of a source, and what is known about it. */
 struct LoadedSurfaces
 {
   std::vector<SceneSurface> surfaces;
-  bool isOriented = true;
+  bool isOriented = true; ///< whether it is known how they lie in the patient
+  Report report;
 };
+
+Report
+ReportSurfaces(const std::vector<SurfaceRequest> & requests,
+               const std::vector<SceneSurface> & surfaces,
+               itk::FCCIsosurfaceMode mode)
+{
+  Report report = Report::array();
+  for (std::size_t n = 0; n < requests.size(); ++n)
+  {
+    std::ostringstream modeName;
+    modeName << mode;
+    report.push_back({ { "name", requests[n].name },
+                       { "isovalue", requests[n].isovalue.value() },
+                       { "inside", requests[n].side == SurfaceRequest::Side::Above ? "above" : "below" },
+                       { "mode", modeName.str() },
+                       { "points", surfaces[n].surface->GetNumberOfPoints() },
+                       { "triangles", surfaces[n].surface->GetNumberOfTriangles() } });
+  }
+  return report;
+}
 
 LoadedSurfaces
 LoadSurfaces(const ScanSource & source,
@@ -61,18 +107,28 @@ LoadSurfaces(const ScanSource & source,
              itk::FCCIsosurfaceMode mode,
              const Events & events)
 {
+  LoadedSurfaces loaded;
+  FCCVolume volume;
+  std::vector<SurfaceRequest> resolved;
   if (IsFCCImageFile(source.path))
   {
     events.Progress("reading", 0.0);
-    const FCCVolume volume = ReadFCCImage(source.path);
-    return { LatticeToSurfaces(volume, ResolveIsovalues(requests, ComputeIntensities(volume)), mode, events) };
+    volume = ReadFCCImage(source.path);
+    resolved = ResolveIsovalues(requests, ComputeIntensities(volume));
   }
-  CheckLatticeSettings(source.lattice);
-  Scan scan = LoadScan(source, events);
-  const auto resolved = ResolveIsovalues(requests, ComputeIntensities(scan.image));
-  const FCCVolume volume = ScanToLattice(scan, source.lattice, events);
-  scan.image = {}; // its memory is needed for the surfaces
-  return { LatticeToSurfaces(volume, resolved, mode, events), scan.isOriented };
+  else
+  {
+    CheckLatticeSettings(source.lattice);
+    const Scan scan = LoadScan(source, events); // its memory is needed for the surfaces
+    resolved = ResolveIsovalues(requests, ComputeIntensities(scan.image));
+    volume = ScanToLattice(scan, source.lattice, events);
+    loaded.report["scan"] = ReportWithoutNames(scan, source.path);
+    loaded.isOriented = scan.isOriented;
+  }
+  loaded.surfaces = LatticeToSurfaces(volume, resolved, mode, events);
+  loaded.report["lattice"] = ReportLattice(volume);
+  loaded.report["surfaces"] = ReportSurfaces(resolved, loaded.surfaces, mode);
+  return loaded;
 }
 
 fs::path
@@ -133,7 +189,9 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
     RenderSettings render = settings.render;
     render.view = settings.views[n];
     render.orientationLabels = render.orientationLabels && loaded.isOriented;
-    WritePicture(renderer.Render(loaded.surfaces, render), pictures[n], settings.metadata);
+    const PictureMetadata metadata{ settings.provenance.software, settings.provenance.command };
+    WritePicture(renderer.Render(loaded.surfaces, render), pictures[n], metadata);
+    WriteSidecar(pictures[n], settings.provenance, loaded.report);
   }
   events.Progress("rendering", 1.0);
   return pictures;
@@ -147,6 +205,7 @@ MeshScan(const MeshScanSettings & settings, const Events & events)
   const LoadedSurfaces loaded = LoadSurfaces(settings.source, { settings.surface }, settings.mode, events);
   events.Progress("writing", 0.0);
   WriteSurface(*loaded.surfaces.front().surface, settings.mesh);
+  WriteSidecar(settings.mesh, settings.provenance, loaded.report);
   events.Progress("writing", 1.0);
 }
 
@@ -157,9 +216,11 @@ ResampleScan(const ResampleScanSettings & settings, const Events & events)
   if (IsFCCImageFile(settings.source.path))
   {
     CheckScanPath(settings.volume);
-    const ScanImage image = LatticeToScan(ReadFCCImage(settings.source.path), settings.source.lattice.spacing, events);
+    const FCCVolume volume = ReadFCCImage(settings.source.path);
+    const ScanImage image = LatticeToScan(volume, settings.source.lattice.spacing, events);
     events.Progress("writing", 0.0);
     WriteScan(image, settings.volume);
+    WriteSidecar(settings.volume, settings.provenance, { { "lattice", ReportLattice(volume) } });
   }
   else
   {
@@ -168,9 +229,13 @@ ResampleScan(const ResampleScanSettings & settings, const Events & events)
       throw Failure(FailureKind::Usage,
                     "A lattice volume is a NRRD file; give " + settings.volume.string() + " the extension .nrrd.");
     }
-    const FCCVolume volume = ScanToLattice(LoadScan(settings.source, events), settings.source.lattice, events);
+    const Scan scan = LoadScan(settings.source, events);
+    const FCCVolume volume = ScanToLattice(scan, settings.source.lattice, events);
     events.Progress("writing", 0.0);
     WriteFCCImage(volume, settings.volume);
+    WriteSidecar(settings.volume,
+                 settings.provenance,
+                 { { "scan", ReportWithoutNames(scan, settings.source.path) }, { "lattice", ReportLattice(volume) } });
   }
   events.Progress("writing", 1.0);
 }

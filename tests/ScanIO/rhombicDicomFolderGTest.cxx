@@ -220,7 +220,7 @@ TEST_F(DicomFolder, MissingSliceIsRefused)
 {
   WriteStack(m_Folder, 6);
   fs::remove(m_Folder / "image2.dcm"); // k = 3
-  EXPECT_EQ(KindOfReading(m_Folder, "1 slice is missing at 7.5 mm, between image6.dcm and image5.dcm"),
+  EXPECT_EQ(KindOfReading(m_Folder, "1 slice is missing at 7.5 mm, the first between image6.dcm and image5.dcm"),
             FailureKind::Geometry);
 }
 
@@ -249,7 +249,7 @@ TEST_F(DicomFolder, DamagedSliceIsAGap)
   options.onGap = rhombic::ScanReadOptions::Policy::Accept;
   const auto scan = ReadScan(m_Folder, options);
   EXPECT_EQ(scan.sliceOrigins.size(), 5u);
-  EXPECT_NE(scan.notes.at(0).find("image2.dcm"), std::string::npos) << scan.notes[0];
+  EXPECT_NE(scan.fileNotes.at(0).find("image2.dcm"), std::string::npos) << scan.fileNotes[0];
 }
 
 TEST_F(DicomFolder, DoubledSliceIsRefused)
@@ -470,8 +470,8 @@ TEST_F(DicomFolder, DamagedFilesBesideAGoodSeriesAreSkipped)
   EXPECT_EQ(rhombic::GeometryOf(scan.image).GetLargestPossibleRegion().GetSize()[2], Slices);
   ASSERT_EQ(scan.notes.size(), 1u);
   EXPECT_NE(scan.notes[0].find("Slices may be missing"), std::string::npos) << scan.notes[0];
-  EXPECT_NE(scan.notes[0].find("odd.dcm"), std::string::npos) << scan.notes[0];
-  EXPECT_EQ(scan.notes[0].find("empty.dcm"), std::string::npos) << scan.notes[0];
+  EXPECT_NE(scan.fileNotes.at(0).find("odd.dcm"), std::string::npos) << scan.fileNotes[0];
+  EXPECT_EQ(scan.fileNotes.at(0).find("empty.dcm"), std::string::npos) << scan.fileNotes[0];
 }
 
 TEST_F(DicomFolder, SingleFilesAreNoVolumes)

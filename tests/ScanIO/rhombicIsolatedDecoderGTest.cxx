@@ -218,7 +218,7 @@ TEST_F(IsolatedDecoding, FolderNamesTheFileThatCrashes)
   const auto scan = rhombic::ReadScan(m_Folder, options);
   EXPECT_EQ(scan.sliceOrigins.size(), 4u);
   EXPECT_EQ(ImageOf<std::int16_t>(scan).GetPixel({ { 0, 0, 2 } }), 303 - 1024);
-  EXPECT_NE(scan.notes.at(0).find("slice2"), std::string::npos) << scan.notes[0];
+  EXPECT_NE(scan.fileNotes.at(0).find("slice2"), std::string::npos) << scan.fileNotes[0];
 }
 
 TEST_F(IsolatedDecoding, RefusesDamagedRunLengths)

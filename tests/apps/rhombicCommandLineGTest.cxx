@@ -103,6 +103,13 @@ constexpr ErrorCase errorCases[] = {
   { "PresetWithoutIsovalue", "render scan.nii.gz --preset bare.yaml -o a.png", 4, "isovalue" },
   { "OutputClosed", "info scan.nii.gz >/dev/full", 7, "standard output" },
   { "NegativeSpacing", "render scan.nii.gz --preset ct-bone --spacing=-1 -o a.png", 2, "spacing" },
+  { "BadOnGap", "info dicom --on-gap=guess", 2, "interpolate or error" },
+  { "BadOnIrregular", "info dicom --on-irregular=bend", 2, "resample or error" },
+  { "BadMemory", "info dicom --max-memory much", 2, "8G" },
+  { "ScanBeyondTheMemoryAllowed", "info dicom --max-memory 1K", 9, "--max-memory 1G" },
+  { "LatticeBeyondTheMemoryAllowed", "mesh scan.nii.gz -t 250.5 --max-memory 400K -o a.stl", 9, "--density 0." },
+  { "LabelsThatAreNone", "info dicom --labels scan.nii.gz", 4, "label" },
+  { "LabelTableThatIsNone", "info scan.nii.gz --label-table text.dcm", 4, "text.dcm" },
   { "BadSeries", "render dicom --series 7 --preset ct-bone -o a.png", 2, "7" },
   { "ThresholdAboveTheRange", "render scan.nii.gz --surface bone=9000.5 -o a.png", 6, "run from -1000 to" },
   { "ThresholdBelowTheRange", "mesh scan.nii.gz -t -9000 -o a.stl", 6, "run from -1000 to" },
@@ -198,7 +205,7 @@ TEST(CommandLine, InfoKnowsThePhantom)
   const TemporaryFolder folder;
   const Outcome text = Rhombic("info " + phantomDicom, folder.Path());
   EXPECT_EQ(text.exitCode, 0) << text.errors;
-  for (const char * word : { "DICOM", "CT", "int16", "LPS", "250.5", "chosen" })
+  for (const char * word : { "DICOM", "CT", "int16", "LPS", "250.5", "only series" })
   {
     EXPECT_NE(text.output.find(word), std::string::npos) << word << text.output;
   }
@@ -370,10 +377,44 @@ TEST(CommandLine, SeveralViewsGetTheirNames)
 {
   const TemporaryFolder folder;
   ASSERT_EQ(
-    Rhombic("render " + phantomNifti + " --preset ct-bone --view all --size 64 -o p.jpg", folder.Path()).exitCode, 0);
+    Rhombic("render " + phantomNifti + " --preset ct-bone --view all --size 64 --no-sidecar -o p.jpg", folder.Path())
+      .exitCode,
+    0);
   EXPECT_EQ(FilesIn(folder.Path()),
             (std::set<std::string>{
               "p-anterior.jpg", "p-posterior.jpg", "p-left.jpg", "p-right.jpg", "p-superior.jpg", "p-inferior.jpg" }));
+}
+
+TEST(CommandLine, SidecarsTellWhatWasReadAndDone)
+{
+  const TemporaryFolder folder;
+  fs::create_directory(folder.Path() / "DOE_JOHN");
+  fs::copy(phantomNifti, folder.Path() / "DOE_JOHN" / "doe_john_1970.nii.gz");
+  ASSERT_EQ(Rhombic("mesh DOE_JOHN/doe_john_1970.nii.gz -t 375.5 --mode fine -o bone.stl", folder.Path()).exitCode, 0);
+  const std::string text = ReadText(folder.Path() / "bone.stl.json");
+  for (const char * part : { "\"output\": \"bone.stl\"",
+                             "\"command\": \"rhombic mesh SCAN -t 375.5 --mode fine -o bone.stl\"",
+                             "\"format\": \"NIfTI\"",
+                             "\"orientation\": \"LPS\"",
+                             "\"isovalue\": 375.5",
+                             "\"triangles\":",
+                             "face-centered cubic" })
+  {
+    EXPECT_NE(text.find(part), std::string::npos) << part << text;
+  }
+  EXPECT_EQ(text.find("DOE"), std::string::npos) << text;
+  EXPECT_EQ(text.find("doe"), std::string::npos) << text;
+  ASSERT_EQ(Rhombic("resample " + phantomNifti + " -o a.fcc.nrrd", folder.Path()).exitCode, 0);
+  EXPECT_TRUE(fs::exists(folder.Path() / "a.fcc.nrrd.json"));
+}
+
+TEST(CommandLine, LabelMapsAreToldWithTheirLabels)
+{
+  const TemporaryFolder folder;
+  const std::string labels = RHOMBIC_TESTDATA "/phantom/phantom-labels.nii.gz";
+  const Outcome outcome = Rhombic("info " + phantomDicom + " --labels " + labels, folder.Path());
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find(" ml"), std::string::npos) << outcome.output;
 }
 
 TEST(CommandLine, MetadataNamesTheCommandButNeitherTheScanNorItsFolder)

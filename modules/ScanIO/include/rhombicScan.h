@@ -98,7 +98,9 @@ struct Scan
   std::optional<double> paddingValue; ///< of samples outside the scanner's view, rescaled; the lowest other value took
                                       ///< their place
   std::size_t numberOfPaddingSamples = 0;
-  std::vector<std::string> notes; ///< what the reader had to assume, repair or leave out, a sentence each
+  std::vector<std::string> notes;     ///< what the reader had to assume, repair or leave out, a sentence each
+  std::vector<std::string> fileNotes; ///< the same about single files, with their names: for the person at the
+                                      ///< keyboard, but for no output, as a file's name may be the patient's
 };
 
 /** Size, origin, spacing and direction, whatever the pixel type. */

@@ -7,6 +7,7 @@
 #include "rhombicFailure.h"
 #include "rhombicFolderFiles.h"
 #include "rhombicInProcessDecoder.h"
+#include "rhombicMemoryBudget.h"
 #include "rhombicTransferSyntax.h"
 #include "rhombicVolumeFile.h"
 
@@ -123,7 +124,9 @@ CollectSlices(const FolderFiles & files, Scan & scan)
   if (!damaged.empty())
   {
     // A slice that is missing at an end leaves no gap that could be seen.
-    scan.notes.push_back("Slices may be missing: " + Shorten(damaged) + ".");
+    scan.notes.push_back("Slices may be missing, because " + std::to_string(damaged.size()) +
+                         (damaged.size() > 1 ? " files" : " file") + " could not be read.");
+    scan.fileNotes.push_back("Slices may be missing: " + Shorten(damaged) + ".");
   }
   return slices;
 }
@@ -179,6 +182,16 @@ Without(std::vector<DicomSlice> slices, const std::map<fs::path, std::string> & 
   return slices;
 }
 
+/** Asks for what the slices take as volume of the smallest pixels that they may become. */
+void
+RequireVolumeMemory(const std::vector<DicomSlice> & slices, const ScanReadOptions & options)
+{
+  const DicomPixelFormat & format = slices.front().file->format;
+  RequireMemory(std::uintmax_t{ slices.size() } * format.FrameBytes(),
+                options.maximumMemory,
+                "Reading " + slices.front().file->path.parent_path().string());
+}
+
 /** Stacks and reads slices. A file that can't be read counts as a gap: the options say whether that is accepted. */
 void
 ReadStack(std::vector<DicomSlice> slices, const ScanReadOptions & options, Scan & scan)
@@ -187,6 +200,7 @@ ReadStack(std::vector<DicomSlice> slices, const ScanReadOptions & options, Scan 
   VoxelDecoder & decoder = options.decoder != nullptr ? *options.decoder : inProcess;
 
   DicomStack stack = StackSlices(slices, options);
+  RequireVolumeMemory(slices, options);
   DicomPixels pixels = ReadDicomPixels(slices, stack.geometry, decoder, options.progress);
   while (!pixels.failures.empty())
   {
@@ -197,9 +211,10 @@ ReadStack(std::vector<DicomSlice> slices, const ScanReadOptions & options, Scan 
       throw Failure(FailureKind::Unreadable,
                     others == 0 ? sentence : sentence + " (And " + std::to_string(others) + " more files.)");
     }
+    scan.notes.push_back("The slices of " + std::to_string(pixels.failures.size()) + " damaged files were left out.");
     for (const auto & [path, failure] : pixels.failures)
     {
-      scan.notes.push_back("A slice was left out. " + failure);
+      scan.fileNotes.push_back(failure);
     }
     slices = Without(std::move(slices), pixels.failures);
     stack = StackSlices(slices, options);

@@ -178,15 +178,21 @@ TiltOf(const Slices & slices, double normalExtent)
 
 /** Where slices are missing, and how many. */
 std::string
-DescribeGaps(const Slices & slices, const std::vector<double> & distances, const std::vector<SliceGap> & gaps)
+DescribeGaps(const std::vector<SliceGap> & gaps)
 {
   const SliceGap & gap = gaps.front();
+  return std::to_string(gap.numberOfMissing) + (gap.numberOfMissing > 1 ? " slices are" : " slice is") +
+         " missing at " + Rounded(gap.position + gap.step / static_cast<double>(gap.numberOfMissing + 1)) + " mm" +
+         (gaps.size() > 1 ? " and in " + std::to_string(gaps.size() - 1) + " more places" : "");
+}
+
+/** The files on both sides of a gap. */
+std::string
+NamesAround(const Slices & slices, const std::vector<double> & distances, const SliceGap & gap)
+{
   const auto behind = std::upper_bound(distances.begin(), distances.end(), gap.position) - distances.begin();
   const auto index = static_cast<std::size_t>(behind);
-  return std::to_string(gap.numberOfMissing) + (gap.numberOfMissing > 1 ? " slices are" : " slice is") +
-         " missing at " + Rounded(gap.position + gap.step / static_cast<double>(gap.numberOfMissing + 1)) +
-         " mm, between " + NamesOf(slices[index - 1], slices[index]) +
-         (gaps.size() > 1 ? ", and there are " + std::to_string(gaps.size() - 1) + " more gaps" : "");
+  return NamesOf(slices[index - 1], slices[index]);
 }
 
 std::string
@@ -244,10 +250,12 @@ StackSlices(std::vector<DicomSlice> & slices, const ScanReadOptions & options)
   const bool isTilted = stack.report.tiltDegrees * itk::Math::pi / 180 > 1e-3;
   if (hasGaps)
   {
-    const std::string gaps = DescribeGaps(slices, distances, stack.report.gaps);
+    const std::string gaps = DescribeGaps(stack.report.gaps);
     if (options.onGap == Policy::Refuse)
     {
-      Refuse(slices, gaps, "find the missing files, or take values across the gap with --on-gap=interpolate");
+      Refuse(slices,
+             gaps + ", the first between " + NamesAround(slices, distances, stack.report.gaps.front()),
+             "find the missing files, or take values across the gap with --on-gap=interpolate");
     }
     stack.notes.push_back("Values are interpolated where slices are missing: " + gaps + ".");
   }

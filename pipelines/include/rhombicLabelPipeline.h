@@ -1,0 +1,47 @@
+#ifndef rhombicLabelPipeline_h
+#define rhombicLabelPipeline_h
+
+#include "rhombicLabelMap.h"
+#include "rhombicScanReader.h"
+#include "rhombicScanReport.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rhombic
+{
+
+/** A label map, and the names and colours of its labels. */
+struct LabelMap
+{
+  Scan scan;
+  std::vector<LabelSummary> labels;
+};
+
+/** Where a label map is, and what its labels mean. */
+struct LabelMapSource
+{
+  std::filesystem::path path;
+  std::filesystem::path table; ///< empty: the table in the file, or the one beside it (see FindLabelTable())
+};
+
+/** The labels of a scan that is a label map. Throws Failure(Unreadable) for others. */
+std::vector<LabelSummary>
+FindLabels(const Scan & scan, const LabelMapSource & source);
+
+/** Reads the label map of a scan, which may have another grid. Throws Failure, also when the two don't lie in the same
+ * place; what is partly outside goes to the label map's notes. */
+LabelMap
+ReadLabelMap(const LabelMapSource & source,
+             const ScanReadOptions & options,
+             const Scan & scan,
+             const std::filesystem::path & scanPath);
+
+/** For each label: value, name, colour (#rrggbb), voxels and millilitres. */
+Report
+ReportLabels(const std::vector<LabelSummary> & labels);
+
+} // namespace rhombic
+
+#endif

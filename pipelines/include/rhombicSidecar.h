@@ -1,0 +1,30 @@
+#ifndef rhombicSidecar_h
+#define rhombicSidecar_h
+
+#include "rhombicScanReport.h"
+
+#include <filesystem>
+#include <string>
+
+namespace rhombic
+{
+
+/** Who made an output, for its sidecar and its metadata. */
+struct Provenance
+{
+  std::string software; ///< name and version
+  std::string command;  ///< without anything about the patient, nor the scan's path
+  bool writesSidecars = true;
+};
+
+/** The path of the report that accompanies an output: its name and ".json". */
+std::filesystem::path
+SidecarOf(const std::filesystem::path & output);
+
+/** Writes what is known about an output beside it, if the provenance says so. Throws Failure(Output). */
+void
+WriteSidecar(const std::filesystem::path & output, const Provenance & provenance, const Report & report);
+
+} // namespace rhombic
+
+#endif

@@ -1,0 +1,79 @@
+#include "rhombicLabelPipeline.h"
+
+#include "rhombicFailure.h"
+
+#include <cstdio>
+
+namespace rhombic
+{
+namespace
+{
+
+LabelTable
+FindTable(const Scan & scan, const LabelMapSource & source)
+{
+  if (!source.table.empty())
+  {
+    return ReadLabelTable(source.table);
+  }
+  if (!scan.labels.empty() || scan.format == "DICOM")
+  {
+    return scan.labels;
+  }
+  return FindLabelTable(source.path).value_or(LabelTable());
+}
+
+} // namespace
+
+std::vector<LabelSummary>
+FindLabels(const Scan & scan, const LabelMapSource & source)
+{
+  const LabelTable table = FindTable(scan, source);
+  if (table.empty() && !LooksLikeLabelMap(scan))
+  {
+    throw Failure(FailureKind::Unreadable,
+                  "Cannot take " + source.path.string() +
+                    " for a label map: its values look like intensities; if it is one, give a --label-table.");
+  }
+  return SummarizeLabels(scan, table);
+}
+
+LabelMap
+ReadLabelMap(const LabelMapSource & source,
+             const ScanReadOptions & options,
+             const Scan & scan,
+             const std::filesystem::path & scanPath)
+{
+  LabelMap map;
+  map.scan = ReadScan(source.path, options);
+  map.labels = FindLabels(map.scan, source);
+  if (const std::string note = RequireOverlap(scan, map.scan, scanPath, source.path); !note.empty())
+  {
+    map.scan.notes.push_back(note);
+  }
+  return map;
+}
+
+Report
+ReportLabels(const std::vector<LabelSummary> & labels)
+{
+  Report report = Report::array();
+  for (const LabelSummary & summary : labels)
+  {
+    char colour[8];
+    std::snprintf(colour,
+                  sizeof(colour),
+                  "#%02x%02x%02x",
+                  summary.label.colour[0],
+                  summary.label.colour[1],
+                  summary.label.colour[2]);
+    report.push_back({ { "value", summary.label.value },
+                       { "name", summary.label.name },
+                       { "colour", colour },
+                       { "voxels", summary.numberOfVoxels },
+                       { "millilitres", summary.millilitres } });
+  }
+  return report;
+}
+
+} // namespace rhombic

@@ -1,0 +1,33 @@
+#include "rhombicSidecar.h"
+
+#include "rhombicAtomicFile.h"
+
+#include <fstream>
+
+namespace rhombic
+{
+
+std::filesystem::path
+SidecarOf(const std::filesystem::path & output)
+{
+  return output.string() + ".json";
+}
+
+void
+WriteSidecar(const std::filesystem::path & output, const Provenance & provenance, const Report & report)
+{
+  if (!provenance.writesSidecars)
+  {
+    return;
+  }
+  Report whole{ { "output", output.filename().string() },
+                { "software", provenance.software },
+                { "command", provenance.command } };
+  whole.update(report);
+  const std::string text = ToJson(whole) + '\n';
+  AtomicFile file(SidecarOf(output));
+  std::ofstream(file.GetTemporaryPath(), std::ios::binary) << text;
+  file.Commit(text.size());
+}
+
+} // namespace rhombic
