@@ -44,7 +44,7 @@ Read(const fs::path & path, const ScanReadOptions & options)
                   "Cannot choose a series of " + path.string() +
                     ": only folders of DICOM files have series; leave it out.");
   }
-  return ReadVolumeFile(path);
+  return ReadVolumeFile(path, options);
 }
 
 } // namespace
