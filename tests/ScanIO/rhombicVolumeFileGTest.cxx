@@ -264,7 +264,7 @@ WritePatched(const fs::path & folder, std::streamoff offset, TValue value)
   return path;
 }
 
-TEST_F(VolumeFile, HeadersThatITKReadsWronglyAreRefused)
+TEST_F(VolumeFile, HeadersThatMakeNoSenseAreRefused)
 {
   const auto kindWith = [this](std::streamoff offset, auto value) {
     return KindOfReading(WritePatched(m_Folder, offset, value), "patched.nii");
@@ -275,7 +275,6 @@ TEST_F(VolumeFile, HeadersThatITKReadsWronglyAreRefused)
   EXPECT_EQ(kindWith(268, infinity), FailureKind::Geometry) << "qoffset_x";
   EXPECT_EQ(kindWith(84, nan), FailureKind::Geometry) << "pixdim";
   EXPECT_EQ(kindWith(84, 0.0f), FailureKind::Geometry) << "pixdim";
-  EXPECT_EQ(kindWith(284, 0.3f), FailureKind::Geometry) << "sheared sform";
   EXPECT_EQ(kindWith(108, nan), FailureKind::Unreadable) << "vox_offset";
   EXPECT_EQ(kindWith(108, 0.0f), FailureKind::Unreadable) << "vox_offset";
   EXPECT_EQ(kindWith(108, 1e6f), FailureKind::Unreadable) << "vox_offset";
@@ -296,8 +295,6 @@ TEST_F(VolumeFile, DamagedGzipIsRefused)
   Write(MakeVolume<std::int16_t>(-7).GetPointer(), path);
   Patch(path, static_cast<std::streamoff>(fs::file_size(path)) - 6, '\x55'); // in the checksum
   EXPECT_EQ(KindOfReading(path, "a.nii.gz"), FailureKind::Unreadable);
-  fs::rename(path, m_Folder / "packed.nii");
-  EXPECT_EQ(KindOfReading(m_Folder / "packed.nii", ".gz"), FailureKind::Unreadable);
 }
 
 TEST_F(VolumeFile, NIfTIWithoutOrientationIsNoted)

@@ -68,7 +68,7 @@ struct ScanReadOptions
  *
  * The geometry is the file's, in LPS millimetres, never assumed: slices come from ImagePositionPatient,
  * ImageOrientationPatient and PixelSpacing only, NIfTI from its sform, else its qform. What can't be one regular
- * volume (a missing or doubled slice, a gantry tilt, a sheared sform) is refused.
+ * volume (a missing or doubled slice, a gantry tilt) is refused; sheared volumes as the options say.
  *
  * Throws Failure: NotFound (no such path, or no scan in the folder), Usage (no such series), Unreadable (damaged, or
  * colour, more than three dimensions, multi-frame, no image...), Geometry, Memory. Damaged DICOM may still end the

@@ -1,7 +1,8 @@
 #include "rhombicCompressedFile.h"
 
-#include "rhombicFailure.h"
+#include "rhombicVolumeRefusal.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -14,108 +15,96 @@ namespace fs = std::filesystem;
 
 namespace rhombic
 {
-namespace
-{
 
-/** zlib reads files that are not compressed as they are. */
-class GzipFile
+UnpackedFile::UnpackedFile(const fs::path & path)
+  : m_Path(path)
+  , m_File(gzopen(path.c_str(), "rb")) // reads files that are not compressed as they are
 {
-public:
-  explicit GzipFile(const fs::path & path)
-    : m_File(gzopen(path.c_str(), "rb"))
+  if (m_File == nullptr)
   {
-    if (m_File == nullptr)
+    RefuseVolume(path, std::string(std::strerror(errno)) + "; check that it is there and yours");
+  }
+  gzbuffer(m_File, 1 << 17);
+}
+
+UnpackedFile::~UnpackedFile()
+{
+  gzclose(m_File);
+}
+
+bool
+UnpackedFile::IsCompressed()
+{
+  return gzdirect(m_File) == 0;
+}
+
+std::size_t
+UnpackedFile::Read(void * buffer, std::size_t size)
+{
+  constexpr std::size_t largest = 1 << 30; // gzread counts in int
+  std::size_t total = 0;
+  while (total < size)
+  {
+    const auto step = static_cast<unsigned int>(std::min(largest, size - total));
+    const int count = gzread(m_File, static_cast<char *>(buffer) + total, step);
+    if (count < 0)
     {
-      throw Failure(FailureKind::Unreadable,
-                    "Cannot read " + path.string() + ": " + std::strerror(errno) +
-                      "; check that it is there and yours.");
+      RefuseVolume(m_Path, "its compression is damaged, or the disk is; copy it again");
     }
-    gzbuffer(m_File, 1 << 17);
-  }
-
-  ~GzipFile()
-  {
-    if (m_File != nullptr)
+    if (count == 0)
     {
-      gzclose(m_File);
+      break;
     }
+    total += static_cast<std::size_t>(count);
   }
-
-  GzipFile(const GzipFile &) = delete;
-  GzipFile &
-  operator=(const GzipFile &) = delete;
-
-  /** Bytes read, 0 at the end, negative for damage. */
-  int
-  Read(char * buffer, std::size_t size)
-  {
-    return gzread(m_File, buffer, static_cast<unsigned int>(size));
-  }
-
-  bool
-  IsCompressed()
-  {
-    return gzdirect(m_File) == 0;
-  }
-
-  /** Whether the last stream was complete. */
-  bool
-  Close()
-  {
-    const int result = gzclose(m_File);
-    m_File = nullptr;
-    return result == Z_OK;
-  }
-
-private:
-  gzFile m_File;
-};
-
-} // namespace
-
-std::string
-ReadBeginning(const fs::path & path, std::size_t size)
-{
-  GzipFile file(path);
-  if (file.IsCompressed() != (path.extension() == ".gz"))
-  {
-    throw Failure(FailureKind::Unreadable,
-                  "Cannot read " + path.string() +
-                    ": its name and content disagree about compression; rename it to or from .gz.");
-  }
-  std::string bytes(size, '\0');
-  const int count = file.Read(bytes.data(), size);
-  if (count < 0)
-  {
-    throw Failure(FailureKind::Unreadable,
-                  "Cannot read " + path.string() + ": its compression is damaged; copy it again.");
-  }
-  bytes.resize(static_cast<std::size_t>(count));
-  return bytes;
+  return total;
 }
 
 std::uintmax_t
-CountBytes(const fs::path & path, std::uintmax_t enough)
+UnpackedFile::Skip(std::uintmax_t size)
 {
-  if (path.extension() != ".gz")
-  {
-    return fs::file_size(path);
-  }
-  constexpr std::uintmax_t tolerated = 1 << 20; // what some programs leave behind the pixels
-  GzipFile file(path);
-  std::vector<char> buffer(1 << 18);
+  std::vector<char> passed(std::min<std::uintmax_t>(size, 1 << 18));
   std::uintmax_t total = 0;
-  int count = 0;
-  while (total <= enough + tolerated && (count = file.Read(buffer.data(), buffer.size())) > 0)
+  while (total < size)
   {
-    total += static_cast<std::uintmax_t>(count);
+    const std::size_t count = this->Read(passed.data(), std::min<std::uintmax_t>(passed.size(), size - total));
+    if (count == 0)
+    {
+      break;
+    }
+    total += count;
   }
-  const bool isComplete = file.Close();
-  return count > 0 || (count == 0 && isComplete) ? total : 0;
+  return total;
+}
+
+void
+UnpackedFile::Finish()
+{
+  if (!this->IsCompressed())
+  {
+    return;
+  }
+  this->Skip(UINTMAX_MAX);
+  int state = Z_OK;
+  gzerror(m_File, &state);
+  if (state != Z_OK)
+  {
+    RefuseVolume(m_Path, "its compressed content is cut off; copy it again");
+  }
 }
 
 std::uintmax_t
-CountInflated(const fs::path & path, std::uintmax_t offset, std::uintmax_t enough)
+LargestUnpackedSize(const fs::path & path)
+{
+  constexpr std::uintmax_t ratio = 1032;
+  const std::uintmax_t size = fs::file_size(path);
+  return UnpackedFile(path).IsCompressed() ? size * ratio : size;
+}
+
+bool
+Inflate(const fs::path & path,
+        std::uintmax_t offset,
+        const std::function<void(const std::byte * bytes, std::size_t count)> & take)
 {
   std::ifstream file(path, std::ios::binary);
   file.seekg(static_cast<std::streamoff>(offset));
@@ -126,10 +115,9 @@ CountInflated(const fs::path & path, std::uintmax_t offset, std::uintmax_t enoug
     throw std::bad_alloc();
   }
   std::vector<char> packed(1 << 16);
-  std::vector<Bytef> unpacked(1 << 18);
-  std::uintmax_t total = 0;
+  std::vector<std::byte> unpacked(1 << 18);
   int state = Z_OK;
-  while (state == Z_OK && total < enough)
+  while (state == Z_OK)
   {
     if (stream.avail_in == 0)
     {
@@ -141,13 +129,21 @@ CountInflated(const fs::path & path, std::uintmax_t offset, std::uintmax_t enoug
         break;
       }
     }
-    stream.next_out = unpacked.data();
+    stream.next_out = reinterpret_cast<Bytef *>(unpacked.data());
     stream.avail_out = static_cast<uInt>(unpacked.size());
     state = inflate(&stream, Z_NO_FLUSH);
-    total += unpacked.size() - stream.avail_out;
+    take(unpacked.data(), unpacked.size() - stream.avail_out);
   }
   inflateEnd(&stream);
-  return total;
+  return state == Z_STREAM_END;
+}
+
+std::uintmax_t
+CountInflated(const fs::path & path, std::uintmax_t offset)
+{
+  std::uintmax_t total = 0;
+  const bool isWhole = Inflate(path, offset, [&total](const std::byte *, std::size_t count) { total += count; });
+  return isWhole ? total : 0;
 }
 
 } // namespace rhombic

@@ -1,27 +1,64 @@
 #ifndef rhombicCompressedFile_h
 #define rhombicCompressedFile_h
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
+
+struct gzFile_s;
 
 namespace rhombic
 {
 
-/** The first \a size bytes of a file, unpacked if it is named .gz; fewer when there are fewer. Throws
- * Failure(Unreadable) when it can't be opened or read, or is compressed without being named so. */
-std::string
-ReadBeginning(const std::filesystem::path & path, std::size_t size);
+/** A file read from its beginning to its end, unpacked on the way if its content is gzip, whatever its name. Functions
+ * throw Failure(Unreadable) when it can't be opened or read, or its compression is damaged. */
+class UnpackedFile
+{
+public:
+  explicit UnpackedFile(const std::filesystem::path & path);
+  ~UnpackedFile();
 
-/** How many bytes a file holds, unpacked if it is named .gz: then counting ends a little after \a enough, and a stream
- * that is damaged or cut off counts as empty. */
-std::uintmax_t
-CountBytes(const std::filesystem::path & path, std::uintmax_t enough);
+  UnpackedFile(const UnpackedFile &) = delete;
+  UnpackedFile &
+  operator=(const UnpackedFile &) = delete;
 
-/** How many bytes a zlib or gzip stream that begins at \a offset of a file unpacks to: counting ends at \a enough, and
- * a stream that is damaged or cut off counts up to there. */
+  bool
+  IsCompressed();
+
+  /** The next \a size bytes, or as many as there are. */
+  std::size_t
+  Read(void * buffer, std::size_t size);
+
+  /** Passes over \a size bytes, or as many as there are. Returns how many. */
+  std::uintmax_t
+  Skip(std::uintmax_t size);
+
+  /** Checks a compressed file to its end: its streams have to be complete and their checksums right. */
+  void
+  Finish();
+
+private:
+  const std::filesystem::path m_Path;
+  gzFile_s * m_File;
+};
+
+/** The most bytes that a file can hold, unpacked if its content is gzip: 1032 times its size, which deflate can't
+ * exceed. */
 std::uintmax_t
-CountInflated(const std::filesystem::path & path, std::uintmax_t offset, std::uintmax_t enough);
+LargestUnpackedSize(const std::filesystem::path & path);
+
+/** Unpacks the zlib or gzip stream that begins at \a offset of a file: calls take(bytes, count) for each part. False
+ * when it is damaged or cut off. */
+bool
+Inflate(const std::filesystem::path & path,
+        std::uintmax_t offset,
+        const std::function<void(const std::byte * bytes, std::size_t count)> & take);
+
+/** How many bytes the stream unpacks to; 0 when it is damaged or cut off. */
+std::uintmax_t
+CountInflated(const std::filesystem::path & path, std::uintmax_t offset);
 
 } // namespace rhombic
 

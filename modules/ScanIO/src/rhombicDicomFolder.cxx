@@ -6,7 +6,6 @@
 #include "rhombicDicomStack.h"
 #include "rhombicFailure.h"
 #include "rhombicFolderFiles.h"
-#include "rhombicInProcessDecoder.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicTransferSyntax.h"
 #include "rhombicVolumeFile.h"
@@ -196,12 +195,9 @@ RequireVolumeMemory(const std::vector<DicomSlice> & slices, const ScanReadOption
 void
 ReadStack(std::vector<DicomSlice> slices, const ScanReadOptions & options, Scan & scan)
 {
-  InProcessDecoder inProcess;
-  VoxelDecoder & decoder = options.decoder != nullptr ? *options.decoder : inProcess;
-
   DicomStack stack = StackSlices(slices, options);
   RequireVolumeMemory(slices, options);
-  DicomPixels pixels = ReadDicomPixels(slices, stack.geometry, decoder, options.progress);
+  DicomPixels pixels = ReadDicomPixels(slices, stack.geometry, *options.decoder, options.progress);
   while (!pixels.failures.empty())
   {
     const std::string & sentence = pixels.failures.begin()->second;
@@ -218,7 +214,7 @@ ReadStack(std::vector<DicomSlice> slices, const ScanReadOptions & options, Scan 
     }
     slices = Without(std::move(slices), pixels.failures);
     stack = StackSlices(slices, options);
-    pixels = ReadDicomPixels(slices, stack.geometry, decoder, options.progress);
+    pixels = ReadDicomPixels(slices, stack.geometry, *options.decoder, options.progress);
   }
   scan.image = pixels.image;
   scan.sliceOrigins = stack.sliceOrigins;

@@ -1,11 +1,14 @@
 #include "rhombicMetaImageHeader.h"
 
 #include "rhombicCompressedFile.h"
-#include "rhombicFailure.h"
+#include "rhombicTextHeader.h"
+#include "rhombicVolumeFrame.h"
+#include "rhombicVolumeRefusal.h"
 
 #include <algorithm>
-#include <cstdint>
+#include <cmath>
 #include <fstream>
+#include <initializer_list>
 #include <map>
 #include <sstream>
 #include <string>
@@ -22,107 +25,297 @@ struct MetaImageHeader
   std::map<std::string, std::string> fields;
   std::uintmax_t size = 0; ///< bytes up to the first after the line of ElementDataFile
 
+  /** The first of these that there is, or empty. */
   std::string
-  Get(const std::string & key) const
+  Get(std::initializer_list<const char *> keys) const
   {
-    const auto found = fields.find(key);
-    return found == fields.end() ? "" : found->second;
+    for (const char * const key : keys)
+    {
+      if (const auto found = fields.find(key); found != fields.end())
+      {
+        return found->second;
+      }
+    }
+    return "";
+  }
+
+  std::string
+  Get(const char * key) const
+  {
+    return this->Get({ key });
+  }
+
+  bool
+  IsTrue(const char * key) const
+  {
+    const std::string value = this->Get(key);
+    return !value.empty() && (value.front() == 'T' || value.front() == 't' || value.front() == '1');
   }
 };
 
 MetaImageHeader
 ReadHeader(const fs::path & path)
 {
-  constexpr int maximumLines = 1000;
-  MetaImageHeader header;
+  constexpr std::size_t largestHeader = std::size_t(1) << 20;
   std::ifstream file(path, std::ios::binary);
+  std::string beginning(largestHeader, '\0');
+  file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  beginning.resize(static_cast<std::size_t>(file.gcount()));
+
+  MetaImageHeader header;
+  std::istringstream lines(beginning);
   std::string line;
-  for (int i = 0; i < maximumLines && header.fields.count("ElementDataFile") == 0 && std::getline(file, line); ++i)
+  while (header.fields.count("ElementDataFile") == 0 && std::getline(lines, line))
   {
     header.size += line.size() + 1;
-    std::string key, equals, value;
-    std::istringstream words(line);
-    words >> key >> equals;
-    std::getline(words >> std::ws, value);
-    value.erase(value.find_last_not_of(" \t\r") + 1);
-    header.fields[key] = value;
+    const std::size_t equals = line.find('=');
+    if (equals != std::string::npos)
+    {
+      header.fields[Trimmed(line.substr(0, equals))] = Trimmed(line.substr(equals + 1));
+    }
+  }
+  if (header.Get("ElementDataFile").empty())
+  {
+    RefuseVolume(path, "its content is not MetaImage, as its name says; check where it came from");
   }
   return header;
 }
 
-/** Bytes of a voxel, or 0 for a type whose pixels are no single numbers. */
-std::uintmax_t
-SizeOfType(const std::string & type)
+std::vector<std::uintmax_t>
+SizesOf(const MetaImageHeader & header, const fs::path & path)
 {
-  static const std::map<std::string, std::uintmax_t> sizes{
-    { "MET_CHAR", 1 },  { "MET_UCHAR", 1 },  { "MET_SHORT", 2 },     { "MET_USHORT", 2 },
-    { "MET_INT", 4 },   { "MET_UINT", 4 },   { "MET_LONG", 4 },      { "MET_ULONG", 4 },
-    { "MET_FLOAT", 4 }, { "MET_DOUBLE", 8 }, { "MET_LONG_LONG", 8 }, { "MET_ULONG_LONG", 8 }
-  };
-  const auto found = sizes.find(type);
-  return found == sizes.end() ? 0 : found->second;
-}
-
-std::uintmax_t
-SizeOfPixels(const MetaImageHeader & header)
-{
-  double size = static_cast<double>(SizeOfType(header.Get("ElementType")));
-  std::istringstream dimensions(header.Get("DimSize"));
-  for (double dimension; dimensions >> dimension;)
+  const auto dimension = CountsOf(header.Get("NDims"));
+  const auto sizes = CountsOf(header.Get("DimSize"));
+  if (!dimension || dimension->size() != 1 || !sizes || sizes->size() != dimension->front() ||
+      std::count(sizes->begin(), sizes->end(), 0) > 0)
   {
-    size *= dimension;
+    RefuseVolume(path, "its header contradicts itself about its dimensions; export it again from its source");
   }
-  return size >= 0 && size < 1e18 ? static_cast<std::uintmax_t>(size) : UINTMAX_MAX;
+  if (sizes->size() < 3)
+  {
+    RefuseVolume(path, "it is a flat picture of " + std::to_string(sizes->size()) + " dimensions, not a volume");
+  }
+  if (sizes->size() > 4)
+  {
+    RefuseVolume(path, "it has " + std::to_string(sizes->size()) + " dimensions; extract one volume first");
+  }
+  return *sizes;
 }
 
-bool
-IsTrue(const std::string & value)
+StoredType
+TypeOf(const MetaImageHeader & header, const fs::path & path)
 {
-  return !value.empty() && (value.front() == 'T' || value.front() == 't' || value.front() == '1');
+  static const std::map<std::string, StoredType> types{
+    { "MET_CHAR", StoredType::Int8 },       { "MET_UCHAR", StoredType::UInt8 },
+    { "MET_SHORT", StoredType::Int16 },     { "MET_USHORT", StoredType::UInt16 },
+    { "MET_INT", StoredType::Int32 },       { "MET_UINT", StoredType::UInt32 },
+    { "MET_LONG", StoredType::Int32 },      { "MET_ULONG", StoredType::UInt32 },
+    { "MET_LONG_LONG", StoredType::Int64 }, { "MET_ULONG_LONG", StoredType::UInt64 },
+    { "MET_FLOAT", StoredType::Float },     { "MET_DOUBLE", StoredType::Double },
+  };
+  const std::string channels = header.Get("ElementNumberOfChannels");
+  if (!channels.empty() && channels != "1")
+  {
+    RefuseVolume(path, "its voxels are " + channels + " numbers each, not single numbers; extract one component first");
+  }
+  const auto found = types.find(header.Get("ElementType"));
+  if (found == types.end())
+  {
+    RefuseVolume(path,
+                 "its pixel type '" + header.Get("ElementType") +
+                   "' is not supported; convert it to integers or floats first");
+  }
+  return found->second;
+}
+
+/** The numbers of a field: \a count of them, or none when there is no such field. */
+std::vector<double>
+PositionOf(const MetaImageHeader & header,
+           std::initializer_list<const char *> keys,
+           std::size_t count,
+           const fs::path & path)
+{
+  const auto numbers = NumbersOf(header.Get(keys));
+  if (!numbers || (!numbers->empty() && numbers->size() != count))
+  {
+    RefuseGeometry(path,
+                   std::string("its header's ") + *keys.begin() + " can't be read; export it again from its source");
+  }
+  return *numbers;
+}
+
+double
+MillimetresPerUnit(const MetaImageHeader & header, const fs::path & path)
+{
+  static const std::map<std::string, double> units{ { "", 1 }, { "?", 1 }, { "mm", 1 }, { "um", 1e-3 }, { "cm", 10 } };
+  const auto found = units.find(header.Get("DistanceUnits"));
+  if (found == units.end())
+  {
+    RefuseGeometry(path, "its DistanceUnits are " + header.Get("DistanceUnits") + "; write it in mm");
+  }
+  return found->second;
+}
+
+/** Fills the geometry, matrix, isOriented and note. The rows of the matrix are the axes, as ITK has it. */
+void
+Place(const MetaImageHeader & header,
+      const std::vector<std::uintmax_t> & sizes,
+      const fs::path & path,
+      StoredVolume & volume)
+{
+  const std::size_t dimension = sizes.size();
+  const auto matrix = PositionOf(header, { "TransformMatrix", "Rotation", "Orientation" }, dimension * dimension, path);
+  const auto offset = PositionOf(header, { "Offset", "Position", "Origin" }, dimension, path);
+  const auto spacing = PositionOf(header, { "ElementSpacing" }, dimension, path);
+  const double unit = MillimetresPerUnit(header, path);
+  itk::Point<double, 3> origin;
+  itk::Vector<double, 3> steps[3];
+  for (unsigned int row = 0; row < 3; ++row)
+  {
+    origin[row] = offset.empty() ? 0.0 : offset[row] * unit;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const double direction = matrix.empty() ? (row == axis ? 1.0 : 0.0) : matrix[axis * dimension + row];
+      steps[axis][row] = direction * (spacing.empty() ? 1.0 : spacing[axis] * unit);
+    }
+  }
+  volume.geometry = MakeGeometry({ { sizes[0], sizes[1], sizes[2] } }, origin, steps);
+  volume.matrix = matrix.empty() ? "ElementSpacing" : "TransformMatrix";
+  volume.isOriented = !matrix.empty();
+  volume.note = spacing.empty()  ? "does not say how large its voxels are; 1 mm is a guess"
+                : matrix.empty() ? "does not say how it lies in the patient; left and right are a guess"
+                                 : "";
+}
+
+std::optional<ValueScaling>
+ScalingOf(const MetaImageHeader & header, const fs::path & path)
+{
+  const auto slope = NumbersOf(header.Get("ElementToIntensityFunctionSlope"));
+  const auto offset = NumbersOf(header.Get("ElementToIntensityFunctionOffset"));
+  ValueScaling scaling;
+  scaling.slope = slope && slope->size() == 1 ? slope->front() : 1;
+  scaling.intercept = offset && offset->size() == 1 ? offset->front() : 0;
+  if (!slope || !offset || !std::isfinite(scaling.slope) || !std::isfinite(scaling.intercept) || scaling.slope == 0)
+  {
+    RefuseVolume(path,
+                 "its scaling of values (ElementToIntensityFunctionSlope, ElementToIntensityFunctionOffset) makes "
+                 "no sense; export it again from its source");
+  }
+  return scaling.slope == 1 && scaling.intercept == 0 ? std::nullopt : std::make_optional(scaling);
+}
+
+/** Where the voxels are. */
+struct DataPlace
+{
+  fs::path path;
+  std::uintmax_t begin = 0;
+  std::uintmax_t size = 0; ///< bytes from there to the end of the file
+};
+
+DataPlace
+FindData(const MetaImageHeader & header, const std::string & encoding, const fs::path & path)
+{
+  const std::string name = header.Get("ElementDataFile");
+  if (name.compare(0, 4, "LIST") == 0 || name.find('%') != std::string::npos)
+  {
+    RefuseVolume(path, "its voxels are spread over several files, which is not supported; write it as one file");
+  }
+  const bool isLocal = LowerCase(name) == "local";
+  DataPlace place;
+  place.path = isLocal ? path : DetachedFile(path, name);
+  const std::uintmax_t size = fs::file_size(place.path);
+
+  const auto headerSize = NumbersOf(header.Get("HeaderSize"));
+  const double skip = headerSize && headerSize->size() == 1 ? headerSize->front() : 0;
+  constexpr double largestSkip = 1e15;
+  if (!headerSize || headerSize->size() > 1 || !(skip >= -1 && skip <= largestSkip) || (skip < 0 && encoding != "raw"))
+  {
+    RefuseVolume(path, "its header's HeaderSize makes no sense; export it again from its source");
+  }
+  place.begin = skip > 0 ? static_cast<std::uintmax_t>(skip) : isLocal ? header.size : 0;
+  place.size = size - std::min(place.begin, size);
+  return place;
+}
+
+/** Refuses data that is missing or shorter than \a needed bytes. */
+void
+CheckData(const DataPlace & place,
+          const std::string & encoding,
+          std::uintmax_t needed,
+          std::size_t bytesPerVoxel,
+          const fs::path & path)
+{
+  const std::uintmax_t available = encoding == "zlib" ? CountInflated(place.path, place.begin)
+                                   : encoding == "text"
+                                     ? (place.size + 1) / 2 * bytesPerVoxel // at least a digit and a blank a voxel
+                                     : place.size;
+  if (available < needed)
+  {
+    RefuseVolume(path,
+                 place.path.string() + " has " + std::to_string(available) + " of " + std::to_string(needed) +
+                   " bytes of voxels; it is cut off or damaged, so copy it again");
+  }
+}
+
+std::string
+EncodingOf(const MetaImageHeader & header)
+{
+  const bool isText = !header.Get("BinaryData").empty() && !header.IsTrue("BinaryData");
+  return isText ? "text" : header.IsTrue("CompressedData") ? "zlib" : "raw";
 }
 
 } // namespace
 
-void
-CheckMetaImageData(const fs::path & path)
+StoredVolume
+ReadMetaImageVolume(const fs::path & path)
 {
   const MetaImageHeader header = ReadHeader(path);
-  const std::string name = header.Get("ElementDataFile");
-  if (name.empty())
+  const std::vector<std::uintmax_t> sizes = SizesOf(header, path);
+  StoredVolume volume;
+  volume.type = TypeOf(header, path);
+  volume.scaling = ScalingOf(header, path);
+  volume.encoding = EncodingOf(header);
+  volume.numberOfFrames = sizes.size() == 4 ? sizes[3] : 1;
+  Place(header, sizes, path, volume);
+
+  std::vector<std::uintmax_t> factors = sizes;
+  factors.push_back(SizeOf(volume.type));
+  const auto needed = ProductOf(factors);
+  if (!needed)
   {
-    throw Failure(FailureKind::Unreadable,
-                  "Cannot read " + path.string() +
-                    ": its content is not MetaImage, as its name says; check where it came from.");
+    RefuseVolume(path, "its dimensions are larger than any volume; export it again from its source");
   }
-  if (name == "LIST" || name.find('%') != std::string::npos)
+  CheckData(FindData(header, volume.encoding, path), volume.encoding, *needed, SizeOf(volume.type), path);
+  return volume;
+}
+
+bool
+InflateMetaImage(const fs::path & path, std::byte * voxels, std::size_t size)
+{
+  const MetaImageHeader header = ReadHeader(path);
+  const std::string encoding = EncodingOf(header);
+  if (encoding != "zlib")
   {
-    throw Failure(FailureKind::Unreadable,
-                  "Cannot read " + path.string() +
-                    ": its pixels are spread over several files, which is not supported; write it as one file.");
+    return false;
   }
-  const bool isLocal = name == "LOCAL" || name == "Local" || name == "local";
-  const fs::path data = isLocal ? path : path.parent_path() / name;
-  std::error_code error;
-  const auto available = fs::file_size(data, error);
-  if (error)
+  const DataPlace place = FindData(header, encoding, path);
+  std::size_t filled = 0;
+  const bool isWhole = Inflate(place.path, place.begin, [&](const std::byte * bytes, std::size_t count) {
+    const std::size_t taken = std::min(count, size - filled);
+    std::copy(bytes, bytes + taken, voxels + filled);
+    filled += taken;
+  });
+  if (!isWhole || filled < size)
   {
-    throw Failure(FailureKind::Unreadable,
-                  "Cannot read " + path.string() + ": its pixels should be in " + data.string() +
-                    ", which is missing; put the two files into one folder.");
+    RefuseVolume(path, "its compressed voxels are cut off or damaged; copy it again");
   }
-  if (!header.Get("BinaryData").empty() && !IsTrue(header.Get("BinaryData")))
+  const std::size_t voxelSize = SizeOf(TypeOf(header, path));
+  const bool isBigEndian = header.IsTrue("BinaryDataByteOrderMSB") || header.IsTrue("ElementByteOrderMSB");
+  for (std::byte * voxel = voxels; isBigEndian && voxel != voxels + size; voxel += voxelSize)
   {
-    return; // numbers as text, of any length
+    std::reverse(voxel, voxel + voxelSize);
   }
-  const auto needed = SizeOfPixels(header);
-  const auto begin = isLocal ? std::min(header.size, available) : 0;
-  const auto pixels = IsTrue(header.Get("CompressedData")) ? CountInflated(data, begin, needed) : available - begin;
-  if (pixels < needed)
-  {
-    throw Failure(FailureKind::Unreadable,
-                  "Cannot read " + path.string() + ": " + data.string() + " has " + std::to_string(pixels) + " of " +
-                    std::to_string(needed) + " bytes of pixels; it is cut off, so copy it again.");
-  }
+  return true;
 }
 
 } // namespace rhombic

@@ -1,23 +1,47 @@
 #ifndef rhombicNIfTIHeader_h
 #define rhombicNIfTIHeader_h
 
-#include "rhombicScan.h"
-#include "rhombicVolumeGeometry.h"
-
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 
 namespace rhombic
 {
 
-/** Reads the header of a NIfTI-1 file (or of the .hdr beside an .img) and says where its voxels are: by the sform if
- * there is one, else the qform, else along LPS axes from the origin. What had to be assumed goes to the
- * notes of \a scan, and to its isOriented.
- *
- * Refuses, as Failure(Unreadable), all that ITK 5.2.1 reads wrongly or can't survive: NIfTI-2, Analyze, more than
- * one volume, vector and colour pixels, numbers that are not finite, and pixels that are missing, cut off or
- * damaged: compressed pixels are unpacked once to find out. */
-VolumeGeometry
-ReadNIfTIGeometry(const std::filesystem::path & path, Scan & scan);
+/** The fields of a NIfTI-1 or NIfTI-2 header that are needed, as they are in the file. */
+struct NIfTIHeader
+{
+  enum class Kind
+  {
+    SingleFile, ///< the voxels follow in the same file
+    Pair,       ///< the voxels are in an .img file
+    Analyze     ///< Analyze 7.5, or a NIfTI file whose magic word is damaged
+  };
+
+  Kind kind = Kind::SingleFile;
+  int version = 1;
+  bool isSwapped = false; ///< not in this machine's byte order
+  std::array<std::int64_t, 8> dimensions{};
+  int intent = 0;
+  int datatype = 0;
+  int bits = 0;
+  std::array<double, 8> pixdim{};
+  double voxelsOffset = 0; ///< bytes
+  double slope = 0;
+  double intercept = 0;
+  int units = 0;
+  int qformCode = 0;
+  int sformCode = 0;
+  std::array<double, 3> quaternion{};
+  std::array<double, 3> qformOffset{};
+  std::array<std::array<double, 4>, 3> sform{};
+};
+
+/** Reads the header of a .nii or .hdr file, whether compressed or not. Throws Failure(Unreadable) when it is none, but
+ * does not judge its fields. */
+NIfTIHeader
+ReadNIfTIHeader(const std::filesystem::path & path);
 
 } // namespace rhombic
 

@@ -62,6 +62,15 @@ VoxelsOffset(std::string_view bytes, const HeaderLayout & layout)
                           : static_cast<double>(NumberAt<std::int64_t>(bytes, 168, layout.isSwapped));
 }
 
+/** The first bytes of a file, or all if there are fewer. */
+std::string
+ReadBeginning(const fs::path & path, std::size_t size)
+{
+  std::string bytes(size, '\0');
+  bytes.resize(UnpackedFile(path).Read(bytes.data(), size));
+  return bytes;
+}
+
 /** All bytes before the voxels. */
 std::string
 ReadHeaderAndExtensions(const fs::path & path)

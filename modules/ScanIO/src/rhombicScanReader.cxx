@@ -2,6 +2,7 @@
 
 #include "rhombicDicomFolder.h"
 #include "rhombicFailure.h"
+#include "rhombicInProcessDecoder.h"
 #include "rhombicQuietLibraries.h"
 #include "rhombicVolumeFile.h"
 
@@ -44,7 +45,7 @@ Read(const fs::path & path, const ScanReadOptions & options)
                   "Cannot choose a series of " + path.string() +
                     ": only folders of DICOM files have series; leave it out.");
   }
-  return ReadVolumeFile(path);
+  return ReadVolumeFile(path, options);
 }
 
 } // namespace
@@ -53,13 +54,16 @@ Scan
 ReadScan(const fs::path & path, const ScanReadOptions & options)
 {
   const QuietLibraries quiet;
+  InProcessDecoder inProcess;
+  ScanReadOptions used = options;
+  used.decoder = options.decoder != nullptr ? options.decoder : &inProcess;
   const auto outOfMemory = [&path] {
     return Failure(FailureKind::Memory,
                    "Cannot read " + path.string() + ": it does not fit into memory; free some or crop the scan.");
   };
   try
   {
-    return Read(path, options);
+    return Read(path, used);
   }
   catch (const Failure &)
   {

@@ -10,6 +10,7 @@
 #include "itkNrrdImageIO.h"
 
 #include <cstring>
+#include <limits>
 
 namespace fs = std::filesystem;
 
@@ -109,9 +110,11 @@ WriteScan(const ScanImage & image, const fs::path & path)
     [&](const auto & pixels) {
       WriteImage(*pixels, file.GetTemporaryPath(), path);
       bool isComplete = false;
+      ScanReadOptions options;
+      options.maximumMemory = std::numeric_limits<std::uintmax_t>::max(); // there was enough for the image itself
       try
       {
-        isComplete = IsSame(*pixels, ReadScan(file.GetTemporaryPath()).image);
+        isComplete = IsSame(*pixels, ReadScan(file.GetTemporaryPath(), options).image);
       }
       catch (const Failure &)
       {

@@ -1,18 +1,20 @@
 #include "rhombicVolumeFile.h"
 
-#include "rhombicFailure.h"
+#include "rhombicMemoryBudget.h"
 #include "rhombicMetaImageHeader.h"
-#include "rhombicNIfTIHeader.h"
+#include "rhombicNIfTIFile.h"
+#include "rhombicNRRDHeader.h"
+#include "rhombicNRRDVolume.h"
+#include "rhombicVolumeFormat.h"
+#include "rhombicVolumeFrame.h"
 #include "rhombicVolumeGeometry.h"
 #include "rhombicVolumePixels.h"
-
-#include "itkMetaImageIO.h"
-#include "itkNiftiImageIO.h"
-#include "itkNrrdImageIO.h"
+#include "rhombicVolumeRefusal.h"
+#include "rhombicVoxelDecoder.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace fs = std::filesystem;
@@ -22,128 +24,49 @@ namespace rhombic
 namespace
 {
 
-[[noreturn]] void
-Refuse(const fs::path & path, const std::string & why)
-{
-  throw Failure(FailureKind::Unreadable, "Cannot read " + path.string() + ": " + why + ".");
-}
-
-/** "NIfTI", "NRRD" or "MetaImage" as the extension has it, or empty. */
-std::string
-FormatOf(const fs::path & path)
-{
-  std::string name = path.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char letter) {
-    return static_cast<char>(std::tolower(letter));
-  });
-  const auto endsWith = [&name](const std::string & extension) {
-    return name.size() > extension.size() &&
-           name.compare(name.size() - extension.size(), extension.size(), extension) == 0;
-  };
-  const auto endsWithAny = [&endsWith](std::initializer_list<const char *> extensions) {
-    return std::any_of(extensions.begin(), extensions.end(), endsWith);
-  };
-  return endsWithAny({ ".nii", ".nii.gz", ".hdr", ".img", ".img.gz" }) ? "NIfTI"
-         : endsWithAny({ ".nrrd", ".nhdr" })                           ? "NRRD"
-         : endsWithAny({ ".mha", ".mhd" })                             ? "MetaImage"
-                                                                       : "";
-}
-
-itk::ImageIOBase::Pointer
-NewImageIO(const std::string & format)
-{
-  if (format == "NIfTI")
-  {
-    return itk::NiftiImageIO::New().GetPointer();
-  }
-  if (format == "NRRD")
-  {
-    return itk::NrrdImageIO::New().GetPointer();
-  }
-  return itk::MetaImageIO::New().GetPointer();
-}
-
-/** Refuses what is not one volume of single numbers, and the sizes along its three axes otherwise. */
-itk::Size<3>
-SizeOfScalarVolume(const itk::ImageIOBase & io, const fs::path & path)
-{
-  if (io.GetPixelType() != itk::IOPixelEnum::SCALAR || io.GetNumberOfComponents() != 1)
-  {
-    Refuse(path,
-           "its pixels are " + itk::ImageIOBase::GetPixelTypeAsString(io.GetPixelType()) + "s of " +
-             std::to_string(io.GetNumberOfComponents()) + " numbers, not single numbers; extract one component first");
-  }
-  itk::Size<3> size;
-  size.Fill(1);
-  for (unsigned int axis = 0; axis < io.GetNumberOfDimensions(); ++axis)
-  {
-    if (axis < 3)
-    {
-      size[axis] = io.GetDimensions(axis);
-    }
-    else if (io.GetDimensions(axis) != 1)
-    {
-      Refuse(path, "it has more than three dimensions; extract one volume first");
-    }
-  }
-  if (io.GetNumberOfDimensions() < 3)
-  {
-    Refuse(path, "it is a flat picture of " + std::to_string(io.GetNumberOfDimensions()) + " dimensions, not a volume");
-  }
-  if (size[0] == 0 || size[1] == 0 || size[2] == 0)
-  {
-    Refuse(path, "it has no voxels");
-  }
-  return size;
-}
-
-/** The geometry as NRRD and MetaImage files have it: ITK's image IO gives it in LPS. */
-VolumeGeometry
-GeometryOf(const itk::ImageIOBase & io, const itk::Size<3> & size)
-{
-  VolumeGeometry geometry;
-  geometry.size = size;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    geometry.origin[axis] = io.GetOrigin(axis);
-    geometry.spacing[axis] = io.GetSpacing(axis);
-    const std::vector<double> direction = io.GetDirection(axis);
-    for (unsigned int row = 0; row < 3; ++row)
-    {
-      geometry.direction[row][axis] = direction.at(row);
-    }
-  }
-  return geometry;
-}
-
+/** Reads a NRRD or MetaImage file whose header and length are sound. */
 void
-ReadInformation(itk::ImageIOBase & io, const fs::path & path, const std::string & format)
+ReadStoredVolume(const fs::path & path, const StoredVolume & volume, const ScanReadOptions & options, Scan & scan)
 {
-  io.SetFileName(path.string());
-  if (!io.CanReadFile(path.c_str()))
+  const std::uintmax_t frame = ChooseFrame(volume.numberOfFrames, options.frame, path);
+  CheckGeometry(volume.geometry, path, volume.matrix, options.onIrregular, scan.notes);
+  const auto & size = volume.geometry.size;
+  const std::size_t voxels = size[0] * size[1] * size[2];
+  const std::size_t voxelSize = SizeOf(volume.type);
+  const std::size_t bytes = voxels * voxelSize * volume.numberOfFrames;
+  RequireMemory(bytes + MemoryOfPixels(volume.type, volume.scaling.has_value(), voxels),
+                options.maximumMemory,
+                "Reading " + path.string());
+
+  const auto unpacked = options.decoder->Decode({ VoxelRequest::Source::VolumeFile, path, bytes });
+  const std::byte * next = unpacked->GetData() + frame * (volume.areFramesInterleaved ? voxelSize : voxels * voxelSize);
+  const std::size_t step = volume.areFramesInterleaved ? voxelSize * volume.numberOfFrames : voxelSize;
+  scan.image =
+    ReadVolumePixels(volume.type, volume.scaling, volume.geometry, [&](std::byte * buffer, std::size_t count) {
+      for (std::byte * value = buffer; step != voxelSize && value != buffer + count; value += voxelSize, next += step)
+      {
+        std::memcpy(value, next, voxelSize);
+      }
+      if (step == voxelSize)
+      {
+        std::memcpy(buffer, next, count);
+        next += count;
+      }
+    });
+
+  scan.encoding = volume.encoding;
+  scan.scaling = DescribeScaling(volume.scaling);
+  scan.isOriented = volume.isOriented;
+  if (!volume.note.empty())
   {
-    Refuse(path, "its content is not " + format + ", as its name says; check where it came from");
-  }
-  try
-  {
-    io.ReadImageInformation();
-  }
-  catch (const itk::ExceptionObject & exception)
-  {
-    if (std::string(exception.GetDescription()).find("orthonormal") == std::string::npos)
-    {
-      throw;
-    }
-    throw Failure(FailureKind::Geometry,
-                  "Cannot place " + path.string() +
-                    " in the patient: ITK does not take its axes as perpendicular; resample it first.");
+    scan.notes.push_back(path.string() + " " + volume.note + ".");
   }
 }
 
 /** Puts the lowest finite value in the place of values that are not finite, which would spread when the scan is
  * resampled. Returns how many there were. */
 std::size_t
-ReplaceNotFinite(const ScanImage & image)
+ReplaceNotFinite(const ScanImage & image, const fs::path & path)
 {
   const auto * const pointer = std::get_if<itk::Image<float, 3>::Pointer>(&image);
   if (pointer == nullptr)
@@ -152,13 +75,17 @@ ReplaceNotFinite(const ScanImage & image)
   }
   float * const begin = (*pointer)->GetBufferPointer();
   float * const end = begin + (*pointer)->GetBufferedRegion().GetNumberOfPixels();
-  float lowest = std::numeric_limits<float>::max();
+  float lowest = std::numeric_limits<float>::infinity();
   std::size_t count = 0;
   for (const float * value = begin; value != end; ++value)
   {
     const bool isFinite = std::isfinite(*value);
     count += isFinite ? 0 : 1;
     lowest = isFinite ? std::min(lowest, *value) : lowest;
+  }
+  if (!std::isfinite(lowest))
+  {
+    RefuseVolume(path, "none of its values is a finite number; export it again from its source");
   }
   if (count > 0)
   {
@@ -173,43 +100,29 @@ ReplaceNotFinite(const ScanImage & image)
 bool
 IsVolumeFileName(const fs::path & path)
 {
-  return !FormatOf(path).empty();
+  return !VolumeFormatOf(path).empty();
 }
 
 Scan
-ReadVolumeFile(const fs::path & path)
+ReadVolumeFile(const fs::path & path, const ScanReadOptions & options)
 {
   Scan scan;
-  scan.format = FormatOf(path);
-
-  // ITK aborts or corrupts memory on some NIfTI headers, and MetaIO prints on short files: these are read first.
-  VolumeGeometry geometry;
+  scan.format = VolumeFormatOf(path);
   if (scan.format == "NIfTI")
   {
-    geometry = ReadNIfTIGeometry(path, scan);
-    CheckGeometry(geometry, path);
+    ReadNIfTIFile(path, options, scan);
   }
-  else if (scan.format == "MetaImage")
+  else
   {
-    CheckMetaImageData(path);
+    const StoredVolume volume = scan.format == "NRRD" ? ReadNRRDVolume(path) : ReadMetaImageVolume(path);
+    ReadStoredVolume(path, volume, options, scan);
+    if (scan.format == "NRRD")
+    {
+      scan.labels =
+        LabelsOfSegments(ReadNRRDKeyValues(path), path.string(), static_cast<int>(options.frame.value_or(0)));
+    }
   }
-
-  const auto io = NewImageIO(scan.format);
-  ReadInformation(*io, path, scan.format);
-  const itk::Size<3> size = SizeOfScalarVolume(*io, path);
-  if (scan.format != "NIfTI")
-  {
-    geometry = GeometryOf(*io, size);
-    CheckGeometry(geometry, path);
-  }
-  if (scan.format == "NRRD" && !io->GetMetaDataDictionary().HasKey("NRRD_space"))
-  {
-    scan.isOriented = false;
-    scan.notes.push_back(path.string() + " does not say how it lies in the patient; left and right are a guess.");
-  }
-  scan.image = ReadVolumePixels(*io, geometry);
-
-  if (const std::size_t count = ReplaceNotFinite(scan.image); count > 0)
+  if (const std::size_t count = ReplaceNotFinite(scan.image, path); count > 0)
   {
     scan.notes.push_back(path.string() + " holds " + std::to_string(count) +
                          " values that are not finite numbers; the lowest value took their place.");

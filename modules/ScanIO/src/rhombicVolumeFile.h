@@ -2,6 +2,7 @@
 #define rhombicVolumeFile_h
 
 #include "rhombicScan.h"
+#include "rhombicScanReader.h"
 
 #include <filesystem>
 
@@ -12,9 +13,9 @@ namespace rhombic
 bool
 IsVolumeFileName(const std::filesystem::path & path);
 
-/** Reads a NIfTI, NRRD or MetaImage file. Throws Failure and ITK's exceptions. */
+/** Reads a NIfTI, NRRD or MetaImage file. Throws Failure, ITK's exceptions and std::bad_alloc. */
 Scan
-ReadVolumeFile(const std::filesystem::path & path);
+ReadVolumeFile(const std::filesystem::path & path, const ScanReadOptions & options);
 
 } // namespace rhombic
 

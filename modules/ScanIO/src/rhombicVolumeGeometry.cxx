@@ -1,20 +1,17 @@
 #include "rhombicVolumeGeometry.h"
 
-#include "rhombicFailure.h"
+#include "rhombicVolumeRefusal.h"
 
+#include "itkMath.h"
+
+#include <algorithm>
 #include <cmath>
-#include <string>
+#include <cstdio>
 
 namespace rhombic
 {
 namespace
 {
-
-[[noreturn]] void
-Refuse(const std::filesystem::path & path, const std::string & why)
-{
-  throw Failure(FailureKind::Geometry, "Cannot place " + path.string() + " in the patient: " + why + ".");
-}
 
 itk::Vector<double, 3>
 AxisOf(const VolumeGeometry & geometry, unsigned int axis)
@@ -47,30 +44,52 @@ MakeGeometry(const itk::Size<3> & size, const itk::Point<double, 3> & origin, co
 }
 
 void
-CheckGeometry(const VolumeGeometry & geometry, const std::filesystem::path & path)
+CheckGeometry(const VolumeGeometry & geometry,
+              const std::filesystem::path & path,
+              const std::string & matrix,
+              ScanReadOptions::Policy onSheared,
+              std::vector<std::string> & notes)
 {
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
+    if (geometry.spacing[axis] == 0)
+    {
+      RefuseGeometry(path,
+                     "its voxels have no size along axis " + std::to_string(axis) + " (" + matrix +
+                       "); export it again from its source");
+    }
     if (!std::isfinite(geometry.origin[axis]) || !std::isfinite(geometry.spacing[axis]) ||
         !std::isfinite(AxisOf(geometry, axis).GetSquaredNorm()))
     {
-      Refuse(path, "its header holds numbers that are not finite; export it again from its source");
-    }
-    if (geometry.spacing[axis] <= 0)
-    {
-      Refuse(path, "its voxels have no size along axis " + std::to_string(axis) + "; export it again from its source");
+      RefuseGeometry(path, "its " + matrix + " holds numbers that are not finite; export it again from its source");
     }
   }
-  constexpr double tolerance = 1e-3;
+  constexpr double smallestVolume = 1e-3; // of a voxel with edges of length 1
+  const double volume = AxisOf(geometry, 0) * itk::CrossProduct(AxisOf(geometry, 1), AxisOf(geometry, 2));
+  if (std::abs(volume) < smallestVolume)
+  {
+    RefuseGeometry(path, "its axes lie in one plane (the " + matrix + " is singular); export it again from its source");
+  }
+
+  double largestCosine = 0;
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    const double cosine = AxisOf(geometry, axis) * AxisOf(geometry, (axis + 1) % 3);
-    if (std::abs(cosine) > tolerance || std::abs(AxisOf(geometry, axis).GetNorm() - 1) > tolerance)
+    largestCosine = std::max(largestCosine, std::abs(AxisOf(geometry, axis) * AxisOf(geometry, (axis + 1) % 3)));
+  }
+  constexpr double tolerance = 1e-3;
+  if (largestCosine > tolerance)
+  {
+    char degrees[32];
+    std::snprintf(
+      degrees, sizeof(degrees), "%.3g degrees", std::asin(std::min(1.0, largestCosine)) * 180 / itk::Math::pi);
+    if (onSheared == ScanReadOptions::Policy::Refuse)
     {
-      Refuse(path,
-             "its axes are not perpendicular (cosine " + std::to_string(cosine) +
-               "), and this version does not resample sheared volumes; resample it to perpendicular axes first");
+      RefuseGeometry(path,
+                     "its " + matrix + " is sheared: its axes are " + degrees +
+                       " from perpendicular; accept irregular volumes, or resample it to perpendicular axes first");
     }
+    notes.push_back(path.string() + " is sheared: the axes of its " + matrix + " are " + degrees +
+                    " from perpendicular.");
   }
 }
 

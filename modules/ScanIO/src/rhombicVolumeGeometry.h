@@ -1,9 +1,13 @@
 #ifndef rhombicVolumeGeometry_h
 #define rhombicVolumeGeometry_h
 
+#include "rhombicScanReader.h"
+
 #include "itkImage.h"
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace rhombic
 {
@@ -21,9 +25,15 @@ struct VolumeGeometry
 VolumeGeometry
 MakeGeometry(const itk::Size<3> & size, const itk::Point<double, 3> & origin, const itk::Vector<double, 3> steps[3]);
 
-/** Throws Failure(Geometry) unless all numbers are finite, spacings positive and axes perpendicular within 1e-3. */
+/** Throws Failure(Geometry) unless all numbers are finite, spacings positive and the axes independent. Axes that are
+ * not perpendicular within 1e-3 (the cosine) are refused too with Policy::Refuse, and otherwise noted. \a matrix names
+ * where the axes come from: "sform". */
 void
-CheckGeometry(const VolumeGeometry & geometry, const std::filesystem::path & path);
+CheckGeometry(const VolumeGeometry & geometry,
+              const std::filesystem::path & path,
+              const std::string & matrix,
+              ScanReadOptions::Policy onSheared,
+              std::vector<std::string> & notes);
 
 /** An image of this geometry, its pixels not set. */
 template <typename TPixel>

@@ -1,96 +1,201 @@
 #include "rhombicVolumePixels.h"
 
+#include "rhombicFailure.h"
+
 #include <algorithm>
-#include <cstdint>
 #include <limits>
+#include <sstream>
+#include <type_traits>
+#include <vector>
 
 namespace rhombic
 {
 namespace
 {
 
-template <typename TPixel>
-typename itk::Image<TPixel, 3>::Pointer
-ReadAs(itk::ImageIOBase & io, const VolumeGeometry & geometry)
-{
-  itk::ImageIORegion region(io.GetNumberOfDimensions());
-  for (unsigned int axis = 0; axis < io.GetNumberOfDimensions(); ++axis)
-  {
-    region.SetSize(axis, io.GetDimensions(axis));
-  }
-  io.SetIORegion(region);
+constexpr std::size_t ChunkVoxels = 1 << 18;
 
-  auto image = NewImage<TPixel>(geometry);
-  const auto bytes = image->GetBufferedRegion().GetNumberOfPixels() * sizeof(TPixel);
-  if (static_cast<itk::SizeValueType>(io.GetImageSizeInBytes()) != bytes)
+/** Calls \a use with a value of the C++ type of \a type. */
+template <typename TUse>
+auto
+WithType(StoredType type, const TUse & use)
+{
+  switch (type)
   {
-    itkGenericExceptionMacro("it announces " << io.GetImageSizeInBytes() << " bytes of pixels, but has " << bytes);
+    case StoredType::UInt8:
+      return use(std::uint8_t());
+    case StoredType::Int8:
+      return use(std::int8_t());
+    case StoredType::UInt16:
+      return use(std::uint16_t());
+    case StoredType::Int16:
+      return use(std::int16_t());
+    case StoredType::UInt32:
+      return use(std::uint32_t());
+    case StoredType::Int32:
+      return use(std::int32_t());
+    case StoredType::UInt64:
+      return use(std::uint64_t());
+    case StoredType::Int64:
+      return use(std::int64_t());
+    case StoredType::Float:
+      return use(float());
+    case StoredType::Double:
+      return use(double());
   }
-  io.Read(image->GetBufferPointer());
-  return image;
+  throw Failure(FailureKind::Internal, "A volume has a pixel type that is none; report this.");
 }
 
-template <typename TPixel, typename TStored>
-typename itk::Image<TPixel, 3>::Pointer
-Convert(const itk::Image<TStored, 3> & stored, const VolumeGeometry & geometry)
+template <typename TStored>
+constexpr bool IsWide = std::is_integral_v<TStored> && (sizeof(TStored) > 4 || std::is_same_v<TStored, std::uint32_t>);
+
+/** The type of ScanImage that holds all values; for wide integers the first to try. */
+template <typename TStored>
+using PixelFor =
+  std::conditional_t<std::is_same_v<TStored, std::int8_t>,
+                     std::int16_t,
+                     std::conditional_t<IsWide<TStored>,
+                                        std::int32_t,
+                                        std::conditional_t<std::is_same_v<TStored, double>, float, TStored>>>;
+
+/** Calls \a use with each chunk of the voxels: its values, their number, and the place of the first. */
+template <typename TStored, typename TUse>
+void
+ForEachChunk(const VolumeGeometry & geometry, const VoxelSource & source, const TUse & use)
+{
+  const std::size_t total = geometry.size[0] * geometry.size[1] * geometry.size[2];
+  std::vector<TStored> chunk(std::min(total, ChunkVoxels));
+  for (std::size_t first = 0; first < total; first += chunk.size())
+  {
+    const std::size_t count = std::min(chunk.size(), total - first);
+    source(reinterpret_cast<std::byte *>(chunk.data()), count * sizeof(TStored));
+    use(chunk.data(), count, first);
+  }
+}
+
+template <typename TPixel>
+ScanImage
+ReadDirectly(const VolumeGeometry & geometry, const VoxelSource & source)
 {
   const auto image = NewImage<TPixel>(geometry);
-  const TStored * const begin = stored.GetBufferPointer();
-  std::transform(begin,
-                 begin + stored.GetBufferedRegion().GetNumberOfPixels(),
-                 image->GetBufferPointer(),
-                 [](TStored value) { return static_cast<TPixel>(value); });
+  auto * const begin = reinterpret_cast<std::byte *>(image->GetBufferPointer());
+  const std::size_t total = image->GetBufferedRegion().GetNumberOfPixels() * sizeof(TPixel);
+  constexpr std::size_t step = ChunkVoxels * sizeof(TPixel);
+  for (std::size_t first = 0; first < total; first += step)
+  {
+    source(begin + first, std::min(step, total - first));
+  }
   return image;
 }
 
-/** For integers wider than any in ScanImage. */
+template <typename TStored, typename TPixel, typename TConvert>
+ScanImage
+ReadConverted(const VolumeGeometry & geometry, const VoxelSource & source, const TConvert & convert)
+{
+  const auto image = NewImage<TPixel>(geometry);
+  TPixel * const pixels = image->GetBufferPointer();
+  ForEachChunk<TStored>(geometry, source, [&](const TStored * values, std::size_t count, std::size_t first) {
+    std::transform(values, values + count, pixels + first, convert);
+  });
+  return image;
+}
+
+/** For integers wider than any in ScanImage: int32 as long as all values fit, then float. */
 template <typename TStored>
 ScanImage
-ConvertToInt32OrFloat(const itk::Image<TStored, 3> & stored, const VolumeGeometry & geometry)
+ReadWide(const VolumeGeometry & geometry, const VoxelSource & source)
 {
   using Limits = std::numeric_limits<std::int32_t>;
-  const TStored * const begin = stored.GetBufferPointer();
-  const auto [lowest, highest] = std::minmax_element(begin, begin + stored.GetBufferedRegion().GetNumberOfPixels());
-  const bool fits = *highest <= static_cast<TStored>(Limits::max()) &&
-                    (std::is_unsigned_v<TStored> || *lowest >= static_cast<TStored>(Limits::min()));
-  return fits ? ScanImage(Convert<std::int32_t>(stored, geometry)) : ScanImage(Convert<float>(stored, geometry));
+  const auto fits = [](TStored value) {
+    return value <= static_cast<TStored>(Limits::max()) &&
+           (std::is_unsigned_v<TStored> || value >= static_cast<TStored>(Limits::min()));
+  };
+  auto integers = NewImage<std::int32_t>(geometry);
+  itk::Image<float, 3>::Pointer floats;
+  ForEachChunk<TStored>(geometry, source, [&](const TStored * values, std::size_t count, std::size_t first) {
+    if (!floats && !std::all_of(values, values + count, fits))
+    {
+      floats = NewImage<float>(geometry);
+      const std::int32_t * const begin = integers->GetBufferPointer();
+      std::transform(
+        begin, begin + first, floats->GetBufferPointer(), [](std::int32_t value) { return static_cast<float>(value); });
+      integers = nullptr;
+    }
+    if (floats)
+    {
+      std::transform(values, values + count, floats->GetBufferPointer() + first, [](TStored value) {
+        return static_cast<float>(value);
+      });
+    }
+    else
+    {
+      std::transform(values, values + count, integers->GetBufferPointer() + first, [](TStored value) {
+        return static_cast<std::int32_t>(value);
+      });
+    }
+  });
+  return floats ? ScanImage(floats) : ScanImage(integers);
 }
 
 } // namespace
 
-ScanImage
-ReadVolumePixels(itk::ImageIOBase & io, const VolumeGeometry & geometry)
+std::size_t
+SizeOf(StoredType type)
 {
-  using Component = itk::IOComponentEnum;
-  switch (io.GetComponentType())
+  return WithType(type, [](auto stored) { return sizeof(stored); });
+}
+
+std::string
+DescribeScaling(const std::optional<ValueScaling> & scaling)
+{
+  if (!scaling)
   {
-    case Component::UCHAR:
-      return ReadAs<std::uint8_t>(io, geometry);
-    case Component::CHAR:
-      return Convert<std::int16_t>(*ReadAs<std::int8_t>(io, geometry), geometry);
-    case Component::SHORT:
-      return ReadAs<std::int16_t>(io, geometry);
-    case Component::USHORT:
-      return ReadAs<std::uint16_t>(io, geometry);
-    case Component::INT:
-      return ReadAs<std::int32_t>(io, geometry);
-    case Component::UINT:
-      return ConvertToInt32OrFloat(*ReadAs<std::uint32_t>(io, geometry), geometry);
-    case Component::LONG:
-    case Component::LONGLONG:
-      static_assert(sizeof(long) == sizeof(std::int64_t));
-      return ConvertToInt32OrFloat(*ReadAs<std::int64_t>(io, geometry), geometry);
-    case Component::ULONG:
-    case Component::ULONGLONG:
-      return ConvertToInt32OrFloat(*ReadAs<std::uint64_t>(io, geometry), geometry);
-    case Component::FLOAT:
-      return ReadAs<float>(io, geometry);
-    case Component::DOUBLE:
-      return Convert<float>(*ReadAs<double>(io, geometry), geometry);
-    default:
-      itkGenericExceptionMacro("its pixel type " << itk::ImageIOBase::GetComponentTypeAsString(io.GetComponentType())
-                                                 << " is not supported");
+    return "";
   }
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << "slope " << scaling->slope << ", intercept " << scaling->intercept;
+  return text.str();
+}
+
+std::uintmax_t
+MemoryOfPixels(StoredType type, bool isScaled, std::uintmax_t numberOfVoxels)
+{
+  const std::size_t bytes = WithType(type, [isScaled](auto stored) {
+    using Stored = decltype(stored);
+    return isScaled ? sizeof(float) : IsWide<Stored> ? sizeof(std::int32_t) + sizeof(float) : sizeof(PixelFor<Stored>);
+  });
+  return numberOfVoxels * bytes;
+}
+
+ScanImage
+ReadVolumePixels(StoredType type,
+                 const std::optional<ValueScaling> & scaling,
+                 const VolumeGeometry & geometry,
+                 const VoxelSource & source)
+{
+  return WithType(type, [&](auto stored) -> ScanImage {
+    using Stored = decltype(stored);
+    using Pixel = PixelFor<Stored>;
+    if (scaling)
+    {
+      return ReadConverted<Stored, float>(geometry, source, [&scaling](Stored value) {
+        return static_cast<float>(scaling->slope * static_cast<double>(value) + scaling->intercept);
+      });
+    }
+    if constexpr (IsWide<Stored>)
+    {
+      return ReadWide<Stored>(geometry, source);
+    }
+    else if constexpr (std::is_same_v<Stored, Pixel>)
+    {
+      return ReadDirectly<Pixel>(geometry, source);
+    }
+    else
+    {
+      return ReadConverted<Stored, Pixel>(geometry, source, [](Stored value) { return static_cast<Pixel>(value); });
+    }
+  });
 }
 
 } // namespace rhombic

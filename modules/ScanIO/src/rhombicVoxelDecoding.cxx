@@ -1,6 +1,7 @@
 #include "rhombicVoxelDecoding.h"
 
 #include "rhombicDicomDecoding.h"
+#include "rhombicVolumeVoxels.h"
 
 namespace rhombic
 {
@@ -14,6 +15,7 @@ DecodeVoxels(const VoxelRequest & request, std::byte * voxels)
       DecodeDicomFile(request.path, voxels, request.size);
       break;
     case VoxelRequest::Source::VolumeFile:
+      DecodeVolumeFile(request.path, voxels, request.size);
       break;
   }
 }

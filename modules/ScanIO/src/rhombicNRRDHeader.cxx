@@ -1,0 +1,112 @@
+#include "rhombicNRRDHeader.h"
+
+#include "rhombicTextHeader.h"
+#include "rhombicVolumeRefusal.h"
+
+#include <algorithm>
+#include <fstream>
+
+namespace fs = std::filesystem;
+
+namespace rhombic
+{
+namespace
+{
+
+constexpr std::size_t LargestHeader = std::size_t(1) << 24;
+
+/** The next line without its end, of which \a header counts the bytes. False at the end of the file. */
+bool
+ReadLine(std::istream & file, const fs::path & path, NRRDHeader & header, std::string & line)
+{
+  line.clear();
+  char letter = 0;
+  while (file.get(letter))
+  {
+    if (++header.size > LargestHeader)
+    {
+      RefuseVolume(path, "its header has no end within 16 MiB; check where it came from");
+    }
+    if (letter == '\n')
+    {
+      if (!line.empty() && line.back() == '\r')
+      {
+        line.pop_back();
+      }
+      return true;
+    }
+    line.push_back(letter);
+  }
+  return !line.empty();
+}
+
+/** Undoes "\n" and "\\". */
+std::string
+Unescaped(const std::string & text)
+{
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i)
+  {
+    const bool isEscape = text[i] == '\\' && i + 1 < text.size() && (text[i + 1] == 'n' || text[i + 1] == '\\');
+    result.push_back(!isEscape ? text[i] : text[++i] == 'n' ? '\n' : '\\');
+  }
+  return result;
+}
+
+} // namespace
+
+std::string
+NRRDHeader::Get(const std::string & field) const
+{
+  const auto found = fields.find(field);
+  return found == fields.end() ? "" : found->second;
+}
+
+NRRDHeader
+ReadNRRDHeader(const fs::path & path)
+{
+  std::ifstream file(path, std::ios::binary);
+  NRRDHeader header;
+  std::string magic(8, '\0');
+  file.read(magic.data(), static_cast<std::streamsize>(magic.size()));
+  if (!file || magic.compare(0, 7, "NRRD000") != 0 || magic[7] < '1' || magic[7] > '6')
+  {
+    RefuseVolume(path, "its content is not NRRD, as its name says; check where it came from");
+  }
+  header.size = magic.size();
+  std::string line;
+  ReadLine(file, path, header, line);
+
+  while (ReadLine(file, path, header, line) && !line.empty())
+  {
+    const std::size_t colon = line.find(':');
+    if (line.front() == '#' || colon == std::string::npos)
+    {
+      continue;
+    }
+    if (line.compare(colon, 2, ":=") == 0)
+    {
+      header.keyValues[Unescaped(line.substr(0, colon))] = Unescaped(line.substr(colon + 2));
+      continue;
+    }
+    std::string name = LowerCase(line.substr(0, colon));
+    name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
+    if (!header.fields.emplace(name, Trimmed(line.substr(colon + 1))).second)
+    {
+      RefuseVolume(path, "its header has the field '" + name + "' twice; export it again from its source");
+    }
+    if (name == "datafile" && header.Get(name).compare(0, 4, "LIST") == 0)
+    {
+      break; // names of files follow
+    }
+  }
+  return header;
+}
+
+std::map<std::string, std::string>
+ReadNRRDKeyValues(const fs::path & path)
+{
+  return ReadNRRDHeader(path).keyValues;
+}
+
+} // namespace rhombic

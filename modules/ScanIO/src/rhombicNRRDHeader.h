@@ -1,0 +1,34 @@
+#ifndef rhombicNRRDHeader_h
+#define rhombicNRRDHeader_h
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace rhombic
+{
+
+/** The lines of a NRRD header. */
+struct NRRDHeader
+{
+  std::map<std::string, std::string> fields;    ///< "field: value", names in lower case and without blanks
+  std::map<std::string, std::string> keyValues; ///< "key:=value", escapes undone
+  std::uintmax_t size = 0;                      ///< bytes up to the first behind the empty line
+
+  /** The value of a field; empty when there is none. */
+  std::string
+  Get(const std::string & field) const;
+};
+
+/** Throws Failure(Unreadable) when the file is not NRRD, or its header longer than 16 MiB. */
+NRRDHeader
+ReadNRRDHeader(const std::filesystem::path & path);
+
+/** The key/value pairs of a NRRD file, as Slicer describes segments. Throws as ReadNRRDHeader(). */
+std::map<std::string, std::string>
+ReadNRRDKeyValues(const std::filesystem::path & path);
+
+} // namespace rhombic
+
+#endif

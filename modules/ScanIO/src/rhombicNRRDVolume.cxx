@@ -1,0 +1,383 @@
+#include "rhombicNRRDVolume.h"
+
+#include "rhombicCompressedFile.h"
+#include "rhombicNRRDHeader.h"
+#include "rhombicTextHeader.h"
+#include "rhombicVolumeFrame.h"
+#include "rhombicVolumeRefusal.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <limits>
+#include <map>
+
+namespace fs = std::filesystem;
+
+namespace rhombic
+{
+namespace
+{
+
+StoredType
+TypeOf(const NRRDHeader & header, const fs::path & path)
+{
+  struct Type
+  {
+    StoredType type;
+    std::vector<const char *> names;
+  };
+  static const std::vector<Type> types{
+    { StoredType::Int8, { "signed char", "int8", "int8_t" } },
+    { StoredType::UInt8, { "uchar", "unsigned char", "uint8", "uint8_t" } },
+    { StoredType::Int16, { "short", "short int", "signed short", "signed short int", "int16", "int16_t" } },
+    { StoredType::UInt16, { "ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t" } },
+    { StoredType::Int32, { "int", "signed int", "int32", "int32_t" } },
+    { StoredType::UInt32, { "uint", "unsigned int", "uint32", "uint32_t" } },
+    { StoredType::Int64,
+      { "longlong", "long long", "long long int", "signed long long", "signed long long int", "int64", "int64_t" } },
+    { StoredType::UInt64, { "ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t" } },
+    { StoredType::Float, { "float" } },
+    { StoredType::Double, { "double" } },
+  };
+  const std::string name = LowerCase(header.Get("type"));
+  for (const Type & type : types)
+  {
+    if (std::find(type.names.begin(), type.names.end(), name) != type.names.end())
+    {
+      return type.type;
+    }
+  }
+  RefuseVolume(path, "its pixel type '" + name + "' is not supported; convert it to integers or floats first");
+}
+
+std::vector<std::uintmax_t>
+SizesOf(const NRRDHeader & header, const fs::path & path)
+{
+  const auto dimension = CountsOf(header.Get("dimension"));
+  const auto sizes = CountsOf(header.Get("sizes"));
+  if (!dimension || dimension->size() != 1 || !sizes || sizes->size() != dimension->front() ||
+      std::count(sizes->begin(), sizes->end(), 0) > 0)
+  {
+    RefuseVolume(path, "its header contradicts itself about its dimensions; export it again from its source");
+  }
+  if (sizes->size() < 3)
+  {
+    RefuseVolume(path, "it is a flat picture of " + std::to_string(sizes->size()) + " dimensions, not a volume");
+  }
+  if (sizes->size() > 4)
+  {
+    RefuseVolume(path, "it has " + std::to_string(sizes->size()) + " dimensions; extract one volume first");
+  }
+  return *sizes;
+}
+
+/** The directions of the axes, empty for those of which the file says "none"; no entries without the field. */
+std::vector<std::vector<double>>
+DirectionsOf(const NRRDHeader & header, std::size_t dimension, const fs::path & path)
+{
+  const std::string text = header.Get("spacedirections");
+  std::vector<std::vector<double>> directions;
+  std::size_t position = 0;
+  while ((position = text.find_first_not_of(" \t", position)) != std::string::npos)
+  {
+    std::size_t end = text.find(')', position);
+    if (LowerCase(text.substr(position, 4)) == "none")
+    {
+      directions.emplace_back();
+      end = position + 3;
+    }
+    else if (const auto numbers = NumbersOf(text.substr(position, end - position));
+             text[position] == '(' && end != std::string::npos && numbers && numbers->size() >= 3)
+    {
+      directions.push_back(*numbers);
+    }
+    else
+    {
+      RefuseGeometry(path, "its header's 'space directions' can't be read; export it again from its source");
+    }
+    position = end + 1;
+  }
+  if (!directions.empty() && directions.size() != dimension)
+  {
+    RefuseGeometry(path, "its header has a wrong number of 'space directions'; export it again from its source");
+  }
+  return directions;
+}
+
+/** The kinds of the axes as the file has them, in lower case; "domain" for those it does not know. */
+std::vector<std::string>
+KindsOf(const NRRDHeader & header, std::size_t dimension, const fs::path & path)
+{
+  std::vector<std::string> kinds = WordsOf(LowerCase(header.Get("kinds")));
+  if (!kinds.empty() && kinds.size() != dimension)
+  {
+    RefuseVolume(path, "its header has a wrong number of 'kinds'; export it again from its source");
+  }
+  kinds.resize(dimension, "domain");
+  std::replace(kinds.begin(), kinds.end(), std::string("???"), std::string("domain"));
+  return kinds;
+}
+
+bool
+IsSpatial(const std::string & kind)
+{
+  return kind == "domain" || kind == "space";
+}
+
+/** Which axis counts the volumes; that behind the last one where there is none. */
+std::size_t
+FrameAxis(const std::vector<std::string> & kinds,
+          const std::vector<std::vector<double>> & directions,
+          const fs::path & path)
+{
+  const std::size_t dimension = kinds.size();
+  std::vector<std::size_t> candidates;
+  for (std::size_t axis = 0; axis < dimension; ++axis)
+  {
+    const bool hasNoDirection = !directions.empty() && directions[axis].empty();
+    if (hasNoDirection || !IsSpatial(kinds[axis]))
+    {
+      candidates.push_back(axis);
+    }
+  }
+  for (const std::size_t axis : candidates)
+  {
+    if (!IsSpatial(kinds[axis]) && kinds[axis] != "list" && kinds[axis] != "time" && kinds[axis] != "none")
+    {
+      RefuseVolume(path,
+                   "its voxels are no single numbers (an axis is of the kind " + kinds[axis] +
+                     "); extract one component first");
+    }
+  }
+  if (candidates.size() > dimension - 3)
+  {
+    RefuseVolume(
+      path, "only " + std::to_string(dimension - candidates.size()) + " of its axes lie in space; it is no volume");
+  }
+  const std::size_t frameAxis = candidates.empty() ? 3 : candidates.front();
+  if (frameAxis == 1 || frameAxis == 2)
+  {
+    RefuseVolume(path, "the axis of its volumes lies between the others, which is not supported; permute it first");
+  }
+  return frameAxis;
+}
+
+/** Along x and y from RAS, LAS or LPS to LPS; nothing for spaces that do not tell left from right. */
+std::optional<std::array<double, 2>>
+SignsToLPS(const std::string & space)
+{
+  static const std::map<std::string, std::array<double, 2>> signs{
+    { "right-anterior-superior", { -1, -1 } },      { "ras", { -1, -1 } },
+    { "left-anterior-superior", { 1, -1 } },        { "las", { 1, -1 } },
+    { "left-posterior-superior", { 1, 1 } },        { "lps", { 1, 1 } },
+    { "right-anterior-superior-time", { -1, -1 } }, { "rast", { -1, -1 } },
+    { "left-anterior-superior-time", { 1, -1 } },   { "last", { 1, -1 } },
+    { "left-posterior-superior-time", { 1, 1 } },   { "lpst", { 1, 1 } },
+  };
+  const auto found = signs.find(LowerCase(space));
+  return found == signs.end() ? std::nullopt : std::make_optional(found->second);
+}
+
+double
+MillimetresPerUnit(const NRRDHeader & header, const fs::path & path)
+{
+  static const std::map<std::string, double> units{ { "", 1 },           { "???", 1 },        { "mm", 1 },
+                                                    { "millimeter", 1 }, { "um", 1e-3 },      { "\u00b5m", 1e-3 },
+                                                    { "micron", 1e-3 },  { "microns", 1e-3 }, { "cm", 10 },
+                                                    { "m", 1e3 },        { "meter", 1e3 } };
+  std::string text = header.Get("spaceunits");
+  std::replace(text.begin(), text.end(), '"', ' ');
+  const std::vector<std::string> words = WordsOf(LowerCase(text));
+  const std::string unit = words.empty() ? "" : words.front();
+  const bool areSame = words.size() < 3 || (words[1] == unit && words[2] == unit);
+  const auto found = units.find(unit);
+  if (found == units.end() || !areSame)
+  {
+    RefuseGeometry(path, "its 'space units' are " + Trimmed(text) + "; write it in mm");
+  }
+  return found->second;
+}
+
+/** Fills the geometry, matrix, isOriented and note. */
+void
+Place(const NRRDHeader & header,
+      const std::vector<std::uintmax_t> & sizes,
+      const std::vector<std::vector<double>> & directions,
+      std::size_t frameAxis,
+      const fs::path & path,
+      StoredVolume & volume)
+{
+  const std::size_t firstAxis = frameAxis == 0 ? 1 : 0;
+  const itk::Size<3> size{ { sizes[firstAxis], sizes[firstAxis + 1], sizes[firstAxis + 2] } };
+  const double unit = MillimetresPerUnit(header, path);
+  itk::Point<double, 3> origin;
+  origin.Fill(0);
+  itk::Vector<double, 3> steps[3];
+  if (directions.empty())
+  {
+    const auto spacings = NumbersOf(header.Get("spacings"));
+    if (!spacings || (!spacings->empty() && spacings->size() != sizes.size()))
+    {
+      RefuseGeometry(path, "its header's 'spacings' can't be read; export it again from its source");
+    }
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      steps[axis].Fill(0);
+      steps[axis][axis] = spacings->empty() ? 1 : (*spacings)[firstAxis + axis] * unit;
+      if (steps[axis][axis] < 0)
+      {
+        RefuseGeometry(path, "its header's 'spacings' are negative; export it again from its source");
+      }
+    }
+    volume.geometry = MakeGeometry(size, origin, steps);
+    volume.matrix = "spacings";
+    volume.isOriented = false;
+    volume.note = spacings->empty() ? "says neither how it lies in the patient nor how large its voxels are; left and "
+                                      "right are a guess, and 1 mm is"
+                                    : "does not say how it lies in the patient; left and right are a guess";
+    return;
+  }
+
+  const auto signs = SignsToLPS(header.Get("space"));
+  const auto place = [&](const std::vector<double> & vector, unsigned int row) {
+    return vector[row] * unit * (signs && row < 2 ? (*signs)[row] : 1.0);
+  };
+  const auto spaceOrigin = NumbersOf(header.Get("spaceorigin"));
+  if (!spaceOrigin || (!spaceOrigin->empty() && spaceOrigin->size() < 3))
+  {
+    RefuseGeometry(path, "its header's 'space origin' can't be read; export it again from its source");
+  }
+  for (unsigned int row = 0; row < 3; ++row)
+  {
+    origin[row] = spaceOrigin->empty() ? 0.0 : place(*spaceOrigin, row);
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      steps[axis][row] = place(directions[firstAxis + axis], row);
+    }
+  }
+  volume.geometry = MakeGeometry(size, origin, steps);
+  volume.matrix = "'space directions'";
+  volume.isOriented = signs.has_value();
+  volume.note = !signs                 ? "does not say how it lies in the patient; left and right are a guess"
+                : spaceOrigin->empty() ? "does not say where it begins; its first voxel was put at 0"
+                                       : "";
+}
+
+std::string
+EncodingOf(const NRRDHeader & header, const fs::path & path)
+{
+  static const std::map<std::string, std::string> encodings{ { "raw", "raw" },    { "txt", "text" }, { "text", "text" },
+                                                             { "ascii", "text" }, { "hex", "hex" },  { "gz", "gzip" },
+                                                             { "gzip", "gzip" } };
+  const std::string name = LowerCase(header.Get("encoding"));
+  const auto found = encodings.find(name);
+  if (found == encodings.end())
+  {
+    RefuseVolume(path, "its encoding '" + name + "' is not supported; write it as raw or gzip");
+  }
+  return found->second;
+}
+
+/** Where the voxels begin in \a data once \a count lines from \a begin are passed over. */
+std::uintmax_t
+PassLines(const fs::path & data, std::uintmax_t begin, std::uintmax_t count)
+{
+  std::ifstream file(data, std::ios::binary);
+  file.seekg(static_cast<std::streamoff>(begin));
+  for (; count > 0 && file; --count)
+  {
+    file.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  }
+  return file ? static_cast<std::uintmax_t>(file.tellg()) : fs::file_size(data);
+}
+
+/** Refuses data that is missing or shorter than \a needed bytes. */
+void
+CheckData(const NRRDHeader & header,
+          const std::string & encoding,
+          std::uintmax_t needed,
+          std::size_t bytesPerVoxel,
+          const fs::path & path)
+{
+  const std::string name = header.Get("datafile");
+  if (name.compare(0, 4, "LIST") == 0 || name.find('%') != std::string::npos)
+  {
+    RefuseVolume(path, "its voxels are spread over several files, which is not supported; write it as one file");
+  }
+  const std::string endian = LowerCase(header.Get("endian"));
+  if (bytesPerVoxel > 1 && encoding != "text" && endian != "little" && endian != "big")
+  {
+    RefuseVolume(path, "its header does not say in which byte order its voxels are; export it again from its source");
+  }
+  const fs::path data = name.empty() ? path : DetachedFile(path, name);
+  const auto lineSkip = CountsOf(header.Get("lineskip"));
+  const auto byteSkip = NumbersOf(header.Get("byteskip"));
+  const bool hasByteSkip = byteSkip && byteSkip->size() == 1;
+  const double skip = hasByteSkip ? byteSkip->front() : 0;
+  constexpr double largestSkip = 1e15;
+  if (!lineSkip || lineSkip->size() > 1 || !byteSkip || byteSkip->size() > 1 || !(skip >= -1 && skip <= largestSkip) ||
+      (skip < 0 && encoding != "raw"))
+  {
+    RefuseVolume(path, "its header's 'line skip' or 'byte skip' makes no sense; export it again from its source");
+  }
+
+  const std::uintmax_t size = fs::file_size(data);
+  const std::uintmax_t begin =
+    PassLines(data, name.empty() ? header.size : 0, lineSkip->empty() ? 0 : lineSkip->front());
+  const auto skipped = static_cast<std::uintmax_t>(std::max(0.0, skip));
+  const std::uintmax_t packed = size - std::min(begin, size);
+  std::uintmax_t available = packed;
+  if (encoding == "gzip")
+  {
+    available = CountInflated(data, begin);
+  }
+  else if (encoding == "hex")
+  {
+    available = packed / 2; // two letters a byte
+  }
+  else if (encoding == "text")
+  {
+    available = (packed + 1) / 2 * bytesPerVoxel; // at least a digit and a blank a voxel
+  }
+  if (available < skipped || available - skipped < needed)
+  {
+    RefuseVolume(path,
+                 data.filename().string() + " has " + std::to_string(available) + " of " +
+                   std::to_string(needed + skipped) + " bytes of voxels; it is cut off or damaged, so copy it again");
+  }
+}
+
+} // namespace
+
+StoredVolume
+ReadNRRDVolume(const fs::path & path)
+{
+  const NRRDHeader header = ReadNRRDHeader(path);
+  const std::vector<std::uintmax_t> sizes = SizesOf(header, path);
+  const auto directions = DirectionsOf(header, sizes.size(), path);
+  const auto kinds = KindsOf(header, sizes.size(), path);
+  const std::size_t frameAxis = FrameAxis(kinds, directions, path);
+
+  StoredVolume volume;
+  volume.type = TypeOf(header, path);
+  volume.encoding = EncodingOf(header, path);
+  if (frameAxis < sizes.size())
+  {
+    volume.numberOfFrames = sizes[frameAxis];
+    volume.areFramesInterleaved = frameAxis == 0 || kinds[frameAxis] == "list"; // ITK puts lists first
+  }
+  Place(header, sizes, directions, frameAxis, path, volume);
+
+  std::vector<std::uintmax_t> factors = sizes;
+  factors.push_back(SizeOf(volume.type));
+  const auto needed = ProductOf(factors);
+  if (!needed)
+  {
+    RefuseVolume(path, "its dimensions are larger than any volume; export it again from its source");
+  }
+  CheckData(header, volume.encoding, *needed, SizeOf(volume.type), path);
+  return volume;
+}
+
+} // namespace rhombic

@@ -1,0 +1,107 @@
+#include "rhombicTextHeader.h"
+
+#include "rhombicVolumeRefusal.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <limits>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+namespace rhombic
+{
+namespace
+{
+
+constexpr std::uintmax_t LargestCount = std::numeric_limits<std::int32_t>::max();
+
+template <typename TNumber>
+std::optional<std::vector<TNumber>>
+Parse(std::string text)
+{
+  std::replace_if(
+    text.begin(), text.end(), [](char letter) { return letter == ',' || letter == '(' || letter == ')'; }, ' ');
+  std::vector<TNumber> numbers;
+  for (const std::string & word : WordsOf(text))
+  {
+    const char * const begin = word.data() + (word.front() == '+' ? 1 : 0);
+    const char * const end = word.data() + word.size();
+    TNumber number{};
+    const auto [parsed, error] = std::from_chars(begin, end, number);
+    if (error != std::errc() || parsed != end)
+    {
+      return std::nullopt;
+    }
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+} // namespace
+
+std::string
+Trimmed(const std::string & text)
+{
+  const char * const blanks = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(blanks);
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::string
+LowerCase(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char letter) {
+    return static_cast<char>(std::tolower(letter));
+  });
+  return text;
+}
+
+std::vector<std::string>
+WordsOf(const std::string & text)
+{
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;)
+  {
+    words.push_back(word);
+  }
+  return words;
+}
+
+std::optional<std::vector<double>>
+NumbersOf(const std::string & text)
+{
+  return Parse<double>(text);
+}
+
+std::optional<std::vector<std::uintmax_t>>
+CountsOf(const std::string & text)
+{
+  const auto counts = Parse<std::uintmax_t>(text);
+  const bool fit =
+    counts && std::all_of(counts->begin(), counts->end(), [](auto count) { return count <= LargestCount; });
+  return fit ? counts : std::nullopt;
+}
+
+fs::path
+DetachedFile(const fs::path & header, const std::string & name)
+{
+  const fs::path relative(name);
+  if (relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end())
+  {
+    RefuseVolume(header,
+                 "its header leads to a file outside of its folder, " + name + "; put the two files into one folder");
+  }
+  const fs::path path = header.parent_path() / relative;
+  std::error_code error;
+  if (!fs::is_regular_file(path, error))
+  {
+    RefuseVolume(header,
+                 "its voxels should be in " + path.string() + ", which is missing; put the two files into one folder");
+  }
+  return path;
+}
+
+} // namespace rhombic

@@ -1,0 +1,45 @@
+#include "rhombicVolumeFrame.h"
+
+#include "rhombicFailure.h"
+#include "rhombicVolumeRefusal.h"
+
+#include <string>
+
+namespace rhombic
+{
+
+std::optional<std::uintmax_t>
+ProductOf(const std::vector<std::uintmax_t> & sizes)
+{
+  constexpr std::uintmax_t largest = std::uintmax_t(1) << 60;
+  std::uintmax_t product = 1;
+  for (const std::uintmax_t size : sizes)
+  {
+    if (size > 0 && product > largest / size)
+    {
+      return std::nullopt;
+    }
+    product *= size;
+  }
+  return product;
+}
+
+std::uintmax_t
+ChooseFrame(std::uintmax_t numberOfFrames, const std::optional<std::size_t> & frame, const std::filesystem::path & path)
+{
+  if (!frame && numberOfFrames > 1)
+  {
+    RefuseVolume(path,
+                 "it holds " + std::to_string(numberOfFrames) + " volumes; choose one with --frame, from 0 to " +
+                   std::to_string(numberOfFrames - 1));
+  }
+  if (frame && *frame >= numberOfFrames)
+  {
+    throw Failure(FailureKind::Usage,
+                  "Cannot read volume " + std::to_string(*frame) + " of " + path.string() + ": it holds " +
+                    std::to_string(numberOfFrames) + ", counted from 0; choose another with --frame.");
+  }
+  return frame.value_or(0);
+}
+
+} // namespace rhombic
