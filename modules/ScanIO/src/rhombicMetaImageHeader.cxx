@@ -1,9 +1,10 @@
 #include "rhombicMetaImageHeader.h"
 
-#include "rhombicCompressedFile.h"
 #include "rhombicTextHeader.h"
 #include "rhombicVolumeFrame.h"
 #include "rhombicVolumeRefusal.h"
+
+#include "itkByteSwapper.h"
 
 #include <algorithm>
 #include <cmath>
@@ -204,13 +205,9 @@ ScalingOf(const MetaImageHeader & header, const fs::path & path)
   return scaling.slope == 1 && scaling.intercept == 0 ? std::nullopt : std::make_optional(scaling);
 }
 
-/** Refuses data that is missing or shorter than \a needed bytes. */
+/** Refuses data that is missing or shorter than \a needed bytes. Fills deflated. */
 void
-CheckData(const MetaImageHeader & header,
-          const std::string & encoding,
-          std::uintmax_t needed,
-          std::size_t bytesPerVoxel,
-          const fs::path & path)
+FindData(const MetaImageHeader & header, std::uintmax_t needed, const fs::path & path, StoredVolume & volume)
 {
   const std::string name = header.Get("ElementDataFile");
   if (name.compare(0, 4, "LIST") == 0 || name.find('%') != std::string::npos)
@@ -224,33 +221,30 @@ CheckData(const MetaImageHeader & header,
   const auto headerSize = NumbersOf(header.Get("HeaderSize"));
   const double skip = headerSize && headerSize->size() == 1 ? headerSize->front() : 0;
   constexpr double largestSkip = 1e15;
-  if (!headerSize || headerSize->size() > 1 || !(skip >= -1 && skip <= largestSkip) || (skip < 0 && encoding != "raw"))
+  if (!headerSize || headerSize->size() > 1 || !(skip >= -1 && skip <= largestSkip) ||
+      (skip < 0 && volume.encoding != "raw"))
   {
     RefuseVolume(path, "its header's HeaderSize makes no sense; export it again from its source");
   }
   const std::uintmax_t begin = skip > 0 ? static_cast<std::uintmax_t>(skip) : isLocal ? header.size : 0;
   const std::uintmax_t stored = size - std::min(begin, size);
   std::uintmax_t available = stored;
-  if (encoding == "zlib")
+  if (volume.encoding == "zlib")
   {
-    const auto packed = NumbersOf(header.Get("CompressedDataSize"));
-    const double packedSize = packed && packed->size() == 1 ? packed->front() : static_cast<double>(stored);
-    if (!packed || !(packedSize >= 0 && packedSize <= static_cast<double>(stored)))
-    {
-      RefuseVolume(path,
-                   "its CompressedDataSize is more than " + data.filename().string() +
-                     " has; it is cut off or damaged, so copy it again");
-    }
-    available = CountInflated(data, begin, packedSize > 0 ? static_cast<std::uintmax_t>(packedSize) : stored);
+    // MetaIO leaves out the end, without a word, when CompressedDataSize is too small.
+    const bool isBigEndian = header.IsTrue("BinaryDataByteOrderMSB") || header.IsTrue("ElementByteOrderMSB");
+    volume.deflated = DeflatedVoxels{ data, begin, isBigEndian != itk::ByteSwapper<int>::SystemIsBigEndian() };
+    constexpr std::uintmax_t ratio = 1032; // which deflate can't exceed
+    available = stored * ratio;
   }
-  else if (encoding == "text")
+  else if (volume.encoding == "text")
   {
-    available = (stored + 1) / 2 * bytesPerVoxel; // at least a digit and a blank a voxel
+    available = (stored + 1) / 2 * SizeOf(volume.type); // at least a digit and a blank a voxel
   }
   if (available < needed)
   {
     RefuseVolume(path,
-                 data.string() + " has " + std::to_string(available) + " of " + std::to_string(needed) +
+                 data.string() + " has " + std::to_string(stored) + " bytes for " + std::to_string(needed) +
                    " bytes of voxels; it is cut off or damaged, so copy it again");
   }
 }
@@ -277,7 +271,7 @@ ReadMetaImageVolume(const fs::path & path)
   {
     RefuseVolume(path, "its dimensions are larger than any volume; export it again from its source");
   }
-  CheckData(header, volume.encoding, *needed, SizeOf(volume.type), path);
+  FindData(header, *needed, path, volume);
   return volume;
 }
 
