@@ -303,6 +303,7 @@ TEST_F(RealLabelMaps, OfAFrog)
   ASSERT_EQ(summaries.size(), 25U);
   EXPECT_EQ(summaries.back().label.value, 29);
   EXPECT_EQ(summaries.back().label.name, "label 29");
+  EXPECT_EQ(summaries[12].numberOfVoxels, 440722U) << "label 13, all of it though CompressedDataSize is too small";
   EXPECT_EQ(summaries[9].label.value, 10);
   EXPECT_EQ(summaries[9].numberOfVoxels, 204672U);
   EXPECT_NEAR(summaries[9].millilitres, 307.008, 1e-3);

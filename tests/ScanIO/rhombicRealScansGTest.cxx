@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <numeric>
 
 namespace fs = std::filesystem;
 
@@ -162,6 +163,10 @@ TEST_F(RealScans, FrogLabels)
   const auto scan = ReadScan(m_Scans / "frog_labels_metaimage/frogtissue.mhd");
   EXPECT_EQ(Describe(scan), " uint8 500x470x136 0..29");
   EXPECT_EQ(rhombic::GeometryOf(scan.image).GetSpacing()[2], 1.5);
+  const auto & image = ImageOf<std::uint8_t>(scan);
+  const auto * const begin = image.GetBufferPointer();
+  EXPECT_EQ(std::accumulate(begin, begin + image.GetBufferedRegion().GetNumberOfPixels(), 0L), 12279472L)
+    << "its CompressedDataSize is too small";
 }
 
 } // namespace

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <new>
 #include <vector>
 
@@ -15,6 +14,30 @@ namespace fs = std::filesystem;
 
 namespace rhombic
 {
+namespace
+{
+
+template <typename TSource>
+std::uintmax_t
+PassOver(TSource & source, std::uintmax_t size)
+{
+  std::vector<char> passed(std::min<std::uintmax_t>(size, 1 << 18));
+  std::uintmax_t total = 0;
+  while (total < size)
+  {
+    const std::size_t count = source.Read(passed.data(), std::min<std::uintmax_t>(passed.size(), size - total));
+    if (count == 0)
+    {
+      break;
+    }
+    total += count;
+  }
+  return total;
+}
+
+constexpr std::uintmax_t LargestRatio = 1032; // of deflate
+
+} // namespace
 
 UnpackedFile::UnpackedFile(const fs::path & path)
   : m_Path(path)
@@ -63,18 +86,7 @@ UnpackedFile::Read(void * buffer, std::size_t size)
 std::uintmax_t
 UnpackedFile::Skip(std::uintmax_t size)
 {
-  std::vector<char> passed(std::min<std::uintmax_t>(size, 1 << 18));
-  std::uintmax_t total = 0;
-  while (total < size)
-  {
-    const std::size_t count = this->Read(passed.data(), std::min<std::uintmax_t>(passed.size(), size - total));
-    if (count == 0)
-    {
-      break;
-    }
-    total += count;
-  }
-  return total;
+  return PassOver(*this, size);
 }
 
 void
@@ -96,54 +108,65 @@ UnpackedFile::Finish()
 std::uintmax_t
 LargestUnpackedSize(const fs::path & path)
 {
-  constexpr std::uintmax_t ratio = 1032;
   const std::uintmax_t size = fs::file_size(path);
-  return UnpackedFile(path).IsCompressed() ? size * ratio : size;
+  return UnpackedFile(path).IsCompressed() ? size * LargestRatio : size;
 }
 
-bool
-Inflate(const fs::path & path,
-        std::uintmax_t offset,
-        const std::function<void(const std::byte * bytes, std::size_t count)> & take)
+InflatedStream::InflatedStream(const fs::path & path, std::uintmax_t offset)
+  : m_File(path, std::ios::binary)
+  , m_Packed(1 << 16)
+  , m_Stream(new z_stream{})
 {
-  std::ifstream file(path, std::ios::binary);
-  file.seekg(static_cast<std::streamoff>(offset));
+  m_File.seekg(static_cast<std::streamoff>(offset));
   constexpr int zlibOrGzip = 15 + 32; // zlib's window bits, and 32 for either header
-  z_stream stream{};
-  if (inflateInit2(&stream, zlibOrGzip) != Z_OK)
+  if (inflateInit2(m_Stream.get(), zlibOrGzip) != Z_OK)
   {
     throw std::bad_alloc();
   }
-  std::vector<char> packed(1 << 16);
-  std::vector<std::byte> unpacked(1 << 18);
-  int state = Z_OK;
-  while (state == Z_OK)
+}
+
+InflatedStream::~InflatedStream()
+{
+  inflateEnd(m_Stream.get());
+}
+
+std::size_t
+InflatedStream::Read(void * buffer, std::size_t size)
+{
+  constexpr std::size_t largest = 1 << 30; // zlib counts in unsigned int
+  std::size_t total = 0;
+  while (total < size && m_State == Z_OK)
   {
-    if (stream.avail_in == 0)
+    if (m_Stream->avail_in == 0)
     {
-      file.read(packed.data(), static_cast<std::streamsize>(packed.size()));
-      stream.next_in = reinterpret_cast<Bytef *>(packed.data());
-      stream.avail_in = static_cast<uInt>(file.gcount());
-      if (stream.avail_in == 0)
+      m_File.read(m_Packed.data(), static_cast<std::streamsize>(m_Packed.size()));
+      m_Stream->next_in = reinterpret_cast<Bytef *>(m_Packed.data());
+      m_Stream->avail_in = static_cast<uInt>(m_File.gcount());
+      if (m_Stream->avail_in == 0)
       {
         break;
       }
     }
-    stream.next_out = reinterpret_cast<Bytef *>(unpacked.data());
-    stream.avail_out = static_cast<uInt>(unpacked.size());
-    state = inflate(&stream, Z_NO_FLUSH);
-    take(unpacked.data(), unpacked.size() - stream.avail_out);
+    const auto room = static_cast<uInt>(std::min(largest, size - total));
+    m_Stream->next_out = static_cast<Bytef *>(buffer) + total;
+    m_Stream->avail_out = room;
+    m_State = inflate(m_Stream.get(), Z_NO_FLUSH);
+    total += room - m_Stream->avail_out;
   }
-  inflateEnd(&stream);
-  return state == Z_STREAM_END;
+  return total;
 }
 
 std::uintmax_t
-CountInflated(const fs::path & path, std::uintmax_t offset)
+InflatedStream::Skip(std::uintmax_t size)
 {
-  std::uintmax_t total = 0;
-  const bool isWhole = Inflate(path, offset, [&total](const std::byte *, std::size_t count) { total += count; });
-  return isWhole ? total : 0;
+  return PassOver(*this, size);
+}
+
+std::optional<std::uintmax_t>
+InflatedStream::Finish()
+{
+  const std::uintmax_t total = this->Skip(UINTMAX_MAX);
+  return m_State == Z_STREAM_END ? std::make_optional(total) : std::nullopt;
 }
 
 } // namespace rhombic

@@ -4,10 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
-#include <string>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <vector>
 
 struct gzFile_s;
+struct z_stream_s;
 
 namespace rhombic
 {
@@ -49,16 +52,35 @@ private:
 std::uintmax_t
 LargestUnpackedSize(const std::filesystem::path & path);
 
-/** Unpacks the zlib or gzip stream that begins at \a offset of a file: calls take(bytes, count) for each part. False
- * when it is damaged or cut off. */
-bool
-Inflate(const std::filesystem::path & path,
-        std::uintmax_t offset,
-        const std::function<void(const std::byte * bytes, std::size_t count)> & take);
+/** A zlib or gzip stream that begins somewhere in a file. */
+class InflatedStream
+{
+public:
+  InflatedStream(const std::filesystem::path & path, std::uintmax_t offset);
+  ~InflatedStream();
 
-/** How many bytes the stream unpacks to; 0 when it is damaged or cut off. */
-std::uintmax_t
-CountInflated(const std::filesystem::path & path, std::uintmax_t offset);
+  InflatedStream(const InflatedStream &) = delete;
+  InflatedStream &
+  operator=(const InflatedStream &) = delete;
+
+  /** The next \a size bytes, or as many as there are up to the stream's end or its damage. */
+  std::size_t
+  Read(void * buffer, std::size_t size);
+
+  /** Passes over \a size bytes, or as many as there are. Returns how many. */
+  std::uintmax_t
+  Skip(std::uintmax_t size);
+
+  /** Passes over the rest. How many bytes that was, or nothing when the stream is damaged or cut off. */
+  std::optional<std::uintmax_t>
+  Finish();
+
+private:
+  std::ifstream m_File;
+  std::vector<char> m_Packed;
+  std::unique_ptr<z_stream_s> m_Stream;
+  int m_State = 0;
+};
 
 } // namespace rhombic
 

@@ -1,9 +1,10 @@
 #include "rhombicMetaImageHeader.h"
 
-#include "rhombicCompressedFile.h"
 #include "rhombicTextHeader.h"
 #include "rhombicVolumeFrame.h"
 #include "rhombicVolumeRefusal.h"
+
+#include "itkByteSwapper.h"
 
 #include <algorithm>
 #include <cmath>
@@ -204,16 +205,9 @@ ScalingOf(const MetaImageHeader & header, const fs::path & path)
   return scaling.slope == 1 && scaling.intercept == 0 ? std::nullopt : std::make_optional(scaling);
 }
 
-/** Where the voxels are. */
-struct DataPlace
-{
-  fs::path path;
-  std::uintmax_t begin = 0;
-  std::uintmax_t size = 0; ///< bytes from there to the end of the file
-};
-
-DataPlace
-FindData(const MetaImageHeader & header, const std::string & encoding, const fs::path & path)
+/** Refuses data that is missing or shorter than \a needed bytes. Fills deflated. */
+void
+FindData(const MetaImageHeader & header, std::uintmax_t needed, const fs::path & path, StoredVolume & volume)
 {
   const std::string name = header.Get("ElementDataFile");
   if (name.compare(0, 4, "LIST") == 0 || name.find('%') != std::string::npos)
@@ -221,47 +215,38 @@ FindData(const MetaImageHeader & header, const std::string & encoding, const fs:
     RefuseVolume(path, "its voxels are spread over several files, which is not supported; write it as one file");
   }
   const bool isLocal = LowerCase(name) == "local";
-  DataPlace place;
-  place.path = isLocal ? path : DetachedFile(path, name);
-  const std::uintmax_t size = fs::file_size(place.path);
+  const fs::path data = isLocal ? path : DetachedFile(path, name);
+  const std::uintmax_t size = fs::file_size(data);
 
   const auto headerSize = NumbersOf(header.Get("HeaderSize"));
   const double skip = headerSize && headerSize->size() == 1 ? headerSize->front() : 0;
   constexpr double largestSkip = 1e15;
-  if (!headerSize || headerSize->size() > 1 || !(skip >= -1 && skip <= largestSkip) || (skip < 0 && encoding != "raw"))
+  if (!headerSize || headerSize->size() > 1 || !(skip >= -1 && skip <= largestSkip) ||
+      (skip < 0 && volume.encoding != "raw"))
   {
     RefuseVolume(path, "its header's HeaderSize makes no sense; export it again from its source");
   }
-  place.begin = skip > 0 ? static_cast<std::uintmax_t>(skip) : isLocal ? header.size : 0;
-  place.size = size - std::min(place.begin, size);
-  return place;
-}
-
-/** Refuses data that is missing or shorter than \a needed bytes. */
-void
-CheckData(const DataPlace & place,
-          const std::string & encoding,
-          std::uintmax_t needed,
-          std::size_t bytesPerVoxel,
-          const fs::path & path)
-{
-  const std::uintmax_t available = encoding == "zlib" ? CountInflated(place.path, place.begin)
-                                   : encoding == "text"
-                                     ? (place.size + 1) / 2 * bytesPerVoxel // at least a digit and a blank a voxel
-                                     : place.size;
+  const std::uintmax_t begin = skip > 0 ? static_cast<std::uintmax_t>(skip) : isLocal ? header.size : 0;
+  const std::uintmax_t stored = size - std::min(begin, size);
+  std::uintmax_t available = stored;
+  if (volume.encoding == "zlib")
+  {
+    // MetaIO leaves out the end, without a word, when CompressedDataSize is too small.
+    const bool isBigEndian = header.IsTrue("BinaryDataByteOrderMSB") || header.IsTrue("ElementByteOrderMSB");
+    volume.deflated = DeflatedVoxels{ data, begin, isBigEndian != itk::ByteSwapper<int>::SystemIsBigEndian() };
+    constexpr std::uintmax_t ratio = 1032; // which deflate can't exceed
+    available = stored * ratio;
+  }
+  else if (volume.encoding == "text")
+  {
+    available = (stored + 1) / 2 * SizeOf(volume.type); // at least a digit and a blank a voxel
+  }
   if (available < needed)
   {
     RefuseVolume(path,
-                 place.path.string() + " has " + std::to_string(available) + " of " + std::to_string(needed) +
+                 data.string() + " has " + std::to_string(stored) + " bytes for " + std::to_string(needed) +
                    " bytes of voxels; it is cut off or damaged, so copy it again");
   }
-}
-
-std::string
-EncodingOf(const MetaImageHeader & header)
-{
-  const bool isText = !header.Get("BinaryData").empty() && !header.IsTrue("BinaryData");
-  return isText ? "text" : header.IsTrue("CompressedData") ? "zlib" : "raw";
 }
 
 } // namespace
@@ -274,7 +259,8 @@ ReadMetaImageVolume(const fs::path & path)
   StoredVolume volume;
   volume.type = TypeOf(header, path);
   volume.scaling = ScalingOf(header, path);
-  volume.encoding = EncodingOf(header);
+  const bool isText = !header.Get("BinaryData").empty() && !header.IsTrue("BinaryData");
+  volume.encoding = isText ? "text" : header.IsTrue("CompressedData") ? "zlib" : "raw";
   volume.numberOfFrames = sizes.size() == 4 ? sizes[3] : 1;
   Place(header, sizes, path, volume);
 
@@ -285,37 +271,8 @@ ReadMetaImageVolume(const fs::path & path)
   {
     RefuseVolume(path, "its dimensions are larger than any volume; export it again from its source");
   }
-  CheckData(FindData(header, volume.encoding, path), volume.encoding, *needed, SizeOf(volume.type), path);
+  FindData(header, *needed, path, volume);
   return volume;
-}
-
-bool
-InflateMetaImage(const fs::path & path, std::byte * voxels, std::size_t size)
-{
-  const MetaImageHeader header = ReadHeader(path);
-  const std::string encoding = EncodingOf(header);
-  if (encoding != "zlib")
-  {
-    return false;
-  }
-  const DataPlace place = FindData(header, encoding, path);
-  std::size_t filled = 0;
-  const bool isWhole = Inflate(place.path, place.begin, [&](const std::byte * bytes, std::size_t count) {
-    const std::size_t taken = std::min(count, size - filled);
-    std::copy(bytes, bytes + taken, voxels + filled);
-    filled += taken;
-  });
-  if (!isWhole || filled < size)
-  {
-    RefuseVolume(path, "its compressed voxels are cut off or damaged; copy it again");
-  }
-  const std::size_t voxelSize = SizeOf(TypeOf(header, path));
-  const bool isBigEndian = header.IsTrue("BinaryDataByteOrderMSB") || header.IsTrue("ElementByteOrderMSB");
-  for (std::byte * voxel = voxels; isBigEndian && voxel != voxels + size; voxel += voxelSize)
-  {
-    std::reverse(voxel, voxel + voxelSize);
-  }
-  return true;
 }
 
 } // namespace rhombic

@@ -239,15 +239,6 @@ VoxelsOffset(const NIfTIHeader & header, const fs::path & path)
   return static_cast<std::uintmax_t>(header.voxelsOffset);
 }
 
-void
-SwapBytes(std::byte * buffer, std::size_t size, std::size_t valueSize)
-{
-  for (std::byte * value = buffer; value != buffer + size; value += valueSize)
-  {
-    std::reverse(value, value + valueSize);
-  }
-}
-
 [[noreturn]] void
 RefuseCutOff(const fs::path & voxels, std::uintmax_t available, std::uintmax_t needed)
 {

@@ -330,7 +330,7 @@ CheckData(const NRRDHeader & header,
   std::uintmax_t available = packed;
   if (encoding == "gzip")
   {
-    available = CountInflated(data, begin);
+    available = InflatedStream(data, begin).Finish().value_or(0);
   }
   else if (encoding == "hex")
   {

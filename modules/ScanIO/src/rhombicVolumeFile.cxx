@@ -1,5 +1,6 @@
 #include "rhombicVolumeFile.h"
 
+#include "rhombicCompressedFile.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicMetaImageHeader.h"
 #include "rhombicNIfTIFile.h"
@@ -24,35 +25,77 @@ namespace rhombic
 namespace
 {
 
-/** Reads a NRRD or MetaImage file whose header and length are sound. */
+std::size_t
+NumberOfVoxels(const VolumeGeometry & geometry)
+{
+  return geometry.size[0] * geometry.size[1] * geometry.size[2];
+}
+
+/** Reads one of the volumes of a NRRD or MetaImage file that ITK unpacks. */
+ScanImage
+ReadUnpacked(const fs::path & path, const StoredVolume & volume, std::uintmax_t frame, VoxelDecoder & decoder)
+{
+  const std::size_t voxelSize = SizeOf(volume.type);
+  const std::size_t bytes = NumberOfVoxels(volume.geometry) * voxelSize;
+  const auto unpacked = decoder.Decode({ VoxelRequest::Source::VolumeFile, path, bytes * volume.numberOfFrames });
+  const std::byte * next = unpacked->GetData() + frame * (volume.areFramesInterleaved ? voxelSize : bytes);
+  const std::size_t step = volume.areFramesInterleaved ? voxelSize * volume.numberOfFrames : voxelSize;
+  return ReadVolumePixels(volume.type, volume.scaling, volume.geometry, [&](std::byte * buffer, std::size_t size) {
+    if (step == voxelSize)
+    {
+      std::memcpy(buffer, next, size);
+      next += size;
+      return;
+    }
+    for (std::byte * value = buffer; value != buffer + size; value += voxelSize, next += step)
+    {
+      std::memcpy(value, next, voxelSize);
+    }
+  });
+}
+
+/** Likewise of a file whose voxels are a zlib stream, in one pass. */
+ScanImage
+ReadDeflated(const StoredVolume & volume, std::uintmax_t frame)
+{
+  const DeflatedVoxels & voxels = *volume.deflated;
+  const auto refuseCutOff = [&voxels] {
+    RefuseVolume(voxels.path, "its compressed voxels are damaged or cut off; copy it again");
+  };
+  InflatedStream stream(voxels.path, voxels.offset);
+  const auto read = [&](std::byte * buffer, std::size_t size) {
+    if (stream.Read(buffer, size) < size)
+    {
+      refuseCutOff();
+    }
+    if (voxels.isSwapped)
+    {
+      SwapBytes(buffer, size, SizeOf(volume.type));
+    }
+  };
+  const std::size_t bytes = NumberOfVoxels(volume.geometry) * SizeOf(volume.type);
+  stream.Skip(frame * bytes);
+  ScanImage image = ReadVolumePixels(volume.type, volume.scaling, volume.geometry, read);
+  const auto rest = stream.Finish();
+  if (!rest || *rest < (volume.numberOfFrames - frame - 1) * bytes)
+  {
+    refuseCutOff();
+  }
+  return image;
+}
+
+/** Reads a NRRD or MetaImage file whose header is sound. */
 void
 ReadStoredVolume(const fs::path & path, const StoredVolume & volume, const ScanReadOptions & options, Scan & scan)
 {
   const std::uintmax_t frame = ChooseFrame(volume.numberOfFrames, options.frame, path);
   CheckGeometry(volume.geometry, path, volume.matrix, options.onIrregular, scan.notes);
-  const auto & size = volume.geometry.size;
-  const std::size_t voxels = size[0] * size[1] * size[2];
-  const std::size_t voxelSize = SizeOf(volume.type);
-  const std::size_t bytes = voxels * voxelSize * volume.numberOfFrames;
-  RequireMemory(bytes + MemoryOfPixels(volume.type, volume.scaling.has_value(), voxels),
+  const std::size_t voxels = NumberOfVoxels(volume.geometry);
+  const std::size_t unpacked = volume.deflated ? 0 : voxels * SizeOf(volume.type) * volume.numberOfFrames;
+  RequireMemory(unpacked + MemoryOfPixels(volume.type, volume.scaling.has_value(), voxels),
                 options.maximumMemory,
                 "Reading " + path.string());
-
-  const auto unpacked = options.decoder->Decode({ VoxelRequest::Source::VolumeFile, path, bytes });
-  const std::byte * next = unpacked->GetData() + frame * (volume.areFramesInterleaved ? voxelSize : voxels * voxelSize);
-  const std::size_t step = volume.areFramesInterleaved ? voxelSize * volume.numberOfFrames : voxelSize;
-  scan.image =
-    ReadVolumePixels(volume.type, volume.scaling, volume.geometry, [&](std::byte * buffer, std::size_t count) {
-      for (std::byte * value = buffer; step != voxelSize && value != buffer + count; value += voxelSize, next += step)
-      {
-        std::memcpy(value, next, voxelSize);
-      }
-      if (step == voxelSize)
-      {
-        std::memcpy(buffer, next, count);
-        next += count;
-      }
-    });
+  scan.image = volume.deflated ? ReadDeflated(volume, frame) : ReadUnpacked(path, volume, frame, *options.decoder);
 
   scan.encoding = volume.encoding;
   scan.scaling = DescribeScaling(volume.scaling);

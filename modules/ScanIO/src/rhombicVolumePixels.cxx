@@ -168,6 +168,15 @@ MemoryOfPixels(StoredType type, bool isScaled, std::uintmax_t numberOfVoxels)
   return numberOfVoxels * bytes;
 }
 
+void
+SwapBytes(std::byte * buffer, std::size_t size, std::size_t valueSize)
+{
+  for (std::byte * value = buffer; value != buffer + size; value += valueSize)
+  {
+    std::reverse(value, value + valueSize);
+  }
+}
+
 ScanImage
 ReadVolumePixels(StoredType type,
                  const std::optional<ValueScaling> & scaling,

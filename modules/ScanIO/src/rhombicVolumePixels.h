@@ -47,6 +47,10 @@ DescribeScaling(const std::optional<ValueScaling> & scaling);
 std::uintmax_t
 MemoryOfPixels(StoredType type, bool isScaled, std::uintmax_t numberOfVoxels);
 
+/** Turns each value's bytes around. */
+void
+SwapBytes(std::byte * buffer, std::size_t size, std::size_t valueSize);
+
 /** Gives the next \a size bytes of the voxels, in this machine's byte order: whole numbers of voxels. */
 using VoxelSource = std::function<void(std::byte * buffer, std::size_t size)>;
 

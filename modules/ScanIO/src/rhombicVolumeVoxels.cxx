@@ -1,7 +1,6 @@
 #include "rhombicVolumeVoxels.h"
 
 #include "rhombicFailure.h"
-#include "rhombicMetaImageHeader.h"
 #include "rhombicQuietLibraries.h"
 #include "rhombicVolumeFormat.h"
 #include "rhombicVolumeRefusal.h"
@@ -29,12 +28,8 @@ NewImageIO(const std::filesystem::path & path)
 } // namespace
 
 void
-DecodeVolumeFile(const std::filesystem::path & path, std::byte * voxels, std::size_t size)
+DecodeVolumeFile(const std::filesystem::path & path, void * voxels, std::size_t size)
 {
-  if (VolumeFormatOf(path) == "MetaImage" && InflateMetaImage(path, voxels, size))
-  {
-    return;
-  }
   const QuietLibraries quiet;
   try
   {
