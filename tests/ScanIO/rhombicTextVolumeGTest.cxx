@@ -1,9 +1,12 @@
 #include "rhombicNIfTITestFile.h"
+#include "rhombicMetaImageHeader.h"
 #include "rhombicNRRDHeader.h"
+#include "rhombicNRRDVolume.h"
 #include "rhombicScanTest.h"
 #include "rhombicVoxelDecoder.h"
 
 #include <map>
+#include <random>
 
 namespace fs = std::filesystem;
 
@@ -344,6 +347,37 @@ TEST_F(TextVolume, VoxelsComeThroughTheDecoder)
   EXPECT_EQ(decoder.m_Request.size, 8u);
   options.maximumMemory = 15;
   EXPECT_EQ(KindOfReading(path, "--max-memory", options), FailureKind::Memory);
+}
+
+/** Whatever is in a header, the answer is a description or a Failure. */
+TEST_F(TextVolume, AnyHeaderIsParsedOrRefused)
+{
+  std::mt19937 random(1);
+  const std::string letters = "0123456789.-+eE() ,:=\n#naifxz%/";
+  const std::string nrrd = "NRRD0005\n" + Raw + "kinds: domain domain domain\nspace: LPS\n" + Directions + "\n01234567";
+  const std::string meta = Meta + Placed + "ElementDataFile = LOCAL\n01234567";
+  int parsed = 0;
+  for (int i = 0; i < 1000; ++i)
+  {
+    const bool isNRRD = i % 2 == 0;
+    std::string bytes = isNRRD ? nrrd : meta;
+    for (unsigned int change = 0; change <= random() % 4; ++change)
+    {
+      bytes[random() % bytes.size()] = letters[random() % letters.size()];
+    }
+    const auto path = WriteBytes(m_Folder / (isNRRD ? "a.nrrd" : "a.mha"), bytes);
+    try
+    {
+      isNRRD ? rhombic::ReadNRRDVolume(path) : rhombic::ReadMetaImageVolume(path);
+      ++parsed;
+    }
+    catch (const rhombic::Failure & failure)
+    {
+      EXPECT_NE(failure.GetKind(), FailureKind::Internal) << failure.GetDescription();
+    }
+  }
+  EXPECT_GT(parsed, 100);
+  EXPECT_LT(parsed, 900);
 }
 
 } // namespace
