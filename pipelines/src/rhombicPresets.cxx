@@ -6,6 +6,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <numeric>
 #include <set>
@@ -72,6 +73,10 @@ ParseSurface(const YAML::Node & node, const std::string & source)
   if (node["isovalue"].as<std::string>() != "otsu")
   {
     request.isovalue = node["isovalue"].as<double>();
+    if (!std::isfinite(*request.isovalue))
+    {
+      FailToParse(source, "has an isovalue that is not finite");
+    }
   }
   const bool isBelow = IsSecondWord(node["side"], "above", "below", source);
   const bool isEnclosed = IsSecondWord(node["parts"], "all", "enclosed", source);

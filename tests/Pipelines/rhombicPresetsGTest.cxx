@@ -77,6 +77,8 @@ TEST(Presets, RefuseDamagedFiles)
                              "name: x\nsurfaces: []",
                              "name: x\nsurfaces: [{name: a}]",
                              "name: x\nsurfaces: [{name: a, isovalue: high}]",
+                             "name: x\nsurfaces: [{name: a, isovalue: .nan}]",
+                             "name: x\nsurfaces: [{name: a, isovalue: -.inf}]",
                              "name: x\nsurfaces: [{name: a, isovalue: 1, side: left}]",
                              "name: x\ncolor: red\nsurfaces: [{name: a, isovalue: 1}]",
                              "name: x\nsurfaces: [{name: a, isovalue: 1, colr: 2}]",

@@ -129,8 +129,13 @@ std::string
 FindRunLengthDamage(std::string_view frame, const DicomPixelFormat & format)
 {
   constexpr std::size_t tableSize = 64;
+  constexpr std::size_t mostSegments = 15;
   const std::size_t segments = format.bitsAllocated / 8;
   const std::size_t pixels = std::size_t{ format.columns } * format.rows;
+  if (segments == 0 || segments > mostSegments)
+  {
+    return "run lengths can't hold its pixels of " + std::to_string(format.bitsAllocated) + " bits";
+  }
   if (frame.size() < tableSize || LittleEndian(frame, 0) != segments)
   {
     return "the table before its run lengths is damaged";

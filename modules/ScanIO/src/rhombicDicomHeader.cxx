@@ -24,6 +24,7 @@ constexpr std::uint32_t UndefinedLength = 0xffffffff;
 constexpr std::uint16_t MetaGroup = 0x0002;
 constexpr int DeepestSequence = 64;
 constexpr std::size_t LongestValue = 1 << 16;
+constexpr std::size_t MostItems = 1 << 20; // each takes 8 bytes of the file, but a hundred of memory
 
 const std::set<DicomTag> WantedValues{ DicomTags::ImageType,
                                        DicomTags::SOPClassUID,
@@ -383,6 +384,10 @@ private:
       this->ReadItem(item, encoding, depth, content);
       if (isWanted)
       {
+        if (++m_NumberOfItems > MostItems)
+        {
+          throw Damage{ "its sequences hold more than " + std::to_string(MostItems) + " items" };
+        }
         dataSet.sequences[sequence.tag].push_back(std::move(content));
       }
     }
@@ -445,6 +450,7 @@ private:
   Pieces m_File;
   std::uintmax_t m_Size;
   std::uintmax_t m_Position = 0;
+  std::size_t m_NumberOfItems = 0; ///< of wanted sequences
 };
 
 /** Whether a file without preamble begins with the elements a data set begins with: those of group 8, or 2. */

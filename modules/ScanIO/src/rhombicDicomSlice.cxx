@@ -251,7 +251,12 @@ MakeSlicePlane(const std::vector<double> & position,
                const std::vector<double> & spacing,
                std::string & problem)
 {
-  if (position.size() != 3)
+  // So that no sum or product of them overflows or vanishes.
+  constexpr double farthest = 1e7;
+  constexpr double smallest = 1e-6;
+  const auto isPlace = [](double number) { return std::abs(number) <= farthest; };
+  const auto isStep = [](double number) { return number >= smallest && number <= farthest; };
+  if (position.size() != 3 || !std::all_of(position.begin(), position.end(), isPlace))
   {
     problem = "it has no usable ImagePositionPatient";
     return {};
@@ -261,7 +266,7 @@ MakeSlicePlane(const std::vector<double> & position,
     problem = "it has no usable ImageOrientationPatient";
     return {};
   }
-  if (spacing.size() != 2 || spacing[0] <= 0 || spacing[1] <= 0)
+  if (spacing.size() != 2 || !isStep(spacing[0]) || !isStep(spacing[1]))
   {
     problem = "it has no usable PixelSpacing";
     return {};
@@ -269,8 +274,8 @@ MakeSlicePlane(const std::vector<double> & position,
   itk::Vector<double, 3> alongRow(orientation.data());
   itk::Vector<double, 3> alongColumn(orientation.data() + 3);
   constexpr double tolerance = 1e-3;
-  if (std::abs(alongRow.GetNorm() - 1) > tolerance || std::abs(alongColumn.GetNorm() - 1) > tolerance ||
-      std::abs(alongRow * alongColumn) > tolerance)
+  if (!(std::abs(alongRow.GetNorm() - 1) <= tolerance && std::abs(alongColumn.GetNorm() - 1) <= tolerance &&
+        std::abs(alongRow * alongColumn) <= tolerance))
   {
     problem = "the two axes of its ImageOrientationPatient are not perpendicular unit vectors";
     return {};

@@ -94,7 +94,8 @@ struct DicomSlice
 std::vector<DicomSlice>
 ReadDicomSlices(const std::filesystem::path & path);
 
-/** The plane that position, orientation and spacing make; nothing, and a problem, when they don't. */
+/** The plane that position, orientation and spacing make; nothing, and a problem, when they don't, or when they are not
+ * finite, beyond 1e7 mm, or a spacing below 1e-6 mm. */
 std::optional<SlicePlane>
 MakeSlicePlane(const std::vector<double> & position,
                const std::vector<double> & orientation,

@@ -73,27 +73,26 @@ public:
     m_NumberOfColumns = names.size();
   }
 
-  /** The fields of a row by column, "" where a row ends early. */
+  /** The fields of a row by column; a row may end early. */
   std::vector<std::string>
   ReadRow(std::string_view line, const TablePlace & place) const
   {
-    std::vector<std::string> fields = FieldsOf(line, m_Separator, place);
+    const std::vector<std::string> fields = FieldsOf(line, m_Separator, place);
     if (fields.size() > m_NumberOfColumns)
     {
       RefuseTable(place,
                   "it has " + std::to_string(fields.size()) + " fields, more than the header's " +
                     std::to_string(m_NumberOfColumns) + "; put texts with separators in double quotes");
     }
-    fields.resize(m_NumberOfColumns);
     return fields;
   }
 
-  /** A field of a row, "" for a column that the table lacks. */
+  /** A field of a row, "" for a column that the table or the row lacks. */
   std::string
   Get(const std::vector<std::string> & row, const std::string & column) const
   {
     const auto found = m_Columns.find(column);
-    return found == m_Columns.end() ? "" : row[found->second];
+    return found == m_Columns.end() || found->second >= row.size() ? "" : row[found->second];
   }
 
 private:

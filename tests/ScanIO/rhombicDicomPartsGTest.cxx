@@ -1,0 +1,68 @@
+// What fuzzing found in the parts of reading DICOM (tests/fuzz), one by one.
+
+#include "rhombicCompressedFrame.h"
+#include "rhombicDicomHeader.h"
+#include "rhombicDicomSeries.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <sstream>
+
+namespace
+{
+
+using Limits = std::numeric_limits<double>;
+
+TEST(SlicePlane, OverflowingAndVanishingNumbersMakeNone)
+{
+  const std::vector<double> axes{ 1, 0, 0, 0, 1, 0 };
+  const auto problemOf = [](const std::vector<double> & position,
+                            const std::vector<double> & orientation,
+                            const std::vector<double> & spacing) {
+    std::string problem;
+    const auto plane = rhombic::MakeSlicePlane(position, orientation, spacing, problem);
+    EXPECT_EQ(plane.has_value(), problem.empty());
+    return problem;
+  };
+  EXPECT_EQ(problemOf({ 1e7, -1e7, 0 }, axes, { 1e-6, 1e7 }), "");
+  for (const double number : { 1e8, -1e308, Limits::infinity(), Limits::quiet_NaN() })
+  {
+    EXPECT_NE(problemOf({ 0, number, 0 }, axes, { 1, 1 }), "") << number;
+    EXPECT_NE(problemOf({ 0, 0, 0 }, axes, { 1, number }), "") << number;
+    EXPECT_NE(problemOf({ 0, 0, 0 }, { 1, 0, 0, 0, number, 0 }, { 1, 1 }), "") << number;
+  }
+  EXPECT_NE(problemOf({ 0, 0, 0 }, axes, { 1e-160, 1 }), "");
+  EXPECT_NE(problemOf({ 0, 0, 0 }, axes, { Limits::denorm_min(), 1 }), "");
+}
+
+TEST(CompressedFrame, RunLengthsOfFractionsOfABytePerPixelAreDamage)
+{
+  rhombic::DicomPixelFormat format;
+  format.columns = 3;
+  format.rows = 2;
+  for (const unsigned int bits : { 1U, 128U })
+  {
+    format.bitsAllocated = bits;
+    format.bitsStored = bits;
+    std::string frame(64, '\0');
+    frame[0] = static_cast<char>(bits / 8);
+    EXPECT_NE(FindFrameDamage(frame, rhombic::PixelCodec::RunLength, format), "") << bits;
+  }
+}
+
+TEST(DicomHeader, EndlessItemsAreDamage)
+{
+  std::string file("\x08\0\x60\0CS\2\0CT\0\x52\x30\x92SQ\0\0\xff\xff\xff\xff", 22);
+  for (std::size_t n = 0; n < 1'100'000; ++n)
+  {
+    file.append("\xfe\xff\0\xe0\0\0\0\0", 8);
+  }
+  std::istringstream stream(file);
+  const auto header = rhombic::ParseDicomHeader(stream, file.size());
+  ASSERT_TRUE(header.has_value());
+  EXPECT_NE(header->damage.find("items"), std::string::npos) << header->damage;
+  EXPECT_LE(header->dataSet.GetItems(0x52009230).size(), std::size_t{ 1 } << 20);
+}
+
+} // namespace
