@@ -66,10 +66,10 @@ struct ScanReadOptions
  * ImageOrientationPatient and PixelSpacing only, NIfTI from its sform, else its qform. What can't be one regular
  * volume (a missing or doubled slice, a gantry tilt) is refused; sheared volumes as the options say.
  *
- * Throws Failure: NotFound (no such path, or no scan in the folder), Usage (no such series), Unreadable (damaged, or
- * colour, more than three dimensions, multi-frame, no image...), Geometry, Memory. Damaged DICOM may still end the
- * process inside GDCM. While it runs, warnings of ITK and GDCM are off for the whole process; calls may run at the same
- * time. */
+ * Throws Failure: NotFound (no such path, or no scan in the folder), Usage (no such series or frame), Unreadable
+ * (damaged, or colour, several volumes of which none is chosen, no image...), Geometry, Memory. Damaged DICOM, and NRRD
+ * and MetaImage, may still end the process inside GDCM and ITK unless a decoder is given. While it runs, warnings of
+ * ITK and GDCM are off for the whole process; calls may run at the same time. */
 Scan
 ReadScan(const std::filesystem::path & path, const ScanReadOptions & options = {});
 
