@@ -247,6 +247,26 @@ TEST_F(TextVolume, CompressedMetaImageIsReadToItsEndWhateverItsHeaderSays)
   EXPECT_EQ(KindOfReading(cut, "cut.mha", Frame(0)), FailureKind::Unreadable);
 }
 
+TEST_F(TextVolume, CompressedMetaImageOfEitherByteOrder)
+{
+  NIfTITestFile values;
+  for (const bool isBigEndian : { false, true })
+  {
+    values.isBigEndian = isBigEndian;
+    const std::string order = isBigEndian ? "True" : "False";
+    const std::string fields = "NDims = 3\nDimSize = 2 1 1\nElementType = MET_SHORT\nCompressedData = True\n"
+                               "BinaryDataByteOrderMSB = " +
+                               order + "\n";
+    const std::string packed = Gzipped(values.Values(std::vector<std::int16_t>{ -3000, 7 }));
+    const auto scan = ReadScan(this->WriteMetaImage(fields, packed));
+    EXPECT_EQ(ImageOf<std::int16_t>(scan).GetPixel({ { 0, 0, 0 } }), -3000);
+    EXPECT_EQ(ImageOf<std::int16_t>(scan).GetPixel({ { 1, 0, 0 } }), 7);
+    const auto contradiction =
+      this->WriteMetaImage(fields + "ElementByteOrderMSB = " + (isBigEndian ? "False" : "True") + "\n", packed);
+    EXPECT_EQ(KindOfReading(contradiction, "byte order"), FailureKind::Unreadable);
+  }
+}
+
 TEST_F(TextVolume, MetaImageScalingAndOrientation)
 {
   const auto scan = ReadScan(this->WriteMetaImage(

@@ -205,6 +205,20 @@ ScalingOf(const MetaImageHeader & header, const fs::path & path)
   return scaling.slope == 1 && scaling.intercept == 0 ? std::nullopt : std::make_optional(scaling);
 }
 
+bool
+IsBigEndian(const MetaImageHeader & header, const fs::path & path)
+{
+  const bool hasBoth =
+    header.fields.count("BinaryDataByteOrderMSB") > 0 && header.fields.count("ElementByteOrderMSB") > 0;
+  const bool binaryData = header.IsTrue("BinaryDataByteOrderMSB");
+  const bool element = header.IsTrue("ElementByteOrderMSB");
+  if (hasBoth && binaryData != element)
+  {
+    RefuseVolume(path, "its header contradicts itself about the byte order; export it again from its source");
+  }
+  return binaryData || element;
+}
+
 /** Refuses data that is missing or shorter than \a needed bytes. Fills deflated. */
 void
 FindData(const MetaImageHeader & header, std::uintmax_t needed, const fs::path & path, StoredVolume & volume)
@@ -232,7 +246,7 @@ FindData(const MetaImageHeader & header, std::uintmax_t needed, const fs::path &
   if (volume.encoding == "zlib")
   {
     // MetaIO leaves out the end, without a word, when CompressedDataSize is too small.
-    const bool isBigEndian = header.IsTrue("BinaryDataByteOrderMSB") || header.IsTrue("ElementByteOrderMSB");
+    const bool isBigEndian = IsBigEndian(header, path);
     volume.deflated = DeflatedVoxels{ data, begin, isBigEndian != itk::ByteSwapper<int>::SystemIsBigEndian() };
     constexpr std::uintmax_t ratio = 1032; // which deflate can't exceed
     available = stored * ratio;
