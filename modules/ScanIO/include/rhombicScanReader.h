@@ -71,7 +71,8 @@ struct ScanReadOptions
  * Scan::sliceOrigins; NIfTI from its sform, else its qform, else along LPS axes, not oriented.
  *
  * Headers are parsed by code that believes no length they claim, and the memory that voxels need is asked for before it
- * is allocated. Voxels that only a library can unpack go through ScanReadOptions::decoder.
+ * is allocated. Voxels that only a library can unpack go through ScanReadOptions::decoder; without one,
+ * damaged files may still end the process inside GDCM or ITK.
  *
  * Throws Failure: NotFound (no such path, or no scan in the folder), Usage (no such series or frame, or more than one
  * to choose from), Unreadable (damaged, or colour, vectors, no image...), Geometry, Memory. While it runs, warnings of

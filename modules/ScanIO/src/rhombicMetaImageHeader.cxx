@@ -82,27 +82,6 @@ ReadHeader(const fs::path & path)
   return header;
 }
 
-std::vector<std::uintmax_t>
-SizesOf(const MetaImageHeader & header, const fs::path & path)
-{
-  const auto dimension = CountsOf(header.Get("NDims"));
-  const auto sizes = CountsOf(header.Get("DimSize"));
-  if (!dimension || dimension->size() != 1 || !sizes || sizes->size() != dimension->front() ||
-      std::count(sizes->begin(), sizes->end(), 0) > 0)
-  {
-    RefuseVolume(path, "its header contradicts itself about its dimensions; export it again from its source");
-  }
-  if (sizes->size() < 3)
-  {
-    RefuseVolume(path, "it is a flat picture of " + std::to_string(sizes->size()) + " dimensions, not a volume");
-  }
-  if (sizes->size() > 4)
-  {
-    RefuseVolume(path, "it has " + std::to_string(sizes->size()) + " dimensions; extract one volume first");
-  }
-  return *sizes;
-}
-
 StoredType
 TypeOf(const MetaImageHeader & header, const fs::path & path)
 {
@@ -269,7 +248,7 @@ StoredVolume
 ReadMetaImageVolume(const fs::path & path)
 {
   const MetaImageHeader header = ReadHeader(path);
-  const std::vector<std::uintmax_t> sizes = SizesOf(header, path);
+  const std::vector<std::uintmax_t> sizes = AxisSizes(header.Get("NDims"), header.Get("DimSize"), path);
   StoredVolume volume;
   volume.type = TypeOf(header, path);
   volume.scaling = ScalingOf(header, path);

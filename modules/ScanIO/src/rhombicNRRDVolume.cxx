@@ -51,27 +51,6 @@ TypeOf(const NRRDHeader & header, const fs::path & path)
   RefuseVolume(path, "its pixel type '" + name + "' is not supported; convert it to integers or floats first");
 }
 
-std::vector<std::uintmax_t>
-SizesOf(const NRRDHeader & header, const fs::path & path)
-{
-  const auto dimension = CountsOf(header.Get("dimension"));
-  const auto sizes = CountsOf(header.Get("sizes"));
-  if (!dimension || dimension->size() != 1 || !sizes || sizes->size() != dimension->front() ||
-      std::count(sizes->begin(), sizes->end(), 0) > 0)
-  {
-    RefuseVolume(path, "its header contradicts itself about its dimensions; export it again from its source");
-  }
-  if (sizes->size() < 3)
-  {
-    RefuseVolume(path, "it is a flat picture of " + std::to_string(sizes->size()) + " dimensions, not a volume");
-  }
-  if (sizes->size() > 4)
-  {
-    RefuseVolume(path, "it has " + std::to_string(sizes->size()) + " dimensions; extract one volume first");
-  }
-  return *sizes;
-}
-
 /** The directions of the axes, empty for those of which the file says "none"; no entries without the field. */
 std::vector<std::vector<double>>
 DirectionsOf(const NRRDHeader & header, std::size_t dimension, const fs::path & path)
@@ -361,7 +340,7 @@ StoredVolume
 ReadNRRDVolume(const fs::path & path)
 {
   const NRRDHeader header = ReadNRRDHeader(path);
-  const std::vector<std::uintmax_t> sizes = SizesOf(header, path);
+  const std::vector<std::uintmax_t> sizes = AxisSizes(header.Get("dimension"), header.Get("sizes"), path);
   const auto directions = DirectionsOf(header, sizes.size(), path);
   const auto kinds = KindsOf(header, sizes.size(), path);
   const std::size_t frameAxis = FrameAxis(kinds, directions, path);

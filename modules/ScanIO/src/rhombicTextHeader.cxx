@@ -85,6 +85,27 @@ CountsOf(const std::string & text)
   return fit ? counts : std::nullopt;
 }
 
+std::vector<std::uintmax_t>
+AxisSizes(const std::string & dimensionText, const std::string & sizesText, const fs::path & path)
+{
+  const auto dimension = CountsOf(dimensionText);
+  const auto sizes = CountsOf(sizesText);
+  if (!dimension || dimension->size() != 1 || !sizes || sizes->size() != dimension->front() ||
+      std::count(sizes->begin(), sizes->end(), 0) > 0)
+  {
+    RefuseVolume(path, "its header contradicts itself about its dimensions; export it again from its source");
+  }
+  if (sizes->size() < 3)
+  {
+    RefuseVolume(path, "it is a flat picture of " + std::to_string(sizes->size()) + " dimensions, not a volume");
+  }
+  if (sizes->size() > 4)
+  {
+    RefuseVolume(path, "it has " + std::to_string(sizes->size()) + " dimensions; extract one volume first");
+  }
+  return *sizes;
+}
+
 fs::path
 DetachedFile(const fs::path & header, const std::string & name)
 {

@@ -29,6 +29,11 @@ NumbersOf(const std::string & text);
 std::optional<std::vector<std::uintmax_t>>
 CountsOf(const std::string & text);
 
+/** The sizes of the axes of a volume, or of several in one file, from the texts of a header: their number, and them.
+ * Throws Failure(Unreadable), naming \a path, when they contradict each other or make no volume. */
+std::vector<std::uintmax_t>
+AxisSizes(const std::string & dimensionText, const std::string & sizesText, const std::filesystem::path & path);
+
 /** The file of voxels that the header file \a header names, which has to be a regular file in the header's folder or
  * below it: headers from elsewhere must not lead to any file of this machine. Throws Failure(Unreadable). */
 std::filesystem::path
