@@ -1,5 +1,7 @@
 #include "rhombicConsole.h"
 
+#include <algorithm>
+
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -8,6 +10,20 @@
 
 namespace rhombic
 {
+
+namespace
+{
+
+/** Names of files may hold anything: control characters would be commands to the terminal. */
+std::string
+Printable(std::string text)
+{
+  std::replace_if(
+    text.begin(), text.end(), [](unsigned char letter) { return letter < ' ' || letter == 127; }, '?');
+  return text;
+}
+
+} // namespace
 
 Console::Console()
   : m_IsTerminal(isatty(STDERR_FILENO) == 1)
@@ -35,14 +51,14 @@ void
 Console::Note(const std::string & line)
 {
   this->Finish();
-  spdlog::info("{}", line);
+  spdlog::info("{}", Printable(line));
 }
 
 void
 Console::Error(const std::string & sentence)
 {
   this->Finish();
-  spdlog::error("rhombic: {}", sentence);
+  spdlog::error("rhombic: {}", Printable(sentence));
 }
 
 void

@@ -157,6 +157,7 @@ ReportScan(const Scan & scan)
     report["series"].push_back(ReportSeries(series));
   }
   report["choice"] = scan.choice;
+  report["filesConsidered"] = scan.filesConsidered;
   report["filesSkipped"] = scan.filesSkipped.empty() ? Report::object() : Report(scan.filesSkipped);
   report["notes"] = scan.notes;
   return report;

@@ -2,6 +2,7 @@
 #include "rhombicScanTest.h"
 
 #include <numeric>
+#include <random>
 
 namespace fs = std::filesystem;
 
@@ -393,6 +394,38 @@ TEST_F(NIfTIFile, FieldsThatMakeNoSenseAreRefused)
   NIfTITestFile file;
   file.offset = 352.5;
   EXPECT_EQ(this->KindOf(file, "vox_offset"), FailureKind::Unreadable);
+}
+
+/** Whatever is in a header, the answer is a volume or a Failure, and no huge allocation. */
+TEST_F(NIfTIFile, AnyHeaderIsReadOrRefused)
+{
+  std::mt19937 random(1);
+  ScanReadOptions options;
+  options.maximumMemory = 1 << 20;
+  options.frame = 0;
+  int read = 0;
+  for (int i = 0; i < 1000; ++i)
+  {
+    NIfTITestFile file;
+    file.version = 1 + i % 2;
+    file.qformCode = 1;
+    std::string bytes = file.Bytes();
+    for (unsigned int change = 0; change <= random() % 4; ++change)
+    {
+      bytes[4 + random() % (bytes.size() - 4)] = static_cast<char>(random());
+    }
+    try
+    {
+      ReadScan(WriteBytes(m_Folder / "a.nii", i % 3 == 0 ? Gzipped(bytes) : bytes), options);
+      ++read;
+    }
+    catch (const rhombic::Failure & failure)
+    {
+      EXPECT_NE(failure.GetKind(), FailureKind::Internal) << failure.GetDescription();
+    }
+  }
+  EXPECT_GT(read, 100);
+  EXPECT_LT(read, 900);
 }
 
 } // namespace

@@ -169,4 +169,16 @@ TEST_F(RealScans, FrogLabels)
     << "its CompressedDataSize is too small";
 }
 
+TEST_F(RealScans, MetaImageAndNRRD)
+{
+  const auto head = ReadScan(m_Scans / "frog_labels_metaimage/HeadMRVolume.mhd");
+  EXPECT_EQ(Describe(head), " uint8 48x62x42 0..255");
+  EXPECT_FALSE(head.isOriented);
+  const auto liver = ReadScan(m_Scans / "dicom_seg_dcmqi/segmentations/liver_seg.nrrd");
+  EXPECT_EQ(Describe(liver), " int16 512x512x3 0..1");
+  EXPECT_EQ(liver.encoding, "gzip");
+  EXPECT_TRUE(liver.isOriented);
+  EXPECT_NEAR(rhombic::GeometryOf(liver.image).GetOrigin()[0], -235.2, 1e-3);
+}
+
 } // namespace

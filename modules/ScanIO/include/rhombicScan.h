@@ -90,6 +90,7 @@ struct Scan
   std::string modality;   ///< DICOM's: CT (values are HU), MR, ...; empty when unknown
   std::string encoding;   ///< transfer syntax, or compression of the voxels, in words
   std::vector<SeriesSummary> series;               ///< all in the folder; empty for other formats than DICOM
+  std::size_t filesConsidered = 0;                 ///< in the folder, and its subfolders; 0 for other formats
   std::map<std::string, std::size_t> filesSkipped; ///< how many files of a folder were left out, by reason
   std::string choice;                              ///< why the series that was read was chosen
   std::optional<StackReport> stack;                ///< of DICOM volumes

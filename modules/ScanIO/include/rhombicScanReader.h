@@ -56,24 +56,26 @@ struct ScanReadOptions
   std::function<void(double)> progress;
 };
 
-/** Reads a scan: a folder of DICOM slices, searched with its subfolders but without following symbolic links, or a
- * NIfTI
- * (.nii, .nii.gz, .hdr with .img), NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd) file. A DICOM file by itself is one
- * slice, which is no volume, so its folder has to be named.
+/** Reads a scan or label map: a folder of DICOM slices, searched with its subfolders; a DICOM file that holds a volume
+ * (enhanced multi-frame, or a segmentation); or a NIfTI-1 or -2 (.nii, .hdr with .img, either with .gz), NRRD (.nrrd,
+ * .nhdr) or MetaImage (.mha, .mhd) file.
  *
  * Values are rescaled as the file says (HU for CT). The pixel type is the stored one where ScanImage has it and
  * rescaling keeps it; otherwise int8 becomes int16; uint32, int64 and uint64 become int32 if all values fit and float
  * if not; double becomes float; rescaled DICOM integers become the first of int16, uint16 and int32 that holds
- * all values, or float where slope or intercept is no whole number; rescaled NIfTI becomes float.
+ * all values, or float where slope or intercept is no whole number; rescaled NIfTI becomes float. Padding and values
+ * that are not finite get the lowest other value.
  *
  * The geometry is the file's, in LPS millimetres, never assumed: slices come from ImagePositionPatient,
- * ImageOrientationPatient and PixelSpacing only, NIfTI from its sform, else its qform. What can't be one regular
- * volume (a missing or doubled slice, a gantry tilt) is refused; sheared volumes as the options say.
+ * ImageOrientationPatient and PixelSpacing only, every one within 0.01 mm of the volume's affine or in
+ * Scan::sliceOrigins; NIfTI from its sform, else its qform, else along LPS axes, not oriented.
  *
- * Throws Failure: NotFound (no such path, or no scan in the folder), Usage (no such series), Unreadable (damaged, or
- * colour, more than three dimensions, multi-frame, no image...), Geometry, Memory. Damaged DICOM may still end the
- * process inside GDCM. While it runs, warnings of ITK and GDCM are off for the whole process; calls may run at the same
- * time. */
+ * Headers are parsed by code that believes no length they claim, and the memory that voxels need is asked for before it
+ * is allocated. Voxels that only a library can unpack go through ScanReadOptions::decoder.
+ *
+ * Throws Failure: NotFound (no such path, or no scan in the folder), Usage (no such series or frame, or more than one
+ * to choose from), Unreadable (damaged, or colour, vectors, no image...), Geometry, Memory. While it runs, warnings of
+ * ITK and GDCM are off for the whole process; calls may run at the same time. */
 Scan
 ReadScan(const std::filesystem::path & path, const ScanReadOptions & options = {});
 

@@ -91,11 +91,11 @@ CollectSlices(const FolderFiles & files, Scan & scan)
   {
     scan.filesSkipped["devices or pipes"] = files.others;
   }
+  scan.filesConsidered = files.paths.size() + files.symbolicLinks + files.others;
   std::vector<DicomSlice> slices;
   std::vector<std::string> damaged;
   for (const fs::path & path : files.paths)
   {
-    std::error_code error;
     const auto found = ReadDicomSlices(path);
     if (found.empty())
     {

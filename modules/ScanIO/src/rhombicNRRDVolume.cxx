@@ -115,7 +115,8 @@ KindsOf(const NRRDHeader & header, std::size_t dimension, const fs::path & path)
     RefuseVolume(path, "its header has a wrong number of 'kinds'; export it again from its source");
   }
   kinds.resize(dimension, "domain");
-  std::replace(kinds.begin(), kinds.end(), std::string("???"), std::string("domain"));
+  std::replace_if(
+    kinds.begin(), kinds.end(), [](const std::string & kind) { return kind == "???" || kind == "none"; }, "domain");
   return kinds;
 }
 
@@ -143,7 +144,7 @@ FrameAxis(const std::vector<std::string> & kinds,
   }
   for (const std::size_t axis : candidates)
   {
-    if (!IsSpatial(kinds[axis]) && kinds[axis] != "list" && kinds[axis] != "time" && kinds[axis] != "none")
+    if (!IsSpatial(kinds[axis]) && kinds[axis] != "list" && kinds[axis] != "time")
     {
       RefuseVolume(path,
                    "its voxels are no single numbers (an axis is of the kind " + kinds[axis] +
@@ -159,6 +160,12 @@ FrameAxis(const std::vector<std::string> & kinds,
   if (frameAxis == 1 || frameAxis == 2)
   {
     RefuseVolume(path, "the axis of its volumes lies between the others, which is not supported; permute it first");
+  }
+  if (!directions.empty() && frameAxis < dimension && directions[frameAxis].empty() && kinds[frameAxis] != "list")
+  {
+    RefuseVolume(path,
+                 "the axis of its volumes is of the kind " + kinds[frameAxis] +
+                   ", which is not supported; call it a list, or extract one volume first");
   }
   return frameAxis;
 }

@@ -37,7 +37,9 @@ MakeGeometry(const itk::Size<3> & size, const itk::Point<double, 3> & origin, co
     geometry.spacing[axis] = steps[axis].GetNorm();
     for (unsigned int row = 0; row < 3; ++row)
     {
-      geometry.direction[row][axis] = steps[axis][row] / geometry.spacing[axis];
+      constexpr double rounding = 1e-15; // VNL, which inverts the direction, does not converge with values near 0
+      const double cosine = steps[axis][row] / geometry.spacing[axis];
+      geometry.direction[row][axis] = std::abs(cosine) < rounding ? 0.0 : cosine;
     }
   }
   return geometry;
@@ -52,16 +54,16 @@ CheckGeometry(const VolumeGeometry & geometry,
 {
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    if (geometry.spacing[axis] == 0)
-    {
-      RefuseGeometry(path,
-                     "its voxels have no size along axis " + std::to_string(axis) + " (" + matrix +
-                       "); export it again from its source");
-    }
-    if (!std::isfinite(geometry.origin[axis]) || !std::isfinite(geometry.spacing[axis]) ||
-        !std::isfinite(AxisOf(geometry, axis).GetSquaredNorm()))
+    if (!std::isfinite(geometry.origin[axis]) || !std::isfinite(geometry.spacing[axis]))
     {
       RefuseGeometry(path, "its " + matrix + " holds numbers that are not finite; export it again from its source");
+    }
+    constexpr double smallest = 1e-9, largest = 1e9; // mm: a nanometre has 1e-6
+    if (geometry.spacing[axis] < smallest || geometry.spacing[axis] > largest)
+    {
+      RefuseGeometry(path,
+                     "its voxels have no proper size along axis " + std::to_string(axis) + " (" + matrix +
+                       "); export it again from its source");
     }
   }
   constexpr double smallestVolume = 1e-3; // of a voxel with edges of length 1

@@ -25,9 +25,9 @@ struct VolumeGeometry
 VolumeGeometry
 MakeGeometry(const itk::Size<3> & size, const itk::Point<double, 3> & origin, const itk::Vector<double, 3> steps[3]);
 
-/** Throws Failure(Geometry) unless all numbers are finite, spacings positive and the axes independent. Axes that are
- * not perpendicular within 1e-3 (the cosine) are refused too with Policy::Refuse, and otherwise noted. \a matrix names
- * where the axes come from: "sform". */
+/** Throws Failure(Geometry) unless all numbers are finite, spacings from 1e-9 to 1e9 mm and the axes independent. Axes
+ * that are not perpendicular within 1e-3 (the cosine) are refused too with Policy::Refuse, and otherwise noted. \a
+ * matrix names where the axes come from: "sform". */
 void
 CheckGeometry(const VolumeGeometry & geometry,
               const std::filesystem::path & path,
