@@ -2,7 +2,8 @@
 
 #include "rhombicCompressedFrame.h"
 #include "rhombicDicomHeader.h"
-#include "rhombicDicomSeries.h"
+#include "rhombicDicomStack.h"
+#include "rhombicFailure.h"
 
 #include <gtest/gtest.h>
 
@@ -34,6 +35,19 @@ TEST(SlicePlane, OverflowingAndVanishingNumbersMakeNone)
   }
   EXPECT_NE(problemOf({ 0, 0, 0 }, axes, { 1e-160, 1 }), "");
   EXPECT_NE(problemOf({ 0, 0, 0 }, axes, { Limits::denorm_min(), 1 }), "");
+}
+
+TEST(DicomStack, VanishingStepsAreNone)
+{
+  std::vector<rhombic::DicomSlice> slices(2);
+  for (const double z : { 0.0, 1e-300 })
+  {
+    rhombic::DicomSlice & slice = slices[z > 0 ? 1 : 0];
+    slice.file = std::make_shared<rhombic::DicomImageFile>();
+    slice.plane = rhombic::MakeSlicePlane({ 0, 0, z }, { 1, 0, 0, 0, 1, 0 }, { 1, 1 }, slice.planeProblem);
+  }
+  EXPECT_TRUE(HaveDuplicates(slices));
+  EXPECT_THROW(StackSlices(slices, {}), rhombic::Failure);
 }
 
 TEST(CompressedFrame, RunLengthsOfFractionsOfABytePerPixelAreDamage)

@@ -100,9 +100,9 @@ StepsOf(const std::vector<double> & distances)
 std::size_t
 FindDuplicate(const std::vector<double> & steps)
 {
-  const double largest = *std::max_element(steps.begin(), steps.end());
-  const auto found =
-    std::find_if(steps.begin(), steps.end(), [largest](double step) { return step <= 0.01 * largest; });
+  constexpr double smallest = 1e-6; // millimetres
+  const double none = std::max(smallest, 0.01 * *std::max_element(steps.begin(), steps.end()));
+  const auto found = std::find_if(steps.begin(), steps.end(), [none](double step) { return step <= none; });
   return static_cast<std::size_t>(found - steps.begin());
 }
 

@@ -31,7 +31,7 @@ struct DicomStack
 DicomStack
 StackSlices(std::vector<DicomSlice> & slices, const ScanReadOptions & options);
 
-/** Whether two slices are at one place along their normal, within a hundredth of the largest step. */
+/** Whether two slices are at one place along their normal, within a hundredth of the largest step or 1e-6 mm. */
 bool
 HaveDuplicates(const std::vector<DicomSlice> & slices);
 
