@@ -2,7 +2,7 @@
 #
 # Makes one library target from a folder shaped like an ITK module:
 #   itk-module.cmake  its declaration, in ITK's own grammar (itk_module(<name> DEPENDS ... DESCRIPTION ...))
-#   include/          public headers        src/  sources, if any
+#   include/          public headers        src/  sources, if any, maybe in folders by theme
 #   module-options.cmake  what the target needs beyond its dependencies, if anything
 #
 # Dependencies may be ITK modules (ITKCommon), modules of this project, or imported targets (VTK::CommonCore).
@@ -31,6 +31,20 @@ function(_rhombic_link target scope)
   endforeach()
 endfunction()
 
+# Headers beside the sources are found by their names alone. The folders are a property of the module too, for the tests
+# of its parts: RHOMBIC_SOURCE_FOLDERS.
+function(_rhombic_add_source_folders name folder)
+  file(GLOB headers CONFIGURE_DEPENDS "${folder}/src/*.h" "${folder}/src/*/*.h")
+  set(folders)
+  foreach(header IN LISTS headers)
+    get_filename_component(header_folder "${header}" DIRECTORY)
+    list(APPEND folders "${header_folder}")
+  endforeach()
+  list(REMOVE_DUPLICATES folders)
+  target_include_directories(${name} PRIVATE ${folders})
+  set_target_properties(${name} PROPERTIES RHOMBIC_SOURCE_FOLDERS "${folders}")
+endfunction()
+
 function(_rhombic_add_header_test name headers)
   set(sources)
   foreach(header IN LISTS headers)
@@ -46,10 +60,11 @@ endfunction()
 function(rhombic_add_module folder)
   include("${folder}/itk-module.cmake")
   file(GLOB headers CONFIGURE_DEPENDS "${folder}/include/*.h")
-  file(GLOB sources CONFIGURE_DEPENDS "${folder}/src/*.cxx")
+  file(GLOB sources CONFIGURE_DEPENDS "${folder}/src/*.cxx" "${folder}/src/*/*.cxx")
   if(sources)
     add_library(${module_name} ${sources})
     target_link_libraries(${module_name} PRIVATE RhombicOptions)
+    _rhombic_add_source_folders(${module_name} "${folder}")
     set(scope PUBLIC)
     set(private_scope PRIVATE)
   else()
