@@ -43,6 +43,16 @@ CodeOf(std::string text)
   return text.substr(0, 16);
 }
 
+/** The digits and dots of a unique identifier. */
+std::string
+IdentifierOf(std::string text)
+{
+  constexpr std::size_t longest = 64;
+  const auto isOther = [](char letter) { return letter != '.' && (letter < '0' || letter > '9'); };
+  text.erase(std::remove_if(text.begin(), text.end(), isOther), text.end());
+  return text.substr(0, longest);
+}
+
 /** What may stand in the codes that tell slices apart (CS, DS, IS, and the short texts that stacks are named by). */
 std::string
 DistinctionOf(std::string text)
@@ -134,7 +144,7 @@ FindRefusal(const DicomDataSet & dataSet, const DicomPixelFormat & format)
   }
   if (syntax.codec == PixelCodec::Unsupported)
   {
-    return "its transfer syntax " + CodeOf(format.transferSyntax) + " (" + syntax.name + ") is not supported";
+    return "its transfer syntax " + IdentifierOf(format.transferSyntax) + " (" + syntax.name + ") is not supported";
   }
   if (photometric == "MONOCHROME1")
   {
