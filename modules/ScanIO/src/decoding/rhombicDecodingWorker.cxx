@@ -120,14 +120,15 @@ private:
   void * m_Address = MAP_FAILED;
 };
 
-/** What libraries print is then about damage: GDCM's errors, and what libjpeg thinks of a stream. */
+/** What is printed is then about damage: libjpeg's opinion of a stream. GDCM fails where it has errors, and complains
+ * of much else that does not matter here. */
 void
 SilenceWarnings()
 {
   itk::Object::SetGlobalWarningDisplay(false);
   gdcm::Trace::SetDebug(false);
   gdcm::Trace::SetWarning(false);
-  gdcm::Trace::SetError(true);
+  gdcm::Trace::SetError(false);
 }
 
 /** What libraries printed since the last call. */

@@ -23,7 +23,7 @@ namespace
 
 /** Says what the folder holds instead of DICOM images. */
 [[noreturn]] void
-RefuseFolder(const fs::path & folder, const FolderFiles & files)
+RefuseFolder(const fs::path & folder, const FolderFiles & files, const Scan & scan)
 {
   const auto volume = std::find_if(files.paths.begin(), files.paths.end(), IsVolumeFileName);
   std::string why = "it holds no DICOM images; give the folder that does";
@@ -31,6 +31,10 @@ RefuseFolder(const fs::path & folder, const FolderFiles & files)
   {
     why = "it holds no DICOM images; to read " + volume->filename().string() +
           ", give the file itself: " + volume->string();
+  }
+  else if (!scan.fileNotes.empty())
+  {
+    why = "it holds no DICOM images that can be read (" + scan.fileNotes.front() + "); copy it again from its source";
   }
   else if (files.unreadableFolders > 0)
   {
@@ -125,7 +129,7 @@ CollectSlices(const FolderFiles & files, Scan & scan)
     // A slice that is missing at an end leaves no gap that could be seen.
     scan.notes.push_back("Slices may be missing, because " + std::to_string(damaged.size()) +
                          (damaged.size() > 1 ? " files" : " file") + " could not be read.");
-    scan.fileNotes.push_back("Slices may be missing: " + Shorten(damaged) + ".");
+    scan.fileNotes.push_back(Shorten(damaged));
   }
   return slices;
 }
@@ -172,12 +176,49 @@ NoteCompression(const std::vector<DicomSlice> & slices, Scan & scan)
   }
 }
 
-/** Leaves out the slices of files that failed. */
-std::vector<DicomSlice>
-Without(std::vector<DicomSlice> slices, const std::map<fs::path, std::string> & failures)
+/** Files that failed, and a sentence for each. */
+using FileFailures = std::map<fs::path, std::string>;
+
+/** Files whose headers say already that their pixels are not all there. */
+FileFailures
+FindDamagedFiles(const std::vector<DicomSlice> & slices)
 {
+  FileFailures failures;
+  for (const DicomSlice & slice : slices)
+  {
+    if (const std::string & damage = slice.file->pixelDamage; !damage.empty())
+    {
+      failures.emplace(slice.file->path,
+                       "Cannot read " + slice.file->path.string() + ": " + damage + "; copy it again from its source.");
+    }
+  }
+  return failures;
+}
+
+/** Leaves out the slices of files that failed, if that is accepted like a gap. */
+std::vector<DicomSlice>
+LeaveOut(const FileFailures & failures, std::vector<DicomSlice> slices, const ScanReadOptions & options, Scan & scan)
+{
+  if (failures.empty())
+  {
+    return slices;
+  }
+  const std::size_t others = failures.size() - 1;
   const auto failed = [&failures](const DicomSlice & slice) { return failures.count(slice.file->path) != 0; };
   slices.erase(std::remove_if(slices.begin(), slices.end(), failed), slices.end());
+  if (options.onGap == ScanReadOptions::Policy::Refuse || slices.size() < 2)
+  {
+    throw Failure(
+      FailureKind::Unreadable,
+      failures.begin()->second +
+        (others == 0 ? "" : " (And " + std::to_string(others) + (others > 1 ? " more files.)" : " more file.)")));
+  }
+  scan.notes.push_back("The slices of " + std::to_string(failures.size()) +
+                       (others > 0 ? " damaged files were left out." : " damaged file were left out."));
+  for (const auto & [path, failure] : failures)
+  {
+    scan.fileNotes.push_back(failure);
+  }
   return slices;
 }
 
@@ -195,27 +236,18 @@ RequireVolumeMemory(const std::vector<DicomSlice> & slices, const ScanReadOption
 void
 ReadStack(std::vector<DicomSlice> slices, const ScanReadOptions & options, Scan & scan)
 {
-  DicomStack stack = StackSlices(slices, options);
-  RequireVolumeMemory(slices, options);
-  DicomPixels pixels = ReadDicomPixels(slices, stack.geometry, *options.decoder, options.progress);
-  while (!pixels.failures.empty())
+  FileFailures failures = FindDamagedFiles(slices);
+  DicomStack stack;
+  DicomPixels pixels;
+  do
   {
-    const std::string & sentence = pixels.failures.begin()->second;
-    const std::size_t others = pixels.failures.size() - 1;
-    if (options.onGap == ScanReadOptions::Policy::Refuse || pixels.failures.size() + 2 > slices.size())
-    {
-      throw Failure(FailureKind::Unreadable,
-                    others == 0 ? sentence : sentence + " (And " + std::to_string(others) + " more files.)");
-    }
-    scan.notes.push_back("The slices of " + std::to_string(pixels.failures.size()) + " damaged files were left out.");
-    for (const auto & [path, failure] : pixels.failures)
-    {
-      scan.fileNotes.push_back(failure);
-    }
-    slices = Without(std::move(slices), pixels.failures);
+    slices = LeaveOut(failures, std::move(slices), options, scan);
     stack = StackSlices(slices, options);
+    RequireVolumeMemory(slices, options);
     pixels = ReadDicomPixels(slices, stack.geometry, *options.decoder, options.progress);
-  }
+    failures = pixels.failures;
+  } while (!failures.empty());
+
   scan.image = pixels.image;
   scan.sliceOrigins = stack.sliceOrigins;
   scan.stack = stack.report;
@@ -260,7 +292,7 @@ ReadDicomFolder(const fs::path & folder, const ScanReadOptions & options)
   const std::vector<DicomSlice> slices = CollectSlices(files, scan);
   if (slices.empty())
   {
-    RefuseFolder(folder, files);
+    RefuseFolder(folder, files, scan);
   }
   return ReadSlices(slices, std::move(scan), folder, options);
 }

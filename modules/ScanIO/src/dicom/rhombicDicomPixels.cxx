@@ -222,10 +222,6 @@ ForEachFrame(const FileSlices & one, const std::vector<DicomSlice> & slices, Vox
 {
   const DicomImageFile & file = *one.file;
   const std::size_t frameBytes = file.format.FrameBytes();
-  if (!file.pixelDamage.empty())
-  {
-    Refuse(file, file.pixelDamage);
-  }
   if (file.format.isEncapsulated)
   {
     const auto buffer = decoder.Decode({ VoxelRequest::Source::DicomFile, file.path, frameBytes * file.format.frames });

@@ -22,9 +22,9 @@ struct DicomPixels
   std::map<std::filesystem::path, std::string> failures; ///< a sentence for each file that could not be read
 };
 
-/** Reads slices, in their order, into one volume. Pixels that are not compressed are read here, the others by the
- * decoder, as many files at once as it has workers. Samples that are padding get the lowest value of the others.
- * \a progress, if any, is called on this thread with numbers from 0 to 1. */
+/** Reads slices, in their order, whose files have no pixelDamage, into one volume. Pixels that are not compressed are
+ * read here, the others by the decoder, as many files at once as it has workers. Samples that are padding get the
+ * lowest value of the others. \a progress, if any, is called on this thread with numbers from 0 to 1. */
 DicomPixels
 ReadDicomPixels(const std::vector<DicomSlice> & slices,
                 const VolumeGeometry & geometry,
