@@ -65,7 +65,8 @@ PrintStack(const Report & stack)
     std::string blocks;
     for (const Report & block : stack["blocks"])
     {
-      blocks += (blocks.empty() ? "" : ", ") + block["steps"].dump() + " steps of " + ToText(block["step"]) + " mm";
+      blocks += (blocks.empty() ? "" : ", ") + block["steps"].dump() +
+                (block["steps"] == 1 ? " step of " : " steps of ") + ToText(block["step"]) + " mm";
     }
     PrintLine("slices", "uneven: " + blocks);
   }

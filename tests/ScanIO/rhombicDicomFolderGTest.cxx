@@ -220,7 +220,7 @@ TEST_F(DicomFolder, MissingSliceIsRefused)
 {
   WriteStack(m_Folder, 6);
   fs::remove(m_Folder / "image2.dcm"); // k = 3
-  EXPECT_EQ(KindOfReading(m_Folder, "1 slice is missing at 7.5 mm, the first between image6.dcm and image5.dcm"),
+  EXPECT_EQ(KindOfReading(m_Folder, "1 slice is missing at 7.5 mm, between image6.dcm and image5.dcm"),
             FailureKind::Geometry);
 }
 

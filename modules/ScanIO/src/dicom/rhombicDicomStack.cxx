@@ -254,7 +254,8 @@ StackSlices(std::vector<DicomSlice> & slices, const ScanReadOptions & options)
     if (options.onGap == Policy::Refuse)
     {
       Refuse(slices,
-             gaps + ", the first between " + NamesAround(slices, distances, stack.report.gaps.front()),
+             gaps + (stack.report.gaps.size() > 1 ? ", the first between " : ", between ") +
+               NamesAround(slices, distances, stack.report.gaps.front()),
              "find the missing files, or take values across the gap with --on-gap=interpolate");
     }
     stack.notes.push_back("Values are interpolated where slices are missing: " + gaps + ".");
