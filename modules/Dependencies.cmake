@@ -13,6 +13,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(HWY REQUIRED)
+find_package(meshoptimizer REQUIRED)
 
 # Debian's OpenImageIO target lists the include folder of an OpenCV that is not installed with it.
 get_target_property(_directories OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
