@@ -16,7 +16,17 @@ ComputeArea(const TriangleSurface & surface);
 double
 ComputeVolume(const TriangleSurface & surface);
 
-/** The same for each connected component. Thread safe. */
+/** Where the enclosed volume has its centre, in LPS mm; for closed surfaces of a volume other than 0. Thread safe. */
+std::array<double, 3>
+ComputeCentroid(const TriangleSurface & surface);
+
+/** The distance of the two points farthest from each other, in mm; 0 without points. Exact: pairs of boxes of points
+ * are searched, the farthest first, and left out when their corners are no farther apart than the best pair so far.
+ * About 20 bytes a point. Thread safe. */
+double
+ComputeLongestDiameter(const TriangleSurface & surface);
+
+/** The volume of each connected component. Thread safe. */
 std::vector<double>
 ComputeComponentVolumes(const TriangleSurface & surface, const TriangleSurfaceComponents & components);
 

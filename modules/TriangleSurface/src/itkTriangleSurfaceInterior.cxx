@@ -1,0 +1,234 @@
+#include "itkTriangleSurfaceInterior.h"
+
+#include "itkThreadFailure.h"
+
+#include "itkMultiThreaderBase.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace itk
+{
+namespace
+{
+
+using Vector3 = Vector<double, 3>;
+
+Vector3
+ToVector(const TriangleSurface::PointType & point)
+{
+  Vector3 vector;
+  std::copy(point.begin(), point.end(), vector.Begin());
+  return vector;
+}
+
+/** Column, row and height as linear functions of a position: the dual basis of column step, row step and normal. */
+struct PlaneFrame
+{
+  Vector3 column;
+  Vector3 row;
+  Vector3 normal;
+
+  explicit PlaneFrame(const SamplePlanes & planes)
+  {
+    const Vector3 across = CrossProduct(planes.columnStep, planes.rowStep);
+    const double squared = across.GetSquaredNorm();
+    column = CrossProduct(planes.rowStep, across) / squared;
+    row = CrossProduct(across, planes.columnStep) / squared;
+    normal = across / std::sqrt(squared);
+    if (planes.origins.size() > 1 && (planes.origins.back() - planes.origins.front()) * normal < 0.0)
+    {
+      normal *= -1.0;
+    }
+  }
+};
+
+/** The triangles that cross each plane: those of plane n are triangles[begin[n]] to triangles[begin[n + 1]]. */
+struct TrianglesOfPlanes
+{
+  std::vector<std::uint64_t> begin;
+  std::vector<std::uint32_t> triangles;
+};
+
+TrianglesOfPlanes
+FindTrianglesOfPlanes(const TriangleSurface & surface,
+                      const std::vector<double> & pointHeights,
+                      const std::vector<double> & planeHeights)
+{
+  const auto & triangles = surface.GetTriangles();
+  const auto planesOf = [&](const TriangleSurface::TriangleType & triangle) {
+    const auto [low, high] =
+      std::minmax({ pointHeights[triangle[0]], pointHeights[triangle[1]], pointHeights[triangle[2]] });
+    const auto first = std::upper_bound(planeHeights.begin(), planeHeights.end(), low);
+    const auto last = std::upper_bound(first, planeHeights.end(), high);
+    return std::pair<std::size_t, std::size_t>(first - planeHeights.begin(), last - planeHeights.begin());
+  };
+  TrianglesOfPlanes found;
+  found.begin.assign(planeHeights.size() + 1, 0);
+  for (const auto & triangle : triangles)
+  {
+    const auto [first, last] = planesOf(triangle);
+    for (std::size_t plane = first; plane < last; ++plane)
+    {
+      ++found.begin[plane + 1];
+    }
+  }
+  std::partial_sum(found.begin.begin(), found.begin.end(), found.begin.begin());
+  found.triangles.resize(found.begin.back());
+  auto next = found.begin;
+  for (std::size_t n = 0; n < triangles.size(); ++n)
+  {
+    const auto [first, last] = planesOf(triangles[n]);
+    for (std::size_t plane = first; plane < last; ++plane)
+    {
+      found.triangles[next[plane]++] = static_cast<std::uint32_t>(n);
+    }
+  }
+  return found;
+}
+
+/** A place in a plane, in samples. */
+struct PlanePoint
+{
+  double column;
+  double row;
+};
+
+/** Where a plane cuts the sides of triangles. Triangles that share a side get the same point to the last bit, so that
+ * the outline in the plane is closed. */
+class PlaneCut
+{
+public:
+  PlaneCut(const TriangleSurface & surface,
+           const PlaneFrame & frame,
+           const Point<double, 3> & origin,
+           const std::vector<double> & pointHeights,
+           double height)
+    : m_Surface(surface)
+    , m_Frame(frame)
+    , m_Column(frame.column * origin.GetVectorFromOrigin())
+    , m_Row(frame.row * origin.GetVectorFromOrigin())
+    , m_PointHeights(pointHeights)
+    , m_Height(height)
+  {}
+
+  /** The two ends of the cut through a triangle that crosses the plane. */
+  std::array<PlanePoint, 2>
+  CutTriangle(const TriangleSurface::TriangleType & triangle) const
+  {
+    std::array<PlanePoint, 2> ends{};
+    unsigned int found = 0;
+    for (unsigned int corner = 0; corner < 3 && found < 2; ++corner)
+    {
+      const std::uint32_t a = triangle[corner];
+      const std::uint32_t b = triangle[(corner + 1) % 3];
+      if (this->IsAbove(a) != this->IsAbove(b))
+      {
+        ends[found++] = this->CutSide(std::min(a, b), std::max(a, b));
+      }
+    }
+    return ends;
+  }
+
+private:
+  bool
+  IsAbove(std::uint32_t point) const
+  {
+    return m_PointHeights[point] >= m_Height;
+  }
+
+  PlanePoint
+  CutSide(std::uint32_t a, std::uint32_t b) const
+  {
+    const double share = (m_Height - m_PointHeights[a]) / (m_PointHeights[b] - m_PointHeights[a]);
+    const Vector3 from = ToVector(m_Surface.GetPoints()[a]);
+    const Vector3 cut = from + (ToVector(m_Surface.GetPoints()[b]) - from) * share;
+    return { m_Frame.column * cut - m_Column, m_Frame.row * cut - m_Row };
+  }
+
+  const TriangleSurface & m_Surface;
+  const PlaneFrame & m_Frame;
+  double m_Column; // of the plane's origin
+  double m_Row;
+  const std::vector<double> & m_PointHeights;
+  double m_Height;
+};
+
+/** Where a row of samples crosses the outline. */
+struct Crossing
+{
+  SizeValueType row;
+  double column;
+};
+
+void
+AppendCrossings(const std::array<PlanePoint, 2> & ends, SizeValueType numberOfRows, std::vector<Crossing> & crossings)
+{
+  // From the lower to the higher row, whichever way the triangle faces, for the same rounding.
+  const auto & [low, high] = ends[0].row < ends[1].row ? std::tie(ends[0], ends[1]) : std::tie(ends[1], ends[0]);
+  // Rows above the lower end and at or below the higher one: each row of samples belongs to its upper side.
+  const double first = std::max(0.0, std::floor(low.row) + 1.0);
+  const double last = std::min(static_cast<double>(numberOfRows) - 1.0, std::floor(high.row));
+  for (double row = first; row <= last; row += 1.0)
+  {
+    const double share = (row - low.row) / (high.row - low.row);
+    crossings.push_back({ static_cast<SizeValueType>(row), low.column + share * (high.column - low.column) });
+  }
+}
+
+SizeValueType
+FirstColumnFrom(double position, SizeValueType numberOfColumns)
+{
+  return static_cast<SizeValueType>(std::clamp(std::ceil(position), 0.0, static_cast<double>(numberOfColumns)));
+}
+
+} // namespace
+
+void
+FindInteriorSamples(const TriangleSurface & surface, const SamplePlanes & planes, const VisitInteriorSamples & visit)
+{
+  if (planes.origins.empty() || planes.numberOfRows == 0 || planes.numberOfColumns == 0)
+  {
+    return;
+  }
+  const PlaneFrame frame(planes);
+  std::vector<double> pointHeights(surface.GetNumberOfPoints());
+  std::transform(surface.GetPoints().begin(), surface.GetPoints().end(), pointHeights.begin(), [&](const auto & point) {
+    return frame.normal * ToVector(point);
+  });
+  std::vector<double> planeHeights(planes.origins.size());
+  std::transform(planes.origins.begin(), planes.origins.end(), planeHeights.begin(), [&](const auto & origin) {
+    return frame.normal * origin.GetVectorFromOrigin();
+  });
+  const TrianglesOfPlanes found = FindTrianglesOfPlanes(surface, pointHeights, planeHeights);
+
+  const auto visitPlane = [&](SizeValueType plane) {
+    const PlaneCut cut(surface, frame, planes.origins[plane], pointHeights, planeHeights[plane]);
+    std::vector<Crossing> crossings;
+    for (std::uint64_t n = found.begin[plane]; n < found.begin[plane + 1]; ++n)
+    {
+      AppendCrossings(cut.CutTriangle(surface.GetTriangles()[found.triangles[n]]), planes.numberOfRows, crossings);
+    }
+    std::sort(crossings.begin(), crossings.end(), [](const Crossing & a, const Crossing & b) {
+      return a.row != b.row ? a.row < b.row : a.column < b.column;
+    });
+    for (std::size_t n = 0; n + 1 < crossings.size(); n += 2)
+    {
+      const SizeValueType begin = FirstColumnFrom(crossings[n].column, planes.numberOfColumns);
+      const SizeValueType end = FirstColumnFrom(crossings[n + 1].column, planes.numberOfColumns);
+      if (begin < end && crossings[n].row == crossings[n + 1].row)
+      {
+        visit(plane, crossings[n].row, begin, end);
+      }
+    }
+  };
+  ThreadFailure failure;
+  MultiThreaderBase::New()->ParallelizeArray(
+    0, planes.origins.size(), [&](SizeValueType plane) { failure.Capture([&] { visitPlane(plane); }); }, nullptr);
+  failure.Rethrow();
+}
+
+} // namespace itk
