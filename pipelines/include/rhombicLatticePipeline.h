@@ -27,6 +27,10 @@ struct LatticeSettings
   bool nested = false;              ///< instead: every other sample of the scan, without interpolation; density 0.5
 };
 
+/** Whether the scan's samples are not those of perpendicular, evenly divided axes. */
+bool
+IsSlanted(const Scan & scan);
+
 /** Throws Failure(Usage) for settings that make no lattice of any scan. */
 void
 CheckLatticeSettings(const LatticeSettings & settings);
@@ -44,13 +48,16 @@ ScanImage
 LatticeToScan(const FCCVolume & volume, const std::array<double, 3> & spacing, const Events & events);
 
 /** A closed isosurface of the volume for each request, in its order, made as the mode says. The requests' isovalues
- * must be known; those on the same side of theirs are extracted in one pass over the volume. Throws Failure(Empty) when
- * a surface has no triangle. */
+ * must be known; those on the same side of theirs are extracted in one pass over the volume. Where the scan ends,
+ * surfaces are closed by walls: on the outer faces of the lattice, or, when it is known, of the grid's voxels. Throws
+ * Failure(Empty) when a surface has no triangle.
+ * \param grid of the scan that the volume was made from, if it is not slanted */
 std::vector<SceneSurface>
 LatticeToSurfaces(const FCCVolume & volume,
                   const std::vector<SurfaceRequest> & requests,
                   itk::FCCIsosurfaceMode mode,
-                  const Events & events);
+                  const Events & events,
+                  const itk::ImageBase<3> * grid = nullptr);
 
 } // namespace rhombic
 

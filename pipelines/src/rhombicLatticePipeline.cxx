@@ -5,6 +5,7 @@
 #include "rhombicIntensities.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicObserveProgress.h"
+#include "rhombicScanBorder.h"
 
 #include "itkCartesianToFCCImageFilter.h"
 #include "itkCartesianToNestedFCCImageFilter.h"
@@ -80,13 +81,6 @@ TakeOutput(TFilter & filter)
   return output;
 }
 
-/** Whether the scan's samples are not those of perpendicular, evenly divided axes. */
-bool
-IsSlanted(const Scan & scan)
-{
-  return !scan.sliceOrigins.empty() || !itk::AreAxesPerpendicular(GeometryOf(scan.image).GetDirection());
-}
-
 /** Throws Failure(Empty) when there is no triangle. */
 void
 CheckSurface(const itk::TriangleSurface & surface, const SurfaceRequest & request)
@@ -149,6 +143,12 @@ ExtractSide(const itk::FCCImage<TPixel> & image,
 }
 
 } // namespace
+
+bool
+IsSlanted(const Scan & scan)
+{
+  return !scan.sliceOrigins.empty() || !itk::AreAxesPerpendicular(GeometryOf(scan.image).GetDirection());
+}
 
 void
 CheckLatticeSettings(const LatticeSettings & settings)
@@ -231,7 +231,8 @@ std::vector<SceneSurface>
 LatticeToSurfaces(const FCCVolume & volume,
                   const std::vector<SurfaceRequest> & requests,
                   itk::FCCIsosurfaceMode mode,
-                  const Events & events)
+                  const Events & events,
+                  const itk::ImageBase<3> * grid)
 {
   std::vector<itk::TriangleSurface::Pointer> extracted(requests.size());
   itk::SizeValueType undefined = 0;
@@ -251,6 +252,10 @@ LatticeToSurfaces(const FCCVolume & volume,
   {
     const SurfaceRequest & request = requests[n];
     CheckSurface(*extracted[n], request);
+    if (grid != nullptr)
+    {
+      MoveWallsToBorder(*extracted[n], *grid, volume);
+    }
     events.Note(request.name + ": " + std::to_string(extracted[n]->GetNumberOfTriangles()) + " triangles");
     surfaces.push_back({ request.name, extracted[n].GetPointer(), request.colour, request.opacity });
   }

@@ -101,6 +101,19 @@ ReportSurfaces(const std::vector<SurfaceRequest> & requests,
   return report;
 }
 
+/** Size and place of a scan's samples without their values; null when it is slanted. */
+itk::ImageBase<3>::Pointer
+GridOf(const Scan & scan)
+{
+  if (IsSlanted(scan))
+  {
+    return nullptr;
+  }
+  const auto grid = itk::ImageBase<3>::New();
+  grid->CopyInformation(&GeometryOf(scan.image));
+  return grid;
+}
+
 LoadedSurfaces
 LoadSurfaces(const ScanSource & source,
              const std::vector<SurfaceRequest> & requests,
@@ -109,6 +122,7 @@ LoadSurfaces(const ScanSource & source,
 {
   LoadedSurfaces loaded;
   FCCVolume volume;
+  itk::ImageBase<3>::Pointer grid;
   std::vector<SurfaceRequest> resolved;
   if (IsFCCImageFile(source.path))
   {
@@ -122,10 +136,11 @@ LoadSurfaces(const ScanSource & source,
     const Scan scan = LoadScan(source, events); // its memory is needed for the surfaces
     resolved = ResolveIsovalues(requests, ComputeIntensities(scan.image));
     volume = ScanToLattice(scan, source.lattice, events);
+    grid = GridOf(scan);
     loaded.report["scan"] = ReportWithoutNames(scan, source.path);
     loaded.isOriented = scan.isOriented;
   }
-  loaded.surfaces = LatticeToSurfaces(volume, resolved, mode, events);
+  loaded.surfaces = LatticeToSurfaces(volume, resolved, mode, events, grid);
   loaded.report["lattice"] = ReportLattice(volume);
   loaded.report["surfaces"] = ReportSurfaces(resolved, loaded.surfaces, mode);
   return loaded;

@@ -114,6 +114,11 @@ GeometryOf(ScanImage &&) = delete; // it would outlive the image
 const char *
 PixelTypeName(const ScanImage & image);
 
+/** The volume of a voxel of each slice, in mm^3; in an unevenly spaced stack a voxel reaches halfway to the next slices.
+ */
+std::vector<double>
+VoxelVolumes(const Scan & scan);
+
 } // namespace rhombic
 
 #endif

@@ -1,0 +1,163 @@
+#include "rhombicSurfaceMeasures.h"
+
+#include "itkTriangleSurfaceInterior.h"
+#include "itkTriangleSurfaceMeasures.h"
+
+#include <cmath>
+
+namespace rhombic
+{
+namespace
+{
+
+itk::SamplePlanes
+PlanesOf(const Scan & scan)
+{
+  const itk::ImageBase<3> & grid = GeometryOf(scan.image);
+  const auto & region = grid.GetLargestPossibleRegion();
+  const auto placeOf = [&](itk::IndexValueType column, itk::IndexValueType row, itk::IndexValueType slice) {
+    auto index = region.GetIndex();
+    index[0] += column;
+    index[1] += row;
+    index[2] += slice;
+    itk::Point<double, 3> point;
+    grid.TransformIndexToPhysicalPoint(index, point);
+    return point;
+  };
+  itk::SamplePlanes planes;
+  planes.columnStep = placeOf(1, 0, 0) - placeOf(0, 0, 0);
+  planes.rowStep = placeOf(0, 1, 0) - placeOf(0, 0, 0);
+  planes.numberOfColumns = region.GetSize(0);
+  planes.numberOfRows = region.GetSize(1);
+  planes.origins = scan.sliceOrigins;
+  for (itk::SizeValueType slice = planes.origins.size(); slice < region.GetSize(2); ++slice)
+  {
+    planes.origins.push_back(placeOf(0, 0, static_cast<itk::IndexValueType>(slice)));
+  }
+  return planes;
+}
+
+/** Moments of the values inside one slice. */
+struct SliceSums
+{
+  std::size_t count = 0;
+  double sum = 0.0;
+  double squares = 0.0;
+};
+
+template <typename TPixel>
+std::vector<SliceSums>
+SumInterior(const itk::TriangleSurface & surface, const itk::Image<TPixel, 3> & image, const itk::SamplePlanes & planes)
+{
+  std::vector<SliceSums> slices(planes.origins.size()); // each is changed by one thread alone
+  FindInteriorSamples(surface, planes, [&](auto slice, auto row, auto begin, auto end) {
+    const TPixel * const values =
+      image.GetBufferPointer() + (slice * planes.numberOfRows + row) * planes.numberOfColumns;
+    SliceSums & sums = slices[slice];
+    for (auto column = begin; column < end; ++column)
+    {
+      const auto value = static_cast<double>(values[column]);
+      if (std::isfinite(value))
+      {
+        ++sums.count;
+        sums.sum += value;
+        sums.squares += value * value;
+      }
+    }
+  });
+  return slices;
+}
+
+} // namespace
+
+bool
+SurfaceMeasures::IsVolumeInDoubt() const
+{
+  constexpr double tolerance = 0.01;
+  return voxelVolume && std::abs(volume - *voxelVolume) > tolerance * std::abs(volume);
+}
+
+SurfaceMeasures
+MeasureSurface(const itk::TriangleSurface & surface)
+{
+  SurfaceMeasures measures;
+  measures.volume = ComputeVolume(surface);
+  measures.area = ComputeArea(surface);
+  measures.bounds = surface.GetBounds();
+  measures.centroid = ComputeCentroid(surface);
+  measures.longestDiameter = ComputeLongestDiameter(surface);
+  return measures;
+}
+
+SurfaceMeasures
+MeasureSurface(const itk::TriangleSurface & surface, const Scan & scan)
+{
+  SurfaceMeasures measures = MeasureSurface(surface);
+  const itk::SamplePlanes planes = PlanesOf(scan);
+  const std::vector<double> voxelVolumes = VoxelVolumes(scan);
+  const auto slices = std::visit([&](const auto & image) { return SumInterior(surface, *image, planes); }, scan.image);
+  double volume = 0.0;
+  double sum = 0.0; // weighted by the voxels' volumes
+  double squares = 0.0;
+  for (std::size_t slice = 0; slice < slices.size(); ++slice)
+  {
+    volume += static_cast<double>(slices[slice].count) * voxelVolumes[slice];
+    sum += slices[slice].sum * voxelVolumes[slice];
+    squares += slices[slice].squares * voxelVolumes[slice];
+  }
+  measures.voxelVolume = volume;
+  if (volume > 0.0)
+  {
+    const double mean = sum / volume;
+    measures.meanValue = mean;
+    measures.standardDeviation = std::sqrt(std::max(0.0, squares / volume - mean * mean));
+  }
+  return measures;
+}
+
+double
+CountVoxelVolume(const Scan & scan, double isovalue, SurfaceRequest::Side side)
+{
+  const std::vector<double> voxelVolumes = VoxelVolumes(scan);
+  const auto count = [&](const auto & image) {
+    const auto & size = image->GetLargestPossibleRegion().GetSize();
+    const auto * value = image->GetBufferPointer();
+    double volume = 0.0;
+    for (const double voxelVolume : voxelVolumes)
+    {
+      std::size_t inside = 0;
+      for (const auto * const end = value + size[0] * size[1]; value != end; ++value)
+      {
+        const auto number = static_cast<double>(*value);
+        inside += side == SurfaceRequest::Side::Above ? number >= isovalue : number < isovalue;
+      }
+      volume += static_cast<double>(inside) * voxelVolume;
+    }
+    return volume;
+  };
+  return std::visit(count, scan.image);
+}
+
+Report
+ReportMeasures(const SurfaceMeasures & measures)
+{
+  constexpr double cubicMillimetresPerMillilitre = 1000.0;
+  Report report{ { "volumeInMillilitres", measures.volume / cubicMillimetresPerMillilitre } };
+  if (measures.voxelVolume)
+  {
+    report["voxelVolumeInMillilitres"] = *measures.voxelVolume / cubicMillimetresPerMillilitre;
+    report["volumesDiffer"] = measures.IsVolumeInDoubt();
+  }
+  report["areaInSquareMillimetres"] = measures.area;
+  report["boundsInMillimetres"] = measures.bounds;
+  report["centroidInMillimetres"] = measures.centroid;
+  report["longestDiameterInMillimetres"] = measures.longestDiameter;
+  if (measures.meanValue)
+  {
+    report["meanValue"] = *measures.meanValue;
+    report["standardDeviation"] = *measures.standardDeviation;
+  }
+  return report;
+}
+
+} // namespace rhombic
