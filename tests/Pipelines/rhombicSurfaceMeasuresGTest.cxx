@@ -201,6 +201,36 @@ TEST(SurfaceMeasures, AreThoseOfABallOfKnownValues)
   }
 }
 
+// At the default density, a sphere of 27 samples' radius and a torus with a tube of 10 (a vertebra, a large vessel). What
+// is left is the chords' error, which falls with the square of the radius.
+TEST(SurfaceMeasures, AreThoseOfASphereAndATorus)
+{
+  constexpr double sphereRadius = 21.3;
+  constexpr double ringRadius = 18.0;
+  constexpr double tubeRadius = 9.0;
+  const auto sphere = [](const PointType & p) { return sphereRadius - p.GetVectorFromOrigin().GetNorm(); };
+  const auto torus = [](const PointType & p) {
+    return tubeRadius - std::hypot(std::hypot(p[0], p[1]) - ringRadius, p[2]);
+  };
+  const auto check = [](const rhombic::Scan & scan, double volume, double area) {
+    for (const Mode mode : AllModes)
+    {
+      const auto measures = rhombic::MeasureSurface(*ExtractFrom(scan, 0.0, mode).surface, scan);
+      const bool isAccurate = mode == Mode::Lean || mode == Mode::Fine;
+      EXPECT_NEAR(measures.volume / volume, 1.0, isAccurate ? 0.001 : 0.004) << mode;
+      EXPECT_NEAR(measures.area / area, 1.0, 0.005) << mode;
+      EXPECT_NEAR(*measures.voxelVolume / volume, 1.0, 0.005) << mode;
+    }
+  };
+  constexpr double pi = itk::Math::pi;
+  check(MakeScan(sphere, { { 58, 66, 42 } }),
+        4.0 / 3.0 * pi * sphereRadius * sphereRadius * sphereRadius,
+        4.0 * pi * sphereRadius * sphereRadius);
+  check(MakeScan(torus, { { 74, 84, 54 } }),
+        2.0 * pi * pi * ringRadius * tubeRadius * tubeRadius,
+        4.0 * pi * pi * ringRadius * tubeRadius);
+}
+
 TEST(SurfaceMeasures, SayWhenTheVolumesDiffer)
 {
   rhombic::SurfaceMeasures measures;
