@@ -3,6 +3,7 @@
 
 #include "rhombicLatticePipeline.h"
 #include "rhombicScan.h"
+#include "rhombicScanReport.h"
 #include "rhombicSurfaceRequest.h"
 
 #include "itkTriangleSurface.h"
@@ -42,6 +43,10 @@ ComputeDeviation(const itk::TriangleSurface & surface,
                  double isovalue,
                  SurfaceRequest::Side side,
                  std::size_t maximumSamples = 2'000'000);
+
+/** With units in the keys. */
+Report
+ReportDeviation(const SurfaceDeviation & deviation);
 
 } // namespace rhombic
 

@@ -214,4 +214,17 @@ ComputeDeviation(const itk::TriangleSurface & surface,
   return deviation;
 }
 
+Report
+ReportDeviation(const SurfaceDeviation & deviation)
+{
+  return { { "of", "the points and triangle centres from the scan's isosurface" },
+           { "samples", deviation.samples },
+           { "complete", deviation.isComplete },
+           { "unresolved", deviation.unresolved },
+           { "meanInMillimetres", deviation.mean },
+           { "percentile95InMillimetres", deviation.percentile95 },
+           { "maximumInMillimetres", deviation.maximum },
+           { "biasInMillimetres", deviation.bias } };
+}
+
 } // namespace rhombic

@@ -1,0 +1,108 @@
+#include "rhombicMeasureTable.h"
+
+#include "rhombicAtomicFile.h"
+#include "rhombicFailure.h"
+
+#include <fstream>
+#include <string>
+
+namespace fs = std::filesystem;
+
+namespace rhombic
+{
+namespace
+{
+
+struct Column
+{
+  const char * head;
+  const char * place; ///< in a surface's report, as a JSON pointer
+};
+
+constexpr Column columns[] = {
+  { "name", "/name" },
+  { "isovalue", "/isovalue" },
+  { "inside", "/inside" },
+  { "volume (ml)", "/measures/volumeInMillilitres" },
+  { "voxel volume (ml)", "/measures/voxelVolumeInMillilitres" },
+  { "volumes differ", "/measures/volumesDiffer" },
+  { "area (mm2)", "/measures/areaInSquareMillimetres" },
+  { "x min (mm)", "/measures/boundsInMillimetres/0" },
+  { "x max (mm)", "/measures/boundsInMillimetres/1" },
+  { "y min (mm)", "/measures/boundsInMillimetres/2" },
+  { "y max (mm)", "/measures/boundsInMillimetres/3" },
+  { "z min (mm)", "/measures/boundsInMillimetres/4" },
+  { "z max (mm)", "/measures/boundsInMillimetres/5" },
+  { "centroid x (mm)", "/measures/centroidInMillimetres/0" },
+  { "centroid y (mm)", "/measures/centroidInMillimetres/1" },
+  { "centroid z (mm)", "/measures/centroidInMillimetres/2" },
+  { "longest diameter (mm)", "/measures/longestDiameterInMillimetres" },
+  { "mean value", "/measures/meanValue" },
+  { "standard deviation", "/measures/standardDeviation" },
+  { "triangles", "/triangles" },
+  { "mean deviation (mm)", "/deviation/meanInMillimetres" },
+  { "95 % deviation (mm)", "/deviation/percentile95InMillimetres" },
+  { "largest deviation (mm)", "/deviation/maximumInMillimetres" },
+};
+
+/** Text in quotes, in which quotes are doubled (RFC 4180); everything else as JSON writes it. */
+std::string
+ToField(const Report & value)
+{
+  if (!value.is_string())
+  {
+    return value.is_null() ? "" : value.dump();
+  }
+  std::string field = "\"";
+  for (const char letter : value.get<std::string>())
+  {
+    field += letter == '"' ? "\"\"" : std::string(1, letter);
+  }
+  return field + '"';
+}
+
+std::string
+ToCSV(const Report & surfaces)
+{
+  std::string text;
+  for (const Column & column : columns)
+  {
+    text += (text.empty() ? "" : ",") + std::string(column.head);
+  }
+  text += "\r\n";
+  for (const Report & surface : surfaces)
+  {
+    std::string line;
+    for (const Column & column : columns)
+    {
+      const Report::json_pointer place(column.place);
+      line += (&column == columns ? "" : ",") + (surface.contains(place) ? ToField(surface.at(place)) : "");
+    }
+    text += line + "\r\n";
+  }
+  return text;
+}
+
+} // namespace
+
+void
+CheckMeasureTablePath(const fs::path & path)
+{
+  if (path.extension() != ".csv" && path.extension() != ".json")
+  {
+    throw Failure(FailureKind::Usage,
+                  "Cannot write the measures to " + path.string() + ": use the extension .csv or .json.");
+  }
+}
+
+void
+WriteMeasureTable(const Report & surfaces, const fs::path & path)
+{
+  CheckMeasureTablePath(path);
+  const std::string text = path.extension() == ".csv" ? ToCSV(surfaces) : ToJson(surfaces) + '\n';
+  AtomicFile file(path);
+  std::ofstream(file.GetTemporaryPath(), std::ios::binary) << text;
+  file.Commit(text.size());
+}
+
+} // namespace rhombic
