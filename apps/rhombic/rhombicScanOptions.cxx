@@ -128,6 +128,12 @@ ScanOptions::AddLattice(CLI::App & parser)
     ->excludes(density)
     ->excludes(spacing)
     ->excludes(kernel);
+  parser
+    .add_option("--denoise",
+                m_Denoising,
+                "take noise out before surfaces are made: gaussian:SIGMA in mm; or edges:SIGMA,EDGE, which keeps what "
+                "is steeper than EDGE, in the scan's units per mm, and is slow; or none")
+    ->capture_default_str();
 }
 
 void
@@ -200,6 +206,7 @@ ScanOptions::GetSource(const CommandContext & context) const
   source.lattice.density = m_Density;
   source.lattice.spacing = ParseSpacing(m_Spacing);
   source.lattice.kernel = kernel->second;
+  source.lattice.denoising = ParseDenoising(m_Denoising);
   source.lattice.nested = m_Nested;
   source.lattice.maximumMemory = source.read.maximumMemory;
   return source;

@@ -22,7 +22,7 @@ public:
   void
   AddSource(CLI::App & parser);
 
-  /** Density, spacing, kernel, or the nested lattice. */
+  /** Density, spacing, kernel, or the nested lattice; noise. */
   void
   AddLattice(CLI::App & parser);
 
@@ -59,6 +59,7 @@ private:
   double m_Density = itk::FCCLattice::NyquistDensity;
   std::string m_Spacing;
   std::string m_Kernel = "cubic";
+  std::string m_Denoising = "none";
   std::string m_Mode = "lean";
   bool m_Nested = false;
 };

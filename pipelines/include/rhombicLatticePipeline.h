@@ -1,6 +1,7 @@
 #ifndef rhombicLatticePipeline_h
 #define rhombicLatticePipeline_h
 
+#include "rhombicDenoising.h"
 #include "rhombicEvents.h"
 #include "rhombicFCCImageFile.h"
 #include "rhombicScan.h"
@@ -17,13 +18,15 @@
 namespace rhombic
 {
 
-/** Which lattice a scan is resampled onto, and how. */
+/** Which lattice a scan is resampled onto, and how. On volumes that are on a lattice already, noise alone is taken out.
+ */
 struct LatticeSettings
 {
   double density = itk::FCCLattice::NyquistDensity; ///< lattice sites per sample of the scan
   std::array<double, 3> spacing{ 0.0, 0.0, 0.0 };   ///< of the lattice in mm (see itk::FCCImage); 0: from the density
   itk::SeparableKernel kernel = itk::SeparableKernel::CubicBSpline;
   std::uintmax_t maximumMemory = 0; ///< for scan and lattice, in bytes; 0: the lattice takes half of what is free
+  Denoising denoising;              ///< none by default
   bool nested = false;              ///< instead: every other sample of the scan, without interpolation; density 0.5
 };
 
@@ -37,8 +40,9 @@ CheckLatticeSettings(const LatticeSettings & settings);
 
 /** The scan on the lattice, in its own pixel type (itk::CartesianToFCCImageFilter, or
  * itk::CartesianToNestedFCCImageFilter). Where its slices are tilted, sheared or unevenly spaced, what is beside them
- * gets its lowest value. Throws Failure: Usage for settings that make no lattice, or none of such a scan; Memory,
- * before any work, for a lattice that is too large. */
+ * gets its lowest value. Noise is taken out first where edges are preserved, else last. Throws Failure: Usage for
+ * settings that make no lattice, or none of such a scan; Memory, before any work, for a lattice that is too large; and
+ * those of DenoiseScan(). */
 FCCVolume
 ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events & events);
 

@@ -20,7 +20,7 @@ struct ScanSource
 {
   std::filesystem::path path; ///< anything ReadScan() reads, or a lattice volume that WriteFCCImage() wrote
   ScanReadOptions read;
-  LatticeSettings lattice; ///< without effect on lattice volumes
+  LatticeSettings lattice; ///< on lattice volumes, only its denoising has an effect
 };
 
 /** From a scan to pictures of its surfaces. */

@@ -28,7 +28,9 @@ template <typename TPixel>
 void
 RequireLatticeMemory(const itk::FCCImage<TPixel> & lattice, const Scan & scan, const LatticeSettings & settings)
 {
-  const std::uintmax_t bytes = lattice.GetLargestPossibleRegion().GetNumberOfPixels() * sizeof(TPixel);
+  const bool isSmoothed = settings.denoising.kind == Denoising::Kind::Gaussian; // into a second one
+  const std::uintmax_t bytes =
+    lattice.GetLargestPossibleRegion().GetNumberOfPixels() * sizeof(TPixel) * (isSmoothed ? 2 : 1);
   const bool isGiven = settings.maximumMemory > 0;
   const std::uintmax_t scanBytes =
     isGiven ? GeometryOf(scan.image).GetLargestPossibleRegion().GetNumberOfPixels() * sizeof(TPixel) : 0;
@@ -166,6 +168,7 @@ CheckLatticeSettings(const LatticeSettings & settings)
     throw Failure(FailureKind::Usage,
                   "The lattice's spacing must be a positive number along each axis; give it in mm, for example 1.5.");
   }
+  CheckDenoising(settings.denoising);
 }
 
 FCCVolume
@@ -179,7 +182,14 @@ ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events 
                   "The scan's slices are tilted, sheared or unevenly spaced, so that no lattice is nested in it; "
                   "leave out --nested.");
   }
-  return std::visit(
+  if (isSlanted && settings.denoising.kind == Denoising::Kind::EdgePreserving)
+  {
+    throw Failure(FailureKind::Usage,
+                  "The scan's slices are tilted, sheared or unevenly spaced, which edge-preserving smoothing does not "
+                  "know of; use --denoise gaussian, which works on the lattice.");
+  }
+  const ScanImage image = DenoiseScan(scan.image, settings.denoising, settings.maximumMemory, events);
+  const FCCVolume volume = std::visit(
     [&](const auto & input) -> FCCVolume {
       using InputType = typename std::decay_t<decltype(*input)>;
       const auto run = [&](auto & filter) -> FCCVolume {
@@ -207,7 +217,10 @@ ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events 
       }
       return run(*filter);
     },
-    scan.image);
+    image);
+  return settings.denoising.kind == Denoising::Kind::Gaussian
+           ? DenoiseLattice(volume, settings.denoising, settings.maximumMemory, events)
+           : volume;
 }
 
 ScanImage

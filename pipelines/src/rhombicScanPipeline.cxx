@@ -129,6 +129,7 @@ LoadSurfaces(const ScanSource & source,
     events.Progress("reading", 0.0);
     volume = ReadFCCImage(source.path);
     resolved = ResolveIsovalues(requests, ComputeIntensities(volume));
+    volume = DenoiseLattice(volume, source.lattice.denoising, source.lattice.maximumMemory, events);
   }
   else
   {
@@ -141,6 +142,7 @@ LoadSurfaces(const ScanSource & source,
     loaded.isOriented = scan.isOriented;
   }
   loaded.surfaces = LatticeToSurfaces(volume, resolved, mode, events, grid);
+  loaded.report["denoising"] = ReportDenoising(source.lattice.denoising);
   loaded.report["lattice"] = ReportLattice(volume);
   loaded.report["surfaces"] = ReportSurfaces(resolved, loaded.surfaces, mode);
   return loaded;
@@ -231,11 +233,15 @@ ResampleScan(const ResampleScanSettings & settings, const Events & events)
   if (IsFCCImageFile(settings.source.path))
   {
     CheckScanPath(settings.volume);
-    const FCCVolume volume = ReadFCCImage(settings.source.path);
-    const ScanImage image = LatticeToScan(volume, settings.source.lattice.spacing, events);
+    const LatticeSettings & lattice = settings.source.lattice;
+    const FCCVolume volume =
+      DenoiseLattice(ReadFCCImage(settings.source.path), lattice.denoising, lattice.maximumMemory, events);
+    const ScanImage image = LatticeToScan(volume, lattice.spacing, events);
     events.Progress("writing", 0.0);
     WriteScan(image, settings.volume);
-    WriteSidecar(settings.volume, settings.provenance, { { "lattice", ReportLattice(volume) } });
+    WriteSidecar(settings.volume,
+                 settings.provenance,
+                 { { "denoising", ReportDenoising(lattice.denoising) }, { "lattice", ReportLattice(volume) } });
   }
   else
   {
@@ -250,7 +256,9 @@ ResampleScan(const ResampleScanSettings & settings, const Events & events)
     WriteFCCImage(volume, settings.volume);
     WriteSidecar(settings.volume,
                  settings.provenance,
-                 { { "scan", ReportWithoutNames(scan, settings.source.path) }, { "lattice", ReportLattice(volume) } });
+                 { { "scan", ReportWithoutNames(scan, settings.source.path) },
+                   { "denoising", ReportDenoising(settings.source.lattice.denoising) },
+                   { "lattice", ReportLattice(volume) } });
   }
   events.Progress("writing", 1.0);
 }

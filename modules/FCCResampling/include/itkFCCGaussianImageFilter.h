@@ -1,0 +1,137 @@
+#ifndef itkFCCGaussianImageFilter_h
+#define itkFCCGaussianImageFilter_h
+
+#include "itkFCCGaussianTaps.h"
+#include "itkFCCImage.h"
+#include "itkImageToImageFilter.h"
+#include "itkThreadFailure.h"
+
+#include <type_traits>
+
+namespace itk
+{
+
+/** \class FCCGaussianImageFilter
+ * \brief Smooths an FCC image with a Gaussian that is isotropic in millimetres.
+ *
+ * Sigma is the standard deviation along each axis, whatever the lattice's spacing. Weights are those of a sampled
+ * Gaussian, cut off behind four standard deviations, with exact second moments for every Sigma and spacing (see
+ * FCCGaussianTaps): linear fields stay what they are, quadratic ones change by Sigma^2 / 2 times their Laplacian, and
+ * the isosurface of a sphere of radius R in a smooth field is moved inwards by about Sigma^2 / R for a sharp edge.
+ * Where slices are much farther apart than Sigma, neighbouring slices get the small weights that make this true. An
+ * image one sample thick along y or z is not smoothed along it.
+ *
+ * Sites outside the image are mirrored (see MirrorIntoRegion), as the splines of FCCInterpolation do: at the faces of
+ * the image, the derivative across them is zero.
+ *
+ * Samples that are not finite are left out of the averages of the others, and stay as they are. Integer outputs are
+ * rounded half away from zero. Arithmetic is in float32, which is exact enough for 16-bit pixels to preserve
+ * constants, and good for 7 digits of wider ones. With Sigma 0 the output is the input.
+ *
+ * The Gaussian is a product of one factor per axis, and the sum over the even points of the lattice one of sums over
+ * even and odd points along each axis: along y, rows are blended into sums over the even and over the odd steps, which
+ * are rows of both parities; then both along z; then along x into the row of sites. Each is a pass over whole rows (see
+ * RowArithmetic), with 4 (2 reach + 1) products per site in all. Extra memory: that of the rows of one block of planes,
+ * 1 MiB per thread, or 16 rows of float for each plane within reach, if that is more. Any part of the output has the
+ * same bytes whether it is computed alone or with the rest, by one thread or many, on any processor. Samples that are
+ * not finite double the time.
+ *
+ * The axes must be perpendicular, as those of all lattices that the filters of this module make are. The filter asks
+ * for as much of the input as the requested output needs.
+ *
+ * Overridden pipeline methods: VerifyPreconditions() (a sensible Sigma), VerifyInputInformation() (perpendicular axes,
+ * a Sigma that is not out of proportion), GenerateInputRequestedRegion() (the reach), GenerateData() (work is divided
+ * along y, not z, because blocks of rows share the planes within reach).
+ *
+ * \ingroup FCCResampling
+ */
+template <typename TInputImage, typename TOutputImage = TInputImage>
+class ITK_TEMPLATE_EXPORT FCCGaussianImageFilter : public ImageToImageFilter<TInputImage, TOutputImage>
+{
+public:
+  ITK_DISALLOW_COPY_AND_MOVE(FCCGaussianImageFilter);
+
+  using Self = FCCGaussianImageFilter;
+  using Superclass = ImageToImageFilter<TInputImage, TOutputImage>;
+  using Pointer = SmartPointer<Self>;
+  using ConstPointer = SmartPointer<const Self>;
+
+  itkNewMacro(Self);
+  itkTypeMacro(FCCGaussianImageFilter, ImageToImageFilter);
+
+  using InputPixelType = typename TInputImage::PixelType;
+  using OutputPixelType = typename TOutputImage::PixelType;
+  using RegionType = typename TOutputImage::RegionType;
+
+  static_assert(std::is_base_of<FCCImage<InputPixelType>, TInputImage>::value, "The input must be an FCCImage");
+  static_assert(std::is_base_of<FCCImage<OutputPixelType>, TOutputImage>::value, "The output must be an FCCImage");
+  static_assert(std::is_integral<InputPixelType>::value || std::is_floating_point<OutputPixelType>::value,
+                "Samples that are not finite have no place in an integer output");
+
+  /** Standard deviation in mm, at least 0. Default 0: nothing is changed. */
+  itkSetMacro(Sigma, double);
+  itkGetConstMacro(Sigma, double);
+
+protected:
+  FCCGaussianImageFilter() = default;
+  ~FCCGaussianImageFilter() override = default;
+
+  void
+  PrintSelf(std::ostream & os, Indent indent) const override;
+
+  void
+  VerifyPreconditions() ITKv5_CONST override;
+
+  void
+  VerifyInputInformation() ITKv5_CONST override;
+
+  void
+  GenerateInputRequestedRegion() override;
+
+  void
+  GenerateData() override;
+
+private:
+  /** The variance along each axis in lattice units squared. */
+  std::array<double, 3>
+  GetVariances() const;
+
+  /** The region and what is within reach of it, in the image. */
+  RegionType
+  AddReach(const RegionType & region, const FCCGaussianTaps & taps) const;
+
+  void
+  Copy(const RegionType & region);
+
+  void
+  Smooth(const RegionType & region, const FCCGaussianTaps & taps);
+
+  /** Blends rows that \a loadRow(j, k, length, row) gives as float, from column AddReach() on, and gives the smooth
+   * ones to \a storeRow(index, values). */
+  template <typename TLoadRow, typename TStoreRow>
+  void
+  BlendRows(const RegionType & region,
+            const FCCGaussianTaps & taps,
+            const TLoadRow & loadRow,
+            const TStoreRow & storeRow) const;
+
+  double m_Sigma{ 0.0 };
+};
+
+} // namespace itk
+
+#ifndef ITK_MANUAL_INSTANTIATION
+#include "itkFCCGaussianImageFilter.hxx"
+#endif
+
+// Compiled once, in the library, for the pixel types of scans.
+namespace itk
+{
+extern template class FCCGaussianImageFilter<FCCImage<std::uint8_t>>;
+extern template class FCCGaussianImageFilter<FCCImage<std::int16_t>>;
+extern template class FCCGaussianImageFilter<FCCImage<std::uint16_t>>;
+extern template class FCCGaussianImageFilter<FCCImage<std::int32_t>>;
+extern template class FCCGaussianImageFilter<FCCImage<float>>;
+} // namespace itk
+
+#endif

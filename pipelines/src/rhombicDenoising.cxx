@@ -1,0 +1,251 @@
+#include "rhombicDenoising.h"
+
+#include "rhombicFailure.h"
+#include "rhombicMemoryBudget.h"
+#include "rhombicObserveProgress.h"
+
+#include "itkGradientAnisotropicDiffusionImageFilter.h"
+#include "itkFCCGaussianImageFilter.h"
+#include "itkFCCResamplingChecks.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace rhombic
+{
+namespace
+{
+
+using RealImage = itk::Image<float, 3>;
+
+/** A number at the beginning of a text, which it is taken from; 0 if there is none. */
+double
+TakeNumber(std::string & text)
+{
+  double number = 0.0;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
+  text.erase(0, parsed.ec == std::errc() ? static_cast<std::size_t>(parsed.ptr - text.data()) : 0);
+  return number;
+}
+
+bool
+IsPositive(double number)
+{
+  return number > 0.0 && std::isfinite(number);
+}
+
+/** Throws Failure(Unreadable) for values that are not finite. */
+template <typename TPixel>
+RealImage::Pointer
+ToReal(const itk::Image<TPixel, 3> & image)
+{
+  const auto real = RealImage::New();
+  real->CopyInformation(&image);
+  real->SetRegions(image.GetBufferedRegion());
+  real->Allocate();
+  const TPixel * const begin = image.GetBufferPointer();
+  const TPixel * const end = begin + image.GetBufferedRegion().GetNumberOfPixels();
+  if (std::is_floating_point_v<TPixel> && !std::all_of(begin, end, [](TPixel value) { return std::isfinite(value); }))
+  {
+    throw Failure(FailureKind::Unreadable,
+                  "The scan has values that are not finite, which edge-preserving smoothing would spread; use "
+                  "--denoise gaussian, which leaves them out.");
+  }
+  std::transform(begin, end, real->GetBufferPointer(), [](TPixel value) { return static_cast<float>(value); });
+  return real;
+}
+
+template <typename TPixel>
+typename itk::Image<TPixel, 3>::Pointer
+FromReal(const RealImage & real)
+{
+  const auto image = itk::Image<TPixel, 3>::New();
+  image->CopyInformation(&real);
+  image->SetRegions(real.GetBufferedRegion());
+  image->Allocate();
+  const float * const begin = real.GetBufferPointer();
+  std::transform(begin,
+                 begin + real.GetBufferedRegion().GetNumberOfPixels(),
+                 image->GetBufferPointer(),
+                 [](float value) { return itk::RoundAndClamp<TPixel>(value); });
+  return image;
+}
+
+/** The explicit scheme's steps: short enough to be stable, and so many that what is no edge is smoothed by sigma. */
+struct Steps
+{
+  unsigned int count;
+  double length;
+};
+
+/** ITK's scheme multiplies differences by 1 / spacing once, where a diffusion in mm does so twice: its time is in mm,
+ * and a step adds 2 length spacing to sigma^2 along each axis. ITK complains of steps beyond a 16th of the smallest
+ * spacing. */
+Steps
+FindSteps(double sigma, const RealImage::SpacingType & spacing)
+{
+  constexpr double mostSteps = 1000.0;
+  constexpr double margin = 0.9;
+  const double finest = *std::min_element(spacing.Begin(), spacing.End());
+  const double time = sigma * sigma / (2.0 * finest);
+  const double count = std::ceil(time / (margin * finest / 16.0));
+  if (!(count <= mostSteps))
+  {
+    throw Failure(FailureKind::Usage,
+                  "Edge-preserving smoothing over " + std::to_string(sigma) + " mm would take " +
+                    std::to_string(static_cast<std::uintmax_t>(std::min(count, 1e18))) +
+                    " steps at this scan's spacing; use a smaller sigma, or --denoise gaussian.");
+  }
+  return { static_cast<unsigned int>(count), time / count };
+}
+
+RealImage::Pointer
+KeepEdges(RealImage::Pointer image, const Denoising & denoising, const Events & events)
+{
+  const Steps steps = FindSteps(denoising.sigma, image->GetSpacing());
+  const auto filter = itk::GradientAnisotropicDiffusionImageFilter<RealImage, RealImage>::New();
+  filter->SetNumberOfIterations(steps.count);
+  filter->SetTimeStep(steps.length);
+  filter->SetFixedAverageGradientMagnitude(denoising.edge);
+  filter->SetConductanceParameter(1.0); // of that gradient
+  filter->InPlaceOn();
+  filter->SetInput(image);
+  ObserveProgress(*filter, "smoothing", events);
+  filter->Update();
+  return filter->GetOutput();
+}
+
+} // namespace
+
+Denoising
+ParseDenoising(const std::string & text)
+{
+  Denoising denoising;
+  const auto colon = text.find(':');
+  const std::string name = text.substr(0, colon);
+  std::string numbers = colon == std::string::npos ? "" : text.substr(colon + 1);
+  if (name == "gaussian")
+  {
+    denoising.kind = Denoising::Kind::Gaussian;
+    denoising.sigma = TakeNumber(numbers);
+  }
+  else if (name == "edges")
+  {
+    denoising.kind = Denoising::Kind::EdgePreserving;
+    denoising.sigma = TakeNumber(numbers);
+    if (!numbers.empty() && numbers[0] == ',')
+    {
+      numbers.erase(0, 1);
+      denoising.edge = TakeNumber(numbers);
+    }
+  }
+  const bool isKnown = text == "none" || denoising.kind != Denoising::Kind::None;
+  if (!isKnown || !numbers.empty())
+  {
+    throw Failure(FailureKind::Usage,
+                  "'" + text +
+                    "' is no way to take noise out; write none, gaussian:SIGMA (in mm), for example gaussian:0.7, or "
+                    "edges:SIGMA,EDGE (in mm, and in the scan's units per mm), for example edges:0.7,60.");
+  }
+  CheckDenoising(denoising);
+  return denoising;
+}
+
+void
+CheckDenoising(const Denoising & denoising)
+{
+  if (denoising.kind != Denoising::Kind::None && !IsPositive(denoising.sigma))
+  {
+    throw Failure(FailureKind::Usage,
+                  "The sigma of --denoise must be a positive number of mm; try gaussian:0.7 or edges:0.7,60.");
+  }
+  if (denoising.kind == Denoising::Kind::EdgePreserving && !IsPositive(denoising.edge))
+  {
+    throw Failure(FailureKind::Usage,
+                  "--denoise edges needs to know how steep an edge is, in the scan's units per mm: a positive number "
+                  "behind sigma, as in edges:0.7,60.");
+  }
+}
+
+ScanImage
+DenoiseScan(const ScanImage & image, const Denoising & denoising, std::uintmax_t maximumMemory, const Events & events)
+{
+  CheckDenoising(denoising);
+  if (denoising.kind != Denoising::Kind::EdgePreserving)
+  {
+    return image;
+  }
+  return std::visit(
+    [&](const auto & input) -> ScanImage {
+      using PixelType = typename std::decay_t<decltype(*input)>::PixelType;
+      const std::uintmax_t samples = input->GetBufferedRegion().GetNumberOfPixels();
+      RequireMemory(samples * (2 * sizeof(float) + sizeof(PixelType)),
+                    maximumMemory,
+                    "Edge-preserving smoothing",
+                    "use --denoise gaussian");
+      const RealImage::Pointer smooth = KeepEdges(ToReal(*input), denoising, events);
+      return FromReal<PixelType>(*smooth);
+    },
+    image);
+}
+
+FCCVolume
+DenoiseLattice(const FCCVolume & volume,
+               const Denoising & denoising,
+               std::uintmax_t maximumMemory,
+               const Events & events)
+{
+  CheckDenoising(denoising);
+  if (denoising.kind == Denoising::Kind::None)
+  {
+    return volume;
+  }
+  if (denoising.kind == Denoising::Kind::EdgePreserving)
+  {
+    throw Failure(FailureKind::Usage,
+                  "Edge-preserving smoothing works on a scan, before it gets onto the lattice; use --denoise gaussian "
+                  "for a lattice volume.");
+  }
+  return std::visit(
+    [&](const auto & input) -> FCCVolume {
+      using ImageType = typename std::decay_t<decltype(*input)>;
+      RequireMemory(input->GetBufferedRegion().GetNumberOfPixels() * sizeof(typename ImageType::PixelType),
+                    maximumMemory,
+                    "Smoothing",
+                    "leave out --denoise");
+      const auto filter = itk::FCCGaussianImageFilter<ImageType>::New();
+      filter->SetInput(input);
+      filter->SetSigma(denoising.sigma);
+      ObserveProgress(*filter, "smoothing", events);
+      try
+      {
+        filter->UpdateOutputInformation();
+      }
+      catch (const itk::ExceptionObject & error)
+      {
+        throw Failure(FailureKind::Usage, DescribeError(error) + " (--denoise).");
+      }
+      filter->Update();
+      const typename ImageType::Pointer output = filter->GetOutput();
+      output->DisconnectPipeline();
+      return output;
+    },
+    volume);
+}
+
+Report
+ReportDenoising(const Denoising & denoising)
+{
+  switch (denoising.kind)
+  {
+    case Denoising::Kind::Gaussian:
+      return { { "kind", "gaussian" }, { "sigma", denoising.sigma } };
+    case Denoising::Kind::EdgePreserving:
+      return { { "kind", "edges" }, { "sigma", denoising.sigma }, { "edge", denoising.edge } };
+    default:
+      return { { "kind", "none" } };
+  }
+}
+
+} // namespace rhombic
