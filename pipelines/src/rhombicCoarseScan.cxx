@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace rhombic
 {
@@ -27,62 +28,74 @@ RangeOf(std::size_t block, std::size_t samplesPerBlock, std::size_t size)
   return { block * samplesPerBlock, std::min((block + 1) * samplesPerBlock, size) };
 }
 
-/** Adds one row of samples to the sums of its blocks. Samples that are no number count as not there. */
+/** What has been seen of a block's samples. */
+template <typename TPixel>
+struct BlockSums
+{
+  using SumType = std::conditional_t<std::is_integral_v<TPixel>, std::int64_t, double>;
+  std::uint32_t tissue = 0;
+  std::uint32_t hard = 0;
+  SumType sum = 0;
+};
+
+/** Adds one row of samples to its blocks. Samples that are no number count as 0. */
 template <typename TPixel>
 void
 AddRow(const TPixel * row,
        std::size_t size,
        std::size_t samplesPerBlock,
-       double threshold,
-       std::vector<std::uint32_t> & occupied,
-       std::vector<double> & sums)
+       float tissue,
+       float hard,
+       std::vector<BlockSums<TPixel>> & blocks)
 {
-  for (std::size_t block = 0; block * samplesPerBlock < size; ++block)
+  for (std::size_t block = 0; block < blocks.size(); ++block)
   {
     const Range range = RangeOf(block, samplesPerBlock, size);
-    std::uint32_t count = 0;
-    double sum = 0.0;
     for (std::size_t i = range.begin; i < range.end; ++i)
     {
-      const auto value = static_cast<double>(row[i]);
-      count += value >= threshold ? 1 : 0;
-      sum += std::isfinite(value) ? value : 0.0;
+      const auto value = static_cast<float>(row[i]);
+      blocks[block].tissue += value >= tissue ? 1 : 0;
+      blocks[block].hard += value >= hard ? 1 : 0;
+      blocks[block].sum += std::isfinite(value) ? row[i] : TPixel{ 0 };
     }
-    occupied[block] += count;
-    sums[block] += sum;
   }
+}
+
+/** A share of a block's samples out of 255, rounded up, so that one sample is more than none. */
+std::uint8_t
+ShareOf(std::size_t count, std::size_t samples)
+{
+  return static_cast<std::uint8_t>((count * 255 + samples - 1) / samples);
 }
 
 template <typename TPixel>
 void
-FillSlice(const itk::Image<TPixel, 3> & image, double threshold, std::size_t slice, CoarseScan & coarse)
+FillSlice(const itk::Image<TPixel, 3> & image, float tissue, float hard, std::size_t slice, CoarseScan & coarse)
 {
   const auto size = image.GetBufferedRegion().GetSize();
   const auto blocks = coarse.occupancy->GetBufferedRegion().GetSize();
-  const Range slices = RangeOf(slice, coarse.samplesPerBlock[2], size[2]);
+  const auto & samplesPerBlock = coarse.samplesPerBlock;
+  const Range slices = RangeOf(slice, samplesPerBlock[2], size[2]);
   for (std::size_t row = 0; row < blocks[1]; ++row)
   {
-    const Range rows = RangeOf(row, coarse.samplesPerBlock[1], size[1]);
-    std::vector<std::uint32_t> occupied(blocks[0], 0);
-    std::vector<double> sums(blocks[0], 0.0);
+    const Range rows = RangeOf(row, samplesPerBlock[1], size[1]);
+    std::vector<BlockSums<TPixel>> sums(blocks[0]);
     for (std::size_t k = slices.begin; k < slices.end; ++k)
     {
       for (std::size_t j = rows.begin; j < rows.end; ++j)
       {
-        const TPixel * const samples = image.GetBufferPointer() + size[0] * (j + size[1] * k);
-        AddRow(samples, size[0], coarse.samplesPerBlock[0], threshold, occupied, sums);
+        AddRow(image.GetBufferPointer() + size[0] * (j + size[1] * k), size[0], samplesPerBlock[0], tissue, hard, sums);
       }
     }
-    const std::size_t first = blocks[0] * (row + blocks[1] * slice);
     for (std::size_t block = 0; block < blocks[0]; ++block)
     {
-      const Range columns = RangeOf(block, coarse.samplesPerBlock[0], size[0]);
+      const Range columns = RangeOf(block, samplesPerBlock[0], size[0]);
       const std::size_t samples = (columns.end - columns.begin) * (rows.end - rows.begin) * (slices.end - slices.begin);
-      // Rounded up, so that one sample is more than none.
-      coarse.occupancy->GetBufferPointer()[first + block] =
-        static_cast<std::uint8_t>((occupied[block] * std::size_t{ 255 } + samples - 1) / samples);
-      const double mean = std::clamp(sums[block] / static_cast<double>(samples), -32768.0, 32767.0);
-      coarse.mean->GetBufferPointer()[first + block] = static_cast<std::int16_t>(std::lround(mean));
+      const std::size_t n = block + blocks[0] * (row + blocks[1] * slice);
+      const double mean = static_cast<double>(sums[block].sum) / static_cast<double>(samples);
+      coarse.occupancy->GetBufferPointer()[n] = ShareOf(sums[block].tissue, samples);
+      coarse.hardness->GetBufferPointer()[n] = ShareOf(sums[block].hard, samples);
+      coarse.mean->GetBufferPointer()[n] = static_cast<std::int16_t>(std::lround(std::clamp(mean, -32768.0, 32767.0)));
     }
   }
 }
@@ -98,7 +111,7 @@ CoarseScan::PointOf(const itk::Index<3> & index) const
 }
 
 CoarseScan
-MakeCoarseScan(const Scan & scan, double threshold)
+MakeCoarseScan(const Scan & scan, double tissue, double hard)
 {
   const auto & geometry = GeometryOf(scan.image);
   const auto size = geometry.GetLargestPossibleRegion().GetSize();
@@ -123,6 +136,7 @@ MakeCoarseScan(const Scan & scan, double threshold)
   coarse.occupancy->SetDirection(geometry.GetDirection());
   coarse.occupancy->SetRegions(blocks);
   coarse.occupancy->Allocate();
+  coarse.hardness = MakeLike<MaskImage>(*coarse.occupancy);
   coarse.mean = MakeLike<MeanImage>(*coarse.occupancy);
   for (std::size_t slice = 0; slice < scan.sliceOrigins.size(); ++slice)
   {
@@ -133,7 +147,12 @@ MakeCoarseScan(const Scan & scan, double threshold)
   std::visit(
     [&](const auto & image) {
       itk::MultiThreaderBase::New()->ParallelizeArray(
-        0, blocks[2], [&](itk::SizeValueType slice) { FillSlice(*image, threshold, slice, coarse); }, nullptr);
+        0,
+        blocks[2],
+        [&](itk::SizeValueType slice) {
+          FillSlice(*image, static_cast<float>(tissue), static_cast<float>(hard), slice, coarse);
+        },
+        nullptr);
     },
     scan.image);
   return coarse;
@@ -181,6 +200,40 @@ FindComponents(const MaskImage & mask, bool isFullyConnected)
     }
   });
   return components;
+}
+
+OpenSpace
+FindOpenSpace(const DistanceImage & distance, double radius, unsigned int longAxis)
+{
+  const float * const distances = distance.GetBufferPointer();
+  const auto centres = MakeMask(distance, [=](std::size_t n) { return static_cast<double>(distances[n]) > radius; });
+  OpenSpace space{ FindComponents(*centres, false), {} };
+  const auto size = distance.GetBufferedRegion().GetSize();
+  for (const Component & part : space.balls.parts)
+  {
+    bool reaches = false;
+    for (unsigned int axis = 0; axis < 3 && part.count > 0; ++axis)
+    {
+      const auto end = static_cast<itk::IndexValueType>(size[axis]);
+      reaches = reaches || (axis != longAxis && (part.lowest[axis] == 0 || part.highest[axis] + 1 == end));
+    }
+    space.reachesSides.push_back(reaches);
+  }
+  return space;
+}
+
+MaskImage::Pointer
+FillOpenSpace(const OpenSpace & space, const std::vector<bool> & isPartIn, double radius)
+{
+  const std::uint32_t * const labels = space.balls.labels->GetBufferPointer();
+  const auto centres = MakeMask(*space.balls.labels, [&](std::size_t n) { return isPartIn[labels[n]]; });
+  if (!HasBorder(*centres))
+  {
+    return nullptr;
+  }
+  const auto distance = DistanceTo(*centres);
+  return MakeMask(*distance,
+                  [&](std::size_t n) { return static_cast<double>(distance->GetBufferPointer()[n]) <= radius; });
 }
 
 } // namespace rhombic

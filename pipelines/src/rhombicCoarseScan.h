@@ -15,13 +15,16 @@ namespace rhombic
 using MaskImage = itk::Image<std::uint8_t, 3>;
 using MeanImage = itk::Image<std::int16_t, 3>;
 using DistanceImage = itk::Image<float, 3>;
+constexpr double closedGap = 8.0; ///< mm: what is around the patient takes balls of this radius
+
 using ComponentImage = itk::Image<std::uint32_t, 3>;
 
 /** A scan in blocks of whole samples that are about 2 mm wide. Blocks at the far sides may hold fewer samples. */
 struct CoarseScan
 {
   std::array<std::size_t, 3> samplesPerBlock{};
-  MaskImage::Pointer occupancy; ///< the share of a block's samples at or above the threshold, from 0: none to 255: all
+  MaskImage::Pointer occupancy; ///< the share of a block's samples that are tissue, from 0: none to 255: all
+  MaskImage::Pointer hardness;  ///< the share that is harder than skin
   MeanImage::Pointer mean;      ///< of a block's samples
   std::vector<itk::Vector<double, 3>> sliceOffsets; ///< from where the images say a slice is to its place; may be empty
 
@@ -36,8 +39,9 @@ struct CoarseScan
   }
 };
 
+/** \a tissue and \a hard are the lowest values of what counts as such. */
 CoarseScan
-MakeCoarseScan(const Scan & scan, double threshold);
+MakeCoarseScan(const Scan & scan, double tissue, double hard);
 
 /** An image of a coarse scan's size and place, filled with zeros. */
 template <typename TImage>
@@ -93,6 +97,22 @@ struct Components
 /** Connected by faces, or also by edges and corners. */
 Components
 FindComponents(const MaskImage & mask, bool isFullyConnected);
+
+/** The space around what the distances are from: connected parts, which are to be accepted by the function, that balls
+ * of the given radius in mm reach. */
+struct OpenSpace
+{
+  Components balls;               ///< where the balls' centres can be
+  std::vector<bool> reachesSides; ///< by label: a side of the scan along which the patient lies
+};
+
+/** Where balls of a radius in mm have room outside of what the distances are from. */
+OpenSpace
+FindOpenSpace(const DistanceImage & distance, double radius, unsigned int longAxis);
+
+/** What balls of the radius fill whose centres are in those parts of the open space. Null if there is no such part. */
+MaskImage::Pointer
+FillOpenSpace(const OpenSpace & space, const std::vector<bool> & isPartIn, double radius);
 
 /** Calls the function with each index and its place in the buffer, in the buffer's order. */
 template <typename TFunction>

@@ -11,16 +11,19 @@ namespace
 {
 
 // Lengths are in mm. Tables and holders are hollow, with thin walls; limbs are thick.
-constexpr double coreDepth = 6.0;             // what is deeper than this is a core: of more than 12 mm thickness
-constexpr double bodyDepth = 15.0;            // a core that is somewhere as deep as this is the patient's
-constexpr double longestThinPart = 150.0;     // of the patient, such as a finger or a thin wrist
-constexpr double lowestTissue = -150.0;       // mean HU of a thin part: fat
-constexpr double highestTissue = 300.0;       // to bone within skin
-constexpr double smallHangingVolume = 20.0;   // ml of a thin part that hangs on to the patient,
-constexpr double smallHangingReach = 30.0;    // and how far from the thick parts it ends: always the patient's
-constexpr double longestHangingReach = 100.0; // what reaches further is no part of the patient
-constexpr double tableShare = 0.4;            // of a table's place, this part of all slices shows it detached or thin,
-constexpr double tableShareOccupied = 0.8;    // and this part something
+constexpr double coreDepth = 6.0;              // what is deeper than this is a core: of more than 12 mm thickness
+constexpr double bodyDepth = 15.0;             // a core that is somewhere as deep as this is the patient's
+constexpr double longestThinPart = 150.0;      // of the patient, such as a finger or a thin wrist
+constexpr double lowestTissue = -150.0;        // mean HU of a thin part: fat
+constexpr double highestTissue = 300.0;        // to bone within skin
+constexpr double smallHangingVolume = 20.0;    // ml of a thin part that hangs on to the patient,
+constexpr double smallHangingReach = 30.0;     // and how far from the thick parts it ends: always the patient's
+constexpr double largestHangingVolume = 100.0; // what is larger
+constexpr double longestHangingReach = 100.0;  // or reaches further is no part of the patient
+constexpr double smallestHardVolume = 5.0;     // ml of a wall of carbon fibre,
+constexpr double bareShare = 0.7;              // and how much of it is next to open space
+constexpr double tableShare = 0.4;             // of a table's place, this part of all slices shows it detached or thin,
+constexpr double tableShareOccupied = 0.8;     // and this part something
 
 constexpr std::uint32_t none = 0;
 
@@ -68,11 +71,11 @@ private:
   bool
   FindThickParts()
   {
-    const auto depth = DistanceTo(*m_Found.tissue);
-    const float * const depths = depth->GetBufferPointer();
+    m_Depth = DistanceTo(*m_Found.tissue);
+    const float * const depths = m_Depth->GetBufferPointer();
     const std::uint8_t * const tissue = m_Found.tissue->GetBufferPointer();
     const auto core =
-      MakeMask(*depth, [=](std::size_t n) { return tissue[n] != 0 && static_cast<double>(-depths[n]) >= coreDepth; });
+      MakeMask(*m_Depth, [=](std::size_t n) { return tissue[n] != 0 && static_cast<double>(-depths[n]) >= coreDepth; });
     const Components cores = FindComponents(*core, false);
     const std::uint32_t * const labels = cores.labels->GetBufferPointer();
     std::vector<PartMeasures> measures(cores.parts.size());
@@ -162,8 +165,15 @@ private:
   {
     MaskImage::Pointer doubtful = AddComponents(
       [](double millilitres, double reach) { return millilitres <= smallHangingVolume && reach <= smallHangingReach; });
-    RemoveTable(*doubtful);
-    AddComponents([](double, double reach) { return reach <= longestHangingReach; });
+    if (HasBorder(*doubtful))
+    {
+      m_Table = MakeLike<MaskImage>(*doubtful);
+      FindHardWalls(*doubtful);
+      FindTablePlaces(*doubtful);
+      AddComponents([](double millilitres, double reach) {
+        return millilitres <= largestHangingVolume && reach <= longestHangingReach;
+      });
+    }
   }
 
   /** Makes those components of the other tissue the patient's that hang on to it and are as the function says, given
@@ -217,10 +227,42 @@ private:
     return false;
   }
 
+  /** Takes connected bare walls that are harder than skin out of what is doubtful: bone is within skin, and within
+   * cavities that are no open space. */
+  void
+  FindHardWalls(const MaskImage & doubtful)
+  {
+    constexpr std::uint8_t quarter = 64;
+    const std::uint8_t * const hardness = m_Coarse.hardness->GetBufferPointer();
+    const auto hard =
+      MakeMask(doubtful, [&](std::size_t n) { return doubtful.GetBufferPointer()[n] != 0 && hardness[n] >= quarter; });
+    const Components walls = FindComponents(*hard, true);
+    const OpenSpace space = FindOpenSpace(*m_Depth, closedGap, m_LongAxis);
+    const auto open = FillOpenSpace(space, space.reachesSides, closedGap);
+    if (!open)
+    {
+      return;
+    }
+    const std::uint32_t * const labels = walls.labels->GetBufferPointer();
+    std::vector<std::size_t> bare(walls.parts.size(), 0);
+    ForEachIndex(m_Size, [&](const itk::Index<3> & index, std::size_t n) {
+      bare[labels[n]] += labels[n] != none && HasNeighbour(*open, index) ? 1 : 0;
+    });
+    const auto wall = MakeMask(*hard, [&](std::size_t n) {
+      const Component & part = walls.parts[labels[n]];
+      return labels[n] != none && Millilitres(part.count) >= smallestHardVolume &&
+             static_cast<double>(bare[labels[n]]) >= bareShare * static_cast<double>(part.count);
+    });
+    std::uint8_t * const table = m_Table->GetBufferPointer();
+    ForEachIndex(m_Size, [&](const itk::Index<3> & index, std::size_t n) {
+      table[n] = doubtful.GetBufferPointer()[n] != 0 && hardness[n] > 0 && HasNeighbour(*wall, index) ? 1 : 0;
+    });
+  }
+
   /** Finds the places, seen along the patient, where the doubtful tissue is in much of the scan and something in most
    * of it, as a table is and no thin part of a patient; takes them from the patient, but not from its cores. */
   void
-  RemoveTable(const MaskImage & doubtful)
+  FindTablePlaces(const MaskImage & doubtful)
   {
     const std::uint8_t * const tissue = m_Found.tissue->GetBufferPointer();
     const Columns columns(*this);
@@ -255,7 +297,6 @@ private:
         }
       }
     }
-    m_Table = MakeLike<MaskImage>(doubtful);
     const auto levels = static_cast<double>(m_Size[m_LongAxis]);
     ForEachIndex(m_Size, [&](const itk::Index<3> & place, std::size_t n) {
       if (tissue[n] != 0 && m_Core->GetBufferPointer()[n] == 0)
@@ -354,6 +395,7 @@ private:
   PatientMask m_Found;
   MaskImage::Pointer m_Core;
   MaskImage::Pointer m_Table;
+  DistanceImage::Pointer m_Depth; ///< in tissue; negative inside
   DistanceImage::Pointer m_Reach; ///< from the cores
 };
 

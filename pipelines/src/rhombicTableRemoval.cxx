@@ -19,7 +19,7 @@ namespace
 {
 
 constexpr double tissueThreshold = -300.0; // HU: half way between air and fat or skin
-constexpr double closedGap = 8.0;          // mm: the air around the patient takes balls of this radius
+constexpr double hardThreshold = 150.0;    // HU: higher than skin, lower than bone, metal and carbon fibre
 constexpr double highestAir = -940.0;      // HU: the median of air; lungs that reach the scan's sides are higher
 constexpr double smallestObject = 1.0;     // ml
 
@@ -30,22 +30,6 @@ struct Surroundings
   MaskImage::Pointer objects;
   double airValue = 0.0;
 };
-
-/** Whether a component reaches a side of the scan along which the patient lies: the others cut the patient, and lungs
- * reach them. */
-bool
-ReachesSides(const Component & part, const itk::Size<3> & size, unsigned int longAxis)
-{
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    if (axis != longAxis &&
-        (part.lowest[axis] == 0 || part.highest[axis] + 1 == static_cast<itk::IndexValueType>(size[axis])))
-    {
-      return true;
-    }
-  }
-  return false;
-}
 
 /** The median of a component's blocks without tissue, in HU. */
 double
@@ -76,43 +60,37 @@ FindSurroundings(const CoarseScan & coarse,
                  const DistanceImage & distance,
                  unsigned int longAxis)
 {
-  const float * const distances = distance.GetBufferPointer();
-  const auto open = MakeMask(distance, [=](std::size_t n) { return static_cast<double>(distances[n]) > closedGap; });
-  const Components components = FindComponents(*open, false);
-  const auto size = open->GetBufferedRegion().GetSize();
-  std::vector<bool> isOutside(components.parts.size(), false);
+  const OpenSpace space = FindOpenSpace(distance, closedGap, longAxis);
+  std::vector<bool> isOutside(space.balls.parts.size(), false);
   Surroundings found;
   std::size_t largest = 0;
-  for (std::uint32_t label = 1; label < components.parts.size(); ++label)
+  for (std::uint32_t label = 1; label < isOutside.size(); ++label)
   {
-    const Component & part = components.parts[label];
-    if (!ReachesSides(part, size, longAxis))
+    if (!space.reachesSides[label])
     {
       continue;
     }
-    const double air = MedianOfAir(coarse, components, label);
+    const double air = MedianOfAir(coarse, space.balls, label);
     isOutside[label] = air <= highestAir;
-    if (isOutside[label] && part.count > largest)
+    if (isOutside[label] && space.balls.parts[label].count > largest)
     {
-      largest = part.count;
+      largest = space.balls.parts[label].count;
       found.airValue = air;
     }
   }
-  if (largest == 0)
+  const auto reached = FillOpenSpace(space, isOutside, closedGap);
+  if (!reached)
   {
     return {};
   }
-  const std::uint32_t * const labels = components.labels->GetBufferPointer();
-  const auto reached = MakeMask(distance, [&](std::size_t n) { return isOutside[labels[n]]; });
-  const auto toReached = DistanceTo(*reached);
   const auto & spacing = coarse.occupancy->GetSpacing();
   const double diagonal = spacing.GetNorm();
+  const float * const distances = distance.GetBufferPointer();
   const std::uint8_t * const patient = mask.patient->GetBufferPointer();
   const std::uint8_t * const tissue = mask.tissue->GetBufferPointer();
   const std::uint8_t * const occupancy = coarse.occupancy->GetBufferPointer();
-  found.outside = MakeMask(distance, [&](std::size_t n) {
-    return patient[n] == 0 && static_cast<double>(toReached->GetBufferPointer()[n]) <= closedGap;
-  });
+  found.outside =
+    MakeMask(distance, [&](std::size_t n) { return patient[n] == 0 && reached->GetBufferPointer()[n] != 0; });
   found.objects = MakeMask(distance, [&](std::size_t n) {
     return found.outside->GetBufferPointer()[n] != 0 &&
            (tissue[n] != 0 || (occupancy[n] != 0 && static_cast<double>(distances[n]) > diagonal));
@@ -328,7 +306,7 @@ RemoveTable(Scan & scan, const Events & events)
   events.Progress(step, 0.0);
   TableRemoval removal;
   const unsigned int longAxis = LongAxisOf(GeometryOf(scan.image).GetDirection());
-  const CoarseScan coarse = MakeCoarseScan(scan, tissueThreshold);
+  const CoarseScan coarse = MakeCoarseScan(scan, tissueThreshold, hardThreshold);
   events.Progress(step, 0.2);
   PatientMask mask = FindPatient(coarse, longAxis);
   removal.notes = mask.notes;
