@@ -31,6 +31,7 @@ Mesh(const MeshOptions & options, const CommandContext & context)
                     "' is no number; write -t -300.5, -t '<-500.5' for what lies below, or -t otsu.");
   }
   settings.mode = options.scan.GetMode();
+  settings.table = options.scan.GetTable(false);
   settings.mesh = options.mesh;
   settings.provenance = options.scan.GetProvenance(context);
   MeshScan(settings, context.console->MakeEvents());
@@ -48,6 +49,7 @@ AddMeshCommand(CLI::App & parser)
                     options->threshold,
                     "isovalue: a number in the scan's units, <number for what lies below, or otsu");
   parser.add_option("-o,--output", options->mesh, "the mesh: .stl, .ply or .vtp, in LPS mm");
+  options->scan.AddTable(parser);
   options->scan.AddExtraction(parser);
   options->scan.AddLattice(parser);
   options->scan.AddSidecar(parser);

@@ -79,14 +79,11 @@ ParseViews(const std::vector<std::string> & names)
   return views;
 }
 
+/** The preset's surfaces, if there is one, and those of the command line. */
 std::vector<SurfaceRequest>
-ParseSurfaces(const RenderOptions & options)
+ParseSurfaces(const RenderOptions & options, const Preset & preset)
 {
-  std::vector<SurfaceRequest> requests;
-  if (!options.preset.empty())
-  {
-    requests = FindPreset(options.preset).surfaces;
-  }
+  std::vector<SurfaceRequest> requests = preset.surfaces;
   for (const std::string & text : options.surfaces)
   {
     requests.push_back(ParseSurfaceRequest(text, requests.size()));
@@ -115,7 +112,9 @@ Render(const RenderOptions & options, const CommandContext & context)
     throw Failure(FailureKind::Usage, "No picture is named; give one with -o, for example -o picture.png.");
   }
   settings.picture = options.picture;
-  settings.surfaces = ParseSurfaces(options);
+  const Preset preset = options.preset.empty() ? Preset{} : FindPreset(options.preset);
+  settings.surfaces = ParseSurfaces(options, preset);
+  settings.table = options.scan.GetTable(preset.removesTable);
   settings.views = ParseViews(options.views);
   ParseSize(options.size, settings.render);
   if (!options.background.empty())
@@ -156,6 +155,7 @@ AddRenderCommand(CLI::App & parser)
   parser.add_flag("--perspective", options->isPerspective, "perspective instead of parallel projection");
   parser.add_flag("--no-letters", options->hasNoLetters, "leave out the orientation letters at the edges");
   parser.add_flag("--list-presets", options->listsPresets, "list the presets and stop");
+  options->scan.AddTable(parser);
   options->scan.AddExtraction(parser);
   options->scan.AddLattice(parser);
   options->scan.AddSidecar(parser);

@@ -142,6 +142,20 @@ ScanOptions::AddSidecar(CLI::App & parser)
   parser.add_flag("--no-sidecar", m_HasNoSidecar, "do not write the report beside each output (OUTPUT.json)");
 }
 
+void
+ScanOptions::AddTable(CLI::App & parser)
+{
+  parser.add_flag("--keep-table",
+                  m_KeepsTable,
+                  "keep what is around the patient of a CT, which is otherwise set to air: table, head holder, sheets");
+}
+
+TableRule
+ScanOptions::GetTable(bool isRemovedByPreset) const
+{
+  return m_KeepsTable ? TableRule::Keep : (isRemovedByPreset ? TableRule::Remove : TableRule::RemoveFromCT);
+}
+
 Provenance
 ScanOptions::GetProvenance(const CommandContext & context) const
 {

@@ -30,6 +30,10 @@ public:
   void
   AddExtraction(CLI::App & parser);
 
+  /** Whether the scanner's table is removed. */
+  void
+  AddTable(CLI::App & parser);
+
   /** Whether reports are written beside outputs. */
   void
   AddSidecar(CLI::App & parser);
@@ -46,6 +50,10 @@ public:
   itk::FCCIsosurfaceMode
   GetMode() const;
 
+  /** What was parsed; a preset may say that the scan is a CT. */
+  TableRule
+  GetTable(bool isRemovedByPreset) const;
+
 private:
   std::string m_Path;
   std::string m_Series;
@@ -56,6 +64,7 @@ private:
   bool m_AcceptsAnalyze = false;
   bool m_FollowsLinks = false;
   bool m_HasNoSidecar = false;
+  bool m_KeepsTable = false;
   double m_Density = itk::FCCLattice::NyquistDensity;
   std::string m_Spacing;
   std::string m_Kernel = "cubic";

@@ -15,6 +15,7 @@ struct Preset
 {
   std::string name;
   std::string description;
+  bool removesTable = false; ///< it is for CTs in HU, from which the scanner's table is removed
   std::vector<SurfaceRequest> surfaces;
 };
 

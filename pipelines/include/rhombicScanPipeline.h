@@ -8,6 +8,7 @@
 #include "rhombicScanReader.h"
 #include "rhombicSidecar.h"
 #include "rhombicSurfaceRequest.h"
+#include "rhombicTableRemoval.h"
 
 #include <filesystem>
 #include <vector>
@@ -28,6 +29,7 @@ struct RenderScanSettings
 {
   ScanSource source;
   std::vector<SurfaceRequest> surfaces;
+  TableRule table = TableRule::RemoveFromCT; ///< without effect on lattice volumes
   itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
   RenderSettings render; ///< its view is set from the list below
   std::vector<View> views{ View::Anterior };
@@ -44,6 +46,7 @@ struct MeshScanSettings
 {
   ScanSource source;
   SurfaceRequest surface;
+  TableRule table = TableRule::RemoveFromCT; ///< without effect on lattice volumes
   itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
   std::filesystem::path mesh; ///< .stl, .ply or .vtp
   Provenance provenance;

@@ -142,10 +142,11 @@ ParsePreset(const std::string & yaml, const std::string & source)
   try
   {
     const YAML::Node root = YAML::Load(yaml);
-    RefuseUnknownKeys(root, { "name", "description", "surfaces" }, source);
+    RefuseUnknownKeys(root, { "name", "description", "removes", "surfaces" }, source);
     Preset preset;
     preset.name = root["name"].as<std::string>();
     preset.description = root["description"].as<std::string>("");
+    preset.removesTable = IsSecondWord(root["removes"], "nothing", "table", source);
     for (const auto & node : root["surfaces"])
     {
       preset.surfaces.push_back(ParseSurface(node, source));

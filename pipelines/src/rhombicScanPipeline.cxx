@@ -117,6 +117,7 @@ GridOf(const Scan & scan)
 LoadedSurfaces
 LoadSurfaces(const ScanSource & source,
              const std::vector<SurfaceRequest> & requests,
+             TableRule table,
              itk::FCCIsosurfaceMode mode,
              const Events & events)
 {
@@ -134,7 +135,11 @@ LoadSurfaces(const ScanSource & source,
   else
   {
     CheckLatticeSettings(source.lattice);
-    const Scan scan = LoadScan(source, events); // its memory is needed for the surfaces
+    Scan scan = LoadScan(source, events); // its memory is needed for the surfaces
+    if (IsTableRemoved(table, scan))
+    {
+      loaded.report["removed"] = ReportTableRemoval(RemoveTable(scan, events));
+    }
     resolved = ResolveIsovalues(requests, ComputeIntensities(scan.image));
     volume = ScanToLattice(scan, source.lattice, events);
     grid = GridOf(scan);
@@ -199,7 +204,7 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
   SurfaceRenderer renderer;
   renderer.CheckSettings(settings.render);
 
-  const LoadedSurfaces loaded = LoadSurfaces(settings.source, settings.surfaces, settings.mode, events);
+  const LoadedSurfaces loaded = LoadSurfaces(settings.source, settings.surfaces, settings.table, settings.mode, events);
   for (std::size_t n = 0; n < pictures.size(); ++n)
   {
     events.Progress("rendering", static_cast<double>(n) / static_cast<double>(pictures.size()));
@@ -219,7 +224,8 @@ MeshScan(const MeshScanSettings & settings, const Events & events)
 {
   CheckOutput(settings.mesh, settings.source.path);
   CheckSurfacePath(settings.mesh);
-  const LoadedSurfaces loaded = LoadSurfaces(settings.source, { settings.surface }, settings.mode, events);
+  const LoadedSurfaces loaded =
+    LoadSurfaces(settings.source, { settings.surface }, settings.table, settings.mode, events);
   events.Progress("writing", 0.0);
   WriteSurface(*loaded.surfaces.front().surface, settings.mesh);
   WriteSidecar(settings.mesh, settings.provenance, loaded.report);
