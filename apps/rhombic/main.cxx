@@ -26,6 +26,7 @@ constexpr Command commands[] = {
   { "info", "What is in a scan: series, geometry, values, thresholds worth trying", AddInfoCommand },
   { "render", "Pictures of a scan's surfaces", AddRenderCommand },
   { "mesh", "A scan's surface as a file", AddMeshCommand },
+  { "audit", "Whether a surface file is closed, oriented and free of defects", AddAuditCommand },
   { "resample", "A scan on the face-centered cubic lattice, and back", AddResampleCommand },
   { "phantom", "The analytic test scan, with organs of known volume", AddPhantomCommand },
   { "doctor", "What works on this machine", AddDoctorCommand },
@@ -40,6 +41,7 @@ constexpr char exitCodes[] = "Exit codes:\n"
                              "  5  the input's position in the patient can't be known\n"
                              "  6  there is no surface at this threshold\n"
                              "  7  the output can't be written\n"
+                             "  8  a surface is not watertight (--require-watertight)\n"
                              "  9  not enough memory\n"
                              "  10 this machine can't draw (see rhombic doctor)";
 

@@ -9,15 +9,14 @@ namespace
 {
 
 std::string
-Describe(const std::string & value, const std::string & scan, const std::string & series)
+Describe(const std::string & value, const std::map<std::string, std::string> & names)
 {
-  if (value == scan)
+  for (const auto & [name, secret] : names)
   {
-    return "SCAN";
-  }
-  if (!series.empty() && value == series)
-  {
-    return "SERIES";
+    if (!secret.empty() && value == secret)
+    {
+      return name;
+    }
   }
   return value.find('/') == std::string::npos ? value : std::filesystem::path(value).filename().string();
 }
@@ -25,14 +24,14 @@ Describe(const std::string & value, const std::string & scan, const std::string 
 } // namespace
 
 std::string
-DescribeCommandLine(const std::vector<std::string> & arguments, const std::string & scan, const std::string & series)
+DescribeCommandLine(const std::vector<std::string> & arguments, const std::map<std::string, std::string> & names)
 {
   std::string text = "rhombic";
   for (const std::string & argument : arguments)
   {
     const auto equals = argument.rfind("-", 0) == 0 ? argument.find('=') : std::string::npos;
     const std::string option = equals == std::string::npos ? "" : argument.substr(0, equals + 1);
-    text += " " + option + Describe(argument.substr(option.size()), scan, series);
+    text += " " + option + Describe(argument.substr(option.size()), names);
   }
   return text;
 }

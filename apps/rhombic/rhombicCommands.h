@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,9 @@ struct CommandContext
 };
 
 /** The command line for metadata. Names of folders, scans and series may say who the patient is: only the last parts of
- * paths are kept, and SCAN and SERIES stand for what was read. */
+ * paths are kept, and the values of \a names are replaced by their keys, as SCAN for what was read. */
 std::string
-DescribeCommandLine(const std::vector<std::string> & arguments, const std::string & scan, const std::string & series);
+DescribeCommandLine(const std::vector<std::string> & arguments, const std::map<std::string, std::string> & names);
 
 /** Does the command's work once its options are parsed. Throws Failure. */
 using CommandRun = std::function<void(const CommandContext &)>;
@@ -36,6 +37,8 @@ CommandRun
 AddRenderCommand(CLI::App & parser);
 CommandRun
 AddMeshCommand(CLI::App & parser);
+CommandRun
+AddAuditCommand(CLI::App & parser);
 CommandRun
 AddResampleCommand(CLI::App & parser);
 CommandRun

@@ -157,23 +157,13 @@ Print(const Report & report)
   }
 }
 
-/** The choices among the scan's parts are not those among its label map's. */
-ScanReadOptions
-OptionsOfLabels(ScanReadOptions options)
-{
-  options.series.clear();
-  options.frame.reset();
-  return options;
-}
-
 /** The labels of the scan if it is a label map, and those of the label map that was named for it. */
 void
 AddLabels(const Scan & scan, const ScanSource & source, const InfoOptions & options, Report & report)
 {
   if (!options.labels.empty())
   {
-    const LabelMap map =
-      ReadLabelMap({ options.labels, options.labelTable }, OptionsOfLabels(source.read), scan, source.path);
+    const LabelMap map = ReadLabelMap({ options.labels, options.labelTable }, source.read, scan, source.path);
     report["labels"] = ReportLabels(map.labels);
     for (const std::string & note : map.scan.notes)
     {

@@ -1,6 +1,10 @@
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
+#include "rhombicMeshPipeline.h"
 #include "rhombicScanOptions.h"
+#include "rhombicSurfaceOptions.h"
+
+#include <charconv>
 
 namespace rhombic
 {
@@ -10,32 +14,101 @@ namespace
 struct MeshOptions
 {
   ScanOptions scan;
+  SurfaceOptions surfaces;
   std::string threshold;
   std::string mesh;
+  std::string space = "lps";
+  std::string maximumTriangles;
+  SurfaceFinish finish;
+  std::string measures;
+  bool audits = false;
+  bool requiresWatertight = false;
 };
+
+/** A number of triangles, or a percentage of those that there are. */
+void
+ParseTriangles(const std::string & text, SurfaceFinish & finish)
+{
+  if (text.empty())
+  {
+    return;
+  }
+  const char * const end = text.data() + text.size();
+  double number = 0.0;
+  const auto parsed = std::from_chars(text.data(), end, number);
+  const bool isShare = std::string(parsed.ptr, end) == "%";
+  if (parsed.ec != std::errc() || (parsed.ptr != end && !isShare) || !(number > 0.0) || number > 4e9 ||
+      (isShare && number > 100.0))
+  {
+    throw Failure(FailureKind::Usage,
+                  "'" + text + "' is no number of triangles; write --max-triangles 200000, or 10% of what there are.");
+  }
+  if (isShare)
+  {
+    finish.share = number / 100.0;
+  }
+  else
+  {
+    finish.maximumTriangles = static_cast<std::size_t>(number);
+  }
+}
+
+SurfaceFileSpace
+ParseSpace(const std::string & text)
+{
+  if (text != "lps" && text != "ras")
+  {
+    throw Failure(FailureKind::Usage, "There is no space '" + text + "'; use lps (ITK, DICOM) or ras.");
+  }
+  return text == "lps" ? SurfaceFileSpace::LPS : SurfaceFileSpace::RAS;
+}
+
+SurfaceSelection
+GetSelection(const MeshOptions & options)
+{
+  if (options.threshold.empty() && options.surfaces.IsEmpty())
+  {
+    throw Failure(FailureKind::Usage,
+                  "No surface is chosen; give a threshold, as -t 250.5, or --surface, --preset or --labels.");
+  }
+  SurfaceSelection selection = options.surfaces.GetSelection();
+  if (!options.threshold.empty())
+  {
+    SurfaceRequest request;
+    request.name = "surface";
+    if (!ParseThreshold(options.threshold, request))
+    {
+      throw Failure(FailureKind::Usage,
+                    "The threshold '" + options.threshold +
+                      "' is no number; write -t -300.5, -t '<-500.5' for what lies below, or -t otsu.");
+    }
+    selection.requests.push_back(request);
+  }
+  return selection;
+}
 
 void
 Mesh(const MeshOptions & options, const CommandContext & context)
 {
   MeshScanSettings settings;
   settings.source = options.scan.GetSource(context);
-  if (options.threshold.empty() || options.mesh.empty())
+  settings.surfaces = GetSelection(options);
+  if (options.mesh.empty())
   {
-    throw Failure(FailureKind::Usage, "A threshold and a file are needed, for example -t 250.5 -o bone.stl.");
+    throw Failure(FailureKind::Usage, "No file is named; give one with -o, for example -o bone.stl.");
   }
-  settings.surface.name = "the mesh";
-  if (!ParseThreshold(options.threshold, settings.surface))
-  {
-    throw Failure(FailureKind::Usage,
-                  "The threshold '" + options.threshold +
-                    "' is no number; write -t -300.5, -t '<-500.5' for what lies below, or -t otsu.");
-  }
-  settings.mode = options.scan.GetMode();
-  settings.table = options.scan.GetTable(false);
   settings.mesh = options.mesh;
-  settings.provenance = options.scan.GetProvenance(context);
-  MeshScan(settings, context.console->MakeEvents());
-  context.console->Note("mesh: " + settings.mesh.string());
+  settings.space = ParseSpace(options.space);
+  settings.finish = options.finish;
+  ParseTriangles(options.maximumTriangles, settings.finish);
+  settings.measures = options.measures;
+  settings.audits = options.audits;
+  settings.requiresWatertight = options.requiresWatertight;
+  settings.provenance = options.scan.GetProvenance(context, options.surfaces.GetNames());
+  for (const auto & mesh : MeshScan(settings, context.console->MakeEvents()))
+  {
+    context.console->Note("mesh: " + mesh.string());
+  }
 }
 
 } // namespace
@@ -47,10 +120,29 @@ AddMeshCommand(CLI::App & parser)
   options->scan.AddSource(parser);
   parser.add_option("-t,--threshold",
                     options->threshold,
-                    "isovalue: a number in the scan's units, <number for what lies below, or otsu");
-  parser.add_option("-o,--output", options->mesh, "the mesh: .stl, .ply or .vtp, in LPS mm");
-  options->scan.AddTable(parser);
-  options->scan.AddExtraction(parser);
+                    "one surface by its isovalue: a number in the scan's units, <number for what lies below, or otsu");
+  options->surfaces.Add(parser);
+  parser.add_option("-o,--output",
+                    options->mesh,
+                    "the mesh: " + GetSurfaceFileExtensions() + "; a file for each surface if its name holds {name}");
+  parser.add_option("--space", options->space, "axes of the file: lps or ras, in mm")->capture_default_str();
+  parser.add_option("--min-volume", options->finish.minimumVolume, "remove connected parts of less than this, in ml");
+  parser.add_flag(
+    "--largest", options->finish.keepsLargestPart, "keep the largest connected part of each surface only");
+  parser.add_flag("--fill", options->finish.fillsCavities, "fill cavities: remove shells that lie inside others");
+  parser.add_option("--smooth",
+                    options->finish.smoothing,
+                    "smooth; no point moves further than this many spacings of the lattice, as 0.3");
+  parser.add_option("--max-error", options->finish.maximumError, "simplify, staying within so many mm everywhere");
+  parser.add_option(
+    "--max-triangles", options->maximumTriangles, "simplify each surface to so many triangles, or to a share, as 10%");
+  parser.add_option("--measures", options->measures, "volumes, areas and other measures as a table: .csv or .json");
+  parser.add_flag("--audit",
+                  options->audits,
+                  "check the files read back: closed, manifold, self-intersections, distance to the scan's isosurface");
+  parser.add_flag("--require-watertight",
+                  options->requiresWatertight,
+                  "write no file with holes or other defects, but end with exit code 8");
   options->scan.AddLattice(parser);
   options->scan.AddSidecar(parser);
   return [options](const CommandContext & context) { Mesh(*options, context); };

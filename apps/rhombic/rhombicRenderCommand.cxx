@@ -2,6 +2,7 @@
 #include "rhombicFailure.h"
 #include "rhombicPresets.h"
 #include "rhombicScanOptions.h"
+#include "rhombicSurfaceOptions.h"
 
 #include <charconv>
 #include <iostream>
@@ -14,9 +15,8 @@ namespace
 struct RenderOptions
 {
   ScanOptions scan;
+  SurfaceOptions surfaces;
   std::string picture;
-  std::string preset;
-  std::vector<std::string> surfaces;
   std::vector<std::string> views{ "anterior" };
   std::string size = "1200x1200";
   std::string background;
@@ -79,23 +79,6 @@ ParseViews(const std::vector<std::string> & names)
   return views;
 }
 
-/** The preset's surfaces, if there is one, and those of the command line. */
-std::vector<SurfaceRequest>
-ParseSurfaces(const RenderOptions & options, const Preset & preset)
-{
-  std::vector<SurfaceRequest> requests = preset.surfaces;
-  for (const std::string & text : options.surfaces)
-  {
-    requests.push_back(ParseSurfaceRequest(text, requests.size()));
-  }
-  if (requests.empty())
-  {
-    throw Failure(FailureKind::Usage,
-                  "Nothing to show; choose a --preset (see --list-presets) or give --surface name=threshold.");
-  }
-  return requests;
-}
-
 void
 Render(const RenderOptions & options, const CommandContext & context)
 {
@@ -106,15 +89,18 @@ Render(const RenderOptions & options, const CommandContext & context)
   }
   RenderScanSettings settings;
   settings.source = options.scan.GetSource(context);
-  settings.mode = options.scan.GetMode();
   if (options.picture.empty())
   {
     throw Failure(FailureKind::Usage, "No picture is named; give one with -o, for example -o picture.png.");
   }
+  if (options.surfaces.IsEmpty())
+  {
+    throw Failure(
+      FailureKind::Usage,
+      "Nothing to show; choose a --preset (see --list-presets), or give --surface name=threshold or --labels MAP.");
+  }
   settings.picture = options.picture;
-  const Preset preset = options.preset.empty() ? Preset{} : FindPreset(options.preset);
-  settings.surfaces = ParseSurfaces(options, preset);
-  settings.table = options.scan.GetTable(preset.removesTable);
+  settings.surfaces = options.surfaces.GetSelection();
   settings.views = ParseViews(options.views);
   ParseSize(options.size, settings.render);
   if (!options.background.empty())
@@ -123,7 +109,7 @@ Render(const RenderOptions & options, const CommandContext & context)
   }
   settings.render.perspective = options.isPerspective;
   settings.render.orientationLabels = !options.hasNoLetters;
-  settings.provenance = options.scan.GetProvenance(context);
+  settings.provenance = options.scan.GetProvenance(context, options.surfaces.GetNames());
   for (const auto & picture : RenderScan(settings, context.console->MakeEvents()))
   {
     context.console->Note("picture: " + picture.string());
@@ -138,14 +124,7 @@ AddRenderCommand(CLI::App & parser)
   const auto options = std::make_shared<RenderOptions>();
   options->scan.AddSource(parser);
   parser.add_option("-o,--output", options->picture, "the picture: .png, .jpg, .tif or .exr");
-  parser.add_option(
-    "--preset", options->preset, "what to show: a preset's name, or a .yaml file like those of the project");
-  parser
-    .add_option(
-      "--surface",
-      options->surfaces,
-      "name=threshold[,#rrggbb[,opacity]]; threshold: a number, <number for what lies below, or otsu; repeatable")
-    ->allow_extra_args(false);
+  options->surfaces.Add(parser);
   parser
     .add_option("--view", options->views, "anterior, posterior, left, right, superior, inferior or all; repeatable")
     ->allow_extra_args(false)
@@ -155,8 +134,6 @@ AddRenderCommand(CLI::App & parser)
   parser.add_flag("--perspective", options->isPerspective, "perspective instead of parallel projection");
   parser.add_flag("--no-letters", options->hasNoLetters, "leave out the orientation letters at the edges");
   parser.add_flag("--list-presets", options->listsPresets, "list the presets and stop");
-  options->scan.AddTable(parser);
-  options->scan.AddExtraction(parser);
   options->scan.AddLattice(parser);
   options->scan.AddSidecar(parser);
   return [options](const CommandContext & context) { Render(*options, context); };

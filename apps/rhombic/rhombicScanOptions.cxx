@@ -142,54 +142,12 @@ ScanOptions::AddSidecar(CLI::App & parser)
   parser.add_flag("--no-sidecar", m_HasNoSidecar, "do not write the report beside each output (OUTPUT.json)");
 }
 
-void
-ScanOptions::AddTable(CLI::App & parser)
-{
-  parser.add_flag("--keep-table",
-                  m_KeepsTable,
-                  "keep what is around the patient of a CT, which is otherwise set to air: table, head holder, sheets");
-}
-
-TableRule
-ScanOptions::GetTable(bool isRemovedByPreset) const
-{
-  return m_KeepsTable ? TableRule::Keep : (isRemovedByPreset ? TableRule::Remove : TableRule::RemoveFromCT);
-}
-
 Provenance
-ScanOptions::GetProvenance(const CommandContext & context) const
+ScanOptions::GetProvenance(const CommandContext & context, std::map<std::string, std::string> names) const
 {
-  return { "Rhombic " RHOMBIC_VERSION, DescribeCommandLine(context.arguments, m_Path, m_Series), !m_HasNoSidecar };
-}
-
-void
-ScanOptions::AddExtraction(CLI::App & parser)
-{
-  parser
-    .add_option(
-      "--mode",
-      m_Mode,
-      "triangles: lean (a third to half as many as tetrahedra; on smooth surfaces well-shaped and as close as "
-      "marching cubes), fine (closest to the truth), tetrahedra, octahedra or parallelepipeds")
-    ->capture_default_str();
-}
-
-itk::FCCIsosurfaceMode
-ScanOptions::GetMode() const
-{
-  using Mode = itk::FCCIsosurfaceMode;
-  static const std::map<std::string, Mode> modes{ { "lean", Mode::Lean },
-                                                  { "fine", Mode::Fine },
-                                                  { "tetrahedra", Mode::Tetrahedra },
-                                                  { "octahedra", Mode::Octahedra },
-                                                  { "parallelepipeds", Mode::Parallelepipeds } };
-  const auto mode = modes.find(m_Mode);
-  if (mode == modes.end())
-  {
-    throw Failure(FailureKind::Usage,
-                  "There is no mode '" + m_Mode + "'; use lean, fine, tetrahedra, octahedra or parallelepipeds.");
-  }
-  return mode->second;
+  names["SCAN"] = m_Path;
+  names["SERIES"] = m_Series;
+  return { "Rhombic " RHOMBIC_VERSION, DescribeCommandLine(context.arguments, names), !m_HasNoSidecar };
 }
 
 ScanSource

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,33 +27,18 @@ public:
   void
   AddLattice(CLI::App & parser);
 
-  /** How surfaces are extracted from the lattice. */
-  void
-  AddExtraction(CLI::App & parser);
-
-  /** Whether the scanner's table is removed. */
-  void
-  AddTable(CLI::App & parser);
-
   /** Whether reports are written beside outputs. */
   void
   AddSidecar(CLI::App & parser);
 
-  /** For the outputs of a command on the source. */
+  /** For the outputs of a command on the source. \param names what else than the source may name the patient, by what
+   * takes its place (see DescribeCommandLine()) */
   Provenance
-  GetProvenance(const CommandContext & context) const;
+  GetProvenance(const CommandContext & context, std::map<std::string, std::string> names = {}) const;
 
   /** What was parsed, to be read with the program's decoder. Throws Failure(Usage). */
   ScanSource
   GetSource(const CommandContext & context) const;
-
-  /** What was parsed. Throws Failure(Usage). */
-  itk::FCCIsosurfaceMode
-  GetMode() const;
-
-  /** What was parsed; a preset may say that the scan is a CT. */
-  TableRule
-  GetTable(bool isRemovedByPreset) const;
 
 private:
   std::string m_Path;
@@ -64,12 +50,10 @@ private:
   bool m_AcceptsAnalyze = false;
   bool m_FollowsLinks = false;
   bool m_HasNoSidecar = false;
-  bool m_KeepsTable = false;
   double m_Density = itk::FCCLattice::NyquistDensity;
   std::string m_Spacing;
   std::string m_Kernel = "cubic";
   std::string m_Denoising = "none";
-  std::string m_Mode = "lean";
   bool m_Nested = false;
 };
 

@@ -30,7 +30,8 @@ struct LabelMapSource
 std::vector<LabelSummary>
 FindLabels(const Scan & scan, const LabelMapSource & source);
 
-/** Reads the label map of a scan, which may have another grid. Throws Failure, also when the two don't lie in the same
+/** Reads the label map of a scan, which may have another grid. The scan's options but for series and frame hold for the
+ * map, too. Throws Failure, also when the two don't lie in the same
  * place; what is partly outside goes to the label map's notes. */
 LabelMap
 ReadLabelMap(const LabelMapSource & source,

@@ -3,6 +3,7 @@
 
 #include "rhombicEvents.h"
 #include "rhombicIntensities.h"
+#include "rhombicLabelPipeline.h"
 #include "rhombicLatticePipeline.h"
 #include "rhombicPictureIO.h"
 #include "rhombicScanReader.h"
@@ -24,13 +25,27 @@ struct ScanSource
   LatticeSettings lattice; ///< on lattice volumes, only its denoising has an effect
 };
 
+/** The surfaces of a label map. */
+struct LabelSelection
+{
+  LabelMapSource source;
+  std::vector<std::string> labels; ///< names or values; empty: all that the label table wants shown
+};
+
+/** Which surfaces are made of a scan: isosurfaces, labels, or both. */
+struct SurfaceSelection
+{
+  std::vector<SurfaceRequest> requests;
+  std::optional<LabelSelection> labels;      ///< of a map that lies where the scan does
+  TableRule table = TableRule::RemoveFromCT; ///< for the requests; without effect on lattice volumes
+  itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
+};
+
 /** From a scan to pictures of its surfaces. */
 struct RenderScanSettings
 {
   ScanSource source;
-  std::vector<SurfaceRequest> surfaces;
-  TableRule table = TableRule::RemoveFromCT; ///< without effect on lattice volumes
-  itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
+  SurfaceSelection surfaces;
   RenderSettings render; ///< its view is set from the list below
   std::vector<View> views{ View::Anterior };
   std::filesystem::path picture; ///< with more than one view, the view's name is added to the stem
@@ -40,21 +55,6 @@ struct RenderScanSettings
 /** Renders a scan; returns the pictures' paths. Like the others, writes a sidecar for each output. Throws Failure. */
 std::vector<std::filesystem::path>
 RenderScan(const RenderScanSettings & settings, const Events & events);
-
-/** From a scan to one surface file. */
-struct MeshScanSettings
-{
-  ScanSource source;
-  SurfaceRequest surface;
-  TableRule table = TableRule::RemoveFromCT; ///< without effect on lattice volumes
-  itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
-  std::filesystem::path mesh; ///< .stl, .ply or .vtp
-  Provenance provenance;
-};
-
-/** Writes the surface of a scan. Throws Failure. */
-void
-MeshScan(const MeshScanSettings & settings, const Events & events);
 
 /** From a scan to a lattice volume, or from a lattice volume to a Cartesian one. */
 struct ResampleScanSettings

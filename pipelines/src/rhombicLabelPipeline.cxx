@@ -44,8 +44,11 @@ ReadLabelMap(const LabelMapSource & source,
              const Scan & scan,
              const std::filesystem::path & scanPath)
 {
+  ScanReadOptions mapOptions = options;
+  mapOptions.series.clear(); // the choices among the scan's parts are not those among its label map's
+  mapOptions.frame.reset();
   LabelMap map;
-  map.scan = ReadScan(source.path, options);
+  map.scan = ReadScan(source.path, mapOptions);
   map.labels = FindLabels(map.scan, source);
   if (const std::string note = RequireOverlap(scan, map.scan, scanPath, source.path); !note.empty())
   {

@@ -1,9 +1,9 @@
 #include "rhombicScanPipeline.h"
 
-#include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
+#include "rhombicLabelSurfaces.h"
+#include "rhombicScanLoading.h"
 #include "rhombicScanWriter.h"
-#include "rhombicSurfaceIO.h"
 #include "rhombicSurfaceRenderer.h"
 
 #include <sstream>
@@ -15,142 +15,44 @@ namespace rhombic
 namespace
 {
 
-/** Finds out before the work begins whether an output can be written, and that it is not the input. */
-void
-CheckOutput(const fs::path & output, const fs::path & input)
-{
-  std::error_code error;
-  if (fs::equivalent(output, input, error))
-  {
-    throw Failure(FailureKind::Usage, "The output " + output.string() + " is the input itself; give it another name.");
-  }
-  const AtomicFile probe(output);
-}
-
-Scan
-LoadScan(const ScanSource & source, const Events & events)
-{
-  events.Progress("reading", 0.0);
-  ScanReadOptions options = source.read;
-  options.progress = [&events](double fraction) { events.Progress("reading", fraction); };
-  Scan scan = ReadScan(source.path, options);
-  const auto & geometry = GeometryOf(scan.image);
-  const auto & size = geometry.GetLargestPossibleRegion().GetSize();
-  const auto & spacing = geometry.GetSpacing();
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << scan.format << (scan.modality.empty() ? "" : " " + scan.modality) << ": " << size[0] << " x " << size[1]
-       << " x " << size[2] << " samples, spacing " << spacing[0] << " x " << spacing[1] << " x " << spacing[2]
-       << " mm, " << PixelTypeName(scan.image);
-  events.Note(text.str());
-  for (const auto * const notes : { &scan.notes, &scan.fileNotes })
-  {
-    for (const std::string & note : *notes)
-    {
-      events.Note(note);
-    }
-  }
-  return scan;
-}
-
-/** A scan's report for outputs: the names of its path and file may be the patient's. */
-Report
-ReportWithoutNames(const Scan & scan, const fs::path & path)
-{
-  Report report = ReportScan(scan);
-  for (Report & note : report["notes"])
-  {
-    auto text = note.get<std::string>();
-    for (const std::string & name : { path.string(), path.filename().string(), path.stem().string() })
-    {
-      for (std::size_t at = text.find(name); !name.empty() && at != std::string::npos; at = text.find(name, at + 4))
-      {
-        text.replace(at, name.size(), "SCAN");
-      }
-    }
-    note = text;
-  }
-  return report;
-}
-
-/** What came out of a source, and what is known about it. */
-struct LoadedSurfaces
+/** All surfaces of a selection, and what is known about them. */
+struct Scene
 {
   std::vector<SceneSurface> surfaces;
-  bool isOriented = true; ///< whether it is known how they lie in the patient
+  bool isOriented = true;
   Report report;
 };
 
-Report
-ReportSurfaces(const std::vector<SurfaceRequest> & requests,
-               const std::vector<SceneSurface> & surfaces,
-               itk::FCCIsosurfaceMode mode)
+Scene
+MakeScene(const ScanSource & source, const SurfaceSelection & selection, const Events & events)
 {
-  Report report = Report::array();
-  for (std::size_t n = 0; n < requests.size(); ++n)
+  LoadedSource loaded = LoadSource(source, selection, events);
+  loaded.scan.reset(); // its memory is needed for the surfaces
+  Scene scene;
+  scene.isOriented = loaded.isOriented;
+  scene.report = std::move(loaded.report);
+  scene.report["surfaces"] = Report::array();
+  if (!loaded.requests.empty())
   {
-    std::ostringstream modeName;
-    modeName << mode;
-    report.push_back({ { "name", requests[n].name },
-                       { "isovalue", requests[n].isovalue.value() },
-                       { "inside", requests[n].side == SurfaceRequest::Side::Above ? "above" : "below" },
-                       { "mode", modeName.str() },
-                       { "points", surfaces[n].surface->GetNumberOfPoints() },
-                       { "triangles", surfaces[n].surface->GetNumberOfTriangles() } });
-  }
-  return report;
-}
-
-/** Size and place of a scan's samples without their values; null when it is slanted. */
-itk::ImageBase<3>::Pointer
-GridOf(const Scan & scan)
-{
-  if (IsSlanted(scan))
-  {
-    return nullptr;
-  }
-  const auto grid = itk::ImageBase<3>::New();
-  grid->CopyInformation(&GeometryOf(scan.image));
-  return grid;
-}
-
-LoadedSurfaces
-LoadSurfaces(const ScanSource & source,
-             const std::vector<SurfaceRequest> & requests,
-             TableRule table,
-             itk::FCCIsosurfaceMode mode,
-             const Events & events)
-{
-  LoadedSurfaces loaded;
-  FCCVolume volume;
-  itk::ImageBase<3>::Pointer grid;
-  std::vector<SurfaceRequest> resolved;
-  if (IsFCCImageFile(source.path))
-  {
-    events.Progress("reading", 0.0);
-    volume = ReadFCCImage(source.path);
-    resolved = ResolveIsovalues(requests, ComputeIntensities(volume));
-    volume = DenoiseLattice(volume, source.lattice.denoising, source.lattice.maximumMemory, events);
-  }
-  else
-  {
-    CheckLatticeSettings(source.lattice);
-    Scan scan = LoadScan(source, events); // its memory is needed for the surfaces
-    if (IsTableRemoved(table, scan))
+    scene.surfaces = LatticeToSurfaces(loaded.lattice, loaded.requests, selection.mode, events, loaded.grid);
+    for (std::size_t n = 0; n < loaded.requests.size(); ++n)
     {
-      loaded.report["removed"] = ReportTableRemoval(RemoveTable(scan, events));
+      scene.report["surfaces"].push_back(ReportSurface(loaded.requests[n], *scene.surfaces[n].surface, selection.mode));
     }
-    resolved = ResolveIsovalues(requests, ComputeIntensities(scan.image));
-    volume = ScanToLattice(scan, source.lattice, events);
-    grid = GridOf(scan);
-    loaded.report["scan"] = ReportWithoutNames(scan, source.path);
-    loaded.isOriented = scan.isOriented;
   }
-  loaded.surfaces = LatticeToSurfaces(volume, resolved, mode, events, grid);
-  loaded.report["denoising"] = ReportDenoising(source.lattice.denoising);
-  loaded.report["lattice"] = ReportLattice(volume);
-  loaded.report["surfaces"] = ReportSurfaces(resolved, loaded.surfaces, mode);
-  return loaded;
+  if (loaded.labels)
+  {
+    const auto labels = LabelsToSurfaces(*loaded.labels, GetLabelSettings(source, selection), events);
+    for (const LabelSurface & label : labels)
+    {
+      scene.surfaces.push_back(label.scene);
+    }
+    for (const Report & label : ReportLabelSurfaces(labels))
+    {
+      scene.report["surfaces"].push_back(label);
+    }
+  }
+  return scene;
 }
 
 fs::path
@@ -204,32 +106,19 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
   SurfaceRenderer renderer;
   renderer.CheckSettings(settings.render);
 
-  const LoadedSurfaces loaded = LoadSurfaces(settings.source, settings.surfaces, settings.table, settings.mode, events);
+  const Scene scene = MakeScene(settings.source, settings.surfaces, events);
   for (std::size_t n = 0; n < pictures.size(); ++n)
   {
     events.Progress("rendering", static_cast<double>(n) / static_cast<double>(pictures.size()));
     RenderSettings render = settings.render;
     render.view = settings.views[n];
-    render.orientationLabels = render.orientationLabels && loaded.isOriented;
+    render.orientationLabels = render.orientationLabels && scene.isOriented;
     const PictureMetadata metadata{ settings.provenance.software, settings.provenance.command };
-    WritePicture(renderer.Render(loaded.surfaces, render), pictures[n], metadata);
-    WriteSidecar(pictures[n], settings.provenance, loaded.report);
+    WritePicture(renderer.Render(scene.surfaces, render), pictures[n], metadata);
+    WriteSidecar(pictures[n], settings.provenance, scene.report);
   }
   events.Progress("rendering", 1.0);
   return pictures;
-}
-
-void
-MeshScan(const MeshScanSettings & settings, const Events & events)
-{
-  CheckOutput(settings.mesh, settings.source.path);
-  CheckSurfacePath(settings.mesh);
-  const LoadedSurfaces loaded =
-    LoadSurfaces(settings.source, { settings.surface }, settings.table, settings.mode, events);
-  events.Progress("writing", 0.0);
-  WriteSurface(*loaded.surfaces.front().surface, settings.mesh);
-  WriteSidecar(settings.mesh, settings.provenance, loaded.report);
-  events.Progress("writing", 1.0);
 }
 
 void

@@ -11,15 +11,16 @@ namespace rhombic
 /** What went wrong, as a caller can act on it. The value is the exit code of the `rhombic` program. */
 enum class FailureKind : int
 {
-  Internal = 1,   ///< a defect in Rhombic or a library under it
-  Usage = 2,      ///< an option, preset or combination that makes no sense
-  NotFound = 3,   ///< no such file or folder, or no scan in it
-  Unreadable = 4, ///< the input is damaged, or of a kind that is not supported
-  Geometry = 5,   ///< the input's position in the patient can't be known
-  Empty = 6,      ///< there is no surface at this isovalue
-  Output = 7,     ///< the output can't be written
-  Memory = 9,     ///< it would need, or needed, more memory than there is
-  Display = 10    ///< no way to draw on this machine
+  Internal = 1,      ///< a defect in Rhombic or a library under it
+  Usage = 2,         ///< an option, preset or combination that makes no sense
+  NotFound = 3,      ///< no such file or folder, or no scan in it
+  Unreadable = 4,    ///< the input is damaged, or of a kind that is not supported
+  Geometry = 5,      ///< the input's position in the patient can't be known
+  Empty = 6,         ///< there is no surface at this isovalue
+  Output = 7,        ///< the output can't be written
+  NotWatertight = 8, ///< a surface has holes or other defects, and was asked to have none
+  Memory = 9,        ///< it would need, or needed, more memory than there is
+  Display = 10       ///< no way to draw on this machine
 };
 
 /** \class Failure

@@ -1,0 +1,95 @@
+#include "rhombicSurfaceOptions.h"
+
+#include "rhombicFailure.h"
+#include "rhombicPresets.h"
+
+namespace rhombic
+{
+namespace
+{
+
+itk::FCCIsosurfaceMode
+ParseMode(const std::string & text)
+{
+  using Mode = itk::FCCIsosurfaceMode;
+  static const std::map<std::string, Mode> modes{ { "lean", Mode::Lean },
+                                                  { "fine", Mode::Fine },
+                                                  { "tetrahedra", Mode::Tetrahedra },
+                                                  { "octahedra", Mode::Octahedra },
+                                                  { "parallelepipeds", Mode::Parallelepipeds } };
+  const auto mode = modes.find(text);
+  if (mode == modes.end())
+  {
+    throw Failure(FailureKind::Usage,
+                  "There is no mode '" + text + "'; use lean, fine, tetrahedra, octahedra or parallelepipeds.");
+  }
+  return mode->second;
+}
+
+} // namespace
+
+void
+SurfaceOptions::Add(CLI::App & parser)
+{
+  parser.add_option("--preset", m_Preset, "surfaces by a preset's name, or by a .yaml file like those of the project");
+  parser
+    .add_option(
+      "--surface",
+      m_Surfaces,
+      "name=threshold[,#rrggbb[,opacity]]; threshold: a number, <number for what lies below, or otsu; repeatable")
+    ->allow_extra_args(false);
+  CLI::Option * const labels = parser.add_option(
+    "--labels", m_Labels, "the surfaces of the scan's label map: NIfTI, NRRD, MetaImage or DICOM SEG");
+  parser
+    .add_option("--label-table",
+                m_LabelTable,
+                "names and colours of labels (ITK-SNAP, Slicer, FreeSurfer, BIDS; default: in or beside the map)")
+    ->needs(labels);
+  parser.add_option("--label", m_ChosenLabels, "one of the labels, by name or value; repeatable (default: all)")
+    ->needs(labels)
+    ->allow_extra_args(false);
+  parser.add_flag("--keep-table",
+                  m_KeepsTable,
+                  "keep what is around the patient of a CT, which is otherwise set to air: table, head holder, sheets");
+  parser
+    .add_option(
+      "--mode",
+      m_Mode,
+      "triangles: lean (a third to half as many as tetrahedra; on smooth surfaces well-shaped and as close as "
+      "marching cubes), fine (closest to the truth), tetrahedra, octahedra or parallelepipeds")
+    ->capture_default_str();
+}
+
+bool
+SurfaceOptions::IsEmpty() const
+{
+  return m_Preset.empty() && m_Surfaces.empty() && m_Labels.empty();
+}
+
+SurfaceSelection
+SurfaceOptions::GetSelection() const
+{
+  SurfaceSelection selection;
+  selection.mode = ParseMode(m_Mode);
+  if (!m_Preset.empty())
+  {
+    const Preset preset = FindPreset(m_Preset);
+    selection.requests = preset.surfaces;
+    selection.table = preset.removesTable ? TableRule::Remove : TableRule::RemoveFromCT;
+  }
+  if (m_KeepsTable)
+  {
+    selection.table = TableRule::Keep;
+  }
+  for (const std::string & text : m_Surfaces)
+  {
+    selection.requests.push_back(ParseSurfaceRequest(text, selection.requests.size()));
+  }
+  if (!m_Labels.empty())
+  {
+    selection.labels = LabelSelection{ { m_Labels, m_LabelTable }, m_ChosenLabels };
+  }
+  return selection;
+}
+
+} // namespace rhombic

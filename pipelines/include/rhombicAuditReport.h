@@ -1,0 +1,28 @@
+#ifndef rhombicAuditReport_h
+#define rhombicAuditReport_h
+
+#include "rhombicScanReport.h"
+
+#include "itkTriangleSurfaceAudit.h"
+
+#include <string>
+#include <vector>
+
+namespace rhombic
+{
+
+/** All that an audit found, and the verdict. */
+Report
+ReportAudit(const itk::TriangleSurfaceAudit & audit);
+
+/** The same for reading: a line each for shape, defects, self-intersections and triangles. */
+std::vector<std::string>
+DescribeAudit(const itk::TriangleSurfaceAudit & audit);
+
+/** What keeps a surface from being watertight, as part of a sentence: "3 boundary edges"; empty when it is. */
+std::string
+DescribeLeaks(const itk::TriangleSurfaceAudit & audit);
+
+} // namespace rhombic
+
+#endif

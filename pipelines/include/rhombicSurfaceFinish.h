@@ -1,0 +1,48 @@
+#ifndef rhombicSurfaceFinish_h
+#define rhombicSurfaceFinish_h
+
+#include "rhombicEvents.h"
+#include "rhombicScanReport.h"
+
+#include "itkTriangleSurface.h"
+
+#include <cstddef>
+#include <string>
+
+namespace rhombic
+{
+
+/** What is done to surfaces after extraction. By default nothing. */
+struct SurfaceFinish
+{
+  double minimumVolume = 0.0;       ///< connected parts of less than this, in ml, are removed
+  bool keepsLargestPart = false;    ///< and all others are
+  bool fillsCavities = false;       ///< shells inside others are removed
+  double smoothing = 0.0;           ///< how far points may move, in spacings of the lattice; 0 to 1
+  double maximumError = 0.0;        ///< of simplification, in mm; 0: no simplification but to the number of triangles
+  std::size_t maximumTriangles = 0; ///< of each surface; 0: no limit
+  double share = 1.0;               ///< of its triangles that each surface may keep, above 0
+};
+
+/** Throws Failure(Usage) for settings out of their ranges. */
+void
+CheckSurfaceFinish(const SurfaceFinish & finish);
+
+/** Removes parts of a surface. The report says how many went, and their volume; null when nothing was asked for. */
+Report
+RemoveParts(itk::TriangleSurface & surface, const SurfaceFinish & finish);
+
+/** Smooths and simplifies a surface. The report says how far points moved and how many triangles are left; null when
+ * nothing was asked for.
+ * \param spacing of the lattice in mm
+ * \param name of the surface, for progress and messages. Throws Failure. */
+Report
+RefineSurface(itk::TriangleSurface & surface,
+              const SurfaceFinish & finish,
+              double spacing,
+              const std::string & name,
+              const Events & events);
+
+} // namespace rhombic
+
+#endif

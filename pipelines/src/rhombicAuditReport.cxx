@@ -1,0 +1,119 @@
+#include "rhombicAuditReport.h"
+
+#include <array>
+#include <iomanip>
+#include <sstream>
+#include <utility>
+
+namespace rhombic
+{
+namespace
+{
+
+/** A number and what it counts, in the singular or the plural. */
+std::string
+Count(itk::SizeValueType number, const std::string & one, const std::string & many)
+{
+  return std::to_string(number) + ' ' + (number == 1 ? one : many);
+}
+
+std::ostringstream
+MakeText(int decimals)
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::fixed << std::setprecision(decimals);
+  return text;
+}
+
+std::string
+DescribeIntersections(const itk::TriangleSurfaceIntersections & found)
+{
+  if (found.testedTriangles == 0)
+  {
+    return "self-intersections: not looked for";
+  }
+  return "self-intersections: " + Count(found.crossingPairs, "pair", "pairs") + " of triangles cross, " +
+         std::to_string(found.touchingPairs) + " touch" +
+         (found.isSampled ? ", of " + std::to_string(found.testedTriangles) + " triangles tested" : "");
+}
+
+} // namespace
+
+Report
+ReportAudit(const itk::TriangleSurfaceAudit & audit)
+{
+  const auto & topology = audit.topology;
+  return { { "watertight", audit.IsWatertight() },
+           { "points", audit.points },
+           { "triangles", audit.triangles },
+           { "components", topology.components },
+           { "eulerCharacteristic", topology.eulerCharacteristic },
+           { "genus", topology.genus },
+           { "boundaryEdges", topology.boundaryEdges },
+           { "nonManifoldEdges", topology.nonManifoldEdges },
+           { "nonManifoldPoints", topology.nonManifoldPoints },
+           { "misorientedEdges", topology.misorientedEdges },
+           { "degenerateTriangles", topology.degenerateTriangles },
+           { "duplicateTriangles", topology.duplicateTriangles },
+           { "repeatedPositions", topology.repeatedPositions },
+           { "unusedPoints", topology.unusedPoints },
+           { "volumeInMillilitres", audit.volume / 1000.0 },
+           { "areaInSquareMillimetres", audit.area },
+           { "intersections",
+             { { "testedTriangles", audit.intersections.testedTriangles },
+               { "complete", !audit.intersections.isSampled },
+               { "crossingPairs", audit.intersections.crossingPairs },
+               { "touchingPairs", audit.intersections.touchingPairs } } },
+           { "quality",
+             { { "mean", audit.quality.mean },
+               { "minimum", audit.quality.minimum },
+               { "poorFraction", audit.quality.poorFraction },
+               { "smallestAngleInDegrees", audit.quality.smallestAngle } } } };
+}
+
+std::vector<std::string>
+DescribeAudit(const itk::TriangleSurfaceAudit & audit)
+{
+  const auto & topology = audit.topology;
+  auto shape = MakeText(1);
+  shape << Count(audit.triangles, "triangle", "triangles") << ", " << Count(audit.points, "point", "points") << ", "
+        << Count(topology.components, "component", "components") << ", Euler characteristic "
+        << topology.eulerCharacteristic << ", genus " << topology.genus << ", " << audit.volume / 1000.0 << " ml, "
+        << audit.area / 100.0 << " cm2";
+  auto quality = MakeText(2);
+  quality << "triangles: quality " << audit.quality.mean << " on average, " << 100.0 * audit.quality.poorFraction
+          << " % below " << itk::TriangleSurfaceQuality::Poor << ", smallest angle " << audit.quality.smallestAngle
+          << " degrees";
+  const std::string leaks = DescribeLeaks(audit);
+  return { shape.str(),
+           leaks.empty() ? "watertight: closed, oriented, manifold, without degenerate or duplicate triangles"
+                         : "not watertight: " + leaks,
+           DescribeIntersections(audit.intersections),
+           quality.str() };
+}
+
+std::string
+DescribeLeaks(const itk::TriangleSurfaceAudit & audit)
+{
+  const auto & topology = audit.topology;
+  const std::array<std::pair<itk::SizeValueType, std::array<const char *, 2>>, 6> defects{
+    { { topology.boundaryEdges, { "boundary edge", "boundary edges" } },
+      { topology.nonManifoldEdges, { "non-manifold edge", "non-manifold edges" } },
+      { topology.nonManifoldPoints, { "non-manifold point", "non-manifold points" } },
+      { topology.misorientedEdges, { "misoriented edge", "misoriented edges" } },
+      { topology.degenerateTriangles, { "degenerate triangle", "degenerate triangles" } },
+      { topology.duplicateTriangles, { "duplicate triangle", "duplicate triangles" } } }
+  };
+  std::string text;
+  for (const auto & [number, names] : defects)
+  {
+    if (number > 0)
+    {
+      text += (text.empty() ? "" : ", ") + Count(number, names[0], names[1]);
+    }
+  }
+  return text.empty() && !audit.IsWatertight() ? "it is inside out" : text;
+}
+
+} // namespace rhombic

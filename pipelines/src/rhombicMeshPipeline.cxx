@@ -1,0 +1,358 @@
+#include "rhombicMeshPipeline.h"
+
+#include "rhombicAuditReport.h"
+#include "rhombicFailure.h"
+#include "rhombicLabelSurfaces.h"
+#include "rhombicMeasureTable.h"
+#include "rhombicScanLoading.h"
+#include "rhombicSurfaceDeviation.h"
+#include "rhombicSurfaceMeasures.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+namespace rhombic
+{
+namespace
+{
+
+/** A surface on its way from the scan to a file. */
+struct MeshedSurface
+{
+  SceneSurface scene;
+  std::optional<SurfaceRequest> request; ///< of isosurfaces
+  Report report;
+};
+
+constexpr char NamePlace[] = "{name}";
+
+/** A name as part of a file's name: letters, digits, dots, underscores and hyphens. */
+std::string
+ToFileName(const std::string & name)
+{
+  std::string safe;
+  for (const char letter : name)
+  {
+    const bool isSafe = (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
+                        (letter >= '0' && letter <= '9') || letter == '.' || letter == '-';
+    safe += isSafe ? letter : '_';
+  }
+  return safe.empty() || safe[0] == '.' ? '_' + safe : safe;
+}
+
+bool
+HasFileForEach(const fs::path & mesh)
+{
+  return mesh.filename().string().find(NamePlace) != std::string::npos;
+}
+
+/** The files' paths, one for each surface or one for all; no two are the same. */
+std::vector<fs::path>
+PathsOf(const fs::path & mesh, const std::vector<MeshedSurface> & surfaces)
+{
+  if (!HasFileForEach(mesh))
+  {
+    return { mesh };
+  }
+  std::set<std::string> taken;
+  std::vector<fs::path> paths;
+  for (const MeshedSurface & surface : surfaces)
+  {
+    const std::string name = ToFileName(surface.scene.name);
+    std::string unique = name;
+    for (int number = 2; !taken.insert(unique).second; ++number)
+    {
+      unique = name + '-' + std::to_string(number);
+    }
+    std::string file = mesh.filename().string();
+    file.replace(file.find(NamePlace), sizeof(NamePlace) - 1, unique);
+    paths.push_back(mesh.parent_path() / file);
+  }
+  return paths;
+}
+
+/** Volume, area and the like of a surface as it was extracted. */
+SurfaceMeasures
+Measure(const MeshedSurface & surface, const std::optional<Scan> & scan, bool isWhole)
+{
+  if (!scan)
+  {
+    return MeasureSurface(*surface.scene.surface);
+  }
+  SurfaceMeasures measures = MeasureSurface(*surface.scene.surface, *scan);
+  if (!surface.request)
+  {
+    measures.voxelVolume.reset(); // a label's voxels are known, and in its report
+  }
+  else if (isWhole && surface.request->parts == SurfaceRequest::Parts::All)
+  {
+    measures.voxelVolume = CountVoxelVolume(*scan, *surface.request->isovalue, surface.request->side);
+  }
+  return measures;
+}
+
+/** One line about a surface for the person at the keyboard. */
+std::string
+Summarize(const MeshedSurface & surface, const SurfaceMeasures & measures)
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::fixed << std::setprecision(1);
+  text << surface.scene.name << ": " << measures.volume / 1000.0 << " ml";
+  if (measures.voxelVolume)
+  {
+    text << " (voxels: " << *measures.voxelVolume / 1000.0 << " ml"
+         << (measures.IsVolumeInDoubt() ? ", which differ by more than 1 %" : "") << ")";
+  }
+  text << ", " << measures.area / 100.0 << " cm2, longest diameter " << measures.longestDiameter << " mm";
+  if (measures.meanValue)
+  {
+    text << ", mean value " << *measures.meanValue;
+  }
+  return text.str();
+}
+
+/** The surfaces of a source as they were extracted. */
+std::vector<MeshedSurface>
+Extract(LoadedSource & loaded, const MeshScanSettings & settings, const Events & events)
+{
+  std::vector<MeshedSurface> surfaces;
+  const SurfaceSelection & selection = settings.surfaces;
+  if (!loaded.requests.empty())
+  {
+    const auto scenes = LatticeToSurfaces(loaded.lattice, loaded.requests, selection.mode, events, loaded.grid);
+    for (std::size_t n = 0; n < scenes.size(); ++n)
+    {
+      surfaces.push_back(
+        { scenes[n], loaded.requests[n], ReportSurface(loaded.requests[n], *scenes[n].surface, selection.mode) });
+    }
+  }
+  if (loaded.labels)
+  {
+    const auto labels = LabelsToSurfaces(*loaded.labels, GetLabelSettings(settings.source, selection), events);
+    const Report reports = ReportLabelSurfaces(labels);
+    for (std::size_t n = 0; n < labels.size(); ++n)
+    {
+      surfaces.push_back({ labels[n].scene, std::nullopt, reports[n] });
+    }
+  }
+  return surfaces;
+}
+
+/** The smallest spacing that surfaces were sampled with, in mm. */
+double
+SpacingOf(const LoadedSource & loaded)
+{
+  const auto smallest = [](const itk::ImageBase<3> & image) {
+    return *std::min_element(image.GetSpacing().Begin(), image.GetSpacing().End());
+  };
+  if (!loaded.requests.empty())
+  {
+    return std::visit([&](const auto & image) { return smallest(*image); }, loaded.lattice);
+  }
+  return smallest(GeometryOf(loaded.labels->scan.image));
+}
+
+/** Removes parts, measures what is left, then smooths and simplifies it. */
+void
+Finish(MeshedSurface & surface,
+       const std::optional<Scan> & scan,
+       const SurfaceFinish & finish,
+       double spacing,
+       const Events & events)
+{
+  const auto finished = itk::TriangleSurface::New();
+  finished->Graft(surface.scene.surface);
+  surface.scene.surface = finished;
+  const Report removed = RemoveParts(*finished, finish);
+  if (finished->GetNumberOfTriangles() == 0)
+  {
+    throw Failure(FailureKind::Empty,
+                  "Nothing is left of " + surface.scene.name + ": all its parts are below --min-volume; lower it.");
+  }
+  events.Progress("measuring " + surface.scene.name, 0.0);
+  const SurfaceMeasures measures = Measure(surface, scan, removed.is_null());
+  events.Note(Summarize(surface, measures));
+  surface.report["measures"] = ReportMeasures(measures);
+  if (!removed.is_null())
+  {
+    surface.report["parts"] = removed;
+  }
+  const Report refined = RefineSurface(*finished, finish, spacing, surface.scene.name, events);
+  if (!refined.is_null())
+  {
+    surface.report.update(refined);
+  }
+  surface.report["points"] = finished->GetNumberOfPoints();
+  surface.report["triangles"] = finished->GetNumberOfTriangles();
+}
+
+/** Judges surfaces as a file holds them. */
+class FileInspection
+{
+public:
+  FileInspection(const MeshScanSettings & settings, const std::optional<Scan> & scan, const Events & events)
+    : m_Settings(settings)
+    , m_Scan(scan)
+    , m_Events(events)
+  {}
+
+  /** Adds to the surfaces' reports. Throws Failure(NotWatertight) for one that has to be watertight and is not. */
+  void
+  Inspect(const itk::TriangleSurface & read, MeshedSurface & surface, const fs::path & path) const
+  {
+    if (m_Scan && surface.request)
+    {
+      this->MeasureDeviation(read, surface);
+    }
+    if (m_Settings.audits || m_Settings.requiresWatertight)
+    {
+      this->Audit(read, surface, path);
+    }
+  }
+
+private:
+  void
+  MeasureDeviation(const itk::TriangleSurface & read, MeshedSurface & surface) const
+  {
+    constexpr std::size_t quick = 250'000;
+    constexpr std::size_t thorough = 10'000'000;
+    m_Events.Progress("measuring how far " + surface.scene.name + " is from the scan", 0.0);
+    const SurfaceDeviation deviation = ComputeDeviation(read,
+                                                        *m_Scan,
+                                                        m_Settings.source.lattice.kernel,
+                                                        *surface.request->isovalue,
+                                                        surface.request->side,
+                                                        m_Settings.audits ? thorough : quick);
+    surface.report["deviation"] = ReportDeviation(deviation);
+    std::ostringstream note;
+    note.imbue(std::locale::classic());
+    note << std::setprecision(2) << surface.scene.name << ": from the scan's isosurface " << deviation.mean
+         << " mm on average, 95 % within " << deviation.percentile95 << " mm, all within " << deviation.maximum
+         << " mm";
+    if (deviation.unresolved > 0)
+    {
+      note << "; " << deviation.unresolved << " of " << deviation.samples << " places are not near it";
+    }
+    m_Events.Note(note.str());
+  }
+
+  void
+  Audit(const itk::TriangleSurface & read, MeshedSurface & surface, const fs::path & path) const
+  {
+    m_Events.Progress("auditing " + surface.scene.name, 0.0);
+    itk::TriangleSurfaceAuditSettings auditSettings;
+    auditSettings.testsIntersections = m_Settings.audits;
+    const auto audit = AuditSurface(read, auditSettings);
+    surface.report["audit"] = ReportAudit(audit);
+    for (const std::string & line : DescribeAudit(audit))
+    {
+      m_Events.Note(surface.scene.name + ": " + line);
+    }
+    if (m_Settings.requiresWatertight && !audit.IsWatertight())
+    {
+      throw Failure(FailureKind::NotWatertight,
+                    "The surface " + surface.scene.name + " is not watertight (" + DescribeLeaks(audit) + "), so " +
+                      path.string() + " was not written; leave out --require-watertight to have it all the same.");
+    }
+  }
+
+  const MeshScanSettings & m_Settings;
+  const std::optional<Scan> & m_Scan;
+  const Events & m_Events;
+};
+
+/** Writes surfaces that follow each other as one file, with its sidecar. */
+void
+WriteFile(const fs::path & path,
+          MeshedSurface * begin,
+          std::size_t count,
+          const MeshScanSettings & settings,
+          const FileInspection & inspection,
+          Report report)
+{
+  std::vector<SceneSurface> scene;
+  std::transform(begin, begin + count, std::back_inserter(scene), [](const auto & surface) { return surface.scene; });
+  SurfaceFileSettings file;
+  file.space = settings.space;
+  file.inspect = [&](const std::vector<SceneSurface> & read) {
+    for (std::size_t n = 0; n < count; ++n)
+    {
+      inspection.Inspect(*read[n].surface, begin[n], path);
+    }
+  };
+  WriteSurfaces(scene, path, file);
+  report["surfaces"] = Report::array();
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    report["surfaces"].push_back(begin[n].report);
+  }
+  WriteSidecar(path, settings.provenance, report);
+}
+
+void
+CheckSettings(const MeshScanSettings & settings)
+{
+  const bool isForEach = HasFileForEach(settings.mesh);
+  const bool hasOne = settings.surfaces.requests.size() == 1 && !settings.surfaces.labels;
+  CheckSurfacePath(settings.mesh, isForEach || hasOne ? 1 : 2);
+  CheckSurfaceFinish(settings.finish);
+  if (!isForEach)
+  {
+    CheckOutput(settings.mesh, settings.source.path);
+  }
+  if (!settings.measures.empty())
+  {
+    CheckMeasureTablePath(settings.measures);
+    CheckOutput(settings.measures, settings.source.path);
+  }
+}
+
+} // namespace
+
+std::vector<fs::path>
+MeshScan(const MeshScanSettings & settings, const Events & events)
+{
+  CheckSettings(settings);
+  LoadedSource loaded = LoadSource(settings.source, settings.surfaces, events);
+  std::vector<MeshedSurface> surfaces = Extract(loaded, settings, events);
+  const double spacing = SpacingOf(loaded);
+  loaded.lattice = FCCVolume();
+  loaded.labels.reset();
+  const std::vector<fs::path> paths = PathsOf(settings.mesh, surfaces);
+  for (const fs::path & path : paths)
+  {
+    CheckOutput(path, settings.source.path);
+  }
+  for (MeshedSurface & surface : surfaces)
+  {
+    Finish(surface, loaded.scan, settings.finish, spacing, events);
+  }
+
+  const FileInspection inspection(settings, loaded.scan, events);
+  const std::size_t perFile = paths.size() == 1 ? surfaces.size() : 1;
+  for (std::size_t n = 0; n < paths.size(); ++n)
+  {
+    events.Progress("writing", static_cast<double>(n) / static_cast<double>(paths.size()));
+    WriteFile(paths[n], surfaces.data() + n * perFile, perFile, settings, inspection, loaded.report);
+  }
+  if (!settings.measures.empty())
+  {
+    Report table = Report::array();
+    for (const MeshedSurface & surface : surfaces)
+    {
+      table.push_back(surface.report);
+    }
+    WriteMeasureTable(table, settings.measures);
+  }
+  events.Progress("writing", 1.0);
+  return paths;
+}
+
+} // namespace rhombic

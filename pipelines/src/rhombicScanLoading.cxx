@@ -1,0 +1,180 @@
+#include "rhombicScanLoading.h"
+
+#include "rhombicAtomicFile.h"
+#include "rhombicFailure.h"
+
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+namespace rhombic
+{
+namespace
+{
+
+/** Size and place of a scan's samples without their values; null when it is slanted. */
+itk::ImageBase<3>::Pointer
+GridOf(const Scan & scan)
+{
+  if (IsSlanted(scan))
+  {
+    return nullptr;
+  }
+  const auto grid = itk::ImageBase<3>::New();
+  grid->CopyInformation(&GeometryOf(scan.image));
+  return grid;
+}
+
+LabelMap
+LoadLabels(const ScanSource & source, const LabelMapSource & labels, const Scan & scan, const Events & events)
+{
+  events.Progress("reading labels", 0.0);
+  LabelMap map = ReadLabelMap(labels, source.read, scan, source.path);
+  events.Note(std::to_string(map.labels.size()) + " labels in " + labels.path.string());
+  for (const std::string & note : map.scan.notes)
+  {
+    events.Note(note);
+  }
+  return map;
+}
+
+LoadedSource
+LoadLatticeVolume(const ScanSource & source, const SurfaceSelection & selection, const Events & events)
+{
+  if (selection.labels)
+  {
+    throw Failure(FailureKind::Usage,
+                  "Labels need the scan that they belong to, and " + source.path.string() +
+                    " is a lattice volume; name the scan, or the label map itself.");
+  }
+  events.Progress("reading", 0.0);
+  LoadedSource loaded;
+  loaded.lattice = ReadFCCImage(source.path);
+  loaded.requests = ResolveIsovalues(selection.requests, ComputeIntensities(loaded.lattice));
+  loaded.lattice = DenoiseLattice(loaded.lattice, source.lattice.denoising, source.lattice.maximumMemory, events);
+  return loaded;
+}
+
+LoadedSource
+LoadScanAndLabels(const ScanSource & source, const SurfaceSelection & selection, const Events & events)
+{
+  CheckLatticeSettings(source.lattice);
+  LoadedSource loaded;
+  loaded.scan = LoadScan(source, events);
+  Scan & scan = *loaded.scan;
+  loaded.report["scan"] = ReportWithoutNames(scan, source.path);
+  loaded.isOriented = scan.isOriented;
+  if (selection.labels)
+  {
+    loaded.labels = LoadLabels(source, selection.labels->source, scan, events);
+  }
+  if (selection.requests.empty())
+  {
+    return loaded;
+  }
+  if (IsTableRemoved(selection.table, scan))
+  {
+    loaded.report["removed"] = ReportTableRemoval(RemoveTable(scan, events));
+  }
+  loaded.requests = ResolveIsovalues(selection.requests, ComputeIntensities(scan.image));
+  loaded.lattice = ScanToLattice(scan, source.lattice, events);
+  loaded.grid = GridOf(scan);
+  return loaded;
+}
+
+} // namespace
+
+void
+CheckOutput(const fs::path & output, const fs::path & input)
+{
+  std::error_code error;
+  if (fs::equivalent(output, input, error))
+  {
+    throw Failure(FailureKind::Usage, "The output " + output.string() + " is the input itself; give it another name.");
+  }
+  const AtomicFile probe(output);
+}
+
+Scan
+LoadScan(const ScanSource & source, const Events & events)
+{
+  events.Progress("reading", 0.0);
+  ScanReadOptions options = source.read;
+  options.progress = [&events](double fraction) { events.Progress("reading", fraction); };
+  Scan scan = ReadScan(source.path, options);
+  const auto & geometry = GeometryOf(scan.image);
+  const auto & size = geometry.GetLargestPossibleRegion().GetSize();
+  const auto & spacing = geometry.GetSpacing();
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << scan.format << (scan.modality.empty() ? "" : " " + scan.modality) << ": " << size[0] << " x " << size[1]
+       << " x " << size[2] << " samples, spacing " << spacing[0] << " x " << spacing[1] << " x " << spacing[2]
+       << " mm, " << PixelTypeName(scan.image);
+  events.Note(text.str());
+  for (const auto * const notes : { &scan.notes, &scan.fileNotes })
+  {
+    for (const std::string & note : *notes)
+    {
+      events.Note(note);
+    }
+  }
+  return scan;
+}
+
+Report
+ReportWithoutNames(const Scan & scan, const fs::path & path)
+{
+  Report report = ReportScan(scan);
+  for (Report & note : report["notes"])
+  {
+    auto text = note.get<std::string>();
+    for (const std::string & name : { path.string(), path.filename().string(), path.stem().string() })
+    {
+      for (std::size_t at = text.find(name); !name.empty() && at != std::string::npos; at = text.find(name, at + 4))
+      {
+        text.replace(at, name.size(), "SCAN");
+      }
+    }
+    note = text;
+  }
+  return report;
+}
+
+LoadedSource
+LoadSource(const ScanSource & source, const SurfaceSelection & selection, const Events & events)
+{
+  LoadedSource loaded = IsFCCImageFile(source.path) ? LoadLatticeVolume(source, selection, events)
+                                                    : LoadScanAndLabels(source, selection, events);
+  if (!loaded.requests.empty())
+  {
+    loaded.report["denoising"] = ReportDenoising(source.lattice.denoising);
+    loaded.report["lattice"] = ReportLattice(loaded.lattice);
+  }
+  return loaded;
+}
+
+Report
+ReportSurface(const SurfaceRequest & request, const itk::TriangleSurface & surface, itk::FCCIsosurfaceMode mode)
+{
+  std::ostringstream modeName;
+  modeName << mode;
+  return { { "name", request.name },
+           { "isovalue", request.isovalue.value() },
+           { "inside", request.side == SurfaceRequest::Side::Above ? "above" : "below" },
+           { "mode", modeName.str() },
+           { "points", surface.GetNumberOfPoints() },
+           { "triangles", surface.GetNumberOfTriangles() } };
+}
+
+LabelSurfaceSettings
+GetLabelSettings(const ScanSource & source, const SurfaceSelection & selection)
+{
+  LabelSurfaceSettings settings;
+  settings.labels = selection.labels->labels;
+  settings.density = source.lattice.density;
+  settings.mode = selection.mode;
+  settings.maximumMemory = source.lattice.maximumMemory;
+  return settings;
+}
+
+} // namespace rhombic

@@ -1,0 +1,150 @@
+#include "rhombicSurfaceFinish.h"
+
+#include "rhombicFailure.h"
+
+#include "itkTriangleSurfaceComponents.h"
+#include "itkTriangleSurfaceDistance.h"
+#include "itkTriangleSurfaceMeasures.h"
+#include "itkTriangleSurfaceSimplification.h"
+#include "itkTriangleSurfaceSmoothing.h"
+#include "itkTriangleSurfaceVertexOrder.h"
+#include "itkTriangleTree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace rhombic
+{
+namespace
+{
+
+constexpr double CubicMillimetresPerMillilitre = 1000.0;
+
+Report
+Smooth(itk::TriangleSurface & surface, double maximumMove)
+{
+  const double volumeBefore = ComputeVolume(surface);
+  itk::TriangleSurfaceSmoothingSettings settings;
+  settings.maximumMove = maximumMove;
+  const auto smoothed = SmoothSurface(surface, settings);
+  return { { "maximumMoveInMillimetres", maximumMove },
+           { "meanMoveInMillimetres", smoothed.meanMove },
+           { "largestMoveInMillimetres", smoothed.largestMove },
+           { "volumeBeforeInMillilitres", volumeBefore / CubicMillimetresPerMillilitre },
+           { "volumeAfterInMillilitres", ComputeVolume(surface) / CubicMillimetresPerMillilitre } };
+}
+
+Report
+Simplify(itk::TriangleSurface & surface, const SurfaceFinish & finish)
+{
+  const auto original = itk::TriangleSurface::New();
+  original->Graft(&surface);
+  itk::TriangleSurfaceSimplificationSettings settings;
+  settings.targetTriangles = finish.maximumTriangles;
+  if (finish.share < 1.0)
+  {
+    const auto shared =
+      static_cast<std::size_t>(std::ceil(finish.share * static_cast<double>(surface.GetNumberOfTriangles())));
+    settings.targetTriangles = settings.targetTriangles > 0 ? std::min(settings.targetTriangles, shared) : shared;
+  }
+  if (finish.maximumError > 0.0)
+  {
+    settings.maximumError = finish.maximumError;
+  }
+  const auto simplified = SimplifySurface(surface, settings);
+  OptimizeForRendering(surface);
+  const auto distances = ComputeTwoDistances(*original, surface);
+  std::ostringstream end;
+  end << simplified.end;
+  return { { "trianglesBefore", simplified.trianglesBefore },
+           { "trianglesAfter", simplified.trianglesAfter },
+           { "endedBy", end.str() },
+           { "meanDistanceInMillimetres", std::max(distances.fromFirst.mean, distances.fromSecond.mean) },
+           { "maximumDistanceInMillimetres", distances.GetMaximum() } };
+}
+
+bool
+IsSimplified(const SurfaceFinish & finish)
+{
+  return finish.maximumError > 0.0 || finish.maximumTriangles > 0 || finish.share < 1.0;
+}
+
+} // namespace
+
+void
+CheckSurfaceFinish(const SurfaceFinish & finish)
+{
+  const auto require = [](bool isGood, const std::string & sentence) {
+    if (!isGood)
+    {
+      throw Failure(FailureKind::Usage, sentence);
+    }
+  };
+  require(finish.minimumVolume >= 0.0 && std::isfinite(finish.minimumVolume),
+          "The smallest volume of a part must be 0 ml or more; write --min-volume 0.5 for half a millilitre.");
+  require(finish.smoothing >= 0.0 && finish.smoothing <= 1.0,
+          "Smoothing moves points by 0 to 1 spacings of the lattice; write --smooth 0.3, for example.");
+  require(finish.maximumError >= 0.0 && std::isfinite(finish.maximumError),
+          "The largest error of simplification must be above 0; write --max-error 0.2 for 0.2 mm.");
+  require(finish.share > 0.0 && finish.share <= 1.0,
+          "The share of triangles to keep must be above 0 and at most 100 %; write --max-triangles 10%.");
+}
+
+Report
+RemoveParts(itk::TriangleSurface & surface, const SurfaceFinish & finish)
+{
+  if (finish.minimumVolume == 0.0 && !finish.keepsLargestPart && !finish.fillsCavities)
+  {
+    return nullptr;
+  }
+  const auto shellsBefore = itk::FindComponents(surface).count;
+  const double volumeBefore = ComputeVolume(surface);
+  if (finish.fillsCavities)
+  {
+    FillCavities(surface);
+  }
+  if (finish.keepsLargestPart)
+  {
+    KeepLargestComponent(surface);
+  }
+  if (finish.minimumVolume > 0.0)
+  {
+    RemoveSmallComponents(surface, finish.minimumVolume * CubicMillimetresPerMillilitre);
+  }
+  return { { "shellsBefore", shellsBefore },
+           { "shellsAfter", itk::FindComponents(surface).count },
+           { "volumeBeforeInMillilitres", volumeBefore / CubicMillimetresPerMillilitre },
+           { "volumeAfterInMillilitres", ComputeVolume(surface) / CubicMillimetresPerMillilitre } };
+}
+
+Report
+RefineSurface(itk::TriangleSurface & surface,
+              const SurfaceFinish & finish,
+              double spacing,
+              const std::string & name,
+              const Events & events)
+{
+  Report report;
+  if (finish.smoothing > 0.0)
+  {
+    events.Progress("smoothing " + name, 0.0);
+    report["smoothing"] = Smooth(surface, finish.smoothing * spacing);
+  }
+  if (IsSimplified(finish))
+  {
+    events.Progress("simplifying " + name, 0.0);
+    report["simplification"] = Simplify(surface, finish);
+    const Report & done = report["simplification"];
+    std::ostringstream note;
+    note.imbue(std::locale::classic());
+    note.precision(3);
+    note << name << ": simplified from " << done["trianglesBefore"] << " to " << done["trianglesAfter"]
+         << " triangles, " << done["maximumDistanceInMillimetres"].get<double>() << " mm away at most";
+    events.Note(note.str());
+  }
+  return report;
+}
+
+} // namespace rhombic
