@@ -19,7 +19,9 @@ struct Denoising
   {
     None,
     Gaussian,      ///< on the lattice (itk::FCCGaussianImageFilter): rounds corners, shrinks what is small
-    EdgePreserving ///< on the scan's own grid (itk::GradientAnisotropicDiffusionImageFilter): keeps edges; slow
+    EdgePreserving ///< on the scan's own grid (itk::GradientAnisotropicDiffusionImageFilter): keeps edges, and with
+                   ///< them thin and small things, but also their roughness, and where voxels are coarse it makes
+                   ///< steps of them; slow
   };
 
   Kind kind = Kind::None;
