@@ -1,3 +1,4 @@
 itk_module(TriangleSurface
   DEPENDS ITKCommon
-  DESCRIPTION "A compact triangle mesh as an ITK data object, with its topology audit, area and volume. No VTK.")
+  PRIVATE_DEPENDS RhombicCommon
+  DESCRIPTION "A compact triangle mesh as an ITK data object, with its audit, measures and spatial index. No VTK.")
