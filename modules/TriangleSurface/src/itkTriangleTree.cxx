@@ -1,8 +1,7 @@
 #include "itkTriangleTree.h"
 
 #include "itkExactOrientation.h"
-#include "itkMultiThreaderBase.h"
-#include "itkThreadFailure.h"
+#include "itkParallelSort.h"
 
 #include <cmath>
 
@@ -57,51 +56,6 @@ bool
 IsFinite(const PointType & point)
 {
   return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
-}
-
-/** Runs \a work(begin, end) over [0, size) in blocks, on several threads. */
-template <typename TWork>
-void
-ForEachBlock(std::size_t size, const TWork & work)
-{
-  ThreadFailure failure;
-  MultiThreaderBase::New()->ParallelizeArray(
-    0,
-    (size + BlockOfTriangles - 1) / BlockOfTriangles,
-    [&](SizeValueType block) {
-      failure.Capture(
-        [&] { work(block * BlockOfTriangles, std::min(size, (std::size_t(block) + 1) * BlockOfTriangles)); });
-    },
-    nullptr);
-  failure.Rethrow();
-}
-
-/** Sorts blocks, then merges neighbours until one is left. */
-void
-ParallelSort(PlacedContainer & items)
-{
-  const auto at = [&items](std::size_t place) {
-    return items.begin() + static_cast<std::ptrdiff_t>(std::min(place, items.size()));
-  };
-  ForEachBlock(items.size(), [&](std::size_t begin, std::size_t end) { std::sort(at(begin), at(end)); });
-  PlacedContainer merged(items.size());
-  for (std::size_t sorted = BlockOfTriangles; sorted < items.size(); sorted *= 2)
-  {
-    const std::size_t pairs = (items.size() + 2 * sorted - 1) / (2 * sorted);
-    MultiThreaderBase::New()->ParallelizeArray(
-      0,
-      pairs,
-      [&](SizeValueType pair) {
-        const std::size_t begin = pair * 2 * sorted;
-        std::merge(at(begin),
-                   at(begin + sorted),
-                   at(begin + sorted),
-                   at(begin + 2 * sorted),
-                   merged.begin() + static_cast<std::ptrdiff_t>(begin));
-      },
-      nullptr);
-    items.swap(merged);
-  }
 }
 
 /** The 21 low bits of \a value moved to every third place. */
@@ -302,11 +256,9 @@ TriangleTree::BuildBoxes()
   m_Boxes.resize(2 * root.end - 1);
   std::vector<Node> subtrees;
   this->CollectNodes(root, ParallelDepth, subtrees);
-  MultiThreaderBase::New()->ParallelizeArray(
-    0,
-    subtrees.size(),
-    [&](SizeValueType n) { this->BuildBoxesBelow(subtrees[n], std::numeric_limits<unsigned int>::max()); },
-    nullptr);
+  ForEachBlock(subtrees.size(), 1, [&](std::size_t n, std::size_t) {
+    this->BuildBoxesBelow(subtrees[n], std::numeric_limits<unsigned int>::max());
+  });
   this->BuildBoxesBelow(root, ParallelDepth);
 }
 
