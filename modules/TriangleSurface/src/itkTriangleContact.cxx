@@ -25,11 +25,9 @@ AreAll(const Signs & signs, int sign)
 }
 
 bool
-HasArea(const Corners & corners)
+SpansPlane(const Corners & corners)
 {
-  return OrientationAlongAxis(corners[0], corners[1], corners[2], 0) != 0 ||
-         OrientationAlongAxis(corners[0], corners[1], corners[2], 1) != 0 ||
-         OrientationAlongAxis(corners[0], corners[1], corners[2], 2) != 0;
+  return HasArea(corners[0], corners[1], corners[2]);
 }
 
 /** An axis along which a triangle with area can be seen. */
@@ -68,7 +66,7 @@ BringSharedFirst(TriangleSurface::TriangleType & first, TriangleSurface::Triangl
 Contact
 FindContactAtEdge(const Corners & first, const Corners & second)
 {
-  if (OrientationInSpace(first[0], first[1], first[2], second[2]) != 0 || !HasArea(first) || !HasArea(second))
+  if (OrientationInSpace(first[0], first[1], first[2], second[2]) != 0 || !SpansPlane(first) || !SpansPlane(second))
   {
     return Contact::Apart;
   }
@@ -228,7 +226,7 @@ FindContact(const Corners & first, const Corners & second, unsigned int shared)
   const Signs firstSides = FindSides(second, first, shared);
   if (AreAll(firstSides, 0))
   {
-    return HasArea(first) && HasArea(second) ? FindContactInPlane(first, second, shared) : Contact::Apart;
+    return SpansPlane(first) && SpansPlane(second) ? FindContactInPlane(first, second, shared) : Contact::Apart;
   }
   if (AreAll(firstSides, 1) || AreAll(firstSides, -1) || (shared == 1 && !MeetsInLine(firstSides)))
   {
@@ -261,7 +259,7 @@ FindContact(const TriangleSurface::PointsContainer & points,
     case 2:
       return FindContactAtEdge(firstCorners, secondCorners);
     default:
-      return HasArea(firstCorners) ? Contact::Crossing : Contact::Apart;
+      return SpansPlane(firstCorners) ? Contact::Crossing : Contact::Apart;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "itkExactOrientation.h"
 #include "itkParallelSort.h"
+#include "itkPositionArithmetic.h"
 
 #include <cmath>
 
@@ -12,7 +13,6 @@ namespace
 
 using Box = TriangleTree::Box;
 using PointType = TriangleTree::PointType;
-using PositionType = TriangleTree::PositionType;
 
 constexpr std::uint32_t BitsAlongAxis = 21;
 constexpr std::size_t BlockOfTriangles = 1 << 16;
@@ -92,30 +92,6 @@ SquaredDistance(const PositionType & position, const Box & box)
     squared += outside * outside;
   }
   return squared;
-}
-
-PositionType
-Position(const PointType & point)
-{
-  return { point[0], point[1], point[2] };
-}
-
-PositionType
-Subtract(const PositionType & a, const PositionType & b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
-double
-Dot(const PositionType & a, const PositionType & b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-PositionType
-Cross(const PositionType & a, const PositionType & b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
 }
 
 PositionType
@@ -339,7 +315,7 @@ TriangleTree::ImproveClosestPoint(const PositionType & position, std::uint32_t t
   const auto & corners = m_Surface->GetTriangles()[triangle];
   const auto & points = m_Surface->GetPoints();
   const PositionType candidate = ClosestOnTriangle(
-    position, { Position(points[corners[0]]), Position(points[corners[1]]), Position(points[corners[2]]) });
+    position, { ToPosition(points[corners[0]]), ToPosition(points[corners[1]]), ToPosition(points[corners[2]]) });
   const PositionType away = Subtract(candidate, position);
   const double distance = Dot(away, away);
   if (distance < closest.squaredDistance || (distance == closest.squaredDistance && triangle < closest.triangle))
