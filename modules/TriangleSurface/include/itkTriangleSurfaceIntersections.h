@@ -19,9 +19,8 @@ struct TriangleSurfaceIntersections
 /** Counts the pairs of triangles that meet as FindContact() says, but for duplicates, which TriangleSurfaceTopology
  * counts. Exact. Triangles without area or with a position that is not finite are taken as tested and meet nothing.
  *
- * Of more than \a maximumTestedTriangles triangles, that many at most and half as many at least are tested against all,
- * evenly along the tree's order. Nearly linear in time, on several threads with the same result for any number; a bit a
- * triangle beside the tree.
+ * Of more than \a maximumTestedTriangles triangles, about that many are tested against all, evenly along the tree's
+ * order. Nearly linear in time, on several threads with the same result for any number; no memory but the tree's.
  * Thread safe. */
 TriangleSurfaceIntersections
 FindSelfIntersections(const TriangleTree & tree,

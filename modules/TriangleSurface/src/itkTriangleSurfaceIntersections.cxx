@@ -13,7 +13,9 @@ namespace
 using Contact = TriangleContactEnums::Contact;
 using TriangleType = TriangleSurface::TriangleType;
 
-constexpr std::size_t BlockSize = 4096;
+using Boxes = std::array<TriangleTree::Box, TriangleTree::LeafSize>;
+
+constexpr std::size_t BlockOfLeaves = 1024;
 
 bool
 AreDuplicates(TriangleType a, TriangleType b)
@@ -23,41 +25,66 @@ AreDuplicates(TriangleType a, TriangleType b)
   return a == b;
 }
 
-/** Which triangles are tested: every \a stride-th of the tree's order. */
-std::vector<bool>
-SelectTested(const TriangleTree & tree, std::size_t stride)
+void
+CountContact(const TriangleSurface & surface, std::uint32_t a, std::uint32_t b, TriangleSurfaceIntersections & counts)
 {
-  std::vector<bool> isTested(tree.GetSurface().GetNumberOfTriangles(), false);
-  for (std::size_t place = 0; place < tree.GetOrder().size(); place += stride)
+  const TriangleType & first = surface.GetTriangles()[a];
+  const TriangleType & second = surface.GetTriangles()[b];
+  const Contact contact = FindContact(surface.GetPoints(), first, second);
+  if (contact == Contact::Touching)
   {
-    isTested[tree.GetOrder()[place]] = true;
+    ++counts.touchingPairs;
   }
-  return isTested;
+  else if (contact == Contact::Crossing && !AreDuplicates(first, second))
+  {
+    ++counts.crossingPairs;
+  }
 }
 
-/** The contacts of one triangle, leaving those to others that are tested too and have a lower number. */
+/** Counts the contacts of the triangles of two leaves, or of one with itself. */
 void
 CountContacts(const TriangleTree & tree,
-              const std::vector<bool> & isTested,
-              std::uint32_t triangle,
+              const Boxes & boxes,
+              std::size_t tested,
+              std::size_t other,
               TriangleSurfaceIntersections & counts)
 {
-  const auto & triangles = tree.GetSurface().GetTriangles();
-  tree.VisitTriangles(tree.GetTriangleBox(triangle), [&](std::uint32_t other) {
-    if (other == triangle || (other < triangle && isTested[other]))
+  const TriangleTree::Leaf first = tree.GetLeaf(tested);
+  const TriangleTree::Leaf second = tree.GetLeaf(other);
+  for (std::size_t m = 0; m < second.size(); ++m)
+  {
+    const TriangleTree::Box box = tree.GetTriangleBox(second.begin()[m]);
+    for (std::size_t n = 0; n < (other == tested ? m : first.size()); ++n)
     {
-      return;
+      if (boxes[n].Overlaps(box))
+      {
+        CountContact(tree.GetSurface(), first.begin()[n], second.begin()[m], counts);
+      }
     }
-    const Contact contact = FindContact(tree.GetSurface().GetPoints(), triangles[triangle], triangles[other]);
-    if (contact == Contact::Touching)
+  }
+}
+
+/** Counts the contacts of the triangles of one leaf, every \a stride-th being tested, but for those that an earlier
+ * leaf has found. */
+void
+TestLeaf(const TriangleTree & tree, std::size_t leaf, std::size_t stride, TriangleSurfaceIntersections & counts)
+{
+  Boxes boxes;
+  TriangleTree::Box around = tree.GetTriangleBox(*tree.GetLeaf(leaf).begin());
+  auto box = boxes.begin();
+  for (const std::uint32_t triangle : tree.GetLeaf(leaf))
+  {
+    *box = tree.GetTriangleBox(triangle);
+    around = TriangleTree::Union(around, *box++);
+  }
+  tree.VisitLeaves(around, stride == 1 ? leaf : 0, [&](std::size_t other) {
+    const bool isDone = other < leaf && other % stride == 0;
+    if (!isDone)
     {
-      ++counts.touchingPairs;
-    }
-    else if (contact == Contact::Crossing && !AreDuplicates(triangles[triangle], triangles[other]))
-    {
-      ++counts.crossingPairs;
+      CountContacts(tree, boxes, leaf, other, counts);
     }
   });
+  counts.testedTriangles += tree.GetLeaf(leaf).size();
 }
 
 } // namespace
@@ -65,26 +92,25 @@ CountContacts(const TriangleTree & tree,
 TriangleSurfaceIntersections
 FindSelfIntersections(const TriangleTree & tree, SizeValueType maximumTestedTriangles)
 {
-  const auto & order = tree.GetOrder();
-  const SizeValueType most = std::max<SizeValueType>(1, maximumTestedTriangles);
-  const std::size_t stride = std::max<std::size_t>(1, (order.size() + most - 1) / most);
-  const std::vector<bool> isTested = SelectTested(tree, stride);
+  const SizeValueType placed = tree.GetNumberOfPlacedTriangles();
+  const SizeValueType most = std::max<SizeValueType>(TriangleTree::LeafSize, maximumTestedTriangles);
+  const std::size_t stride = std::max<std::size_t>(1, (placed + most - 1) / most);
 
   TriangleSurfaceIntersections found;
+  found.testedTriangles = tree.GetSurface().GetNumberOfTriangles() - placed;
+  found.isSampled = stride > 1;
   std::mutex mutex;
-  ForEachBlock(order.size(), BlockSize, [&](std::size_t begin, std::size_t end) {
+  ForEachBlock(tree.GetNumberOfLeaves(), BlockOfLeaves, [&](std::size_t begin, std::size_t end) {
     TriangleSurfaceIntersections ofBlock;
-    for (std::size_t place = (begin + stride - 1) / stride * stride; place < end; place += stride)
+    for (std::size_t leaf = (begin + stride - 1) / stride * stride; leaf < end; leaf += stride)
     {
-      CountContacts(tree, isTested, order[place], ofBlock);
+      TestLeaf(tree, leaf, stride, ofBlock);
     }
     const std::lock_guard<std::mutex> lock(mutex);
     found.crossingPairs += ofBlock.crossingPairs;
     found.touchingPairs += ofBlock.touchingPairs;
+    found.testedTriangles += ofBlock.testedTriangles;
   });
-  const SizeValueType unplaced = tree.GetSurface().GetNumberOfTriangles() - order.size();
-  found.testedTriangles = (order.size() + stride - 1) / stride + unplaced;
-  found.isSampled = stride > 1;
   return found;
 }
 

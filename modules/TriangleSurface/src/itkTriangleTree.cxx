@@ -40,18 +40,6 @@ constexpr Box EmptyBox = { { std::numeric_limits<float>::infinity(),
                              -std::numeric_limits<float>::infinity(),
                              -std::numeric_limits<float>::infinity() } };
 
-Box
-Union(const Box & a, const Box & b)
-{
-  Box both;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    both.lowest[axis] = std::min(a.lowest[axis], b.lowest[axis]);
-    both.highest[axis] = std::max(a.highest[axis], b.highest[axis]);
-  }
-  return both;
-}
-
 bool
 IsFinite(const PointType & point)
 {
@@ -267,9 +255,9 @@ Box
 TriangleTree::ComputeLeafBox(std::size_t leaf) const
 {
   Box box = EmptyBox;
-  for (std::size_t place = leaf * LeafSize; place < this->LeafEnd(leaf); ++place)
+  for (const std::uint32_t triangle : this->GetLeaf(leaf))
   {
-    box = Union(box, this->GetTriangleBox(m_Order[place]));
+    box = Union(box, this->GetTriangleBox(triangle));
   }
   return box;
 }
@@ -293,9 +281,9 @@ TriangleTree::FindClosestPoint(const PositionType & position, double maximumSqua
     }
     if (node.IsLeaf())
     {
-      for (std::size_t place = node.begin * LeafSize; place < this->LeafEnd(node.begin); ++place)
+      for (const std::uint32_t triangle : this->GetLeaf(node.begin))
       {
-        this->ImproveClosestPoint(position, m_Order[place], closest);
+        this->ImproveClosestPoint(position, triangle, closest);
       }
       continue;
     }
