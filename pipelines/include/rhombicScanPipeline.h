@@ -45,7 +45,7 @@ struct MeshScanSettings
   ScanSource source;
   SurfaceRequest surface;
   itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
-  std::filesystem::path mesh; ///< .stl, .ply or .vtp
+  std::filesystem::path mesh; ///< .stl, .ply, .obj, .vtp or .glb
   Provenance provenance;
 };
 

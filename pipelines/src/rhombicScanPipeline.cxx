@@ -204,7 +204,7 @@ MeshScan(const MeshScanSettings & settings, const Events & events)
   CheckSurfacePath(settings.mesh);
   const LoadedSurfaces loaded = LoadSurfaces(settings.source, { settings.surface }, settings.mode, events);
   events.Progress("writing", 0.0);
-  WriteSurface(*loaded.surfaces.front().surface, settings.mesh);
+  WriteSurfaces(loaded.surfaces, settings.mesh);
   WriteSidecar(settings.mesh, settings.provenance, loaded.report);
   events.Progress("writing", 1.0);
 }
