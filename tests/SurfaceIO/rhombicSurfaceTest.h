@@ -84,7 +84,8 @@ MakeRandomSurface(unsigned int seed, std::uint32_t points = 300, int triangles =
   for (std::uint32_t n = 0; n < points; ++n)
   {
     surface->GetPoints().push_back({ anyFloat(), anyFloat(), anyFloat() });
-    const double z = 2.0 * random() / 4294967296.0 - 1, angle = random() * 1e-9, r = std::sqrt(1 - z * z);
+    const double z = 2.0 * random() / 4294967296.0 - 1, angle = 6.28 * random() / 4294967296.0,
+                 r = std::sqrt(1 - z * z);
     surface->GetNormals().push_back(
       { static_cast<float>(r * std::cos(angle)), static_cast<float>(r * std::sin(angle)), static_cast<float>(z) });
   }

@@ -66,17 +66,22 @@ public:
 private:
   using Attributes = std::map<std::string, std::string, std::less<>>;
 
+  /** Of an element without content, expat reports the end even after it was stopped. */
   template <typename TAction>
   void
   Guard(const TAction & action)
   {
+    if (m_Exception)
+    {
+      return;
+    }
     try
     {
       action();
     }
     catch (...)
     {
-      m_Exception = m_Exception ? m_Exception : std::current_exception();
+      m_Exception = std::current_exception();
       XML_StopParser(m_Parser.get(), XML_FALSE);
     }
   }
@@ -238,8 +243,21 @@ private:
     {
       m_File.Refuse("its appended data do not begin with \"_\"; the file is damaged, so export it again");
     }
+    this->CheckEnd();
     m_Document.appendedAt = place;
     XML_StopParser(m_Parser.get(), XML_FALSE);
+  }
+
+  /** Arrays that are not read would not tell that they are missing. */
+  void
+  CheckEnd() const
+  {
+    std::string end(std::min<std::uintmax_t>(m_File.GetSize(), 256), '\0');
+    m_File.Read(m_File.GetSize() - end.size(), end.data(), end.size());
+    if (end.find("</VTKFile>") == std::string::npos)
+    {
+      m_File.Refuse("it ends before its arrays do; it may be a part of a file, so copy or export it again");
+    }
   }
 
   const InputFile & m_File;
