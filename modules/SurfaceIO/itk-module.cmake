@@ -1,4 +1,4 @@
 itk_module(SurfaceIO
   DEPENDS RhombicCommon TriangleSurface
-  PRIVATE_DEPENDS SurfaceVTK VTK::IOGeometry VTK::IOXML
-  DESCRIPTION "Surfaces as STL, PLY and VTP files that are written completely or not at all.")
+  PRIVATE_DEPENDS ITKExpat ZLIB::ZLIB nlohmann_json::nlohmann_json
+  DESCRIPTION "Surfaces as STL, PLY, OBJ, VTP and GLB files: written completely or not at all, and read, whoever wrote them.")

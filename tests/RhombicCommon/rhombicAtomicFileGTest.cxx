@@ -8,7 +8,10 @@
 #include <csignal>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -112,17 +115,59 @@ TEST(AtomicFile, GoesRoundTemporaryFilesLeftBehind)
     AtomicFile file(folder.Path() / "a.png");
     next = file.GetTemporaryPath();
   }
-  // What a killed process with the same number may have left: the names that would come next.
+  // What a killed process with the same number may have left and another holds: the names that would come next.
   const std::string name = next.filename().string();
-  const auto number = std::stoul(name.substr(name.find('-', 5) + 1));
+  const auto end = name.rfind('-') + 1;
+  const auto number = std::stoul(name.substr(end));
+  std::vector<int> held;
   for (unsigned long n = number; n < number + 4; ++n)
   {
-    std::string taken = name;
-    taken.replace(taken.find('-', 5) + 1, std::to_string(number).size(), std::to_string(n));
-    Write(folder.Path() / taken, "stale");
+    const fs::path taken = folder.Path() / (name.substr(0, end) + std::to_string(n) + ".png");
+    held.push_back(open(taken.c_str(), O_RDWR | O_CREAT, 0644));
+    ASSERT_EQ(flock(held.back(), LOCK_EX), 0);
   }
   AtomicFile file(folder.Path() / "a.png");
   Write(file.GetTemporaryPath(), "new");
+  file.Commit(3);
+  EXPECT_EQ(Read(folder.Path() / "a.png"), "new");
+  EXPECT_EQ(FilesIn(folder.Path()), 5u);
+  for (const int descriptor : held)
+  {
+    close(descriptor);
+  }
+}
+
+TEST(AtomicFile, RemovesWhatKilledProcessesLeftOfTheSameTarget)
+{
+  const rhombictest::TemporaryFolder folder;
+  for (const std::string name : { "a.png", "a.png", "b.png" })
+  {
+    const pid_t child = fork();
+    if (child == 0)
+    {
+      AtomicFile file(folder.Path() / name);
+      AtomicFile second(folder.Path() / name);
+      Write(file.GetTemporaryPath(), "part");
+      raise(SIGKILL);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+  }
+  EXPECT_EQ(FilesIn(folder.Path()), 4u) << "the second process removed those of the first";
+  AtomicFile living(folder.Path() / "a.png");
+  AtomicFile another(folder.Path() / "a.png");
+  EXPECT_EQ(FilesIn(folder.Path()), 4u) << "two of b.png and the two of this process";
+  EXPECT_TRUE(fs::exists(living.GetTemporaryPath()));
+}
+
+TEST(AtomicFile, FlushedBeforeItAppears)
+{
+  const rhombictest::TemporaryFolder folder;
+  AtomicFile file(folder.Path() / "a.png");
+  EXPECT_THROW(file.Flush(1), Failure);
+  Write(file.GetTemporaryPath(), "new");
+  file.Flush(3);
+  EXPECT_FALSE(fs::exists(folder.Path() / "a.png"));
   file.Commit(3);
   EXPECT_EQ(Read(folder.Path() / "a.png"), "new");
 }

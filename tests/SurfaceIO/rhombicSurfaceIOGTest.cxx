@@ -1,290 +1,258 @@
-#include "rhombicSurfaceIO.h"
+#include "rhombicSurfaceTest.h"
 
-#include "rhombicFailure.h"
+#include "rhombicGermanNumbers.h"
 
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
 
-#include <vtkCellArray.h>
-#include <vtkFieldData.h>
-#include <vtkIdList.h>
-#include <vtkNew.h>
-#include <vtkPLYReader.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkSTLReader.h>
-#include <vtkStringArray.h>
-#include <vtkXMLPolyDataReader.h>
-
-#include "rhombicGermanNumbers.h"
-#include "rhombicTemporaryFolder.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <csignal>
-#include <fstream>
-#include <iterator>
+#include <clocale>
+#include <limits>
 #include <locale>
-#include <map>
-
-#include <sys/resource.h>
-
-namespace fs = std::filesystem;
 
 namespace
 {
 
-using rhombic::WriteSurface;
-using Surface = itk::TriangleSurface;
+using rhombic::ReadSurfaces;
+using rhombic::WriteSurfaces;
 
-/** A closed sphere around (10, -20, 30) mm by subdividing an octahedron, with 4^\a levels * 8 triangles, facing
- * outwards. */
-Surface::Pointer
-MakeSphere(int levels, float radius = 15.0f)
+class SurfaceIO : public SurfaceTest
+{};
+
+std::array<long, 4>
+Bytes(const SceneSurface & scene)
 {
-  auto surface = Surface::New();
-  auto & points = surface->GetPoints();
-  points = { { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 }, { 0, 0, -1 } };
-  Surface::TrianglesContainer triangles{ { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 },
-                                         { 2, 0, 5 }, { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
-  for (int level = 0; level < levels; ++level)
-  {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-      const auto [place, isNew] = middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(points.size()));
-      if (isNew)
-      {
-        Surface::PointType sum{ points[a][0] + points[b][0], points[a][1] + points[b][1], points[a][2] + points[b][2] };
-        const float length = std::hypot(sum[0], sum[1], sum[2]);
-        points.push_back({ sum[0] / length, sum[1] / length, sum[2] / length });
-      }
-      return place->second;
-    };
-    Surface::TrianglesContainer finer;
-    for (const auto & [a, b, c] : triangles)
-    {
-      const auto ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      finer.insert(finer.end(), { { a, ab, ca }, { ab, b, bc }, { ca, bc, c }, { ab, bc, ca } });
-    }
-    triangles.swap(finer);
-  }
-  surface->GetTriangles() = triangles;
-  surface->GetNormals() = points;
-  for (auto & point : points)
-  {
-    point = { 10 + radius * point[0], -20 + radius * point[1], 30 + radius * point[2] };
-  }
-  return surface;
+  const auto byte = [](double value) { return std::lround(255 * value); };
+  return { byte(scene.colour[0]), byte(scene.colour[1]), byte(scene.colour[2]), byte(scene.opacity) };
 }
 
-template <typename TReader>
-vtkSmartPointer<vtkPolyData>
-ReadWith(const fs::path & path)
-{
-  vtkNew<TReader> reader;
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  return reader->GetOutput();
-}
-
-Surface::Pointer
-FromPolyData(vtkPolyData & polyData)
-{
-  auto surface = Surface::New();
-  for (vtkIdType i = 0; i < polyData.GetNumberOfPoints(); ++i)
-  {
-    const double * const point = polyData.GetPoint(i);
-    surface->GetPoints().push_back(
-      { static_cast<float>(point[0]), static_cast<float>(point[1]), static_cast<float>(point[2]) });
-  }
-  vtkNew<vtkIdList> cell;
-  for (vtkIdType i = 0; i < polyData.GetNumberOfPolys(); ++i)
-  {
-    polyData.GetPolys()->GetCellAtId(i, cell);
-    EXPECT_EQ(cell->GetNumberOfIds(), 3);
-    surface->GetTriangles().push_back({ static_cast<std::uint32_t>(cell->GetId(0)),
-                                        static_cast<std::uint32_t>(cell->GetId(1)),
-                                        static_cast<std::uint32_t>(cell->GetId(2)) });
-  }
-  return surface;
-}
-
-std::string
-ReadBytes(const fs::path & path)
-{
-  std::ifstream file(path, std::ios::binary);
-  return { std::istreambuf_iterator<char>(file), {} };
-}
-
-/** The kind of the failure of an action, or of none a success: fails the test then. */
-template <typename TAction>
-rhombic::FailureKind
-KindOf(TAction action, const std::string & named)
-{
-  try
-  {
-    action();
-  }
-  catch (const rhombic::Failure & failure)
-  {
-    EXPECT_NE(std::string(failure.GetDescription()).find(named), std::string::npos) << failure.GetDescription();
-    return failure.GetKind();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return rhombic::FailureKind::Internal;
-}
-
-class SurfaceIO : public testing::Test
-{
-private:
-  const rhombictest::TemporaryFolder m_TemporaryFolder;
-
-protected:
-  std::size_t
-  CountFiles() const
-  {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(m_Folder), fs::directory_iterator()));
-  }
-
-  const fs::path m_Folder = m_TemporaryFolder.Path();
-};
-
+/** Every corner of every triangle is where it was, to the bit, and its normal too. */
 void
-ExpectSameSurface(const Surface & read, const Surface & written)
+ExpectSameCorners(const Surface & read, const Surface & written, bool withNormals, const std::string & what)
 {
-  EXPECT_EQ(read.GetNumberOfTriangles(), written.GetNumberOfTriangles());
-  EXPECT_EQ(read.GetNumberOfPoints(), written.GetNumberOfPoints());
-  EXPECT_EQ(read.GetBounds(), written.GetBounds());
-  EXPECT_NEAR(ComputeVolume(read), ComputeVolume(written), 1e-6 * ComputeVolume(written));
-  const auto topology = ComputeTopology(read);
+  ASSERT_EQ(read.GetNumberOfTriangles(), written.GetNumberOfTriangles()) << what;
+  EXPECT_EQ(read.HasNormals(), withNormals) << what;
+  std::size_t differences = 0;
+  for (std::size_t n = 0; n < read.GetNumberOfTriangles(); ++n)
+  {
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      const auto a = read.GetTriangles()[n][corner], b = written.GetTriangles()[n][corner];
+      differences += read.GetPoints()[a] != written.GetPoints()[b];
+      differences += withNormals && read.GetNormals()[a] != written.GetNormals()[b];
+    }
+  }
+  EXPECT_EQ(differences, 0u) << what;
+}
+
+TEST_F(SurfaceIO, ScenesComeBackAsTheyWere)
+{
+  const auto scene = MakeScene();
+  for (const std::string extension : SceneExtensions)
+  {
+    for (const auto space : { SurfaceFileSpace::LPS, SurfaceFileSpace::RAS })
+    {
+      const fs::path path = m_Folder / ("scene" + extension);
+      WriteSurfaces(scene, path, { space });
+      const auto read = ReadSurfaces(path);
+      ASSERT_EQ(read.size(), scene.size()) << extension;
+      for (std::size_t n = 0; n < scene.size(); ++n)
+      {
+        EXPECT_EQ(read[n].name, scene[n].name) << extension;
+        EXPECT_EQ(Bytes(read[n]), Bytes(scene[n])) << extension;
+        EXPECT_EQ(read[n].opacity, scene[n].opacity) << extension;
+        EXPECT_EQ(read[n].surface->GetPoints(), scene[n].surface->GetPoints()) << extension;
+        EXPECT_EQ(read[n].surface->GetNormals(), scene[n].surface->GetNormals()) << extension;
+        EXPECT_EQ(read[n].surface->GetTriangles(), scene[n].surface->GetTriangles()) << extension;
+      }
+    }
+  }
+}
+
+TEST_F(SurfaceIO, AnyFloatsComeBackAsTheyWere)
+{
+  for (unsigned int seed = 1; seed <= 20; ++seed)
+  {
+    auto surface = MakeRandomSurface(seed);
+    surface->GetPoints()[0] = { std::numeric_limits<float>::denorm_min(), -std::numeric_limits<float>::max(), 0 };
+    for (const std::string extension : Extensions)
+    {
+      const fs::path path = m_Folder / ("any" + extension);
+      const auto space = seed % 2 == 0 ? SurfaceFileSpace::LPS : SurfaceFileSpace::RAS;
+      WriteSurfaces({ { "any", surface } }, path, { space });
+      const auto read = ReadSurfaces(path);
+      ASSERT_EQ(read.size(), 1u);
+      EXPECT_EQ(read[0].name, "any");
+      ExpectSameCorners(*read[0].surface, *surface, extension != ".stl", extension);
+    }
+  }
+}
+
+TEST_F(SurfaceIO, SurfacesWithoutNormals)
+{
+  auto scene = MakeScene();
+  const auto bare = MakeSphere(2);
+  bare->GetNormals().clear();
+  scene[1].surface = bare;
+  for (const std::string extension : SceneExtensions)
+  {
+    const fs::path path = m_Folder / ("scene" + extension);
+    WriteSurfaces(scene, path);
+    const auto read = ReadSurfaces(path);
+    ASSERT_EQ(read.size(), 3u);
+    const bool keepsNormals = extension == ".obj" || extension == ".glb";
+    for (std::size_t n = 0; n < 3; ++n)
+    {
+      ExpectSameCorners(*read[n].surface, *scene[n].surface, keepsNormals && n != 1, extension);
+    }
+  }
+}
+
+TEST_F(SurfaceIO, STLIsWeldedByPosition)
+{
+  const auto sphere = MakeSphere(5);
+  WriteSurfaces({ { "sphere", sphere } }, m_Folder / "sphere.STL");
+  const auto read = ReadSurfaces(m_Folder / "sphere.STL");
+  EXPECT_EQ(read[0].surface->GetNumberOfPoints(), sphere->GetNumberOfPoints());
+  const auto topology = ComputeTopology(*read[0].surface);
   EXPECT_TRUE(topology.IsWatertight()) << topology;
+  EXPECT_EQ(topology.eulerCharacteristic, 2);
+  EXPECT_EQ(read[0].surface->GetBounds(), sphere->GetBounds());
+  EXPECT_NEAR(ComputeVolume(*read[0].surface), ComputeVolume(*sphere), 1e-9 * ComputeVolume(*sphere));
 }
 
-TEST_F(SurfaceIO, STLWeldedByItsReaderIsTheClosedSurfaceAgain)
+TEST_F(SurfaceIO, STLTakesZeroAndMinusZeroForOne)
 {
-  const auto sphere = MakeSphere(4);
-  WriteSurface(*sphere, m_Folder / "sphere.STL");
-  ExpectSameSurface(*FromPolyData(*ReadWith<vtkSTLReader>(m_Folder / "sphere.STL")), *sphere);
-  EXPECT_NE(ReadBytes(m_Folder / "sphere.STL").substr(0, 80).find("SPACE=LPS"), std::string::npos);
+  auto surface = Surface::New();
+  surface->GetPoints() = { { 0.0f, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { -0.0f, -0.0f, 0 }, { 0, 0, 1 } };
+  surface->GetTriangles() = { { 0, 1, 2 }, { 3, 4, 1 } };
+  WriteSurfaces({ { "zero", surface } }, m_Folder / "zero.stl");
+  EXPECT_EQ(ReadSurfaces(m_Folder / "zero.stl")[0].surface->GetNumberOfPoints(), 4u);
 }
 
-TEST_F(SurfaceIO, PLYKeepsPointsTrianglesAndNormals)
+TEST_F(SurfaceIO, FilesSayTheirSpaceAndUnit)
 {
-  const auto sphere = MakeSphere(3);
-  WriteSurface(*sphere, m_Folder / "sphere.ply");
-  const auto polyData = ReadWith<vtkPLYReader>(m_Folder / "sphere.ply");
-  const auto read = FromPolyData(*polyData);
-  ExpectSameSurface(*read, *sphere);
-  EXPECT_EQ(read->GetPoints(), sphere->GetPoints());
-  EXPECT_EQ(read->GetTriangles(), sphere->GetTriangles());
-  auto * const normals = polyData->GetPointData()->GetNormals();
-  ASSERT_NE(normals, nullptr);
-  EXPECT_FLOAT_EQ(static_cast<float>(normals->GetComponent(100, 1)), sphere->GetNormals()[100][1]);
-  EXPECT_NE(ReadBytes(m_Folder / "sphere.ply").find("comment SPACE=LPS\n"), std::string::npos);
+  for (const auto space : { SurfaceFileSpace::LPS, SurfaceFileSpace::RAS })
+  {
+    const std::string name = space == SurfaceFileSpace::LPS ? "LPS" : "RAS";
+    const auto bytesOf = [&](const std::string & extension) {
+      const fs::path path = m_Folder / ("sphere" + extension);
+      WriteSurfaces({ { "sphere", MakeSphere(1) } }, path, { space });
+      return ReadBytes(path);
+    };
+    const auto holds = [](const std::string & bytes, const std::string & part) {
+      return bytes.find(part) != std::string::npos;
+    };
+    EXPECT_TRUE(holds(bytesOf(".stl").substr(0, 80), "SPACE=" + name + " UNIT=mm"));
+    EXPECT_TRUE(holds(bytesOf(".ply"), "\ncomment SPACE=" + name + "\ncomment UNIT=mm\n"));
+    EXPECT_TRUE(holds(bytesOf(".obj"), "\n# SPACE=" + name + "\n# UNIT=mm\n"));
+    EXPECT_TRUE(holds(bytesOf(".vtp"), name + std::string(1, '\0')));
+    EXPECT_TRUE(holds(bytesOf(".glb"), "\"extras\":{\"SPACE\":\"" + name + "\",\"unit\":\"mm\",\"scale\":0.001}"));
+  }
 }
 
-TEST_F(SurfaceIO, VTPKeepsPointsTrianglesNormalsAndSpace)
+TEST_F(SurfaceIO, RASIsHalfATurnAboutTheLongAxis)
 {
-  const auto sphere = MakeSphere(3);
-  WriteSurface(*sphere, m_Folder / "sphere.vtp");
-  const auto polyData = ReadWith<vtkXMLPolyDataReader>(m_Folder / "sphere.vtp");
-  const auto read = FromPolyData(*polyData);
-  ExpectSameSurface(*read, *sphere);
-  EXPECT_EQ(read->GetTriangles(), sphere->GetTriangles());
-  ASSERT_NE(polyData->GetPointData()->GetNormals(), nullptr);
-  auto * const space = vtkStringArray::SafeDownCast(polyData->GetFieldData()->GetAbstractArray("SPACE"));
-  ASSERT_NE(space, nullptr);
-  EXPECT_EQ(space->GetValue(0), "LPS");
-}
-
-TEST_F(SurfaceIO, SurfaceWithoutNormals)
-{
-  const auto sphere = MakeSphere(2);
-  sphere->GetNormals().clear();
-  WriteSurface(*sphere, m_Folder / "sphere.ply");
-  WriteSurface(*sphere, m_Folder / "sphere.vtp");
-  ExpectSameSurface(*FromPolyData(*ReadWith<vtkPLYReader>(m_Folder / "sphere.ply")), *sphere);
-  ExpectSameSurface(*FromPolyData(*ReadWith<vtkXMLPolyDataReader>(m_Folder / "sphere.vtp")), *sphere);
+  auto surface = Surface::New();
+  surface->GetPoints() = { { 1, 2, 3 }, { 5, 2, 3 }, { 1, 7, 4 } };
+  surface->GetTriangles() = { { 0, 1, 2 } };
+  WriteSurfaces({ { "one", surface } }, m_Folder / "one.obj", { SurfaceFileSpace::RAS });
+  EXPECT_NE(ReadBytes(m_Folder / "one.obj").find("\nv -1 -2 3\nv -5 -2 3\nv -1 -7 4\nf 1 2 3\n"), std::string::npos);
 }
 
 TEST_F(SurfaceIO, SameBytesAgainAndInAnotherLocale)
 {
-  const auto sphere = MakeSphere(4);
-  for (const std::string extension : { ".stl", ".ply", ".vtp" })
+  const auto scene = MakeScene();
+  for (const std::string extension : Extensions)
   {
-    WriteSurface(*sphere, m_Folder / ("first" + extension));
+    const std::vector<SceneSurface> surfaces(scene.begin(), extension == ".stl" ? scene.begin() + 1 : scene.end());
+    WriteSurfaces(surfaces, m_Folder / ("first" + extension));
+    fs::create_directory(m_Folder / "second");
     const std::locale before = std::locale::global(std::locale(std::locale::classic(), new rhombictest::GermanNumbers));
-    EXPECT_NO_THROW(WriteSurface(*sphere, m_Folder / ("second" + extension))) << extension;
+    const std::string beforeC = std::setlocale(LC_ALL, nullptr);
+    std::setlocale(LC_ALL, "de_DE.UTF-8"); // where it is installed
+    EXPECT_NO_THROW(WriteSurfaces(surfaces, m_Folder / "second" / ("first" + extension))) << extension;
+    const auto read = ReadSurfaces(m_Folder / ("first" + extension));
+    std::setlocale(LC_ALL, beforeC.c_str());
     std::locale::global(before);
-    EXPECT_EQ(ReadBytes(m_Folder / ("first" + extension)), ReadBytes(m_Folder / ("second" + extension))) << extension;
+    EXPECT_EQ(ReadBytes(m_Folder / ("first" + extension)), ReadBytes(m_Folder / "second" / ("first" + extension)));
+    EXPECT_EQ(read[0].surface->GetPoints().size(), scene[0].surface->GetPoints().size()) << extension;
+    EXPECT_EQ(read.back().opacity, extension == ".stl" ? 1.0 : 0.75) << extension;
   }
+  EXPECT_EQ(ReadBytes(m_Folder / "first.mtl"), ReadBytes(m_Folder / "second" / "first.mtl"));
 }
 
 TEST_F(SurfaceIO, RefusesWhatMakesNoSense)
 {
-  const auto sphere = MakeSphere(1);
-  EXPECT_EQ(KindOf([&] { WriteSurface(*sphere, m_Folder / "sphere.xyz"); }, "sphere.xyz"), rhombic::FailureKind::Usage);
-  EXPECT_EQ(KindOf([&] { WriteSurface(*sphere, m_Folder / "sphere"); }, rhombic::GetSurfaceFileExtensions()),
-            rhombic::FailureKind::Usage);
-  EXPECT_EQ(KindOf([&] { WriteSurface(*sphere, m_Folder / "no-such-folder/sphere.ply"); }, "no-such-folder"),
-            rhombic::FailureKind::Output);
-  EXPECT_EQ(KindOf([&] { WriteSurface(*Surface::New(), m_Folder / "sphere.stl"); }, "sphere.stl"),
-            rhombic::FailureKind::Empty);
+  const SceneSurface sphere{ "sphere", MakeSphere(1) };
+  using Kind = rhombic::FailureKind;
+  EXPECT_EQ(KindOf([&] { WriteSurfaces({ sphere }, m_Folder / "sphere.xyz"); }, "sphere.xyz"), Kind::Usage);
+  EXPECT_EQ(KindOf([&] { WriteSurfaces({ sphere }, m_Folder / "sphere"); }, ".stl, .ply, .obj, .vtp, .glb"),
+            Kind::Usage);
+  EXPECT_EQ(KindOf(
+              [&] {
+                WriteSurfaces({ sphere, sphere }, m_Folder / "two.stl");
+              },
+              ".ply, .obj, .vtp, .glb"),
+            Kind::Usage);
+  EXPECT_EQ(KindOf([&] { rhombic::CheckSurfacePath("two.stl", 2); }, "two.stl"), Kind::Usage);
+  EXPECT_NO_THROW(rhombic::CheckSurfacePath("two.glb", 2));
+  EXPECT_EQ(KindOf([&] { WriteSurfaces({}, m_Folder / "none.ply"); }, "none.ply"), Kind::Empty);
+  EXPECT_EQ(KindOf(
+              [&] {
+                WriteSurfaces({ sphere, { "void", Surface::New() } }, m_Folder / "a.ply");
+              },
+              "void"),
+            Kind::Empty);
+  for (const float wrong : { std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN() })
+  {
+    const auto broken = MakeSphere(1);
+    broken->GetPoints()[3][1] = wrong;
+    EXPECT_EQ(KindOf(
+                [&] {
+                  WriteSurfaces({ { "broken", broken } }, m_Folder / "broken.glb");
+                },
+                "broken"),
+              Kind::Output);
+  }
   EXPECT_EQ(CountFiles(), 0u);
+}
+
+TEST_F(SurfaceIO, NamesThatFilesCannotHoldAreMended)
+{
+  for (const std::string extension : SceneExtensions)
+  {
+    const auto nameOf = [&](const std::string & name) {
+      WriteSurfaces({ { name, MakeSphere(0) } }, m_Folder / ("name" + extension));
+      return ReadSurfaces(m_Folder / ("name" + extension))[0].name;
+    };
+    EXPECT_EQ(nameOf("two\nlines"), "two lines") << extension;
+    EXPECT_EQ(nameOf("no UTF-8 \xff!"), "no UTF-8 \xef\xbf\xbd!") << extension;
+    EXPECT_EQ(nameOf("comment end_header"), "comment end_header") << extension;
+  }
 }
 
 TEST_F(SurfaceIO, ReplacesAFileThatExists)
 {
-  for (const std::string extension : { ".stl", ".ply", ".vtp" })
+  for (const std::string extension : Extensions)
   {
     const fs::path path = m_Folder / ("sphere" + extension);
-    std::ofstream(path) << "older";
-    WriteSurface(*MakeSphere(1), path);
-    EXPECT_GT(fs::file_size(path), 100u);
+    WriteBytes(path, "older");
+    WriteSurfaces({ { "sphere", MakeSphere(1) } }, path);
+    EXPECT_EQ(ReadSurfaces(path)[0].surface->GetNumberOfTriangles(), 32u);
   }
-  EXPECT_EQ(CountFiles(), 3u);
+  EXPECT_EQ(CountFiles(), 6u) << "with the materials of OBJ";
 }
 
-/** Lets no file of this process grow beyond some bytes, as a full disk would. */
-class FileSizeLimit
+TEST_F(SurfaceIO, GLBStandsUprightInMetres)
 {
-public:
-  explicit FileSizeLimit(rlim_t bytes)
-  {
-    std::signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &m_Before);
-    const rlimit limit{ bytes, m_Before.rlim_max };
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-
-  ~FileSizeLimit()
-  {
-    setrlimit(RLIMIT_FSIZE, &m_Before);
-    std::signal(SIGXFSZ, SIG_DFL);
-  }
-
-private:
-  rlimit m_Before{};
-};
-
-TEST_F(SurfaceIO, FullDiskLeavesTheOldFileAndNothingElse)
-{
-  const auto sphere = MakeSphere(5);
-  for (const std::string extension : { ".stl", ".ply", ".vtp" })
-  {
-    const fs::path path = m_Folder / ("sphere" + extension);
-    std::ofstream(path) << "older";
-    testing::internal::CaptureStderr();
-    {
-      const FileSizeLimit limit(20000);
-      EXPECT_EQ(KindOf([&] { WriteSurface(*sphere, path); }, extension), rhombic::FailureKind::Output);
-    }
-    EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << extension;
-    EXPECT_EQ(ReadBytes(path), "older") << extension;
-  }
-  EXPECT_EQ(CountFiles(), 3u);
+  auto surface = Surface::New();
+  surface->GetPoints() = { { 0, 0, 0 }, { 250, 0, 0 }, { 0, 0, 1700 } }; // to the left, to the head
+  surface->GetTriangles() = { { 0, 1, 2 } };
+  WriteSurfaces({ { "one", surface } }, m_Folder / "one.glb");
+  const std::string bytes = ReadBytes(m_Folder / "one.glb");
+  EXPECT_NE(bytes.find("\"matrix\":[0.001,0.0,0.0,0.0,0.0,0.0,-0.001,0.0,0.0,0.001,0.0,0.0,0.0,0.0,0.0,1.0]"),
+            std::string::npos);
+  EXPECT_NE(bytes.find("\"min\":[0.0,0.0,0.0],\"max\":[250.0,0.0,1700.0]"), std::string::npos);
 }
 
 } // namespace

@@ -1,9 +1,12 @@
 // `rhombicFuzzSeeds FOLDER` writes the inputs that fuzzing begins with to FOLDER/<target>/.
 
 #include "../ScanIO/rhombicDicomTestFile.h"
+#include "rhombicSurfaceIO.h"
+#include "rhombicTemporaryFolder.h"
 
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 
 namespace fs = std::filesystem;
 
@@ -205,6 +208,51 @@ WriteNIfTI(const fs::path & folder)
   WriteSeed(folder / "volume.nii", header + std::string(16, '\1'));
 }
 
+/** One tetrahedron or two, as we write them and as others might. */
+void
+WriteSurfaceFiles(const fs::path & folder)
+{
+  const auto surface = itk::TriangleSurface::New();
+  surface->GetPoints() = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+  surface->GetNormals() = { { -1, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+  surface->GetTriangles() = { { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 } };
+  const rhombictest::TemporaryFolder temporary;
+  char kind = '\0';
+  for (const std::string extension : { ".stl", ".ply", ".obj", ".vtp", ".glb" })
+  {
+    std::vector<rhombic::SceneSurface> scene(kind == 0 ? 1 : 2, { "a b", surface });
+    scene.back().opacity = 0.5;
+    const fs::path path = temporary.Path() / ("seed" + extension);
+    rhombic::WriteSurfaces(scene, path);
+    std::ifstream file(path, std::ios::binary);
+    WriteSeed(folder / ("ours" + extension),
+              std::string(1, kind++) + std::string(std::istreambuf_iterator<char>(file), {}));
+  }
+  const std::string corners = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1e-3 0\nendloop\nendfacet\n";
+  WriteSeed(folder / "text.stl",
+            std::string(1, 0) + "solid a\nfacet normal 0 0 1\nouter loop\n" + corners + "endsolid a\n");
+  WriteSeed(
+    folder / "text.ply",
+    "\1ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty float y\nproperty short z\nproperty "
+    "uchar red\nelement face 1\nproperty list uchar int vertex_index\nend_header\n0 0 0 1\n1 0 0 1\n1 1 0 1\n0 1 0 "
+    "1\n4 0 1 2 3\n");
+  WriteSeed(
+    folder / "big-endian.ply",
+    "\1ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty char x\nproperty char y\nproperty ushort z\n"
+    "element face 1\nproperty list uint uchar vertex_indices\nend_header\n" +
+      std::string("\0\0\0\0\1\0\0\0\0\1\0\0\0\0\0\3\0\1\2", 19));
+  WriteSeed(folder / "corners.obj",
+            "\2v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nvt 0 0\ng x\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf -1//-1 -2//1 "
+            "\\\n-3//1\n");
+  const std::string arrays =
+    "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0"
+    "</DataArray></Points><Polys><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2"
+    "</DataArray><DataArray type=\"UInt8\" Name=\"offsets\" format=\"binary\">AQAAAAM=</DataArray></Polys>";
+  WriteSeed(folder / "inline.vtp",
+            "\3<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\">" + arrays +
+              "</Piece></PolyData></VTKFile>");
+}
+
 } // namespace
 
 int
@@ -221,5 +269,6 @@ main(int argc, char ** argv)
   WriteCompressedFrames(MakeFolder(folder / "rhombicCompressedFrameFuzz"));
   WriteLabelTables(MakeFolder(folder / "rhombicLabelTableFuzz"));
   WritePresets(MakeFolder(folder / "rhombicPresetFuzz"));
+  WriteSurfaceFiles(MakeFolder(folder / "rhombicSurfaceFileFuzz"));
   WriteNIfTI(MakeFolder(folder / "rhombicNIfTIFuzz"));
 }

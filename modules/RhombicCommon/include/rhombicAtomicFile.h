@@ -14,6 +14,9 @@ namespace rhombic
  * checks its size, flushes it to the disk and renames it over the target; without Commit() the destructor removes it,
  * so an exception or a full disk leaves the target as it was.
  *
+ * A process that is killed leaves its temporary file behind; the next AtomicFile for the same target removes it. Those
+ * of living processes are known by a lock (flock), which ends with its process on any machine that shares the folder.
+ *
  * One thread per object; objects for different targets are independent.
  */
 class AtomicFile
@@ -33,6 +36,11 @@ public:
     return m_Temporary;
   }
 
+  /** The first half of Commit(), all that takes time or may fail for want of space: for files that belong together and
+   * shall appear at nearly the same moment. */
+  void
+  Flush(std::uintmax_t minimumSize);
+
   /** Publishes the file. Libraries' writers may report success on a full disk, so the size in bytes that a complete
    * file has at least is given by the caller. Throws Failure(Output) when the file is smaller or can't be flushed or
    * renamed. */
@@ -42,11 +50,13 @@ public:
 private:
   std::filesystem::path m_Target;
   std::filesystem::path m_Temporary;
+  int m_Descriptor = -1; ///< holds the lock
+  bool m_IsFlushed = false;
 };
 
 /** From now on SIGINT, SIGTERM and SIGHUP remove the temporary files of all AtomicFiles before they end the process as
- * they always do. Signals that are ignored, as SIGHUP is under nohup, stay so. For programs; a library leaves signals
- * to its host. */
+ * they always do. Signals that are ignored, as SIGHUP is under nohup, stay so. SIGXFSZ is ignored: a file that reaches
+ * the process's limit of size becomes an error of the writer. For programs; a library leaves signals to its host. */
 void
 RemoveTemporaryFilesOnSignals();
 

@@ -8,6 +8,8 @@
 #include <cstring>
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace fs = std::filesystem;
@@ -25,7 +27,7 @@ Fail(const fs::path & path, const std::string & why)
 
 /** Flushes a file or folder to the disk. Some file systems can't flush folders (EINVAL); that is no loss of data. */
 bool
-Flush(const fs::path & path, int flags)
+FlushToDisk(const fs::path & path, int flags)
 {
   const int descriptor = open(path.c_str(), flags | O_CLOEXEC);
   if (descriptor < 0)
@@ -82,6 +84,72 @@ Unlist(const fs::path & path)
   }
 }
 
+/** What the names of a target's temporary files begin with: short, whatever the length of the target's name. */
+std::string
+TemporaryPrefix(const fs::path & target)
+{
+  std::uint64_t hash = 0xcbf29ce484222325u; // FNV-1a
+  for (const unsigned char letter : target.filename().string())
+  {
+    hash = (hash ^ letter) * 0x100000001b3u;
+  }
+  constexpr char digits[] = "0123456789abcdef";
+  std::string prefix = ".tmp-";
+  for (int shift = 60; shift >= 0; shift -= 4)
+  {
+    prefix += digits[hash >> shift & 15];
+  }
+  return prefix + "-";
+}
+
+/** Whether the file is ours alone, now and as long as the descriptor is open. */
+bool
+Lock(int descriptor)
+{
+  return flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+}
+
+/** Removes the temporary files of processes that have ended. A file system without locks keeps them. */
+void
+RemoveAbandoned(const fs::path & folder, const std::string & prefix)
+{
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+  {
+    if (entry->path().filename().string().rfind(prefix, 0) != 0)
+    {
+      continue;
+    }
+    const int descriptor = open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor >= 0)
+    {
+      if (Lock(descriptor))
+      {
+        unlink(entry->path().c_str());
+      }
+      close(descriptor);
+    }
+  }
+}
+
+/** Creates a file that no other process removes: -1, and errno, when it can't be. Between its creation and the lock
+ * another process may take it for abandoned; then it is gone, as if it had been there before (EEXIST). */
+int
+CreateLocked(const fs::path & path)
+{
+  const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  struct stat status
+  {};
+  if (descriptor < 0 ||
+      ((Lock(descriptor) || errno != EWOULDBLOCK) && fstat(descriptor, &status) == 0 && status.st_nlink > 0))
+  {
+    return descriptor;
+  }
+  close(descriptor);
+  errno = EEXIST;
+  return -1;
+}
+
 extern "C" void
 RemoveTemporaryFiles(int signal)
 {
@@ -122,18 +190,18 @@ AtomicFile::AtomicFile(const fs::path & target)
   }
 
   // A temporary file of that name may be left from a process that was killed and had the same number.
+  const std::string prefix = TemporaryPrefix(target);
+  RemoveAbandoned(folder, prefix);
   static std::atomic<unsigned> counter{ 0 };
-  int descriptor = -1;
   do
   {
-    m_Temporary = folder / (".tmp-" + std::to_string(getpid()) + "-" + std::to_string(counter++) + ExtensionOf(target));
-    descriptor = open(m_Temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-  } while (descriptor < 0 && errno == EEXIST);
-  if (descriptor < 0)
+    m_Temporary = folder / (prefix + std::to_string(getpid()) + "-" + std::to_string(counter++) + ExtensionOf(target));
+    m_Descriptor = CreateLocked(m_Temporary);
+  } while (m_Descriptor < 0 && errno == EEXIST);
+  if (m_Descriptor < 0)
   {
     Fail(target, std::string(std::strerror(errno)) + "; choose another folder or file name");
   }
-  close(descriptor);
   List(m_Temporary);
 }
 
@@ -145,10 +213,11 @@ AtomicFile::~AtomicFile()
     std::error_code ignored; // nothing more can be done about a file that won't go
     fs::remove(m_Temporary, ignored);
   }
+  close(m_Descriptor);
 }
 
 void
-AtomicFile::Commit(std::uintmax_t minimumSize)
+AtomicFile::Flush(std::uintmax_t minimumSize)
 {
   std::error_code error;
   const auto size = fs::file_size(m_Temporary, error);
@@ -158,10 +227,21 @@ AtomicFile::Commit(std::uintmax_t minimumSize)
          "only " + std::to_string(error ? 0 : size) + " of at least " + std::to_string(minimumSize) +
            " bytes arrived; is the disk full?");
   }
-  if (!Flush(m_Temporary, O_WRONLY))
+  if (!FlushToDisk(m_Temporary, O_WRONLY))
   {
     Fail(m_Target, std::string(std::strerror(errno)) + " while flushing it to the disk");
   }
+  m_IsFlushed = true;
+}
+
+void
+AtomicFile::Commit(std::uintmax_t minimumSize)
+{
+  if (!m_IsFlushed)
+  {
+    this->Flush(minimumSize);
+  }
+  std::error_code error;
   fs::rename(m_Temporary, m_Target, error);
   if (error)
   {
@@ -169,7 +249,7 @@ AtomicFile::Commit(std::uintmax_t minimumSize)
   }
   Unlist(m_Temporary);
   m_Temporary.clear();
-  Flush(FolderOf(m_Target), O_RDONLY | O_DIRECTORY);
+  FlushToDisk(FolderOf(m_Target), O_RDONLY | O_DIRECTORY);
 }
 
 void
@@ -182,6 +262,7 @@ RemoveTemporaryFilesOnSignals()
       std::signal(signal, SIG_IGN);
     }
   }
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 } // namespace rhombic

@@ -2,15 +2,19 @@
 
 #include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
-#include "rhombicPLYWriter.h"
-#include "rhombicSTLWriter.h"
-#include "rhombicVTPWriter.h"
+#include "rhombicFileColours.h"
+#include "rhombicInputFile.h"
+#include "rhombicOutputFile.h"
+#include "rhombicSurfaceFormats.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstdint>
+#include <cmath>
 #include <limits>
+#include <optional>
 
 namespace fs = std::filesystem;
 
@@ -22,16 +26,36 @@ namespace
 struct SurfaceFormat
 {
   const char * extension;
-  /** Writes the file and returns the size in bytes that it must have. */
-  std::uintmax_t (*write)(const itk::TriangleSurface & surface, const fs::path & path);
+  bool holdsScenes;  ///< several surfaces
+  bool holdsLooks;   ///< names and colours, in the file itself
+  bool hasMaterials; ///< in a second file
+  void (*write)(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
+  std::vector<SceneSurface> (*read)(const InputFile & file);
 };
 
-constexpr std::array<SurfaceFormat, 3> SurfaceFormats{
-  { { ".stl", WriteSTL }, { ".ply", WritePLY }, { ".vtp", WriteVTP } }
-};
+constexpr std::array<SurfaceFormat, 5> SurfaceFormats{ { { ".stl", false, false, false, WriteSTL, ReadSTL },
+                                                         { ".ply", true, true, false, WritePLY, ReadPLY },
+                                                         { ".obj", true, false, true, WriteOBJ, ReadOBJ },
+                                                         { ".vtp", true, true, false, WriteVTP, ReadVTP },
+                                                         { ".glb", true, true, false, WriteGLB, ReadGLB } } };
+
+template <typename TPredicate>
+std::string
+ListExtensions(const TPredicate & isListed)
+{
+  std::string list;
+  for (const SurfaceFormat & format : SurfaceFormats)
+  {
+    if (isListed(format))
+    {
+      list += (list.empty() ? "" : ", ") + std::string(format.extension);
+    }
+  }
+  return list;
+}
 
 const SurfaceFormat &
-FormatOf(const fs::path & path)
+FormatOf(const fs::path & path, const char * verb)
 {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char letter) {
@@ -45,25 +69,153 @@ FormatOf(const fs::path & path)
     }
   }
   throw Failure(FailureKind::Usage,
-                "Cannot write " + path.string() + ": its extension names no surface format; use one of " +
-                  GetSurfaceFileExtensions() + ".");
+                std::string("Cannot ") + verb + " " + path.string() +
+                  ": its extension names no surface format; use one of " + GetSurfaceFileExtensions() + ".");
+}
+
+[[noreturn]] void
+FailToWrite(const fs::path & path, const std::string & why)
+{
+  throw Failure(FailureKind::Output, "Cannot write " + path.string() + ": " + why + ".");
+}
+
+bool
+IsFinite(const itk::TriangleSurface & surface)
+{
+  return std::all_of(surface.GetPoints().begin(), surface.GetPoints().end(), [](const auto & point) {
+    return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
+  });
 }
 
 void
-CheckSize(const itk::TriangleSurface & surface, const fs::path & path)
+CheckSurfaces(const std::vector<SceneSurface> & surfaces, const fs::path & path)
 {
-  if (surface.GetNumberOfTriangles() == 0)
+  std::uint64_t points = 0, triangles = 0;
+  for (const SceneSurface & scene : surfaces)
   {
-    throw Failure(FailureKind::Empty,
-                  "Nothing to write to " + path.string() + ": the surface has no triangles; try another isovalue.");
+    if (scene.surface->GetNumberOfTriangles() == 0)
+    {
+      throw Failure(FailureKind::Empty,
+                    "Nothing to write to " + path.string() + ": the surface " + scene.name +
+                      " has no triangles; try another isovalue.");
+    }
+    if (!IsFinite(*scene.surface))
+    {
+      FailToWrite(path, "the surface " + scene.name + " has positions that are no numbers; check where it comes from");
+    }
+    points += scene.surface->GetNumberOfPoints();
+    triangles += scene.surface->GetNumberOfTriangles();
   }
-  constexpr itk::SizeValueType largestIndex = std::numeric_limits<std::int32_t>::max();
-  if (surface.GetNumberOfPoints() > largestIndex || 3 * surface.GetNumberOfTriangles() > largestIndex)
+  if (triangles == 0)
   {
-    throw Failure(FailureKind::Output,
-                  "Cannot write " + path.string() + ": " + std::to_string(surface.GetNumberOfTriangles()) +
-                    " triangles are more than the format's 32-bit indices reach; extract at a lower density.");
+    throw Failure(FailureKind::Empty, "Nothing to write to " + path.string() + ": there is no surface.");
   }
+  if (std::max(points, triangles) >= std::numeric_limits<std::uint32_t>::max())
+  {
+    FailToWrite(path,
+                std::to_string(triangles) + " triangles are more than 32-bit numbers reach; choose a lower density");
+  }
+}
+
+/** The name as every format can hold it: UTF-8 on one line. */
+std::string
+FileName(std::string name)
+{
+  std::replace_if(
+    name.begin(), name.end(), [](unsigned char letter) { return letter < ' ' || letter == 0x7f; }, ' ');
+  const nlohmann::json json(name);
+  return nlohmann::json::parse(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)).get<std::string>();
+}
+
+std::vector<SceneSurface>
+WithFileNames(std::vector<SceneSurface> surfaces)
+{
+  for (SceneSurface & scene : surfaces)
+  {
+    scene.name = FileName(scene.name);
+  }
+  return surfaces;
+}
+
+/** Whether all corners are where they were, with the normals they had, in the same order. */
+bool
+AreEqual(const itk::TriangleSurface & read, const itk::TriangleSurface & written, bool withNormals)
+{
+  if (read.GetNumberOfTriangles() != written.GetNumberOfTriangles() ||
+      (withNormals && !(read.HasNormals() && written.HasNormals())))
+  {
+    return false;
+  }
+  for (std::size_t n = 0; n < read.GetNumberOfTriangles(); ++n)
+  {
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      const std::uint32_t a = read.GetTriangles()[n][corner], b = written.GetTriangles()[n][corner];
+      if (read.GetPoints()[a] != written.GetPoints()[b] ||
+          (withNormals && read.GetNormals()[a] != written.GetNormals()[b]))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+bool
+LookAlike(const SceneSurface & read, const SceneSurface & written)
+{
+  return read.name == written.name && ToBytes(read.colour) == ToBytes(written.colour) &&
+         ToByte(read.opacity) == ToByte(written.opacity);
+}
+
+/** What arrived on the disk is what was meant. */
+void
+CheckWritten(const std::vector<SceneSurface> & surfaces,
+             const SurfaceFormat & format,
+             const fs::path & written,
+             const fs::path & target)
+{
+  const std::vector<SceneSurface> read = format.read(InputFile(written));
+  const auto equal = [&format](const SceneSurface & one, const SceneSurface & other) {
+    return AreEqual(*one.surface, *other.surface, one.surface->HasNormals()) &&
+           (!format.holdsLooks || LookAlike(one, other));
+  };
+  if (!std::equal(read.begin(), read.end(), surfaces.begin(), surfaces.end(), equal))
+  {
+    FailToWrite(target, "it is not the same when it is read back; check the disk");
+  }
+}
+
+void
+WriteMaterials(const std::vector<SceneSurface> & surfaces, AtomicFile & file, const fs::path & target)
+{
+  OutputFile output(file.GetTemporaryPath(), target);
+  WriteMTL(surfaces, output);
+  output.Close();
+  file.Flush(1);
+}
+
+void
+Write(const std::vector<SceneSurface> & surfaces,
+      const SurfaceFormat & format,
+      const fs::path & path,
+      SurfaceFileSpace space)
+{
+  AtomicFile file(path);
+  OutputFile output(file.GetTemporaryPath(), path);
+  format.write(surfaces, space, output);
+  output.Close();
+  CheckWritten(surfaces, format, file.GetTemporaryPath(), path);
+  file.Flush(1);
+  if (format.hasMaterials)
+  {
+    // First the materials: a file that appears finds its own. If the process ends in between, the older file stays.
+    const fs::path materialsPath = fs::path(path).replace_extension(".mtl");
+    AtomicFile materials(materialsPath);
+    WriteMaterials(surfaces, materials, materialsPath);
+    materials.Commit(1);
+  }
+  file.Commit(1);
 }
 
 } // namespace
@@ -71,37 +223,44 @@ CheckSize(const itk::TriangleSurface & surface, const fs::path & path)
 std::string
 GetSurfaceFileExtensions()
 {
-  std::string list;
-  for (const SurfaceFormat & format : SurfaceFormats)
-  {
-    list += (list.empty() ? "" : ", ") + std::string(format.extension);
-  }
-  return list;
+  return ListExtensions([](const SurfaceFormat &) { return true; });
 }
 
 void
-CheckSurfacePath(const fs::path & path)
+CheckSurfacePath(const fs::path & path, std::size_t numberOfSurfaces)
 {
-  FormatOf(path);
+  const SurfaceFormat & format = FormatOf(path, "write");
+  if (numberOfSurfaces > 1 && !format.holdsScenes)
+  {
+    throw Failure(FailureKind::Usage,
+                  "Cannot write " + path.string() + ": an STL file holds one surface, and there are " +
+                    std::to_string(numberOfSurfaces) + "; use one of " +
+                    ListExtensions([](const SurfaceFormat & other) { return other.holdsScenes; }) +
+                    ", or a file for each.");
+  }
 }
 
 void
-WriteSurface(const itk::TriangleSurface & surface, const fs::path & path)
+WriteSurfaces(const std::vector<SceneSurface> & surfaces, const fs::path & path, const SurfaceFileSettings & settings)
 {
-  const SurfaceFormat & format = FormatOf(path);
-  CheckSize(surface, path);
-  AtomicFile file(path);
-  const std::uintmax_t size = format.write(surface, file.GetTemporaryPath());
+  CheckSurfacePath(path, surfaces.size());
+  CheckSurfaces(surfaces, path);
+  Write(WithFileNames(surfaces), FormatOf(path, "write"), path, settings.space);
+}
 
-  std::error_code error;
-  const std::uintmax_t written = fs::file_size(file.GetTemporaryPath(), error);
-  if (error || written != size)
+std::vector<SceneSurface>
+ReadSurfaces(const fs::path & path)
+{
+  const SurfaceFormat & format = FormatOf(path, "read");
+  const InputFile file(path);
+  std::vector<SceneSurface> surfaces = format.read(file);
+  const auto isEmpty = [](const SceneSurface & scene) { return scene.surface->GetNumberOfTriangles() == 0; };
+  surfaces.erase(std::remove_if(surfaces.begin(), surfaces.end(), isEmpty), surfaces.end());
+  if (surfaces.empty())
   {
-    throw Failure(FailureKind::Output,
-                  "Cannot write " + path.string() + ": " + std::to_string(error ? 0 : written) + " of " +
-                    std::to_string(size) + " bytes arrived; is the disk full?");
+    file.Refuse("it holds no triangles; export it as a surface");
   }
-  file.Commit(size);
+  return surfaces;
 }
 
 } // namespace rhombic

@@ -1,0 +1,368 @@
+#include "rhombicFileSpace.h"
+#include "rhombicMemoryBudget.h"
+#include "rhombicSurfaceAssembler.h"
+#include "rhombicSurfaceFormats.h"
+#include "rhombicWords.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <tuple>
+
+namespace rhombic
+{
+namespace
+{
+
+constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t Several = None - 1;
+
+struct Material
+{
+  Colour colour = SceneSurface().colour;
+  double opacity = 1.0;
+};
+
+using Materials = std::map<std::string, Material, std::less<>>;
+
+double
+ParseUnit(std::string_view word)
+{
+  return std::clamp(ParseNumber<double>(word).value_or(0), 0.0, 1.0);
+}
+
+/** Without such a file, surfaces have their default look. */
+void
+ReadMaterials(const std::filesystem::path & path, Materials & materials)
+{
+  constexpr std::uintmax_t longest = std::uintmax_t{ 1 } << 24;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error) || std::filesystem::file_size(path, error) > longest || error)
+  {
+    return;
+  }
+  const InputFile file(path);
+  InputStream stream(file);
+  Material * material = nullptr;
+  std::string_view line;
+  while (stream.TakeLine(line))
+  {
+    const std::string_view keyword = TakeWord(line);
+    if (keyword == "newmtl")
+    {
+      material = &materials[std::string(Trimmed(line))];
+    }
+    else if (material != nullptr && keyword == "Kd")
+    {
+      for (double & part : material->colour)
+      {
+        part = ParseUnit(TakeWord(line));
+      }
+    }
+    else if (material != nullptr && (keyword == "d" || keyword == "Tr"))
+    {
+      const double value = ParseUnit(TakeWord(line));
+      material->opacity = keyword == "d" ? value : 1 - value;
+    }
+  }
+}
+
+/** \class OBJReader
+ * \brief Faces of the same object, group and material are one surface, in the order of their first faces. */
+class OBJReader
+{
+public:
+  explicit OBJReader(const InputFile & file)
+    : m_File(file)
+    , m_Stream(file)
+  {}
+
+  std::vector<SceneSurface>
+  Read()
+  {
+    // A face takes at least two bytes a corner and then 12 bytes of memory; the numbers of points take more.
+    RequireMemory(6 * m_File.GetSize(), 0, "Reading " + m_File.GetPath().string());
+    std::string_view line;
+    while (this->TakeLine(line))
+    {
+      this->ReadLine(line);
+    }
+    std::vector<SceneSurface> surfaces;
+    std::vector<std::uint32_t> numbers(m_Points.size(), None);
+    for (Part & part : m_Parts)
+    {
+      surfaces.push_back(this->MakeSurface(part, numbers));
+    }
+    return surfaces;
+  }
+
+private:
+  struct Part
+  {
+    std::string name;
+    std::string material;
+    itk::TriangleSurface::TrianglesContainer triangles; ///< numbers of the file's points
+  };
+
+  struct Corner
+  {
+    std::uint32_t point;
+    std::uint32_t normal; ///< or None
+  };
+
+  /** A line, with those that backslashes join to it. */
+  bool
+  TakeLine(std::string_view & line)
+  {
+    if (!m_Stream.TakeLine(line))
+    {
+      return false;
+    }
+    if (line.empty() || line.back() != '\\')
+    {
+      return true;
+    }
+    constexpr std::size_t longest = std::size_t{ 1 } << 24;
+    m_JoinedLine.clear();
+    while (!line.empty() && line.back() == '\\')
+    {
+      m_JoinedLine.append(line.substr(0, line.size() - 1)) += ' ';
+      line = {};
+      if (m_JoinedLine.size() > longest || !m_Stream.TakeLine(line))
+      {
+        m_Stream.RefuseLine("the line that is to be joined to this one is missing; copy or export the file again");
+      }
+    }
+    m_JoinedLine.append(line);
+    line = m_JoinedLine;
+    return true;
+  }
+
+  void
+  ReadLine(std::string_view line)
+  {
+    const std::string_view whole = line;
+    const std::string_view keyword = TakeWord(line);
+    if (keyword == "v")
+    {
+      m_Points.push_back(this->ParseTriple(line));
+      m_NormalOfPoint.push_back(None);
+      if (m_Points.size() >= Several)
+      {
+        m_Stream.RefuseLine("there are more points than 32-bit indices reach; divide the file");
+      }
+    }
+    else if (keyword == "vn")
+    {
+      m_Normals.push_back(this->ParseTriple(line));
+    }
+    else if (keyword == "f")
+    {
+      this->ReadFace(line);
+    }
+    else if (keyword == "o" || keyword == "g" || keyword == "usemtl")
+    {
+      m_Key[keyword == "o" ? 0 : keyword == "g" ? 1 : 2] = Trimmed(line);
+      m_Part = nullptr;
+    }
+    else if (keyword == "mtllib")
+    {
+      this->ReadLibrary(Trimmed(line));
+    }
+    else if (!keyword.empty() && keyword[0] == '#')
+    {
+      m_Space = SaysRAS(whole) ? SurfaceFileSpace::RAS : m_Space;
+    }
+    else if (!keyword.empty() && !IsIgnored(keyword))
+    {
+      m_Stream.RefuseLine("OBJ has no such line; check what kind of file it is");
+    }
+  }
+
+  static bool
+  IsIgnored(std::string_view keyword)
+  {
+    constexpr std::string_view ignored[]{
+      "vt",    "vp",       "p",        "l",          "s",         "lod",    "mg",
+      "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj", "maplib", "usemap"
+    };
+    return std::find(std::begin(ignored), std::end(ignored), keyword) != std::end(ignored);
+  }
+
+  /** Only from the file's own folder or below it. */
+  void
+  ReadLibrary(const std::filesystem::path & library)
+  {
+    if (library.is_relative() && std::find(library.begin(), library.end(), "..") == library.end())
+    {
+      ReadMaterials(m_File.GetPath().parent_path() / library, m_Materials);
+    }
+  }
+
+  std::array<float, 3>
+  ParseTriple(std::string_view words) const
+  {
+    std::array<float, 3> triple;
+    for (float & value : triple)
+    {
+      const auto number = ParseNumber<float>(TakeWord(words));
+      if (!number)
+      {
+        m_Stream.RefuseLine("three numbers are needed here; the file is damaged, so export it again");
+      }
+      value = *number;
+    }
+    return triple;
+  }
+
+  /** From the file's numbers, which begin with 1, or with -1 at the last one so far. */
+  std::uint32_t
+  ParseIndex(std::string_view word, std::size_t count) const
+  {
+    const std::int64_t index = ParseNumber<std::int64_t>(word).value_or(0);
+    const auto size = static_cast<std::int64_t>(count);
+    if (index == 0 || index > size || index < -size)
+    {
+      m_Stream.RefuseLine("a corner's index is no number of a point or normal above it; the file is damaged, so "
+                          "export it again");
+    }
+    return static_cast<std::uint32_t>(index > 0 ? index - 1 : size + index);
+  }
+
+  /** "1", "1/2", "1//3" or "1/2/3": point, texture, normal. */
+  Corner
+  ParseCorner(std::string_view word) const
+  {
+    const std::size_t first = std::min(word.find('/'), word.size());
+    const std::size_t second = std::min(word.find('/', first + 1), word.size());
+    Corner corner{ this->ParseIndex(word.substr(0, first), m_Points.size()), None };
+    if (second < word.size())
+    {
+      corner.normal = this->ParseIndex(word.substr(second + 1), m_Normals.size());
+    }
+    return corner;
+  }
+
+  void
+  ReadFace(std::string_view line)
+  {
+    m_Corners.clear();
+    for (std::string_view word = TakeWord(line); !word.empty() && word[0] != '#'; word = TakeWord(line))
+    {
+      m_Corners.push_back(this->ParseCorner(word));
+      this->NoteNormal(m_Corners.back());
+    }
+    if (m_Corners.size() < 3)
+    {
+      m_Stream.RefuseLine("a face has fewer than three corners; export triangles");
+    }
+    auto & triangles = this->CurrentPart().triangles;
+    for (std::size_t n = 2; n < m_Corners.size(); ++n)
+    {
+      triangles.push_back({ m_Corners[0].point, m_Corners[n - 1].point, m_Corners[n].point });
+    }
+  }
+
+  void
+  NoteNormal(const Corner & corner)
+  {
+    std::uint32_t & normal = m_NormalOfPoint[corner.point];
+    if (normal == None)
+    {
+      normal = corner.normal == None ? Several : corner.normal;
+    }
+    else if (normal != Several && normal != corner.normal &&
+             (corner.normal == None || m_Normals[normal] != m_Normals[corner.normal]))
+    {
+      normal = Several;
+    }
+  }
+
+  Part &
+  CurrentPart()
+  {
+    if (m_Part == nullptr)
+    {
+      const auto [place, isNew] = m_PartOfKey.try_emplace(m_Key, m_Parts.size());
+      if (isNew)
+      {
+        const auto named =
+          std::find_if(m_Key.begin(), m_Key.end(), [](const std::string & name) { return !name.empty(); });
+        m_Parts.push_back({ named == m_Key.end() ? NameFromFile(m_File) : *named, m_Key[2], {} });
+      }
+      m_Part = &m_Parts[place->second];
+    }
+    return *m_Part;
+  }
+
+  /** Takes the part's triangles. \a numbers are None for all points, and so again afterwards. */
+  SceneSurface
+  MakeSurface(Part & part, std::vector<std::uint32_t> & numbers) const
+  {
+    const auto surface = itk::TriangleSurface::New();
+    surface->GetTriangles().swap(part.triangles);
+    std::vector<std::uint32_t> used;
+    for (const auto & triangle : surface->GetTriangles())
+    {
+      for (const std::uint32_t point : triangle)
+      {
+        if (numbers[point] == None)
+        {
+          numbers[point] = 0;
+          used.push_back(point);
+        }
+      }
+    }
+    std::sort(used.begin(), used.end());
+    const bool hasNormals =
+      std::all_of(used.begin(), used.end(), [this](std::uint32_t point) { return m_NormalOfPoint[point] < Several; });
+    for (std::size_t n = 0; n < used.size(); ++n)
+    {
+      numbers[used[n]] = static_cast<std::uint32_t>(n);
+      surface->GetPoints().push_back(m_Points[used[n]]);
+      if (hasNormals)
+      {
+        surface->GetNormals().push_back(m_Normals[m_NormalOfPoint[used[n]]]);
+      }
+    }
+    for (auto & triangle : surface->GetTriangles())
+    {
+      for (std::uint32_t & point : triangle)
+      {
+        point = numbers[point];
+      }
+    }
+    for (const std::uint32_t point : used)
+    {
+      numbers[point] = None;
+    }
+    TurnFrom(m_Space, *surface);
+    const auto found = m_Materials.find(part.material);
+    const Material material = found == m_Materials.end() ? Material() : found->second;
+    return { part.name, surface.GetPointer(), material.colour, material.opacity };
+  }
+
+  const InputFile & m_File;
+  InputStream m_Stream;
+  std::string m_JoinedLine;
+  SurfaceFileSpace m_Space = SurfaceFileSpace::LPS;
+  itk::TriangleSurface::PointsContainer m_Points;
+  itk::TriangleSurface::NormalsContainer m_Normals;
+  std::vector<std::uint32_t> m_NormalOfPoint; ///< None before its first face, Several with different ones or a lack
+  std::vector<Corner> m_Corners;              ///< of the face that is being read
+  std::array<std::string, 3> m_Key;           ///< object, group, material
+  std::map<std::array<std::string, 3>, std::size_t> m_PartOfKey;
+  std::vector<Part> m_Parts;
+  Part * m_Part = nullptr; ///< that the next face belongs to, if known
+  Materials m_Materials;
+};
+
+} // namespace
+
+std::vector<SceneSurface>
+ReadOBJ(const InputFile & file)
+{
+  return OBJReader(file).Read();
+}
+
+} // namespace rhombic

@@ -1,0 +1,525 @@
+#include "rhombicFileColours.h"
+#include "rhombicSurfaceAssembler.h"
+#include "rhombicSurfaceFormats.h"
+#include "rhombicWords.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace rhombic
+{
+namespace
+{
+
+enum class Encoding
+{
+  Text,
+  LittleEndian,
+  BigEndian
+};
+
+enum class Scalar
+{
+  Int8,
+  UInt8,
+  Int16,
+  UInt16,
+  Int32,
+  UInt32,
+  Float32,
+  Float64
+};
+
+struct Property
+{
+  std::string name;
+  Scalar type = Scalar::Float32;
+  std::optional<Scalar> count; ///< of a list
+};
+
+struct Element
+{
+  std::string name;
+  std::uintmax_t count = 0;
+  std::vector<Property> properties;
+};
+
+struct Header
+{
+  Encoding encoding = Encoding::Text;
+  SurfaceFileSpace space = SurfaceFileSpace::LPS;
+  std::vector<SurfacePart> parts;
+  std::vector<Element> elements;
+};
+
+std::size_t
+SizeOf(Scalar type)
+{
+  constexpr std::size_t sizes[]{ 1, 1, 2, 2, 4, 4, 4, 8 };
+  return sizes[static_cast<std::size_t>(type)];
+}
+
+Scalar
+ParseScalar(std::string_view word, const InputStream & stream)
+{
+  constexpr std::array<std::array<std::string_view, 2>, 8> names{ { { "char", "int8" },
+                                                                    { "uchar", "uint8" },
+                                                                    { "short", "int16" },
+                                                                    { "ushort", "uint16" },
+                                                                    { "int", "int32" },
+                                                                    { "uint", "uint32" },
+                                                                    { "float", "float32" },
+                                                                    { "double", "float64" } } };
+  const auto found =
+    std::find_if(names.begin(), names.end(), [word](const auto & both) { return both[0] == word || both[1] == word; });
+  if (found == names.end())
+  {
+    stream.RefuseLine("PLY has no such type of number");
+  }
+  return static_cast<Scalar>(found - names.begin());
+}
+
+Encoding
+ParseEncoding(std::string_view word, const InputStream & stream)
+{
+  if (word == "binary_little_endian")
+  {
+    return Encoding::LittleEndian;
+  }
+  if (word != "ascii" && word != "binary_big_endian")
+  {
+    stream.RefuseLine("PLY has no such format");
+  }
+  return word == "ascii" ? Encoding::Text : Encoding::BigEndian;
+}
+
+Property
+ParseProperty(std::string_view words, const InputStream & stream)
+{
+  Property property;
+  std::string_view type = TakeWord(words);
+  if (type == "list")
+  {
+    property.count = ParseScalar(TakeWord(words), stream);
+    type = TakeWord(words);
+  }
+  property.type = ParseScalar(type, stream);
+  property.name = TakeWord(words);
+  return property;
+}
+
+Element
+ParseElement(std::string_view words, const InputStream & stream)
+{
+  Element element;
+  element.name = TakeWord(words);
+  const auto count = ParseNumber<std::uint64_t>(TakeWord(words));
+  if (!count)
+  {
+    stream.RefuseLine("an element needs a name and a count");
+  }
+  element.count = *count;
+  return element;
+}
+
+/** What WritePLY() says about a surface; nothing from another program's comment that begins likewise. */
+std::optional<SurfacePart>
+ParseDescription(std::string_view text)
+{
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  try
+  {
+    SurfacePart part;
+    part.look.name = json.at("name").get<std::string>();
+    part.look.colour = FromBytes(json.at("colour").get<std::array<std::uint8_t, 3>>());
+    part.look.opacity = std::clamp(json.at("opacity").get<double>(), 0.0, 1.0);
+    part.points = json.at("points").get<std::uint64_t>();
+    part.faces = json.at("triangles").get<std::uint64_t>();
+    return part;
+  }
+  catch (const nlohmann::json::exception &)
+  {
+    return std::nullopt;
+  }
+}
+
+void
+ParseComment(std::string_view comment, Header & header)
+{
+  if (SaysRAS(comment))
+  {
+    header.space = SurfaceFileSpace::RAS;
+  }
+  else if (TakeWord(comment) == "SURFACE")
+  {
+    if (auto part = ParseDescription(comment))
+    {
+      header.parts.push_back(std::move(*part));
+    }
+  }
+}
+
+Header
+ParseHeader(InputStream & stream)
+{
+  Header header;
+  std::string_view line;
+  if (!stream.TakeLine(line) || Trimmed(line) != "ply")
+  {
+    stream.RefuseLine("a PLY file begins with \"ply\"; check what kind of file it is");
+  }
+  bool hasEncoding = false;
+  while (stream.TakeLine(line))
+  {
+    const std::string_view keyword = TakeWord(line);
+    if (keyword == "end_header" && hasEncoding)
+    {
+      return header;
+    }
+    if (keyword == "format")
+    {
+      header.encoding = ParseEncoding(TakeWord(line), stream);
+      hasEncoding = true;
+    }
+    else if (keyword == "comment")
+    {
+      ParseComment(line, header);
+    }
+    else if (keyword == "element")
+    {
+      header.elements.push_back(ParseElement(line, stream));
+    }
+    else if (keyword == "property" && !header.elements.empty())
+    {
+      header.elements.back().properties.push_back(ParseProperty(line, stream));
+    }
+    else if (keyword != "obj_info")
+    {
+      stream.RefuseLine("this is not how the header of a PLY file goes on; the file is damaged, so export it again");
+    }
+  }
+  stream.RefuseLine("the header has no end; the file is damaged, so export it again");
+}
+
+/** \class Values
+ * \brief The numbers of the elements, one after the other, whatever their encoding. */
+class Values
+{
+public:
+  Values(InputStream & stream, Encoding encoding)
+    : m_Stream(stream)
+    , m_Encoding(encoding)
+  {}
+
+  /** Each element of a text file has a line. */
+  void
+  BeginElement()
+  {
+    while (m_Encoding == Encoding::Text && Trimmed(m_Line).empty())
+    {
+      if (!m_Stream.TakeLine(m_Line))
+      {
+        m_Stream.RefuseLine("the file ends early; copy or export it again");
+      }
+    }
+  }
+
+  void
+  EndElement()
+  {
+    m_Line = {};
+  }
+
+  double
+  Take(Scalar type)
+  {
+    if (m_Encoding == Encoding::Text)
+    {
+      return this->TakeText();
+    }
+    switch (type)
+    {
+      case Scalar::Int8:
+        return this->TakeBinary<std::int8_t>();
+      case Scalar::UInt8:
+        return this->TakeBinary<std::uint8_t>();
+      case Scalar::Int16:
+        return this->TakeBinary<std::int16_t>();
+      case Scalar::UInt16:
+        return this->TakeBinary<std::uint16_t>();
+      case Scalar::Int32:
+        return this->TakeBinary<std::int32_t>();
+      case Scalar::UInt32:
+        return this->TakeBinary<std::uint32_t>();
+      case Scalar::Float32:
+        return this->TakeBinary<float>();
+      default:
+        return this->TakeBinary<double>();
+    }
+  }
+
+  /** A count or index. Throws Failure(Unreadable) for numbers that can't be one. */
+  std::uint64_t
+  TakeWhole(Scalar type)
+  {
+    const double value = this->Take(type);
+    if (!(value >= 0 && value <= UINT32_MAX && value == std::floor(value)))
+    {
+      const std::string why = "an index or count is no whole number; the file is damaged, so export it again";
+      m_Encoding == Encoding::Text ? m_Stream.RefuseLine(why) : m_Stream.GetFile().Refuse(why);
+    }
+    return static_cast<std::uint64_t>(value);
+  }
+
+private:
+  double
+  TakeText()
+  {
+    const auto value = ParseNumber<double>(TakeWord(m_Line));
+    if (!value)
+    {
+      m_Stream.RefuseLine("a number is missing or none; the file is damaged, so export it again");
+    }
+    return *value;
+  }
+
+  template <typename TNumber>
+  double
+  TakeBinary()
+  {
+    std::array<char, sizeof(TNumber)> bytes;
+    m_Stream.Take(bytes.data(), bytes.size());
+    if (m_Encoding == Encoding::BigEndian)
+    {
+      std::reverse(bytes.begin(), bytes.end());
+    }
+    TNumber number;
+    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char *>(&number));
+    return static_cast<double>(number);
+  }
+
+  InputStream & m_Stream;
+  Encoding m_Encoding;
+  std::string_view m_Line;
+};
+
+/** Numbers of a vertex that matter, by name. */
+constexpr std::array<std::string_view, 10> SlotNames{
+  "x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "alpha"
+};
+constexpr std::size_t FirstNormal = 3;
+constexpr std::size_t FirstColour = 6;
+constexpr std::size_t Alpha = 9;
+using Slots = std::array<double, SlotNames.size()>;
+
+std::size_t
+SlotOf(const Property & property)
+{
+  return property.count
+           ? SlotNames.size()
+           : static_cast<std::size_t>(std::find(SlotNames.begin(), SlotNames.end(), property.name) - SlotNames.begin());
+}
+
+bool
+HasSlots(const Element & vertex, std::size_t first, std::size_t count)
+{
+  std::array<bool, SlotNames.size() + 1> has{};
+  for (const Property & property : vertex.properties)
+  {
+    has[SlotOf(property)] = true;
+  }
+  return std::all_of(has.begin() + first, has.begin() + first + count, [](bool one) { return one; });
+}
+
+bool
+IsIndexList(const Property & property)
+{
+  return property.count && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+/** The fewest bytes an element takes. */
+std::uintmax_t
+SmallestSize(const Element & element, Encoding encoding)
+{
+  std::uintmax_t size = 0;
+  for (const Property & property : element.properties)
+  {
+    size += encoding == Encoding::Text ? 2 : SizeOf(property.count.value_or(property.type));
+  }
+  return size;
+}
+
+const Element &
+FindElement(const Header & header, std::string_view name, const InputFile & file)
+{
+  const auto isNamed = [name](const Element & element) { return element.name == name; };
+  if (std::count_if(header.elements.begin(), header.elements.end(), isNamed) != 1)
+  {
+    file.Refuse("a surface needs one list of elements called \"" + std::string(name) + "\"; export it as a mesh");
+  }
+  return *std::find_if(header.elements.begin(), header.elements.end(), isNamed);
+}
+
+void
+CheckElements(const Header & header, const InputFile & file, std::uintmax_t rest)
+{
+  for (const Element & element : header.elements)
+  {
+    const std::uintmax_t size = SmallestSize(element, header.encoding);
+    // The end of the last line of a text file may be missing.
+    if (element.count > 0 && (size == 0 || element.count > (rest + 1) / size))
+    {
+      file.Refuse("its header promises more elements than the file holds; it may be a part of one, so copy it again");
+    }
+  }
+}
+
+void
+SkipProperty(const Property & property, Values & values)
+{
+  const std::uint64_t count = property.count ? values.TakeWhole(*property.count) : 1;
+  for (std::uint64_t n = 0; n < count; ++n)
+  {
+    values.Take(property.type);
+  }
+}
+
+/** The look of all points, if they look the same. */
+class CommonLook
+{
+public:
+  void
+  Add(const Slots & slots)
+  {
+    m_IsCommon =
+      !m_First || (m_IsCommon && std::equal(slots.begin() + FirstColour, slots.end(), m_First->begin() + FirstColour));
+    m_First = m_First ? m_First : std::optional<Slots>(slots);
+  }
+
+  void
+  Set(SurfaceAssembler & assembler, const Element & vertex) const
+  {
+    if (m_First && m_IsCommon && HasSlots(vertex, FirstColour, 3))
+    {
+      const auto colour =
+        std::find_if(vertex.properties.begin(), vertex.properties.end(), [](const Property & property) {
+          return property.name == SlotNames[FirstColour];
+        });
+      const double one = colour->type == Scalar::UInt8 ? 255 : 1; // floats are from 0 to 1
+      const auto unit = [&](std::size_t slot) { return std::clamp((*m_First)[slot] / one, 0.0, 1.0); };
+      assembler.SetLook({ unit(FirstColour), unit(FirstColour + 1), unit(FirstColour + 2) },
+                        HasSlots(vertex, Alpha, 1) ? unit(Alpha) : 1.0);
+    }
+  }
+
+private:
+  std::optional<Slots> m_First;
+  bool m_IsCommon = false;
+};
+
+void
+ReadVertices(const Element & vertex, Values & values, SurfaceAssembler & assembler)
+{
+  const bool hasNormals = HasSlots(vertex, FirstNormal, 3);
+  CommonLook look;
+  for (std::uintmax_t n = 0; n < vertex.count; ++n)
+  {
+    values.BeginElement();
+    Slots slots{};
+    for (const Property & property : vertex.properties)
+    {
+      if (const std::size_t slot = SlotOf(property); slot < slots.size())
+      {
+        slots[slot] = values.Take(property.type);
+      }
+      else
+      {
+        SkipProperty(property, values);
+      }
+    }
+    values.EndElement();
+    const auto triple = [&slots](std::size_t first) {
+      return itk::TriangleSurface::PointType{ static_cast<float>(slots[first]),
+                                              static_cast<float>(slots[first + 1]),
+                                              static_cast<float>(slots[first + 2]) };
+    };
+    assembler.AddPoint(triple(0));
+    if (hasNormals)
+    {
+      assembler.AddNormal(triple(FirstNormal));
+    }
+    look.Add(slots);
+  }
+  look.Set(assembler, vertex);
+}
+
+void
+ReadFaces(const Element & face, Values & values, SurfaceAssembler & assembler)
+{
+  std::vector<std::uint64_t> corners;
+  for (std::uintmax_t n = 0; n < face.count; ++n)
+  {
+    values.BeginElement();
+    for (const Property & property : face.properties)
+    {
+      if (!IsIndexList(property))
+      {
+        SkipProperty(property, values);
+        continue;
+      }
+      corners.clear();
+      for (std::uint64_t rest = values.TakeWhole(*property.count); rest > 0; --rest)
+      {
+        corners.push_back(values.TakeWhole(property.type));
+      }
+      assembler.AddFace(corners);
+    }
+    values.EndElement();
+  }
+}
+
+void
+SkipElements(const Element & element, Values & values)
+{
+  for (std::uintmax_t n = 0; n < element.count; ++n)
+  {
+    values.BeginElement();
+    for (const Property & property : element.properties)
+    {
+      SkipProperty(property, values);
+    }
+    values.EndElement();
+  }
+}
+
+} // namespace
+
+std::vector<SceneSurface>
+ReadPLY(const InputFile & file)
+{
+  InputStream stream(file);
+  const Header header = ParseHeader(stream);
+  const Element & vertex = FindElement(header, "vertex", file);
+  const Element & face = FindElement(header, "face", file);
+  if (!HasSlots(vertex, 0, 3) || std::count_if(face.properties.begin(), face.properties.end(), IsIndexList) != 1)
+  {
+    file.Refuse("its points have no x, y and z, or its faces no vertex_indices; export it as a mesh");
+  }
+  CheckElements(header, file, stream.GetRest());
+
+  SurfaceAssembler assembler(file, header.parts, vertex.count, face.count, HasSlots(vertex, FirstNormal, 3));
+  Values values(stream, header.encoding);
+  for (const Element & element : header.elements)
+  {
+    &element == &vertex ? ReadVertices(element, values, assembler)
+    : &element == &face ? ReadFaces(element, values, assembler)
+                        : SkipElements(element, values);
+  }
+  return assembler.Take(header.space);
+}
+
+} // namespace rhombic

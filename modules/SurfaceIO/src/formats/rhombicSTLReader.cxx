@@ -1,0 +1,175 @@
+#include "rhombicFileSpace.h"
+#include "rhombicMemoryBudget.h"
+#include "rhombicPointWelder.h"
+#include "rhombicSurfaceAssembler.h"
+#include "rhombicSurfaceFormats.h"
+#include "rhombicWords.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace rhombic
+{
+namespace
+{
+
+using PointType = itk::TriangleSurface::PointType;
+
+constexpr std::uintmax_t HeaderSize = 84;
+constexpr std::uintmax_t TriangleSize = 50;
+
+std::uintmax_t
+BinarySize(const InputFile & file)
+{
+  std::uint32_t triangles = 0;
+  file.Read(HeaderSize - sizeof(triangles), &triangles, sizeof(triangles));
+  return HeaderSize + TriangleSize * triangles;
+}
+
+std::vector<SceneSurface>
+ReadBinary(const InputFile & file)
+{
+  const std::uintmax_t triangles = (file.GetSize() - HeaderSize) / TriangleSize;
+  // A closed surface has half as many points as triangles; the welder's table holds up to four places for each.
+  RequireMemory(12 * triangles + (12 + 16) * triangles / 2, 0, "Reading " + file.GetPath().string());
+  InputStream stream(file);
+  std::string header(HeaderSize - sizeof(std::uint32_t), '\0');
+  stream.Take(header.data(), header.size());
+  stream.Take<std::uint32_t>();
+
+  const auto surface = itk::TriangleSurface::New();
+  surface->GetTriangles().reserve(triangles);
+  PointWelder welder(surface->GetPoints());
+  struct
+  {
+    PointType normal, corners[3];
+  } facet;
+  for (std::uintmax_t n = 0; n < triangles; ++n)
+  {
+    stream.Take(&facet, sizeof(facet));
+    stream.Take<std::uint16_t>();
+    const std::uint32_t a = welder.Add(facet.corners[0]), b = welder.Add(facet.corners[1]);
+    surface->GetTriangles().push_back({ a, b, welder.Add(facet.corners[2]) });
+  }
+  TurnFrom(SaysRAS(header) ? SurfaceFileSpace::RAS : SurfaceFileSpace::LPS, *surface);
+  SceneSurface read;
+  read.name = NameFromFile(file);
+  read.surface = surface;
+  return { read };
+}
+
+/** A solid of a text file while it is read. */
+struct Solid
+{
+  explicit Solid(const std::string & itsName)
+    : name(itsName)
+  {}
+
+  const std::string name;
+  const itk::TriangleSurface::Pointer surface = itk::TriangleSurface::New();
+  PointWelder welder{ surface->GetPoints() };
+};
+
+PointType
+ParsePoint(std::string_view words, const InputStream & stream)
+{
+  PointType point;
+  for (float & coordinate : point)
+  {
+    const auto number = ParseNumber<float>(TakeWord(words));
+    if (!number)
+    {
+      stream.RefuseLine("a vertex needs three numbers");
+    }
+    coordinate = *number;
+  }
+  return point;
+}
+
+std::string
+LowerCase(std::string_view text)
+{
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char letter) {
+    return static_cast<char>(std::tolower(letter));
+  });
+  return lower;
+}
+
+std::vector<SceneSurface>
+ReadText(const InputFile & file)
+{
+  RequireMemory(file.GetSize(), 0, "Reading " + file.GetPath().string());
+  InputStream stream(file);
+  std::vector<SceneSurface> surfaces;
+  std::unique_ptr<Solid> solid;
+  std::vector<std::uint32_t> corners;
+  SurfaceFileSpace space = SurfaceFileSpace::LPS;
+  std::string_view line;
+  while (stream.TakeLine(line))
+  {
+    const std::string keyword = LowerCase(TakeWord(line));
+    if (keyword == "solid" && solid == nullptr)
+    {
+      space = SaysRAS(line) ? SurfaceFileSpace::RAS : SurfaceFileSpace::LPS;
+      solid = std::make_unique<Solid>(std::string(Trimmed(line)));
+    }
+    else if (keyword == "vertex" && solid != nullptr)
+    {
+      corners.push_back(solid->welder.Add(ParsePoint(line, stream)));
+    }
+    else if (keyword == "endloop" && solid != nullptr && corners.size() == 3)
+    {
+      solid->surface->GetTriangles().push_back({ corners[0], corners[1], corners[2] });
+      corners.clear();
+    }
+    else if (keyword == "endsolid" && solid != nullptr && corners.empty())
+    {
+      TurnFrom(space, *solid->surface);
+      SceneSurface & read = surfaces.emplace_back();
+      read.name = solid->name.empty() ? NameFromFile(file) : solid->name;
+      read.surface = solid->surface;
+      solid.reset();
+    }
+    else if (!keyword.empty() &&
+             (solid == nullptr || (keyword != "facet" && keyword != "outer" && keyword != "endfacet")))
+    {
+      stream.RefuseLine("this is not how a text STL goes on; the file is damaged, so export it again");
+    }
+  }
+  if (solid != nullptr)
+  {
+    file.Refuse("it ends early, without \"endsolid\"; copy or export it again");
+  }
+  return surfaces;
+}
+
+bool
+BeginsLikeText(const InputFile & file)
+{
+  std::string begin(std::min<std::uintmax_t>(file.GetSize(), 512), '\0');
+  file.Read(0, begin.data(), begin.size());
+  return LowerCase(Trimmed(begin).substr(0, 5)) == "solid";
+}
+
+} // namespace
+
+std::vector<SceneSurface>
+ReadSTL(const InputFile & file)
+{
+  // Some binary files begin with "solid" too, so the size is asked first.
+  if (file.GetSize() >= HeaderSize && file.GetSize() == BinarySize(file))
+  {
+    return ReadBinary(file);
+  }
+  if (BeginsLikeText(file))
+  {
+    return ReadText(file);
+  }
+  file.Refuse(file.GetSize() < HeaderSize
+                ? "it is too short for an STL file"
+                : "its " + std::to_string(file.GetSize()) + " bytes are not the " + std::to_string(BinarySize(file)) +
+                    " that its number of triangles needs; it is a part of a file, or no STL");
+}
+
+} // namespace rhombic

@@ -1,0 +1,563 @@
+#include "rhombicFailure.h"
+#include "rhombicFileColours.h"
+#include "rhombicGLBContainer.h"
+#include "rhombicMemoryBudget.h"
+#include "rhombicSurfaceAssembler.h"
+#include "rhombicSurfaceFormats.h"
+
+#include "itkMatrix.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+namespace rhombic
+{
+namespace
+{
+
+using Json = nlohmann::json;
+
+/** Rotation, scale and translation: x becomes linear x + offset. */
+struct Transform
+{
+  itk::Matrix<double, 3, 3> linear;
+  itk::Vector<double, 3> offset{ 0.0 };
+
+  /** First the other one, then this. */
+  Transform
+  After(const Transform & other) const
+  {
+    return { linear * other.linear, linear * other.offset + offset };
+  }
+};
+
+Transform
+FromColumns(const std::array<double, 16> & columns)
+{
+  Transform transform;
+  for (unsigned int row = 0; row < 3; ++row)
+  {
+    for (unsigned int column = 0; column < 3; ++column)
+    {
+      transform.linear(row, column) = columns[4 * column + row];
+    }
+    transform.offset[row] = columns[12 + row];
+  }
+  return transform;
+}
+
+/** LPS millimetres from glTF's metres with y up: the inverse of glb::FromLPS. */
+Transform
+ToLPS()
+{
+  Transform transform;
+  transform.linear.Fill(0);
+  transform.linear(0, 0) = 1000;
+  transform.linear(1, 2) = -1000;
+  transform.linear(2, 1) = 1000;
+  return transform;
+}
+
+/** An array of JSON in what must be one of numbers. */
+template <std::size_t VCount>
+std::optional<std::array<double, VCount>>
+NumbersAt(const Json & json, const char * name)
+{
+  const auto found = json.find(name);
+  return found == json.end() ? std::nullopt
+                             : std::optional<std::array<double, VCount>>(found->get<std::array<double, VCount>>());
+}
+
+Transform
+TransformOf(const Json & node)
+{
+  if (const auto columns = NumbersAt<16>(node, "matrix"))
+  {
+    return FromColumns(*columns);
+  }
+  const auto [x, y, z, w] = NumbersAt<4>(node, "rotation").value_or(std::array<double, 4>{ 0, 0, 0, 1 });
+  const auto scale = NumbersAt<3>(node, "scale").value_or(std::array<double, 3>{ 1, 1, 1 });
+  const auto offset = NumbersAt<3>(node, "translation").value_or(std::array<double, 3>{ 0, 0, 0 });
+  const double rotation[3][3]{ { 1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w) },
+                               { 2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w) },
+                               { 2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y) } };
+  Transform transform;
+  for (unsigned int row = 0; row < 3; ++row)
+  {
+    for (unsigned int column = 0; column < 3; ++column)
+    {
+      transform.linear(row, column) = rotation[row][column] * scale[column];
+    }
+    transform.offset[row] = offset[row];
+  }
+  return transform;
+}
+
+double
+Determinant(const itk::Matrix<double, 3, 3> & m)
+{
+  return m(0, 0) * (m(1, 1) * m(2, 2) - m(1, 2) * m(2, 1)) - m(0, 1) * (m(1, 0) * m(2, 2) - m(1, 2) * m(2, 0)) +
+         m(0, 2) * (m(1, 0) * m(2, 1) - m(1, 1) * m(2, 0));
+}
+
+/** What normals are multiplied with, up to their length: the cofactors, which unlike the inverse always exist. */
+itk::Matrix<double, 3, 3>
+NormalMatrix(const itk::Matrix<double, 3, 3> & m)
+{
+  itk::Matrix<double, 3, 3> cofactors;
+  const double sign = Determinant(m) < 0 ? -1 : 1;
+  for (unsigned int row = 0; row < 3; ++row)
+  {
+    const unsigned int r1 = (row + 1) % 3, r2 = (row + 2) % 3;
+    for (unsigned int column = 0; column < 3; ++column)
+    {
+      const unsigned int c1 = (column + 1) % 3, c2 = (column + 2) % 3;
+      cofactors(row, column) = sign * (m(r1, c1) * m(r2, c2) - m(r1, c2) * m(r2, c1));
+    }
+  }
+  return cofactors;
+}
+
+/** Exactly a rotation, as a matrix of 0 and 1 is: then lengths need no mending, which would round. */
+bool
+KeepsLengths(const itk::Matrix<double, 3, 3> & m)
+{
+  itk::Matrix<double, 3, 3> identity;
+  identity.SetIdentity();
+  return m * itk::Matrix<double, 3, 3>(m.GetTranspose()) == identity;
+}
+
+std::array<float, 3>
+ToFloats(const itk::Vector<double, 3> & vector)
+{
+  return { static_cast<float>(vector[0]), static_cast<float>(vector[1]), static_cast<float>(vector[2]) };
+}
+
+/** Where the numbers of an accessor lie in the file. */
+struct Accessor
+{
+  std::uint64_t begin = 0;
+  std::uint64_t stride = 0;
+  std::uint64_t count = 0;
+  std::uint64_t componentType = 0; ///< 0 for none: the number of each is its place
+  std::uint64_t componentSize = 0;
+};
+
+/** \class GLBReader
+ * \brief One surface for each primitive of each node's mesh, in the order of the scene. */
+class GLBReader
+{
+public:
+  explicit GLBReader(const InputFile & file)
+    : m_File(file)
+  {}
+
+  std::vector<SceneSurface>
+  Read()
+  {
+    this->ReadContainer();
+    this->CheckExtensions();
+    for (const std::uint64_t node : this->RootNodes())
+    {
+      this->ReadNode(node, ToLPS(), 0);
+    }
+    return std::move(m_Surfaces);
+  }
+
+private:
+  [[noreturn]] void
+  RefuseDamaged(const std::string & what) const
+  {
+    m_File.Refuse(what + "; the file is damaged, so export it again");
+  }
+
+  void
+  ReadContainer()
+  {
+    std::uint32_t header[5];
+    m_File.Read(0, header, sizeof(header));
+    const auto [magic, version, size, jsonSize, jsonType] = header;
+    if (magic != glb::Magic || version != 2 || jsonType != glb::JsonChunk)
+    {
+      m_File.Refuse("it does not begin like a GLB file of version 2; check what kind of file it is");
+    }
+    constexpr std::uint64_t longest = std::uint64_t{ 1 } << 26; // a scene of a hundred thousand surfaces
+    const std::uint64_t jsonEnd = sizeof(header) + std::uint64_t{ jsonSize };
+    if (size > m_File.GetSize() || jsonEnd > size || jsonSize > longest)
+    {
+      this->RefuseDamaged("its parts are longer than the file");
+    }
+    std::string json(jsonSize, '\0');
+    m_File.Read(sizeof(header), json.data(), json.size());
+    m_Json = Json::parse(json);
+
+    if (jsonEnd + glb::ChunkHeaderSize <= size)
+    {
+      std::uint32_t chunk[2];
+      m_File.Read(jsonEnd, chunk, sizeof(chunk));
+      m_BufferBegin = jsonEnd + sizeof(chunk);
+      m_BufferSize = chunk[1] == glb::BinChunk ? chunk[0] : 0;
+      if (m_BufferSize > size - m_BufferBegin)
+      {
+        this->RefuseDamaged("its parts are longer than the file");
+      }
+    }
+  }
+
+  /** An extension that is required may change what the numbers mean. Those of materials do not. */
+  void
+  CheckExtensions() const
+  {
+    for (const Json & extension : m_Json.value("extensionsRequired", Json::array()))
+    {
+      const auto & name = extension.get_ref<const std::string &>();
+      if (name.rfind("KHR_materials_", 0) != 0 && name != "KHR_texture_transform")
+      {
+        m_File.Refuse("it requires the extension " + name + ", which is not supported; export it without");
+      }
+    }
+  }
+
+  std::vector<std::uint64_t>
+  RootNodes() const
+  {
+    if (m_Json.contains("scenes"))
+    {
+      const std::uint64_t scene = m_Json.contains("scene") ? this->Whole(m_Json, "scene") : 0;
+      std::vector<std::uint64_t> roots;
+      for (const Json & node : this->Item("scenes", scene).value("nodes", Json::array()))
+      {
+        roots.push_back(this->Whole(node));
+      }
+      return roots;
+    }
+    std::vector<bool> isChild(m_Json.value("nodes", Json::array()).size());
+    for (const Json & node : m_Json.value("nodes", Json::array()))
+    {
+      for (const Json & child : node.value("children", Json::array()))
+      {
+        const std::uint64_t number = this->Whole(child);
+        if (number < isChild.size())
+        {
+          isChild[number] = true;
+        }
+      }
+    }
+    std::vector<std::uint64_t> roots;
+    for (std::size_t n = 0; n < isChild.size(); ++n)
+    {
+      if (!isChild[n])
+      {
+        roots.push_back(n);
+      }
+    }
+    return roots;
+  }
+
+  void
+  ReadNode(std::uint64_t number, const Transform & parent, int depth)
+  {
+    const Json & node = this->Item("nodes", number);
+    m_IsRead.resize(m_Json.at("nodes").size());
+    constexpr int deepest = 1000;
+    if (m_IsRead[number] || depth > deepest)
+    {
+      this->RefuseDamaged("a node is below two others, or itself");
+    }
+    m_IsRead[number] = true;
+    const Transform transform = parent.After(TransformOf(node));
+    if (node.contains("mesh"))
+    {
+      this->ReadMesh(node, transform);
+    }
+    for (const Json & child : node.value("children", Json::array()))
+    {
+      this->ReadNode(this->Whole(child), transform, depth + 1);
+    }
+  }
+
+  void
+  ReadMesh(const Json & node, const Transform & transform)
+  {
+    const Json & mesh = this->Item("meshes", this->Whole(node, "mesh"));
+    const std::string name = node.value("name", mesh.value("name", NameFromFile(m_File)));
+    for (const Json & primitive : mesh.at("primitives"))
+    {
+      const std::uint64_t mode = primitive.contains("mode") ? this->Whole(primitive, "mode") : glb::Triangles;
+      if (mode == glb::Triangles || mode == glb::TriangleStrip || mode == glb::TriangleFan)
+      {
+        SceneSurface scene = this->ReadLook(primitive);
+        scene.name = name;
+        scene.surface = this->ReadPrimitive(primitive, mode, transform);
+        m_Surfaces.push_back(std::move(scene));
+      }
+    }
+  }
+
+  SceneSurface
+  ReadLook(const Json & primitive) const
+  {
+    SceneSurface scene;
+    if (primitive.contains("material"))
+    {
+      const Json & material = this->Item("materials", this->Whole(primitive, "material"));
+      const Json surface = material.value("pbrMetallicRoughness", Json::object());
+      const auto factor = NumbersAt<4>(surface, "baseColorFactor").value_or(std::array<double, 4>{ 1, 1, 1, 1 });
+      scene.colour = LinearToSRGB({ factor[0], factor[1], factor[2] });
+      scene.opacity = material.value("alphaMode", "OPAQUE") == "BLEND" ? std::clamp(factor[3], 0.0, 1.0) : 1.0;
+    }
+    return scene;
+  }
+
+  itk::TriangleSurface::Pointer
+  ReadPrimitive(const Json & primitive, std::uint64_t mode, const Transform & transform)
+  {
+    const Json & attributes = primitive.at("attributes");
+    const Accessor positions = this->FindVectors(attributes, "POSITION");
+    if (positions.count >= std::numeric_limits<std::uint32_t>::max())
+    {
+      this->RefuseDamaged("a mesh has more points than 32-bit indices reach");
+    }
+    Accessor indices;
+    indices.count = positions.count;
+    if (primitive.contains("indices"))
+    {
+      indices = this->FindAccessor(primitive.at("indices"), "SCALAR");
+    }
+    m_Memory += 24 * positions.count + (mode == glb::Triangles ? 4 : 12) * indices.count;
+    RequireMemory(m_Memory, 0, "Reading " + m_File.GetPath().string());
+
+    const auto surface = itk::TriangleSurface::New();
+    this->ReadVectors(positions, surface->GetPoints());
+    for (auto & point : surface->GetPoints())
+    {
+      const itk::Vector<double, 3> vector(itk::Vector<float, 3>(point.data()));
+      point = ToFloats(transform.linear * vector + transform.offset);
+    }
+    if (attributes.contains("NORMAL"))
+    {
+      const Accessor normals = this->FindVectors(attributes, "NORMAL");
+      if (normals.count != positions.count)
+      {
+        this->RefuseDamaged("a mesh has another number of normals than of points");
+      }
+      this->ReadVectors(normals, surface->GetNormals());
+      TurnNormals(transform.linear, surface->GetNormals());
+    }
+    this->ReadTriangles(indices, mode, *surface);
+    if (Determinant(transform.linear) < 0) // a mirror image; glTF turns its triangles round
+    {
+      for (auto & triangle : surface->GetTriangles())
+      {
+        std::swap(triangle[1], triangle[2]);
+      }
+    }
+    return surface;
+  }
+
+  static void
+  TurnNormals(const itk::Matrix<double, 3, 3> & linear, itk::TriangleSurface::NormalsContainer & normals)
+  {
+    const auto matrix = NormalMatrix(linear);
+    const bool keepsLengths = KeepsLengths(matrix);
+    for (auto & normal : normals)
+    {
+      auto turned = matrix * itk::Vector<double, 3>(itk::Vector<float, 3>(normal.data()));
+      const double length = turned.GetNorm();
+      if (!keepsLengths && length > 0)
+      {
+        turned /= length;
+      }
+      normal = ToFloats(turned);
+    }
+  }
+
+  /** Three floats a point. */
+  Accessor
+  FindVectors(const Json & attributes, const char * name) const
+  {
+    const Accessor accessor = this->FindAccessor(attributes.at(name), "VEC3");
+    if (accessor.componentType != glb::Float)
+    {
+      m_File.Refuse(std::string("its ") + name + " are not of type float; export it without compression");
+    }
+    return accessor;
+  }
+
+  Accessor
+  FindAccessor(const Json & number, std::string_view type) const
+  {
+    const Json & json = this->Item("accessors", this->Whole(number));
+    if (json.contains("sparse") || !json.contains("bufferView"))
+    {
+      m_File.Refuse("it has sparse accessors, which are not supported; export it without");
+    }
+    if (json.at("type").get_ref<const std::string &>() != type)
+    {
+      this->RefuseDamaged("an accessor is not of type " + std::string(type));
+    }
+    const Json & view = this->Item("bufferViews", this->Whole(json, "bufferView"));
+    const Json & buffer = this->Item("buffers", this->Whole(view, "buffer"));
+    if (this->Whole(view, "buffer") != 0 || buffer.contains("uri"))
+    {
+      m_File.Refuse("its numbers are in another file; export it as one file");
+    }
+    Accessor accessor;
+    accessor.count = this->Whole(json, "count");
+    accessor.componentType = this->Whole(json, "componentType");
+    accessor.componentSize = accessor.componentType == glb::UnsignedByte    ? 1
+                             : accessor.componentType == glb::UnsignedShort ? 2
+                                                                            : 4;
+    const std::uint64_t elementSize = (type == "VEC3" ? 3 : 1) * accessor.componentSize;
+    accessor.stride = view.contains("byteStride") ? this->Whole(view, "byteStride") : elementSize;
+
+    const std::uint64_t viewBegin = this->WholeOr0(view, "byteOffset"), viewSize = this->Whole(view, "byteLength");
+    const std::uint64_t offset = this->WholeOr0(json, "byteOffset");
+    const bool fits =
+      accessor.stride >= elementSize && accessor.stride <= 252 &&
+      accessor.count <= std::numeric_limits<std::uint32_t>::max() && viewBegin <= m_BufferSize &&
+      viewSize <= m_BufferSize - viewBegin && offset <= viewSize &&
+      (accessor.count == 0 || (accessor.count - 1) * accessor.stride + elementSize <= viewSize - offset);
+    if (!fits)
+    {
+      this->RefuseDamaged("an accessor reaches beyond its buffer");
+    }
+    accessor.begin = m_BufferBegin + viewBegin + offset;
+    return accessor;
+  }
+
+  template <typename TContainer>
+  void
+  ReadVectors(const Accessor & accessor, TContainer & vectors) const
+  {
+    vectors.resize(accessor.count);
+    if (accessor.stride == sizeof(vectors[0]))
+    {
+      m_File.Read(accessor.begin, vectors.data(), vectors.size() * sizeof(vectors[0]));
+      return;
+    }
+    InputStream stream(m_File, accessor.begin);
+    char between[256];
+    for (std::size_t n = 0; n < vectors.size(); ++n)
+    {
+      stream.Take(vectors[n].data(), sizeof(vectors[n]));
+      stream.Take(between, n + 1 < vectors.size() ? accessor.stride - sizeof(vectors[n]) : 0);
+    }
+  }
+
+  /** The numbers of the corners one after the other, with or without indices. */
+  template <typename TUse>
+  void
+  ForEachCorner(const Accessor & indices, std::uint64_t points, const TUse & use) const
+  {
+    InputStream stream(m_File, indices.begin);
+    for (std::uint64_t n = 0; n < indices.count; ++n)
+    {
+      const std::uint64_t corner = indices.componentSize == 0   ? n
+                                   : indices.componentSize == 1 ? stream.Take<std::uint8_t>()
+                                   : indices.componentSize == 2 ? stream.Take<std::uint16_t>()
+                                                                : stream.Take<std::uint32_t>();
+      if (corner >= points)
+      {
+        this->RefuseDamaged("a triangle has a corner at point " + std::to_string(corner) +
+                            ", which its mesh does not have");
+      }
+      use(n, static_cast<std::uint32_t>(corner));
+    }
+  }
+
+  void
+  ReadTriangles(const Accessor & indices, std::uint64_t mode, itk::TriangleSurface & surface) const
+  {
+    constexpr std::uint64_t wholeTypes[]{ 0, glb::UnsignedByte, glb::UnsignedShort, glb::UnsignedInt };
+    if (std::count(std::begin(wholeTypes), std::end(wholeTypes), indices.componentType) == 0 ||
+        indices.stride != indices.componentSize)
+    {
+      this->RefuseDamaged("the indices of a mesh are no whole numbers, or not close together");
+    }
+    auto & triangles = surface.GetTriangles();
+    triangles.reserve(mode == glb::Triangles ? indices.count / 3 : indices.count);
+    std::array<std::uint32_t, 3> last{};
+    this->ForEachCorner(indices, surface.GetNumberOfPoints(), [&](std::uint64_t n, std::uint32_t corner) {
+      if (mode == glb::Triangles)
+      {
+        last[n % 3] = corner;
+        if (n % 3 == 2)
+        {
+          triangles.push_back(last);
+        }
+        return;
+      }
+      if (n >= 2)
+      {
+        const bool isTurned = mode == glb::TriangleStrip && n % 2 == 1;
+        triangles.push_back(isTurned ? std::array<std::uint32_t, 3>{ last[1], last[0], corner }
+                                     : std::array<std::uint32_t, 3>{ last[0], last[1], corner });
+      }
+      if (mode == glb::TriangleStrip || n == 0)
+      {
+        last[0] = n == 0 ? corner : last[1];
+      }
+      last[1] = corner;
+    });
+  }
+
+  /** An object of one of the lists of glTF. */
+  const Json &
+  Item(const char * list, std::uint64_t number) const
+  {
+    return m_Json.at(list).at(number);
+  }
+
+  std::uint64_t
+  Whole(const Json & json) const
+  {
+    if (!json.is_number_unsigned())
+    {
+      this->RefuseDamaged("its JSON has something else where a whole number must be");
+    }
+    return json.get<std::uint64_t>();
+  }
+
+  std::uint64_t
+  Whole(const Json & json, const char * name) const
+  {
+    return this->Whole(json.at(name));
+  }
+
+  std::uint64_t
+  WholeOr0(const Json & json, const char * name) const
+  {
+    return json.contains(name) ? this->Whole(json, name) : 0;
+  }
+
+  const InputFile & m_File;
+  Json m_Json;
+  std::uint64_t m_BufferBegin = 0; ///< in the file
+  std::uint64_t m_BufferSize = 0;
+  std::uint64_t m_Memory = 0; ///< of what is read
+  std::vector<bool> m_IsRead; ///< of nodes
+  std::vector<SceneSurface> m_Surfaces;
+};
+
+} // namespace
+
+std::vector<SceneSurface>
+ReadGLB(const InputFile & file)
+{
+  try
+  {
+    return GLBReader(file).Read();
+  }
+  catch (const Json::exception & error)
+  {
+    file.Refuse("its JSON is not what glTF asks for (" + DescribeError(error) + "); export it again");
+  }
+}
+
+} // namespace rhombic

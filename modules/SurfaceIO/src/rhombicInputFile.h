@@ -1,0 +1,133 @@
+#ifndef rhombicInputFile_h
+#define rhombicInputFile_h
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rhombic
+{
+
+/** \class InputFile
+ * \brief A regular file of known size, read at any place. */
+class InputFile
+{
+public:
+  /** Throws Failure(NotFound) when there is none, Failure(Unreadable) when it can't be opened or is no regular file. */
+  explicit InputFile(const std::filesystem::path & path);
+  ~InputFile();
+
+  InputFile(const InputFile &) = delete;
+  InputFile &
+  operator=(const InputFile &) = delete;
+
+  const std::filesystem::path &
+  GetPath() const
+  {
+    return m_Path;
+  }
+
+  std::uintmax_t
+  GetSize() const
+  {
+    return m_Size;
+  }
+
+  /** Throws Failure(Unreadable) when the file does not reach that far. */
+  void
+  Read(std::uintmax_t offset, void * to, std::size_t size) const;
+
+  /** Throws Failure(Unreadable): "Cannot read PATH: WHY." */
+  [[noreturn]] void
+  Refuse(const std::string & why) const;
+
+private:
+  std::filesystem::path m_Path;
+  int m_Descriptor;
+  std::uintmax_t m_Size = 0;
+};
+
+/** \class InputStream
+ * \brief Reads numbers or lines of a file one after the other, the file itself in large blocks. */
+class InputStream
+{
+public:
+  /** From \a offset up to \a end, or to the file's end. */
+  explicit InputStream(const InputFile & file, std::uintmax_t offset = 0, std::uintmax_t end = UINTMAX_MAX);
+
+  const InputFile &
+  GetFile() const
+  {
+    return m_File;
+  }
+
+  /** Bytes that are left. */
+  std::uintmax_t
+  GetRest() const
+  {
+    return m_End - m_Next + (m_Block.size() - m_Taken);
+  }
+
+  /** Where the next byte is in the file. */
+  std::uintmax_t
+  GetPosition() const
+  {
+    return m_Next - (m_Block.size() - m_Taken);
+  }
+
+  /** Copies bytes; throws Failure(Unreadable) when there are not so many. */
+  void
+  Take(void * to, std::size_t size)
+  {
+    if (m_Block.size() - m_Taken < size)
+    {
+      this->Fill(size);
+    }
+    std::copy_n(m_Block.data() + m_Taken, size, static_cast<char *>(to));
+    m_Taken += size;
+  }
+
+  template <typename TNumber>
+  TNumber
+  Take()
+  {
+    TNumber number;
+    this->Take(&number, sizeof(number));
+    return number;
+  }
+
+  /** The next line without its end, valid until the next call; false at the end. Throws Failure(Unreadable) for lines
+   * longer than a MiB. */
+  bool
+  TakeLine(std::string_view & line);
+
+  /** Number of the last line, from 1. */
+  std::uintmax_t
+  GetLineNumber() const
+  {
+    return m_LineNumber;
+  }
+
+  /** Throws Failure(Unreadable): "Cannot read PATH, line N: WHY." */
+  [[noreturn]] void
+  RefuseLine(const std::string & why) const;
+
+private:
+  /** Makes at least \a size bytes ready. */
+  void
+  Fill(std::size_t size);
+
+  const InputFile & m_File;
+  std::uintmax_t m_Next; ///< first byte of the file that is not in the block
+  std::uintmax_t m_End;
+  std::vector<char> m_Block;
+  std::size_t m_Taken = 0;
+  std::uintmax_t m_LineNumber = 0;
+};
+
+} // namespace rhombic
+
+#endif

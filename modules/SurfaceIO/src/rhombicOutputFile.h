@@ -1,0 +1,72 @@
+#ifndef rhombicOutputFile_h
+#define rhombicOutputFile_h
+
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace rhombic
+{
+
+/** \class OutputFile
+ * \brief Collects small records, writes them in large blocks, and says when that fails. */
+class OutputFile
+{
+public:
+  /** Empties the file at \a path, which will become \a target: that is what messages name. Throws Failure(Output), like
+   * the rest. */
+  OutputFile(const std::filesystem::path & path, const std::filesystem::path & target);
+  ~OutputFile();
+
+  OutputFile(const OutputFile &) = delete;
+  OutputFile &
+  operator=(const OutputFile &) = delete;
+
+  const std::filesystem::path &
+  GetTarget() const
+  {
+    return m_Target;
+  }
+
+  void
+  Append(std::string_view bytes)
+  {
+    if (m_Block.size() + bytes.size() > BlockSize)
+    {
+      this->Flush();
+    }
+    m_Block.insert(m_Block.end(), bytes.begin(), bytes.end());
+  }
+
+  /** A number, or an array of numbers, as it lies in memory: little endian. */
+  template <typename TRecord>
+  void
+  AppendBinary(const TRecord & record)
+  {
+    static_assert(std::is_trivially_copyable_v<TRecord>);
+    this->Append({ reinterpret_cast<const char *>(&record), sizeof(record) });
+  }
+
+  /** To be called once all is appended: the destructor would not say that it failed. */
+  void
+  Close();
+
+private:
+  static constexpr std::size_t BlockSize = std::size_t{ 1 } << 20;
+
+  void
+  Flush();
+
+  [[noreturn]] void
+  Fail() const;
+
+  std::filesystem::path m_Target;
+  int m_Descriptor;
+  std::vector<char> m_Block;
+};
+
+} // namespace rhombic
+
+#endif

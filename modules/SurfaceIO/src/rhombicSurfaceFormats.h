@@ -1,0 +1,48 @@
+#ifndef rhombicSurfaceFormats_h
+#define rhombicSurfaceFormats_h
+
+#include "rhombicInputFile.h"
+#include "rhombicOutputFile.h"
+#include "rhombicSurfaceIO.h"
+
+#include <string>
+#include <vector>
+
+namespace rhombic
+{
+
+/** Each writer takes surfaces with triangles, finite positions and names without control characters, fewer than 2^32 -
+ * 1 points and triangles altogether. Each reader throws Failure(Unreadable) or Failure(Memory), and may return surfaces
+ * without triangles. */
+
+void
+WriteSTL(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
+std::vector<SceneSurface>
+ReadSTL(const InputFile & file);
+
+void
+WritePLY(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
+std::vector<SceneSurface>
+ReadPLY(const InputFile & file);
+
+/** The materials are in a file of their own, named like this one with the extension .mtl. */
+void
+WriteOBJ(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
+void
+WriteMTL(const std::vector<SceneSurface> & surfaces, OutputFile & file);
+std::vector<SceneSurface>
+ReadOBJ(const InputFile & file);
+
+void
+WriteVTP(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
+std::vector<SceneSurface>
+ReadVTP(const InputFile & file);
+
+void
+WriteGLB(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
+std::vector<SceneSurface>
+ReadGLB(const InputFile & file);
+
+} // namespace rhombic
+
+#endif

@@ -1,0 +1,237 @@
+#include "rhombicFileColours.h"
+#include "rhombicFileSpace.h"
+#include "rhombicSurfaceFormats.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+namespace rhombic
+{
+namespace
+{
+
+/** An array of the file: the bytes behind all XML that one of its elements names by their offset. */
+struct AppendedArray
+{
+  std::uint64_t size = 0; ///< bytes
+  std::function<void(OutputFile & file)> append;
+};
+
+/** \class VTPWriter
+ * \brief One piece for all surfaces, which follow each other. The XML names the arrays; their bytes follow raw.
+ *
+ * Format: VTK File Formats, "XML File Formats", docs.vtk.org. VTK's own writer would need a merged copy of the
+ * surfaces, and reports success on a full disk. */
+class VTPWriter
+{
+public:
+  VTPWriter(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space)
+    : m_Surfaces(surfaces)
+    , m_Space(space)
+  {
+    for (const SceneSurface & scene : surfaces)
+    {
+      m_Points += scene.surface->GetNumberOfPoints();
+      m_Triangles += scene.surface->GetNumberOfTriangles();
+      m_HaveNormals = m_HaveNormals && scene.surface->HasNormals();
+    }
+  }
+
+  void
+  Write(OutputFile & file)
+  {
+    std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+                      "header_type=\"UInt64\">\n<PolyData>\n<FieldData>\n";
+    this->AddFields(xml);
+    xml += "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(m_Points) +
+           "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
+           std::to_string(m_Triangles) + "\">\n";
+    this->AddPoints(xml);
+    const bool isSmall = 3 * m_Triangles <= std::numeric_limits<std::int32_t>::max();
+    isSmall ? this->AddPolys<std::int32_t>("Int32", xml) : this->AddPolys<std::int64_t>("Int64", xml);
+    this->AddCellData(xml);
+    xml += "</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
+    file.Append(xml);
+    for (const AppendedArray & array : m_Arrays)
+    {
+      file.AppendBinary(array.size);
+      array.append(file);
+    }
+    file.Append("\n</AppendedData>\n</VTKFile>\n");
+  }
+
+private:
+  /** \a size is that of its bytes. */
+  void
+  Add(std::string & xml, const std::string & element, std::uint64_t size, std::function<void(OutputFile & file)> append)
+  {
+    xml += element + " format=\"appended\" offset=\"" + std::to_string(m_Offset) + "\"/>\n";
+    m_Offset += sizeof(std::uint64_t) + size;
+    m_Arrays.push_back({ size, std::move(append) });
+  }
+
+  void
+  AddStrings(std::string & xml, const std::string & name, const std::vector<std::string> & strings)
+  {
+    std::string bytes;
+    for (const std::string & string : strings)
+    {
+      bytes.append(string) += '\0';
+    }
+    this->Add(xml,
+              "<Array type=\"String\" Name=\"" + name + "\" NumberOfTuples=\"" + std::to_string(strings.size()) + "\"",
+              bytes.size(),
+              [bytes](OutputFile & file) { file.Append(bytes); });
+  }
+
+  /** A tuple of each surface. */
+  template <typename TGetTuple>
+  void
+  AddTuples(std::string & xml, const std::string & name, const std::string & type, const TGetTuple & getTuple)
+  {
+    using TupleType = decltype(getTuple(m_Surfaces.front()));
+    const std::size_t components = std::tuple_size_v<TupleType>;
+    this->Add(xml,
+              "<DataArray type=\"" + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
+                std::to_string(components) + "\" NumberOfTuples=\"" + std::to_string(m_Surfaces.size()) + "\"",
+              sizeof(TupleType) * m_Surfaces.size(),
+              [this, getTuple](OutputFile & file) {
+                for (const SceneSurface & scene : m_Surfaces)
+                {
+                  file.AppendBinary(getTuple(scene));
+                }
+              });
+  }
+
+  void
+  AddFields(std::string & xml)
+  {
+    std::vector<std::string> names;
+    for (const SceneSurface & scene : m_Surfaces)
+    {
+      names.push_back(scene.name);
+    }
+    this->AddStrings(xml, "SPACE", { NameOf(m_Space) });
+    this->AddStrings(xml, "UNIT", { "mm" });
+    this->AddStrings(xml, "SurfaceNames", names);
+    this->AddTuples(xml, "SurfaceColours", "UInt8", [](const SceneSurface & scene) { return ToBytes(scene.colour); });
+    this->AddTuples(xml, "SurfaceOpacities", "Float64", [](const SceneSurface & scene) {
+      return std::array<double, 1>{ scene.opacity };
+    });
+    this->AddTuples(xml, "SurfaceSizes", "UInt64", [](const SceneSurface & scene) {
+      return std::array<std::uint64_t, 2>{ scene.surface->GetNumberOfPoints(), scene.surface->GetNumberOfTriangles() };
+    });
+  }
+
+  void
+  AddPoints(std::string & xml)
+  {
+    if (m_HaveNormals)
+    {
+      xml += "<PointData Normals=\"Normals\">\n";
+      this->AddVectors(
+        xml, "Normals", [](const SceneSurface & scene) -> auto & { return scene.surface->GetNormals(); });
+      xml += "</PointData>\n";
+    }
+    xml += "<Points>\n";
+    this->AddVectors(
+      xml, "Points", [](const SceneSurface & scene) -> auto & { return scene.surface->GetPoints(); });
+    xml += "</Points>\n";
+  }
+
+  template <typename TGetVectors>
+  void
+  AddVectors(std::string & xml, const std::string & name, const TGetVectors & getVectors)
+  {
+    this->Add(xml,
+              "<DataArray type=\"Float32\" Name=\"" + name + "\" NumberOfComponents=\"3\"",
+              sizeof(itk::TriangleSurface::PointType) * m_Points,
+              [this, getVectors](OutputFile & file) {
+                for (const SceneSurface & scene : m_Surfaces)
+                {
+                  for (const auto & vector : getVectors(scene))
+                  {
+                    file.AppendBinary(Turned(vector, m_Space));
+                  }
+                }
+              });
+  }
+
+  template <typename TIndex>
+  void
+  AddPolys(const std::string & type, std::string & xml)
+  {
+    const std::string element = "<DataArray type=\"" + type + "\" Name=";
+    xml += "<Polys>\n";
+    this->Add(xml, element + "\"connectivity\"", 3 * sizeof(TIndex) * m_Triangles, [this](OutputFile & file) {
+      TIndex first = 0;
+      for (const SceneSurface & scene : m_Surfaces)
+      {
+        for (const auto & [a, b, c] : scene.surface->GetTriangles())
+        {
+          file.AppendBinary(std::array<TIndex, 3>{
+            static_cast<TIndex>(first + a), static_cast<TIndex>(first + b), static_cast<TIndex>(first + c) });
+        }
+        first += static_cast<TIndex>(scene.surface->GetNumberOfPoints());
+      }
+    });
+    this->Add(xml, element + "\"offsets\"", sizeof(TIndex) * m_Triangles, [this](OutputFile & file) {
+      for (std::uint64_t n = 1; n <= m_Triangles; ++n)
+      {
+        file.AppendBinary(static_cast<TIndex>(3 * n));
+      }
+    });
+    xml += "</Polys>\n";
+  }
+
+  /** A value for each triangle of a surface. */
+  template <typename TGetValue>
+  void
+  AddCellValues(std::string & xml, const std::string & element, const TGetValue & getValue)
+  {
+    this->Add(xml, element, sizeof(getValue(std::size_t{})) * m_Triangles, [this, getValue](OutputFile & file) {
+      for (std::size_t surface = 0; surface < m_Surfaces.size(); ++surface)
+      {
+        const auto value = getValue(surface);
+        for (itk::SizeValueType n = 0; n < m_Surfaces[surface].surface->GetNumberOfTriangles(); ++n)
+        {
+          file.AppendBinary(value);
+        }
+      }
+    });
+  }
+
+  void
+  AddCellData(std::string & xml)
+  {
+    xml += "<CellData Scalars=\"Colours\">\n";
+    this->AddCellValues(
+      xml, "<DataArray type=\"UInt8\" Name=\"Colours\" NumberOfComponents=\"4\"", [this](std::size_t surface) {
+        const auto colour = ToBytes(m_Surfaces[surface].colour);
+        return std::array<std::uint8_t, 4>{ colour[0], colour[1], colour[2], ToByte(m_Surfaces[surface].opacity) };
+      });
+    this->AddCellValues(xml, "<DataArray type=\"UInt32\" Name=\"SurfaceNumbers\"", [](std::size_t surface) {
+      return static_cast<std::uint32_t>(surface);
+    });
+    xml += "</CellData>\n";
+  }
+
+  const std::vector<SceneSurface> & m_Surfaces;
+  SurfaceFileSpace m_Space;
+  std::uint64_t m_Points = 0;
+  std::uint64_t m_Triangles = 0;
+  bool m_HaveNormals = true;
+  std::uint64_t m_Offset = 0; ///< of the next array, from the start of the appended data
+  std::vector<AppendedArray> m_Arrays;
+};
+
+} // namespace
+
+void
+WriteVTP(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file)
+{
+  VTPWriter(surfaces, space).Write(file);
+}
+
+} // namespace rhombic
