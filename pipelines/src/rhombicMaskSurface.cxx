@@ -99,20 +99,27 @@ DifferenceOf(const MaskSurface & made, const MaskPiece & piece)
   return std::abs(made.volume / piece.volume - 1.0);
 }
 
+bool
+IsGood(const MaskSurface & made, const MaskPiece & piece)
+{
+  return made.shells == 1 && DifferenceOf(made, piece) <= LargestDifference;
+}
+
 /** Extracts the surface at the level at which it has the piece's volume: Newton's method with the surface's area as the
  * first slope, secants from then on. */
 MaskSurface
-ExtractVolume(const FieldLattice & lattice, const MaskPiece & piece, itk::FCCIsosurfaceMode mode)
+ExtractVolume(const FieldLattice & lattice, const MaskPiece & piece, double firstLevel, itk::FCCIsosurfaceMode mode)
 {
   const auto & spacing = piece.mask->GetSpacing();
   const double voxelEdge = std::cbrt(spacing[0] * spacing[1] * spacing[2]);
   MaskSurface best;
-  double level = 0.0;
+  double level = firstLevel;
   double lastLevel = 0.0;
   double lastVolume = 0.0;
   for (unsigned int n = 0; n < MostLevels; ++n)
   {
     MaskSurface made;
+    made.level = level;
     made.surface = Extract(lattice, level, mode);
     made.volume = itk::ComputeVolume(*made.surface);
     if (n == 0 || DifferenceOf(made, piece) < DifferenceOf(best, piece))
@@ -166,25 +173,26 @@ MaskToSurface(const MaskPiece & piece, const MaskSurfaceSettings & settings)
     constexpr std::size_t worseThanTwo = 3;
     return std::make_pair(made.shells == 0 ? worseThanTwo : made.shells, DifferenceOf(made, piece));
   };
-  MaskSurface best;
-  for (double factor = 1.0; factor <= FinestFactor; factor *= 2.0)
+  const auto make = [&](double density, double firstLevel) {
+    MaskSurface made = ExtractVolume(*MakeLattice(*field.image, piece, density), piece, firstLevel, settings.mode);
+    made.isFiner = density > settings.density;
+    made.protectedVoxels = field.protectedVoxels;
+    return made;
+  };
+  MaskSurface best = make(settings.density, 0.0);
+  for (double factor = 2.0; factor <= FinestFactor && !IsGood(best, piece); factor *= 2.0)
   {
     const double density = settings.density * factor;
-    if (factor > 1.0 && MemoryFor(piece, density) > MemoryAllowance(settings.maximumMemory))
+    if (MemoryFor(piece, density) > MemoryAllowance(settings.maximumMemory))
     {
       break;
     }
-    MaskSurface made = ExtractVolume(*MakeLattice(*field.image, piece, density), piece, settings.mode);
-    made.isFiner = factor > 1.0;
-    made.protectedVoxels = field.protectedVoxels;
-    if (factor == 1.0 || rank(made) < rank(best))
-    {
-      best = made;
-    }
-    if (best.shells == 1 && DifferenceOf(best, piece) <= LargestDifference)
+    MaskSurface finer = make(density, best.level);
+    if (!(rank(finer) < rank(best)))
     {
       break;
     }
+    best = std::move(finer);
   }
   return best;
 }

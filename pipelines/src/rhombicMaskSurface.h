@@ -28,6 +28,7 @@ struct MaskSurface
 {
   itk::TriangleSurface::Pointer surface;
   double volume = 0.0;    ///< that it encloses, in cubic mm
+  double level = 0.0;     ///< of the field at which it was extracted, in voxels
   std::size_t shells = 0; ///< components that enclose something
   bool isFiner = false;   ///< whether its lattice has more sites than asked for
   std::size_t protectedVoxels = 0;

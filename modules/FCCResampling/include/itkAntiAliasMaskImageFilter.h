@@ -33,7 +33,8 @@ namespace itk
  * Thin parts and sharp edges can't be told in such a wide neighbourhood. Around the voxels that end up more than 0.3 on
  * the wrong side, the field is made with a Gaussian of 1 voxel. One-voxel-wide parts (voxels in no 2 x 2 x 2 block of
  * their class) that are not clearly on their side then, either, are *protected*: the field is at least that of a tube
- * of radius 0.6 around these voxels and their connections with all 26 neighbours of their class. Such a
+ * of radius 0.6 around these voxels and their connections with all 26 neighbours of their class. *Spurs* are not: one
+ * or two such voxels that stick out of something without connecting it with anything. A
  * tube can be thinner than the sampling of the field; then a lattice of the default density misses it here and there.
  *
  * Mean errors against the shape the mask was made from, in voxels (of the zero surface extracted from the default
@@ -112,6 +113,10 @@ private:
   /** Marks fewer: the voxels of one-voxel-wide parts that are less than 0.1 on the right side. */
   void
   KeepThin(std::vector<std::uint8_t> & isMisjudged);
+
+  /** Marks fewer: no spurs. */
+  void
+  DropSpurs(std::vector<std::uint8_t> & isMarked);
 
   /** Puts tubes around the marked voxels of one class. */
   void

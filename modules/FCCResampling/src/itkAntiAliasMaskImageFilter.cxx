@@ -21,6 +21,7 @@ constexpr float NarrowGain = 0.6f; // thin parts overshoot Newton's step
 constexpr float Misjudged = 0.3f;  // on the wrong side
 constexpr float Clear = 0.1f;      // on the right side
 constexpr float TubeRadius = 0.6f;
+constexpr SizeValueType LargestSpur = 2; // voxels
 constexpr unsigned int Passes = 2 + WideCorrections + NarrowCorrections + 1;
 
 /** Weights of a Gaussian at -r, ..., r voxels, r being three sigma, rounded up. */
@@ -56,6 +57,83 @@ ClampedSample(SizeValueType sample, SizeValueType reach, SizeValueType length)
 {
   return sample < reach ? 0 : std::min(sample - reach, length - 1);
 }
+
+/** Neighbours through faces, edges and corners, of voxels that are given by their place in the buffer. */
+struct VoxelGrid
+{
+  using Coordinates = std::array<OffsetValueType, 3>;
+
+  std::array<SizeValueType, 3> size;
+
+  Coordinates
+  CoordinatesOf(SizeValueType voxel) const
+  {
+    const SizeValueType row = voxel / size[0];
+    return { static_cast<OffsetValueType>(voxel % size[0]),
+             static_cast<OffsetValueType>(row % size[1]),
+             static_cast<OffsetValueType>(row / size[1]) };
+  }
+
+  SizeValueType
+  PlaceOf(const Coordinates & voxel) const
+  {
+    return (static_cast<SizeValueType>(voxel[2]) * size[1] + static_cast<SizeValueType>(voxel[1])) * size[0] +
+           static_cast<SizeValueType>(voxel[0]);
+  }
+
+  bool
+  Holds(const Coordinates & voxel) const
+  {
+    bool isIn = true;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      isIn = isIn && voxel[axis] >= 0 && voxel[axis] < static_cast<OffsetValueType>(size[axis]);
+    }
+    return isIn;
+  }
+
+  template <typename TVisit>
+  void
+  ForEachNeighbor(SizeValueType voxel, const TVisit & visit) const
+  {
+    const Coordinates center = this->CoordinatesOf(voxel);
+    for (const OffsetValueType dz : { -1, 0, 1 })
+    {
+      for (const OffsetValueType dy : { -1, 0, 1 })
+      {
+        for (const OffsetValueType dx : { -1, 0, 1 })
+        {
+          const Coordinates neighbor{ center[0] + dx, center[1] + dy, center[2] + dz };
+          if ((dx != 0 || dy != 0 || dz != 0) && this->Holds(neighbor))
+          {
+            visit(this->PlaceOf(neighbor));
+          }
+        }
+      }
+    }
+  }
+
+  /** Whether a few voxels are one piece: not none, either. */
+  bool
+  AreConnected(std::vector<SizeValueType> voxels) const
+  {
+    if (voxels.empty())
+    {
+      return false;
+    }
+    auto reached = voxels.begin() + 1; // those before it are connected with the first
+    for (auto from = voxels.begin(); from != reached; ++from)
+    {
+      const Coordinates here = this->CoordinatesOf(*from);
+      reached = std::partition(reached, voxels.end(), [&](SizeValueType voxel) {
+        const Coordinates there = this->CoordinatesOf(voxel);
+        return std::abs(here[0] - there[0]) <= 1 && std::abs(here[1] - there[1]) <= 1 &&
+               std::abs(here[2] - there[2]) <= 1;
+      });
+    }
+    return reached == voxels.end();
+  }
+};
 
 constexpr float
 SideOf(std::uint8_t mask)
@@ -104,6 +182,7 @@ AntiAliasMaskImageFilter::GenerateData()
     this->MatchLocalVolumes(NarrowSigma, NarrowCorrections, NarrowGain, fine.data());
     this->Refine(isMarked, fine.data());
     this->KeepThin(isMarked);
+    this->DropSpurs(isMarked);
     this->Protect(isMarked, false);
     this->Protect(isMarked, true);
   }
@@ -308,27 +387,66 @@ AntiAliasMaskImageFilter::KeepThin(std::vector<std::uint8_t> & isMisjudged)
 }
 
 void
+AntiAliasMaskImageFilter::DropSpurs(std::vector<std::uint8_t> & isMarked)
+{
+  const VoxelGrid grid{ m_Size };
+  const auto isSameClass = [this](SizeValueType one, SizeValueType other) {
+    return (m_Mask[one] != 0) == (m_Mask[other] != 0);
+  };
+  std::vector<std::uint8_t> isSeen(isMarked.size());
+  for (SizeValueType first = 0; first < isMarked.size(); ++first)
+  {
+    if (isMarked[first] == 0 || isSeen[first] != 0)
+    {
+      continue;
+    }
+    std::vector<SizeValueType> part{ first };
+    isSeen[first] = 1;
+    for (SizeValueType n = 0; n < part.size(); ++n)
+    {
+      grid.ForEachNeighbor(part[n], [&](SizeValueType neighbor) {
+        if (isMarked[neighbor] != 0 && isSeen[neighbor] == 0 && isSameClass(first, neighbor))
+        {
+          isSeen[neighbor] = 1;
+          part.push_back(neighbor);
+        }
+      });
+    }
+    if (part.size() > LargestSpur)
+    {
+      continue;
+    }
+    std::vector<SizeValueType> base; // what it sticks out of
+    for (const SizeValueType voxel : part)
+    {
+      grid.ForEachNeighbor(voxel, [&](SizeValueType neighbor) {
+        if (isMarked[neighbor] == 0 && isSameClass(first, neighbor))
+        {
+          base.push_back(neighbor);
+        }
+      });
+    }
+    if (grid.AreConnected(base))
+    {
+      for (const SizeValueType voxel : part)
+      {
+        isMarked[voxel] = 0;
+      }
+    }
+  }
+}
+
+void
 AntiAliasMaskImageFilter::Protect(const std::vector<std::uint8_t> & isProtected, bool isInside)
 {
-  using Voxel = std::array<OffsetValueType, 3>;
-  const auto isInImage = [this](const Voxel & voxel) {
-    bool isIn = true;
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      isIn = isIn && voxel[axis] >= 0 && voxel[axis] < static_cast<OffsetValueType>(m_Size[axis]);
-    }
-    return isIn;
-  };
-  const auto offsetOf = [this](const Voxel & voxel) {
-    return (static_cast<SizeValueType>(voxel[2]) * m_Size[1] + static_cast<SizeValueType>(voxel[1])) * m_Size[0] +
-           static_cast<SizeValueType>(voxel[0]);
-  };
+  using Voxel = VoxelGrid::Coordinates;
+  const VoxelGrid grid{ m_Size };
   const float side = isInside ? 1.0f : -1.0f;
   const auto raise = [&](const Voxel & voxel, float depth) {
     constexpr float barely = 0.02f; // no voxel changes sides
-    if (isInImage(voxel))
+    if (grid.Holds(voxel))
     {
-      const SizeValueType offset = offsetOf(voxel);
+      const SizeValueType offset = grid.PlaceOf(voxel);
       const bool isOwn = (m_Mask[offset] != 0) == isInside;
       m_Field[offset] = side * std::max(side * m_Field[offset], isOwn ? depth : std::min(depth, -barely));
     }
@@ -343,7 +461,7 @@ AntiAliasMaskImageFilter::Protect(const std::vector<std::uint8_t> & isProtected,
           const Voxel neighbor{ voxel[0] + dx, voxel[1] + dy, voxel[2] + dz };
           const auto steps = static_cast<float>(std::abs(dx) + std::abs(dy) + std::abs(dz));
           raise(neighbor, TubeRadius - std::sqrt(steps));
-          if (steps < 2.0f || !isInImage(neighbor) || (m_Mask[offsetOf(neighbor)] != 0) != isInside)
+          if (steps < 2.0f || !grid.Holds(neighbor) || (m_Mask[grid.PlaceOf(neighbor)] != 0) != isInside)
           {
             continue;
           }
@@ -364,10 +482,7 @@ AntiAliasMaskImageFilter::Protect(const std::vector<std::uint8_t> & isProtected,
   {
     if (isProtected[offset] != 0 && (m_Mask[offset] != 0) == isInside)
     {
-      const SizeValueType row = offset / m_Size[0];
-      protect({ static_cast<OffsetValueType>(offset % m_Size[0]),
-                static_cast<OffsetValueType>(row % m_Size[1]),
-                static_cast<OffsetValueType>(row / m_Size[1]) });
+      protect(grid.CoordinatesOf(offset));
       m_NumberOfProtectedVoxels += isInside ? 1 : 0;
     }
   }
