@@ -26,11 +26,16 @@ bool
 LooksLikeLabelMap(const Scan & scan);
 
 /** The labels in a label map, by value, without the background 0. Labels that \a table lacks are named "label N" and
- * coloured by AnatomicalColour(). In an unevenly spaced stack a voxel reaches halfway to the next slices.
+ * coloured by AnatomicalColour(). Volumes are sums of VoxelVolumes().
  *
  * Throws Failure(Unreadable) when values are not whole numbers or there are more than 4096 different ones. */
 std::vector<LabelSummary>
 SummarizeLabels(const Scan & scan, const LabelTable & table);
+
+/** The volume of a voxel of each slice in cubic mm. In an unevenly spaced stack a voxel reaches halfway to the next
+ * slices. */
+std::vector<double>
+VoxelVolumes(const Scan & scan);
 
 /** The part of \a inner's box, voxels included, that lies in \a outer's box in world space, from 0 to 1. Measured at
  * 32 x 32 x 32 points; exactly 0 and 1 for boxes that are clearly apart and for a box in itself. */

@@ -1,0 +1,137 @@
+#ifndef itkAntiAliasMaskImageFilter_h
+#define itkAntiAliasMaskImageFilter_h
+
+#include "itkImage.h"
+#include "itkImageToImageFilter.h"
+#include "itkThreadFailure.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace itk
+{
+
+/** \class AntiAliasMaskImageFilter
+ * \brief A smooth field whose zero surface is the border of a mask, without the steps of its voxels.
+ *
+ * Input voxels other than 0 are inside. The output is about the depth below the border in voxels, positive inside,
+ * beyond 3 voxels without meaning. Its zero surface may be extracted by any means; for
+ * CartesianToFCCImageFilter it is as smooth as a scan.
+ *
+ * Smoothing a mask moves its border inwards where it is convex, and what is small vanishes; holding each voxel in its
+ * class instead (R. Whitaker, "Reducing aliasing artifacts in iso-surfaces of binary volumes", 2000, and
+ * itk::AntiAliasBinaryImageFilter) lets the border settle at the voxels' centres and leaves the steps that agree with
+ * all voxels. What is held here is the **local volume**: with G a Gaussian of 2.5 voxels, the field f starts as the
+ * smoothed mask and gets Newton's corrections
+ *
+ *   f += (2 pi)^(1/2) 2.5  G * (mask - coverage(f)),   coverage(f) = min(1, max(0, f + 1/2)),
+ *
+ * which make a voxel's coverage by the border, smoothed, that of the mask, so that the border stays where it was on
+ * average while its steps vanish.
+ *
+ * Thin parts and sharp edges can't be told in such a wide neighbourhood. Around the voxels that end up more than 0.3 on
+ * the wrong side, the field is made with a Gaussian of 1 voxel. One-voxel-wide parts (voxels in no 2 x 2 x 2 block of
+ * their class) that are not clearly on their side then, either, are *protected*: the field is at least that of a tube
+ * of radius 0.6 around these voxels and their connections with all 26 neighbours of their class. *Spurs* are not: one
+ * or two such voxels that stick out of something without connecting it with anything. A
+ * tube can be thinner than the sampling of the field; then a lattice of the default density misses it here and there.
+ *
+ * Mean errors against the shape the mask was made from, in voxels (of the zero surface extracted from the default
+ * lattice), degrees (of facets), and per cent (of the area), for spheres of radius 10 and 40, a torus (25, 7.3), and
+ * the faces of boxes turned by 17 degrees; the rivals' isovalue was chosen to preserve the volume:
+ *
+ *     method                                     sphere 10         sphere 40         torus             box
+ *     this filter                                .035 1.4  0.0     .029 1.1  0.0     .034 1.9  0.1     .05  0.9
+ *     mask smoothed by a Gaussian of 2           .028 1.2  0.0     .023 0.9  0.0     .056 1.8 -0.1     .16  0.8
+ *     AntiAliasBinaryImageFilter, RMS 0.07       .097 11.8 2.8     .098 11.6 2.7     .102 11.8 2.7     .13  15.8
+ *     the same with RMS 0.01                     .058 4.2  0.3     .068 4.9  0.5     .069 4.3  0.3     .09  7.7
+ *     Whitaker's, 8 times a Gaussian of 1        .084 13.6 3.5     .035 4.0  0.4     .080 10.8 2.3     .15  7.7
+ *
+ * Everything is symmetric in inside and outside, but for touching tubes, so that the masks on both sides of a wall get
+ * the same wall. Distances are counted in voxels, whatever their spacing. Beyond the image the mask is continued as it
+ * is at its border; leave a margin of 4 voxels around it, except where the scan ends.
+ *
+ * The whole input is requested, and the whole output made. Its bytes are the same for any number of threads, on any
+ * processor. Extra memory: 10 bytes per voxel.
+ *
+ * \ingroup FCCResampling
+ */
+class AntiAliasMaskImageFilter : public ImageToImageFilter<Image<std::uint8_t, 3>, Image<float, 3>>
+{
+public:
+  ITK_DISALLOW_COPY_AND_MOVE(AntiAliasMaskImageFilter);
+
+  using Self = AntiAliasMaskImageFilter;
+  using Superclass = ImageToImageFilter<Image<std::uint8_t, 3>, Image<float, 3>>;
+  using Pointer = SmartPointer<Self>;
+  using ConstPointer = SmartPointer<const Self>;
+
+  itkNewMacro(Self);
+  itkTypeMacro(AntiAliasMaskImageFilter, ImageToImageFilter);
+
+  /** Inside voxels that were protected in the last update. */
+  itkGetConstMacro(NumberOfProtectedVoxels, SizeValueType);
+
+protected:
+  AntiAliasMaskImageFilter() = default;
+  ~AntiAliasMaskImageFilter() override = default;
+
+  void
+  PrintSelf(std::ostream & os, Indent indent) const override;
+
+  void
+  GenerateInputRequestedRegion() override;
+
+  void
+  EnlargeOutputRequestedRegion(DataObject * output) override;
+
+  void
+  GenerateData() override;
+
+private:
+  using RowReader = std::function<void(SizeValueType row, float * values)>;
+  using RowWriter = std::function<void(SizeValueType row, const float * values)>;
+
+  /** Smooths the rows that \a read gives with a Gaussian of \a sigma voxels and hands them to \a write. A row is
+   * numbered y + z height. */
+  void
+  Smooth(double sigma, const RowReader & read, const RowWriter & write);
+
+  /** The field for a Gaussian of \a sigma voxels after so many corrections, each times \a gain. */
+  void
+  MatchLocalVolumes(double sigma, unsigned int corrections, float gain, float * field);
+
+  /** Marks the voxels whose value is more than \a tolerance on the wrong side. Returns whether there are any. */
+  bool
+  FindMisjudged(float tolerance, std::vector<std::uint8_t> & isMisjudged);
+
+  /** Takes the values of \a fine around the marked voxels. */
+  void
+  Refine(const std::vector<std::uint8_t> & isMisjudged, const float * fine);
+
+  /** Marks fewer: the voxels of one-voxel-wide parts that are less than 0.1 on the right side. */
+  void
+  KeepThin(std::vector<std::uint8_t> & isMisjudged);
+
+  /** Marks fewer: no spurs. */
+  void
+  DropSpurs(std::vector<std::uint8_t> & isMarked);
+
+  /** Puts tubes around the marked voxels of one class. */
+  void
+  Protect(const std::vector<std::uint8_t> & isProtected, bool isInside);
+
+  void
+  ForEach(SizeValueType count, const std::function<void(SizeValueType)> & work);
+
+  const std::uint8_t * m_Mask{ nullptr };
+  float * m_Field{ nullptr };
+  std::array<SizeValueType, 3> m_Size{};
+  std::vector<float> m_Smoothed;
+  SizeValueType m_NumberOfProtectedVoxels{ 0 };
+};
+
+} // namespace itk
+
+#endif

@@ -1,0 +1,491 @@
+#include "itkAntiAliasMaskImageFilter.h"
+
+#include "itkMath.h"
+#include "itkMultiThreaderBase.h"
+#include "itkRowArithmetic.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace itk
+{
+namespace
+{
+
+constexpr double WideSigma = 2.5; // voxels
+constexpr unsigned int WideCorrections = 2;
+constexpr double NarrowSigma = 1.0;
+constexpr unsigned int NarrowCorrections = 5;
+constexpr float NarrowGain = 0.6f; // thin parts overshoot Newton's step
+constexpr float Misjudged = 0.3f;  // on the wrong side
+constexpr float Clear = 0.1f;      // on the right side
+constexpr float TubeRadius = 0.6f;
+constexpr SizeValueType LargestSpur = 2; // voxels
+constexpr unsigned int Passes = 2 + WideCorrections + NarrowCorrections + 1;
+
+/** Weights of a Gaussian at -r, ..., r voxels, r being three sigma, rounded up. */
+std::vector<float>
+GaussianWeights(double sigma)
+{
+  const auto reach = static_cast<int>(std::ceil(3.0 * sigma));
+  std::vector<double> weights;
+  double sum = 0.0;
+  for (int n = -reach; n <= reach; ++n)
+  {
+    weights.push_back(std::exp(-0.5 * n * n / (sigma * sigma)));
+    sum += weights.back();
+  }
+  std::vector<float> normalized;
+  for (const double weight : weights)
+  {
+    normalized.push_back(static_cast<float>(weight / sum));
+  }
+  return normalized;
+}
+
+/** The inverse of the slope that smoothing with a Gaussian gives to a step. */
+double
+InverseSlope(double sigma)
+{
+  return sigma * std::sqrt(2.0 * Math::pi);
+}
+
+/** The samples before and behind a row are those at its ends. */
+SizeValueType
+ClampedSample(SizeValueType sample, SizeValueType reach, SizeValueType length)
+{
+  return sample < reach ? 0 : std::min(sample - reach, length - 1);
+}
+
+/** Neighbours through faces, edges and corners, of voxels that are given by their place in the buffer. */
+struct VoxelGrid
+{
+  using Coordinates = std::array<OffsetValueType, 3>;
+
+  std::array<SizeValueType, 3> size;
+
+  Coordinates
+  CoordinatesOf(SizeValueType voxel) const
+  {
+    const SizeValueType row = voxel / size[0];
+    return { static_cast<OffsetValueType>(voxel % size[0]),
+             static_cast<OffsetValueType>(row % size[1]),
+             static_cast<OffsetValueType>(row / size[1]) };
+  }
+
+  SizeValueType
+  PlaceOf(const Coordinates & voxel) const
+  {
+    return (static_cast<SizeValueType>(voxel[2]) * size[1] + static_cast<SizeValueType>(voxel[1])) * size[0] +
+           static_cast<SizeValueType>(voxel[0]);
+  }
+
+  bool
+  Holds(const Coordinates & voxel) const
+  {
+    bool isIn = true;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      isIn = isIn && voxel[axis] >= 0 && voxel[axis] < static_cast<OffsetValueType>(size[axis]);
+    }
+    return isIn;
+  }
+
+  template <typename TVisit>
+  void
+  ForEachNeighbor(SizeValueType voxel, const TVisit & visit) const
+  {
+    const Coordinates center = this->CoordinatesOf(voxel);
+    for (const OffsetValueType dz : { -1, 0, 1 })
+    {
+      for (const OffsetValueType dy : { -1, 0, 1 })
+      {
+        for (const OffsetValueType dx : { -1, 0, 1 })
+        {
+          const Coordinates neighbor{ center[0] + dx, center[1] + dy, center[2] + dz };
+          if ((dx != 0 || dy != 0 || dz != 0) && this->Holds(neighbor))
+          {
+            visit(this->PlaceOf(neighbor));
+          }
+        }
+      }
+    }
+  }
+
+  /** Whether a few voxels are one piece: not none, either. */
+  bool
+  AreConnected(std::vector<SizeValueType> voxels) const
+  {
+    if (voxels.empty())
+    {
+      return false;
+    }
+    auto reached = voxels.begin() + 1; // those before it are connected with the first
+    for (auto from = voxels.begin(); from != reached; ++from)
+    {
+      const Coordinates here = this->CoordinatesOf(*from);
+      reached = std::partition(reached, voxels.end(), [&](SizeValueType voxel) {
+        const Coordinates there = this->CoordinatesOf(voxel);
+        return std::abs(here[0] - there[0]) <= 1 && std::abs(here[1] - there[1]) <= 1 &&
+               std::abs(here[2] - there[2]) <= 1;
+      });
+    }
+    return reached == voxels.end();
+  }
+};
+
+constexpr float
+SideOf(std::uint8_t mask)
+{
+  return mask != 0 ? 1.0f : -1.0f;
+}
+
+} // namespace
+
+void
+AntiAliasMaskImageFilter::PrintSelf(std::ostream & os, Indent indent) const
+{
+  Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfProtectedVoxels: " << m_NumberOfProtectedVoxels << std::endl;
+}
+
+void
+AntiAliasMaskImageFilter::GenerateInputRequestedRegion()
+{
+  Superclass::GenerateInputRequestedRegion();
+  const_cast<InputImageType *>(this->GetInput())->SetRequestedRegionToLargestPossibleRegion();
+}
+
+void
+AntiAliasMaskImageFilter::EnlargeOutputRequestedRegion(DataObject * output)
+{
+  output->SetRequestedRegionToLargestPossibleRegion();
+}
+
+void
+AntiAliasMaskImageFilter::GenerateData()
+{
+  this->UpdateProgress(0.0f);
+  this->AllocateOutputs();
+  const auto & size = this->GetOutput()->GetBufferedRegion().GetSize();
+  m_Size = { size[0], size[1], size[2] };
+  m_Mask = this->GetInput()->GetBufferPointer();
+  m_Field = this->GetOutput()->GetBufferPointer();
+  m_NumberOfProtectedVoxels = 0;
+
+  this->MatchLocalVolumes(WideSigma, WideCorrections, 1.0f, m_Field);
+  std::vector<std::uint8_t> isMarked(size[0] * size[1] * size[2]);
+  if (this->FindMisjudged(Misjudged, isMarked))
+  {
+    std::vector<float> fine(isMarked.size());
+    this->MatchLocalVolumes(NarrowSigma, NarrowCorrections, NarrowGain, fine.data());
+    this->Refine(isMarked, fine.data());
+    this->KeepThin(isMarked);
+    this->DropSpurs(isMarked);
+    this->Protect(isMarked, false);
+    this->Protect(isMarked, true);
+  }
+  m_Smoothed = std::vector<float>();
+  this->UpdateProgress(1.0f);
+}
+
+void
+AntiAliasMaskImageFilter::ForEach(SizeValueType count, const std::function<void(SizeValueType)> & work)
+{
+  ThreadFailure failure;
+  MultiThreaderBase * const threader = this->GetMultiThreader();
+  threader->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
+  threader->ParallelizeArray(
+    0,
+    count,
+    [&](SizeValueType n) {
+      failure.Capture([&] {
+        if (this->GetAbortGenerateData())
+        {
+          throw ProcessAborted(__FILE__, __LINE__);
+        }
+        work(n);
+      });
+    },
+    nullptr);
+  failure.Rethrow();
+}
+
+void
+AntiAliasMaskImageFilter::Smooth(double sigma, const RowReader & read, const RowWriter & write)
+{
+  const std::vector<float> weights = GaussianWeights(sigma);
+  const SizeValueType taps = weights.size();
+  const SizeValueType reach = taps / 2;
+  const auto [width, height, depth] = m_Size;
+  const SizeValueType stride = RowArithmetic::PaddedLength(width);
+  m_Smoothed.resize(width * height * depth);
+
+  // Along x and y, plane by plane.
+  this->ForEach(depth, [&, width = width, height = height](SizeValueType z) {
+    std::vector<float> extended(stride + 2 * reach);
+    std::vector<float> plane(height * stride);
+    std::vector<float> blend(stride);
+    std::vector<const float *> terms(taps);
+    for (SizeValueType tap = 0; tap < taps; ++tap)
+    {
+      terms[tap] = extended.data() + tap;
+    }
+    for (SizeValueType y = 0; y < height; ++y)
+    {
+      read(y + z * height, extended.data() + reach);
+      std::fill_n(extended.begin(), reach, extended[reach]);
+      std::fill_n(extended.begin() + static_cast<std::ptrdiff_t>(reach + width), reach, extended[reach + width - 1]);
+      RowArithmetic::Blend(terms.data(), weights.data(), taps, width, plane.data() + y * stride);
+    }
+    for (SizeValueType y = 0; y < height; ++y)
+    {
+      for (SizeValueType tap = 0; tap < taps; ++tap)
+      {
+        terms[tap] = plane.data() + ClampedSample(y + tap, reach, height) * stride;
+      }
+      RowArithmetic::Blend(terms.data(), weights.data(), taps, width, blend.data());
+      std::copy_n(blend.data(), width, m_Smoothed.data() + (y + z * height) * width);
+    }
+  });
+
+  // Along z, for each y.
+  this->ForEach(height, [&, width = width, height = height, depth = depth](SizeValueType y) {
+    std::vector<float> rows(depth * stride);
+    std::vector<float> blend(stride);
+    std::vector<const float *> terms(taps);
+    for (SizeValueType z = 0; z < depth; ++z)
+    {
+      std::copy_n(m_Smoothed.data() + (y + z * height) * width, width, rows.data() + z * stride);
+    }
+    for (SizeValueType z = 0; z < depth; ++z)
+    {
+      for (SizeValueType tap = 0; tap < taps; ++tap)
+      {
+        terms[tap] = rows.data() + ClampedSample(z + tap, reach, depth) * stride;
+      }
+      RowArithmetic::Blend(terms.data(), weights.data(), taps, width, blend.data());
+      write(y + z * height, blend.data());
+    }
+  });
+  this->UpdateProgress(std::min(1.0f, this->GetProgress() + 1.0f / static_cast<float>(Passes)));
+}
+
+void
+AntiAliasMaskImageFilter::MatchLocalVolumes(double sigma, unsigned int corrections, float gain, float * field)
+{
+  const SizeValueType width = m_Size[0];
+  const auto slope = static_cast<float>(InverseSlope(sigma));
+  this->Smooth(
+    sigma,
+    [&](SizeValueType row, float * values) {
+      for (SizeValueType x = 0; x < width; ++x)
+      {
+        values[x] = 0.5f * SideOf(m_Mask[row * width + x]);
+      }
+    },
+    [&](SizeValueType row, const float * values) {
+      for (SizeValueType x = 0; x < width; ++x)
+      {
+        field[row * width + x] = slope * values[x];
+      }
+    });
+  for (unsigned int n = 0; n < corrections; ++n)
+  {
+    this->Smooth(
+      sigma,
+      [&](SizeValueType row, float * values) {
+        for (SizeValueType x = 0; x < width; ++x)
+        {
+          const float coverage = std::min(1.0f, std::max(0.0f, field[row * width + x] + 0.5f));
+          values[x] = (m_Mask[row * width + x] != 0 ? 1.0f : 0.0f) - coverage;
+        }
+      },
+      [&](SizeValueType row, const float * values) {
+        for (SizeValueType x = 0; x < width; ++x)
+        {
+          field[row * width + x] += gain * slope * values[x];
+        }
+      });
+  }
+}
+
+bool
+AntiAliasMaskImageFilter::FindMisjudged(float tolerance, std::vector<std::uint8_t> & isMisjudged)
+{
+  const SizeValueType voxelsPerPlane = m_Size[0] * m_Size[1];
+  std::vector<std::uint8_t> found(m_Size[2]);
+  this->ForEach(m_Size[2], [&](SizeValueType z) {
+    for (SizeValueType voxel = z * voxelsPerPlane; voxel < (z + 1) * voxelsPerPlane; ++voxel)
+    {
+      isMisjudged[voxel] = SideOf(m_Mask[voxel]) * m_Field[voxel] < -tolerance ? 1 : 0;
+      found[z] |= isMisjudged[voxel];
+    }
+  });
+  return std::find(found.begin(), found.end(), 1) != found.end();
+}
+
+void
+AntiAliasMaskImageFilter::Refine(const std::vector<std::uint8_t> & isMisjudged, const float * fine)
+{
+  const SizeValueType width = m_Size[0];
+  this->Smooth(
+    NarrowSigma,
+    [&](SizeValueType row, float * values) { std::copy_n(isMisjudged.data() + row * width, width, values); },
+    [&](SizeValueType row, const float * values) {
+      for (SizeValueType x = 0; x < width; ++x)
+      {
+        constexpr float steepness = 100.0f; // around a single voxel: 1 up to a distance of 2, 0 from 4 on
+        const SizeValueType voxel = row * width + x;
+        m_Field[voxel] += std::min(1.0f, steepness * values[x]) * (fine[voxel] - m_Field[voxel]);
+      }
+    });
+}
+
+void
+AntiAliasMaskImageFilter::KeepThin(std::vector<std::uint8_t> & isMisjudged)
+{
+  const auto [width, height, depth] = m_Size;
+  const auto sample = [](SizeValueType first, SizeValueType step, SizeValueType length) {
+    return ClampedSample(first + step, 1, length);
+  };
+  // Whether one of the eight 2 x 2 x 2 blocks around a voxel is all of its class.
+  const auto isInBlock =
+    [&, width = width, height = height, depth = depth](SizeValueType x, SizeValueType y, SizeValueType z) {
+      const bool isInside = m_Mask[(z * height + y) * width + x] != 0;
+      for (unsigned int block = 0; block < 8; ++block)
+      {
+        bool isWhole = true;
+        for (unsigned int corner = 0; corner < 8 && isWhole; ++corner)
+        {
+          const SizeValueType blockX = sample(x, (block & 1) + (corner & 1), width);
+          const SizeValueType blockY = sample(y, (block >> 1 & 1) + (corner >> 1 & 1), height);
+          const SizeValueType blockZ = sample(z, (block >> 2) + (corner >> 2), depth);
+          isWhole = (m_Mask[(blockZ * height + blockY) * width + blockX] != 0) == isInside;
+        }
+        if (isWhole)
+        {
+          return true;
+        }
+      }
+      return false;
+    };
+  this->ForEach(depth, [&, width = width, height = height](SizeValueType z) {
+    for (SizeValueType y = 0; y < height; ++y)
+    {
+      for (SizeValueType x = 0; x < width; ++x)
+      {
+        const SizeValueType voxel = (z * height + y) * width + x;
+        if (isMisjudged[voxel] != 0 && (SideOf(m_Mask[voxel]) * m_Field[voxel] >= Clear || isInBlock(x, y, z)))
+        {
+          isMisjudged[voxel] = 0;
+        }
+      }
+    }
+  });
+}
+
+void
+AntiAliasMaskImageFilter::DropSpurs(std::vector<std::uint8_t> & isMarked)
+{
+  const VoxelGrid grid{ m_Size };
+  const auto isSameClass = [this](SizeValueType one, SizeValueType other) {
+    return (m_Mask[one] != 0) == (m_Mask[other] != 0);
+  };
+  std::vector<std::uint8_t> isSeen(isMarked.size());
+  for (SizeValueType first = 0; first < isMarked.size(); ++first)
+  {
+    if (isMarked[first] == 0 || isSeen[first] != 0)
+    {
+      continue;
+    }
+    std::vector<SizeValueType> part{ first };
+    isSeen[first] = 1;
+    for (SizeValueType n = 0; n < part.size(); ++n)
+    {
+      grid.ForEachNeighbor(part[n], [&](SizeValueType neighbor) {
+        if (isMarked[neighbor] != 0 && isSeen[neighbor] == 0 && isSameClass(first, neighbor))
+        {
+          isSeen[neighbor] = 1;
+          part.push_back(neighbor);
+        }
+      });
+    }
+    if (part.size() > LargestSpur)
+    {
+      continue;
+    }
+    std::vector<SizeValueType> base; // what it sticks out of
+    for (const SizeValueType voxel : part)
+    {
+      grid.ForEachNeighbor(voxel, [&](SizeValueType neighbor) {
+        if (isMarked[neighbor] == 0 && isSameClass(first, neighbor))
+        {
+          base.push_back(neighbor);
+        }
+      });
+    }
+    if (grid.AreConnected(base))
+    {
+      for (const SizeValueType voxel : part)
+      {
+        isMarked[voxel] = 0;
+      }
+    }
+  }
+}
+
+void
+AntiAliasMaskImageFilter::Protect(const std::vector<std::uint8_t> & isProtected, bool isInside)
+{
+  using Voxel = VoxelGrid::Coordinates;
+  const VoxelGrid grid{ m_Size };
+  const float side = isInside ? 1.0f : -1.0f;
+  const auto raise = [&](const Voxel & voxel, float depth) {
+    constexpr float barely = 0.02f; // no voxel changes sides
+    if (grid.Holds(voxel))
+    {
+      const SizeValueType offset = grid.PlaceOf(voxel);
+      const bool isOwn = (m_Mask[offset] != 0) == isInside;
+      m_Field[offset] = side * std::max(side * m_Field[offset], isOwn ? depth : std::min(depth, -barely));
+    }
+  };
+  const auto protect = [&](const Voxel & voxel) {
+    for (const OffsetValueType dz : { -1, 0, 1 })
+    {
+      for (const OffsetValueType dy : { -1, 0, 1 })
+      {
+        for (const OffsetValueType dx : { -1, 0, 1 })
+        {
+          const Voxel neighbor{ voxel[0] + dx, voxel[1] + dy, voxel[2] + dz };
+          const auto steps = static_cast<float>(std::abs(dx) + std::abs(dy) + std::abs(dz));
+          raise(neighbor, TubeRadius - std::sqrt(steps));
+          if (steps < 2.0f || !grid.Holds(neighbor) || (m_Mask[grid.PlaceOf(neighbor)] != 0) != isInside)
+          {
+            continue;
+          }
+          // The other corners of the square or cube whose diagonal joins the two are this far from it.
+          const float distance = steps == 2.0f ? std::sqrt(1.0f / 2.0f) : std::sqrt(2.0f / 3.0f);
+          for (unsigned int corner = 0; corner < 8; ++corner)
+          {
+            raise({ voxel[0] + ((corner & 1) != 0 ? dx : 0),
+                    voxel[1] + ((corner & 2) != 0 ? dy : 0),
+                    voxel[2] + ((corner & 4) != 0 ? dz : 0) },
+                  TubeRadius - distance);
+          }
+        }
+      }
+    }
+  };
+  for (SizeValueType offset = 0; offset < isProtected.size(); ++offset)
+  {
+    if (isProtected[offset] != 0 && (m_Mask[offset] != 0) == isInside)
+    {
+      protect(grid.CoordinatesOf(offset));
+      m_NumberOfProtectedVoxels += isInside ? 1 : 0;
+    }
+  }
+}
+
+} // namespace itk

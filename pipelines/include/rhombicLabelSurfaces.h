@@ -1,0 +1,74 @@
+#ifndef rhombicLabelSurfaces_h
+#define rhombicLabelSurfaces_h
+
+#include "rhombicEvents.h"
+#include "rhombicLabelPipeline.h"
+#include "rhombicSceneSurface.h"
+
+#include "itkFCCIsosurfaceMode.h"
+#include "itkFCCLattice.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rhombic
+{
+
+/** Which labels get a surface, and how it is made. */
+struct LabelSurfaceSettings
+{
+  std::vector<std::string> labels;                  ///< names or values; empty: all that the label table wants shown
+  double density = itk::FCCLattice::NyquistDensity; ///< lattice sites per voxel
+  itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
+  std::uintmax_t maximumMemory = 0; ///< for the work on one piece of a label, in bytes; 0: half of what is free
+};
+
+/** The surface of a label, in the label's name, colour and opacity, and how it compares with the label's voxels. */
+struct LabelSurface
+{
+  SceneSurface scene;
+  std::int32_t value = 0;
+  std::size_t numberOfVoxels = 0;
+  double voxelMillilitres = 0.0;
+  double surfaceMillilitres = 0.0;
+  std::size_t pieces = 0;          ///< of the label: voxels connected through faces, edges or corners
+  std::size_t surfacePieces = 0;   ///< of the surface: closed shells that enclose something
+  std::size_t finerPieces = 0;     ///< pieces that took a lattice finer than asked for
+  std::size_t protectedVoxels = 0; ///< voxels of parts so thin that smoothing would have lost them
+
+  /** The surface's volume against the voxels', relative: 0 where they agree. */
+  double
+  GetVolumeDifference() const
+  {
+    return surfaceMillilitres / voxelMillilitres - 1.0;
+  }
+};
+
+/** A closed surface for each label, in the order of their values, without the steps of the voxels.
+ *
+ * Each piece of a label (voxels connected through faces, edges or corners) becomes a smooth field
+ * (itk::AntiAliasMaskImageFilter), is resampled onto the lattice and extracted at the level at which it has its voxels'
+ * volume. A piece whose surface is torn, or whose volume is more than 1 % off, as happens where parts are not much
+ * wider than a voxel, is made again on lattices of two, four and eight times as many sites, until it is whole. Where a
+ * label reaches the scan's border, its surface closes at the outer faces of the voxels there. A hollow label has shells
+ * inside, too.
+ *
+ * Labels are worked on one after the other, each in its own box, on all threads; the result has the same bytes for any
+ * number of them. Tilted, sheared and unevenly spaced stacks keep their true places (itk::CartesianToFCCImageFilter).
+ * Neighbouring labels get nearly the same wall, each its own.
+ *
+ * Throws Failure: Usage for a density that makes no lattice and for labels that the map doesn't hold; Empty when there
+ * is none to show; Memory, before the work on a piece, for one that is too large. */
+std::vector<LabelSurface>
+LabelsToSurfaces(const LabelMap & map, const LabelSurfaceSettings & settings, const Events & events);
+
+/** For each surface: value, name, voxels, millilitres of voxels and surface, their difference, pieces, protected voxels
+ * and triangles. */
+Report
+ReportLabelSurfaces(const std::vector<LabelSurface> & surfaces);
+
+} // namespace rhombic
+
+#endif

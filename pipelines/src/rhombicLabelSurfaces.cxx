@@ -1,0 +1,238 @@
+#include "rhombicLabelSurfaces.h"
+
+#include "rhombicFailure.h"
+#include "rhombicLabelPieces.h"
+#include "rhombicLatticePipeline.h"
+#include "rhombicMaskSurface.h"
+
+#include "itkTriangleSurfaceMeasures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace rhombic
+{
+namespace
+{
+
+constexpr double CubicMillimetresPerMillilitre = 1000.0;
+
+bool
+IsCalled(const Label & label, const std::string & nameOrValue)
+{
+  return label.name == nameOrValue || std::to_string(label.value) == nameOrValue;
+}
+
+/** The labels that settings ask for, in the order of the map. */
+std::vector<LabelSummary>
+ChooseLabels(const LabelMap & map, const std::vector<std::string> & wanted)
+{
+  for (const std::string & nameOrValue : wanted)
+  {
+    if (std::none_of(map.labels.begin(), map.labels.end(), [&nameOrValue](const LabelSummary & summary) {
+          return IsCalled(summary.label, nameOrValue);
+        }))
+    {
+      throw Failure(FailureKind::Usage,
+                    "The label map holds no " + nameOrValue + "; rhombic info --labels lists the names and values.");
+    }
+  }
+  std::vector<LabelSummary> chosen;
+  std::copy_if(map.labels.begin(), map.labels.end(), std::back_inserter(chosen), [&](const LabelSummary & summary) {
+    const auto isCalled = [&summary](const std::string & nameOrValue) { return IsCalled(summary.label, nameOrValue); };
+    return wanted.empty() ? summary.label.isVisible && summary.label.opacity > 0.0
+                          : std::any_of(wanted.begin(), wanted.end(), isCalled);
+  });
+  if (chosen.empty())
+  {
+    throw Failure(FailureKind::Empty,
+                  map.labels.empty() ? "The label map holds nothing but background; check that it was exported whole."
+                                     : "The label table hides all labels of the map; name those to show.");
+  }
+  return chosen;
+}
+
+/** The origins of the slices from \a first on, which continue beyond the scan's with the steps at its ends. */
+std::vector<itk::Point<double, 3>>
+CutSliceOrigins(const Scan & scan, itk::IndexValueType first, itk::SizeValueType count)
+{
+  const auto & origins = scan.sliceOrigins;
+  if (origins.size() < 2)
+  {
+    return {};
+  }
+  const auto begin = GeometryOf(scan.image).GetLargestPossibleRegion().GetIndex(2);
+  std::vector<itk::Point<double, 3>> cut;
+  for (itk::SizeValueType n = 0; n < count; ++n)
+  {
+    const auto slice = first - begin + static_cast<itk::IndexValueType>(n);
+    const auto last = static_cast<itk::IndexValueType>(origins.size()) - 1;
+    const auto nearest = std::clamp<itk::IndexValueType>(slice, 0, last);
+    const auto step = slice < 0 ? origins[1] - origins[0] : origins[origins.size() - 1] - origins[origins.size() - 2];
+    cut.push_back(origins[static_cast<std::size_t>(nearest)] + step * static_cast<double>(slice - nearest));
+  }
+  return cut;
+}
+
+MaskPiece
+CutPiece(const Scan & scan, const LabelPieces & pieces, std::size_t piece, const std::vector<double> & voxelVolumes)
+{
+  MaskPiece cut;
+  cut.mask = pieces.MakeMask(piece, MaskMargin);
+  cut.scanRegion = GeometryOf(scan.image).GetLargestPossibleRegion();
+  const auto & region = cut.mask->GetBufferedRegion();
+  cut.sliceOrigins = CutSliceOrigins(scan, region.GetIndex(2), region.GetSize(2));
+  const auto firstSlice = static_cast<std::size_t>(pieces.GetBox(piece).GetIndex(2) - cut.scanRegion.GetIndex(2));
+  const auto counts = pieces.CountVoxels(piece);
+  for (std::size_t slice = 0; slice < counts.size(); ++slice)
+  {
+    cut.volume += static_cast<double>(counts[slice]) * voxelVolumes[firstSlice + slice];
+  }
+  return cut;
+}
+
+/** All surfaces as one, in their order. */
+itk::TriangleSurface::Pointer
+Join(const std::vector<itk::TriangleSurface::Pointer> & surfaces)
+{
+  if (surfaces.size() == 1)
+  {
+    return surfaces.front();
+  }
+  const auto joined = itk::TriangleSurface::New();
+  for (const auto & surface : surfaces)
+  {
+    const auto first = static_cast<std::uint32_t>(joined->GetNumberOfPoints());
+    const auto append = [](auto & to, const auto & from) { to.insert(to.end(), from.begin(), from.end()); };
+    append(joined->GetPoints(), surface->GetPoints());
+    append(joined->GetNormals(), surface->GetNormals());
+    for (auto triangle : surface->GetTriangles())
+    {
+      for (auto & point : triangle)
+      {
+        point += first;
+      }
+      joined->GetTriangles().push_back(triangle);
+    }
+  }
+  return joined;
+}
+
+LabelSurface
+MakeSurface(const Scan & scan,
+            const LabelSummary & summary,
+            const LabelPieces & pieces,
+            const LabelSurfaceSettings & settings,
+            const std::function<void(double)> & progress)
+{
+  const std::vector<double> voxelVolumes = VoxelVolumes(scan);
+  LabelSurface made;
+  made.value = summary.label.value;
+  made.numberOfVoxels = summary.numberOfVoxels;
+  made.voxelMillilitres = summary.millilitres;
+  made.pieces = pieces.GetNumberOfPieces();
+  std::vector<itk::TriangleSurface::Pointer> surfaces;
+  for (std::size_t piece = 0; piece < made.pieces; ++piece)
+  {
+    progress(static_cast<double>(piece) / static_cast<double>(made.pieces));
+    const MaskSurface surface =
+      MaskToSurface(CutPiece(scan, pieces, piece, voxelVolumes),
+                    { settings.density, settings.mode, settings.maximumMemory, summary.label.name });
+    made.surfaceMillilitres += surface.volume / CubicMillimetresPerMillilitre;
+    made.surfacePieces += surface.shells;
+    made.finerPieces += surface.isFiner ? 1 : 0;
+    made.protectedVoxels += surface.protectedVoxels;
+    surfaces.push_back(surface.surface);
+  }
+  made.scene.name = summary.label.name;
+  made.scene.surface = Join(surfaces);
+  for (unsigned int channel = 0; channel < 3; ++channel)
+  {
+    made.scene.colour[channel] = summary.label.colour[channel] / 255.0;
+  }
+  made.scene.opacity = summary.label.opacity > 0.0 ? summary.label.opacity : 1.0;
+  return made;
+}
+
+std::string
+Percent(double ratio)
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::fixed << std::setprecision(1) << 100.0 * ratio << " %";
+  return text.str();
+}
+
+/** Says what did not come out as it should. */
+void
+NoteShortcomings(const LabelSurface & made, const Events & events)
+{
+  if (made.surfacePieces != made.pieces)
+  {
+    events.Note(made.scene.name + ": " + std::to_string(made.pieces) + " pieces became " +
+                std::to_string(made.surfacePieces) + "; parts of it are hardly wider than a voxel");
+  }
+  constexpr double notable = 0.01;
+  if (std::abs(made.GetVolumeDifference()) > notable)
+  {
+    events.Note(made.scene.name + ": the surface's volume differs by " + Percent(made.GetVolumeDifference()) +
+                " from that of its voxels");
+  }
+}
+
+} // namespace
+
+std::vector<LabelSurface>
+LabelsToSurfaces(const LabelMap & map, const LabelSurfaceSettings & settings, const Events & events)
+{
+  LatticeSettings lattice;
+  lattice.density = settings.density;
+  CheckLatticeSettings(lattice);
+  const std::vector<LabelSummary> labels = ChooseLabels(map, settings.labels);
+  const auto boxes = FindLabelBoxes(map.scan.image);
+  double allVoxels = 0.0;
+  for (const LabelSummary & summary : labels)
+  {
+    allVoxels += static_cast<double>(boxes.at(summary.label.value).GetNumberOfPixels());
+  }
+  std::vector<LabelSurface> surfaces;
+  double doneVoxels = 0.0;
+  for (const LabelSummary & summary : labels)
+  {
+    const itk::ImageRegion<3> & box = boxes.at(summary.label.value);
+    const auto boxVoxels = static_cast<double>(box.GetNumberOfPixels());
+    const LabelPieces pieces(map.scan.image, summary.label.value, box);
+    surfaces.push_back(MakeSurface(map.scan, summary, pieces, settings, [&](double fraction) {
+      events.Progress("surfaces of labels", (doneVoxels + fraction * boxVoxels) / allVoxels);
+    }));
+    NoteShortcomings(surfaces.back(), events);
+    doneVoxels += boxVoxels;
+  }
+  events.Progress("surfaces of labels", 1.0);
+  return surfaces;
+}
+
+Report
+ReportLabelSurfaces(const std::vector<LabelSurface> & surfaces)
+{
+  Report report = Report::array();
+  for (const LabelSurface & surface : surfaces)
+  {
+    report.push_back({ { "value", surface.value },
+                       { "name", surface.scene.name },
+                       { "voxels", surface.numberOfVoxels },
+                       { "voxel_millilitres", surface.voxelMillilitres },
+                       { "surface_millilitres", surface.surfaceMillilitres },
+                       { "volume_difference", surface.GetVolumeDifference() },
+                       { "pieces", surface.pieces },
+                       { "surface_pieces", surface.surfacePieces },
+                       { "finer_pieces", surface.finerPieces },
+                       { "protected_voxels", surface.protectedVoxels },
+                       { "triangles", surface.scene.surface->GetNumberOfTriangles() } });
+  }
+  return report;
+}
+
+} // namespace rhombic
