@@ -237,6 +237,11 @@ private:
     const auto hard =
       MakeMask(doubtful, [&](std::size_t n) { return doubtful.GetBufferPointer()[n] != 0 && hardness[n] >= quarter; });
     const Components walls = FindComponents(*hard, true);
+    const auto isLarge = [this](const Component & part) { return Millilitres(part.count) >= smallestHardVolume; };
+    if (std::none_of(walls.parts.begin(), walls.parts.end(), isLarge))
+    {
+      return;
+    }
     const OpenSpace space = FindOpenSpace(*m_Depth, closedGap, m_LongAxis);
     const auto open = FillOpenSpace(space, space.reachesSides, closedGap);
     if (!open)
@@ -250,7 +255,7 @@ private:
     });
     const auto wall = MakeMask(*hard, [&](std::size_t n) {
       const Component & part = walls.parts[labels[n]];
-      return labels[n] != none && Millilitres(part.count) >= smallestHardVolume &&
+      return labels[n] != none && isLarge(part) &&
              static_cast<double>(bare[labels[n]]) >= bareShare * static_cast<double>(part.count);
     });
     std::uint8_t * const table = m_Table->GetBufferPointer();
