@@ -1,7 +1,7 @@
 #include "rhombicTableRemoval.h"
 
 #include "rhombicCoarseScan.h"
-#include "rhombicEnclosedParts.h"
+#include "rhombicImageAxes.h"
 #include "rhombicPatientMask.h"
 
 #include "itkMultiThreaderBase.h"
@@ -341,7 +341,7 @@ RemoveTable(Scan & scan, const Events & events)
   const std::string step = "removing the table";
   events.Progress(step, 0.0);
   TableRemoval removal;
-  const unsigned int longAxis = LongAxisOf(GeometryOf(scan.image).GetDirection());
+  const unsigned int longAxis = NearestAxis(GeometryOf(scan.image).GetDirection(), 2);
   const CoarseScan coarse = MakeCoarseScan(scan, tissueThreshold, hardThreshold);
   events.Progress(step, 0.2);
   PatientMask mask = FindPatient(coarse, longAxis);
