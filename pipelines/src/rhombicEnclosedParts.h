@@ -1,6 +1,8 @@
 #ifndef rhombicEnclosedParts_h
 #define rhombicEnclosedParts_h
 
+#include "rhombicImageAxes.h"
+
 #include "itkFCCImage.h"
 #include "itkTriangleSurface.h"
 #include "itkTriangleSurfaceComponents.h"
@@ -12,22 +14,6 @@
 namespace rhombic
 {
 
-/** The axis of the image that is nearest to the patient's long axis. */
-inline unsigned int
-LongAxisOf(const itk::ImageBase<3>::DirectionType & direction)
-{
-  constexpr unsigned int superior = 2;
-  unsigned int found = 0;
-  for (unsigned int axis = 1; axis < 3; ++axis)
-  {
-    if (std::abs(direction[superior][axis]) > std::abs(direction[superior][found]))
-    {
-      found = axis;
-    }
-  }
-  return found;
-}
-
 /** Keeps the components that don't reach the sides of the scan and have at least a fiftieth of the volume of the
  * largest one of them, which leaves out specks and keeps two lungs and an airway that are not connected. The sides are
  * the extent's faces left, right, in front and at the back of the patient; at the top and the bottom organs are cut. */
@@ -37,7 +23,7 @@ KeepEnclosedParts(itk::TriangleSurface & surface, const itk::FCCImage<TPixel> & 
 {
   const auto components = itk::FindComponents(surface);
   const auto volumes = itk::ComputeComponentVolumes(surface, components);
-  const unsigned int longAxis = LongAxisOf(image.GetDirection());
+  const unsigned int longAxis = NearestAxis(image.GetDirection(), 2);
   const auto & region = image.GetLargestPossibleRegion();
   constexpr double unitsPerIndex[3] = { 2.0, 1.0, 1.0 };
   constexpr double near = 0.25; // of a lattice unit: closed surfaces end on the extent's faces exactly

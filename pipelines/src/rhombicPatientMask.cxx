@@ -1,5 +1,7 @@
 #include "rhombicPatientMask.h"
 
+#include "rhombicImageAxes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <locale>
@@ -11,8 +13,8 @@ namespace
 {
 
 // Lengths are in mm. Tables and holders are hollow, with thin walls; limbs are thick.
-constexpr double coreDepth = 6.0;              // what is deeper than this is a core: of more than 12 mm thickness
-constexpr double bodyDepth = 15.0;             // a core that is somewhere as deep as this is the patient's
+constexpr double coreDepth = 4.5;              // what is deeper than this is a core: of more than 9 mm thickness
+constexpr double bodyDepth = 12.0;             // a core that is somewhere as deep as this is the patient's
 constexpr double longestThinPart = 150.0;      // of the patient, such as a finger or a thin wrist
 constexpr double lowestTissue = -150.0;        // mean HU of a thin part: fat
 constexpr double highestTissue = 300.0;        // to bone within skin
@@ -24,6 +26,9 @@ constexpr double smallestHardVolume = 5.0;     // ml of a wall of carbon fibre,
 constexpr double bareShare = 0.7;              // and how much of it is next to open space
 constexpr double tableShare = 0.4;             // of a table's place, this part of all slices shows it detached or thin,
 constexpr double tableShareOccupied = 0.8;     // and this part something
+
+constexpr double widestContact = 120.0; // of a patient's back with a table's wall
+constexpr int blocksBeside = 6;         // a contact, in which the wall's thickness is measured
 
 constexpr std::uint32_t none = 0;
 
@@ -58,24 +63,30 @@ public:
     constexpr std::uint8_t half = 128;
     const std::uint8_t * const occupancy = m_Coarse.occupancy->GetBufferPointer();
     m_Found.tissue = MakeMask(*m_Coarse.occupancy, [=](std::size_t n) { return occupancy[n] >= half; });
-    if (!HasBorder(*m_Found.tissue) || !FindThickParts())
+    m_Solid = m_Found.tissue;
+    if (!HasBorder(*m_Solid) || !FindThickParts())
     {
       return m_Found;
     }
+    FillBetweenFrontAndBack();
+    FindThickParts();
+    Grow();
     AddWhatHangsOn();
+    CutWhereTableTouches();
     return m_Found;
   }
 
 private:
-  /** The cores that are the patient's, grown back to the surface. Returns whether there is a body. */
+  /** The cores that are the patient's. Returns whether there is a body. */
   bool
   FindThickParts()
   {
-    m_Depth = DistanceTo(*m_Found.tissue);
+    m_Depth = DistanceTo(*m_Solid);
     const float * const depths = m_Depth->GetBufferPointer();
-    const std::uint8_t * const tissue = m_Found.tissue->GetBufferPointer();
-    const auto core =
-      MakeMask(*m_Depth, [=](std::size_t n) { return tissue[n] != 0 && static_cast<double>(-depths[n]) >= coreDepth; });
+    const std::uint8_t * const solid = m_Solid->GetBufferPointer();
+    const auto core = MakeMask(*m_Depth, [=](std::size_t n) {
+      return solid[n] != 0 && 0.5 * m_Narrow - static_cast<double>(depths[n]) >= coreDepth;
+    });
     const Components cores = FindComponents(*core, false);
     const std::uint32_t * const labels = cores.labels->GetBufferPointer();
     std::vector<PartMeasures> measures(cores.parts.size());
@@ -104,8 +115,6 @@ private:
       isPatient[label] = isPatient[label] || IsThinPart(cores.parts[label], measures[label]);
     }
     m_Core = MakeMask(*core, [&](std::size_t n) { return isPatient[labels[n]]; });
-    m_Reach = DistanceTo(*m_Core);
-    Grow();
     return true;
   }
 
@@ -118,19 +127,56 @@ private:
            mean <= highestTissue;
   }
 
+  /** What has the patient's cores before it and behind it is in the patient: lungs, whose walls may be thin at the
+   * sides. */
+  void
+  FillBetweenFrontAndBack()
+  {
+    const auto & direction = m_Coarse.occupancy->GetDirection();
+    const unsigned int axis = NearestAxis(direction, 1);
+    const std::uint8_t * const core = m_Core->GetBufferPointer();
+    const auto filled = MakeLike<MaskImage>(*m_Solid);
+    std::copy_n(m_Solid->GetBufferPointer(), m_Count, filled->GetBufferPointer());
+    std::size_t step = 1;
+    for (unsigned int lower = 0; lower < axis; ++lower)
+    {
+      step *= m_Size[lower];
+    }
+    ForEachIndex(m_Size, [&](const itk::Index<3> & index, std::size_t n) {
+      if (index[axis] == 0)
+      {
+        std::size_t first = 0;
+        std::size_t end = m_Size[axis];
+        for (; first < end && core[n + first * step] == 0;)
+        {
+          ++first;
+        }
+        for (; end > first && core[n + (end - 1) * step] == 0;)
+        {
+          --end;
+        }
+        for (std::size_t place = first; place < end; ++place)
+        {
+          filled->GetBufferPointer()[n + place * step] = 1;
+        }
+      }
+    });
+    m_Solid = filled;
+  }
+
   /** The tissue within the cores' depth of them, and one block more, because depths are known to a block. */
   void
   Grow()
   {
+    m_Reach = DistanceTo(*m_Core);
     const float * const reach = m_Reach->GetBufferPointer();
-    const std::uint8_t * const tissue = m_Found.tissue->GetBufferPointer();
-    const auto opened = MakeMask(*m_Reach, [&](std::size_t n) {
-      return tissue[n] != 0 && static_cast<double>(reach[n]) <= coreDepth + 0.5 * m_Narrow;
-    });
+    const std::uint8_t * const solid = m_Solid->GetBufferPointer();
+    const auto opened =
+      MakeMask(*m_Reach, [&](std::size_t n) { return solid[n] != 0 && static_cast<double>(reach[n]) <= coreDepth; });
     m_Found.patient = MakeLike<MaskImage>(*opened);
     std::uint8_t * const patient = m_Found.patient->GetBufferPointer();
     ForEachIndex(m_Size, [&](const itk::Index<3> & index, std::size_t n) {
-      patient[n] = tissue[n] != 0 && HasNeighbour(*opened, index) ? 1 : 0;
+      patient[n] = solid[n] != 0 && HasNeighbour(*opened, index) ? 1 : 0;
     });
   }
 
@@ -183,9 +229,9 @@ private:
   AddComponents(const TFunction & isPatient)
   {
     std::uint8_t * const patient = m_Found.patient->GetBufferPointer();
-    const std::uint8_t * const tissue = m_Found.tissue->GetBufferPointer();
+    const std::uint8_t * const solid = m_Solid->GetBufferPointer();
     const auto others =
-      MakeMask(*m_Found.tissue, [&](std::size_t n) { return tissue[n] != 0 && patient[n] == 0 && !IsTable(n); });
+      MakeMask(*m_Solid, [&](std::size_t n) { return solid[n] != 0 && patient[n] == 0 && !IsTable(n); });
     const Components components = FindComponents(*others, false);
     const std::uint32_t * const labels = components.labels->GetBufferPointer();
     std::vector<PartMeasures> measures(components.parts.size());
@@ -237,6 +283,11 @@ private:
     const auto hard =
       MakeMask(doubtful, [&](std::size_t n) { return doubtful.GetBufferPointer()[n] != 0 && hardness[n] >= quarter; });
     const Components walls = FindComponents(*hard, true);
+    const auto isLarge = [this](const Component & part) { return Millilitres(part.count) >= smallestHardVolume; };
+    if (std::none_of(walls.parts.begin(), walls.parts.end(), isLarge))
+    {
+      return;
+    }
     const OpenSpace space = FindOpenSpace(*m_Depth, closedGap, m_LongAxis);
     const auto open = FillOpenSpace(space, space.reachesSides, closedGap);
     if (!open)
@@ -250,7 +301,7 @@ private:
     });
     const auto wall = MakeMask(*hard, [&](std::size_t n) {
       const Component & part = walls.parts[labels[n]];
-      return labels[n] != none && Millilitres(part.count) >= smallestHardVolume &&
+      return labels[n] != none && isLarge(part) &&
              static_cast<double>(bare[labels[n]]) >= bareShare * static_cast<double>(part.count);
     });
     std::uint8_t * const table = m_Table->GetBufferPointer();
@@ -264,7 +315,7 @@ private:
   void
   FindTablePlaces(const MaskImage & doubtful)
   {
-    const std::uint8_t * const tissue = m_Found.tissue->GetBufferPointer();
+    const std::uint8_t * const solid = m_Solid->GetBufferPointer();
     const Columns columns(*this);
     std::vector<std::uint32_t> doubtfulLevels(columns.count, 0);
     std::vector<std::uint32_t> occupiedLevels(columns.count, 0);
@@ -282,7 +333,7 @@ private:
         {
           index[others[0]] = static_cast<itk::IndexValueType>(u);
           const auto n = static_cast<std::size_t>(doubtful.ComputeOffset(index));
-          if (tissue[n] == 0)
+          if (solid[n] == 0)
           {
             continue;
           }
@@ -299,7 +350,7 @@ private:
     }
     const auto levels = static_cast<double>(m_Size[m_LongAxis]);
     ForEachIndex(m_Size, [&](const itk::Index<3> & place, std::size_t n) {
-      if (tissue[n] != 0 && m_Core->GetBufferPointer()[n] == 0)
+      if (solid[n] != 0 && m_Core->GetBufferPointer()[n] == 0)
       {
         const std::size_t column = columns.Of(place);
         if (static_cast<double>(doubtfulLevels[column]) >= tableShare * levels &&
@@ -310,6 +361,141 @@ private:
         }
       }
     });
+  }
+
+  /** A run of blocks along the axis from front to back; the back has the higher number. */
+  struct Run
+  {
+    std::ptrdiff_t front;
+    std::ptrdiff_t back;
+  };
+
+  /** Where the patient lies on a table's wall, both are one thick body. Across the patient, the wall goes in there and
+   * comes out again, and behind the body it has no step: in between it is as thick as on both sides. */
+  void
+  CutWhereTableTouches()
+  {
+    const auto & direction = m_Coarse.occupancy->GetDirection();
+    const unsigned int depthAxis = NearestAxis(direction, 1);
+    const unsigned int acrossAxis = 3 - depthAxis - m_LongAxis;
+    const bool isBackAtEnd = direction[1][depthAxis] > 0.0;
+    const auto across = static_cast<std::ptrdiff_t>(m_Size[acrossAxis]);
+    const auto depth = static_cast<std::ptrdiff_t>(m_Size[depthAxis]);
+    for (std::size_t level = 0; level < m_Size[m_LongAxis]; ++level)
+    {
+      const auto place = [&](std::ptrdiff_t column, std::ptrdiff_t row) {
+        itk::Index<3> index;
+        index[m_LongAxis] = static_cast<itk::IndexValueType>(level);
+        index[acrossAxis] = column;
+        index[depthAxis] = isBackAtEnd ? row : depth - 1 - row;
+        return static_cast<std::size_t>(m_Solid->ComputeOffset(index));
+      };
+      CutLevel(across, depth, place);
+    }
+  }
+
+  template <typename TPlace>
+  void
+  CutLevel(std::ptrdiff_t across, std::ptrdiff_t depth, const TPlace & place)
+  {
+    const std::uint8_t * const solid = m_Solid->GetBufferPointer();
+    std::uint8_t * const patient = m_Found.patient->GetBufferPointer();
+    // Of each column, the body's end at the back, or none, and the walls.
+    std::vector<std::ptrdiff_t> ends(static_cast<std::size_t>(across), -1);
+    std::vector<std::vector<Run>> walls(static_cast<std::size_t>(across));
+    for (std::ptrdiff_t column = 0; column < across; ++column)
+    {
+      const auto n = static_cast<std::size_t>(column);
+      for (std::ptrdiff_t row = 0; row < depth; ++row)
+      {
+        const std::size_t block = place(column, row);
+        if (patient[block] != 0)
+        {
+          ends[n] = row;
+        }
+        else if (solid[block] != 0)
+        {
+          if (walls[n].empty() || walls[n].back().back + 1 != row)
+          {
+            walls[n].push_back({ row, row });
+          }
+          walls[n].back().back = row;
+        }
+      }
+    }
+    const auto wallAt = [&](std::ptrdiff_t column, std::ptrdiff_t back) -> const Run * {
+      for (const Run & wall : walls[static_cast<std::size_t>(column)])
+      {
+        if (std::abs(wall.back - back) <= 1)
+        {
+          return &wall;
+        }
+      }
+      return nullptr;
+    };
+    /* The wall's thickness outside of the contact, where it is the thickest: near it, the body has grown into it. */
+    const auto thicknessFrom = [&](std::ptrdiff_t column, std::ptrdiff_t step) {
+      std::ptrdiff_t thickness = 0;
+      const Run * wall = walls[static_cast<std::size_t>(column)].empty()
+                           ? nullptr
+                           : wallAt(column, ends[static_cast<std::size_t>(column - step)]);
+      for (int n = 0; wall != nullptr && n < blocksBeside; ++n)
+      {
+        thickness = std::max(thickness, wall->back - wall->front + 1);
+        column += step;
+        wall = column >= 0 && column < across ? wallAt(column, wall->back) : nullptr;
+      }
+      return thickness;
+    };
+    const auto longest = static_cast<std::ptrdiff_t>(widestContact / m_Narrow);
+    for (std::ptrdiff_t first = 1; first < across; ++first)
+    {
+      const auto isBody = [&](std::ptrdiff_t column) {
+        const std::ptrdiff_t end = ends[static_cast<std::size_t>(column)];
+        return end >= 0 && wallAt(column, end) == nullptr;
+      };
+      if (!isBody(first) || wallAt(first - 1, ends[static_cast<std::size_t>(first)]) == nullptr)
+      {
+        continue;
+      }
+      std::ptrdiff_t last = first;
+      while (last + 1 < across && isBody(last + 1) && last - first < longest &&
+             std::abs(ends[static_cast<std::size_t>(last + 1)] - ends[static_cast<std::size_t>(last)]) <= 1 &&
+             wallAt(last + 1, ends[static_cast<std::size_t>(last)]) == nullptr)
+      {
+        ++last;
+      }
+      if (last + 1 >= across || wallAt(last + 1, ends[static_cast<std::size_t>(last)]) == nullptr)
+      {
+        continue;
+      }
+      const std::ptrdiff_t thickness = std::min(thicknessFrom(first - 1, -1), thicknessFrom(last + 1, 1));
+      if (thickness == 0 || static_cast<double>(thickness) * m_Narrow > 2.0 * coreDepth)
+      {
+        continue;
+      }
+      const auto cut = [&](std::ptrdiff_t column, std::ptrdiff_t back) {
+        for (std::ptrdiff_t row = std::max<std::ptrdiff_t>(back - thickness + 1, 0); row <= back; ++row)
+        {
+          patient[place(column, row)] = 0;
+        }
+      };
+      for (std::ptrdiff_t column = first; column <= last; ++column)
+      {
+        cut(column, ends[static_cast<std::size_t>(column)]);
+      }
+      const auto cutBeside = [&](std::ptrdiff_t column, std::ptrdiff_t step) {
+        const Run * wall = wallAt(column, ends[static_cast<std::size_t>(column - step)]);
+        for (int n = 0; wall != nullptr && n < blocksBeside; ++n)
+        {
+          cut(column, wall->back);
+          column += step;
+          wall = column >= 0 && column < across ? wallAt(column, wall->back) : nullptr;
+        }
+      };
+      cutBeside(first - 1, -1);
+      cutBeside(last + 1, 1);
+    }
   }
 
   bool
@@ -393,6 +579,7 @@ private:
   double m_Narrow = 0.0;
   double m_Millilitres = 0.0;
   PatientMask m_Found;
+  MaskImage::Pointer m_Solid; ///< tissue, and from the second pass on what the patient encloses
   MaskImage::Pointer m_Core;
   MaskImage::Pointer m_Table;
   DistanceImage::Pointer m_Depth; ///< in tissue; negative inside

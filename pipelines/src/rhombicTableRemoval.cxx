@@ -1,12 +1,13 @@
 #include "rhombicTableRemoval.h"
 
 #include "rhombicCoarseScan.h"
-#include "rhombicEnclosedParts.h"
+#include "rhombicImageAxes.h"
 #include "rhombicPatientMask.h"
 
 #include "itkMultiThreaderBase.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -183,89 +184,124 @@ FindExcess(const CoarseScan & coarse, const Surroundings & surroundings, const D
   return excess;
 }
 
-/** The block before a sample, and how far from there to the next one the sample is. */
-struct Place
+/** The three blocks next to a sample along one axis, and their weights: a quadratic B-spline, which smooths the steps
+ * of distances to masks. */
+struct Taps
 {
-  std::size_t block;
-  std::size_t next;
-  float fraction;
+  std::array<std::size_t, 3> blocks;
+  std::array<float, 3> weights;
 };
 
-Place
-PlaceOf(std::size_t sample, std::size_t samplesPerBlock, std::size_t blocks)
+/** For each of the samples along one axis. */
+std::vector<Taps>
+MakeTaps(std::size_t samples, std::size_t samplesPerBlock, std::size_t blocks)
 {
-  const double position = (static_cast<double>(sample) + 0.5) / static_cast<double>(samplesPerBlock) - 0.5;
-  const double clamped = std::clamp(position, 0.0, static_cast<double>(blocks - 1));
-  const auto block = static_cast<std::size_t>(clamped);
-  return { block, std::min(block + 1, blocks - 1), static_cast<float>(clamped - std::floor(clamped)) };
+  std::vector<Taps> taps(samples);
+  for (std::size_t sample = 0; sample < samples; ++sample)
+  {
+    const std::size_t block = sample / samplesPerBlock;
+    const double place =
+      (static_cast<double>(sample) + 0.5) / static_cast<double>(samplesPerBlock) - static_cast<double>(block) - 0.5;
+    taps[sample].blocks = { block == 0 ? 0 : block - 1, block, std::min(block + 1, blocks - 1) };
+    taps[sample].weights = { static_cast<float>(0.5 * (0.5 - place) * (0.5 - place)),
+                             static_cast<float>(0.75 - place * place),
+                             static_cast<float>(0.5 * (0.5 + place) * (0.5 + place)) };
+  }
+  return taps;
 }
 
-/** Lowers what is beyond the border to air. The limit falls from high values to air within the ramp, so that surfaces
- * at any threshold close there, smoothly. */
-template <typename TPixel>
-void
-CutSlice(itk::Image<TPixel, 3> & image,
-         const CoarseScan & coarse,
-         const DistanceImage & excess,
-         double airValue,
-         std::size_t slice)
+/** \class Cutter
+ * \brief Lowers what is beyond the patient's border to air. The limit falls from high values to air within a ramp, so
+ * that surfaces at any threshold close there, smoothly. */
+class Cutter
 {
-  const auto size = image.GetBufferedRegion().GetSize();
-  const auto blocks = excess.GetBufferedRegion().GetSize();
-  const float ramp = static_cast<float>(std::max(image.GetSpacing()[0], image.GetSpacing()[1]));
-  constexpr float height = 2000.0f; // HU, over the ramp
-  const auto air = static_cast<float>(airValue);
-  const Place k = PlaceOf(slice, coarse.samplesPerBlock[2], blocks[2]);
-  std::vector<float> row(blocks[0]);
-  for (std::size_t y = 0; y < size[1]; ++y)
+public:
+  Cutter(const CoarseScan & coarse, const DistanceImage & excess, const itk::ImageBase<3> & grid, double airValue)
+    : m_Excess(excess)
+    , m_Blocks(excess.GetBufferedRegion().GetSize())
+    , m_Ramp(static_cast<float>(std::max(grid.GetSpacing()[0], grid.GetSpacing()[1])))
+    , m_Air(static_cast<float>(airValue))
   {
-    const Place j = PlaceOf(y, coarse.samplesPerBlock[1], blocks[1]);
-    const auto rowAt = [&](std::size_t blockRow, std::size_t blockSlice) {
-      return excess.GetBufferPointer() + blocks[0] * (blockRow + blocks[1] * blockSlice);
-    };
-    const float * const rows[4] = {
-      rowAt(j.block, k.block), rowAt(j.next, k.block), rowAt(j.block, k.next), rowAt(j.next, k.next)
-    };
-    const float weights[4] = { (1.0f - j.fraction) * (1.0f - k.fraction),
-                               j.fraction * (1.0f - k.fraction),
-                               (1.0f - j.fraction) * k.fraction,
-                               j.fraction * k.fraction };
-    float farthest = -ramp;
-    for (std::size_t i = 0; i < blocks[0]; ++i)
+    for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      row[i] = weights[0] * rows[0][i] + weights[1] * rows[1][i] + weights[2] * rows[2][i] + weights[3] * rows[3][i];
-      farthest = std::max(farthest, row[i]);
+      m_Taps[axis] =
+        MakeTaps(grid.GetLargestPossibleRegion().GetSize(axis), coarse.samplesPerBlock[axis], m_Blocks[axis]);
     }
-    if (farthest <= -0.5f * ramp)
+  }
+
+  template <typename TPixel>
+  void
+  CutSlice(itk::Image<TPixel, 3> & image, std::size_t slice) const
+  {
+    std::vector<float> excess(m_Blocks[0]);
+    for (std::size_t row = 0; row < m_Taps[1].size(); ++row)
     {
-      continue;
-    }
-    TPixel * const samples = image.GetBufferPointer() + size[0] * (y + size[1] * slice);
-    for (std::size_t x = 0; x < size[0]; ++x)
-    {
-      const Place i = PlaceOf(x, coarse.samplesPerBlock[0], blocks[0]);
-      const float beyond = row[i.block] + i.fraction * (row[i.next] - row[i.block]);
-      if (beyond > -0.5f * ramp)
+      if (FindExcessOfRow(row, slice, excess) > -0.5f * m_Ramp)
       {
-        const float limit = air + std::max(0.0f, 0.5f - beyond / ramp) * height;
-        if (static_cast<float>(samples[x]) > limit)
-        {
-          samples[x] = static_cast<TPixel>(limit);
-        }
+        CutRow(excess, image.GetBufferPointer() + m_Taps[0].size() * (row + m_Taps[1].size() * slice));
       }
     }
   }
-}
+
+private:
+  /** Of the blocks along a row of samples; returns the greatest. */
+  float
+  FindExcessOfRow(std::size_t row, std::size_t slice, std::vector<float> & excess) const
+  {
+    std::fill(excess.begin(), excess.end(), 0.0f);
+    const Taps & rows = m_Taps[1][row];
+    const Taps & slices = m_Taps[2][slice];
+    for (unsigned int k = 0; k < 3; ++k)
+    {
+      for (unsigned int j = 0; j < 3; ++j)
+      {
+        const float weight = slices.weights[k] * rows.weights[j];
+        const float * const blocks =
+          m_Excess.GetBufferPointer() + m_Blocks[0] * (rows.blocks[j] + m_Blocks[1] * slices.blocks[k]);
+        for (std::size_t i = 0; i < excess.size(); ++i)
+        {
+          excess[i] += weight * blocks[i];
+        }
+      }
+    }
+    return *std::max_element(excess.begin(), excess.end());
+  }
+
+  template <typename TPixel>
+  void
+  CutRow(const std::vector<float> & excess, TPixel * samples) const
+  {
+    constexpr float height = 2000.0f; // HU, over the ramp
+    for (std::size_t x = 0; x < m_Taps[0].size(); ++x)
+    {
+      const Taps & taps = m_Taps[0][x];
+      const float beyond = taps.weights[0] * excess[taps.blocks[0]] + taps.weights[1] * excess[taps.blocks[1]] +
+                           taps.weights[2] * excess[taps.blocks[2]];
+      if (beyond > -0.5f * m_Ramp)
+      {
+        const float limit = m_Air + std::max(0.0f, 0.5f - beyond / m_Ramp) * height;
+        samples[x] = static_cast<float>(samples[x]) > limit ? static_cast<TPixel>(limit) : samples[x];
+      }
+    }
+  }
+
+  const DistanceImage & m_Excess;
+  itk::Size<3> m_Blocks;
+  float m_Ramp; ///< in mm
+  float m_Air;
+  std::array<std::vector<Taps>, 3> m_Taps;
+};
 
 void
 Cut(Scan & scan, const CoarseScan & coarse, const DistanceImage & excess, double airValue)
 {
   std::visit(
     [&](const auto & image) {
+      const Cutter cutter(coarse, excess, *image, airValue);
       itk::MultiThreaderBase::New()->ParallelizeArray(
         0,
         image->GetBufferedRegion().GetSize(2),
-        [&](itk::SizeValueType slice) { CutSlice(*image, coarse, excess, airValue, slice); },
+        [&](itk::SizeValueType slice) { cutter.CutSlice(*image, slice); },
         nullptr);
     },
     scan.image);
@@ -305,7 +341,7 @@ RemoveTable(Scan & scan, const Events & events)
   const std::string step = "removing the table";
   events.Progress(step, 0.0);
   TableRemoval removal;
-  const unsigned int longAxis = LongAxisOf(GeometryOf(scan.image).GetDirection());
+  const unsigned int longAxis = NearestAxis(GeometryOf(scan.image).GetDirection(), 2);
   const CoarseScan coarse = MakeCoarseScan(scan, tissueThreshold, hardThreshold);
   events.Progress(step, 0.2);
   PatientMask mask = FindPatient(coarse, longAxis);
