@@ -1,6 +1,6 @@
 #include "itkTriangleSurfaceVertexOrder.h"
 #include "itkTriangleSurfaceTopology.h"
-#include "itkTestSurfaces.h"
+#include "itkExampleSurfaces.h"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ SortedTriangles(const Surface & surface)
 
 TEST(TriangleSurfaceVertexOrder, IsBetterAfterwardsAndTheTrianglesAreTheSame)
 {
-  const auto   surface = surfacetest::MakeTorus(10.0, 4.0, 120, 60);
+  const auto surface = itk::example::MakeTorus(10.0, 4.0, 100);
   std::mt19937 random(7);
   std::shuffle(surface->GetTriangles().begin(), surface->GetTriangles().end(), random);
   surface->GetPoints().push_back({ 99, 99, 99 }); // of no triangle

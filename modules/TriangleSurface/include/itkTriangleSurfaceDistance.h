@@ -10,10 +10,10 @@ namespace itk
  * \brief How far places of one surface are from another surface, in mm. */
 struct TriangleSurfaceDistance
 {
-  double        mean = 0.0;         ///< over the area
-  double        percentile95 = 0.0; ///< 95 % of the area is not further
-  double        maximum = 0.0;      ///< at the places looked at; between them it may be more
-  SizeValueType places = 0;         ///< how many were looked at
+  double mean = 0.0;         ///< over the area
+  double percentile95 = 0.0; ///< 95 % of the area is not further
+  double maximum = 0.0;      ///< at the places looked at; between them it may be more
+  SizeValueType places = 0;  ///< how many were looked at
 };
 
 /** Distances from the points of a surface, and from places inside its triangles, to the nearest point of another
@@ -25,8 +25,8 @@ struct TriangleSurfaceDistance
  * Thread safe; the same for any number of threads. */
 TriangleSurfaceDistance
 ComputeDistance(const TriangleSurface & surface,
-                const TriangleTree &    other,
-                double                  spacing = std::numeric_limits<double>::infinity());
+                const TriangleTree & other,
+                double spacing = std::numeric_limits<double>::infinity());
 
 /** \class TriangleSurfaceTwoDistances
  * \brief Distances from each of two surfaces to the other. */

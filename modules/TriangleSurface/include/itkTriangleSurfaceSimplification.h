@@ -13,8 +13,8 @@ namespace itk
  * \brief How far a surface is simplified: to a number of triangles, to an error, or until the first of both. */
 struct TriangleSurfaceSimplificationSettings
 {
-  SizeValueType targetTriangles = 0; ///< 0: as few as the error allows
-  double        maximumError = std::numeric_limits<double>::infinity(); ///< in mm, above 0
+  SizeValueType targetTriangles = 0;                             ///< 0: as few as the error allows
+  double maximumError = std::numeric_limits<double>::infinity(); ///< in mm, above 0
 };
 
 /** What ended a simplification. */
@@ -32,11 +32,11 @@ operator<<(std::ostream & os, SimplificationEnd end);
  * \brief What simplification did. */
 struct TriangleSurfaceSimplificationReport
 {
-  SizeValueType     trianglesBefore = 0;
-  SizeValueType     trianglesAfter = 0;
+  SizeValueType trianglesBefore = 0;
+  SizeValueType trianglesAfter = 0;
   SimplificationEnd end = SimplificationEnd::Target;
-  SizeValueType     placesTakenBack = 0; ///< places where triangles were put back because a check had failed there
-  SizeValueType     intersectionsBefore = 0;
+  SizeValueType placesTakenBack = 0; ///< places where triangles were put back because a check had failed there
+  SizeValueType intersectionsBefore = 0;
 };
 
 /** Makes a surface of fewer triangles that keeps the promise of the original.

@@ -11,7 +11,8 @@ namespace itk
 struct TriangleSurfaceSmoothingSettings
 {
   unsigned int iterations = 20; ///< pairs of one step inwards and one step outwards
-  double maximumMove = 0.0; ///< mm from where a point was, finite and not negative; a set fraction of the lattice spacing
+  double maximumMove =
+    0.0; ///< mm from where a point was, finite and not negative; a set fraction of the lattice spacing
 };
 
 /** \class TriangleSurfaceSmoothingReport

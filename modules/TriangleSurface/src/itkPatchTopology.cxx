@@ -7,8 +7,8 @@
 namespace itk
 {
 
-PatchTopology::PatchTopology(const std::vector<TriangleType> &    triangles,
-                             std::size_t                          numberOfPoints,
+PatchTopology::PatchTopology(const std::vector<TriangleType> & triangles,
+                             std::size_t numberOfPoints,
                              const std::function<bool(PointId)> & isChecked)
   : m_Triangles(triangles)
   , m_Components(numberOfPoints)
@@ -26,7 +26,7 @@ PatchTopology::PatchTopology(const std::vector<TriangleType> &    triangles,
 void
 PatchTopology::FindComponents()
 {
-  DisjointSets      sets(m_Components.size());
+  DisjointSets sets(m_Components.size());
   std::vector<bool> isUsed(m_Components.size());
   for (const TriangleType & triangle : m_Triangles)
   {
@@ -102,7 +102,7 @@ PatchTopology::CheckEdges()
 void
 PatchTopology::CheckFans(const std::function<bool(PointId)> & isChecked)
 {
-  const auto   numberOfCorners = static_cast<std::uint32_t>(3 * m_Triangles.size());
+  const auto numberOfCorners = static_cast<std::uint32_t>(3 * m_Triangles.size());
   DisjointSets fans(numberOfCorners);
   for (std::size_t side = 0; side + 1 < m_Sides.size(); ++side)
   {
@@ -127,7 +127,7 @@ PatchTopology::CheckFans(const std::function<bool(PointId)> & isChecked)
   for (std::uint32_t corner = 0; corner < numberOfCorners; ++corner)
   {
     const PointId point = PointAt(corner);
-    const bool    isJudged = !isChecked || isChecked(point);
+    const bool isJudged = !isChecked || isChecked(point);
     if (isJudged && numberOfFans[point] != std::max(1u, leavingBorder[point]))
     {
       m_BadTriangles.push_back(corner / 3);

@@ -23,12 +23,13 @@ public:
   using DirectedEdge = std::array<PointId, 2>;
 
   /** Points and edges are judged where isChecked(point) holds for one of their points at least; without it, all are. */
-  PatchTopology(const std::vector<TriangleType> &           triangles,
-                std::size_t                                 numberOfPoints,
-                const std::function<bool(PointId)> &        isChecked = nullptr);
+  PatchTopology(const std::vector<TriangleType> & triangles,
+                std::size_t numberOfPoints,
+                const std::function<bool(PointId)> & isChecked = nullptr);
 
   /** Triangles, by their place in the vector, at edges of three or more triangles or of two that run along it in the
-   * same direction or lie upon each other, and at points with more fans of triangles than the border makes there. Sorted. */
+   * same direction or lie upon each other, and at points with more fans of triangles than the border makes there.
+   * Sorted. */
   const std::vector<std::uint32_t> &
   GetBadTriangles() const
   {
@@ -49,7 +50,8 @@ public:
     return m_Components;
   }
 
-  /** For each point used points - edges + triangles of its component, 0 unless the point is the component's smallest. */
+  /** For each point used points - edges + triangles of its component, 0 unless the point is the component's smallest.
+   */
   const std::vector<int> &
   GetEulerCharacteristics() const
   {
@@ -60,8 +62,8 @@ private:
   /** A side of a triangle: from corner to the next corner; corners are numbered 3 * triangle + 0, 1 or 2. */
   struct Side
   {
-    PointId       low;
-    PointId       high;
+    PointId low;
+    PointId high;
     std::uint32_t corner;
   };
 
@@ -88,11 +90,11 @@ private:
   AreNeighbours(std::uint32_t corner, std::uint32_t other) const;
 
   const std::vector<TriangleType> & m_Triangles;
-  std::vector<Side>                 m_Sides;
-  std::vector<std::uint32_t>        m_BadTriangles;
-  std::vector<DirectedEdge>         m_Border;
-  std::vector<PointId>              m_Components;
-  std::vector<int>                  m_EulerCharacteristics;
+  std::vector<Side> m_Sides;
+  std::vector<std::uint32_t> m_BadTriangles;
+  std::vector<DirectedEdge> m_Border;
+  std::vector<PointId> m_Components;
+  std::vector<int> m_EulerCharacteristics;
 };
 
 } // namespace itk

@@ -1,5 +1,6 @@
 #include "itkSimplifiedPatch.h"
 
+#include "itkLocalIds.h"
 #include "itkPatchTopology.h"
 
 #include <meshoptimizer.h>
@@ -18,45 +19,7 @@ using TriangleType = TriangleSurface::TriangleType;
 using Box = TriangleTree::Box;
 
 constexpr unsigned int MostRounds = 12; // then the whole patch is held
-constexpr float        Growth = 0.25f;  // of a bad place, by its longest side, with each round
-
-/** Numbers from 0 for the points of some triangles, in the order of their ids. */
-class LocalIds
-{
-public:
-  explicit LocalIds(const std::vector<TriangleType> & triangles)
-  {
-    m_Ids.reserve(3 * triangles.size());
-    for (const TriangleType & triangle : triangles)
-    {
-      m_Ids.insert(m_Ids.end(), triangle.begin(), triangle.end());
-    }
-    std::sort(m_Ids.begin(), m_Ids.end());
-    m_Ids.erase(std::unique(m_Ids.begin(), m_Ids.end()), m_Ids.end());
-  }
-
-  const std::vector<PointId> &
-  GetIds() const
-  {
-    return m_Ids;
-  }
-
-  std::vector<TriangleType>
-  ToLocal(std::vector<TriangleType> triangles) const
-  {
-    for (TriangleType & triangle : triangles)
-    {
-      for (PointId & point : triangle)
-      {
-        point = static_cast<PointId>(std::lower_bound(m_Ids.begin(), m_Ids.end(), point) - m_Ids.begin());
-      }
-    }
-    return triangles;
-  }
-
-private:
-  std::vector<PointId> m_Ids;
-};
+constexpr float Growth = 0.25f;         // of a bad place, by its longest side, with each round
 
 bool
 HasArea(const std::array<PointType, 3> & corners)
@@ -91,16 +54,18 @@ Inflated(Box box, float share)
 
 /** The points of components that have no successor, or several, or one with another Euler characteristic. */
 std::vector<bool>
-FindLostComponents(const PatchTopology & before, const PatchTopology & after, const std::vector<TriangleType> & trianglesAfter)
+FindLostComponents(const PatchTopology & before,
+                   const PatchTopology & after,
+                   const std::vector<TriangleType> & trianglesAfter)
 {
   const std::vector<PointId> & componentOf = before.GetComponents();
-  std::vector<int>             euler(componentOf.size(), 0);
+  std::vector<int> euler(componentOf.size(), 0);
   for (PointId point = 0; point < componentOf.size(); ++point)
   {
     euler[componentOf[point]] += after.GetEulerCharacteristics()[point];
   }
   std::vector<bool> isCounted(componentOf.size());
-  std::vector<int>  successors(componentOf.size(), 0);
+  std::vector<int> successors(componentOf.size(), 0);
   for (const TriangleType & triangle : trianglesAfter)
   {
     const PointId successor = after.GetComponents()[triangle[0]];
@@ -179,8 +144,8 @@ SimplifiedPatch::SimplifyOnce(const Goal & goal)
     return;
   }
 
-  const LocalIds            ids(rest);
-  std::vector<PointType>    positions;
+  const LocalIds ids(rest);
+  std::vector<PointType> positions;
   std::vector<TriangleType> local(rest.size());
   const std::vector<TriangleType> localRest = ids.ToLocal(rest);
   for (const PointId id : ids.GetIds())
@@ -188,7 +153,7 @@ SimplifiedPatch::SimplifyOnce(const Goal & goal)
     positions.push_back((*m_Points)[id]);
   }
   const std::size_t target = goal.triangles > m_NumberHeld ? goal.triangles - m_NumberHeld : 0;
-  const float       scale = meshopt_simplifyScale(positions.front().data(), positions.size(), sizeof(PointType));
+  const float scale = meshopt_simplifyScale(positions.front().data(), positions.size(), sizeof(PointType));
   const std::size_t indices = meshopt_simplify(local.front().data(),
                                                localRest.front().data(),
                                                3 * localRest.size(),
@@ -215,11 +180,11 @@ SimplifiedPatch::FindBadPlaces(const TooFarCheck & isTooFar) const
     return {};
   }
   const std::vector<TriangleType> triangles(m_Begin, m_End);
-  const LocalIds                  ids(triangles);
+  const LocalIds ids(triangles);
   const std::vector<TriangleType> before = ids.ToLocal(triangles);
   const std::vector<TriangleType> after = ids.ToLocal(m_Result);
-  const PatchTopology             topologyBefore(before, ids.GetIds().size());
-  const PatchTopology             topologyAfter(after, ids.GetIds().size());
+  const PatchTopology topologyBefore(before, ids.GetIds().size());
+  const PatchTopology topologyAfter(after, ids.GetIds().size());
 
   std::vector<Box> places;
   for (const std::uint32_t id : topologyAfter.GetBadTriangles())
@@ -239,7 +204,7 @@ SimplifiedPatch::FindBadPlaces(const TooFarCheck & isTooFar) const
   if (places.empty())
   {
     const std::vector<bool> isLost = FindLostComponents(topologyBefore, topologyAfter, after);
-    const bool              isBorderKept = topologyBefore.GetBorder() == topologyAfter.GetBorder();
+    const bool isBorderKept = topologyBefore.GetBorder() == topologyAfter.GetBorder();
     for (std::size_t id = 0; id < before.size(); ++id)
     {
       if (!isBorderKept || isLost[before[id][0]])

@@ -27,7 +27,7 @@ public:
   /** How far a patch is simplified. */
   struct Goal
   {
-    double      error; ///< mm, mean distance of a point from the planes it stands for
+    double error; ///< mm, mean distance of a point from the planes it stands for
     std::size_t triangles;
   };
 
@@ -81,14 +81,14 @@ private:
   std::vector<Box>
   FindBadPlaces(const TooFarCheck & isTooFar) const;
 
-  const Points *            m_Points = nullptr;
-  const TriangleType *      m_Begin = nullptr;
-  const TriangleType *      m_End = nullptr;
+  const Points * m_Points = nullptr;
+  const TriangleType * m_Begin = nullptr;
+  const TriangleType * m_End = nullptr;
   std::vector<std::uint8_t> m_IsHeld;
-  std::size_t               m_NumberHeld = 0;
+  std::size_t m_NumberHeld = 0;
   std::vector<TriangleType> m_Result;
-  std::size_t               m_PlacesTakenBack = 0;
-  unsigned int              m_Rounds = 0;
+  std::size_t m_PlacesTakenBack = 0;
+  unsigned int m_Rounds = 0;
 };
 
 /** The box around a triangle. */

@@ -14,8 +14,8 @@ using ClosestPoint = TriangleTree::ClosestPoint;
 using Corners = std::array<Position, 3>;
 
 constexpr SizeValueType BlockSize = 1024;
-constexpr unsigned int  MostParts = 64; // along a side
-constexpr unsigned int  MostCuts = 7;
+constexpr unsigned int MostParts = 64; // along a side
+constexpr unsigned int MostCuts = 7;
 
 Position
 ToPosition(const TriangleSurface::PointType & point)
@@ -39,7 +39,8 @@ Distance(const Position & a, const Position & b)
 double
 LongestSide(const Corners & corners)
 {
-  return std::max({ Distance(corners[0], corners[1]), Distance(corners[1], corners[2]), Distance(corners[2], corners[0]) });
+  return std::max(
+    { Distance(corners[0], corners[1]), Distance(corners[1], corners[2]), Distance(corners[2], corners[0]) });
 }
 
 double
@@ -50,7 +51,7 @@ Area(const Corners & corners)
   {
     const unsigned int u = (axis + 1) % 3;
     const unsigned int v = (axis + 2) % 3;
-    const double       part = (corners[1][u] - corners[0][u]) * (corners[2][v] - corners[0][v]) -
+    const double part = (corners[1][u] - corners[0][u]) * (corners[2][v] - corners[0][v]) -
                         (corners[1][v] - corners[0][v]) * (corners[2][u] - corners[0][u]);
     squared += part * part;
   }
@@ -64,8 +65,7 @@ At(const Corners & corners, const std::array<double, 3> & weights)
   Position position;
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    position[axis] =
-      weights[0] * corners[0][axis] + weights[1] * corners[1][axis] + weights[2] * corners[2][axis];
+    position[axis] = weights[0] * corners[0][axis] + weights[1] * corners[1][axis] + weights[2] * corners[2][axis];
   }
   return position;
 }
@@ -155,11 +155,11 @@ MeanSide(const TriangleSurface & surface)
 
 /** A triangle's part, with what is nearest to each of its corners. */
 bool
-IsPartWithin(const Corners &                     corners,
+IsPartWithin(const Corners & corners,
              const std::array<ClosestPoint, 3> & closest,
-             const TriangleTree &                other,
-             double                              limit,
-             unsigned int                        cutsLeft)
+             const TriangleTree & other,
+             double limit,
+             unsigned int cutsLeft)
 {
   double furthest = 0.0;
   for (const ClosestPoint & corner : closest)
@@ -181,7 +181,7 @@ IsPartWithin(const Corners &                     corners,
   {
     return false;
   }
-  Corners                     middles;
+  Corners middles;
   std::array<ClosestPoint, 3> closestToMiddles;
   for (unsigned int corner = 0; corner < 3; ++corner)
   {
@@ -204,13 +204,13 @@ IsPartWithin(const Corners &                     corners,
 TriangleSurfaceDistance
 ComputeDistance(const TriangleSurface & surface, const TriangleTree & other, double spacing)
 {
-  const auto &               triangles = surface.GetTriangles();
+  const auto & triangles = surface.GetTriangles();
   std::vector<std::uint64_t> begin(triangles.size() + 1);
-  std::vector<float>         pointAreas(surface.GetNumberOfPoints(), 0.0f);
+  std::vector<float> pointAreas(surface.GetNumberOfPoints(), 0.0f);
   begin[0] = surface.GetNumberOfPoints();
   for (std::size_t id = 0; id < triangles.size(); ++id)
   {
-    const Corners      corners = CornersOf(surface, triangles[id]);
+    const Corners corners = CornersOf(surface, triangles[id]);
     const unsigned int parts = CountParts(corners, spacing);
     begin[id + 1] = begin[id] + std::uint64_t{ parts } * parts;
     for (const std::uint32_t point : triangles[id])
@@ -225,12 +225,12 @@ ComputeDistance(const TriangleSurface & surface, const TriangleTree & other, dou
       pointAreas[point] > 0.0f ? static_cast<float>(DistanceTo(other, ToPosition(surface.GetPoints()[point]))) : 0.0f;
   });
   ForEachInBlocks(triangles.size(), BlockSize, [&](SizeValueType id) {
-    const Corners      corners = CornersOf(surface, triangles[id]);
+    const Corners corners = CornersOf(surface, triangles[id]);
     const unsigned int parts = CountParts(corners, spacing);
-    const double       area = Area(corners) / (double{ parts } * parts);
+    const double area = Area(corners) / (double{ parts } * parts);
     // the inner corners of parts are not looked at: their share is the centres'
     const double share = 1.0 - 0.25 / (double{ parts } * parts);
-    std::size_t  place = begin[id];
+    std::size_t place = begin[id];
     ForEachPart(corners, parts, [&](const Position & centre) {
       places[place++] = { static_cast<float>(DistanceTo(other, centre)), static_cast<float>(area * share) };
     });

@@ -120,8 +120,8 @@ public:
 
 private:
   const TriangleSurface::TrianglesContainer & m_Triangles;
-  std::vector<std::size_t>                    m_Begin;
-  std::vector<TriangleId>                     m_Ids;
+  std::vector<std::size_t> m_Begin;
+  std::vector<TriangleId> m_Ids;
 };
 
 class Smoothing
@@ -147,12 +147,11 @@ public:
   Step(double share)
   {
     ForEachInBlocks(m_Points.size(), BlockSize, [this, share](SizeValueType point) {
-      m_Next[point] = m_IsInside[point] ? WithinReach(point, Towards(static_cast<PointId>(point), share))
-                                        : m_Points[point];
+      m_Next[point] =
+        m_IsInside[point] ? WithinReach(point, Towards(static_cast<PointId>(point), share)) : m_Points[point];
     });
     while (TakeBackBadMoves())
-    {
-    }
+    {}
     m_Points.swap(m_Next);
   }
 
@@ -165,8 +164,8 @@ public:
         const Vector3 a = Difference(m_Points[next], m_Points[point]);
         const Vector3 b = Difference(m_Points[last], m_Points[point]);
         const Vector3 normal = Cross(a, b);
-        const double  length = Length(normal);
-        const double  angle = std::atan2(length, Dot(a, b));
+        const double length = Length(normal);
+        const double angle = std::atan2(length, Dot(a, b));
         for (unsigned int axis = 0; axis < 3 && length > 0.0; ++axis)
         {
           sum[axis] += angle * normal[axis] / length;
@@ -210,7 +209,7 @@ private:
       }
     });
     const double factor = share / static_cast<double>(m_Fans.Size(point));
-    PointType    moved;
+    PointType moved;
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
       moved[axis] = static_cast<float>(m_Points[point][axis] + factor * sum[axis]);
@@ -223,8 +222,8 @@ private:
   WithinReach(SizeValueType point, PointType position) const
   {
     const PointType & start = m_Start[point];
-    const Vector3     way = Difference(position, start);
-    double            reach = m_MaximumMove / Length(way);
+    const Vector3 way = Difference(position, start);
+    double reach = m_MaximumMove / Length(way);
     while (Length(Difference(position, start)) > m_MaximumMove)
     {
       for (unsigned int axis = 0; axis < 3; ++axis)
@@ -263,18 +262,17 @@ private:
   {
     const Vector3 was = AreaVector(m_Start, triangle);
     const Vector3 will = AreaVector(m_Next, triangle);
-    const double  areaWas = Length(was);
-    const double  areaWill = Length(will);
-    return !(Dot(was, will) >= SmallestCosineOfTurn * areaWas * areaWill &&
-             areaWill >= SmallestShareOfArea * areaWas);
+    const double areaWas = Length(was);
+    const double areaWill = Length(will);
+    return !(Dot(was, will) >= SmallestCosineOfTurn * areaWas * areaWill && areaWill >= SmallestShareOfArea * areaWas);
   }
 
-  TriangleSurface &         m_Surface;
-  Points &                  m_Points;
-  const Points              m_Start;
-  Points                    m_Next;
-  const Fans                m_Fans;
-  const double              m_MaximumMove;
+  TriangleSurface & m_Surface;
+  Points & m_Points;
+  const Points m_Start;
+  Points m_Next;
+  const Fans m_Fans;
+  const double m_MaximumMove;
   std::vector<std::uint8_t> m_IsInside;
   std::vector<std::uint8_t> m_IsBad;
 };
@@ -286,8 +284,8 @@ SmoothSurface(TriangleSurface & surface, const TriangleSurfaceSmoothingSettings 
 {
   if (!(settings.maximumMove >= 0.0 && std::isfinite(settings.maximumMove)))
   {
-    itkGenericExceptionMacro("A point can't move by at most " << settings.maximumMove
-                                                              << " mm when a surface is smoothed; give a number from 0");
+    itkGenericExceptionMacro("A point can't move by at most "
+                             << settings.maximumMove << " mm when a surface is smoothed; give a number from 0");
   }
   Smoothing smoothing(surface, settings.maximumMove);
   for (unsigned int iteration = 0; iteration < settings.iterations; ++iteration)

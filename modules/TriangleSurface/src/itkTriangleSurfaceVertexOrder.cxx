@@ -44,8 +44,8 @@ AnalyzeVertexOrder(const TriangleSurface & surface)
     sizeof(TriangleSurface::PointType) + (surface.HasNormals() ? sizeof(TriangleSurface::NormalType) : 0);
   const auto cache = meshopt_analyzeVertexCache(
     Indices(surface), NumberOfIndices(surface), surface.GetNumberOfPoints(), CacheSize, 0, 0);
-  const auto fetch = meshopt_analyzeVertexFetch(
-    Indices(surface), NumberOfIndices(surface), surface.GetNumberOfPoints(), bytesPerPoint);
+  const auto fetch =
+    meshopt_analyzeVertexFetch(Indices(surface), NumberOfIndices(surface), surface.GetNumberOfPoints(), bytesPerPoint);
   return { cache.acmr, fetch.overfetch };
 }
 
