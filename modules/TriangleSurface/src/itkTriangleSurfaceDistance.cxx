@@ -227,9 +227,10 @@ ComputeDistance(const TriangleSurface & surface, const TriangleTree & other, dou
   ForEachInBlocks(triangles.size(), BlockSize, [&](SizeValueType id) {
     const Corners corners = CornersOf(surface, triangles[id]);
     const unsigned int parts = CountParts(corners, spacing);
-    const double area = Area(corners) / (double{ parts } * parts);
+    const double numberOfParts = static_cast<double>(parts) * parts;
+    const double area = Area(corners) / numberOfParts;
     // the inner corners of parts are not looked at: their share is the centres'
-    const double share = 1.0 - 0.25 / (double{ parts } * parts);
+    const double share = 1.0 - 0.25 / numberOfParts;
     std::size_t place = begin[id];
     ForEachPart(corners, parts, [&](const Position & centre) {
       places[place++] = { static_cast<float>(DistanceTo(other, centre)), static_cast<float>(area * share) };
