@@ -1,0 +1,58 @@
+#ifndef itkTriangleSurfaceDistance_h
+#define itkTriangleSurfaceDistance_h
+
+#include "itkTriangleTree.h"
+
+namespace itk
+{
+
+/** \class TriangleSurfaceDistance
+ * \brief How far places of one surface are from another surface, in mm. */
+struct TriangleSurfaceDistance
+{
+  double mean = 0.0;         ///< over the area
+  double percentile95 = 0.0; ///< 95 % of the area is not further
+  double maximum = 0.0;      ///< at the places looked at; between them it may be more
+  SizeValueType places = 0;  ///< how many were looked at
+};
+
+/** Distances from the points of a surface, and from places inside its triangles, to the nearest point of another
+ * surface. Each place counts with the area around it: a triangle's points and centre with weights 1/12 and 3/4, which
+ * is exact for quadratic functions. Triangles with sides above \a spacing mm count as so many equal parts that none of
+ * their sides is longer (at most 64 along a side).
+ *
+ * All 0 without triangles, infinite to a surface without triangles. Time O(places log triangles); 8 bytes a place.
+ * Thread safe; the same for any number of threads. */
+TriangleSurfaceDistance
+ComputeDistance(const TriangleSurface & surface,
+                const TriangleTree & other,
+                double spacing = std::numeric_limits<double>::infinity());
+
+/** \class TriangleSurfaceTwoDistances
+ * \brief Distances from each of two surfaces to the other. */
+struct TriangleSurfaceTwoDistances
+{
+  TriangleSurfaceDistance fromFirst;
+  TriangleSurfaceDistance fromSecond;
+
+  double
+  GetMaximum() const
+  {
+    return std::max(fromFirst.maximum, fromSecond.maximum);
+  }
+};
+
+/** Both ways, the places as dense on the surface with the larger triangles as on the other one. */
+TriangleSurfaceTwoDistances
+ComputeTwoDistances(const TriangleSurface & first, const TriangleSurface & second);
+
+/** Whether no place of a triangle, between the points looked at included, is further than \a limit mm from a surface.
+ * Proven: a part of the triangle whose corners have their nearest points on one and the same triangle is nowhere
+ * further than at its corners, and a small part hardly further; parts that prove nothing are cut into four. False also
+ * where that leads to nothing after seven cuts. Thread safe. */
+bool
+IsWithinDistance(const std::array<TriangleSurface::PointType, 3> & triangle, const TriangleTree & other, double limit);
+
+} // namespace itk
+
+#endif
