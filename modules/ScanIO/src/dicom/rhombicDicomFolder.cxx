@@ -272,7 +272,7 @@ ReadSlices(const std::vector<DicomSlice> & slices, Scan scan, const fs::path & p
   const std::vector<DicomSlice> & chosen = series[choice.index].slices;
   if (chosen.front().kind == DicomSlice::Kind::Segmentation)
   {
-    ReadDicomSegmentation(chosen, scan);
+    ReadDicomSegmentation(chosen, options.maximumMemory, scan);
     NoteCompression(chosen, scan);
   }
   else

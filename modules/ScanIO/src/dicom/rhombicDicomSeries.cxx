@@ -26,7 +26,8 @@ HaveSameAxes(const SlicePlane & first, const SlicePlane & second)
          (first.rowStep - second.rowStep).GetNorm() <= tolerance * first.rowStep.GetNorm();
 }
 
-/** What all slices of a series have in common, but for their axes. */
+/** What all slices of a series have in common, but for their axes. The frames of a segmentation stay together, wherever
+ * they are. */
 auto
 KeyOf(const DicomSlice & slice)
 {
@@ -40,7 +41,7 @@ KeyOf(const DicomSlice & slice)
                          slice.file->format.rows,
                          slice.file->format.columns,
                          slice.refusal,
-                         slice.plane.has_value());
+                         !isAlone && slice.plane.has_value());
 }
 
 std::vector<Slices>
@@ -51,7 +52,8 @@ GroupByKeyAndAxes(const Slices & slices)
   {
     std::vector<Slices> & group = groups[KeyOf(slice)];
     const auto found = std::find_if(group.begin(), group.end(), [&slice](const Slices & part) {
-      return !slice.plane || HaveSameAxes(*part.front().plane, *slice.plane);
+      return slice.kind == DicomSlice::Kind::Segmentation || !slice.plane ||
+             HaveSameAxes(*part.front().plane, *slice.plane);
     });
     (found == group.end() ? group.emplace_back() : *found).push_back(slice);
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <string_view>
 
 namespace rhombic
@@ -245,7 +246,10 @@ ReadFrame(const DicomDataSet & dataSet, std::size_t frame, DicomSlice & slice)
                          times.empty() ? "" : "time " + std::to_string(times[0]),
                          stack.empty() ? "" : "stack " + stack,
                          "" };
-  ReadScaling(groups.Get(DicomTags::PixelValueTransformationSequence), slice);
+  if (slice.kind == DicomSlice::Kind::Scan)
+  {
+    ReadScaling(groups.Get(DicomTags::PixelValueTransformationSequence), slice);
+  }
   slice.plane =
     MakeSlicePlane(groups.Get(DicomTags::PlanePositionSequence).GetDecimals(DicomTags::ImagePositionPatient),
                    groups.Get(DicomTags::PlaneOrientationSequence).GetDecimals(DicomTags::ImageOrientationPatient),
@@ -362,6 +366,15 @@ NameOf(const DicomSlice & slice)
 {
   return slice.file->path.filename().string() +
          (slice.file->format.frames > 1 ? " (frame " + std::to_string(slice.frame + 1) + ")" : "");
+}
+
+std::string
+Rounded(double number)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.4g", number);
+  std::replace(text, text + sizeof(text), ',', '.');
+  return text;
 }
 
 } // namespace rhombic

@@ -106,6 +106,10 @@ MakeSlicePlane(const std::vector<double> & position,
 std::string
 NameOf(const DicomSlice & slice);
 
+/** Four digits of a number, for a sentence. */
+std::string
+Rounded(double number);
+
 } // namespace rhombic
 
 #endif

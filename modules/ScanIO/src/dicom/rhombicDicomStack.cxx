@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace rhombic
 {
@@ -23,15 +22,6 @@ Refuse(const Slices & slices, const std::string & why, const std::string & advic
   throw Failure(FailureKind::Geometry,
                 "The slices in " + slices.front().file->path.parent_path().string() +
                   " make no regular volume: " + why + "; " + advice + ".");
-}
-
-std::string
-Rounded(double number)
-{
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.4g", number);
-  std::replace(text, text + sizeof(text), ',', '.');
-  return text;
 }
 
 /** Enough of two paths to tell them apart. */
