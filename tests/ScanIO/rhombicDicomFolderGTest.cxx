@@ -1,3 +1,4 @@
+#include "rhombicDicomStack.h"
 #include "rhombicDicomTestFile.h"
 #include "rhombicScanTest.h"
 
@@ -238,6 +239,73 @@ TEST_F(DicomFolder, GapIsAcceptedWithTheOtherSlicesInTheirPlaces)
   EXPECT_EQ(scan.stack->gaps[0].position, 5.0);
   EXPECT_EQ(scan.stack->gaps[0].numberOfMissing, 1u);
   EXPECT_EQ(ImageOf<std::int16_t>(scan).GetPixel({ { 0, 0, 3 } }), ValueAt(0, 0, 4) - 1024);
+}
+
+/** Slices that follow each other with these steps. */
+std::vector<rhombic::DicomSlice>
+StackWithSteps(const std::vector<double> & steps)
+{
+  const auto file = std::make_shared<rhombic::DicomImageFile>();
+  file->path = "folder/file";
+  file->format.columns = file->format.rows = 2;
+  std::vector<rhombic::DicomSlice> slices(steps.size() + 1);
+  double z = -33.3;
+  for (std::size_t k = 0; k < slices.size(); ++k)
+  {
+    slices[k].file = file;
+    slices[k].plane = rhombic::MakeSlicePlane({ 0, 0, z }, { 1, 0, 0, 0, 1, 0 }, { 1, 1 }, slices[k].planeProblem);
+    z += k < steps.size() ? steps[k] : 0;
+  }
+  return slices;
+}
+
+std::vector<double>
+Steps(std::initializer_list<std::pair<std::size_t, double>> blocks)
+{
+  std::vector<double> steps;
+  for (const auto & [count, step] : blocks)
+  {
+    steps.insert(steps.end(), count, step);
+  }
+  return steps;
+}
+
+TEST(DicomStack, GapsAreJudgedByTheStepsAround)
+{
+  const auto missing = [](std::initializer_list<std::pair<std::size_t, double>> blocks) {
+    auto slices = StackWithSteps(Steps(blocks));
+    rhombic::ScanReadOptions options;
+    options.onGap = rhombic::ScanReadOptions::Policy::Accept;
+    const auto stack = StackSlices(slices, options);
+    std::vector<std::size_t> counts;
+    for (const rhombic::SliceGap & gap : stack.report.gaps)
+    {
+      counts.push_back(gap.numberOfMissing);
+    }
+    EXPECT_EQ(counts.empty(), stack.notes.empty() || stack.notes[0].find("missing") == std::string::npos);
+    return counts;
+  };
+  using Counts = std::vector<std::size_t>;
+  EXPECT_EQ(missing({ { 19, 2 }, { 1, 50.9 }, { 19, 2 } }), Counts{ 24 }) << "no whole multiple";
+  EXPECT_EQ(missing({ { 14, 4 }, { 5, 7 }, { 1, 14 }, { 4, 7 } }), Counts{ 1 }) << "in the second of two blocks";
+  EXPECT_EQ(missing({ { 3, 4 }, { 1, 8 }, { 3, 4 }, { 19, 7 } }), Counts{ 1 }) << "in the shorter of two blocks";
+  EXPECT_EQ(missing({ { 1, 44 }, { 1, 16 } }), Counts{ 2 });
+  EXPECT_EQ(missing({ { 1, 5 }, { 6, 2.5 } }), Counts{ 1 }) << "the second slice";
+  EXPECT_EQ(missing({ { 6, 2.5 }, { 1, 5 } }), Counts{ 1 }) << "the last but one";
+  EXPECT_EQ(missing({ { 9, 2 }, { 1, 4 }, { 1, 6 }, { 9, 2 } }), (Counts{ 1, 2 })) << "one after the other";
+  EXPECT_EQ(missing({ { 20, 2 }, { 7, 4 }, { 20, 2 } }), Counts(7, 1)) << "every second slice for a while";
+  EXPECT_EQ(missing({ { 14, 4 }, { 14, 7 } }), Counts());
+  EXPECT_EQ(missing({ { 14, 4.002 }, { 1, 1.081 }, { 14, 6.999 } }), Counts());
+  EXPECT_EQ(missing({ { 20, 5 }, { 8, 10 } }), Counts()) << "the step changes and stays";
+  EXPECT_EQ(missing({ { 8, 10 }, { 20, 5 } }), Counts());
+  EXPECT_EQ(missing({ { 9, 1 }, { 9, 3 }, { 9, 10 } }), Counts());
+}
+
+TEST(DicomStack, AHoleMakesNoDuplicates)
+{
+  EXPECT_FALSE(HaveDuplicates(StackWithSteps(Steps({ { 20, 0.5 }, { 1, 90 }, { 20, 0.5 } }))));
+  EXPECT_TRUE(HaveDuplicates(StackWithSteps(Steps({ { 20, 0.5 }, { 1, 0.004 }, { 20, 0.5 } }))));
+  EXPECT_TRUE(HaveDuplicates(StackWithSteps(Steps({ { 20, 0 }, { 19, 0.5 } }))));
 }
 
 TEST_F(DicomFolder, DamagedSliceIsAGap)

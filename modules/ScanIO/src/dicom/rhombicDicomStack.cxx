@@ -86,12 +86,22 @@ StepsOf(const std::vector<double> & distances)
   return steps;
 }
 
+double
+MedianOf(std::vector<double> steps)
+{
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
 /** The first step that is none; their number when there is no such. */
 std::size_t
 FindDuplicate(const std::vector<double> & steps)
 {
   constexpr double smallest = 1e-6; // millimetres
-  const double none = std::max(smallest, 0.01 * *std::max_element(steps.begin(), steps.end()));
+  std::vector<double> actual;
+  std::copy_if(steps.begin(), steps.end(), std::back_inserter(actual), [](double step) { return step > smallest; });
+  const double none = std::max(smallest, actual.empty() ? 0 : 0.01 * MedianOf(actual));
   const auto found = std::find_if(steps.begin(), steps.end(), [none](double step) { return step <= none; });
   return static_cast<std::size_t>(found - steps.begin());
 }
@@ -101,14 +111,6 @@ ToleranceFor(double step)
 {
   constexpr double millimetres = 0.01;
   return std::min(millimetres, 0.1 * step);
-}
-
-double
-MedianOf(std::vector<double> steps)
-{
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
 }
 
 std::vector<SliceBlock>
@@ -129,18 +131,46 @@ FindBlocks(const std::vector<double> & steps)
   return blocks;
 }
 
+/** The larger of the medians of up to five steps before and five behind one: only a step that is much larger than
+ * those on both its sides is no change from one block of slices to the next. */
+double
+UsualStepAround(const std::vector<double> & steps, std::size_t i)
+{
+  constexpr std::size_t reach = 5;
+  const auto step = steps.begin() + static_cast<std::ptrdiff_t>(i);
+  const auto before = static_cast<std::ptrdiff_t>(std::min(reach, i));
+  const auto behind = static_cast<std::ptrdiff_t>(std::min(reach, steps.size() - 1 - i));
+  const double medianBefore = before > 0 ? MedianOf({ step - before, step }) : 0;
+  const double medianBehind = behind > 0 ? MedianOf({ step + 1, step + 1 + behind }) : 0;
+  return std::max(medianBefore, medianBehind);
+}
+
+/** Whether a step is a multiple of the usual one of the stack, which there is on both its sides: slices are missing,
+ * even from between all of a few that are left. */
+bool
+IsMultipleAmidUsual(const std::vector<double> & steps, std::size_t i, double usual)
+{
+  constexpr double tolerance = 0.05; // of a step
+  const auto isUsual = [usual](double step) { return std::abs(step - usual) <= tolerance * usual; };
+  const auto step = steps.begin() + static_cast<std::ptrdiff_t>(i);
+  const double ratio = std::round(*step / usual);
+  return ratio >= 2 && std::abs(*step - ratio * usual) <= tolerance * usual &&
+         std::any_of(steps.begin(), step, isUsual) && std::any_of(step, steps.end(), isUsual);
+}
+
 std::vector<SliceGap>
 FindGaps(const std::vector<double> & distances, const std::vector<double> & steps)
 {
-  constexpr double tolerance = 0.05; // of a step
+  constexpr double abrupt = 1.9; // of the steps around
   const double usual = MedianOf(steps);
   std::vector<SliceGap> gaps;
-  for (std::size_t i = 0; i < steps.size(); ++i)
+  for (std::size_t i = 0; i < steps.size() && steps.size() > 1; ++i)
   {
-    const double ratio = std::round(steps[i] / usual);
-    if (ratio >= 2 && std::abs(steps[i] - ratio * usual) <= tolerance * usual)
+    const bool isMultiple = IsMultipleAmidUsual(steps, i, usual);
+    const double around = isMultiple ? usual : UsualStepAround(steps, i);
+    if (isMultiple || steps[i] >= abrupt * around)
     {
-      gaps.push_back({ distances[i], steps[i], static_cast<std::size_t>(ratio) - 1 });
+      gaps.push_back({ distances[i], steps[i], static_cast<std::size_t>(std::lround(steps[i] / around)) - 1 });
     }
   }
   return gaps;
