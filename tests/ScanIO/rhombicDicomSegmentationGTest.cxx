@@ -31,9 +31,12 @@ Text(const char * format, double number)
   return text;
 }
 
-/** A DICOM SEG of two segments; \a spacing is its SpacingBetweenSlices, if any. */
+/** A DICOM SEG of two segments; \a spacing is its SpacingBetweenSlices, \a thickness its
+ * SliceThickness, if any. */
 DicomTestFile
-MakeSegmentation(const std::vector<SegmentFrame> & frames, const std::string & spacing = "")
+MakeSegmentation(const std::vector<SegmentFrame> & frames,
+                 const std::string & spacing = "",
+                 const std::string & thickness = "")
 {
   DicomTestFile file(Columns, Rows);
   std::vector<DicomTestDataSet> segments(2);
@@ -66,6 +69,10 @@ MakeSegmentation(const std::vector<SegmentFrame> & frames, const std::string & s
   if (!spacing.empty())
   {
     measures.SetText(0x00180088, "DS", spacing);
+  }
+  if (!thickness.empty())
+  {
+    measures.SetText(0x00180050, "DS", thickness);
   }
   DicomTestDataSet shared;
   shared.SetItems(0x00209116, { orientation });
@@ -139,6 +146,12 @@ TEST_F(DicomSegmentation, PlacesCountMoreThanTheSpacingTag)
   EXPECT_NEAR(SummarizeLabels(scan, scan.labels)[0].millilitres, 10 * Pixels * 2.5 / 1000, 1e-9);
   ASSERT_EQ(scan.notes.size(), 1u);
   EXPECT_NE(scan.notes[0].find("1.25"), std::string::npos) << scan.notes[0];
+
+  // As dcmqi writes labels in every second slice.
+  MakeSegmentation(frames, "1.25", "1.25").Write(m_Path);
+  const auto sparse = ReadScan(m_Path);
+  EXPECT_EQ(ImageOf<std::uint8_t>(sparse).GetLargestPossibleRegion().GetSize()[2], 19u);
+  EXPECT_TRUE(sparse.notes.empty());
 
   MakeSegmentation({ { "7" } }, "1.25").Write(m_Path);
   EXPECT_EQ(ImageOf<std::uint8_t>(ReadScan(m_Path)).GetSpacing()[2], 1.25) << "nothing else says";

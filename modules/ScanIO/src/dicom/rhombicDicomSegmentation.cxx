@@ -180,39 +180,61 @@ FitSlices(const std::vector<double> & places, double guess)
   return slices;
 }
 
-/** The slices that frames at these places belong to. The places say how far apart slices are; SpacingBetweenSlices, \a
- * given unless 0, only where they don't: for one place, or when they have no neighbours. */
+/** What the header says about the slices, in mm; 0 where it is silent. */
+struct SliceTags
+{
+  double spacing = 0;
+  double thickness = 0;
+};
+
+/** The slices that frames at these places belong to. The smallest distance of two places is that of slices, unless
+ * SpacingBetweenSlices and SliceThickness agree on a smaller one, which is then that of slices among which no two
+ * neighbours have frames. For one place there is but SpacingBetweenSlices. */
 EvenSlices
-FindSlices(const std::vector<double> & places, double given, const DicomImageFile & file, Scan & scan)
+FindSlices(const std::vector<double> & places, const SliceTags & tags, const DicomImageFile & file, Scan & scan)
 {
   if (places.size() == 1)
   {
-    if (!(given > 0))
+    if (!(tags.spacing > 0))
     {
       Refuse(file, FailureKind::Geometry, "it has frames in one plane only and does not say how thick this is");
     }
-    return { places.front(), given, 1, {} };
+    return { places.front(), tags.spacing, 1, {} };
   }
   double smallest = places.back() - places.front();
   for (std::size_t n = 1; n < places.size(); ++n)
   {
     smallest = std::min(smallest, places[n] - places[n - 1]);
   }
-  auto slices = FitSlices(places, smallest);
-  if (!slices && given > 0)
+  const auto fit = [&places](double step) { return step > 0 ? FitSlices(places, step) : std::nullopt; };
+  const bool doTagsAgree = tags.spacing > 0 && IsSameStep(tags.spacing, tags.thickness);
+  auto slices = fit(doTagsAgree ? tags.spacing : smallest);
+  if (!slices)
   {
-    slices = FitSlices(places, given);
+    slices = fit(doTagsAgree ? smallest : tags.spacing);
   }
   if (!slices)
   {
     Refuse(file, FailureKind::Geometry, "the places of its frames have no common distance");
   }
-  if (given > 0 && !IsSameStep(slices->step, given))
+  if (tags.spacing > 0 && !IsSameStep(slices->step, tags.spacing))
   {
     scan.notes.push_back("Slices are " + Rounded(slices->step) + " mm apart, as the places of their frames say; " +
-                         "SpacingBetweenSlices says " + Rounded(given) + " mm.");
+                         "SpacingBetweenSlices says " + Rounded(tags.spacing) + " mm.");
   }
   return *slices;
+}
+
+SliceTags
+ReadSliceTags(const DicomDataSet & dataSet)
+{
+  const DicomDataSet & measures =
+    dataSet.GetItem(DicomTags::SharedFunctionalGroupsSequence).GetItem(DicomTags::PixelMeasuresSequence);
+  const auto read = [&measures](DicomTag tag) {
+    const auto numbers = measures.GetDecimals(tag);
+    return numbers.size() == 1 ? numbers[0] : 0;
+  };
+  return { read(DicomTags::SpacingBetweenSlices), read(DicomTags::SliceThickness) };
 }
 
 /** Where frames are along the normal from the first, in mm. */
@@ -245,12 +267,12 @@ DistancesOf(const Frames & frames)
 
 /** All slices from the first to the last that has a frame: those without any are empty. */
 EvenSlices
-PlaceFrames(const Frames & frames, double givenStep, Scan & scan)
+PlaceFrames(const Frames & frames, const SliceTags & tags, Scan & scan)
 {
   const DicomImageFile & file = *frames.front().file;
   const std::vector<double> distances = DistancesOf(frames);
   const std::vector<double> places = DistinctDistances(distances);
-  EvenSlices slices = FindSlices(places, givenStep, file, scan);
+  EvenSlices slices = FindSlices(places, tags, file, scan);
   // A file of a few frames must not claim any amount of memory.
   const std::size_t mostSlices = std::max<std::size_t>(1024, 64 * places.size());
   if (slices.count > mostSlices)
@@ -386,10 +408,7 @@ ReadDicomSegmentation(const std::vector<DicomSlice> & frames, std::uintmax_t max
   {
     Refuse(file, FailureKind::Unreadable, file.pixelDamage);
   }
-  const auto steps = dataSet.GetItem(DicomTags::SharedFunctionalGroupsSequence)
-                       .GetItem(DicomTags::PixelMeasuresSequence)
-                       .GetDecimals(DicomTags::SpacingBetweenSlices);
-  const EvenSlices slices = PlaceFrames(frames, steps.size() == 1 ? steps[0] : 0, scan);
+  const EvenSlices slices = PlaceFrames(frames, ReadSliceTags(dataSet), scan);
   scan.labels = ReadLabels(dataSet, file);
   const bool fitsByte = scan.labels.back().value <= std::numeric_limits<std::uint8_t>::max();
   const bool takesByte = isBinary ? fitsByte : file.format.bitsAllocated == 8;
