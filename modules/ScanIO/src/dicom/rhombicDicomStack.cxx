@@ -56,12 +56,19 @@ RequirePlanes(const Slices & slices)
   }
 }
 
+Vector
+NormalOf(const SlicePlane & plane)
+{
+  Vector normal = itk::CrossProduct(plane.columnStep, plane.rowStep);
+  normal.Normalize();
+  return normal;
+}
+
 /** Sorts by the distance along the normal, and returns the distances. */
 std::vector<double>
 SortAlongNormal(Slices & slices)
 {
-  Vector normal = itk::CrossProduct(slices.front().plane->columnStep, slices.front().plane->rowStep);
-  normal.Normalize();
+  const Vector normal = NormalOf(*slices.front().plane);
   const auto distance = [&normal](const DicomSlice & slice) {
     return slice.plane->position.GetVectorFromOrigin() * normal;
   };
@@ -189,6 +196,57 @@ DistanceFromLine(const Slices & slices, const Vector & step)
   return largest;
 }
 
+/** How far slices move sideways for each millimetre along their normal, as most steps have it. */
+Vector
+SlopeOf(const Slices & slices, const std::vector<double> & steps, const Vector & normal)
+{
+  Vector slope;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    std::vector<double> slopes;
+    for (std::size_t i = 0; i < steps.size(); ++i)
+    {
+      const Vector step = slices[i + 1].plane->position - slices[i].plane->position;
+      slopes.push_back((step[axis] - normal[axis] * steps[i]) / steps[i]);
+    }
+    slope[axis] = MedianOf(slopes);
+  }
+  return slope;
+}
+
+/** Refuses slices that don't follow each other along a line: neighbours that are shifted by more than a pixel against
+ * what the others are, and lines that are flatter than any gantry is tilted. */
+void
+RequireLine(const Slices & slices, const std::vector<double> & steps)
+{
+  constexpr double steepest = 1.73; // a tilt of 60 degrees
+  const SlicePlane & first = *slices.front().plane;
+  const double pixel = std::min(first.columnStep.GetNorm(), first.rowStep.GetNorm());
+  const Vector normal = NormalOf(first);
+  const Vector slope = SlopeOf(slices, steps, normal);
+  const std::string advice = "put slices that belong together into a folder of their own";
+  if (slope.GetNorm() > steepest)
+  {
+    Refuse(slices,
+           "they are shifted sideways by " + Rounded(slope.GetNorm()) +
+             " mm for each mm between them, more than a tilt",
+           advice);
+  }
+  for (std::size_t i = 0; i < steps.size(); ++i)
+  {
+    const Vector step = slices[i + 1].plane->position - slices[i].plane->position;
+    const double jump = (step - (normal + slope) * steps[i]).GetNorm();
+    if (jump > pixel + ToleranceFor(steps[i]))
+    {
+      Refuse(slices,
+             NamesOf(slices[i], slices[i + 1]) + " are shifted sideways by " + Rounded(jump) +
+               " mm against each other, which no tilt explains",
+             advice);
+    }
+  }
+}
+
+/** The angle between the slices' normal and the line from the first to the last. */
 double
 TiltOf(const Slices & slices, double normalExtent)
 {
@@ -254,6 +312,8 @@ StackSlices(std::vector<DicomSlice> & slices, const ScanReadOptions & options)
            NamesOf(slices[i], slices[i + 1]) + " are at the same place",
            "put one set of slices into a folder of its own");
   }
+
+  RequireLine(slices, steps);
 
   DicomStack stack;
   stack.report.tiltDegrees = TiltOf(slices, distances.back() - distances.front()) * 180 / itk::Math::pi;

@@ -27,8 +27,9 @@ struct DicomStack
  * block of slices to the next is none, and whole multiples of the step that is usual in the stack amid such steps.
  * Everything else is an uneven stack, whose slices keep their own places.
  *
- * Throws Failure(Geometry), naming files: when a slice has no plane, there is only one, two are at one place, for gaps
- * and for tilted (by more than 0.001 rad) or uneven stacks as the options say. */
+ * Throws Failure(Geometry), naming files: when a slice has no plane, there is only one, two are at one place, one is
+ * shifted sideways against the next by more than a pixel beyond what the tilt of most is, or all by more than 45
+ * degrees are, for gaps and for tilted (by more than 0.001 rad) or uneven stacks as the options say. */
 DicomStack
 StackSlices(std::vector<DicomSlice> & slices, const ScanReadOptions & options);
 
