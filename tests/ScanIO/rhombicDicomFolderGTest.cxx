@@ -1,9 +1,16 @@
 #include "rhombicDicomStack.h"
 #include "rhombicDicomTestFile.h"
+#include "rhombicInProcessDecoder.h"
 #include "rhombicScanTest.h"
+#include "rhombicStoredBytes.h"
 
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <system_error>
+#include <thread>
+
+#include <pthread.h>
 
 namespace fs = std::filesystem;
 
@@ -83,6 +90,16 @@ WriteStack(const fs::path & folder, std::size_t slices = Slices)
     MakeSlice(k).Write(folder / ("image" + std::to_string(k * 3 % 7) + ".dcm"));
   }
 }
+
+class ManyWorkers : public rhombic::InProcessDecoder
+{
+public:
+  unsigned int
+  GetNumberOfWorkers() const override
+  {
+    return 3;
+  }
+};
 
 TEST_F(DicomFolder, ObliqueSeriesLiesWhereItsHeadersSay)
 {
@@ -375,6 +392,26 @@ TEST_F(DicomFolder, UnevenSlicesStayWhereTheyAre)
   EXPECT_EQ(KindOfReading(m_Folder, "uneven", RefuseIrregular()), FailureKind::Geometry);
 }
 
+TEST_F(DicomFolder, SlicesThatJumpSidewaysAreRefused)
+{
+  const auto write = [this](auto shift) {
+    for (std::size_t k = 0; k < 20; ++k)
+    {
+      DicomTestFile file = MakeSlice(k);
+      file.SetPosition(Join({ shift(k), 0, static_cast<double>(k) }));
+      file.Write(m_Folder / ("image" + std::to_string(10 + k)));
+    }
+  };
+  write([](std::size_t k) { return k < 10 ? 0 : 200.0; });
+  EXPECT_EQ(KindOfReading(m_Folder, "image19 and image20 are shifted sideways by 200 mm"), FailureKind::Geometry);
+  write([](std::size_t k) { return k < 10 ? 0 : 1.5; });
+  EXPECT_EQ(KindOfReading(m_Folder, "image19 and image20 are shifted sideways by 1.5 mm"), FailureKind::Geometry);
+  write([](std::size_t k) { return k % 2 == 0 ? 0.3 * static_cast<double>(k) : 0.3 * static_cast<double>(k) - 0.4; });
+  EXPECT_EQ(ReadScan(m_Folder).sliceOrigins.size(), 20u) << "less than a pixel beside a tilt";
+  write([](std::size_t k) { return 1.8 * static_cast<double>(k); });
+  EXPECT_EQ(KindOfReading(m_Folder, "more than a tilt"), FailureKind::Geometry);
+}
+
 TEST_F(DicomFolder, SlicesAtOnePlaceAreToldApartByTheirKind)
 {
   for (std::size_t k = 0; k < Slices; ++k)
@@ -447,6 +484,114 @@ TEST_F(DicomFolder, BitsBesideTheValuesAreIgnored)
   EXPECT_EQ(ImageOf<std::int16_t>(scan).GetPixel({ { 1, 0, 0 } }), 100 - 1024) << "an overlay above them";
 }
 
+TEST_F(DicomFolder, WordsOfSmallPixelsAreSwappedInBigEndian)
+{
+  std::vector<std::uint8_t> pixels(2 * 15 + 1);
+  std::iota(pixels.begin(), pixels.end(), std::uint8_t{ 7 });
+  const auto write = [&](const char * name, const char * type, const char * transferSyntax) {
+    fs::create_directory(m_Folder / name);
+    for (std::size_t k = 0; k < 2; ++k)
+    {
+      DicomTestFile file(5, 3);
+      file.SetPosition(Join({ 0, 0, static_cast<double>(k) }));
+      for (const std::uint32_t tag : { 0x00280100u, 0x00280101u })
+      {
+        file.SetShort(tag, 8);
+      }
+      file.SetShort(0x00280102, 7);
+      file.SetShort(0x00280103, 0);
+      file.SetLongBytes(
+        0x7fe00010, std::string(pixels.begin() + static_cast<long>(15 * k), pixels.end()).substr(0, 16), type);
+      file.Write(m_Folder / name / std::to_string(k), transferSyntax);
+    }
+    const auto scan = ReadScan(m_Folder / name);
+    const auto & image = ImageOf<std::int16_t>(scan);
+    return std::vector<int>(image.GetBufferPointer(), image.GetBufferPointer() + 30);
+  };
+  std::vector<int> expected(30);
+  std::iota(expected.begin(), expected.end(), 7 - 1024);
+  EXPECT_EQ(write("bytes", "OB", "1.2.840.10008.1.2.2"), expected);
+  EXPECT_EQ(write("words", "OW", "1.2.840.10008.1.2.2"), expected);
+  EXPECT_EQ(write("little", "OW", "1.2.840.10008.1.2.1"), expected);
+
+  rhombic::DicomImageFile file;
+  file.path = m_Folder / "raw";
+  file.format.swappedBytes = 2;
+  std::ofstream(file.path) << "--badcfe";
+  file.pixels.offset = 2;
+  const auto text = [&file](std::uintmax_t offset, std::size_t size) {
+    const auto bytes = rhombic::ReadStoredBytes(file, offset, size);
+    return std::string(reinterpret_cast<const char *>(bytes.data()), bytes.size());
+  };
+  EXPECT_EQ(text(0, 3), "abc");
+  EXPECT_EQ(text(3, 3), "def");
+  EXPECT_EQ(text(1, 2), "bc");
+  EXPECT_THROW(text(5, 2), rhombic::Failure);
+}
+
+// What can't be had is a stack of that size.
+TEST_F(DicomFolder, ThreadsThatDoNotStartAreDoneWithout)
+{
+  WriteStack(m_Folder);
+  pthread_attr_t attributes;
+  pthread_attr_t impossible;
+  ASSERT_EQ(pthread_getattr_default_np(&attributes), 0);
+  ASSERT_EQ(pthread_getattr_default_np(&impossible), 0);
+  ASSERT_EQ(pthread_attr_setstacksize(&impossible, std::size_t{ 1 } << 50), 0);
+  ASSERT_EQ(pthread_setattr_default_np(&impossible), 0);
+  EXPECT_THROW(std::thread([] {}).join(), std::system_error);
+  ManyWorkers decoder;
+  rhombic::ScanReadOptions options;
+  options.decoder = &decoder;
+  EXPECT_NO_THROW(ReadScan(m_Folder, options));
+  pthread_setattr_default_np(&attributes);
+
+  struct Stop
+  {};
+  options.progress = [](double) { throw Stop(); };
+  EXPECT_THROW(ReadScan(m_Folder, options), Stop);
+}
+
+TEST_F(DicomFolder, MemoryIsThatOfThePixelsThatAreMade)
+{
+  const auto bytesNeeded = [this](const char * slope, std::int16_t value, bool isPadded) {
+    for (std::size_t k = 0; k < 2; ++k)
+    {
+      DicomTestFile file(64, 64);
+      file.SetPosition(Join({ 0, 0, static_cast<double>(k) }));
+      file.SetText(0x00281053, "DS", slope);
+      file.SetPixels(std::vector<std::int16_t>(64 * 64, value));
+      if (isPadded)
+      {
+        file.SetShort(0x00280120, 3);
+      }
+      file.Write(m_Folder / std::to_string(k));
+    }
+    rhombic::ScanReadOptions options;
+    options.maximumMemory = 1;
+    std::uintmax_t step = 1 << 20;
+    for (; step > 0; step /= 2) // bisection
+    {
+      options.maximumMemory += step;
+      try
+      {
+        ReadScan(m_Folder, options);
+        options.maximumMemory -= step;
+      }
+      catch (const rhombic::Failure & failure)
+      {
+        EXPECT_EQ(failure.GetKind(), FailureKind::Memory);
+      }
+    }
+    return options.maximumMemory + 1;
+  };
+  constexpr std::uintmax_t frame = 64 * 64;
+  EXPECT_EQ(bytesNeeded("1", 5, false), 2 * frame * 2 + 2 * frame) << "int16, and one slice as it is read";
+  EXPECT_EQ(bytesNeeded("20", 30000, false), 2 * frame * 4 + 2 * frame) << "int32";
+  EXPECT_EQ(bytesNeeded("1.5", 5, false), 2 * frame * 4 + 2 * frame) << "float";
+  EXPECT_EQ(bytesNeeded("1.5", 5, true), 2 * frame * 4 + 2 * frame / 8 + 2 * frame) << "and bits for padding";
+}
+
 TEST_F(DicomFolder, MissingGeometryIsRefusedByName)
 {
   const std::array<std::pair<std::uint32_t, const char *>, 3> fields{ { { 0x00200032, "ImagePositionPatient" },
@@ -509,7 +654,56 @@ TEST_F(DicomFolder, UnsupportedKindsOfImagesAreNamed)
   EXPECT_EQ(kindWith("bits", [](DicomTestFile & file) { file.SetShort(0x00280100, 12); }), FailureKind::Unreadable);
   EXPECT_EQ(kindWith("RescaleSlope", [](DicomTestFile & file) { file.SetText(0x00281053, "DS", "nan"); }),
             FailureKind::Unreadable);
+  EXPECT_EQ(kindWith("larger than", [](DicomTestFile & file) { file.SetText(0x00281053, "DS", "1e300"); }),
+            FailureKind::Unreadable);
   EXPECT_EQ(kindWith("samples", [](DicomTestFile & file) { file.SetShort(0x00280002, 0); }), FailureKind::Unreadable);
+}
+
+TEST_F(DicomFolder, EnhancedImagesAreRescaled)
+{
+  const auto write = [this](bool isScaled, bool isOwn) {
+    DicomTestFile file(2, 2);
+    DicomTestDataSet orientation;
+    orientation.SetText(0x00200037, "DS", "1\\0\\0\\0\\1\\0");
+    DicomTestDataSet measures;
+    measures.SetText(0x00280030, "DS", "1\\1");
+    DicomTestDataSet shared;
+    shared.SetItems(0x00209116, { orientation });
+    shared.SetItems(0x00289110, { measures });
+    std::vector<DicomTestDataSet> groups(3);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      DicomTestDataSet place;
+      place.SetText(0x00200032, "DS", Join({ 0, 0, static_cast<double>(k) }));
+      groups[k].SetItems(0x00209113, { place });
+      DicomTestDataSet scaling;
+      scaling.SetText(0x00281052, "DS", "-7");
+      scaling.SetText(0x00281053, "DS", "2");
+      if (isOwn)
+      {
+        groups[k].SetItems(0x00289145, { scaling });
+      }
+    }
+    file.SetText(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.2.1");
+    file.SetText(0x00280008, "IS", "3");
+    file.SetItems(0x52009229, { shared });
+    file.SetItems(0x52009230, groups);
+    file.SetPixels(std::vector<std::int16_t>(12, 50));
+    if (!isScaled)
+    {
+      file.Remove(0x00281052);
+      file.Remove(0x00281053);
+    }
+    file.Write(m_Folder / "enhanced.dcm");
+    return m_Folder / "enhanced.dcm";
+  };
+  const auto firstValue = [](const fs::path & path) {
+    return ImageOf<std::int16_t>(ReadScan(path)).GetPixel({ { 0, 0, 0 } });
+  };
+  EXPECT_EQ(firstValue(write(false, true)), 93);
+  EXPECT_EQ(firstValue(write(true, true)), 93) << "the frame's own count";
+  EXPECT_EQ(firstValue(write(true, false)), 50 - 1024) << "those of the file count for frames without";
+  EXPECT_EQ(KindOfReading(write(false, false), "which HU"), FailureKind::Unreadable);
 }
 
 TEST_F(DicomFolder, CutOffPixelsAreRefused)

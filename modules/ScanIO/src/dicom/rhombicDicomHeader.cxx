@@ -186,6 +186,7 @@ public:
       {
         header.hasPixels = true;
         header.pixels = { m_Position, element.length };
+        header.hasWords = element.representation == "OW";
         header.isEncapsulated = element.length == UndefinedLength;
         if (header.isEncapsulated)
         {

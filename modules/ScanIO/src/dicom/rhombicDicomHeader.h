@@ -72,6 +72,7 @@ struct DicomHeader
   DicomDataSet dataSet;
   std::uintmax_t fileSize = 0;
   bool hasPixels = false;
+  bool hasWords = false;            ///< whether the pixels are 16-bit words (OW), whatever the size of a pixel
   bool isEncapsulated = false;      ///< whether the pixels are fragments of compressed streams
   ByteRange pixels;                 ///< as claimed: its end may lie behind that of the file
   std::vector<ByteRange> fragments; ///< of encapsulated pixels, without the table of offsets, inside the file

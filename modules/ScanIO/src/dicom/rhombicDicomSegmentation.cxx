@@ -4,11 +4,11 @@
 #include "rhombicDicomTags.h"
 #include "rhombicFailure.h"
 #include "rhombicMemoryBudget.h"
+#include "rhombicStoredBytes.h"
 #include "rhombicVolumeGeometry.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -19,6 +19,7 @@ namespace
 {
 
 using Frames = std::vector<DicomSlice>;
+using Bytes = std::vector<std::byte>;
 using Vector = itk::Vector<double, 3>;
 
 [[noreturn]] void
@@ -301,26 +302,11 @@ GeometryOf(const EvenSlices & slices, const DicomSlice & frame)
   return MakeGeometry(size, plane.position + normal * slices.first, axes);
 }
 
-std::string
-ReadPixelBytes(const DicomImageFile & file)
-{
-  const std::uintmax_t bits =
-    std::uintmax_t{ file.format.columns } * file.format.rows * file.format.frames * file.format.bitsAllocated;
-  std::string bytes((bits + 7) / 8, '\0');
-  std::ifstream stream(file.path, std::ios::binary);
-  stream.seekg(static_cast<std::streamoff>(file.pixels.offset));
-  if (!stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-  {
-    Refuse(file, FailureKind::Unreadable, "its pixels are cut off");
-  }
-  return bytes;
-}
-
 /** A stored pixel; bits are packed from the lowest up, across frames (PS3.5, 8.1.1). */
 std::uint32_t
-StoredPixel(const std::string & bytes, const DicomPixelFormat & format, std::size_t n)
+StoredPixel(const Bytes & bytes, const DicomPixelFormat & format, std::size_t n)
 {
-  const auto byte = [&bytes](std::size_t offset) { return std::uint32_t{ static_cast<unsigned char>(bytes[offset]) }; };
+  const auto byte = [&bytes](std::size_t offset) { return std::to_integer<std::uint32_t>(bytes[offset]); };
   switch (format.bitsAllocated)
   {
     case 1:
@@ -328,7 +314,7 @@ StoredPixel(const std::string & bytes, const DicomPixelFormat & format, std::siz
     case 8:
       return byte(n);
     default:
-      return format.isBigEndian ? byte(2 * n) << 8 | byte(2 * n + 1) : byte(2 * n + 1) << 8 | byte(2 * n);
+      return byte(2 * n + 1) << 8 | byte(2 * n);
   }
 }
 
@@ -357,7 +343,7 @@ SegmentsOfFrames(const DicomDataSet & dataSet, const LabelTable & labels, const 
 /** Returns how many voxels belong to more than one segment. */
 template <typename TPixel>
 std::size_t
-Fill(const std::string & bytes,
+Fill(const Bytes & bytes,
      const DicomPixelFormat & format,
      const std::vector<std::uint32_t> & segments,
      const Frames & frames,
@@ -415,7 +401,9 @@ ReadDicomSegmentation(const std::vector<DicomSlice> & frames, std::uintmax_t max
   const std::uintmax_t voxels = std::uintmax_t{ file.format.columns } * file.format.rows * slices.count;
   RequireMemory(file.pixels.size + voxels * (takesByte ? 1 : 2), maximumMemory, "Reading " + file.path.string());
   const auto segments = isBinary ? SegmentsOfFrames(dataSet, scan.labels, file) : std::vector<std::uint32_t>();
-  const std::string bytes = ReadPixelBytes(file);
+  const std::uintmax_t bits =
+    std::uintmax_t{ file.format.columns } * file.format.rows * file.format.frames * file.format.bitsAllocated;
+  const Bytes bytes = ReadStoredBytes(file, 0, (bits + 7) / 8);
 
   const auto read = [&](auto pixel) {
     const auto image = NewImage<decltype(pixel)>(GeometryOf(slices, frames.front()));

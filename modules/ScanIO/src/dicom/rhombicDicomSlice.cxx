@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string_view>
 
 namespace rhombic
@@ -31,6 +32,12 @@ IsSegmentation(const DicomDataSet & dataSet)
 {
   const std::string uid = dataSet.GetText(DicomTags::SOPClassUID);
   return uid == "1.2.840.10008.5.1.4.1.1.66.4" || uid == "1.2.840.10008.5.1.4.1.1.66.7";
+}
+
+bool
+IsEnhancedCT(const DicomDataSet & dataSet)
+{
+  return dataSet.GetText(DicomTags::SOPClassUID) == "1.2.840.10008.5.1.4.1.1.2.1";
 }
 
 /** Keeps what a code may hold, so that no other text travels on. */
@@ -74,7 +81,6 @@ ReadPixelFormat(const DicomHeader & header)
   const DicomDataSet & dataSet = header.dataSet;
   DicomPixelFormat format;
   format.transferSyntax = header.transferSyntax;
-  format.isBigEndian = dataSet.isBigEndian;
   format.isEncapsulated = header.isEncapsulated;
   format.columns = dataSet.GetShort(DicomTags::Columns).value_or(0);
   format.rows = dataSet.GetShort(DicomTags::Rows).value_or(0);
@@ -82,6 +88,7 @@ ReadPixelFormat(const DicomHeader & header)
   format.frames =
     frames.empty() || !(frames[0] >= 1 && frames[0] < 4294967296.0) ? 1 : static_cast<std::size_t>(frames[0]);
   format.bitsAllocated = dataSet.GetShort(DicomTags::BitsAllocated).value_or(0);
+  format.swappedBytes = dataSet.isBigEndian ? std::max(format.bitsAllocated / 8, header.hasWords ? 2U : 1U) : 1;
   format.bitsStored = dataSet.GetShort(DicomTags::BitsStored).value_or(0);
   format.highBit = dataSet.GetShort(DicomTags::HighBit).value_or(static_cast<std::uint16_t>(format.bitsStored - 1));
   format.isSigned = dataSet.GetShort(DicomTags::PixelRepresentation) == 1;
@@ -194,6 +201,12 @@ private:
   const DicomDataSet & m_Frame;
 };
 
+bool
+HasScaling(const DicomDataSet & dataSet)
+{
+  return dataSet.Has(DicomTags::RescaleSlope) || dataSet.Has(DicomTags::RescaleIntercept);
+}
+
 /** Fills in slope and intercept, or says that they are no numbers. */
 void
 ReadScaling(const DicomDataSet & dataSet, DicomSlice & slice)
@@ -207,6 +220,11 @@ ReadScaling(const DicomDataSet & dataSet, DicomSlice & slice)
   if (slice.refusal.empty() && (!std::isfinite(slice.slope) || slice.slope == 0 || !std::isfinite(slice.intercept)))
   {
     slice.refusal = "its RescaleSlope or RescaleIntercept is no usable number";
+  }
+  const double largest = std::ldexp(std::abs(slice.slope), static_cast<int>(slice.file->format.bitsStored));
+  if (slice.refusal.empty() && !(largest + std::abs(slice.intercept) <= std::numeric_limits<float>::max()))
+  {
+    slice.refusal = "its RescaleSlope or RescaleIntercept makes its values larger than numbers can be";
   }
 }
 
@@ -248,7 +266,12 @@ ReadFrame(const DicomDataSet & dataSet, std::size_t frame, DicomSlice & slice)
                          "" };
   if (slice.kind == DicomSlice::Kind::Scan)
   {
-    ReadScaling(groups.Get(DicomTags::PixelValueTransformationSequence), slice);
+    const DicomDataSet & own = groups.Get(DicomTags::PixelValueTransformationSequence);
+    ReadScaling(HasScaling(own) ? own : dataSet, slice);
+    if (slice.refusal.empty() && IsEnhancedCT(dataSet) && !HasScaling(own) && !HasScaling(dataSet))
+    {
+      slice.refusal = "it is an enhanced CT image that does not say which HU its values are";
+    }
   }
   slice.plane =
     MakeSlicePlane(groups.Get(DicomTags::PlanePositionSequence).GetDecimals(DicomTags::ImagePositionPatient),
