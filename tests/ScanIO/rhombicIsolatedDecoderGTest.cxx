@@ -3,6 +3,10 @@
 #include "rhombicIsolatedDecoder.h"
 #include "rhombicScanTest.h"
 
+#include <gdcmImageChangeTransferSyntax.h>
+#include <gdcmImageReader.h>
+#include <gdcmSequenceOfFragments.h>
+
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -226,6 +230,41 @@ TEST_F(IsolatedDecoding, FolderNamesTheFileThatCrashes)
   EXPECT_EQ(scan.sliceOrigins.size(), 4u);
   EXPECT_EQ(ImageOf<std::int16_t>(scan).GetPixel({ { 0, 0, 2 } }), 303 - 1024);
   EXPECT_NE(scan.fileNotes.at(0).find("slice2"), std::string::npos) << scan.fileNotes[0];
+}
+
+// Only the header says so, long after the stream was made.
+TEST_F(IsolatedDecoding, RefusesValuesOfMoreBitsThanAnnounced)
+{
+  for (const bool isSigned : { false, true })
+  {
+    std::vector<std::uint16_t> pixels(std::size_t{ Size } * Size, isSigned ? 0xf800 : 4095);
+    DicomTestFile file(Size, Size);
+    file.SetShort(0x00280103, isSigned ? 1 : 0);
+    const auto recompress = [&](std::uint16_t value) {
+      pixels[9] = value;
+      file.SetPixels(pixels);
+      file.Write(m_Folder / "raw");
+      gdcm::ImageReader reader;
+      reader.SetFileName((m_Folder / "raw").c_str());
+      EXPECT_TRUE(reader.Read());
+      gdcm::ImageChangeTransferSyntax change;
+      change.SetTransferSyntax(gdcm::TransferSyntax::JPEG2000Lossless);
+      change.SetInput(reader.GetImage());
+      EXPECT_TRUE(change.Change());
+      const auto & stream = change.GetOutput().GetDataElement().GetSequenceOfFragments()->GetFragment(0);
+      const gdcm::ByteValue & bytes = *stream.GetByteValue();
+      DicomTestFile compressed = file;
+      compressed.SetShort(0x00280101, 12);
+      compressed.SetShort(0x00280102, 11);
+      compressed.SetFragments({ std::string(bytes.GetPointer(), bytes.GetLength()) });
+      compressed.Write(m_Folder / "compressed", "1.2.840.10008.1.2.4.90");
+      IsolatedDecoder decoder(1);
+      return FailureOf(decoder, m_Folder / "compressed");
+    };
+    EXPECT_EQ(recompress(17), "none");
+    const std::string sentence = recompress(isSigned ? 0x0801 : 4097);
+    EXPECT_NE(sentence.find("more than the 12 bits"), std::string::npos) << sentence << " for " << isSigned;
+  }
 }
 
 TEST_F(IsolatedDecoding, RefusesDamagedRunLengths)
