@@ -2,16 +2,22 @@
 #include "rhombicInProcessDecoder.h"
 #include "rhombicIsolatedDecoder.h"
 #include "rhombicScanTest.h"
+#include "rhombicSystemCallFilter.h"
 
 #include <gdcmImageChangeTransferSyntax.h>
 #include <gdcmImageReader.h>
 #include <gdcmSequenceOfFragments.h>
 
+#include <cctype>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <memory>
+#include <sstream>
 #include <thread>
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -193,6 +199,84 @@ TEST_F(IsolatedDecoding, LeavesNoProcessBehind)
     EXPECT_NE(Children(), before);
   }
   EXPECT_EQ(Children(), before);
+}
+
+TEST_F(IsolatedDecoding, DecodersEndInAnyOrderAndOutliveTheThreadThatMadeThem)
+{
+  std::unique_ptr<IsolatedDecoder> first;
+  std::thread([&first] { first = std::make_unique<IsolatedDecoder>(1); }).join();
+  auto second = std::make_unique<IsolatedDecoder>(1);
+  const fs::path good = this->Write(MakeSlice(0), "good");
+  EXPECT_EQ(FailureOf(*first, good), "none");
+  first.reset(); // would wait forever if the other's processes held its socket
+  EXPECT_EQ(FailureOf(*second, good), "none");
+}
+
+/** The only child of a process. */
+pid_t
+ChildOf(pid_t parent)
+{
+  for (const auto & entry : fs::directory_iterator("/proc"))
+  {
+    if (std::isdigit(entry.path().filename().native()[0]) == 0)
+    {
+      continue;
+    }
+    std::ifstream file(entry.path() / "stat");
+    const std::string text{ std::istreambuf_iterator<char>(file), {} };
+    std::istringstream fields(text.substr(std::min(text.rfind(')') + 1, text.size())));
+    std::string state;
+    pid_t itsParent = 0;
+    if (fields >> state >> itsParent && itsParent == parent && state != "Z")
+    {
+      return std::stoi(entry.path().filename().string());
+    }
+  }
+  return -1;
+}
+
+TEST_F(IsolatedDecoding, AKilledDecoderIsNoDamage)
+{
+  const fs::path good = this->Write(MakeSlice(0), "good");
+  for (const int signal : { SIGKILL, SIGTERM })
+  {
+    IsolatedDecoder decoder(1);
+    EXPECT_EQ(FailureOf(decoder, good), "none");
+    const pid_t worker = ChildOf(ChildOf(getpid()));
+    ASSERT_GT(worker, 0);
+    kill(worker, signal);
+    try
+    {
+      decoder.Decode({ VoxelRequest::Source::DicomFile, good, Bytes });
+      ADD_FAILURE() << "it was decoded";
+    }
+    catch (const Failure & failure)
+    {
+      EXPECT_EQ(failure.GetKind(), signal == SIGKILL ? FailureKind::Memory : FailureKind::Internal);
+      EXPECT_NE(std::string(failure.GetDescription()).find("killed from outside"), std::string::npos)
+        << failure.GetDescription();
+    }
+    EXPECT_EQ(FailureOf(decoder, good), "none") << "by another worker";
+  }
+}
+
+TEST_F(IsolatedDecoding, WorkersReadButChangeNothing)
+{
+  const fs::path file = m_Folder / "file";
+  std::ofstream(file) << "text";
+  const pid_t worker = fork();
+  if (worker == 0)
+  {
+    rhombic::ForbidAllButDecoding();
+    const bool reads = open(file.c_str(), O_RDONLY) >= 0;
+    const bool writes = open(file.c_str(), O_WRONLY) >= 0 || open((m_Folder / "new").c_str(), O_CREAT, 0600) >= 0 ||
+                        unlink(file.c_str()) == 0 || kill(getppid(), 0) == 0 || mkdir((file / "x").c_str(), 0700) == 0;
+    _exit((reads ? 0 : 1) + (writes ? 2 : 0));
+  }
+  int status = 0;
+  waitpid(worker, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 TEST_F(IsolatedDecoding, EndsWithAProgramThatIsKilled)
