@@ -83,8 +83,8 @@ struct DicomHeader
  * the beginning, as files of the time before DICOM have.
  *
  * Made for files that nobody has checked: no length is believed before it is compared with the file's, sequences end at
- * 64 levels and after a million items, and memory stays below a few times the wanted elements' and items' size. Throws
- * nothing but std::bad_alloc. */
+ * 64 levels and after a million items, headers after 16 million elements, and memory stays below a few times the wanted
+ * elements' and items' size. Throws nothing but std::bad_alloc. */
 std::optional<DicomHeader>
 ParseDicomHeader(std::istream & file, std::uintmax_t fileSize);
 

@@ -1,5 +1,6 @@
 #include "rhombicDicomSeries.h"
 
+#include "rhombicDicomCodes.h"
 #include "rhombicDicomStack.h"
 #include "rhombicFailure.h"
 
@@ -24,6 +25,19 @@ HaveSameAxes(const SlicePlane & first, const SlicePlane & second)
   constexpr double tolerance = 1e-4; // relative to the pixel spacing
   return (first.columnStep - second.columnStep).GetNorm() <= tolerance * first.columnStep.GetNorm() &&
          (first.rowStep - second.rowStep).GetNorm() <= tolerance * first.rowStep.GetNorm();
+}
+
+/** The axes in thousandths of a millimetre, to sort by. */
+std::vector<long>
+AxesOf(const DicomSlice & slice)
+{
+  std::vector<long> axes;
+  for (unsigned int n = 0; n < 6 && slice.plane; ++n)
+  {
+    const double number = n < 3 ? slice.plane->columnStep[n] : slice.plane->rowStep[n - 3];
+    axes.push_back(std::lround(1000 * number));
+  }
+  return axes;
 }
 
 /** What all slices of a series have in common, but for their axes. The frames of a segmentation stay together, wherever
@@ -108,24 +122,8 @@ SplitDuplicates(const Slices & slices)
   return { { "", "", slices } };
 }
 
-/** FNV-1a, 64 bits, in hexadecimal: the UID itself could lead to the patient. */
-std::string
-HashOf(const std::string & text)
-{
-  std::uint64_t hash = 14695981039346656037u;
-  for (const char letter : text)
-  {
-    hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211u;
-  }
-  std::string digits;
-  for (int shift = 60; shift >= 0; shift -= 4)
-  {
-    digits += "0123456789abcdef"[hash >> shift & 15];
-  }
-  return digits;
-}
-
-/** The parts of a series UID are told apart by a number, the largest part first. */
+/** The UID itself could lead to the patient. The parts of a series UID are told apart by a number, the largest first.
+ */
 void
 NameSeries(std::vector<DicomSeries> & series)
 {
@@ -239,8 +237,13 @@ GroupIntoSeries(const std::vector<DicomSlice> & slices)
   std::stable_sort(series.begin(), series.end(), [](const DicomSeries & first, const DicomSeries & second) {
     const auto key = [](const DicomSeries & one) {
       const DicomSlice & slice = one.slices.front();
-      return std::make_tuple(
-        std::atoi(slice.seriesNumber.c_str()), slice.seriesUID, -static_cast<std::int64_t>(one.slices.size()));
+      return std::make_tuple(std::atoi(slice.seriesNumber.c_str()),
+                             slice.seriesUID,
+                             -static_cast<std::int64_t>(one.slices.size()),
+                             one.kind,
+                             slice.file->format.columns,
+                             slice.file->format.rows,
+                             AxesOf(slice));
     };
     return key(first) < key(second);
   });

@@ -1,14 +1,13 @@
 #include "rhombicDicomSlice.h"
 
+#include "rhombicDicomCodes.h"
 #include "rhombicDicomTags.h"
 #include "rhombicTransferSyntax.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <string_view>
 
 namespace rhombic
 {
@@ -40,17 +39,6 @@ IsEnhancedCT(const DicomDataSet & dataSet)
   return dataSet.GetText(DicomTags::SOPClassUID) == "1.2.840.10008.5.1.4.1.1.2.1";
 }
 
-/** Keeps what a code may hold, so that no other text travels on. */
-std::string
-CodeOf(std::string text)
-{
-  const auto isOfCode = [](char letter) {
-    return (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9') || letter == '-';
-  };
-  text.erase(std::remove_if(text.begin(), text.end(), [&](char letter) { return !isOfCode(letter); }), text.end());
-  return text.substr(0, 16);
-}
-
 /** The digits and dots of a unique identifier. */
 std::string
 IdentifierOf(std::string text)
@@ -58,20 +46,6 @@ IdentifierOf(std::string text)
   constexpr std::size_t longest = 64;
   const auto isOther = [](char letter) { return letter != '.' && (letter < '0' || letter > '9'); };
   text.erase(std::remove_if(text.begin(), text.end(), isOther), text.end());
-  return text.substr(0, longest);
-}
-
-/** What may stand in the codes that tell slices apart (CS, DS, IS, and the short texts that stacks are named by). */
-std::string
-DistinctionOf(std::string text)
-{
-  constexpr std::size_t longest = 64;
-  const auto isAllowed = [](unsigned char letter) {
-    return std::isalnum(letter) != 0 ||
-           std::string_view("\\_ -+./").find(static_cast<char>(letter)) != std::string_view::npos;
-  };
-  text.erase(std::remove_if(text.begin(), text.end(), [&](unsigned char letter) { return !isAllowed(letter); }),
-             text.end());
   return text.substr(0, longest);
 }
 
@@ -134,6 +108,11 @@ FindPixelDamage(const DicomHeader & header, const DicomPixelFormat & format)
   {
     return "it has " + std::to_string(std::min(claimed, available)) + " of " +
            std::to_string(std::max(claimed, needed)) + " bytes of pixels";
+  }
+  constexpr std::uintmax_t mostPadding = 1024; // more than any known writer adds
+  if (claimed - needed > std::min(mostPadding, needed / 2 + 2))
+  {
+    return "it has " + std::to_string(claimed) + " bytes of pixels where its header says " + std::to_string(needed);
   }
   return "";
 }
@@ -233,13 +212,14 @@ void
 ReadPlainSlice(const DicomDataSet & dataSet, DicomSlice & slice)
 {
   const auto named = [&dataSet](const char * name, DicomTag tag) {
-    const std::string value = DistinctionOf(dataSet.GetText(tag));
+    const std::string value = NumberTextOf(dataSet.GetText(tag));
     return value.empty() ? "" : name + value;
   };
-  slice.distinctions = { named("", DicomTags::ImageType),
+  const std::string stack = dataSet.GetText(DicomTags::StackID);
+  slice.distinctions = { ImageTypeOf(dataSet.GetText(DicomTags::ImageType)),
                          named("echo time ", DicomTags::EchoTime) + named(" echo ", DicomTags::EchoNumbers),
                          named("time ", DicomTags::TemporalPositionIdentifier),
-                         named("stack ", DicomTags::StackID),
+                         stack.empty() ? "" : "stack " + NameCodeOf(stack),
                          named("acquisition ", DicomTags::AcquisitionNumber) };
   ReadScaling(dataSet, slice);
   slice.plane = MakeSlicePlane(dataSet.GetDecimals(DicomTags::ImagePositionPatient),
@@ -257,12 +237,12 @@ ReadFrame(const DicomDataSet & dataSet, std::size_t frame, DicomSlice & slice)
   const auto echo = groups.Get(DicomTags::MREchoSequence).GetDouble(DicomTags::EffectiveEchoTime);
   const auto times = content.GetShorts(DicomTags::TemporalPositionIndex);
   slice.frame = frame;
-  const std::string stack = DistinctionOf(content.GetText(DicomTags::StackID));
-  slice.distinctions = { DistinctionOf(groups.Get(DicomTags::MRImageFrameTypeSequence).GetText(DicomTags::FrameType) +
-                                       groups.Get(DicomTags::CTImageFrameTypeSequence).GetText(DicomTags::FrameType)),
+  const std::string stack = content.GetText(DicomTags::StackID);
+  slice.distinctions = { ImageTypeOf(groups.Get(DicomTags::MRImageFrameTypeSequence).GetText(DicomTags::FrameType) +
+                                     groups.Get(DicomTags::CTImageFrameTypeSequence).GetText(DicomTags::FrameType)),
                          echo ? "echo time " + std::to_string(*echo) : "",
                          times.empty() ? "" : "time " + std::to_string(times[0]),
-                         stack.empty() ? "" : "stack " + stack,
+                         stack.empty() ? "" : "stack " + NameCodeOf(stack),
                          "" };
   if (slice.kind == DicomSlice::Kind::Scan)
   {
@@ -345,8 +325,8 @@ ReadDicomSlices(const std::filesystem::path & path)
   DicomSlice slice;
   slice.file = file;
   slice.seriesUID = dataSet.GetText(DicomTags::SeriesInstanceUID);
-  slice.seriesNumber = CodeOf(dataSet.GetText(DicomTags::SeriesNumber));
-  slice.modality = CodeOf(dataSet.GetText(DicomTags::Modality));
+  slice.seriesNumber = NumberTextOf(dataSet.GetText(DicomTags::SeriesNumber));
+  slice.modality = ModalityOf(dataSet.GetText(DicomTags::Modality));
   if (file->format.rows == 0 || file->format.columns == 0 || (!header->hasPixels && header->damage.empty()))
   {
     const bool isUnreadable = FindTransferSyntax(header->transferSyntax).codec == PixelCodec::Unsupported;
