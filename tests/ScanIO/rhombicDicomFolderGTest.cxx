@@ -467,6 +467,31 @@ TEST_F(DicomFolder, PaddingTakesTheLowestOtherValue)
   EXPECT_EQ(image.GetPixel({ { 3, 0, 1 } }), 40 - 1024);
 }
 
+TEST_F(DicomFolder, BackgroundThatIsCalledPaddingStays)
+{
+  for (const std::vector<std::int16_t> & values : { std::vector<std::int16_t>{ 0, 255 }, { 0, 1, 2 } })
+  {
+    for (std::size_t k = 0; k < Slices; ++k)
+    {
+      DicomTestFile file = MakeSlice(k);
+      std::vector<std::int16_t> pixels(static_cast<std::size_t>(Columns) * Rows);
+      std::copy(values.begin(), values.end(), pixels.begin());
+      file.SetPixels(pixels);
+      file.SetText(0x00281052, "DS", "0");
+      file.SetShort(0x00280120, 0);
+      file.Write(m_Folder / std::to_string(k));
+    }
+    const auto scan = ReadScan(m_Folder);
+    EXPECT_FALSE(scan.paddingValue.has_value());
+    EXPECT_EQ(scan.numberOfPaddingSamples, 0u);
+    for (std::size_t n = 0; n < 5; ++n)
+    {
+      const std::int16_t expected = n < values.size() ? values[n] : std::int16_t{ 0 };
+      EXPECT_EQ(ImageOf<std::int16_t>(scan).GetBufferPointer()[n], expected);
+    }
+  }
+}
+
 TEST_F(DicomFolder, BitsBesideTheValuesAreIgnored)
 {
   for (std::size_t k = 0; k < 2; ++k)

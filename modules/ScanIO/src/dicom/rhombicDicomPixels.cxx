@@ -275,24 +275,58 @@ InParallel(std::size_t count, std::size_t threads, const std::function<void(doub
   helpers.Join();
 }
 
-/** Puts the lowest other value in the place of padding. */
+std::optional<double>
+PaddingValueOf(const std::vector<DicomSlice> & slices)
+{
+  const DicomSlice & first = slices.front();
+  return first.file->format.padding
+           ? std::optional<double>(first.slope * static_cast<double>(first.file->format.padding->first) +
+                                   first.intercept)
+           : std::nullopt;
+}
+
+/** Whether padding is a value like others: the background of a mask or of labels, whose one or next value is an object.
+ */
+bool
+IsBackground(double padding, double lowest, double highest, double slope)
+{
+  return lowest == highest || std::abs(lowest - padding) <= std::abs(slope);
+}
+
+/** Puts the lowest other value in the place of padding, unless it is a background. */
 template <typename TPixel>
 void
-ReplacePadding(const std::vector<SliceValues> & values, TPixel * pixels, std::size_t sliceSize, DicomPixels & result)
+ReplacePadding(const std::vector<SliceValues> & values,
+               const std::vector<DicomSlice> & slices,
+               TPixel * pixels,
+               std::size_t sliceSize,
+               DicomPixels & result)
 {
   double lowest = std::numeric_limits<double>::max();
+  double highest = std::numeric_limits<double>::lowest();
   for (const SliceValues & slice : values)
   {
     lowest = std::min(lowest, slice.lowest);
+    highest = std::max(highest, slice.highest);
     result.numberOfPaddingSamples += slice.numberOfPadding;
   }
-  const auto replacement = lowest < std::numeric_limits<double>::max() ? static_cast<TPixel>(lowest) : TPixel{};
+  result.paddingValue = PaddingValueOf(slices);
+  double replacement = lowest <= highest ? lowest : 0;
+  if (result.numberOfPaddingSamples > 0 && lowest <= highest &&
+      IsBackground(*result.paddingValue, lowest, highest, slices.front().slope))
+  {
+    replacement = std::clamp(*result.paddingValue,
+                             static_cast<double>(std::numeric_limits<TPixel>::lowest()),
+                             static_cast<double>(std::numeric_limits<TPixel>::max()));
+    result.numberOfPaddingSamples = 0;
+    result.paddingValue.reset();
+  }
   for (std::size_t k = 0; k < values.size(); ++k)
   {
     for (std::size_t n = 0; n < values[k].isPadding.size(); ++n)
     {
       TPixel & pixel = pixels[k * sliceSize + n];
-      pixel = values[k].isPadding[n] ? replacement : pixel;
+      pixel = values[k].isPadding[n] ? static_cast<TPixel>(replacement) : pixel;
     }
   }
 }
@@ -380,7 +414,7 @@ ReadAs(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry, 
   {
     return {};
   }
-  ReplacePadding(values, image->GetBufferPointer(), sliceSize, result);
+  ReplacePadding(values, slices, image->GetBufferPointer(), sliceSize, result);
   result.image = image;
   return result;
 }
@@ -400,16 +434,6 @@ AreWholeNumbers(const std::vector<DicomSlice> & slices)
   return std::all_of(slices.begin(), slices.end(), [](const DicomSlice & slice) {
     return std::floor(slice.slope) == slice.slope && std::floor(slice.intercept) == slice.intercept;
   });
-}
-
-std::optional<double>
-PaddingValueOf(const std::vector<DicomSlice> & slices)
-{
-  const DicomSlice & first = slices.front();
-  return first.file->format.padding
-           ? std::optional<double>(first.slope * static_cast<double>(first.file->format.padding->first) +
-                                   first.intercept)
-           : std::nullopt;
 }
 
 } // namespace
@@ -439,7 +463,6 @@ ReadDicomPixels(const std::vector<DicomSlice> & slices,
   {
     pixels = ReadAs<float>(slices, geometry, options);
   }
-  pixels->paddingValue = PaddingValueOf(slices);
   return std::move(*pixels);
 }
 

@@ -23,7 +23,8 @@ struct DicomPixels
 
 /** Reads slices, in their order, whose files have no pixelDamage, into one volume. Pixels that are not compressed are
  * read here, the others by the options' decoder, which must be set, as many files at once as it has workers. Samples
- * that are padding get the lowest value of the others. Throws Failure(Memory) when that would take more than the
+ * that are padding get the lowest value of the others, unless these have one value only or padding is the value next to
+ * theirs: it is then the background of a mask or of labels, and stays. Throws Failure(Memory) when that would take more than the
  * options allow. */
 DicomPixels
 ReadDicomPixels(const std::vector<DicomSlice> & slices,
