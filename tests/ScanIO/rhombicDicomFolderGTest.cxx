@@ -1,8 +1,16 @@
+#include "rhombicDicomStack.h"
 #include "rhombicDicomTestFile.h"
+#include "rhombicInProcessDecoder.h"
 #include "rhombicScanTest.h"
+#include "rhombicStoredBytes.h"
 
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <system_error>
+#include <thread>
+
+#include <pthread.h>
 
 namespace fs = std::filesystem;
 
@@ -82,6 +90,16 @@ WriteStack(const fs::path & folder, std::size_t slices = Slices)
     MakeSlice(k).Write(folder / ("image" + std::to_string(k * 3 % 7) + ".dcm"));
   }
 }
+
+class ManyWorkers : public rhombic::InProcessDecoder
+{
+public:
+  unsigned int
+  GetNumberOfWorkers() const override
+  {
+    return 3;
+  }
+};
 
 TEST_F(DicomFolder, ObliqueSeriesLiesWhereItsHeadersSay)
 {
@@ -240,6 +258,73 @@ TEST_F(DicomFolder, GapIsAcceptedWithTheOtherSlicesInTheirPlaces)
   EXPECT_EQ(ImageOf<std::int16_t>(scan).GetPixel({ { 0, 0, 3 } }), ValueAt(0, 0, 4) - 1024);
 }
 
+/** Slices that follow each other with these steps. */
+std::vector<rhombic::DicomSlice>
+StackWithSteps(const std::vector<double> & steps)
+{
+  const auto file = std::make_shared<rhombic::DicomImageFile>();
+  file->path = "folder/file";
+  file->format.columns = file->format.rows = 2;
+  std::vector<rhombic::DicomSlice> slices(steps.size() + 1);
+  double z = -33.3;
+  for (std::size_t k = 0; k < slices.size(); ++k)
+  {
+    slices[k].file = file;
+    slices[k].plane = rhombic::MakeSlicePlane({ 0, 0, z }, { 1, 0, 0, 0, 1, 0 }, { 1, 1 }, slices[k].planeProblem);
+    z += k < steps.size() ? steps[k] : 0;
+  }
+  return slices;
+}
+
+std::vector<double>
+Steps(std::initializer_list<std::pair<std::size_t, double>> blocks)
+{
+  std::vector<double> steps;
+  for (const auto & [count, step] : blocks)
+  {
+    steps.insert(steps.end(), count, step);
+  }
+  return steps;
+}
+
+TEST(DicomStack, GapsAreJudgedByTheStepsAround)
+{
+  const auto missing = [](std::initializer_list<std::pair<std::size_t, double>> blocks) {
+    auto slices = StackWithSteps(Steps(blocks));
+    rhombic::ScanReadOptions options;
+    options.onGap = rhombic::ScanReadOptions::Policy::Accept;
+    const auto stack = StackSlices(slices, options);
+    std::vector<std::size_t> counts;
+    for (const rhombic::SliceGap & gap : stack.report.gaps)
+    {
+      counts.push_back(gap.numberOfMissing);
+    }
+    EXPECT_EQ(counts.empty(), stack.notes.empty() || stack.notes[0].find("missing") == std::string::npos);
+    return counts;
+  };
+  using Counts = std::vector<std::size_t>;
+  EXPECT_EQ(missing({ { 19, 2 }, { 1, 50.9 }, { 19, 2 } }), Counts{ 24 }) << "no whole multiple";
+  EXPECT_EQ(missing({ { 14, 4 }, { 5, 7 }, { 1, 14 }, { 4, 7 } }), Counts{ 1 }) << "in the second of two blocks";
+  EXPECT_EQ(missing({ { 3, 4 }, { 1, 8 }, { 3, 4 }, { 19, 7 } }), Counts{ 1 }) << "in the shorter of two blocks";
+  EXPECT_EQ(missing({ { 1, 44 }, { 1, 16 } }), Counts{ 2 });
+  EXPECT_EQ(missing({ { 1, 5 }, { 6, 2.5 } }), Counts{ 1 }) << "the second slice";
+  EXPECT_EQ(missing({ { 6, 2.5 }, { 1, 5 } }), Counts{ 1 }) << "the last but one";
+  EXPECT_EQ(missing({ { 9, 2 }, { 1, 4 }, { 1, 6 }, { 9, 2 } }), (Counts{ 1, 2 })) << "one after the other";
+  EXPECT_EQ(missing({ { 20, 2 }, { 7, 4 }, { 20, 2 } }), Counts(7, 1)) << "every second slice for a while";
+  EXPECT_EQ(missing({ { 14, 4 }, { 14, 7 } }), Counts());
+  EXPECT_EQ(missing({ { 14, 4.002 }, { 1, 1.081 }, { 14, 6.999 } }), Counts());
+  EXPECT_EQ(missing({ { 20, 5 }, { 8, 10 } }), Counts()) << "the step changes and stays";
+  EXPECT_EQ(missing({ { 8, 10 }, { 20, 5 } }), Counts());
+  EXPECT_EQ(missing({ { 9, 1 }, { 9, 3 }, { 9, 10 } }), Counts());
+}
+
+TEST(DicomStack, AHoleMakesNoDuplicates)
+{
+  EXPECT_FALSE(HaveDuplicates(StackWithSteps(Steps({ { 20, 0.5 }, { 1, 90 }, { 20, 0.5 } }))));
+  EXPECT_TRUE(HaveDuplicates(StackWithSteps(Steps({ { 20, 0.5 }, { 1, 0.004 }, { 20, 0.5 } }))));
+  EXPECT_TRUE(HaveDuplicates(StackWithSteps(Steps({ { 20, 0 }, { 19, 0.5 } }))));
+}
+
 TEST_F(DicomFolder, DamagedSliceIsAGap)
 {
   WriteStack(m_Folder, 6);
@@ -307,6 +392,26 @@ TEST_F(DicomFolder, UnevenSlicesStayWhereTheyAre)
   EXPECT_EQ(KindOfReading(m_Folder, "uneven", RefuseIrregular()), FailureKind::Geometry);
 }
 
+TEST_F(DicomFolder, SlicesThatJumpSidewaysAreRefused)
+{
+  const auto write = [this](auto shift) {
+    for (std::size_t k = 0; k < 20; ++k)
+    {
+      DicomTestFile file = MakeSlice(k);
+      file.SetPosition(Join({ shift(k), 0, static_cast<double>(k) }));
+      file.Write(m_Folder / ("image" + std::to_string(10 + k)));
+    }
+  };
+  write([](std::size_t k) { return k < 10 ? 0 : 200.0; });
+  EXPECT_EQ(KindOfReading(m_Folder, "image19 and image20 are shifted sideways by 200 mm"), FailureKind::Geometry);
+  write([](std::size_t k) { return k < 10 ? 0 : 1.5; });
+  EXPECT_EQ(KindOfReading(m_Folder, "image19 and image20 are shifted sideways by 1.5 mm"), FailureKind::Geometry);
+  write([](std::size_t k) { return k % 2 == 0 ? 0.3 * static_cast<double>(k) : 0.3 * static_cast<double>(k) - 0.4; });
+  EXPECT_EQ(ReadScan(m_Folder).sliceOrigins.size(), 20u) << "less than a pixel beside a tilt";
+  write([](std::size_t k) { return 1.8 * static_cast<double>(k); });
+  EXPECT_EQ(KindOfReading(m_Folder, "more than a tilt"), FailureKind::Geometry);
+}
+
 TEST_F(DicomFolder, SlicesAtOnePlaceAreToldApartByTheirKind)
 {
   for (std::size_t k = 0; k < Slices; ++k)
@@ -362,6 +467,31 @@ TEST_F(DicomFolder, PaddingTakesTheLowestOtherValue)
   EXPECT_EQ(image.GetPixel({ { 3, 0, 1 } }), 40 - 1024);
 }
 
+TEST_F(DicomFolder, BackgroundThatIsCalledPaddingStays)
+{
+  for (const std::vector<std::int16_t> & values : { std::vector<std::int16_t>{ 0, 255 }, { 0, 1, 2 } })
+  {
+    for (std::size_t k = 0; k < Slices; ++k)
+    {
+      DicomTestFile file = MakeSlice(k);
+      std::vector<std::int16_t> pixels(static_cast<std::size_t>(Columns) * Rows);
+      std::copy(values.begin(), values.end(), pixels.begin());
+      file.SetPixels(pixels);
+      file.SetText(0x00281052, "DS", "0");
+      file.SetShort(0x00280120, 0);
+      file.Write(m_Folder / std::to_string(k));
+    }
+    const auto scan = ReadScan(m_Folder);
+    EXPECT_FALSE(scan.paddingValue.has_value());
+    EXPECT_EQ(scan.numberOfPaddingSamples, 0u);
+    for (std::size_t n = 0; n < 5; ++n)
+    {
+      const std::int16_t expected = n < values.size() ? values[n] : std::int16_t{ 0 };
+      EXPECT_EQ(ImageOf<std::int16_t>(scan).GetBufferPointer()[n], expected);
+    }
+  }
+}
+
 TEST_F(DicomFolder, BitsBesideTheValuesAreIgnored)
 {
   for (std::size_t k = 0; k < 2; ++k)
@@ -377,6 +507,126 @@ TEST_F(DicomFolder, BitsBesideTheValuesAreIgnored)
   const auto scan = ReadScan(m_Folder);
   EXPECT_EQ(ImageOf<std::int16_t>(scan).GetPixel({ { 0, 0, 0 } }), -2 - 1024) << "12 bits, signed";
   EXPECT_EQ(ImageOf<std::int16_t>(scan).GetPixel({ { 1, 0, 0 } }), 100 - 1024) << "an overlay above them";
+}
+
+TEST_F(DicomFolder, WordsOfSmallPixelsAreSwappedInBigEndian)
+{
+  std::vector<std::uint8_t> pixels(2 * 15 + 1);
+  std::iota(pixels.begin(), pixels.end(), std::uint8_t{ 7 });
+  const auto write = [&](const char * name, const char * type, const char * transferSyntax) {
+    fs::create_directory(m_Folder / name);
+    for (std::size_t k = 0; k < 2; ++k)
+    {
+      DicomTestFile file(5, 3);
+      file.SetPosition(Join({ 0, 0, static_cast<double>(k) }));
+      for (const std::uint32_t tag : { 0x00280100u, 0x00280101u })
+      {
+        file.SetShort(tag, 8);
+      }
+      file.SetShort(0x00280102, 7);
+      file.SetShort(0x00280103, 0);
+      file.SetLongBytes(
+        0x7fe00010, std::string(pixels.begin() + static_cast<long>(15 * k), pixels.end()).substr(0, 16), type);
+      file.Write(m_Folder / name / std::to_string(k), transferSyntax);
+    }
+    const auto scan = ReadScan(m_Folder / name);
+    const auto & image = ImageOf<std::int16_t>(scan);
+    return std::vector<int>(image.GetBufferPointer(), image.GetBufferPointer() + 30);
+  };
+  std::vector<int> expected(30);
+  std::iota(expected.begin(), expected.end(), 7 - 1024);
+  EXPECT_EQ(write("bytes", "OB", "1.2.840.10008.1.2.2"), expected);
+  EXPECT_EQ(write("words", "OW", "1.2.840.10008.1.2.2"), expected);
+  EXPECT_EQ(write("little", "OW", "1.2.840.10008.1.2.1"), expected);
+
+  rhombic::DicomImageFile file;
+  file.path = m_Folder / "raw";
+  file.format.swappedBytes = 2;
+  std::ofstream(file.path) << "--badcfe";
+  file.pixels.offset = 2;
+  const auto text = [&file](std::uintmax_t offset, std::size_t size) {
+    const auto bytes = rhombic::ReadStoredBytes(file, offset, size);
+    return std::string(reinterpret_cast<const char *>(bytes.data()), bytes.size());
+  };
+  EXPECT_EQ(text(0, 3), "abc");
+  EXPECT_EQ(text(3, 3), "def");
+  EXPECT_EQ(text(1, 2), "bc");
+  EXPECT_THROW(text(5, 2), rhombic::Failure);
+}
+
+// What can't be had is a stack of that size.
+TEST_F(DicomFolder, ThreadsThatDoNotStartAreDoneWithout)
+{
+  WriteStack(m_Folder);
+  pthread_attr_t attributes;
+  pthread_attr_t impossible;
+  ASSERT_EQ(pthread_getattr_default_np(&attributes), 0);
+  ASSERT_EQ(pthread_getattr_default_np(&impossible), 0);
+  ASSERT_EQ(pthread_attr_setstacksize(&impossible, std::size_t{ 1 } << 50), 0);
+  ASSERT_EQ(pthread_setattr_default_np(&impossible), 0);
+  EXPECT_THROW(std::thread([] {}).join(), std::system_error);
+  ManyWorkers decoder;
+  rhombic::ScanReadOptions options;
+  options.decoder = &decoder;
+  EXPECT_NO_THROW(ReadScan(m_Folder, options));
+  pthread_setattr_default_np(&attributes);
+
+  struct Stop
+  {};
+  options.progress = [](double) { throw Stop(); };
+  bool hasStopped = false;
+  for (int n = 0; n < 100 && !hasStopped; ++n) // helpers may leave no slice to this thread
+  {
+    try
+    {
+      ReadScan(m_Folder, options);
+    }
+    catch (const Stop &)
+    {
+      hasStopped = true;
+    }
+  }
+  EXPECT_TRUE(hasStopped) << "and the helpers were waited for";
+}
+
+TEST_F(DicomFolder, MemoryIsThatOfThePixelsThatAreMade)
+{
+  const auto bytesNeeded = [this](const char * slope, std::int16_t value, bool isPadded) {
+    for (std::size_t k = 0; k < 2; ++k)
+    {
+      DicomTestFile file(64, 64);
+      file.SetPosition(Join({ 0, 0, static_cast<double>(k) }));
+      file.SetText(0x00281053, "DS", slope);
+      file.SetPixels(std::vector<std::int16_t>(64 * 64, value));
+      if (isPadded)
+      {
+        file.SetShort(0x00280120, 3);
+      }
+      file.Write(m_Folder / std::to_string(k));
+    }
+    rhombic::ScanReadOptions options;
+    options.maximumMemory = 1;
+    std::uintmax_t step = 1 << 20;
+    for (; step > 0; step /= 2) // bisection
+    {
+      options.maximumMemory += step;
+      try
+      {
+        ReadScan(m_Folder, options);
+        options.maximumMemory -= step;
+      }
+      catch (const rhombic::Failure & failure)
+      {
+        EXPECT_EQ(failure.GetKind(), FailureKind::Memory);
+      }
+    }
+    return options.maximumMemory + 1;
+  };
+  constexpr std::uintmax_t frame = 64 * 64;
+  EXPECT_EQ(bytesNeeded("1", 5, false), 2 * frame * 2 + 2 * frame) << "int16, and one slice as it is read";
+  EXPECT_EQ(bytesNeeded("20", 30000, false), 2 * frame * 4 + 2 * frame) << "int32";
+  EXPECT_EQ(bytesNeeded("1.5", 5, false), 2 * frame * 4 + 2 * frame) << "float";
+  EXPECT_EQ(bytesNeeded("1.5", 5, true), 2 * frame * 4 + 2 * frame / 8 + 2 * frame) << "and bits for padding";
 }
 
 TEST_F(DicomFolder, MissingGeometryIsRefusedByName)
@@ -441,7 +691,100 @@ TEST_F(DicomFolder, UnsupportedKindsOfImagesAreNamed)
   EXPECT_EQ(kindWith("bits", [](DicomTestFile & file) { file.SetShort(0x00280100, 12); }), FailureKind::Unreadable);
   EXPECT_EQ(kindWith("RescaleSlope", [](DicomTestFile & file) { file.SetText(0x00281053, "DS", "nan"); }),
             FailureKind::Unreadable);
+  EXPECT_EQ(kindWith("larger than", [](DicomTestFile & file) { file.SetText(0x00281053, "DS", "1e300"); }),
+            FailureKind::Unreadable);
   EXPECT_EQ(kindWith("samples", [](DicomTestFile & file) { file.SetShort(0x00280002, 0); }), FailureKind::Unreadable);
+}
+
+TEST_F(DicomFolder, EnhancedImagesAreRescaled)
+{
+  const auto write = [this](bool isScaled, bool isOwn) {
+    DicomTestFile file(2, 2);
+    DicomTestDataSet orientation;
+    orientation.SetText(0x00200037, "DS", "1\\0\\0\\0\\1\\0");
+    DicomTestDataSet measures;
+    measures.SetText(0x00280030, "DS", "1\\1");
+    DicomTestDataSet shared;
+    shared.SetItems(0x00209116, { orientation });
+    shared.SetItems(0x00289110, { measures });
+    std::vector<DicomTestDataSet> groups(3);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      DicomTestDataSet place;
+      place.SetText(0x00200032, "DS", Join({ 0, 0, static_cast<double>(k) }));
+      groups[k].SetItems(0x00209113, { place });
+      DicomTestDataSet scaling;
+      scaling.SetText(0x00281052, "DS", "-7");
+      scaling.SetText(0x00281053, "DS", "2");
+      if (isOwn)
+      {
+        groups[k].SetItems(0x00289145, { scaling });
+      }
+    }
+    file.SetText(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.2.1");
+    file.SetText(0x00280008, "IS", "3");
+    file.SetItems(0x52009229, { shared });
+    file.SetItems(0x52009230, groups);
+    file.SetPixels(std::vector<std::int16_t>(12, 50));
+    if (!isScaled)
+    {
+      file.Remove(0x00281052);
+      file.Remove(0x00281053);
+    }
+    file.Write(m_Folder / "enhanced.dcm");
+    return m_Folder / "enhanced.dcm";
+  };
+  const auto firstValue = [](const fs::path & path) {
+    return ImageOf<std::int16_t>(ReadScan(path)).GetPixel({ { 0, 0, 0 } });
+  };
+  EXPECT_EQ(firstValue(write(false, true)), 93);
+  EXPECT_EQ(firstValue(write(true, true)), 93) << "the frame's own count";
+  EXPECT_EQ(firstValue(write(true, false)), 50 - 1024) << "those of the file count for frames without";
+  EXPECT_EQ(KindOfReading(write(false, false), "which HU"), FailureKind::Unreadable);
+}
+
+TEST_F(DicomFolder, MorePixelsThanAnnouncedAreRefused)
+{
+  const auto write = [this](std::size_t more) {
+    for (std::size_t k = 0; k < 2; ++k)
+    {
+      DicomTestFile file = MakeSlice(k);
+      file.SetPixels(std::vector<std::int16_t>(std::size_t{ Columns } * Rows + (k == 0 ? more : 0), 40));
+      file.Write(m_Folder / std::to_string(k));
+    }
+    return m_Folder;
+  };
+  EXPECT_NO_THROW(ReadScan(write(8))) << "padding";
+  EXPECT_EQ(KindOfReading(write(std::size_t{ Columns } * Rows), "its header says 60"), FailureKind::Unreadable);
+}
+
+TEST_F(DicomFolder, NamesOfFilesDoNotChangeTheNamesOfSeries)
+{
+  std::vector<std::string> ids;
+  for (const bool isReversed : { false, true })
+  {
+    const fs::path folder = m_Folder / (isReversed ? "reversed" : "plain");
+    fs::create_directory(folder);
+    for (std::size_t k = 0; k < 2 * Slices; ++k)
+    {
+      const bool isSagittal = k >= Slices;
+      DicomTestFile file = MakeSlice(k % Slices);
+      const auto place = static_cast<double>(k % Slices);
+      file.SetPosition(isSagittal ? Join({ place, 0, 0 }) : Join({ 0, 0, place }));
+      file.SetOrientation(isSagittal ? "0\\1\\0\\0\\0\\-1" : "1\\0\\0\\0\\1\\0");
+      file.Write(folder / std::to_string(10 + (isReversed ? 2 * Slices - k : k)));
+    }
+    std::vector<std::string> own;
+    for (const char * const number : { "1", "2" })
+    {
+      const auto scan = ReadScan(folder, Series(number));
+      const auto & chosen = scan.series[std::string(number) == "1" ? 0 : 1];
+      own.push_back(chosen.id + " " + Join({ ImageOf<std::int16_t>(scan).GetDirection()[2][2] }));
+    }
+    EXPECT_NE(own[0], own[1]);
+    EXPECT_TRUE(ids.empty() || ids == own) << own[0] << ", " << own[1];
+    ids = own;
+  }
 }
 
 TEST_F(DicomFolder, CutOffPixelsAreRefused)

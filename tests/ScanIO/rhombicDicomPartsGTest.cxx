@@ -1,14 +1,17 @@
-// What fuzzing found in the parts of reading DICOM (tests/fuzz), one by one.
+// Parts of reading DICOM one by one, with what fuzzing found in them (tests/fuzz).
 
 #include "rhombicCompressedFrame.h"
+#include "rhombicDicomCodes.h"
 #include "rhombicDicomHeader.h"
 #include "rhombicDicomStack.h"
 #include "rhombicFailure.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <sstream>
+#include <streambuf>
 
 namespace
 {
@@ -77,6 +80,68 @@ TEST(DicomHeader, EndlessItemsAreDamage)
   ASSERT_TRUE(header.has_value());
   EXPECT_NE(header->damage.find("items"), std::string::npos) << header->damage;
   EXPECT_LE(header->dataSet.GetItems(0x52009230).size(), std::size_t{ 1 } << 20);
+}
+
+TEST(DicomHeader, EndlessElementsAreDamage)
+{
+  const std::string start = std::string(128, '\0') + "DICM";
+  // A file of zeros, as large as one may be.
+  class Zeros : public std::streambuf
+  {
+  public:
+    explicit Zeros(const std::string & begin)
+      : m_Buffer(begin + std::string(1 << 20, '\0'))
+    {
+      this->setg(m_Buffer.data(), m_Buffer.data(), m_Buffer.data() + m_Buffer.size());
+      m_Begin = begin;
+    }
+
+  protected:
+    int_type
+    underflow() override
+    {
+      std::fill(m_Buffer.begin(), m_Buffer.end(), '\0');
+      this->setg(m_Buffer.data(), m_Buffer.data(), m_Buffer.data() + m_Buffer.size());
+      return 0;
+    }
+    pos_type
+    seekpos(pos_type position, std::ios_base::openmode) override
+    {
+      m_Buffer.assign(m_Buffer.size(), '\0');
+      m_Begin.copy(m_Buffer.data(), m_Begin.size());
+      const auto offset = std::min<std::streamoff>(position, static_cast<std::streamoff>(m_Begin.size()));
+      this->setg(m_Buffer.data(), m_Buffer.data() + offset, m_Buffer.data() + m_Buffer.size());
+      return position;
+    }
+
+  private:
+    std::string m_Buffer;
+    std::string m_Begin;
+  };
+  Zeros zeros(start);
+  std::istream stream(&zeros);
+  const auto header = rhombic::ParseDicomHeader(stream, std::uintmax_t{ 20 } << 30);
+  ASSERT_TRUE(header.has_value());
+  EXPECT_NE(header->damage.find("elements"), std::string::npos) << header->damage;
+}
+
+TEST(DicomCodes, OnlyNumbersAndKnownWordsTravelOn)
+{
+  EXPECT_EQ(rhombic::ModalityOf("CT"), "CT");
+  EXPECT_EQ(rhombic::ModalityOf("DOE-JOHN-1970"), "other");
+  EXPECT_EQ(rhombic::ModalityOf(""), "");
+  EXPECT_EQ(rhombic::ImageTypeOf("ORIGINAL\\PRIMARY\\SW_P_FFE\\T1 MAP"), "ORIGINAL\\PRIMARY\\SW_P_FFE\\T1 MAP");
+  const std::string disguised = rhombic::ImageTypeOf("ORIGINAL\\PRIMARY\\DOE JOHN 1970.01.01 A");
+  EXPECT_EQ(disguised.rfind("ORIGINAL\\PRIMARY\\other-", 0), 0u) << disguised;
+  EXPECT_EQ(disguised.size(), std::string("ORIGINAL\\PRIMARY\\other-abcd").size());
+  EXPECT_NE(disguised, rhombic::ImageTypeOf("ORIGINAL\\PRIMARY\\DOE JOHN 1970.01.01 B")) << "still told apart";
+  EXPECT_EQ(rhombic::NumberTextOf("12"), "12");
+  EXPECT_EQ(rhombic::NumberTextOf("-1.5e2\\3"), "-1.5e2\\3");
+  EXPECT_EQ(rhombic::NumberTextOf("JOHN"), "");
+  EXPECT_EQ(rhombic::NumberTextOf("12 Main"), "");
+  EXPECT_EQ(rhombic::NameCodeOf("12"), "12");
+  EXPECT_EQ(rhombic::NameCodeOf("19700101").rfind("other-", 0), 0u);
+  EXPECT_EQ(rhombic::NameCodeOf("DOE").rfind("other-", 0), 0u);
 }
 
 } // namespace

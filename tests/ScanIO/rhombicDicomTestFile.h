@@ -6,11 +6,111 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
+/** \class DicomTestDataSet
+ * \brief Elements of a DICOM data set, any of which can be wrong or left out. Values are given in little endian. */
+class DicomTestDataSet
+{
+public:
+  void
+  SetText(std::uint32_t tag, const std::string & representation, std::string text)
+  {
+    if (text.size() % 2 != 0)
+    {
+      text += representation == "UI" ? '\0' : ' ';
+    }
+    m_Elements[tag] = { representation, text, false };
+  }
+
+  void
+  SetShort(std::uint32_t tag, std::uint16_t value)
+  {
+    m_Elements[tag] = { "US", LittleEndian(value, 2), false };
+  }
+
+  void
+  SetItems(std::uint32_t tag, const std::vector<DicomTestDataSet> & items)
+  {
+    std::string bytes;
+    for (const DicomTestDataSet & item : items)
+    {
+      const std::string content = Encode(item.m_Elements);
+      bytes += LittleEndian(0xe000fffe, 4) + LittleEndian(static_cast<std::uint32_t>(content.size()), 4) + content;
+    }
+    m_Elements[tag] = { "SQ", bytes, false };
+  }
+
+  void
+  SetLongBytes(std::uint32_t tag, const std::string & bytes, const std::string & representation = "OB")
+  {
+    m_Elements[tag] = { representation, bytes, false };
+  }
+
+  void
+  Remove(std::uint32_t tag)
+  {
+    m_Elements.erase(tag);
+  }
+
+protected:
+  struct Element
+  {
+    std::string representation;
+    std::string value;
+    bool hasNoLength = false;
+  };
+
+  static std::string
+  Even(const std::string & text)
+  {
+    return text.size() % 2 == 0 ? text : text + '\0';
+  }
+
+  static std::string
+  LittleEndian(std::uint32_t value, std::size_t size)
+  {
+    std::string bytes;
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      bytes += static_cast<char>(value >> 8 * i & 255);
+    }
+    return bytes;
+  }
+
+  /** Sequences stay in little endian. */
+  static std::string
+  Encode(const std::map<std::uint32_t, Element> & elements, bool isBigEndian = false)
+  {
+    const auto number = [isBigEndian](std::uint32_t value, std::size_t size) {
+      std::string bytes = LittleEndian(value, size);
+      return isBigEndian ? std::string(bytes.rbegin(), bytes.rend()) : bytes;
+    };
+    std::string bytes;
+    for (const auto & [tag, element] : elements)
+    {
+      bytes += number(tag >> 16, 2) + number(tag & 0xffff, 2) + element.representation;
+      const std::string & type = element.representation;
+      const bool isLong = type == "OB" || type == "OW" || type == "SQ";
+      const auto length = element.hasNoLength ? 0xffffffff : static_cast<std::uint32_t>(element.value.size());
+      bytes += (isLong ? std::string(2, '\0') : "") + number(length, isLong ? 4 : 2);
+      std::string value = element.value;
+      for (std::size_t n = 0; n + 1 < value.size() && isBigEndian && (type == "US" || type == "OW"); n += 2)
+      {
+        std::swap(value[n], value[n + 1]);
+      }
+      bytes += value;
+    }
+    return bytes;
+  }
+
+  std::map<std::uint32_t, Element> m_Elements;
+};
+
 /** \class DicomTestFile
- * \brief A DICOM slice in explicit little endian, written byte by byte, so that any field can be wrong or left out. */
-class DicomTestFile
+ * \brief A DICOM slice in explicit encoding, written byte by byte. */
+class DicomTestFile : public DicomTestDataSet
 {
 public:
   /** A CT slice with all that a volume needs, at the origin, along the axes, 1 mm pixels, 16 bits, values 0. */
@@ -37,22 +137,6 @@ public:
     this->SetText(0x00281052, "DS", "-1024");
     this->SetText(0x00281053, "DS", "1");
     this->SetPixels(std::vector<std::int16_t>(static_cast<std::size_t>(columns) * rows));
-  }
-
-  void
-  SetText(std::uint32_t tag, const std::string & representation, std::string text)
-  {
-    if (text.size() % 2 != 0)
-    {
-      text += representation == "UI" ? '\0' : ' ';
-    }
-    m_Elements[tag] = { representation, text, false };
-  }
-
-  void
-  SetShort(std::uint32_t tag, std::uint16_t value)
-  {
-    m_Elements[tag] = { "US", LittleEndian(value, 2), false };
   }
 
   void
@@ -99,12 +183,6 @@ public:
     m_Elements[0x7fe00010] = { "OB", bytes + LittleEndian(0xe0ddfffe, 4) + LittleEndian(0, 4), true };
   }
 
-  void
-  SetLongBytes(std::uint32_t tag, const std::string & bytes)
-  {
-    m_Elements[tag] = { "OB", bytes, false };
-  }
-
   /** A sequence whose one item holds a sequence, and so on. */
   void
   SetNestedSequences(std::uint32_t tag, int depth)
@@ -125,12 +203,6 @@ public:
   }
 
   void
-  Remove(std::uint32_t tag)
-  {
-    m_Elements.erase(tag);
-  }
-
-  void
   Write(const std::filesystem::path & path, const std::string & transferSyntax = "1.2.840.10008.1.2.1") const
   {
     const std::map<std::uint32_t, Element> meta{ { 0x00020001, { "OB", std::string("\0\1", 2), false } },
@@ -143,50 +215,9 @@ public:
       { 0x00020000, { "UL", LittleEndian(static_cast<std::uint32_t>(metaBytes.size()), 4), false } }
     };
     std::ofstream file(path, std::ios::binary);
-    file << std::string(128, '\0') << "DICM" << Encode(length) << metaBytes << Encode(m_Elements);
+    file << std::string(128, '\0') << "DICM" << Encode(length) << metaBytes
+         << Encode(m_Elements, transferSyntax == "1.2.840.10008.1.2.2");
   }
-
-private:
-  struct Element
-  {
-    std::string representation;
-    std::string value;
-    bool hasNoLength = false;
-  };
-
-  static std::string
-  Even(const std::string & text)
-  {
-    return text.size() % 2 == 0 ? text : text + '\0';
-  }
-
-  static std::string
-  LittleEndian(std::uint32_t value, std::size_t size)
-  {
-    std::string bytes;
-    for (std::size_t i = 0; i < size; ++i)
-    {
-      bytes += static_cast<char>(value >> 8 * i & 255);
-    }
-    return bytes;
-  }
-
-  static std::string
-  Encode(const std::map<std::uint32_t, Element> & elements)
-  {
-    std::string bytes;
-    for (const auto & [tag, element] : elements)
-    {
-      bytes += LittleEndian(tag >> 16, 2) + LittleEndian(tag & 0xffff, 2) + element.representation;
-      const std::string & type = element.representation;
-      const bool isLong = type == "OB" || type == "OW" || type == "SQ";
-      const auto length = element.hasNoLength ? 0xffffffff : static_cast<std::uint32_t>(element.value.size());
-      bytes += (isLong ? std::string(2, '\0') : "") + LittleEndian(length, isLong ? 4 : 2) + element.value;
-    }
-    return bytes;
-  }
-
-  std::map<std::uint32_t, Element> m_Elements;
 };
 
 #endif

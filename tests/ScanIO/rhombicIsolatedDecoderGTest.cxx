@@ -2,12 +2,22 @@
 #include "rhombicInProcessDecoder.h"
 #include "rhombicIsolatedDecoder.h"
 #include "rhombicScanTest.h"
+#include "rhombicSystemCallFilter.h"
 
+#include <gdcmImageChangeTransferSyntax.h>
+#include <gdcmImageReader.h>
+#include <gdcmSequenceOfFragments.h>
+
+#include <cctype>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <memory>
+#include <sstream>
 #include <thread>
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -191,6 +201,84 @@ TEST_F(IsolatedDecoding, LeavesNoProcessBehind)
   EXPECT_EQ(Children(), before);
 }
 
+TEST_F(IsolatedDecoding, DecodersEndInAnyOrderAndOutliveTheThreadThatMadeThem)
+{
+  std::unique_ptr<IsolatedDecoder> first;
+  std::thread([&first] { first = std::make_unique<IsolatedDecoder>(1); }).join();
+  auto second = std::make_unique<IsolatedDecoder>(1);
+  const fs::path good = this->Write(MakeSlice(0), "good");
+  EXPECT_EQ(FailureOf(*first, good), "none");
+  first.reset(); // would wait forever if the other's processes held its socket
+  EXPECT_EQ(FailureOf(*second, good), "none");
+}
+
+/** The only child of a process. */
+pid_t
+ChildOf(pid_t parent)
+{
+  for (const auto & entry : fs::directory_iterator("/proc"))
+  {
+    if (std::isdigit(entry.path().filename().native()[0]) == 0)
+    {
+      continue;
+    }
+    std::ifstream file(entry.path() / "stat");
+    const std::string text{ std::istreambuf_iterator<char>(file), {} };
+    std::istringstream fields(text.substr(std::min(text.rfind(')') + 1, text.size())));
+    std::string state;
+    pid_t itsParent = 0;
+    if (fields >> state >> itsParent && itsParent == parent && state != "Z")
+    {
+      return std::stoi(entry.path().filename().string());
+    }
+  }
+  return -1;
+}
+
+TEST_F(IsolatedDecoding, AKilledDecoderIsNoDamage)
+{
+  const fs::path good = this->Write(MakeSlice(0), "good");
+  for (const int signal : { SIGKILL, SIGTERM })
+  {
+    IsolatedDecoder decoder(1);
+    EXPECT_EQ(FailureOf(decoder, good), "none");
+    const pid_t worker = ChildOf(ChildOf(getpid()));
+    ASSERT_GT(worker, 0);
+    kill(worker, signal);
+    try
+    {
+      decoder.Decode({ VoxelRequest::Source::DicomFile, good, Bytes });
+      ADD_FAILURE() << "it was decoded";
+    }
+    catch (const Failure & failure)
+    {
+      EXPECT_EQ(failure.GetKind(), signal == SIGKILL ? FailureKind::Memory : FailureKind::Internal);
+      EXPECT_NE(std::string(failure.GetDescription()).find("killed from outside"), std::string::npos)
+        << failure.GetDescription();
+    }
+    EXPECT_EQ(FailureOf(decoder, good), "none") << "by another worker";
+  }
+}
+
+TEST_F(IsolatedDecoding, WorkersReadButChangeNothing)
+{
+  const fs::path file = m_Folder / "file";
+  std::ofstream(file) << "text";
+  const pid_t worker = fork();
+  if (worker == 0)
+  {
+    rhombic::ForbidAllButDecoding();
+    const bool reads = open(file.c_str(), O_RDONLY) >= 0;
+    const bool writes = open(file.c_str(), O_WRONLY) >= 0 || open((m_Folder / "new").c_str(), O_CREAT, 0600) >= 0 ||
+                        unlink(file.c_str()) == 0 || kill(getppid(), 0) == 0 || mkdir((file / "x").c_str(), 0700) == 0;
+    _exit((reads ? 0 : 1) + (writes ? 2 : 0));
+  }
+  int status = 0;
+  waitpid(worker, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
 TEST_F(IsolatedDecoding, EndsWithAProgramThatIsKilled)
 {
   const fs::path good = this->Write(MakeSlice(0), "good");
@@ -226,6 +314,41 @@ TEST_F(IsolatedDecoding, FolderNamesTheFileThatCrashes)
   EXPECT_EQ(scan.sliceOrigins.size(), 4u);
   EXPECT_EQ(ImageOf<std::int16_t>(scan).GetPixel({ { 0, 0, 2 } }), 303 - 1024);
   EXPECT_NE(scan.fileNotes.at(0).find("slice2"), std::string::npos) << scan.fileNotes[0];
+}
+
+// Only the header says so, long after the stream was made.
+TEST_F(IsolatedDecoding, RefusesValuesOfMoreBitsThanAnnounced)
+{
+  for (const bool isSigned : { false, true })
+  {
+    std::vector<std::uint16_t> pixels(std::size_t{ Size } * Size, isSigned ? 0xf800 : 4095);
+    DicomTestFile file(Size, Size);
+    file.SetShort(0x00280103, isSigned ? 1 : 0);
+    const auto recompress = [&](std::uint16_t value) {
+      pixels[9] = value;
+      file.SetPixels(pixels);
+      file.Write(m_Folder / "raw");
+      gdcm::ImageReader reader;
+      reader.SetFileName((m_Folder / "raw").c_str());
+      EXPECT_TRUE(reader.Read());
+      gdcm::ImageChangeTransferSyntax change;
+      change.SetTransferSyntax(gdcm::TransferSyntax::JPEG2000Lossless);
+      change.SetInput(reader.GetImage());
+      EXPECT_TRUE(change.Change());
+      const auto & stream = change.GetOutput().GetDataElement().GetSequenceOfFragments()->GetFragment(0);
+      const gdcm::ByteValue & bytes = *stream.GetByteValue();
+      DicomTestFile compressed = file;
+      compressed.SetShort(0x00280101, 12);
+      compressed.SetShort(0x00280102, 11);
+      compressed.SetFragments({ std::string(bytes.GetPointer(), bytes.GetLength()) });
+      compressed.Write(m_Folder / "compressed", "1.2.840.10008.1.2.4.90");
+      IsolatedDecoder decoder(1);
+      return FailureOf(decoder, m_Folder / "compressed");
+    };
+    EXPECT_EQ(recompress(17), "none");
+    const std::string sentence = recompress(isSigned ? 0x0801 : 4097);
+    EXPECT_NE(sentence.find("more than the 12 bits"), std::string::npos) << sentence << " for " << isSigned;
+  }
 }
 
 TEST_F(IsolatedDecoding, RefusesDamagedRunLengths)

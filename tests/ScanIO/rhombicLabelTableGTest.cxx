@@ -8,6 +8,8 @@
 #include <random>
 #include <set>
 
+#include <sys/stat.h>
+
 namespace fs = std::filesystem;
 
 namespace
@@ -344,6 +346,13 @@ TEST_F(LabelTableFile, ReadsFilesAndSaysWhichAreMissing)
   }
   EXPECT_THROW(rhombic::ReadLabelTable(m_Folder), Failure);
   EXPECT_THROW(rhombic::ReadLabelTable(this->Write("big.csv", std::string(3 << 20, 'a'))), Failure);
+}
+
+TEST_F(LabelTableFile, PipesAreRefusedWithoutWaiting)
+{
+  const fs::path pipe = m_Folder / "labels.txt";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(rhombic::ReadLabelTable(pipe), Failure);
 }
 
 TEST_F(LabelTableFile, FindsTablesBesideLabelMaps)

@@ -1,3 +1,4 @@
+#include "rhombicNIfTITestFile.h"
 #include "rhombicScanTest.h"
 
 #include "itkImageFileWriter.h"
@@ -295,6 +296,21 @@ TEST_F(VolumeFile, DamagedGzipIsRefused)
   Write(MakeVolume<std::int16_t>(-7).GetPointer(), path);
   Patch(path, static_cast<std::streamoff>(fs::file_size(path)) - 6, '\x55'); // in the checksum
   EXPECT_EQ(KindOfReading(path, "a.nii.gz"), FailureKind::Unreadable);
+}
+
+// Unpacked to its end, a small file would take hours.
+TEST_F(VolumeFile, LongTailsOfCompressedVoxelsAreRefused)
+{
+  const std::string tail(2 << 20, '\0');
+  const auto write = [this](const std::string & name, const std::string & bytes) {
+    std::ofstream(m_Folder / name, std::ios::binary) << bytes;
+    return m_Folder / name;
+  };
+  const std::string voxels = NIfTITestFile().Bytes();
+  EXPECT_EQ(KindOfReading(write("a.nii.gz", Gzipped(voxels + tail)), "goes on behind"), FailureKind::Unreadable);
+  const std::string header = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: gzip\n\n";
+  EXPECT_NO_THROW(ReadScan(write("a.nrrd", header + Gzipped("12345678"))));
+  EXPECT_EQ(KindOfReading(write("a.nrrd", header + Gzipped("12345678" + tail)), "a.nrrd"), FailureKind::Unreadable);
 }
 
 TEST_F(VolumeFile, NIfTIWithoutOrientationIsNoted)

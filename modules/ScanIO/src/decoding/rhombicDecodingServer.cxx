@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <set>
 
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -25,6 +26,18 @@ EndWithParent(pid_t parent)
   {
     _exit(0);
   }
+}
+
+/** What the program has open is not for its decoders; the socket of another one's server would keep that alive. */
+void
+CloseAllBut(int descriptor)
+{
+  const auto kept = static_cast<unsigned int>(descriptor);
+  if (kept > STDERR_FILENO + 1)
+  {
+    close_range(STDERR_FILENO + 1, kept - 1, 0);
+  }
+  close_range(kept + 1, ~0U, 0);
 }
 
 /** The terminal stays the program's alone, and so do the handlers of its signals. */
@@ -71,8 +84,11 @@ WaitFor(pid_t pid)
 void
 RunDecodingServer(int socket)
 {
-  EndWithParent(getppid());
+  // The socket's end says when the program has ended. The signal for that would come with the end of the thread that
+  // made this process.
+  CloseAllBut(socket);
   LeaveTerminal();
+  std::set<pid_t> workers;
   while (auto request = ReceiveMessage<ServerRequest>(socket))
   {
     ServerReply reply;
@@ -80,12 +96,20 @@ RunDecodingServer(int socket)
     if (request->message.kind == ServerRequest::Kind::Start)
     {
       reply.pid = StartWorker(socket, std::move(request->descriptor));
+      workers.insert(reply.pid);
     }
     else
     {
       reply.status = WaitFor(request->message.pid);
+      workers.erase(request->message.pid);
     }
     SendMessage(socket, reply);
+  }
+  workers.erase(-1);
+  for (const pid_t worker : workers)
+  {
+    kill(worker, SIGKILL);
+    WaitFor(worker);
   }
   _exit(0);
 }

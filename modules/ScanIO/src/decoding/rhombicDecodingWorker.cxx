@@ -181,7 +181,7 @@ RunDecodingWorker(int socket)
   LimitFiles(output.Get());
   SilenceWarnings();
   KeepFreedMemory();
-  ForbidThreadsProgramsAndSockets(); // OpenJPEG's threads would only be in the way of other workers
+  ForbidAllButDecoding(); // OpenJPEG's threads would only be in the way of other workers
   SharedVoxels voxels;
   while (const auto request = ReceiveMessage<WorkerRequest>(socket))
   {

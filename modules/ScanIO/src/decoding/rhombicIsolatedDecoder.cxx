@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <iostream>
+#include <iterator>
 #include <mutex>
 #include <new>
 #include <thread>
@@ -86,6 +87,21 @@ struct Worker
   std::unique_ptr<SharedMemory> memory;
 };
 
+/** Whether a signal is what code does to itself when a file leads it astray. */
+bool
+IsOwnFault(int signal)
+{
+  constexpr int faults[] = { SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGTRAP, SIGSYS, SIGXFSZ, SIGXCPU };
+  return std::find(std::begin(faults), std::end(faults), signal) != std::end(faults);
+}
+
+std::string
+NameOfSignal(int signal)
+{
+  const char * const name = sigabbrev_np(signal);
+  return "SIG" + std::string(name == nullptr ? "?" : name);
+}
+
 /** How a worker ended that did not answer, as part of a sentence. */
 std::string
 DescribeEnd(int status, unsigned int seconds)
@@ -96,8 +112,7 @@ DescribeEnd(int status, unsigned int seconds)
   }
   if (WIFSIGNALED(status))
   {
-    const char * const name = sigabbrev_np(WTERMSIG(status));
-    return "its decoder crashed (SIG" + std::string(name == nullptr ? "?" : name) + ")";
+    return "its decoder crashed (" + NameOfSignal(WTERMSIG(status)) + ")";
   }
   return "its decoder ended without an answer";
 }
@@ -305,13 +320,28 @@ private:
   {
     pollfd closed{ worker.socket.Get(), POLLIN, 0 };
     const bool hangs = poll(&closed, 1, 0) == 0;
+    const bool hasEnded = (closed.revents & POLLHUP) != 0;
     kill(worker.pid, SIGKILL); // without effect on one that has ended: the server has not waited for it yet
     const int status = this->WaitForEnd(worker);
     const auto seconds = static_cast<unsigned int>(message.seconds);
-    return UnreadableBecause(request,
-                             hangs ? "its decoder took more than " + std::to_string(seconds * m_Limits.patience) +
-                                       " seconds on the clock"
-                                   : DescribeEnd(status, seconds));
+    if (hangs)
+    {
+      return UnreadableBecause(
+        request, "its decoder took more than " + std::to_string(seconds * m_Limits.patience) + " seconds on the clock");
+    }
+    if (!hasEnded)
+    {
+      return UnreadableBecause(request, "its decoder gave an answer that makes no sense");
+    }
+    if (WIFSIGNALED(status) && !IsOwnFault(WTERMSIG(status)))
+    {
+      const bool isMemory = WTERMSIG(status) == SIGKILL; // what the kernel ends processes with when memory runs out
+      return Failure(isMemory ? FailureKind::Memory : FailureKind::Internal,
+                     "Cannot read " + request.path.string() + ": its decoder was killed from outside (" +
+                       NameOfSignal(WTERMSIG(status)) + ")" + (isMemory ? ", as happens when memory runs out" : "") +
+                       "; try again" + (isMemory ? " with other programs closed." : "."));
+    }
+    return UnreadableBecause(request, DescribeEnd(status, seconds));
   }
 
   Failure

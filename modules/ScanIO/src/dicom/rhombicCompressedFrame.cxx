@@ -176,4 +176,19 @@ FindFrameDamage(std::string_view frame, PixelCodec codec, const DicomPixelFormat
   }
 }
 
+unsigned int
+BitsInFrame(std::string_view frame, PixelCodec codec)
+{
+  switch (codec)
+  {
+    case PixelCodec::JPEG:
+    case PixelCodec::JPEGLS:
+      return PictureInJPEG(frame).bits;
+    case PixelCodec::JPEG2000:
+      return PictureInJPEG2000(frame).bits;
+    default:
+      return 0;
+  }
+}
+
 } // namespace rhombic

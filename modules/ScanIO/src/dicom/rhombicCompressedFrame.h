@@ -17,6 +17,11 @@ namespace rhombic
 std::string
 FindFrameDamage(std::string_view frame, PixelCodec codec, const DicomPixelFormat & format);
 
+/** How many bits the values of a stream of JPEG, JPEG-LS or JPEG 2000 may have, whatever the header says; 0 for other
+ * codecs. */
+unsigned int
+BitsInFrame(std::string_view frame, PixelCodec codec);
+
 } // namespace rhombic
 
 #endif

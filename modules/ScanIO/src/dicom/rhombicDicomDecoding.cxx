@@ -6,6 +6,8 @@
 
 #include <gdcmImageReader.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -53,9 +55,11 @@ ReadFrames(const DicomImageFile & image, PixelCodec codec)
   return frames;
 }
 
-void
+/** Checks the streams, and returns how many bits their values may have; 0 when that is not theirs to say. */
+unsigned int
 CheckFrames(const DicomImageFile & image)
 {
+  unsigned int bits = 0;
   const PixelCodec codec = FindTransferSyntax(image.format.transferSyntax).codec;
   const std::vector<std::string> frames = ReadFrames(image, codec);
   if (frames.size() != image.format.frames)
@@ -70,6 +74,47 @@ CheckFrames(const DicomImageFile & image)
     {
       Refuse(image.path, damage);
     }
+    bits = std::max(bits, BitsInFrame(frame, codec));
+  }
+  return bits;
+}
+
+/** Has GDCM keep bits that the header does not know of, which it would cut off. */
+void
+KeepBits(gdcm::Image & image, unsigned int bits)
+{
+  gdcm::PixelFormat format = image.GetPixelFormat();
+  format.SetBitsStored(static_cast<unsigned short>(bits));
+  format.SetHighBit(static_cast<unsigned short>(bits - 1));
+  image.SetPixelFormat(format);
+}
+
+/** Whether values, other than padding, use bits that they don't have by their header. */
+template <typename TRaw>
+bool
+HasUnannouncedBits(const std::byte * voxels, std::size_t size, const DicomPixelFormat & format)
+{
+  const auto * const begin = reinterpret_cast<const TRaw *>(voxels);
+  // The sign of a number goes on in all bits above its own.
+  const auto above = static_cast<TRaw>(~std::uintmax_t{ 0 } << format.highBit << (format.isSigned ? 0 : 1));
+  const TRaw negative = format.isSigned ? above : TRaw{ 0 };
+  const auto isBeyond = [above, negative](TRaw raw) { return (raw & above) != 0 && (raw & above) != negative; };
+  return std::any_of(begin, begin + size / sizeof(TRaw), [&](TRaw raw) {
+    return isBeyond(raw) && !(format.padding && format.IsPadding(raw));
+  });
+}
+
+bool
+HasUnannouncedBits(const std::byte * voxels, std::size_t size, const DicomPixelFormat & format)
+{
+  switch (format.bitsAllocated)
+  {
+    case 8:
+      return HasUnannouncedBits<std::uint8_t>(voxels, size, format);
+    case 16:
+      return HasUnannouncedBits<std::uint16_t>(voxels, size, format);
+    default:
+      return HasUnannouncedBits<std::uint32_t>(voxels, size, format);
   }
 }
 
@@ -88,7 +133,8 @@ DecodeDicomFile(const fs::path & path, std::byte * voxels, std::size_t size)
   {
     Refuse(path, image.pixelDamage.empty() ? "its pixels are not compressed" : image.pixelDamage);
   }
-  CheckFrames(image);
+  const unsigned int bits = CheckFrames(image);
+  const bool hasMoreBits = bits > image.format.highBit + 1;
 
   gdcm::ImageReader reader;
   reader.SetFileName(path.c_str());
@@ -100,9 +146,19 @@ DecodeDicomFile(const fs::path & path, std::byte * voxels, std::size_t size)
   {
     Refuse(path, "its pixels are of another size than its header says");
   }
+  if (hasMoreBits)
+  {
+    KeepBits(reader.GetImage(), bits);
+  }
   if (!reader.GetImage().GetBuffer(reinterpret_cast<char *>(voxels)))
   {
     Refuse(path, "its pixels can't be decoded");
+  }
+  if (hasMoreBits && HasUnannouncedBits(voxels, size, image.format))
+  {
+    Refuse(path,
+           "its compressed pixels have values of more than the " + std::to_string(image.format.bitsStored) +
+             " bits that its header says");
   }
 }
 

@@ -6,7 +6,6 @@
 #include "rhombicDicomStack.h"
 #include "rhombicFailure.h"
 #include "rhombicFolderFiles.h"
-#include "rhombicMemoryBudget.h"
 #include "rhombicTransferSyntax.h"
 #include "rhombicVolumeFile.h"
 
@@ -222,16 +221,6 @@ LeaveOut(const FileFailures & failures, std::vector<DicomSlice> slices, const Sc
   return slices;
 }
 
-/** Asks for what the slices take as volume of the smallest pixels that they may become. */
-void
-RequireVolumeMemory(const std::vector<DicomSlice> & slices, const ScanReadOptions & options)
-{
-  const DicomPixelFormat & format = slices.front().file->format;
-  RequireMemory(std::uintmax_t{ slices.size() } * format.FrameBytes(),
-                options.maximumMemory,
-                "Reading " + slices.front().file->path.parent_path().string());
-}
-
 /** Stacks and reads slices. A file that can't be read counts as a gap: the options say whether that is accepted. */
 void
 ReadStack(std::vector<DicomSlice> slices, const ScanReadOptions & options, Scan & scan)
@@ -243,8 +232,7 @@ ReadStack(std::vector<DicomSlice> slices, const ScanReadOptions & options, Scan 
   {
     slices = LeaveOut(failures, std::move(slices), options, scan);
     stack = StackSlices(slices, options);
-    RequireVolumeMemory(slices, options);
-    pixels = ReadDicomPixels(slices, stack.geometry, *options.decoder, options.progress);
+    pixels = ReadDicomPixels(slices, stack.geometry, options);
     failures = pixels.failures;
   } while (!failures.empty());
 
@@ -272,7 +260,7 @@ ReadSlices(const std::vector<DicomSlice> & slices, Scan scan, const fs::path & p
   const std::vector<DicomSlice> & chosen = series[choice.index].slices;
   if (chosen.front().kind == DicomSlice::Kind::Segmentation)
   {
-    ReadDicomSegmentation(chosen, scan);
+    ReadDicomSegmentation(chosen, options.maximumMemory, scan);
     NoteCompression(chosen, scan);
   }
   else

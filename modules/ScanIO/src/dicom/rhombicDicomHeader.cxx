@@ -24,7 +24,8 @@ constexpr std::uint32_t UndefinedLength = 0xffffffff;
 constexpr std::uint16_t MetaGroup = 0x0002;
 constexpr int DeepestSequence = 64;
 constexpr std::size_t LongestValue = 1 << 16;
-constexpr std::size_t MostItems = 1 << 20; // each takes 8 bytes of the file, but a hundred of memory
+constexpr std::size_t MostElements = 1 << 24; // some seconds: a file of any size may consist of zeros
+constexpr std::size_t MostItems = 1 << 20;    // each takes 8 bytes of the file, but a hundred of memory
 
 const std::set<DicomTag> WantedValues{ DicomTags::ImageType,
                                        DicomTags::SOPClassUID,
@@ -33,6 +34,7 @@ const std::set<DicomTag> WantedValues{ DicomTags::ImageType,
                                        DicomTags::EchoTime,
                                        DicomTags::EchoNumbers,
                                        DicomTags::EffectiveEchoTime,
+                                       DicomTags::SliceThickness,
                                        DicomTags::SpacingBetweenSlices,
                                        DicomTags::SeriesInstanceUID,
                                        DicomTags::SeriesNumber,
@@ -185,6 +187,7 @@ public:
       {
         header.hasPixels = true;
         header.pixels = { m_Position, element.length };
+        header.hasWords = element.representation == "OW";
         header.isEncapsulated = element.length == UndefinedLength;
         if (header.isEncapsulated)
         {
@@ -281,6 +284,10 @@ private:
   Element
   ReadElement(const Encoding & encoding)
   {
+    if (++m_NumberOfElements > MostElements)
+    {
+      throw Damage{ "its header holds more than " + std::to_string(MostElements) + " elements" };
+    }
     Element element;
     const auto group = this->ReadNumber<std::uint16_t>(encoding.isBigEndian);
     element.tag = DicomTag{ group } << 16 | this->ReadNumber<std::uint16_t>(encoding.isBigEndian);
@@ -450,6 +457,7 @@ private:
   Pieces m_File;
   std::uintmax_t m_Size;
   std::uintmax_t m_Position = 0;
+  std::size_t m_NumberOfElements = 0;
   std::size_t m_NumberOfItems = 0; ///< of wanted sequences
 };
 

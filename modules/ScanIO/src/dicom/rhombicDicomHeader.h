@@ -72,6 +72,7 @@ struct DicomHeader
   DicomDataSet dataSet;
   std::uintmax_t fileSize = 0;
   bool hasPixels = false;
+  bool hasWords = false;            ///< whether the pixels are 16-bit words (OW), whatever the size of a pixel
   bool isEncapsulated = false;      ///< whether the pixels are fragments of compressed streams
   ByteRange pixels;                 ///< as claimed: its end may lie behind that of the file
   std::vector<ByteRange> fragments; ///< of encapsulated pixels, without the table of offsets, inside the file
@@ -82,8 +83,8 @@ struct DicomHeader
  * the beginning, as files of the time before DICOM have.
  *
  * Made for files that nobody has checked: no length is believed before it is compared with the file's, sequences end at
- * 64 levels and after a million items, and memory stays below a few times the wanted elements' and items' size. Throws
- * nothing but std::bad_alloc. */
+ * 64 levels and after a million items, headers after 16 million elements, and memory stays below a few times the wanted
+ * elements' and items' size. Throws nothing but std::bad_alloc. */
 std::optional<DicomHeader>
 ParseDicomHeader(std::istream & file, std::uintmax_t fileSize);
 

@@ -1,15 +1,16 @@
 #include "rhombicDicomPixels.h"
 
 #include "rhombicFailure.h"
+#include "rhombicMemoryBudget.h"
+#include "rhombicStoredBytes.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <limits>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <type_traits>
 
@@ -42,13 +43,6 @@ GroupByFile(const std::vector<DicomSlice> & slices)
   return files;
 }
 
-[[noreturn]] void
-Refuse(const DicomImageFile & file, const std::string & why)
-{
-  throw Failure(FailureKind::Unreadable,
-                "Cannot read " + file.path.string() + ": " + why + "; copy it again from its source.");
-}
-
 /** Turns stored pixels into the numbers they mean, before rescaling (PS3.5, 8.1.1). */
 template <typename TRaw>
 class StoredValue
@@ -75,22 +69,13 @@ private:
   bool m_IsSigned;
 };
 
-/** Padding may use bits that values don't: it is told by all the bits that there are. */
-template <typename TRaw>
-bool
-IsPadding(TRaw raw, const DicomPixelFormat & format)
-{
-  const auto value =
-    format.isSigned ? std::int64_t{ static_cast<std::make_signed_t<TRaw>>(raw) } : static_cast<std::int64_t>(raw);
-  return value >= format.padding->first && value <= format.padding->second;
-}
-
 /** What was found in a slice. */
 struct SliceValues
 {
   double lowest = std::numeric_limits<double>::max(); ///< without padding
   double highest = std::numeric_limits<double>::lowest();
-  std::vector<std::uint32_t> padding; ///< places of padding in the slice
+  std::vector<bool> isPadding; ///< for each pixel; empty when there is no padding
+  std::size_t numberOfPadding = 0;
 };
 
 /** The range of a slice's rescaled values, and where it is padded. */
@@ -114,9 +99,11 @@ FindValues(const DicomSlice & slice, const TRaw * stored, std::size_t count)
   }
   for (std::size_t n = 0; n < count && format.padding; ++n)
   {
-    if (IsPadding(stored[n], format))
+    if (format.IsPadding(stored[n]))
     {
-      values.padding.push_back(static_cast<std::uint32_t>(n));
+      values.isPadding.resize(count);
+      values.isPadding[n] = true;
+      ++values.numberOfPadding;
     }
     else
     {
@@ -151,7 +138,7 @@ Rescale(const DicomSlice & slice, const TRaw * stored, TPixel * pixels)
   const StoredValue<TRaw> valueOf(format);
   const std::size_t count = static_cast<std::size_t>(format.columns) * format.rows;
   const SliceValues values = FindValues(slice, stored, count);
-  if (!FitsInto<TPixel>(values) || values.padding.size() == count)
+  if (!FitsInto<TPixel>(values) || values.numberOfPadding == count)
   {
     return values;
   }
@@ -188,33 +175,6 @@ Rescale(const DicomSlice & slice, const std::byte * stored, TPixel * pixels)
   }
 }
 
-void
-SwapBytes(std::vector<std::byte> & bytes, std::size_t size)
-{
-  for (auto value = bytes.begin(); value != bytes.end(); value += static_cast<std::ptrdiff_t>(size))
-  {
-    std::reverse(value, value + static_cast<std::ptrdiff_t>(size));
-  }
-}
-
-/** One frame of pixels that are not compressed. */
-std::vector<std::byte>
-ReadNativeFrame(const DicomImageFile & file, std::size_t frame)
-{
-  std::vector<std::byte> bytes(file.format.FrameBytes());
-  std::ifstream stream(file.path, std::ios::binary);
-  stream.seekg(static_cast<std::streamoff>(file.pixels.offset + frame * bytes.size()));
-  if (!stream.read(reinterpret_cast<char *>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
-  {
-    Refuse(file, "its pixels are cut off");
-  }
-  if (file.format.isBigEndian)
-  {
-    SwapBytes(bytes, file.format.bitsAllocated / 8);
-  }
-  return bytes;
-}
-
 /** Calls `take(place, stored)` for each slice of a file. */
 template <typename TTake>
 void
@@ -233,9 +193,59 @@ ForEachFrame(const FileSlices & one, const std::vector<DicomSlice> & slices, Vox
   }
   for (const std::size_t place : one.places)
   {
-    take(place, ReadNativeFrame(file, slices[place].frame).data());
+    take(place, ReadStoredBytes(file, slices[place].frame * frameBytes, frameBytes).data());
   }
 }
+
+/** Threads that are waited for, whatever happens; when the scope is left early, they are told to stop first. */
+class Threads
+{
+public:
+  explicit Threads(std::function<void()> stop)
+    : m_Stop(std::move(stop))
+  {}
+  ~Threads()
+  {
+    m_Stop();
+    this->Join();
+  }
+  Threads(const Threads &) = delete;
+  Threads &
+  operator=(const Threads &) = delete;
+
+  /** Starts as many threads as the system allows, up to \a count. */
+  template <typename TRun>
+  void
+  Start(std::size_t count, TRun run)
+  {
+    m_Threads.reserve(count);
+    try
+    {
+      while (m_Threads.size() < count)
+      {
+        m_Threads.emplace_back(run);
+      }
+    }
+    catch (const std::system_error &)
+    {
+      // The work is done by fewer.
+    }
+  }
+
+  void
+  Join()
+  {
+    for (std::thread & thread : m_Threads)
+    {
+      thread.join();
+    }
+    m_Threads.clear();
+  }
+
+private:
+  std::function<void()> m_Stop;
+  std::vector<std::thread> m_Threads;
+};
 
 /** Calls `work(n)` for all n below \a count on several threads, this one among them, which reports how far it got.
  * Work that returns false ends it all early. */
@@ -259,50 +269,104 @@ InParallel(std::size_t count, std::size_t threads, const std::function<void(doub
       }
     }
   };
-  std::vector<std::thread> helpers;
-  for (std::size_t n = 1; n < std::min(threads, count); ++n)
-  {
-    helpers.emplace_back(run, false);
-  }
+  Threads helpers([&next, count] { next = count; });
+  helpers.Start(std::min(threads, count) - 1, [&run] { run(false); });
   run(true);
-  for (std::thread & helper : helpers)
-  {
-    helper.join();
-  }
+  helpers.Join();
 }
 
-/** Puts the lowest other value in the place of padding. */
+std::optional<double>
+PaddingValueOf(const std::vector<DicomSlice> & slices)
+{
+  const DicomSlice & first = slices.front();
+  return first.file->format.padding
+           ? std::optional<double>(first.slope * static_cast<double>(first.file->format.padding->first) +
+                                   first.intercept)
+           : std::nullopt;
+}
+
+/** Whether padding is a value like others: the background of a mask or of labels, whose one or next value is an object.
+ */
+bool
+IsBackground(double padding, double lowest, double highest, double slope)
+{
+  return lowest == highest || std::abs(lowest - padding) <= std::abs(slope);
+}
+
+/** Puts the lowest other value in the place of padding, unless it is a background. */
 template <typename TPixel>
 void
-ReplacePadding(const std::vector<SliceValues> & values, TPixel * pixels, std::size_t sliceSize, DicomPixels & result)
+ReplacePadding(const std::vector<SliceValues> & values,
+               const std::vector<DicomSlice> & slices,
+               TPixel * pixels,
+               std::size_t sliceSize,
+               DicomPixels & result)
 {
   double lowest = std::numeric_limits<double>::max();
+  double highest = std::numeric_limits<double>::lowest();
   for (const SliceValues & slice : values)
   {
     lowest = std::min(lowest, slice.lowest);
-    result.numberOfPaddingSamples += slice.padding.size();
+    highest = std::max(highest, slice.highest);
+    result.numberOfPaddingSamples += slice.numberOfPadding;
   }
-  const auto replacement = lowest < std::numeric_limits<double>::max() ? static_cast<TPixel>(lowest) : TPixel{};
+  result.paddingValue = PaddingValueOf(slices);
+  double replacement = lowest <= highest ? lowest : 0;
+  if (result.numberOfPaddingSamples > 0 && lowest <= highest &&
+      IsBackground(*result.paddingValue, lowest, highest, slices.front().slope))
+  {
+    replacement = std::clamp(*result.paddingValue,
+                             static_cast<double>(std::numeric_limits<TPixel>::lowest()),
+                             static_cast<double>(std::numeric_limits<TPixel>::max()));
+    result.numberOfPaddingSamples = 0;
+    result.paddingValue.reset();
+  }
   for (std::size_t k = 0; k < values.size(); ++k)
   {
-    for (const std::uint32_t place : values[k].padding)
+    for (std::size_t n = 0; n < values[k].isPadding.size(); ++n)
     {
-      pixels[k * sliceSize + place] = replacement;
+      TPixel & pixel = pixels[k * sliceSize + n];
+      pixel = values[k].isPadding[n] ? static_cast<TPixel>(replacement) : pixel;
     }
   }
+}
+
+/** Bytes that reading takes at once: the volume, a bit for each pixel where there may be padding, and what each worker
+ * holds of a file. A compressed file is in memory as a whole, unpacked twice: where the decoder's library puts its
+ * frames and where this process gets them from. */
+template <typename TPixel>
+std::uintmax_t
+MemoryToRead(const std::vector<DicomSlice> & slices, const std::vector<FileSlices> & files, std::size_t workers)
+{
+  std::uintmax_t bytes = 0;
+  std::uintmax_t largest = 0;
+  for (const FileSlices & one : files)
+  {
+    const DicomPixelFormat & format = one.file->format;
+    const std::uintmax_t held = format.isEncapsulated ? 2 * format.frames + 1 : 1;
+    largest = std::max(largest, held * format.FrameBytes());
+  }
+  for (const DicomSlice & slice : slices)
+  {
+    const DicomPixelFormat & format = slice.file->format;
+    const std::uintmax_t pixels = std::uintmax_t{ format.columns } * format.rows;
+    bytes += pixels * sizeof(TPixel) + (format.padding ? pixels / 8 : 0);
+  }
+  return bytes + largest * std::min(workers, files.size());
 }
 
 /** Nothing when a value is beyond an integer pixel type. */
 template <typename TPixel>
 std::optional<DicomPixels>
-ReadAs(const std::vector<DicomSlice> & slices,
-       const VolumeGeometry & geometry,
-       VoxelDecoder & decoder,
-       const std::function<void(double)> & progress)
+ReadAs(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry, const ScanReadOptions & options)
 {
+  VoxelDecoder & decoder = *options.decoder;
+  const std::vector<FileSlices> files = GroupByFile(slices);
+  RequireMemory(MemoryToRead<TPixel>(slices, files, decoder.GetNumberOfWorkers()),
+                options.maximumMemory,
+                "Reading " + slices.front().file->path.parent_path().string());
   const auto image = NewImage<TPixel>(geometry);
   const std::size_t sliceSize = geometry.size[0] * geometry.size[1];
-  const std::vector<FileSlices> files = GroupByFile(slices);
   std::vector<SliceValues> values(slices.size());
   std::atomic<bool> fits{ true };
   DicomPixels result;
@@ -337,7 +401,7 @@ ReadAs(const std::vector<DicomSlice> & slices,
     }
     return fits.load();
   };
-  InParallel(files.size(), decoder.GetNumberOfWorkers(), progress, readFile);
+  InParallel(files.size(), decoder.GetNumberOfWorkers(), options.progress, readFile);
   if (fatal)
   {
     std::rethrow_exception(fatal);
@@ -350,7 +414,7 @@ ReadAs(const std::vector<DicomSlice> & slices,
   {
     return {};
   }
-  ReplacePadding(values, image->GetBufferPointer(), sliceSize, result);
+  ReplacePadding(values, slices, image->GetBufferPointer(), sliceSize, result);
   result.image = image;
   return result;
 }
@@ -372,45 +436,33 @@ AreWholeNumbers(const std::vector<DicomSlice> & slices)
   });
 }
 
-std::optional<double>
-PaddingValueOf(const std::vector<DicomSlice> & slices)
-{
-  const DicomSlice & first = slices.front();
-  return first.file->format.padding
-           ? std::optional<double>(first.slope * static_cast<double>(first.file->format.padding->first) +
-                                   first.intercept)
-           : std::nullopt;
-}
-
 } // namespace
 
 DicomPixels
 ReadDicomPixels(const std::vector<DicomSlice> & slices,
                 const VolumeGeometry & geometry,
-                VoxelDecoder & decoder,
-                const std::function<void(double)> & progress)
+                const ScanReadOptions & options)
 {
   std::optional<DicomPixels> pixels;
   if (AreStoredAsIs(slices, 8))
   {
-    pixels = ReadAs<std::uint8_t>(slices, geometry, decoder, progress);
+    pixels = ReadAs<std::uint8_t>(slices, geometry, options);
   }
   else if (AreStoredAsIs(slices, 16))
   {
-    pixels = ReadAs<std::uint16_t>(slices, geometry, decoder, progress);
+    pixels = ReadAs<std::uint16_t>(slices, geometry, options);
   }
   // Headers promise more than the values use (GE's 16 bits less 1024), so the smallest type is tried first.
   if (!pixels && AreWholeNumbers(slices))
   {
-    pixels = ReadAs<std::int16_t>(slices, geometry, decoder, progress);
-    pixels = pixels ? std::move(pixels) : ReadAs<std::uint16_t>(slices, geometry, decoder, progress);
-    pixels = pixels ? std::move(pixels) : ReadAs<std::int32_t>(slices, geometry, decoder, progress);
+    pixels = ReadAs<std::int16_t>(slices, geometry, options);
+    pixels = pixels ? std::move(pixels) : ReadAs<std::uint16_t>(slices, geometry, options);
+    pixels = pixels ? std::move(pixels) : ReadAs<std::int32_t>(slices, geometry, options);
   }
   if (!pixels)
   {
-    pixels = ReadAs<float>(slices, geometry, decoder, progress);
+    pixels = ReadAs<float>(slices, geometry, options);
   }
-  pixels->paddingValue = PaddingValueOf(slices);
   return std::move(*pixels);
 }
 

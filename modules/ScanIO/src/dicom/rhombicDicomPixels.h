@@ -2,11 +2,10 @@
 #define rhombicDicomPixels_h
 
 #include "rhombicDicomSlice.h"
-#include "rhombicScan.h"
+#include "rhombicScanReader.h"
 #include "rhombicVolumeGeometry.h"
 #include "rhombicVoxelDecoder.h"
 
-#include <functional>
 #include <map>
 #include <vector>
 
@@ -23,13 +22,14 @@ struct DicomPixels
 };
 
 /** Reads slices, in their order, whose files have no pixelDamage, into one volume. Pixels that are not compressed are
- * read here, the others by the decoder, as many files at once as it has workers. Samples that are padding get the
- * lowest value of the others. \a progress, if any, is called on this thread with numbers from 0 to 1. */
+ * read here, the others by the options' decoder, which must be set, as many files at once as it has workers. Samples
+ * that are padding get the lowest value of the others, unless these have one value only or padding is the value next to
+ * theirs: it is then the background of a mask or of labels, and stays. Throws Failure(Memory) when that would take more than the
+ * options allow. */
 DicomPixels
 ReadDicomPixels(const std::vector<DicomSlice> & slices,
                 const VolumeGeometry & geometry,
-                VoxelDecoder & decoder,
-                const std::function<void(double)> & progress);
+                const ScanReadOptions & options);
 
 } // namespace rhombic
 

@@ -3,12 +3,15 @@
 #include "rhombicAnatomicalColours.h"
 #include "rhombicDicomTags.h"
 #include "rhombicFailure.h"
+#include "rhombicMemoryBudget.h"
+#include "rhombicStoredBytes.h"
 #include "rhombicVolumeGeometry.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
+#include <numeric>
+#include <optional>
 
 namespace rhombic
 {
@@ -16,6 +19,7 @@ namespace
 {
 
 using Frames = std::vector<DicomSlice>;
+using Bytes = std::vector<std::byte>;
 using Vector = itk::Vector<double, 3>;
 
 [[noreturn]] void
@@ -80,11 +84,12 @@ ReadLabels(const DicomDataSet & dataSet, const DicomImageFile & file)
   return labels;
 }
 
-/** Where the slices of the label map are, and which of them each frame belongs to. */
-struct SegmentationGrid
+/** Slices at equal distances along the normal, and which of them each frame belongs to. */
+struct EvenSlices
 {
-  VolumeGeometry geometry;
-  std::vector<itk::Point<double, 3>> sliceOrigins;
+  double first = 0; ///< from the first frame, in mm
+  double step = 0;
+  std::size_t count = 1;
   std::vector<std::size_t> sliceOfFrame;
 };
 
@@ -109,37 +114,133 @@ DistinctDistances(const std::vector<double> & distances)
   return sorted;
 }
 
-std::size_t
-NearestOf(const std::vector<double> & places, double place)
+/** Whether two steps are the same, as far as numbers go that were rounded for a header. */
+bool
+IsSameStep(double first, double second)
 {
-  const auto nearest = std::min_element(places.begin(), places.end(), [place](double first, double second) {
-    return std::abs(first - place) < std::abs(second - place);
-  });
-  return static_cast<std::size_t>(nearest - places.begin());
+  return std::abs(first - second) <= 0.02 * std::min(first, second);
 }
 
-/** The step that all places are whole multiples of from the first: the smallest between two, or that which the file
- * gives; 0 when there is none. */
+/** The step that the steps between places are whole multiples of, begun from a guess. The smallest steps come first:
+ * a guess that rounding made wrong is mended by them before it has to count the many slices of a large step. */
 double
-CommonStep(const std::vector<double> & places, double given)
+RefineStep(const std::vector<double> & places, double guess)
 {
-  constexpr double tolerance = 0.02; // of a step
-  constexpr double mostSlices = 100000;
-  double step = given;
-  for (std::size_t n = 1; n < places.size() && given <= 0; ++n)
+  std::vector<double> steps;
+  for (std::size_t n = 1; n < places.size(); ++n)
   {
-    step = n == 1 ? places[1] - places[0] : std::min(step, places[n] - places[n - 1]);
+    steps.push_back(places[n] - places[n - 1]);
   }
-  const bool isCommon = step > 0 && (places.back() - places.front()) / step < mostSlices &&
-                        std::all_of(places.begin(), places.end(), [&](double place) {
-                          const double count = (place - places.front()) / step;
-                          return std::abs(count - std::round(count)) <= tolerance;
-                        });
-  return isCommon ? step : 0;
+  std::sort(steps.begin(), steps.end());
+  double step = guess;
+  double length = 0;
+  double count = 0;
+  for (const double one : steps)
+  {
+    length += one;
+    count += std::max(1.0, std::round(one / step));
+    step = length / count;
+  }
+  return step;
 }
 
-SegmentationGrid
-MakeGrid(const Frames & frames, double givenStep)
+/** Even slices that all places are among, with about the given step: the line of least squares through the places over
+ * their numbers. Nothing when a place is off that line by more than rounding and 2 % of a step can explain. */
+std::optional<EvenSlices>
+FitSlices(const std::vector<double> & places, double guess)
+{
+  const double step = RefineStep(places, guess);
+  std::vector<double> numbers{ 0 };
+  for (std::size_t n = 1; n < places.size(); ++n)
+  {
+    numbers.push_back(numbers.back() + std::round((places[n] - places[n - 1]) / step));
+  }
+  const auto size = static_cast<double>(places.size());
+  const double meanPlace = std::accumulate(places.begin(), places.end(), 0.0) / size;
+  const double meanNumber = std::accumulate(numbers.begin(), numbers.end(), 0.0) / size;
+  double covariance = 0;
+  double variance = 0;
+  for (std::size_t n = 0; n < places.size(); ++n)
+  {
+    covariance += (numbers[n] - meanNumber) * (places[n] - meanPlace);
+    variance += (numbers[n] - meanNumber) * (numbers[n] - meanNumber);
+  }
+  EvenSlices slices;
+  slices.step = covariance / variance;
+  slices.first = meanPlace - slices.step * meanNumber;
+  slices.count = static_cast<std::size_t>(numbers.back()) + 1;
+  const double tolerance = std::max(0.02 * step, std::min(0.02, 0.1 * step));
+  for (std::size_t n = 0; n < places.size(); ++n)
+  {
+    const bool isNew = n == 0 || numbers[n] > numbers[n - 1];
+    if (!isNew || !(std::abs(slices.first + slices.step * numbers[n] - places[n]) <= tolerance))
+    {
+      return {};
+    }
+  }
+  return slices;
+}
+
+/** What the header says about the slices, in mm; 0 where it is silent. */
+struct SliceTags
+{
+  double spacing = 0;
+  double thickness = 0;
+};
+
+/** The slices that frames at these places belong to. The smallest distance of two places is that of slices, unless
+ * SpacingBetweenSlices and SliceThickness agree on a smaller one, which is then that of slices among which no two
+ * neighbours have frames. For one place there is but SpacingBetweenSlices. */
+EvenSlices
+FindSlices(const std::vector<double> & places, const SliceTags & tags, const DicomImageFile & file, Scan & scan)
+{
+  if (places.size() == 1)
+  {
+    if (!(tags.spacing > 0))
+    {
+      Refuse(file, FailureKind::Geometry, "it has frames in one plane only and does not say how thick this is");
+    }
+    return { places.front(), tags.spacing, 1, {} };
+  }
+  double smallest = places.back() - places.front();
+  for (std::size_t n = 1; n < places.size(); ++n)
+  {
+    smallest = std::min(smallest, places[n] - places[n - 1]);
+  }
+  const auto fit = [&places](double step) { return step > 0 ? FitSlices(places, step) : std::nullopt; };
+  const bool doTagsAgree = tags.spacing > 0 && IsSameStep(tags.spacing, tags.thickness);
+  auto slices = fit(doTagsAgree ? tags.spacing : smallest);
+  if (!slices)
+  {
+    slices = fit(doTagsAgree ? smallest : tags.spacing);
+  }
+  if (!slices)
+  {
+    Refuse(file, FailureKind::Geometry, "the places of its frames have no common distance");
+  }
+  if (tags.spacing > 0 && !IsSameStep(slices->step, tags.spacing))
+  {
+    scan.notes.push_back("Slices are " + Rounded(slices->step) + " mm apart, as the places of their frames say; " +
+                         "SpacingBetweenSlices says " + Rounded(tags.spacing) + " mm.");
+  }
+  return *slices;
+}
+
+SliceTags
+ReadSliceTags(const DicomDataSet & dataSet)
+{
+  const DicomDataSet & measures =
+    dataSet.GetItem(DicomTags::SharedFunctionalGroupsSequence).GetItem(DicomTags::PixelMeasuresSequence);
+  const auto read = [&measures](DicomTag tag) {
+    const auto numbers = measures.GetDecimals(tag);
+    return numbers.size() == 1 ? numbers[0] : 0;
+  };
+  return { read(DicomTags::SpacingBetweenSlices), read(DicomTags::SliceThickness) };
+}
+
+/** Where frames are along the normal from the first, in mm. */
+std::vector<double>
+DistancesOf(const Frames & frames)
 {
   const DicomImageFile & file = *frames.front().file;
   for (const DicomSlice & frame : frames)
@@ -162,58 +263,50 @@ MakeGrid(const Frames & frames, double givenStep)
       Refuse(file, FailureKind::Geometry, "its frames do not lie behind each other");
     }
   }
-  std::vector<double> places = DistinctDistances(distances);
-  const double step = CommonStep(places, givenStep);
-  if (places.size() == 1 && step == 0)
+  return distances;
+}
+
+/** All slices from the first to the last that has a frame: those without any are empty. */
+EvenSlices
+PlaceFrames(const Frames & frames, const SliceTags & tags, Scan & scan)
+{
+  const DicomImageFile & file = *frames.front().file;
+  const std::vector<double> distances = DistancesOf(frames);
+  const std::vector<double> places = DistinctDistances(distances);
+  EvenSlices slices = FindSlices(places, tags, file, scan);
+  // A file of a few frames must not claim any amount of memory.
+  const std::size_t mostSlices = std::max<std::size_t>(1024, 64 * places.size());
+  if (slices.count > mostSlices)
   {
-    Refuse(file, FailureKind::Geometry, "it has frames in one plane only and does not say how thick this is");
-  }
-  SegmentationGrid grid;
-  if (step > 0)
-  {
-    const auto count = static_cast<std::size_t>(std::lround((places.back() - places.front()) / step)) + 1;
-    const double first = places.front();
-    places.resize(count);
-    for (std::size_t k = 0; k < count; ++k)
-    {
-      places[k] = first + step * static_cast<double>(k);
-    }
+    Refuse(file,
+           FailureKind::Geometry,
+           "it has frames in " + std::to_string(places.size()) + " of " + std::to_string(slices.count) +
+             " slices only, which is too few to be true");
   }
   for (const double distance : distances)
   {
-    grid.sliceOfFrame.push_back(NearestOf(places, distance));
+    slices.sliceOfFrame.push_back(
+      static_cast<std::size_t>(std::max(0L, std::lround((distance - slices.first) / slices.step))));
   }
-  for (std::size_t k = 0; k < places.size() && step == 0; ++k)
-  {
-    grid.sliceOrigins.push_back(plane.position + normal * places[k]);
-  }
-  const double meanStep = step > 0 ? step : (places.back() - places.front()) / static_cast<double>(places.size() - 1);
-  const itk::Size<3> size{ { file.format.columns, file.format.rows, places.size() } };
-  const Vector axes[3] = { plane.columnStep, plane.rowStep, normal * meanStep };
-  grid.geometry = MakeGeometry(size, plane.position + normal * places.front(), axes);
-  return grid;
+  return slices;
 }
 
-std::string
-ReadPixelBytes(const DicomImageFile & file)
+VolumeGeometry
+GeometryOf(const EvenSlices & slices, const DicomSlice & frame)
 {
-  const std::uintmax_t bits =
-    std::uintmax_t{ file.format.columns } * file.format.rows * file.format.frames * file.format.bitsAllocated;
-  std::string bytes((bits + 7) / 8, '\0');
-  std::ifstream stream(file.path, std::ios::binary);
-  stream.seekg(static_cast<std::streamoff>(file.pixels.offset));
-  if (!stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-  {
-    Refuse(file, FailureKind::Unreadable, "its pixels are cut off");
-  }
-  return bytes;
+  const SlicePlane & plane = *frame.plane;
+  const Vector normal = NormalOf(plane);
+  const DicomPixelFormat & format = frame.file->format;
+  const itk::Size<3> size{ { format.columns, format.rows, slices.count } };
+  const Vector axes[3] = { plane.columnStep, plane.rowStep, normal * slices.step };
+  return MakeGeometry(size, plane.position + normal * slices.first, axes);
 }
 
 /** A stored pixel; bits are packed from the lowest up, across frames (PS3.5, 8.1.1). */
 std::uint32_t
-StoredPixel(const std::string & bytes, const DicomPixelFormat & format, std::size_t n)
+StoredPixel(const Bytes & bytes, const DicomPixelFormat & format, std::size_t n)
 {
-  const auto byte = [&bytes](std::size_t offset) { return std::uint32_t{ static_cast<unsigned char>(bytes[offset]) }; };
+  const auto byte = [&bytes](std::size_t offset) { return std::to_integer<std::uint32_t>(bytes[offset]); };
   switch (format.bitsAllocated)
   {
     case 1:
@@ -221,7 +314,7 @@ StoredPixel(const std::string & bytes, const DicomPixelFormat & format, std::siz
     case 8:
       return byte(n);
     default:
-      return format.isBigEndian ? byte(2 * n) << 8 | byte(2 * n + 1) : byte(2 * n + 1) << 8 | byte(2 * n);
+      return byte(2 * n + 1) << 8 | byte(2 * n);
   }
 }
 
@@ -250,17 +343,19 @@ SegmentsOfFrames(const DicomDataSet & dataSet, const LabelTable & labels, const 
 /** Returns how many voxels belong to more than one segment. */
 template <typename TPixel>
 std::size_t
-Fill(const std::string & bytes,
+Fill(const Bytes & bytes,
      const DicomPixelFormat & format,
      const std::vector<std::uint32_t> & segments,
+     const Frames & frames,
      const std::vector<std::size_t> & sliceOfFrame,
      TPixel * pixels)
 {
   const std::size_t sliceSize = std::size_t{ format.columns } * format.rows;
   std::size_t shared = 0;
-  for (std::size_t frame = 0; frame < sliceOfFrame.size(); ++frame)
+  for (std::size_t place = 0; place < frames.size(); ++place)
   {
-    TPixel * const slice = pixels + sliceOfFrame[frame] * sliceSize;
+    const std::size_t frame = frames[place].frame;
+    TPixel * const slice = pixels + sliceOfFrame[place] * sliceSize;
     for (std::size_t n = 0; n < sliceSize; ++n)
     {
       const std::uint32_t stored = StoredPixel(bytes, format, frame * sliceSize + n);
@@ -280,7 +375,7 @@ Fill(const std::string & bytes,
 } // namespace
 
 void
-ReadDicomSegmentation(const std::vector<DicomSlice> & frames, Scan & scan)
+ReadDicomSegmentation(const std::vector<DicomSlice> & frames, std::uintmax_t maximumMemory, Scan & scan)
 {
   const DicomImageFile & file = *frames.front().file;
   const auto header = ReadDicomHeader(file.path);
@@ -299,27 +394,29 @@ ReadDicomSegmentation(const std::vector<DicomSlice> & frames, Scan & scan)
   {
     Refuse(file, FailureKind::Unreadable, file.pixelDamage);
   }
-  const auto steps = dataSet.GetItem(DicomTags::SharedFunctionalGroupsSequence)
-                       .GetItem(DicomTags::PixelMeasuresSequence)
-                       .GetDecimals(DicomTags::SpacingBetweenSlices);
-  const SegmentationGrid grid = MakeGrid(frames, steps.size() == 1 ? steps[0] : 0);
+  const EvenSlices slices = PlaceFrames(frames, ReadSliceTags(dataSet), scan);
   scan.labels = ReadLabels(dataSet, file);
-  scan.sliceOrigins = grid.sliceOrigins;
+  const bool fitsByte = scan.labels.back().value <= std::numeric_limits<std::uint8_t>::max();
+  const bool takesByte = isBinary ? fitsByte : file.format.bitsAllocated == 8;
+  const std::uintmax_t voxels = std::uintmax_t{ file.format.columns } * file.format.rows * slices.count;
+  RequireMemory(file.pixels.size + voxels * (takesByte ? 1 : 2), maximumMemory, "Reading " + file.path.string());
   const auto segments = isBinary ? SegmentsOfFrames(dataSet, scan.labels, file) : std::vector<std::uint32_t>();
-  const std::string bytes = ReadPixelBytes(file);
+  const std::uintmax_t bits =
+    std::uintmax_t{ file.format.columns } * file.format.rows * file.format.frames * file.format.bitsAllocated;
+  const Bytes bytes = ReadStoredBytes(file, 0, (bits + 7) / 8);
 
   const auto read = [&](auto pixel) {
-    const auto image = NewImage<decltype(pixel)>(grid.geometry);
+    const auto image = NewImage<decltype(pixel)>(GeometryOf(slices, frames.front()));
     image->FillBuffer(0);
-    const std::size_t shared = Fill(bytes, file.format, segments, grid.sliceOfFrame, image->GetBufferPointer());
+    const std::size_t shared =
+      Fill(bytes, file.format, segments, frames, slices.sliceOfFrame, image->GetBufferPointer());
     if (shared > 0)
     {
       scan.notes.push_back(std::to_string(shared) + " voxels belong to more than one segment; the last one counts.");
     }
     scan.image = image;
   };
-  const bool fitsByte = scan.labels.back().value <= std::numeric_limits<std::uint8_t>::max();
-  if (isBinary ? fitsByte : file.format.bitsAllocated == 8)
+  if (takesByte)
   {
     read(std::uint8_t{});
   }

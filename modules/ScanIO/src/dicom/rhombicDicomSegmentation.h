@@ -4,6 +4,7 @@
 #include "rhombicDicomSlice.h"
 #include "rhombicScan.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace rhombic
@@ -11,9 +12,11 @@ namespace rhombic
 
 /** Reads the frames of a DICOM segmentation (PS3.3, A.51 and A.91: of type BINARY or LABELMAP) into one label map: its
  * image, its labels, and notes go to \a scan. Voxels of no segment are 0; where segments overlap, that of the later
- * frame wins. Slices without any frame are empty, as the standard has it. Throws Failure. */
+ * frame wins. Slices without any frame are empty, as the standard has it: all
+ * frames must be whole multiples apart of the smallest distance, or of the one that two tags agree on. Throws Failure,
+ * Memory when the label map would take more than \a maximumMemory bytes (see ScanReadOptions). */
 void
-ReadDicomSegmentation(const std::vector<DicomSlice> & frames, Scan & scan);
+ReadDicomSegmentation(const std::vector<DicomSlice> & frames, std::uintmax_t maximumMemory, Scan & scan);
 
 } // namespace rhombic
 

@@ -1,5 +1,6 @@
 #include "rhombicDicomSeries.h"
 
+#include "rhombicDicomCodes.h"
 #include "rhombicDicomStack.h"
 #include "rhombicFailure.h"
 
@@ -26,7 +27,21 @@ HaveSameAxes(const SlicePlane & first, const SlicePlane & second)
          (first.rowStep - second.rowStep).GetNorm() <= tolerance * first.rowStep.GetNorm();
 }
 
-/** What all slices of a series have in common, but for their axes. */
+/** The axes in thousandths of a millimetre, to sort by. */
+std::vector<long>
+AxesOf(const DicomSlice & slice)
+{
+  std::vector<long> axes;
+  for (unsigned int n = 0; n < 6 && slice.plane; ++n)
+  {
+    const double number = n < 3 ? slice.plane->columnStep[n] : slice.plane->rowStep[n - 3];
+    axes.push_back(std::lround(1000 * number));
+  }
+  return axes;
+}
+
+/** What all slices of a series have in common, but for their axes. The frames of a segmentation stay together, wherever
+ * they are. */
 auto
 KeyOf(const DicomSlice & slice)
 {
@@ -40,7 +55,7 @@ KeyOf(const DicomSlice & slice)
                          slice.file->format.rows,
                          slice.file->format.columns,
                          slice.refusal,
-                         slice.plane.has_value());
+                         !isAlone && slice.plane.has_value());
 }
 
 std::vector<Slices>
@@ -51,7 +66,8 @@ GroupByKeyAndAxes(const Slices & slices)
   {
     std::vector<Slices> & group = groups[KeyOf(slice)];
     const auto found = std::find_if(group.begin(), group.end(), [&slice](const Slices & part) {
-      return !slice.plane || HaveSameAxes(*part.front().plane, *slice.plane);
+      return slice.kind == DicomSlice::Kind::Segmentation || !slice.plane ||
+             HaveSameAxes(*part.front().plane, *slice.plane);
     });
     (found == group.end() ? group.emplace_back() : *found).push_back(slice);
   }
@@ -106,24 +122,8 @@ SplitDuplicates(const Slices & slices)
   return { { "", "", slices } };
 }
 
-/** FNV-1a, 64 bits, in hexadecimal: the UID itself could lead to the patient. */
-std::string
-HashOf(const std::string & text)
-{
-  std::uint64_t hash = 14695981039346656037u;
-  for (const char letter : text)
-  {
-    hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211u;
-  }
-  std::string digits;
-  for (int shift = 60; shift >= 0; shift -= 4)
-  {
-    digits += "0123456789abcdef"[hash >> shift & 15];
-  }
-  return digits;
-}
-
-/** The parts of a series UID are told apart by a number, the largest part first. */
+/** The UID itself could lead to the patient. The parts of a series UID are told apart by a number, the largest first.
+ */
 void
 NameSeries(std::vector<DicomSeries> & series)
 {
@@ -237,8 +237,13 @@ GroupIntoSeries(const std::vector<DicomSlice> & slices)
   std::stable_sort(series.begin(), series.end(), [](const DicomSeries & first, const DicomSeries & second) {
     const auto key = [](const DicomSeries & one) {
       const DicomSlice & slice = one.slices.front();
-      return std::make_tuple(
-        std::atoi(slice.seriesNumber.c_str()), slice.seriesUID, -static_cast<std::int64_t>(one.slices.size()));
+      return std::make_tuple(std::atoi(slice.seriesNumber.c_str()),
+                             slice.seriesUID,
+                             -static_cast<std::int64_t>(one.slices.size()),
+                             one.kind,
+                             slice.file->format.columns,
+                             slice.file->format.rows,
+                             AxesOf(slice));
     };
     return key(first) < key(second);
   });

@@ -18,7 +18,8 @@ struct DicomSeries
   std::vector<DicomSlice> slices;
 };
 
-/** Splits slices into series, in the order of series number, then UID, then size. Files without UID are told apart by
+/** Splits slices into series, in the order of series number, then UID, then size, then kind and axes,
+ * whatever the files are called. Files without UID are told apart by
  * their folder. */
 std::vector<DicomSeries>
 GroupIntoSeries(const std::vector<DicomSlice> & slices);

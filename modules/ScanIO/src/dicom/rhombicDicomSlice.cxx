@@ -1,12 +1,13 @@
 #include "rhombicDicomSlice.h"
 
+#include "rhombicDicomCodes.h"
 #include "rhombicDicomTags.h"
 #include "rhombicTransferSyntax.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <string_view>
+#include <cstdio>
+#include <limits>
 
 namespace rhombic
 {
@@ -32,15 +33,10 @@ IsSegmentation(const DicomDataSet & dataSet)
   return uid == "1.2.840.10008.5.1.4.1.1.66.4" || uid == "1.2.840.10008.5.1.4.1.1.66.7";
 }
 
-/** Keeps what a code may hold, so that no other text travels on. */
-std::string
-CodeOf(std::string text)
+bool
+IsEnhancedCT(const DicomDataSet & dataSet)
 {
-  const auto isOfCode = [](char letter) {
-    return (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9') || letter == '-';
-  };
-  text.erase(std::remove_if(text.begin(), text.end(), [&](char letter) { return !isOfCode(letter); }), text.end());
-  return text.substr(0, 16);
+  return dataSet.GetText(DicomTags::SOPClassUID) == "1.2.840.10008.5.1.4.1.1.2.1";
 }
 
 /** The digits and dots of a unique identifier. */
@@ -53,27 +49,12 @@ IdentifierOf(std::string text)
   return text.substr(0, longest);
 }
 
-/** What may stand in the codes that tell slices apart (CS, DS, IS, and the short texts that stacks are named by). */
-std::string
-DistinctionOf(std::string text)
-{
-  constexpr std::size_t longest = 64;
-  const auto isAllowed = [](unsigned char letter) {
-    return std::isalnum(letter) != 0 ||
-           std::string_view("\\_ -+./").find(static_cast<char>(letter)) != std::string_view::npos;
-  };
-  text.erase(std::remove_if(text.begin(), text.end(), [&](unsigned char letter) { return !isAllowed(letter); }),
-             text.end());
-  return text.substr(0, longest);
-}
-
 DicomPixelFormat
 ReadPixelFormat(const DicomHeader & header)
 {
   const DicomDataSet & dataSet = header.dataSet;
   DicomPixelFormat format;
   format.transferSyntax = header.transferSyntax;
-  format.isBigEndian = dataSet.isBigEndian;
   format.isEncapsulated = header.isEncapsulated;
   format.columns = dataSet.GetShort(DicomTags::Columns).value_or(0);
   format.rows = dataSet.GetShort(DicomTags::Rows).value_or(0);
@@ -81,6 +62,7 @@ ReadPixelFormat(const DicomHeader & header)
   format.frames =
     frames.empty() || !(frames[0] >= 1 && frames[0] < 4294967296.0) ? 1 : static_cast<std::size_t>(frames[0]);
   format.bitsAllocated = dataSet.GetShort(DicomTags::BitsAllocated).value_or(0);
+  format.swappedBytes = dataSet.isBigEndian ? std::max(format.bitsAllocated / 8, header.hasWords ? 2U : 1U) : 1;
   format.bitsStored = dataSet.GetShort(DicomTags::BitsStored).value_or(0);
   format.highBit = dataSet.GetShort(DicomTags::HighBit).value_or(static_cast<std::uint16_t>(format.bitsStored - 1));
   format.isSigned = dataSet.GetShort(DicomTags::PixelRepresentation) == 1;
@@ -126,6 +108,11 @@ FindPixelDamage(const DicomHeader & header, const DicomPixelFormat & format)
   {
     return "it has " + std::to_string(std::min(claimed, available)) + " of " +
            std::to_string(std::max(claimed, needed)) + " bytes of pixels";
+  }
+  constexpr std::uintmax_t mostPadding = 1024; // more than any known writer adds
+  if (claimed - needed > std::min(mostPadding, needed / 2 + 2))
+  {
+    return "it has " + std::to_string(claimed) + " bytes of pixels where its header says " + std::to_string(needed);
   }
   return "";
 }
@@ -193,6 +180,12 @@ private:
   const DicomDataSet & m_Frame;
 };
 
+bool
+HasScaling(const DicomDataSet & dataSet)
+{
+  return dataSet.Has(DicomTags::RescaleSlope) || dataSet.Has(DicomTags::RescaleIntercept);
+}
+
 /** Fills in slope and intercept, or says that they are no numbers. */
 void
 ReadScaling(const DicomDataSet & dataSet, DicomSlice & slice)
@@ -207,6 +200,11 @@ ReadScaling(const DicomDataSet & dataSet, DicomSlice & slice)
   {
     slice.refusal = "its RescaleSlope or RescaleIntercept is no usable number";
   }
+  const double largest = std::ldexp(std::abs(slice.slope), static_cast<int>(slice.file->format.bitsStored));
+  if (slice.refusal.empty() && !(largest + std::abs(slice.intercept) <= std::numeric_limits<float>::max()))
+  {
+    slice.refusal = "its RescaleSlope or RescaleIntercept makes its values larger than numbers can be";
+  }
 }
 
 /** A plain slice: all of it is in the data set itself. */
@@ -214,13 +212,14 @@ void
 ReadPlainSlice(const DicomDataSet & dataSet, DicomSlice & slice)
 {
   const auto named = [&dataSet](const char * name, DicomTag tag) {
-    const std::string value = DistinctionOf(dataSet.GetText(tag));
+    const std::string value = NumberTextOf(dataSet.GetText(tag));
     return value.empty() ? "" : name + value;
   };
-  slice.distinctions = { named("", DicomTags::ImageType),
+  const std::string stack = dataSet.GetText(DicomTags::StackID);
+  slice.distinctions = { ImageTypeOf(dataSet.GetText(DicomTags::ImageType)),
                          named("echo time ", DicomTags::EchoTime) + named(" echo ", DicomTags::EchoNumbers),
                          named("time ", DicomTags::TemporalPositionIdentifier),
-                         named("stack ", DicomTags::StackID),
+                         stack.empty() ? "" : "stack " + NameCodeOf(stack),
                          named("acquisition ", DicomTags::AcquisitionNumber) };
   ReadScaling(dataSet, slice);
   slice.plane = MakeSlicePlane(dataSet.GetDecimals(DicomTags::ImagePositionPatient),
@@ -238,14 +237,22 @@ ReadFrame(const DicomDataSet & dataSet, std::size_t frame, DicomSlice & slice)
   const auto echo = groups.Get(DicomTags::MREchoSequence).GetDouble(DicomTags::EffectiveEchoTime);
   const auto times = content.GetShorts(DicomTags::TemporalPositionIndex);
   slice.frame = frame;
-  const std::string stack = DistinctionOf(content.GetText(DicomTags::StackID));
-  slice.distinctions = { DistinctionOf(groups.Get(DicomTags::MRImageFrameTypeSequence).GetText(DicomTags::FrameType) +
-                                       groups.Get(DicomTags::CTImageFrameTypeSequence).GetText(DicomTags::FrameType)),
+  const std::string stack = content.GetText(DicomTags::StackID);
+  slice.distinctions = { ImageTypeOf(groups.Get(DicomTags::MRImageFrameTypeSequence).GetText(DicomTags::FrameType) +
+                                     groups.Get(DicomTags::CTImageFrameTypeSequence).GetText(DicomTags::FrameType)),
                          echo ? "echo time " + std::to_string(*echo) : "",
                          times.empty() ? "" : "time " + std::to_string(times[0]),
-                         stack.empty() ? "" : "stack " + stack,
+                         stack.empty() ? "" : "stack " + NameCodeOf(stack),
                          "" };
-  ReadScaling(groups.Get(DicomTags::PixelValueTransformationSequence), slice);
+  if (slice.kind == DicomSlice::Kind::Scan)
+  {
+    const DicomDataSet & own = groups.Get(DicomTags::PixelValueTransformationSequence);
+    ReadScaling(HasScaling(own) ? own : dataSet, slice);
+    if (slice.refusal.empty() && IsEnhancedCT(dataSet) && !HasScaling(own) && !HasScaling(dataSet))
+    {
+      slice.refusal = "it is an enhanced CT image that does not say which HU its values are";
+    }
+  }
   slice.plane =
     MakeSlicePlane(groups.Get(DicomTags::PlanePositionSequence).GetDecimals(DicomTags::ImagePositionPatient),
                    groups.Get(DicomTags::PlaneOrientationSequence).GetDecimals(DicomTags::ImageOrientationPatient),
@@ -318,8 +325,8 @@ ReadDicomSlices(const std::filesystem::path & path)
   DicomSlice slice;
   slice.file = file;
   slice.seriesUID = dataSet.GetText(DicomTags::SeriesInstanceUID);
-  slice.seriesNumber = CodeOf(dataSet.GetText(DicomTags::SeriesNumber));
-  slice.modality = CodeOf(dataSet.GetText(DicomTags::Modality));
+  slice.seriesNumber = NumberTextOf(dataSet.GetText(DicomTags::SeriesNumber));
+  slice.modality = ModalityOf(dataSet.GetText(DicomTags::Modality));
   if (file->format.rows == 0 || file->format.columns == 0 || (!header->hasPixels && header->damage.empty()))
   {
     const bool isUnreadable = FindTransferSyntax(header->transferSyntax).codec == PixelCodec::Unsupported;
@@ -362,6 +369,15 @@ NameOf(const DicomSlice & slice)
 {
   return slice.file->path.filename().string() +
          (slice.file->format.frames > 1 ? " (frame " + std::to_string(slice.frame + 1) + ")" : "");
+}
+
+std::string
+Rounded(double number)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.4g", number);
+  std::replace(text, text + sizeof(text), ',', '.');
+  return text;
 }
 
 } // namespace rhombic

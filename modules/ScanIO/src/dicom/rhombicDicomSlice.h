@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -29,8 +30,8 @@ struct SlicePlane
 /** How the pixels of a DICOM file are stored. */
 struct DicomPixelFormat
 {
-  std::string transferSyntax; ///< UID
-  bool isBigEndian = false;
+  std::string transferSyntax;    ///< UID
+  unsigned int swappedBytes = 1; ///< how many bytes follow each other in the wrong order for this machine
   bool isEncapsulated = false;
   unsigned int columns = 0;
   unsigned int rows = 0;
@@ -42,6 +43,16 @@ struct DicomPixelFormat
 
   /** Stored values that stand for "outside the scanner's view", from the first to the second. */
   std::optional<std::pair<std::int64_t, std::int64_t>> padding;
+
+  /** Padding, if there is any, may use bits that values don't: it is told by all the bits that there are. */
+  template <typename TRaw>
+  bool
+  IsPadding(TRaw raw) const
+  {
+    const auto value =
+      isSigned ? std::int64_t{ static_cast<std::make_signed_t<TRaw>>(raw) } : static_cast<std::int64_t>(raw);
+    return value >= padding->first && value <= padding->second;
+  }
 
   std::size_t
   FrameBytes() const
@@ -105,6 +116,10 @@ MakeSlicePlane(const std::vector<double> & position,
 /** The file's name, and for files of several frames the frame's number, from 1. */
 std::string
 NameOf(const DicomSlice & slice);
+
+/** Four digits of a number, for a sentence. */
+std::string
+Rounded(double number);
 
 } // namespace rhombic
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace rhombic
 {
@@ -23,15 +22,6 @@ Refuse(const Slices & slices, const std::string & why, const std::string & advic
   throw Failure(FailureKind::Geometry,
                 "The slices in " + slices.front().file->path.parent_path().string() +
                   " make no regular volume: " + why + "; " + advice + ".");
-}
-
-std::string
-Rounded(double number)
-{
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.4g", number);
-  std::replace(text, text + sizeof(text), ',', '.');
-  return text;
 }
 
 /** Enough of two paths to tell them apart. */
@@ -66,12 +56,19 @@ RequirePlanes(const Slices & slices)
   }
 }
 
+Vector
+NormalOf(const SlicePlane & plane)
+{
+  Vector normal = itk::CrossProduct(plane.columnStep, plane.rowStep);
+  normal.Normalize();
+  return normal;
+}
+
 /** Sorts by the distance along the normal, and returns the distances. */
 std::vector<double>
 SortAlongNormal(Slices & slices)
 {
-  Vector normal = itk::CrossProduct(slices.front().plane->columnStep, slices.front().plane->rowStep);
-  normal.Normalize();
+  const Vector normal = NormalOf(*slices.front().plane);
   const auto distance = [&normal](const DicomSlice & slice) {
     return slice.plane->position.GetVectorFromOrigin() * normal;
   };
@@ -96,12 +93,22 @@ StepsOf(const std::vector<double> & distances)
   return steps;
 }
 
+double
+MedianOf(std::vector<double> steps)
+{
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
 /** The first step that is none; their number when there is no such. */
 std::size_t
 FindDuplicate(const std::vector<double> & steps)
 {
   constexpr double smallest = 1e-6; // millimetres
-  const double none = std::max(smallest, 0.01 * *std::max_element(steps.begin(), steps.end()));
+  std::vector<double> actual;
+  std::copy_if(steps.begin(), steps.end(), std::back_inserter(actual), [](double step) { return step > smallest; });
+  const double none = std::max(smallest, actual.empty() ? 0 : 0.01 * MedianOf(actual));
   const auto found = std::find_if(steps.begin(), steps.end(), [none](double step) { return step <= none; });
   return static_cast<std::size_t>(found - steps.begin());
 }
@@ -111,14 +118,6 @@ ToleranceFor(double step)
 {
   constexpr double millimetres = 0.01;
   return std::min(millimetres, 0.1 * step);
-}
-
-double
-MedianOf(std::vector<double> steps)
-{
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
 }
 
 std::vector<SliceBlock>
@@ -139,18 +138,46 @@ FindBlocks(const std::vector<double> & steps)
   return blocks;
 }
 
+/** The larger of the medians of up to five steps before and five behind one: only a step that is much larger than
+ * those on both its sides is no change from one block of slices to the next. */
+double
+UsualStepAround(const std::vector<double> & steps, std::size_t i)
+{
+  constexpr std::size_t reach = 5;
+  const auto step = steps.begin() + static_cast<std::ptrdiff_t>(i);
+  const auto before = static_cast<std::ptrdiff_t>(std::min(reach, i));
+  const auto behind = static_cast<std::ptrdiff_t>(std::min(reach, steps.size() - 1 - i));
+  const double medianBefore = before > 0 ? MedianOf({ step - before, step }) : 0;
+  const double medianBehind = behind > 0 ? MedianOf({ step + 1, step + 1 + behind }) : 0;
+  return std::max(medianBefore, medianBehind);
+}
+
+/** Whether a step is a multiple of the usual one of the stack, which there is on both its sides: slices are missing,
+ * even from between all of a few that are left. */
+bool
+IsMultipleAmidUsual(const std::vector<double> & steps, std::size_t i, double usual)
+{
+  constexpr double tolerance = 0.05; // of a step
+  const auto isUsual = [usual](double step) { return std::abs(step - usual) <= tolerance * usual; };
+  const auto step = steps.begin() + static_cast<std::ptrdiff_t>(i);
+  const double ratio = std::round(*step / usual);
+  return ratio >= 2 && std::abs(*step - ratio * usual) <= tolerance * usual &&
+         std::any_of(steps.begin(), step, isUsual) && std::any_of(step, steps.end(), isUsual);
+}
+
 std::vector<SliceGap>
 FindGaps(const std::vector<double> & distances, const std::vector<double> & steps)
 {
-  constexpr double tolerance = 0.05; // of a step
+  constexpr double abrupt = 1.9; // of the steps around
   const double usual = MedianOf(steps);
   std::vector<SliceGap> gaps;
-  for (std::size_t i = 0; i < steps.size(); ++i)
+  for (std::size_t i = 0; i < steps.size() && steps.size() > 1; ++i)
   {
-    const double ratio = std::round(steps[i] / usual);
-    if (ratio >= 2 && std::abs(steps[i] - ratio * usual) <= tolerance * usual)
+    const bool isMultiple = IsMultipleAmidUsual(steps, i, usual);
+    const double around = isMultiple ? usual : UsualStepAround(steps, i);
+    if (isMultiple || steps[i] >= abrupt * around)
     {
-      gaps.push_back({ distances[i], steps[i], static_cast<std::size_t>(ratio) - 1 });
+      gaps.push_back({ distances[i], steps[i], static_cast<std::size_t>(std::lround(steps[i] / around)) - 1 });
     }
   }
   return gaps;
@@ -169,6 +196,57 @@ DistanceFromLine(const Slices & slices, const Vector & step)
   return largest;
 }
 
+/** How far slices move sideways for each millimetre along their normal, as most steps have it. */
+Vector
+SlopeOf(const Slices & slices, const std::vector<double> & steps, const Vector & normal)
+{
+  Vector slope;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    std::vector<double> slopes;
+    for (std::size_t i = 0; i < steps.size(); ++i)
+    {
+      const Vector step = slices[i + 1].plane->position - slices[i].plane->position;
+      slopes.push_back((step[axis] - normal[axis] * steps[i]) / steps[i]);
+    }
+    slope[axis] = MedianOf(slopes);
+  }
+  return slope;
+}
+
+/** Refuses slices that don't follow each other along a line: neighbours that are shifted by more than a pixel against
+ * what the others are, and lines that are flatter than any gantry is tilted. */
+void
+RequireLine(const Slices & slices, const std::vector<double> & steps)
+{
+  constexpr double steepest = 1.73; // a tilt of 60 degrees
+  const SlicePlane & first = *slices.front().plane;
+  const double pixel = std::min(first.columnStep.GetNorm(), first.rowStep.GetNorm());
+  const Vector normal = NormalOf(first);
+  const Vector slope = SlopeOf(slices, steps, normal);
+  const std::string advice = "put slices that belong together into a folder of their own";
+  if (slope.GetNorm() > steepest)
+  {
+    Refuse(slices,
+           "they are shifted sideways by " + Rounded(slope.GetNorm()) +
+             " mm for each mm between them, more than a tilt",
+           advice);
+  }
+  for (std::size_t i = 0; i < steps.size(); ++i)
+  {
+    const Vector step = slices[i + 1].plane->position - slices[i].plane->position;
+    const double jump = (step - (normal + slope) * steps[i]).GetNorm();
+    if (jump > pixel + ToleranceFor(steps[i]))
+    {
+      Refuse(slices,
+             NamesOf(slices[i], slices[i + 1]) + " are shifted sideways by " + Rounded(jump) +
+               " mm against each other, which no tilt explains",
+             advice);
+    }
+  }
+}
+
+/** The angle between the slices' normal and the line from the first to the last. */
 double
 TiltOf(const Slices & slices, double normalExtent)
 {
@@ -234,6 +312,8 @@ StackSlices(std::vector<DicomSlice> & slices, const ScanReadOptions & options)
            NamesOf(slices[i], slices[i + 1]) + " are at the same place",
            "put one set of slices into a folder of its own");
   }
+
+  RequireLine(slices, steps);
 
   DicomStack stack;
   stack.report.tiltDegrees = TiltOf(slices, distances.back() - distances.front()) * 180 / itk::Math::pi;

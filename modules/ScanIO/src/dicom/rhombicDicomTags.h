@@ -18,6 +18,7 @@ constexpr DicomTag EffectiveEchoTime = 0x00189082;
 constexpr DicomTag MREchoSequence = 0x00189114;
 constexpr DicomTag MRImageFrameTypeSequence = 0x00189226;
 constexpr DicomTag CTImageFrameTypeSequence = 0x00189329;
+constexpr DicomTag SliceThickness = 0x00180050;
 constexpr DicomTag SpacingBetweenSlices = 0x00180088;
 constexpr DicomTag SeriesInstanceUID = 0x0020000e;
 constexpr DicomTag SeriesNumber = 0x00200011;

@@ -20,8 +20,12 @@ ReadText(const fs::path & path)
   {
     throw Failure(FailureKind::NotFound, "There is no label table " + path.string() + "; check the path.");
   }
-  std::ifstream file(path, std::ios::binary);
-  if (!fs::is_regular_file(path) || !file)
+  std::ifstream file;
+  if (fs::is_regular_file(path)) // opening a pipe would wait for its other end
+  {
+    file.open(path, std::ios::binary);
+  }
+  if (!file.is_open())
   {
     RefuseTable({ path.string() }, "it is no file, or not yours to read; name a file of labels");
   }

@@ -96,7 +96,10 @@ UnpackedFile::Finish()
   {
     return;
   }
-  this->Skip(UINTMAX_MAX);
+  if (this->Skip(LongestTail + 1) > LongestTail)
+  {
+    RefuseVolume(m_Path, "its compressed content goes on behind the voxels that its header announces; export it again");
+  }
   int state = Z_OK;
   gzerror(m_File, &state);
   if (state != Z_OK)
@@ -163,9 +166,9 @@ InflatedStream::Skip(std::uintmax_t size)
 }
 
 std::optional<std::uintmax_t>
-InflatedStream::Finish()
+InflatedStream::Finish(std::uintmax_t most)
 {
-  const std::uintmax_t total = this->Skip(UINTMAX_MAX);
+  const std::uintmax_t total = this->Skip(most + LongestTail);
   return m_State == Z_STREAM_END ? std::make_optional(total) : std::nullopt;
 }
 

@@ -38,7 +38,8 @@ public:
   std::uintmax_t
   Skip(std::uintmax_t size);
 
-  /** Checks a compressed file to its end: its streams have to be complete and their checksums right. */
+  /** Checks a compressed file to its end: its streams have to be complete and their checksums right, and little may be
+   * left of them. */
   void
   Finish();
 
@@ -46,6 +47,9 @@ private:
   const std::filesystem::path m_Path;
   gzFile_s * m_File;
 };
+
+/** The most bytes that may follow behind voxels: some writers append a few, but a file can hold any number. */
+constexpr std::uintmax_t LongestTail = 1 << 20;
 
 /** The most bytes that a file can hold, unpacked if its content is gzip: 1032 times its size, which deflate can't
  * exceed. */
@@ -71,9 +75,10 @@ public:
   std::uintmax_t
   Skip(std::uintmax_t size);
 
-  /** Passes over the rest. How many bytes that was, or nothing when the stream is damaged or cut off. */
+  /** Passes over the rest, \a most bytes and a little more. How many bytes that was, or nothing when the stream is
+   * damaged, cut off or longer. */
   std::optional<std::uintmax_t>
-  Finish();
+  Finish(std::uintmax_t most);
 
 private:
   std::ifstream m_File;

@@ -316,7 +316,7 @@ CheckData(const NRRDHeader & header,
   std::uintmax_t available = packed;
   if (encoding == "gzip")
   {
-    available = InflatedStream(data, begin).Finish().value_or(0);
+    available = InflatedStream(data, begin).Finish(skipped + needed).value_or(0);
   }
   else if (encoding == "hex")
   {

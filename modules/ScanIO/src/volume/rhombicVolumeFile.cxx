@@ -76,8 +76,9 @@ ReadDeflated(const StoredVolume & volume, std::uintmax_t frame)
   const std::size_t bytes = NumberOfVoxels(volume.geometry) * SizeOf(volume.type);
   stream.Skip(frame * bytes);
   ScanImage image = ReadVolumePixels(volume.type, volume.scaling, volume.geometry, read);
-  const auto rest = stream.Finish();
-  if (!rest || *rest < (volume.numberOfFrames - frame - 1) * bytes)
+  const std::size_t left = (volume.numberOfFrames - frame - 1) * bytes;
+  const auto rest = stream.Finish(left);
+  if (!rest || *rest < left)
   {
     refuseCutOff();
   }

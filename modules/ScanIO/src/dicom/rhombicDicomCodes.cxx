@@ -1,0 +1,127 @@
+#include "rhombicDicomCodes.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <set>
+#include <string_view>
+#include <vector>
+
+namespace rhombic
+{
+namespace
+{
+
+using Words = std::set<std::string_view>;
+
+// PS3.3, C.7.3.1.1.1: those of images, and of what else may lie among them.
+const Words Modalities{ "AR",     "AU",         "BDUS",   "BI",       "BMD",      "CR",   "CT",  "CTPROTOCOL",
+                        "DG",     "DOC",        "DX",     "ECG",      "EPS",      "ES",   "FID", "GM",
+                        "HD",     "IO",         "IOL",    "IVOCT",    "IVUS",     "KER",  "KO",  "LEN",
+                        "LS",     "M3D",        "MG",     "MR",       "NM",       "OAM",  "OCT", "OP",
+                        "OPM",    "OPT",        "OPTBSV", "OPTENF",   "OPV",      "OSS",  "OT",  "PA",
+                        "PLAN",   "PR",         "PT",     "PX",       "REG",      "RESP", "RF",  "RG",
+                        "RTDOSE", "RTIMAGE",    "RTPLAN", "RTRECORD", "RTSTRUCT", "RWV",  "SC",  "SEG",
+                        "SM",     "SMR",        "SR",     "SRF",      "STAIN",    "TG",   "US",  "VA",
+                        "XA",     "XAPROTOCOL", "XC" };
+
+// Of the standard, and of the vendors whose image types say what tells slices at one place apart.
+const Words ImageTypeWords{ "2D",          "3D",         "ACQUIRED", "ADC",      "ADD",         "ADDITION",
+                            "AVERAGE",     "AXIAL",      "B0",       "B1",       "BODY",        "COMPLEX",
+                            "CORONAL",     "CSA",        "CT",       "DERIVED",  "DIFFUSION",   "DIS2D",
+                            "DIS3D",       "DIXON",      "DUAL",     "DYNAMIC",  "ECHO",        "EMISSION",
+                            "ENERGY",      "EPI",        "F",        "FA",       "FAT",         "FFE",
+                            "FIELD",       "FILTERED",   "FM",       "FS",       "FSE",         "GATED",
+                            "GE",          "GRE",        "HU",       "I",        "IMAGE",       "IMAGINARY",
+                            "IN",          "INV",        "IP",       "IR",       "LOCALIZER",   "M",
+                            "MAG",         "MAGNITUDE",  "MAP",      "MATERIAL", "MAX",         "MEAN",
+                            "MFSPLIT",     "MIN",        "MINIP",    "MIP",      "MIXED",       "MONOENERGETIC",
+                            "MPR",         "ND",         "NONE",     "NORM",     "OP",          "OPP",
+                            "ORIGINAL",    "OTHER",      "OUT",      "P",        "PERFUSION",   "PHASE",
+                            "PRIMARY",     "PROJECTION", "PROTON",   "R",        "REAL",        "RECON",
+                            "REFORMATTED", "RESAMPLED",  "ROOT",     "SAGITTAL", "SE",          "SECONDARY",
+                            "SEQUENCE",    "SOM5",       "SOM7",     "SPI",      "SPIN",        "SPR",
+                            "SQUARE",      "STATIC",     "STDDEV",   "SUB",      "SUBTRACTION", "SW",
+                            "SWI",         "T1",         "T2",       "T2STAR",   "TFE",         "TOF",
+                            "TOMO",        "TRACEW",     "TSE",      "VELOCITY", "VMI",         "VOLUME",
+                            "W",           "WATER",      "WHOLE" };
+
+/** The parts of a text between any of some letters. */
+std::vector<std::string>
+Split(const std::string & text, const char * separators)
+{
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= text.size();)
+  {
+    const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+bool
+HasOnly(const std::string & text, std::string_view letters)
+{
+  return text.find_first_not_of(letters) == std::string::npos;
+}
+
+std::string
+Disguised(const std::string & text)
+{
+  return "other-" + HashOf(text).substr(12);
+}
+
+} // namespace
+
+std::string
+ModalityOf(const std::string & text)
+{
+  return text.empty() || Modalities.count(text) != 0 ? text : "other";
+}
+
+std::string
+ImageTypeOf(const std::string & text)
+{
+  std::string type;
+  for (const std::string & value : Split(text, "\\"))
+  {
+    const auto words = Split(value, " _");
+    const bool isKnown = std::all_of(words.begin(), words.end(), [](const std::string & word) {
+      return word.empty() || ImageTypeWords.count(word) != 0;
+    });
+    type += (type.empty() ? "" : "\\") + (isKnown ? value : Disguised(value));
+  }
+  return type;
+}
+
+std::string
+NumberTextOf(const std::string & text)
+{
+  constexpr std::size_t longest = 64;
+  return text.size() <= longest && HasOnly(text, "0123456789+-.eE\\ ") ? text : "";
+}
+
+std::string
+NameCodeOf(const std::string & text)
+{
+  constexpr std::size_t longest = 4;
+  return text.size() <= longest && HasOnly(text, "0123456789") ? text : Disguised(text);
+}
+
+std::string
+HashOf(const std::string & text)
+{
+  std::uint64_t hash = 14695981039346656037u;
+  for (const char letter : text)
+  {
+    hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211u;
+  }
+  std::string digits;
+  for (int shift = 60; shift >= 0; shift -= 4)
+  {
+    digits += "0123456789abcdef"[hash >> shift & 15];
+  }
+  return digits;
+}
+
+} // namespace rhombic
