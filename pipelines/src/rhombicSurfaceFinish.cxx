@@ -7,6 +7,7 @@
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceSimplification.h"
 #include "itkTriangleSurfaceSmoothing.h"
+#include "itkTriangleSurfaceSolids.h"
 #include "itkTriangleSurfaceVertexOrder.h"
 #include "itkTriangleTree.h"
 
@@ -107,11 +108,11 @@ RemoveParts(itk::TriangleSurface & surface, const SurfaceFinish & finish)
   }
   if (finish.keepsLargestPart)
   {
-    KeepLargestComponent(surface);
+    KeepLargestSolid(surface);
   }
   if (finish.minimumVolume > 0.0)
   {
-    RemoveSmallComponents(surface, finish.minimumVolume * CubicMillimetresPerMillilitre);
+    RemoveSmallSolids(surface, finish.minimumVolume * CubicMillimetresPerMillilitre);
   }
   return { { "shellsBefore", shellsBefore },
            { "shellsAfter", itk::FindComponents(surface).count },

@@ -4,6 +4,7 @@
 #include "rhombicSceneSurface.h"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ enum class SurfaceFileSpace
 struct SurfaceFileSettings
 {
   SurfaceFileSpace space = SurfaceFileSpace::LPS;
+
+  /** Gets the surfaces as they were read back, before the file appears; what it throws leaves the target as it was. */
+  std::function<void(const std::vector<SceneSurface> & read)> inspect;
 };
 
 /** The extensions of the formats below, for help texts: ".stl, .ply, .obj, .vtp, .glb". */

@@ -168,14 +168,14 @@ LookAlike(const SceneSurface & read, const SceneSurface & written)
          ToByte(read.opacity) == ToByte(written.opacity);
 }
 
-/** What arrived on the disk is what was meant. */
-void
-CheckWritten(const std::vector<SceneSurface> & surfaces,
+/** What arrived on the disk, after making sure that it is what was meant. */
+std::vector<SceneSurface>
+ReadBack(const std::vector<SceneSurface> & surfaces,
              const SurfaceFormat & format,
              const fs::path & written,
              const fs::path & target)
 {
-  const std::vector<SceneSurface> read = format.read(InputFile(written));
+  std::vector<SceneSurface> read = format.read(InputFile(written));
   const auto equal = [&format](const SceneSurface & one, const SceneSurface & other) {
     return AreEqual(*one.surface, *other.surface, one.surface->HasNormals()) &&
            (!format.holdsLooks || LookAlike(one, other));
@@ -184,6 +184,7 @@ CheckWritten(const std::vector<SceneSurface> & surfaces,
   {
     FailToWrite(target, "it is not the same when it is read back; check the disk");
   }
+  return read;
 }
 
 void
@@ -199,13 +200,17 @@ void
 Write(const std::vector<SceneSurface> & surfaces,
       const SurfaceFormat & format,
       const fs::path & path,
-      SurfaceFileSpace space)
+      const SurfaceFileSettings & settings)
 {
   AtomicFile file(path);
   OutputFile output(file.GetTemporaryPath(), path);
-  format.write(surfaces, space, output);
+  format.write(surfaces, settings.space, output);
   output.Close();
-  CheckWritten(surfaces, format, file.GetTemporaryPath(), path);
+  const std::vector<SceneSurface> read = ReadBack(surfaces, format, file.GetTemporaryPath(), path);
+  if (settings.inspect)
+  {
+    settings.inspect(read);
+  }
   file.Flush(1);
   if (format.hasMaterials)
   {
@@ -245,7 +250,7 @@ WriteSurfaces(const std::vector<SceneSurface> & surfaces, const fs::path & path,
 {
   CheckSurfacePath(path, surfaces.size());
   CheckSurfaces(surfaces, path);
-  Write(WithFileNames(surfaces), FormatOf(path, "write"), path, settings.space);
+  Write(WithFileNames(surfaces), FormatOf(path, "write"), path, settings);
 }
 
 std::vector<SceneSurface>
