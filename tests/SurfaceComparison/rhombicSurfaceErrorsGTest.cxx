@@ -80,14 +80,6 @@ MakeSphere(double radius, unsigned int cuts)
 
 } // namespace
 
-TEST(TriangleQuality, IsOneForEquilateralAndZeroForDegenerateTriangles)
-{
-  EXPECT_NEAR(ComputeTriangleQuality({ 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }), 1.0, 1e-12);
-  EXPECT_NEAR(ComputeTriangleQuality({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }), std::sqrt(3.0) / 2.0, 1e-12);
-  EXPECT_EQ(ComputeTriangleQuality({ 0, 0, 0 }, { 1, 0, 0 }, { 3, 0, 0 }), 0.0);
-  EXPECT_EQ(ComputeTriangleQuality({ 2, 2, 2 }, { 2, 2, 2 }, { 2, 2, 2 }), 0.0);
-}
-
 TEST(FieldProjection, FindsTheNearestPointOfShapes)
 {
   const TorusField torus({ 0, 0, 0 }, { 0, 0, 1 }, 10.0, 4.0);

@@ -2,41 +2,21 @@
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
 
+#include "itkExampleSurfaces.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+#include <map>
+#include <random>
+#include <set>
 
 namespace
 {
 
 using Surface = itk::TriangleSurface;
-
-/** The tetrahedron with corners at the origin and one millimetre along each axis, facing outwards. */
-Surface::Pointer
-UnitTetrahedron()
-{
-  auto surface = Surface::New();
-  surface->GetPoints() = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
-  surface->GetTriangles() = { { 0, 2, 1 }, { 0, 1, 3 }, { 0, 3, 2 }, { 1, 2, 3 } };
-  return surface;
-}
-
-/** Adds a copy of \a other, moved along x. */
-void
-Append(Surface & surface, const Surface & other, float shift)
-{
-  const auto first = static_cast<std::uint32_t>(surface.GetNumberOfPoints());
-  for (auto point : other.GetPoints())
-  {
-    point[0] += shift;
-    surface.GetPoints().push_back(point);
-  }
-  for (const auto & triangle : other.GetTriangles())
-  {
-    surface.GetTriangles().push_back({ triangle[0] + first, triangle[1] + first, triangle[2] + first });
-  }
-}
+using namespace itk::example;
 
 TEST(TriangleSurface, IsEmptyWhenNew)
 {
@@ -50,7 +30,7 @@ TEST(TriangleSurface, IsEmptyWhenNew)
 
 TEST(TriangleSurface, MeasuresOfATetrahedron)
 {
-  const auto surface = UnitTetrahedron();
+  const auto surface = MakeTetrahedron();
   EXPECT_DOUBLE_EQ(ComputeVolume(*surface), 1.0 / 6.0);
   EXPECT_NEAR(ComputeArea(*surface), 1.5 + std::sqrt(3.0) / 2.0, 1e-12);
   EXPECT_EQ(surface->GetBounds(), (std::array<double, 6>{ 0, 1, 0, 1, 0, 1 }));
@@ -59,7 +39,7 @@ TEST(TriangleSurface, MeasuresOfATetrahedron)
 
 TEST(TriangleSurface, VolumeFarFromTheOriginKeepsItsDigits)
 {
-  auto surface = UnitTetrahedron();
+  auto surface = MakeTetrahedron();
   for (auto & point : surface->GetPoints())
   {
     point[0] += 4096.0f;
@@ -69,7 +49,7 @@ TEST(TriangleSurface, VolumeFarFromTheOriginKeepsItsDigits)
 
 TEST(TriangleSurface, GraftCopiesAndInitializeEmpties)
 {
-  const auto source = UnitTetrahedron();
+  const auto source = MakeTetrahedron();
   auto target = Surface::New();
   target->Graft(source);
   EXPECT_EQ(target->GetPoints(), source->GetPoints());
@@ -81,7 +61,7 @@ TEST(TriangleSurface, GraftCopiesAndInitializeEmpties)
 
 TEST(TriangleSurface, RemovesUnusedPointsOnly)
 {
-  auto surface = UnitTetrahedron();
+  auto surface = MakeTetrahedron();
   surface->GetPoints().insert(surface->GetPoints().begin(), { 9, 9, 9 });
   surface->GetPoints().push_back({ 8, 8, 8 });
   surface->GetNormals() = { { 0, 0, 9 }, { 0, 0, 0 }, { 0, 0, 1 }, { 0, 0, 2 }, { 0, 0, 3 }, { 0, 0, 8 } };
@@ -93,17 +73,17 @@ TEST(TriangleSurface, RemovesUnusedPointsOnly)
     }
   }
   surface->RemoveUnusedPoints();
-  EXPECT_EQ(surface->GetPoints(), UnitTetrahedron()->GetPoints());
-  EXPECT_EQ(surface->GetTriangles(), UnitTetrahedron()->GetTriangles());
+  EXPECT_EQ(surface->GetPoints(), MakeTetrahedron()->GetPoints());
+  EXPECT_EQ(surface->GetTriangles(), MakeTetrahedron()->GetTriangles());
   EXPECT_EQ(surface->GetNormals()[3][2], 3.0f);
   EXPECT_TRUE(surface->HasNormals());
 }
 
 TEST(TriangleSurfaceComponents, AreFoundMeasuredAndKept)
 {
-  auto surface = UnitTetrahedron();
-  Append(*surface, *UnitTetrahedron(), 5.0f);
-  Append(*surface, *UnitTetrahedron(), -5.0f);
+  auto surface = MakeTetrahedron();
+  Append(*surface, *MakeTetrahedron(), { 5, 0, 0 });
+  Append(*surface, *MakeTetrahedron(), { -5, 0, 0 });
   surface->GetPoints().push_back({ 7, 7, 7 });
   for (std::size_t n = 4; n < 8; ++n)
   {
@@ -126,7 +106,7 @@ TEST(TriangleSurfaceComponents, AreFoundMeasuredAndKept)
 
 TEST(TriangleSurfaceTopology, ClosedTetrahedronIsWatertight)
 {
-  const auto topology = ComputeTopology(*UnitTetrahedron());
+  const auto topology = ComputeTopology(*MakeTetrahedron());
   EXPECT_TRUE(topology.IsWatertight()) << topology;
   EXPECT_EQ(topology.components, 1u);
   EXPECT_EQ(topology.eulerCharacteristic, 2);
@@ -134,7 +114,7 @@ TEST(TriangleSurfaceTopology, ClosedTetrahedronIsWatertight)
 
 TEST(TriangleSurfaceTopology, FindsABoundary)
 {
-  auto surface = UnitTetrahedron();
+  auto surface = MakeTetrahedron();
   surface->GetTriangles().pop_back();
   const auto topology = ComputeTopology(*surface);
   EXPECT_EQ(topology.boundaryEdges, 3u);
@@ -145,7 +125,7 @@ TEST(TriangleSurfaceTopology, FindsABoundary)
 
 TEST(TriangleSurfaceTopology, FindsAFlippedTriangle)
 {
-  auto surface = UnitTetrahedron();
+  auto surface = MakeTetrahedron();
   auto & triangle = surface->GetTriangles().back();
   std::swap(triangle[0], triangle[1]);
   EXPECT_EQ(ComputeTopology(*surface).misorientedEdges, 3u);
@@ -153,7 +133,7 @@ TEST(TriangleSurfaceTopology, FindsAFlippedTriangle)
 
 TEST(TriangleSurfaceTopology, FindsAnEdgeOfThreeTriangles)
 {
-  auto surface = UnitTetrahedron();
+  auto surface = MakeTetrahedron();
   surface->GetPoints().push_back({ 1, -1, 1 });
   surface->GetTriangles().push_back({ 1, 3, 4 });
   const auto topology = ComputeTopology(*surface);
@@ -163,8 +143,8 @@ TEST(TriangleSurfaceTopology, FindsAnEdgeOfThreeTriangles)
 
 TEST(TriangleSurfaceTopology, FindsTwoFansAtOnePoint)
 {
-  auto surface = UnitTetrahedron();
-  Append(*surface, *UnitTetrahedron(), 5.0f);
+  auto surface = MakeTetrahedron();
+  Append(*surface, *MakeTetrahedron(), { 5, 0, 0 });
   EXPECT_EQ(ComputeTopology(*surface).components, 2u);
   for (auto & triangle : surface->GetTriangles())
   {
@@ -182,11 +162,172 @@ TEST(TriangleSurfaceTopology, FindsTwoFansAtOnePoint)
 
 TEST(TriangleSurfaceTopology, FindsDegenerateTriangles)
 {
-  auto surface = UnitTetrahedron();
+  auto surface = MakeTetrahedron();
   surface->GetPoints()[3] = surface->GetPoints()[2];
   EXPECT_EQ(ComputeTopology(*surface).degenerateTriangles, 2u) << "those on the edge between the two corners";
   surface->GetPoints()[3][1] = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(ComputeTopology(*surface).degenerateTriangles, 3u) << "those at a position that is no number";
+}
+
+TEST(TriangleSurfaceTopology, CountsHandles)
+{
+  const auto sphere = ComputeTopology(*MakeSphere(5.0, 3));
+  EXPECT_TRUE(sphere.IsWatertight()) << sphere;
+  EXPECT_EQ(sphere.genus, 0u);
+  const auto torus = ComputeTopology(*MakeTorus(5.0, 2.0, 24));
+  EXPECT_TRUE(torus.IsWatertight()) << torus;
+  EXPECT_EQ(torus.eulerCharacteristic, 0);
+  EXPECT_EQ(torus.genus, 1u);
+  auto both = MakeTorus(5.0, 2.0, 24);
+  Append(*both, *MakeTorus(5.0, 2.0, 12), { 20, 0, 0 });
+  Append(*both, *MakeSphere(5.0, 1), { 0, 20, 0 });
+  EXPECT_EQ(ComputeTopology(*both).genus, 2u);
+  both->GetTriangles().pop_back();
+  EXPECT_EQ(ComputeTopology(*both).genus, 2u) << "an open sphere has no genus, and takes none away";
+}
+
+/** Two tori, a triangle of each taken away and the holes joined corner by corner. */
+TEST(TriangleSurfaceTopology, ADoubleTorusIsOneComponentOfGenusTwo)
+{
+  auto surface = MakeTorus(5.0, 2.0, 12);
+  const auto first = surface->GetTriangles().front();
+  const auto offset = static_cast<std::uint32_t>(surface->GetNumberOfPoints());
+  Append(*surface, *MakeTorus(5.0, 2.0, 12), { 20, 0, 0 });
+  auto & triangles = surface->GetTriangles();
+  triangles.erase(triangles.begin() + 2 * offset);
+  triangles.erase(triangles.begin());
+  for (auto & triangle : triangles)
+  {
+    for (auto & point : triangle)
+    {
+      // the other way round, or the second torus would continue the first inside out
+      point = point == first[0] + offset ? first[1] : point == first[1] + offset ? first[0] : point;
+      point = point == first[2] + offset ? first[2] : point;
+    }
+  }
+  const auto topology = ComputeTopology(*surface);
+  EXPECT_TRUE(topology.IsWatertight()) << topology;
+  EXPECT_EQ(topology.components, 1u);
+  EXPECT_EQ(topology.eulerCharacteristic, -2);
+  EXPECT_EQ(topology.genus, 2u);
+  EXPECT_EQ(topology.unusedPoints, 3u);
+}
+
+/** A grid of squares, across joined to a ring and along joined to itself after a twist, which leaves edges where
+ * orientations meet. */
+Surface::Pointer
+MakeTwisted(std::uint32_t length, std::uint32_t width, bool isRingAcross)
+{
+  auto surface = Surface::New();
+  const std::uint32_t rows = isRingAcross ? width : width + 1;
+  for (std::uint32_t n = 0; n < length * rows; ++n)
+  {
+    surface->GetPoints().push_back({ float(n % rows), float(n / rows), float(n % 7) });
+  }
+  const auto id = [&](std::uint32_t i, std::uint32_t j) {
+    j = isRingAcross ? j % width : j;
+    return i == length ? (isRingAcross ? (width - j) % width : width - j) : i * rows + j;
+  };
+  for (std::uint32_t i = 0; i < length; ++i)
+  {
+    for (std::uint32_t j = 0; j < width; ++j)
+    {
+      surface->GetTriangles().push_back({ id(i, j), id(i + 1, j), id(i + 1, j + 1) });
+      surface->GetTriangles().push_back({ id(i, j), id(i + 1, j + 1), id(i, j + 1) });
+    }
+  }
+  return surface;
+}
+
+TEST(TriangleSurfaceTopology, OneSidedSurfacesAreManifoldButNotOriented)
+{
+  const auto strip = ComputeTopology(*MakeTwisted(12, 4, false));
+  EXPECT_EQ(strip.misorientedEdges, 4u) << strip;
+  EXPECT_EQ(strip.nonManifoldEdges + strip.nonManifoldPoints, 0u) << strip;
+  EXPECT_EQ(strip.boundaryEdges, 24u) << "one boundary, twice around";
+  EXPECT_EQ(strip.eulerCharacteristic, 0);
+  const auto bottle = ComputeTopology(*MakeTwisted(12, 6, true));
+  EXPECT_EQ(bottle.misorientedEdges, 6u) << bottle;
+  EXPECT_EQ(bottle.boundaryEdges + bottle.nonManifoldEdges + bottle.nonManifoldPoints, 0u) << bottle;
+  EXPECT_EQ(bottle.eulerCharacteristic, 0);
+  EXPECT_EQ(bottle.genus, 0u);
+  EXPECT_FALSE(bottle.IsWatertight());
+}
+
+TEST(TriangleSurfaceTopology, FindsDuplicateTrianglesInAnyOrder)
+{
+  auto surface = MakeTetrahedron();
+  EXPECT_EQ(ComputeTopology(*surface).duplicateTriangles, 0u);
+  surface->GetTriangles().push_back({ 2, 1, 0 });
+  surface->GetTriangles().push_back({ 1, 2, 0 });
+  surface->GetTriangles().push_back({ 3, 2, 1 });
+  surface->GetTriangles().push_back({ 3, 3, 1 });
+  surface->GetTriangles().push_back({ 3, 3, 1 });
+  EXPECT_EQ(ComputeTopology(*surface).duplicateTriangles, 3u);
+}
+
+TEST(TriangleSurfaceTopology, FindsRepeatedPositions)
+{
+  auto surface = MakeTetrahedron();
+  Append(*surface, *MakeTetrahedron(), { 1, 0, 0 });
+  EXPECT_EQ(ComputeTopology(*surface).repeatedPositions, 1u);
+  Append(*surface, *MakeTetrahedron(), { -1, 0, 0 });
+  EXPECT_EQ(ComputeTopology(*surface).repeatedPositions, 2u);
+  surface->GetPoints()[4][1] = -0.0f;
+  surface->GetPoints().push_back({ 0, 0, 0 });
+  EXPECT_EQ(ComputeTopology(*surface).repeatedPositions, 2u) << "0 is at -0, and unused points do not count";
+}
+
+/** Every count against plain counting over maps of edges, for triangles thrown at random. */
+TEST(TriangleSurfaceTopology, CountsWhatMapsCount)
+{
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 300; ++trial)
+  {
+    const std::uint32_t points = 4 + trial % 12;
+    std::uniform_int_distribution<std::uint32_t> point(0, points - 1);
+    auto surface = Surface::New();
+    for (std::uint32_t n = 0; n < points; ++n)
+    {
+      surface->GetPoints().push_back({ float(n), float(n * n), float(n * n * n) });
+    }
+    std::map<std::array<std::uint32_t, 2>, std::array<int, 2>> edges;
+    std::set<std::array<std::uint32_t, 3>> triangles;
+    itk::SizeValueType duplicates = 0;
+    for (int n = 0; n < trial % 40;)
+    {
+      const Surface::TriangleType triangle{ point(random), point(random), point(random) };
+      if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
+      {
+        continue;
+      }
+      ++n;
+      surface->GetTriangles().push_back(triangle);
+      auto sorted = triangle;
+      std::sort(sorted.begin(), sorted.end());
+      duplicates += triangles.insert(sorted).second ? 0 : 1;
+      for (unsigned int corner = 0; corner < 3; ++corner)
+      {
+        const std::uint32_t from = triangle[corner], to = triangle[(corner + 1) % 3];
+        ++edges[{ std::min(from, to), std::max(from, to) }][from < to ? 0 : 1];
+      }
+    }
+    const auto topology = ComputeTopology(*surface);
+    itk::SizeValueType boundary = 0, misoriented = 0, nonManifold = 0;
+    for (const auto & [edge, uses] : edges)
+    {
+      boundary += uses[0] + uses[1] == 1;
+      misoriented += uses[0] + uses[1] == 2 && uses[0] != 1;
+      nonManifold += uses[0] + uses[1] > 2;
+    }
+    ASSERT_EQ(topology.boundaryEdges, boundary);
+    ASSERT_EQ(topology.misorientedEdges, misoriented);
+    ASSERT_EQ(topology.nonManifoldEdges, nonManifold);
+    ASSERT_EQ(topology.duplicateTriangles, duplicates);
+    ASSERT_EQ(topology.eulerCharacteristic,
+              static_cast<long>(points - topology.unusedPoints + surface->GetNumberOfTriangles()) -
+                static_cast<long>(edges.size()));
+  }
 }
 
 } // namespace

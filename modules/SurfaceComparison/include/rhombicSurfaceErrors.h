@@ -34,13 +34,11 @@ struct SurfaceErrors
   double facetNormalError = 0.0;  ///< of the triangles, at their centroids
   double vertexNormalError = 0.0; ///< of the points' normals; not a number if there are none
 
-  /** Quality is 4 sqrt(3) area / sum of squared edges: 1 for equilateral triangles, 0 for degenerate ones. */
+  /** As itk::ComputeTriangleQuality() has it. */
   double meanQuality = 0.0;
-  double poorFraction = 0.0; ///< triangles of a quality below PoorQuality
+  double poorFraction = 0.0; ///< triangles of a quality below itk::TriangleSurfaceQuality::Poor
 
   double unresolvedFraction = 0.0; ///< of the area: farther than three units from the true surface
-
-  static constexpr double PoorQuality = 0.2;
 };
 
 /** Compares a surface with that of a field. Distances are measured at seven points of each triangle, with the weights
@@ -50,10 +48,6 @@ SurfaceErrors
 ComputeSurfaceErrors(const itk::TriangleSurface & surface,
                      const ReferenceField & field,
                      const SurfaceErrorSettings & settings);
-
-/** Quality of one triangle, as in SurfaceErrors. */
-double
-ComputeTriangleQuality(const Vector3 & a, const Vector3 & b, const Vector3 & c);
 
 } // namespace rhombic
 

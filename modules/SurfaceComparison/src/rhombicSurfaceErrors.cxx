@@ -3,6 +3,7 @@
 #include "rhombicFieldProjection.h"
 
 #include "itkMultiThreaderBase.h"
+#include "itkTriangleSurfaceQuality.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,15 +96,6 @@ ForEach(itk::SizeValueType count, const TWork & work)
 
 } // namespace
 
-double
-ComputeTriangleQuality(const Vector3 & a, const Vector3 & b, const Vector3 & c)
-{
-  const Vector3 sides[3] = { Difference(b, a), Difference(c, b), Difference(a, c) };
-  const double sum = Dot(sides[0], sides[0]) + Dot(sides[1], sides[1]) + Dot(sides[2], sides[2]);
-  const Vector3 area = AreaVector(a, b, c);
-  return sum > 0.0 ? 2.0 * std::sqrt(3.0 * Dot(area, area)) / sum : 0.0;
-}
-
 SurfaceErrors
 ComputeSurfaceErrors(const itk::TriangleSurface & surface,
                      const ReferenceField & field,
@@ -151,7 +143,7 @@ ComputeSurfaceErrors(const itk::TriangleSurface & surface,
     const Vector3 a = position(judged.corners[0]);
     const Vector3 b = position(judged.corners[1]);
     const Vector3 c = position(judged.corners[2]);
-    judged.quality = ComputeTriangleQuality(a, b, c);
+    judged.quality = itk::ComputeTriangleQuality(a, b, c);
     judged.sides[0] = ProjectOntoField(field, Middle(a, b), settings.unit);
     judged.sides[1] = ProjectOntoField(field, Middle(b, c), settings.unit);
     judged.sides[2] = ProjectOntoField(field, Middle(c, a), settings.unit);
@@ -178,7 +170,7 @@ ComputeSurfaceErrors(const itk::TriangleSurface & surface,
   {
     errors.area += judged.area;
     errors.meanQuality += judged.quality;
-    poor += judged.quality < SurfaceErrors::PoorQuality ? 1 : 0;
+    poor += judged.quality < itk::TriangleSurfaceQuality::Poor ? 1 : 0;
     errors.facetNormalError += judged.facetNormalError * judged.area;
     for (unsigned int i = 0; i < 3; ++i)
     {

@@ -23,6 +23,12 @@ OrientationAlongAxis(const TriangleSurface::PointType & a,
                      const TriangleSurface::PointType & c,
                      unsigned int axis);
 
+/** Whether three points are not on one line. Never wrong for finite points. Thread safe. */
+bool
+HasArea(const TriangleSurface::PointType & a,
+        const TriangleSurface::PointType & b,
+        const TriangleSurface::PointType & c);
+
 } // namespace itk
 
 #endif

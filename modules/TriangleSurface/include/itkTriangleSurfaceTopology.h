@@ -16,11 +16,14 @@ struct TriangleSurfaceTopology
   SizeValueType boundaryEdges = 0;     ///< edges with one triangle: the surface is open there
   SizeValueType nonManifoldEdges = 0;  ///< edges with three or more triangles
   SizeValueType misorientedEdges = 0;  ///< edges whose two triangles run along them in the same direction
-  SizeValueType nonManifoldPoints = 0; ///< points whose triangles are not one fan
+  SizeValueType nonManifoldPoints = 0; ///< points whose triangles are not one fan, whichever way each is oriented
   SizeValueType unusedPoints = 0;      ///< points of no triangle
+  SizeValueType repeatedPositions = 0; ///< used points at the position of an earlier one: a reader may join the two
   SizeValueType degenerateTriangles =
     0; ///< triangles with a repeated point, a repeated position, no area, or a position that is not finite
+  SizeValueType duplicateTriangles = 0;    ///< triangles with the three points of an earlier one, in any order
   OffsetValueType eulerCharacteristic = 0; ///< used points - edges + triangles; 2 for each sphere, 0 for each torus
+  SizeValueType genus = 0; ///< handles of all components that are closed, oriented and manifold: 1 for each torus
 
   /** Closed, oriented, manifold and free of degenerate triangles. */
   bool
@@ -31,7 +34,8 @@ struct TriangleSurfaceTopology
   }
 };
 
-/** Counts all of the above. Time O(n log n), memory about 40 bytes a triangle. Thread safe. */
+/** Counts all of the above. Time O(n) but for the positions, which are sorted; with several threads, with the same
+ * result for any number. Memory about 40 bytes a triangle. Thread safe. */
 TriangleSurfaceTopology
 ComputeTopology(const TriangleSurface & surface);
 

@@ -43,6 +43,19 @@ public:
     }
   };
 
+  /** The smallest box around two. */
+  static Box
+  Union(const Box & a, const Box & b)
+  {
+    Box both;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      both.lowest[axis] = std::min(a.lowest[axis], b.lowest[axis]);
+      both.highest[axis] = std::max(a.highest[axis], b.highest[axis]);
+    }
+    return both;
+  }
+
   /** The place of the surface that is nearest to a position. */
   struct ClosestPoint
   {
@@ -73,32 +86,15 @@ public:
   void
   VisitTriangles(const Box & box, TVisitor && visit) const
   {
-    NodeStack stack;
-    if (!m_Boxes.empty())
-    {
-      stack.Push(this->Root());
-    }
-    while (!stack.IsEmpty())
-    {
-      const Node node = stack.Pop();
-      if (!m_Boxes[node.id].Overlaps(box))
+    this->VisitLeaves(box, 0, [&](std::size_t leaf) {
+      for (const std::uint32_t triangle : this->GetLeaf(leaf))
       {
-        continue;
-      }
-      if (!node.IsLeaf())
-      {
-        stack.Push(node.Right());
-        stack.Push(node.Left());
-        continue;
-      }
-      for (std::size_t place = node.begin * LeafSize; place < this->LeafEnd(node.begin); ++place)
-      {
-        if (this->GetTriangleBox(m_Order[place]).Overlaps(box))
+        if (this->GetTriangleBox(triangle).Overlaps(box))
         {
-          visit(m_Order[place]);
+          visit(triangle);
         }
       }
-    }
+    });
   }
 
   /** Calls \a visit(triangle, turns) for every triangle that the ray from \a point along +z crosses: turns is 1 where
@@ -127,11 +123,77 @@ public:
   Box
   GetTriangleBox(std::uint32_t triangle) const;
 
-  /** The triangles in the tree's order, in which neighbours in space are mostly neighbours in memory. */
-  const std::vector<std::uint32_t, BulkAllocator<std::uint32_t>> &
-  GetOrder() const
+  /** All but those with a position that is not finite. */
+  SizeValueType
+  GetNumberOfPlacedTriangles() const
   {
-    return m_Order;
+    return m_Order.size();
+  }
+
+  /** The triangles of one leaf, up to LeafSize. */
+  struct Leaf
+  {
+    const std::uint32_t * first;
+    const std::uint32_t * last;
+
+    const std::uint32_t *
+    begin() const
+    {
+      return first;
+    }
+    const std::uint32_t *
+    end() const
+    {
+      return last;
+    }
+    std::size_t
+    size() const
+    {
+      return static_cast<std::size_t>(last - first);
+    }
+  };
+
+  static constexpr std::size_t LeafSize = 4;
+
+  /** Leaves are numbered along the curve: neighbours in number are mostly neighbours in space. */
+  std::size_t
+  GetNumberOfLeaves() const
+  {
+    return (m_Order.size() + LeafSize - 1) / LeafSize;
+  }
+
+  Leaf
+  GetLeaf(std::size_t leaf) const
+  {
+    return { m_Order.data() + leaf * LeafSize, m_Order.data() + std::min(m_Order.size(), (leaf + 1) * LeafSize) };
+  }
+
+  /** Calls \a visit(leaf) in order for every leaf from number \a from on whose box has a point in common with \a box.
+   */
+  template <typename TVisitor>
+  void
+  VisitLeaves(const Box & box, std::size_t from, TVisitor && visit) const
+  {
+    NodeStack stack;
+    if (!m_Boxes.empty())
+    {
+      stack.Push(this->Root());
+    }
+    while (!stack.IsEmpty())
+    {
+      const Node node = stack.Pop();
+      if (node.end <= from || !m_Boxes[node.id].Overlaps(box))
+      {
+        continue;
+      }
+      if (node.IsLeaf())
+      {
+        visit(node.begin);
+        continue;
+      }
+      stack.Push(node.Right());
+      stack.Push(node.Left());
+    }
   }
 
   /** Bytes held. */
@@ -142,8 +204,6 @@ public:
   }
 
 private:
-  static constexpr std::size_t LeafSize = 4;
-
   /** A node and the leaves [begin, end) below it. Nodes are stored parents first, left before right: a node with L
    * leaves has 2 L - 1 nodes from itself on. */
   struct Node
@@ -198,13 +258,7 @@ private:
   Node
   Root() const
   {
-    return { 0, 0, (m_Order.size() + LeafSize - 1) / LeafSize };
-  }
-
-  std::size_t
-  LeafEnd(std::size_t leaf) const
-  {
-    return std::min(m_Order.size(), (leaf + 1) * LeafSize);
+    return { 0, 0, this->GetNumberOfLeaves() };
   }
 
   void

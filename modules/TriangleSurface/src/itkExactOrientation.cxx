@@ -151,4 +151,11 @@ OrientationAlongAxis(const Point & a, const Point & b, const Point & c, unsigned
   return sum.GetSign();
 }
 
+bool
+HasArea(const Point & a, const Point & b, const Point & c)
+{
+  return OrientationAlongAxis(a, b, c, 0) != 0 || OrientationAlongAxis(a, b, c, 1) != 0 ||
+         OrientationAlongAxis(a, b, c, 2) != 0;
+}
+
 } // namespace itk

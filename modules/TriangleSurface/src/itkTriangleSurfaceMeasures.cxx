@@ -1,5 +1,7 @@
 #include "itkTriangleSurfaceMeasures.h"
 
+#include "itkPositionArithmetic.h"
+
 #include <cmath>
 
 namespace itk
@@ -7,35 +9,11 @@ namespace itk
 namespace
 {
 
-using Vector3 = std::array<double, 3>;
-
 /** From the surface's first point, so that a volume far from the world's origin does not drown in cancellation. */
-Vector3
+PositionType
 Relative(const TriangleSurface & surface, std::uint32_t point)
 {
-  const auto & origin = surface.GetPoints().front();
-  const auto & position = surface.GetPoints()[point];
-  return { static_cast<double>(position[0]) - origin[0],
-           static_cast<double>(position[1]) - origin[1],
-           static_cast<double>(position[2]) - origin[2] };
-}
-
-Vector3
-Subtract(const Vector3 & a, const Vector3 & b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
-Vector3
-Cross(const Vector3 & a, const Vector3 & b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
-
-double
-Dot(const Vector3 & a, const Vector3 & b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  return Subtract(ToPosition(surface.GetPoints()[point]), ToPosition(surface.GetPoints().front()));
 }
 
 /** Six times the signed volume of the tetrahedron of a triangle and the surface's first point. */
@@ -53,8 +31,8 @@ ComputeArea(const TriangleSurface & surface)
   double twice = 0.0;
   for (const auto & triangle : surface.GetTriangles())
   {
-    const Vector3 a = Relative(surface, triangle[0]);
-    const Vector3 normal =
+    const PositionType a = Relative(surface, triangle[0]);
+    const PositionType normal =
       Cross(Subtract(Relative(surface, triangle[1]), a), Subtract(Relative(surface, triangle[2]), a));
     twice += std::sqrt(Dot(normal, normal));
   }

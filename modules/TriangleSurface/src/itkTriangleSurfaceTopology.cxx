@@ -1,9 +1,12 @@
 #include "itkTriangleSurfaceTopology.h"
 
+#include "itkExactOrientation.h"
+#include "itkParallelSort.h"
 #include "itkTriangleSurfaceComponents.h"
 
-#include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 #include <ostream>
 
@@ -14,150 +17,279 @@ namespace
 
 using PointId = std::uint32_t;
 
-/** One side of a triangle: from -> to is the direction in which the triangle runs along it. */
-struct HalfEdge
+constexpr std::size_t BlockOfPoints = 1 << 14;
+
+/** The side of a triangle opposite to one of its points, in the direction in which the triangle runs along it. */
+struct Link
 {
   PointId from;
   PointId to;
 
-  PointId
-  Low() const
+  bool
+  operator<(const Link & other) const
   {
-    return std::min(from, to);
-  }
-  PointId
-  High() const
-  {
-    return std::max(from, to);
+    return from != other.from ? from < other.from : to < other.to;
   }
 };
 
-std::vector<HalfEdge>
-SortedHalfEdges(const TriangleSurface::TrianglesContainer & triangles)
+/** The links of all points, one point after the other. */
+struct PointLinks
 {
-  std::vector<HalfEdge> edges;
-  edges.reserve(3 * triangles.size());
-  for (const auto & triangle : triangles)
-  {
-    for (unsigned int corner = 0; corner < 3; ++corner)
-    {
-      edges.push_back({ triangle[corner], triangle[(corner + 1) % 3] });
-    }
-  }
-  std::sort(edges.begin(), edges.end(), [](const HalfEdge & a, const HalfEdge & b) {
-    return a.Low() != b.Low() ? a.Low() < b.Low() : a.High() < b.High();
-  });
-  return edges;
-}
+  std::vector<std::uint64_t> begin; ///< of each point, and the end of the last
+  std::vector<Link, BulkAllocator<Link>> links;
+};
 
-/** Counts edges by their number of triangles and their direction; returns the number of distinct edges. */
-SizeValueType
-CountEdges(const std::vector<HalfEdge> & edges, TriangleSurfaceTopology & topology)
+PointLinks
+CollectLinks(const TriangleSurface & surface)
 {
-  SizeValueType distinct = 0;
-  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end)
-  {
-    const HalfEdge & first = edges[begin];
-    for (end = begin + 1; end < edges.size() && edges[end].Low() == first.Low() && edges[end].High() == first.High();)
-    {
-      ++end;
-    }
-    ++distinct;
-    switch (end - begin)
-    {
-      case 1:
-        ++topology.boundaryEdges;
-        break;
-      case 2:
-        topology.misorientedEdges += edges[begin + 1].from == first.from ? 1 : 0;
-        break;
-      default:
-        ++topology.nonManifoldEdges;
-    }
-  }
-  return distinct;
-}
-
-/** The links of one point are the triangle sides opposite to it. The point is manifold when they form a single path
- * (on a boundary) or a single cycle. */
-bool
-IsOneFan(std::vector<HalfEdge> & links)
-{
-  std::sort(links.begin(), links.end(), [](const HalfEdge & a, const HalfEdge & b) { return a.from < b.from; });
-  const auto leaving = [&links](PointId point) {
-    return std::lower_bound(
-      links.begin(), links.end(), point, [](const HalfEdge & link, PointId value) { return link.from < value; });
-  };
-  std::vector<PointId> arrivals;
-  arrivals.reserve(links.size());
-  for (std::size_t i = 0; i < links.size(); ++i)
-  {
-    if (i > 0 && links[i].from == links[i - 1].from)
-    {
-      return false;
-    }
-    arrivals.push_back(links[i].to);
-  }
-  std::sort(arrivals.begin(), arrivals.end());
-
-  PointId start = links.front().from;
-  for (const HalfEdge & link : links)
-  {
-    if (!std::binary_search(arrivals.begin(), arrivals.end(), link.from))
-    {
-      start = link.from; // the beginning of a path on the boundary
-      break;
-    }
-  }
-  std::size_t visited = 0;
-  PointId point = start;
-  for (auto link = leaving(point); link != links.end() && link->from == point && visited < links.size();
-       link = leaving(point))
-  {
-    ++visited;
-    point = link->to;
-    if (point == start)
-    {
-      break;
-    }
-  }
-  return visited == links.size();
-}
-
-void
-CountFans(const TriangleSurface & surface, TriangleSurfaceTopology & topology)
-{
-  const auto & triangles = surface.GetTriangles();
-  std::vector<std::uint64_t> begin(surface.GetNumberOfPoints() + 1, 0);
-  for (const auto & triangle : triangles)
+  PointLinks all;
+  all.begin.assign(surface.GetNumberOfPoints() + 1, 0);
+  for (const auto & triangle : surface.GetTriangles())
   {
     for (const PointId point : triangle)
     {
-      ++begin[point + 1];
+      ++all.begin[point];
     }
   }
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<HalfEdge> links(3 * triangles.size());
-  auto next = begin;
-  for (const auto & triangle : triangles)
+  std::partial_sum(
+    all.begin.begin(), all.begin.end(), all.begin.begin()); // ends, which filling moves to the beginnings
+  all.links.resize(3 * surface.GetNumberOfTriangles());
+  for (const auto & triangle : surface.GetTriangles())
   {
     for (unsigned int corner = 0; corner < 3; ++corner)
     {
-      links[next[triangle[corner]]++] = { triangle[(corner + 1) % 3], triangle[(corner + 2) % 3] };
+      all.links[--all.begin[triangle[corner]]] = { triangle[(corner + 1) % 3], triangle[(corner + 2) % 3] };
     }
   }
-  std::vector<HalfEdge> fan;
-  for (std::size_t point = 0; point + 1 < begin.size(); ++point)
+  return all;
+}
+
+/** The triangles around one point. */
+class Fan
+{
+public:
+  /** Takes over the links of \a point. */
+  template <typename TIterator>
+  void
+  Assign(PointId point, TIterator begin, TIterator end)
   {
-    if (begin[point] == begin[point + 1])
+    m_Point = point;
+    m_Links.assign(begin, end);
+    m_Ends.clear();
+    for (std::uint32_t link = 0; link < m_Links.size(); ++link)
+    {
+      m_Ends.push_back({ m_Links[link].from, link, true });
+      m_Ends.push_back({ m_Links[link].to, link, false });
+    }
+    std::sort(m_Ends.begin(), m_Ends.end());
+  }
+
+  /** Counts the edges to points of higher number into \a topology; returns how many there are. */
+  SizeValueType
+  CountEdges(TriangleSurfaceTopology & topology) const
+  {
+    SizeValueType distinct = 0;
+    for (std::size_t begin = 0, end = 0; begin < m_Ends.size(); begin = end)
+    {
+      end = this->EndOfNeighbour(begin);
+      if (m_Ends[begin].neighbour <= m_Point)
+      {
+        continue;
+      }
+      ++distinct;
+      topology.boundaryEdges += end - begin == 1 ? 1 : 0;
+      topology.misorientedEdges += end - begin == 2 && m_Ends[begin].isFrom == m_Ends[begin + 1].isFrom ? 1 : 0;
+      topology.nonManifoldEdges += end - begin > 2 ? 1 : 0;
+    }
+    return distinct;
+  }
+
+  /** Whether the links form a single path (on a boundary) or a single cycle. */
+  bool
+  IsOne() const
+  {
+    std::size_t start = 0;
+    for (std::size_t begin = 0, end = 0; begin < m_Ends.size(); begin = end)
+    {
+      end = this->EndOfNeighbour(begin);
+      if (end - begin > 2)
+      {
+        return false;
+      }
+      start = end - begin == 1 ? begin : start; // one of the two ends of a path
+    }
+    std::size_t visited = 0;
+    std::size_t here = start;
+    do
+    {
+      ++visited;
+      here = this->FindOtherUse(this->FindOtherEnd(here));
+    } while (here != start && here != NoEnd);
+    return visited == m_Links.size();
+  }
+
+  /** Counts repeated triangles among those that have no point of lower number, so that each is counted at one point;
+   * returns how many triangles of three different points these are. The links are lost. */
+  SizeValueType
+  CountTriangles(TriangleSurfaceTopology & topology)
+  {
+    std::size_t kept = 0;
+    for (const Link & link : m_Links)
+    {
+      const auto [low, high] = std::minmax(link.from, link.to);
+      if (m_Point < low && low < high)
+      {
+        m_Links[kept++] = { low, high };
+      }
+    }
+    m_Links.resize(kept);
+    std::sort(m_Links.begin(), m_Links.end());
+    for (std::size_t n = 1; n < kept; ++n)
+    {
+      topology.duplicateTriangles += m_Links[n - 1] < m_Links[n] ? 0 : 1;
+    }
+    return kept;
+  }
+
+private:
+  /** One end of a link. */
+  struct End
+  {
+    PointId neighbour;
+    std::uint32_t link;
+    bool isFrom;
+
+    bool
+    operator<(const End & other) const
+    {
+      return neighbour != other.neighbour ? neighbour < other.neighbour
+             : link != other.link         ? link < other.link
+                                          : isFrom < other.isFrom;
+    }
+  };
+
+  static constexpr std::size_t NoEnd = static_cast<std::size_t>(-1);
+
+  std::size_t
+  EndOfNeighbour(std::size_t end) const
+  {
+    const PointId neighbour = m_Ends[end].neighbour;
+    while (end < m_Ends.size() && m_Ends[end].neighbour == neighbour)
+    {
+      ++end;
+    }
+    return end;
+  }
+
+  std::size_t
+  FindOtherEnd(std::size_t end) const
+  {
+    const End & known = m_Ends[end];
+    const Link & link = m_Links[known.link];
+    const End other{ known.isFrom ? link.to : link.from, known.link, !known.isFrom };
+    return static_cast<std::size_t>(std::lower_bound(m_Ends.begin(), m_Ends.end(), other) - m_Ends.begin());
+  }
+
+  /** The end of another link at the same neighbour, of which there is one at most. */
+  std::size_t
+  FindOtherUse(std::size_t end) const
+  {
+    const PointId neighbour = m_Ends[end].neighbour;
+    if (end > 0 && m_Ends[end - 1].neighbour == neighbour)
+    {
+      return end - 1;
+    }
+    return end + 1 < m_Ends.size() && m_Ends[end + 1].neighbour == neighbour ? end + 1 : NoEnd;
+  }
+
+  PointId m_Point = 0;
+  std::vector<Link> m_Links;
+  std::vector<End> m_Ends;
+};
+
+/** What the points of one component, or some of them, add to it. */
+struct ComponentShape
+{
+  std::uint32_t component;
+  OffsetValueType eulerCharacteristic = 0;
+  SizeValueType flaws = 0; ///< boundary, non-manifold and misoriented edges and non-manifold points
+};
+
+SizeValueType
+CountFlaws(const TriangleSurfaceTopology & topology)
+{
+  return topology.boundaryEdges + topology.nonManifoldEdges + topology.misorientedEdges + topology.nonManifoldPoints;
+}
+
+/** Counts what the fans of the points [begin, end) show; returns the shapes of runs of points of the same component. */
+std::vector<ComponentShape>
+CountFans(const PointLinks & all,
+          const TriangleSurfaceComponents & components,
+          std::size_t begin,
+          std::size_t end,
+          TriangleSurfaceTopology & topology)
+{
+  std::vector<ComponentShape> shapes;
+  Fan fan;
+  for (std::size_t point = begin; point < end; ++point)
+  {
+    const auto first = all.links.begin() + static_cast<std::ptrdiff_t>(all.begin[point]);
+    const auto last = all.links.begin() + static_cast<std::ptrdiff_t>(all.begin[point + 1]);
+    if (first == last)
     {
       ++topology.unusedPoints;
       continue;
     }
-    fan.assign(links.begin() + static_cast<std::ptrdiff_t>(begin[point]),
-               links.begin() + static_cast<std::ptrdiff_t>(begin[point + 1]));
-    topology.nonManifoldPoints += IsOneFan(fan) ? 0 : 1;
+    if (shapes.empty() || shapes.back().component != components.ofPoint[point])
+    {
+      shapes.push_back({ components.ofPoint[point] });
+    }
+    const SizeValueType flaws = CountFlaws(topology);
+    fan.Assign(static_cast<PointId>(point), first, last);
+    const auto edges = static_cast<OffsetValueType>(fan.CountEdges(topology));
+    topology.nonManifoldPoints += fan.IsOne() ? 0 : 1;
+    const auto triangles = static_cast<OffsetValueType>(fan.CountTriangles(topology));
+    shapes.back().eulerCharacteristic += 1 - edges + triangles;
+    shapes.back().flaws += CountFlaws(topology) - flaws;
   }
+  return shapes;
+}
+
+void
+CountConnections(const TriangleSurface & surface, TriangleSurfaceTopology & topology)
+{
+  const TriangleSurfaceComponents components = FindComponents(surface);
+  const PointLinks all = CollectLinks(surface);
+  std::vector<ComponentShape> shapes(components.count);
+  std::mutex mutex;
+  ForEachBlock(surface.GetNumberOfPoints(), BlockOfPoints, [&](std::size_t begin, std::size_t end) {
+    TriangleSurfaceTopology ofBlock;
+    const std::vector<ComponentShape> shapesOfBlock = CountFans(all, components, begin, end, ofBlock);
+    const std::lock_guard<std::mutex> lock(mutex);
+    topology.boundaryEdges += ofBlock.boundaryEdges;
+    topology.nonManifoldEdges += ofBlock.nonManifoldEdges;
+    topology.misorientedEdges += ofBlock.misorientedEdges;
+    topology.nonManifoldPoints += ofBlock.nonManifoldPoints;
+    topology.unusedPoints += ofBlock.unusedPoints;
+    topology.duplicateTriangles += ofBlock.duplicateTriangles;
+    for (const ComponentShape & shape : shapesOfBlock)
+    {
+      shapes[shape.component].eulerCharacteristic += shape.eulerCharacteristic;
+      shapes[shape.component].flaws += shape.flaws;
+    }
+  });
+  topology.components = components.count;
+  for (const ComponentShape & shape : shapes)
+  {
+    topology.eulerCharacteristic += shape.eulerCharacteristic;
+    topology.genus += shape.flaws == 0 ? static_cast<SizeValueType>(1 - shape.eulerCharacteristic / 2) : 0;
+  }
+}
+
+bool
+IsFinite(const TriangleSurface::PointType & point)
+{
+  return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
 }
 
 bool
@@ -166,12 +298,46 @@ IsDegenerate(const TriangleSurface & surface, const TriangleSurface::TriangleTyp
   const auto & a = surface.GetPoints()[triangle[0]];
   const auto & b = surface.GetPoints()[triangle[1]];
   const auto & c = surface.GetPoints()[triangle[2]];
-  const double u[3] = { double(b[0]) - a[0], double(b[1]) - a[1], double(b[2]) - a[2] };
-  const double v[3] = { double(c[0]) - a[0], double(c[1]) - a[1], double(c[2]) - a[2] };
-  const double normal[3] = { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
-  const bool hasArea = normal[0] != 0.0 || normal[1] != 0.0 || normal[2] != 0.0;
-  const bool isFinite = std::isfinite(normal[0]) && std::isfinite(normal[1]) && std::isfinite(normal[2]);
-  return !(hasArea && isFinite); // a repeated point or position has no area either
+  return !IsFinite(a) || !IsFinite(b) || !IsFinite(c) || !HasArea(a, b, c); // repetitions have no area either
+}
+
+SizeValueType
+CountDegenerateTriangles(const TriangleSurface & surface)
+{
+  const auto & triangles = surface.GetTriangles();
+  std::atomic<SizeValueType> count{ 0 };
+  ForEachBlock(triangles.size(), BlockOfPoints, [&](std::size_t begin, std::size_t end) {
+    const auto at = [&triangles](std::size_t n) { return triangles.begin() + static_cast<std::ptrdiff_t>(n); };
+    count += static_cast<SizeValueType>(
+      std::count_if(at(begin), at(end), [&surface](const auto & triangle) { return IsDegenerate(surface, triangle); }));
+  });
+  return count;
+}
+
+SizeValueType
+CountRepeatedPositions(const TriangleSurface & surface)
+{
+  std::vector<bool> isUsed(surface.GetNumberOfPoints(), false);
+  for (const auto & triangle : surface.GetTriangles())
+  {
+    for (const PointId point : triangle)
+    {
+      isUsed[point] = true;
+    }
+  }
+  TriangleSurface::PointsContainer positions;
+  positions.reserve(surface.GetNumberOfPoints());
+  for (std::size_t point = 0; point < isUsed.size(); ++point)
+  {
+    const auto & position = surface.GetPoints()[point];
+    if (isUsed[point] && IsFinite(position))
+    {
+      positions.push_back({ position[0] + 0.0f, position[1] + 0.0f, position[2] + 0.0f }); // -0 is where 0 is
+    }
+  }
+  ParallelSort(positions);
+  return positions.size() -
+         static_cast<SizeValueType>(std::unique(positions.begin(), positions.end()) - positions.begin());
 }
 
 } // namespace
@@ -180,26 +346,21 @@ TriangleSurfaceTopology
 ComputeTopology(const TriangleSurface & surface)
 {
   TriangleSurfaceTopology topology;
-  const auto & triangles = surface.GetTriangles();
-  topology.degenerateTriangles = static_cast<SizeValueType>(std::count_if(
-    triangles.begin(), triangles.end(), [&surface](const auto & triangle) { return IsDegenerate(surface, triangle); }));
-  const SizeValueType edges = CountEdges(SortedHalfEdges(triangles), topology);
-  CountFans(surface, topology);
-  topology.components = FindComponents(surface).count;
-  topology.eulerCharacteristic =
-    static_cast<OffsetValueType>(surface.GetNumberOfPoints() - topology.unusedPoints + triangles.size()) -
-    static_cast<OffsetValueType>(edges);
+  topology.degenerateTriangles = CountDegenerateTriangles(surface);
+  topology.repeatedPositions = CountRepeatedPositions(surface);
+  CountConnections(surface, topology);
   return topology;
 }
 
 std::ostream &
 operator<<(std::ostream & os, const TriangleSurfaceTopology & topology)
 {
-  return os << topology.components << " components, Euler characteristic " << topology.eulerCharacteristic << ", "
-            << topology.boundaryEdges << " boundary edges, " << topology.nonManifoldEdges << " non-manifold edges, "
-            << topology.misorientedEdges << " misoriented edges, " << topology.nonManifoldPoints
-            << " non-manifold points, " << topology.unusedPoints << " unused points, " << topology.degenerateTriangles
-            << " degenerate triangles";
+  return os << topology.components << " components, Euler characteristic " << topology.eulerCharacteristic << ", genus "
+            << topology.genus << ", " << topology.boundaryEdges << " boundary edges, " << topology.nonManifoldEdges
+            << " non-manifold edges, " << topology.misorientedEdges << " misoriented edges, "
+            << topology.nonManifoldPoints << " non-manifold points, " << topology.unusedPoints << " unused points, "
+            << topology.repeatedPositions << " repeated positions, " << topology.degenerateTriangles
+            << " degenerate triangles, " << topology.duplicateTriangles << " duplicate triangles";
 }
 
 } // namespace itk

@@ -1,8 +1,8 @@
 #include "itkTriangleTree.h"
 
 #include "itkExactOrientation.h"
-#include "itkMultiThreaderBase.h"
-#include "itkThreadFailure.h"
+#include "itkParallelSort.h"
+#include "itkPositionArithmetic.h"
 
 #include <cmath>
 
@@ -13,7 +13,6 @@ namespace
 
 using Box = TriangleTree::Box;
 using PointType = TriangleTree::PointType;
-using PositionType = TriangleTree::PositionType;
 
 constexpr std::uint32_t BitsAlongAxis = 21;
 constexpr std::size_t BlockOfTriangles = 1 << 16;
@@ -41,67 +40,10 @@ constexpr Box EmptyBox = { { std::numeric_limits<float>::infinity(),
                              -std::numeric_limits<float>::infinity(),
                              -std::numeric_limits<float>::infinity() } };
 
-Box
-Union(const Box & a, const Box & b)
-{
-  Box both;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    both.lowest[axis] = std::min(a.lowest[axis], b.lowest[axis]);
-    both.highest[axis] = std::max(a.highest[axis], b.highest[axis]);
-  }
-  return both;
-}
-
 bool
 IsFinite(const PointType & point)
 {
   return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
-}
-
-/** Runs \a work(begin, end) over [0, size) in blocks, on several threads. */
-template <typename TWork>
-void
-ForEachBlock(std::size_t size, const TWork & work)
-{
-  ThreadFailure failure;
-  MultiThreaderBase::New()->ParallelizeArray(
-    0,
-    (size + BlockOfTriangles - 1) / BlockOfTriangles,
-    [&](SizeValueType block) {
-      failure.Capture(
-        [&] { work(block * BlockOfTriangles, std::min(size, (std::size_t(block) + 1) * BlockOfTriangles)); });
-    },
-    nullptr);
-  failure.Rethrow();
-}
-
-/** Sorts blocks, then merges neighbours until one is left. */
-void
-ParallelSort(PlacedContainer & items)
-{
-  const auto at = [&items](std::size_t place) {
-    return items.begin() + static_cast<std::ptrdiff_t>(std::min(place, items.size()));
-  };
-  ForEachBlock(items.size(), [&](std::size_t begin, std::size_t end) { std::sort(at(begin), at(end)); });
-  PlacedContainer merged(items.size());
-  for (std::size_t sorted = BlockOfTriangles; sorted < items.size(); sorted *= 2)
-  {
-    const std::size_t pairs = (items.size() + 2 * sorted - 1) / (2 * sorted);
-    MultiThreaderBase::New()->ParallelizeArray(
-      0,
-      pairs,
-      [&](SizeValueType pair) {
-        const std::size_t begin = pair * 2 * sorted;
-        std::merge(at(begin),
-                   at(begin + sorted),
-                   at(begin + sorted),
-                   at(begin + 2 * sorted),
-                   merged.begin() + static_cast<std::ptrdiff_t>(begin));
-      },
-      nullptr);
-    items.swap(merged);
-  }
 }
 
 /** The 21 low bits of \a value moved to every third place. */
@@ -138,30 +80,6 @@ SquaredDistance(const PositionType & position, const Box & box)
     squared += outside * outside;
   }
   return squared;
-}
-
-PositionType
-Position(const PointType & point)
-{
-  return { point[0], point[1], point[2] };
-}
-
-PositionType
-Subtract(const PositionType & a, const PositionType & b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
-double
-Dot(const PositionType & a, const PositionType & b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-PositionType
-Cross(const PositionType & a, const PositionType & b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
 }
 
 PositionType
@@ -302,11 +220,9 @@ TriangleTree::BuildBoxes()
   m_Boxes.resize(2 * root.end - 1);
   std::vector<Node> subtrees;
   this->CollectNodes(root, ParallelDepth, subtrees);
-  MultiThreaderBase::New()->ParallelizeArray(
-    0,
-    subtrees.size(),
-    [&](SizeValueType n) { this->BuildBoxesBelow(subtrees[n], std::numeric_limits<unsigned int>::max()); },
-    nullptr);
+  ForEachBlock(subtrees.size(), 1, [&](std::size_t n, std::size_t) {
+    this->BuildBoxesBelow(subtrees[n], std::numeric_limits<unsigned int>::max());
+  });
   this->BuildBoxesBelow(root, ParallelDepth);
 }
 
@@ -339,9 +255,9 @@ Box
 TriangleTree::ComputeLeafBox(std::size_t leaf) const
 {
   Box box = EmptyBox;
-  for (std::size_t place = leaf * LeafSize; place < this->LeafEnd(leaf); ++place)
+  for (const std::uint32_t triangle : this->GetLeaf(leaf))
   {
-    box = Union(box, this->GetTriangleBox(m_Order[place]));
+    box = Union(box, this->GetTriangleBox(triangle));
   }
   return box;
 }
@@ -365,9 +281,9 @@ TriangleTree::FindClosestPoint(const PositionType & position, double maximumSqua
     }
     if (node.IsLeaf())
     {
-      for (std::size_t place = node.begin * LeafSize; place < this->LeafEnd(node.begin); ++place)
+      for (const std::uint32_t triangle : this->GetLeaf(node.begin))
       {
-        this->ImproveClosestPoint(position, m_Order[place], closest);
+        this->ImproveClosestPoint(position, triangle, closest);
       }
       continue;
     }
@@ -387,7 +303,7 @@ TriangleTree::ImproveClosestPoint(const PositionType & position, std::uint32_t t
   const auto & corners = m_Surface->GetTriangles()[triangle];
   const auto & points = m_Surface->GetPoints();
   const PositionType candidate = ClosestOnTriangle(
-    position, { Position(points[corners[0]]), Position(points[corners[1]]), Position(points[corners[2]]) });
+    position, { ToPosition(points[corners[0]]), ToPosition(points[corners[1]]), ToPosition(points[corners[2]]) });
   const PositionType away = Subtract(candidate, position);
   const double distance = Dot(away, away);
   if (distance < closest.squaredDistance || (distance == closest.squaredDistance && triangle < closest.triangle))

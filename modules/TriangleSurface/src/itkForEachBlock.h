@@ -1,0 +1,34 @@
+#ifndef itkForEachBlock_h
+#define itkForEachBlock_h
+
+#include "itkMultiThreaderBase.h"
+#include "itkThreadFailure.h"
+
+#include <algorithm>
+
+namespace itk
+{
+
+/** Calls \a work(begin, end) for [0, size) cut into blocks of \a blockSize, on several threads. An exception of one
+ * block is thrown after all have ended. */
+template <typename TWork>
+void
+ForEachBlock(std::size_t size, std::size_t blockSize, const TWork & work)
+{
+  ThreadFailure failure;
+  MultiThreaderBase::New()->ParallelizeArray(
+    0,
+    (size + blockSize - 1) / blockSize,
+    [&](SizeValueType block) {
+      failure.Capture([&] {
+        const std::size_t begin = block * blockSize;
+        work(begin, std::min(size, begin + blockSize));
+      });
+    },
+    nullptr);
+  failure.Rethrow();
+}
+
+} // namespace itk
+
+#endif

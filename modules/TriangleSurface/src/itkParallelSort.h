@@ -1,0 +1,34 @@
+#ifndef itkParallelSort_h
+#define itkParallelSort_h
+
+#include "itkForEachBlock.h"
+
+namespace itk
+{
+
+/** Sorts by operator<, on several threads: blocks first, which are then merged two by two. Items that compare equal
+ * must be indistinguishable. Needs the items' memory once more. */
+template <typename TContainer>
+void
+ParallelSort(TContainer & items)
+{
+  constexpr std::size_t block = 1 << 16;
+  const std::size_t size = items.size();
+  const auto at = [size](TContainer & container, std::size_t place) {
+    return container.begin() + static_cast<std::ptrdiff_t>(std::min(place, size));
+  };
+  ForEachBlock(size, block, [&](std::size_t begin, std::size_t end) { std::sort(at(items, begin), at(items, end)); });
+  TContainer merged(size > block ? size : 0);
+  for (std::size_t sorted = block; sorted < size; sorted *= 2)
+  {
+    ForEachBlock(size, 2 * sorted, [&](std::size_t begin, std::size_t end) {
+      const auto middle = at(items, begin + sorted);
+      std::merge(at(items, begin), middle, middle, at(items, end), at(merged, begin));
+    });
+    items.swap(merged);
+  }
+}
+
+} // namespace itk
+
+#endif

@@ -1,0 +1,266 @@
+// Two triangles in different planes meet where the intervals overlap in which each of them meets the line common to
+// both planes. The ends of the intervals are put in order by the signs of determinants of the corners themselves,
+// without computing a point of the line: P. Guigue, O. Devillers, "Fast and Robust Triangle-Triangle Overlap Test Using
+// Orientation Predicates", Journal of Graphics Tools 8 (2003).
+#include "itkTriangleContact.h"
+
+#include "itkExactOrientation.h"
+
+#include <algorithm>
+
+namespace itk
+{
+namespace
+{
+
+using Contact = TriangleContactEnums::Contact;
+using Point = TriangleSurface::PointType;
+using Corners = std::array<Point, 3>;
+using Signs = std::array<int, 3>;
+
+bool
+AreAll(const Signs & signs, int sign)
+{
+  return signs[0] == sign && signs[1] == sign && signs[2] == sign;
+}
+
+bool
+SpansPlane(const Corners & corners)
+{
+  return HasArea(corners[0], corners[1], corners[2]);
+}
+
+/** An axis along which a triangle with area can be seen. */
+unsigned int
+FindAxis(const Corners & corners)
+{
+  unsigned int axis = 0;
+  while (axis < 2 && OrientationAlongAxis(corners[0], corners[1], corners[2], axis) == 0)
+  {
+    ++axis;
+  }
+  return axis;
+}
+
+/** Turns both triangles, each keeping its sense, until the corners they share come first; returns their number. */
+unsigned int
+BringSharedFirst(TriangleSurface::TriangleType & first, TriangleSurface::TriangleType & second)
+{
+  const auto turn = [](TriangleSurface::TriangleType & triangle, const TriangleSurface::TriangleType & other) {
+    const auto isShared = [&other](std::uint32_t point) {
+      return std::find(other.begin(), other.end(), point) != other.end();
+    };
+    const auto shared = std::count_if(triangle.begin(), triangle.end(), isShared);
+    while (shared > 0 && shared < 3 &&
+           !(isShared(triangle[0]) && isShared(triangle[static_cast<std::size_t>(shared - 1)])))
+    {
+      std::rotate(triangle.begin(), triangle.begin() + 1, triangle.end());
+    }
+    return static_cast<unsigned int>(shared);
+  };
+  turn(second, first);
+  return turn(first, second);
+}
+
+/** Triangles with a common edge meet elsewhere only if they are folded onto each other. */
+Contact
+FindContactAtEdge(const Corners & first, const Corners & second)
+{
+  if (OrientationInSpace(first[0], first[1], first[2], second[2]) != 0 || !SpansPlane(first) || !SpansPlane(second))
+  {
+    return Contact::Apart;
+  }
+  const unsigned int axis = FindAxis(first);
+  const bool isFolded = OrientationAlongAxis(first[0], first[1], first[2], axis) ==
+                        OrientationAlongAxis(first[0], first[1], second[2], axis);
+  return isFolded ? Contact::Crossing : Contact::Apart;
+}
+
+/** How a triangle lies to the sides of another in the same plane, both seen along \a axis: Apart if it is beyond one
+ * of them, Touching if it only reaches one from beyond, else Crossing. */
+Contact
+ComparePlanarSides(const Corners & sided, const Corners & other, unsigned int axis)
+{
+  const int sense = OrientationAlongAxis(sided[0], sided[1], sided[2], axis);
+  Contact contact = Contact::Crossing;
+  for (unsigned int n = 0; n < 3; ++n)
+  {
+    int innermost = -1;
+    for (const Point & corner : other)
+    {
+      innermost = std::max(innermost, sense * OrientationAlongAxis(sided[n], sided[(n + 1) % 3], corner, axis));
+    }
+    contact = innermost < 0 ? Contact::Apart : innermost == 0 ? std::min(contact, Contact::Touching) : contact;
+    if (contact == Contact::Apart)
+    {
+      break;
+    }
+  }
+  return contact;
+}
+
+/** Whether sides of two triangles in one plane run on from their common first corner in the same direction. */
+bool
+RunAlongEachOther(const Corners & first, const Corners & second, unsigned int axis)
+{
+  const auto direction = [](const Point & from, const Point & to, unsigned int u) {
+    return (to[u] > from[u]) - (to[u] < from[u]);
+  };
+  for (unsigned int n = 1; n < 3; ++n)
+  {
+    for (unsigned int m = 1; m < 3; ++m)
+    {
+      bool isSame = OrientationAlongAxis(first[0], first[n], second[m], axis) == 0;
+      for (unsigned int u = 0; u < 3; ++u)
+      {
+        isSame = isSame && direction(first[0], first[n], u) == direction(second[0], second[m], u);
+      }
+      if (isSame)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/** Two convex polygons in a plane are apart if a line along a side of one is between them. */
+Contact
+FindContactInPlane(const Corners & first, const Corners & second, unsigned int shared)
+{
+  const unsigned int axis = FindAxis(first);
+  const Contact contact = std::min(ComparePlanarSides(first, second, axis), ComparePlanarSides(second, first, axis));
+  if (contact == Contact::Touching && shared == 1 && !RunAlongEachOther(first, second, axis))
+  {
+    return Contact::Apart;
+  }
+  return contact;
+}
+
+/** On which side of a triangle's plane the other's corners are, of which the first \a shared are also its own. */
+Signs
+FindSides(const Corners & plane, const Corners & corners, unsigned int shared)
+{
+  Signs sides{};
+  for (unsigned int n = shared; n < 3; ++n)
+  {
+    sides[n] = OrientationInSpace(plane[0], plane[1], plane[2], corners[n]);
+  }
+  return sides;
+}
+
+bool
+PassesThrough(const Signs & sides)
+{
+  return *std::min_element(sides.begin(), sides.end()) < 0 && *std::max_element(sides.begin(), sides.end()) > 0;
+}
+
+/** Whether the triangle meets the plane in more than a corner. */
+bool
+MeetsInLine(const Signs & sides)
+{
+  return PassesThrough(sides) || std::count(sides.begin(), sides.end(), 0) == 2;
+}
+
+/** Turns the triangle until its first corner, the apex, is alone on one side of the plane, with the other two in the
+ * plane or on its other side. Returns the apex's side; an apex in the plane is given the side where the others are not.
+ */
+int
+BringApexFirst(Corners & corners, const Signs & sides)
+{
+  int apexSide = 0;
+  for (const int side : { 1, -1 })
+  {
+    if (apexSide == 0 && std::count(sides.begin(), sides.end(), side) == 1)
+    {
+      apexSide = side;
+    }
+  }
+  const auto apex = std::find(sides.begin(), sides.end(), apexSide);
+  if (apexSide == 0)
+  {
+    apexSide = *std::max_element(sides.begin(), sides.end()) > 0 ? -1 : 1;
+  }
+  std::rotate(corners.begin(), corners.begin() + (apex - sides.begin()), corners.end());
+  return apexSide;
+}
+
+/** The planes' common line meets each triangle in an interval. With each apex before the other's plane, the first
+ * triangle's interval ends at its side 0-1 and begins at 0-2, the second's begins at 0-1 and ends at 0-2. */
+Contact
+CompareIntervals(Corners first,
+                 const Signs & firstSides,
+                 Corners second,
+                 const Signs & secondSides,
+                 unsigned int shared)
+{
+  const int firstApexSide = BringApexFirst(first, firstSides);
+  const int secondApexSide = BringApexFirst(second, secondSides);
+  if (firstApexSide < 0)
+  {
+    std::swap(second[1], second[2]);
+  }
+  if (secondApexSide < 0)
+  {
+    std::swap(first[1], first[2]);
+  }
+  const int secondBeginsAfterFirst = OrientationInSpace(first[0], first[1], second[0], second[1]);
+  const int firstBeginsAfterSecond = OrientationInSpace(first[0], first[2], second[2], second[0]);
+  if (secondBeginsAfterFirst > 0 || firstBeginsAfterSecond > 0)
+  {
+    return Contact::Apart;
+  }
+  const bool haveLengthInCommon = secondBeginsAfterFirst < 0 && firstBeginsAfterSecond < 0;
+  if (haveLengthInCommon && PassesThrough(firstSides) && PassesThrough(secondSides))
+  {
+    return Contact::Crossing;
+  }
+  // both intervals of triangles with a common corner begin or end at it
+  const bool meetBeyondShared = haveLengthInCommon && MeetsInLine(firstSides) && MeetsInLine(secondSides);
+  return shared == 0 || meetBeyondShared ? Contact::Touching : Contact::Apart;
+}
+
+Contact
+FindContact(const Corners & first, const Corners & second, unsigned int shared)
+{
+  const Signs firstSides = FindSides(second, first, shared);
+  if (AreAll(firstSides, 0))
+  {
+    return SpansPlane(first) && SpansPlane(second) ? FindContactInPlane(first, second, shared) : Contact::Apart;
+  }
+  if (AreAll(firstSides, 1) || AreAll(firstSides, -1) || (shared == 1 && !MeetsInLine(firstSides)))
+  {
+    return Contact::Apart;
+  }
+  const Signs secondSides = FindSides(first, second, shared);
+  if (AreAll(secondSides, 1) || AreAll(secondSides, -1) || (shared == 1 && !MeetsInLine(secondSides)) ||
+      AreAll(secondSides, 0)) // the first triangle has no area, or its corners would all lie in the other's plane
+  {
+    return Contact::Apart;
+  }
+  return CompareIntervals(first, firstSides, second, secondSides, shared);
+}
+
+} // namespace
+
+Contact
+FindContact(const TriangleSurface::PointsContainer & points,
+            TriangleSurface::TriangleType first,
+            TriangleSurface::TriangleType second)
+{
+  const unsigned int shared = BringSharedFirst(first, second);
+  const Corners firstCorners = { points[first[0]], points[first[1]], points[first[2]] };
+  const Corners secondCorners = { points[second[0]], points[second[1]], points[second[2]] };
+  switch (shared)
+  {
+    case 0:
+    case 1:
+      return FindContact(firstCorners, secondCorners, shared);
+    case 2:
+      return FindContactAtEdge(firstCorners, secondCorners);
+    default:
+      return SpansPlane(firstCorners) ? Contact::Crossing : Contact::Apart;
+  }
+}
+
+} // namespace itk

@@ -1,0 +1,195 @@
+#include "itkTriangleSurfaceAudit.h"
+
+#include "itkExampleSurfaces.h"
+#include "itkMultiThreaderBase.h"
+#include "itkTriangleContact.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace
+{
+
+using namespace itk::example;
+using Surface = itk::TriangleSurface;
+using Contact = itk::TriangleContactEnums::Contact;
+
+itk::TriangleSurfaceIntersections
+Intersect(const Surface & surface)
+{
+  return FindSelfIntersections(itk::TriangleTree(surface));
+}
+
+TEST(TriangleSurfaceQuality, IsOneForEquilateralAndZeroForDegenerateTriangles)
+{
+  using itk::ComputeTriangleQuality;
+  EXPECT_NEAR(ComputeTriangleQuality({ 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }), 1.0, 1e-12);
+  EXPECT_NEAR(ComputeTriangleQuality({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }), std::sqrt(3.0) / 2.0, 1e-12);
+  EXPECT_EQ(ComputeTriangleQuality({ 0, 0, 0 }, { 1, 0, 0 }, { 3, 0, 0 }), 0.0);
+  EXPECT_EQ(ComputeTriangleQuality({ 2, 2, 2 }, { 2, 2, 2 }, { 2, 2, 2 }), 0.0);
+}
+
+TEST(TriangleSurfaceQuality, OfATetrahedronsFaces)
+{
+  const auto surface = MakeTetrahedron();
+  auto quality = ComputeQuality(*surface);
+  EXPECT_NEAR(quality.mean, (1.0 + 3.0 * std::sqrt(3.0) / 2.0) / 4.0, 1e-7);
+  EXPECT_NEAR(quality.minimum, std::sqrt(3.0) / 2.0, 1e-7);
+  EXPECT_NEAR(quality.smallestAngle, 45.0, 1e-5);
+  EXPECT_EQ(quality.poorFraction, 0.0);
+  surface->GetPoints()[3] = { 0, 0, 0.01f };
+  quality = ComputeQuality(*surface);
+  EXPECT_EQ(quality.poorFraction, 0.5);
+  EXPECT_NEAR(quality.smallestAngle, std::atan(0.01) * 180.0 / std::acos(-1.0), 1e-5);
+  EXPECT_EQ(ComputeQuality(*Surface::New()).mean, 0.0);
+}
+
+TEST(TriangleSurfaceIntersections, AreThoseOfAllPairs)
+{
+  for (unsigned int seed = 0; seed < 5; ++seed)
+  {
+    const auto surface = MakeRandomTriangles(400, 10.0f, 3.0f, seed);
+    std::uint64_t crossing = 0;
+    for (std::uint32_t a = 0; a < 400; ++a)
+    {
+      for (std::uint32_t b = a + 1; b < 400; ++b)
+      {
+        const auto & triangles = surface->GetTriangles();
+        crossing += FindContact(surface->GetPoints(), triangles[a], triangles[b]) == Contact::Crossing;
+      }
+    }
+    EXPECT_GT(crossing, 100u);
+    EXPECT_EQ(Intersect(*surface).crossingPairs, crossing);
+    EXPECT_EQ(Intersect(*surface).touchingPairs, 0u);
+    EXPECT_EQ(Intersect(*surface).testedTriangles, 400u);
+    EXPECT_FALSE(Intersect(*surface).isSampled);
+  }
+}
+
+TEST(TriangleSurfaceIntersections, OfSpheresApartAndThroughEachOther)
+{
+  const auto surface = MakeSphere(5.0, 4);
+  EXPECT_EQ(Intersect(*surface).crossingPairs + Intersect(*surface).touchingPairs, 0u);
+  const auto apart = MakeSphere(5.0, 4);
+  Append(*apart, *MakeSphere(5.0, 4), { 10.5f, 0, 0 });
+  EXPECT_EQ(Intersect(*apart).crossingPairs + Intersect(*apart).touchingPairs, 0u);
+  const auto through = MakeSphere(5.0, 4);
+  Append(*through, *MakeSphere(5.0, 4), { 6, 0.1f, 0.2f });
+  EXPECT_GT(Intersect(*through).crossingPairs, 100u);
+  const auto touching = MakeSphere(5.0, 4);
+  Append(*touching, *MakeSphere(5.0, 4), { 10, 0, 0 });
+  EXPECT_EQ(Intersect(*touching).crossingPairs, 0u);
+  EXPECT_EQ(Intersect(*touching).touchingPairs, 16u) << "four triangles of either meet in the point where they touch";
+}
+
+TEST(TriangleSurfaceIntersections, OfFoldsAndPiercedNeighbours)
+{
+  const auto surface = Surface::New();
+  surface->GetPoints() = { { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 }, { 2, 2, 0 }, { 0, -4, 0 }, { 0, 0, 4 } };
+  surface->GetTriangles() = { { 0, 1, 2 }, { 1, 0, 4 } };
+  EXPECT_EQ(Intersect(*surface).crossingPairs, 0u) << "one plane, either side of the edge";
+  surface->GetTriangles() = { { 0, 1, 2 }, { 1, 0, 3 } };
+  EXPECT_EQ(Intersect(*surface).crossingPairs, 1u) << "folded onto each other";
+  surface->GetTriangles() = { { 0, 1, 2 }, { 1, 0, 5 } };
+  EXPECT_EQ(Intersect(*surface).crossingPairs, 0u) << "a right angle";
+  surface->GetPoints()[3] = { 1, 1, -1 };
+  surface->GetPoints()[5] = { 1, 1, 1 };
+  surface->GetTriangles() = { { 0, 1, 2 }, { 0, 3, 5 } };
+  EXPECT_EQ(Intersect(*surface).crossingPairs, 1u) << "through each other from the common corner on";
+  surface->GetPoints()[5] = { 1, 1, -2 };
+  EXPECT_EQ(Intersect(*surface).crossingPairs + Intersect(*surface).touchingPairs, 0u);
+  surface->GetTriangles() = { { 0, 1, 2 }, { 2, 1, 0 }, { 1, 2, 0 } };
+  EXPECT_EQ(Intersect(*surface).crossingPairs, 0u) << "duplicates are the topology's";
+}
+
+TEST(TriangleSurfaceIntersections, OfASampleSaySo)
+{
+  const auto surface = MakeSphere(5.0, 4);
+  Append(*surface, *MakeSphere(5.0, 4), { 6, 0.1f, 0.2f });
+  const auto all = Intersect(*surface);
+  const auto sampled = FindSelfIntersections(itk::TriangleTree(*surface), 1000);
+  EXPECT_TRUE(sampled.isSampled);
+  EXPECT_LE(sampled.testedTriangles, 1000u);
+  EXPECT_GE(sampled.testedTriangles, 500u);
+  EXPECT_GT(sampled.crossingPairs, 0u);
+  EXPECT_LT(sampled.crossingPairs, all.crossingPairs);
+  EXPECT_EQ(FindSelfIntersections(itk::TriangleTree(*surface), 4096).crossingPairs, all.crossingPairs);
+}
+
+TEST(TriangleSurfaceAudit, OfASphere)
+{
+  const auto surface = MakeSphere(10.0, 5);
+  const auto audit = AuditSurface(*surface);
+  EXPECT_TRUE(audit.IsWatertight());
+  EXPECT_TRUE(audit.BoundsSolid());
+  EXPECT_EQ(audit.points, 4098u);
+  EXPECT_EQ(audit.triangles, 8192u);
+  EXPECT_NEAR(audit.volume, 4188.79, 10.0);
+  EXPECT_NEAR(audit.area, 1256.64, 2.0);
+  EXPECT_EQ(audit.topology.genus, 0u);
+  EXPECT_GT(audit.quality.minimum, 0.8);
+  itk::TriangleSurfaceAuditSettings settings;
+  settings.testsIntersections = false;
+  EXPECT_FALSE(AuditSurface(*surface, settings).BoundsSolid());
+  EXPECT_TRUE(AuditSurface(*surface, settings).IsWatertight());
+  TurnInsideOut(*surface);
+  EXPECT_FALSE(AuditSurface(*surface).IsWatertight()) << "no solid has a negative volume";
+}
+
+TEST(TriangleSurfaceAudit, FindsWhatIsWrong)
+{
+  EXPECT_FALSE(AuditSurface(*Surface::New()).IsWatertight());
+  const auto sheet = MakeTetrahedron();
+  Append(*sheet, *MakeTetrahedron(), { 5, 5, 5 });
+  sheet->GetTriangles().resize(5);
+  sheet->GetTriangles().push_back({ 4, 5, 6 });
+  EXPECT_TRUE(AuditSurface(*sheet).topology.IsWatertight()) << "two sides of one triangle";
+  EXPECT_FALSE(AuditSurface(*sheet).IsWatertight());
+  const auto through = MakeSphere(5.0, 3);
+  Append(*through, *MakeSphere(5.0, 3), { 6, 0.1f, 0.2f });
+  EXPECT_TRUE(AuditSurface(*through).IsWatertight());
+  EXPECT_FALSE(AuditSurface(*through).BoundsSolid());
+  const auto broken = MakeTetrahedron();
+  broken->GetTriangles().push_back({ 0, 1, 4 });
+  EXPECT_THROW(AuditSurface(*broken), itk::ExceptionObject);
+}
+
+/** What an audit prints, without the digits that depend on the order of sums. */
+std::string
+Counts(const Surface & surface)
+{
+  const auto audit = AuditSurface(surface);
+  std::ostringstream text;
+  text.precision(4);
+  text << audit << audit.quality.poorFraction << ' ' << audit.quality.smallestAngle;
+  return text.str();
+}
+
+TEST(TriangleSurfaceAudit, DependsNeitherOnThreadsNorOnTheOrderOfTriangles)
+{
+  const auto surface = MakeRandomTriangles(3000, 10.0f, 0.5f, 1);
+  Append(*surface, *MakeTorus(5.0, 3.0, 50));
+  Append(*surface, *MakeTorus(5.0, 3.0, 50), { 3, 0, 0 });
+  Append(*surface, *MakeSphere(5.0, 6), { 2, 0, 0 });
+  const auto expected = Counts(*surface);
+  const auto before = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
+  for (const itk::ThreadIdType threads : { 1u, 2u, 5u })
+  {
+    itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
+    EXPECT_EQ(Counts(*surface), expected);
+  }
+  itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(before);
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 3; ++trial)
+  {
+    std::shuffle(surface->GetTriangles().begin(), surface->GetTriangles().end(), random);
+    for (auto & triangle : surface->GetTriangles())
+    {
+      std::rotate(triangle.begin(), triangle.begin() + random() % 3, triangle.end());
+    }
+    EXPECT_EQ(Counts(*surface), expected);
+  }
+}
+
+} // namespace

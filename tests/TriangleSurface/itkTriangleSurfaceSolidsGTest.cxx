@@ -1,0 +1,116 @@
+#include "itkTriangleSurfaceSolids.h"
+
+#include "itkExampleSurfaces.h"
+#include "itkTriangleSurfaceMeasures.h"
+#include "itkTriangleSurfaceTopology.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace itk::example;
+using Surface = itk::TriangleSurface;
+
+Surface::Pointer
+MakeCavity(double radius, const std::array<double, 3> & centre = {})
+{
+  auto surface = MakeSphere(radius, 4, centre);
+  TurnInsideOut(*surface);
+  return surface;
+}
+
+/** A ball of radius 10 with a cavity of 8, in it a ball of 5 with a cavity of 2; beside it a ball of 3. */
+Surface::Pointer
+MakeNested()
+{
+  auto surface = MakeCavity(8.0);
+  Append(*surface, *MakeSphere(3.0, 4, { 30, 0, 0 }));
+  Append(*surface, *MakeSphere(5.0, 4));
+  Append(*surface, *MakeCavity(2.0));
+  Append(*surface, *MakeSphere(10.0, 4));
+  return surface;
+}
+
+double
+BallVolume(double radius)
+{
+  return ComputeVolume(*MakeSphere(radius, 4));
+}
+
+TEST(TriangleSurfaceSolids, LargestKeepsItsCavityAndNothingElse)
+{
+  const auto surface = MakeNested();
+  EXPECT_EQ(KeepLargestSolid(*surface), 3u);
+  EXPECT_NEAR(ComputeVolume(*surface), BallVolume(10.0) - BallVolume(8.0), 1e-3);
+  EXPECT_EQ(ComputeTopology(*surface).components, 2u);
+  EXPECT_EQ(ComputeTopology(*surface).unusedPoints, 0u);
+  EXPECT_EQ(KeepLargestSolid(*surface), 0u);
+}
+
+TEST(TriangleSurfaceSolids, SmallOnesGoWithTheirCavities)
+{
+  const auto surface = MakeNested();
+  EXPECT_EQ(RemoveSmallSolids(*surface, 0.9 * BallVolume(3.0)), 0u) << "cavities stay, however small";
+  EXPECT_EQ(RemoveSmallSolids(*surface, 1.1 * BallVolume(3.0)), 1u);
+  EXPECT_NEAR(ComputeVolume(*surface), BallVolume(10.0) - BallVolume(8.0) + BallVolume(5.0) - BallVolume(2.0), 1e-3);
+  EXPECT_EQ(RemoveSmallSolids(*surface, 1.1 * BallVolume(5.0)), 2u);
+  EXPECT_NEAR(ComputeVolume(*surface), BallVolume(10.0) - BallVolume(8.0), 1e-3);
+  EXPECT_EQ(RemoveSmallSolids(*surface, 1.1 * BallVolume(10.0)), 2u);
+  EXPECT_EQ(surface->GetNumberOfPoints(), 0u);
+  EXPECT_EQ(RemoveSmallSolids(*surface, 1.0), 0u) << "nothing is left, and nothing happens";
+}
+
+TEST(TriangleSurfaceSolids, FilledOnesHaveNothingInside)
+{
+  const auto surface = MakeNested();
+  EXPECT_EQ(FillCavities(*surface), 3u);
+  EXPECT_NEAR(ComputeVolume(*surface), BallVolume(10.0) + BallVolume(3.0), 1e-3);
+  EXPECT_TRUE(ComputeTopology(*surface).IsWatertight());
+  EXPECT_EQ(FillCavities(*surface), 0u);
+}
+
+/** A torus does not enclose what is in its hole. */
+TEST(TriangleSurfaceSolids, HolesOfATorusAreOutside)
+{
+  const auto surface = MakeTorus(10.0, 4.0, 40);
+  Append(*surface, *MakeSphere(3.0, 3));
+  Append(*surface, *MakeCavity(3.0, { 0, 10, 0 }));
+  EXPECT_EQ(FillCavities(*surface), 1u);
+  EXPECT_EQ(ComputeTopology(*surface).components, 2u);
+}
+
+TEST(TriangleSurfaceSolids, InsideOutShellsWithNothingAroundAreSolids)
+{
+  const auto surface = MakeCavity(5.0);
+  Append(*surface, *MakeSphere(3.0, 4, { 20, 0, 0 }));
+  EXPECT_EQ(KeepLargestSolid(*surface), 1u);
+  EXPECT_LT(ComputeVolume(*surface), 0.0);
+}
+
+/** Noise: a hundred thousand specks around a ball with a cavity, and some in it. */
+TEST(TriangleSurfaceSolids, AreToldApartAmongVeryMany)
+{
+  const auto surface = MakeSphere(40.0, 4);
+  Append(*surface, *MakeCavity(30.0));
+  itk::SizeValueType inside = 0;
+  for (int n = 0; n < 47 * 47 * 47; ++n)
+  {
+    const Surface::PointType place{ float(n % 47 * 2 - 46), float(n / 47 % 47 * 2 - 46), float(n / 47 / 47 * 2 - 46) };
+    const double radius = std::hypot(place[0], place[1], place[2]);
+    if (radius < 28.0 || (radius > 32.0 && radius < 38.0) || radius > 42.0) // away from the walls
+    {
+      Append(*surface, *MakeTetrahedron(0.5f), place);
+      inside += radius < 38.0;
+    }
+  }
+  const auto filled = Surface::New();
+  filled->Graft(surface);
+  EXPECT_EQ(FillCavities(*filled), inside + 1);
+  const auto large = Surface::New();
+  large->Graft(surface);
+  EXPECT_GT(RemoveSmallSolids(*large, 1.0), 80000u);
+  EXPECT_EQ(ComputeTopology(*large).components, 2u);
+}
+
+} // namespace
