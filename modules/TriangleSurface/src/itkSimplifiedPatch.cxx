@@ -19,7 +19,14 @@ using TriangleType = TriangleSurface::TriangleType;
 using Box = TriangleTree::Box;
 
 constexpr unsigned int MostRounds = 12; // then the whole patch is held
-constexpr float Growth = 0.25f;         // of a bad place, by its longest side, with each round
+
+std::vector<PointId>
+SortedOnce(std::vector<PointId> ids)
+{
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
 
 bool
 HasArea(const std::array<PointType, 3> & corners)
@@ -33,23 +40,6 @@ HasArea(const std::array<PointType, 3> & corners)
                    (double{ corners[1][v] } - corners[0][v]) * (double{ corners[2][u] } - corners[0][u]);
   }
   return normal != std::array<double, 3>{};
-}
-
-/** A box with \a share of its longest side more on every side. */
-Box
-Inflated(Box box, float share)
-{
-  float longest = 0.0f;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    longest = std::max(longest, box.highest[axis] - box.lowest[axis]);
-  }
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    box.lowest[axis] -= share * longest;
-    box.highest[axis] += share * longest;
-  }
-  return box;
 }
 
 /** The points of components that have no successor, or several, or one with another Euler characteristic. */
@@ -99,22 +89,49 @@ BoxOf(const TriangleSurface::PointsContainer & points, const TriangleType & tria
 }
 
 void
-SimplifiedPatch::TakeBack(const std::vector<Box> & places)
+SimplifiedPatch::HoldAround(const std::vector<PointId> & points)
+{
+  const auto isAny = [&points](PointId point) { return std::binary_search(points.begin(), points.end(), point); };
+  for (std::size_t id = 0; id < m_IsHeld.size(); ++id)
+  {
+    m_IsHeld[id] = m_IsHeld[id] || std::any_of(m_Begin[id].begin(), m_Begin[id].end(), isAny) ? 1 : 0;
+  }
+}
+
+void
+SimplifiedPatch::HoldIn(const std::vector<Box> & boxes)
+{
+  for (std::size_t id = 0; id < m_IsHeld.size(); ++id)
+  {
+    const Box own = BoxOf(*m_Points, m_Begin[id]);
+    m_IsHeld[id] =
+      m_IsHeld[id] || std::any_of(boxes.begin(), boxes.end(), [&own](const Box & box) { return box.Overlaps(own); })
+        ? 1
+        : 0;
+  }
+}
+
+void
+SimplifiedPatch::TakeBack(const Faults & faults)
 {
   ++m_Rounds;
-  m_PlacesTakenBack += places.size();
+  ++m_PlacesTakenBack;
   if (m_Rounds > MostRounds)
   {
     std::fill(m_IsHeld.begin(), m_IsHeld.end(), std::uint8_t{ 1 });
     return;
   }
-  for (const Box & place : places)
+  const std::vector<std::uint8_t> wasHeld = m_IsHeld;
+  this->HoldAround(SortedOnce(faults.points));
+  this->HoldIn(faults.boxes);
+  if (m_IsHeld == wasHeld)
   {
-    const Box box = Inflated(place, Growth * static_cast<float>(m_Rounds));
-    for (std::size_t id = 0; id < m_IsHeld.size(); ++id)
+    std::vector<PointId> points;
+    for (std::size_t id = 0; id < m_NumberHeld; ++id)
     {
-      m_IsHeld[id] = m_IsHeld[id] || BoxOf(*m_Points, m_Begin[id]).Overlaps(box) ? 1 : 0;
+      points.insert(points.end(), m_Result[id].begin(), m_Result[id].end());
     }
+    this->HoldAround(SortedOnce(points));
   }
 }
 
@@ -122,9 +139,9 @@ void
 SimplifiedPatch::Simplify(const Goal & goal, const TooFarCheck & isTooFar)
 {
   this->SimplifyOnce(goal);
-  for (auto bad = this->FindBadPlaces(isTooFar); !bad.empty(); bad = this->FindBadPlaces(isTooFar))
+  for (Faults faults = this->FindFaults(isTooFar); !faults.IsEmpty(); faults = this->FindFaults(isTooFar))
   {
-    this->TakeBack(bad);
+    this->TakeBack(faults);
     this->SimplifyOnce(goal);
   }
 }
@@ -171,13 +188,13 @@ SimplifiedPatch::SimplifyOnce(const Goal & goal)
   }
 }
 
-/** Places of the result at which something is wrong. */
-std::vector<Box>
-SimplifiedPatch::FindBadPlaces(const TooFarCheck & isTooFar) const
+SimplifiedPatch::Faults
+SimplifiedPatch::FindFaults(const TooFarCheck & isTooFar) const
 {
+  Faults faults;
   if (m_NumberHeld == m_IsHeld.size())
   {
-    return {};
+    return faults;
   }
   const std::vector<TriangleType> triangles(m_Begin, m_End);
   const LocalIds ids(triangles);
@@ -186,10 +203,9 @@ SimplifiedPatch::FindBadPlaces(const TooFarCheck & isTooFar) const
   const PatchTopology topologyBefore(before, ids.GetIds().size());
   const PatchTopology topologyAfter(after, ids.GetIds().size());
 
-  std::vector<Box> places;
   for (const std::uint32_t id : topologyAfter.GetBadTriangles())
   {
-    places.push_back(BoxOf(*m_Points, m_Result[id]));
+    faults.AddTriangle(m_Result[id]);
   }
   for (std::size_t id = m_NumberHeld; id < m_Result.size(); ++id)
   {
@@ -198,22 +214,22 @@ SimplifiedPatch::FindBadPlaces(const TooFarCheck & isTooFar) const
                                             (*m_Points)[m_Result[id][2]] };
     if (!HasArea(corners) || (isTooFar && isTooFar(corners)))
     {
-      places.push_back(BoxOf(*m_Points, m_Result[id]));
+      faults.AddTriangle(m_Result[id]);
     }
   }
-  if (places.empty())
+  if (faults.IsEmpty())
   {
     const std::vector<bool> isLost = FindLostComponents(topologyBefore, topologyAfter, after);
     const bool isBorderKept = topologyBefore.GetBorder() == topologyAfter.GetBorder();
-    for (std::size_t id = 0; id < before.size(); ++id)
+    for (PointId point = 0; point < isLost.size(); ++point)
     {
-      if (!isBorderKept || isLost[before[id][0]])
+      if (!isBorderKept || isLost[point])
       {
-        places.push_back(BoxOf(*m_Points, triangles[id]));
+        faults.points.push_back(ids.GetIds()[point]);
       }
     }
   }
-  return places;
+  return faults;
 }
 
 } // namespace itk

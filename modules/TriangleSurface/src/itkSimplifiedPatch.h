@@ -31,6 +31,24 @@ public:
     std::size_t triangles;
   };
 
+  /** Where something is wrong with a result. */
+  struct Faults
+  {
+    std::vector<std::uint32_t> points;
+    std::vector<Box> boxes;
+
+    bool
+    IsEmpty() const
+    {
+      return points.empty() && boxes.empty();
+    }
+    void
+    AddTriangle(const TriangleType & triangle)
+    {
+      points.insert(points.end(), triangle.begin(), triangle.end());
+    }
+  };
+
   /** Whether a triangle of the result, by its corners' positions, is too far from the original surface. */
   using TooFarCheck = std::function<bool(const std::array<PointType, 3> &)>;
 
@@ -44,10 +62,10 @@ public:
     , m_IsHeld(static_cast<std::size_t>(end - begin), 0)
   {}
 
-  /** Holds the triangles whose boxes meet one of the \a places, somewhat more around them with each call, and in the
-   * end all triangles. */
+  /** Holds the triangles of the points and in the boxes, or one ring more around those held where they are held
+   * already, and after many calls all triangles. */
   void
-  TakeBack(const std::vector<Box> & places);
+  TakeBack(const Faults & faults);
 
   /** Simplifies what is not held, until checks of topology, degenerate triangles and distance succeed. */
   void
@@ -78,8 +96,12 @@ public:
 private:
   void
   SimplifyOnce(const Goal & goal);
-  std::vector<Box>
-  FindBadPlaces(const TooFarCheck & isTooFar) const;
+  Faults
+  FindFaults(const TooFarCheck & isTooFar) const;
+  void
+  HoldAround(const std::vector<std::uint32_t> & points);
+  void
+  HoldIn(const std::vector<Box> & boxes);
 
   const Points * m_Points = nullptr;
   const TriangleType * m_Begin = nullptr;

@@ -188,7 +188,7 @@ private:
   static constexpr std::uint32_t NoPatch = std::numeric_limits<std::uint32_t>::max();
   static constexpr std::uint32_t SeveralPatches = NoPatch - 1;
 
-  using PlacesByPatch = std::vector<std::vector<Box>>;
+  using FaultsOfPatches = std::vector<SimplifiedPatch::Faults>;
 
   bool
   IsAtTarget() const
@@ -206,9 +206,9 @@ private:
   void
   PutTogether();
   void
-  FindBadSeams(PlacesByPatch & places) const;
+  FindBadSeams(FaultsOfPatches & faults) const;
   std::vector<std::uint32_t>
-  FindPlacesLeft(const std::vector<std::uint32_t> & doubtful, PlacesByPatch & places) const;
+  FindPlacesLeft(const std::vector<std::uint32_t> & doubtful, FaultsOfPatches & faults) const;
   void
   AddNear(const std::vector<std::uint32_t> & patches, std::vector<std::uint32_t> & doubtful) const;
   std::uint32_t
@@ -273,13 +273,13 @@ Simplification::Step(double error, double cut)
   for (;;)
   {
     this->PutTogether();
-    PlacesByPatch places(m_Patches.size());
-    this->FindBadSeams(places);
-    doubtful = this->FindPlacesLeft(doubtful, places);
+    FaultsOfPatches faults(m_Patches.size());
+    this->FindBadSeams(faults);
+    doubtful = this->FindPlacesLeft(doubtful, faults);
     changed.clear();
     for (std::uint32_t patch = 0; patch < m_Patches.size(); ++patch)
     {
-      if (!places[patch].empty())
+      if (!faults[patch].IsEmpty())
       {
         changed.push_back(patch);
       }
@@ -291,7 +291,7 @@ Simplification::Step(double error, double cut)
     this->AddNear(changed, doubtful);
     for (const std::uint32_t patch : changed)
     {
-      m_Patches[patch].TakeBack(places[patch]);
+      m_Patches[patch].TakeBack(faults[patch]);
     }
     this->SimplifyPatches(changed);
   }
@@ -397,7 +397,7 @@ Simplification::IsNew(std::uint32_t triangle) const
 
 /** Finds where patches that are sound by themselves are not so together. */
 void
-Simplification::FindBadSeams(PlacesByPatch & places) const
+Simplification::FindBadSeams(FaultsOfPatches & faults) const
 {
   std::vector<TriangleType> triangles;
   std::vector<std::uint32_t> ids;
@@ -420,14 +420,14 @@ Simplification::FindBadSeams(PlacesByPatch & places) const
   {
     if (this->IsNew(ids[bad]))
     {
-      places[this->PatchOf(ids[bad])].push_back(BoxOf(m_Original.GetPoints(), triangles[bad]));
+      faults[this->PatchOf(ids[bad])].AddTriangle(triangles[bad]);
     }
   }
 }
 
 /** Finds where the state has moved away from triangles of the original. Returns those. */
 std::vector<std::uint32_t>
-Simplification::FindPlacesLeft(const std::vector<std::uint32_t> & doubtful, PlacesByPatch & places) const
+Simplification::FindPlacesLeft(const std::vector<std::uint32_t> & doubtful, FaultsOfPatches & faults) const
 {
   if (doubtful.empty())
   {
@@ -464,7 +464,7 @@ Simplification::FindPlacesLeft(const std::vector<std::uint32_t> & doubtful, Plac
     patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
     for (const std::uint32_t patch : patches)
     {
-      places[patch].push_back(box);
+      faults[patch].boxes.push_back(box);
     }
   }
   return left;
