@@ -35,6 +35,8 @@ struct LabelSurface
   double surfaceMillilitres = 0.0;
   std::size_t pieces = 0;          ///< of the label: voxels connected through faces, edges or corners
   std::size_t surfacePieces = 0;   ///< of the surface: closed shells that enclose something
+  bool isTorn = false;             ///< whether the surface has more pieces than there would be if voxels were connected
+                                   ///< through faces only
   std::size_t finerPieces = 0;     ///< pieces that took a lattice finer than asked for
   std::size_t protectedVoxels = 0; ///< voxels of parts so thin that smoothing would have lost them
 
@@ -50,22 +52,25 @@ struct LabelSurface
  *
  * Each piece of a label (voxels connected through faces, edges or corners) becomes a smooth field
  * (itk::AntiAliasMaskImageFilter), is resampled onto the lattice and extracted at the level at which it has its voxels'
- * volume. A piece whose surface is torn, or whose volume is more than 1 % off, as happens where parts are not much
- * wider than a voxel, is made again on lattices of two, four and eight times as many sites, until it is whole. Where a
- * label reaches the scan's border, its surface closes at the outer faces of the voxels there. A hollow label has shells
- * inside, too.
+ * volume. A piece that comes out in several parts, or more than 1 % off its volume, or, when it is thin (at least a
+ * quarter of it), with holes that its voxels don't have, is made again on finer and finer lattices, as long as that
+ * helps: up to 8 times the sites, small pieces up to 64 times. Where voxels of broader parts touch at edges or corners
+ * only, the surface may or may not be connected.
  *
- * Labels are worked on one after the other, each in its own box, on all threads; the result has the same bytes for any
- * number of them. Tilted, sheared and unevenly spaced stacks keep their true places (itk::CartesianToFCCImageFilter).
- * Neighbouring labels get nearly the same wall, each its own.
+ * Where a label reaches the scan's border, its surface closes at the outer faces of the voxels there. A hollow label
+ * has shells inside, too. Tilted, sheared and unevenly spaced stacks keep their true places
+ * (itk::CartesianToFCCImageFilter). Neighbouring labels get the same wall, each its own, within 0.1 voxels.
+ *
+ * Labels are worked on one after the other, each piece in its own box, on all threads; the result has the same bytes
+ * for any number of them.
  *
  * Throws Failure: Usage for a density that makes no lattice and for labels that the map doesn't hold; Empty when there
  * is none to show; Memory, before the work on a piece, for one that is too large. */
 std::vector<LabelSurface>
 LabelsToSurfaces(const LabelMap & map, const LabelSurfaceSettings & settings, const Events & events);
 
-/** For each surface: value, name, voxels, millilitres of voxels and surface, their difference, pieces, protected voxels
- * and triangles. */
+/** For each surface: value, name, voxels, millilitres of voxels and surface, their difference, pieces, whether it is
+ * torn, protected voxels and triangles. */
 Report
 ReportLabelSurfaces(const std::vector<LabelSurface> & surfaces);
 

@@ -108,6 +108,15 @@ LabelPieces::LabelPieces(const ScanImage & image, std::int32_t value, const itk:
   });
 }
 
+std::size_t
+LabelPieces::CountFaceConnectedPieces() const
+{
+  const auto filter = itk::ConnectedComponentImageFilter<PieceImage, PieceImage>::New();
+  filter->SetInput(m_Pieces);
+  filter->Update();
+  return filter->GetObjectCount();
+}
+
 std::vector<std::size_t>
 LabelPieces::CountVoxels(std::size_t piece) const
 {

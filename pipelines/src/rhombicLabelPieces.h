@@ -17,7 +17,7 @@ std::map<std::int32_t, itk::ImageRegion<3>>
 FindLabelBoxes(const ScanImage & image);
 
 /** \class LabelPieces
- * \brief The connected pieces of a label. */
+ * \brief The pieces of a label: voxels connected through faces, edges or corners. */
 class LabelPieces
 {
 public:
@@ -29,6 +29,10 @@ public:
   {
     return m_Boxes.size();
   }
+
+  /** How many there would be if voxels were connected through faces only. */
+  std::size_t
+  CountFaceConnectedPieces() const;
 
   /** Voxels of a piece in each slice of its box. */
   std::vector<std::size_t>

@@ -54,24 +54,30 @@ ChooseLabels(const LabelMap & map, const std::vector<std::string> & wanted)
   return chosen;
 }
 
-/** The origins of the slices from \a first on, which continue beyond the scan's with the steps at its ends. */
+/** The origins of the slices of a part of the scan's grid. Beyond the scan's slices they continue with the steps at its
+ * ends. */
 std::vector<itk::Point<double, 3>>
-CutSliceOrigins(const Scan & scan, itk::IndexValueType first, itk::SizeValueType count)
+CutSliceOrigins(const Scan & scan, const itk::ImageRegion<3> & region)
 {
   const auto & origins = scan.sliceOrigins;
   if (origins.size() < 2)
   {
     return {};
   }
-  const auto begin = GeometryOf(scan.image).GetLargestPossibleRegion().GetIndex(2);
+  const auto & grid = GeometryOf(scan.image);
+  const auto begin = grid.GetLargestPossibleRegion().GetIndex();
+  itk::Index<3> inPlane = region.GetIndex();
+  inPlane[2] = begin[2];
+  const auto shift =
+    grid.TransformIndexToPhysicalPoint<double>(inPlane) - grid.TransformIndexToPhysicalPoint<double>(begin);
+  const auto last = static_cast<itk::IndexValueType>(origins.size()) - 1;
   std::vector<itk::Point<double, 3>> cut;
-  for (itk::SizeValueType n = 0; n < count; ++n)
+  for (itk::IndexValueType slice = region.GetIndex(2) - begin[2]; cut.size() < region.GetSize(2); ++slice)
   {
-    const auto slice = first - begin + static_cast<itk::IndexValueType>(n);
-    const auto last = static_cast<itk::IndexValueType>(origins.size()) - 1;
-    const auto nearest = std::clamp<itk::IndexValueType>(slice, 0, last);
+    const auto nearest = static_cast<std::size_t>(std::clamp<itk::IndexValueType>(slice, 0, last));
     const auto step = slice < 0 ? origins[1] - origins[0] : origins[origins.size() - 1] - origins[origins.size() - 2];
-    cut.push_back(origins[static_cast<std::size_t>(nearest)] + step * static_cast<double>(slice - nearest));
+    const auto beyond = static_cast<double>(slice - static_cast<itk::IndexValueType>(nearest));
+    cut.push_back(origins[nearest] + shift + step * beyond);
   }
   return cut;
 }
@@ -82,8 +88,7 @@ CutPiece(const Scan & scan, const LabelPieces & pieces, std::size_t piece, const
   MaskPiece cut;
   cut.mask = pieces.MakeMask(piece, MaskMargin);
   cut.scanRegion = GeometryOf(scan.image).GetLargestPossibleRegion();
-  const auto & region = cut.mask->GetBufferedRegion();
-  cut.sliceOrigins = CutSliceOrigins(scan, region.GetIndex(2), region.GetSize(2));
+  cut.sliceOrigins = CutSliceOrigins(scan, cut.mask->GetBufferedRegion());
   const auto firstSlice = static_cast<std::size_t>(pieces.GetBox(piece).GetIndex(2) - cut.scanRegion.GetIndex(2));
   const auto counts = pieces.CountVoxels(piece);
   for (std::size_t slice = 0; slice < counts.size(); ++slice)
@@ -146,6 +151,7 @@ MakeSurface(const Scan & scan,
     made.protectedVoxels += surface.protectedVoxels;
     surfaces.push_back(surface.surface);
   }
+  made.isTorn = made.surfacePieces > made.pieces && made.surfacePieces > pieces.CountFaceConnectedPieces();
   made.scene.name = summary.label.name;
   made.scene.surface = Join(surfaces);
   for (unsigned int channel = 0; channel < 3; ++channel)
@@ -169,7 +175,7 @@ Percent(double ratio)
 void
 NoteShortcomings(const LabelSurface & made, const Events & events)
 {
-  if (made.surfacePieces != made.pieces)
+  if (made.isTorn || made.surfacePieces < made.pieces)
   {
     events.Note(made.scene.name + ": " + std::to_string(made.pieces) + " pieces became " +
                 std::to_string(made.surfacePieces) + "; parts of it are hardly wider than a voxel");
@@ -228,6 +234,7 @@ ReportLabelSurfaces(const std::vector<LabelSurface> & surfaces)
                        { "volume_difference", surface.GetVolumeDifference() },
                        { "pieces", surface.pieces },
                        { "surface_pieces", surface.surfacePieces },
+                       { "is_torn", surface.isTorn },
                        { "finer_pieces", surface.finerPieces },
                        { "protected_voxels", surface.protectedVoxels },
                        { "triangles", surface.scene.surface->GetNumberOfTriangles() } });

@@ -30,12 +30,14 @@ namespace itk
  * which make a voxel's coverage by the border, smoothed, that of the mask, so that the border stays where it was on
  * average while its steps vanish.
  *
- * Thin parts and sharp edges can't be told in such a wide neighbourhood. Around the voxels that end up more than 0.3 on
- * the wrong side, the field is made with a Gaussian of 1 voxel. One-voxel-wide parts (voxels in no 2 x 2 x 2 block of
- * their class) that are not clearly on their side then, either, are *protected*: the field is at least that of a tube
- * of radius 0.6 around these voxels and their connections with all 26 neighbours of their class. *Spurs* are not: one
- * or two such voxels that stick out of something without connecting it with anything. A
- * tube can be thinner than the sampling of the field; then a lattice of the default density misses it here and there.
+ * Thin parts and sharp edges can't be told in such a wide neighbourhood. *Narrow* voxels are those that end up more
+ * than 0.3 on the wrong side, and those of sheets and vessels that are one voxel wide: sixteen or more connected voxels
+ * in no 2 x 2 x 2 block of their class. Around them, the field is made with a Gaussian of 0.7 voxels and smaller
+ * corrections. Voxels in no such block that are on the wrong side then, too, are *protected*: the field is at least
+ * that of a tube of radius 0.6 around them and their connections with all 26 neighbours of their class. So 1-voxel
+ * vessels and single voxels stay. *Spurs* don't: one or two such voxels that stick out of something without connecting
+ * it with anything. What is left of a part as narrow as a voxel may be thinner than the sampling of the field; then a
+ * lattice of the default density misses it here and there.
  *
  * Mean errors against the shape the mask was made from, in voxels (of the zero surface extracted from the default
  * lattice), degrees (of facets), and per cent (of the area), for spheres of radius 10 and 40, a torus (25, 7.3), and
@@ -70,7 +72,14 @@ public:
   itkNewMacro(Self);
   itkTypeMacro(AntiAliasMaskImageFilter, ImageToImageFilter);
 
-  /** Inside voxels that were protected in the last update. */
+  /** Whether all narrow voxels of one-voxel-wide parts are protected, not only those that would get lost: vessels are
+   * whole for sure then, but sheets get uneven. Default off. */
+  itkSetMacro(ProtectAllThinParts, bool);
+  itkGetConstMacro(ProtectAllThinParts, bool);
+  itkBooleanMacro(ProtectAllThinParts);
+
+  /** Inside voxels that were narrow in the last update, and those of them that were protected. */
+  itkGetConstMacro(NumberOfNarrowVoxels, SizeValueType);
   itkGetConstMacro(NumberOfProtectedVoxels, SizeValueType);
 
 protected:
@@ -102,17 +111,25 @@ private:
   void
   MatchLocalVolumes(double sigma, unsigned int corrections, float gain, float * field);
 
-  /** Marks the voxels whose value is more than \a tolerance on the wrong side. Returns whether there are any. */
+  /** By voxel: 0 in a 2 x 2 x 2 block of one class, 1 in none, 2 if it is one of a sheet or vessel. */
+  std::vector<std::uint8_t>
+  FindThin();
+
+  /** Marks the narrow voxels. Returns whether there are any. */
   bool
-  FindMisjudged(float tolerance, std::vector<std::uint8_t> & isMisjudged);
+  FindNarrow(const std::vector<std::uint8_t> & thin, std::vector<std::uint8_t> & isNarrow);
+
+  /** The marked voxels of one class that are connected with a marked one. They count as seen from then on. */
+  std::vector<SizeValueType>
+  CollectPart(SizeValueType first, const std::vector<std::uint8_t> & marked, std::vector<std::uint8_t> & isSeen) const;
 
   /** Takes the values of \a fine around the marked voxels. */
   void
-  Refine(const std::vector<std::uint8_t> & isMisjudged, const float * fine);
+  Refine(const std::vector<std::uint8_t> & isNarrow, const float * fine);
 
-  /** Marks fewer: the voxels of one-voxel-wide parts that are less than 0.1 on the right side. */
+  /** Marks fewer: those to be protected, but for spurs. */
   void
-  KeepThin(std::vector<std::uint8_t> & isMisjudged);
+  KeepLost(const std::vector<std::uint8_t> & thin, std::vector<std::uint8_t> & isMarked);
 
   /** Marks fewer: no spurs. */
   void
@@ -129,6 +146,8 @@ private:
   float * m_Field{ nullptr };
   std::array<SizeValueType, 3> m_Size{};
   std::vector<float> m_Smoothed;
+  bool m_ProtectAllThinParts{ false };
+  SizeValueType m_NumberOfNarrowVoxels{ 0 };
   SizeValueType m_NumberOfProtectedVoxels{ 0 };
 };
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace itk
 {
@@ -15,13 +16,14 @@ namespace
 
 constexpr double WideSigma = 2.5; // voxels
 constexpr unsigned int WideCorrections = 2;
-constexpr double NarrowSigma = 1.0;
+constexpr double NarrowSigma = 0.7;
 constexpr unsigned int NarrowCorrections = 5;
-constexpr float NarrowGain = 0.6f; // thin parts overshoot Newton's step
-constexpr float Misjudged = 0.3f;  // on the wrong side
-constexpr float Clear = 0.1f;      // on the right side
+constexpr float NarrowGain = 0.3f; // thin parts overshoot Newton's step
+constexpr float Narrow = 0.3f;     // on the wrong side
+constexpr float Lost = 0.03f;      // on the wrong side
 constexpr float TubeRadius = 0.6f;
 constexpr SizeValueType LargestSpur = 2; // voxels
+constexpr SizeValueType SmallestSheet = 16;
 constexpr unsigned int Passes = 2 + WideCorrections + NarrowCorrections + 1;
 
 /** Weights of a Gaussian at -r, ..., r voxels, r being three sigma, rounded up. */
@@ -147,6 +149,8 @@ void
 AntiAliasMaskImageFilter::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);
+  os << indent << "ProtectAllThinParts: " << (m_ProtectAllThinParts ? "On" : "Off") << std::endl;
+  os << indent << "NumberOfNarrowVoxels: " << m_NumberOfNarrowVoxels << std::endl;
   os << indent << "NumberOfProtectedVoxels: " << m_NumberOfProtectedVoxels << std::endl;
 }
 
@@ -172,16 +176,18 @@ AntiAliasMaskImageFilter::GenerateData()
   m_Size = { size[0], size[1], size[2] };
   m_Mask = this->GetInput()->GetBufferPointer();
   m_Field = this->GetOutput()->GetBufferPointer();
+  m_NumberOfNarrowVoxels = 0;
   m_NumberOfProtectedVoxels = 0;
 
   this->MatchLocalVolumes(WideSigma, WideCorrections, 1.0f, m_Field);
-  std::vector<std::uint8_t> isMarked(size[0] * size[1] * size[2]);
-  if (this->FindMisjudged(Misjudged, isMarked))
+  const std::vector<std::uint8_t> thin = this->FindThin();
+  std::vector<std::uint8_t> isMarked(thin.size());
+  if (this->FindNarrow(thin, isMarked))
   {
     std::vector<float> fine(isMarked.size());
     this->MatchLocalVolumes(NarrowSigma, NarrowCorrections, NarrowGain, fine.data());
     this->Refine(isMarked, fine.data());
-    this->KeepThin(isMarked);
+    this->KeepLost(thin, isMarked);
     this->DropSpurs(isMarked);
     this->Protect(isMarked, false);
     this->Protect(isMarked, true);
@@ -311,42 +317,11 @@ AntiAliasMaskImageFilter::MatchLocalVolumes(double sigma, unsigned int correctio
   }
 }
 
-bool
-AntiAliasMaskImageFilter::FindMisjudged(float tolerance, std::vector<std::uint8_t> & isMisjudged)
-{
-  const SizeValueType voxelsPerPlane = m_Size[0] * m_Size[1];
-  std::vector<std::uint8_t> found(m_Size[2]);
-  this->ForEach(m_Size[2], [&](SizeValueType z) {
-    for (SizeValueType voxel = z * voxelsPerPlane; voxel < (z + 1) * voxelsPerPlane; ++voxel)
-    {
-      isMisjudged[voxel] = SideOf(m_Mask[voxel]) * m_Field[voxel] < -tolerance ? 1 : 0;
-      found[z] |= isMisjudged[voxel];
-    }
-  });
-  return std::find(found.begin(), found.end(), 1) != found.end();
-}
-
-void
-AntiAliasMaskImageFilter::Refine(const std::vector<std::uint8_t> & isMisjudged, const float * fine)
-{
-  const SizeValueType width = m_Size[0];
-  this->Smooth(
-    NarrowSigma,
-    [&](SizeValueType row, float * values) { std::copy_n(isMisjudged.data() + row * width, width, values); },
-    [&](SizeValueType row, const float * values) {
-      for (SizeValueType x = 0; x < width; ++x)
-      {
-        constexpr float steepness = 100.0f; // around a single voxel: 1 up to a distance of 2, 0 from 4 on
-        const SizeValueType voxel = row * width + x;
-        m_Field[voxel] += std::min(1.0f, steepness * values[x]) * (fine[voxel] - m_Field[voxel]);
-      }
-    });
-}
-
-void
-AntiAliasMaskImageFilter::KeepThin(std::vector<std::uint8_t> & isMisjudged)
+std::vector<std::uint8_t>
+AntiAliasMaskImageFilter::FindThin()
 {
   const auto [width, height, depth] = m_Size;
+  std::vector<std::uint8_t> thin(width * height * depth);
   const auto sample = [](SizeValueType first, SizeValueType step, SizeValueType length) {
     return ClampedSample(first + step, 1, length);
   };
@@ -376,12 +351,90 @@ AntiAliasMaskImageFilter::KeepThin(std::vector<std::uint8_t> & isMisjudged)
     {
       for (SizeValueType x = 0; x < width; ++x)
       {
-        const SizeValueType voxel = (z * height + y) * width + x;
-        if (isMisjudged[voxel] != 0 && (SideOf(m_Mask[voxel]) * m_Field[voxel] >= Clear || isInBlock(x, y, z)))
-        {
-          isMisjudged[voxel] = 0;
-        }
+        thin[(z * height + y) * width + x] = isInBlock(x, y, z) ? 0 : 1;
       }
+    }
+  });
+  std::vector<std::uint8_t> isSeen(thin.size());
+  for (SizeValueType voxel = 0; voxel < thin.size(); ++voxel)
+  {
+    if (thin[voxel] != 0 && isSeen[voxel] == 0)
+    {
+      const std::vector<SizeValueType> part = this->CollectPart(voxel, thin, isSeen);
+      for (const SizeValueType member : part)
+      {
+        thin[member] = part.size() < SmallestSheet ? 1 : 2;
+      }
+    }
+  }
+  return thin;
+}
+
+std::vector<SizeValueType>
+AntiAliasMaskImageFilter::CollectPart(SizeValueType first,
+                                      const std::vector<std::uint8_t> & marked,
+                                      std::vector<std::uint8_t> & isSeen) const
+{
+  const VoxelGrid grid{ m_Size };
+  std::vector<SizeValueType> part{ first };
+  isSeen[first] = 1;
+  for (SizeValueType n = 0; n < part.size(); ++n)
+  {
+    grid.ForEachNeighbor(part[n], [&](SizeValueType neighbor) {
+      if (marked[neighbor] != 0 && isSeen[neighbor] == 0 && (m_Mask[first] != 0) == (m_Mask[neighbor] != 0))
+      {
+        isSeen[neighbor] = 1;
+        part.push_back(neighbor);
+      }
+    });
+  }
+  return part;
+}
+
+bool
+AntiAliasMaskImageFilter::FindNarrow(const std::vector<std::uint8_t> & thin, std::vector<std::uint8_t> & isNarrow)
+{
+  const SizeValueType voxelsPerPlane = m_Size[0] * m_Size[1];
+  std::vector<std::uint8_t> found(m_Size[2]);
+  std::vector<SizeValueType> insideCount(m_Size[2]);
+  this->ForEach(m_Size[2], [&](SizeValueType z) {
+    for (SizeValueType voxel = z * voxelsPerPlane; voxel < (z + 1) * voxelsPerPlane; ++voxel)
+    {
+      isNarrow[voxel] = thin[voxel] == 2 || SideOf(m_Mask[voxel]) * m_Field[voxel] < -Narrow ? 1 : 0;
+      found[z] |= isNarrow[voxel];
+      insideCount[z] += isNarrow[voxel] != 0 && m_Mask[voxel] != 0 ? 1 : 0;
+    }
+  });
+  m_NumberOfNarrowVoxels = std::accumulate(insideCount.begin(), insideCount.end(), SizeValueType{ 0 });
+  return std::find(found.begin(), found.end(), 1) != found.end();
+}
+
+void
+AntiAliasMaskImageFilter::Refine(const std::vector<std::uint8_t> & isNarrow, const float * fine)
+{
+  const SizeValueType width = m_Size[0];
+  this->Smooth(
+    NarrowSigma,
+    [&](SizeValueType row, float * values) { std::copy_n(isNarrow.data() + row * width, width, values); },
+    [&](SizeValueType row, const float * values) {
+      for (SizeValueType x = 0; x < width; ++x)
+      {
+        constexpr float steepness = 100.0f; // around a single voxel
+        const SizeValueType voxel = row * width + x;
+        m_Field[voxel] += std::min(1.0f, steepness * values[x]) * (fine[voxel] - m_Field[voxel]);
+      }
+    });
+}
+
+void
+AntiAliasMaskImageFilter::KeepLost(const std::vector<std::uint8_t> & thin, std::vector<std::uint8_t> & isMarked)
+{
+  const SizeValueType voxelsPerPlane = m_Size[0] * m_Size[1];
+  this->ForEach(m_Size[2], [&](SizeValueType z) {
+    for (SizeValueType voxel = z * voxelsPerPlane; voxel < (z + 1) * voxelsPerPlane; ++voxel)
+    {
+      const bool isLost = m_ProtectAllThinParts || SideOf(m_Mask[voxel]) * m_Field[voxel] < -Lost;
+      isMarked[voxel] &= thin[voxel] != 0 && isLost ? 1 : 0;
     }
   });
 }
@@ -390,9 +443,6 @@ void
 AntiAliasMaskImageFilter::DropSpurs(std::vector<std::uint8_t> & isMarked)
 {
   const VoxelGrid grid{ m_Size };
-  const auto isSameClass = [this](SizeValueType one, SizeValueType other) {
-    return (m_Mask[one] != 0) == (m_Mask[other] != 0);
-  };
   std::vector<std::uint8_t> isSeen(isMarked.size());
   for (SizeValueType first = 0; first < isMarked.size(); ++first)
   {
@@ -400,18 +450,7 @@ AntiAliasMaskImageFilter::DropSpurs(std::vector<std::uint8_t> & isMarked)
     {
       continue;
     }
-    std::vector<SizeValueType> part{ first };
-    isSeen[first] = 1;
-    for (SizeValueType n = 0; n < part.size(); ++n)
-    {
-      grid.ForEachNeighbor(part[n], [&](SizeValueType neighbor) {
-        if (isMarked[neighbor] != 0 && isSeen[neighbor] == 0 && isSameClass(first, neighbor))
-        {
-          isSeen[neighbor] = 1;
-          part.push_back(neighbor);
-        }
-      });
-    }
+    const std::vector<SizeValueType> part = this->CollectPart(first, isMarked, isSeen);
     if (part.size() > LargestSpur)
     {
       continue;
@@ -420,7 +459,7 @@ AntiAliasMaskImageFilter::DropSpurs(std::vector<std::uint8_t> & isMarked)
     for (const SizeValueType voxel : part)
     {
       grid.ForEachNeighbor(voxel, [&](SizeValueType neighbor) {
-        if (isMarked[neighbor] == 0 && isSameClass(first, neighbor))
+        if (isMarked[neighbor] == 0 && (m_Mask[first] != 0) == (m_Mask[neighbor] != 0))
         {
           base.push_back(neighbor);
         }

@@ -1,0 +1,683 @@
+#include "rhombicFailure.h"
+#include "rhombicLabelSurfaces.h"
+
+#include "itkImageRegionIteratorWithIndex.h"
+#include "itkMath.h"
+#include "itkMultiThreaderBase.h"
+#include "itkTriangleSurfaceComponents.h"
+#include "itkTriangleSurfaceMeasures.h"
+#include "itkTriangleSurfaceTopology.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <random>
+
+namespace
+{
+
+using ImageType = itk::Image<std::uint8_t, 3>;
+using Point = itk::Point<double, 3>;
+using Vector = itk::Vector<double, 3>;
+using rhombic::LabelMap;
+using rhombic::LabelSurface;
+
+Point
+At(double x, double y, double z)
+{
+  const double coordinates[3] = { x, y, z };
+  return Point(coordinates);
+}
+
+/** The label at each point: 0 is the background. */
+using LabelFunction = std::function<int(const Point &)>;
+
+/** Positive inside, in mm. */
+using DistanceFunction = std::function<double(const Point &)>;
+
+LabelMap
+MapOf(const rhombic::Scan & scan)
+{
+  LabelMap map;
+  map.scan = scan;
+  map.labels = rhombic::SummarizeLabels(map.scan, {});
+  return map;
+}
+
+/** A label map of so many voxels around the world's origin. */
+LabelMap
+MakeMap(const itk::Size<3> & size, const Vector & spacing, const LabelFunction & label)
+{
+  const auto image = ImageType::New();
+  image->SetRegions(size);
+  image->SetSpacing(spacing);
+  Point origin;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    origin[axis] = -0.5 * spacing[axis] * static_cast<double>(size[axis] - 1);
+  }
+  image->SetOrigin(origin);
+  image->Allocate();
+  for (itk::ImageRegionIteratorWithIndex<ImageType> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+  {
+    it.Set(static_cast<std::uint8_t>(label(image->TransformIndexToPhysicalPoint<double>(it.GetIndex()))));
+  }
+  rhombic::Scan scan;
+  scan.image = image;
+  return MapOf(scan);
+}
+
+LabelMap
+MakeMap(itk::SizeValueType size, const LabelFunction & label)
+{
+  return MakeMap({ { size, size, size } }, Vector(1.0), label);
+}
+
+LabelFunction
+Inside(const DistanceFunction & distance)
+{
+  return [distance](const Point & point) { return distance(point) >= 0.0 ? 1 : 0; };
+}
+
+LabelSurface
+OnlySurface(const LabelMap & map, const rhombic::LabelSurfaceSettings & settings = {})
+{
+  const auto surfaces = rhombic::LabelsToSurfaces(map, settings, {});
+  EXPECT_EQ(surfaces.size(), 1);
+  EXPECT_TRUE(ComputeTopology(*surfaces.front().scene.surface).IsWatertight());
+  return surfaces.front();
+}
+
+/** Errors of a surface's facets against a shape, weighted by their areas. */
+struct FacetErrors
+{
+  double distance = 0.0;      ///< mean, in mm
+  double degrees = 0.0;       ///< mean of the angle between the normals
+  double commonDegrees = 0.0; ///< 95 % are below
+  double area = 0.0;          ///< of those facets
+};
+
+FacetErrors
+CompareFacets(
+  const itk::TriangleSurface & surface,
+  const DistanceFunction & distance,
+  const std::function<bool(const Point &)> & isCompared = [](const Point &) { return true; })
+{
+  FacetErrors errors;
+  std::vector<std::pair<double, double>> angles;
+  for (const auto & triangle : surface.GetTriangles())
+  {
+    Point corners[3];
+    Vector middle(0.0);
+    for (unsigned int n = 0; n < 3; ++n)
+    {
+      const auto & p = surface.GetPoints()[triangle[n]];
+      corners[n] = At(p[0], p[1], p[2]);
+      middle += corners[n].GetVectorFromOrigin() / 3.0;
+    }
+    const Point center = At(middle[0], middle[1], middle[2]);
+    if (!isCompared(center))
+    {
+      continue;
+    }
+    const Vector normal = itk::CrossProduct(corners[1] - corners[0], corners[2] - corners[0]);
+    Vector outwards;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      Vector step(0.0);
+      step[axis] = 0.01;
+      outwards[axis] = distance(center - step) - distance(center + step);
+    }
+    const double area = normal.GetNorm() / 2.0;
+    const double cosine = normal * outwards / (normal.GetNorm() * outwards.GetNorm());
+    const double degrees = std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / itk::Math::pi;
+    errors.area += area;
+    errors.distance += area * std::abs(distance(center));
+    errors.degrees += area * degrees;
+    angles.emplace_back(degrees, area);
+  }
+  errors.distance /= errors.area;
+  errors.degrees /= errors.area;
+  std::sort(angles.begin(), angles.end());
+  double sum = 0.0;
+  for (const auto & [degrees, area] : angles)
+  {
+    sum += area;
+    if (sum <= 0.95 * errors.area)
+    {
+      errors.commonDegrees = degrees;
+    }
+  }
+  return errors;
+}
+
+DistanceFunction
+Ball(const Point & center, double radius)
+{
+  return [=](const Point & point) { return radius - (point - center).GetNorm(); };
+}
+
+/** A torus whose axis leans 37 degrees. */
+DistanceFunction
+Torus(double major, double minor)
+{
+  return [=](const Point & point) {
+    const double height = 0.8 * point[2] + 0.6 * point[0];
+    const double ring = std::hypot(0.8 * point[0] - 0.6 * point[2], point[1]) - major;
+    return minor - std::hypot(ring, height);
+  };
+}
+
+/** A unit vector in a random direction. */
+Vector
+RandomDirection(std::mt19937 & random)
+{
+  std::normal_distribution<double> normal;
+  Vector direction;
+  do
+  {
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      direction[axis] = normal(random);
+    }
+  } while (direction.GetNorm() < 0.1);
+  return direction / direction.GetNorm();
+}
+
+TEST(LabelSurfaces, BallsAreRoundWhateverTheirPlace)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-0.5, 0.5);
+  for (const double radius : { 5.0, 6.5, 9.0, 13.0, 20.0, 30.0 })
+  {
+    const auto distance = Ball(At(place(random), place(random), place(random)), radius);
+    const auto size = static_cast<itk::SizeValueType>(2.0 * radius + 4.0);
+    const LabelSurface ball = OnlySurface(MakeMap(size, Inside(distance)));
+    EXPECT_LT(std::abs(ball.GetVolumeDifference()), 0.0025) << radius;
+    const double trueArea = 4.0 * itk::Math::pi * radius * radius;
+    EXPECT_NEAR(ComputeArea(*ball.scene.surface) / trueArea, 1.0, 0.01) << radius;
+    const FacetErrors errors = CompareFacets(*ball.scene.surface, distance);
+    EXPECT_LT(errors.distance, 0.05) << radius;
+    EXPECT_LT(errors.degrees, 2.5) << radius;
+    EXPECT_LT(errors.commonDegrees, 6.0) << radius;
+    EXPECT_EQ(ball.surfacePieces, 1);
+    EXPECT_EQ(ball.finerPieces, 0);
+    EXPECT_EQ(ball.protectedVoxels, 0);
+  }
+}
+
+TEST(LabelSurfaces, ATorusKeepsItsHole)
+{
+  const auto distance = Torus(25.0, 7.3);
+  const LabelSurface torus = OnlySurface(MakeMap(72, Inside(distance)));
+  EXPECT_EQ(ComputeTopology(*torus.scene.surface).eulerCharacteristic, 0);
+  EXPECT_LT(std::abs(torus.GetVolumeDifference()), 0.0025);
+  const double trueArea = 4.0 * itk::Math::pi * itk::Math::pi * 25.0 * 7.3;
+  EXPECT_NEAR(ComputeArea(*torus.scene.surface) / trueArea, 1.0, 0.01);
+  EXPECT_LT(CompareFacets(*torus.scene.surface, distance).degrees, 2.5);
+}
+
+TEST(LabelSurfaces, SlantedPlanesHaveNoSteps)
+{
+  std::mt19937 random(6);
+  for (unsigned int n = 0; n < 6; ++n)
+  {
+    const Vector normal = RandomDirection(random);
+    const auto plane = [&](const Point & point) { return -(point.GetVectorFromOrigin() * normal); };
+    const auto ball = Ball(At(0.0, 0.0, 0.0), 30.0);
+    const LabelSurface half =
+      OnlySurface(MakeMap(70, Inside([&](const Point & point) { return std::min(plane(point), ball(point)); })));
+    const FacetErrors errors = CompareFacets(*half.scene.surface, plane, [&](const Point & point) {
+      return std::abs(plane(point)) < 1.0 && ball(point) > 6.0;
+    });
+    const double projected = itk::Math::pi * 24.0 * 24.0;
+    EXPECT_NEAR(errors.area / projected, 1.0, 0.015) << normal;
+    EXPECT_LT(errors.distance, 0.15) << normal;
+    EXPECT_LT(errors.degrees, 4.0) << normal;
+    EXPECT_LT(std::abs(half.GetVolumeDifference()), 0.0025);
+  }
+}
+
+TEST(LabelSurfaces, SheetsOfOneVoxelAreWhole)
+{
+  std::mt19937 random(7);
+  unsigned int withHoles = 0;
+  for (unsigned int n = 0; n < 8; ++n)
+  {
+    // The voxels nearest to a plane along the axis that is nearest to its normal: no thicker part anywhere.
+    const Vector normal = RandomDirection(random);
+    unsigned int axis = 0;
+    for (unsigned int other = 1; other < 3; ++other)
+    {
+      axis = std::abs(normal[other]) > std::abs(normal[axis]) ? other : axis;
+    }
+    const LabelMap map = MakeMap(48, [&](const Point & point) {
+      const double offset = point.GetVectorFromOrigin() * normal / normal[axis];
+      return offset > -0.5 && offset <= 0.5 && point.GetVectorFromOrigin().GetNorm() < 20.0 ? 1 : 0;
+    });
+    const LabelSurface sheet = OnlySurface(map);
+    EXPECT_EQ(sheet.pieces, 1) << normal;
+    EXPECT_EQ(sheet.surfacePieces, 1) << normal;
+    EXPECT_GT(sheet.protectedVoxels + sheet.finerPieces, 0) << normal;
+    EXPECT_LT(std::abs(sheet.GetVolumeDifference()), 0.01) << normal;
+    withHoles += ComputeTopology(*sheet.scene.surface).eulerCharacteristic != 2 ? 1 : 0;
+  }
+  EXPECT_LE(withHoles, 1) << "where the normal is near a diagonal, voxels touch at corners only";
+}
+
+/** The voxels that a curve passes through. */
+LabelMap
+MapOfCurve(itk::SizeValueType size, double from, double to, const std::function<Point(double)> & curve)
+{
+  LabelMap map = MakeMap(size, [](const Point &) { return 0; });
+  auto & image = *std::get<ImageType::Pointer>(map.scan.image);
+  for (double t = from; t <= to; t += 0.002)
+  {
+    image.SetPixel(image.TransformPhysicalPointToIndex(curve(t)), 1);
+  }
+  return MapOf(map.scan);
+}
+
+TEST(LabelSurfaces, VesselsAsWideAsAVoxelAreNotTorn)
+{
+  const auto helix = [](double t) { return At(18.0 * std::cos(t), 18.0 * std::sin(t), 2.3 * t - 21.0); };
+  const auto knot = [](double t) {
+    return At(8.0 * (std::sin(t) + 2.0 * std::sin(2.0 * t)),
+              8.0 * (std::cos(t) - 2.0 * std::cos(2.0 * t)),
+              -8.0 * std::sin(3.0 * t));
+  };
+  const auto diagonal = [](double t) { return At(t, t + 0.1, -t); };
+  for (const LabelMap & map : { MapOfCurve(50, 0.0, 18.0, helix),
+                                MapOfCurve(56, 0.0, 2.0 * itk::Math::pi, knot),
+                                MapOfCurve(50, -20.0, 20.0, diagonal),
+                                MakeMap(64, Inside(Torus(24.0, 0.87))),
+                                MakeMap(64, Inside(Torus(24.0, 1.1))),
+                                MakeMap(64, Inside(Torus(24.0, 1.5))) })
+  {
+    const LabelSurface vessel = OnlySurface(map);
+    EXPECT_EQ(vessel.pieces, 1);
+    EXPECT_EQ(vessel.surfacePieces, 1) << vessel.numberOfVoxels << " voxels";
+    EXPECT_LT(std::abs(vessel.GetVolumeDifference()), 0.01) << vessel.numberOfVoxels << " voxels";
+    EXPECT_FALSE(vessel.isTorn);
+  }
+}
+
+TEST(LabelSurfaces, NodulesOfAnySizeStay)
+{
+  // 1, 8, 27 and 64 voxels
+  const LabelMap map = MakeMap(60, [](const Point & point) {
+    for (int edge = 1; edge <= 4; ++edge)
+    {
+      const double begin = 14.0 * edge - 42.5;
+      const auto isIn = [&](double coordinate) { return coordinate > begin - 0.1 && coordinate < begin + edge - 0.9; };
+      if (isIn(point[0]) && isIn(point[1]) && isIn(point[2]))
+      {
+        return 1;
+      }
+    }
+    return 0;
+  });
+  const LabelSurface nodules = OnlySurface(map);
+  EXPECT_EQ(nodules.numberOfVoxels, 100);
+  EXPECT_EQ(nodules.pieces, 4);
+  const auto components = itk::FindComponents(*nodules.scene.surface);
+  const auto volumes = itk::ComputeComponentVolumes(*nodules.scene.surface, components);
+  ASSERT_EQ(volumes.size(), 4);
+  for (unsigned int edge = 1; edge <= 4; ++edge)
+  {
+    EXPECT_NEAR(volumes[edge - 1] / (edge * edge * edge), 1.0, 0.01);
+  }
+}
+
+TEST(LabelSurfaces, TouchingLabelsShareTheirWall)
+{
+  std::mt19937 random(8);
+  for (unsigned int n = 0; n < 4; ++n)
+  {
+    const Vector normal = RandomDirection(random);
+    const auto plane = [&](const Point & point) { return -(point.GetVectorFromOrigin() * normal); };
+    const auto ball = Ball(At(0.2, -0.1, 0.3), 22.0);
+    const LabelMap map =
+      MakeMap(52, [&](const Point & point) { return ball(point) < 0.0 ? 0 : (plane(point) >= 0.0 ? 1 : 2); });
+    const auto surfaces = rhombic::LabelsToSurfaces(map, {}, {});
+    ASSERT_EQ(surfaces.size(), 2);
+    const auto isOnWall = [&](const Point & point) { return std::abs(plane(point)) < 1.0 && ball(point) > 5.0; };
+    // Where the one's wall is, so is the other's: the mean signed distances from the plane, over small patches.
+    std::map<std::array<int, 3>, std::array<std::array<double, 2>, 2>> patches;
+    for (unsigned int side = 0; side < 2; ++side)
+    {
+      for (const auto & p : surfaces[side].scene.surface->GetPoints())
+      {
+        const Point point = At(p[0], p[1], p[2]);
+        if (isOnWall(point))
+        {
+          std::array<int, 3> patch;
+          for (unsigned int axis = 0; axis < 3; ++axis)
+          {
+            patch[axis] = static_cast<int>(std::floor(point[axis] / 4.0));
+          }
+          patches[patch][side][0] += plane(point);
+          patches[patch][side][1] += 1.0;
+        }
+      }
+    }
+    double gap = 0.0;
+    double gaps = 0.0;
+    double count = 0.0;
+    for (const auto & [patch, sums] : patches)
+    {
+      if (sums[0][1] >= 5.0 && sums[1][1] >= 5.0)
+      {
+        const double difference = sums[0][0] / sums[0][1] - sums[1][0] / sums[1][1];
+        gap += difference;
+        gaps += std::abs(difference);
+        count += 1.0;
+      }
+    }
+    ASSERT_GT(count, 30.0);
+    EXPECT_LT(std::abs(gap / count), 0.08) << normal << ", in mm";
+    EXPECT_LT(gaps / count, 0.08) << normal << ", of which most is where the points happen to be";
+    const double together = (surfaces[0].surfaceMillilitres + surfaces[1].surfaceMillilitres) /
+                            (surfaces[0].voxelMillilitres + surfaces[1].voxelMillilitres);
+    EXPECT_NEAR(together, 1.0, 0.002);
+  }
+}
+
+TEST(LabelSurfaces, RandomBlobsAreClosedAndWhole)
+{
+  for (unsigned int seed = 0; seed < 5; ++seed)
+  {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> place(-16.0, 16.0);
+    std::uniform_real_distribution<double> width(1.0, 5.0);
+    std::vector<DistanceFunction> balls;
+    for (unsigned int n = 0; n < 30; ++n)
+    {
+      balls.push_back(Ball(At(place(random), place(random), place(random)), width(random)));
+    }
+    const LabelMap map = MakeMap(40, [&](const Point & point) {
+      for (std::size_t n = 0; n < balls.size(); ++n)
+      {
+        if (balls[n](point) >= 0.0)
+        {
+          return static_cast<int>(n % 3) + 1;
+        }
+      }
+      return 0;
+    });
+    for (const LabelSurface & blob : rhombic::LabelsToSurfaces(map, {}, {}))
+    {
+      EXPECT_TRUE(ComputeTopology(*blob.scene.surface).IsWatertight()) << seed;
+      EXPECT_GE(blob.surfacePieces, blob.pieces) << seed;
+      EXPECT_FALSE(blob.isTorn) << seed;
+      EXPECT_LT(std::abs(blob.GetVolumeDifference()), 0.01) << seed;
+    }
+  }
+}
+
+TEST(LabelSurfaces, NoiseIsClosed)
+{
+  std::mt19937 random(9);
+  const LabelMap map = MakeMap(24, [&](const Point &) { return static_cast<int>(random() % 3); });
+  for (const LabelSurface & noise : rhombic::LabelsToSurfaces(map, {}, {}))
+  {
+    EXPECT_TRUE(ComputeTopology(*noise.scene.surface).IsWatertight());
+    EXPECT_LT(std::abs(noise.GetVolumeDifference()), 0.01);
+  }
+}
+
+TEST(LabelSurfaces, VoxelsNeedNotBeCubes)
+{
+  const auto distance = Ball(At(0.3, -0.4, 0.2), 30.0);
+  const double spacings[3][3] = { { 3.0, 3.0, 3.0 }, { 1.0, 1.0, 1.5 }, { 0.8, 0.8, 5.0 } };
+  const double areaTolerance[3] = { 0.01, 0.01, 0.04 };
+  for (unsigned int n = 0; n < 3; ++n)
+  {
+    const Vector spacing(spacings[n]);
+    itk::Size<3> size;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      size[axis] = static_cast<itk::SizeValueType>(64.0 / spacing[axis]) + 2;
+    }
+    const LabelSurface ball = OnlySurface(MakeMap(size, spacing, Inside(distance)));
+    EXPECT_LT(std::abs(ball.GetVolumeDifference()), 0.01) << spacing;
+    EXPECT_NEAR(ComputeArea(*ball.scene.surface) / (4.0 * itk::Math::pi * 900.0), 1.0, areaTolerance[n]) << spacing;
+    EXPECT_EQ(ball.surfacePieces, 1);
+  }
+}
+
+/** A ball in slices tilted by 15 degrees, evenly spaced or not. */
+LabelMap
+MakeTiltedBall(double radius, bool isUneven)
+{
+  const LabelMap flat = MakeMap({ { 64, 72, 40 } }, Vector(1.0), [](const Point &) { return 0; });
+  const auto & image = std::get<ImageType::Pointer>(flat.scan.image);
+  ImageType::DirectionType direction;
+  direction.SetIdentity();
+  direction[1][2] = std::sin(itk::Math::pi / 12.0);
+  direction[2][2] = std::cos(itk::Math::pi / 12.0);
+  image->SetDirection(direction);
+  const double spacing[3] = { 1.0, 1.0, 1.5 };
+  image->SetSpacing(spacing);
+  std::vector<Point> origins{ At(-32.0, -36.0 - 30.0 * direction[1][2], -30.0 * direction[2][2]) };
+  while (origins.size() < 40)
+  {
+    const double step = !isUneven ? 1.5 : (origins.size() < 20 ? 1.0 : 2.0);
+    origins.push_back(origins.back());
+    origins.back()[1] += step * direction[1][2];
+    origins.back()[2] += step * direction[2][2];
+  }
+  image->SetOrigin(origins[0]);
+  for (itk::ImageRegionIteratorWithIndex<ImageType> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+  {
+    Point point = origins[static_cast<std::size_t>(it.GetIndex()[2])];
+    point[0] += static_cast<double>(it.GetIndex()[0]);
+    point[1] += static_cast<double>(it.GetIndex()[1]);
+    it.Set(point.GetVectorFromOrigin().GetNorm() <= radius ? 1 : 0);
+  }
+  rhombic::Scan scan = flat.scan;
+  if (isUneven)
+  {
+    scan.sliceOrigins = origins;
+  }
+  return MapOf(scan);
+}
+
+TEST(LabelSurfaces, TiltedAndUnevenStacksKeepTheirPlaces)
+{
+  for (const bool isUneven : { false, true })
+  {
+    const LabelSurface ball = OnlySurface(MakeTiltedBall(20.0, isUneven));
+    EXPECT_LT(std::abs(ball.GetVolumeDifference()), 0.0025);
+    const double trueArea = 4.0 * itk::Math::pi * 400.0;
+    EXPECT_NEAR(ComputeArea(*ball.scene.surface) / trueArea, 1.0, 0.015);
+    EXPECT_LT(CompareFacets(*ball.scene.surface, Ball(At(0.0, 0.0, 0.0), 20.0)).distance, 0.1);
+  }
+}
+
+TEST(LabelSurfaces, CloseAtTheBorder)
+{
+  // A ball cut by the map's faces at 15.5 mm.
+  const LabelSurface ball = OnlySurface(MakeMap(31, Inside(Ball(At(0.0, 0.0, 0.0), 18.0))));
+  EXPECT_LT(std::abs(ball.GetVolumeDifference()), 0.0025);
+  const auto bounds = ball.scene.surface->GetBounds();
+  for (unsigned int n = 0; n < 6; ++n)
+  {
+    EXPECT_NEAR(std::abs(bounds[n]), 15.5, 0.3) << "at the rim";
+  }
+  double height = 0.0;
+  double count = 0.0;
+  for (const auto & point : ball.scene.surface->GetPoints())
+  {
+    if (point[2] > 14.0 && std::hypot(point[0], point[1]) < 6.0)
+    {
+      height += point[2];
+      count += 1.0;
+    }
+  }
+  EXPECT_NEAR(height / count, 15.5, 0.02);
+  // All of it: a box with rounded edges.
+  const LabelSurface box = OnlySurface(MakeMap({ { 20, 30, 10 } }, Vector(1.0), [](const Point &) { return 1; }));
+  EXPECT_EQ(box.surfacePieces, 1);
+  EXPECT_LT(std::abs(box.GetVolumeDifference()), 0.01);
+  // One slice, and one voxel.
+  const LabelSurface slice = OnlySurface(MakeMap({ { 20, 30, 1 } }, Vector(1.0), [](const Point &) { return 1; }));
+  EXPECT_EQ(slice.surfacePieces, 1);
+  EXPECT_LT(std::abs(slice.GetVolumeDifference()), 0.01);
+  const LabelSurface voxel = OnlySurface(MakeMap({ { 1, 1, 1 } }, Vector(1.0), [](const Point &) { return 1; }));
+  EXPECT_EQ(voxel.surfacePieces, 1);
+  EXPECT_LT(std::abs(voxel.GetVolumeDifference()), 0.01);
+}
+
+TEST(LabelSurfaces, HollowLabelsHaveShellsInside)
+{
+  const auto ball = Ball(At(0.1, 0.2, -0.3), 18.0);
+  const LabelSurface shell = OnlySurface(MakeMap(40, [&](const Point & point) {
+    const double depth = ball(point);
+    return depth >= 0.0 && depth < 3.0 ? 1 : 0;
+  }));
+  EXPECT_EQ(shell.surfacePieces, 1);
+  EXPECT_EQ(ComputeTopology(*shell.scene.surface).components, 2);
+  EXPECT_LT(std::abs(shell.GetVolumeDifference()), 0.0025);
+}
+
+TEST(LabelSurfaces, AreTheSameForAnyNumberOfThreads)
+{
+  const auto make = [](itk::ThreadIdType threads) {
+    const auto before = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
+    itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
+    const LabelSurface torus = OnlySurface(MakeMap(48, Inside(Torus(18.0, 1.4))));
+    itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(before);
+    return torus.scene.surface;
+  };
+  const auto one = make(1);
+  const auto many = make(7);
+  EXPECT_EQ(one->GetPoints(), many->GetPoints());
+  EXPECT_EQ(one->GetNormals(), many->GetNormals());
+  EXPECT_EQ(one->GetTriangles(), many->GetTriangles());
+}
+
+LabelMap
+MakeThreeLabels()
+{
+  LabelMap map = MakeMap(30, [](const Point & point) {
+    return point.GetVectorFromOrigin().GetNorm() > 12.0 ? 0 : (point[0] < -4.0 ? 3 : (point[0] < 4.0 ? 5 : 9));
+  });
+  map.labels[0].label.name = "liver";
+  map.labels[0].label.colour = { 255, 51, 0 };
+  map.labels[0].label.opacity = 0.5;
+  map.labels[1].label.name = "spleen";
+  map.labels[1].label.isVisible = false;
+  map.labels[2].label.name = "kidney";
+  return map;
+}
+
+std::vector<std::string>
+NamesOf(const std::vector<LabelSurface> & surfaces)
+{
+  std::vector<std::string> names;
+  for (const LabelSurface & surface : surfaces)
+  {
+    names.push_back(surface.scene.name);
+  }
+  return names;
+}
+
+TEST(LabelSurfaces, AreThoseAskedFor)
+{
+  const LabelMap map = MakeThreeLabels();
+  rhombic::LabelSurfaceSettings settings;
+  const auto visible = rhombic::LabelsToSurfaces(map, settings, {});
+  EXPECT_EQ(NamesOf(visible), (std::vector<std::string>{ "liver", "kidney" }));
+  EXPECT_EQ(visible[0].scene.colour, (rhombic::Colour{ 1.0, 0.2, 0.0 }));
+  EXPECT_EQ(visible[0].scene.opacity, 0.5);
+  EXPECT_EQ(visible[0].value, 3);
+  settings.labels = { "9", "spleen" };
+  EXPECT_EQ(NamesOf(rhombic::LabelsToSurfaces(map, settings, {})), (std::vector<std::string>{ "spleen", "kidney" }));
+
+  const auto report = rhombic::ReportLabelSurfaces(visible);
+  ASSERT_EQ(report.size(), 2);
+  EXPECT_EQ(report[1]["name"], "kidney");
+  EXPECT_EQ(report[1]["triangles"], visible[1].scene.surface->GetNumberOfTriangles());
+}
+
+TEST(LabelSurfaces, ReportProgress)
+{
+  double last = 0.0;
+  rhombic::Events events;
+  events.progress = [&last](const std::string &, double fraction) {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+  };
+  rhombic::LabelsToSurfaces(MakeThreeLabels(), {}, events);
+  EXPECT_EQ(last, 1.0);
+}
+
+TEST(LabelSurfaces, RefuseWhatCannotBe)
+{
+  const LabelMap map = MakeThreeLabels();
+  const auto kindOf = [](const LabelMap & labels, const rhombic::LabelSurfaceSettings & settings) {
+    try
+    {
+      rhombic::LabelsToSurfaces(labels, settings, {});
+    }
+    catch (const rhombic::Failure & failure)
+    {
+      return failure.GetKind();
+    }
+    return rhombic::FailureKind::Internal;
+  };
+  rhombic::LabelSurfaceSettings settings;
+  settings.labels = { "pancreas" };
+  EXPECT_EQ(kindOf(map, settings), rhombic::FailureKind::Usage);
+  settings = {};
+  settings.density = 0.0;
+  EXPECT_EQ(kindOf(map, settings), rhombic::FailureKind::Usage);
+  settings = {};
+  settings.maximumMemory = 1000;
+  EXPECT_EQ(kindOf(map, settings), rhombic::FailureKind::Memory);
+  EXPECT_EQ(kindOf(MakeMap(8, [](const Point &) { return 0; }), {}), rhombic::FailureKind::Empty);
+}
+
+/** A label map among the real scans; empty where there are none. */
+std::filesystem::path
+RealMap(const std::string & name)
+{
+  const char * const folder = std::getenv("RHOMBIC_SCANS");
+  return folder != nullptr ? std::filesystem::path(folder) / name : std::filesystem::path();
+}
+
+TEST(LabelSurfaces, OfRealMapsHaveTheirVoxelsVolumes)
+{
+  for (const char * const name : { "ct_body_totalseg_nifti/example_seg_fast_force_split.nii.gz",
+                                   "ct_body_totalseg_nifti/example_seg.nii.gz",
+                                   "ct_body_totalseg_nifti/example_seg_dicom.nii.gz",
+                                   "dicom_seg_dcmqi/segmentations/partial_overlaps-1.nrrd",
+                                   "dicom_seg_dcmqi/segmentations/heart_seg.nrrd",
+                                   "dicom_seg_dcmqi/segmentations/24x38x3/nrrd/label.nrrd" })
+  {
+    rhombic::LabelMapSource source;
+    source.path = RealMap(name);
+    if (source.path.empty())
+    {
+      GTEST_SKIP() << "RHOMBIC_SCANS is not set";
+    }
+    LabelMap map;
+    map.scan = rhombic::ReadScan(source.path, {});
+    map.labels = rhombic::FindLabels(map.scan, source);
+    for (const LabelSurface & surface : rhombic::LabelsToSurfaces(map, {}, {}))
+    {
+      const std::string what = std::string(name) + ", " + surface.scene.name;
+      EXPECT_TRUE(ComputeTopology(*surface.scene.surface).IsWatertight()) << what;
+      EXPECT_GE(surface.surfacePieces, surface.pieces) << what;
+      EXPECT_FALSE(surface.isTorn) << what;
+      EXPECT_LT(std::abs(surface.GetVolumeDifference()), 0.01) << what;
+    }
+  }
+}
+
+} // namespace
