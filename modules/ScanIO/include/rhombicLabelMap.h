@@ -32,11 +32,6 @@ LooksLikeLabelMap(const Scan & scan);
 std::vector<LabelSummary>
 SummarizeLabels(const Scan & scan, const LabelTable & table);
 
-/** The volume of a voxel of each slice in cubic mm. In an unevenly spaced stack a voxel reaches halfway to the next
- * slices. */
-std::vector<double>
-VoxelVolumes(const Scan & scan);
-
 /** The part of \a inner's box, voxels included, that lies in \a outer's box in world space, from 0 to 1. Measured at
  * 32 x 32 x 32 points; exactly 0 and 1 for boxes that are clearly apart and for a box in itself. */
 double

@@ -54,21 +54,21 @@ std::array<double, 3>
 ComputeCentroid(const TriangleSurface & surface)
 {
   double sixfold = 0.0;
-  Vector3 moment{};
+  PositionType moment{};
   for (const auto & triangle : surface.GetTriangles())
   {
     const double part = SixfoldVolume(surface, triangle); // of a tetrahedron whose fourth corner is the origin
     sixfold += part;
     for (const std::uint32_t point : triangle)
     {
-      const Vector3 corner = Relative(surface, point);
+      const PositionType corner = Relative(surface, point);
       for (unsigned int axis = 0; axis < 3; ++axis)
       {
         moment[axis] += part * corner[axis] / 4.0;
       }
     }
   }
-  Vector3 centroid{};
+  PositionType centroid{};
   for (unsigned int axis = 0; axis < 3 && sixfold != 0.0; ++axis)
   {
     centroid[axis] = surface.GetPoints().front()[axis] + moment[axis] / sixfold;
