@@ -1,11 +1,11 @@
 #include "rhombicPatientMask.h"
 
 #include "rhombicImageAxes.h"
+#include "rhombicTableContact.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <locale>
-#include <sstream>
 
 namespace rhombic
 {
@@ -27,8 +27,6 @@ constexpr double bareShare = 0.7;              // and how much of it is next to 
 constexpr double tableShare = 0.4;             // of a table's place, this part of all slices shows it detached or thin,
 constexpr double tableShareOccupied = 0.8;     // and this part something
 
-constexpr double widestContact = 120.0; // of a patient's back with a table's wall
-constexpr int blocksBeside = 6;         // a contact, in which the wall's thickness is measured
 
 constexpr std::uint32_t none = 0;
 
@@ -49,8 +47,6 @@ public:
     , m_LongAxis(longAxis)
     , m_Size(coarse.occupancy->GetBufferedRegion().GetSize())
     , m_Count(coarse.NumberOfBlocks())
-    , m_Width(std::max(
-        { coarse.occupancy->GetSpacing()[0], coarse.occupancy->GetSpacing()[1], coarse.occupancy->GetSpacing()[2] }))
   {
     const auto & spacing = coarse.occupancy->GetSpacing();
     m_Millilitres = spacing[0] * spacing[1] * spacing[2] / 1000.0;
@@ -64,22 +60,27 @@ public:
     const std::uint8_t * const occupancy = m_Coarse.occupancy->GetBufferPointer();
     m_Found.tissue = MakeMask(*m_Coarse.occupancy, [=](std::size_t n) { return occupancy[n] >= half; });
     m_Solid = m_Found.tissue;
-    if (!HasBorder(*m_Solid) || !FindThickParts())
+    if (!HasBorder(*m_Solid) || !FindCores())
     {
       return m_Found;
     }
     FillBetweenFrontAndBack();
-    FindThickParts();
+    if (!HasBorder(*m_Solid))
+    {
+      return m_Found;
+    }
+    FindCores();
+    AddThinCores();
     Grow();
     AddWhatHangsOn();
-    CutWhereTableTouches();
+    CutTableContacts(*m_Solid, m_LongAxis, 2.0 * coreDepth, *m_Found.patient);
     return m_Found;
   }
 
 private:
-  /** The cores that are the patient's. Returns whether there is a body. */
+  /** The cores of what is solid, and those of them that are as thick as a body. Returns whether there is one. */
   bool
-  FindThickParts()
+  FindCores()
   {
     m_Depth = DistanceTo(*m_Solid);
     const float * const depths = m_Depth->GetBufferPointer();
@@ -87,35 +88,43 @@ private:
     const auto core = MakeMask(*m_Depth, [=](std::size_t n) {
       return solid[n] != 0 && 0.5 * m_Narrow - static_cast<double>(depths[n]) >= coreDepth;
     });
-    const Components cores = FindComponents(*core, false);
-    const std::uint32_t * const labels = cores.labels->GetBufferPointer();
-    std::vector<PartMeasures> measures(cores.parts.size());
+    m_Cores = FindComponents(*core, false);
+    const std::uint32_t * const labels = m_Cores.labels->GetBufferPointer();
+    m_Measures.assign(m_Cores.parts.size(), {});
     for (std::size_t n = 0; n < m_Count; ++n)
     {
-      PartMeasures & part = measures[labels[n]];
+      PartMeasures & part = m_Measures[labels[n]];
       part.greatestDepth = std::max(part.greatestDepth, static_cast<double>(-depths[n]));
       part.sum += m_Coarse.mean->GetBufferPointer()[n];
     }
-    std::vector<bool> isPatient(cores.parts.size(), false);
-    std::uint32_t largest = none;
-    for (std::uint32_t label = 1; label < cores.parts.size(); ++label)
+    std::vector<bool> isBody(m_Cores.parts.size(), false);
+    for (std::uint32_t label = 1; label < isBody.size(); ++label)
     {
-      isPatient[label] = measures[label].greatestDepth >= bodyDepth;
-      if (isPatient[label] && (largest == none || cores.parts[label].count > cores.parts[largest].count))
-      {
-        largest = label;
-      }
+      isBody[label] = m_Measures[label].greatestDepth >= bodyDepth;
     }
-    if (largest == none)
+    m_Core = MakeMask(*core, [&](std::size_t n) { return isBody[labels[n]]; });
+    return HasBorder(*m_Core);
+  }
+
+  /** Those cores too that may be a thin limb. */
+  void
+  AddThinCores()
+  {
+    double millilitres = 0.0;
+    std::vector<bool> isThinPart(m_Cores.parts.size(), false);
+    for (std::uint32_t label = 1; label < isThinPart.size(); ++label)
     {
-      return false;
+      isThinPart[label] =
+        m_Measures[label].greatestDepth < bodyDepth && IsThinPart(m_Cores.parts[label], m_Measures[label]);
+      millilitres += isThinPart[label] ? Millilitres(m_Cores.parts[label].count) : 0.0;
     }
-    for (std::uint32_t label = 1; label < cores.parts.size(); ++label)
+    std::uint8_t * const core = m_Core->GetBufferPointer();
+    for (std::size_t n = 0; n < m_Count; ++n)
     {
-      isPatient[label] = isPatient[label] || IsThinPart(cores.parts[label], measures[label]);
+      core[n] = core[n] != 0 || isThinPart[m_Cores.labels->GetBufferPointer()[n]] ? 1 : 0;
     }
-    m_Core = MakeMask(*core, [&](std::size_t n) { return isPatient[labels[n]]; });
-    return true;
+    m_Cores = {};
+    NoteKept(millilitres, "lie beside the patient's thick parts, as they may be a hand");
   }
 
   bool
@@ -133,7 +142,7 @@ private:
   FillBetweenFrontAndBack()
   {
     const auto & direction = m_Coarse.occupancy->GetDirection();
-    const unsigned int axis = NearestAxis(direction, 1);
+    const unsigned int axis = NearestAxis(direction, 1, m_LongAxis);
     const std::uint8_t * const core = m_Core->GetBufferPointer();
     const auto filled = MakeLike<MaskImage>(*m_Solid);
     std::copy_n(m_Solid->GetBufferPointer(), m_Count, filled->GetBufferPointer());
@@ -147,11 +156,11 @@ private:
       {
         std::size_t first = 0;
         std::size_t end = m_Size[axis];
-        for (; first < end && core[n + first * step] == 0;)
+        while (first < end && core[n + first * step] == 0)
         {
           ++first;
         }
-        for (; end > first && core[n + (end - 1) * step] == 0;)
+        while (end > first && core[n + (end - 1) * step] == 0)
         {
           --end;
         }
@@ -216,9 +225,22 @@ private:
       m_Table = MakeLike<MaskImage>(*doubtful);
       FindHardWalls(*doubtful);
       FindTablePlaces(*doubtful);
-      AddComponents([](double millilitres, double reach) {
-        return millilitres <= largestHangingVolume && reach <= longestHangingReach;
+      double kept = 0.0;
+      AddComponents([&kept](double millilitres, double reach) {
+        const bool isKept = millilitres <= largestHangingVolume && reach <= longestHangingReach;
+        kept += isKept ? millilitres : 0.0;
+        return isKept;
       });
+      NoteKept(kept, "touch the patient, as they may be thin parts of it");
+    }
+  }
+
+  void
+  NoteKept(double millilitres, const std::string & why)
+  {
+    if (millilitres >= 0.5)
+    {
+      m_Found.notes.push_back("kept " + std::to_string(std::lround(millilitres)) + " ml that " + why);
     }
   }
 
@@ -363,141 +385,6 @@ private:
     });
   }
 
-  /** A run of blocks along the axis from front to back; the back has the higher number. */
-  struct Run
-  {
-    std::ptrdiff_t front;
-    std::ptrdiff_t back;
-  };
-
-  /** Where the patient lies on a table's wall, both are one thick body. Across the patient, the wall goes in there and
-   * comes out again, and behind the body it has no step: in between it is as thick as on both sides. */
-  void
-  CutWhereTableTouches()
-  {
-    const auto & direction = m_Coarse.occupancy->GetDirection();
-    const unsigned int depthAxis = NearestAxis(direction, 1);
-    const unsigned int acrossAxis = 3 - depthAxis - m_LongAxis;
-    const bool isBackAtEnd = direction[1][depthAxis] > 0.0;
-    const auto across = static_cast<std::ptrdiff_t>(m_Size[acrossAxis]);
-    const auto depth = static_cast<std::ptrdiff_t>(m_Size[depthAxis]);
-    for (std::size_t level = 0; level < m_Size[m_LongAxis]; ++level)
-    {
-      const auto place = [&](std::ptrdiff_t column, std::ptrdiff_t row) {
-        itk::Index<3> index;
-        index[m_LongAxis] = static_cast<itk::IndexValueType>(level);
-        index[acrossAxis] = column;
-        index[depthAxis] = isBackAtEnd ? row : depth - 1 - row;
-        return static_cast<std::size_t>(m_Solid->ComputeOffset(index));
-      };
-      CutLevel(across, depth, place);
-    }
-  }
-
-  template <typename TPlace>
-  void
-  CutLevel(std::ptrdiff_t across, std::ptrdiff_t depth, const TPlace & place)
-  {
-    const std::uint8_t * const solid = m_Solid->GetBufferPointer();
-    std::uint8_t * const patient = m_Found.patient->GetBufferPointer();
-    // Of each column, the body's end at the back, or none, and the walls.
-    std::vector<std::ptrdiff_t> ends(static_cast<std::size_t>(across), -1);
-    std::vector<std::vector<Run>> walls(static_cast<std::size_t>(across));
-    for (std::ptrdiff_t column = 0; column < across; ++column)
-    {
-      const auto n = static_cast<std::size_t>(column);
-      for (std::ptrdiff_t row = 0; row < depth; ++row)
-      {
-        const std::size_t block = place(column, row);
-        if (patient[block] != 0)
-        {
-          ends[n] = row;
-        }
-        else if (solid[block] != 0)
-        {
-          if (walls[n].empty() || walls[n].back().back + 1 != row)
-          {
-            walls[n].push_back({ row, row });
-          }
-          walls[n].back().back = row;
-        }
-      }
-    }
-    const auto wallAt = [&](std::ptrdiff_t column, std::ptrdiff_t back) -> const Run * {
-      for (const Run & wall : walls[static_cast<std::size_t>(column)])
-      {
-        if (std::abs(wall.back - back) <= 1)
-        {
-          return &wall;
-        }
-      }
-      return nullptr;
-    };
-    /* The wall's thickness outside of the contact, where it is the thickest: near it, the body has grown into it. */
-    const auto thicknessFrom = [&](std::ptrdiff_t column, std::ptrdiff_t step) {
-      std::ptrdiff_t thickness = 0;
-      const Run * wall = walls[static_cast<std::size_t>(column)].empty()
-                           ? nullptr
-                           : wallAt(column, ends[static_cast<std::size_t>(column - step)]);
-      for (int n = 0; wall != nullptr && n < blocksBeside; ++n)
-      {
-        thickness = std::max(thickness, wall->back - wall->front + 1);
-        column += step;
-        wall = column >= 0 && column < across ? wallAt(column, wall->back) : nullptr;
-      }
-      return thickness;
-    };
-    const auto longest = static_cast<std::ptrdiff_t>(widestContact / m_Narrow);
-    for (std::ptrdiff_t first = 1; first < across; ++first)
-    {
-      const auto isBody = [&](std::ptrdiff_t column) {
-        const std::ptrdiff_t end = ends[static_cast<std::size_t>(column)];
-        return end >= 0 && wallAt(column, end) == nullptr;
-      };
-      if (!isBody(first) || wallAt(first - 1, ends[static_cast<std::size_t>(first)]) == nullptr)
-      {
-        continue;
-      }
-      std::ptrdiff_t last = first;
-      while (last + 1 < across && isBody(last + 1) && last - first < longest &&
-             std::abs(ends[static_cast<std::size_t>(last + 1)] - ends[static_cast<std::size_t>(last)]) <= 1 &&
-             wallAt(last + 1, ends[static_cast<std::size_t>(last)]) == nullptr)
-      {
-        ++last;
-      }
-      if (last + 1 >= across || wallAt(last + 1, ends[static_cast<std::size_t>(last)]) == nullptr)
-      {
-        continue;
-      }
-      const std::ptrdiff_t thickness = std::min(thicknessFrom(first - 1, -1), thicknessFrom(last + 1, 1));
-      if (thickness == 0 || static_cast<double>(thickness) * m_Narrow > 2.0 * coreDepth)
-      {
-        continue;
-      }
-      const auto cut = [&](std::ptrdiff_t column, std::ptrdiff_t back) {
-        for (std::ptrdiff_t row = std::max<std::ptrdiff_t>(back - thickness + 1, 0); row <= back; ++row)
-        {
-          patient[place(column, row)] = 0;
-        }
-      };
-      for (std::ptrdiff_t column = first; column <= last; ++column)
-      {
-        cut(column, ends[static_cast<std::size_t>(column)]);
-      }
-      const auto cutBeside = [&](std::ptrdiff_t column, std::ptrdiff_t step) {
-        const Run * wall = wallAt(column, ends[static_cast<std::size_t>(column - step)]);
-        for (int n = 0; wall != nullptr && n < blocksBeside; ++n)
-        {
-          cut(column, wall->back);
-          column += step;
-          wall = column >= 0 && column < across ? wallAt(column, wall->back) : nullptr;
-        }
-      };
-      cutBeside(first - 1, -1);
-      cutBeside(last + 1, 1);
-    }
-  }
-
   bool
   IsTable(std::size_t n) const
   {
@@ -575,15 +462,16 @@ private:
   unsigned int m_LongAxis;
   itk::Size<3> m_Size;
   std::size_t m_Count;
-  double m_Width;
   double m_Narrow = 0.0;
   double m_Millilitres = 0.0;
   PatientMask m_Found;
   MaskImage::Pointer m_Solid; ///< tissue, and from the second pass on what the patient encloses
   MaskImage::Pointer m_Core;
   MaskImage::Pointer m_Table;
-  DistanceImage::Pointer m_Depth; ///< in tissue; negative inside
-  DistanceImage::Pointer m_Reach; ///< from the cores
+  Components m_Cores;                   ///< of what is solid
+  std::vector<PartMeasures> m_Measures; ///< of the cores, by label
+  DistanceImage::Pointer m_Depth;       ///< in tissue; negative inside
+  DistanceImage::Pointer m_Reach;       ///< from the cores
 };
 
 } // namespace

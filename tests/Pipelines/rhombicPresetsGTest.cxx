@@ -45,6 +45,21 @@ TEST(Presets, AllBuiltInOnesParse)
   }
 }
 
+TEST(Presets, ThoseForCTRemoveTheTable)
+{
+  for (const auto & preset : rhombic::GetPresets())
+  {
+    EXPECT_EQ(preset.removesTable, preset.name.rfind("ct-", 0) == 0) << preset.name;
+  }
+  const std::string surfaces = "surfaces: [{name: a, isovalue: 1}]";
+  EXPECT_FALSE(rhombic::ParsePreset("name: x\n" + surfaces, "test").removesTable);
+  EXPECT_FALSE(rhombic::ParsePreset("name: x\nremoves: nothing\n" + surfaces, "test").removesTable);
+  EXPECT_TRUE(rhombic::ParsePreset("name: x\nremoves: table\n" + surfaces, "test").removesTable);
+  const auto sentence = DescriptionOfFailure(
+    [&] { rhombic::ParsePreset("name: x\nremoves: bed\n" + surfaces, "test"); }, FailureKind::Unreadable);
+  EXPECT_NE(sentence.find("'nothing' or 'table'"), std::string::npos) << sentence;
+}
+
 TEST(Presets, ReadEverythingASurfaceHas)
 {
   const auto preset = rhombic::ParsePreset(

@@ -2,6 +2,7 @@
 
 #include "rhombicScanReader.h"
 
+#include "itkImageRegionConstIteratorWithIndex.h"
 #include "itkMath.h"
 #include "itkMultiThreaderBase.h"
 
@@ -10,9 +11,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace
@@ -39,11 +42,11 @@ struct Grid
   unsigned int seed = 1;
 };
 
-constexpr double backOfBody = 95.0;  // the table's top touches it: y in mm, positive towards the back
-constexpr double air = -1000.0;      // HU
-constexpr double tissue = -300.0;    // HU
-constexpr double halfWidth = 250.0;  // of the scan in mm, along x
-constexpr double halfLength = 100.0; // along z
+constexpr double backOfBody = 95.0; // the table's top touches it: y in mm, positive towards the back
+constexpr double air = -1000.0;     // HU
+constexpr double tissue = -300.0;   // HU
+constexpr double halfWidth = 250.0; // of the scan in mm, along x
+constexpr double halfLength = 60.0; // along z
 
 double
 Ellipse(double x, double y, double semiX, double semiY)
@@ -162,36 +165,35 @@ MakeScan(const Grid & grid, const std::vector<Object> & objects)
     scan.sliceOrigins.push_back(point);
   }
 
-  std::mt19937 random(grid.seed);
-  std::normal_distribution<double> noise(0.0, 12.0);
   const double border = 0.5 * std::max(grid.spacing[0], grid.spacing[1]);
-  std::int16_t * sample = image->GetBufferPointer();
-  itk::Index<3> index;
-  for (index[2] = 0; index[2] < static_cast<long>(size[2]); ++index[2])
-  {
-    for (index[1] = 0; index[1] < static_cast<long>(size[1]); ++index[1])
-    {
-      for (index[0] = 0; index[0] < static_cast<long>(size[0]); ++index[0])
+  itk::MultiThreaderBase::New()->ParallelizeArray(
+    0,
+    size[2],
+    [&](itk::SizeValueType slice) {
+      std::mt19937 random(1000 * grid.seed + static_cast<unsigned int>(slice));
+      std::normal_distribution<double> noise(0.0, 12.0);
+      itk::Index<3> index{ { 0, 0, static_cast<long>(slice) } };
+      PointType even;
+      image->TransformIndexToPhysicalPoint(index, even);
+      std::int16_t * sample = image->GetBufferPointer() + slice * size[0] * size[1];
+      for (index[1] = 0; index[1] < static_cast<long>(size[1]); ++index[1])
       {
-        PointType point;
-        image->TransformIndexToPhysicalPoint(index, point);
-        if (grid.isUneven)
+        for (index[0] = 0; index[0] < static_cast<long>(size[0]); ++index[0])
         {
-          const auto slice = static_cast<std::size_t>(index[2]);
-          PointType even;
-          image->TransformIndexToPhysicalPoint({ { 0, 0, index[2] } }, even);
-          point += scan.sliceOrigins[slice] - even;
+          PointType point;
+          image->TransformIndexToPhysicalPoint(index, point);
+          point += scan.sliceOrigins.empty() ? itk::Vector<double, 3>(0.0) : scan.sliceOrigins[slice] - even;
+          double value = air;
+          for (const Object & object : objects)
+          {
+            const double share = std::clamp(0.5 + object.depth(point) / (2.0 * border), 0.0, 1.0);
+            value += share * (object.value - value);
+          }
+          *sample++ = static_cast<std::int16_t>(std::lround(std::max(value + noise(random), -1024.0)));
         }
-        double value = air;
-        for (const Object & object : objects)
-        {
-          const double share = std::clamp(0.5 + object.depth(point) / (2.0 * border), 0.0, 1.0);
-          value += share * (object.value - value);
-        }
-        *sample++ = static_cast<std::int16_t>(std::lround(std::max(value + noise(random), -1024.0)));
       }
-    }
-  }
+    },
+    nullptr);
   return scan;
 }
 
@@ -213,26 +215,70 @@ Grids()
            { { 2.0, 2.0, 6.0 }, 12.0, true, 5 } };
 }
 
-/** That the patient stays and the objects go. */
+/** Where each sample is, in the scan's order. */
+std::vector<PointType>
+PointsOf(const rhombic::Scan & scan)
+{
+  const auto & image = *std::get<ImageType::Pointer>(scan.image);
+  const auto size = image.GetBufferedRegion().GetSize();
+  std::vector<PointType> points;
+  itk::Index<3> index;
+  for (index[2] = 0; index[2] < static_cast<long>(size[2]); ++index[2])
+  {
+    for (index[1] = 0; index[1] < static_cast<long>(size[1]); ++index[1])
+    {
+      for (index[0] = 0; index[0] < static_cast<long>(size[0]); ++index[0])
+      {
+        PointType point;
+        image.TransformIndexToPhysicalPoint(index, point);
+        points.push_back(point);
+      }
+    }
+  }
+  return points;
+}
+
+/** Of a point in the patient: its tissue or its air. */
+double
+DepthInPatient(const PointType & point)
+{
+  double depth = -1e9;
+  for (const Object & object : Patient())
+  {
+    depth = std::max(depth, object.depth(point));
+  }
+  return depth;
+}
+
+/** That the patient stays and the objects go. What is nearer than a block of the search to both is in doubt. */
 void
 ExpectOnlyThePatient(const Grid & grid, const std::vector<Object> & objects)
 {
   const auto patient = ValuesOf(MakeScan(grid, Patient()));
   rhombic::Scan scan = MakeScan(grid, Patient() + objects);
+  const auto points = PointsOf(scan);
   const auto before = ValuesOf(scan);
   const auto removal = rhombic::RemoveTable(scan, {});
   const auto after = ValuesOf(scan);
+  constexpr double doubt = 3.0; // mm
   std::size_t cut = 0;
+  std::size_t cutAtContact = 0;
+  std::size_t patientSamples = 0;
   std::size_t objectSamples = 0;
   std::size_t left = 0;
   for (std::size_t n = 0; n < after.size(); ++n)
   {
-    const bool isPatient = patient[n] >= tissue;
-    cut += isPatient && after[n] != before[n] ? 1 : 0;
-    objectSamples += !isPatient && before[n] >= tissue ? 1 : 0;
-    left += !isPatient && before[n] >= tissue && after[n] >= tissue ? 1 : 0;
+    const double depth = DepthInPatient(points[n]);
+    const bool isChanged = after[n] != before[n];
+    patientSamples += depth >= 0.0 ? 1 : 0;
+    cut += depth >= doubt && isChanged ? 1 : 0;
+    cutAtContact += patient[n] >= tissue && isChanged ? 1 : 0;
+    const bool isObject = depth < -doubt && patient[n] < tissue && before[n] >= tissue;
+    objectSamples += isObject ? 1 : 0;
+    left += isObject && after[n] >= tissue ? 1 : 0;
   }
   EXPECT_EQ(cut, 0u);
+  EXPECT_LT(static_cast<double>(cutAtContact), 0.001 * static_cast<double>(patientSamples));
   EXPECT_LT(static_cast<double>(left), 0.01 * static_cast<double>(objectSamples)) << objectSamples;
   EXPECT_FALSE(removal.objects.empty());
 }
@@ -251,13 +297,256 @@ TEST(TableRemoval, ScansWithoutATableStayAsTheyAre)
 
 TEST(TableRemoval, TablesThatTouchTheBackGoAndThePatientStays)
 {
+  const std::vector<std::vector<Object>> tables{ FlatTable(), CurvedTable(), TableWithRails() };
   for (const Grid & grid : Grids())
   {
     SCOPED_TRACE(grid.seed);
-    for (const auto & table : { FlatTable(), CurvedTable(), TableWithRails() })
+    ExpectOnlyThePatient(grid, tables[grid.seed % tables.size()] + Tube());
+  }
+}
+
+TEST(TableRemoval, EarsThatTouchAHeadHolderStay)
+{
+  // The holder is a bowl along the patient; an ear leans on each of its sides.
+  const auto head = [](const PointType & p) { return 75.0 - std::hypot(p[0], p[1], p[2]); };
+  const auto ear = [](const PointType & p) {
+    return std::min(Slab(p[1], -3.0, 3.0), 22.0 - std::hypot(std::abs(p[0]) - 78.0, p[2]));
+  };
+  const auto holder = [](const PointType & p) {
+    return std::min(Slab(std::hypot(p[0], p[1]), 100.0, 104.0), p[1] + 20.0);
+  };
+  const Grid grid{ { 1.0, 1.0, 3.0 } };
+  const auto patient = ValuesOf(MakeScan(grid, { { 40.0, head }, { 0.0, ear } }));
+  rhombic::Scan scan = MakeScan(grid, { { 40.0, head }, { 0.0, ear }, { 400.0, holder } });
+  const auto points = PointsOf(scan);
+  const auto before = ValuesOf(scan);
+  rhombic::RemoveTable(scan, {});
+  const auto after = ValuesOf(scan);
+  std::size_t earSamples = 0;
+  std::size_t earLost = 0;
+  std::size_t holderSamples = 0;
+  std::size_t holderLeft = 0;
+  for (std::size_t n = 0; n < after.size(); ++n)
+  {
+    const double depth = std::max(head(points[n]), ear(points[n]));
+    EXPECT_FALSE(depth >= 0.0 && holder(points[n]) < -3.0 && after[n] != before[n]) << points[n];
+    earSamples += depth >= 0.0 && head(points[n]) < 0.0 ? 1 : 0;
+    earLost += depth >= 0.0 && head(points[n]) < 0.0 && after[n] < tissue ? 1 : 0;
+    holderSamples += depth < -3.0 && holder(points[n]) >= 0.0 ? 1 : 0;
+    holderLeft += depth < -3.0 && holder(points[n]) >= 0.0 && after[n] >= tissue ? 1 : 0;
+  }
+  EXPECT_LT(static_cast<double>(earLost), 0.05 * static_cast<double>(earSamples));
+  EXPECT_LT(static_cast<double>(holderLeft), 0.01 * static_cast<double>(holderSamples));
+}
+
+TEST(TableRemoval, TheResultIsTheSameForAnyNumberOfThreads)
+{
+  const Grid grid = Grids()[0];
+  const rhombic::Scan original = MakeScan(grid, Patient() + CurvedTable());
+  const auto values = ValuesOf(original);
+  std::vector<std::int16_t> first;
+  std::string firstReport;
+  const auto threads = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
+  for (const unsigned int count : { 1u, 2u, 3u, 4u })
+  {
+    itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(count);
+    std::copy(values.begin(), values.end(), std::get<ImageType::Pointer>(original.image)->GetBufferPointer());
+    rhombic::Scan scan = original;
+    const auto report = rhombic::ToJson(rhombic::ReportTableRemoval(rhombic::RemoveTable(scan, {})));
+    if (first.empty())
     {
-      ExpectOnlyThePatient(grid, table + Tube());
+      first = ValuesOf(scan);
+      firstReport = report;
     }
+    EXPECT_TRUE(ValuesOf(scan) == first) << count;
+    EXPECT_EQ(report, firstReport);
+  }
+  itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
+}
+
+TEST(TableRemoval, ReportsVolumeAndPlaceOfWhatIsRemoved)
+{
+  // A plate of 40 x 6 x 60 mm.
+  const std::vector<Object> block{
+    { 100.0,
+      [](const PointType & p) {
+        return std::min({ Slab(p[0], 60.0, 100.0), Slab(p[1], -150.0, -144.0), Slab(p[2], -30.0, 30.0) });
+      } }
+  };
+  rhombic::Scan scan = MakeScan(Grids()[0], Patient() + block);
+  std::vector<std::string> notes;
+  rhombic::Events events;
+  events.note = [&notes](const std::string & note) { notes.push_back(note); };
+  const auto removal = rhombic::RemoveTable(scan, events);
+  ASSERT_EQ(removal.objects.size(), 1u);
+  const auto & object = removal.objects.front();
+  EXPECT_NEAR(object.millilitres, 14.4, 2.0);
+  const double centroid[3] = { 80.0, -147.0, 0.0 };
+  const double halves[3] = { 20.0, 3.0, 30.0 };
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    EXPECT_NEAR(object.centroid[axis], centroid[axis], 0.5);
+    EXPECT_NEAR(object.lowest[axis], centroid[axis] - halves[axis], 5.0);
+    EXPECT_NEAR(object.highest[axis], centroid[axis] + halves[axis], 5.0);
+  }
+  EXPECT_NEAR(removal.airValue, air, 5.0);
+  ASSERT_FALSE(notes.empty());
+  EXPECT_NE(notes.front().find("1 object"), std::string::npos) << notes.front();
+  EXPECT_EQ(rhombic::ReportTableRemoval(removal)["objects"].size(), 1u);
+}
+
+TEST(TableRemoval, KeepsWhatMayBeAHandAndSaysSo)
+{
+  const std::vector<Object> hand{
+    { 30.0,
+      [](const PointType & p) {
+        return std::min({ Slab(p[0], 60.0, 130.0), Slab(p[1], -150.0, -132.0), Slab(p[2], -40.0, 40.0) });
+      } }
+  };
+  rhombic::Scan scan = MakeScan(Grids()[0], Patient() + hand);
+  const auto before = ValuesOf(scan);
+  const auto removal = rhombic::RemoveTable(scan, {});
+  EXPECT_TRUE(ValuesOf(scan) == before);
+  ASSERT_EQ(removal.notes.size(), 1u);
+  EXPECT_NE(removal.notes.front().find("hand"), std::string::npos) << removal.notes.front();
+}
+
+TEST(TableRemoval, ScansThatAreNotInHounsfieldUnitsStayAsTheyAre)
+{
+  rhombic::Scan scan = MakeScan(Grids()[0], Patient() + FlatTable());
+  const auto & image = *std::get<ImageType::Pointer>(scan.image);
+  std::int16_t * const values = std::get<ImageType::Pointer>(scan.image)->GetBufferPointer();
+  for (std::size_t n = 0; n < image.GetBufferedRegion().GetNumberOfPixels(); ++n)
+  {
+    values[n] = static_cast<std::int16_t>(values[n] + 1024);
+  }
+  const auto before = ValuesOf(scan);
+  const auto removal = rhombic::RemoveTable(scan, {});
+  EXPECT_TRUE(ValuesOf(scan) == before);
+  EXPECT_TRUE(removal.objects.empty());
+  ASSERT_EQ(removal.notes.size(), 1u);
+}
+
+TEST(TableRemoval, ConcernsCTsUnlessItIsRefused)
+{
+  using rhombic::TableRule;
+  rhombic::Scan scan;
+  const std::vector<std::pair<std::string, std::vector<bool>>> expected{ { "CT", { true, true, false } },
+                                                                         { "", { false, true, false } },
+                                                                         { "MR", { false, false, false } } };
+  for (const auto & [modality, removed] : expected)
+  {
+    scan.modality = modality;
+    EXPECT_EQ(rhombic::IsTableRemoved(TableRule::RemoveFromCT, scan), removed[0]) << modality;
+    EXPECT_EQ(rhombic::IsTableRemoved(TableRule::Remove, scan), removed[1]) << modality;
+    EXPECT_EQ(rhombic::IsTableRemoved(TableRule::Keep, scan), removed[2]) << modality;
+  }
+}
+
+/** Real scans, which are no part of the project: RHOMBIC_SCANS says where they are. */
+class TableOfRealScans : public testing::Test
+{
+protected:
+  void
+  SetUp() override
+  {
+    const char * const folder = std::getenv("RHOMBIC_SCANS");
+    if (folder == nullptr)
+    {
+      GTEST_SKIP() << "RHOMBIC_SCANS is not set";
+    }
+    m_Scans = folder;
+  }
+
+  std::filesystem::path m_Scans;
+};
+
+/** How much of the scan is at or above a threshold, in ml. */
+double
+MillilitresOf(const rhombic::Scan & scan, double threshold)
+{
+  return std::visit(
+    [&](const auto & image) {
+      const auto & spacing = image->GetSpacing();
+      const auto * const begin = image->GetBufferPointer();
+      const auto count = std::count_if(begin, begin + image->GetBufferedRegion().GetNumberOfPixels(), [&](auto value) {
+        return static_cast<double>(value) >= threshold;
+      });
+      return static_cast<double>(count) * spacing[0] * spacing[1] * spacing[2] / 1000.0;
+    },
+    scan.image);
+}
+
+TEST_F(TableOfRealScans, OnlyWhatIsReportedIsLost)
+{
+  struct Case
+  {
+    const char * path;
+    double lowest; // removed, in ml
+    double highest;
+  };
+  for (const Case & real : { Case{ "ct_chest_lidc0314_dicom_jpegls", 700.0, 900.0 },
+                             Case{ "ct_body_totalseg_dicom_j2k", 150.0, 190.0 },
+                             Case{ "ct_body_totalseg_nifti/example_ct.nii.gz", 150.0, 210.0 },
+                             Case{ "ct_head_tilt_varspacing_dicom_rle", 60.0, 100.0 },
+                             Case{ "ct_mr_dicom2stl_nifti/ct_example.nii.gz", 0.0, 0.0 },
+                             Case{ "ct_body_totalseg_nifti/ct_aorta_cropped.nii.gz", 0.0, 0.0 },
+                             Case{ "ct_head_ge8800_dicom", 0.0, 0.0 } })
+  {
+    SCOPED_TRACE(real.path);
+    rhombic::Scan scan = rhombic::ReadScan(m_Scans / real.path, {});
+    const double before = MillilitresOf(scan, -300.5);
+    const auto removal = rhombic::RemoveTable(scan, {});
+    const double after = MillilitresOf(scan, -300.5);
+    double removed = removal.objects.empty() ? 0.0 : removal.millilitresOfSpecks;
+    for (const auto & object : removal.objects)
+    {
+      removed += object.millilitres;
+    }
+    EXPECT_GE(removed, real.lowest);
+    EXPECT_LE(removed, real.highest);
+    EXPECT_NEAR(before - removed, after, 0.005 * after);
+  }
+}
+
+TEST_F(TableOfRealScans, NoOrganIsTouched)
+{
+  // The organs were found by TotalSegmentator.
+  const auto folder = m_Scans / "ct_body_totalseg_nifti";
+  for (const auto & [path, labelPath] :
+       { std::pair{ folder / "example_ct_sm.nii.gz", folder / "example_seg.nii.gz" },
+         std::pair{ folder / "example_ct.nii.gz", folder / "example_seg_fast_force_split.nii.gz" },
+         std::pair{ m_Scans / "ct_body_totalseg_dicom_j2k", folder / "example_seg_dicom.nii.gz" } })
+  {
+    const rhombic::Scan labels = rhombic::ReadScan(labelPath, {});
+    const rhombic::Scan original = rhombic::ReadScan(path, {});
+    rhombic::Scan scan = rhombic::ReadScan(path, {});
+    EXPECT_FALSE(rhombic::RemoveTable(scan, {}).objects.empty());
+    std::size_t organs = 0;
+    std::size_t changed = 0;
+    std::visit(
+      [&](const auto & image) {
+        const auto & was = *std::get<std::decay_t<decltype(image)>>(original.image);
+        for (itk::ImageRegionConstIteratorWithIndex<std::decay_t<decltype(*image)>> it(image,
+                                                                                       image->GetBufferedRegion());
+             !it.IsAtEnd();
+             ++it)
+        {
+          PointType point;
+          image->TransformIndexToPhysicalPoint(it.GetIndex(), point);
+          const bool isOrgan = std::visit(
+            [&](const auto & map) {
+              itk::Index<3> index;
+              return map->TransformPhysicalPointToIndex(point, index) && map->GetPixel(index) != 0;
+            },
+            labels.image);
+          organs += isOrgan ? 1 : 0;
+          changed += isOrgan && it.Get() != was.GetPixel(it.GetIndex()) ? 1 : 0;
+        }
+      },
+      scan.image);
+    EXPECT_GT(organs, 1000u);
+    EXPECT_EQ(changed, 0u) << path;
   }
 }
 

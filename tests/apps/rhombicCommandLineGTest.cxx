@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <set>
 
 namespace fs = std::filesystem;
@@ -236,6 +237,28 @@ TEST(CommandLine, ListsPresets)
   for (const char * name : { "ct-bone", "ct-skin", "ct-lung", "ct-bone-skin", "mr-head" })
   {
     EXPECT_NE(outcome.output.find(std::string(name) + "\n"), std::string::npos);
+  }
+}
+
+TEST(CommandLine, TheTableIsLookedForInCTsUnlessItIsKept)
+{
+  const TemporaryFolder folder;
+  const std::string dicom = RHOMBIC_TESTDATA "/phantom/dicom";
+  const std::vector<std::pair<std::string, bool>> expected{
+    { "mesh " + dicom + " -t -300.5 -o a.stl", true },
+    { "mesh " + dicom + " -t -300.5 --keep-table -o a.stl", false },
+    { "mesh " + phantomNifti + " -t -300.5 -o a.stl", false },
+    { "render " + phantomNifti + " --surface skin=-300.5 -o a.png", false },
+    { "render " + phantomNifti + " --preset ct-skin -o a.png", true },
+    { "render " + phantomNifti + " --preset ct-skin --keep-table -o a.png", false },
+  };
+  for (const auto & [command, isRemoved] : expected)
+  {
+    ASSERT_EQ(Rhombic(command, folder.Path()).exitCode, 0) << command;
+    const char * const output = command.rfind("mesh", 0) == 0 ? "a.stl.json" : "a.png.json";
+    std::ifstream stream(folder.Path() / output);
+    const std::string report{ std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>() };
+    EXPECT_EQ(report.find("\"removed\"") != std::string::npos, isRemoved) << command << report;
   }
 }
 
