@@ -54,7 +54,7 @@ struct LabelSurface
  * (itk::AntiAliasMaskImageFilter), is resampled onto the lattice and extracted at the level at which it has its voxels'
  * volume. A piece that comes out in several parts, or more than 1 % off its volume, or, when it is thin (at least a
  * quarter of it), with holes that its voxels don't have, is made again on finer and finer lattices, as long as that
- * helps: up to 8 times the sites, small pieces up to 64 times. Where voxels of broader parts touch at edges or corners
+ * helps: up to 8 times the sites, or 64 times on small ones. Where voxels of broader parts touch at edges or corners
  * only, the surface may or may not be connected.
  *
  * Where a label reaches the scan's border, its surface closes at the outer faces of the voxels there. A hollow label

@@ -28,6 +28,7 @@ using FieldLattice = itk::FCCImage<float>;
 constexpr double FinestFactor = 8.0;       // of the density
 constexpr double FinestSmallFactor = 64.0; // the same of small lattices
 constexpr double SmallLattice = 1 << 24;   // sites
+constexpr double LargestLattice = 1 << 26; // sites; it would take seconds for little
 constexpr double LargestDifference = 0.01; // of the volume, relative
 constexpr double GoodDifference = 0.002;
 constexpr unsigned int MostLevels = 6;
@@ -205,7 +206,7 @@ std::uintmax_t
 MemoryFor(const MaskPiece & piece, double density)
 {
   const auto voxels = static_cast<double>(piece.mask->GetBufferedRegion().GetNumberOfPixels());
-  constexpr double bytesPerVoxel = 15.0;
+  constexpr double bytesPerVoxel = 16.0;
   constexpr double bytesPerSite = 8.0;
   return static_cast<std::uintmax_t>(voxels * (bytesPerVoxel + bytesPerSite * density));
 }
@@ -263,7 +264,9 @@ private:
   {
     const double density = m_Settings.density * factor;
     const auto voxels = static_cast<double>(m_Piece.mask->GetBufferedRegion().GetNumberOfPixels());
-    return (factor <= FinestFactor || (factor <= FinestSmallFactor && voxels * density <= SmallLattice)) &&
+    const double sites = density * voxels;
+    const bool isSmall = sites <= SmallLattice && factor <= FinestSmallFactor;
+    return (isSmall || (sites <= LargestLattice && factor <= FinestFactor)) &&
            MemoryFor(m_Piece, density) <= MemoryAllowance(m_Settings.maximumMemory);
   }
 

@@ -39,23 +39,25 @@ namespace itk
  * it with anything. What is left of a part as narrow as a voxel may be thinner than the sampling of the field; then a
  * lattice of the default density misses it here and there.
  *
- * Mean errors against the shape the mask was made from, in voxels (of the zero surface extracted from the default
- * lattice), degrees (of facets), and per cent (of the area), for spheres of radius 10 and 40, a torus (25, 7.3), and
- * the faces of boxes turned by 17 degrees; the rivals' isovalue was chosen to preserve the volume:
+ * Mean errors against the shape that the mask was made from: distance in voxels, angle of facets in degrees, and area
+ * in per cent, of the zero surface extracted from the default lattice; for spheres of radius 10 and 40, a torus
+ * (25, 7.3), and a box of 44 turned by 17 degrees (distance and angle of its faces). All were extracted at the level
+ * that has the mask's volume; the last column is how far the volume of the first sphere was off without that, in per
+ * cent.
  *
- *     method                                     sphere 10         sphere 40         torus             box
- *     this filter                                .035 1.4  0.0     .029 1.1  0.0     .034 1.9  0.1     .05  0.9
- *     mask smoothed by a Gaussian of 2           .028 1.2  0.0     .023 0.9  0.0     .056 1.8 -0.1     .16  0.8
- *     AntiAliasBinaryImageFilter, RMS 0.07       .097 11.8 2.8     .098 11.6 2.7     .102 11.8 2.7     .13  15.8
- *     the same with RMS 0.01                     .058 4.2  0.3     .068 4.9  0.5     .069 4.3  0.3     .09  7.7
- *     Whitaker's, 8 times a Gaussian of 1        .084 13.6 3.5     .035 4.0  0.4     .080 10.8 2.3     .15  7.7
+ *     method                               sphere 10         sphere 40         torus             box volume this filter
+ * .035  1.4  0.0    .029  1.1  0.0    .034  1.9  0.1    .05  0.9 -0.6     -0.2 mask smoothed by a Gaussian of 2
+ * .028  1.2  0.0    .023  0.9  0.0    .056  1.8 -0.1    .16  0.8 -6.6    -11.5 AntiAliasBinaryImageFilter, 0.07
+ * .097 11.8  2.8    .098 11.6  2.7    .102 11.8  2.7    .12 14.5  2.7     -0.8 the same, RMS error 0.01 .058  4.2  0.3
+ * .068  4.9  0.5    .069  4.3  0.3    .08  5.2 -2.1     -4.3 Whitaker's, 8 times a Gaussian of 1  .084 13.6  3.5
+ * .035  4.0  0.4    .080 10.8  2.3    .13  0.9 -1.7    -11.3
  *
  * Everything is symmetric in inside and outside, but for touching tubes, so that the masks on both sides of a wall get
  * the same wall. Distances are counted in voxels, whatever their spacing. Beyond the image the mask is continued as it
  * is at its border; leave a margin of 4 voxels around it, except where the scan ends.
  *
  * The whole input is requested, and the whole output made. Its bytes are the same for any number of threads, on any
- * processor. Extra memory: 10 bytes per voxel.
+ * processor. Extra memory: 11 bytes per voxel.
  *
  * \ingroup FCCResampling
  */
