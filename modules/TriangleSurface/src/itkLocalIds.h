@@ -33,6 +33,12 @@ public:
     return m_Ids;
   }
 
+  bool
+  Has(PointId id) const
+  {
+    return std::binary_search(m_Ids.begin(), m_Ids.end(), id);
+  }
+
   std::vector<TriangleType>
   ToLocal(std::vector<TriangleType> triangles) const
   {

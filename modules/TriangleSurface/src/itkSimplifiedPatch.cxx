@@ -1,12 +1,11 @@
 #include "itkSimplifiedPatch.h"
 
 #include "itkLocalIds.h"
-#include "itkPatchTopology.h"
-
-#include <meshoptimizer.h>
 
 #include <algorithm>
 #include <cmath>
+#include <queue>
+#include <tuple>
 
 namespace itk
 {
@@ -14,61 +13,429 @@ namespace
 {
 
 using PointId = std::uint32_t;
+using TriangleId = std::uint32_t;
+using CornerId = std::uint32_t; // 3 * triangle + 0, 1 or 2
 using PointType = TriangleSurface::PointType;
 using TriangleType = TriangleSurface::TriangleType;
 using Box = TriangleTree::Box;
+using Vector3 = std::array<double, 3>;
 
-constexpr unsigned int MostRounds = 12; // then the whole patch is held
+constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
 
-std::vector<PointId>
-SortedOnce(std::vector<PointId> ids)
+constexpr unsigned int MostHolds = 12;
+constexpr double SmallestCosineOfTurn = 0.2; // of a triangle's normal when an edge shrinks
+constexpr double SliverQuality = 0.1;        // below it a triangle's own normal says little, and new ones are unwelcome
+
+Vector3
+Subtract(const Vector3 & a, const Vector3 & b)
 {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  return ids;
+  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
 }
 
+double
+Dot(const Vector3 & a, const Vector3 & b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Vector3
+Cross(const Vector3 & a, const Vector3 & b)
+{
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+/** A triangle's normal, as long as twice its area, and how near it is to equilateral: 1 if it is, 0 without area. */
+struct Shape
+{
+  Vector3 normal;
+  double length;
+  double quality;
+
+  Shape(const Vector3 & a, const Vector3 & b, const Vector3 & c)
+  {
+    const Vector3 ab = Subtract(b, a);
+    const Vector3 ac = Subtract(c, a);
+    const Vector3 bc = Subtract(c, b);
+    normal = Cross(ab, ac);
+    length = std::sqrt(Dot(normal, normal));
+    const double squares = Dot(ab, ab) + Dot(ac, ac) + Dot(bc, bc);
+    quality = squares > 0.0 ? 2.0 * std::sqrt(3.0) * length / squares : 0.0;
+  }
+};
+
+/** Sum of weighted squared distances from planes, as a function of position. */
+class Quadric
+{
+public:
+  /** Adds the plane of a triangle, weighted by its area. */
+  void
+  AddPlane(const Vector3 & position, const Shape & shape)
+  {
+    if (!(shape.length > 0.0))
+    {
+      return;
+    }
+    const Vector3 n{ shape.normal[0] / shape.length, shape.normal[1] / shape.length, shape.normal[2] / shape.length };
+    const double d = -Dot(n, position);
+    const double area = shape.length / 2.0;
+    const std::array<double, 11> terms{ n[0] * n[0], n[1] * n[1], n[2] * n[2], n[0] * n[1], n[0] * n[2], n[1] * n[2],
+                                        n[0] * d,    n[1] * d,    n[2] * d,    d * d,       1.0 };
+    for (std::size_t i = 0; i < terms.size(); ++i)
+    {
+      m_Terms[i] += area * terms[i];
+    }
+  }
+
+  void
+  Add(const Quadric & other)
+  {
+    for (std::size_t i = 0; i < m_Terms.size(); ++i)
+    {
+      m_Terms[i] += other.m_Terms[i];
+    }
+  }
+
+  /** Root of the weighted mean of the squared distances. */
+  double
+  ComputeDistance(const Vector3 & p) const
+  {
+    const auto & t = m_Terms;
+    const double sum =
+      t[0] * p[0] * p[0] + t[1] * p[1] * p[1] + t[2] * p[2] * p[2] +
+      2.0 * (t[3] * p[0] * p[1] + t[4] * p[0] * p[2] + t[5] * p[1] * p[2] + t[6] * p[0] + t[7] * p[1] + t[8] * p[2]) +
+      t[9];
+    return t[10] > 0.0 ? std::sqrt(std::max(0.0, sum) / t[10]) : 0.0;
+  }
+
+private:
+  std::array<double, 11> m_Terms{};
+};
+
+/** Shrinks the edges of some triangles. Points have local numbers. */
+class EdgeCollapse
+{
+public:
+  EdgeCollapse(const SimplifiedPatch::Points & points,
+               const std::vector<TriangleType> & triangles,
+               const std::vector<std::uint8_t> & isHeld,
+               const SimplifiedPatch::Check & isAllowed);
+
+  void
+  Run(const SimplifiedPatch::Goal & goal);
+
+  /** The triangles that are left and are, or are not, as they were at first. */
+  std::vector<TriangleType>
+  GetTriangles(bool isNew) const;
+
+private:
+  /** Point \a from is to vanish into point \a to. */
+  struct Candidate
+  {
+    float error;
+    PointId from;
+    PointId to;
+    std::uint32_t version; // of the quadric the error is from
+
+    friend bool
+    operator<(const Candidate & a, const Candidate & b) // the least comes first in a queue
+    {
+      return std::tie(a.error, a.from, a.to) > std::tie(b.error, b.from, b.to);
+    }
+  };
+
+  template <typename TVisit>
+  void
+  ForEachTriangle(PointId point, const TVisit & visit) const
+  {
+    for (CornerId corner = m_FirstCorner[point]; corner != None; corner = m_NextCorner[corner])
+    {
+      if (m_IsLeft[corner / 3])
+      {
+        visit(corner / 3, m_Triangles[corner / 3][(corner + 1) % 3], m_Triangles[corner / 3][(corner + 2) % 3]);
+      }
+    }
+  }
+
+  void
+  FindBorder();
+  void
+  AddQuadrics();
+  void
+  Propose(PointId from, PointId to);
+  void
+  ProposeAround(PointId point);
+  bool
+  IsTopologyKept(PointId from, PointId to);
+  bool
+  IsShapeKept(PointId from, PointId to) const;
+  void
+  Collapse(PointId from, PointId to);
+  Shape
+  ShapeOf(const TriangleType & triangle) const
+  {
+    return { m_Positions[triangle[0]], m_Positions[triangle[1]], m_Positions[triangle[2]] };
+  }
+
+  const SimplifiedPatch::Points & m_Points;
+  const SimplifiedPatch::Check & m_IsAllowed;
+  const LocalIds m_Ids;
+  std::vector<TriangleType> m_Triangles;
+  std::vector<std::uint8_t> m_IsLeft; // of triangles, as is the next
+  std::vector<std::uint8_t> m_IsNew;
+  std::size_t m_NumberLeft;
+  std::vector<CornerId> m_FirstCorner; // of each point; its other corners follow by m_NextCorner
+  std::vector<CornerId> m_NextCorner;
+  std::vector<Vector3> m_Positions; // from here on of points; from the first point, to keep digits
+  std::vector<Quadric> m_Quadrics;
+  std::vector<std::uint32_t> m_Versions;
+  std::vector<std::uint8_t> m_IsOnBorder;
+  std::vector<std::uint8_t> m_Stays;
+  std::vector<std::uint8_t> m_IsGone;
+  std::vector<std::uint32_t> m_Marks;
+  std::uint32_t m_Mark = 0;
+  double m_LargestError = 0.0;
+  std::priority_queue<Candidate> m_Candidates;
+};
+
+EdgeCollapse::EdgeCollapse(const SimplifiedPatch::Points & points,
+                           const std::vector<TriangleType> & triangles,
+                           const std::vector<std::uint8_t> & isHeld,
+                           const SimplifiedPatch::Check & isAllowed)
+  : m_Points(points)
+  , m_IsAllowed(isAllowed)
+  , m_Ids(triangles)
+  , m_Triangles(m_Ids.ToLocal(triangles))
+  , m_IsLeft(triangles.size(), 1)
+  , m_IsNew(triangles.size(), 0)
+  , m_NumberLeft(triangles.size())
+  , m_FirstCorner(m_Ids.GetIds().size(), None)
+  , m_NextCorner(3 * triangles.size())
+  , m_Quadrics(m_FirstCorner.size())
+  , m_Versions(m_FirstCorner.size(), 0)
+  , m_IsOnBorder(m_FirstCorner.size(), 0)
+  , m_IsGone(m_FirstCorner.size(), 0)
+  , m_Marks(m_FirstCorner.size(), 0)
+{
+  for (CornerId corner = 0; corner < m_NextCorner.size(); ++corner)
+  {
+    const PointId point = m_Triangles[corner / 3][corner % 3];
+    m_NextCorner[corner] = m_FirstCorner[point];
+    m_FirstCorner[point] = corner;
+  }
+  const PointType & origin = points[m_Ids.GetIds().front()];
+  for (const PointId id : m_Ids.GetIds())
+  {
+    const PointType & point = points[id];
+    m_Positions.push_back(Subtract({ point[0], point[1], point[2] }, { origin[0], origin[1], origin[2] }));
+  }
+  this->AddQuadrics();
+  this->FindBorder();
+  m_Stays = m_IsOnBorder;
+  for (std::size_t id = 0; id < isHeld.size(); ++id)
+  {
+    for (const PointId point : m_Triangles[id])
+    {
+      m_Stays[point] = m_Stays[point] || isHeld[id] ? 1 : 0;
+    }
+  }
+}
+
+/** Around a point inside, each neighbour follows it in one triangle and precedes it in another one. */
+void
+EdgeCollapse::FindBorder()
+{
+  std::vector<int> balance(m_FirstCorner.size(), 0);
+  for (PointId point = 0; point < m_FirstCorner.size(); ++point)
+  {
+    this->ForEachTriangle(point, [&](TriangleId, PointId next, PointId last) {
+      ++balance[next];
+      --balance[last];
+    });
+    this->ForEachTriangle(point, [&](TriangleId, PointId next, PointId last) {
+      m_IsOnBorder[point] = m_IsOnBorder[point] || balance[next] != 0 || balance[last] != 0 ? 1 : 0;
+    });
+    this->ForEachTriangle(point, [&](TriangleId, PointId next, PointId last) { balance[next] = balance[last] = 0; });
+  }
+}
+
+void
+EdgeCollapse::AddQuadrics()
+{
+  for (const TriangleType & triangle : m_Triangles)
+  {
+    const Shape shape = this->ShapeOf(triangle);
+    for (const PointId point : triangle)
+    {
+      m_Quadrics[point].AddPlane(m_Positions[triangle[0]], shape);
+    }
+  }
+}
+
+void
+EdgeCollapse::Run(const SimplifiedPatch::Goal & goal)
+{
+  m_LargestError = goal.error;
+  for (const TriangleType & triangle : m_Triangles)
+  {
+    for (unsigned int corner = 0; corner < 3; ++corner)
+    {
+      this->Propose(triangle[corner], triangle[(corner + 1) % 3]);
+    }
+  }
+  while (m_NumberLeft > goal.triangles && !m_Candidates.empty())
+  {
+    const Candidate best = m_Candidates.top();
+    m_Candidates.pop();
+    if (!m_IsGone[best.from] && !m_IsGone[best.to] && m_Versions[best.from] == best.version &&
+        this->IsTopologyKept(best.from, best.to) && this->IsShapeKept(best.from, best.to))
+    {
+      this->Collapse(best.from, best.to);
+      this->ProposeAround(best.to);
+    }
+  }
+}
+
+void
+EdgeCollapse::Propose(PointId from, PointId to)
+{
+  if (m_Stays[from])
+  {
+    return;
+  }
+  const double error = m_Quadrics[from].ComputeDistance(m_Positions[to]);
+  if (error <= m_LargestError)
+  {
+    m_Candidates.push({ static_cast<float>(error), from, to, m_Versions[from] });
+  }
+}
+
+void
+EdgeCollapse::ProposeAround(PointId point)
+{
+  this->ForEachTriangle(point, [&](TriangleId, PointId next, PointId) {
+    this->Propose(point, next);
+    this->Propose(next, point);
+  });
+}
+
+/** The link condition: the points next to both are those opposite to the edge, and no two triangles come to lie upon
+ * each other. Points that vanish are inside the patch, so each point next to them follows them in one triangle. */
 bool
-HasArea(const std::array<PointType, 3> & corners)
+EdgeCollapse::IsTopologyKept(PointId from, PointId to)
 {
-  std::array<double, 3> normal{};
-  for (unsigned int axis = 0; axis < 3; ++axis)
+  ++m_Mark;
+  this->ForEachTriangle(to, [&](TriangleId, PointId next, PointId last) {
+    m_Marks[next] = m_Mark;
+    m_Marks[last] = m_Mark;
+  });
+  unsigned int degree = 0;
+  unsigned int common = 0;
+  bool joinsBorder = false;
+  std::array<PointId, 2> opposite{ None, None };
+  this->ForEachTriangle(from, [&](TriangleId, PointId next, PointId) {
+    ++degree;
+    if (next != to && m_Marks[next] == m_Mark)
+    {
+      opposite[common % 2] = next;
+      ++common;
+    }
+    joinsBorder = joinsBorder || (next != to && m_Marks[next] != m_Mark && m_IsOnBorder[to] && m_IsOnBorder[next]);
+  });
+  if (common != 2 || joinsBorder)
   {
-    const unsigned int u = (axis + 1) % 3;
-    const unsigned int v = (axis + 2) % 3;
-    normal[axis] = (double{ corners[1][u] } - corners[0][u]) * (double{ corners[2][v] } - corners[0][v]) -
-                   (double{ corners[1][v] } - corners[0][v]) * (double{ corners[2][u] } - corners[0][u]);
+    return false;
   }
-  return normal != std::array<double, 3>{};
+  bool isDoubled = false;
+  if (degree == 3)
+  {
+    this->ForEachTriangle(to, [&](TriangleId, PointId next, PointId last) {
+      isDoubled =
+        isDoubled || (next == opposite[0] && last == opposite[1]) || (next == opposite[1] && last == opposite[0]);
+    });
+  }
+  return !isDoubled;
 }
 
-/** The points of components that have no successor, or several, or one with another Euler characteristic. */
-std::vector<bool>
-FindLostComponents(const PatchTopology & before,
-                   const PatchTopology & after,
-                   const std::vector<TriangleType> & trianglesAfter)
+/** No triangle may lose its area, turn round or become a sliver worse than any before, or be refused. */
+bool
+EdgeCollapse::IsShapeKept(PointId from, PointId to) const
 {
-  const std::vector<PointId> & componentOf = before.GetComponents();
-  std::vector<int> euler(componentOf.size(), 0);
-  for (PointId point = 0; point < componentOf.size(); ++point)
+  Vector3 fanNormal{};
+  double worstBefore = 1.0;
+  this->ForEachTriangle(from, [&](TriangleId id, PointId, PointId) {
+    const Shape shape = this->ShapeOf(m_Triangles[id]);
+    worstBefore = std::min(worstBefore, shape.quality);
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      fanNormal[axis] += shape.normal[axis];
+    }
+  });
+  bool isKept = true;
+  const auto forEachMoved = [&](const auto & visit) {
+    this->ForEachTriangle(from, [&](TriangleId id, PointId next, PointId last) {
+      if (isKept && next != to && last != to)
+      {
+        visit(id, next, last);
+      }
+    });
+  };
+  forEachMoved([&](TriangleId id, PointId next, PointId last) {
+    const Shape before = this->ShapeOf(m_Triangles[id]);
+    const Shape after(m_Positions[to], m_Positions[next], m_Positions[last]);
+    const Vector3 & reference = before.quality >= SliverQuality ? before.normal : fanNormal;
+    isKept = after.quality > 0.0 && after.quality >= std::min(SliverQuality, worstBefore) &&
+             Dot(after.normal, reference) > SmallestCosineOfTurn * after.length * std::sqrt(Dot(reference, reference));
+  });
+  if (m_IsAllowed)
   {
-    euler[componentOf[point]] += after.GetEulerCharacteristics()[point];
+    forEachMoved([&](TriangleId, PointId next, PointId last) {
+      isKept =
+        m_IsAllowed({ m_Points[m_Ids.GetIds()[to]], m_Points[m_Ids.GetIds()[next]], m_Points[m_Ids.GetIds()[last]] });
+    });
   }
-  std::vector<bool> isCounted(componentOf.size());
-  std::vector<int> successors(componentOf.size(), 0);
-  for (const TriangleType & triangle : trianglesAfter)
+  return isKept;
+}
+
+void
+EdgeCollapse::Collapse(PointId from, PointId to)
+{
+  m_IsGone[from] = 1;
+  m_Quadrics[to].Add(m_Quadrics[from]);
+  ++m_Versions[to];
+  for (CornerId corner = m_FirstCorner[from], next = None; corner != None; corner = next)
   {
-    const PointId successor = after.GetComponents()[triangle[0]];
-    successors[componentOf[successor]] += isCounted[successor] ? 0 : 1;
-    isCounted[successor] = true;
+    next = m_NextCorner[corner];
+    TriangleType & triangle = m_Triangles[corner / 3];
+    if (!m_IsLeft[corner / 3])
+    {
+      continue;
+    }
+    if (std::find(triangle.begin(), triangle.end(), to) != triangle.end())
+    {
+      m_IsLeft[corner / 3] = 0;
+      --m_NumberLeft;
+      continue;
+    }
+    triangle[corner % 3] = to;
+    m_IsNew[corner / 3] = 1;
+    m_NextCorner[corner] = m_FirstCorner[to];
+    m_FirstCorner[to] = corner;
   }
-  std::vector<bool> isLost(componentOf.size());
-  for (PointId point = 0; point < componentOf.size(); ++point)
+}
+
+std::vector<TriangleType>
+EdgeCollapse::GetTriangles(bool isNew) const
+{
+  std::vector<TriangleType> triangles;
+  const auto & ids = m_Ids.GetIds();
+  for (TriangleId id = 0; id < m_Triangles.size(); ++id)
   {
-    const PointId component = componentOf[point];
-    isLost[point] = successors[component] != 1 || euler[component] != before.GetEulerCharacteristics()[component];
+    if (m_IsLeft[id] && (m_IsNew[id] != 0) == isNew)
+    {
+      triangles.push_back({ ids[m_Triangles[id][0]], ids[m_Triangles[id][1]], ids[m_Triangles[id][2]] });
+    }
   }
-  return isLost;
+  return triangles;
 }
 
 } // namespace
@@ -88,148 +455,56 @@ BoxOf(const TriangleSurface::PointsContainer & points, const TriangleType & tria
   return box;
 }
 
+SimplifiedPatch::SimplifiedPatch(const Points & points, const TriangleType * begin, const TriangleType * end)
+  : m_Points(&points)
+  , m_Begin(begin)
+  , m_End(end)
+{}
+
 void
-SimplifiedPatch::HoldAround(const std::vector<PointId> & points)
+SimplifiedPatch::Simplify(const Goal & goal, const Check & isAllowed)
 {
-  const auto isAny = [&points](PointId point) { return std::binary_search(points.begin(), points.end(), point); };
-  for (std::size_t id = 0; id < m_IsHeld.size(); ++id)
-  {
-    m_IsHeld[id] = m_IsHeld[id] || std::any_of(m_Begin[id].begin(), m_Begin[id].end(), isAny) ? 1 : 0;
-  }
+  EdgeCollapse collapse(*m_Points, std::vector<TriangleType>(m_Begin, m_End), m_IsHeld, isAllowed);
+  collapse.Run(goal);
+  m_Result = collapse.GetTriangles(false);
+  m_NumberOfOldTriangles = m_Result.size();
+  const std::vector<TriangleType> newTriangles = collapse.GetTriangles(true);
+  m_Result.insert(m_Result.end(), newTriangles.begin(), newTriangles.end());
 }
 
 void
-SimplifiedPatch::HoldIn(const std::vector<Box> & boxes)
+SimplifiedPatch::Hold(const std::vector<Box> & places)
 {
+  const std::vector<std::uint8_t> wasHeld = m_IsHeld;
+  m_IsHeld.resize(this->GetNumberOfTrianglesBefore(), 0);
+  ++m_Holds;
   for (std::size_t id = 0; id < m_IsHeld.size(); ++id)
   {
     const Box own = BoxOf(*m_Points, m_Begin[id]);
     m_IsHeld[id] =
-      m_IsHeld[id] || std::any_of(boxes.begin(), boxes.end(), [&own](const Box & box) { return box.Overlaps(own); })
+      m_Holds > MostHolds || m_IsHeld[id] ||
+          std::any_of(places.begin(), places.end(), [&own](const Box & place) { return place.Overlaps(own); })
         ? 1
         : 0;
   }
-}
-
-void
-SimplifiedPatch::TakeBack(const Faults & faults)
-{
-  ++m_Rounds;
-  ++m_PlacesTakenBack;
-  if (m_Rounds > MostRounds)
+  if (m_IsHeld != wasHeld)
   {
-    std::fill(m_IsHeld.begin(), m_IsHeld.end(), std::uint8_t{ 1 });
     return;
   }
-  const std::vector<std::uint8_t> wasHeld = m_IsHeld;
-  this->HoldAround(SortedOnce(faults.points));
-  this->HoldIn(faults.boxes);
-  if (m_IsHeld == wasHeld)
-  {
-    std::vector<PointId> points;
-    for (std::size_t id = 0; id < m_NumberHeld; ++id)
-    {
-      points.insert(points.end(), m_Result[id].begin(), m_Result[id].end());
-    }
-    this->HoldAround(SortedOnce(points));
-  }
-}
-
-void
-SimplifiedPatch::Simplify(const Goal & goal, const TooFarCheck & isTooFar)
-{
-  this->SimplifyOnce(goal);
-  for (Faults faults = this->FindFaults(isTooFar); !faults.IsEmpty(); faults = this->FindFaults(isTooFar))
-  {
-    this->TakeBack(faults);
-    this->SimplifyOnce(goal);
-  }
-}
-
-void
-SimplifiedPatch::SimplifyOnce(const Goal & goal)
-{
-  m_Result.clear();
-  std::vector<TriangleType> rest;
+  std::vector<TriangleType> held;
   for (std::size_t id = 0; id < m_IsHeld.size(); ++id)
   {
-    (m_IsHeld[id] ? m_Result : rest).push_back(m_Begin[id]);
-  }
-  m_NumberHeld = m_Result.size();
-  if (rest.empty())
-  {
-    return;
-  }
-
-  const LocalIds ids(rest);
-  std::vector<PointType> positions;
-  std::vector<TriangleType> local(rest.size());
-  const std::vector<TriangleType> localRest = ids.ToLocal(rest);
-  for (const PointId id : ids.GetIds())
-  {
-    positions.push_back((*m_Points)[id]);
-  }
-  const std::size_t target = goal.triangles > m_NumberHeld ? goal.triangles - m_NumberHeld : 0;
-  const float scale = meshopt_simplifyScale(positions.front().data(), positions.size(), sizeof(PointType));
-  const std::size_t indices = meshopt_simplify(local.front().data(),
-                                               localRest.front().data(),
-                                               3 * localRest.size(),
-                                               positions.front().data(),
-                                               positions.size(),
-                                               sizeof(PointType),
-                                               3 * target,
-                                               static_cast<float>(goal.error) / scale,
-                                               meshopt_SimplifyLockBorder,
-                                               nullptr);
-  local.resize(indices / 3);
-  for (const TriangleType & triangle : local)
-  {
-    m_Result.push_back({ ids.GetIds()[triangle[0]], ids.GetIds()[triangle[1]], ids.GetIds()[triangle[2]] });
-  }
-}
-
-SimplifiedPatch::Faults
-SimplifiedPatch::FindFaults(const TooFarCheck & isTooFar) const
-{
-  Faults faults;
-  if (m_NumberHeld == m_IsHeld.size())
-  {
-    return faults;
-  }
-  const std::vector<TriangleType> triangles(m_Begin, m_End);
-  const LocalIds ids(triangles);
-  const std::vector<TriangleType> before = ids.ToLocal(triangles);
-  const std::vector<TriangleType> after = ids.ToLocal(m_Result);
-  const PatchTopology topologyBefore(before, ids.GetIds().size());
-  const PatchTopology topologyAfter(after, ids.GetIds().size());
-
-  for (const std::uint32_t id : topologyAfter.GetBadTriangles())
-  {
-    faults.AddTriangle(m_Result[id]);
-  }
-  for (std::size_t id = m_NumberHeld; id < m_Result.size(); ++id)
-  {
-    const std::array<PointType, 3> corners{ (*m_Points)[m_Result[id][0]],
-                                            (*m_Points)[m_Result[id][1]],
-                                            (*m_Points)[m_Result[id][2]] };
-    if (!HasArea(corners) || (isTooFar && isTooFar(corners)))
+    if (m_IsHeld[id])
     {
-      faults.AddTriangle(m_Result[id]);
+      held.push_back(m_Begin[id]);
     }
   }
-  if (faults.IsEmpty())
+  const LocalIds ids(held);
+  for (std::size_t id = 0; id < m_IsHeld.size(); ++id)
   {
-    const std::vector<bool> isLost = FindLostComponents(topologyBefore, topologyAfter, after);
-    const bool isBorderKept = topologyBefore.GetBorder() == topologyAfter.GetBorder();
-    for (PointId point = 0; point < isLost.size(); ++point)
-    {
-      if (!isBorderKept || isLost[point])
-      {
-        faults.points.push_back(ids.GetIds()[point]);
-      }
-    }
+    m_IsHeld[id] =
+      std::any_of(m_Begin[id].begin(), m_Begin[id].end(), [&ids](PointId point) { return ids.Has(point); }) ? 1 : 0;
   }
-  return faults;
 }
 
 } // namespace itk

@@ -11,8 +11,13 @@ namespace itk
 /** \class SimplifiedPatch
  * \brief Some triangles of a surface and the fewer ones that take their place.
  *
- * The border stays as it is, so any patch may be simplified or not whatever its neighbours do. So do the triangles that
- * are held because a check has failed where they are.
+ * Edges shrink to one of their points, those of least error first, the error being that of Garland and Heckbert,
+ * "Surface simplification using quadric error metrics" (SIGGRAPH 1997): the mean squared distance from the planes of
+ * the triangles that the vanishing point has stood for. An edge may shrink only where the link condition of Dey et al.,
+ * "Topology preserving edge contraction" (1999) holds, so the topology stays as it is.
+ *
+ * The patch's border stays, and no new edge joins two of its points: whatever patches are simplified, they fit
+ * together.
  *
  * \ingroup TriangleSurface
  */
@@ -21,96 +26,58 @@ class SimplifiedPatch
 public:
   using PointType = TriangleSurface::PointType;
   using TriangleType = TriangleSurface::TriangleType;
-  using Box = TriangleTree::Box;
   using Points = TriangleSurface::PointsContainer;
+  using Box = TriangleTree::Box;
 
-  /** How far a patch is simplified. */
+  /** How far a patch is simplified: as far as neither is passed. */
   struct Goal
   {
-    double error; ///< mm, mean distance of a point from the planes it stands for
+    double error; ///< mm, root of the mean squared distance that the class comment tells
     std::size_t triangles;
   };
 
-  /** Where something is wrong with a result. */
-  struct Faults
-  {
-    std::vector<std::uint32_t> points;
-    std::vector<Box> boxes;
-
-    bool
-    IsEmpty() const
-    {
-      return points.empty() && boxes.empty();
-    }
-    void
-    AddTriangle(const TriangleType & triangle)
-    {
-      points.insert(points.end(), triangle.begin(), triangle.end());
-    }
-  };
-
-  /** Whether a triangle of the result, by its corners' positions, is too far from the original surface. */
-  using TooFarCheck = std::function<bool(const std::array<PointType, 3> &)>;
+  /** Whether a triangle, by its corners, may be part of the result. Called by one thread at a time for each patch. */
+  using Check = std::function<bool(const std::array<PointType, 3> &)>;
 
   SimplifiedPatch() = default;
 
-  /** Of the triangles [begin, end), which must stay where they are. */
-  SimplifiedPatch(const Points & points, const TriangleType * begin, const TriangleType * end)
-    : m_Points(&points)
-    , m_Begin(begin)
-    , m_End(end)
-    , m_IsHeld(static_cast<std::size_t>(end - begin), 0)
-  {}
+  /** Of the triangles [begin, end), which must stay where they are, as must the points. */
+  SimplifiedPatch(const Points & points, const TriangleType * begin, const TriangleType * end);
 
-  /** Holds the triangles of the points and in the boxes, or one ring more around those held where they are held
-   * already, and after many calls all triangles. */
+  /** Simplifies all that is not held. */
   void
-  TakeBack(const Faults & faults);
+  Simplify(const Goal & goal, const Check & isAllowed);
 
-  /** Simplifies what is not held, until checks of topology, degenerate triangles and distance succeed. */
+  /** From the next Simplify() on, holds the triangles whose boxes meet a \a place; if all of them are held already,
+   * one more ring of triangles around them all; all triangles after many calls. */
   void
-  Simplify(const Goal & goal, const TooFarCheck & isTooFar);
+  Hold(const std::vector<Box> & places);
 
-  /** The result. Those held come first. */
+  /** The result: first triangles that were there before, then new ones. */
   const std::vector<TriangleType> &
   GetTriangles() const
   {
     return m_Result;
   }
   std::size_t
-  GetNumberHeld() const
+  GetNumberOfOldTriangles() const
   {
-    return m_NumberHeld;
+    return m_NumberOfOldTriangles;
   }
   std::size_t
-  GetNumberBefore() const
+  GetNumberOfTrianglesBefore() const
   {
-    return m_IsHeld.size();
-  }
-  std::size_t
-  GetPlacesTakenBack() const
-  {
-    return m_PlacesTakenBack;
+    return static_cast<std::size_t>(m_End - m_Begin);
   }
 
 private:
-  void
-  SimplifyOnce(const Goal & goal);
-  Faults
-  FindFaults(const TooFarCheck & isTooFar) const;
-  void
-  HoldAround(const std::vector<std::uint32_t> & points);
-  void
-  HoldIn(const std::vector<Box> & boxes);
-
   const Points * m_Points = nullptr;
   const TriangleType * m_Begin = nullptr;
   const TriangleType * m_End = nullptr;
-  std::vector<std::uint8_t> m_IsHeld;
-  std::size_t m_NumberHeld = 0;
+  std::vector<std::uint8_t> m_IsHeld; // empty while none is
+  unsigned int m_Holds = 0;
   std::vector<TriangleType> m_Result;
-  std::size_t m_PlacesTakenBack = 0;
-  unsigned int m_Rounds = 0;
+  std::size_t m_NumberOfOldTriangles = 0;
 };
 
 /** The box around a triangle. */

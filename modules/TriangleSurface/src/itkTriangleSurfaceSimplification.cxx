@@ -1,9 +1,8 @@
 #include "itkTriangleSurfaceSimplification.h"
 
-#include "itkLocalIds.h"
 #include "itkParallelBlocks.h"
-#include "itkPatchTopology.h"
 #include "itkSimplifiedPatch.h"
+#include "itkTriangleContact.h"
 #include "itkTriangleSurfaceDistance.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
@@ -23,6 +22,7 @@ using PointType = TriangleSurface::PointType;
 using TriangleType = TriangleSurface::TriangleType;
 using Triangles = TriangleSurface::TrianglesContainer;
 using Box = TriangleTree::Box;
+using Contact = TriangleContactEnums::Contact;
 
 constexpr std::size_t PatchSize = 4096;
 
@@ -73,6 +73,18 @@ Grown(Box box, float by)
   {
     box.lowest[axis] -= by;
     box.highest[axis] += by;
+  }
+  return box;
+}
+
+Box
+Intersection(const Box & a, const Box & b)
+{
+  Box box;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    box.lowest[axis] = std::max(a.lowest[axis], b.lowest[axis]);
+    box.highest[axis] = std::min(a.highest[axis], b.highest[axis]);
   }
   return box;
 }
@@ -185,10 +197,7 @@ public:
   }
 
 private:
-  static constexpr std::uint32_t NoPatch = std::numeric_limits<std::uint32_t>::max();
-  static constexpr std::uint32_t SeveralPatches = NoPatch - 1;
-
-  using FaultsOfPatches = std::vector<SimplifiedPatch::Faults>;
+  using Places = std::vector<std::vector<Box>>; // of each patch
 
   bool
   IsAtTarget() const
@@ -206,9 +215,9 @@ private:
   void
   PutTogether();
   void
-  FindBadSeams(FaultsOfPatches & faults) const;
+  FindContacts(const TriangleTree & state, const std::vector<std::uint32_t> & patches, Places & places) const;
   std::vector<std::uint32_t>
-  FindPlacesLeft(const std::vector<std::uint32_t> & doubtful, FaultsOfPatches & faults) const;
+  FindPlacesLeft(const TriangleTree & state, const std::vector<std::uint32_t> & doubtful, Places & places) const;
   void
   AddNear(const std::vector<std::uint32_t> & patches, std::vector<std::uint32_t> & doubtful) const;
   std::uint32_t
@@ -226,8 +235,7 @@ private:
   Triangles m_Before;
   std::vector<SimplifiedPatch> m_Patches;
   std::vector<SimplifiedPatch::Goal> m_Goals;
-  std::vector<std::uint32_t> m_Begin;        // of each patch's triangles in m_State, and their end
-  std::vector<std::uint32_t> m_PatchOfPoint; // or NoPatch or SeveralPatches
+  std::vector<std::uint32_t> m_Begin; // of each patch's triangles in m_State, and their end
   SizeValueType m_PlacesTakenBack = 0;
 };
 
@@ -273,13 +281,16 @@ Simplification::Step(double error, double cut)
   for (;;)
   {
     this->PutTogether();
-    FaultsOfPatches faults(m_Patches.size());
-    this->FindBadSeams(faults);
-    doubtful = this->FindPlacesLeft(doubtful, faults);
+    Places places(m_Patches.size());
+    {
+      const TriangleTree state(*m_State);
+      this->FindContacts(state, changed, places);
+      doubtful = this->FindPlacesLeft(state, doubtful, places);
+    }
     changed.clear();
     for (std::uint32_t patch = 0; patch < m_Patches.size(); ++patch)
     {
-      if (!faults[patch].IsEmpty())
+      if (!places[patch].empty())
       {
         changed.push_back(patch);
       }
@@ -291,13 +302,10 @@ Simplification::Step(double error, double cut)
     this->AddNear(changed, doubtful);
     for (const std::uint32_t patch : changed)
     {
-      m_Patches[patch].TakeBack(faults[patch]);
+      m_Patches[patch].Hold(places[patch]);
+      m_PlacesTakenBack += places[patch].size();
     }
     this->SimplifyPatches(changed);
-  }
-  for (const SimplifiedPatch & patch : m_Patches)
-  {
-    m_PlacesTakenBack += patch.GetPlacesTakenBack();
   }
   const bool isSound = HaveSameTopology(ComputeTopology(*m_State), m_Topology);
   if (!isSound)
@@ -313,33 +321,24 @@ Simplification::CutIntoPatches(double cut)
   m_Before.swap(m_State->GetTriangles());
   const std::vector<Range> ranges = SortIntoPatches(m_Original.GetPoints(), m_Before, cut);
   m_Patches.clear();
-  m_PatchOfPoint.assign(m_Original.GetNumberOfPoints(), NoPatch);
   for (const Range & range : ranges)
   {
-    const auto patch = static_cast<std::uint32_t>(m_Patches.size());
     m_Patches.emplace_back(m_Original.GetPoints(), m_Before.data() + range.begin, m_Before.data() + range.end);
-    for (std::size_t id = range.begin; id < range.end; ++id)
-    {
-      for (const PointId point : m_Before[id])
-      {
-        std::uint32_t & owner = m_PatchOfPoint[point];
-        owner = owner == NoPatch || owner == patch ? patch : SeveralPatches;
-      }
-    }
   }
 }
 
 void
 Simplification::SimplifyPatches(const std::vector<std::uint32_t> & which)
 {
-  SimplifiedPatch::TooFarCheck isTooFar;
+  SimplifiedPatch::Check isAllowed;
   if (m_OriginalTree)
   {
-    isTooFar = [this](const std::array<PointType, 3> & corners) {
-      return !IsWithinDistance(corners, *m_OriginalTree, m_Settings.maximumError);
+    isAllowed = [this](const std::array<PointType, 3> & corners) {
+      return IsWithinDistance(corners, *m_OriginalTree, m_Settings.maximumError);
     };
   }
-  ForEachInBlocks(which.size(), 1, [&](SizeValueType n) { m_Patches[which[n]].Simplify(m_Goals[which[n]], isTooFar); });
+  ForEachInBlocks(
+    which.size(), 1, [&](SizeValueType n) { m_Patches[which[n]].Simplify(m_Goals[which[n]], isAllowed); });
 }
 
 /** Where the patches have become fewer triangles than asked for, lets each lose less, by the same share. */
@@ -360,7 +359,7 @@ Simplification::AimAtTarget()
   std::vector<std::uint32_t> all;
   for (std::uint32_t patch = 0; patch < m_Patches.size(); ++patch)
   {
-    const double before = static_cast<double>(m_Patches[patch].GetNumberBefore());
+    const double before = static_cast<double>(m_Patches[patch].GetNumberOfTrianglesBefore());
     const double lost = before - static_cast<double>(m_Patches[patch].GetTriangles().size());
     m_Goals[patch].triangles = static_cast<std::size_t>(before - share * lost);
     all.push_back(patch);
@@ -392,48 +391,51 @@ bool
 Simplification::IsNew(std::uint32_t triangle) const
 {
   const std::uint32_t patch = PatchOf(triangle);
-  return triangle - m_Begin[patch] >= m_Patches[patch].GetNumberHeld();
+  return triangle - m_Begin[patch] >= m_Patches[patch].GetNumberOfOldTriangles();
 }
 
-/** Finds where patches that are sound by themselves are not so together. */
+/** Finds where new triangles of some patches meet other triangles than their neighbours. */
 void
-Simplification::FindBadSeams(FaultsOfPatches & faults) const
+Simplification::FindContacts(const TriangleTree & state,
+                             const std::vector<std::uint32_t> & patches,
+                             Places & places) const
 {
-  std::vector<TriangleType> triangles;
-  std::vector<std::uint32_t> ids;
-  for (std::uint32_t id = 0; id < m_State->GetNumberOfTriangles(); ++id)
-  {
-    const TriangleType & triangle = m_State->GetTriangles()[id];
-    if (std::any_of(
-          triangle.begin(), triangle.end(), [this](PointId point) { return m_PatchOfPoint[point] == SeveralPatches; }))
+  const auto & points = m_Original.GetPoints();
+  const auto & triangles = m_State->GetTriangles();
+  std::vector<std::vector<std::pair<std::uint32_t, Box>>> found(patches.size());
+  ForEachInBlocks(patches.size(), 1, [&](SizeValueType n) {
+    const std::uint32_t patch = patches[n];
+    for (auto id = m_Begin[patch] + m_Patches[patch].GetNumberOfOldTriangles(); id < m_Begin[patch + 1]; ++id)
     {
-      triangles.push_back(triangle);
-      ids.push_back(id);
+      const Box box = BoxOf(points, triangles[id]);
+      state.VisitTriangles(box, [&](std::uint32_t other) {
+        if (other != id && FindContact(points, triangles[id], triangles[other]) != Contact::Apart)
+        {
+          const Box common = Intersection(box, BoxOf(points, triangles[other]));
+          found[n].push_back({ patch, common });
+          if (this->IsNew(other))
+          {
+            found[n].push_back({ this->PatchOf(other), common });
+          }
+        }
+      });
     }
-  }
-  const LocalIds localIds(triangles);
-  const std::vector<TriangleType> local = localIds.ToLocal(triangles);
-  const PatchTopology topology(local, localIds.GetIds().size(), [&](PointId point) {
-    return m_PatchOfPoint[localIds.GetIds()[point]] == SeveralPatches;
   });
-  for (const std::uint32_t bad : topology.GetBadTriangles())
+  for (const auto & ofPatch : found)
   {
-    if (this->IsNew(ids[bad]))
+    for (const auto & [patch, box] : ofPatch)
     {
-      faults[this->PatchOf(ids[bad])].AddTriangle(triangles[bad]);
+      places[patch].push_back(box);
     }
   }
 }
 
 /** Finds where the state has moved away from triangles of the original. Returns those. */
 std::vector<std::uint32_t>
-Simplification::FindPlacesLeft(const std::vector<std::uint32_t> & doubtful, FaultsOfPatches & faults) const
+Simplification::FindPlacesLeft(const TriangleTree & state,
+                               const std::vector<std::uint32_t> & doubtful,
+                               Places & places) const
 {
-  if (doubtful.empty())
-  {
-    return {};
-  }
-  const TriangleTree state(*m_State);
   std::vector<std::uint8_t> isLeft(doubtful.size());
   ForEachInBlocks(doubtful.size(), 1024, [&](SizeValueType n) {
     const auto & points = m_Original.GetPoints();
@@ -464,7 +466,7 @@ Simplification::FindPlacesLeft(const std::vector<std::uint32_t> & doubtful, Faul
     patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
     for (const std::uint32_t patch : patches)
     {
-      faults[patch].boxes.push_back(box);
+      places[patch].push_back(box);
     }
   }
   return left;
