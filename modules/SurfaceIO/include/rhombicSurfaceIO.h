@@ -49,10 +49,10 @@ CheckSurfacePath(const std::filesystem::path & path, std::size_t numberOfSurface
  * all formats; colours with 8 bits. The same surfaces give the same bytes, in every locale.
  *
  * The file is read back and compared before it appears, complete or not at all; one that existed is replaced. An OBJ's
- * materials appear just before it. Memory: a copy of the surfaces. Throws Failure(Usage) for another extension or
- * several surfaces in an STL, Failure(Empty) for a surface without triangles or no surface, Failure(Output) when the
- * file can't be written, the surfaces are too large for the format or a position is not finite. Calls for different
- * files may run at the same time. */
+ * materials appear just before it. Memory: a copy of the surfaces, two for STL, three for OBJ. Throws Failure(Usage)
+ * for another extension or several surfaces in an STL, Failure(Empty) for a surface without triangles or no surface,
+ * Failure(Output) when the file can't be written, the surfaces are too large for the format or a position is not
+ * finite. Calls for different files may run at the same time. */
 void
 WriteSurfaces(const std::vector<SceneSurface> & surfaces,
               const std::filesystem::path & path,

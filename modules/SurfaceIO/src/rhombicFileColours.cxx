@@ -9,7 +9,7 @@ namespace rhombic
 std::uint8_t
 ToByte(double value)
 {
-  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0, 1.0)));
+  return static_cast<std::uint8_t>(std::lround(255 * ToUnit(value)));
 }
 
 std::array<std::uint8_t, 3>
@@ -19,17 +19,11 @@ ToBytes(const Colour & colour)
 }
 
 Colour
-FromBytes(const std::array<std::uint8_t, 3> & bytes)
-{
-  return { bytes[0] / 255.0, bytes[1] / 255.0, bytes[2] / 255.0 };
-}
-
-Colour
 SRGBToLinear(const Colour & colour)
 {
   Colour light;
   std::transform(colour.begin(), colour.end(), light.begin(), [](double value) {
-    value = std::clamp(value, 0.0, 1.0);
+    value = ToUnit(value);
     return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
   });
   return light;
@@ -40,7 +34,7 @@ LinearToSRGB(const Colour & light)
 {
   Colour colour;
   std::transform(light.begin(), light.end(), colour.begin(), [](double value) {
-    value = std::clamp(value, 0.0, 1.0);
+    value = ToUnit(value);
     return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
   });
   return colour;

@@ -3,11 +3,19 @@
 
 #include "rhombicSceneSurface.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
 namespace rhombic
 {
+
+/** The nearest number from 0 to 1; 0 for what is no number. */
+inline double
+ToUnit(double value)
+{
+  return value > 0 ? std::min(value, 1.0) : 0.0;
+}
 
 /** 0 to 1 as 0 to 255, rounded; what is outside becomes the nearest. */
 std::uint8_t
@@ -15,9 +23,6 @@ ToByte(double value);
 
 std::array<std::uint8_t, 3>
 ToBytes(const Colour & colour);
-
-Colour
-FromBytes(const std::array<std::uint8_t, 3> & bytes);
 
 /** From the numbers that files of pictures hold to those that are proportional to light, and back (IEC 61966-2-1). */
 Colour

@@ -1,3 +1,4 @@
+#include "rhombicFileColours.h"
 #include "rhombicFileSpace.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicSurfaceAssembler.h"
@@ -28,7 +29,7 @@ using Materials = std::map<std::string, Material, std::less<>>;
 double
 ParseUnit(std::string_view word)
 {
-  return std::clamp(ParseNumber<double>(word).value_or(0), 0.0, 1.0);
+  return ToUnit(ParseNumber<double>(word).value_or(0));
 }
 
 /** Without such a file, surfaces have their default look. */

@@ -133,12 +133,22 @@ ParseDescription(std::string_view text)
   const auto json = nlohmann::json::parse(text, nullptr, false);
   try
   {
+    const auto colour = json.at("colour").get<std::array<double, 3>>();
     SurfacePart part;
     part.look.name = json.at("name").get<std::string>();
-    part.look.colour = FromBytes(json.at("colour").get<std::array<std::uint8_t, 3>>());
-    part.look.opacity = std::clamp(json.at("opacity").get<double>(), 0.0, 1.0);
-    part.points = json.at("points").get<std::uint64_t>();
-    part.faces = json.at("triangles").get<std::uint64_t>();
+    for (std::size_t n = 0; n < colour.size(); ++n)
+    {
+      part.look.colour[n] = ToUnit(colour[n] / 255);
+    }
+    part.look.opacity = ToUnit(json.at("opacity").get<double>());
+    // As doubles, because nlohmann's conversion of numbers beyond integers' range is not defined.
+    const auto points = json.at("points").get<double>(), faces = json.at("triangles").get<double>();
+    if (!(points >= 0 && points <= UINT32_MAX && faces >= 0 && faces <= UINT32_MAX))
+    {
+      return std::nullopt;
+    }
+    part.points = static_cast<std::uint64_t>(points);
+    part.faces = static_cast<std::uint64_t>(faces);
     return part;
   }
   catch (const nlohmann::json::exception &)
@@ -410,7 +420,7 @@ public:
           return property.name == SlotNames[FirstColour];
         });
       const double one = colour->type == Scalar::UInt8 ? 255 : 1; // floats are from 0 to 1
-      const auto unit = [&](std::size_t slot) { return std::clamp((*m_First)[slot] / one, 0.0, 1.0); };
+      const auto unit = [&](std::size_t slot) { return ToUnit((*m_First)[slot] / one); };
       assembler.SetLook({ unit(FirstColour), unit(FirstColour + 1), unit(FirstColour + 2) },
                         HasSlots(vertex, Alpha, 1) ? unit(Alpha) : 1.0);
     }

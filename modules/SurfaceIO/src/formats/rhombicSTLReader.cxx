@@ -39,6 +39,7 @@ ReadBinary(const InputFile & file)
 
   const auto surface = itk::TriangleSurface::New();
   surface->GetTriangles().reserve(triangles);
+  surface->GetPoints().reserve(triangles / 2 + 2);
   PointWelder welder(surface->GetPoints());
   struct
   {

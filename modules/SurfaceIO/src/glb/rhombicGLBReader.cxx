@@ -309,7 +309,7 @@ private:
       const Json surface = material.value("pbrMetallicRoughness", Json::object());
       const auto factor = NumbersAt<4>(surface, "baseColorFactor").value_or(std::array<double, 4>{ 1, 1, 1, 1 });
       scene.colour = LinearToSRGB({ factor[0], factor[1], factor[2] });
-      scene.opacity = material.value("alphaMode", "OPAQUE") == "BLEND" ? std::clamp(factor[3], 0.0, 1.0) : 1.0;
+      scene.opacity = material.value("alphaMode", "OPAQUE") == "BLEND" ? ToUnit(factor[3]) : 1.0;
     }
     return scene;
   }

@@ -201,9 +201,9 @@ private:
       parts[n].look.name = names[n];
       for (double & part : parts[n].look.colour)
       {
-        part = std::clamp(colours.Take() / 255, 0.0, 1.0);
+        part = ToUnit(colours.Take() / 255);
       }
-      parts[n].look.opacity = std::clamp(opacities.Take(), 0.0, 1.0);
+      parts[n].look.opacity = ToUnit(opacities.Take());
       parts[n].points = sizes.TakeWhole();
       parts[n].faces = sizes.TakeWhole();
     }
