@@ -567,7 +567,7 @@ TEST_F(PhantomFiles, AreTheSameBytesEveryTime)
   WritePhantom(m_Folder / "second", { 10.0 });
   const auto first = ReadFolder(m_Folder / "first");
   EXPECT_EQ(first.count("phantom-organs.csv"), 1u);
-  EXPECT_EQ(first.size(), 3u + MakePhantomScan({ 10.0 })->GetLargestPossibleRegion().GetSize()[2]);
+  EXPECT_EQ(first.size(), 4u + MakePhantomScan({ 10.0 })->GetLargestPossibleRegion().GetSize()[2]);
   EXPECT_TRUE(first == ReadFolder(m_Folder / "second"));
 }
 

@@ -13,6 +13,7 @@ namespace rhombic
  * - `dicom/`: a CT series, one file a slice, from the feet up; patient PHANTOM, fixed identifiers, no dates;
  * - `phantom.nii.gz`: the same scan, int16 in Hounsfield units;
  * - `phantom-labels.nii.gz`: its labels, uint8;
+ * - `phantom-labels.tsv`: their names and colours;
  * - `phantom-organs.csv`: name, label, Hounsfield units, exact volume in ml and colour of each organ.
  *
  * The folder is created, its parents aren't; nothing in it is overwritten. All the files appear together at the end:

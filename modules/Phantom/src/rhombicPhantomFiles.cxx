@@ -277,29 +277,47 @@ WriteSeries(const fs::path & folder, const PhantomScan & scan, const PhantomSett
 }
 
 std::string
-MakeTable()
+DescribeColour(const PhantomOrgan & organ)
 {
   std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << "name,label,hounsfield,volume_ml,colour\n" << std::fixed;
-  for (const auto & organ : PhantomOrgans())
+  text << '#' << std::hex << std::setfill('0');
+  for (const float channel : organ.colour)
   {
-    text << organ.name << ',' << organ.label << ',' << std::setprecision(0) << organ.hounsfield << ','
-         << std::setprecision(3) << organ.volume / 1000.0 << ",#" << std::hex << std::setfill('0');
-    for (const float channel : organ.colour)
-    {
-      text << std::setw(2) << std::lround(255.0f * channel);
-    }
-    text << std::dec << '\n';
+    text << std::setw(2) << std::lround(255.0f * channel);
   }
   return text.str();
 }
 
+std::string
+MakeOrganTable()
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << "name,label,hounsfield,volume_ml,colour\n" << std::fixed;
+  for (const PhantomOrgan & organ : PhantomOrgans())
+  {
+    text << organ.name << ',' << organ.label << ',' << std::setprecision(0) << organ.hounsfield << ','
+         << std::setprecision(3) << organ.volume / 1000.0 << ',' << DescribeColour(organ) << '\n';
+  }
+  return text.str();
+}
+
+/** As BIDS has it. */
+std::string
+MakeLabelTable()
+{
+  std::string text = "index\tname\tcolor\n";
+  for (const PhantomOrgan & organ : PhantomOrgans())
+  {
+    text += std::to_string(organ.label) + '\t' + organ.name + '\t' + DescribeColour(organ) + '\n';
+  }
+  return text;
+}
+
 void
-WriteTable(const fs::path & path)
+WriteTable(const fs::path & path, const std::string & table)
 {
   AtomicFile output(path);
-  const std::string table = MakeTable();
   std::ofstream stream(output.GetTemporaryPath(), std::ios::binary);
   stream << table;
   stream.close();
@@ -322,7 +340,8 @@ WritePhantom(const fs::path & folder, const PhantomSettings & settings)
     WriteSeries(staging.GetPath() / "dicom", *scan, settings);
     WriteScan(scan, staging.GetPath() / "phantom.nii.gz");
     WriteScan(MakePhantomLabels(settings), staging.GetPath() / "phantom-labels.nii.gz");
-    WriteTable(staging.GetPath() / "phantom-organs.csv");
+    WriteTable(staging.GetPath() / "phantom-labels.tsv", MakeLabelTable());
+    WriteTable(staging.GetPath() / "phantom-organs.csv", MakeOrganTable());
     staging.Commit();
   }
   catch (const Failure &)

@@ -1,0 +1,194 @@
+#include "rhombicProgram.h"
+#include "rhombicSurfaceIO.h"
+
+#include "itkTriangleSurfaceMeasures.h"
+#include "itkTriangleSurfaceTopology.h"
+
+#include <nlohmann/json.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+using rhombictest::Outcome;
+using rhombictest::ReadText;
+using rhombictest::RunShell;
+using rhombictest::TemporaryFolder;
+
+const std::string scan = RHOMBIC_TESTDATA "/phantom/dicom";
+const std::string labels = RHOMBIC_TESTDATA "/phantom/phantom-labels.nii.gz";
+
+class MeshCommand : public testing::Test
+{
+protected:
+  Outcome
+  Mesh(const std::string & arguments) const
+  {
+    return RunShell("rhombic mesh " + scan + " " + arguments, m_Folder.Path());
+  }
+
+  std::vector<rhombic::SceneSurface>
+  Read(const std::string & file) const
+  {
+    return rhombic::ReadSurfaces(m_Folder.Path() / file);
+  }
+
+  nlohmann::json
+  Sidecar(const std::string & file) const
+  {
+    return nlohmann::json::parse(ReadText(m_Folder.Path() / (file + ".json")));
+  }
+
+  TemporaryFolder m_Folder;
+};
+
+TEST_F(MeshCommand, ScenesHoldTheSurfacesOfAPreset)
+{
+  for (const std::string extension : { "glb", "vtp", "ply", "obj" })
+  {
+    ASSERT_EQ(this->Mesh("--preset ct-bone-skin -o scene." + extension).exitCode, 0) << extension;
+    const auto scene = this->Read("scene." + extension);
+    ASSERT_EQ(scene.size(), 2u) << extension;
+    EXPECT_EQ(scene[0].name, "bone") << extension;
+    EXPECT_EQ(scene[1].name, "skin") << extension;
+    EXPECT_NEAR(scene[1].opacity, 0.25, 0.01) << extension;
+    EXPECT_GT(ComputeVolume(*scene[1].surface), ComputeVolume(*scene[0].surface)) << extension;
+  }
+}
+
+TEST_F(MeshCommand, NamesInBracesMakeAFileForEach)
+{
+  ASSERT_EQ(
+    this->Mesh("--surface bone=375.5 --surface 'soft parts=-300.5' --surface bone=500.5 -o 'a-{name}.stl'").exitCode,
+    0);
+  std::set<std::string> names;
+  for (const auto & entry : fs::directory_iterator(m_Folder.Path()))
+  {
+    names.insert(entry.path().filename().string());
+  }
+  EXPECT_EQ(names,
+            (std::set<std::string>{ "a-bone.stl",
+                                    "a-bone.stl.json",
+                                    "a-soft_parts.stl",
+                                    "a-soft_parts.stl.json",
+                                    "a-bone-2.stl",
+                                    "a-bone-2.stl.json" }));
+  EXPECT_EQ(this->Sidecar("a-bone-2.stl")["surfaces"][0]["isovalue"], 500.5);
+}
+
+TEST_F(MeshCommand, RASIsTheSamePlaceInOtherAxes)
+{
+  ASSERT_EQ(this->Mesh("-t 375.5 -o lps.ply").exitCode, 0);
+  ASSERT_EQ(this->Mesh("-t 375.5 --space ras -o ras.ply").exitCode, 0);
+  EXPECT_NE(ReadText(m_Folder.Path() / "lps.ply").find("SPACE=LPS"), std::string::npos);
+  EXPECT_NE(ReadText(m_Folder.Path() / "ras.ply").find("SPACE=RAS"), std::string::npos);
+  EXPECT_TRUE(this->Read("lps.ply")[0].surface->GetPoints() == this->Read("ras.ply")[0].surface->GetPoints());
+}
+
+TEST_F(MeshCommand, LabelsBecomeClosedSurfacesOfTheirVolume)
+{
+  ASSERT_EQ(this->Mesh("--labels " + labels + " --label 10 --label 14 -o organs.glb").exitCode, 0);
+  const auto organs = this->Read("organs.glb");
+  ASSERT_EQ(organs.size(), 2u);
+  constexpr double millilitres[] = { 1446.91, 456.192 }; // brain, left lung: their voxels
+  for (std::size_t n = 0; n < 2; ++n)
+  {
+    EXPECT_TRUE(ComputeTopology(*organs[n].surface).IsWatertight());
+    EXPECT_NEAR(ComputeVolume(*organs[n].surface) / 1000.0 / millilitres[n], 1.0, 0.01);
+  }
+  const auto report = this->Sidecar("organs.glb")["surfaces"];
+  EXPECT_TRUE(report[0]["measures"]["meanValue"].is_number()) << "of the scan inside the label";
+}
+
+TEST_F(MeshCommand, MeasuresAreATable)
+{
+  ASSERT_EQ(this->Mesh("-t -485.5 -o skin.ply --measures table.csv").exitCode, 0);
+  const std::string table = ReadText(m_Folder.Path() / "table.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 2);
+  EXPECT_NE(table.find("volume (ml)"), std::string::npos);
+  const auto line = table.substr(table.find('\n') + 1);
+  EXPECT_EQ(std::count(line.begin(), line.end(), ','),
+            std::count(table.begin(), table.end() - static_cast<std::ptrdiff_t>(line.size()), ','));
+  const auto measures = this->Sidecar("skin.ply")["surfaces"][0]["measures"];
+  const double volume = measures["volumeInMillilitres"];
+  EXPECT_NEAR(volume, ComputeVolume(*this->Read("skin.ply")[0].surface) / 1000.0, 1e-3 * volume);
+  EXPECT_NEAR(measures["voxelVolumeInMillilitres"].get<double>() / volume, 1.0, 0.01);
+  EXPECT_FALSE(measures["volumesDiffer"].get<bool>());
+}
+
+TEST_F(MeshCommand, SimplificationStaysWithinItsError)
+{
+  const Outcome outcome = this->Mesh("-t 375.5 --max-error 0.5 --audit --require-watertight -o small.stl");
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+  const auto report = this->Sidecar("small.stl")["surfaces"][0];
+  EXPECT_LT(report["simplification"]["trianglesAfter"].get<int>(),
+            report["simplification"]["trianglesBefore"].get<int>());
+  EXPECT_LE(report["simplification"]["maximumDistanceInMillimetres"].get<double>(), 0.5 + 1e-6);
+  EXPECT_TRUE(report["audit"]["watertight"].get<bool>());
+  EXPECT_GT(report["audit"]["intersections"]["testedTriangles"].get<int>(), 0);
+  EXPECT_GT(report["deviation"]["samples"].get<int>(), 100);
+
+  ASSERT_EQ(this->Mesh("-t 375.5 --max-triangles 50% -o half.stl").exitCode, 0);
+  const auto half = this->Sidecar("half.stl")["surfaces"][0]["simplification"];
+  EXPECT_LE(half["trianglesAfter"].get<int>(), half["trianglesBefore"].get<int>() / 2 + 1);
+}
+
+TEST_F(MeshCommand, SmallPartsGoAndSmoothingIsBounded)
+{
+  ASSERT_EQ(this->Mesh("-t 375.5 --largest --fill --smooth 0.3 -o one.ply").exitCode, 0);
+  const auto topology = ComputeTopology(*this->Read("one.ply")[0].surface);
+  EXPECT_EQ(topology.components, 1u);
+  EXPECT_TRUE(topology.IsWatertight());
+  const auto report = this->Sidecar("one.ply")["surfaces"][0];
+  EXPECT_GT(report["parts"]["shellsBefore"].get<int>(), 1);
+  EXPECT_LE(report["smoothing"]["largestMoveInMillimetres"].get<double>(),
+            report["smoothing"]["maximumMoveInMillimetres"].get<double>());
+  EXPECT_EQ(this->Mesh("-t 375.5 --min-volume 1e6 -o none.ply").exitCode, 6);
+  EXPECT_FALSE(fs::exists(m_Folder.Path() / "none.ply"));
+}
+
+TEST_F(MeshCommand, AuditJudgesFilesOfOthers)
+{
+  std::ofstream(m_Folder.Path() / "open.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
+  std::ofstream(m_Folder.Path() / "closed.obj")
+    << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  const auto audit = [&](const std::string & arguments) {
+    return RunShell("rhombic audit " + arguments, m_Folder.Path());
+  };
+  EXPECT_EQ(audit("closed.obj --require-watertight").exitCode, 0);
+  EXPECT_EQ(audit("open.obj").exitCode, 0);
+  const Outcome leaking = audit("open.obj --require-watertight");
+  EXPECT_EQ(leaking.exitCode, 8);
+  EXPECT_NE(leaking.errors.find("3 boundary edges"), std::string::npos) << leaking.errors;
+  const auto report = nlohmann::json::parse(audit("closed.obj --json").output);
+  EXPECT_EQ(report[0]["eulerCharacteristic"], 2);
+  EXPECT_TRUE(report[0]["watertight"].get<bool>());
+}
+
+TEST_F(MeshCommand, TellsWhatItCannotDo)
+{
+  const std::pair<const char *, int> cases[] = { { "--preset ct-bone-skin -o two.stl", 2 },
+                                                 { "-t 375.5 -o a.stl --max-triangles none", 2 },
+                                                 { "-t 375.5 -o a.stl --max-triangles 120%", 2 },
+                                                 { "-t 375.5 -o a.stl --max-error -1", 2 },
+                                                 { "-t 375.5 -o a.stl --smooth 2", 2 },
+                                                 { "-t 375.5 -o a.stl --space mars", 2 },
+                                                 { "-t 375.5 -o a.stl --measures a.txt", 2 },
+                                                 { "-t 375.5 -o a.stl --label heart", 2 },
+                                                 { "-o a.stl", 2 },
+                                                 { "-t 375.5 -o missing/a-{name}.stl", 7 } };
+  for (const auto & [arguments, exitCode] : cases)
+  {
+    EXPECT_EQ(this->Mesh(arguments).exitCode, exitCode) << arguments;
+    EXPECT_TRUE(fs::is_empty(m_Folder.Path())) << arguments;
+  }
+}
+
+} // namespace
