@@ -23,7 +23,7 @@ struct SurfaceFileSettings
   SurfaceFileSpace space = SurfaceFileSpace::LPS;
 
   /** Gets the surfaces as they were read back, before the file appears; what it throws leaves the target as it was. */
-  std::function<void(const std::vector<SceneSurface> & read)> inspect;
+  std::function<void(const std::vector<SceneSurface> & read)> inspect{};
 };
 
 /** The extensions of the formats below, for help texts: ".stl, .ply, .obj, .vtp, .glb". */
