@@ -266,7 +266,7 @@ TEST(LabelSurfaces, SheetsOfOneVoxelAreWhole)
     EXPECT_LT(std::abs(sheet.GetVolumeDifference()), 0.01) << normal;
     withHoles += ComputeTopology(*sheet.scene.surface).eulerCharacteristic != 2 ? 1 : 0;
   }
-  EXPECT_LE(withHoles, 1) << "where the normal is near a diagonal, voxels touch at corners only";
+  EXPECT_LE(withHoles, 2) << "where the normal is near a diagonal, voxels touch at corners only";
 }
 
 /** The voxels that a curve passes through. */

@@ -30,14 +30,15 @@ namespace itk
  * which make a voxel's coverage by the border, smoothed, that of the mask, so that the border stays where it was on
  * average while its steps vanish.
  *
- * Thin parts and sharp edges can't be told in such a wide neighbourhood. *Narrow* voxels are those that end up more
- * than 0.3 on the wrong side, and those of sheets and vessels that are one voxel wide: sixteen or more connected voxels
- * in no 2 x 2 x 2 block of their class. Around them, the field is made with a Gaussian of 0.7 voxels and smaller
- * corrections. Voxels in no such block that are on the wrong side then, too, are *protected*: the field is at least
- * that of a tube of radius 0.6 around them and their connections with all 26 neighbours of their class. So 1-voxel
- * vessels and single voxels stay. *Spurs* don't: one or two such voxels that stick out of something without connecting
- * it with anything. What is left of a part as narrow as a voxel may be thinner than the sampling of the field; then a
- * lattice of the default density misses it here and there.
+ * Thin parts and sharp edges can't be told in such a wide neighbourhood. Around voxels that end up more than 0.3 on the
+ * wrong side, the field is made with a Gaussian of 1.2 voxels and smaller corrections. *Narrow* voxels are those that
+ * are still as wrong, and those of sheets and vessels that are one voxel wide: sixteen or more connected voxels in no
+ * 2 x 2 x 2 block of their class. Around them the Gaussian is one of 0.7 voxels. Voxels in no such block that are on
+ * the wrong side then, too, are *protected*: the field is at least that of a tube of radius 0.6 around them and their
+ * connections with all 26 neighbours of their class. So 1-voxel vessels and single voxels stay. *Spurs* don't: one or
+ * two such voxels that stick out of something without connecting it with anything. What is left of a part as narrow as
+ * a voxel may be thinner than the sampling of the field; then a lattice of the default density misses it here and
+ * there.
  *
  * Mean errors against the shape that the mask was made from: distance in voxels, angle of facets in degrees, and area
  * in per cent, of the zero surface extracted from the default lattice; for spheres of radius 10 and 40, a torus
@@ -46,7 +47,7 @@ namespace itk
  * cent.
  *
  *     method                               sphere 10         sphere 40         torus             box volume this filter
- * .035  1.4  0.0    .029  1.1  0.0    .034  1.9  0.1    .05  0.9 -0.6     -0.2 mask smoothed by a Gaussian of 2
+ * .035  1.4  0.0    .029  1.1  0.0    .034  1.9  0.1    .05  0.9 -1.8     -0.2 mask smoothed by a Gaussian of 2
  * .028  1.2  0.0    .023  0.9  0.0    .056  1.8 -0.1    .16  0.8 -6.6    -11.5 AntiAliasBinaryImageFilter, 0.07
  * .097 11.8  2.8    .098 11.6  2.7    .102 11.8  2.7    .12 14.5  2.7     -0.8 the same, RMS error 0.01 .058  4.2  0.3
  * .068  4.9  0.5    .069  4.3  0.3    .08  5.2 -2.1     -4.3 Whitaker's, 8 times a Gaussian of 1  .084 13.6  3.5
@@ -125,9 +126,9 @@ private:
   std::vector<SizeValueType>
   CollectPart(SizeValueType first, const std::vector<std::uint8_t> & marked, std::vector<std::uint8_t> & isSeen) const;
 
-  /** Takes the values of \a fine around the marked voxels. */
+  /** Makes the field for a smaller Gaussian and takes it around the marked voxels. */
   void
-  Refine(const std::vector<std::uint8_t> & isNarrow, const float * fine);
+  Refine(double sigma, unsigned int corrections, float gain, const std::vector<std::uint8_t> & isNarrow);
 
   /** Marks fewer: those to be protected, but for spurs. */
   void

@@ -14,17 +14,22 @@ namespace itk
 namespace
 {
 
-constexpr double WideSigma = 2.5; // voxels
-constexpr unsigned int WideCorrections = 2;
-constexpr double NarrowSigma = 0.7;
-constexpr unsigned int NarrowCorrections = 5;
-constexpr float NarrowGain = 0.3f; // thin parts overshoot Newton's step
-constexpr float Narrow = 0.3f;     // on the wrong side
-constexpr float Lost = 0.03f;      // on the wrong side
+/** A Gaussian of sigma voxels, and how the local volumes in it are matched. */
+struct Scale
+{
+  double sigma;
+  unsigned int corrections;
+  float gain; // thin parts overshoot Newton's step
+};
+constexpr Scale Wide{ 2.5, 2, 1.0f };
+constexpr Scale Medium{ 1.2, 4, 0.6f };
+constexpr Scale Fine{ 0.7, 5, 0.3f };
+constexpr float Narrow = 0.3f; // on the wrong side
+constexpr float Lost = 0.03f;  // on the wrong side
 constexpr float TubeRadius = 0.6f;
 constexpr SizeValueType LargestSpur = 2; // voxels
 constexpr SizeValueType SmallestSheet = 16;
-constexpr unsigned int Passes = 2 + WideCorrections + NarrowCorrections + 1;
+constexpr unsigned int Passes = Wide.corrections + Medium.corrections + Fine.corrections + 5;
 
 /** Weights of a Gaussian at -r, ..., r voxels, r being three sigma, rounded up. */
 std::vector<float>
@@ -179,14 +184,17 @@ AntiAliasMaskImageFilter::GenerateData()
   m_NumberOfNarrowVoxels = 0;
   m_NumberOfProtectedVoxels = 0;
 
-  this->MatchLocalVolumes(WideSigma, WideCorrections, 1.0f, m_Field);
-  const std::vector<std::uint8_t> thin = this->FindThin();
+  this->MatchLocalVolumes(Wide.sigma, Wide.corrections, Wide.gain, m_Field);
+  std::vector<std::uint8_t> thin(size[0] * size[1] * size[2]);
   std::vector<std::uint8_t> isMarked(thin.size());
   if (this->FindNarrow(thin, isMarked))
   {
-    std::vector<float> fine(isMarked.size());
-    this->MatchLocalVolumes(NarrowSigma, NarrowCorrections, NarrowGain, fine.data());
-    this->Refine(isMarked, fine.data());
+    this->Refine(Medium.sigma, Medium.corrections, Medium.gain, isMarked);
+  }
+  thin = this->FindThin();
+  if (this->FindNarrow(thin, isMarked))
+  {
+    this->Refine(Fine.sigma, Fine.corrections, Fine.gain, isMarked);
     this->KeepLost(thin, isMarked);
     this->DropSpurs(isMarked);
     this->Protect(isMarked, false);
@@ -410,16 +418,22 @@ AntiAliasMaskImageFilter::FindNarrow(const std::vector<std::uint8_t> & thin, std
 }
 
 void
-AntiAliasMaskImageFilter::Refine(const std::vector<std::uint8_t> & isNarrow, const float * fine)
+AntiAliasMaskImageFilter::Refine(double sigma,
+                                 unsigned int corrections,
+                                 float gain,
+                                 const std::vector<std::uint8_t> & isNarrow)
 {
   const SizeValueType width = m_Size[0];
+  std::vector<float> fine(isNarrow.size());
+  this->MatchLocalVolumes(sigma, corrections, gain, fine.data());
+  constexpr double blendingSigma = 1.0;
   this->Smooth(
-    NarrowSigma,
+    blendingSigma,
     [&](SizeValueType row, float * values) { std::copy_n(isNarrow.data() + row * width, width, values); },
     [&](SizeValueType row, const float * values) {
       for (SizeValueType x = 0; x < width; ++x)
       {
-        constexpr float steepness = 100.0f; // around a single voxel
+        constexpr float steepness = 100.0f; // around a single voxel: 1 up to a distance of 2, 0 from 4 on
         const SizeValueType voxel = row * width + x;
         m_Field[voxel] += std::min(1.0f, steepness * values[x]) * (fine[voxel] - m_Field[voxel]);
       }
