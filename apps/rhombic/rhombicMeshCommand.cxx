@@ -135,7 +135,9 @@ AddMeshCommand(CLI::App & parser)
                     "smooth; no point moves further than this many spacings of the lattice, as 0.3");
   parser.add_option("--max-error", options->finish.maximumError, "simplify, staying within so many mm everywhere");
   parser.add_option(
-    "--max-triangles", options->maximumTriangles, "simplify each surface to so many triangles, or to a share, as 10%");
+    "--max-triangles",
+    options->maximumTriangles,
+    "simplify each surface to so many triangles, or to a share, as 10%, within --max-error or a lattice spacing");
   parser.add_option("--measures", options->measures, "volumes, areas and other measures as a table: .csv or .json");
   parser.add_flag("--audit",
                   options->audits,

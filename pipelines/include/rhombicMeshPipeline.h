@@ -26,8 +26,8 @@ struct MeshScanSettings
   Provenance provenance;
 };
 
-/** Writes surfaces of a scan; returns the files' paths. Each surface is measured as it was extracted; how far it is from
- * the scan's isosurface, and its audit, are those of the file, read back. Notes say both, and sidecars all of it.
+/** Writes surfaces of a scan; returns the files' paths. Each surface is measured as it was extracted; how far it is
+ * from the scan's isosurface, and its audit, are those of the file, read back. Notes say both, and sidecars all of it.
  *
  * Throws Failure, also when a surface is not watertight and has to be: then there is no file. */
 std::vector<std::filesystem::path>

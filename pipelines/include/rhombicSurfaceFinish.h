@@ -15,12 +15,15 @@ namespace rhombic
 /** What is done to surfaces after extraction. By default nothing. */
 struct SurfaceFinish
 {
-  double minimumVolume = 0.0;       ///< connected parts of less than this, in ml, are removed
-  bool keepsLargestPart = false;    ///< and all others are
-  bool fillsCavities = false;       ///< shells inside others are removed
-  double smoothing = 0.0;           ///< how far points may move, in spacings of the lattice; 0 to 1
-  double maximumError = 0.0;        ///< of simplification, in mm; 0: no simplification but to the number of triangles
-  std::size_t maximumTriangles = 0; ///< of each surface; 0: no limit
+  double minimumVolume = 0.0;    ///< connected parts of less than this, in ml, are removed
+  bool keepsLargestPart = false; ///< and all others are
+  bool fillsCavities = false;    ///< shells inside others are removed
+  double smoothing = 0.0;        ///< how far points may move, in spacings of the lattice; 0 to 1
+
+  /** Each surface is simplified until it has so few triangles or would be further away from the original than the
+   * error; not at all when there are none of these. */
+  double maximumError = 0.0;        ///< in mm; 0: a spacing of the lattice
+  std::size_t maximumTriangles = 0; ///< 0: no limit
   double share = 1.0;               ///< of its triangles that each surface may keep, above 0
 };
 

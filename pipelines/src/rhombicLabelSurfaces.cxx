@@ -36,7 +36,7 @@ ChooseLabels(const LabelMap & map, const std::vector<std::string> & wanted)
         }))
     {
       throw Failure(FailureKind::Usage,
-                    "The label map holds no " + nameOrValue + "; rhombic info --labels lists the names and values.");
+                    "The label map holds no " + nameOrValue + "; rhombic info lists the map's labels.");
     }
   }
   std::vector<LabelSummary> chosen;

@@ -38,7 +38,7 @@ Smooth(itk::TriangleSurface & surface, double maximumMove)
 }
 
 Report
-Simplify(itk::TriangleSurface & surface, const SurfaceFinish & finish)
+Simplify(itk::TriangleSurface & surface, const SurfaceFinish & finish, double spacing)
 {
   const auto original = itk::TriangleSurface::New();
   original->Graft(&surface);
@@ -50,10 +50,7 @@ Simplify(itk::TriangleSurface & surface, const SurfaceFinish & finish)
       static_cast<std::size_t>(std::ceil(finish.share * static_cast<double>(surface.GetNumberOfTriangles())));
     settings.targetTriangles = settings.targetTriangles > 0 ? std::min(settings.targetTriangles, shared) : shared;
   }
-  if (finish.maximumError > 0.0)
-  {
-    settings.maximumError = finish.maximumError;
-  }
+  settings.maximumError = finish.maximumError > 0.0 ? finish.maximumError : spacing;
   const auto simplified = SimplifySurface(surface, settings);
   OptimizeForRendering(surface);
   const auto distances = ComputeTwoDistances(*original, surface);
@@ -61,6 +58,7 @@ Simplify(itk::TriangleSurface & surface, const SurfaceFinish & finish)
   end << simplified.end;
   return { { "trianglesBefore", simplified.trianglesBefore },
            { "trianglesAfter", simplified.trianglesAfter },
+           { "maximumErrorInMillimetres", settings.maximumError },
            { "endedBy", end.str() },
            { "meanDistanceInMillimetres", std::max(distances.fromFirst.mean, distances.fromSecond.mean) },
            { "maximumDistanceInMillimetres", distances.GetMaximum() } };
@@ -136,13 +134,18 @@ RefineSurface(itk::TriangleSurface & surface,
   if (IsSimplified(finish))
   {
     events.Progress("simplifying " + name, 0.0);
-    report["simplification"] = Simplify(surface, finish);
+    report["simplification"] = Simplify(surface, finish, spacing);
     const Report & done = report["simplification"];
     std::ostringstream note;
     note.imbue(std::locale::classic());
     note.precision(3);
     note << name << ": simplified from " << done["trianglesBefore"] << " to " << done["trianglesAfter"]
          << " triangles, " << done["maximumDistanceInMillimetres"].get<double>() << " mm away at most";
+    if (done["endedBy"] != "Target" && (finish.maximumTriangles > 0 || finish.share < 1.0))
+    {
+      note << "; fewer would be further away than " << done["maximumErrorInMillimetres"].get<double>()
+           << " mm, or have other holes and handles";
+    }
     events.Note(note.str());
   }
   return report;

@@ -42,7 +42,8 @@ Examples()
   return blocks;
 }
 
-/** Whether the output of an example is there, under its name or, with several views, its name and each view's. */
+/** Whether the output of an example is there, under its name or, with several views or surfaces, its name and that of
+ * each. */
 bool
 Exists(const fs::path & output)
 {
@@ -50,7 +51,9 @@ Exists(const fs::path & output)
   {
     return true;
   }
-  const std::string beginning = output.stem().string() + "-";
+  const std::string stem = output.stem().string();
+  const auto brace = stem.find('{');
+  const std::string beginning = brace == std::string::npos ? stem + "-" : stem.substr(0, brace);
   const fs::directory_iterator files(output.parent_path());
   return std::any_of(begin(files), end(files), [&beginning](const fs::directory_entry & entry) {
     return entry.path().filename().string().rfind(beginning, 0) == 0;
