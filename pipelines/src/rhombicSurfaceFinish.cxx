@@ -141,7 +141,7 @@ RefineSurface(itk::TriangleSurface & surface,
     note.precision(3);
     note << name << ": simplified from " << done["trianglesBefore"] << " to " << done["trianglesAfter"]
          << " triangles, " << done["maximumDistanceInMillimetres"].get<double>() << " mm away at most";
-    if (done["endedBy"] != "Target" && (finish.maximumTriangles > 0 || finish.share < 1.0))
+    if (done["endedBy"] != "target" && (finish.maximumTriangles > 0 || finish.share < 1.0))
     {
       note << "; fewer would be further away than " << done["maximumErrorInMillimetres"].get<double>()
            << " mm, or have other holes and handles";

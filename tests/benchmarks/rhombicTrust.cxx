@@ -1,0 +1,265 @@
+#include "rhombicFailure.h"
+#include "rhombicInProcessDecoder.h"
+#include "rhombicJSONFile.h"
+#include "rhombicLatticePipeline.h"
+#include "rhombicMachine.h"
+#include "rhombicScanReader.h"
+#include "rhombicSurfaceIO.h"
+#include "rhombicTableRemoval.h"
+#include "rhombicTextTable.h"
+
+#include "itkTriangleSurfaceAudit.h"
+#include "itkTriangleSurfaceDistance.h"
+#include "itkTriangleSurfaceSimplification.h"
+#include "itkTriangleTree.h"
+
+#include <CLI/CLI.hpp>
+
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+#include <thread>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+using namespace rhombic;
+using Mode = itk::FCCIsosurfaceMode;
+
+struct Options
+{
+  std::string scan;
+  std::vector<double> isovalues;
+  bool isCT = false;
+  double share = 10.0;
+  double spacings = 1.0;
+  std::vector<std::string> modes;
+  unsigned int threads = std::max(1U, std::thread::hardware_concurrency());
+  std::string json;
+};
+
+/** A folder for files that are written only to be read back. */
+class ScratchFolder
+{
+public:
+  ScratchFolder()
+    : m_Path(fs::temp_directory_path() / ("rhombic-trust-" + std::to_string(getpid())))
+  {
+    fs::create_directory(m_Path);
+  }
+  ~ScratchFolder()
+  {
+    std::error_code ignored;
+    fs::remove_all(m_Path, ignored);
+  }
+  ScratchFolder(const ScratchFolder &) = delete;
+  ScratchFolder &
+  operator=(const ScratchFolder &) = delete;
+
+  const fs::path &
+  GetPath() const
+  {
+    return m_Path;
+  }
+
+private:
+  fs::path m_Path;
+};
+
+/** What a file says about the surface written to it: an STL, whose reader has to find out which points are the same. */
+itk::TriangleSurfaceAudit
+AuditFile(const itk::TriangleSurface & surface, const ScratchFolder & folder)
+{
+  const fs::path path = folder.GetPath() / "surface.stl";
+  WriteSurfaces({ { "surface", &surface } }, path);
+  return AuditSurface(*ReadSurfaces(path).front().surface);
+}
+
+double
+SecondsSince(std::chrono::steady_clock::time_point start)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::string
+NameOf(Mode mode)
+{
+  std::ostringstream name;
+  name << mode;
+  return name.str();
+}
+
+nlohmann::json
+ToJSON(const itk::TriangleSurfaceAudit & audit)
+{
+  return { { "triangles", audit.triangles },
+           { "components", audit.topology.components },
+           { "genus", audit.topology.genus },
+           { "watertight", audit.IsWatertight() },
+           { "boundary_edges", audit.topology.boundaryEdges },
+           { "non_manifold", audit.topology.nonManifoldEdges + audit.topology.nonManifoldPoints },
+           { "degenerate", audit.topology.degenerateTriangles },
+           { "crossing_pairs", audit.intersections.crossingPairs },
+           { "touching_pairs", audit.intersections.touchingPairs },
+           { "volume", audit.volume } };
+}
+
+/** One surface in one mode: audited as a file, simplified, audited again. */
+nlohmann::json
+Judge(const FCCVolume & lattice, const Scan & scan, double isovalue, Mode mode, const Options & options)
+{
+  SurfaceRequest request;
+  request.name = "surface";
+  request.isovalue = isovalue;
+  const auto * const grid = IsSlanted(scan) ? nullptr : &GeometryOf(scan.image);
+  const auto surface = LatticeToSurfaces(lattice, { request }, mode, {}, grid).front().surface;
+  const ScratchFolder folder;
+  auto start = std::chrono::steady_clock::now();
+  const auto before = AuditFile(*surface, folder);
+  nlohmann::json result{ { "isovalue", isovalue }, { "mode", NameOf(mode) }, { "before", ToJSON(before) } };
+  result["audit_seconds"] = SecondsSince(start);
+  result["triangles"] = before.triangles;
+
+  const auto simplified = itk::TriangleSurface::New();
+  simplified->Graft(surface);
+  itk::TriangleSurfaceSimplificationSettings settings;
+  settings.targetTriangles = static_cast<std::size_t>(options.share / 100.0 * static_cast<double>(before.triangles));
+  settings.maximumError =
+    options.spacings * std::visit([](const auto & image) { return image->GetSpacing()[0]; }, lattice);
+  start = std::chrono::steady_clock::now();
+  const auto report = SimplifySurface(*simplified, settings);
+  result["simplification_seconds"] = SecondsSince(start);
+  const auto after = AuditFile(*simplified, folder);
+  const auto distances = ComputeTwoDistances(*surface, *simplified);
+  std::ostringstream end;
+  end << report.end;
+  result["after"] = ToJSON(after);
+  result["ended_by"] = end.str();
+  result["maximum_error"] = settings.maximumError;
+  result["mean_distance"] = std::max(distances.fromFirst.mean, distances.fromSecond.mean);
+  result["maximum_distance"] = distances.GetMaximum();
+  return result;
+}
+
+/** "ok", or what is wrong. */
+std::string
+Verdict(const nlohmann::json & audit)
+{
+  if (audit["watertight"].get<bool>())
+  {
+    return "ok";
+  }
+  return audit["boundary_edges"].dump() + "/" + audit["non_manifold"].dump() + "/" + audit["degenerate"].dump();
+}
+
+std::vector<std::string>
+ToRow(const nlohmann::json & result)
+{
+  const auto & before = result["before"];
+  const auto & after = result["after"];
+  const auto triangles = [](const nlohmann::json & audit) { return audit["triangles"].dump(); };
+  return { Fixed(result["isovalue"], 1),
+           result["mode"],
+           triangles(before),
+           Verdict(before),
+           before["crossing_pairs"].dump(),
+           Fixed(result["audit_seconds"], 1),
+           triangles(after),
+           Fixed(100.0 * after["triangles"].get<double>() / before["triangles"].get<double>(), 1),
+           Verdict(after),
+           after["crossing_pairs"].dump(),
+           Fixed(100.0 * (after["volume"].get<double>() / before["volume"].get<double>() - 1.0), 3),
+           Fixed(result["mean_distance"], 3),
+           Fixed(result["maximum_distance"], 3),
+           result["ended_by"],
+           Fixed(result["simplification_seconds"], 1) };
+}
+
+void
+Run(const Options & options)
+{
+  UseThreads(options.threads);
+  InProcessDecoder decoder;
+  ScanReadOptions read;
+  read.decoder = &decoder;
+  Scan scan = ReadScan(options.scan, read);
+  if (IsTableRemoved(options.isCT ? TableRule::Remove : TableRule::RemoveFromCT, scan))
+  {
+    RemoveTable(scan, {});
+  }
+  const FCCVolume lattice = ScanToLattice(scan, {}, {});
+  TextTable table({ "isovalue",
+                    "mode",
+                    "triangles",
+                    "file",
+                    "crossings",
+                    "audit s",
+                    "simplified",
+                    "%",
+                    "file",
+                    "crossings",
+                    "volume %",
+                    "mean mm",
+                    "max mm",
+                    "ended by",
+                    "s" });
+  nlohmann::json report{ { "results", nlohmann::json::array() } };
+  for (const double isovalue : options.isovalues)
+  {
+    for (const Mode mode : { Mode::Lean, Mode::Fine, Mode::Tetrahedra, Mode::Octahedra, Mode::Parallelepipeds })
+    {
+      const bool isChosen = std::any_of(options.modes.begin(), options.modes.end(), [mode](std::string name) {
+        name[0] = static_cast<char>(std::toupper(name[0]));
+        return name == NameOf(mode);
+      });
+      if (options.modes.empty() || isChosen)
+      {
+        report["results"].push_back(Judge(lattice, scan, isovalue, mode, options));
+        table.Add(ToRow(report["results"].back()));
+      }
+    }
+  }
+  table.Print(std::cout);
+  if (!options.json.empty())
+  {
+    WriteJSONFile(options.json, report);
+  }
+}
+
+} // namespace
+
+int
+main(int argc, char ** argv)
+{
+  Options options;
+  CLI::App app{ "Whether surfaces of a scan are watertight as files, in every mode, before and after simplification" };
+  app.add_option("--scan", options.scan, "anything that rhombic reads")->required();
+  app.add_option("-t,--threshold", options.isovalues, "isovalue; repeatable")->required()->allow_extra_args(false);
+  app.add_flag("--ct", options.isCT, "the scan is a CT in HU even if it does not say so: its table is removed");
+  app.add_option("--mode", options.modes, "only this mode; repeatable")->allow_extra_args(false);
+  app.add_option("--share", options.share, "triangles kept by simplification, in %")->capture_default_str();
+  app.add_option("--max-error", options.spacings, "of simplification, in spacings of the lattice")
+    ->capture_default_str();
+  app.add_option("--threads", options.threads, "number of threads")->capture_default_str();
+  app.add_option("--json", options.json, "also write a report");
+  try
+  {
+    app.parse(argc, argv);
+    Run(options);
+    return 0;
+  }
+  catch (const CLI::ParseError & error)
+  {
+    return app.exit(error);
+  }
+  catch (const std::exception & error)
+  {
+    std::cerr << "rhombic-trust: " << DescribeError(error) << '\n';
+    return 1;
+  }
+}
