@@ -12,7 +12,7 @@
 namespace rhombic
 {
 
-/** What is done to surfaces after extraction. By default nothing. */
+/** What is done to surfaces after extraction. By default they are untangled, no more. */
 struct SurfaceFinish
 {
   double minimumVolume = 0.0;    ///< connected parts of less than this, in ml, are removed
@@ -35,8 +35,8 @@ CheckSurfaceFinish(const SurfaceFinish & finish);
 Report
 RemoveParts(itk::TriangleSurface & surface, const SurfaceFinish & finish);
 
-/** Smooths and simplifies a surface. The report says how far points moved and how many triangles are left; null when
- * nothing was asked for.
+/** Smooths and simplifies a surface, and moves points where triangles pass through each other (itk::UntangleSurface()),
+ * by a quarter of the error at most. The report says how far points moved and how many triangles are left.
  * \param spacing of the lattice in mm
  * \param name of the surface, for progress and messages. Throws Failure. */
 Report

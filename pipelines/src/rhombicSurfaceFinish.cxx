@@ -8,6 +8,7 @@
 #include "itkTriangleSurfaceSimplification.h"
 #include "itkTriangleSurfaceSmoothing.h"
 #include "itkTriangleSurfaceSolids.h"
+#include "itkTriangleSurfaceUntangling.h"
 #include "itkTriangleSurfaceVertexOrder.h"
 #include "itkTriangleTree.h"
 
@@ -37,11 +38,18 @@ Smooth(itk::TriangleSurface & surface, double maximumMove)
            { "volumeAfterInMillilitres", ComputeVolume(surface) / CubicMillimetresPerMillilitre } };
 }
 
+/** How far a surface may be from the original, simplified and untangled. */
+double
+MaximumError(const SurfaceFinish & finish, double spacing)
+{
+  return finish.maximumError > 0.0 ? finish.maximumError : spacing;
+}
+
+constexpr double ShareOfUntangling = 0.25; // of the error; simplification has the rest
+
 Report
 Simplify(itk::TriangleSurface & surface, const SurfaceFinish & finish, double spacing)
 {
-  const auto original = itk::TriangleSurface::New();
-  original->Graft(&surface);
   itk::TriangleSurfaceSimplificationSettings settings;
   settings.targetTriangles = finish.maximumTriangles;
   if (finish.share < 1.0)
@@ -50,18 +58,54 @@ Simplify(itk::TriangleSurface & surface, const SurfaceFinish & finish, double sp
       static_cast<std::size_t>(std::ceil(finish.share * static_cast<double>(surface.GetNumberOfTriangles())));
     settings.targetTriangles = settings.targetTriangles > 0 ? std::min(settings.targetTriangles, shared) : shared;
   }
-  settings.maximumError = finish.maximumError > 0.0 ? finish.maximumError : spacing;
+  settings.maximumError = (1.0 - ShareOfUntangling) * MaximumError(finish, spacing);
   const auto simplified = SimplifySurface(surface, settings);
   OptimizeForRendering(surface);
-  const auto distances = ComputeTwoDistances(*original, surface);
   std::ostringstream end;
   end << simplified.end;
   return { { "trianglesBefore", simplified.trianglesBefore },
            { "trianglesAfter", simplified.trianglesAfter },
-           { "maximumErrorInMillimetres", settings.maximumError },
-           { "endedBy", end.str() },
-           { "meanDistanceInMillimetres", std::max(distances.fromFirst.mean, distances.fromSecond.mean) },
-           { "maximumDistanceInMillimetres", distances.GetMaximum() } };
+           { "maximumErrorInMillimetres", MaximumError(finish, spacing) },
+           { "endedBy", end.str() } };
+}
+
+/** Without a word where there was nothing to do. */
+Report
+Untangle(itk::TriangleSurface & surface, double maximumMove)
+{
+  const auto untangled = UntangleSurface(surface, maximumMove);
+  if (untangled.crossingBefore == 0)
+  {
+    return nullptr;
+  }
+  return { { "crossingTrianglesBefore", untangled.crossingBefore },
+           { "crossingTrianglesAfter", untangled.crossingAfter },
+           { "pointsMoved", untangled.pointsMoved },
+           { "largestMoveInMillimetres", untangled.largestMove } };
+}
+
+void
+AddDistances(const itk::TriangleSurface & original, const itk::TriangleSurface & surface, Report & report)
+{
+  const auto distances = ComputeTwoDistances(original, surface);
+  report["meanDistanceInMillimetres"] = std::max(distances.fromFirst.mean, distances.fromSecond.mean);
+  report["maximumDistanceInMillimetres"] = distances.GetMaximum();
+}
+
+std::string
+DescribeSimplification(const std::string & name, const SurfaceFinish & finish, const Report & done)
+{
+  std::ostringstream note;
+  note.imbue(std::locale::classic());
+  note.precision(3);
+  note << name << ": simplified from " << done["trianglesBefore"] << " to " << done["trianglesAfter"] << " triangles, "
+       << done["maximumDistanceInMillimetres"].get<double>() << " mm away at most";
+  if (done["endedBy"] != "target" && (finish.maximumTriangles > 0 || finish.share < 1.0))
+  {
+    note << "; fewer would be further away than " << done["maximumErrorInMillimetres"].get<double>()
+         << " mm, or have other holes and handles";
+  }
+  return note.str();
 }
 
 bool
@@ -131,22 +175,24 @@ RefineSurface(itk::TriangleSurface & surface,
     events.Progress("smoothing " + name, 0.0);
     report["smoothing"] = Smooth(surface, finish.smoothing * spacing);
   }
+  const auto original = itk::TriangleSurface::New();
   if (IsSimplified(finish))
   {
     events.Progress("simplifying " + name, 0.0);
+    original->Graft(&surface);
     report["simplification"] = Simplify(surface, finish, spacing);
-    const Report & done = report["simplification"];
-    std::ostringstream note;
-    note.imbue(std::locale::classic());
-    note.precision(3);
-    note << name << ": simplified from " << done["trianglesBefore"] << " to " << done["trianglesAfter"]
-         << " triangles, " << done["maximumDistanceInMillimetres"].get<double>() << " mm away at most";
-    if (done["endedBy"] != "target" && (finish.maximumTriangles > 0 || finish.share < 1.0))
-    {
-      note << "; fewer would be further away than " << done["maximumErrorInMillimetres"].get<double>()
-           << " mm, or have other holes and handles";
-    }
-    events.Note(note.str());
+  }
+  events.Progress("untangling " + name, 0.0);
+  const Report untangled = Untangle(surface, ShareOfUntangling * MaximumError(finish, spacing));
+  if (!untangled.is_null())
+  {
+    report["untangling"] = untangled;
+  }
+  if (IsSimplified(finish))
+  {
+    Report & done = report["simplification"];
+    AddDistances(*original, surface, done);
+    events.Note(DescribeSimplification(name, finish, done));
   }
   return report;
 }
