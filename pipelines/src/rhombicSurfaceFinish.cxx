@@ -183,7 +183,8 @@ RefineSurface(itk::TriangleSurface & surface,
     report["simplification"] = Simplify(surface, finish, spacing);
   }
   events.Progress("untangling " + name, 0.0);
-  const Report untangled = Untangle(surface, ShareOfUntangling * MaximumError(finish, spacing));
+  const double maximumMove = IsSimplified(finish) ? ShareOfUntangling * MaximumError(finish, spacing) : spacing;
+  const Report untangled = Untangle(surface, maximumMove);
   if (!untangled.is_null())
   {
     report["untangling"] = untangled;

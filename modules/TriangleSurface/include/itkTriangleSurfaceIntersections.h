@@ -26,6 +26,11 @@ TriangleSurfaceIntersections
 FindSelfIntersections(const TriangleTree & tree,
                       SizeValueType maximumTestedTriangles = std::numeric_limits<SizeValueType>::max());
 
+/** The triangles that pass through others or are duplicates, ascending. As FindSelfIntersections() with all triangles
+ * tested. */
+std::vector<std::uint32_t>
+FindCrossingTriangles(const TriangleTree & tree);
+
 } // namespace itk
 
 #endif

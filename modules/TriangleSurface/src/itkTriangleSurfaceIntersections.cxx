@@ -3,6 +3,7 @@
 #include "itkForEachBlock.h"
 #include "itkTriangleContact.h"
 
+#include <algorithm>
 #include <mutex>
 
 namespace itk
@@ -25,49 +26,39 @@ AreDuplicates(TriangleType a, TriangleType b)
   return a == b;
 }
 
+/** Visits the contacts of the triangles of two leaves, or of one with itself: \a visit(a, b, contact). */
+template <typename TVisitor>
 void
-CountContact(const TriangleSurface & surface, std::uint32_t a, std::uint32_t b, TriangleSurfaceIntersections & counts)
-{
-  const TriangleType & first = surface.GetTriangles()[a];
-  const TriangleType & second = surface.GetTriangles()[b];
-  const Contact contact = FindContact(surface.GetPoints(), first, second);
-  if (contact == Contact::Touching)
-  {
-    ++counts.touchingPairs;
-  }
-  else if (contact == Contact::Crossing && !AreDuplicates(first, second))
-  {
-    ++counts.crossingPairs;
-  }
-}
-
-/** Counts the contacts of the triangles of two leaves, or of one with itself. */
-void
-CountContacts(const TriangleTree & tree,
+VisitContacts(const TriangleTree & tree,
               const Boxes & boxes,
               std::size_t tested,
               std::size_t other,
-              TriangleSurfaceIntersections & counts)
+              const TVisitor & visit)
 {
+  const auto & points = tree.GetSurface().GetPoints();
+  const auto & triangles = tree.GetSurface().GetTriangles();
   const TriangleTree::Leaf first = tree.GetLeaf(tested);
   const TriangleTree::Leaf second = tree.GetLeaf(other);
   for (std::size_t m = 0; m < second.size(); ++m)
   {
-    const TriangleTree::Box box = tree.GetTriangleBox(second.begin()[m]);
+    const std::uint32_t b = second.begin()[m];
+    const TriangleTree::Box box = tree.GetTriangleBox(b);
     for (std::size_t n = 0; n < (other == tested ? m : first.size()); ++n)
     {
       if (boxes[n].Overlaps(box))
       {
-        CountContact(tree.GetSurface(), first.begin()[n], second.begin()[m], counts);
+        const std::uint32_t a = first.begin()[n];
+        visit(a, b, FindContact(points, triangles[a], triangles[b]));
       }
     }
   }
 }
 
-/** Counts the contacts of the triangles of one leaf, every \a stride-th being tested, but for those that an earlier
+/** Visits the contacts of the triangles of one leaf, every \a stride-th being tested, but for those that an earlier
  * leaf has found. */
+template <typename TVisitor>
 void
-TestLeaf(const TriangleTree & tree, std::size_t leaf, std::size_t stride, TriangleSurfaceIntersections & counts)
+TestLeaf(const TriangleTree & tree, std::size_t leaf, std::size_t stride, const TVisitor & visit)
 {
   Boxes boxes;
   TriangleTree::Box around = tree.GetTriangleBox(*tree.GetLeaf(leaf).begin());
@@ -81,10 +72,9 @@ TestLeaf(const TriangleTree & tree, std::size_t leaf, std::size_t stride, Triang
     const bool isDone = other < leaf && other % stride == 0;
     if (!isDone)
     {
-      CountContacts(tree, boxes, leaf, other, counts);
+      VisitContacts(tree, boxes, leaf, other, visit);
     }
   });
-  counts.testedTriangles += tree.GetLeaf(leaf).size();
 }
 
 } // namespace
@@ -102,15 +92,45 @@ FindSelfIntersections(const TriangleTree & tree, SizeValueType maximumTestedTria
   std::mutex mutex;
   ForEachBlock(tree.GetNumberOfLeaves(), BlockOfLeaves, [&](std::size_t begin, std::size_t end) {
     TriangleSurfaceIntersections ofBlock;
+    const auto count = [&](std::uint32_t a, std::uint32_t b, Contact contact) {
+      const auto & triangles = tree.GetSurface().GetTriangles();
+      ofBlock.touchingPairs += contact == Contact::Touching ? 1 : 0;
+      ofBlock.crossingPairs += contact == Contact::Crossing && !AreDuplicates(triangles[a], triangles[b]) ? 1 : 0;
+    };
     for (std::size_t leaf = (begin + stride - 1) / stride * stride; leaf < end; leaf += stride)
     {
-      TestLeaf(tree, leaf, stride, ofBlock);
+      TestLeaf(tree, leaf, stride, count);
+      ofBlock.testedTriangles += tree.GetLeaf(leaf).size();
     }
     const std::lock_guard<std::mutex> lock(mutex);
     found.crossingPairs += ofBlock.crossingPairs;
     found.touchingPairs += ofBlock.touchingPairs;
     found.testedTriangles += ofBlock.testedTriangles;
   });
+  return found;
+}
+
+std::vector<std::uint32_t>
+FindCrossingTriangles(const TriangleTree & tree)
+{
+  std::vector<std::uint32_t> found;
+  std::mutex mutex;
+  ForEachBlock(tree.GetNumberOfLeaves(), BlockOfLeaves, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> ofBlock;
+    for (std::size_t leaf = begin; leaf < end; ++leaf)
+    {
+      TestLeaf(tree, leaf, 1, [&](std::uint32_t a, std::uint32_t b, Contact contact) {
+        if (contact == Contact::Crossing)
+        {
+          ofBlock.insert(ofBlock.end(), { a, b });
+        }
+      });
+    }
+    const std::lock_guard<std::mutex> lock(mutex);
+    found.insert(found.end(), ofBlock.begin(), ofBlock.end());
+  });
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 

@@ -4,6 +4,7 @@
 #include "itkForEachBlock.h"
 #include "itkPositionArithmetic.h"
 #include "itkTriangleContact.h"
+#include "itkTriangleSurfaceIntersections.h"
 #include "itkTriangleTree.h"
 
 #include <algorithm>
@@ -109,10 +110,12 @@ public:
   Run(Ids crossing)
   {
     constexpr int rounds = 40;
-    Ids touched; // triangles that have a point that was moved
+    constexpr int patience = 8; // relaxing, pushing outwards and inwards
+    Ids touched;                // triangles that have a point that was moved
     TriangleSurface::PointsContainer best;
     std::size_t fewest = crossing.size();
-    for (int round = 0; round < rounds && !crossing.empty(); ++round)
+    int lastBetter = 0;
+    for (int round = 0; round < rounds && round <= lastBetter + patience && !crossing.empty(); ++round)
     {
       const Ids points = this->FindPoints(crossing, round % 4 == 3);
       this->MovePoints(points, round);
@@ -125,6 +128,7 @@ public:
       if (crossing.size() < fewest && this->HaveAreas(touched))
       {
         fewest = crossing.size();
+        lastBetter = round;
         best = m_Surface.GetPoints();
       }
     }
@@ -277,9 +281,7 @@ UntangleSurface(TriangleSurface & surface, double maximumMove)
   {
     itkGenericExceptionMacro("Untangling needs a distance above 0 mm that points may move, not " << maximumMove << ".");
   }
-  Ids all(surface.GetNumberOfTriangles());
-  std::iota(all.begin(), all.end(), 0u);
-  const Ids crossing = FindCrossing(surface, all);
+  const Ids crossing = FindCrossingTriangles(TriangleTree(surface));
   if (crossing.empty())
   {
     return {};
