@@ -30,6 +30,10 @@ struct LatticeSettings
   bool nested = false;              ///< instead: every other sample of the scan, without interpolation; density 0.5
 };
 
+/** The spacing in mm that a grid or lattice of as many samples would have if it were the same along all axes. */
+double
+MeanSpacingOf(const itk::ImageBase<3> & image);
+
 /** Whether the scan's samples are not those of perpendicular, evenly divided axes. */
 bool
 IsSlanted(const Scan & scan);

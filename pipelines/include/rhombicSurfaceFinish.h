@@ -37,7 +37,7 @@ RemoveParts(itk::TriangleSurface & surface, const SurfaceFinish & finish);
 
 /** Smooths and simplifies a surface, and moves points where triangles pass through each other (itk::UntangleSurface()),
  * by a spacing of the lattice or, if it was simplified, a quarter of the error at most. The report says how far points moved and how many triangles are left.
- * \param spacing of the lattice in mm
+ * \param spacing of the lattice in mm (see MeanSpacingOf())
  * \param name of the surface, for progress and messages. Throws Failure. */
 Report
 RefineSurface(itk::TriangleSurface & surface,

@@ -146,6 +146,13 @@ ExtractSide(const itk::FCCImage<TPixel> & image,
 
 } // namespace
 
+double
+MeanSpacingOf(const itk::ImageBase<3> & image)
+{
+  const auto & spacing = image.GetSpacing();
+  return std::cbrt(spacing[0] * spacing[1] * spacing[2]);
+}
+
 bool
 IsSlanted(const Scan & scan)
 {

@@ -145,18 +145,15 @@ Extract(LoadedSource & loaded, const MeshScanSettings & settings, const Events &
   return surfaces;
 }
 
-/** The smallest spacing that surfaces were sampled with, in mm. */
+/** The spacing that surfaces were sampled with, in mm. */
 double
 SpacingOf(const LoadedSource & loaded)
 {
-  const auto smallest = [](const itk::ImageBase<3> & image) {
-    return *std::min_element(image.GetSpacing().Begin(), image.GetSpacing().End());
-  };
   if (!loaded.requests.empty())
   {
-    return std::visit([&](const auto & image) { return smallest(*image); }, loaded.lattice);
+    return std::visit([](const auto & image) { return MeanSpacingOf(*image); }, loaded.lattice);
   }
-  return smallest(GeometryOf(loaded.labels->scan.image));
+  return MeanSpacingOf(GeometryOf(loaded.labels->scan.image));
 }
 
 /** Removes parts, measures what is left, then smooths and simplifies it. */

@@ -21,7 +21,7 @@ struct TriangleSurfaceUntanglingReport
  * Points of crossing triangles go half way to the mean of their neighbours, which unfolds most; where that does not
  * help, they go outwards and inwards in turns, which parts sheets. No point is ever further than \a maximumMove mm from
  * where it was. Ends with the fewest crossing triangles found
- * when eight rounds brought no fewer, or after 40, and leaves the surface as it
+ * when 16 rounds brought no fewer, or after 40, and leaves the surface as it
  * was when a triangle would lose its area. Normals stay.
  *
  * One search for crossings on several threads, then work in proportion to what was found; the same bytes for any number

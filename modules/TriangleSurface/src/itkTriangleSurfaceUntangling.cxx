@@ -110,7 +110,7 @@ public:
   Run(Ids crossing)
   {
     constexpr int rounds = 40;
-    constexpr int patience = 8; // relaxing, pushing outwards and inwards
+    constexpr int patience = 16; // relaxing, and pushing outwards and inwards, twice
     Ids touched;                // triangles that have a point that was moved
     TriangleSurface::PointsContainer best;
     std::size_t fewest = crossing.size();
