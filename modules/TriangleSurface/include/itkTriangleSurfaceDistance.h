@@ -17,9 +17,9 @@ struct TriangleSurfaceDistance
 };
 
 /** Distances from the points of a surface, and from places inside its triangles, to the nearest point of another
- * surface. Each place counts with the area around it: a triangle's points and centre with weights 1/12 and 3/4, which
- * is exact for quadratic functions. Triangles with sides above \a spacing mm count as so many equal parts that none of
- * their sides is longer (at most 64 along a side).
+ * surface. Each place counts with the area around it: a triangle's points and centre with weights 1/12 and 3/4.
+ * Triangles with sides above \a spacing mm count as so many equal parts that none of their sides is longer (at most 64
+ * along a side).
  *
  * All 0 without triangles, infinite to a surface without triangles. Time O(places log triangles); 8 bytes a place.
  * Thread safe; the same for any number of threads. */
@@ -45,13 +45,6 @@ struct TriangleSurfaceTwoDistances
 /** Both ways, the places as dense on the surface with the larger triangles as on the other one. */
 TriangleSurfaceTwoDistances
 ComputeTwoDistances(const TriangleSurface & first, const TriangleSurface & second);
-
-/** Whether no place of a triangle, between the points looked at included, is further than \a limit mm from a surface.
- * Proven: a part of the triangle whose corners have their nearest points on one and the same triangle is nowhere
- * further than at its corners, and a small part hardly further; parts that prove nothing are cut into four. False also
- * where that leads to nothing after seven cuts. Thread safe. */
-bool
-IsWithinDistance(const std::array<TriangleSurface::PointType, 3> & triangle, const TriangleTree & other, double limit);
 
 } // namespace itk
 

@@ -1,10 +1,9 @@
 #ifndef itkTriangleSurfaceSimplification_h
 #define itkTriangleSurfaceSimplification_h
 
-#include "itkTriangleSurface.h"
+#include "itkTriangleSurfaceDistance.h"
 
 #include <iosfwd>
-#include <limits>
 
 namespace itk
 {
@@ -35,26 +34,27 @@ struct TriangleSurfaceSimplificationReport
   SizeValueType trianglesBefore = 0;
   SizeValueType trianglesAfter = 0;
   SimplificationEnd end = SimplificationEnd::Target;
-  SizeValueType placesTakenBack = 0; ///< places where triangles were put back because a check had failed there
-  SizeValueType intersectionsBefore = 0;
+  TriangleSurfaceTwoDistances distances; ///< measured; first is the original, second the result
+  SizeValueType placesTakenBack = 0;     ///< places where a check failed and triangles were put back
 };
 
-/** Makes a surface of fewer triangles that keeps the promise of the original.
+/** Makes a surface of fewer triangles that is as sound as it was.
  *
- * The result's points are some of the surface's own, with their normals. It has the same components, each with the same
- * Euler characteristic, the same border edges, consistent orientation, no non-manifold edge or point and no degenerate
- * triangle; no component vanishes. With a finite maximumError no place of either surface is further than that from the
- * other one: this is proven for every triangle of both, see IsWithinDistance().
+ * The result's points are some of the surface's own, with their normals. Its components are those of the original, each
+ * with the same Euler characteristic; none vanishes. Border edges stay as they are. Edges and points are manifold,
+ * triangles are oriented and not degenerate. No triangle that was not there before meets another one but in the points
+ * and edges they share, so there are no new self-intersections. With a finite maximumError no place of either surface
+ * is further than that from the other one: this is proven for every triangle of both, not only for their points.
  *
- * The surface is cut into patches of some thousand triangles; meshoptimizer simplifies each with its border held. The
- * patches are checked, alone and then all together; where a check fails, the triangles that were there are put back and
- * held while the patch is simplified again. This is repeated with other patches, so that no border is held for good.
+ * Edges shrink to one of their points, see SimplifiedPatch; the surface is cut into patches of some thousand triangles
+ * for that. The checks follow; where one fails, the triangles from before are put back. This is repeated with other
+ * patches, so that no border between patches stays for good, and with larger errors until the target is reached.
  *
- * Time O(n log n), several threads; the same bytes for any number of them. Memory about 100 bytes a triangle while it
- * runs, 60 without a maximumError.
+ * Time O(n log n), several threads; the same bytes for any number of them. Memory about 150 bytes a triangle while it
+ * runs.
  *
  * Throws ExceptionObject for a surface with non-manifold or misoriented edges, non-manifold points or degenerate
- * triangles, and for a maximumError that is not above 0. */
+ * triangles, for a maximumError that is not above 0, and when there is neither a target nor a maximumError. */
 TriangleSurfaceSimplificationReport
 SimplifySurface(TriangleSurface & surface, const TriangleSurfaceSimplificationSettings & settings);
 

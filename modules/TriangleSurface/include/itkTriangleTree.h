@@ -81,6 +81,10 @@ public:
   FindClosestPoint(const PositionType & position,
                    double maximumSquaredDistance = std::numeric_limits<double>::infinity()) const;
 
+  /** The point of one triangle nearest to \a position. */
+  PositionType
+  FindClosestPointOfTriangle(const PositionType & position, std::uint32_t triangle) const;
+
   /** Calls \a visit(triangle) for every triangle whose box has a point in common with \a box, in the tree's order. */
   template <typename TVisitor>
   void

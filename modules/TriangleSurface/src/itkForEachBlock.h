@@ -29,6 +29,19 @@ ForEachBlock(std::size_t size, std::size_t blockSize, const TWork & work)
   failure.Rethrow();
 }
 
+/** The same, calling work(i) for each i. */
+template <typename TWork>
+void
+ForEachInBlocks(std::size_t size, std::size_t blockSize, const TWork & work)
+{
+  ForEachBlock(size, blockSize, [&work](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      work(i);
+    }
+  });
+}
+
 } // namespace itk
 
 #endif

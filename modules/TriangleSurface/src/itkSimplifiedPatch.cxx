@@ -1,9 +1,11 @@
 #include "itkSimplifiedPatch.h"
 
 #include "itkLocalIds.h"
+#include "itkPositionArithmetic.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <queue>
 #include <tuple>
 
@@ -18,44 +20,24 @@ using CornerId = std::uint32_t; // 3 * triangle + 0, 1 or 2
 using PointType = TriangleSurface::PointType;
 using TriangleType = TriangleSurface::TriangleType;
 using Box = TriangleTree::Box;
-using Vector3 = std::array<double, 3>;
 
 constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
 
-constexpr unsigned int MostHolds = 12;
 constexpr double SmallestCosineOfTurn = 0.2; // of a triangle's normal when an edge shrinks
 constexpr double SliverQuality = 0.1;        // below it a triangle's own normal says little, and new ones are unwelcome
-
-Vector3
-Subtract(const Vector3 & a, const Vector3 & b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
-double
-Dot(const Vector3 & a, const Vector3 & b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector3
-Cross(const Vector3 & a, const Vector3 & b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
 
 /** A triangle's normal, as long as twice its area, and how near it is to equilateral: 1 if it is, 0 without area. */
 struct Shape
 {
-  Vector3 normal;
+  PositionType normal;
   double length;
   double quality;
 
-  Shape(const Vector3 & a, const Vector3 & b, const Vector3 & c)
+  Shape(const PositionType & a, const PositionType & b, const PositionType & c)
   {
-    const Vector3 ab = Subtract(b, a);
-    const Vector3 ac = Subtract(c, a);
-    const Vector3 bc = Subtract(c, b);
+    const PositionType ab = Subtract(b, a);
+    const PositionType ac = Subtract(c, a);
+    const PositionType bc = Subtract(c, b);
     normal = Cross(ab, ac);
     length = std::sqrt(Dot(normal, normal));
     const double squares = Dot(ab, ab) + Dot(ac, ac) + Dot(bc, bc);
@@ -69,13 +51,15 @@ class Quadric
 public:
   /** Adds the plane of a triangle, weighted by its area. */
   void
-  AddPlane(const Vector3 & position, const Shape & shape)
+  AddPlane(const PositionType & position, const Shape & shape)
   {
     if (!(shape.length > 0.0))
     {
       return;
     }
-    const Vector3 n{ shape.normal[0] / shape.length, shape.normal[1] / shape.length, shape.normal[2] / shape.length };
+    const PositionType n{ shape.normal[0] / shape.length,
+                          shape.normal[1] / shape.length,
+                          shape.normal[2] / shape.length };
     const double d = -Dot(n, position);
     const double area = shape.length / 2.0;
     const std::array<double, 11> terms{ n[0] * n[0], n[1] * n[1], n[2] * n[2], n[0] * n[1], n[0] * n[2], n[1] * n[2],
@@ -97,7 +81,7 @@ public:
 
   /** Root of the weighted mean of the squared distances. */
   double
-  ComputeDistance(const Vector3 & p) const
+  ComputeDistance(const PositionType & p) const
   {
     const auto & t = m_Terms;
     const double sum =
@@ -176,7 +160,6 @@ private:
     return { m_Positions[triangle[0]], m_Positions[triangle[1]], m_Positions[triangle[2]] };
   }
 
-  const SimplifiedPatch::Points & m_Points;
   const SimplifiedPatch::Check & m_IsAllowed;
   const LocalIds m_Ids;
   std::vector<TriangleType> m_Triangles;
@@ -185,7 +168,7 @@ private:
   std::size_t m_NumberLeft;
   std::vector<CornerId> m_FirstCorner; // of each point; its other corners follow by m_NextCorner
   std::vector<CornerId> m_NextCorner;
-  std::vector<Vector3> m_Positions; // from here on of points; from the first point, to keep digits
+  std::vector<PositionType> m_Positions; // from here on of points; from the first point, to keep digits
   std::vector<Quadric> m_Quadrics;
   std::vector<std::uint32_t> m_Versions;
   std::vector<std::uint8_t> m_IsOnBorder;
@@ -201,8 +184,7 @@ EdgeCollapse::EdgeCollapse(const SimplifiedPatch::Points & points,
                            const std::vector<TriangleType> & triangles,
                            const std::vector<std::uint8_t> & isHeld,
                            const SimplifiedPatch::Check & isAllowed)
-  : m_Points(points)
-  , m_IsAllowed(isAllowed)
+  : m_IsAllowed(isAllowed)
   , m_Ids(triangles)
   , m_Triangles(m_Ids.ToLocal(triangles))
   , m_IsLeft(triangles.size(), 1)
@@ -222,11 +204,9 @@ EdgeCollapse::EdgeCollapse(const SimplifiedPatch::Points & points,
     m_NextCorner[corner] = m_FirstCorner[point];
     m_FirstCorner[point] = corner;
   }
-  const PointType & origin = points[m_Ids.GetIds().front()];
   for (const PointId id : m_Ids.GetIds())
   {
-    const PointType & point = points[id];
-    m_Positions.push_back(Subtract({ point[0], point[1], point[2] }, { origin[0], origin[1], origin[2] }));
+    m_Positions.push_back(Subtract(ToPosition(points[id]), ToPosition(points[m_Ids.GetIds().front()])));
   }
   this->AddQuadrics();
   this->FindBorder();
@@ -360,7 +340,7 @@ EdgeCollapse::IsTopologyKept(PointId from, PointId to)
 bool
 EdgeCollapse::IsShapeKept(PointId from, PointId to) const
 {
-  Vector3 fanNormal{};
+  PositionType fanNormal{};
   double worstBefore = 1.0;
   this->ForEachTriangle(from, [&](TriangleId id, PointId, PointId) {
     const Shape shape = this->ShapeOf(m_Triangles[id]);
@@ -382,15 +362,14 @@ EdgeCollapse::IsShapeKept(PointId from, PointId to) const
   forEachMoved([&](TriangleId id, PointId next, PointId last) {
     const Shape before = this->ShapeOf(m_Triangles[id]);
     const Shape after(m_Positions[to], m_Positions[next], m_Positions[last]);
-    const Vector3 & reference = before.quality >= SliverQuality ? before.normal : fanNormal;
+    const PositionType & reference = before.quality >= SliverQuality ? before.normal : fanNormal;
     isKept = after.quality > 0.0 && after.quality >= std::min(SliverQuality, worstBefore) &&
              Dot(after.normal, reference) > SmallestCosineOfTurn * after.length * std::sqrt(Dot(reference, reference));
   });
   if (m_IsAllowed)
   {
     forEachMoved([&](TriangleId, PointId next, PointId last) {
-      isKept =
-        m_IsAllowed({ m_Points[m_Ids.GetIds()[to]], m_Points[m_Ids.GetIds()[next]], m_Points[m_Ids.GetIds()[last]] });
+      isKept = m_IsAllowed({ m_Ids.GetIds()[to], m_Ids.GetIds()[next], m_Ids.GetIds()[last] });
     });
   }
   return isKept;
@@ -459,52 +438,76 @@ SimplifiedPatch::SimplifiedPatch(const Points & points, const TriangleType * beg
   : m_Points(&points)
   , m_Begin(begin)
   , m_End(end)
-{}
+  , m_Bounds(BoxOf(points, *begin))
+  , m_IsHeld(static_cast<std::size_t>(end - begin), 0)
+{
+  std::for_each(begin, end, [this](const TriangleType & triangle) {
+    const Box box = BoxOf(*m_Points, triangle);
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      m_Bounds.lowest[axis] = std::min(m_Bounds.lowest[axis], box.lowest[axis]);
+      m_Bounds.highest[axis] = std::max(m_Bounds.highest[axis], box.highest[axis]);
+    }
+  });
+}
 
 void
 SimplifiedPatch::Simplify(const Goal & goal, const Check & isAllowed)
 {
   EdgeCollapse collapse(*m_Points, std::vector<TriangleType>(m_Begin, m_End), m_IsHeld, isAllowed);
   collapse.Run(goal);
-  m_Result = collapse.GetTriangles(false);
-  m_NumberOfOldTriangles = m_Result.size();
+  const std::vector<TriangleType> oldTriangles = collapse.GetTriangles(false);
   const std::vector<TriangleType> newTriangles = collapse.GetTriangles(true);
+  std::vector<TriangleType> previous(m_Result.begin() + static_cast<std::ptrdiff_t>(m_NumberOfOldTriangles),
+                                     m_Result.end());
+  std::sort(previous.begin(), previous.end());
+  m_Fresh.clear();
+  for (std::size_t id = 0; id < newTriangles.size(); ++id)
+  {
+    if (!std::binary_search(previous.begin(), previous.end(), newTriangles[id]))
+    {
+      m_Fresh.push_back(static_cast<std::uint32_t>(oldTriangles.size() + id));
+    }
+  }
+  std::vector<TriangleType> current = newTriangles;
+  std::sort(current.begin(), current.end());
+  m_Dropped.clear();
+  std::set_difference(previous.begin(), previous.end(), current.begin(), current.end(), std::back_inserter(m_Dropped));
+
+  m_NumberOfOldTriangles = oldTriangles.size();
+  m_Result = oldTriangles;
   m_Result.insert(m_Result.end(), newTriangles.begin(), newTriangles.end());
 }
 
-void
+bool
 SimplifiedPatch::Hold(const std::vector<Box> & places)
 {
-  const std::vector<std::uint8_t> wasHeld = m_IsHeld;
-  m_IsHeld.resize(this->GetNumberOfTrianglesBefore(), 0);
-  ++m_Holds;
+  bool isAnyNew = false;
   for (std::size_t id = 0; id < m_IsHeld.size(); ++id)
   {
     const Box own = BoxOf(*m_Points, m_Begin[id]);
-    m_IsHeld[id] =
-      m_Holds > MostHolds || m_IsHeld[id] ||
-          std::any_of(places.begin(), places.end(), [&own](const Box & place) { return place.Overlaps(own); })
-        ? 1
-        : 0;
-  }
-  if (m_IsHeld != wasHeld)
-  {
-    return;
-  }
-  std::vector<TriangleType> held;
-  for (std::size_t id = 0; id < m_IsHeld.size(); ++id)
-  {
-    if (m_IsHeld[id])
+    if (!m_IsHeld[id] &&
+        std::any_of(places.begin(), places.end(), [&own](const Box & place) { return place.Overlaps(own); }))
     {
-      held.push_back(m_Begin[id]);
+      m_IsHeld[id] = 1;
+      isAnyNew = true;
     }
   }
-  const LocalIds ids(held);
-  for (std::size_t id = 0; id < m_IsHeld.size(); ++id)
-  {
-    m_IsHeld[id] =
-      std::any_of(m_Begin[id].begin(), m_Begin[id].end(), [&ids](PointId point) { return ids.Has(point); }) ? 1 : 0;
-  }
+  return isAnyNew;
+}
+
+void
+SimplifiedPatch::HoldAll()
+{
+  std::fill(m_IsHeld.begin(), m_IsHeld.end(), std::uint8_t{ 1 });
+}
+
+void
+SimplifiedPatch::Restart()
+{
+  std::fill(m_IsHeld.begin(), m_IsHeld.end(), std::uint8_t{ 0 });
+  m_Result.clear();
+  m_NumberOfOldTriangles = 0;
 }
 
 } // namespace itk

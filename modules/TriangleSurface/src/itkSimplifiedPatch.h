@@ -36,8 +36,8 @@ public:
     std::size_t triangles;
   };
 
-  /** Whether a triangle, by its corners, may be part of the result. Called by one thread at a time for each patch. */
-  using Check = std::function<bool(const std::array<PointType, 3> &)>;
+  /** Whether a triangle may be part of the result. */
+  using Check = std::function<bool(const TriangleType &)>;
 
   SimplifiedPatch() = default;
 
@@ -48,10 +48,18 @@ public:
   void
   Simplify(const Goal & goal, const Check & isAllowed);
 
-  /** From the next Simplify() on, holds the triangles whose boxes meet a \a place; if all of them are held already,
-   * one more ring of triangles around them all; all triangles after many calls. */
-  void
+  /** From the next Simplify() on, holds the triangles whose boxes meet one of the \a places. Returns whether there are
+   * any that were not held before. */
+  bool
   Hold(const std::vector<Box> & places);
+
+  /** From the next Simplify() on, holds all triangles. */
+  void
+  HoldAll();
+
+  /** Back to no result and nothing held. */
+  void
+  Restart();
 
   /** The result: first triangles that were there before, then new ones. */
   const std::vector<TriangleType> &
@@ -64,6 +72,29 @@ public:
   {
     return m_NumberOfOldTriangles;
   }
+  /** By their places in the result, the new triangles that were not in the result before this one. */
+  const std::vector<std::uint32_t> &
+  GetFresh() const
+  {
+    return m_Fresh;
+  }
+  /** New triangles of the result before this one that are no longer there. */
+  const std::vector<TriangleType> &
+  GetDropped() const
+  {
+    return m_Dropped;
+  }
+  /** The box around the triangles from before. */
+  const Box &
+  GetBounds() const
+  {
+    return m_Bounds;
+  }
+  bool
+  IsSimplified() const
+  {
+    return m_NumberOfOldTriangles < m_Result.size();
+  }
   std::size_t
   GetNumberOfTrianglesBefore() const
   {
@@ -74,10 +105,12 @@ private:
   const Points * m_Points = nullptr;
   const TriangleType * m_Begin = nullptr;
   const TriangleType * m_End = nullptr;
-  std::vector<std::uint8_t> m_IsHeld; // empty while none is
-  unsigned int m_Holds = 0;
+  Box m_Bounds{};
+  std::vector<std::uint8_t> m_IsHeld;
   std::vector<TriangleType> m_Result;
   std::size_t m_NumberOfOldTriangles = 0;
+  std::vector<std::uint32_t> m_Fresh;
+  std::vector<TriangleType> m_Dropped;
 };
 
 /** The box around a triangle. */

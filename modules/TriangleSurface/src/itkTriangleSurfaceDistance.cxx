@@ -1,6 +1,7 @@
 #include "itkTriangleSurfaceDistance.h"
 
-#include "itkParallelBlocks.h"
+#include "itkForEachBlock.h"
+#include "itkPositionArithmetic.h"
 
 #include <cmath>
 
@@ -9,19 +10,11 @@ namespace itk
 namespace
 {
 
-using Position = TriangleTree::PositionType;
-using ClosestPoint = TriangleTree::ClosestPoint;
+using Position = PositionType;
 using Corners = std::array<Position, 3>;
 
 constexpr SizeValueType BlockSize = 1024;
 constexpr unsigned int MostParts = 64; // along a side
-constexpr unsigned int MostCuts = 7;
-
-Position
-ToPosition(const TriangleSurface::PointType & point)
-{
-  return { point[0], point[1], point[2] };
-}
 
 Corners
 CornersOf(const TriangleSurface & surface, const TriangleSurface::TriangleType & triangle)
@@ -33,7 +26,8 @@ CornersOf(const TriangleSurface & surface, const TriangleSurface::TriangleType &
 double
 Distance(const Position & a, const Position & b)
 {
-  return std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+  const Position way = Subtract(a, b);
+  return std::sqrt(Dot(way, way));
 }
 
 double
@@ -46,16 +40,8 @@ LongestSide(const Corners & corners)
 double
 Area(const Corners & corners)
 {
-  double squared = 0.0;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    const unsigned int u = (axis + 1) % 3;
-    const unsigned int v = (axis + 2) % 3;
-    const double part = (corners[1][u] - corners[0][u]) * (corners[2][v] - corners[0][v]) -
-                        (corners[1][v] - corners[0][v]) * (corners[2][u] - corners[0][u]);
-    squared += part * part;
-  }
-  return std::sqrt(squared) / 2.0;
+  const Position normal = Cross(Subtract(corners[1], corners[0]), Subtract(corners[2], corners[0]));
+  return std::sqrt(Dot(normal, normal)) / 2.0;
 }
 
 /** weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2] */
@@ -115,6 +101,8 @@ TriangleSurfaceDistance
 Summarize(std::vector<Place> places)
 {
   TriangleSurfaceDistance result;
+  places.erase(std::remove_if(places.begin(), places.end(), [](const Place & place) { return !(place.area > 0.0f); }),
+               places.end());
   result.places = places.size();
   std::sort(places.begin(), places.end(), [](const Place & a, const Place & b) {
     return a.distance != b.distance ? a.distance < b.distance : a.area < b.area;
@@ -151,52 +139,6 @@ MeanSide(const TriangleSurface & surface)
     sum += Distance(corners[0], corners[1]) + Distance(corners[1], corners[2]) + Distance(corners[2], corners[0]);
   }
   return sum / std::max(1.0, 3.0 * static_cast<double>(surface.GetNumberOfTriangles()));
-}
-
-/** A triangle's part, with what is nearest to each of its corners. */
-bool
-IsPartWithin(const Corners & corners,
-             const std::array<ClosestPoint, 3> & closest,
-             const TriangleTree & other,
-             double limit,
-             unsigned int cutsLeft)
-{
-  double furthest = 0.0;
-  for (const ClosestPoint & corner : closest)
-  {
-    if (corner.triangle == TriangleTree::None)
-    {
-      return false;
-    }
-    furthest = std::max(furthest, std::sqrt(corner.squaredDistance));
-  }
-  const bool isOneTriangleClosest =
-    closest[0].triangle == closest[1].triangle && closest[1].triangle == closest[2].triangle;
-  // no place of a triangle is further than the longest side / sqrt(3) from its nearest corner
-  if (isOneTriangleClosest || furthest + LongestSide(corners) / std::sqrt(3.0) <= limit)
-  {
-    return true;
-  }
-  if (cutsLeft == 0)
-  {
-    return false;
-  }
-  Corners middles;
-  std::array<ClosestPoint, 3> closestToMiddles;
-  for (unsigned int corner = 0; corner < 3; ++corner)
-  {
-    std::array<double, 3> weights{ 0.5, 0.5, 0.5 };
-    weights[corner] = 0.0;
-    middles[corner] = At(corners, weights);
-    closestToMiddles[corner] = other.FindClosestPoint(middles[corner], limit * limit);
-  }
-  const auto isWithin = [&](const Corners & part, const std::array<ClosestPoint, 3> & closestToPart) {
-    return IsPartWithin(part, closestToPart, other, limit, cutsLeft - 1);
-  };
-  return isWithin(middles, closestToMiddles) &&
-         isWithin({ corners[0], middles[2], middles[1] }, { closest[0], closestToMiddles[2], closestToMiddles[1] }) &&
-         isWithin({ middles[2], corners[1], middles[0] }, { closestToMiddles[2], closest[1], closestToMiddles[0] }) &&
-         isWithin({ middles[1], middles[0], corners[2] }, { closestToMiddles[1], closestToMiddles[0], closest[2] });
 }
 
 } // namespace
@@ -245,22 +187,6 @@ ComputeTwoDistances(const TriangleSurface & first, const TriangleSurface & secon
   const double spacing = std::min(MeanSide(first), MeanSide(second));
   return { ComputeDistance(first, TriangleTree(second), spacing),
            ComputeDistance(second, TriangleTree(first), spacing) };
-}
-
-bool
-IsWithinDistance(const std::array<TriangleSurface::PointType, 3> & triangle, const TriangleTree & other, double limit)
-{
-  const Corners corners{ ToPosition(triangle[0]), ToPosition(triangle[1]), ToPosition(triangle[2]) };
-  std::array<ClosestPoint, 3> closest;
-  for (unsigned int corner = 0; corner < 3; ++corner)
-  {
-    closest[corner] = other.FindClosestPoint(corners[corner], limit * limit);
-    if (closest[corner].triangle == TriangleTree::None)
-    {
-      return false;
-    }
-  }
-  return IsPartWithin(corners, closest, other, limit, MostCuts);
 }
 
 } // namespace itk

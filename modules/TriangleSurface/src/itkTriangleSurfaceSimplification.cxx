@@ -1,9 +1,11 @@
 #include "itkTriangleSurfaceSimplification.h"
 
-#include "itkParallelBlocks.h"
+#include "itkForEachBlock.h"
+#include "itkPositionArithmetic.h"
 #include "itkSimplifiedPatch.h"
+#include "itkTriangleDistanceProof.h"
 #include "itkTriangleContact.h"
-#include "itkTriangleSurfaceDistance.h"
+#include "itkTrianglePartition.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
 
@@ -25,33 +27,19 @@ using Box = TriangleTree::Box;
 using Contact = TriangleContactEnums::Contact;
 
 constexpr std::size_t PatchSize = 4096;
+constexpr std::size_t BlockSize = 1024;
 
-/** Triangles [begin, end). */
-struct Range
-{
-  std::size_t begin;
-  std::size_t end;
-
-  std::size_t
-  Size() const
-  {
-    return end - begin;
-  }
-};
-
-/** Where each range of triangles is cut in two, in the steps one after the other: patches of successive steps have few
- * borders in common. */
+/** Where the triangles are cut in two, in the steps one after the other: patches of successive steps have few borders
+ * in common. */
 constexpr std::array<double, 3> Cuts{ 0.5, 0.36, 0.64 };
 
-struct CentredTriangle
-{
-  PointType centre; // times 3
-  TriangleType corners;
-};
-
-constexpr double ShareOfMaximumError = 0.5; // for the mean error that meshoptimizer knows
+constexpr double ShareOfMaximumError = 0.5; // for root mean squares
+constexpr double ShareForCentres = 0.8;     // of the maximumError, so that what is between them is seldom further
 constexpr double FirstError = 0.125;        // in mean sides of triangles, doubled with each step towards a target
-constexpr double LeastGain = 0.98;          // of the triangles left by a step that was worth while
+// What was before is within the maximumError, and so is held for good after a few rounds.
+constexpr double GrowthOfPlaces = 0.5;
+constexpr unsigned int MostRounds = 6;
+constexpr double LeastGain = 0.97; // of the triangles left by a step that was worth while
 
 double
 MeanSide(const TriangleSurface & surface)
@@ -75,86 +63,6 @@ Grown(Box box, float by)
     box.highest[axis] += by;
   }
   return box;
-}
-
-Box
-Intersection(const Box & a, const Box & b)
-{
-  Box box;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    box.lowest[axis] = std::max(a.lowest[axis], b.lowest[axis]);
-    box.highest[axis] = std::min(a.highest[axis], b.highest[axis]);
-  }
-  return box;
-}
-
-/** Sorts triangles into patches: ranges are cut across their longest side until they are small. */
-std::vector<Range>
-SortIntoPatches(const TriangleSurface::PointsContainer & points, Triangles & triangles, double cut)
-{
-  std::vector<CentredTriangle> centred(triangles.size());
-  for (std::size_t id = 0; id < triangles.size(); ++id)
-  {
-    centred[id].corners = triangles[id];
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      centred[id].centre[axis] =
-        points[triangles[id][0]][axis] + points[triangles[id][1]][axis] + points[triangles[id][2]][axis];
-    }
-  }
-  const auto split = [&centred, cut](const Range & range) {
-    PointType lowest = centred[range.begin].centre;
-    PointType highest = lowest;
-    for (std::size_t id = range.begin; id < range.end; ++id)
-    {
-      for (unsigned int axis = 0; axis < 3; ++axis)
-      {
-        lowest[axis] = std::min(lowest[axis], centred[id].centre[axis]);
-        highest[axis] = std::max(highest[axis], centred[id].centre[axis]);
-      }
-    }
-    unsigned int longest = 0;
-    for (unsigned int axis = 1; axis < 3; ++axis)
-    {
-      longest = highest[axis] - lowest[axis] > highest[longest] - lowest[longest] ? axis : longest;
-    }
-    const auto middle = range.begin + static_cast<std::size_t>(cut * static_cast<double>(range.Size()));
-    std::nth_element(centred.begin() + static_cast<std::ptrdiff_t>(range.begin),
-                     centred.begin() + static_cast<std::ptrdiff_t>(middle),
-                     centred.begin() + static_cast<std::ptrdiff_t>(range.end),
-                     [longest](const CentredTriangle & a, const CentredTriangle & b) {
-                       return a.centre[longest] < b.centre[longest];
-                     });
-    return middle;
-  };
-
-  std::vector<Range> ranges{ { 0, triangles.size() } };
-  std::vector<Range> patches;
-  while (!ranges.empty())
-  {
-    std::vector<std::size_t> middles(ranges.size());
-    ForEachInBlocks(ranges.size(), 1, [&](SizeValueType n) {
-      middles[n] = ranges[n].Size() > PatchSize ? split(ranges[n]) : ranges[n].end;
-    });
-    std::vector<Range> next;
-    for (std::size_t n = 0; n < ranges.size(); ++n)
-    {
-      if (middles[n] == ranges[n].end)
-      {
-        patches.push_back(ranges[n]);
-        continue;
-      }
-      next.push_back({ ranges[n].begin, middles[n] });
-      next.push_back({ middles[n], ranges[n].end });
-    }
-    ranges.swap(next);
-  }
-  for (std::size_t id = 0; id < triangles.size(); ++id)
-  {
-    triangles[id] = centred[id].corners;
-  }
-  return patches;
 }
 
 /** Whether two surfaces with the same points have the same topology and are equally sound. */
@@ -184,6 +92,14 @@ public:
     if (std::isfinite(settings.maximumError))
     {
       m_OriginalTree = std::make_unique<TriangleTree>(surface);
+      m_OriginalNear.resize(surface.GetNumberOfPoints());
+      for (std::uint32_t id = 0; id < surface.GetNumberOfTriangles(); ++id)
+      {
+        for (const PointId point : surface.GetTriangles()[id])
+        {
+          m_OriginalNear[point] = id;
+        }
+      }
     }
   }
 
@@ -197,6 +113,7 @@ public:
   }
 
 private:
+  using PatchId = std::uint32_t;
   using Places = std::vector<std::vector<Box>>; // of each patch
 
   bool
@@ -209,26 +126,42 @@ private:
   void
   CutIntoPatches(double cut);
   void
-  SimplifyPatches(const std::vector<std::uint32_t> & which);
+  SimplifyPatches(const std::vector<PatchId> & which);
   void
   AimAtTarget();
   void
   PutTogether();
   void
-  FindContacts(const TriangleTree & state, const std::vector<std::uint32_t> & patches, Places & places) const;
-  std::vector<std::uint32_t>
-  FindPlacesLeft(const TriangleTree & state, const std::vector<std::uint32_t> & doubtful, Places & places) const;
+  FindContacts(const TriangleTree & state, const std::vector<PatchId> & patches, Places & places) const;
   void
-  AddNear(const std::vector<std::uint32_t> & patches, std::vector<std::uint32_t> & doubtful) const;
-  std::uint32_t
+  FindStrays(const std::vector<PatchId> & patches, Places & places) const;
+  std::vector<std::uint32_t>
+  FindLeftBehind(const TriangleTree & state, const std::vector<std::uint32_t> & doubtful) const;
+  Places
+  FindPlacesNear(const std::vector<std::uint32_t> & originals, double share) const;
+  std::vector<PatchId>
+  Hold(const Places & bad, const Places & nearLeftBehind);
+  void
+  AddNearDropped(const std::vector<PatchId> & patches, std::vector<std::uint32_t> & doubtful) const;
+  TriangleDistanceProof::Triangle
+  Positions(const TriangleType & triangle) const
+  {
+    const auto & points = m_Original.GetPoints();
+    return { points[triangle[0]], points[triangle[1]], points[triangle[2]] };
+  }
+  static TriangleDistanceProof::Near
+  Near(const TriangleType & triangle, const std::vector<std::uint32_t> & nearPoints)
+  {
+    return { nearPoints[triangle[0]], nearPoints[triangle[1]], nearPoints[triangle[2]] };
+  }
+  PatchId
   PatchOf(std::uint32_t triangle) const;
-  bool
-  IsNew(std::uint32_t triangle) const;
 
   const TriangleSurfaceSimplificationSettings m_Settings;
   const TriangleSurfaceTopology m_Topology;
   const TriangleSurface & m_Original;
   std::unique_ptr<TriangleTree> m_OriginalTree; // where there is a limit to the error
+  std::vector<std::uint32_t> m_OriginalNear;    // a triangle of each point, where there is a limit to the error
   TriangleSurface::Pointer m_State;
 
   // of one step
@@ -260,6 +193,7 @@ Simplification::Run()
     error = std::min(limit, 2.0 * error);
   }
   report.trianglesAfter = m_State->GetNumberOfTriangles();
+  report.distances = ComputeTwoDistances(m_Original, *m_State);
   report.placesTakenBack = m_PlacesTakenBack;
   return report;
 }
@@ -278,34 +212,20 @@ Simplification::Step(double error, double cut)
 
   std::vector<std::uint32_t> doubtful(m_OriginalTree ? m_Original.GetNumberOfTriangles() : 0);
   std::iota(doubtful.begin(), doubtful.end(), 0u);
-  for (;;)
+  for (unsigned int round = 0; !changed.empty() || (!doubtful.empty() && round < MostRounds); ++round)
   {
     this->PutTogether();
-    Places places(m_Patches.size());
+    Places bad(m_Patches.size());
     {
       const TriangleTree state(*m_State);
-      this->FindContacts(state, changed, places);
-      doubtful = this->FindPlacesLeft(state, doubtful, places);
+      this->FindContacts(state, changed, bad);
+      this->FindStrays(changed, bad);
+      doubtful = this->FindLeftBehind(state, doubtful);
     }
-    changed.clear();
-    for (std::uint32_t patch = 0; patch < m_Patches.size(); ++patch)
-    {
-      if (!places[patch].empty())
-      {
-        changed.push_back(patch);
-      }
-    }
-    if (changed.empty())
-    {
-      break;
-    }
-    this->AddNear(changed, doubtful);
-    for (const std::uint32_t patch : changed)
-    {
-      m_Patches[patch].Hold(places[patch]);
-      m_PlacesTakenBack += places[patch].size();
-    }
+    m_PlacesTakenBack += doubtful.size();
+    changed = this->Hold(bad, this->FindPlacesNear(doubtful, GrowthOfPlaces * round));
     this->SimplifyPatches(changed);
+    this->AddNearDropped(changed, doubtful);
   }
   const bool isSound = HaveSameTopology(ComputeTopology(*m_State), m_Topology);
   if (!isSound)
@@ -319,22 +239,23 @@ void
 Simplification::CutIntoPatches(double cut)
 {
   m_Before.swap(m_State->GetTriangles());
-  const std::vector<Range> ranges = SortIntoPatches(m_Original.GetPoints(), m_Before, cut);
+  const std::vector<TriangleRange> ranges = SortIntoRanges(m_Original.GetPoints(), m_Before, PatchSize, cut);
   m_Patches.clear();
-  for (const Range & range : ranges)
+  for (const TriangleRange & range : ranges)
   {
     m_Patches.emplace_back(m_Original.GetPoints(), m_Before.data() + range.begin, m_Before.data() + range.end);
   }
 }
 
 void
-Simplification::SimplifyPatches(const std::vector<std::uint32_t> & which)
+Simplification::SimplifyPatches(const std::vector<PatchId> & which)
 {
   SimplifiedPatch::Check isAllowed;
   if (m_OriginalTree)
   {
-    isAllowed = [this](const std::array<PointType, 3> & corners) {
-      return IsWithinDistance(corners, *m_OriginalTree, m_Settings.maximumError);
+    isAllowed = [this, proof = TriangleDistanceProof(*m_OriginalTree, ShareForCentres * m_Settings.maximumError)](
+                  const TriangleType & triangle) {
+      return proof.IsCentreWithin(this->Positions(triangle), Near(triangle, m_OriginalNear));
     };
   }
   ForEachInBlocks(
@@ -361,6 +282,7 @@ Simplification::AimAtTarget()
   {
     const double before = static_cast<double>(m_Patches[patch].GetNumberOfTrianglesBefore());
     const double lost = before - static_cast<double>(m_Patches[patch].GetTriangles().size());
+    m_Patches[patch].Restart();
     m_Goals[patch].triangles = static_cast<std::size_t>(before - share * lost);
     all.push_back(patch);
   }
@@ -380,101 +302,153 @@ Simplification::PutTogether()
   }
 }
 
-std::uint32_t
+Simplification::PatchId
 Simplification::PatchOf(std::uint32_t triangle) const
 {
-  return static_cast<std::uint32_t>(std::upper_bound(m_Begin.begin(), m_Begin.end(), triangle) - m_Begin.begin() - 1);
+  return static_cast<PatchId>(std::upper_bound(m_Begin.begin(), m_Begin.end(), triangle) - m_Begin.begin() - 1);
 }
 
-/** Whether a triangle of the state is not one that is held. */
-bool
-Simplification::IsNew(std::uint32_t triangle) const
-{
-  const std::uint32_t patch = PatchOf(triangle);
-  return triangle - m_Begin[patch] >= m_Patches[patch].GetNumberOfOldTriangles();
-}
-
-/** Finds where new triangles of some patches meet other triangles than their neighbours. */
+/** Finds where fresh triangles of some patches meet other triangles than their neighbours. */
 void
-Simplification::FindContacts(const TriangleTree & state,
-                             const std::vector<std::uint32_t> & patches,
-                             Places & places) const
+Simplification::FindContacts(const TriangleTree & state, const std::vector<PatchId> & patches, Places & places) const
 {
   const auto & points = m_Original.GetPoints();
   const auto & triangles = m_State->GetTriangles();
-  std::vector<std::vector<std::pair<std::uint32_t, Box>>> found(patches.size());
-  ForEachInBlocks(patches.size(), 1, [&](SizeValueType n) {
-    const std::uint32_t patch = patches[n];
-    for (auto id = m_Begin[patch] + m_Patches[patch].GetNumberOfOldTriangles(); id < m_Begin[patch + 1]; ++id)
+  std::vector<std::vector<std::uint32_t>> found(patches.size());
+  ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
+    for (const std::uint32_t fresh : m_Patches[patches[n]].GetFresh())
     {
-      const Box box = BoxOf(points, triangles[id]);
-      state.VisitTriangles(box, [&](std::uint32_t other) {
+      const std::uint32_t id = m_Begin[patches[n]] + fresh;
+      state.VisitTriangles(BoxOf(points, triangles[id]), [&](std::uint32_t other) {
         if (other != id && FindContact(points, triangles[id], triangles[other]) != Contact::Apart)
         {
-          const Box common = Intersection(box, BoxOf(points, triangles[other]));
-          found[n].push_back({ patch, common });
-          if (this->IsNew(other))
-          {
-            found[n].push_back({ this->PatchOf(other), common });
-          }
+          found[n].push_back(id);
+          found[n].push_back(other);
         }
       });
     }
   });
-  for (const auto & ofPatch : found)
+  for (const auto & ids : found)
   {
-    for (const auto & [patch, box] : ofPatch)
+    for (const std::uint32_t id : ids)
     {
-      places[patch].push_back(box);
+      const PatchId patch = this->PatchOf(id);
+      if (id - m_Begin[patch] >= m_Patches[patch].GetNumberOfOldTriangles())
+      {
+        places[patch].push_back(BoxOf(points, triangles[id]));
+      }
     }
   }
 }
 
-/** Finds where the state has moved away from triangles of the original. Returns those. */
-std::vector<std::uint32_t>
-Simplification::FindPlacesLeft(const TriangleTree & state,
-                               const std::vector<std::uint32_t> & doubtful,
-                               Places & places) const
+/** Finds where fresh triangles of some patches have moved away from the original. */
+void
+Simplification::FindStrays(const std::vector<PatchId> & patches, Places & places) const
 {
+  if (!m_OriginalTree)
+  {
+    return;
+  }
+  const TriangleDistanceProof proof(*m_OriginalTree, m_Settings.maximumError);
+  ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
+    const std::vector<TriangleType> & triangles = m_Patches[patches[n]].GetTriangles();
+    for (const std::uint32_t id : m_Patches[patches[n]].GetFresh())
+    {
+      if (!proof.IsWithin(this->Positions(triangles[id]), Near(triangles[id], m_OriginalNear)))
+      {
+        places[patches[n]].push_back(BoxOf(m_Original.GetPoints(), triangles[id]));
+      }
+    }
+  });
+}
+
+/** Finds the triangles of the original, among the doubtful ones, that the state has moved away from. */
+std::vector<std::uint32_t>
+Simplification::FindLeftBehind(const TriangleTree & state, const std::vector<std::uint32_t> & doubtful) const
+{
+  if (doubtful.empty())
+  {
+    return {};
+  }
+  const auto & triangles = m_Original.GetTriangles();
+  std::vector<std::uint8_t> isDoubtful(m_Original.GetNumberOfPoints(), 0);
+  for (const std::uint32_t id : doubtful)
+  {
+    for (const PointId point : triangles[id])
+    {
+      isDoubtful[point] = 1;
+    }
+  }
+  std::vector<std::uint32_t> near(m_Original.GetNumberOfPoints(), TriangleTree::None);
+  const double squaredLimit = m_Settings.maximumError * m_Settings.maximumError;
+  ForEachInBlocks(near.size(), BlockSize, [&](std::size_t point) {
+    if (isDoubtful[point])
+    {
+      near[point] = state.FindClosestPoint(ToPosition(m_Original.GetPoints()[point]), squaredLimit).triangle;
+    }
+  });
+  const TriangleDistanceProof proof(state, m_Settings.maximumError);
   std::vector<std::uint8_t> isLeft(doubtful.size());
-  ForEachInBlocks(doubtful.size(), 1024, [&](SizeValueType n) {
-    const auto & points = m_Original.GetPoints();
-    const auto & triangle = m_Original.GetTriangles()[doubtful[n]];
-    isLeft[n] = IsWithinDistance(
-                  { points[triangle[0]], points[triangle[1]], points[triangle[2]] }, state, m_Settings.maximumError)
-                  ? 0
-                  : 1;
+  ForEachInBlocks(doubtful.size(), BlockSize, [&](std::size_t n) {
+    const TriangleType & triangle = triangles[doubtful[n]];
+    isLeft[n] = proof.IsWithin(this->Positions(triangle), Near(triangle, near)) ? 0 : 1;
   });
   std::vector<std::uint32_t> left;
   for (std::size_t n = 0; n < doubtful.size(); ++n)
   {
-    if (!isLeft[n])
+    if (isLeft[n])
     {
-      continue;
-    }
-    left.push_back(doubtful[n]);
-    const Box box = Grown(BoxOf(m_Original.GetPoints(), m_Original.GetTriangles()[doubtful[n]]),
-                          static_cast<float>(m_Settings.maximumError));
-    std::vector<std::uint32_t> patches;
-    state.VisitTriangles(box, [&](std::uint32_t id) {
-      if (this->IsNew(id))
-      {
-        patches.push_back(this->PatchOf(id));
-      }
-    });
-    std::sort(patches.begin(), patches.end());
-    patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
-    for (const std::uint32_t patch : patches)
-    {
-      places[patch].push_back(box);
+      left.push_back(doubtful[n]);
     }
   }
   return left;
 }
 
-/** Adds the triangles of the original that may rely on new triangles of these patches. */
+/** The boxes around triangles of the original, larger by a share of the maximumError, for patches that they meet. */
+Simplification::Places
+Simplification::FindPlacesNear(const std::vector<std::uint32_t> & originals, double share) const
+{
+  Places places(m_Patches.size());
+  for (const std::uint32_t id : originals)
+  {
+    const Box box = Grown(BoxOf(m_Original.GetPoints(), m_Original.GetTriangles()[id]),
+                          static_cast<float>(share * m_Settings.maximumError));
+    for (PatchId patch = 0; patch < m_Patches.size(); ++patch)
+    {
+      if (m_Patches[patch].IsSimplified() && m_Patches[patch].GetBounds().Overlaps(box))
+      {
+        places[patch].push_back(box);
+      }
+    }
+  }
+  return places;
+}
+
+/** Holds what was where new triangles are bad, and what was near triangles left behind. Returns the patches for which
+ * this makes a difference. */
+std::vector<Simplification::PatchId>
+Simplification::Hold(const Places & bad, const Places & nearLeftBehind)
+{
+  std::vector<PatchId> changed;
+  for (PatchId patch = 0; patch < m_Patches.size(); ++patch)
+  {
+    m_PlacesTakenBack += bad[patch].size();
+    const bool helpsLeftBehind = m_Patches[patch].Hold(nearLeftBehind[patch]);
+    if (!bad[patch].empty() && !m_Patches[patch].Hold(bad[patch]) && !helpsLeftBehind)
+    {
+      m_Patches[patch].HoldAll();
+    }
+    if (helpsLeftBehind || !bad[patch].empty())
+    {
+      changed.push_back(patch);
+    }
+  }
+  return changed;
+}
+
+/** Adds the triangles of the original that may have relied on what these patches no longer have. */
 void
-Simplification::AddNear(const std::vector<std::uint32_t> & patches, std::vector<std::uint32_t> & doubtful) const
+Simplification::AddNearDropped(const std::vector<PatchId> & patches, std::vector<std::uint32_t> & doubtful) const
 {
   if (!m_OriginalTree)
   {
@@ -482,7 +456,7 @@ Simplification::AddNear(const std::vector<std::uint32_t> & patches, std::vector<
   }
   for (const std::uint32_t patch : patches)
   {
-    for (const TriangleType & triangle : m_Patches[patch].GetTriangles())
+    for (const TriangleType & triangle : m_Patches[patch].GetDropped())
     {
       m_OriginalTree->VisitTriangles(
         Grown(BoxOf(m_Original.GetPoints(), triangle), static_cast<float>(m_Settings.maximumError)),
@@ -536,6 +510,10 @@ operator<<(std::ostream & os, SimplificationEnd end)
 TriangleSurfaceSimplificationReport
 SimplifySurface(TriangleSurface & surface, const TriangleSurfaceSimplificationSettings & settings)
 {
+  if (surface.GetTriangles().empty())
+  {
+    return {};
+  }
   const TriangleSurfaceTopology topology = ComputeTopology(surface);
   VerifyPreconditions(topology, settings);
   TriangleSurfaceSimplificationReport report;

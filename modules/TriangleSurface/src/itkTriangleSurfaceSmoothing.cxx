@@ -1,6 +1,7 @@
 #include "itkTriangleSurfaceSmoothing.h"
 
-#include "itkParallelBlocks.h"
+#include "itkForEachBlock.h"
+#include "itkPositionArithmetic.h"
 
 #include <cmath>
 #include <numeric>
@@ -12,7 +13,6 @@ namespace
 
 using PointId = std::uint32_t;
 using TriangleId = std::uint32_t;
-using Vector3 = std::array<double, 3>;
 using Points = TriangleSurface::PointsContainer;
 using PointType = TriangleSurface::PointType;
 using TriangleType = TriangleSurface::TriangleType;
@@ -26,31 +26,19 @@ constexpr double Outwards = -1.0 / (1.0 / Inwards - 0.1);
 constexpr double SmallestCosineOfTurn = 0.1736; // of 80 degrees
 constexpr double SmallestShareOfArea = 0.1;
 
-Vector3
+PositionType
 Difference(const PointType & a, const PointType & b)
 {
-  return { double{ a[0] } - b[0], double{ a[1] } - b[1], double{ a[2] } - b[2] };
-}
-
-Vector3
-Cross(const Vector3 & a, const Vector3 & b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+  return Subtract(ToPosition(a), ToPosition(b));
 }
 
 double
-Dot(const Vector3 & a, const Vector3 & b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-double
-Length(const Vector3 & a)
+Length(const PositionType & a)
 {
   return std::sqrt(Dot(a, a));
 }
 
-Vector3
+PositionType
 AreaVector(const Points & points, const TriangleType & triangle)
 {
   return Cross(Difference(points[triangle[1]], points[triangle[0]]),
@@ -159,11 +147,11 @@ public:
   ComputeNormals()
   {
     ForEachInBlocks(m_Points.size(), BlockSize, [this](SizeValueType point) {
-      Vector3 sum{};
+      PositionType sum{};
       m_Fans.ForEach(static_cast<PointId>(point), [&](PointId next, PointId last) {
-        const Vector3 a = Difference(m_Points[next], m_Points[point]);
-        const Vector3 b = Difference(m_Points[last], m_Points[point]);
-        const Vector3 normal = Cross(a, b);
+        const PositionType a = Difference(m_Points[next], m_Points[point]);
+        const PositionType b = Difference(m_Points[last], m_Points[point]);
+        const PositionType normal = Cross(a, b);
         const double length = Length(normal);
         const double angle = std::atan2(length, Dot(a, b));
         for (unsigned int axis = 0; axis < 3 && length > 0.0; ++axis)
@@ -200,9 +188,9 @@ private:
   PointType
   Towards(PointId point, double share) const
   {
-    Vector3 sum{};
+    PositionType sum{};
     m_Fans.ForEach(point, [&](PointId next, PointId) {
-      const Vector3 way = Difference(m_Points[next], m_Points[point]);
+      const PositionType way = Difference(m_Points[next], m_Points[point]);
       for (unsigned int axis = 0; axis < 3; ++axis)
       {
         sum[axis] += way[axis];
@@ -222,7 +210,7 @@ private:
   WithinReach(SizeValueType point, PointType position) const
   {
     const PointType & start = m_Start[point];
-    const Vector3 way = Difference(position, start);
+    const PositionType way = Difference(position, start);
     double reach = m_MaximumMove / Length(way);
     while (Length(Difference(position, start)) > m_MaximumMove)
     {
@@ -260,8 +248,8 @@ private:
   bool
   IsSpoilt(const TriangleType & triangle) const
   {
-    const Vector3 was = AreaVector(m_Start, triangle);
-    const Vector3 will = AreaVector(m_Next, triangle);
+    const PositionType was = AreaVector(m_Start, triangle);
+    const PositionType will = AreaVector(m_Next, triangle);
     const double areaWas = Length(was);
     const double areaWill = Length(will);
     return !(Dot(was, will) >= SmallestCosineOfTurn * areaWas * areaWill && areaWill >= SmallestShareOfArea * areaWas);

@@ -91,31 +91,41 @@ ClosestOnSegment(const PositionType & position, const PositionType & a, const Po
   return { a[0] + part * along[0], a[1] + part * along[1], a[2] + part * along[2] };
 }
 
-/** The position's foot on the triangle's plane if that lies inside all three sides, else the best point of the sides.
- */
+/** The position's foot on the triangle's plane if that lies inside all three sides, else the best point of the sides
+ * that it lies beyond, or of all sides if the triangle has next to no area. With sides u and v from the first corner,
+ * the foot is corner + (s u + t v) / area. */
 PositionType
 ClosestOnTriangle(const PositionType & position, const std::array<PositionType, 3> & corners)
 {
-  const PositionType normal = Cross(Subtract(corners[1], corners[0]), Subtract(corners[2], corners[0]));
-  const double squaredNormal = Dot(normal, normal);
-  bool isInside = squaredNormal > 0.0;
-  for (unsigned int n = 0; n < 3 && isInside; ++n)
+  constexpr double leastArea = 1e-12;
+  const PositionType u = Subtract(corners[1], corners[0]);
+  const PositionType v = Subtract(corners[2], corners[0]);
+  const PositionType away = Subtract(position, corners[0]);
+  const double uu = Dot(u, u), uv = Dot(u, v), vv = Dot(v, v), ua = Dot(u, away), va = Dot(v, away);
+  const double area = uu * vv - uv * uv;
+  const double s = vv * ua - uv * va;
+  const double t = uu * va - uv * ua;
+  const bool hasArea = area > leastArea * uu * vv;
+  const bool isBeyond[3] = { t<0.0, s + t> area, s < 0.0 }; // the side from each corner to the next
+  if (hasArea && !isBeyond[0] && !isBeyond[1] && !isBeyond[2])
   {
-    const PositionType & from = corners[n];
-    isInside = Dot(Cross(Subtract(corners[(n + 1) % 3], from), Subtract(position, from)), normal) >= 0.0;
-  }
-  if (isInside)
-  {
-    const double part = Dot(Subtract(position, corners[0]), normal) / squaredNormal;
-    return { position[0] - part * normal[0], position[1] - part * normal[1], position[2] - part * normal[2] };
+    const double ofU = s / area;
+    const double ofV = t / area;
+    return { corners[0][0] + ofU * u[0] + ofV * v[0],
+             corners[0][1] + ofU * u[1] + ofV * v[1],
+             corners[0][2] + ofU * u[2] + ofV * v[2] };
   }
   PositionType closest{};
   double closestDistance = std::numeric_limits<double>::infinity();
   for (unsigned int n = 0; n < 3; ++n)
   {
+    if (hasArea && !isBeyond[n])
+    {
+      continue;
+    }
     const PositionType candidate = ClosestOnSegment(position, corners[n], corners[(n + 1) % 3]);
-    const PositionType away = Subtract(candidate, position);
-    const double distance = Dot(away, away);
+    const PositionType way = Subtract(candidate, position);
+    const double distance = Dot(way, way);
     if (distance < closestDistance)
     {
       closestDistance = distance;
@@ -297,13 +307,19 @@ TriangleTree::FindClosestPoint(const PositionType & position, double maximumSqua
   return closest;
 }
 
-void
-TriangleTree::ImproveClosestPoint(const PositionType & position, std::uint32_t triangle, ClosestPoint & closest) const
+TriangleTree::PositionType
+TriangleTree::FindClosestPointOfTriangle(const PositionType & position, std::uint32_t triangle) const
 {
   const auto & corners = m_Surface->GetTriangles()[triangle];
   const auto & points = m_Surface->GetPoints();
-  const PositionType candidate = ClosestOnTriangle(
+  return ClosestOnTriangle(
     position, { ToPosition(points[corners[0]]), ToPosition(points[corners[1]]), ToPosition(points[corners[2]]) });
+}
+
+void
+TriangleTree::ImproveClosestPoint(const PositionType & position, std::uint32_t triangle, ClosestPoint & closest) const
+{
+  const PositionType candidate = this->FindClosestPointOfTriangle(position, triangle);
   const PositionType away = Subtract(candidate, position);
   const double distance = Dot(away, away);
   if (distance < closest.squaredDistance || (distance == closest.squaredDistance && triangle < closest.triangle))

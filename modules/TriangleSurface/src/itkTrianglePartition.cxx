@@ -1,0 +1,100 @@
+#include "itkTrianglePartition.h"
+
+#include "itkForEachBlock.h"
+
+#include <algorithm>
+
+namespace itk
+{
+namespace
+{
+
+struct CentredTriangle
+{
+  TriangleSurface::PointType centre; // times 3
+  TriangleSurface::TriangleType corners;
+};
+
+using CentredTriangles = std::vector<CentredTriangle, BulkAllocator<CentredTriangle>>;
+
+constexpr std::size_t BlockSize = 4096;
+
+unsigned int
+LongestAxis(const CentredTriangles & triangles, const TriangleRange & range)
+{
+  TriangleSurface::PointType lowest = triangles[range.begin].centre;
+  TriangleSurface::PointType highest = lowest;
+  for (std::size_t id = range.begin; id < range.end; ++id)
+  {
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      lowest[axis] = std::min(lowest[axis], triangles[id].centre[axis]);
+      highest[axis] = std::max(highest[axis], triangles[id].centre[axis]);
+    }
+  }
+  unsigned int longest = 0;
+  for (unsigned int axis = 1; axis < 3; ++axis)
+  {
+    longest = highest[axis] - lowest[axis] > highest[longest] - lowest[longest] ? axis : longest;
+  }
+  return longest;
+}
+
+/** Puts the triangles of least coordinates first. Returns where the others begin. */
+std::size_t
+Split(CentredTriangles & triangles, const TriangleRange & range, double cut)
+{
+  const unsigned int axis = LongestAxis(triangles, range);
+  const std::size_t middle = range.begin + static_cast<std::size_t>(cut * static_cast<double>(range.Size()));
+  std::nth_element(
+    triangles.data() + range.begin,
+    triangles.data() + middle,
+    triangles.data() + range.end,
+    [axis](const CentredTriangle & a, const CentredTriangle & b) { return a.centre[axis] < b.centre[axis]; });
+  return middle;
+}
+
+} // namespace
+
+std::vector<TriangleRange>
+SortIntoRanges(const TriangleSurface::PointsContainer & points,
+               TriangleSurface::TrianglesContainer & triangles,
+               std::size_t mostTriangles,
+               double cut)
+{
+  CentredTriangles centred(triangles.size());
+  ForEachInBlocks(triangles.size(), BlockSize, [&](std::size_t id) {
+    centred[id].corners = triangles[id];
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      centred[id].centre[axis] =
+        points[triangles[id][0]][axis] + points[triangles[id][1]][axis] + points[triangles[id][2]][axis];
+    }
+  });
+
+  std::vector<TriangleRange> ranges;
+  std::vector<TriangleRange> large{ { 0, triangles.size() } };
+  while (!large.empty())
+  {
+    std::vector<std::size_t> middles(large.size());
+    ForEachInBlocks(large.size(), 1, [&](std::size_t n) {
+      middles[n] = large[n].Size() > mostTriangles ? Split(centred, large[n], cut) : large[n].end;
+    });
+    std::vector<TriangleRange> next;
+    for (std::size_t n = 0; n < large.size(); ++n)
+    {
+      if (middles[n] == large[n].end)
+      {
+        ranges.push_back(large[n]);
+        continue;
+      }
+      next.push_back({ large[n].begin, middles[n] });
+      next.push_back({ middles[n], large[n].end });
+    }
+    large.swap(next);
+  }
+  ForEachInBlocks(triangles.size(), BlockSize, [&](std::size_t id) { triangles[id] = centred[id].corners; });
+  return ranges;
+}
+
+} // namespace itk
