@@ -17,16 +17,17 @@ struct TriangleSurfaceDistance
 };
 
 /** Distances from the points of a surface, and from places inside its triangles, to the nearest point of another
- * surface. Each place counts with the area around it: a triangle's points and centre with weights 1/12 and 3/4.
- * Triangles with sides above \a spacing mm count as so many equal parts that none of their sides is longer (at most 64
- * along a side).
+ * surface. Each place counts with the area around it: a triangle's points and centre with weights 1/12 and 3/4, which
+ * is exact for quadratic functions. Triangles with sides above \a spacing mm count as so many equal parts that none of
+ * their sides is longer (at most 64 along a side). Of more than \a mostTriangles, evenly chosen ones are looked at.
  *
  * All 0 without triangles, infinite to a surface without triangles. Time O(places log triangles); 8 bytes a place.
  * Thread safe; the same for any number of threads. */
 TriangleSurfaceDistance
 ComputeDistance(const TriangleSurface & surface,
                 const TriangleTree & other,
-                double spacing = std::numeric_limits<double>::infinity());
+                double spacing = std::numeric_limits<double>::infinity(),
+                SizeValueType mostTriangles = std::numeric_limits<SizeValueType>::max());
 
 /** \class TriangleSurfaceTwoDistances
  * \brief Distances from each of two surfaces to the other. */
@@ -44,7 +45,9 @@ struct TriangleSurfaceTwoDistances
 
 /** Both ways, the places as dense on the surface with the larger triangles as on the other one. */
 TriangleSurfaceTwoDistances
-ComputeTwoDistances(const TriangleSurface & first, const TriangleSurface & second);
+ComputeTwoDistances(const TriangleSurface & first,
+                    const TriangleSurface & second,
+                    SizeValueType mostTriangles = std::numeric_limits<SizeValueType>::max());
 
 } // namespace itk
 

@@ -56,11 +56,32 @@ At(const Corners & corners, const std::array<double, 3> & weights)
   return position;
 }
 
-double
-DistanceTo(const TriangleTree & other, const Position & position)
+/** Distances of places that mostly follow each other closely: what was nearest to the last one bounds the search. */
+class Distances
 {
-  return std::sqrt(other.FindClosestPoint(position).squaredDistance);
-}
+public:
+  explicit Distances(const TriangleTree & other)
+    : m_Other(other)
+  {}
+
+  double
+  Of(const Position & position)
+  {
+    double bound = std::numeric_limits<double>::infinity();
+    if (m_Nearest != TriangleTree::None)
+    {
+      const Position way = Subtract(position, m_Other.FindClosestPointOfTriangle(position, m_Nearest));
+      bound = Dot(way, way);
+    }
+    const auto closest = m_Other.FindClosestPoint(position, bound);
+    m_Nearest = closest.triangle != TriangleTree::None ? closest.triangle : m_Nearest;
+    return std::sqrt(closest.squaredDistance);
+  }
+
+private:
+  const TriangleTree & m_Other;
+  std::uint32_t m_Nearest = TriangleTree::None;
+};
 
 struct Place
 {
@@ -144,49 +165,63 @@ MeanSide(const TriangleSurface & surface)
 } // namespace
 
 TriangleSurfaceDistance
-ComputeDistance(const TriangleSurface & surface, const TriangleTree & other, double spacing)
+ComputeDistance(const TriangleSurface & surface,
+                const TriangleTree & other,
+                double spacing,
+                SizeValueType mostTriangles)
 {
   const auto & triangles = surface.GetTriangles();
-  std::vector<std::uint64_t> begin(triangles.size() + 1);
+  const std::size_t step =
+    std::max<std::size_t>(1, triangles.size() / mostTriangles + (triangles.size() % mostTriangles != 0 ? 1 : 0));
+  const std::size_t looked = (triangles.size() + step - 1) / step;
+  std::vector<std::uint64_t> begin(looked + 1);
   std::vector<float> pointAreas(surface.GetNumberOfPoints(), 0.0f);
   begin[0] = surface.GetNumberOfPoints();
-  for (std::size_t id = 0; id < triangles.size(); ++id)
+  for (std::size_t n = 0; n < looked; ++n)
   {
-    const Corners corners = CornersOf(surface, triangles[id]);
-    const unsigned int parts = CountParts(corners, spacing);
-    begin[id + 1] = begin[id] + std::uint64_t{ parts } * parts;
-    for (const std::uint32_t point : triangles[id])
+    const auto & triangle = triangles[n * step];
+    const Corners corners = CornersOf(surface, triangle);
+    const double parts = CountParts(corners, spacing);
+    begin[n + 1] = begin[n] + static_cast<std::uint64_t>(parts * parts);
+    for (const std::uint32_t point : triangle)
     {
       pointAreas[point] += static_cast<float>(Area(corners) / (12.0 * parts * parts));
     }
   }
   std::vector<Place> places(begin.back());
-  ForEachInBlocks(surface.GetNumberOfPoints(), BlockSize, [&](SizeValueType point) {
-    places[point].area = pointAreas[point];
-    places[point].distance =
-      pointAreas[point] > 0.0f ? static_cast<float>(DistanceTo(other, ToPosition(surface.GetPoints()[point]))) : 0.0f;
+  ForEachBlock(surface.GetNumberOfPoints(), BlockSize, [&](std::size_t first, std::size_t last) {
+    Distances distances(other);
+    for (std::size_t point = first; point < last; ++point)
+    {
+      const bool isLookedAt = pointAreas[point] > 0.0f;
+      const double distance = isLookedAt ? distances.Of(ToPosition(surface.GetPoints()[point])) : 0.0;
+      places[point] = { static_cast<float>(distance), pointAreas[point] };
+    }
   });
-  ForEachInBlocks(triangles.size(), BlockSize, [&](SizeValueType id) {
-    const Corners corners = CornersOf(surface, triangles[id]);
-    const unsigned int parts = CountParts(corners, spacing);
-    const double numberOfParts = static_cast<double>(parts) * parts;
-    const double area = Area(corners) / numberOfParts;
-    // the inner corners of parts are not looked at: their share is the centres'
-    const double share = 1.0 - 0.25 / numberOfParts;
-    std::size_t place = begin[id];
-    ForEachPart(corners, parts, [&](const Position & centre) {
-      places[place++] = { static_cast<float>(DistanceTo(other, centre)), static_cast<float>(area * share) };
-    });
+  ForEachBlock(looked, BlockSize, [&](std::size_t first, std::size_t last) {
+    Distances distances(other);
+    for (std::size_t n = first; n < last; ++n)
+    {
+      const Corners corners = CornersOf(surface, triangles[n * step]);
+      const unsigned int parts = CountParts(corners, spacing);
+      const double numberOfParts = static_cast<double>(parts) * parts;
+      // the inner corners of parts are not looked at: their share is the centres'
+      const double area = Area(corners) / numberOfParts * (1.0 - 0.25 / numberOfParts);
+      std::size_t place = begin[n];
+      ForEachPart(corners, parts, [&](const Position & centre) {
+        places[place++] = { static_cast<float>(distances.Of(centre)), static_cast<float>(area) };
+      });
+    }
   });
   return Summarize(std::move(places));
 }
 
 TriangleSurfaceTwoDistances
-ComputeTwoDistances(const TriangleSurface & first, const TriangleSurface & second)
+ComputeTwoDistances(const TriangleSurface & first, const TriangleSurface & second, SizeValueType mostTriangles)
 {
   const double spacing = std::min(MeanSide(first), MeanSide(second));
-  return { ComputeDistance(first, TriangleTree(second), spacing),
-           ComputeDistance(second, TriangleTree(first), spacing) };
+  return { ComputeDistance(first, TriangleTree(second), spacing, mostTriangles),
+           ComputeDistance(second, TriangleTree(first), spacing, mostTriangles) };
 }
 
 } // namespace itk
