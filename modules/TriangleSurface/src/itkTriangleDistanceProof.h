@@ -9,9 +9,12 @@ namespace itk
 /** \class TriangleDistanceProof
  * \brief Whether triangles, all places between their corners included, are within a distance of a surface.
  *
- * Proven: where all corners of a part are near one and the same triangle of the surface, or the part is small, so is
- * all between them; parts that prove nothing are cut into four. Where that leads to nothing down to a quarter of the
- * limit, there are places near the limit, and the answer is no.
+ * Proven in one of three ways. All corners are near one and the same triangle of the surface: then all between them is,
+ * as the places so near a triangle are a convex set. Or the surface lies above and below the triangle like a sheet:
+ * seen along the triangle's normal, it winds around one of the triangle's places, has no border within the triangle,
+ * and is within the limit above and below it everywhere. Or each of the four parts that the triangle is cut into is so
+ * near, or small. Where all that leads to nothing down to a quarter of the limit, the answer is no; there are places
+ * near the limit then, or the surface is wild.
  *
  * Thread safety: all questions may be asked by several threads at once.
  *
@@ -52,6 +55,8 @@ private:
   };
   using Witnesses = std::array<Witness, 3>;
 
+  bool
+  IsBetweenSheets(const Corners & corners) const;
   bool
   IsPartWithin(const Corners & corners, const Witnesses & witnesses, unsigned int cutsLeft) const;
   bool

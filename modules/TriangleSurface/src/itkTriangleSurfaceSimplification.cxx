@@ -34,7 +34,7 @@ constexpr SizeValueType MostMeasured = 500000; // triangles, for the report
  * in common. */
 constexpr std::array<double, 3> Cuts{ 0.5, 0.36, 0.64 };
 
-constexpr double ShareOfMaximumError = 0.5; // for root mean squares
+constexpr double ShareOfMaximumError = 0.7; // for root mean squares
 constexpr double ShareForCentres = 0.8;     // of the maximumError, so that what is between them is seldom further
 constexpr double FirstError = 0.125;        // in mean sides of triangles, doubled with each step towards a target
 // What was before is within the maximumError, and so is held for good after a few rounds.
