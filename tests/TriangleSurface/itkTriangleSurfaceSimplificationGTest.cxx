@@ -3,6 +3,7 @@
 #include "itkBruteForceDistance.h"
 #include "itkExampleSurfaces.h"
 #include "itkMultiThreaderBase.h"
+#include "itkTriangleSurfaceDistance.h"
 #include "itkTriangleSurfaceIntersections.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
@@ -132,10 +133,10 @@ TEST(TriangleSurfaceSimplification, SphereReachesItsTarget)
   EXPECT_TRUE(ComputeTopology(*surface).IsWatertight());
   EXPECT_EQ(CountContacts(*surface), 0u);
   EXPECT_NEAR(ComputeVolume(*surface), ComputeVolume(*before), 0.005 * ComputeVolume(*before));
-  EXPECT_LT(report.distances.fromFirst.mean, 0.06);
-  EXPECT_LT(report.distances.fromFirst.maximum, 0.25);
-  EXPECT_LE(report.distances.fromFirst.mean, report.distances.fromFirst.percentile95);
-  EXPECT_LE(report.distances.fromFirst.percentile95, report.distances.fromFirst.maximum);
+  const auto distances = ComputeTwoDistances(*before, *surface);
+  EXPECT_LT(distances.fromFirst.mean, 0.02);
+  EXPECT_LT(distances.GetMaximum(), 0.1);
+  printf("mean %g max %g bound %g n %lu vol %g\n", distances.fromFirst.mean, distances.GetMaximum(), 0.0, report.trianglesAfter, ComputeVolume(*surface)/ ComputeVolume(*before)-1);
 }
 
 TEST(TriangleSurfaceSimplification, PointsAndNormalsAreSomeOfTheOriginals)
@@ -174,6 +175,7 @@ TEST(TriangleSurfaceSimplification, MaximumErrorHoldsBothWaysBetweenThePointsToo
       EXPECT_EQ(report.end, SimplificationEnd::MaximumError);
       EXPECT_LE(bruteforce::FurthestDistance(*before, *surface, 8), maximumError * 1.000001);
       EXPECT_LE(bruteforce::FurthestDistance(*surface, *before, 8), maximumError * 1.000001);
+      printf("err %g before %lu after %lu\n", maximumError, report.trianglesBefore, report.trianglesAfter);
       ExpectSameTopology(*before, *surface);
       EXPECT_LE(CountContacts(*surface), CountContacts(*before));
       if (maximumError >= 0.3)
@@ -192,6 +194,7 @@ TEST(TriangleSurfaceSimplification, LargerErrorsLeaveFewerTriangles)
     const auto surface = MakeSphere(20.0, 5);
     const auto report = SimplifySurface(*surface, Settings{ 0, maximumError });
     EXPECT_LT(report.trianglesAfter, last) << maximumError;
+    printf("%g: %lu\n", maximumError, report.trianglesAfter);
     last = report.trianglesAfter;
   }
   EXPECT_LT(last, 200u);
@@ -260,6 +263,7 @@ TEST(TriangleSurfaceSimplification, RoughSurfacesGetNoIntersections)
     ASSERT_EQ(CountContacts(*before), 0u);
     const auto surface = Copy(*before);
     const auto report = SimplifySurface(*surface, Settings{ 819 });
+    printf("rough: %lu back %lu\n", report.trianglesAfter, report.placesTakenBack);
     EXPECT_EQ(report.end, SimplificationEnd::Target);
     ExpectSameTopology(*before, *surface);
     EXPECT_EQ(CountContacts(*surface), 0u);
@@ -301,7 +305,7 @@ TEST(TriangleSurfaceSimplification, WhatIsSimpleEnoughStaysAsItIs)
   const auto before = Copy(*surface);
   const auto report = SimplifySurface(*surface, Settings{ 5000 });
   EXPECT_EQ(report.end, SimplificationEnd::Target);
-  EXPECT_EQ(report.distances.GetMaximum(), 0.0);
+  
   EXPECT_EQ(surface->GetTriangles(), before->GetTriangles());
   EXPECT_EQ(SimplifySurface(*Surface::New(), Settings{ 0, 1.0 }).trianglesAfter, 0u);
 }

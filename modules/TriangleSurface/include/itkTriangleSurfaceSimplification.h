@@ -4,6 +4,7 @@
 #include "itkTriangleSurfaceDistance.h"
 
 #include <iosfwd>
+#include <limits>
 
 namespace itk
 {
@@ -34,24 +35,28 @@ struct TriangleSurfaceSimplificationReport
   SizeValueType trianglesBefore = 0;
   SizeValueType trianglesAfter = 0;
   SimplificationEnd end = SimplificationEnd::Target;
-  TriangleSurfaceTwoDistances
-    distances;                       ///< first is the original, second the result; half a million triangles measured
-  SizeValueType placesTakenBack = 0; ///< places where a check failed and triangles were put back
+  TriangleSurfaceTwoDistances distances; ///< first is the original; only measured where there is a maximumError
+  SizeValueType placesTakenBack = 0;     ///< places where a check failed and triangles were put back
 };
 
 /** Makes a surface of fewer triangles that is as sound as it was.
  *
- * The result's points are some of the surface's own, with their normals. Its components are those of the original, each
- * with the same Euler characteristic; none vanishes. Border edges stay as they are. Edges and points are manifold,
- * triangles are oriented and not degenerate. No triangle that was not there before meets another one but in the points
- * and edges they share, so there are no new self-intersections. With a finite maximumError no place of either surface
- * is further than that from the other one: this is proven for every triangle of both, not only for their points.
+ * Edges shrink to places where the mean squared distance from the planes of the original's triangles is least (Garland
+ * and Heckbert, "Surface simplification using quadric error metrics", SIGGRAPH 1997). The result's components are those
+ * of the original, each with the same Euler characteristic; none vanishes. Border edges stay as they are. Edges and
+ * points are manifold, triangles are oriented and not degenerate. No triangle that was not there before meets another
+ * one but in the points and edges they share, so there are no new self-intersections. Normals, if there are any, are
+ * those of the edges' places.
  *
- * Edges shrink to one of their points, see SimplifiedPatch; the surface is cut into patches of some thousand triangles
- * for that. The checks follow; where one fails, the triangles from before are put back. This is repeated with other
- * patches, so that no border between patches stays for good, and with larger errors until the target is reached.
+ * No place of either surface is further than maximumError from the other one. That is proven for all places of all
+ * triangles: the distances that shrinking edges move the surface by are bounded and added up. The real distance is less
+ * than their sum; measure it with ComputeTwoDistances().
  *
- * Time O(n log n), several threads; the same bytes for any number of them. Memory about 150 bytes a triangle while it
+ * The surface is cut into patches of some thousand triangles. Checks follow; where one fails, the triangles from before
+ * are put back. This is repeated with other patches, so that no border between patches stays for good, and with larger
+ * errors until the target is reached.
+ *
+ * Time O(n log n), several threads; the same bytes for any number of them. Memory about 200 bytes a triangle while it
  * runs.
  *
  * Throws ExceptionObject for a surface with non-manifold or misoriented edges, non-manifold points or degenerate

@@ -16,7 +16,8 @@ struct TriangleSurfaceUntanglingReport
   double largestMove = 0.0; ///< in mm
 };
 
-/** Moves the points of triangles that pass through each other until none does, with all triangles as they are connected.
+/** Moves the points of triangles that pass through each other until none does, with all triangles as they are
+ * connected.
  *
  * Points of crossing triangles go half way to the mean of their neighbours, which unfolds most; where that does not
  * help, they go outwards and inwards in turns, which parts sheets. No point is ever further than \a maximumMove mm from

@@ -1,52 +1,35 @@
 #ifndef itkSimplifiedPatch_h
 #define itkSimplifiedPatch_h
 
-#include "itkTriangleTree.h"
-
-#include <functional>
+#include "itkEdgeCollapse.h"
 
 namespace itk
 {
 
 /** \class SimplifiedPatch
- * \brief Some triangles of a surface and the fewer ones that take their place.
- *
- * Edges shrink to one of their points, those of least error first, the error being that of Garland and Heckbert,
- * "Surface simplification using quadric error metrics" (SIGGRAPH 1997): the mean squared distance from the planes of
- * the triangles that the vanishing point has stood for. An edge may shrink only where the link condition of Dey et al.,
- * "Topology preserving edge contraction" (1999) holds, so the topology stays as it is.
- *
- * The patch's border stays, and no new edge joins two of its points: whatever patches are simplified, they fit
- * together.
+ * \brief Some triangles of a surface and the fewer ones that take their place, see EdgeCollapse. Where the new ones
+ * turn out to be bad, the old ones can be held and it can be simplified again.
  *
  * \ingroup TriangleSurface
  */
 class SimplifiedPatch
 {
 public:
-  using PointType = TriangleSurface::PointType;
-  using TriangleType = TriangleSurface::TriangleType;
-  using Points = TriangleSurface::PointsContainer;
   using Box = TriangleTree::Box;
+  using Goal = EdgeCollapse::Goal;
+  using Progress = EdgeCollapse::Progress;
+  using Part = EdgeCollapse::Part;
 
-  /** How far a patch is simplified: as far as neither is passed. */
-  struct Goal
-  {
-    double error; ///< mm, root of the mean squared distance that the class comment tells
-    std::size_t triangles;
-  };
+  /** Of the triangles [begin, end) of a surface, which must stay as it is. */
+  SimplifiedPatch(const TriangleSurface & surface, std::size_t begin, std::size_t end);
 
-  /** Whether a triangle may be part of the result. */
-  using Check = std::function<bool(const TriangleType &)>;
-
-  SimplifiedPatch() = default;
-
-  /** Of the triangles [begin, end), which must stay where they are, as must the points. */
-  SimplifiedPatch(const Points & points, const TriangleType * begin, const TriangleType * end);
+  /** Adds a witness of one of the triangles, by its number from \a begin. */
+  void
+  AddWitness(const EdgeCollapse::Witness & witness);
 
   /** Simplifies all that is not held. */
   void
-  Simplify(const Goal & goal, const Check & isAllowed);
+  Simplify(const Goal & goal, const EdgeCollapse::Original & original);
 
   /** From the next Simplify() on, holds the triangles whose boxes meet one of the \a places. Returns whether there are
    * any that were not held before. */
@@ -57,13 +40,14 @@ public:
   void
   HoldAll();
 
-  /** Back to no result and nothing held. */
-  void
-  Restart();
-
-  /** The result: first triangles that were there before, then new ones. */
-  const std::vector<TriangleType> &
-  GetTriangles() const
+  std::size_t
+  GetNumberOfTrianglesBefore() const
+  {
+    return m_Before.triangles.size();
+  }
+  /** First the triangles that were there before, then the new ones. */
+  const Part &
+  GetResult() const
   {
     return m_Result;
   }
@@ -72,45 +56,27 @@ public:
   {
     return m_NumberOfOldTriangles;
   }
-  /** By their places in the result, the new triangles that were not in the result before this one. */
-  const std::vector<std::uint32_t> &
-  GetFresh() const
+  /** Points of the new triangles that are elsewhere than they were. */
+  const std::vector<EdgeCollapse::MovedPoint> &
+  GetMovedPoints() const
   {
-    return m_Fresh;
+    return m_Moved;
   }
-  /** New triangles of the result before this one that are no longer there. */
-  const std::vector<TriangleType> &
-  GetDropped() const
+  /** How the result came about. */
+  const std::vector<Progress> &
+  GetProgress() const
   {
-    return m_Dropped;
-  }
-  /** The box around the triangles from before. */
-  const Box &
-  GetBounds() const
-  {
-    return m_Bounds;
-  }
-  bool
-  IsSimplified() const
-  {
-    return m_NumberOfOldTriangles < m_Result.size();
-  }
-  std::size_t
-  GetNumberOfTrianglesBefore() const
-  {
-    return static_cast<std::size_t>(m_End - m_Begin);
+    return m_Progress;
   }
 
 private:
-  const Points * m_Points = nullptr;
-  const TriangleType * m_Begin = nullptr;
-  const TriangleType * m_End = nullptr;
-  Box m_Bounds{};
+  const TriangleSurface * m_Surface;
+  Part m_Before;
   std::vector<std::uint8_t> m_IsHeld;
-  std::vector<TriangleType> m_Result;
+  Part m_Result;
   std::size_t m_NumberOfOldTriangles = 0;
-  std::vector<std::uint32_t> m_Fresh;
-  std::vector<TriangleType> m_Dropped;
+  std::vector<EdgeCollapse::MovedPoint> m_Moved;
+  std::vector<Progress> m_Progress;
 };
 
 /** The box around a triangle. */

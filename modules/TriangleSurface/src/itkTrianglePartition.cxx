@@ -13,6 +13,7 @@ struct CentredTriangle
 {
   TriangleSurface::PointType centre; // times 3
   TriangleSurface::TriangleType corners;
+  std::uint32_t id;
 };
 
 using CentredTriangles = std::vector<CentredTriangle, BulkAllocator<CentredTriangle>>;
@@ -59,12 +60,14 @@ Split(CentredTriangles & triangles, const TriangleRange & range, double cut)
 std::vector<TriangleRange>
 SortIntoRanges(const TriangleSurface::PointsContainer & points,
                TriangleSurface::TrianglesContainer & triangles,
+               std::vector<std::uint32_t> & ids,
                std::size_t mostTriangles,
                double cut)
 {
   CentredTriangles centred(triangles.size());
   ForEachInBlocks(triangles.size(), BlockSize, [&](std::size_t id) {
     centred[id].corners = triangles[id];
+    centred[id].id = ids[id];
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
       centred[id].centre[axis] =
@@ -93,7 +96,10 @@ SortIntoRanges(const TriangleSurface::PointsContainer & points,
     }
     large.swap(next);
   }
-  ForEachInBlocks(triangles.size(), BlockSize, [&](std::size_t id) { triangles[id] = centred[id].corners; });
+  ForEachInBlocks(triangles.size(), BlockSize, [&](std::size_t id) {
+    triangles[id] = centred[id].corners;
+    ids[id] = centred[id].id;
+  });
   return ranges;
 }
 

@@ -20,11 +20,12 @@ struct TriangleRange
 };
 
 /** Sorts triangles into compact ranges of at most \a mostTriangles. Each range that is larger is cut in two across its
- * longest side, the first part with the share \a cut of its triangles. O(n log n), several threads, the same result for
- * any number of them; 24 bytes a triangle while it runs. */
+ * longest side, the first part with the share \a cut of its triangles. \a ids are sorted as the triangles are.
+ * O(n log n), several threads, the same result for any number of them; 28 bytes a triangle while it runs. */
 std::vector<TriangleRange>
 SortIntoRanges(const TriangleSurface::PointsContainer & points,
                TriangleSurface::TrianglesContainer & triangles,
+               std::vector<std::uint32_t> & ids,
                std::size_t mostTriangles,
                double cut);
 

@@ -1,16 +1,14 @@
 #include "itkTriangleSurfaceSimplification.h"
 
 #include "itkForEachBlock.h"
-#include "itkPositionArithmetic.h"
 #include "itkSimplifiedPatch.h"
-#include "itkTriangleDistanceProof.h"
 #include "itkTriangleContact.h"
 #include "itkTrianglePartition.h"
+#include "itkTriangleSurfaceDistance.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
 
 #include <cmath>
-#include <memory>
 #include <numeric>
 #include <ostream>
 
@@ -19,28 +17,23 @@ namespace itk
 namespace
 {
 
+using PatchId = std::uint32_t;
 using PointId = std::uint32_t;
-using PointType = TriangleSurface::PointType;
-using TriangleType = TriangleSurface::TriangleType;
-using Triangles = TriangleSurface::TrianglesContainer;
+using TriangleId = std::uint32_t;
 using Box = TriangleTree::Box;
 using Contact = TriangleContactEnums::Contact;
 
 constexpr std::size_t PatchSize = 4096;
-constexpr std::size_t BlockSize = 1024;
-constexpr SizeValueType MostMeasured = 500000; // triangles, for the report
 
 /** Where the triangles are cut in two, in the steps one after the other: patches of successive steps have few borders
  * in common. */
 constexpr std::array<double, 3> Cuts{ 0.5, 0.36, 0.64 };
 
-constexpr double ShareOfMaximumError = 0.7; // for root mean squares
-constexpr double ShareForCentres = 0.8;     // of the maximumError, so that what is between them is seldom further
-constexpr double FirstError = 0.125;        // in mean sides of triangles, doubled with each step towards a target
-// What was before is within the maximumError, and so is held for good after a few rounds.
-constexpr double GrowthOfPlaces = 0.5;
-constexpr unsigned int MostRounds = 6;
-constexpr double LeastGain = 0.97; // of the triangles left by a step that was worth while
+constexpr double FirstError = 1.0 / 32.0; // in mean sides of triangles, doubled with each step
+constexpr double LeastGain = 0.97;        // of the triangles left by a step that was worth while
+constexpr unsigned int MostTries = 4;     // with smaller limits
+constexpr double SafetyOfTries = 0.9;     // of what the limit is lowered to
+constexpr unsigned int MostRounds = 8;    // of taking back, until whole patches are taken back
 
 double
 MeanSide(const TriangleSurface & surface)
@@ -55,18 +48,6 @@ Diagonal(const TriangleSurface & surface)
   return std::hypot(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]);
 }
 
-Box
-Grown(Box box, float by)
-{
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    box.lowest[axis] -= by;
-    box.highest[axis] += by;
-  }
-  return box;
-}
-
-/** Whether two surfaces with the same points have the same topology and are equally sound. */
 bool
 HaveSameTopology(const TriangleSurfaceTopology & a, const TriangleSurfaceTopology & b)
 {
@@ -76,100 +57,101 @@ HaveSameTopology(const TriangleSurfaceTopology & a, const TriangleSurfaceTopolog
          a.degenerateTriangles == b.degenerateTriangles;
 }
 
-/** A surface that gets simpler step by step. All states have the same points. */
+/** How many triangles of a patch are left after all edges of up to an error have shrunk. */
+std::size_t
+TrianglesLeft(const SimplifiedPatch & patch, double error)
+{
+  const auto & progress = patch.GetProgress();
+  const auto after =
+    std::upper_bound(progress.begin(), progress.end(), error, [](double value, const SimplifiedPatch::Progress & step) {
+      return value < step.error;
+    });
+  return after == progress.begin() ? patch.GetNumberOfTrianglesBefore() : std::prev(after)->triangles;
+}
+
+std::size_t
+TrianglesLeft(const std::vector<SimplifiedPatch> & patches, double error)
+{
+  return std::accumulate(
+    patches.begin(), patches.end(), std::size_t{ 0 }, [error](std::size_t sum, const SimplifiedPatch & patch) {
+      return sum + TrianglesLeft(patch, error);
+    });
+}
+
+/** A surface that gets simpler step by step. */
 class Simplification
 {
 public:
-  Simplification(const TriangleSurface & surface,
+  /** \param original null if there is no limit to the distance from it */
+  Simplification(TriangleSurface & surface,
                  const TriangleSurfaceTopology & topology,
-                 const TriangleSurfaceSimplificationSettings & settings)
-    : m_Settings(settings)
+                 SizeValueType targetTriangles,
+                 const TriangleTree * original,
+                 double limit)
+    : m_Target(targetTriangles)
     , m_Topology(topology)
-    , m_Original(surface)
-    , m_State(TriangleSurface::New())
+    , m_State(surface)
+    , m_Original{ original, limit, &m_NearPoints }
+    , m_Before(TriangleSurface::New())
   {
-    m_State->GetPoints() = surface.GetPoints();
-    m_State->GetTriangles() = surface.GetTriangles();
-    if (std::isfinite(settings.maximumError))
+    if (original != nullptr)
     {
-      m_OriginalTree = std::make_unique<TriangleTree>(surface);
-      m_OriginalNear.resize(surface.GetNumberOfPoints());
-      for (std::uint32_t id = 0; id < surface.GetNumberOfTriangles(); ++id)
+      m_NearPoints.resize(surface.GetNumberOfPoints());
+      for (TriangleId id = 0; id < surface.GetNumberOfTriangles(); ++id)
       {
         for (const PointId point : surface.GetTriangles()[id])
         {
-          m_OriginalNear[point] = id;
+          m_NearPoints[point] = id;
         }
       }
+      m_WitnessTriangles = m_NearPoints;
     }
   }
 
   TriangleSurfaceSimplificationReport
   Run();
 
-  Triangles &
-  GetTriangles()
-  {
-    return m_State->GetTriangles();
-  }
-
 private:
-  using PatchId = std::uint32_t;
-  using Places = std::vector<std::vector<Box>>; // of each patch
-
   bool
   IsAtTarget() const
   {
-    return m_Settings.targetTriangles > 0 && m_State->GetNumberOfTriangles() <= m_Settings.targetTriangles;
+    return m_Target > 0 && m_State.GetNumberOfTriangles() <= m_Target;
   }
   bool
   Step(double error, double cut);
+  void
+  SwapWithBefore();
   void
   CutIntoPatches(double cut);
   void
   SimplifyPatches(const std::vector<PatchId> & which);
   void
-  AimAtTarget();
+  AimAtTarget(const std::vector<PatchId> & all);
   void
   PutTogether();
-  void
-  FindContacts(const TriangleTree & state, const std::vector<PatchId> & patches, Places & places) const;
-  void
-  FindStrays(const std::vector<PatchId> & patches, Places & places) const;
-  std::vector<std::uint32_t>
-  FindLeftBehind(const TriangleTree & state, const std::vector<std::uint32_t> & doubtful) const;
-  Places
-  FindPlacesNear(const std::vector<std::uint32_t> & originals, double share) const;
+  std::vector<std::vector<Box>>
+  FindContacts(const std::vector<PatchId> & patches) const;
   std::vector<PatchId>
-  Hold(const Places & bad, const Places & nearLeftBehind);
+  Hold(const std::vector<std::vector<Box>> & bad, bool holdsAll);
   void
-  AddNearDropped(const std::vector<PatchId> & patches, std::vector<std::uint32_t> & doubtful) const;
-  TriangleDistanceProof::Triangle
-  Positions(const TriangleType & triangle) const
-  {
-    const auto & points = m_Original.GetPoints();
-    return { points[triangle[0]], points[triangle[1]], points[triangle[2]] };
-  }
-  static TriangleDistanceProof::Near
-  Near(const TriangleType & triangle, const std::vector<std::uint32_t> & nearPoints)
-  {
-    return { nearPoints[triangle[0]], nearPoints[triangle[1]], nearPoints[triangle[2]] };
-  }
-  PatchId
-  PatchOf(std::uint32_t triangle) const;
+  RememberNearPoints();
 
-  const TriangleSurfaceSimplificationSettings m_Settings;
+  const SizeValueType m_Target;
   const TriangleSurfaceTopology m_Topology;
-  const TriangleSurface & m_Original;
-  std::unique_ptr<TriangleTree> m_OriginalTree; // where there is a limit to the error
-  std::vector<std::uint32_t> m_OriginalNear;    // a triangle of each point, where there is a limit to the error
-  TriangleSurface::Pointer m_State;
+  TriangleSurface & m_State;
+  const EdgeCollapse::Original m_Original;
+
+  // empty where there is no limit to the distance
+  std::vector<TriangleId> m_NearPoints;       // a triangle of the original near each point of m_State
+  std::vector<TriangleId> m_WitnessTriangles; // of m_State, that stands for what was at each point of the original
 
   // of one step
-  Triangles m_Before;
+  TriangleSurface::Pointer m_Before;
   std::vector<SimplifiedPatch> m_Patches;
   std::vector<SimplifiedPatch::Goal> m_Goals;
-  std::vector<std::uint32_t> m_Begin; // of each patch's triangles in m_State, and their end
+  std::vector<TriangleId> m_Begin; // of each patch's triangles in m_State, and their end
+  std::vector<PatchId> m_PatchOf;  // each triangle of m_State
+  std::vector<std::uint8_t> m_IsNew;
   SizeValueType m_PlacesTakenBack = 0;
 };
 
@@ -177,24 +159,24 @@ TriangleSurfaceSimplificationReport
 Simplification::Run()
 {
   TriangleSurfaceSimplificationReport report;
-  report.trianglesBefore = m_State->GetNumberOfTriangles();
-  const double limit = m_OriginalTree ? ShareOfMaximumError * m_Settings.maximumError : Diagonal(m_Original);
-  double error = m_Settings.targetTriangles > 0 ? std::min(limit, FirstError * MeanSide(m_Original)) : limit;
+  report.trianglesBefore = m_State.GetNumberOfTriangles();
+  const bool isBounded = m_Original.tree != nullptr;
+  const double limit = isBounded ? m_Original.limit : Diagonal(m_State);
+  double error = std::min(limit, FirstError * MeanSide(m_State));
   report.end = SimplificationEnd::Target;
   for (std::size_t step = 0; !this->IsAtTarget(); ++step)
   {
-    const SizeValueType before = m_State->GetNumberOfTriangles();
+    const SizeValueType before = m_State.GetNumberOfTriangles();
     const bool isSound = this->Step(error, Cuts[step % Cuts.size()]);
-    const bool isStuck = m_State->GetNumberOfTriangles() > LeastGain * static_cast<double>(before);
+    const bool isStuck = m_State.GetNumberOfTriangles() > LeastGain * static_cast<double>(before);
     if (!isSound || (isStuck && error >= limit))
     {
-      report.end = m_OriginalTree ? SimplificationEnd::MaximumError : SimplificationEnd::Topology;
+      report.end = isBounded ? SimplificationEnd::MaximumError : SimplificationEnd::Topology;
       break;
     }
     error = std::min(limit, 2.0 * error);
   }
-  report.trianglesAfter = m_State->GetNumberOfTriangles();
-  report.distances = ComputeTwoDistances(m_Original, *m_State, MostMeasured);
+  report.trianglesAfter = m_State.GetNumberOfTriangles();
   report.placesTakenBack = m_PlacesTakenBack;
   return report;
 }
@@ -204,88 +186,105 @@ Simplification::Run()
 bool
 Simplification::Step(double error, double cut)
 {
+  this->SwapWithBefore();
   this->CutIntoPatches(cut);
   m_Goals.assign(m_Patches.size(), { error, 0 });
-  std::vector<std::uint32_t> changed(m_Patches.size());
+  std::vector<PatchId> changed(m_Patches.size());
   std::iota(changed.begin(), changed.end(), 0u);
   this->SimplifyPatches(changed);
-  this->AimAtTarget();
-
-  std::vector<std::uint32_t> doubtful(m_OriginalTree ? m_Original.GetNumberOfTriangles() : 0);
-  std::iota(doubtful.begin(), doubtful.end(), 0u);
-  for (unsigned int round = 0; !changed.empty() || (!doubtful.empty() && round < MostRounds); ++round)
+  this->AimAtTarget(changed);
+  this->PutTogether();
+  for (unsigned int round = 1; !changed.empty(); ++round)
   {
-    this->PutTogether();
-    Places bad(m_Patches.size());
-    {
-      const TriangleTree state(*m_State);
-      this->FindContacts(state, changed, bad);
-      this->FindStrays(changed, bad);
-      doubtful = this->FindLeftBehind(state, doubtful);
-    }
-    m_PlacesTakenBack += doubtful.size();
-    changed = this->Hold(bad, this->FindPlacesNear(doubtful, GrowthOfPlaces * round));
+    changed = this->Hold(this->FindContacts(changed), round >= MostRounds);
     this->SimplifyPatches(changed);
-    this->AddNearDropped(changed, doubtful);
+    this->PutTogether();
   }
-  const bool isSound = HaveSameTopology(ComputeTopology(*m_State), m_Topology);
-  if (!isSound)
+  const bool isSound = HaveSameTopology(ComputeTopology(m_State), m_Topology);
+  if (isSound)
   {
-    m_State->GetTriangles().swap(m_Before);
+    this->RememberNearPoints();
   }
+  else
+  {
+    this->SwapWithBefore();
+  }
+  m_Patches.clear();
   return isSound;
+}
+
+void
+Simplification::SwapWithBefore()
+{
+  m_State.GetPoints().swap(m_Before->GetPoints());
+  m_State.GetNormals().swap(m_Before->GetNormals());
+  m_State.GetTriangles().swap(m_Before->GetTriangles());
 }
 
 void
 Simplification::CutIntoPatches(double cut)
 {
-  m_Before.swap(m_State->GetTriangles());
-  const std::vector<TriangleRange> ranges = SortIntoRanges(m_Original.GetPoints(), m_Before, PatchSize, cut);
+  std::vector<TriangleId> oldIds(m_Before->GetNumberOfTriangles());
+  std::iota(oldIds.begin(), oldIds.end(), 0u);
+  const auto ranges = SortIntoRanges(m_Before->GetPoints(), m_Before->GetTriangles(), oldIds, PatchSize, cut);
+  struct Place
+  {
+    PatchId patch;
+    TriangleId triangle;
+  };
+  std::vector<Place> places(oldIds.size());
   m_Patches.clear();
   for (const TriangleRange & range : ranges)
   {
-    m_Patches.emplace_back(m_Original.GetPoints(), m_Before.data() + range.begin, m_Before.data() + range.end);
+    for (std::size_t id = range.begin; id < range.end; ++id)
+    {
+      places[oldIds[id]] = { static_cast<PatchId>(m_Patches.size()), static_cast<TriangleId>(id - range.begin) };
+    }
+    m_Patches.emplace_back(*m_Before, range.begin, range.end);
+  }
+  for (PointId point = 0; point < m_WitnessTriangles.size(); ++point)
+  {
+    const Place & place = places[m_WitnessTriangles[point]];
+    m_Patches[place.patch].AddWitness({ point, place.triangle });
   }
 }
 
 void
 Simplification::SimplifyPatches(const std::vector<PatchId> & which)
 {
-  SimplifiedPatch::Check isAllowed;
-  if (m_OriginalTree)
-  {
-    isAllowed = [this, proof = TriangleDistanceProof(*m_OriginalTree, ShareForCentres * m_Settings.maximumError)](
-                  const TriangleType & triangle) {
-      return proof.IsCentreWithin(this->Positions(triangle), Near(triangle, m_OriginalNear));
-    };
-  }
-  ForEachInBlocks(
-    which.size(), 1, [&](SizeValueType n) { m_Patches[which[n]].Simplify(m_Goals[which[n]], isAllowed); });
+  ForEachInBlocks(which.size(), 1, [&](std::size_t n) { m_Patches[which[n]].Simplify(m_Goals[which[n]], m_Original); });
 }
 
-/** Where the patches have become fewer triangles than asked for, lets each lose less, by the same share. */
+/** Where the patches have become fewer triangles than asked for, finds the error for which they do just so. */
 void
-Simplification::AimAtTarget()
+Simplification::AimAtTarget(const std::vector<PatchId> & all)
 {
-  std::size_t after = 0;
-  for (const SimplifiedPatch & patch : m_Patches)
-  {
-    after += patch.GetTriangles().size();
-  }
-  if (after >= m_Settings.targetTriangles)
+  const std::size_t target = m_Target;
+  if (TrianglesLeft(m_Patches, std::numeric_limits<double>::infinity()) >= target)
   {
     return;
   }
-  const double share =
-    static_cast<double>(m_Before.size() - m_Settings.targetTriangles) / static_cast<double>(m_Before.size() - after);
-  std::vector<std::uint32_t> all;
-  for (std::uint32_t patch = 0; patch < m_Patches.size(); ++patch)
+  std::vector<double> errors{ -1.0 }; // of no edge
+  for (const SimplifiedPatch & patch : m_Patches)
   {
-    const double before = static_cast<double>(m_Patches[patch].GetNumberOfTrianglesBefore());
-    const double lost = before - static_cast<double>(m_Patches[patch].GetTriangles().size());
-    m_Patches[patch].Restart();
-    m_Goals[patch].triangles = static_cast<std::size_t>(before - share * lost);
-    all.push_back(patch);
+    for (const SimplifiedPatch::Progress & progress : patch.GetProgress())
+    {
+      errors.push_back(progress.error);
+    }
+  }
+  std::sort(errors.begin(), errors.end());
+  errors.erase(std::unique(errors.begin(), errors.end()), errors.end());
+  const auto enough = std::partition_point(
+    errors.begin() + 1, errors.end(), [&](double error) { return TrianglesLeft(m_Patches, error) > target; });
+  const double tooLittle = *std::prev(enough);
+  const std::size_t least = TrianglesLeft(m_Patches, *enough);
+  const double share =
+    static_cast<double>(target - least) / static_cast<double>(TrianglesLeft(m_Patches, tooLittle) - least);
+  for (const PatchId id : all)
+  {
+    const std::size_t left = TrianglesLeft(m_Patches[id], *enough);
+    const double more = share * static_cast<double>(TrianglesLeft(m_Patches[id], tooLittle) - left);
+    m_Goals[id].triangles = left + static_cast<std::size_t>(more);
   }
   this->SimplifyPatches(all);
 }
@@ -293,35 +292,68 @@ Simplification::AimAtTarget()
 void
 Simplification::PutTogether()
 {
-  m_Begin.assign(1, 0);
-  Triangles & triangles = m_State->GetTriangles();
+  auto & triangles = m_State.GetTriangles();
+  m_State.GetPoints() = m_Before->GetPoints();
+  m_State.GetNormals() = m_Before->GetNormals();
   triangles.clear();
-  for (const SimplifiedPatch & patch : m_Patches)
+  m_Begin.assign(1, 0);
+  m_PatchOf.clear();
+  m_IsNew.clear();
+  for (PatchId id = 0; id < m_Patches.size(); ++id)
   {
-    triangles.insert(triangles.end(), patch.GetTriangles().begin(), patch.GetTriangles().end());
-    m_Begin.push_back(static_cast<std::uint32_t>(triangles.size()));
+    const SimplifiedPatch & patch = m_Patches[id];
+    for (const EdgeCollapse::Witness & witness : patch.GetResult().witnesses)
+    {
+      m_WitnessTriangles[witness.point] = m_Begin.back() + witness.triangle;
+    }
+    triangles.insert(triangles.end(), patch.GetResult().triangles.begin(), patch.GetResult().triangles.end());
+    m_IsNew.resize(m_Begin.back() + patch.GetNumberOfOldTriangles(), 0);
+    m_IsNew.resize(triangles.size(), 1);
+    m_PatchOf.resize(triangles.size(), id);
+    m_Begin.push_back(static_cast<TriangleId>(triangles.size()));
+    for (const EdgeCollapse::MovedPoint & moved : patch.GetMovedPoints())
+    {
+      m_State.GetPoints()[moved.id] = moved.position;
+      if (m_Before->HasNormals())
+      {
+        m_State.GetNormals()[moved.id] = moved.normal;
+      }
+    }
   }
 }
 
-Simplification::PatchId
-Simplification::PatchOf(std::uint32_t triangle) const
+/** Of the points that have moved. */
+void
+Simplification::RememberNearPoints()
 {
-  return static_cast<PatchId>(std::upper_bound(m_Begin.begin(), m_Begin.end(), triangle) - m_Begin.begin() - 1);
+  if (m_Original.tree == nullptr)
+  {
+    return;
+  }
+  for (const SimplifiedPatch & patch : m_Patches)
+  {
+    for (const EdgeCollapse::MovedPoint & moved : patch.GetMovedPoints())
+    {
+      m_NearPoints[moved.id] = moved.near;
+    }
+  }
 }
 
-/** Finds where fresh triangles of some patches meet other triangles than their neighbours. */
-void
-Simplification::FindContacts(const TriangleTree & state, const std::vector<PatchId> & patches, Places & places) const
+/** Finds the new triangles, by boxes for each patch, that meet others than their neighbours. One of the two is in one
+ * of the given patches. */
+std::vector<std::vector<Box>>
+Simplification::FindContacts(const std::vector<PatchId> & patches) const
 {
-  const auto & points = m_Original.GetPoints();
-  const auto & triangles = m_State->GetTriangles();
-  std::vector<std::vector<std::uint32_t>> found(patches.size());
+  const auto & points = m_State.GetPoints();
+  const auto & triangles = m_State.GetTriangles();
+  const TriangleTree tree(m_State);
+  std::vector<std::vector<TriangleId>> found(patches.size());
   ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
-    for (const std::uint32_t fresh : m_Patches[patches[n]].GetFresh())
+    for (TriangleId id = m_Begin[patches[n]]; id < m_Begin[patches[n] + 1]; ++id)
     {
-      const std::uint32_t id = m_Begin[patches[n]] + fresh;
-      state.VisitTriangles(BoxOf(points, triangles[id]), [&](std::uint32_t other) {
-        if (other != id && FindContact(points, triangles[id], triangles[other]) != Contact::Apart)
+      tree.VisitTriangles(BoxOf(points, triangles[id]), [&](TriangleId other) {
+        if (other != id && (m_IsNew[id] || m_IsNew[other]) &&
+            FindContact(points, triangles[id], triangles[other]) != Contact::Apart)
         {
           found[n].push_back(id);
           found[n].push_back(other);
@@ -329,143 +361,39 @@ Simplification::FindContacts(const TriangleTree & state, const std::vector<Patch
       });
     }
   });
+  std::vector<std::vector<Box>> places(m_Patches.size());
   for (const auto & ids : found)
   {
-    for (const std::uint32_t id : ids)
+    for (const TriangleId id : ids)
     {
-      const PatchId patch = this->PatchOf(id);
-      if (id - m_Begin[patch] >= m_Patches[patch].GetNumberOfOldTriangles())
+      if (m_IsNew[id])
       {
-        places[patch].push_back(BoxOf(points, triangles[id]));
-      }
-    }
-  }
-}
-
-/** Finds where fresh triangles of some patches have moved away from the original. */
-void
-Simplification::FindStrays(const std::vector<PatchId> & patches, Places & places) const
-{
-  if (!m_OriginalTree)
-  {
-    return;
-  }
-  const TriangleDistanceProof proof(*m_OriginalTree, m_Settings.maximumError);
-  ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
-    const std::vector<TriangleType> & triangles = m_Patches[patches[n]].GetTriangles();
-    for (const std::uint32_t id : m_Patches[patches[n]].GetFresh())
-    {
-      if (!proof.IsWithin(this->Positions(triangles[id]), Near(triangles[id], m_OriginalNear)))
-      {
-        places[patches[n]].push_back(BoxOf(m_Original.GetPoints(), triangles[id]));
-      }
-    }
-  });
-}
-
-/** Finds the triangles of the original, among the doubtful ones, that the state has moved away from. */
-std::vector<std::uint32_t>
-Simplification::FindLeftBehind(const TriangleTree & state, const std::vector<std::uint32_t> & doubtful) const
-{
-  if (doubtful.empty())
-  {
-    return {};
-  }
-  const auto & triangles = m_Original.GetTriangles();
-  std::vector<std::uint8_t> isDoubtful(m_Original.GetNumberOfPoints(), 0);
-  for (const std::uint32_t id : doubtful)
-  {
-    for (const PointId point : triangles[id])
-    {
-      isDoubtful[point] = 1;
-    }
-  }
-  std::vector<std::uint32_t> near(m_Original.GetNumberOfPoints(), TriangleTree::None);
-  const double squaredLimit = m_Settings.maximumError * m_Settings.maximumError;
-  ForEachInBlocks(near.size(), BlockSize, [&](std::size_t point) {
-    if (isDoubtful[point])
-    {
-      near[point] = state.FindClosestPoint(ToPosition(m_Original.GetPoints()[point]), squaredLimit).triangle;
-    }
-  });
-  const TriangleDistanceProof proof(state, m_Settings.maximumError);
-  std::vector<std::uint8_t> isLeft(doubtful.size());
-  ForEachInBlocks(doubtful.size(), BlockSize, [&](std::size_t n) {
-    const TriangleType & triangle = triangles[doubtful[n]];
-    isLeft[n] = proof.IsWithin(this->Positions(triangle), Near(triangle, near)) ? 0 : 1;
-  });
-  std::vector<std::uint32_t> left;
-  for (std::size_t n = 0; n < doubtful.size(); ++n)
-  {
-    if (isLeft[n])
-    {
-      left.push_back(doubtful[n]);
-    }
-  }
-  return left;
-}
-
-/** The boxes around triangles of the original, larger by a share of the maximumError, for patches that they meet. */
-Simplification::Places
-Simplification::FindPlacesNear(const std::vector<std::uint32_t> & originals, double share) const
-{
-  Places places(m_Patches.size());
-  for (const std::uint32_t id : originals)
-  {
-    const Box box = Grown(BoxOf(m_Original.GetPoints(), m_Original.GetTriangles()[id]),
-                          static_cast<float>(share * m_Settings.maximumError));
-    for (PatchId patch = 0; patch < m_Patches.size(); ++patch)
-    {
-      if (m_Patches[patch].IsSimplified() && m_Patches[patch].GetBounds().Overlaps(box))
-      {
-        places[patch].push_back(box);
+        places[m_PatchOf[id]].push_back(BoxOf(points, triangles[id]));
       }
     }
   }
   return places;
 }
 
-/** Holds what was where new triangles are bad, and what was near triangles left behind. Returns the patches for which
- * this makes a difference. */
-std::vector<Simplification::PatchId>
-Simplification::Hold(const Places & bad, const Places & nearLeftBehind)
+/** Holds what was where new triangles are bad. Returns the patches for which this makes a difference. */
+std::vector<PatchId>
+Simplification::Hold(const std::vector<std::vector<Box>> & bad, bool holdsAll)
 {
   std::vector<PatchId> changed;
   for (PatchId patch = 0; patch < m_Patches.size(); ++patch)
   {
+    if (bad[patch].empty())
+    {
+      continue;
+    }
     m_PlacesTakenBack += bad[patch].size();
-    const bool helpsLeftBehind = m_Patches[patch].Hold(nearLeftBehind[patch]);
-    if (!bad[patch].empty() && !m_Patches[patch].Hold(bad[patch]) && !helpsLeftBehind)
+    changed.push_back(patch);
+    if (holdsAll || !m_Patches[patch].Hold(bad[patch]))
     {
       m_Patches[patch].HoldAll();
     }
-    if (helpsLeftBehind || !bad[patch].empty())
-    {
-      changed.push_back(patch);
-    }
   }
   return changed;
-}
-
-/** Adds the triangles of the original that may have relied on what these patches no longer have. */
-void
-Simplification::AddNearDropped(const std::vector<PatchId> & patches, std::vector<std::uint32_t> & doubtful) const
-{
-  if (!m_OriginalTree)
-  {
-    return;
-  }
-  for (const std::uint32_t patch : patches)
-  {
-    for (const TriangleType & triangle : m_Patches[patch].GetDropped())
-    {
-      m_OriginalTree->VisitTriangles(
-        Grown(BoxOf(m_Original.GetPoints(), triangle), static_cast<float>(m_Settings.maximumError)),
-        [&](std::uint32_t id) { doubtful.push_back(id); });
-    }
-  }
-  std::sort(doubtful.begin(), doubtful.end());
-  doubtful.erase(std::unique(doubtful.begin(), doubtful.end()), doubtful.end());
 }
 
 void
@@ -489,6 +417,38 @@ VerifyPreconditions(const TriangleSurfaceTopology & topology, const TriangleSurf
                              << " non-manifold points, " << topology.misorientedEdges << " misoriented edges and "
                              << topology.degenerateTriangles << " degenerate triangles; repair it first");
   }
+}
+
+/** Measures the result: between the witnesses it may be further away. Then it is tried again with a smaller limit. */
+TriangleSurfaceSimplificationReport
+SimplifyNearOriginal(TriangleSurface & surface,
+                     const TriangleSurfaceTopology & topology,
+                     const TriangleSurfaceSimplificationSettings & settings)
+{
+  const auto original = TriangleSurface::New();
+  original->Graft(&surface);
+  const TriangleTree tree(*original);
+  double limit = settings.maximumError;
+  for (unsigned int tries = 0; tries < MostTries; ++tries)
+  {
+    auto report = Simplification(surface, topology, settings.targetTriangles, &tree, limit).Run();
+    report.distances = ComputeTwoDistances(*original, surface);
+    fprintf(stderr,
+            "DBG limit %g max %g %g\n",
+            limit,
+            report.distances.fromFirst.maximum,
+            report.distances.fromSecond.maximum);
+    if (report.distances.GetMaximum() <= settings.maximumError)
+    {
+      return report;
+    }
+    limit *= SafetyOfTries * settings.maximumError / report.distances.GetMaximum();
+    surface.Graft(original);
+  }
+  TriangleSurfaceSimplificationReport unchanged;
+  unchanged.trianglesBefore = unchanged.trianglesAfter = surface.GetNumberOfTriangles();
+  unchanged.end = SimplificationEnd::MaximumError;
+  return unchanged;
 }
 
 } // namespace
@@ -517,13 +477,11 @@ SimplifySurface(TriangleSurface & surface, const TriangleSurfaceSimplificationSe
   }
   const TriangleSurfaceTopology topology = ComputeTopology(surface);
   VerifyPreconditions(topology, settings);
-  TriangleSurfaceSimplificationReport report;
-  {
-    Simplification simplification(surface, topology, settings);
-    report = simplification.Run();
-    surface.GetTriangles().swap(simplification.GetTriangles());
-  }
+  const auto report = std::isfinite(settings.maximumError)
+                        ? SimplifyNearOriginal(surface, topology, settings)
+                        : Simplification(surface, topology, settings.targetTriangles, nullptr, 0.0).Run();
   surface.RemoveUnusedPoints();
+  surface.Modified();
   return report;
 }
 

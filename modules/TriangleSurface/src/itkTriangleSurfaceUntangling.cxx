@@ -111,7 +111,7 @@ public:
   {
     constexpr int rounds = 40;
     constexpr int patience = 16; // relaxing, and pushing outwards and inwards, twice
-    Ids touched;                // triangles that have a point that was moved
+    Ids touched;                 // triangles that have a point that was moved
     TriangleSurface::PointsContainer best;
     std::size_t fewest = crossing.size();
     int lastBetter = 0;
