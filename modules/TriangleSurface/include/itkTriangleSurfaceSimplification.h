@@ -1,7 +1,7 @@
 #ifndef itkTriangleSurfaceSimplification_h
 #define itkTriangleSurfaceSimplification_h
 
-#include "itkTriangleSurfaceDistance.h"
+#include "itkTriangleSurface.h"
 
 #include <iosfwd>
 #include <limits>
@@ -35,7 +35,6 @@ struct TriangleSurfaceSimplificationReport
   SizeValueType trianglesBefore = 0;
   SizeValueType trianglesAfter = 0;
   SimplificationEnd end = SimplificationEnd::Target;
-  TriangleSurfaceTwoDistances distances; ///< first is the original; only measured where there is a maximumError
   SizeValueType placesTakenBack = 0;     ///< places where a check failed and triangles were put back
 };
 

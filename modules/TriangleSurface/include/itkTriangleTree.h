@@ -12,9 +12,9 @@ namespace itk
 /** \class TriangleTree
  * \brief A tree of boxes around the triangles of a surface, for questions about places.
  *
- * Triangles are sorted along a Morton curve through their boxes' centres and gathered four to a leaf; every node halves
- * its range of leaves, so nodes need no links. Built in O(n log n) with several threads; holds 16 bytes a triangle
- * (32 more while it is built). The same for any number of threads.
+ * Triangles are halved across the longest side of the box around their centres, again and again until there are four at
+ * most; every node halves its range of leaves, so nodes need no links. Built in O(n log n) with several threads; holds
+ * 16 bytes a triangle (16 more while it is built). The same for any number of threads.
  *
  * Triangles with a position that is not finite are left out. The tree keeps the surface alive; a change of the
  * surface invalidates the tree.
@@ -159,7 +159,7 @@ public:
 
   static constexpr std::size_t LeafSize = 4;
 
-  /** Leaves are numbered along the curve: neighbours in number are mostly neighbours in space. */
+  /** Neighbours in number are mostly neighbours in space. */
   std::size_t
   GetNumberOfLeaves() const
   {
@@ -234,7 +234,9 @@ private:
     }
   };
 
-  /** Nodes still to be visited: their number of leaves halves with each, and there are less than 2^32. */
+  /** Of nodes still to be visited: their number of leaves halves with each, and there are less than 2^32. */
+  static constexpr std::size_t MostNodes = 64;
+
   class NodeStack
   {
   public:
@@ -255,7 +257,7 @@ private:
     }
 
   private:
-    std::array<Node, 64> m_Nodes;
+    std::array<Node, MostNodes> m_Nodes;
     std::size_t m_Size = 0;
   };
 
@@ -265,8 +267,19 @@ private:
     return { 0, 0, this->GetNumberOfLeaves() };
   }
 
+  struct CentredTriangle
+  {
+    PointType centre;
+    std::uint32_t triangle;
+  };
+  using CentredTriangles = std::vector<CentredTriangle, BulkAllocator<CentredTriangle>>;
+
   void
   SortTriangles();
+  static void
+  Halve(CentredTriangles & centred, const Node & node);
+  static void
+  HalveAllBelow(CentredTriangles & centred, const Node & node);
   void
   BuildBoxes();
   void
@@ -283,7 +296,7 @@ private:
   CountTurns(const PointType & point, std::uint32_t triangle) const;
 
   TriangleSurface::ConstPointer m_Surface;
-  std::vector<std::uint32_t, BulkAllocator<std::uint32_t>> m_Order; ///< triangles along the curve
+  std::vector<std::uint32_t, BulkAllocator<std::uint32_t>> m_Order; ///< triangles, leaf by leaf
   std::vector<Box, BulkAllocator<Box>> m_Boxes;                     ///< of the nodes
 };
 

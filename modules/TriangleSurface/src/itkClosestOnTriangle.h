@@ -10,56 +10,85 @@ namespace itk
 {
 
 inline PositionType
-ClosestOnSegment(const PositionType & position, const PositionType & a, const PositionType & b)
+Along(const PositionType & from, const PositionType & way, double share)
 {
-  const PositionType along = Subtract(b, a);
-  const double length = Dot(along, along);
-  const double part = length > 0.0 ? std::clamp(Dot(Subtract(position, a), along) / length, 0.0, 1.0) : 0.0;
-  return { a[0] + part * along[0], a[1] + part * along[1], a[2] + part * along[2] };
+  return { from[0] + share * way[0], from[1] + share * way[1], from[2] + share * way[2] };
 }
 
-/** The position's foot on the triangle's plane if that lies inside all three sides, else the best point of the sides
- * that it lies beyond, or of all sides if the triangle has next to no area. With sides u and v from the first corner,
- * the foot is corner + (s u + t v) / area. */
 inline PositionType
-ClosestOnTriangle(const PositionType & position, const std::array<PositionType, 3> & corners)
+ClosestOnSegment(const PositionType & position, const PositionType & a, const PositionType & b)
 {
-  constexpr double leastArea = 1e-12;
-  const PositionType u = Subtract(corners[1], corners[0]);
-  const PositionType v = Subtract(corners[2], corners[0]);
-  const PositionType away = Subtract(position, corners[0]);
-  const double uu = Dot(u, u), uv = Dot(u, v), vv = Dot(v, v), ua = Dot(u, away), va = Dot(v, away);
-  const double area = uu * vv - uv * uv;
-  const double s = vv * ua - uv * va;
-  const double t = uu * va - uv * ua;
-  const bool hasArea = area > leastArea * uu * vv;
-  const bool isBeyond[3] = { t<0.0, s + t> area, s < 0.0 }; // the side from each corner to the next
-  if (hasArea && !isBeyond[0] && !isBeyond[1] && !isBeyond[2])
-  {
-    const double ofU = s / area;
-    const double ofV = t / area;
-    return { corners[0][0] + ofU * u[0] + ofV * v[0],
-             corners[0][1] + ofU * u[1] + ofV * v[1],
-             corners[0][2] + ofU * u[2] + ofV * v[2] };
-  }
+  const PositionType way = Subtract(b, a);
+  const double length = Dot(way, way);
+  return Along(a, way, length > 0.0 ? std::clamp(Dot(Subtract(position, a), way) / length, 0.0, 1.0) : 0.0);
+}
+
+/** The best place on the sides of a triangle that has next to no area. */
+inline PositionType
+ClosestOnSides(const PositionType & position, const std::array<PositionType, 3> & corners)
+{
   PositionType closest{};
-  double closestDistance = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity();
   for (unsigned int n = 0; n < 3; ++n)
   {
-    if (hasArea && !isBeyond[n])
-    {
-      continue;
-    }
     const PositionType candidate = ClosestOnSegment(position, corners[n], corners[(n + 1) % 3]);
-    const PositionType way = Subtract(candidate, position);
-    const double distance = Dot(way, way);
-    if (distance < closestDistance)
+    const PositionType away = Subtract(candidate, position);
+    if (Dot(away, away) < least)
     {
-      closestDistance = distance;
+      least = Dot(away, away);
       closest = candidate;
     }
   }
   return closest;
+}
+
+/** By the region of the plane that the position's foot lies in, see Ericson, Real-Time Collision Detection (2005),
+ * 5.1.5: beyond a corner, beyond a side, or inside. */
+inline PositionType
+ClosestOnTriangle(const PositionType & position, const std::array<PositionType, 3> & corners)
+{
+  constexpr double leastArea = 1e-12;
+  const auto & [a, b, c] = corners;
+  const PositionType ab = Subtract(b, a);
+  const PositionType ac = Subtract(c, a);
+  const double abab = Dot(ab, ab), abac = Dot(ab, ac), acac = Dot(ac, ac);
+  if (!(abab * acac - abac * abac > leastArea * abab * acac))
+  {
+    return ClosestOnSides(position, corners);
+  }
+  const PositionType fromA = Subtract(position, a);
+  const double abA = Dot(ab, fromA), acA = Dot(ac, fromA); // how far along the sides, seen from a, b and c
+  const double abB = abA - abab, acB = acA - abac;
+  const double abC = abA - abac, acC = acA - acac;
+  if (abA <= 0.0 && acA <= 0.0)
+  {
+    return a;
+  }
+  if (abB >= 0.0 && acB <= abB)
+  {
+    return b;
+  }
+  if (acC >= 0.0 && abC <= acC)
+  {
+    return c;
+  }
+  const double weightOfC = abA * acB - abB * acA; // times twice the area squared, as are the others
+  if (weightOfC <= 0.0 && abA >= 0.0 && abB <= 0.0)
+  {
+    return Along(a, ab, abA / abab);
+  }
+  const double weightOfB = abC * acA - abA * acC;
+  if (weightOfB <= 0.0 && acA >= 0.0 && acC <= 0.0)
+  {
+    return Along(a, ac, acA / acac);
+  }
+  const double weightOfA = abB * acC - abC * acB;
+  if (weightOfA <= 0.0)
+  {
+    return ClosestOnSegment(position, b, c);
+  }
+  const double sum = weightOfA + weightOfB + weightOfC;
+  return Along(Along(a, ab, weightOfB / sum), ac, weightOfC / sum);
 }
 
 } // namespace itk

@@ -8,8 +8,19 @@ namespace itk
 SimplifiedPatch::SimplifiedPatch(const TriangleSurface & surface, std::size_t begin, std::size_t end)
   : m_Surface(&surface)
   , m_Before{ { surface.GetTriangles().data() + begin, surface.GetTriangles().data() + end }, {} }
+  , m_Bounds(BoxOf(surface.GetPoints(), surface.GetTriangles()[begin]))
   , m_IsHeld(end - begin, 0)
-{}
+{
+  for (const auto & triangle : m_Before.triangles)
+  {
+    const Box box = BoxOf(surface.GetPoints(), triangle);
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      m_Bounds.lowest[axis] = std::min(m_Bounds.lowest[axis], box.lowest[axis]);
+      m_Bounds.highest[axis] = std::max(m_Bounds.highest[axis], box.highest[axis]);
+    }
+  }
+}
 
 void
 SimplifiedPatch::AddWitness(const EdgeCollapse::Witness & witness)

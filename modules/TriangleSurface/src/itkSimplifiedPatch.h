@@ -45,6 +45,12 @@ public:
   {
     return m_Before.triangles.size();
   }
+  /** The box around the triangles from before. */
+  const Box &
+  GetBounds() const
+  {
+    return m_Bounds;
+  }
   /** First the triangles that were there before, then the new ones. */
   const Part &
   GetResult() const
@@ -55,6 +61,11 @@ public:
   GetNumberOfOldTriangles() const
   {
     return m_NumberOfOldTriangles;
+  }
+  bool
+  IsSimplified() const
+  {
+    return m_NumberOfOldTriangles < m_Result.triangles.size();
   }
   /** Points of the new triangles that are elsewhere than they were. */
   const std::vector<EdgeCollapse::MovedPoint> &
@@ -72,6 +83,7 @@ public:
 private:
   const TriangleSurface * m_Surface;
   Part m_Before;
+  Box m_Bounds;
   std::vector<std::uint8_t> m_IsHeld;
   Part m_Result;
   std::size_t m_NumberOfOldTriangles = 0;

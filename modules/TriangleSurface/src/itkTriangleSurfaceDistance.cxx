@@ -219,7 +219,7 @@ ComputeDistance(const TriangleSurface & surface,
 TriangleSurfaceTwoDistances
 ComputeTwoDistances(const TriangleSurface & first, const TriangleSurface & second, SizeValueType mostTriangles)
 {
-  const double spacing = std::min(MeanSide(first), MeanSide(second));
+  const double spacing = 2.0 * std::min(MeanSide(first), MeanSide(second));
   return { ComputeDistance(first, TriangleTree(second), spacing, mostTriangles),
            ComputeDistance(second, TriangleTree(first), spacing, mostTriangles) };
 }

@@ -4,11 +4,12 @@
 #include "itkSimplifiedPatch.h"
 #include "itkTriangleContact.h"
 #include "itkTrianglePartition.h"
-#include "itkTriangleSurfaceDistance.h"
+#include "itkTriangleProximity.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
 
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <ostream>
 
@@ -22,8 +23,11 @@ using PointId = std::uint32_t;
 using TriangleId = std::uint32_t;
 using Box = TriangleTree::Box;
 using Contact = TriangleContactEnums::Contact;
+using Corners = std::array<PositionType, 3>;
+using Places = std::vector<std::vector<Box>>; // of each patch
 
 constexpr std::size_t PatchSize = 4096;
+constexpr std::size_t BlockSize = 1024;
 
 /** Where the triangles are cut in two, in the steps one after the other: patches of successive steps have few borders
  * in common. */
@@ -31,9 +35,8 @@ constexpr std::array<double, 3> Cuts{ 0.5, 0.36, 0.64 };
 
 constexpr double FirstError = 1.0 / 32.0; // in mean sides of triangles, doubled with each step
 constexpr double LeastGain = 0.97;        // of the triangles left by a step that was worth while
-constexpr unsigned int MostTries = 4;     // with smaller limits
-constexpr double SafetyOfTries = 0.9;     // of what the limit is lowered to
-constexpr unsigned int MostRounds = 8;    // of taking back, until whole patches are taken back
+constexpr double ShareForWitnesses = 0.9; // of the maximumError: what is between them is seldom further than that then
+constexpr unsigned int MostRounds = 32;   // of taking back; in the second half, whole patches are
 
 double
 MeanSide(const TriangleSurface & surface)
@@ -55,6 +58,25 @@ HaveSameTopology(const TriangleSurfaceTopology & a, const TriangleSurfaceTopolog
          a.boundaryEdges == b.boundaryEdges && a.nonManifoldEdges == b.nonManifoldEdges &&
          a.misorientedEdges == b.misorientedEdges && a.nonManifoldPoints == b.nonManifoldPoints &&
          a.degenerateTriangles == b.degenerateTriangles;
+}
+
+Box
+Grown(Box box, float by)
+{
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    box.lowest[axis] -= by;
+    box.highest[axis] += by;
+  }
+  return box;
+}
+
+Corners
+CornersOf(const TriangleSurface & surface, std::size_t id)
+{
+  const auto & points = surface.GetPoints();
+  const auto & triangle = surface.GetTriangles()[id];
+  return { ToPosition(points[triangle[0]]), ToPosition(points[triangle[1]]), ToPosition(points[triangle[2]]) };
 }
 
 /** How many triangles of a patch are left after all edges of up to an error have shrunk. */
@@ -85,13 +107,13 @@ public:
   /** \param original null if there is no limit to the distance from it */
   Simplification(TriangleSurface & surface,
                  const TriangleSurfaceTopology & topology,
-                 SizeValueType targetTriangles,
-                 const TriangleTree * original,
-                 double limit)
-    : m_Target(targetTriangles)
+                 const TriangleSurfaceSimplificationSettings & settings,
+                 const TriangleTree * original)
+    : m_Target(settings.targetTriangles)
+    , m_MaximumError(settings.maximumError)
     , m_Topology(topology)
     , m_State(surface)
-    , m_Original{ original, limit, &m_NearPoints }
+    , m_Original{ original, ShareForWitnesses * settings.maximumError, &m_NearPoints }
     , m_Before(TriangleSurface::New())
   {
     if (original != nullptr)
@@ -129,14 +151,21 @@ private:
   AimAtTarget(const std::vector<PatchId> & all);
   void
   PutTogether();
-  std::vector<std::vector<Box>>
-  FindContacts(const std::vector<PatchId> & patches) const;
+  Places
+  FindBad(const std::vector<PatchId> & patches, bool looksAtAll) const;
+  void
+  FindContacts(const TriangleTree & state, const std::vector<PatchId> & patches, Places & bad) const;
+  void
+  FindStrays(const std::vector<PatchId> & patches, Places & bad) const;
+  void
+  FindLeftBehind(const TriangleTree & state, const std::vector<PatchId> & patches, bool looksAtAll, Places & bad) const;
   std::vector<PatchId>
-  Hold(const std::vector<std::vector<Box>> & bad, bool holdsAll);
+  Hold(const Places & bad, bool holdsAll);
   void
   RememberNearPoints();
 
   const SizeValueType m_Target;
+  const double m_MaximumError;
   const TriangleSurfaceTopology m_Topology;
   TriangleSurface & m_State;
   const EdgeCollapse::Original m_Original;
@@ -161,7 +190,7 @@ Simplification::Run()
   TriangleSurfaceSimplificationReport report;
   report.trianglesBefore = m_State.GetNumberOfTriangles();
   const bool isBounded = m_Original.tree != nullptr;
-  const double limit = isBounded ? m_Original.limit : Diagonal(m_State);
+  const double limit = isBounded ? m_MaximumError : Diagonal(m_State);
   double error = std::min(limit, FirstError * MeanSide(m_State));
   report.end = SimplificationEnd::Target;
   for (std::size_t step = 0; !this->IsAtTarget(); ++step)
@@ -169,7 +198,7 @@ Simplification::Run()
     const SizeValueType before = m_State.GetNumberOfTriangles();
     const bool isSound = this->Step(error, Cuts[step % Cuts.size()]);
     const bool isStuck = m_State.GetNumberOfTriangles() > LeastGain * static_cast<double>(before);
-    if (!isSound || (isStuck && error >= limit))
+    if (!isSound || (isStuck && error >= limit && !this->IsAtTarget()))
     {
       report.end = isBounded ? SimplificationEnd::MaximumError : SimplificationEnd::Topology;
       break;
@@ -194,13 +223,21 @@ Simplification::Step(double error, double cut)
   this->SimplifyPatches(changed);
   this->AimAtTarget(changed);
   this->PutTogether();
-  for (unsigned int round = 1; !changed.empty(); ++round)
+  bool looksAtAll = true;
+  unsigned int round = 0;
+  for (; round < MostRounds; ++round)
   {
-    changed = this->Hold(this->FindContacts(changed), round >= MostRounds);
+    const Places bad = this->FindBad(changed, looksAtAll);
+    changed = this->Hold(bad, 2 * round >= MostRounds);
+    if (changed.empty() && looksAtAll)
+    {
+      break;
+    }
+    looksAtAll = changed.empty();
     this->SimplifyPatches(changed);
     this->PutTogether();
   }
-  const bool isSound = HaveSameTopology(ComputeTopology(m_State), m_Topology);
+  const bool isSound = round < MostRounds && HaveSameTopology(ComputeTopology(m_State), m_Topology);
   if (isSound)
   {
     this->RememberNearPoints();
@@ -339,19 +376,33 @@ Simplification::RememberNearPoints()
   }
 }
 
-/** Finds the new triangles, by boxes for each patch, that meet others than their neighbours. One of the two is in one
- * of the given patches. */
-std::vector<std::vector<Box>>
-Simplification::FindContacts(const std::vector<PatchId> & patches) const
+/** Finds places, for each patch, where its new triangles must not stay. Looks at what some patches have changed, or at
+ * all. */
+Places
+Simplification::FindBad(const std::vector<PatchId> & patches, bool looksAtAll) const
+{
+  Places bad(m_Patches.size());
+  const TriangleTree state(m_State);
+  this->FindContacts(state, patches, bad);
+  if (m_Original.tree != nullptr)
+  {
+    this->FindStrays(patches, bad);
+    this->FindLeftBehind(state, patches, looksAtAll, bad);
+  }
+  return bad;
+}
+
+/** Adds the new triangles that meet others than their neighbours. One of the two is in one of the given patches. */
+void
+Simplification::FindContacts(const TriangleTree & state, const std::vector<PatchId> & patches, Places & bad) const
 {
   const auto & points = m_State.GetPoints();
   const auto & triangles = m_State.GetTriangles();
-  const TriangleTree tree(m_State);
   std::vector<std::vector<TriangleId>> found(patches.size());
   ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
     for (TriangleId id = m_Begin[patches[n]]; id < m_Begin[patches[n] + 1]; ++id)
     {
-      tree.VisitTriangles(BoxOf(points, triangles[id]), [&](TriangleId other) {
+      state.VisitTriangles(BoxOf(points, triangles[id]), [&](TriangleId other) {
         if (other != id && (m_IsNew[id] || m_IsNew[other]) &&
             FindContact(points, triangles[id], triangles[other]) != Contact::Apart)
         {
@@ -361,23 +412,81 @@ Simplification::FindContacts(const std::vector<PatchId> & patches) const
       });
     }
   });
-  std::vector<std::vector<Box>> places(m_Patches.size());
   for (const auto & ids : found)
   {
     for (const TriangleId id : ids)
     {
       if (m_IsNew[id])
       {
-        places[m_PatchOf[id]].push_back(BoxOf(points, triangles[id]));
+        bad[m_PatchOf[id]].push_back(BoxOf(points, triangles[id]));
       }
     }
   }
-  return places;
+}
+
+/** Adds the new triangles of some patches that are not within the maximumError. */
+void
+Simplification::FindStrays(const std::vector<PatchId> & patches, Places & bad) const
+{
+  ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
+    const PatchId patch = patches[n];
+    for (TriangleId id = m_Begin[patch]; id < m_Begin[patch + 1]; ++id)
+    {
+      if (m_IsNew[id] && !IsWithinDistance(CornersOf(m_State, id), *m_Original.tree, m_MaximumError))
+      {
+        bad[patch].push_back(BoxOf(m_State.GetPoints(), m_State.GetTriangles()[id]));
+      }
+    }
+  });
+}
+
+/** Adds the triangles of the original that the state is not within the maximumError of, for all patches near them. All
+ * is well where one triangle stands for all three corners. Looks at those only that some patches stand for, or at all.
+ */
+void
+Simplification::FindLeftBehind(const TriangleTree & state,
+                               const std::vector<PatchId> & patches,
+                               bool looksAtAll,
+                               Places & bad) const
+{
+  std::vector<std::uint8_t> isLookedAt(m_Patches.size(), looksAtAll ? 1 : 0);
+  for (const PatchId patch : patches)
+  {
+    isLookedAt[patch] = 1;
+  }
+  const TriangleSurface & original = m_Original.tree->GetSurface();
+  const auto & triangles = original.GetTriangles();
+  std::vector<std::uint8_t> isLeft(triangles.size(), 0);
+  ForEachInBlocks(triangles.size(), BlockSize, [&](std::size_t id) {
+    const auto & [a, b, c] = triangles[id];
+    const std::array<TriangleId, 3> near{ m_WitnessTriangles[a], m_WitnessTriangles[b], m_WitnessTriangles[c] };
+    const bool isConcerned =
+      std::any_of(near.begin(), near.end(), [&](TriangleId n) { return isLookedAt[m_PatchOf[n]] != 0; });
+    if (isConcerned && !(near[0] == near[1] && near[1] == near[2]))
+    {
+      isLeft[id] = IsWithinDistance(CornersOf(original, id), state, m_MaximumError) ? 0 : 1;
+    }
+  });
+  for (TriangleId id = 0; id < triangles.size(); ++id)
+  {
+    if (!isLeft[id])
+    {
+      continue;
+    }
+    const Box box = Grown(BoxOf(original.GetPoints(), triangles[id]), static_cast<float>(m_MaximumError));
+    for (PatchId patch = 0; patch < m_Patches.size(); ++patch)
+    {
+      if (m_Patches[patch].IsSimplified() && m_Patches[patch].GetBounds().Overlaps(box))
+      {
+        bad[patch].push_back(box);
+      }
+    }
+  }
 }
 
 /** Holds what was where new triangles are bad. Returns the patches for which this makes a difference. */
 std::vector<PatchId>
-Simplification::Hold(const std::vector<std::vector<Box>> & bad, bool holdsAll)
+Simplification::Hold(const Places & bad, bool holdsAll)
 {
   std::vector<PatchId> changed;
   for (PatchId patch = 0; patch < m_Patches.size(); ++patch)
@@ -419,38 +528,6 @@ VerifyPreconditions(const TriangleSurfaceTopology & topology, const TriangleSurf
   }
 }
 
-/** Measures the result: between the witnesses it may be further away. Then it is tried again with a smaller limit. */
-TriangleSurfaceSimplificationReport
-SimplifyNearOriginal(TriangleSurface & surface,
-                     const TriangleSurfaceTopology & topology,
-                     const TriangleSurfaceSimplificationSettings & settings)
-{
-  const auto original = TriangleSurface::New();
-  original->Graft(&surface);
-  const TriangleTree tree(*original);
-  double limit = settings.maximumError;
-  for (unsigned int tries = 0; tries < MostTries; ++tries)
-  {
-    auto report = Simplification(surface, topology, settings.targetTriangles, &tree, limit).Run();
-    report.distances = ComputeTwoDistances(*original, surface);
-    fprintf(stderr,
-            "DBG limit %g max %g %g\n",
-            limit,
-            report.distances.fromFirst.maximum,
-            report.distances.fromSecond.maximum);
-    if (report.distances.GetMaximum() <= settings.maximumError)
-    {
-      return report;
-    }
-    limit *= SafetyOfTries * settings.maximumError / report.distances.GetMaximum();
-    surface.Graft(original);
-  }
-  TriangleSurfaceSimplificationReport unchanged;
-  unchanged.trianglesBefore = unchanged.trianglesAfter = surface.GetNumberOfTriangles();
-  unchanged.end = SimplificationEnd::MaximumError;
-  return unchanged;
-}
-
 } // namespace
 
 std::ostream &
@@ -477,9 +554,15 @@ SimplifySurface(TriangleSurface & surface, const TriangleSurfaceSimplificationSe
   }
   const TriangleSurfaceTopology topology = ComputeTopology(surface);
   VerifyPreconditions(topology, settings);
-  const auto report = std::isfinite(settings.maximumError)
-                        ? SimplifyNearOriginal(surface, topology, settings)
-                        : Simplification(surface, topology, settings.targetTriangles, nullptr, 0.0).Run();
+  auto original = TriangleSurface::New();
+  std::unique_ptr<TriangleTree> tree;
+  if (std::isfinite(settings.maximumError))
+  {
+    original->GetPoints() = surface.GetPoints();
+    original->GetTriangles() = surface.GetTriangles();
+    tree = std::make_unique<TriangleTree>(*original);
+  }
+  const auto report = Simplification(surface, topology, settings, tree.get()).Run();
   surface.RemoveUnusedPoints();
   surface.Modified();
   return report;

@@ -1,9 +1,10 @@
 #include "itkTriangleTree.h"
 
-#include "itkExactOrientation.h"
-#include "itkParallelSort.h"
 #include "itkClosestOnTriangle.h"
+#include "itkExactOrientation.h"
+#include "itkForEachBlock.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace itk
@@ -14,24 +15,7 @@ namespace
 using Box = TriangleTree::Box;
 using PointType = TriangleTree::PointType;
 
-constexpr std::uint32_t BitsAlongAxis = 21;
-constexpr std::size_t BlockOfTriangles = 1 << 16;
 constexpr unsigned int ParallelDepth = 6;
-
-/** A triangle and where its centre lies on the Morton curve. */
-struct Placed
-{
-  std::uint64_t code;
-  std::uint32_t triangle;
-
-  bool
-  operator<(const Placed & other) const
-  {
-    return code != other.code ? code < other.code : triangle < other.triangle;
-  }
-};
-
-using PlacedContainer = std::vector<Placed, BulkAllocator<Placed>>;
 
 constexpr Box EmptyBox = { { std::numeric_limits<float>::infinity(),
                              std::numeric_limits<float>::infinity(),
@@ -46,27 +30,21 @@ IsFinite(const PointType & point)
   return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
 }
 
-/** The 21 low bits of \a value moved to every third place. */
-std::uint64_t
-SpreadBits(std::uint64_t value)
+PointType
+CentreOf(const Box & box)
 {
-  value = (value | (value << 32)) & 0x001f00000000ffff;
-  value = (value | (value << 16)) & 0x001f0000ff0000ff;
-  value = (value | (value << 8)) & 0x100f00f00f00f00f;
-  value = (value | (value << 4)) & 0x10c30c30c30c30c3;
-  return (value | (value << 2)) & 0x1249249249249249;
-}
-
-std::uint64_t
-ComputeMortonCode(const Box & box, const Box & all, double cellsPerMillimetre)
-{
-  std::uint64_t code = 0;
+  PointType centre;
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    const double centre = 0.5 * (double(box.lowest[axis]) + double(box.highest[axis]));
-    code |= SpreadBits(static_cast<std::uint64_t>((centre - double(all.lowest[axis])) * cellsPerMillimetre)) << axis;
+    centre[axis] = 0.5f * box.lowest[axis] + 0.5f * box.highest[axis];
   }
-  return code;
+  return centre;
+}
+
+float
+SideOf(const Box & box, unsigned int axis)
+{
+  return box.highest[axis] - box.lowest[axis];
 }
 
 double
@@ -131,39 +109,74 @@ TriangleTree::GetTriangleBox(std::uint32_t triangle) const
   return Union(first, Union(second, third));
 }
 
+/** Each node's triangles are halved across the longest side of the box around their centres. */
 void
 TriangleTree::SortTriangles()
 {
   const auto & points = m_Surface->GetPoints();
   const auto & triangles = m_Surface->GetTriangles();
-  Box all = EmptyBox;
-  for (const PointType & point : points)
-  {
-    if (IsFinite(point))
-    {
-      all = Union(all, { point, point });
-    }
-  }
-  double extent = 0.0;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    extent = std::max(extent, double(all.highest[axis]) - double(all.lowest[axis]));
-  }
-  const double cellsPerMillimetre = extent > 0.0 ? ((1u << BitsAlongAxis) - 1) / extent : 0.0;
-
-  PlacedContainer placed;
-  placed.reserve(triangles.size());
+  CentredTriangles centred;
+  centred.reserve(triangles.size());
   for (std::uint32_t triangle = 0; triangle < triangles.size(); ++triangle)
   {
     const auto & corners = triangles[triangle];
     if (IsFinite(points[corners[0]]) && IsFinite(points[corners[1]]) && IsFinite(points[corners[2]]))
     {
-      placed.push_back({ ComputeMortonCode(this->GetTriangleBox(triangle), all, cellsPerMillimetre), triangle });
+      centred.push_back({ CentreOf(this->GetTriangleBox(triangle)), triangle });
     }
   }
-  ParallelSort(placed);
-  m_Order.resize(placed.size());
-  std::transform(placed.begin(), placed.end(), m_Order.begin(), [](const Placed & item) { return item.triangle; });
+  m_Order.resize(centred.size());
+  if (centred.empty())
+  {
+    return;
+  }
+  std::vector<Node> nodes;
+  for (unsigned int depth = 0; depth < ParallelDepth; ++depth)
+  {
+    nodes.clear();
+    this->CollectNodes(this->Root(), depth, nodes);
+    ForEachInBlocks(nodes.size(), 1, [&](std::size_t n) { Halve(centred, nodes[n]); });
+  }
+  nodes.clear();
+  this->CollectNodes(this->Root(), ParallelDepth, nodes);
+  ForEachInBlocks(nodes.size(), 1, [&](std::size_t n) { HalveAllBelow(centred, nodes[n]); });
+  std::transform(
+    centred.begin(), centred.end(), m_Order.begin(), [](const CentredTriangle & item) { return item.triangle; });
+}
+
+void
+TriangleTree::Halve(CentredTriangles & centred, const Node & node)
+{
+  if (node.IsLeaf())
+  {
+    return;
+  }
+  const auto begin = centred.begin() + static_cast<std::ptrdiff_t>(node.begin * LeafSize);
+  const auto middle = centred.begin() + static_cast<std::ptrdiff_t>(node.Right().begin * LeafSize);
+  const auto end = centred.begin() + static_cast<std::ptrdiff_t>(std::min(node.end * LeafSize, centred.size()));
+  Box box = EmptyBox;
+  std::for_each(begin, end, [&box](const CentredTriangle & item) {
+    box = Union(box, Box{ item.centre, item.centre });
+  });
+  unsigned int longest = 0;
+  for (unsigned int axis = 1; axis < 3; ++axis)
+  {
+    longest = SideOf(box, axis) > SideOf(box, longest) ? axis : longest;
+  }
+  std::nth_element(begin, middle, end, [longest](const CentredTriangle & a, const CentredTriangle & b) {
+    return a.centre[longest] != b.centre[longest] ? a.centre[longest] < b.centre[longest] : a.triangle < b.triangle;
+  });
+}
+
+void
+TriangleTree::HalveAllBelow(CentredTriangles & centred, const Node & node)
+{
+  if (!node.IsLeaf())
+  {
+    Halve(centred, node);
+    HalveAllBelow(centred, node.Left());
+    HalveAllBelow(centred, node.Right());
+  }
 }
 
 void
@@ -224,32 +237,47 @@ TriangleTree::FindClosestPoint(const PositionType & position, double maximumSqua
 {
   ClosestPoint closest;
   closest.squaredDistance = maximumSquaredDistance;
-  NodeStack stack;
-  if (!m_Boxes.empty())
+  if (m_Boxes.empty())
   {
-    stack.Push(this->Root());
+    return closest;
   }
-  while (!stack.IsEmpty())
+  struct Away
   {
-    const Node node = stack.Pop();
-    if (SquaredDistance(position, m_Boxes[node.id]) > closest.squaredDistance)
+    Node node;
+    double squaredDistance;
+  };
+  const auto measure = [&](const Node & node) { return Away{ node, SquaredDistance(position, m_Boxes[node.id]) }; };
+  std::array<Away, MostNodes> stack; // nearer ones last
+  std::size_t size = 0;
+  stack[size++] = measure(this->Root());
+  while (size > 0)
+  {
+    const Away away = stack[--size];
+    if (away.squaredDistance > closest.squaredDistance)
     {
       continue;
     }
-    if (node.IsLeaf())
+    if (away.node.IsLeaf())
     {
-      for (const std::uint32_t triangle : this->GetLeaf(node.begin))
+      for (const std::uint32_t triangle : this->GetLeaf(away.node.begin))
       {
-        this->ImproveClosestPoint(position, triangle, closest);
+        if (SquaredDistance(position, this->GetTriangleBox(triangle)) <= closest.squaredDistance)
+        {
+          this->ImproveClosestPoint(position, triangle, closest);
+        }
       }
       continue;
     }
-    const Node left = node.Left();
-    const Node right = node.Right();
-    const bool isLeftNearer =
-      SquaredDistance(position, m_Boxes[left.id]) <= SquaredDistance(position, m_Boxes[right.id]);
-    stack.Push(isLeftNearer ? right : left);
-    stack.Push(isLeftNearer ? left : right);
+    const Away left = measure(away.node.Left());
+    const Away right = measure(away.node.Right());
+    const bool isLeftNearer = left.squaredDistance <= right.squaredDistance;
+    for (const Away & child : { isLeftNearer ? right : left, isLeftNearer ? left : right })
+    {
+      if (child.squaredDistance <= closest.squaredDistance)
+      {
+        stack[size++] = child;
+      }
+    }
   }
   return closest;
 }
