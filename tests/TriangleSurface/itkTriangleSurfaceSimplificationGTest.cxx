@@ -134,40 +134,37 @@ TEST(TriangleSurfaceSimplification, SphereReachesItsTarget)
   EXPECT_EQ(CountContacts(*surface), 0u);
   EXPECT_NEAR(ComputeVolume(*surface), ComputeVolume(*before), 0.005 * ComputeVolume(*before));
   const auto distances = ComputeTwoDistances(*before, *surface);
-  EXPECT_LT(distances.fromFirst.mean, 0.02);
-  EXPECT_LT(distances.GetMaximum(), 0.1);
-  printf("mean %g max %g bound %g n %lu vol %g\n", distances.fromFirst.mean, distances.GetMaximum(), 0.0, report.trianglesAfter, ComputeVolume(*surface)/ ComputeVolume(*before)-1);
+  EXPECT_LT(distances.fromFirst.mean, 0.015);
+  EXPECT_LT(distances.GetMaximum(), 0.06);
 }
 
-TEST(TriangleSurfaceSimplification, PointsAndNormalsAreSomeOfTheOriginals)
+TEST(TriangleSurfaceSimplification, NormalsAreThoseOfTheirPlaces)
 {
   const auto surface = MakeSphere(20.0, 5);
-  std::map<Surface::PointType, Surface::NormalType> normals;
   for (const auto & point : surface->GetPoints())
   {
     surface->GetNormals().push_back({ point[0] / 20.0f, point[1] / 20.0f, point[2] / 20.0f });
-    normals[point] = surface->GetNormals().back();
   }
   SimplifySurface(*surface, Settings{ 800 });
   ASSERT_TRUE(surface->HasNormals());
   EXPECT_LT(surface->GetNumberOfPoints(), 410u);
   for (std::size_t point = 0; point < surface->GetNumberOfPoints(); ++point)
   {
-    const auto found = normals.find(surface->GetPoints()[point]);
-    ASSERT_NE(found, normals.end());
-    EXPECT_EQ(found->second, surface->GetNormals()[point]);
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      EXPECT_NEAR(surface->GetNormals()[point][axis], surface->GetPoints()[point][axis] / 20.0, 0.02);
+    }
   }
 }
 
 TEST(TriangleSurfaceSimplification, MaximumErrorHoldsBothWaysBetweenThePointsToo)
 {
-  const Surface::Pointer surfaces[] = { MakeSphere(10.0, 4),
-                                        MakeTorus(8.0, 3.0, 40),
-                                        MakeRoughSphere(10.0, 4, 0.02, 1),
-                                        MakeRoughSphere(10.0, 4, 0.1, 2) };
+  const Surface::Pointer surfaces[] = {
+    MakeSphere(10.0, 3), MakeTorus(8.0, 3.0, 20), MakeRoughSphere(10.0, 3, 0.02, 1), MakeRoughSphere(10.0, 3, 0.1, 2)
+  };
   for (const auto & before : surfaces)
   {
-    for (const double maximumError : { 0.05, 0.3, 1.5 })
+    for (const double maximumError : { 0.1, 0.6, 2.5 })
     {
       const auto surface = Copy(*before);
       const auto report = SimplifySurface(*surface, Settings{ 0, maximumError });
@@ -175,12 +172,11 @@ TEST(TriangleSurfaceSimplification, MaximumErrorHoldsBothWaysBetweenThePointsToo
       EXPECT_EQ(report.end, SimplificationEnd::MaximumError);
       EXPECT_LE(bruteforce::FurthestDistance(*before, *surface, 8), maximumError * 1.000001);
       EXPECT_LE(bruteforce::FurthestDistance(*surface, *before, 8), maximumError * 1.000001);
-      printf("err %g before %lu after %lu\n", maximumError, report.trianglesBefore, report.trianglesAfter);
       ExpectSameTopology(*before, *surface);
       EXPECT_LE(CountContacts(*surface), CountContacts(*before));
-      if (maximumError >= 0.3)
+      if (maximumError >= 0.6)
       {
-        EXPECT_LT(report.trianglesAfter, report.trianglesBefore * 2 / 3);
+        EXPECT_LT(report.trianglesAfter, report.trianglesBefore * 4 / 5);
       }
     }
   }
@@ -189,15 +185,14 @@ TEST(TriangleSurfaceSimplification, MaximumErrorHoldsBothWaysBetweenThePointsToo
 TEST(TriangleSurfaceSimplification, LargerErrorsLeaveFewerTriangles)
 {
   itk::SizeValueType last = 8192;
-  for (const double maximumError : { 0.01, 0.05, 0.2, 1.0 })
+  for (const double maximumError : { 0.02, 0.05, 0.2, 1.0 })
   {
     const auto surface = MakeSphere(20.0, 5);
     const auto report = SimplifySurface(*surface, Settings{ 0, maximumError });
     EXPECT_LT(report.trianglesAfter, last) << maximumError;
-    printf("%g: %lu\n", maximumError, report.trianglesAfter);
     last = report.trianglesAfter;
   }
-  EXPECT_LT(last, 200u);
+  EXPECT_LT(last, 150u);
 }
 
 TEST(TriangleSurfaceSimplification, TargetAndErrorTogetherStopAtTheFirstOfThem)
@@ -229,14 +224,14 @@ TEST(TriangleSurfaceSimplification, TorusKeepsItsHoleAndTetrahedraStay)
 
 TEST(TriangleSurfaceSimplification, OpenSurfacesKeepTheirBorder)
 {
-  const auto before = MakeSheet(80); // several patches
+  const auto before = MakeSheet(60); // several patches
   const auto surface = Copy(*before);
-  SimplifySurface(*surface, Settings{ 0, 0.01 });
+  SimplifySurface(*surface, Settings{ 0, 0.2 });
   ExpectSameTopology(*before, *surface);
   EXPECT_EQ(BorderOf(*surface), BorderOf(*before));
-  EXPECT_EQ(BorderOf(*surface).size(), 320u);
-  EXPECT_LT(surface->GetNumberOfTriangles(), 3000u);
-  EXPECT_NEAR(ComputeArea(*surface), 6400.0, 1e-6);
+  EXPECT_EQ(BorderOf(*surface).size(), 240u);
+  EXPECT_LT(surface->GetNumberOfTriangles(), 1500u);
+  EXPECT_NEAR(ComputeArea(*surface), 3600.0, 1e-3);
 }
 
 TEST(TriangleSurfaceSimplification, SheetsCloseToEachOtherNeverMeet)
@@ -262,7 +257,6 @@ TEST(TriangleSurfaceSimplification, RoughSurfacesGetNoIntersections)
     ASSERT_EQ(CountContacts(*before), 0u);
     const auto surface = Copy(*before);
     const auto report = SimplifySurface(*surface, Settings{ 819 });
-    printf("rough: %lu back %lu\n", report.trianglesAfter, report.placesTakenBack);
     EXPECT_EQ(report.end, SimplificationEnd::Target);
     ExpectSameTopology(*before, *surface);
     EXPECT_EQ(CountContacts(*surface), 0u);
@@ -304,7 +298,7 @@ TEST(TriangleSurfaceSimplification, WhatIsSimpleEnoughStaysAsItIs)
   const auto before = Copy(*surface);
   const auto report = SimplifySurface(*surface, Settings{ 5000 });
   EXPECT_EQ(report.end, SimplificationEnd::Target);
-  
+
   EXPECT_EQ(surface->GetTriangles(), before->GetTriangles());
   EXPECT_EQ(SimplifySurface(*Surface::New(), Settings{ 0, 1.0 }).trianglesAfter, 0u);
 }

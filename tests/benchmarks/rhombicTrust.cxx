@@ -4,14 +4,12 @@
 #include "rhombicLatticePipeline.h"
 #include "rhombicMachine.h"
 #include "rhombicScanReader.h"
+#include "rhombicSurfaceFinish.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicTableRemoval.h"
 #include "rhombicTextTable.h"
 
 #include "itkTriangleSurfaceAudit.h"
-#include "itkTriangleSurfaceDistance.h"
-#include "itkTriangleSurfaceSimplification.h"
-#include "itkTriangleTree.h"
 
 #include <CLI/CLI.hpp>
 
@@ -127,22 +125,20 @@ Judge(const FCCVolume & lattice, const Scan & scan, double isovalue, Mode mode, 
 
   const auto simplified = itk::TriangleSurface::New();
   simplified->Graft(surface);
-  itk::TriangleSurfaceSimplificationSettings settings;
-  settings.targetTriangles = static_cast<std::size_t>(options.share / 100.0 * static_cast<double>(before.triangles));
-  settings.maximumError =
-    options.spacings * std::visit([](const auto & image) { return image->GetSpacing()[0]; }, lattice);
+  const double spacing = std::visit([](const auto & image) { return image->GetSpacing()[0]; }, lattice);
+  SurfaceFinish finish;
+  finish.share = options.share / 100.0;
+  finish.maximumError = options.spacings * spacing;
   start = std::chrono::steady_clock::now();
-  const auto report = SimplifySurface(*simplified, settings);
+  const Report report = RefineSurface(*simplified, finish, spacing, "surface", {});
   result["simplification_seconds"] = SecondsSince(start);
   const auto after = AuditFile(*simplified, folder);
-  const auto distances = ComputeTwoDistances(*surface, *simplified);
-  std::ostringstream end;
-  end << report.end;
+  const auto & done = report["simplification"];
   result["after"] = ToJSON(after);
-  result["ended_by"] = end.str();
-  result["maximum_error"] = settings.maximumError;
-  result["mean_distance"] = std::max(distances.fromFirst.mean, distances.fromSecond.mean);
-  result["maximum_distance"] = distances.GetMaximum();
+  result["ended_by"] = done["endedBy"];
+  result["maximum_error"] = finish.maximumError;
+  result["mean_distance"] = done["meanDistanceInMillimetres"];
+  result["maximum_distance"] = done["maximumDistanceInMillimetres"];
   return result;
 }
 

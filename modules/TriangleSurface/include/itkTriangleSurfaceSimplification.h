@@ -47,16 +47,16 @@ struct TriangleSurfaceSimplificationReport
  * one but in the points and edges they share, so there are no new self-intersections. Normals, if there are any, are
  * those of the edges' places.
  *
- * No place of either surface is further than maximumError from the other one. That is proven for all places of all
- * triangles: the distances that shrinking edges move the surface by are bounded and added up. The real distance is less
- * than their sum; measure it with ComputeTwoDistances().
+ * No place of either surface is further than maximumError from the other one. Each edge shrinks only where the points
+ * of the original stay near the triangles that stand for them, and all triangles of both surfaces are looked at
+ * afterwards, in pieces of a quarter of the original's mean side at most (see IsWithinDistance()).
  *
- * The surface is cut into patches of some thousand triangles. Checks follow; where one fails, the triangles from before
- * are put back. This is repeated with other patches, so that no border between patches stays for good, and with larger
- * errors until the target is reached.
+ * The surface is cut into patches of some thousand triangles. Where a check fails, the triangles from before are put
+ * back. This is repeated with other patches, so that no border between patches stays for good, and with larger errors
+ * until the target is reached.
  *
- * Time O(n log n), several threads; the same bytes for any number of them. Memory about 200 bytes a triangle while it
- * runs.
+ * Time O(n log n), several threads; the same bytes for any number of them. The smaller the maximumError is compared with
+ * the triangles, the longer it takes to look at them.
  *
  * Throws ExceptionObject for a surface with non-manifold or misoriented edges, non-manifold points or degenerate
  * triangles, for a maximumError that is not above 0, and when there is neither a target nor a maximumError. */

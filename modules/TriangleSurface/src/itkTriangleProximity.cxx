@@ -10,9 +10,7 @@ namespace
 
 using Corners = std::array<PositionType, 3>;
 
-constexpr unsigned int MostCuts = 13;
-constexpr double NearForCentres = 0.9;   // of the distance
-constexpr double SmallestPiece = 0.1125; // of the distance; no place is further from the centre than 0.58 of that
+constexpr double NearForCentres = 0.9; // of the distance
 
 double
 SquaredDistance(const PositionType & a, const PositionType & b)
@@ -30,52 +28,74 @@ Middle(const PositionType & a, const PositionType & b)
 class Proof
 {
 public:
-  Proof(const TriangleTree & surface, double distance)
+  Proof(const TriangleTree & surface, double distance, double smallestPiece)
     : m_Surface(surface)
-    , m_SquaredDistance(distance * distance)
+    , m_Distance(distance)
+    , m_SmallestPiece(smallestPiece)
   {}
 
+  /** \param likely a triangle of the surface that may be near, or None */
   bool
-  IsNear(const Corners & piece, unsigned int cutsLeft) const
+  IsNear(const Corners & piece, std::uint32_t likely) const
   {
     const auto & [a, b, c] = piece;
     const PositionType centre{ (a[0] + b[0] + c[0]) / 3.0, (a[1] + b[1] + c[1]) / 3.0, (a[2] + b[2] + c[2]) / 3.0 };
-    const auto nearest =
-      m_Surface.FindClosestPoint(centre, NearForCentres * NearForCentres * m_SquaredDistance).triangle;
+    const auto [nearest, squaredDistance] = this->FindNearest(centre, likely);
     if (nearest == TriangleTree::None)
     {
       return false;
     }
     const double longest = std::max({ SquaredDistance(a, b), SquaredDistance(b, c), SquaredDistance(c, a) });
-    if (longest <= SmallestPiece * SmallestPiece * m_SquaredDistance ||
-        std::all_of(piece.begin(), piece.end(), [&](const PositionType & corner) {
-          return SquaredDistance(corner, m_Surface.FindClosestPointOfTriangle(corner, nearest)) <= m_SquaredDistance;
+    const double squaredRadius =
+      std::max({ SquaredDistance(a, centre), SquaredDistance(b, centre), SquaredDistance(c, centre) });
+    if (longest < m_SmallestPiece * m_SmallestPiece ||
+        std::sqrt(squaredDistance) + std::sqrt(squaredRadius) <= m_Distance ||
+        std::all_of(piece.begin(), piece.end(), [&, id = nearest](const PositionType & corner) {
+          return SquaredDistance(corner, m_Surface.FindClosestPointOfTriangle(corner, id)) <= m_Distance * m_Distance;
         }))
     {
       return true;
     }
-    if (cutsLeft == 0)
-    {
-      return false;
-    }
     const PositionType ab = Middle(a, b);
     const PositionType bc = Middle(b, c);
     const PositionType ca = Middle(c, a);
-    return this->IsNear({ ab, bc, ca }, cutsLeft - 1) && this->IsNear({ a, ab, ca }, cutsLeft - 1) &&
-           this->IsNear({ ab, b, bc }, cutsLeft - 1) && this->IsNear({ ca, bc, c }, cutsLeft - 1);
+    return this->IsNear({ ab, bc, ca }, nearest) && this->IsNear({ a, ab, ca }, nearest) &&
+           this->IsNear({ ab, b, bc }, nearest) && this->IsNear({ ca, bc, c }, nearest);
   }
 
 private:
+  struct Nearest
+  {
+    std::uint32_t triangle; // None if it is not near enough
+    double squaredDistance;
+  };
+
+  Nearest
+  FindNearest(const PositionType & position, std::uint32_t likely) const
+  {
+    double bound = NearForCentres * NearForCentres * m_Distance * m_Distance;
+    if (likely != TriangleTree::None)
+    {
+      const double squared = SquaredDistance(position, m_Surface.FindClosestPointOfTriangle(position, likely));
+      likely = squared <= bound ? likely : TriangleTree::None;
+      bound = std::min(bound, squared);
+    }
+    const auto nearest = m_Surface.FindClosestPoint(position, bound);
+    return nearest.triangle != TriangleTree::None ? Nearest{ nearest.triangle, nearest.squaredDistance }
+                                                  : Nearest{ likely, bound };
+  }
+
   const TriangleTree & m_Surface;
-  const double m_SquaredDistance;
+  const double m_Distance;
+  const double m_SmallestPiece;
 };
 
 } // namespace
 
 bool
-IsWithinDistance(const Corners & corners, const TriangleTree & surface, double distance)
+IsWithinDistance(const Corners & corners, const TriangleTree & surface, double distance, double smallestPiece)
 {
-  return Proof(surface, distance).IsNear(corners, MostCuts);
+  return Proof(surface, distance, smallestPiece).IsNear(corners, TriangleTree::None);
 }
 
 } // namespace itk

@@ -11,16 +11,21 @@ namespace itk
  *
  * The triangle is cut into pieces. A piece is near if all its corners are near one triangle of the surface, the one
  * nearest to its centre: then so is all between them, as the places so near a triangle are a convex set. It is also
- * near if its centre is a little nearer than it must be and it is small.
+ * near if its centre is nearer by the distance to its furthest corner. Pieces smaller than \a smallestPiece are not cut
+ * any more; of these, the centre must be within 0.9 times the distance. So the answer yes is proven, but for pieces
+ * between 0.9 and 1 times the distance away whose places differ by more than that tenth.
  *
- * Yes is proven, but for rounding. No means that there are places further than 0.9 times the distance, or that the
- * triangle is more than a thousand times as large as the distance. Thread safe.
+ * Thread safe.
  *
  * \param corners in mm
  * \param surface the tree of its triangles
- * \param distance in mm, above 0 */
+ * \param distance in mm, above 0
+ * \param smallestPiece its longest side in mm, above 0 */
 bool
-IsWithinDistance(const std::array<PositionType, 3> & corners, const TriangleTree & surface, double distance);
+IsWithinDistance(const std::array<PositionType, 3> & corners,
+                 const TriangleTree & surface,
+                 double distance,
+                 double smallestPiece);
 
 } // namespace itk
 

@@ -34,8 +34,9 @@ constexpr std::size_t BlockSize = 1024;
 constexpr std::array<double, 3> Cuts{ 0.5, 0.36, 0.64 };
 
 constexpr double FirstError = 1.0 / 32.0; // in mean sides of triangles, doubled with each step
-constexpr double LeastGain = 0.97;        // of the triangles left by a step that was worth while
+constexpr double LeastGain = 0.95;        // of the triangles left by a step that was worth while
 constexpr double ShareForWitnesses = 0.9; // of the maximumError: what is between them is seldom further than that then
+constexpr double ShareOfSide = 0.25;      // of the original's triangles
 constexpr unsigned int MostRounds = 32;   // of taking back; in the second half, whole patches are
 
 double
@@ -111,6 +112,7 @@ public:
                  const TriangleTree * original)
     : m_Target(settings.targetTriangles)
     , m_MaximumError(settings.maximumError)
+    , m_SmallestPiece(ShareOfSide * MeanSide(surface))
     , m_Topology(topology)
     , m_State(surface)
     , m_Original{ original, ShareForWitnesses * settings.maximumError, &m_NearPoints }
@@ -166,6 +168,7 @@ private:
 
   const SizeValueType m_Target;
   const double m_MaximumError;
+  const double m_SmallestPiece; // that is looked at for the distance
   const TriangleSurfaceTopology m_Topology;
   TriangleSurface & m_State;
   const EdgeCollapse::Original m_Original;
@@ -432,7 +435,7 @@ Simplification::FindStrays(const std::vector<PatchId> & patches, Places & bad) c
     const PatchId patch = patches[n];
     for (TriangleId id = m_Begin[patch]; id < m_Begin[patch + 1]; ++id)
     {
-      if (m_IsNew[id] && !IsWithinDistance(CornersOf(m_State, id), *m_Original.tree, m_MaximumError))
+      if (m_IsNew[id] && !IsWithinDistance(CornersOf(m_State, id), *m_Original.tree, m_MaximumError, m_SmallestPiece))
       {
         bad[patch].push_back(BoxOf(m_State.GetPoints(), m_State.GetTriangles()[id]));
       }
@@ -464,7 +467,7 @@ Simplification::FindLeftBehind(const TriangleTree & state,
       std::any_of(near.begin(), near.end(), [&](TriangleId n) { return isLookedAt[m_PatchOf[n]] != 0; });
     if (isConcerned && !(near[0] == near[1] && near[1] == near[2]))
     {
-      isLeft[id] = IsWithinDistance(CornersOf(original, id), state, m_MaximumError) ? 0 : 1;
+      isLeft[id] = IsWithinDistance(CornersOf(original, id), state, m_MaximumError, m_SmallestPiece) ? 0 : 1;
     }
   });
   for (TriangleId id = 0; id < triangles.size(); ++id)
