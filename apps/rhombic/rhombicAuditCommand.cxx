@@ -77,6 +77,7 @@ AddAuditCommand(CLI::App & parser)
     .add_option("--max-tested",
                 options->maximumTested,
                 "triangles tested for self-intersections; of larger surfaces, so many evenly chosen ones; 0: none")
+    ->check(CLI::NonNegativeNumber)
     ->capture_default_str();
   return [options](const CommandContext & context) { Audit(*options, context); };
 }

@@ -5,6 +5,7 @@
 #include "rhombicSurfaceOptions.h"
 
 #include <charconv>
+#include <cmath>
 
 namespace rhombic
 {
@@ -38,7 +39,7 @@ ParseTriangles(const std::string & text, SurfaceFinish & finish)
   const auto parsed = std::from_chars(text.data(), end, number);
   const bool isShare = std::string(parsed.ptr, end) == "%";
   if (parsed.ec != std::errc() || (parsed.ptr != end && !isShare) || !(number > 0.0) || number > 4e9 ||
-      (isShare && number > 100.0))
+      (isShare ? number > 100.0 : number != std::floor(number)))
   {
     throw Failure(FailureKind::Usage,
                   "'" + text + "' is no number of triangles; write --max-triangles 200000, or 10% of what there are.");

@@ -24,6 +24,13 @@ struct SurfaceDeviation
   double percentile95 = 0.0;
   double maximum = 0.0;
   double bias = 0.0; ///< the mean with a sign: above 0 when the surface lies outside the isosurface
+
+  /** Whether there is any place from which the isosurface was found; without one, the statistics are 0. */
+  bool
+  IsKnown() const
+  {
+    return samples > unresolved;
+  }
 };
 
 /** Measures at the surface's points and the centres of its triangles. There, the distance is that along the gradient of

@@ -7,6 +7,7 @@
 #include "itkTriangleSurface.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace rhombic
@@ -22,9 +23,9 @@ struct SurfaceFinish
 
   /** Each surface is simplified until it has so few triangles or would be further away from the original than the
    * error; not at all when there are none of these. */
-  double maximumError = 0.0;        ///< in mm; 0: a spacing of the lattice
-  std::size_t maximumTriangles = 0; ///< 0: no limit
-  double share = 1.0;               ///< of its triangles that each surface may keep, above 0
+  std::optional<double> maximumError; ///< in mm, above 0; by default a spacing of the lattice
+  std::size_t maximumTriangles = 0;   ///< 0: no limit
+  double share = 1.0;                 ///< of its triangles that each surface may keep, above 0
 };
 
 /** Throws Failure(Usage) for settings out of their ranges. */
@@ -35,8 +36,9 @@ CheckSurfaceFinish(const SurfaceFinish & finish);
 Report
 RemoveParts(itk::TriangleSurface & surface, const SurfaceFinish & finish);
 
-/** Smooths and simplifies a surface, and moves points where triangles pass through each other (itk::UntangleSurface()),
- * by a spacing of the lattice or, if it was simplified, a quarter of the error at most. The report says how far points moved and how many triangles are left.
+/** Smooths a surface, moves points where triangles pass through each other (itk::UntangleSurface()), by a spacing of
+ * the lattice or, if it is to be simplified, a quarter of the error at most, and simplifies it. The report says how far
+ * points moved and how many triangles are left; what can't be untangled is noted.
  * \param spacing of the lattice in mm (see MeanSpacingOf())
  * \param name of the surface, for progress and messages. Throws Failure. */
 Report

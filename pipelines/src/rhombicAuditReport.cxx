@@ -62,7 +62,7 @@ ReportAudit(const itk::TriangleSurfaceAudit & audit)
            { "areaInSquareMillimetres", audit.area },
            { "intersections",
              { { "testedTriangles", audit.intersections.testedTriangles },
-               { "complete", !audit.intersections.isSampled },
+               { "complete", !audit.intersections.isSampled && audit.intersections.testedTriangles == audit.triangles },
                { "crossingPairs", audit.intersections.crossingPairs },
                { "touchingPairs", audit.intersections.touchingPairs } } },
            { "quality",

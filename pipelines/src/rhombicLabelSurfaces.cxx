@@ -229,14 +229,14 @@ ReportLabelSurfaces(const std::vector<LabelSurface> & surfaces)
     report.push_back({ { "value", surface.value },
                        { "name", surface.scene.name },
                        { "voxels", surface.numberOfVoxels },
-                       { "voxel_millilitres", surface.voxelMillilitres },
-                       { "surface_millilitres", surface.surfaceMillilitres },
-                       { "volume_difference", surface.GetVolumeDifference() },
+                       { "voxelVolumeInMillilitres", surface.voxelMillilitres },
+                       { "surfaceVolumeInMillilitres", surface.surfaceMillilitres },
+                       { "volumeDifference", surface.GetVolumeDifference() },
                        { "pieces", surface.pieces },
-                       { "surface_pieces", surface.surfacePieces },
-                       { "is_torn", surface.isTorn },
-                       { "finer_pieces", surface.finerPieces },
-                       { "protected_voxels", surface.protectedVoxels },
+                       { "surfacePieces", surface.surfacePieces },
+                       { "isTorn", surface.isTorn },
+                       { "finerPieces", surface.finerPieces },
+                       { "protectedVoxels", surface.protectedVoxels },
                        { "triangles", surface.scene.surface->GetNumberOfTriangles() } });
   }
   return report;

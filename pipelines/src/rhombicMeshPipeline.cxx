@@ -28,9 +28,11 @@ struct MeshedSurface
   SceneSurface scene;
   std::optional<SurfaceRequest> request; ///< of isosurfaces
   Report report;
+  std::optional<double> voxelVolume; ///< of labels, in mm^3
 };
 
 constexpr char NamePlace[] = "{name}";
+constexpr double CubicMillimetresPerMillilitre = 1000.0;
 
 /** A name as part of a file's name: letters, digits, dots, underscores and hyphens. */
 std::string
@@ -77,20 +79,19 @@ PathsOf(const fs::path & mesh, const std::vector<MeshedSurface> & surfaces)
   return paths;
 }
 
-/** Volume, area and the like of a surface as it was extracted. */
+/** Volume, area and the like of a surface as it was extracted. Where parts are left out, it is not known which voxels
+ * are theirs. */
 SurfaceMeasures
 Measure(const MeshedSurface & surface, const std::optional<Scan> & scan, bool isWhole)
 {
-  if (!scan)
+  SurfaceMeasures measures =
+    scan ? MeasureSurface(*surface.scene.surface, *scan) : MeasureSurface(*surface.scene.surface);
+  measures.voxelVolume.reset();
+  if (isWhole && !surface.request)
   {
-    return MeasureSurface(*surface.scene.surface);
+    measures.voxelVolume = surface.voxelVolume;
   }
-  SurfaceMeasures measures = MeasureSurface(*surface.scene.surface, *scan);
-  if (!surface.request)
-  {
-    measures.voxelVolume.reset(); // a label's voxels are known, and in its report
-  }
-  else if (isWhole && surface.request->parts == SurfaceRequest::Parts::All)
+  else if (isWhole && scan && surface.request->parts == SurfaceRequest::Parts::All)
   {
     measures.voxelVolume = CountVoxelVolume(*scan, *surface.request->isovalue, surface.request->side);
   }
@@ -129,8 +130,10 @@ Extract(LoadedSource & loaded, const MeshScanSettings & settings, const Events &
     const auto scenes = LatticeToSurfaces(loaded.lattice, loaded.requests, selection.mode, events, loaded.grid);
     for (std::size_t n = 0; n < scenes.size(); ++n)
     {
-      surfaces.push_back(
-        { scenes[n], loaded.requests[n], ReportSurface(loaded.requests[n], *scenes[n].surface, selection.mode) });
+      surfaces.push_back({ scenes[n],
+                           loaded.requests[n],
+                           ReportSurface(loaded.requests[n], *scenes[n].surface, selection.mode),
+                           std::nullopt });
     }
   }
   if (loaded.labels)
@@ -139,7 +142,8 @@ Extract(LoadedSource & loaded, const MeshScanSettings & settings, const Events &
     const Report reports = ReportLabelSurfaces(labels);
     for (std::size_t n = 0; n < labels.size(); ++n)
     {
-      surfaces.push_back({ labels[n].scene, std::nullopt, reports[n] });
+      surfaces.push_back(
+        { labels[n].scene, std::nullopt, reports[n], labels[n].voxelMillilitres * CubicMillimetresPerMillilitre });
     }
   }
   return surfaces;
@@ -156,8 +160,8 @@ SpacingOf(const LoadedSource & loaded)
   return MeanSpacingOf(GeometryOf(loaded.labels->scan.image));
 }
 
-/** Removes parts, measures what is left, then smooths and simplifies it. */
-void
+/** Removes parts, measures what is left, then smooths and simplifies it. Returns whether anything is left. */
+bool
 Finish(MeshedSurface & surface,
        const std::optional<Scan> & scan,
        const SurfaceFinish & finish,
@@ -170,11 +174,12 @@ Finish(MeshedSurface & surface,
   const Report removed = RemoveParts(*finished, finish);
   if (finished->GetNumberOfTriangles() == 0)
   {
-    throw Failure(FailureKind::Empty,
-                  "Nothing is left of " + surface.scene.name + ": all its parts are below --min-volume; lower it.");
+    events.Note(surface.scene.name + ": left out, as all its parts are below --min-volume");
+    return false;
   }
   events.Progress("measuring " + surface.scene.name, 0.0);
-  const SurfaceMeasures measures = Measure(surface, scan, removed.is_null());
+  const bool isWhole = removed.is_null() || removed["shellsBefore"] == removed["shellsAfter"];
+  const SurfaceMeasures measures = Measure(surface, scan, isWhole);
   events.Note(Summarize(surface, measures));
   surface.report["measures"] = ReportMeasures(measures);
   if (!removed.is_null())
@@ -188,6 +193,30 @@ Finish(MeshedSurface & surface,
   }
   surface.report["points"] = finished->GetNumberOfPoints();
   surface.report["triangles"] = finished->GetNumberOfTriangles();
+  return true;
+}
+
+/** Finishes surfaces, and drops those of which nothing is left. */
+void
+FinishAll(std::vector<MeshedSurface> & surfaces,
+          const std::optional<Scan> & scan,
+          const SurfaceFinish & finish,
+          double spacing,
+          const Events & events)
+{
+  std::vector<MeshedSurface> finished;
+  for (MeshedSurface & surface : surfaces)
+  {
+    if (Finish(surface, scan, finish, spacing, events))
+    {
+      finished.push_back(std::move(surface));
+    }
+  }
+  surfaces.swap(finished);
+  if (surfaces.empty())
+  {
+    throw Failure(FailureKind::Empty, "Nothing is left: all parts are below --min-volume; lower it.");
+  }
 }
 
 /** Judges surfaces as a file holds them. */
@@ -230,9 +259,16 @@ private:
     surface.report["deviation"] = ReportDeviation(deviation);
     std::ostringstream note;
     note.imbue(std::locale::classic());
-    note << std::setprecision(2) << surface.scene.name << ": from the scan's isosurface " << deviation.mean
-         << " mm on average, 95 % within " << deviation.percentile95 << " mm, all within " << deviation.maximum
-         << " mm";
+    note << std::setprecision(2) << surface.scene.name << ": from the scan's isosurface ";
+    if (deviation.IsKnown())
+    {
+      note << deviation.mean << " mm on average, 95 % within " << deviation.percentile95 << " mm, all within "
+           << deviation.maximum << " mm";
+    }
+    else
+    {
+      note << "at an unknown distance: no place of it is near that";
+    }
     if (deviation.unresolved > 0)
     {
       note << "; " << deviation.unresolved << " of " << deviation.samples << " places are not near it";
@@ -293,22 +329,48 @@ WriteFile(const fs::path & path,
   WriteSidecar(path, settings.provenance, report);
 }
 
+/** Throws Failure where files can't be written, or would take the place of each other or of what was read. */
+void
+CheckFiles(const std::vector<fs::path> & meshes, const MeshScanSettings & settings)
+{
+  std::vector<fs::path> inputs{ settings.source.path };
+  if (settings.surfaces.labels)
+  {
+    inputs.push_back(settings.surfaces.labels->source.path);
+    inputs.push_back(settings.surfaces.labels->source.table);
+  }
+  std::vector<fs::path> outputs;
+  for (const fs::path & mesh : meshes)
+  {
+    for (const fs::path & file : SurfaceFilesOf(mesh))
+    {
+      outputs.push_back(file);
+    }
+    if (settings.provenance.writesSidecars)
+    {
+      outputs.push_back(SidecarOf(mesh));
+    }
+  }
+  if (!settings.measures.empty())
+  {
+    outputs.push_back(settings.measures);
+  }
+  CheckOutputs(outputs, inputs);
+}
+
+/** Finds out before the work begins what can be found out. */
 void
 CheckSettings(const MeshScanSettings & settings)
 {
   const bool isForEach = HasFileForEach(settings.mesh);
-  const bool hasOne = settings.surfaces.requests.size() == 1 && !settings.surfaces.labels;
-  CheckSurfacePath(settings.mesh, isForEach || hasOne ? 1 : 2);
+  const std::size_t least = settings.surfaces.requests.size() + (settings.surfaces.labels ? 1 : 0);
+  CheckSurfacePath(settings.mesh, isForEach ? 1 : least);
   CheckSurfaceFinish(settings.finish);
-  if (!isForEach)
-  {
-    CheckOutput(settings.mesh, settings.source.path);
-  }
   if (!settings.measures.empty())
   {
     CheckMeasureTablePath(settings.measures);
-    CheckOutput(settings.measures, settings.source.path);
   }
+  CheckFiles(isForEach ? std::vector<fs::path>{} : std::vector<fs::path>{ settings.mesh }, settings);
 }
 
 } // namespace
@@ -322,18 +384,13 @@ MeshScan(const MeshScanSettings & settings, const Events & events)
   const double spacing = SpacingOf(loaded);
   loaded.lattice = FCCVolume();
   loaded.labels.reset();
-  const std::vector<fs::path> paths = PathsOf(settings.mesh, surfaces);
-  for (const fs::path & path : paths)
-  {
-    CheckOutput(path, settings.source.path);
-  }
-  for (MeshedSurface & surface : surfaces)
-  {
-    Finish(surface, loaded.scan, settings.finish, spacing, events);
-  }
+  CheckFiles(PathsOf(settings.mesh, surfaces), settings);
+  FinishAll(surfaces, loaded.scan, settings.finish, spacing, events);
 
   const FileInspection inspection(settings, loaded.scan, events);
-  const std::size_t perFile = paths.size() == 1 ? surfaces.size() : 1;
+  const std::vector<fs::path> paths = PathsOf(settings.mesh, surfaces);
+  const std::size_t perFile = HasFileForEach(settings.mesh) ? 1 : surfaces.size();
+  CheckSurfacePath(paths.front(), perFile);
   for (std::size_t n = 0; n < paths.size(); ++n)
   {
     events.Progress("writing", static_cast<double>(n) / static_cast<double>(paths.size()));

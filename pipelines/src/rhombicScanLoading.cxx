@@ -3,6 +3,7 @@
 #include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
 
+#include <set>
 #include <sstream>
 
 namespace fs = std::filesystem;
@@ -93,6 +94,25 @@ CheckOutput(const fs::path & output, const fs::path & input)
     throw Failure(FailureKind::Usage, "The output " + output.string() + " is the input itself; give it another name.");
   }
   const AtomicFile probe(output);
+}
+
+void
+CheckOutputs(const std::vector<fs::path> & outputs, const std::vector<fs::path> & inputs)
+{
+  std::set<fs::path> seen;
+  for (const fs::path & output : outputs)
+  {
+    for (const fs::path & input : inputs)
+    {
+      CheckOutput(output, input);
+    }
+    std::error_code ignored;
+    if (!seen.insert(fs::weakly_canonical(output, ignored)).second)
+    {
+      throw Failure(FailureKind::Usage,
+                    "Two outputs would be the same file, " + output.string() + "; give one of them another name.");
+    }
+  }
 }
 
 Scan

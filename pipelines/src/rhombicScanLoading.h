@@ -15,6 +15,10 @@ namespace rhombic
 void
 CheckOutput(const std::filesystem::path & output, const std::filesystem::path & input);
 
+/** The same for several of both; nor may two outputs be the same file. Inputs may be empty paths. */
+void
+CheckOutputs(const std::vector<std::filesystem::path> & outputs, const std::vector<std::filesystem::path> & inputs);
+
 /** Reads a scan, and says what it is and what the reader had to assume. */
 Scan
 LoadScan(const ScanSource & source, const Events & events);

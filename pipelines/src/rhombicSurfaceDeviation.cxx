@@ -217,14 +217,18 @@ ComputeDeviation(const itk::TriangleSurface & surface,
 Report
 ReportDeviation(const SurfaceDeviation & deviation)
 {
-  return { { "of", "the points and triangle centres from the scan's isosurface" },
-           { "samples", deviation.samples },
-           { "complete", deviation.isComplete },
-           { "unresolved", deviation.unresolved },
-           { "meanInMillimetres", deviation.mean },
-           { "percentile95InMillimetres", deviation.percentile95 },
-           { "maximumInMillimetres", deviation.maximum },
-           { "biasInMillimetres", deviation.bias } };
+  Report report{ { "of", "the points and triangle centres from the scan's isosurface" },
+                 { "samples", deviation.samples },
+                 { "complete", deviation.isComplete },
+                 { "unresolved", deviation.unresolved } };
+  if (deviation.IsKnown())
+  {
+    report["meanInMillimetres"] = deviation.mean;
+    report["percentile95InMillimetres"] = deviation.percentile95;
+    report["maximumInMillimetres"] = deviation.maximum;
+    report["biasInMillimetres"] = deviation.bias;
+  }
+  return report;
 }
 
 } // namespace rhombic

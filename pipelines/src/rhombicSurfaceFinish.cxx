@@ -42,7 +42,7 @@ Smooth(itk::TriangleSurface & surface, double maximumMove)
 double
 MaximumError(const SurfaceFinish & finish, double spacing)
 {
-  return finish.maximumError > 0.0 ? finish.maximumError : spacing;
+  return finish.maximumError.value_or(spacing);
 }
 
 constexpr double ShareOfUntangling = 0.25; // of the error; simplification has the rest
@@ -85,6 +85,15 @@ Untangle(itk::TriangleSurface & surface, double maximumMove)
 }
 
 void
+WarnOfCrossings(std::size_t triangles, const std::string & name, const Events & events)
+{
+  if (triangles > 0)
+  {
+    events.Note(name + ": " + std::to_string(triangles) + " triangles pass through others of it");
+  }
+}
+
+void
 AddDistances(const itk::TriangleSurface & original, const itk::TriangleSurface & surface, Report & report)
 {
   const auto distances = ComputeTwoDistances(original, surface);
@@ -111,7 +120,7 @@ DescribeSimplification(const std::string & name, const SurfaceFinish & finish, c
 bool
 IsSimplified(const SurfaceFinish & finish)
 {
-  return finish.maximumError > 0.0 || finish.maximumTriangles > 0 || finish.share < 1.0;
+  return finish.maximumError || finish.maximumTriangles > 0 || finish.share < 1.0;
 }
 
 } // namespace
@@ -129,7 +138,7 @@ CheckSurfaceFinish(const SurfaceFinish & finish)
           "The smallest volume of a part must be 0 ml or more; write --min-volume 0.5 for half a millilitre.");
   require(finish.smoothing >= 0.0 && finish.smoothing <= 1.0,
           "Smoothing moves points by 0 to 1 spacings of the lattice; write --smooth 0.3, for example.");
-  require(finish.maximumError >= 0.0 && std::isfinite(finish.maximumError),
+  require(!finish.maximumError || (*finish.maximumError > 0.0 && std::isfinite(*finish.maximumError)),
           "The largest error of simplification must be above 0; write --max-error 0.2 for 0.2 mm.");
   require(finish.share > 0.0 && finish.share <= 1.0,
           "The share of triangles to keep must be above 0 and at most 100 %; write --max-triangles 10%.");
@@ -178,9 +187,7 @@ RefineSurface(itk::TriangleSurface & surface,
   const auto original = itk::TriangleSurface::New();
   if (IsSimplified(finish))
   {
-    events.Progress("simplifying " + name, 0.0);
     original->Graft(&surface);
-    report["simplification"] = Simplify(surface, finish, spacing);
   }
   events.Progress("untangling " + name, 0.0);
   const double maximumMove = IsSimplified(finish) ? ShareOfUntangling * MaximumError(finish, spacing) : spacing;
@@ -188,10 +195,12 @@ RefineSurface(itk::TriangleSurface & surface,
   if (!untangled.is_null())
   {
     report["untangling"] = untangled;
+    WarnOfCrossings(untangled["crossingTrianglesAfter"].get<std::size_t>(), name, events);
   }
   if (IsSimplified(finish))
   {
-    Report & done = report["simplification"];
+    events.Progress("simplifying " + name, 0.0);
+    Report & done = report["simplification"] = Simplify(surface, finish, spacing);
     AddDistances(*original, surface, done);
     events.Note(DescribeSimplification(name, finish, done));
   }

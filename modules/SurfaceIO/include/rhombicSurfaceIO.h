@@ -34,6 +34,10 @@ GetSurfaceFileExtensions();
 void
 CheckSurfacePath(const std::filesystem::path & path, std::size_t numberOfSurfaces = 1);
 
+/** The files that WriteSurfaces() makes: the path, and for OBJ the materials beside it. */
+std::vector<std::filesystem::path>
+SurfaceFilesOf(const std::filesystem::path & path);
+
 /** Writes surfaces in LPS millimetres to one file whose extension, in any case, says the format:
  *
  * - `.stl`: binary STL; one surface only, its positions only, three of its own for each triangle

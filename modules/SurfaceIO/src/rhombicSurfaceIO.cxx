@@ -171,9 +171,9 @@ LookAlike(const SceneSurface & read, const SceneSurface & written)
 /** What arrived on the disk, after making sure that it is what was meant. */
 std::vector<SceneSurface>
 ReadBack(const std::vector<SceneSurface> & surfaces,
-             const SurfaceFormat & format,
-             const fs::path & written,
-             const fs::path & target)
+         const SurfaceFormat & format,
+         const fs::path & written,
+         const fs::path & target)
 {
   std::vector<SceneSurface> read = format.read(InputFile(written));
   const auto equal = [&format](const SceneSurface & one, const SceneSurface & other) {
@@ -196,6 +196,12 @@ WriteMaterials(const std::vector<SceneSurface> & surfaces, AtomicFile & file, co
   file.Flush(1);
 }
 
+fs::path
+MaterialsOf(const fs::path & path)
+{
+  return fs::path(path).replace_extension(".mtl");
+}
+
 void
 Write(const std::vector<SceneSurface> & surfaces,
       const SurfaceFormat & format,
@@ -215,7 +221,7 @@ Write(const std::vector<SceneSurface> & surfaces,
   if (format.hasMaterials)
   {
     // First the materials: a file that appears finds its own. If the process ends in between, the older file stays.
-    const fs::path materialsPath = fs::path(path).replace_extension(".mtl");
+    const fs::path materialsPath = MaterialsOf(path);
     AtomicFile materials(materialsPath);
     WriteMaterials(surfaces, materials, materialsPath);
     materials.Commit(1);
@@ -243,6 +249,25 @@ CheckSurfacePath(const fs::path & path, std::size_t numberOfSurfaces)
                     ListExtensions([](const SurfaceFormat & other) { return other.holdsScenes; }) +
                     ", or a file for each.");
   }
+  const std::string name = path.filename().string();
+  const auto isControl = [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; };
+  if (format.hasMaterials && std::any_of(name.begin(), name.end(), isControl))
+  {
+    throw Failure(FailureKind::Usage,
+                  "Cannot write an OBJ file whose name holds line breaks or other control characters, as it must name "
+                  "its materials on one line; give it another name.");
+  }
+}
+
+std::vector<fs::path>
+SurfaceFilesOf(const fs::path & path)
+{
+  std::vector<fs::path> files{ path };
+  if (FormatOf(path, "write").hasMaterials)
+  {
+    files.push_back(MaterialsOf(path));
+  }
+  return files;
 }
 
 void
