@@ -22,7 +22,7 @@ enum class SimplificationEnd : unsigned char
 {
   Target,       ///< as few triangles as were asked for
   MaximumError, ///< fewer triangles would be further from the surface than allowed
-  Topology      ///< fewer triangles can't have the surface's shape and topology
+  Topology      ///< fewer triangles would change the surface's topology, turn round, or meet each other
 };
 
 std::ostream &
@@ -35,7 +35,7 @@ struct TriangleSurfaceSimplificationReport
   SizeValueType trianglesBefore = 0;
   SizeValueType trianglesAfter = 0;
   SimplificationEnd end = SimplificationEnd::Target;
-  SizeValueType placesTakenBack = 0;     ///< places where a check failed and triangles were put back
+  SizeValueType placesTakenBack = 0; ///< places where a check failed and triangles were put back
 };
 
 /** Makes a surface of fewer triangles that is as sound as it was.
@@ -49,14 +49,17 @@ struct TriangleSurfaceSimplificationReport
  *
  * No place of either surface is further than maximumError from the other one. Each edge shrinks only where the points
  * of the original stay near the triangles that stand for them, and all triangles of both surfaces are looked at
- * afterwards, in pieces of a quarter of the original's mean side at most (see IsWithinDistance()).
+ * afterwards, in pieces of a quarter of the triangles' sides at most; of the smallest pieces, the centre is within 0.9
+ * maximumError.
  *
  * The surface is cut into patches of some thousand triangles. Where a check fails, the triangles from before are put
  * back. This is repeated with other patches, so that no border between patches stays for good, and with larger errors
  * until the target is reached.
  *
- * Time O(n log n), several threads; the same bytes for any number of them. The smaller the maximumError is compared with
- * the triangles, the longer it takes to look at them.
+ * Time O(n log n), several threads; the same bytes for any number of them. The smaller the maximumError is compared
+ * with the triangles, the longer it takes to look at them.
+ *
+ * Points of no triangle are dropped. The result may have some triangles less than were asked for.
  *
  * Throws ExceptionObject for a surface with non-manifold or misoriented edges, non-manifold points or degenerate
  * triangles, for a maximumError that is not above 0, and when there is neither a target nor a maximumError. */

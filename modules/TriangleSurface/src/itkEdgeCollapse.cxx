@@ -12,6 +12,7 @@ namespace
 
 constexpr double SmallestCosineOfTurn = 0.2; // of a triangle's normal when an edge shrinks
 constexpr double SliverQuality = 0.1;        // below it a triangle's own normal says little, and new ones are unwelcome
+constexpr unsigned int MostAround = 64;      // triangles around a point that vanishes: more take too long
 constexpr double NearEnough = 0.7;           // of the limit, so that places in between are near, too
 constexpr double FurthestPlace = 1.0;        // from an edge's middle, in lengths of the edge
 
@@ -163,7 +164,7 @@ EdgeCollapse::Run(const Goal & goal)
   {
     for (unsigned int corner = 0; corner < 3; ++corner)
     {
-      if (triangle[corner] < triangle[(corner + 1) % 3] || m_IsOnBorder[triangle[corner]])
+      if (triangle[corner] < triangle[(corner + 1) % 3])
       {
         this->Propose(triangle[corner], triangle[(corner + 1) % 3]);
       }
@@ -180,8 +181,13 @@ EdgeCollapse::Run(const Goal & goal)
       continue;
     }
     const PositionType place = this->PlaceFor(best.from, best.to);
-    if (!this->IsShapeKept(best.from, best.to, place) || !this->StaysNear(best.from, best.to, place))
+    if (!this->IsShapeKept(best.from, best.to, place))
     {
+      continue;
+    }
+    if (!this->StaysNear(best.from, best.to, place))
+    {
+      m_WasHeldBack = true;
       continue;
     }
     this->Collapse(best.from, best.to, place);
@@ -264,7 +270,7 @@ EdgeCollapse::IsTopologyKept(PointId from, PointId to)
     }
     joinsBorder = joinsBorder || (next != to && m_Marks[next] != m_Mark && m_IsOnBorder[to] && m_IsOnBorder[next]);
   });
-  if (common != 2 || joinsBorder)
+  if (common != 2 || joinsBorder || degree > MostAround)
   {
     return false;
   }
@@ -304,9 +310,11 @@ EdgeCollapse::IsShapeKeptAround(PointId moved, PointId other, const PositionType
     }
     const Shape before(m_Positions[moved], m_Positions[next], m_Positions[last]);
     const Shape after(place, m_Positions[next], m_Positions[last]);
-    const PositionType & reference = before.quality >= SliverQuality ? before.normal : fanNormal;
+    const auto liesAlong = [&](const PositionType & reference) {
+      return Dot(after.normal, reference) > SmallestCosineOfTurn * after.length * std::sqrt(Dot(reference, reference));
+    };
     isKept = after.quality > 0.0 && after.quality >= std::min(SliverQuality, worstBefore) &&
-             Dot(after.normal, reference) > SmallestCosineOfTurn * after.length * std::sqrt(Dot(reference, reference));
+             (liesAlong(before.normal) || (before.quality < SliverQuality && liesAlong(fanNormal)));
   });
   return isKept;
 }
@@ -345,11 +353,9 @@ EdgeCollapse::IsNearOriginal(PointId from, PointId to, const PositionType & plac
     return Dot(way, way) <= NearEnough * NearEnough * squaredLimit;
   };
   const PositionType position = Add(place, m_Origin);
-  m_NearPlace = isNear(position, m_Near[from]) ? m_Near[from] : m_Near[to];
-  if (m_NearPlace != m_Near[from] && !isNear(position, m_NearPlace))
-  {
-    m_NearPlace = m_Original.tree->FindClosestPoint(position, squaredLimit).triangle;
-  }
+  m_NearPlace = isNear(position, m_Near[from]) ? m_Near[from]
+                : isNear(position, m_Near[to]) ? m_Near[to]
+                                               : m_Original.tree->FindClosestPoint(position, squaredLimit).triangle;
   return m_NearPlace != TriangleTree::None && std::all_of(m_Fan.begin(), m_Fan.end(), [&](const Fan & fan) {
            const PositionType centre =
              Add(m_Origin, Mix(place, Mix(m_Positions[fan.next], m_Positions[fan.last], 0.5), 2.0 / 3.0));

@@ -97,6 +97,13 @@ public:
   std::size_t
   CountOldTriangles() const;
 
+  /** Whether edges did not shrink because of the distance from the original. */
+  bool
+  WasHeldBack() const
+  {
+    return m_WasHeldBack;
+  }
+
   /** The points that are elsewhere than they were at first. */
   std::vector<MovedPoint>
   GetMovedPoints() const;
@@ -195,6 +202,7 @@ private:
   std::vector<std::uint32_t> m_Marks;
   std::uint32_t m_Mark = 0;
   double m_LargestError = 0.0;
+  bool m_WasHeldBack = false;
   std::priority_queue<Candidate> m_Candidates;
 
   // where there is an original to stay near to

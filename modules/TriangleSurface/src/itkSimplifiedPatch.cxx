@@ -36,6 +36,7 @@ SimplifiedPatch::Simplify(const Goal & goal, const EdgeCollapse::Original & orig
   m_Result = collapse.GetResult();
   m_NumberOfOldTriangles = collapse.CountOldTriangles();
   m_Moved = collapse.GetMovedPoints();
+  m_WasHeldBack = collapse.WasHeldBack();
 }
 
 bool

@@ -67,6 +67,12 @@ public:
   {
     return m_NumberOfOldTriangles < m_Result.triangles.size();
   }
+  /** Whether edges did not shrink because of the distance from the original. */
+  bool
+  WasHeldBack() const
+  {
+    return m_WasHeldBack;
+  }
   /** Points of the new triangles that are elsewhere than they were. */
   const std::vector<EdgeCollapse::MovedPoint> &
   GetMovedPoints() const
@@ -89,6 +95,7 @@ private:
   std::size_t m_NumberOfOldTriangles = 0;
   std::vector<EdgeCollapse::MovedPoint> m_Moved;
   std::vector<Progress> m_Progress;
+  bool m_WasHeldBack = false;
 };
 
 /** The box around a triangle. */

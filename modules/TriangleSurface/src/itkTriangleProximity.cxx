@@ -10,6 +10,7 @@ namespace
 
 using Corners = std::array<PositionType, 3>;
 
+constexpr double ShareOfSide = 0.25;   // below which pieces are not cut
 constexpr double NearForCentres = 0.9; // of the distance
 
 double
@@ -25,13 +26,28 @@ Middle(const PositionType & a, const PositionType & b)
   return { 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2]) };
 }
 
+double
+SquaredLongestSide(const Corners & corners)
+{
+  const auto & [a, b, c] = corners;
+  return std::max({ SquaredDistance(a, b), SquaredDistance(b, c), SquaredDistance(c, a) });
+}
+
+double
+SquaredLongestSide(const TriangleTree & surface, std::uint32_t triangle)
+{
+  const auto & points = surface.GetSurface().GetPoints();
+  const auto & [a, b, c] = surface.GetSurface().GetTriangles()[triangle];
+  return SquaredLongestSide({ ToPosition(points[a]), ToPosition(points[b]), ToPosition(points[c]) });
+}
+
 class Proof
 {
 public:
-  Proof(const TriangleTree & surface, double distance, double smallestPiece)
+  Proof(const Corners & whole, const TriangleTree & surface, double distance)
     : m_Surface(surface)
     , m_Distance(distance)
-    , m_SmallestPiece(smallestPiece)
+    , m_SquaredSide(SquaredLongestSide(whole))
   {}
 
   /** \param likely a triangle of the surface that may be near, or None */
@@ -45,11 +61,13 @@ public:
     {
       return false;
     }
-    const double longest = std::max({ SquaredDistance(a, b), SquaredDistance(b, c), SquaredDistance(c, a) });
     const double squaredRadius =
       std::max({ SquaredDistance(a, centre), SquaredDistance(b, centre), SquaredDistance(c, centre) });
-    if (longest < m_SmallestPiece * m_SmallestPiece ||
-        std::sqrt(squaredDistance) + std::sqrt(squaredRadius) <= m_Distance ||
+    const auto isSmall = [&, id = nearest] {
+      const double side = std::min(m_SquaredSide, SquaredLongestSide(m_Surface, id));
+      return SquaredLongestSide(piece) <= ShareOfSide * ShareOfSide * side;
+    };
+    if (isSmall() || std::sqrt(squaredDistance) + std::sqrt(squaredRadius) <= m_Distance ||
         std::all_of(piece.begin(), piece.end(), [&, id = nearest](const PositionType & corner) {
           return SquaredDistance(corner, m_Surface.FindClosestPointOfTriangle(corner, id)) <= m_Distance * m_Distance;
         }))
@@ -87,15 +105,15 @@ private:
 
   const TriangleTree & m_Surface;
   const double m_Distance;
-  const double m_SmallestPiece;
+  const double m_SquaredSide; // the longest of the whole
 };
 
 } // namespace
 
 bool
-IsWithinDistance(const Corners & corners, const TriangleTree & surface, double distance, double smallestPiece)
+IsWithinDistance(const Corners & corners, const TriangleTree & surface, double distance)
 {
-  return Proof(surface, distance, smallestPiece).IsNear(corners, TriangleTree::None);
+  return Proof(corners, surface, distance).IsNear(corners, TriangleTree::None);
 }
 
 } // namespace itk

@@ -11,21 +11,18 @@ namespace itk
  *
  * The triangle is cut into pieces. A piece is near if all its corners are near one triangle of the surface, the one
  * nearest to its centre: then so is all between them, as the places so near a triangle are a convex set. It is also
- * near if its centre is nearer by the distance to its furthest corner. Pieces smaller than \a smallestPiece are not cut
- * any more; of these, the centre must be within 0.9 times the distance. So the answer yes is proven, but for pieces
- * between 0.9 and 1 times the distance away whose places differ by more than that tenth.
+ * near if its centre is nearer by the distance to its furthest corner. Pieces of less than a quarter of the longest
+ * side of the triangle, and of the surface's triangle nearest to them, are not cut any more: of these, the centre must
+ * be within 0.9 times the distance. So the answer yes is proven but for what is between these places, at most 0.15 of
+ * that side from one of them.
  *
  * Thread safe.
  *
  * \param corners in mm
  * \param surface the tree of its triangles
- * \param distance in mm, above 0
- * \param smallestPiece its longest side in mm, above 0 */
+ * \param distance in mm, above 0 */
 bool
-IsWithinDistance(const std::array<PositionType, 3> & corners,
-                 const TriangleTree & surface,
-                 double distance,
-                 double smallestPiece);
+IsWithinDistance(const std::array<PositionType, 3> & corners, const TriangleTree & surface, double distance);
 
 } // namespace itk
 

@@ -36,7 +36,6 @@ constexpr std::array<double, 3> Cuts{ 0.5, 0.36, 0.64 };
 constexpr double FirstError = 1.0 / 32.0; // in mean sides of triangles, doubled with each step
 constexpr double LeastGain = 0.95;        // of the triangles left by a step that was worth while
 constexpr double ShareForWitnesses = 0.9; // of the maximumError: what is between them is seldom further than that then
-constexpr double ShareOfSide = 0.25;      // of the original's triangles
 constexpr unsigned int MostRounds = 32;   // of taking back; in the second half, whole patches are
 
 double
@@ -112,7 +111,6 @@ public:
                  const TriangleTree * original)
     : m_Target(settings.targetTriangles)
     , m_MaximumError(settings.maximumError)
-    , m_SmallestPiece(ShareOfSide * MeanSide(surface))
     , m_Topology(topology)
     , m_State(surface)
     , m_Original{ original, ShareForWitnesses * settings.maximumError, &m_NearPoints }
@@ -168,7 +166,6 @@ private:
 
   const SizeValueType m_Target;
   const double m_MaximumError;
-  const double m_SmallestPiece; // that is looked at for the distance
   const TriangleSurfaceTopology m_Topology;
   TriangleSurface & m_State;
   const EdgeCollapse::Original m_Original;
@@ -185,6 +182,7 @@ private:
   std::vector<PatchId> m_PatchOf;  // each triangle of m_State
   std::vector<std::uint8_t> m_IsNew;
   SizeValueType m_PlacesTakenBack = 0;
+  bool m_IsHeldBack = false; // by the maximumError
 };
 
 TriangleSurfaceSimplificationReport
@@ -192,8 +190,7 @@ Simplification::Run()
 {
   TriangleSurfaceSimplificationReport report;
   report.trianglesBefore = m_State.GetNumberOfTriangles();
-  const bool isBounded = m_Original.tree != nullptr;
-  const double limit = isBounded ? m_MaximumError : Diagonal(m_State);
+  const double limit = std::min(m_MaximumError, Diagonal(m_State));
   double error = std::min(limit, FirstError * MeanSide(m_State));
   report.end = SimplificationEnd::Target;
   for (std::size_t step = 0; !this->IsAtTarget(); ++step)
@@ -201,9 +198,9 @@ Simplification::Run()
     const SizeValueType before = m_State.GetNumberOfTriangles();
     const bool isSound = this->Step(error, Cuts[step % Cuts.size()]);
     const bool isStuck = m_State.GetNumberOfTriangles() > LeastGain * static_cast<double>(before);
-    if (!isSound || (isStuck && error >= limit && !this->IsAtTarget()))
+    if (!isSound || (isStuck && !(error < limit) && !this->IsAtTarget()))
     {
-      report.end = isBounded ? SimplificationEnd::MaximumError : SimplificationEnd::Topology;
+      report.end = m_IsHeldBack ? SimplificationEnd::MaximumError : SimplificationEnd::Topology;
       break;
     }
     error = std::min(limit, 2.0 * error);
@@ -226,6 +223,7 @@ Simplification::Step(double error, double cut)
   this->SimplifyPatches(changed);
   this->AimAtTarget(changed);
   this->PutTogether();
+  m_IsHeldBack = false;
   bool looksAtAll = true;
   unsigned int round = 0;
   for (; round < MostRounds; ++round)
@@ -240,6 +238,9 @@ Simplification::Step(double error, double cut)
     this->SimplifyPatches(changed);
     this->PutTogether();
   }
+  m_IsHeldBack = m_IsHeldBack || std::any_of(m_Patches.begin(), m_Patches.end(), [](const SimplifiedPatch & patch) {
+                   return patch.WasHeldBack();
+                 });
   const bool isSound = round < MostRounds && HaveSameTopology(ComputeTopology(m_State), m_Topology);
   if (isSound)
   {
@@ -435,7 +436,7 @@ Simplification::FindStrays(const std::vector<PatchId> & patches, Places & bad) c
     const PatchId patch = patches[n];
     for (TriangleId id = m_Begin[patch]; id < m_Begin[patch + 1]; ++id)
     {
-      if (m_IsNew[id] && !IsWithinDistance(CornersOf(m_State, id), *m_Original.tree, m_MaximumError, m_SmallestPiece))
+      if (m_IsNew[id] && !IsWithinDistance(CornersOf(m_State, id), *m_Original.tree, m_MaximumError))
       {
         bad[patch].push_back(BoxOf(m_State.GetPoints(), m_State.GetTriangles()[id]));
       }
@@ -467,7 +468,7 @@ Simplification::FindLeftBehind(const TriangleTree & state,
       std::any_of(near.begin(), near.end(), [&](TriangleId n) { return isLookedAt[m_PatchOf[n]] != 0; });
     if (isConcerned && !(near[0] == near[1] && near[1] == near[2]))
     {
-      isLeft[id] = IsWithinDistance(CornersOf(original, id), state, m_MaximumError, m_SmallestPiece) ? 0 : 1;
+      isLeft[id] = IsWithinDistance(CornersOf(original, id), state, m_MaximumError) ? 0 : 1;
     }
   });
   for (TriangleId id = 0; id < triangles.size(); ++id)
@@ -551,12 +552,13 @@ operator<<(std::ostream & os, SimplificationEnd end)
 TriangleSurfaceSimplificationReport
 SimplifySurface(TriangleSurface & surface, const TriangleSurfaceSimplificationSettings & settings)
 {
+  const TriangleSurfaceTopology topology = ComputeTopology(surface);
+  VerifyPreconditions(topology, settings);
+  surface.RemoveUnusedPoints();
   if (surface.GetTriangles().empty())
   {
     return {};
   }
-  const TriangleSurfaceTopology topology = ComputeTopology(surface);
-  VerifyPreconditions(topology, settings);
   auto original = TriangleSurface::New();
   std::unique_ptr<TriangleTree> tree;
   if (std::isfinite(settings.maximumError))
