@@ -292,6 +292,54 @@ TEST(TriangleSurfaceSimplification, IsTheSameForAnyNumberOfThreads)
   EXPECT_EQ(results[0]->GetTriangles(), results[1]->GetTriangles());
 }
 
+TEST(TriangleSurfaceSimplification, DetailIsLookedAtClosely)
+{
+  auto before = MakeSheet(40);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> rough(-0.3f, 0.3f);
+  for (auto & point : before->GetPoints())
+  {
+    const bool isDetail = point[0] > 0.0f && point[0] < 20.0f && point[1] > 0.0f && point[1] < 20.0f;
+    point[2] = isDetail ? rough(random) : 0.0f;
+    for (unsigned int axis = 0; axis < 2; ++axis) // small cells first, then large ones
+    {
+      point[axis] = point[axis] <= 20.0f ? 0.1f * point[axis] : 2.0f + 20.0f * (point[axis] - 20.0f);
+    }
+  }
+  for (const double maximumError : { 0.01, 0.03, 0.2 })
+  {
+    const auto surface = Copy(*before);
+    SimplifySurface(*surface, Settings{ 0, maximumError });
+    EXPECT_LE(bruteforce::FurthestDistance(*before, *surface, 4), 1.1 * maximumError);
+    EXPECT_LE(bruteforce::FurthestDistance(*surface, *before, 12), 1.1 * maximumError);
+    ExpectSameTopology(*before, *surface);
+  }
+}
+
+TEST(TriangleSurfaceSimplification, PointsOfNoTriangleDoNotMatter)
+{
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  for (const float odd : { std::nanf(""), infinity, 1e6f })
+  {
+    const auto surface = MakeSphere(20.0, 4);
+    const auto expected = Copy(*surface);
+    SimplifySurface(*expected, Settings{ 0, 0.2 });
+    surface->GetPoints().push_back({ odd, 0.0f, 0.0f });
+    SimplifySurface(*surface, Settings{ 0, 0.2 });
+    EXPECT_EQ(surface->GetTriangles(), expected->GetTriangles()) << odd;
+    EXPECT_EQ(surface->GetPoints(), expected->GetPoints()) << odd;
+  }
+}
+
+TEST(TriangleSurfaceSimplification, SaysWhatEndedIt)
+{
+  auto surface = MakeSphere(20.0, 4);
+  EXPECT_EQ(SimplifySurface(*surface, Settings{ 0, 1e30 }).end, SimplificationEnd::Topology);
+  EXPECT_EQ(surface->GetNumberOfTriangles(), 4u);
+  surface = MakeSphere(20.0, 4);
+  EXPECT_EQ(SimplifySurface(*surface, Settings{ 0, 0.1 }).end, SimplificationEnd::MaximumError);
+}
+
 TEST(TriangleSurfaceSimplification, WhatIsSimpleEnoughStaysAsItIs)
 {
   const auto surface = MakeSphere(20.0, 3);
@@ -301,6 +349,7 @@ TEST(TriangleSurfaceSimplification, WhatIsSimpleEnoughStaysAsItIs)
 
   EXPECT_EQ(surface->GetTriangles(), before->GetTriangles());
   EXPECT_EQ(SimplifySurface(*Surface::New(), Settings{ 0, 1.0 }).trianglesAfter, 0u);
+  EXPECT_THROW(SimplifySurface(*Surface::New(), Settings{}), itk::ExceptionObject);
 }
 
 TEST(TriangleSurfaceSimplification, RefusesUnsoundSurfacesAndSenselessSettings)

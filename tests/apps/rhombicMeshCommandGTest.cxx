@@ -172,6 +172,68 @@ TEST_F(MeshCommand, AuditJudgesFilesOfOthers)
   EXPECT_TRUE(report[0]["watertight"].get<bool>());
 }
 
+TEST_F(MeshCommand, OutputsTakeNobodysPlace)
+{
+  const fs::path table = m_Folder.Path() / "table.csv";
+  fs::copy_file(RHOMBIC_TESTDATA "/phantom/phantom-labels.tsv", table);
+  fs::copy_file(table, m_Folder.Path() / "same.mtl");
+  fs::copy_file(table, m_Folder.Path() / "other.obj.json");
+  const std::string before = ReadText(table);
+  for (const std::string arguments : { "--labels " + labels + " --label-table table.csv -o h.ply --measures table.csv",
+                                       "--labels " + labels + " --label-table same.mtl -o same.obj",
+                                       "--labels " + labels + " --label-table other.obj.json -o other.obj",
+                                       std::string("-t 375.5 -o x.stl --measures x.stl.json"),
+                                       std::string("-t 375.5 -o x.stl --measures ./x.stl.json") })
+  {
+    const auto outcome = this->Mesh(arguments);
+    EXPECT_EQ(outcome.exitCode, 2) << arguments;
+    EXPECT_TRUE(outcome.errors.find("another name") != std::string::npos) << outcome.errors;
+  }
+  for (const std::string kept : { "table.csv", "same.mtl", "other.obj.json" })
+  {
+    EXPECT_EQ(ReadText(m_Folder.Path() / kept), before) << kept;
+  }
+}
+
+TEST_F(MeshCommand, OneLabelFitsIntoAnSTL)
+{
+  ASSERT_EQ(this->Mesh("--labels " + labels + " --label 14 -o lung.stl --measures lung.csv").exitCode, 0);
+  EXPECT_EQ(this->Read("lung.stl").size(), 1u);
+  EXPECT_NE(ReadText(m_Folder.Path() / "lung.csv").find(",456.19"), std::string::npos) << "the voxels' volume";
+  EXPECT_EQ(this->Mesh("--labels " + labels + " --label 14 --label 10 -o two.stl").exitCode, 2);
+  EXPECT_EQ(this->Mesh("--labels nothing.nii.gz -o one.stl").exitCode, 3) << "no such file";
+}
+
+TEST_F(MeshCommand, WhatIsTooSmallIsLeftOut)
+{
+  const auto outcome = this->Mesh("--labels " + labels + " --label 10 --label 14 --min-volume 1000 -o large.glb");
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+  EXPECT_EQ(this->Read("large.glb").size(), 1u);
+  EXPECT_EQ(this->Mesh("--labels " + labels + " --label 10 --label 14 --min-volume 9000 -o none.glb").exitCode, 6);
+}
+
+TEST_F(MeshCommand, OptionsThatRemoveNothingHideNothing)
+{
+  ASSERT_EQ(this->Mesh("-t -300.5 -o a.stl").exitCode, 0);
+  ASSERT_EQ(this->Mesh("-t -300.5 --min-volume 0.000001 -o b.stl").exitCode, 0);
+  EXPECT_EQ(this->Sidecar("a.stl")["surfaces"][0]["measures"], this->Sidecar("b.stl")["surfaces"][0]["measures"]);
+}
+
+TEST_F(MeshCommand, SmoothedAndSimplifiedSurfacesDoNotCrossThemselves)
+{
+  const auto outcome = this->Mesh("-t 500 --smooth 0.3 --max-error 1 --audit -o thin.ply");
+  ASSERT_EQ(outcome.exitCode, 0);
+  EXPECT_EQ(this->Sidecar("thin.ply")["surfaces"][0]["audit"]["intersections"]["crossingPairs"], 0);
+}
+
+TEST_F(MeshCommand, NothingMeasuredIsNotZero)
+{
+  ASSERT_EQ(this->Mesh("-t '<-500.5' --fill --largest -o box.stl").exitCode, 0);
+  const auto deviation = this->Sidecar("box.stl")["surfaces"][0]["deviation"];
+  EXPECT_EQ(deviation["samples"], 0);
+  EXPECT_FALSE(deviation.contains("meanInMillimetres"));
+}
+
 TEST_F(MeshCommand, TellsWhatItCannotDo)
 {
   const std::pair<const char *, int> cases[] = { { "--preset ct-bone-skin -o two.stl", 2 },
