@@ -36,11 +36,10 @@ CheckSurfaceFinish(const SurfaceFinish & finish);
 Report
 RemoveParts(itk::TriangleSurface & surface, const SurfaceFinish & finish);
 
-/** Smooths a surface, moves points where triangles pass through each other (itk::UntangleSurface()), by a spacing of
- * the lattice or, if it is to be simplified, a quarter of the error at most, and simplifies it. The report says how far
- * points moved and how many triangles are left; what can't be untangled is noted.
- * \param spacing of the lattice in mm (see MeanSpacingOf())
- * \param name of the surface, for progress and messages. Throws Failure. */
+/** Smooths a surface, moves points by a spacing of the lattice at most where triangles pass through each other
+ * (itk::UntangleSurface()), and simplifies it, which makes no triangles pass through each other. The report says how
+ * far points moved and how many triangles are left; what can't be untangled is noted. \param spacing of the lattice in
+ * mm (see MeanSpacingOf()) \param name of the surface, for progress and messages. Throws Failure. */
 Report
 RefineSurface(itk::TriangleSurface & surface,
               const SurfaceFinish & finish,

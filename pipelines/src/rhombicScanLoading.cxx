@@ -107,7 +107,7 @@ CheckOutputs(const std::vector<fs::path> & outputs, const std::vector<fs::path> 
       CheckOutput(output, input);
     }
     std::error_code ignored;
-    if (!seen.insert(fs::weakly_canonical(output, ignored)).second)
+    if (!seen.insert(fs::weakly_canonical(fs::absolute(output), ignored)).second)
     {
       throw Failure(FailureKind::Usage,
                     "Two outputs would be the same file, " + output.string() + "; give one of them another name.");

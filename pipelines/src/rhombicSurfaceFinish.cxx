@@ -38,14 +38,12 @@ Smooth(itk::TriangleSurface & surface, double maximumMove)
            { "volumeAfterInMillilitres", ComputeVolume(surface) / CubicMillimetresPerMillilitre } };
 }
 
-/** How far a surface may be from the original, simplified and untangled. */
+/** How far a surface may be from what it was before it is simplified. */
 double
 MaximumError(const SurfaceFinish & finish, double spacing)
 {
   return finish.maximumError.value_or(spacing);
 }
-
-constexpr double ShareOfUntangling = 0.25; // of the error; simplification has the rest
 
 Report
 Simplify(itk::TriangleSurface & surface, const SurfaceFinish & finish, double spacing)
@@ -58,7 +56,7 @@ Simplify(itk::TriangleSurface & surface, const SurfaceFinish & finish, double sp
       static_cast<std::size_t>(std::ceil(finish.share * static_cast<double>(surface.GetNumberOfTriangles())));
     settings.targetTriangles = settings.targetTriangles > 0 ? std::min(settings.targetTriangles, shared) : shared;
   }
-  settings.maximumError = (1.0 - ShareOfUntangling) * MaximumError(finish, spacing);
+  settings.maximumError = MaximumError(finish, spacing);
   const auto simplified = SimplifySurface(surface, settings);
   OptimizeForRendering(surface);
   std::ostringstream end;
@@ -184,14 +182,8 @@ RefineSurface(itk::TriangleSurface & surface,
     events.Progress("smoothing " + name, 0.0);
     report["smoothing"] = Smooth(surface, finish.smoothing * spacing);
   }
-  const auto original = itk::TriangleSurface::New();
-  if (IsSimplified(finish))
-  {
-    original->Graft(&surface);
-  }
   events.Progress("untangling " + name, 0.0);
-  const double maximumMove = IsSimplified(finish) ? ShareOfUntangling * MaximumError(finish, spacing) : spacing;
-  const Report untangled = Untangle(surface, maximumMove);
+  const Report untangled = Untangle(surface, spacing);
   if (!untangled.is_null())
   {
     report["untangling"] = untangled;
@@ -200,6 +192,8 @@ RefineSurface(itk::TriangleSurface & surface,
   if (IsSimplified(finish))
   {
     events.Progress("simplifying " + name, 0.0);
+    const auto original = itk::TriangleSurface::New();
+    original->Graft(&surface);
     Report & done = report["simplification"] = Simplify(surface, finish, spacing);
     AddDistances(*original, surface, done);
     events.Note(DescribeSimplification(name, finish, done));

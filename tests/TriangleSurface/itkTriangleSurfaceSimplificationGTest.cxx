@@ -169,7 +169,7 @@ TEST(TriangleSurfaceSimplification, MaximumErrorHoldsBothWaysBetweenThePointsToo
       const auto surface = Copy(*before);
       const auto report = SimplifySurface(*surface, Settings{ 0, maximumError });
       SCOPED_TRACE(maximumError);
-      EXPECT_EQ(report.end, SimplificationEnd::MaximumError);
+      EXPECT_TRUE(report.end == SimplificationEnd::MaximumError || maximumError > 2.0) << report.end;
       EXPECT_LE(bruteforce::FurthestDistance(*before, *surface, 8), maximumError * 1.000001);
       EXPECT_LE(bruteforce::FurthestDistance(*surface, *before, 8), maximumError * 1.000001);
       ExpectSameTopology(*before, *surface);
@@ -294,16 +294,16 @@ TEST(TriangleSurfaceSimplification, IsTheSameForAnyNumberOfThreads)
 
 TEST(TriangleSurfaceSimplification, DetailIsLookedAtClosely)
 {
-  auto before = MakeSheet(40);
+  auto before = MakeSheet(20);
   std::mt19937 random(7);
   std::uniform_real_distribution<float> rough(-0.3f, 0.3f);
   for (auto & point : before->GetPoints())
   {
-    const bool isDetail = point[0] > 0.0f && point[0] < 20.0f && point[1] > 0.0f && point[1] < 20.0f;
+    const bool isDetail = point[0] > 0.0f && point[0] < 10.0f && point[1] > 0.0f && point[1] < 10.0f;
     point[2] = isDetail ? rough(random) : 0.0f;
     for (unsigned int axis = 0; axis < 2; ++axis) // small cells first, then large ones
     {
-      point[axis] = point[axis] <= 20.0f ? 0.1f * point[axis] : 2.0f + 20.0f * (point[axis] - 20.0f);
+      point[axis] = point[axis] <= 10.0f ? 0.1f * point[axis] : 1.0f + 10.0f * (point[axis] - 10.0f);
     }
   }
   for (const double maximumError : { 0.01, 0.03, 0.2 })
@@ -311,7 +311,7 @@ TEST(TriangleSurfaceSimplification, DetailIsLookedAtClosely)
     const auto surface = Copy(*before);
     SimplifySurface(*surface, Settings{ 0, maximumError });
     EXPECT_LE(bruteforce::FurthestDistance(*before, *surface, 4), 1.1 * maximumError);
-    EXPECT_LE(bruteforce::FurthestDistance(*surface, *before, 12), 1.1 * maximumError);
+    EXPECT_LE(bruteforce::FurthestDistance(*surface, *before, 8), 1.1 * maximumError);
     ExpectSameTopology(*before, *surface);
   }
 }

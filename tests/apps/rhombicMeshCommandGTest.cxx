@@ -179,17 +179,18 @@ TEST_F(MeshCommand, OutputsTakeNobodysPlace)
   fs::copy_file(table, m_Folder.Path() / "same.mtl");
   fs::copy_file(table, m_Folder.Path() / "other.obj.json");
   const std::string before = ReadText(table);
-  for (const std::string arguments : { "--labels " + labels + " --label-table table.csv -o h.ply --measures table.csv",
-                                       "--labels " + labels + " --label-table same.mtl -o same.obj",
-                                       "--labels " + labels + " --label-table other.obj.json -o other.obj",
-                                       std::string("-t 375.5 -o x.stl --measures x.stl.json"),
-                                       std::string("-t 375.5 -o x.stl --measures ./x.stl.json") })
+  for (const std::string & arguments :
+       std::vector<std::string>{ "--labels " + labels + " --label-table table.csv -o h.ply --measures table.csv",
+                                 "--labels " + labels + " --label-table same.mtl -o same.obj",
+                                 "--labels " + labels + " --label-table other.obj.json -o other.obj",
+                                 "-t 375.5 -o x.stl --measures x.stl.json",
+                                 "-t 375.5 -o x.stl --measures ./x.stl.json" })
   {
     const auto outcome = this->Mesh(arguments);
     EXPECT_EQ(outcome.exitCode, 2) << arguments;
     EXPECT_TRUE(outcome.errors.find("another name") != std::string::npos) << outcome.errors;
   }
-  for (const std::string kept : { "table.csv", "same.mtl", "other.obj.json" })
+  for (const char * const kept : { "table.csv", "same.mtl", "other.obj.json" })
   {
     EXPECT_EQ(ReadText(m_Folder.Path() / kept), before) << kept;
   }

@@ -218,6 +218,10 @@ EdgeCollapse::Propose(PointId a, PointId b)
   {
     m_Candidates.push({ static_cast<float>(error), from, to, m_Versions[from] + m_Versions[to] });
   }
+  else
+  {
+    m_WasHeldBack = true;
+  }
 }
 
 void

@@ -97,7 +97,7 @@ public:
   std::size_t
   CountOldTriangles() const;
 
-  /** Whether edges did not shrink because of the distance from the original. */
+  /** Whether edges did not shrink because of the error or the distance from the original. */
   bool
   WasHeldBack() const
   {

@@ -67,7 +67,7 @@ public:
   {
     return m_NumberOfOldTriangles < m_Result.triangles.size();
   }
-  /** Whether edges did not shrink because of the distance from the original. */
+  /** Whether edges did not shrink because of the error or the distance from the original. */
   bool
   WasHeldBack() const
   {

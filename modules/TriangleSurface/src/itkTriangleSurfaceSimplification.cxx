@@ -200,7 +200,8 @@ Simplification::Run()
     const bool isStuck = m_State.GetNumberOfTriangles() > LeastGain * static_cast<double>(before);
     if (!isSound || (isStuck && !(error < limit) && !this->IsAtTarget()))
     {
-      report.end = m_IsHeldBack ? SimplificationEnd::MaximumError : SimplificationEnd::Topology;
+      report.end =
+        m_IsHeldBack && m_Original.tree != nullptr ? SimplificationEnd::MaximumError : SimplificationEnd::Topology;
       break;
     }
     error = std::min(limit, 2.0 * error);
