@@ -136,7 +136,7 @@ Judge(const FCCVolume & lattice, const Scan & scan, double isovalue, Mode mode, 
   const auto & done = report["simplification"];
   result["after"] = ToJSON(after);
   result["ended_by"] = done["endedBy"];
-  result["maximum_error"] = finish.maximumError;
+  result["maximum_error"] = options.spacings * spacing;
   result["mean_distance"] = done["meanDistanceInMillimetres"];
   result["maximum_distance"] = done["maximumDistanceInMillimetres"];
   return result;
