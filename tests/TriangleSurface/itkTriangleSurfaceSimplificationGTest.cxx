@@ -204,6 +204,7 @@ TEST(TriangleSurfaceSimplification, TargetAndErrorTogetherStopAtTheFirstOfThem)
   const auto report = SimplifySurface(*surface, Settings{ 100, 0.05 });
   EXPECT_EQ(report.end, SimplificationEnd::MaximumError);
   EXPECT_GT(report.trianglesAfter, 100u);
+  EXPECT_LE(ComputeTwoDistances(*MakeSphere(20.0, 5), *surface).GetMaximum(), 0.05);
 }
 
 TEST(TriangleSurfaceSimplification, TorusKeepsItsHoleAndTetrahedraStay)

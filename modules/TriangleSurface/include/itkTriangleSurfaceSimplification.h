@@ -47,10 +47,11 @@ struct TriangleSurfaceSimplificationReport
  * one but in the points and edges they share, so there are no new self-intersections. Normals, if there are any, are
  * those of the edges' places.
  *
- * No place of either surface is further than maximumError from the other one. Each edge shrinks only where the points
- * of the original stay near the triangles that stand for them, and all triangles of both surfaces are looked at
- * afterwards, in pieces of a quarter of the triangles' sides at most; of the smallest pieces, the centre is within 0.9
- * maximumError.
+ * Neither surface is further than maximumError from the other one at any place that is looked at: each edge shrinks
+ * only where the points of the original stay near the triangles that stand for them, and all triangles of both surfaces
+ * are looked at afterwards (see IsWithinDistance()). Where the distance is not proven for all of a triangle, these
+ * places are a quarter of its sides apart and within 0.9 maximumError; rough detail much larger than maximumError can
+ * be further away between them.
  *
  * The surface is cut into patches of some thousand triangles. Where a check fails, the triangles from before are put
  * back. This is repeated with other patches, so that no border between patches stays for good, and with larger errors
