@@ -76,10 +76,12 @@ public:
 
   /** The point of the surface nearest to \a position, the one of the triangle with the lowest number if there are
    * several. Only what is at most \a maximumSquaredDistance (in mm^2) away is
-   * looked for; squaredDistance is that maximum and triangle None where there is nothing. */
+   * looked for; squaredDistance is that maximum and triangle None where there is nothing. Where the question is only
+   * whether something is near, the search may end with any point at most \a enoughSquaredDistance (in mm^2) away. */
   ClosestPoint
   FindClosestPoint(const PositionType & position,
-                   double maximumSquaredDistance = std::numeric_limits<double>::infinity()) const;
+                   double maximumSquaredDistance = std::numeric_limits<double>::infinity(),
+                   double enoughSquaredDistance = -1.0) const;
 
   /** The point of one triangle nearest to \a position. */
   PositionType

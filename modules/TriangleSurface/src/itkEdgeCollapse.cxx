@@ -347,24 +347,29 @@ EdgeCollapse::StaysNear(PointId from, PointId to, const PositionType & place)
   return this->IsNearOriginal(from, to, place) && this->AreWitnessesNear(from, to, place);
 }
 
-/** Looks at the place and at the centres of the triangles around it, and at their triangles of the original first. */
+/** Looks at the place, at the middles of the edges there and at the centres of the triangles around it. */
 bool
 EdgeCollapse::IsNearOriginal(PointId from, PointId to, const PositionType & place)
 {
   const double squaredLimit = m_Original.limit * m_Original.limit;
-  const auto isNear = [&](const PositionType & position, TriangleId original) {
-    const PositionType way = Subtract(position, m_Original.tree->FindClosestPointOfTriangle(position, original));
-    return Dot(way, way) <= NearEnough * NearEnough * squaredLimit;
+  const auto findNear = [&](const PositionType & position, const std::array<TriangleId, 3> & likely) {
+    const PositionType absolute = Add(position, m_Origin);
+    for (const TriangleId triangle : likely)
+    {
+      const PositionType way = Subtract(absolute, m_Original.tree->FindClosestPointOfTriangle(absolute, triangle));
+      if (Dot(way, way) <= NearEnough * NearEnough * squaredLimit)
+      {
+        return triangle;
+      }
+    }
+    return m_Original.tree->FindClosestPoint(absolute, squaredLimit).triangle;
   };
-  const PositionType position = Add(place, m_Origin);
-  m_NearPlace = isNear(position, m_Near[from]) ? m_Near[from]
-                : isNear(position, m_Near[to]) ? m_Near[to]
-                                               : m_Original.tree->FindClosestPoint(position, squaredLimit).triangle;
+  m_NearPlace = findNear(place, { m_Near[from], m_Near[to], m_Near[to] });
   return m_NearPlace != TriangleTree::None && std::all_of(m_Fan.begin(), m_Fan.end(), [&](const Fan & fan) {
-           const PositionType centre =
-             Add(m_Origin, Mix(place, Mix(m_Positions[fan.next], m_Positions[fan.last], 0.5), 2.0 / 3.0));
-           return isNear(centre, m_NearPlace) || isNear(centre, m_Near[fan.next]) || isNear(centre, m_Near[fan.last]) ||
-                  m_Original.tree->FindClosestPoint(centre, squaredLimit).triangle != TriangleTree::None;
+           const PositionType & next = m_Positions[fan.next];
+           const std::array<TriangleId, 3> likely{ m_NearPlace, m_Near[fan.next], m_Near[fan.last] };
+           return findNear(Mix(place, next, 0.5), likely) != TriangleTree::None &&
+                  findNear(Mix(place, Mix(next, m_Positions[fan.last], 0.5), 2.0 / 3.0), likely) != TriangleTree::None;
          });
 }
 

@@ -50,35 +50,46 @@ public:
     , m_SquaredSide(SquaredLongestSide(whole))
   {}
 
-  /** \param likely a triangle of the surface that may be near, or None */
+  /** Whether all of a piece is near one triangle of the surface. */
+  bool
+  IsNearTriangle(const Corners & piece, std::uint32_t triangle) const
+  {
+    return std::all_of(piece.begin(), piece.end(), [&](const PositionType & corner) {
+      return this->SquaredDistanceTo(triangle, corner) <= m_Distance * m_Distance;
+    });
+  }
+
+  /** \param likely a triangle of the surface that may be near */
   bool
   IsNear(const Corners & piece, std::uint32_t likely) const
   {
+    if (this->IsNearTriangle(piece, likely))
+    {
+      return true;
+    }
     const auto & [a, b, c] = piece;
     const PositionType centre{ (a[0] + b[0] + c[0]) / 3.0, (a[1] + b[1] + c[1]) / 3.0, (a[2] + b[2] + c[2]) / 3.0 };
-    const auto [nearest, squaredDistance] = this->FindNearest(centre, likely);
-    if (nearest == TriangleTree::None)
+    const double squaredRadius =
+      std::max({ SquaredDistance(a, centre), SquaredDistance(b, centre), SquaredDistance(c, centre) });
+    const double enough = std::max(0.0, m_Distance - std::sqrt(squaredRadius)); // for even the furthest corner
+    const Nearest nearest = this->FindNearest(centre, likely, enough * enough);
+    if (nearest.triangle == TriangleTree::None)
     {
       return false;
     }
-    const double squaredRadius =
-      std::max({ SquaredDistance(a, centre), SquaredDistance(b, centre), SquaredDistance(c, centre) });
-    const auto isSmall = [&, id = nearest] {
-      const double side = std::min(m_SquaredSide, SquaredLongestSide(m_Surface, id));
-      return SquaredLongestSide(piece) <= ShareOfSide * ShareOfSide * side;
-    };
-    if (isSmall() || std::sqrt(squaredDistance) + std::sqrt(squaredRadius) <= m_Distance ||
-        std::all_of(piece.begin(), piece.end(), [&, id = nearest](const PositionType & corner) {
-          return SquaredDistance(corner, m_Surface.FindClosestPointOfTriangle(corner, id)) <= m_Distance * m_Distance;
-        }))
+    if (nearest.squaredDistance <= enough * enough || this->IsNearTriangle(piece, nearest.triangle))
     {
       return true;
+    }
+    if (this->IsSmall(piece, nearest.triangle))
+    {
+      return this->AreCornersNear(piece);
     }
     const PositionType ab = Middle(a, b);
     const PositionType bc = Middle(b, c);
     const PositionType ca = Middle(c, a);
-    return this->IsNear({ ab, bc, ca }, nearest) && this->IsNear({ a, ab, ca }, nearest) &&
-           this->IsNear({ ab, b, bc }, nearest) && this->IsNear({ ca, bc, c }, nearest);
+    return this->IsNear({ ab, bc, ca }, nearest.triangle) && this->IsNear({ a, ab, ca }, nearest.triangle) &&
+           this->IsNear({ ab, b, bc }, nearest.triangle) && this->IsNear({ ca, bc, c }, nearest.triangle);
   }
 
 private:
@@ -89,18 +100,40 @@ private:
   };
 
   Nearest
-  FindNearest(const PositionType & position, std::uint32_t likely) const
+  FindNearest(const PositionType & place, std::uint32_t likely, double enough) const
   {
-    double bound = NearForCentres * NearForCentres * m_Distance * m_Distance;
-    if (likely != TriangleTree::None)
+    const double limit = NearForCentres * NearForCentres * m_Distance * m_Distance;
+    const double squared = this->SquaredDistanceTo(likely, place);
+    if (squared <= std::min(limit, enough))
     {
-      const double squared = SquaredDistance(position, m_Surface.FindClosestPointOfTriangle(position, likely));
-      likely = squared <= bound ? likely : TriangleTree::None;
-      bound = std::min(bound, squared);
+      return { likely, squared };
     }
-    const auto nearest = m_Surface.FindClosestPoint(position, bound);
-    return nearest.triangle != TriangleTree::None ? Nearest{ nearest.triangle, nearest.squaredDistance }
-                                                  : Nearest{ likely, bound };
+    const auto nearest = m_Surface.FindClosestPoint(place, std::min(limit, squared), enough);
+    return nearest.triangle == TriangleTree::None && squared <= limit
+             ? Nearest{ likely, squared }
+             : Nearest{ nearest.triangle, nearest.squaredDistance };
+  }
+
+  bool
+  IsSmall(const Corners & piece, std::uint32_t nearest) const
+  {
+    const double side = std::min(m_SquaredSide, SquaredLongestSide(m_Surface, nearest));
+    return SquaredLongestSide(piece) <= ShareOfSide * ShareOfSide * side;
+  }
+
+  bool
+  AreCornersNear(const Corners & piece) const
+  {
+    const double limit = m_Distance * m_Distance;
+    return std::all_of(piece.begin(), piece.end(), [&](const PositionType & corner) {
+      return m_Surface.FindClosestPoint(corner, limit, limit).triangle != TriangleTree::None;
+    });
+  }
+
+  double
+  SquaredDistanceTo(std::uint32_t triangle, const PositionType & place) const
+  {
+    return SquaredDistance(place, m_Surface.FindClosestPointOfTriangle(place, triangle));
   }
 
   const TriangleTree & m_Surface;
@@ -111,9 +144,16 @@ private:
 } // namespace
 
 bool
-IsWithinDistance(const Corners & corners, const TriangleTree & surface, double distance)
+IsWithinDistance(const Corners & corners,
+                 const TriangleTree & surface,
+                 double distance,
+                 const std::array<std::uint32_t, 3> & likely)
 {
-  return Proof(corners, surface, distance).IsNear(corners, TriangleTree::None);
+  const Proof proof(corners, surface, distance);
+  return std::any_of(likely.begin(),
+                     likely.end(),
+                     [&](std::uint32_t triangle) { return proof.IsNearTriangle(corners, triangle); }) ||
+         proof.IsNear(corners, likely[0]);
 }
 
 } // namespace itk

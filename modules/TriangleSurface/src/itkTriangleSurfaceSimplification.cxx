@@ -161,8 +161,6 @@ private:
   FindLeftBehind(const TriangleTree & state, const std::vector<PatchId> & patches, bool looksAtAll, Places & bad) const;
   std::vector<PatchId>
   Hold(const Places & bad, bool holdsAll);
-  void
-  RememberNearPoints();
 
   const SizeValueType m_Target;
   const double m_MaximumError;
@@ -243,11 +241,7 @@ Simplification::Step(double error, double cut)
                    return patch.WasHeldBack();
                  });
   const bool isSound = round < MostRounds && HaveSameTopology(ComputeTopology(m_State), m_Topology);
-  if (isSound)
-  {
-    this->RememberNearPoints();
-  }
-  else
+  if (!isSound)
   {
     this->SwapWithBefore();
   }
@@ -356,27 +350,14 @@ Simplification::PutTogether()
     for (const EdgeCollapse::MovedPoint & moved : patch.GetMovedPoints())
     {
       m_State.GetPoints()[moved.id] = moved.position;
+      if (m_Original.tree != nullptr)
+      {
+        m_NearPoints[moved.id] = moved.near;
+      }
       if (m_Before->HasNormals())
       {
         m_State.GetNormals()[moved.id] = moved.normal;
       }
-    }
-  }
-}
-
-/** Of the points that have moved. */
-void
-Simplification::RememberNearPoints()
-{
-  if (m_Original.tree == nullptr)
-  {
-    return;
-  }
-  for (const SimplifiedPatch & patch : m_Patches)
-  {
-    for (const EdgeCollapse::MovedPoint & moved : patch.GetMovedPoints())
-    {
-      m_NearPoints[moved.id] = moved.near;
     }
   }
 }
@@ -437,7 +418,11 @@ Simplification::FindStrays(const std::vector<PatchId> & patches, Places & bad) c
     const PatchId patch = patches[n];
     for (TriangleId id = m_Begin[patch]; id < m_Begin[patch + 1]; ++id)
     {
-      if (m_IsNew[id] && !IsWithinDistance(CornersOf(m_State, id), *m_Original.tree, m_MaximumError))
+      const auto & [a, b, c] = m_State.GetTriangles()[id];
+      if (m_IsNew[id] && !IsWithinDistance(CornersOf(m_State, id),
+                                           *m_Original.tree,
+                                           m_MaximumError,
+                                           { m_NearPoints[a], m_NearPoints[b], m_NearPoints[c] }))
       {
         bad[patch].push_back(BoxOf(m_State.GetPoints(), m_State.GetTriangles()[id]));
       }
@@ -469,7 +454,7 @@ Simplification::FindLeftBehind(const TriangleTree & state,
       std::any_of(near.begin(), near.end(), [&](TriangleId n) { return isLookedAt[m_PatchOf[n]] != 0; });
     if (isConcerned && !(near[0] == near[1] && near[1] == near[2]))
     {
-      isLeft[id] = IsWithinDistance(CornersOf(original, id), state, m_MaximumError) ? 0 : 1;
+      isLeft[id] = IsWithinDistance(CornersOf(original, id), state, m_MaximumError, near) ? 0 : 1;
     }
   });
   for (TriangleId id = 0; id < triangles.size(); ++id)

@@ -233,7 +233,9 @@ TriangleTree::ComputeLeafBox(std::size_t leaf) const
 }
 
 TriangleTree::ClosestPoint
-TriangleTree::FindClosestPoint(const PositionType & position, double maximumSquaredDistance) const
+TriangleTree::FindClosestPoint(const PositionType & position,
+                               double maximumSquaredDistance,
+                               double enoughSquaredDistance) const
 {
   ClosestPoint closest;
   closest.squaredDistance = maximumSquaredDistance;
@@ -265,6 +267,10 @@ TriangleTree::FindClosestPoint(const PositionType & position, double maximumSqua
         {
           this->ImproveClosestPoint(position, triangle, closest);
         }
+      }
+      if (closest.triangle != None && closest.squaredDistance <= enoughSquaredDistance)
+      {
+        return closest;
       }
       continue;
     }
