@@ -145,7 +145,8 @@ AddMeshCommand(CLI::App & parser)
                   "check the files read back: closed, manifold, self-intersections, distance to the scan's isosurface");
   parser.add_flag("--require-watertight",
                   options->requiresWatertight,
-                  "write no file with holes or other defects, but end with exit code 8");
+                  "write no file with holes or other defects, but end with exit code 8; that triangles pass through "
+                  "each other is reported by --audit, and no reason not to write it");
   options->scan.AddLattice(parser);
   options->scan.AddSidecar(parser);
   return [options](const CommandContext & context) { Mesh(*options, context); };

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace rhombic
 {
@@ -20,6 +21,10 @@ struct Provenance
 /** The path of the report that accompanies an output: its name and ".json". */
 std::filesystem::path
 SidecarOf(const std::filesystem::path & output);
+
+/** Outputs and the reports beside them, if the provenance says that there are any. */
+std::vector<std::filesystem::path>
+WithSidecars(std::vector<std::filesystem::path> outputs, const Provenance & provenance);
 
 /** Writes what is known about an output beside it, if the provenance says so. Throws Failure(Output). */
 void

@@ -37,9 +37,10 @@ Report
 RemoveParts(itk::TriangleSurface & surface, const SurfaceFinish & finish);
 
 /** Smooths a surface, moves points by a spacing of the lattice at most where triangles pass through each other
- * (itk::UntangleSurface()), and simplifies it, which makes no triangles pass through each other. The report says how
- * far points moved and how many triangles are left; what can't be untangled is noted. \param spacing of the lattice in
- * mm (see MeanSpacingOf()) \param name of the surface, for progress and messages. Throws Failure. */
+ * (itk::UntangleSurface()), simplifies it, which makes no triangles pass through each other, and turns specks that are
+ * inside out. The report says how far points moved and how many triangles are left; what can't be untangled is noted.
+ * \param spacing of the lattice in mm (see MeanSpacingOf()) \param name of the surface, for progress and messages.
+ * Throws Failure. */
 Report
 RefineSurface(itk::TriangleSurface & surface,
               const SurfaceFinish & finish,

@@ -56,7 +56,9 @@ ReportAudit(const itk::TriangleSurfaceAudit & audit)
            { "misorientedEdges", topology.misorientedEdges },
            { "degenerateTriangles", topology.degenerateTriangles },
            { "duplicateTriangles", topology.duplicateTriangles },
+           { "misfacingShells", audit.misfacingShells },
            { "repeatedPositions", topology.repeatedPositions },
+           { "nonFinitePoints", topology.nonFinitePoints },
            { "unusedPoints", topology.unusedPoints },
            { "volumeInMillilitres", audit.volume / 1000.0 },
            { "areaInSquareMillimetres", audit.area },
@@ -86,24 +88,36 @@ DescribeAudit(const itk::TriangleSurfaceAudit & audit)
           << " % below " << itk::TriangleSurfaceQuality::Poor << ", smallest angle " << audit.quality.smallestAngle
           << " degrees";
   const std::string leaks = DescribeLeaks(audit);
-  return { shape.str(),
-           leaks.empty() ? "watertight: closed, oriented, manifold, without degenerate or duplicate triangles"
-                         : "not watertight: " + leaks,
-           DescribeIntersections(audit.intersections),
-           quality.str() };
+  std::vector<std::string> lines{
+    shape.str(),
+    leaks.empty() ? "watertight: closed, oriented, manifold, without degenerate or duplicate triangles"
+                  : "not watertight: " + leaks,
+    DescribeIntersections(audit.intersections),
+    quality.str()
+  };
+  if (topology.boundaryEdges > 0 && topology.repeatedPositions > 0)
+  {
+    lines.push_back(Count(topology.repeatedPositions, "point lies", "points lie") +
+                    " where another one does: if the program that wrote the file repeats points for each triangle, "
+                    "write it as STL, whose points are joined when it is read");
+  }
+  return lines;
 }
 
 std::string
 DescribeLeaks(const itk::TriangleSurfaceAudit & audit)
 {
   const auto & topology = audit.topology;
-  const std::array<std::pair<itk::SizeValueType, std::array<const char *, 2>>, 6> defects{
+  const std::array<std::pair<itk::SizeValueType, std::array<const char *, 2>>, 8> defects{
     { { topology.boundaryEdges, { "boundary edge", "boundary edges" } },
       { topology.nonManifoldEdges, { "non-manifold edge", "non-manifold edges" } },
       { topology.nonManifoldPoints, { "non-manifold point", "non-manifold points" } },
       { topology.misorientedEdges, { "misoriented edge", "misoriented edges" } },
       { topology.degenerateTriangles, { "degenerate triangle", "degenerate triangles" } },
-      { topology.duplicateTriangles, { "duplicate triangle", "duplicate triangles" } } }
+      { topology.duplicateTriangles, { "duplicate triangle", "duplicate triangles" } },
+      { topology.nonFinitePoints,
+        { "point that is nowhere (NaN or infinite)", "points that are nowhere (NaN or infinite)" } },
+      { audit.misfacingShells, { "shell that faces the wrong way", "shells that face the wrong way" } } }
   };
   std::string text;
   for (const auto & [number, names] : defects)
@@ -113,7 +127,7 @@ DescribeLeaks(const itk::TriangleSurfaceAudit & audit)
       text += (text.empty() ? "" : ", ") + Count(number, names[0], names[1]);
     }
   }
-  return text.empty() && !audit.IsWatertight() ? "it is inside out" : text;
+  return text.empty() && !audit.IsWatertight() ? "it has no volume" : text;
 }
 
 } // namespace rhombic

@@ -34,20 +34,6 @@ struct MeshedSurface
 constexpr char NamePlace[] = "{name}";
 constexpr double CubicMillimetresPerMillilitre = 1000.0;
 
-/** A name as part of a file's name: letters, digits, dots, underscores and hyphens. */
-std::string
-ToFileName(const std::string & name)
-{
-  std::string safe;
-  for (const char letter : name)
-  {
-    const bool isSafe = (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
-                        (letter >= '0' && letter <= '9') || letter == '.' || letter == '-';
-    safe += isSafe ? letter : '_';
-  }
-  return safe.empty() || safe[0] == '.' ? '_' + safe : safe;
-}
-
 bool
 HasFileForEach(const fs::path & mesh)
 {
@@ -66,14 +52,17 @@ PathsOf(const fs::path & mesh, const std::vector<MeshedSurface> & surfaces)
   std::vector<fs::path> paths;
   for (const MeshedSurface & surface : surfaces)
   {
-    const std::string name = ToFileName(surface.scene.name);
+    const std::string name = FileStemOf(surface.scene.name);
     std::string unique = name;
     for (int number = 2; !taken.insert(unique).second; ++number)
     {
       unique = name + '-' + std::to_string(number);
     }
     std::string file = mesh.filename().string();
-    file.replace(file.find(NamePlace), sizeof(NamePlace) - 1, unique);
+    for (std::size_t place = 0; (place = file.find(NamePlace, place)) != std::string::npos; place += unique.size())
+    {
+      file.replace(place, sizeof(NamePlace) - 1, unique);
+    }
     paths.push_back(mesh.parent_path() / file);
   }
   return paths;
@@ -108,8 +97,9 @@ Summarize(const MeshedSurface & surface, const SurfaceMeasures & measures)
   text << surface.scene.name << ": " << measures.volume / 1000.0 << " ml";
   if (measures.voxelVolume)
   {
-    text << " (voxels: " << *measures.voxelVolume / 1000.0 << " ml"
-         << (measures.IsVolumeInDoubt() ? ", which differ by more than 1 %" : "") << ")";
+    text << " (voxels: " << *measures.voxelVolume / 1000.0 << " ml, difference " << std::showpos
+         << 100.0 * (measures.volume / *measures.voxelVolume - 1.0) << std::noshowpos << " %"
+         << (measures.IsVolumeInDoubt() ? ", in doubt" : "") << ")";
   }
   text << ", " << measures.area / 100.0 << " cm2, longest diameter " << measures.longestDiameter << " mm";
   if (measures.meanValue)
@@ -138,6 +128,10 @@ Extract(LoadedSource & loaded, const MeshScanSettings & settings, const Events &
   }
   if (loaded.labels)
   {
+    if (settings.source.lattice.denoising.kind != Denoising::Kind::None)
+    {
+      events.Note("labels have no noise: --denoise is not for them");
+    }
     const auto labels = LabelsToSurfaces(*loaded.labels, GetLabelSettings(settings.source, selection), events);
     const Report reports = ReportLabelSurfaces(labels);
     for (std::size_t n = 0; n < labels.size(); ++n)
@@ -333,19 +327,11 @@ WriteFile(const fs::path & path,
 void
 CheckFiles(const std::vector<fs::path> & meshes, const MeshScanSettings & settings)
 {
-  std::vector<fs::path> inputs{ settings.source.path };
-  if (settings.surfaces.labels)
-  {
-    inputs.push_back(settings.surfaces.labels->source.path);
-    inputs.push_back(settings.surfaces.labels->source.table);
-  }
   std::vector<fs::path> outputs;
   for (const fs::path & mesh : meshes)
   {
-    for (const fs::path & file : SurfaceFilesOf(mesh))
-    {
-      outputs.push_back(file);
-    }
+    const std::vector<fs::path> files = SurfaceFilesOf(mesh);
+    outputs.insert(outputs.end(), files.begin(), files.end());
     if (settings.provenance.writesSidecars)
     {
       outputs.push_back(SidecarOf(mesh));
@@ -355,7 +341,7 @@ CheckFiles(const std::vector<fs::path> & meshes, const MeshScanSettings & settin
   {
     outputs.push_back(settings.measures);
   }
-  CheckOutputs(outputs, inputs);
+  CheckOutputs(outputs, InputsOf(settings.source, settings.surfaces));
 }
 
 /** Finds out before the work begins what can be found out. */

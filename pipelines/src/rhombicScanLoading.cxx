@@ -83,8 +83,6 @@ LoadScanAndLabels(const ScanSource & source, const SurfaceSelection & selection,
   return loaded;
 }
 
-} // namespace
-
 void
 CheckOutput(const fs::path & output, const fs::path & input)
 {
@@ -93,7 +91,20 @@ CheckOutput(const fs::path & output, const fs::path & input)
   {
     throw Failure(FailureKind::Usage, "The output " + output.string() + " is the input itself; give it another name.");
   }
-  const AtomicFile probe(output);
+}
+
+} // namespace
+
+std::vector<fs::path>
+InputsOf(const ScanSource & source, const SurfaceSelection & selection)
+{
+  std::vector<fs::path> inputs{ source.path };
+  if (selection.labels)
+  {
+    inputs.push_back(selection.labels->source.path);
+    inputs.push_back(selection.labels->source.table);
+  }
+  return inputs;
 }
 
 void
@@ -106,6 +117,7 @@ CheckOutputs(const std::vector<fs::path> & outputs, const std::vector<fs::path> 
     {
       CheckOutput(output, input);
     }
+    const AtomicFile probe(output);
     std::error_code ignored;
     if (!seen.insert(fs::weakly_canonical(fs::absolute(output), ignored)).second)
     {

@@ -11,11 +11,12 @@
 namespace rhombic
 {
 
-/** Finds out before the work begins whether an output can be written, and that it is not the input. */
-void
-CheckOutput(const std::filesystem::path & output, const std::filesystem::path & input);
+/** The scan, and the label map with its table; those that there are not are empty. */
+std::vector<std::filesystem::path>
+InputsOf(const ScanSource & source, const SurfaceSelection & selection);
 
-/** The same for several of both; nor may two outputs be the same file. Inputs may be empty paths. */
+/** Finds out before the work begins whether outputs can be written, and that none takes the place of an input or of
+ * another output. Throws Failure. */
 void
 CheckOutputs(const std::vector<std::filesystem::path> & outputs, const std::vector<std::filesystem::path> & inputs);
 

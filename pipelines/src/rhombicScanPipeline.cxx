@@ -100,8 +100,8 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
   for (const View view : settings.views)
   {
     pictures.push_back(PathOfView(settings.picture, view, settings.views.size() == 1));
-    CheckOutput(pictures.back(), settings.source.path);
   }
+  CheckOutputs(WithSidecars(pictures, settings.provenance), InputsOf(settings.source, settings.surfaces));
   CheckPicturePath(settings.picture);
   SurfaceRenderer renderer;
   renderer.CheckSettings(settings.render);
@@ -124,7 +124,7 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
 void
 ResampleScan(const ResampleScanSettings & settings, const Events & events)
 {
-  CheckOutput(settings.volume, settings.source.path);
+  CheckOutputs(WithSidecars({ settings.volume }, settings.provenance), { settings.source.path });
   if (IsFCCImageFile(settings.source.path))
   {
     CheckScanPath(settings.volume);

@@ -13,6 +13,17 @@ SidecarOf(const std::filesystem::path & output)
   return output.string() + ".json";
 }
 
+std::vector<std::filesystem::path>
+WithSidecars(std::vector<std::filesystem::path> outputs, const Provenance & provenance)
+{
+  const std::size_t count = provenance.writesSidecars ? outputs.size() : 0;
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    outputs.push_back(SidecarOf(outputs[n]));
+  }
+  return outputs;
+}
+
 void
 WriteSidecar(const std::filesystem::path & output, const Provenance & provenance, const Report & report)
 {

@@ -100,6 +100,20 @@ AddDistances(const itk::TriangleSurface & original, const itk::TriangleSurface &
 }
 
 std::string
+DescribeSmoothing(const std::string & name, const Report & done)
+{
+  const double before = done["volumeBeforeInMillilitres"];
+  const double change = done["volumeAfterInMillilitres"].get<double>() - before;
+  std::ostringstream note;
+  note.imbue(std::locale::classic());
+  note.precision(2);
+  note << name << ": smoothing moved points by " << done["meanMoveInMillimetres"].get<double>() << " mm on average, "
+       << done["largestMoveInMillimetres"].get<double>() << " mm at most; volume " << std::showpos
+       << 100.0 * change / before << " %";
+  return note.str();
+}
+
+std::string
 DescribeSimplification(const std::string & name, const SurfaceFinish & finish, const Report & done)
 {
   std::ostringstream note;
@@ -181,6 +195,7 @@ RefineSurface(itk::TriangleSurface & surface,
   {
     events.Progress("smoothing " + name, 0.0);
     report["smoothing"] = Smooth(surface, finish.smoothing * spacing);
+    events.Note(DescribeSmoothing(name, report["smoothing"]));
   }
   events.Progress("untangling " + name, 0.0);
   const Report untangled = Untangle(surface, spacing);
@@ -197,6 +212,10 @@ RefineSurface(itk::TriangleSurface & surface,
     Report & done = report["simplification"] = Simplify(surface, finish, spacing);
     AddDistances(*original, surface, done);
     events.Note(DescribeSimplification(name, finish, done));
+  }
+  if (const itk::SizeValueType turned = TurnMisfacingShells(surface); turned > 0)
+  {
+    report["shellsTurned"] = turned;
   }
   return report;
 }

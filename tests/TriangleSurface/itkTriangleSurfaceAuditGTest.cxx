@@ -137,6 +137,20 @@ TEST(TriangleSurfaceAudit, OfASphere)
   EXPECT_FALSE(AuditSurface(*surface).IsWatertight()) << "no solid has a negative volume";
 }
 
+TEST(TriangleSurfaceAudit, FindsShellsThatFaceTheWrongWay)
+{
+  const auto surface = MakeSphere(10.0, 4);
+  const auto cavity = MakeSphere(3.0, 3);
+  TurnInsideOut(*cavity);
+  Append(*surface, *cavity);
+  EXPECT_TRUE(AuditSurface(*surface).IsWatertight());
+  Append(*surface, *cavity, { 20, 0, 0 });
+  const auto audit = AuditSurface(*surface);
+  EXPECT_TRUE(audit.topology.IsWatertight());
+  EXPECT_EQ(audit.misfacingShells, 1u);
+  EXPECT_FALSE(audit.IsWatertight());
+}
+
 TEST(TriangleSurfaceAudit, FindsWhatIsWrong)
 {
   EXPECT_FALSE(AuditSurface(*Surface::New()).IsWatertight());

@@ -167,6 +167,7 @@ TEST(TriangleSurfaceTopology, FindsDegenerateTriangles)
   EXPECT_EQ(ComputeTopology(*surface).degenerateTriangles, 2u) << "those on the edge between the two corners";
   surface->GetPoints()[3][1] = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(ComputeTopology(*surface).degenerateTriangles, 3u) << "those at a position that is no number";
+  EXPECT_EQ(ComputeTopology(*surface).nonFinitePoints, 1u);
 }
 
 TEST(TriangleSurfaceTopology, CountsHandles)

@@ -113,4 +113,74 @@ TEST(TriangleSurfaceSolids, AreToldApartAmongVeryMany)
   EXPECT_EQ(ComputeTopology(*large).components, 2u);
 }
 
+itk::SizeValueType
+CountMisfacing(const Surface & surface)
+{
+  return CountMisfacingShells(itk::TriangleTree(surface));
+}
+
+TEST(TriangleSurfaceSolids, FaceOutwardsAndTheirCavitiesInwards)
+{
+  const auto surface = MakeNested();
+  EXPECT_EQ(CountMisfacing(*surface), 0u);
+  EXPECT_EQ(CountMisfacing(*Surface::New()), 0u);
+  TurnInsideOut(*surface);
+  EXPECT_EQ(CountMisfacing(*surface), 5u);
+}
+
+TEST(TriangleSurfaceSolids, ShellsThatFaceTheWrongWayAreCounted)
+{
+  const auto beside = MakeSphere(10.0, 4);
+  Append(*beside, *MakeCavity(3.0, { 20, 0, 0 }));
+  EXPECT_EQ(CountMisfacing(*beside), 1u) << "a cavity in nothing, as no program fills it";
+  const auto doubled = MakeSphere(10.0, 4);
+  Append(*doubled, *MakeSphere(3.0, 4));
+  EXPECT_EQ(CountMisfacing(*doubled), 1u) << "a solid in a solid";
+  const auto inHole = MakeTorus(10.0, 4.0, 40);
+  Append(*inHole, *MakeSphere(3.0, 3));
+  EXPECT_EQ(CountMisfacing(*inHole), 0u) << "the hole of a torus is outside";
+}
+
+/** What touches in a point is not in each other, wherever that point is among theirs. */
+TEST(TriangleSurfaceSolids, ThatTouchFaceAsTheyShould)
+{
+  for (const float side : { -1.0f, 1.0f })
+  {
+    const auto surface = MakeTetrahedron(4.0f);
+    Append(*surface, *MakeTetrahedron(1.0f), { 4.0f * side, 0, 0 });
+    EXPECT_EQ(CountMisfacing(*surface), 0u) << side;
+  }
+}
+
+/** The sign of a speck's volume must not drown in the distance from the surface's first point. */
+TEST(TriangleSurfaceSolids, SpecksFarAwayHaveTheirOwnSign)
+{
+  const auto surface = MakeTetrahedron(1.0f);
+  for (int n = 1; n < 200; ++n)
+  {
+    Append(*surface, *MakeTetrahedron(0.0005f), { float(7 * n), float(11 * n), float(-13 * n) });
+  }
+  EXPECT_EQ(CountMisfacing(*surface), 0u);
+  TurnInsideOut(*surface);
+  EXPECT_EQ(CountMisfacing(*surface), 200u);
+}
+
+TEST(TriangleSurfaceSolids, MisfacingShellsAreTurnedWithTheirNormals)
+{
+  const auto surface = MakeNested();
+  const double volume = ComputeVolume(*surface);
+  for (const auto & point : surface->GetPoints())
+  {
+    surface->GetNormals().push_back(point);
+  }
+  EXPECT_EQ(TurnMisfacingShells(*surface), 0u);
+  Append(*surface, *MakeCavity(1.0, { 0, 0, 40 }));
+  surface->GetNormals().resize(surface->GetNumberOfPoints(), { 0, 0, 1 });
+  EXPECT_EQ(TurnMisfacingShells(*surface), 1u);
+  EXPECT_EQ(CountMisfacing(*surface), 0u);
+  EXPECT_NEAR(ComputeVolume(*surface), volume + BallVolume(1.0), 1e-3);
+  EXPECT_EQ(surface->GetNormals().front(), surface->GetPoints().front());
+  EXPECT_EQ(surface->GetNormals().back(), (Surface::NormalType{ 0, 0, -1 }));
+}
+
 } // namespace

@@ -24,6 +24,10 @@ struct TriangleSurfaceComponents
 TriangleSurfaceComponents
 FindComponents(const TriangleSurface & surface);
 
+/** The first point of each component. */
+std::vector<std::uint32_t>
+FindFirstPoints(const TriangleSurfaceComponents & components);
+
 /** Removes the triangles of the components for which \a keep is false, and their points. */
 void
 KeepComponents(TriangleSurface & surface, const TriangleSurfaceComponents & components, const std::vector<bool> & keep);

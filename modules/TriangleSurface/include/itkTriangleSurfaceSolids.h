@@ -1,7 +1,7 @@
 #ifndef itkTriangleSurfaceSolids_h
 #define itkTriangleSurfaceSolids_h
 
-#include "itkTriangleSurface.h"
+#include "itkTriangleTree.h"
 
 namespace itk
 {
@@ -32,6 +32,19 @@ SizeValueType
 FillCavities(TriangleSurface & surface);
 
 ///@}
+
+/** How many components of a closed surface do not face the way they should: an outer shell outwards with as many shells
+ * as cavities around it, a cavity inwards with one more shell. A program that fills the surface by its winding number
+ * finds a solid as thick as two where they do not, or one that is less than nothing. Where components cross each
+ * other or touch, that depends on the place; this looks at the two ends of each along x, and one that is as it should
+ * be is enough. Thread safe. */
+SizeValueType
+CountMisfacingShells(const TriangleTree & surface);
+
+/** Turns the components that CountMisfacingShells() counts, with their normals; returns how many. Right for specks that
+ * extraction or smoothing has turned inside out; what makes a surface of many such is looked for elsewhere. */
+SizeValueType
+TurnMisfacingShells(TriangleSurface & surface);
 
 } // namespace itk
 

@@ -18,6 +18,7 @@ struct TriangleSurfaceTopology
   SizeValueType misorientedEdges = 0;  ///< edges whose two triangles run along them in the same direction
   SizeValueType nonManifoldPoints = 0; ///< points whose triangles are not one fan, whichever way each is oriented
   SizeValueType unusedPoints = 0;      ///< points of no triangle
+  SizeValueType nonFinitePoints = 0;   ///< used points with a coordinate that is infinite or no number
   SizeValueType repeatedPositions = 0; ///< used points at the position of an earlier one: a reader may join the two
   SizeValueType degenerateTriangles =
     0; ///< triangles with a repeated point, a repeated position, no area, or a position that is not finite

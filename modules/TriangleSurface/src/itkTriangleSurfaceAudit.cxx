@@ -1,6 +1,7 @@
 #include "itkTriangleSurfaceAudit.h"
 
 #include "itkTriangleSurfaceMeasures.h"
+#include "itkTriangleSurfaceSolids.h"
 
 #include <ostream>
 
@@ -38,9 +39,14 @@ AuditSurface(const TriangleSurface & surface, const TriangleSurfaceAuditSettings
   audit.volume = ComputeVolume(surface);
   audit.topology = ComputeTopology(surface);
   audit.quality = ComputeQuality(surface);
+  const TriangleTree tree(surface);
+  if (audit.topology.IsWatertight())
+  {
+    audit.misfacingShells = CountMisfacingShells(tree);
+  }
   if (settings.testsIntersections)
   {
-    audit.intersections = FindSelfIntersections(TriangleTree(surface), settings.maximumTestedTriangles);
+    audit.intersections = FindSelfIntersections(tree, settings.maximumTestedTriangles);
   }
   return audit;
 }

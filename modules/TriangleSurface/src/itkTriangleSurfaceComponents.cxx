@@ -32,6 +32,21 @@ FindComponents(const TriangleSurface & surface)
   return components;
 }
 
+std::vector<std::uint32_t>
+FindFirstPoints(const TriangleSurfaceComponents & components)
+{
+  std::vector<std::uint32_t> first;
+  first.reserve(components.count);
+  for (std::uint32_t point = 0; point < components.ofPoint.size(); ++point)
+  {
+    if (components.ofPoint[point] == first.size())
+    {
+      first.push_back(point);
+    }
+  }
+  return first;
+}
+
 void
 KeepComponents(TriangleSurface & surface, const TriangleSurfaceComponents & components, const std::vector<bool> & keep)
 {

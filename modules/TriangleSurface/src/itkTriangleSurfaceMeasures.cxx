@@ -9,18 +9,19 @@ namespace itk
 namespace
 {
 
-/** From the surface's first point, so that a volume far from the world's origin does not drown in cancellation. */
+/** From the surface's first point, or a component's, so that a volume far from there does not drown in cancellation. */
 PositionType
-Relative(const TriangleSurface & surface, std::uint32_t point)
+Relative(const TriangleSurface & surface, std::uint32_t point, std::uint32_t origin = 0)
 {
-  return Subtract(ToPosition(surface.GetPoints()[point]), ToPosition(surface.GetPoints().front()));
+  return Subtract(ToPosition(surface.GetPoints()[point]), ToPosition(surface.GetPoints()[origin]));
 }
 
-/** Six times the signed volume of the tetrahedron of a triangle and the surface's first point. */
+/** Six times the signed volume of the tetrahedron of a triangle and a point of the surface. */
 double
-SixfoldVolume(const TriangleSurface & surface, const TriangleSurface::TriangleType & triangle)
+SixfoldVolume(const TriangleSurface & surface, const TriangleSurface::TriangleType & triangle, std::uint32_t origin = 0)
 {
-  return Dot(Relative(surface, triangle[0]), Cross(Relative(surface, triangle[1]), Relative(surface, triangle[2])));
+  return Dot(Relative(surface, triangle[0], origin),
+             Cross(Relative(surface, triangle[1], origin), Relative(surface, triangle[2], origin)));
 }
 
 } // namespace
@@ -79,10 +80,12 @@ ComputeCentroid(const TriangleSurface & surface)
 std::vector<double>
 ComputeComponentVolumes(const TriangleSurface & surface, const TriangleSurfaceComponents & components)
 {
+  const std::vector<std::uint32_t> origins = FindFirstPoints(components);
   std::vector<double> volumes(components.count, 0.0);
   for (const auto & triangle : surface.GetTriangles())
   {
-    volumes[components.ofPoint[triangle[0]]] += SixfoldVolume(surface, triangle) / 6.0;
+    const std::uint32_t component = components.ofPoint[triangle[0]];
+    volumes[component] += SixfoldVolume(surface, triangle, origins[component]) / 6.0;
   }
   return volumes;
 }

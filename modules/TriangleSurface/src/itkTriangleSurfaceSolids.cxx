@@ -5,7 +5,9 @@
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleTree.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace itk
 {
@@ -13,49 +15,40 @@ namespace
 {
 
 using ComponentId = std::uint32_t;
+using PointId = std::uint32_t;
 
 constexpr std::size_t BlockOfComponents = 64;
 
-std::vector<std::uint32_t>
-FindFirstPoints(const TriangleSurfaceComponents & components)
-{
-  std::vector<std::uint32_t> first;
-  first.reserve(components.count);
-  for (std::uint32_t point = 0; point < components.ofPoint.size(); ++point)
-  {
-    if (components.ofPoint[point] == first.size())
-    {
-      first.push_back(point);
-    }
-  }
-  return first;
-}
-
-/** The components, other than its own, that wind around a point. */
+/** What winds around places of a surface. */
 class Enclosures
 {
 public:
-  Enclosures(const TriangleSurface & surface, const TriangleSurfaceComponents & components)
+  struct Enclosing
+  {
+    ComponentId component;
+    int windings;
+  };
+
+  Enclosures(const TriangleTree & tree, const TriangleSurfaceComponents & components)
     : m_Components(components)
-    , m_FirstPoints(FindFirstPoints(components))
-    , m_Tree(surface)
+    , m_Tree(tree)
   {}
 
-  /** In increasing order. */
-  std::vector<ComponentId>
-  Find(ComponentId component) const
+  /** The components, other than a point's own, that wind around it, in increasing order. */
+  std::vector<Enclosing>
+  Find(PointId point) const
   {
     const TriangleSurface & surface = m_Tree.GetSurface();
     std::vector<std::pair<ComponentId, int>> crossings;
-    m_Tree.VisitCrossings(surface.GetPoints()[m_FirstPoints[component]], [&](std::uint32_t triangle, int turns) {
+    m_Tree.VisitCrossings(surface.GetPoints()[point], [&](std::uint32_t triangle, int turns) {
       const ComponentId crossed = m_Components.ofPoint[surface.GetTriangles()[triangle][0]];
-      if (crossed != component)
+      if (crossed != m_Components.ofPoint[point])
       {
         crossings.emplace_back(crossed, turns);
       }
     });
     std::sort(crossings.begin(), crossings.end());
-    std::vector<ComponentId> enclosing;
+    std::vector<Enclosing> enclosing;
     for (std::size_t begin = 0, end = 0; begin < crossings.size(); begin = end)
     {
       int windings = 0;
@@ -65,16 +58,27 @@ public:
       }
       if (windings != 0)
       {
-        enclosing.push_back(crossings[begin].first);
+        enclosing.push_back({ crossings[begin].first, windings });
       }
     }
     return enclosing;
   }
 
+  /** How often all components but its own wind around a point. */
+  int
+  CountWindings(PointId point) const
+  {
+    int sum = 0;
+    for (const Enclosing & enclosing : this->Find(point))
+    {
+      sum += enclosing.windings;
+    }
+    return sum;
+  }
+
 private:
   const TriangleSurfaceComponents & m_Components;
-  const std::vector<std::uint32_t> m_FirstPoints;
-  const TriangleTree m_Tree;
+  const TriangleTree & m_Tree;
 };
 
 /** The outer shell of the solid that each component is a part of. */
@@ -83,7 +87,9 @@ FindOuterShells(const TriangleSurface & surface,
                 const TriangleSurfaceComponents & components,
                 const std::vector<double> & volumes)
 {
-  const Enclosures enclosures(surface, components);
+  const TriangleTree tree(surface);
+  const Enclosures enclosures(tree, components);
+  const std::vector<PointId> points = FindFirstPoints(components);
   std::vector<ComponentId> shells(components.count);
   ForEachBlock(components.count, BlockOfComponents, [&](std::size_t begin, std::size_t end) {
     for (auto component = static_cast<ComponentId>(begin); component < end; ++component)
@@ -94,7 +100,7 @@ FindOuterShells(const TriangleSurface & surface,
       {
         continue;
       }
-      for (const ComponentId enclosing : enclosures.Find(component))
+      for (const auto & [enclosing, windings] : enclosures.Find(points[component]))
       {
         if (volumes[enclosing] > 0.0 && (shell == component || volumes[enclosing] < volumes[shell]))
         {
@@ -104,6 +110,51 @@ FindOuterShells(const TriangleSurface & surface,
     }
   });
   return shells;
+}
+
+/** The points of a component with the least and the greatest x. */
+struct Ends
+{
+  PointId least;
+  PointId greatest;
+};
+
+std::vector<Ends>
+FindEnds(const TriangleSurface & surface, const TriangleSurfaceComponents & components)
+{
+  const auto & points = surface.GetPoints();
+  std::vector<Ends> ends(components.count);
+  const std::vector<PointId> first = FindFirstPoints(components);
+  std::transform(first.begin(), first.end(), ends.begin(), [](PointId point) { return Ends{ point, point }; });
+  for (PointId point = 0; point < points.size(); ++point)
+  {
+    if (components.ofPoint[point] != TriangleSurfaceComponents::None)
+    {
+      Ends & found = ends[components.ofPoint[point]];
+      found.least = points[point][0] < points[found.least][0] ? point : found.least;
+      found.greatest = points[point][0] > points[found.greatest][0] ? point : found.greatest;
+    }
+  }
+  return ends;
+}
+
+/** 1 for the components that do not face as they should, see CountMisfacingShells(), 0 for the others. */
+std::vector<std::uint8_t>
+FindMisfacing(const TriangleTree & tree, const TriangleSurfaceComponents & components)
+{
+  const std::vector<double> volumes = ComputeComponentVolumes(tree.GetSurface(), components);
+  const std::vector<Ends> ends = FindEnds(tree.GetSurface(), components);
+  const Enclosures enclosures(tree, components);
+  std::vector<std::uint8_t> misfacing(components.count);
+  ForEachBlock(components.count, BlockOfComponents, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t component = begin; component < end; ++component)
+    {
+      const int expected = volumes[component] < 0.0 ? 1 : 0;
+      misfacing[component] = enclosures.CountWindings(ends[component].least) != expected &&
+                             enclosures.CountWindings(ends[component].greatest) != expected;
+    }
+  });
+  return misfacing;
 }
 
 SizeValueType
@@ -165,15 +216,54 @@ FillCavities(TriangleSurface & surface)
   const TriangleSurfaceComponents components = FindComponents(surface);
   std::vector<std::uint8_t> isOutermost(components.count); // bytes, which threads may write side by side
   {
-    const Enclosures enclosures(surface, components);
+    const TriangleTree tree(surface);
+    const Enclosures enclosures(tree, components);
+    const std::vector<PointId> points = FindFirstPoints(components);
     ForEachBlock(components.count, BlockOfComponents, [&](std::size_t begin, std::size_t end) {
       for (auto component = static_cast<ComponentId>(begin); component < end; ++component)
       {
-        isOutermost[component] = enclosures.Find(component).empty();
+        isOutermost[component] = enclosures.Find(points[component]).empty();
       }
     });
   }
   return Keep(surface, components, { isOutermost.begin(), isOutermost.end() });
+}
+
+SizeValueType
+CountMisfacingShells(const TriangleTree & surface)
+{
+  const TriangleSurfaceComponents components = FindComponents(surface.GetSurface());
+  const std::vector<std::uint8_t> misfacing = FindMisfacing(surface, components);
+  return static_cast<SizeValueType>(std::count(misfacing.begin(), misfacing.end(), 1));
+}
+
+SizeValueType
+TurnMisfacingShells(TriangleSurface & surface)
+{
+  const TriangleSurfaceComponents components = FindComponents(surface);
+  const std::vector<std::uint8_t> misfacing = FindMisfacing(TriangleTree(surface), components);
+  for (auto & triangle : surface.GetTriangles())
+  {
+    if (misfacing[components.ofPoint[triangle[0]]])
+    {
+      std::swap(triangle[1], triangle[2]);
+    }
+  }
+  for (std::size_t point = 0; point < surface.GetNormals().size(); ++point)
+  {
+    const ComponentId component = components.ofPoint[point];
+    if (component != TriangleSurfaceComponents::None && misfacing[component])
+    {
+      auto & normal = surface.GetNormals()[point];
+      normal = { -normal[0], -normal[1], -normal[2] };
+    }
+  }
+  const auto count = static_cast<SizeValueType>(std::count(misfacing.begin(), misfacing.end(), 1));
+  if (count > 0)
+  {
+    surface.Modified();
+  }
+  return count;
 }
 
 } // namespace itk

@@ -314,8 +314,9 @@ CountDegenerateTriangles(const TriangleSurface & surface)
   return count;
 }
 
-SizeValueType
-CountRepeatedPositions(const TriangleSurface & surface)
+/** Counts repeated positions and those that are none. */
+void
+CountPositions(const TriangleSurface & surface, TriangleSurfaceTopology & topology)
 {
   std::vector<bool> isUsed(surface.GetNumberOfPoints(), false);
   for (const auto & triangle : surface.GetTriangles())
@@ -330,14 +331,22 @@ CountRepeatedPositions(const TriangleSurface & surface)
   for (std::size_t point = 0; point < isUsed.size(); ++point)
   {
     const auto & position = surface.GetPoints()[point];
-    if (isUsed[point] && IsFinite(position))
+    if (!isUsed[point])
+    {
+      continue;
+    }
+    if (!IsFinite(position))
+    {
+      ++topology.nonFinitePoints;
+    }
+    else
     {
       positions.push_back({ position[0] + 0.0f, position[1] + 0.0f, position[2] + 0.0f }); // -0 is where 0 is
     }
   }
   ParallelSort(positions);
-  return positions.size() -
-         static_cast<SizeValueType>(std::unique(positions.begin(), positions.end()) - positions.begin());
+  const auto distinct = std::unique(positions.begin(), positions.end());
+  topology.repeatedPositions = static_cast<SizeValueType>(positions.end() - distinct);
 }
 
 } // namespace
@@ -347,7 +356,7 @@ ComputeTopology(const TriangleSurface & surface)
 {
   TriangleSurfaceTopology topology;
   topology.degenerateTriangles = CountDegenerateTriangles(surface);
-  topology.repeatedPositions = CountRepeatedPositions(surface);
+  CountPositions(surface, topology);
   CountConnections(surface, topology);
   return topology;
 }
@@ -359,8 +368,9 @@ operator<<(std::ostream & os, const TriangleSurfaceTopology & topology)
             << topology.genus << ", " << topology.boundaryEdges << " boundary edges, " << topology.nonManifoldEdges
             << " non-manifold edges, " << topology.misorientedEdges << " misoriented edges, "
             << topology.nonManifoldPoints << " non-manifold points, " << topology.unusedPoints << " unused points, "
-            << topology.repeatedPositions << " repeated positions, " << topology.degenerateTriangles
-            << " degenerate triangles, " << topology.duplicateTriangles << " duplicate triangles";
+            << topology.repeatedPositions << " repeated positions, " << topology.nonFinitePoints
+            << " non-finite points, " << topology.degenerateTriangles << " degenerate triangles, "
+            << topology.duplicateTriangles << " duplicate triangles";
 }
 
 } // namespace itk
