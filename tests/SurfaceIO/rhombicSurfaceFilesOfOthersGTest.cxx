@@ -127,6 +127,8 @@ TEST_F(SurfaceFilesOfOthers, TextSTLWithTwoSolids)
 
   const auto turned = this->Read("ras.stl", "solid ascii SPACE=RAS\n" + square + "endsolid\n");
   EXPECT_EQ(turned[0].surface->GetBounds(), (std::array<double, 6>{ -1, 0, -1, 0, 0, 0 }));
+  const auto marked = this->Read("marked.stl", "\xEF\xBB\xBFsolid marked\n" + square + "endsolid marked\n");
+  EXPECT_EQ(marked[0].surface->GetNumberOfTriangles(), 2u) << "the mark that Windows programs put before UTF-8";
 }
 
 TEST_F(SurfaceFilesOfOthers, BinarySTLThatBeginsLikeText)

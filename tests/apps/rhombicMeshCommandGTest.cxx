@@ -81,6 +81,8 @@ TEST_F(MeshCommand, NamesInBracesMakeAFileForEach)
                                     "a-bone-2.stl",
                                     "a-bone-2.stl.json" }));
   EXPECT_EQ(this->Sidecar("a-bone-2.stl")["surfaces"][0]["isovalue"], 500.5);
+  ASSERT_EQ(this->Mesh("--surface 'M\xc3\xbcller=375.5' -o '{name}-{name}.stl'").exitCode, 0);
+  EXPECT_TRUE(fs::exists(m_Folder.Path() / "M_ller-M_ller.stl"));
 }
 
 TEST_F(MeshCommand, RASIsTheSamePlaceInOtherAxes)
@@ -142,7 +144,9 @@ TEST_F(MeshCommand, SimplificationStaysWithinItsError)
 
 TEST_F(MeshCommand, SmallPartsGoAndSmoothingIsBounded)
 {
-  ASSERT_EQ(this->Mesh("-t 375.5 --largest --fill --smooth 0.3 -o one.ply").exitCode, 0);
+  const auto outcome = this->Mesh("-t 375.5 --largest --fill --smooth 0.3 -o one.ply");
+  ASSERT_EQ(outcome.exitCode, 0);
+  EXPECT_NE(outcome.errors.find("smoothing moved points by"), std::string::npos) << outcome.errors;
   const auto topology = ComputeTopology(*this->Read("one.ply")[0].surface);
   EXPECT_EQ(topology.components, 1u);
   EXPECT_TRUE(topology.IsWatertight());
@@ -167,7 +171,14 @@ TEST_F(MeshCommand, AuditJudgesFilesOfOthers)
   const Outcome leaking = audit("open.obj --require-watertight");
   EXPECT_EQ(leaking.exitCode, 8);
   EXPECT_NE(leaking.errors.find("3 boundary edges"), std::string::npos) << leaking.errors;
+  std::ofstream(m_Folder.Path() / "loose.obj")
+    << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 3 2\nf 4 5 6\n";
+  EXPECT_NE(audit("loose.obj").output.find("2 points lie where another one does"), std::string::npos);
+  std::ofstream(m_Folder.Path() / "nowhere.obj") << "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n";
+  const Outcome nowhere = audit("nowhere.obj");
+  EXPECT_NE((nowhere.output + nowhere.errors).find("NaN"), std::string::npos) << nowhere.output << nowhere.errors;
   const auto report = nlohmann::json::parse(audit("closed.obj --json").output);
+  EXPECT_EQ(report[0]["misfacingShells"], 0);
   EXPECT_EQ(report[0]["eulerCharacteristic"], 2);
   EXPECT_TRUE(report[0]["watertight"].get<bool>());
 }
@@ -190,7 +201,11 @@ TEST_F(MeshCommand, OutputsTakeNobodysPlace)
     EXPECT_EQ(outcome.exitCode, 2) << arguments;
     EXPECT_TRUE(outcome.errors.find("another name") != std::string::npos) << outcome.errors;
   }
-  for (const char * const kept : { "table.csv", "same.mtl", "other.obj.json" })
+  fs::copy_file(table, m_Folder.Path() / "p.png.json");
+  const auto rendered =
+    RunShell("rhombic render " + scan + " --labels " + labels + " --label-table p.png.json -o p.png", m_Folder.Path());
+  EXPECT_EQ(rendered.exitCode, 2) << rendered.errors;
+  for (const char * const kept : { "table.csv", "same.mtl", "other.obj.json", "p.png.json" })
   {
     EXPECT_EQ(ReadText(m_Folder.Path() / kept), before) << kept;
   }

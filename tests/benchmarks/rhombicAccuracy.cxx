@@ -1,11 +1,9 @@
 #include "rhombicAccuracyExperiment.h"
 #include "rhombicAccuracyTargets.h"
-#include "rhombicFailure.h"
 #include "rhombicJSONFile.h"
 #include "rhombicMachine.h"
+#include "rhombicRunBenchmark.h"
 #include "rhombicTextTable.h"
-
-#include <CLI/CLI.hpp>
 
 #include <iostream>
 #include <map>
@@ -180,20 +178,5 @@ main(int argc, char ** argv)
   app.add_option("--seeds", options.seeds, "fields of each kind")->check(CLI::Range(1, 1000))->capture_default_str();
   app.add_option("--threads", options.threads, "threads")->check(CLI::Range(1, 1024))->capture_default_str();
   app.add_option("--json", options.json, "the report as a file");
-  CLI11_PARSE(app, argc, argv);
-  try
-  {
-    Run(options);
-    return 0;
-  }
-  catch (const Failure & failure)
-  {
-    std::cerr << "rhombic-accuracy: " << failure.GetDescription() << '\n';
-    return static_cast<int>(failure.GetKind());
-  }
-  catch (const std::exception & error)
-  {
-    std::cerr << "rhombic-accuracy: " << DescribeError(error) << '\n';
-    return static_cast<int>(FailureKind::Internal);
-  }
+  return RunBenchmark(app, argc, argv, [&options] { Run(options); });
 }

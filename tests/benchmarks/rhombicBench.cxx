@@ -1,14 +1,12 @@
 #include "rhombicBenchReading.h"
 #include "rhombicBenchSections.h"
-#include "rhombicFailure.h"
 #include "rhombicFieldSampling.h"
 #include "rhombicJSONFile.h"
 #include "rhombicMachine.h"
+#include "rhombicRunBenchmark.h"
 #include "rhombicScanReader.h"
 #include "rhombicShapeFields.h"
 #include "rhombicTextTable.h"
-
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <iostream>
@@ -247,20 +245,5 @@ main(int argc, char ** argv)
     ->check(CLI::Range(1, 1000))
     ->capture_default_str();
   app.add_option("--json", options.json, "the report as a file");
-  CLI11_PARSE(app, argc, argv);
-  try
-  {
-    Run(options);
-    return 0;
-  }
-  catch (const Failure & failure)
-  {
-    std::cerr << "rhombic-bench: " << failure.GetDescription() << '\n';
-    return static_cast<int>(failure.GetKind());
-  }
-  catch (const std::exception & error)
-  {
-    std::cerr << "rhombic-bench: " << DescribeError(error) << '\n';
-    return static_cast<int>(FailureKind::Internal);
-  }
+  return RunBenchmark(app, argc, argv, [&options] { Run(options); });
 }

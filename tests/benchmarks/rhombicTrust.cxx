@@ -1,8 +1,8 @@
-#include "rhombicFailure.h"
 #include "rhombicInProcessDecoder.h"
 #include "rhombicJSONFile.h"
 #include "rhombicLatticePipeline.h"
 #include "rhombicMachine.h"
+#include "rhombicRunBenchmark.h"
 #include "rhombicScanReader.h"
 #include "rhombicSurfaceFinish.h"
 #include "rhombicSurfaceIO.h"
@@ -10,8 +10,6 @@
 #include "rhombicTextTable.h"
 
 #include "itkTriangleSurfaceAudit.h"
-
-#include <CLI/CLI.hpp>
 
 #include <unistd.h>
 
@@ -115,7 +113,10 @@ Judge(const FCCVolume & lattice, const Scan & scan, double isovalue, Mode mode, 
   request.name = "surface";
   request.isovalue = isovalue;
   const auto * const grid = IsSlanted(scan) ? nullptr : &GeometryOf(scan.image);
-  const auto surface = LatticeToSurfaces(lattice, { request }, mode, {}, grid).front().surface;
+  const double spacing = std::visit([](const auto & image) { return MeanSpacingOf(*image); }, lattice);
+  const auto surface = itk::TriangleSurface::New();
+  surface->Graft(LatticeToSurfaces(lattice, { request }, mode, {}, grid).front().surface);
+  RefineSurface(*surface, {}, spacing, "surface", {});
   const ScratchFolder folder;
   auto start = std::chrono::steady_clock::now();
   const auto before = AuditFile(*surface, folder);
@@ -125,7 +126,6 @@ Judge(const FCCVolume & lattice, const Scan & scan, double isovalue, Mode mode, 
 
   const auto simplified = itk::TriangleSurface::New();
   simplified->Graft(surface);
-  const double spacing = std::visit([](const auto & image) { return image->GetSpacing()[0]; }, lattice);
   SurfaceFinish finish;
   finish.share = options.share / 100.0;
   finish.maximumError = options.spacings * spacing;
@@ -215,6 +215,7 @@ Run(const Options & options)
       });
       if (options.modes.empty() || isChosen)
       {
+        std::cerr << isovalue << ' ' << NameOf(mode) << "...\n";
         report["results"].push_back(Judge(lattice, scan, isovalue, mode, options));
         table.Add(ToRow(report["results"].back()));
       }
@@ -233,7 +234,8 @@ int
 main(int argc, char ** argv)
 {
   Options options;
-  CLI::App app{ "Whether surfaces of a scan are watertight as files, in every mode, before and after simplification" };
+  CLI::App app{ "Whether surfaces of a scan are watertight as files, in every mode, before and after simplification",
+                "rhombic-trust" };
   app.add_option("--scan", options.scan, "anything that rhombic reads")->required();
   app.add_option("-t,--threshold", options.isovalues, "isovalue; repeatable")->required()->allow_extra_args(false);
   app.add_flag("--ct", options.isCT, "the scan is a CT in HU even if it does not say so: its table is removed");
@@ -243,19 +245,5 @@ main(int argc, char ** argv)
     ->capture_default_str();
   app.add_option("--threads", options.threads, "number of threads")->capture_default_str();
   app.add_option("--json", options.json, "also write a report");
-  try
-  {
-    app.parse(argc, argv);
-    Run(options);
-    return 0;
-  }
-  catch (const CLI::ParseError & error)
-  {
-    return app.exit(error);
-  }
-  catch (const std::exception & error)
-  {
-    std::cerr << "rhombic-trust: " << DescribeError(error) << '\n';
-    return 1;
-  }
+  return RunBenchmark(app, argc, argv, [&options] { Run(options); });
 }

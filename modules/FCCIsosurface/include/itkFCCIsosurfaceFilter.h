@@ -30,7 +30,9 @@ namespace itk
  *   that triangles straddle the surface of the samples' reconstruction about the site, and triangles that lose a side
  *   vanish. On smooth surfaces that is a third of the triangles of Tetrahedra, and of far better shape, nearer to the
  *   truth than marching cubes. Where it would change the surface's topology, a site's points gather in parts or stay
- *   as in Fine (see FCCSplitSites), so rough surfaces gain less, and noisy ones take longer.
+ *   as in Fine (see FCCSplitSites), so rough surfaces gain less, and noisy ones take longer. Triangles of thin parts
+ *   may pass through each other, and a speck of few triangles may come out inside out: UntangleSurface() and
+ *   TurnMisfacingShells() set that right.
  * Points on edges stay at least MinimumFraction of the edge away from both ends (more where 32-bit positions need it):
  * so no triangle is degenerate, even where samples equal the isovalue.
  *

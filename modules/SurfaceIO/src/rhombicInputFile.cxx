@@ -1,6 +1,7 @@
 #include "rhombicInputFile.h"
 
 #include "rhombicFailure.h"
+#include "rhombicWords.h"
 
 #include <cerrno>
 #include <cstring>
@@ -112,7 +113,7 @@ InputStream::TakeLine(std::string_view & line)
         found == nullptr ? available : static_cast<std::size_t>(static_cast<const char *>(found) - begin);
       ++m_LineNumber;
       m_Taken += length + (found != nullptr);
-      line = { begin, length };
+      line = m_LineNumber == 1 ? WithoutMark({ begin, length }) : std::string_view(begin, length);
       if (!line.empty() && line.back() == '\r')
       {
         line.remove_suffix(1);

@@ -21,6 +21,14 @@ Trimmed(std::string_view text)
   return first == text.npos ? std::string_view() : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
+/** A text file's beginning without the mark that some programs put before UTF-8. */
+inline std::string_view
+WithoutMark(std::string_view beginning)
+{
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  return beginning.substr(0, mark.size()) == mark ? beginning.substr(mark.size()) : beginning;
+}
+
 /** Takes the next word off a line; empty when there is none. */
 inline std::string_view
 TakeWord(std::string_view & line)

@@ -150,7 +150,7 @@ BeginsLikeText(const InputFile & file)
 {
   std::string begin(std::min<std::uintmax_t>(file.GetSize(), 512), '\0');
   file.Read(0, begin.data(), begin.size());
-  return LowerCase(Trimmed(begin).substr(0, 5)) == "solid";
+  return LowerCase(Trimmed(WithoutMark(begin)).substr(0, 5)) == "solid";
 }
 
 } // namespace
