@@ -97,8 +97,8 @@ Summarize(const MeshedSurface & surface, const SurfaceMeasures & measures)
   text << surface.scene.name << ": " << measures.volume / 1000.0 << " ml";
   if (measures.voxelVolume)
   {
-    text << " (voxels: " << *measures.voxelVolume / 1000.0 << " ml, difference " << std::showpos
-         << 100.0 * (measures.volume / *measures.voxelVolume - 1.0) << std::noshowpos << " %"
+    text << " (voxels: " << *measures.voxelVolume / 1000.0 << " ml, difference " << std::showpos << std::setprecision(2)
+         << 100.0 * (measures.volume / *measures.voxelVolume - 1.0) << std::setprecision(1) << std::noshowpos << " %"
          << (measures.IsVolumeInDoubt() ? ", in doubt" : "") << ")";
   }
   text << ", " << measures.area / 100.0 << " cm2, longest diameter " << measures.longestDiameter << " mm";
