@@ -144,10 +144,11 @@ TEST(TriangleSurfaceSolids, ShellsThatFaceTheWrongWayAreCounted)
 /** What touches in a point is not in each other, wherever that point is among theirs. */
 TEST(TriangleSurfaceSolids, ThatTouchFaceAsTheyShould)
 {
-  for (const float side : { -1.0f, 1.0f })
+  for (const float side : { -1.0f, 4.0f }) // the small one's tip at the large one's corner, or its corner at the tip
   {
     const auto surface = MakeTetrahedron(4.0f);
-    Append(*surface, *MakeTetrahedron(1.0f), { 4.0f * side, 0, 0 });
+    Append(*surface, *MakeTetrahedron(1.0f), { side, 0, 0 });
+    EXPECT_EQ(ComputeTopology(*surface).repeatedPositions, 1u) << side;
     EXPECT_EQ(CountMisfacing(*surface), 0u) << side;
   }
 }

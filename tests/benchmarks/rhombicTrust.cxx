@@ -100,6 +100,7 @@ ToJSON(const itk::TriangleSurfaceAudit & audit)
            { "boundary_edges", audit.topology.boundaryEdges },
            { "non_manifold", audit.topology.nonManifoldEdges + audit.topology.nonManifoldPoints },
            { "degenerate", audit.topology.degenerateTriangles },
+           { "misfacing_shells", audit.misfacingShells },
            { "crossing_pairs", audit.intersections.crossingPairs },
            { "touching_pairs", audit.intersections.touchingPairs },
            { "volume", audit.volume } };
@@ -150,7 +151,8 @@ Verdict(const nlohmann::json & audit)
   {
     return "ok";
   }
-  return audit["boundary_edges"].dump() + "/" + audit["non_manifold"].dump() + "/" + audit["degenerate"].dump();
+  return audit["boundary_edges"].dump() + "/" + audit["non_manifold"].dump() + "/" + audit["degenerate"].dump() + "/" +
+         audit["misfacing_shells"].dump();
 }
 
 std::vector<std::string>

@@ -42,7 +42,7 @@ SizeValueType
 CountMisfacingShells(const TriangleTree & surface);
 
 /** Turns the components that CountMisfacingShells() counts, with their normals; returns how many. Right for specks that
- * extraction or smoothing has turned inside out; what makes a surface of many such is looked for elsewhere. */
+ * extraction or smoothing has turned inside out. */
 SizeValueType
 TurnMisfacingShells(TriangleSurface & surface);
 
