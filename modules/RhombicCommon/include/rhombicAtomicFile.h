@@ -17,7 +17,7 @@ namespace rhombic
  * A process that is killed leaves its temporary file behind; the next AtomicFile for the same target removes it. Those
  * of living processes are known by a lock (flock), which ends with its process on any machine that shares the folder.
  *
- * One thread per object; objects for different targets are independent.
+ * Thread safety: one thread per object; objects for different targets are independent.
  */
 class AtomicFile
 {
@@ -56,7 +56,8 @@ private:
 
 /** From now on SIGINT, SIGTERM and SIGHUP remove the temporary files of all AtomicFiles before they end the process as
  * they always do. Signals that are ignored, as SIGHUP is under nohup, stay so. SIGXFSZ is ignored: a file that reaches
- * the process's limit of size becomes an error of the writer. For programs; a library leaves signals to its host. */
+ * the process's limit of size becomes an error of the writer. For programs, as it concerns
+ * the whole process; a library leaves signals to its host. */
 void
 RemoveTemporaryFilesOnSignals();
 

@@ -5,6 +5,8 @@
 
 #include <string>
 
+/** \namespace rhombic
+ * \brief What is not shaped like ITK's classes: scans, files, pictures, pipelines. */
 namespace rhombic
 {
 
@@ -28,6 +30,8 @@ enum class FailureKind : int
  *
  * The description is one sentence for the person at the keyboard: what failed, where, and one thing to try. It derives
  * from itk::ExceptionObject, so a host that catches ITK's exceptions catches it too.
+ *
+ * Thread safety: a value; copies may go to other threads.
  */
 class Failure : public itk::ExceptionObject
 {
@@ -51,7 +55,7 @@ private:
 };
 
 /** What an exception of a library says, as part of a sentence: on one line, and without the class and address of the
- * object that threw, which ITK puts first. */
+ * object that threw, which ITK puts first. Thread safe. */
 std::string
 DescribeError(const std::exception & error);
 

@@ -7,7 +7,11 @@
 namespace rhombic
 {
 
-/** Bytes that can be used without swapping, as the kernel estimates; 0 when it does not say. */
+/** \file
+ * How much memory work may take, in bytes. Thread safety: any number of threads may call these functions at once; each
+ * call looks at what is free then. */
+
+/** Bytes that can be used without swapping, as Linux estimates (MemAvailable); 0 when the system does not say. */
 std::uintmax_t
 FreeMemory();
 
@@ -20,7 +24,7 @@ MemoryAllowance(std::uintmax_t limit);
 void
 RequireMemory(std::uintmax_t bytes, std::uintmax_t limit, const std::string & what, const std::string & advice = {});
 
-/** Bytes as a person reads them: "1.5 GiB". */
+/** Bytes as a person reads them: "1.5 GiB", the same in every locale. */
 std::string
 DescribeBytes(std::uintmax_t bytes);
 

@@ -9,7 +9,9 @@ namespace rhombic
 {
 
 /** \class Picture
- * \brief An 8-bit sRGB picture: three bytes (red, green, blue) a pixel, rows from the top, pixels from the left. */
+ * \brief An 8-bit sRGB picture: three bytes (red, green, blue) a pixel, rows from the top, pixels from the left.
+ *
+ * Thread safety: a value; copies are independent. */
 struct Picture
 {
   static constexpr int Channels = 3;
@@ -19,13 +21,14 @@ struct Picture
   std::vector<std::uint8_t> pixels; ///< height * width * Channels bytes
 
   Picture() = default;
+  /** A black one; neither side may be negative. */
   Picture(int w, int h)
     : width(w)
     , height(h)
     , pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * Channels)
   {}
 
-  /** The three bytes of the pixel in column \a x and row \a y from the top left. */
+  /** The three bytes of the pixel in column \a x and row \a y from the top left, which must be in the picture. */
   const std::uint8_t *
   At(int x, int y) const
   {

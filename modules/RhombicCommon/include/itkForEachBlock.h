@@ -9,8 +9,10 @@
 namespace itk
 {
 
-/** Calls \a work(begin, end) for [0, size) cut into blocks of \a blockSize, on several threads. An exception of one
- * block is thrown after all have ended. */
+/** Calls \a work(begin, end) for [0, size) cut into blocks of \a blockSize, on the threads of a new MultiThreaderBase.
+ * An exception of one block is thrown after all have ended. Thread safety: \a work is called on several threads at
+ * once.
+ */
 template <typename TWork>
 void
 ForEachBlock(std::size_t size, std::size_t blockSize, const TWork & work)

@@ -1,0 +1,70 @@
+#include "itkWorkProgress.h"
+
+#include "itkCommand.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+#include <vector>
+
+namespace
+{
+
+class Worker : public itk::ProcessObject
+{
+public:
+  using Self = Worker;
+  using Pointer = itk::SmartPointer<Self>;
+  itkFactorylessNewMacro(Self);
+  itkTypeMacro(Worker, itk::ProcessObject);
+};
+
+TEST(WorkProgress, NeverFallsAndNeverPassesOneWithManyThreads)
+{
+  for (const itk::SizeValueType work : { 1u, 7u, 127u, 128u, 1000u, 100003u })
+  {
+    constexpr unsigned int threads = 7;
+    const auto worker = Worker::New();
+    itk::WorkProgress progress(*worker, work * threads);
+    EXPECT_EQ(worker->GetProgress(), 0.0f);
+    std::vector<std::thread> pool;
+    for (unsigned int n = 0; n < threads; ++n)
+    {
+      pool.emplace_back([&] {
+        itk::WorkProgress::Share share(progress);
+        float last = 0.0f;
+        for (itk::SizeValueType done = 0; done < work; ++done)
+        {
+          share.Completed(1);
+          const float now = worker->GetProgress();
+          EXPECT_GE(now, last);
+          last = now;
+        }
+      });
+    }
+    for (std::thread & thread : pool)
+    {
+      thread.join();
+    }
+    EXPECT_GE(worker->GetProgress(), 0.98f) << "but for what threads kept back";
+    progress.Completed(10 * work);
+    EXPECT_LE(worker->GetProgress(), 1.0f) << "more than was announced";
+    progress.Finish();
+    EXPECT_EQ(worker->GetProgress(), 1.0f);
+  }
+}
+
+TEST(WorkProgress, NoticesAnAbort)
+{
+  const auto worker = Worker::New();
+  itk::WorkProgress progress(*worker, 1000);
+  itk::WorkProgress::Share share(progress);
+  EXPECT_NO_THROW(share.Completed(1));
+  worker->AbortGenerateDataOn();
+  EXPECT_THROW(progress.CheckAbort(), itk::ProcessAborted);
+  EXPECT_THROW(progress.Completed(1), itk::ProcessAborted);
+  EXPECT_THROW(share.CheckAbort(), itk::ProcessAborted);
+  EXPECT_THROW(share.Completed(1), itk::ProcessAborted);
+}
+
+} // namespace
