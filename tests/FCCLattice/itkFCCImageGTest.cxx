@@ -2,6 +2,7 @@
 
 #include "itkImageRegionConstIteratorWithIndex.h"
 #include "itkImageRegionIteratorWithIndex.h"
+#include "itkVector.h"
 
 #include <gtest/gtest.h>
 
@@ -133,6 +134,24 @@ TEST(FCCImage, IteratorsVisitEverySampleOnce)
   }
   EXPECT_EQ(value, 6.0f * 5.0f * 4.0f);
   EXPECT_EQ(image->GetBufferPointer()[7], 7.0f) << "storage is dense, rows along i";
+}
+
+TEST(FCCImage, KnowsTheComponentsOfItsPixels)
+{
+  EXPECT_EQ(ImageType::New()->GetNumberOfComponentsPerPixel(), 1u);
+  EXPECT_EQ((itk::FCCImage<itk::Vector<float, 4>>::New()->GetNumberOfComponentsPerPixel()), 4u);
+}
+
+TEST(FCCImage, ThroughItsBaseClassSamplesSeemToBeElsewhere)
+{
+  const auto image = MakeImage();
+  const itk::ImageBase<3> & base = *image;
+  for (const itk::IndexValueType j : { 5, 6 })
+  {
+    const ImageType::IndexType index{ { 1, j, 7 } };
+    const auto point = image->TransformIndexToPhysicalPoint<double>(index);
+    EXPECT_GT(point.EuclideanDistanceTo(base.TransformIndexToPhysicalPoint<double>(index)), 0.4);
+  }
 }
 
 TEST(FCCImage, GraftSharesPixelsAndGeometry)

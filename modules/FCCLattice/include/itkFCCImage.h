@@ -3,7 +3,10 @@
 
 #include "itkContinuousIndex.h"
 #include "itkFCCLattice.h"
+#include "itkNumericTraits.h"
 #include "itkSpecialCoordinatesImage.h"
+
+#include <algorithm>
 
 namespace itk
 {
@@ -26,11 +29,19 @@ namespace itk
  *
  * A continuous index is (x / 2, y, z): linear in the point. It equals the index in rows of parity 0; the samples of a
  * row of parity 1 lie at i + 1/2. Interpolators written for Cartesian images are therefore wrong on an FCCImage; use
- * those of FCCInterpolation. Pixel-wise filters, iterators, and itk::ResampleImageFilter with an FCCImage as its output
- * work.
+ * those of FCCInterpolation.
  *
- * The transforms below hide those of ImageBase, which are not virtual, so an FCCImage must be used through its own
- * type. Unlike its superclass's, its SetSpacing() and SetOrigin() do what they say.
+ * **In pipelines of ITK's filters.** modules/FCCLattice/README.md has a table of those that work, those that something
+ * here replaces, and those that mean nothing on a lattice. Pixel-wise filters, iterators, statistics and streaming
+ * work. So does itk::ResampleImageFilter, with FCCImages as its input, its output, or both, if an FCC input gets an
+ * interpolator of FCCInterpolation instead of the default one: it sees that this is a SpecialCoordinatesImage, and asks
+ * the transforms below for every sample instead of assuming that rows are straight. There is deliberately no
+ * neighbourhood accessor, so that filters which look at Cartesian neighbourhoods don't compile; neighbours on the
+ * lattice are those of FCCConstNeighborhoodIterator.
+ *
+ * The transforms below hide those of ImageBase, which are not virtual. Code that is a template of the image's type, as
+ * ITK's filters are, uses them; through a pointer to ImageBase, samples seem to lie elsewhere. Unlike its superclass's,
+ * its SetSpacing() and SetOrigin() do what they say.
  *
  * Thread safety: that of itk::Image.
  *
@@ -97,6 +108,20 @@ public:
   SetOrigin(const float origin[3]) override
   {
     ImageBase<3>::SetOrigin(origin);
+  }
+
+  /** As for itk::Image, that of the pixel type; SpecialCoordinatesImage says 1 of any. */
+  unsigned int
+  GetNumberOfComponentsPerPixel() const override
+  {
+    return NumericTraits<TPixel>::GetLength({});
+  }
+
+  /** Sets all samples; its superclass's does not end on 2^32 samples or more. Allocate() first. */
+  void
+  FillBuffer(const TPixel & value)
+  {
+    std::fill_n(this->GetBufferPointer(), this->GetBufferedRegion().GetNumberOfPixels(), value);
   }
 
   /** Lattice coordinates of a point, any real numbers. */

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+/** \namespace itk
+ * \brief What Rhombic adds to ITK, in its style: the lattice, its filters, and surfaces of triangles. */
 namespace itk
 {
 

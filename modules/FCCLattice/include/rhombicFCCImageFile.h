@@ -28,7 +28,7 @@ WriteFCCImage(const FCCVolume & volume, const std::filesystem::path & path);
 FCCVolume
 ReadFCCImage(const std::filesystem::path & path);
 
-/** Whether a file says of itself that it is such a volume. False for files that can't be read. */
+/** Whether a file says of itself that it is such a volume. False for files that can't be read. Thread safe. */
 bool
 IsFCCImageFile(const std::filesystem::path & path);
 

@@ -1,0 +1,166 @@
+#ifndef itkFCCConstNeighborhoodIterator_h
+#define itkFCCConstNeighborhoodIterator_h
+
+#include "itkFCCImage.h"
+
+namespace itk
+{
+
+/** \class FCCConstNeighborhoodIterator
+ * \brief Walks over the samples of a region of an FCC image, row by row, each with its 12 nearest neighbours.
+ *
+ * Neighbours have the order of FCCLattice::NearestNeighbors: neighbour \a n of a sample is the site at
+ * NearestNeighbors[n] from it.
+ *
+ * **At the border:** a neighbour outside the image's buffered region has the value of the sample itself, which is
+ * always one of the sites within that are nearest to it. So differences over the border are 0, as is the flux through
+ * it. IsNeighborInside() tells which they are. The region may be any part of the buffered region; neighbours outside it
+ * but inside the buffered region are themselves.
+ *
+ * Access to a neighbour is one addition and one load, at the border too: the steps in memory are worked out where they
+ * change, three times a row, and are 0 for neighbours outside.
+ *
+ *     for (FCCConstNeighborhoodIterator<ImageType> it(image, region); !it.IsAtEnd(); ++it)
+ *     {
+ *       float sum = 0.0f;
+ *       for (unsigned int n = 0; n < it.Size(); ++n)
+ *       {
+ *         sum += it.GetNeighbor(n);
+ *       }
+ *       ...
+ *     }
+ *
+ * Throws on construction when the image is none, or the region is not inside its buffered region. The image must
+ * neither go nor be allocated anew while the iterator is used.
+ *
+ * Thread safety: any number of iterators may read one image at the same time.
+ *
+ * \ingroup FCCLattice
+ */
+template <typename TImage>
+class FCCConstNeighborhoodIterator
+{
+public:
+  using Self = FCCConstNeighborhoodIterator;
+  using ImageType = TImage;
+  using PixelType = typename TImage::PixelType;
+  using IndexType = typename TImage::IndexType;
+  using RegionType = typename TImage::RegionType;
+  using OffsetType = typename TImage::OffsetType;
+
+  static_assert(std::is_base_of<FCCImage<PixelType>, TImage>::value, "The image must be an FCCImage");
+
+  /** At the first sample of the region. */
+  FCCConstNeighborhoodIterator(const ImageType * image, const RegionType & region);
+
+  /** Neighbours of a sample: 12. */
+  static constexpr unsigned int
+  Size()
+  {
+    return static_cast<unsigned int>(FCCLattice::NearestNeighbors.size());
+  }
+
+  void
+  GoToBegin();
+
+  bool
+  IsAtEnd() const
+  {
+    return m_Row == m_NumberOfRows;
+  }
+
+  /** On to the next sample along x, or to the first of the next row. Not at the end. */
+  Self &
+  operator++()
+  {
+    ++m_Pixel;
+    if (++m_X == m_EndOfSpan)
+    {
+      this->BeginSpan();
+    }
+    return *this;
+  }
+
+  IndexType
+  GetIndex() const
+  {
+    return { { m_X, m_RowIndex[1], m_RowIndex[2] } };
+  }
+
+  const RegionType &
+  GetRegion() const
+  {
+    return m_Region;
+  }
+
+  const PixelType &
+  GetCenterPixel() const
+  {
+    return *m_Pixel;
+  }
+
+  /** The value of neighbour \a n, below 12; of the sample itself if the neighbour is outside the buffered region. */
+  const PixelType &
+  GetNeighbor(unsigned int n) const
+  {
+    return m_Pixel[m_Steps[n]];
+  }
+
+  /** Whether neighbour \a n is in the buffered region. */
+  bool
+  IsNeighborInside(unsigned int n) const
+  {
+    return m_Steps[n] != 0; // another sample has another address
+  }
+
+  /** Whether all neighbours are in the buffered region. */
+  bool
+  InBounds() const
+  {
+    return m_InBounds;
+  }
+
+  /** Where neighbour \a n is, inside or not. */
+  IndexType
+  GetNeighborIndex(unsigned int n) const
+  {
+    return this->GetIndex() + FCCLattice::OffsetOf(FCCLattice::NearestNeighbors[n], m_Parity);
+  }
+
+protected:
+  const PixelType *
+  GetPixelPointer() const
+  {
+    return m_Pixel;
+  }
+
+private:
+  /** To the first sample of row number m_Row of the region, if there is such a row. */
+  void
+  BeginRow();
+
+  /** Works out the steps from the sample at m_X, and how far they are good. At the end of the row, begins the next. */
+  void
+  BeginSpan();
+
+  const ImageType * m_Image;
+  RegionType m_Region;
+  RegionType m_BufferedRegion;
+  SizeValueType m_NumberOfRows;
+  SizeValueType m_Row{ 0 };
+  IndexType m_RowIndex{};
+  IndexValueType m_Parity{ 0 };
+  IndexValueType m_X{ 0 };
+  IndexValueType m_EndOfSpan{ 0 };
+  bool m_InBounds{ false };
+  const PixelType * m_Pixel{ nullptr };
+  std::array<OffsetValueType, FCCLattice::NearestNeighbors.size()> m_Steps{};
+};
+
+} // namespace itk
+
+#ifndef ITK_MANUAL_INSTANTIATION
+#include "itkFCCConstNeighborhoodIterator.hxx"
+#endif
+
+#endif
