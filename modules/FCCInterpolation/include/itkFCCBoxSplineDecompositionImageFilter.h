@@ -4,6 +4,7 @@
 #include "itkFCCImage.h"
 #include "itkImageToImageFilter.h"
 #include "itkThreadFailure.h"
+#include "itkWorkProgress.h"
 
 namespace itk
 {
@@ -20,7 +21,15 @@ namespace itk
  * Neighbours outside the image are mirrored (see MirrorIntoRegion), as the spline's evaluation does: at the faces of
  * the image its derivative across them is zero.
  *
- * The whole input is requested, and the whole output is produced.
+ * The output has the input's grid. It has the same bytes for any number of threads; arithmetic is in float64. Extra
+ * memory: a second output, if there are iterations.
+ *
+ * The whole input is requested, and the whole output is produced: every iteration makes a coefficient depend on
+ * samples one neighbour further away. Throws when the input's buffer is not whole.
+ *
+ * Overridden pipeline methods: GenerateInputRequestedRegion() and EnlargeOutputRequestedRegion() (the whole).
+ *
+ * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
  *
  * \ingroup FCCInterpolation
  */
@@ -69,7 +78,7 @@ private:
   /** target = coefficients + gain (f - B coefficients) for all sites, by several threads. */
   template <typename TPixel>
   void
-  Correct(const TPixel * coefficients, double gain, CoefficientType * target);
+  Correct(const TPixel * coefficients, double gain, CoefficientType * target, WorkProgress & progress);
 
   unsigned int m_NumberOfIterations{ 0 };
 };

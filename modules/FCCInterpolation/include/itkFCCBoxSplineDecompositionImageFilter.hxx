@@ -3,10 +3,12 @@
 
 #include "itkFCCBoxSpline.h"
 #include "itkFCCMirror.h"
+#include "itkInputSamples.h"
 #include "itkMultiThreaderBase.h"
 
 #include <algorithm>
-#include <vector>
+#include <memory>
+#include <utility>
 
 namespace itk
 {
@@ -37,20 +39,29 @@ template <typename TInputImage, typename TOutputImage>
 void
 FCCBoxSplineDecompositionImageFilter<TInputImage, TOutputImage>::GenerateData()
 {
-  this->UpdateProgress(0.0f);
+  VerifyInputSamples(*this, *this->GetInput());
   this->AllocateOutputs();
-  CoefficientType * const output = this->GetOutput()->GetBufferPointer();
+  const auto & region = this->GetOutput()->GetBufferedRegion();
+  WorkProgress progress(*this, (SizeValueType{ m_NumberOfIterations } + 1) * region.GetSize(2));
   constexpr double toQuasiInterpolant = 1.0;
   constexpr double fastest = 1.5; // makes the largest factor of the error's parts, 1 - gain * eigenvalue, smallest
-  this->Correct(this->GetInput()->GetBufferPointer(), toQuasiInterpolant, output);
 
-  std::vector<CoefficientType> previous(m_NumberOfIterations > 0 ? this->GetOutput()->GetPixelContainer()->Size() : 0);
+  // Steps go from one buffer to the other and back, such that the last one ends in the output.
+  const std::unique_ptr<CoefficientType[]> spare(
+    m_NumberOfIterations > 0 ? new CoefficientType[region.GetNumberOfPixels()] : nullptr);
+  CoefficientType * target = this->GetOutput()->GetBufferPointer();
+  CoefficientType * previous = spare.get();
+  if (m_NumberOfIterations % 2 == 1)
+  {
+    std::swap(target, previous);
+  }
+  this->Correct(this->GetInput()->GetBufferPointer(), toQuasiInterpolant, target, progress);
   for (unsigned int iteration = 0; iteration < m_NumberOfIterations; ++iteration)
   {
-    std::copy_n(output, previous.size(), previous.begin());
-    this->Correct(previous.data(), fastest, output);
+    std::swap(target, previous);
+    this->Correct(previous, fastest, target, progress);
   }
-  this->UpdateProgress(1.0f);
+  progress.Finish();
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -58,7 +69,8 @@ template <typename TPixel>
 void
 FCCBoxSplineDecompositionImageFilter<TInputImage, TOutputImage>::Correct(const TPixel * coefficients,
                                                                          double gain,
-                                                                         CoefficientType * target)
+                                                                         CoefficientType * target,
+                                                                         WorkProgress & progress)
 {
   const auto & region = this->GetOutput()->GetBufferedRegion();
   const InputPixelType * const samples = this->GetInput()->GetBufferPointer();
@@ -93,7 +105,6 @@ FCCBoxSplineDecompositionImageFilter<TInputImage, TOutputImage>::Correct(const T
     }
   };
 
-  const float share = 1.0f / static_cast<float>((m_NumberOfIterations + 1) * region.GetSize(2));
   ThreadFailure failure;
   MultiThreaderBase * const threader = this->GetMultiThreader();
   threader->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
@@ -102,15 +113,12 @@ FCCBoxSplineDecompositionImageFilter<TInputImage, TOutputImage>::Correct(const T
     region.GetSize(2),
     [&](SizeValueType k) {
       failure.Capture([&] {
-        if (this->GetAbortGenerateData())
-        {
-          throw ProcessAborted(__FILE__, __LINE__);
-        }
         for (IndexValueType j = 0; j < height; ++j)
         {
+          progress.CheckAbort();
           correctRow(j, static_cast<IndexValueType>(k));
         }
-        this->IncrementProgress(share);
+        progress.Completed(1);
       });
     },
     nullptr);

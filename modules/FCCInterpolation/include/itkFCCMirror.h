@@ -7,7 +7,8 @@
 namespace itk
 {
 
-/** A whole number mirrored at both ends of a range, as often as needed, into it. The ends are not repeated. */
+/** A whole number mirrored at both ends of a range, which belong to it, as often as needed, into it. The ends are not
+ * repeated. Thread safe. */
 inline IndexValueType
 MirrorIntoRange(IndexValueType value, IndexValueType first, IndexValueType last)
 {
@@ -24,7 +25,7 @@ MirrorIntoRange(IndexValueType value, IndexValueType first, IndexValueType last)
 /** The sample of a region that stands for a site outside it: its mirror image in the planes through the region's first
  * and last sites along each axis. These reflections are symmetries of the lattice, so the mirrored samples are one
  * function on all of it. A region one plane thick in y or z repeats that plane, whose parity can't be right
- * everywhere. */
+ * everywhere. Thread safe. */
 inline Index<3>
 MirrorIntoRegion(const Index<3> & index, const ImageRegion<3> & region)
 {

@@ -13,6 +13,9 @@ namespace itk
  * around each odd point cut in four about its x diagonal. They are the ones that FCCIsosurfaceFilter marches, so its
  * points lie on the level set of this interpolant, but those that it moves away from a sample.
  *
+ *
+ * Thread safety: a value.
+ *
  * \ingroup FCCInterpolation
  */
 struct FCCTetrahedron
@@ -21,7 +24,8 @@ struct FCCTetrahedron
   std::array<double, 4> weights; ///< not negative, and their sum is 1
 };
 
-/** The tetrahedron that holds a point given in lattice coordinates. On a face shared by several, any of them. */
+/** The tetrahedron that holds a point given in lattice coordinates, finite ones. On a face shared by several, any of
+ * them. Thread safe. */
 inline FCCTetrahedron
 LocateFCCTetrahedron(const std::array<double, 3> & point)
 {

@@ -4,6 +4,7 @@
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
 #include "itkThreadFailure.h"
+#include "itkWorkProgress.h"
 
 #include <cstdint>
 #include <functional>
@@ -46,19 +47,24 @@ namespace itk
  * that has the mask's volume; the last column is how far the volume of the first sphere was off without that, in per
  * cent.
  *
- *     method                               sphere 10         sphere 40         torus             box volume this filter
- * .035  1.4  0.0    .029  1.1  0.0    .034  1.9  0.1    .05  0.9 -1.8     -0.2 mask smoothed by a Gaussian of 2
- * .028  1.2  0.0    .023  0.9  0.0    .056  1.8 -0.1    .16  0.8 -6.6    -11.5 AntiAliasBinaryImageFilter, 0.07
- * .097 11.8  2.8    .098 11.6  2.7    .102 11.8  2.7    .12 14.5  2.7     -0.8 the same, RMS error 0.01 .058  4.2  0.3
- * .068  4.9  0.5    .069  4.3  0.3    .08  5.2 -2.1     -4.3 Whitaker's, 8 times a Gaussian of 1  .084 13.6  3.5
- * .035  4.0  0.4    .080 10.8  2.3    .13  0.9 -1.7    -11.3
+ *     method                              sphere 10       sphere 40       torus           box             volume
+ *     this filter                         .035  1.4 0.0   .029  1.1 0.0   .034  1.9 0.1   .05  0.9 -1.8    -0.2
+ *     mask smoothed by a Gaussian of 2    .028  1.2 0.0   .023  0.9 0.0   .056  1.8 -.1   .16  0.8 -6.6   -11.5
+ *     AntiAliasBinaryImageFilter, 0.07    .097 11.8 2.8   .098 11.6 2.7   .102 11.8 2.7   .12 14.5  2.7    -0.8
+ *     the same, RMS error 0.01            .058  4.2 0.3   .068  4.9 0.5   .069  4.3 0.3   .08  5.2 -2.1    -4.3
+ *     Whitaker's, 8 times a Gaussian of 1 .084 13.6 3.5   .035  4.0 0.4   .080 10.8 2.3   .13  0.9 -1.7   -11.3
  *
  * Everything is symmetric in inside and outside, but for touching tubes, so that the masks on both sides of a wall get
  * the same wall. Distances are counted in voxels, whatever their spacing. Beyond the image the mask is continued as it
  * is at its border; leave a margin of 4 voxels around it, except where the scan ends.
  *
- * The whole input is requested, and the whole output made. Its bytes are the same for any number of threads, on any
- * processor. Extra memory: 11 bytes per voxel.
+ * The whole input is requested and the whole output made, because what is a sheet, a vessel or a spur depends on
+ * connected parts of any size. Its bytes are the same for any number of threads, on any processor. Extra memory: 11
+ * bytes per voxel. Throws when the input's buffer is not whole.
+ *
+ * Overridden pipeline methods: GenerateInputRequestedRegion() and EnlargeOutputRequestedRegion() (the whole).
+ *
+ * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
  *
  * \ingroup FCCResampling
  */
@@ -145,10 +151,15 @@ private:
   void
   ForEach(SizeValueType count, const std::function<void(SizeValueType)> & work);
 
+  /** Checks for an abort at some of the steps of a serial loop. */
+  void
+  CheckAbortAt(SizeValueType n) const;
+
   const std::uint8_t * m_Mask{ nullptr };
   float * m_Field{ nullptr };
   std::array<SizeValueType, 3> m_Size{};
-  std::vector<float> m_Smoothed;
+  float * m_Smoothed{ nullptr };
+  WorkProgress * m_WorkProgress{ nullptr };
   bool m_ProtectAllThinParts{ false };
   SizeValueType m_NumberOfNarrowVoxels{ 0 };
   SizeValueType m_NumberOfProtectedVoxels{ 0 };

@@ -7,7 +7,9 @@
 #include "itkSeparableTaps.h"
 #include "itkSliceStackPlanes.h"
 #include "itkThreadFailure.h"
+#include "itkWorkProgress.h"
 
+#include <optional>
 #include <vector>
 
 namespace itk
@@ -59,9 +61,15 @@ namespace itk
  * time for a volume, and where the in-plane axes are not perpendicular, with weights for each row: 16 times. Extra
  * memory: 22 input rows per thread.
  *
+ * Throws when the input has no samples, or its buffer not those needed, a parameter makes no sense, the lattice would
+ * have more samples than can be counted, or the slice origins are not as many as the slices or do not follow each other
+ * along their normal.
+ *
  * Overridden pipeline methods: VerifyPreconditions() (sensible parameters), GenerateOutputInformation() (places the
  * lattice; refuses slice origins that make no stack), GenerateInputRequestedRegion() (the kernel's reach),
  * BeforeThreadedGenerateData() (large memory pages for the output).
+ *
+ * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
  *
  * \ingroup FCCResampling
  */
@@ -169,6 +177,7 @@ private:
   OutputPixelType m_OutsideValue{};
   SeparableKernel m_Kernel{ SeparableKernel::CubicBSpline };
   ThreadFailure m_ThreadFailure;
+  std::optional<WorkProgress> m_WorkProgress;
 };
 
 } // namespace itk

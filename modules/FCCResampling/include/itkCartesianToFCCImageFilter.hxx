@@ -3,8 +3,8 @@
 
 #include "itkFCCResamplingChecks.h"
 #include "itkHugePages.h"
+#include "itkInputSamples.h"
 #include "itkRowArithmetic.h"
-#include "itkTotalProgressReporter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,6 +60,11 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::VerifyPreconditions() ITKv
   {
     itkExceptionMacro("Density must be a positive number of output samples per input sample, not "
                       << m_Density << "; the default is " << FCCLattice::NyquistDensity << ".");
+  }
+  if (m_Kernel > SeparableKernel::Lanczos4)
+  {
+    itkExceptionMacro("There is no Kernel number " << static_cast<int>(m_Kernel)
+                                                   << "; use Linear, CubicBSpline or Lanczos4.");
   }
   if (!IsSpacingOrUnset(m_OutputSpacing))
   {
@@ -222,9 +227,11 @@ template <typename TInputImage, typename TOutputImage>
 void
 CartesianToFCCImageFilter<TInputImage, TOutputImage>::BeforeThreadedGenerateData()
 {
+  VerifyInputSamples(*this, *this->GetInput());
   TOutputImage * const output = this->GetOutput();
   AdviseHugePages(output->GetBufferPointer(),
                   output->GetBufferedRegion().GetNumberOfPixels() * sizeof(OutputPixelType));
+  m_WorkProgress.emplace(*this, output->GetRequestedRegion().GetNumberOfPixels());
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -239,7 +246,7 @@ void
 CartesianToFCCImageFilter<TInputImage, TOutputImage>::AfterThreadedGenerateData()
 {
   m_ThreadFailure.Rethrow();
-  this->UpdateProgress(1.0f); // the threads' last reports may have come from another one than the observers'
+  m_WorkProgress->Finish();
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -250,7 +257,7 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::Resample(const OutputImage
   TOutputImage * const output = this->GetOutput();
   const InputImageRegionType buffered = input->GetBufferedRegion();
   const auto & whole = input->GetLargestPossibleRegion();
-  TotalProgressReporter progress(this, output->GetRequestedRegion().GetNumberOfPixels());
+  WorkProgress::Share progress(*m_WorkProgress);
 
   const SeparableTaps xTaps[2] = { this->MakeTaps(0, region, 0), this->MakeTaps(0, region, 1) };
   const SeparableTaps yTaps = this->MakeTaps(1, region);
@@ -342,7 +349,7 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::ResampleStack(const Output
   const TInputImage * const input = this->GetInput();
   TOutputImage * const output = this->GetOutput();
   const auto & whole = input->GetLargestPossibleRegion();
-  TotalProgressReporter progress(this, output->GetRequestedRegion().GetNumberOfPixels());
+  WorkProgress::Share progress(*m_WorkProgress);
 
   const SliceStack stack(*input, m_SliceOrigins);
   const SliceStackPlanes planes = this->MakePlanes(stack, region);

@@ -5,6 +5,9 @@
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
 #include "itkThreadFailure.h"
+#include "itkWorkProgress.h"
+
+#include <optional>
 
 namespace itk
 {
@@ -14,8 +17,7 @@ namespace itk
  *
  * The output has half as many samples as the input, its direction, and its spacing. Lattice coordinates (x, y, z),
  * whose sum is even (see FCCLattice), count the input's samples from its first one, whatever its start index; so
- * nothing is interpolated, in contrast to CartesianToFCCImageFilter. An input whose axes are not perpendicular is
- * refused. Beyond the ends the input is continued by its
+ * nothing is interpolated, in contrast to CartesianToFCCImageFilter. Beyond the ends the input is continued by its
  * mirror image about the first and last sample. Where its size along x is odd, that makes the last sample of the rows
  * of parity 1.
  *
@@ -30,8 +32,12 @@ namespace itk
  * whether it is computed alone or with the rest, by one thread or many, on any processor. Extra memory: about 1 MiB per
  * thread, more for rows of more than 2500 samples.
  *
+ * Throws when the input has no samples, or its buffer not those needed, and when its axes are not perpendicular.
+ *
  * Overridden pipeline methods: GenerateOutputInformation() (places the lattice), GenerateInputRequestedRegion() (the
  * half-band filter's reach), BeforeThreadedGenerateData() (large memory pages for the output).
+ *
+ * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
  *
  * \ingroup FCCResampling
  */
@@ -97,6 +103,7 @@ private:
 
   bool m_Antialiasing{ true };
   ThreadFailure m_ThreadFailure;
+  std::optional<WorkProgress> m_WorkProgress;
 };
 
 } // namespace itk

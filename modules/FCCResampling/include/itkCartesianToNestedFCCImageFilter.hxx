@@ -3,8 +3,8 @@
 
 #include "itkFCCResamplingChecks.h"
 #include "itkHugePages.h"
+#include "itkInputSamples.h"
 #include "itkRowArithmetic.h"
-#include "itkTotalProgressReporter.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -132,8 +132,10 @@ template <typename TInputImage, typename TOutputImage>
 void
 CartesianToNestedFCCImageFilter<TInputImage, TOutputImage>::BeforeThreadedGenerateData()
 {
+  VerifyInputSamples(*this, *this->GetInput());
   TOutputImage * const output = this->GetOutput();
   AdviseHugePages(output->GetBufferPointer(), output->GetBufferedRegion().GetNumberOfPixels() * sizeof(PixelType));
+  m_WorkProgress.emplace(*this, output->GetRequestedRegion().GetNumberOfPixels());
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -149,7 +151,7 @@ void
 CartesianToNestedFCCImageFilter<TInputImage, TOutputImage>::AfterThreadedGenerateData()
 {
   m_ThreadFailure.Rethrow();
-  this->UpdateProgress(1.0f); // the threads' last reports may have come from another one than the observers'
+  m_WorkProgress->Finish();
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -169,7 +171,7 @@ void
 CartesianToNestedFCCImageFilter<TInputImage, TOutputImage>::CopySites(const OutputImageRegionType & region)
 {
   TOutputImage * const output = this->GetOutput();
-  TotalProgressReporter progress(this, output->GetRequestedRegion().GetNumberOfPixels());
+  WorkProgress::Share progress(*m_WorkProgress);
   const auto length = static_cast<IndexValueType>(this->GetInput()->GetLargestPossibleRegion().GetSize(0));
 
   auto index = region.GetIndex();
@@ -199,7 +201,7 @@ CartesianToNestedFCCImageFilter<TInputImage, TOutputImage>::FilterSites(const Ou
   using NestedFCC::Reach;
   constexpr IndexValueType window = 2 * Reach + 1;
   TOutputImage * const output = this->GetOutput();
-  TotalProgressReporter progress(this, output->GetRequestedRegion().GetNumberOfPixels());
+  WorkProgress::Share progress(*m_WorkProgress);
   const InputImageRegionType & whole = this->GetInput()->GetLargestPossibleRegion();
   const auto yLength = static_cast<IndexValueType>(whole.GetSize(1));
   const auto zLength = static_cast<IndexValueType>(whole.GetSize(2));

@@ -5,6 +5,7 @@
 #include "itkFCCImage.h"
 #include "itkImageToImageFilter.h"
 #include "itkThreadFailure.h"
+#include "itkWorkProgress.h"
 
 #include <type_traits>
 
@@ -26,7 +27,7 @@ namespace itk
  *
  * Samples that are not finite are left out of the averages of the others, and stay as they are. Integer outputs are
  * rounded half away from zero. Arithmetic is in float32, which is exact enough for 16-bit pixels to preserve
- * constants, and good for 7 digits of wider ones. With Sigma 0 the output is the input.
+ * constants, and good for 7 digits of wider ones. With Sigma 0 the output is a copy of the input.
  *
  * The Gaussian is a product of one factor per axis, and the sum over the even points of the lattice one of sums over
  * even and odd points along each axis: along y, rows are blended into sums over the even and over the odd steps, which
@@ -39,9 +40,14 @@ namespace itk
  * The axes must be perpendicular, as those of all lattices that the filters of this module make are. The filter asks
  * for as much of the input as the requested output needs.
  *
+ * Throws when Sigma is no number of mm from 0 on or out of proportion to the spacing, when the axes are not
+ * perpendicular, and when the input's buffer has not the samples needed.
+ *
  * Overridden pipeline methods: VerifyPreconditions() (a sensible Sigma), VerifyInputInformation() (perpendicular axes,
  * a Sigma that is not out of proportion), GenerateInputRequestedRegion() (the reach), GenerateData() (work is divided
  * along y, not z, because blocks of rows share the planes within reach).
+ *
+ * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
  *
  * \ingroup FCCResampling
  */
@@ -101,10 +107,10 @@ private:
   AddReach(const RegionType & region, const FCCGaussianTaps & taps) const;
 
   void
-  Copy(const RegionType & region);
+  Copy(const RegionType & region, WorkProgress & whole);
 
   void
-  Smooth(const RegionType & region, const FCCGaussianTaps & taps);
+  Smooth(const RegionType & region, const FCCGaussianTaps & taps, WorkProgress & whole);
 
   /** Blends rows that \a loadRow(j, k, length, row) gives as float, from column AddReach() on, and gives the smooth
    * ones to \a storeRow(index, values). */

@@ -4,9 +4,9 @@
 #include "itkFCCMirror.h"
 #include "itkFCCResamplingChecks.h"
 #include "itkHugePages.h"
+#include "itkInputSamples.h"
 #include "itkMultiThreaderBase.h"
 #include "itkRowArithmetic.h"
-#include "itkTotalProgressReporter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -102,12 +102,13 @@ template <typename TInputImage, typename TOutputImage>
 void
 FCCGaussianImageFilter<TInputImage, TOutputImage>::GenerateData()
 {
+  VerifyInputSamples(*this, *this->GetInput());
   this->AllocateOutputs();
   TOutputImage * const output = this->GetOutput();
   AdviseHugePages(output->GetBufferPointer(),
                   output->GetBufferedRegion().GetNumberOfPixels() * sizeof(OutputPixelType));
-  this->UpdateProgress(0.0f);
 
+  WorkProgress progress(*this, output->GetRequestedRegion().GetNumberOfPixels());
   const FCCGaussianTaps taps(this->GetVariances());
   constexpr unsigned int undivided = 2;
   ThreadFailure failure;
@@ -117,19 +118,20 @@ FCCGaussianImageFilter<TInputImage, TOutputImage>::GenerateData()
     undivided,
     output->GetRequestedRegion(),
     [&](const RegionType & region) {
-      failure.Capture([&] { m_Sigma > 0.0 ? this->Smooth(region, taps) : this->Copy(region); });
+      failure.Capture([&] { m_Sigma > 0.0 ? this->Smooth(region, taps, progress) : this->Copy(region, progress); });
     },
     nullptr);
   failure.Rethrow();
-  this->UpdateProgress(1.0f);
+  progress.Finish();
 }
 
 template <typename TInputImage, typename TOutputImage>
 void
-FCCGaussianImageFilter<TInputImage, TOutputImage>::Copy(const RegionType & region)
+FCCGaussianImageFilter<TInputImage, TOutputImage>::Copy(const RegionType & region, WorkProgress & whole)
 {
   const TInputImage * const input = this->GetInput();
   TOutputImage * const output = this->GetOutput();
+  WorkProgress::Share progress(whole);
   const auto end = region.GetIndex() + region.GetSize();
   auto index = region.GetIndex();
   for (; index[2] < end[2]; ++index[2])
@@ -141,17 +143,20 @@ FCCGaussianImageFilter<TInputImage, TOutputImage>::Copy(const RegionType & regio
                      row + region.GetSize(0),
                      output->GetBufferPointer() + output->ComputeOffset(index),
                      [](auto value) { return static_cast<OutputPixelType>(value); });
+      progress.Completed(region.GetSize(0));
     }
   }
 }
 
 template <typename TInputImage, typename TOutputImage>
 void
-FCCGaussianImageFilter<TInputImage, TOutputImage>::Smooth(const RegionType & region, const FCCGaussianTaps & taps)
+FCCGaussianImageFilter<TInputImage, TOutputImage>::Smooth(const RegionType & region,
+                                                          const FCCGaussianTaps & taps,
+                                                          WorkProgress & whole)
 {
   const TInputImage * const input = this->GetInput();
   TOutputImage * const output = this->GetOutput();
-  TotalProgressReporter progress(this, output->GetRequestedRegion().GetNumberOfPixels());
+  WorkProgress::Share progress(whole);
   const auto inputRow = [&](IndexValueType i, IndexValueType j, IndexValueType k) {
     return input->GetBufferPointer() + input->ComputeOffset({ { i, j, k } });
   };
@@ -165,6 +170,7 @@ FCCGaussianImageFilter<TInputImage, TOutputImage>::Smooth(const RegionType & reg
     region,
     taps,
     [&](IndexValueType j, IndexValueType k, SizeValueType length, float * row) {
+      progress.CheckAbort();
       RowArithmetic::ConvertFrom(inputRow(first, j, k), length, row);
       if constexpr (std::is_floating_point<InputPixelType>::value)
       {
@@ -199,6 +205,7 @@ FCCGaussianImageFilter<TInputImage, TOutputImage>::Smooth(const RegionType & reg
       region,
       taps,
       [&](IndexValueType j, IndexValueType k, SizeValueType length, float * row) {
+        progress.CheckAbort();
         std::transform(inputRow(first, j, k), inputRow(first, j, k) + length, row, [](auto value) {
           return std::isfinite(value) ? 1.0f : 0.0f;
         });

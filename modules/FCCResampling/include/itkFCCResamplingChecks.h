@@ -15,6 +15,10 @@
 namespace itk
 {
 
+/** \file
+ * What the resampling filters ask of geometries, and how they treat borders and rounding. The functions throw nothing.
+ * Thread safety: they are pure. */
+
 /** Whether a spacing is positive along all axes, or zero along all: to be derived. */
 inline bool
 IsSpacingOrUnset(const Vector<double, 3> & spacing)

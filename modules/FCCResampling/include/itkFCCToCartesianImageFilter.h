@@ -5,6 +5,9 @@
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
 #include "itkThreadFailure.h"
+#include "itkWorkProgress.h"
+
+#include <optional>
 
 namespace itk
 {
@@ -17,13 +20,19 @@ namespace itk
  * SetOutputSpacing()), and its voxels tile the FCC image's extent, centred on it. So an image resampled onto the
  * lattice with the default density and back has its old spacing; use the reference image to get the very same grid.
  *
- * Voxels outside the FCC image's extent become DefaultPixelValue. The whole input is requested. Integer outputs are
- * rounded and clamped to the range of their type. The result does not depend on the number of threads or on the
- * requested region.
+ * Voxels outside the FCC image's extent become DefaultPixelValue. Integer outputs are rounded half away from zero and
+ * clamped to the range of their type; arithmetic is in float64. The filter asks for as much of the input as the
+ * requested output needs: the sites of the tetrahedra around its voxels (see LocateFCCTetrahedron()). Any part of the
+ * output has the same bytes whether it is computed alone or with the rest, by one thread or many.
+ *
+ * Throws when OutputSpacing is not positive, when the grid would have more voxels than can be counted, and when the
+ * input's buffer has not the samples needed.
  *
  * Overridden pipeline methods: VerifyPreconditions() (sensible parameters), VerifyInputInformation() (the two inputs
- * need not share a grid), GenerateOutputInformation() (places the grid), GenerateInputRequestedRegion() (all of the
- * lattice, nothing of the reference).
+ * need not share a grid), GenerateOutputInformation() (places the grid), GenerateInputRequestedRegion() (the sites
+ * around the voxels; nothing of the reference).
+ *
+ * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
  *
  * \ingroup FCCResampling
  */
@@ -82,18 +91,26 @@ protected:
   GenerateInputRequestedRegion() override;
 
   void
+  BeforeThreadedGenerateData() override;
+
+  void
   DynamicThreadedGenerateData(const OutputImageRegionType & region) override;
 
   void
   AfterThreadedGenerateData() override;
 
 private:
+  /** The lattice samples that voxels of a region may be made of; at least one. */
+  typename TInputImage::RegionType
+  FindNeededSamples(const OutputImageRegionType & region) const;
+
   void
   Resample(const OutputImageRegionType & region);
 
   SpacingType m_OutputSpacing{ 0.0 };
   OutputPixelType m_DefaultPixelValue{};
   ThreadFailure m_ThreadFailure;
+  std::optional<WorkProgress> m_WorkProgress;
 };
 
 } // namespace itk

@@ -4,7 +4,10 @@
 #include "itkFCCLinearInterpolateImageFunction.h"
 #include "itkFCCResamplingChecks.h"
 #include "itkImageScanlineIterator.h"
-#include "itkTotalProgressReporter.h"
+#include "itkInputSamples.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace itk
 {
@@ -46,13 +49,17 @@ FCCToCartesianImageFilter<TInputImage, TOutputImage>::GenerateOutputInformation(
 {
   const TInputImage * const input = this->GetInput();
   TOutputImage * const output = this->GetOutput();
+  const auto & extent = input->GetLargestPossibleRegion();
+  if (extent.GetNumberOfPixels() == 0)
+  {
+    itkExceptionMacro("The input has no samples; its size is " << extent.GetSize() << ".");
+  }
   if (const ReferenceImageType * const reference = this->GetReferenceImage())
   {
     output->CopyInformation(reference);
     return;
   }
 
-  const auto & extent = input->GetLargestPossibleRegion();
   const double scale = std::cbrt(FCCLattice::CellVolume * FCCLattice::NyquistDensity);
   std::array<double, 3> counts{};
   SpacingType spacing;
@@ -88,11 +95,61 @@ template <typename TInputImage, typename TOutputImage>
 void
 FCCToCartesianImageFilter<TInputImage, TOutputImage>::GenerateInputRequestedRegion()
 {
-  const_cast<TInputImage *>(this->GetInput())->SetRequestedRegionToLargestPossibleRegion();
+  const_cast<TInputImage *>(this->GetInput())
+    ->SetRequestedRegion(this->FindNeededSamples(this->GetOutput()->GetRequestedRegion()));
   if (const ReferenceImageType * const reference = this->GetReferenceImage())
   {
     const_cast<ReferenceImageType *>(reference)->SetRequestedRegion(reference->GetBufferedRegion());
   }
+}
+
+template <typename TInputImage, typename TOutputImage>
+auto
+FCCToCartesianImageFilter<TInputImage, TOutputImage>::FindNeededSamples(const OutputImageRegionType & region) const ->
+  typename TInputImage::RegionType
+{
+  const TInputImage * const input = this->GetInput();
+  std::array<double, 3> lowest{}; // of the voxels' centres, in lattice coordinates
+  std::array<double, 3> highest{};
+  for (unsigned int corner = 0; corner < 8; ++corner)
+  {
+    auto index = region.GetIndex();
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      index[axis] += (corner >> axis & 1) != 0 ? static_cast<IndexValueType>(region.GetSize(axis)) - 1 : 0;
+    }
+    const auto coordinates =
+      input->TransformPhysicalPointToLattice(this->GetOutput()->template TransformIndexToPhysicalPoint<double>(index));
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      lowest[axis] = corner == 0 ? coordinates[axis] : std::min(lowest[axis], coordinates[axis]);
+      highest[axis] = corner == 0 ? coordinates[axis] : std::max(highest[axis], coordinates[axis]);
+    }
+  }
+
+  const auto & whole = input->GetLargestPossibleRegion();
+  typename TInputImage::RegionType needed;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    // The sites of a point's tetrahedron are at most this far from it, see LocateFCCTetrahedron(); and for rounding.
+    const double reach = (axis == 0 ? 2.0 : 1.0) + 1e-6;
+    const double unitsPerIndex = axis == 0 ? 2.0 : 1.0;
+    const auto first = static_cast<double>(whole.GetIndex(axis));
+    const auto last = static_cast<double>(whole.GetUpperIndex()[axis]);
+    const double begin = std::clamp(std::floor((lowest[axis] - reach) / unitsPerIndex), first, last);
+    const double end = std::clamp(std::floor((highest[axis] + reach) / unitsPerIndex), first, last);
+    needed.SetIndex(axis, static_cast<IndexValueType>(begin));
+    needed.SetSize(axis, static_cast<SizeValueType>(end - begin) + 1);
+  }
+  return needed;
+}
+
+template <typename TInputImage, typename TOutputImage>
+void
+FCCToCartesianImageFilter<TInputImage, TOutputImage>::BeforeThreadedGenerateData()
+{
+  VerifyInputSamples(*this, *this->GetInput());
+  m_WorkProgress.emplace(*this, this->GetOutput()->GetRequestedRegion().GetNumberOfPixels());
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -107,7 +164,7 @@ void
 FCCToCartesianImageFilter<TInputImage, TOutputImage>::AfterThreadedGenerateData()
 {
   m_ThreadFailure.Rethrow();
-  this->UpdateProgress(1.0f); // the threads' last reports may have come from another one than the observers'
+  m_WorkProgress->Finish();
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -116,7 +173,7 @@ FCCToCartesianImageFilter<TInputImage, TOutputImage>::Resample(const OutputImage
 {
   const TInputImage * const input = this->GetInput();
   TOutputImage * const output = this->GetOutput();
-  TotalProgressReporter progress(this, output->GetRequestedRegion().GetNumberOfPixels());
+  WorkProgress::Share progress(*m_WorkProgress);
   const auto interpolator = FCCLinearInterpolateImageFunction<TInputImage>::New();
   interpolator->SetInputImage(input);
 
@@ -127,8 +184,7 @@ FCCToCartesianImageFilter<TInputImage, TOutputImage>::Resample(const OutputImage
     {
       const auto point = output->template TransformIndexToPhysicalPoint<double>(index);
       ContinuousIndex<double, 3> continuous;
-      input->TransformPhysicalPointToContinuousIndex(point, continuous);
-      if (!interpolator->IsInsideBuffer(continuous))
+      if (!input->TransformPhysicalPointToContinuousIndex(point, continuous))
       {
         it.Set(m_DefaultPixelValue);
         continue;

@@ -15,7 +15,9 @@ namespace itk
  * Every result is one sum, from the first term to the last, of products that are rounded before they are added. Lanes
  * hold different results and are never added up, so the bytes are the same for every SIMD target and vector width.
  *
- * The functions of this file throw nothing, and may run on any number of threads at once. */
+ * The functions of this file throw nothing.
+ *
+ * Thread safety: they write nothing but what they are given; RowTaps are immutable. */
 namespace RowArithmetic
 {
 
@@ -72,7 +74,7 @@ RoundTo(const float * real, SizeValueType length, std::int32_t * row);
 void
 Blend(const float * const * rows, const float * weights, SizeValueType count, SizeValueType length, float * blend);
 
-/** The taps of all positions along one row, tap by tap. */
+/** The taps of all positions along one row, tap by tap. Immutable, so thread safe. */
 class RowTaps
 {
 public:

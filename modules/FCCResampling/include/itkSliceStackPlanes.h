@@ -29,8 +29,8 @@ public:
   using RegionType = ImageRegion<3>;
 
   /** \param stack must outlive this
-   *  \param origin of the lattice, in the stack's frame
-   *  \param spacing of the lattice
+   *  \param origin of the lattice, in the stack's frame (mm)
+   *  \param spacing of the lattice, in mm
    *  \param size of the stack, in samples
    *  \param region of the lattice, not empty */
   SliceStackPlanes(const SliceStack & stack,

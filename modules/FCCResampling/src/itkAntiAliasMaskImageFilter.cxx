@@ -1,5 +1,6 @@
 #include "itkAntiAliasMaskImageFilter.h"
 
+#include "itkInputSamples.h"
 #include "itkMath.h"
 #include "itkMultiThreaderBase.h"
 #include "itkRowArithmetic.h"
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numeric>
 
 namespace itk
@@ -175,7 +177,7 @@ AntiAliasMaskImageFilter::EnlargeOutputRequestedRegion(DataObject * output)
 void
 AntiAliasMaskImageFilter::GenerateData()
 {
-  this->UpdateProgress(0.0f);
+  VerifyInputSamples(*this, *this->GetInput());
   this->AllocateOutputs();
   const auto & size = this->GetOutput()->GetBufferedRegion().GetSize();
   m_Size = { size[0], size[1], size[2] };
@@ -183,6 +185,10 @@ AntiAliasMaskImageFilter::GenerateData()
   m_Field = this->GetOutput()->GetBufferPointer();
   m_NumberOfNarrowVoxels = 0;
   m_NumberOfProtectedVoxels = 0;
+  const std::unique_ptr<float[]> smoothed(new float[size[0] * size[1] * size[2]]);
+  m_Smoothed = smoothed.get();
+  WorkProgress progress(*this, Passes * (size[1] + size[2]));
+  m_WorkProgress = &progress;
 
   this->MatchLocalVolumes(Wide.sigma, Wide.corrections, Wide.gain, m_Field);
   std::vector<std::uint8_t> thin(size[0] * size[1] * size[2]);
@@ -200,8 +206,7 @@ AntiAliasMaskImageFilter::GenerateData()
     this->Protect(isMarked, false);
     this->Protect(isMarked, true);
   }
-  m_Smoothed = std::vector<float>();
-  this->UpdateProgress(1.0f);
+  progress.Finish();
 }
 
 void
@@ -215,15 +220,22 @@ AntiAliasMaskImageFilter::ForEach(SizeValueType count, const std::function<void(
     count,
     [&](SizeValueType n) {
       failure.Capture([&] {
-        if (this->GetAbortGenerateData())
-        {
-          throw ProcessAborted(__FILE__, __LINE__);
-        }
+        m_WorkProgress->CheckAbort();
         work(n);
       });
     },
     nullptr);
   failure.Rethrow();
+}
+
+void
+AntiAliasMaskImageFilter::CheckAbortAt(SizeValueType n) const
+{
+  constexpr SizeValueType period = 4096;
+  if (n % period == 0)
+  {
+    m_WorkProgress->CheckAbort();
+  }
 }
 
 void
@@ -234,7 +246,6 @@ AntiAliasMaskImageFilter::Smooth(double sigma, const RowReader & read, const Row
   const SizeValueType reach = taps / 2;
   const auto [width, height, depth] = m_Size;
   const SizeValueType stride = RowArithmetic::PaddedLength(width);
-  m_Smoothed.resize(width * height * depth);
 
   // Along x and y, plane by plane.
   this->ForEach(depth, [&, width = width, height = height](SizeValueType z) {
@@ -260,8 +271,9 @@ AntiAliasMaskImageFilter::Smooth(double sigma, const RowReader & read, const Row
         terms[tap] = plane.data() + ClampedSample(y + tap, reach, height) * stride;
       }
       RowArithmetic::Blend(terms.data(), weights.data(), taps, width, blend.data());
-      std::copy_n(blend.data(), width, m_Smoothed.data() + (y + z * height) * width);
+      std::copy_n(blend.data(), width, m_Smoothed + (y + z * height) * width);
     }
+    m_WorkProgress->Completed(1);
   });
 
   // Along z, for each y.
@@ -271,7 +283,7 @@ AntiAliasMaskImageFilter::Smooth(double sigma, const RowReader & read, const Row
     std::vector<const float *> terms(taps);
     for (SizeValueType z = 0; z < depth; ++z)
     {
-      std::copy_n(m_Smoothed.data() + (y + z * height) * width, width, rows.data() + z * stride);
+      std::copy_n(m_Smoothed + (y + z * height) * width, width, rows.data() + z * stride);
     }
     for (SizeValueType z = 0; z < depth; ++z)
     {
@@ -282,8 +294,8 @@ AntiAliasMaskImageFilter::Smooth(double sigma, const RowReader & read, const Row
       RowArithmetic::Blend(terms.data(), weights.data(), taps, width, blend.data());
       write(y + z * height, blend.data());
     }
+    m_WorkProgress->Completed(1);
   });
-  this->UpdateProgress(std::min(1.0f, this->GetProgress() + 1.0f / static_cast<float>(Passes)));
 }
 
 void
@@ -366,6 +378,7 @@ AntiAliasMaskImageFilter::FindThin()
   std::vector<std::uint8_t> isSeen(thin.size());
   for (SizeValueType voxel = 0; voxel < thin.size(); ++voxel)
   {
+    this->CheckAbortAt(voxel);
     if (thin[voxel] != 0 && isSeen[voxel] == 0)
     {
       const std::vector<SizeValueType> part = this->CollectPart(voxel, thin, isSeen);
@@ -388,6 +401,7 @@ AntiAliasMaskImageFilter::CollectPart(SizeValueType first,
   isSeen[first] = 1;
   for (SizeValueType n = 0; n < part.size(); ++n)
   {
+    this->CheckAbortAt(n);
     grid.ForEachNeighbor(part[n], [&](SizeValueType neighbor) {
       if (marked[neighbor] != 0 && isSeen[neighbor] == 0 && (m_Mask[first] != 0) == (m_Mask[neighbor] != 0))
       {
@@ -424,8 +438,8 @@ AntiAliasMaskImageFilter::Refine(double sigma,
                                  const std::vector<std::uint8_t> & isNarrow)
 {
   const SizeValueType width = m_Size[0];
-  std::vector<float> fine(isNarrow.size());
-  this->MatchLocalVolumes(sigma, corrections, gain, fine.data());
+  const std::unique_ptr<float[]> fine(new float[isNarrow.size()]);
+  this->MatchLocalVolumes(sigma, corrections, gain, fine.get());
   constexpr double blendingSigma = 1.0;
   this->Smooth(
     blendingSigma,
@@ -460,6 +474,7 @@ AntiAliasMaskImageFilter::DropSpurs(std::vector<std::uint8_t> & isMarked)
   std::vector<std::uint8_t> isSeen(isMarked.size());
   for (SizeValueType first = 0; first < isMarked.size(); ++first)
   {
+    this->CheckAbortAt(first);
     if (isMarked[first] == 0 || isSeen[first] != 0)
     {
       continue;
@@ -533,6 +548,7 @@ AntiAliasMaskImageFilter::Protect(const std::vector<std::uint8_t> & isProtected,
   };
   for (SizeValueType offset = 0; offset < isProtected.size(); ++offset)
   {
+    this->CheckAbortAt(offset);
     if (isProtected[offset] != 0 && (m_Mask[offset] != 0) == isInside)
     {
       protect(grid.CoordinatesOf(offset));
