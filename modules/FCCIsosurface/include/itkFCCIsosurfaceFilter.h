@@ -1,15 +1,14 @@
 #ifndef itkFCCIsosurfaceFilter_h
 #define itkFCCIsosurfaceFilter_h
 
-#include "itkFCCFieldPlanes.h"
 #include "itkFCCImage.h"
-#include "itkFCCCellMarching.h"
-#include "itkFCCEdgePoints.h"
-#include "itkFCCIsosurfaceMode.h"
-#include "itkFCCPointKernels.h"
+#include "itkFCCSurfaceExtraction.h"
 #include "itkProcessObject.h"
-#include "itkThreadFailure.h"
-#include "itkTriangleSurface.h"
+#include "itkRecyclingMemory.h"
+#include "itkWorkProgress.h"
+
+#include <limits>
+#include <optional>
 
 namespace itk
 {
@@ -19,7 +18,7 @@ namespace itk
  *
  * A sample is inside when its value is not below the isovalue, or with InsideIsBelow on, when it is (for lungs and
  * other air); not-a-number is outside and counted. Triangles are counter-clockwise seen from outside, points are in LPS
- * mm. One output for each isovalue, in their order; the volume is read once for all.
+ * mm. One output for each isovalue, in their order.
  *
  * What is between the samples depends on the mode, see FCCIsosurfaceMode:
  * - Tetrahedra, Octahedra, Parallelepipeds: there is one point on each cut edge of the cells, where linear
@@ -29,17 +28,18 @@ namespace itk
  * - Lean (default): each of these points moves to the nearer end of its edge; those of one site become one vertex, so
  *   that triangles straddle the surface of the samples' reconstruction about the site, and triangles that lose a side
  *   vanish. On smooth surfaces that is a third of the triangles of Tetrahedra, and of far better shape, nearer to the
- *   truth than marching cubes. Where it would change the surface's topology, a site's points gather in parts or stay
- *   as in Fine (see FCCSplitSites), so rough surfaces gain less, and noisy ones take longer. Triangles of thin parts
- *   may pass through each other, and a speck of few triangles may come out inside out: UntangleSurface() and
- *   TurnMisfacingShells() set that right.
+ *   truth than marching cubes. Where it would change the surface's topology (the points of a site form no disk, an edge
+ *   would have more than two triangles, or a vertex fewer than three), a site's points gather in parts or stay as in
+ *   Fine, so rough surfaces gain less, and noisy ones take longer. Triangles of thin parts may pass through each other,
+ *   and a speck of few triangles may come out inside out: UntangleSurface() and TurnMisfacingShells() set that right.
  * Points on edges stay at least MinimumFraction of the edge away from both ends (more where 32-bit positions need it):
  * so no triangle is degenerate, even where samples equal the isovalue.
  *
- * Each point has a normal, unless ComputeNormals is off: the gradient of the box spline that quasi-interpolates the
- * samples (see FCCFieldPlanes), at the edge's two ends, blended, or at the vertex (see
- * FCCPointKernels::PlaceClusters()), pointing outside; on the faces of the image's extent it is that of the face. In
- * noise, where the gradient says little about the next edge, normals and triangles may disagree.
+ * Each point has a normal, unless ComputeNormals is off: the gradient, pointing outside, of the box spline that quasi-
+ * interpolates the samples, with coefficients 3/2 f - 1/24 (sum of the 12 neighbours' f) (M. Kim, A. Entezari, J.
+ * Peters, "Box spline reconstruction on the face-centered cubic lattice", 2008): at the edge's two ends, blended; for
+ * Lean at the vertex, by the expansion about its site to the second order; on the faces of the image's extent it is
+ * that of the face. In noise, where the gradient says little about the next edge, normals and triangles may disagree.
  *
  * With Closed on (the default) everything beyond the image counts as outside, and where a body reaches the border, the
  * surface closes on the faces of the image's extent (see FCCImage), so that it encloses what the samples' Voronoi cells
@@ -52,13 +52,29 @@ namespace itk
  * samples into bits; count points and triangles of each plane; from the sums, fill all planes independently. The output
  * has the same bytes for any number of threads and any processor.
  *
- * Memory: the surface, a bit for each sample and isovalue (rows are rounded up to words of 64 and have a spare one; one
- * more for Lean), and about 20 planes of the volume in float32 for each thread.
+ * Memory: the surface, a bit for each sample and isovalue (rows are rounded up to words of 64 and have a spare one; for
+ * Lean another in the rows with split sites), and about 20 planes of the volume in float32 for each thread that works.
  *
- * Throws when the surface has 2^32 points or more, or when 32-bit positions can't tell its points apart. An isovalue
- * outside the image's range gives an empty surface.
+ * **Streaming.** With NumberOfStreamDivisions above 1 the filter asks for the input in that many slabs of planes of
+ * constant z, one after the other, with three planes more on either side, so that of a volume larger than the memory
+ * only a slab is in it, if what is upstream can stream; if not, nothing is lost. The output has the same bytes. The
+ * input is passed over to classify its samples and to fill the surfaces, for Lean also to count before, which keeps 12
+ * bytes for each of the surfaces' points until they are filled. Upstream filters work anew for each slab, and of an
+ * abort they learn at their next ProgressEvent, from the second slab on: while ITK makes the first, before this
+ * filter's StartEvent, abort what is upstream instead, as in any pipeline. At a slab no more threads work than it has
+ * tens of planes, so that the memory hardly grows with their number. Between slabs the input's data are released if its
+ * ReleaseDataFlag says so. Afterwards the input's requested region and its buffer are a slab: to have the whole of
+ * it, call its UpdateLargestPossibleRegion(). An image without a source is read where it lies.
  *
- * The whole input is requested.
+ * Throws when an isovalue is not finite, when the surface has 2^32 points or more, when 32-bit positions can't tell
+ * its points apart, or when samples are missing from the input's buffer. An isovalue outside the image's range gives an
+ * empty surface.
+ *
+ * Overridden pipeline methods: VerifyPreconditions() (finite isovalues), GenerateInputRequestedRegion() (the whole
+ * input, or the first slab; GenerateData() asks for the others), CacheInputReleaseDataFlags() (to know of it between
+ * slabs).
+ *
+ * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
  *
  * \ingroup FCCIsosurface
  */
@@ -139,6 +155,10 @@ public:
   itkGetConstMacro(Closed, bool);
   itkBooleanMacro(Closed);
 
+  /** How many slabs the input is asked for in, one after the other; at most one a plane is. Default 1: all at once. */
+  itkSetClampMacro(NumberOfStreamDivisions, unsigned int, 1, std::numeric_limits<unsigned int>::max());
+  itkGetConstMacro(NumberOfStreamDivisions, unsigned int);
+
 protected:
   FCCIsosurfaceFilter();
   ~FCCIsosurfaceFilter() override = default;
@@ -154,18 +174,15 @@ protected:
   VerifyPreconditions() ITKv5_CONST override;
 
   void
+  GenerateInputRequestedRegion() override;
+
+  void
+  CacheInputReleaseDataFlags() override;
+
+  void
   GenerateData() override;
 
 private:
-  /** First point and triangle of each plane, and the totals at the end. */
-  struct Layout
-  {
-    std::vector<SizeValueType> inPlane; ///< ids of points on edges within a plane begin here
-    std::vector<SizeValueType> between; ///< ids of points on edges to the next plane begin here
-    std::vector<SizeValueType>
-      triangles; ///< triangles between a plane and the next, or of a layer of cells, begin here
-  };
-
   /** MinimumFraction, or more where positions in float32 would not tell a point from the edge's end. */
   double
   ComputeFraction() const;
@@ -173,51 +190,81 @@ private:
   FCCFrame
   MakeFrame() const;
 
-  FCCFieldPlanes::RowReader
-  MakeRowReader(double isovalue) const;
+  const ImageRegion<3> &
+  GetRegion() const
+  {
+    return this->GetInput()->GetLargestPossibleRegion();
+  }
 
-  FCCEdgePoints
-  MakeEdgePoints() const;
-
-  FCCEdgePointFiller
-  MakeFiller(const FCCSigns & signs, double isovalue, const FCCEdgePoints & edgePoints) const;
-
-  /** With left-handed axes the triangles of the tables face inwards. */
   bool
-  IsLeftHanded() const;
+  IsInMemory() const
+  {
+    return this->GetInput()->GetBufferedRegion().IsInside(this->GetRegion());
+  }
+
+  /** A sample in an image's buffer, counted from the first of its largest possible region. */
+  static const PixelType *
+  GetSample(const InputImageType & image, SizeValueType i, SizeValueType j, SizeValueType k);
+
+  /** Its readers read what the input's buffer holds when they are called. */
+  FCCScalarField
+  MakeField(double isovalue, RecyclingMemory & scratch) const;
 
   /** The signs for each isovalue, with a layer of sites outside around the image if \a margin is 1. */
   std::vector<FCCSigns>
   Classify(SizeValueType margin);
 
+  /** Makes the surfaces of the isovalues from \a first up to that before \a last in the same passes over the input. */
   void
-  ExtractTetrahedra(const FCCSigns & signs, double isovalue, TriangleSurface & surface);
-
-  void
-  ExtractLean(const FCCSigns & signs, double isovalue, TriangleSurface & surface);
-
-  void
-  ExtractCells(const FCCSigns & signs, double isovalue, FCCCellScheme scheme, TriangleSurface & surface);
-
-  /** Counts the cut edges of some types, and with them sizes the surface. \a countTriangles(k) says how many triangles
-   * the plane or layer k has. */
-  template <typename TCount>
-  Layout
-  CountAndAllocate(const FCCSigns & signs,
-                   std::uint8_t types,
-                   const TCount & countTriangles,
-                   TriangleSurface & surface);
+  Extract(const std::vector<FCCSigns> & signs, std::size_t first, std::size_t last);
 
   void
   Allocate(TriangleSurface & surface, SizeValueType points, SizeValueType triangles) const;
 
-  /** Slabs share the work of finding cut edges at their borders: few planes keep threads busy, many save work. */
-  static constexpr SizeValueType PlanesOfSlab = 64;
+  /** The sum of all that is told to the progress. */
+  static constexpr SizeValueType WholeProgress = SizeValueType{ 1 } << 30;
+
+  /** Planes from one up to that before another. */
+  struct Planes
+  {
+    SizeValueType begin;
+    SizeValueType end;
+  };
+
+  /** The part of the image's planes, or those of its signs, that is streamed together with plane \a k. */
+  Planes
+  FindDivision(SizeValueType planes, SizeValueType k) const;
+
+  /** The image's samples in a division of \a planes and \a around it. */
+  ImageRegion<3>
+  RegionOf(const Planes & division, SizeValueType planes, SizeValueType around) const;
+
+  /** Brings the input's samples of a region into its buffer. */
+  void
+  Load(const ImageRegion<3> & region);
+
+  /** Loads one division of \a planes with those \a around it after the other, and works at each as ForEachSlab() does.
+   */
+  template <typename TWork>
+  void
+  ForEachLoadedSlab(SizeValueType planes, SizeValueType around, float share, const TWork & work);
+
+  /** How many planes each thread works at in one go: few keep threads busy, many save work at their borders. */
+  struct PlanesInOneGo
+  {
+    SizeValueType least;
+    SizeValueType most;
+  };
+  static constexpr SizeValueType MostPlanes = 64;
+
+  /** Each thread keeps about 20 planes around those it works at: so they are about twice those of a slab that is
+   * loaded, however many threads there are. */
+  static constexpr SizeValueType LeastPlanesOfSlab = 10;
 
   /** Calls \a work(begin, end) for slabs of planes, by several threads, and reports its share of the progress. */
   template <typename TWork>
   void
-  ForEachSlab(SizeValueType planes, float share, const TWork & work, SizeValueType mostPlanes = PlanesOfSlab);
+  ForEachSlab(const Planes & planes, float share, const TWork & work, const PlanesInOneGo & inOneGo);
 
   std::vector<double> m_Isovalues{ 0.0 };
   FCCIsosurfaceMode m_Mode{ FCCIsosurfaceMode::Lean };
@@ -226,6 +273,9 @@ private:
   bool m_ComputeNormals{ true };
   bool m_InsideIsBelow{ false };
   bool m_Closed{ true };
+  unsigned int m_NumberOfStreamDivisions{ 1 };
+  bool m_ReleasesInput{ false };
+  std::optional<WorkProgress> m_WorkProgress;
 };
 
 } // namespace itk

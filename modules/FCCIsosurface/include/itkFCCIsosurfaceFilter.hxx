@@ -1,9 +1,11 @@
 #ifndef itkFCCIsosurfaceFilter_hxx
 #define itkFCCIsosurfaceFilter_hxx
 
-#include "itkFCCEdgePoints.h"
-#include "itkFCCLeanSurface.h"
+#include "itkAbortForwarding.h"
+#include "itkFCCRowKernels.h"
+#include "itkInputSamples.h"
 #include "itkMultiThreaderBase.h"
+#include "itkThreadFailure.h"
 
 #include <algorithm>
 #include <atomic>
@@ -59,7 +61,7 @@ FCCIsosurfaceFilter<TInputImage>::SetIsovalues(const std::vector<double> & isova
   }
   if (isovalues.empty())
   {
-    itkExceptionMacro("There must be at least one isovalue.");
+    itkExceptionMacro("There must be at least one isovalue; leave the Isovalues at 0 or choose one.");
   }
   m_Isovalues = isovalues;
   this->SetNumberOfIndexedOutputs(isovalues.size());
@@ -96,6 +98,7 @@ FCCIsosurfaceFilter<TInputImage>::PrintSelf(std::ostream & os, Indent indent) co
   os << indent << "NumberOfUndefinedSamples: " << m_NumberOfUndefinedSamples << std::endl;
   os << indent << "InsideIsBelow: " << (m_InsideIsBelow ? "On" : "Off") << std::endl;
   os << indent << "Closed: " << (m_Closed ? "On" : "Off") << std::endl;
+  os << indent << "NumberOfStreamDivisions: " << m_NumberOfStreamDivisions << std::endl;
 }
 
 template <typename TInputImage>
@@ -107,45 +110,99 @@ FCCIsosurfaceFilter<TInputImage>::VerifyPreconditions() ITKv5_CONST
   {
     if (!std::isfinite(isovalue))
     {
-      itkExceptionMacro("Isovalue must be a finite number, not " << isovalue << ".");
+      itkExceptionMacro("Isovalue must be a finite number, not " << isovalue
+                                                                 << "; choose one in the range of the samples.");
     }
   }
+  if (m_Mode > FCCIsosurfaceMode::Lean)
+  {
+    itkExceptionMacro("There is no Mode number " << static_cast<int>(m_Mode) << "; use one of FCCIsosurfaceMode.");
+  }
+}
+
+template <typename TInputImage>
+void
+FCCIsosurfaceFilter<TInputImage>::GenerateInputRequestedRegion()
+{
+  const SizeValueType depth = this->GetRegion().GetSize(2);
+  const_cast<InputImageType *>(this->GetInput())
+    ->SetRequestedRegion(this->RegionOf(this->FindDivision(depth, 0), depth, 0));
+}
+
+template <typename TInputImage>
+void
+FCCIsosurfaceFilter<TInputImage>::CacheInputReleaseDataFlags()
+{
+  m_ReleasesInput = this->GetInput()->ShouldIReleaseData();
+  Superclass::CacheInputReleaseDataFlags();
 }
 
 template <typename TInputImage>
 void
 FCCIsosurfaceFilter<TInputImage>::GenerateData()
 {
-  this->UpdateProgress(0.0f);
+  m_WorkProgress.emplace(*this, WholeProgress);
   m_UsedFraction = this->ComputeFraction();
-  const bool isLean = m_Mode == FCCIsosurfaceMode::Lean;
-  const std::vector<FCCSigns> signs = this->Classify(m_Closed || isLean ? 1 : 0);
-  for (std::size_t n = 0; n < m_Isovalues.size(); ++n)
+  const std::vector<FCCSigns> signs = this->Classify(FCCSurfaceExtraction::GetMargin(m_Mode, m_Closed));
+  const std::size_t atOnce = this->IsInMemory() ? 1 : signs.size(); // memory is dear, or else the input's samples are
+  for (std::size_t first = 0; first < signs.size(); first += atOnce)
+  {
+    this->Extract(signs, first, first + atOnce);
+  }
+  m_WorkProgress->Finish();
+}
+
+template <typename TInputImage>
+void
+FCCIsosurfaceFilter<TInputImage>::Extract(const std::vector<FCCSigns> & signs, std::size_t first, std::size_t last)
+{
+  RecyclingMemory scratch;
+  std::vector<std::unique_ptr<FCCSurfaceExtraction>> extractions;
+  for (std::size_t n = first; n < last; ++n)
+  {
+    extractions.push_back(FCCSurfaceExtraction::Make(m_Mode, signs[n], this->MakeField(m_Isovalues[n], scratch)));
+  }
+  constexpr SizeValueType around = FCCSurfaceExtraction::PlanesAround;
+  const SizeValueType planes = signs.front().GetDepth();
+  const float share = 0.95f * static_cast<float>(last - first) / static_cast<float>(signs.size());
+
+  const auto count = [&](SizeValueType begin, SizeValueType end) {
+    for (const auto & extraction : extractions)
+    {
+      m_WorkProgress->CheckAbort();
+      extraction->Count(begin, end);
+    }
+  };
+  const bool countReadsSamples = extractions.front()->CountReadsSamples();
+  const float shareOfCount = countReadsSamples ? 0.5f * share : 0.2f * share;
+  countReadsSamples ? this->ForEachLoadedSlab(planes, around, shareOfCount, count)
+                    : this->ForEachSlab({ 0, planes }, shareOfCount, count, { 1, MostPlanes });
+
+  for (std::size_t n = first; n < last; ++n)
+  {
+    FCCSurfaceExtraction & extraction = *extractions[n - first];
+    extraction.Resolve([this](SizeValueType sites, const auto & work) {
+      this->ForEachSlab({ 0, sites }, 0.0f, work, { 1, 1024 });
+    });
+    this->Allocate(*this->GetOutput(n), extraction.GetNumberOfPoints(), extraction.GetMostTriangles());
+  }
+  scratch.ReleaseSpare(); // filling needs blocks of other sizes
+  this->ForEachLoadedSlab(planes, around, share - shareOfCount, [&](SizeValueType begin, SizeValueType end) {
+    for (std::size_t n = first; n < last; ++n)
+    {
+      extractions[n - first]->Fill(begin, end, *this->GetOutput(n));
+    }
+  });
+  for (std::size_t n = first; n < last; ++n)
   {
     TriangleSurface & surface = *this->GetOutput(n);
-    surface.Initialize();
-    switch (m_Mode)
-    {
-      case FCCIsosurfaceMode::Lean:
-        this->ExtractLean(signs[n], m_Isovalues[n], surface);
-        break;
-      case FCCIsosurfaceMode::Octahedra:
-        this->ExtractCells(signs[n], m_Isovalues[n], FCCCellScheme::Octahedra, surface);
-        break;
-      case FCCIsosurfaceMode::Parallelepipeds:
-        this->ExtractCells(signs[n], m_Isovalues[n], FCCCellScheme::Parallelepipeds, surface);
-        break;
-      case FCCIsosurfaceMode::Tetrahedra:
-      case FCCIsosurfaceMode::Fine:
-        this->ExtractTetrahedra(signs[n], m_Isovalues[n], surface);
-    }
+    extractions[n - first]->Finish(surface);
     if (!m_Closed)
     {
       surface.RemoveUnusedPoints(); // on edges of no cell, at the ragged ends of rows
     }
     surface.Modified();
   }
-  this->UpdateProgress(1.0f);
 }
 
 template <typename TInputImage>
@@ -153,7 +210,7 @@ double
 FCCIsosurfaceFilter<TInputImage>::ComputeFraction() const
 {
   const InputImageType * const image = this->GetInput();
-  const auto & region = image->GetBufferedRegion();
+  const auto & region = this->GetRegion();
   double farthest = 0.0; // coordinate of the extent's corners
   for (unsigned int corner = 0; corner < 8; ++corner)
   {
@@ -185,16 +242,91 @@ FCCIsosurfaceFilter<TInputImage>::ComputeFraction() const
 }
 
 template <typename TInputImage>
+auto
+FCCIsosurfaceFilter<TInputImage>::FindDivision(SizeValueType planes, SizeValueType k) const -> Planes
+{
+  const SizeValueType depth = std::max<SizeValueType>(1, this->GetRegion().GetSize(2));
+  const auto divisions = std::min<SizeValueType>(m_NumberOfStreamDivisions, depth);
+  const SizeValueType n = ((k + 1) * divisions - 1) / std::max<SizeValueType>(1, planes);
+  return { n * planes / divisions, (n + 1) * planes / divisions };
+}
+
+template <typename TInputImage>
+ImageRegion<3>
+FCCIsosurfaceFilter<TInputImage>::RegionOf(const Planes & division, SizeValueType planes, SizeValueType around) const
+{
+  ImageRegion<3> region = this->GetRegion();
+  const SizeValueType depth = region.GetSize(2);
+  const SizeValueType margin = (planes - depth) / 2; // of the signs
+  const SizeValueType before = margin + around;
+  const SizeValueType begin = division.begin - std::min(before, division.begin);
+  const SizeValueType end = std::min(division.end + around - std::min(margin, division.end + around), depth);
+  region.SetIndex(2, region.GetIndex(2) + static_cast<IndexValueType>(begin));
+  region.SetSize(2, end - begin);
+  return region;
+}
+
+template <typename TInputImage>
+void
+FCCIsosurfaceFilter<TInputImage>::Load(const ImageRegion<3> & region)
+{
+  auto * const image = const_cast<InputImageType *>(this->GetInput());
+  if (!image->GetBufferedRegion().IsInside(region) && image->GetSource() != nullptr)
+  {
+    if (m_ReleasesInput)
+    {
+      image->ReleaseData();
+    }
+    image->SetRequestedRegion(region);
+    const AbortForwarding forwarding(*this, *image);
+    try
+    {
+      image->PropagateRequestedRegion();
+      image->UpdateOutputData();
+    }
+    catch (...)
+    {
+      image->ReleaseData(); // or what is half made would pass for made at the next update
+      throw;
+    }
+  }
+  VerifyInputSamples(*this, *image, region);
+}
+
+template <typename TInputImage>
 template <typename TWork>
 void
-FCCIsosurfaceFilter<TInputImage>::ForEachSlab(SizeValueType planes,
+FCCIsosurfaceFilter<TInputImage>::ForEachLoadedSlab(SizeValueType planes,
+                                                    SizeValueType around,
+                                                    float share,
+                                                    const TWork & work)
+{
+  for (SizeValueType begin = 0; begin < planes;)
+  {
+    const Planes division = this->FindDivision(planes, begin);
+    m_WorkProgress->CheckAbort();
+    this->Load(this->RegionOf(division, planes, around));
+    const SizeValueType count = division.end - begin;
+    const SizeValueType least = around > 0 && !this->IsInMemory() ? LeastPlanesOfSlab : 1;
+    this->ForEachSlab(
+      division, share * static_cast<float>(count) / static_cast<float>(planes), work, { least, MostPlanes });
+    begin = division.end;
+  }
+}
+
+template <typename TInputImage>
+template <typename TWork>
+void
+FCCIsosurfaceFilter<TInputImage>::ForEachSlab(const Planes & planes,
                                               float share,
                                               const TWork & work,
-                                              SizeValueType mostPlanes)
+                                              const PlanesInOneGo & inOneGo)
 {
+  const SizeValueType count = planes.end - planes.begin;
   const SizeValueType units = std::max<SizeValueType>(1, this->GetNumberOfWorkUnits());
-  const SizeValueType planesPerSlab = std::clamp<SizeValueType>(planes / (4 * units), 1, mostPlanes);
-  const SizeValueType slabs = (planes + planesPerSlab - 1) / planesPerSlab;
+  const SizeValueType planesPerSlab = std::clamp(count / (4 * units), inOneGo.least, inOneGo.most);
+  const SizeValueType slabs = (count + planesPerSlab - 1) / planesPerSlab;
+  const auto amount = static_cast<SizeValueType>(share * static_cast<float>(WholeProgress));
   ThreadFailure failure;
   MultiThreaderBase * const threader = this->GetMultiThreader();
   threader->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
@@ -203,13 +335,10 @@ FCCIsosurfaceFilter<TInputImage>::ForEachSlab(SizeValueType planes,
     slabs,
     [&](SizeValueType slab) {
       failure.Capture([&] {
-        if (this->GetAbortGenerateData())
-        {
-          throw ProcessAborted(__FILE__, __LINE__);
-        }
-        const SizeValueType begin = slab * planesPerSlab;
-        work(begin, std::min(begin + planesPerSlab, planes));
-        this->IncrementProgress(share / static_cast<float>(slabs));
+        m_WorkProgress->CheckAbort();
+        const SizeValueType begin = planes.begin + slab * planesPerSlab;
+        work(begin, std::min(begin + planesPerSlab, planes.end));
+        m_WorkProgress->Completed(amount * (slab + 1) / slabs - amount * slab / slabs);
       });
     },
     nullptr);
@@ -221,21 +350,26 @@ std::vector<FCCSigns>
 FCCIsosurfaceFilter<TInputImage>::Classify(SizeValueType margin)
 {
   const InputImageType * const image = this->GetInput();
-  const auto & region = image->GetBufferedRegion();
+  const auto & region = this->GetRegion();
   const auto shift = static_cast<IndexValueType>(margin);
-  const FCCSigns blank(region.GetSize(0) + 2 * margin,
+  std::vector<FCCSigns> signs;
+  signs.reserve(m_Isovalues.size());
+  while (signs.size() < m_Isovalues.size())
+  {
+    signs.emplace_back(region.GetSize(0) + 2 * margin,
                        region.GetSize(1) + 2 * margin,
                        region.GetSize(2) + 2 * margin,
                        FCCLattice::Parity(region.GetIndex(1) - shift, region.GetIndex(2) - shift));
-  std::vector<FCCSigns> signs(m_Isovalues.size(), blank);
+  }
   std::atomic<SizeValueType> undefined{ 0 };
-  this->ForEachSlab(region.GetSize(2), 0.1f, [&](SizeValueType begin, SizeValueType end) {
+  this->ForEachLoadedSlab(region.GetSize(2), 0, 0.05f, [&](SizeValueType begin, SizeValueType end) {
     SizeValueType undefinedInSlab = 0;
     for (SizeValueType k = begin; k < end; ++k)
     {
+      m_WorkProgress->CheckAbort();
       for (SizeValueType j = 0; j < region.GetSize(1); ++j)
       {
-        const PixelType * const values = image->GetBufferPointer() + (k * region.GetSize(1) + j) * region.GetSize(0);
+        const PixelType * const values = GetSample(*image, 0, j, k);
         if constexpr (std::is_floating_point_v<PixelType>)
         {
           for (SizeValueType i = 0; i < region.GetSize(0); ++i)
@@ -273,207 +407,47 @@ FCCIsosurfaceFilter<TInputImage>::Allocate(TriangleSurface & surface,
                       << " points, more than 32-bit indices reach; resample at a lower density, or "
                          "extract from a smaller region.");
   }
+  surface.Initialize();
   surface.GetPoints().resize(points);
   surface.GetNormals().resize(m_ComputeNormals ? points : 0);
   surface.GetTriangles().resize(triangles);
 }
 
 template <typename TInputImage>
-FCCFieldPlanes::RowReader
-FCCIsosurfaceFilter<TInputImage>::MakeRowReader(double isovalue) const
-{
-  const InputImageType * const image = this->GetInput();
-  const auto & size = image->GetBufferedRegion().GetSize();
-  return [image, size, isovalue](SizeValueType j, SizeValueType k, float * values) {
-    FCCRowKernels::Subtract(image->GetBufferPointer() + (k * size[1] + j) * size[0], size[0], isovalue, values);
-  };
-}
-
-template <typename TInputImage>
-FCCEdgePoints
-FCCIsosurfaceFilter<TInputImage>::MakeEdgePoints() const
-{
-  const bool isCubic = m_Mode == FCCIsosurfaceMode::Fine;
-  return FCCEdgePoints(
-    this->GetInput()->GetBufferedRegion(), this->MakeFrame(), isCubic, m_UsedFraction, m_Closed ? 1 : 0);
-}
-
-template <typename TInputImage>
-FCCEdgePointFiller
-FCCIsosurfaceFilter<TInputImage>::MakeFiller(const FCCSigns & signs,
-                                             double isovalue,
-                                             const FCCEdgePoints & edgePoints) const
-{
-  return FCCEdgePointFiller(
-    signs, this->GetInput()->GetBufferedRegion(), m_Closed ? 1 : 0, edgePoints, this->MakeRowReader(isovalue));
-}
-
-template <typename TInputImage>
-bool
-FCCIsosurfaceFilter<TInputImage>::IsLeftHanded() const
-{
-  return vnl_determinant(this->GetInput()->GetDirection().GetVnlMatrix()) < 0.0;
-}
-
-template <typename TInputImage>
-void
-FCCIsosurfaceFilter<TInputImage>::ExtractLean(const FCCSigns & signs, double isovalue, TriangleSurface & surface)
-{
-  const InputImageType * const image = this->GetInput();
-  const auto & size = image->GetBufferedRegion().GetSize();
-  FCCLeanSurface lean(signs,
-                      image->GetBufferedRegion(),
-                      this->MakeFrame(),
-                      m_InsideIsBelow,
-                      m_UsedFraction,
-                      this->MakeRowReader(isovalue));
-  const float share = 0.9f / static_cast<float>(m_Isovalues.size());
-  const SizeValueType planes = signs.GetDepth();
-  this->ForEachSlab(planes, 0.5f * share, [&](SizeValueType begin, SizeValueType end) { lean.Count(begin, end); });
-  lean.Resolve(
-    [&](const std::array<SizeValueType, 3> * sites, unsigned int wanted, float * values) {
-      for (; wanted != 0; wanted &= wanted - 1)
-      {
-        const auto n = static_cast<unsigned int>(__builtin_ctz(wanted));
-        const auto [i, j, k] = sites[n];
-        const auto pixel = image->GetBufferPointer()[((k - 1) * size[1] + j - 1) * size[0] + i - 1];
-        values[n] = static_cast<float>(static_cast<double>(pixel) - isovalue);
-      }
-    },
-    [this](SizeValueType count, const auto & work) { this->ForEachSlab(count, 0.0f, work, 1024); });
-  this->Allocate(surface, lean.GetNumberOfPoints(), lean.GetMostTriangles());
-  std::vector<std::uint8_t> areOutside(m_Closed ? 0 : lean.GetNumberOfPoints());
-  this->ForEachSlab(planes, 0.5f * share, [&](SizeValueType begin, SizeValueType end) {
-    lean.Fill(begin, end, this->IsLeftHanded(), surface, m_Closed ? nullptr : areOutside.data());
-  });
-  lean.Finish(surface);
-  if (!m_Closed)
-  {
-    auto & triangles = surface.GetTriangles();
-    const auto closes = [&areOutside](const TriangleSurface::TriangleType & triangle) {
-      return (areOutside[triangle[0]] | areOutside[triangle[1]] | areOutside[triangle[2]]) != 0;
-    };
-    triangles.erase(std::remove_if(triangles.begin(), triangles.end(), closes), triangles.end());
-  }
-}
-
-template <typename TInputImage>
-template <typename TCount>
 auto
-FCCIsosurfaceFilter<TInputImage>::CountAndAllocate(const FCCSigns & signs,
-                                                   std::uint8_t types,
-                                                   const TCount & countTriangles,
-                                                   TriangleSurface & surface) -> Layout
+FCCIsosurfaceFilter<TInputImage>::GetSample(const InputImageType & image,
+                                            SizeValueType i,
+                                            SizeValueType j,
+                                            SizeValueType k) -> const PixelType *
 {
-  const SizeValueType depth = signs.GetDepth();
-  Layout layout{ std::vector<SizeValueType>(depth + 1),
-                 std::vector<SizeValueType>(depth + 1),
-                 std::vector<SizeValueType>(depth + 1) };
-  this->ForEachSlab(depth, 0.2f / static_cast<float>(m_Isovalues.size()), [&](SizeValueType begin, SizeValueType end) {
-    for (SizeValueType k = begin; k < end; ++k)
-    {
-      layout.inPlane[k] = FCCCutEdges::Count(signs, FCCCutEdges::Group::InPlane, k, types);
-      layout.between[k] = FCCCutEdges::Count(signs, FCCCutEdges::Group::Between, k, types);
-      layout.triangles[k] = countTriangles(k);
-    }
-  });
-
-  SizeValueType points = 0;
-  SizeValueType triangles = 0;
-  for (SizeValueType k = 0; k <= depth; ++k)
-  {
-    const SizeValueType afterPlane = points + layout.inPlane[k];
-    const SizeValueType afterBetween = afterPlane + layout.between[k];
-    const SizeValueType afterTriangles = triangles + layout.triangles[k];
-    layout.inPlane[k] = points;
-    layout.between[k] = afterPlane;
-    layout.triangles[k] = triangles;
-    points = afterBetween;
-    triangles = afterTriangles;
-  }
-  this->Allocate(surface, points, triangles);
-  return layout;
+  const auto & first = image.GetLargestPossibleRegion().GetIndex();
+  return image.GetBufferPointer() + image.ComputeOffset({ { first[0] + static_cast<IndexValueType>(i),
+                                                            first[1] + static_cast<IndexValueType>(j),
+                                                            first[2] + static_cast<IndexValueType>(k) } });
 }
 
 template <typename TInputImage>
-void
-FCCIsosurfaceFilter<TInputImage>::ExtractTetrahedra(const FCCSigns & signs, double isovalue, TriangleSurface & surface)
+FCCScalarField
+FCCIsosurfaceFilter<TInputImage>::MakeField(double isovalue, RecyclingMemory & scratch) const
 {
-  const SizeValueType depth = signs.GetDepth();
-  const Layout layout = this->CountAndAllocate(
-    signs,
-    FCCCutEdges::AllTypes,
-    [&](SizeValueType k) { return k + 1 < depth ? CountTriangles(signs, k) : 0; },
-    surface);
-  const bool reversed = this->IsLeftHanded();
-  const FCCEdgePoints edgePoints = this->MakeEdgePoints();
-  const auto idOf = [](SizeValueType id) { return static_cast<std::uint32_t>(id); };
-
-  this->ForEachSlab(depth, 0.7f / static_cast<float>(m_Isovalues.size()), [&](SizeValueType begin, SizeValueType end) {
-    FCCEdgePointFiller filler = this->MakeFiller(signs, isovalue, edgePoints);
-    FCCCutEdges lower(signs, FCCCutEdges::Group::InPlane);
-    FCCCutEdges upper(signs, FCCCutEdges::Group::InPlane);
-    FCCCutEdges between(signs, FCCCutEdges::Group::Between);
-    lower.Find(begin, idOf(layout.inPlane[begin]));
-    for (SizeValueType k = begin; k < end; ++k)
+  const InputImageType * const image = this->GetInput();
+  const SizeValueType width = this->GetRegion().GetSize(0);
+  const auto readRow = [this, image, width, isovalue](SizeValueType j, SizeValueType k, float * values) {
+    m_WorkProgress->CheckAbort(); // slabs take long
+    FCCRowKernels::Subtract(GetSample(*image, 0, j, k), width, isovalue, values);
+  };
+  const auto readValues = [image,
+                           isovalue](const std::array<SizeValueType, 3> * sites, unsigned int wanted, float * values) {
+    for (; wanted != 0; wanted &= wanted - 1)
     {
-      between.Find(k, idOf(layout.between[k]));
-      upper.Find(k + 1, idOf(layout.inPlane[k + 1]));
-      filler.Fill(k, lower, between, surface);
-      if (k + 1 < depth)
-      {
-        FillTriangles(signs, k, lower, upper, between, reversed, surface.GetTriangles().data() + layout.triangles[k]);
-      }
-      std::swap(lower, upper);
+      const auto n = static_cast<unsigned int>(__builtin_ctz(wanted));
+      const auto [i, j, k] = sites[n];
+      const PixelType sample = *GetSample(*image, i - 1, j - 1, k - 1);
+      values[n] = static_cast<float>(static_cast<double>(sample) - isovalue);
     }
-  });
-}
-
-template <typename TInputImage>
-void
-FCCIsosurfaceFilter<TInputImage>::ExtractCells(const FCCSigns & signs,
-                                               double isovalue,
-                                               FCCCellScheme scheme,
-                                               TriangleSurface & surface)
-{
-  const std::uint8_t types = GetEdgeTypes(scheme);
-  const Layout layout = this->CountAndAllocate(
-    signs, types, [&](SizeValueType k) { return CountCellTriangles(signs, scheme, k, m_Closed); }, surface);
-  const bool reversed = this->IsLeftHanded();
-  const FCCEdgePoints edgePoints = this->MakeEdgePoints();
-  const auto idOf = [](SizeValueType id) { return static_cast<std::uint32_t>(id); };
-
-  const float share = 0.7f / static_cast<float>(m_Isovalues.size());
-  this->ForEachSlab(signs.GetDepth(), share, [&](SizeValueType begin, SizeValueType end) {
-    // Of the planes before, at and after a layer; no edges are cut before the first plane.
-    using Group = FCCCutEdges::Group;
-    FCCCutEdges inPlane[3] = { { signs, Group::InPlane, types },
-                               { signs, Group::InPlane, types },
-                               { signs, Group::InPlane, types } };
-    FCCCutEdges between[2] = { { signs, Group::Between, types }, { signs, Group::Between, types } };
-    if (begin > 0)
-    {
-      inPlane[0].Find(begin - 1, idOf(layout.inPlane[begin - 1]));
-      between[0].Find(begin - 1, idOf(layout.between[begin - 1]));
-    }
-    inPlane[1].Find(begin, idOf(layout.inPlane[begin]));
-    FCCEdgePointFiller filler = this->MakeFiller(signs, isovalue, edgePoints);
-    for (SizeValueType k = begin; k < end; ++k)
-    {
-      between[1].Find(k, idOf(layout.between[k]));
-      inPlane[2].Find(k + 1, idOf(layout.inPlane[k + 1]));
-      filler.Fill(k, inPlane[1], between[1], surface);
-      FillCellTriangles(signs,
-                        scheme,
-                        k,
-                        { { &inPlane[0], &inPlane[1], &inPlane[2] }, { &between[0], &between[1] } },
-                        m_Closed,
-                        reversed,
-                        surface.GetTriangles().data() + layout.triangles[k]);
-      std::rotate(std::begin(inPlane), std::begin(inPlane) + 1, std::end(inPlane));
-      std::swap(between[0], between[1]);
-    }
-  });
+  };
+  return { this->GetRegion(),  this->MakeFrame(), m_InsideIsBelow, m_Closed, m_UsedFraction,
+           this->IsInMemory(), readRow,           readValues,      &scratch };
 }
 
 template <typename TInputImage>

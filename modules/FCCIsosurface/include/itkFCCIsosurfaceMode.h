@@ -6,12 +6,13 @@
 namespace itk
 {
 
-/** \class FCCIsosurfaceMode
- * \brief How FCCIsosurfaceFilter puts triangles through the lattice's cells.
+/** \brief How FCCIsosurfaceFilter puts triangles through the lattice's cells.
  *
  * All modes give a closed (with Closed on), oriented manifold for any input. Triangles per unit of area at one sample
  * per unit of volume are means over directions; marching cubes on a Cartesian grid makes 3, and the lattice needs 0.77
  * samples for one of the grid.
+ *
+ * Thread safety: a value.
  *
  * \ingroup FCCIsosurface
  */

@@ -97,13 +97,13 @@ FCCNumberedBits::Clear()
   std::fill(m_Bits.begin(), m_Bits.end(), 0);
 }
 
-FCCClusterPlane::FCCClusterPlane(const FCCSigns & signs)
+FCCClusterPlane::FCCClusterPlane(const FCCSigns & signs, std::pmr::memory_resource * scratch)
   : m_Signs(&signs)
-  , m_Owners(signs)
-  , m_Owned(signs.GetHeight() * Directions * m_Owners.GetStride())
-  , m_SplitCrossings(signs.GetHeight() * Types * m_Owners.GetStride() + FCCSigns::WordsBeyond)
-  , m_Wholes(signs.GetHeight(), signs.GetNumberOfWords())
-  , m_Split(signs.GetHeight(), signs.GetNumberOfWords())
+  , m_Owners(signs, scratch)
+  , m_Owned(signs.GetHeight() * Directions * m_Owners.GetStride(), scratch)
+  , m_SplitCrossings(signs.GetHeight() * Types * m_Owners.GetStride() + FCCSigns::WordsBeyond, scratch)
+  , m_Wholes(signs.GetHeight(), signs.GetNumberOfWords(), scratch)
+  , m_Split(signs.GetHeight(), signs.GetNumberOfWords(), scratch)
 {}
 
 std::uint32_t

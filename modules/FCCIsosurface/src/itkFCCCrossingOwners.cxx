@@ -151,10 +151,10 @@ namespace
 HWY_EXPORT(FindOwners);
 }
 
-FCCCrossingOwners::FCCCrossingOwners(const FCCSigns & signs)
+FCCCrossingOwners::FCCCrossingOwners(const FCCSigns & signs, std::pmr::memory_resource * scratch)
   : m_Signs(&signs)
-  , m_First(signs.GetHeight() * Types * this->GetStride() + FCCSigns::WordsBeyond)
-  , m_Second(m_First.size())
+  , m_First(signs.GetHeight() * Types * this->GetStride() + FCCSigns::WordsBeyond, scratch)
+  , m_Second(m_First.size(), scratch)
 {}
 
 void

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 #include <optional>
-#include <utility>
 
 namespace itk
 {
@@ -247,17 +246,16 @@ FCCEdgePoints::GatherBorder(const SiteType & site,
 }
 
 FCCEdgePointFiller::FCCEdgePointFiller(const FCCSigns & signs,
-                                       const ImageRegion<3> & region,
-                                       SizeValueType margin,
-                                       const FCCEdgePoints & edgePoints,
-                                       FCCFieldPlanes::RowReader readRow)
+                                       const FCCScalarField & field,
+                                       const FCCEdgePoints & edgePoints)
   : m_Signs(signs)
   , m_EdgePoints(edgePoints)
-  , m_ToField(1 - margin)
-  , m_Field({ region.GetSize(0), region.GetSize(1), region.GetSize(2) },
-            FCCLattice::Parity(region.GetIndex(1) - 1, region.GetIndex(2) - 1),
-            std::move(readRow),
-            2)
+  , m_ToField(field.closed ? 0 : 1)
+  , m_Field({ field.region.GetSize(0), field.region.GetSize(1), field.region.GetSize(2) },
+            FCCLattice::Parity(field.region.GetIndex(1) - 1, field.region.GetIndex(2) - 1),
+            field.readRow,
+            2,
+            field.scratch)
 {}
 
 void

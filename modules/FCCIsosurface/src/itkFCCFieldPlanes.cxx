@@ -9,12 +9,22 @@ namespace itk
 FCCFieldPlanes::FCCFieldPlanes(const std::array<SizeValueType, 3> & size,
                                IndexValueType parityOfFirstRow,
                                RowReader readRow,
-                               SizeValueType planesOfGradients)
+                               SizeValueType planesOfGradients,
+                               std::pmr::memory_resource * scratch)
   : m_Size{ size[0] + 2, size[1] + 2, size[2] + 2 }
   , m_ParityOfFirstRow(parityOfFirstRow)
   , m_ReadRow(std::move(readRow))
-  , m_Gradients(planesOfGradients)
 {
+  const auto addPlanes = [scratch](std::vector<Plane> & planes, SizeValueType count) {
+    planes.reserve(count);
+    for (SizeValueType n = 0; n < count; ++n)
+    {
+      planes.emplace_back(scratch);
+    }
+  };
+  addPlanes(m_Values, 6);
+  addPlanes(m_Coefficients, 3);
+  addPlanes(m_Gradients, planesOfGradients);
   constexpr SizeValueType block = FCCRowKernels::Block;
   constexpr SizeValueType word = 64; // rows are also read by the words of their signs
   m_Stride = (m_Size[0] + word - 1) / word * word + 2 * block;

@@ -4,6 +4,7 @@
 #include <hwy/highway.h>
 
 #include "itkFCCLeanMarching.h"
+#include "itkFCCMarchingCases.h"
 
 #include <algorithm>
 

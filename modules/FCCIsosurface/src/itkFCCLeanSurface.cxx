@@ -1,34 +1,29 @@
 #include "itkFCCLeanSurface.h"
 
+#include "itkFCCClusterPoints.h"
+#include "itkFCCLeanMarching.h"
+
 #include <algorithm>
 #include <utility>
 
 namespace itk
 {
 
-FCCLeanSurface::FCCLeanSurface(const FCCSigns & signs,
-                               const ImageRegion<3> & region,
-                               const FCCFrame & frame,
-                               bool insideIsBelow,
-                               double minimumFraction,
-                               FCCFieldPlanes::RowReader readRow)
+FCCLeanSurface::FCCLeanSurface(const FCCSigns & signs, const FCCScalarField & field)
   : m_Signs(signs)
-  , m_Region(region)
-  , m_Frame(frame)
-  , m_InsideIsBelow(insideIsBelow)
-  , m_MinimumFraction(minimumFraction)
-  , m_ReadRow(std::move(readRow))
+  , m_Field(field)
   , m_Splits(signs)
+  , m_Remembered(field.isInMemory ? 0 : signs.GetDepth())
   , m_FirstPoint(signs.GetDepth() + 1)
   , m_FirstTriangle(signs.GetDepth() + 1)
   , m_Filled(signs.GetDepth())
 {}
 
 FCCFieldPlanes
-FCCLeanSurface::MakeField() const
+FCCLeanSurface::MakePlanes() const
 {
-  return FCCFieldPlanes(
-    { m_Region.GetSize(0), m_Region.GetSize(1), m_Region.GetSize(2) }, m_Signs.GetParity(0, 0), m_ReadRow, 3);
+  const auto & size = m_Field.region.GetSize();
+  return FCCFieldPlanes({ size[0], size[1], size[2] }, m_Signs.GetParity(0, 0), m_Field.readRow, 3, m_Field.scratch);
 }
 
 namespace
@@ -38,12 +33,16 @@ namespace
 class PlaneSequence
 {
 public:
-  PlaneSequence(const FCCSigns & signs, FCCFieldPlanes & field, bool insideIsBelow, const FCCSplitSites * splits)
+  PlaneSequence(const FCCSigns & signs,
+                FCCFieldPlanes & field,
+                bool insideIsBelow,
+                const FCCSplitSites * splits,
+                std::pmr::memory_resource * scratch)
     : m_Signs(signs)
     , m_Field(field)
     , m_InsideIsBelow(insideIsBelow)
     , m_Splits(splits)
-    , m_Planes{ FCCClusterPlane(signs), FCCClusterPlane(signs), FCCClusterPlane(signs) }
+    , m_Planes{ FCCClusterPlane(signs, scratch), FCCClusterPlane(signs, scratch), FCCClusterPlane(signs, scratch) }
   {}
 
   /** Finds plane \a k, with vertices numbered from \a first on. Returns the number after the last. */
@@ -105,16 +104,14 @@ TakeSuspects(const FCCSigns & signs,
 void
 FCCLeanSurface::Count(SizeValueType begin, SizeValueType end)
 {
-  FCCFieldPlanes field = this->MakeField();
-  PlaneSequence planes(m_Signs, field, m_InsideIsBelow, nullptr);
+  FCCFieldPlanes field = this->MakePlanes();
+  PlaneSequence planes(m_Signs, field, m_Field.insideIsBelow, nullptr, m_Field.scratch);
   const SizeValueType stride = m_Signs.GetNumberOfWords() * FCCSigns::WordBits + 1;
   std::vector<SizeValueType> suspects;
-  std::array<FCCTriangleUse, 2> uses;
-  for (FCCTriangleUse & use : uses)
-  {
-    use.stride = stride;
-    use.counts.resize(stride * m_Signs.GetHeight());
-  }
+  const auto makeUse = [&] {
+    return FCCTriangleUse{ stride, std::pmr::vector<std::uint64_t>(stride * m_Signs.GetHeight(), m_Field.scratch) };
+  };
+  std::array<FCCTriangleUse, 2> uses{ makeUse(), makeUse() };
   const auto useOf = [&uses](SizeValueType k) -> FCCTriangleUse & { return uses[k % uses.size()]; };
 
   // The triangles below the first plane use its sites and edges, too.
@@ -131,6 +128,10 @@ FCCLeanSurface::Count(SizeValueType begin, SizeValueType end)
       m_FirstTriangle[k] = triangles;
       m_FirstPoint[k] = planes.Get(k).GetWholes().Count();
       TakeSuspects(m_Signs, k, planes.Get(k), useOf(k), suspects);
+      if (!m_Field.isInMemory)
+      {
+        m_Remembered[k] = this->FindOwners(k, planes.Get(k), field);
+      }
     }
     else
     {
@@ -140,10 +141,60 @@ FCCLeanSurface::Count(SizeValueType begin, SizeValueType end)
   m_Splits.Suspect(suspects);
 }
 
-void
-FCCLeanSurface::Resolve(const FCCSplitSites::ValueReader & readValues, const FCCSplitSites::ParallelFor & parallelFor)
+auto
+FCCLeanSurface::FindOwners(SizeValueType k, const FCCClusterPlane & plane, const FCCFieldPlanes & field) const
+  -> RememberedOwners
 {
-  m_Splits.Resolve(readValues, m_InsideIsBelow, parallelFor, m_FirstPoint, m_FirstTriangle);
+  const FCCSplitSites::ValueReader readValues =
+    [&field](const std::array<SizeValueType, 3> * sites, unsigned int wanted, float * values) {
+      for (; wanted != 0; wanted &= wanted - 1)
+      {
+        const auto n = static_cast<unsigned int>(__builtin_ctz(wanted));
+        const auto [i, j, near] = sites[n];
+        values[n] = field.GetValues(j, near)[i];
+      }
+    };
+  const SizeValueType sitesOfPlane = m_Signs.GetHeight() * m_Signs.GetWidth();
+  const SizeValueType count = plane.GetWholes().Count();
+  std::vector<SizeValueType> sites;
+  sites.reserve(count);
+  RememberedOwners found{ {}, std::vector<FCCSplitSites::OwnersType>(count) };
+  found.places.reserve(count);
+  plane.GetWholes().ForEach([&](SizeValueType j, SizeValueType i) {
+    const SizeValueType place = j * m_Signs.GetWidth() + i;
+    sites.push_back(k * sitesOfPlane + place);
+    found.places.push_back(static_cast<std::uint32_t>(place));
+  });
+  FCCSplitSites::FindOwners(m_Signs, readValues, m_Field.insideIsBelow, sites.data(), count, found.owners.data());
+  return found;
+}
+
+void
+FCCLeanSurface::RecallOwners(const SizeValueType * sites, SizeValueType count, FCCSplitSites::OwnersType * owners) const
+{
+  const SizeValueType sitesOfPlane = m_Signs.GetHeight() * m_Signs.GetWidth();
+  std::transform(sites, sites + count, owners, [&](SizeValueType site) {
+    const RememberedOwners & remembered = m_Remembered[site / sitesOfPlane];
+    const auto & places = remembered.places;
+    const auto place = std::lower_bound(places.begin(), places.end(), site % sitesOfPlane);
+    return remembered.owners[static_cast<std::size_t>(place - places.begin())];
+  });
+}
+
+void
+FCCLeanSurface::Resolve(const ParallelFor & parallelFor)
+{
+  m_Splits.Resolve(
+    [&](const SizeValueType * sites, SizeValueType count, FCCSplitSites::OwnersType * owners) {
+      m_Field.isInMemory
+        ? FCCSplitSites::FindOwners(m_Signs, m_Field.readValues, m_Field.insideIsBelow, sites, count, owners)
+        : this->RecallOwners(sites, count, owners);
+    },
+    parallelFor,
+    m_FirstPoint,
+    m_FirstTriangle);
+  m_Remembered.clear();
+  m_Remembered.shrink_to_fit();
   for (std::vector<SizeValueType> * const counts : { &m_FirstPoint, &m_FirstTriangle })
   {
     SizeValueType sum = 0;
@@ -152,18 +203,16 @@ FCCLeanSurface::Resolve(const FCCSplitSites::ValueReader & readValues, const FCC
       sum += std::exchange(count, sum);
     }
   }
+  m_AreOutside.resize(m_Field.closed ? 0 : this->GetNumberOfPoints());
 }
 
 void
-FCCLeanSurface::Fill(SizeValueType begin,
-                     SizeValueType end,
-                     bool reversed,
-                     TriangleSurface & surface,
-                     std::uint8_t * areOutside)
+FCCLeanSurface::Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface)
 {
-  FCCFieldPlanes field = this->MakeField();
-  PlaneSequence planes(m_Signs, field, m_InsideIsBelow, &m_Splits);
-  const FCCClusterPoints clusterPoints(m_Region, m_Frame, m_MinimumFraction);
+  FCCFieldPlanes field = this->MakePlanes();
+  PlaneSequence planes(m_Signs, field, m_Field.insideIsBelow, &m_Splits, m_Field.scratch);
+  const FCCClusterPoints clusterPoints(m_Field.region, m_Field.frame, m_Field.minimumFraction);
+  const bool reversed = m_Field.frame.IsLeftHanded();
   std::vector<std::uint8_t> blocks;
   const auto loadAround = [&](SizeValueType k) {
     if (!surface.HasNormals())
@@ -201,7 +250,7 @@ FCCLeanSurface::Fill(SizeValueType begin,
                         field,
                         surface.GetPoints().data() + m_FirstPoint[k],
                         surface.HasNormals() ? surface.GetNormals().data() + m_FirstPoint[k] : nullptr,
-                        areOutside != nullptr ? areOutside + m_FirstPoint[k] : nullptr);
+                        m_Field.closed ? nullptr : m_AreOutside.data() + m_FirstPoint[k]);
     if (k + 1 < m_Signs.GetDepth())
     {
       filled += FillLeanTriangles(m_Signs, k, planes.Get(k), planes.Get(k + 1), reversed, triangles + filled);
@@ -211,7 +260,7 @@ FCCLeanSurface::Fill(SizeValueType begin,
 }
 
 void
-FCCLeanSurface::Finish(TriangleSurface & surface) const
+FCCLeanSurface::Finish(TriangleSurface & surface)
 {
   auto & triangles = surface.GetTriangles();
   auto end = triangles.begin();
@@ -220,6 +269,12 @@ FCCLeanSurface::Finish(TriangleSurface & surface) const
     const auto first = triangles.begin() + static_cast<std::ptrdiff_t>(m_FirstTriangle[k]);
     const auto last = first + static_cast<std::ptrdiff_t>(m_Filled[k]);
     end = first == end ? last : std::copy(first, last, end);
+  }
+  if (!m_Field.closed)
+  {
+    end = std::remove_if(triangles.begin(), end, [this](const TriangleSurface::TriangleType & triangle) {
+      return (m_AreOutside[triangle[0]] | m_AreOutside[triangle[1]] | m_AreOutside[triangle[2]]) != 0;
+    });
   }
   triangles.erase(end, triangles.end());
 }

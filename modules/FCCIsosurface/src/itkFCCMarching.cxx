@@ -4,6 +4,7 @@
 #include <hwy/highway.h>
 
 #include "itkFCCMarching.h"
+#include "itkFCCMarchingCases.h"
 
 #include <algorithm>
 
@@ -365,28 +366,6 @@ HWY_EXPORT(CountTriangles);
 HWY_EXPORT(FillTriangles);
 } // namespace
 
-FCCSigns::FCCSigns(SizeValueType width, SizeValueType height, SizeValueType depth, IndexValueType parityOfFirstRow)
-  : m_Width(width)
-  , m_Height(height)
-  , m_Depth(depth)
-  , m_Stride((width + WordBits - 1) / WordBits + 1)
-  , m_ParityOfFirstRow(parityOfFirstRow)
-  , m_Words(m_Stride * height * depth + WordsBeyond, 0)
-{}
-
-void
-FCCSigns::ShiftRow(SizeValueType j, SizeValueType k)
-{
-  WordType * const row = this->GetRow(j, k);
-  WordType carried = 0;
-  for (SizeValueType word = 0; word < this->GetNumberOfWords(); ++word)
-  {
-    const WordType bits = row[word];
-    row[word] = bits << 1 | carried;
-    carried = bits >> (WordBits - 1);
-  }
-}
-
 namespace
 {
 
@@ -399,12 +378,12 @@ TypesOfGroup(FCCCutEdges::Group group, std::uint8_t types)
 
 } // namespace
 
-FCCCutEdges::FCCCutEdges(const FCCSigns & signs, Group group, std::uint8_t types)
+FCCCutEdges::FCCCutEdges(const FCCSigns & signs, Group group, std::uint8_t types, std::pmr::memory_resource * scratch)
   : m_Signs(&signs)
   , m_Types(TypesOfGroup(group, types))
   , m_NumberOfTypes(static_cast<SizeValueType>(__builtin_popcount(m_Types)))
-  , m_Masks(signs.GetHeight() * m_NumberOfTypes * signs.GetNumberOfWords())
-  , m_Before(m_Masks.size())
+  , m_Masks(signs.GetHeight() * m_NumberOfTypes * signs.GetNumberOfWords(), scratch)
+  , m_Before(m_Masks.size(), scratch)
 {}
 
 void

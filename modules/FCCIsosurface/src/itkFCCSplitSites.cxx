@@ -258,22 +258,19 @@ using VertexType = std::uint8_t;
 constexpr unsigned int Whole = 15;
 static_assert(Sites * 16 <= 256, "a vertex has a number of 8 bits");
 
-/** The surface around one site, as it is while the parts of other sites do not change. */
-class Surroundings
+/** The sites of the surroundings of a site: where they are, counted as signs are, and whether. */
+struct Neighborhood
 {
-public:
-  Surroundings(const FCCSigns & signs,
-               const FCCSigns & split,
-               const PartsOfSites & parts,
-               const FCCSplitSites::ValueReader & readValues,
-               bool insideIsBelow,
-               const SiteType & index)
+  std::array<SizeValueType, 3> places[Sites];
+  SizeValueType numbers[Sites];
+  unsigned int there{ 0 }; ///< bits of the sites that have signs
+  unsigned int real{ 0 };  ///< bits of those in the image
+
+  Neighborhood(const FCCSigns & signs, SizeValueType number)
   {
-    const Star & star = GetStar();
-    std::array<SizeValueType, 3> places[Sites];
-    const IndexValueType parity =
-      signs.GetParity(static_cast<SizeValueType>(index[1]), static_cast<SizeValueType>(index[2]));
     const SizeValueType size[3] = { signs.GetWidth(), signs.GetHeight(), signs.GetDepth() };
+    const SizeValueType index[3] = { number % size[0], number / size[0] % size[1], number / size[0] / size[1] };
+    const IndexValueType parity = signs.GetParity(index[1], index[2]);
     for (unsigned int site = 0; site < Sites; ++site)
     {
       const auto offset = FCCLattice::OffsetOf(StepTo(site), parity);
@@ -282,28 +279,76 @@ public:
       auto & place = places[site];
       for (unsigned int axis = 0; axis < 3; ++axis)
       {
-        place[axis] = static_cast<SizeValueType>(index[axis] + offset[axis]);
+        place[axis] = index[axis] + static_cast<SizeValueType>(offset[axis]);
         isThere = isThere && place[axis] < size[axis];
         isReal = isReal && place[axis] - 1 < size[axis] - 2;
       }
-      const auto [i, j, k] = place;
-      m_Number[site] = (k * size[1] + j) * size[0] + i;
-      const auto bit = [&](const FCCSigns & bits) {
-        return (bits.GetRow(j, k)[i / FCCSigns::WordBits] >> (i % FCCSigns::WordBits) & 1) != 0;
-      };
-      if (isReal)
-      {
-        m_Real |= 1U << site;
-        m_Inside |= static_cast<unsigned int>(bit(signs)) << site;
-      }
-      if (isThere && bit(split))
-      {
-        m_Split |= 1U << site;
-        m_Parts[site] = parts.at(m_Number[site]);
-      }
+      numbers[site] = (place[2] * size[1] + place[1]) * size[0] + place[0];
+      there |= static_cast<unsigned int>(isThere) << site;
+      real |= static_cast<unsigned int>(isReal) << site;
     }
-    float values[Sites] = {};
-    readValues(places, m_Real, values);
+  }
+
+  /** The bits of some sites. */
+  template <typename TBits>
+  unsigned int
+  GetBits(const TBits & bits, unsigned int wanted) const
+  {
+    unsigned int found = 0;
+    for (; wanted != 0; wanted &= wanted - 1)
+    {
+      const auto site = static_cast<unsigned int>(__builtin_ctz(wanted));
+      const auto [i, j, k] = places[site];
+      const auto bit = bits.GetRow(j, k)[i / FCCSigns::WordBits] >> (i % FCCSigns::WordBits) & 1;
+      found |= static_cast<unsigned int>(bit) << site;
+    }
+    return found;
+  }
+};
+
+/** Bit n is set when the end inside owns the crossing of edge n of the Star. */
+FCCSplitSites::OwnersType
+FindOwnersAround(const FCCSigns & signs,
+                 const FCCSplitSites::ValueReader & readValues,
+                 bool insideIsBelow,
+                 SizeValueType site)
+{
+  const Neighborhood sites(signs, site);
+  const unsigned int inside = sites.GetBits(signs, sites.real);
+  float values[Sites] = {};
+  readValues(sites.places, sites.real, values);
+  const Star & star = GetStar();
+  FCCSplitSites::OwnersType owners = 0;
+  for (std::size_t n = 0; n < star.edges.size(); ++n)
+  {
+    const auto [a, b] = star.edges[n].ends;
+    const unsigned int outside = (inside >> a & 1) != 0 ? b : a;
+    const float sum = values[a] + values[b];
+    const bool insideOwns = (sites.real >> outside & 1) != 0 && (insideIsBelow ? sum > 0.0f : sum < 0.0f);
+    owners |= FCCSplitSites::OwnersType{ insideOwns } << n;
+  }
+  return owners;
+}
+
+/** The surface around one site, as it is while the parts of other sites do not change. */
+class Surroundings
+{
+public:
+  Surroundings(const FCCSigns & signs,
+               const FCCRareBits & split,
+               const PartsOfSites & parts,
+               FCCSplitSites::OwnersType owners,
+               SizeValueType number)
+    : m_Sites(signs, number)
+    , m_Inside(m_Sites.GetBits(signs, m_Sites.real))
+    , m_Split(m_Sites.GetBits(split, m_Sites.there))
+  {
+    for (unsigned int left = m_Split; left != 0; left &= left - 1)
+    {
+      const auto site = static_cast<unsigned int>(__builtin_ctz(left));
+      m_Parts[site] = parts.at(m_Sites.numbers[site]);
+    }
+    const Star & star = GetStar();
     for (std::size_t n = 0; n < star.edges.size(); ++n)
     {
       const auto [a, b] = star.edges[n].ends;
@@ -311,11 +356,8 @@ public:
       {
         continue;
       }
-      const unsigned int inside = this->IsInside(a) ? a : b;
-      const unsigned int outside = this->IsInside(a) ? b : a;
-      const float sum = values[a] + values[b];
-      const bool insideOwns = (m_Real >> outside & 1) != 0 && (insideIsBelow ? sum > 0.0f : sum < 0.0f);
-      m_Owner[n] = static_cast<std::uint8_t>(insideOwns ? inside : outside);
+      const bool insideOwns = (owners >> n & 1) != 0;
+      m_Owner[n] = this->IsInside(a) == insideOwns ? a : b;
       if (m_Owner[n] == Center)
       {
         m_Owned |= 1U << star.edges[n].directions[a == Center ? 0 : 1];
@@ -338,7 +380,7 @@ public:
   {
     const auto check = [this, &use](unsigned int point) {
       const VertexType vertex = VertexOf(Center, static_cast<unsigned int>(__builtin_ctz(point)));
-      this->CountUses(vertex, [&](VertexType end) { use(m_Number[end / 16]); });
+      this->CountUses(vertex, [&](VertexType end) { use(m_Sites.numbers[end / 16]); });
     };
     for (unsigned int left = m_Parts[Center].lone; left != 0; left &= left - 1)
     {
@@ -566,11 +608,10 @@ private:
     m_Parts[Center] = Parts(m_Owned, lone | part);
   }
 
-  unsigned int m_Real{ 0 };
-  unsigned int m_Inside{ 0 };
-  unsigned int m_Split{ 0 };
+  Neighborhood m_Sites;
+  unsigned int m_Inside;
+  unsigned int m_Split;
   unsigned int m_Owned{ 0 };
-  SizeValueType m_Number[Sites];
   Parts m_Parts[Sites];
   std::uint8_t m_Owner[64];
   unsigned int m_NumberOfPolygons{ 0 };
@@ -604,9 +645,22 @@ FCCSiteStar::PartOf(unsigned int set, unsigned int direction)
   return GetStar().PartOf(set, direction);
 }
 
+void
+FCCSplitSites::FindOwners(const FCCSigns & signs,
+                          const ValueReader & readValues,
+                          bool insideIsBelow,
+                          const SizeValueType * sites,
+                          SizeValueType count,
+                          OwnersType * owners)
+{
+  std::transform(sites, sites + count, owners, [&](SizeValueType site) {
+    return FindOwnersAround(signs, readValues, insideIsBelow, site);
+  });
+}
+
 FCCSplitSites::FCCSplitSites(const FCCSigns & signs)
   : m_Signs(signs)
-  , m_Split(signs.GetWidth(), signs.GetHeight(), signs.GetDepth(), signs.GetParity(0, 0))
+  , m_Split(signs)
 {}
 
 void
@@ -617,8 +671,7 @@ FCCSplitSites::Suspect(const std::vector<SizeValueType> & sites)
 }
 
 void
-FCCSplitSites::Resolve(const ValueReader & readValues,
-                       bool insideIsBelow,
+FCCSplitSites::Resolve(const OwnersReader & ownersAround,
                        const ParallelFor & parallelFor,
                        std::vector<SizeValueType> & points,
                        std::vector<SizeValueType> & triangles)
@@ -626,34 +679,33 @@ FCCSplitSites::Resolve(const ValueReader & readValues,
   const SizeValueType width = m_Signs.GetWidth();
   const SizeValueType height = m_Signs.GetHeight();
   PartsOfSites parts;
-  const auto surroundingsOf = [&](SizeValueType number) {
-    return Surroundings(m_Signs,
-                        m_Split,
-                        parts,
-                        readValues,
-                        insideIsBelow,
-                        { static_cast<IndexValueType>(number % width),
-                          static_cast<IndexValueType>(number / width % height),
-                          static_cast<IndexValueType>(number / width / height) });
-  };
 
   // No two sites of one color are neighbours, so those of a color can be divided at once.
   constexpr unsigned int colors = 8;
   const auto colorOf = [width, height](SizeValueType number) {
     return (number % width & 1) | (number / width % height & 1) << 1 | (number / width / height & 1) << 2;
   };
+  struct Suspected
+  {
+    SizeValueType number;
+    OwnersType owners;
+  };
   std::vector<SizeValueType> suspects = std::move(m_Suspects);
   while (!suspects.empty())
   {
     std::sort(suspects.begin(), suspects.end());
     suspects.erase(std::unique(suspects.begin(), suspects.end()), suspects.end());
-    std::array<std::vector<SizeValueType>, colors> sites;
-    for (const SizeValueType number : suspects)
+    std::vector<OwnersType> owners(suspects.size()); // all at once: that is mostly waiting for memory
+    parallelFor(suspects.size(), [&](SizeValueType begin, SizeValueType end) {
+      ownersAround(suspects.data() + begin, end - begin, owners.data() + begin);
+    });
+    std::array<std::vector<Suspected>, colors> sites;
+    for (std::size_t n = 0; n < suspects.size(); ++n)
     {
-      sites[colorOf(number)].push_back(number);
+      sites[colorOf(suspects[n])].push_back({ suspects[n], owners[n] });
     }
     suspects.clear();
-    for (const std::vector<SizeValueType> & sitesOfColor : sites)
+    for (const std::vector<Suspected> & sitesOfColor : sites)
     {
       struct Divided
       {
@@ -667,11 +719,12 @@ FCCSplitSites::Resolve(const ValueReader & readValues,
         std::vector<SizeValueType> broken;
         for (SizeValueType n = begin; n < end; ++n)
         {
-          Surroundings surroundings = surroundingsOf(sitesOfColor[n]);
+          const auto [number, ownersHere] = sitesOfColor[n];
+          Surroundings surroundings(m_Signs, m_Split, parts, ownersHere, number);
           if (surroundings.Divide())
           {
-            dividedHere.push_back({ sitesOfColor[n], surroundings.GetParts(), surroundings.GetMostTriangles() });
-            surroundings.ForEachBrokenNeighbor([&](SizeValueType number) { broken.push_back(number); });
+            dividedHere.push_back({ number, surroundings.GetParts(), surroundings.GetMostTriangles() });
+            surroundings.ForEachBrokenNeighbor([&](SizeValueType neighbor) { broken.push_back(neighbor); });
           }
         }
         const std::lock_guard<std::mutex> lock(m_Mutex);
@@ -690,9 +743,7 @@ FCCSplitSites::Resolve(const ValueReader & readValues,
             triangles[k - 1] += mostTriangles[0];
           }
         }
-        const SizeValueType i = number % width;
-        m_Split.GetRow(number / width % height, number / width / height)[i / FCCSigns::WordBits] |=
-          WordType{ 1 } << (i % FCCSigns::WordBits);
+        m_Split.Set(number % width, number / width % height, number / width / height);
       }
     }
   }
@@ -709,7 +760,7 @@ FCCSplitSites::Resolve(const ValueReader & readValues,
 unsigned int
 FCCSplitSites::GetLone(SizeValueType i, SizeValueType j, SizeValueType k) const
 {
-  const SizeValueType number = (k * m_Split.GetHeight() + j) * m_Split.GetWidth() + i;
+  const SizeValueType number = (k * m_Signs.GetHeight() + j) * m_Signs.GetWidth() + i;
   return std::lower_bound(m_Lone.begin(), m_Lone.end(), std::make_pair(number, std::uint16_t{ 0 }))->second;
 }
 

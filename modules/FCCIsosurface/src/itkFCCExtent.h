@@ -12,6 +12,8 @@ namespace itk
 /** \class FCCExtent
  * \brief The faces on which a closed surface ends at the border of an image: half a lattice unit beyond its samples.
  *
+ * Thread safety: immutable.
+ *
  * \ingroup FCCIsosurface
  */
 class FCCExtent
@@ -29,7 +31,7 @@ public:
     return m_Region;
   }
 
-  /** How far along a step that leads from a sample out of the image its extent ends. */
+  /** How far along a step that leads from a sample out of the image its extent ends, as a fraction of the step. */
   double
   FractionToBorder(const SiteType & site, const SiteType & step) const
   {
@@ -48,7 +50,7 @@ public:
     return nearest;
   }
 
-  /** Across the faces beyond which a site outside the image lies, in lattice coordinates. */
+  /** Across the faces beyond which a site outside the image lies, in lattice coordinates: -1, 0 or 1 for each axis. */
   std::array<double, 3>
   DirectionTo(const SiteType & outside) const
   {

@@ -6,8 +6,7 @@
 namespace itk
 {
 
-/** \class FCCCellScheme
- * \brief The ways to fill space with whole cells of the lattice: FCCOctahedraCases and FCCParallelepipedCases. */
+/** The ways to fill space with whole cells of the lattice: FCCOctahedraCases and FCCParallelepipedCases. */
 enum class FCCCellScheme : unsigned char
 {
   Octahedra,
@@ -21,7 +20,7 @@ struct FCCLayerEdges
   const FCCCutEdges * between[2]; ///< between the planes k - 1 and k, and k and k + 1
 };
 
-/** The types of edges with points in a scheme, for FCCCutEdges. */
+/** The types of edges with points in a scheme, for FCCCutEdges. Thread safe. */
 std::uint8_t
 GetEdgeTypes(FCCCellScheme scheme);
 

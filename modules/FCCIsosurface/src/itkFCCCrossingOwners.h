@@ -16,6 +16,8 @@ namespace itk
  * Halfway between, it belongs to the end outside, as where a value is not a number. Crossings of edges that leave the
  * image belong to the site outside it.
  *
+ * Thread safety: each thread uses its own.
+ *
  * \ingroup FCCIsosurface
  */
 class FCCCrossingOwners
@@ -24,7 +26,7 @@ public:
   using WordType = FCCSigns::WordType;
   static constexpr std::uint8_t Types = FCCLattice::OwnedEdges.size();
 
-  explicit FCCCrossingOwners(const FCCSigns & signs);
+  FCCCrossingOwners(const FCCSigns & signs, std::pmr::memory_resource * scratch);
 
   /** Finds the crossings of plane \a k. The field must have loaded the values of planes \a k and \a k + 1. Planes past
    * the last have none. */
@@ -60,8 +62,8 @@ private:
   }
 
   const FCCSigns * m_Signs;
-  std::vector<WordType> m_First;
-  std::vector<WordType> m_Second;
+  std::pmr::vector<WordType> m_First;
+  std::pmr::vector<WordType> m_Second;
 };
 
 } // namespace itk

@@ -1,87 +1,15 @@
 #ifndef itkFCCMarching_h
 #define itkFCCMarching_h
 
-#include "itkFCCMarchingCases.h"
+#include "itkFCCSigns.h"
 #include "itkTriangleSurface.h"
 
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
 namespace itk
 {
-
-/** \class FCCSigns
- * \brief One bit for each site of a box of the lattice: is it inside?
- *
- * Rows are stored as 64-bit words, bit i of a row being site i, followed by a spare zero word; bits past the last site
- * are zero. Rows are counted from (0, 0) whatever the image's start index, so the parity of that row is stored, too.
- *
- * Thread safety: different rows can be written at once.
- *
- * \ingroup FCCIsosurface
- */
-class FCCSigns
-{
-public:
-  using WordType = std::uint64_t;
-  static constexpr SizeValueType WordBits = 64;
-
-  /** Words that may be read beyond the last row, so that rows can be read by whole vectors. */
-  static constexpr SizeValueType WordsBeyond = 8;
-
-  FCCSigns(SizeValueType width, SizeValueType height, SizeValueType depth, IndexValueType parityOfFirstRow);
-
-  SizeValueType
-  GetWidth() const
-  {
-    return m_Width;
-  }
-  SizeValueType
-  GetHeight() const
-  {
-    return m_Height;
-  }
-  SizeValueType
-  GetDepth() const
-  {
-    return m_Depth;
-  }
-  /** Words of a row that hold sites, without the spare one. */
-  SizeValueType
-  GetNumberOfWords() const
-  {
-    return m_Stride - 1;
-  }
-
-  IndexValueType
-  GetParity(SizeValueType j, SizeValueType k) const
-  {
-    return (m_ParityOfFirstRow + static_cast<IndexValueType>(j + k)) & 1;
-  }
-
-  WordType *
-  GetRow(SizeValueType j, SizeValueType k)
-  {
-    return m_Words.data() + (k * m_Height + j) * m_Stride;
-  }
-  const WordType *
-  GetRow(SizeValueType j, SizeValueType k) const
-  {
-    return m_Words.data() + (k * m_Height + j) * m_Stride;
-  }
-
-  /** Moves the bits of a row one site up; there must be room. */
-  void
-  ShiftRow(SizeValueType j, SizeValueType k);
-
-private:
-  SizeValueType m_Width;
-  SizeValueType m_Height;
-  SizeValueType m_Depth;
-  SizeValueType m_Stride;
-  IndexValueType m_ParityOfFirstRow;
-  std::vector<WordType> m_Words;
-};
 
 /** \class FCCCutEdges
  * \brief The edges that the surface cuts, among some types of owned edges of the rows of one plane, and their vertex
@@ -89,6 +17,8 @@ private:
  *
  * Ids count the cut edges row by row, within a row type by type, within a type along x. An id is found from the mask of
  * cut edges by counting bits: no table of vertices, no search.
+ *
+ * Thread safety: each thread uses its own; all may share the signs, which must outlive them.
  *
  * \ingroup FCCIsosurface
  */
@@ -107,7 +37,7 @@ public:
   /** Bits of the types of FCCLattice::OwnedEdges that a decomposition of space into cells has. */
   static constexpr std::uint8_t AllTypes = 0x7f;
 
-  FCCCutEdges(const FCCSigns & signs, Group group, std::uint8_t types = AllTypes);
+  FCCCutEdges(const FCCSigns & signs, Group group, std::uint8_t types, std::pmr::memory_resource * scratch);
 
   /** Finds the cut edges owned by plane \a k and numbers them from \a firstId. Planes past the last own none. */
   void
@@ -169,12 +99,12 @@ private:
   std::uint8_t m_Types;
   SizeValueType m_NumberOfTypes;
   std::uint32_t m_FirstId{ 0 };
-  std::vector<WordType> m_Masks;
-  std::vector<std::uint32_t> m_Before;
+  std::pmr::vector<WordType> m_Masks;
+  std::pmr::vector<std::uint32_t> m_Before;
 };
 
 /** For each block of \a block sites of plane \a k, row by row: is there one in it with a neighbour on the other side of
- * the surface? Sites are counted from \a offset on within the blocks. */
+ * the surface? Sites are counted from \a offset on within the blocks. Thread safe. */
 void
 FindBorderBlocks(const FCCSigns & signs,
                  SizeValueType k,
@@ -183,12 +113,13 @@ FindBorderBlocks(const FCCSigns & signs,
                  SizeValueType offset,
                  std::vector<std::uint8_t> & blocks);
 
-/** Number of triangles between the planes \a k and \a k + 1. */
+/** Number of triangles between the planes \a k and \a k + 1. Thread safe. */
 SizeValueType
 CountTriangles(const FCCSigns & signs, SizeValueType k);
 
 /** The triangles between the planes \a k and \a k + 1, from the cut edges of plane \a k within it, of plane \a k + 1
- * within it, and between the two. Writes as many as CountTriangles() says; \a reversed turns them all over. */
+ * within it, and between the two. Writes as many as CountTriangles() says; \a reversed turns them all over. Thread
+ * safe. */
 void
 FillTriangles(const FCCSigns & signs,
               SizeValueType k,

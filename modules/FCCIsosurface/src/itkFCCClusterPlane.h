@@ -1,6 +1,7 @@
 #ifndef itkFCCClusterPlane_h
 #define itkFCCClusterPlane_h
 
+#include "itkFCCCrossingOwners.h"
 #include "itkFCCSplitSites.h"
 
 namespace itk
@@ -16,10 +17,10 @@ class FCCNumberedBits
 public:
   using WordType = FCCSigns::WordType;
 
-  FCCNumberedBits(SizeValueType rows, SizeValueType words)
+  FCCNumberedBits(SizeValueType rows, SizeValueType words, std::pmr::memory_resource * scratch)
     : m_Stride(words + 1)
-    , m_Bits(rows * m_Stride)
-    , m_Before(m_Bits.size())
+    , m_Bits(rows * m_Stride, scratch)
+    , m_Before(m_Bits.size(), scratch)
   {}
 
   /** The words of a row, with a spare one that must stay zero. */
@@ -46,6 +47,21 @@ public:
   SizeValueType
   Count() const;
 
+  /** Calls use(row, i) for each set bit, row by row. */
+  template <typename TUse>
+  void
+  ForEach(const TUse & use) const
+  {
+    for (SizeValueType place = 0; place < m_Bits.size(); ++place)
+    {
+      for (WordType mask = m_Bits[place]; mask != 0; mask &= mask - 1)
+      {
+        use(place / m_Stride,
+            place % m_Stride * FCCSigns::WordBits + static_cast<SizeValueType>(__builtin_ctzll(mask)));
+      }
+    }
+  }
+
   void
   Clear();
 
@@ -59,8 +75,8 @@ public:
 
 private:
   SizeValueType m_Stride;
-  std::vector<WordType> m_Bits;
-  std::vector<std::uint32_t> m_Before;
+  std::pmr::vector<WordType> m_Bits;
+  std::pmr::vector<std::uint32_t> m_Before;
 };
 
 /** \class FCCClusterPlane
@@ -81,7 +97,7 @@ public:
   static constexpr std::uint8_t Types = FCCCrossingOwners::Types;
   static constexpr unsigned int Directions = FCCSiteStar::Directions;
 
-  explicit FCCClusterPlane(const FCCSigns & signs);
+  FCCClusterPlane(const FCCSigns & signs, std::pmr::memory_resource * scratch);
 
   /** Finds owners and vertices of plane \a k from its values and the plane below it, which must have been found last;
    * \a below is not looked at for plane 0. Vertices are numbered from \a first on; returns the number after the last.
@@ -162,8 +178,8 @@ private:
 
   const FCCSigns * m_Signs;
   FCCCrossingOwners m_Owners;
-  std::vector<WordType> m_Owned;
-  std::vector<WordType> m_SplitCrossings;
+  std::pmr::vector<WordType> m_Owned;
+  std::pmr::vector<WordType> m_SplitCrossings;
   FCCNumberedBits m_Wholes;
   FCCNumberedBits m_Split;
   std::vector<Parts> m_Parts;

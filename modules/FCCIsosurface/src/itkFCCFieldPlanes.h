@@ -1,11 +1,10 @@
 #ifndef itkFCCFieldPlanes_h
 #define itkFCCFieldPlanes_h
 
-#include "itkFCCLattice.h"
 #include "itkFCCRowKernels.h"
+#include "itkFCCSurfaceExtraction.h"
 
 #include <array>
-#include <functional>
 #include <vector>
 
 namespace itk
@@ -30,17 +29,18 @@ namespace itk
 class FCCFieldPlanes
 {
 public:
-  /** Writes the values of the image's row (\a j, \a k), counted from 0, less the isovalue. */
-  using RowReader = std::function<void(SizeValueType j, SizeValueType k, float * values)>;
+  using RowReader = FCCScalarField::RowReader;
 
   /** \param size of the image, without the layer around it
    *  \param parityOfFirstRow that of the first row of the layer around it
    *  \param readRow reads the image
-   *  \param planesOfGradients how many are kept */
+   *  \param planesOfGradients how many are kept
+   *  \param scratch for the planes */
   FCCFieldPlanes(const std::array<SizeValueType, 3> & size,
                  IndexValueType parityOfFirstRow,
                  RowReader readRow,
-                 SizeValueType planesOfGradients);
+                 SizeValueType planesOfGradients,
+                 std::pmr::memory_resource * scratch);
 
   IndexValueType
   GetParity(SizeValueType j, SizeValueType k) const
@@ -117,7 +117,11 @@ private:
     static constexpr SizeValueType None = ~SizeValueType{ 0 };
 
     SizeValueType number = None;
-    std::vector<float> samples;
+    std::pmr::vector<float> samples;
+
+    explicit Plane(std::pmr::memory_resource * scratch)
+      : samples(scratch)
+    {}
 
     float *
     GetRow(SizeValueType j, SizeValueType stride)
@@ -152,8 +156,8 @@ private:
   IndexValueType m_ParityOfFirstRow;
   RowReader m_ReadRow;
   SizeValueType m_Stride;
-  std::array<Plane, 6> m_Values;
-  std::array<Plane, 3> m_Coefficients;
+  std::vector<Plane> m_Values;
+  std::vector<Plane> m_Coefficients;
   std::vector<Plane> m_Gradients;
 };
 

@@ -1,26 +1,10 @@
 #ifndef itkFCCPointKernels_h
 #define itkFCCPointKernels_h
 
-#include "itkFCCLattice.h"
-#include "itkTriangleSurface.h"
-
-#include <array>
+#include "itkFCCSurfaceExtraction.h"
 
 namespace itk
 {
-
-/** \class FCCFrame
- * \brief From lattice coordinates to the world: points by an affine map, gradients by the transposed inverse of it.
- *
- * \ingroup FCCIsosurface
- */
-struct FCCFrame
-{
-  std::array<double, 3> origin;
-  std::array<std::array<double, 3>, 3> matrix;          ///< [world axis][lattice axis]
-  std::array<std::array<double, 3>, 3> gradientToWorld; ///< [world axis][lattice axis]
-  double outwardSign;                                   ///< of a gradient, to point outside
-};
 
 /** \class FCCEdgeBatch
  * \brief Cut edges, gathered so that many points are placed at once.
@@ -64,6 +48,8 @@ struct FCCClusterBatch
  * \brief Places points and normals, a batch at a time.
  *
  * Compiled for several instruction sets, as FCCRowKernels are; the results have the same bits whichever runs.
+ *
+ * Thread safety: the functions write nothing but what they are given.
  *
  * \ingroup FCCIsosurface
  */

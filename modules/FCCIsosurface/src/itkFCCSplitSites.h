@@ -1,11 +1,16 @@
 #ifndef itkFCCSplitSites_h
 #define itkFCCSplitSites_h
 
-#include "itkFCCCrossingOwners.h"
+#include "itkFCCLattice.h"
+#include "itkFCCMarching.h"
+#include "itkFCCSurfaceExtraction.h"
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <mutex>
+#include <utility>
+#include <vector>
 
 namespace itk
 {
@@ -15,7 +20,7 @@ namespace itk
 struct FCCTriangleUse
 {
   SizeValueType stride; ///< sites from a row to the next
-  std::vector<std::uint64_t> counts;
+  std::pmr::vector<std::uint64_t> counts;
 
   std::uint64_t *
   GetRow(SizeValueType j)
@@ -59,6 +64,50 @@ struct FCCSiteStar
   CountParts(unsigned int owned, unsigned int lone);
 };
 
+/** \class FCCRareBits
+ * \brief One bit for each site of a box, few of which are set: a row without any takes no more than a pointer.
+ *
+ * Thread safety: that of a container.
+ *
+ * \ingroup FCCIsosurface
+ */
+class FCCRareBits
+{
+public:
+  using WordType = FCCSigns::WordType;
+
+  /** For the sites of \a signs. */
+  explicit FCCRareBits(const FCCSigns & signs)
+    : m_Height(signs.GetHeight())
+    , m_Rows(signs.GetHeight() * signs.GetDepth())
+    , m_Zeros(signs.GetNumberOfWords() + 1)
+  {}
+
+  /** The words of a row as FCCSigns has them, with a spare zero word. */
+  const WordType *
+  GetRow(SizeValueType j, SizeValueType k) const
+  {
+    const auto & row = m_Rows[k * m_Height + j];
+    return row ? row.get() : m_Zeros.data();
+  }
+
+  void
+  Set(SizeValueType i, SizeValueType j, SizeValueType k)
+  {
+    auto & row = m_Rows[k * m_Height + j];
+    if (!row)
+    {
+      row = std::make_unique<WordType[]>(m_Zeros.size());
+    }
+    row[i / FCCSigns::WordBits] |= WordType{ 1 } << (i % FCCSigns::WordBits);
+  }
+
+private:
+  SizeValueType m_Height;
+  std::vector<std::unique_ptr<WordType[]>> m_Rows;
+  std::vector<WordType> m_Zeros;
+};
+
 /** \class FCCSplitSites
  * \brief Which sites must not gather all the crossings they own, so that the surface stays a manifold.
  *
@@ -79,16 +128,27 @@ class FCCSplitSites
 public:
   using WordType = FCCSigns::WordType;
 
-  /** Reads the values at sites, counted as signs are, less the isovalue, in float32: those of the bits of \a wanted. */
-  using ValueReader =
-    std::function<void(const std::array<SizeValueType, 3> * sites, unsigned int wanted, float * values)>;
+  /** What the values around a site say of the edges there that are cut: which of their ends own the crossings. */
+  using OwnersType = std::uint64_t;
+
+  using ValueReader = FCCScalarField::ValueReader;
+
+  /** The owners around each of some sites. Thread safe. */
+  static void
+  FindOwners(const FCCSigns & signs,
+             const ValueReader & readValues,
+             bool insideIsBelow,
+             const SizeValueType * sites,
+             SizeValueType count,
+             OwnersType * owners);
+
+  /** Says what FindOwners() does, of sites that own crossings. Called by several threads. */
+  using OwnersReader = std::function<void(const SizeValueType * sites, SizeValueType count, OwnersType * owners)>;
 
   /** \param signs with a layer of sites around the image; must outlive this */
   explicit FCCSplitSites(const FCCSigns & signs);
 
-  /** Runs work(begin, end) for pieces of a count, by several threads. */
-  using ParallelFor =
-    std::function<void(SizeValueType count, const std::function<void(SizeValueType begin, SizeValueType end)> & work)>;
+  using ParallelFor = FCCSurfaceExtraction::ParallelFor;
 
   /** Says that sites may break a condition; of the two ends of an edge that breaks 2, one will do. Sites are numbered
    * along x, then y, then z. Thread safe. */
@@ -98,8 +158,7 @@ public:
   /** Divides what has to be. The numbers of points of each plane and of triangles above it are those of whole sites
    * before; afterwards, points are right, and triangles at least as many as there will be. */
   void
-  Resolve(const ValueReader & readValues,
-          bool insideIsBelow,
+  Resolve(const OwnersReader & ownersAround,
           const ParallelFor & parallelFor,
           std::vector<SizeValueType> & points,
           std::vector<SizeValueType> & triangles);
@@ -117,7 +176,7 @@ public:
 
 private:
   const FCCSigns & m_Signs;
-  FCCSigns m_Split;
+  FCCRareBits m_Split;
   std::vector<SizeValueType> m_Suspects;
   std::mutex m_Mutex;
   std::vector<std::pair<SizeValueType, std::uint16_t>> m_Lone; ///< by the number of the site, ascending

@@ -91,12 +91,7 @@ private:
 class FCCEdgePointFiller
 {
 public:
-  /** \param margin 1 when signs count sites from a layer around the image, otherwise 0 */
-  FCCEdgePointFiller(const FCCSigns & signs,
-                     const ImageRegion<3> & region,
-                     SizeValueType margin,
-                     const FCCEdgePoints & edgePoints,
-                     FCCFieldPlanes::RowReader readRow);
+  FCCEdgePointFiller(const FCCSigns & signs, const FCCScalarField & field, const FCCEdgePoints & edgePoints);
 
   /** The points on some edges stored by plane \a k of the signs. The surface must have its size; normals are left out
    * where it has none. */

@@ -1,0 +1,136 @@
+#ifndef itkFCCSurfaceExtraction_h
+#define itkFCCSurfaceExtraction_h
+
+#include "itkFCCIsosurfaceMode.h"
+#include "itkFCCSigns.h"
+#include "itkImageRegion.h"
+#include "itkTriangleSurface.h"
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <memory_resource>
+
+namespace itk
+{
+
+/** \class FCCFrame
+ * \brief From lattice coordinates to the world in mm: points by an affine map, gradients by the transposed inverse of
+ * it.
+ *
+ * Thread safety: a value.
+ *
+ * \ingroup FCCIsosurface
+ */
+struct FCCFrame
+{
+  std::array<double, 3> origin;
+  std::array<std::array<double, 3>, 3> matrix;          ///< [world axis][lattice axis]
+  std::array<std::array<double, 3>, 3> gradientToWorld; ///< [world axis][lattice axis]
+  double outwardSign;                                   ///< of a gradient, to point outside: 1 or -1
+
+  /** Whether the triangles of the tables, in lattice coordinates, would face inwards in the world. */
+  bool
+  IsLeftHanded() const
+  {
+    const auto & m = matrix;
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+             m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]) <
+           0.0;
+  }
+};
+
+/** \class FCCScalarField
+ * \brief An FCC image of any pixel type and one isovalue, as extraction sees them.
+ *
+ * Thread safety: a value; any number of threads may call its readers at once.
+ *
+ * \ingroup FCCIsosurface
+ */
+struct FCCScalarField
+{
+  /** Writes the values of the image's row (\a j, \a k), counted from 0, less the isovalue. */
+  using RowReader = std::function<void(SizeValueType j, SizeValueType k, float * values)>;
+
+  /** Writes the values at sites, counted from a layer of one site around the image, less the isovalue: those of the
+   * bits of \a wanted. */
+  using ValueReader =
+    std::function<void(const std::array<SizeValueType, 3> * sites, unsigned int wanted, float * values)>;
+
+  ImageRegion<3> region;
+  FCCFrame frame;
+  bool insideIsBelow;
+  bool closed;            ///< whether the surface closes where a body reaches the image's border
+  double minimumFraction; ///< of an edge that a point stays away from its ends
+  bool isInMemory;        ///< the whole image, or else no more than the slab that is worked at and three planes around
+  RowReader readRow;
+  ValueReader readValues;
+  std::pmr::memory_resource *
+    scratch; ///< for what is kept while one slab is worked at; any number of threads may use it
+};
+
+/** \class FCCSurfaceExtraction
+ * \brief Makes the isosurface of a field in two passes over slabs of its planes: one counts, one fills.
+ *
+ * Count all planes of the signs once, in slabs of any size and order; Resolve once; give the surface room for the
+ * points and triangles there may be, and for as many normals, or none; Fill all planes once, in any slabs; Finish once.
+ * The bytes do not depend on how planes are divided into slabs.
+ *
+ * Thread safety: any number of threads may Count, and later Fill, different slabs at once; the rest is for one thread.
+ *
+ * \ingroup FCCIsosurface
+ */
+class FCCSurfaceExtraction
+{
+public:
+  ITK_DISALLOW_COPY_AND_MOVE(FCCSurfaceExtraction);
+
+  /** Runs work(begin, end) for pieces of a count, by several threads. */
+  using ParallelFor =
+    std::function<void(SizeValueType count, const std::function<void(SizeValueType begin, SizeValueType end)> & work)>;
+
+  /** Planes on either side of a slab that are read with it. */
+  static constexpr SizeValueType PlanesAround = 3;
+
+  /** Sites around the image that its signs must have, all outside: 1, or 0 where the surface ends at the samples. */
+  static SizeValueType
+  GetMargin(FCCIsosurfaceMode mode, bool closed);
+
+  /** \param signs of the field's samples, with GetMargin() sites around them; must outlive the extraction */
+  static std::unique_ptr<FCCSurfaceExtraction>
+  Make(FCCIsosurfaceMode mode, const FCCSigns & signs, const FCCScalarField & field);
+
+  virtual ~FCCSurfaceExtraction() = default;
+
+  /** Whether Count() reads samples; if not, the signs are enough. */
+  virtual bool
+  CountReadsSamples() const = 0;
+
+  virtual void
+  Count(SizeValueType begin, SizeValueType end) = 0;
+
+  /** Sums up what was counted. Reads samples only where the whole image is in memory. */
+  virtual void
+  Resolve(const ParallelFor & parallelFor) = 0;
+
+  virtual SizeValueType
+  GetNumberOfPoints() const = 0;
+
+  /** The surface may have fewer. */
+  virtual SizeValueType
+  GetMostTriangles() const = 0;
+
+  virtual void
+  Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface) = 0;
+
+  /** Removes the room that was not needed. */
+  virtual void
+  Finish(TriangleSurface & surface) = 0;
+
+protected:
+  FCCSurfaceExtraction() = default;
+};
+
+} // namespace itk
+
+#endif

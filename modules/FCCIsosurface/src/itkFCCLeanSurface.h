@@ -1,0 +1,94 @@
+#ifndef itkFCCLeanSurface_h
+#define itkFCCLeanSurface_h
+
+#include "itkFCCFieldPlanes.h"
+#include "itkFCCSplitSites.h"
+
+#include <vector>
+
+namespace itk
+{
+
+class FCCClusterPlane;
+
+/** \class FCCLeanSurface
+ * \brief A surface with few, well-shaped triangles: the tetrahedra's, whose points have gathered at lattice sites.
+ *
+ * Every point of the tetrahedra's surface belongs to the nearer end of its edge. All points of one site become one
+ * vertex, which is moved onto the reconstructed surface, and triangles that lose a side vanish (G. Treece, R. Prager,
+ * A. Gee, "Regularised marching tetrahedra", 1999), but where the surface would not stay a manifold of the same
+ * topology (see FCCSplitSites).
+ *
+ * Resolve looks at the values around some sites, wherever they are. Where no more than a slab is in memory, Count keeps
+ * what Resolve has to know, 12 bytes for each vertex.
+ *
+ * \ingroup FCCIsosurface
+ */
+class FCCLeanSurface : public FCCSurfaceExtraction
+{
+public:
+  FCCLeanSurface(const FCCSigns & signs, const FCCScalarField & field);
+
+  bool
+  CountReadsSamples() const override
+  {
+    return true;
+  }
+
+  /** Counts points and triangles, and looks for sites that might have to be split. */
+  void
+  Count(SizeValueType begin, SizeValueType end) override;
+
+  /** Splits sites, and sums up how many points there are and how many triangles there may be. */
+  void
+  Resolve(const ParallelFor & parallelFor) override;
+
+  SizeValueType
+  GetNumberOfPoints() const override
+  {
+    return m_FirstPoint.back();
+  }
+
+  SizeValueType
+  GetMostTriangles() const override
+  {
+    return m_FirstTriangle.back();
+  }
+
+  void
+  Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface) override;
+
+  /** Moves the triangles of all slabs together, and removes those that close a surface that is to stay open. */
+  void
+  Finish(TriangleSurface & surface) override;
+
+private:
+  /** The sites of a plane that own crossings, by their place in the plane, ascending, and the owners around them. */
+  struct RememberedOwners
+  {
+    std::vector<std::uint32_t> places;
+    std::vector<FCCSplitSites::OwnersType> owners;
+  };
+
+  FCCFieldPlanes
+  MakePlanes() const;
+
+  RememberedOwners
+  FindOwners(SizeValueType k, const FCCClusterPlane & plane, const FCCFieldPlanes & field) const;
+
+  void
+  RecallOwners(const SizeValueType * sites, SizeValueType count, FCCSplitSites::OwnersType * owners) const;
+
+  const FCCSigns & m_Signs;
+  FCCScalarField m_Field;
+  FCCSplitSites m_Splits;
+  std::vector<RememberedOwners> m_Remembered; ///< of each plane, if the image is not in memory
+  std::vector<SizeValueType> m_FirstPoint;    ///< of each plane; counts until Resolve()
+  std::vector<SizeValueType> m_FirstTriangle; ///< where there is room for those of a slab that begins at the plane
+  std::vector<SizeValueType> m_Filled;        ///< triangles of the slab that began at the plane
+  std::vector<std::uint8_t> m_AreOutside;     ///< of each point, unless closed: it belongs to a site outside the image
+};
+
+} // namespace itk
+
+#endif
