@@ -1,4 +1,4 @@
 itk_module(TriangleSurface
-  DEPENDS ITKCommon
+  DEPENDS ITKCommon ITKMesh ITKQuadEdgeMesh
   PRIVATE_DEPENDS RhombicCommon meshoptimizer::meshoptimizer
-  DESCRIPTION "A compact triangle mesh as an ITK data object, with its audit, measures, smoothing and simplification. No VTK.")
+  DESCRIPTION "A compact triangle mesh as an ITK data object, with its audit, measures, smoothing, simplification, and converters from and to ITK's meshes. No VTK.")

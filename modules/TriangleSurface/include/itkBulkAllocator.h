@@ -17,7 +17,10 @@ namespace itk
  * \brief Allocator for arrays of millions of plain elements that are filled by several threads.
  *
  * Growing a container leaves new elements uninitialised, so memory is first touched by the thread that fills it. Large
- * blocks ask the system for huge pages: a mesh of 300 MB costs 150 page faults instead of 75,000.
+ * blocks ask the system for huge pages: a mesh of 300 MB costs 150 page faults instead of 75,000. Throws
+ * std::bad_alloc.
+ *
+ * Thread safety: that of std::allocator; it has no state.
  *
  * \ingroup TriangleSurface
  */

@@ -8,7 +8,8 @@ namespace itk
 
 /** \class TriangleContactEnums
  * \brief How two triangles of a surface meet, apart from the points and edges they share as corners of the same index.
- */
+ *
+ * Thread safety: its enumerators are values. */
 class TriangleContactEnums
 {
 public:

@@ -11,7 +11,9 @@ namespace itk
 {
 
 /** \class TriangleSurfaceAuditSettings
- * \brief What an audit looks for. */
+ * \brief What an audit looks for.
+ *
+ * Thread safety: a value. */
 struct TriangleSurfaceAuditSettings
 {
   bool testsIntersections = true;
@@ -19,7 +21,9 @@ struct TriangleSurfaceAuditSettings
 };
 
 /** \class TriangleSurfaceAudit
- * \brief All that can be said against a surface. */
+ * \brief All that can be said against a surface.
+ *
+ * Thread safety: a value. */
 struct TriangleSurfaceAudit
 {
   SizeValueType points = 0;
@@ -48,8 +52,8 @@ struct TriangleSurfaceAudit
 };
 
 /** Computes all of the above, with several threads; the same for any number of them, and but for the last digits of
- * sums for any order of the triangles. Memory about 50 bytes a triangle. Throws if a triangle has a point that the
- * surface has not. Thread safe. */
+ * sums for any order of the triangles. Memory about 50 bytes a triangle. Throws ExceptionObject if a triangle has a
+ * point that the surface has not. Thread safe. */
 TriangleSurfaceAudit
 AuditSurface(const TriangleSurface & surface, const TriangleSurfaceAuditSettings & settings = {});
 

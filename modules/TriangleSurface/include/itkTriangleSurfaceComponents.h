@@ -9,7 +9,9 @@ namespace itk
 {
 
 /** \class TriangleSurfaceComponents
- * \brief Which connected component each point of a surface belongs to. */
+ * \brief Which connected component each point of a surface belongs to.
+ *
+ * Thread safety: a value. */
 struct TriangleSurfaceComponents
 {
   /** Component of a point of no triangle. */
@@ -24,11 +26,12 @@ struct TriangleSurfaceComponents
 TriangleSurfaceComponents
 FindComponents(const TriangleSurface & surface);
 
-/** The first point of each component. */
+/** The first point of each component. Thread safe. */
 std::vector<std::uint32_t>
 FindFirstPoints(const TriangleSurfaceComponents & components);
 
-/** Removes the triangles of the components for which \a keep is false, and their points. */
+/** Removes the triangles of the components for which \a keep is false, and their points. Thread safe for
+ * different surfaces. */
 void
 KeepComponents(TriangleSurface & surface, const TriangleSurfaceComponents & components, const std::vector<bool> & keep);
 

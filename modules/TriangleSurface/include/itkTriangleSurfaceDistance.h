@@ -7,7 +7,9 @@ namespace itk
 {
 
 /** \class TriangleSurfaceDistance
- * \brief How far places of one surface are from another surface, in mm. */
+ * \brief How far places of one surface are from another surface, in mm.
+ *
+ * Thread safety: a value. */
 struct TriangleSurfaceDistance
 {
   double mean = 0.0;         ///< over the area
@@ -30,7 +32,9 @@ ComputeDistance(const TriangleSurface & surface,
                 SizeValueType mostTriangles = std::numeric_limits<SizeValueType>::max());
 
 /** \class TriangleSurfaceTwoDistances
- * \brief Distances from each of two surfaces to the other. */
+ * \brief Distances from each of two surfaces to the other.
+ *
+ * Thread safety: a value. */
 struct TriangleSurfaceTwoDistances
 {
   TriangleSurfaceDistance fromFirst;
@@ -43,7 +47,7 @@ struct TriangleSurfaceTwoDistances
   }
 };
 
-/** Both ways, the places as dense on the surface with the larger triangles as on the other one. */
+/** Both ways, the places as dense on the surface with the larger triangles as on the other one. Thread safe. */
 TriangleSurfaceTwoDistances
 ComputeTwoDistances(const TriangleSurface & first,
                     const TriangleSurface & second,

@@ -12,7 +12,9 @@ namespace itk
 
 /** \class SamplePlanes
  * \brief Samples on parallel planes, as the slices of a scan: the same rows and columns on each, which may lie anywhere
- * in its plane. */
+ * in its plane.
+ *
+ * Thread safety: a value. */
 struct SamplePlanes
 {
   Vector<double, 3> columnStep{}; ///< from sample to sample along a row, in mm
@@ -31,7 +33,8 @@ using VisitInteriorSamples =
  * neighbouring surfaces share no sample. Where the surface is open, what is inside is not defined.
  *
  * \a visit gets the runs of each plane in order, on several threads for several planes (itk::MultiThreaderBase). Time
- * and memory are proportional to the triangles and the planes each of them crosses. */
+ * and memory are proportional to the triangles and the planes each of them crosses. Throws what \a visit throws. Thread
+ * safe. */
 void
 FindInteriorSamples(const TriangleSurface & surface, const SamplePlanes & planes, const VisitInteriorSamples & visit);
 

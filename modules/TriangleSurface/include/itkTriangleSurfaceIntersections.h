@@ -7,7 +7,9 @@ namespace itk
 {
 
 /** \class TriangleSurfaceIntersections
- * \brief Where a surface meets itself other than along the edges and points its triangles share. */
+ * \brief Where a surface meets itself other than along the edges and points its triangles share.
+ *
+ * Thread safety: a value. */
 struct TriangleSurfaceIntersections
 {
   SizeValueType crossingPairs = 0;   ///< pairs of triangles that pass through each other or overlap in one plane
@@ -27,7 +29,7 @@ FindSelfIntersections(const TriangleTree & tree,
                       SizeValueType maximumTestedTriangles = std::numeric_limits<SizeValueType>::max());
 
 /** The triangles that pass through others or are duplicates, ascending. As FindSelfIntersections() with all triangles
- * tested. */
+ * tested. Thread safe. */
 std::vector<std::uint32_t>
 FindCrossingTriangles(const TriangleTree & tree);
 

@@ -7,7 +7,9 @@ namespace itk
 {
 
 /** \class TriangleSurfaceQuality
- * \brief How well shaped the triangles of a surface are; all 0 without triangles. */
+ * \brief How well shaped the triangles of a surface are; all 0 without triangles.
+ *
+ * Thread safety: a value. */
 struct TriangleSurfaceQuality
 {
   double mean = 0.0;          ///< of ComputeTriangleQuality()

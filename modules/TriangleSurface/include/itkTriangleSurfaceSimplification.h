@@ -10,7 +10,9 @@ namespace itk
 {
 
 /** \class TriangleSurfaceSimplificationSettings
- * \brief How far a surface is simplified: to a number of triangles, to an error, or until the first of both. */
+ * \brief How far a surface is simplified: to a number of triangles, to an error, or until the first of both.
+ *
+ * Thread safety: a value. */
 struct TriangleSurfaceSimplificationSettings
 {
   SizeValueType targetTriangles = 0;                             ///< 0: as few as the error allows
@@ -29,7 +31,9 @@ std::ostream &
 operator<<(std::ostream & os, SimplificationEnd end);
 
 /** \class TriangleSurfaceSimplificationReport
- * \brief What simplification did. */
+ * \brief What simplification did.
+ *
+ * Thread safety: a value. */
 struct TriangleSurfaceSimplificationReport
 {
   SizeValueType trianglesBefore = 0;
@@ -63,7 +67,8 @@ struct TriangleSurfaceSimplificationReport
  * Points of no triangle are dropped. The result may have some triangles less than were asked for.
  *
  * Throws ExceptionObject for a surface with non-manifold or misoriented edges, non-manifold points or degenerate
- * triangles, for a maximumError that is not above 0, and when there is neither a target nor a maximumError. */
+ * triangles, for a maximumError that is not above 0, and when there is neither a target nor a maximumError. Thread safe
+ * for different surfaces. */
 TriangleSurfaceSimplificationReport
 SimplifySurface(TriangleSurface & surface, const TriangleSurfaceSimplificationSettings & settings);
 

@@ -7,7 +7,9 @@ namespace itk
 {
 
 /** \class TriangleSurfaceSmoothingSettings
- * \brief How much a surface is smoothed, and how far its points may go. */
+ * \brief How much a surface is smoothed, and how far its points may go.
+ *
+ * Thread safety: a value. */
 struct TriangleSurfaceSmoothingSettings
 {
   unsigned int iterations = 20; ///< pairs of one step inwards and one step outwards
@@ -16,7 +18,9 @@ struct TriangleSurfaceSmoothingSettings
 };
 
 /** \class TriangleSurfaceSmoothingReport
- * \brief What smoothing did. */
+ * \brief What smoothing did.
+ *
+ * Thread safety: a value. */
 struct TriangleSurfaceSmoothingReport
 {
   double meanMove = 0.0;            ///< mm, over all points
@@ -34,7 +38,7 @@ struct TriangleSurfaceSmoothingReport
  * at the point. Sheets closer to each other than twice maximumMove may touch.
  *
  * Linear in time and memory: about 40 bytes a triangle while it runs. The same bytes for any number of threads.
- * Throws ExceptionObject when maximumMove is negative or not finite. */
+ * Throws ExceptionObject when maximumMove is negative or not finite. Thread safe for different surfaces. */
 TriangleSurfaceSmoothingReport
 SmoothSurface(TriangleSurface & surface, const TriangleSurfaceSmoothingSettings & settings);
 

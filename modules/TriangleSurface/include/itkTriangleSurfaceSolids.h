@@ -15,7 +15,7 @@ namespace itk
  * any number; memory about 60 bytes a triangle.
  *
  * The functions remove triangles and the points that were only theirs, keep the order of the others, and return the
- * number of components that were removed. */
+ * number of components that were removed. Thread safe for different surfaces. */
 ///@{
 
 /** Removes all solids but the one of the greatest volume, the first of several. */
@@ -42,7 +42,7 @@ SizeValueType
 CountMisfacingShells(const TriangleTree & surface);
 
 /** Turns the components that CountMisfacingShells() counts, with their normals; returns how many. Right for specks that
- * extraction or smoothing has turned inside out. */
+ * extraction or smoothing has turned inside out. Thread safe for different surfaces. */
 SizeValueType
 TurnMisfacingShells(TriangleSurface & surface);
 

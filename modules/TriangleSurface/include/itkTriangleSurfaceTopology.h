@@ -9,7 +9,9 @@ namespace itk
 {
 
 /** \class TriangleSurfaceTopology
- * \brief What the connectivity of a surface says, counted over its indices. */
+ * \brief What the connectivity of a surface says, counted over its indices.
+ *
+ * Thread safety: a value. */
 struct TriangleSurfaceTopology
 {
   SizeValueType components = 0;        ///< sets of triangles connected through shared points

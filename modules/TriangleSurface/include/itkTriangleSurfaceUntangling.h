@@ -7,7 +7,9 @@ namespace itk
 {
 
 /** \class TriangleSurfaceUntanglingReport
- * \brief What untangling did. */
+ * \brief What untangling did.
+ *
+ * Thread safety: a value. */
 struct TriangleSurfaceUntanglingReport
 {
   SizeValueType crossingBefore = 0; ///< triangles that passed through others
@@ -21,12 +23,12 @@ struct TriangleSurfaceUntanglingReport
  *
  * Points of crossing triangles go half way to the mean of their neighbours, which unfolds most; where that does not
  * help, they go outwards and inwards in turns, which parts sheets. No point is ever further than \a maximumMove mm from
- * where it was. Ends with the fewest crossing triangles found
- * when 16 rounds brought no fewer, or after 40, and leaves the surface as it
- * was when a triangle would lose its area. Normals stay.
+ * where it was. Ends with the fewest crossing triangles found when 16 rounds brought no fewer, or after 40, and leaves
+ * the surface as it was when a triangle would lose its area. Normals stay.
  *
  * One search for crossings on several threads, then work in proportion to what was found; the same bytes for any number
- * of threads. About 60 bytes a triangle while it runs. Throws ExceptionObject when maximumMove is not above 0. */
+ * of threads. About 60 bytes a triangle while it runs. Throws ExceptionObject when maximumMove is not above 0. Thread
+ * safe for different surfaces. */
 TriangleSurfaceUntanglingReport
 UntangleSurface(TriangleSurface & surface, double maximumMove);
 

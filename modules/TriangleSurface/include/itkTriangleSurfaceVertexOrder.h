@@ -7,7 +7,9 @@ namespace itk
 {
 
 /** \class TriangleSurfaceVertexOrder
- * \brief What a graphics card has to do for the order in which a surface lists triangles and points. */
+ * \brief What a graphics card has to do for the order in which a surface lists triangles and points.
+ *
+ * Thread safety: a value. */
 struct TriangleSurfaceVertexOrder
 {
   double transformsPerTriangle = 0.0; ///< 0.5 at best, 3 at worst, for a cache of 16 points
@@ -20,7 +22,7 @@ AnalyzeVertexOrder(const TriangleSurface & surface);
 
 /** Reorders triangles for the cache of transformed points, then points by first use, with their normals. Each triangle
  * keeps its positions and orientation; points of no triangle are dropped. Nearly linear in time; 40 bytes a triangle
- * while it runs. */
+ * while it runs. Thread safe for different surfaces. */
 void
 OptimizeForRendering(TriangleSurface & surface);
 

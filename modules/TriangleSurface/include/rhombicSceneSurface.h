@@ -12,7 +12,10 @@ namespace rhombic
 /** Red, green and blue from 0 to 1, as sRGB encodes them. */
 using Colour = std::array<double, 3>;
 
-/** A surface and how it looks. */
+/** \class SceneSurface
+ * \brief A surface and how it looks.
+ *
+ * Thread safety: a value, whose copies share the surface. */
 struct SceneSurface
 {
   std::string name; ///< as messages and files call it

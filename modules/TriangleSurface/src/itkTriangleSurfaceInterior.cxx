@@ -1,8 +1,6 @@
 #include "itkTriangleSurfaceInterior.h"
 
-#include "itkThreadFailure.h"
-
-#include "itkMultiThreaderBase.h"
+#include "itkForEachBlock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -225,10 +223,7 @@ FindInteriorSamples(const TriangleSurface & surface, const SamplePlanes & planes
       }
     }
   };
-  ThreadFailure failure;
-  MultiThreaderBase::New()->ParallelizeArray(
-    0, planes.origins.size(), [&](SizeValueType plane) { failure.Capture([&] { visitPlane(plane); }); }, nullptr);
-  failure.Rethrow();
+  ForEachInBlocks(planes.origins.size(), 1, visitPlane);
 }
 
 } // namespace itk

@@ -1,0 +1,136 @@
+#include "itkTriangleSurfaceToMesh.h"
+
+#include "itkTriangleSurfaceTopology.h"
+
+#include "itkTriangleCell.h"
+
+#include <algorithm>
+
+namespace itk
+{
+namespace
+{
+
+using MeshType = Mesh<float, 3>;
+using QuadEdgeMeshType = QuadEdgeMesh<float, 3>;
+using TriangleCellType = TriangleCell<MeshType::CellType>;
+
+/** What glibc's malloc takes for a block. */
+constexpr SizeValueType
+HeapBlock(SizeValueType bytes)
+{
+  constexpr SizeValueType header = 8, alignment = 16, least = 32;
+  return std::max(least, (bytes + header + alignment - 1) / alignment * alignment);
+}
+
+/** A node of a std::map. */
+template <typename TKey, typename TValue>
+constexpr SizeValueType
+MapNode()
+{
+  constexpr SizeValueType links = 32;
+  return HeapBlock(links + sizeof(std::pair<const TKey, TValue>));
+}
+
+void
+RequirePoints(const TriangleSurface & surface)
+{
+  const auto points = surface.GetNumberOfPoints();
+  for (const auto & triangle : surface.GetTriangles())
+  {
+    if (*std::max_element(triangle.begin(), triangle.end()) >= points)
+    {
+      itkGenericExceptionMacro("A triangle has point " << *std::max_element(triangle.begin(), triangle.end())
+                                                       << ", but the surface has only " << points
+                                                       << " points; write the surface again from its source");
+    }
+  }
+}
+
+template <typename TMesh>
+void
+CopyPoints(const TriangleSurface & surface, TMesh & mesh)
+{
+  const auto points = TMesh::PointsContainer::New();
+  points->Reserve(surface.GetNumberOfPoints());
+  IdentifierType id = 0;
+  for (const auto & point : surface.GetPoints())
+  {
+    points->SetElement(id++, typename TMesh::PointType(point.data()));
+  }
+  mesh.SetPoints(points);
+}
+
+} // namespace
+
+SizeValueType
+EstimateMeshMemory(const TriangleSurface & surface)
+{
+  const SizeValueType perTriangle = sizeof(MeshType::CellType *) + HeapBlock(sizeof(TriangleCellType)) +
+                                    HeapBlock(3 * sizeof(MeshType::PointIdentifier));
+  return surface.GetNumberOfTriangles() * perTriangle + surface.GetNumberOfPoints() * sizeof(MeshType::PointType);
+}
+
+SizeValueType
+EstimateQuadEdgeMeshMemory(const TriangleSurface & surface)
+{
+  using CellPointer = QuadEdgeMeshType::CellType *;
+  const SizeValueType cellNode = MapNode<QuadEdgeMeshType::CellIdentifier, CellPointer>();
+  const SizeValueType perEdge = cellNode + HeapBlock(sizeof(QuadEdgeMeshType::EdgeCellType)) +
+                                2 * HeapBlock(sizeof(QuadEdgeMeshType::QEPrimal)) +
+                                2 * HeapBlock(sizeof(QuadEdgeMeshType::QEDual));
+  const SizeValueType perTriangle = cellNode + HeapBlock(sizeof(QuadEdgeMeshType::PolygonCellType));
+  const SizeValueType perPoint = MapNode<QuadEdgeMeshType::PointIdentifier, QuadEdgeMeshType::PointType>();
+  const SizeValueType triangles = surface.GetNumberOfTriangles();
+  return triangles * perTriangle + triangles * 3 / 2 * perEdge + surface.GetNumberOfPoints() * perPoint;
+}
+
+Mesh<float, 3>::Pointer
+ConvertToMesh(const TriangleSurface & surface)
+{
+  RequirePoints(surface);
+  const auto mesh = MeshType::New();
+  CopyPoints(surface, *mesh);
+  const auto cells = MeshType::CellsContainer::New();
+  cells->Reserve(surface.GetNumberOfTriangles());
+  mesh->SetCellsAllocationMethod(MeshType::CellsAllocationMethodType::CellsAllocatedDynamicallyCellByCell);
+  mesh->SetCells(cells);
+  IdentifierType id = 0;
+  for (const auto & triangle : surface.GetTriangles())
+  {
+    auto * const cell = new TriangleCellType;
+    std::copy(triangle.begin(), triangle.end(), cell->PointIdsBegin());
+    cells->SetElement(id++, cell);
+  }
+  return mesh;
+}
+
+QuadEdgeMesh<float, 3>::Pointer
+ConvertToQuadEdgeMesh(const TriangleSurface & surface)
+{
+  RequirePoints(surface);
+  const TriangleSurfaceTopology topology = ComputeTopology(surface);
+  if (topology.nonManifoldEdges + topology.nonManifoldPoints + topology.misorientedEdges > 0)
+  {
+    itkGenericExceptionMacro(
+      "The surface has "
+      << topology.nonManifoldEdges << " edges and " << topology.nonManifoldPoints
+      << " points that are not manifold, and " << topology.misorientedEdges
+      << " misoriented edges, of which a QuadEdgeMesh can have none; use ConvertToMesh(), or mend the surface first");
+  }
+  const auto mesh = QuadEdgeMeshType::New();
+  CopyPoints(surface, *mesh);
+  for (const auto & triangle : surface.GetTriangles())
+  {
+    const QuadEdgeMeshType::PointIdList corners(triangle.begin(), triangle.end());
+    if (mesh->AddFaceWithSecurePointList(corners) == nullptr)
+    {
+      itkGenericExceptionMacro("The triangle of points "
+                               << triangle[0] << ", " << triangle[1] << " and " << triangle[2]
+                               << " does not fit into a QuadEdgeMesh beside those before it; use ConvertToMesh()");
+    }
+  }
+  return mesh;
+}
+
+} // namespace itk

@@ -1,0 +1,189 @@
+#include "itkMeshToTriangleSurface.h"
+#include "itkTriangleSurfaceToMesh.h"
+
+#include "itkExampleSurfaces.h"
+
+#include "itkLineCell.h"
+#include "itkQuadrilateralCell.h"
+#include "itkTriangleCell.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include <malloc.h>
+
+namespace
+{
+
+using itk::TriangleSurface;
+using MeshType = itk::Mesh<float, 3>;
+
+/** Bytes that the program has from malloc. */
+double
+HeapInUse()
+{
+  const auto info = mallinfo2();
+  return static_cast<double>(info.uordblks + info.hblkhd);
+}
+
+void
+ExpectSame(const TriangleSurface & a, const TriangleSurface & b)
+{
+  EXPECT_EQ(a.GetPoints(), b.GetPoints());
+  EXPECT_EQ(a.GetTriangles(), b.GetTriangles());
+}
+
+/** The same triangles, whichever of its points each begins with. */
+void
+ExpectSameUpToRotation(const TriangleSurface & a, const TriangleSurface & b)
+{
+  const auto fromLeast = [](const TriangleSurface & surface) {
+    std::vector<TriangleSurface::TriangleType> triangles(surface.GetTriangles().begin(), surface.GetTriangles().end());
+    for (auto & triangle : triangles)
+    {
+      std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+    }
+    return triangles;
+  };
+  EXPECT_EQ(a.GetPoints(), b.GetPoints());
+  EXPECT_EQ(fromLeast(a), fromLeast(b));
+}
+
+TEST(TriangleSurfaceToMesh, HasTheSamePointsAndCells)
+{
+  const auto surface = itk::example::MakeTetrahedron(2.0f);
+  const auto mesh = itk::ConvertToMesh(*surface);
+  ASSERT_EQ(mesh->GetNumberOfPoints(), 4u);
+  ASSERT_EQ(mesh->GetNumberOfCells(), 4u);
+  EXPECT_EQ(mesh->GetPoint(1)[0], 2.0f);
+  MeshType::CellAutoPointer cell;
+  ASSERT_TRUE(mesh->GetCell(3, cell));
+  EXPECT_EQ(cell->GetType(), itk::CellGeometryEnum::TRIANGLE_CELL);
+  EXPECT_TRUE(std::equal(cell->PointIdsBegin(), cell->PointIdsEnd(), surface->GetTriangles()[3].begin()));
+}
+
+TEST(TriangleSurfaceToMesh, ComesBackTheSame)
+{
+  for (const auto & surface : { itk::example::MakeSphere(10.0, 3),
+                                itk::example::MakeTorus(8.0, 3.0, 12),
+                                itk::example::MakeRandomTriangles(50, 10.0f, 1.0f, 7),
+                                TriangleSurface::New() })
+  {
+    ExpectSame(*surface, *itk::ConvertToTriangleSurface(*itk::ConvertToMesh(*surface)));
+  }
+}
+
+TEST(TriangleSurfaceToMesh, QuadEdgeMeshComesBackTheSame)
+{
+  const auto open = itk::example::MakeSphere(10.0, 2);
+  open->GetTriangles().resize(64); // the upper half
+  for (const auto & surface : { itk::example::MakeSphere(10.0, 3), itk::example::MakeTorus(8.0, 3.0, 12), open })
+  {
+    const auto mesh = itk::ConvertToQuadEdgeMesh(*surface);
+    EXPECT_EQ(mesh->GetNumberOfFaces(), surface->GetNumberOfTriangles());
+    ExpectSameUpToRotation(*surface, *itk::ConvertToTriangleSurface(*mesh));
+  }
+}
+
+TEST(TriangleSurfaceToMesh, MemoryIsWhatWasEstimated)
+{
+  const auto surface = itk::example::MakeSphere(10.0, 6); // 32768 triangles
+  const double before = HeapInUse();
+  const auto mesh = itk::ConvertToMesh(*surface);
+  const double ofMesh = HeapInUse() - before;
+  EXPECT_NEAR(static_cast<double>(itk::EstimateMeshMemory(*surface)) / ofMesh, 1.0, 0.05);
+  EXPECT_GT(ofMesh, 7.0 * static_cast<double>(surface->GetMemorySize())) << "why it is told";
+
+  const auto quadEdge = itk::ConvertToQuadEdgeMesh(*surface);
+  const double ofQuadEdge = HeapInUse() - before - ofMesh;
+  EXPECT_NEAR(static_cast<double>(itk::EstimateQuadEdgeMeshMemory(*surface)) / ofQuadEdge, 1.0, 0.05);
+  const auto triangles = static_cast<double>(surface->GetNumberOfTriangles());
+  RecordProperty("BytesPerTriangleOfMesh", std::to_string(ofMesh / triangles));
+  RecordProperty("BytesPerTriangleOfQuadEdgeMesh", std::to_string(ofQuadEdge / triangles));
+}
+
+template <typename TConvert>
+std::string
+MessageOf(const TConvert & convert)
+{
+  try
+  {
+    convert();
+  }
+  catch (const itk::ExceptionObject & error)
+  {
+    return error.GetDescription();
+  }
+  return {};
+}
+
+TEST(TriangleSurfaceToMesh, RefusesWhatAMeshCannotBe)
+{
+  const auto surface = itk::example::MakeTetrahedron();
+  const auto toMesh = [&] { itk::ConvertToMesh(*surface); };
+  const auto toQuadEdgeMesh = [&] { itk::ConvertToQuadEdgeMesh(*surface); };
+  surface->GetTriangles().push_back({ 0, 1, 4 });
+  const std::string missing = "has point 4, but the surface has only 4 points; write the surface again";
+  EXPECT_NE(MessageOf(toMesh).find(missing), std::string::npos);
+  EXPECT_NE(MessageOf(toQuadEdgeMesh).find(missing), std::string::npos);
+  surface->GetPoints().push_back({ -1, -1, -1 });
+  EXPECT_EQ(MessageOf(toMesh), "");
+  EXPECT_NE(MessageOf(toQuadEdgeMesh).find("; use ConvertToMesh()"), std::string::npos)
+    << "an edge with three triangles";
+}
+
+std::string
+MessageOfConverting(const MeshType & mesh)
+{
+  return MessageOf([&] { itk::ConvertToTriangleSurface(mesh); });
+}
+
+TEST(MeshToTriangleSurface, RefusesOtherCellsThanTriangles)
+{
+  const auto mesh = itk::ConvertToMesh(*itk::example::MakeTetrahedron());
+  MeshType::CellAutoPointer line;
+  line.TakeOwnership(new itk::LineCell<MeshType::CellType>);
+  line->SetPointId(0, 0);
+  line->SetPointId(1, 1);
+  mesh->SetCell(4, line);
+  EXPECT_NE(MessageOfConverting(*mesh).find("Cell 4 of the mesh has 2 points and dimension 1"), std::string::npos);
+  MeshType::CellAutoPointer quadrilateral;
+  quadrilateral.TakeOwnership(new itk::QuadrilateralCell<MeshType::CellType>);
+  mesh->SetCell(4, quadrilateral);
+  EXPECT_NE(MessageOfConverting(*mesh).find("; triangulate the mesh"), std::string::npos);
+}
+
+TEST(MeshToTriangleSurface, RefusesPointsThatTheMeshHasNot)
+{
+  const auto mesh = itk::ConvertToMesh(*itk::example::MakeTetrahedron());
+  MeshType::CellAutoPointer triangle;
+  triangle.TakeOwnership(new itk::TriangleCell<MeshType::CellType>);
+  for (int corner = 0; corner < 3; ++corner)
+  {
+    triangle->SetPointId(corner, static_cast<itk::IdentifierType>(2 + corner));
+  }
+  mesh->SetCell(4, triangle);
+  EXPECT_NE(MessageOfConverting(*mesh).find("point 4, which the mesh has not"), std::string::npos);
+}
+
+TEST(MeshToTriangleSurface, TakesIdsWithGapsAndDoublePrecision)
+{
+  using QuadEdgeMeshType = itk::QuadEdgeMesh<double, 3>;
+  const auto mesh = QuadEdgeMeshType::New();
+  for (const itk::IdentifierType id : { 3, 5, 40 })
+  {
+    QuadEdgeMeshType::PointType point;
+    point.Fill(static_cast<float>(id));
+    mesh->SetPoint(id, point);
+  }
+  mesh->AddFaceTriangle(40, 3, 5);
+  const auto surface = itk::ConvertToTriangleSurface(*mesh);
+  ASSERT_EQ(surface->GetNumberOfPoints(), 3u);
+  EXPECT_EQ(surface->GetPoints()[2][0], 40.0f);
+  EXPECT_EQ(surface->GetTriangles()[0], (TriangleSurface::TriangleType{ 2, 0, 1 }));
+  EXPECT_EQ(itk::ConvertToTriangleSurface(*itk::Mesh<double, 3>::New())->GetNumberOfTriangles(), 0u);
+}
+
+} // namespace
