@@ -11,6 +11,9 @@
 namespace rhombic
 {
 
+/** \file
+ * What an audit found, for machines and for people; units are in the keys. Thread safety: the functions are pure. */
+
 /** All that an audit found, and the verdict. */
 Report
 ReportAudit(const itk::TriangleSurfaceAudit & audit);

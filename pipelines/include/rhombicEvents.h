@@ -8,8 +8,10 @@ namespace rhombic
 {
 
 /** \class Events
- * \brief What a pipeline tells its caller while it works. Both functions are called on the calling thread; either may
- * be empty. */
+ * \brief What a pipeline tells its caller while it works. Either function may be empty.
+ *
+ * Thread safety: both are called on the thread that called the pipeline. Pipelines that run at the same time need
+ * events of their own, or functions that any number of threads may call. */
 struct Events
 {
   /** A finished step or a decision taken, one line. */

@@ -7,7 +7,11 @@
 namespace rhombic
 {
 
-/** What the values of a volume say about where its surfaces are. Values that are not finite don't count. */
+/** \class Intensities
+ * \brief What the values of a volume, in its own units, say about where its surfaces are. Values that are not finite
+ * don't count.
+ *
+ * Thread safety: a value. */
 struct Intensities
 {
   double lowest = 0.0;
@@ -15,10 +19,9 @@ struct Intensities
   double otsu = 0.0; ///< N. Otsu's threshold (1979) between background and foreground, from a histogram of 256 bins
 };
 
-/** Throws Failure(Unreadable) when no value is finite. */
+/** Throws Failure(Unreadable) when no value is finite. Thread safe. */
 Intensities
 ComputeIntensities(const ScanImage & image);
-
 Intensities
 ComputeIntensities(const FCCVolume & volume);
 

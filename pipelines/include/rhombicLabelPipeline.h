@@ -12,6 +12,9 @@
 namespace rhombic
 {
 
+/** \file
+ * Label maps for scans. Thread safety: the structs are values, but that copies of a map share its image (see Scan). */
+
 /** A label map, and the names and colours of its labels. */
 struct LabelMap
 {
@@ -26,20 +29,20 @@ struct LabelMapSource
   std::filesystem::path table; ///< empty: the table in the file, or the one beside it (see FindLabelTable())
 };
 
-/** The labels of a scan that is a label map. Throws Failure(Unreadable) for others. */
+/** The labels of a scan that is a label map. Throws Failure(Unreadable) for others. Thread safe. */
 std::vector<LabelSummary>
 FindLabels(const Scan & scan, const LabelMapSource & source);
 
 /** Reads the label map of a scan, which may have another grid. The scan's options but for series and frame hold for the
- * map, too. Throws Failure, also when the two don't lie in the same
- * place; what is partly outside goes to the label map's notes. */
+ * map, too. Throws Failure, also when the two don't lie in the same place; what is partly outside goes to the label
+ * map's notes. Thread safe. */
 LabelMap
 ReadLabelMap(const LabelMapSource & source,
              const ScanReadOptions & options,
              const Scan & scan,
              const std::filesystem::path & scanPath);
 
-/** For each label: value, name, colour (#rrggbb), voxels and millilitres. */
+/** For each label: value, name, colour (`#rrggbb`), voxels and millilitres. Thread safe. */
 Report
 ReportLabels(const std::vector<LabelSummary> & labels);
 

@@ -16,6 +16,9 @@
 namespace rhombic
 {
 
+/** \file
+ * Surfaces of labels. Thread safety: the structs are values, but that copies of a LabelSurface share its surface. */
+
 /** Which labels get a surface, and how it is made. */
 struct LabelSurfaceSettings
 {
@@ -65,7 +68,7 @@ struct LabelSurface
  * for any number of them.
  *
  * Throws Failure: Usage for a density that makes no lattice and for labels that the map doesn't hold; Empty when there
- * is none to show; Memory, before the work on a piece, for one that is too large. */
+ * is none to show; Memory, before the work on a piece, for one that is too large. Thread safe. */
 std::vector<LabelSurface>
 LabelsToSurfaces(const LabelMap & map, const LabelSurfaceSettings & settings, const Events & events);
 

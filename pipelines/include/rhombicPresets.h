@@ -10,6 +10,10 @@
 namespace rhombic
 {
 
+/** \file
+ * Presets: surfaces for kinds of scans. Thread safety: presets are values, and any number of threads may call these
+ * functions at once. */
+
 /** A named list of surfaces for a kind of scan. */
 struct Preset
 {

@@ -17,6 +17,10 @@
 namespace rhombic
 {
 
+/** \file
+ * From scans to pictures and volumes. Thread safety: the structs are values; copies of those with
+ * ScanReadOptions share the decoder. */
+
 /** Where a scan is, and how it gets onto the lattice. */
 struct ScanSource
 {
@@ -52,7 +56,8 @@ struct RenderScanSettings
   Provenance provenance;
 };
 
-/** Renders a scan; returns the pictures' paths. Like the others, writes a sidecar for each output. Throws Failure. */
+/** Renders a scan; returns the pictures' paths. Like the others, writes a sidecar for each output. Throws Failure.
+ * Thread safe for different outputs. */
 std::vector<std::filesystem::path>
 RenderScan(const RenderScanSettings & settings, const Events & events);
 
@@ -65,12 +70,12 @@ struct ResampleScanSettings
 };
 
 /** Resamples a scan onto the lattice, or, when the source is a lattice volume, back; the source's lattice spacing is
- * then that of the grid. Throws Failure. */
+ * then that of the grid. Throws Failure. Thread safe for different outputs. */
 void
 ResampleScan(const ResampleScanSettings & settings, const Events & events);
 
 /** Makes sure that every request's isovalue is known and lies where there can be a surface. Throws Failure(Empty),
- * naming the volume's range. */
+ * naming the volume's range. Thread safe. */
 std::vector<SurfaceRequest>
 ResolveIsovalues(std::vector<SurfaceRequest> requests, const Intensities & intensities);
 

@@ -11,6 +11,9 @@
 namespace rhombic
 {
 
+/** \file
+ * What is known of a scan, as JSON. Thread safety: any number of threads may call these functions at once. */
+
 /** A report that keeps the order in which it was written. */
 using Report = nlohmann::ordered_json;
 
@@ -24,7 +27,8 @@ ReportScan(const Scan & scan);
 Report
 ReportLattice(const FCCVolume & volume);
 
-/** The range of values, and thresholds worth trying for that modality. */
+/** The range of values, and thresholds worth trying for that modality. Throws Failure(Unreadable) when no value is
+ * finite. */
 Report
 ReportIntensities(const Scan & scan);
 Report

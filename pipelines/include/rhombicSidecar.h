@@ -10,7 +10,10 @@
 namespace rhombic
 {
 
-/** Who made an output, for its sidecar and its metadata. */
+/** \class Provenance
+ * \brief Who made an output, for its sidecar and its metadata.
+ *
+ * Thread safety: a value. */
 struct Provenance
 {
   std::string software; ///< name and version
@@ -26,7 +29,8 @@ SidecarOf(const std::filesystem::path & output);
 std::vector<std::filesystem::path>
 WithSidecars(std::vector<std::filesystem::path> outputs, const Provenance & provenance);
 
-/** Writes what is known about an output beside it, if the provenance says so. Throws Failure(Output). */
+/** Writes what is known about an output beside it, if the provenance says so. Throws Failure(Output). Thread safe for
+ * different outputs. */
 void
 WriteSidecar(const std::filesystem::path & output, const Provenance & provenance, const Report & report);
 

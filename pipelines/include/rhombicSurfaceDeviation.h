@@ -14,7 +14,9 @@ namespace rhombic
 {
 
 /** \class SurfaceDeviation
- * \brief How far a surface is from the scan's own isosurface, in mm. */
+ * \brief How far a surface is from the scan's own isosurface, in mm.
+ *
+ * Thread safety: a value. */
 struct SurfaceDeviation
 {
   std::size_t samples = 0;    ///< points and centres of triangles where it was measured

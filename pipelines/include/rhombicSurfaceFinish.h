@@ -13,7 +13,10 @@
 namespace rhombic
 {
 
-/** What is done to surfaces after extraction. By default they are untangled, no more. */
+/** \class SurfaceFinish
+ * \brief What is done to surfaces after extraction. By default they are untangled, no more.
+ *
+ * Thread safety: a value. */
 struct SurfaceFinish
 {
   double minimumVolume = 0.0;    ///< connected parts of less than this, in ml, are removed
@@ -32,7 +35,8 @@ struct SurfaceFinish
 void
 CheckSurfaceFinish(const SurfaceFinish & finish);
 
-/** Removes parts of a surface. The report says how many went, and their volume; null when nothing was asked for. */
+/** Removes parts of a surface. The report says how many went, and their volume; null when nothing was asked for.
+ * Thread safe for different surfaces. */
 Report
 RemoveParts(itk::TriangleSurface & surface, const SurfaceFinish & finish);
 
@@ -40,7 +44,8 @@ RemoveParts(itk::TriangleSurface & surface, const SurfaceFinish & finish);
  * (itk::UntangleSurface()), simplifies it, which makes no triangles pass through each other, and turns specks that are
  * inside out. The report says how far points moved and how many triangles are left; what can't be untangled is noted.
  * \param spacing of the lattice in mm (see MeanSpacingOf()) \param name of the surface, for progress and messages.
- * Throws Failure. */
+ * Throws itk::ExceptionObject as itk::UntangleSurface() and itk::SimplifySurface() do. Thread safe for different
+ * surfaces. */
 Report
 RefineSurface(itk::TriangleSurface & surface,
               const SurfaceFinish & finish,

@@ -15,7 +15,9 @@ namespace rhombic
 {
 
 /** \class SurfaceMeasures
- * \brief What a closed surface encloses, in LPS mm. */
+ * \brief What a closed surface encloses, in LPS mm.
+ *
+ * Thread safety: a value. */
 struct SurfaceMeasures
 {
   double volume = 0.0;            ///< mm^3

@@ -9,6 +9,9 @@
 namespace rhombic
 {
 
+/** \file
+ * Surfaces to extract, and how people write them. Thread safety: requests are values, and the functions pure. */
+
 /** A surface to extract, and how to draw it. */
 struct SurfaceRequest
 {
@@ -34,7 +37,7 @@ struct SurfaceRequest
   double opacity = 1.0;
 };
 
-/** A colour written as #rrggbb. Throws Failure(Usage). */
+/** A colour written as `#rrggbb`. Throws Failure(Usage). */
 Colour
 ParseColour(const std::string & text);
 

@@ -23,7 +23,7 @@ enum class TableRule
 bool
 IsTableRemoved(TableRule rule, const Scan & scan);
 
-/** Something that was removed from a scan. */
+/** Something that was removed from a scan. Thread safety: a value. */
 struct RemovedObject
 {
   double millilitres = 0.0;       ///< of what is at or above the threshold of tissue
@@ -32,7 +32,7 @@ struct RemovedObject
   itk::Point<double, 3> highest;
 };
 
-/** What RemoveTable() did. */
+/** What RemoveTable() did. Thread safety: a value. */
 struct TableRemoval
 {
   std::vector<RemovedObject> objects; ///< of 1 ml and more, the largest first
@@ -58,7 +58,8 @@ struct TableRemoval
  * patient. The cut is a smooth surface, not one of voxels: samples are lowered to a limit that falls to air within one
  * sample, and no surface at any threshold arises elsewhere. Tilted and uneven slices may lie as they are.
  *
- * Takes up to 40 bytes for each block. The result does not depend on the number of threads. */
+ * Takes up to 40 bytes for each block. The result does not depend on the number of threads. Thread safe for different
+ * scans. */
 TableRemoval
 RemoveTable(Scan & scan, const Events & events);
 

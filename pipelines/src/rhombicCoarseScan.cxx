@@ -1,7 +1,7 @@
 #include "rhombicCoarseScan.h"
 
 #include "itkConnectedComponentImageFilter.h"
-#include "itkMultiThreaderBase.h"
+#include "itkForEachBlock.h"
 #include "itkSignedMaurerDistanceMapImageFilter.h"
 
 #include <algorithm>
@@ -146,13 +146,9 @@ MakeCoarseScan(const Scan & scan, double tissue, double hard)
   }
   std::visit(
     [&](const auto & image) {
-      itk::MultiThreaderBase::New()->ParallelizeArray(
-        0,
-        blocks[2],
-        [&](itk::SizeValueType slice) {
-          FillSlice(*image, static_cast<float>(tissue), static_cast<float>(hard), slice, coarse);
-        },
-        nullptr);
+      itk::ForEachInBlocks(blocks[2], 1, [&](std::size_t slice) {
+        FillSlice(*image, static_cast<float>(tissue), static_cast<float>(hard), slice, coarse);
+      });
     },
     scan.image);
   return coarse;

@@ -2,8 +2,7 @@
 
 #include "rhombicScanField.h"
 
-#include "itkMultiThreaderBase.h"
-#include "itkThreadFailure.h"
+#include "itkForEachBlock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -170,9 +169,7 @@ ComputeDeviation(const itk::TriangleSurface & surface,
   std::vector<float> distances(count);
 
   constexpr std::size_t blockSize = 2048;
-  const auto measureBlock = [&](itk::SizeValueType block) {
-    const std::size_t begin = block * blockSize;
-    const std::size_t end = std::min(begin + blockSize, count);
+  itk::ForEachBlock(count, blockSize, [&](std::size_t begin, std::size_t end) {
     std::vector<PointType> points;
     for (std::size_t n = begin; n < end; ++n)
     {
@@ -180,14 +177,7 @@ ComputeDeviation(const itk::TriangleSurface & surface,
     }
     const auto found = FindDistances(field, points, isovalue);
     std::copy(found.begin(), found.end(), distances.begin() + static_cast<std::ptrdiff_t>(begin));
-  };
-  itk::ThreadFailure failure;
-  itk::MultiThreaderBase::New()->ParallelizeArray(
-    0,
-    (count + blockSize - 1) / blockSize,
-    [&](itk::SizeValueType block) { failure.Capture([&] { measureBlock(block); }); },
-    nullptr);
-  failure.Rethrow();
+  });
 
   SurfaceDeviation deviation;
   deviation.isComplete = stride == 1;

@@ -4,7 +4,7 @@
 #include "rhombicImageAxes.h"
 #include "rhombicPatientMask.h"
 
-#include "itkMultiThreaderBase.h"
+#include "itkForEachBlock.h"
 
 #include <algorithm>
 #include <array>
@@ -298,11 +298,8 @@ Cut(Scan & scan, const CoarseScan & coarse, const DistanceImage & excess, double
   std::visit(
     [&](const auto & image) {
       const Cutter cutter(coarse, excess, *image, airValue);
-      itk::MultiThreaderBase::New()->ParallelizeArray(
-        0,
-        image->GetBufferedRegion().GetSize(2),
-        [&](itk::SizeValueType slice) { cutter.CutSlice(*image, slice); },
-        nullptr);
+      itk::ForEachInBlocks(
+        image->GetBufferedRegion().GetSize(2), 1, [&](std::size_t slice) { cutter.CutSlice(*image, slice); });
     },
     scan.image);
 }

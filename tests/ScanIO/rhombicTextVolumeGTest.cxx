@@ -309,6 +309,13 @@ TEST_F(TextVolume, LayersAndFramesOfNRRD)
   EXPECT_EQ(TextOf(ReadScan(plain, Frame(1))), "ABCDEFGH");
 }
 
+TEST_F(TextVolume, VolumesOnTheLatticeAreNoScans)
+{
+  EXPECT_EQ(KindOfReading(this->WriteNRRD(Raw + "lattice:=fcc parity rows\n"), "give the scan it was made from"),
+            FailureKind::Unreadable);
+  EXPECT_NO_THROW(ReadScan(this->WriteNRRD(Raw + "lattice:=cubic\n")));
+}
+
 TEST_F(TextVolume, KeyValuesOfNRRD)
 {
   const auto path = this->WriteNRRD(Raw + "# a comment\nSegment0_Name:=Liver: left\nnote:=two\\nlines \\\\ slash\n");

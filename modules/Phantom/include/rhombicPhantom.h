@@ -11,6 +11,9 @@
 namespace rhombic
 {
 
+/** \file
+ * A made-up body, and its CT. Thread safety: the structs are values; the functions say their own. */
+
 /** A point in LPS millimetres: x towards the patient's left, y to the back, z to the head. */
 using PhantomPoint = std::array<double, 3>;
 
@@ -24,7 +27,7 @@ struct PhantomOrgan
   std::array<float, 3> colour; ///< red, green and blue of sRGB, 0..1
 };
 
-/** The organs by label, without the air around the body (label 0, -1000 HU). Thread-safe. */
+/** The organs by label, without the air around the body (label 0, -1000 HU). Thread safe. */
 const std::vector<PhantomOrgan> &
 PhantomOrgans();
 
@@ -37,12 +40,12 @@ struct PhantomSettings
 using PhantomScan = itk::Image<std::int16_t, 3>;
 using PhantomLabels = itk::Image<std::uint8_t, 3>;
 
-/** The label of a point; points on a border belong to the inner organ. Thread-safe. */
+/** The label of a point; points on a border belong to the inner organ. Thread safe. */
 int
 PhantomLabelAt(const PhantomPoint & point);
 
 /** The ideal, unsampled CT in Hounsfield units: -1000 in the air, otherwise that of the organ at the point.
- * Thread-safe. */
+ * Thread safe. */
 double
 PhantomHounsfieldAt(const PhantomPoint & point);
 
@@ -56,7 +59,7 @@ struct PhantomEnclosure
 /** What the isosurface at \a threshold, in Hounsfield units, encloses: 250.5 the bones, the teeth and the marker;
  * -300.5 everything but the lungs and the airway. A sampled scan's surface lies at the ideal place where the threshold
  * is the mean of the two tissues; elsewhere it is off by a fraction of the spacing. Throws Failure(Usage) for
- * thresholds that the air around the body reaches (-1000 and less), or that are no numbers. Thread-safe. */
+ * thresholds that the air around the body reaches (-1000 and less), or that are no numbers. Thread safe. */
 PhantomEnclosure
 PhantomEnclosedBy(double threshold);
 
@@ -64,11 +67,11 @@ PhantomEnclosedBy(double threshold);
  * a cube about its centre, rounded. As in a scanner, cubes overlap: their side is twice the spacing, but at most 4 mm,
  * and at least the spacing. Between two tissues, the surface at the mean of both is then where it should be to a few
  * hundredths of the spacing. The same voxels for any number of threads. Throws Failure(Usage) for a spacing out of
- * range, Failure(Memory). */
+ * range, Failure(Memory). Thread safe. */
 PhantomScan::Pointer
 MakePhantomScan(const PhantomSettings & settings = {});
 
-/** The label at each voxel's centre, on the grid of MakePhantomScan(). Throws as it does. */
+/** The label at each voxel's centre, on the grid of MakePhantomScan(). Throws as it does. Thread safe. */
 PhantomLabels::Pointer
 MakePhantomLabels(const PhantomSettings & settings = {});
 

@@ -17,7 +17,7 @@ namespace rhombic
  * - `phantom-organs.csv`: name, label, Hounsfield units, exact volume in ml and colour of each organ.
  *
  * The folder is created, its parents aren't; nothing in it is overwritten. All the files appear together at the end:
- * a failure leaves the folder as it was. One writer a folder at a time.
+ * a failure leaves the folder as it was. Thread safe for different folders.
  *
  * Throws Failure(Output) for a folder that holds anything, whose parent is missing, or that can't be written, and as
  * MakePhantomScan() does. */

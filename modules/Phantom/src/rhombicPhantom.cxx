@@ -3,7 +3,7 @@
 #include "rhombicFailure.h"
 #include "rhombicPhantomAnatomy.h"
 
-#include "itkMultiThreaderBase.h"
+#include "itkForEachBlock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -383,14 +383,10 @@ MakeImage(const PhantomSettings & settings, const TMakeSlice & makeSlice, const 
   const Grid grid = MakeGrid(settings);
   const auto image = AllocateOn<TImage>(grid);
   auto * voxels = image->GetBufferPointer();
-  itk::MultiThreaderBase::New()->ParallelizeArray(
-    0,
-    static_cast<itk::SizeValueType>(grid.size[2]),
-    [&](itk::SizeValueType k) {
-      const auto slice = makeSlice(grid, static_cast<long>(k));
-      std::transform(slice.begin(), slice.end(), voxels + k * slice.size(), convert);
-    },
-    nullptr);
+  itk::ForEachInBlocks(static_cast<std::size_t>(grid.size[2]), 1, [&](std::size_t k) {
+    const auto slice = makeSlice(grid, static_cast<long>(k));
+    std::transform(slice.begin(), slice.end(), voxels + k * slice.size(), convert);
+  });
   return image;
 }
 

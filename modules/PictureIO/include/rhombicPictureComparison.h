@@ -8,7 +8,7 @@
 namespace rhombic
 {
 
-/** How much two pictures differ. Errors are between sRGB components from 0 to 1. */
+/** How much two pictures differ. Errors are between sRGB components from 0 to 1. Thread safety: a value. */
 struct PictureDifference
 {
   double meanError = 0.0;
@@ -21,7 +21,7 @@ struct PictureDifference
 
 /** Compares two pictures pixel by pixel; \a threshold is a difference of components from 0 to 1.
  *
- * Throws Failure(Usage) when the sizes differ or a picture has no pixels. Safe on several threads. */
+ * Throws Failure(Usage) when the sizes differ or a picture has no pixels. Thread safe. */
 PictureDifference
 ComparePictures(const Picture & a, const Picture & b, double threshold);
 

@@ -9,7 +9,7 @@
 namespace rhombic
 {
 
-/** All that a picture file says besides its pixels. Empty strings are left out. */
+/** All that a picture file says besides its pixels. Empty strings are left out. Thread safety: a value. */
 struct PictureMetadata
 {
   std::string software;    ///< the program and its version
@@ -25,14 +25,14 @@ CheckPicturePath(const std::filesystem::path & path);
  * older one.
  *
  * Throws Failure: Usage when the extension is none of those or the picture has no pixels; Output when the file can't be
- * written or does not hold what it should. Safe on several threads for different paths. */
+ * written or does not hold what it should. Thread safe for different paths. */
 void
 WritePicture(const Picture & picture, const std::filesystem::path & path, const PictureMetadata & metadata);
 
 /** Reads a picture as 8-bit sRGB. Grey becomes three equal channels, an alpha channel is dropped, and the linear light
  * of EXR is encoded.
  *
- * Throws Failure: NotFound when there is no such file; Unreadable when it is no picture or is damaged. */
+ * Throws Failure: NotFound when there is no such file; Unreadable when it is no picture or is damaged. Thread safe. */
 Picture
 ReadPicture(const std::filesystem::path & path);
 

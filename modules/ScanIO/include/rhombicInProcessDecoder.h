@@ -3,15 +3,16 @@
 
 #include "rhombicVoxelDecoder.h"
 
-#include <mutex>
-
 namespace rhombic
 {
 
 /** \class InProcessDecoder
- * \brief Unpacks voxels in this process, one file at a time, because GDCM's codecs share state.
+ * \brief Unpacks voxels in this process.
  *
- * For hosts that trust their files, or can't have other processes: damaged files may end this one. */
+ * For hosts that trust their files, or can't have other processes: damaged files may end this one.
+ *
+ * Thread safety: any number of threads may call Decode() at once. They take turns, whichever decoder is theirs, because
+ * GDCM's codecs share state. */
 class InProcessDecoder : public VoxelDecoder
 {
 public:
@@ -20,9 +21,6 @@ public:
 
   std::unique_ptr<VoxelBuffer>
   Decode(const VoxelRequest & request) override;
-
-private:
-  std::mutex m_Mutex;
 };
 
 } // namespace rhombic

@@ -16,7 +16,9 @@ namespace rhombic
  * files at once. So it must be made before the process starts threads, at best first thing in main(): a worker is a
  * copy of what the process was then, and costs a millisecond instead of the start of a program. Workers have no
  * terminal, can make no files, and are limited in memory, processor time and open files; voxels come back through
- * shared memory. All of them end with this object, or with the process. */
+ * shared memory. All of them end with this object, or with the process.
+ *
+ * Thread safety: any number of threads may call Decode() at once. */
 class IsolatedDecoder : public VoxelDecoder
 {
 public:

@@ -13,6 +13,10 @@
 namespace rhombic
 {
 
+/** \file
+ * What the values of label maps mean. Thread safety: labels are values, and any number of threads may call
+ * these functions at once. */
+
 /** \class Label
  * \brief What a value of a label map means, and how to show it. */
 struct Label

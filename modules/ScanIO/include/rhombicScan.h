@@ -25,7 +25,9 @@ using ScanImage = std::variant<itk::Image<std::uint8_t, 3>::Pointer,
                                itk::Image<float, 3>::Pointer>;
 
 /** \class SeriesSummary
- * \brief One of the DICOM series in a folder. Holds nothing about the patient. */
+ * \brief One of the DICOM series in a folder. Holds nothing about the patient.
+ *
+ * Thread safety: a value. */
 struct SeriesSummary
 {
   std::string id;           ///< made from a hash of the SeriesInstanceUID; the same wherever the files are
@@ -39,22 +41,22 @@ struct SeriesSummary
   bool chosen = false;               ///< whether it is the one that was read
 };
 
-/** Slices that follow each other at the same distance. */
+/** Slices that follow each other at the same distance. Thread safety: a value. */
 struct SliceBlock
 {
   std::size_t numberOfSteps = 0;
   double step = 0; ///< along the slices' normal, in mm
 };
 
-/** Slices that are missing from a stack. */
+/** Slices that are missing from a stack. Thread safety: a value. */
 struct SliceGap
 {
   double position = 0; ///< of the slice before the gap along the slices' normal, in mm
-  double step = 0;     ///< to the slice behind it
+  double step = 0;     ///< to the slice behind it, in mm
   std::size_t numberOfMissing = 0;
 };
 
-/** How a DICOM volume is stacked. */
+/** How a DICOM volume is stacked. Thread safety: a value. */
 struct StackReport
 {
   double tiltDegrees = 0;   ///< between the line of the slices and their normal
@@ -64,7 +66,7 @@ struct StackReport
   std::vector<SliceGap> gaps;
 };
 
-/** Which of a NIfTI file's affines was used. */
+/** Which of a NIfTI file's affines was used. Thread safety: a value. */
 struct AffineReport
 {
   std::string source;      ///< "sform", "qform" or "none"
@@ -72,7 +74,10 @@ struct AffineReport
 };
 
 /** \class Scan
- * \brief A volume and what is known about it. Holds nothing about the patient. */
+ * \brief A volume and what is known about it. Holds nothing about the patient.
+ *
+ * Thread safety: any number of threads may read a scan. A filter that gets its image as input counts as a writer, as it
+ * sets the image's requested region; copies share the image. */
 struct Scan
 {
   /** With an empty metadata dictionary. Its direction may be sheared (a tilted gantry, a sheared affine). */
@@ -114,7 +119,8 @@ GeometryOf(ScanImage &&) = delete; // it would outlive the image
 const char *
 PixelTypeName(const ScanImage & image);
 
-/** The volume of a voxel of each slice, in mm^3; in an unevenly spaced stack a voxel reaches halfway to the next slices.
+/** The volume of a voxel of each slice, in mm^3; in an unevenly spaced stack a voxel reaches halfway to the next
+ * slices.
  */
 std::vector<double>
 VoxelVolumes(const Scan & scan);

@@ -16,7 +16,9 @@ namespace rhombic
 class VoxelDecoder;
 
 /** \class ScanReadOptions
- * \brief What to read when there is a choice, and what to accept. */
+ * \brief What to read when there is a choice, and what to accept.
+ *
+ * Thread safety: a value, whose copies share the decoder. */
 struct ScanReadOptions
 {
   /** What to do with what is not as it should be. */
@@ -75,8 +77,9 @@ struct ScanReadOptions
  * damaged files may still end the process inside GDCM or ITK.
  *
  * Throws Failure: NotFound (no such path, or no scan in the folder), Usage (no such series or frame, or more than one
- * to choose from), Unreadable (damaged, or colour, vectors, no image...), Geometry, Memory. While it runs, warnings of
- * ITK and GDCM are off for the whole process; calls may run at the same time. */
+ * to choose from), Unreadable (damaged, or colour, vectors, no image...), Geometry, Memory.
+ *
+ * Thread safe, also with a common decoder. While it runs, warnings of ITK and GDCM are off for the whole process. */
 Scan
 ReadScan(const std::filesystem::path & path, const ScanReadOptions & options = {});
 

@@ -8,7 +8,7 @@
 namespace rhombic
 {
 
-/** Voxels that a library is to unpack. */
+/** Voxels that a library is to unpack. Thread safety: a value. */
 struct VoxelRequest
 {
   /** The library. */
@@ -23,7 +23,10 @@ struct VoxelRequest
   std::size_t size = 0; ///< bytes that must come out, in this machine's byte order
 };
 
-/** Unpacked voxels. */
+/** \class VoxelBuffer
+ * \brief Unpacked voxels.
+ *
+ * Thread safety: any number of threads may read it at once. */
 class VoxelBuffer
 {
 public:
@@ -42,7 +45,9 @@ public:
 /** \class VoxelDecoder
  * \brief Runs the libraries that unpack voxels, which damaged files can crash.
  *
- * InProcessDecoder runs them in this process, IsolatedDecoder in processes of their own. */
+ * InProcessDecoder runs them in this process, IsolatedDecoder in processes of their own.
+ *
+ * Thread safety: any number of threads may call Decode() at once. */
 class VoxelDecoder
 {
 public:
@@ -56,8 +61,8 @@ public:
   virtual unsigned int
   GetNumberOfWorkers() const = 0;
 
-  /** Unpacks the voxels of one file. Any number of threads may call it at once. Throws Failure: Unreadable, naming the
-   * file, when it is damaged, not supported, of another size, or when its decoder crashed or took too long; Memory. */
+  /** Unpacks the voxels of one file. Throws Failure: Unreadable, naming the file, when it is damaged, not supported, of
+   * another size, or when its decoder crashed or took too long; Memory. */
   virtual std::unique_ptr<VoxelBuffer>
   Decode(const VoxelRequest & request) = 0;
 };

@@ -16,7 +16,10 @@ namespace rhombic
  *
  * over n waves, whose wave vectors k are evenly distributed in a ball and whose phases are random. Its mean is 0 and
  * its variance 1, and with many waves its values are nearly Gaussian; the surface at 0 halves space. The same numbers
- * give the same field on every machine, up to rounding.
+ * give the same field on every machine, up to rounding. The method is that of M. Shinozuka, "Simulation of multivariate
+ * and multidimensional random processes", J. Acoust. Soc. Am. 49 (1971).
+ *
+ * Thread safety: immutable.
  */
 class BandLimitedField : public ReferenceField
 {

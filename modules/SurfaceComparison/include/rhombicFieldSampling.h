@@ -4,9 +4,9 @@
 #include "rhombicReferenceField.h"
 
 #include "itkFCCImage.h"
+#include "itkForEachBlock.h"
 #include "itkImage.h"
 #include "itkImageRegionIteratorWithIndex.h"
-#include "itkMultiThreaderBase.h"
 
 #include <cmath>
 #include <limits>
@@ -15,29 +15,31 @@ namespace rhombic
 {
 
 /** Allocates an image, whose region and geometry are set, and fills it with scale * field at each sample's position.
- * Integer pixels are rounded; the caller sees to it that they fit. Works with itk::Image and itk::FCCImage. */
+ * Integer pixels are rounded; the caller sees to it that they fit. Works with itk::Image and itk::FCCImage, on several
+ * threads (itk::MultiThreaderBase). Thread safe for different images. */
 template <typename TImage>
 void
 SampleField(const ReferenceField & field, double scale, TImage * image)
 {
   using PixelType = typename TImage::PixelType;
   image->Allocate();
-  const auto threader = itk::MultiThreaderBase::New();
-  threader->template ParallelizeImageRegion<3>(
-    image->GetBufferedRegion(),
-    [&](const typename TImage::RegionType & part) {
-      typename TImage::PointType point;
-      for (itk::ImageRegionIteratorWithIndex<TImage> it(image, part); !it.IsAtEnd(); ++it)
-      {
-        image->TransformIndexToPhysicalPoint(it.GetIndex(), point);
-        const double value = scale * field.Evaluate({ point[0], point[1], point[2] });
-        it.Set(static_cast<PixelType>(std::numeric_limits<PixelType>::is_integer ? std::round(value) : value));
-      }
-    },
-    nullptr);
+  const auto & region = image->GetBufferedRegion();
+  itk::ForEachBlock(region.GetSize(2), 1, [&](std::size_t begin, std::size_t end) {
+    auto planes = region;
+    planes.SetIndex(2, region.GetIndex(2) + static_cast<itk::IndexValueType>(begin));
+    planes.SetSize(2, end - begin);
+    typename TImage::PointType point;
+    for (itk::ImageRegionIteratorWithIndex<TImage> it(image, planes); !it.IsAtEnd(); ++it)
+    {
+      image->TransformIndexToPhysicalPoint(it.GetIndex(), point);
+      const double value = scale * field.Evaluate({ point[0], point[1], point[2] });
+      it.Set(static_cast<PixelType>(std::numeric_limits<PixelType>::is_integer ? std::round(value) : value));
+    }
+  });
 }
 
-/** A field on a Cartesian grid of \a count samples along each axis, the first at the world's origin. */
+/** A field on a Cartesian grid of \a count samples along each axis, \a spacing apart, the first at the
+ * world's origin. Thread safe. */
 template <typename TPixel>
 typename itk::Image<TPixel, 3>::Pointer
 SampleOnGrid(const ReferenceField & field, itk::SizeValueType count, double spacing, double scale = 1.0)
@@ -51,7 +53,8 @@ SampleOnGrid(const ReferenceField & field, itk::SizeValueType count, double spac
 }
 
 /** A field on an FCC lattice that covers the cube from 0 to \a edge along each axis; a site is at the world's origin.
- * \param density sites per unit of volume */
+ * Thread safe.
+ * \param density sites per unit of volume, above 0 */
 template <typename TPixel>
 typename itk::FCCImage<TPixel>::Pointer
 SampleOnLattice(const ReferenceField & field, double edge, double density, double scale = 1.0)

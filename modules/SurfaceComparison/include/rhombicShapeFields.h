@@ -7,7 +7,9 @@ namespace rhombic
 {
 
 /** \class SphereField
- * \brief The signed distance to a sphere, radius - |p - center|. Its gradient is 0 at the center, where it has none. */
+ * \brief The signed distance to a sphere, radius - |p - center|. Its gradient is 0 at the center, where it has none.
+ *
+ * Thread safety: immutable. */
 class SphereField : public ReferenceField
 {
 public:
@@ -26,7 +28,9 @@ private:
 
 /** \class TorusField
  * \brief The signed distance to a torus: minor - the distance to its circle, of radius major, about an axis through the
- * center. Its gradient is 0 on the axis and on the circle, where it has none. */
+ * center. Its gradient is 0 on the axis and on the circle, where it has none.
+ *
+ * Thread safety: immutable. */
 class TorusField : public ReferenceField
 {
 public:
@@ -51,10 +55,13 @@ private:
 
 /** \class GyroidField
  * \brief sin x cos y + sin y cos z + sin z cos x, with x, y, z in units of period / 2 pi: a surface that fills any
- * volume evenly, in all directions (A. H. Schoen 1970). */
+ * volume evenly, in all directions (A. H. Schoen 1970).
+ *
+ * Thread safety: immutable. */
 class GyroidField : public ReferenceField
 {
 public:
+  /** \param period along each axis, above 0 */
   explicit GyroidField(double period);
 
   double

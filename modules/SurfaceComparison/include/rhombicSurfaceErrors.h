@@ -9,7 +9,9 @@ namespace rhombic
 {
 
 /** \class SurfaceErrorSettings
- * \brief Where a surface is judged, and in what unit. */
+ * \brief Where a surface is judged, and in what unit.
+ *
+ * Thread safety: a value. */
 struct SurfaceErrorSettings
 {
   Vector3 lower;     ///< triangles count whose centroid is in the box from here
@@ -18,7 +20,9 @@ struct SurfaceErrorSettings
 };
 
 /** \class SurfaceErrors
- * \brief How far a surface is from what it should be, and how good its triangles are. */
+ * \brief How far a surface is from what it should be, and how good its triangles are.
+ *
+ * Thread safety: a value. */
 struct SurfaceErrors
 {
   itk::SizeValueType triangles = 0; ///< that were judged
@@ -42,8 +46,10 @@ struct SurfaceErrors
 };
 
 /** Compares a surface with that of a field. Distances are measured at seven points of each triangle, with the weights
- * that integrate cubic polynomials exactly: corners 1/20, middles of sides 2/15, centroid 9/20. Threads through
- * itk::MultiThreaderBase; the result does not depend on their number. */
+ * that integrate cubic polynomials exactly: corners 1/20, middles of sides 2/15, centroid 9/20 (O. C. Zienkiewicz, "The
+ * finite element method"). All 0 when no triangle with an area is judged.
+ *
+ * Works on several threads (itk::MultiThreaderBase); the result does not depend on their number. Thread safe. */
 SurfaceErrors
 ComputeSurfaceErrors(const itk::TriangleSurface & surface,
                      const ReferenceField & field,

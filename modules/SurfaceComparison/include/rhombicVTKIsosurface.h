@@ -13,6 +13,9 @@
 namespace rhombic
 {
 
+/** \file
+ * The surfaces that VTK makes, to compare with. Thread safety: that of VTK, one thread at a time. */
+
 /** VTK's extractors for Cartesian volumes. */
 enum class VTKExtractor : unsigned char
 {

@@ -2,7 +2,7 @@
 
 #include "rhombicFieldProjection.h"
 
-#include "itkMultiThreaderBase.h"
+#include "itkForEachBlock.h"
 #include "itkTriangleSurfaceQuality.h"
 
 #include <algorithm>
@@ -77,22 +77,7 @@ struct Judged
   FieldProjection centroid;
 };
 
-template <typename TWork>
-void
-ForEach(itk::SizeValueType count, const TWork & work)
-{
-  constexpr itk::SizeValueType block = 256;
-  itk::MultiThreaderBase::New()->ParallelizeArray(
-    0,
-    (count + block - 1) / block,
-    [&](itk::SizeValueType b) {
-      for (itk::SizeValueType i = b * block; i < std::min(count, (b + 1) * block); ++i)
-      {
-        work(i);
-      }
-    },
-    nullptr);
-}
+constexpr std::size_t BlockSize = 256;
 
 } // namespace
 
@@ -132,13 +117,13 @@ ComputeSurfaceErrors(const itk::TriangleSurface & surface,
   }
 
   std::vector<FieldProjection> projections(points.size());
-  ForEach(points.size(), [&](itk::SizeValueType i) {
+  itk::ForEachInBlocks(points.size(), BlockSize, [&](itk::SizeValueType i) {
     if (pointWeights[i] > 0.0)
     {
       projections[i] = ProjectOntoField(field, ToVector(points[i]), settings.unit);
     }
   });
-  ForEach(triangles.size(), [&](itk::SizeValueType i) {
+  itk::ForEachInBlocks(triangles.size(), BlockSize, [&](itk::SizeValueType i) {
     Judged & judged = triangles[i];
     const Vector3 a = position(judged.corners[0]);
     const Vector3 b = position(judged.corners[1]);

@@ -18,6 +18,7 @@ enum class SurfaceFileSpace
   RAS
 };
 
+/** How surfaces are written. Thread safety: a value, but for what the function in it shares. */
 struct SurfaceFileSettings
 {
   SurfaceFileSpace space = SurfaceFileSpace::LPS;
@@ -56,7 +57,7 @@ SurfaceFilesOf(const std::filesystem::path & path);
  * materials appear just before it. Memory: a copy of the surfaces, two for STL, three for OBJ. Throws Failure(Usage)
  * for another extension or several surfaces in an STL, Failure(Empty) for a surface without triangles or no surface,
  * Failure(Output) when the file can't be written, the surfaces are too large for the format or a position is not
- * finite. Calls for different files may run at the same time. */
+ * finite. Thread safe for different files. */
 void
 WriteSurfaces(const std::vector<SceneSurface> & surfaces,
               const std::filesystem::path & path,

@@ -16,7 +16,10 @@ enum class RenderBackend
   XDisplay     ///< GLX on the X server that DISPLAY names
 };
 
-/** Whether a backend works on this machine. */
+/** \class BackendProbe
+ * \brief Whether a backend works on this machine.
+ *
+ * Thread safety: a value. */
 struct BackendProbe
 {
   RenderBackend backend;

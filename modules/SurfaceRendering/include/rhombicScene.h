@@ -7,7 +7,10 @@
 namespace rhombic
 {
 
-/** How a scene becomes a picture. A side can have 8192 samples: 4096 pixels with two samples each. */
+/** \class RenderSettings
+ * \brief How a scene becomes a picture. A side can have 8192 samples: 4096 pixels with two samples each.
+ *
+ * SurfaceRenderer::CheckSettings() says what is out of range. Thread safety: a value. */
 struct RenderSettings
 {
   int width = 1200;  ///< pixels

@@ -7,6 +7,9 @@
 namespace rhombic
 {
 
+/** \file
+ * The six standard views. Thread safety: the structs are values, and the functions pure. */
+
 /** Where the viewer stands, as an anatomist names it: View::Left is the view of the patient's left side. */
 enum class View
 {

@@ -2,6 +2,7 @@
 
 #include "rhombicVoxelDecoding.h"
 
+#include <mutex>
 #include <vector>
 
 namespace rhombic
@@ -44,7 +45,8 @@ std::unique_ptr<VoxelBuffer>
 InProcessDecoder::Decode(const VoxelRequest & request)
 {
   auto buffer = std::make_unique<VectorBuffer>(request.size);
-  const std::lock_guard<std::mutex> lock(m_Mutex);
+  static std::mutex turn;
+  const std::lock_guard<std::mutex> lock(turn);
   DecodeVoxels(request, buffer->GetData());
   return buffer;
 }

@@ -340,6 +340,13 @@ StoredVolume
 ReadNRRDVolume(const fs::path & path)
 {
   const NRRDHeader header = ReadNRRDHeader(path);
+  const auto lattice = header.keyValues.find("lattice");
+  if (lattice != header.keyValues.end() && lattice->second == "fcc parity rows") // modules/FCCLattice/README.md
+  {
+    RefuseVolume(path,
+                 "it is a volume on the face-centered cubic lattice, not a scan of voxels; give the scan it was made "
+                 "from");
+  }
   const std::vector<std::uintmax_t> sizes = AxisSizes(header.Get("dimension"), header.Get("sizes"), path);
   const auto directions = DirectionsOf(header, sizes.size(), path);
   const auto kinds = KindsOf(header, sizes.size(), path);
