@@ -15,11 +15,8 @@ find_package(ZLIB REQUIRED)
 find_package(HWY REQUIRED)
 find_package(meshoptimizer REQUIRED)
 
-# Debian's OpenImageIO target lists the include folder of an OpenCV that is not installed with it.
-get_target_property(_directories OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
-list(FILTER _directories EXCLUDE REGEX opencv)
-set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${_directories}")
-unset(_directories)
+include("${CMAKE_CURRENT_LIST_DIR}/OpenImageIOWithoutOpenCV.cmake")
+rhombic_openimageio_without_opencv()
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)

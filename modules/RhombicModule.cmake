@@ -7,7 +7,8 @@
 #
 # Dependencies may be ITK modules (ITKCommon), modules of this project, or imported targets (VTK::CommonCore).
 # A module of this project must have been added before it is depended on, so the order of modules/CMakeLists.txt is
-# the order of dependency. With RHOMBIC_BUILD_TESTING every public header is also compiled alone.
+# the order of dependency. With RHOMBIC_BUILD_TESTING every public header is also compiled alone. Each module is a
+# component of the installed package (RhombicConfig.cmake.in), where its target is Rhombic::<name>.
 
 macro(itk_module name)
   set(module_name ${name})
@@ -22,7 +23,7 @@ function(_rhombic_link target scope)
     if(dependency MATCHES "^ITK")
       itk_module_config(_itk ${dependency})
       target_link_libraries(${target} ${scope} ${_itk_LIBRARIES})
-      target_include_directories(${target} SYSTEM ${scope} ${_itk_INCLUDE_DIRS})
+      target_include_directories(${target} SYSTEM ${scope} "$<BUILD_INTERFACE:${_itk_INCLUDE_DIRS}>")
     elseif(TARGET ${dependency})
       target_link_libraries(${target} ${scope} ${dependency})
     else()
@@ -57,13 +58,22 @@ function(_rhombic_add_header_test name headers)
   target_link_libraries(${name}HeaderTest PRIVATE ${name} RhombicOptions)
 endfunction()
 
+function(_rhombic_install name folder)
+  file(GLOB headers CONFIGURE_DEPENDS "${folder}/include/*.h" "${folder}/include/*.hxx")
+  set_target_properties(${name} PROPERTIES OUTPUT_NAME Rhombic${name})
+  install(TARGETS ${name} EXPORT Rhombic${name} ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
+  install(FILES ${headers} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/Rhombic" COMPONENT development)
+  install(EXPORT Rhombic${name} NAMESPACE Rhombic:: FILE Rhombic${name}.cmake DESTINATION "${RHOMBIC_PACKAGE_FOLDER}"
+          COMPONENT development)
+endfunction()
+
 function(rhombic_add_module folder)
   include("${folder}/itk-module.cmake")
   file(GLOB headers CONFIGURE_DEPENDS "${folder}/include/*.h")
   file(GLOB sources CONFIGURE_DEPENDS "${folder}/src/*.cxx" "${folder}/src/*/*.cxx")
   if(sources)
     add_library(${module_name} ${sources})
-    target_link_libraries(${module_name} PRIVATE RhombicOptions)
+    target_link_libraries(${module_name} PRIVATE $<BUILD_INTERFACE:RhombicOptions>)
     _rhombic_add_source_folders(${module_name} "${folder}")
     set(scope PUBLIC)
     set(private_scope PRIVATE)
@@ -73,10 +83,14 @@ function(rhombic_add_module folder)
     set(private_scope INTERFACE)
   endif()
   target_compile_features(${module_name} ${scope} cxx_std_17)
-  target_include_directories(${module_name} ${scope} "${folder}/include")
+  target_include_directories(${module_name} ${scope} "$<BUILD_INTERFACE:${folder}/include>"
+                                                     "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/Rhombic>")
   _rhombic_link(${module_name} ${scope} ${module_DEPENDS})
   _rhombic_link(${module_name} ${private_scope} ${module_PRIVATE_DEPENDS})
   include("${folder}/module-options.cmake" OPTIONAL)
+  _rhombic_install(${module_name} "${folder}")
+  set_property(GLOBAL APPEND PROPERTY RHOMBIC_MODULES ${module_name})
+  set_property(GLOBAL PROPERTY RHOMBIC_${module_name}_DEPENDS ${module_DEPENDS} ${module_PRIVATE_DEPENDS})
   if(RHOMBIC_BUILD_TESTING AND headers)
     _rhombic_add_header_test(${module_name} "${headers}")
   endif()

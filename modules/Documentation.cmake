@@ -1,0 +1,41 @@
+# The reference of all public headers: `cmake --build build/dev --target docs`, in build/dev/docs/html. Any warning of
+# Doxygen's is an error.
+
+find_package(Doxygen)
+if(NOT DOXYGEN_FOUND)
+  return()
+endif()
+set(DOXYGEN_PROJECT_BRIEF "${PROJECT_DESCRIPTION}")
+set(DOXYGEN_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/docs")
+set(DOXYGEN_USE_MDFILE_AS_MAINPAGE "${PROJECT_SOURCE_DIR}/README.md")
+set(DOXYGEN_STRIP_FROM_PATH "${PROJECT_SOURCE_DIR}")
+set(DOXYGEN_FILE_PATTERNS *.h *.md)
+set(DOXYGEN_QUIET YES)
+set(DOXYGEN_WARN_IF_UNDOCUMENTED NO) # aliases and overrides that ITK's conventions ask for say nothing new
+set(DOXYGEN_WARN_IF_INCOMPLETE_DOC NO) # parameters that their names explain are left out
+set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)
+set(DOXYGEN_HIDE_UNDOC_CLASSES NO)
+set(DOXYGEN_EXTRACT_ALL NO)
+set(DOXYGEN_SORT_BRIEF_DOCS YES)
+set(DOXYGEN_JAVADOC_AUTOBRIEF YES)
+set(DOXYGEN_GENERATE_LATEX NO)
+set(DOXYGEN_MACRO_EXPANSION YES)
+set(DOXYGEN_EXPAND_ONLY_PREDEF YES)
+set(DOXYGEN_SEARCH_INCLUDES NO)
+set(DOXYGEN_PREDEFINED
+    "ITK_TEMPLATE_EXPORT="
+    "ITKv5_CONST=const"
+    "ITK_DISALLOW_COPY_AND_MOVE(type)="
+    "itkNewMacro(type)=static Pointer New()\;"
+    "itkTypeMacro(type,base)="
+    "itkSetMacro(name,type)=virtual void Set##name(type name)\;"
+    "itkGetConstMacro(name,type)=virtual type Get##name() const\;"
+    "itkGetConstReferenceMacro(name,type)=virtual const type & Get##name() const\;"
+    "itkSetEnumMacro(name,type)=virtual void Set##name(type name)\;"
+    "itkGetEnumMacro(name,type)=virtual type Get##name() const\;"
+    "itkBooleanMacro(name)=virtual void name##On()\; virtual void name##Off()\;"
+    "itkSetInputMacro(name,type)=virtual void Set##name(const type * input)\;"
+    "itkGetInputMacro(name,type)=virtual const type * Get##name() const\;")
+file(GLOB pages modules/*/README.md)
+file(GLOB headers modules/*/include pipelines/include)
+doxygen_add_docs(docs ${headers} ${pages} "${PROJECT_SOURCE_DIR}/README.md" COMMENT "Writing build/.../docs/html")

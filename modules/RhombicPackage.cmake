@@ -1,0 +1,60 @@
+# What is installed beside the modules: the package's configuration, the program, its presets; and Debian packages of it
+# all: `rhombic` with the program, `librhombic-dev` with the libraries and headers.
+
+include(CMakePackageConfigHelpers)
+get_property(RHOMBIC_MODULES GLOBAL PROPERTY RHOMBIC_MODULES)
+set(RHOMBIC_DEPENDS "")
+foreach(module IN LISTS RHOMBIC_MODULES)
+  get_property(depends GLOBAL PROPERTY RHOMBIC_${module}_DEPENDS)
+  string(APPEND RHOMBIC_DEPENDS "  set(${module}_DEPENDS ${depends})\n")
+endforeach()
+configure_package_config_file(modules/RhombicConfig.cmake.in "${PROJECT_BINARY_DIR}/RhombicConfig.cmake"
+                              INSTALL_DESTINATION "${RHOMBIC_PACKAGE_FOLDER}"
+                              NO_CHECK_REQUIRED_COMPONENTS_MACRO NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/RhombicConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/RhombicConfig.cmake" "${PROJECT_BINARY_DIR}/RhombicConfigVersion.cmake"
+              modules/OpenImageIOWithoutOpenCV.cmake
+        DESTINATION "${RHOMBIC_PACKAGE_FOLDER}" COMPONENT development)
+
+install(TARGETS rhombic RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT program)
+install(DIRECTORY pipelines/presets DESTINATION "${CMAKE_INSTALL_DATADIR}/rhombic" COMPONENT program)
+set(program_package rhombic)
+set(development_package librhombic-dev)
+foreach(component program development)
+  install(FILES README.md LICENSE modules/copyright COMPONENT ${component}
+          DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${${component}_package}")
+endforeach()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "Rhombic developers <rhombic@example.org>")
+set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "organ surfaces and pictures from medical scans")
+set(method "Rhombic reads DICOM, NIfTI, NRRD and MetaImage volumes, resamples them onto the
+face-centered cubic lattice, extracts closed isosurfaces by marching its cells,
+and renders them without a window or an X server.\n")
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME ${program_package})
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS libgl1-mesa-dri)
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "${method}\nThis package has the command line program.")
+
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME ${development_package})
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+math(EXPR next_itk "${ITK_VERSION_MINOR} + 1")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+    "libinsighttoolkit5-dev (>= ${ITK_VERSION_MAJOR}.${ITK_VERSION_MINOR}~)"
+    "libinsighttoolkit5-dev (<< ${ITK_VERSION_MAJOR}.${next_itk}~)"
+    libhwy-dev libmeshoptimizer-dev nlohmann-json3-dev zlib1g-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS # for the components of rendering, pictures and pipelines alone
+    libegl-dev libopenimageio-dev libvtk9-dev libx11-dev libyaml-cpp-dev openimageio-tools)
+list(JOIN CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
+list(JOIN CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS)
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "${method}\nThis package has its modules for programs of your own:
+static libraries, headers, and the CMake package Rhombic.")
+include(CPack)

@@ -1,0 +1,31 @@
+#include "rhombicInProcessDecoder.h"
+#include "rhombicLatticePipeline.h"
+#include "rhombicPictureIO.h"
+#include "rhombicScanReader.h"
+#include "rhombicSurfaceIO.h"
+#include "rhombicSurfaceRenderer.h"
+#include "rhombicSurfaceToPolyData.h"
+
+#include <vtkPolyData.h>
+
+#include <iostream>
+
+/** Reads the scan named first, and writes bone as a mesh and as a picture into the folder named second. */
+int
+main(int, char ** argv)
+{
+  rhombic::InProcessDecoder decoder;
+  rhombic::ScanReadOptions options;
+  options.decoder = &decoder;
+  const rhombic::Scan scan = rhombic::ReadScan(argv[1], options);
+  const rhombic::FCCVolume lattice = rhombic::ScanToLattice(scan, {}, {});
+  rhombic::SurfaceRequest bone;
+  bone.name = "bone";
+  bone.isovalue = 375.5;
+  const auto surfaces = rhombic::LatticeToSurfaces(lattice, { bone }, itk::FCCIsosurfaceMode::Lean, {});
+  const std::filesystem::path folder = argv[2];
+  rhombic::WriteSurfaces(surfaces, folder / "bone.stl");
+  rhombic::SurfaceRenderer renderer;
+  rhombic::WritePicture(renderer.Render(surfaces, {}), folder / "bone.png", {});
+  std::cout << rhombic::SurfaceToPolyData(surfaces.front().surface)->GetNumberOfPolys() << " triangles\n";
+}
