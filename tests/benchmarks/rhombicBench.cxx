@@ -190,6 +190,10 @@ Run(const Options & options)
     measure("resampling", MeasureResampling);
     measure("pipeline", MeasurePipeline);
     measure("floor", MeasureFloor);
+    if (threads == 1)
+    {
+      measure("neighbors", MeasureNeighbors);
+    }
     if (!results.empty())
     {
       std::cout << '\n';
@@ -236,7 +240,7 @@ main(int argc, char ** argv)
     ->capture_default_str();
   app.add_option("--what", options.what, "what to measure, separated by commas")
     ->delimiter(',')
-    ->check(CLI::IsMember({ "extraction", "resampling", "pipeline", "memory", "floor", "reading", "all" }))
+    ->check(CLI::IsMember({ "extraction", "resampling", "pipeline", "memory", "floor", "neighbors", "reading", "all" }))
     ->capture_default_str();
   app.add_option("--repeat", options.repeats, "pairs whose median is reported")
     ->check(CLI::Range(1, 1000))

@@ -62,6 +62,11 @@ MeasurePipeline(const BenchInput & input, const BenchSettings & settings);
 std::vector<BenchResult>
 MeasureFloor(const BenchInput & input, const BenchSettings & settings);
 
+/** Samples and their neighbours by iterator: itk::FCCConstNeighborhoodIterator, in one thread, against
+ * itk::ConstNeighborhoodIterator over as many samples, and against a loop written by hand without borders. */
+std::vector<BenchResult>
+MeasureNeighbors(const BenchInput & input, const BenchSettings & settings);
+
 /** \class MemoryResult
  * \brief Memory of one extraction in MiB. */
 struct MemoryResult
