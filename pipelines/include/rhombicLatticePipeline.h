@@ -60,10 +60,10 @@ ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events 
 ScanImage
 LatticeToScan(const FCCVolume & volume, const std::array<double, 3> & spacing, const Events & events);
 
-/** A closed isosurface of the volume for each request, in its order, made as the mode says. The requests' isovalues
- * must be known; those on the same side of theirs are extracted in one pass over the volume. Where the scan ends,
- * surfaces are closed by walls: on the outer faces of the lattice, or, when it is known, of the grid's voxels. Throws
- * Failure(Empty) when a surface has no triangle. Thread safe for different volumes.
+/** A closed isosurface of the volume for each request, in its order, made as the mode says; those on the same side of
+ * their isovalues are extracted in one pass over the volume. Where the scan ends, surfaces are closed by walls: on the
+ * outer faces of the lattice, or, when it is known, of the grid's voxels. Throws Failure: Usage for a request without
+ * an isovalue (see ResolveIsovalues()), Empty for a surface without triangles. Thread safe for different volumes.
  * \param grid of the scan that the volume was made from, if it is not slanted */
 std::vector<SceneSurface>
 LatticeToSurfaces(const FCCVolume & volume,

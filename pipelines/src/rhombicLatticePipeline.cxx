@@ -254,6 +254,14 @@ LatticeToSurfaces(const FCCVolume & volume,
                   const Events & events,
                   const itk::ImageBase<3> * grid)
 {
+  for (const SurfaceRequest & request : requests)
+  {
+    if (!request.isovalue)
+    {
+      throw Failure(FailureKind::Usage,
+                    "The isovalue of " + request.name + " is not known; give a number, or call ResolveIsovalues().");
+    }
+  }
   std::vector<itk::TriangleSurface::Pointer> extracted(requests.size());
   itk::SizeValueType undefined = 0;
   for (const auto side : { SurfaceRequest::Side::Above, SurfaceRequest::Side::Below })

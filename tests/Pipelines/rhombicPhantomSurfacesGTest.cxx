@@ -1,3 +1,4 @@
+#include "rhombicFailure.h"
 #include "rhombicLatticePipeline.h"
 #include "rhombicPhantom.h"
 
@@ -133,6 +134,23 @@ TEST(PhantomSurfaces, SamplesThatAreNotANumberAreNotedOnce)
   rhombic::LatticeToSurfaces(image, requests, Mode::Lean, events);
   ASSERT_EQ(notes.size(), 3u);
   EXPECT_EQ(notes.front(), "2 samples are not a number and count as outside");
+}
+
+TEST(PhantomSurfaces, AnIsovalueThatIsNotKnownIsRefused)
+{
+  const std::vector<SurfaceRequest> requests{ rhombic::ParseSurfaceRequest("skin=-485.5", 0),
+                                              rhombic::ParseSurfaceRequest("bone=otsu", 1) };
+  try
+  {
+    rhombic::LatticeToSurfaces(PhantomOnTheLattice(), requests, Mode::Lean, {});
+    FAIL();
+  }
+  catch (const rhombic::Failure & failure)
+  {
+    EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Usage);
+    EXPECT_STREQ(failure.GetDescription(),
+                 "The isovalue of bone is not known; give a number, or call ResolveIsovalues().");
+  }
 }
 
 TEST(PhantomSurfaces, TheNestedLatticeAndLanczosHoldTheSameBody)
