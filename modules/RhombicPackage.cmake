@@ -20,8 +20,11 @@ install(TARGETS rhombic RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT 
 install(DIRECTORY pipelines/presets DESTINATION "${CMAKE_INSTALL_DATADIR}/rhombic" COMPONENT program)
 set(program_package rhombic)
 set(development_package librhombic-dev)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS modules/changelog)
+execute_process(COMMAND gzip -9nc "${PROJECT_SOURCE_DIR}/modules/changelog"
+                OUTPUT_FILE "${PROJECT_BINARY_DIR}/changelog.gz" COMMAND_ERROR_IS_FATAL ANY)
 foreach(component program development)
-  install(FILES README.md LICENSE modules/copyright COMPONENT ${component}
+  install(FILES README.md LICENSE modules/copyright "${PROJECT_BINARY_DIR}/changelog.gz" COMPONENT ${component}
           DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${${component}_package}")
 endforeach()
 

@@ -8,7 +8,7 @@ packages=(
   libopenimageio-dev openimageio-tools
   libegl-dev libegl1 libgl1-mesa-dri libx11-dev
   libcli11-dev libyaml-cpp-dev nlohmann-json3-dev libspdlog-dev zlib1g-dev libhwy-dev libmeshoptimizer-dev
-  libgtest-dev dcm2niix f3d doxygen dpkg-dev file
+  libgtest-dev dcm2niix f3d doxygen dpkg-dev file help2man
 )
 
 missing=()

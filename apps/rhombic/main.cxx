@@ -33,17 +33,17 @@ constexpr Command commands[] = {
 };
 
 constexpr char exitCodes[] = "Exit codes:\n"
-                             "  0  done\n"
-                             "  1  a defect in rhombic; please report it\n"
-                             "  2  wrong usage: an option, a preset, a file extension\n"
-                             "  3  no such file or folder, or no scan in it\n"
-                             "  4  the input is damaged or of a kind that is not supported\n"
-                             "  5  the input's position in the patient can't be known\n"
-                             "  6  there is no surface at this threshold\n"
-                             "  7  the output can't be written\n"
-                             "  8  a surface is not watertight (--require-watertight)\n"
-                             "  9  not enough memory\n"
-                             "  10 this machine can't draw (see rhombic doctor)";
+                             "  0   done\n"
+                             "  1   a defect in rhombic; please report it\n"
+                             "  2   wrong usage: an option, a preset, a file extension\n"
+                             "  3   no such file or folder, or no scan in it\n"
+                             "  4   the input is damaged or of a kind that is not supported\n"
+                             "  5   the input's position in the patient can't be known\n"
+                             "  6   there is no surface at this threshold\n"
+                             "  7   the output can't be written\n"
+                             "  8   a surface is not watertight (--require-watertight)\n"
+                             "  9   not enough memory\n"
+                             "  10  this machine can't draw (see rhombic doctor)";
 
 int
 Fail(Console & console, FailureKind kind, const std::string & sentence)
