@@ -91,6 +91,10 @@ TEST(TriangleSurfaceToMesh, MemoryIsWhatWasEstimated)
 {
   const auto surface = itk::example::MakeSphere(10.0, 6); // 32768 triangles
   const double before = HeapInUse();
+  if (before == 0.0)
+  {
+    GTEST_SKIP() << "a sanitizer's malloc keeps no account";
+  }
   const auto mesh = itk::ConvertToMesh(*surface);
   const double ofMesh = HeapInUse() - before;
   EXPECT_NEAR(static_cast<double>(itk::EstimateMeshMemory(*surface)) / ofMesh, 1.0, 0.05);
@@ -140,31 +144,33 @@ MessageOfConverting(const MeshType & mesh)
   return MessageOf([&] { itk::ConvertToTriangleSurface(mesh); });
 }
 
-TEST(MeshToTriangleSurface, RefusesOtherCellsThanTriangles)
+/** A tetrahedron's triangles, and one more cell. */
+MeshType::Pointer
+MakeMeshWith(MeshType::CellType * another)
 {
   const auto mesh = itk::ConvertToMesh(*itk::example::MakeTetrahedron());
-  MeshType::CellAutoPointer line;
-  line.TakeOwnership(new itk::LineCell<MeshType::CellType>);
-  line->SetPointId(0, 0);
-  line->SetPointId(1, 1);
-  mesh->SetCell(4, line);
-  EXPECT_NE(MessageOfConverting(*mesh).find("Cell 4 of the mesh has 2 points and dimension 1"), std::string::npos);
-  MeshType::CellAutoPointer quadrilateral;
-  quadrilateral.TakeOwnership(new itk::QuadrilateralCell<MeshType::CellType>);
-  mesh->SetCell(4, quadrilateral);
-  EXPECT_NE(MessageOfConverting(*mesh).find("; triangulate the mesh"), std::string::npos);
+  MeshType::CellAutoPointer cell;
+  cell.TakeOwnership(another);
+  mesh->SetCell(4, cell);
+  return mesh;
+}
+
+TEST(MeshToTriangleSurface, RefusesOtherCellsThanTriangles)
+{
+  const auto withLine = MakeMeshWith(new itk::LineCell<MeshType::CellType>);
+  EXPECT_NE(MessageOfConverting(*withLine).find("Cell 4 of the mesh has 2 points and dimension 1"), std::string::npos);
+  const auto withQuadrilateral = MakeMeshWith(new itk::QuadrilateralCell<MeshType::CellType>);
+  EXPECT_NE(MessageOfConverting(*withQuadrilateral).find("; triangulate the mesh"), std::string::npos);
 }
 
 TEST(MeshToTriangleSurface, RefusesPointsThatTheMeshHasNot)
 {
-  const auto mesh = itk::ConvertToMesh(*itk::example::MakeTetrahedron());
-  MeshType::CellAutoPointer triangle;
-  triangle.TakeOwnership(new itk::TriangleCell<MeshType::CellType>);
+  auto * const triangle = new itk::TriangleCell<MeshType::CellType>;
   for (int corner = 0; corner < 3; ++corner)
   {
     triangle->SetPointId(corner, static_cast<itk::IdentifierType>(2 + corner));
   }
-  mesh->SetCell(4, triangle);
+  const auto mesh = MakeMeshWith(triangle);
   EXPECT_NE(MessageOfConverting(*mesh).find("point 4, which the mesh has not"), std::string::npos);
 }
 

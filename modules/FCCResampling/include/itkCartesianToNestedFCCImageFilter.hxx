@@ -222,7 +222,8 @@ CartesianToNestedFCCImageFilter<TInputImage, TOutputImage>::FilterSites(const Ou
   std::vector<SizeValueType> sources(2 * halfLength);
   for (SizeValueType n = 0; n < sources.size(); ++n)
   {
-    const IndexValueType x = 2 * (begin[0] - margin) + static_cast<IndexValueType>(n);
+    IndexValueType x = 2 * (begin[0] - margin) + static_cast<IndexValueType>(n);
+    x = std::clamp<IndexValueType>(x, 2 * begin[0] - Reach, 2 * end[0] + Reach - 1); // no term needs the outermost two
     sources[n] = static_cast<SizeValueType>(MirroredSample(x, static_cast<IndexValueType>(whole.GetSize(0))));
   }
   const auto splitRow = [&](const PixelType * row, float * even) {
