@@ -1,10 +1,14 @@
 #include "itkFilterDescriptions.h"
 
+#include "itkCastImageFilter.h"
 #include "itkCommand.h"
+#include "itkStreamingImageFilter.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <ctime>
+#include <random>
 #include <thread>
 
 namespace
@@ -36,10 +40,13 @@ struct Abort
   double computedAfter = 0.0; ///< ms, by all threads together
 };
 
-/** Aborts an update at some progress, or after half a second. */
+/** Aborts an update at some progress, or after some time. */
 template <typename TFilter>
 Abort
-AbortAt(TFilter & filter, float progress, Caller caller)
+AbortAt(TFilter & filter,
+        float progress,
+        Caller caller,
+        std::chrono::milliseconds longest = std::chrono::milliseconds(500))
 {
   std::atomic<double> when{ 0.0 };
   std::atomic<bool> isUpdating{ true };
@@ -47,7 +54,6 @@ AbortAt(TFilter & filter, float progress, Caller caller)
     when = ComputingTime();
     filter.AbortGenerateDataOn();
   };
-  constexpr std::chrono::milliseconds longest(500);
   const auto start = std::chrono::steady_clock::now();
   const auto isTime = [&filter, progress, start, longest] {
     return filter.GetProgress() >= progress || std::chrono::steady_clock::now() - start > longest;
@@ -116,6 +122,81 @@ TYPED_TEST(FilterAbort, StopsWithinATenthOfASecond)
     const Abort abort = AbortAt(*filter, each.progress, each.caller);
     EXPECT_TRUE(abort.wasThrown) << "at " << each.progress << " with " << each.units << " work units";
     EXPECT_LE(abort.computedAfter, MostAfterAbort) << "at " << each.progress << " with " << each.units << " work units";
+  }
+}
+
+TEST(FilterAbortWhileStreaming, NothingHalfMadeIsUsedAfterItEither)
+{
+  Random random(2);
+  using InputType = itk::FCCImage<float>;
+  const auto input = MakeFrame<InputType>({ { 20, 40, 40 } }, random);
+  FillWithGyroid(*input, random);
+  const auto copy = itk::CastImageFilter<InputType, InputType>::New();
+  copy->SetInput(input);
+  copy->InPlaceOff();
+  const auto pieces = itk::StreamingImageFilter<InputType, InputType>::New(); // ends without a word when aborted
+  pieces->SetInput(copy->GetOutput());
+  pieces->SetNumberOfStreamDivisions(10);
+  const auto filter = itk::FCCIsosurfaceFilter<InputType>::New();
+  filter->SetInput(input);
+  const std::string expected = UpdatedOutput(*filter);
+  filter->SetInput(pieces->GetOutput());
+  filter->SetNumberOfStreamDivisions(2);
+  unsigned int aborted = 0;
+  for (unsigned int abortAt = 1; abortAt < 60; ++abortAt)
+  {
+    unsigned int events = 0;
+    const auto observer = pieces->AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) {
+      if (++events == abortAt)
+      {
+        filter->AbortGenerateDataOn();
+      }
+    });
+    input->Modified();
+    try
+    {
+      filter->Update();
+    }
+    catch (const itk::ProcessAborted &)
+    {
+      ++aborted;
+    }
+    pieces->RemoveObserver(observer);
+    EXPECT_TRUE(UpdatedOutput(*filter) == expected) << "after an abort at event " << abortAt;
+  }
+  EXPECT_GT(aborted, 10u);
+}
+
+TEST(FilterAbortInNoise, IsosurfacesOfNoiseStopToo)
+{
+  const auto input = itk::FCCImage<float>::New();
+  input->SetRegions(SizeType{ { 48, 96, 96 } });
+  input->Allocate();
+  Random random(3);
+  std::normal_distribution<float> noise;
+  std::generate_n(
+    input->GetBufferPointer(), input->GetLargestPossibleRegion().GetNumberOfPixels(), [&] { return noise(random); });
+  const auto filter = itk::FCCIsosurfaceFilter<itk::FCCImage<float>>::New();
+  filter->SetInput(input);
+  filter->SetNumberOfWorkUnits(2);
+  double last = ComputingTime();
+  double longest = 0.0;
+  const double start = last;
+  const auto observer = filter->AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) {
+    const double now = ComputingTime();
+    longest = std::max(longest, now - last);
+    last = now;
+  });
+  filter->Update();
+  EXPECT_LE(longest, 0.3 * (ComputingTime() - start)) << "without progress, of all computing";
+  filter->RemoveObserver(observer);
+
+  for (const float progress : { 0.2f, 0.45f, 0.6f, 0.7f })
+  {
+    filter->Modified();
+    const Abort abort = AbortAt(*filter, progress, Caller::Observer, std::chrono::hours(1));
+    EXPECT_TRUE(abort.wasThrown) << progress;
+    EXPECT_LE(abort.computedAfter, MostAfterAbort) << progress;
   }
 }
 

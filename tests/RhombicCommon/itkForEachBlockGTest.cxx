@@ -1,8 +1,15 @@
 #include "itkForEachBlock.h"
 
+#include "itkMultiThreaderBase.h"
+
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <future>
+#include <mutex>
+#include <set>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace
@@ -42,6 +49,48 @@ TEST(ForEachBlock, AnExceptionOfAnyThreadReachesTheCaller)
       }
     };
     EXPECT_THROW(itk::ForEachInBlocks(size, 1, failAt), std::runtime_error) << failing;
+  }
+}
+
+TEST(ForEachBlock, JobsOfTheThreadPoolMayCallIt)
+{
+  std::vector<std::vector<int>> visits(64, std::vector<int>(100));
+  itk::MultiThreaderBase::New()->ParallelizeArray(
+    0,
+    visits.size(),
+    [&visits](itk::SizeValueType job) {
+      itk::ForEachInBlocks(visits[job].size(), 3, [&](std::size_t i) {
+        itk::ForEachInBlocks(5, 1, [&](std::size_t n) { visits[job][i] += n == 4 ? 1 : 0; });
+      });
+    },
+    nullptr);
+  EXPECT_EQ(visits, std::vector<std::vector<int>>(64, std::vector<int>(100, 1)));
+}
+
+TEST(ForEachBlock, WorksOnSeveralThreadsAndOnNoMoreThanTheGlobalDefaultNumber)
+{
+  const auto usual = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
+  for (const itk::ThreadIdType threads : { 1, 2, 5 })
+  {
+    itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
+    std::mutex mutex;
+    std::set<std::thread::id> ids;
+    itk::ForEachInBlocks(1000, 1, [&](std::size_t) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      ids.insert(std::this_thread::get_id());
+    });
+    EXPECT_LE(ids.size(), threads);
+  }
+  itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(usual);
+
+  // Each of two pieces waits for the other: one thread alone would wait for ever.
+  if (usual > 1)
+  {
+    std::promise<void> began[2];
+    itk::ForEachInBlocks(2, 1, [&](std::size_t i) {
+      began[i].set_value();
+      EXPECT_EQ(began[1 - i].get_future().wait_for(std::chrono::seconds(60)), std::future_status::ready);
+    });
   }
 }
 

@@ -52,8 +52,10 @@ namespace itk
  * samples into bits; count points and triangles of each plane; from the sums, fill all planes independently. The output
  * has the same bytes for any number of threads and any processor.
  *
- * Memory: the surface, a bit for each sample and isovalue (rows are rounded up to words of 64 and have a spare one; for
- * Lean another in the rows with split sites), and about 20 planes of the volume in float32 for each thread that works.
+ * Memory: the surface, a bit for each sample and isovalue (rows are rounded up to words of 64 and have a spare one),
+ * and about 20 planes of the volume in float32 for each thread that works; for Lean also another bit in the rows with
+ * split sites, and 16 bytes for each of those, while they are found about 40: little but in noise, where most sites of
+ * the surface are split, and that comes to half the size of the surface.
  *
  * **Streaming.** With NumberOfStreamDivisions above 1 the filter asks for the input in that many slabs of planes of
  * constant z, one after the other, with three planes more on either side, so that of a volume larger than the memory
@@ -223,6 +225,15 @@ private:
 
   /** The sum of all that is told to the progress. */
   static constexpr SizeValueType WholeProgress = SizeValueType{ 1 } << 30;
+
+  static SizeValueType
+  AmountOf(float share)
+  {
+    return static_cast<SizeValueType>(share * static_cast<float>(WholeProgress));
+  }
+
+  void
+  Resolve(FCCSurfaceExtraction & extraction, float share);
 
   /** Planes from one up to that before another. */
   struct Planes

@@ -173,26 +173,26 @@ FCCIsosurfaceFilter<TInputImage>::Extract(const std::vector<FCCSigns> & signs, s
       extraction->Count(begin, end);
     }
   };
-  const bool countReadsSamples = extractions.front()->CountReadsSamples();
-  const float shareOfCount = countReadsSamples ? 0.5f * share : 0.2f * share;
+  const bool countReadsSamples = extractions.front()->CountReadsSamples(); // and then there is more to resolve
+  const float shareOfCount = countReadsSamples ? 0.35f * share : 0.2f * share;
+  const float shareOfResolve = countReadsSamples ? 0.35f * share : 0.0f;
   countReadsSamples ? this->ForEachLoadedSlab(planes, around, shareOfCount, count)
                     : this->ForEachSlab({ 0, planes }, shareOfCount, count, { 1, MostPlanes });
 
   for (std::size_t n = first; n < last; ++n)
   {
     FCCSurfaceExtraction & extraction = *extractions[n - first];
-    extraction.Resolve([this](SizeValueType sites, const auto & work) {
-      this->ForEachSlab({ 0, sites }, 0.0f, work, { 1, 1024 });
-    });
+    this->Resolve(extraction, shareOfResolve / static_cast<float>(last - first));
     this->Allocate(*this->GetOutput(n), extraction.GetNumberOfPoints(), extraction.GetMostTriangles());
   }
   scratch.ReleaseSpare(); // filling needs blocks of other sizes
-  this->ForEachLoadedSlab(planes, around, share - shareOfCount, [&](SizeValueType begin, SizeValueType end) {
-    for (std::size_t n = first; n < last; ++n)
-    {
-      extractions[n - first]->Fill(begin, end, *this->GetOutput(n));
-    }
-  });
+  this->ForEachLoadedSlab(
+    planes, around, share - shareOfCount - shareOfResolve, [&](SizeValueType begin, SizeValueType end) {
+      for (std::size_t n = first; n < last; ++n)
+      {
+        extractions[n - first]->Fill(begin, end, *this->GetOutput(n));
+      }
+    });
   for (std::size_t n = first; n < last; ++n)
   {
     TriangleSurface & surface = *this->GetOutput(n);
@@ -203,6 +203,26 @@ FCCIsosurfaceFilter<TInputImage>::Extract(const std::vector<FCCSigns> & signs, s
     }
     surface.Modified();
   }
+}
+
+template <typename TInputImage>
+void
+FCCIsosurfaceFilter<TInputImage>::Resolve(FCCSurfaceExtraction & extraction, float share)
+{
+  const SizeValueType last = m_WorkProgress->GetCompleted() + AmountOf(share);
+  FCCSurfaceExtraction::Crew crew;
+  crew.forEach = [this, share](SizeValueType count, float part, const std::function<void(SizeValueType)> & work) {
+    const auto forEach = [&work](SizeValueType begin, SizeValueType end) {
+      for (SizeValueType n = begin; n < end; ++n)
+      {
+        work(n);
+      }
+    };
+    this->ForEachSlab({ 0, count }, part * share, forEach, { 1, 1 });
+  };
+  crew.checkAbort = [this] { m_WorkProgress->CheckAbort(); };
+  extraction.Resolve(crew);
+  m_WorkProgress->Completed(last - std::min(last, m_WorkProgress->GetCompleted())); // it may have been less work
 }
 
 template <typename TInputImage>
@@ -283,6 +303,7 @@ FCCIsosurfaceFilter<TInputImage>::Load(const ImageRegion<3> & region)
     {
       image->PropagateRequestedRegion();
       image->UpdateOutputData();
+      m_WorkProgress->CheckAbort(); // of which some filters upstream don't tell, as StreamingImageFilter
     }
     catch (...)
     {
@@ -326,7 +347,7 @@ FCCIsosurfaceFilter<TInputImage>::ForEachSlab(const Planes & planes,
   const SizeValueType units = std::max<SizeValueType>(1, this->GetNumberOfWorkUnits());
   const SizeValueType planesPerSlab = std::clamp(count / (4 * units), inOneGo.least, inOneGo.most);
   const SizeValueType slabs = (count + planesPerSlab - 1) / planesPerSlab;
-  const auto amount = static_cast<SizeValueType>(share * static_cast<float>(WholeProgress));
+  const SizeValueType amount = AmountOf(share);
   ThreadFailure failure;
   MultiThreaderBase * const threader = this->GetMultiThreader();
   threader->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());

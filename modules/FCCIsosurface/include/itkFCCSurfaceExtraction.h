@@ -85,9 +85,15 @@ class FCCSurfaceExtraction
 public:
   ITK_DISALLOW_COPY_AND_MOVE(FCCSurfaceExtraction);
 
-  /** Runs work(begin, end) for pieces of a count, by several threads. */
-  using ParallelFor =
-    std::function<void(SizeValueType count, const std::function<void(SizeValueType begin, SizeValueType end)> & work)>;
+  /** The threads that Resolve() works with. */
+  struct Crew
+  {
+    /** Calls work(n) for each n of a count, on several threads, which is a share of Resolve()'s progress. */
+    std::function<void(SizeValueType count, float share, const std::function<void(SizeValueType n)> & work)> forEach;
+
+    /** Throws when the work is to be ended; called by any thread of work that takes long. */
+    std::function<void()> checkAbort;
+  };
 
   /** Planes on either side of a slab that are read with it. */
   static constexpr SizeValueType PlanesAround = 3;
@@ -111,7 +117,7 @@ public:
 
   /** Sums up what was counted. Reads samples only where the whole image is in memory. */
   virtual void
-  Resolve(const ParallelFor & parallelFor) = 0;
+  Resolve(const Crew & crew) = 0;
 
   virtual SizeValueType
   GetNumberOfPoints() const = 0;

@@ -14,7 +14,8 @@ namespace itk
  *
  * For filters that update their input piece by piece: of an abort during their own GenerateData(), ITK tells nobody
  * upstream. Each process object upstream looks for it at its ProgressEvents, and then throws ProcessAborted, through
- * the update of the input; one that reports no progress is waited for.
+ * the update of the input, or ends without a word, as StreamingImageFilter does: so the caller has to look at the
+ * filter after the update, and to throw the half-made data away. One that reports no progress is waited for.
  *
  * Thread safety: one thread at a time, that which updates the filter.
  */

@@ -1,34 +1,29 @@
 #ifndef itkForEachBlock_h
 #define itkForEachBlock_h
 
-#include "itkMultiThreaderBase.h"
-#include "itkThreadFailure.h"
-
 #include <algorithm>
+#include <cstddef>
+#include <functional>
 
 namespace itk
 {
 
-/** Calls \a work(begin, end) for [0, size) cut into blocks of \a blockSize, on the threads of a new MultiThreaderBase.
- * An exception of one block is thrown after all have ended. Thread safety: \a work is called on several threads at
- * once.
- */
+/** Calls \a work(n) for each n below \a count, on this thread and those of ITK's thread pool that are free, up to
+ * MultiThreaderBase's global default number in all. It waits for nobody who has not begun: so it may be called by jobs
+ * of the pool too, where MultiThreaderBase would wait for ever. The first exception is thrown after all have ended.
+ * Thread safety: \a work is called on several threads at once, and any number of them may call this. */
+void
+ForEachOnThreads(std::size_t count, const std::function<void(std::size_t)> & work);
+
+/** Calls \a work(begin, end) for [0, size) cut into blocks of \a blockSize, as ForEachOnThreads() does. */
 template <typename TWork>
 void
 ForEachBlock(std::size_t size, std::size_t blockSize, const TWork & work)
 {
-  ThreadFailure failure;
-  MultiThreaderBase::New()->ParallelizeArray(
-    0,
-    (size + blockSize - 1) / blockSize,
-    [&](SizeValueType block) {
-      failure.Capture([&] {
-        const std::size_t begin = block * blockSize;
-        work(begin, std::min(size, begin + blockSize));
-      });
-    },
-    nullptr);
-  failure.Rethrow();
+  ForEachOnThreads((size + blockSize - 1) / blockSize, [&](std::size_t block) {
+    const std::size_t begin = block * blockSize;
+    work(begin, std::min(size, begin + blockSize));
+  });
 }
 
 /** The same, calling work(i) for each i. */

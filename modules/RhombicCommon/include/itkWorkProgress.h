@@ -52,6 +52,12 @@ public:
     this->CheckAbort();
   }
 
+  SizeValueType
+  GetCompleted() const
+  {
+    return m_Done;
+  }
+
   void
   Finish()
   {

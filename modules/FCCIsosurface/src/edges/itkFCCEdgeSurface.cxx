@@ -27,7 +27,7 @@ FCCEdgeSurface::Count(SizeValueType begin, SizeValueType end)
 }
 
 void
-FCCEdgeSurface::Resolve(const ParallelFor &)
+FCCEdgeSurface::Resolve(const Crew &)
 {
   SizeValueType points = 0;
   SizeValueType triangles = 0;

@@ -26,7 +26,7 @@ public:
   Count(SizeValueType begin, SizeValueType end) override;
 
   void
-  Resolve(const ParallelFor & parallelFor) override;
+  Resolve(const Crew & crew) override;
 
   SizeValueType
   GetNumberOfPoints() const override

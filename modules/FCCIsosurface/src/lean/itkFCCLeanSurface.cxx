@@ -72,13 +72,10 @@ private:
 
 /** The sites of a plane that break a condition of FCCSplitSites, and the first ends of edges that do, by a count of all
  * triangles at the plane's sites and edges. The counts are zero afterwards. */
-void
-TakeSuspects(const FCCSigns & signs,
-             SizeValueType k,
-             const FCCClusterPlane & plane,
-             FCCTriangleUse & use,
-             std::vector<SizeValueType> & suspects)
+std::vector<std::uint32_t>
+TakeSuspects(const FCCSigns & signs, const FCCClusterPlane & plane, FCCTriangleUse & use)
 {
+  std::vector<std::uint32_t> suspects;
   constexpr std::uint64_t tooMany = 0xFCFCFCFCFCFCFC; // more than two; counts of edges are even
   constexpr std::uint64_t fewest = 3;
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
@@ -92,11 +89,12 @@ TakeSuspects(const FCCSigns & signs,
         const std::uint64_t counts = std::exchange(use.counts[j * use.stride + i], 0);
         if ((counts & tooMany) != 0 || counts >> 56 < fewest || !FCCSiteStar::IsDisk(plane.GetOwned(j, i)))
         {
-          suspects.push_back((k * signs.GetHeight() + j) * signs.GetWidth() + i);
+          suspects.push_back(static_cast<std::uint32_t>(j * signs.GetWidth() + i));
         }
       }
     }
   }
+  return suspects;
 }
 
 } // namespace
@@ -107,7 +105,6 @@ FCCLeanSurface::Count(SizeValueType begin, SizeValueType end)
   FCCFieldPlanes field = this->MakePlanes();
   PlaneSequence planes(m_Signs, field, m_Field.insideIsBelow, nullptr, m_Field.scratch);
   const SizeValueType stride = m_Signs.GetNumberOfWords() * FCCSigns::WordBits + 1;
-  std::vector<SizeValueType> suspects;
   const auto makeUse = [&] {
     return FCCTriangleUse{ stride, std::pmr::vector<std::uint64_t>(stride * m_Signs.GetHeight(), m_Field.scratch) };
   };
@@ -127,7 +124,7 @@ FCCLeanSurface::Count(SizeValueType begin, SizeValueType end)
     {
       m_FirstTriangle[k] = triangles;
       m_FirstPoint[k] = planes.Get(k).GetWholes().Count();
-      TakeSuspects(m_Signs, k, planes.Get(k), useOf(k), suspects);
+      m_Splits.Suspect(k, TakeSuspects(m_Signs, planes.Get(k), useOf(k)));
       if (!m_Field.isInMemory)
       {
         m_Remembered[k] = this->FindOwners(k, planes.Get(k), field);
@@ -138,7 +135,6 @@ FCCLeanSurface::Count(SizeValueType begin, SizeValueType end)
       std::fill(useOf(k).counts.begin(), useOf(k).counts.end(), 0);
     }
   }
-  m_Splits.Suspect(suspects);
 }
 
 auto
@@ -182,7 +178,7 @@ FCCLeanSurface::RecallOwners(const SizeValueType * sites, SizeValueType count, F
 }
 
 void
-FCCLeanSurface::Resolve(const ParallelFor & parallelFor)
+FCCLeanSurface::Resolve(const Crew & crew)
 {
   m_Splits.Resolve(
     [&](const SizeValueType * sites, SizeValueType count, FCCSplitSites::OwnersType * owners) {
@@ -190,7 +186,7 @@ FCCLeanSurface::Resolve(const ParallelFor & parallelFor)
         ? FCCSplitSites::FindOwners(m_Signs, m_Field.readValues, m_Field.insideIsBelow, sites, count, owners)
         : this->RecallOwners(sites, count, owners);
     },
-    parallelFor,
+    crew,
     m_FirstPoint,
     m_FirstTriangle);
   m_Remembered.clear();

@@ -41,7 +41,7 @@ public:
 
   /** Splits sites, and sums up how many points there are and how many triangles there may be. */
   void
-  Resolve(const ParallelFor & parallelFor) override;
+  Resolve(const Crew & crew) override;
 
   SizeValueType
   GetNumberOfPoints() const override

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bitset>
-#include <unordered_map>
+#include <numeric>
 
 namespace itk
 {
@@ -203,56 +203,6 @@ GetStar()
   return star;
 }
 
-/** A split site: the directions of the crossings it owns, and of those that are alone; the others gather in connected
- * parts. */
-struct Parts
-{
-  unsigned int owned = 0;
-  unsigned int lone = 0;
-  std::uint64_t lowest = 0; ///< four bits a direction: the lowest direction of the vertex that its crossing belongs to
-
-  Parts() = default;
-
-  Parts(unsigned int allOwned, unsigned int allLone)
-    : owned(allOwned)
-    , lone(allLone)
-  {
-    for (unsigned int left = lone; left != 0; left &= left - 1)
-    {
-      const auto direction = static_cast<unsigned int>(__builtin_ctz(left));
-      lowest |= std::uint64_t{ direction } << (4 * direction);
-    }
-    this->ForEachPart([this](unsigned int part) {
-      const auto first = static_cast<std::uint64_t>(__builtin_ctz(part));
-      for (; part != 0; part &= part - 1)
-      {
-        lowest |= first << (4 * __builtin_ctz(part));
-      }
-    });
-  }
-
-  /** Calls use(directions) for each connected part of the crossings that are not alone. */
-  template <typename TUse>
-  void
-  ForEachPart(const TUse & use) const
-  {
-    const unsigned int gathered = owned & ~lone;
-    for (unsigned int left = gathered; left != 0;)
-    {
-      const unsigned int part = GetStar().PartOf(gathered, static_cast<unsigned int>(__builtin_ctz(left)));
-      left &= ~part;
-      use(part);
-    }
-  }
-
-  unsigned int
-  LowestOf(unsigned int direction) const
-  {
-    return static_cast<unsigned int>(lowest >> (4 * direction) & 15);
-  }
-};
-using PartsOfSites = std::unordered_map<SizeValueType, Parts>;
-
 /** A vertex within the surroundings of a site: its owner and the lowest direction of its crossings, or Whole. */
 using VertexType = std::uint8_t;
 constexpr unsigned int Whole = 15;
@@ -335,8 +285,7 @@ class Surroundings
 {
 public:
   Surroundings(const FCCSigns & signs,
-               const FCCRareBits & split,
-               const PartsOfSites & parts,
+               const FCCSplitRows & split,
                FCCSplitSites::OwnersType owners,
                SizeValueType number)
     : m_Sites(signs, number)
@@ -346,7 +295,8 @@ public:
     for (unsigned int left = m_Split; left != 0; left &= left - 1)
     {
       const auto site = static_cast<unsigned int>(__builtin_ctz(left));
-      m_Parts[site] = parts.at(m_Sites.numbers[site]);
+      const auto [i, j, k] = m_Sites.places[site];
+      m_Parts[site] = split.GetParts(i, j, k);
     }
     const Star & star = GetStar();
     for (std::size_t n = 0; n < star.edges.size(); ++n)
@@ -366,7 +316,7 @@ public:
     this->FindPolygons();
   }
 
-  const Parts &
+  const FCCSiteParts &
   GetParts() const
   {
     return m_Parts[Center];
@@ -408,8 +358,8 @@ public:
       }
       m_Split |= 1U << Center;
       unsigned int lone = 0;
-      Parts(m_Owned, 0).ForEachPart([&lone](unsigned int part) { lone |= GetStar().isDisk[part] ? 0 : part; });
-      m_Parts[Center] = Parts(m_Owned, lone);
+      FCCSiteParts(m_Owned, 0).ForEachPart([&lone](unsigned int part) { lone |= GetStar().isDisk[part] ? 0 : part; });
+      m_Parts[Center] = FCCSiteParts(m_Owned, lone);
     }
     bool changed = !wasSplit;
     for (;;)
@@ -597,7 +547,7 @@ private:
       const unsigned int point = left & ~(left - 1);
       if (GetStar().isDisk[part & ~point])
       {
-        m_Parts[Center] = Parts(m_Owned, lone | point);
+        m_Parts[Center] = FCCSiteParts(m_Owned, lone | point);
         this->FindTriangles();
         if ((this->FindBroken() & part) == 0)
         {
@@ -605,14 +555,14 @@ private:
         }
       }
     }
-    m_Parts[Center] = Parts(m_Owned, lone | part);
+    m_Parts[Center] = FCCSiteParts(m_Owned, lone | part);
   }
 
   Neighborhood m_Sites;
   unsigned int m_Inside;
   unsigned int m_Split;
   unsigned int m_Owned{ 0 };
-  Parts m_Parts[Sites];
+  FCCSiteParts m_Parts[Sites];
   std::uint8_t m_Owner[64];
   unsigned int m_NumberOfPolygons{ 0 };
   Polygon m_Polygons[24];
@@ -658,110 +608,227 @@ FCCSplitSites::FindOwners(const FCCSigns & signs,
   });
 }
 
+FCCSiteParts::FCCSiteParts(unsigned int allOwned, unsigned int allLone)
+  : owned(allOwned)
+  , lone(allLone)
+{
+  for (unsigned int left = lone; left != 0; left &= left - 1)
+  {
+    const auto direction = static_cast<unsigned int>(__builtin_ctz(left));
+    lowest |= std::uint64_t{ direction } << (4 * direction);
+  }
+  this->ForEachPart([this](unsigned int part) {
+    const auto first = static_cast<std::uint64_t>(__builtin_ctz(part));
+    for (; part != 0; part &= part - 1)
+    {
+      lowest |= first << (4 * __builtin_ctz(part));
+    }
+  });
+}
+
+namespace
+{
+
+/** How many bits are set before bit \a i. */
+std::size_t
+CountBefore(const FCCSigns::WordType * bits, SizeValueType i)
+{
+  const SizeValueType words = i / FCCSigns::WordBits;
+  const FCCSigns::WordType before = (FCCSigns::WordType{ 1 } << (i % FCCSigns::WordBits)) - 1;
+  return std::accumulate(bits,
+                         bits + words,
+                         static_cast<std::size_t>(__builtin_popcountll(bits[words] & before)),
+                         [](std::size_t sum, FCCSigns::WordType word) {
+                           return sum + static_cast<std::size_t>(__builtin_popcountll(word));
+                         });
+}
+
+} // namespace
+
+const std::vector<FCCSiteParts> &
+FCCSplitRows::GetParts(SizeValueType j, SizeValueType k) const
+{
+  static const std::vector<FCCSiteParts> none;
+  const auto & row = m_Rows[k * m_Height + j];
+  return row ? row->parts : none;
+}
+
+const FCCSiteParts &
+FCCSplitRows::GetParts(SizeValueType i, SizeValueType j, SizeValueType k) const
+{
+  const Row & row = *m_Rows[k * m_Height + j];
+  return row.parts[CountBefore(row.bits.data(), i)];
+}
+
+bool
+FCCSplitRows::Set(SizeValueType i, SizeValueType j, SizeValueType k, const FCCSiteParts & parts)
+{
+  auto & row = m_Rows[k * m_Height + j];
+  if (!row)
+  {
+    row = std::make_unique<Row>();
+    row->bits.resize(m_Zeros.size());
+  }
+  FCCSigns::WordType & word = row->bits[i / FCCSigns::WordBits];
+  const FCCSigns::WordType bit = FCCSigns::WordType{ 1 } << (i % FCCSigns::WordBits);
+  const auto place = row->parts.begin() + static_cast<std::ptrdiff_t>(CountBefore(row->bits.data(), i));
+  if ((word & bit) != 0)
+  {
+    *place = parts;
+    return false;
+  }
+  row->parts.insert(place, parts);
+  word |= bit;
+  return true;
+}
+
+struct FCCSplitSites::SuspectsOfPlane
+{
+  struct Suspect
+  {
+    std::uint32_t place; ///< number in the plane
+    OwnersType owners;
+  };
+
+  struct Divided
+  {
+    std::uint32_t place;
+    FCCSiteParts parts;
+    std::array<SizeValueType, 2> mostTriangles;
+  };
+
+  std::array<std::vector<Suspect>, ColorsOfPlane> ofColor;
+  std::vector<Divided> divided;
+};
+
 FCCSplitSites::FCCSplitSites(const FCCSigns & signs)
   : m_Signs(signs)
   , m_Split(signs)
+  , m_Suspects(signs.GetDepth())
 {}
 
-void
-FCCSplitSites::Suspect(const std::vector<SizeValueType> & sites)
+bool
+FCCSplitSites::HasSuspects() const
 {
+  return std::any_of(m_Suspects.begin(), m_Suspects.end(), [](const auto & places) { return !places.empty(); });
+}
+
+void
+FCCSplitSites::TakeSuspects(SizeValueType k,
+                            const OwnersReader & ownersAround,
+                            const FCCSurfaceExtraction::Crew & crew,
+                            SuspectsOfPlane & suspects)
+{
+  std::vector<std::uint32_t> places;
+  places.swap(m_Suspects[k]);
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+
+  constexpr std::size_t batch = 256;
+  std::array<SizeValueType, batch> numbers;
+  std::array<OwnersType, batch> owners;
+  const SizeValueType width = m_Signs.GetWidth();
+  for (std::size_t begin = 0; begin < places.size(); begin += batch)
+  {
+    crew.checkAbort();
+    const std::size_t count = std::min(batch, places.size() - begin);
+    std::transform(places.data() + begin, places.data() + begin + count, numbers.begin(), [&](std::uint32_t place) {
+      return k * m_Signs.GetHeight() * width + place;
+    });
+    ownersAround(numbers.data(), count, owners.data());
+    for (std::size_t n = 0; n < count; ++n)
+    {
+      const std::uint32_t place = places[begin + n];
+      suspects.ofColor[(place % width & 1) | (place / width & 1) << 1].push_back({ place, owners[n] });
+    }
+  }
+}
+
+void
+FCCSplitSites::DivideSuspects(SizeValueType k,
+                              unsigned int colorInPlane,
+                              const FCCSurfaceExtraction::Crew & crew,
+                              SuspectsOfPlane & suspects)
+{
+  const SizeValueType sitesOfPlane = m_Signs.GetHeight() * m_Signs.GetWidth();
+  std::vector<SuspectsOfPlane::Suspect> sites;
+  sites.swap(suspects.ofColor[colorInPlane]);
+  std::vector<SizeValueType> broken;
+  for (std::size_t n = 0; n < sites.size(); ++n)
+  {
+    if (n % 64 == 0)
+    {
+      crew.checkAbort();
+    }
+    Surroundings surroundings(m_Signs, m_Split, sites[n].owners, k * sitesOfPlane + sites[n].place);
+    if (surroundings.Divide())
+    {
+      suspects.divided.push_back({ sites[n].place, surroundings.GetParts(), surroundings.GetMostTriangles() });
+      surroundings.ForEachBrokenNeighbor([&](SizeValueType neighbor) { broken.push_back(neighbor); });
+    }
+  }
   const std::lock_guard<std::mutex> lock(m_Mutex);
-  m_Suspects.insert(m_Suspects.end(), sites.begin(), sites.end());
+  for (const SizeValueType number : broken)
+  {
+    m_Suspects[number / sitesOfPlane].push_back(static_cast<std::uint32_t>(number % sitesOfPlane));
+  }
+}
+
+void
+FCCSplitSites::SetDivided(SizeValueType k, SuspectsOfPlane & suspects, std::vector<SizeValueType> & triangles)
+{
+  const SizeValueType width = m_Signs.GetWidth();
+  std::vector<SuspectsOfPlane::Divided> divided;
+  divided.swap(suspects.divided);
+  for (const auto & [place, parts, mostTriangles] : divided)
+  {
+    const bool isNew = m_Split.Set(place % width, place / width, k, parts);
+    if (isNew)
+    {
+      triangles[k] += mostTriangles[1];
+      if (k > 0)
+      {
+        triangles[k - 1] += mostTriangles[0];
+      }
+    }
+  }
 }
 
 void
 FCCSplitSites::Resolve(const OwnersReader & ownersAround,
-                       const ParallelFor & parallelFor,
+                       const FCCSurfaceExtraction::Crew & crew,
                        std::vector<SizeValueType> & points,
                        std::vector<SizeValueType> & triangles)
 {
-  const SizeValueType width = m_Signs.GetWidth();
-  const SizeValueType height = m_Signs.GetHeight();
-  PartsOfSites parts;
-
-  // No two sites of one color are neighbours, so those of a color can be divided at once.
-  constexpr unsigned int colors = 8;
-  const auto colorOf = [width, height](SizeValueType number) {
-    return (number % width & 1) | (number / width % height & 1) << 1 | (number / width / height & 1) << 2;
-  };
-  struct Suspected
+  const SizeValueType depth = m_Signs.GetDepth();
+  std::vector<SuspectsOfPlane> suspects(depth);
+  for (float share = 0.75f; this->HasSuspects(); share *= 0.25f) // most are found in the first round
   {
-    SizeValueType number;
-    OwnersType owners;
-  };
-  std::vector<SizeValueType> suspects = std::move(m_Suspects);
-  while (!suspects.empty())
-  {
-    std::sort(suspects.begin(), suspects.end());
-    suspects.erase(std::unique(suspects.begin(), suspects.end()), suspects.end());
-    std::vector<OwnersType> owners(suspects.size()); // all at once: that is mostly waiting for memory
-    parallelFor(suspects.size(), [&](SizeValueType begin, SizeValueType end) {
-      ownersAround(suspects.data() + begin, end - begin, owners.data() + begin);
-    });
-    std::array<std::vector<Suspected>, colors> sites;
-    for (std::size_t n = 0; n < suspects.size(); ++n)
+    crew.forEach(depth, 0.2f * share, [&](SizeValueType k) { this->TakeSuspects(k, ownersAround, crew, suspects[k]); });
+    // Planes of one parity are no neighbours.
+    for (const SizeValueType parity : { 0, 1 })
     {
-      sites[colorOf(suspects[n])].push_back({ suspects[n], owners[n] });
-    }
-    suspects.clear();
-    for (const std::vector<Suspected> & sitesOfColor : sites)
-    {
-      struct Divided
+      const SizeValueType count = (depth + 1 - parity) / 2;
+      for (unsigned int color = 0; color < ColorsOfPlane; ++color)
       {
-        SizeValueType number;
-        Parts parts;
-        std::array<SizeValueType, 2> mostTriangles;
-      };
-      std::vector<Divided> divided;
-      parallelFor(sitesOfColor.size(), [&](SizeValueType begin, SizeValueType end) {
-        std::vector<Divided> dividedHere;
-        std::vector<SizeValueType> broken;
-        for (SizeValueType n = begin; n < end; ++n)
-        {
-          const auto [number, ownersHere] = sitesOfColor[n];
-          Surroundings surroundings(m_Signs, m_Split, parts, ownersHere, number);
-          if (surroundings.Divide())
-          {
-            dividedHere.push_back({ number, surroundings.GetParts(), surroundings.GetMostTriangles() });
-            surroundings.ForEachBrokenNeighbor([&](SizeValueType neighbor) { broken.push_back(neighbor); });
-          }
-        }
-        const std::lock_guard<std::mutex> lock(m_Mutex);
-        divided.insert(divided.end(), dividedHere.begin(), dividedHere.end());
-        suspects.insert(suspects.end(), broken.begin(), broken.end());
-      });
-      for (const auto & [number, newParts, mostTriangles] : divided)
-      {
-        const bool isNew = parts.insert_or_assign(number, newParts).second;
-        if (isNew)
-        {
-          const SizeValueType k = number / width / height;
-          triangles[k] += mostTriangles[1];
-          if (k > 0)
-          {
-            triangles[k - 1] += mostTriangles[0];
-          }
-        }
-        m_Split.Set(number % width, number / width % height, number / width / height);
+        crew.forEach(count, 0.09f * share, [&](SizeValueType n) {
+          this->DivideSuspects(2 * n + parity, color, crew, suspects[2 * n + parity]);
+        });
+        crew.forEach(count, 0.01f * share, [&](SizeValueType n) {
+          this->SetDivided(2 * n + parity, suspects[2 * n + parity], triangles);
+        });
       }
     }
   }
-
-  m_Lone.reserve(parts.size());
-  for (const auto & [number, found] : parts)
-  {
-    m_Lone.emplace_back(number, static_cast<std::uint16_t>(found.lone));
-    points[number / width / height] += FCCSiteStar::CountParts(found.owned, found.lone) - 1;
-  }
-  std::sort(m_Lone.begin(), m_Lone.end());
-}
-
-unsigned int
-FCCSplitSites::GetLone(SizeValueType i, SizeValueType j, SizeValueType k) const
-{
-  const SizeValueType number = (k * m_Signs.GetHeight() + j) * m_Signs.GetWidth() + i;
-  return std::lower_bound(m_Lone.begin(), m_Lone.end(), std::make_pair(number, std::uint16_t{ 0 }))->second;
+  crew.forEach(depth, 0.0f, [&](SizeValueType k) {
+    for (SizeValueType j = 0; j < m_Signs.GetHeight(); ++j)
+    {
+      for (const FCCSiteParts & parts : m_Split.GetParts(j, k))
+      {
+        points[k] += FCCSiteStar::CountParts(parts.owned, parts.lone) - 1;
+      }
+    }
+  });
 }
 
 } // namespace itk

@@ -64,47 +64,92 @@ struct FCCSiteStar
   CountParts(unsigned int owned, unsigned int lone);
 };
 
-/** \class FCCRareBits
- * \brief One bit for each site of a box, few of which are set: a row without any takes no more than a pointer.
+/** \class FCCSiteParts
+ * \brief What the crossings that a split site owns make vertices of: some are alone, the others gather in connected
+ * parts. Sets of crossings are bits of their directions.
  *
- * Thread safety: that of a container.
+ * Thread safety: a value.
  *
  * \ingroup FCCIsosurface
  */
-class FCCRareBits
+struct FCCSiteParts
+{
+  unsigned int owned = 0;
+  unsigned int lone = 0;
+  std::uint64_t lowest = 0; ///< four bits a direction: the lowest direction of the vertex that its crossing belongs to
+
+  FCCSiteParts() = default;
+  FCCSiteParts(unsigned int allOwned, unsigned int allLone);
+
+  /** Calls use(directions) for each connected part of the crossings that are not alone. */
+  template <typename TUse>
+  void
+  ForEachPart(const TUse & use) const
+  {
+    const unsigned int gathered = owned & ~lone;
+    for (unsigned int left = gathered; left != 0;)
+    {
+      const unsigned int part = FCCSiteStar::PartOf(gathered, static_cast<unsigned int>(__builtin_ctz(left)));
+      left &= ~part;
+      use(part);
+    }
+  }
+
+  unsigned int
+  LowestOf(unsigned int direction) const
+  {
+    return static_cast<unsigned int>(lowest >> (4 * direction) & 15);
+  }
+};
+
+/** \class FCCSplitRows
+ * \brief The split sites of a box and their parts: a row without any takes no more than a pointer.
+ *
+ * Thread safety: that of a container, for each row.
+ *
+ * \ingroup FCCIsosurface
+ */
+class FCCSplitRows
 {
 public:
   using WordType = FCCSigns::WordType;
 
   /** For the sites of \a signs. */
-  explicit FCCRareBits(const FCCSigns & signs)
+  explicit FCCSplitRows(const FCCSigns & signs)
     : m_Height(signs.GetHeight())
     , m_Rows(signs.GetHeight() * signs.GetDepth())
     , m_Zeros(signs.GetNumberOfWords() + 1)
   {}
 
-  /** The words of a row as FCCSigns has them, with a spare zero word. */
+  /** One bit for each site of a row, in words as FCCSigns has them, with a spare zero word. */
   const WordType *
   GetRow(SizeValueType j, SizeValueType k) const
   {
     const auto & row = m_Rows[k * m_Height + j];
-    return row ? row.get() : m_Zeros.data();
+    return row ? row->bits.data() : m_Zeros.data();
   }
 
-  void
-  Set(SizeValueType i, SizeValueType j, SizeValueType k)
-  {
-    auto & row = m_Rows[k * m_Height + j];
-    if (!row)
-    {
-      row = std::make_unique<WordType[]>(m_Zeros.size());
-    }
-    row[i / FCCSigns::WordBits] |= WordType{ 1 } << (i % FCCSigns::WordBits);
-  }
+  /** The parts of all split sites of a row, ascending. */
+  const std::vector<FCCSiteParts> &
+  GetParts(SizeValueType j, SizeValueType k) const;
+
+  /** The parts of a split site. */
+  const FCCSiteParts &
+  GetParts(SizeValueType i, SizeValueType j, SizeValueType k) const;
+
+  /** Splits a site, or divides it anew. Returns whether it had not been split. */
+  bool
+  Set(SizeValueType i, SizeValueType j, SizeValueType k, const FCCSiteParts & parts);
 
 private:
+  struct Row
+  {
+    std::vector<WordType> bits;
+    std::vector<FCCSiteParts> parts; ///< of the sites of the bits, ascending
+  };
+
   SizeValueType m_Height;
-  std::vector<std::unique_ptr<WordType[]>> m_Rows;
+  std::vector<std::unique_ptr<Row>> m_Rows;
   std::vector<WordType> m_Zeros;
 };
 
@@ -148,18 +193,19 @@ public:
   /** \param signs with a layer of sites around the image; must outlive this */
   explicit FCCSplitSites(const FCCSigns & signs);
 
-  using ParallelFor = FCCSurfaceExtraction::ParallelFor;
-
-  /** Says that sites may break a condition; of the two ends of an edge that breaks 2, one will do. Sites are numbered
-   * along x, then y, then z. Thread safe. */
+  /** Says that sites of a plane may break a condition; of the two ends of an edge that breaks 2, one will do. Sites are
+   * numbered along x, then y, in the plane. Thread safe for different planes. */
   void
-  Suspect(const std::vector<SizeValueType> & sites);
+  Suspect(SizeValueType k, std::vector<std::uint32_t> && sites)
+  {
+    m_Suspects[k] = std::move(sites);
+  }
 
   /** Divides what has to be. The numbers of points of each plane and of triangles above it are those of whole sites
    * before; afterwards, points are right, and triangles at least as many as there will be. */
   void
   Resolve(const OwnersReader & ownersAround,
-          const ParallelFor & parallelFor,
+          const FCCSurfaceExtraction::Crew & crew,
           std::vector<SizeValueType> & points,
           std::vector<SizeValueType> & triangles);
 
@@ -172,14 +218,42 @@ public:
 
   /** The directions of a split site whose crossings are points of their own; the others gather in connected parts. */
   unsigned int
-  GetLone(SizeValueType i, SizeValueType j, SizeValueType k) const;
+  GetLone(SizeValueType i, SizeValueType j, SizeValueType k) const
+  {
+    return m_Split.GetParts(i, j, k).lone;
+  }
 
 private:
+  struct SuspectsOfPlane;
+
+  /** Sites of a plane that no other of them is a neighbour of are of one color: they can be divided at once. */
+  static constexpr unsigned int ColorsOfPlane = 4;
+
+  bool
+  HasSuspects() const;
+
+  /** The suspects of a plane by their colors, which are then no longer any. */
+  void
+  TakeSuspects(SizeValueType k,
+               const OwnersReader & ownersAround,
+               const FCCSurfaceExtraction::Crew & crew,
+               SuspectsOfPlane & suspects);
+
+  /** Divides the suspects of a color, suspecting others, but does not tell yet. */
+  void
+  DivideSuspects(SizeValueType k,
+                 unsigned int colorInPlane,
+                 const FCCSurfaceExtraction::Crew & crew,
+                 SuspectsOfPlane & suspects);
+
+  /** Tells what was divided. */
+  void
+  SetDivided(SizeValueType k, SuspectsOfPlane & suspects, std::vector<SizeValueType> & triangles);
+
   const FCCSigns & m_Signs;
-  FCCRareBits m_Split;
-  std::vector<SizeValueType> m_Suspects;
-  std::mutex m_Mutex;
-  std::vector<std::pair<SizeValueType, std::uint16_t>> m_Lone; ///< by the number of the site, ascending
+  FCCSplitRows m_Split;
+  std::vector<std::vector<std::uint32_t>> m_Suspects; ///< of each plane; in any order, and maybe several times
+  std::mutex m_Mutex;                                 ///< for those that are added to other planes
 };
 
 } // namespace itk

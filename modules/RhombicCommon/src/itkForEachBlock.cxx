@@ -1,0 +1,81 @@
+#include "itkForEachBlock.h"
+
+#include "itkMultiThreaderBase.h"
+#include "itkThreadFailure.h"
+#include "itkThreadPool.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <memory>
+#include <mutex>
+
+namespace itk
+{
+namespace
+{
+
+/** Work that threads take piece by piece. It lives until the last of them has looked at it, and they may come late. */
+class SharedWork
+{
+public:
+  SharedWork(std::size_t count, const std::function<void(std::size_t)> & work)
+    : m_Count(count)
+    , m_Work(work)
+  {}
+
+  /** Takes pieces while there are any. */
+  void
+  Help()
+  {
+    for (std::size_t n = m_Next++; n < m_Count; n = m_Next++)
+    {
+      m_Failure.Capture([&] { m_Work(n); });
+      const std::lock_guard<std::mutex> lock(m_Mutex);
+      if (++m_Ended == m_Count)
+      {
+        m_AllEnded.notify_one();
+      }
+    }
+  }
+
+  /** Waits for the pieces that others have taken. */
+  void
+  Join()
+  {
+    std::unique_lock<std::mutex> lock(m_Mutex);
+    m_AllEnded.wait(lock, [this] { return m_Ended == m_Count; });
+    m_Failure.Rethrow();
+  }
+
+private:
+  std::size_t m_Count;
+  const std::function<void(std::size_t)> & m_Work; ///< there until all pieces have ended
+  std::atomic<std::size_t> m_Next{ 0 };
+  std::size_t m_Ended{ 0 };
+  std::mutex m_Mutex;
+  std::condition_variable m_AllEnded;
+  ThreadFailure m_Failure;
+};
+
+} // namespace
+
+void
+ForEachOnThreads(std::size_t count, const std::function<void(std::size_t)> & work)
+{
+  const auto shared = std::make_shared<SharedWork>(count, work);
+  const std::size_t threads = std::min<std::size_t>(count, MultiThreaderBase::GetGlobalDefaultNumberOfThreads());
+  try
+  {
+    for (std::size_t helper = 1; helper < threads; ++helper)
+    {
+      ThreadPool::GetInstance()->AddWork([shared] { shared->Help(); });
+    }
+  }
+  catch (const std::exception &) // no memory, or no thread: those that there are will do
+  {}
+  shared->Help();
+  shared->Join();
+}
+
+} // namespace itk
