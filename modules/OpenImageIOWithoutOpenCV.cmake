@@ -1,6 +1,8 @@
 # Debian's OpenImageIO target lists the include folder of an OpenCV that is not installed with it.
 function(rhombic_openimageio_without_opencv)
-  get_target_property(directories OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
-  list(FILTER directories EXCLUDE REGEX opencv)
-  set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${directories}")
+  if(TARGET OpenImageIO::OpenImageIO)
+    get_property(directories TARGET OpenImageIO::OpenImageIO PROPERTY INTERFACE_INCLUDE_DIRECTORIES)
+    list(FILTER directories EXCLUDE REGEX opencv)
+    set_property(TARGET OpenImageIO::OpenImageIO PROPERTY INTERFACE_INCLUDE_DIRECTORIES "${directories}")
+  endif()
 endfunction()

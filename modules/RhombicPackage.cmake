@@ -8,6 +8,18 @@ foreach(module IN LISTS RHOMBIC_MODULES)
   get_property(depends GLOBAL PROPERTY RHOMBIC_${module}_DEPENDS)
   string(APPEND RHOMBIC_DEPENDS "  set(${module}_DEPENDS ${depends})\n")
 endforeach()
+# The libraries are compiled against these minor versions; other ones have another C++ ABI.
+set(RHOMBIC_VERSIONS "")
+foreach(pair ITK/libinsighttoolkit5-dev VTK/libvtk9-dev OpenImageIO/libopenimageio-dev)
+  string(REGEX MATCH "(.+)/(.+)" pair "${pair}")
+  set(package ${CMAKE_MATCH_1})
+  set(debian_package ${CMAKE_MATCH_2})
+  string(REGEX MATCH "([0-9]+)\\.([0-9]+)" version "${${package}_VERSION}")
+  math(EXPR next "${CMAKE_MATCH_2} + 1")
+  string(APPEND RHOMBIC_VERSIONS "  set(_rhombic_${package}_version ${version})\n")
+  set(${package}_DEBIAN_PACKAGE
+      "${debian_package} (>= ${version}~), ${debian_package} (<< ${CMAKE_MATCH_1}.${next}~)")
+endforeach()
 configure_package_config_file(modules/RhombicConfig.cmake.in "${PROJECT_BINARY_DIR}/RhombicConfig.cmake"
                               INSTALL_DESTINATION "${RHOMBIC_PACKAGE_FOLDER}"
                               NO_CHECK_REQUIRED_COMPONENTS_MACRO NO_SET_AND_CHECK_MACRO)
@@ -49,13 +61,10 @@ set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "${method}\nThis package has the command li
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME ${development_package})
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-math(EXPR next_itk "${ITK_VERSION_MINOR} + 1")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "libinsighttoolkit5-dev (>= ${ITK_VERSION_MAJOR}.${ITK_VERSION_MINOR}~)"
-    "libinsighttoolkit5-dev (<< ${ITK_VERSION_MAJOR}.${next_itk}~)"
-    libhwy-dev libmeshoptimizer-dev nlohmann-json3-dev zlib1g-dev)
+    "${ITK_DEBIAN_PACKAGE}" libhwy-dev libmeshoptimizer-dev nlohmann-json3-dev zlib1g-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS # for the components of rendering, pictures and pipelines alone
-    libegl-dev libopenimageio-dev libvtk9-dev libx11-dev libyaml-cpp-dev openimageio-tools)
+    "${VTK_DEBIAN_PACKAGE}" "${OpenImageIO_DEBIAN_PACKAGE}" libegl-dev libx11-dev libyaml-cpp-dev openimageio-tools)
 list(JOIN CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
 list(JOIN CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "${method}\nThis package has its modules for programs of your own:

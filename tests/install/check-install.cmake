@@ -7,12 +7,27 @@ file(REMOVE_RECURSE "${WORK}")
 run(${CMAKE_COMMAND} --install "${BUILD}" --prefix "${WORK}/first place")
 file(RENAME "${WORK}/first place" "${WORK}/prefix")
 
-check_consumer(lattice "${WORK}/prefix" -DCMAKE_DISABLE_FIND_PACKAGE_VTK=ON -DCMAKE_DISABLE_FIND_PACKAGE_OpenImageIO=ON)
+# A consumer's variables, whatever their names, are no business of the package's: here it has all that the package uses.
+file(GLOB_RECURSE scripts "${WORK}/prefix/*/RhombicConfig.cmake" "${WORK}/prefix/*/OpenImageIOWithoutOpenCV.cmake")
+set(variables "")
+foreach(script IN LISTS scripts)
+  file(READ "${script}" text)
+  string(REGEX MATCHALL "[a-z][a-z_]+" words "${text}")
+  list(APPEND variables ${words})
+endforeach()
+list(REMOVE_DUPLICATES variables)
+list(TRANSFORM variables REPLACE "(.+)" "set(\\1 \"the consumer's own\")\n")
+list(JOIN variables "" variables)
+file(WRITE "${WORK}/variables.cmake" "${variables}")
+set(with_variables "-DCMAKE_PROJECT_INCLUDE=${WORK}/variables.cmake")
+
+check_consumer(lattice "${WORK}/prefix" -DCMAKE_DISABLE_FIND_PACKAGE_VTK=ON -DCMAKE_DISABLE_FIND_PACKAGE_OpenImageIO=ON
+               "${with_variables}")
 run(ldd "${WORK}/lattice/consumer")
 if(output MATCHES "vtk|OpenImageIO|yaml")
   message(FATAL_ERROR "The lattice alone is linked with more than it needs:\n${output}")
 endif()
-check_consumer(full "${WORK}/prefix")
+check_consumer(full "${WORK}/prefix" "${with_variables}")
 foreach(file bone.stl bone.png)
   file(SIZE "${WORK}/full/output/${file}" size)
   if(size LESS 1000)
@@ -20,11 +35,10 @@ foreach(file bone.stl bone.png)
   endif()
 endforeach()
 
-# What can't be had is refused by name, unless it is optional.
+# What can't be had is refused by name, unless it is optional; so are packages of other versions than those in the build.
 function(check_refusal component sentence)
   execute_process(COMMAND ${CMAKE_COMMAND} -S "${SOURCE}/lattice" -B "${WORK}/refused" -G ${GENERATOR} --fresh
-                          "-DCMAKE_PREFIX_PATH=${WORK}/prefix" -DCMAKE_DISABLE_FIND_PACKAGE_OpenImageIO=ON
-                          "-DCOMPONENT=${component}"
+                          "-DCMAKE_PREFIX_PATH=${WORK}/prefix" "-DCOMPONENT=${component}" ${ARGN}
                   RESULT_VARIABLE status ERROR_VARIABLE output OUTPUT_QUIET)
   string(REGEX REPLACE "[ \n]+" " " output "${output}")
   if(status EQUAL 0 OR NOT output MATCHES "${sentence}")
@@ -32,9 +46,19 @@ function(check_refusal component sentence)
   endif()
 endfunction()
 check_refusal(Nonsense "there is no component Nonsense")
-check_refusal(PictureIO "PictureIO needs OpenImageIO\\.")
+set(without_openimageio -DCMAKE_DISABLE_FIND_PACKAGE_OpenImageIO=ON)
+check_refusal(PictureIO "PictureIO needs the OpenImageIO [0-9]+\\.[0-9]+ it was built with\\." ${without_openimageio})
 run(${CMAKE_COMMAND} -S "${SOURCE}/lattice" -B "${WORK}/optional" -G ${GENERATOR} "-DCMAKE_PREFIX_PATH=${WORK}/prefix"
-    -DCMAKE_DISABLE_FIND_PACKAGE_OpenImageIO=ON "-DCOMPONENT=OPTIONAL_COMPONENTS;PictureIO;Nonsense")
+    ${without_openimageio} "-DCOMPONENT=OPTIONAL_COMPONENTS;PictureIO;Nonsense")
+foreach(pair FCCLattice/ITK SurfaceVTK/VTK PictureIO/OpenImageIO)
+  string(REPLACE "/" ";" pair "${pair}")
+  list(POP_FRONT pair component package)
+  set(other "${WORK}/other/${package}")
+  file(WRITE "${other}/${package}Config.cmake" "")
+  file(WRITE "${other}/${package}ConfigVersion.cmake" "set(PACKAGE_VERSION 99.1)\nset(PACKAGE_VERSION_COMPATIBLE TRUE)\n")
+  check_refusal(${component} " ${component} needs the ${package} [0-9]+\\.[0-9]+ it was built with\\."
+                "-D${package}_DIR=${other}")
+endforeach()
 
 run("${WORK}/prefix/bin/rhombic" --version)
 run("${WORK}/prefix/bin/rhombic" -q mesh "${SCAN}" -t 375.5 -o "${WORK}/bone.stl")

@@ -49,6 +49,11 @@ endforeach()
 run("${WORK}/rhombic/usr/bin/rhombic" -q mesh "${SCAN}" -t 375.5 -o "${WORK}/bone.stl")
 
 unpack(librhombic-dev)
+foreach(library libinsighttoolkit5-dev libvtk9-dev libopenimageio-dev)
+  if(NOT needed MATCHES "${library} \\(>= [0-9]+\\.[0-9]+~\\), ${library} \\(<< [0-9]+\\.[0-9]+~\\)")
+    message(FATAL_ERROR "librhombic-dev does not ask for the version of ${library} that it was built with: ${needed}")
+  endif()
+endforeach()
 string(REGEX MATCHALL "[a-z][a-z0-9.+-]+" names "${needed}")
 run(dpkg-query --show ${names}) # fails if one is not the name of a package that the build has
 if(NOT EXISTS "${WORK}/librhombic-dev/usr/lib/${MULTIARCH}/cmake/Rhombic/RhombicConfig.cmake")
