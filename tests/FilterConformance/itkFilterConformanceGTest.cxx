@@ -281,7 +281,7 @@ TYPED_TEST(FilterConformance, TakesTheGlobalDefaultNumberOfThreads)
     const auto filter = example.makeFilter();
     filter->SetInput(example.input);
     filter->UpdateLargestPossibleRegion();
-    EXPECT_EQ(records.GetMostWorkUnits(), itk::PoolMultiThreader::New()->GetNumberOfWorkUnits()) << threads;
+    EXPECT_EQ(records.GetMostWorkUnits(), SeenMultiThreader::New()->GetNumberOfWorkUnits()) << threads;
     if (threads == 1)
     {
       EXPECT_EQ(records.GetThreads(), std::set<std::thread::id>{ std::this_thread::get_id() });
