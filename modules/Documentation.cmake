@@ -1,5 +1,5 @@
-# The reference of all public headers: `cmake --build build/dev --target docs`, in build/dev/docs/html. Any warning of
-# Doxygen's is an error.
+# The reference of all public headers: `cmake --build build/dev --target docs`, in build/dev/docs/html. Warnings of
+# Doxygen's are errors, but for what the conventions leave undocumented (tests/docs/check-reference.cmake).
 
 find_package(Doxygen)
 if(NOT DOXYGEN_FOUND)
@@ -11,9 +11,8 @@ set(DOXYGEN_USE_MDFILE_AS_MAINPAGE "${PROJECT_SOURCE_DIR}/README.md")
 set(DOXYGEN_STRIP_FROM_PATH "${PROJECT_SOURCE_DIR}")
 set(DOXYGEN_FILE_PATTERNS *.h *.md)
 set(DOXYGEN_QUIET YES)
-set(DOXYGEN_WARN_IF_UNDOCUMENTED NO) # aliases and overrides that ITK's conventions ask for say nothing new
 set(DOXYGEN_WARN_IF_INCOMPLETE_DOC NO) # parameters that their names explain are left out
-set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)
+set(DOXYGEN_WARN_LOGFILE "${DOXYGEN_OUTPUT_DIRECTORY}/warnings.txt")
 set(DOXYGEN_HIDE_UNDOC_CLASSES NO)
 set(DOXYGEN_EXTRACT_ALL NO)
 set(DOXYGEN_SORT_BRIEF_DOCS YES)
@@ -31,6 +30,7 @@ set(DOXYGEN_PREDEFINED
     "itkSetMacro(name,type)=virtual void Set##name(type name)\;"
     "itkGetConstMacro(name,type)=virtual type Get##name() const\;"
     "itkGetConstReferenceMacro(name,type)=virtual const type & Get##name() const\;"
+    "itkSetClampMacro(name,type,lowest,highest)=virtual void Set##name(type name)\;"
     "itkSetEnumMacro(name,type)=virtual void Set##name(type name)\;"
     "itkGetEnumMacro(name,type)=virtual type Get##name() const\;"
     "itkBooleanMacro(name)=virtual void name##On()\; virtual void name##Off()\;"
@@ -39,3 +39,6 @@ set(DOXYGEN_PREDEFINED
 file(GLOB pages modules/*/README.md)
 file(GLOB headers modules/*/include pipelines/include)
 doxygen_add_docs(docs ${headers} ${pages} "${PROJECT_SOURCE_DIR}/README.md" COMMENT "Writing build/.../docs/html")
+add_custom_command(TARGET docs POST_BUILD
+                   COMMAND ${CMAKE_COMMAND} "-DREFERENCE=${DOXYGEN_OUTPUT_DIRECTORY}"
+                           -P "${PROJECT_SOURCE_DIR}/tests/docs/check-reference.cmake" VERBATIM)

@@ -18,6 +18,7 @@ namespace rhombic
  * Thread safety: a value. */
 struct Denoising
 {
+  /** The filter. */
   enum class Kind
   {
     None,

@@ -20,6 +20,7 @@ struct Events
   /** Progress of the step at work, from 0 to 1. */
   std::function<void(const std::string & step, double fraction)> progress;
 
+  /** Calls note, unless it is empty. */
   void
   Note(const std::string & line) const
   {
@@ -29,6 +30,7 @@ struct Events
     }
   }
 
+  /** Calls progress, unless it is empty. */
   void
   Progress(const std::string & step, double fraction) const
   {

@@ -22,6 +22,8 @@ struct Intensities
 /** Throws Failure(Unreadable) when no value is finite. Thread safe. */
 Intensities
 ComputeIntensities(const ScanImage & image);
+
+/** The same for a volume that is on the lattice already. */
 Intensities
 ComputeIntensities(const FCCVolume & volume);
 

@@ -31,6 +31,8 @@ ReportLattice(const FCCVolume & volume);
  * finite. */
 Report
 ReportIntensities(const Scan & scan);
+
+/** The same for a volume that is on the lattice already. */
 Report
 ReportIntensities(const FCCVolume & volume);
 

@@ -43,6 +43,7 @@ struct FCCBoxSpline
   static constexpr unsigned int SupportSize = 16;
   using SupportType = std::array<SiteType, SupportSize>;
 
+  /** The two kinds of tetrahedra that are pieces. */
   enum Shape : unsigned char
   {
     Octant, ///< of an octahedron around a site: x, y, z > 0 and x + y + z < 1 from it
@@ -75,6 +76,7 @@ struct FCCBoxSpline
     SiteType origin;
     SiteType direction;
 
+    /** From lattice coordinates to the piece's own. */
     PointType
     ToPiece(const PointType & point) const
     {
@@ -86,6 +88,7 @@ struct FCCBoxSpline
       return local;
     }
 
+    /** At a point of the piece, in lattice coordinates. */
     double
     GetValue(const PointType & point) const
     {
@@ -98,6 +101,7 @@ struct FCCBoxSpline
       return (q[0] + x * ofX + y * ofY + z * ofZ) * AtNearestNeighbor;
     }
 
+    /** At a point of the piece, in lattice coordinates. */
     Jet
     GetJet(const PointType & point) const
     {

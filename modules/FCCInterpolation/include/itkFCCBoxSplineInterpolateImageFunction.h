@@ -65,6 +65,8 @@ public:
   /** The gradient in the world, per mm along the axes of LPS. */
   CovariantVectorType
   EvaluateDerivative(const PointType & point) const;
+
+  /** The same gradient, in the world too, at a continuous index. */
   CovariantVectorType
   EvaluateDerivativeAtContinuousIndex(const ContinuousIndexType & index) const;
 

@@ -60,9 +60,11 @@ public:
     return static_cast<unsigned int>(FCCLattice::NearestNeighbors.size());
   }
 
+  /** To the first sample of the region, where it begins. */
   void
   GoToBegin();
 
+  /** Whether it went past the last sample; there is none to be asked for then. */
   bool
   IsAtEnd() const
   {

@@ -143,6 +143,7 @@ public:
   bool
   TransformPhysicalPointToIndex(const Point<TCoordRep, 3> & point, IndexType & index) const;
 
+  /** The same, inside or not. */
   template <typename TCoordRep>
   IndexType
   TransformPhysicalPointToIndex(const Point<TCoordRep, 3> & point) const;
@@ -153,23 +154,28 @@ public:
   TransformPhysicalPointToContinuousIndex(const Point<TCoordRep, 3> & point,
                                           ContinuousIndex<TIndexRep, 3> & index) const;
 
+  /** The same, inside or not. */
   template <typename TIndexRep, typename TCoordRep>
   ContinuousIndex<TIndexRep, 3>
   TransformPhysicalPointToContinuousIndex(const Point<TCoordRep, 3> & point) const;
 
+  /** The point, in LPS mm, at a continuous index inside or outside of the image. */
   template <typename TCoordRep, typename TIndexRep>
   void
   TransformContinuousIndexToPhysicalPoint(const ContinuousIndex<TIndexRep, 3> & index,
                                           Point<TCoordRep, 3> & point) const;
 
+  /** The same, returned. */
   template <typename TCoordRep, typename TIndexRep>
   Point<TCoordRep, 3>
   TransformContinuousIndexToPhysicalPoint(const ContinuousIndex<TIndexRep, 3> & index) const;
 
+  /** The point, in LPS mm, of a sample inside or outside of the image. */
   template <typename TCoordRep>
   void
   TransformIndexToPhysicalPoint(const IndexType & index, Point<TCoordRep, 3> & point) const;
 
+  /** The same, returned. */
   template <typename TCoordRep>
   Point<TCoordRep, 3>
   TransformIndexToPhysicalPoint(const IndexType & index) const;

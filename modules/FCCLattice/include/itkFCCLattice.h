@@ -66,12 +66,14 @@ struct FCCLattice
     return (j + k) & 1;
   }
 
+  /** Whether a point with integer lattice coordinates is a site: their sum is even. */
   static constexpr bool
   IsSite(const SiteType & point)
   {
     return ((point[0] + point[1] + point[2]) & 1) == 0;
   }
 
+  /** The site that is stored at an index. */
   static constexpr SiteType
   SiteOf(const Index<3> & index)
   {

@@ -28,6 +28,7 @@ public:
     : Superclass(image, region)
   {}
 
+  /** Writes the sample it is at. */
   void
   SetCenterPixel(const PixelType & value)
   {

@@ -65,11 +65,13 @@ public:
     return m_Highest;
   }
 
+  /** From frame coordinates to LPS mm. */
   PointType
   TransformFrameToPoint(const VectorType & frame) const
   {
     return m_Origin + m_Direction * frame;
   }
+  /** From LPS mm to frame coordinates. */
   VectorType
   TransformPointToFrame(const PointType & point) const;
 

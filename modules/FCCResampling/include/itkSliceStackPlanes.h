@@ -57,11 +57,13 @@ public:
   std::vector<double>
   GetColumns(SizeValueType k, double row, IndexValueType parity) const;
 
+  /** What values at \a rows, as GetRows() returns them, are made of. */
   SeparableTaps
   MakeRowTaps(const std::vector<double> & rows) const
   {
     return SeparableTaps(m_Kernel, m_Size[1], rows);
   }
+  /** What values at \a columns, as GetColumns() returns them, are made of. */
   SeparableTaps
   MakeColumnTaps(const std::vector<double> & columns) const
   {

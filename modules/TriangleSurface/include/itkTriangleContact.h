@@ -13,6 +13,7 @@ namespace itk
 class TriangleContactEnums
 {
 public:
+  /** What they have in common. */
   enum class Contact : std::uint8_t
   {
     Apart,    ///< they have no other point in common

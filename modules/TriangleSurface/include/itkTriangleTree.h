@@ -35,6 +35,7 @@ public:
     PointType lowest;
     PointType highest;
 
+    /** Whether they have a point in common, be it of their faces. */
     bool
     Overlaps(const Box & other) const
     {
@@ -168,6 +169,7 @@ public:
     return (m_Order.size() + LeafSize - 1) / LeafSize;
   }
 
+  /** Number \a leaf, below GetNumberOfLeaves(). */
   Leaf
   GetLeaf(std::size_t leaf) const
   {
