@@ -22,7 +22,11 @@ enum class Caller
   OtherThread
 };
 
+#ifdef __SANITIZE_THREAD__
+constexpr double MostAfterAbort = 2000.0; // ms, where each access to memory is looked at
+#else
 constexpr double MostAfterAbort = 100.0; // ms
+#endif
 
 /** Time that all threads of the process have spent computing, in ms: what other programs do on a busy machine does not
  * count. */
