@@ -8,7 +8,7 @@
 # Dependencies may be ITK modules (ITKCommon), modules of this project, or imported targets (VTK::CommonCore).
 # A module of this project must have been added before it is depended on, so the order of modules/CMakeLists.txt is
 # the order of dependency. With RHOMBIC_BUILD_TESTING every public header is also compiled alone. Each module is a
-# component of the installed package (RhombicConfig.cmake.in), where its target is Rhombic::<name>.
+# component of the installed package (RhombicConfig.cmake.in); its target is Rhombic::<name>, there and here.
 
 macro(itk_module name)
   set(module_name ${name})
@@ -82,6 +82,7 @@ function(rhombic_add_module folder)
     set(scope INTERFACE)
     set(private_scope INTERFACE)
   endif()
+  add_library(Rhombic::${module_name} ALIAS ${module_name})
   target_compile_features(${module_name} ${scope} cxx_std_17)
   target_include_directories(${module_name} ${scope} "$<BUILD_INTERFACE:${folder}/include>"
                                                      "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/Rhombic>")

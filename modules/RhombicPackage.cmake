@@ -39,6 +39,7 @@ foreach(component program development)
   install(FILES README.md LICENSE modules/copyright "${PROJECT_BINARY_DIR}/changelog.gz" COMPONENT ${component}
           DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${${component}_package}")
 endforeach()
+install(DIRECTORY apps/examples DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${development_package}" COMPONENT development)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "Rhombic developers <rhombic@example.org>")

@@ -35,6 +35,13 @@ foreach(file bone.stl bone.png)
   endif()
 endforeach()
 
+# The examples by themselves, as they are installed.
+run(${CMAKE_COMMAND} -S "${WORK}/prefix/share/doc/librhombic-dev/examples" -B "${WORK}/examples" -G ${GENERATOR}
+    "-DCMAKE_PREFIX_PATH=${WORK}/prefix" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
+run(${CMAKE_COMMAND} --build "${WORK}/examples")
+run("${WORK}/examples/ResampleAndSave" "${SCAN}" "${WORK}/example.fcc.nrrd")
+message("ResampleAndSave: ${output}")
+
 # What can't be had is refused by name, unless it is optional; so are packages of other versions than those in the build.
 function(check_refusal component sentence)
   execute_process(COMMAND ${CMAKE_COMMAND} -S "${SOURCE}/lattice" -B "${WORK}/refused" -G ${GENERATOR} --fresh
