@@ -4,7 +4,7 @@
 # variables, and parts that are for this project's own sources alone.
 # cmake -DREFERENCE=<Doxygen's output folder> -P check-reference.cmake
 
-set(parts "itkFCCSigns|itkFCCSurfaceExtraction|itkRowArithmetic|itkThreadFailure|itkWorkProgress")
+set(parts "itkRowArithmetic")
 set(conventions "New|SetInput|GetInput|GetOutput|begin|end|size|allocate|deallocate|construct")
 
 file(STRINGS "${REFERENCE}/warnings.txt" warnings)

@@ -52,17 +52,20 @@ public:
     return m_Stride - 1;
   }
 
+  /** 0 for a row whose sites have an even x, else 1: FCCLattice::Parity(). */
   IndexValueType
   GetParity(SizeValueType j, SizeValueType k) const
   {
     return (m_ParityOfFirstRow + static_cast<IndexValueType>(j + k)) & 1;
   }
 
+  /** The words of a row. */
   WordType *
   GetRow(SizeValueType j, SizeValueType k)
   {
     return m_Words.data() + (k * m_Height + j) * m_Stride;
   }
+  /** The words of a row. */
   const WordType *
   GetRow(SizeValueType j, SizeValueType k) const
   {

@@ -112,6 +112,7 @@ public:
   virtual bool
   CountReadsSamples() const = 0;
 
+  /** Counts the points and triangles of planes. */
   virtual void
   Count(SizeValueType begin, SizeValueType end) = 0;
 
@@ -119,6 +120,7 @@ public:
   virtual void
   Resolve(const Crew & crew) = 0;
 
+  /** Known once resolved. */
   virtual SizeValueType
   GetNumberOfPoints() const = 0;
 
@@ -126,6 +128,7 @@ public:
   virtual SizeValueType
   GetMostTriangles() const = 0;
 
+  /** Makes the points and triangles of planes. */
   virtual void
   Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface) = 0;
 

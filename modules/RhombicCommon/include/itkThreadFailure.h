@@ -19,6 +19,7 @@ namespace itk
 class ThreadFailure
 {
 public:
+  /** Calls work(), and keeps what it throws. */
   template <typename TWork>
   void
   Capture(const TWork & work)

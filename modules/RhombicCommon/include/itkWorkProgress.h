@@ -52,12 +52,14 @@ public:
     this->CheckAbort();
   }
 
+  /** The work that has been counted. */
   SizeValueType
   GetCompleted() const
   {
     return m_Done;
   }
 
+  /** Tells that all work is done. */
   void
   Finish()
   {
@@ -75,12 +77,14 @@ public:
       : m_Whole(whole)
     {}
 
+    /** As WorkProgress::CheckAbort(). */
     void
     CheckAbort() const
     {
       m_Whole.CheckAbort();
     }
 
+    /** As WorkProgress::Completed(). */
     void
     Completed(SizeValueType work)
     {
