@@ -6,6 +6,8 @@
 #include <vtkDataArray.h>
 #include <vtkPointData.h>
 
+#include <string>
+
 namespace
 {
 
@@ -64,6 +66,19 @@ TEST(SurfaceToPolyData, EmptySurfacesAndSurfacesWithoutNormalsAreFine)
   auto bare = MakeSurface();
   bare->GetNormals().clear();
   EXPECT_EQ(rhombic::SurfaceToPolyData(bare)->GetPointData()->GetNormals(), nullptr);
+}
+
+TEST(SurfaceToPolyData, ANullPointerIsRefused)
+{
+  try
+  {
+    rhombic::SurfaceToPolyData(nullptr);
+    FAIL() << "it was converted";
+  }
+  catch (const itk::ExceptionObject & error)
+  {
+    EXPECT_NE(std::string(error.GetDescription()).find("; give "), std::string::npos) << error;
+  }
 }
 
 } // namespace

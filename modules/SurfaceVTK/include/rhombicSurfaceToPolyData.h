@@ -13,8 +13,8 @@ namespace rhombic
  * VTK's cell offsets (4 bytes a triangle) are new. The surface stays alive as long as any of the arrays does, and must
  * not be changed meanwhile. Points and normals are float32, connectivity int32.
  *
- * Throws itk::ExceptionObject for more than 2^31 - 1 points or corners of triangles. Thread safe, for the same surface,
- * too; the result is, like all of VTK, for one thread at a time. */
+ * Throws itk::ExceptionObject for a null pointer, and for more than 2^31 - 1 points or corners of triangles. Thread
+ * safe, for the same surface, too; the result is, like all of VTK, for one thread at a time. */
 vtkSmartPointer<vtkPolyData>
 SurfaceToPolyData(const itk::TriangleSurface * surface);
 

@@ -58,6 +58,10 @@ Wrap(const TTuples & tuples, int components, const SurfacePointer & surface)
 vtkSmartPointer<vtkPolyData>
 SurfaceToPolyData(const itk::TriangleSurface * surface)
 {
+  if (surface == nullptr)
+  {
+    itkGenericExceptionMacro("VTK's polydata needs a surface, not a null pointer; give the output of a filter");
+  }
   const SurfacePointer keep(surface);
   const auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetData(Wrap<vtkFloatArray, float>(surface->GetPoints(), 3, keep));
