@@ -138,6 +138,21 @@ TEST(TriangleSurfaceToMesh, RefusesWhatAMeshCannotBe)
     << "an edge with three triangles";
 }
 
+TEST(TriangleSurfaceToMesh, TrianglesWithEqualCornersAreNoFacesOfAQuadEdgeMesh)
+{
+  for (const TriangleSurface::TriangleType & triangle :
+       { TriangleSurface::TriangleType{ 0, 0, 1 }, { 0, 1, 1 }, { 0, 1, 0 }, { 1, 1, 1 } })
+  {
+    const auto surface = TriangleSurface::New();
+    surface->GetPoints() = { { 0, 0, 0 }, { 1, 0, 0 } };
+    surface->GetTriangles() = { triangle };
+    const std::string message = MessageOf([&] { itk::ConvertToQuadEdgeMesh(*surface); });
+    EXPECT_NE(message.find("has a point twice"), std::string::npos) << message;
+    EXPECT_NE(message.find("; use ConvertToMesh()"), std::string::npos) << message;
+    ExpectSame(*surface, *itk::ConvertToTriangleSurface(*itk::ConvertToMesh(*surface)));
+  }
+}
+
 std::string
 MessageOfConverting(const MeshType & mesh)
 {

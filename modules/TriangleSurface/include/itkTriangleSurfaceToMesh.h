@@ -19,14 +19,15 @@ SizeValueType
 EstimateQuadEdgeMeshMemory(const TriangleSurface & surface);
 
 /** The surface as an itk::Mesh of triangle cells, for ITK's mesh filters: points and triangles with the same ids, in
- * LPS mm; without normals, which a mesh of scalars can't hold. See EstimateMeshMemory() before. Throws
- * ExceptionObject if a triangle has a point that the surface has not. Thread safe. */
+ * LPS mm; without normals, which a mesh of scalars can't hold. Triangles may have equal corners. See
+ * EstimateMeshMemory() before. Throws ExceptionObject if a triangle has a point that the surface has not. Thread safe.
+ */
 Mesh<float, 3>::Pointer
 ConvertToMesh(const TriangleSurface & surface);
 
 /** The surface as an itk::QuadEdgeMesh, whose filters walk along edges; otherwise as ConvertToMesh(). See
  * EstimateQuadEdgeMeshMemory() before. Throws ExceptionObject if the surface is not an oriented manifold, with or
- * without border: such a mesh can't be anything else. Thread safe. */
+ * without border, or a triangle has equal corners: such a mesh can't be anything else. Thread safe. */
 QuadEdgeMesh<float, 3>::Pointer
 ConvertToQuadEdgeMesh(const TriangleSurface & surface);
 

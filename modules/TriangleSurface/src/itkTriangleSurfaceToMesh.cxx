@@ -47,6 +47,21 @@ RequirePoints(const TriangleSurface & surface)
   }
 }
 
+void
+RequireThreeCorners(const TriangleSurface & surface)
+{
+  for (const auto & [a, b, c] : surface.GetTriangles())
+  {
+    if (a == b || b == c || c == a)
+    {
+      itkGenericExceptionMacro("The triangle of points "
+                               << a << ", " << b << " and " << c
+                               << " has a point twice, which no face of a QuadEdgeMesh can; use ConvertToMesh(), or "
+                                  "remove the triangle first");
+    }
+  }
+}
+
 template <typename TMesh>
 void
 CopyPoints(const TriangleSurface & surface, TMesh & mesh)
@@ -109,6 +124,7 @@ QuadEdgeMesh<float, 3>::Pointer
 ConvertToQuadEdgeMesh(const TriangleSurface & surface)
 {
   RequirePoints(surface);
+  RequireThreeCorners(surface);
   const TriangleSurfaceTopology topology = ComputeTopology(surface);
   if (topology.nonManifoldEdges + topology.nonManifoldPoints + topology.misorientedEdges > 0)
   {
