@@ -1,9 +1,11 @@
 #ifndef itkRecyclingMemory_h
 #define itkRecyclingMemory_h
 
+#include <algorithm>
 #include <map>
 #include <memory_resource>
 #include <mutex>
+#include <new>
 #include <utility>
 
 namespace itk
@@ -16,12 +18,19 @@ namespace itk
  * are released. So there are never more blocks than were in use at once. malloc() would keep them for the thread that
  * gave them back: with many threads, as many times.
  *
+ * Asking for a block throws std::bad_alloc when there is no memory; giving one back needs none and never throws, as
+ * destructors do it.
+ *
  * Thread safety: any number of threads may use it at once, but for its destruction, after all blocks are back.
  */
 class RecyclingMemory : public std::pmr::memory_resource
 {
 public:
-  RecyclingMemory() = default;
+  /** \param system where all memory comes from and goes to; must outlive this */
+  explicit RecyclingMemory(std::pmr::memory_resource * system = std::pmr::new_delete_resource())
+    : m_System(system)
+    , m_Spare(system)
+  {}
   RecyclingMemory(const RecyclingMemory &) = delete;
   RecyclingMemory &
   operator=(const RecyclingMemory &) = delete;
@@ -36,37 +45,52 @@ public:
   ReleaseSpare()
   {
     const std::lock_guard<std::mutex> lock(m_Mutex);
-    for (const auto & [kind, block] : m_Spare)
+    for (auto & [kind, first] : m_Spare)
     {
-      m_System->deallocate(block, kind.first, kind.second);
+      while (first != nullptr)
+      {
+        m_System->deallocate(std::exchange(first, first->next), kind.first, kind.second);
+      }
     }
-    m_Spare.clear();
   }
 
 private:
   using Kind = std::pair<std::size_t, std::size_t>; ///< bytes and alignment
 
+  /** What a block holds while it is spare. */
+  struct Spare
+  {
+    Spare * next;
+  };
+
+  /** Of the blocks for a request: each can be a Spare. */
+  static Kind
+  KindOf(std::size_t bytes, std::size_t alignment)
+  {
+    return { std::max(bytes, sizeof(Spare)), std::max(alignment, alignof(Spare)) };
+  }
+
   void *
   do_allocate(std::size_t bytes, std::size_t alignment) override
   {
+    const Kind kind = KindOf(bytes, alignment);
     {
       const std::lock_guard<std::mutex> lock(m_Mutex);
-      const auto found = m_Spare.find(Kind(bytes, alignment));
-      if (found != m_Spare.end())
+      Spare *& first = m_Spare[kind];
+      if (first != nullptr)
       {
-        void * const block = found->second;
-        m_Spare.erase(found);
-        return block;
+        return std::exchange(first, first->next);
       }
     }
-    return m_System->allocate(bytes, alignment);
+    return m_System->allocate(kind.first, kind.second);
   }
 
   void
   do_deallocate(void * block, std::size_t bytes, std::size_t alignment) override
   {
     const std::lock_guard<std::mutex> lock(m_Mutex);
-    m_Spare.emplace(Kind(bytes, alignment), block);
+    Spare *& first = m_Spare.find(KindOf(bytes, alignment))->second; // it is there since the block was asked for
+    first = new (block) Spare{ first };
   }
 
   bool
@@ -75,9 +99,9 @@ private:
     return this == &other;
   }
 
-  std::pmr::memory_resource * m_System{ std::pmr::new_delete_resource() };
+  std::pmr::memory_resource * m_System;
   std::mutex m_Mutex;
-  std::multimap<Kind, void *> m_Spare;
+  std::pmr::map<Kind, Spare *> m_Spare; ///< the first of each list; linked through the blocks themselves
 };
 
 } // namespace itk
