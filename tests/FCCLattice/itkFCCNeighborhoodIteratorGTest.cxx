@@ -194,26 +194,45 @@ TEST(FCCNeighborhoodIterator, GoesBackToTheBegin)
   EXPECT_EQ(visited, 24u);
 }
 
+/** What the constructor throws. */
+std::string
+RefusalOf(const ImageType * image, const RegionType & region)
+{
+  try
+  {
+    IteratorType(image, region);
+  }
+  catch (const itk::ExceptionObject & error)
+  {
+    return error.GetDescription();
+  }
+  return {};
+}
+
 TEST(FCCNeighborhoodIterator, EmptyRegionsEndAtOnceAndOthersMustBeBuffered)
 {
   const auto image = MakeCounted({ { { 0, 0, 0 } }, { { 3, 3, 3 } } });
   EXPECT_TRUE(IteratorType(image, { { { 7, 7, 7 } }, { { 0, 2, 2 } } }).IsAtEnd());
   EXPECT_TRUE(IteratorType(ImageType::New(), {}).IsAtEnd());
-  const auto refusal = [](const ImageType * of, const ImageType::RegionType & region) {
-    try
-    {
-      IteratorType(of, region);
-    }
-    catch (const itk::ExceptionObject & error)
-    {
-      return std::string(error.GetDescription());
-    }
-    return std::string();
-  };
-  const std::string outside = refusal(image, { { { 0, 0, 1 } }, { { 3, 3, 3 } } });
+  const std::string outside = RefusalOf(image, { { { 0, 0, 1 } }, { { 3, 3, 3 } } });
   EXPECT_NE(outside.find("of size [3, 3, 3] at [0, 0, 1], is not inside"), std::string::npos) << outside;
   EXPECT_NE(outside.find("; crop it"), std::string::npos) << outside;
-  EXPECT_NE(refusal(nullptr, {}).find("; give one"), std::string::npos);
+  EXPECT_NE(RefusalOf(nullptr, {}).find("; give one"), std::string::npos);
+}
+
+TEST(FCCNeighborhoodIterator, AnImageThatWasNeverAllocatedOrIsReleasedIsRefused)
+{
+  const RegionType region({ { 0, 0, 0 } }, { { 3, 3, 3 } });
+  const auto image = ImageType::New();
+  image->SetRegions(region);
+  EXPECT_NE(RefusalOf(image, region).find("were never allocated; call its Allocate()"), std::string::npos);
+  EXPECT_EQ(RefusalOf(image, {}), "") << "no sample is read";
+
+  const auto released = MakeCounted(region);
+  released->ReleaseData();
+  EXPECT_NE(RefusalOf(released, region).find("update the image for it first"), std::string::npos);
+  released->SetBufferedRegion(region);
+  EXPECT_NE(RefusalOf(released, region).find("; call its Allocate()"), std::string::npos);
 }
 
 } // namespace

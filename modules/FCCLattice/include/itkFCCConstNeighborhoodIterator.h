@@ -30,8 +30,8 @@ namespace itk
  *       ...
  *     }
  *
- * Throws on construction when the image is none, or the region is not inside its buffered region. The image must
- * neither go nor be allocated anew while the iterator is used.
+ * Throws on construction when the image is none, or the region is not inside its buffered region, or that was never
+ * allocated. The image must neither go nor be released or allocated anew while the iterator is used.
  *
  * Thread safety: any number of iterators may read one image at the same time.
  *

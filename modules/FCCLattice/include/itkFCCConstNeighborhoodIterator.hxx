@@ -26,6 +26,13 @@ FCCConstNeighborhoodIterator<TImage>::FCCConstNeighborhoodIterator(const ImageTy
                              << ", is not inside the image's buffered region, of size " << m_BufferedRegion.GetSize()
                              << " at " << m_BufferedRegion.GetIndex() << "; crop it, or update the image for it first");
   }
+  const auto * const pixels = image->GetPixelContainer();
+  if (!isEmpty && (pixels == nullptr || pixels->Size() < m_BufferedRegion.GetNumberOfPixels()))
+  {
+    itkGenericExceptionMacro("The image's samples, of size "
+                             << m_BufferedRegion.GetSize() << " at " << m_BufferedRegion.GetIndex()
+                             << ", were never allocated; call its Allocate() and fill it first");
+  }
   m_NumberOfRows = isEmpty ? 0 : region.GetSize(1) * region.GetSize(2);
   this->GoToBegin();
 }
