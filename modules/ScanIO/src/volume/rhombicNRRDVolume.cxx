@@ -2,6 +2,7 @@
 
 #include "rhombicCompressedFile.h"
 #include "rhombicNRRDHeader.h"
+#include "rhombicNRRDType.h"
 #include "rhombicTextHeader.h"
 #include "rhombicVolumeFrame.h"
 #include "rhombicVolumeRefusal.h"
@@ -22,33 +23,19 @@ namespace
 StoredType
 TypeOf(const NRRDHeader & header, const fs::path & path)
 {
-  struct Type
-  {
-    StoredType type;
-    std::vector<const char *> names;
+  static const std::map<std::string, StoredType> types{
+    { "int8", StoredType::Int8 },     { "uint8", StoredType::UInt8 },   { "int16", StoredType::Int16 },
+    { "uint16", StoredType::UInt16 }, { "int32", StoredType::Int32 },   { "uint32", StoredType::UInt32 },
+    { "int64", StoredType::Int64 },   { "uint64", StoredType::UInt64 }, { "float", StoredType::Float },
+    { "double", StoredType::Double }
   };
-  static const std::vector<Type> types{
-    { StoredType::Int8, { "signed char", "int8", "int8_t" } },
-    { StoredType::UInt8, { "uchar", "unsigned char", "uint8", "uint8_t" } },
-    { StoredType::Int16, { "short", "short int", "signed short", "signed short int", "int16", "int16_t" } },
-    { StoredType::UInt16, { "ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t" } },
-    { StoredType::Int32, { "int", "signed int", "int32", "int32_t" } },
-    { StoredType::UInt32, { "uint", "unsigned int", "uint32", "uint32_t" } },
-    { StoredType::Int64,
-      { "longlong", "long long", "long long int", "signed long long", "signed long long int", "int64", "int64_t" } },
-    { StoredType::UInt64, { "ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t" } },
-    { StoredType::Float, { "float" } },
-    { StoredType::Double, { "double" } },
-  };
-  const std::string name = LowerCase(header.Get("type"));
-  for (const Type & type : types)
+  const std::string name = header.Get("type");
+  const auto found = types.find(CanonicalNRRDType(name));
+  if (found == types.end())
   {
-    if (std::find(type.names.begin(), type.names.end(), name) != type.names.end())
-    {
-      return type.type;
-    }
+    RefuseVolume(path, "its pixel type '" + name + "' is not supported; convert it to integers or floats first");
   }
-  RefuseVolume(path, "its pixel type '" + name + "' is not supported; convert it to integers or floats first");
+  return found->second;
 }
 
 /** The directions of the axes, empty for those of which the file says "none"; no entries without the field. */
