@@ -9,6 +9,7 @@
 #include <clocale>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <locale>
 #include <numeric>
 
@@ -64,6 +65,13 @@ TYPED_TEST(FCCImageFileTypes, ComesBackBitForBit)
   EXPECT_EQ(std::memcmp(read->GetBufferPointer(), image->GetBufferPointer(), 60 * sizeof(TypeParam)), 0);
 }
 
+std::string
+ContentOf(const std::filesystem::path & path)
+{
+  std::ifstream stream(path, std::ios::binary);
+  return { std::istreambuf_iterator<char>(stream), {} };
+}
+
 FailureKind
 KindOfReading(const std::filesystem::path & path)
 {
@@ -86,8 +94,7 @@ TEST(FCCImageFile, RefusesWhatIsDamagedOrSomethingElse)
   const auto path = folder.Path() / "volume.fcc.nrrd";
   EXPECT_EQ(KindOfReading(path), FailureKind::NotFound);
   rhombic::WriteFCCImage(MakeImage<std::int16_t>(), path);
-  std::ifstream stream(path, std::ios::binary);
-  const std::string whole((std::istreambuf_iterator<char>(stream)), {});
+  const std::string whole = ContentOf(path);
 
   const auto refuses = [&](const std::string & content) {
     std::ofstream(path, std::ios::binary) << content;
@@ -98,6 +105,9 @@ TEST(FCCImageFile, RefusesWhatIsDamagedOrSomethingElse)
     changed.replace(changed.find(from), from.size(), to);
     return changed;
   };
+  const std::string key = "lattice direction:=";
+  const auto begin = whole.find(key) + key.size();
+  const std::string direction = whole.substr(begin, whole.find('\n', begin) - begin);
   refuses("");
   refuses("not a NRRD file\n");
   refuses(whole.substr(0, whole.size() - 1));
@@ -105,6 +115,8 @@ TEST(FCCImageFile, RefusesWhatIsDamagedOrSomethingElse)
   refuses(whole.substr(0, 200));
   refuses(replace("fcc parity rows", "something else"));
   refuses(replace("int16", "block"));
+  refuses(replace("int16", "double"));
+  refuses(replace("encoding: raw", "encoding: gzip"));
   refuses(replace("sizes: 5 4 3", "sizes: 5 4 18446744073709551615"));
   refuses(replace("sizes: 5 4 3", "sizes: 5 4 0"));
   refuses(replace("sizes: 5 4 3", "sizes: 5 4"));
@@ -113,11 +125,58 @@ TEST(FCCImageFile, RefusesWhatIsDamagedOrSomethingElse)
   refuses(replace("endian: little", "endian: big"));
   refuses(replace("sizes: 5 4 3", "sizes: 5 4 3 3"));
   refuses(replace("lattice origin:=-123.456", "lattice origin:=inf"));
+  refuses(replace("lattice spacing:=0.1", "lattice spacing:=1e308"));
+  for (const char * const wrong : { "nan", "inf", "1e100", "0" })
+  {
+    refuses(replace(direction, std::string(wrong) + " 0 0 0 1 0 0 0 1"));
+  }
   refuses(replace("lattice start:=-2", "lattice start:=9223372036854775807"));
   refuses("NRRD0005\n" + std::string(100000, 'x'));
   EXPECT_FALSE(rhombic::IsFCCImageFile(folder.Path()));
   ASSERT_EQ(mkfifo((folder.Path() / "pipe").c_str(), 0600), 0);
   EXPECT_FALSE(rhombic::IsFCCImageFile(folder.Path() / "pipe")) << "without waiting for a writer";
+}
+
+template <typename TPixel>
+void
+ExpectTheSame(const std::string & name)
+{
+  const rhombictest::TemporaryFolder folder;
+  const auto path = folder.Path() / "volume.fcc.nrrd";
+  const auto image = MakeImage<TPixel>();
+  rhombic::WriteFCCImage(image, path);
+  std::string content = ContentOf(path);
+  const auto replace = [&content](const std::string & after, const std::string & to) {
+    const auto begin = content.find(after) + after.size();
+    content.replace(begin, content.find('\n', begin) - begin, to);
+  };
+  replace("\ntype: ", name);
+  replace("\nencoding: ", "RAW");
+  replace("\nendian: ", "Little");
+  std::ofstream(path, std::ios::binary) << content;
+  const auto read = std::get<typename itk::FCCImage<TPixel>::Pointer>(rhombic::ReadFCCImage(path));
+  EXPECT_EQ(std::memcmp(read->GetBufferPointer(), image->GetBufferPointer(), 60 * sizeof(TPixel)), 0) << name;
+}
+
+TEST(FCCImageFile, TheReaderKnowsAllNamesThatNRRDHasForATypeInAnyCase)
+{
+  for (const char * const name : { "uchar", "unsigned char", "uint8", "uint8_t", "UCHAR" })
+  {
+    ExpectTheSame<std::uint8_t>(name);
+  }
+  for (const char * const name : { "short", "short int", "signed short", "signed short int", "int16", "int16_t" })
+  {
+    ExpectTheSame<std::int16_t>(name);
+  }
+  for (const char * const name : { "ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t" })
+  {
+    ExpectTheSame<std::uint16_t>(name);
+  }
+  for (const char * const name : { "int", "signed int", "int32", "int32_t" })
+  {
+    ExpectTheSame<std::int32_t>(name);
+  }
+  ExpectTheSame<float>("Float");
 }
 
 TEST(FCCImageFile, DoesNotDependOnTheLocale)
@@ -131,6 +190,70 @@ TEST(FCCImageFile, DoesNotDependOnTheLocale)
   std::locale::global(streams);
   std::setlocale(LC_ALL, before.c_str());
   EXPECT_EQ(std::get<itk::FCCImage<float>::Pointer>(volume)->GetOrigin()[0], -123.456);
+}
+
+/** What WriteFCCImage() says of a volume that it must not write. */
+std::string
+RefusalOf(const FCCVolume & volume)
+{
+  const rhombictest::TemporaryFolder folder;
+  std::string description;
+  try
+  {
+    rhombic::WriteFCCImage(volume, folder.Path() / "volume.nrrd");
+  }
+  catch (const Failure & failure)
+  {
+    EXPECT_EQ(failure.GetKind(), FailureKind::Output);
+    description = failure.GetDescription();
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.Path()));
+  return description;
+}
+
+TEST(FCCImageFile, WhatHoldsNoWholeImageIsNotWritten)
+{
+  const auto image = MakeImage<float>();
+  EXPECT_NE(RefusalOf(itk::FCCImage<float>::Pointer()).find("a null pointer; give"), std::string::npos);
+  EXPECT_NE(RefusalOf(itk::FCCImage<float>::New()).find("the image has no samples; give"), std::string::npos);
+
+  const auto unallocated = itk::FCCImage<float>::New();
+  unallocated->SetRegions(image->GetBufferedRegion());
+  EXPECT_NE(RefusalOf(unallocated).find("were never allocated; call its Allocate()"), std::string::npos);
+
+  image->SetLargestPossibleRegion({ { { -2, 3, 1 } }, { { 5, 4, 4 } } });
+  EXPECT_NE(RefusalOf(image).find("in its buffer; update the whole"), std::string::npos);
+  image->ReleaseData();
+  EXPECT_NE(RefusalOf(image).find("in its buffer; update the whole"), std::string::npos);
+}
+
+TEST(FCCImageFile, GeometryThatCannotBeReadBackIsNotWritten)
+{
+  using Image = itk::FCCImage<float>;
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto refusalWith = [](const auto & change) {
+    const auto image = MakeImage<float>();
+    change(*image);
+    return RefusalOf(image);
+  };
+  for (const double wrong : { nan, infinity, -infinity })
+  {
+    const std::string origin = refusalWith([wrong](Image & image) { image.SetOrigin(Image::PointType(wrong)); });
+    EXPECT_NE(origin.find("the image's lattice origin or start is out of range; set"), std::string::npos) << origin;
+  }
+  const auto spacing = refusalWith([](Image & image) { image.SetSpacing(Image::SpacingType(-0.5)); });
+  EXPECT_NE(spacing.find("lattice spacing is not positive or out of range; set"), std::string::npos) << spacing;
+  const auto direction = refusalWith([](Image & image) {
+    auto matrix = image.GetDirection();
+    matrix[2][2] = 1e-9;
+    image.SetDirection(matrix);
+  });
+  EXPECT_NE(direction.find("lattice direction is singular or out of range; set"), std::string::npos) << direction;
+  const auto start = refusalWith([](Image & image) {
+    image.SetRegions(Image::RegionType({ { itk::IndexValueType{ 1 } << 50, 0, 0 } }, { { 5, 4, 3 } }));
+  });
+  EXPECT_NE(start.find("origin or start is out of range"), std::string::npos) << start;
 }
 
 TEST(FCCImageFile, LeavesNothingBehindWhenItCannotWrite)

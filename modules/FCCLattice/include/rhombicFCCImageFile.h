@@ -18,13 +18,15 @@ using FCCVolume = std::variant<itk::FCCImage<std::uint8_t>::Pointer,
                                itk::FCCImage<float>::Pointer>;
 
 /** Writes an FCC image as a NRRD file (raw, little-endian) with its lattice in key/value pairs; the format is described
- * in modules/FCCLattice/README.md. The file appears whole or not at all. Throws Failure(Output). Thread safe for
- * different paths. */
+ * in modules/FCCLattice/README.md. The file appears whole or not at all. Throws Failure(Output), also for what could
+ * not be read back: a null pointer, an image without samples or with some that are not in its buffer, and geometry that
+ * is not finite. Thread safe for different paths. */
 void
 WriteFCCImage(const FCCVolume & volume, const std::filesystem::path & path);
 
-/** Reads what WriteFCCImage() wrote, bit for bit. Throws Failure(NotFound) when there is no such file, and
- * Failure(Unreadable) when it is damaged, too short, or not a volume on this lattice. Thread safe. */
+/** Reads what WriteFCCImage() wrote, bit for bit, and such files from other programs (see there). Throws
+ * Failure(NotFound) when there is no such file, and Failure(Unreadable) when it is damaged, too short, or not a volume
+ * on this lattice. Thread safe. */
 FCCVolume
 ReadFCCImage(const std::filesystem::path & path);
 

@@ -2,6 +2,9 @@
 
 #include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
+#include "rhombicNRRDType.h"
+
+#include <itksys/SystemTools.hxx>
 
 #include <charconv>
 #include <fstream>
@@ -22,6 +25,79 @@ constexpr char latticeValue[] = "fcc parity rows";
 FailToRead(const fs::path & path, const std::string & why)
 {
   throw Failure(FailureKind::Unreadable, "Cannot read " + path.string() + ": " + why + ".");
+}
+
+[[noreturn]] void
+FailToWrite(const fs::path & path, const std::string & why)
+{
+  throw Failure(FailureKind::Output, "Cannot write " + path.string() + ": " + why + ".");
+}
+
+/** Where the samples of an image are in the world. */
+struct Placement
+{
+  itk::Vector<double, 3> spacing;
+  itk::Point<double, 3> origin;
+  itk::Matrix<double, 3, 3> direction;
+  itk::Index<3> start;
+};
+
+/** What is wrong with a placement, as part of a sentence; empty when nothing is. */
+std::string
+DefectOf(const Placement & placement)
+{
+  constexpr itk::IndexValueType farthest = itk::IndexValueType{ 1 } << 40; // sums of indices and sizes stay countable
+  constexpr double largest = 1e30; // products stay finite, or ITK would end the program
+  bool isDirectionInRange = true;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    if (!(placement.spacing[axis] > 0.0 && placement.spacing[axis] < largest))
+    {
+      return "lattice spacing is not positive or out of range";
+    }
+    if (!(std::abs(placement.origin[axis]) < largest) || placement.start[axis] > farthest ||
+        placement.start[axis] < -farthest)
+    {
+      return "lattice origin or start is out of range";
+    }
+    for (unsigned int column = 0; column < 3; ++column)
+    {
+      isDirectionInRange = isDirectionInRange && std::abs(placement.direction[axis][column]) < largest;
+    }
+  }
+  const bool isSingular = std::abs(vnl_determinant(placement.direction.GetVnlMatrix())) <= 1e-6;
+  return isDirectionInRange && !isSingular ? "" : "lattice direction is singular or out of range";
+}
+
+/** Throws Failure(Output) for an image that ReadFCCImage() would not read back. */
+template <typename TImage>
+void
+VerifyImage(const TImage * image, const fs::path & path)
+{
+  if (image == nullptr)
+  {
+    FailToWrite(path, "there is no image, but a null pointer; give an image that is filled");
+  }
+  const auto & region = image->GetBufferedRegion();
+  if (region != image->GetLargestPossibleRegion())
+  {
+    FailToWrite(path, "not all samples of the image are in its buffer; update the whole of it first");
+  }
+  if (region.GetNumberOfPixels() == 0)
+  {
+    FailToWrite(path, "the image has no samples; give one of at least one sample");
+  }
+  const auto * const pixels = image->GetPixelContainer();
+  if (pixels == nullptr || pixels->Size() < region.GetNumberOfPixels())
+  {
+    FailToWrite(path, "the image's samples were never allocated; call its Allocate() and fill it first");
+  }
+  const std::string defect =
+    DefectOf({ image->GetSpacing(), image->GetOrigin(), image->GetDirection(), region.GetIndex() });
+  if (!defect.empty())
+  {
+    FailToWrite(path, "the image's " + defect + "; set its geometry anew");
+  }
 }
 
 template <typename TPixel>
@@ -159,8 +235,8 @@ ReadLine(std::istream & stream, std::size_t & budget, std::string & line)
   return false;
 }
 
-/** The header's fields ("name: value") and key/value pairs ("key:=value"), none when there is no header; leaves the
- * stream at the first sample. */
+/** The header's fields ("name: value", names in lower case) and key/value pairs ("key:=value"), none when there is no
+ * header; leaves the stream at the first sample. */
 Fields
 ReadHeader(std::istream & stream)
 {
@@ -189,7 +265,7 @@ ReadHeader(std::istream & stream)
     }
     else if (field != std::string::npos)
     {
-      fields[line.substr(0, field)] = line.substr(field + 2);
+      fields[itksys::SystemTools::LowerCase(line.substr(0, field))] = line.substr(field + 2);
     }
   }
   return {};
@@ -223,35 +299,30 @@ ReadSamples(std::istream & stream, Fields & fields, const fs::path & path)
     FailToRead(path, "it holds more data than its header says");
   }
 
-  auto image = ImageType::New();
   typename ImageType::RegionType region;
-  typename ImageType::DirectionType direction;
+  Placement placement;
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    if (!(spacing[axis] > 0.0 && std::isfinite(spacing[axis])))
-    {
-      FailToRead(path, "its lattice spacing is not a positive number");
-    }
-    constexpr std::int64_t farthest = std::int64_t{ 1 } << 40; // keeps sums of indices and sizes countable
-    if (!std::isfinite(origin[axis]) || start[axis] > farthest || start[axis] < -farthest)
-    {
-      FailToRead(path, "its lattice origin or start is out of range");
-    }
-    region.SetSize(axis, sizes[axis]);
-    region.SetIndex(axis, start[axis]);
+    placement.spacing[axis] = spacing[axis];
+    placement.origin[axis] = origin[axis];
+    placement.start[axis] = start[axis];
     for (unsigned int column = 0; column < 3; ++column)
     {
-      direction[axis][column] = numbers[3 * axis + column];
+      placement.direction[axis][column] = numbers[3 * axis + column];
     }
+    region.SetSize(axis, sizes[axis]);
   }
-  if (!(std::abs(vnl_determinant(direction.GetVnlMatrix())) > 1e-6))
+  const std::string defect = DefectOf(placement);
+  if (!defect.empty())
   {
-    FailToRead(path, "its lattice direction is singular");
+    FailToRead(path, "its " + defect);
   }
+  region.SetIndex(placement.start);
+  auto image = ImageType::New();
   image->SetRegions(region);
-  image->SetSpacing(spacing.data());
-  image->SetOrigin(origin.data());
-  image->SetDirection(direction);
+  image->SetSpacing(placement.spacing);
+  image->SetOrigin(placement.origin);
+  image->SetDirection(placement.direction);
   image->Allocate();
   stream.read(reinterpret_cast<char *>(image->GetBufferPointer()), static_cast<std::streamsize>(bytes));
   if (!stream)
@@ -266,6 +337,7 @@ ReadSamples(std::istream & stream, Fields & fields, const fs::path & path)
 void
 WriteFCCImage(const FCCVolume & volume, const fs::path & path)
 {
+  std::visit([&path](const auto & image) { VerifyImage(image.GetPointer(), path); }, volume);
   AtomicFile file(path);
   std::size_t size = 0;
   std::visit(
@@ -301,12 +373,12 @@ ReadFCCImage(const fs::path & path)
   {
     FailToRead(path, "it is not a volume on the face-centered cubic lattice; give it as a scan instead");
   }
-  if (fields["encoding"] != "raw" || fields["dimension"] != "3" ||
-      (fields["endian"] != "little" && fields["type"] != "uint8"))
+  const std::string type = CanonicalNRRDType(fields["type"]);
+  if (itksys::SystemTools::LowerCase(fields["encoding"]) != "raw" || fields["dimension"] != "3" ||
+      (itksys::SystemTools::LowerCase(fields["endian"]) != "little" && type != TypeName<std::uint8_t>()))
   {
     FailToRead(path, "only raw, little-endian, three-dimensional lattice volumes are supported");
   }
-  const std::string & type = fields["type"];
   if (type == TypeName<std::uint8_t>())
   {
     return ReadSamples<std::uint8_t>(stream, fields, path);
@@ -327,7 +399,7 @@ ReadFCCImage(const fs::path & path)
   {
     return ReadSamples<float>(stream, fields, path);
   }
-  FailToRead(path, "its sample type '" + type + "' is none of uint8, int16, uint16, int32, float");
+  FailToRead(path, "its sample type '" + fields["type"] + "' is none of uint8, int16, uint16, int32, float");
 }
 
 bool
