@@ -20,6 +20,12 @@ namespace itk
  * other air); not-a-number is outside and counted. Triangles are counter-clockwise seen from outside, points are in LPS
  * mm. One output for each isovalue, in their order.
  *
+ * Pixels may be any integers from char to unsigned long long, float or double; for those of scans (uint8, int16,
+ * uint16, int32 and float) the filter is compiled in the library. Whether a sample is inside is exact for all types.
+ * Between samples, and for normals, differences from the isovalue count as float32 has them; those of 64-bit integers
+ * beyond 2^53 may be rounded to 0 before, as those of doubles below 1e-45 are: then points are still on the edges that
+ * are cut, but not where the values tell.
+ *
  * What is between the samples depends on the mode, see FCCIsosurfaceMode:
  * - Tetrahedra, Octahedra, Parallelepipeds: there is one point on each cut edge of the cells, where linear
  *   interpolation crosses the isovalue.
@@ -98,6 +104,9 @@ public:
   using PixelType = typename TInputImage::PixelType;
 
   static_assert(std::is_base_of<FCCImage<PixelType>, TInputImage>::value, "The input must be an FCCImage");
+  static_assert(std::is_arithmetic<PixelType>::value && !std::is_same<PixelType, bool>::value &&
+                  !std::is_same<PixelType, long double>::value,
+                "Pixels must be integers from char to unsigned long long, float or double");
 
   /** Nearest that a point comes to the ends of its edge, as a fraction of it. */
   static constexpr double MinimumFraction = 1.0 / 1024.0;

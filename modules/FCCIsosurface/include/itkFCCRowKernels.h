@@ -11,7 +11,8 @@ namespace itk
 /** \class FCCRowKernels
  * \brief The loops over rows of samples, compiled for several instruction sets; the best one the processor has runs.
  *
- * All results have the same bits whatever the instruction set: no sum depends on the width of a vector.
+ * All results have the same bits whatever the instruction set: no sum depends on the width of a vector. Pixels are of
+ * any type of integer from char to unsigned long long, of float or of double.
  *
  * Thread safety: the functions write nothing but what they are given.
  *
@@ -23,13 +24,14 @@ struct FCCRowKernels
    */
   static constexpr SizeValueType Block = 16;
 
-  /** One bit a value, from bit 0 of the first word on: is it at least \a isovalue, or with \a isBelow, is it less?
-   * Not-a-number is neither. Bits past the last value are zero. */
+  /** One bit a value, from bit 0 of the first word on: is it at least \a isovalue, which is finite, or with \a isBelow,
+   * is it less? That is exact for all types. Not-a-number is neither. Bits past the last value are zero. */
   template <typename TPixel>
   static void
   Classify(const TPixel * values, SizeValueType count, double isovalue, bool isBelow, std::uint64_t * words);
 
-  /** differences[i] = values[i] - isovalue, rounded once to float32. */
+  /** differences[i] = values[i] - isovalue, computed in float64 and rounded to float32: so integers of more than 53
+   * bits are rounded before. */
   template <typename TPixel>
   static void
   Subtract(const TPixel * values, SizeValueType count, double isovalue, float * differences);

@@ -11,6 +11,15 @@
 #include <limits>
 #include <type_traits>
 
+/** All types of pixels, each with a name for its functions. */
+#ifndef ITK_FCC_FOR_EACH_PIXEL_TYPE // this file includes itself
+#define ITK_FCC_FOR_EACH_PIXEL_TYPE(Apply)                                                                             \
+  Apply(Char, char) Apply(SignedChar, signed char) Apply(UnsignedChar, unsigned char) Apply(Short, short)              \
+    Apply(UnsignedShort, unsigned short) Apply(Int, int) Apply(UnsignedInt, unsigned int) Apply(Long, long)            \
+      Apply(UnsignedLong, unsigned long) Apply(LongLong, long long) Apply(UnsignedLongLong, unsigned long long)        \
+        Apply(Float, float) Apply(Double, double)
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace itk
 {
@@ -21,18 +30,33 @@ namespace
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+/** Highway's type of lane for a type of pixel; char and long long are none. */
+template <typename TPixel, bool VIsInteger = std::is_integral_v<TPixel>>
+struct LaneOf
+{
+  using Type = TPixel;
+};
+
+template <typename TPixel>
+struct LaneOf<TPixel, true>
+{
+  using Type = std::
+    conditional_t<std::is_signed_v<TPixel>, hwy::SignedFromSize<sizeof(TPixel)>, hwy::UnsignedFromSize<sizeof(TPixel)>>;
+};
+
 /** The bits of 64 values. Highway orders integers by less-than alone; for them at-least is its complement. */
 template <typename TPixel>
 HWY_ATTR std::uint64_t
 ClassifyWord(const TPixel * values, TPixel threshold, bool isBelow)
 {
-  const hn::ScalableTag<TPixel> tag;
+  using Lane = typename LaneOf<TPixel>::Type;
+  const hn::ScalableTag<Lane> tag;
   const std::size_t lanes = hn::Lanes(tag);
-  const auto limit = hn::Set(tag, threshold);
+  const auto limit = hn::Set(tag, static_cast<Lane>(threshold));
   std::uint64_t word = 0;
   for (std::size_t lane = 0; lane < 64; lane += lanes)
   {
-    const auto value = hn::LoadU(tag, values + lane);
+    const auto value = hn::LoadU(tag, reinterpret_cast<const Lane *>(values + lane));
     auto mask = hn::Lt(value, limit);
     if constexpr (!std::is_integral_v<TPixel>)
     {
@@ -92,11 +116,7 @@ SubtractRow(const TPixel * values, std::size_t count, double isovalue, float * H
     SubtractRow(values, count, isovalue, differences);                                                                 \
   }
 
-ITK_FCC_PIXEL_KERNELS(UInt8, std::uint8_t)
-ITK_FCC_PIXEL_KERNELS(Int16, std::int16_t)
-ITK_FCC_PIXEL_KERNELS(UInt16, std::uint16_t)
-ITK_FCC_PIXEL_KERNELS(Int32, std::int32_t)
-ITK_FCC_PIXEL_KERNELS(Float, float)
+ITK_FCC_FOR_EACH_PIXEL_TYPE(ITK_FCC_PIXEL_KERNELS)
 #undef ITK_FCC_PIXEL_KERNELS
 
 HWY_ATTR void
@@ -151,16 +171,11 @@ namespace itk
 namespace
 {
 
-HWY_EXPORT(ClassifyUInt8);
-HWY_EXPORT(ClassifyInt16);
-HWY_EXPORT(ClassifyUInt16);
-HWY_EXPORT(ClassifyInt32);
-HWY_EXPORT(ClassifyFloat);
-HWY_EXPORT(SubtractUInt8);
-HWY_EXPORT(SubtractInt16);
-HWY_EXPORT(SubtractUInt16);
-HWY_EXPORT(SubtractInt32);
-HWY_EXPORT(SubtractFloat);
+#define ITK_FCC_EXPORT_PIXEL_KERNELS(Name, Pixel)                                                                      \
+  HWY_EXPORT(Classify##Name);                                                                                          \
+  HWY_EXPORT(Subtract##Name);
+ITK_FCC_FOR_EACH_PIXEL_TYPE(ITK_FCC_EXPORT_PIXEL_KERNELS)
+#undef ITK_FCC_EXPORT_PIXEL_KERNELS
 HWY_EXPORT(QuasiInterpolateRow);
 HWY_EXPORT(GradientBlock);
 
@@ -175,18 +190,18 @@ FindThreshold(double isovalue, TPixel & threshold)
     threshold = Limits::lowest();
     return true;
   }
-  if (isovalue > static_cast<double>(Limits::max()))
-  {
-    threshold = Limits::infinity();
-    return Limits::has_infinity;
-  }
   if constexpr (std::is_integral_v<TPixel>)
   {
-    threshold = static_cast<TPixel>(std::ceil(isovalue));
+    const double next = std::ceil(isovalue);
+    if (next >= std::ldexp(1.0, Limits::digits)) // one more than the greatest, which as a double might be rounded up
+    {
+      return false;
+    }
+    threshold = static_cast<TPixel>(next);
   }
   else
   {
-    threshold = static_cast<TPixel>(isovalue);
+    threshold = isovalue > static_cast<double>(Limits::max()) ? Limits::infinity() : static_cast<TPixel>(isovalue);
     if (static_cast<double>(threshold) < isovalue)
     {
       threshold = std::nextafter(threshold, Limits::infinity());
@@ -229,11 +244,7 @@ ClassifyAll(SizeValueType count, bool inside, std::uint64_t * words)
     HWY_DYNAMIC_DISPATCH(Subtract##Name)(values, count, isovalue, differences);                                        \
   }
 
-ITK_FCC_PIXEL_KERNELS(UInt8, std::uint8_t)
-ITK_FCC_PIXEL_KERNELS(Int16, std::int16_t)
-ITK_FCC_PIXEL_KERNELS(UInt16, std::uint16_t)
-ITK_FCC_PIXEL_KERNELS(Int32, std::int32_t)
-ITK_FCC_PIXEL_KERNELS(Float, float)
+ITK_FCC_FOR_EACH_PIXEL_TYPE(ITK_FCC_PIXEL_KERNELS)
 #undef ITK_FCC_PIXEL_KERNELS
 
 void
