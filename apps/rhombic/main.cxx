@@ -10,6 +10,8 @@
 #include <iostream>
 #include <new>
 
+#include <sys/resource.h>
+
 namespace
 {
 
@@ -45,6 +47,18 @@ constexpr char exitCodes[] = "Exit codes:\n"
                              "  9   not enough memory\n"
                              "  10  this machine can't draw (see rhombic doctor)";
 
+/** Lets the process open as many files as the system allows it: each output keeps one open until all appear. */
+void
+RaiseFileLimit()
+{
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) == 0)
+  {
+    limit.rlim_cur = limit.rlim_max;
+    setrlimit(RLIMIT_NOFILE, &limit);
+  }
+}
+
 int
 Fail(Console & console, FailureKind kind, const std::string & sentence)
 {
@@ -59,6 +73,7 @@ main(int argc, char ** argv)
 {
   setenv("EGL_LOG_LEVEL", "fatal", 0); // Mesa would warn of missing drivers beside our own sentence
   RemoveTemporaryFilesOnSignals();
+  RaiseFileLimit();
   Console console;
   CLI::App app{ std::string("Rhombic: ") + RHOMBIC_DESCRIPTION, "rhombic" };
   app.footer(exitCodes);

@@ -172,6 +172,63 @@ TEST(AtomicFile, FlushedBeforeItAppears)
   EXPECT_EQ(Read(folder.Path() / "a.png"), "new");
 }
 
+TEST(StagedFiles, AppearTogether)
+{
+  const rhombictest::TemporaryFolder folder;
+  Write(folder.Path() / "b", "older");
+  rhombic::StagedFiles staged;
+  for (const char * const name : { "a", "b" })
+  {
+    AtomicFile & file = staged.Begin(folder.Path() / name);
+    Write(file.GetTemporaryPath(), name);
+    file.Flush(1);
+  }
+  EXPECT_FALSE(fs::exists(folder.Path() / "a"));
+  EXPECT_EQ(Read(folder.Path() / "b"), "older");
+  staged.Commit();
+  EXPECT_EQ(Read(folder.Path() / "a"), "a");
+  EXPECT_EQ(Read(folder.Path() / "b"), "b");
+  EXPECT_EQ(FilesIn(folder.Path()), 2u);
+}
+
+TEST(StagedFiles, AreGoneWithoutCommit)
+{
+  const rhombictest::TemporaryFolder folder;
+  {
+    rhombic::StagedFiles staged;
+    AtomicFile & file = staged.Begin(folder.Path() / "a");
+    Write(file.GetTemporaryPath(), "a");
+    file.Flush(1);
+    EXPECT_THROW(staged.Begin(folder.Path() / "missing" / "b"), Failure);
+  }
+  EXPECT_EQ(FilesIn(folder.Path()), 0u);
+}
+
+TEST(StagedFiles, TellWhatWasReplacedBeforeAFailure)
+{
+  const rhombictest::TemporaryFolder folder;
+  rhombic::StagedFiles staged;
+  for (const char * const name : { "first", "second" })
+  {
+    AtomicFile & file = staged.Begin(folder.Path() / name);
+    Write(file.GetTemporaryPath(), name);
+    file.Flush(1);
+  }
+  fs::create_directories(folder.Path() / "second" / "occupied");
+  try
+  {
+    staged.Commit();
+    FAIL() << "a folder can't be replaced";
+  }
+  catch (const Failure & failure)
+  {
+    const std::string text = failure.GetDescription();
+    EXPECT_NE(text.find("second"), std::string::npos) << text;
+    EXPECT_NE(text.find("already in place: " + (folder.Path() / "first").string()), std::string::npos) << text;
+  }
+  EXPECT_EQ(Read(folder.Path() / "first"), "first");
+}
+
 TEST(AtomicFile, GoesWithTheProcessThatASignalEnds)
 {
   const rhombictest::TemporaryFolder folder;

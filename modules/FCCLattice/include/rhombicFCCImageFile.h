@@ -10,6 +10,8 @@
 namespace rhombic
 {
 
+class StagedFiles;
+
 /** An FCC image of any of the pixel types that scans have. */
 using FCCVolume = std::variant<itk::FCCImage<std::uint8_t>::Pointer,
                                itk::FCCImage<std::int16_t>::Pointer,
@@ -23,6 +25,10 @@ using FCCVolume = std::variant<itk::FCCImage<std::uint8_t>::Pointer,
  * is not finite. Thread safe for different paths. */
 void
 WriteFCCImage(const FCCVolume & volume, const std::filesystem::path & path);
+
+/** As WriteFCCImage(), but the file appears with all others of \a staged. */
+void
+StageFCCImage(const FCCVolume & volume, const std::filesystem::path & path, StagedFiles & staged);
 
 /** Reads what WriteFCCImage() wrote, bit for bit, and such files from other programs (see there). Throws
  * Failure(NotFound) when there is no such file, and Failure(Unreadable) when it is damaged, too short, or not a volume

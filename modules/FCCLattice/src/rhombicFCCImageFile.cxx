@@ -335,10 +335,10 @@ ReadSamples(std::istream & stream, Fields & fields, const fs::path & path)
 } // namespace
 
 void
-WriteFCCImage(const FCCVolume & volume, const fs::path & path)
+StageFCCImage(const FCCVolume & volume, const fs::path & path, StagedFiles & staged)
 {
   std::visit([&path](const auto & image) { VerifyImage(image.GetPointer(), path); }, volume);
-  AtomicFile file(path);
+  AtomicFile & file = staged.Begin(path);
   std::size_t size = 0;
   std::visit(
     [&](const auto & image) {
@@ -356,7 +356,15 @@ WriteFCCImage(const FCCVolume & volume, const fs::path & path)
       size = header.size() + bytes;
     },
     volume);
-  file.Commit(size);
+  file.Flush(size);
+}
+
+void
+WriteFCCImage(const FCCVolume & volume, const fs::path & path)
+{
+  StagedFiles staged;
+  StageFCCImage(volume, path, staged);
+  staged.Commit();
 }
 
 FCCVolume

@@ -1,6 +1,7 @@
 #ifndef rhombicPictureIO_h
 #define rhombicPictureIO_h
 
+#include "rhombicAtomicFile.h"
 #include "rhombicPicture.h"
 
 #include <filesystem>
@@ -28,6 +29,13 @@ CheckPicturePath(const std::filesystem::path & path);
  * written or does not hold what it should. Thread safe for different paths. */
 void
 WritePicture(const Picture & picture, const std::filesystem::path & path, const PictureMetadata & metadata);
+
+/** As WritePicture(), but the file appears with all others of \a staged. */
+void
+StagePicture(const Picture & picture,
+             const std::filesystem::path & path,
+             StagedFiles & staged,
+             const PictureMetadata & metadata);
 
 /** Reads a picture as 8-bit sRGB. Grey becomes three equal channels, an alpha channel is dropped, and the linear light
  * of EXR is encoded.

@@ -193,7 +193,7 @@ CheckPicturePath(const fs::path & path)
 }
 
 void
-WritePicture(const Picture & picture, const fs::path & path, const PictureMetadata & metadata)
+StagePicture(const Picture & picture, const fs::path & path, StagedFiles & staged, const PictureMetadata & metadata)
 {
   const PictureFormat format = FormatOf(path);
   if (!HasAllPixels(picture))
@@ -201,14 +201,22 @@ WritePicture(const Picture & picture, const fs::path & path, const PictureMetada
     throw Failure(FailureKind::Usage, "Cannot write the picture " + path.string() + ": it lacks pixels.");
   }
   SilenceOpenImageIO();
-  AtomicFile file(path);
+  AtomicFile & file = staged.Begin(path);
   const std::string error = WriteFile(picture, file.GetTemporaryPath(), format, metadata);
   if (!error.empty())
   {
     FailWriting(path, error);
   }
   VerifyFile(picture, file.GetTemporaryPath(), format, path);
-  file.Commit(SmallestFile);
+  file.Flush(SmallestFile);
+}
+
+void
+WritePicture(const Picture & picture, const fs::path & path, const PictureMetadata & metadata)
+{
+  StagedFiles staged;
+  StagePicture(picture, path, staged, metadata);
+  staged.Commit();
 }
 
 Picture

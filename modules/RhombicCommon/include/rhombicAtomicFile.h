@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <vector>
 
 namespace rhombic
 {
@@ -36,22 +38,51 @@ public:
     return m_Temporary;
   }
 
-  /** The first half of Commit(), all that takes time or may fail for want of space: for files that belong together and
-   * shall appear at nearly the same moment. */
+  /** Checks the file's size and flushes it to the disk: all that takes time or may fail for want of space. Libraries'
+   * writers may report success on a full disk, so the caller gives the smallest size in bytes that a complete file has.
+   * Throws Failure(Output) when the file is smaller or can't be flushed. */
   void
   Flush(std::uintmax_t minimumSize);
 
-  /** Publishes the file. Libraries' writers may report success on a full disk, so the size in bytes that a complete
-   * file has at least is given by the caller. Throws Failure(Output) when the file is smaller or can't be flushed or
-   * renamed. */
+  /** Flushes the file and renames it over the target. Throws Failure(Output). */
   void
   Commit(std::uintmax_t minimumSize);
 
 private:
+  friend class StagedFiles;
+
+  void
+  Rename();
+
   std::filesystem::path m_Target;
   std::filesystem::path m_Temporary;
   int m_Descriptor = -1; ///< holds the lock
-  bool m_IsFlushed = false;
+};
+
+/** \class StagedFiles
+ * \brief The output files of one command, which appear together or not at all.
+ *
+ * Writers add a file with Begin(), write it and flush it. Commit() renames all of them over their targets, in the order
+ * in which they were added; by then everything that needs space on the disk is done. Without Commit() the destructor
+ * removes all of them, and the targets stay as they were.
+ *
+ * Each file keeps a file descriptor open until Commit().
+ *
+ * Thread safety: one thread per object. */
+class StagedFiles
+{
+public:
+  /** A new file for a target, to be written and flushed. Throws as AtomicFile's constructor does. */
+  AtomicFile &
+  Begin(const std::filesystem::path & target);
+
+  /** Renames all files. Throws Failure(Output) at the first that can't be renamed; the sentence names the targets that
+   * were replaced before it. Files that were not flushed must not be committed. */
+  void
+  Commit();
+
+private:
+  std::vector<std::unique_ptr<AtomicFile>> m_Files;
 };
 
 /** From now on SIGINT, SIGTERM and SIGHUP remove the temporary files of all AtomicFiles before they end the process as

@@ -55,7 +55,7 @@ ExtensionOf(const fs::path & path)
 
 /** Names of temporary files where a signal handler can find them: it may neither lock nor allocate. Files beyond the
  * number of places are simply not listed. */
-constexpr std::size_t listedFiles = 64;
+constexpr std::size_t listedFiles = 4096;
 std::atomic<const char *> temporaryFiles[listedFiles];
 
 void
@@ -231,16 +231,18 @@ AtomicFile::Flush(std::uintmax_t minimumSize)
   {
     Fail(m_Target, std::string(std::strerror(errno)) + " while flushing it to the disk");
   }
-  m_IsFlushed = true;
 }
 
 void
 AtomicFile::Commit(std::uintmax_t minimumSize)
 {
-  if (!m_IsFlushed)
-  {
-    this->Flush(minimumSize);
-  }
+  this->Flush(minimumSize);
+  this->Rename();
+}
+
+void
+AtomicFile::Rename()
+{
   std::error_code error;
   fs::rename(m_Temporary, m_Target, error);
   if (error)
@@ -250,6 +252,36 @@ AtomicFile::Commit(std::uintmax_t minimumSize)
   Unlist(m_Temporary);
   m_Temporary.clear();
   FlushToDisk(FolderOf(m_Target), O_RDONLY | O_DIRECTORY);
+}
+
+AtomicFile &
+StagedFiles::Begin(const fs::path & target)
+{
+  m_Files.push_back(std::make_unique<AtomicFile>(target));
+  return *m_Files.back();
+}
+
+void
+StagedFiles::Commit()
+{
+  std::string replaced;
+  for (const auto & file : m_Files)
+  {
+    const std::string target = file->m_Target.string();
+    try
+    {
+      file->Rename();
+    }
+    catch (const Failure & failure)
+    {
+      throw replaced.empty()
+        ? failure
+        : Failure(FailureKind::Output,
+                  std::string(failure.GetDescription()) + " Files of this run are already in place: " + replaced + ".");
+    }
+    replaced += (replaced.empty() ? "" : ", ") + target;
+  }
+  m_Files.clear();
 }
 
 void

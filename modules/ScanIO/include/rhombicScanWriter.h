@@ -1,6 +1,7 @@
 #ifndef rhombicScanWriter_h
 #define rhombicScanWriter_h
 
+#include "rhombicAtomicFile.h"
 #include "rhombicScan.h"
 
 #include <filesystem>
@@ -18,6 +19,10 @@ CheckScanPath(const std::filesystem::path & path);
  */
 void
 WriteScan(const ScanImage & image, const std::filesystem::path & path);
+
+/** As WriteScan(), but the file appears with all others of \a staged. */
+void
+StageScan(const ScanImage & image, const std::filesystem::path & path, StagedFiles & staged);
 
 } // namespace rhombic
 

@@ -102,10 +102,10 @@ CheckScanPath(const fs::path & path)
 }
 
 void
-WriteScan(const ScanImage & image, const fs::path & path)
+StageScan(const ScanImage & image, const fs::path & path, StagedFiles & staged)
 {
   CheckScanPath(path);
-  AtomicFile file(path);
+  AtomicFile & file = staged.Begin(path);
   std::visit(
     [&](const auto & pixels) {
       WriteImage(*pixels, file.GetTemporaryPath(), path);
@@ -128,7 +128,15 @@ WriteScan(const ScanImage & image, const fs::path & path)
     },
     image);
   constexpr std::uintmax_t smallestHeader = 64;
-  file.Commit(smallestHeader);
+  file.Flush(smallestHeader);
+}
+
+void
+WriteScan(const ScanImage & image, const fs::path & path)
+{
+  StagedFiles staged;
+  StageScan(image, path, staged);
+  staged.Commit();
 }
 
 } // namespace rhombic

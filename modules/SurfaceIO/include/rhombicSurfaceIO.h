@@ -1,6 +1,7 @@
 #ifndef rhombicSurfaceIO_h
 #define rhombicSurfaceIO_h
 
+#include "rhombicAtomicFile.h"
 #include "rhombicSceneSurface.h"
 
 #include <filesystem>
@@ -61,6 +62,13 @@ SurfaceFilesOf(const std::filesystem::path & path);
 void
 WriteSurfaces(const std::vector<SceneSurface> & surfaces,
               const std::filesystem::path & path,
+              const SurfaceFileSettings & settings = {});
+
+/** As WriteSurfaces(), but the files appear with all others of \a staged. */
+void
+StageSurfaces(const std::vector<SceneSurface> & surfaces,
+              const std::filesystem::path & path,
+              StagedFiles & staged,
               const SurfaceFileSettings & settings = {});
 
 /** Reads surfaces in LPS millimetres from a file of the formats above, by this or other programs, binary or text. What

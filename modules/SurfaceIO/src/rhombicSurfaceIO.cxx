@@ -187,15 +187,6 @@ ReadBack(const std::vector<SceneSurface> & surfaces,
   return read;
 }
 
-void
-WriteMaterials(const std::vector<SceneSurface> & surfaces, AtomicFile & file, const fs::path & target)
-{
-  OutputFile output(file.GetTemporaryPath(), target);
-  WriteMTL(surfaces, output);
-  output.Close();
-  file.Flush(1);
-}
-
 fs::path
 MaterialsOf(const fs::path & path)
 {
@@ -203,12 +194,27 @@ MaterialsOf(const fs::path & path)
 }
 
 void
-Write(const std::vector<SceneSurface> & surfaces,
+StageMaterials(const std::vector<SceneSurface> & surfaces, const fs::path & path, StagedFiles & staged)
+{
+  AtomicFile & file = staged.Begin(path);
+  OutputFile output(file.GetTemporaryPath(), path);
+  WriteMTL(surfaces, output);
+  output.Close();
+  file.Flush(1);
+}
+
+void
+Stage(const std::vector<SceneSurface> & surfaces,
       const SurfaceFormat & format,
       const fs::path & path,
-      const SurfaceFileSettings & settings)
+      const SurfaceFileSettings & settings,
+      StagedFiles & staged)
 {
-  AtomicFile file(path);
+  if (format.hasMaterials)
+  {
+    StageMaterials(surfaces, MaterialsOf(path), staged); // first: an OBJ file that appears finds its materials
+  }
+  AtomicFile & file = staged.Begin(path);
   OutputFile output(file.GetTemporaryPath(), path);
   format.write(surfaces, settings.space, output);
   output.Close();
@@ -218,15 +224,6 @@ Write(const std::vector<SceneSurface> & surfaces,
     settings.inspect(read);
   }
   file.Flush(1);
-  if (format.hasMaterials)
-  {
-    // First the materials: a file that appears finds its own. If the process ends in between, the older file stays.
-    const fs::path materialsPath = MaterialsOf(path);
-    AtomicFile materials(materialsPath);
-    WriteMaterials(surfaces, materials, materialsPath);
-    materials.Commit(1);
-  }
-  file.Commit(1);
 }
 
 } // namespace
@@ -271,11 +268,22 @@ SurfaceFilesOf(const fs::path & path)
 }
 
 void
-WriteSurfaces(const std::vector<SceneSurface> & surfaces, const fs::path & path, const SurfaceFileSettings & settings)
+StageSurfaces(const std::vector<SceneSurface> & surfaces,
+              const fs::path & path,
+              StagedFiles & staged,
+              const SurfaceFileSettings & settings)
 {
   CheckSurfacePath(path, surfaces.size());
   CheckSurfaces(surfaces, path);
-  Write(WithFileNames(surfaces), FormatOf(path, "write"), path, settings);
+  Stage(WithFileNames(surfaces), FormatOf(path, "write"), path, settings, staged);
+}
+
+void
+WriteSurfaces(const std::vector<SceneSurface> & surfaces, const fs::path & path, const SurfaceFileSettings & settings)
+{
+  StagedFiles staged;
+  StageSurfaces(surfaces, path, staged, settings);
+  staged.Commit();
 }
 
 std::vector<SceneSurface>
