@@ -26,10 +26,12 @@ struct MeshScanSettings
   Provenance provenance;
 };
 
-/** Writes surfaces of a scan; returns the files' paths. Each surface is measured as it was extracted; how far it is
- * from the scan's isosurface, and its audit, are those of the file, read back. Notes say both, and sidecars all of it.
+/** Writes surfaces of a scan; returns the files' paths. Volume, area and all other measures, the distance from the
+ * scan's isosurface and the audit are those of the file, read back; what finishing changed since extraction is told
+ * beside them. Notes hold the main figures, sidecars and the table all of them. All files appear together at the end,
+ * or none does.
  *
- * Throws Failure, also when a surface is not watertight and has to be: then there is no file. Thread safe for different
+ * Throws Failure, also when a surface is not watertight and has to be. Thread safe for different
  * outputs. */
 std::vector<std::filesystem::path>
 MeshScan(const MeshScanSettings & settings, const Events & events);

@@ -1,6 +1,7 @@
 #ifndef rhombicSidecar_h
 #define rhombicSidecar_h
 
+#include "rhombicAtomicFile.h"
 #include "rhombicScanReport.h"
 
 #include <filesystem>
@@ -29,10 +30,16 @@ SidecarOf(const std::filesystem::path & output);
 std::vector<std::filesystem::path>
 WithSidecars(std::vector<std::filesystem::path> outputs, const Provenance & provenance);
 
-/** Writes what is known about an output beside it, if the provenance says so. Throws Failure(Output). Thread safe for
- * different outputs. */
+/** Writes the report of an output, to appear beside it, if the provenance says so. Throws Failure(Output). */
 void
-WriteSidecar(const std::filesystem::path & output, const Provenance & provenance, const Report & report);
+StageSidecar(const std::filesystem::path & output,
+             const Provenance & provenance,
+             const Report & report,
+             StagedFiles & staged);
+
+/** Writes a text file, to appear with all others of \a staged. Throws Failure(Output). */
+void
+StageText(const std::string & text, const std::filesystem::path & path, StagedFiles & staged);
 
 } // namespace rhombic
 

@@ -5,6 +5,7 @@
 #include "rhombicScanReport.h"
 
 #include "itkTriangleSurface.h"
+#include "itkTriangleSurfaceSolids.h"
 
 #include <cstddef>
 #include <optional>
@@ -35,10 +36,31 @@ struct SurfaceFinish
 void
 CheckSurfaceFinish(const SurfaceFinish & finish);
 
-/** Removes parts of a surface. The report says how many went, and their volume; null when nothing was asked for.
- * Thread safe for different surfaces. */
+/** What RemoveParts() changed. Thread safety: a value. */
+struct PartRemoval
+{
+  itk::RemovedShells filled;  ///< cavities, and the solids inside them
+  itk::RemovedShells removed; ///< solids with their cavities
+
+  bool
+  IsNothing() const
+  {
+    return filled.solids + filled.cavities + removed.solids + removed.cavities == 0;
+  }
+};
+
+/** Fills cavities and removes solids of a surface, as the settings say. Notes say what was filled and removed, with its
+ * volume. Thread safe for different surfaces.
+ * \param name of the surface, for messages */
+PartRemoval
+RemoveParts(itk::TriangleSurface & surface,
+            const SurfaceFinish & finish,
+            const std::string & name,
+            const Events & events);
+
+/** Numbers of shells, and volumes in ml. */
 Report
-RemoveParts(itk::TriangleSurface & surface, const SurfaceFinish & finish);
+ReportPartRemoval(const PartRemoval & removal);
 
 /** Smooths a surface, moves points by a spacing of the lattice at most where triangles pass through each other
  * (itk::UntangleSurface()), simplifies it, which makes no triangles pass through each other, and turns specks that are

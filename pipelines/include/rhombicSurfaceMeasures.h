@@ -33,9 +33,9 @@ struct SurfaceMeasures
   /** What counting voxels comes to, in mm^3: an independent check of the volume. */
   std::optional<double> voxelVolume;
 
-  /** Whether the two volumes differ by more than 1 %: the structure is about as thin as the voxels. */
+  /** Whether volume and voxel volume differ by more than 1 %, as they do where parts are about as thin as a voxel. */
   bool
-  IsVolumeInDoubt() const;
+  DiffersFromVoxels() const;
 };
 
 /** Shape alone. */

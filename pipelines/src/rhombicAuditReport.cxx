@@ -26,6 +26,18 @@ MakeText(int decimals)
   return text;
 }
 
+/** Solids and cavities are known of closed surfaces only. */
+std::string
+DescribeParts(const itk::TriangleSurfaceAudit & audit)
+{
+  if (!audit.topology.IsWatertight())
+  {
+    return Count(audit.topology.components, "connected part", "connected parts");
+  }
+  return Count(audit.shells.solids, "solid", "solids") + " with " +
+         (audit.shells.cavities == 0 ? "no cavities" : Count(audit.shells.cavities, "cavity", "cavities"));
+}
+
 std::string
 DescribeIntersections(const itk::TriangleSurfaceIntersections & found)
 {
@@ -56,7 +68,9 @@ ReportAudit(const itk::TriangleSurfaceAudit & audit)
            { "misorientedEdges", topology.misorientedEdges },
            { "degenerateTriangles", topology.degenerateTriangles },
            { "duplicateTriangles", topology.duplicateTriangles },
-           { "misfacingShells", audit.misfacingShells },
+           { "solids", audit.shells.solids },
+           { "cavities", audit.shells.cavities },
+           { "misfacingShells", audit.shells.misfacing },
            { "repeatedPositions", topology.repeatedPositions },
            { "nonFinitePoints", topology.nonFinitePoints },
            { "unusedPoints", topology.unusedPoints },
@@ -80,9 +94,8 @@ DescribeAudit(const itk::TriangleSurfaceAudit & audit)
   const auto & topology = audit.topology;
   auto shape = MakeText(1);
   shape << Count(audit.triangles, "triangle", "triangles") << ", " << Count(audit.points, "point", "points") << ", "
-        << Count(topology.components, "component", "components") << ", Euler characteristic "
-        << topology.eulerCharacteristic << ", genus " << topology.genus << ", " << audit.volume / 1000.0 << " ml, "
-        << audit.area / 100.0 << " cm2";
+        << DescribeParts(audit) << ", Euler characteristic " << topology.eulerCharacteristic << ", genus "
+        << topology.genus << ", " << audit.volume / 1000.0 << " ml, " << audit.area / 100.0 << " cm2";
   auto quality = MakeText(2);
   quality << "triangles: quality " << audit.quality.mean << " on average, " << 100.0 * audit.quality.poorFraction
           << " % below " << itk::TriangleSurfaceQuality::Poor << ", smallest angle " << audit.quality.smallestAngle
@@ -117,7 +130,7 @@ DescribeLeaks(const itk::TriangleSurfaceAudit & audit)
       { topology.duplicateTriangles, { "duplicate triangle", "duplicate triangles" } },
       { topology.nonFinitePoints,
         { "point that is nowhere (NaN or infinite)", "points that are nowhere (NaN or infinite)" } },
-      { audit.misfacingShells, { "shell that faces the wrong way", "shells that face the wrong way" } } }
+      { audit.shells.misfacing, { "shell that faces the wrong way", "shells that face the wrong way" } } }
   };
   std::string text;
   for (const auto & [number, names] : defects)

@@ -230,7 +230,7 @@ ReportLabelSurfaces(const std::vector<LabelSurface> & surfaces)
                        { "name", surface.scene.name },
                        { "voxels", surface.numberOfVoxels },
                        { "voxelVolumeInMillilitres", surface.voxelMillilitres },
-                       { "surfaceVolumeInMillilitres", surface.surfaceMillilitres },
+                       { "volumeAsExtractedInMillilitres", surface.surfaceMillilitres },
                        { "volumeDifference", surface.GetVolumeDifference() },
                        { "pieces", surface.pieces },
                        { "surfacePieces", surface.surfacePieces },

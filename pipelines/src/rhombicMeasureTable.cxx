@@ -1,9 +1,8 @@
 #include "rhombicMeasureTable.h"
 
-#include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
+#include "rhombicSidecar.h"
 
-#include <fstream>
 #include <string>
 
 namespace fs = std::filesystem;
@@ -25,7 +24,7 @@ constexpr Column columns[] = {
   { "inside", "/inside" },
   { "volume (ml)", "/measures/volumeInMillilitres" },
   { "voxel volume (ml)", "/measures/voxelVolumeInMillilitres" },
-  { "volumes differ", "/measures/volumesDiffer" },
+  { "differs from voxels by over 1 %", "/measures/differsFromVoxels" },
   { "area (mm2)", "/measures/areaInSquareMillimetres" },
   { "x min (mm)", "/measures/boundsInMillimetres/0" },
   { "x max (mm)", "/measures/boundsInMillimetres/1" },
@@ -40,6 +39,11 @@ constexpr Column columns[] = {
   { "mean value", "/measures/meanValue" },
   { "standard deviation", "/measures/standardDeviation" },
   { "triangles", "/triangles" },
+  { "volume as extracted (ml)", "/extracted/volumeInMillilitres" },
+  { "area as extracted (mm2)", "/extracted/areaInSquareMillimetres" },
+  { "triangles as extracted", "/extracted/triangles" },
+  { "volume change by finishing (%)", "/extracted/volumeChangeInPercent" },
+  { "area change by finishing (%)", "/extracted/areaChangeInPercent" },
   { "mean deviation (mm)", "/deviation/meanInMillimetres" },
   { "95 % deviation (mm)", "/deviation/percentile95InMillimetres" },
   { "largest deviation (mm)", "/deviation/maximumInMillimetres" },
@@ -96,13 +100,10 @@ CheckMeasureTablePath(const fs::path & path)
 }
 
 void
-WriteMeasureTable(const Report & surfaces, const fs::path & path)
+StageMeasureTable(const Report & surfaces, const fs::path & path, StagedFiles & staged)
 {
   CheckMeasureTablePath(path);
-  const std::string text = path.extension() == ".csv" ? ToCSV(surfaces) : ToJson(surfaces) + '\n';
-  AtomicFile file(path);
-  std::ofstream(file.GetTemporaryPath(), std::ios::binary) << text;
-  file.Commit(text.size());
+  StageText(path.extension() == ".csv" ? ToCSV(surfaces) : ToJson(surfaces) + '\n', path, staged);
 }
 
 } // namespace rhombic

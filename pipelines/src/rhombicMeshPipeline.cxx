@@ -8,7 +8,10 @@
 #include "rhombicSurfaceDeviation.h"
 #include "rhombicSurfaceMeasures.h"
 
+#include "itkTriangleSurfaceMeasures.h"
+
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <iterator>
 #include <optional>
@@ -22,13 +25,24 @@ namespace rhombic
 namespace
 {
 
+/** A surface as it was extracted, before it is finished. */
+struct ExtractedSize
+{
+  double volume; ///< mm^3
+  double area;   ///< mm^2
+  itk::SizeValueType triangles;
+};
+
 /** A surface on its way from the scan to a file. */
 struct MeshedSurface
 {
   SceneSurface scene;
   std::optional<SurfaceRequest> request; ///< of isosurfaces
   Report report;
-  std::optional<double> voxelVolume; ///< of labels, in mm^3
+  std::optional<double> labelVolume; ///< of a label's voxels, in mm^3
+  ExtractedSize extracted{};
+  double volumeOfKeptParts = 0.0; ///< in mm^3, as extracted
+  bool isWhole = true;            ///< no part of it was removed or filled
 };
 
 constexpr char NamePlace[] = "{name}";
@@ -66,47 +80,6 @@ PathsOf(const fs::path & mesh, const std::vector<MeshedSurface> & surfaces)
     paths.push_back(mesh.parent_path() / file);
   }
   return paths;
-}
-
-/** Volume, area and the like of a surface as it was extracted. Where parts are left out, it is not known which voxels
- * are theirs. */
-SurfaceMeasures
-Measure(const MeshedSurface & surface, const std::optional<Scan> & scan, bool isWhole)
-{
-  SurfaceMeasures measures =
-    scan ? MeasureSurface(*surface.scene.surface, *scan) : MeasureSurface(*surface.scene.surface);
-  measures.voxelVolume.reset();
-  if (isWhole && !surface.request)
-  {
-    measures.voxelVolume = surface.voxelVolume;
-  }
-  else if (isWhole && scan && surface.request->parts == SurfaceRequest::Parts::All)
-  {
-    measures.voxelVolume = CountVoxelVolume(*scan, *surface.request->isovalue, surface.request->side);
-  }
-  return measures;
-}
-
-/** One line about a surface for the person at the keyboard. */
-std::string
-Summarize(const MeshedSurface & surface, const SurfaceMeasures & measures)
-{
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::fixed << std::setprecision(1);
-  text << surface.scene.name << ": " << measures.volume / 1000.0 << " ml";
-  if (measures.voxelVolume)
-  {
-    text << " (voxels: " << *measures.voxelVolume / 1000.0 << " ml, difference " << std::showpos << std::setprecision(2)
-         << 100.0 * (measures.volume / *measures.voxelVolume - 1.0) << std::setprecision(1) << std::noshowpos << " %"
-         << (measures.IsVolumeInDoubt() ? ", in doubt" : "") << ")";
-  }
-  text << ", " << measures.area / 100.0 << " cm2, longest diameter " << measures.longestDiameter << " mm";
-  if (measures.meanValue)
-  {
-    text << ", mean value " << *measures.meanValue;
-  }
-  return text.str();
 }
 
 /** The surfaces of a source as they were extracted. */
@@ -154,54 +127,42 @@ SpacingOf(const LoadedSource & loaded)
   return MeanSpacingOf(GeometryOf(loaded.labels->scan.image));
 }
 
-/** Removes parts, measures what is left, then smooths and simplifies it. Returns whether anything is left. */
+/** Removes parts of a surface, smooths and simplifies it. Returns whether anything is left. */
 bool
-Finish(MeshedSurface & surface,
-       const std::optional<Scan> & scan,
-       const SurfaceFinish & finish,
-       double spacing,
-       const Events & events)
+Finish(MeshedSurface & surface, const SurfaceFinish & finish, double spacing, const Events & events)
 {
   const auto finished = itk::TriangleSurface::New();
   finished->Graft(surface.scene.surface);
   surface.scene.surface = finished;
-  const Report removed = RemoveParts(*finished, finish);
+  surface.extracted = { ComputeVolume(*finished), ComputeArea(*finished), finished->GetNumberOfTriangles() };
+  const PartRemoval removal = RemoveParts(*finished, finish, surface.scene.name, events);
   if (finished->GetNumberOfTriangles() == 0)
   {
     events.Note(surface.scene.name + ": left out, as all its parts are below --min-volume");
     return false;
   }
-  events.Progress("measuring " + surface.scene.name, 0.0);
-  const bool isWhole = removed.is_null() || removed["shellsBefore"] == removed["shellsAfter"];
-  const SurfaceMeasures measures = Measure(surface, scan, isWhole);
-  events.Note(Summarize(surface, measures));
-  surface.report["measures"] = ReportMeasures(measures);
-  if (!removed.is_null())
+  surface.isWhole = removal.IsNothing();
+  surface.volumeOfKeptParts = surface.extracted.volume - removal.filled.volume - removal.removed.volume;
+  if (!surface.isWhole)
   {
-    surface.report["parts"] = removed;
+    surface.report["parts"] = ReportPartRemoval(removal);
   }
   const Report refined = RefineSurface(*finished, finish, spacing, surface.scene.name, events);
   if (!refined.is_null())
   {
     surface.report.update(refined);
   }
-  surface.report["points"] = finished->GetNumberOfPoints();
-  surface.report["triangles"] = finished->GetNumberOfTriangles();
   return true;
 }
 
 /** Finishes surfaces, and drops those of which nothing is left. */
 void
-FinishAll(std::vector<MeshedSurface> & surfaces,
-          const std::optional<Scan> & scan,
-          const SurfaceFinish & finish,
-          double spacing,
-          const Events & events)
+FinishAll(std::vector<MeshedSurface> & surfaces, const SurfaceFinish & finish, double spacing, const Events & events)
 {
   std::vector<MeshedSurface> finished;
   for (MeshedSurface & surface : surfaces)
   {
-    if (Finish(surface, scan, finish, spacing, events))
+    if (Finish(surface, finish, spacing, events))
     {
       finished.push_back(std::move(surface));
     }
@@ -211,6 +172,47 @@ FinishAll(std::vector<MeshedSurface> & surfaces,
   {
     throw Failure(FailureKind::Empty, "Nothing is left: all parts are below --min-volume; lower it.");
   }
+}
+
+double
+PercentChange(double before, double after)
+{
+  return 100.0 * (after - before) / before;
+}
+
+/** The voxels that a surface encloses, in mm^3, counted without it; unknown where parts were left out. */
+std::optional<double>
+CountVoxels(const MeshedSurface & surface, const std::optional<Scan> & scan)
+{
+  if (!surface.isWhole)
+  {
+    return {};
+  }
+  if (surface.request && scan && surface.request->parts == SurfaceRequest::Parts::All)
+  {
+    return CountVoxelVolume(*scan, *surface.request->isovalue, surface.request->side);
+  }
+  return surface.labelVolume;
+}
+
+/** Volume, area and mean value, in one line. */
+std::string
+Summarize(const std::string & name, const SurfaceMeasures & measures)
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::fixed << std::setprecision(1);
+  text << name << ": " << measures.volume / CubicMillimetresPerMillilitre << " ml";
+  if (measures.voxelVolume)
+  {
+    text << " (its voxels: " << *measures.voxelVolume / CubicMillimetresPerMillilitre << " ml)";
+  }
+  text << ", " << measures.area / 100.0 << " cm2, longest diameter " << measures.longestDiameter << " mm";
+  if (measures.meanValue)
+  {
+    text << ", mean value " << *measures.meanValue;
+  }
+  return text.str();
 }
 
 /** Judges surfaces as a file holds them. */
@@ -223,21 +225,74 @@ public:
     , m_Events(events)
   {}
 
-  /** Adds to the surfaces' reports. Throws Failure(NotWatertight) for one that has to be watertight and is not. */
+  /** Measures a surface, and adds to its report. Throws Failure(NotWatertight) for one that has to be watertight and is
+   * not. */
   void
-  Inspect(const itk::TriangleSurface & read, MeshedSurface & surface, const fs::path & path) const
+  Inspect(const itk::TriangleSurface & read, MeshedSurface & surface) const
   {
+    this->Measure(read, surface);
     if (m_Scan && surface.request)
     {
       this->MeasureDeviation(read, surface);
     }
     if (m_Settings.audits || m_Settings.requiresWatertight)
     {
-      this->Audit(read, surface, path);
+      this->Audit(read, surface);
     }
   }
 
 private:
+  void
+  Measure(const itk::TriangleSurface & read, MeshedSurface & surface) const
+  {
+    const std::string & name = surface.scene.name;
+    m_Events.Progress("measuring " + name, 0.0);
+    SurfaceMeasures measures = m_Scan ? MeasureSurface(read, *m_Scan) : MeasureSurface(read);
+    measures.voxelVolume = CountVoxels(surface, m_Scan);
+    m_Events.Note(Summarize(name, measures));
+    this->NoteChanges(surface, measures);
+    surface.report["points"] = read.GetNumberOfPoints();
+    surface.report["triangles"] = read.GetNumberOfTriangles();
+    surface.report["measures"] = ReportMeasures(measures);
+    const ExtractedSize & extracted = surface.extracted;
+    surface.report["extracted"] = { { "volumeInMillilitres", extracted.volume / CubicMillimetresPerMillilitre },
+                                    { "areaInSquareMillimetres", extracted.area },
+                                    { "triangles", extracted.triangles },
+                                    { "volumeChangeInPercent", PercentChange(extracted.volume, measures.volume) },
+                                    { "areaChangeInPercent", PercentChange(extracted.area, measures.area) } };
+  }
+
+  /** Says where the volume is not that of the voxels, or not that of the surface before it was refined. */
+  void
+  NoteChanges(const MeshedSurface & surface, const SurfaceMeasures & measures) const
+  {
+    constexpr double notable = 1.0; // %
+    std::ostringstream note;
+    note.imbue(std::locale::classic());
+    note << std::fixed << std::setprecision(1);
+    const double change = PercentChange(surface.volumeOfKeptParts, measures.volume);
+    if (std::abs(change) > notable)
+    {
+      note << surface.scene.name << ": smoothing and simplification changed the volume by " << std::showpos << change
+           << std::noshowpos << " %, from " << surface.volumeOfKeptParts / CubicMillimetresPerMillilitre << " to "
+           << measures.volume / CubicMillimetresPerMillilitre
+           << " ml; a smaller --smooth or --max-error changes it less";
+    }
+    else if (measures.DiffersFromVoxels())
+    {
+      const double difference = PercentChange(*measures.voxelVolume, measures.volume);
+      note
+        << surface.scene.name << ": the volume is " << std::abs(difference) << " % "
+        << (difference > 0.0 ? "above" : "below")
+        << " that of the voxels, as where parts are about as thin as a voxel: neither volume is accurate; --density 2 "
+           "follows the values between the samples more closely";
+    }
+    if (!note.str().empty())
+    {
+      m_Events.Note(note.str());
+    }
+  }
+
   void
   MeasureDeviation(const itk::TriangleSurface & read, MeshedSurface & surface) const
   {
@@ -261,17 +316,19 @@ private:
     }
     else
     {
-      note << "at an unknown distance: no place of it is near that";
+      note << "at an unknown distance: it has no isosurface near this surface";
     }
     if (deviation.unresolved > 0)
     {
-      note << "; " << deviation.unresolved << " of " << deviation.samples << " places are not near it";
+      note << "; around " << deviation.unresolved << " of " << deviation.samples
+           << " measured points there is no isosurface within two voxels: small or thin parts may be wrong there, try "
+              "--density 2";
     }
     m_Events.Note(note.str());
   }
 
   void
-  Audit(const itk::TriangleSurface & read, MeshedSurface & surface, const fs::path & path) const
+  Audit(const itk::TriangleSurface & read, MeshedSurface & surface) const
   {
     m_Events.Progress("auditing " + surface.scene.name, 0.0);
     itk::TriangleSurfaceAuditSettings auditSettings;
@@ -285,8 +342,8 @@ private:
     if (m_Settings.requiresWatertight && !audit.IsWatertight())
     {
       throw Failure(FailureKind::NotWatertight,
-                    "The surface " + surface.scene.name + " is not watertight (" + DescribeLeaks(audit) + "), so " +
-                      path.string() + " was not written; leave out --require-watertight to have it all the same.");
+                    "The surface " + surface.scene.name + " is not watertight (" + DescribeLeaks(audit) +
+                      "), so nothing was written; leave out --require-watertight to have it all the same.");
     }
   }
 
@@ -297,12 +354,13 @@ private:
 
 /** Writes surfaces that follow each other as one file, with its sidecar. */
 void
-WriteFile(const fs::path & path,
+StageFile(const fs::path & path,
           MeshedSurface * begin,
           std::size_t count,
           const MeshScanSettings & settings,
           const FileInspection & inspection,
-          Report report)
+          Report report,
+          StagedFiles & staged)
 {
   std::vector<SceneSurface> scene;
   std::transform(begin, begin + count, std::back_inserter(scene), [](const auto & surface) { return surface.scene; });
@@ -311,16 +369,16 @@ WriteFile(const fs::path & path,
   file.inspect = [&](const std::vector<SceneSurface> & read) {
     for (std::size_t n = 0; n < count; ++n)
     {
-      inspection.Inspect(*read[n].surface, begin[n], path);
+      inspection.Inspect(*read[n].surface, begin[n]);
     }
   };
-  WriteSurfaces(scene, path, file);
+  StageSurfaces(scene, path, staged, file);
   report["surfaces"] = Report::array();
   for (std::size_t n = 0; n < count; ++n)
   {
     report["surfaces"].push_back(begin[n].report);
   }
-  WriteSidecar(path, settings.provenance, report);
+  StageSidecar(path, settings.provenance, report, staged);
 }
 
 /** Throws Failure where files can't be written, or would take the place of each other or of what was read. */
@@ -371,16 +429,17 @@ MeshScan(const MeshScanSettings & settings, const Events & events)
   loaded.lattice = FCCVolume();
   loaded.labels.reset();
   CheckFiles(PathsOf(settings.mesh, surfaces), settings);
-  FinishAll(surfaces, loaded.scan, settings.finish, spacing, events);
+  FinishAll(surfaces, settings.finish, spacing, events);
 
   const FileInspection inspection(settings, loaded.scan, events);
   const std::vector<fs::path> paths = PathsOf(settings.mesh, surfaces);
   const std::size_t perFile = HasFileForEach(settings.mesh) ? 1 : surfaces.size();
   CheckSurfacePath(paths.front(), perFile);
+  StagedFiles staged;
   for (std::size_t n = 0; n < paths.size(); ++n)
   {
     events.Progress("writing", static_cast<double>(n) / static_cast<double>(paths.size()));
-    WriteFile(paths[n], surfaces.data() + n * perFile, perFile, settings, inspection, loaded.report);
+    StageFile(paths[n], surfaces.data() + n * perFile, perFile, settings, inspection, loaded.report, staged);
   }
   if (!settings.measures.empty())
   {
@@ -389,8 +448,9 @@ MeshScan(const MeshScanSettings & settings, const Events & events)
     {
       table.push_back(surface.report);
     }
-    WriteMeasureTable(table, settings.measures);
+    StageMeasureTable(table, settings.measures, staged);
   }
+  staged.Commit();
   events.Progress("writing", 1.0);
   return paths;
 }

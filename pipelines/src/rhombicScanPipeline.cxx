@@ -107,6 +107,7 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
   renderer.CheckSettings(settings.render);
 
   const Scene scene = MakeScene(settings.source, settings.surfaces, events);
+  StagedFiles staged;
   for (std::size_t n = 0; n < pictures.size(); ++n)
   {
     events.Progress("rendering", static_cast<double>(n) / static_cast<double>(pictures.size()));
@@ -114,9 +115,10 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
     render.view = settings.views[n];
     render.orientationLabels = render.orientationLabels && scene.isOriented;
     const PictureMetadata metadata{ settings.provenance.software, settings.provenance.command };
-    WritePicture(renderer.Render(scene.surfaces, render), pictures[n], metadata);
-    WriteSidecar(pictures[n], settings.provenance, scene.report);
+    StagePicture(renderer.Render(scene.surfaces, render), pictures[n], staged, metadata);
+    StageSidecar(pictures[n], settings.provenance, scene.report, staged);
   }
+  staged.Commit();
   events.Progress("rendering", 1.0);
   return pictures;
 }
@@ -125,6 +127,7 @@ void
 ResampleScan(const ResampleScanSettings & settings, const Events & events)
 {
   CheckOutputs(WithSidecars({ settings.volume }, settings.provenance), { settings.source.path });
+  StagedFiles staged;
   if (IsFCCImageFile(settings.source.path))
   {
     CheckScanPath(settings.volume);
@@ -133,10 +136,11 @@ ResampleScan(const ResampleScanSettings & settings, const Events & events)
       DenoiseLattice(ReadFCCImage(settings.source.path), lattice.denoising, lattice.maximumMemory, events);
     const ScanImage image = LatticeToScan(volume, lattice.spacing, events);
     events.Progress("writing", 0.0);
-    WriteScan(image, settings.volume);
-    WriteSidecar(settings.volume,
+    StageScan(image, settings.volume, staged);
+    StageSidecar(settings.volume,
                  settings.provenance,
-                 { { "denoising", ReportDenoising(lattice.denoising) }, { "lattice", ReportLattice(volume) } });
+                 { { "denoising", ReportDenoising(lattice.denoising) }, { "lattice", ReportLattice(volume) } },
+                 staged);
   }
   else
   {
@@ -148,13 +152,15 @@ ResampleScan(const ResampleScanSettings & settings, const Events & events)
     const Scan scan = LoadScan(settings.source, events);
     const FCCVolume volume = ScanToLattice(scan, settings.source.lattice, events);
     events.Progress("writing", 0.0);
-    WriteFCCImage(volume, settings.volume);
-    WriteSidecar(settings.volume,
+    StageFCCImage(volume, settings.volume, staged);
+    StageSidecar(settings.volume,
                  settings.provenance,
                  { { "scan", ReportWithoutNames(scan, settings.source.path) },
                    { "denoising", ReportDenoising(settings.source.lattice.denoising) },
-                   { "lattice", ReportLattice(volume) } });
+                   { "lattice", ReportLattice(volume) } },
+                 staged);
   }
+  staged.Commit();
   events.Progress("writing", 1.0);
 }
 

@@ -1,7 +1,5 @@
 #include "rhombicSidecar.h"
 
-#include "rhombicAtomicFile.h"
-
 #include <fstream>
 
 namespace rhombic
@@ -25,7 +23,10 @@ WithSidecars(std::vector<std::filesystem::path> outputs, const Provenance & prov
 }
 
 void
-WriteSidecar(const std::filesystem::path & output, const Provenance & provenance, const Report & report)
+StageSidecar(const std::filesystem::path & output,
+             const Provenance & provenance,
+             const Report & report,
+             StagedFiles & staged)
 {
   if (!provenance.writesSidecars)
   {
@@ -35,10 +36,15 @@ WriteSidecar(const std::filesystem::path & output, const Provenance & provenance
                 { "software", provenance.software },
                 { "command", provenance.command } };
   whole.update(report);
-  const std::string text = ToJson(whole) + '\n';
-  AtomicFile file(SidecarOf(output));
+  StageText(ToJson(whole) + '\n', SidecarOf(output), staged);
+}
+
+void
+StageText(const std::string & text, const std::filesystem::path & path, StagedFiles & staged)
+{
+  AtomicFile & file = staged.Begin(path);
   std::ofstream(file.GetTemporaryPath(), std::ios::binary) << text;
-  file.Commit(text.size());
+  file.Flush(text.size());
 }
 
 } // namespace rhombic

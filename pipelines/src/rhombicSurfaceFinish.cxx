@@ -2,7 +2,6 @@
 
 #include "rhombicFailure.h"
 
-#include "itkTriangleSurfaceComponents.h"
 #include "itkTriangleSurfaceDistance.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceSimplification.h"
@@ -14,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <sstream>
 
@@ -23,6 +23,62 @@ namespace
 {
 
 constexpr double CubicMillimetresPerMillilitre = 1000.0;
+
+/** "3 solids", "1 cavity", "3 solids and 1 cavity". */
+std::string
+CountShells(const itk::RemovedShells & shells)
+{
+  const auto count = [](itk::SizeValueType number, const char * one, const char * many) {
+    return number == 0 ? std::string() : std::to_string(number) + ' ' + (number == 1 ? one : many);
+  };
+  const std::string solids = count(shells.solids, "solid", "solids");
+  const std::string cavities = count(shells.cavities, "cavity", "cavities");
+  return solids + (solids.empty() || cavities.empty() ? "" : " and ") + cavities;
+}
+
+void
+NoteFilling(const itk::RemovedShells & filled, double volumeBefore, const std::string & name, const Events & events)
+{
+  if (filled.solids + filled.cavities == 0)
+  {
+    return;
+  }
+  const double growth = -filled.volume / volumeBefore;
+  std::ostringstream note;
+  note.imbue(std::locale::classic());
+  note << std::fixed << std::setprecision(1);
+  note << name << ": --fill removed " << CountShells(filled) << " inside the surface and added "
+       << -filled.volume / CubicMillimetresPerMillilitre << " ml (" << std::showpos << 100.0 * growth << " %)";
+  constexpr double notable = 0.01;
+  if (growth > notable)
+  {
+    note << "; the volume is no longer that of " << name << " alone, leave out --fill to measure it";
+  }
+  events.Note(note.str());
+}
+
+void
+NoteRemoval(const itk::RemovedShells & removed, double volumeBefore, const std::string & name, const Events & events)
+{
+  if (removed.solids + removed.cavities == 0)
+  {
+    return;
+  }
+  std::ostringstream note;
+  note.imbue(std::locale::classic());
+  note << std::fixed << std::setprecision(1);
+  note << name << ": removed " << CountShells(removed) << " of " << removed.volume / CubicMillimetresPerMillilitre
+       << " ml in all (" << 100.0 * removed.volume / volumeBefore << " % of the volume)";
+  events.Note(note.str());
+}
+
+Report
+ReportShells(const itk::RemovedShells & shells)
+{
+  return { { "solids", shells.solids },
+           { "cavities", shells.cavities },
+           { "volumeInMillilitres", shells.volume / CubicMillimetresPerMillilitre } };
+}
 
 Report
 Smooth(itk::TriangleSurface & surface, double maximumMove)
@@ -57,6 +113,7 @@ Simplify(itk::TriangleSurface & surface, const SurfaceFinish & finish, double sp
     settings.targetTriangles = settings.targetTriangles > 0 ? std::min(settings.targetTriangles, shared) : shared;
   }
   settings.maximumError = MaximumError(finish, spacing);
+  const double volumeBefore = ComputeVolume(surface);
   const auto simplified = SimplifySurface(surface, settings);
   OptimizeForRendering(surface);
   std::ostringstream end;
@@ -64,6 +121,8 @@ Simplify(itk::TriangleSurface & surface, const SurfaceFinish & finish, double sp
   return { { "trianglesBefore", simplified.trianglesBefore },
            { "trianglesAfter", simplified.trianglesAfter },
            { "maximumErrorInMillimetres", MaximumError(finish, spacing) },
+           { "volumeBeforeInMillilitres", volumeBefore / CubicMillimetresPerMillilitre },
+           { "volumeAfterInMillilitres", ComputeVolume(surface) / CubicMillimetresPerMillilitre },
            { "endedBy", end.str() } };
 }
 
@@ -99,17 +158,23 @@ AddDistances(const itk::TriangleSurface & original, const itk::TriangleSurface &
   report["maximumDistanceInMillimetres"] = distances.GetMaximum();
 }
 
+/** Relative change of the volume in a step of finishing, in %. */
+double
+VolumeChange(const Report & done)
+{
+  const double before = done["volumeBeforeInMillilitres"];
+  return 100.0 * (done["volumeAfterInMillilitres"].get<double>() - before) / before;
+}
+
 std::string
 DescribeSmoothing(const std::string & name, const Report & done)
 {
-  const double before = done["volumeBeforeInMillilitres"];
-  const double change = done["volumeAfterInMillilitres"].get<double>() - before;
   std::ostringstream note;
   note.imbue(std::locale::classic());
   note.precision(2);
   note << name << ": smoothing moved points by " << done["meanMoveInMillimetres"].get<double>() << " mm on average, "
-       << done["largestMoveInMillimetres"].get<double>() << " mm at most; volume " << std::showpos
-       << 100.0 * change / before << " %";
+       << done["largestMoveInMillimetres"].get<double>() << " mm at most; volume " << std::showpos << VolumeChange(done)
+       << " %";
   return note.str();
 }
 
@@ -120,7 +185,8 @@ DescribeSimplification(const std::string & name, const SurfaceFinish & finish, c
   note.imbue(std::locale::classic());
   note.precision(3);
   note << name << ": simplified from " << done["trianglesBefore"] << " to " << done["trianglesAfter"] << " triangles, "
-       << done["maximumDistanceInMillimetres"].get<double>() << " mm away at most";
+       << done["maximumDistanceInMillimetres"].get<double>() << " mm away at most; volume " << std::showpos
+       << VolumeChange(done) << std::noshowpos << " %";
   if (done["endedBy"] != "target" && (finish.maximumTriangles > 0 || finish.share < 1.0))
   {
     note << "; fewer would be further away than " << done["maximumErrorInMillimetres"].get<double>()
@@ -156,31 +222,36 @@ CheckSurfaceFinish(const SurfaceFinish & finish)
           "The share of triangles to keep must be above 0 and at most 100 %; write --max-triangles 10%.");
 }
 
-Report
-RemoveParts(itk::TriangleSurface & surface, const SurfaceFinish & finish)
+PartRemoval
+RemoveParts(itk::TriangleSurface & surface,
+            const SurfaceFinish & finish,
+            const std::string & name,
+            const Events & events)
 {
-  if (finish.minimumVolume == 0.0 && !finish.keepsLargestPart && !finish.fillsCavities)
-  {
-    return nullptr;
-  }
-  const auto shellsBefore = itk::FindComponents(surface).count;
-  const double volumeBefore = ComputeVolume(surface);
+  PartRemoval removal;
+  const double extractedVolume = ComputeVolume(surface);
   if (finish.fillsCavities)
   {
-    FillCavities(surface);
+    removal.filled = FillCavities(surface);
+    NoteFilling(removal.filled, extractedVolume, name, events);
   }
+  const double filledVolume = extractedVolume - removal.filled.volume;
   if (finish.keepsLargestPart)
   {
-    KeepLargestSolid(surface);
+    removal.removed = KeepLargestSolid(surface);
   }
   if (finish.minimumVolume > 0.0)
   {
-    RemoveSmallSolids(surface, finish.minimumVolume * CubicMillimetresPerMillilitre);
+    removal.removed += RemoveSmallSolids(surface, finish.minimumVolume * CubicMillimetresPerMillilitre);
   }
-  return { { "shellsBefore", shellsBefore },
-           { "shellsAfter", itk::FindComponents(surface).count },
-           { "volumeBeforeInMillilitres", volumeBefore / CubicMillimetresPerMillilitre },
-           { "volumeAfterInMillilitres", ComputeVolume(surface) / CubicMillimetresPerMillilitre } };
+  NoteRemoval(removal.removed, filledVolume, name, events);
+  return removal;
+}
+
+Report
+ReportPartRemoval(const PartRemoval & removal)
+{
+  return { { "filled", ReportShells(removal.filled) }, { "removed", ReportShells(removal.removed) } };
 }
 
 Report

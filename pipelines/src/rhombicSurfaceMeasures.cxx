@@ -71,7 +71,7 @@ SumInterior(const itk::TriangleSurface & surface, const itk::Image<TPixel, 3> & 
 } // namespace
 
 bool
-SurfaceMeasures::IsVolumeInDoubt() const
+SurfaceMeasures::DiffersFromVoxels() const
 {
   constexpr double tolerance = 0.01;
   return voxelVolume && std::abs(volume - *voxelVolume) > tolerance * std::abs(volume);
@@ -146,7 +146,7 @@ ReportMeasures(const SurfaceMeasures & measures)
   if (measures.voxelVolume)
   {
     report["voxelVolumeInMillilitres"] = *measures.voxelVolume / cubicMillimetresPerMillilitre;
-    report["volumesDiffer"] = measures.IsVolumeInDoubt();
+    report["differsFromVoxels"] = measures.DiffersFromVoxels();
   }
   report["areaInSquareMillimetres"] = measures.area;
   report["boundsInMillimetres"] = measures.bounds;

@@ -235,11 +235,11 @@ TEST(SurfaceMeasures, SayWhenTheVolumesDiffer)
 {
   rhombic::SurfaceMeasures measures;
   measures.volume = 100.0;
-  EXPECT_FALSE(measures.IsVolumeInDoubt()) << "nothing to compare with";
+  EXPECT_FALSE(measures.DiffersFromVoxels()) << "nothing to compare with";
   measures.voxelVolume = 100.9;
-  EXPECT_FALSE(measures.IsVolumeInDoubt());
+  EXPECT_FALSE(measures.DiffersFromVoxels());
   measures.voxelVolume = 98.9;
-  EXPECT_TRUE(measures.IsVolumeInDoubt());
+  EXPECT_TRUE(measures.DiffersFromVoxels());
 }
 
 TEST(SurfaceDeviation, IsTheDistanceBetweenTwoSpheres)

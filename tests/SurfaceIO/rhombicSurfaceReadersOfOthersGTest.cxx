@@ -1,5 +1,6 @@
 // Programs by others read our files: VTK, ITK, F3D, and the validator of those who made glTF.
 
+#include "rhombicReadersOfOthers.h"
 #include "rhombicSurfaceTest.h"
 
 #include "itkTriangleSurfaceMeasures.h"
@@ -8,19 +9,12 @@
 #include <itkMeshFileReader.h>
 #include <itkOBJMeshIO.h>
 
-#include <vtkAppendPolyData.h>
 #include <vtkCellData.h>
-#include <vtkCompositeDataIterator.h>
 #include <vtkFieldData.h>
-#include <vtkGLTFReader.h>
 #include <vtkMassProperties.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
-#include <vtkOBJReader.h>
-#include <vtkPLYReader.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkSTLReader.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkTriangleFilter.h>
@@ -32,6 +26,8 @@ namespace
 {
 
 using rhombic::WriteSurfaces;
+using rhombictest::ReadGLTF;
+using rhombictest::ReadWith;
 
 class SurfaceReadersOfOthers : public SurfaceTest
 {
@@ -52,32 +48,6 @@ protected:
     return m_Folder / ("scene" + extension);
   }
 };
-
-template <typename TReader>
-vtkSmartPointer<vtkPolyData>
-ReadWith(const fs::path & path)
-{
-  vtkNew<TReader> reader;
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  return reader->GetOutput();
-}
-
-vtkSmartPointer<vtkPolyData>
-ReadGLTF(const fs::path & path)
-{
-  vtkNew<vtkGLTFReader> reader;
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  vtkNew<vtkAppendPolyData> all;
-  const auto blocks = vtkSmartPointer<vtkCompositeDataIterator>::Take(reader->GetOutput()->NewIterator());
-  for (blocks->InitTraversal(); !blocks->IsDoneWithTraversal(); blocks->GoToNextItem())
-  {
-    all->AddInputData(vtkPolyData::SafeDownCast(blocks->GetCurrentDataObject()));
-  }
-  all->Update();
-  return all->GetOutput();
-}
 
 double
 SumOver(const std::vector<SceneSurface> & scene, double (*measure)(const Surface &))

@@ -147,7 +147,7 @@ TEST(TriangleSurfaceAudit, FindsShellsThatFaceTheWrongWay)
   Append(*surface, *cavity, { 20, 0, 0 });
   const auto audit = AuditSurface(*surface);
   EXPECT_TRUE(audit.topology.IsWatertight());
-  EXPECT_EQ(audit.misfacingShells, 1u);
+  EXPECT_EQ(audit.shells.misfacing, 1u);
   EXPECT_FALSE(audit.IsWatertight());
 }
 

@@ -38,36 +38,44 @@ BallVolume(double radius)
   return ComputeVolume(*MakeSphere(radius, 4));
 }
 
+void
+ExpectRemoved(const itk::RemovedShells & removed, itk::SizeValueType solids, itk::SizeValueType cavities, double volume)
+{
+  EXPECT_EQ(removed.solids, solids);
+  EXPECT_EQ(removed.cavities, cavities);
+  EXPECT_NEAR(removed.volume, volume, 1e-3);
+}
+
 TEST(TriangleSurfaceSolids, LargestKeepsItsCavityAndNothingElse)
 {
   const auto surface = MakeNested();
-  EXPECT_EQ(KeepLargestSolid(*surface), 3u);
+  ExpectRemoved(KeepLargestSolid(*surface), 2, 1, BallVolume(5.0) - BallVolume(2.0) + BallVolume(3.0));
   EXPECT_NEAR(ComputeVolume(*surface), BallVolume(10.0) - BallVolume(8.0), 1e-3);
   EXPECT_EQ(ComputeTopology(*surface).components, 2u);
   EXPECT_EQ(ComputeTopology(*surface).unusedPoints, 0u);
-  EXPECT_EQ(KeepLargestSolid(*surface), 0u);
+  ExpectRemoved(KeepLargestSolid(*surface), 0, 0, 0.0);
 }
 
 TEST(TriangleSurfaceSolids, SmallOnesGoWithTheirCavities)
 {
   const auto surface = MakeNested();
-  EXPECT_EQ(RemoveSmallSolids(*surface, 0.9 * BallVolume(3.0)), 0u) << "cavities stay, however small";
-  EXPECT_EQ(RemoveSmallSolids(*surface, 1.1 * BallVolume(3.0)), 1u);
+  ExpectRemoved(RemoveSmallSolids(*surface, 0.9 * BallVolume(3.0)), 0, 0, 0.0); // cavities stay, however small
+  ExpectRemoved(RemoveSmallSolids(*surface, 1.1 * BallVolume(3.0)), 1, 0, BallVolume(3.0));
   EXPECT_NEAR(ComputeVolume(*surface), BallVolume(10.0) - BallVolume(8.0) + BallVolume(5.0) - BallVolume(2.0), 1e-3);
-  EXPECT_EQ(RemoveSmallSolids(*surface, 1.1 * BallVolume(5.0)), 2u);
+  ExpectRemoved(RemoveSmallSolids(*surface, 1.1 * BallVolume(5.0)), 1, 1, BallVolume(5.0) - BallVolume(2.0));
   EXPECT_NEAR(ComputeVolume(*surface), BallVolume(10.0) - BallVolume(8.0), 1e-3);
-  EXPECT_EQ(RemoveSmallSolids(*surface, 1.1 * BallVolume(10.0)), 2u);
+  ExpectRemoved(RemoveSmallSolids(*surface, 1.1 * BallVolume(10.0)), 1, 1, BallVolume(10.0) - BallVolume(8.0));
   EXPECT_EQ(surface->GetNumberOfPoints(), 0u);
-  EXPECT_EQ(RemoveSmallSolids(*surface, 1.0), 0u) << "nothing is left, and nothing happens";
+  ExpectRemoved(RemoveSmallSolids(*surface, 1.0), 0, 0, 0.0); // nothing is left, and nothing happens
 }
 
 TEST(TriangleSurfaceSolids, FilledOnesHaveNothingInside)
 {
   const auto surface = MakeNested();
-  EXPECT_EQ(FillCavities(*surface), 3u);
+  ExpectRemoved(FillCavities(*surface), 1, 2, BallVolume(5.0) - BallVolume(8.0) - BallVolume(2.0));
   EXPECT_NEAR(ComputeVolume(*surface), BallVolume(10.0) + BallVolume(3.0), 1e-3);
   EXPECT_TRUE(ComputeTopology(*surface).IsWatertight());
-  EXPECT_EQ(FillCavities(*surface), 0u);
+  ExpectRemoved(FillCavities(*surface), 0, 0, 0.0);
 }
 
 /** A torus does not enclose what is in its hole. */
@@ -76,7 +84,7 @@ TEST(TriangleSurfaceSolids, HolesOfATorusAreOutside)
   const auto surface = MakeTorus(10.0, 4.0, 40);
   Append(*surface, *MakeSphere(3.0, 3));
   Append(*surface, *MakeCavity(3.0, { 0, 10, 0 }));
-  EXPECT_EQ(FillCavities(*surface), 1u);
+  EXPECT_EQ(FillCavities(*surface).cavities, 1u);
   EXPECT_EQ(ComputeTopology(*surface).components, 2u);
 }
 
@@ -84,7 +92,7 @@ TEST(TriangleSurfaceSolids, InsideOutShellsWithNothingAroundAreSolids)
 {
   const auto surface = MakeCavity(5.0);
   Append(*surface, *MakeSphere(3.0, 4, { 20, 0, 0 }));
-  EXPECT_EQ(KeepLargestSolid(*surface), 1u);
+  EXPECT_EQ(KeepLargestSolid(*surface).solids, 1u);
   EXPECT_LT(ComputeVolume(*surface), 0.0);
 }
 
@@ -106,23 +114,28 @@ TEST(TriangleSurfaceSolids, AreToldApartAmongVeryMany)
   }
   const auto filled = Surface::New();
   filled->Graft(surface);
-  EXPECT_EQ(FillCavities(*filled), inside + 1);
+  const itk::RemovedShells removed = FillCavities(*filled);
+  EXPECT_EQ(removed.solids, inside);
+  EXPECT_EQ(removed.cavities, 1u);
   const auto large = Surface::New();
   large->Graft(surface);
-  EXPECT_GT(RemoveSmallSolids(*large, 1.0), 80000u);
+  EXPECT_GT(RemoveSmallSolids(*large, 1.0).solids, 80000u);
   EXPECT_EQ(ComputeTopology(*large).components, 2u);
 }
 
 itk::SizeValueType
 CountMisfacing(const Surface & surface)
 {
-  return CountMisfacingShells(itk::TriangleTree(surface));
+  return CountShells(itk::TriangleTree(surface)).misfacing;
 }
 
 TEST(TriangleSurfaceSolids, FaceOutwardsAndTheirCavitiesInwards)
 {
   const auto surface = MakeNested();
   EXPECT_EQ(CountMisfacing(*surface), 0u);
+  const itk::ShellCounts shells = CountShells(itk::TriangleTree(*surface));
+  EXPECT_EQ(shells.solids, 3u);
+  EXPECT_EQ(shells.cavities, 2u);
   EXPECT_EQ(CountMisfacing(*Surface::New()), 0u);
   TurnInsideOut(*surface);
   EXPECT_EQ(CountMisfacing(*surface), 5u);

@@ -122,7 +122,7 @@ TEST_F(MeshCommand, MeasuresAreATable)
   const double volume = measures["volumeInMillilitres"];
   EXPECT_NEAR(volume, ComputeVolume(*this->Read("skin.ply")[0].surface) / 1000.0, 1e-3 * volume);
   EXPECT_NEAR(measures["voxelVolumeInMillilitres"].get<double>() / volume, 1.0, 0.01);
-  EXPECT_FALSE(measures["volumesDiffer"].get<bool>());
+  EXPECT_FALSE(measures["differsFromVoxels"].get<bool>());
 }
 
 TEST_F(MeshCommand, SimplificationStaysWithinItsError)
@@ -144,14 +144,16 @@ TEST_F(MeshCommand, SimplificationStaysWithinItsError)
 
 TEST_F(MeshCommand, SmallPartsGoAndSmoothingIsBounded)
 {
-  const auto outcome = this->Mesh("-t 375.5 --largest --fill --smooth 0.3 -o one.ply");
+  const auto outcome = this->Mesh("-t -300.5 --largest --fill --smooth 0.3 -o one.ply");
   ASSERT_EQ(outcome.exitCode, 0);
   EXPECT_NE(outcome.errors.find("smoothing moved points by"), std::string::npos) << outcome.errors;
   const auto topology = ComputeTopology(*this->Read("one.ply")[0].surface);
   EXPECT_EQ(topology.components, 1u);
   EXPECT_TRUE(topology.IsWatertight());
   const auto report = this->Sidecar("one.ply")["surfaces"][0];
-  EXPECT_GT(report["parts"]["shellsBefore"].get<int>(), 1);
+  EXPECT_GT(report["parts"]["filled"]["cavities"].get<int>(), 0);
+  EXPECT_LT(report["parts"]["filled"]["volumeInMillilitres"].get<double>(), 0.0) << "what was removed encloses less";
+  EXPECT_NE(outcome.errors.find("leave out --fill to measure it"), std::string::npos) << outcome.errors;
   EXPECT_LE(report["smoothing"]["largestMoveInMillimetres"].get<double>(),
             report["smoothing"]["maximumMoveInMillimetres"].get<double>());
   EXPECT_EQ(this->Mesh("-t 375.5 --min-volume 1e6 -o none.ply").exitCode, 6);
@@ -218,6 +220,49 @@ TEST_F(MeshCommand, OneLabelFitsIntoAnSTL)
   EXPECT_NE(ReadText(m_Folder.Path() / "lung.csv").find(",456.19"), std::string::npos) << "the voxels' volume";
   EXPECT_EQ(this->Mesh("--labels " + labels + " --label 14 --label 10 -o two.stl").exitCode, 2);
   EXPECT_EQ(this->Mesh("--labels nothing.nii.gz -o one.stl").exitCode, 3) << "no such file";
+}
+
+TEST_F(MeshCommand, AuditTellsSolidsFromCavities)
+{
+  const auto outcome = this->Mesh("-t -300.5 --largest --audit -o body.stl");
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+  const auto audit = this->Sidecar("body.stl")["surfaces"][0]["audit"];
+  EXPECT_EQ(audit["solids"], 1);
+  EXPECT_EQ(audit["cavities"].get<int>(), audit["components"].get<int>() - 1);
+  EXPECT_GT(audit["cavities"].get<int>(), 0) << "lungs and airways";
+  EXPECT_NE(outcome.errors.find("1 solid with "), std::string::npos) << outcome.errors;
+}
+
+/** The second file does not fit: the first one must not stay, and older files must. */
+TEST_F(MeshCommand, AllFilesOfACommandAppearOrNone)
+{
+  std::ofstream(m_Folder.Path() / "a-small.stl") << "older";
+  const auto outcome = RunShell("ulimit -f 500; rhombic mesh " + scan +
+                                  " --surface small=1200 --surface large=-300.5 -o 'a-{name}.stl' --measures a.csv",
+                                m_Folder.Path());
+  EXPECT_EQ(outcome.exitCode, 7) << outcome.errors;
+  EXPECT_TRUE(ReadText(m_Folder.Path() / "a-small.stl") == "older");
+  EXPECT_EQ(std::distance(fs::directory_iterator(m_Folder.Path()), fs::directory_iterator()), 1);
+  ASSERT_EQ(this->Mesh("--surface small=1200 --surface large=-300.5 -o 'b-{name}.stl'").exitCode, 0);
+  EXPECT_LT(fs::file_size(m_Folder.Path() / "b-small.stl"), 500u * 1024u) << "the limit is reached by the second file";
+  EXPECT_GT(fs::file_size(m_Folder.Path() / "b-large.stl"), 500u * 1024u);
+}
+
+TEST_F(MeshCommand, AllPicturesOfACommandAppearOrNone)
+{
+  const std::string render = "rhombic render " + scan + " --preset ct-bone --view all --size 300 -o a.png";
+  ASSERT_EQ(RunShell(render, m_Folder.Path()).exitCode, 0);
+  std::uintmax_t largest = 0;
+  for (const auto & entry : fs::directory_iterator(m_Folder.Path()))
+  {
+    largest = entry.path().extension() == ".png" ? std::max(largest, fs::file_size(entry.path())) : largest;
+  }
+  const std::uintmax_t limit = largest / 1024; // KiB
+  ASSERT_LT(fs::file_size(m_Folder.Path() / "a-anterior.png"), limit * 1024) << "the first one fits";
+  TemporaryFolder empty;
+  const auto outcome = RunShell("ulimit -f " + std::to_string(limit) + "; " + render, empty.Path());
+  EXPECT_EQ(outcome.exitCode, 7) << outcome.errors;
+  EXPECT_TRUE(fs::is_empty(empty.Path()));
 }
 
 TEST_F(MeshCommand, WhatIsTooSmallIsLeftOut)

@@ -3,6 +3,7 @@
 
 #include "itkTriangleSurfaceIntersections.h"
 #include "itkTriangleSurfaceQuality.h"
+#include "itkTriangleSurfaceSolids.h"
 #include "itkTriangleSurfaceTopology.h"
 
 #include <iosfwd>
@@ -33,14 +34,14 @@ struct TriangleSurfaceAudit
   TriangleSurfaceTopology topology;
   TriangleSurfaceQuality quality;
   TriangleSurfaceIntersections intersections; ///< without tested triangles if they were not looked for
-  SizeValueType misfacingShells = 0;          ///< see CountMisfacingShells(); counted if the topology is watertight
+  ShellCounts shells;                         ///< see CountShells(); counted if the topology is watertight
 
   /** Closed, oriented, manifold, with neither degenerate nor duplicate triangles, around a positive volume, and with
    * all shells outwards and all cavities inwards. */
   bool
   IsWatertight() const
   {
-    return topology.IsWatertight() && topology.duplicateTriangles == 0 && volume > 0.0 && misfacingShells == 0;
+    return topology.IsWatertight() && topology.duplicateTriangles == 0 && volume > 0.0 && shells.misfacing == 0;
   }
 
   /** Watertight, and none of the triangles tested crosses another; false if none was tested. Triangles may touch. */

@@ -1,7 +1,6 @@
 #include "itkTriangleSurfaceAudit.h"
 
 #include "itkTriangleSurfaceMeasures.h"
-#include "itkTriangleSurfaceSolids.h"
 
 #include <ostream>
 
@@ -42,7 +41,7 @@ AuditSurface(const TriangleSurface & surface, const TriangleSurfaceAuditSettings
   const TriangleTree tree(surface);
   if (audit.topology.IsWatertight())
   {
-    audit.misfacingShells = CountMisfacingShells(tree);
+    audit.shells = CountShells(tree);
   }
   if (settings.testsIntersections)
   {

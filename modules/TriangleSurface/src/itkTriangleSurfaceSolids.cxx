@@ -138,11 +138,12 @@ FindEnds(const TriangleSurface & surface, const TriangleSurfaceComponents & comp
   return ends;
 }
 
-/** 1 for the components that do not face as they should, see CountMisfacingShells(), 0 for the others. */
+/** 1 for the components that do not face as they should, see CountShells(), 0 for the others. */
 std::vector<std::uint8_t>
-FindMisfacing(const TriangleTree & tree, const TriangleSurfaceComponents & components)
+FindMisfacing(const TriangleTree & tree,
+              const TriangleSurfaceComponents & components,
+              const std::vector<double> & volumes)
 {
-  const std::vector<double> volumes = ComputeComponentVolumes(tree.GetSurface(), components);
   const std::vector<Ends> ends = FindEnds(tree.GetSurface(), components);
   const Enclosures enclosures(tree, components);
   std::vector<std::uint8_t> misfacing(components.count);
@@ -157,20 +158,34 @@ FindMisfacing(const TriangleTree & tree, const TriangleSurfaceComponents & compo
   return misfacing;
 }
 
-SizeValueType
-Keep(TriangleSurface & surface, const TriangleSurfaceComponents & components, const std::vector<bool> & keep)
+/** Removes the other components. Those that face inwards count as cavities if \a isCavity(component). */
+template <typename TPredicate>
+RemovedShells
+Keep(TriangleSurface & surface,
+     const TriangleSurfaceComponents & components,
+     const std::vector<bool> & keep,
+     const TPredicate & isCavity)
 {
-  const auto removed = std::count(keep.begin(), keep.end(), false);
-  if (removed > 0)
+  const double volumeBefore = ComputeVolume(surface);
+  RemovedShells removed;
+  for (ComponentId component = 0; component < components.count; ++component)
+  {
+    if (!keep[component])
+    {
+      ++(isCavity(component) ? removed.cavities : removed.solids);
+    }
+  }
+  if (removed.solids + removed.cavities > 0)
   {
     KeepComponents(surface, components, keep);
+    removed.volume = volumeBefore - ComputeVolume(surface);
   }
-  return static_cast<SizeValueType>(removed);
+  return removed;
 }
 
 /** Keeps the components whose solid's outer shell \a isKept(shell) approves. */
 template <typename TPredicate>
-SizeValueType
+RemovedShells
 KeepSolids(TriangleSurface & surface,
            const TriangleSurfaceComponents & components,
            const std::vector<ComponentId> & shells,
@@ -181,12 +196,12 @@ KeepSolids(TriangleSurface & surface,
   {
     keep[component] = isKept(shells[component]);
   }
-  return Keep(surface, components, keep);
+  return Keep(surface, components, keep, [&shells](ComponentId component) { return shells[component] != component; });
 }
 
 } // namespace
 
-SizeValueType
+RemovedShells
 KeepLargestSolid(TriangleSurface & surface)
 {
   const TriangleSurfaceComponents components = FindComponents(surface);
@@ -200,7 +215,7 @@ KeepLargestSolid(TriangleSurface & surface)
   return KeepSolids(surface, components, shells, [&](ComponentId shell) { return shell == largest; });
 }
 
-SizeValueType
+RemovedShells
 RemoveSmallSolids(TriangleSurface & surface, double minimumVolume)
 {
   const TriangleSurfaceComponents components = FindComponents(surface);
@@ -210,7 +225,7 @@ RemoveSmallSolids(TriangleSurface & surface, double minimumVolume)
     surface, components, shells, [&](ComponentId shell) { return std::abs(volumes[shell]) >= minimumVolume; });
 }
 
-SizeValueType
+RemovedShells
 FillCavities(TriangleSurface & surface)
 {
   const TriangleSurfaceComponents components = FindComponents(surface);
@@ -226,22 +241,33 @@ FillCavities(TriangleSurface & surface)
       }
     });
   }
-  return Keep(surface, components, { isOutermost.begin(), isOutermost.end() });
+  const std::vector<double> volumes = ComputeComponentVolumes(surface, components);
+  return Keep(surface, components, { isOutermost.begin(), isOutermost.end() }, [&volumes](ComponentId component) {
+    return volumes[component] < 0.0;
+  });
 }
 
-SizeValueType
-CountMisfacingShells(const TriangleTree & surface)
+ShellCounts
+CountShells(const TriangleTree & surface)
 {
   const TriangleSurfaceComponents components = FindComponents(surface.GetSurface());
-  const std::vector<std::uint8_t> misfacing = FindMisfacing(surface, components);
-  return static_cast<SizeValueType>(std::count(misfacing.begin(), misfacing.end(), 1));
+  const std::vector<double> volumes = ComputeComponentVolumes(surface.GetSurface(), components);
+  const std::vector<std::uint8_t> misfacing = FindMisfacing(surface, components, volumes);
+  ShellCounts counts;
+  for (ComponentId component = 0; component < components.count; ++component)
+  {
+    counts.misfacing += misfacing[component];
+    ++(volumes[component] < 0.0 && misfacing[component] == 0 ? counts.cavities : counts.solids);
+  }
+  return counts;
 }
 
 SizeValueType
 TurnMisfacingShells(TriangleSurface & surface)
 {
   const TriangleSurfaceComponents components = FindComponents(surface);
-  const std::vector<std::uint8_t> misfacing = FindMisfacing(TriangleTree(surface), components);
+  const std::vector<std::uint8_t> misfacing =
+    FindMisfacing(TriangleTree(surface), components, ComputeComponentVolumes(surface, components));
   for (auto & triangle : surface.GetTriangles())
   {
     if (misfacing[components.ofPoint[triangle[0]]])

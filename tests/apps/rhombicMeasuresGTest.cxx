@@ -1,0 +1,143 @@
+// The measures that `rhombic mesh` writes are those of the file, as other programs read it.
+
+#include "rhombicProgram.h"
+#include "rhombicReadersOfOthers.h"
+
+#include <nlohmann/json.hpp>
+
+#include <vtkCell.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iomanip>
+#include <map>
+
+namespace
+{
+
+using rhombictest::Outcome;
+using rhombictest::ReadText;
+using rhombictest::RunShell;
+using rhombictest::TemporaryFolder;
+
+const std::string scan = RHOMBIC_TESTDATA "/phantom/dicom";
+
+/** The one line of a table of measures, by column. */
+std::map<std::string, std::string>
+ReadRow(const std::filesystem::path & path)
+{
+  std::ifstream file(path);
+  std::string heads, fields, head, field;
+  std::getline(file, heads);
+  std::getline(file, fields);
+  std::istringstream headStream(heads), fieldStream(fields);
+  std::map<std::string, std::string> row;
+  while (std::getline(headStream, head, ',') && std::getline(fieldStream, field, ','))
+  {
+    row[head] = field;
+  }
+  return row;
+}
+
+struct Measures
+{
+  double volume = 0.0; ///< ml
+  double area = 0.0;   ///< mm2
+  vtkIdType triangles = 0;
+};
+
+/** \param unit of the file's coordinates in mm */
+Measures
+Measure(vtkPolyData & surface, double unit)
+{
+  Measures measures;
+  measures.triangles = surface.GetNumberOfCells();
+  for (vtkIdType n = 0; n < measures.triangles; ++n)
+  {
+    double corners[3][3];
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      surface.GetCell(n)->GetPoints()->GetPoint(corner, corners[corner]);
+    }
+    const auto & [a, b, c] = corners;
+    const double u[3] = { b[0] - a[0], b[1] - a[1], b[2] - a[2] };
+    const double v[3] = { c[0] - a[0], c[1] - a[1], c[2] - a[2] };
+    const double normal[3] = { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
+    measures.area += 0.5 * unit * unit * std::hypot(normal[0], normal[1], normal[2]);
+    measures.volume += unit * unit * unit * (a[0] * normal[0] + a[1] * normal[1] + a[2] * normal[2]) / 6000.0;
+  }
+  return measures;
+}
+
+class MeasuresOfFiles : public testing::Test
+{
+protected:
+  /** Meshes the phantom's body, and compares what is reported with what the file holds. */
+  void
+  Check(const std::string & extension, const std::string & options) const
+  {
+    SCOPED_TRACE(extension + " " + options);
+    const auto mesh = m_Folder.Path() / ("body" + extension);
+    const Outcome outcome =
+      RunShell("rhombic mesh " + scan + " -t -300.5 " + options + " --measures body.csv -o " + mesh.filename().string(),
+               m_Folder.Path());
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+    const Measures file = Measure(*rhombictest::ReadWithVTK(mesh), extension == ".glb" ? 1000.0 : 1.0);
+    auto row = ReadRow(m_Folder.Path() / "body.csv");
+    EXPECT_NEAR(std::stod(row["volume (ml)"]), file.volume, 2e-6 * file.volume);
+    EXPECT_NEAR(std::stod(row["area (mm2)"]), file.area, 2e-6 * file.area);
+    EXPECT_EQ(std::stol(row["triangles"]), file.triangles);
+    EXPECT_NEAR(std::stod(row["volume as extracted (ml)"]), extracted.volume, 2e-6 * extracted.volume);
+    EXPECT_NEAR(std::stod(row["area as extracted (mm2)"]), extracted.area, 2e-6 * extracted.area);
+    EXPECT_EQ(std::stol(row["triangles as extracted"]), extracted.triangles);
+    EXPECT_NEAR(std::stod(row["volume change by finishing (%)"]), 100.0 * (file.volume / extracted.volume - 1.0), 1e-3);
+    const auto report = nlohmann::json::parse(ReadText(mesh.string() + ".json"))["surfaces"][0];
+    EXPECT_NEAR(report["measures"]["volumeInMillilitres"].get<double>(), file.volume, 2e-6 * file.volume);
+    EXPECT_EQ(report["triangles"].get<vtkIdType>(), file.triangles);
+    std::ostringstream printed;
+    printed << std::fixed << std::setprecision(1) << "surface: " << std::stod(row["volume (ml)"]) << " ml";
+    EXPECT_NE(outcome.errors.find(printed.str()), std::string::npos) << printed.str() << "\n" << outcome.errors;
+    const bool isChanged = std::abs(file.volume / extracted.volume - 1.0) > 0.01;
+    const bool isSaid = outcome.errors.find("changed the volume by") != std::string::npos ||
+                        outcome.errors.find(" inside the surface and added ") != std::string::npos ||
+                        outcome.errors.find("% of the volume)") != std::string::npos;
+    EXPECT_TRUE(isSaid || !isChanged) << outcome.errors;
+  }
+
+  void
+  SetUp() override
+  {
+    const Outcome outcome = RunShell("rhombic mesh " + scan + " -t -300.5 -o extracted.stl", m_Folder.Path());
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+    extracted = Measure(*rhombictest::ReadWithVTK(m_Folder.Path() / "extracted.stl"), 1.0);
+  }
+
+  TemporaryFolder m_Folder;
+  Measures extracted;
+};
+
+TEST_F(MeasuresOfFiles, AreThoseOfEveryFormat)
+{
+  for (const char * const extension : { ".stl", ".ply", ".obj", ".vtp", ".glb" })
+  {
+    this->Check(extension, "--smooth 0.3 --max-triangles 10%");
+  }
+}
+
+TEST_F(MeasuresOfFiles, AreThoseAfterEveryFinishingOption)
+{
+  for (const char * const options : { "",
+                                      "--min-volume 1",
+                                      "--largest",
+                                      "--fill",
+                                      "--smooth 0.3",
+                                      "--max-triangles 10%",
+                                      "--max-error 0.5",
+                                      "--largest --fill --smooth 0.3 --max-error 1" })
+  {
+    this->Check(".stl", options);
+  }
+}
+
+} // namespace
