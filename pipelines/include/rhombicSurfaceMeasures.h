@@ -1,6 +1,7 @@
 #ifndef rhombicSurfaceMeasures_h
 #define rhombicSurfaceMeasures_h
 
+#include "rhombicIsosurfaceVolume.h"
 #include "rhombicScan.h"
 #include "rhombicScanReport.h"
 #include "rhombicSurfaceRequest.h"
@@ -33,9 +34,12 @@ struct SurfaceMeasures
   /** What counting voxels comes to, in mm^3: an independent check of the volume. */
   std::optional<double> voxelVolume;
 
-  /** Whether volume and voxel volume differ by more than 1 %, as they do where parts are about as thin as a voxel. */
-  bool
-  DiffersFromVoxels() const;
+  /** What the scan's isosurface encloses, estimated from the lattice's samples; none of labels. */
+  std::optional<IsosurfaceVolume> isosurface;
+
+  /** How far the volume is from the isosurface's, or, without one, from the voxels', in %; positive if it is larger. */
+  std::optional<double>
+  GetVolumeError() const;
 };
 
 /** Shape alone. */

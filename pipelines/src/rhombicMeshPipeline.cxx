@@ -39,10 +39,11 @@ struct MeshedSurface
   SceneSurface scene;
   std::optional<SurfaceRequest> request; ///< of isosurfaces
   Report report;
-  std::optional<double> labelVolume; ///< of a label's voxels, in mm^3
-  ExtractedSize extracted{};
-  double volumeOfKeptParts = 0.0; ///< in mm^3, as extracted
-  bool isWhole = true;            ///< no part of it was removed or filled
+  ExtractedSize extracted;
+  std::optional<double> labelVolume;          ///< of a label's voxels, in mm^3
+  std::optional<IsosurfaceVolume> isosurface; ///< of a whole isosurface
+  double volumeOfKeptParts = 0.0;             ///< in mm^3, as extracted
+  bool isWhole = true;                        ///< no part of it was removed or filled
 };
 
 constexpr char NamePlace[] = "{name}";
@@ -82,6 +83,12 @@ PathsOf(const fs::path & mesh, const std::vector<MeshedSurface> & surfaces)
   return paths;
 }
 
+ExtractedSize
+SizeOf(const itk::TriangleSurface & surface)
+{
+  return { ComputeVolume(surface), ComputeArea(surface), surface.GetNumberOfTriangles() };
+}
+
 /** The surfaces of a source as they were extracted. */
 std::vector<MeshedSurface>
 Extract(LoadedSource & loaded, const MeshScanSettings & settings, const Events & events)
@@ -93,10 +100,15 @@ Extract(LoadedSource & loaded, const MeshScanSettings & settings, const Events &
     const auto scenes = LatticeToSurfaces(loaded.lattice, loaded.requests, selection.mode, events, loaded.grid);
     for (std::size_t n = 0; n < scenes.size(); ++n)
     {
-      surfaces.push_back({ scenes[n],
-                           loaded.requests[n],
-                           ReportSurface(loaded.requests[n], *scenes[n].surface, selection.mode),
-                           std::nullopt });
+      const SurfaceRequest & request = loaded.requests[n];
+      const ExtractedSize extracted = SizeOf(*scenes[n].surface);
+      surfaces.push_back(
+        { scenes[n], request, ReportSurface(request, *scenes[n].surface, selection.mode), extracted, {}, {} });
+      if (request.parts == SurfaceRequest::Parts::All && !settings.source.lattice.nested)
+      {
+        surfaces.back().isosurface =
+          EstimateIsosurfaceVolume(loaded.lattice, request, extracted.area, loaded.grid.GetPointer());
+      }
     }
   }
   if (loaded.labels)
@@ -109,8 +121,12 @@ Extract(LoadedSource & loaded, const MeshScanSettings & settings, const Events &
     const Report reports = ReportLabelSurfaces(labels);
     for (std::size_t n = 0; n < labels.size(); ++n)
     {
-      surfaces.push_back(
-        { labels[n].scene, std::nullopt, reports[n], labels[n].voxelMillilitres * CubicMillimetresPerMillilitre });
+      surfaces.push_back({ labels[n].scene,
+                           std::nullopt,
+                           reports[n],
+                           SizeOf(*labels[n].scene.surface),
+                           labels[n].voxelMillilitres * CubicMillimetresPerMillilitre,
+                           {} });
     }
   }
   return surfaces;
@@ -134,7 +150,6 @@ Finish(MeshedSurface & surface, const SurfaceFinish & finish, double spacing, co
   const auto finished = itk::TriangleSurface::New();
   finished->Graft(surface.scene.surface);
   surface.scene.surface = finished;
-  surface.extracted = { ComputeVolume(*finished), ComputeArea(*finished), finished->GetNumberOfTriangles() };
   const PartRemoval removal = RemoveParts(*finished, finish, surface.scene.name, events);
   if (finished->GetNumberOfTriangles() == 0)
   {
@@ -203,9 +218,16 @@ Summarize(const std::string & name, const SurfaceMeasures & measures)
   text.imbue(std::locale::classic());
   text << std::fixed << std::setprecision(1);
   text << name << ": " << measures.volume / CubicMillimetresPerMillilitre << " ml";
+  if (measures.isosurface)
+  {
+    const double error = *measures.GetVolumeError();
+    text << ", " << std::abs(error) << (error < 0.0 ? " % less" : " % more") << " than the scan's isosurface encloses ("
+         << measures.isosurface->volume / CubicMillimetresPerMillilitre << " +- "
+         << measures.isosurface->uncertainty / CubicMillimetresPerMillilitre << " ml)";
+  }
   if (measures.voxelVolume)
   {
-    text << " (its voxels: " << *measures.voxelVolume / CubicMillimetresPerMillilitre << " ml)";
+    text << ", voxels " << *measures.voxelVolume / CubicMillimetresPerMillilitre << " ml";
   }
   text << ", " << measures.area / 100.0 << " cm2, longest diameter " << measures.longestDiameter << " mm";
   if (measures.meanValue)
@@ -249,6 +271,7 @@ private:
     m_Events.Progress("measuring " + name, 0.0);
     SurfaceMeasures measures = m_Scan ? MeasureSurface(read, *m_Scan) : MeasureSurface(read);
     measures.voxelVolume = CountVoxels(surface, m_Scan);
+    measures.isosurface = surface.isWhole ? surface.isosurface : std::nullopt;
     m_Events.Note(Summarize(name, measures));
     this->NoteChanges(surface, measures);
     surface.report["points"] = read.GetNumberOfPoints();
@@ -262,7 +285,7 @@ private:
                                     { "areaChangeInPercent", PercentChange(extracted.area, measures.area) } };
   }
 
-  /** Says where the volume is not that of the voxels, or not that of the surface before it was refined. */
+  /** Says where the volume is not that of the scan's isosurface, or not that of the surface before it was refined. */
   void
   NoteChanges(const MeshedSurface & surface, const SurfaceMeasures & measures) const
   {
@@ -278,14 +301,13 @@ private:
            << measures.volume / CubicMillimetresPerMillilitre
            << " ml; a smaller --smooth or --max-error changes it less";
     }
-    else if (measures.DiffersFromVoxels())
+    else if (measures.isosurface &&
+             std::abs(*measures.GetVolumeError()) > notable + 100.0 * measures.isosurface->GetRelativeUncertainty())
     {
-      const double difference = PercentChange(*measures.voxelVolume, measures.volume);
-      note
-        << surface.scene.name << ": the volume is " << std::abs(difference) << " % "
-        << (difference > 0.0 ? "above" : "below")
-        << " that of the voxels, as where parts are about as thin as a voxel: neither volume is accurate; --density 2 "
-           "follows the values between the samples more closely";
+      note << surface.scene.name
+           << ": the surface has parts thinner than the lattice's spacing, so its volume is off; take the "
+              "isosurface's, or "
+              "mesh with --density 3";
     }
     if (!note.str().empty())
     {

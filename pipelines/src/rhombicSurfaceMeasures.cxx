@@ -70,11 +70,14 @@ SumInterior(const itk::TriangleSurface & surface, const itk::Image<TPixel, 3> & 
 
 } // namespace
 
-bool
-SurfaceMeasures::DiffersFromVoxels() const
+std::optional<double>
+SurfaceMeasures::GetVolumeError() const
 {
-  constexpr double tolerance = 0.01;
-  return voxelVolume && std::abs(volume - *voxelVolume) > tolerance * std::abs(volume);
+  if (isosurface)
+  {
+    return 100.0 * isosurface->GetErrorOf(volume);
+  }
+  return voxelVolume ? std::optional<double>(100.0 * (volume / *voxelVolume - 1.0)) : std::nullopt;
 }
 
 SurfaceMeasures
@@ -146,7 +149,15 @@ ReportMeasures(const SurfaceMeasures & measures)
   if (measures.voxelVolume)
   {
     report["voxelVolumeInMillilitres"] = *measures.voxelVolume / cubicMillimetresPerMillilitre;
-    report["differsFromVoxels"] = measures.DiffersFromVoxels();
+  }
+  if (measures.isosurface)
+  {
+    report["isosurfaceVolumeInMillilitres"] = measures.isosurface->volume / cubicMillimetresPerMillilitre;
+    report["isosurfaceUncertaintyInMillilitres"] = measures.isosurface->uncertainty / cubicMillimetresPerMillilitre;
+  }
+  if (const auto error = measures.GetVolumeError())
+  {
+    report["volumeErrorInPercent"] = *error;
   }
   report["areaInSquareMillimetres"] = measures.area;
   report["boundsInMillimetres"] = measures.bounds;

@@ -201,8 +201,8 @@ TEST(SurfaceMeasures, AreThoseOfABallOfKnownValues)
   }
 }
 
-// At the default density, a sphere of 27 samples' radius and a torus with a tube of 10 (a vertebra, a large vessel). What
-// is left is the chords' error, which falls with the square of the radius.
+// At the default density, a sphere of 27 samples' radius and a torus with a tube of 10 (a vertebra, a large vessel).
+// What is left is the chords' error, which falls with the square of the radius.
 TEST(SurfaceMeasures, AreThoseOfASphereAndATorus)
 {
   constexpr double sphereRadius = 21.3;
@@ -231,15 +231,15 @@ TEST(SurfaceMeasures, AreThoseOfASphereAndATorus)
         4.0 * pi * pi * ringRadius * tubeRadius);
 }
 
-TEST(SurfaceMeasures, SayWhenTheVolumesDiffer)
+TEST(SurfaceMeasures, ErrorIsOfTheIsosurfaceOrElseOfTheVoxels)
 {
   rhombic::SurfaceMeasures measures;
-  measures.volume = 100.0;
-  EXPECT_FALSE(measures.DiffersFromVoxels()) << "nothing to compare with";
-  measures.voxelVolume = 100.9;
-  EXPECT_FALSE(measures.DiffersFromVoxels());
-  measures.voxelVolume = 98.9;
-  EXPECT_TRUE(measures.DiffersFromVoxels());
+  measures.volume = 101.0;
+  EXPECT_FALSE(measures.GetVolumeError()) << "nothing to compare with";
+  measures.voxelVolume = 100.0;
+  EXPECT_NEAR(*measures.GetVolumeError(), 1.0, 1e-9);
+  measures.isosurface = rhombic::IsosurfaceVolume{ 202.0, 1.0 };
+  EXPECT_NEAR(*measures.GetVolumeError(), -50.0, 1e-9);
 }
 
 TEST(SurfaceDeviation, IsTheDistanceBetweenTwoSpheres)
