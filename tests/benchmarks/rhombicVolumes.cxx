@@ -29,7 +29,7 @@ struct Options
   std::vector<double> isovalues{ 375.5, -485.5 }; // of the phantom: half way from muscle to spine, ribs and pelvis, and
                                                   // from air to skin
   std::vector<double> densities{ itk::FCCLattice::NyquistDensity, 3.0 };
-  double referenceDensity = 7.3;
+  double referenceDensity = 13.7;
   bool isCT = false;
   unsigned int threads = std::max(1U, std::thread::hardware_concurrency());
   std::string json;
