@@ -1,5 +1,7 @@
 #include "rhombicAuditReport.h"
 
+#include "rhombicWording.h"
+
 #include <array>
 #include <iomanip>
 #include <sstream>
@@ -9,13 +11,6 @@ namespace rhombic
 {
 namespace
 {
-
-/** A number and what it counts, in the singular or the plural. */
-std::string
-Count(itk::SizeValueType number, const std::string & one, const std::string & many)
-{
-  return std::to_string(number) + ' ' + (number == 1 ? one : many);
-}
 
 std::ostringstream
 MakeText(int decimals)

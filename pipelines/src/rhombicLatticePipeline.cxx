@@ -6,6 +6,7 @@
 #include "rhombicMemoryBudget.h"
 #include "rhombicObserveProgress.h"
 #include "rhombicScanBorder.h"
+#include "rhombicWording.h"
 
 #include "itkCartesianToFCCImageFilter.h"
 #include "itkCartesianToNestedFCCImageFilter.h"
@@ -273,7 +274,8 @@ LatticeToSurfaces(const FCCVolume & volume,
   }
   if (undefined > 0)
   {
-    events.Note(std::to_string(undefined) + " samples are not a number and count as outside");
+    events.Note(Count(undefined, "sample is not a number and counts", "samples are not a number and count") +
+                " as outside");
   }
   std::vector<SceneSurface> surfaces;
   for (std::size_t n = 0; n < requests.size(); ++n)
@@ -284,7 +286,7 @@ LatticeToSurfaces(const FCCVolume & volume,
     {
       MoveWallsToBorder(*extracted[n], *grid, volume);
     }
-    events.Note(request.name + ": " + std::to_string(extracted[n]->GetNumberOfTriangles()) + " triangles");
+    events.Note(request.name + ": " + Count(extracted[n]->GetNumberOfTriangles(), "triangle"));
     surfaces.push_back({ request.name, extracted[n].GetPointer(), request.colour, request.opacity });
   }
   return surfaces;

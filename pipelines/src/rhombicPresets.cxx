@@ -2,13 +2,12 @@
 
 #include "rhombicBuiltInPresets.h"
 #include "rhombicFailure.h"
+#include "rhombicWording.h"
 
 #include <yaml-cpp/yaml.h>
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <numeric>
 #include <set>
 #include <sstream>
 
@@ -94,26 +93,6 @@ ParseSurface(const YAML::Node & node, const std::string & source)
   return request;
 }
 
-/** Insertions, deletions and replacements that turn one word into the other (Levenshtein). */
-std::size_t
-EditDistance(const std::string & a, const std::string & b)
-{
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0u);
-  for (std::size_t i = 1; i <= a.size(); ++i)
-  {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j)
-    {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({ row[j] + 1, row[j - 1] + 1, replaced });
-    }
-  }
-  return row.back();
-}
-
 bool
 IsYamlPath(const std::string & text)
 {
@@ -192,21 +171,17 @@ FindPreset(const std::string & nameOrPath)
   {
     return ReadPreset(nameOrPath);
   }
-  const Preset * nearest = nullptr;
+  std::vector<std::string> names;
   for (const Preset & preset : GetPresets())
   {
     if (preset.name == nameOrPath)
     {
       return preset;
     }
-    if (nearest == nullptr || EditDistance(nameOrPath, preset.name) < EditDistance(nameOrPath, nearest->name))
-    {
-      nearest = &preset;
-    }
+    names.push_back(preset.name);
   }
   throw Failure(FailureKind::Usage,
-                "There is no preset '" + nameOrPath + "'; did you mean " + nearest->name +
-                  "? (rhombic render --list-presets shows all of them.)");
+                DescribeUnknown("preset", nameOrPath, names, "see rhombic render --list-presets for all of them"));
 }
 
 } // namespace rhombic

@@ -1,6 +1,7 @@
 #include "rhombicSurfaceFinish.h"
 
 #include "rhombicFailure.h"
+#include "rhombicWording.h"
 
 #include "itkTriangleSurfaceDistance.h"
 #include "itkTriangleSurfaceMeasures.h"
@@ -146,7 +147,7 @@ WarnOfCrossings(std::size_t triangles, const std::string & name, const Events & 
 {
   if (triangles > 0)
   {
-    events.Note(name + ": " + std::to_string(triangles) + " triangles pass through others of it");
+    events.Note(name + ": " + Count(triangles, "triangle passes", "triangles pass") + " through others of it");
   }
 }
 

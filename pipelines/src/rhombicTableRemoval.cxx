@@ -3,6 +3,7 @@
 #include "rhombicCoarseScan.h"
 #include "rhombicImageAxes.h"
 #include "rhombicPatientMask.h"
+#include "rhombicWording.h"
 
 #include "itkForEachBlock.h"
 
@@ -314,9 +315,8 @@ NoteRemoval(const TableRemoval & removal, const Events & events)
                     [](double sum, const RemovedObject & object) { return sum + object.millilitres; });
   std::ostringstream text;
   text.imbue(std::locale::classic());
-  text << "removed " << std::lround(total) << " ml around the patient: " << removal.objects.size()
-       << (removal.objects.size() == 1 ? " object" : " objects") << " (table, holder, sheets) and "
-       << removal.numberOfSpecks << " specks; --keep-table keeps them";
+  text << "removed " << std::lround(total) << " ml around the patient: " << Count(removal.objects.size(), "object")
+       << " (table, holder, sheets) and " << Count(removal.numberOfSpecks, "speck") << "; --keep-table keeps them";
   events.Note(text.str());
   for (const std::string & note : removal.notes)
   {

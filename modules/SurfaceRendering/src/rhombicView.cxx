@@ -1,6 +1,7 @@
 #include "rhombicView.h"
 
 #include "rhombicFailure.h"
+#include "rhombicWording.h"
 
 #include <itksys/SystemTools.hxx>
 
@@ -99,16 +100,16 @@ View
 ViewFromName(const std::string & name)
 {
   const std::string lowerCase = itksys::SystemTools::LowerCase(name);
-  std::string names;
+  std::vector<std::string> names;
   for (const View view : AllViews)
   {
     if (lowerCase == NameOf(view))
     {
       return view;
     }
-    names += (names.empty() ? "" : ", ") + NameOf(view);
+    names.push_back(NameOf(view));
   }
-  throw Failure(FailureKind::Usage, "There is no view \"" + name + "\"; choose one of " + names + ".");
+  throw Failure(FailureKind::Usage, DescribeUnknown("view", name, names, "use " + Enumerate(names)));
 }
 
 } // namespace rhombic

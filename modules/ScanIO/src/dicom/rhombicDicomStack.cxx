@@ -1,6 +1,7 @@
 #include "rhombicDicomStack.h"
 
 #include "rhombicFailure.h"
+#include "rhombicWording.h"
 
 #include "itkMath.h"
 
@@ -259,9 +260,9 @@ std::string
 DescribeGaps(const std::vector<SliceGap> & gaps)
 {
   const SliceGap & gap = gaps.front();
-  return std::to_string(gap.numberOfMissing) + (gap.numberOfMissing > 1 ? " slices are" : " slice is") +
-         " missing at " + Rounded(gap.position + gap.step / static_cast<double>(gap.numberOfMissing + 1)) + " mm" +
-         (gaps.size() > 1 ? " and in " + std::to_string(gaps.size() - 1) + " more places" : "");
+  return Count(gap.numberOfMissing, "slice is", "slices are") + " missing at " +
+         Rounded(gap.position + gap.step / static_cast<double>(gap.numberOfMissing + 1)) + " mm" +
+         (gaps.size() > 1 ? " and in " + Count(gaps.size() - 1, "more place") : "");
 }
 
 /** The files on both sides of a gap. */

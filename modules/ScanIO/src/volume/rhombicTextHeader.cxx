@@ -1,6 +1,7 @@
 #include "rhombicTextHeader.h"
 
 #include "rhombicVolumeRefusal.h"
+#include "rhombicWording.h"
 
 #include <algorithm>
 #include <cctype>
@@ -97,7 +98,7 @@ AxisSizes(const std::string & dimensionText, const std::string & sizesText, cons
   }
   if (sizes->size() < 3)
   {
-    RefuseVolume(path, "it is a flat picture of " + std::to_string(sizes->size()) + " dimensions, not a volume");
+    RefuseVolume(path, "it is a flat picture of " + Count(sizes->size(), "dimension") + ", not a volume");
   }
   if (sizes->size() > 4)
   {
