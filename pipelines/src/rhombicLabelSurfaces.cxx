@@ -4,12 +4,16 @@
 #include "rhombicLabelPieces.h"
 #include "rhombicLatticePipeline.h"
 #include "rhombicMaskSurface.h"
+#include "rhombicWording.h"
 
 #include "itkTriangleSurfaceMeasures.h"
+
+#include <itksys/SystemTools.hxx>
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <set>
 #include <sstream>
 
 namespace rhombic
@@ -19,31 +23,49 @@ namespace
 
 constexpr double CubicMillimetresPerMillilitre = 1000.0;
 
-bool
-IsCalled(const Label & label, const std::string & nameOrValue)
+/** The values of the labels that have this name or value. Upper and lower case are the same, unless a label has the
+ * very name. Throws Failure(Usage) when there are none. */
+std::set<std::int32_t>
+FindCalled(const std::vector<LabelSummary> & labels, const std::string & nameOrValue)
 {
-  return label.name == nameOrValue || std::to_string(label.value) == nameOrValue;
+  using itksys::SystemTools;
+  std::set<std::int32_t> exact;
+  std::set<std::int32_t> inAnyCase;
+  std::vector<std::string> names;
+  for (const LabelSummary & summary : labels)
+  {
+    const Label & label = summary.label;
+    if (label.name == nameOrValue || std::to_string(label.value) == nameOrValue)
+    {
+      exact.insert(label.value);
+    }
+    if (SystemTools::LowerCase(label.name) == SystemTools::LowerCase(nameOrValue))
+    {
+      inAnyCase.insert(label.value);
+    }
+    names.push_back(label.name);
+  }
+  if (exact.empty() && inAnyCase.empty())
+  {
+    throw Failure(FailureKind::Usage,
+                  DescribeUnknown("label", nameOrValue, names, "see rhombic info for the label map's labels"));
+  }
+  return exact.empty() ? inAnyCase : exact;
 }
 
 /** The labels that settings ask for, in the order of the map. */
 std::vector<LabelSummary>
 ChooseLabels(const LabelMap & map, const std::vector<std::string> & wanted)
 {
+  std::set<std::int32_t> values;
   for (const std::string & nameOrValue : wanted)
   {
-    if (std::none_of(map.labels.begin(), map.labels.end(), [&nameOrValue](const LabelSummary & summary) {
-          return IsCalled(summary.label, nameOrValue);
-        }))
-    {
-      throw Failure(FailureKind::Usage,
-                    "The label map holds no " + nameOrValue + "; rhombic info lists the map's labels.");
-    }
+    values.merge(FindCalled(map.labels, nameOrValue));
   }
   std::vector<LabelSummary> chosen;
   std::copy_if(map.labels.begin(), map.labels.end(), std::back_inserter(chosen), [&](const LabelSummary & summary) {
-    const auto isCalled = [&summary](const std::string & nameOrValue) { return IsCalled(summary.label, nameOrValue); };
     return wanted.empty() ? summary.label.isVisible && summary.label.opacity > 0.0
-                          : std::any_of(wanted.begin(), wanted.end(), isCalled);
+                          : values.count(summary.label.value) != 0;
   });
   if (chosen.empty())
   {
@@ -177,8 +199,8 @@ NoteShortcomings(const LabelSurface & made, const Events & events)
 {
   if (made.isTorn || made.surfacePieces < made.pieces)
   {
-    events.Note(made.scene.name + ": " + std::to_string(made.pieces) + " pieces became " +
-                std::to_string(made.surfacePieces) + "; parts of it are hardly wider than a voxel");
+    events.Note(made.scene.name + ": " + Count(made.pieces, "piece") + " became " + std::to_string(made.surfacePieces) +
+                "; parts of it are hardly wider than a voxel");
   }
   constexpr double notable = 0.01;
   if (std::abs(made.GetVolumeDifference()) > notable)

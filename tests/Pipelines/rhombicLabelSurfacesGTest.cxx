@@ -605,6 +605,42 @@ TEST(LabelSurfaces, AreThoseAskedFor)
   EXPECT_EQ(report[1]["triangles"], visible[1].scene.surface->GetNumberOfTriangles());
 }
 
+TEST(LabelSurfaces, AreCalledInUpperOrLowerCaseUnlessTheTwoDiffer)
+{
+  LabelMap map = MakeThreeLabels();
+  const auto namesFor = [&map](const std::string & wanted) {
+    rhombic::LabelSurfaceSettings settings;
+    settings.labels = { wanted };
+    return NamesOf(rhombic::LabelsToSurfaces(map, settings, {}));
+  };
+  EXPECT_EQ(namesFor("Liver"), (std::vector<std::string>{ "liver" }));
+  EXPECT_EQ(namesFor("KIDNEY"), (std::vector<std::string>{ "kidney" }));
+  map.labels[1].label.name = "Liver";
+  EXPECT_EQ(namesFor("liver"), (std::vector<std::string>{ "liver" }));
+  EXPECT_EQ(namesFor("Liver"), (std::vector<std::string>{ "Liver" }));
+  EXPECT_EQ(namesFor("LIVER"), (std::vector<std::string>{ "liver", "Liver" })) << "either is meant";
+}
+
+TEST(LabelSurfaces, ThatThereAreNotComeWithASuggestion)
+{
+  const LabelMap map = MakeThreeLabels();
+  const auto sentenceFor = [&map](const std::string & wanted) {
+    rhombic::LabelSurfaceSettings settings;
+    settings.labels = { wanted };
+    try
+    {
+      rhombic::LabelsToSurfaces(map, settings, {});
+    }
+    catch (const rhombic::Failure & failure)
+    {
+      return std::string(failure.GetDescription());
+    }
+    return std::string("no failure");
+  };
+  EXPECT_NE(sentenceFor("livre").find("'livre'; did you mean liver?"), std::string::npos) << sentenceFor("livre");
+  EXPECT_NE(sentenceFor("heart").find("'heart'; see rhombic info"), std::string::npos) << sentenceFor("heart");
+}
+
 TEST(LabelSurfaces, ReportProgress)
 {
   double last = 0.0;
