@@ -2,7 +2,7 @@
 
 find_package(ITK 5.2 REQUIRED)
 find_package(MPI REQUIRED COMPONENTS C CXX) # Debian's VTK links it without looking for it
-find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel FiltersCore IOGeometry IOPLY IOXML
+find_package(VTK 9.1 REQUIRED COMPONENTS CommonColor CommonCore CommonDataModel FiltersCore IOGeometry IOPLY IOXML
                                          RenderingCore RenderingFreeType RenderingOpenGL2)
 find_package(OpenGL REQUIRED COMPONENTS EGL)
 find_package(X11 REQUIRED)

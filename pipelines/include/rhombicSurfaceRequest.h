@@ -37,7 +37,8 @@ struct SurfaceRequest
   double opacity = 1.0;
 };
 
-/** A colour written as `#rrggbb`. Throws Failure(Usage). */
+/** A colour written as `#rrggbb`, `#rgb` or by one of the 148 names of CSS, in upper or lower case. Throws
+ * Failure(Usage). */
 Colour
 ParseColour(const std::string & text);
 

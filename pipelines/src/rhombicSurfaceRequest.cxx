@@ -48,19 +48,6 @@ ParseNumber(const std::string & text)
 
 } // namespace
 
-Colour
-ParseColour(const std::string & text)
-{
-  unsigned int value = 0;
-  const auto end = text.data() + text.size();
-  if (text.size() != 7 || text[0] != '#' || std::from_chars(text.data() + 1, end, value, 16).ptr != end)
-  {
-    throw Failure(FailureKind::Usage, "'" + text + "' is no colour; write it as #rrggbb, for example #f1d691.");
-  }
-  const auto component = [value](unsigned int shift) { return static_cast<double>(value >> shift & 0xff) / 255.0; };
-  return { component(16), component(8), component(0) };
-}
-
 bool
 ParseThreshold(const std::string & text, SurfaceRequest & request)
 {

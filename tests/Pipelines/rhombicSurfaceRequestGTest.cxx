@@ -4,6 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <vtkNamedColors.h>
+#include <vtkNew.h>
+
+#include <sstream>
+
 namespace
 {
 
@@ -19,6 +24,54 @@ TEST(SurfaceRequest, ReadsNameThresholdColourAndOpacity)
   EXPECT_EQ(request.side, SurfaceRequest::Side::Above);
   EXPECT_EQ(request.colour, (rhombic::Colour{ 1.0, 128.0 / 255.0, 0.0 }));
   EXPECT_EQ(request.opacity, 0.5);
+}
+
+TEST(SurfaceRequest, ColoursAreDigitsOrNamesOfCSS)
+{
+  using rhombic::ParseColour;
+  EXPECT_EQ(ParseColour("#fff"), (rhombic::Colour{ 1.0, 1.0, 1.0 }));
+  EXPECT_EQ(ParseColour("#F80"), ParseColour("#ff8800"));
+  EXPECT_EQ(ParseColour("White"), ParseColour("#ffffff"));
+  EXPECT_EQ(ParseColour("rebeccapurple"), ParseColour("#663399"));
+  for (const auto & [british, american] : { std::pair("grey", "gray"),
+                                            std::pair("darkgrey", "darkgray"),
+                                            std::pair("darkslategrey", "darkslategray"),
+                                            std::pair("dimgrey", "dimgray"),
+                                            std::pair("lightgrey", "lightgray"),
+                                            std::pair("lightslategrey", "lightslategray"),
+                                            std::pair("slategrey", "slategray") })
+  {
+    EXPECT_EQ(ParseColour(british), ParseColour(american)) << british;
+  }
+  EXPECT_EQ(ParseColour("gray"), ParseColour("#808080"));
+}
+
+/** VTK knows 140 of the 148 names, one of them with another value, besides many of its own. */
+TEST(SurfaceRequest, NamedColoursAreThoseOfVTK)
+{
+  const vtkNew<vtkNamedColors> known;
+  std::istringstream names(known->GetColorNames());
+  std::size_t count = 0;
+  for (std::string name; std::getline(names, name);)
+  {
+    rhombic::Colour colour;
+    try
+    {
+      colour = rhombic::ParseColour(name);
+    }
+    catch (const Failure &)
+    {
+      continue; // VTK's own
+    }
+    ++count;
+    rhombic::Colour expected;
+    known->GetColorRGB(name, expected.data());
+    if (name != "grey") // VTK's is CSS's silver
+    {
+      EXPECT_EQ(colour, expected) << name;
+    }
+  }
+  EXPECT_EQ(count, 141u);
 }
 
 TEST(SurfaceRequest, HasDefaultsAndOtherThresholds)
@@ -43,7 +96,10 @@ TEST(SurfaceRequest, RefusesWhatItCannotRead)
                              "bone=12x",
                              "bone=nan",
                              "bone=inf",
-                             "bone=1,red",
+                             "bone=1,rot",
+                             "bone=1,#12",
+                             "bone=1,#1234",
+                             "bone=1,fff",
                              "bone=1,#12345",
                              "bone=1,#12345g",
                              "bone=1,#123456,0",
