@@ -29,6 +29,11 @@ struct LabelMapSource
   std::filesystem::path table; ///< empty: the table in the file, or the one beside it (see FindLabelTable())
 };
 
+/** Whether a scan is a label map: it has labels, a table was named for it, or its values look like labels (see
+ * LooksLikeLabelMap()). Thread safe. */
+bool
+IsLabelMap(const Scan & scan, const LabelMapSource & source);
+
 /** The labels of a scan that is a label map. Throws Failure(Unreadable) for others. Thread safe. */
 std::vector<LabelSummary>
 FindLabels(const Scan & scan, const LabelMapSource & source);

@@ -32,7 +32,7 @@ struct ScanSource
 /** The surfaces of a label map. */
 struct LabelSelection
 {
-  LabelMapSource source;
+  LabelMapSource source;           ///< with an empty path: the scan itself is the label map
   std::vector<std::string> labels; ///< names or values; empty: all that the label table wants shown
 };
 

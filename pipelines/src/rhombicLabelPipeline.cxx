@@ -25,6 +25,12 @@ FindTable(const Scan & scan, const LabelMapSource & source)
 
 } // namespace
 
+bool
+IsLabelMap(const Scan & scan, const LabelMapSource & source)
+{
+  return !source.table.empty() || !scan.labels.empty() || LooksLikeLabelMap(scan);
+}
+
 std::vector<LabelSummary>
 FindLabels(const Scan & scan, const LabelMapSource & source)
 {

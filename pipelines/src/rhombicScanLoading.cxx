@@ -2,6 +2,7 @@
 
 #include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
+#include "rhombicWording.h"
 
 #include <set>
 #include <sstream>
@@ -26,12 +27,35 @@ GridOf(const Scan & scan)
   return grid;
 }
 
+[[noreturn]] void
+RefuseToChoose(const fs::path & path)
+{
+  throw Failure(FailureKind::Usage,
+                "No surface is chosen, and " + path.string() +
+                  " is no label map; choose a --preset (see rhombic render --list-presets), or give --surface "
+                  "name=threshold, --labels MAP or, to rhombic mesh, a threshold, as -t 250.5.");
+}
+
+/** The labels of a scan that is a label map itself. */
+LabelMap
+TakeForLabels(Scan scan, const LabelMapSource & source, const Events & events)
+{
+  if (!IsLabelMap(scan, source))
+  {
+    RefuseToChoose(source.path);
+  }
+  std::vector<LabelSummary> labels = FindLabels(scan, source);
+  events.Note(source.path.string() + " is a label map of " + Count(labels.size(), "label") +
+              ", of which surfaces are made");
+  return { std::move(scan), std::move(labels) };
+}
+
 LabelMap
 LoadLabels(const ScanSource & source, const LabelMapSource & labels, const Scan & scan, const Events & events)
 {
   events.Progress("reading labels", 0.0);
   LabelMap map = ReadLabelMap(labels, source.read, scan, source.path);
-  events.Note(std::to_string(map.labels.size()) + " labels in " + labels.path.string());
+  events.Note(Count(map.labels.size(), "label") + " in " + labels.path.string());
   for (const std::string & note : map.scan.notes)
   {
     events.Note(note);
@@ -42,6 +66,10 @@ LoadLabels(const ScanSource & source, const LabelMapSource & labels, const Scan 
 LoadedSource
 LoadLatticeVolume(const ScanSource & source, const SurfaceSelection & selection, const Events & events)
 {
+  if (selection.labels && selection.labels->source.path.empty())
+  {
+    RefuseToChoose(source.path);
+  }
   if (selection.labels)
   {
     throw Failure(FailureKind::Usage,
@@ -65,6 +93,12 @@ LoadScanAndLabels(const ScanSource & source, const SurfaceSelection & selection,
   Scan & scan = *loaded.scan;
   loaded.report["scan"] = ReportWithoutNames(scan, source.path);
   loaded.isOriented = scan.isOriented;
+  if (selection.labels && selection.labels->source.path.empty())
+  {
+    loaded.labels = TakeForLabels(std::move(scan), { source.path, selection.labels->source.table }, events);
+    loaded.scan.reset(); // surfaces of labels have no mean of its values
+    return loaded;
+  }
   if (selection.labels)
   {
     loaded.labels = LoadLabels(source, selection.labels->source, scan, events);

@@ -32,7 +32,7 @@ ReportWithoutNames(const Scan & scan, const std::filesystem::path & path);
  * \brief What surfaces are made of. */
 struct LoadedSource
 {
-  std::optional<Scan> scan;             ///< none when the source is a lattice volume
+  std::optional<Scan> scan;             ///< none when the source is a lattice volume or a label map
   FCCVolume lattice;                    ///< the scan's, if there are requests
   itk::ImageBase<3>::Pointer grid;      ///< the scan's, without its values; null when there is none or it is slanted
   std::vector<SurfaceRequest> requests; ///< with their isovalues
