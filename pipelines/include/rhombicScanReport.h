@@ -23,7 +23,12 @@ using Report = nlohmann::ordered_json;
 Report
 ReportScan(const Scan & scan);
 
-/** The same for a volume that is on the lattice already. */
+/** All that headers tell of the series in a folder, with their spacings. Holds nothing about the patient but the names
+ * of files in the series' problems. */
+Report
+ReportSeriesList(const SeriesList & list);
+
+/** The same as ReportScan() for a volume that is on the lattice already. */
 Report
 ReportLattice(const FCCVolume & volume);
 

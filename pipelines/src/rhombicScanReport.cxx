@@ -104,9 +104,29 @@ ReportSeries(const SeriesSummary & series)
   report["kind"] = series.kind;
   report["files"] = series.numberOfFiles;
   report["size"] = series.size;
+  if (series.spacing[0] > 0.0)
+  {
+    report["spacing"] = series.spacing;
+  }
   report["problem"] = series.problem;
   report["chosen"] = series.chosen;
   return report;
+}
+
+/** For a Scan or a SeriesList: the series in its folder, and the files that are none. */
+template <typename TFolder>
+void
+ReportFolder(const TFolder & folder, const std::string & choice, Report & report)
+{
+  report["series"] = Report::array();
+  for (const SeriesSummary & series : folder.series)
+  {
+    report["series"].push_back(ReportSeries(series));
+  }
+  report["choice"] = choice;
+  report["filesConsidered"] = folder.filesConsidered;
+  report["filesSkipped"] = folder.filesSkipped.empty() ? Report::object() : Report(folder.filesSkipped);
+  report["notes"] = folder.notes;
 }
 
 } // namespace
@@ -151,15 +171,21 @@ ReportScan(const Scan & scan)
   {
     report["padding"] = { { "value", *scan.paddingValue }, { "samples", scan.numberOfPaddingSamples } };
   }
-  report["series"] = Report::array();
-  for (const SeriesSummary & series : scan.series)
+  if (scan.numberOfFrames > 1)
   {
-    report["series"].push_back(ReportSeries(series));
+    report["frames"] = scan.numberOfFrames;
+    report["frame"] = scan.frame;
   }
-  report["choice"] = scan.choice;
-  report["filesConsidered"] = scan.filesConsidered;
-  report["filesSkipped"] = scan.filesSkipped.empty() ? Report::object() : Report(scan.filesSkipped);
-  report["notes"] = scan.notes;
+  ReportFolder(scan, scan.choice, report);
+  return report;
+}
+
+Report
+ReportSeriesList(const SeriesList & list)
+{
+  Report report;
+  report["format"] = "DICOM";
+  ReportFolder(list, "", report);
   return report;
 }
 

@@ -212,6 +212,47 @@ TEST_F(DicomFolder, LargestSeriesByFarIsReadUnlessAnotherIsChosen)
   EXPECT_EQ(KindOfReading(m_Folder, "3 slices, id " + scan.series[1].id), FailureKind::Usage) << "4 are not twice 3";
 }
 
+TEST_F(DicomFolder, EachSeriesIsListedWithItsSpacingOrProblem)
+{
+  WriteStack(m_Folder / "a", 4);
+  const auto writeOther = [this](const char * uid, const char * number, std::size_t k) {
+    DicomTestFile file = MakeSlice(k);
+    file.SetSeries(uid, number);
+    file.Write(m_Folder / (std::string(uid) + "-" + std::to_string(k)));
+  };
+  for (const std::size_t k : { 0u, 1u, 3u, 4u })
+  {
+    writeOther("9.8.7", "20", k);
+  }
+  writeOther("9.8.6", "30", 0);
+  std::ofstream(m_Folder / "notes.txt") << "no image";
+
+  const rhombic::SeriesList list = rhombic::ListSeries(m_Folder);
+  ASSERT_EQ(list.series.size(), 3u);
+  EXPECT_EQ(list.filesConsidered, 10u);
+  EXPECT_EQ(list.filesSkipped.at("not DICOM"), 1u);
+  for (const auto & series : list.series)
+  {
+    EXPECT_FALSE(series.chosen) << "two have as many slices";
+  }
+  EXPECT_EQ(list.series[0].size, (std::array<std::size_t, 3>{ Columns, Rows, 4 }));
+  EXPECT_NEAR(list.series[0].spacing[2], 2.5, 1e-9);
+  EXPECT_EQ(list.series[0].problem, "");
+  EXPECT_NE(list.series[1].problem.find("1 slice is missing at 5 mm"), std::string::npos) << list.series[1].problem;
+  EXPECT_EQ(list.series[1].spacing[2], 0.0);
+  EXPECT_NE(list.series[2].problem.find("only one slice"), std::string::npos) << list.series[2].problem;
+
+  EXPECT_TRUE(rhombic::ListSeries(m_Folder, Series("20")).series[1].chosen);
+  EXPECT_EQ(KindOfReading(m_Folder, "1 slice is missing", Series("20")), FailureKind::Geometry) << "as listed";
+  EXPECT_THROW(rhombic::ListSeries(m_Folder, Series("40")), rhombic::Failure);
+  fs::remove(m_Folder / "9.8.7-4");
+  fs::remove(m_Folder / "9.8.7-3");
+  const auto chosen = rhombic::ListSeries(m_Folder);
+  EXPECT_TRUE(chosen.series[0].chosen) << "4 are twice 2";
+  EXPECT_TRUE(ReadScan(m_Folder).series[0].chosen);
+  EXPECT_THROW(rhombic::ListSeries(m_Folder / "missing"), rhombic::Failure);
+}
+
 TEST_F(DicomFolder, AmbiguousSeriesNumberIsRefused)
 {
   WriteStack(m_Folder);

@@ -198,6 +198,13 @@ TEST_F(NIfTIFile, FramesOfSeries)
     EXPECT_EQ(this->KindOf(file, "holds 6", Frame(6)), FailureKind::Usage);
     EXPECT_EQ(ValuesOf<std::int16_t>(this->Read(file, Frame(0))), Counting(0, 12));
     EXPECT_EQ(ValuesOf<std::int16_t>(this->Read(file, Frame(5))), Counting(60, 12));
+    rhombic::ScanReadOptions first;
+    first.onSeveralFrames = rhombic::ScanReadOptions::Policy::Accept;
+    const auto scan = this->Read(file, first);
+    EXPECT_EQ(ValuesOf<std::int16_t>(scan), Counting(0, 12));
+    EXPECT_EQ(scan.numberOfFrames, 6u);
+    EXPECT_EQ(scan.frame, 0u);
+    EXPECT_EQ(this->Read(file, Frame(5)).frame, 5u);
     const auto packed = WriteBytes(m_Folder / "a.nii.gz", Gzipped(file.Bytes()));
     EXPECT_EQ(ValuesOf<std::int16_t>(ReadScan(packed, Frame(4))), Counting(48, 12));
 

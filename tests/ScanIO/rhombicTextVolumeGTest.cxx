@@ -289,6 +289,10 @@ TEST_F(TextVolume, LayersAndFramesOfNRRD)
   EXPECT_EQ(KindOfReading(layers, "2 volumes"), FailureKind::Unreadable);
   EXPECT_EQ(KindOfReading(layers, "--frame", Frame(2)), FailureKind::Usage);
   EXPECT_EQ(TextOf(ReadScan(layers, Frame(0))), "abcdefgh");
+  rhombic::ScanReadOptions first;
+  first.onSeveralFrames = rhombic::ScanReadOptions::Policy::Accept;
+  EXPECT_EQ(TextOf(ReadScan(layers, first)), "abcdefgh");
+  EXPECT_EQ(ReadScan(layers, first).numberOfFrames, 2u);
   const auto second = ReadScan(layers, Frame(1));
   EXPECT_EQ(TextOf(second), "ABCDEFGH");
   EXPECT_EQ(GeometryOf(second.image).GetSpacing()[1], 3);

@@ -37,8 +37,22 @@ struct SeriesSummary
   std::string kind;         ///< what tells it from others of the same scan: ImageType, echo, ...; may be empty
   std::size_t numberOfFiles = 0;
   std::array<std::size_t, 3> size{}; ///< columns, rows, slices
-  std::string problem;               ///< why it can't be read, as "it is ..."; empty when it can
+  std::array<double, 3> spacing{};   ///< between them, in mm; 0, which ReadScan() leaves, when it is not known
+  std::string problem;               ///< why it can't be read, as "it is ..." or a sentence; empty when it can
   bool chosen = false;               ///< whether it is the one that was read
+};
+
+/** \class SeriesList
+ * \brief The DICOM series in a folder or file, and what else is there.
+ *
+ * Thread safety: a value. */
+struct SeriesList
+{
+  std::vector<SeriesSummary> series; ///< with spacings; empty for other formats than DICOM
+  std::size_t filesConsidered = 0;   ///< see Scan, as for the next three
+  std::map<std::string, std::size_t> filesSkipped;
+  std::vector<std::string> notes;
+  std::vector<std::string> fileNotes;
 };
 
 /** Slices that follow each other at the same distance. Thread safety: a value. */
@@ -98,6 +112,8 @@ struct Scan
   std::size_t filesConsidered = 0;                 ///< in the folder, and its subfolders; 0 for other formats
   std::map<std::string, std::size_t> filesSkipped; ///< how many files of a folder were left out, by reason
   std::string choice;                              ///< why the series that was read was chosen
+  std::size_t numberOfFrames = 1;                  ///< volumes in the file
+  std::size_t frame = 0;                           ///< which of them was read, from 0
   std::optional<StackReport> stack;                ///< of DICOM volumes
   std::optional<AffineReport> affine;              ///< of NIfTI volumes
   std::string scaling;                             ///< from stored to rescaled values, in words; empty for none

@@ -39,8 +39,11 @@ struct ScanReadOptions
   /** Stacks from which slices are missing: refused, or accepted with the others in their true positions. */
   Policy onGap = Policy::Refuse;
 
-  /** Which volume of a file that holds several, from 0; a file of several is refused without. */
+  /** Which volume of a file that holds several, from 0. */
   std::optional<std::size_t> frame;
+
+  /** Files of several volumes when none of them is asked for: refused, or the first is read. */
+  Policy onSeveralFrames = Policy::Refuse;
 
   /** Whether Analyze 7.5 files are read, whose orientation is unknown. */
   bool acceptsAnalyze = false;
@@ -82,6 +85,15 @@ struct ScanReadOptions
  * Thread safe, also with a common decoder. While it runs, warnings of ITK and GDCM are off for the whole process. */
 Scan
 ReadScan(const std::filesystem::path & path, const ScanReadOptions & options = {});
+
+/** The series that ReadScan() finds at this path, from headers alone. Their problems are why ReadScan() would refuse
+ * them, in sentences that may name files; damage that only unpacking finds is not among them. The chosen one is that
+ * which ReadScan() would read; there is none when it would refuse to choose.
+ *
+ * Throws Failure: NotFound, Usage (ScanReadOptions::series names none), Unreadable (a file that is no DICOM image).
+ * Thread safe, as ReadScan(). */
+SeriesList
+ListSeries(const std::filesystem::path & path, const ScanReadOptions & options = {});
 
 } // namespace rhombic
 

@@ -16,8 +16,9 @@ namespace rhombic
 namespace
 {
 
-Scan
-Read(const fs::path & path, const ScanReadOptions & options)
+/** Whether a path is a folder and not a file. Throws Failure when it is neither. */
+bool
+IsFolder(const fs::path & path)
 {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -26,14 +27,20 @@ Read(const fs::path & path, const ScanReadOptions & options)
     throw Failure(FailureKind::NotFound,
                   "Cannot read " + path.string() + ": there is no such file or folder; check the spelling.");
   }
-  if (fs::is_directory(status))
-  {
-    return ReadDicomFolder(path, options);
-  }
-  if (!fs::is_regular_file(status))
+  if (!fs::is_directory(status) && !fs::is_regular_file(status))
   {
     throw Failure(FailureKind::Unreadable,
                   "Cannot read " + path.string() + ": it is a device or pipe; give a file or folder.");
+  }
+  return fs::is_directory(status);
+}
+
+Scan
+Read(const fs::path & path, const ScanReadOptions & options)
+{
+  if (IsFolder(path))
+  {
+    return ReadDicomFolder(path, options);
   }
   if (!IsVolumeFileName(path))
   {
@@ -48,22 +55,19 @@ Read(const fs::path & path, const ScanReadOptions & options)
   return ReadVolumeFile(path, options);
 }
 
-} // namespace
-
-Scan
-ReadScan(const fs::path & path, const ScanReadOptions & options)
+/** Calls \a read, whose exceptions become Failures that name the path. */
+template <typename TRead>
+auto
+ReadOrFail(const fs::path & path, const TRead & read)
 {
   const QuietLibraries quiet;
-  InProcessDecoder inProcess;
-  ScanReadOptions used = options;
-  used.decoder = options.decoder != nullptr ? options.decoder : &inProcess;
   const auto outOfMemory = [&path] {
     return Failure(FailureKind::Memory,
                    "Cannot read " + path.string() + ": it does not fit into memory; free some or crop the scan.");
   };
   try
   {
-    return Read(path, used);
+    return read();
   }
   catch (const Failure &)
   {
@@ -83,6 +87,26 @@ ReadScan(const fs::path & path, const ScanReadOptions & options)
                   "Cannot read " + path.string() + ": " + DescribeError(exception) +
                     "; it may be damaged, so copy it again.");
   }
+}
+
+} // namespace
+
+Scan
+ReadScan(const fs::path & path, const ScanReadOptions & options)
+{
+  InProcessDecoder inProcess;
+  ScanReadOptions used = options;
+  used.decoder = options.decoder != nullptr ? options.decoder : &inProcess;
+  return ReadOrFail(path, [&path, &used] { return Read(path, used); });
+}
+
+SeriesList
+ListSeries(const fs::path & path, const ScanReadOptions & options)
+{
+  return ReadOrFail(path, [&path, &options] {
+    const bool isFolder = IsFolder(path);
+    return !isFolder && IsVolumeFileName(path) ? SeriesList() : ListDicomSeries(path, isFolder, options);
+  });
 }
 
 } // namespace rhombic

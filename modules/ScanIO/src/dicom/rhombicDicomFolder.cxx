@@ -8,6 +8,7 @@
 #include "rhombicFolderFiles.h"
 #include "rhombicTransferSyntax.h"
 #include "rhombicVolumeFile.h"
+#include "rhombicWording.h"
 
 #include <algorithm>
 #include <set>
@@ -75,7 +76,7 @@ NoteOthers(const std::vector<SeriesSummary> & summaries)
     {
       notes.push_back("Series " + std::to_string(summary.number) + " (" +
                       (summary.modality.empty() ? "modality unknown" : summary.modality) + ", " +
-                      std::to_string(summary.numberOfFiles) + " files, id " + summary.id + ") was not read" +
+                      Count(summary.numberOfFiles, "file") + ", id " + summary.id + ") was not read" +
                       (summary.problem.empty() ? "" : ": " + summary.problem) + ".");
     }
   }
@@ -126,8 +127,7 @@ CollectSlices(const FolderFiles & files, Scan & scan)
   if (!damaged.empty())
   {
     // A slice that is missing at an end leaves no gap that could be seen.
-    scan.notes.push_back("Slices may be missing, because " + std::to_string(damaged.size()) +
-                         (damaged.size() > 1 ? " files" : " file") + " could not be read.");
+    scan.notes.push_back("Slices may be missing, because " + Count(damaged.size(), "file") + " could not be read.");
     scan.fileNotes.push_back(Shorten(damaged));
   }
   return slices;
@@ -207,18 +207,28 @@ LeaveOut(const FileFailures & failures, std::vector<DicomSlice> slices, const Sc
   slices.erase(std::remove_if(slices.begin(), slices.end(), failed), slices.end());
   if (options.onGap == ScanReadOptions::Policy::Refuse || slices.size() < 2)
   {
-    throw Failure(
-      FailureKind::Unreadable,
-      failures.begin()->second +
-        (others == 0 ? "" : " (And " + std::to_string(others) + (others > 1 ? " more files.)" : " more file.)")));
+    throw Failure(FailureKind::Unreadable,
+                  failures.begin()->second + (others == 0 ? "" : " (And " + Count(others, "more file") + ".)"));
   }
-  scan.notes.push_back("The slices of " + std::to_string(failures.size()) +
-                       (others > 0 ? " damaged files were left out." : " damaged file were left out."));
+  scan.notes.push_back("The slices of " + Count(failures.size(), "damaged file") + " were left out.");
   for (const auto & [path, failure] : failures)
   {
     scan.fileNotes.push_back(failure);
   }
   return slices;
+}
+
+/** Where the volume of a series lies, as far as its headers tell. */
+VolumeGeometry
+PlaceSeries(std::vector<DicomSlice> slices, const ScanReadOptions & options)
+{
+  Scan ignored; // what would be noted when it is read
+  if (slices.front().kind == DicomSlice::Kind::Segmentation)
+  {
+    return PlaceDicomSegmentation(slices, ignored);
+  }
+  slices = LeaveOut(FindDamagedFiles(slices), std::move(slices), options, ignored);
+  return StackSlices(slices, options).geometry;
 }
 
 /** Stacks and reads slices. A file that can't be read counts as a gap: the options say whether that is accepted. */
@@ -270,25 +280,24 @@ ReadSlices(const std::vector<DicomSlice> & slices, Scan scan, const fs::path & p
   return scan;
 }
 
-} // namespace
-
-Scan
-ReadDicomFolder(const fs::path & folder, const ScanReadOptions & options)
+/** The slices of a folder, of which there are some. */
+std::vector<DicomSlice>
+ReadFolder(const fs::path & folder, const ScanReadOptions & options, Scan & scan)
 {
   const FolderFiles files = ListFiles(folder, options.followsLinks);
-  Scan scan;
-  const std::vector<DicomSlice> slices = CollectSlices(files, scan);
+  std::vector<DicomSlice> slices = CollectSlices(files, scan);
   if (slices.empty())
   {
     RefuseFolder(folder, files, scan);
   }
-  return ReadSlices(slices, std::move(scan), folder, options);
+  return slices;
 }
 
-Scan
-ReadDicomFile(const fs::path & path, const ScanReadOptions & options)
+/** The slices of a file that holds a volume. */
+std::vector<DicomSlice>
+ReadFile(const fs::path & path)
 {
-  const std::vector<DicomSlice> slices = ReadDicomSlices(path);
+  std::vector<DicomSlice> slices = ReadDicomSlices(path);
   if (slices.empty())
   {
     throw Failure(FailureKind::Unreadable,
@@ -313,7 +322,52 @@ ReadDicomFile(const fs::path & path, const ScanReadOptions & options)
                   "Cannot read " + path.string() +
                     ": it is a single slice, which is no volume; give the folder of the whole series.");
   }
-  return ReadSlices(slices, Scan(), path, options);
+  return slices;
+}
+
+} // namespace
+
+Scan
+ReadDicomFolder(const fs::path & folder, const ScanReadOptions & options)
+{
+  Scan scan;
+  const std::vector<DicomSlice> slices = ReadFolder(folder, options, scan);
+  return ReadSlices(slices, std::move(scan), folder, options);
+}
+
+Scan
+ReadDicomFile(const fs::path & path, const ScanReadOptions & options)
+{
+  return ReadSlices(ReadFile(path), Scan(), path, options);
+}
+
+SeriesList
+ListDicomSeries(const fs::path & path, bool isFolder, const ScanReadOptions & options)
+{
+  Scan found;
+  const std::vector<DicomSlice> slices = isFolder ? ReadFolder(path, options, found) : ReadFile(path);
+  const std::vector<DicomSeries> series = GroupIntoSeries(slices);
+  const auto choice = FindSeries(series, options.series, path);
+  SeriesList list{ Summarize(series, choice ? choice->index : series.size()),
+                   found.filesConsidered,
+                   found.filesSkipped,
+                   found.notes,
+                   found.fileNotes };
+  for (std::size_t i = 0; i < series.size(); ++i)
+  {
+    SeriesSummary & summary = list.series[i];
+    try
+    {
+      const VolumeGeometry geometry = PlaceSeries(series[i].slices, options);
+      std::copy_n(geometry.size.begin(), 3, summary.size.begin());
+      std::copy_n(geometry.spacing.Begin(), 3, summary.spacing.begin());
+    }
+    catch (const Failure & failure)
+    {
+      summary.problem = summary.problem.empty() ? failure.GetDescription() : summary.problem;
+    }
+  }
+  return list;
 }
 
 } // namespace rhombic

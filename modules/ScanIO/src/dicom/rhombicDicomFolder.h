@@ -18,6 +18,10 @@ ReadDicomFolder(const std::filesystem::path & folder, const ScanReadOptions & op
 Scan
 ReadDicomFile(const std::filesystem::path & path, const ScanReadOptions & options);
 
+/** The series of a folder or of a file (see ListSeries()). Throws Failure and the exceptions of libraries. */
+SeriesList
+ListDicomSeries(const std::filesystem::path & path, bool isFolder, const ScanReadOptions & options);
+
 } // namespace rhombic
 
 #endif

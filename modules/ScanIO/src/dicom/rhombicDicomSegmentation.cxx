@@ -6,6 +6,7 @@
 #include "rhombicMemoryBudget.h"
 #include "rhombicStoredBytes.h"
 #include "rhombicVolumeGeometry.h"
+#include "rhombicWording.h"
 
 #include <algorithm>
 #include <cmath>
@@ -280,8 +281,8 @@ PlaceFrames(const Frames & frames, const SliceTags & tags, Scan & scan)
   {
     Refuse(file,
            FailureKind::Geometry,
-           "it has frames in " + std::to_string(places.size()) + " of " + std::to_string(slices.count) +
-             " slices only, which is too few to be true");
+           "it has frames in " + std::to_string(places.size()) + " of " + Count(slices.count, "slice") +
+             " only, which is too few to be true");
   }
   for (const double distance : distances)
   {
@@ -372,14 +373,11 @@ Fill(const Bytes & bytes,
   return shared;
 }
 
-} // namespace
-
-void
-ReadDicomSegmentation(const std::vector<DicomSlice> & frames, std::uintmax_t maximumMemory, Scan & scan)
+/** Whether a segmentation has a frame for each segment and slice; otherwise its pixels are labels. Throws Failure for
+ * one that can't be read. */
+bool
+IsBinary(const DicomDataSet & dataSet, const DicomImageFile & file)
 {
-  const DicomImageFile & file = *frames.front().file;
-  const auto header = ReadDicomHeader(file.path);
-  const DicomDataSet & dataSet = header.value().dataSet;
   const std::string type = dataSet.GetText(DicomTags::SegmentationType);
   const bool isBinary = type == "BINARY" && file.format.bitsAllocated == 1;
   const bool isLabelMap = type == "LABELMAP" && (file.format.bitsAllocated == 8 || file.format.bitsAllocated == 16);
@@ -394,6 +392,27 @@ ReadDicomSegmentation(const std::vector<DicomSlice> & frames, std::uintmax_t max
   {
     Refuse(file, FailureKind::Unreadable, file.pixelDamage);
   }
+  return isBinary;
+}
+
+} // namespace
+
+VolumeGeometry
+PlaceDicomSegmentation(const std::vector<DicomSlice> & frames, Scan & scan)
+{
+  const DicomImageFile & file = *frames.front().file;
+  const auto header = ReadDicomHeader(file.path);
+  IsBinary(header.value().dataSet, file);
+  return GeometryOf(PlaceFrames(frames, ReadSliceTags(header.value().dataSet), scan), frames.front());
+}
+
+void
+ReadDicomSegmentation(const std::vector<DicomSlice> & frames, std::uintmax_t maximumMemory, Scan & scan)
+{
+  const DicomImageFile & file = *frames.front().file;
+  const auto header = ReadDicomHeader(file.path);
+  const DicomDataSet & dataSet = header.value().dataSet;
+  const bool isBinary = IsBinary(dataSet, file);
   const EvenSlices slices = PlaceFrames(frames, ReadSliceTags(dataSet), scan);
   scan.labels = ReadLabels(dataSet, file);
   const bool fitsByte = scan.labels.back().value <= std::numeric_limits<std::uint8_t>::max();
@@ -412,7 +431,8 @@ ReadDicomSegmentation(const std::vector<DicomSlice> & frames, std::uintmax_t max
       Fill(bytes, file.format, segments, frames, slices.sliceOfFrame, image->GetBufferPointer());
     if (shared > 0)
     {
-      scan.notes.push_back(std::to_string(shared) + " voxels belong to more than one segment; the last one counts.");
+      scan.notes.push_back(Count(shared, "voxel belongs", "voxels belong") +
+                           " to more than one segment; the last one counts.");
     }
     scan.image = image;
   };

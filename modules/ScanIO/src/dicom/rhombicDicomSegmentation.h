@@ -3,6 +3,7 @@
 
 #include "rhombicDicomSlice.h"
 #include "rhombicScan.h"
+#include "rhombicVolumeGeometry.h"
 
 #include <cstdint>
 #include <vector>
@@ -17,6 +18,10 @@ namespace rhombic
  * Memory when the label map would take more than \a maximumMemory bytes (see ScanReadOptions). */
 void
 ReadDicomSegmentation(const std::vector<DicomSlice> & frames, std::uintmax_t maximumMemory, Scan & scan);
+
+/** Where the label map of a segmentation lies, as ReadDicomSegmentation() finds it. Throws the same. */
+VolumeGeometry
+PlaceDicomSegmentation(const std::vector<DicomSlice> & frames, Scan & scan);
 
 } // namespace rhombic
 

@@ -3,6 +3,7 @@
 #include "rhombicDicomCodes.h"
 #include "rhombicDicomStack.h"
 #include "rhombicFailure.h"
+#include "rhombicWording.h"
 
 #include <algorithm>
 #include <cmath>
@@ -137,15 +138,15 @@ NameSeries(std::vector<DicomSeries> & series)
 }
 
 std::string
-ListSeries(const std::vector<DicomSeries> & series)
+EnumerateSeries(const std::vector<DicomSeries> & series)
 {
   std::string list;
   for (std::size_t i = 0; i < series.size(); ++i)
   {
     const DicomSlice & slice = series[i].slices.front();
     list += (i > 0 ? ", " : "") + std::to_string(i + 1) + " (" + (slice.modality.empty() ? "?" : slice.modality) +
-            ", " + std::to_string(series[i].slices.size()) + " slices" +
-            (series[i].kind.empty() ? "" : ", " + series[i].kind) + ", id " + series[i].id + ")";
+            ", " + Count(series[i].slices.size(), "slice") + (series[i].kind.empty() ? "" : ", " + series[i].kind) +
+            ", id " + series[i].id + ")";
   }
   return list;
 }
@@ -170,7 +171,7 @@ FindWanted(const std::vector<DicomSeries> & series, const std::string & wanted, 
   {
     throw Failure(FailureKind::Usage,
                   std::string(found.empty() ? "No series" : "More than one series") + " in " + folder.string() +
-                    " goes by the name that was asked for; choose by id from " + ListSeries(series) + ".");
+                    " goes by the name that was asked for; choose by id from " + EnumerateSeries(series) + ".");
   }
   return *found.begin();
 }
@@ -194,14 +195,15 @@ RankSeries(const std::vector<DicomSeries> & series)
   return places;
 }
 
-SeriesChoice
-ChooseBest(const std::vector<DicomSeries> & series, const std::filesystem::path & folder)
+/** None when there are several that are about as good. */
+std::optional<SeriesChoice>
+FindBest(const std::vector<DicomSeries> & series)
 {
   const std::vector<std::size_t> places = RankSeries(series);
   const DicomSeries & best = series[places[0]];
   if (series.size() == 1)
   {
-    return { 0, "it is the only series" };
+    return SeriesChoice{ 0, "it is the only series" };
   }
   const DicomSeries & next = series[places[1]];
   const auto isRival = [&best](const DicomSeries & other) {
@@ -210,17 +212,15 @@ ChooseBest(const std::vector<DicomSeries> & series, const std::filesystem::path 
   };
   if (!isRival(next))
   {
-    return { places[0], "it is the only series that can be a volume" };
+    return SeriesChoice{ places[0], "it is the only series that can be a volume" };
   }
   if (best.slices.size() < 2 * next.slices.size())
   {
-    throw Failure(FailureKind::Usage,
-                  "There is more than one volume in " + folder.string() + "; choose one with --series and an id from " +
-                    ListSeries(series) + ".");
+    return std::nullopt;
   }
-  return { places[0],
-           "it has the most slices by far (" + std::to_string(best.slices.size()) + ", the next has " +
-             std::to_string(next.slices.size()) + ")" };
+  return SeriesChoice{ places[0],
+                       "it has the most slices by far (" + std::to_string(best.slices.size()) + ", the next has " +
+                         std::to_string(next.slices.size()) + ")" };
 }
 
 } // namespace
@@ -251,19 +251,30 @@ GroupIntoSeries(const std::vector<DicomSlice> & slices)
   return series;
 }
 
+std::optional<SeriesChoice>
+FindSeries(const std::vector<DicomSeries> & series, const std::string & wanted, const std::filesystem::path & folder)
+{
+  return wanted.empty() ? FindBest(series) : SeriesChoice{ FindWanted(series, wanted, folder), "it was asked for" };
+}
+
 SeriesChoice
 ChooseSeries(const std::vector<DicomSeries> & series, const std::string & wanted, const std::filesystem::path & folder)
 {
-  const SeriesChoice choice = wanted.empty() ? ChooseBest(series, folder)
-                                             : SeriesChoice{ FindWanted(series, wanted, folder), "it was asked for" };
-  const DicomSlice & slice = series[choice.index].slices.front();
+  const auto choice = FindSeries(series, wanted, folder);
+  if (!choice)
+  {
+    throw Failure(FailureKind::Usage,
+                  "There is more than one volume in " + folder.string() + "; choose one with --series and an id from " +
+                    EnumerateSeries(series) + ".");
+  }
+  const DicomSlice & slice = series[choice->index].slices.front();
   if (!slice.refusal.empty())
   {
     throw Failure(FailureKind::Unreadable,
                   "Cannot read " + slice.file->path.string() + ": " + slice.refusal +
                     "; give a series of plain CT, MR or PET slices.");
   }
-  return choice;
+  return *choice;
 }
 
 std::vector<SeriesSummary>

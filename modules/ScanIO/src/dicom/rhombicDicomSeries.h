@@ -4,6 +4,9 @@
 #include "rhombicDicomSlice.h"
 #include "rhombicScan.h"
 
+#include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace rhombic
@@ -32,8 +35,13 @@ struct SeriesChoice
 };
 
 /** The series that is wanted (see ScanReadOptions::series); when \a wanted is empty, the only one that can be a volume,
- * or that with at least twice as many slices as any other. Throws Failure(Usage), listing them, when that leaves none
- * or more than one, Failure(Unreadable) when none of them can be a volume. */
+ * or that with at least twice as many slices as any other, or none where there are several such. Throws Failure(Usage),
+ * listing them, when none or more than one is called as wanted. */
+std::optional<SeriesChoice>
+FindSeries(const std::vector<DicomSeries> & series, const std::string & wanted, const std::filesystem::path & folder);
+
+/** FindSeries(). Throws Failure: also Usage, listing them, when it finds none, Unreadable when none of them can be a
+ * volume. */
 SeriesChoice
 ChooseSeries(const std::vector<DicomSeries> & series, const std::string & wanted, const std::filesystem::path & folder);
 

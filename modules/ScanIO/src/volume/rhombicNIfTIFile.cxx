@@ -107,7 +107,8 @@ SizesOf(const NIfTIHeader & header, const fs::path & path)
   const std::int64_t count = header.dimensions[0];
   if (count < 3 || count > 7)
   {
-    RefuseVolume(path, "it has " + std::to_string(count) + " dimensions; a volume has three");
+    RefuseVolume(
+      path, "it has " + std::to_string(count) + (count == 1 ? " dimension" : " dimensions") + "; a volume has three");
   }
   std::vector<std::uintmax_t> frames;
   for (std::size_t i = 1; i <= static_cast<std::size_t>(count); ++i)
@@ -274,7 +275,7 @@ ReadNIfTIFile(const fs::path & path, const ScanReadOptions & options, Scan & sca
                  "its header announces more voxels than " + voxelsFile.filename().string() +
                    " can hold; it is cut off or damaged, so copy it again");
   }
-  const std::uintmax_t frame = ChooseFrame(sizes[3], options.frame, headerFile);
+  ChooseFrame(sizes[3], options, headerFile, scan);
   const VolumeGeometry geometry =
     PlaceNIfTIVolume(header, { { sizes[0], sizes[1], sizes[2] } }, headerFile, options.onIrregular, scan);
   RequireMemory(
@@ -283,7 +284,7 @@ ReadNIfTIFile(const fs::path & path, const ScanReadOptions & options, Scan & sca
   UnpackedFile file(voxelsFile);
   const std::uintmax_t needed = offset + *bytes;
   const std::uintmax_t bytesPerFrame = *voxelsPerFrame * SizeOf(type);
-  std::uintmax_t position = file.Skip(offset + frame * bytesPerFrame);
+  std::uintmax_t position = file.Skip(offset + scan.frame * bytesPerFrame);
   scan.image = ReadVolumePixels(type, scaling, geometry, [&](std::byte * buffer, std::size_t size) {
     const std::size_t count = file.Read(buffer, size);
     position += count;

@@ -12,6 +12,7 @@
 #include "rhombicVolumePixels.h"
 #include "rhombicVolumeRefusal.h"
 #include "rhombicVoxelDecoder.h"
+#include "rhombicWording.h"
 
 #include <algorithm>
 #include <cmath>
@@ -89,14 +90,15 @@ ReadDeflated(const StoredVolume & volume, std::uintmax_t frame)
 void
 ReadStoredVolume(const fs::path & path, const StoredVolume & volume, const ScanReadOptions & options, Scan & scan)
 {
-  const std::uintmax_t frame = ChooseFrame(volume.numberOfFrames, options.frame, path);
+  ChooseFrame(volume.numberOfFrames, options, path, scan);
   CheckGeometry(volume.geometry, path, volume.matrix, options.onIrregular, scan.notes);
   const std::size_t voxels = NumberOfVoxels(volume.geometry);
   const std::size_t unpacked = volume.deflated ? 0 : voxels * SizeOf(volume.type) * volume.numberOfFrames;
   RequireMemory(unpacked + MemoryOfPixels(volume.type, volume.scaling.has_value(), voxels),
                 options.maximumMemory,
                 "Reading " + path.string());
-  scan.image = volume.deflated ? ReadDeflated(volume, frame) : ReadUnpacked(path, volume, frame, *options.decoder);
+  scan.image =
+    volume.deflated ? ReadDeflated(volume, scan.frame) : ReadUnpacked(path, volume, scan.frame, *options.decoder);
 
   scan.encoding = volume.encoding;
   scan.scaling = DescribeScaling(volume.scaling);
@@ -162,14 +164,14 @@ ReadVolumeFile(const fs::path & path, const ScanReadOptions & options)
     ReadStoredVolume(path, volume, options, scan);
     if (scan.format == "NRRD")
     {
-      scan.labels =
-        LabelsOfSegments(ReadNRRDKeyValues(path), path.string(), static_cast<int>(options.frame.value_or(0)));
+      scan.labels = LabelsOfSegments(ReadNRRDKeyValues(path), path.string(), static_cast<int>(scan.frame));
     }
   }
   if (const std::size_t count = ReplaceNotFinite(scan.image, path); count > 0)
   {
-    scan.notes.push_back(path.string() + " holds " + std::to_string(count) +
-                         " values that are not finite numbers; the lowest value took their place.");
+    scan.notes.push_back(path.string() + " holds " +
+                         Count(count, "value that is no finite number", "values that are not finite numbers") +
+                         "; the lowest value took their place.");
   }
   return scan;
 }

@@ -24,22 +24,26 @@ ProductOf(const std::vector<std::uintmax_t> & sizes)
   return product;
 }
 
-std::uintmax_t
-ChooseFrame(std::uintmax_t numberOfFrames, const std::optional<std::size_t> & frame, const std::filesystem::path & path)
+void
+ChooseFrame(std::uintmax_t numberOfFrames,
+            const ScanReadOptions & options,
+            const std::filesystem::path & path,
+            Scan & scan)
 {
-  if (!frame && numberOfFrames > 1)
+  if (!options.frame && numberOfFrames > 1 && options.onSeveralFrames == ScanReadOptions::Policy::Refuse)
   {
     RefuseVolume(path,
                  "it holds " + std::to_string(numberOfFrames) + " volumes; choose one with --frame, from 0 to " +
                    std::to_string(numberOfFrames - 1));
   }
-  if (frame && *frame >= numberOfFrames)
+  if (options.frame && *options.frame >= numberOfFrames)
   {
     throw Failure(FailureKind::Usage,
-                  "Cannot read volume " + std::to_string(*frame) + " of " + path.string() + ": it holds " +
+                  "Cannot read volume " + std::to_string(*options.frame) + " of " + path.string() + ": it holds " +
                     std::to_string(numberOfFrames) + ", counted from 0; choose another with --frame.");
   }
-  return frame.value_or(0);
+  scan.numberOfFrames = numberOfFrames;
+  scan.frame = options.frame.value_or(0);
 }
 
 } // namespace rhombic

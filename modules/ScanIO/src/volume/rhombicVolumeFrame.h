@@ -1,6 +1,8 @@
 #ifndef rhombicVolumeFrame_h
 #define rhombicVolumeFrame_h
 
+#include "rhombicScanReader.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -13,12 +15,13 @@ namespace rhombic
 std::optional<std::uintmax_t>
 ProductOf(const std::vector<std::uintmax_t> & sizes);
 
-/** Which of the volumes of a file to read, from 0. Throws Failure: Unreadable when there are several and none is asked
- * for, Usage when there is no such volume. */
-std::uintmax_t
+/** Chooses which of the volumes of a file to read: Scan::frame. Throws Failure: Unreadable when there are several and
+ * none is asked for, unless the options have the first, Usage when there is no such volume. */
+void
 ChooseFrame(std::uintmax_t numberOfFrames,
-            const std::optional<std::size_t> & frame,
-            const std::filesystem::path & path);
+            const ScanReadOptions & options,
+            const std::filesystem::path & path,
+            Scan & scan);
 
 } // namespace rhombic
 
