@@ -2,10 +2,10 @@
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
 #include "rhombicIsolatedDecoder.h"
+#include "rhombicUsageError.h"
 
 #include "itkMultiThreaderBase.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <new>
@@ -122,18 +122,9 @@ main(int argc, char ** argv)
   {
     return app.exit(help);
   }
-  catch (const CLI::RequiredError & error)
-  {
-    // CLI11 reports a command that is missing also when there is one that it doesn't know.
-    const char * const * const word = std::find_if(argv + 1, argv + argc, [](const char * a) { return a[0] != '-'; });
-    return Fail(console,
-                FailureKind::Usage,
-                (word != argv + argc ? "There is no command '" + std::string(*word) + "'" : std::string(error.what())) +
-                  "; rhombic --help lists the commands.");
-  }
   catch (const CLI::ParseError & error)
   {
-    return Fail(console, FailureKind::Usage, std::string(error.what()) + " (rhombic --help shows the usage).");
+    return Fail(console, FailureKind::Usage, DescribeUsageError(app, error));
   }
   catch (const Failure & failure)
   {

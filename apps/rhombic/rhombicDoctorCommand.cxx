@@ -39,7 +39,10 @@ Doctor()
   std::cout << VersionText();
   std::cout << "threads      " << itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads() << '\n';
   std::cout << "memory       " << DescribeBytes(FreeMemory()) << " free\n";
-  std::cout << "built for    DICOM folders (uncompressed, JPEG, JPEG-LS, JPEG 2000, RLE), NIfTI-1, NRRD, MetaImage\n";
+  std::cout
+    << "built for    DICOM folders and multi-frame files (uncompressed, JPEG, JPEG-LS, JPEG 2000, RLE), DICOM SEG,\n"
+       "             NIfTI-1 and -2 (.nii, or .hdr with .img, either with .gz), Analyze 7.5 (--analyze),\n"
+       "             NRRD (.nrrd, .nhdr, .seg.nrrd), MetaImage (.mha, .mhd), lattice volumes (.fcc.nrrd)\n";
   for (const BackendProbe & probe : SurfaceRenderer::ProbeBackends())
   {
     std::cout << "display      " << probe.name << ": " << (probe.usable ? "works, " : "no, ") << probe.detail << '\n';

@@ -1,8 +1,11 @@
 #include "rhombicCommands.h"
+#include "rhombicFailure.h"
 #include "rhombicLabelPipeline.h"
 #include "rhombicScanOptions.h"
 #include "rhombicScanReport.h"
+#include "rhombicWording.h"
 
+#include <algorithm>
 #include <iostream>
 #include <sstream>
 
@@ -55,6 +58,12 @@ PrintLine(const std::string & name, const std::string & text)
   }
 }
 
+std::string
+CountOf(const Report & number, const std::string & noun)
+{
+  return Count(number.get<std::uintmax_t>(), noun);
+}
+
 void
 PrintStack(const Report & stack)
 {
@@ -65,8 +74,7 @@ PrintStack(const Report & stack)
     std::string blocks;
     for (const Report & block : stack["blocks"])
     {
-      blocks += (blocks.empty() ? "" : ", ") + block["steps"].dump() +
-                (block["steps"] == 1 ? " step of " : " steps of ") + ToText(block["step"]) + " mm";
+      blocks += (blocks.empty() ? "" : ", ") + CountOf(block["steps"], "step") + " of " + ToText(block["step"]) + " mm";
     }
     PrintLine("slices", "uneven: " + blocks);
   }
@@ -79,15 +87,24 @@ PrintStack(const Report & stack)
 void
 PrintSeries(const Report & report)
 {
+  const std::string choice = ToText(report["choice"]);
   for (const Report & series : report["series"])
   {
+    const std::string modality = ToText(series["modality"]);
     const std::string kind = ToText(series["kind"]);
-    const std::string problem = ToText(series["problem"]);
+    const std::string number = ToText(series["seriesNumber"]);
     PrintLine("series " + series["number"].dump(),
-              ToText(series["modality"]) + " " + ToText(series["size"]) + ", " + series["files"].dump() + " files" +
-                (kind.empty() ? "" : ", " + kind) + ", id " + ToText(series["id"]) +
-                (problem.empty() ? "" : ": " + problem) +
-                (series["chosen"].get<bool>() ? "  <- read: " + ToText(report["choice"]) : ""));
+              (modality.empty() ? "modality unknown" : modality) + ", " + ToText(series["size"]) +
+                (series.contains("spacing") ? " of " + ToText(series["spacing"]) + " mm" : "") + ", " +
+                CountOf(series["files"], "file") + (kind.empty() ? "" : ", " + kind) +
+                (number.empty() ? "" : ", SeriesNumber " + number) + ", id " + ToText(series["id"]) +
+                (series["chosen"].get<bool>() && !choice.empty() ? "  <- read: " + choice : ""));
+    const std::string problem = ToText(series["problem"]);
+    PrintLine("", problem.empty() ? "" : "can't be read: " + problem);
+  }
+  if (choice.empty())
+  {
+    PrintLine("choose", "one of them by place, SeriesNumber or id, as --series 2; info then tells more about it");
   }
 }
 
@@ -97,19 +114,25 @@ PrintLabels(const Report & labels)
   for (const Report & label : labels)
   {
     PrintLine("label " + label["value"].dump(),
-              ToText(label["name"]) + ", " + ToText(label["colour"]) + ", " + label["voxels"].dump() + " voxels, " +
+              ToText(label["name"]) + ", " + ToText(label["colour"]) + ", " + CountOf(label["voxels"], "voxel") + ", " +
                 ToText(label["millilitres"]) + " ml");
   }
 }
 
+/** What is known once the voxels are read. */
 void
-Print(const Report & report)
+PrintVolume(const Report & report)
 {
   const auto text = [&report](const char * key) { return report.contains(key) ? ToText(report[key]) : ""; };
-  PrintLine("format", text("format"));
   PrintLine("modality", text("modality"));
   PrintLine("encoding", text("encoding"));
   PrintLine("pixels", text("pixelType") + (text("scaling").empty() ? "" : ", " + text("scaling")));
+  if (report.contains("frames"))
+  {
+    PrintLine("frames",
+              text("frames") + ", of which this is " + text("frame") + "; see another one with --frame N, from 0 to " +
+                std::to_string(report["frames"].get<std::size_t>() - 1));
+  }
   PrintLine("size", text("size") + " samples");
   PrintLine("spacing", text("spacing") + " mm");
   PrintLine("orientation", text("orientation") + ", " + text("handedness") + "-handed");
@@ -130,14 +153,24 @@ Print(const Report & report)
   PrintLine("values", ToText(report["range"][0]) + " to " + ToText(report["range"][1]));
   if (report.contains("padding"))
   {
-    PrintLine("padding", report["padding"]["samples"].dump() + " samples of " + ToText(report["padding"]["value"]));
+    PrintLine("padding", CountOf(report["padding"]["samples"], "sample") + " of " + ToText(report["padding"]["value"]));
   }
   for (const Report & suggestion : report.value("suggestedThresholds", Report::array()))
   {
     PrintLine("threshold", ToText(suggestion["isovalue"]) + "  " + ToText(suggestion["surface"]));
   }
   PrintLabels(report.value("labels", Report::array()));
-  if (report.contains("series"))
+}
+
+void
+Print(const Report & report)
+{
+  PrintLine("format", ToText(report["format"]));
+  if (report.contains("size"))
+  {
+    PrintVolume(report);
+  }
+  if (report.contains("series") && !report["series"].empty())
   {
     PrintSeries(report);
   }
@@ -157,6 +190,15 @@ Print(const Report & report)
   }
 }
 
+void
+AddNotes(const std::vector<std::string> & notes, Report & report)
+{
+  for (const std::string & note : notes)
+  {
+    report["notes"].push_back(note);
+  }
+}
+
 /** The labels of the scan if it is a label map, and those of the label map that was named for it. */
 void
 AddLabels(const Scan & scan, const ScanSource & source, const InfoOptions & options, Report & report)
@@ -165,40 +207,74 @@ AddLabels(const Scan & scan, const ScanSource & source, const InfoOptions & opti
   {
     const LabelMap map = ReadLabelMap({ options.labels, options.labelTable }, source.read, scan, source.path);
     report["labels"] = ReportLabels(map.labels);
-    for (const std::string & note : map.scan.notes)
-    {
-      report["notes"].push_back(note);
-    }
+    AddNotes(map.scan.notes, report);
   }
-  else if (!options.labelTable.empty() || !scan.labels.empty() || LooksLikeLabelMap(scan))
+  else if (IsLabelMap(scan, { source.path, options.labelTable }))
   {
     report["labels"] = ReportLabels(FindLabels(scan, { source.path, options.labelTable }));
     report.erase("suggestedThresholds");
   }
 }
 
+Report
+DescribeLattice(const ScanSource & source)
+{
+  const FCCVolume volume = ReadFCCImage(source.path);
+  Report report = ReportLattice(volume);
+  report.update(ReportIntensities(volume));
+  return report;
+}
+
+Report
+DescribeScan(const ScanSource & source, const InfoOptions & options)
+{
+  const Scan scan = ReadScan(source.path, source.read);
+  Report report = ReportScan(scan);
+  report.update(ReportIntensities(scan));
+  AddLabels(scan, source, options, report);
+  AddNotes(scan.fileNotes, report);
+  return report;
+}
+
+/** The scan, or, when it is one of several series and none is named, these alone if it can't be chosen or read. */
+Report
+Describe(const ScanSource & source, const InfoOptions & options)
+{
+  SeriesList list = ListSeries(source.path, source.read);
+  const auto chosen =
+    std::find_if(list.series.begin(), list.series.end(), [](const SeriesSummary & series) { return series.chosen; });
+  const bool isListed = list.series.size() > 1 && source.read.series.empty() && options.labels.empty();
+  const bool isRead = !isListed || chosen != list.series.end();
+  Report report;
+  try
+  {
+    report = isRead ? DescribeScan(source, options) : Report();
+  }
+  catch (const Failure & failure)
+  {
+    if (!isListed)
+    {
+      throw;
+    }
+    chosen->problem = failure.GetDescription();
+    chosen->chosen = false;
+  }
+  const Report listed = ReportSeriesList(list);
+  if (report.is_null())
+  {
+    report = listed;
+    AddNotes(list.fileNotes, report);
+  }
+  report["series"] = listed["series"];
+  return report;
+}
+
 void
 Info(const InfoOptions & options, const CommandContext & context)
 {
-  const ScanSource source = options.scan.GetSource(context);
-  Report report;
-  if (IsFCCImageFile(source.path))
-  {
-    const FCCVolume volume = ReadFCCImage(source.path);
-    report = ReportLattice(volume);
-    report.update(ReportIntensities(volume));
-  }
-  else
-  {
-    const Scan scan = ReadScan(source.path, source.read);
-    report = ReportScan(scan);
-    report.update(ReportIntensities(scan));
-    AddLabels(scan, source, options, report);
-    for (const std::string & note : scan.fileNotes)
-    {
-      report["notes"].push_back(note);
-    }
-  }
+  ScanSource source = options.scan.GetSource(context);
+  source.read.onSeveralFrames = ScanReadOptions::Policy::Accept;
+  const Report report = IsFCCImageFile(source.path) ? DescribeLattice(source) : Describe(source, options);
   if (options.isJson)
   {
     std::cout << ToJson(report) << '\n';

@@ -1,5 +1,6 @@
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
+#include "rhombicNamedValues.h"
 #include "rhombicMeshPipeline.h"
 #include "rhombicScanOptions.h"
 #include "rhombicSurfaceOptions.h"
@@ -57,35 +58,27 @@ ParseTriangles(const std::string & text, SurfaceFinish & finish)
 SurfaceFileSpace
 ParseSpace(const std::string & text)
 {
-  if (text != "lps" && text != "ras")
-  {
-    throw Failure(FailureKind::Usage, "There is no space '" + text + "'; use lps (ITK, DICOM) or ras.");
-  }
-  return text == "lps" ? SurfaceFileSpace::LPS : SurfaceFileSpace::RAS;
+  static const NamedValues<SurfaceFileSpace> spaces{ { "lps", SurfaceFileSpace::LPS },
+                                                     { "ras", SurfaceFileSpace::RAS } };
+  return FindNamed("space", text, spaces);
 }
 
 SurfaceSelection
 GetSelection(const MeshOptions & options)
 {
-  if (options.threshold.empty() && options.surfaces.IsEmpty())
+  if (options.threshold.empty())
+  {
+    return options.surfaces.GetSelection();
+  }
+  SurfaceRequest request;
+  request.name = "surface";
+  if (!ParseThreshold(options.threshold, request))
   {
     throw Failure(FailureKind::Usage,
-                  "No surface is chosen; give a threshold, as -t 250.5, or --surface, --preset or --labels.");
+                  "The threshold '" + options.threshold +
+                    "' is no number; write -t -300.5, -t '<-500.5' for what lies below, or -t otsu.");
   }
-  SurfaceSelection selection = options.surfaces.GetSelection();
-  if (!options.threshold.empty())
-  {
-    SurfaceRequest request;
-    request.name = "surface";
-    if (!ParseThreshold(options.threshold, request))
-    {
-      throw Failure(FailureKind::Usage,
-                    "The threshold '" + options.threshold +
-                      "' is no number; write -t -300.5, -t '<-500.5' for what lies below, or -t otsu.");
-    }
-    selection.requests.push_back(request);
-  }
-  return selection;
+  return options.surfaces.GetSelection(request);
 }
 
 void

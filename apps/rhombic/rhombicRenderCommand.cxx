@@ -93,12 +93,6 @@ Render(const RenderOptions & options, const CommandContext & context)
   {
     throw Failure(FailureKind::Usage, "No picture is named; give one with -o, for example -o picture.png.");
   }
-  if (options.surfaces.IsEmpty())
-  {
-    throw Failure(
-      FailureKind::Usage,
-      "Nothing to show; choose a --preset (see --list-presets), or give --surface name=threshold or --labels MAP.");
-  }
   settings.picture = options.picture;
   settings.surfaces = options.surfaces.GetSelection();
   settings.views = ParseViews(options.views);
@@ -130,7 +124,7 @@ AddRenderCommand(CLI::App & parser)
     ->allow_extra_args(false)
     ->capture_default_str();
   parser.add_option("--size", options->size, "width x height in pixels")->capture_default_str();
-  parser.add_option("--background", options->background, "#rrggbb (default black)");
+  parser.add_option("--background", options->background, "a colour: #rrggbb, #rgb or a name, as white (default black)");
   parser.add_flag("--perspective", options->isPerspective, "perspective instead of parallel projection");
   parser.add_flag("--no-letters", options->hasNoLetters, "leave out the orientation letters at the edges");
   parser.add_flag("--list-presets", options->listsPresets, "list the presets and stop");

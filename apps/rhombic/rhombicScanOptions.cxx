@@ -1,6 +1,7 @@
 #include "rhombicScanOptions.h"
 
 #include "rhombicFailure.h"
+#include "rhombicNamedValues.h"
 
 #include <cctype>
 #include <charconv>
@@ -74,11 +75,8 @@ ParseMemory(const std::string & text)
 ScanReadOptions::Policy
 ParsePolicy(const std::string & option, const std::string & text, const std::string & accept)
 {
-  if (text != accept && text != "error")
-  {
-    throw Failure(FailureKind::Usage, "There is no " + option + " " + text + "; use " + accept + " or error.");
-  }
-  return text == accept ? ScanReadOptions::Policy::Accept : ScanReadOptions::Policy::Refuse;
+  using Policy = ScanReadOptions::Policy;
+  return FindNamed(option, text, NamedValues<Policy>{ { accept, Policy::Accept }, { "error", Policy::Refuse } });
 }
 
 } // namespace
@@ -153,17 +151,12 @@ ScanOptions::GetProvenance(const CommandContext & context, std::map<std::string,
 ScanSource
 ScanOptions::GetSource(const CommandContext & context) const
 {
-  static const std::map<std::string, itk::SeparableKernel> kernels{ { "cubic", itk::SeparableKernel::CubicBSpline },
-                                                                    { "linear", itk::SeparableKernel::Linear },
-                                                                    { "lanczos", itk::SeparableKernel::Lanczos4 } };
+  static const NamedValues<itk::SeparableKernel> kernels{ { "cubic", itk::SeparableKernel::CubicBSpline },
+                                                          { "linear", itk::SeparableKernel::Linear },
+                                                          { "lanczos", itk::SeparableKernel::Lanczos4 } };
   if (m_Path.empty())
   {
     throw Failure(FailureKind::Usage, "No scan is given; name a DICOM folder or a volume file (see --help).");
-  }
-  const auto kernel = kernels.find(m_Kernel);
-  if (kernel == kernels.end())
-  {
-    throw Failure(FailureKind::Usage, "There is no kernel '" + m_Kernel + "'; use cubic, linear or lanczos.");
   }
   ScanSource source;
   source.path = m_Path;
@@ -177,7 +170,7 @@ ScanOptions::GetSource(const CommandContext & context) const
   source.read.decoder = context.decoder;
   source.lattice.density = m_Density;
   source.lattice.spacing = ParseSpacing(m_Spacing);
-  source.lattice.kernel = kernel->second;
+  source.lattice.kernel = FindNamed("kernel", m_Kernel, kernels);
   source.lattice.denoising = ParseDenoising(m_Denoising);
   source.lattice.nested = m_Nested;
   source.lattice.maximumMemory = source.read.maximumMemory;

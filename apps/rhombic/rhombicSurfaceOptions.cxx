@@ -1,6 +1,7 @@
 #include "rhombicSurfaceOptions.h"
 
 #include "rhombicFailure.h"
+#include "rhombicNamedValues.h"
 #include "rhombicPresets.h"
 
 namespace rhombic
@@ -12,18 +13,12 @@ itk::FCCIsosurfaceMode
 ParseMode(const std::string & text)
 {
   using Mode = itk::FCCIsosurfaceMode;
-  static const std::map<std::string, Mode> modes{ { "lean", Mode::Lean },
-                                                  { "fine", Mode::Fine },
-                                                  { "tetrahedra", Mode::Tetrahedra },
-                                                  { "octahedra", Mode::Octahedra },
-                                                  { "parallelepipeds", Mode::Parallelepipeds } };
-  const auto mode = modes.find(text);
-  if (mode == modes.end())
-  {
-    throw Failure(FailureKind::Usage,
-                  "There is no mode '" + text + "'; use lean, fine, tetrahedra, octahedra or parallelepipeds.");
-  }
-  return mode->second;
+  static const NamedValues<Mode> modes{ { "lean", Mode::Lean },
+                                        { "fine", Mode::Fine },
+                                        { "tetrahedra", Mode::Tetrahedra },
+                                        { "octahedra", Mode::Octahedra },
+                                        { "parallelepipeds", Mode::Parallelepipeds } };
+  return FindNamed("mode", text, modes);
 }
 
 } // namespace
@@ -33,20 +28,19 @@ SurfaceOptions::Add(CLI::App & parser)
 {
   parser.add_option("--preset", m_Preset, "surfaces by a preset's name, or by a .yaml file like those of the project");
   parser
-    .add_option(
-      "--surface",
-      m_Surfaces,
-      "name=threshold[,#rrggbb[,opacity]]; threshold: a number, <number for what lies below, or otsu; repeatable")
+    .add_option("--surface",
+                m_Surfaces,
+                "name=threshold[,colour[,opacity]]; colour: #rrggbb, #rgb or a name, as white; threshold: a number, "
+                "<number for what lies below, or otsu; repeatable")
     ->allow_extra_args(false);
-  CLI::Option * const labels = parser.add_option(
-    "--labels", m_Labels, "the surfaces of the scan's label map: NIfTI, NRRD, MetaImage or DICOM SEG");
-  parser
-    .add_option("--label-table",
-                m_LabelTable,
-                "names and colours of labels (ITK-SNAP, Slicer, FreeSurfer, BIDS; default: in or beside the map)")
-    ->needs(labels);
+  parser.add_option("--labels",
+                    m_Labels,
+                    "the surfaces of the scan's label map: NIfTI, NRRD, MetaImage or DICOM SEG (not needed when SCAN "
+                    "itself is a label map)");
+  parser.add_option("--label-table",
+                    m_LabelTable,
+                    "names and colours of labels (ITK-SNAP, Slicer, FreeSurfer, BIDS; default: in or beside the map)");
   parser.add_option("--label", m_ChosenLabels, "one of the labels, by name or value; repeatable (default: all)")
-    ->needs(labels)
     ->allow_extra_args(false);
   parser.add_flag("--keep-table",
                   m_KeepsTable,
@@ -60,14 +54,8 @@ SurfaceOptions::Add(CLI::App & parser)
     ->capture_default_str();
 }
 
-bool
-SurfaceOptions::IsEmpty() const
-{
-  return m_Preset.empty() && m_Surfaces.empty() && m_Labels.empty();
-}
-
 SurfaceSelection
-SurfaceOptions::GetSelection() const
+SurfaceOptions::GetSelection(const std::optional<SurfaceRequest> & further) const
 {
   SurfaceSelection selection;
   selection.mode = ParseMode(m_Mode);
@@ -85,9 +73,19 @@ SurfaceOptions::GetSelection() const
   {
     selection.requests.push_back(ParseSurfaceRequest(text, selection.requests.size()));
   }
-  if (!m_Labels.empty())
+  if (further)
+  {
+    selection.requests.push_back(*further);
+  }
+  if (!m_Labels.empty() || selection.requests.empty())
   {
     selection.labels = LabelSelection{ { m_Labels, m_LabelTable }, m_ChosenLabels };
+  }
+  else if (!m_LabelTable.empty() || !m_ChosenLabels.empty())
+  {
+    throw Failure(FailureKind::Usage,
+                  "--label and --label-table are for label maps; name one with --labels, or leave out --preset, "
+                  "--surface and -t when SCAN is one.");
   }
   return selection;
 }

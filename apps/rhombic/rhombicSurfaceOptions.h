@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,13 +21,10 @@ public:
   void
   Add(CLI::App & parser);
 
-  /** Whether any surface was chosen. */
-  bool
-  IsEmpty() const;
-
-  /** What was parsed. Throws Failure(Usage). */
+  /** What was parsed, and maybe one more surface. When there are neither surfaces nor a label map, the scan itself is
+   * to be the label map. Throws Failure(Usage). */
   SurfaceSelection
-  GetSelection() const;
+  GetSelection(const std::optional<SurfaceRequest> & further = std::nullopt) const;
 
   /** What in the options may name the patient (see DescribeCommandLine()). */
   std::map<std::string, std::string>

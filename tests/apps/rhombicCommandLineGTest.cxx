@@ -3,6 +3,7 @@
 #include "rhombicProgram.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <fstream>
@@ -20,6 +21,7 @@ using rhombictest::TemporaryFolder;
 
 const std::string phantomDicom = RHOMBIC_TESTDATA "/phantom/dicom";
 const std::string phantomNifti = RHOMBIC_TESTDATA "/phantom/phantom.nii.gz";
+const std::string phantomLabels = RHOMBIC_TESTDATA "/phantom/phantom-labels.nii.gz";
 
 Outcome
 Rhombic(const std::string & arguments, const fs::path & folder)
@@ -62,11 +64,20 @@ struct ErrorCase
   const char * says;
 };
 
-// Files of the test's own folder: text.dcm, text.nii, empty/, file/, readonly/ and scan.nii.gz, a copy of the phantom.
+// Files of the test's own folder: text.dcm, text.nii, empty/, file/, readonly/, and copies of the phantom, scan.nii.gz,
+// and of its labels, labels.nii.gz.
 constexpr ErrorCase errorCases[] = {
   { "NoCommand", "", 2, "subcommand" },
   { "UnknownCommand", "paint scan.nii.gz", 2, "paint" },
   { "UnknownOption", "render scan.nii.gz --sharpness 3", 2, "--sharpness" },
+  { "UnknownCommandNearAnother", "rendr scan.nii.gz", 2, "no command 'rendr'; did you mean render?" },
+  { "UnknownOptionNearAnother", "mesh scan.nii.gz --largst", 2, "no option --largst; did you mean --largest?" },
+  { "UnknownOptionWithAValue", "render scan.nii.gz --zoom 2", 2, "no option --zoom; see rhombic render --help" },
+  { "OptionBeforeItsCommand", "--size 64 render scan.nii.gz", 2, "--size goes behind the command" },
+  { "OptionGivenTwice", "mesh scan.nii.gz -t 1 -o a.stl -o b.stl", 2, "--output is given 2 times; give it once." },
+  { "OptionWithoutItsValue", "render scan.nii.gz --size", 2, "--size needs a value" },
+  { "OptionThatIsNoNumber", "mesh scan.nii.gz -t 1 --density much -o a.stl", 2, "--density = much is no number" },
+  { "OneNameTooMany", "info my scan.nii.gz", 2, "'scan.nii.gz' is one name too many" },
   { "BadThreads", "--threads 0 info scan.nii.gz", 2, "threads" },
   { "QuietAndVerbose", "-q -v info scan.nii.gz", 2, "verbose" },
   { "NoScan", "render -o a.png --preset ct-bone", 2, "No scan" },
@@ -78,18 +89,21 @@ constexpr ErrorCase errorCases[] = {
   { "TruncatedVolume", "mesh cut.nii.gz -t 250.5 -o a.stl", 4, "cut.nii.gz" },
   { "TruncatedLattice", "mesh cut.fcc.nrrd -t 250.5 -o a.stl", 4, "cut.fcc.nrrd" },
   { "UnknownPreset", "render scan.nii.gz --preset ct-bnoe -o a.png", 2, "did you mean ct-bone?" },
+  { "PresetFarFromAll", "render scan.nii.gz --preset liver -o a.png", 2, "no preset 'liver'; see rhombic render" },
   { "MissingPresetFile", "render scan.nii.gz --preset my.yaml -o a.png", 3, "my.yaml" },
   { "NothingToShow", "render scan.nii.gz -o a.png", 2, "--list-presets" },
   { "NoPicture", "render scan.nii.gz --preset ct-bone", 2, "-o" },
   { "BadSurface", "render scan.nii.gz --surface bone -o a.png", 2, "bone=250.5" },
-  { "BadColour", "render scan.nii.gz --surface bone=250,red -o a.png", 2, "#rrggbb" },
+  { "BadColour", "render scan.nii.gz --surface bone=250,whit -o a.png", 2, "did you mean white?" },
   { "BadOpacity", "render scan.nii.gz --surface bone=250,#ffffff,2 -o a.png", 2, "opacity" },
   { "BadView", "render scan.nii.gz --preset ct-bone --view front -o a.png", 2, "front" },
+  { "BadViewNearAnother", "render scan.nii.gz --preset ct-bone --view fron -o a.png", 2, "'fron'; use anterior" },
   { "BadSize", "render scan.nii.gz --preset ct-bone --size big -o a.png", 2, "1600x1200" },
   { "HugeSize", "render scan.nii.gz --preset ct-bone --size 100000 -o a.png", 2, "4096" },
-  { "BadBackground", "render scan.nii.gz --preset ct-bone --background white -o a.png", 2, "#rrggbb" },
+  { "BadBackground", "render scan.nii.gz --preset ct-bone --background '#12345' -o a.png", 2, "#rrggbb" },
   { "BadKernel", "render scan.nii.gz --preset ct-bone --kernel sharp -o a.png", 2, "sharp" },
   { "BadMode", "mesh scan.nii.gz -t 250.5 --mode thin -o a.stl", 2, "use lean, fine" },
+  { "BadModeNearAnother", "mesh scan.nii.gz -t 250.5 --mode leen -o a.stl", 2, "did you mean lean?" },
   { "BadDenoising", "render scan.nii.gz --preset ct-bone --denoise blur -o a.png", 2, "gaussian:" },
   { "DenoisingByNothing", "mesh scan.nii.gz -t 250.5 --denoise gaussian:0 -o a.stl", 2, "positive" },
   { "DenoisingBeyondTheLattice", "mesh scan.nii.gz -t 250.5 --denoise gaussian:1e6 -o a.stl", 2, "at most" },
@@ -116,6 +130,10 @@ constexpr ErrorCase errorCases[] = {
   { "LatticeBeyondTheMemoryAllowed", "mesh scan.nii.gz -t 250.5 --max-memory 400K -o a.stl", 9, "--density 0." },
   { "LabelsThatAreNone", "info dicom --labels scan.nii.gz", 4, "label" },
   { "LabelTableThatIsNone", "info scan.nii.gz --label-table text.dcm", 4, "text.dcm" },
+  { "LabelsOfWhatIsNoLabelMap", "mesh scan.nii.gz --label heart -o a.stl", 2, "is no label map" },
+  { "LabelsBesideAThreshold", "mesh labels.nii.gz -t 1 --label heart -o a.stl", 2, "--labels" },
+  { "LabelsOfALattice", "render scan.fcc.nrrd -o a.png", 2, "is no label map" },
+  { "UnknownLabel", "mesh labels.nii.gz --label haert -o a.stl", 2, "no label 'haert'; did you mean heart?" },
   { "BadSeries", "render dicom --series 7 --preset ct-bone -o a.png", 2, "7" },
   { "ThresholdAboveTheRange", "render scan.nii.gz --surface bone=9000.5 -o a.png", 6, "run from -1000 to" },
   { "ThresholdBelowTheRange", "mesh scan.nii.gz -t -9000 -o a.stl", 6, "run from -1000 to" },
@@ -153,13 +171,14 @@ TEST_P(CommandLineErrors, AreOneSentenceAndTheDocumentedExitCode)
   std::ofstream(folder.Path() / "text.dcm") << "this is not a DICOM file\n";
   std::ofstream(folder.Path() / "text.nii") << "this is not a NIfTI file\n";
   const std::string preset = "name: p\nsurfaces: [{name: a, isovalue: 1, ";
-  std::ofstream(folder.Path() / "colour.yaml") << preset << "colour: red}]\n";
+  std::ofstream(folder.Path() / "colour.yaml") << preset << "colour: rot}]\n";
   std::ofstream(folder.Path() / "opacity.yaml") << preset << "opacity: 7}]\n";
   std::ofstream(folder.Path() / "bare.yaml") << "name: p\nsurfaces: [{name: a}]\n";
   fs::create_directory(folder.Path() / "empty");
   fs::create_directory(folder.Path() / "file");
   std::ofstream(folder.Path() / "file" / "something") << "something\n";
   fs::copy(phantomNifti, folder.Path() / "scan.nii.gz");
+  fs::copy(phantomLabels, folder.Path() / "labels.nii.gz");
   fs::create_directory_symlink(phantomDicom, folder.Path() / "dicom");
   std::ofstream(folder.Path() / "cut.nii.gz", std::ios::binary) << ReadText(phantomNifti).substr(0, 3000);
   ASSERT_EQ(Rhombic("-q resample scan.nii.gz --density 0.1 -o scan.fcc.nrrd", folder.Path()).exitCode, 0);
@@ -221,12 +240,142 @@ TEST(CommandLine, InfoKnowsThePhantom)
   EXPECT_NE(json.output.find("\"orientation\": \"LPS\""), std::string::npos) << json.output;
 }
 
+using Json = nlohmann::json;
+
+/** What `rhombic info --json` says of a scan. */
+Json
+InfoOf(const std::string & arguments, const fs::path & folder)
+{
+  const Outcome outcome = Rhombic("info --json " + arguments, folder);
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+  return Json::parse(outcome.output, nullptr, false);
+}
+
+TEST(CommandLine, InfoDescribesEachOfSeveralSeries)
+{
+  const TemporaryFolder folder;
+  ASSERT_EQ(Rhombic("phantom --spacing 10 -o p", folder.Path()).exitCode, 0);
+  fs::create_directory(folder.Path() / "study");
+  fs::copy(phantomDicom, folder.Path() / "study" / "a");
+  fs::copy(folder.Path() / "p" / "dicom", folder.Path() / "study" / "b");
+  const Outcome text = Rhombic("info study", folder.Path());
+  EXPECT_EQ(text.exitCode, 0) << text.errors;
+  for (const char * words : { "CT, 54 x 35 x 91 of 8 x 8 x 8 mm, 91 files", "x 10 x 10 mm", "--series 2" })
+  {
+    EXPECT_NE(text.output.find(words), std::string::npos) << words << text.output;
+  }
+  EXPECT_EQ(text.output.find("can't be read"), std::string::npos) << text.output;
+
+  fs::remove(folder.Path() / "study" / "b" / "slice-0020.dcm");
+  const Json report = InfoOf("study", folder.Path());
+  ASSERT_EQ(report["series"].size(), 2u) << report;
+  const std::size_t coarse = report["series"][0]["spacing"].is_null() ? 0 : 1;
+  EXPECT_EQ(report["series"][1 - coarse]["spacing"], (std::array<double, 3>{ 8.0, 8.0, 8.0 }));
+  EXPECT_EQ(report["series"][1 - coarse]["problem"], "");
+  EXPECT_NE(report["series"][coarse]["problem"].get<std::string>().find("1 slice is missing"), std::string::npos);
+
+  const Json chosen = InfoOf("study --series " + report["series"][1 - coarse]["id"].get<std::string>(), folder.Path());
+  EXPECT_EQ(chosen["size"], (std::array<int, 3>{ 54, 35, 91 }));
+  EXPECT_EQ(Rhombic("mesh study -t 250.5 -o a.stl", folder.Path()).exitCode, 2) << "which one is not for it to choose";
+  EXPECT_EQ(Rhombic("info study --series " + report["series"][coarse]["id"].get<std::string>(), folder.Path()).exitCode,
+            5);
+}
+
+TEST(CommandLine, InfoDescribesTheOtherSeriesWhenTheChosenOneCannotBeRead)
+{
+  const TemporaryFolder folder;
+  ASSERT_EQ(Rhombic("phantom --spacing 30 -o p", folder.Path()).exitCode, 0);
+  fs::create_directory(folder.Path() / "study");
+  fs::copy(phantomDicom, folder.Path() / "study" / "a");
+  fs::copy(folder.Path() / "p" / "dicom", folder.Path() / "study" / "b");
+  fs::remove(folder.Path() / "study" / "a" / "slice-0040.dcm");
+  const Outcome text = Rhombic("info study", folder.Path());
+  EXPECT_EQ(text.exitCode, 0) << text.errors;
+  EXPECT_NE(text.output.find("can't be read: The slices in"), std::string::npos) << text.output;
+  EXPECT_NE(text.output.find("of 30 x 30 x 30 mm"), std::string::npos) << text.output;
+  EXPECT_EQ(Rhombic("info study/a", folder.Path()).exitCode, 5) << "a series alone is read or refused";
+}
+
+TEST(CommandLine, InfoDescribesTheFirstVolumeOfAFileOfSeveral)
+{
+  const TemporaryFolder folder;
+  std::ofstream(folder.Path() / "series.nrrd")
+    << "NRRD0004\ntype: uint8\ndimension: 4\nsizes: 2 2 2 3\nkinds: domain domain domain list\nspace: LPS\n"
+       "space directions: (2,0,0) (0,3,0) (0,0,4) none\nspace origin: (5,6,7)\nencoding: raw\n\n"
+       "abcdefghijklmnopqrstuvwx";
+  const Outcome text = Rhombic("info series.nrrd", folder.Path());
+  EXPECT_EQ(text.exitCode, 0) << text.errors;
+  for (const char * words : { "3, of which this is 0", "--frame N, from 0 to 2", "2 x 3 x 4 mm", "97 to 104" })
+  {
+    EXPECT_NE(text.output.find(words), std::string::npos) << words << text.output;
+  }
+  const Json last = InfoOf("series.nrrd --frame 2", folder.Path());
+  EXPECT_EQ(last["frames"], 3);
+  EXPECT_EQ(last["frame"], 2);
+  EXPECT_EQ(last["range"], (std::array<double, 2>{ 'q', 'x' }));
+  EXPECT_EQ(Rhombic("info series.nrrd --frame 3", folder.Path()).exitCode, 2);
+  EXPECT_EQ(Rhombic("mesh series.nrrd -t 100 -o a.stl", folder.Path()).exitCode, 4)
+    << "which one is not for it to choose";
+}
+
+TEST(CommandLine, ALabelMapAloneIsMadeOfItsLabels)
+{
+  const TemporaryFolder folder;
+  const std::string options = " --label heart --label 2 --no-sidecar -o ";
+  const Outcome twice =
+    Rhombic("mesh " + phantomLabels + " --labels " + phantomLabels + options + "twice-{name}.stl", folder.Path());
+  ASSERT_EQ(twice.exitCode, 0) << twice.errors;
+  const Outcome alone = Rhombic("mesh " + phantomLabels + options + "alone-{name}.stl", folder.Path());
+  ASSERT_EQ(alone.exitCode, 0) << alone.errors;
+  EXPECT_NE(alone.errors.find("is a label map of 23 labels"), std::string::npos) << alone.errors;
+  EXPECT_EQ(alone.errors.find("mean value"), std::string::npos) << "the mean of a label's value says nothing";
+  EXPECT_EQ(FilesIn(folder.Path()).size(), 4u);
+  for (const std::string & file : FilesIn(folder.Path()))
+  {
+    const std::string name = file.substr(file.find('-'));
+    EXPECT_EQ(ReadText(folder.Path() / ("alone" + name)), ReadText(folder.Path() / ("twice" + name))) << name;
+  }
+  const Outcome picture = Rhombic("render " + phantomLabels + " --label Heart --size 64 -o a.png", folder.Path());
+  EXPECT_EQ(picture.exitCode, 0) << picture.errors;
+  EXPECT_TRUE(fs::exists(folder.Path() / "a.png"));
+  const Outcome surface = Rhombic("mesh " + phantomLabels + " -t 0.5 -o scan.stl", folder.Path());
+  EXPECT_EQ(surface.exitCode, 0) << surface.errors;
+  EXPECT_EQ(surface.errors.find("label map"), std::string::npos) << "with a threshold it is a scan: " << surface.errors;
+}
+
+TEST(CommandLine, OneOfAThingIsSingular)
+{
+  const TemporaryFolder folder;
+  std::ofstream(folder.Path() / "labels.nrrd")
+    << "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 3 3\nspace: LPS\n"
+       "space directions: (2,0,0) (0,2,0) (0,0,2)\nspace origin: (0,0,0)\nencoding: raw\n\n"
+    << std::string(13, '\0') << '\1' << std::string(13, '\0');
+  const Outcome info = Rhombic("info labels.nrrd", folder.Path());
+  EXPECT_NE(info.output.find(", 1 voxel, 0.008 ml"), std::string::npos) << info.output << info.errors;
+  const Outcome mesh = Rhombic("mesh labels.nrrd -o a.stl", folder.Path());
+  EXPECT_EQ(mesh.exitCode, 0) << mesh.errors;
+  EXPECT_NE(mesh.errors.find("label map of 1 label,"), std::string::npos) << mesh.errors;
+}
+
+TEST(CommandLine, ColoursHaveNames)
+{
+  const TemporaryFolder folder;
+  const std::string render = "render " + phantomNifti + " --size 64 --no-sidecar --surface bone=250.5,";
+  ASSERT_EQ(Rhombic(render + "gold --background white -o names.png", folder.Path()).exitCode, 0);
+  ASSERT_EQ(Rhombic(render + "'#ffd700' --background '#fff' -o digits.png", folder.Path()).exitCode, 0);
+  EXPECT_EQ(rhombic::ReadPicture(folder.Path() / "names.png").pixels,
+            rhombic::ReadPicture(folder.Path() / "digits.png").pixels);
+}
+
 TEST(CommandLine, DoctorFindsAWayToDraw)
 {
   const TemporaryFolder folder;
   const Outcome outcome = Rhombic("doctor", folder.Path());
   EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
-  EXPECT_NE(outcome.output.find("rendering    works"), std::string::npos) << outcome.output;
+  for (const char * words : { "rendering    works", "NIfTI-1 and -2", "DICOM SEG", ".seg.nrrd" })
+  {
+    EXPECT_NE(outcome.output.find(words), std::string::npos) << words << outcome.output;
+  }
 }
 
 TEST(CommandLine, ListsPresets)
