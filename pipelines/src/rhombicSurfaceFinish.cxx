@@ -29,12 +29,16 @@ constexpr double CubicMillimetresPerMillilitre = 1000.0;
 std::string
 CountShells(const itk::RemovedShells & shells)
 {
-  const auto count = [](itk::SizeValueType number, const char * one, const char * many) {
-    return number == 0 ? std::string() : std::to_string(number) + ' ' + (number == 1 ? one : many);
-  };
-  const std::string solids = count(shells.solids, "solid", "solids");
-  const std::string cavities = count(shells.cavities, "cavity", "cavities");
-  return solids + (solids.empty() || cavities.empty() ? "" : " and ") + cavities;
+  std::vector<std::string> counts;
+  if (shells.solids > 0)
+  {
+    counts.push_back(Count(shells.solids, "solid"));
+  }
+  if (shells.cavities > 0)
+  {
+    counts.push_back(Count(shells.cavities, "cavity", "cavities"));
+  }
+  return Enumerate(counts, "and");
 }
 
 void
