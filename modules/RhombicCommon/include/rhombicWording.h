@@ -19,9 +19,9 @@ Count(std::uintmax_t number, const std::string & noun, const std::string & plura
 std::string
 Enumerate(const std::vector<std::string> & words, const std::string & conjunction = "or");
 
-/** The one of \a names that \a word was probably meant to be: a third of its letters at most is wrong, missing or too
- * much, or one of the two, of three letters or more, is a part of the other. Upper and lower case are the same. Empty
- * when there is none. */
+/** The one of \a names that \a word was probably meant to be: a third of its letters at most is wrong, missing, too
+ * much or exchanged, or one of the two, of three letters or more, is a part of the other. Upper and lower case are the
+ * same. Empty when there is none. */
 std::string
 NearestName(const std::string & word, const std::vector<std::string> & names);
 
