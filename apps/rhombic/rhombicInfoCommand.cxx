@@ -100,11 +100,12 @@ PrintSeries(const Report & report)
                 (number.empty() ? "" : ", SeriesNumber " + number) + ", id " + ToText(series["id"]) +
                 (series["chosen"].get<bool>() && !choice.empty() ? "  <- read: " + choice : ""));
     const std::string problem = ToText(series["problem"]);
-    PrintLine("", problem.empty() ? "" : "can't be read: " + problem);
+    PrintLine("", problem.empty() ? "" : "problem: " + problem);
   }
   if (choice.empty())
   {
-    PrintLine("choose", "one of them by place, SeriesNumber or id, as --series 2; info then tells more about it");
+    PrintLine("choose",
+              "one with --series and its id; its place or SeriesNumber will do, too, where no other has that number");
   }
 }
 

@@ -94,7 +94,8 @@ DescribeMismatch(const CLI::App & program, const CLI::ParseError & error)
 {
   for (const CLI::Option * const option : FindOptions(program))
   {
-    if (option->count() > static_cast<std::size_t>(option->get_items_expected_max()))
+    const int most = option->get_items_expected_max(); // 0 for flags, which may be repeated
+    if (most > 0 && option->count() > static_cast<std::size_t>(most))
     {
       return option->get_name() + " is given " + Count(option->count(), "time") + "; give it once.";
     }

@@ -93,8 +93,10 @@ ParseColour(const std::string & text)
     {
       names.push_back(named.first);
     }
-    throw Failure(FailureKind::Usage,
-                  DescribeUnknown("colour", text, names, "write it as #rrggbb, #rgb or by its name in CSS, as white"));
+    throw Failure(
+      FailureKind::Usage,
+      DescribeUnknown(
+        "colour", text, names, "write it as #rrggbb, #rgb or by a name of CSS, for example #f1d691 or white"));
   }
   unsigned int value = 0;
   std::from_chars(digits->data(), digits->data() + digits->size(), value, 16);
