@@ -97,8 +97,9 @@ ScanOptions::AddSource(CLI::App & parser)
     ->capture_default_str();
   parser.add_option("--on-gap", m_OnGap, "missing or damaged slices: error, or interpolate across the gap")
     ->capture_default_str();
-  parser.add_option(
-    "--max-memory", m_MaximumMemory, "most memory for a volume, as 8G or 500M (default: half of what is free)");
+  parser.add_option("--max-memory",
+                    m_MaximumMemory,
+                    "most memory for a volume, and then for a picture, as 8G or 500M (default: half of what is free)");
   parser.add_flag("--analyze", m_AcceptsAnalyze, "read Analyze 7.5 files, which do not say where left and right are");
   parser.add_flag("--follow-links", m_FollowsLinks, "follow symbolic links in folders");
 }

@@ -50,13 +50,14 @@ struct RenderScanSettings
 {
   ScanSource source;
   SurfaceSelection surfaces;
-  RenderSettings render; ///< its view is set from the list below
+  RenderSettings render; ///< its view is set from the list below, its memory is the source's
   std::vector<View> views{ View::Anterior };
   std::filesystem::path picture; ///< with more than one view, the view's name is added to the stem
   Provenance provenance;
 };
 
-/** Renders a scan; returns the pictures' paths. Like the others, writes a sidecar for each output. Throws Failure.
+/** Renders a scan; returns the pictures' paths. Like the others, writes a sidecar for each output. Throws Failure, for
+ * pictures that take more memory than the source allows before the scan is read.
  * Thread safe for different outputs. */
 std::vector<std::filesystem::path>
 RenderScan(const RenderScanSettings & settings, const Events & events);

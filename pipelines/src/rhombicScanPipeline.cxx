@@ -6,6 +6,7 @@
 #include "rhombicScanWriter.h"
 #include "rhombicSurfaceRenderer.h"
 
+#include <algorithm>
 #include <sstream>
 
 namespace fs = std::filesystem;
@@ -53,6 +54,14 @@ MakeScene(const ScanSource & source, const SurfaceSelection & selection, const E
     }
   }
   return scene;
+}
+
+/** Labels are not known before they are read; the renderer asks again for the whole scene. */
+bool
+IsTranslucent(const std::vector<SurfaceRequest> & requests)
+{
+  return std::any_of(
+    requests.begin(), requests.end(), [](const SurfaceRequest & request) { return request.opacity < 1.0; });
 }
 
 fs::path
@@ -104,16 +113,17 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
   CheckOutputs(WithSidecars(pictures, settings.provenance), InputsOf(settings.source, settings.surfaces));
   CheckPicturePath(settings.picture);
   SurfaceRenderer renderer;
-  renderer.CheckSettings(settings.render);
+  RenderSettings render = settings.render;
+  render.maximumMemory = settings.source.lattice.maximumMemory;
+  renderer.CheckSettings(render, IsTranslucent(settings.surfaces.requests));
 
   const Scene scene = MakeScene(settings.source, settings.surfaces, events);
   StagedFiles staged;
   for (std::size_t n = 0; n < pictures.size(); ++n)
   {
     events.Progress("rendering", static_cast<double>(n) / static_cast<double>(pictures.size()));
-    RenderSettings render = settings.render;
     render.view = settings.views[n];
-    render.orientationLabels = render.orientationLabels && scene.isOriented;
+    render.orientationLabels = settings.render.orientationLabels && scene.isOriented;
     const PictureMetadata metadata{ settings.provenance.software, settings.provenance.command };
     StagePicture(renderer.Render(scene.surfaces, render), pictures[n], staged, metadata);
     StageSidecar(pictures[n], settings.provenance, scene.report, staged);

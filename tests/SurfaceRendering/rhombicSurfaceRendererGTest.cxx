@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -558,6 +559,100 @@ TEST_F(SurfaceRendererTest, NothingIsPrinted)
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
+
+TEST_F(SurfaceRendererTest, PictureBeyondTheMemoryAllowedIsAFailureThatNamesOneThatFits)
+{
+  SurfaceRenderer renderer;
+  const std::vector<SceneSurface> scene{ Item(Sphere({ 0, 0, 0 }, 50), Red, 0.5) };
+  RenderSettings settings;
+  settings.width = 4000;
+  settings.height = 2000;
+  settings.maximumMemory = 300 << 20;
+  EXPECT_EQ(KindThrownBy(renderer, scene, settings), FailureKind::Memory);
+  int width = 0;
+  int height = 0;
+  try
+  {
+    renderer.CheckSettings(settings, true);
+    FAIL() << "nothing was thrown";
+  }
+  catch (const Failure & failure)
+  {
+    EXPECT_EQ(failure.GetKind(), FailureKind::Memory);
+    const std::string sentence = failure.GetDescription();
+    EXPECT_NE(sentence.find("300.0 MiB"), std::string::npos) << sentence;
+    const auto place = sentence.find("at most ");
+    ASSERT_NE(place, std::string::npos) << sentence;
+    ASSERT_EQ(std::sscanf(sentence.c_str() + place, "at most %d x %d pixels", &width, &height), 2) << sentence;
+  }
+  EXPECT_NEAR(width, 2 * height, 2);
+  settings.width = width + 20;
+  settings.height = height + 10;
+  EXPECT_THROW(renderer.CheckSettings(settings, true), Failure);
+  EXPECT_NO_THROW(renderer.CheckSettings(settings)) << "it is opaque";
+  settings.width = width;
+  settings.height = height;
+  EXPECT_NO_THROW(renderer.CheckSettings(settings, true));
+  settings.maximumMemory = 1;
+  EXPECT_THROW(renderer.CheckSettings(settings), Failure);
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+/** A line of /proc/self/status, in bytes. */
+std::uintmax_t
+MemoryOfProcess(const std::string & name)
+{
+  std::ifstream file("/proc/self/status");
+  std::string line;
+  while (std::getline(file, line))
+  {
+    if (line.rfind(name + ':', 0) == 0)
+    {
+      return std::stoull(line.substr(name.size() + 1)) * 1024;
+    }
+  }
+  ADD_FAILURE() << name << " is not known";
+  return 0;
+}
+
+/** Resets VmHWM, the most memory that the process had. */
+void
+ForgetPeakMemory()
+{
+  std::ofstream("/proc/self/clear_refs") << 5;
+}
+
+TEST_F(SurfaceRendererTest, DrawingTakesTheMemoryThatIsCounted)
+{
+  // The first picture of a process loads libraries that the later ones find.
+  constexpr double libraries = 110 << 20;
+  SurfaceRenderer renderer;
+  renderer.Render({ Item(Sphere({ 0, 0, 0 }, 50), Red) }, Small());
+  for (const double opacity : { 1.0, 0.3 })
+  {
+    for (const int side : { 512, 1024 })
+    {
+      SCOPED_TRACE(std::to_string(side) + " pixels, opacity " + std::to_string(opacity));
+      const std::vector<SceneSurface> scene{ Item(Sphere({ 0, 0, 0 }, 50), Red, opacity),
+                                             Item(Sphere({ 10, 0, 5 }, 25), Green) };
+      RenderSettings settings;
+      settings.width = side;
+      settings.height = side;
+      const auto before = static_cast<double>(MemoryOfProcess("VmRSS"));
+      ForgetPeakMemory();
+      const Picture picture = renderer.Render(scene, settings);
+      const double peak = static_cast<double>(MemoryOfProcess("VmHWM")) - before;
+      const double left = static_cast<double>(MemoryOfProcess("VmRSS")) - before;
+      const auto counted = static_cast<double>(SurfaceRenderer::EstimateMemory(scene, settings));
+      EXPECT_LT(peak, counted);
+      EXPECT_GT(peak, 0.8 * (counted - libraries));
+      EXPECT_LT(left, 32 << 20) << "is still held";
+    }
+  }
+}
+
+#endif
 
 constexpr const char * HashFileVariable = "RHOMBIC_TEST_HASH_FILE";
 

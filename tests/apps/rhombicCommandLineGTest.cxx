@@ -128,6 +128,7 @@ constexpr ErrorCase errorCases[] = {
   { "BadMemory", "info dicom --max-memory much", 2, "8G" },
   { "ScanBeyondTheMemoryAllowed", "info dicom --max-memory 1K", 9, "--max-memory 1G" },
   { "LatticeBeyondTheMemoryAllowed", "mesh scan.nii.gz -t 250.5 --max-memory 400K -o a.stl", 9, "--density 0." },
+  { "PictureBeyondTheMemoryAllowed", "render text.dcm --preset ct-bone --size 4096 --max-memory 500M -o a.png", 9, "x" },
   { "LabelsThatAreNone", "info dicom --labels scan.nii.gz", 4, "label" },
   { "LabelTableThatIsNone", "info scan.nii.gz --label-table text.dcm", 4, "text.dcm" },
   { "LabelsOfWhatIsNoLabelMap", "mesh scan.nii.gz --label heart -o a.stl", 2, "is no label map" },

@@ -5,6 +5,7 @@
 #include "rhombicRenderBackend.h"
 #include "rhombicScene.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,13 +37,21 @@ public:
    * at their outlines, in the right order whatever the order of the list.
    *
    * Throws Failure: Empty when no surface has a triangle; Usage for a setting, colour or opacity out of range;
-   * Memory when the scene does not fit; Display when the graphics library reports an error. */
+   * Memory, before any work, when EstimateMemory() is more than the settings allow, and when there is not enough after
+   * all; Display when the graphics library reports an error. */
   Picture
   Render(const std::vector<SceneSurface> & scene, const RenderSettings & settings);
 
-  /** Throws Failure(Usage) when Render() would because of the settings: for asking before long work. */
+  /** Throws Failure(Usage) or Failure(Memory) when Render() would because of the settings: for asking before long work.
+   * Memory is that for a scene without triangles.
+   * \param isTranslucent whether the scene will have translucent surfaces, which take more memory */
   void
-  CheckSettings(const RenderSettings & settings) const;
+  CheckSettings(const RenderSettings & settings, bool isTranslucent = false) const;
+
+  /** Most bytes that Render() takes at a time in software, with the picture that it returns, beside the surfaces. It
+   * frees all but the picture and some 100 MiB of libraries before it returns. Thread safe. */
+  static std::uintmax_t
+  EstimateMemory(const std::vector<SceneSurface> & scene, const RenderSettings & settings);
 
   /** One line: backend, renderer and OpenGL version. */
   std::string

@@ -23,17 +23,17 @@ MeanOfSquare(const std::uint8_t * first, std::size_t rowBytes, int samples)
 
 } // namespace
 
-Picture
-MeanOfSamples(const std::uint8_t * drawn, int width, int height, int samples)
+void
+MeanOfSamples(const std::uint8_t * drawn, int samples, int top, int rows, Picture & picture)
 {
   const std::size_t pixelBytes = static_cast<std::size_t>(samples) * Picture::Channels;
-  const std::size_t rowBytes = static_cast<std::size_t>(width) * pixelBytes;
-  Picture picture(width, height);
-  std::uint8_t * target = picture.pixels.data();
-  for (int y = height - 1; y >= 0; --y)
+  const std::size_t rowBytes = static_cast<std::size_t>(picture.width) * pixelBytes;
+  std::uint8_t * target =
+    picture.pixels.data() + static_cast<std::size_t>(top) * static_cast<std::size_t>(picture.width) * Picture::Channels;
+  for (int y = rows - 1; y >= 0; --y)
   {
     const std::uint8_t * square = drawn + static_cast<std::size_t>(y) * static_cast<std::size_t>(samples) * rowBytes;
-    for (int x = 0; x < width; ++x, square += pixelBytes)
+    for (int x = 0; x < picture.width; ++x, square += pixelBytes)
     {
       for (int channel = 0; channel < Picture::Channels; ++channel)
       {
@@ -41,7 +41,6 @@ MeanOfSamples(const std::uint8_t * drawn, int width, int height, int samples)
       }
     }
   }
-  return picture;
 }
 
 } // namespace rhombic

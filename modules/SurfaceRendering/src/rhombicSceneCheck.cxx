@@ -9,8 +9,7 @@ namespace rhombic
 namespace
 {
 
-/** Drawing takes about 110 bytes a sample: 7 GiB for this many squared. */
-constexpr int LargestSampledSide = 8192;
+constexpr int LargestSampledSide = 8192; // larger ones were not tried
 
 [[noreturn]] void
 FailUsage(const std::string & sentence)
@@ -66,6 +65,12 @@ DrawableSurfaces(const std::vector<SceneSurface> & scene)
     throw Failure(FailureKind::Empty, "There is no surface to draw; try another threshold.");
   }
   return drawable;
+}
+
+bool
+IsTranslucent(const std::vector<SceneSurface> & scene)
+{
+  return std::any_of(scene.begin(), scene.end(), [](const SceneSurface & item) { return item.opacity < 1.0; });
 }
 
 } // namespace rhombic

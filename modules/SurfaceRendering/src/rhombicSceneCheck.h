@@ -16,6 +16,10 @@ CheckSettings(const RenderSettings & settings, int largestSide);
 std::vector<SceneSurface>
 DrawableSurfaces(const std::vector<SceneSurface> & scene);
 
+/** Whether light passes through any of the surfaces. */
+bool
+IsTranslucent(const std::vector<SceneSurface> & scene);
+
 } // namespace rhombic
 
 #endif

@@ -2,6 +2,7 @@
 
 #include "rhombicCameraFit.h"
 #include "rhombicOrientationLabels.h"
+#include "rhombicSceneCheck.h"
 #include "rhombicSurfaceActor.h"
 
 #include <vtkBoundingBox.h>
@@ -45,12 +46,6 @@ AddLights(vtkRenderer * renderer)
   AddLight(renderer, 0.0, 0.0, 1.0, 0.26);    // head
   AddLight(renderer, 0.9, 0.3, -0.6, 0.15);   // rim
   AddLight(renderer, -0.9, 0.3, -0.6, 0.15);  // rim
-}
-
-bool
-IsTranslucent(const std::vector<SceneSurface> & scene)
-{
-  return std::any_of(scene.begin(), scene.end(), [](const SceneSurface & item) { return item.opacity < 1.0; });
 }
 
 /** Length in mm of the diagonal of the box around the scene. */

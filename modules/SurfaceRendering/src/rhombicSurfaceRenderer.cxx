@@ -1,5 +1,6 @@
 #include "rhombicSurfaceRenderer.h"
 
+#include "rhombicDrawingMemory.h"
 #include "rhombicFailure.h"
 #include "rhombicGLContext.h"
 #include "rhombicSampleMean.h"
@@ -13,6 +14,7 @@
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
 #include <mutex>
 #include <new>
 
@@ -77,12 +79,13 @@ private:
   vtkSmartPointer<vtkRenderer> m_Renderer;
 };
 
-} // namespace
-
-class SurfaceRenderer::Implementation
+/** \class Canvas
+ * \brief A context, and a window in it that is seen by no one. Mesa frees what the last picture took when the context
+ * goes, and not before. */
+class Canvas
 {
 public:
-  explicit Implementation(RenderBackend backend)
+  explicit Canvas(RenderBackend backend)
     : m_Context(CreateGLContext(backend))
   {
     const CurrentGLContext current(*m_Context.context);
@@ -98,7 +101,7 @@ public:
     m_Window->SwapBuffersOff();
   }
 
-  ~Implementation()
+  ~Canvas()
   {
     try
     {
@@ -113,29 +116,21 @@ public:
     }
   }
 
-  void
-  Check(const RenderSettings & settings) const
-  {
-    rhombic::CheckSettings(settings, m_LargestSide);
-  }
+  Canvas(const Canvas &) = delete;
+  Canvas &
+  operator=(const Canvas &) = delete;
 
   Picture
-  Render(const std::vector<SceneSurface> & scene, const RenderSettings & settings)
+  Draw(const std::vector<SceneSurface> & scene, const RenderSettings & settings)
   {
-    Check(settings);
-    const auto drawable = DrawableSurfaces(scene);
     const CurrentGLContext current(*m_Context.context);
     const vtkRhombicMessages::Scope messages;
-
-    const int width = settings.width * settings.samples;
-    const int height = settings.height * settings.samples;
-    m_Window->SetSize(width, height);
-    const RendererInWindow stage(m_Window, SetStage(drawable, settings));
+    m_Window->SetSize(settings.width * settings.samples, settings.height * settings.samples);
+    const RendererInWindow stage(m_Window, SetStage(scene, settings));
     m_Window->Render();
-    vtkNew<vtkUnsignedCharArray> drawn;
-    m_Window->GetPixelData(0, 0, width - 1, height - 1, 0, drawn, 0);
+    Picture picture = ReadWindow(settings);
     CheckErrors(messages);
-    return MeanOfSamples(drawn->GetPointer(0), settings.width, settings.height, settings.samples);
+    return picture;
   }
 
   const std::string &
@@ -144,10 +139,75 @@ public:
     return m_Context.description;
   }
 
+  int
+  GetLargestSide() const
+  {
+    return m_LargestSide;
+  }
+
 private:
+  /** Band by band, so that there is no second copy of all samples. */
+  Picture
+  ReadWindow(const RenderSettings & settings) const
+  {
+    constexpr int bandRows = 32;
+    const int columns = settings.width * settings.samples;
+    Picture picture(settings.width, settings.height);
+    vtkNew<vtkUnsignedCharArray> drawn;
+    for (int top = 0; top < settings.height; top += bandRows)
+    {
+      const int rows = std::min(bandRows, settings.height - top);
+      const int lowest = (settings.height - top - rows) * settings.samples;
+      m_Window->GetPixelData(0, lowest, columns - 1, lowest + rows * settings.samples - 1, 0, drawn, 0);
+      MeanOfSamples(drawn->GetPointer(0), settings.samples, top, rows, picture);
+    }
+    return picture;
+  }
+
   DescribedGLContext m_Context;
   vtkSmartPointer<vtkGenericOpenGLRenderWindow> m_Window;
   int m_LargestSide = 0;
+};
+
+} // namespace
+
+class SurfaceRenderer::Implementation
+{
+public:
+  explicit Implementation(RenderBackend backend)
+    : m_Backend(backend)
+    , m_Canvas(std::make_unique<Canvas>(backend))
+    , m_Description(m_Canvas->GetDescription())
+    , m_LargestSide(m_Canvas->GetLargestSide())
+  {}
+
+  void
+  Check(const RenderSettings & settings, bool isTranslucent, std::uintmax_t sceneBytes = 0) const
+  {
+    rhombic::CheckSettings(settings, m_LargestSide);
+    RequireMemoryToDraw(settings, isTranslucent, sceneBytes);
+  }
+
+  Picture
+  Render(const std::vector<SceneSurface> & scene, const RenderSettings & settings)
+  {
+    const auto drawable = DrawableSurfaces(scene);
+    Check(settings, IsTranslucent(drawable), MemoryToHoldScene(drawable));
+    const auto canvas = m_Canvas ? std::move(m_Canvas) : std::make_unique<Canvas>(m_Backend);
+    return canvas->Draw(drawable, settings);
+  }
+
+  const std::string &
+  GetDescription() const
+  {
+    return m_Description;
+  }
+
+private:
+  RenderBackend m_Backend;
+  std::unique_ptr<Canvas> m_Canvas; ///< for the first picture
+  std::string m_Description;
+  int m_LargestSide;
 };
 
 SurfaceRenderer::SurfaceRenderer(RenderBackend backend)
@@ -179,9 +239,16 @@ SurfaceRenderer::Render(const std::vector<SceneSurface> & scene, const RenderSet
 }
 
 void
-SurfaceRenderer::CheckSettings(const RenderSettings & settings) const
+SurfaceRenderer::CheckSettings(const RenderSettings & settings, bool isTranslucent) const
 {
-  m_Implementation->Check(settings);
+  m_Implementation->Check(settings, isTranslucent);
+}
+
+std::uintmax_t
+SurfaceRenderer::EstimateMemory(const std::vector<SceneSurface> & scene, const RenderSettings & settings)
+{
+  const auto drawable = DrawableSurfaces(scene);
+  return MemoryToDraw(settings, IsTranslucent(drawable), MemoryToHoldScene(drawable));
 }
 
 std::string
