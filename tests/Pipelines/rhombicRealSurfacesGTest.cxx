@@ -22,6 +22,13 @@ struct RealSurface
   double isovalue;
 };
 
+/** For GoogleTest, which prints bytes otherwise. */
+std::ostream &
+operator<<(std::ostream & stream, const RealSurface & surface)
+{
+  return stream << surface.scan << " at " << surface.isovalue;
+}
+
 constexpr RealSurface realSurfaces[] = { { "ct_head_ge8800_dicom", 500.5 },
                                          { "ct_head_ge8800_dicom", 1150.5 },
                                          { "ct_mr_dicom2stl_nifti/ct_example.nii.gz", 300.5 },
