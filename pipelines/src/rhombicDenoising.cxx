@@ -3,6 +3,7 @@
 #include "rhombicFailure.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicObserveProgress.h"
+#include "rhombicWording.h"
 
 #include "itkGradientAnisotropicDiffusionImageFilter.h"
 #include "itkFCCGaussianImageFilter.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 
 namespace rhombic
@@ -100,6 +102,32 @@ FindSteps(double sigma, const RealImage::SpacingType & spacing)
   return { static_cast<unsigned int>(count), time / count };
 }
 
+/** "35 seconds", "2 minutes". */
+std::string
+DescribeDuration(double seconds)
+{
+  const bool isShort = seconds < 100.0;
+  return Count(static_cast<std::uintmax_t>(std::lround(isShort ? seconds : seconds / 60.0)),
+               isShort ? "second" : "minute");
+}
+
+/** After the filter's first iteration, says how long all of them take if that is long. */
+template <typename TFilter>
+void
+AnnounceDuration(TFilter & filter, const Events & events)
+{
+  constexpr double worthSaying = 10.0; // s
+  const auto start = std::chrono::steady_clock::now();
+  filter.AddObserver(itk::IterationEvent(), [&filter, &events, start](const itk::EventObject &) {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+    const double seconds = passed.count() * filter.GetNumberOfIterations();
+    if (filter.GetElapsedIterations() == 1 && seconds >= worthSaying)
+    {
+      events.Note("edge-preserving smoothing takes about " + DescribeDuration(seconds));
+    }
+  });
+}
+
 RealImage::Pointer
 KeepEdges(RealImage::Pointer image, const Denoising & denoising, const Events & events)
 {
@@ -112,6 +140,7 @@ KeepEdges(RealImage::Pointer image, const Denoising & denoising, const Events & 
   filter->InPlaceOn();
   filter->SetInput(image);
   ObserveProgress(*filter, "smoothing", events);
+  AnnounceDuration(*filter, events);
   filter->Update();
   return filter->GetOutput();
 }
