@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace rhombic
@@ -60,11 +61,36 @@ ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events 
 ScanImage
 LatticeToScan(const FCCVolume & volume, const std::array<double, 3> & spacing, const Events & events);
 
+/** What SurfaceRequest::Parts::Enclosed left out of a surface, and what it kept though the scan's sides cut it. Thread
+ * safety: a value. */
+struct EnclosedParts
+{
+  double aroundBody = 0.0;          ///< left out, in ml
+  std::size_t numberOfSmall = 0;    ///< left out: parts of less than a fiftieth of the volume of the largest one
+  double small = 0.0;               ///< their volume in ml
+  std::size_t numberCutBySides = 0; ///< kept parts that end at a side of the scan; top and bottom are none
+};
+
+/** A surface of a lattice volume. Thread safety: a value. */
+struct ExtractedSurface
+{
+  SceneSurface scene;
+  std::optional<EnclosedParts> enclosed; ///< if they were asked for
+};
+
 /** A closed isosurface of the volume for each request, in its order, made as the mode says; those on the same side of
  * their isovalues are extracted in one pass over the volume. Where the scan ends, surfaces are closed by walls: on the
  * outer faces of the lattice, or, when it is known, of the grid's voxels. Throws Failure: Usage for a request without
  * an isovalue (see ResolveIsovalues()), Empty for a surface without triangles. Thread safe for different volumes.
  * \param grid of the scan that the volume was made from, if it is not slanted */
+std::vector<ExtractedSurface>
+ExtractSurfaces(const FCCVolume & volume,
+                const std::vector<SurfaceRequest> & requests,
+                itk::FCCIsosurfaceMode mode,
+                const Events & events,
+                const itk::ImageBase<3> * grid = nullptr);
+
+/** The same, without what was left out. */
 std::vector<SceneSurface>
 LatticeToSurfaces(const FCCVolume & volume,
                   const std::vector<SurfaceRequest> & requests,

@@ -26,7 +26,13 @@ struct SurfaceRequest
   enum class Parts
   {
     All,
-    Enclosed ///< those that don't reach the scan's sides, without specks: the lungs, but not the air around the patient
+
+    /** Those in the body, without small ones: the lungs, also where the scan's sides cut them, but not the air around
+     * the patient. Around the body is what a corner of the slices leads to through air below -940 HU, which lungs are
+     * not; all else is in the body. Where no tissue lies between, as at the border of a round field of view or in the
+     * nose, the parts in the body end there. At isovalues of 0 and more, which are no thresholds of air in HU, and
+     * above isovalues, the corners alone decide. */
+    Enclosed
   };
 
   std::string name;

@@ -13,6 +13,7 @@
 #include "itkFCCIsosurfaceFilter.h"
 #include "itkFCCResamplingChecks.h"
 #include "itkFCCToCartesianImageFilter.h"
+#include "itkTriangleSurfaceMeasures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -84,18 +85,44 @@ TakeOutput(TFilter & filter)
   return output;
 }
 
+/** Volumes in ml, as people read them. */
+std::string
+Millilitres(double volume)
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::fixed << std::setprecision(1) << volume << " ml";
+  return text.str();
+}
+
 /** Throws Failure(Empty) when there is no triangle. */
 void
-CheckSurface(const itk::TriangleSurface & surface, const SurfaceRequest & request)
+CheckSurface(const ExtractedSurface & surface, const SurfaceRequest & request)
 {
-  if (surface.GetNumberOfTriangles() == 0)
+  if (surface.scene.surface->GetNumberOfTriangles() == 0)
   {
     std::ostringstream sentence;
     sentence.imbue(std::locale::classic());
-    sentence << "Nothing can be extracted for " << request.name << " at " << *request.isovalue
-             << (request.parts == SurfaceRequest::Parts::Enclosed ? " that the scan encloses" : "")
-             << "; try another threshold (rhombic info suggests some).";
+    sentence << "Nothing can be extracted for " << request.name << " at " << *request.isovalue;
+    if (surface.enclosed)
+    {
+      sentence << " that lies in the body (" << Millilitres(surface.enclosed->aroundBody) << " around it are left out)";
+    }
+    sentence << "; try another threshold (rhombic info suggests some).";
     throw Failure(FailureKind::Empty, sentence.str());
+  }
+}
+
+void
+NoteParts(const std::string & name, const EnclosedParts & parts, const Events & events)
+{
+  events.Note(name + ": left out " + Millilitres(parts.aroundBody) + " around the body and " +
+              std::to_string(parts.numberOfSmall) +
+              (parts.numberOfSmall == 1 ? " small part of " : " small parts of ") + Millilitres(parts.small));
+  if (parts.numberCutBySides > 0)
+  {
+    events.Note(name + ": the sides of the scan cut " + std::to_string(parts.numberCutBySides) +
+                (parts.numberCutBySides == 1 ? " part" : " parts") + "; the volume is that within the scan");
   }
 }
 
@@ -137,12 +164,44 @@ ExtractSide(const itk::FCCImage<TPixel> & image,
   {
     surfaces[places[n]] = filter->GetOutput(n);
     surfaces[places[n]]->DisconnectPipeline();
-    if (requests[places[n]].parts == SurfaceRequest::Parts::Enclosed)
-    {
-      KeepEnclosedParts(*surfaces[places[n]], image);
-    }
   }
   return filter->GetNumberOfUndefinedSamples();
+}
+
+void
+MoveWalls(itk::TriangleSurface & surface, const itk::ImageBase<3> * grid, const FCCVolume & volume)
+{
+  if (grid != nullptr)
+  {
+    MoveWallsToBorder(surface, *grid, volume);
+  }
+}
+
+/** Leaves out of a request's surface what is around the body. Where no tissue lies between, it is extracted anew. */
+EnclosedParts
+LeaveOutSurroundings(const FCCVolume & volume,
+                     const SurfaceRequest & request,
+                     itk::FCCIsosurfaceMode mode,
+                     const Events & events,
+                     const itk::ImageBase<3> * grid,
+                     itk::TriangleSurface::Pointer & surface)
+{
+  events.Progress("telling " + request.name + " from what is around the body", 0.0);
+  const Surroundings surroundings = FindSurroundings(volume, request);
+  if (!surroundings.cutOff)
+  {
+    return KeepEnclosedParts(*surface, volume, surroundings);
+  }
+  const double whole = itk::ComputeVolume(*surface);
+  const FCCVolume cut = CutOff(volume, surroundings, request);
+  std::vector<itk::TriangleSurface::Pointer> extracted(1);
+  std::visit([&](const auto & image) { ExtractSide(*image, { request }, request.side, mode, events, extracted); }, cut);
+  surface = extracted.front();
+  MoveWalls(*surface, grid, cut);
+  const double left = itk::ComputeVolume(*surface);
+  EnclosedParts parts = KeepEnclosedParts(*surface, volume, surroundings);
+  parts.aroundBody = (whole - left) / 1000.0;
+  return parts;
 }
 
 } // namespace
@@ -248,12 +307,12 @@ LatticeToScan(const FCCVolume & volume, const std::array<double, 3> & spacing, c
     volume);
 }
 
-std::vector<SceneSurface>
-LatticeToSurfaces(const FCCVolume & volume,
-                  const std::vector<SurfaceRequest> & requests,
-                  itk::FCCIsosurfaceMode mode,
-                  const Events & events,
-                  const itk::ImageBase<3> * grid)
+std::vector<ExtractedSurface>
+ExtractSurfaces(const FCCVolume & volume,
+                const std::vector<SurfaceRequest> & requests,
+                itk::FCCIsosurfaceMode mode,
+                const Events & events,
+                const itk::ImageBase<3> * grid)
 {
   for (const SurfaceRequest & request : requests)
   {
@@ -277,17 +336,35 @@ LatticeToSurfaces(const FCCVolume & volume,
     events.Note(Count(undefined, "sample is not a number and counts", "samples are not a number and count") +
                 " as outside");
   }
-  std::vector<SceneSurface> surfaces;
+  std::vector<ExtractedSurface> surfaces;
   for (std::size_t n = 0; n < requests.size(); ++n)
   {
     const SurfaceRequest & request = requests[n];
-    CheckSurface(*extracted[n], request);
-    if (grid != nullptr)
+    std::optional<EnclosedParts> enclosed;
+    MoveWalls(*extracted[n], grid, volume);
+    if (request.parts == SurfaceRequest::Parts::Enclosed)
     {
-      MoveWallsToBorder(*extracted[n], *grid, volume);
+      enclosed = LeaveOutSurroundings(volume, request, mode, events, grid, extracted[n]);
+      NoteParts(request.name, *enclosed, events);
     }
+    surfaces.push_back({ { request.name, extracted[n].GetPointer(), request.colour, request.opacity }, enclosed });
+    CheckSurface(surfaces.back(), request);
     events.Note(request.name + ": " + Count(extracted[n]->GetNumberOfTriangles(), "triangle"));
-    surfaces.push_back({ request.name, extracted[n].GetPointer(), request.colour, request.opacity });
+  }
+  return surfaces;
+}
+
+std::vector<SceneSurface>
+LatticeToSurfaces(const FCCVolume & volume,
+                  const std::vector<SurfaceRequest> & requests,
+                  itk::FCCIsosurfaceMode mode,
+                  const Events & events,
+                  const itk::ImageBase<3> * grid)
+{
+  std::vector<SceneSurface> surfaces;
+  for (const ExtractedSurface & surface : ExtractSurfaces(volume, requests, mode, events, grid))
+  {
+    surfaces.push_back(surface.scene);
   }
   return surfaces;
 }

@@ -97,17 +97,17 @@ Extract(LoadedSource & loaded, const MeshScanSettings & settings, const Events &
   const SurfaceSelection & selection = settings.surfaces;
   if (!loaded.requests.empty())
   {
-    const auto scenes = LatticeToSurfaces(loaded.lattice, loaded.requests, selection.mode, events, loaded.grid);
-    for (std::size_t n = 0; n < scenes.size(); ++n)
+    const auto extracted = ExtractSurfaces(loaded.lattice, loaded.requests, selection.mode, events, loaded.grid);
+    for (std::size_t n = 0; n < extracted.size(); ++n)
     {
       const SurfaceRequest & request = loaded.requests[n];
-      const ExtractedSize extracted = SizeOf(*scenes[n].surface);
-      surfaces.push_back(
-        { scenes[n], request, ReportSurface(request, *scenes[n].surface, selection.mode), extracted, {}, {} });
+      const SceneSurface & scene = extracted[n].scene;
+      const ExtractedSize size = SizeOf(*scene.surface);
+      surfaces.push_back({ scene, request, ReportSurface(request, extracted[n], selection.mode), size, {}, {} });
       if (request.parts == SurfaceRequest::Parts::All && !settings.source.lattice.nested)
       {
         surfaces.back().isosurface =
-          EstimateIsosurfaceVolume(loaded.lattice, request, extracted.area, loaded.grid.GetPointer());
+          EstimateIsosurfaceVolume(loaded.lattice, request, size.area, loaded.grid.GetPointer());
       }
     }
   }

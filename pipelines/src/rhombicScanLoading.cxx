@@ -220,16 +220,24 @@ LoadSource(const ScanSource & source, const SurfaceSelection & selection, const 
 }
 
 Report
-ReportSurface(const SurfaceRequest & request, const itk::TriangleSurface & surface, itk::FCCIsosurfaceMode mode)
+ReportSurface(const SurfaceRequest & request, const ExtractedSurface & surface, itk::FCCIsosurfaceMode mode)
 {
   std::ostringstream modeName;
   modeName << mode;
-  return { { "name", request.name },
-           { "isovalue", request.isovalue.value() },
-           { "inside", request.side == SurfaceRequest::Side::Above ? "above" : "below" },
-           { "mode", modeName.str() },
-           { "points", surface.GetNumberOfPoints() },
-           { "triangles", surface.GetNumberOfTriangles() } };
+  Report report = { { "name", request.name },
+                    { "isovalue", request.isovalue.value() },
+                    { "inside", request.side == SurfaceRequest::Side::Above ? "above" : "below" },
+                    { "mode", modeName.str() },
+                    { "points", surface.scene.surface->GetNumberOfPoints() },
+                    { "triangles", surface.scene.surface->GetNumberOfTriangles() } };
+  if (surface.enclosed)
+  {
+    report["enclosed"] = { { "leftOutAroundBodyInMillilitres", surface.enclosed->aroundBody },
+                           { "leftOutSmallParts", surface.enclosed->numberOfSmall },
+                           { "leftOutSmallPartsInMillilitres", surface.enclosed->small },
+                           { "keptPartsCutBySides", surface.enclosed->numberCutBySides } };
+  }
+  return report;
 }
 
 LabelSurfaceSettings

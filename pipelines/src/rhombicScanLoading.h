@@ -45,9 +45,9 @@ struct LoadedSource
 LoadedSource
 LoadSource(const ScanSource & source, const SurfaceSelection & selection, const Events & events);
 
-/** How an isosurface was asked for, and how large it is. */
+/** How an isosurface was asked for, how large it is, and what was left out. */
 Report
-ReportSurface(const SurfaceRequest & request, const itk::TriangleSurface & surface, itk::FCCIsosurfaceMode mode);
+ReportSurface(const SurfaceRequest & request, const ExtractedSurface & surface, itk::FCCIsosurfaceMode mode);
 
 /** How label surfaces are made. */
 LabelSurfaceSettings

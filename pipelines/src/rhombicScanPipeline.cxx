@@ -35,10 +35,11 @@ MakeScene(const ScanSource & source, const SurfaceSelection & selection, const E
   scene.report["surfaces"] = Report::array();
   if (!loaded.requests.empty())
   {
-    scene.surfaces = LatticeToSurfaces(loaded.lattice, loaded.requests, selection.mode, events, loaded.grid);
+    const auto extracted = ExtractSurfaces(loaded.lattice, loaded.requests, selection.mode, events, loaded.grid);
     for (std::size_t n = 0; n < loaded.requests.size(); ++n)
     {
-      scene.report["surfaces"].push_back(ReportSurface(loaded.requests[n], *scene.surfaces[n].surface, selection.mode));
+      scene.surfaces.push_back(extracted[n].scene);
+      scene.report["surfaces"].push_back(ReportSurface(loaded.requests[n], extracted[n], selection.mode));
     }
   }
   if (loaded.labels)

@@ -22,7 +22,6 @@ namespace
 
 constexpr double tissueThreshold = -300.0; // HU: half way between air and fat or skin
 constexpr double hardThreshold = 150.0;    // HU: higher than skin, lower than bone, metal and carbon fibre
-constexpr double highestAir = -940.0;      // HU: the median of air; lungs that reach the scan's sides are higher
 constexpr double smallestObject = 1.0;     // ml
 
 /** The blocks around the patient, and what is there. */

@@ -64,6 +64,23 @@ TEST_F(MeshCommand, ScenesHoldTheSurfacesOfAPreset)
   }
 }
 
+TEST_F(MeshCommand, TheReportTellsWhatIsLeftOutOfTheLungs)
+{
+  ASSERT_EQ(this->Mesh("--preset ct-lung -o lungs.stl").exitCode, 0);
+  ASSERT_EQ(this->Mesh("--surface 'air=<-500.5' -o air.stl").exitCode, 0);
+  const auto volumeOf = [](const nlohmann::json & surface) {
+    return surface["measures"]["volumeInMillilitres"].get<double>();
+  };
+  const nlohmann::json lungs = this->Sidecar("lungs.stl")["surfaces"][0];
+  const nlohmann::json air = this->Sidecar("air.stl")["surfaces"][0];
+  const auto around = lungs["enclosed"]["leftOutAroundBodyInMillilitres"].get<double>();
+  const auto small = lungs["enclosed"]["leftOutSmallPartsInMillilitres"].get<double>();
+  EXPECT_GT(around, volumeOf(lungs));
+  EXPECT_NEAR(volumeOf(lungs) + around + small, volumeOf(air), 0.001 * volumeOf(air));
+  EXPECT_EQ(lungs["enclosed"]["keptPartsCutBySides"], 0);
+  EXPECT_FALSE(air.contains("enclosed"));
+}
+
 TEST_F(MeshCommand, NamesInBracesMakeAFileForEach)
 {
   ASSERT_EQ(
