@@ -135,14 +135,16 @@ MakeSideMask(const LatticeBlocks & blocks, SurfaceRequest::Side side, double lim
                   [=](std::size_t n) { return isBelow ? means[n] < limit : static_cast<double>(means[n]) >= limit; });
 }
 
-/** The blocks of a mask that are connected, within it, with an edge of the scan along the patient. */
+/** The connected parts of a mask that reach an edge of the scan along the patient, or, if that is asked for, a side
+ * with room for a ball of the radius closedGap. */
 MaskImage::Pointer
-FindConnectedWithEdges(const MaskImage & mask, unsigned int longAxis)
+FindPartsAtSides(const MaskImage & mask, unsigned int longAxis, bool takesSides)
 {
   const Components components = FindComponents(mask, false);
   const std::uint32_t * const labels = components.labels->GetBufferPointer();
   const auto & size = mask.GetBufferedRegion().GetSize();
-  std::vector<bool> isConnected(components.parts.size(), false);
+  const auto depth = HasBorder(mask) ? DistanceTo(mask) : MakeLike<DistanceImage>(mask);
+  std::vector<bool> isFound(components.parts.size(), false);
   ForEachIndex(size, [&](const itk::Index<3> & index, std::size_t n) {
     unsigned int sides = 0;
     for (unsigned int axis = 0; axis < 3; ++axis)
@@ -150,12 +152,13 @@ FindConnectedWithEdges(const MaskImage & mask, unsigned int longAxis)
       const auto last = static_cast<itk::IndexValueType>(size[axis]) - 1;
       sides += axis != longAxis && (index[axis] == 0 || index[axis] == last) ? 1 : 0;
     }
-    if (sides == 2 && labels[n] != 0)
+    const bool hasRoom = takesSides && static_cast<double>(depth->GetBufferPointer()[n]) < 0.5 * blockWidth - closedGap;
+    if (labels[n] != 0 && (sides == 2 || (sides == 1 && hasRoom)))
     {
-      isConnected[labels[n]] = true;
+      isFound[labels[n]] = true;
     }
   });
-  return MakeMask(mask, [&](std::size_t n) { return isConnected[labels[n]]; });
+  return MakeMask(mask, [&](std::size_t n) { return isFound[labels[n]]; });
 }
 
 /** What lies next to a connected part of a mask, in faces of blocks. */
@@ -443,7 +446,7 @@ FindSurroundings(const FCCVolume & volume, const SurfaceRequest & request)
   found.blocks = std::visit([=](const auto & image) { return MakeBlocks(*image, lowest); }, volume);
   const auto direction = std::visit([](const auto & image) { return image->GetDirection(); }, volume);
   const auto air = MakeSideMask(found.blocks, request.side, isHounsfield ? std::min(isovalue, highestAir) : isovalue);
-  found.around = FindConnectedWithEdges(*air, NearestAxis(direction, 2));
+  found.around = FindPartsAtSides(*air, NearestAxis(direction, 2), isHounsfield);
   if (HasBorder(*found.around))
   {
     const auto inside = MakeSideMask(found.blocks, request.side, isovalue);

@@ -242,6 +242,19 @@ TEST(EnclosedParts, AreNoBlanket)
   EXPECT_NEAR(Millilitres(crop.Extract()) / crop.LungMillilitres(), 1.0, 0.02);
 }
 
+// Foam within a hard shell beside the body: no lung, although only the scan's side closes it.
+TEST(EnclosedParts, AreNoPadThatASideCuts)
+{
+  PhantomCrop crop(chestLow, { 216.0, 136.0, 270.0 });
+  crop.Change([](const PhantomPoint & point, double value, int label) {
+    const double depth = std::min(point[0] - 176.0, 60.0 - std::abs(point[1]));
+    return label != 0 || depth < 0.0 ? value : depth < 4.0 ? 200.0 : -955.0;
+  });
+  const auto extracted = crop.Extract();
+  EXPECT_NEAR(Millilitres(extracted) / crop.LungMillilitres(), 1.0, 0.02);
+  EXPECT_EQ(extracted.enclosed->numberCutBySides, 0u);
+}
+
 TEST(EnclosedParts, NeedNoHounsfieldUnitsWhereTheCornersAreAir)
 {
   PhantomCrop crop({ -75.0, -144.0, 205.0 }, chestHigh);
