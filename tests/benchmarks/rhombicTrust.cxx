@@ -100,7 +100,7 @@ ToJSON(const itk::TriangleSurfaceAudit & audit)
            { "boundary_edges", audit.topology.boundaryEdges },
            { "non_manifold", audit.topology.nonManifoldEdges + audit.topology.nonManifoldPoints },
            { "degenerate", audit.topology.degenerateTriangles },
-           { "misfacing_shells", audit.misfacingShells },
+           { "misfacing_shells", audit.shells.misfacing },
            { "crossing_pairs", audit.intersections.crossingPairs },
            { "touching_pairs", audit.intersections.touchingPairs },
            { "volume", audit.volume } };
