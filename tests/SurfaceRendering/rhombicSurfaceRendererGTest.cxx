@@ -11,6 +11,7 @@
 #include <fstream>
 #include <thread>
 
+#include <malloc.h>
 #include <unistd.h>
 
 namespace
@@ -616,6 +617,14 @@ MemoryOfProcess(const std::string & name)
   return 0;
 }
 
+/** Bytes that the process has, without those that malloc() keeps for later. */
+double
+MemoryInUse()
+{
+  malloc_trim(0);
+  return static_cast<double>(MemoryOfProcess("VmRSS"));
+}
+
 /** Resets VmHWM, the most memory that the process had. */
 void
 ForgetPeakMemory()
@@ -639,11 +648,11 @@ TEST_F(SurfaceRendererTest, DrawingTakesTheMemoryThatIsCounted)
       RenderSettings settings;
       settings.width = side;
       settings.height = side;
-      const auto before = static_cast<double>(MemoryOfProcess("VmRSS"));
+      const double before = MemoryInUse();
       ForgetPeakMemory();
       const Picture picture = renderer.Render(scene, settings);
       const double peak = static_cast<double>(MemoryOfProcess("VmHWM")) - before;
-      const double left = static_cast<double>(MemoryOfProcess("VmRSS")) - before;
+      const double left = MemoryInUse() - before;
       const auto counted = static_cast<double>(SurfaceRenderer::EstimateMemory(scene, settings));
       EXPECT_LT(peak, counted);
       EXPECT_GT(peak, 0.8 * (counted - libraries));
