@@ -44,6 +44,10 @@ ListPresets()
       }
       std::cout << (surface.opacity < 1.0 ? ", translucent" : "") << '\n';
     }
+    if (preset.denoising != "none")
+    {
+      std::cout << "    noisy scans: --denoise " << preset.denoising << '\n';
+    }
   }
 }
 

@@ -131,7 +131,8 @@ ScanOptions::AddLattice(CLI::App & parser)
     .add_option("--denoise",
                 m_Denoising,
                 "take noise out before surfaces are made: gaussian:SIGMA in mm; or edges:SIGMA,EDGE, which keeps what "
-                "is steeper than EDGE, in the scan's units per mm, and is slow; or none")
+                "is steeper than EDGE, in the scan's units per mm, and is slow; or none (render --list-presets says "
+                "what suits each)")
     ->capture_default_str();
 }
 

@@ -19,7 +19,8 @@ struct Preset
 {
   std::string name;
   std::string description;
-  bool removesTable = false; ///< it is for CTs in HU, from which the scanner's table is removed
+  std::string denoising = "none"; ///< for noisy scans, as ParseDenoising() takes it: shown, not applied
+  bool removesTable = false;      ///< it is for CTs in HU, from which the scanner's table is removed
   std::vector<SurfaceRequest> surfaces;
 };
 

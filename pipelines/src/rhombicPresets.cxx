@@ -1,6 +1,7 @@
 #include "rhombicPresets.h"
 
 #include "rhombicBuiltInPresets.h"
+#include "rhombicDenoising.h"
 #include "rhombicFailure.h"
 #include "rhombicWording.h"
 
@@ -121,10 +122,12 @@ ParsePreset(const std::string & yaml, const std::string & source)
   try
   {
     const YAML::Node root = YAML::Load(yaml);
-    RefuseUnknownKeys(root, { "name", "description", "removes", "surfaces" }, source);
+    RefuseUnknownKeys(root, { "name", "description", "suggested-denoising", "removes", "surfaces" }, source);
     Preset preset;
     preset.name = root["name"].as<std::string>();
     preset.description = root["description"].as<std::string>("");
+    preset.denoising = root["suggested-denoising"].as<std::string>("none");
+    ParseDenoising(preset.denoising);
     preset.removesTable = IsSecondWord(root["removes"], "nothing", "table", source);
     for (const auto & node : root["surfaces"])
     {

@@ -60,6 +60,18 @@ TEST(Presets, ThoseForCTRemoveTheTable)
   EXPECT_NE(sentence.find("'nothing' or 'table'"), std::string::npos) << sentence;
 }
 
+TEST(Presets, SayWhichDenoisingSuitsThem)
+{
+  for (const auto & preset : rhombic::GetPresets())
+  {
+    EXPECT_EQ(preset.denoising == "none", preset.name == "mr-head") << preset.name;
+  }
+  const std::string surfaces = "surfaces: [{name: a, isovalue: 1}]";
+  EXPECT_EQ(rhombic::ParsePreset("name: x\n" + surfaces, "test").denoising, "none");
+  EXPECT_EQ(rhombic::ParsePreset("name: x\nsuggested-denoising: edges:1,60\n" + surfaces, "test").denoising,
+            "edges:1,60");
+}
+
 TEST(Presets, ReadEverythingASurfaceHas)
 {
   const auto preset = rhombic::ParsePreset(
@@ -97,6 +109,7 @@ TEST(Presets, RefuseDamagedFiles)
                              "name: x\nsurfaces: [{name: a, isovalue: 1, side: left}]",
                              "name: x\ncolor: red\nsurfaces: [{name: a, isovalue: 1}]",
                              "name: x\nsurfaces: [{name: a, isovalue: 1, colr: 2}]",
+                             "name: x\nsuggested-denoising: much\nsurfaces: [{name: a, isovalue: 1}]",
                              "name: [x\n" })
   {
     const auto sentence =

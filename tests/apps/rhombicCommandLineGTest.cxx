@@ -128,7 +128,10 @@ constexpr ErrorCase errorCases[] = {
   { "BadMemory", "info dicom --max-memory much", 2, "8G" },
   { "ScanBeyondTheMemoryAllowed", "info dicom --max-memory 1K", 9, "--max-memory 1G" },
   { "LatticeBeyondTheMemoryAllowed", "mesh scan.nii.gz -t 250.5 --max-memory 400K -o a.stl", 9, "--density 0." },
-  { "PictureBeyondTheMemoryAllowed", "render text.dcm --preset ct-bone --size 4096 --max-memory 500M -o a.png", 9, "x" },
+  { "PictureBeyondTheMemoryAllowed",
+    "render text.dcm --preset ct-bone --size 4096 --max-memory 500M -o a.png",
+    9,
+    "x" },
   { "LabelsThatAreNone", "info dicom --labels scan.nii.gz", 4, "label" },
   { "LabelTableThatIsNone", "info scan.nii.gz --label-table text.dcm", 4, "text.dcm" },
   { "LabelsOfWhatIsNoLabelMap", "mesh scan.nii.gz --label heart -o a.stl", 2, "is no label map" },
@@ -396,6 +399,8 @@ TEST(CommandLine, ListsPresets)
   {
     EXPECT_NE(outcome.output.find(std::string(name) + "\n"), std::string::npos);
   }
+  EXPECT_NE(outcome.output.find("noisy scans: --denoise edges:1,100\n"), std::string::npos) << outcome.output;
+  EXPECT_EQ(outcome.output.find("none"), std::string::npos) << outcome.output;
 }
 
 TEST(CommandLine, TheTableIsLookedForInCTsUnlessItIsKept)
