@@ -65,10 +65,10 @@ LatticeToScan(const FCCVolume & volume, const std::array<double, 3> & spacing, c
  * safety: a value. */
 struct EnclosedParts
 {
-  double aroundBody = 0.0;          ///< left out, in ml
+  double aroundBody = 0.0;          ///< volume left out around the body, in ml
   std::size_t numberOfSmall = 0;    ///< left out: parts of less than a fiftieth of the volume of the largest one
-  double small = 0.0;               ///< their volume in ml
-  std::size_t numberCutBySides = 0; ///< kept parts that end at a side of the scan; top and bottom are none
+  double small = 0.0;               ///< volume of these, in ml
+  std::size_t numberCutBySides = 0; ///< kept parts that end at a side of the scan other than top and bottom
 };
 
 /** A surface of a lattice volume. Thread safety: a value. */
@@ -90,7 +90,7 @@ ExtractSurfaces(const FCCVolume & volume,
                 const Events & events,
                 const itk::ImageBase<3> * grid = nullptr);
 
-/** The same, without what was left out. */
+/** As ExtractSurfaces(), but returns the surfaces only. */
 std::vector<SceneSurface>
 LatticeToSurfaces(const FCCVolume & volume,
                   const std::vector<SurfaceRequest> & requests,

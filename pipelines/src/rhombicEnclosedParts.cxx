@@ -17,8 +17,8 @@ namespace
 {
 
 constexpr double blockWidth = 4.0;           // mm
-constexpr double smallestShare = 1.0 / 50.0; // of the largest part: less than the smaller lung or the airway
-constexpr double largestOpening = 0.1;       // of a part's border: nostrils; a blanket is open on one side
+constexpr double smallestShare = 1.0 / 50.0; // volume of the smallest part kept, relative to the largest part
+constexpr double largestOpening = 0.1;       // share of a part's border open to the room; more is outside the body
 constexpr double lowestAir = -1100.0;        // HU: lower values are padding
 constexpr double unitsPerIndex[3] = { 2.0, 1.0, 1.0 };
 
@@ -99,7 +99,7 @@ private:
   itk::Size<3> m_Count;
 };
 
-/** \param lowest counts for what is lower */
+/** Means of blocks; values below \a lowest count as \a lowest. */
 template <typename TPixel>
 LatticeBlocks
 MakeBlocks(const itk::FCCImage<TPixel> & image, double lowest)
@@ -165,9 +165,9 @@ FindPartsAtSides(const MaskImage & mask, unsigned int longAxis, bool takesSides)
 struct Border
 {
   std::size_t faces = 0;
-  std::size_t open = 0;       ///< without tissue between it and what is around the body
-  std::size_t openToRoom = 0; ///< of these, not beside padding, which the scan has not measured
-  bool isDeep = false;        ///< whether it has a block whose neighbours are all in it; clefts have none
+  std::size_t open = 0;       ///< faces to air around the body, without tissue between
+  std::size_t openToRoom = 0; ///< those of them that are not near padding, which was not measured
+  bool isDeep = false;        ///< has a block all of whose neighbours belong to the part; clefts have none
 };
 
 /** \class OpeningFinder
@@ -263,7 +263,7 @@ private:
   const LatticeBlocks & m_Blocks;
   const MaskImage & m_Around;
   const MaskImage & m_Inside;
-  double m_Margin; ///< in mm, from one block to all that touch it
+  double m_Margin; ///< distance in mm from a block to the farthest one that touches it
 };
 
 /** The two blocks next to a place along one axis, and the share of the second one. */
@@ -299,7 +299,7 @@ public:
     , m_Count(surroundings.cutOff->GetBufferedRegion().GetSize())
     , m_Isovalue(*request.isovalue)
   {
-    constexpr double steepness = 4.0; // of what is around the body, below the isovalue
+    constexpr double steepness = 4.0; // rise of the ramp, relative to isovalue minus mean around the body
     double sum = 0.0;
     std::size_t blocks = 0;
     for (std::size_t n = 0; n < m_CutOff.GetBufferedRegion().GetNumberOfPixels(); ++n)
@@ -327,7 +327,7 @@ public:
   }
 
 private:
-  /** How much of each block along a row of samples is to be cut off. */
+  /** Weight from 0 to 1 of each block along a row of samples: 1 is cut off. */
   std::vector<float>
   SharesOfRow(std::size_t j, std::size_t k) const
   {
@@ -381,15 +381,15 @@ private:
   itk::Size<3> m_Size;
   itk::Size<3> m_Count;
   double m_Isovalue;
-  double m_Height; ///< of the ramp over its width; negative for what is above the isovalue
+  double m_Height; ///< rise of the values across the ramp; negative where inside is above the isovalue
 };
 
 /** What is known about a connected part of a surface. */
 struct SurfacePart
 {
   double millilitres = 0.0; ///< negative where another part is around it
-  bool isAround = false;    ///< the body
-  bool isCut = false;       ///< by a side of the scan
+  bool isAround = false;    ///< lies around the body
+  bool isCut = false;       ///< ends at a side of the scan
 };
 
 template <typename TPixel>

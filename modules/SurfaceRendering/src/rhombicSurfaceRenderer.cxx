@@ -80,8 +80,8 @@ private:
 };
 
 /** \class Canvas
- * \brief A context, and a window in it that is seen by no one. Mesa frees what the last picture took when the context
- * goes, and not before. */
+ * \brief An OpenGL context with an offscreen window. Mesa frees the textures of a picture only when the context is
+ * destroyed. */
 class Canvas
 {
 public:
