@@ -42,6 +42,7 @@ struct PartRemoval
   itk::RemovedShells filled;  ///< cavities, and the solids inside them
   itk::RemovedShells removed; ///< solids with their cavities
 
+  /** Whether the surface is as it was. */
   bool
   IsNothing() const
   {

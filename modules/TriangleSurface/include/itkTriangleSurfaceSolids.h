@@ -13,6 +13,7 @@ struct RemovedShells
   SizeValueType cavities = 0; ///< shells inside others that face inwards
   double volume = 0.0;        ///< in mm^3, what the surface lost; negative where filled cavities made it larger
 
+  /** Adds what was removed in a further step. */
   RemovedShells &
   operator+=(const RemovedShells & other)
   {
