@@ -210,7 +210,7 @@ AddLabels(const Scan & scan, const ScanSource & source, const InfoOptions & opti
     report["labels"] = ReportLabels(map.labels);
     AddNotes(map.scan.notes, report);
   }
-  else if (IsLabelMap(scan, { source.path, options.labelTable }))
+  else if (!options.labelTable.empty() || IsLabelMap(scan))
   {
     report["labels"] = ReportLabels(FindLabels(scan, { source.path, options.labelTable }));
     report.erase("suggestedThresholds");
@@ -270,6 +270,16 @@ Describe(const ScanSource & source, const InfoOptions & options)
   return report;
 }
 
+/** Whether there are series, and none of them can be read. */
+bool
+IsUnreadable(const Report & report)
+{
+  const Report series = report.value("series", Report::array());
+  return !series.empty() && !report.contains("size") &&
+         std::all_of(
+           series.begin(), series.end(), [](const Report & item) { return !ToText(item["problem"]).empty(); });
+}
+
 void
 Info(const InfoOptions & options, const CommandContext & context)
 {
@@ -283,6 +293,11 @@ Info(const InfoOptions & options, const CommandContext & context)
   else
   {
     Print(report);
+  }
+  if (IsUnreadable(report))
+  {
+    throw Failure(FailureKind::Unreadable,
+                  "None of the series in " + source.path.string() + " can be read; see their problems above.");
   }
 }
 

@@ -89,7 +89,8 @@ ScanOptions::AddSource(CLI::App & parser)
     "--series",
     m_Series,
     "which DICOM series: id, UID, place in the list or SeriesNumber (default: the one with most slices by far)");
-  parser.add_option("--frame", m_Frame, "which volume of a file that holds several, from 0");
+  parser.add_option("--frame", m_Frame, "which volume of a file that holds several, from 0")
+    ->check(CLI::NonNegativeNumber);
   parser
     .add_option("--on-irregular",
                 m_OnIrregular,

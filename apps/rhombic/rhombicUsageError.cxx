@@ -71,6 +71,10 @@ DescribeUnexpected(const CLI::App & program, const CLI::ParseError & error)
   {
     return DescribeUnknownOption(program, *option);
   }
+  if (unexpected.empty() && isCommandMissing)
+  {
+    return "No command is given; " + HelpOf(program) + " lists them.";
+  }
   if (unexpected.empty())
   {
     return std::string(error.what()) + "; see " + HelpOf(program) + ".";
@@ -110,7 +114,8 @@ DescribeConversion(const CLI::App & program, const CLI::ParseError & error)
 {
   const std::string text = error.what();
   const auto colon = text.find(": ");
-  return (colon == std::string::npos ? text : text.substr(colon + 2)) + " is no number (see " + HelpOf(program) + ").";
+  return (colon == std::string::npos ? text : text.substr(colon + 2)) +
+         " is no number, or no whole number where one is needed (see " + HelpOf(program) + ").";
 }
 
 } // namespace

@@ -29,10 +29,10 @@ struct LabelMapSource
   std::filesystem::path table; ///< empty: the table in the file, or the one beside it (see FindLabelTable())
 };
 
-/** Whether a scan is a label map: it has labels, a table was named for it, or its values look like labels (see
- * LooksLikeLabelMap()). Thread safe. */
+/** Whether a scan is a label map: it has labels, or its values look like labels (see LooksLikeLabelMap()). Thread
+ * safe. */
 bool
-IsLabelMap(const Scan & scan, const LabelMapSource & source);
+IsLabelMap(const Scan & scan);
 
 /** The labels of a scan that is a label map. Throws Failure(Unreadable) for others. Thread safe. */
 std::vector<LabelSummary>

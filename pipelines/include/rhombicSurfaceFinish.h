@@ -32,6 +32,10 @@ struct SurfaceFinish
   double share = 1.0;                 ///< of its triangles that each surface may keep, above 0
 };
 
+/** Whether surfaces are simplified. Thread safe. */
+bool
+IsSimplified(const SurfaceFinish & finish);
+
 /** Throws Failure(Usage) for settings out of their ranges. */
 void
 CheckSurfaceFinish(const SurfaceFinish & finish);

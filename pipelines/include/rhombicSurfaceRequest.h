@@ -28,10 +28,11 @@ struct SurfaceRequest
     All,
 
     /** Those in the body, without small ones: the lungs, also where the scan's sides cut them, but not the air around
-     * the patient. Around the body is what is below -940 HU, which lungs are not, and reaches a corner of the slices,
-     * or a side of the scan where a ball of 8 mm radius has room; all else is in the body. Where no tissue lies
-     * between, as at the border of a round field of view or in the nose, the parts in the body end there. At isovalues
-     * of 0 and more, which are no thresholds of air in HU, and above isovalues, the corners alone decide. */
+     * the patient. Around the body is what is below -940 HU, or less than 60 HU above the lowest values if that is
+     * between -940 and -860 HU, and reaches a corner of the slices, or a side of the scan where a ball of 8 mm radius
+     * has room; all else is in the body. Lungs without emphysema are denser than that. Where no tissue lies between, as
+     * at the border of a round field of view or in the nose, the parts in the body end there. At isovalues of 0 and
+     * more, which are no thresholds of air in HU, and above isovalues, the corners alone decide. */
     Enclosed
   };
 

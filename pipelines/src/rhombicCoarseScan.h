@@ -16,7 +16,7 @@ using MaskImage = itk::Image<std::uint8_t, 3>;
 using MeanImage = itk::Image<std::int16_t, 3>;
 using DistanceImage = itk::Image<float, 3>;
 constexpr double closedGap = 8.0;     ///< mm: what is around the patient takes balls of this radius
-constexpr double highestAir = -940.0; ///< HU: a mean or median of air; lungs that reach the scan's sides are higher
+constexpr double highestAir = -940.0; ///< HU: a mean or median of air; lungs without emphysema are higher
 
 using ComponentImage = itk::Image<std::uint32_t, 3>;
 

@@ -19,6 +19,8 @@ namespace
 constexpr double blockWidth = 4.0;           // mm
 constexpr double smallestShare = 1.0 / 50.0; // volume of the smallest part kept, relative to the largest part
 constexpr double largestOpening = 0.1;       // share of a part's border open to the room; more is outside the body
+constexpr double airRange = 60.0;            // HU: air around the body varies by less from its lowest value
+constexpr double lowestLung = -860.0;        // HU: mean of lungs without emphysema
 constexpr double lowestAir = -1100.0;        // HU: lower values are padding
 constexpr double unitsPerIndex[3] = { 2.0, 1.0, 1.0 };
 
@@ -434,6 +436,16 @@ MeasureParts(const itk::TriangleSurface & surface,
   return parts;
 }
 
+/** Values below this may be air around the body, in HU. Scans that were clipped at a value above -940 HU, or whose air
+ * is calibrated to one, have their lowest values there. */
+double
+HighestAirAround(const DistanceImage & means, double isovalue)
+{
+  const float * const begin = means.GetBufferPointer();
+  const double lowest = *std::min_element(begin, begin + means.GetBufferedRegion().GetNumberOfPixels());
+  return std::min(isovalue, std::max(highestAir, std::min(lowest + airRange, lowestLung)));
+}
+
 } // namespace
 
 Surroundings
@@ -445,7 +457,8 @@ FindSurroundings(const FCCVolume & volume, const SurfaceRequest & request)
   const double lowest = isHounsfield ? lowestAir : std::numeric_limits<double>::lowest();
   found.blocks = std::visit([=](const auto & image) { return MakeBlocks(*image, lowest); }, volume);
   const auto direction = std::visit([](const auto & image) { return image->GetDirection(); }, volume);
-  const auto air = MakeSideMask(found.blocks, request.side, isHounsfield ? std::min(isovalue, highestAir) : isovalue);
+  const auto air =
+    MakeSideMask(found.blocks, request.side, isHounsfield ? HighestAirAround(*found.blocks.mean, isovalue) : isovalue);
   found.around = FindPartsAtSides(*air, NearestAxis(direction, 2), isHounsfield);
   if (HasBorder(*found.around))
   {

@@ -26,9 +26,9 @@ FindTable(const Scan & scan, const LabelMapSource & source)
 } // namespace
 
 bool
-IsLabelMap(const Scan & scan, const LabelMapSource & source)
+IsLabelMap(const Scan & scan)
 {
-  return !source.table.empty() || !scan.labels.empty() || LooksLikeLabelMap(scan);
+  return !scan.labels.empty() || LooksLikeLabelMap(scan);
 }
 
 std::vector<LabelSummary>

@@ -116,13 +116,23 @@ CheckSurface(const ExtractedSurface & surface, const SurfaceRequest & request)
 void
 NoteParts(const std::string & name, const EnclosedParts & parts, const Events & events)
 {
-  events.Note(name + ": left out " + Millilitres(parts.aroundBody) + " around the body and " +
-              std::to_string(parts.numberOfSmall) +
-              (parts.numberOfSmall == 1 ? " small part of " : " small parts of ") + Millilitres(parts.small));
+  std::vector<std::string> leftOut;
+  if (parts.aroundBody > 0.0)
+  {
+    leftOut.push_back(Millilitres(parts.aroundBody) + " around the body");
+  }
+  if (parts.numberOfSmall > 0)
+  {
+    leftOut.push_back(Count(parts.numberOfSmall, "small part") + " of " + Millilitres(parts.small));
+  }
+  if (!leftOut.empty())
+  {
+    events.Note(name + ": left out " + Enumerate(leftOut, "and"));
+  }
   if (parts.numberCutBySides > 0)
   {
-    events.Note(name + ": the sides of the scan cut " + std::to_string(parts.numberCutBySides) +
-                (parts.numberCutBySides == 1 ? " part" : " parts") + "; the volume is that within the scan");
+    events.Note(name + ": the sides of the scan cut " + Count(parts.numberCutBySides, "part") +
+                "; the volume is that within the scan");
   }
 }
 

@@ -3,6 +3,7 @@
 #include "rhombicFailure.h"
 #include "rhombicSidecar.h"
 
+#include <cmath>
 #include <string>
 
 namespace fs = std::filesystem;
@@ -27,6 +28,7 @@ constexpr Column columns[] = {
   { "isosurface uncertainty (ml)", "/measures/isosurfaceUncertaintyInMillilitres" },
   { "voxel volume (ml)", "/measures/voxelVolumeInMillilitres" },
   { "volume error (%)", "/measures/volumeErrorInPercent" },
+  { "volume error is of", "/measures/volumeErrorReference" },
   { "area (mm2)", "/measures/areaInSquareMillimetres" },
   { "x min (mm)", "/measures/boundsInMillimetres/0" },
   { "x max (mm)", "/measures/boundsInMillimetres/1" },
@@ -51,13 +53,15 @@ constexpr Column columns[] = {
   { "largest deviation (mm)", "/deviation/maximumInMillimetres" },
 };
 
-/** Text in quotes, in which quotes are doubled (RFC 4180); everything else as JSON writes it. */
+/** Text in quotes, in which quotes are doubled (RFC 4180); nothing for what is no finite number; everything else as
+ * JSON writes it. */
 std::string
 ToField(const Report & value)
 {
   if (!value.is_string())
   {
-    return value.is_null() ? "" : value.dump();
+    const bool isUnknown = value.is_null() || (value.is_number_float() && !std::isfinite(value.get<double>()));
+    return isUnknown ? "" : value.dump();
   }
   std::string field = "\"";
   for (const char letter : value.get<std::string>())

@@ -14,7 +14,8 @@ void
 CheckMeasureTablePath(const std::filesystem::path & path);
 
 /** Writes the reports of surfaces as a table: .csv with a line for each and units in the head line, or .json with all
- * there is, to appear with all others of \a staged. What is not known of a surface is left empty. Throws Failure: Usage for another extension, Output. */
+ * there is, to appear with all others of \a staged. What is not known of a surface is left empty. Throws Failure: Usage
+ * for another extension, Output. */
 void
 StageMeasureTable(const Report & surfaces, const std::filesystem::path & path, StagedFiles & staged);
 

@@ -48,6 +48,16 @@ struct MeshedSurface
 
 constexpr char NamePlace[] = "{name}";
 constexpr double CubicMillimetresPerMillilitre = 1000.0;
+constexpr double NotablePercent = 1.0; ///< smaller differences of volumes are not mentioned
+
+std::ostringstream
+MakeText(int decimals)
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::fixed << std::setprecision(decimals);
+  return text;
+}
 
 bool
 HasFileForEach(const fs::path & mesh)
@@ -89,6 +99,32 @@ SizeOf(const itk::TriangleSurface & surface)
   return { ComputeVolume(surface), ComputeArea(surface), surface.GetNumberOfTriangles() };
 }
 
+/** What the scan's isosurface encloses, where the lattice tells: neither of some of its parts, nor if the lattice holds
+ * another field or few samples, nor if the uncertainty is as large as half the volume. */
+std::optional<IsosurfaceVolume>
+EstimateIsosurface(const LoadedSource & loaded,
+                   const SurfaceRequest & request,
+                   double area,
+                   const LatticeSettings & settings)
+{
+  constexpr double fewestSites = 0.7; // per sample of the scan
+  const bool isFieldOfScan = loaded.scan && !settings.nested && settings.denoising.kind == Denoising::Kind::None;
+  if (!isFieldOfScan || request.parts != SurfaceRequest::Parts::All)
+  {
+    return {};
+  }
+  const auto countOf = [](const itk::ImageBase<3> & image) {
+    return static_cast<double>(image.GetLargestPossibleRegion().GetNumberOfPixels());
+  };
+  const double sites = std::visit([&](const auto & image) { return countOf(*image); }, loaded.lattice);
+  if (sites < fewestSites * countOf(GeometryOf(loaded.scan->image)))
+  {
+    return {};
+  }
+  const auto estimate = EstimateIsosurfaceVolume(loaded.lattice, request, area, loaded.grid.GetPointer());
+  return estimate.uncertainty < 0.5 * estimate.volume ? std::optional(estimate) : std::nullopt;
+}
+
 /** The surfaces of a source as they were extracted. */
 std::vector<MeshedSurface>
 Extract(LoadedSource & loaded, const MeshScanSettings & settings, const Events & events)
@@ -104,11 +140,7 @@ Extract(LoadedSource & loaded, const MeshScanSettings & settings, const Events &
       const SceneSurface & scene = extracted[n].scene;
       const ExtractedSize size = SizeOf(*scene.surface);
       surfaces.push_back({ scene, request, ReportSurface(request, extracted[n], selection.mode), size, {}, {} });
-      if (request.parts == SurfaceRequest::Parts::All && !settings.source.lattice.nested)
-      {
-        surfaces.back().isosurface =
-          EstimateIsosurfaceVolume(loaded.lattice, request, size.area, loaded.grid.GetPointer());
-      }
+      surfaces.back().isosurface = EstimateIsosurface(loaded, request, size.area, settings.source.lattice);
     }
   }
   if (loaded.labels)
@@ -214,9 +246,7 @@ CountVoxels(const MeshedSurface & surface, const std::optional<Scan> & scan)
 std::string
 Summarize(const std::string & name, const SurfaceMeasures & measures)
 {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::fixed << std::setprecision(1);
+  std::ostringstream text = MakeText(1);
   text << name << ": " << measures.volume / CubicMillimetresPerMillilitre << " ml";
   if (measures.isosurface)
   {
@@ -273,7 +303,8 @@ private:
     measures.voxelVolume = CountVoxels(surface, m_Scan);
     measures.isosurface = surface.isWhole ? surface.isosurface : std::nullopt;
     m_Events.Note(Summarize(name, measures));
-    this->NoteChanges(surface, measures);
+    this->NoteRefinement(surface, measures);
+    this->NoteThinParts(surface, measures);
     surface.report["points"] = read.GetNumberOfPoints();
     surface.report["triangles"] = read.GetNumberOfTriangles();
     surface.report["measures"] = ReportMeasures(measures);
@@ -285,33 +316,67 @@ private:
                                     { "areaChangeInPercent", PercentChange(extracted.area, measures.area) } };
   }
 
-  /** Says where the volume is not that of the scan's isosurface, or not that of the surface before it was refined. */
-  void
-  NoteChanges(const MeshedSurface & surface, const SurfaceMeasures & measures) const
+  /** Advice to use a denser lattice; empty where no option makes it denser, or it would be very large. */
+  std::string
+  AdviseDensity() const
   {
-    constexpr double notable = 1.0; // %
-    std::ostringstream note;
-    note.imbue(std::locale::classic());
-    note << std::fixed << std::setprecision(1);
+    constexpr double mostDense = 8.0;
+    const LatticeSettings & lattice = m_Settings.source.lattice;
+    const bool isSpacingGiven = lattice.spacing != LatticeSettings().spacing;
+    if (!m_Scan || lattice.nested || isSpacingGiven || lattice.density > mostDense)
+    {
+      return "";
+    }
+    return "; try --density " + std::to_string(std::lround(std::ceil(2.0 * lattice.density)));
+  }
+
+  /** Says how smoothing and simplification changed the volume, if they changed it by more than 1 %. */
+  void
+  NoteRefinement(const MeshedSurface & surface, const SurfaceMeasures & measures) const
+  {
     const double change = PercentChange(surface.volumeOfKeptParts, measures.volume);
-    if (std::abs(change) > notable)
+    if (std::abs(change) > NotablePercent)
     {
-      note << surface.scene.name << ": smoothing and simplification changed the volume by " << std::showpos << change
-           << std::noshowpos << " %, from " << surface.volumeOfKeptParts / CubicMillimetresPerMillilitre << " to "
-           << measures.volume / CubicMillimetresPerMillilitre
-           << " ml; a smaller --smooth or --max-error changes it less";
-    }
-    else if (measures.isosurface &&
-             std::abs(*measures.GetVolumeError()) > notable + 100.0 * measures.isosurface->GetRelativeUncertainty())
-    {
-      note << surface.scene.name
-           << ": the surface has parts thinner than the lattice's spacing, so its volume is off; take the "
-              "isosurface's, or "
-              "mesh with --density 3";
-    }
-    if (!note.str().empty())
-    {
+      const bool isSmoothed = m_Settings.finish.smoothing > 0.0;
+      const bool isSimplified = IsSimplified(m_Settings.finish);
+      std::ostringstream note = MakeText(1);
+      note << surface.scene.name << ": "
+           << (isSmoothed && isSimplified ? "smoothing and simplification"
+               : isSmoothed               ? "smoothing"
+               : isSimplified             ? "simplification"
+                                          : "untangling")
+           << " changed the volume by " << std::showpos << change << std::noshowpos << " %, from "
+           << surface.volumeOfKeptParts / CubicMillimetresPerMillilitre << " to "
+           << measures.volume / CubicMillimetresPerMillilitre << " ml";
       m_Events.Note(note.str());
+    }
+  }
+
+  /** Says where the volume of an isosurface was off when it was extracted, by more than 1 % beyond the uncertainty. */
+  void
+  NoteThinParts(const MeshedSurface & surface, const SurfaceMeasures & measures) const
+  {
+    std::ostringstream note = MakeText(1);
+    if (surface.isosurface)
+    {
+      const double error = 100.0 * surface.isosurface->GetErrorOf(surface.extracted.volume);
+      if (std::abs(error) > NotablePercent + 100.0 * surface.isosurface->GetRelativeUncertainty())
+      {
+        note << surface.scene.name << ": parts are thinner than the lattice's spacing, so the surface encloses "
+             << std::abs(error) << (error < 0.0 ? " % less" : " % more") << " than the isosurface"
+             << this->AdviseDensity();
+        m_Events.Note(note.str());
+      }
+    }
+    else if (surface.request && measures.voxelVolume)
+    {
+      const double difference = PercentChange(*measures.voxelVolume, measures.volume);
+      if (std::abs(difference) > NotablePercent)
+      {
+        note << surface.scene.name << ": the volume is " << std::abs(difference) << " % "
+             << (difference < 0.0 ? "below" : "above") << " that of the scan's voxels on this side of the threshold";
+        m_Events.Note(note.str());
+      }
     }
   }
 
@@ -343,8 +408,8 @@ private:
     if (deviation.unresolved > 0)
     {
       note << "; around " << deviation.unresolved << " of " << deviation.samples
-           << " measured points there is no isosurface within two voxels: small or thin parts may be wrong there, try "
-              "--density 2";
+           << " measured points there is no isosurface within two voxels: small or thin parts may be wrong there"
+           << this->AdviseDensity();
     }
     m_Events.Note(note.str());
   }

@@ -40,7 +40,7 @@ RefuseToChoose(const fs::path & path)
 LabelMap
 TakeForLabels(Scan scan, const LabelMapSource & source, const Events & events)
 {
-  if (!IsLabelMap(scan, source))
+  if (!IsLabelMap(scan))
   {
     RefuseToChoose(source.path);
   }

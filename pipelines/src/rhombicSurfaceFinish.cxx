@@ -82,7 +82,7 @@ ReportShells(const itk::RemovedShells & shells)
 {
   return { { "solids", shells.solids },
            { "cavities", shells.cavities },
-           { "volumeInMillilitres", shells.volume / CubicMillimetresPerMillilitre } };
+           { "volumeChangeInMillilitres", -shells.volume / CubicMillimetresPerMillilitre } };
 }
 
 Report
@@ -200,13 +200,13 @@ DescribeSimplification(const std::string & name, const SurfaceFinish & finish, c
   return note.str();
 }
 
+} // namespace
+
 bool
 IsSimplified(const SurfaceFinish & finish)
 {
   return finish.maximumError || finish.maximumTriangles > 0 || finish.share < 1.0;
 }
-
-} // namespace
 
 void
 CheckSurfaceFinish(const SurfaceFinish & finish)

@@ -158,6 +158,7 @@ ReportMeasures(const SurfaceMeasures & measures)
   if (const auto error = measures.GetVolumeError())
   {
     report["volumeErrorInPercent"] = *error;
+    report["volumeErrorReference"] = measures.isosurface ? "isosurface" : "voxels";
   }
   report["areaInSquareMillimetres"] = measures.area;
   report["boundsInMillimetres"] = measures.bounds;

@@ -203,6 +203,22 @@ TEST(EnclosedParts, EndAtTheBorderOfARoundField)
   }
 }
 
+// Images for networks are often clipped, and scanners are not always calibrated.
+TEST(EnclosedParts, AreFoundWhereTheAirAroundIsNoLessDense)
+{
+  for (const double floor : { -940.0, -900.0 })
+  {
+    for (const PhantomPoint & low : { chestLow, PhantomPoint{ -75.0, -144.0, 205.0 } })
+    {
+      PhantomCrop crop(low, chestHigh);
+      crop.Change([floor](const PhantomPoint &, double value, int) { return std::max(value, floor); });
+      const auto extracted = crop.Extract();
+      EXPECT_NEAR(Millilitres(extracted) / crop.LungMillilitres(), 1.0, 0.02) << floor;
+      EXPECT_NEAR(extracted.enclosed->aroundBody / crop.AirMillilitres(), 1.0, 0.02) << floor;
+    }
+  }
+}
+
 TEST(EnclosedParts, DontMindARoundFieldAroundThem)
 {
   PhantomCrop crop(chestLow, chestHigh);
@@ -261,7 +277,7 @@ TEST(EnclosedParts, NotesSayWhatIsLeftOutAndWhatIsCut)
   ASSERT_EQ(notes.size(), 3u);
   const std::string before = "lungs: left out ";
   ASSERT_EQ(notes[0].find(before), 0u) << notes[0];
-  EXPECT_NE(notes[0].find(" ml around the body and 0 small parts of 0.0 ml"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find(" ml around the body"), std::string::npos) << notes[0];
   EXPECT_NEAR(std::stod(notes[0].substr(before.size())), extracted.enclosed->aroundBody, 0.06);
   EXPECT_EQ(notes[1], "lungs: the sides of the scan cut 1 part; the volume is that within the scan");
 }

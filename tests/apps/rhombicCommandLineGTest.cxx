@@ -67,7 +67,7 @@ struct ErrorCase
 // Files of the test's own folder: text.dcm, text.nii, empty/, file/, readonly/, and copies of the phantom, scan.nii.gz,
 // and of its labels, labels.nii.gz.
 constexpr ErrorCase errorCases[] = {
-  { "NoCommand", "", 2, "subcommand" },
+  { "NoCommand", "", 2, "No command is given" },
   { "UnknownCommand", "paint scan.nii.gz", 2, "paint" },
   { "UnknownOption", "render scan.nii.gz --sharpness 3", 2, "--sharpness" },
   { "UnknownCommandNearAnother", "rendr scan.nii.gz", 2, "no command 'rendr'; did you mean render?" },

@@ -171,7 +171,7 @@ TEST_F(MeshCommand, SmallPartsGoAndSmoothingIsBounded)
   EXPECT_TRUE(topology.IsWatertight());
   const auto report = this->Sidecar("one.ply")["surfaces"][0];
   EXPECT_GT(report["parts"]["filled"]["cavities"].get<int>(), 0);
-  EXPECT_LT(report["parts"]["filled"]["volumeInMillilitres"].get<double>(), 0.0) << "what was removed encloses less";
+  EXPECT_GT(report["parts"]["filled"]["volumeChangeInMillilitres"].get<double>(), 0.0);
   EXPECT_NE(outcome.errors.find("leave out --fill to measure it"), std::string::npos) << outcome.errors;
   EXPECT_LE(report["smoothing"]["largestMoveInMillimetres"].get<double>(),
             report["smoothing"]["maximumMoveInMillimetres"].get<double>());
@@ -239,6 +239,33 @@ TEST_F(MeshCommand, OneLabelFitsIntoAnSTL)
   EXPECT_NE(ReadText(m_Folder.Path() / "lung.csv").find(",456.19"), std::string::npos) << "the voxels' volume";
   EXPECT_EQ(this->Mesh("--labels " + labels + " --label 14 --label 10 -o two.stl").exitCode, 2);
   EXPECT_EQ(this->Mesh("--labels nothing.nii.gz -o one.stl").exitCode, 3) << "no such file";
+}
+
+TEST_F(MeshCommand, IsosurfaceVolumeIsOfTheScanOrUnknown)
+{
+  const auto measuresOf = [this](const std::string & options) {
+    const auto outcome = this->Mesh("-t 375.5 " + options + " -o bone.stl");
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+    return this->Sidecar("bone.stl")["surfaces"][0]["measures"];
+  };
+  const auto plain = measuresOf("");
+  EXPECT_EQ(plain["volumeErrorReference"], "isosurface");
+  EXPECT_GT(plain["isosurfaceUncertaintyInMillilitres"].get<double>(), 0.0);
+  for (const char * const options : { "--nested", "--density 0.5", "--denoise gaussian:4" })
+  {
+    const auto measures = measuresOf(options);
+    EXPECT_FALSE(measures.contains("isosurfaceVolumeInMillilitres")) << options;
+    EXPECT_EQ(measures["volumeErrorReference"], "voxels") << options;
+  }
+  const auto dense = this->Mesh("-t 375.5 --spacing 6 -o bone.stl");
+  EXPECT_EQ(dense.errors.find("try --density"), std::string::npos) << "has no effect beside --spacing";
+}
+
+TEST_F(MeshCommand, ALabelTableMakesNoLabelMapOfACT)
+{
+  std::ofstream(m_Folder.Path() / "table.txt") << "1 255 0 0 1 1 1 \"a\"\n";
+  const auto outcome = this->Mesh("--label-table table.txt -o a.stl");
+  EXPECT_EQ(outcome.exitCode, 2) << outcome.errors;
 }
 
 TEST_F(MeshCommand, AuditTellsSolidsFromCavities)

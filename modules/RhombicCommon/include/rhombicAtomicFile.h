@@ -66,7 +66,8 @@ private:
  * in which they were added; by then everything that needs space on the disk is done. Without Commit() the destructor
  * removes all of them, and the targets stay as they were.
  *
- * Each file keeps a file descriptor open until Commit().
+ * Each file keeps a file descriptor open until Commit(). A process that is killed during Commit() leaves the files that
+ * were renamed before.
  *
  * Thread safety: one thread per object. */
 class StagedFiles
