@@ -3,22 +3,18 @@
 
 #include "rhombicIsosurfaceVolume.h"
 #include "rhombicScan.h"
-#include "rhombicScanReport.h"
-#include "rhombicSurfaceRequest.h"
+#include "rhombicThreshold.h"
 
 #include "itkTriangleSurface.h"
 
 #include <array>
-#include <cstddef>
 #include <optional>
 
 namespace rhombic
 {
 
 /** \class SurfaceMeasures
- * \brief What a closed surface encloses, in LPS mm.
- *
- * Thread safety: a value. */
+ * \brief Size and position of a closed surface in LPS mm, and the scan's values inside it. */
 struct SurfaceMeasures
 {
   double volume = 0.0;            ///< mm^3
@@ -31,33 +27,30 @@ struct SurfaceMeasures
   std::optional<double> meanValue;
   std::optional<double> standardDeviation;
 
-  /** What counting voxels comes to, in mm^3: an independent check of the volume. */
+  /** Volume of voxels in mm^3, counted independently of the surface's triangles. */
   std::optional<double> voxelVolume;
 
-  /** What the scan's isosurface encloses, estimated from the lattice's samples; none of labels. */
+  /** Volume inside the scan's isosurface, estimated from the lattice's samples; none for labels. */
   std::optional<IsosurfaceVolume> isosurface;
 
-  /** How far the volume is from the isosurface's, or, without one, from the voxels', in %; positive if it is larger. */
+  /** Difference of the volume from the isosurface's, or without one from the voxels', in %; positive if it is larger.
+   */
   std::optional<double>
   GetVolumeError() const;
 };
 
-/** Shape alone. */
+/** Measures size and position. */
 SurfaceMeasures
 MeasureSurface(const itk::TriangleSurface & surface);
 
-/** Shape, and the scan's values inside. The voxel volume is that of the samples inside the surface. In an unevenly
- * spaced stack a voxel reaches halfway to the next slices. Thread safe. */
+/** Also measures the scan's values inside; the voxel volume is that of the samples inside the surface. In an unevenly
+ * spaced stack a voxel reaches half way to the next slices. */
 SurfaceMeasures
 MeasureSurface(const itk::TriangleSurface & surface, const Scan & scan);
 
-/** The volume of all voxels whose value is on a request's side of its isovalue, in mm^3. */
+/** Volume of all voxels whose value is inside the threshold, in mm^3. */
 double
-CountVoxelVolume(const Scan & scan, double isovalue, SurfaceRequest::Side side);
-
-/** With units in the keys; volumes in ml. */
-Report
-ReportMeasures(const SurfaceMeasures & measures);
+CountVoxelVolume(const Scan & scan, const Threshold & threshold);
 
 } // namespace rhombic
 

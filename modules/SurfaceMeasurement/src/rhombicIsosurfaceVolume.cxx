@@ -1,7 +1,5 @@
 #include "rhombicIsosurfaceVolume.h"
 
-#include "rhombicFailure.h"
-
 #include "itkForEachBlock.h"
 
 #include <algorithm>
@@ -15,8 +13,8 @@ namespace rhombic
 namespace
 {
 
-/** For each lattice coordinate along an axis from the first one on: which part of the unit around it lies within the
- * grid's voxels. */
+/** For each lattice coordinate along an axis, the share of the unit interval around it that lies in the grid's voxels;
+ * 1 everywhere without a grid. */
 template <typename TPixel>
 std::vector<double>
 FindShares(const itk::FCCImage<TPixel> & lattice, const itk::ImageBase<3> * grid, unsigned int axis)
@@ -28,23 +26,23 @@ FindShares(const itk::FCCImage<TPixel> & lattice, const itk::ImageBase<3> * grid
   {
     return shares;
   }
-  constexpr double voxel = 0.5; // how far it reaches beyond its sample
+  constexpr double halfVoxel = 0.5;
   const auto origin = grid->TransformPhysicalPointToContinuousIndex<double>(lattice.GetOrigin());
   const double step = lattice.GetSpacing()[axis] / grid->GetSpacing()[axis];
-  const auto begin = static_cast<double>(grid->GetLargestPossibleRegion().GetIndex(axis)) - voxel;
+  const auto begin = static_cast<double>(grid->GetLargestPossibleRegion().GetIndex(axis)) - halfVoxel;
   const double end = begin + static_cast<double>(grid->GetLargestPossibleRegion().GetSize(axis));
   const auto first = static_cast<double>(region.GetIndex(axis)) * static_cast<double>(unitsPerIndex);
   for (std::size_t n = 0; n < shares.size(); ++n)
   {
-    const double place = origin[axis] + (first + static_cast<double>(n)) * step;
-    const double low = std::max(begin, place - 0.5 * step);
-    const double high = std::min(end, place + 0.5 * step);
+    const double position = origin[axis] + (first + static_cast<double>(n)) * step;
+    const double low = std::max(begin, position - 0.5 * step);
+    const double high = std::min(end, position + 0.5 * step);
     shares[n] = std::max(0.0, high - low) / step;
   }
   return shares;
 }
 
-/** Sites for which \a isInside(value), those at the border in part. */
+/** Number of sites for which \a isInside(value); sites at the border count by their share in the grid's voxels. */
 template <typename TPixel, typename TInside>
 double
 CountSites(const itk::FCCImage<TPixel> & lattice, const itk::ImageBase<3> * grid, const TInside & isInside)
@@ -77,26 +75,21 @@ CountSites(const itk::FCCImage<TPixel> & lattice, const itk::ImageBase<3> * grid
 
 IsosurfaceVolume
 EstimateIsosurfaceVolume(const FCCVolume & lattice,
-                         const SurfaceRequest & request,
+                         const Threshold & threshold,
                          double area,
                          const itk::ImageBase<3> * grid)
 {
-  if (!request.isovalue)
-  {
-    throw Failure(FailureKind::Usage,
-                  "The isovalue of " + request.name + " is not known; give a number, or call ResolveIsovalues().");
-  }
-  const double isovalue = *request.isovalue;
+  const double isovalue = threshold.isovalue;
   return std::visit(
     [&](const auto & image) {
       const auto & spacing = image->GetSpacing();
       const double site = itk::FCCLattice::CellVolume * spacing[0] * spacing[1] * spacing[2];
-      const double sites = request.side == SurfaceRequest::Side::Above
-                             ? CountSites(*image, grid, [=](auto value) { return value >= isovalue; })
-                             : CountSites(*image, grid, [=](auto value) { return value < isovalue; });
+      const double sites = threshold.insideIsBelow
+                             ? CountSites(*image, grid, [=](auto value) { return value < isovalue; })
+                             : CountSites(*image, grid, [=](auto value) { return value >= isovalue; });
       const double standardError = std::pow(site, 2.0 / 3.0) * std::sqrt(area / 12.0);
-      constexpr double ofPlanes = 0.002; // for surfaces along the lattice's planes
-      return IsosurfaceVolume{ sites * site, 3.0 * standardError + ofPlanes * sites * site };
+      constexpr double shareForPlanes = 0.002; // for surfaces along the lattice's planes
+      return IsosurfaceVolume{ sites * site, 3.0 * standardError + shareForPlanes * sites * site };
     },
     lattice);
 }

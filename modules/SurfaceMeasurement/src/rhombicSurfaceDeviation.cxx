@@ -18,30 +18,30 @@ namespace
 using PointType = ScanField::PointType;
 using VectorType = PointType::VectorType;
 
-constexpr float Unknown = std::numeric_limits<float>::quiet_NaN();
-constexpr float Unresolved = std::numeric_limits<float>::infinity();
+constexpr float Outside = std::numeric_limits<float>::quiet_NaN();   // outside the scan, or next to its border
+constexpr float Unresolved = std::numeric_limits<float>::infinity(); // without an isosurface near
 
-/** The surface's points and then the centres of its triangles. */
+/** Point \a n of the surface, or, from the number of points on, the centre of a triangle. */
 PointType
-PlaceOf(const itk::TriangleSurface & surface, std::size_t n)
+SampleOf(const itk::TriangleSurface & surface, std::size_t n)
 {
   const auto & points = surface.GetPoints();
-  PointType place;
+  PointType sample;
   if (n < points.size())
   {
-    std::copy(points[n].begin(), points[n].end(), place.Begin());
-    return place;
+    std::copy(points[n].begin(), points[n].end(), sample.Begin());
+    return sample;
   }
   const auto & [a, b, c] = surface.GetTriangles()[n - points.size()];
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    place[axis] = (static_cast<double>(points[a][axis]) + points[b][axis] + points[c][axis]) / 3.0;
+    sample[axis] = (static_cast<double>(points[a][axis]) + points[b][axis] + points[c][axis]) / 3.0;
   }
-  return place;
+  return sample;
 }
 
-/** The field's unit gradient at points by central differences, and its length. Linear interpolation is enough for a
- * direction and a first guess. */
+/** Gradients of the field at points by central differences of the linearly interpolated field, which is exact enough
+ * for a direction and a first guess: unit vectors and lengths. */
 struct Gradients
 {
   std::vector<VectorType> directions;
@@ -77,8 +77,8 @@ FindGradients(const ScanField & field, const std::vector<PointType> & points)
   return gradients;
 }
 
-/** The nearest place on a line, from -2 to 2 samples, where the field crosses the isovalue; Unresolved if there is
- * none. Along the line, the field is taken for linear in steps of a quarter. */
+/** Signed distance along a line to the nearest crossing of the isovalue within 2 voxels; Unresolved if there is none.
+ * The field is taken as linear between positions a quarter of a voxel apart. */
 float
 SearchAlong(const ScanField & field, const PointType & from, const VectorType & direction, double isovalue)
 {
@@ -98,15 +98,15 @@ SearchAlong(const ScanField & field, const PointType & from, const VectorType & 
     const double b = static_cast<double>(values[static_cast<std::size_t>(n) + 1]) - isovalue;
     if ((a < 0.0) != (b < 0.0) && std::isfinite(a) && std::isfinite(b))
     {
-      const double place = (n - reach + a / (a - b)) * step;
-      nearest = std::abs(place) < std::abs(nearest) ? place : nearest;
+      const double position = (n - reach + a / (a - b)) * step;
+      nearest = std::abs(position) < std::abs(nearest) ? position : nearest;
     }
   }
   return static_cast<float>(nearest);
 }
 
-/** The distance along the gradient from each point to the isosurface, positive where the gradient leads to it; Unknown
- * beside the scan, Unresolved where no isosurface is near. */
+/** The distance along the gradient from each point to the isosurface, positive where the gradient leads to it; or
+ * Outside, or Unresolved. */
 std::vector<float>
 FindDistances(const ScanField & field, const std::vector<PointType> & points, double isovalue)
 {
@@ -124,7 +124,7 @@ FindDistances(const ScanField & field, const std::vector<PointType> & points, do
     }
   }
   const auto valuesAtEnds = field.Evaluate(ends);
-  std::vector<float> distances(points.size(), Unknown);
+  std::vector<float> distances(points.size(), Outside);
   for (std::size_t n = 0; n < points.size(); ++n)
   {
     if (std::isnan(values[n]) || std::isnan(gradients.lengths[n]))
@@ -152,33 +152,55 @@ FindDistances(const ScanField & field, const std::vector<PointType> & points, do
   return distances;
 }
 
+/** The distances of every stride-th sample of the surface. */
+std::vector<float>
+MeasureDistances(const itk::TriangleSurface & surface,
+                 const ScanField & field,
+                 double isovalue,
+                 std::size_t stride,
+                 std::size_t count)
+{
+  std::vector<float> distances(count);
+  constexpr std::size_t blockSize = 2048;
+  itk::ForEachBlock(count, blockSize, [&](std::size_t begin, std::size_t end) {
+    std::vector<PointType> points;
+    for (std::size_t n = begin; n < end; ++n)
+    {
+      points.push_back(SampleOf(surface, n * stride));
+    }
+    const auto found = FindDistances(field, points, isovalue);
+    std::copy(found.begin(), found.end(), distances.begin() + static_cast<std::ptrdiff_t>(begin));
+  });
+  return distances;
+}
+
+/** Statistics of resolved distances, whose order changes. \a outwards is 1 or -1. */
+void
+SummarizeDistances(std::vector<float> & distances, double outwards, SurfaceDeviation & deviation)
+{
+  const auto resolved = static_cast<double>(distances.size());
+  deviation.bias = outwards * std::accumulate(distances.begin(), distances.end(), 0.0) / resolved;
+  std::transform(distances.begin(), distances.end(), distances.begin(), [](float d) { return std::abs(d); });
+  deviation.mean = std::accumulate(distances.begin(), distances.end(), 0.0) / resolved;
+  const auto rank95 = distances.begin() + static_cast<std::ptrdiff_t>(0.95 * (resolved - 1.0));
+  std::nth_element(distances.begin(), rank95, distances.end());
+  deviation.percentile95 = *rank95;
+  deviation.maximum = *std::max_element(rank95, distances.end());
+}
+
 } // namespace
 
 SurfaceDeviation
 ComputeDeviation(const itk::TriangleSurface & surface,
                  const Scan & scan,
                  itk::SeparableKernel kernel,
-                 double isovalue,
-                 SurfaceRequest::Side side,
+                 const Threshold & threshold,
                  std::size_t maximumSamples)
 {
-  const std::size_t places = surface.GetNumberOfPoints() + surface.GetNumberOfTriangles();
-  const std::size_t stride = std::max<std::size_t>(1, (places + maximumSamples - 1) / maximumSamples);
-  const std::size_t count = (places + stride - 1) / stride;
-  const ScanField field(scan, kernel);
-  std::vector<float> distances(count);
-
-  constexpr std::size_t blockSize = 2048;
-  itk::ForEachBlock(count, blockSize, [&](std::size_t begin, std::size_t end) {
-    std::vector<PointType> points;
-    for (std::size_t n = begin; n < end; ++n)
-    {
-      points.push_back(PlaceOf(surface, n * stride));
-    }
-    const auto found = FindDistances(field, points, isovalue);
-    std::copy(found.begin(), found.end(), distances.begin() + static_cast<std::ptrdiff_t>(begin));
-  });
-
+  const std::size_t candidates = surface.GetNumberOfPoints() + surface.GetNumberOfTriangles();
+  const std::size_t stride = std::max<std::size_t>(1, (candidates + maximumSamples - 1) / maximumSamples);
+  std::vector<float> distances =
+    MeasureDistances(surface, ScanField(scan, kernel), threshold.isovalue, stride, (candidates + stride - 1) / stride);
   SurfaceDeviation deviation;
   deviation.isComplete = stride == 1;
   distances.erase(std::remove_if(distances.begin(), distances.end(), [](float d) { return std::isnan(d); }),
@@ -187,38 +209,13 @@ ComputeDeviation(const itk::TriangleSurface & surface,
   distances.erase(std::remove_if(distances.begin(), distances.end(), [](float d) { return std::isinf(d); }),
                   distances.end());
   deviation.unresolved = deviation.samples - distances.size();
-  if (distances.empty())
+  if (!distances.empty())
   {
-    return deviation;
+    // The gradient leads to larger values: to the inside, unless values below the isovalue are inside.
+    const double outwards = threshold.insideIsBelow ? -1.0 : 1.0;
+    SummarizeDistances(distances, outwards, deviation);
   }
-  // The gradient leads inside, or, where what is below the isovalue is inside, outside.
-  const double outwards = side == SurfaceRequest::Side::Above ? 1.0 : -1.0;
-  const auto resolved = static_cast<double>(distances.size());
-  deviation.bias = outwards * std::accumulate(distances.begin(), distances.end(), 0.0) / resolved;
-  std::transform(distances.begin(), distances.end(), distances.begin(), [](float d) { return std::abs(d); });
-  deviation.mean = std::accumulate(distances.begin(), distances.end(), 0.0) / resolved;
-  const auto place95 = distances.begin() + static_cast<std::ptrdiff_t>(0.95 * (resolved - 1.0));
-  std::nth_element(distances.begin(), place95, distances.end());
-  deviation.percentile95 = *place95;
-  deviation.maximum = *std::max_element(place95, distances.end());
   return deviation;
-}
-
-Report
-ReportDeviation(const SurfaceDeviation & deviation)
-{
-  Report report{ { "of", "the points and triangle centres from the scan's isosurface" },
-                 { "samples", deviation.samples },
-                 { "complete", deviation.isComplete },
-                 { "unresolved", deviation.unresolved } };
-  if (deviation.IsKnown())
-  {
-    report["meanInMillimetres"] = deviation.mean;
-    report["percentile95InMillimetres"] = deviation.percentile95;
-    report["maximumInMillimetres"] = deviation.maximum;
-    report["biasInMillimetres"] = deviation.bias;
-  }
-  return report;
 }
 
 } // namespace rhombic

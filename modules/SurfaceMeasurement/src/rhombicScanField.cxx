@@ -1,6 +1,6 @@
 #include "rhombicScanField.h"
 
-#include "rhombicLatticePipeline.h"
+#include "itkFCCResamplingChecks.h"
 
 #include <algorithm>
 #include <array>
@@ -10,13 +10,13 @@
 namespace rhombic
 {
 
-/** What values at a list of points are made of. */
+/** Weights of the samples around each point of a list. */
 struct ScanField::Taps
 {
   itk::SeparableTaps columns;
   itk::SeparableTaps rows;
   itk::SeparableTaps slices;
-  std::vector<bool> areKnown;
+  std::vector<bool> areKnown; ///< false outside the scan and next to its border
 };
 
 namespace
@@ -49,7 +49,7 @@ ScanField::ScanField(const Scan & scan, itk::SeparableKernel kernel)
   : m_Scan(scan)
   , m_Kernel(kernel)
 {
-  if (IsSlanted(scan))
+  if (!scan.sliceOrigins.empty() || !itk::AreAxesPerpendicular(GeometryOf(scan.image).GetDirection()))
   {
     m_Stack.emplace(GeometryOf(scan.image), scan.sliceOrigins);
   }
@@ -63,29 +63,33 @@ ScanField::GetPitch() const
 }
 
 ScanField::Taps
-ScanField::MakeTaps(const std::vector<PointType> & points, itk::SeparableKernel kernel) const
+ScanField::MakeGridTaps(const std::vector<PointType> & points, itk::SeparableKernel kernel) const
 {
   const auto & geometry = GeometryOf(m_Scan.image);
   const auto & region = geometry.GetLargestPossibleRegion();
   std::array<std::vector<double>, 3> positions;
-  std::vector<bool> areKnown(points.size());
-  if (!m_Stack)
+  std::vector<bool> areKnown(points.size(), true);
+  for (std::size_t n = 0; n < points.size(); ++n)
   {
-    for (std::size_t n = 0; n < points.size(); ++n)
+    const auto index = geometry.TransformPhysicalPointToContinuousIndex<double>(points[n]);
+    for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      const auto index = geometry.TransformPhysicalPointToContinuousIndex<double>(points[n]);
-      areKnown[n] = true;
-      for (unsigned int axis = 0; axis < 3; ++axis)
-      {
-        positions[axis].push_back(index[axis] - static_cast<double>(region.GetIndex(axis)));
-        areKnown[n] = areKnown[n] && IsWellInside(positions[axis].back(), region.GetSize(axis));
-      }
+      positions[axis].push_back(index[axis] - static_cast<double>(region.GetIndex(axis)));
+      areKnown[n] = areKnown[n] && IsWellInside(positions[axis].back(), region.GetSize(axis));
     }
-    return { itk::SeparableTaps(kernel, region.GetSize(0), positions[0]),
-             itk::SeparableTaps(kernel, region.GetSize(1), positions[1]),
-             itk::SeparableTaps(kernel, region.GetSize(2), positions[2]),
-             areKnown };
   }
+  return { itk::SeparableTaps(kernel, region.GetSize(0), positions[0]),
+           itk::SeparableTaps(kernel, region.GetSize(1), positions[1]),
+           itk::SeparableTaps(kernel, region.GetSize(2), positions[2]),
+           areKnown };
+}
+
+ScanField::Taps
+ScanField::MakeStackTaps(const std::vector<PointType> & points, itk::SeparableKernel kernel) const
+{
+  const auto & region = GeometryOf(m_Scan.image).GetLargestPossibleRegion();
+  std::array<std::vector<double>, 3> positions;
+  std::vector<bool> areKnown(points.size());
   std::vector<itk::SliceStack::VectorType> frames;
   for (const PointType & point : points)
   {
@@ -115,7 +119,7 @@ ScanField::MakeTaps(const std::vector<PointType> & points, itk::SeparableKernel 
 std::vector<float>
 ScanField::Evaluate(const std::vector<PointType> & points, itk::SeparableKernel kernel) const
 {
-  const Taps taps = this->MakeTaps(points, kernel);
+  const Taps taps = m_Stack ? this->MakeStackTaps(points, kernel) : this->MakeGridTaps(points, kernel);
   std::vector<float> values(points.size(), std::numeric_limits<float>::quiet_NaN());
   std::visit(
     [&](const auto & image) {

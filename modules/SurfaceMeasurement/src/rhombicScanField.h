@@ -13,9 +13,9 @@ namespace rhombic
 {
 
 /** \class ScanField
- * \brief A scan between its samples, as itk::CartesianToFCCImageFilter sees it, slanted or not.
+ * \brief The continuous field of a scan, interpolated as itk::CartesianToFCCImageFilter does, also for slanted scans.
  *
- * Immutable after construction, so thread safe; the scan must outlive it. */
+ * The scan must outlive it. */
 class ScanField
 {
 public:
@@ -27,8 +27,8 @@ public:
   double
   GetPitch() const;
 
-  /** Values at points in LPS mm. Not a number at points less than half a sample inside the outermost samples: there,
-   * surfaces are closed by walls that are none of the patient. */
+  /** Values at points in LPS mm. NaN outside the scan and less than half a voxel inside the outermost samples, where
+   * walls close surfaces. */
   std::vector<float>
   Evaluate(const std::vector<PointType> & points, itk::SeparableKernel kernel) const;
   std::vector<float>
@@ -41,11 +41,13 @@ private:
   struct Taps;
 
   Taps
-  MakeTaps(const std::vector<PointType> & points, itk::SeparableKernel kernel) const;
+  MakeGridTaps(const std::vector<PointType> & points, itk::SeparableKernel kernel) const;
+  Taps
+  MakeStackTaps(const std::vector<PointType> & points, itk::SeparableKernel kernel) const;
 
   const Scan & m_Scan;
   itk::SeparableKernel m_Kernel;
-  std::optional<itk::SliceStack> m_Stack; ///< of slanted scans
+  std::optional<itk::SliceStack> m_Stack; ///< for slanted scans
 };
 
 } // namespace rhombic

@@ -15,7 +15,7 @@ PlanesOf(const Scan & scan)
 {
   const itk::ImageBase<3> & grid = GeometryOf(scan.image);
   const auto & region = grid.GetLargestPossibleRegion();
-  const auto placeOf = [&](itk::IndexValueType column, itk::IndexValueType row, itk::IndexValueType slice) {
+  const auto pointAt = [&](itk::IndexValueType column, itk::IndexValueType row, itk::IndexValueType slice) {
     auto index = region.GetIndex();
     index[0] += column;
     index[1] += row;
@@ -25,19 +25,19 @@ PlanesOf(const Scan & scan)
     return point;
   };
   itk::SamplePlanes planes;
-  planes.columnStep = placeOf(1, 0, 0) - placeOf(0, 0, 0);
-  planes.rowStep = placeOf(0, 1, 0) - placeOf(0, 0, 0);
+  planes.columnStep = pointAt(1, 0, 0) - pointAt(0, 0, 0);
+  planes.rowStep = pointAt(0, 1, 0) - pointAt(0, 0, 0);
   planes.numberOfColumns = region.GetSize(0);
   planes.numberOfRows = region.GetSize(1);
   planes.origins = scan.sliceOrigins;
   for (itk::SizeValueType slice = planes.origins.size(); slice < region.GetSize(2); ++slice)
   {
-    planes.origins.push_back(placeOf(0, 0, static_cast<itk::IndexValueType>(slice)));
+    planes.origins.push_back(pointAt(0, 0, static_cast<itk::IndexValueType>(slice)));
   }
   return planes;
 }
 
-/** Moments of the values inside one slice. */
+/** Count, sum and sum of squares of the values inside the surface in one slice. */
 struct SliceSums
 {
   std::size_t count = 0;
@@ -119,7 +119,7 @@ MeasureSurface(const itk::TriangleSurface & surface, const Scan & scan)
 }
 
 double
-CountVoxelVolume(const Scan & scan, double isovalue, SurfaceRequest::Side side)
+CountVoxelVolume(const Scan & scan, const Threshold & threshold)
 {
   const std::vector<double> voxelVolumes = VoxelVolumes(scan);
   const auto count = [&](const auto & image) {
@@ -131,45 +131,13 @@ CountVoxelVolume(const Scan & scan, double isovalue, SurfaceRequest::Side side)
       std::size_t inside = 0;
       for (const auto * const end = value + size[0] * size[1]; value != end; ++value)
       {
-        const auto number = static_cast<double>(*value);
-        inside += side == SurfaceRequest::Side::Above ? number >= isovalue : number < isovalue;
+        inside += threshold.IsInside(static_cast<double>(*value)) ? 1 : 0;
       }
       volume += static_cast<double>(inside) * voxelVolume;
     }
     return volume;
   };
   return std::visit(count, scan.image);
-}
-
-Report
-ReportMeasures(const SurfaceMeasures & measures)
-{
-  constexpr double cubicMillimetresPerMillilitre = 1000.0;
-  Report report{ { "volumeInMillilitres", measures.volume / cubicMillimetresPerMillilitre } };
-  if (measures.voxelVolume)
-  {
-    report["voxelVolumeInMillilitres"] = *measures.voxelVolume / cubicMillimetresPerMillilitre;
-  }
-  if (measures.isosurface)
-  {
-    report["isosurfaceVolumeInMillilitres"] = measures.isosurface->volume / cubicMillimetresPerMillilitre;
-    report["isosurfaceUncertaintyInMillilitres"] = measures.isosurface->uncertainty / cubicMillimetresPerMillilitre;
-  }
-  if (const auto error = measures.GetVolumeError())
-  {
-    report["volumeErrorInPercent"] = *error;
-    report["volumeErrorReference"] = measures.isosurface ? "isosurface" : "voxels";
-  }
-  report["areaInSquareMillimetres"] = measures.area;
-  report["boundsInMillimetres"] = measures.bounds;
-  report["centroidInMillimetres"] = measures.centroid;
-  report["longestDiameterInMillimetres"] = measures.longestDiameter;
-  if (measures.meanValue)
-  {
-    report["meanValue"] = *measures.meanValue;
-    report["standardDeviation"] = *measures.standardDeviation;
-  }
-  return report;
 }
 
 } // namespace rhombic
