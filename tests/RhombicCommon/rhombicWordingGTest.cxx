@@ -1,11 +1,75 @@
 #include "rhombicWording.h"
 
+#include "rhombicGermanNumbers.h"
+
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <locale>
 
 namespace
 {
 
 using rhombic::NearestName;
+using Words = std::vector<std::string>;
+
+TEST(Wording, NumbersAreThoseOfPrintf)
+{
+  for (const double value :
+       { 0.0, -0.0, 0.05, -0.25, 1.0 / 3.0, 123456.5, 1234567.0, 1e-5, 1e300, HUGE_VAL, std::nan("") })
+  {
+    char text[400];
+    std::snprintf(text, sizeof(text), "%.2f", value);
+    EXPECT_EQ(rhombic::FormatFixed(value, 2), text);
+    std::snprintf(text, sizeof(text), "%g", value);
+    EXPECT_EQ(rhombic::FormatNumber(value), text);
+    std::snprintf(text, sizeof(text), "%.3g", value);
+    EXPECT_EQ(rhombic::FormatNumber(value, 3), text);
+  }
+  EXPECT_EQ(rhombic::FormatFixed(std::numeric_limits<double>::max(), 100).size(), 309u + 1u + 100u);
+  EXPECT_EQ(rhombic::FormatMillilitres(12.34), "12.3 ml");
+}
+
+TEST(Wording, ExactNumbersAreReadBack)
+{
+  EXPECT_EQ(rhombic::FormatExact(0.1), "0.1");
+  for (const double value : { 1.0 / 3.0, -std::numeric_limits<double>::max(), 1e-310 })
+  {
+    EXPECT_EQ(rhombic::ToNumber<double>(rhombic::FormatExact(value)), value);
+  }
+}
+
+TEST(Wording, NumbersDoNotDependOnTheLocale)
+{
+  const std::locale before = std::locale::global(std::locale(std::locale::classic(), new rhombictest::GermanNumbers));
+  EXPECT_EQ(rhombic::FormatFixed(1234.5, 1), "1234.5");
+  EXPECT_EQ(rhombic::FormatNumber(1234.5), "1234.5");
+  EXPECT_EQ(rhombic::ToNumber<double>("1234.5"), 1234.5);
+  std::locale::global(before);
+}
+
+TEST(Wording, OnlyWholeTextsAreNumbers)
+{
+  EXPECT_EQ(rhombic::ToNumber<int>("-12"), -12);
+  EXPECT_EQ(rhombic::ToNumber<std::uint8_t>("255"), 255);
+  for (const char * const text : { "", " 1", "1 ", "+1", "1.5", "x", "256", "-1" })
+  {
+    EXPECT_FALSE(rhombic::ToNumber<std::uint8_t>(text)) << text;
+  }
+}
+
+TEST(Wording, TextsAreTrimmedAndSplit)
+{
+  EXPECT_EQ(rhombic::LowerCase("Left KIDNEY \xC3\x84"), "left kidney \xC3\x84");
+  EXPECT_EQ(rhombic::Trim(" \tleft kidney\r\n"), "left kidney");
+  EXPECT_EQ(rhombic::Trim(" \t"), "");
+  EXPECT_EQ(rhombic::SplitWords("  a bc\td\n"), Words({ "a", "bc", "d" }));
+  EXPECT_EQ(rhombic::SplitWords(" "), Words());
+  EXPECT_EQ(rhombic::Split("a,b;,c", ",;"), Words({ "a", "b", "", "c" }));
+  EXPECT_EQ(rhombic::Split("", ","), Words({ "" }));
+}
 
 TEST(Wording, OneIsSingular)
 {

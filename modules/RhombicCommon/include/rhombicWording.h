@@ -1,15 +1,66 @@
 #ifndef rhombicWording_h
 #define rhombicWording_h
 
+#include <charconv>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace rhombic
 {
 
 /** \file
- * Parts of sentences for users. Thread safety: any number of threads may call these functions at once. */
+ * Text from numbers, numbers from text, and parts of sentences for users. Nothing here depends on the locale. Thread
+ * safety: any number of threads may call these functions at once. */
+
+/** A number with a fixed count of decimals, from 0 to 100: "12.30". */
+std::string
+FormatFixed(double value, int decimals);
+
+/** A number of at most \a digits significant digits, without trailing zeros: "0.5", "1e+06", as printf's %g. */
+std::string
+FormatNumber(double value, int digits = 6);
+
+/** The shortest text that is read back as the same number. */
+std::string
+FormatExact(double value);
+
+constexpr double CubicMillimetresPerMl = 1000.0;
+
+/** A volume given in ml, with one decimal: "12.3 ml". */
+std::string
+FormatMillilitres(double millilitres);
+
+/** The whole of \a text as a number. Nothing when it is none, has other characters, blanks or a plus sign, or is out of
+ * the type's range. Floating-point numbers may be "inf" or "nan". */
+template <typename TNumber>
+std::optional<TNumber>
+ToNumber(std::string_view text)
+{
+  TNumber number{};
+  const char * const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, number);
+  return error == std::errc() && end == last ? std::optional<TNumber>(number) : std::nullopt;
+}
+
+/** \a text in lower case. Letters beyond ASCII stay as they are. */
+std::string
+LowerCase(std::string_view text);
+
+/** \a text without blanks (spaces, tabs, line ends) at either end: a view into the same memory. */
+std::string_view
+Trim(std::string_view text);
+
+/** The words of \a text, which blanks separate. */
+std::vector<std::string>
+SplitWords(std::string_view text);
+
+/** The parts of \a text between any of the characters \a separators. Parts may be empty; an empty text is one part. */
+std::vector<std::string>
+Split(std::string_view text, std::string_view separators);
 
 /** "1 label", "2 labels". \a plural is the noun with an s when it is empty. */
 std::string
@@ -19,9 +70,9 @@ Count(std::uintmax_t number, const std::string & noun, const std::string & plura
 std::string
 Enumerate(const std::vector<std::string> & words, const std::string & conjunction = "or");
 
-/** The one of \a names that \a word was probably meant to be: a third of its letters at most is wrong, missing, too
- * much or exchanged, or one of the two, of three letters or more, is a part of the other. Upper and lower case are the
- * same. Empty when there is none. */
+/** The one of \a names that \a word was probably meant to be. A name is near when at most a third of its letters is
+ * wrong, missing, added or exchanged with a neighbour, or when one of the two contains the other and that has three
+ * letters or more. Upper and lower case are the same. Empty when no name is near. */
 std::string
 NearestName(const std::string & word, const std::vector<std::string> & names);
 

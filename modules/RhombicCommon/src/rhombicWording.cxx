@@ -1,18 +1,27 @@
 #include "rhombicWording.h"
 
-#include <itksys/SystemTools.hxx>
-
 #include <algorithm>
+#include <array>
 #include <numeric>
-#include <optional>
 
 namespace rhombic
 {
 namespace
 {
 
-/** Insertions, deletions, replacements and exchanges of neighbours that turn one word into the other (Damerau and
- * Levenshtein, each letter changed once at most). */
+constexpr std::string_view Blanks = " \t\r\n\v\f";
+
+/** What std::to_chars() makes of a value: it ignores the locale, unlike printf and streams. */
+template <typename... TFormat>
+std::string
+ToText(double value, TFormat... format)
+{
+  std::array<char, 512> text; // the largest double has 309 digits before the point
+  return { text.data(), std::to_chars(text.data(), text.data() + text.size(), value, format...).ptr };
+}
+
+/** The least number of letters inserted, deleted, replaced or exchanged with a neighbour that turns one word into the
+ * other (Damerau and Levenshtein; each letter changes once at most). */
 std::size_t
 EditDistance(const std::string & a, const std::string & b)
 {
@@ -34,7 +43,7 @@ EditDistance(const std::string & a, const std::string & b)
   return rows.back().back();
 }
 
-/** How far two words in lower case are apart, if they are near each other. */
+/** The edit distance of two words in lower case, if they are near each other. */
 std::optional<std::size_t>
 NearDistance(const std::string & a, const std::string & b)
 {
@@ -47,6 +56,73 @@ NearDistance(const std::string & a, const std::string & b)
 }
 
 } // namespace
+
+std::string
+FormatFixed(double value, int decimals)
+{
+  return ToText(value, std::chars_format::fixed, decimals);
+}
+
+std::string
+FormatNumber(double value, int digits)
+{
+  return ToText(value, std::chars_format::general, digits);
+}
+
+std::string
+FormatExact(double value)
+{
+  return ToText(value);
+}
+
+std::string
+FormatMillilitres(double millilitres)
+{
+  return FormatFixed(millilitres, 1) + " ml";
+}
+
+std::string
+LowerCase(std::string_view text)
+{
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](char letter) {
+    return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+  });
+  return lower;
+}
+
+std::string_view
+Trim(std::string_view text)
+{
+  const std::size_t begin = text.find_first_not_of(Blanks);
+  return begin == std::string_view::npos ? "" : text.substr(begin, text.find_last_not_of(Blanks) - begin + 1);
+}
+
+std::vector<std::string>
+SplitWords(std::string_view text)
+{
+  std::vector<std::string> words;
+  for (text = Trim(text); !text.empty(); text = Trim(text))
+  {
+    const std::size_t end = std::min(text.find_first_of(Blanks), text.size());
+    words.emplace_back(text.substr(0, end));
+    text.remove_prefix(end);
+  }
+  return words;
+}
+
+std::vector<std::string>
+Split(std::string_view text, std::string_view separators)
+{
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= text.size();)
+  {
+    const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
+    parts.emplace_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
 
 std::string
 Count(std::uintmax_t number, const std::string & noun, const std::string & plural)
@@ -68,12 +144,12 @@ Enumerate(const std::vector<std::string> & words, const std::string & conjunctio
 std::string
 NearestName(const std::string & word, const std::vector<std::string> & names)
 {
-  const std::string lowerCase = itksys::SystemTools::LowerCase(word);
+  const std::string lowerCase = LowerCase(word);
   std::string nearest;
   std::optional<std::size_t> smallest;
   for (const std::string & name : names)
   {
-    const auto distance = NearDistance(lowerCase, itksys::SystemTools::LowerCase(name));
+    const auto distance = NearDistance(lowerCase, LowerCase(name));
     if (distance && (!smallest || *distance < *smallest))
     {
       smallest = distance;
