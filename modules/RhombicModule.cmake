@@ -9,10 +9,13 @@
 # A module of this project must have been added before it is depended on, so the order of modules/CMakeLists.txt is
 # the order of dependency. With RHOMBIC_BUILD_TESTING every public header is also compiled alone. Each module is a
 # component of the installed package (RhombicConfig.cmake.in); its target is Rhombic::<name>, there and here.
+#
+# The word INTERNAL in the declaration keeps a module out of the installed package: itk_module(<name> INTERNAL DEPENDS
+# ... DESCRIPTION ...). Programs, tests and other internal modules may depend on it, installed modules may not.
 
 macro(itk_module name)
   set(module_name ${name})
-  cmake_parse_arguments(module "" "DESCRIPTION" "DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  cmake_parse_arguments(module "INTERNAL" "DESCRIPTION" "DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   if(NOT module_DESCRIPTION OR module_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "itk_module(${name}): DESCRIPTION is missing, or unknown words: ${module_UNPARSED_ARGUMENTS}")
   endif()
@@ -89,9 +92,11 @@ function(rhombic_add_module folder)
   _rhombic_link(${module_name} ${scope} ${module_DEPENDS})
   _rhombic_link(${module_name} ${private_scope} ${module_PRIVATE_DEPENDS})
   include("${folder}/module-options.cmake" OPTIONAL)
-  _rhombic_install(${module_name} "${folder}")
-  set_property(GLOBAL APPEND PROPERTY RHOMBIC_MODULES ${module_name})
-  set_property(GLOBAL PROPERTY RHOMBIC_${module_name}_DEPENDS ${module_DEPENDS} ${module_PRIVATE_DEPENDS})
+  if(NOT module_INTERNAL)
+    _rhombic_install(${module_name} "${folder}")
+    set_property(GLOBAL APPEND PROPERTY RHOMBIC_MODULES ${module_name})
+    set_property(GLOBAL PROPERTY RHOMBIC_${module_name}_DEPENDS ${module_DEPENDS} ${module_PRIVATE_DEPENDS})
+  endif()
   if(RHOMBIC_BUILD_TESTING AND headers)
     _rhombic_add_header_test(${module_name} "${headers}")
   endif()
