@@ -1,0 +1,115 @@
+#ifndef rhombicSurfaceFinish_h
+#define rhombicSurfaceFinish_h
+
+#include "rhombicEvents.h"
+
+#include "itkTriangleSurfaceSimplification.h"
+#include "itkTriangleSurfaceSmoothing.h"
+#include "itkTriangleSurfaceSolids.h"
+#include "itkTriangleSurfaceUntangling.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace rhombic
+{
+
+/** \class SurfaceFinish
+ * \brief Steps that a surface goes through after its extraction. By default it is untangled only. */
+struct SurfaceFinish
+{
+  double minimumVolume = 0.0;    ///< in ml; smaller solids are removed
+  bool keepsLargestPart = false; ///< whether all solids but the largest are removed
+  bool fillsCavities = false;    ///< whether shells inside others are removed
+  double smoothing = 0.0;        ///< largest move of a point, in spacings of the lattice; 0 to 1
+
+  /** A surface is simplified if any of these three is set: until it has the smaller number of triangles, or fewer would
+   * have a larger error. */
+  std::optional<double> maximumError; ///< in mm, above 0; default: a spacing of the lattice
+  std::size_t maximumTriangles = 0;   ///< 0: no limit
+  double share = 1.0;                 ///< of the surface's triangles to keep, above 0
+
+  bool
+  Simplifies() const
+  {
+    return maximumError || maximumTriangles > 0 || share < 1.0;
+  }
+};
+
+/** Throws Failure(Usage) for settings out of their ranges. */
+void
+CheckSurfaceFinish(const SurfaceFinish & finish);
+
+/** \class PartRemoval
+ * \brief Shells that RemoveParts() removed. */
+struct PartRemoval
+{
+  itk::RemovedShells filled;  ///< cavities, and the solids inside them
+  itk::RemovedShells removed; ///< solids with their cavities
+
+  bool
+  IsNothing() const
+  {
+    return filled.solids + filled.cavities + removed.solids + removed.cavities == 0;
+  }
+};
+
+/** Fills cavities and removes solids of a surface. Notes say what was filled and removed, with its volume.
+ * \param name of the surface, for messages */
+PartRemoval
+RemoveParts(itk::TriangleSurface & surface,
+            const SurfaceFinish & finish,
+            const std::string & name,
+            const Events & events);
+
+/** \class SmoothingResult
+ * \brief Moves of points, and volumes in mm^3. */
+struct SmoothingResult
+{
+  double maximumMove; ///< allowed, in mm
+  itk::TriangleSurfaceSmoothingReport moves;
+  double volumeBefore;
+  double volumeAfter;
+};
+
+/** \class SimplificationResult
+ * \brief Counts of triangles, distances in mm, and volumes in mm^3. */
+struct SimplificationResult
+{
+  double maximumError; ///< allowed
+  itk::TriangleSurfaceSimplificationReport triangles;
+  double meanDistance;    ///< between the surfaces before and after, the larger of both directions
+  double maximumDistance; ///< likewise
+  double volumeBefore;
+  double volumeAfter;
+};
+
+/** \class Refinement
+ * \brief Results of RefineSurface(); none for a step that was not asked for, or had nothing to do. */
+struct Refinement
+{
+  std::optional<SmoothingResult> smoothing;
+  std::optional<itk::TriangleSurfaceUntanglingReport> untangling;
+  std::optional<SimplificationResult> simplification;
+  itk::SizeValueType shellsTurned = 0; ///< small shells that faced the wrong way
+};
+
+/** Smooths a surface, untangles it, simplifies it, and turns shells that face the wrong way. Untangling moves points by
+ * one spacing of the lattice at most, where triangles pass through each other. Simplification makes no further
+ * triangles that do. Notes tell the results, and how many triangles still pass through others.
+ *
+ * \param spacing of the lattice in mm (see MeanSpacingOf())
+ * \param name of the surface, for progress and messages
+ *
+ * Throws itk::ExceptionObject as itk::UntangleSurface() and itk::SimplifySurface() do. */
+Refinement
+RefineSurface(itk::TriangleSurface & surface,
+              const SurfaceFinish & finish,
+              double spacing,
+              const std::string & name,
+              const Events & events);
+
+} // namespace rhombic
+
+#endif

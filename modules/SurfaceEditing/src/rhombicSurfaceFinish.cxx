@@ -1,0 +1,211 @@
+#include "rhombicSurfaceFinish.h"
+
+#include "rhombicFailure.h"
+#include "rhombicWording.h"
+
+#include "itkTriangleSurfaceDistance.h"
+#include "itkTriangleSurfaceMeasures.h"
+#include "itkTriangleSurfaceVertexOrder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rhombic
+{
+namespace
+{
+
+/** "3 solids", "1 cavity", "3 solids and 1 cavity". */
+std::string
+DescribeShells(const itk::RemovedShells & shells)
+{
+  std::vector<std::string> counts;
+  if (shells.solids > 0)
+  {
+    counts.push_back(Count(shells.solids, "solid"));
+  }
+  if (shells.cavities > 0)
+  {
+    counts.push_back(Count(shells.cavities, "cavity", "cavities"));
+  }
+  return Enumerate(counts, "and");
+}
+
+std::string
+DescribeFilling(const itk::RemovedShells & filled, double volumeBefore, const std::string & name)
+{
+  const double growth = -filled.volume / volumeBefore;
+  constexpr double notable = 0.01;
+  return name + ": --fill removed " + DescribeShells(filled) + " inside the surface and added " +
+         FormatMillilitres(-filled.volume / CubicMillimetresPerMl) + " (" + (growth < 0.0 ? "" : "+") +
+         FormatFixed(100.0 * growth, 1) + " %)" +
+         (growth > notable ? "; the volume is no longer that of " + name + " alone, leave out --fill to measure it"
+                           : "");
+}
+
+std::string
+DescribeRemoval(const itk::RemovedShells & removed, double volumeBefore, const std::string & name)
+{
+  return name + ": removed " + DescribeShells(removed) + " of " +
+         FormatMillilitres(removed.volume / CubicMillimetresPerMl) + " in all (" +
+         FormatFixed(100.0 * removed.volume / volumeBefore, 1) + " % of the volume)";
+}
+
+SmoothingResult
+Smooth(itk::TriangleSurface & surface, double maximumMove)
+{
+  const double volumeBefore = ComputeVolume(surface);
+  itk::TriangleSurfaceSmoothingSettings settings;
+  settings.maximumMove = maximumMove;
+  const auto moves = SmoothSurface(surface, settings);
+  return { maximumMove, moves, volumeBefore, ComputeVolume(surface) };
+}
+
+/** The smaller of the two limits of triangles; 0 for none. */
+std::size_t
+FindTargetTriangles(const SurfaceFinish & finish, std::size_t triangles)
+{
+  if (finish.share >= 1.0)
+  {
+    return finish.maximumTriangles;
+  }
+  const auto shared = static_cast<std::size_t>(std::ceil(finish.share * static_cast<double>(triangles)));
+  return finish.maximumTriangles > 0 ? std::min(finish.maximumTriangles, shared) : shared;
+}
+
+SimplificationResult
+Simplify(itk::TriangleSurface & surface, const SurfaceFinish & finish, double spacing)
+{
+  const auto original = itk::TriangleSurface::New();
+  original->Graft(&surface);
+  itk::TriangleSurfaceSimplificationSettings settings;
+  settings.targetTriangles = FindTargetTriangles(finish, surface.GetNumberOfTriangles());
+  settings.maximumError = finish.maximumError.value_or(spacing);
+  const auto triangles = SimplifySurface(surface, settings);
+  OptimizeForRendering(surface);
+  const auto distances = ComputeTwoDistances(*original, surface);
+  return { settings.maximumError,
+           triangles,
+           std::max(distances.fromFirst.mean, distances.fromSecond.mean),
+           distances.GetMaximum(),
+           ComputeVolume(*original),
+           ComputeVolume(surface) };
+}
+
+/** "volume +0.12 %". */
+std::string
+DescribeVolumeChange(double before, double after, int digits)
+{
+  const double change = 100.0 * (after - before) / before;
+  return std::string("volume ") + (change < 0.0 ? "" : "+") + FormatNumber(change, digits) + " %";
+}
+
+std::string
+DescribeSmoothing(const std::string & name, const SmoothingResult & done)
+{
+  return name + ": smoothing moved points by " + FormatNumber(done.moves.meanMove, 2) + " mm on average, " +
+         FormatNumber(done.moves.largestMove, 2) + " mm at most; " +
+         DescribeVolumeChange(done.volumeBefore, done.volumeAfter, 2);
+}
+
+std::string
+DescribeSimplification(const std::string & name, const SurfaceFinish & finish, const SimplificationResult & done)
+{
+  const bool isTargetMissed =
+    done.triangles.end != itk::SimplificationEnd::Target && (finish.maximumTriangles > 0 || finish.share < 1.0);
+  return name + ": simplified from " + std::to_string(done.triangles.trianglesBefore) + " to " +
+         std::to_string(done.triangles.trianglesAfter) + " triangles, " + FormatNumber(done.maximumDistance, 3) +
+         " mm away at most; " + DescribeVolumeChange(done.volumeBefore, done.volumeAfter, 3) +
+         (isTargetMissed ? "; fewer would be further away than " + FormatNumber(done.maximumError, 3) +
+                             " mm, or have other holes and handles"
+                         : "");
+}
+
+} // namespace
+
+void
+CheckSurfaceFinish(const SurfaceFinish & finish)
+{
+  const auto require = [](bool isGood, const std::string & sentence) {
+    if (!isGood)
+    {
+      throw Failure(FailureKind::Usage, sentence);
+    }
+  };
+  require(finish.minimumVolume >= 0.0 && std::isfinite(finish.minimumVolume),
+          "The smallest volume of a part must be 0 ml or more; write --min-volume 0.5 for half a millilitre.");
+  require(finish.smoothing >= 0.0 && finish.smoothing <= 1.0,
+          "Smoothing moves points by 0 to 1 spacings of the lattice; write --smooth 0.3, for example.");
+  require(!finish.maximumError || (*finish.maximumError > 0.0 && std::isfinite(*finish.maximumError)),
+          "The largest error of simplification must be above 0; write --max-error 0.2 for 0.2 mm.");
+  require(finish.share > 0.0 && finish.share <= 1.0,
+          "The share of triangles to keep must be above 0 and at most 100 %; write --max-triangles 10%.");
+}
+
+PartRemoval
+RemoveParts(itk::TriangleSurface & surface,
+            const SurfaceFinish & finish,
+            const std::string & name,
+            const Events & events)
+{
+  PartRemoval removal;
+  const double extractedVolume = ComputeVolume(surface);
+  if (finish.fillsCavities)
+  {
+    removal.filled = FillCavities(surface);
+  }
+  if (removal.filled.solids + removal.filled.cavities > 0)
+  {
+    events.Note(DescribeFilling(removal.filled, extractedVolume, name));
+  }
+  if (finish.keepsLargestPart)
+  {
+    removal.removed = KeepLargestSolid(surface);
+  }
+  if (finish.minimumVolume > 0.0)
+  {
+    removal.removed += RemoveSmallSolids(surface, finish.minimumVolume * CubicMillimetresPerMl);
+  }
+  if (removal.removed.solids + removal.removed.cavities > 0)
+  {
+    events.Note(DescribeRemoval(removal.removed, extractedVolume - removal.filled.volume, name));
+  }
+  return removal;
+}
+
+Refinement
+RefineSurface(itk::TriangleSurface & surface,
+              const SurfaceFinish & finish,
+              double spacing,
+              const std::string & name,
+              const Events & events)
+{
+  Refinement refinement;
+  if (finish.smoothing > 0.0)
+  {
+    events.Progress("smoothing " + name, 0.0);
+    refinement.smoothing = Smooth(surface, finish.smoothing * spacing);
+    events.Note(DescribeSmoothing(name, *refinement.smoothing));
+  }
+  events.Progress("untangling " + name, 0.0);
+  const auto untangled = UntangleSurface(surface, spacing);
+  if (untangled.crossingBefore > 0)
+  {
+    refinement.untangling = untangled;
+  }
+  if (untangled.crossingAfter > 0)
+  {
+    events.Note(name + ": " + Count(untangled.crossingAfter, "triangle passes", "triangles pass") +
+                " through others of it");
+  }
+  if (finish.Simplifies())
+  {
+    events.Progress("simplifying " + name, 0.0);
+    refinement.simplification = Simplify(surface, finish, spacing);
+    events.Note(DescribeSimplification(name, finish, *refinement.simplification));
+  }
+  refinement.shellsTurned = TurnMisfacingShells(surface);
+  return refinement;
+}
+
+} // namespace rhombic
