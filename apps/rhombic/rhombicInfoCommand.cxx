@@ -1,6 +1,6 @@
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
-#include "rhombicLabelPipeline.h"
+#include "rhombicLabelMapReader.h"
 #include "rhombicScanOptions.h"
 #include "rhombicScanReport.h"
 #include "rhombicWording.h"

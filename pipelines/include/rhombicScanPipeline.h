@@ -3,7 +3,7 @@
 
 #include "rhombicEvents.h"
 #include "rhombicIntensities.h"
-#include "rhombicLabelPipeline.h"
+#include "rhombicLabelMapReader.h"
 #include "rhombicLatticePipeline.h"
 #include "rhombicPictureIO.h"
 #include "rhombicScanReader.h"

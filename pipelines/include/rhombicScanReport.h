@@ -2,11 +2,13 @@
 #define rhombicScanReport_h
 
 #include "rhombicFCCImageFile.h"
+#include "rhombicLabelSurfaces.h"
 #include "rhombicScan.h"
 
 #include <nlohmann/json.hpp>
 
 #include <string>
+#include <vector>
 
 namespace rhombic
 {
@@ -40,6 +42,15 @@ ReportIntensities(const Scan & scan);
 /** The same for a volume that is on the lattice already. */
 Report
 ReportIntensities(const FCCVolume & volume);
+
+/** For each label: value, name, colour (`#rrggbb`), voxels and millilitres. */
+Report
+ReportLabels(const std::vector<LabelSummary> & labels);
+
+/** For each surface of a label: value, name, voxels, millilitres of voxels and surface, their difference, pieces,
+ * whether it is torn, protected voxels and triangles. */
+Report
+ReportLabelSurfaces(const std::vector<LabelSurface> & surfaces);
 
 /** As JSON text; what is not UTF-8 in it is replaced. */
 std::string

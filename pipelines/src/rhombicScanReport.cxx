@@ -5,6 +5,7 @@
 #include "vnl/vnl_det.h"
 
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 namespace rhombic
@@ -208,6 +209,50 @@ Report
 ReportIntensities(const FCCVolume & volume)
 {
   return ReportRange("other", ComputeIntensities(volume));
+}
+
+Report
+ReportLabels(const std::vector<LabelSummary> & labels)
+{
+  Report report = Report::array();
+  for (const LabelSummary & summary : labels)
+  {
+    char colour[8];
+    std::snprintf(colour,
+                  sizeof(colour),
+                  "#%02x%02x%02x",
+                  summary.label.colour[0],
+                  summary.label.colour[1],
+                  summary.label.colour[2]);
+    report.push_back({ { "value", summary.label.value },
+                       { "name", summary.label.name },
+                       { "colour", colour },
+                       { "voxels", summary.numberOfVoxels },
+                       { "millilitres", summary.millilitres } });
+  }
+  return report;
+}
+
+Report
+ReportLabelSurfaces(const std::vector<LabelSurface> & surfaces)
+{
+  Report report = Report::array();
+  for (const LabelSurface & surface : surfaces)
+  {
+    report.push_back({ { "value", surface.value },
+                       { "name", surface.scene.name },
+                       { "voxels", surface.numberOfVoxels },
+                       { "voxelVolumeInMillilitres", surface.voxelMillilitres },
+                       { "volumeAsExtractedInMillilitres", surface.surfaceMillilitres },
+                       { "volumeDifference", surface.GetVolumeDifference() },
+                       { "pieces", surface.pieces },
+                       { "surfacePieces", surface.surfacePieces },
+                       { "isTorn", surface.isTorn },
+                       { "finerPieces", surface.finerPieces },
+                       { "protectedVoxels", surface.protectedVoxels },
+                       { "triangles", surface.scene.surface->GetNumberOfTriangles() } });
+  }
+  return report;
 }
 
 std::string

@@ -1,8 +1,6 @@
-#include "rhombicLabelPipeline.h"
+#include "rhombicLabelMapReader.h"
 
 #include "rhombicFailure.h"
-
-#include <cstdio>
 
 namespace rhombic
 {
@@ -61,28 +59,6 @@ ReadLabelMap(const LabelMapSource & source,
     map.scan.notes.push_back(note);
   }
   return map;
-}
-
-Report
-ReportLabels(const std::vector<LabelSummary> & labels)
-{
-  Report report = Report::array();
-  for (const LabelSummary & summary : labels)
-  {
-    char colour[8];
-    std::snprintf(colour,
-                  sizeof(colour),
-                  "#%02x%02x%02x",
-                  summary.label.colour[0],
-                  summary.label.colour[1],
-                  summary.label.colour[2]);
-    report.push_back({ { "value", summary.label.value },
-                       { "name", summary.label.name },
-                       { "colour", colour },
-                       { "voxels", summary.numberOfVoxels },
-                       { "millilitres", summary.millilitres } });
-  }
-  return report;
 }
 
 } // namespace rhombic

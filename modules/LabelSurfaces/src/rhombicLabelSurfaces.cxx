@@ -2,7 +2,6 @@
 
 #include "rhombicFailure.h"
 #include "rhombicLabelPieces.h"
-#include "rhombicLatticePipeline.h"
 #include "rhombicMaskSurface.h"
 #include "rhombicWording.h"
 
@@ -193,6 +192,17 @@ Percent(double ratio)
   return text.str();
 }
 
+void
+CheckDensity(double density)
+{
+  if (!(density > 0.0) || !(density <= 64.0))
+  {
+    throw Failure(FailureKind::Usage,
+                  "The density of labels' lattices must be above 0 and at most 64 sites per voxel, not " +
+                    std::to_string(density) + "; the default is 0.77.");
+  }
+}
+
 /** Says what did not come out as it should. */
 void
 NoteShortcomings(const LabelSurface & made, const Events & events)
@@ -215,9 +225,7 @@ NoteShortcomings(const LabelSurface & made, const Events & events)
 std::vector<LabelSurface>
 LabelsToSurfaces(const LabelMap & map, const LabelSurfaceSettings & settings, const Events & events)
 {
-  LatticeSettings lattice;
-  lattice.density = settings.density;
-  CheckLatticeSettings(lattice);
+  CheckDensity(settings.density);
   const std::vector<LabelSummary> labels = ChooseLabels(map, settings.labels);
   const auto boxes = FindLabelBoxes(map.scan.image);
   double allVoxels = 0.0;
@@ -240,28 +248,6 @@ LabelsToSurfaces(const LabelMap & map, const LabelSurfaceSettings & settings, co
   }
   events.Progress("surfaces of labels", 1.0);
   return surfaces;
-}
-
-Report
-ReportLabelSurfaces(const std::vector<LabelSurface> & surfaces)
-{
-  Report report = Report::array();
-  for (const LabelSurface & surface : surfaces)
-  {
-    report.push_back({ { "value", surface.value },
-                       { "name", surface.scene.name },
-                       { "voxels", surface.numberOfVoxels },
-                       { "voxelVolumeInMillilitres", surface.voxelMillilitres },
-                       { "volumeAsExtractedInMillilitres", surface.surfaceMillilitres },
-                       { "volumeDifference", surface.GetVolumeDifference() },
-                       { "pieces", surface.pieces },
-                       { "surfacePieces", surface.surfacePieces },
-                       { "isTorn", surface.isTorn },
-                       { "finerPieces", surface.finerPieces },
-                       { "protectedVoxels", surface.protectedVoxels },
-                       { "triangles", surface.scene.surface->GetNumberOfTriangles() } });
-  }
-  return report;
 }
 
 } // namespace rhombic

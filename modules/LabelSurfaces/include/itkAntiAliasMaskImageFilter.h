@@ -66,7 +66,7 @@ namespace itk
  *
  * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
  *
- * \ingroup FCCResampling
+ * \ingroup LabelSurfaces
  */
 class AntiAliasMaskImageFilter : public ImageToImageFilter<Image<std::uint8_t, 3>, Image<float, 3>>
 {

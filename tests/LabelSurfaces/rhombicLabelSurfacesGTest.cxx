@@ -598,11 +598,6 @@ TEST(LabelSurfaces, AreThoseAskedFor)
   EXPECT_EQ(visible[0].value, 3);
   settings.labels = { "9", "spleen" };
   EXPECT_EQ(NamesOf(rhombic::LabelsToSurfaces(map, settings, {})), (std::vector<std::string>{ "spleen", "kidney" }));
-
-  const auto report = rhombic::ReportLabelSurfaces(visible);
-  ASSERT_EQ(report.size(), 2);
-  EXPECT_EQ(report[1]["name"], "kidney");
-  EXPECT_EQ(report[1]["triangles"], visible[1].scene.surface->GetNumberOfTriangles());
 }
 
 TEST(LabelSurfaces, AreCalledInUpperOrLowerCaseUnlessTheTwoDiffer)

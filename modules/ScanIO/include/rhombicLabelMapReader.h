@@ -1,9 +1,8 @@
-#ifndef rhombicLabelPipeline_h
-#define rhombicLabelPipeline_h
+#ifndef rhombicLabelMapReader_h
+#define rhombicLabelMapReader_h
 
 #include "rhombicLabelMap.h"
 #include "rhombicScanReader.h"
-#include "rhombicScanReport.h"
 
 #include <filesystem>
 #include <string>
@@ -46,10 +45,6 @@ ReadLabelMap(const LabelMapSource & source,
              const ScanReadOptions & options,
              const Scan & scan,
              const std::filesystem::path & scanPath);
-
-/** For each label: value, name, colour (`#rrggbb`), voxels and millilitres. Thread safe. */
-Report
-ReportLabels(const std::vector<LabelSummary> & labels);
 
 } // namespace rhombic
 

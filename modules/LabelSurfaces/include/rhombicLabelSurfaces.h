@@ -2,7 +2,7 @@
 #define rhombicLabelSurfaces_h
 
 #include "rhombicEvents.h"
-#include "rhombicLabelPipeline.h"
+#include "rhombicLabelMapReader.h"
 #include "rhombicSceneSurface.h"
 
 #include "itkFCCIsosurfaceMode.h"
@@ -71,11 +71,6 @@ struct LabelSurface
  * is none to show; Memory, before the work on a piece, for one that is too large. Thread safe. */
 std::vector<LabelSurface>
 LabelsToSurfaces(const LabelMap & map, const LabelSurfaceSettings & settings, const Events & events);
-
-/** For each surface: value, name, voxels, millilitres of voxels and surface, their difference, pieces, whether it is
- * torn, protected voxels and triangles. */
-Report
-ReportLabelSurfaces(const std::vector<LabelSurface> & surfaces);
 
 } // namespace rhombic
 
