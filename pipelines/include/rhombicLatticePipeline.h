@@ -2,6 +2,7 @@
 #define rhombicLatticePipeline_h
 
 #include "rhombicDenoising.h"
+#include "rhombicEnclosedParts.h"
 #include "rhombicEvents.h"
 #include "rhombicFCCImageFile.h"
 #include "rhombicScan.h"
@@ -60,16 +61,6 @@ ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events 
  * different volumes. */
 ScanImage
 LatticeToScan(const FCCVolume & volume, const std::array<double, 3> & spacing, const Events & events);
-
-/** What SurfaceRequest::Parts::Enclosed left out of a surface, and what it kept though the scan's sides cut it. Thread
- * safety: a value. */
-struct EnclosedParts
-{
-  double aroundBody = 0.0;          ///< volume left out around the body, in ml
-  std::size_t numberOfSmall = 0;    ///< left out: parts of less than a fiftieth of the volume of the largest one
-  double small = 0.0;               ///< volume of these, in ml
-  std::size_t numberCutBySides = 0; ///< kept parts that end at a side of the scan other than top and bottom
-};
 
 /** A surface of a lattice volume. Thread safety: a value. */
 struct ExtractedSurface

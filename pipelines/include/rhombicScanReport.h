@@ -4,6 +4,7 @@
 #include "rhombicFCCImageFile.h"
 #include "rhombicLabelSurfaces.h"
 #include "rhombicScan.h"
+#include "rhombicTableRemoval.h"
 
 #include <nlohmann/json.hpp>
 
@@ -42,6 +43,10 @@ ReportIntensities(const Scan & scan);
 /** The same for a volume that is on the lattice already. */
 Report
 ReportIntensities(const FCCVolume & volume);
+
+/** What was removed around the patient: volumes in ml, positions in LPS mm. */
+Report
+ReportTableRemoval(const TableRemoval & removal);
 
 /** For each label: value, name, colour (`#rrggbb`), voxels and millilitres. */
 Report

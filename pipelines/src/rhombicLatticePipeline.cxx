@@ -1,6 +1,5 @@
 #include "rhombicLatticePipeline.h"
 
-#include "rhombicEnclosedParts.h"
 #include "rhombicFailure.h"
 #include "rhombicIntensities.h"
 #include "rhombicMemoryBudget.h"
@@ -13,7 +12,6 @@
 #include "itkFCCIsosurfaceFilter.h"
 #include "itkFCCResamplingChecks.h"
 #include "itkFCCToCartesianImageFilter.h"
-#include "itkTriangleSurfaceMeasures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -187,7 +185,7 @@ MoveWalls(itk::TriangleSurface & surface, const itk::ImageBase<3> * grid, const 
   }
 }
 
-/** Leaves out of a request's surface what is around the body. Where no tissue lies between, it is extracted anew. */
+/** Leaves out of a request's surface what is around the body. */
 EnclosedParts
 LeaveOutSurroundings(const FCCVolume & volume,
                      const SurfaceRequest & request,
@@ -197,21 +195,14 @@ LeaveOutSurroundings(const FCCVolume & volume,
                      itk::TriangleSurface::Pointer & surface)
 {
   events.Progress("telling " + request.name + " from what is around the body", 0.0);
-  const Surroundings surroundings = FindSurroundings(volume, request);
-  if (!surroundings.cutOff)
-  {
-    return KeepEnclosedParts(*surface, volume, surroundings);
-  }
-  const double whole = itk::ComputeVolume(*surface);
-  const FCCVolume cut = CutOff(volume, surroundings, request);
-  std::vector<itk::TriangleSurface::Pointer> extracted(1);
-  std::visit([&](const auto & image) { ExtractSide(*image, { request }, request.side, mode, events, extracted); }, cut);
-  surface = extracted.front();
-  MoveWalls(*surface, grid, cut);
-  const double left = itk::ComputeVolume(*surface);
-  EnclosedParts parts = KeepEnclosedParts(*surface, volume, surroundings);
-  parts.aroundBody = (whole - left) / 1000.0;
-  return parts;
+  const Threshold threshold{ request.isovalue.value(), request.side == SurfaceRequest::Side::Below };
+  return KeepEnclosedParts(surface, volume, threshold, [&](const FCCVolume & cut) {
+    std::vector<itk::TriangleSurface::Pointer> extracted(1);
+    std::visit([&](const auto & image) { ExtractSide(*image, { request }, request.side, mode, events, extracted); },
+               cut);
+    MoveWalls(*extracted.front(), grid, cut);
+    return extracted.front();
+  });
 }
 
 } // namespace

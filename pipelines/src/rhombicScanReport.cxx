@@ -212,6 +212,24 @@ ReportIntensities(const FCCVolume & volume)
 }
 
 Report
+ReportTableRemoval(const TableRemoval & removal)
+{
+  Report report;
+  report["objects"] = Report::array();
+  for (const RemovedObject & object : removal.objects)
+  {
+    report["objects"].push_back({ { "millilitres", object.millilitres },
+                                  { "centroid", ToArray(object.centroid.GetDataPointer()) },
+                                  { "lowest", ToArray(object.lowest.GetDataPointer()) },
+                                  { "highest", ToArray(object.highest.GetDataPointer()) } });
+  }
+  report["specks"] = { { "count", removal.numberOfSpecks }, { "millilitres", removal.millilitresOfSpecks } };
+  report["airValue"] = removal.airValue;
+  report["notes"] = removal.notes;
+  return report;
+}
+
+Report
 ReportLabels(const std::vector<LabelSummary> & labels)
 {
   Report report = Report::array();

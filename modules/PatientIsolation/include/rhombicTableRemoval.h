@@ -3,8 +3,8 @@
 
 #include "rhombicEvents.h"
 #include "rhombicScan.h"
-#include "rhombicScanReport.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -62,10 +62,6 @@ struct TableRemoval
  * scans. */
 TableRemoval
 RemoveTable(Scan & scan, const Events & events);
-
-/** Volumes in ml, positions in LPS mm. */
-Report
-ReportTableRemoval(const TableRemoval & removal);
 
 } // namespace rhombic
 

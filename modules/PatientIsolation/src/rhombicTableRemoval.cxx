@@ -366,23 +366,4 @@ RemoveTable(Scan & scan, const Events & events)
   return removal;
 }
 
-Report
-ReportTableRemoval(const TableRemoval & removal)
-{
-  Report report;
-  report["objects"] = Report::array();
-  const auto toArray = [](const itk::Point<double, 3> & point) { return Report{ point[0], point[1], point[2] }; };
-  for (const RemovedObject & object : removal.objects)
-  {
-    report["objects"].push_back({ { "millilitres", object.millilitres },
-                                  { "centroid", toArray(object.centroid) },
-                                  { "lowest", toArray(object.lowest) },
-                                  { "highest", toArray(object.highest) } });
-  }
-  report["specks"] = { { "count", removal.numberOfSpecks }, { "millilitres", removal.millilitresOfSpecks } };
-  report["airValue"] = removal.airValue;
-  report["notes"] = removal.notes;
-  return report;
-}
-
 } // namespace rhombic

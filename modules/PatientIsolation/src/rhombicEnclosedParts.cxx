@@ -1,5 +1,6 @@
 #include "rhombicEnclosedParts.h"
 
+#include "rhombicCoarseScan.h"
 #include "rhombicImageAxes.h"
 
 #include "itkForEachBlock.h"
@@ -23,6 +24,22 @@ constexpr double airRange = 60.0;            // HU: air around the body varies b
 constexpr double lowestLung = -860.0;        // HU: mean of lungs without emphysema
 constexpr double lowestAir = -1100.0;        // HU: lower values are padding
 constexpr double unitsPerIndex[3] = { 2.0, 1.0, 1.0 };
+
+/** The values of a lattice in blocks of about 4 mm. */
+struct LatticeBlocks
+{
+  std::array<std::size_t, 3> samplesPerBlock{};
+  DistanceImage::Pointer mean;
+  MaskImage::Pointer isUniform; ///< blocks whose values are all the same
+};
+
+/** Which blocks are inside by the threshold, but not in the body. */
+struct Surroundings
+{
+  LatticeBlocks blocks;
+  MaskImage::Pointer around; ///< the body
+  MaskImage::Pointer cutOff; ///< what has to be cut off what is in the body, as no tissue lies between; else null
+};
 
 /** \class BlockFiller
  * \brief Fills a slice of blocks. */
@@ -129,10 +146,9 @@ MakeBlocks(const itk::FCCImage<TPixel> & image, double lowest)
 
 /** The blocks with a mean below the limit, or at it and above. */
 MaskImage::Pointer
-MakeSideMask(const LatticeBlocks & blocks, SurfaceRequest::Side side, double limit)
+MakeSideMask(const LatticeBlocks & blocks, bool isBelow, double limit)
 {
   const float * const means = blocks.mean->GetBufferPointer();
-  const bool isBelow = side == SurfaceRequest::Side::Below;
   return MakeMask(*blocks.mean,
                   [=](std::size_t n) { return isBelow ? means[n] < limit : static_cast<double>(means[n]) >= limit; });
 }
@@ -293,13 +309,13 @@ template <typename TPixel>
 class LatticeCutter
 {
 public:
-  LatticeCutter(itk::FCCImage<TPixel> & image, const Surroundings & surroundings, const SurfaceRequest & request)
+  LatticeCutter(itk::FCCImage<TPixel> & image, const Surroundings & surroundings, double isovalue)
     : m_Image(image)
     , m_SamplesPerBlock(surroundings.blocks.samplesPerBlock)
     , m_CutOff(*surroundings.cutOff)
     , m_Size(image.GetBufferedRegion().GetSize())
     , m_Count(surroundings.cutOff->GetBufferedRegion().GetSize())
-    , m_Isovalue(*request.isovalue)
+    , m_Isovalue(isovalue)
   {
     constexpr double steepness = 4.0; // rise of the ramp, relative to isovalue minus mean around the body
     double sum = 0.0;
@@ -446,30 +462,30 @@ HighestAirAround(const DistanceImage & means, double isovalue)
   return std::min(isovalue, std::max(highestAir, std::min(lowest + airRange, lowestLung)));
 }
 
-} // namespace
-
 Surroundings
-FindSurroundings(const FCCVolume & volume, const SurfaceRequest & request)
+FindSurroundings(const FCCVolume & volume, const Threshold & threshold)
 {
-  const double isovalue = request.isovalue.value();
-  const bool isHounsfield = request.side == SurfaceRequest::Side::Below && isovalue < 0.0;
+  const double isovalue = threshold.isovalue;
+  const bool isBelow = threshold.insideIsBelow;
+  const bool isHounsfield = isBelow && isovalue < 0.0;
   Surroundings found;
   const double lowest = isHounsfield ? lowestAir : std::numeric_limits<double>::lowest();
   found.blocks = std::visit([=](const auto & image) { return MakeBlocks(*image, lowest); }, volume);
   const auto direction = std::visit([](const auto & image) { return image->GetDirection(); }, volume);
   const auto air =
-    MakeSideMask(found.blocks, request.side, isHounsfield ? HighestAirAround(*found.blocks.mean, isovalue) : isovalue);
+    MakeSideMask(found.blocks, isBelow, isHounsfield ? HighestAirAround(*found.blocks.mean, isovalue) : isovalue);
   found.around = FindPartsAtSides(*air, NearestAxis(direction, 2), isHounsfield);
   if (HasBorder(*found.around))
   {
-    const auto inside = MakeSideMask(found.blocks, request.side, isovalue);
+    const auto inside = MakeSideMask(found.blocks, isBelow, isovalue);
     found.cutOff = OpeningFinder(found.blocks, *found.around, *inside).Find();
   }
   return found;
 }
 
+/** A copy of the volume in which what is to be cut off is on the other side of the isovalue. */
 FCCVolume
-CutOff(const FCCVolume & volume, const Surroundings & surroundings, const SurfaceRequest & request)
+CutOff(const FCCVolume & volume, const Surroundings & surroundings, double isovalue)
 {
   return std::visit(
     [&](const auto & image) -> FCCVolume {
@@ -480,15 +496,16 @@ CutOff(const FCCVolume & volume, const Surroundings & surroundings, const Surfac
       cut->Allocate();
       const auto & region = image->GetBufferedRegion();
       std::copy_n(image->GetBufferPointer(), region.GetNumberOfPixels(), cut->GetBufferPointer());
-      const LatticeCutter<typename ImageType::PixelType> cutter(*cut, surroundings, request);
+      const LatticeCutter<typename ImageType::PixelType> cutter(*cut, surroundings, isovalue);
       itk::ForEachInBlocks(region.GetSize(2), 1, [&](std::size_t slice) { cutter.CutSlice(slice); });
       return cut;
     },
     volume);
 }
 
+/** Keeps the parts of a surface that are in the body, and tells what it leaves out. */
 EnclosedParts
-KeepEnclosedParts(itk::TriangleSurface & surface, const FCCVolume & volume, const Surroundings & surroundings)
+KeepParts(itk::TriangleSurface & surface, const FCCVolume & volume, const Surroundings & surroundings)
 {
   const auto components = itk::FindComponents(surface);
   const auto parts =
@@ -512,6 +529,27 @@ KeepEnclosedParts(itk::TriangleSurface & surface, const FCCVolume & volume, cons
   }
   itk::KeepComponents(surface, components, keep);
   return enclosed;
+}
+
+} // namespace
+
+EnclosedParts
+KeepEnclosedParts(itk::TriangleSurface::Pointer & surface,
+                  const FCCVolume & volume,
+                  const Threshold & threshold,
+                  const SurfaceExtractor & extract)
+{
+  const Surroundings surroundings = FindSurroundings(volume, threshold);
+  if (!surroundings.cutOff)
+  {
+    return KeepParts(*surface, volume, surroundings);
+  }
+  const double whole = itk::ComputeVolume(*surface);
+  surface = extract(CutOff(volume, surroundings, threshold.isovalue));
+  const double kept = itk::ComputeVolume(*surface);
+  EnclosedParts parts = KeepParts(*surface, volume, surroundings);
+  parts.aroundBody = (whole - kept) / 1000.0;
+  return parts;
 }
 
 } // namespace rhombic

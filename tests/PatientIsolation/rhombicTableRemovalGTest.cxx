@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <functional>
 #include <random>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -283,6 +284,25 @@ ExpectOnlyThePatient(const Grid & grid, const std::vector<Object> & objects)
   EXPECT_FALSE(removal.objects.empty());
 }
 
+std::string
+Describe(const rhombic::TableRemoval & removal)
+{
+  std::ostringstream text;
+  text.precision(17);
+  for (const rhombic::RemovedObject & object : removal.objects)
+  {
+    text << object.millilitres << " ml at " << object.centroid << " from " << object.lowest << " to " << object.highest
+         << '\n';
+  }
+  text << removal.numberOfSpecks << " specks of " << removal.millilitresOfSpecks << " ml in air of " << removal.airValue
+       << " HU\n";
+  for (const std::string & note : removal.notes)
+  {
+    text << note << '\n';
+  }
+  return text.str();
+}
+
 TEST(TableRemoval, ScansWithoutATableStayAsTheyAre)
 {
   for (const Grid & grid : Grids())
@@ -290,7 +310,7 @@ TEST(TableRemoval, ScansWithoutATableStayAsTheyAre)
     rhombic::Scan scan = MakeScan(grid, Patient());
     const auto before = ValuesOf(scan);
     const auto removal = rhombic::RemoveTable(scan, {});
-    EXPECT_TRUE(removal.objects.empty()) << rhombic::ToJson(rhombic::ReportTableRemoval(removal));
+    EXPECT_TRUE(removal.objects.empty()) << Describe(removal);
     EXPECT_EQ(ValuesOf(scan), before);
   }
 }
@@ -352,7 +372,7 @@ TEST(TableRemoval, TheResultIsTheSameForAnyNumberOfThreads)
     itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(count);
     std::copy(values.begin(), values.end(), std::get<ImageType::Pointer>(original.image)->GetBufferPointer());
     rhombic::Scan scan = original;
-    const auto report = rhombic::ToJson(rhombic::ReportTableRemoval(rhombic::RemoveTable(scan, {})));
+    const auto report = Describe(rhombic::RemoveTable(scan, {}));
     if (first.empty())
     {
       first = ValuesOf(scan);
@@ -392,7 +412,6 @@ TEST(TableRemoval, ReportsVolumeAndPlaceOfWhatIsRemoved)
   EXPECT_NEAR(removal.airValue, air, 5.0);
   ASSERT_FALSE(notes.empty());
   EXPECT_NE(notes.front().find("1 object"), std::string::npos) << notes.front();
-  EXPECT_EQ(rhombic::ReportTableRemoval(removal)["objects"].size(), 1u);
 }
 
 TEST(TableRemoval, KeepsWhatMayBeAHandAndSaysSo)
