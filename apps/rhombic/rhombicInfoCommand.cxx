@@ -1,13 +1,11 @@
 #include "rhombicCommands.h"
+#include "rhombicDescribeScan.h"
 #include "rhombicFailure.h"
-#include "rhombicLabelMapReader.h"
 #include "rhombicScanOptions.h"
 #include "rhombicScanReport.h"
 #include "rhombicWording.h"
 
-#include <algorithm>
 #include <iostream>
-#include <sstream>
 
 namespace rhombic
 {
@@ -22,29 +20,15 @@ struct InfoOptions
   bool isJson = false;
 };
 
-/** Numbers with six digits, lists as products. */
+/** Numbers with six digits, as "512 x 512 x 138". */
+template <typename TNumbers>
 std::string
-ToText(const Report & value)
+FormatProduct(const TNumbers & numbers)
 {
-  if (value.is_string())
-  {
-    return value.get<std::string>();
-  }
-  if (value.is_number_float())
-  {
-    std::ostringstream text;
-    text.imbue(std::locale::classic());
-    text << value.get<double>();
-    return text.str();
-  }
-  if (!value.is_array())
-  {
-    return value.dump();
-  }
   std::string text;
-  for (const Report & item : value)
+  for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    text += (text.empty() ? "" : " x ") + ToText(item);
+    text += (axis == 0 ? "" : " x ") + FormatNumber(static_cast<double>(numbers[axis]));
   }
   return text;
 }
@@ -58,51 +42,126 @@ PrintLine(const std::string & name, const std::string & text)
   }
 }
 
-std::string
-CountOf(const Report & number, const std::string & noun)
+void
+PrintGrid(const itk::ImageBase<3> & grid, bool isOriented)
 {
-  return Count(number.get<std::uintmax_t>(), noun);
+  const auto & direction = grid.GetDirection();
+  const auto & origin = grid.GetOrigin();
+  PrintLine("size", FormatProduct(grid.GetLargestPossibleRegion().GetSize()) + " samples");
+  PrintLine("spacing", FormatProduct(grid.GetSpacing()) + " mm");
+  PrintLine("orientation",
+            (isOriented ? OrientationLetters(direction) : "unknown") + ", " + HandednessOf(direction) + "-handed");
+  PrintLine("origin",
+            FormatNumber(origin[0]) + ", " + FormatNumber(origin[1]) + ", " + FormatNumber(origin[2]) + " mm (LPS)");
 }
 
 void
-PrintStack(const Report & stack)
+PrintStack(const StackReport & stack, bool isEven)
 {
-  const bool isTilted = stack["tiltDegrees"].get<double>() > 0.06;
-  PrintLine("tilt", isTilted ? ToText(stack["tiltDegrees"]) + " degrees" : "none");
-  if (!stack["isEven"].get<bool>())
+  constexpr double smallestTilt = 0.06; // degrees
+  PrintLine("tilt", stack.tiltDegrees > smallestTilt ? FormatNumber(stack.tiltDegrees) + " degrees" : "none");
+  if (!isEven)
   {
     std::string blocks;
-    for (const Report & block : stack["blocks"])
+    for (const SliceBlock & block : stack.blocks)
     {
-      blocks += (blocks.empty() ? "" : ", ") + CountOf(block["steps"], "step") + " of " + ToText(block["step"]) + " mm";
+      blocks += (blocks.empty() ? "" : ", ") + Count(block.numberOfSteps, "step") + " of " + FormatNumber(block.step) +
+                " mm";
     }
     PrintLine("slices", "uneven: " + blocks);
   }
-  for (const Report & gap : stack["gaps"])
+  for (const SliceGap & gap : stack.gaps)
   {
-    PrintLine("gap", gap["missingSlices"].dump() + " missing behind " + ToText(gap["position"]) + " mm");
+    PrintLine("gap", std::to_string(gap.numberOfMissing) + " missing behind " + FormatNumber(gap.position) + " mm");
+  }
+}
+
+/** What the scan's file says beside its grid. */
+void
+PrintEncoding(const Scan & scan)
+{
+  PrintLine("modality", scan.modality);
+  PrintLine("encoding", scan.encoding);
+  PrintLine("pixels", PixelTypeName(scan.image) + (scan.scaling.empty() ? "" : ", " + scan.scaling));
+  if (scan.numberOfFrames > 1)
+  {
+    PrintLine("frames",
+              std::to_string(scan.numberOfFrames) + ", of which this is " + std::to_string(scan.frame) +
+                "; see another one with --frame N, from 0 to " + std::to_string(scan.numberOfFrames - 1));
   }
 }
 
 void
-PrintSeries(const Report & report)
+PrintPlacement(const Scan & scan)
 {
-  const std::string choice = ToText(report["choice"]);
-  for (const Report & series : report["series"])
+  if (scan.stack)
   {
-    const std::string modality = ToText(series["modality"]);
-    const std::string kind = ToText(series["kind"]);
-    const std::string number = ToText(series["seriesNumber"]);
-    PrintLine("series " + series["number"].dump(),
-              (modality.empty() ? "modality unknown" : modality) + ", " + ToText(series["size"]) +
-                (series.contains("spacing") ? " of " + ToText(series["spacing"]) + " mm" : "") + ", " +
-                CountOf(series["files"], "file") + (kind.empty() ? "" : ", " + kind) +
-                (number.empty() ? "" : ", SeriesNumber " + number) + ", id " + ToText(series["id"]) +
-                (series["chosen"].get<bool>() && !choice.empty() ? "  <- read: " + choice : ""));
-    const std::string problem = ToText(series["problem"]);
-    PrintLine("", problem.empty() ? "" : "problem: " + problem);
+    PrintStack(*scan.stack, scan.sliceOrigins.empty());
   }
-  if (choice.empty())
+  if (scan.affine)
+  {
+    const double disagreement = scan.affine->disagreement;
+    PrintLine("affine",
+              scan.affine->source +
+                (disagreement > 0.0 ? ", the other one is " + FormatNumber(disagreement) + " mm off" : ""));
+  }
+}
+
+void
+PrintValues(const ScanDescription & description)
+{
+  PrintLine("values",
+            FormatNumber(description.intensities.lowest) + " to " + FormatNumber(description.intensities.highest));
+  const auto * const scan = std::get_if<Scan>(&description.volume);
+  if (scan != nullptr && scan->paddingValue)
+  {
+    PrintLine("padding", Count(scan->numberOfPaddingSamples, "sample") + " of " + FormatNumber(*scan->paddingValue));
+  }
+  for (const SuggestedThreshold & threshold : description.thresholds)
+  {
+    PrintLine("threshold", FormatNumber(threshold.isovalue) + "  " + threshold.surface);
+  }
+  for (const LabelSummary & summary : description.labels.value_or(std::vector<LabelSummary>()))
+  {
+    PrintLine("label " + std::to_string(summary.label.value),
+              summary.label.name + ", " + ToHexadecimal(summary.label) + ", " +
+                Count(summary.numberOfVoxels, "voxel") + ", " + FormatNumber(summary.millilitres) + " ml");
+  }
+}
+
+void
+PrintVolume(const ScanDescription & description)
+{
+  if (const auto * const scan = std::get_if<Scan>(&description.volume))
+  {
+    PrintLine("format", scan->format);
+    PrintEncoding(*scan);
+    PrintGrid(GeometryOf(scan->image), scan->isOriented);
+    PrintPlacement(*scan);
+  }
+  else
+  {
+    PrintLine("format", "lattice volume (face-centered cubic)");
+    std::visit([](const auto & image) { PrintGrid(*image, true); }, std::get<FCCVolume>(description.volume));
+  }
+  PrintValues(description);
+}
+
+void
+PrintSeries(const ScanDescription & description)
+{
+  const std::string & choice = description.choice;
+  for (const SeriesSummary & series : description.series)
+  {
+    PrintLine("series " + std::to_string(series.number),
+              (series.modality.empty() ? "modality unknown" : series.modality) + ", " + FormatProduct(series.size) +
+                (series.spacing[0] > 0.0 ? " of " + FormatProduct(series.spacing) + " mm" : "") + ", " +
+                Count(series.numberOfFiles, "file") + (series.kind.empty() ? "" : ", " + series.kind) +
+                (series.seriesNumber.empty() ? "" : ", SeriesNumber " + series.seriesNumber) + ", id " + series.id +
+                (series.chosen && !choice.empty() ? "  <- read: " + choice : ""));
+    PrintLine("", series.problem.empty() ? "" : "problem: " + series.problem);
+  }
+  if (!description.series.empty() && choice.empty())
   {
     PrintLine("choose",
               "one with --series and its id; its place or SeriesNumber will do, too, where no other has that number");
@@ -110,191 +169,41 @@ PrintSeries(const Report & report)
 }
 
 void
-PrintLabels(const Report & labels)
+Print(const ScanDescription & description)
 {
-  for (const Report & label : labels)
+  if (description.HasVolume())
   {
-    PrintLine("label " + label["value"].dump(),
-              ToText(label["name"]) + ", " + ToText(label["colour"]) + ", " + CountOf(label["voxels"], "voxel") + ", " +
-                ToText(label["millilitres"]) + " ml");
+    PrintVolume(description);
   }
-}
-
-/** What is known once the voxels are read. */
-void
-PrintVolume(const Report & report)
-{
-  const auto text = [&report](const char * key) { return report.contains(key) ? ToText(report[key]) : ""; };
-  PrintLine("modality", text("modality"));
-  PrintLine("encoding", text("encoding"));
-  PrintLine("pixels", text("pixelType") + (text("scaling").empty() ? "" : ", " + text("scaling")));
-  if (report.contains("frames"))
+  else
   {
-    PrintLine("frames",
-              text("frames") + ", of which this is " + text("frame") + "; see another one with --frame N, from 0 to " +
-                std::to_string(report["frames"].get<std::size_t>() - 1));
+    PrintLine("format", "DICOM");
   }
-  PrintLine("size", text("size") + " samples");
-  PrintLine("spacing", text("spacing") + " mm");
-  PrintLine("orientation", text("orientation") + ", " + text("handedness") + "-handed");
-  const Report & origin = report["origin"];
-  PrintLine("origin", ToText(origin[0]) + ", " + ToText(origin[1]) + ", " + ToText(origin[2]) + " mm (LPS)");
-  if (report.contains("stack"))
+  PrintSeries(description);
+  for (const auto & [reason, count] : description.filesSkipped)
   {
-    PrintStack(report["stack"]);
+    PrintLine("skipped", std::to_string(count) + " " + reason);
   }
-  if (report.contains("affine"))
+  for (const std::string & note : description.notes)
   {
-    PrintLine("affine",
-              ToText(report["affine"]["source"]) +
-                (report["affine"]["disagreement"].get<double>() > 0
-                   ? ", the other one is " + ToText(report["affine"]["disagreement"]) + " mm off"
-                   : ""));
+    PrintLine("note", note);
   }
-  PrintLine("values", ToText(report["range"][0]) + " to " + ToText(report["range"][1]));
-  if (report.contains("padding"))
-  {
-    PrintLine("padding", CountOf(report["padding"]["samples"], "sample") + " of " + ToText(report["padding"]["value"]));
-  }
-  for (const Report & suggestion : report.value("suggestedThresholds", Report::array()))
-  {
-    PrintLine("threshold", ToText(suggestion["isovalue"]) + "  " + ToText(suggestion["surface"]));
-  }
-  PrintLabels(report.value("labels", Report::array()));
-}
-
-void
-Print(const Report & report)
-{
-  PrintLine("format", ToText(report["format"]));
-  if (report.contains("size"))
-  {
-    PrintVolume(report);
-  }
-  if (report.contains("series") && !report["series"].empty())
-  {
-    PrintSeries(report);
-  }
-  if (report.contains("filesSkipped"))
-  {
-    for (const auto & [reason, count] : report["filesSkipped"].items())
-    {
-      PrintLine("skipped", count.dump() + " " + reason);
-    }
-  }
-  if (report.contains("notes"))
-  {
-    for (const Report & note : report["notes"])
-    {
-      PrintLine("note", ToText(note));
-    }
-  }
-}
-
-void
-AddNotes(const std::vector<std::string> & notes, Report & report)
-{
-  for (const std::string & note : notes)
-  {
-    report["notes"].push_back(note);
-  }
-}
-
-/** The labels of the scan if it is a label map, and those of the label map that was named for it. */
-void
-AddLabels(const Scan & scan, const ScanSource & source, const InfoOptions & options, Report & report)
-{
-  if (!options.labels.empty())
-  {
-    const LabelMap map = ReadLabelMap({ options.labels, options.labelTable }, source.read, scan, source.path);
-    report["labels"] = ReportLabels(map.labels);
-    AddNotes(map.scan.notes, report);
-  }
-  else if (!options.labelTable.empty() || IsLabelMap(scan))
-  {
-    report["labels"] = ReportLabels(FindLabels(scan, { source.path, options.labelTable }));
-    report.erase("suggestedThresholds");
-  }
-}
-
-Report
-DescribeLattice(const ScanSource & source)
-{
-  const FCCVolume volume = ReadFCCImage(source.path);
-  Report report = ReportLattice(volume);
-  report.update(ReportIntensities(volume));
-  return report;
-}
-
-Report
-DescribeScan(const ScanSource & source, const InfoOptions & options)
-{
-  const Scan scan = ReadScan(source.path, source.read);
-  Report report = ReportScan(scan);
-  report.update(ReportIntensities(scan));
-  AddLabels(scan, source, options, report);
-  AddNotes(scan.fileNotes, report);
-  return report;
-}
-
-/** The scan, or, when it is one of several series and none is named, these alone if it can't be chosen or read. */
-Report
-Describe(const ScanSource & source, const InfoOptions & options)
-{
-  SeriesList list = ListSeries(source.path, source.read);
-  const auto chosen =
-    std::find_if(list.series.begin(), list.series.end(), [](const SeriesSummary & series) { return series.chosen; });
-  const bool isListed = list.series.size() > 1 && source.read.series.empty() && options.labels.empty();
-  const bool isRead = !isListed || chosen != list.series.end();
-  Report report;
-  try
-  {
-    report = isRead ? DescribeScan(source, options) : Report();
-  }
-  catch (const Failure & failure)
-  {
-    if (!isListed)
-    {
-      throw;
-    }
-    chosen->problem = failure.GetDescription();
-    chosen->chosen = false;
-  }
-  const Report listed = ReportSeriesList(list);
-  if (report.is_null())
-  {
-    report = listed;
-    AddNotes(list.fileNotes, report);
-  }
-  report["series"] = listed["series"];
-  return report;
-}
-
-/** Whether there are series, and none of them can be read. */
-bool
-IsUnreadable(const Report & report)
-{
-  const Report series = report.value("series", Report::array());
-  return !series.empty() && !report.contains("size") &&
-         std::all_of(
-           series.begin(), series.end(), [](const Report & item) { return !ToText(item["problem"]).empty(); });
 }
 
 void
 Info(const InfoOptions & options, const CommandContext & context)
 {
-  ScanSource source = options.scan.GetSource(context);
-  source.read.onSeveralFrames = ScanReadOptions::Policy::Accept;
-  const Report report = IsFCCImageFile(source.path) ? DescribeLattice(source) : Describe(source, options);
+  const ScanSource source = options.scan.GetSource(context);
+  const ScanDescription description = DescribeScan(source, { options.labels, options.labelTable });
   if (options.isJson)
   {
-    std::cout << ToJson(report) << '\n';
+    std::cout << ToJson(ReportDescription(description)) << '\n';
   }
   else
   {
-    Print(report);
+    Print(description);
   }
-  if (IsUnreadable(report))
+  if (description.IsUnreadable())
   {
     throw Failure(FailureKind::Unreadable,
                   "None of the series in " + source.path.string() + " can be read; see their problems above.");

@@ -1,7 +1,7 @@
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
 #include "rhombicNamedValues.h"
-#include "rhombicMeshPipeline.h"
+#include "rhombicMeshScan.h"
 #include "rhombicScanOptions.h"
 #include "rhombicSurfaceOptions.h"
 

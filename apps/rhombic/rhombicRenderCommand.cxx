@@ -1,6 +1,7 @@
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
 #include "rhombicPresets.h"
+#include "rhombicRenderScan.h"
 #include "rhombicScanOptions.h"
 #include "rhombicSurfaceOptions.h"
 
@@ -33,7 +34,7 @@ ListPresets()
     std::cout << preset.name << "\n    " << preset.description << '\n';
     for (const SurfaceRequest & surface : preset.surfaces)
     {
-      std::cout << "    " << surface.name << (surface.side == SurfaceRequest::Side::Below ? " below " : " from ");
+      std::cout << "    " << surface.name << (surface.insideIsBelow ? " below " : " from ");
       if (surface.isovalue)
       {
         std::cout << *surface.isovalue;

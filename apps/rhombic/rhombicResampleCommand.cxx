@@ -1,5 +1,6 @@
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
+#include "rhombicResampleScan.h"
 #include "rhombicScanOptions.h"
 
 namespace rhombic

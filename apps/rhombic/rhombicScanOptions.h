@@ -2,7 +2,8 @@
 #define rhombicScanOptions_h
 
 #include "rhombicCommands.h"
-#include "rhombicScanPipeline.h"
+#include "rhombicScanSource.h"
+#include "rhombicSidecar.h"
 
 #include <CLI/CLI.hpp>
 

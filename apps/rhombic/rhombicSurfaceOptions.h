@@ -1,7 +1,7 @@
 #ifndef rhombicSurfaceOptions_h
 #define rhombicSurfaceOptions_h
 
-#include "rhombicScanPipeline.h"
+#include "rhombicScanSource.h"
 
 #include <CLI/CLI.hpp>
 

@@ -11,18 +11,15 @@
 namespace rhombic
 {
 
-/** \file
- * What an audit found, for machines and for people; units are in the keys. Thread safety: the functions are pure. */
-
-/** All that an audit found, and the verdict. */
+/** An audit as JSON; units are in the keys. */
 Report
 ReportAudit(const itk::TriangleSurfaceAudit & audit);
 
-/** The same for reading: a line each for shape, defects, self-intersections and triangles. */
+/** An audit in a line each for shape, defects, self-intersections and quality of triangles. */
 std::vector<std::string>
 DescribeAudit(const itk::TriangleSurfaceAudit & audit);
 
-/** What keeps a surface from being watertight, as part of a sentence: "3 boundary edges"; empty when it is. */
+/** The defects that keep a surface from being watertight, as "3 boundary edges"; empty when it is. */
 std::string
 DescribeLeaks(const itk::TriangleSurfaceAudit & audit);
 

@@ -4,7 +4,6 @@
 #include "rhombicEvents.h"
 #include "rhombicFCCImageFile.h"
 #include "rhombicScan.h"
-#include "rhombicScanReport.h"
 
 #include <cstdint>
 #include <string>
@@ -59,10 +58,6 @@ DenoiseLattice(const FCCVolume & volume,
                const Denoising & denoising,
                std::uintmax_t maximumMemory,
                const Events & events);
-
-/** Kind, and its numbers. Thread safe. */
-Report
-ReportDenoising(const Denoising & denoising);
 
 } // namespace rhombic
 

@@ -1,69 +1,67 @@
 #ifndef rhombicScanReport_h
 #define rhombicScanReport_h
 
-#include "rhombicFCCImageFile.h"
-#include "rhombicLabelSurfaces.h"
-#include "rhombicScan.h"
-#include "rhombicTableRemoval.h"
+#include "rhombicDescribeScan.h"
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <string>
-#include <vector>
 
 namespace rhombic
 {
 
 /** \file
- * What is known of a scan, as JSON. Thread safety: any number of threads may call these functions at once. */
+ * Reports as JSON of what is read and made: this file of scans, rhombicSurfaceReport.h of surfaces. Units are in the
+ * keys where they are not mm; positions are in LPS. Nothing in them is about the patient, but that problems of series
+ * may name files. */
 
-/** A report that keeps the order in which it was written. */
+/** JSON that keeps the order in which it was written. */
 using Report = nlohmann::ordered_json;
 
-/** The geometry report of a scan: what was read, why that, where it lies, and what had to be assumed or repaired.
- * Lengths are in mm, positions in LPS. Holds nothing about the patient. Intensities, which take a pass over the scan,
- * are ReportIntensities()'s. */
+/** Format, geometry, series, and what the reader had to assume or repair. */
 Report
 ReportScan(const Scan & scan);
 
-/** All that headers tell of the series in a folder, with their spacings. Holds nothing about the patient but the names
- * of files in the series' problems. */
+/** ReportScan() for outputs: notes don't name the scan's file, whose name may be the patient's. */
 Report
-ReportSeriesList(const SeriesList & list);
+ReportWithoutNames(const Scan & scan, const std::filesystem::path & path);
 
-/** The same as ReportScan() for a volume that is on the lattice already. */
+/** Format and geometry. */
 Report
 ReportLattice(const FCCVolume & volume);
 
-/** The range of values, and thresholds worth trying for that modality. Throws Failure(Unreadable) when no value is
- * finite. */
+/** Kind, and its parameters in mm and in the scan's units. */
 Report
-ReportIntensities(const Scan & scan);
+ReportDenoising(const Denoising & denoising);
 
-/** The same for a volume that is on the lattice already. */
-Report
-ReportIntensities(const FCCVolume & volume);
-
-/** What was removed around the patient: volumes in ml, positions in LPS mm. */
-Report
-ReportTableRemoval(const TableRemoval & removal);
-
-/** For each label: value, name, colour (`#rrggbb`), voxels and millilitres. */
+/** For each label: value, name, colour (`#rrggbb`), voxels and ml. */
 Report
 ReportLabels(const std::vector<LabelSummary> & labels);
 
-/** For each surface of a label: value, name, voxels, millilitres of voxels and surface, their difference, pieces,
- * whether it is torn, protected voxels and triangles. */
+/** Objects that were removed around the patient: volumes in ml, positions, and the value that took their place. */
 Report
-ReportLabelSurfaces(const std::vector<LabelSurface> & surfaces);
+ReportTableRemoval(const TableRemoval & removal);
 
-/** As JSON text; what is not UTF-8 in it is replaced. */
+/** All of a description. */
+Report
+ReportDescription(const ScanDescription & description);
+
+/** As JSON text; bytes that are not UTF-8 are replaced. */
 std::string
 ToJson(const Report & report);
 
 /** For each image axis, the letter of the anatomical direction nearest to it: LPS for LPS. */
 std::string
 OrientationLetters(const itk::ImageBase<3>::DirectionType & direction);
+
+/** "right" or "left". */
+std::string
+HandednessOf(const itk::ImageBase<3>::DirectionType & direction);
+
+/** `#rrggbb`. */
+std::string
+ToHexadecimal(const Label & label);
 
 } // namespace rhombic
 

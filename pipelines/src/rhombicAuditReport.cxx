@@ -3,8 +3,6 @@
 #include "rhombicWording.h"
 
 #include <array>
-#include <iomanip>
-#include <sstream>
 #include <utility>
 
 namespace rhombic
@@ -12,24 +10,15 @@ namespace rhombic
 namespace
 {
 
-std::ostringstream
-MakeText(int decimals)
-{
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::fixed << std::setprecision(decimals);
-  return text;
-}
-
-/** Solids and cavities are known of closed surfaces only. */
+/** Solids and cavities of closed surfaces; connected parts of others. */
 std::string
 DescribeParts(const itk::TriangleSurfaceAudit & audit)
 {
   if (!audit.topology.IsWatertight())
   {
-    return Count(audit.topology.components, "connected part", "connected parts");
+    return Count(audit.topology.components, "connected part");
   }
-  return Count(audit.shells.solids, "solid", "solids") + " with " +
+  return Count(audit.shells.solids, "solid") + " with " +
          (audit.shells.cavities == 0 ? "no cavities" : Count(audit.shells.cavities, "cavity", "cavities"));
 }
 
@@ -40,7 +29,7 @@ DescribeIntersections(const itk::TriangleSurfaceIntersections & found)
   {
     return "self-intersections: not looked for";
   }
-  return "self-intersections: " + Count(found.crossingPairs, "pair", "pairs") + " of triangles cross, " +
+  return "self-intersections: " + Count(found.crossingPairs, "pair") + " of triangles cross, " +
          std::to_string(found.touchingPairs) + " touch" +
          (found.isSampled ? ", of " + std::to_string(found.testedTriangles) + " triangles tested" : "");
 }
@@ -69,7 +58,7 @@ ReportAudit(const itk::TriangleSurfaceAudit & audit)
            { "repeatedPositions", topology.repeatedPositions },
            { "nonFinitePoints", topology.nonFinitePoints },
            { "unusedPoints", topology.unusedPoints },
-           { "volumeInMillilitres", audit.volume / 1000.0 },
+           { "volumeInMillilitres", audit.volume / CubicMillimetresPerMl },
            { "areaInSquareMillimetres", audit.area },
            { "intersections",
              { { "testedTriangles", audit.intersections.testedTriangles },
@@ -87,21 +76,22 @@ std::vector<std::string>
 DescribeAudit(const itk::TriangleSurfaceAudit & audit)
 {
   const auto & topology = audit.topology;
-  auto shape = MakeText(1);
-  shape << Count(audit.triangles, "triangle", "triangles") << ", " << Count(audit.points, "point", "points") << ", "
-        << DescribeParts(audit) << ", Euler characteristic " << topology.eulerCharacteristic << ", genus "
-        << topology.genus << ", " << audit.volume / 1000.0 << " ml, " << audit.area / 100.0 << " cm2";
-  auto quality = MakeText(2);
-  quality << "triangles: quality " << audit.quality.mean << " on average, " << 100.0 * audit.quality.poorFraction
-          << " % below " << itk::TriangleSurfaceQuality::Poor << ", smallest angle " << audit.quality.smallestAngle
-          << " degrees";
+  const std::string shape =
+    Count(audit.triangles, "triangle") + ", " + Count(audit.points, "point") + ", " + DescribeParts(audit) +
+    ", Euler characteristic " + std::to_string(topology.eulerCharacteristic) + ", genus " +
+    std::to_string(topology.genus) + ", " + FormatMillilitres(audit.volume / CubicMillimetresPerMl) + ", " +
+    FormatFixed(audit.area / 100.0, 1) + " cm2";
+  const std::string quality = "triangles: quality " + FormatFixed(audit.quality.mean, 2) + " on average, " +
+                              FormatFixed(100.0 * audit.quality.poorFraction, 2) + " % below " +
+                              FormatFixed(itk::TriangleSurfaceQuality::Poor, 2) + ", smallest angle " +
+                              FormatFixed(audit.quality.smallestAngle, 2) + " degrees";
   const std::string leaks = DescribeLeaks(audit);
   std::vector<std::string> lines{
-    shape.str(),
+    shape,
     leaks.empty() ? "watertight: closed, oriented, manifold, without degenerate or duplicate triangles"
                   : "not watertight: " + leaks,
     DescribeIntersections(audit.intersections),
-    quality.str()
+    quality
   };
   if (topology.boundaryEdges > 0 && topology.repeatedPositions > 0)
   {

@@ -10,9 +10,9 @@
 #include "itkFCCResamplingChecks.h"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
+#include <vector>
 
 namespace rhombic
 {
@@ -20,16 +20,6 @@ namespace
 {
 
 using RealImage = itk::Image<float, 3>;
-
-/** A number at the beginning of a text, which it is taken from; 0 if there is none. */
-double
-TakeNumber(std::string & text)
-{
-  double number = 0.0;
-  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
-  text.erase(0, parsed.ec == std::errc() ? static_cast<std::size_t>(parsed.ptr - text.data()) : 0);
-  return number;
-}
 
 bool
 IsPositive(double number)
@@ -153,24 +143,23 @@ ParseDenoising(const std::string & text)
   Denoising denoising;
   const auto colon = text.find(':');
   const std::string name = text.substr(0, colon);
-  std::string numbers = colon == std::string::npos ? "" : text.substr(colon + 1);
-  if (name == "gaussian")
+  std::vector<std::string> numbers;
+  if (colon != std::string::npos)
   {
-    denoising.kind = Denoising::Kind::Gaussian;
-    denoising.sigma = TakeNumber(numbers);
+    numbers = Split(text.substr(colon + 1), ",");
   }
-  else if (name == "edges")
+  const auto numberAt = [&numbers](std::size_t n) {
+    return n < numbers.size() ? ToNumber<double>(numbers[n]).value_or(0.0) : 0.0;
+  };
+  if (name == "gaussian" && numbers.size() <= 1)
   {
-    denoising.kind = Denoising::Kind::EdgePreserving;
-    denoising.sigma = TakeNumber(numbers);
-    if (!numbers.empty() && numbers[0] == ',')
-    {
-      numbers.erase(0, 1);
-      denoising.edge = TakeNumber(numbers);
-    }
+    denoising = { Denoising::Kind::Gaussian, numberAt(0), 0.0 };
   }
-  const bool isKnown = text == "none" || denoising.kind != Denoising::Kind::None;
-  if (!isKnown || !numbers.empty())
+  else if (name == "edges" && numbers.size() <= 2)
+  {
+    denoising = { Denoising::Kind::EdgePreserving, numberAt(0), numberAt(1) };
+  }
+  else if (text != "none")
   {
     throw Failure(FailureKind::Usage,
                   "'" + text +
@@ -261,20 +250,6 @@ DenoiseLattice(const FCCVolume & volume,
       return output;
     },
     volume);
-}
-
-Report
-ReportDenoising(const Denoising & denoising)
-{
-  switch (denoising.kind)
-  {
-    case Denoising::Kind::Gaussian:
-      return { { "kind", "gaussian" }, { "sigma", denoising.sigma } };
-    case Denoising::Kind::EdgePreserving:
-      return { { "kind", "edges" }, { "sigma", denoising.sigma }, { "edge", denoising.edge } };
-    default:
-      return { { "kind", "none" } };
-  }
 }
 
 } // namespace rhombic

@@ -2,22 +2,26 @@
 #define rhombicMeasureTable_h
 
 #include "rhombicAtomicFile.h"
-#include "rhombicScanReport.h"
+#include "rhombicMeshedSurface.h"
 
 #include <filesystem>
+#include <vector>
 
 namespace rhombic
 {
 
-/** Throws Failure(Usage) when StageMeasureTable() would because of the extension. */
+/** Throws Failure(Usage) for an extension other than .csv and .json. */
 void
 CheckMeasureTablePath(const std::filesystem::path & path);
 
-/** Writes the reports of surfaces as a table: .csv with a line for each and units in the head line, or .json with all
- * there is, to appear with all others of \a staged. What is not known of a surface is left empty. Throws Failure: Usage
+/** Writes the measures of surfaces, to appear with all others of \a staged: as .csv a line for each surface, with units
+ * in the head line and empty fields for what is not known; as .json all of ReportMeshedSurface(). Throws Failure: Usage
  * for another extension, Output. */
 void
-StageMeasureTable(const Report & surfaces, const std::filesystem::path & path, StagedFiles & staged);
+StageMeasureTable(const std::vector<MeshedSurface> & surfaces,
+                  itk::FCCIsosurfaceMode mode,
+                  const std::filesystem::path & path,
+                  StagedFiles & staged);
 
 } // namespace rhombic
 

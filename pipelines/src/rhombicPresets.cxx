@@ -78,9 +78,8 @@ ParseSurface(const YAML::Node & node, const std::string & source)
       FailToParse(source, "has an isovalue that is not finite");
     }
   }
-  const bool isBelow = IsSecondWord(node["side"], "above", "below", source);
+  request.insideIsBelow = IsSecondWord(node["side"], "above", "below", source);
   const bool isEnclosed = IsSecondWord(node["parts"], "all", "enclosed", source);
-  request.side = isBelow ? SurfaceRequest::Side::Below : SurfaceRequest::Side::Above;
   request.parts = isEnclosed ? SurfaceRequest::Parts::Enclosed : SurfaceRequest::Parts::All;
   if (node["colour"])
   {

@@ -1,7 +1,5 @@
 #include "rhombicScanReport.h"
 
-#include "rhombicIntensities.h"
-
 #include "vnl/vnl_det.h"
 
 #include <cmath>
@@ -12,44 +10,6 @@ namespace rhombic
 {
 namespace
 {
-
-/** A threshold worth trying, and what it shows. */
-struct Suggestion
-{
-  const char * surface;
-  double isovalue;
-};
-
-std::vector<Suggestion>
-Suggest(const std::string & modality, const Intensities & intensities)
-{
-  std::vector<Suggestion> suggestions{ { "foreground (Otsu)", intensities.otsu } };
-  constexpr double nearAir = -900.0; // raw numbers of an uncalibrated CT don't go below 0
-  if ((modality == "CT" || modality.empty()) && intensities.lowest < nearAir)
-  {
-    for (const Suggestion & organ :
-         { Suggestion{ "skin", -300.5 }, Suggestion{ "lungs, below", -500.5 }, Suggestion{ "bone", 250.5 } })
-    {
-      if (organ.isovalue > intensities.lowest && organ.isovalue <= intensities.highest)
-      {
-        suggestions.push_back(organ);
-      }
-    }
-  }
-  return suggestions;
-}
-
-Report
-ReportRange(const std::string & modality, const Intensities & intensities)
-{
-  Report report;
-  report["range"] = { intensities.lowest, intensities.highest };
-  for (const Suggestion & suggestion : Suggest(modality, intensities))
-  {
-    report["suggestedThresholds"].push_back({ { "surface", suggestion.surface }, { "isovalue", suggestion.isovalue } });
-  }
-  return report;
-}
 
 Report
 ToArray(const double * numbers)
@@ -70,7 +30,7 @@ ReportGrid(const itk::ImageBase<3> & grid, bool isOriented, Report & report)
     report["direction"].push_back({ direction[row][0], direction[row][1], direction[row][2] });
   }
   report["orientation"] = isOriented ? OrientationLetters(direction) : "unknown";
-  report["handedness"] = vnl_det(direction.GetVnlMatrix()) > 0 ? "right" : "left";
+  report["handedness"] = HandednessOf(direction);
 }
 
 Report
@@ -114,20 +74,45 @@ ReportSeries(const SeriesSummary & series)
   return report;
 }
 
-/** For a Scan or a SeriesList: the series in its folder, and the files that are none. */
-template <typename TFolder>
-void
-ReportFolder(const TFolder & folder, const std::string & choice, Report & report)
+Report
+ReportSeriesOf(const std::vector<SeriesSummary> & series)
 {
-  report["series"] = Report::array();
-  for (const SeriesSummary & series : folder.series)
+  Report report = Report::array();
+  for (const SeriesSummary & summary : series)
   {
-    report["series"].push_back(ReportSeries(series));
+    report.push_back(ReportSeries(summary));
   }
-  report["choice"] = choice;
-  report["filesConsidered"] = folder.filesConsidered;
-  report["filesSkipped"] = folder.filesSkipped.empty() ? Report::object() : Report(folder.filesSkipped);
-  report["notes"] = folder.notes;
+  return report;
+}
+
+Report
+ReportSkippedFiles(const std::map<std::string, std::size_t> & filesSkipped)
+{
+  return filesSkipped.empty() ? Report::object() : Report(filesSkipped);
+}
+
+/** Where nothing could be read: the series alone. */
+Report
+ReportFolder(const ScanDescription & description)
+{
+  Report report;
+  report["format"] = "DICOM";
+  report["series"] = ReportSeriesOf(description.series);
+  report["choice"] = description.choice;
+  report["filesConsidered"] = description.filesConsidered;
+  report["filesSkipped"] = ReportSkippedFiles(description.filesSkipped);
+  report["notes"] = description.notes;
+  return report;
+}
+
+void
+ReportIntensities(const ScanDescription & description, Report & report)
+{
+  report["range"] = { description.intensities.lowest, description.intensities.highest };
+  for (const SuggestedThreshold & threshold : description.thresholds)
+  {
+    report["suggestedThresholds"].push_back({ { "surface", threshold.surface }, { "isovalue", threshold.isovalue } });
+  }
 }
 
 } // namespace
@@ -177,16 +162,30 @@ ReportScan(const Scan & scan)
     report["frames"] = scan.numberOfFrames;
     report["frame"] = scan.frame;
   }
-  ReportFolder(scan, scan.choice, report);
+  report["series"] = ReportSeriesOf(scan.series);
+  report["choice"] = scan.choice;
+  report["filesConsidered"] = scan.filesConsidered;
+  report["filesSkipped"] = ReportSkippedFiles(scan.filesSkipped);
+  report["notes"] = scan.notes;
   return report;
 }
 
 Report
-ReportSeriesList(const SeriesList & list)
+ReportWithoutNames(const Scan & scan, const std::filesystem::path & path)
 {
-  Report report;
-  report["format"] = "DICOM";
-  ReportFolder(list, "", report);
+  Report report = ReportScan(scan);
+  for (Report & note : report["notes"])
+  {
+    auto text = note.get<std::string>();
+    for (const std::string & name : { path.string(), path.filename().string(), path.stem().string() })
+    {
+      for (std::size_t at = text.find(name); !name.empty() && at != std::string::npos; at = text.find(name, at + 4))
+      {
+        text.replace(at, name.size(), "SCAN");
+      }
+    }
+    note = text;
+  }
   return report;
 }
 
@@ -200,15 +199,17 @@ ReportLattice(const FCCVolume & volume)
 }
 
 Report
-ReportIntensities(const Scan & scan)
+ReportDenoising(const Denoising & denoising)
 {
-  return ReportRange(scan.modality, ComputeIntensities(scan.image));
-}
-
-Report
-ReportIntensities(const FCCVolume & volume)
-{
-  return ReportRange("other", ComputeIntensities(volume));
+  switch (denoising.kind)
+  {
+    case Denoising::Kind::Gaussian:
+      return { { "kind", "gaussian" }, { "sigma", denoising.sigma } };
+    case Denoising::Kind::EdgePreserving:
+      return { { "kind", "edges" }, { "sigma", denoising.sigma }, { "edge", denoising.edge } };
+    default:
+      return { { "kind", "none" } };
+  }
 }
 
 Report
@@ -235,16 +236,9 @@ ReportLabels(const std::vector<LabelSummary> & labels)
   Report report = Report::array();
   for (const LabelSummary & summary : labels)
   {
-    char colour[8];
-    std::snprintf(colour,
-                  sizeof(colour),
-                  "#%02x%02x%02x",
-                  summary.label.colour[0],
-                  summary.label.colour[1],
-                  summary.label.colour[2]);
     report.push_back({ { "value", summary.label.value },
                        { "name", summary.label.name },
-                       { "colour", colour },
+                       { "colour", ToHexadecimal(summary.label) },
                        { "voxels", summary.numberOfVoxels },
                        { "millilitres", summary.millilitres } });
   }
@@ -252,23 +246,27 @@ ReportLabels(const std::vector<LabelSummary> & labels)
 }
 
 Report
-ReportLabelSurfaces(const std::vector<LabelSurface> & surfaces)
+ReportDescription(const ScanDescription & description)
 {
-  Report report = Report::array();
-  for (const LabelSurface & surface : surfaces)
+  if (!description.HasVolume())
   {
-    report.push_back({ { "value", surface.value },
-                       { "name", surface.scene.name },
-                       { "voxels", surface.numberOfVoxels },
-                       { "voxelVolumeInMillilitres", surface.voxelMillilitres },
-                       { "volumeAsExtractedInMillilitres", surface.surfaceMillilitres },
-                       { "volumeDifference", surface.GetVolumeDifference() },
-                       { "pieces", surface.pieces },
-                       { "surfacePieces", surface.surfacePieces },
-                       { "isTorn", surface.isTorn },
-                       { "finerPieces", surface.finerPieces },
-                       { "protectedVoxels", surface.protectedVoxels },
-                       { "triangles", surface.scene.surface->GetNumberOfTriangles() } });
+    return ReportFolder(description);
+  }
+  Report report;
+  if (const auto * const scan = std::get_if<Scan>(&description.volume))
+  {
+    report = ReportScan(*scan);
+    report["series"] = ReportSeriesOf(description.series);
+    report["notes"] = description.notes;
+  }
+  else
+  {
+    report = ReportLattice(std::get<FCCVolume>(description.volume));
+  }
+  ReportIntensities(description, report);
+  if (description.labels)
+  {
+    report["labels"] = ReportLabels(*description.labels);
   }
   return report;
 }
@@ -277,6 +275,20 @@ std::string
 ToJson(const Report & report)
 {
   return report.dump(2, ' ', false, Report::error_handler_t::replace);
+}
+
+std::string
+HandednessOf(const itk::ImageBase<3>::DirectionType & direction)
+{
+  return vnl_det(direction.GetVnlMatrix()) > 0 ? "right" : "left";
+}
+
+std::string
+ToHexadecimal(const Label & label)
+{
+  char text[8];
+  std::snprintf(text, sizeof(text), "#%02x%02x%02x", label.colour[0], label.colour[1], label.colour[2]);
+  return text;
 }
 
 } // namespace rhombic

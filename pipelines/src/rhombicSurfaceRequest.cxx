@@ -1,17 +1,17 @@
 #include "rhombicSurfaceRequest.h"
 
 #include "rhombicFailure.h"
+#include "rhombicWording.h"
 
-#include <charconv>
+#include <array>
 #include <cmath>
-#include <vector>
 
 namespace rhombic
 {
 namespace
 {
 
-// Bone, skin, vessel, organ and more of the colours that 3D Slicer's generic anatomy table made customary.
+// Colours of bone, skin, vessels and organs in 3D Slicer's generic anatomy table.
 constexpr std::array<Colour, 6> palette{ { { 0.945, 0.839, 0.569 },
                                            { 0.694, 0.478, 0.396 },
                                            { 0.847, 0.396, 0.310 },
@@ -19,31 +19,12 @@ constexpr std::array<Colour, 6> palette{ { { 0.945, 0.839, 0.569 },
                                            { 0.000, 0.592, 0.808 },
                                            { 0.902, 0.863, 0.275 } } };
 
-std::vector<std::string>
-Split(const std::string & text, char separator)
-{
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  for (auto end = text.find(separator); end != std::string::npos; end = text.find(separator, begin))
-  {
-    parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  parts.push_back(text.substr(begin));
-  return parts;
-}
-
+/** A finite number. */
 std::optional<double>
 ParseNumber(const std::string & text)
 {
-  double number = 0.0;
-  const auto end = text.data() + text.size();
-  const auto parsed = std::from_chars(text.data(), end, number);
-  if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(number))
-  {
-    return std::nullopt;
-  }
-  return number;
+  const auto number = ToNumber<double>(text);
+  return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
 } // namespace
@@ -53,7 +34,7 @@ ParseThreshold(const std::string & text, SurfaceRequest & request)
 {
   const bool isBelow = !text.empty() && text[0] == '<';
   const std::string number = isBelow ? text.substr(1) : text;
-  request.side = isBelow ? SurfaceRequest::Side::Below : SurfaceRequest::Side::Above;
+  request.insideIsBelow = isBelow;
   request.isovalue = ParseNumber(number);
   return request.isovalue.has_value() || number == "otsu";
 }
@@ -71,7 +52,7 @@ ParseSurfaceRequest(const std::string & text, std::size_t number)
   {
     throw refuse("has no name or no threshold");
   }
-  const auto fields = Split(text.substr(equals + 1), ',');
+  const auto fields = Split(text.substr(equals + 1), ",");
   SurfaceRequest request;
   request.name = text.substr(0, equals);
   request.colour = palette[number % palette.size()];
@@ -98,6 +79,31 @@ ParseSurfaceRequest(const std::string & text, std::size_t number)
     throw refuse("has too many parts");
   }
   return request;
+}
+
+std::vector<SurfaceRequest>
+ResolveIsovalues(std::vector<SurfaceRequest> requests, const Intensities & intensities)
+{
+  for (SurfaceRequest & request : requests)
+  {
+    if (!request.isovalue)
+    {
+      request.isovalue = intensities.otsu;
+    }
+    // At the lowest value or below everything is inside, above the highest nothing: in both cases there is no surface.
+    const double isovalue = *request.isovalue;
+    if (isovalue > intensities.lowest && isovalue <= intensities.highest)
+    {
+      continue;
+    }
+    throw Failure(FailureKind::Empty,
+                  intensities.lowest == intensities.highest
+                    ? "All values of the scan are the same; check that it was exported completely."
+                    : "The threshold " + FormatNumber(isovalue) + " of " + request.name +
+                        " is outside the scan's values, which run from " + FormatNumber(intensities.lowest) + " to " +
+                        FormatNumber(intensities.highest) + "; choose one in between.");
+  }
+  return requests;
 }
 
 } // namespace rhombic

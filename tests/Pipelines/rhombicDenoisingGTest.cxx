@@ -1,7 +1,8 @@
 #include "rhombicDenoising.h"
 
 #include "rhombicFailure.h"
-#include "rhombicLatticePipeline.h"
+#include "rhombicLatticeToSurfaces.h"
+#include "rhombicScanToLattice.h"
 
 #include "itkImageRegionIteratorWithIndex.h"
 

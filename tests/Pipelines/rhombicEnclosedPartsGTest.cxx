@@ -1,5 +1,6 @@
 #include "rhombicFailure.h"
-#include "rhombicLatticePipeline.h"
+#include "rhombicLatticeToSurfaces.h"
+#include "rhombicScanToLattice.h"
 #include "rhombicPhantom.h"
 
 #include "itkImageAlgorithm.h"
@@ -125,10 +126,10 @@ public:
     SurfaceRequest request;
     request.name = "lungs";
     request.isovalue = isovalue; // half way between lungs and muscle
-    request.side = SurfaceRequest::Side::Below;
+    request.insideIsBelow = true;
     request.parts = SurfaceRequest::Parts::Enclosed;
     const auto lattice = rhombic::ScanToLattice(scan, {}, {});
-    return rhombic::ExtractSurfaces(lattice, { request }, itk::FCCIsosurfaceMode::Lean, events, m_Scan).front();
+    return rhombic::LatticeToSurfaces(lattice, { request }, itk::FCCIsosurfaceMode::Lean, events, m_Scan).front();
   }
 
 private:
@@ -145,8 +146,8 @@ private:
 double
 Millilitres(const rhombic::ExtractedSurface & extracted)
 {
-  EXPECT_TRUE(ComputeTopology(*extracted.scene.surface).IsWatertight());
-  return ComputeVolume(*extracted.scene.surface) / 1000.0;
+  EXPECT_TRUE(ComputeTopology(*extracted.surface).IsWatertight());
+  return ComputeVolume(*extracted.surface) / 1000.0;
 }
 
 struct Field

@@ -1,7 +1,7 @@
 #include "rhombicIntensities.h"
 
 #include "rhombicFailure.h"
-#include "rhombicScanPipeline.h"
+#include "rhombicSurfaceRequest.h"
 
 #include <gtest/gtest.h>
 

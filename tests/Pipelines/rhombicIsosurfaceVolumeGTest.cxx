@@ -1,7 +1,8 @@
 #include "rhombicIsosurfaceVolume.h"
 
 #include "rhombicFailure.h"
-#include "rhombicLatticePipeline.h"
+#include "rhombicLatticeToSurfaces.h"
+#include "rhombicScanToLattice.h"
 #include "rhombicPhantom.h"
 
 #include "itkImageRegionIteratorWithIndex.h"
@@ -58,12 +59,12 @@ MakeScan(const std::function<double(const PointType &)> & field, const itk::Size
 }
 
 SurfaceRequest
-MakeRequest(double isovalue, SurfaceRequest::Side side = SurfaceRequest::Side::Above)
+MakeRequest(double isovalue, bool insideIsBelow = false)
 {
   SurfaceRequest request;
   request.name = "it";
   request.isovalue = isovalue;
-  request.side = side;
+  request.insideIsBelow = insideIsBelow;
   return request;
 }
 
@@ -82,7 +83,7 @@ FindVolumes(const rhombic::Scan & scan, const SurfaceRequest & request, Mode mod
   const auto lattice = rhombic::ScanToLattice(scan, settings, {});
   const auto & grid = rhombic::GeometryOf(scan.image);
   const auto surface = rhombic::LatticeToSurfaces(lattice, { request }, mode, {}, &grid).front().surface;
-  return { ComputeVolume(*surface), rhombic::EstimateIsosurfaceVolume(lattice, request, ComputeArea(*surface), &grid) };
+  return { ComputeVolume(*surface), rhombic::EstimateIsosurfaceVolume(lattice, request.GetThreshold(), ComputeArea(*surface), &grid) };
 }
 
 TEST(IsosurfaceVolume, IsThatOfABallWithinItsUncertainty)
@@ -141,7 +142,7 @@ TEST(IsosurfaceVolume, EndsWhereTheScanDoes)
     const auto inside = FindVolumes(scan, MakeRequest(0.0), Mode::Lean).isosurface;
     const double exact = itk::Math::pi * 64.0 * 1.1 * static_cast<double>(slices);
     EXPECT_NEAR(inside.volume, exact, inside.uncertainty) << slices << " slices";
-    const auto outside = FindVolumes(scan, MakeRequest(0.0, SurfaceRequest::Side::Below), Mode::Lean).isosurface;
+    const auto outside = FindVolumes(scan, MakeRequest(0.0, true), Mode::Lean).isosurface;
     const double box = 30.0 * 34.0 * static_cast<double>(slices) * 0.8 * 0.7 * 1.1;
     EXPECT_NEAR((inside.volume + outside.volume) / box, 1.0, 0.001) << slices << " slices";
   }

@@ -1,4 +1,5 @@
-#include "rhombicLatticePipeline.h"
+#include "rhombicLatticeToSurfaces.h"
+#include "rhombicScanToLattice.h"
 #include "rhombicScanReader.h"
 
 #include "itkImageAlgorithm.h"

@@ -1,5 +1,6 @@
 #include "rhombicFailure.h"
-#include "rhombicLatticePipeline.h"
+#include "rhombicLatticeToSurfaces.h"
+#include "rhombicScanToLattice.h"
 #include "rhombicPhantom.h"
 
 #include "itkTriangleSurfaceMeasures.h"

@@ -81,12 +81,12 @@ TEST(Presets, ReadEverythingASurfaceHas)
     "test");
   ASSERT_EQ(preset.surfaces.size(), 2u);
   EXPECT_EQ(preset.surfaces[0].isovalue, -500.5);
-  EXPECT_EQ(preset.surfaces[0].side, SurfaceRequest::Side::Below);
+  EXPECT_TRUE(preset.surfaces[0].insideIsBelow);
   EXPECT_EQ(preset.surfaces[0].parts, SurfaceRequest::Parts::Enclosed);
   EXPECT_EQ(preset.surfaces[0].colour, (rhombic::Colour{ 0.0, 0.0, 1.0 }));
   EXPECT_EQ(preset.surfaces[0].opacity, 0.25);
   EXPECT_FALSE(preset.surfaces[1].isovalue.has_value());
-  EXPECT_EQ(preset.surfaces[1].side, SurfaceRequest::Side::Above);
+  EXPECT_FALSE(preset.surfaces[1].insideIsBelow);
 }
 
 TEST(Presets, SuggestTheNearestName)

@@ -1,5 +1,6 @@
 #include "rhombicInProcessDecoder.h"
-#include "rhombicLatticePipeline.h"
+#include "rhombicLatticeToSurfaces.h"
+#include "rhombicScanToLattice.h"
 #include "rhombicScanReader.h"
 #include "rhombicSurfaceFinish.h"
 #include "rhombicSurfaceIO.h"

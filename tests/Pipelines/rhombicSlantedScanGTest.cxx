@@ -1,5 +1,6 @@
 #include "rhombicFailure.h"
-#include "rhombicLatticePipeline.h"
+#include "rhombicLatticeToSurfaces.h"
+#include "rhombicScanToLattice.h"
 
 #include "itkImageRegionIteratorWithIndex.h"
 #include "itkMath.h"

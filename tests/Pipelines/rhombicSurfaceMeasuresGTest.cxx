@@ -1,4 +1,5 @@
-#include "rhombicLatticePipeline.h"
+#include "rhombicLatticeToSurfaces.h"
+#include "rhombicScanToLattice.h"
 #include "rhombicSurfaceDeviation.h"
 #include "rhombicSurfaceMeasures.h"
 
@@ -191,7 +192,7 @@ TEST(SurfaceMeasures, AreThoseOfABallOfKnownValues)
     EXPECT_NEAR(*measures.meanValue, 100.0 - 0.75 * Radius, 0.05); // the mean distance in a ball is 3/4 of its radius
     EXPECT_NEAR(*measures.standardDeviation, Radius * std::sqrt(0.6 - 0.5625), 0.05);
     EXPECT_NEAR(*measures.voxelVolume / volume, 1.0, 0.005);
-    EXPECT_NEAR(rhombic::CountVoxelVolume(scan, 100.0 - Radius, SurfaceRequest::Side::Above) / volume, 1.0, 0.005);
+    EXPECT_NEAR(rhombic::CountVoxelVolume(scan, { 100.0 - Radius, false }) / volume, 1.0, 0.005);
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
       EXPECT_NEAR(measures.centroid[axis], 0.0, 0.03);
@@ -253,8 +254,7 @@ TEST(SurfaceDeviation, IsTheDistanceBetweenTwoSpheres)
       const auto deviation = rhombic::ComputeDeviation(*MakeSphere(Radius + offset),
                                                        scan,
                                                        itk::SeparableKernel::CubicBSpline,
-                                                       100.0 - Radius,
-                                                       SurfaceRequest::Side::Above);
+                                                       { 100.0 - Radius, false });
       EXPECT_EQ(deviation.unresolved, 0u);
       EXPECT_TRUE(deviation.isComplete);
       EXPECT_NEAR(deviation.bias, offset, 0.012) << offset;
@@ -269,7 +269,7 @@ TEST(SurfaceDeviation, BelowTheIsovalueOutsideIsTheOtherWay)
 {
   const auto scan = MakeScan([](const PointType & p) { return -Cone(p); }, { { 52, 60, 44 } });
   const auto deviation = rhombic::ComputeDeviation(
-    *MakeSphere(Radius + 0.5), scan, itk::SeparableKernel::CubicBSpline, Radius - 100.0, SurfaceRequest::Side::Below);
+    *MakeSphere(Radius + 0.5), scan, itk::SeparableKernel::CubicBSpline, { Radius - 100.0, true });
   EXPECT_NEAR(deviation.bias, 0.5, 0.012);
 }
 
@@ -277,7 +277,7 @@ TEST(SurfaceDeviation, WhereThereIsNoSurfaceItIsUnresolved)
 {
   const auto scan = MakeScan(Cone, { { 52, 60, 44 } });
   const auto deviation = rhombic::ComputeDeviation(
-    *MakeSphere(8.0), scan, itk::SeparableKernel::CubicBSpline, 100.0 - Radius, SurfaceRequest::Side::Above);
+    *MakeSphere(8.0), scan, itk::SeparableKernel::CubicBSpline, { 100.0 - Radius, false });
   EXPECT_EQ(deviation.unresolved, deviation.samples);
   EXPECT_GT(deviation.samples, 1000u);
 }
@@ -288,7 +288,7 @@ TEST(SurfaceDeviation, WallsAreNotCounted)
   const auto scan = MakeScan(slope, { { 30, 30, 30 } });
   const auto half = ExtractFrom(scan, 0.25, Mode::Lean);
   const auto deviation = rhombic::ComputeDeviation(
-    *half.surface, scan, itk::SeparableKernel::CubicBSpline, 0.25, SurfaceRequest::Side::Above);
+    *half.surface, scan, itk::SeparableKernel::CubicBSpline, { 0.25, false });
   EXPECT_GT(deviation.samples, 500u);
   EXPECT_LT(deviation.maximum, 1e-4);
   EXPECT_EQ(deviation.unresolved, 0u);
@@ -302,7 +302,7 @@ TEST(SurfaceDeviation, IsTheSameForAnyNumberOfThreadsAndNearlyFromAPart)
   const auto ball = ExtractFrom(scan, 100.0 - Radius, Mode::Lean);
   const auto measure = [&](std::size_t most) {
     return rhombic::ComputeDeviation(
-      *ball.surface, scan, itk::SeparableKernel::CubicBSpline, 100.0 - Radius, SurfaceRequest::Side::Above, most);
+      *ball.surface, scan, itk::SeparableKernel::CubicBSpline, { 100.0 - Radius, false }, most);
   };
   const auto threads = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
   itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(1);

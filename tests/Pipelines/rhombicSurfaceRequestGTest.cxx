@@ -21,7 +21,7 @@ TEST(SurfaceRequest, ReadsNameThresholdColourAndOpacity)
   const auto request = rhombic::ParseSurfaceRequest("bone=250.5,#ff8000,0.5", 0);
   EXPECT_EQ(request.name, "bone");
   EXPECT_EQ(request.isovalue, 250.5);
-  EXPECT_EQ(request.side, SurfaceRequest::Side::Above);
+  EXPECT_FALSE(request.insideIsBelow);
   EXPECT_EQ(request.colour, (rhombic::Colour{ 1.0, 128.0 / 255.0, 0.0 }));
   EXPECT_EQ(request.opacity, 0.5);
 }
@@ -82,7 +82,7 @@ TEST(SurfaceRequest, HasDefaultsAndOtherThresholds)
   EXPECT_NE(skin.colour, rhombic::ParseSurfaceRequest("skin=-300.5", 0).colour) << "each place has its own colour";
   EXPECT_FALSE(rhombic::ParseSurfaceRequest("head=otsu,,0.5", 0).isovalue.has_value());
   const auto air = rhombic::ParseSurfaceRequest("air=<-500.5", 0);
-  EXPECT_EQ(air.side, SurfaceRequest::Side::Below);
+  EXPECT_TRUE(air.insideIsBelow);
   EXPECT_EQ(air.isovalue, -500.5);
 }
 

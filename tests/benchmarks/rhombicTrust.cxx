@@ -1,6 +1,7 @@
 #include "rhombicInProcessDecoder.h"
 #include "rhombicJSONFile.h"
-#include "rhombicLatticePipeline.h"
+#include "rhombicLatticeToSurfaces.h"
+#include "rhombicScanToLattice.h"
 #include "rhombicMachine.h"
 #include "rhombicRunBenchmark.h"
 #include "rhombicScanReader.h"
@@ -131,15 +132,17 @@ Judge(const FCCVolume & lattice, const Scan & scan, double isovalue, Mode mode, 
   finish.share = options.share / 100.0;
   finish.maximumError = options.spacings * spacing;
   start = std::chrono::steady_clock::now();
-  const Report report = RefineSurface(*simplified, finish, spacing, "surface", {});
+  const Refinement refinement = RefineSurface(*simplified, finish, spacing, "surface", {});
   result["simplification_seconds"] = SecondsSince(start);
   const auto after = AuditFile(*simplified, folder);
-  const auto & done = report["simplification"];
+  const SimplificationResult & done = refinement.simplification.value();
+  std::ostringstream end;
+  end << done.triangles.end;
   result["after"] = ToJSON(after);
-  result["ended_by"] = done["endedBy"];
+  result["ended_by"] = end.str();
   result["maximum_error"] = options.spacings * spacing;
-  result["mean_distance"] = done["meanDistanceInMillimetres"];
-  result["maximum_distance"] = done["maximumDistanceInMillimetres"];
+  result["mean_distance"] = done.meanDistance;
+  result["maximum_distance"] = done.maximumDistance;
   return result;
 }
 

@@ -1,5 +1,6 @@
 #include "rhombicInProcessDecoder.h"
-#include "rhombicLatticePipeline.h"
+#include "rhombicLatticeToSurfaces.h"
+#include "rhombicScanToLattice.h"
 #include "rhombicPictureIO.h"
 #include "rhombicScanReader.h"
 #include "rhombicSurfaceIO.h"
@@ -22,7 +23,8 @@ main(int, char ** argv)
   rhombic::SurfaceRequest bone;
   bone.name = "bone";
   bone.isovalue = 375.5;
-  const auto surfaces = rhombic::LatticeToSurfaces(lattice, { bone }, itk::FCCIsosurfaceMode::Lean, {});
+  const auto extracted = rhombic::LatticeToSurfaces(lattice, { bone }, itk::FCCIsosurfaceMode::Lean, {});
+  const std::vector<rhombic::SceneSurface> surfaces(extracted.begin(), extracted.end());
   const std::filesystem::path folder = argv[2];
   rhombic::WriteSurfaces(surfaces, folder / "bone.stl");
   rhombic::SurfaceRenderer renderer;

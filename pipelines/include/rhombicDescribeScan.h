@@ -1,0 +1,62 @@
+#ifndef rhombicDescribeScan_h
+#define rhombicDescribeScan_h
+
+#include "rhombicScanSource.h"
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace rhombic
+{
+
+/** \class SuggestedThreshold
+ * \brief An isovalue worth trying. */
+struct SuggestedThreshold
+{
+  std::string surface; ///< what it shows, as "bone"
+  double isovalue;
+};
+
+/** \class ScanDescription
+ * \brief What is in a file or folder. */
+struct ScanDescription
+{
+  /** The volume that was read; none where a folder has several series of which none was chosen or could be read. */
+  std::variant<std::monostate, Scan, FCCVolume> volume;
+
+  Intensities intensities;                         ///< of the volume
+  std::vector<SuggestedThreshold> thresholds;      ///< none for label maps
+  std::optional<std::vector<LabelSummary>> labels; ///< of the volume, or of the label map named for it
+  std::vector<SeriesSummary> series;               ///< all in the folder, with their spacings; DICOM only
+  std::string choice;                              ///< why the series that was read was chosen
+  std::size_t filesConsidered = 0;                 ///< see Scan, as for the next one
+  std::map<std::string, std::size_t> filesSkipped;
+  std::vector<std::string> notes; ///< of scan, label map and single files
+
+  bool
+  HasVolume() const
+  {
+    return !std::holds_alternative<std::monostate>(volume);
+  }
+
+  /** Whether there are series, and each has a problem. */
+  bool
+  IsUnreadable() const;
+};
+
+/** Reads a scan, and lists the series beside it. Of several series, none of which is named, it describes the one that
+ * ReadScan() would choose, or their list alone. Files of several volumes are described by their first.
+ *
+ * \param labels the scan's label map, or an empty path for none; its table is used if the scan itself is a label map
+ *
+ * Throws Failure. */
+ScanDescription
+DescribeScan(const ScanSource & source, const LabelMapSource & labels);
+
+} // namespace rhombic
+
+#endif

@@ -1,0 +1,41 @@
+#ifndef rhombicMeshScan_h
+#define rhombicMeshScan_h
+
+#include "rhombicEvents.h"
+#include "rhombicScanSource.h"
+#include "rhombicSidecar.h"
+#include "rhombicSurfaceFinish.h"
+#include "rhombicSurfaceIO.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace rhombic
+{
+
+/** \class MeshScanSettings
+ * \brief From a scan to surface files. */
+struct MeshScanSettings
+{
+  ScanSource source;
+  SurfaceSelection surfaces;
+  SurfaceFinish finish;
+  std::filesystem::path mesh; ///< one file for all surfaces, or one for each if the name holds {name}
+  SurfaceFileSpace space = SurfaceFileSpace::LPS;
+  std::filesystem::path measures; ///< table of measures: .csv, or .json with more; empty: none
+  bool audits = false;            ///< also tests for self-intersections, and measures the deviation everywhere
+  bool requiresWatertight = false;
+  Provenance provenance;
+};
+
+/** Writes surfaces of a scan; returns the files' paths. All measures, the distance from the scan's isosurface and the
+ * audit are those of the written file, read back. Notes tell the main figures; sidecars and the table hold all of them,
+ * and what finishing changed. All files appear together at the end, or none does.
+ *
+ * Throws Failure, also for a surface that has to be watertight and is not. */
+std::vector<std::filesystem::path>
+MeshScan(const MeshScanSettings & settings, const Events & events);
+
+} // namespace rhombic
+
+#endif

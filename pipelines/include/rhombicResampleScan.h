@@ -1,0 +1,29 @@
+#ifndef rhombicResampleScan_h
+#define rhombicResampleScan_h
+
+#include "rhombicEvents.h"
+#include "rhombicScanSource.h"
+#include "rhombicSidecar.h"
+
+#include <filesystem>
+
+namespace rhombic
+{
+
+/** \class ResampleScanSettings
+ * \brief From a scan to a lattice volume, or from a lattice volume to a Cartesian one. */
+struct ResampleScanSettings
+{
+  ScanSource source;
+  std::filesystem::path volume; ///< .nrrd for a lattice volume; .nrrd, .nii, .nii.gz, .mha for a Cartesian one
+  Provenance provenance;
+};
+
+/** Resamples a scan onto the lattice, or, when the source is a lattice volume, onto a Cartesian grid of the source's
+ * lattice spacing. Throws Failure. */
+void
+ResampleScan(const ResampleScanSettings & settings, const Events & events);
+
+} // namespace rhombic
+
+#endif

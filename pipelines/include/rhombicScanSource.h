@@ -1,0 +1,49 @@
+#ifndef rhombicScanSource_h
+#define rhombicScanSource_h
+
+#include "rhombicLabelMapReader.h"
+#include "rhombicScanReader.h"
+#include "rhombicScanToLattice.h"
+#include "rhombicSurfaceRequest.h"
+#include "rhombicTableRemoval.h"
+
+#include "itkFCCIsosurfaceMode.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rhombic
+{
+
+/** \class ScanSource
+ * \brief The file or folder of a scan, and how the scan gets onto the lattice. Copies share the decoder. */
+struct ScanSource
+{
+  std::filesystem::path path; ///< anything that ReadScan() reads, or a lattice volume that WriteFCCImage() wrote
+  ScanReadOptions read;
+  LatticeSettings lattice; ///< of lattice volumes, only the denoising has an effect
+};
+
+/** \class LabelSelection
+ * \brief The labels that become surfaces. */
+struct LabelSelection
+{
+  LabelMapSource source;           ///< with an empty path the scan itself is the label map
+  std::vector<std::string> labels; ///< names or values; empty: all that the label table does not hide
+};
+
+/** \class SurfaceSelection
+ * \brief The surfaces that are made of a scan: isosurfaces, labels, or both. */
+struct SurfaceSelection
+{
+  std::vector<SurfaceRequest> requests;
+  std::optional<LabelSelection> labels;      ///< from a label map that lies where the scan does
+  TableRule table = TableRule::RemoveFromCT; ///< for isosurfaces; without effect on lattice volumes
+  itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
+};
+
+} // namespace rhombic
+
+#endif

@@ -1,0 +1,61 @@
+#ifndef rhombicScanToLattice_h
+#define rhombicScanToLattice_h
+
+#include "rhombicDenoising.h"
+#include "rhombicEvents.h"
+#include "rhombicFCCImageFile.h"
+#include "rhombicScan.h"
+
+#include "itkFCCLattice.h"
+#include "itkSeparableTaps.h"
+
+#include <array>
+#include <cstdint>
+
+namespace rhombic
+{
+
+/** \class LatticeSettings
+ * \brief The lattice that a scan is resampled onto. A volume that is on a lattice already is only denoised. */
+struct LatticeSettings
+{
+  double density = itk::FCCLattice::NyquistDensity; ///< lattice sites per sample of the scan
+  std::array<double, 3> spacing{ 0.0, 0.0, 0.0 };   ///< of the lattice in mm (see itk::FCCImage); 0: from the density
+  itk::SeparableKernel kernel = itk::SeparableKernel::CubicBSpline;
+  std::uintmax_t maximumMemory = 0; ///< bytes for scan and lattice; 0: the lattice takes half of the free memory
+  Denoising denoising;              ///< none by default
+  bool nested = false; ///< takes every other sample of the scan instead, without interpolation; density 0.5
+};
+
+/** The spacing in mm of an isotropic grid or lattice with as many samples per volume. */
+double
+MeanSpacingOf(const itk::ImageBase<3> & image);
+
+/** Whether the scan's slices are tilted, sheared or unevenly spaced. */
+bool
+IsSlanted(const Scan & scan);
+
+/** Throws Failure(Usage) for settings out of their ranges. */
+void
+CheckLatticeSettings(const LatticeSettings & settings);
+
+/** Resamples a scan onto the lattice, in its own pixel type (itk::CartesianToFCCImageFilter, or
+ * itk::CartesianToNestedFCCImageFilter). Sites beside tilted, sheared or uneven slices get the scan's lowest value.
+ * Edge-preserving denoising is applied to the scan before, Gaussian denoising to the lattice after. Notes tell the
+ * lattice's size.
+ *
+ * Throws Failure: Usage for settings out of range, for a nested lattice or edge-preserving denoising of a slanted scan,
+ * and for a lattice of too many or no sites; Memory, before any work, with a density that would fit; and those of
+ * DenoiseScan(). */
+FCCVolume
+ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events & events);
+
+/** Resamples a lattice volume onto a Cartesian grid (itk::FCCToCartesianImageFilter). Throws Failure(Usage) for a
+ * spacing that makes no grid.
+ * \param spacing of the grid in mm; 0: that of a grid on which the lattice has density 0.77 */
+ScanImage
+LatticeToScan(const FCCVolume & volume, const std::array<double, 3> & spacing, const Events & events);
+
+} // namespace rhombic
+
+#endif

@@ -1,0 +1,201 @@
+#include "rhombicFileInspection.h"
+
+#include "rhombicAuditReport.h"
+#include "rhombicFailure.h"
+#include "rhombicWording.h"
+
+#include <cmath>
+
+namespace rhombic
+{
+namespace
+{
+
+constexpr double NotablePercent = 1.0; // smaller differences of volumes are not mentioned
+
+/** The voxels that the surface should enclose, in mm^3, counted without it; unknown where parts were left out. */
+std::optional<double>
+CountVoxels(const MeshedSurface & surface, const std::optional<Scan> & scan)
+{
+  if (!surface.parts.IsNothing())
+  {
+    return std::nullopt;
+  }
+  if (surface.label)
+  {
+    return surface.label->voxelMillilitres * CubicMillimetresPerMl;
+  }
+  if (scan && surface.request->parts == SurfaceRequest::Parts::All)
+  {
+    return CountVoxelVolume(*scan, surface.request->GetThreshold());
+  }
+  return std::nullopt;
+}
+
+/** Volume, area and mean value, in one line. */
+std::string
+Summarize(const std::string & name, const SurfaceMeasures & measures)
+{
+  const auto toMillilitres = [](double volume) { return FormatFixed(volume / CubicMillimetresPerMl, 1); };
+  std::string text = name + ": " + toMillilitres(measures.volume) + " ml";
+  if (measures.isosurface)
+  {
+    const double error = *measures.GetVolumeError();
+    text += ", " + FormatFixed(std::abs(error), 1) + (error < 0.0 ? " % less" : " % more") +
+            " than the scan's isosurface encloses (" + toMillilitres(measures.isosurface->volume) + " +- " +
+            toMillilitres(measures.isosurface->uncertainty) + " ml)";
+  }
+  if (measures.voxelVolume)
+  {
+    text += ", voxels " + toMillilitres(*measures.voxelVolume) + " ml";
+  }
+  text += ", " + FormatFixed(measures.area / 100.0, 1) + " cm2, longest diameter " +
+          FormatFixed(measures.longestDiameter, 1) + " mm";
+  return measures.meanValue ? text + ", mean value " + FormatFixed(*measures.meanValue, 1) : text;
+}
+
+/** The steps of finishing that may have changed the volume of parts. */
+std::string
+NameSteps(const SurfaceFinish & finish)
+{
+  if (finish.smoothing > 0.0)
+  {
+    return finish.Simplifies() ? "smoothing and simplification" : "smoothing";
+  }
+  return finish.Simplifies() ? "simplification" : "untangling";
+}
+
+} // namespace
+
+void
+FileInspection::Inspect(const itk::TriangleSurface & read, MeshedSurface & surface) const
+{
+  this->Measure(read, surface);
+  this->NoteFinish(surface);
+  this->NoteThinParts(surface);
+  if (m_Scan && surface.request)
+  {
+    this->MeasureDeviation(read, surface);
+  }
+  if (m_Settings.audits || m_Settings.requiresWatertight)
+  {
+    this->Audit(read, surface);
+  }
+}
+
+void
+FileInspection::Measure(const itk::TriangleSurface & read, MeshedSurface & surface) const
+{
+  m_Events.Progress("measuring " + surface.scene.name, 0.0);
+  surface.points = read.GetNumberOfPoints();
+  surface.triangles = read.GetNumberOfTriangles();
+  surface.measures = m_Scan ? MeasureSurface(read, *m_Scan) : MeasureSurface(read);
+  surface.measures.voxelVolume = CountVoxels(surface, m_Scan);
+  surface.measures.isosurface = surface.parts.IsNothing() ? surface.isosurface : std::nullopt;
+  m_Events.Note(Summarize(surface.scene.name, surface.measures));
+}
+
+/** Says how finishing changed the volume of the kept parts. */
+void
+FileInspection::NoteFinish(const MeshedSurface & surface) const
+{
+  const double before = surface.GetVolumeOfKeptParts();
+  const double after = surface.measures.volume;
+  const double change = PercentChange(before, after);
+  if (std::abs(change) > NotablePercent)
+  {
+    m_Events.Note(surface.scene.name + ": " + NameSteps(m_Settings.finish) + " changed the volume by " +
+                  (change > 0.0 ? "+" : "") + FormatFixed(change, 1) + " %, from " +
+                  FormatFixed(before / CubicMillimetresPerMl, 1) + " to " +
+                  FormatMillilitres(after / CubicMillimetresPerMl));
+  }
+}
+
+/** Says by how much the volume was off when the surface was extracted, beyond the uncertainty. */
+void
+FileInspection::NoteThinParts(const MeshedSurface & surface) const
+{
+  if (surface.isosurface)
+  {
+    const double error = 100.0 * surface.isosurface->GetErrorOf(surface.extracted.volume);
+    if (std::abs(error) > NotablePercent + 100.0 * surface.isosurface->GetRelativeUncertainty())
+    {
+      m_Events.Note(surface.scene.name + ": parts are thinner than the lattice's spacing, so the surface encloses " +
+                    FormatFixed(std::abs(error), 1) + (error < 0.0 ? " % less" : " % more") + " than the isosurface" +
+                    this->AdviseDensity());
+    }
+  }
+  else if (surface.request && surface.measures.voxelVolume)
+  {
+    const double difference = PercentChange(*surface.measures.voxelVolume, surface.measures.volume);
+    if (std::abs(difference) > NotablePercent)
+    {
+      m_Events.Note(surface.scene.name + ": the volume is " + FormatFixed(std::abs(difference), 1) + " % " +
+                    (difference < 0.0 ? "below" : "above") +
+                    " that of the scan's voxels on this side of the threshold");
+    }
+  }
+}
+
+/** Advice to use a denser lattice; empty where no option makes it denser, or it would be very large. */
+std::string
+FileInspection::AdviseDensity() const
+{
+  constexpr double mostDense = 8.0;
+  const LatticeSettings & lattice = m_Settings.source.lattice;
+  const bool isSpacingGiven = lattice.spacing != LatticeSettings().spacing;
+  if (!m_Scan || lattice.nested || isSpacingGiven || lattice.density > mostDense)
+  {
+    return "";
+  }
+  return "; try --density " + std::to_string(std::lround(std::ceil(2.0 * lattice.density)));
+}
+
+void
+FileInspection::MeasureDeviation(const itk::TriangleSurface & read, MeshedSurface & surface) const
+{
+  constexpr std::size_t quick = 250'000;
+  constexpr std::size_t thorough = 10'000'000;
+  const std::string & name = surface.scene.name;
+  m_Events.Progress("measuring how far " + name + " is from the scan", 0.0);
+  const SurfaceDeviation deviation = ComputeDeviation(read,
+                                                      *m_Scan,
+                                                      m_Settings.source.lattice.kernel,
+                                                      surface.request->GetThreshold(),
+                                                      m_Settings.audits ? thorough : quick);
+  std::string note = name + ": from the scan's isosurface ";
+  note += deviation.IsKnown() ? FormatNumber(deviation.mean, 2) + " mm on average, 95 % within " +
+                                  FormatNumber(deviation.percentile95, 2) + " mm, all within " +
+                                  FormatNumber(deviation.maximum, 2) + " mm"
+                              : "at an unknown distance: it has no isosurface near this surface";
+  if (deviation.unresolved > 0)
+  {
+    note += "; around " + std::to_string(deviation.unresolved) + " of " + std::to_string(deviation.samples) +
+            " measured points there is no isosurface within two voxels: small or thin parts may be wrong there" +
+            this->AdviseDensity();
+  }
+  m_Events.Note(note);
+  surface.deviation = deviation;
+}
+
+void
+FileInspection::Audit(const itk::TriangleSurface & read, MeshedSurface & surface) const
+{
+  const std::string & name = surface.scene.name;
+  m_Events.Progress("auditing " + name, 0.0);
+  itk::TriangleSurfaceAuditSettings settings;
+  settings.testsIntersections = m_Settings.audits;
+  surface.audit = AuditSurface(read, settings);
+  for (const std::string & line : DescribeAudit(*surface.audit))
+  {
+    m_Events.Note(name + ": " + line);
+  }
+  if (m_Settings.requiresWatertight && !surface.audit->IsWatertight())
+  {
+    throw Failure(FailureKind::NotWatertight,
+                  "The surface " + name + " is not watertight (" + DescribeLeaks(*surface.audit) +
+                    "), so nothing was written; leave out --require-watertight to have it all the same.");
+  }
+}
+
+} // namespace rhombic

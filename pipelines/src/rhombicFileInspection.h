@@ -1,0 +1,51 @@
+#ifndef rhombicFileInspection_h
+#define rhombicFileInspection_h
+
+#include "rhombicMeshScan.h"
+#include "rhombicMeshedSurface.h"
+
+#include <optional>
+
+namespace rhombic
+{
+
+/** \class FileInspection
+ * \brief Measures surfaces as their file holds them, and compares them with the scan. Notes tell the main figures. */
+class FileInspection
+{
+public:
+  /** All three must outlive the inspection. */
+  FileInspection(const MeshScanSettings & settings, const std::optional<Scan> & scan, const Events & events)
+    : m_Settings(settings)
+    , m_Scan(scan)
+    , m_Events(events)
+  {}
+
+  /** Sets the surface's measures, deviation and audit. Throws Failure(NotWatertight) for a surface that has to be
+   * watertight and is not.
+   * \param read the surface, read back from the file */
+  void
+  Inspect(const itk::TriangleSurface & read, MeshedSurface & surface) const;
+
+private:
+  void
+  Measure(const itk::TriangleSurface & read, MeshedSurface & surface) const;
+  void
+  NoteFinish(const MeshedSurface & surface) const;
+  void
+  NoteThinParts(const MeshedSurface & surface) const;
+  void
+  MeasureDeviation(const itk::TriangleSurface & read, MeshedSurface & surface) const;
+  void
+  Audit(const itk::TriangleSurface & read, MeshedSurface & surface) const;
+  std::string
+  AdviseDensity() const;
+
+  const MeshScanSettings & m_Settings;
+  const std::optional<Scan> & m_Scan;
+  const Events & m_Events;
+};
+
+} // namespace rhombic
+
+#endif

@@ -1,0 +1,194 @@
+#include "rhombicLatticeToSurfaces.h"
+
+#include "rhombicFailure.h"
+#include "rhombicObserveProgress.h"
+#include "rhombicScanBorder.h"
+#include "rhombicWording.h"
+
+#include "itkFCCIsosurfaceFilter.h"
+
+#include <algorithm>
+
+namespace rhombic
+{
+namespace
+{
+
+/** Throws Failure(Empty) for a surface without triangles. */
+void
+RequireTriangles(const ExtractedSurface & surface, double isovalue)
+{
+  if (surface.surface->GetNumberOfTriangles() == 0)
+  {
+    throw Failure(FailureKind::Empty,
+                  "Nothing can be extracted for " + surface.name + " at " + FormatNumber(isovalue) +
+                    (surface.enclosed ? " that lies in the body (" + FormatMillilitres(surface.enclosed->aroundBody) +
+                                          " around it are left out)"
+                                      : "") +
+                    "; try another threshold (rhombic info suggests some).");
+  }
+}
+
+void
+NoteParts(const std::string & name, const EnclosedParts & parts, const Events & events)
+{
+  std::vector<std::string> leftOut;
+  if (parts.aroundBody > 0.0)
+  {
+    leftOut.push_back(FormatMillilitres(parts.aroundBody) + " around the body");
+  }
+  if (parts.numberOfSmall > 0)
+  {
+    leftOut.push_back(Count(parts.numberOfSmall, "small part") + " of " + FormatMillilitres(parts.small));
+  }
+  if (!leftOut.empty())
+  {
+    events.Note(name + ": left out " + Enumerate(leftOut, "and"));
+  }
+  if (parts.numberCutBySides > 0)
+  {
+    events.Note(name + ": the sides of the scan cut " + Count(parts.numberCutBySides, "part") +
+                "; the volume is that within the scan");
+  }
+}
+
+/** Isosurfaces of a volume. */
+struct Isosurfaces
+{
+  std::vector<itk::TriangleSurface::Pointer> surfaces;
+  itk::SizeValueType undefinedSamples = 0; ///< samples of the volume that are not a number
+};
+
+/** \class IsosurfaceExtraction
+ * \brief Extracts isosurfaces of volumes that lie on the same lattice. */
+class IsosurfaceExtraction
+{
+public:
+  IsosurfaceExtraction(itk::FCCIsosurfaceMode mode, const Events & events, const itk::ImageBase<3> * grid)
+    : m_Mode(mode)
+    , m_Events(events)
+    , m_Grid(grid)
+  {}
+
+  /** One surface for each request, in their order. */
+  Isosurfaces
+  Extract(const FCCVolume & volume, const std::vector<SurfaceRequest> & requests) const
+  {
+    Isosurfaces extracted;
+    extracted.surfaces.resize(requests.size());
+    for (const bool insideIsBelow : { false, true })
+    {
+      std::visit([&](const auto & image) { this->ExtractSide(*image, requests, insideIsBelow, extracted); }, volume);
+    }
+    for (const auto & surface : extracted.surfaces)
+    {
+      if (m_Grid != nullptr)
+      {
+        MoveWallsToBorder(*surface, *m_Grid, volume);
+      }
+    }
+    return extracted;
+  }
+
+  /** Leaves out of a request's surface what is around the body. */
+  EnclosedParts
+  LeaveOutSurroundings(const FCCVolume & volume,
+                       const SurfaceRequest & request,
+                       itk::TriangleSurface::Pointer & surface) const
+  {
+    m_Events.Progress("telling " + request.name + " from what is around the body", 0.0);
+    return KeepEnclosedParts(surface,
+                             volume,
+                             request.GetThreshold(),
+                             [&](const FCCVolume & cut) { return this->Extract(cut, { request }).surfaces.front(); });
+  }
+
+private:
+  /** Extracts the surfaces of those requests that are on one side of their isovalues. */
+  template <typename TImage>
+  void
+  ExtractSide(const TImage & image,
+              const std::vector<SurfaceRequest> & requests,
+              bool insideIsBelow,
+              Isosurfaces & extracted) const
+  {
+    std::vector<std::size_t> chosen;
+    std::vector<double> isovalues;
+    std::string names;
+    for (std::size_t n = 0; n < requests.size(); ++n)
+    {
+      if (requests[n].insideIsBelow == insideIsBelow)
+      {
+        chosen.push_back(n);
+        isovalues.push_back(requests[n].isovalue.value());
+        names += (names.empty() ? "" : ", ") + requests[n].name;
+      }
+    }
+    if (chosen.empty())
+    {
+      return;
+    }
+    const auto filter = itk::FCCIsosurfaceFilter<TImage>::New();
+    ObserveProgress(*filter, "extracting " + names, m_Events);
+    filter->SetInput(&image);
+    filter->SetIsovalues(isovalues);
+    filter->SetMode(m_Mode);
+    filter->SetInsideIsBelow(insideIsBelow);
+    filter->Update();
+    for (std::size_t n = 0; n < chosen.size(); ++n)
+    {
+      extracted.surfaces[chosen[n]] = filter->GetOutput(n);
+      extracted.surfaces[chosen[n]]->DisconnectPipeline();
+    }
+    extracted.undefinedSamples = std::max(extracted.undefinedSamples, filter->GetNumberOfUndefinedSamples());
+  }
+
+  itk::FCCIsosurfaceMode m_Mode;
+  const Events & m_Events;
+  const itk::ImageBase<3> * m_Grid;
+};
+
+} // namespace
+
+std::vector<ExtractedSurface>
+LatticeToSurfaces(const FCCVolume & volume,
+                  const std::vector<SurfaceRequest> & requests,
+                  itk::FCCIsosurfaceMode mode,
+                  const Events & events,
+                  const itk::ImageBase<3> * grid)
+{
+  for (const SurfaceRequest & request : requests)
+  {
+    if (!request.isovalue)
+    {
+      throw Failure(FailureKind::Usage,
+                    "The isovalue of " + request.name + " is not known; give a number, or call ResolveIsovalues().");
+    }
+  }
+  const IsosurfaceExtraction extraction(mode, events, grid);
+  Isosurfaces extracted = extraction.Extract(volume, requests);
+  if (extracted.undefinedSamples > 0)
+  {
+    events.Note(
+      Count(extracted.undefinedSamples, "sample is not a number and counts", "samples are not a number and count") +
+      " as outside");
+  }
+  std::vector<ExtractedSurface> surfaces;
+  for (std::size_t n = 0; n < requests.size(); ++n)
+  {
+    const SurfaceRequest & request = requests[n];
+    itk::TriangleSurface::Pointer & surface = extracted.surfaces[n];
+    std::optional<EnclosedParts> enclosed;
+    if (request.parts == SurfaceRequest::Parts::Enclosed)
+    {
+      enclosed = extraction.LeaveOutSurroundings(volume, request, surface);
+      NoteParts(request.name, *enclosed, events);
+    }
+    surfaces.push_back({ { request.name, surface.GetPointer(), request.colour, request.opacity }, enclosed });
+    RequireTriangles(surfaces.back(), *request.isovalue);
+    events.Note(request.name + ": " + Count(surface->GetNumberOfTriangles(), "triangle"));
+  }
+  return surfaces;
+}
+
+} // namespace rhombic

@@ -1,0 +1,307 @@
+#include "rhombicMeshScan.h"
+
+#include "rhombicFailure.h"
+#include "rhombicFileInspection.h"
+#include "rhombicMeasureTable.h"
+#include "rhombicSourceLoading.h"
+#include "rhombicSurfaceReport.h"
+
+#include "itkTriangleSurfaceMeasures.h"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+
+namespace fs = std::filesystem;
+
+namespace rhombic
+{
+namespace
+{
+
+constexpr char NamePlaceholder[] = "{name}";
+
+bool
+HasFileForEach(const fs::path & mesh)
+{
+  return mesh.filename().string().find(NamePlaceholder) != std::string::npos;
+}
+
+/** The file's name with the placeholder replaced. */
+std::string
+InsertName(std::string file, const std::string & name)
+{
+  std::size_t begin = 0;
+  while ((begin = file.find(NamePlaceholder, begin)) != std::string::npos)
+  {
+    file.replace(begin, sizeof(NamePlaceholder) - 1, name);
+    begin += name.size();
+  }
+  return file;
+}
+
+/** The files' paths, one for each surface or one for all; no two are the same. */
+std::vector<fs::path>
+PathsOf(const fs::path & mesh, const std::vector<MeshedSurface> & surfaces)
+{
+  if (!HasFileForEach(mesh))
+  {
+    return { mesh };
+  }
+  std::set<std::string> taken;
+  std::vector<fs::path> paths;
+  for (const MeshedSurface & surface : surfaces)
+  {
+    const std::string name = FileStemOf(surface.scene.name);
+    std::string unique = name;
+    for (int number = 2; !taken.insert(unique).second; ++number)
+    {
+      unique = name + '-' + std::to_string(number);
+    }
+    paths.push_back(mesh.parent_path() / InsertName(mesh.filename().string(), unique));
+  }
+  return paths;
+}
+
+/** Throws Failure where files can't be written, or would take the place of each other or of an input. */
+void
+CheckFiles(const std::vector<fs::path> & meshes, const MeshScanSettings & settings)
+{
+  std::vector<fs::path> outputs;
+  for (const fs::path & mesh : meshes)
+  {
+    const std::vector<fs::path> files = SurfaceFilesOf(mesh);
+    outputs.insert(outputs.end(), files.begin(), files.end());
+    if (settings.provenance.writesSidecars)
+    {
+      outputs.push_back(SidecarOf(mesh));
+    }
+  }
+  if (!settings.measures.empty())
+  {
+    outputs.push_back(settings.measures);
+  }
+  CheckOutputs(outputs, settings.source, settings.surfaces);
+}
+
+/** Checks what can be checked before the scan is read. */
+void
+CheckSettings(const MeshScanSettings & settings)
+{
+  const bool isForEach = HasFileForEach(settings.mesh);
+  const std::size_t fewest = settings.surfaces.requests.size() + (settings.surfaces.labels ? 1 : 0);
+  CheckSurfacePath(settings.mesh, isForEach ? 1 : fewest);
+  CheckSurfaceFinish(settings.finish);
+  if (!settings.measures.empty())
+  {
+    CheckMeasureTablePath(settings.measures);
+  }
+  CheckFiles(isForEach ? std::vector<fs::path>{} : std::vector<fs::path>{ settings.mesh }, settings);
+}
+
+/** The surface's size before it is finished. */
+ExtractedSize
+SizeOf(const itk::TriangleSurface & surface)
+{
+  return { ComputeVolume(surface), ComputeArea(surface), surface.GetNumberOfTriangles() };
+}
+
+/** The volume inside the scan's isosurface, estimated from the lattice. Nothing for some of its parts only, for a
+ * lattice of another field or of few samples, and for an uncertainty of half the volume or more. */
+std::optional<IsosurfaceVolume>
+EstimateIsosurface(const LoadedSource & loaded,
+                   const SurfaceRequest & request,
+                   double area,
+                   const LatticeSettings & settings)
+{
+  constexpr double fewestSites = 0.7; // per sample of the scan
+  const bool isFieldOfScan = loaded.scan && !settings.nested && settings.denoising.kind == Denoising::Kind::None;
+  if (!isFieldOfScan || request.parts != SurfaceRequest::Parts::All)
+  {
+    return std::nullopt;
+  }
+  const auto countOf = [](const itk::ImageBase<3> & image) {
+    return static_cast<double>(image.GetLargestPossibleRegion().GetNumberOfPixels());
+  };
+  const double sites = std::visit([&](const auto & image) { return countOf(*image); }, loaded.lattice);
+  if (sites < fewestSites * countOf(GeometryOf(loaded.scan->image)))
+  {
+    return std::nullopt;
+  }
+  const auto estimate = EstimateIsosurfaceVolume(
+    loaded.lattice, request.GetThreshold(), area, loaded.grid.GetPointer());
+  return estimate.uncertainty < 0.5 * estimate.volume ? std::optional(estimate) : std::nullopt;
+}
+
+void
+AddIsosurfaces(const LoadedSource & loaded,
+               const MeshScanSettings & settings,
+               const Events & events,
+               std::vector<MeshedSurface> & surfaces)
+{
+  const auto extracted =
+    LatticeToSurfaces(loaded.lattice, loaded.requests, settings.surfaces.mode, events, loaded.grid);
+  for (std::size_t n = 0; n < extracted.size(); ++n)
+  {
+    MeshedSurface & surface = surfaces.emplace_back();
+    surface.scene = extracted[n];
+    surface.request = loaded.requests[n];
+    surface.enclosed = extracted[n].enclosed;
+    surface.extracted = SizeOf(*surface.scene.surface);
+    surface.isosurface =
+      EstimateIsosurface(loaded, *surface.request, surface.extracted.area, settings.source.lattice);
+  }
+}
+
+void
+AddLabels(const LoadedSource & loaded,
+          const MeshScanSettings & settings,
+          const Events & events,
+          std::vector<MeshedSurface> & surfaces)
+{
+  if (settings.source.lattice.denoising.kind != Denoising::Kind::None)
+  {
+    events.Note("labels have no noise: --denoise is not for them");
+  }
+  const LabelSurfaceSettings labelSettings = GetLabelSettings(settings.source, settings.surfaces);
+  for (LabelSurface & label : LabelsToSurfaces(*loaded.labels, labelSettings, events))
+  {
+    MeshedSurface & surface = surfaces.emplace_back();
+    surface.scene = std::exchange(label.scene, {});
+    surface.label = std::move(label);
+    surface.extracted = SizeOf(*surface.scene.surface);
+  }
+}
+
+/** The spacing that surfaces were sampled with, in mm. */
+double
+SpacingOf(const LoadedSource & loaded)
+{
+  if (!loaded.requests.empty())
+  {
+    return std::visit([](const auto & image) { return MeanSpacingOf(*image); }, loaded.lattice);
+  }
+  return MeanSpacingOf(GeometryOf(loaded.labels->scan.image));
+}
+
+/** Removes parts of a surface, smooths and simplifies it. Returns whether anything is left. */
+bool
+Finish(MeshedSurface & surface, const SurfaceFinish & finish, double spacing, const Events & events)
+{
+  const auto finished = itk::TriangleSurface::New();
+  finished->Graft(surface.scene.surface);
+  surface.scene.surface = finished;
+  surface.parts = RemoveParts(*finished, finish, surface.scene.name, events);
+  if (finished->GetNumberOfTriangles() == 0)
+  {
+    events.Note(surface.scene.name + ": left out, as all its parts are below --min-volume");
+    return false;
+  }
+  surface.refinement = RefineSurface(*finished, finish, spacing, surface.scene.name, events);
+  return true;
+}
+
+/** Finishes surfaces, and drops those of which nothing is left. */
+void
+FinishAll(std::vector<MeshedSurface> & surfaces, const SurfaceFinish & finish, double spacing, const Events & events)
+{
+  std::vector<MeshedSurface> finished;
+  for (MeshedSurface & surface : surfaces)
+  {
+    if (Finish(surface, finish, spacing, events))
+    {
+      finished.push_back(std::move(surface));
+    }
+  }
+  surfaces.swap(finished);
+  if (surfaces.empty())
+  {
+    throw Failure(FailureKind::Empty, "Nothing is left: all parts are below --min-volume; lower it.");
+  }
+}
+
+/** \class FileStaging
+ * \brief Writes surfaces as files, with their sidecars. */
+class FileStaging
+{
+public:
+  FileStaging(const MeshScanSettings & settings, const FileInspection & inspection, const Report & sourceReport)
+    : m_Settings(settings)
+    , m_Inspection(inspection)
+    , m_SourceReport(sourceReport)
+  {}
+
+  /** Writes \a count surfaces from \a begin on as one file, to appear with all others of \a staged. */
+  void
+  Stage(const fs::path & path, MeshedSurface * begin, std::size_t count, StagedFiles & staged) const
+  {
+    std::vector<SceneSurface> scene;
+    std::transform(begin, begin + count, std::back_inserter(scene), [](const auto & surface) { return surface.scene; });
+    SurfaceFileSettings file;
+    file.space = m_Settings.space;
+    file.inspect = [&](const std::vector<SceneSurface> & read) {
+      for (std::size_t n = 0; n < count; ++n)
+      {
+        m_Inspection.Inspect(*read[n].surface, begin[n]);
+      }
+    };
+    StageSurfaces(scene, path, staged, file);
+    Report report = m_SourceReport;
+    report["surfaces"] = Report::array();
+    for (std::size_t n = 0; n < count; ++n)
+    {
+      report["surfaces"].push_back(ReportMeshedSurface(begin[n], m_Settings.surfaces.mode));
+    }
+    StageSidecar(path, m_Settings.provenance, report, staged);
+  }
+
+private:
+  const MeshScanSettings & m_Settings;
+  const FileInspection & m_Inspection;
+  const Report & m_SourceReport;
+};
+
+} // namespace
+
+std::vector<fs::path>
+MeshScan(const MeshScanSettings & settings, const Events & events)
+{
+  CheckSettings(settings);
+  LoadedSource loaded = LoadSource(settings.source, settings.surfaces, events);
+  const Report sourceReport = ReportSource(loaded, settings.source);
+  std::vector<MeshedSurface> surfaces;
+  if (!loaded.requests.empty())
+  {
+    AddIsosurfaces(loaded, settings, events, surfaces);
+  }
+  if (loaded.labels)
+  {
+    AddLabels(loaded, settings, events, surfaces);
+  }
+  const double spacing = SpacingOf(loaded);
+  loaded.lattice = FCCVolume();
+  loaded.labels.reset();
+  CheckFiles(PathsOf(settings.mesh, surfaces), settings);
+  FinishAll(surfaces, settings.finish, spacing, events);
+
+  const FileInspection inspection(settings, loaded.scan, events);
+  const FileStaging staging(settings, inspection, sourceReport);
+  const std::vector<fs::path> paths = PathsOf(settings.mesh, surfaces);
+  const std::size_t perFile = HasFileForEach(settings.mesh) ? 1 : surfaces.size();
+  CheckSurfacePath(paths.front(), perFile);
+  StagedFiles staged;
+  for (std::size_t n = 0; n < paths.size(); ++n)
+  {
+    events.Progress("writing", static_cast<double>(n) / static_cast<double>(paths.size()));
+    staging.Stage(paths[n], surfaces.data() + n * perFile, perFile, staged);
+  }
+  if (!settings.measures.empty())
+  {
+    StageMeasureTable(surfaces, settings.surfaces.mode, settings.measures, staged);
+  }
+  staged.Commit();
+  events.Progress("writing", 1.0);
+  return paths;
+}
+
+} // namespace rhombic

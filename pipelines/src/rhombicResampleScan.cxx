@@ -1,0 +1,77 @@
+#include "rhombicResampleScan.h"
+
+#include "rhombicFailure.h"
+#include "rhombicScanReport.h"
+#include "rhombicScanWriter.h"
+#include "rhombicSourceLoading.h"
+
+namespace rhombic
+{
+namespace
+{
+
+void
+StageLattice(const Scan & scan, const ResampleScanSettings & settings, const Events & events, StagedFiles & staged)
+{
+  const FCCVolume volume = ScanToLattice(scan, settings.source.lattice, events);
+  events.Progress("writing", 0.0);
+  StageFCCImage(volume, settings.volume, staged);
+  StageSidecar(settings.volume,
+               settings.provenance,
+               { { "scan", ReportWithoutNames(scan, settings.source.path) },
+                 { "denoising", ReportDenoising(settings.source.lattice.denoising) },
+                 { "lattice", ReportLattice(volume) } },
+               staged);
+}
+
+void
+StageGrid(const FCCVolume & volume, const ResampleScanSettings & settings, const Events & events, StagedFiles & staged)
+{
+  const LatticeSettings & lattice = settings.source.lattice;
+  const FCCVolume denoised = DenoiseLattice(volume, lattice.denoising, lattice.maximumMemory, events);
+  const ScanImage image = LatticeToScan(denoised, lattice.spacing, events);
+  events.Progress("writing", 0.0);
+  StageScan(image, settings.volume, staged);
+  StageSidecar(settings.volume,
+               settings.provenance,
+               { { "denoising", ReportDenoising(lattice.denoising) }, { "lattice", ReportLattice(denoised) } },
+               staged);
+}
+
+/** Throws Failure(Usage) for an extension that the kind of volume can't be written with. */
+void
+CheckVolumePath(const ResampleScanSettings & settings)
+{
+  if (IsFCCImageFile(settings.source.path))
+  {
+    CheckScanPath(settings.volume);
+  }
+  else if (settings.volume.extension() != ".nrrd")
+  {
+    throw Failure(FailureKind::Usage,
+                  "A lattice volume is a NRRD file; give " + settings.volume.string() + " the extension .nrrd.");
+  }
+}
+
+} // namespace
+
+void
+ResampleScan(const ResampleScanSettings & settings, const Events & events)
+{
+  CheckOutputs(WithSidecars({ settings.volume }, settings.provenance), settings.source);
+  CheckVolumePath(settings);
+  const SourceVolume volume = LoadVolume(settings.source, events);
+  StagedFiles staged;
+  if (const auto * const scan = std::get_if<Scan>(&volume))
+  {
+    StageLattice(*scan, settings, events, staged);
+  }
+  else
+  {
+    StageGrid(std::get<FCCVolume>(volume), settings, events, staged);
+  }
+  staged.Commit();
+  events.Progress("writing", 1.0);
+}
+
+} // namespace rhombic

@@ -1,0 +1,200 @@
+#include "rhombicScanToLattice.h"
+
+#include "rhombicFailure.h"
+#include "rhombicIntensities.h"
+#include "rhombicMemoryBudget.h"
+#include "rhombicObserveProgress.h"
+#include "rhombicWording.h"
+
+#include "itkCartesianToFCCImageFilter.h"
+#include "itkCartesianToNestedFCCImageFilter.h"
+#include "itkFCCResamplingChecks.h"
+#include "itkFCCToCartesianImageFilter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rhombic
+{
+namespace
+{
+
+/** Throws Failure(Memory) for a lattice that does not fit, naming a density that would. */
+template <typename TPixel>
+void
+RequireLatticeMemory(const itk::FCCImage<TPixel> & lattice, const Scan & scan, const LatticeSettings & settings)
+{
+  const unsigned int copies = settings.denoising.kind == Denoising::Kind::Gaussian ? 2 : 1;
+  const std::uintmax_t bytes = lattice.GetLargestPossibleRegion().GetNumberOfPixels() * sizeof(TPixel) * copies;
+  const bool isGiven = settings.maximumMemory > 0;
+  const std::uintmax_t scanBytes =
+    isGiven ? GeometryOf(scan.image).GetLargestPossibleRegion().GetNumberOfPixels() * sizeof(TPixel) : 0;
+  const std::uintmax_t allowed = MemoryAllowance(settings.maximumMemory);
+  const double fitting = allowed > scanBytes ? 0.95 * settings.density * static_cast<double>(allowed - scanBytes) /
+                                                 static_cast<double>(bytes)
+                                             : 0.0;
+  RequireMemory(bytes + scanBytes,
+                settings.maximumMemory,
+                "The lattice",
+                fitting >= 0.001 ? "use a coarser lattice with --density " + FormatNumber(fitting, 2) : "crop the scan");
+}
+
+/** "100 x 200 x 150 sites, spacing 0.9 x 0.9 x 0.9 mm". */
+std::string
+DescribeLattice(const itk::ImageBase<3> & lattice)
+{
+  const auto & size = lattice.GetLargestPossibleRegion().GetSize();
+  const auto & spacing = lattice.GetSpacing();
+  return std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]) +
+         " sites, spacing " + FormatNumber(spacing[0]) + " x " + FormatNumber(spacing[1]) + " x " +
+         FormatNumber(spacing[2]) + " mm";
+}
+
+/** Throws Failure(Usage) for a lattice or grid that the filter refuses, naming the options. */
+template <typename TFilter>
+void
+CheckSize(TFilter & filter)
+{
+  try
+  {
+    filter.UpdateOutputInformation();
+  }
+  catch (const itk::ExceptionObject & error)
+  {
+    throw Failure(FailureKind::Usage, DescribeError(error) + " (--spacing and --density).");
+  }
+}
+
+template <typename TFilter>
+typename TFilter::OutputImageType::Pointer
+TakeOutput(TFilter & filter)
+{
+  typename TFilter::OutputImageType::Pointer output = filter.GetOutput();
+  output->DisconnectPipeline();
+  return output;
+}
+
+/** Throws Failure(Usage) for settings that need evenly spaced slices on perpendicular axes. */
+void
+CheckSlantedScan(const LatticeSettings & settings)
+{
+  if (settings.nested)
+  {
+    throw Failure(FailureKind::Usage,
+                  "The scan's slices are tilted, sheared or unevenly spaced, so that no lattice is nested in it; "
+                  "leave out --nested.");
+  }
+  if (settings.denoising.kind == Denoising::Kind::EdgePreserving)
+  {
+    throw Failure(FailureKind::Usage,
+                  "The scan's slices are tilted, sheared or unevenly spaced, which edge-preserving smoothing does not "
+                  "know of; use --denoise gaussian, which works on the lattice.");
+  }
+}
+
+/** Runs a filter from a scan's image to the lattice. */
+template <typename TFilter>
+FCCVolume
+Resample(TFilter & filter, const Scan & scan, const LatticeSettings & settings, const Events & events)
+{
+  ObserveProgress(filter, "resampling", events);
+  CheckSize(filter);
+  RequireLatticeMemory(*filter.GetOutput(), scan, settings);
+  filter.Update();
+  const auto lattice = TakeOutput(filter);
+  events.Note("lattice: " + DescribeLattice(*lattice));
+  return lattice;
+}
+
+/** \param image the scan's image, or that image denoised */
+template <typename TImage>
+FCCVolume
+ResampleImage(const TImage & image, const Scan & scan, const LatticeSettings & settings, const Events & events)
+{
+  if (settings.nested)
+  {
+    const auto filter = itk::CartesianToNestedFCCImageFilter<TImage>::New();
+    filter->SetInput(&image);
+    return Resample(*filter, scan, settings, events);
+  }
+  const auto filter = itk::CartesianToFCCImageFilter<TImage>::New();
+  filter->SetInput(&image);
+  filter->SetDensity(settings.density);
+  filter->SetOutputSpacing(settings.spacing.data());
+  filter->SetKernel(settings.kernel);
+  if (IsSlanted(scan))
+  {
+    filter->SetSliceOrigins(scan.sliceOrigins);
+    filter->SetOutsideValue(static_cast<typename TImage::PixelType>(ComputeIntensities(scan.image).lowest));
+  }
+  return Resample(*filter, scan, settings, events);
+}
+
+} // namespace
+
+double
+MeanSpacingOf(const itk::ImageBase<3> & image)
+{
+  const auto & spacing = image.GetSpacing();
+  return std::cbrt(spacing[0] * spacing[1] * spacing[2]);
+}
+
+bool
+IsSlanted(const Scan & scan)
+{
+  return !scan.sliceOrigins.empty() || !itk::AreAxesPerpendicular(GeometryOf(scan.image).GetDirection());
+}
+
+void
+CheckLatticeSettings(const LatticeSettings & settings)
+{
+  if (!(settings.density > 0.0) || !(settings.density <= 64.0))
+  {
+    throw Failure(FailureKind::Usage,
+                  "The lattice's density must be above 0 and at most 64 sites per sample of the scan, not " +
+                    std::to_string(settings.density) + "; the default is 0.77.");
+  }
+  const auto isUsable = [](double spacing) { return spacing > 0.0 && std::isfinite(spacing); };
+  const bool isGiven = std::all_of(settings.spacing.begin(), settings.spacing.end(), isUsable);
+  if (!isGiven && settings.spacing != std::array<double, 3>{ 0.0, 0.0, 0.0 })
+  {
+    throw Failure(FailureKind::Usage,
+                  "The lattice's spacing must be a positive number along each axis; give it in mm, for example 1.5.");
+  }
+  CheckDenoising(settings.denoising);
+}
+
+FCCVolume
+ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events & events)
+{
+  CheckLatticeSettings(settings);
+  if (IsSlanted(scan))
+  {
+    CheckSlantedScan(settings);
+  }
+  const ScanImage image = DenoiseScan(scan.image, settings.denoising, settings.maximumMemory, events);
+  const FCCVolume volume =
+    std::visit([&](const auto & input) { return ResampleImage(*input, scan, settings, events); }, image);
+  return settings.denoising.kind == Denoising::Kind::Gaussian
+           ? DenoiseLattice(volume, settings.denoising, settings.maximumMemory, events)
+           : volume;
+}
+
+ScanImage
+LatticeToScan(const FCCVolume & volume, const std::array<double, 3> & spacing, const Events & events)
+{
+  return std::visit(
+    [&](const auto & input) -> ScanImage {
+      using InputType = typename std::decay_t<decltype(*input)>;
+      const auto filter = itk::FCCToCartesianImageFilter<InputType>::New();
+      filter->SetOutputSpacing(spacing.data());
+      ObserveProgress(*filter, "resampling", events);
+      filter->SetInput(input);
+      CheckSize(*filter);
+      filter->Update();
+      return TakeOutput(*filter);
+    },
+    volume);
+}
+
+} // namespace rhombic

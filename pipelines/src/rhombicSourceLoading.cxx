@@ -1,0 +1,210 @@
+#include "rhombicSourceLoading.h"
+
+#include "rhombicAtomicFile.h"
+#include "rhombicFailure.h"
+#include "rhombicWording.h"
+
+#include <set>
+
+namespace fs = std::filesystem;
+
+namespace rhombic
+{
+namespace
+{
+
+/** "DICOM CT: 512 x 512 x 138 samples, spacing 0.7 x 0.7 x 2 mm, int16". */
+std::string
+DescribeGrid(const Scan & scan)
+{
+  const auto & grid = GeometryOf(scan.image);
+  const auto & size = grid.GetLargestPossibleRegion().GetSize();
+  const auto & spacing = grid.GetSpacing();
+  return scan.format + (scan.modality.empty() ? "" : " " + scan.modality) + ": " + std::to_string(size[0]) + " x " +
+         std::to_string(size[1]) + " x " + std::to_string(size[2]) + " samples, spacing " + FormatNumber(spacing[0]) +
+         " x " + FormatNumber(spacing[1]) + " x " + FormatNumber(spacing[2]) + " mm, " + PixelTypeName(scan.image);
+}
+
+Scan
+LoadScan(const ScanSource & source, const Events & events)
+{
+  ScanReadOptions options = source.read;
+  options.progress = [&events](double fraction) { events.Progress("reading", fraction); };
+  Scan scan = ReadScan(source.path, options);
+  events.Note(DescribeGrid(scan));
+  for (const auto * const notes : { &scan.notes, &scan.fileNotes })
+  {
+    for (const std::string & note : *notes)
+    {
+      events.Note(note);
+    }
+  }
+  return scan;
+}
+
+/** Size and position of a scan's samples without their values; null when it is slanted. */
+itk::ImageBase<3>::Pointer
+GridOf(const Scan & scan)
+{
+  if (IsSlanted(scan))
+  {
+    return nullptr;
+  }
+  const auto grid = itk::ImageBase<3>::New();
+  grid->CopyInformation(&GeometryOf(scan.image));
+  return grid;
+}
+
+[[noreturn]] void
+RefuseToChoose(const fs::path & path)
+{
+  throw Failure(FailureKind::Usage,
+                "No surface is chosen, and " + path.string() +
+                  " is no label map; choose a --preset (see rhombic render --list-presets), or give --surface "
+                  "name=threshold, --labels MAP or, to rhombic mesh, a threshold, as -t 250.5.");
+}
+
+/** The labels of a scan that is a label map itself. */
+LabelMap
+TakeForLabels(Scan scan, const LabelMapSource & source, const Events & events)
+{
+  if (!IsLabelMap(scan))
+  {
+    RefuseToChoose(source.path);
+  }
+  std::vector<LabelSummary> labels = FindLabels(scan, source);
+  events.Note(source.path.string() + " is a label map of " + Count(labels.size(), "label") +
+              ", of which surfaces are made");
+  return { std::move(scan), std::move(labels) };
+}
+
+LabelMap
+LoadLabels(const ScanSource & source, const LabelMapSource & labels, const Scan & scan, const Events & events)
+{
+  events.Progress("reading labels", 0.0);
+  LabelMap map = ReadLabelMap(labels, source.read, scan, source.path);
+  events.Note(Count(map.labels.size(), "label") + " in " + labels.path.string());
+  for (const std::string & note : map.scan.notes)
+  {
+    events.Note(note);
+  }
+  return map;
+}
+
+LoadedSource
+PrepareLattice(FCCVolume volume, const ScanSource & source, const SurfaceSelection & selection, const Events & events)
+{
+  if (selection.labels && selection.labels->source.path.empty())
+  {
+    RefuseToChoose(source.path);
+  }
+  if (selection.labels)
+  {
+    throw Failure(FailureKind::Usage,
+                  "Labels need the scan that they belong to, and " + source.path.string() +
+                    " is a lattice volume; name the scan, or the label map itself.");
+  }
+  LoadedSource loaded;
+  loaded.requests = ResolveIsovalues(selection.requests, ComputeIntensities(volume));
+  loaded.lattice = DenoiseLattice(volume, source.lattice.denoising, source.lattice.maximumMemory, events);
+  return loaded;
+}
+
+LoadedSource
+PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & selection, const Events & events)
+{
+  LoadedSource loaded;
+  if (selection.labels && selection.labels->source.path.empty())
+  {
+    loaded.labels = TakeForLabels(std::move(volume), { source.path, selection.labels->source.table }, events);
+    return loaded;
+  }
+  Scan & scan = loaded.scan.emplace(std::move(volume));
+  if (selection.labels)
+  {
+    loaded.labels = LoadLabels(source, selection.labels->source, scan, events);
+  }
+  if (selection.requests.empty())
+  {
+    return loaded;
+  }
+  if (IsTableRemoved(selection.table, scan))
+  {
+    loaded.tableRemoval = RemoveTable(scan, events);
+  }
+  loaded.requests = ResolveIsovalues(selection.requests, ComputeIntensities(scan.image));
+  loaded.lattice = ScanToLattice(scan, source.lattice, events);
+  loaded.grid = GridOf(scan);
+  return loaded;
+}
+
+/** Throws Failure(Usage) for an output that is an input. */
+void
+CheckInput(const fs::path & output, const fs::path & input)
+{
+  std::error_code error;
+  if (fs::equivalent(output, input, error))
+  {
+    throw Failure(FailureKind::Usage, "The output " + output.string() + " is the input itself; give it another name.");
+  }
+}
+
+} // namespace
+
+SourceVolume
+LoadVolume(const ScanSource & source, const Events & events)
+{
+  events.Progress("reading", 0.0);
+  if (IsFCCImageFile(source.path))
+  {
+    return ReadFCCImage(source.path);
+  }
+  return LoadScan(source, events);
+}
+
+LoadedSource
+LoadSource(const ScanSource & source, const SurfaceSelection & selection, const Events & events)
+{
+  CheckLatticeSettings(source.lattice);
+  SourceVolume volume = LoadVolume(source, events);
+  if (auto * const lattice = std::get_if<FCCVolume>(&volume))
+  {
+    return PrepareLattice(std::move(*lattice), source, selection, events);
+  }
+  return PrepareScan(std::get<Scan>(std::move(volume)), source, selection, events);
+}
+
+LabelSurfaceSettings
+GetLabelSettings(const ScanSource & source, const SurfaceSelection & selection)
+{
+  LabelSurfaceSettings settings;
+  settings.labels = selection.labels->labels;
+  settings.density = source.lattice.density;
+  settings.mode = selection.mode;
+  settings.maximumMemory = source.lattice.maximumMemory;
+  return settings;
+}
+
+void
+CheckOutputs(const std::vector<fs::path> & outputs, const ScanSource & source, const SurfaceSelection & selection)
+{
+  std::set<fs::path> seen;
+  for (const fs::path & output : outputs)
+  {
+    CheckInput(output, source.path);
+    if (selection.labels)
+    {
+      CheckInput(output, selection.labels->source.path);
+      CheckInput(output, selection.labels->source.table);
+    }
+    const AtomicFile probe(output);
+    std::error_code ignored;
+    if (!seen.insert(fs::weakly_canonical(fs::absolute(output), ignored)).second)
+    {
+      throw Failure(FailureKind::Usage,
+                    "Two outputs would be the same file, " + output.string() + "; give one of them another name.");
+    }
+  }
+}
+
+} // namespace rhombic

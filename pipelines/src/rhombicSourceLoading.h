@@ -1,0 +1,59 @@
+#ifndef rhombicSourceLoading_h
+#define rhombicSourceLoading_h
+
+#include "rhombicEvents.h"
+#include "rhombicLabelSurfaces.h"
+#include "rhombicScanSource.h"
+
+#include <filesystem>
+#include <optional>
+#include <variant>
+#include <vector>
+
+namespace rhombic
+{
+
+/** A volume on a Cartesian grid, or on the lattice. */
+using SourceVolume = std::variant<Scan, FCCVolume>;
+
+/** Reads a scan or a lattice volume. Notes say what it is, and what the reader had to assume. Throws Failure. */
+SourceVolume
+LoadVolume(const ScanSource & source, const Events & events);
+
+/** \class LoadedSource
+ * \brief What surfaces are extracted from. */
+struct LoadedSource
+{
+  std::optional<Scan> scan;                 ///< none when the source is a lattice volume or a label map
+  std::optional<TableRemoval> tableRemoval; ///< what was removed from the scan
+  FCCVolume lattice;                        ///< null without requests
+  itk::ImageBase<3>::Pointer grid;          ///< of the scan, without its values; null when there is none or it is slanted
+  std::vector<SurfaceRequest> requests;     ///< with their isovalues
+  std::optional<LabelMap> labels;
+
+  /** The scan, or the label map when that is the source; null for lattice volumes. */
+  const Scan *
+  FindScan() const
+  {
+    return scan ? &*scan : labels ? &labels->scan : nullptr;
+  }
+};
+
+/** Reads a source, removes the table and resamples onto the lattice, as far as the selection needs it. Throws Failure. */
+LoadedSource
+LoadSource(const ScanSource & source, const SurfaceSelection & selection, const Events & events);
+
+/** How the surfaces of a selection's labels are made. */
+LabelSurfaceSettings
+GetLabelSettings(const ScanSource & source, const SurfaceSelection & selection);
+
+/** Throws Failure for an output that can't be written, that is an input, or that is named twice.
+ * \param source and \param selection name the inputs */
+void
+CheckOutputs(const std::vector<std::filesystem::path> & outputs,
+             const ScanSource & source,
+             const SurfaceSelection & selection = {});
+
+} // namespace rhombic
+
+#endif

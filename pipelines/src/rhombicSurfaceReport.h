@@ -1,0 +1,29 @@
+#ifndef rhombicSurfaceReport_h
+#define rhombicSurfaceReport_h
+
+#include "rhombicMeshedSurface.h"
+#include "rhombicScanReport.h"
+#include "rhombicSourceLoading.h"
+
+namespace rhombic
+{
+
+/** What surfaces are extracted from: scan, removed objects, denoising and lattice, as far as there are any. */
+Report
+ReportSource(const LoadedSource & loaded, const ScanSource & source);
+
+/** How an isosurface was asked for, its size, and what was left out of it. */
+Report
+ReportIsosurface(const SurfaceRequest & request, const ExtractedSurface & surface, itk::FCCIsosurfaceMode mode);
+
+/** The surface of a label, compared with the label's voxels. */
+Report
+ReportLabelSurface(const LabelSurface & surface);
+
+/** The results of all steps that a surface went through. */
+Report
+ReportMeshedSurface(const MeshedSurface & surface, itk::FCCIsosurfaceMode mode);
+
+} // namespace rhombic
+
+#endif
