@@ -1,4 +1,4 @@
 itk_module(TriangleSurface
   DEPENDS ITKCommon ITKMesh ITKQuadEdgeMesh
-  PRIVATE_DEPENDS RhombicCommon meshoptimizer::meshoptimizer
-  DESCRIPTION "A compact triangle mesh as an ITK data object, with its audit, measures, smoothing, simplification, and converters from and to ITK's meshes. No VTK.")
+  PRIVATE_DEPENDS RhombicCommon
+  DESCRIPTION "A compact triangle mesh as an ITK data object: topology, components, measures, quality, and converters from and to ITK's meshes. No VTK.")

@@ -1,6 +1,6 @@
 #include "itkTriangleSurfaceMeasures.h"
 
-#include "itkPositionArithmetic.h"
+#include "detail/itkPositionArithmetic.h"
 
 #include <cmath>
 

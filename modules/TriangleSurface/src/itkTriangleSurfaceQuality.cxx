@@ -1,6 +1,6 @@
 #include "itkTriangleSurfaceQuality.h"
 
-#include "itkPositionArithmetic.h"
+#include "detail/itkPositionArithmetic.h"
 
 #include <algorithm>
 #include <cmath>

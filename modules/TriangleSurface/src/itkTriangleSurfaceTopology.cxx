@@ -1,6 +1,6 @@
 #include "itkTriangleSurfaceTopology.h"
 
-#include "itkExactOrientation.h"
+#include "detail/itkExactOrientation.h"
 #include "itkParallelSort.h"
 #include "itkTriangleSurfaceComponents.h"
 

@@ -1,6 +1,6 @@
-#include "itkTriangleContact.h"
+#include "detail/itkTriangleContact.h"
 
-#include "itkExactOrientation.h"
+#include "detail/itkExactOrientation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "itkTriangleSurfaceSmoothing.h"
 
 #include "itkForEachBlock.h"
-#include "itkPositionArithmetic.h"
+#include "detail/itkPositionArithmetic.h"
 
 #include <cmath>
 #include <numeric>

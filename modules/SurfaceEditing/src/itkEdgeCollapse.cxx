@@ -1,6 +1,6 @@
 #include "itkEdgeCollapse.h"
 
-#include "itkClosestOnTriangle.h"
+#include "detail/itkClosestOnTriangle.h"
 
 #include <algorithm>
 #include <cmath>

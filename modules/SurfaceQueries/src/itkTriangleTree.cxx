@@ -1,7 +1,7 @@
 #include "itkTriangleTree.h"
 
-#include "itkClosestOnTriangle.h"
-#include "itkExactOrientation.h"
+#include "detail/itkClosestOnTriangle.h"
+#include "detail/itkExactOrientation.h"
 #include "itkForEachBlock.h"
 
 #include <algorithm>

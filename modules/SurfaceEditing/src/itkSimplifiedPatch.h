@@ -10,7 +10,7 @@ namespace itk
  * \brief Some triangles of a surface and the fewer ones that take their place, see EdgeCollapse. Where the new ones
  * turn out to be bad, the old ones can be held and it can be simplified again.
  *
- * \ingroup TriangleSurface
+ * \ingroup SurfaceEditing
  */
 class SimplifiedPatch
 {

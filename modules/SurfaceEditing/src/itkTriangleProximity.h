@@ -1,7 +1,7 @@
 #ifndef itkTriangleProximity_h
 #define itkTriangleProximity_h
 
-#include "itkPositionArithmetic.h"
+#include "detail/itkPositionArithmetic.h"
 #include "itkTriangleTree.h"
 
 namespace itk

@@ -1,9 +1,9 @@
 #include "itkTriangleSurfaceUntangling.h"
 
-#include "itkExactOrientation.h"
+#include "detail/itkExactOrientation.h"
 #include "itkForEachBlock.h"
-#include "itkPositionArithmetic.h"
-#include "itkTriangleContact.h"
+#include "detail/itkPositionArithmetic.h"
+#include "detail/itkTriangleContact.h"
 #include "itkTriangleSurfaceIntersections.h"
 #include "itkTriangleTree.h"
 

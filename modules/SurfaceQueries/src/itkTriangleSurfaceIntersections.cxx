@@ -1,7 +1,7 @@
 #include "itkTriangleSurfaceIntersections.h"
 
 #include "itkForEachBlock.h"
-#include "itkTriangleContact.h"
+#include "detail/itkTriangleContact.h"
 
 #include <algorithm>
 #include <mutex>

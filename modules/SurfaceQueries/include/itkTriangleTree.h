@@ -21,7 +21,7 @@ namespace itk
  *
  * Thread safety: all questions may be asked by several threads at once.
  *
- * \ingroup TriangleSurface
+ * \ingroup SurfaceQueries
  */
 class TriangleTree
 {

@@ -2,9 +2,9 @@
 // both planes. The ends of the intervals are put in order by the signs of determinants of the corners themselves,
 // without computing a point of the line: P. Guigue, O. Devillers, "Fast and Robust Triangle-Triangle Overlap Test Using
 // Orientation Predicates", Journal of Graphics Tools 8 (2003).
-#include "itkTriangleContact.h"
+#include "detail/itkTriangleContact.h"
 
-#include "itkExactOrientation.h"
+#include "detail/itkExactOrientation.h"
 
 #include <algorithm>
 

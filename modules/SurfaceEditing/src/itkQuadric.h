@@ -1,7 +1,7 @@
 #ifndef itkQuadric_h
 #define itkQuadric_h
 
-#include "itkPositionArithmetic.h"
+#include "detail/itkPositionArithmetic.h"
 
 #include <algorithm>
 #include <cmath>

@@ -23,7 +23,7 @@ namespace itk
  * The border of the triangles stays, and no new edge joins two of its points: whatever parts of a surface are
  * simplified, they fit together.
  *
- * \ingroup TriangleSurface
+ * \ingroup SurfaceEditing
  */
 class EdgeCollapse
 {

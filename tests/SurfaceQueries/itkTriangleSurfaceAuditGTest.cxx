@@ -2,7 +2,7 @@
 
 #include "itkExampleSurfaces.h"
 #include "itkMultiThreaderBase.h"
-#include "itkTriangleContact.h"
+#include "detail/itkTriangleContact.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "itkForEachBlock.h"
 #include "itkSimplifiedPatch.h"
-#include "itkTriangleContact.h"
+#include "detail/itkTriangleContact.h"
 #include "itkTrianglePartition.h"
 #include "itkTriangleProximity.h"
 #include "itkTriangleSurfaceMeasures.h"

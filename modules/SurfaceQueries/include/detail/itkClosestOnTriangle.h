@@ -1,7 +1,7 @@
 #ifndef itkClosestOnTriangle_h
 #define itkClosestOnTriangle_h
 
-#include "itkPositionArithmetic.h"
+#include "detail/itkPositionArithmetic.h"
 
 #include <algorithm>
 #include <limits>
