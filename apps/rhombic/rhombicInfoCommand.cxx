@@ -65,8 +65,8 @@ PrintStack(const StackReport & stack, bool isEven)
     std::string blocks;
     for (const SliceBlock & block : stack.blocks)
     {
-      blocks += (blocks.empty() ? "" : ", ") + Count(block.numberOfSteps, "step") + " of " + FormatNumber(block.step) +
-                " mm";
+      blocks +=
+        (blocks.empty() ? "" : ", ") + Count(block.numberOfSteps, "step") + " of " + FormatNumber(block.step) + " mm";
     }
     PrintLine("slices", "uneven: " + blocks);
   }
@@ -124,8 +124,8 @@ PrintValues(const ScanDescription & description)
   for (const LabelSummary & summary : description.labels.value_or(std::vector<LabelSummary>()))
   {
     PrintLine("label " + std::to_string(summary.label.value),
-              summary.label.name + ", " + ToHexadecimal(summary.label) + ", " +
-                Count(summary.numberOfVoxels, "voxel") + ", " + FormatNumber(summary.millilitres) + " ml");
+              summary.label.name + ", " + ToHexadecimal(summary.label) + ", " + Count(summary.numberOfVoxels, "voxel") +
+                ", " + FormatNumber(summary.millilitres) + " ml");
   }
 }
 

@@ -8,10 +8,7 @@ namespace rhombic
 {
 
 /** \class Intensities
- * \brief What the values of a volume, in its own units, say about where its surfaces are. Values that are not finite
- * don't count.
- *
- * Thread safety: a value. */
+ * \brief Range and threshold of a volume's finite values, in the volume's units. */
 struct Intensities
 {
   double lowest = 0.0;
@@ -19,11 +16,9 @@ struct Intensities
   double otsu = 0.0; ///< N. Otsu's threshold (1979) between background and foreground, from a histogram of 256 bins
 };
 
-/** Throws Failure(Unreadable) when no value is finite. Thread safe. */
+/** Throws Failure(Unreadable) when no value is finite. */
 Intensities
 ComputeIntensities(const ScanImage & image);
-
-/** The same for a volume that is on the lattice already. */
 Intensities
 ComputeIntensities(const FCCVolume & volume);
 

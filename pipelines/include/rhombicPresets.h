@@ -10,30 +10,27 @@
 namespace rhombic
 {
 
-/** \file
- * Presets: surfaces for kinds of scans. Thread safety: presets are values, and any number of threads may call these
- * functions at once. */
-
-/** A named list of surfaces for a kind of scan. */
+/** \class Preset
+ * \brief A named list of surfaces for a kind of scan. */
 struct Preset
 {
   std::string name;
   std::string description;
-  std::string denoising = "none"; ///< for noisy scans, as ParseDenoising() takes it: shown, not applied
-  bool removesTable = false;      ///< it is for CTs in HU, from which the scanner's table is removed
+  std::string denoising = "none"; ///< suggested for noisy scans, as ParseDenoising() takes it; not applied
+  bool removesTable = false;      ///< for CTs in HU: removes the scanner's table
   std::vector<SurfaceRequest> surfaces;
 };
 
-/** The presets of pipelines/presets/, which are built in, by name. */
+/** The built-in presets, from pipelines/presets/. */
 const std::vector<Preset> &
 GetPresets();
 
-/** The built-in preset of that name, or the one in the YAML file of that path. Throws Failure: Usage for an unknown
+/** The built-in preset of a name, or the one in a YAML file. Throws Failure: Usage for an unknown
  * name, suggesting the nearest; NotFound and Unreadable for files. */
 Preset
 FindPreset(const std::string & nameOrPath);
 
-/** A preset from YAML text; \a source names it in messages. Throws Failure(Unreadable). */
+/** Reads a preset from YAML text. Throws Failure(Unreadable), whose message names \a source. */
 Preset
 ParsePreset(const std::string & yaml, const std::string & source);
 

@@ -12,9 +12,7 @@ namespace rhombic
 {
 
 /** \class Provenance
- * \brief Who made an output, for its sidecar and its metadata.
- *
- * Thread safety: a value. */
+ * \brief Program and command that made an output, for its sidecar and its metadata. */
 struct Provenance
 {
   std::string software; ///< name and version
@@ -22,15 +20,16 @@ struct Provenance
   bool writesSidecars = true;
 };
 
-/** The path of the report that accompanies an output: its name and ".json". */
+/** The path of an output's report: the output's name and ".json". */
 std::filesystem::path
 SidecarOf(const std::filesystem::path & output);
 
-/** Outputs and the reports beside them, if the provenance says that there are any. */
+/** The outputs, and their sidecars if any are written. */
 std::vector<std::filesystem::path>
 WithSidecars(std::vector<std::filesystem::path> outputs, const Provenance & provenance);
 
-/** Writes the report of an output, to appear beside it, if the provenance says so. Throws Failure(Output). */
+/** Writes the sidecar of an output, if any are written, to appear with all others of \a staged. Throws
+ * Failure(Output). */
 void
 StageSidecar(const std::filesystem::path & output,
              const Provenance & provenance,

@@ -76,11 +76,11 @@ std::vector<std::string>
 DescribeAudit(const itk::TriangleSurfaceAudit & audit)
 {
   const auto & topology = audit.topology;
-  const std::string shape =
-    Count(audit.triangles, "triangle") + ", " + Count(audit.points, "point") + ", " + DescribeParts(audit) +
-    ", Euler characteristic " + std::to_string(topology.eulerCharacteristic) + ", genus " +
-    std::to_string(topology.genus) + ", " + FormatMillilitres(audit.volume / CubicMillimetresPerMl) + ", " +
-    FormatFixed(audit.area / 100.0, 1) + " cm2";
+  const std::string shape = Count(audit.triangles, "triangle") + ", " + Count(audit.points, "point") + ", " +
+                            DescribeParts(audit) + ", Euler characteristic " +
+                            std::to_string(topology.eulerCharacteristic) + ", genus " + std::to_string(topology.genus) +
+                            ", " + FormatMillilitres(audit.volume / CubicMillimetresPerMl) + ", " +
+                            FormatFixed(audit.area / 100.0, 1) + " cm2";
   const std::string quality = "triangles: quality " + FormatFixed(audit.quality.mean, 2) + " on average, " +
                               FormatFixed(100.0 * audit.quality.poorFraction, 2) + " % below " +
                               FormatFixed(itk::TriangleSurfaceQuality::Poor, 2) + ", smallest angle " +

@@ -2,10 +2,10 @@
 
 #include "rhombicFailure.h"
 #include "rhombicObserveProgress.h"
-#include "rhombicScanBorder.h"
 #include "rhombicWording.h"
 
 #include "itkFCCIsosurfaceFilter.h"
+#include "itkFCCScanBorder.h"
 
 #include <algorithm>
 
@@ -80,11 +80,14 @@ public:
     {
       std::visit([&](const auto & image) { this->ExtractSide(*image, requests, insideIsBelow, extracted); }, volume);
     }
-    for (const auto & surface : extracted.surfaces)
+    if (m_Grid != nullptr)
     {
-      if (m_Grid != nullptr)
+      const auto cornerOf = [&volume](bool isHigh) {
+        return std::visit([isHigh](const auto & image) { return FindOuterCorner(*image, isHigh); }, volume);
+      };
+      for (const auto & surface : extracted.surfaces)
       {
-        MoveWallsToBorder(*surface, *m_Grid, volume);
+        MoveWallsToBorder(*surface, *m_Grid, cornerOf(false), cornerOf(true));
       }
     }
     return extracted;
@@ -97,10 +100,9 @@ public:
                        itk::TriangleSurface::Pointer & surface) const
   {
     m_Events.Progress("telling " + request.name + " from what is around the body", 0.0);
-    return KeepEnclosedParts(surface,
-                             volume,
-                             request.GetThreshold(),
-                             [&](const FCCVolume & cut) { return this->Extract(cut, { request }).surfaces.front(); });
+    return KeepEnclosedParts(surface, volume, request.GetThreshold(), [&](const FCCVolume & cut) {
+      return this->Extract(cut, { request }).surfaces.front();
+    });
   }
 
 private:

@@ -128,8 +128,8 @@ EstimateIsosurface(const LoadedSource & loaded,
   {
     return std::nullopt;
   }
-  const auto estimate = EstimateIsosurfaceVolume(
-    loaded.lattice, request.GetThreshold(), area, loaded.grid.GetPointer());
+  const auto estimate =
+    EstimateIsosurfaceVolume(loaded.lattice, request.GetThreshold(), area, loaded.grid.GetPointer());
   return estimate.uncertainty < 0.5 * estimate.volume ? std::optional(estimate) : std::nullopt;
 }
 
@@ -148,8 +148,7 @@ AddIsosurfaces(const LoadedSource & loaded,
     surface.request = loaded.requests[n];
     surface.enclosed = extracted[n].enclosed;
     surface.extracted = SizeOf(*surface.scene.surface);
-    surface.isosurface =
-      EstimateIsosurface(loaded, *surface.request, surface.extracted.area, settings.source.lattice);
+    surface.isosurface = EstimateIsosurface(loaded, *surface.request, surface.extracted.area, settings.source.lattice);
   }
 }
 

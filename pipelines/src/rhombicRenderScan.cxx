@@ -67,9 +67,9 @@ IsTranslucent(const std::vector<SurfaceRequest> & requests)
 fs::path
 PathOfView(const fs::path & picture, View view, std::size_t views)
 {
-  return views == 1 ? picture
-                    : picture.parent_path() /
-                        (picture.stem().string() + "-" + NameOf(view) + picture.extension().string());
+  return views == 1
+           ? picture
+           : picture.parent_path() / (picture.stem().string() + "-" + NameOf(view) + picture.extension().string());
 }
 
 } // namespace

@@ -36,7 +36,8 @@ RequireLatticeMemory(const itk::FCCImage<TPixel> & lattice, const Scan & scan, c
   RequireMemory(bytes + scanBytes,
                 settings.maximumMemory,
                 "The lattice",
-                fitting >= 0.001 ? "use a coarser lattice with --density " + FormatNumber(fitting, 2) : "crop the scan");
+                fitting >= 0.001 ? "use a coarser lattice with --density " + FormatNumber(fitting, 2)
+                                 : "crop the scan");
 }
 
 /** "100 x 200 x 150 sites, spacing 0.9 x 0.9 x 0.9 mm". */

@@ -27,8 +27,8 @@ struct LoadedSource
   std::optional<Scan> scan;                 ///< none when the source is a lattice volume or a label map
   std::optional<TableRemoval> tableRemoval; ///< what was removed from the scan
   FCCVolume lattice;                        ///< null without requests
-  itk::ImageBase<3>::Pointer grid;          ///< of the scan, without its values; null when there is none or it is slanted
-  std::vector<SurfaceRequest> requests;     ///< with their isovalues
+  itk::ImageBase<3>::Pointer grid;      ///< of the scan, without its values; null when there is none or it is slanted
+  std::vector<SurfaceRequest> requests; ///< with their isovalues
   std::optional<LabelMap> labels;
 
   /** The scan, or the label map when that is the source; null for lattice volumes. */
@@ -39,7 +39,8 @@ struct LoadedSource
   }
 };
 
-/** Reads a source, removes the table and resamples onto the lattice, as far as the selection needs it. Throws Failure. */
+/** Reads a source, removes the table and resamples onto the lattice, as far as the selection needs it. Throws Failure.
+ */
 LoadedSource
 LoadSource(const ScanSource & source, const SurfaceSelection & selection, const Events & events);
 

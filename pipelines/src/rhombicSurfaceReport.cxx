@@ -230,7 +230,8 @@ ReportLabelSurface(const LabelSurface & surface)
 Report
 ReportMeshedSurface(const MeshedSurface & surface, itk::FCCIsosurfaceMode mode)
 {
-  Report report = surface.label ? ReportLabel(*surface.label, surface.scene.name) : ReportRequest(*surface.request, mode);
+  Report report =
+    surface.label ? ReportLabel(*surface.label, surface.scene.name) : ReportRequest(*surface.request, mode);
   report["points"] = surface.points;
   report["triangles"] = surface.triangles;
   if (surface.enclosed)

@@ -2,6 +2,7 @@
 
 #include "rhombicFailure.h"
 #include "rhombicLatticeToSurfaces.h"
+#include "rhombicScanReport.h"
 #include "rhombicScanToLattice.h"
 
 #include "itkImageRegionIteratorWithIndex.h"

@@ -85,10 +85,12 @@ Measure(const Scan & scan, const std::string & name, double isovalue, const Opti
       result.findings.push_back({ NameOf(mode), density, ComputeVolume(*surface) });
       area = ComputeArea(*surface);
     }
-    result.findings.push_back({ "samples", density, EstimateIsosurfaceVolume(lattice, request.GetThreshold(), area, grid).volume });
+    result.findings.push_back(
+      { "samples", density, EstimateIsosurfaceVolume(lattice, request.GetThreshold(), area, grid).volume });
   }
   result.findings.push_back({ "voxels", 1.0, CountVoxelVolume(scan, request.GetThreshold()) });
-  result.reference = EstimateIsosurfaceVolume(Resample(scan, options.referenceDensity), request.GetThreshold(), area, grid);
+  result.reference =
+    EstimateIsosurfaceVolume(Resample(scan, options.referenceDensity), request.GetThreshold(), area, grid);
   result.thickness = 3.0 * result.reference.volume / area / MeanSpacingOf(geometry);
   return result;
 }

@@ -251,10 +251,8 @@ TEST(SurfaceDeviation, IsTheDistanceBetweenTwoSpheres)
     for (const double offset : { -1.0, -0.3, 0.0, 0.01, 0.6 })
     {
       // Centres of triangles lie a little inside the sphere.
-      const auto deviation = rhombic::ComputeDeviation(*MakeSphere(Radius + offset),
-                                                       scan,
-                                                       itk::SeparableKernel::CubicBSpline,
-                                                       { 100.0 - Radius, false });
+      const auto deviation = rhombic::ComputeDeviation(
+        *MakeSphere(Radius + offset), scan, itk::SeparableKernel::CubicBSpline, { 100.0 - Radius, false });
       EXPECT_EQ(deviation.unresolved, 0u);
       EXPECT_TRUE(deviation.isComplete);
       EXPECT_NEAR(deviation.bias, offset, 0.012) << offset;
@@ -276,8 +274,8 @@ TEST(SurfaceDeviation, BelowTheIsovalueOutsideIsTheOtherWay)
 TEST(SurfaceDeviation, WhereThereIsNoSurfaceItIsUnresolved)
 {
   const auto scan = MakeScan(Cone, { { 52, 60, 44 } });
-  const auto deviation = rhombic::ComputeDeviation(
-    *MakeSphere(8.0), scan, itk::SeparableKernel::CubicBSpline, { 100.0 - Radius, false });
+  const auto deviation =
+    rhombic::ComputeDeviation(*MakeSphere(8.0), scan, itk::SeparableKernel::CubicBSpline, { 100.0 - Radius, false });
   EXPECT_EQ(deviation.unresolved, deviation.samples);
   EXPECT_GT(deviation.samples, 1000u);
 }
@@ -287,8 +285,8 @@ TEST(SurfaceDeviation, WallsAreNotCounted)
   const auto slope = [](const PointType & point) { return point[0]; };
   const auto scan = MakeScan(slope, { { 30, 30, 30 } });
   const auto half = ExtractFrom(scan, 0.25, Mode::Lean);
-  const auto deviation = rhombic::ComputeDeviation(
-    *half.surface, scan, itk::SeparableKernel::CubicBSpline, { 0.25, false });
+  const auto deviation =
+    rhombic::ComputeDeviation(*half.surface, scan, itk::SeparableKernel::CubicBSpline, { 0.25, false });
   EXPECT_GT(deviation.samples, 500u);
   EXPECT_LT(deviation.maximum, 1e-4);
   EXPECT_EQ(deviation.unresolved, 0u);

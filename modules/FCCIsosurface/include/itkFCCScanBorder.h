@@ -1,0 +1,44 @@
+#ifndef itkFCCScanBorder_h
+#define itkFCCScanBorder_h
+
+#include "itkFCCImage.h"
+#include "itkTriangleSurface.h"
+
+namespace itk
+{
+
+/** The outer corner of a lattice's extent (see FCCImage), at its low or its high end, in LPS mm. */
+template <typename TPixel>
+Point<double, 3>
+FindOuterCorner(const FCCImage<TPixel> & lattice, bool isHigh)
+{
+  constexpr double unitsPerIndex[3] = { 2.0, 1.0, 1.0 };
+  const auto & region = lattice.GetLargestPossibleRegion();
+  std::array<double, 3> corner{};
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    const auto index =
+      static_cast<double>(region.GetIndex(axis)) + (isHigh ? static_cast<double>(region.GetSize(axis)) : 0.0);
+    corner[axis] = unitsPerIndex[axis] * index - 0.5;
+  }
+  return lattice.template TransformLatticeToPhysicalPoint<double>(corner);
+}
+
+/** Moves the walls that close a surface to the outer faces of the scan's outermost voxels. A lattice ends a little
+ * beyond or inside of them, by less than one of its spacings, and so would the volume of a structure that the scan
+ * cuts.
+ *
+ * Beyond the outermost samples the field is constant along each axis, so the surface there is stretched or compressed
+ * along the axis; between samples it stays.
+ *
+ * \param surface extracted from a lattice with these outer corners
+ * \param scan the grid that the lattice was resampled from, with perpendicular axes */
+void
+MoveWallsToBorder(TriangleSurface & surface,
+                  const ImageBase<3> & scan,
+                  const Point<double, 3> & lowCorner,
+                  const Point<double, 3> & highCorner);
+
+} // namespace itk
+
+#endif

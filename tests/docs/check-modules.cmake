@@ -1,0 +1,21 @@
+# Fails unless each module, and pipelines/, has a README.md that tells what threads may do with it.
+# cmake -DSOURCE=<top folder> -P check-modules.cmake
+
+file(GLOB declarations "${SOURCE}/modules/*/itk-module.cmake" "${SOURCE}/pipelines/itk-module.cmake")
+if(NOT declarations)
+  message(FATAL_ERROR "There are no modules in ${SOURCE}")
+endif()
+set(silent "")
+foreach(declaration IN LISTS declarations)
+  get_filename_component(folder "${declaration}" DIRECTORY)
+  set(text "")
+  if(EXISTS "${folder}/README.md")
+    file(READ "${folder}/README.md" text)
+  endif()
+  if(NOT text MATCHES "[Tt]hread")
+    string(APPEND silent "\n  ${folder}/README.md")
+  endif()
+endforeach()
+if(silent)
+  message(FATAL_ERROR "These files are missing, or do not tell thread safety:${silent}")
+endif()
