@@ -3,9 +3,6 @@
 #include "rhombicFailure.h"
 #include "rhombicNamedValues.h"
 
-#include <cctype>
-#include <charconv>
-#include <cmath>
 #include <map>
 
 namespace rhombic
@@ -13,62 +10,21 @@ namespace rhombic
 namespace
 {
 
-/** One number for all axes, or three separated by commas. */
+/** One number for all axes, or one for each; 0 for none. */
 std::array<double, 3>
-ParseSpacing(const std::string & text)
+ToSpacing(const std::vector<double> & numbers)
 {
-  std::array<double, 3> spacing{};
-  if (text.empty())
+  switch (numbers.size())
   {
-    return spacing;
+    case 0:
+      return {};
+    case 1:
+      return { numbers[0], numbers[0], numbers[0] };
+    case 3:
+      return { numbers[0], numbers[1], numbers[2] };
+    default:
+      throw Failure(FailureKind::Usage, "--spacing takes one number or three; write --spacing 1.5 or 1,1,2 (mm).");
   }
-  std::size_t count = 0;
-  const char * next = text.data();
-  const char * end = next + text.size();
-  while (count < 3)
-  {
-    const auto parsed = std::from_chars(next, end, spacing[count]);
-    if (parsed.ec != std::errc() || !(spacing[count] > 0.0))
-    {
-      break;
-    }
-    ++count;
-    next = parsed.ptr;
-    if (next == end || *next != ',')
-    {
-      break;
-    }
-    ++next;
-  }
-  if (next != end || (count != 1 && count != 3))
-  {
-    throw Failure(FailureKind::Usage,
-                  "The spacing '" + text +
-                    "' is neither one positive number nor three; write --spacing 1.5 or 1,1,2 (mm).");
-  }
-  return count == 1 ? std::array<double, 3>{ spacing[0], spacing[0], spacing[0] } : spacing;
-}
-
-/** Bytes written as a number and, maybe, K, M, G or T (of 1024); 0 for no text. */
-std::uintmax_t
-ParseMemory(const std::string & text)
-{
-  if (text.empty())
-  {
-    return 0;
-  }
-  static const std::string units = "KMGT";
-  double number = 0.0;
-  const char * const end = text.data() + text.size();
-  const auto parsed = std::from_chars(text.data(), end, number);
-  const std::string unit(parsed.ptr, end);
-  const auto power = unit.empty() ? 0 : units.find(static_cast<char>(std::toupper(unit[0]))) + 1;
-  const double bytes = std::ldexp(number, static_cast<int>(10 * power));
-  if (parsed.ec != std::errc() || unit.size() > 1 || (!unit.empty() && power == 0) || !(bytes >= 1.0) || bytes > 1e18)
-  {
-    throw Failure(FailureKind::Usage, "'" + text + "' is no amount of memory; write it as --max-memory 8G or 500M.");
-  }
-  return static_cast<std::uintmax_t>(bytes);
 }
 
 /** One of two words. */
@@ -98,9 +54,11 @@ ScanOptions::AddSource(CLI::App & parser)
     ->capture_default_str();
   parser.add_option("--on-gap", m_OnGap, "missing or damaged slices: error, or interpolate across the gap")
     ->capture_default_str();
-  parser.add_option("--max-memory",
-                    m_MaximumMemory,
-                    "most memory for a volume, and then for a picture, as 8G or 500M (default: half of what is free)");
+  parser
+    .add_option("--max-memory",
+                m_MaximumMemory,
+                "most memory for a volume, and then for a picture, as 8G or 500M (default: half of what is free)")
+    ->transform(CLI::AsSizeValue(false));
   parser.add_flag("--analyze", m_AcceptsAnalyze, "read Analyze 7.5 files, which do not say where left and right are");
   parser.add_flag("--follow-links", m_FollowsLinks, "follow symbolic links in folders");
 }
@@ -116,7 +74,10 @@ ScanOptions::AddLattice(CLI::App & parser)
         "lattice sites per sample of the scan (this and the next three: without effect when SCAN is a lattice volume)")
       ->capture_default_str();
   CLI::Option * const spacing =
-    parser.add_option("--spacing", m_Spacing, "lattice spacing in mm, one number or x,y,z, instead of a density");
+    parser.add_option("--spacing", m_Spacing, "lattice spacing in mm, one number or x,y,z, instead of a density")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::PositiveNumber);
   CLI::Option * const kernel =
     parser
       .add_option("--kernel", m_Kernel, "how values between samples are computed: cubic (B-spline), linear or lanczos")
@@ -167,12 +128,12 @@ ScanOptions::GetSource(const CommandContext & context) const
   source.read.frame = m_Frame;
   source.read.onIrregular = ParsePolicy("--on-irregular", m_OnIrregular, "resample");
   source.read.onGap = ParsePolicy("--on-gap", m_OnGap, "interpolate");
-  source.read.maximumMemory = ParseMemory(m_MaximumMemory);
+  source.read.maximumMemory = m_MaximumMemory;
   source.read.acceptsAnalyze = m_AcceptsAnalyze;
   source.read.followsLinks = m_FollowsLinks;
   source.read.decoder = context.decoder;
   source.lattice.density = m_Density;
-  source.lattice.spacing = ParseSpacing(m_Spacing);
+  source.lattice.spacing = ToSpacing(m_Spacing);
   source.lattice.kernel = FindNamed("kernel", m_Kernel, kernels);
   source.lattice.denoising = ParseDenoising(m_Denoising);
   source.lattice.nested = m_Nested;

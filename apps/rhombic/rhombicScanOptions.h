@@ -7,10 +7,12 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace rhombic
 {
@@ -46,13 +48,13 @@ private:
   std::string m_Series;
   std::string m_OnIrregular = "resample";
   std::string m_OnGap = "error";
-  std::string m_MaximumMemory;
+  std::uint64_t m_MaximumMemory = 0;
   std::optional<std::size_t> m_Frame;
   bool m_AcceptsAnalyze = false;
   bool m_FollowsLinks = false;
   bool m_HasNoSidecar = false;
   double m_Density = itk::FCCLattice::NyquistDensity;
-  std::string m_Spacing;
+  std::vector<double> m_Spacing;
   std::string m_Kernel = "cubic";
   std::string m_Denoising = "none";
   bool m_Nested = false;

@@ -125,7 +125,7 @@ constexpr ErrorCase errorCases[] = {
   { "NegativeSpacing", "render scan.nii.gz --preset ct-bone --spacing=-1 -o a.png", 2, "spacing" },
   { "BadOnGap", "info dicom --on-gap=guess", 2, "interpolate or error" },
   { "BadOnIrregular", "info dicom --on-irregular=bend", 2, "resample or error" },
-  { "BadMemory", "info dicom --max-memory much", 2, "8G" },
+  { "BadMemory", "info dicom --max-memory much", 2, "--max-memory" },
   { "ScanBeyondTheMemoryAllowed", "info dicom --max-memory 1K", 9, "--max-memory 1G" },
   { "LatticeBeyondTheMemoryAllowed", "mesh scan.nii.gz -t 250.5 --max-memory 400K -o a.stl", 9, "--density 0." },
   { "PictureBeyondTheMemoryAllowed",
