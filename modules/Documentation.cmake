@@ -35,7 +35,8 @@ set(DOXYGEN_PREDEFINED
     "itkGetEnumMacro(name,type)=virtual type Get##name() const\;"
     "itkBooleanMacro(name)=virtual void name##On()\; virtual void name##Off()\;"
     "itkSetInputMacro(name,type)=virtual void Set##name(const type * input)\;"
-    "itkGetInputMacro(name,type)=virtual const type * Get##name() const\;")
+    "itkGetInputMacro(name,type)=virtual const type * Get##name() const\;"
+    "RHOMBIC_INSTANTIATE(declaration,image)=")
 file(GLOB pages modules/*/README.md)
 file(GLOB headers modules/*/include pipelines/include)
 doxygen_add_docs(docs ${headers} ${pages} "${PROJECT_SOURCE_DIR}/README.md" COMMENT "Writing build/.../docs/html")

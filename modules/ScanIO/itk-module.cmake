@@ -1,4 +1,4 @@
 itk_module(ScanIO
-  DEPENDS RhombicCommon ITKCommon
+  DEPENDS RhombicCommon FCCLattice ITKCommon
   PRIVATE_DEPENDS ITKIOImageBase ITKGDCM ITKIONIFTI ITKIONRRD ITKIOMeta ITKExpat ZLIB::ZLIB
-  DESCRIPTION "DICOM folders, NIfTI, NRRD and MetaImage volumes and label maps as ITK images in LPS millimetres.")
+  DESCRIPTION "DICOM folders, NIfTI, NRRD and MetaImage volumes and label maps as ITK images in LPS millimetres, and files of lattice volumes.")

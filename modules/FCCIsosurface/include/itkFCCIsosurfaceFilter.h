@@ -6,6 +6,7 @@
 #include "itkProcessObject.h"
 #include "itkRecyclingMemory.h"
 #include "itkWorkProgress.h"
+#include "rhombicPixelTypes.h"
 
 #include <limits>
 #include <optional>
@@ -307,11 +308,7 @@ private:
 // Compiled once, in the library, for the pixel types of scans.
 namespace itk
 {
-extern template class FCCIsosurfaceFilter<FCCImage<std::uint8_t>>;
-extern template class FCCIsosurfaceFilter<FCCImage<std::int16_t>>;
-extern template class FCCIsosurfaceFilter<FCCImage<std::uint16_t>>;
-extern template class FCCIsosurfaceFilter<FCCImage<std::int32_t>>;
-extern template class FCCIsosurfaceFilter<FCCImage<float>>;
+RHOMBIC_INSTANTIATE(extern template class FCCIsosurfaceFilter, FCCImage);
 } // namespace itk
 
 #endif

@@ -8,6 +8,7 @@
 #include "itkSliceStackPlanes.h"
 #include "itkThreadFailure.h"
 #include "itkWorkProgress.h"
+#include "rhombicPixelTypes.h"
 
 #include <optional>
 #include <vector>
@@ -189,11 +190,7 @@ private:
 // Compiled once, in the library, for the pixel types of scans.
 namespace itk
 {
-extern template class CartesianToFCCImageFilter<Image<std::uint8_t, 3>>;
-extern template class CartesianToFCCImageFilter<Image<std::int16_t, 3>>;
-extern template class CartesianToFCCImageFilter<Image<std::uint16_t, 3>>;
-extern template class CartesianToFCCImageFilter<Image<std::int32_t, 3>>;
-extern template class CartesianToFCCImageFilter<Image<float, 3>>;
+RHOMBIC_INSTANTIATE(extern template class CartesianToFCCImageFilter, rhombic::CartesianImage);
 } // namespace itk
 
 #endif

@@ -6,6 +6,7 @@
 #include "itkImageToImageFilter.h"
 #include "itkThreadFailure.h"
 #include "itkWorkProgress.h"
+#include "rhombicPixelTypes.h"
 
 #include <optional>
 
@@ -115,11 +116,7 @@ private:
 // Compiled once, in the library, for the pixel types of scans.
 namespace itk
 {
-extern template class CartesianToNestedFCCImageFilter<Image<std::uint8_t, 3>>;
-extern template class CartesianToNestedFCCImageFilter<Image<std::int16_t, 3>>;
-extern template class CartesianToNestedFCCImageFilter<Image<std::uint16_t, 3>>;
-extern template class CartesianToNestedFCCImageFilter<Image<std::int32_t, 3>>;
-extern template class CartesianToNestedFCCImageFilter<Image<float, 3>>;
+RHOMBIC_INSTANTIATE(extern template class CartesianToNestedFCCImageFilter, rhombic::CartesianImage);
 } // namespace itk
 
 #endif

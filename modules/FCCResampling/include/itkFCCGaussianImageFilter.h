@@ -6,6 +6,7 @@
 #include "itkImageToImageFilter.h"
 #include "itkThreadFailure.h"
 #include "itkWorkProgress.h"
+#include "rhombicPixelTypes.h"
 
 #include <type_traits>
 
@@ -133,11 +134,7 @@ private:
 // Compiled once, in the library, for the pixel types of scans.
 namespace itk
 {
-extern template class FCCGaussianImageFilter<FCCImage<std::uint8_t>>;
-extern template class FCCGaussianImageFilter<FCCImage<std::int16_t>>;
-extern template class FCCGaussianImageFilter<FCCImage<std::uint16_t>>;
-extern template class FCCGaussianImageFilter<FCCImage<std::int32_t>>;
-extern template class FCCGaussianImageFilter<FCCImage<float>>;
+RHOMBIC_INSTANTIATE(extern template class FCCGaussianImageFilter, FCCImage);
 } // namespace itk
 
 #endif

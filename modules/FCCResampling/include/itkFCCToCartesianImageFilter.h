@@ -6,6 +6,7 @@
 #include "itkImageToImageFilter.h"
 #include "itkThreadFailure.h"
 #include "itkWorkProgress.h"
+#include "rhombicPixelTypes.h"
 
 #include <optional>
 
@@ -122,11 +123,7 @@ private:
 // Compiled once, in the library, for the pixel types of scans.
 namespace itk
 {
-extern template class FCCToCartesianImageFilter<FCCImage<std::uint8_t>>;
-extern template class FCCToCartesianImageFilter<FCCImage<std::int16_t>>;
-extern template class FCCToCartesianImageFilter<FCCImage<std::uint16_t>>;
-extern template class FCCToCartesianImageFilter<FCCImage<std::int32_t>>;
-extern template class FCCToCartesianImageFilter<FCCImage<float>>;
+RHOMBIC_INSTANTIATE(extern template class FCCToCartesianImageFilter, FCCImage);
 } // namespace itk
 
 #endif

@@ -2,8 +2,7 @@
 #define rhombicScan_h
 
 #include "rhombicLabelTable.h"
-
-#include "itkImage.h"
+#include "rhombicPixelTypes.h"
 
 #include <array>
 #include <cstddef>
@@ -11,18 +10,13 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace rhombic
 {
 
 /** A volume in the pixel type it was stored with, in LPS millimetres. */
-using ScanImage = std::variant<itk::Image<std::uint8_t, 3>::Pointer,
-                               itk::Image<std::int16_t, 3>::Pointer,
-                               itk::Image<std::uint16_t, 3>::Pointer,
-                               itk::Image<std::int32_t, 3>::Pointer,
-                               itk::Image<float, 3>::Pointer>;
+using ScanImage = PixelTypes::AnyImage<CartesianImage>;
 
 /** \class SeriesSummary
  * \brief One of the DICOM series in a folder. Holds nothing about the patient.
@@ -132,7 +126,7 @@ const itk::ImageBase<3> &
 GeometryOf(ScanImage &&) = delete; // it would outlive the image
 
 /** "uint8", "int16", "uint16", "int32" or "float". */
-const char *
+std::string
 PixelTypeName(const ScanImage & image);
 
 /** The volume of a voxel of each slice, in mm^3; in an unevenly spaced stack a voxel reaches halfway to the next

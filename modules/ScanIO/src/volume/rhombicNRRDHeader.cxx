@@ -53,13 +53,25 @@ Unescaped(const std::string & text)
   return result;
 }
 
+std::string
+Find(const std::map<std::string, std::string> & texts, const std::string & name)
+{
+  const auto found = texts.find(name);
+  return found == texts.end() ? "" : found->second;
+}
+
 } // namespace
 
 std::string
 NRRDHeader::Get(const std::string & field) const
 {
-  const auto found = fields.find(field);
-  return found == fields.end() ? "" : found->second;
+  return Find(fields, field);
+}
+
+std::string
+NRRDHeader::GetValue(const std::string & key) const
+{
+  return Find(keyValues, key);
 }
 
 NRRDHeader

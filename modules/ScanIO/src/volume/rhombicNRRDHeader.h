@@ -12,6 +12,10 @@ namespace rhombic
 /** The lines of a NRRD header. */
 struct NRRDHeader
 {
+  /** The key and value of a volume on the face-centered cubic lattice (modules/ScanIO/README.md). */
+  static constexpr char LatticeKey[] = "lattice";
+  static constexpr char LatticeValue[] = "fcc parity rows";
+
   std::map<std::string, std::string> fields;    ///< "field: value", names in lower case and without blanks
   std::map<std::string, std::string> keyValues; ///< "key:=value", escapes undone
   std::uintmax_t size = 0;                      ///< bytes up to the first behind the empty line
@@ -19,6 +23,16 @@ struct NRRDHeader
   /** The value of a field; empty when there is none. */
   std::string
   Get(const std::string & field) const;
+
+  /** The value of a key; empty when there is none. */
+  std::string
+  GetValue(const std::string & key) const;
+
+  bool
+  IsLattice() const
+  {
+    return this->GetValue(LatticeKey) == LatticeValue;
+  }
 };
 
 /** Throws Failure(Unreadable) when the file is not NRRD, or its header longer than 16 MiB. */

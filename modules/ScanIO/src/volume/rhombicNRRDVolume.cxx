@@ -327,8 +327,7 @@ StoredVolume
 ReadNRRDVolume(const fs::path & path)
 {
   const NRRDHeader header = ReadNRRDHeader(path);
-  const auto lattice = header.keyValues.find("lattice");
-  if (lattice != header.keyValues.end() && lattice->second == "fcc parity rows") // modules/FCCLattice/README.md
+  if (header.IsLattice())
   {
     RefuseVolume(path,
                  "it is a volume on the face-centered cubic lattice, not a scan of voxels; give the scan it was made "

@@ -1,6 +1,6 @@
 #include "rhombicNRRDType.h"
 
-#include <itksys/SystemTools.hxx>
+#include "rhombicWording.h"
 
 #include <algorithm>
 #include <vector>
@@ -23,7 +23,7 @@ CanonicalNRRDType(const std::string & name)
     { "float" },
     { "double" },
   };
-  const std::string lowerCase = itksys::SystemTools::LowerCase(name);
+  const std::string lowerCase = LowerCase(name);
   for (const auto & names : types)
   {
     if (std::find(names.begin(), names.end(), lowerCase) != names.end())
