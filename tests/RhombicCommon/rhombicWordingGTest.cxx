@@ -65,10 +65,17 @@ TEST(Wording, TextsAreTrimmedAndSplit)
   EXPECT_EQ(rhombic::LowerCase("Left KIDNEY \xC3\x84"), "left kidney \xC3\x84");
   EXPECT_EQ(rhombic::Trim(" \tleft kidney\r\n"), "left kidney");
   EXPECT_EQ(rhombic::Trim(" \t"), "");
-  EXPECT_EQ(rhombic::SplitWords("  a bc\td\n"), Words({ "a", "bc", "d" }));
-  EXPECT_EQ(rhombic::SplitWords(" "), Words());
+  EXPECT_EQ(rhombic::SplitWords("  a bc\td\n"), std::vector<std::string_view>({ "a", "bc", "d" }));
+  EXPECT_TRUE(rhombic::SplitWords(" ").empty());
   EXPECT_EQ(rhombic::Split("a,b;,c", ",;"), Words({ "a", "b", "", "c" }));
   EXPECT_EQ(rhombic::Split("", ","), Words({ "" }));
+}
+
+TEST(Wording, HashesAreThoseOfFNV1a)
+{
+  EXPECT_EQ(rhombic::HashText(""), "cbf29ce484222325");
+  EXPECT_EQ(rhombic::HashText("a"), "af63dc4c8601ec8c");
+  EXPECT_EQ(rhombic::HashText("foobar"), "85944171f73967e8");
 }
 
 TEST(Wording, OneIsSingular)

@@ -1,4 +1,3 @@
-#include "rhombicInProcessDecoder.h"
 #include "rhombicJSONFile.h"
 #include "rhombicLatticeToSurfaces.h"
 #include "rhombicScanToLattice.h"
@@ -185,10 +184,7 @@ void
 Run(const Options & options)
 {
   UseThreads(options.threads);
-  InProcessDecoder decoder;
-  ScanReadOptions read;
-  read.decoder = &decoder;
-  Scan scan = ReadScan(options.scan, read);
+  Scan scan = ReadScan(options.scan);
   if (IsTableRemoved(options.isCT ? TableRule::Remove : TableRule::RemoveFromCT, scan))
   {
     RemoveTable(scan, {});

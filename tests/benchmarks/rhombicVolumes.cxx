@@ -1,5 +1,4 @@
 #include "rhombicExtractSurface.h"
-#include "rhombicInProcessDecoder.h"
 #include "rhombicIsosurfaceVolume.h"
 #include "rhombicJSONFile.h"
 #include "rhombicLatticeToSurfaces.h"
@@ -108,10 +107,7 @@ MeasureAll(const Options & options)
   };
   if (!options.scan.empty())
   {
-    InProcessDecoder decoder;
-    ScanReadOptions read;
-    read.decoder = &decoder;
-    Scan scan = ReadScan(options.scan, read);
+    Scan scan = ReadScan(options.scan);
     if (IsTableRemoved(options.isCT ? TableRule::Remove : TableRule::RemoveFromCT, scan))
     {
       RemoveTable(scan, {});

@@ -1,7 +1,7 @@
 #include "rhombicFailure.h"
 #include "rhombicFuzzBytes.h"
 #include "rhombicFuzzProperty.h"
-#include "rhombicLabelTable.h"
+#include "rhombicLabelTableFormats.h"
 
 using rhombic::LabelTable;
 using rhombicfuzz::FuzzBytes;

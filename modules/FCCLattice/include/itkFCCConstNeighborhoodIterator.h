@@ -12,12 +12,12 @@ namespace itk
  * Neighbours have the order of FCCLattice::NearestNeighbors: neighbour \a n of a sample is the site at
  * NearestNeighbors[n] from it.
  *
- * **At the border:** a neighbour outside the image's buffered region has the value of the sample itself, which is
- * always one of the sites within that are nearest to it. So differences over the border are 0, as is the flux through
- * it. IsNeighborInside() tells which they are. The region may be any part of the buffered region; neighbours outside it
- * but inside the buffered region are themselves.
+ * **At the border:** a neighbour outside the image's buffered region has the value of the sample itself, so differences
+ * across the border, and the flux through it, are 0. IsNeighborInside() tells which neighbours are outside. The region
+ * may be any part of the buffered region; neighbours outside the region but inside the buffered region have their own
+ * values.
  *
- * Access to a neighbour is one addition and one load, at the border too: the steps in memory are worked out where they
+ * Access to a neighbour is one addition and one load, at the border too: the steps in memory are computed where they
  * change, three times a row, and are 0 for neighbours outside.
  *
  *     for (FCCConstNeighborhoodIterator<ImageType> it(image, region); !it.IsAtEnd(); ++it)
@@ -30,8 +30,8 @@ namespace itk
  *       ...
  *     }
  *
- * Throws on construction when the image is none, or the region is not inside its buffered region, or that was never
- * allocated. The image must neither go nor be released or allocated anew while the iterator is used.
+ * The constructor throws when the image is a null pointer or was never allocated, or the region is not inside its
+ * buffered region. The image must not be deleted, released or allocated anew while the iterator is used.
  *
  * Thread safety: any number of iterators may read one image at the same time.
  *
@@ -50,28 +50,28 @@ public:
 
   static_assert(std::is_base_of<FCCImage<PixelType>, TImage>::value, "The image must be an FCCImage");
 
-  /** At the first sample of the region. */
+  /** Starts at the first sample of the region. */
   FCCConstNeighborhoodIterator(const ImageType * image, const RegionType & region);
 
-  /** Neighbours of a sample: 12. */
+  /** The number of neighbours of a sample: 12. */
   static constexpr unsigned int
   Size()
   {
     return static_cast<unsigned int>(FCCLattice::NearestNeighbors.size());
   }
 
-  /** To the first sample of the region, where it begins. */
+  /** Goes to the first sample of the region. */
   void
   GoToBegin();
 
-  /** Whether it went past the last sample; there is none to be asked for then. */
+  /** Whether the iterator is past the last sample, where there is no pixel to read. */
   bool
   IsAtEnd() const
   {
     return m_Row == m_NumberOfRows;
   }
 
-  /** On to the next sample along x, or to the first of the next row. Not at the end. */
+  /** Goes to the next sample along x, or to the first of the next row. Must not be called at the end. */
   Self &
   operator++()
   {
@@ -101,7 +101,8 @@ public:
     return *m_Pixel;
   }
 
-  /** The value of neighbour \a n, below 12; of the sample itself if the neighbour is outside the buffered region. */
+  /** The value of neighbour \a n (below 12), or of the sample itself if the neighbour is outside the buffered region.
+   */
   const PixelType &
   GetNeighbor(unsigned int n) const
   {
@@ -122,7 +123,7 @@ public:
     return m_InBounds;
   }
 
-  /** Where neighbour \a n is, inside or not. */
+  /** The index of neighbour \a n, inside the buffered region or not. */
   IndexType
   GetNeighborIndex(unsigned int n) const
   {
@@ -137,11 +138,12 @@ protected:
   }
 
 private:
-  /** To the first sample of row number m_Row of the region, if there is such a row. */
+  /** Goes to the first sample of row number m_Row of the region, if there is such a row. */
   void
   BeginRow();
 
-  /** Works out the steps from the sample at m_X, and how far they are good. At the end of the row, begins the next. */
+  /** Computes the steps from the sample at m_X and the end of the span in which they are the same. At the end of a row,
+   * begins the next row. */
   void
   BeginSpan();
 

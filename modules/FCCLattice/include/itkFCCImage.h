@@ -31,17 +31,16 @@ namespace itk
  * row of parity 1 lie at i + 1/2. Interpolators written for Cartesian images are therefore wrong on an FCCImage; use
  * those of FCCInterpolation.
  *
- * **In pipelines of ITK's filters.** modules/FCCLattice/README.md has a table of those that work, those that something
- * here replaces, and those that mean nothing on a lattice. Pixel-wise filters, iterators, statistics and streaming
- * work. So does itk::ResampleImageFilter, with FCCImages as its input, its output, or both, if an FCC input gets an
- * interpolator of FCCInterpolation instead of the default one: it sees that this is a SpecialCoordinatesImage, and asks
- * the transforms below for every sample instead of assuming that rows are straight. There is deliberately no
- * neighbourhood accessor, so that filters which look at Cartesian neighbourhoods don't compile; neighbours on the
- * lattice are those of FCCConstNeighborhoodIterator.
+ * **With ITK's filters.** modules/FCCLattice/README.md has a table of the filters that work, those that have a
+ * replacement here, and those that are meaningless on a lattice. Pixel-wise filters, iterators, statistics and
+ * streaming work. itk::ResampleImageFilter works with FCCImages as its input, its output, or both, if an FCC input gets
+ * an interpolator of FCCInterpolation instead of the default one: for a SpecialCoordinatesImage it calls the transforms
+ * below for every sample instead of assuming that rows are straight. There is deliberately no neighbourhood accessor,
+ * so that filters of Cartesian neighbourhoods don't compile; use FCCConstNeighborhoodIterator.
  *
- * The transforms below hide those of ImageBase, which are not virtual. Code that is a template of the image's type, as
- * ITK's filters are, uses them; through a pointer to ImageBase, samples seem to lie elsewhere. Unlike its superclass's,
- * its SetSpacing() and SetOrigin() do what they say.
+ * The transforms below hide those of ImageBase, which are not virtual: templates of the image's type, as ITK's filters
+ * are, use them, but a pointer to ImageBase gives wrong positions. SetSpacing() and SetOrigin() work, unlike those of
+ * the superclass, which do nothing.
  *
  * Thread safety: that of itk::Image.
  *
@@ -110,14 +109,14 @@ public:
     ImageBase<3>::SetOrigin(origin);
   }
 
-  /** As for itk::Image, that of the pixel type; SpecialCoordinatesImage says 1 of any. */
+  /** The number of components of the pixel type, as in itk::Image; SpecialCoordinatesImage always returns 1. */
   unsigned int
   GetNumberOfComponentsPerPixel() const override
   {
     return NumericTraits<TPixel>::GetLength({});
   }
 
-  /** Sets all samples; its superclass's does not end on 2^32 samples or more. Allocate() first. */
+  /** Sets all samples, after Allocate(). The superclass's function does not end for 2^32 samples or more. */
   void
   FillBuffer(const TPixel & value)
   {

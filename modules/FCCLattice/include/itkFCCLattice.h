@@ -8,7 +8,7 @@
 #include <cmath>
 
 /** \namespace itk
- * \brief What Rhombic adds to ITK, in its style: the lattice, its filters, and surfaces of triangles. */
+ * \brief The classes that Rhombic adds to ITK: the lattice, its filters, and triangle surfaces. */
 namespace itk
 {
 
@@ -20,7 +20,7 @@ namespace itk
  * unit cube (its four even corners) and one octahedron around each odd point (its six axis neighbours).
  *
  * Sites are stored densely in *rows* along x. Index (i, j, k) is the site (2 i + p, j, k), where p = (j + k) mod 2 is
- * the *parity* of the row: neighbouring rows are shifted by one unit against each other, which is half their step.
+ * the *parity* of the row: neighbouring rows are shifted by one unit, half the distance of the sites in a row.
  *
  * Everything here is constexpr or pure, so thread safe.
  *
@@ -52,9 +52,10 @@ struct FCCLattice
                                                                 { 0, -1, -1 },
                                                                 { 0, 1, -1 } } };
 
-  /** The edges of the six-tetrahedra decomposition that a site owns; the other seven at the site are owned by its
-   * neighbours. First the row edge, the diagonal of an octahedron, then the nearest neighbours that come later in
-   * storage: in the same plane of constant z (1 and 2) and in the next one (3 to 6). */
+  /** The edges of the six-tetrahedra decomposition that are assigned to a site; the other seven at the site are
+   * assigned to its neighbours. First the edge along the row, which is the diagonal of an octahedron, then those to the
+   * nearest neighbours that come later in storage: in the same plane of constant z (1 and 2) and in the next one (3 to
+   * 6). */
   static constexpr std::array<SiteType, 7> OwnedEdges{
     { { 2, 0, 0 }, { 1, 1, 0 }, { -1, 1, 0 }, { 1, 0, 1 }, { -1, 0, 1 }, { 0, 1, 1 }, { 0, -1, 1 } }
   };

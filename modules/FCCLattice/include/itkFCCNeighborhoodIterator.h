@@ -7,12 +7,12 @@ namespace itk
 {
 
 /** \class FCCNeighborhoodIterator
- * \brief An FCCConstNeighborhoodIterator that can also change the sample it is at.
+ * \brief An FCCConstNeighborhoodIterator that can also write the current sample.
  *
- * Neighbours are read only: what is written to one would be seen when the iterator comes there, and by other threads.
- * What was written to earlier samples is seen by later ones; write to another image where that is not wanted.
+ * Neighbours are read only. Values written to earlier samples are the neighbours of later ones; where that is not
+ * wanted, write to another image.
  *
- * Thread safety: iterators that write need an image, or a region that no other one reads, for themselves.
+ * Thread safety: no other thread may read or write the samples that an iterator writes.
  *
  * \ingroup FCCLattice
  */
@@ -28,11 +28,11 @@ public:
     : Superclass(image, region)
   {}
 
-  /** Writes the sample it is at. */
+  /** Writes the current sample. */
   void
   SetCenterPixel(const PixelType & value)
   {
-    const_cast<PixelType &>(*this->GetPixelPointer()) = value; // the image was given as one that may be changed
+    const_cast<PixelType &>(*this->GetPixelPointer()) = value; // the constructor took a mutable image
   }
 };
 

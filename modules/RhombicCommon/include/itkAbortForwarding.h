@@ -10,14 +10,15 @@ namespace itk
 {
 
 /** \class AbortForwarding
- * \brief While it lives, all that is upstream of an image stops soon after a filter downstream of it is aborted.
+ * \brief As long as it exists, an abort of a filter also aborts the process objects upstream of its input.
  *
- * For filters that update their input piece by piece: of an abort during their own GenerateData(), ITK tells nobody
- * upstream. Each process object upstream looks for it at its ProgressEvents, and then throws ProcessAborted, through
- * the update of the input, or ends without a word, as StreamingImageFilter does: so the caller has to look at the
- * filter after the update, and to throw the half-made data away. One that reports no progress is waited for.
+ * For filters that update their input piece by piece in GenerateData(), where ITK does not pass an abort upstream. Each
+ * upstream process object checks the filter's AbortGenerateData at its own ProgressEvents. It then throws
+ * ProcessAborted through the input's Update(), or ends without an exception, as StreamingImageFilter does: the caller
+ * has to check AbortGenerateData after the update and discard the incomplete data. A process object that reports no
+ * progress runs to its end.
  *
- * Thread safety: one thread at a time, that which updates the filter.
+ * Thread safety: for the thread that updates the filter.
  */
 class AbortForwarding
 {

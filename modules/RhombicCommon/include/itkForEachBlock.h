@@ -8,10 +8,11 @@
 namespace itk
 {
 
-/** Calls \a work(n) for each n below \a count, on this thread and those of ITK's thread pool that are free, up to
- * MultiThreaderBase's global default number in all. It waits for nobody who has not begun: so it may be called by jobs
- * of the pool too, where MultiThreaderBase would wait for ever. The first exception is thrown after all have ended.
- * Thread safety: \a work is called on several threads at once, and any number of them may call this. */
+/** Calls \a work(n) for each n below \a count, on this thread and on idle threads of ITK's pool: at most
+ * MultiThreaderBase's global default number of threads in all. Returns after the last call, and throws the first
+ * exception. Unlike MultiThreaderBase, it never waits for a pool thread that has not started yet, so jobs of the pool
+ * may call it without a deadlock.
+ * Thread safety: \a work is called on several threads at once, and any number of threads may call this. */
 void
 ForEachOnThreads(std::size_t count, const std::function<void(std::size_t)> & work);
 

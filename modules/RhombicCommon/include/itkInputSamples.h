@@ -8,11 +8,11 @@
 namespace itk
 {
 
-/** Throws if an image's buffer does not hold the samples of a region, in indices of the image, which a filter needs.
+/** Throws unless an image's buffer holds the samples of a region, in indices of the image, that a filter needs.
  *
- * A filter that finds out in time says what to do instead of reading beyond the buffer. ITK's pipeline does not see to
- * it: an image without a source that was released after an update is updated again by doing nothing, and so is one
- * whose source failed in the middle of an update; and an image that was never allocated has a buffered region too.
+ * ITK's pipeline does not guarantee it: the update of an image does nothing if the image has no source, even if its
+ * data was released, or if its source failed in an earlier update; and an image that was never allocated has a buffered
+ * region too. The message says what to do instead.
  *
  * Thread safety: any number of threads may call it at once. */
 template <typename TImage>
@@ -43,7 +43,7 @@ VerifyInputSamples(const ProcessObject & filter, const TImage & input, const typ
   throw ExceptionObject(__FILE__, __LINE__, text.str(), ITK_LOCATION);
 }
 
-/** The same for the samples that the filter has requested of the input. */
+/** The same for the requested region of the input. */
 template <typename TImage>
 void
 VerifyInputSamples(const ProcessObject & filter, const TImage & input)

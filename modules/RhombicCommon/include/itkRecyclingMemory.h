@@ -12,16 +12,16 @@ namespace itk
 {
 
 /** \class RecyclingMemory
- * \brief Memory for large blocks that tasks on many threads need for a moment, of the same few sizes again and again.
+ * \brief A memory resource for large, short-lived blocks of a few sizes, shared by many threads.
  *
- * A block that is given back goes to the next who asks for one of its size, on whatever thread, until the spare ones
- * are released. So there are never more blocks than were in use at once. malloc() would keep them for the thread that
- * gave them back: with many threads, as many times.
+ * A block that is given back is kept, and given to the next request of the same size on any thread, until
+ * ReleaseSpare(). So there are never more blocks than were in use at once; malloc() would keep freed blocks for each
+ * thread separately.
  *
- * Asking for a block throws std::bad_alloc when there is no memory; giving one back needs none and never throws, as
- * destructors do it.
+ * Asking for a block throws std::bad_alloc when there is no memory. Giving one back needs no memory and never throws,
+ * as destructors do it.
  *
- * Thread safety: any number of threads may use it at once, but for its destruction, after all blocks are back.
+ * Thread safety: any number of threads may use it at once. Destroy it after all blocks were given back.
  */
 class RecyclingMemory : public std::pmr::memory_resource
 {
@@ -40,7 +40,7 @@ public:
     this->ReleaseSpare();
   }
 
-  /** Gives the blocks that are not in use to the system. */
+  /** Gives the blocks that are not in use back to the system. */
   void
   ReleaseSpare()
   {
@@ -57,13 +57,13 @@ public:
 private:
   using Kind = std::pair<std::size_t, std::size_t>; ///< bytes and alignment
 
-  /** What a block holds while it is spare. */
+  /** The contents of a spare block. */
   struct Spare
   {
     Spare * next;
   };
 
-  /** Of the blocks for a request: each can be a Spare. */
+  /** Size and alignment of the block for a request: large enough for a Spare. */
   static Kind
   KindOf(std::size_t bytes, std::size_t alignment)
   {
@@ -89,7 +89,7 @@ private:
   do_deallocate(void * block, std::size_t bytes, std::size_t alignment) override
   {
     const std::lock_guard<std::mutex> lock(m_Mutex);
-    Spare *& first = m_Spare.find(KindOf(bytes, alignment))->second; // it is there since the block was asked for
+    Spare *& first = m_Spare.find(KindOf(bytes, alignment))->second; // the list was made when the block was allocated
     first = new (block) Spare{ first };
   }
 
@@ -101,7 +101,7 @@ private:
 
   std::pmr::memory_resource * m_System;
   std::mutex m_Mutex;
-  std::pmr::map<Kind, Spare *> m_Spare; ///< the first of each list; linked through the blocks themselves
+  std::pmr::map<Kind, Spare *> m_Spare; ///< the first block of each linked list
 };
 
 } // namespace itk

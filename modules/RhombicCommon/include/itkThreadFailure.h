@@ -12,7 +12,8 @@ namespace itk
  * \brief Carries the first exception of a filter's threads to the thread that called it.
  *
  * The thread pool of ITK 5.2 drops exceptions of all its threads but the calling one, and the filter's Update() would
- * return as if all were well. Every thread works inside Capture(); after they have joined, the caller says Rethrow().
+ * return as if nothing had failed. Each thread works inside Capture(); after all have joined, the caller calls
+ * Rethrow().
  *
  * Thread safety: Capture() may run on any number of threads at once.
  */

@@ -11,13 +11,13 @@ namespace itk
 {
 
 /** \class WorkProgress
- * \brief Progress of a filter whose threads share work, and the place where they notice that it was aborted.
+ * \brief Progress and abort checks of a filter whose threads share its work.
  *
  * Observers of ProgressEvent see 0 when this is constructed, then steps of 1/128 that never fall and never pass 1, and
  * 1 on Finish(). TotalProgressReporter adds up rounded fractions instead, which may pass 1 and wrap around for a moment
- * when several threads report, and looks for an abort at its reports only: for long work too seldom.
+ * when several threads report, and checks for an abort only when it reports, which is too seldom for long work.
  *
- * Work is counted in any unit. Threads that do much of it in small portions report through a Share of their own.
+ * Work is counted in any unit. Threads that work in many small portions report through a Share of their own.
  *
  * Thread safety: CheckAbort() and Completed() may run on any number of threads at once, a Share on one; the rest
  * belongs to the thread that called the filter. Observers run on that thread only.
@@ -59,7 +59,7 @@ public:
     return m_Done;
   }
 
-  /** Tells that all work is done. */
+  /** Reports that all work is done. */
   void
   Finish()
   {
@@ -67,7 +67,7 @@ public:
   }
 
   /** \class Share
-   * \brief One thread's view of the progress, which keeps small portions of work back until they make a step.
+   * \brief Progress of one thread: adds up small portions of work and reports them in steps.
    *
    * Thread safety: each belongs to one thread; several may run at once. */
   class Share

@@ -16,8 +16,8 @@ namespace rhombic
  * checks its size, flushes it to the disk and renames it over the target; without Commit() the destructor removes it,
  * so an exception or a full disk leaves the target as it was.
  *
- * A process that is killed leaves its temporary file behind; the next AtomicFile for the same target removes it. Those
- * of living processes are known by a lock (flock), which ends with its process on any machine that shares the folder.
+ * A process that is killed leaves its temporary file behind; the next AtomicFile for the same target removes it. The
+ * temporary files of running processes are locked (flock), on all machines that share the folder.
  *
  * Thread safety: one thread per object; objects for different targets are independent.
  */
@@ -38,9 +38,9 @@ public:
     return m_Temporary;
   }
 
-  /** Checks the file's size and flushes it to the disk: all that takes time or may fail for want of space. Libraries'
-   * writers may report success on a full disk, so the caller gives the smallest size in bytes that a complete file has.
-   * Throws Failure(Output) when the file is smaller or can't be flushed. */
+  /** Checks the file's size and flushes it to the disk; only the renaming remains. \a minimumSize is the smallest size
+   * in bytes that a complete file has: libraries' writers may report success on a full disk. Throws Failure(Output)
+   * when the file is smaller or can't be flushed. */
   void
   Flush(std::uintmax_t minimumSize);
 
@@ -62,9 +62,9 @@ private:
 /** \class StagedFiles
  * \brief The output files of one command, which appear together or not at all.
  *
- * Writers add a file with Begin(), write it and flush it. Commit() renames all of them over their targets, in the order
- * in which they were added; by then everything that needs space on the disk is done. Without Commit() the destructor
- * removes all of them, and the targets stay as they were.
+ * Writers add a file with Begin(), write it and flush it. Commit() renames all of them over their targets in the order
+ * of Begin(), which needs no space on the disk. Without Commit() the destructor removes all of them, and the targets
+ * stay as they were.
  *
  * Each file keeps a file descriptor open until Commit(). A process that is killed during Commit() leaves the files that
  * were renamed before.
@@ -86,10 +86,10 @@ private:
   std::vector<std::unique_ptr<AtomicFile>> m_Files;
 };
 
-/** From now on SIGINT, SIGTERM and SIGHUP remove the temporary files of all AtomicFiles before they end the process as
- * they always do. Signals that are ignored, as SIGHUP is under nohup, stay so. SIGXFSZ is ignored: a file that reaches
- * the process's limit of size becomes an error of the writer. For programs, as it concerns
- * the whole process; a library leaves signals to its host. */
+/** Makes SIGINT, SIGTERM and SIGHUP remove the temporary files of all AtomicFiles before they end the process as usual.
+ * Signals that are ignored, as SIGHUP under nohup, stay ignored. SIGXFSZ is ignored, so that a file beyond the
+ * process's size limit becomes an error of its writer. For programs only, as signal handlers belong to the whole
+ * process. */
 void
 RemoveTemporaryFilesOnSignals();
 

@@ -8,16 +8,16 @@ namespace rhombic
 {
 
 /** \class Events
- * \brief What a pipeline tells its caller while it works. Either function may be empty.
+ * \brief Callbacks for the notes and the progress of long work. Either may be empty.
  *
  * Thread safety: both are called on the thread that called the pipeline. Pipelines that run at the same time need
  * events of their own, or functions that any number of threads may call. */
 struct Events
 {
-  /** A finished step or a decision taken, one line. */
+  /** Called with one line about a finished step or a decision. */
   std::function<void(const std::string & line)> note;
 
-  /** Progress of the step at work, from 0 to 1. */
+  /** Called with the progress of the current step, from 0 to 1. */
   std::function<void(const std::string & step, double fraction)> progress;
 
   /** Calls note, unless it is empty. */

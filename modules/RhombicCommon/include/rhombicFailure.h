@@ -6,11 +6,11 @@
 #include <string>
 
 /** \namespace rhombic
- * \brief What is not shaped like ITK's classes: scans, files, pictures, pipelines. */
+ * \brief Scans, files, pictures and pipelines: everything that is not an ITK class. */
 namespace rhombic
 {
 
-/** What went wrong, as a caller can act on it. The value is the exit code of the `rhombic` program. */
+/** The kind of a failure. Its value is the exit code of the `rhombic` program. */
 enum class FailureKind : int
 {
   Internal = 1,      ///< a defect in Rhombic or a library under it
@@ -21,7 +21,7 @@ enum class FailureKind : int
   Empty = 6,         ///< there is no surface at this isovalue
   Output = 7,        ///< the output can't be written
   NotWatertight = 8, ///< a surface has holes or other defects, and was asked to have none
-  Memory = 9,        ///< it would need, or needed, more memory than there is
+  Memory = 9,        ///< there is, or would be, too little memory
   Display = 10       ///< no way to draw on this machine
 };
 
@@ -54,7 +54,7 @@ private:
   FailureKind m_Kind;
 };
 
-/** What an exception of a library says, as part of a sentence: on one line, and without the class and address of the
+/** The message of a library's exception as part of a sentence: its first line, without the class and address of the
  * object that threw, which ITK puts first. Thread safe. */
 std::string
 DescribeError(const std::exception & error);

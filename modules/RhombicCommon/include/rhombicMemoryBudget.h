@@ -8,19 +8,20 @@ namespace rhombic
 {
 
 /** \file
- * How much memory work may take, in bytes. Thread safety: any number of threads may call these functions at once; each
- * call looks at what is free then. */
+ * Limits of memory, in bytes. Thread safety: any number of threads may call these functions at once; each call asks the
+ * system anew. */
 
 /** Bytes that can be used without swapping, as Linux estimates (MemAvailable); 0 when the system does not say. */
 std::uintmax_t
 FreeMemory();
 
-/** What work may take: \a limit, or, when that is 0, half of what is free now; unlimited when that is not known. */
+/** The memory that work may take: \a limit, or half of FreeMemory() when that is 0. Unlimited when the free memory is
+ * not known. */
 std::uintmax_t
 MemoryAllowance(std::uintmax_t limit);
 
-/** Asks before work, instead of finding out in it: throws Failure(Memory) when \a bytes are more than
- * MemoryAllowance(limit), saying that \a what would need so much and what else to try than more memory. */
+/** Throws Failure(Memory) when \a bytes exceed MemoryAllowance(limit): for a check before long work. \a what names the
+ * work in the message ("Reading scan.nii"), \a advice an alternative to allowing more memory. */
 void
 RequireMemory(std::uintmax_t bytes, std::uintmax_t limit, const std::string & what, const std::string & advice = {});
 

@@ -8,7 +8,8 @@
 namespace rhombic
 {
 
-/** Passes a filter's progress on as that of one step. \a events must outlive the filter's work. */
+/** Reports a filter's progress to Events::progress as that of \a step. \a events must outlive the filter's work. Thread
+ * safety: that of itk::Object::AddObserver(). */
 void
 ObserveProgress(itk::ProcessObject & filter, const std::string & step, const Events & events);
 

@@ -12,11 +12,13 @@
  * The pixel types of scans and of lattice volumes: the one list of them. A variant of images is made from it, and the
  * filters are compiled once for each of its types. Thread safe. */
 
+/** The list. The number of its entries is also in RHOMBIC_INSTANTIATE_FIVE. */
 #define RHOMBIC_PIXEL_TYPES std::uint8_t, std::int16_t, std::uint16_t, std::int32_t, float
 
 /** Instantiates a class template of images for each pixel type. \a declaration is `template class itk::SomeFilter`,
  * with `extern` before it in the header; \a image is a template of a pixel type. */
 #define RHOMBIC_INSTANTIATE(declaration, image) RHOMBIC_INSTANTIATE_LIST(declaration, image, RHOMBIC_PIXEL_TYPES)
+/** \cond */
 #define RHOMBIC_INSTANTIATE_LIST(declaration, image, ...) RHOMBIC_INSTANTIATE_FIVE(declaration, image, __VA_ARGS__)
 #define RHOMBIC_INSTANTIATE_FIVE(declaration, image, a, b, c, d, e)                                                    \
   declaration<image<a>>;                                                                                               \
@@ -24,6 +26,7 @@
   declaration<image<c>>;                                                                                               \
   declaration<image<d>>;                                                                                               \
   declaration<image<e>>
+/** \endcond */
 
 namespace rhombic
 {

@@ -54,13 +54,17 @@ LowerCase(std::string_view text);
 std::string_view
 Trim(std::string_view text);
 
-/** The words of \a text, which blanks separate. */
-std::vector<std::string>
+/** The words of \a text, which blanks separate: views into the same memory. */
+std::vector<std::string_view>
 SplitWords(std::string_view text);
 
 /** The parts of \a text between any of the characters \a separators. Parts may be empty; an empty text is one part. */
 std::vector<std::string>
 Split(std::string_view text, std::string_view separators);
+
+/** The hash of a text (FNV-1a, 64 bits) in 16 hexadecimal digits. */
+std::string
+HashText(std::string_view text);
 
 /** "1 label", "2 labels". \a plural is the noun with an s when it is empty. */
 std::string

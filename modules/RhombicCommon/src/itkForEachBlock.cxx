@@ -15,7 +15,7 @@ namespace itk
 namespace
 {
 
-/** Work that threads take piece by piece. It lives until the last of them has looked at it, and they may come late. */
+/** Work that threads share piece by piece. Pool threads may start after all is done; each of them keeps it alive. */
 class SharedWork
 {
 public:
@@ -24,7 +24,7 @@ public:
     , m_Work(work)
   {}
 
-  /** Takes pieces while there are any. */
+  /** Works on pieces while there are any. */
   void
   Help()
   {
@@ -39,7 +39,7 @@ public:
     }
   }
 
-  /** Waits for the pieces that others have taken. */
+  /** Waits for the pieces of the other threads. */
   void
   Join()
   {
@@ -50,7 +50,7 @@ public:
 
 private:
   std::size_t m_Count;
-  const std::function<void(std::size_t)> & m_Work; ///< there until all pieces have ended
+  const std::function<void(std::size_t)> & m_Work; ///< valid until all pieces have ended
   std::atomic<std::size_t> m_Next{ 0 };
   std::size_t m_Ended{ 0 };
   std::mutex m_Mutex;
@@ -72,7 +72,7 @@ ForEachOnThreads(std::size_t count, const std::function<void(std::size_t)> & wor
       ThreadPool::GetInstance()->AddWork([shared] { shared->Help(); });
     }
   }
-  catch (const std::exception &) // no memory, or no thread: those that there are will do
+  catch (const std::exception &) // no memory or no more threads: fewer threads do the work
   {}
   shared->Help();
   shared->Join();

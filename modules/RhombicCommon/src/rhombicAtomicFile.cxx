@@ -1,6 +1,7 @@
 #include "rhombicAtomicFile.h"
 
 #include "rhombicFailure.h"
+#include "rhombicWording.h"
 
 #include <atomic>
 #include <cerrno>
@@ -53,18 +54,18 @@ ExtensionOf(const fs::path & path)
   return last == ".gz" ? path.stem().extension().string() + last : last;
 }
 
-/** Names of temporary files where a signal handler can find them: it may neither lock nor allocate. Files beyond the
- * number of places are simply not listed. */
+/** Names of temporary files for the signal handler, which may neither lock nor allocate. Files beyond this number are
+ * not listed. */
 constexpr std::size_t listedFiles = 4096;
 std::atomic<const char *> temporaryFiles[listedFiles];
 
 void
 List(const fs::path & path)
 {
-  for (auto & place : temporaryFiles)
+  for (auto & entry : temporaryFiles)
   {
     const char * empty = nullptr;
-    if (place.compare_exchange_strong(empty, path.c_str()))
+    if (entry.compare_exchange_strong(empty, path.c_str()))
     {
       return;
     }
@@ -74,35 +75,24 @@ List(const fs::path & path)
 void
 Unlist(const fs::path & path)
 {
-  for (auto & place : temporaryFiles)
+  for (auto & entry : temporaryFiles)
   {
     const char * listed = path.c_str();
-    if (place.compare_exchange_strong(listed, nullptr))
+    if (entry.compare_exchange_strong(listed, nullptr))
     {
       return;
     }
   }
 }
 
-/** What the names of a target's temporary files begin with: short, whatever the length of the target's name. */
+/** The beginning of the names of a target's temporary files: short, whatever the length of the target's name. */
 std::string
 TemporaryPrefix(const fs::path & target)
 {
-  std::uint64_t hash = 0xcbf29ce484222325u; // FNV-1a
-  for (const unsigned char letter : target.filename().string())
-  {
-    hash = (hash ^ letter) * 0x100000001b3u;
-  }
-  constexpr char digits[] = "0123456789abcdef";
-  std::string prefix = ".tmp-";
-  for (int shift = 60; shift >= 0; shift -= 4)
-  {
-    prefix += digits[hash >> shift & 15];
-  }
-  return prefix + "-";
+  return ".tmp-" + HashText(target.filename().string()) + "-";
 }
 
-/** Whether the file is ours alone, now and as long as the descriptor is open. */
+/** Locks a file until its descriptor is closed. False when another process has locked it. */
 bool
 Lock(int descriptor)
 {
@@ -132,8 +122,8 @@ RemoveAbandoned(const fs::path & folder, const std::string & prefix)
   }
 }
 
-/** Creates a file that no other process removes: -1, and errno, when it can't be. Between its creation and the lock
- * another process may take it for abandoned; then it is gone, as if it had been there before (EEXIST). */
+/** Creates and locks a file. Returns its descriptor, or -1 with errno. Another process may remove the file as abandoned
+ * between its creation and the lock: that is reported as EEXIST. */
 int
 CreateLocked(const fs::path & path)
 {
@@ -153,9 +143,9 @@ CreateLocked(const fs::path & path)
 extern "C" void
 RemoveTemporaryFiles(int signal)
 {
-  for (const auto & place : temporaryFiles)
+  for (const auto & entry : temporaryFiles)
   {
-    if (const char * const path = place.load())
+    if (const char * const path = entry.load())
     {
       unlink(path);
     }
@@ -189,7 +179,7 @@ AtomicFile::AtomicFile(const fs::path & target)
     Fail(target, "it is not a regular file; give a file name");
   }
 
-  // A temporary file of that name may be left from a process that was killed and had the same number.
+  // A file of that name may be left from a killed process that had the same number.
   const std::string prefix = TemporaryPrefix(target);
   RemoveAbandoned(folder, prefix);
   static std::atomic<unsigned> counter{ 0 };
@@ -210,7 +200,7 @@ AtomicFile::~AtomicFile()
   if (!m_Temporary.empty())
   {
     Unlist(m_Temporary);
-    std::error_code ignored; // nothing more can be done about a file that won't go
+    std::error_code ignored; // a destructor must not throw
     fs::remove(m_Temporary, ignored);
   }
   close(m_Descriptor);

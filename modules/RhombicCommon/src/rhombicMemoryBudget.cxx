@@ -1,10 +1,10 @@
 #include "rhombicMemoryBudget.h"
 
 #include "rhombicFailure.h"
+#include "rhombicWording.h"
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 
@@ -59,9 +59,7 @@ DescribeBytes(std::uintmax_t bytes)
   {
     number /= 1024;
   }
-  // Tenths by hand: printf would follow the locale.
-  const auto tenths = static_cast<std::uintmax_t>(std::lround(number * 10));
-  return std::to_string(tenths / 10) + (unit > 0 ? "." + std::to_string(tenths % 10) : "") + " " + units[unit];
+  return FormatFixed(std::round(number * 10) / 10, unit > 0 ? 1 : 0) + " " + units[unit];
 }
 
 } // namespace rhombic

@@ -98,14 +98,14 @@ Trim(std::string_view text)
   return begin == std::string_view::npos ? "" : text.substr(begin, text.find_last_not_of(Blanks) - begin + 1);
 }
 
-std::vector<std::string>
+std::vector<std::string_view>
 SplitWords(std::string_view text)
 {
-  std::vector<std::string> words;
+  std::vector<std::string_view> words;
   for (text = Trim(text); !text.empty(); text = Trim(text))
   {
     const std::size_t end = std::min(text.find_first_of(Blanks), text.size());
-    words.emplace_back(text.substr(0, end));
+    words.push_back(text.substr(0, end));
     text.remove_prefix(end);
   }
   return words;
@@ -122,6 +122,22 @@ Split(std::string_view text, std::string_view separators)
     begin = end + 1;
   }
   return parts;
+}
+
+std::string
+HashText(std::string_view text)
+{
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char letter : text)
+  {
+    hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3u;
+  }
+  std::string digits;
+  for (int shift = 60; shift >= 0; shift -= 4)
+  {
+    digits += "0123456789abcdef"[hash >> shift & 15];
+  }
+  return digits;
 }
 
 std::string

@@ -9,29 +9,29 @@ namespace rhombic
 {
 
 /** \class IsolatedDecoder
- * \brief Unpacks voxels in processes of their own: a file that crashes its decoder, hangs it or makes it take all
- * memory becomes a Failure that names the file.
+ * \brief Unpacks voxels in child processes: a file that crashes its decoder, hangs it or makes it take all memory
+ * becomes a Failure that names the file.
  *
- * The constructor forks a small server, which in turn forks workers when they are needed, several for decoding several
- * files at once. So it must be made before the process starts threads, at best first thing in main(): a worker is a
- * copy of what the process was then, and costs a millisecond instead of the start of a program. Workers have no
- * terminal, can make no files, and are limited in memory, processor time and open files; voxels come back through
- * shared memory. All of them end with this object, or with the process.
+ * The constructor forks a small server, which forks workers when they are needed, one for each file that is decoded at
+ * the same time. Construct it before the process starts threads, best at the beginning of main(): a worker is a copy of
+ * that early process, which takes a millisecond instead of the start of a program. Workers have no terminal, can't make
+ * files, and are limited in memory, processor time and open files; voxels come back through shared memory. All child
+ * processes end with this object, or with the process.
  *
  * Thread safety: any number of threads may call Decode() at once. */
 class IsolatedDecoder : public VoxelDecoder
 {
 public:
-  /** What a worker may use for one request. */
+  /** Limits of a worker for one request. */
   struct Limits
   {
-    std::uintmax_t memory = 512u << 20; ///< bytes besides the voxels, and four times these
-    unsigned int seconds = 5;           ///< of processor time, and one more for each 4 MiB of voxels
-    unsigned int patience = 4;          ///< times as long may pass on the clock
+    std::uintmax_t memory = 512u << 20; ///< bytes besides five times the size of the voxels
+    unsigned int seconds = 5;           ///< processor time; one more second for each 4 MiB of voxels
+    unsigned int patience = 4;          ///< the limit of wall clock time is this times the limit of processor time
   };
 
-  /** \param workers at once; 0: one for each processor. Throws Failure(Internal) when there can be no more processes.
-   */
+  /** \param workers the largest number of workers; 0: one for each processor. Throws Failure(Internal) when the system
+   * allows no more processes. */
   explicit IsolatedDecoder(unsigned int workers = 0);
   IsolatedDecoder(unsigned int workers, const Limits & limits);
 

@@ -16,33 +16,34 @@ namespace rhombic
 class VoxelDecoder;
 
 /** \class ScanReadOptions
- * \brief What to read when there is a choice, and what to accept.
+ * \brief Choices of a series or volume, irregular input to accept, and limits.
  *
  * Thread safety: a value, whose copies share the decoder. */
 struct ScanReadOptions
 {
-  /** What to do with what is not as it should be. */
+  /** How to treat irregular input. */
   enum class Policy
   {
     Refuse,
     Accept
   };
 
-  /** Which DICOM series of a folder: its SeriesSummary::id, its SeriesInstanceUID, its place in the list (from 1), or
-   * its SeriesNumber. Empty, the default: the only one, or that with at least twice as many slices as any other. */
+  /** The DICOM series of a folder: its SeriesSummary::id, its SeriesInstanceUID, its position in the list (from 1), or
+   * its SeriesNumber. Empty, the default: the only series, or the one that has at least twice as many slices as any
+   * other. */
   std::string series;
 
-  /** Stacks of slices that are tilted or unevenly spaced, and sheared volumes: accepted (Scan::sliceOrigins, a sheared
-   * direction) or refused. */
+  /** For stacks of slices that are tilted or unevenly spaced, and for sheared volumes. When accepted, they have
+   * Scan::sliceOrigins or a sheared direction. */
   Policy onIrregular = Policy::Accept;
 
-  /** Stacks from which slices are missing: refused, or accepted with the others in their true positions. */
+  /** For stacks with missing slices. When accepted, the other slices are at their true positions. */
   Policy onGap = Policy::Refuse;
 
-  /** Which volume of a file that holds several, from 0. */
+  /** The volume of a file that holds several, from 0. */
   std::optional<std::size_t> frame;
 
-  /** Files of several volumes when none of them is asked for: refused, or the first is read. */
+  /** For files of several volumes without a \a frame. When accepted, the first volume is read. */
   Policy onSeveralFrames = Policy::Refuse;
 
   /** Whether Analyze 7.5 files are read, whose orientation is unknown. */
@@ -51,13 +52,13 @@ struct ScanReadOptions
   /** Whether symbolic links in folders are followed. */
   bool followsLinks = false;
 
-  /** Bytes that the volume may take; 0, the default: half of the memory that is free. */
+  /** The largest memory of the volume in bytes; 0, the default: half of the free memory. */
   std::uintmax_t maximumMemory = 0;
 
-  /** What unpacks voxels through libraries that damaged files can crash; none: this process. Not owned. */
+  /** Runs the libraries that unpack voxels, which damaged files can crash; null: in this process. Not owned. */
   VoxelDecoder * decoder = nullptr;
 
-  /** Told, on the calling thread, how much of a DICOM series is read, from 0 to 1; may be empty. */
+  /** Called on the calling thread with the progress of reading a DICOM series, from 0 to 1; may be empty. */
   std::function<void(double)> progress;
 };
 
@@ -69,15 +70,16 @@ struct ScanReadOptions
  * rescaling keeps it; otherwise int8 becomes int16; uint32, int64 and uint64 become int32 if all values fit and float
  * if not; double becomes float; rescaled DICOM integers become the first of int16, uint16 and int32 that holds
  * all values, or float where slope or intercept is no whole number; rescaled NIfTI becomes float. Padding and values
- * that are not finite get the lowest other value.
+ * that are not finite are replaced by the lowest other value.
  *
- * The geometry is the file's, in LPS millimetres, never assumed: slices come from ImagePositionPatient,
- * ImageOrientationPatient and PixelSpacing only, every one within 0.01 mm of the volume's affine or in
- * Scan::sliceOrigins; NIfTI from its sform, else its qform, else along LPS axes, not oriented.
+ * The geometry is the file's, in LPS millimetres, never assumed. DICOM slices are placed by ImagePositionPatient,
+ * ImageOrientationPatient and PixelSpacing only, each within 0.01 mm of the volume's affine or else in
+ * Scan::sliceOrigins. NIfTI volumes are placed by the sform, else the qform, else along the LPS axes and marked as not
+ * oriented.
  *
- * Headers are parsed by code that believes no length they claim, and the memory that voxels need is asked for before it
- * is allocated. Voxels that only a library can unpack go through ScanReadOptions::decoder; without one,
- * damaged files may still end the process inside GDCM or ITK.
+ * Every length in a header is checked against the file's size, and the memory for the voxels against the limit before
+ * it is allocated. Voxels that only a library can unpack go through ScanReadOptions::decoder; without one, damaged
+ * files may end the process inside GDCM or ITK.
  *
  * Throws Failure: NotFound (no such path, or no scan in the folder), Usage (no such series or frame, or more than one
  * to choose from), Unreadable (damaged, or colour, vectors, no image...), Geometry, Memory.
@@ -86,9 +88,10 @@ struct ScanReadOptions
 Scan
 ReadScan(const std::filesystem::path & path, const ScanReadOptions & options = {});
 
-/** The series that ReadScan() finds at this path, from headers alone. Their problems are why ReadScan() would refuse
- * them, in sentences that may name files; damage that only unpacking finds is not among them. The chosen one is that
- * which ReadScan() would read; there is none when it would refuse to choose.
+/** The series that ReadScan() finds at this path, from headers alone. SeriesSummary::problem is the reason for which
+ * ReadScan() would refuse a series, in a sentence that may name files; damage that only unpacking finds is not
+ * included. The chosen series is the one that ReadScan() would read; none is chosen when ReadScan() would ask for a
+ * choice.
  *
  * Throws Failure: NotFound, Usage (ScanReadOptions::series names none), Unreadable (a file that is no DICOM image).
  * Thread safe, as ReadScan(). */

@@ -9,14 +9,13 @@
 namespace rhombic
 {
 
-/** Throws Failure(Usage) when WriteScan() would because of the extension: for asking before long work. */
+/** Throws Failure(Usage) for an extension that WriteScan() refuses: for a check before long work. */
 void
 CheckScanPath(const std::filesystem::path & path);
 
 /** Writes a Cartesian volume as NRRD (.nrrd), NIfTI (.nii, .nii.gz) or MetaImage (.mha), by the path's extension, with
- * nothing in it but pixels and geometry. The file is read back and compared before it appears, because ITK's writers
- * report success on a full disk. Throws Failure: Usage for another extension, Output. Thread safe for different paths.
- */
+ * only the pixels and the geometry. The file is read back and compared before it appears, because ITK's writers report
+ * success on a full disk. Throws Failure: Usage for another extension, Output. Thread safe for different paths. */
 void
 WriteScan(const ScanImage & image, const std::filesystem::path & path);
 

@@ -8,10 +8,10 @@
 namespace rhombic
 {
 
-/** Voxels that a library is to unpack. Thread safety: a value. */
+/** A request to unpack voxels. Thread safety: a value. */
 struct VoxelRequest
 {
-  /** The library. */
+  /** The kind of file, and the library that reads it. */
   enum class Source
   {
     DicomFile, ///< all frames of a DICOM file with compressed pixels, by GDCM
@@ -20,7 +20,7 @@ struct VoxelRequest
 
   Source source = Source::DicomFile;
   std::filesystem::path path;
-  std::size_t size = 0; ///< bytes that must come out, in this machine's byte order
+  std::size_t size = 0; ///< bytes of the unpacked voxels, in this machine's byte order
 };
 
 /** \class VoxelBuffer
@@ -45,7 +45,7 @@ public:
 /** \class VoxelDecoder
  * \brief Runs the libraries that unpack voxels, which damaged files can crash.
  *
- * InProcessDecoder runs them in this process, IsolatedDecoder in processes of their own.
+ * ReadScan() runs them in its own process by default, IsolatedDecoder in child processes.
  *
  * Thread safety: any number of threads may call Decode() at once. */
 class VoxelDecoder
@@ -57,7 +57,7 @@ public:
   VoxelDecoder &
   operator=(const VoxelDecoder &) = delete;
 
-  /** How many requests are worth making at once. */
+  /** The number of requests that are worked on at the same time. */
   virtual unsigned int
   GetNumberOfWorkers() const = 0;
 

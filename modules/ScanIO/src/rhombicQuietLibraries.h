@@ -4,8 +4,8 @@
 namespace rhombic
 {
 
-/** Keeps ITK's and GDCM's messages off the terminal as long as any object of this class lives. The switches are global
- * to the process; the last object to go sets them back. Thread safe. */
+/** Turns ITK's and GDCM's messages off as long as any object of this class exists. The switches are global to the
+ * process; the destructor of the last object restores them. Thread safe. */
 class QuietLibraries
 {
 public:

@@ -55,7 +55,7 @@ Read(const fs::path & path, const ScanReadOptions & options)
   return ReadVolumeFile(path, options);
 }
 
-/** Calls \a read, whose exceptions become Failures that name the path. */
+/** Calls \a read. Turns its exceptions into Failures that name the path. */
 template <typename TRead>
 auto
 ReadOrFail(const fs::path & path, const TRead & read)

@@ -1,12 +1,12 @@
 #include "rhombicVolumeGeometry.h"
 
 #include "rhombicVolumeRefusal.h"
+#include "rhombicWording.h"
 
 #include "itkMath.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace rhombic
 {
@@ -37,7 +37,7 @@ MakeGeometry(const itk::Size<3> & size, const itk::Point<double, 3> & origin, co
     geometry.spacing[axis] = steps[axis].GetNorm();
     for (unsigned int row = 0; row < 3; ++row)
     {
-      constexpr double rounding = 1e-15; // VNL, which inverts the direction, does not converge with values near 0
+      constexpr double rounding = 1e-15; // VNL's inversion of the direction does not converge with values near 0
       const double cosine = steps[axis][row] / geometry.spacing[axis];
       geometry.direction[row][axis] = std::abs(cosine) < rounding ? 0.0 : cosine;
     }
@@ -58,7 +58,7 @@ CheckGeometry(const VolumeGeometry & geometry,
     {
       RefuseGeometry(path, "its " + matrix + " holds numbers that are not finite; export it again from its source");
     }
-    constexpr double smallest = 1e-9, largest = 1e9; // mm: a nanometre has 1e-6
+    constexpr double smallest = 1e-9, largest = 1e9; // mm
     if (geometry.spacing[axis] < smallest || geometry.spacing[axis] > largest)
     {
       RefuseGeometry(path,
@@ -81,9 +81,8 @@ CheckGeometry(const VolumeGeometry & geometry,
   constexpr double tolerance = 1e-3;
   if (largestCosine > tolerance)
   {
-    char degrees[32];
-    std::snprintf(
-      degrees, sizeof(degrees), "%.3g degrees", std::asin(std::min(1.0, largestCosine)) * 180 / itk::Math::pi);
+    const std::string degrees =
+      FormatNumber(std::asin(std::min(1.0, largestCosine)) * 180 / itk::Math::pi, 3) + " degrees";
     if (onSheared == ScanReadOptions::Policy::Refuse)
     {
       RefuseGeometry(path,

@@ -12,7 +12,7 @@
 namespace rhombic
 {
 
-/** Where the voxels of a volume are, in LPS millimetres, in ITK's terms. */
+/** The geometry of a volume as in ITK, in LPS millimetres. */
 struct VolumeGeometry
 {
   itk::Size<3> size{};
@@ -25,9 +25,9 @@ struct VolumeGeometry
 VolumeGeometry
 MakeGeometry(const itk::Size<3> & size, const itk::Point<double, 3> & origin, const itk::Vector<double, 3> steps[3]);
 
-/** Throws Failure(Geometry) unless all numbers are finite, spacings from 1e-9 to 1e9 mm and the axes independent. Axes
- * that are not perpendicular within 1e-3 (the cosine) are refused too with Policy::Refuse, and otherwise noted. \a
- * matrix names where the axes come from: "sform". */
+/** Throws Failure(Geometry) unless all numbers are finite, the spacings are from 1e-9 to 1e9 mm and the axes are
+ * linearly independent. Axes whose cosine is more than 1e-3 are refused with Policy::Refuse, and otherwise added to \a
+ * notes. \a matrix names the source of the axes in messages: "sform". */
 void
 CheckGeometry(const VolumeGeometry & geometry,
               const std::filesystem::path & path,
@@ -35,7 +35,7 @@ CheckGeometry(const VolumeGeometry & geometry,
               ScanReadOptions::Policy onSheared,
               std::vector<std::string> & notes);
 
-/** An image of this geometry, its pixels not set. */
+/** An allocated image of this geometry, without initial values. */
 template <typename TPixel>
 typename itk::Image<TPixel, 3>::Pointer
 NewImage(const VolumeGeometry & geometry)

@@ -13,7 +13,7 @@ namespace rhombic
 {
 
 /** \class FileDescriptor
- * \brief Closes a file descriptor with itself. */
+ * \brief Owns a file descriptor: the destructor closes it. */
 class FileDescriptor
 {
 public:
@@ -57,54 +57,54 @@ private:
   int m_Descriptor = -1;
 };
 
-/** What the program asks the server of workers. */
+/** A request of the program to the server of workers. */
 struct ServerRequest
 {
   enum class Kind : std::uint32_t
   {
-    Start, ///< a worker, which gets the socket that comes with it
-    Wait   ///< for the end of a worker
+    Start, ///< start a worker with the socket that is sent with the message
+    Wait   ///< wait for the end of a worker
   };
 
   Kind kind = Kind::Start;
-  pid_t pid = 0; ///< to wait for
+  pid_t pid = 0; ///< of the worker to wait for
 };
 
 struct ServerReply
 {
-  pid_t pid = 0;  ///< of the new worker; negative when it could not be made
-  int status = 0; ///< of the ended worker, as waitpid() has it
+  pid_t pid = 0;  ///< of the new worker; negative when it could not be started
+  int status = 0; ///< of the ended worker, from waitpid()
 };
 
-/** What the program asks a worker, beside the file's path. Memory to write the voxels to comes with it, unless that of
- * the last request is large enough. */
+/** A request of the program to a worker. The text of the message is the file's path; its descriptor is the memory for
+ * the voxels, unless that of the previous request is large enough. */
 struct WorkerRequest
 {
   VoxelRequest::Source source = VoxelRequest::Source::DicomFile;
   std::uint64_t size = 0;    ///< of the voxels, in bytes
-  std::uint64_t memory = 0;  ///< bytes that the worker may take besides what it has
-  std::uint64_t seconds = 0; ///< of processor time that it may take
+  std::uint64_t memory = 0;  ///< bytes that the worker may allocate
+  std::uint64_t seconds = 0; ///< processor time that the worker may use
 };
 
-/** What a worker answers, beside a sentence when it failed. */
+/** The reply of a worker. The text of the message is a sentence when it failed. */
 struct WorkerReply
 {
   static constexpr std::uint32_t Mark = 0x52484d42;
 
   std::uint32_t mark = Mark;
-  std::int32_t failure = 0; ///< a FailureKind; 0: the voxels are there
+  std::int32_t failure = 0; ///< a FailureKind; 0 for success
   std::uint64_t size = 0;   ///< bytes written
 };
 
 constexpr std::size_t LongestMessageText = 8192;
 
-/** Sends a struct of plain numbers, a text of at most LongestMessageText (the rest is cut off), and a descriptor unless
- * it is negative. False when there is nobody at the other end. */
+/** Sends a struct of plain numbers, a text of at most LongestMessageText bytes (the rest is cut off), and a descriptor
+ * unless it is negative. False when the other end is closed. */
 template <typename TMessage>
 bool
 SendMessage(int socket, const TMessage & message, const std::string & text = {}, int descriptor = -1);
 
-/** What SendMessage() sent. */
+/** A message of SendMessage(). */
 template <typename TMessage>
 struct ReceivedMessage
 {
@@ -113,12 +113,12 @@ struct ReceivedMessage
   FileDescriptor descriptor;
 };
 
-/** Waits for a message; nothing when the other end is closed or sent something else. */
+/** Waits for a message. Nothing when the other end is closed or sent something else. */
 template <typename TMessage>
 std::optional<ReceivedMessage<TMessage>>
 ReceiveMessage(int socket);
 
-/** Two ends of a new socket that keeps messages apart; false when there can't be one. */
+/** Makes the two ends of a socket that preserves the bounds of messages. False when the system allows none. */
 bool
 MakeSocketPair(FileDescriptor & first, FileDescriptor & second);
 

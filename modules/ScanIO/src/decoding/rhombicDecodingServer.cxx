@@ -17,7 +17,7 @@ namespace rhombic
 namespace
 {
 
-/** A process that outlives the one that made it is of no use. */
+/** Ends this process when its parent ends. */
 void
 EndWithParent(pid_t parent)
 {
@@ -28,7 +28,8 @@ EndWithParent(pid_t parent)
   }
 }
 
-/** What the program has open is not for its decoders; the socket of another one's server would keep that alive. */
+/** Closes all files of the program but standard streams and one descriptor. An open socket would keep the server of
+ * another IsolatedDecoder alive. */
 void
 CloseAllBut(int descriptor)
 {
@@ -40,7 +41,7 @@ CloseAllBut(int descriptor)
   close_range(kept + 1, ~0U, 0);
 }
 
-/** The terminal stays the program's alone, and so do the handlers of its signals. */
+/** Replaces the standard streams by /dev/null and the program's signal handlers by the default ones. */
 void
 LeaveTerminal()
 {
@@ -84,8 +85,7 @@ WaitFor(pid_t pid)
 void
 RunDecodingServer(int socket)
 {
-  // The socket's end says when the program has ended. The signal for that would come with the end of the thread that
-  // made this process.
+  // The socket is closed when the program ends. PR_SET_PDEATHSIG would end this process with the thread that forked it.
   CloseAllBut(socket);
   LeaveTerminal();
   std::set<pid_t> workers;

@@ -4,8 +4,8 @@
 namespace rhombic
 {
 
-/** What the process does that IsolatedDecoder forks: makes workers as it is asked to on the socket, and says how they
- * ended. Ends with the socket. Must have one thread. */
+/** Runs the server process of IsolatedDecoder: starts workers on request and reports how they ended. Returns never; the
+ * process ends when the socket is closed. It must have one thread only. */
 [[noreturn]] void
 RunDecodingServer(int socket);
 

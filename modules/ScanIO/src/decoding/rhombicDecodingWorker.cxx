@@ -34,7 +34,7 @@ Limit(int resource, rlim_t value)
   setrlimit(resource, &limit);
 }
 
-/** Bytes of addresses that this process has. */
+/** The size of this process's address space in bytes. */
 std::uint64_t
 AddressSpace()
 {
@@ -51,7 +51,8 @@ SecondsUsed()
   return static_cast<std::uint64_t>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) + 1;
 }
 
-/** Limits that last as long as the worker: no core files, no files of its own but what its libraries print. */
+/** Sets the limits of the whole process: no core files, few open files, and small files. What libraries print goes to
+ * \a output. */
 void
 LimitFiles(int output)
 {
@@ -71,7 +72,7 @@ LimitRequest(const WorkerRequest & request)
   Limit(RLIMIT_CPU, SecondsUsed() + request.seconds);
 }
 
-/** Memory that is shared with the program. */
+/** The memory for voxels that is shared with the program. */
 class SharedVoxels
 {
 public:
@@ -120,8 +121,7 @@ private:
   void * m_Address = MAP_FAILED;
 };
 
-/** What is printed is then about damage: libjpeg's opinion of a stream. GDCM fails where it has errors, and complains
- * of much else that does not matter here. */
+/** Turns off the warnings of ITK and GDCM, which are not about damage. Only libjpeg's warnings of damage remain. */
 void
 SilenceWarnings()
 {
@@ -131,7 +131,7 @@ SilenceWarnings()
   gdcm::Trace::SetError(false);
 }
 
-/** What libraries printed since the last call. */
+/** The first line that libraries printed since the last call. */
 std::string
 TakeOutput(int output)
 {
@@ -146,7 +146,7 @@ TakeOutput(int output)
   return text.substr(0, text.find('\n'));
 }
 
-/** Throws for codecs that only warn of damage: the voxels are then made up in part. */
+/** Unpacks voxels. Throws also when a codec only warns of damage, as it then invents voxels. */
 void
 Work(const ReceivedMessage<WorkerRequest> & request, SharedVoxels & voxels, int output)
 {
@@ -163,7 +163,7 @@ Work(const ReceivedMessage<WorkerRequest> & request, SharedVoxels & voxels, int 
   }
 }
 
-/** Codecs take and give back the same large blocks for each file: no need to get them from the system anew. */
+/** Makes malloc() keep freed memory: codecs allocate the same large blocks for each file. */
 void
 KeepFreedMemory()
 {
@@ -181,7 +181,7 @@ RunDecodingWorker(int socket)
   LimitFiles(output.Get());
   SilenceWarnings();
   KeepFreedMemory();
-  ForbidAllButDecoding(); // OpenJPEG's threads would only be in the way of other workers
+  ForbidAllButDecoding(); // forbids threads too: OpenJPEG's would slow down other workers
   SharedVoxels voxels;
   while (const auto request = ReceiveMessage<WorkerRequest>(socket))
   {

@@ -4,9 +4,9 @@
 namespace rhombic
 {
 
-/** What a worker of IsolatedDecoder does: unpacks voxels as it is asked to on the socket, into memory that comes with
- * the request. Ends with the socket, or after the first failure, because a library that failed may have damaged its own
- * state. */
+/** Runs a worker process of IsolatedDecoder: unpacks voxels on request into the memory that is sent with the request.
+ * The process ends when the socket is closed, or after the first failure, as a library that failed may have damaged its
+ * own state. */
 [[noreturn]] void
 RunDecodingWorker(int socket);
 

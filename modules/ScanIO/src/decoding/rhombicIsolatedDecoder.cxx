@@ -27,7 +27,7 @@ namespace rhombic
 namespace
 {
 
-/** Memory of a fixed size that another process can be given. */
+/** Memory of a fixed size that can be shared with another process. */
 class SharedMemory
 {
 public:
@@ -39,7 +39,7 @@ public:
     {
       throw std::bad_alloc();
     }
-    // Or the worker could take away pages that this process reads.
+    // Seals keep the worker from removing pages that this process reads.
     fcntl(m_Descriptor.Get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW);
     m_Address = mmap(nullptr, size, PROT_READ, MAP_SHARED, m_Descriptor.Get(), 0);
     if (m_Address == MAP_FAILED)
@@ -79,7 +79,7 @@ private:
   void * m_Address = nullptr;
 };
 
-/** A process that unpacks voxels, the socket to it, and where it puts the voxels. */
+/** A worker process, the socket to it, and the memory for its voxels. */
 struct Worker
 {
   pid_t pid = -1;
@@ -87,7 +87,7 @@ struct Worker
   std::unique_ptr<SharedMemory> memory;
 };
 
-/** Whether a signal is what code does to itself when a file leads it astray. */
+/** Whether a signal is caused by the process's own code, and not sent from outside. */
 bool
 IsOwnFault(int signal)
 {
@@ -102,7 +102,7 @@ NameOfSignal(int signal)
   return "SIG" + std::string(name == nullptr ? "?" : name);
 }
 
-/** How a worker ended that did not answer, as part of a sentence. */
+/** How a worker ended without a reply, as part of a sentence. */
 std::string
 DescribeEnd(int status, unsigned int seconds)
 {
@@ -127,7 +127,7 @@ UnreadableBecause(const VoxelRequest & request, const std::string & why)
 
 } // namespace
 
-/** The server and the workers that are idle. */
+/** The server and the idle workers. */
 class IsolatedDecoder::Pool
 {
 public:
@@ -140,7 +140,7 @@ public:
     {
       throw this->NoProcess();
     }
-    std::fflush(nullptr); // or the copies would print it again
+    std::fflush(nullptr); // else the children would print the buffered text again
     std::cout.flush();
     std::cerr.flush();
     m_Server = fork();
@@ -198,7 +198,7 @@ public:
   }
 
 private:
-  /** Voxels in the memory of a worker, which is free for other work afterwards. */
+  /** Voxels in the memory of a worker, which becomes idle when the buffer is deleted. */
   class WorkersBuffer : public VoxelBuffer
   {
   public:
@@ -223,7 +223,8 @@ private:
     Worker m_Worker;
   };
 
-  /** Makes sure that a worker has so much memory for voxels; returns the descriptor of what is new, or -1. */
+  /** Gives a worker enough memory for voxels. Returns the descriptor of new memory, or -1 if the old one is large
+   * enough. */
   static int
   ProvideMemory(Worker & worker, std::size_t size)
   {
@@ -283,7 +284,7 @@ private:
     m_Idle.push_back(std::move(worker));
   }
 
-  /** False when it took too long. */
+  /** False after the limit of wall clock time. */
   bool
   WaitForReply(const Worker & worker, const WorkerRequest & message) const
   {
@@ -314,14 +315,14 @@ private:
     return reply ? reply->message.status : 0;
   }
 
-  /** What became of a worker that gave no answer, or none that makes sense. */
+  /** Ends a worker that gave no reply or an invalid one, and returns the reason. */
   Failure
   EndOf(Worker worker, const VoxelRequest & request, const WorkerRequest & message)
   {
     pollfd closed{ worker.socket.Get(), POLLIN, 0 };
     const bool hangs = poll(&closed, 1, 0) == 0;
     const bool hasEnded = (closed.revents & POLLHUP) != 0;
-    kill(worker.pid, SIGKILL); // without effect on one that has ended: the server has not waited for it yet
+    kill(worker.pid, SIGKILL); // no effect if it has ended: the server has not waited for it yet
     const int status = this->WaitForEnd(worker);
     const auto seconds = static_cast<unsigned int>(message.seconds);
     if (hangs)
@@ -335,7 +336,7 @@ private:
     }
     if (WIFSIGNALED(status) && !IsOwnFault(WTERMSIG(status)))
     {
-      const bool isMemory = WTERMSIG(status) == SIGKILL; // what the kernel ends processes with when memory runs out
+      const bool isMemory = WTERMSIG(status) == SIGKILL; // the signal of the kernel when memory runs out
       return Failure(isMemory ? FailureKind::Memory : FailureKind::Internal,
                      "Cannot read " + request.path.string() + ": its decoder was killed from outside (" +
                        NameOfSignal(WTERMSIG(status)) + ")" + (isMemory ? ", as happens when memory runs out" : "") +
@@ -362,7 +363,7 @@ private:
   Limits m_Limits;
   FileDescriptor m_Socket; ///< to the server
   pid_t m_Server = -1;
-  std::mutex m_Mutex; ///< for what is said to the server, and the idle workers
+  std::mutex m_Mutex; ///< for messages to the server, and m_Idle
   std::vector<Worker> m_Idle;
 };
 

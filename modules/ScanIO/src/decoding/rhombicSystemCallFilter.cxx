@@ -64,7 +64,7 @@ constexpr unsigned int Forbidden[] = {
 #endif
 };
 
-/** Calls that open files, and which of their arguments says what for. */
+/** System calls that open files, and the index of the argument with the flags. */
 constexpr std::pair<unsigned int, unsigned int> Openings[] = {
   { SYS_openat, 2 },
 #if defined(SYS_open)
@@ -91,7 +91,7 @@ ForbidAllButDecoding()
   const sock_filter deny = BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM);
   program.push_back(load(offsetof(seccomp_data, nr)));
 #if defined(__x86_64__)
-  constexpr unsigned int firstOfX32 = 0x40000000; // the same calls by other numbers
+  constexpr unsigned int firstOfX32 = 0x40000000; // the same calls have other numbers there
   program.push_back(BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, firstOfX32, 0, 1));
   program.push_back(deny);
 #endif

@@ -4,8 +4,9 @@
 namespace rhombic
 {
 
-/** From now on this process can start no threads, processes or programs, open no sockets, change nothing in the file
- * system and reach no other process by signals or its memory: these calls fail with EPERM. Without effect on kernels that can't do it, and on processors other than x86-64 and ARM64. Can't be undone. */
+/** Forbids this process to start threads, processes or programs, open sockets, change the file system, and send signals
+ * to other processes or access their memory: these system calls fail with EPERM. Can't be undone. Does nothing on
+ * kernels without seccomp and on processors other than x86-64 and ARM64. */
 void
 ForbidAllButDecoding();
 

@@ -6,8 +6,8 @@
 namespace rhombic
 {
 
-/** Does what a request asks for, in this process: what VoxelDecoder protects from. \a voxels has room for
- * VoxelRequest::size bytes. Throws Failure, and the libraries' exceptions. */
+/** Unpacks the voxels of a request in this process, into VoxelRequest::size bytes. Damaged files may end the process.
+ * Throws Failure and the libraries' exceptions. */
 void
 DecodeVoxels(const VoxelRequest & request, std::byte * voxels);
 

@@ -10,8 +10,8 @@ namespace rhombic
 namespace
 {
 
-/** What a stream says about its picture; all 0 when it does not say. */
-struct Picture
+/** The properties of the picture in a stream; all 0 when it has none. */
+struct StreamPicture
 {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
@@ -42,7 +42,7 @@ LittleEndian(std::string_view bytes, std::size_t offset)
 }
 
 /** From the SIZ marker that JPEG 2000 begins with (ISO/IEC 15444-1, A.5.1). */
-Picture
+StreamPicture
 PictureInJPEG2000(std::string_view stream)
 {
   constexpr std::size_t needed = 43;
@@ -56,7 +56,7 @@ PictureInJPEG2000(std::string_view stream)
 }
 
 /** From the start-of-frame marker of JPEG or JPEG-LS, which comes after other segments (ISO/IEC 10918-1, B.2.2). */
-Picture
+StreamPicture
 PictureInJPEG(std::string_view stream)
 {
   constexpr std::size_t needed = 10;
@@ -76,7 +76,7 @@ PictureInJPEG(std::string_view stream)
   return {};
 }
 
-/** JPEG, JPEG-LS and JPEG 2000 all end with the bytes FF D9, maybe followed by padding. */
+/** Whether a stream ends with FF D9, as JPEG, JPEG-LS and JPEG 2000 do; padding may follow. */
 bool
 HasEndMarker(std::string_view stream)
 {
@@ -85,7 +85,7 @@ HasEndMarker(std::string_view stream)
 }
 
 std::string
-FindPictureDamage(std::string_view stream, const Picture & picture, const DicomPixelFormat & format)
+FindPictureDamage(std::string_view stream, const StreamPicture & picture, const DicomPixelFormat & format)
 {
   if (picture.width != format.columns || picture.height != format.rows)
   {
@@ -102,7 +102,7 @@ FindPictureDamage(std::string_view stream, const Picture & picture, const DicomP
   return HasEndMarker(stream) ? "" : "its compressed pixels are cut off";
 }
 
-/** Whether PackBits runs (TIFF 6.0, section 9) unpack to so many bytes, with nothing but padding behind them. */
+/** Whether PackBits runs (TIFF 6.0, section 9) unpack to \a size bytes and are followed by padding only. */
 bool
 UnpacksTo(std::string_view packed, std::size_t size)
 {
@@ -111,12 +111,12 @@ UnpacksTo(std::string_view packed, std::size_t size)
   while (count < size && n < packed.size())
   {
     const auto code = static_cast<signed char>(packed[n++]);
-    if (code >= 0) // so many and one bytes as they are
+    if (code >= 0) // code + 1 literal bytes
     {
       n += static_cast<std::size_t>(code) + 1;
       count += static_cast<std::size_t>(code) + 1;
     }
-    else if (code != -128) // one byte, repeated
+    else if (code != -128) // one byte, 1 - code times
     {
       n += 1;
       count += static_cast<std::size_t>(1 - code);

@@ -10,15 +10,16 @@
 namespace rhombic
 {
 
-/** Why one frame's compressed pixels can't be what its header says, as "its ..."; empty when they may be.
+/** How one frame's compressed pixels contradict its header, as "its ..."; empty when they don't.
  *
- * JPEG, JPEG-LS and JPEG 2000: size, bits and components of the stream, and its end; run lengths: that every segment
- * unpacks to exactly the frame's pixels. The codecs write past their buffers, or make up pixels, when these differ. */
+ * Checks the size, bits and components of JPEG, JPEG-LS and JPEG 2000 streams and their end, and that each segment of
+ * run lengths unpacks to exactly the frame's pixels. Otherwise the codecs would write past their buffers or invent
+ * pixels. */
 std::string
 FindFrameDamage(std::string_view frame, PixelCodec codec, const DicomPixelFormat & format);
 
-/** How many bits the values of a stream of JPEG, JPEG-LS or JPEG 2000 may have, whatever the header says; 0 for other
- * codecs. */
+/** The number of bits of the values in a JPEG, JPEG-LS or JPEG 2000 stream, which may differ from the header's; 0 for
+ * other codecs. */
 unsigned int
 BitsInFrame(std::string_view frame, PixelCodec codec);
 

@@ -1,7 +1,8 @@
 #include "rhombicDicomCodes.h"
 
+#include "rhombicWording.h"
+
 #include <algorithm>
-#include <cstdint>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -13,7 +14,7 @@ namespace
 
 using Words = std::set<std::string_view>;
 
-// PS3.3, C.7.3.1.1.1: those of images, and of what else may lie among them.
+// PS3.3, C.7.3.1.1.1: modalities of images, and of other objects in the same folders.
 const Words Modalities{ "AR",     "AU",         "BDUS",   "BI",       "BMD",      "CR",   "CT",  "CTPROTOCOL",
                         "DG",     "DOC",        "DX",     "ECG",      "EPS",      "ES",   "FID", "GM",
                         "HD",     "IO",         "IOL",    "IVOCT",    "IVUS",     "KER",  "KO",  "LEN",
@@ -24,7 +25,7 @@ const Words Modalities{ "AR",     "AU",         "BDUS",   "BI",       "BMD",    
                         "SM",     "SMR",        "SR",     "SRF",      "STAIN",    "TG",   "US",  "VA",
                         "XA",     "XAPROTOCOL", "XC" };
 
-// Of the standard, and of the vendors whose image types say what tells slices at one place apart.
+// Words of the standard, and of vendors whose image types separate slices at the same position.
 const Words ImageTypeWords{ "2D",          "3D",         "ACQUIRED", "ADC",      "ADD",         "ADDITION",
                             "AVERAGE",     "AXIAL",      "B0",       "B1",       "BODY",        "COMPLEX",
                             "CORONAL",     "CSA",        "CT",       "DERIVED",  "DIFFUSION",   "DIS2D",
@@ -45,20 +46,6 @@ const Words ImageTypeWords{ "2D",          "3D",         "ACQUIRED", "ADC",     
                             "TOMO",        "TRACEW",     "TSE",      "VELOCITY", "VMI",         "VOLUME",
                             "W",           "WATER",      "WHOLE" };
 
-/** The parts of a text between any of some letters. */
-std::vector<std::string>
-Split(const std::string & text, const char * separators)
-{
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= text.size();)
-  {
-    const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
-    parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
-}
-
 bool
 HasOnly(const std::string & text, std::string_view letters)
 {
@@ -68,7 +55,7 @@ HasOnly(const std::string & text, std::string_view letters)
 std::string
 Disguised(const std::string & text)
 {
-  return "other-" + HashOf(text).substr(12);
+  return "other-" + HashText(text).substr(12);
 }
 
 } // namespace
@@ -106,22 +93,6 @@ NameCodeOf(const std::string & text)
 {
   constexpr std::size_t longest = 4;
   return text.size() <= longest && HasOnly(text, "0123456789") ? text : Disguised(text);
-}
-
-std::string
-HashOf(const std::string & text)
-{
-  std::uint64_t hash = 14695981039346656037u;
-  for (const char letter : text)
-  {
-    hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211u;
-  }
-  std::string digits;
-  for (int shift = 60; shift >= 0; shift -= 4)
-  {
-    digits += "0123456789abcdef"[hash >> shift & 15];
-  }
-  return digits;
 }
 
 } // namespace rhombic

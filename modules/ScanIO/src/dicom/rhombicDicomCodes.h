@@ -6,15 +6,15 @@
 namespace rhombic
 {
 
-/** What may travel on of a header's texts. People write names and dates into fields that are not made for them, so only
- * numbers and known words stay as they are. */
+/** \file
+ * Header texts without personal data. People write names and dates into any field, so only numbers and known words are
+ * kept. */
 
 /** DICOM's codes of modalities, "other" for anything else, empty for an empty text. */
 std::string
 ModalityOf(const std::string & text);
 
-/** Values of ImageType: those of known words as they are; others become "other-" and four digits of their hash, which
- * tell them apart. */
+/** Values of ImageType: values of known words are kept; others become "other-" and four digits of their hash. */
 std::string
 ImageTypeOf(const std::string & text);
 
@@ -22,13 +22,10 @@ ImageTypeOf(const std::string & text);
 std::string
 NumberTextOf(const std::string & text);
 
-/** A name that may be free text: numbers of up to four digits as they are, others as ImageTypeOf does. */
+/** A name that may be free text: numbers of up to four digits are kept; others become "other-" and four digits of their
+ * hash. */
 std::string
 NameCodeOf(const std::string & text);
-
-/** FNV-1a, 64 bits, in hexadecimal. */
-std::string
-HashOf(const std::string & text);
 
 } // namespace rhombic
 

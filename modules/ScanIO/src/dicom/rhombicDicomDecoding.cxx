@@ -26,8 +26,8 @@ Refuse(const fs::path & path, const std::string & why)
                 "Cannot read " + path.string() + ": " + why + "; copy it again from its source.");
 }
 
-/** The compressed stream of each frame. A frame may be spread over fragments, each but the first going on where the
- * last one ended; there is no other way to tell than the marker that streams begin with. */
+/** The compressed stream of each frame. A frame may be spread over several fragments; a fragment that begins with the
+ * codec's marker begins a new frame. */
 std::vector<std::string>
 ReadFrames(const DicomImageFile & image, PixelCodec codec)
 {
@@ -55,7 +55,7 @@ ReadFrames(const DicomImageFile & image, PixelCodec codec)
   return frames;
 }
 
-/** Checks the streams, and returns how many bits their values may have; 0 when that is not theirs to say. */
+/** Checks the streams. Returns the number of bits of their values; 0 for codecs that do not store it. */
 unsigned int
 CheckFrames(const DicomImageFile & image)
 {
@@ -79,7 +79,7 @@ CheckFrames(const DicomImageFile & image)
   return bits;
 }
 
-/** Has GDCM keep bits that the header does not know of, which it would cut off. */
+/** Makes GDCM keep all bits of the stream; it would cut off those beyond the header's number. */
 void
 KeepBits(gdcm::Image & image, unsigned int bits)
 {
@@ -89,13 +89,13 @@ KeepBits(gdcm::Image & image, unsigned int bits)
   image.SetPixelFormat(format);
 }
 
-/** Whether values, other than padding, use bits that they don't have by their header. */
+/** Whether values other than padding use bits beyond the header's number. */
 template <typename TRaw>
 bool
 HasUnannouncedBits(const std::byte * voxels, std::size_t size, const DicomPixelFormat & format)
 {
   const auto * const begin = reinterpret_cast<const TRaw *>(voxels);
-  // The sign of a number goes on in all bits above its own.
+  // Negative numbers have ones in all bits above their own.
   const auto above = static_cast<TRaw>(~std::uintmax_t{ 0 } << format.highBit << (format.isSigned ? 0 : 1));
   const TRaw negative = format.isSigned ? above : TRaw{ 0 };
   const auto isBeyond = [above, negative](TRaw raw) { return (raw & above) != 0 && (raw & above) != negative; };

@@ -7,8 +7,8 @@
 namespace rhombic
 {
 
-/** Unpacks all frames of a DICOM file with compressed pixels through GDCM, which damaged files can crash: see
- * VoxelDecoder. \a size is what must come out. Throws Failure(Unreadable), naming the file. */
+/** Unpacks all frames of a DICOM file with compressed pixels by GDCM, which damaged files can crash (see VoxelDecoder),
+ * to \a size bytes. Throws Failure(Unreadable), naming the file, also for another size. */
 void
 DecodeDicomFile(const std::filesystem::path & path, std::byte * voxels, std::size_t size);
 

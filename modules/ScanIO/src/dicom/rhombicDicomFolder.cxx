@@ -8,11 +8,11 @@
 #include "rhombicFolderFiles.h"
 #include "rhombicTransferSyntax.h"
 #include "rhombicVolumeFile.h"
+#include "rhombicVolumePixels.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
 #include <set>
-#include <sstream>
 
 namespace fs = std::filesystem;
 
@@ -21,7 +21,7 @@ namespace rhombic
 namespace
 {
 
-/** Says what the folder holds instead of DICOM images. */
+/** Throws Failure with the reason why a folder has no DICOM images. */
 [[noreturn]] void
 RefuseFolder(const fs::path & folder, const FolderFiles & files, const Scan & scan)
 {
@@ -52,7 +52,7 @@ RefuseFolder(const fs::path & folder, const FolderFiles & files, const Scan & sc
   throw Failure(FailureKind::NotFound, "Found no scan in " + folder.string() + ": " + why + ".");
 }
 
-/** The first names of a list, and how many more there are. */
+/** The first three names of a list, and the number of others. */
 std::string
 Shorten(const std::vector<std::string> & names)
 {
@@ -65,7 +65,7 @@ Shorten(const std::vector<std::string> & names)
   return list + (names.size() > named ? " and " + std::to_string(names.size() - named) + " more" : "");
 }
 
-/** What is put into the log about the series that were not read. */
+/** Notes about the series that were not read. */
 std::vector<std::string>
 NoteOthers(const std::vector<SeriesSummary> & summaries)
 {
@@ -83,7 +83,7 @@ NoteOthers(const std::vector<SeriesSummary> & summaries)
   return notes;
 }
 
-/** The slices of a folder's files; what else there is goes to the scan's report. */
+/** The slices of a folder's files. Counts all other files in the scan's report. */
 std::vector<DicomSlice>
 CollectSlices(const FolderFiles & files, Scan & scan)
 {
@@ -126,7 +126,7 @@ CollectSlices(const FolderFiles & files, Scan & scan)
   }
   if (!damaged.empty())
   {
-    // A slice that is missing at an end leaves no gap that could be seen.
+    // A slice that is missing at an end of the stack leaves no visible gap.
     scan.notes.push_back("Slices may be missing, because " + Count(damaged.size(), "file") + " could not be read.");
     scan.fileNotes.push_back(Shorten(damaged));
   }
@@ -134,7 +134,7 @@ CollectSlices(const FolderFiles & files, Scan & scan)
 }
 
 std::string
-DescribeScaling(const std::vector<DicomSlice> & slices)
+DescribeScalingOf(const std::vector<DicomSlice> & slices)
 {
   const DicomSlice & first = slices.front();
   const auto isSame = [&first](const DicomSlice & slice) {
@@ -144,14 +144,7 @@ DescribeScaling(const std::vector<DicomSlice> & slices)
   {
     return "each slice has its own slope and intercept";
   }
-  if (first.slope == 1 && first.intercept == 0)
-  {
-    return "";
-  }
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << "slope " << first.slope << ", intercept " << first.intercept;
-  return text.str();
+  return first.slope == 1 && first.intercept == 0 ? "" : DescribeScaling(ValueScaling{ first.slope, first.intercept });
 }
 
 void
@@ -178,7 +171,7 @@ NoteCompression(const std::vector<DicomSlice> & slices, Scan & scan)
 /** Files that failed, and a sentence for each. */
 using FileFailures = std::map<fs::path, std::string>;
 
-/** Files whose headers say already that their pixels are not all there. */
+/** Files whose headers show that their pixels are incomplete. */
 FileFailures
 FindDamagedFiles(const std::vector<DicomSlice> & slices)
 {
@@ -194,7 +187,7 @@ FindDamagedFiles(const std::vector<DicomSlice> & slices)
   return failures;
 }
 
-/** Leaves out the slices of files that failed, if that is accepted like a gap. */
+/** Leaves out the slices of files that failed, if gaps are accepted; otherwise throws Failure. */
 std::vector<DicomSlice>
 LeaveOut(const FileFailures & failures, std::vector<DicomSlice> slices, const ScanReadOptions & options, Scan & scan)
 {
@@ -218,11 +211,11 @@ LeaveOut(const FileFailures & failures, std::vector<DicomSlice> slices, const Sc
   return slices;
 }
 
-/** Where the volume of a series lies, as far as its headers tell. */
+/** The geometry of the volume of a series, from its headers. */
 VolumeGeometry
 PlaceSeries(std::vector<DicomSlice> slices, const ScanReadOptions & options)
 {
-  Scan ignored; // what would be noted when it is read
+  Scan ignored; // takes the notes
   if (slices.front().kind == DicomSlice::Kind::Segmentation)
   {
     return PlaceDicomSegmentation(slices, ignored);
@@ -231,7 +224,7 @@ PlaceSeries(std::vector<DicomSlice> slices, const ScanReadOptions & options)
   return StackSlices(slices, options).geometry;
 }
 
-/** Stacks and reads slices. A file that can't be read counts as a gap: the options say whether that is accepted. */
+/** Stacks and reads slices. Files that can't be read are left out like a gap, if the options accept gaps. */
 void
 ReadStack(std::vector<DicomSlice> slices, const ScanReadOptions & options, Scan & scan)
 {
@@ -249,7 +242,7 @@ ReadStack(std::vector<DicomSlice> slices, const ScanReadOptions & options, Scan 
   scan.image = pixels.image;
   scan.sliceOrigins = stack.sliceOrigins;
   scan.stack = stack.report;
-  scan.scaling = DescribeScaling(slices);
+  scan.scaling = DescribeScalingOf(slices);
   scan.paddingValue = pixels.paddingValue;
   scan.numberOfPaddingSamples = pixels.numberOfPaddingSamples;
   scan.notes.insert(scan.notes.end(), stack.notes.begin(), stack.notes.end());
@@ -280,7 +273,7 @@ ReadSlices(const std::vector<DicomSlice> & slices, Scan scan, const fs::path & p
   return scan;
 }
 
-/** The slices of a folder, of which there are some. */
+/** The slices of a folder; at least one. */
 std::vector<DicomSlice>
 ReadFolder(const fs::path & folder, const ScanReadOptions & options, Scan & scan)
 {

@@ -14,11 +14,11 @@ Scan
 ReadDicomFolder(const std::filesystem::path & folder, const ScanReadOptions & options);
 
 /** Reads a single DICOM file that holds a volume: an enhanced multi-frame object or a segmentation. Throws Failure,
- * also for other files, saying what they are. */
+ * also for other files, which the message describes. */
 Scan
 ReadDicomFile(const std::filesystem::path & path, const ScanReadOptions & options);
 
-/** The series of a folder or of a file (see ListSeries()). Throws Failure and the exceptions of libraries. */
+/** The series of a folder or a file (see ListSeries()). Throws Failure and the exceptions of libraries. */
 SeriesList
 ListDicomSeries(const std::filesystem::path & path, bool isFolder, const ScanReadOptions & options);
 

@@ -1,9 +1,9 @@
 #include "rhombicDicomHeader.h"
 
 #include "rhombicDicomTags.h"
+#include "rhombicWording.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -24,8 +24,8 @@ constexpr std::uint32_t UndefinedLength = 0xffffffff;
 constexpr std::uint16_t MetaGroup = 0x0002;
 constexpr int DeepestSequence = 64;
 constexpr std::size_t LongestValue = 1 << 16;
-constexpr std::size_t MostElements = 1 << 24; // some seconds: a file of any size may consist of zeros
-constexpr std::size_t MostItems = 1 << 20;    // each takes 8 bytes of the file, but a hundred of memory
+constexpr std::size_t MostElements = 1 << 24; // takes some seconds, for a file of zeros
+constexpr std::size_t MostItems = 1 << 20;    // each takes at least 8 bytes of the file and a hundred of memory
 
 const std::set<DicomTag> WantedValues{ DicomTags::ImageType,
                                        DicomTags::SOPClassUID,
@@ -78,7 +78,7 @@ const std::set<DicomTag> WantedSequences{ DicomTags::MREchoSequence,
                                           DicomTags::SharedFunctionalGroupsSequence,
                                           DicomTags::PerFrameFunctionalGroupsSequence };
 
-/** How the elements of a data set are written (PS3.5, 7.1). */
+/** The encoding of the elements of a data set (PS3.5, 7.1). */
 struct Encoding
 {
   bool isExplicit = true; ///< whether each element names the type of its value
@@ -112,7 +112,7 @@ IsCapital(char letter)
   return letter >= 'A' && letter <= 'Z';
 }
 
-/** The types whose length takes four bytes behind two empty ones. */
+/** Whether a type has a length of four bytes, after two empty bytes. */
 bool
 HasLongLength(const std::string & representation)
 {
@@ -122,7 +122,7 @@ HasLongLength(const std::string & representation)
   return types.count(representation) != 0;
 }
 
-/** Reads a file a piece at a time: its own buffer would be thrown away by each step over an element. */
+/** Reads a file in large pieces: std::ifstream discards its buffer with each seek over an element. */
 class Pieces
 {
 public:
@@ -130,7 +130,7 @@ public:
     : m_File(file)
   {}
 
-  /** False when the file ends before. */
+  /** False when the file ends before \a count bytes. */
   bool
   Read(std::uintmax_t position, char * bytes, std::size_t count)
   {
@@ -174,7 +174,7 @@ public:
     , m_Size(size)
   {}
 
-  /** From the beginning of a data set to its pixels or end. */
+  /** Reads from the beginning of a data set to its pixels or its end. */
   void
   ReadImageDataSet(DicomHeader & header, bool isBigEndian)
   {
@@ -233,7 +233,7 @@ public:
     m_Position = position;
   }
 
-  /** The bytes to come, without moving on; zero behind the end of the file. */
+  /** The next bytes, without moving on; 0 at the end of the file. */
   template <typename TNumber>
   TNumber
   Peek()
@@ -271,7 +271,8 @@ private:
     return number;
   }
 
-  /** Whether the element to come names the type of its value. Files claim it wrongly, also for single items. */
+  /** Whether the next element names the type of its value. The transfer syntax may be wrong about it, also for single
+   * items. */
   bool
   IsExplicit(bool isBigEndian)
   {
@@ -326,7 +327,7 @@ private:
     return m_Position + element.length;
   }
 
-  /** Reads the value if it is not longer than that, and moves behind it. */
+  /** Reads the value of an element unless it is longer than \a longest, and moves to its end. */
   std::string
   ReadBytes(const Element & element, std::size_t longest)
   {
@@ -413,7 +414,6 @@ private:
     dataSet.isBigEndian = encoding.isBigEndian;
     while (m_Position < end)
     {
-      // An empty item of undefined length begins with its end.
       const Element element = this->ReadElement(encoding);
       if (element.tag == ItemEnd)
       {
@@ -461,7 +461,7 @@ private:
   std::size_t m_NumberOfItems = 0; ///< of wanted sequences
 };
 
-/** Whether a file without preamble begins with the elements a data set begins with: those of group 8, or 2. */
+/** Whether a file without preamble begins as a data set: with an element of group 8 or 2. */
 bool
 LooksLikeDataSet(std::uint64_t start)
 {
@@ -513,22 +513,17 @@ DicomDataSet::GetText(DicomTag tag) const
 std::vector<double>
 DicomDataSet::GetDecimals(DicomTag tag) const
 {
-  const std::string text = this->GetText(tag);
   std::vector<double> numbers;
-  for (std::size_t begin = 0; begin <= text.size();)
+  for (std::string part : Split(this->GetText(tag), "\\"))
   {
-    const std::size_t end = std::min(text.find('\\', begin), text.size());
-    std::string part = text.substr(begin, end - begin);
     part.erase(part.find_last_not_of(' ') + 1);
     part.erase(0, part.find_first_not_of(" +"));
-    double number = 0;
-    const auto result = std::from_chars(part.data(), part.data() + part.size(), number);
-    if (result.ec != std::errc() || result.ptr != part.data() + part.size() || !std::isfinite(number))
+    const auto number = ToNumber<double>(part);
+    if (!number || !std::isfinite(*number))
     {
       return {};
     }
-    numbers.push_back(number);
-    begin = end + 1;
+    numbers.push_back(*number);
   }
   return numbers;
 }

@@ -17,7 +17,7 @@ namespace rhombic
 using DicomTag = std::uint32_t;
 
 /** \class DicomDataSet
- * \brief Those elements of a DICOM data set that say what its image is and where it lies, and none that says whose. */
+ * \brief The elements of a DICOM data set that describe its image and geometry, and none about the patient. */
 class DicomDataSet
 {
 public:
@@ -28,8 +28,7 @@ public:
   std::string
   GetText(DicomTag tag) const;
 
-  /** Decimal numbers separated by backslashes (DS, IS); empty when there is anything else among them, or one that is
-   * not finite. */
+  /** Decimal numbers separated by backslashes (DS, IS); empty when one of them is no finite number. */
   std::vector<double>
   GetDecimals(DicomTag tag) const;
 
@@ -65,26 +64,26 @@ struct ByteRange
   std::uintmax_t size = 0;
 };
 
-/** What precedes the pixels of a DICOM file, and where these are. */
+/** The header of a DICOM file, and the positions of its pixels. */
 struct DicomHeader
 {
-  std::string transferSyntax; ///< UID; empty when the file does not say
+  std::string transferSyntax; ///< UID; empty when the file has none
   DicomDataSet dataSet;
   std::uintmax_t fileSize = 0;
   bool hasPixels = false;
   bool hasWords = false;            ///< whether the pixels are 16-bit words (OW), whatever the size of a pixel
   bool isEncapsulated = false;      ///< whether the pixels are fragments of compressed streams
-  ByteRange pixels;                 ///< as claimed: its end may lie behind that of the file
-  std::vector<ByteRange> fragments; ///< of encapsulated pixels, without the table of offsets, inside the file
-  std::string damage;               ///< "its ..." when the file ends or turns into nonsense before its end
+  ByteRange pixels;                 ///< as the header says: may end beyond the file
+  std::vector<ByteRange> fragments; ///< of encapsulated pixels, without the table of offsets
+  std::string damage;               ///< "its ..." when the header is cut off or damaged
 };
 
-/** Reads a file up to its pixels. Nothing when it is not DICOM: no "DICM" behind the preamble, nor a data set right at
- * the beginning, as files of the time before DICOM have.
+/** Reads a file up to its pixels. Nothing when it is not DICOM: it has neither "DICM" after the preamble nor a data set
+ * at its beginning, as files older than DICOM.
  *
- * Made for files that nobody has checked: no length is believed before it is compared with the file's, sequences end at
- * 64 levels and after a million items, headers after 16 million elements, and memory stays below a few times the wanted
- * elements' and items' size. Throws nothing but std::bad_alloc. */
+ * For untrusted files: every length is compared with the file's, sequences are limited to 64 levels and a million
+ * items, headers to 16 million elements, and memory to a few times the size of the elements and items that are kept.
+ * Throws nothing but std::bad_alloc. */
 std::optional<DicomHeader>
 ParseDicomHeader(std::istream & file, std::uintmax_t fileSize);
 

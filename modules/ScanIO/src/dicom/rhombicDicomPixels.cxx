@@ -23,27 +23,27 @@ namespace
 struct FileSlices
 {
   std::shared_ptr<const DicomImageFile> file;
-  std::vector<std::size_t> places; ///< in the stack
+  std::vector<std::size_t> indices; ///< of the slices in the stack
 };
 
 std::vector<FileSlices>
 GroupByFile(const std::vector<DicomSlice> & slices)
 {
-  std::map<const DicomImageFile *, std::size_t> indices;
+  std::map<const DicomImageFile *, std::size_t> fileIndices;
   std::vector<FileSlices> files;
-  for (std::size_t place = 0; place < slices.size(); ++place)
+  for (std::size_t index = 0; index < slices.size(); ++index)
   {
-    const auto [found, isNew] = indices.emplace(slices[place].file.get(), files.size());
+    const auto [found, isNew] = fileIndices.emplace(slices[index].file.get(), files.size());
     if (isNew)
     {
-      files.push_back({ slices[place].file, {} });
+      files.push_back({ slices[index].file, {} });
     }
-    files[found->second].places.push_back(place);
+    files[found->second].indices.push_back(index);
   }
   return files;
 }
 
-/** Turns stored pixels into the numbers they mean, before rescaling (PS3.5, 8.1.1). */
+/** Converts stored pixels to numbers, before rescaling (PS3.5, 8.1.1). */
 template <typename TRaw>
 class StoredValue
 {
@@ -69,7 +69,7 @@ private:
   bool m_IsSigned;
 };
 
-/** What was found in a slice. */
+/** The range of values of a slice, and its padding. */
 struct SliceValues
 {
   double lowest = std::numeric_limits<double>::max(); ///< without padding
@@ -78,7 +78,7 @@ struct SliceValues
   std::size_t numberOfPadding = 0;
 };
 
-/** The range of a slice's rescaled values, and where it is padded. */
+/** Finds the range of a slice's rescaled values, and its padding. */
 template <typename TRaw>
 SliceValues
 FindValues(const DicomSlice & slice, const TRaw * stored, std::size_t count)
@@ -129,7 +129,8 @@ FitsInto(const SliceValues & values)
           values.highest <= static_cast<double>(std::numeric_limits<TPixel>::max()));
 }
 
-/** Writes rescaled values, arbitrary ones where there is padding, or nothing when the values don't fit. */
+/** Writes rescaled values, with arbitrary ones for padding. Writes nothing when the values are beyond the pixel type.
+ */
 template <typename TRaw, typename TPixel>
 SliceValues
 Rescale(const DicomSlice & slice, const TRaw * stored, TPixel * pixels)
@@ -175,7 +176,7 @@ Rescale(const DicomSlice & slice, const std::byte * stored, TPixel * pixels)
   }
 }
 
-/** Calls `take(place, stored)` for each slice of a file. */
+/** Calls `take(index, stored)` for each slice of a file: its index in the stack, and its stored pixels. */
 template <typename TTake>
 void
 ForEachFrame(const FileSlices & one, const std::vector<DicomSlice> & slices, VoxelDecoder & decoder, TTake take)
@@ -185,19 +186,19 @@ ForEachFrame(const FileSlices & one, const std::vector<DicomSlice> & slices, Vox
   if (file.format.isEncapsulated)
   {
     const auto buffer = decoder.Decode({ VoxelRequest::Source::DicomFile, file.path, frameBytes * file.format.frames });
-    for (const std::size_t place : one.places)
+    for (const std::size_t index : one.indices)
     {
-      take(place, buffer->GetData() + slices[place].frame * frameBytes);
+      take(index, buffer->GetData() + slices[index].frame * frameBytes);
     }
     return;
   }
-  for (const std::size_t place : one.places)
+  for (const std::size_t index : one.indices)
   {
-    take(place, ReadStoredBytes(file, slices[place].frame * frameBytes, frameBytes).data());
+    take(index, ReadStoredBytes(file, slices[index].frame * frameBytes, frameBytes).data());
   }
 }
 
-/** Threads that are waited for, whatever happens; when the scope is left early, they are told to stop first. */
+/** Threads that the destructor joins, after a call of \a stop. */
 class Threads
 {
 public:
@@ -228,7 +229,7 @@ public:
     }
     catch (const std::system_error &)
     {
-      // The work is done by fewer.
+      // Fewer threads do the work.
     }
   }
 
@@ -247,8 +248,8 @@ private:
   std::vector<std::thread> m_Threads;
 };
 
-/** Calls `work(n)` for all n below \a count on several threads, this one among them, which reports how far it got.
- * Work that returns false ends it all early. */
+/** Calls `work(n)` for all n below \a count on several threads. This thread is one of them, and reports the progress.
+ * When \a work returns false, no further calls are made. */
 template <typename TWork>
 void
 InParallel(std::size_t count, std::size_t threads, const std::function<void(double)> & progress, TWork work)
@@ -285,7 +286,7 @@ PaddingValueOf(const std::vector<DicomSlice> & slices)
            : std::nullopt;
 }
 
-/** Whether padding is a value like others: the background of a mask or of labels, whose one or next value is an object.
+/** Whether padding is the background of a mask or label map: there is only one other value, or it is next to padding.
  */
 bool
 IsBackground(double padding, double lowest, double highest, double slope)
@@ -293,7 +294,7 @@ IsBackground(double padding, double lowest, double highest, double slope)
   return lowest == highest || std::abs(lowest - padding) <= std::abs(slope);
 }
 
-/** Puts the lowest other value in the place of padding, unless it is a background. */
+/** Replaces padding by the lowest other value, unless it is a background. */
 template <typename TPixel>
 void
 ReplacePadding(const std::vector<SliceValues> & values,
@@ -331,9 +332,9 @@ ReplacePadding(const std::vector<SliceValues> & values,
   }
 }
 
-/** Bytes that reading takes at once: the volume, a bit for each pixel where there may be padding, and what each worker
- * holds of a file. A compressed file is in memory as a whole, unpacked twice: where the decoder's library puts its
- * frames and where this process gets them from. */
+/** The memory for reading, in bytes: the volume, a bit for each pixel of slices with padding, and the data of each
+ * worker. A compressed file is in memory as a whole, and unpacked twice: by the decoder's library, and in the memory
+ * shared with this process. */
 template <typename TPixel>
 std::uintmax_t
 MemoryToRead(const std::vector<DicomSlice> & slices, const std::vector<FileSlices> & files, std::size_t workers)
@@ -355,7 +356,7 @@ MemoryToRead(const std::vector<DicomSlice> & slices, const std::vector<FileSlice
   return bytes + largest * std::min(workers, files.size());
 }
 
-/** Nothing when a value is beyond an integer pixel type. */
+/** Reads the volume with a pixel type; nothing when a value is beyond an integer type. */
 template <typename TPixel>
 std::optional<DicomPixels>
 ReadAs(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry, const ScanReadOptions & options)
@@ -375,9 +376,9 @@ ReadAs(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry, 
   const auto readFile = [&](std::size_t n) {
     try
     {
-      ForEachFrame(files[n], slices, decoder, [&](std::size_t place, const std::byte * stored) {
-        values[place] = Rescale(slices[place], stored, image->GetBufferPointer() + place * sliceSize);
-        if (!FitsInto<TPixel>(values[place]))
+      ForEachFrame(files[n], slices, decoder, [&](std::size_t index, const std::byte * stored) {
+        values[index] = Rescale(slices[index], stored, image->GetBufferPointer() + index * sliceSize);
+        if (!FitsInto<TPixel>(values[index]))
         {
           fits = false;
         }
@@ -452,7 +453,8 @@ ReadDicomPixels(const std::vector<DicomSlice> & slices,
   {
     pixels = ReadAs<std::uint16_t>(slices, geometry, options);
   }
-  // Headers promise more than the values use (GE's 16 bits less 1024), so the smallest type is tried first.
+  // Headers allow larger values than there are (GE: 16 bits and an intercept of -1024), so the smallest type is tried
+  // first.
   if (!pixels && AreWholeNumbers(slices))
   {
     pixels = ReadAs<std::int16_t>(slices, geometry, options);

@@ -29,7 +29,7 @@ Refuse(const DicomImageFile & file, FailureKind kind, const std::string & why)
   throw Failure(kind, "Cannot read " + file.path.string() + ": " + why + "; export the segmentation again.");
 }
 
-/** A component of CIE XYZ from the function of CIE L*a*b* it is coded by. */
+/** The inverse of the function f of CIE L*a*b*, which gives a component of CIE XYZ relative to white. */
 double
 FromLab(double f)
 {
@@ -85,7 +85,7 @@ ReadLabels(const DicomDataSet & dataSet, const DicomImageFile & file)
   return labels;
 }
 
-/** Slices at equal distances along the normal, and which of them each frame belongs to. */
+/** Slices at equal distances along the normal, and the slice of each frame. */
 struct EvenSlices
 {
   double first = 0; ///< from the first frame, in mm
@@ -94,15 +94,7 @@ struct EvenSlices
   std::vector<std::size_t> sliceOfFrame;
 };
 
-Vector
-NormalOf(const SlicePlane & plane)
-{
-  Vector normal = itk::CrossProduct(plane.columnStep, plane.rowStep);
-  normal.Normalize();
-  return normal;
-}
-
-/** The places of frames along the normal, each once, ascending. */
+/** The distances of frames along the normal without repetitions, ascending. */
 std::vector<double>
 DistinctDistances(const std::vector<double> & distances)
 {
@@ -115,15 +107,15 @@ DistinctDistances(const std::vector<double> & distances)
   return sorted;
 }
 
-/** Whether two steps are the same, as far as numbers go that were rounded for a header. */
+/** Whether two steps are the same within the rounding of numbers in headers. */
 bool
 IsSameStep(double first, double second)
 {
   return std::abs(first - second) <= 0.02 * std::min(first, second);
 }
 
-/** The step that the steps between places are whole multiples of, begun from a guess. The smallest steps come first:
- * a guess that rounding made wrong is mended by them before it has to count the many slices of a large step. */
+/** The common divisor of the steps between distances, from a guess. It is refined by the smallest steps first, so that
+ * it is accurate enough when it has to count the slices of a large step. */
 double
 RefineStep(const std::vector<double> & places, double guess)
 {
@@ -145,8 +137,8 @@ RefineStep(const std::vector<double> & places, double guess)
   return step;
 }
 
-/** Even slices that all places are among, with about the given step: the line of least squares through the places over
- * their numbers. Nothing when a place is off that line by more than rounding and 2 % of a step can explain. */
+/** Even slices, with about the given step, that contain all places: the line of least squares through the places over
+ * their slice numbers. Nothing when a place is off that line by more than 2 % of a step and rounding. */
 std::optional<EvenSlices>
 FitSlices(const std::vector<double> & places, double guess)
 {
@@ -182,16 +174,16 @@ FitSlices(const std::vector<double> & places, double guess)
   return slices;
 }
 
-/** What the header says about the slices, in mm; 0 where it is silent. */
+/** Distance and thickness of slices in the header, in mm; 0 when absent. */
 struct SliceTags
 {
   double spacing = 0;
   double thickness = 0;
 };
 
-/** The slices that frames at these places belong to. The smallest distance of two places is that of slices, unless
- * SpacingBetweenSlices and SliceThickness agree on a smaller one, which is then that of slices among which no two
- * neighbours have frames. For one place there is but SpacingBetweenSlices. */
+/** The slices of frames at these places. Their step is the smallest distance of two places, unless SpacingBetweenSlices
+ * and SliceThickness agree on a smaller one: then no two adjacent slices have frames. For a single place, the step is
+ * SpacingBetweenSlices. */
 EvenSlices
 FindSlices(const std::vector<double> & places, const SliceTags & tags, const DicomImageFile & file, Scan & scan)
 {
@@ -221,8 +213,9 @@ FindSlices(const std::vector<double> & places, const SliceTags & tags, const Dic
   }
   if (tags.spacing > 0 && !IsSameStep(slices->step, tags.spacing))
   {
-    scan.notes.push_back("Slices are " + Rounded(slices->step) + " mm apart, as the places of their frames say; " +
-                         "SpacingBetweenSlices says " + Rounded(tags.spacing) + " mm.");
+    scan.notes.push_back("Slices are " + FormatNumber(slices->step, 4) +
+                         " mm apart, as the places of their frames say; " + "SpacingBetweenSlices says " +
+                         FormatNumber(tags.spacing, 4) + " mm.");
   }
   return *slices;
 }
@@ -239,7 +232,7 @@ ReadSliceTags(const DicomDataSet & dataSet)
   return { read(DicomTags::SpacingBetweenSlices), read(DicomTags::SliceThickness) };
 }
 
-/** Where frames are along the normal from the first, in mm. */
+/** The distances of frames from the first along the normal, in mm. */
 std::vector<double>
 DistancesOf(const Frames & frames)
 {
@@ -267,7 +260,7 @@ DistancesOf(const Frames & frames)
   return distances;
 }
 
-/** All slices from the first to the last that has a frame: those without any are empty. */
+/** All slices from the first to the last with a frame; those between them may be without. */
 EvenSlices
 PlaceFrames(const Frames & frames, const SliceTags & tags, Scan & scan)
 {
@@ -275,7 +268,7 @@ PlaceFrames(const Frames & frames, const SliceTags & tags, Scan & scan)
   const std::vector<double> distances = DistancesOf(frames);
   const std::vector<double> places = DistinctDistances(distances);
   EvenSlices slices = FindSlices(places, tags, file, scan);
-  // A file of a few frames must not claim any amount of memory.
+  // A file of few frames must not cause any amount of memory to be allocated.
   const std::size_t mostSlices = std::max<std::size_t>(1024, 64 * places.size());
   if (slices.count > mostSlices)
   {
@@ -303,7 +296,7 @@ GeometryOf(const EvenSlices & slices, const DicomSlice & frame)
   return MakeGeometry(size, plane.position + normal * slices.first, axes);
 }
 
-/** A stored pixel; bits are packed from the lowest up, across frames (PS3.5, 8.1.1). */
+/** A stored pixel. Bits are packed from the lowest to the highest, across frames (PS3.5, 8.1.1). */
 std::uint32_t
 StoredPixel(const Bytes & bytes, const DicomPixelFormat & format, std::size_t n)
 {
@@ -341,7 +334,7 @@ SegmentsOfFrames(const DicomDataSet & dataSet, const LabelTable & labels, const 
   return segments;
 }
 
-/** Returns how many voxels belong to more than one segment. */
+/** Fills the label map. Returns the number of voxels that belong to more than one segment. */
 template <typename TPixel>
 std::size_t
 Fill(const Bytes & bytes,
@@ -353,10 +346,10 @@ Fill(const Bytes & bytes,
 {
   const std::size_t sliceSize = std::size_t{ format.columns } * format.rows;
   std::size_t shared = 0;
-  for (std::size_t place = 0; place < frames.size(); ++place)
+  for (std::size_t index = 0; index < frames.size(); ++index)
   {
-    const std::size_t frame = frames[place].frame;
-    TPixel * const slice = pixels + sliceOfFrame[place] * sliceSize;
+    const std::size_t frame = frames[index].frame;
+    TPixel * const slice = pixels + sliceOfFrame[index] * sliceSize;
     for (std::size_t n = 0; n < sliceSize; ++n)
     {
       const std::uint32_t stored = StoredPixel(bytes, format, frame * sliceSize + n);
@@ -374,7 +367,7 @@ Fill(const Bytes & bytes,
 }
 
 /** Whether a segmentation has a frame for each segment and slice; otherwise its pixels are labels. Throws Failure for
- * one that can't be read. */
+ * other types and damaged pixels. */
 bool
 IsBinary(const DicomDataSet & dataSet, const DicomImageFile & file)
 {

@@ -11,15 +11,15 @@
 namespace rhombic
 {
 
-/** Reads the frames of a DICOM segmentation (PS3.3, A.51 and A.91: of type BINARY or LABELMAP) into one label map: its
- * image, its labels, and notes go to \a scan. Voxels of no segment are 0; where segments overlap, that of the later
- * frame wins. Slices without any frame are empty, as the standard has it: all
- * frames must be whole multiples apart of the smallest distance, or of the one that two tags agree on. Throws Failure,
- * Memory when the label map would take more than \a maximumMemory bytes (see ScanReadOptions). */
+/** Reads the frames of a DICOM segmentation of type BINARY or LABELMAP (PS3.3, A.51 and A.91) into one label map: fills
+ * image, labels and notes of \a scan. Voxels of no segment are 0; where segments overlap, the later frame counts.
+ * Slices without a frame are empty, as in the standard: the distances of frames must be whole multiples of the smallest
+ * one, or of the step that SpacingBetweenSlices and SliceThickness agree on. Throws Failure: Unreadable, Geometry, and
+ * Memory when the label map takes more than \a maximumMemory bytes (see ScanReadOptions). */
 void
 ReadDicomSegmentation(const std::vector<DicomSlice> & frames, std::uintmax_t maximumMemory, Scan & scan);
 
-/** Where the label map of a segmentation lies, as ReadDicomSegmentation() finds it. Throws the same. */
+/** The geometry of the label map of ReadDicomSegmentation(). Throws the same failures. */
 VolumeGeometry
 PlaceDicomSegmentation(const std::vector<DicomSlice> & frames, Scan & scan);
 

@@ -28,7 +28,7 @@ HaveSameAxes(const SlicePlane & first, const SlicePlane & second)
          (first.rowStep - second.rowStep).GetNorm() <= tolerance * first.rowStep.GetNorm();
 }
 
-/** The axes in thousandths of a millimetre, to sort by. */
+/** The axes in thousandths of a millimetre: a key to sort by. */
 std::vector<long>
 AxesOf(const DicomSlice & slice)
 {
@@ -41,8 +41,8 @@ AxesOf(const DicomSlice & slice)
   return axes;
 }
 
-/** What all slices of a series have in common, but for their axes. The frames of a segmentation stay together, wherever
- * they are. */
+/** The properties that all slices of a series share, except for their axes. The frames of a segmentation stay together,
+ * wherever they are. */
 auto
 KeyOf(const DicomSlice & slice)
 {
@@ -80,7 +80,7 @@ GroupByKeyAndAxes(const Slices & slices)
   return all;
 }
 
-/** Slices by one of their distinctions, or by all of them. */
+/** Groups slices by their distinctions from number \a first to \a last. */
 std::vector<DicomSeries>
 SplitBy(const Slices & slices, std::size_t first, std::size_t last)
 {
@@ -102,8 +102,8 @@ SplitBy(const Slices & slices, std::size_t first, std::size_t last)
   return series;
 }
 
-/** Splits a series with several slices at one place by the first distinction that leaves none such; if there is no such
- * distinction, by all of them, and if that does not help either, not at all. */
+/** Splits a series with several slices at the same position by the first distinction that separates them all; else by
+ * all distinctions together; and if that does not separate them either, not at all. */
 std::vector<DicomSeries>
 SplitDuplicates(const Slices & slices)
 {
@@ -123,8 +123,8 @@ SplitDuplicates(const Slices & slices)
   return { { "", "", slices } };
 }
 
-/** The UID itself could lead to the patient. The parts of a series UID are told apart by a number, the largest first.
- */
+/** Sets the ids: a hash, as the UID itself could lead to the patient, and a number for the parts of a series that was
+ * split. */
 void
 NameSeries(std::vector<DicomSeries> & series)
 {
@@ -133,7 +133,7 @@ NameSeries(std::vector<DicomSeries> & series)
   {
     const std::string & uid = one.slices.front().seriesUID;
     const int part = ++parts[uid];
-    one.id = HashOf(uid) + (part > 1 ? "-" + std::to_string(part) : "");
+    one.id = HashText(uid) + (part > 1 ? "-" + std::to_string(part) : "");
   }
 }
 
@@ -176,7 +176,7 @@ FindWanted(const std::vector<DicomSeries> & series, const std::string & wanted, 
   return *found.begin();
 }
 
-/** Places of the series in the order of what they are good for, the best first. */
+/** Indices of the series, the most suitable first: readable ones, scans, those of more slices. */
 std::vector<std::size_t>
 RankSeries(const std::vector<DicomSeries> & series)
 {
@@ -184,41 +184,41 @@ RankSeries(const std::vector<DicomSeries> & series)
     const DicomSlice & slice = series[i].slices.front();
     return std::make_tuple(slice.refusal.empty(), slice.kind == DicomSlice::Kind::Scan, series[i].slices.size());
   };
-  std::vector<std::size_t> places(series.size());
-  for (std::size_t i = 0; i < places.size(); ++i)
+  std::vector<std::size_t> indices(series.size());
+  for (std::size_t i = 0; i < indices.size(); ++i)
   {
-    places[i] = i;
+    indices[i] = i;
   }
-  std::stable_sort(places.begin(), places.end(), [&rank](std::size_t first, std::size_t second) {
+  std::stable_sort(indices.begin(), indices.end(), [&rank](std::size_t first, std::size_t second) {
     return rank(first) > rank(second);
   });
-  return places;
+  return indices;
 }
 
-/** None when there are several that are about as good. */
+/** The most suitable series; nothing when several are about as suitable. */
 std::optional<SeriesChoice>
 FindBest(const std::vector<DicomSeries> & series)
 {
-  const std::vector<std::size_t> places = RankSeries(series);
-  const DicomSeries & best = series[places[0]];
+  const std::vector<std::size_t> indices = RankSeries(series);
+  const DicomSeries & best = series[indices[0]];
   if (series.size() == 1)
   {
     return SeriesChoice{ 0, "it is the only series" };
   }
-  const DicomSeries & next = series[places[1]];
+  const DicomSeries & next = series[indices[1]];
   const auto isRival = [&best](const DicomSeries & other) {
     return other.slices.front().refusal.empty() && other.slices.front().kind == best.slices.front().kind &&
            other.slices.size() > 1;
   };
   if (!isRival(next))
   {
-    return SeriesChoice{ places[0], "it is the only series that can be a volume" };
+    return SeriesChoice{ indices[0], "it is the only series that can be a volume" };
   }
   if (best.slices.size() < 2 * next.slices.size())
   {
     return std::nullopt;
   }
-  return SeriesChoice{ places[0],
+  return SeriesChoice{ indices[0],
                        "it has the most slices by far (" + std::to_string(best.slices.size()) + ", the next has " +
                          std::to_string(next.slices.size()) + ")" };
 }

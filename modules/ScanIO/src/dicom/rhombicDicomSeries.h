@@ -12,8 +12,9 @@
 namespace rhombic
 {
 
-/** Slices that may make a volume: of one SeriesInstanceUID, kind, orientation, size and pixel spacing. When there would
- * be two at one place, also of one image type, echo, time, stack or acquisition, whichever tells them apart. */
+/** Slices that may be one volume: with the same SeriesInstanceUID, kind, orientation, size and pixel spacing. If two
+ * would be at the same position, also with the same image type, echo, time, stack or acquisition, whichever separates
+ * them. */
 struct DicomSeries
 {
   std::string id;   ///< SeriesSummary::id
@@ -21,26 +22,25 @@ struct DicomSeries
   std::vector<DicomSlice> slices;
 };
 
-/** Splits slices into series, in the order of series number, then UID, then size, then kind and axes,
- * whatever the files are called. Files without UID are told apart by
- * their folder. */
+/** Splits slices into series, sorted by series number, UID, size, kind and axes, not by file names. Files without UID
+ * are separated by folder. */
 std::vector<DicomSeries>
 GroupIntoSeries(const std::vector<DicomSlice> & slices);
 
-/** Which series to read. */
+/** The series to read, and the reason. */
 struct SeriesChoice
 {
   std::size_t index = 0;
   std::string reason;
 };
 
-/** The series that is wanted (see ScanReadOptions::series); when \a wanted is empty, the only one that can be a volume,
- * or that with at least twice as many slices as any other, or none where there are several such. Throws Failure(Usage),
- * listing them, when none or more than one is called as wanted. */
+/** The series that \a wanted names (see ScanReadOptions::series). If \a wanted is empty: the only series that can be a
+ * volume, or the one that has at least twice as many slices as any other; nothing when there is no such series. Throws
+ * Failure(Usage), listing the series, when \a wanted names none or more than one. */
 std::optional<SeriesChoice>
 FindSeries(const std::vector<DicomSeries> & series, const std::string & wanted, const std::filesystem::path & folder);
 
-/** FindSeries(). Throws Failure: also Usage, listing them, when it finds none, Unreadable when none of them can be a
+/** FindSeries(). Throws Failure: Usage, listing the series, when it finds none; Unreadable when the series can't be a
  * volume. */
 SeriesChoice
 ChooseSeries(const std::vector<DicomSeries> & series, const std::string & wanted, const std::filesystem::path & folder);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace rhombic
@@ -14,7 +13,7 @@ namespace rhombic
 namespace
 {
 
-/** What kind of object a file is that is no plain slice, by its SOP class; empty for the others. */
+/** The kind of an object, by its SOP class, that is refused; empty for the others. */
 std::string
 SpecialClass(const std::string & uid)
 {
@@ -79,7 +78,7 @@ ReadPixelFormat(const DicomHeader & header)
   return format;
 }
 
-/** Whether all pixels that the header promises are in the file; why not otherwise. */
+/** Why not all pixels of the header are in the file; empty if they are. */
 std::string
 FindPixelDamage(const DicomHeader & header, const DicomPixelFormat & format)
 {
@@ -109,7 +108,7 @@ FindPixelDamage(const DicomHeader & header, const DicomPixelFormat & format)
     return "it has " + std::to_string(std::min(claimed, available)) + " of " +
            std::to_string(std::max(claimed, needed)) + " bytes of pixels";
   }
-  constexpr std::uintmax_t mostPadding = 1024; // more than any known writer adds
+  constexpr std::uintmax_t mostPadding = 1024; // more than any known writer appends
   if (claimed - needed > std::min(mostPadding, needed / 2 + 2))
   {
     return "it has " + std::to_string(claimed) + " bytes of pixels where its header says " + std::to_string(needed);
@@ -117,7 +116,7 @@ FindPixelDamage(const DicomHeader & header, const DicomPixelFormat & format)
   return "";
 }
 
-/** Why the image can't be a slice of a volume, as "it ...". */
+/** Why the image can't be a slice of a volume, as "it ..."; empty if it can. */
 std::string
 FindRefusal(const DicomDataSet & dataSet, const DicomPixelFormat & format)
 {
@@ -160,7 +159,7 @@ FindRefusal(const DicomDataSet & dataSet, const DicomPixelFormat & format)
   return "";
 }
 
-/** The items of the functional groups that are a frame's own, or shared by all frames. */
+/** The items of the functional groups of a frame: its own, or else those shared by all frames. */
 class FunctionalGroups
 {
 public:
@@ -186,7 +185,7 @@ HasScaling(const DicomDataSet & dataSet)
   return dataSet.Has(DicomTags::RescaleSlope) || dataSet.Has(DicomTags::RescaleIntercept);
 }
 
-/** Fills in slope and intercept, or says that they are no numbers. */
+/** Fills in slope and intercept, or the refusal when they are not usable. */
 void
 ReadScaling(const DicomDataSet & dataSet, DicomSlice & slice)
 {
@@ -207,7 +206,7 @@ ReadScaling(const DicomDataSet & dataSet, DicomSlice & slice)
   }
 }
 
-/** A plain slice: all of it is in the data set itself. */
+/** Reads a plain slice, whose description is in the data set itself. */
 void
 ReadPlainSlice(const DicomDataSet & dataSet, DicomSlice & slice)
 {
@@ -228,7 +227,7 @@ ReadPlainSlice(const DicomDataSet & dataSet, DicomSlice & slice)
                                slice.planeProblem);
 }
 
-/** A frame of an enhanced object (PS3.3, C.7.6.16). */
+/** Reads a frame of an enhanced object (PS3.3, C.7.6.16). */
 void
 ReadFrame(const DicomDataSet & dataSet, std::size_t frame, DicomSlice & slice)
 {
@@ -262,13 +261,21 @@ ReadFrame(const DicomDataSet & dataSet, std::size_t frame, DicomSlice & slice)
 
 } // namespace
 
+itk::Vector<double, 3>
+NormalOf(const SlicePlane & plane)
+{
+  auto normal = itk::CrossProduct(plane.columnStep, plane.rowStep);
+  normal.Normalize();
+  return normal;
+}
+
 std::optional<SlicePlane>
 MakeSlicePlane(const std::vector<double> & position,
                const std::vector<double> & orientation,
                const std::vector<double> & spacing,
                std::string & problem)
 {
-  // So that no sum or product of them overflows or vanishes.
+  // Within these limits, no sum or product overflows or becomes 0.
   constexpr double farthest = 1e7;
   constexpr double smallest = 1e-6;
   const auto isPlace = [](double number) { return std::abs(number) <= farthest; };
@@ -369,15 +376,6 @@ NameOf(const DicomSlice & slice)
 {
   return slice.file->path.filename().string() +
          (slice.file->format.frames > 1 ? " (frame " + std::to_string(slice.frame + 1) + ")" : "");
-}
-
-std::string
-Rounded(double number)
-{
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.4g", number);
-  std::replace(text, text + sizeof(text), ',', '.');
-  return text;
 }
 
 } // namespace rhombic

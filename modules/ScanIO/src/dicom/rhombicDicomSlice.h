@@ -19,7 +19,7 @@
 namespace rhombic
 {
 
-/** Where a slice is, in LPS millimetres. */
+/** The position and axes of a slice, in LPS millimetres. */
 struct SlicePlane
 {
   itk::Point<double, 3> position;    ///< centre of the first pixel
@@ -27,11 +27,15 @@ struct SlicePlane
   itk::Vector<double, 3> rowStep;    ///< from a row to the next
 };
 
-/** How the pixels of a DICOM file are stored. */
+/** The unit vector perpendicular to a slice. */
+itk::Vector<double, 3>
+NormalOf(const SlicePlane & plane);
+
+/** The storage of the pixels of a DICOM file. */
 struct DicomPixelFormat
 {
   std::string transferSyntax;    ///< UID
-  unsigned int swappedBytes = 1; ///< how many bytes follow each other in the wrong order for this machine
+  unsigned int swappedBytes = 1; ///< bytes of a word in the other byte order; 1 when no bytes are swapped
   bool isEncapsulated = false;
   unsigned int columns = 0;
   unsigned int rows = 0;
@@ -41,10 +45,11 @@ struct DicomPixelFormat
   unsigned int highBit = 0;
   bool isSigned = false;
 
-  /** Stored values that stand for "outside the scanner's view", from the first to the second. */
+  /** The range of stored values that mean "outside the scanner's view". */
   std::optional<std::pair<std::int64_t, std::int64_t>> padding;
 
-  /** Padding, if there is any, may use bits that values don't: it is told by all the bits that there are. */
+  /** Whether a stored pixel is padding; \a padding must be set. Padding may use bits beyond bitsStored, so all bits are
+   * compared. */
   template <typename TRaw>
   bool
   IsPadding(TRaw raw) const
@@ -71,10 +76,10 @@ struct DicomImageFile
   std::string pixelDamage; ///< "it ..." when the pixels are not all there
 };
 
-/** One frame of a DICOM file, as its header has it. */
+/** One frame of a DICOM file, from its header. */
 struct DicomSlice
 {
-  /** What the frames of a file are for. */
+  /** The content of a file. */
   enum class Kind
   {
     Scan,
@@ -82,8 +87,8 @@ struct DicomSlice
     NoImage       ///< a report, a plan, or damaged
   };
 
-  /** What tells slices at one place apart, in the order in which it is tried: type of the image, echo, time, stack,
-   * acquisition. */
+  /** Properties that may separate slices at the same position, in the order in which they are tried: type of the image,
+   * echo, time, stack, acquisition. */
   static constexpr std::size_t NumberOfDistinctions = 5;
 
   std::shared_ptr<const DicomImageFile> file;
@@ -95,31 +100,27 @@ struct DicomSlice
   std::array<std::string, NumberOfDistinctions> distinctions;
   double slope = 1;
   double intercept = 0;
-  std::optional<SlicePlane> plane; ///< absent when the header does not give it
+  std::optional<SlicePlane> plane; ///< absent when the header has no usable one
   std::string planeProblem;        ///< why it is absent
-  std::string refusal;             ///< why it can't be a slice of a volume ("it is ..."); empty when it can
+  std::string refusal;             ///< why it can't be a slice of a volume ("it is ..."); empty if it can
 };
 
-/** The slices of a file, one for each frame whose place is known and at least one. Nothing when the file is not DICOM.
- */
+/** The slices of a file, one for each frame; a single one when the header does not place its frames. Nothing when the
+ * file is not DICOM. */
 std::vector<DicomSlice>
 ReadDicomSlices(const std::filesystem::path & path);
 
-/** The plane that position, orientation and spacing make; nothing, and a problem, when they don't, or when they are not
- * finite, beyond 1e7 mm, or a spacing below 1e-6 mm. */
+/** The plane of a position, orientation and spacing. Nothing, and the reason in \a problem, when numbers are missing,
+ * not finite or beyond 1e7 mm, a spacing is below 1e-6 mm, or the axes are not perpendicular unit vectors. */
 std::optional<SlicePlane>
 MakeSlicePlane(const std::vector<double> & position,
                const std::vector<double> & orientation,
                const std::vector<double> & spacing,
                std::string & problem);
 
-/** The file's name, and for files of several frames the frame's number, from 1. */
+/** The file's name and, for files of several frames, the frame's number from 1. */
 std::string
 NameOf(const DicomSlice & slice);
-
-/** Four digits of a number, for a sentence. */
-std::string
-Rounded(double number);
 
 } // namespace rhombic
 

@@ -25,7 +25,7 @@ Refuse(const Slices & slices, const std::string & why, const std::string & advic
                   " make no regular volume: " + why + "; " + advice + ".");
 }
 
-/** Enough of two paths to tell them apart. */
+/** The names of two files, with their folders if these differ. */
 std::string
 NamesOf(const DicomSlice & first, const DicomSlice & second)
 {
@@ -55,14 +55,6 @@ RequirePlanes(const Slices & slices)
                   "There is only one slice, " + slices.front().file->path.string() +
                     ", in the series, and one slice is no volume; give the folder of the whole series.");
   }
-}
-
-Vector
-NormalOf(const SlicePlane & plane)
-{
-  Vector normal = itk::CrossProduct(plane.columnStep, plane.rowStep);
-  normal.Normalize();
-  return normal;
 }
 
 /** Sorts by the distance along the normal, and returns the distances. */
@@ -102,7 +94,7 @@ MedianOf(std::vector<double> steps)
   return *middle;
 }
 
-/** The first step that is none; their number when there is no such. */
+/** The index of the first step of about 0; the number of steps when there is none. */
 std::size_t
 FindDuplicate(const std::vector<double> & steps)
 {
@@ -139,22 +131,22 @@ FindBlocks(const std::vector<double> & steps)
   return blocks;
 }
 
-/** The larger of the medians of up to five steps before and five behind one: only a step that is much larger than
- * those on both its sides is no change from one block of slices to the next. */
+/** The larger of the median of up to five steps before and that of up to five steps after step \a i. A step that is
+ * much larger than this is a gap and not a change from one block of slices to the next. */
 double
 UsualStepAround(const std::vector<double> & steps, std::size_t i)
 {
   constexpr std::size_t reach = 5;
   const auto step = steps.begin() + static_cast<std::ptrdiff_t>(i);
   const auto before = static_cast<std::ptrdiff_t>(std::min(reach, i));
-  const auto behind = static_cast<std::ptrdiff_t>(std::min(reach, steps.size() - 1 - i));
+  const auto after = static_cast<std::ptrdiff_t>(std::min(reach, steps.size() - 1 - i));
   const double medianBefore = before > 0 ? MedianOf({ step - before, step }) : 0;
-  const double medianBehind = behind > 0 ? MedianOf({ step + 1, step + 1 + behind }) : 0;
-  return std::max(medianBefore, medianBehind);
+  const double medianAfter = after > 0 ? MedianOf({ step + 1, step + 1 + after }) : 0;
+  return std::max(medianBefore, medianAfter);
 }
 
-/** Whether a step is a multiple of the usual one of the stack, which there is on both its sides: slices are missing,
- * even from between all of a few that are left. */
+/** Whether a step is a multiple of the stack's usual step, with usual steps on both its sides: then slices are missing,
+ * even if many steps of the stack are gaps. */
 bool
 IsMultipleAmidUsual(const std::vector<double> & steps, std::size_t i, double usual)
 {
@@ -169,7 +161,7 @@ IsMultipleAmidUsual(const std::vector<double> & steps, std::size_t i, double usu
 std::vector<SliceGap>
 FindGaps(const std::vector<double> & distances, const std::vector<double> & steps)
 {
-  constexpr double abrupt = 1.9; // of the steps around
+  constexpr double abrupt = 1.9; // relative to the steps around it
   const double usual = MedianOf(steps);
   std::vector<SliceGap> gaps;
   for (std::size_t i = 0; i < steps.size() && steps.size() > 1; ++i)
@@ -184,7 +176,7 @@ FindGaps(const std::vector<double> & distances, const std::vector<double> & step
   return gaps;
 }
 
-/** The largest distance of a slice from its place on the line of equal steps from the first to the last. */
+/** The largest distance of a slice from its position on the line of equal steps from the first to the last. */
 double
 DistanceFromLine(const Slices & slices, const Vector & step)
 {
@@ -197,7 +189,7 @@ DistanceFromLine(const Slices & slices, const Vector & step)
   return largest;
 }
 
-/** How far slices move sideways for each millimetre along their normal, as most steps have it. */
+/** The sideways shift of slices for each millimetre along their normal: the median of all steps, in each coordinate. */
 Vector
 SlopeOf(const Slices & slices, const std::vector<double> & steps, const Vector & normal)
 {
@@ -215,8 +207,8 @@ SlopeOf(const Slices & slices, const std::vector<double> & steps, const Vector &
   return slope;
 }
 
-/** Refuses slices that don't follow each other along a line: neighbours that are shifted by more than a pixel against
- * what the others are, and lines that are flatter than any gantry is tilted. */
+/** Refuses slices that are not on a line: adjacent slices with a sideways shift of more than a pixel beyond the median
+ * shift, and lines with a larger tilt than any gantry's. */
 void
 RequireLine(const Slices & slices, const std::vector<double> & steps)
 {
@@ -229,7 +221,7 @@ RequireLine(const Slices & slices, const std::vector<double> & steps)
   if (slope.GetNorm() > steepest)
   {
     Refuse(slices,
-           "they are shifted sideways by " + Rounded(slope.GetNorm()) +
+           "they are shifted sideways by " + FormatNumber(slope.GetNorm(), 4) +
              " mm for each mm between them, more than a tilt",
            advice);
   }
@@ -240,7 +232,7 @@ RequireLine(const Slices & slices, const std::vector<double> & steps)
     if (jump > pixel + ToleranceFor(steps[i]))
     {
       Refuse(slices,
-             NamesOf(slices[i], slices[i + 1]) + " are shifted sideways by " + Rounded(jump) +
+             NamesOf(slices[i], slices[i + 1]) + " are shifted sideways by " + FormatNumber(jump, 4) +
                " mm against each other, which no tilt explains",
              advice);
     }
@@ -255,22 +247,22 @@ TiltOf(const Slices & slices, double normalExtent)
   return std::acos(std::min(1.0, normalExtent / line.GetNorm()));
 }
 
-/** Where slices are missing, and how many. */
+/** The number of missing slices, and their position. */
 std::string
 DescribeGaps(const std::vector<SliceGap> & gaps)
 {
   const SliceGap & gap = gaps.front();
   return Count(gap.numberOfMissing, "slice is", "slices are") + " missing at " +
-         Rounded(gap.position + gap.step / static_cast<double>(gap.numberOfMissing + 1)) + " mm" +
+         FormatNumber(gap.position + gap.step / static_cast<double>(gap.numberOfMissing + 1), 4) + " mm" +
          (gaps.size() > 1 ? " and in " + Count(gaps.size() - 1, "more place") : "");
 }
 
-/** The files on both sides of a gap. */
+/** The names of the files on both sides of a gap. */
 std::string
 NamesAround(const Slices & slices, const std::vector<double> & distances, const SliceGap & gap)
 {
-  const auto behind = std::upper_bound(distances.begin(), distances.end(), gap.position) - distances.begin();
-  const auto index = static_cast<std::size_t>(behind);
+  const auto after = std::upper_bound(distances.begin(), distances.end(), gap.position);
+  const auto index = static_cast<std::size_t>(after - distances.begin());
   return NamesOf(slices[index - 1], slices[index]);
 }
 
@@ -281,9 +273,59 @@ DescribeBlocks(const std::vector<SliceBlock> & blocks)
   std::string text;
   for (std::size_t n = 0; n < std::min(named, blocks.size()); ++n)
   {
-    text += (n > 0 ? ", " : "") + std::to_string(blocks[n].numberOfSteps) + " of " + Rounded(blocks[n].step) + " mm";
+    text +=
+      (n > 0 ? ", " : "") + std::to_string(blocks[n].numberOfSteps) + " of " + FormatNumber(blocks[n].step, 4) + " mm";
   }
   return text + (blocks.size() > named ? ", ..." : "");
+}
+
+constexpr char AdviceOnIrregular[] = "leave out --on-irregular=error to have them resampled from their true places";
+
+/** A note on gaps. Throws Failure when they are not accepted. */
+std::string
+AcceptGaps(const Slices & slices,
+           const std::vector<double> & distances,
+           const std::vector<SliceGap> & gaps,
+           const ScanReadOptions & options)
+{
+  const std::string description = DescribeGaps(gaps);
+  if (options.onGap == Policy::Refuse)
+  {
+    Refuse(slices,
+           description + (gaps.size() > 1 ? ", the first between " : ", between ") +
+             NamesAround(slices, distances, gaps.front()),
+           "find the missing files, or take values across the gap with --on-gap=interpolate");
+  }
+  return "Values are interpolated where slices are missing: " + description + ".";
+}
+
+/** A note on uneven steps. Throws Failure when they are not accepted. \a offLine is in mm. */
+std::string
+AcceptUnevenSteps(const Slices & slices,
+                  const std::vector<SliceBlock> & blocks,
+                  double offLine,
+                  const ScanReadOptions & options)
+{
+  const std::string description = "the steps between them are uneven: " + DescribeBlocks(blocks) +
+                                  "; slices are up to " + FormatNumber(offLine, 4) + " mm off a regular line";
+  if (options.onIrregular == Policy::Refuse)
+  {
+    Refuse(slices, description, AdviceOnIrregular);
+  }
+  return "The slices are resampled from their true places, because " + description + ".";
+}
+
+/** A note on a tilt. Throws Failure when it is not accepted. */
+std::string
+AcceptTilt(const Slices & slices, double degrees, const ScanReadOptions & options)
+{
+  const std::string description =
+    "they are sheared by " + FormatNumber(degrees, 4) + " degrees against their normal, as a tilted CT gantry does";
+  if (options.onIrregular == Policy::Refuse)
+  {
+    Refuse(slices, description, AdviceOnIrregular);
+  }
+  return "The slices are resampled from their true places: " + description + ".";
 }
 
 } // namespace
@@ -313,7 +355,6 @@ StackSlices(std::vector<DicomSlice> & slices, const ScanReadOptions & options)
            NamesOf(slices[i], slices[i + 1]) + " are at the same place",
            "put one set of slices into a folder of its own");
   }
-
   RequireLine(slices, steps);
 
   DicomStack stack;
@@ -327,43 +368,21 @@ StackSlices(std::vector<DicomSlice> & slices, const ScanReadOptions & options)
   const Vector step = (slices.back().plane->position - first.position) / static_cast<double>(steps.size());
   const double offLine = DistanceFromLine(slices, step);
   const bool isEven = offLine <= ToleranceFor(MedianOf(steps));
-  const bool hasGaps = !isEven && !stack.report.gaps.empty();
-  const bool isTilted = stack.report.tiltDegrees * itk::Math::pi / 180 > 1e-3;
-  if (hasGaps)
+  if (!isEven && !stack.report.gaps.empty())
   {
-    const std::string gaps = DescribeGaps(stack.report.gaps);
-    if (options.onGap == Policy::Refuse)
-    {
-      Refuse(slices,
-             gaps + (stack.report.gaps.size() > 1 ? ", the first between " : ", between ") +
-               NamesAround(slices, distances, stack.report.gaps.front()),
-             "find the missing files, or take values across the gap with --on-gap=interpolate");
-    }
-    stack.notes.push_back("Values are interpolated where slices are missing: " + gaps + ".");
+    stack.notes.push_back(AcceptGaps(slices, distances, stack.report.gaps, options));
   }
   else if (!isEven)
   {
-    const std::string blocks = "the steps between them are uneven: " + DescribeBlocks(stack.report.blocks) +
-                               "; slices are up to " + Rounded(offLine) + " mm off a regular line";
-    if (options.onIrregular == Policy::Refuse)
-    {
-      Refuse(slices, blocks, "leave out --on-irregular=error to have them resampled from their true places");
-    }
-    stack.notes.push_back("The slices are resampled from their true places, because " + blocks + ".");
+    stack.notes.push_back(AcceptUnevenSteps(slices, stack.report.blocks, offLine, options));
   }
-  if (isTilted)
+  if (stack.report.tiltDegrees * itk::Math::pi / 180 > 1e-3)
   {
-    const std::string tilt = "they are sheared by " + Rounded(stack.report.tiltDegrees) +
-                             " degrees against their normal, as a tilted CT gantry does";
-    if (options.onIrregular == Policy::Refuse)
-    {
-      Refuse(slices, tilt, "leave out --on-irregular=error to have them resampled from their true places");
-    }
-    stack.notes.push_back("The slices are resampled from their true places: " + tilt + ".");
+    stack.notes.push_back(AcceptTilt(slices, stack.report.tiltDegrees, options));
   }
-  if (!isEven)
+  for (const DicomSlice & slice : slices)
   {
-    for (const DicomSlice & slice : slices)
+    if (!isEven)
     {
       stack.sliceOrigins.push_back(slice.plane->position);
     }

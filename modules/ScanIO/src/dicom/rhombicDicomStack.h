@@ -10,7 +10,7 @@
 namespace rhombic
 {
 
-/** Where the volume is that slices make. */
+/** The geometry of a stack of slices. */
 struct DicomStack
 {
   VolumeGeometry geometry;                         ///< sheared when the gantry was tilted
@@ -19,21 +19,22 @@ struct DicomStack
   std::vector<std::string> notes;
 };
 
-/** Sorts slices of one orientation along their normal and says where the volume is that they make. The steps between
- * slices come from their positions alone.
+/** Sorts slices of one orientation along their normal and finds the geometry of their volume. The steps between slices
+ * are computed from their positions alone.
  *
  * The slices of an even stack are within 0.01 mm (or a tenth of a step) of a line with equal steps; the line need not
- * be the normal. Gaps are steps of 1.9 times or more what is usual before and behind them, so that the change from one
- * block of slices to the next is none, and whole multiples of the step that is usual in the stack amid such steps.
- * Everything else is an uneven stack, whose slices keep their own places.
+ * be the normal. A gap is a step of at least 1.9 times the usual step on both its sides (so that a change from one
+ * block of slices to the next is no gap), or a whole multiple of the median step with median steps on both its sides.
+ * All other stacks are uneven, and their slices keep their own positions.
  *
- * Throws Failure(Geometry), naming files: when a slice has no plane, there is only one, two are at one place, one is
- * shifted sideways against the next by more than a pixel beyond what the tilt of most is, or all by more than 45
- * degrees are, for gaps and for tilted (by more than 0.001 rad) or uneven stacks as the options say. */
+ * Throws Failure(Geometry), naming files: when a slice has no plane, there is only one slice, two are at the same
+ * position, one is shifted sideways against the next by more than a pixel beyond the tilt of most, all are shifted by
+ * more than a tilt of 60 degrees; and, as the options say, for gaps and for tilted (by more than 0.001 rad) or uneven
+ * stacks. */
 DicomStack
 StackSlices(std::vector<DicomSlice> & slices, const ScanReadOptions & options);
 
-/** Whether two slices are at one place along their normal, within a hundredth of the median step or 1e-6 mm. */
+/** Whether two slices are at the same position along their normal, within a hundredth of the median step or 1e-6 mm. */
 bool
 HaveDuplicates(const std::vector<DicomSlice> & slices);
 

@@ -3,8 +3,8 @@
 
 #include "rhombicDicomHeader.h"
 
-/** The elements that Rhombic reads from DICOM files, by the names of the standard (PS3.6). An element that is not
- * listed here is not kept. */
+/** The elements that Rhombic reads from DICOM files, by their names in the standard (PS3.6). Other elements are
+ * skipped. */
 namespace rhombic::DicomTags
 {
 

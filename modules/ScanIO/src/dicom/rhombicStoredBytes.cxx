@@ -11,7 +11,7 @@ namespace rhombic
 std::vector<std::byte>
 ReadStoredBytes(const DicomImageFile & file, std::uintmax_t offset, std::size_t size)
 {
-  // Words are counted from the first pixel of the file: a frame may begin or end amid one.
+  // Words are counted from the first pixel of the file: a frame may begin or end inside a word.
   const std::size_t word = file.format.swappedBytes;
   const std::size_t before = offset % word;
   const std::size_t whole = (before + size + word - 1) / word * word;

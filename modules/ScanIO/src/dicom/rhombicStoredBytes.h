@@ -8,8 +8,8 @@
 namespace rhombic
 {
 
-/** Bytes of the pixels of a file, which are not compressed, in the order of this machine: \a size of them from \a
- * offset on. Throws Failure(Unreadable) when they are not there. */
+/** \a size bytes of a file's uncompressed pixels from \a offset on, in the byte order of this machine. Throws
+ * Failure(Unreadable) when the file ends before. */
 std::vector<std::byte>
 ReadStoredBytes(const DicomImageFile & file, std::uintmax_t offset, std::size_t size);
 

@@ -6,7 +6,7 @@
 namespace rhombic
 {
 
-/** What the pixels of a DICOM transfer syntax are packed with. */
+/** The compression of the pixels in a DICOM transfer syntax. */
 enum class PixelCodec
 {
   None,
@@ -20,9 +20,9 @@ enum class PixelCodec
 /** A transfer syntax of DICOM (PS3.5, annex A). */
 struct TransferSyntax
 {
-  std::string name; ///< in a few words, or the UID when it is not known
+  std::string name; ///< in a few words
   PixelCodec codec = PixelCodec::Unsupported;
-  bool isLossy = false; ///< whether the values may differ from those that the scanner made
+  bool isLossy = false; ///< whether values may differ from the original ones
 };
 
 /** An empty UID is taken for a syntax without compression. */

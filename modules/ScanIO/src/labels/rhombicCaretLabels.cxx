@@ -1,6 +1,6 @@
 #include "rhombicAnatomicalColours.h"
 #include "rhombicFailure.h"
-#include "rhombicLabelText.h"
+#include "rhombicLabelTableFormats.h"
 
 #include <exception>
 #include <map>
@@ -14,7 +14,8 @@ namespace rhombic
 namespace
 {
 
-/** Collects the Label elements while expat parses. Expat is C: what its callbacks throw is kept until it returns. */
+/** Collects the Label elements while expat parses. Expat is a C library, so exceptions of its callbacks are kept until
+ * it returns. */
 class CaretReader
 {
 public:

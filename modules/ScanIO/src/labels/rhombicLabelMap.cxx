@@ -2,6 +2,7 @@
 
 #include "rhombicAnatomicalColours.h"
 #include "rhombicFailure.h"
+#include "rhombicWording.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,21 +23,21 @@ RefuseLabelMap(const std::string & why)
                 "This is not a label map: " + why + "; name a segmentation instead of a scan.");
 }
 
-/** How much of a label map has one value. */
+/** Number and volume of the voxels of one value. */
 struct LabelCount
 {
   std::size_t numberOfVoxels = 0;
   double volume = 0; ///< cubic mm
 };
 
-/** Whether a value is one that a label can have. */
+/** Whether a value is an integer of 32 bits. */
 template <typename TPixel>
 bool
 IsLabelValue(TPixel value)
 {
   if constexpr (std::is_floating_point_v<TPixel>)
   {
-    constexpr TPixel limit = 2147483648.0F; // the first float that is no int32
+    constexpr TPixel limit = 2147483648.0F; // the smallest float beyond int32
     return value >= -limit && value < limit && std::trunc(value) == value;
   }
   return true;
@@ -74,7 +75,7 @@ CountLabels(const itk::Image<TPixel, 3> & image, const std::vector<double> & vox
   return counts;
 }
 
-/** Whether at least half of the pairs of neighbours along columns, both not 0, are equal. */
+/** Whether at least half of all adjacent voxels along x that are both not 0 are equal. */
 template <typename TPixel>
 bool
 HoldsPieces(const itk::Image<TPixel, 3> & image)
@@ -150,7 +151,6 @@ SummarizeLabels(const Scan & scan, const LabelTable & table)
   const std::map<std::int32_t, LabelCount> counts =
     std::visit([&voxelVolumes](const auto & image) { return CountLabels(*image, voxelVolumes); }, scan.image);
 
-  constexpr double cubicMillimetresPerMillilitre = 1000;
   std::vector<LabelSummary> summaries;
   for (const auto & [value, count] : counts)
   {
@@ -159,7 +159,7 @@ SummarizeLabels(const Scan & scan, const LabelTable & table)
       const Label * const label = FindLabel(table, value);
       summaries.push_back({ label != nullptr ? *label : UnnamedLabel(value),
                             count.numberOfVoxels,
-                            count.volume / cubicMillimetresPerMillilitre });
+                            count.volume / CubicMillimetresPerMl });
     }
   }
   return summaries;

@@ -51,7 +51,7 @@ RegionOfLabels(const itk::Image<TPixel, 3> & image)
   return region;
 }
 
-/** Whether a point is in the voxels of a grid. */
+/** Whether a point is in a voxel of a grid. */
 bool
 IsInside(const itk::ImageBase<3> & grid, const itk::Point<double, 3> & point)
 {
@@ -68,20 +68,20 @@ IsInside(const itk::ImageBase<3> & grid, const itk::Point<double, 3> & point)
   return true;
 }
 
-/** The part of a region of \a inner that is in \a outer. */
+/** The fraction of a region of \a inner that is in \a outer. */
 double
 OverlapOfRegion(const itk::ImageBase<3> & inner, const itk::ImageRegion<3> & region, const itk::ImageBase<3> & outer)
 {
-  constexpr int points = 32; // along each axis, each in the middle of its share of the region
+  constexpr int points = 32; // along each axis, in the middle of equal parts of the region
   std::size_t inside = 0;
   for (int n = 0; n < points * points * points; ++n)
   {
-    const int place[3] = { n % points, n / points % points, n / points / points };
+    const int cell[3] = { n % points, n / points % points, n / points / points };
     itk::ContinuousIndex<double, 3> index;
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
       index[axis] = static_cast<double>(region.GetIndex(axis)) - 0.5 +
-                    (place[axis] + 0.5) / points * static_cast<double>(region.GetSize(axis));
+                    (cell[axis] + 0.5) / points * static_cast<double>(region.GetSize(axis));
     }
     itk::Point<double, 3> point;
     inner.TransformContinuousIndexToPhysicalPoint(index, point);

@@ -2,6 +2,7 @@
 
 #include "rhombicFailure.h"
 #include "rhombicLabelTableFormats.h"
+#include "rhombicWording.h"
 
 #include <fstream>
 
@@ -35,7 +36,7 @@ ReadText(const fs::path & path)
   return text;
 }
 
-/** nullopt for what is no label table. */
+/** The labels of a text; nothing when it is no label table. */
 std::optional<LabelTable>
 ParseIfLabelTable(std::string_view text, const std::string & source)
 {
@@ -102,7 +103,7 @@ ReadLabelTable(const fs::path & path)
 }
 
 std::optional<LabelTable>
-FindLabelTable(const fs::path & volumePath, const std::map<std::string, std::string> & keyValues)
+FindLabelTable(const fs::path & volumePath)
 {
   const fs::path extension = volumePath.extension() == ".gz" ? volumePath.stem().extension() : volumePath.extension();
   if (extension == ".nii" || volumePath.extension() == ".hdr")
@@ -111,11 +112,6 @@ FindLabelTable(const fs::path & volumePath, const std::map<std::string, std::str
     {
       return table;
     }
-  }
-  LabelTable segments = LabelsOfSegments(keyValues, volumePath.string());
-  if (!segments.empty())
-  {
-    return segments;
   }
   for (const char * const sideCarExtension : { ".ctbl", ".csv", ".tsv", ".label", ".txt" })
   {

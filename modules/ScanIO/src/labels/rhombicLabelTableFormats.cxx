@@ -1,6 +1,7 @@
 #include "rhombicLabelTableFormats.h"
 
 #include "rhombicAnatomicalColours.h"
+#include "rhombicWording.h"
 
 #include <algorithm>
 #include <charconv>
@@ -12,7 +13,7 @@ namespace rhombic
 namespace
 {
 
-/** The table of what \a parseRow makes of each line. */
+/** The table of the labels that \a parseRow returns for each line. */
 template <typename TParseRow>
 LabelTable
 CollectRows(const std::vector<TextLine> & lines, const std::string & source, const TParseRow & parseRow)
@@ -33,11 +34,11 @@ WithoutQuotes(std::string_view text)
   return isQuoted ? text.substr(1, text.size() - 2) : text;
 }
 
-/** A row `value name red green blue alpha`; the name may have spaces. The opacity is alpha's. */
+/** A row `value name red green blue alpha`; the name may have spaces, and alpha is taken as the opacity. */
 Label
 ParseNamedRow(std::string_view line, const TablePlace & place)
 {
-  const std::vector<std::string_view> words = WordsOf(line);
+  const std::vector<std::string_view> words = SplitWords(line);
   if (words.size() < 6)
   {
     RefuseTable(place,
@@ -87,7 +88,7 @@ public:
     return fields;
   }
 
-  /** A field of a row, "" for a column that the table or the row lacks. */
+  /** A field of a row; empty when the table or the row lacks the column. */
   std::string
   Get(const std::vector<std::string> & row, const std::string & column) const
   {
@@ -130,14 +131,14 @@ IsNumber(std::string_view word)
 bool
 LooksLikeITKSNAPRow(std::string_view line)
 {
-  const std::vector<std::string_view> words = WordsOf(line);
+  const std::vector<std::string_view> words = SplitWords(line);
   return words.size() >= 8 && std::all_of(words.begin(), words.begin() + 7, IsNumber) && words[7].front() == '"';
 }
 
 bool
 LooksLikeNamedRow(std::string_view line)
 {
-  const std::vector<std::string_view> words = WordsOf(line);
+  const std::vector<std::string_view> words = SplitWords(line);
   return words.size() >= 6 && IsNumber(words[0]) && !IsNumber(words[1]) &&
          std::all_of(words.end() - 4, words.end(), IsNumber);
 }
@@ -147,7 +148,7 @@ bool
 IsAlphaAlwaysZero(const std::vector<TextLine> & lines)
 {
   return std::all_of(
-    lines.begin(), lines.end(), [](const TextLine & line) { return WordsOf(line.text).back() == "0"; });
+    lines.begin(), lines.end(), [](const TextLine & line) { return SplitWords(line.text).back() == "0"; });
 }
 
 bool
@@ -212,7 +213,7 @@ ParseITKSNAPTable(const std::vector<TextLine> & lines, const std::string & sourc
 {
   return CollectRows(lines, source, [](std::string_view line, const TablePlace & place) {
     const std::size_t quote = std::min(line.find('"'), line.size());
-    const std::vector<std::string_view> words = WordsOf(line.substr(0, quote));
+    const std::vector<std::string_view> words = SplitWords(line.substr(0, quote));
     const std::string_view name = line.substr(quote);
     if (words.size() != 7 || name.size() < 2 || name.back() != '"')
     {

@@ -3,26 +3,30 @@
 
 #include "rhombicLabelText.h"
 
+#include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rhombic
 {
 
-/** Label tables that can be told apart. */
+/** The formats of label tables. */
 enum class LabelTableFormat
 {
   None,
   ITKSNAP,
   SlicerText,
-  SlicerProcedural, ///< colours along a scale, not of labels
+  SlicerProcedural, ///< colours of a scale, not of labels: refused
   SlicerCSV,
   FreeSurfer,
   BIDS
 };
 
-/** What a text is, by its comments, its header or its first row; by the extension of \a source where these leave it
- * open. \a lines are those of LinesOfTable(). */
+/** Recognises a text's format by its comments, its header or its first row, and by the extension of \a source where
+ * these are ambiguous. \a lines are those of LinesOfTable(). */
 LabelTableFormat
 RecogniseLabelTable(std::string_view text, const std::vector<TextLine> & lines, const std::string & source);
 
@@ -46,6 +50,24 @@ ParseSlicerCSV(const std::vector<TextLine> & lines, const std::string & source);
 /** Parses a header and rows with at least index and name; color (#rrggbb) may be missing. */
 LabelTable
 ParseBIDSTable(const std::vector<TextLine> & lines, const std::string & source);
+
+/** The segments of one \a layer of a 3D Slicer segmentation (.seg.nrrd), from the key/value pairs of its NRRD header
+ * (Segment0_Name, Segment0_LabelValue, ...); each layer numbers its segments independently. Empty when there are none.
+ * \a source is for messages. Throws Failure(Unreadable), naming the key. */
+LabelTable
+LabelsOfSegments(const std::map<std::string, std::string> & keyValues, const std::string & source, int layer = 0);
+
+/** The labels in XML as Caret and Connectome Workbench write it:
+ * `<LabelTable><Label Key="1" Red="1" Green="0" Blue="0" Alpha="1">liver</Label>`, colours from 0 to 1; empty when
+ * there are none. \a source is for messages. Throws Failure(Unreadable) for XML that is damaged, declares a document
+ * type, or is longer than 1 MiB. */
+LabelTable
+ParseCaretLabels(std::string_view xml, const std::string & source);
+
+/** The label table in a NIfTI file's header extension (a Caret LabelTable, as TotalSegmentator writes it), if there is
+ * one. Throws Failure(Unreadable) when it is damaged. */
+std::optional<LabelTable>
+ReadNIfTILabelTable(const std::filesystem::path & path);
 
 } // namespace rhombic
 

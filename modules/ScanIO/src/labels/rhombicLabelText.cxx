@@ -1,9 +1,9 @@
 #include "rhombicLabelText.h"
 
 #include "rhombicFailure.h"
+#include "rhombicWording.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -14,22 +14,6 @@ namespace
 
 constexpr std::size_t MostLines = 100'000;
 constexpr std::string_view ByteOrderMark = "\xEF\xBB\xBF";
-constexpr std::string_view Blanks = " \t\r\n\v\f";
-
-std::string
-Shown(double number)
-{
-  return std::to_string(static_cast<long>(number));
-}
-
-/** The whole text as a number, or nothing. */
-template <typename TNumber>
-bool
-Parse(std::string_view text, TNumber & number)
-{
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size();
-}
 
 } // namespace
 
@@ -50,23 +34,6 @@ Quoted(std::string_view text)
   return "\"" + shown + (text.size() > longest ? "..." : "") + "\"";
 }
 
-std::string_view
-Trimmed(std::string_view text)
-{
-  const std::size_t begin = text.find_first_not_of(Blanks);
-  return begin == std::string_view::npos ? "" : text.substr(begin, text.find_last_not_of(Blanks) - begin + 1);
-}
-
-std::string
-LowerCase(std::string_view text)
-{
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](char letter) {
-    return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
-  });
-  return lower;
-}
-
 std::vector<TextLine>
 LinesOfTable(std::string_view text, const std::string & source)
 {
@@ -82,7 +49,7 @@ LinesOfTable(std::string_view text, const std::string & source)
       RefuseTable({ source }, "it has more than 100,000 lines, too many for a label table; check that it is one");
     }
     const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-    const std::string_view line = Trimmed(text.substr(0, end));
+    const std::string_view line = Trim(text.substr(0, end));
     if (!line.empty() && line.front() != '#')
     {
       lines.push_back({ line, number });
@@ -91,19 +58,6 @@ LinesOfTable(std::string_view text, const std::string & source)
     text.remove_prefix(std::min(end + (isPair ? 2 : 1), text.size()));
   }
   return lines;
-}
-
-std::vector<std::string_view>
-WordsOf(std::string_view line)
-{
-  std::vector<std::string_view> words;
-  for (line = Trimmed(line); !line.empty(); line = Trimmed(line))
-  {
-    const std::size_t end = std::min(line.find_first_of(Blanks), line.size());
-    words.push_back(line.substr(0, end));
-    line.remove_prefix(end);
-  }
-  return words;
 }
 
 std::vector<std::string>
@@ -135,7 +89,7 @@ FieldsOf(std::string_view line, char separator, const TablePlace & place)
   }
   for (std::string & field : fields)
   {
-    field = Trimmed(field);
+    field = Trim(field);
   }
   return fields;
 }
@@ -147,27 +101,27 @@ WholeNumber(std::string_view text,
             const char * what,
             const TablePlace & place)
 {
-  std::int32_t number = 0;
-  if (!Parse(text, number) || number < lowest || number > highest)
+  const auto number = ToNumber<std::int32_t>(text);
+  if (!number || *number < lowest || *number > highest)
   {
     RefuseTable(place,
                 std::string(what) + " is " + Quoted(text) + ", which is no whole number from " +
                   std::to_string(lowest) + " to " + std::to_string(highest) + "; correct it");
   }
-  return number;
+  return *number;
 }
 
 double
 RealNumber(std::string_view text, double lowest, double highest, const char * what, const TablePlace & place)
 {
-  double number = 0;
-  if (!Parse(text, number) || !(number >= lowest && number <= highest))
+  const auto number = ToNumber<double>(text);
+  if (!number || !(*number >= lowest && *number <= highest))
   {
     RefuseTable(place,
-                std::string(what) + " is " + Quoted(text) + ", which is no number from " + Shown(lowest) + " to " +
-                  Shown(highest) + "; correct it");
+                std::string(what) + " is " + Quoted(text) + ", which is no number from " + FormatNumber(lowest) +
+                  " to " + FormatNumber(highest) + "; correct it");
   }
-  return number;
+  return *number;
 }
 
 std::int32_t

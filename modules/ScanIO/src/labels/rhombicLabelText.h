@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,8 +14,7 @@
 namespace rhombic
 {
 
-/** Longer label tables are refused. */
-constexpr std::size_t LongestLabelTable = std::size_t{ 1 } << 20; // bytes
+constexpr std::size_t LongestLabelTable = std::size_t{ 1 } << 20; ///< bytes; longer label tables are refused
 
 /** A line of a label table. */
 struct TextLine
@@ -23,7 +23,7 @@ struct TextLine
   std::size_t number = 0; ///< from 1
 };
 
-/** Where a table was found, for messages: "Cannot read SOURCE, line 3: ..." */
+/** The source of a line, for messages: "Cannot read SOURCE, line 3: ..." */
 struct TablePlace
 {
   const std::string & source;
@@ -34,54 +34,42 @@ struct TablePlace
 [[noreturn]] void
 RefuseTable(const TablePlace & place, const std::string & why);
 
-/** Up to 40 bytes of a file as part of a sentence, in quotes. */
+/** Up to 40 bytes of a text in quotes, for messages. */
 std::string
 Quoted(std::string_view text);
 
-/** Without spaces, tabs and line ends at its ends. */
-std::string_view
-Trimmed(std::string_view text);
-
-/** In lower case, ASCII only. */
-std::string
-LowerCase(std::string_view text);
-
-/** The lines of a text that are neither blank nor begin with '#', without byte order mark. Throws for more than 100,000
- * lines. */
+/** The lines of a text that are neither blank nor begin with '#'. A byte order mark is skipped. Throws for more than
+ * 100,000 lines. */
 std::vector<TextLine>
 LinesOfTable(std::string_view text, const std::string & source);
-
-/** The words of a line, which spaces and tabs separate. */
-std::vector<std::string_view>
-WordsOf(std::string_view line);
 
 /** The fields of a line between separators, trimmed. Fields in double quotes may hold separators and doubled quotes.
  * Throws when a quote is not closed. */
 std::vector<std::string>
 FieldsOf(std::string_view line, char separator, const TablePlace & place);
 
-/** A whole number, or a refusal that calls it \a what. */
+/** A whole number in a range. Throws Failure otherwise; \a what is its name in the message. */
 std::int32_t
 WholeNumber(std::string_view text, std::int32_t lowest, std::int32_t highest, const char * what, const TablePlace &);
 
-/** A finite number, with a point whatever the locale, or a refusal that calls it \a what. */
+/** A finite number in a range. Throws Failure otherwise; \a what is its name in the message. */
 double
 RealNumber(std::string_view text, double lowest, double highest, const char * what, const TablePlace &);
 
-/** Any label value. */
+/** The value of a label: any 32-bit integer. */
 std::int32_t
 LabelValue(std::string_view text, const TablePlace &);
 
-/** Red, green and blue from 0 to 255. */
+/** A colour from red, green and blue from 0 to 255. */
 std::array<std::uint8_t, 3>
 ByteColour(std::string_view red, std::string_view green, std::string_view blue, const TablePlace &);
 
-/** Red, green and blue from 0 to 1. */
+/** A colour from red, green and blue from 0 to 1. */
 std::array<std::uint8_t, 3>
 UnitColour(std::string_view red, std::string_view green, std::string_view blue, const TablePlace &);
 
 /** \class LabelCollector
- * \brief Makes a table of labels in any order, and refuses values that come twice. */
+ * \brief Sorts labels into a table, and refuses values that occur twice. */
 class LabelCollector
 {
 public:

@@ -1,8 +1,6 @@
 #include "rhombicCompressedFile.h"
-#include "rhombicLabelText.h"
-
-#include <algorithm>
-#include <cstring>
+#include "rhombicLabelTableFormats.h"
+#include "rhombicNIfTIHeader.h"
 
 namespace fs = std::filesystem;
 
@@ -13,55 +11,6 @@ namespace
 
 constexpr std::size_t LongestExtensions = std::size_t{ 1 } << 24; // bytes, of all together
 
-template <typename TValue>
-TValue
-NumberAt(std::string_view bytes, std::size_t offset, bool isSwapped)
-{
-  char value[sizeof(TValue)];
-  std::memcpy(value, bytes.data() + offset, sizeof(TValue));
-  if (isSwapped)
-  {
-    std::reverse(value, value + sizeof(TValue));
-  }
-  TValue result;
-  std::memcpy(&result, value, sizeof(TValue));
-  return result;
-}
-
-/** How a NIfTI header is laid out. */
-struct HeaderLayout
-{
-  std::size_t size = 0; ///< bytes before the extensions' flags; 0 for what is no NIfTI header
-  bool isSwapped = false;
-};
-
-HeaderLayout
-LayoutOf(std::string_view bytes)
-{
-  for (const std::size_t size : { 348, 540 })
-  {
-    for (const bool isSwapped : { false, true })
-    {
-      if (bytes.size() >= size && NumberAt<std::int32_t>(bytes, 0, isSwapped) == static_cast<std::int32_t>(size))
-      {
-        return { size, isSwapped };
-      }
-    }
-  }
-  return {};
-}
-
-/** Where the voxels begin in a file of header and voxels; 0 in a header without. */
-double
-VoxelsOffset(std::string_view bytes, const HeaderLayout & layout)
-{
-  const bool isFirstVersion = layout.size == 348;
-  const bool isPair = bytes.substr(isFirstVersion ? 344 : 4, 2) == "ni";
-  return isPair           ? 0
-         : isFirstVersion ? static_cast<double>(NumberAt<float>(bytes, 108, layout.isSwapped))
-                          : static_cast<double>(NumberAt<std::int64_t>(bytes, 168, layout.isSwapped));
-}
-
 /** The first bytes of a file, or all if there are fewer. */
 std::string
 ReadBeginning(const fs::path & path, std::size_t size)
@@ -71,28 +20,17 @@ ReadBeginning(const fs::path & path, std::size_t size)
   return bytes;
 }
 
-/** All bytes before the voxels. */
+/** All bytes before the voxels: the header and its extensions. Empty when there is no room for label tables. */
 std::string
-ReadHeaderAndExtensions(const fs::path & path)
+ReadUpToVoxels(const fs::path & path, const NIfTIHeader & header)
 {
-  constexpr std::size_t longestHeader = 540;
-  const std::string header = ReadBeginning(path, longestHeader);
-  const HeaderLayout layout = LayoutOf(header);
-  if (layout.size == 0)
-  {
-    return "";
-  }
-  const double offset = VoxelsOffset(header, layout);
-  const bool isPair = offset == 0;
-  if (isPair)
+  if (header.kind == NIfTIHeader::Kind::Pair || header.voxelsOffset == 0)
   {
     return ReadBeginning(path, LongestExtensions);
   }
-  if (!(offset >= static_cast<double>(layout.size) && offset <= static_cast<double>(LongestExtensions)))
-  {
-    return ""; // no extensions, or more than label tables need
-  }
-  return ReadBeginning(path, static_cast<std::size_t>(offset));
+  const bool isInRange = header.voxelsOffset >= static_cast<double>(header.size) &&
+                         header.voxelsOffset <= static_cast<double>(LongestExtensions);
+  return isInRange ? ReadBeginning(path, static_cast<std::size_t>(header.voxelsOffset)) : "";
 }
 
 } // namespace
@@ -100,9 +38,9 @@ ReadHeaderAndExtensions(const fs::path & path)
 std::optional<LabelTable>
 ReadNIfTILabelTable(const fs::path & path)
 {
-  const std::string bytes = ReadHeaderAndExtensions(path);
-  const HeaderLayout layout = LayoutOf(bytes);
-  const bool hasExtensions = layout.size > 0 && bytes.size() > layout.size + 4 && bytes[layout.size] != 0;
+  const auto header = FindNIfTIHeader(path);
+  const std::string bytes = header ? ReadUpToVoxels(path, *header) : "";
+  const bool hasExtensions = header && bytes.size() > header->size + 4 && bytes[header->size] != 0;
   if (!hasExtensions)
   {
     return std::nullopt;
@@ -112,11 +50,11 @@ ReadNIfTILabelTable(const fs::path & path)
   constexpr std::int32_t unknownCode = 0;
   constexpr std::int32_t caretCode = 30;
   constexpr std::size_t prefixSize = 8; // an extension's size, with itself, and its code
-  std::string_view rest = std::string_view(bytes).substr(layout.size + 4);
+  std::string_view rest = std::string_view(bytes).substr(header->size + 4);
   while (rest.size() >= prefixSize)
   {
-    const auto size = NumberAt<std::int32_t>(rest, 0, layout.isSwapped);
-    const auto code = NumberAt<std::int32_t>(rest, 4, layout.isSwapped);
+    const auto size = NumberAt<std::int32_t>(rest, 0, header->isSwapped);
+    const auto code = NumberAt<std::int32_t>(rest, 4, header->isSwapped);
     if (size < static_cast<std::int32_t>(prefixSize) || static_cast<std::size_t>(size) > rest.size())
     {
       RefuseTable({ path.string() },

@@ -1,5 +1,6 @@
 #include "rhombicAnatomicalColours.h"
-#include "rhombicLabelText.h"
+#include "rhombicLabelTableFormats.h"
+#include "rhombicWording.h"
 
 #include <limits>
 #include <set>
@@ -43,14 +44,14 @@ LabelsOfSegments(const KeyValues & keyValues, const std::string & source, int la
   for (const std::string & number : SegmentNumbers(keyValues))
   {
     const std::string segment = std::string(Prefix) + number;
-    const std::string placeName = source + ", " + segment;
-    const TablePlace place{ placeName };
+    const std::string name = source + ", " + segment;
+    const TablePlace place{ name };
     const auto get = [&keyValues, &segment](const char * field) {
       const auto found = keyValues.find(segment + field);
-      return found == keyValues.end() ? std::string() : std::string(Trimmed(found->second));
+      return found == keyValues.end() ? std::string() : std::string(Trim(found->second));
     };
 
-    // Before 3D Slicer 4.11 every segment was a layer of its own.
+    // Before 3D Slicer 4.11 every segment was in a layer of its own.
     const bool isOld = get("_LabelValue").empty() && get("_Layer").empty();
     const std::string layerText = isOld ? number : get("_Layer").empty() ? "0" : get("_Layer");
     if (WholeNumber(layerText, 0, std::numeric_limits<std::int32_t>::max(), "its layer", place) != layer)
@@ -61,7 +62,7 @@ LabelsOfSegments(const KeyValues & keyValues, const std::string & source, int la
     label.value = isOld ? 1 : LabelValue(get("_LabelValue"), place);
     label.name = SanitizeLabelName(get("_Name"), label.value);
     const std::string colourText = get("_Color");
-    const std::vector<std::string_view> colour = WordsOf(colourText);
+    const std::vector<std::string_view> colour = SplitWords(colourText);
     if (colour.size() != 3 && !colour.empty())
     {
       RefuseTable(place, "its colour is " + Quoted(colourText) + ", not three numbers from 0 to 1; correct it");

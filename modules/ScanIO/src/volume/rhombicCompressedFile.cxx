@@ -41,7 +41,7 @@ constexpr std::uintmax_t LargestRatio = 1032; // of deflate
 
 UnpackedFile::UnpackedFile(const fs::path & path)
   : m_Path(path)
-  , m_File(gzopen(path.c_str(), "rb")) // reads files that are not compressed as they are
+  , m_File(gzopen(path.c_str(), "rb")) // files that are not compressed are read as they are
 {
   if (m_File == nullptr)
   {

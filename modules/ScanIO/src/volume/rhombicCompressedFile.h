@@ -15,7 +15,7 @@ struct z_stream_s;
 namespace rhombic
 {
 
-/** A file read from its beginning to its end, unpacked on the way if its content is gzip, whatever its name. Functions
+/** A file that is read from its beginning to its end, and unpacked if its content is gzip, whatever its name. Functions
  * throw Failure(Unreadable) when it can't be opened or read, or its compression is damaged. */
 class UnpackedFile
 {
@@ -34,12 +34,12 @@ public:
   std::size_t
   Read(void * buffer, std::size_t size);
 
-  /** Passes over \a size bytes, or as many as there are. Returns how many. */
+  /** Skips \a size bytes, or as many as there are. Returns their number. */
   std::uintmax_t
   Skip(std::uintmax_t size);
 
-  /** Checks a compressed file to its end: its streams have to be complete and their checksums right, and little may be
-   * left of them. */
+  /** Reads a compressed file to its end. Throws unless its streams are complete with the right checksums and at most
+   * LongestTail bytes are left. */
   void
   Finish();
 
@@ -48,11 +48,11 @@ private:
   gzFile_s * m_File;
 };
 
-/** The most bytes that may follow behind voxels: some writers append a few, but a file can hold any number. */
+/** The largest number of bytes that may follow the voxels: some writers append a few. */
 constexpr std::uintmax_t LongestTail = 1 << 20;
 
-/** The most bytes that a file can hold, unpacked if its content is gzip: 1032 times its size, which deflate can't
- * exceed. */
+/** The largest size that a file can have when unpacked: 1032 times its size if its content is gzip, the largest ratio
+ * of deflate. */
 std::uintmax_t
 LargestUnpackedSize(const std::filesystem::path & path);
 
@@ -67,16 +67,16 @@ public:
   InflatedStream &
   operator=(const InflatedStream &) = delete;
 
-  /** The next \a size bytes, or as many as there are up to the stream's end or its damage. */
+  /** The next \a size bytes, or fewer at the end of the stream or where it is damaged. */
   std::size_t
   Read(void * buffer, std::size_t size);
 
-  /** Passes over \a size bytes, or as many as there are. Returns how many. */
+  /** Skips \a size bytes, or as many as there are. Returns their number. */
   std::uintmax_t
   Skip(std::uintmax_t size);
 
-  /** Passes over the rest, \a most bytes and a little more. How many bytes that was, or nothing when the stream is
-   * damaged, cut off or longer. */
+  /** Skips the rest of the stream and returns its size. Nothing when the stream is damaged, cut off, or longer than
+   * \a most bytes and LongestTail. */
   std::optional<std::uintmax_t>
   Finish(std::uintmax_t most);
 

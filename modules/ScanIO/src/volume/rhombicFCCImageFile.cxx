@@ -156,7 +156,7 @@ std::vector<TNumber>
 ToNumbers(const std::string & text, std::size_t count, const fs::path & path)
 {
   std::vector<TNumber> numbers;
-  for (const std::string & word : SplitWords(text))
+  for (const std::string_view word : SplitWords(text))
   {
     if (const auto number = ToNumber<TNumber>(word))
     {

@@ -3,6 +3,7 @@
 #include "rhombicTextHeader.h"
 #include "rhombicVolumeFrame.h"
 #include "rhombicVolumeRefusal.h"
+#include "rhombicWording.h"
 
 #include "itkByteSwapper.h"
 
@@ -24,9 +25,9 @@ namespace
 struct MetaImageHeader
 {
   std::map<std::string, std::string> fields;
-  std::uintmax_t size = 0; ///< bytes up to the first after the line of ElementDataFile
+  std::uintmax_t size = 0; ///< bytes up to the end of the line of ElementDataFile
 
-  /** The first of these that there is, or empty. */
+  /** The value of the first of the keys that exists; empty when none does. */
   std::string
   Get(std::initializer_list<const char *> keys) const
   {
@@ -72,7 +73,7 @@ ReadHeader(const fs::path & path)
     const std::size_t equals = line.find('=');
     if (equals != std::string::npos)
     {
-      header.fields[Trimmed(line.substr(0, equals))] = Trimmed(line.substr(equals + 1));
+      header.fields[std::string(Trim(line.substr(0, equals)))] = Trim(line.substr(equals + 1));
     }
   }
   if (header.Get("ElementDataFile").empty())
@@ -108,7 +109,7 @@ TypeOf(const MetaImageHeader & header, const fs::path & path)
   return found->second;
 }
 
-/** The numbers of a field: \a count of them, or none when there is no such field. */
+/** The \a count numbers of a field, or none without the field. */
 std::vector<double>
 PositionOf(const MetaImageHeader & header,
            std::initializer_list<const char *> keys,
@@ -136,7 +137,7 @@ MillimetresPerUnit(const MetaImageHeader & header, const fs::path & path)
   return found->second;
 }
 
-/** Fills the geometry, matrix, isOriented and note. The rows of the matrix are the axes, as ITK has it. */
+/** Fills the geometry, matrix, isOriented and note. The rows of the matrix are the axes, as in ITK. */
 void
 Place(const MetaImageHeader & header,
       const std::vector<std::uintmax_t> & sizes,
@@ -224,10 +225,10 @@ FindData(const MetaImageHeader & header, std::uintmax_t needed, const fs::path &
   std::uintmax_t available = stored;
   if (volume.encoding == "zlib")
   {
-    // MetaIO leaves out the end, without a word, when CompressedDataSize is too small.
+    // MetaIO omits the end without an error when CompressedDataSize is too small.
     const bool isBigEndian = IsBigEndian(header, path);
     volume.deflated = DeflatedVoxels{ data, begin, isBigEndian != itk::ByteSwapper<int>::SystemIsBigEndian() };
-    constexpr std::uintmax_t ratio = 1032; // which deflate can't exceed
+    constexpr std::uintmax_t ratio = 1032; // the largest of deflate
     available = stored * ratio;
   }
   else if (volume.encoding == "text")

@@ -52,7 +52,7 @@ Sform(const NIfTIHeader & header)
   return affine;
 }
 
-/** As nifti1.h defines it. */
+/** The affine of the quaternion, as nifti1.h defines it. */
 Affine
 Qform(const NIfTIHeader & header, const fs::path & path)
 {
@@ -63,7 +63,7 @@ Qform(const NIfTIHeader & header, const fs::path & path)
   {
     RefuseGeometry(path, "its qform holds a quaternion that is no rotation; export it again from its source");
   }
-  const bool isHalfTurn = 1 - squares < 1e-7; // as nifti1_io.c has it: the rest is rounding
+  const bool isHalfTurn = 1 - squares < 1e-7; // the tolerance of nifti1_io.c
   const double norm = isHalfTurn ? std::sqrt(squares) : 1.0;
   b /= norm;
   c /= norm;
@@ -87,7 +87,7 @@ Qform(const NIfTIHeader & header, const fs::path & path)
   return affine;
 }
 
-/** Along LPS axes: what ITK and most viewers do without any orientation. */
+/** An affine along the LPS axes, which ITK and most viewers use for files without an orientation. */
 Affine
 Unoriented(const NIfTIHeader & header)
 {
@@ -99,7 +99,7 @@ Unoriented(const NIfTIHeader & header)
   return affine;
 }
 
-/** The largest distance between the places of a volume's corner by two affines. */
+/** The largest distance between the positions of a corner of the volume by two affines. */
 double
 CornerDistance(const Affine & first, const Affine & second, const itk::Size<3> & size)
 {
@@ -160,7 +160,8 @@ PlaceNIfTIVolume(const NIfTIHeader & header,
                  ScanReadOptions::Policy onSheared,
                  Scan & scan)
 {
-  const bool isAnalyze = header.kind == NIfTIHeader::Kind::Analyze; // has other things in place of the codes
+  const bool isAnalyze =
+    header.kind == NIfTIHeader::Kind::Analyze; // its header has other fields at the places of the codes
   const bool hasSform = !isAnalyze && header.sformCode > 0;
   const bool hasQform = !isAnalyze && header.qformCode > 0;
   const double millimetresPerUnit = isAnalyze ? 1.0 : MillimetresPerUnit(header);

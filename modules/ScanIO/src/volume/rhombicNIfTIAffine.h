@@ -11,9 +11,9 @@
 namespace rhombic
 {
 
-/** Where the voxels of a NIfTI file are: by the sform if its code is set, else the qform, else along LPS axes from the
+/** The geometry of a NIfTI volume: by the sform if its code is set, else by the qform, else along the LPS axes from the
  * origin. Fills affine, isOriented and notes of \a scan. Throws Failure(Geometry) when numbers are not finite, voxels
- * have no size or axes lie in one plane: another affine of the file is never used instead. */
+ * have no size or axes lie in one plane; another affine of the file is never used instead. */
 VolumeGeometry
 PlaceNIfTIVolume(const NIfTIHeader & header,
                  const itk::Size<3> & size,

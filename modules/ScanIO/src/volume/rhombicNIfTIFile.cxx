@@ -23,7 +23,7 @@ namespace rhombic
 namespace
 {
 
-/** The file beside \a path with one of these extensions, in whatever case, or an empty path. */
+/** The file beside \a path with one of two extensions, in upper or lower case; an empty path when there is none. */
 fs::path
 Partner(const fs::path & path, const std::string & extension, const std::string & compressedExtension)
 {
@@ -100,7 +100,7 @@ VoxelsFile(const fs::path & path, const NIfTIHeader & header, const ScanReadOpti
   return voxels;
 }
 
-/** Checks the dimensions and returns them, those after the third as one: the number of volumes. */
+/** The three sizes of a volume and the number of volumes: the product of the dimensions after the third. */
 std::array<std::uintmax_t, 4>
 SizesOf(const NIfTIHeader & header, const fs::path & path)
 {
@@ -136,7 +136,7 @@ SizesOf(const NIfTIHeader & header, const fs::path & path)
            *numberOfFrames };
 }
 
-/** Refuses voxels that are no single numbers. */
+/** The type of the voxels. Throws Failure for voxels that are not single numbers. */
 StoredType
 TypeOf(const NIfTIHeader & header, const fs::path & path)
 {
@@ -207,7 +207,7 @@ RefuseVectors(const NIfTIHeader & header, const fs::path & path)
   }
 }
 
-/** Nothing for a slope of 0 or NaN, which means that there is none, and for one that changes nothing. */
+/** The scaling of values; nothing for a slope of 0 or NaN, which stands for none, and for slope 1 and intercept 0. */
 std::optional<ValueScaling>
 ScalingOf(const NIfTIHeader & header, const fs::path & path)
 {

@@ -3,8 +3,6 @@
 #include "rhombicCompressedFile.h"
 #include "rhombicVolumeRefusal.h"
 
-#include <algorithm>
-#include <cstring>
 #include <string>
 
 namespace fs = std::filesystem;
@@ -17,7 +15,7 @@ namespace
 constexpr std::int32_t Size1 = 348;
 constexpr std::int32_t Size2 = 540;
 
-/** Numbers in the byte order they were written in. */
+/** The numbers of a header of either byte order. */
 class HeaderBytes
 {
 public:
@@ -30,15 +28,7 @@ public:
   TValue
   Get(std::size_t offset) const
   {
-    char value[sizeof(TValue)];
-    std::memcpy(value, m_Bytes.data() + offset, sizeof(TValue));
-    if (m_IsSwapped)
-    {
-      std::reverse(value, value + sizeof(TValue));
-    }
-    TValue result;
-    std::memcpy(&result, value, sizeof(TValue));
-    return result;
+    return NumberAt<TValue>(m_Bytes, offset, m_IsSwapped);
   }
 
   template <typename TValue, typename TArray>
@@ -71,7 +61,7 @@ KindOf(const HeaderBytes & bytes, std::size_t offset, char version)
                                                      : NIfTIHeader::Kind::Analyze;
 }
 
-/** With the offsets of nifti1.h. */
+/** Parses a header with the offsets of nifti1.h. */
 NIfTIHeader
 ParseVersion1(const HeaderBytes & bytes)
 {
@@ -97,7 +87,7 @@ ParseVersion1(const HeaderBytes & bytes)
   return header;
 }
 
-/** With the offsets of nifti2.h. */
+/** Parses a header with the offsets of nifti2.h. */
 NIfTIHeader
 ParseVersion2(const HeaderBytes & bytes)
 {
@@ -126,8 +116,8 @@ ParseVersion2(const HeaderBytes & bytes)
 
 } // namespace
 
-NIfTIHeader
-ReadNIfTIHeader(const fs::path & path)
+std::optional<NIfTIHeader>
+FindNIfTIHeader(const fs::path & path)
 {
   std::string content(Size2, '\0');
   content.resize(UnpackedFile(path).Read(content.data(), content.size()));
@@ -139,9 +129,20 @@ ReadNIfTIHeader(const fs::path & path)
     if ((size == Size1 || size == Size2) && content.size() >= static_cast<std::size_t>(size))
     {
       NIfTIHeader header = size == Size1 ? ParseVersion1(bytes) : ParseVersion2(bytes);
+      header.size = static_cast<std::size_t>(size);
       header.isSwapped = isSwapped;
       return header;
     }
+  }
+  return std::nullopt;
+}
+
+NIfTIHeader
+ReadNIfTIHeader(const fs::path & path)
+{
+  if (const auto header = FindNIfTIHeader(path))
+  {
+    return *header;
   }
   RefuseVolume(path, "its content is not NIfTI, as its name says; check where it came from");
 }

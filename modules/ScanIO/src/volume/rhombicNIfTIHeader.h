@@ -1,15 +1,35 @@
 #ifndef rhombicNIfTIHeader_h
 #define rhombicNIfTIHeader_h
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
+#include <optional>
+#include <string_view>
 
 namespace rhombic
 {
 
-/** The fields of a NIfTI-1 or NIfTI-2 header that are needed, as they are in the file. */
+/** A number in the bytes of a file, which are those of the other byte order if \a isSwapped. */
+template <typename TNumber>
+TNumber
+NumberAt(std::string_view bytes, std::size_t offset, bool isSwapped)
+{
+  char copy[sizeof(TNumber)];
+  std::memcpy(copy, bytes.data() + offset, sizeof(TNumber));
+  if (isSwapped)
+  {
+    std::reverse(copy, copy + sizeof(TNumber));
+  }
+  TNumber number;
+  std::memcpy(&number, copy, sizeof(TNumber));
+  return number;
+}
+
+/** The fields of a NIfTI-1 or NIfTI-2 header that are used, as stored. */
 struct NIfTIHeader
 {
   enum class Kind
@@ -19,6 +39,7 @@ struct NIfTIHeader
     Analyze     ///< Analyze 7.5, or a NIfTI file whose magic word is damaged
   };
 
+  std::size_t size = 0; ///< bytes: 348 in version 1, 540 in version 2
   Kind kind = Kind::SingleFile;
   int version = 1;
   bool isSwapped = false; ///< not in this machine's byte order
@@ -38,8 +59,12 @@ struct NIfTIHeader
   std::array<std::array<double, 4>, 3> sform{};
 };
 
-/** Reads the header of a .nii or .hdr file, whether compressed or not. Throws Failure(Unreadable) when it is none, but
- * does not judge its fields. */
+/** The header of a .nii or .hdr file, compressed or not; nothing when the file begins with none. The values of its
+ * fields are not checked. Throws Failure(Unreadable) when the file can't be read. */
+std::optional<NIfTIHeader>
+FindNIfTIHeader(const std::filesystem::path & path);
+
+/** FindNIfTIHeader(). Throws Failure(Unreadable) when there is none. */
 NIfTIHeader
 ReadNIfTIHeader(const std::filesystem::path & path);
 

@@ -1,7 +1,7 @@
 #include "rhombicNRRDHeader.h"
 
-#include "rhombicTextHeader.h"
 #include "rhombicVolumeRefusal.h"
+#include "rhombicWording.h"
 
 #include <algorithm>
 #include <fstream>
@@ -15,7 +15,7 @@ namespace
 
 constexpr std::size_t LargestHeader = std::size_t(1) << 24;
 
-/** The next line without its end, of which \a header counts the bytes. False at the end of the file. */
+/** Reads the next line without its end, and adds its bytes to the header's size. False at the end of the file. */
 bool
 ReadLine(std::istream & file, const fs::path & path, NRRDHeader & header, std::string & line)
 {
@@ -103,7 +103,7 @@ ReadNRRDHeader(const fs::path & path)
     }
     std::string name = LowerCase(line.substr(0, colon));
     name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
-    if (!header.fields.emplace(name, Trimmed(line.substr(colon + 1))).second)
+    if (!header.fields.emplace(name, Trim(line.substr(colon + 1))).second)
     {
       RefuseVolume(path, "its header has the field '" + name + "' twice; export it again from its source");
     }

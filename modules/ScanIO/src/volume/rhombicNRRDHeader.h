@@ -18,7 +18,7 @@ struct NRRDHeader
 
   std::map<std::string, std::string> fields;    ///< "field: value", names in lower case and without blanks
   std::map<std::string, std::string> keyValues; ///< "key:=value", escapes undone
-  std::uintmax_t size = 0;                      ///< bytes up to the first behind the empty line
+  std::uintmax_t size = 0;                      ///< bytes up to the end of the empty line
 
   /** The value of a field; empty when there is none. */
   std::string

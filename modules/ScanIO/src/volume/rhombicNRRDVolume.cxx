@@ -6,6 +6,7 @@
 #include "rhombicTextHeader.h"
 #include "rhombicVolumeFrame.h"
 #include "rhombicVolumeRefusal.h"
+#include "rhombicWording.h"
 
 #include <algorithm>
 #include <array>
@@ -38,7 +39,7 @@ TypeOf(const NRRDHeader & header, const fs::path & path)
   return found->second;
 }
 
-/** The directions of the axes, empty for those of which the file says "none"; no entries without the field. */
+/** The directions of the axes: an empty vector for "none", and no vectors without the field. */
 std::vector<std::vector<double>>
 DirectionsOf(const NRRDHeader & header, std::size_t dimension, const fs::path & path)
 {
@@ -71,11 +72,13 @@ DirectionsOf(const NRRDHeader & header, std::size_t dimension, const fs::path & 
   return directions;
 }
 
-/** The kinds of the axes as the file has them, in lower case; "domain" for those it does not know. */
+/** The kinds of the axes in lower case; "domain" for unknown ones. */
 std::vector<std::string>
 KindsOf(const NRRDHeader & header, std::size_t dimension, const fs::path & path)
 {
-  std::vector<std::string> kinds = WordsOf(LowerCase(header.Get("kinds")));
+  const std::string text = LowerCase(header.Get("kinds"));
+  const auto words = SplitWords(text);
+  std::vector<std::string> kinds(words.begin(), words.end());
   if (!kinds.empty() && kinds.size() != dimension)
   {
     RefuseVolume(path, "its header has a wrong number of 'kinds'; export it again from its source");
@@ -92,7 +95,7 @@ IsSpatial(const std::string & kind)
   return kind == "domain" || kind == "space";
 }
 
-/** Which axis counts the volumes; that behind the last one where there is none. */
+/** The axis that counts the volumes; 3 when there is none. */
 std::size_t
 FrameAxis(const std::vector<std::string> & kinds,
           const std::vector<std::vector<double>> & directions,
@@ -136,7 +139,7 @@ FrameAxis(const std::vector<std::string> & kinds,
   return frameAxis;
 }
 
-/** Along x and y from RAS, LAS or LPS to LPS; nothing for spaces that do not tell left from right. */
+/** The signs along x and y from RAS, LAS or LPS to LPS; nothing for spaces without left and right. */
 std::optional<std::array<double, 2>>
 SignsToLPS(const std::string & space)
 {
@@ -161,13 +164,14 @@ MillimetresPerUnit(const NRRDHeader & header, const fs::path & path)
                                                     { "m", 1e3 },        { "meter", 1e3 } };
   std::string text = header.Get("spaceunits");
   std::replace(text.begin(), text.end(), '"', ' ');
-  const std::vector<std::string> words = WordsOf(LowerCase(text));
-  const std::string unit = words.empty() ? "" : words.front();
+  const std::string lower = LowerCase(text);
+  const std::vector<std::string_view> words = SplitWords(lower);
+  const std::string unit(words.empty() ? "" : words.front());
   const bool areSame = words.size() < 3 || (words[1] == unit && words[2] == unit);
   const auto found = units.find(unit);
   if (found == units.end() || !areSame)
   {
-    RefuseGeometry(path, "its 'space units' are " + Trimmed(text) + "; write it in mm");
+    RefuseGeometry(path, "its 'space units' are " + std::string(Trim(text)) + "; write it in mm");
   }
   return found->second;
 }
@@ -213,7 +217,7 @@ Place(const NRRDHeader & header,
   }
 
   const auto signs = SignsToLPS(header.Get("space"));
-  const auto place = [&](const std::vector<double> & vector, unsigned int row) {
+  const auto coordinate = [&](const std::vector<double> & vector, unsigned int row) {
     return vector[row] * unit * (signs && row < 2 ? (*signs)[row] : 1.0);
   };
   const auto spaceOrigin = NumbersOf(header.Get("spaceorigin"));
@@ -223,10 +227,10 @@ Place(const NRRDHeader & header,
   }
   for (unsigned int row = 0; row < 3; ++row)
   {
-    origin[row] = spaceOrigin->empty() ? 0.0 : place(*spaceOrigin, row);
+    origin[row] = spaceOrigin->empty() ? 0.0 : coordinate(*spaceOrigin, row);
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      steps[axis][row] = place(directions[firstAxis + axis], row);
+      steps[axis][row] = coordinate(directions[firstAxis + axis], row);
     }
   }
   volume.geometry = MakeGeometry(size, origin, steps);
@@ -252,7 +256,7 @@ EncodingOf(const NRRDHeader & header, const fs::path & path)
   return found->second;
 }
 
-/** Where the voxels begin in \a data once \a count lines from \a begin are passed over. */
+/** The position in \a data after \a count lines from \a begin. */
 std::uintmax_t
 PassLines(const fs::path & data, std::uintmax_t begin, std::uintmax_t count)
 {

@@ -12,7 +12,7 @@
 namespace rhombic
 {
 
-/** Voxels as a zlib stream in a file. */
+/** A zlib stream of voxels in a file. */
 struct DeflatedVoxels
 {
   std::filesystem::path path;
@@ -20,19 +20,19 @@ struct DeflatedVoxels
   bool isSwapped = false; ///< not in this machine's byte order
 };
 
-/** What a NRRD or MetaImage header says about its voxels, as ITK unpacks them. */
+/** The content of a NRRD or MetaImage header. */
 struct StoredVolume
 {
   StoredType type = StoredType::UInt8;
   VolumeGeometry geometry;
-  std::string matrix; ///< the header's field that the geometry's axes come from
+  std::string matrix; ///< the header's field of the geometry's axes
   std::uintmax_t numberOfFrames = 1;
-  bool areFramesInterleaved = false; ///< whether the frames' values of a voxel lie side by side
+  bool areFramesInterleaved = false; ///< whether the values of a voxel in all frames are adjacent
   std::optional<ValueScaling> scaling;
   std::string encoding;                   ///< "raw", "gzip", "zlib", "text" or "hex"
-  std::optional<DeflatedVoxels> deflated; ///< voxels that ITK is not to unpack
+  std::optional<DeflatedVoxels> deflated; ///< set when the voxels are not unpacked by ITK
   bool isOriented = true;
-  std::string note; ///< what had to be assumed, as the end of a sentence that begins with the path; may be empty
+  std::string note; ///< assumptions, as the end of a sentence that begins with the path; may be empty
 };
 
 } // namespace rhombic

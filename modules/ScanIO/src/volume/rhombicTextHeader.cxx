@@ -4,10 +4,7 @@
 #include "rhombicWording.h"
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <limits>
-#include <sstream>
 
 namespace fs = std::filesystem;
 
@@ -25,51 +22,19 @@ Parse(std::string text)
   std::replace_if(
     text.begin(), text.end(), [](char letter) { return letter == ',' || letter == '(' || letter == ')'; }, ' ');
   std::vector<TNumber> numbers;
-  for (const std::string & word : WordsOf(text))
+  for (const std::string_view word : SplitWords(text))
   {
-    const char * const begin = word.data() + (word.front() == '+' ? 1 : 0);
-    const char * const end = word.data() + word.size();
-    TNumber number{};
-    const auto [parsed, error] = std::from_chars(begin, end, number);
-    if (error != std::errc() || parsed != end)
+    const auto number = ToNumber<TNumber>(word.substr(word.front() == '+' ? 1 : 0));
+    if (!number)
     {
       return std::nullopt;
     }
-    numbers.push_back(number);
+    numbers.push_back(*number);
   }
   return numbers;
 }
 
 } // namespace
-
-std::string
-Trimmed(const std::string & text)
-{
-  const char * const blanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(blanks);
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-std::string
-LowerCase(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char letter) {
-    return static_cast<char>(std::tolower(letter));
-  });
-  return text;
-}
-
-std::vector<std::string>
-WordsOf(const std::string & text)
-{
-  std::istringstream stream(text);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;)
-  {
-    words.push_back(word);
-  }
-  return words;
-}
 
 std::optional<std::vector<double>>
 NumbersOf(const std::string & text)

@@ -1,6 +1,7 @@
 #include "rhombicVolumeFile.h"
 
 #include "rhombicCompressedFile.h"
+#include "rhombicLabelTableFormats.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicMetaImageHeader.h"
 #include "rhombicNIfTIFile.h"
@@ -32,7 +33,7 @@ NumberOfVoxels(const VolumeGeometry & geometry)
   return geometry.size[0] * geometry.size[1] * geometry.size[2];
 }
 
-/** Reads one of the volumes of a NRRD or MetaImage file that ITK unpacks. */
+/** Reads one volume of a NRRD or MetaImage file that ITK unpacks. */
 ScanImage
 ReadUnpacked(const fs::path & path, const StoredVolume & volume, std::uintmax_t frame, VoxelDecoder & decoder)
 {
@@ -55,7 +56,7 @@ ReadUnpacked(const fs::path & path, const StoredVolume & volume, std::uintmax_t 
   });
 }
 
-/** Likewise of a file whose voxels are a zlib stream, in one pass. */
+/** Reads one volume of a file whose voxels are a zlib stream, in one pass. */
 ScanImage
 ReadDeflated(const StoredVolume & volume, std::uintmax_t frame)
 {
@@ -86,7 +87,7 @@ ReadDeflated(const StoredVolume & volume, std::uintmax_t frame)
   return image;
 }
 
-/** Reads a NRRD or MetaImage file whose header is sound. */
+/** Reads the voxels of a NRRD or MetaImage file, whose header was checked, and fills the scan. */
 void
 ReadStoredVolume(const fs::path & path, const StoredVolume & volume, const ScanReadOptions & options, Scan & scan)
 {
@@ -109,8 +110,8 @@ ReadStoredVolume(const fs::path & path, const StoredVolume & volume, const ScanR
   }
 }
 
-/** Puts the lowest finite value in the place of values that are not finite, which would spread when the scan is
- * resampled. Returns how many there were. */
+/** Replaces values that are not finite, which would spread when the scan is resampled, by the lowest finite value.
+ * Returns their number. */
 std::size_t
 ReplaceNotFinite(const ScanImage & image, const fs::path & path)
 {

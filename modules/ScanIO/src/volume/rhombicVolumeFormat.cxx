@@ -1,7 +1,7 @@
 #include "rhombicVolumeFormat.h"
 
-#include <algorithm>
-#include <cctype>
+#include "rhombicWording.h"
+
 #include <map>
 
 namespace fs = std::filesystem;
@@ -12,11 +12,7 @@ namespace rhombic
 std::string
 VolumeExtension(const fs::path & path)
 {
-  std::string name = path.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char letter) {
-    return static_cast<char>(std::tolower(letter));
-  });
-  const fs::path lower(name);
+  const fs::path lower(LowerCase(path.filename().string()));
   return lower.extension() == ".gz" ? lower.stem().extension().string() + ".gz" : lower.extension().string();
 }
 

@@ -7,11 +7,11 @@
 namespace rhombic
 {
 
-/** A path's extension in lower case, with what is before ".gz": ".nii", ".nii.gz". */
+/** A path's extension in lower case, including the part before ".gz": ".nii", ".nii.gz". */
 std::string
 VolumeExtension(const std::filesystem::path & path);
 
-/** "NIfTI", "NRRD" or "MetaImage" as the extension has it, in whatever case, or empty. */
+/** "NIfTI", "NRRD" or "MetaImage" by the extension, in upper or lower case; empty for others. */
 std::string
 VolumeFormatOf(const std::filesystem::path & path);
 

@@ -11,12 +11,12 @@
 namespace rhombic
 {
 
-/** The product of sizes, or nothing where it exceeds 2^60. */
+/** The product of sizes; nothing when it exceeds 2^60. */
 std::optional<std::uintmax_t>
 ProductOf(const std::vector<std::uintmax_t> & sizes);
 
-/** Chooses which of the volumes of a file to read: Scan::frame. Throws Failure: Unreadable when there are several and
- * none is asked for, unless the options have the first, Usage when there is no such volume. */
+/** Sets Scan::frame, the volume of a file to read, and Scan::numberOfFrames. Throws Failure: Unreadable when there are
+ * several volumes without a choice, unless the options accept the first; Usage when there is no such volume. */
 void
 ChooseFrame(std::uintmax_t numberOfFrames,
             const ScanReadOptions & options,

@@ -1,10 +1,10 @@
 #include "rhombicVolumePixels.h"
 
 #include "rhombicFailure.h"
+#include "rhombicWording.h"
 
 #include <algorithm>
 #include <limits>
-#include <sstream>
 #include <type_traits>
 #include <vector>
 
@@ -49,7 +49,7 @@ WithType(StoredType type, const TUse & use)
 template <typename TStored>
 constexpr bool IsWide = std::is_integral_v<TStored> && (sizeof(TStored) > 4 || std::is_same_v<TStored, std::uint32_t>);
 
-/** The type of ScanImage that holds all values; for wide integers the first to try. */
+/** The pixel type of ScanImage that holds all values; for wide integers the one that is tried first. */
 template <typename TStored>
 using PixelFor =
   std::conditional_t<std::is_same_v<TStored, std::int8_t>,
@@ -58,7 +58,7 @@ using PixelFor =
                                         std::int32_t,
                                         std::conditional_t<std::is_same_v<TStored, double>, float, TStored>>>;
 
-/** Calls \a use with each chunk of the voxels: its values, their number, and the place of the first. */
+/** Calls \a use with each chunk of the voxels: its values, their number, and the index of the first. */
 template <typename TStored, typename TUse>
 void
 ForEachChunk(const VolumeGeometry & geometry, const VoxelSource & source, const TUse & use)
@@ -100,7 +100,7 @@ ReadConverted(const VolumeGeometry & geometry, const VoxelSource & source, const
   return image;
 }
 
-/** For integers wider than any in ScanImage: int32 as long as all values fit, then float. */
+/** For integers wider than any pixel type of ScanImage: int32 if all values fit, else float. */
 template <typename TStored>
 ScanImage
 ReadWide(const VolumeGeometry & geometry, const VoxelSource & source)
@@ -152,10 +152,7 @@ DescribeScaling(const std::optional<ValueScaling> & scaling)
   {
     return "";
   }
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << "slope " << scaling->slope << ", intercept " << scaling->intercept;
-  return text.str();
+  return "slope " + FormatNumber(scaling->slope) + ", intercept " + FormatNumber(scaling->intercept);
 }
 
 std::uintmax_t

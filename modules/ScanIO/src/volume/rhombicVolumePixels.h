@@ -13,7 +13,7 @@
 namespace rhombic
 {
 
-/** What a file stores for each voxel. */
+/** The type of the numbers in a file. */
 enum class StoredType
 {
   UInt8,
@@ -32,29 +32,29 @@ enum class StoredType
 std::size_t
 SizeOf(StoredType type);
 
-/** From stored to true values. */
+/** true value = slope * stored value + intercept */
 struct ValueScaling
 {
   double slope = 1;
   double intercept = 0;
 };
 
-/** "slope 0.5, intercept -1024", or empty for none. */
+/** "slope 0.5, intercept -1024"; empty without a scaling. */
 std::string
 DescribeScaling(const std::optional<ValueScaling> & scaling);
 
-/** The most bytes that ReadVolumePixels() allocates for this many voxels. */
+/** The largest number of bytes that ReadVolumePixels() allocates for this number of voxels. */
 std::uintmax_t
 MemoryOfPixels(StoredType type, bool isScaled, std::uintmax_t numberOfVoxels);
 
-/** Turns each value's bytes around. */
+/** Reverses the bytes of each value. */
 void
 SwapBytes(std::byte * buffer, std::size_t size, std::size_t valueSize);
 
-/** Gives the next \a size bytes of the voxels, in this machine's byte order: whole numbers of voxels. */
+/** Reads the next \a size bytes of the voxels, a whole number of voxels, in this machine's byte order. */
 using VoxelSource = std::function<void(std::byte * buffer, std::size_t size)>;
 
-/** Reads the voxels of a volume in one pass, converted as ReadScan() says. Throws what \a source throws. */
+/** Reads the voxels of a volume in one pass, converted as ReadScan() documents. Throws what \a source throws. */
 ScanImage
 ReadVolumePixels(StoredType type,
                  const std::optional<ValueScaling> & scaling,

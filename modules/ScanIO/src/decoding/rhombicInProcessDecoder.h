@@ -9,9 +9,7 @@ namespace rhombic
 /** \class InProcessDecoder
  * \brief Unpacks voxels in this process.
  *
- * For hosts that trust their files, or can't have other processes: damaged files may end this one.
- *
- * Thread safety: any number of threads may call Decode() at once. They take turns, whichever decoder is theirs, because
+ * Damaged files may end the process. Decode() runs on one thread at a time, in all objects of this class, because
  * GDCM's codecs share state. */
 class InProcessDecoder : public VoxelDecoder
 {

@@ -1,0 +1,15 @@
+# The table of anatomical colours becomes part of the library, so that programs need no files beside them.
+set(colour_table "${CMAKE_CURRENT_LIST_DIR}/data/anatomical-colours.tsv")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${colour_table}")
+file(STRINGS "${colour_table}" lines REGEX "^[^#]")
+list(POP_FRONT lines) # the names of the columns
+set(rules "")
+foreach(line IN LISTS lines)
+  if(NOT line MATCHES "^([a-z0-9.]+)\t([a-z0-9.]*)\t([0-9]+)\t([0-9]+)\t([0-9]+)$")
+    message(FATAL_ERROR "${colour_table}: this line is no word, second word, red, green, blue: ${line}")
+  endif()
+  string(APPEND rules "  { \"${CMAKE_MATCH_1}\", \"${CMAKE_MATCH_2}\", "
+                      "{ ${CMAKE_MATCH_3}, ${CMAKE_MATCH_4}, ${CMAKE_MATCH_5} } },\n")
+endforeach()
+file(CONFIGURE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/ScanIO/rhombicAnatomicalColourRules.inc" CONTENT "${rules}" @ONLY)
+target_include_directories(ScanIO PRIVATE "${CMAKE_CURRENT_BINARY_DIR}/ScanIO")
