@@ -115,7 +115,7 @@ TEST(AtomicFile, GoesRoundTemporaryFilesLeftBehind)
     AtomicFile file(folder.Path() / "a.png");
     next = file.GetTemporaryPath();
   }
-  // What a killed process with the same number may have left and another holds: the names that would come next.
+  // The next temporary names exist already, as if a killed process with the same number had left them.
   const std::string name = next.filename().string();
   const auto end = name.rfind('-') + 1;
   const auto number = std::stoul(name.substr(end));

@@ -13,7 +13,7 @@ namespace
 using rhombic::ReadScan;
 using Point = itk::Point<double, 3>;
 
-/** The places of a volume's eight corner samples, in an order that does not depend on its axes. */
+/** The positions of a volume's eight corner voxels, in an order that does not depend on its axes. */
 std::array<Point, 8>
 Corners(const itk::ImageBase<3> & grid)
 {
@@ -42,7 +42,7 @@ DistanceToNearest(const Point & point, const std::array<Point, 8> & others)
   return nearest;
 }
 
-/** dcm2niix is an independent reader of DICOM (C. Rorden); its NIfTI files are read by our reader of these. */
+/** Compares with dcm2niix, an independent reader of DICOM (C. Rorden), through the NIfTI files that it writes. */
 class Dcm2niix
   : public ScanTest
   , public testing::WithParamInterface<const char *>
@@ -69,7 +69,7 @@ TEST_P(Dcm2niix, PutsSeriesIntoTheSamePlace)
   EXPECT_EQ(rhombictest::IntensityRange(ours.image), rhombictest::IntensityRange(theirs.image));
 }
 
-// Debian's has no JPEG-LS, and takes tilted series for straight ones.
+// Debian's dcm2niix has no JPEG-LS, and ignores the tilt of a series.
 INSTANTIATE_TEST_SUITE_P(Series,
                          Dcm2niix,
                          testing::Values("ct_head_ge8800_dicom",

@@ -41,7 +41,7 @@ Join(std::initializer_list<double> numbers)
   return text;
 }
 
-/** Three perpendicular unit vectors along none of the axes. */
+/** Three perpendicular unit vectors that are not along the coordinate axes. */
 struct Frame
 {
   Vector row, column, normal;
@@ -56,7 +56,7 @@ struct Frame
   }
 };
 
-/** Its value names the pixel: slice, row, column; -1000 with a tenth. */
+/** The stored value of a pixel, different for each. */
 std::int16_t
 ValueAt(std::size_t i, std::size_t j, std::size_t k)
 {
@@ -80,7 +80,7 @@ MakeSlice(std::size_t k)
   return file;
 }
 
-/** Writes a plain stack of slices 2.5 mm apart, named so that the alphabet is not their order. */
+/** Writes a plain stack of slices 2.5 mm apart, whose file names are not in the order of the slices. */
 void
 WriteStack(const fs::path & folder, std::size_t slices = Slices)
 {
@@ -595,7 +595,7 @@ TEST_F(DicomFolder, WordsOfSmallPixelsAreSwappedInBigEndian)
   EXPECT_THROW(text(5, 2), rhombic::Failure);
 }
 
-// What can't be had is a stack of that size.
+// No thread can start, as its stack would be too large.
 TEST_F(DicomFolder, ThreadsThatDoNotStartAreDoneWithout)
 {
   WriteStack(m_Folder);

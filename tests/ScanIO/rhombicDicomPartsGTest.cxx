@@ -1,4 +1,4 @@
-// Parts of reading DICOM one by one, with what fuzzing found in them (tests/fuzz).
+// Single steps of reading DICOM, with inputs that fuzzing found (tests/fuzz).
 
 #include "rhombicCompressedFrame.h"
 #include "rhombicDicomCodes.h"

@@ -192,7 +192,7 @@ TEST(FCCImageFile, DoesNotDependOnTheLocale)
   EXPECT_EQ(std::get<itk::FCCImage<float>::Pointer>(volume)->GetOrigin()[0], -123.456);
 }
 
-/** What WriteFCCImage() says of a volume that it must not write. */
+/** The message of WriteFCCImage() for a volume that it must refuse. */
 std::string
 RefusalOf(const FCCVolume & volume)
 {

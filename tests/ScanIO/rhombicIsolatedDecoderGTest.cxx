@@ -32,7 +32,7 @@ using rhombic::FailureKind;
 using rhombic::IsolatedDecoder;
 using rhombic::VoxelRequest;
 
-// AddressSanitizer ends a process that crashes instead of leaving that to the signal.
+// AddressSanitizer ends a crashing process itself, without a signal.
 #ifdef __SANITIZE_ADDRESS__
 const std::string Crash = "its decoder ended without an answer";
 #else
@@ -67,7 +67,7 @@ MakeSlice(std::size_t k)
   return file;
 }
 
-/** Its private sequence is so deep that GDCM crashes on it; readers that step over it do not. */
+/** A file with a private sequence that is so deep that GDCM crashes. */
 DicomTestFile
 MakeDeadlySlice(std::size_t k)
 {
@@ -87,7 +87,7 @@ protected:
     return m_Folder / name;
   }
 
-  /** The sentence that decoding fails with. */
+  /** The message with which decoding fails. */
   static std::string
   FailureOf(rhombic::VoxelDecoder & decoder, const fs::path & path)
   {

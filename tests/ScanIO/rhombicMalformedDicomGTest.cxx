@@ -80,7 +80,7 @@ constexpr MalformedFile malformedFiles[] = {
   { "d_trunc200.dcm", { Unreadable, "claims 64 bytes, more than are left" }, noImages },
 };
 
-/** The most memory that a process took, in MiB. */
+/** The largest memory of a process, in MiB. */
 long
 PeakMemory(int who)
 {

@@ -403,7 +403,7 @@ TEST_F(NIfTIFile, FieldsThatMakeNoSenseAreRefused)
   EXPECT_EQ(this->KindOf(file, "vox_offset"), FailureKind::Unreadable);
 }
 
-/** Whatever is in a header, the answer is a volume or a Failure, and no huge allocation. */
+/** Any header gives a volume or a Failure, without a huge allocation. */
 TEST_F(NIfTIFile, AnyHeaderIsReadOrRefused)
 {
   std::mt19937 random(1);

@@ -1,4 +1,4 @@
-#include "rhombicNRRDType.h"
+#include "rhombicNRRDHeader.h"
 
 #include <gtest/gtest.h>
 

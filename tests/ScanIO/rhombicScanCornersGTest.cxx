@@ -120,7 +120,7 @@ Distance(const Corners & one, const Corners & other)
   return largest;
 }
 
-/** The corners of all files, each place once. */
+/** The corners of all files, without repetitions. */
 std::vector<Corners>
 CornersOfFiles(const fs::path & path)
 {
@@ -146,7 +146,7 @@ CornersOfFiles(const fs::path & path)
   return all;
 }
 
-/** Where a scan's slices are, each of them. */
+/** The corners of each slice of a scan. */
 std::vector<Corners>
 CornersOfScan(const rhombic::Scan & scan)
 {

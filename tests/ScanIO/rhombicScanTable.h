@@ -9,18 +9,19 @@
 #include <fstream>
 #include <sstream>
 
-/** Tests that read many files at hand, and what each must come to. */
+/** \file
+ * Tests that read many files, each with its expected result. */
 namespace rhombictest
 {
 
-/** What reading must come to. */
+/** The expected result of reading. */
 struct Expected
 {
   std::optional<rhombic::FailureKind> failure;
   const char * says; ///< part of the failure's sentence, or of the volume's description
 };
 
-/** What reading came to. */
+/** The result of reading. */
 struct Reading
 {
   std::optional<rhombic::Scan> scan;
@@ -55,7 +56,7 @@ Describe(const rhombic::Scan & scan)
   return text.str();
 }
 
-/** Reads within 10 s and without a word on the terminal. */
+/** Reads within 10 s and without output to the terminal. */
 inline Reading
 Read(const std::filesystem::path & path, const rhombic::ScanReadOptions & options)
 {
@@ -176,7 +177,7 @@ protected:
     m_Scans = std::filesystem::path(folder);
   }
 
-  /** Leaves out what is not there. */
+  /** Leaves out files that are missing. */
   static bool
   IsThere(const std::filesystem::path & path)
   {

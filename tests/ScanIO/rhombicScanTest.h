@@ -58,7 +58,8 @@ Series(const std::string & name)
   return options;
 }
 
-/** Reads what must fail, silently, with one sentence that names \a named, and returns how. */
+/** Reads a path that must fail without output, with one sentence that contains \a named; returns the kind of failure.
+ */
 inline rhombic::FailureKind
 KindOfReading(const std::filesystem::path & path,
               const std::string & named,

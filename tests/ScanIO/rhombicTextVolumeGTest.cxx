@@ -380,7 +380,7 @@ TEST_F(TextVolume, VoxelsComeThroughTheDecoder)
   EXPECT_EQ(KindOfReading(path, "--max-memory", options), FailureKind::Memory);
 }
 
-/** Whatever is in a header, the answer is a description or a Failure. */
+/** Any header gives a description or a Failure. */
 TEST_F(TextVolume, AnyHeaderIsParsedOrRefused)
 {
   std::mt19937 random(1);

@@ -26,7 +26,7 @@ namespace itk
 class RecyclingMemory : public std::pmr::memory_resource
 {
 public:
-  /** \param system where all memory comes from and goes to; must outlive this */
+  /** \param system the source of all memory; must outlive this object */
   explicit RecyclingMemory(std::pmr::memory_resource * system = std::pmr::new_delete_resource())
     : m_System(system)
     , m_Spare(system)

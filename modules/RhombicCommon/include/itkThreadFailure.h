@@ -20,7 +20,7 @@ namespace itk
 class ThreadFailure
 {
 public:
-  /** Calls work(), and keeps what it throws. */
+  /** Calls work(), and keeps its exception if it is the first. */
   template <typename TWork>
   void
   Capture(const TWork & work)
@@ -39,7 +39,7 @@ public:
     }
   }
 
-  /** Throws what was captured first, if anything was, and forgets it. */
+  /** Throws the first captured exception, if there is one, and forgets it. */
   void
   Rethrow()
   {

@@ -28,8 +28,8 @@ enum class FailureKind : int
 /** \class Failure
  * \brief The exception of every Rhombic module outside `namespace itk`.
  *
- * The description is one sentence for the person at the keyboard: what failed, where, and one thing to try. It derives
- * from itk::ExceptionObject, so a host that catches ITK's exceptions catches it too.
+ * The description is one sentence for the user: what failed, where, and one thing to try. It derives from
+ * itk::ExceptionObject, so a host that catches ITK's exceptions catches it too.
  *
  * Thread safety: a value; copies may go to other threads.
  */

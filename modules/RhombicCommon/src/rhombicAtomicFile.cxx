@@ -46,7 +46,7 @@ FolderOf(const fs::path & path)
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/** What writers tell the format from: .png, but .nii.gz. */
+/** The extension by which writers choose the format: .png, .nii.gz. */
 std::string
 ExtensionOf(const fs::path & path)
 {

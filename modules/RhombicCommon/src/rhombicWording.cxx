@@ -11,7 +11,7 @@ namespace
 
 constexpr std::string_view Blanks = " \t\r\n\v\f";
 
-/** What std::to_chars() makes of a value: it ignores the locale, unlike printf and streams. */
+/** std::to_chars() as a string: unlike printf and streams, it ignores the locale. */
 template <typename... TFormat>
 std::string
 ToText(double value, TFormat... format)

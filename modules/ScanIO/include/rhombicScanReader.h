@@ -66,11 +66,11 @@ struct ScanReadOptions
  * (enhanced multi-frame, or a segmentation); or a NIfTI-1 or -2 (.nii, .hdr with .img, either with .gz), NRRD (.nrrd,
  * .nhdr) or MetaImage (.mha, .mhd) file.
  *
- * Values are rescaled as the file says (HU for CT). The pixel type is the stored one where ScanImage has it and
- * rescaling keeps it; otherwise int8 becomes int16; uint32, int64 and uint64 become int32 if all values fit and float
- * if not; double becomes float; rescaled DICOM integers become the first of int16, uint16 and int32 that holds
- * all values, or float where slope or intercept is no whole number; rescaled NIfTI becomes float. Padding and values
- * that are not finite are replaced by the lowest other value.
+ * Values are rescaled by the slope and intercept of the file (to HU for CT). The pixel type is the stored one where
+ * ScanImage has it and rescaling keeps it; otherwise int8 becomes int16; uint32, int64 and uint64 become int32 if all
+ * values fit and float if not; double becomes float; rescaled DICOM integers become the first of int16, uint16 and
+ * int32 that holds all values, or float where slope or intercept is no whole number; rescaled NIfTI becomes float.
+ * Padding and values that are not finite are replaced by the lowest other value.
  *
  * The geometry is the file's, in LPS millimetres, never assumed. DICOM slices are placed by ImagePositionPatient,
  * ImageOrientationPatient and PixelSpacing only, each within 0.01 mm of the volume's affine or else in

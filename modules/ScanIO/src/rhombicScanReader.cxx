@@ -5,6 +5,7 @@
 #include "rhombicInProcessDecoder.h"
 #include "rhombicQuietLibraries.h"
 #include "rhombicVolumeFile.h"
+#include "rhombicVolumeRefusal.h"
 
 #include <algorithm>
 #include <new>
@@ -29,8 +30,7 @@ IsFolder(const fs::path & path)
   }
   if (!fs::is_directory(status) && !fs::is_regular_file(status))
   {
-    throw Failure(FailureKind::Unreadable,
-                  "Cannot read " + path.string() + ": it is a device or pipe; give a file or folder.");
+    RefuseVolume(path, "it is a device or pipe; give a file or folder");
   }
   return fs::is_directory(status);
 }
@@ -83,9 +83,7 @@ ReadOrFail(const fs::path & path, const TRead & read)
   }
   catch (const std::exception & exception)
   {
-    throw Failure(FailureKind::Unreadable,
-                  "Cannot read " + path.string() + ": " + DescribeError(exception) +
-                    "; it may be damaged, so copy it again.");
+    RefuseVolume(path, DescribeError(exception) + "; it may be damaged, so copy it again");
   }
 }
 

@@ -118,7 +118,7 @@ StageScan(const ScanImage & image, const fs::path & path, StagedFiles & staged)
       }
       catch (const Failure &)
       {
-        isComplete = false; // cut off: what can't be read is not published
+        isComplete = false; // the file is cut off
       }
       if (!isComplete)
       {

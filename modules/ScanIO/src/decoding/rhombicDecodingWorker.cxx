@@ -3,6 +3,7 @@
 #include "rhombicDecodingMessages.h"
 #include "rhombicFailure.h"
 #include "rhombicSystemCallFilter.h"
+#include "rhombicVolumeRefusal.h"
 #include "rhombicVoxelDecoding.h"
 
 #include "itkObject.h"
@@ -157,9 +158,8 @@ Work(const ReceivedMessage<WorkerRequest> & request, SharedVoxels & voxels, int 
   DecodeVoxels({ request.message.source, request.text, request.message.size }, voxels.GetData());
   if (const std::string warning = TakeOutput(output); !warning.empty())
   {
-    throw Failure(FailureKind::Unreadable,
-                  "Cannot read " + request.text + ": its pixels are damaged, its decoder says (" + warning +
-                    "); copy it again from its source.");
+    RefuseVolume(request.text,
+                 "its pixels are damaged, its decoder says (" + warning + "); copy it again from its source");
   }
 }
 

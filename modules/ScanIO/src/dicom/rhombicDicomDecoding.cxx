@@ -2,7 +2,7 @@
 
 #include "rhombicCompressedFrame.h"
 #include "rhombicDicomSlice.h"
-#include "rhombicFailure.h"
+#include "rhombicVolumeRefusal.h"
 
 #include <gdcmImageReader.h>
 
@@ -22,8 +22,7 @@ namespace
 [[noreturn]] void
 Refuse(const fs::path & path, const std::string & why)
 {
-  throw Failure(FailureKind::Unreadable,
-                "Cannot read " + path.string() + ": " + why + "; copy it again from its source.");
+  RefuseVolume(path, why + "; copy it again from its source");
 }
 
 /** The compressed stream of each frame. A frame may be spread over several fragments; a fragment that begins with the

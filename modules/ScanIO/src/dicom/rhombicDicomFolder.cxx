@@ -9,6 +9,7 @@
 #include "rhombicTransferSyntax.h"
 #include "rhombicVolumeFile.h"
 #include "rhombicVolumePixels.h"
+#include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -293,21 +294,15 @@ ReadFile(const fs::path & path)
   std::vector<DicomSlice> slices = ReadDicomSlices(path);
   if (slices.empty())
   {
-    throw Failure(FailureKind::Unreadable,
-                  "Cannot read " + path.string() +
-                    ": it is neither DICOM nor named like NIfTI, NRRD or MetaImage; check where it came from.");
+    RefuseVolume(path, "it is neither DICOM nor named like NIfTI, NRRD or MetaImage; check where it came from");
   }
   if (!slices.front().refusal.empty())
   {
-    throw Failure(FailureKind::Unreadable,
-                  "Cannot read " + path.string() + ": " + slices.front().refusal +
-                    "; give a folder of plain CT, MR or PET slices.");
+    RefuseVolume(path, slices.front().refusal + "; give a folder of plain CT, MR or PET slices");
   }
   if (!slices.front().file->pixelDamage.empty())
   {
-    throw Failure(FailureKind::Unreadable,
-                  "Cannot read " + path.string() + ": " + slices.front().file->pixelDamage +
-                    "; copy it again from its source.");
+    RefuseVolume(path, slices.front().file->pixelDamage + "; copy it again from its source");
   }
   if (slices.size() == 1 && slices.front().kind == DicomSlice::Kind::Scan)
   {

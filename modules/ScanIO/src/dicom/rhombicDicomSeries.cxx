@@ -3,6 +3,7 @@
 #include "rhombicDicomCodes.h"
 #include "rhombicDicomStack.h"
 #include "rhombicFailure.h"
+#include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -270,9 +271,7 @@ ChooseSeries(const std::vector<DicomSeries> & series, const std::string & wanted
   const DicomSlice & slice = series[choice->index].slices.front();
   if (!slice.refusal.empty())
   {
-    throw Failure(FailureKind::Unreadable,
-                  "Cannot read " + slice.file->path.string() + ": " + slice.refusal +
-                    "; give a series of plain CT, MR or PET slices.");
+    RefuseVolume(slice.file->path, slice.refusal + "; give a series of plain CT, MR or PET slices");
   }
   return *choice;
 }

@@ -1,6 +1,7 @@
 #include "rhombicDicomStack.h"
 
 #include "rhombicFailure.h"
+#include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"
 
 #include "itkMath.h"
@@ -44,9 +45,7 @@ RequirePlanes(const Slices & slices)
   {
     if (!slice.plane)
     {
-      throw Failure(FailureKind::Geometry,
-                    "Cannot place " + slice.file->path.string() + " in the patient: " + slice.planeProblem +
-                      "; export the series again from its source.");
+      RefuseGeometry(slice.file->path, slice.planeProblem + "; export the series again from its source");
     }
   }
   if (slices.size() < 2)

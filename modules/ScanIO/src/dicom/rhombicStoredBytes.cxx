@@ -1,6 +1,6 @@
 #include "rhombicStoredBytes.h"
 
-#include "rhombicFailure.h"
+#include "rhombicVolumeRefusal.h"
 
 #include <algorithm>
 #include <fstream>
@@ -20,8 +20,7 @@ ReadStoredBytes(const DicomImageFile & file, std::uintmax_t offset, std::size_t 
   stream.seekg(static_cast<std::streamoff>(file.pixels.offset + offset - before));
   if (!stream.read(reinterpret_cast<char *>(bytes.data()), static_cast<std::streamsize>(whole)))
   {
-    throw Failure(FailureKind::Unreadable,
-                  "Cannot read " + file.path.string() + ": its pixels are cut off; copy it again from its source.");
+    RefuseVolume(file.path, "its pixels are cut off; copy it again from its source");
   }
   for (auto value = bytes.begin(); value != bytes.end() && word > 1; value += static_cast<std::ptrdiff_t>(word))
   {

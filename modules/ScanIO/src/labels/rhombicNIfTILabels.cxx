@@ -46,10 +46,10 @@ ReadNIfTILabelTable(const fs::path & path)
     return std::nullopt;
   }
 
-  // TotalSegmentator writes the code 0, "unknown", not that of Caret.
+  // TotalSegmentator writes the code 0, "unknown", instead of Caret's.
   constexpr std::int32_t unknownCode = 0;
   constexpr std::int32_t caretCode = 30;
-  constexpr std::size_t prefixSize = 8; // an extension's size, with itself, and its code
+  constexpr std::size_t prefixSize = 8; // an extension's size (of all of it) and its code
   std::string_view rest = std::string_view(bytes).substr(header->size + 4);
   while (rest.size() >= prefixSize)
   {

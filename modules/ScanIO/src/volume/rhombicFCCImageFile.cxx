@@ -3,7 +3,6 @@
 #include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
 #include "rhombicNRRDHeader.h"
-#include "rhombicNRRDType.h"
 #include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"
 
@@ -31,11 +30,11 @@ struct Placement
   itk::Index<3> start;
 };
 
-/** What is wrong with a placement, as part of a sentence; empty when nothing is. */
+/** The defect of a placement as part of a sentence; empty when there is none. */
 std::string
 DefectOf(const Placement & placement)
 {
-  constexpr itk::IndexValueType farthest = itk::IndexValueType{ 1 } << 40; // sums of indices and sizes stay countable
+  constexpr itk::IndexValueType farthest = itk::IndexValueType{ 1 } << 40; // no overflow of sums of indices and sizes
   constexpr double largest = 1e30; // products stay finite, or ITK would end the program
   bool isDirectionInRange = true;
   for (unsigned int axis = 0; axis < 3; ++axis)
@@ -199,7 +198,7 @@ ReadPlacement(const NRRDHeader & header, const fs::path & path)
   return placement;
 }
 
-/** Throws Failure(Unreadable) unless what follows the header is just the samples. */
+/** Throws Failure(Unreadable) unless the bytes after the header are as many as the samples need. */
 void
 CheckSize(const std::vector<std::uint64_t> & sizes,
           std::size_t bytesPerSample,

@@ -13,7 +13,7 @@
 namespace rhombic
 {
 
-/** A number in the bytes of a file, which are those of the other byte order if \a isSwapped. */
+/** A number at an offset in the bytes of a file; \a isSwapped: in the other byte order than this machine's. */
 template <typename TNumber>
 TNumber
 NumberAt(std::string_view bytes, std::size_t offset, bool isSwapped)

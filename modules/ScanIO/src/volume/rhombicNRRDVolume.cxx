@@ -2,7 +2,6 @@
 
 #include "rhombicCompressedFile.h"
 #include "rhombicNRRDHeader.h"
-#include "rhombicNRRDType.h"
 #include "rhombicTextHeader.h"
 #include "rhombicVolumeFrame.h"
 #include "rhombicVolumeRefusal.h"
