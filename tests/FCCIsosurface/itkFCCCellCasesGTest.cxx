@@ -27,7 +27,7 @@ IsInside(unsigned int pattern, unsigned int corner)
   return (pattern >> corner & 1) != 0;
 }
 
-TYPED_TEST(FCCCellCases, CellsAreConvexPolyhedraOfSitesAndOwnedEdges)
+TYPED_TEST(FCCCellCases, CellsAreConvexPolyhedraOfSitesAndStoredEdges)
 {
   const itk::FCCCell & cell = TypeParam::Cell;
   EXPECT_EQ(cell.numberOfCorners + cell.numberOfFaces, cell.numberOfEdges + 2) << "Euler's formula";
@@ -53,7 +53,7 @@ TYPED_TEST(FCCCellCases, CellsAreConvexPolyhedraOfSitesAndOwnedEdges)
   }
   for (unsigned int edge = 0; edge < cell.numberOfEdges; ++edge)
   {
-    EXPECT_EQ(itk::FCCCell::Subtract(cell.corners[cell.edges[edge].end], cell.corners[cell.edges[edge].owner]),
+    EXPECT_EQ(itk::FCCStep::Subtract(cell.corners[cell.edges[edge].end], cell.corners[cell.edges[edge].start]),
               itk::FCCLattice::OwnedEdges[cell.edges[edge].type]);
   }
   for (unsigned int corner = 0; corner < cell.numberOfCorners; ++corner)
@@ -111,7 +111,7 @@ TYPED_TEST(FCCCellCases, TrianglesSpanTheSegmentsOfTheFaces)
     std::set<unsigned int> cut;
     for (unsigned int edge = 0; edge < cell.numberOfEdges; ++edge)
     {
-      if (IsInside(pattern, cell.edges[edge].owner) != IsInside(pattern, cell.edges[edge].end))
+      if (IsInside(pattern, cell.edges[edge].start) != IsInside(pattern, cell.edges[edge].end))
       {
         cut.insert(edge);
       }
@@ -146,7 +146,7 @@ TEST(FCCParallelepipedCases, ConnectSitesAcrossShortDiagonals)
   {
     for (unsigned int b = 0; b < a; ++b)
     {
-      const auto squared = itk::FCCCell::SquaredLength(itk::FCCCell::Subtract(cell.corners[a], cell.corners[b]));
+      const auto squared = itk::FCCStep::SquaredLength(itk::FCCStep::Subtract(cell.corners[a], cell.corners[b]));
       const unsigned int triangles = Parallelepiped::Cases.cases[1u << a | 1u << b].triangles;
       const unsigned int inverted = Parallelepiped::Cases.cases[255 ^ (1u << a | 1u << b)].triangles;
       switch (squared)

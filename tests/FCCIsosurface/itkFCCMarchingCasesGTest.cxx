@@ -73,7 +73,7 @@ TEST_P(FCCMarchingCasesTest, TetrahedraFillAColumnStep)
   }
 }
 
-TEST_P(FCCMarchingCasesTest, EdgesAreThoseOfTheTetrahedraAndHaveOwners)
+TEST_P(FCCMarchingCasesTest, EdgesAreThoseOfTheTetrahedraAndAreStoredOnce)
 {
   const unsigned int kind = GetParam();
   std::set<std::pair<int, int>> expected;
@@ -92,18 +92,19 @@ TEST_P(FCCMarchingCasesTest, EdgesAreThoseOfTheTetrahedraAndHaveOwners)
   {
     const unsigned int ends[2] = { Cases::EdgeSites[edge][0], Cases::EdgeSites[edge][1] };
     found.insert(std::minmax<int>(static_cast<int>(ends[0]), static_cast<int>(ends[1])));
-    const auto owner = itk::FCCMarchingTables.owners[kind][edge];
-    int owners = 0;
+    const auto stored = itk::FCCMarchingTables.storedEdges[kind][edge];
+    int starts = 0;
     for (unsigned int end = 0; end < 2; ++end)
     {
       const auto from = Cases::SiteOf(kind, ends[end]);
       const auto to = Cases::SiteOf(kind, ends[1 - end]);
-      const auto step = itk::FCCLattice::OwnedEdges[owner.type];
+      const auto step = itk::FCCLattice::OwnedEdges[stored.type];
       const bool matches = to[0] - from[0] == step[0] && to[1] - from[1] == step[1] && to[2] - from[2] == step[2] &&
-                           owner.row == Cases::RowOf(kind, ends[end]) && owner.pair == ends[end] / 2;
-      owners += matches ? 1 : 0;
+                           stored.row == Cases::RowOf(kind, ends[end]) && stored.pair == ends[end] / 2 &&
+                           stored.start == end;
+      starts += matches ? 1 : 0;
     }
-    EXPECT_EQ(owners, 1);
+    EXPECT_EQ(starts, 1);
   }
   EXPECT_EQ(found, expected);
   EXPECT_EQ(found.size(), Cases::Edges);

@@ -2,7 +2,7 @@
 #define itkFCCIsosurfaceFilter_h
 
 #include "itkFCCImage.h"
-#include "itkFCCSurfaceExtraction.h"
+#include "itkFCCSurfaceExtractor.h"
 #include "itkProcessObject.h"
 #include "itkRecyclingMemory.h"
 #include "itkWorkProgress.h"
@@ -243,7 +243,7 @@ private:
   }
 
   void
-  Resolve(FCCSurfaceExtraction & extraction, float share);
+  Resolve(FCCSurfaceExtractor & extraction, float share);
 
   /** Planes from one up to that before another. */
   struct Planes

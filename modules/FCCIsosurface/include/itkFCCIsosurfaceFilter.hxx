@@ -143,7 +143,7 @@ FCCIsosurfaceFilter<TInputImage>::GenerateData()
 {
   m_WorkProgress.emplace(*this, WholeProgress);
   m_UsedFraction = this->ComputeFraction();
-  const std::vector<FCCSigns> signs = this->Classify(FCCSurfaceExtraction::GetMargin(m_Mode, m_Closed));
+  const std::vector<FCCSigns> signs = this->Classify(FCCSurfaceExtractor::GetMargin(m_Mode, m_Closed));
   const std::size_t atOnce = this->IsInMemory() ? 1 : signs.size(); // memory is dear, or else the input's samples are
   for (std::size_t first = 0; first < signs.size(); first += atOnce)
   {
@@ -157,12 +157,12 @@ void
 FCCIsosurfaceFilter<TInputImage>::Extract(const std::vector<FCCSigns> & signs, std::size_t first, std::size_t last)
 {
   RecyclingMemory scratch;
-  std::vector<std::unique_ptr<FCCSurfaceExtraction>> extractions;
+  std::vector<std::unique_ptr<FCCSurfaceExtractor>> extractions;
   for (std::size_t n = first; n < last; ++n)
   {
-    extractions.push_back(FCCSurfaceExtraction::Make(m_Mode, signs[n], this->MakeField(m_Isovalues[n], scratch)));
+    extractions.push_back(FCCSurfaceExtractor::Make(m_Mode, signs[n], this->MakeField(m_Isovalues[n], scratch)));
   }
-  constexpr SizeValueType around = FCCSurfaceExtraction::PlanesAround;
+  constexpr SizeValueType around = FCCSurfaceExtractor::PlanesAround;
   const SizeValueType planes = signs.front().GetDepth();
   const float share = 0.95f * static_cast<float>(last - first) / static_cast<float>(signs.size());
 
@@ -181,7 +181,7 @@ FCCIsosurfaceFilter<TInputImage>::Extract(const std::vector<FCCSigns> & signs, s
 
   for (std::size_t n = first; n < last; ++n)
   {
-    FCCSurfaceExtraction & extraction = *extractions[n - first];
+    FCCSurfaceExtractor & extraction = *extractions[n - first];
     this->Resolve(extraction, shareOfResolve / static_cast<float>(last - first));
     this->Allocate(*this->GetOutput(n), extraction.GetNumberOfPoints(), extraction.GetMostTriangles());
   }
@@ -207,10 +207,10 @@ FCCIsosurfaceFilter<TInputImage>::Extract(const std::vector<FCCSigns> & signs, s
 
 template <typename TInputImage>
 void
-FCCIsosurfaceFilter<TInputImage>::Resolve(FCCSurfaceExtraction & extraction, float share)
+FCCIsosurfaceFilter<TInputImage>::Resolve(FCCSurfaceExtractor & extraction, float share)
 {
   const SizeValueType last = m_WorkProgress->GetCompleted() + AmountOf(share);
-  FCCSurfaceExtraction::Crew crew;
+  FCCSurfaceExtractor::Crew crew;
   crew.forEach = [this, share](SizeValueType count, float part, const std::function<void(SizeValueType)> & work) {
     const auto forEach = [&work](SizeValueType begin, SizeValueType end) {
       for (SizeValueType n = begin; n < end; ++n)

@@ -1,7 +1,7 @@
 #ifndef itkFCCCell_h
 #define itkFCCCell_h
 
-#include "itkFCCLattice.h"
+#include "itkFCCStep.h"
 
 #include <cstdint>
 
@@ -13,8 +13,6 @@ namespace itk
  *
  * Corners are steps from the cell's *anchor*, a site, so that one polyhedron describes all cells of its kind. Its edges
  * must be of the types of FCCLattice::OwnedEdges.
- *
- * Everything here is constexpr, so thread safe.
  *
  * \ingroup FCCIsosurface
  */
@@ -36,7 +34,7 @@ struct FCCCell
 
   struct Edge
   {
-    std::uint8_t owner = 0; ///< the corner that owns the edge
+    std::uint8_t start = 0; ///< the corner that stores the edge
     std::uint8_t end = 0;   ///< the other one
     std::uint8_t type = 0;  ///< which of FCCLattice::OwnedEdges it is
   };
@@ -49,32 +47,11 @@ struct FCCCell
   Edge edges[MaximumEdges] = {};
   bool onOneFace[MaximumEdges][MaximumEdges] = {}; ///< whether two edges belong to a common face
 
-  static constexpr SiteType
-  Subtract(const SiteType & a, const SiteType & b)
-  {
-    return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-  }
-
-  static constexpr IndexValueType
-  SquaredLength(const SiteType & step)
-  {
-    return step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
-  }
-
-  static constexpr SiteType
-  Cross(const SiteType & a, const SiteType & b)
-  {
-    return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-  }
-
-  /** Six times the signed volume of the tetrahedron of four corners: negative when the last one lies below the plane of
-   * the others, which are counter-clockwise seen from above. */
+  /** FCCStep::Orientation() of four corners. */
   constexpr IndexValueType
   Orientation(unsigned int a, unsigned int b, unsigned int c, unsigned int d) const
   {
-    const SiteType normal = Cross(Subtract(corners[b], corners[a]), Subtract(corners[c], corners[a]));
-    const SiteType step = Subtract(corners[d], corners[a]);
-    return normal[0] * step[0] + normal[1] * step[1] + normal[2] * step[2];
+    return FCCStep::Orientation(corners[a], corners[b], corners[c], corners[d]);
   }
 
   /** Bits of the types of FCCLattice::OwnedEdges among the edges. */
@@ -147,15 +124,15 @@ struct FCCCell
   {
     for (unsigned int n = 0; n < face.size; ++n)
     {
-      const std::uint8_t owner = face.corners[n];
+      const std::uint8_t start = face.corners[n];
       const std::uint8_t end = face.corners[(n + 1) % face.size];
-      const SiteType step = Subtract(corners[end], corners[owner]);
+      const SiteType step = FCCStep::Subtract(corners[end], corners[start]);
       for (std::uint8_t type = 0; type < FCCLattice::OwnedEdges.size(); ++type)
       {
         // The edge's other face runs along it the other way, so it is added once.
-        if (SquaredLength(Subtract(step, FCCLattice::OwnedEdges[type])) == 0)
+        if (FCCStep::AreEqual(step, FCCLattice::OwnedEdges[type]))
         {
-          edges[numberOfEdges++] = { owner, end, type };
+          edges[numberOfEdges++] = { start, end, type };
         }
       }
     }
@@ -164,14 +141,14 @@ struct FCCCell
   constexpr bool
   IsOn(const Edge & edge, const Face & face) const
   {
-    bool hasOwner = false;
+    bool hasStart = false;
     bool hasEnd = false;
     for (unsigned int n = 0; n < face.size; ++n)
     {
-      hasOwner = hasOwner || face.corners[n] == edge.owner;
+      hasStart = hasStart || face.corners[n] == edge.start;
       hasEnd = hasEnd || face.corners[n] == edge.end;
     }
-    return hasOwner && hasEnd;
+    return hasStart && hasEnd;
   }
 
   /** The convex hull of some sites, all of which must be corners of it. */

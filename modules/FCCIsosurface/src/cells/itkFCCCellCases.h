@@ -77,8 +77,8 @@ struct FCCCellCases
   EdgeBetween(const FCCCell & cell, unsigned int a, unsigned int b)
   {
     std::uint8_t edge = 0;
-    while (!((cell.edges[edge].owner == a && cell.edges[edge].end == b) ||
-             (cell.edges[edge].owner == b && cell.edges[edge].end == a)))
+    while (!((cell.edges[edge].start == a && cell.edges[edge].end == b) ||
+             (cell.edges[edge].start == b && cell.edges[edge].end == a)))
     {
       ++edge;
     }
@@ -91,8 +91,8 @@ struct FCCCellCases
   {
     const unsigned int inside = IsInside(pattern, face.corners[0]) ? 0 : 1;
     const auto squaredDiagonal = [&cell, &face](unsigned int first) {
-      return FCCCell::SquaredLength(
-        FCCCell::Subtract(cell.corners[face.corners[first + 2]], cell.corners[face.corners[first]]));
+      return FCCStep::SquaredLength(
+        FCCStep::Subtract(cell.corners[face.corners[first + 2]], cell.corners[face.corners[first]]));
     };
     return squaredDiagonal(inside) < squaredDiagonal(1 - inside);
   }
@@ -137,10 +137,10 @@ struct FCCCellCases
     FCCCell::SiteType step{};
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      step[axis] = cell.corners[cell.edges[a].owner][axis] + cell.corners[cell.edges[a].end][axis] -
-                   cell.corners[cell.edges[b].owner][axis] - cell.corners[cell.edges[b].end][axis];
+      step[axis] = cell.corners[cell.edges[a].start][axis] + cell.corners[cell.edges[a].end][axis] -
+                   cell.corners[cell.edges[b].start][axis] - cell.corners[cell.edges[b].end][axis];
     }
-    return cell.onOneFace[a][b] ? prohibitive : FCCCell::SquaredLength(step);
+    return cell.onOneFace[a][b] ? prohibitive : FCCStep::SquaredLength(step);
   }
 
   /** Cuts a loop into triangles: between each two of its points, the best third one, from short stretches to long. */

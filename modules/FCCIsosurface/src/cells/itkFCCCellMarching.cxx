@@ -29,58 +29,6 @@ ForEachKind(FCCCellScheme scheme, const TUse & use)
   }
 }
 
-/** The bits i + shift of a row, for the bits i of one word. Rows have a spare word at their end. */
-WordType
-Shifted(const WordType * row, SizeValueType word, IndexValueType shift)
-{
-  constexpr SizeValueType top = FCCSigns::WordBits - 1;
-  switch (shift)
-  {
-    case 0:
-      return row[word];
-    case 1:
-      return row[word] >> 1 | row[word + 1] << top;
-    default:
-      return row[word] << 1 | (word > 0 ? row[word - 1] >> top : 0);
-  }
-}
-
-/** The bits of one word that stand for sites from \a begin on and before \a end. */
-WordType
-Between(SizeValueType begin, SizeValueType end, SizeValueType word)
-{
-  const auto below = [word](SizeValueType count) -> WordType {
-    const SizeValueType first = word * FCCSigns::WordBits;
-    if (count <= first)
-    {
-      return 0;
-    }
-    return count - first >= FCCSigns::WordBits ? ~WordType{ 0 } : (WordType{ 1 } << (count - first)) - 1;
-  };
-  return below(end) & ~below(begin);
-}
-
-/** Where the site at a step from the anchors of a row is: its row, and how far its index is from the anchor's. */
-struct StepTarget
-{
-  IndexValueType j;
-  IndexValueType k;
-  IndexValueType shift;
-
-  StepTarget(const FCCSigns & signs, SizeValueType fromJ, SizeValueType fromK, const SiteType & step)
-    : j(static_cast<IndexValueType>(fromJ) + step[1])
-    , k(static_cast<IndexValueType>(fromK) + step[2])
-    , shift(FCCLattice::OffsetOf(step, signs.GetParity(fromJ, fromK))[0])
-  {}
-
-  bool
-  IsInBox(const FCCSigns & signs) const
-  {
-    return j >= 0 && j < static_cast<IndexValueType>(signs.GetHeight()) && k >= 0 &&
-           k < static_cast<IndexValueType>(signs.GetDepth());
-  }
-};
-
 /** The cells of one kind whose anchors are in one row. */
 template <typename TKind>
 class CellRow
@@ -93,11 +41,9 @@ public:
   {
     for (unsigned int corner = 0; corner < TKind::Cell.numberOfCorners; ++corner)
     {
-      const StepTarget target(signs, j, k, TKind::Cell.corners[corner]);
+      const FCCStepTarget target(signs, j, k, TKind::Cell.corners[corner]);
       m_Shift[corner] = target.shift;
-      m_Rows[corner] = target.IsInBox(signs)
-                         ? signs.GetRow(static_cast<SizeValueType>(target.j), static_cast<SizeValueType>(target.k))
-                         : nothing;
+      m_Rows[corner] = target.isInBox ? signs.GetRow(target.j, target.k) : nothing;
       m_Exists = m_Exists && m_Rows[corner] != nullptr;
       // Cells that stick out along x hold sites of the padding only.
       m_Begin = target.shift < 0 ? 1 : m_Begin;
@@ -117,20 +63,19 @@ public:
       WordType all = ~WordType{ 0 };
       for (unsigned int corner = 0; corner < TKind::Cell.numberOfCorners; ++corner)
       {
-        corners[corner] = Shifted(m_Rows[corner], word, m_Shift[corner]);
+        corners[corner] = FCCBits::Shifted(m_Rows[corner], word, m_Shift[corner]);
         any |= corners[corner];
         all &= corners[corner];
       }
-      for (WordType cut = any & ~all & Between(m_Begin, m_End, word); cut != 0; cut &= cut - 1)
-      {
-        const auto bit = static_cast<unsigned int>(__builtin_ctzll(cut));
+      const WordType exists = FCCBits::Below(m_End, word) & ~FCCBits::Below(m_Begin, word);
+      FCCBits::ForEach(any & ~all & exists, 0, [&](SizeValueType bit) {
         unsigned int pattern = 0;
         for (unsigned int corner = 0; corner < TKind::Cell.numberOfCorners; ++corner)
         {
           pattern |= static_cast<unsigned int>(corners[corner] >> bit & 1) << corner;
         }
         use(word * FCCSigns::WordBits + bit, TKind::Cases.cases[pattern]);
-      }
+      });
     }
   }
 
@@ -153,14 +98,14 @@ public:
     for (unsigned int edge = 0; edge < TKind::Cell.numberOfEdges; ++edge)
     {
       const FCCCell::Edge & found = TKind::Cell.edges[edge];
-      const SiteType & step = TKind::Cell.corners[found.owner];
-      const StepTarget owner(signs, j, k, step);
-      m_Shift[edge] = owner.shift;
-      if (owner.IsInBox(signs)) // edges of other owners are not cut
+      const SiteType & step = TKind::Cell.corners[found.start];
+      const FCCStepTarget start(signs, j, k, step);
+      m_Shift[edge] = start.shift;
+      if (start.isInBox) // edges that are stored elsewhere are not cut
       {
-        const bool isBetween = FCCCutEdges::IsBetween(found.type);
+        const bool isBetween = FCCStoredEdges::GroupOf(found.type) == FCCStoredEdges::Group::Between;
         const FCCCutEdges & plane = isBetween ? *edges.between[step[2] + 1] : *edges.inPlane[step[2] + 1];
-        m_Rows[edge] = plane.GetRow(static_cast<SizeValueType>(owner.j), found.type);
+        m_Rows[edge] = plane.GetRow(start.j, found.type);
       }
     }
   }
@@ -168,7 +113,7 @@ public:
   std::uint32_t
   GetId(unsigned int edge, SizeValueType i) const
   {
-    return m_Rows[edge].GetId(static_cast<SizeValueType>(static_cast<IndexValueType>(i) + m_Shift[edge]));
+    return m_Rows[edge].GetNumber(static_cast<SizeValueType>(static_cast<IndexValueType>(i) + m_Shift[edge]));
   }
 
 private:

@@ -14,7 +14,7 @@ namespace
 struct EdgeRows
 {
   const float * values[4] = {};        ///< at the places -1, 0, 1, 2 along the line; the outer ones for cubics only
-  const float * gradients[2] = {};     ///< FCCRowKernels::GradientStride floats a site
+  const float * gradients[2] = {};     ///< FCCFieldKernels::GradientStride floats a site
   const float * nearMiddle[4] = {};    ///< around the middle of an edge along x, for cubics only
   const float * aroundEnds[2][4] = {}; ///< further away, on either side of the middle
 
@@ -34,7 +34,7 @@ struct EdgeRows
       values[place + 1] = field.GetValues(row, plane) + offset[0];
       if (withGradients && (place == 0 || place == 1))
       {
-        gradients[place] = field.GetGradients(row, plane) + FCCRowKernels::GradientStride * offset[0];
+        gradients[place] = field.GetGradients(row, plane) + FCCFieldKernels::GradientStride * offset[0];
       }
     }
     if (cubic && step[1] == 0 && step[2] == 0)
@@ -75,7 +75,7 @@ struct EdgeRows
       for (unsigned int end = 0; end < 2; ++end)
       {
         std::memcpy(
-          batch.gradient[end][n], gradients[end] + FCCRowKernels::GradientStride * i, sizeof batch.gradient[end][n]);
+          batch.gradient[end][n], gradients[end] + FCCFieldKernels::GradientStride * i, sizeof batch.gradient[end][n]);
       }
     }
   }
@@ -116,15 +116,13 @@ FCCEdgePoints::FCCEdgePoints(const ImageRegion<3> & region,
 
 void
 FCCEdgePoints::Place(const FCCSigns & signs,
-                     const Edges & edges,
+                     const FCCCutEdges & edges,
                      SizeValueType k,
                      const FCCFieldPlanes & field,
                      TriangleSurface::PointType * points,
                      TriangleSurface::NormalType * normals) const
 {
   const SizeValueType toField = 1 - m_Margin; // the field's sites are counted from a layer around the image always
-  const ImageRegion<3> & region = m_Extent.GetRegion();
-  const SizeValueType width = region.GetSize(0);
   FCCEdgeBatch batch{};
   const auto flush = [&] {
     const SizeValueType count = batch.count;
@@ -132,61 +130,57 @@ FCCEdgePoints::Place(const FCCSigns & signs,
     points += count;
     normals += normals != nullptr ? count : 0;
   };
-
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
   {
-    for (unsigned int types = edges.types; types != 0; types &= types - 1)
-    {
-      const auto type = static_cast<std::uint8_t>(__builtin_ctz(types));
-      const SiteType & step = FCCLattice::OwnedEdges[type];
-      const SizeValueType row = j + toField;
-      const SizeValueType plane = k + toField;
-      const SizeValueType otherRow = row + static_cast<SizeValueType>(step[1]);
-      const SizeValueType otherPlane = plane + static_cast<SizeValueType>(step[2]);
-      const bool isRealRow = field.IsReal(1, row) && field.IsReal(2, plane);
-      const bool isOtherRealRow = field.IsReal(1, otherRow) && field.IsReal(2, otherPlane);
-      const auto offset = static_cast<SizeValueType>(FCCLattice::OffsetOf(step, field.GetParity(row, plane))[0]);
-      std::optional<EdgeRows> rows; // most rows have no cut edges of a type
-      const FCCSigns::WordType * const cut = edges.masks(j, type);
-      const SiteType firstSite =
-        FCCLattice::SiteOf({ { region.GetIndex(0) - static_cast<IndexValueType>(m_Margin),
-                               region.GetIndex(1) + static_cast<IndexValueType>(row) - 1,
-                               region.GetIndex(2) + static_cast<IndexValueType>(plane) - 1 } });
-      for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
-      {
-        for (auto mask = cut[word]; mask != 0; mask &= mask - 1)
-        {
-          const SizeValueType i = word * FCCSigns::WordBits + static_cast<SizeValueType>(__builtin_ctzll(mask));
-          const SizeValueType place = i + toField;
-          const SiteType site{ firstSite[0] + 2 * static_cast<IndexValueType>(i), firstSite[1], firstSite[2] };
-          const bool isReal = isRealRow && place - 1 < width;
-          const bool isOtherReal = isOtherRealRow && place + offset - 1 < width;
-          if (isReal && isOtherReal)
-          {
-            if (!rows)
-            {
-              rows.emplace(field, step, row, plane, m_Cubic, normals != nullptr);
-            }
-            rows->Gather(place, batch);
-          }
-          else
-          {
-            this->GatherBorder(site, step, !isReal, batch);
-          }
-          for (unsigned int axis = 0; axis < 3; ++axis)
-          {
-            batch.site[axis][batch.count] = static_cast<double>(site[axis]);
-            batch.step[axis][batch.count] = static_cast<float>(step[axis]);
-          }
-          if (++batch.count == FCCEdgeBatch::Capacity)
-          {
-            flush();
-          }
-        }
-      }
-    }
+    FCCStoredEdges::ForEachType(edges.GetTypes(), [&](std::uint8_t type) {
+      const RowOfEdges row{ j + toField, k + toField, type, edges.GetRow(j, type).bits };
+      this->GatherRow(signs, row, field, normals != nullptr, batch, flush);
+    });
   }
   flush();
+}
+
+template <typename TFlush>
+void
+FCCEdgePoints::GatherRow(const FCCSigns & signs,
+                         const RowOfEdges & edges,
+                         const FCCFieldPlanes & field,
+                         bool withGradients,
+                         FCCEdgeBatch & batch,
+                         const TFlush & flush) const
+{
+  const SizeValueType toField = 1 - m_Margin;
+  const SizeValueType width = m_Extent.GetRegion().GetSize(0);
+  const SiteType & step = FCCLattice::OwnedEdges[edges.type];
+  const auto offset = FCCLattice::OffsetOf(step, field.GetParity(edges.j, edges.k));
+  const bool isRealRow = field.IsReal(1, edges.j) && field.IsReal(2, edges.k);
+  const bool isOtherRealRow = field.IsReal(1, edges.j + static_cast<SizeValueType>(offset[1])) &&
+                              field.IsReal(2, edges.k + static_cast<SizeValueType>(offset[2]));
+  const SiteType firstSite = this->SiteOf(toField, edges.j, edges.k);
+  std::optional<EdgeRows> rows; // most rows have no cut edges of a type
+  FCCBits::ForEach(edges.cut, signs.GetNumberOfWords(), [&](SizeValueType i) {
+    const SizeValueType start = i + toField;
+    const SizeValueType end = start + static_cast<SizeValueType>(offset[0]);
+    const SiteType site{ firstSite[0] + 2 * static_cast<IndexValueType>(i), firstSite[1], firstSite[2] };
+    const bool isReal = isRealRow && start - 1 < width;
+    if (isReal && isOtherRealRow && end - 1 < width)
+    {
+      if (!rows)
+      {
+        rows.emplace(field, step, edges.j, edges.k, m_Cubic, withGradients);
+      }
+      rows->Gather(start, batch);
+    }
+    else
+    {
+      this->GatherBorder(site, step, !isReal, batch);
+    }
+    AddEdge(site, step, batch);
+    if (batch.count == FCCEdgeBatch::Capacity)
+    {
+      flush();
+    }
+  });
 }
 
 void
@@ -198,26 +192,31 @@ FCCEdgePoints::Gather(const std::array<SizeValueType, 3> & site,
 {
   const auto [i, j, k] = site;
   const auto offset = FCCLattice::OffsetOf(step, field.GetParity(j, k));
-  const SizeValueType end[3] = { i + static_cast<SizeValueType>(offset[0]),
-                                 j + static_cast<SizeValueType>(offset[1]),
-                                 k + static_cast<SizeValueType>(offset[2]) };
-  const bool isReal = field.IsReal(0, i) && field.IsReal(1, j) && field.IsReal(2, k);
-  const bool isOtherReal = field.IsReal(0, end[0]) && field.IsReal(1, end[1]) && field.IsReal(2, end[2]);
-  const auto & first = m_Extent.GetRegion().GetIndex();
-  const SiteType lattice = FCCLattice::SiteOf({ { first[0] + static_cast<IndexValueType>(i) - 1,
-                                                  first[1] + static_cast<IndexValueType>(j) - 1,
-                                                  first[2] + static_cast<IndexValueType>(k) - 1 } });
-  if (isReal && isOtherReal)
+  const auto isReal = [&field](SizeValueType x, SizeValueType y, SizeValueType z) {
+    return field.IsReal(0, x) && field.IsReal(1, y) && field.IsReal(2, z);
+  };
+  const bool startIsReal = isReal(i, j, k);
+  const bool endIsReal = isReal(i + static_cast<SizeValueType>(offset[0]),
+                                j + static_cast<SizeValueType>(offset[1]),
+                                k + static_cast<SizeValueType>(offset[2]));
+  const SiteType lattice = this->SiteOf(i, j, k);
+  if (startIsReal && endIsReal)
   {
     EdgeRows(field, step, j, k, m_Cubic, withGradients).Gather(i, batch);
   }
   else
   {
-    this->GatherBorder(lattice, step, !isReal, batch);
+    this->GatherBorder(lattice, step, !startIsReal, batch);
   }
+  AddEdge(lattice, step, batch);
+}
+
+void
+FCCEdgePoints::AddEdge(const SiteType & site, const SiteType & step, FCCEdgeBatch & batch)
+{
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    batch.site[axis][batch.count] = static_cast<double>(lattice[axis]);
+    batch.site[axis][batch.count] = static_cast<double>(site[axis]);
     batch.step[axis][batch.count] = static_cast<float>(step[axis]);
   }
   ++batch.count;
@@ -269,19 +268,18 @@ FCCEdgePointFiller::Fill(SizeValueType k,
     m_Field.LoadValuesAround(end + m_ToField);
     if (surface.HasNormals() && !m_Field.HasGradients(end + m_ToField))
     {
-      FindBorderBlocks(m_Signs, end, FCCRowKernels::Block, m_Field.GetNumberOfBlocks(), m_ToField, m_Blocks);
+      FindBorderBlocks(m_Signs, end, FCCFieldKernels::Block, m_Field.GetNumberOfBlocks(), m_ToField, m_Blocks);
       m_Field.LoadGradients(end + m_ToField, m_Blocks);
     }
   }
   for (const FCCCutEdges * const edges : { &inPlane, &between })
   {
-    m_EdgePoints.Place(
-      m_Signs,
-      { edges->GetTypes(), [edges](SizeValueType j, std::uint8_t type) { return edges->GetRow(j, type).mask; } },
-      k,
-      m_Field,
-      surface.GetPoints().data() + edges->GetFirstId(),
-      surface.HasNormals() ? surface.GetNormals().data() + edges->GetFirstId() : nullptr);
+    m_EdgePoints.Place(m_Signs,
+                       *edges,
+                       k,
+                       m_Field,
+                       surface.GetPoints().data() + edges->GetFirstId(),
+                       surface.HasNormals() ? surface.GetNormals().data() + edges->GetFirstId() : nullptr);
   }
 }
 

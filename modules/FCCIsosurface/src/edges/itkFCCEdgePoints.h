@@ -1,10 +1,10 @@
 #ifndef itkFCCEdgePoints_h
 #define itkFCCEdgePoints_h
 
+#include "itkFCCCutEdges.h"
+#include "itkFCCEdgeKernels.h"
 #include "itkFCCExtent.h"
 #include "itkFCCFieldPlanes.h"
-#include "itkFCCMarching.h"
-#include "itkFCCPointKernels.h"
 
 namespace itk
 {
@@ -15,8 +15,6 @@ namespace itk
  * Between two samples a point lies where their values' interpolation along the edge crosses the isovalue. An edge may
  * lead to a site outside the image (see FCCIsosurfaceFilter on closed surfaces); there, points lie on the faces of the
  * image's extent, and normals are theirs.
- *
- * Thread safety: immutable.
  *
  * \ingroup FCCIsosurface
  */
@@ -35,18 +33,11 @@ public:
                 double minimumFraction,
                 SizeValueType margin);
 
-  /** Some of the edges that the sites of a plane store. */
-  struct Edges
-  {
-    std::uint8_t types;                                                                  ///< bits of their types
-    std::function<const FCCSigns::WordType *(SizeValueType j, std::uint8_t type)> masks; ///< bit i: that of site i
-  };
-
-  /** Places the points on some edges of plane \a k of the signs, row by row, within a row type by type, and their
-   * normals unless null. The arrays begin with the first of these points. */
+  /** Places the points on the cut edges of plane \a k of the signs, in the order of their ids, and their normals unless
+   * null. The arrays begin with the first of these points. */
   void
   Place(const FCCSigns & signs,
-        const Edges & edges,
+        const FCCCutEdges & edges,
         SizeValueType k,
         const FCCFieldPlanes & field,
         TriangleSurface::PointType * points,
@@ -64,15 +55,47 @@ public:
   void
   PlaceBatch(FCCEdgeBatch & batch, TriangleSurface::PointType * points, TriangleSurface::NormalType * normals) const
   {
-    FCCPointKernels::PlaceOnEdges(batch, m_Frame, m_Cubic, m_MinimumFraction, points, normals);
+    PlaceOnEdges(batch, m_Frame, m_Cubic, m_MinimumFraction, points, normals);
     batch.count = 0;
   }
 
 private:
   using SiteType = FCCLattice::SiteType;
 
+  /** A row of the signs whose cut edges of one type get points. */
+  struct RowOfEdges
+  {
+    SizeValueType j; ///< counted as the field's are, as k
+    SizeValueType k;
+    std::uint8_t type;
+    const FCCSigns::WordType * cut;
+  };
+
+  template <typename TFlush>
+  void
+  GatherRow(const FCCSigns & signs,
+            const RowOfEdges & edges,
+            const FCCFieldPlanes & field,
+            bool withGradients,
+            FCCEdgeBatch & batch,
+            const TFlush & flush) const;
+
+  /** The site at a place that is counted as the field's are. */
+  SiteType
+  SiteOf(SizeValueType i, SizeValueType j, SizeValueType k) const
+  {
+    const auto & first = m_Extent.GetRegion().GetIndex();
+    return FCCLattice::SiteOf({ { first[0] + static_cast<IndexValueType>(i) - 1,
+                                  first[1] + static_cast<IndexValueType>(j) - 1,
+                                  first[2] + static_cast<IndexValueType>(k) - 1 } });
+  }
+
   void
   GatherBorder(const SiteType & site, const SiteType & step, bool startsOutside, FCCEdgeBatch & batch) const;
+
+  /** Completes the edge that has been added to a batch. */
+  static void
+  AddEdge(const SiteType & site, const SiteType & step, FCCEdgeBatch & batch);
 
   FCCExtent m_Extent;
   FCCFrame m_Frame;
@@ -84,7 +107,7 @@ private:
 /** \class FCCEdgePointFiller
  * \brief Fills the points and normals of a surface, plane by plane, from the edges that the planes' sites store.
  *
- * Ask for planes in ascending order. Thread safety: each thread uses its own.
+ * Ask for planes in ascending order.
  *
  * \ingroup FCCIsosurface
  */

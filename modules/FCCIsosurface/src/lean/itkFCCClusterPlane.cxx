@@ -1,108 +1,14 @@
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "itkFCCClusterPlane.cxx"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
-
 #include "itkFCCClusterPlane.h"
 
-#include <algorithm>
-
-HWY_BEFORE_NAMESPACE();
 namespace itk
 {
-namespace HWY_NAMESPACE
-{
-namespace
-{
-
-SizeValueType
-CountBits(const FCCSigns::WordType * bits, SizeValueType words)
-{
-  SizeValueType count = 0;
-  for (SizeValueType word = 0; word < words; ++word)
-  {
-    count += static_cast<SizeValueType>(__builtin_popcountll(bits[word]));
-  }
-  return count;
-}
-
-std::uint32_t
-NumberBits(const FCCSigns::WordType * bits, SizeValueType words, std::uint32_t first, std::uint32_t * before)
-{
-  for (SizeValueType word = 0; word < words; ++word)
-  {
-    before[word] = first;
-    first += static_cast<std::uint32_t>(__builtin_popcountll(bits[word]));
-  }
-  return first;
-}
-
-} // namespace
-} // namespace HWY_NAMESPACE
-} // namespace itk
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-namespace itk
-{
-namespace
-{
-
-HWY_EXPORT(CountBits);
-HWY_EXPORT(NumberBits);
-
-using WordType = FCCSigns::WordType;
-
-/** Writes or adds the bits of a row moved by -1, 0 or 1 sites. Rows end in a spare word. */
-void
-MoveBits(const WordType * row, SizeValueType words, IndexValueType by, WordType * moved)
-{
-  switch (by)
-  {
-    case 0:
-      std::copy(row, row + words, moved);
-      break;
-    case 1:
-      moved[0] = row[0] << 1;
-      for (SizeValueType word = 1; word < words; ++word)
-      {
-        moved[word] = row[word] << 1 | row[word - 1] >> (FCCSigns::WordBits - 1);
-      }
-      break;
-    default:
-      for (SizeValueType word = 0; word < words; ++word)
-      {
-        moved[word] = row[word] >> 1 | row[word + 1] << (FCCSigns::WordBits - 1);
-      }
-  }
-}
-
-} // namespace
-
-std::uint32_t
-FCCNumberedBits::Number(std::uint32_t first)
-{
-  return HWY_DYNAMIC_DISPATCH(NumberBits)(m_Bits.data(), m_Bits.size(), first, m_Before.data());
-}
-
-SizeValueType
-FCCNumberedBits::Count() const
-{
-  return HWY_DYNAMIC_DISPATCH(CountBits)(m_Bits.data(), m_Bits.size());
-}
-
-void
-FCCNumberedBits::Clear()
-{
-  std::fill(m_Bits.begin(), m_Bits.end(), 0);
-}
 
 FCCClusterPlane::FCCClusterPlane(const FCCSigns & signs, std::pmr::memory_resource * scratch)
   : m_Signs(&signs)
-  , m_Owners(signs, scratch)
-  , m_Owned(signs.GetHeight() * Directions * m_Owners.GetStride(), scratch)
-  , m_SplitCrossings(signs.GetHeight() * Types * m_Owners.GetStride() + FCCSigns::WordsBeyond, scratch)
-  , m_Wholes(signs.GetHeight(), signs.GetNumberOfWords(), scratch)
+  , m_NearerEnds(signs, scratch)
+  , m_Crossings(signs.GetHeight() * Directions, signs.GetNumberOfWords(), scratch)
+  , m_SplitCrossings(signs.GetHeight() * Types, signs.GetNumberOfWords(), scratch)
+  , m_WholeSites(signs.GetHeight(), signs.GetNumberOfWords(), scratch)
   , m_Split(signs.GetHeight(), signs.GetNumberOfWords(), scratch)
 {}
 
@@ -111,149 +17,112 @@ FCCClusterPlane::Find(SizeValueType k,
                       const FCCClusterPlane & below,
                       const FCCFieldPlanes & field,
                       bool insideIsBelow,
-                      const FCCSplitSites * splits,
+                      const FCCSplitRows * splits,
                       std::uint32_t first)
 {
-  m_Owners.Find(k, field, insideIsBelow);
-  m_Wholes.Clear();
+  m_NearerEnds.Find(k, field, insideIsBelow);
+  m_WholeSites.Clear();
   m_Split.Clear();
-  if (k < m_Signs->GetDepth())
+  m_SplitSites.clear();
+  const SizeValueType words = m_Signs->GetNumberOfWords();
+  for (SizeValueType j = 0; j < m_Signs->GetHeight() && k < m_Signs->GetDepth(); ++j)
   {
-    for (SizeValueType j = 0; j < m_Signs->GetHeight(); ++j)
+    this->FindCrossings(j, k, below);
+    WordType * const wholeSites = m_WholeSites.GetRow(j);
+    for (unsigned int direction = 0; direction < Directions; ++direction)
     {
-      this->FindOwned(j, k, below);
-      WordType * const wholes = m_Wholes.GetRow(j);
-      for (unsigned int direction = 0; direction < Directions; ++direction)
+      const WordType * const crossings = m_Crossings.GetRow(j * Directions + direction);
+      for (SizeValueType word = 0; word < words; ++word)
       {
-        const WordType * const owned = this->GetOwnedRow(j, direction);
-        for (SizeValueType word = 0; word < m_Signs->GetNumberOfWords(); ++word)
-        {
-          wholes[word] |= owned[word];
-        }
-      }
-      if (splits != nullptr)
-      {
-        WordType * const split = m_Split.GetRow(j);
-        const WordType * const splitSites = splits->GetRow(j, k);
-        for (SizeValueType word = 0; word < m_Signs->GetNumberOfWords(); ++word)
-        {
-          split[word] = wholes[word] & splitSites[word];
-          wholes[word] &= ~splitSites[word];
-        }
-        this->FindSplitCrossings(j, k, *splits);
+        wholeSites[word] |= crossings[word];
       }
     }
+    if (splits != nullptr)
+    {
+      const WordType * const splitSites = splits->GetRow(j, k);
+      std::copy(splitSites, splitSites + words, m_Split.GetRow(j));
+      for (SizeValueType word = 0; word < words; ++word)
+      {
+        wholeSites[word] &= ~splitSites[word];
+      }
+      this->FindSplitCrossings(j, k, *splits);
+    }
   }
-  return splits == nullptr ? first : this->NumberParts(k, *splits, m_Wholes.Number(first));
+  return splits == nullptr ? first : this->NumberSplitSites(k, *splits, m_WholeSites.Number(first));
 }
 
 std::uint32_t
-FCCClusterPlane::NumberParts(SizeValueType k, const FCCSplitSites & splits, std::uint32_t first)
+FCCClusterPlane::NumberSplitSites(SizeValueType k, const FCCSplitRows & splits, std::uint32_t first)
 {
   m_Split.Number(0);
-  m_Parts.clear();
-  for (SizeValueType j = 0; j < m_Signs->GetHeight(); ++j)
+  for (SizeValueType j = 0; j < m_Signs->GetHeight() && k < m_Signs->GetDepth(); ++j)
   {
-    for (SizeValueType word = 0; word < m_Signs->GetNumberOfWords(); ++word)
-    {
-      for (WordType mask = m_Split.GetRow(j)[word]; mask != 0; mask &= mask - 1)
-      {
-        const SizeValueType i = word * FCCSigns::WordBits + static_cast<SizeValueType>(__builtin_ctzll(mask));
-        Parts parts{ i, j, this->GetOwned(j, i), splits.GetLone(i, j, k), 0, first, 0 };
-        for (unsigned int left = parts.owned; left != 0; ++first)
-        {
-          const auto lowest = static_cast<unsigned int>(__builtin_ctz(left));
-          const bool isLone = (parts.lone >> lowest & 1) != 0;
-          const unsigned int part = isLone ? 1U << lowest : FCCSiteStar::PartOf(parts.owned & ~parts.lone, lowest);
-          for (unsigned int members = part; members != 0; members &= members - 1)
-          {
-            parts.place |= std::uint64_t{ first - parts.first } << (4 * __builtin_ctz(members));
-          }
-          parts.lowest |= 1U << lowest;
-          left &= ~part;
-        }
-        m_Parts.push_back(parts);
-      }
-    }
+    const FCCSiteParts * parts = splits.GetParts(j, k).data();
+    FCCBits::ForEach(m_Split.GetRow(j), m_Signs->GetNumberOfWords(), [&](SizeValueType i) {
+      m_SplitSites.push_back({ i, j, parts, first });
+      first += parts->GetNumberOfVertices();
+      ++parts;
+    });
   }
   return first;
 }
 
+/** Gathers for each direction the crossings that sites of a row are nearer to. */
 void
-FCCClusterPlane::FindOwned(SizeValueType j, SizeValueType k, const FCCClusterPlane & below)
+FCCClusterPlane::FindCrossings(SizeValueType j, SizeValueType k, const FCCClusterPlane & below)
 {
   const SizeValueType words = m_Signs->GetNumberOfWords();
   for (std::uint8_t type = 0; type < Types; ++type)
   {
-    const WordType * const first = m_Owners.GetFirst(j, type);
-    std::copy(first, first + words, m_Owned.data() + (j * Directions + type) * m_Owners.GetStride());
+    const WordType * const starts = m_NearerEnds.GetStarts(j, type);
+    std::copy(starts, starts + words, m_Crossings.GetRow(j * Directions + type));
 
-    WordType * const owned = m_Owned.data() + (j * Directions + Types + type) * m_Owners.GetStride();
-    const auto & step = FCCLattice::OwnedEdges[type];
-    const SizeValueType fromJ = j - static_cast<SizeValueType>(step[1]);
-    if (fromJ >= m_Signs->GetHeight() || (step[2] == 1 && k == 0))
+    const SizeValueType opposite = j * Directions + FCCSiteStar::OppositeOf(type);
+    const FCCStepTarget start(*m_Signs, j, k, FCCSiteStar::StepOf(FCCSiteStar::OppositeOf(type)));
+    if (!start.isInBox)
     {
-      std::fill(owned, owned + words, 0);
+      m_Crossings.ClearRow(opposite);
       continue;
     }
-    const FCCCrossingOwners & owners = step[2] == 1 ? below.m_Owners : m_Owners;
-    const auto offset =
-      FCCLattice::OffsetOf(step, m_Signs->GetParity(fromJ, k - static_cast<SizeValueType>(step[2])))[0];
-    MoveBits(owners.GetSecond(fromJ, type), words, offset, owned);
+    WordType * const crossings = m_Crossings.GetRow(opposite);
+    FCCBits::ForEachShifted((start.k == k ? *this : below).m_NearerEnds.GetEnds(start.j, type),
+                            words,
+                            start.shift,
+                            [crossings](SizeValueType word, WordType bits) { crossings[word] = bits; });
   }
 }
 
 void
-FCCClusterPlane::FindSplitCrossings(SizeValueType j, SizeValueType k, const FCCSplitSites & splits)
+FCCClusterPlane::FindSplitCrossings(SizeValueType j, SizeValueType k, const FCCSplitRows & splits)
 {
   const SizeValueType words = m_Signs->GetNumberOfWords();
-  const WordType * const here = splits.GetRow(j, k);
+  const WordType * const splitStarts = splits.GetRow(j, k);
   for (std::uint8_t type = 0; type < Types; ++type)
   {
-    const auto & step = FCCLattice::OwnedEdges[type];
-    const SizeValueType otherJ = j + static_cast<SizeValueType>(step[1]);
-    const SizeValueType otherK = k + static_cast<SizeValueType>(step[2]);
-    WordType * const crossings = m_SplitCrossings.data() + (j * Types + type) * m_Owners.GetStride();
-    if (otherJ >= m_Signs->GetHeight() || otherK >= m_Signs->GetDepth())
+    const FCCStepTarget end(*m_Signs, j, k, FCCLattice::OwnedEdges[type]);
+    if (!end.isInBox || !(splits.HasSplitSites(j, k) || splits.HasSplitSites(end.j, end.k)))
     {
-      std::fill(crossings, crossings + words, 0);
+      m_SplitCrossings.ClearRow(j * Types + type);
       continue;
     }
-    const WordType * const there = splits.GetRow(otherJ, otherK);
-    WordType any = 0;
-    for (SizeValueType word = 0; word < words; ++word)
-    {
-      any |= here[word] | there[word];
-    }
-    if (any == 0)
-    {
-      std::fill(crossings, crossings + words, 0);
-      continue;
-    }
-    const auto offset = FCCLattice::OffsetOf(step, m_Signs->GetParity(j, k))[0];
-    MoveBits(there, words, -offset, crossings);
-    const WordType * const first = m_Owners.GetFirst(j, type);
-    const WordType * const second = m_Owners.GetSecond(j, type);
-    for (SizeValueType word = 0; word < words; ++word)
-    {
-      crossings[word] = (first[word] & here[word]) | (second[word] & crossings[word]);
-    }
+    const WordType * const starts = m_NearerEnds.GetStarts(j, type);
+    const WordType * const ends = m_NearerEnds.GetEnds(j, type);
+    WordType * const crossings = m_SplitCrossings.GetRow(j * Types + type);
+    FCCBits::ForEachShifted(splits.GetRow(end.j, end.k), words, end.shift, [&](SizeValueType word, WordType splitEnds) {
+      crossings[word] = (starts[word] & splitStarts[word]) | (ends[word] & splitEnds);
+    });
   }
 }
 
 unsigned int
-FCCClusterPlane::GetOwned(SizeValueType j, SizeValueType i) const
+FCCClusterPlane::GetCrossings(SizeValueType j, SizeValueType i) const
 {
-  const SizeValueType word = i / FCCSigns::WordBits;
-  const SizeValueType bit = i % FCCSigns::WordBits;
-  const WordType * row = this->GetOwnedRow(j, 0) + word;
-  unsigned int owned = 0;
+  unsigned int crossings = 0;
   for (unsigned int direction = 0; direction < Directions; ++direction)
   {
-    owned |= static_cast<unsigned int>(row[direction * m_Owners.GetStride()] >> bit & 1) << direction;
+    crossings |= unsigned{ FCCBits::Test(m_Crossings.GetRow(j * Directions + direction), i) } << direction;
   }
-  return owned;
+  return crossings;
 }
 
 } // namespace itk
-#endif

@@ -6,14 +6,6 @@
 
 namespace itk
 {
-namespace
-{
-
-constexpr unsigned int Directions = FCCSiteStar::Directions;
-static_assert(Directions == FCCClusterBatch::Directions, "one edge to each neighbour");
-
-} // namespace
-
 class FCCClusterPoints::Row
 {
 public:
@@ -35,7 +27,7 @@ public:
     m_J = j;
     m_K = k;
     m_Values = m_Field.GetValues(j, k);
-    for (unsigned int direction = 0; direction < Directions; ++direction)
+    for (unsigned int direction = 0; direction < FCCSiteStar::Directions; ++direction)
     {
       const auto offset = FCCLattice::OffsetOf(FCCSiteStar::StepOf(direction), m_Field.GetParity(j, k));
       m_Neighbors[direction] =
@@ -73,15 +65,15 @@ public:
   {
     if (m_Field.HasGradients(m_K))
     {
-      return m_Field.GetGradients(m_J, m_K) + FCCRowKernels::GradientStride * i;
+      return m_Field.GetGradients(m_J, m_K) + FCCFieldKernels::GradientStride * i;
     }
-    const SizeValueType block = i / FCCRowKernels::Block;
+    const SizeValueType block = i / FCCFieldKernels::Block;
     if (m_HasGradients[block] == 0)
     {
       m_Field.ComputeGradients(m_J, m_K, block, m_Gradients.data());
       m_HasGradients[block] = 1;
     }
-    return m_Gradients.data() + FCCRowKernels::GradientStride * i;
+    return m_Gradients.data() + FCCFieldKernels::GradientStride * i;
   }
 
   /** The mean of the gradients at the neighbours in some directions. The field must have loaded them; those outside the
@@ -101,7 +93,7 @@ public:
       if (m_Field.IsReal(0, place[0]) && m_Field.IsReal(1, place[1]) && m_Field.IsReal(2, place[2]))
       {
         const float * const gradient =
-          m_Field.GetGradients(place[1], place[2]) + FCCRowKernels::GradientStride * place[0];
+          m_Field.GetGradients(place[1], place[2]) + FCCFieldKernels::GradientStride * place[0];
         for (unsigned int axis = 0; axis < 3; ++axis)
         {
           sum[axis] += gradient[axis];
@@ -122,7 +114,7 @@ private:
   SizeValueType m_J{ 0 };
   SizeValueType m_K{ 0 };
   const float * m_Values{ nullptr };
-  const float * m_Neighbors[Directions] = {};
+  const float * m_Neighbors[FCCSiteStar::Directions] = {};
   std::vector<std::uint8_t> m_HasGradients;
   std::vector<float> m_Gradients;
 };
@@ -161,25 +153,25 @@ public:
     return m_Normals != nullptr;
   }
 
-  /** Adds the vertex of crossings that a site of the row owns. */
+  /** Adds the vertex of some crossings of a site of the row. */
   void
-  AddCluster(Row & row, SizeValueType i, unsigned int owned)
+  AddCluster(Row & row, SizeValueType i, unsigned int crossings)
   {
     const SizeValueType n = m_Batch.count;
     this->Skip(m_Vertices[n], false);
     m_Batch.value[n] = row.GetValue(i);
-    for (unsigned int direction = 0; direction < Directions; ++direction)
+    for (unsigned int direction = 0; direction < FCCSiteStar::Directions; ++direction)
     {
       m_Batch.neighbor[direction][n] = row.GetNeighbor(direction, i);
     }
     const float * const gradient = row.GetGradient(i);
-    const auto farGradient = this->HasNormals() ? row.GetFarGradient(i, owned) : std::array<float, 3>{};
+    const auto farGradient = this->HasNormals() ? row.GetFarGradient(i, crossings) : std::array<float, 3>{};
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
       m_Batch.gradient[axis][n] = gradient[axis];
       m_Batch.farGradient[axis][n] = farGradient[axis];
     }
-    m_Batch.owned[n] = owned;
+    m_Batch.crossings[n] = crossings;
     m_Batch.site[0][n] = static_cast<float>(2 * static_cast<IndexValueType>(i) + row.GetParity());
     m_Batch.site[1][n] = static_cast<float>(row.GetJ());
     m_Batch.site[2][n] = 0.0f;
@@ -237,7 +229,7 @@ public:
     }
     TriangleSurface::PointType points[FCCClusterBatch::Capacity];
     TriangleSurface::NormalType normals[FCCClusterBatch::Capacity];
-    FCCPointKernels::PlaceClusters(m_Batch, m_Frame, points, normals);
+    PlaceClusters(m_Batch, m_Frame, points, normals);
     for (SizeValueType n = 0; n < m_Batch.count; ++n)
     {
       m_Vertices[n].Set(points[n], normals[n]);
@@ -265,105 +257,90 @@ FCCClusterPoints::Place(const FCCSigns & signs,
 {
   SiteType origin = this->SiteOf(0, 0, k);
   origin[0] -= field.GetParity(0, k);
-  Output wholes(m_Frame, origin, 0.0f, FarthestOfWhole, points, normals, areOutside);
-  this->PlaceWholes(signs, plane, k, field, wholes);
+  Output ofWholeSites(m_Frame, origin, 0.0f, FarthestOfWhole, points, normals, areOutside);
+  this->PlaceWholeSites(signs, plane, k, field, ofWholeSites);
   const auto minimumFraction = static_cast<float>(m_MinimumFraction);
-  Output parts(m_Frame, origin, minimumFraction, FarthestOfPart, wholes);
-  this->PlaceParts(plane, k, field, parts);
+  Output ofSplitSites(m_Frame, origin, minimumFraction, FarthestOfPart, ofWholeSites);
+  this->PlaceSplitSites(plane, k, field, ofSplitSites);
 }
 
 void
-FCCClusterPoints::PlaceWholes(const FCCSigns & signs,
-                              const FCCClusterPlane & plane,
-                              SizeValueType k,
-                              const FCCFieldPlanes & field,
-                              Output & output) const
+FCCClusterPoints::PlaceWholeSites(const FCCSigns & signs,
+                                  const FCCClusterPlane & plane,
+                                  SizeValueType k,
+                                  const FCCFieldPlanes & field,
+                                  Output & output) const
 {
   Row row(field);
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
   {
-    const FCCSigns::WordType * const wholes = plane.GetWholes().GetRow(j);
     const bool isRealRow = field.IsReal(1, j) && field.IsReal(2, k);
-    for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
-    {
-      for (FCCSigns::WordType mask = wholes[word]; mask != 0; mask &= mask - 1)
+    FCCBits::ForEach(plane.GetWholeSites().GetRow(j), signs.GetNumberOfWords(), [&](SizeValueType i) {
+      const unsigned int crossings = plane.GetCrossings(j, i);
+      if (isRealRow && field.IsReal(0, i))
       {
-        const SizeValueType i = word * FCCSigns::WordBits + static_cast<SizeValueType>(__builtin_ctzll(mask));
-        const unsigned int owned = plane.GetOwned(j, i);
-        if (isRealRow && field.IsReal(0, i))
-        {
-          row.GoTo(j, k);
-          output.AddCluster(row, i, owned);
-        }
-        else
-        {
-          TriangleSurface::PointType point;
-          TriangleSurface::NormalType normal;
-          this->PlaceOnBorder(this->SiteOf(i, j, k), owned, point, normal);
-          output.AddOutside(point, normal);
-        }
+        row.GoTo(j, k);
+        output.AddCluster(row, i, crossings);
       }
-    }
+      else
+      {
+        this->PlaceOnBorder(this->SiteOf(i, j, k), crossings, output);
+      }
+    });
   }
   output.Flush();
 }
 
 void
-FCCClusterPoints::PlaceParts(const FCCClusterPlane & plane,
-                             SizeValueType k,
-                             const FCCFieldPlanes & field,
-                             Output & output) const
+FCCClusterPoints::PlaceSplitSites(const FCCClusterPlane & plane,
+                                  SizeValueType k,
+                                  const FCCFieldPlanes & field,
+                                  Output & output) const
 {
   // Points on edges are placed batch by batch, too, out of order.
-  FCCEdgeBatch lone{};
-  Output::Vertex loneVertices[FCCEdgeBatch::Capacity];
-  const auto placeLone = [&] {
+  FCCEdgeBatch single{};
+  Output::Vertex singleVertices[FCCEdgeBatch::Capacity];
+  const auto placeSingle = [&] {
     TriangleSurface::PointType points[FCCEdgeBatch::Capacity];
     TriangleSurface::NormalType normals[FCCEdgeBatch::Capacity];
-    const SizeValueType count = lone.count;
-    m_EdgePoints.PlaceBatch(lone, points, output.HasNormals() ? normals : nullptr);
+    const SizeValueType count = single.count;
+    m_EdgePoints.PlaceBatch(single, points, output.HasNormals() ? normals : nullptr);
     for (SizeValueType n = 0; n < count; ++n)
     {
-      loneVertices[n].Set(points[n], normals[n]);
+      singleVertices[n].Set(points[n], normals[n]);
     }
   };
   Row row(field);
-  for (const FCCClusterPlane::Parts & parts : plane.GetParts())
+  for (const FCCClusterPlane::SplitSite & site : plane.GetSplitSites())
   {
-    const auto [i, j] = std::make_pair(parts.i, parts.j);
+    const SizeValueType i = site.i;
+    const SizeValueType j = site.j;
     const bool isReal = field.IsReal(0, i) && field.IsReal(1, j) && field.IsReal(2, k);
-    for (unsigned int left = parts.lowest; left != 0; left &= left - 1)
-    {
-      const auto lowest = static_cast<unsigned int>(__builtin_ctz(left));
-      const unsigned int part =
-        (parts.lone >> lowest & 1) != 0 ? 1U << lowest : FCCSiteStar::PartOf(parts.owned & ~parts.lone, lowest);
-      const bool isPoint = (part & (part - 1)) == 0;
-      if (isReal && !isPoint)
+    site.parts->ForEachVertex([&](unsigned int crossings) {
+      const bool isSingle = (crossings & (crossings - 1)) == 0;
+      if (isSingle)
+      {
+        const auto direction = static_cast<unsigned int>(__builtin_ctz(crossings));
+        output.Skip(singleVertices[single.count], !isReal);
+        m_EdgePoints.Gather({ i, j, k }, FCCSiteStar::StepOf(direction), field, output.HasNormals(), single);
+        if (single.count == FCCEdgeBatch::Capacity)
+        {
+          placeSingle();
+        }
+      }
+      else if (isReal)
       {
         row.GoTo(j, k);
-        output.AddCluster(row, i, part);
-        continue;
-      }
-      if (isPoint)
-      {
-        output.Skip(loneVertices[lone.count], !isReal);
-        m_EdgePoints.Gather({ i, j, k }, FCCSiteStar::StepOf(lowest), field, output.HasNormals(), lone);
-        if (lone.count == FCCEdgeBatch::Capacity)
-        {
-          placeLone();
-        }
+        output.AddCluster(row, i, crossings);
       }
       else
       {
-        TriangleSurface::PointType point;
-        TriangleSurface::NormalType normal;
-        this->PlaceOnBorder(this->SiteOf(i, j, k), part, point, normal);
-        output.AddOutside(point, normal);
+        this->PlaceOnBorder(this->SiteOf(i, j, k), crossings, output);
       }
-    }
+    });
   }
   output.Flush();
-  placeLone();
+  placeSingle();
 }
 
 FCCLattice::SiteType
@@ -376,16 +353,13 @@ FCCClusterPoints::SiteOf(SizeValueType i, SizeValueType j, SizeValueType k) cons
 }
 
 void
-FCCClusterPoints::PlaceOnBorder(const SiteType & site,
-                                unsigned int owned,
-                                TriangleSurface::PointType & point,
-                                TriangleSurface::NormalType & normal) const
+FCCClusterPoints::PlaceOnBorder(const SiteType & site, unsigned int crossings, Output & output) const
 {
   std::array<double, 3> sum{};
   double count = 0.0;
-  for (unsigned int left = owned; left != 0; left &= left - 1)
+  for (; crossings != 0; crossings &= crossings - 1)
   {
-    const SiteType step = FCCSiteStar::StepOf(static_cast<unsigned int>(__builtin_ctz(left)));
+    const SiteType step = FCCSiteStar::StepOf(static_cast<unsigned int>(__builtin_ctz(crossings)));
     const SiteType end{ site[0] + step[0], site[1] + step[1], site[2] + step[2] };
     const double fraction = m_Extent.FractionToBorder(end, { -step[0], -step[1], -step[2] });
     for (unsigned int axis = 0; axis < 3; ++axis)
@@ -394,6 +368,8 @@ FCCClusterPoints::PlaceOnBorder(const SiteType & site,
     }
     count += 1.0;
   }
+  TriangleSurface::PointType point;
+  TriangleSurface::NormalType normal;
   const auto direction = m_Extent.DirectionTo(site);
   double squared = 0.0;
   std::array<double, 3> outwards{};
@@ -412,6 +388,7 @@ FCCClusterPoints::PlaceOnBorder(const SiteType & site,
   {
     normal[row] = static_cast<float>(outwards[row] / std::sqrt(squared));
   }
+  output.AddOutside(point, normal);
 }
 
 } // namespace itk

@@ -1,6 +1,7 @@
 #ifndef itkFCCClusterPoints_h
 #define itkFCCClusterPoints_h
 
+#include "itkFCCClusterKernels.h"
 #include "itkFCCClusterPlane.h"
 #include "itkFCCEdgePoints.h"
 
@@ -10,11 +11,9 @@ namespace itk
 /** \class FCCClusterPoints
  * \brief Places the vertices of sites that gather their crossings.
  *
- * Vertices of sites in the image are moved to the reconstructed surface (see FCCPointKernels::PlaceClusters()), but
- * those of one crossing alone, which are points on its edge. Those of sites in the layer around the image, where a
- * closed surface ends, stay the mean of their crossings with the faces of the image's extent.
- *
- * Thread safety: immutable.
+ * Vertices of several crossings are moved to the reconstructed surface (see PlaceClusters()) when their site is in the
+ * image; when it is in the layer around the image, where a closed surface ends, they are the mean of their crossings
+ * with the faces of the image's extent. Vertices of one crossing are points on its edge.
  *
  * \ingroup FCCIsosurface
  */
@@ -43,10 +42,9 @@ public:
 private:
   using SiteType = FCCLattice::SiteType;
 
-  /** How far a vertex moves from its crossings' mean to the surface, in units of the distance of nearest neighbours;
-   * in parts of a split site, also of the mean's distance from the site, so that they stay apart. */
+  /** How far a vertex moves from its crossings' mean to the surface, in units of the distance of nearest neighbours. */
   static constexpr float FarthestOfWhole = 0.5f;
-  static constexpr float FarthestOfPart = 0.25f;
+  static constexpr float FarthestOfPart = 0.25f; ///< of a split site: so that its parts stay apart
 
   SiteType
   SiteOf(SizeValueType i, SizeValueType j, SizeValueType k) const;
@@ -58,20 +56,17 @@ private:
   class Output;
 
   void
-  PlaceWholes(const FCCSigns & signs,
-              const FCCClusterPlane & plane,
-              SizeValueType k,
-              const FCCFieldPlanes & field,
-              Output & output) const;
+  PlaceWholeSites(const FCCSigns & signs,
+                  const FCCClusterPlane & plane,
+                  SizeValueType k,
+                  const FCCFieldPlanes & field,
+                  Output & output) const;
 
   void
-  PlaceParts(const FCCClusterPlane & plane, SizeValueType k, const FCCFieldPlanes & field, Output & output) const;
+  PlaceSplitSites(const FCCClusterPlane & plane, SizeValueType k, const FCCFieldPlanes & field, Output & output) const;
 
   void
-  PlaceOnBorder(const SiteType & site,
-                unsigned int owned,
-                TriangleSurface::PointType & point,
-                TriangleSurface::NormalType & normal) const;
+  PlaceOnBorder(const SiteType & site, unsigned int crossings, Output & output) const;
 
   FCCExtent m_Extent;
   FCCFrame m_Frame;

@@ -2,17 +2,18 @@
 #define itkFCCLeanMarching_h
 
 #include "itkFCCClusterPlane.h"
+#include "itkFCCTriangleUse.h"
 #include "itkTriangleSurface.h"
 
 namespace itk
 {
 
 /** \file
- * The triangles of mode `lean`. Every crossing has moved to its owner (FCCCrossingOwners), so a tetrahedron's triangle
- * keeps its area when its three corners have three owners, and what is left of a tetrahedron depends on which of its
- * sites own a crossing in it: three that do span one triangle, four span two, and fewer none. Four owners own one
- * crossing each of the quadrilateral between two sites inside and two outside; it is cut from owner inside to owner
- * inside. For whole sites that is logic on bits: 64 steps of a column a word. */
+ * The triangles of mode `lean`. Every crossing has moved to its nearer end (FCCNearerEnds), so a tetrahedron's triangle
+ * keeps its area when its three corners have moved to three sites. What is left of a tetrahedron depends on which of
+ * its sites have a crossing of its edges: three that do span one triangle, four span two, and fewer none. When four do,
+ * each has one crossing of a quadrilateral, which FCCTetrahedronPolygon::FindFirstCorner() cuts from a site inside to a
+ * site inside. For whole sites that is logic on bits: 64 steps of a column in one word. */
 
 /** Adds the triangles between the planes \a k and \a k + 1, as they would be if no site were split, to the counts of
  * both planes. Returns how many they are. */

@@ -1,9 +1,7 @@
 #ifndef itkFCCMarchingCases_h
 #define itkFCCMarchingCases_h
 
-#include "itkFCCLattice.h"
-
-#include <cstdint>
+#include "itkFCCTetrahedronPolygon.h"
 
 namespace itk
 {
@@ -65,9 +63,10 @@ struct FCCMarchingCases
     std::uint8_t edges[6][3] = {};     ///< the edges of each triangle's corners
   };
 
-  /** Where an edge is stored: its owner's row, which of FCCLattice::OwnedEdges it is, and the pair of its owner. */
-  struct EdgeOwner
+  /** Where an edge is stored: by one of EdgeSites, in a row and as a type of FCCLattice::OwnedEdges. */
+  struct StoredEdge
   {
+    std::uint8_t start = 0; ///< which of EdgeSites stores it
     Row row = A;
     std::uint8_t type = 0;
     std::uint8_t pair = 0; ///< 0: this pair, 1: the next, 2: the one after
@@ -89,24 +88,18 @@ struct FCCMarchingCases
     return { static_cast<IndexValueType>(site / 2), row & 1, row >> 1 };
   }
 
-  static constexpr EdgeOwner
-  OwnerOf(unsigned int kind, unsigned int edge)
+  static constexpr StoredEdge
+  FindStoredEdge(unsigned int kind, unsigned int edge)
   {
-    for (unsigned int end = 0; end < 2; ++end)
+    for (std::uint8_t start = 0; start < 2; ++start)
     {
-      const unsigned int owner = EdgeSites[edge][end];
-      const unsigned int other = EdgeSites[edge][1 - end];
+      const unsigned int site = EdgeSites[edge][start];
+      const auto step = FCCStep::Subtract(SiteOf(kind, EdgeSites[edge][1 - start]), SiteOf(kind, site));
       for (std::uint8_t type = 0; type < FCCLattice::OwnedEdges.size(); ++type)
       {
-        bool matches = true;
-        for (unsigned int axis = 0; axis < 3; ++axis)
+        if (FCCStep::AreEqual(step, FCCLattice::OwnedEdges[type]))
         {
-          matches =
-            matches && SiteOf(kind, other)[axis] - SiteOf(kind, owner)[axis] == FCCLattice::OwnedEdges[type][axis];
-        }
-        if (matches)
-        {
-          return { RowOf(kind, owner), type, static_cast<std::uint8_t>(owner / 2) };
+          return { start, RowOf(kind, site), type, static_cast<std::uint8_t>(site / 2) };
         }
       }
     }
@@ -125,77 +118,53 @@ struct FCCMarchingCases
     return edge;
   }
 
+  /** Which of EdgeSites a site is. */
+  static constexpr unsigned int
+  EndOf(unsigned int edge, unsigned int site)
+  {
+    return EdgeSites[edge][0] == site ? 0 : 1;
+  }
+
   /** Six times the signed volume of the tetrahedron of four sites. */
   static constexpr IndexValueType
   Orientation(unsigned int kind, unsigned int a, unsigned int b, unsigned int c, unsigned int d)
   {
-    IndexValueType v[3][3] = {};
-    const unsigned int ends[3] = { b, c, d };
-    for (unsigned int row = 0; row < 3; ++row)
-    {
-      for (unsigned int axis = 0; axis < 3; ++axis)
-      {
-        v[row][axis] = SiteOf(kind, ends[row])[axis] - SiteOf(kind, a)[axis];
-      }
-    }
-    return v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) - v[0][1] * (v[1][0] * v[2][2] - v[1][2] * v[2][0]) +
-           v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
+    return FCCStep::Orientation(SiteOf(kind, a), SiteOf(kind, b), SiteOf(kind, c), SiteOf(kind, d));
   }
 
-  static constexpr void
-  AddTriangle(Case & result, std::uint8_t a, std::uint8_t b, std::uint8_t c)
+  /** The polygon in a tetrahedron. \param pattern bit n: the n-th of its TetrahedronSites is inside */
+  static constexpr FCCTetrahedronPolygon
+  PolygonOf(unsigned int kind, unsigned int tetrahedron, unsigned int pattern)
   {
-    result.edges[result.triangles][0] = a;
-    result.edges[result.triangles][1] = b;
-    result.edges[result.triangles][2] = c;
-    ++result.triangles;
+    const auto & sites = TetrahedronSites[tetrahedron];
+    return FCCTetrahedronPolygon::Of(
+      { SiteOf(kind, sites[0]), SiteOf(kind, sites[1]), SiteOf(kind, sites[2]), SiteOf(kind, sites[3]) }, pattern);
   }
 
-  /** Adds the triangles of one tetrahedron. Its sites are put in order, those inside first; then the surface leaves
-   * through a triangle, or through a quadrilateral that is cut in two. */
-  static constexpr void
-  AddTetrahedron(Case & result, unsigned int kind, unsigned int pattern, const std::uint8_t (&sites)[4])
+  /** The edge of a tetrahedron's crossing. */
+  static constexpr std::uint8_t
+  EdgeOf(unsigned int tetrahedron, const FCCTetrahedronPolygon::Crossing & crossing)
   {
-    unsigned int ordered[4] = {};
+    const auto & sites = TetrahedronSites[tetrahedron];
+    return EdgeBetween(sites[crossing.inside], sites[crossing.outside]);
+  }
+
+  /** Adds the triangles of one tetrahedron, which are a fan about the polygon's first corner. */
+  static constexpr void
+  AddTetrahedron(Case & result, unsigned int kind, unsigned int pattern, unsigned int tetrahedron)
+  {
     unsigned int inside = 0;
-    for (unsigned int pass = 0, place = 0; pass < 2; ++pass)
+    for (unsigned int n = 0; n < 4; ++n)
     {
-      for (const std::uint8_t site : sites)
-      {
-        const bool isInside = (pattern >> site & 1) != 0;
-        if (isInside == (pass == 0))
-        {
-          ordered[place++] = site;
-          inside += isInside ? 1 : 0;
-        }
-      }
+      inside |= (pattern >> TetrahedronSites[tetrahedron][n] & 1) << n;
     }
-    // With this order positive, the corners below run counter-clockwise around the way from inside to outside.
-    if (Orientation(kind, ordered[0], ordered[1], ordered[2], ordered[3]) < 0)
+    const FCCTetrahedronPolygon polygon = PolygonOf(kind, tetrahedron, inside);
+    for (unsigned int n = 2; n < polygon.size; ++n)
     {
-      const unsigned int first = inside == 1 ? 2 : 0; // two on the same side of the surface
-      const unsigned int swapped = ordered[first];
-      ordered[first] = ordered[first + 1];
-      ordered[first + 1] = swapped;
-    }
-    const unsigned int a = ordered[0];
-    const unsigned int b = ordered[1];
-    const unsigned int c = ordered[2];
-    const unsigned int d = ordered[3];
-    switch (inside)
-    {
-      case 1:
-        AddTriangle(result, EdgeBetween(a, b), EdgeBetween(a, c), EdgeBetween(a, d));
-        break;
-      case 2:
-        AddTriangle(result, EdgeBetween(a, c), EdgeBetween(a, d), EdgeBetween(b, d));
-        AddTriangle(result, EdgeBetween(a, c), EdgeBetween(b, d), EdgeBetween(b, c));
-        break;
-      case 3:
-        AddTriangle(result, EdgeBetween(a, d), EdgeBetween(b, d), EdgeBetween(c, d));
-        break;
-      default:
-        break;
+      auto & triangle = result.edges[result.triangles++];
+      triangle[0] = EdgeOf(tetrahedron, polygon.crossings[0]);
+      triangle[1] = EdgeOf(tetrahedron, polygon.crossings[n - 1]);
+      triangle[2] = EdgeOf(tetrahedron, polygon.crossings[n]);
     }
   }
 
@@ -205,7 +174,7 @@ struct FCCMarchingCases
     Case result;
     for (unsigned int tetrahedron = 0; tetrahedron < Tetrahedra; ++tetrahedron)
     {
-      AddTetrahedron(result, kind, pattern, TetrahedronSites[tetrahedron]);
+      AddTetrahedron(result, kind, pattern, tetrahedron);
       if (tetrahedron == 0)
       {
         result.regularTriangles = result.triangles;
@@ -217,7 +186,7 @@ struct FCCMarchingCases
   struct Tables
   {
     Case cases[Kinds][Cases] = {};
-    EdgeOwner owners[Kinds][Edges] = {};
+    StoredEdge storedEdges[Kinds][Edges] = {};
   };
 
   static constexpr Tables
@@ -232,7 +201,7 @@ struct FCCMarchingCases
       }
       for (unsigned int edge = 0; edge < Edges; ++edge)
       {
-        tables.owners[kind][edge] = OwnerOf(kind, edge);
+        tables.storedEdges[kind][edge] = FindStoredEdge(kind, edge);
       }
     }
     return tables;

@@ -1,4 +1,4 @@
-#include "itkFCCCellSurface.h"
+#include "itkFCCCellExtractor.h"
 
 #include <algorithm>
 #include <iterator>
@@ -8,15 +8,15 @@ namespace itk
 {
 
 SizeValueType
-FCCCellSurface::CountTriangles(SizeValueType k) const
+FCCCellExtractor::CountTriangles(SizeValueType k) const
 {
   return CountCellTriangles(m_Signs, m_Scheme, k, m_Field.closed);
 }
 
 void
-FCCCellSurface::Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface)
+FCCCellExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface)
 {
-  using Group = FCCCutEdges::Group;
+  using Group = FCCStoredEdges::Group;
   const bool reversed = m_Field.frame.IsLeftHanded();
   // Of the planes before, at and after a layer; no edges are cut before the first plane.
   FCCCutEdges inPlane[3] = { this->MakeCutEdges(Group::InPlane),

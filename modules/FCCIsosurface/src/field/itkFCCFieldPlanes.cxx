@@ -25,15 +25,16 @@ FCCFieldPlanes::FCCFieldPlanes(const std::array<SizeValueType, 3> & size,
   addPlanes(m_Values, 6);
   addPlanes(m_Coefficients, 3);
   addPlanes(m_Gradients, planesOfGradients);
-  constexpr SizeValueType block = FCCRowKernels::Block;
+  constexpr SizeValueType block = FCCFieldKernels::Block;
   constexpr SizeValueType word = 64; // rows are also read by the words of their signs
   m_Stride = (m_Size[0] + word - 1) / word * word + 2 * block;
 }
 
+template <typename TFill>
 void
-FCCFieldPlanes::LoadValues(SizeValueType k)
+FCCFieldPlanes::LoadPlane(std::vector<Plane> & planes, SizeValueType k, const TFill & fill) const
 {
-  Plane & plane = m_Values[k % m_Values.size()];
+  Plane & plane = planes[k % planes.size()];
   if (plane.number == k)
   {
     return;
@@ -42,22 +43,28 @@ FCCFieldPlanes::LoadValues(SizeValueType k)
   plane.number = k;
   if (this->IsReal(2, k))
   {
+    fill(plane);
+    this->ExtrapolateWithin(plane, k);
+    return;
+  }
+  const bool isFirst = k == 0;
+  this->LoadPlane(planes, isFirst ? 1 : k - 1, fill);
+  if (m_Size[2] > 3)
+  {
+    this->LoadPlane(planes, isFirst ? 2 : k - 2, fill);
+  }
+  this->ExtrapolatePlane(planes, k);
+}
+
+void
+FCCFieldPlanes::LoadValues(SizeValueType k)
+{
+  this->LoadPlane(m_Values, k, [this](Plane & plane) {
     for (SizeValueType j = 1; j + 1 < m_Size[1]; ++j)
     {
-      m_ReadRow(j - 1, k - 1, plane.GetRow(j, m_Stride) + 1);
+      m_ReadRow(j - 1, plane.number - 1, plane.GetRow(j, m_Stride) + 1);
     }
-    this->ExtrapolateWithin(plane, k);
-  }
-  else
-  {
-    const bool isFirst = k == 0;
-    this->LoadValues(isFirst ? 1 : k - 1);
-    if (m_Size[2] > 3)
-    {
-      this->LoadValues(isFirst ? 2 : k - 2);
-    }
-    this->ExtrapolatePlane(m_Values, k);
-  }
+  });
 }
 
 void
@@ -72,34 +79,16 @@ FCCFieldPlanes::LoadValuesAround(SizeValueType k)
 void
 FCCFieldPlanes::LoadCoefficients(SizeValueType k)
 {
-  Plane & plane = m_Coefficients[k % m_Coefficients.size()];
-  if (plane.number == k)
-  {
-    return;
-  }
-  plane.samples.resize(m_Stride * m_Size[1]);
-  plane.number = k;
-  if (this->IsReal(2, k))
-  {
-    this->LoadValuesAround(k);
+  this->LoadPlane(m_Coefficients, k, [this](Plane & plane) {
+    this->LoadValuesAround(plane.number);
     for (SizeValueType j = 1; j + 1 < m_Size[1]; ++j)
     {
-      FCCRowKernels::NeighborRows neighbors;
-      this->GetNeighborRows(m_Values, j, k, neighbors);
-      FCCRowKernels::QuasiInterpolate(this->GetValues(j, k), neighbors, m_Size[0], plane.GetRow(j, m_Stride));
+      FCCFieldKernels::NeighborRows neighbors;
+      this->GetNeighborRows(m_Values, j, plane.number, neighbors);
+      FCCFieldKernels::QuasiInterpolate(
+        this->GetValues(j, plane.number), neighbors, m_Size[0], plane.GetRow(j, m_Stride));
     }
-    this->ExtrapolateWithin(plane, k);
-  }
-  else
-  {
-    const bool isFirst = k == 0;
-    this->LoadCoefficients(isFirst ? 1 : k - 1);
-    if (m_Size[2] > 3)
-    {
-      this->LoadCoefficients(isFirst ? 2 : k - 2);
-    }
-    this->ExtrapolatePlane(m_Coefficients, k);
-  }
+  });
 }
 
 void
@@ -114,9 +103,9 @@ FCCFieldPlanes::LoadCoefficientsAround(SizeValueType k)
 void
 FCCFieldPlanes::ComputeGradients(SizeValueType j, SizeValueType k, SizeValueType block, float * gradients) const
 {
-  FCCRowKernels::NeighborRows neighbors;
+  FCCFieldKernels::NeighborRows neighbors;
   this->GetNeighborRows(m_Coefficients, j, k, neighbors);
-  FCCRowKernels::Gradient(neighbors, block * FCCRowKernels::Block, gradients);
+  FCCFieldKernels::Gradient(neighbors, block * FCCFieldKernels::Block, gradients);
 }
 
 void
@@ -167,9 +156,8 @@ FCCFieldPlanes::ExtrapolateWithin(Plane & plane, SizeValueType k) const
 }
 
 /** A whole plane beyond the image, from the two next to it. */
-template <typename TPlanes>
 void
-FCCFieldPlanes::ExtrapolatePlane(TPlanes & planes, SizeValueType k) const
+FCCFieldPlanes::ExtrapolatePlane(std::vector<Plane> & planes, SizeValueType k) const
 {
   const SizeValueType near = k == 0 ? 1 : k - 1;
   const SizeValueType far = k == 0 ? 2 : k - 2;
@@ -199,12 +187,11 @@ FCCFieldPlanes::ExtrapolateRow(const float * near, const float * far, IndexValue
   }
 }
 
-template <typename TPlanes>
 void
-FCCFieldPlanes::GetNeighborRows(const TPlanes & planes,
+FCCFieldPlanes::GetNeighborRows(const std::vector<Plane> & planes,
                                 SizeValueType j,
                                 SizeValueType k,
-                                FCCRowKernels::NeighborRows & rows) const
+                                FCCFieldKernels::NeighborRows & rows) const
 {
   const IndexValueType parity = this->GetParity(j, k);
   for (unsigned int n = 0; n < 12; ++n)

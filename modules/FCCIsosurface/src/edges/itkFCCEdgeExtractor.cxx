@@ -1,11 +1,11 @@
-#include "itkFCCEdgeSurface.h"
+#include "itkFCCEdgeExtractor.h"
 
 #include <utility>
 
 namespace itk
 {
 
-FCCEdgeSurface::FCCEdgeSurface(const FCCSigns & signs, const FCCScalarField & field, std::uint8_t types, bool cubic)
+FCCEdgeExtractor::FCCEdgeExtractor(const FCCSigns & signs, const FCCScalarField & field, std::uint8_t types, bool cubic)
   : m_Signs(signs)
   , m_Field(field)
   , m_Types(types)
@@ -16,18 +16,18 @@ FCCEdgeSurface::FCCEdgeSurface(const FCCSigns & signs, const FCCScalarField & fi
 {}
 
 void
-FCCEdgeSurface::Count(SizeValueType begin, SizeValueType end)
+FCCEdgeExtractor::Count(SizeValueType begin, SizeValueType end)
 {
   for (SizeValueType k = begin; k < end; ++k)
   {
-    m_InPlane[k] = FCCCutEdges::Count(m_Signs, FCCCutEdges::Group::InPlane, k, m_Types);
-    m_Between[k] = FCCCutEdges::Count(m_Signs, FCCCutEdges::Group::Between, k, m_Types);
+    m_InPlane[k] = FCCCutEdges::Count(m_Signs, FCCStoredEdges::Group::InPlane, k, m_Types);
+    m_Between[k] = FCCCutEdges::Count(m_Signs, FCCStoredEdges::Group::Between, k, m_Types);
     m_Triangles[k] = this->CountTriangles(k);
   }
 }
 
 void
-FCCEdgeSurface::Resolve(const Crew &)
+FCCEdgeExtractor::Resolve(const Crew &)
 {
   SizeValueType points = 0;
   SizeValueType triangles = 0;

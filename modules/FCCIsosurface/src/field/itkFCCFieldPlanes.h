@@ -1,8 +1,8 @@
 #ifndef itkFCCFieldPlanes_h
 #define itkFCCFieldPlanes_h
 
-#include "itkFCCRowKernels.h"
-#include "itkFCCSurfaceExtraction.h"
+#include "itkFCCFieldKernels.h"
+#include "itkFCCSurfaceExtractor.h"
 
 #include <array>
 #include <vector>
@@ -22,7 +22,6 @@ namespace itk
  * Planes are computed when asked for, and the last few of each kind are kept: ask in ascending order.
  *
  * Memory: planes of float32, 6 of values, 3 of coefficients and 4 for each of gradients, once they are asked for.
- * Thread safety: each thread uses its own.
  *
  * \ingroup FCCIsosurface
  */
@@ -48,18 +47,18 @@ public:
     return (m_ParityOfFirstRow + static_cast<IndexValueType>(j + k)) & 1;
   }
 
-  /** Whether a place along an axis is one of the image, not one of the layer around it. */
+  /** Whether an index along an axis is one of the image, not one of the layer around it. */
   bool
-  IsReal(unsigned int axis, SizeValueType place) const
+  IsReal(unsigned int axis, SizeValueType index) const
   {
-    return place > 0 && place + 1 < m_Size[axis];
+    return index > 0 && index + 1 < m_Size[axis];
   }
 
-  /** Blocks of FCCRowKernels::Block sites in a row. */
+  /** Blocks of FCCFieldKernels::Block sites in a row. */
   SizeValueType
   GetNumberOfBlocks() const
   {
-    return m_Stride / FCCRowKernels::Block - 2;
+    return m_Stride / FCCFieldKernels::Block - 2;
   }
 
   /** Makes the values of a plane available; the last six planes are. */
@@ -77,7 +76,7 @@ public:
     return m_Gradients[k % m_Gradients.size()].number == k;
   }
 
-  /** Makes the gradients of a plane available where blocks of FCCRowKernels::Block sites are wanted; the last few
+  /** Makes the gradients of a plane available where blocks of FCCFieldKernels::Block sites are wanted; the last few
    * planes are. \param wanted not zero for those, rows of GetNumberOfBlocks() */
   void
   LoadGradients(SizeValueType k, const std::vector<std::uint8_t> & wanted);
@@ -95,7 +94,7 @@ public:
   SizeValueType
   GetLengthOfGradients() const
   {
-    return FCCRowKernels::GradientStride * m_Stride;
+    return FCCFieldKernels::GradientStride * m_Stride;
   }
 
   const float *
@@ -104,7 +103,7 @@ public:
     return m_Values[k % m_Values.size()].GetRow(j, m_Stride);
   }
 
-  /** FCCRowKernels::GradientStride floats a site. */
+  /** FCCFieldKernels::GradientStride floats a site. */
   const float *
   GetGradients(SizeValueType j, SizeValueType k) const
   {
@@ -126,31 +125,37 @@ private:
     float *
     GetRow(SizeValueType j, SizeValueType stride)
     {
-      return samples.data() + j * stride + FCCRowKernels::Block;
+      return samples.data() + j * stride + FCCFieldKernels::Block;
     }
     const float *
     GetRow(SizeValueType j, SizeValueType stride) const
     {
-      return samples.data() + j * stride + FCCRowKernels::Block;
+      return samples.data() + j * stride + FCCFieldKernels::Block;
     }
   };
 
   void
   LoadCoefficients(SizeValueType k);
 
+  /** Makes a plane available: fill(plane) writes the sites of the image, the layer around it is extrapolated. */
+  template <typename TFill>
+  void
+  LoadPlane(std::vector<Plane> & planes, SizeValueType k, const TFill & fill) const;
+
   void
   ExtrapolateWithin(Plane & plane, SizeValueType k) const;
 
-  template <typename TPlanes>
   void
-  ExtrapolatePlane(TPlanes & planes, SizeValueType k) const;
+  ExtrapolatePlane(std::vector<Plane> & planes, SizeValueType k) const;
 
   void
   ExtrapolateRow(const float * near, const float * far, IndexValueType parity, float * row) const;
 
-  template <typename TPlanes>
   void
-  GetNeighborRows(const TPlanes & planes, SizeValueType j, SizeValueType k, FCCRowKernels::NeighborRows & rows) const;
+  GetNeighborRows(const std::vector<Plane> & planes,
+                  SizeValueType j,
+                  SizeValueType k,
+                  FCCFieldKernels::NeighborRows & rows) const;
 
   std::array<SizeValueType, 3> m_Size; // with the layer around the image
   IndexValueType m_ParityOfFirstRow;

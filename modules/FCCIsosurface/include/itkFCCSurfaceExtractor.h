@@ -1,5 +1,5 @@
-#ifndef itkFCCSurfaceExtraction_h
-#define itkFCCSurfaceExtraction_h
+#ifndef itkFCCSurfaceExtractor_h
+#define itkFCCSurfaceExtractor_h
 
 #include "itkFCCIsosurfaceMode.h"
 #include "itkFCCSigns.h"
@@ -69,7 +69,7 @@ struct FCCScalarField
     scratch; ///< for what is kept while one slab is worked at; any number of threads may use it
 };
 
-/** \class FCCSurfaceExtraction
+/** \class FCCSurfaceExtractor
  * \brief Makes the isosurface of a field in two passes over slabs of its planes: one counts, one fills.
  *
  * Count all planes of the signs once, in slabs of any size and order; Resolve once; give the surface room for the
@@ -80,10 +80,10 @@ struct FCCScalarField
  *
  * \ingroup FCCIsosurface
  */
-class FCCSurfaceExtraction
+class FCCSurfaceExtractor
 {
 public:
-  ITK_DISALLOW_COPY_AND_MOVE(FCCSurfaceExtraction);
+  ITK_DISALLOW_COPY_AND_MOVE(FCCSurfaceExtractor);
 
   /** The threads that Resolve() works with. */
   struct Crew
@@ -103,10 +103,10 @@ public:
   GetMargin(FCCIsosurfaceMode mode, bool closed);
 
   /** \param signs of the field's samples, with GetMargin() sites around them; must outlive the extraction */
-  static std::unique_ptr<FCCSurfaceExtraction>
+  static std::unique_ptr<FCCSurfaceExtractor>
   Make(FCCIsosurfaceMode mode, const FCCSigns & signs, const FCCScalarField & field);
 
-  virtual ~FCCSurfaceExtraction() = default;
+  virtual ~FCCSurfaceExtractor() = default;
 
   /** Whether Count() reads samples; if not, the signs are enough. */
   virtual bool
@@ -137,7 +137,7 @@ public:
   Finish(TriangleSurface & surface) = 0;
 
 protected:
-  FCCSurfaceExtraction() = default;
+  FCCSurfaceExtractor() = default;
 };
 
 } // namespace itk

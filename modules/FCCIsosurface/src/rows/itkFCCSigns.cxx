@@ -1,5 +1,7 @@
 #include "itkFCCSigns.h"
 
+#include "itkFCCBitRows.h"
+
 namespace itk
 {
 
@@ -16,13 +18,8 @@ void
 FCCSigns::ShiftRow(SizeValueType j, SizeValueType k)
 {
   WordType * const row = this->GetRow(j, k);
-  WordType carried = 0;
-  for (SizeValueType word = 0; word < this->GetNumberOfWords(); ++word)
-  {
-    const WordType bits = row[word];
-    row[word] = bits << 1 | carried;
-    carried = bits >> (WordBits - 1);
-  }
+  FCCBits::ForEachShifted(
+    row, this->GetNumberOfWords(), -1, [row](SizeValueType word, WordType bits) { row[word] = bits; });
 }
 
 } // namespace itk

@@ -1,20 +1,16 @@
-#ifndef itkFCCLeanSurface_h
-#define itkFCCLeanSurface_h
+#ifndef itkFCCLeanExtractor_h
+#define itkFCCLeanExtractor_h
 
-#include "itkFCCFieldPlanes.h"
+#include "itkFCCClusterPlane.h"
 #include "itkFCCSplitSites.h"
-
-#include <vector>
 
 namespace itk
 {
 
-class FCCClusterPlane;
-
-/** \class FCCLeanSurface
- * \brief A surface with few, well-shaped triangles: the tetrahedra's, whose points have gathered at lattice sites.
+/** \class FCCLeanExtractor
+ * \brief Extracts a surface with few, well-shaped triangles: that of the tetrahedra, whose points gather at sites.
  *
- * Every point of the tetrahedra's surface belongs to the nearer end of its edge. All points of one site become one
+ * Every point of the tetrahedra's surface moves to the nearer end of its edge. All points of one site become one
  * vertex, which is moved onto the reconstructed surface, and triangles that lose a side vanish (G. Treece, R. Prager,
  * A. Gee, "Regularised marching tetrahedra", 1999), but where the surface would not stay a manifold of the same
  * topology (see FCCSplitSites).
@@ -24,10 +20,10 @@ class FCCClusterPlane;
  *
  * \ingroup FCCIsosurface
  */
-class FCCLeanSurface : public FCCSurfaceExtraction
+class FCCLeanExtractor : public FCCSurfaceExtractor
 {
 public:
-  FCCLeanSurface(const FCCSigns & signs, const FCCScalarField & field);
+  FCCLeanExtractor(const FCCSigns & signs, const FCCScalarField & field);
 
   bool
   CountReadsSamples() const override
@@ -63,26 +59,31 @@ public:
   Finish(TriangleSurface & surface) override;
 
 private:
-  /** The sites of a plane that own crossings, by their place in the plane, ascending, and the owners around them. */
-  struct RememberedOwners
+  /** The sites of a plane that have crossings, ascending, and the nearer ends in their stars. */
+  struct RememberedPlane
   {
-    std::vector<std::uint32_t> places;
-    std::vector<FCCSplitSites::OwnersType> owners;
+    std::vector<std::uint32_t> sites; ///< numbered along x, then y, in the plane
+    std::vector<FCCNearerEndsOfStar> nearerEnds;
   };
 
   FCCFieldPlanes
   MakePlanes() const;
 
-  RememberedOwners
-  FindOwners(SizeValueType k, const FCCClusterPlane & plane, const FCCFieldPlanes & field) const;
+  RememberedPlane
+  Remember(SizeValueType k, const FCCClusterPlane & plane, const FCCFieldPlanes & field) const;
 
+  /** The nearer ends in the stars of sites, from the image or from what has been remembered. */
   void
-  RecallOwners(const SizeValueType * sites, SizeValueType count, FCCSplitSites::OwnersType * owners) const;
+  ReadNearerEnds(const SizeValueType * sites, SizeValueType count, FCCNearerEndsOfStar * nearerEnds) const;
+
+  /** Makes available what FCCClusterPoints needs for plane \a k. */
+  void
+  LoadForPoints(SizeValueType k, bool withNormals, FCCFieldPlanes & field, std::vector<std::uint8_t> & blocks) const;
 
   const FCCSigns & m_Signs;
   FCCScalarField m_Field;
   FCCSplitSites m_Splits;
-  std::vector<RememberedOwners> m_Remembered; ///< of each plane, if the image is not in memory
+  std::vector<RememberedPlane> m_Remembered;  ///< of each plane, if the image is not in memory
   std::vector<SizeValueType> m_FirstPoint;    ///< of each plane; counts until Resolve()
   std::vector<SizeValueType> m_FirstTriangle; ///< where there is room for those of a slab that begins at the plane
   std::vector<SizeValueType> m_Filled;        ///< triangles of the slab that began at the plane

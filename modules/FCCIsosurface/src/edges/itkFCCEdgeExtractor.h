@@ -1,19 +1,19 @@
-#ifndef itkFCCEdgeSurface_h
-#define itkFCCEdgeSurface_h
+#ifndef itkFCCEdgeExtractor_h
+#define itkFCCEdgeExtractor_h
 
 #include "itkFCCEdgePoints.h"
 
 namespace itk
 {
 
-/** \class FCCEdgeSurface
- * \brief What the surfaces with one point on each cut edge have in common: the numbers of their points and triangles.
+/** \class FCCEdgeExtractor
+ * \brief What the extractors that put one point on each cut edge have in common: counting and numbering.
  *
  * Signs alone say which edges are cut and which triangles there are; samples are read to place the points.
  *
  * \ingroup FCCIsosurface
  */
-class FCCEdgeSurface : public FCCSurfaceExtraction
+class FCCEdgeExtractor : public FCCSurfaceExtractor
 {
 public:
   bool
@@ -45,16 +45,16 @@ public:
   {}
 
 protected:
-  /** \param types of edges that have points, for FCCCutEdges
+  /** \param types of edges that have points: bits, as FCCStoredEdges has them
    *  \param cubic see FCCEdgePoints */
-  FCCEdgeSurface(const FCCSigns & signs, const FCCScalarField & field, std::uint8_t types, bool cubic);
+  FCCEdgeExtractor(const FCCSigns & signs, const FCCScalarField & field, std::uint8_t types, bool cubic);
 
-  /** Of plane \a k and the next, or of layer \a k of cells. */
+  /** Number of triangles between plane \a k and the next, or of layer \a k of cells. */
   virtual SizeValueType
   CountTriangles(SizeValueType k) const = 0;
 
   FCCCutEdges
-  MakeCutEdges(FCCCutEdges::Group group) const
+  MakeCutEdges(FCCStoredEdges::Group group) const
   {
     return FCCCutEdges(m_Signs, group, m_Types, m_Field.scratch);
   }
@@ -91,10 +91,10 @@ protected:
 private:
   std::uint8_t m_Types;
   FCCEdgePoints m_EdgePoints;
-  std::vector<SizeValueType>
-    m_InPlane; ///< first point on edges within each plane, and the total; counts till Resolve()
-  std::vector<SizeValueType> m_Between;   ///< first point on edges to the next plane
-  std::vector<SizeValueType> m_Triangles; ///< first triangle
+  // By plane: counts until Resolve(), then the number of the first one, and the total at the end.
+  std::vector<SizeValueType> m_InPlane;   ///< points on edges within the plane
+  std::vector<SizeValueType> m_Between;   ///< points on edges to the next plane
+  std::vector<SizeValueType> m_Triangles; ///< what CountTriangles() counts
 };
 
 } // namespace itk

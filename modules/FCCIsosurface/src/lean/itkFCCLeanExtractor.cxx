@@ -1,4 +1,4 @@
-#include "itkFCCLeanSurface.h"
+#include "itkFCCLeanExtractor.h"
 
 #include "itkFCCClusterPoints.h"
 #include "itkFCCLeanMarching.h"
@@ -9,7 +9,7 @@
 namespace itk
 {
 
-FCCLeanSurface::FCCLeanSurface(const FCCSigns & signs, const FCCScalarField & field)
+FCCLeanExtractor::FCCLeanExtractor(const FCCSigns & signs, const FCCScalarField & field)
   : m_Signs(signs)
   , m_Field(field)
   , m_Splits(signs)
@@ -20,7 +20,7 @@ FCCLeanSurface::FCCLeanSurface(const FCCSigns & signs, const FCCScalarField & fi
 {}
 
 FCCFieldPlanes
-FCCLeanSurface::MakePlanes() const
+FCCLeanExtractor::MakePlanes() const
 {
   const auto & size = m_Field.region.GetSize();
   return FCCFieldPlanes({ size[0], size[1], size[2] }, m_Signs.GetParity(0, 0), m_Field.readRow, 3, m_Field.scratch);
@@ -36,7 +36,7 @@ public:
   PlaneSequence(const FCCSigns & signs,
                 FCCFieldPlanes & field,
                 bool insideIsBelow,
-                const FCCSplitSites * splits,
+                const FCCSplitRows * splits,
                 std::pmr::memory_resource * scratch)
     : m_Signs(signs)
     , m_Field(field)
@@ -66,33 +66,25 @@ private:
   const FCCSigns & m_Signs;
   FCCFieldPlanes & m_Field;
   bool m_InsideIsBelow;
-  const FCCSplitSites * m_Splits;
+  const FCCSplitRows * m_Splits;
   std::array<FCCClusterPlane, 3> m_Planes;
 };
 
-/** The sites of a plane that break a condition of FCCSplitSites, and the first ends of edges that do, by a count of all
+/** The sites of a plane that break a condition of FCCSplitSites, and the starts of edges that do, by a count of all
  * triangles at the plane's sites and edges. The counts are zero afterwards. */
 std::vector<std::uint32_t>
 TakeSuspects(const FCCSigns & signs, const FCCClusterPlane & plane, FCCTriangleUse & use)
 {
   std::vector<std::uint32_t> suspects;
-  constexpr std::uint64_t tooMany = 0xFCFCFCFCFCFCFC; // more than two; counts of edges are even
-  constexpr std::uint64_t fewest = 3;
+  const FCCSiteStar & star = FCCSiteStar::Get();
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
   {
-    const FCCSigns::WordType * const wholes = plane.GetWholes().GetRow(j);
-    for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
-    {
-      for (FCCSigns::WordType mask = wholes[word]; mask != 0; mask &= mask - 1)
+    FCCBits::ForEach(plane.GetWholeSites().GetRow(j), signs.GetNumberOfWords(), [&](SizeValueType i) {
+      if (FCCTriangleUse::BreakCondition(use.Take(j, i)) || !star.IsDisk(plane.GetCrossings(j, i)))
       {
-        const SizeValueType i = word * FCCSigns::WordBits + static_cast<SizeValueType>(__builtin_ctzll(mask));
-        const std::uint64_t counts = std::exchange(use.counts[j * use.stride + i], 0);
-        if ((counts & tooMany) != 0 || counts >> 56 < fewest || !FCCSiteStar::IsDisk(plane.GetOwned(j, i)))
-        {
-          suspects.push_back(static_cast<std::uint32_t>(j * signs.GetWidth() + i));
-        }
+        suspects.push_back(static_cast<std::uint32_t>(j * signs.GetWidth() + i));
       }
-    }
+    });
   }
   return suspects;
 }
@@ -100,15 +92,12 @@ TakeSuspects(const FCCSigns & signs, const FCCClusterPlane & plane, FCCTriangleU
 } // namespace
 
 void
-FCCLeanSurface::Count(SizeValueType begin, SizeValueType end)
+FCCLeanExtractor::Count(SizeValueType begin, SizeValueType end)
 {
   FCCFieldPlanes field = this->MakePlanes();
   PlaneSequence planes(m_Signs, field, m_Field.insideIsBelow, nullptr, m_Field.scratch);
-  const SizeValueType stride = m_Signs.GetNumberOfWords() * FCCSigns::WordBits + 1;
-  const auto makeUse = [&] {
-    return FCCTriangleUse{ stride, std::pmr::vector<std::uint64_t>(stride * m_Signs.GetHeight(), m_Field.scratch) };
-  };
-  std::array<FCCTriangleUse, 2> uses{ makeUse(), makeUse() };
+  std::array<FCCTriangleUse, 2> uses{ FCCTriangleUse(m_Signs, m_Field.scratch),
+                                      FCCTriangleUse(m_Signs, m_Field.scratch) };
   const auto useOf = [&uses](SizeValueType k) -> FCCTriangleUse & { return uses[k % uses.size()]; };
 
   // The triangles below the first plane use its sites and edges, too.
@@ -123,25 +112,25 @@ FCCLeanSurface::Count(SizeValueType begin, SizeValueType end)
     if (k >= begin)
     {
       m_FirstTriangle[k] = triangles;
-      m_FirstPoint[k] = planes.Get(k).GetWholes().Count();
+      m_FirstPoint[k] = planes.Get(k).GetWholeSites().Count();
       m_Splits.Suspect(k, TakeSuspects(m_Signs, planes.Get(k), useOf(k)));
       if (!m_Field.isInMemory)
       {
-        m_Remembered[k] = this->FindOwners(k, planes.Get(k), field);
+        m_Remembered[k] = this->Remember(k, planes.Get(k), field);
       }
     }
     else
     {
-      std::fill(useOf(k).counts.begin(), useOf(k).counts.end(), 0);
+      useOf(k).Clear();
     }
   }
 }
 
 auto
-FCCLeanSurface::FindOwners(SizeValueType k, const FCCClusterPlane & plane, const FCCFieldPlanes & field) const
-  -> RememberedOwners
+FCCLeanExtractor::Remember(SizeValueType k, const FCCClusterPlane & plane, const FCCFieldPlanes & field) const
+  -> RememberedPlane
 {
-  const FCCSplitSites::ValueReader readValues =
+  const FCCScalarField::ValueReader readValues =
     [&field](const std::array<SizeValueType, 3> * sites, unsigned int wanted, float * values) {
       for (; wanted != 0; wanted &= wanted - 1)
       {
@@ -151,44 +140,48 @@ FCCLeanSurface::FindOwners(SizeValueType k, const FCCClusterPlane & plane, const
       }
     };
   const SizeValueType sitesOfPlane = m_Signs.GetHeight() * m_Signs.GetWidth();
-  const SizeValueType count = plane.GetWholes().Count();
-  std::vector<SizeValueType> sites;
-  sites.reserve(count);
-  RememberedOwners found{ {}, std::vector<FCCSplitSites::OwnersType>(count) };
-  found.places.reserve(count);
-  plane.GetWholes().ForEach([&](SizeValueType j, SizeValueType i) {
-    const SizeValueType place = j * m_Signs.GetWidth() + i;
-    sites.push_back(k * sitesOfPlane + place);
-    found.places.push_back(static_cast<std::uint32_t>(place));
-  });
-  FCCSplitSites::FindOwners(m_Signs, readValues, m_Field.insideIsBelow, sites.data(), count, found.owners.data());
-  return found;
+  const SizeValueType count = plane.GetWholeSites().Count();
+  RememberedPlane remembered;
+  remembered.sites.reserve(count);
+  remembered.nearerEnds.reserve(count);
+  for (SizeValueType j = 0; j < m_Signs.GetHeight(); ++j)
+  {
+    FCCBits::ForEach(plane.GetWholeSites().GetRow(j), m_Signs.GetNumberOfWords(), [&](SizeValueType i) {
+      const SizeValueType site = j * m_Signs.GetWidth() + i;
+      remembered.sites.push_back(static_cast<std::uint32_t>(site));
+      remembered.nearerEnds.push_back(
+        FindNearerEndsOfStar(m_Signs, readValues, m_Field.insideIsBelow, k * sitesOfPlane + site));
+    });
+  }
+  return remembered;
 }
 
 void
-FCCLeanSurface::RecallOwners(const SizeValueType * sites, SizeValueType count, FCCSplitSites::OwnersType * owners) const
+FCCLeanExtractor::ReadNearerEnds(const SizeValueType * sites,
+                                 SizeValueType count,
+                                 FCCNearerEndsOfStar * nearerEnds) const
 {
   const SizeValueType sitesOfPlane = m_Signs.GetHeight() * m_Signs.GetWidth();
-  std::transform(sites, sites + count, owners, [&](SizeValueType site) {
-    const RememberedOwners & remembered = m_Remembered[site / sitesOfPlane];
-    const auto & places = remembered.places;
-    const auto place = std::lower_bound(places.begin(), places.end(), site % sitesOfPlane);
-    return remembered.owners[static_cast<std::size_t>(place - places.begin())];
+  std::transform(sites, sites + count, nearerEnds, [&](SizeValueType site) {
+    if (m_Field.isInMemory)
+    {
+      return FindNearerEndsOfStar(m_Signs, m_Field.readValues, m_Field.insideIsBelow, site);
+    }
+    const RememberedPlane & plane = m_Remembered[site / sitesOfPlane];
+    const auto found = std::lower_bound(plane.sites.begin(), plane.sites.end(), site % sitesOfPlane);
+    return plane.nearerEnds[static_cast<std::size_t>(found - plane.sites.begin())];
   });
 }
 
 void
-FCCLeanSurface::Resolve(const Crew & crew)
+FCCLeanExtractor::Resolve(const Crew & crew)
 {
-  m_Splits.Resolve(
-    [&](const SizeValueType * sites, SizeValueType count, FCCSplitSites::OwnersType * owners) {
-      m_Field.isInMemory
-        ? FCCSplitSites::FindOwners(m_Signs, m_Field.readValues, m_Field.insideIsBelow, sites, count, owners)
-        : this->RecallOwners(sites, count, owners);
-    },
-    crew,
-    m_FirstPoint,
-    m_FirstTriangle);
+  m_Splits.Resolve([this](const SizeValueType * sites,
+                          SizeValueType count,
+                          FCCNearerEndsOfStar * nearerEnds) { this->ReadNearerEnds(sites, count, nearerEnds); },
+                   crew,
+                   m_FirstPoint,
+                   m_FirstTriangle);
   m_Remembered.clear();
   m_Remembered.shrink_to_fit();
   for (std::vector<SizeValueType> * const counts : { &m_FirstPoint, &m_FirstTriangle })
@@ -203,32 +196,37 @@ FCCLeanSurface::Resolve(const Crew & crew)
 }
 
 void
-FCCLeanSurface::Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface)
+FCCLeanExtractor::LoadForPoints(SizeValueType k,
+                                bool withNormals,
+                                FCCFieldPlanes & field,
+                                std::vector<std::uint8_t> & blocks) const
+{
+  if (!withNormals)
+  {
+    if (field.IsReal(2, k))
+    {
+      field.LoadCoefficientsAround(k);
+    }
+    return;
+  }
+  for (SizeValueType near = k > 0 ? k - 1 : 0; near < std::min(k + 2, m_Signs.GetDepth()); ++near)
+  {
+    if (!field.HasGradients(near))
+    {
+      FindBorderBlocks(m_Signs, near, FCCFieldKernels::Block, field.GetNumberOfBlocks(), 0, blocks);
+      field.LoadGradients(near, blocks);
+    }
+  }
+}
+
+void
+FCCLeanExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface)
 {
   FCCFieldPlanes field = this->MakePlanes();
-  PlaneSequence planes(m_Signs, field, m_Field.insideIsBelow, &m_Splits, m_Field.scratch);
+  PlaneSequence planes(m_Signs, field, m_Field.insideIsBelow, &m_Splits.GetRows(), m_Field.scratch);
   const FCCClusterPoints clusterPoints(m_Field.region, m_Field.frame, m_Field.minimumFraction);
   const bool reversed = m_Field.frame.IsLeftHanded();
   std::vector<std::uint8_t> blocks;
-  const auto loadAround = [&](SizeValueType k) {
-    if (!surface.HasNormals())
-    {
-      if (field.IsReal(2, k))
-      {
-        field.LoadCoefficientsAround(k);
-      }
-      return;
-    }
-    for (SizeValueType near = k > 0 ? k - 1 : 0; near < std::min(k + 2, m_Signs.GetDepth()); ++near)
-    {
-      if (!field.HasGradients(near))
-      {
-        FindBorderBlocks(m_Signs, near, FCCRowKernels::Block, field.GetNumberOfBlocks(), 0, blocks);
-        field.LoadGradients(near, blocks);
-      }
-    }
-  };
-
   if (begin > 0)
   {
     planes.Find(begin - 1);
@@ -239,7 +237,7 @@ FCCLeanSurface::Fill(SizeValueType begin, SizeValueType end, TriangleSurface & s
   for (SizeValueType k = begin; k < end; ++k)
   {
     planes.Find(k + 1, static_cast<std::uint32_t>(m_FirstPoint[k + 1]));
-    loadAround(k);
+    this->LoadForPoints(k, surface.HasNormals(), field, blocks);
     clusterPoints.Place(m_Signs,
                         planes.Get(k),
                         k,
@@ -256,7 +254,7 @@ FCCLeanSurface::Fill(SizeValueType begin, SizeValueType end, TriangleSurface & s
 }
 
 void
-FCCLeanSurface::Finish(TriangleSurface & surface)
+FCCLeanExtractor::Finish(TriangleSurface & surface)
 {
   auto & triangles = surface.GetTriangles();
   auto end = triangles.begin();

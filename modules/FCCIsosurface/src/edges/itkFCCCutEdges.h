@@ -1,0 +1,143 @@
+#ifndef itkFCCCutEdges_h
+#define itkFCCCutEdges_h
+
+#include "itkFCCBitRows.h"
+
+namespace itk
+{
+
+/** \class FCCStoredEdges
+ * \brief The edges of the lattice, each of which is *stored* by one of its ends: by type and in two groups.
+ *
+ * The type of an edge is its place in FCCLattice::OwnedEdges, the steps from the sites that store edges to their other
+ * ends. Sets of types are bits.
+ *
+ * \ingroup FCCIsosurface
+ */
+struct FCCStoredEdges
+{
+  static constexpr std::uint8_t NumberOfTypes = FCCLattice::OwnedEdges.size();
+  static constexpr std::uint8_t AllTypes = (1u << NumberOfTypes) - 1;
+
+  /** Edges within a plane of constant z, and between it and the next. */
+  enum class Group : unsigned char
+  {
+    InPlane,
+    Between
+  };
+
+  static constexpr Group
+  GroupOf(std::uint8_t type)
+  {
+    return FCCLattice::OwnedEdges[type][2] == 0 ? Group::InPlane : Group::Between;
+  }
+
+  static constexpr std::uint8_t
+  TypesOf(Group group)
+  {
+    unsigned int types = 0;
+    for (std::uint8_t type = 0; type < NumberOfTypes; ++type)
+    {
+      types |= GroupOf(type) == group ? 1u << type : 0;
+    }
+    return static_cast<std::uint8_t>(types);
+  }
+
+  /** Calls use(type) for the types of a set. */
+  template <typename TUse>
+  static void
+  ForEachType(unsigned int types, const TUse & use)
+  {
+    for (; types != 0; types &= types - 1)
+    {
+      use(static_cast<std::uint8_t>(__builtin_ctz(types)));
+    }
+  }
+};
+
+/** \class FCCStepTarget
+ * \brief The sites at one step from those of a row: their row, and how far their indices are from those of the row.
+ *
+ * \ingroup FCCIsosurface
+ */
+struct FCCStepTarget
+{
+  SizeValueType j;
+  SizeValueType k;
+  IndexValueType shift;
+  bool isInBox; ///< whether the row is one of the signs
+
+  FCCStepTarget(const FCCSigns & signs, SizeValueType fromJ, SizeValueType fromK, const FCCLattice::SiteType & step)
+    : j(fromJ + static_cast<SizeValueType>(step[1])) // below 0 wraps around
+    , k(fromK + static_cast<SizeValueType>(step[2]))
+    , shift(FCCLattice::OffsetOf(step, signs.GetParity(fromJ, fromK))[0])
+    , isInBox(j < signs.GetHeight() && k < signs.GetDepth())
+  {}
+};
+
+/** \class FCCCutEdges
+ * \brief The edges that the surface cuts, among some types of edges that the sites of one plane store, and the ids of
+ * the points on them.
+ *
+ * Ids count the cut edges row by row, within a row type by type, within a type along x.
+ *
+ * \ingroup FCCIsosurface
+ */
+class FCCCutEdges
+{
+public:
+  using WordType = FCCSigns::WordType;
+  using Group = FCCStoredEdges::Group;
+  using Row = FCCNumberedBits::Row;
+
+  /** \param types those that the decomposition of space into cells has, of which the group's are taken */
+  FCCCutEdges(const FCCSigns & signs, Group group, std::uint8_t types, std::pmr::memory_resource * scratch);
+
+  /** Finds the cut edges that plane \a k stores and numbers them from \a firstId. Planes past the last have none. */
+  void
+  Find(SizeValueType k, std::uint32_t firstId);
+
+  /** Number of cut edges that plane \a k stores, without finding their ids. */
+  static SizeValueType
+  Count(const FCCSigns & signs, Group group, SizeValueType k, std::uint8_t types);
+
+  std::uint32_t
+  GetFirstId() const
+  {
+    return m_FirstId;
+  }
+  std::uint8_t
+  GetTypes() const
+  {
+    return m_Types;
+  }
+
+  /** Bit i: the edge of this type that site i stores is cut. */
+  Row
+  GetRow(SizeValueType j, std::uint8_t type) const
+  {
+    const auto typesBefore = static_cast<SizeValueType>(__builtin_popcount(m_Types & ((1u << type) - 1)));
+    return m_Cut.GetNumberedRow(j * m_NumberOfTypes + typesBefore);
+  }
+
+private:
+  const FCCSigns * m_Signs;
+  std::uint8_t m_Types;
+  SizeValueType m_NumberOfTypes;
+  std::uint32_t m_FirstId{ 0 };
+  FCCNumberedBits m_Cut;
+};
+
+/** For each block of \a block sites of plane \a k, row by row: is there one in it with a neighbour on the other side of
+ * the surface? Sites are counted from \a offset on within the blocks. */
+void
+FindBorderBlocks(const FCCSigns & signs,
+                 SizeValueType k,
+                 SizeValueType block,
+                 SizeValueType blocksOfRow,
+                 SizeValueType offset,
+                 std::vector<std::uint8_t> & blocks);
+
+} // namespace itk
+
+#endif

@@ -1,0 +1,39 @@
+#ifndef itkFCCFieldKernels_h
+#define itkFCCFieldKernels_h
+
+#include "itkFCCLattice.h"
+
+namespace itk
+{
+
+/** \class FCCFieldKernels
+ * \brief The loops over rows of a field. Gradients are compiled for several instruction sets; the best one the
+ * processor has runs, and results have the same bits whichever does.
+ *
+ * \ingroup FCCIsosurface
+ */
+struct FCCFieldKernels
+{
+  /** Sites of a block: rows can be read and written in whole blocks, a margin of one block beyond both ends. */
+  static constexpr SizeValueType Block = 16;
+
+  /** The twelve neighbours' rows of a row of sites, shifted so that element i is the neighbour of site i, in the order
+   * of FCCLattice::NearestNeighbors. */
+  using NeighborRows = const float * [12];
+
+  /** Coefficients of the box spline that quasi-interpolates a row of values: 3/2 f - sum of neighbours / 24. Where that
+   * is not finite, the value itself. Whole blocks are computed. */
+  static void
+  QuasiInterpolate(const float * values, const NeighborRows & neighbors, SizeValueType count, float * coefficients);
+
+  /** Floats that a gradient takes in memory: x, y, z and nothing, so that it is read at once. */
+  static constexpr SizeValueType GradientStride = 4;
+
+  /** One block of a row's gradients in lattice coordinates, sum of d f(x + d) / 8 over the neighbours. */
+  static void
+  Gradient(const NeighborRows & neighbors, SizeValueType first, float * gradients);
+};
+
+} // namespace itk
+
+#endif

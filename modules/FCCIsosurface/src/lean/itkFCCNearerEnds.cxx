@@ -1,0 +1,83 @@
+#include "itkFCCNearerEnds.h"
+
+namespace itk
+{
+
+FCCNearerEnds::FCCNearerEnds(const FCCSigns & signs, std::pmr::memory_resource * scratch)
+  : m_Signs(&signs)
+  , m_Starts(signs.GetHeight() * Types, signs.GetNumberOfWords(), scratch)
+  , m_Ends(signs.GetHeight() * Types, signs.GetNumberOfWords(), scratch)
+{}
+
+void
+FCCNearerEnds::Find(SizeValueType k, const FCCFieldPlanes & field, bool insideIsBelow)
+{
+  m_Starts.Clear();
+  m_Ends.Clear();
+  for (SizeValueType j = 0; j < m_Signs->GetHeight() && k < m_Signs->GetDepth(); ++j)
+  {
+    for (std::uint8_t type = 0; type < Types; ++type)
+    {
+      this->FindRow(j, k, type, field, insideIsBelow);
+    }
+  }
+}
+
+void
+FCCNearerEnds::FindRow(SizeValueType j,
+                       SizeValueType k,
+                       std::uint8_t type,
+                       const FCCFieldPlanes & field,
+                       bool insideIsBelow)
+{
+  const FCCStepTarget end(*m_Signs, j, k, FCCLattice::OwnedEdges[type]);
+  if (!end.isInBox)
+  {
+    return;
+  }
+  const SizeValueType words = m_Signs->GetNumberOfWords();
+  const WordType * const row = m_Signs->GetRow(j, k);
+  const WordType * const endRow = m_Signs->GetRow(end.j, end.k);
+  WordType * const starts = m_Starts.GetRow(j * Types + type);
+  WordType * const ends = m_Ends.GetRow(j * Types + type);
+  const bool startIsReal = field.IsReal(1, j) && field.IsReal(2, k);
+  const bool endIsReal = field.IsReal(1, end.j) && field.IsReal(2, end.k);
+  if (!startIsReal || !endIsReal)
+  {
+    WordType * const outside = startIsReal ? ends : starts;
+    FCCBits::ForEachShifted(
+      endRow, words, end.shift, [&](SizeValueType word, WordType bits) { outside[word] = row[word] ^ bits; });
+    return;
+  }
+
+  const float * const startValues = field.GetValues(j, k);
+  const float * const endValues = field.GetValues(end.j, end.k) + end.shift;
+  FCCBits::ForEachShifted(endRow, words, end.shift, [&](SizeValueType word, WordType bits) {
+    const WordType cut = row[word] ^ bits;
+    if (cut != 0)
+    {
+      const SizeValueType first = word * FCCBits::WordBits;
+      const WordType nearerToInside = FCCBits::Pack([&](SizeValueType n) {
+        return IsNearerToInside(startValues[first + n] + endValues[first + n], insideIsBelow);
+      });
+      ends[word] = cut & (row[word] ^ nearerToInside);
+      starts[word] = cut & ~ends[word];
+    }
+  });
+  // The first and last sites of a row are outside the image.
+  const auto move = [](SizeValueType i, WordType * from, WordType * to) {
+    const SizeValueType word = i / FCCBits::WordBits;
+    const WordType moved = from[word] & WordType{ 1 } << (i % FCCBits::WordBits);
+    from[word] ^= moved;
+    to[word] |= moved;
+  };
+  const SizeValueType last = m_Signs->GetWidth() - 1;
+  move(0, ends, starts);
+  move(last, ends, starts);
+  if (end.shift != 0)
+  {
+    move(end.shift > 0 ? last - 1 : 1, starts, ends);
+  }
+}
+
+} // namespace itk

@@ -1,0 +1,76 @@
+#ifndef itkFCCTriangleUse_h
+#define itkFCCTriangleUse_h
+
+#include "itkFCCCutEdges.h"
+
+#include <utility>
+
+namespace itk
+{
+
+/** \class FCCTriangleUse
+ * \brief How many triangles between whole sites use each site of a plane and the edges that it stores.
+ *
+ * The counts of a site and its edges are the bytes of one word: a site has at most 48 triangles, an edge fewer.
+ *
+ * \ingroup FCCIsosurface
+ */
+class FCCTriangleUse
+{
+public:
+  using CountsType = std::uint64_t;
+
+  static constexpr CountsType
+  OfEdge(std::uint8_t type)
+  {
+    return CountsType{ 1 } << (8 * type);
+  }
+  static constexpr CountsType
+  OfSite()
+  {
+    return OfEdge(FCCStoredEdges::NumberOfTypes);
+  }
+  static_assert(FCCStoredEdges::NumberOfTypes == 7, "a word has one byte for each type, and one for the site");
+
+  /** Whether the counts break condition 2 or 3 of FCCSplitSites. All triangles have been counted, so the counts of
+   * edges are even. */
+  static constexpr bool
+  BreakCondition(CountsType counts)
+  {
+    constexpr CountsType moreThanTwo = 0xFC * (OfSite() - 1) / 0xFF; // of any edge
+    constexpr CountsType fewest = 3 * OfSite();
+    return (counts & moreThanTwo) != 0 || counts < fewest;
+  }
+
+  FCCTriangleUse(const FCCSigns & signs, std::pmr::memory_resource * scratch)
+    : m_Stride(signs.GetNumberOfWords() * FCCSigns::WordBits + 1)
+    , m_Counts(m_Stride * signs.GetHeight(), scratch)
+  {}
+
+  CountsType *
+  GetRow(SizeValueType j)
+  {
+    return m_Counts.data() + j * m_Stride;
+  }
+
+  /** The counts of a site, which are 0 afterwards. */
+  CountsType
+  Take(SizeValueType j, SizeValueType i)
+  {
+    return std::exchange(this->GetRow(j)[i], 0);
+  }
+
+  void
+  Clear()
+  {
+    std::fill(m_Counts.begin(), m_Counts.end(), 0);
+  }
+
+private:
+  SizeValueType m_Stride; ///< sites from a row to the next
+  std::pmr::vector<CountsType> m_Counts;
+};
+
+} // namespace itk
+
+#endif
