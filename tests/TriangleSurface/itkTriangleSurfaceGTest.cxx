@@ -187,7 +187,7 @@ TEST(TriangleSurfaceTopology, CountsHandles)
   EXPECT_EQ(ComputeTopology(*both).genus, 2u) << "an open sphere has no genus, and takes none away";
 }
 
-/** Two tori, a triangle of each taken away and the holes joined corner by corner. */
+/** Two tori, each without one triangle, joined at the corners of the holes. */
 TEST(TriangleSurfaceTopology, ADoubleTorusIsOneComponentOfGenusTwo)
 {
   auto surface = MakeTorus(5.0, 2.0, 12);
@@ -201,7 +201,7 @@ TEST(TriangleSurfaceTopology, ADoubleTorusIsOneComponentOfGenusTwo)
   {
     for (auto & point : triangle)
     {
-      // the other way round, or the second torus would continue the first inside out
+      // reversed, so that the second torus does not continue the first one inside out
       point = point == first[0] + offset ? first[1] : point == first[1] + offset ? first[0] : point;
       point = point == first[2] + offset ? first[2] : point;
     }
@@ -214,7 +214,7 @@ TEST(TriangleSurfaceTopology, ADoubleTorusIsOneComponentOfGenusTwo)
   EXPECT_EQ(topology.unusedPoints, 3u);
 }
 
-/** A grid of squares, across joined to a ring and along joined to itself after a twist, which leaves edges where
+/** A grid of squares, closed to a ring in one direction and joined with a twist in the other, which leaves edges where
  * orientations meet. */
 Surface::Pointer
 MakeTwisted(std::uint32_t length, std::uint32_t width, bool isRingAcross)
@@ -279,7 +279,7 @@ TEST(TriangleSurfaceTopology, FindsRepeatedPositions)
   EXPECT_EQ(ComputeTopology(*surface).repeatedPositions, 2u) << "0 is at -0, and unused points do not count";
 }
 
-/** Every count against plain counting over maps of edges, for triangles thrown at random. */
+/** Compares every count with simple counting over maps of edges, for random triangles. */
 TEST(TriangleSurfaceTopology, CountsWhatMapsCount)
 {
   std::mt19937 random(7);

@@ -20,7 +20,7 @@ namespace
 using itk::TriangleSurface;
 using MeshType = itk::Mesh<float, 3>;
 
-/** Bytes that the program has from malloc. */
+/** Bytes that the program has allocated by malloc. */
 double
 HeapInUse()
 {

@@ -14,13 +14,11 @@ namespace itk
 {
 
 /** \class BulkAllocator
- * \brief Allocator for arrays of millions of plain elements that are filled by several threads.
+ * \brief Allocator for arrays of millions of plain elements that several threads fill.
  *
- * Growing a container leaves new elements uninitialised, so memory is first touched by the thread that fills it. Large
- * blocks ask the system for huge pages: a mesh of 300 MB costs 150 page faults instead of 75,000. Throws
+ * Growing a container leaves new elements uninitialised, so that the thread that fills a page is the first to touch it.
+ * Large blocks ask the system for huge pages: a mesh of 300 MB costs 150 page faults instead of 75,000. Throws
  * std::bad_alloc.
- *
- * Thread safety: that of std::allocator; it has no state.
  *
  * \ingroup TriangleSurface
  */
@@ -44,7 +42,7 @@ public:
       throw std::bad_array_new_length();
     }
     const std::size_t bytes = count * sizeof(T);
-    if (bytes < HugeFrom)
+    if (bytes < SmallestHugeBlock)
     {
       return static_cast<T *>(::operator new(bytes));
     }
@@ -54,7 +52,7 @@ public:
       throw std::bad_alloc();
     }
 #ifdef MADV_HUGEPAGE
-    madvise(block, bytes, MADV_HUGEPAGE); // a hint: without huge pages all is well, but slower
+    madvise(block, bytes, MADV_HUGEPAGE); // only a hint
 #endif
     return static_cast<T *>(block);
   }
@@ -62,7 +60,7 @@ public:
   void
   deallocate(T * block, std::size_t count) noexcept
   {
-    if (count * sizeof(T) < HugeFrom)
+    if (count * sizeof(T) < SmallestHugeBlock)
     {
       ::operator delete(block);
     }
@@ -99,7 +97,7 @@ public:
 
 private:
   static constexpr std::size_t HugePage = std::size_t{ 1 } << 21;
-  static constexpr std::size_t HugeFrom = 2 * HugePage;
+  static constexpr std::size_t SmallestHugeBlock = 2 * HugePage;
 };
 
 } // namespace itk

@@ -7,13 +7,12 @@
 namespace itk
 {
 
-/** The triangles of an itk::Mesh, or of an itk::QuadEdgeMesh, as a surface: points and triangles in the order of their
- * ids, which may have gaps; coordinates as float32; no normals. Polygons of three points are triangles, too. Points of
- * no triangle are kept, as are triangles of any orientation.
+/** Copies the triangles of an itk::Mesh or itk::QuadEdgeMesh into a surface: points and triangles in the order of their
+ * ids, which may have gaps; coordinates rounded to float32; no normals. Polygons of three points count as triangles.
+ * Points of no triangle are kept.
  *
- * Throws an ExceptionObject when a cell is anything else than a triangle, when a triangle has a point that the mesh has
- * not, or when there are 2^32 points or more. Thread safe, but not for one QuadEdgeMesh, whose cells collect their
- * points on demand. */
+ * Throws ExceptionObject if a cell is not a triangle, if a triangle refers to a missing point, or if there are 2^32
+ * points or more. Not thread safe for a QuadEdgeMesh, whose cells collect their points on demand. */
 template <typename TPixel, typename TTraits>
 TriangleSurface::Pointer
 ConvertToTriangleSurface(const Mesh<TPixel, 3, TTraits> & mesh);

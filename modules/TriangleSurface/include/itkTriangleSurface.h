@@ -13,17 +13,15 @@ namespace itk
 {
 
 /** \class TriangleSurface
- * \brief A triangle mesh that costs what it holds: 12 bytes a point, 12 a normal, 12 a triangle.
+ * \brief A compact triangle mesh: 12 bytes per point, 12 per normal, 12 per triangle.
  *
- * itk::Mesh allocates every cell on the heap; an isosurface of a scan has millions. Here points and normals are float32
- * triples and triangles are uint32 index triples, each in one contiguous array, ready to be handed to a file writer or
- * a graphics library without a copy: SurfaceToPolyData() of SurfaceVTK shares them with VTK. ConvertToMesh() and
- * ConvertToQuadEdgeMesh() make meshes for ITK's filters, at 8 and 50 times the memory, which they can tell before.
+ * Points and normals are float32 triples and triangles are uint32 index triples, each in one contiguous array that
+ * file writers and graphics libraries take without a copy; SurfaceToPolyData() of SurfaceVTK shares them with VTK.
+ * itk::Mesh, which allocates every cell on the heap, takes 8 times the memory and itk::QuadEdgeMesh 50 times; see
+ * ConvertToMesh() and ConvertToQuadEdgeMesh().
  *
- * Points are in LPS millimetres. Triangles are counter-clockwise seen from outside.
- * Normals are unit vectors pointing outside, one a point, or absent altogether.
- *
- * Thread safety: concurrent readers are safe; a writer needs exclusive access.
+ * Points are in LPS millimetres. Triangles are counter-clockwise seen from outside. Normals are unit vectors that
+ * point outwards, one per point, or there are none.
  *
  * \ingroup TriangleSurface
  */
@@ -47,7 +45,7 @@ public:
   using NormalsContainer = std::vector<NormalType, BulkAllocator<NormalType>>;
   using TrianglesContainer = std::vector<TriangleType, BulkAllocator<TriangleType>>;
 
-  /** The arrays themselves. After changing one through the non-const accessor, call Modified(). */
+  /** Call Modified() after changing an array through a non-const accessor. */
   PointsContainer &
   GetPoints()
   {
@@ -97,24 +95,26 @@ public:
     return !m_Points.empty() && m_Normals.size() == m_Points.size();
   }
 
-  /** Bytes held by the three arrays. */
+  /** Bytes in the three arrays. */
   SizeValueType
   GetMemorySize() const;
 
-  /** Smallest and largest coordinate along each axis in mm: {xmin, xmax, ymin, ymax, zmin, zmax}. All 0 without points.
-   */
+  /** {xmin, xmax, ymin, ymax, zmin, zmax} in mm; all 0 without points. */
   std::array<double, 6>
   GetBounds() const;
 
-  /** Drops the points of no triangle, with their normals; the others keep their order. */
+  /** Throws ExceptionObject if a triangle refers to a missing point. */
+  void
+  VerifyTriangles() const;
+
+  /** Removes points that no triangle uses, with their normals; the others keep their order. */
   void
   RemoveUnusedPoints();
 
-  /** Back to no points, normals and triangles. */
   void
   Initialize() override;
 
-  /** Takes over a copy of another TriangleSurface's arrays. */
+  /** Copies the arrays of another TriangleSurface. */
   void
   Graft(const DataObject * data) override;
 

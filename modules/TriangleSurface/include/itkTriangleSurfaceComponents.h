@@ -9,29 +9,25 @@ namespace itk
 {
 
 /** \class TriangleSurfaceComponents
- * \brief Which connected component each point of a surface belongs to.
- *
- * Thread safety: a value. */
+ * \brief The connected component of each point of a surface. */
 struct TriangleSurfaceComponents
 {
-  /** Component of a point of no triangle. */
+  /** The component of points that no triangle uses. */
   static constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
 
   std::uint32_t count = 0;
-  std::vector<std::uint32_t> ofPoint; ///< 0 to count - 1 in the order of each component's first point, or None
+  std::vector<std::uint32_t> ofPoint; ///< 0 to count - 1, numbered by each component's first point, or None
 };
 
-/** Sets of triangles connected through shared points. Nearly linear in time; 4 bytes a point, twice that while it
- * runs. Thread safe. */
+/** Triangles that share a point are connected. Time nearly linear; memory 4 bytes per point, 8 while it runs. */
 TriangleSurfaceComponents
 FindComponents(const TriangleSurface & surface);
 
-/** The first point of each component. Thread safe. */
+/** The first point of each component. */
 std::vector<std::uint32_t>
 FindFirstPoints(const TriangleSurfaceComponents & components);
 
-/** Removes the triangles of the components for which \a keep is false, and their points. Thread safe for
- * different surfaces. */
+/** Removes the components for which \a keep is false, and all points that no triangle uses. */
 void
 KeepComponents(TriangleSurface & surface, const TriangleSurfaceComponents & components, const std::vector<bool> & keep);
 

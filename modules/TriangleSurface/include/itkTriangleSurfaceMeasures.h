@@ -7,26 +7,24 @@
 namespace itk
 {
 
-/** Sum of the triangles' areas in mm^2. Thread safe. */
+/** Sum of the triangles' areas in mm^2. */
 double
 ComputeArea(const TriangleSurface & surface);
 
-/** Enclosed volume in mm^3 by the divergence theorem, positive when the triangles face outwards. Meaningful for closed
- * surfaces only. Thread safe. */
+/** Enclosed volume in mm^3 by the divergence theorem, positive if the triangles face outwards. Meaningful for closed
+ * surfaces only. */
 double
 ComputeVolume(const TriangleSurface & surface);
 
-/** Where the enclosed volume has its centre, in LPS mm; for closed surfaces of a volume other than 0. Thread safe. */
+/** Centroid of the enclosed volume in LPS mm, for closed surfaces; 0 if the volume is 0. */
 std::array<double, 3>
 ComputeCentroid(const TriangleSurface & surface);
 
-/** The distance of the two points farthest from each other, in mm; 0 without points. Exact: pairs of boxes of points
- * are searched, the farthest first, and left out when their corners are no farther apart than the best pair so far.
- * About 20 bytes a point. Thread safe. */
+/** The largest distance between two points in mm; 0 without points. Exact. Memory about 20 bytes per point. */
 double
 ComputeLongestDiameter(const TriangleSurface & surface);
 
-/** The volume of each connected component. Thread safe. */
+/** The volume of each component in mm^3, as ComputeVolume(). */
 std::vector<double>
 ComputeComponentVolumes(const TriangleSurface & surface, const TriangleSurfaceComponents & components);
 

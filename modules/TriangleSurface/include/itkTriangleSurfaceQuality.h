@@ -7,26 +7,23 @@ namespace itk
 {
 
 /** \class TriangleSurfaceQuality
- * \brief How well shaped the triangles of a surface are; all 0 without triangles.
- *
- * Thread safety: a value. */
+ * \brief How well shaped the triangles of a surface are; all 0 without triangles. */
 struct TriangleSurfaceQuality
 {
-  double mean = 0.0;          ///< of ComputeTriangleQuality()
-  double minimum = 0.0;       ///< of the same
-  double poorFraction = 0.0;  ///< triangles of a quality below Poor
-  double smallestAngle = 0.0; ///< of all triangles, in degrees
+  double mean = 0.0;          ///< of ComputeTriangleQuality(), over the triangles
+  double minimum = 0.0;       ///< of ComputeTriangleQuality(), over the triangles
+  double poorFraction = 0.0;  ///< share of the triangles with a quality below Poor
+  double smallestAngle = 0.0; ///< in degrees, over all triangles
 
   static constexpr double Poor = 0.2;
 };
 
-/** 4 sqrt(3) area / sum of squared edges: 1 for equilateral triangles, 0 for degenerate ones. Thread safe. */
+/** 4 sqrt(3) area / sum of squared edges: 1 for equilateral triangles, 0 for degenerate ones. */
 double
 ComputeTriangleQuality(const std::array<double, 3> & a,
                        const std::array<double, 3> & b,
                        const std::array<double, 3> & c);
 
-/** Thread safe. */
 TriangleSurfaceQuality
 ComputeQuality(const TriangleSurface & surface);
 

@@ -9,17 +9,15 @@ namespace itk
 {
 
 /** \class TriangleSurfaceTopology
- * \brief What the connectivity of a surface says, counted over its indices.
- *
- * Thread safety: a value. */
+ * \brief Counts over the connectivity of a surface: components, genus and flaws. */
 struct TriangleSurfaceTopology
 {
   SizeValueType components = 0;        ///< sets of triangles connected through shared points
   SizeValueType boundaryEdges = 0;     ///< edges with one triangle: the surface is open there
   SizeValueType nonManifoldEdges = 0;  ///< edges with three or more triangles
   SizeValueType misorientedEdges = 0;  ///< edges whose two triangles run along them in the same direction
-  SizeValueType nonManifoldPoints = 0; ///< points whose triangles are not one fan, whichever way each is oriented
-  SizeValueType unusedPoints = 0;      ///< points of no triangle
+  SizeValueType nonManifoldPoints = 0; ///< points whose triangles are not one fan, in any orientation
+  SizeValueType unusedPoints = 0;      ///< points that no triangle uses
   SizeValueType nonFinitePoints = 0;   ///< used points with a coordinate that is infinite or no number
   SizeValueType repeatedPositions = 0; ///< used points at the position of an earlier one: a reader may join the two
   SizeValueType degenerateTriangles =
@@ -37,8 +35,8 @@ struct TriangleSurfaceTopology
   }
 };
 
-/** Counts all of the above. Time O(n) but for the positions, which are sorted; with several threads, with the same
- * result for any number. Memory about 40 bytes a triangle. Thread safe. */
+/** Time O(n log n) for sorting the positions, on several threads, with the same result for any number of them. Memory
+ * about 40 bytes per triangle. */
 TriangleSurfaceTopology
 ComputeTopology(const TriangleSurface & surface);
 

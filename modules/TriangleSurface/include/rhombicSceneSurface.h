@@ -13,15 +13,13 @@ namespace rhombic
 using Colour = std::array<double, 3>;
 
 /** \class SceneSurface
- * \brief A surface and how it looks.
- *
- * Thread safety: a value, whose copies share the surface. */
+ * \brief A surface with its name, colour and opacity. Copies share the surface. */
 struct SceneSurface
 {
-  std::string name; ///< as messages and files call it
+  std::string name; ///< in messages and files
   itk::TriangleSurface::ConstPointer surface;
   Colour colour{ 0.8, 0.8, 0.8 };
-  double opacity = 1.0; ///< above 0, at most 1: what one wall, seen squarely, covers
+  double opacity = 1.0; ///< above 0, at most 1: share of the background that one wall hides where it is seen face on
 };
 
 } // namespace rhombic

@@ -29,15 +29,15 @@ Sign(double value)
   return (value > 0.0) - (value < 0.0);
 }
 
-/** The sign of a determinant computed with rounding, if that is certain. \a magnitude is the same sum with all its
- * products taken positive; where it is 0 nothing was rounded, because differences of float32 are 0 only if equal. */
+/** The sign of a determinant computed with rounding, or Uncertain. \a magnitude is the same sum of the products'
+ * absolute values; if it is 0, nothing was rounded, because differences of float32 are 0 only if the two are equal. */
 int
 FilteredSign(double determinant, double magnitude, double bound)
 {
   return std::abs(determinant) > bound * magnitude || magnitude == 0.0 ? Sign(determinant) : Uncertain;
 }
 
-/** Sums doubles without rounding, as components of growing magnitude that do not overlap. */
+/** An exact sum of doubles, kept as components of growing magnitude that do not overlap. */
 template <std::size_t VCapacity>
 class ExactSum
 {
@@ -65,7 +65,7 @@ public:
     m_Size = kept;
   }
 
-  /** That of the largest component. */
+  /** The sign of the largest component. */
   int
   GetSign() const
   {
@@ -88,7 +88,7 @@ AddProduct(TSum & sum, double sign, double x, double y, double z)
   sum.Add(product);
 }
 
-/** Adds the determinant of three points as rows. */
+/** Adds the determinant of the matrix whose rows are three points. */
 template <typename TSum>
 void
 AddDeterminant(TSum & sum, double sign, const Point & a, const Point & b, const Point & c)

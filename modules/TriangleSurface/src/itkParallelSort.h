@@ -6,16 +6,16 @@
 namespace itk
 {
 
-/** Sorts by operator<, on several threads: blocks first, which are then merged two by two. Items that compare equal
- * must be indistinguishable. Needs the items' memory once more. */
+/** Sorts by operator< on several threads: sorts blocks, then merges them in pairs. Items that compare equal must be
+ * indistinguishable. Takes the items' memory once more. */
 template <typename TContainer>
 void
 ParallelSort(TContainer & items)
 {
   constexpr std::size_t block = 1 << 16;
   const std::size_t size = items.size();
-  const auto at = [size](TContainer & container, std::size_t place) {
-    return container.begin() + static_cast<std::ptrdiff_t>(std::min(place, size));
+  const auto at = [size](TContainer & container, std::size_t index) {
+    return container.begin() + static_cast<std::ptrdiff_t>(std::min(index, size));
   };
   ForEachBlock(size, block, [&](std::size_t begin, std::size_t end) { std::sort(at(items, begin), at(items, end)); });
   TContainer merged(size > block ? size : 0);

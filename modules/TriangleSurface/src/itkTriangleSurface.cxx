@@ -33,6 +33,20 @@ TriangleSurface::GetBounds() const
 }
 
 void
+TriangleSurface::VerifyTriangles() const
+{
+  for (std::size_t id = 0; id < m_Triangles.size(); ++id)
+  {
+    const std::uint32_t highest = *std::max_element(m_Triangles[id].begin(), m_Triangles[id].end());
+    if (highest >= m_Points.size())
+    {
+      itkGenericExceptionMacro("Triangle " << id << " has point " << highest << ", but the surface has only "
+                                           << m_Points.size() << " points; write the surface again from its source");
+    }
+  }
+}
+
+void
 TriangleSurface::RemoveUnusedPoints()
 {
   constexpr std::uint32_t unused = 0;

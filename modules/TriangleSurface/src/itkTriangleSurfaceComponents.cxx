@@ -1,11 +1,49 @@
 #include "itkTriangleSurfaceComponents.h"
 
-#include "itkDisjointSets.h"
-
 #include <algorithm>
+#include <numeric>
 
 namespace itk
 {
+namespace
+{
+
+/** Sets of the items from 0 to size - 1; each item begins in a set of its own. */
+class DisjointSets
+{
+public:
+  explicit DisjointSets(std::size_t size)
+    : m_Parent(size)
+  {
+    std::iota(m_Parent.begin(), m_Parent.end(), 0u);
+  }
+
+  /** The smallest item of the set. */
+  std::uint32_t
+  Find(std::uint32_t item)
+  {
+    while (m_Parent[item] != item)
+    {
+      m_Parent[item] = m_Parent[m_Parent[item]];
+      item = m_Parent[item];
+    }
+    return item;
+  }
+
+  void
+  Join(std::uint32_t a, std::uint32_t b)
+  {
+    const std::uint32_t firstOfA = Find(a);
+    const std::uint32_t firstOfB = Find(b);
+    m_Parent[std::max(firstOfA, firstOfB)] = std::min(firstOfA, firstOfB);
+  }
+
+private:
+  std::vector<std::uint32_t> m_Parent;
+};
+
+} // namespace
+
 TriangleSurfaceComponents
 FindComponents(const TriangleSurface & surface)
 {
@@ -18,7 +56,7 @@ FindComponents(const TriangleSurface & surface)
     sets.Join(triangle[1], triangle[2]);
     for (const std::uint32_t point : triangle)
     {
-      components.ofPoint[point] = 0; // of some component; its number follows
+      components.ofPoint[point] = 0; // used; the number follows
     }
   }
   for (std::uint32_t point = 0; point < components.ofPoint.size(); ++point)

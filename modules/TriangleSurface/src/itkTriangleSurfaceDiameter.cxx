@@ -1,10 +1,10 @@
 #include "itkTriangleSurfaceMeasures.h"
 
+#include "detail/itkPositionArithmetic.h"
+
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <utility>
-#include <vector>
 
 namespace itk
 {
@@ -14,19 +14,13 @@ namespace
 using PointType = TriangleSurface::PointType;
 
 double
-SquaredDistance(const PointType & a, const PointType & b)
+SquaredDistanceOfPoints(const PointType & a, const PointType & b)
 {
-  double sum = 0.0;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    const double difference = static_cast<double>(a[axis]) - b[axis];
-    sum += difference * difference;
-  }
-  return sum;
+  return SquaredDistance(ToPosition(a), ToPosition(b));
 }
 
-/** Points halved along their longest side again and again, so that those of each box follow each other. The children of
- * box n are boxes 2 n + 1 and 2 n + 2. */
+/** A binary tree of boxes around points. Each box halves its points across its longest side; the children of box n are
+ * boxes 2 n + 1 and 2 n + 2. */
 class PointBoxes
 {
 public:
@@ -45,14 +39,9 @@ public:
   double
   FindLargestDistance()
   {
-    // A first guess close to the answer spares most of the search.
-    const auto farthestFrom = [this](const PointType & from) {
-      return *std::max_element(m_Points.begin(), m_Points.end(), [&from](const auto & a, const auto & b) {
-        return SquaredDistance(from, a) < SquaredDistance(from, b);
-      });
-    };
-    const PointType end = farthestFrom(m_Points.front());
-    m_Largest = SquaredDistance(end, farthestFrom(end));
+    // A good first guess spares most of the search.
+    const PointType end = this->FindFarthestFrom(m_Points.front());
+    m_Largest = SquaredDistanceOfPoints(end, this->FindFarthestFrom(end));
     this->Search(0, 0);
     return std::sqrt(m_Largest);
   }
@@ -60,6 +49,7 @@ public:
 private:
   static constexpr std::size_t LargestLeaf = 16;
 
+  /** The points [begin, end) and the box around them. */
   struct Box
   {
     PointType low;
@@ -73,12 +63,12 @@ private:
   {
     Box & box = m_Boxes[n];
     box = { m_Points[begin], m_Points[begin], begin, end };
-    for (std::size_t i = begin; i < end; ++i)
+    for (std::size_t point = begin; point < end; ++point)
     {
       for (unsigned int axis = 0; axis < 3; ++axis)
       {
-        box.low[axis] = std::min(box.low[axis], m_Points[i][axis]);
-        box.high[axis] = std::max(box.high[axis], m_Points[i][axis]);
+        box.low[axis] = std::min(box.low[axis], m_Points[point][axis]);
+        box.high[axis] = std::max(box.high[axis], m_Points[point][axis]);
       }
     }
     if (this->IsLeaf(n))
@@ -91,7 +81,7 @@ private:
       longest = box.high[axis] - box.low[axis] > box.high[longest] - box.low[longest] ? axis : longest;
     }
     const std::size_t middle = (begin + end) / 2;
-    const auto at = [this](std::size_t i) { return m_Points.begin() + static_cast<std::ptrdiff_t>(i); };
+    const auto at = [this](std::size_t point) { return m_Points.begin() + static_cast<std::ptrdiff_t>(point); };
     std::nth_element(
       at(begin), at(middle), at(end), [longest](const auto & a, const auto & b) { return a[longest] < b[longest]; });
     this->Split(2 * n + 1, begin, middle);
@@ -104,39 +94,41 @@ private:
     return 2 * n + 1 >= m_Boxes.size();
   }
 
-  /** Between the farthest corners of two boxes, squared. */
-  double
-  FarthestOf(std::size_t a, std::size_t b) const
+  PointType
+  FindFarthestFrom(const PointType & from) const
   {
-    PointType one;
-    PointType other;
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      const bool aIsFirst = static_cast<double>(m_Boxes[b].high[axis]) - m_Boxes[a].low[axis] >
-                            static_cast<double>(m_Boxes[a].high[axis]) - m_Boxes[b].low[axis];
-      one[axis] = aIsFirst ? m_Boxes[a].low[axis] : m_Boxes[b].low[axis];
-      other[axis] = aIsFirst ? m_Boxes[b].high[axis] : m_Boxes[a].high[axis];
-    }
-    return SquaredDistance(one, other);
+    return *std::max_element(m_Points.begin(), m_Points.end(), [&from](const auto & a, const auto & b) {
+      return SquaredDistanceOfPoints(from, a) < SquaredDistanceOfPoints(from, b);
+    });
   }
 
-  /** Looks for a pair of points, one in each box, that is farther apart than the best known. */
+  /** Squared distance between the farthest corners of two boxes. */
+  double
+  BoundOf(std::size_t a, std::size_t b) const
+  {
+    PointType cornerOfA;
+    PointType cornerOfB;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const bool isALower = static_cast<double>(m_Boxes[b].high[axis]) - m_Boxes[a].low[axis] >
+                            static_cast<double>(m_Boxes[a].high[axis]) - m_Boxes[b].low[axis];
+      cornerOfA[axis] = isALower ? m_Boxes[a].low[axis] : m_Boxes[a].high[axis];
+      cornerOfB[axis] = isALower ? m_Boxes[b].high[axis] : m_Boxes[b].low[axis];
+    }
+    return SquaredDistanceOfPoints(cornerOfA, cornerOfB);
+  }
+
+  /** Looks for two points, one in each box, that are farther apart than the best pair so far. */
   void
   Search(std::size_t a, std::size_t b)
   {
-    if (this->FarthestOf(a, b) <= m_Largest)
+    if (this->BoundOf(a, b) <= m_Largest)
     {
       return;
     }
-    if (this->IsLeaf(a)) // all leaves are on one level, and so are a and b
+    if (this->IsLeaf(a)) // then b is a leaf, too: both have the same depth, and so do all leaves
     {
-      for (std::size_t i = m_Boxes[a].begin; i < m_Boxes[a].end; ++i)
-      {
-        for (std::size_t j = m_Boxes[b].begin; j < m_Boxes[b].end; ++j)
-        {
-          m_Largest = std::max(m_Largest, SquaredDistance(m_Points[i], m_Points[j]));
-        }
-      }
+      this->ComparePoints(m_Boxes[a], m_Boxes[b]);
       return;
     }
     using Pair = std::pair<double, std::pair<std::size_t, std::size_t>>;
@@ -148,7 +140,7 @@ private:
       {
         if (a != b || childOfA <= childOfB) // each pair once
         {
-          pairs.push_back({ this->FarthestOf(childOfA, childOfB), { childOfA, childOfB } });
+          pairs.push_back({ this->BoundOf(childOfA, childOfB), { childOfA, childOfB } });
         }
       }
     }
@@ -159,9 +151,21 @@ private:
     }
   }
 
+  void
+  ComparePoints(const Box & a, const Box & b)
+  {
+    for (std::size_t first = a.begin; first < a.end; ++first)
+    {
+      for (std::size_t second = b.begin; second < b.end; ++second)
+      {
+        m_Largest = std::max(m_Largest, SquaredDistanceOfPoints(m_Points[first], m_Points[second]));
+      }
+    }
+  }
+
   std::vector<PointType> m_Points;
   std::vector<Box> m_Boxes;
-  double m_Largest = 0.0;
+  double m_Largest = 0.0; ///< squared distance of the best pair so far
 };
 
 } // namespace

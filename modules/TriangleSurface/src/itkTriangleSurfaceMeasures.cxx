@@ -2,21 +2,19 @@
 
 #include "detail/itkPositionArithmetic.h"
 
-#include <cmath>
-
 namespace itk
 {
 namespace
 {
 
-/** From the surface's first point, or a component's, so that a volume far from there does not drown in cancellation. */
+/** A point relative to a point of the surface, so that volumes far from LPS 0 keep their digits. */
 PositionType
 Relative(const TriangleSurface & surface, std::uint32_t point, std::uint32_t origin = 0)
 {
   return Subtract(ToPosition(surface.GetPoints()[point]), ToPosition(surface.GetPoints()[origin]));
 }
 
-/** Six times the signed volume of the tetrahedron of a triangle and a point of the surface. */
+/** Six times the signed volume of the tetrahedron between a triangle and a point of the surface. */
 double
 SixfoldVolume(const TriangleSurface & surface, const TriangleSurface::TriangleType & triangle, std::uint32_t origin = 0)
 {
@@ -32,10 +30,8 @@ ComputeArea(const TriangleSurface & surface)
   double twice = 0.0;
   for (const auto & triangle : surface.GetTriangles())
   {
-    const PositionType a = Relative(surface, triangle[0]);
-    const PositionType normal =
-      Cross(Subtract(Relative(surface, triangle[1]), a), Subtract(Relative(surface, triangle[2]), a));
-    twice += std::sqrt(Dot(normal, normal));
+    twice += Length(
+      AreaVector({ Relative(surface, triangle[0]), Relative(surface, triangle[1]), Relative(surface, triangle[2]) }));
   }
   return twice / 2.0;
 }
@@ -58,14 +54,14 @@ ComputeCentroid(const TriangleSurface & surface)
   PositionType moment{};
   for (const auto & triangle : surface.GetTriangles())
   {
-    const double part = SixfoldVolume(surface, triangle); // of a tetrahedron whose fourth corner is the origin
-    sixfold += part;
+    const double weight = SixfoldVolume(surface, triangle);
+    sixfold += weight;
     for (const std::uint32_t point : triangle)
     {
       const PositionType corner = Relative(surface, point);
       for (unsigned int axis = 0; axis < 3; ++axis)
       {
-        moment[axis] += part * corner[axis] / 4.0;
+        moment[axis] += weight * corner[axis] / 4.0; // the fourth corner is the origin
       }
     }
   }

@@ -3,17 +3,16 @@
 #include "detail/itkPositionArithmetic.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace itk
 {
 namespace
 {
 
-/** What the shape of a triangle is computed from, in mm^2. */
+/** Squared sides and area of a triangle in mm^2. */
 struct TriangleShape
 {
-  std::array<double, 3> squaredSides; ///< in growing order
+  std::array<double, 3> squaredSides; ///< ascending
   double twiceArea;
 
   TriangleShape(const PositionType & a, const PositionType & b, const PositionType & c)
@@ -21,10 +20,9 @@ struct TriangleShape
     const PositionType ab = Subtract(b, a);
     const PositionType bc = Subtract(c, b);
     const PositionType ca = Subtract(a, c);
-    const PositionType normal = Cross(ab, ca);
     squaredSides = { Dot(ab, ab), Dot(bc, bc), Dot(ca, ca) };
     std::sort(squaredSides.begin(), squaredSides.end());
-    twiceArea = std::sqrt(Dot(normal, normal));
+    twiceArea = Length(Cross(ab, ca));
   }
 
   double
@@ -34,7 +32,7 @@ struct TriangleShape
     return sum > 0.0 ? 2.0 * std::sqrt(3.0) * twiceArea / sum : 0.0;
   }
 
-  /** The tangent of the smallest angle, by the law of cosines, as the shortest side is opposite to it. */
+  /** Tangent of the smallest angle, which is opposite to the shortest side, by the law of cosines. */
   double
   GetSmallestTangent() const
   {
@@ -54,7 +52,6 @@ ComputeTriangleQuality(const PositionType & a, const PositionType & b, const Pos
 TriangleSurfaceQuality
 ComputeQuality(const TriangleSurface & surface)
 {
-  const auto & points = surface.GetPoints();
   const auto & triangles = surface.GetTriangles();
   TriangleSurfaceQuality quality;
   if (triangles.empty())
@@ -64,14 +61,14 @@ ComputeQuality(const TriangleSurface & surface)
   quality.minimum = 1.0;
   double smallestTangent = std::sqrt(3.0); // of 60 degrees
   SizeValueType poor = 0;
-  for (const auto & corners : triangles)
+  for (const auto & triangle : triangles)
   {
-    const TriangleShape shape(
-      ToPosition(points[corners[0]]), ToPosition(points[corners[1]]), ToPosition(points[corners[2]]));
-    const double one = shape.GetQuality();
-    quality.mean += one;
-    quality.minimum = std::min(quality.minimum, one);
-    poor += one < TriangleSurfaceQuality::Poor ? 1 : 0;
+    const auto [a, b, c] = CornersOf(surface, triangle);
+    const TriangleShape shape(a, b, c);
+    const double value = shape.GetQuality();
+    quality.mean += value;
+    quality.minimum = std::min(quality.minimum, value);
+    poor += value < TriangleSurfaceQuality::Poor ? 1 : 0;
     smallestTangent = std::min(smallestTangent, shape.GetSmallestTangent());
   }
   const auto count = static_cast<double>(triangles.size());

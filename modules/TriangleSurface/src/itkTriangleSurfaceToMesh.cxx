@@ -15,7 +15,7 @@ using MeshType = Mesh<float, 3>;
 using QuadEdgeMeshType = QuadEdgeMesh<float, 3>;
 using TriangleCellType = TriangleCell<MeshType::CellType>;
 
-/** What glibc's malloc takes for a block. */
+/** Bytes that glibc's malloc takes for a block. */
 constexpr SizeValueType
 HeapBlock(SizeValueType bytes)
 {
@@ -23,7 +23,7 @@ HeapBlock(SizeValueType bytes)
   return std::max(least, (bytes + header + alignment - 1) / alignment * alignment);
 }
 
-/** A node of a std::map. */
+/** Bytes of a node of a std::map. */
 template <typename TKey, typename TValue>
 constexpr SizeValueType
 MapNode()
@@ -33,22 +33,7 @@ MapNode()
 }
 
 void
-RequirePoints(const TriangleSurface & surface)
-{
-  const auto points = surface.GetNumberOfPoints();
-  for (const auto & triangle : surface.GetTriangles())
-  {
-    if (*std::max_element(triangle.begin(), triangle.end()) >= points)
-    {
-      itkGenericExceptionMacro("A triangle has point " << *std::max_element(triangle.begin(), triangle.end())
-                                                       << ", but the surface has only " << points
-                                                       << " points; write the surface again from its source");
-    }
-  }
-}
-
-void
-RequireThreeCorners(const TriangleSurface & surface)
+VerifyThreeCorners(const TriangleSurface & surface)
 {
   for (const auto & [a, b, c] : surface.GetTriangles())
   {
@@ -59,6 +44,20 @@ RequireThreeCorners(const TriangleSurface & surface)
                                << " has a point twice, which no face of a QuadEdgeMesh can; use ConvertToMesh(), or "
                                   "remove the triangle first");
     }
+  }
+}
+
+void
+VerifyManifold(const TriangleSurface & surface)
+{
+  const TriangleSurfaceTopology topology = ComputeTopology(surface);
+  if (topology.nonManifoldEdges + topology.nonManifoldPoints + topology.misorientedEdges > 0)
+  {
+    itkGenericExceptionMacro(
+      "The surface has "
+      << topology.nonManifoldEdges << " edges and " << topology.nonManifoldPoints
+      << " points that are not manifold, and " << topology.misorientedEdges
+      << " misoriented edges, of which a QuadEdgeMesh can have none; use ConvertToMesh(), or mend the surface first");
   }
 }
 
@@ -103,7 +102,7 @@ EstimateQuadEdgeMeshMemory(const TriangleSurface & surface)
 Mesh<float, 3>::Pointer
 ConvertToMesh(const TriangleSurface & surface)
 {
-  RequirePoints(surface);
+  surface.VerifyTriangles();
   const auto mesh = MeshType::New();
   CopyPoints(surface, *mesh);
   const auto cells = MeshType::CellsContainer::New();
@@ -123,17 +122,9 @@ ConvertToMesh(const TriangleSurface & surface)
 QuadEdgeMesh<float, 3>::Pointer
 ConvertToQuadEdgeMesh(const TriangleSurface & surface)
 {
-  RequirePoints(surface);
-  RequireThreeCorners(surface);
-  const TriangleSurfaceTopology topology = ComputeTopology(surface);
-  if (topology.nonManifoldEdges + topology.nonManifoldPoints + topology.misorientedEdges > 0)
-  {
-    itkGenericExceptionMacro(
-      "The surface has "
-      << topology.nonManifoldEdges << " edges and " << topology.nonManifoldPoints
-      << " points that are not manifold, and " << topology.misorientedEdges
-      << " misoriented edges, of which a QuadEdgeMesh can have none; use ConvertToMesh(), or mend the surface first");
-  }
+  surface.VerifyTriangles();
+  VerifyThreeCorners(surface);
+  VerifyManifold(surface);
   const auto mesh = QuadEdgeMeshType::New();
   CopyPoints(surface, *mesh);
   for (const auto & triangle : surface.GetTriangles())

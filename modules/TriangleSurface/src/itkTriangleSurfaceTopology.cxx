@@ -1,11 +1,11 @@
 #include "itkTriangleSurfaceTopology.h"
 
 #include "detail/itkExactOrientation.h"
+#include "detail/itkPositionArithmetic.h"
 #include "itkParallelSort.h"
 #include "itkTriangleSurfaceComponents.h"
 
 #include <atomic>
-#include <cmath>
 #include <mutex>
 #include <numeric>
 #include <ostream>
@@ -19,7 +19,7 @@ using PointId = std::uint32_t;
 
 constexpr std::size_t BlockOfPoints = 1 << 14;
 
-/** The side of a triangle opposite to one of its points, in the direction in which the triangle runs along it. */
+/** The link of a point in a triangle: the opposite side, in the triangle's direction. */
 struct Link
 {
   PointId from;
@@ -35,7 +35,7 @@ struct Link
 /** The links of all points, one point after the other. */
 struct PointLinks
 {
-  std::vector<std::uint64_t> begin; ///< of each point, and the end of the last
+  std::vector<std::uint64_t> begin; ///< index of each point's first link, and the end of the last
   std::vector<Link, BulkAllocator<Link>> links;
 };
 
@@ -51,8 +51,8 @@ CollectLinks(const TriangleSurface & surface)
       ++all.begin[point];
     }
   }
-  std::partial_sum(
-    all.begin.begin(), all.begin.end(), all.begin.begin()); // ends, which filling moves to the beginnings
+  // The sums are where each point's links end; filling them in moves them to where they begin.
+  std::partial_sum(all.begin.begin(), all.begin.end(), all.begin.begin());
   all.links.resize(3 * surface.GetNumberOfTriangles());
   for (const auto & triangle : surface.GetTriangles())
   {
@@ -68,7 +68,7 @@ CollectLinks(const TriangleSurface & surface)
 class Fan
 {
 public:
-  /** Takes over the links of \a point. */
+  /** Copies the links of \a point. */
   template <typename TIterator>
   void
   Assign(PointId point, TIterator begin, TIterator end)
@@ -84,7 +84,7 @@ public:
     std::sort(m_Ends.begin(), m_Ends.end());
   }
 
-  /** Counts the edges to points of higher number into \a topology; returns how many there are. */
+  /** Adds the flaws of the edges to points of higher number to \a topology; returns the number of these edges. */
   SizeValueType
   CountEdges(TriangleSurfaceTopology & topology) const
   {
@@ -104,9 +104,9 @@ public:
     return distinct;
   }
 
-  /** Whether the links form a single path (on a boundary) or a single cycle. */
+  /** Whether the links form a single cycle, or a single path at a boundary. */
   bool
-  IsOne() const
+  IsSingle() const
   {
     std::size_t start = 0;
     for (std::size_t begin = 0, end = 0; begin < m_Ends.size(); begin = end)
@@ -116,20 +116,20 @@ public:
       {
         return false;
       }
-      start = end - begin == 1 ? begin : start; // one of the two ends of a path
+      start = end - begin == 1 ? begin : start; // an end of a path
     }
     std::size_t visited = 0;
-    std::size_t here = start;
+    std::size_t current = start;
     do
     {
       ++visited;
-      here = this->FindOtherUse(this->FindOtherEnd(here));
-    } while (here != start && here != NoEnd);
+      current = this->FindOtherUse(this->FindOtherEnd(current));
+    } while (current != start && current != NoEnd);
     return visited == m_Links.size();
   }
 
-  /** Counts repeated triangles among those that have no point of lower number, so that each is counted at one point;
-   * returns how many triangles of three different points these are. The links are lost. */
+  /** Adds the duplicates among the triangles that have no point of lower number to \a topology, so that each is counted
+   * at one point. Returns the number of these triangles that have three different points. Destroys the links. */
   SizeValueType
   CountTriangles(TriangleSurfaceTopology & topology)
   {
@@ -190,7 +190,7 @@ private:
     return static_cast<std::size_t>(std::lower_bound(m_Ends.begin(), m_Ends.end(), other) - m_Ends.begin());
   }
 
-  /** The end of another link at the same neighbour, of which there is one at most. */
+  /** The end of the only other link at the same neighbour, or NoEnd. */
   std::size_t
   FindOtherUse(std::size_t end) const
   {
@@ -207,7 +207,7 @@ private:
   std::vector<End> m_Ends;
 };
 
-/** What the points of one component, or some of them, add to it. */
+/** What some points contribute to their component. */
 struct ComponentShape
 {
   std::uint32_t component;
@@ -221,7 +221,8 @@ CountFlaws(const TriangleSurfaceTopology & topology)
   return topology.boundaryEdges + topology.nonManifoldEdges + topology.misorientedEdges + topology.nonManifoldPoints;
 }
 
-/** Counts what the fans of the points [begin, end) show; returns the shapes of runs of points of the same component. */
+/** Adds the flaws at the points [begin, end) to \a topology. Returns one shape for each run of points of the same
+ * component. */
 std::vector<ComponentShape>
 CountFans(const PointLinks & all,
           const TriangleSurfaceComponents & components,
@@ -247,7 +248,7 @@ CountFans(const PointLinks & all,
     const SizeValueType flaws = CountFlaws(topology);
     fan.Assign(static_cast<PointId>(point), first, last);
     const auto edges = static_cast<OffsetValueType>(fan.CountEdges(topology));
-    topology.nonManifoldPoints += fan.IsOne() ? 0 : 1;
+    topology.nonManifoldPoints += fan.IsSingle() ? 0 : 1;
     const auto triangles = static_cast<OffsetValueType>(fan.CountTriangles(topology));
     shapes.back().eulerCharacteristic += 1 - edges + triangles;
     shapes.back().flaws += CountFlaws(topology) - flaws;
@@ -255,6 +256,7 @@ CountFans(const PointLinks & all,
   return shapes;
 }
 
+/** Counts everything that depends on the connectivity. */
 void
 CountConnections(const TriangleSurface & surface, TriangleSurfaceTopology & topology)
 {
@@ -287,18 +289,13 @@ CountConnections(const TriangleSurface & surface, TriangleSurfaceTopology & topo
 }
 
 bool
-IsFinite(const TriangleSurface::PointType & point)
-{
-  return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
-}
-
-bool
 IsDegenerate(const TriangleSurface & surface, const TriangleSurface::TriangleType & triangle)
 {
   const auto & a = surface.GetPoints()[triangle[0]];
   const auto & b = surface.GetPoints()[triangle[1]];
   const auto & c = surface.GetPoints()[triangle[2]];
-  return !IsFinite(a) || !IsFinite(b) || !IsFinite(c) || !HasArea(a, b, c); // repetitions have no area either
+  return !IsFinite(a) || !IsFinite(b) || !IsFinite(c) ||
+         !HasArea(a, b, c); // a triangle with a repeated point has no area
 }
 
 SizeValueType
@@ -314,7 +311,7 @@ CountDegenerateTriangles(const TriangleSurface & surface)
   return count;
 }
 
-/** Counts repeated positions and those that are none. */
+/** Counts repeated positions and positions that are not finite. */
 void
 CountPositions(const TriangleSurface & surface, TriangleSurfaceTopology & topology)
 {
@@ -341,7 +338,7 @@ CountPositions(const TriangleSurface & surface, TriangleSurfaceTopology & topolo
     }
     else
     {
-      positions.push_back({ position[0] + 0.0f, position[1] + 0.0f, position[2] + 0.0f }); // -0 is where 0 is
+      positions.push_back({ position[0] + 0.0f, position[1] + 0.0f, position[2] + 0.0f }); // turns -0 into 0
     }
   }
   ParallelSort(positions);

@@ -6,8 +6,8 @@
 namespace itk
 {
 
-/** On which side of the plane through \a a, \a b and \a c the point \a d lies: 1 where the triangle's counter-clockwise
- * side faces, -1 behind it, 0 in the plane. Never wrong for finite points. Thread safe. */
+/** The side of the plane through \a a, \a b and \a c on which \a d lies: 1 in front of the triangle's counter-clockwise
+ * side, -1 behind it, 0 in the plane. Exact for finite points. */
 int
 OrientationInSpace(const TriangleSurface::PointType & a,
                    const TriangleSurface::PointType & b,
@@ -15,15 +15,14 @@ OrientationInSpace(const TriangleSurface::PointType & a,
                    const TriangleSurface::PointType & d);
 
 /** The turn from \a a over \a b to \a c seen against \a axis (0, 1 or 2): 1 counter-clockwise, -1 clockwise, 0
- * straight. It is the sign of the triangle normal's component along that axis. Never wrong for finite points. Thread
- * safe. */
+ * straight. It is the sign of the triangle normal's component along that axis. Exact for finite points. */
 int
 OrientationAlongAxis(const TriangleSurface::PointType & a,
                      const TriangleSurface::PointType & b,
                      const TriangleSurface::PointType & c,
                      unsigned int axis);
 
-/** Whether three points are not on one line. Never wrong for finite points. Thread safe. */
+/** Whether three points are not on one line. Exact for finite points. */
 bool
 HasArea(const TriangleSurface::PointType & a,
         const TriangleSurface::PointType & b,
