@@ -14,7 +14,7 @@ namespace
 
 using itk::OrientationAlongAxis;
 using itk::OrientationInSpace;
-using Contact = itk::TriangleContactEnums::Contact;
+using Contact = itk::TriangleContact;
 using Point = itk::TriangleSurface::PointType;
 using Points = itk::TriangleSurface::PointsContainer;
 using Triangle = itk::TriangleSurface::TriangleType;

@@ -1,8 +1,8 @@
 #include "itkTriangleSurfaceAudit.h"
 
+#include "detail/itkTriangleContact.h"
 #include "itkExampleSurfaces.h"
 #include "itkMultiThreaderBase.h"
-#include "detail/itkTriangleContact.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace
 
 using namespace itk::example;
 using Surface = itk::TriangleSurface;
-using Contact = itk::TriangleContactEnums::Contact;
+using Contact = itk::TriangleContact;
 
 itk::TriangleSurfaceIntersections
 Intersect(const Surface & surface)
@@ -169,7 +169,7 @@ TEST(TriangleSurfaceAudit, FindsWhatIsWrong)
   EXPECT_THROW(AuditSurface(*broken), itk::ExceptionObject);
 }
 
-/** What an audit prints, without the digits that depend on the order of sums. */
+/** The printed audit, without the digits that depend on the order of sums. */
 std::string
 Counts(const Surface & surface)
 {

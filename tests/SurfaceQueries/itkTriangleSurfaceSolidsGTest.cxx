@@ -154,7 +154,7 @@ TEST(TriangleSurfaceSolids, ShellsThatFaceTheWrongWayAreCounted)
   EXPECT_EQ(CountMisfacing(*inHole), 0u) << "the hole of a torus is outside";
 }
 
-/** What touches in a point is not in each other, wherever that point is among theirs. */
+/** Components that touch in a point do not enclose each other, wherever that point is in their lists. */
 TEST(TriangleSurfaceSolids, ThatTouchFaceAsTheyShould)
 {
   for (const float side : { -1.0f, 4.0f }) // the small one's tip at the large one's corner, or its corner at the tip

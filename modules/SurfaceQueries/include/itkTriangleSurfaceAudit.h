@@ -12,39 +12,35 @@ namespace itk
 {
 
 /** \class TriangleSurfaceAuditSettings
- * \brief What an audit looks for.
- *
- * Thread safety: a value. */
+ * \brief Whether and how thoroughly an audit looks for self-intersections. */
 struct TriangleSurfaceAuditSettings
 {
   bool testsIntersections = true;
-  SizeValueType maximumTestedTriangles = 5000000; ///< of larger surfaces, a sample is tested for intersections
+  SizeValueType maximumTestedTriangles = 5000000; ///< larger surfaces are tested by a sample
 };
 
 /** \class TriangleSurfaceAudit
- * \brief All that can be said against a surface.
- *
- * Thread safety: a value. */
+ * \brief Measures and flaws of a surface. */
 struct TriangleSurfaceAudit
 {
   SizeValueType points = 0;
   SizeValueType triangles = 0;
   double area = 0.0;   ///< in mm^2
-  double volume = 0.0; ///< in mm^3; meaningful if the surface is closed
+  double volume = 0.0; ///< in mm^3; meaningful only if the surface is closed
   TriangleSurfaceTopology topology;
   TriangleSurfaceQuality quality;
-  TriangleSurfaceIntersections intersections; ///< without tested triangles if they were not looked for
-  ShellCounts shells;                         ///< see CountShells(); counted if the topology is watertight
+  TriangleSurfaceIntersections intersections; ///< has no tested triangles if the settings left it out
+  ShellCounts shells;                         ///< see CountShells(); all 0 unless the topology is watertight
 
-  /** Closed, oriented, manifold, with neither degenerate nor duplicate triangles, around a positive volume, and with
-   * all shells outwards and all cavities inwards. */
+  /** Closed, oriented and manifold, without degenerate or duplicate triangles, with a positive volume, outer shells
+   * that face outwards and cavities that face inwards. */
   bool
   IsWatertight() const
   {
     return topology.IsWatertight() && topology.duplicateTriangles == 0 && volume > 0.0 && shells.misfacing == 0;
   }
 
-  /** Watertight, and none of the triangles tested crosses another; false if none was tested. Triangles may touch. */
+  /** Watertight, with at least one triangle tested and none that crosses another. Triangles may touch. */
   bool
   BoundsSolid() const
   {
@@ -52,9 +48,8 @@ struct TriangleSurfaceAudit
   }
 };
 
-/** Computes all of the above, with several threads; the same for any number of them, and but for the last digits of
- * sums for any order of the triangles. Memory about 50 bytes a triangle. Throws ExceptionObject if a triangle has a
- * point that the surface has not. Thread safe. */
+/** Computes all of the above on several threads, with the same result for any number of them. Memory about 50 bytes per
+ * triangle. Throws ExceptionObject if a triangle refers to a missing point. */
 TriangleSurfaceAudit
 AuditSurface(const TriangleSurface & surface, const TriangleSurfaceAuditSettings & settings = {});
 

@@ -7,24 +7,23 @@ namespace itk
 {
 
 /** \class TriangleSurfaceDistance
- * \brief How far places of one surface are from another surface, in mm.
- *
- * Thread safety: a value. */
+ * \brief Distances in mm from sample points of one surface to another surface. */
 struct TriangleSurfaceDistance
 {
-  double mean = 0.0;         ///< over the area
-  double percentile95 = 0.0; ///< 95 % of the area is not further
-  double maximum = 0.0;      ///< at the places looked at; between them it may be more
-  SizeValueType places = 0;  ///< how many were looked at
+  double mean = 0.0;         ///< weighted by area
+  double percentile95 = 0.0; ///< 95 % of the area is no farther away
+  double maximum = 0.0;      ///< at the sample points; it may be larger between them
+  SizeValueType places = 0;  ///< number of sample points
 };
 
-/** Distances from the points of a surface, and from places inside its triangles, to the nearest point of another
- * surface. Each place counts with the area around it: a triangle's points and centre with weights 1/12 and 3/4, which
- * is exact for quadratic functions. Triangles with sides above \a spacing mm count as so many equal parts that none of
- * their sides is longer (at most 64 along a side). Of more than \a mostTriangles, evenly chosen ones are looked at.
+/** Measures distances from the points of \a surface and the centres of its triangles to the nearest point of \a other.
+ * Sample points are weighted by area: 1/12 of a triangle's area for each corner and 3/4 for its centre, a quadrature
+ * that is exact for quadratic functions. Triangles with a side longer than \a spacing mm are divided into equal parts,
+ * at most 64 along a side, until no side is longer, and each part has a centre. If there are more than \a
+ * mostTriangles, that many are chosen at regular intervals.
  *
- * All 0 without triangles, infinite to a surface without triangles. Time O(places log triangles); 8 bytes a place.
- * Thread safe; the same for any number of threads. */
+ * All 0 if \a surface has no triangles, infinite if \a other has none. Time O(places log triangles); memory 8 bytes per
+ * place. The same for any number of threads. */
 TriangleSurfaceDistance
 ComputeDistance(const TriangleSurface & surface,
                 const TriangleTree & other,
@@ -32,9 +31,7 @@ ComputeDistance(const TriangleSurface & surface,
                 SizeValueType mostTriangles = std::numeric_limits<SizeValueType>::max());
 
 /** \class TriangleSurfaceTwoDistances
- * \brief Distances from each of two surfaces to the other.
- *
- * Thread safety: a value. */
+ * \brief Distances from each of two surfaces to the other. */
 struct TriangleSurfaceTwoDistances
 {
   TriangleSurfaceDistance fromFirst;
@@ -47,7 +44,7 @@ struct TriangleSurfaceTwoDistances
   }
 };
 
-/** Both ways, the places as dense on the surface with the larger triangles as on the other one. Thread safe. */
+/** ComputeDistance() in both directions, with a spacing of twice the smaller of the surfaces' mean sides. */
 TriangleSurfaceTwoDistances
 ComputeTwoDistances(const TriangleSurface & first,
                     const TriangleSurface & second,

@@ -11,30 +11,27 @@ namespace itk
 {
 
 /** \class SamplePlanes
- * \brief Samples on parallel planes, as the slices of a scan: the same rows and columns on each, which may lie anywhere
- * in its plane.
- *
- * Thread safety: a value. */
+ * \brief Samples on parallel planes, such as the slices of a scan. All planes have the same rows and columns, but each
+ * has its own origin. */
 struct SamplePlanes
 {
-  Vector<double, 3> columnStep{}; ///< from sample to sample along a row, in mm
-  Vector<double, 3> rowStep{};    ///< from row to row
+  Vector<double, 3> columnStep{}; ///< from one sample to the next along a row, in mm
+  Vector<double, 3> rowStep{};    ///< from one row to the next, in mm
   SizeValueType numberOfColumns = 0;
   SizeValueType numberOfRows = 0;
-  std::vector<Point<double, 3>> origins; ///< the first sample of each plane, in order along the planes' normal
+  std::vector<Point<double, 3>> origins; ///< the first sample of each plane, ordered along the planes' normal
 };
 
-/** Samples of one row that lie inside: columns from begin, without end. */
+/** Receives samples of one row that lie inside: the columns [beginColumn, endColumn). */
 using VisitInteriorSamples =
   std::function<void(SizeValueType plane, SizeValueType row, SizeValueType beginColumn, SizeValueType endColumn)>;
 
-/** Finds the samples inside a closed surface. A sample is inside when the surface is crossed an odd number of times on
- * the way to it along its row; each plane, row and sample on the surface itself counts to its upper side, so that
- * neighbouring surfaces share no sample. Where the surface is open, what is inside is not defined.
+/** Finds the samples inside a closed surface. A sample is inside if its row crosses the surface an odd number of times
+ * before it. A plane, row or sample exactly on the surface is taken to lie just above it, so that adjacent surfaces
+ * share no sample. The result is undefined where the surface is open.
  *
- * \a visit gets the runs of each plane in order, on several threads for several planes (itk::MultiThreaderBase). Time
- * and memory are proportional to the triangles and the planes each of them crosses. Throws what \a visit throws. Thread
- * safe. */
+ * Calls \a visit for the runs of each plane in order, and for several planes at once on several threads. Time and
+ * memory are proportional to the triangles and the planes that each of them crosses. Throws what \a visit throws. */
 void
 FindInteriorSamples(const TriangleSurface & surface, const SamplePlanes & planes, const VisitInteriorSamples & visit);
 

@@ -7,29 +7,26 @@ namespace itk
 {
 
 /** \class TriangleSurfaceIntersections
- * \brief Where a surface meets itself other than along the edges and points its triangles share.
- *
- * Thread safety: a value. */
+ * \brief Pairs of triangles of a surface that meet elsewhere than at corners and sides they share. */
 struct TriangleSurfaceIntersections
 {
   SizeValueType crossingPairs = 0;   ///< pairs of triangles that pass through each other or overlap in one plane
-  SizeValueType touchingPairs = 0;   ///< pairs that meet, but without their insides meeting
+  SizeValueType touchingPairs = 0;   ///< pairs that meet only at their sides or corners
   SizeValueType testedTriangles = 0; ///< triangles that were tested against all others
-  bool isSampled = false;            ///< not all triangles were tested: pairs may have been missed
+  bool isSampled = false;            ///< not all triangles were tested, so pairs may have been missed
 };
 
-/** Counts the pairs of triangles that meet as FindContact() says, but for duplicates, which TriangleSurfaceTopology
- * counts. Exact. Triangles without area or with a position that is not finite are taken as tested and meet nothing.
+/** Counts the pairs of triangles that meet. Exact: no tolerance, and no rounding decides. Duplicate triangles are not
+ * counted here but in TriangleSurfaceTopology. Triangles without area or with a position that is not finite count as
+ * tested and meet nothing.
  *
- * Of more than \a maximumTestedTriangles triangles, about that many are tested against all, evenly along the tree's
- * order. Nearly linear in time, on several threads with the same result for any number; no memory but the tree's.
- * Thread safe. */
+ * If there are more than \a maximumTestedTriangles, about that many are tested against all others, chosen at regular
+ * intervals in the tree's order. Time nearly linear, on several threads with the same result for any number of them. */
 TriangleSurfaceIntersections
 FindSelfIntersections(const TriangleTree & tree,
                       SizeValueType maximumTestedTriangles = std::numeric_limits<SizeValueType>::max());
 
-/** The triangles that pass through others or are duplicates, ascending. As FindSelfIntersections() with all triangles
- * tested. Thread safe. */
+/** The ids of the triangles that cross others or are duplicates, ascending. Tests all triangles. */
 std::vector<std::uint32_t>
 FindCrossingTriangles(const TriangleTree & tree);
 

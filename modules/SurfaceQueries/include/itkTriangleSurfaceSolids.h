@@ -6,14 +6,13 @@
 namespace itk
 {
 
-/** What was removed from a surface. Thread safety: a value. */
+/** What was removed from a surface. */
 struct RemovedShells
 {
   SizeValueType solids = 0;   ///< outer shells
-  SizeValueType cavities = 0; ///< shells inside others that face inwards
-  double volume = 0.0;        ///< in mm^3, what the surface lost; negative where filled cavities made it larger
+  SizeValueType cavities = 0; ///< shells inside a solid that face inwards
+  double volume = 0.0;        ///< lost by the surface, in mm^3; negative if filling cavities made it larger
 
-  /** Adds what was removed in a further step. */
   RemovedShells &
   operator+=(const RemovedShells & other)
   {
@@ -24,7 +23,7 @@ struct RemovedShells
   }
 };
 
-/** The shells of a closed surface. Thread safety: a value. */
+/** The shells of a closed surface. */
 struct ShellCounts
 {
   SizeValueType solids = 0;    ///< outer shells, misfacing ones included
@@ -32,43 +31,42 @@ struct ShellCounts
   SizeValueType misfacing = 0; ///< shells that face the wrong way
 };
 
-/** A closed surface bounds solids. Each has one outer shell, a component that faces outwards and whose volume counts as
- * the solid's, and maybe cavities: components that face inwards and whose innermost outward-facing enclosure it is. A
- * component that faces inwards with nothing around it is taken as an outer shell of its volume's magnitude.
+/** A closed surface bounds solids. Each solid has one outer shell, a component that faces outwards, and any number of
+ * cavities, components that face inwards; a cavity belongs to the smallest outer shell around it. The volume of a solid
+ * is that of its outer shell. A component that faces inwards with nothing around it counts as an outer shell with the
+ * magnitude of its volume.
  *
- * One point of each component, exactly located, says what encloses it, so components must neither be open nor cross
- * each other. Time nearly linear in the triangles, even of very many components; several threads, the same result for
- * any number; memory about 60 bytes a triangle.
+ * Which components enclose a component is found from one of its points, so components must be closed and must not cross
+ * each other. Time nearly linear in the triangles, on several threads with the same result for any number of them;
+ * memory about 60 bytes per triangle.
  *
- * The functions remove triangles and the points that were only theirs, and keep the order of the others. Thread safe
- * for different surfaces. */
+ * The functions keep the order of the remaining triangles and points. */
 ///@{
 
-/** Removes all solids but the one of the greatest volume, the first of several. */
+/** Removes all solids but the largest one, the first if several are equally large. */
 RemovedShells
 KeepLargestSolid(TriangleSurface & surface);
 
-/** Removes the solids of a volume below \a minimumVolume (in mm^3). Cavities are removed with their solid only, however
- * small they are. */
+/** Removes the solids with a volume below \a minimumVolume (in mm^3). Cavities, however small, are removed only with
+ * their solid. */
 RemovedShells
 RemoveSmallSolids(TriangleSurface & surface, double minimumVolume);
 
-/** Removes every component that lies inside another one: cavities and all that is in them. */
+/** Removes every component that lies inside another one: cavities and everything in them. */
 RemovedShells
 FillCavities(TriangleSurface & surface);
 
 ///@}
 
-/** Counts the shells of a closed surface. An outer shell should face outwards with as many shells as cavities around
- * it, a cavity inwards with one more shell; a shell that does not is misfacing, and a program that fills the surface by
- * its winding number counts what it encloses twice or negatively. Where components cross each other or touch, that
- * depends on the place; this looks at the two ends of each along x, and one that is as it should be is enough. Thread
- * safe. */
+/** Counts the shells of a closed surface. The other shells should wind 0 times around an outer shell and once around a
+ * cavity; a shell for which they do not is misfacing, and programs that fill the surface by its winding number count
+ * its inside twice or negatively. Where components cross or touch, the winding number depends on the point; this looks
+ * at the points of each shell with the least and the greatest x, and one correct winding number is enough. */
 ShellCounts
 CountShells(const TriangleTree & surface);
 
-/** Turns the components that CountShells() counts as misfacing, with their normals; returns how many. Right for specks
- * that extraction or smoothing has turned inside out. Thread safe for different surfaces. */
+/** Reverses the triangles and normals of the components that CountShells() counts as misfacing; returns how many. Meant
+ * for specks that extraction or smoothing has turned inside out. */
 SizeValueType
 TurnMisfacingShells(TriangleSurface & surface);
 

@@ -10,16 +10,14 @@ namespace itk
 {
 
 /** \class TriangleTree
- * \brief A tree of boxes around the triangles of a surface, for questions about places.
+ * \brief A binary tree of boxes around the triangles of a surface: nearest points, ray crossings, overlapping boxes.
  *
- * Triangles are halved across the longest side of the box around their centres, again and again until there are four at
- * most; every node halves its range of leaves, so nodes need no links. Built in O(n log n) with several threads; holds
- * 16 bytes a triangle (16 more while it is built). The same for any number of threads.
+ * Each node halves its triangles across the longest side of the box around their centres, down to leaves of at most
+ * four triangles. A node's range of leaves determines its children, so nodes store no links. Built in O(n log n) on
+ * several threads, the same for any number of them; memory 16 bytes per triangle, 32 while it is built.
  *
- * Triangles with a position that is not finite are left out. The tree keeps the surface alive; a change of the
- * surface invalidates the tree.
- *
- * Thread safety: all questions may be asked by several threads at once.
+ * Triangles with a position that is not finite are left out. The tree keeps the surface alive; changing the surface
+ * invalidates the tree.
  *
  * \ingroup SurfaceQueries
  */
@@ -29,13 +27,13 @@ public:
   using PointType = TriangleSurface::PointType;
   using PositionType = std::array<double, 3>;
 
-  /** Corners with the least and the greatest coordinates in mm; both belong to the box. */
+  /** A closed box, by its corners with the least and the greatest coordinates in mm. */
   struct Box
   {
     PointType lowest;
     PointType highest;
 
-    /** Whether they have a point in common, be it of their faces. */
+    /** Whether the boxes have a point in common; boxes that touch do. */
     bool
     Overlaps(const Box & other) const
     {
@@ -44,7 +42,7 @@ public:
     }
   };
 
-  /** The smallest box around two. */
+  /** The smallest box around two boxes. */
   static Box
   Union(const Box & a, const Box & b)
   {
@@ -57,12 +55,22 @@ public:
     return both;
   }
 
-  /** The place of the surface that is nearest to a position. */
+  /** The smallest box around a triangle. */
+  static Box
+  BoxOf(const TriangleSurface::PointsContainer & points, const TriangleSurface::TriangleType & triangle)
+  {
+    const PointType & a = points[triangle[0]];
+    const PointType & b = points[triangle[1]];
+    const PointType & c = points[triangle[2]];
+    return Union({ a, a }, Union({ b, b }, { c, c }));
+  }
+
+  /** The point of the surface nearest to a position. */
   struct ClosestPoint
   {
     PositionType point{};          ///< in mm
     double squaredDistance;        ///< in mm^2
-    std::uint32_t triangle = None; ///< None where nothing is near enough
+    std::uint32_t triangle = None; ///< None if nothing is near enough
   };
 
   static constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
@@ -75,10 +83,9 @@ public:
     return *m_Surface;
   }
 
-  /** The point of the surface nearest to \a position, the one of the triangle with the lowest number if there are
-   * several. Only what is at most \a maximumSquaredDistance (in mm^2) away is
-   * looked for; squaredDistance is that maximum and triangle None where there is nothing. Where the question is only
-   * whether something is near, the search may end with any point at most \a enoughSquaredDistance (in mm^2) away. */
+  /** Finds the point of the surface nearest to \a position; if there are several, the one of the triangle with the
+   * lowest id. If no point is within \a maximumSquaredDistance (in mm^2), the result has that squaredDistance and the
+   * triangle None. The search may end early with any point within \a enoughSquaredDistance (in mm^2). */
   ClosestPoint
   FindClosestPoint(const PositionType & position,
                    double maximumSquaredDistance = std::numeric_limits<double>::infinity(),
@@ -104,10 +111,10 @@ public:
     });
   }
 
-  /** Calls \a visit(triangle, turns) for every triangle that the ray from \a point along +z crosses: turns is 1 where
-   * it comes out of the triangle's counter-clockwise side, -1 where it enters there. Exact, with \a point understood as
-   * moved by infinitely little along x, less along y and still less along z, so that no ray meets an edge, and points
-   * on the surface are on one definite side of it. */
+  /** Calls \a visit(triangle, turns) for every triangle that the ray from \a point along +z crosses: turns is 1 if the
+   * ray leaves through the triangle's counter-clockwise side, -1 if it enters there. Exact. The point is taken to be
+   * shifted by infinitesimal amounts, along x, less along y and still less along z, so that no ray meets an edge and
+   * every point on the surface is on one side of it. */
   template <typename TVisitor>
   void
   VisitCrossings(const PointType & point, TVisitor && visit) const
@@ -121,23 +128,25 @@ public:
     });
   }
 
-  /** How often the surface, which must be closed, winds around a point: 1 inside an outward-facing surface, 0 outside,
-   * 0 in its cavities. Exact; points on the surface count as VisitCrossings() says. */
+  /** Winding number of a closed surface around a point: 1 inside an outward-facing surface, 0 outside and in cavities.
+   * Exact; for points on the surface see VisitCrossings(). */
   int
   ComputeWindingNumber(const PointType & point) const;
 
-  /** The box around one triangle. */
   Box
-  GetTriangleBox(std::uint32_t triangle) const;
+  GetTriangleBox(std::uint32_t triangle) const
+  {
+    return BoxOf(m_Surface->GetPoints(), m_Surface->GetTriangles()[triangle]);
+  }
 
-  /** All but those with a position that is not finite. */
+  /** The number of triangles in the tree: those with finite positions. */
   SizeValueType
   GetNumberOfPlacedTriangles() const
   {
     return m_Order.size();
   }
 
-  /** The triangles of one leaf, up to LeafSize. */
+  /** The ids of the triangles of one leaf, at most LeafSize. */
   struct Leaf
   {
     const std::uint32_t * first;
@@ -162,21 +171,21 @@ public:
 
   static constexpr std::size_t LeafSize = 4;
 
-  /** Neighbours in number are mostly neighbours in space. */
+  /** Leaves with successive numbers are mostly neighbours in space. */
   std::size_t
   GetNumberOfLeaves() const
   {
     return (m_Order.size() + LeafSize - 1) / LeafSize;
   }
 
-  /** Number \a leaf, below GetNumberOfLeaves(). */
   Leaf
   GetLeaf(std::size_t leaf) const
   {
     return { m_Order.data() + leaf * LeafSize, m_Order.data() + std::min(m_Order.size(), (leaf + 1) * LeafSize) };
   }
 
-  /** Calls \a visit(leaf) in order for every leaf from number \a from on whose box has a point in common with \a box.
+  /** Calls \a visit(leaf) in ascending order for every leaf from \a from on whose box has a point in common with \a
+   * box.
    */
   template <typename TVisitor>
   void
@@ -204,7 +213,7 @@ public:
     }
   }
 
-  /** Bytes held. */
+  /** Bytes, without the surface. */
   SizeValueType
   GetMemorySize() const
   {
@@ -212,8 +221,8 @@ public:
   }
 
 private:
-  /** A node and the leaves [begin, end) below it. Nodes are stored parents first, left before right: a node with L
-   * leaves has 2 L - 1 nodes from itself on. */
+  /** A node and the leaves [begin, end) below it. Nodes are stored in depth-first order: a node with L leaves and all
+   * nodes below it are 2 L - 1 successive nodes. */
   struct Node
   {
     std::size_t id;
@@ -238,7 +247,7 @@ private:
     }
   };
 
-  /** Of nodes still to be visited: their number of leaves halves with each, and there are less than 2^32. */
+  /** Capacity of a stack of nodes: more than the depth of a tree with 2^32 leaves. */
   static constexpr std::size_t MostNodes = 64;
 
   class NodeStack
@@ -300,8 +309,8 @@ private:
   CountTurns(const PointType & point, std::uint32_t triangle) const;
 
   TriangleSurface::ConstPointer m_Surface;
-  std::vector<std::uint32_t, BulkAllocator<std::uint32_t>> m_Order; ///< triangles, leaf by leaf
-  std::vector<Box, BulkAllocator<Box>> m_Boxes;                     ///< of the nodes
+  std::vector<std::uint32_t, BulkAllocator<std::uint32_t>> m_Order; ///< ids of the triangles, leaf by leaf
+  std::vector<Box, BulkAllocator<Box>> m_Boxes;                     ///< boxes of the nodes
 };
 
 } // namespace itk

@@ -13,7 +13,7 @@ namespace itk
 namespace
 {
 
-using Contact = TriangleContactEnums::Contact;
+using Contact = TriangleContact;
 using Point = TriangleSurface::PointType;
 using Corners = std::array<Point, 3>;
 using Signs = std::array<int, 3>;
@@ -30,7 +30,7 @@ SpansPlane(const Corners & corners)
   return HasArea(corners[0], corners[1], corners[2]);
 }
 
-/** An axis along which a triangle with area can be seen. */
+/** An axis along which a triangle with area does not project to a line. */
 unsigned int
 FindAxis(const Corners & corners)
 {
@@ -42,7 +42,7 @@ FindAxis(const Corners & corners)
   return axis;
 }
 
-/** Turns both triangles, each keeping its sense, until the corners they share come first; returns their number. */
+/** Rotates the corners of both triangles until the shared ones come first; returns the number of shared corners. */
 unsigned int
 BringSharedFirst(TriangleSurface::TriangleType & first, TriangleSurface::TriangleType & second)
 {
@@ -76,8 +76,8 @@ FindContactAtEdge(const Corners & first, const Corners & second)
   return isFolded ? Contact::Crossing : Contact::Apart;
 }
 
-/** How a triangle lies to the sides of another in the same plane, both seen along \a axis: Apart if it is beyond one
- * of them, Touching if it only reaches one from beyond, else Crossing. */
+/** Compares a triangle with the sides of another in the same plane, both projected along \a axis: Apart if it lies
+ * beyond one of the sides, Touching if it lies beyond one but reaches it, else Crossing. */
 Contact
 ComparePlanarSides(const Corners & sided, const Corners & other, unsigned int axis)
 {
@@ -99,7 +99,7 @@ ComparePlanarSides(const Corners & sided, const Corners & other, unsigned int ax
   return contact;
 }
 
-/** Whether sides of two triangles in one plane run on from their common first corner in the same direction. */
+/** Whether two triangles in one plane have sides that leave their common first corner in the same direction. */
 bool
 RunAlongEachOther(const Corners & first, const Corners & second, unsigned int axis)
 {
@@ -124,7 +124,7 @@ RunAlongEachOther(const Corners & first, const Corners & second, unsigned int ax
   return false;
 }
 
-/** Two convex polygons in a plane are apart if a line along a side of one is between them. */
+/** Two convex polygons in a plane are apart if a side of one of them separates them. */
 Contact
 FindContactInPlane(const Corners & first, const Corners & second, unsigned int shared)
 {
@@ -137,7 +137,7 @@ FindContactInPlane(const Corners & first, const Corners & second, unsigned int s
   return contact;
 }
 
-/** On which side of a triangle's plane the other's corners are, of which the first \a shared are also its own. */
+/** The sides of a triangle's plane on which the corners of another one lie; the first \a shared corners lie in it. */
 Signs
 FindSides(const Corners & plane, const Corners & corners, unsigned int shared)
 {
@@ -155,16 +155,15 @@ PassesThrough(const Signs & sides)
   return *std::min_element(sides.begin(), sides.end()) < 0 && *std::max_element(sides.begin(), sides.end()) > 0;
 }
 
-/** Whether the triangle meets the plane in more than a corner. */
+/** Whether the triangle meets the plane in more than one corner. */
 bool
 MeetsInLine(const Signs & sides)
 {
   return PassesThrough(sides) || std::count(sides.begin(), sides.end(), 0) == 2;
 }
 
-/** Turns the triangle until its first corner, the apex, is alone on one side of the plane, with the other two in the
- * plane or on its other side. Returns the apex's side; an apex in the plane is given the side where the others are not.
- */
+/** Rotates the triangle until its first corner, the apex, is alone on one side of the plane; the other two are in the
+ * plane or on its other side. Returns the apex's side. An apex in the plane gets the side without the other corners. */
 int
 BringApexFirst(Corners & corners, const Signs & sides)
 {
@@ -185,8 +184,8 @@ BringApexFirst(Corners & corners, const Signs & sides)
   return apexSide;
 }
 
-/** The planes' common line meets each triangle in an interval. With each apex before the other's plane, the first
- * triangle's interval ends at its side 0-1 and begins at 0-2, the second's begins at 0-1 and ends at 0-2. */
+/** The common line of the planes meets each triangle in an interval. With each apex in front of the other's plane, the
+ * first triangle's interval begins at its side 0-2 and ends at 0-1, the second's begins at 0-1 and ends at 0-2. */
 Contact
 CompareIntervals(Corners first,
                  const Signs & firstSides,
@@ -215,7 +214,7 @@ CompareIntervals(Corners first,
   {
     return Contact::Crossing;
   }
-  // both intervals of triangles with a common corner begin or end at it
+  // If the triangles share a corner, both intervals begin or end there.
   const bool meetBeyondShared = haveLengthInCommon && MeetsInLine(firstSides) && MeetsInLine(secondSides);
   return shared == 0 || meetBeyondShared ? Contact::Touching : Contact::Apart;
 }
@@ -234,7 +233,7 @@ FindContact(const Corners & first, const Corners & second, unsigned int shared)
   }
   const Signs secondSides = FindSides(first, second, shared);
   if (AreAll(secondSides, 1) || AreAll(secondSides, -1) || (shared == 1 && !MeetsInLine(secondSides)) ||
-      AreAll(secondSides, 0)) // the first triangle has no area, or its corners would all lie in the other's plane
+      AreAll(secondSides, 0)) // then the first triangle has no area, as its corners are not all in the other's plane
   {
     return Contact::Apart;
   }

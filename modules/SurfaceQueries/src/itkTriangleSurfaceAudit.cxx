@@ -6,31 +6,11 @@
 
 namespace itk
 {
-namespace
-{
-
-void
-CheckIndices(const TriangleSurface & surface)
-{
-  const auto & triangles = surface.GetTriangles();
-  for (std::size_t n = 0; n < triangles.size(); ++n)
-  {
-    const std::uint32_t highest = *std::max_element(triangles[n].begin(), triangles[n].end());
-    if (highest >= surface.GetNumberOfPoints())
-    {
-      itkGenericExceptionMacro("Triangle " << n << " has the point " << highest << ", but the surface has only "
-                                           << surface.GetNumberOfPoints()
-                                           << " points; write the surface again from its source");
-    }
-  }
-}
-
-} // namespace
 
 TriangleSurfaceAudit
 AuditSurface(const TriangleSurface & surface, const TriangleSurfaceAuditSettings & settings)
 {
-  CheckIndices(surface);
+  surface.VerifyTriangles();
   TriangleSurfaceAudit audit;
   audit.points = surface.GetNumberOfPoints();
   audit.triangles = surface.GetNumberOfTriangles();

@@ -1,62 +1,46 @@
 #include "itkTriangleSurfaceDistance.h"
 
-#include "itkForEachBlock.h"
 #include "detail/itkPositionArithmetic.h"
+#include "itkForEachBlock.h"
 
 #include <cmath>
+#include <utility>
 
 namespace itk
 {
 namespace
 {
 
-using Position = PositionType;
-using Corners = std::array<Position, 3>;
-
 constexpr SizeValueType BlockSize = 1024;
 constexpr unsigned int MostParts = 64; // along a side
 
-Corners
-CornersOf(const TriangleSurface & surface, const TriangleSurface::TriangleType & triangle)
-{
-  const auto & points = surface.GetPoints();
-  return { ToPosition(points[triangle[0]]), ToPosition(points[triangle[1]]), ToPosition(points[triangle[2]]) };
-}
-
 double
-Distance(const Position & a, const Position & b)
-{
-  const Position way = Subtract(a, b);
-  return std::sqrt(Dot(way, way));
-}
-
-double
-LongestSide(const Corners & corners)
+LongestSide(const CornersType & corners)
 {
   return std::max(
     { Distance(corners[0], corners[1]), Distance(corners[1], corners[2]), Distance(corners[2], corners[0]) });
 }
 
 double
-Area(const Corners & corners)
+Area(const CornersType & corners)
 {
-  const Position normal = Cross(Subtract(corners[1], corners[0]), Subtract(corners[2], corners[0]));
-  return std::sqrt(Dot(normal, normal)) / 2.0;
+  return Length(AreaVector(corners)) / 2.0;
 }
 
-/** weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2] */
-Position
-At(const Corners & corners, const std::array<double, 3> & weights)
+/** The position with barycentric coordinates 1 - u - v, u and v. */
+PositionType
+At(const CornersType & corners, double u, double v)
 {
-  Position position;
+  PositionType position;
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    position[axis] = weights[0] * corners[0][axis] + weights[1] * corners[1][axis] + weights[2] * corners[2][axis];
+    position[axis] = (1.0 - u - v) * corners[0][axis] + u * corners[1][axis] + v * corners[2][axis];
   }
   return position;
 }
 
-/** Distances of places that mostly follow each other closely: what was nearest to the last one bounds the search. */
+/** Distances of sample points that are mostly close to the ones before: the triangle nearest to the last sample point
+ * bounds the search. */
 class Distances
 {
 public:
@@ -65,13 +49,12 @@ public:
   {}
 
   double
-  Of(const Position & position)
+  Of(const PositionType & position)
   {
     double bound = std::numeric_limits<double>::infinity();
     if (m_Nearest != TriangleTree::None)
     {
-      const Position way = Subtract(position, m_Other.FindClosestPointOfTriangle(position, m_Nearest));
-      bound = Dot(way, way);
+      bound = SquaredDistance(position, m_Other.FindClosestPointOfTriangle(position, m_Nearest));
     }
     const auto closest = m_Other.FindClosestPoint(position, bound);
     m_Nearest = closest.triangle != TriangleTree::None ? closest.triangle : m_Nearest;
@@ -83,14 +66,16 @@ private:
   std::uint32_t m_Nearest = TriangleTree::None;
 };
 
+/** A sample point: its distance in mm and the area it stands for in mm^2. */
 struct Place
 {
   float distance;
   float area;
 };
 
+/** Into how many parts each side of a triangle is divided. */
 unsigned int
-CountParts(const Corners & corners, double spacing)
+CountParts(const CornersType & corners, double spacing)
 {
   return static_cast<unsigned int>(std::clamp(std::ceil(LongestSide(corners) / spacing), 1.0, double{ MostParts }));
 }
@@ -98,7 +83,7 @@ CountParts(const Corners & corners, double spacing)
 /** Calls visit(centre) for each of parts^2 equal parts of a triangle. */
 template <typename TVisit>
 void
-ForEachPart(const Corners & corners, unsigned int parts, const TVisit & visit)
+ForEachPart(const CornersType & corners, unsigned int parts, const TVisit & visit)
 {
   for (unsigned int row = 0; row < parts; ++row)
   {
@@ -107,7 +92,7 @@ ForEachPart(const Corners & corners, unsigned int parts, const TVisit & visit)
       const auto centre = [&](double shift) {
         const double u = (column + shift) / parts;
         const double v = (row + shift) / parts;
-        return At(corners, { 1.0 - u - v, u, v });
+        return At(corners, u, v);
       };
       visit(centre(1.0 / 3.0));
       if (column + row + 1 < parts)
@@ -156,10 +141,88 @@ MeanSide(const TriangleSurface & surface)
   double sum = 0.0;
   for (const auto & triangle : surface.GetTriangles())
   {
-    const Corners corners = CornersOf(surface, triangle);
+    const CornersType corners = CornersOf(surface, triangle);
     sum += Distance(corners[0], corners[1]) + Distance(corners[1], corners[2]) + Distance(corners[2], corners[0]);
   }
   return sum / std::max(1.0, 3.0 * static_cast<double>(surface.GetNumberOfTriangles()));
+}
+
+/** Every \a step-th triangle of a surface, divided into parts. */
+struct ChosenTriangles
+{
+  std::size_t step;
+  std::vector<std::uint64_t> firstPlace; ///< of each triangle, after the places of the points; and the end of the last
+  std::vector<float> pointAreas; ///< area in mm^2 that each point stands for; 0 for points of no chosen triangle
+
+  std::size_t
+  GetNumberOfTriangles() const
+  {
+    return firstPlace.size() - 1;
+  }
+};
+
+ChosenTriangles
+ChooseTriangles(const TriangleSurface & surface, double spacing, SizeValueType mostTriangles)
+{
+  const auto & triangles = surface.GetTriangles();
+  ChosenTriangles chosen;
+  chosen.step =
+    std::max<std::size_t>(1, triangles.size() / mostTriangles + (triangles.size() % mostTriangles != 0 ? 1 : 0));
+  chosen.firstPlace.assign(1, surface.GetNumberOfPoints());
+  chosen.firstPlace.reserve((triangles.size() + chosen.step - 1) / chosen.step + 1);
+  chosen.pointAreas.assign(surface.GetNumberOfPoints(), 0.0f);
+  for (std::size_t id = 0; id < triangles.size(); id += chosen.step)
+  {
+    const CornersType corners = CornersOf(surface, triangles[id]);
+    const double parts = CountParts(corners, spacing);
+    chosen.firstPlace.push_back(chosen.firstPlace.back() + static_cast<std::uint64_t>(parts * parts));
+    for (const std::uint32_t point : triangles[id])
+    {
+      chosen.pointAreas[point] += static_cast<float>(Area(corners) / (12.0 * parts * parts));
+    }
+  }
+  return chosen;
+}
+
+void
+MeasurePoints(const TriangleSurface & surface,
+              const TriangleTree & other,
+              const ChosenTriangles & chosen,
+              std::vector<Place> & places)
+{
+  ForEachBlock(surface.GetNumberOfPoints(), BlockSize, [&](std::size_t first, std::size_t last) {
+    Distances distances(other);
+    for (std::size_t point = first; point < last; ++point)
+    {
+      const float area = chosen.pointAreas[point];
+      const double distance = area > 0.0f ? distances.Of(ToPosition(surface.GetPoints()[point])) : 0.0;
+      places[point] = { static_cast<float>(distance), area };
+    }
+  });
+}
+
+void
+MeasureCentres(const TriangleSurface & surface,
+               const TriangleTree & other,
+               const ChosenTriangles & chosen,
+               double spacing,
+               std::vector<Place> & places)
+{
+  ForEachBlock(chosen.GetNumberOfTriangles(), BlockSize, [&](std::size_t first, std::size_t last) {
+    Distances distances(other);
+    for (std::size_t n = first; n < last; ++n)
+    {
+      const CornersType corners = CornersOf(surface, surface.GetTriangles()[n * chosen.step]);
+      const unsigned int parts = CountParts(corners, spacing);
+      const double numberOfParts = static_cast<double>(parts) * parts;
+      // The inner corners of parts are not sampled; the centres stand for their share, too.
+      const double area = Area(corners) / numberOfParts * (1.0 - 0.25 / numberOfParts);
+      std::size_t place = chosen.firstPlace[n];
+      ForEachPart(corners, parts, [&](const PositionType & centre) {
+        places[place++] = { static_cast<float>(distances.Of(centre)), static_cast<float>(area) };
+      });
+    }
+  });
 }
 
 } // namespace
@@ -170,49 +233,10 @@ ComputeDistance(const TriangleSurface & surface,
                 double spacing,
                 SizeValueType mostTriangles)
 {
-  const auto & triangles = surface.GetTriangles();
-  const std::size_t step =
-    std::max<std::size_t>(1, triangles.size() / mostTriangles + (triangles.size() % mostTriangles != 0 ? 1 : 0));
-  const std::size_t looked = (triangles.size() + step - 1) / step;
-  std::vector<std::uint64_t> begin(looked + 1);
-  std::vector<float> pointAreas(surface.GetNumberOfPoints(), 0.0f);
-  begin[0] = surface.GetNumberOfPoints();
-  for (std::size_t n = 0; n < looked; ++n)
-  {
-    const auto & triangle = triangles[n * step];
-    const Corners corners = CornersOf(surface, triangle);
-    const double parts = CountParts(corners, spacing);
-    begin[n + 1] = begin[n] + static_cast<std::uint64_t>(parts * parts);
-    for (const std::uint32_t point : triangle)
-    {
-      pointAreas[point] += static_cast<float>(Area(corners) / (12.0 * parts * parts));
-    }
-  }
-  std::vector<Place> places(begin.back());
-  ForEachBlock(surface.GetNumberOfPoints(), BlockSize, [&](std::size_t first, std::size_t last) {
-    Distances distances(other);
-    for (std::size_t point = first; point < last; ++point)
-    {
-      const bool isLookedAt = pointAreas[point] > 0.0f;
-      const double distance = isLookedAt ? distances.Of(ToPosition(surface.GetPoints()[point])) : 0.0;
-      places[point] = { static_cast<float>(distance), pointAreas[point] };
-    }
-  });
-  ForEachBlock(looked, BlockSize, [&](std::size_t first, std::size_t last) {
-    Distances distances(other);
-    for (std::size_t n = first; n < last; ++n)
-    {
-      const Corners corners = CornersOf(surface, triangles[n * step]);
-      const unsigned int parts = CountParts(corners, spacing);
-      const double numberOfParts = static_cast<double>(parts) * parts;
-      // the inner corners of parts are not looked at: their share is the centres'
-      const double area = Area(corners) / numberOfParts * (1.0 - 0.25 / numberOfParts);
-      std::size_t place = begin[n];
-      ForEachPart(corners, parts, [&](const Position & centre) {
-        places[place++] = { static_cast<float>(distances.Of(centre)), static_cast<float>(area) };
-      });
-    }
-  });
+  const ChosenTriangles chosen = ChooseTriangles(surface, spacing, mostTriangles);
+  std::vector<Place> places(chosen.firstPlace.back());
+  MeasurePoints(surface, other, chosen, places);
+  MeasureCentres(surface, other, chosen, spacing, places);
   return Summarize(std::move(places));
 }
 

@@ -23,7 +23,7 @@ ToVector(const TriangleSurface::PointType & point)
   return vector;
 }
 
-/** Column, row and height as linear functions of a position: the dual basis of column step, row step and normal. */
+/** The dual basis of column step, row step and normal: scalar products with it give column, row and height. */
 struct PlaneFrame
 {
   Vector3 column;
@@ -88,15 +88,15 @@ FindTrianglesOfPlanes(const TriangleSurface & surface,
   return found;
 }
 
-/** A place in a plane, in samples. */
+/** A position in a plane, in units of samples. */
 struct PlanePoint
 {
   double column;
   double row;
 };
 
-/** Where a plane cuts the sides of triangles. Triangles that share a side get the same point to the last bit, so that
- * the outline in the plane is closed. */
+/** Cuts triangles by a plane. Triangles that share a side get exactly the same point on it, so that the outline in the
+ * plane is closed. */
 class PlaneCut
 {
 public:
@@ -149,25 +149,26 @@ private:
 
   const TriangleSurface & m_Surface;
   const PlaneFrame & m_Frame;
-  double m_Column; // of the plane's origin
-  double m_Row;
+  double m_Column; ///< of the plane's origin
+  double m_Row;    ///< of the plane's origin
   const std::vector<double> & m_PointHeights;
   double m_Height;
 };
 
-/** Where a row of samples crosses the outline. */
+/** A crossing of a row of samples with the outline. */
 struct Crossing
 {
   SizeValueType row;
   double column;
 };
 
+/** Appends the crossings of rows with a segment of the outline. */
 void
 AppendCrossings(const std::array<PlanePoint, 2> & ends, SizeValueType numberOfRows, std::vector<Crossing> & crossings)
 {
-  // From the lower to the higher row, whichever way the triangle faces, for the same rounding.
+  // Always from the lower to the higher row, so that rounding does not depend on which way the triangle faces.
   const auto & [low, high] = ends[0].row < ends[1].row ? std::tie(ends[0], ends[1]) : std::tie(ends[1], ends[0]);
-  // Rows above the lower end and at or below the higher one: each row of samples belongs to its upper side.
+  // A row on the surface is taken to lie just above it: rows above the lower end, up to the higher one.
   const double first = std::max(0.0, std::floor(low.row) + 1.0);
   const double last = std::min(static_cast<double>(numberOfRows) - 1.0, std::floor(high.row));
   for (double row = first; row <= last; row += 1.0)
@@ -181,6 +182,27 @@ SizeValueType
 FirstColumnFrom(double position, SizeValueType numberOfColumns)
 {
   return static_cast<SizeValueType>(std::clamp(std::ceil(position), 0.0, static_cast<double>(numberOfColumns)));
+}
+
+/** Visits the runs of samples between successive crossings of each row. */
+void
+VisitRuns(SizeValueType plane,
+          std::vector<Crossing> & crossings,
+          SizeValueType numberOfColumns,
+          const VisitInteriorSamples & visit)
+{
+  std::sort(crossings.begin(), crossings.end(), [](const Crossing & a, const Crossing & b) {
+    return a.row != b.row ? a.row < b.row : a.column < b.column;
+  });
+  for (std::size_t n = 0; n + 1 < crossings.size(); n += 2)
+  {
+    const SizeValueType begin = FirstColumnFrom(crossings[n].column, numberOfColumns);
+    const SizeValueType end = FirstColumnFrom(crossings[n + 1].column, numberOfColumns);
+    if (begin < end && crossings[n].row == crossings[n + 1].row)
+    {
+      visit(plane, crossings[n].row, begin, end);
+    }
+  }
 }
 
 } // namespace
@@ -203,27 +225,15 @@ FindInteriorSamples(const TriangleSurface & surface, const SamplePlanes & planes
   });
   const TrianglesOfPlanes found = FindTrianglesOfPlanes(surface, pointHeights, planeHeights);
 
-  const auto visitPlane = [&](SizeValueType plane) {
+  ForEachInBlocks(planes.origins.size(), 1, [&](SizeValueType plane) {
     const PlaneCut cut(surface, frame, planes.origins[plane], pointHeights, planeHeights[plane]);
     std::vector<Crossing> crossings;
     for (std::uint64_t n = found.begin[plane]; n < found.begin[plane + 1]; ++n)
     {
       AppendCrossings(cut.CutTriangle(surface.GetTriangles()[found.triangles[n]]), planes.numberOfRows, crossings);
     }
-    std::sort(crossings.begin(), crossings.end(), [](const Crossing & a, const Crossing & b) {
-      return a.row != b.row ? a.row < b.row : a.column < b.column;
-    });
-    for (std::size_t n = 0; n + 1 < crossings.size(); n += 2)
-    {
-      const SizeValueType begin = FirstColumnFrom(crossings[n].column, planes.numberOfColumns);
-      const SizeValueType end = FirstColumnFrom(crossings[n + 1].column, planes.numberOfColumns);
-      if (begin < end && crossings[n].row == crossings[n + 1].row)
-      {
-        visit(plane, crossings[n].row, begin, end);
-      }
-    }
-  };
-  ForEachInBlocks(planes.origins.size(), 1, visitPlane);
+    VisitRuns(plane, crossings, planes.numberOfColumns, visit);
+  });
 }
 
 } // namespace itk

@@ -1,7 +1,7 @@
 #include "itkTriangleSurfaceIntersections.h"
 
-#include "itkForEachBlock.h"
 #include "detail/itkTriangleContact.h"
+#include "itkForEachBlock.h"
 
 #include <algorithm>
 #include <mutex>
@@ -11,7 +11,7 @@ namespace itk
 namespace
 {
 
-using Contact = TriangleContactEnums::Contact;
+using Contact = TriangleContact;
 using TriangleType = TriangleSurface::TriangleType;
 
 using Boxes = std::array<TriangleTree::Box, TriangleTree::LeafSize>;
@@ -26,7 +26,7 @@ AreDuplicates(TriangleType a, TriangleType b)
   return a == b;
 }
 
-/** Visits the contacts of the triangles of two leaves, or of one with itself: \a visit(a, b, contact). */
+/** Calls \a visit(a, b, contact) for the pairs of triangles of two leaves, or of one leaf, whose boxes overlap. */
 template <typename TVisitor>
 void
 VisitContacts(const TriangleTree & tree,
@@ -54,8 +54,8 @@ VisitContacts(const TriangleTree & tree,
   }
 }
 
-/** Visits the contacts of the triangles of one leaf, every \a stride-th being tested, but for those that an earlier
- * leaf has found. */
+/** Calls \a visit(a, b, contact) for the triangles of one leaf, without pairs that an earlier leaf has visited. Every
+ * \a stride-th leaf is tested. */
 template <typename TVisitor>
 void
 TestLeaf(const TriangleTree & tree, std::size_t leaf, std::size_t stride, const TVisitor & visit)

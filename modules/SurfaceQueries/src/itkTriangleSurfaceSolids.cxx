@@ -19,93 +19,80 @@ using PointId = std::uint32_t;
 
 constexpr std::size_t BlockOfComponents = 64;
 
-/** What winds around places of a surface. */
-class Enclosures
+/** Calls \a visit(component, turns) for the crossings of the ray along +z from a point with other components than its
+ * own, see TriangleTree::VisitCrossings(). */
+template <typename TVisitor>
+void
+VisitOtherComponents(const TriangleTree & tree,
+                     const TriangleSurfaceComponents & components,
+                     PointId point,
+                     const TVisitor & visit)
 {
-public:
-  struct Enclosing
-  {
-    ComponentId component;
-    int windings;
-  };
-
-  Enclosures(const TriangleTree & tree, const TriangleSurfaceComponents & components)
-    : m_Components(components)
-    , m_Tree(tree)
-  {}
-
-  /** The components, other than a point's own, that wind around it, in increasing order. */
-  std::vector<Enclosing>
-  Find(PointId point) const
-  {
-    const TriangleSurface & surface = m_Tree.GetSurface();
-    std::vector<std::pair<ComponentId, int>> crossings;
-    m_Tree.VisitCrossings(surface.GetPoints()[point], [&](std::uint32_t triangle, int turns) {
-      const ComponentId crossed = m_Components.ofPoint[surface.GetTriangles()[triangle][0]];
-      if (crossed != m_Components.ofPoint[point])
-      {
-        crossings.emplace_back(crossed, turns);
-      }
-    });
-    std::sort(crossings.begin(), crossings.end());
-    std::vector<Enclosing> enclosing;
-    for (std::size_t begin = 0, end = 0; begin < crossings.size(); begin = end)
+  const TriangleSurface & surface = tree.GetSurface();
+  tree.VisitCrossings(surface.GetPoints()[point], [&](std::uint32_t triangle, int turns) {
+    const ComponentId crossed = components.ofPoint[surface.GetTriangles()[triangle][0]];
+    if (crossed != components.ofPoint[point])
     {
-      int windings = 0;
-      for (; end < crossings.size() && crossings[end].first == crossings[begin].first; ++end)
-      {
-        windings += crossings[end].second;
-      }
-      if (windings != 0)
-      {
-        enclosing.push_back({ crossings[begin].first, windings });
-      }
+      visit(crossed, turns);
     }
-    return enclosing;
-  }
+  });
+}
 
-  /** How often all components but its own wind around a point. */
-  int
-  CountWindings(PointId point) const
+/** The components, other than its own, that wind around a point, in ascending order. */
+std::vector<ComponentId>
+FindEnclosing(const TriangleTree & tree, const TriangleSurfaceComponents & components, PointId point)
+{
+  std::vector<std::pair<ComponentId, int>> crossings;
+  VisitOtherComponents(
+    tree, components, point, [&](ComponentId component, int turns) { crossings.emplace_back(component, turns); });
+  std::sort(crossings.begin(), crossings.end());
+  std::vector<ComponentId> enclosing;
+  for (std::size_t begin = 0, end = 0; begin < crossings.size(); begin = end)
   {
-    int sum = 0;
-    for (const Enclosing & enclosing : this->Find(point))
+    int windings = 0;
+    for (; end < crossings.size() && crossings[end].first == crossings[begin].first; ++end)
     {
-      sum += enclosing.windings;
+      windings += crossings[end].second;
     }
-    return sum;
+    if (windings != 0)
+    {
+      enclosing.push_back(crossings[begin].first);
+    }
   }
+  return enclosing;
+}
 
-private:
-  const TriangleSurfaceComponents & m_Components;
-  const TriangleTree & m_Tree;
-};
+/** How often all components but its own wind around a point. */
+int
+CountWindings(const TriangleTree & tree, const TriangleSurfaceComponents & components, PointId point)
+{
+  int windings = 0;
+  VisitOtherComponents(tree, components, point, [&windings](ComponentId, int turns) { windings += turns; });
+  return windings;
+}
 
-/** The outer shell of the solid that each component is a part of. */
+/** For each component, the outer shell of its solid. */
 std::vector<ComponentId>
 FindOuterShells(const TriangleSurface & surface,
                 const TriangleSurfaceComponents & components,
                 const std::vector<double> & volumes)
 {
   const TriangleTree tree(surface);
-  const Enclosures enclosures(tree, components);
   const std::vector<PointId> points = FindFirstPoints(components);
   std::vector<ComponentId> shells(components.count);
-  ForEachBlock(components.count, BlockOfComponents, [&](std::size_t begin, std::size_t end) {
-    for (auto component = static_cast<ComponentId>(begin); component < end; ++component)
+  ForEachInBlocks(components.count, BlockOfComponents, [&](std::size_t id) {
+    const auto component = static_cast<ComponentId>(id);
+    ComponentId & shell = shells[component];
+    shell = component;
+    if (volumes[component] >= 0.0)
     {
-      ComponentId & shell = shells[component];
-      shell = component;
-      if (volumes[component] >= 0.0)
+      return;
+    }
+    for (const ComponentId enclosing : FindEnclosing(tree, components, points[component]))
+    {
+      if (volumes[enclosing] > 0.0 && (shell == component || volumes[enclosing] < volumes[shell]))
       {
-        continue;
-      }
-      for (const auto & [enclosing, windings] : enclosures.Find(points[component]))
-      {
-        if (volumes[enclosing] > 0.0 && (shell == component || volumes[enclosing] < volumes[shell]))
-        {
-          shell = enclosing;
-        }
+        shell = enclosing;
       }
     }
   });
@@ -138,27 +125,36 @@ FindEnds(const TriangleSurface & surface, const TriangleSurfaceComponents & comp
   return ends;
 }
 
-/** 1 for the components that do not face as they should, see CountShells(), 0 for the others. */
+/** For each component, 1 if it is misfacing, see CountShells(), else 0. */
 std::vector<std::uint8_t>
 FindMisfacing(const TriangleTree & tree,
               const TriangleSurfaceComponents & components,
               const std::vector<double> & volumes)
 {
   const std::vector<Ends> ends = FindEnds(tree.GetSurface(), components);
-  const Enclosures enclosures(tree, components);
   std::vector<std::uint8_t> misfacing(components.count);
-  ForEachBlock(components.count, BlockOfComponents, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t component = begin; component < end; ++component)
-    {
-      const int expected = volumes[component] < 0.0 ? 1 : 0;
-      misfacing[component] = enclosures.CountWindings(ends[component].least) != expected &&
-                             enclosures.CountWindings(ends[component].greatest) != expected;
-    }
+  ForEachInBlocks(components.count, BlockOfComponents, [&](std::size_t component) {
+    const int expected = volumes[component] < 0.0 ? 1 : 0;
+    misfacing[component] = CountWindings(tree, components, ends[component].least) != expected &&
+                           CountWindings(tree, components, ends[component].greatest) != expected;
   });
   return misfacing;
 }
 
-/** Removes the other components. Those that face inwards count as cavities if \a isCavity(component). */
+/** For each component, 1 if no other encloses it, else 0; bytes, because threads must not write bits side by side. */
+std::vector<std::uint8_t>
+FindOutermost(const TriangleSurface & surface, const TriangleSurfaceComponents & components)
+{
+  const TriangleTree tree(surface);
+  const std::vector<PointId> points = FindFirstPoints(components);
+  std::vector<std::uint8_t> isOutermost(components.count);
+  ForEachInBlocks(components.count, BlockOfComponents, [&](std::size_t component) {
+    isOutermost[component] = FindEnclosing(tree, components, points[component]).empty();
+  });
+  return isOutermost;
+}
+
+/** Removes the components that \a keep leaves out. They count as cavities if \a isCavity(component), else as solids. */
 template <typename TPredicate>
 RemovedShells
 Keep(TriangleSurface & surface,
@@ -183,7 +179,7 @@ Keep(TriangleSurface & surface,
   return removed;
 }
 
-/** Keeps the components whose solid's outer shell \a isKept(shell) approves. */
+/** Keeps the solids for whose outer shell \a isKept(shell) is true. */
 template <typename TPredicate>
 RemovedShells
 KeepSolids(TriangleSurface & surface,
@@ -229,18 +225,7 @@ RemovedShells
 FillCavities(TriangleSurface & surface)
 {
   const TriangleSurfaceComponents components = FindComponents(surface);
-  std::vector<std::uint8_t> isOutermost(components.count); // bytes, which threads may write side by side
-  {
-    const TriangleTree tree(surface);
-    const Enclosures enclosures(tree, components);
-    const std::vector<PointId> points = FindFirstPoints(components);
-    ForEachBlock(components.count, BlockOfComponents, [&](std::size_t begin, std::size_t end) {
-      for (auto component = static_cast<ComponentId>(begin); component < end; ++component)
-      {
-        isOutermost[component] = enclosures.Find(points[component]).empty();
-      }
-    });
-  }
+  const std::vector<std::uint8_t> isOutermost = FindOutermost(surface, components);
   const std::vector<double> volumes = ComputeComponentVolumes(surface, components);
   return Keep(surface, components, { isOutermost.begin(), isOutermost.end() }, [&volumes](ComponentId component) {
     return volumes[component] < 0.0;

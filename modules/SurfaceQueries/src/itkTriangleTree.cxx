@@ -5,7 +5,6 @@
 #include "itkForEachBlock.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace itk
 {
@@ -15,7 +14,7 @@ namespace
 using Box = TriangleTree::Box;
 using PointType = TriangleTree::PointType;
 
-constexpr unsigned int ParallelDepth = 6;
+constexpr unsigned int ParallelDepth = 6; // levels of the tree, counted from the root, that threads share
 
 constexpr Box EmptyBox = { { std::numeric_limits<float>::infinity(),
                              std::numeric_limits<float>::infinity(),
@@ -23,12 +22,6 @@ constexpr Box EmptyBox = { { std::numeric_limits<float>::infinity(),
                            { -std::numeric_limits<float>::infinity(),
                              -std::numeric_limits<float>::infinity(),
                              -std::numeric_limits<float>::infinity() } };
-
-bool
-IsFinite(const PointType & point)
-{
-  return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
-}
 
 PointType
 CentreOf(const Box & box)
@@ -60,11 +53,11 @@ SquaredDistance(const PositionType & position, const Box & box)
   return squared;
 }
 
-/** Which way the sides of a triangle turn around \a point, moved by infinitely little along x and less along y, when
- * all are seen from +z. The area of (from, to, point) grows with the point's x by from.y - to.y and with its y by
+/** The turn from \a from over \a to to \a point seen from +z, with the point shifted by an infinitesimal amount along x
+ * and a smaller one along y. The area of (from, to, point) grows with the point's x by from.y - to.y and with its y by
  * to.x - from.x. */
 int
-TurnAround(const PointType & from, const PointType & to, const PointType & point)
+TurnAroundShifted(const PointType & from, const PointType & to, const PointType & point)
 {
   if (const int turn = OrientationAlongAxis(from, to, point, 2))
   {
@@ -77,9 +70,9 @@ TurnAround(const PointType & from, const PointType & to, const PointType & point
   return (to[0] > from[0]) - (to[0] < from[0]);
 }
 
-/** On which side of a triangle the point lies, moved by infinitely little along x, less along y, still less along z. */
+/** The side of a triangle on which the shifted point lies, see TriangleTree::VisitCrossings(). */
 int
-SideOfMoved(const PointType & a, const PointType & b, const PointType & c, const PointType & point)
+SideOfShifted(const PointType & a, const PointType & b, const PointType & c, const PointType & point)
 {
   int side = OrientationInSpace(a, b, c, point);
   for (unsigned int axis = 0; axis < 3 && side == 0; ++axis)
@@ -98,18 +91,6 @@ TriangleTree::TriangleTree(const TriangleSurface & surface)
   this->BuildBoxes();
 }
 
-Box
-TriangleTree::GetTriangleBox(std::uint32_t triangle) const
-{
-  const auto & corners = m_Surface->GetTriangles()[triangle];
-  const auto & points = m_Surface->GetPoints();
-  const Box first = { points[corners[0]], points[corners[0]] };
-  const Box second = { points[corners[1]], points[corners[1]] };
-  const Box third = { points[corners[2]], points[corners[2]] };
-  return Union(first, Union(second, third));
-}
-
-/** Each node's triangles are halved across the longest side of the box around their centres. */
 void
 TriangleTree::SortTriangles()
 {
@@ -144,6 +125,7 @@ TriangleTree::SortTriangles()
     centred.begin(), centred.end(), m_Order.begin(), [](const CentredTriangle & item) { return item.triangle; });
 }
 
+/** Halves a node's triangles across the longest side of the box around their centres. */
 void
 TriangleTree::Halve(CentredTriangles & centred, const Node & node)
 {
@@ -208,7 +190,7 @@ TriangleTree::CollectNodes(const Node & node, unsigned int depth, std::vector<No
   this->CollectNodes(node.Right(), depth - 1, nodes);
 }
 
-/** Fills in the boxes of a node and \a depth - 1 levels below, from those that are there already deeper down. */
+/** Computes the boxes of a node and of \a depth - 1 levels below it; deeper boxes are there already. */
 Box
 TriangleTree::BuildBoxesBelow(const Node & node, unsigned int depth)
 {
@@ -243,25 +225,27 @@ TriangleTree::FindClosestPoint(const PositionType & position,
   {
     return closest;
   }
-  struct Away
+  struct DistantNode
   {
     Node node;
     double squaredDistance;
   };
-  const auto measure = [&](const Node & node) { return Away{ node, SquaredDistance(position, m_Boxes[node.id]) }; };
-  std::array<Away, MostNodes> stack; // nearer ones last
+  const auto measure = [&](const Node & node) {
+    return DistantNode{ node, SquaredDistance(position, m_Boxes[node.id]) };
+  };
+  std::array<DistantNode, MostNodes> stack; // the nearest on top
   std::size_t size = 0;
   stack[size++] = measure(this->Root());
   while (size > 0)
   {
-    const Away away = stack[--size];
-    if (away.squaredDistance > closest.squaredDistance)
+    const DistantNode top = stack[--size];
+    if (top.squaredDistance > closest.squaredDistance)
     {
       continue;
     }
-    if (away.node.IsLeaf())
+    if (top.node.IsLeaf())
     {
-      for (const std::uint32_t triangle : this->GetLeaf(away.node.begin))
+      for (const std::uint32_t triangle : this->GetLeaf(top.node.begin))
       {
         if (SquaredDistance(position, this->GetTriangleBox(triangle)) <= closest.squaredDistance)
         {
@@ -274,10 +258,10 @@ TriangleTree::FindClosestPoint(const PositionType & position,
       }
       continue;
     }
-    const Away left = measure(away.node.Left());
-    const Away right = measure(away.node.Right());
+    const DistantNode left = measure(top.node.Left());
+    const DistantNode right = measure(top.node.Right());
     const bool isLeftNearer = left.squaredDistance <= right.squaredDistance;
-    for (const Away & child : { isLeftNearer ? right : left, isLeftNearer ? left : right })
+    for (const DistantNode & child : { isLeftNearer ? right : left, isLeftNearer ? left : right })
     {
       if (child.squaredDistance <= closest.squaredDistance)
       {
@@ -291,26 +275,22 @@ TriangleTree::FindClosestPoint(const PositionType & position,
 TriangleTree::PositionType
 TriangleTree::FindClosestPointOfTriangle(const PositionType & position, std::uint32_t triangle) const
 {
-  const auto & corners = m_Surface->GetTriangles()[triangle];
-  const auto & points = m_Surface->GetPoints();
-  return ClosestOnTriangle(
-    position, { ToPosition(points[corners[0]]), ToPosition(points[corners[1]]), ToPosition(points[corners[2]]) });
+  return ClosestOnTriangle(position, CornersOf(*m_Surface, m_Surface->GetTriangles()[triangle]));
 }
 
 void
 TriangleTree::ImproveClosestPoint(const PositionType & position, std::uint32_t triangle, ClosestPoint & closest) const
 {
   const PositionType candidate = this->FindClosestPointOfTriangle(position, triangle);
-  const PositionType away = Subtract(candidate, position);
-  const double distance = Dot(away, away);
-  if (distance < closest.squaredDistance || (distance == closest.squaredDistance && triangle < closest.triangle))
+  const double squared = SquaredDistance(candidate, position);
+  if (squared < closest.squaredDistance || (squared == closest.squaredDistance && triangle < closest.triangle))
   {
-    closest = { candidate, distance, triangle };
+    closest = { candidate, squared, triangle };
   }
 }
 
-/** Where the moved point lies inside the triangle as seen along z, the ray crosses the plane there; it does so above
- * the point if the point is behind a triangle that faces up or before one that faces down. */
+/** The ray crosses the triangle if the shifted point is inside the triangle as seen along z, and is behind a triangle
+ * that faces up or in front of one that faces down. */
 int
 TriangleTree::CountTurns(const PointType & point, std::uint32_t triangle) const
 {
@@ -319,20 +299,20 @@ TriangleTree::CountTurns(const PointType & point, std::uint32_t triangle) const
   const auto & a = points[corners[0]];
   const auto & b = points[corners[1]];
   const auto & c = points[corners[2]];
-  const int turn = TurnAround(a, b, point);
-  if (turn == 0 || TurnAround(b, c, point) != turn || TurnAround(c, a, point) != turn)
+  const int turn = TurnAroundShifted(a, b, point);
+  if (turn == 0 || TurnAroundShifted(b, c, point) != turn || TurnAroundShifted(c, a, point) != turn)
   {
     return 0;
   }
-  return SideOfMoved(a, b, c, point) == -turn ? turn : 0;
+  return SideOfShifted(a, b, c, point) == -turn ? turn : 0;
 }
 
 int
 TriangleTree::ComputeWindingNumber(const PointType & point) const
 {
-  int turns = 0;
-  this->VisitCrossings(point, [&turns](std::uint32_t, int one) { turns += one; });
-  return turns;
+  int windings = 0;
+  this->VisitCrossings(point, [&windings](std::uint32_t, int turns) { windings += turns; });
+  return windings;
 }
 
 } // namespace itk

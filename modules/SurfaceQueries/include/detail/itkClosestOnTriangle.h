@@ -9,6 +9,7 @@
 namespace itk
 {
 
+/** from + share * way */
 inline PositionType
 Along(const PositionType & from, const PositionType & way, double share)
 {
@@ -19,35 +20,35 @@ inline PositionType
 ClosestOnSegment(const PositionType & position, const PositionType & a, const PositionType & b)
 {
   const PositionType way = Subtract(b, a);
-  const double length = Dot(way, way);
-  return Along(a, way, length > 0.0 ? std::clamp(Dot(Subtract(position, a), way) / length, 0.0, 1.0) : 0.0);
+  const double squaredLength = Dot(way, way);
+  const double share = squaredLength > 0.0 ? Dot(Subtract(position, a), way) / squaredLength : 0.0;
+  return Along(a, way, std::clamp(share, 0.0, 1.0));
 }
 
-/** The best place on the sides of a triangle that has next to no area. */
+/** The closest point on the sides of a triangle. */
 inline PositionType
-ClosestOnSides(const PositionType & position, const std::array<PositionType, 3> & corners)
+ClosestOnSides(const PositionType & position, const CornersType & corners)
 {
   PositionType closest{};
   double least = std::numeric_limits<double>::infinity();
   for (unsigned int n = 0; n < 3; ++n)
   {
     const PositionType candidate = ClosestOnSegment(position, corners[n], corners[(n + 1) % 3]);
-    const PositionType away = Subtract(candidate, position);
-    if (Dot(away, away) < least)
+    if (const double squared = SquaredDistance(candidate, position); squared < least)
     {
-      least = Dot(away, away);
+      least = squared;
       closest = candidate;
     }
   }
   return closest;
 }
 
-/** By the region of the plane that the position's foot lies in, see Ericson, Real-Time Collision Detection (2005),
- * 5.1.5: beyond a corner, beyond a side, or inside. */
+/** The closest point of a triangle, by the region into which the position projects: beyond a corner, beyond a side, or
+ * inside the triangle. See Ericson, Real-Time Collision Detection (2005), section 5.1.5. */
 inline PositionType
-ClosestOnTriangle(const PositionType & position, const std::array<PositionType, 3> & corners)
+ClosestOnTriangle(const PositionType & position, const CornersType & corners)
 {
-  constexpr double leastArea = 1e-12;
+  constexpr double leastArea = 1e-12; // squared, relative to the sides
   const auto & [a, b, c] = corners;
   const PositionType ab = Subtract(b, a);
   const PositionType ac = Subtract(c, a);
@@ -57,7 +58,7 @@ ClosestOnTriangle(const PositionType & position, const std::array<PositionType, 
     return ClosestOnSides(position, corners);
   }
   const PositionType fromA = Subtract(position, a);
-  const double abA = Dot(ab, fromA), acA = Dot(ac, fromA); // how far along the sides, seen from a, b and c
+  const double abA = Dot(ab, fromA), acA = Dot(ac, fromA); // projections on the sides, seen from a, b and c
   const double abB = abA - abab, acB = acA - abac;
   const double abC = abA - abac, acC = acA - acac;
   if (abA <= 0.0 && acA <= 0.0)
@@ -72,7 +73,7 @@ ClosestOnTriangle(const PositionType & position, const std::array<PositionType, 
   {
     return c;
   }
-  const double weightOfC = abA * acB - abB * acA; // times twice the area squared, as are the others
+  const double weightOfC = abA * acB - abB * acA; // barycentric weights, times twice the area squared
   if (weightOfC <= 0.0 && abA >= 0.0 && abB <= 0.0)
   {
     return Along(a, ab, abA / abab);
