@@ -81,7 +81,7 @@ TEST(TriangleSurfaceUntangling, LeavesCleanSurfacesAlone)
 
 TEST(TriangleSurfaceUntangling, DoesNotMakeThingsWorseWhereItCannotHelp)
 {
-  // Two spheres through each other: no small move parts them.
+  // Two spheres that cross each other: no small move separates them.
   const auto surface = MakeSphere(10.0, 3);
   Append(*surface, *MakeSphere(10.0, 3), { 7.0f, 0.5f, 0.25f });
   const auto before = CrossingsOf(*surface);

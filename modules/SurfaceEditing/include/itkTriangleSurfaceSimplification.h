@@ -10,30 +10,26 @@ namespace itk
 {
 
 /** \class TriangleSurfaceSimplificationSettings
- * \brief How far a surface is simplified: to a number of triangles, to an error, or until the first of both.
- *
- * Thread safety: a value. */
+ * \brief When simplification ends: at a number of triangles or at an error, whichever comes first. */
 struct TriangleSurfaceSimplificationSettings
 {
-  SizeValueType targetTriangles = 0;                             ///< 0: as few as the error allows
+  SizeValueType targetTriangles = 0;                             ///< 0 for as few as the error allows
   double maximumError = std::numeric_limits<double>::infinity(); ///< in mm, above 0
 };
 
-/** What ended a simplification. */
+/** Why a simplification ended. */
 enum class SimplificationEnd : unsigned char
 {
-  Target,       ///< as few triangles as were asked for
-  MaximumError, ///< fewer triangles would be further from the surface than allowed
-  Topology      ///< fewer triangles would change the surface's topology, turn round, or meet each other
+  Target,       ///< the target was reached
+  MaximumError, ///< fewer triangles would be farther than maximumError from the original
+  Topology      ///< fewer triangles would change the topology, turn over, or meet each other
 };
 
 std::ostream &
 operator<<(std::ostream & os, SimplificationEnd end);
 
 /** \class TriangleSurfaceSimplificationReport
- * \brief What simplification did.
- *
- * Thread safety: a value. */
+ * \brief The result of simplification in numbers. */
 struct TriangleSurfaceSimplificationReport
 {
   SizeValueType trianglesBefore = 0;
@@ -42,33 +38,29 @@ struct TriangleSurfaceSimplificationReport
   SizeValueType placesTakenBack = 0; ///< places where a check failed and triangles were put back
 };
 
-/** Makes a surface of fewer triangles that is as sound as it was.
+/** Reduces the number of triangles and keeps the topology.
  *
- * Edges shrink to places where the mean squared distance from the planes of the original's triangles is least (Garland
- * and Heckbert, "Surface simplification using quadric error metrics", SIGGRAPH 1997). The result's components are those
- * of the original, each with the same Euler characteristic; none vanishes. Border edges stay as they are. Edges and
- * points are manifold, triangles are oriented and not degenerate. No triangle that was not there before meets another
- * one but in the points and edges they share, so there are no new self-intersections. Normals, if there are any, are
- * those of the edges' places.
+ * Edges collapse to the position of the least mean squared distance from the planes of the original's triangles
+ * (Garland and Heckbert, "Surface simplification using quadric error metrics", SIGGRAPH 1997). No component vanishes,
+ * and each keeps its Euler characteristic. Border edges stay as they are. Edges and points stay manifold, triangles
+ * stay oriented and are not degenerate. New triangles meet others only at shared corners and sides, so there are no new
+ * self-intersections. Normals, if there are any, are interpolated along the edges.
  *
- * Neither surface is further than maximumError from the other one at any place that is looked at: each edge shrinks
- * only where the points of the original stay near the triangles that stand for them, and all triangles of both surfaces
- * are looked at afterwards (see IsWithinDistance()). Where the distance is not proven for all of a triangle, these
- * places are a quarter of its sides apart and within 0.9 maximumError; rough detail much larger than maximumError can
- * be further away between them.
+ * The distance between the two surfaces is checked in both directions against maximumError: while edges collapse, at
+ * the points of the original, and then for all triangles of both surfaces. Where nearness is not proven for all of a
+ * triangle, it is checked at points a quarter of its sides apart, the centres against 0.9 maximumError; between these
+ * points, rough detail much larger than maximumError may be farther away.
  *
  * The surface is cut into patches of some thousand triangles. Where a check fails, the triangles from before are put
  * back. This is repeated with other patches, so that no border between patches stays for good, and with larger errors
  * until the target is reached.
  *
- * Time O(n log n), several threads; the same bytes for any number of them. The smaller the maximumError is compared
- * with the triangles, the longer it takes to look at them.
+ * Time O(n log n) on several threads, the same bytes for any number of them. Checks take longer the smaller
+ * maximumError is compared with the triangles. Points of no triangle are removed. The result may have slightly fewer
+ * triangles than the target.
  *
- * Points of no triangle are dropped. The result may have some triangles less than were asked for.
- *
- * Throws ExceptionObject for a surface with non-manifold or misoriented edges, non-manifold points or degenerate
- * triangles, for a maximumError that is not above 0, and when there is neither a target nor a maximumError. Thread safe
- * for different surfaces. */
+ * Throws ExceptionObject if the surface has non-manifold or misoriented edges, non-manifold points or degenerate
+ * triangles, if maximumError is not above 0, or if there is neither a target nor a maximumError. */
 TriangleSurfaceSimplificationReport
 SimplifySurface(TriangleSurface & surface, const TriangleSurfaceSimplificationSettings & settings);
 

@@ -7,28 +7,25 @@ namespace itk
 {
 
 /** \class TriangleSurfaceUntanglingReport
- * \brief What untangling did.
- *
- * Thread safety: a value. */
+ * \brief The result of untangling in numbers. */
 struct TriangleSurfaceUntanglingReport
 {
-  SizeValueType crossingBefore = 0; ///< triangles that passed through others
-  SizeValueType crossingAfter = 0;
+  SizeValueType crossingBefore = 0; ///< number of triangles that crossed others
+  SizeValueType crossingAfter = 0;  ///< number of triangles that still cross others
   SizeValueType pointsMoved = 0;
   double largestMove = 0.0; ///< in mm
 };
 
-/** Moves the points of triangles that pass through each other until none does, with all triangles as they are
- * connected.
+/** Moves the points of triangles that cross each other until none does. The connectivity and the normals stay.
  *
- * Points of crossing triangles go half way to the mean of their neighbours, which unfolds most; where that does not
- * help, they go outwards and inwards in turns, which parts sheets. No point is ever further than \a maximumMove mm from
- * where it was. Ends with the fewest crossing triangles found when 16 rounds brought no fewer, or after 40, and leaves
- * the surface as it was when a triangle would lose its area. Normals stay.
+ * In each round, the points of crossing triangles move half way to the mean of their neighbours, which resolves most
+ * folds. If folds remain, later rounds also push the points outwards and inwards by turns, which separates sheets. No
+ * point moves farther than \a maximumMove mm. Ends after 16 rounds without progress, or after 40, with the state that
+ * has the fewest crossing triangles and no triangle without area.
  *
- * One search for crossings on several threads, then work in proportion to what was found; the same bytes for any number
- * of threads. About 60 bytes a triangle while it runs. Throws ExceptionObject when maximumMove is not above 0. Thread
- * safe for different surfaces. */
+ * Runs on several threads, with the same bytes for any number of them; time is one search for crossings plus rounds
+ * over the crossing triangles only. Memory about 60 bytes per triangle. Throws ExceptionObject if \a maximumMove is not
+ * above 0 or not finite. */
 TriangleSurfaceUntanglingReport
 UntangleSurface(TriangleSurface & surface, double maximumMove);
 

@@ -1,22 +1,34 @@
 #include "itkEdgeCollapse.h"
 
 #include "detail/itkClosestOnTriangle.h"
+#include "itkQuadric.h"
 
 #include <algorithm>
 #include <cmath>
+#include <queue>
+#include <tuple>
 
 namespace itk
 {
 namespace
 {
 
-constexpr double SmallestCosineOfTurn = 0.2; // of a triangle's normal when an edge shrinks
-constexpr double SliverQuality = 0.1;        // below it a triangle's own normal says little, and new ones are unwelcome
-constexpr unsigned int MostAround = 64;      // triangles around a point that vanishes: more take too long
-constexpr double NearEnough = 0.7;           // of the limit, so that places in between are near, too
-constexpr double FurthestPlace = 1.0;        // from an edge's middle, in lengths of the edge
+using PointId = std::uint32_t;
+using TriangleId = std::uint32_t;
+using CornerId = std::uint32_t; ///< 3 * triangle + 0, 1 or 2
+using WitnessId = std::uint32_t;
+using PointType = TriangleSurface::PointType;
+using TriangleType = TriangleSurface::TriangleType;
 
-/** A triangle's normal, as long as twice its area, and how near it is to equilateral: 1 if it is, 0 without area. */
+constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
+
+constexpr double SmallestCosineOfTurn = 0.2; // of a triangle's normal when an edge collapses
+constexpr double SliverQuality = 0.1;    // the normal of a worse triangle is unreliable, and no new one may be worse
+constexpr unsigned int MostAround = 64;  // triangles around a point that vanishes; more would take too long
+constexpr double NearEnough = 0.7;       // of the limit, so that positions in between are near, too
+constexpr double FarthestPosition = 1.0; // of a collapsed edge from its middle, in lengths of the edge
+
+/** A triangle's normal, twice as long as its area, and its quality: 1 if equilateral, 0 without area. */
 struct Shape
 {
   PositionType normal;
@@ -29,7 +41,7 @@ struct Shape
     const PositionType ac = Subtract(c, a);
     const PositionType bc = Subtract(c, b);
     normal = Cross(ab, ac);
-    length = std::sqrt(Dot(normal, normal));
+    length = Length(normal);
     const double squares = Dot(ab, ab) + Dot(ac, ac) + Dot(bc, bc);
     quality = squares > 0.0 ? 2.0 * std::sqrt(3.0) * length / squares : 0.0;
   }
@@ -41,33 +53,183 @@ Mix(const PositionType & a, const PositionType & b, double shareOfB)
   return { a[0] + shareOfB * (b[0] - a[0]), a[1] + shareOfB * (b[1] - a[1]), a[2] + shareOfB * (b[2] - a[2]) };
 }
 
-TriangleSurface::PointType
+PointType
 ToPoint(const PositionType & position)
 {
   return { static_cast<float>(position[0]), static_cast<float>(position[1]), static_cast<float>(position[2]) };
 }
 
-PositionType
-Add(const PositionType & a, const PositionType & b)
+/** The distinct points of some triangles, ascending. */
+std::vector<PointId>
+FindPoints(const std::vector<TriangleType> & triangles)
 {
-  return { a[0] + b[0], a[1] + b[1], a[2] + b[2] };
+  std::vector<PointId> ids;
+  ids.reserve(3 * triangles.size());
+  for (const TriangleType & triangle : triangles)
+  {
+    ids.insert(ids.end(), triangle.begin(), triangle.end());
+  }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
 }
 
-} // namespace
+/** The triangles with indices into \a ids in place of these ids. */
+std::vector<TriangleType>
+ToLocal(std::vector<TriangleType> triangles, const std::vector<PointId> & ids)
+{
+  for (TriangleType & triangle : triangles)
+  {
+    for (PointId & point : triangle)
+    {
+      point = static_cast<PointId>(std::lower_bound(ids.begin(), ids.end(), point) - ids.begin());
+    }
+  }
+  return triangles;
+}
+
+/** The state of the triangles while edges collapse. Points have local ids. */
+class EdgeCollapse
+{
+public:
+  EdgeCollapse(const TriangleSurface & surface,
+               const SurfacePart & part,
+               const std::vector<std::uint8_t> & isHeld,
+               const OriginalSurface & original);
+
+  std::vector<CollapseProgress>
+  Run(const CollapseGoal & goal);
+
+  CollapsedPart
+  GetResult() const;
+
+private:
+  /** A triangle {point, next, last} around a point. */
+  struct FanTriangle
+  {
+    TriangleId id;
+    PointId next;
+    PointId last;
+  };
+
+  /** An edge that may collapse; point \a from vanishes. */
+  struct Candidate
+  {
+    float error;
+    PointId from;
+    PointId to;
+    std::uint32_t version; ///< sum of the points' versions for which the error was computed
+
+    friend bool
+    operator<(const Candidate & a, const Candidate & b) // the least error is on top of a priority queue
+    {
+      return std::tie(a.error, a.from, a.to) > std::tie(b.error, b.from, b.to);
+    }
+  };
+
+  /** Calls \a visit(triangle, next, last) for each triangle {point, next, last}. */
+  template <typename TVisitor>
+  void
+  ForEachTriangle(PointId point, const TVisitor & visit) const
+  {
+    for (CornerId corner = m_FirstCorner[point]; corner != None; corner = m_NextCorner[corner])
+    {
+      if (m_IsLeft[corner / 3])
+      {
+        visit(corner / 3, m_Triangles[corner / 3][(corner + 1) % 3], m_Triangles[corner / 3][(corner + 2) % 3]);
+      }
+    }
+  }
+
+  void
+  AddWitnesses(const std::vector<Witness> & witnesses);
+  void
+  FindBorder();
+  void
+  AddQuadrics();
+  void
+  Propose(PointId a, PointId b);
+  void
+  ProposeAround(PointId point);
+  PositionType
+  FindPosition(PointId from, PointId to) const;
+  bool
+  TryCandidate(const Candidate & candidate);
+  bool
+  KeepsTopology(PointId from, PointId to);
+  bool
+  KeepsShape(PointId from, PointId to, const PositionType & position) const;
+  bool
+  KeepsShapeAround(PointId moved, PointId other, const PositionType & position) const;
+  bool
+  StaysNear(PointId from, PointId to, const PositionType & position);
+  void
+  CollectFan(PointId from, PointId to);
+  bool
+  IsNearOriginal(PointId from, PointId to, const PositionType & position);
+  bool
+  AreWitnessesNear(PointId from, PointId to, const PositionType & position);
+  bool
+  AssignWitnesses(TriangleId triangle, const PositionType & position);
+  void
+  Collapse(PointId from, PointId to, const PositionType & position);
+  void
+  MoveWitnesses();
+  void
+  MixNormals(PointId from, PointId to, const PositionType & position);
+
+  const OriginalSurface m_Original;
+  const std::vector<PointId> m_Ids; ///< the surface's id of each point
+  const PositionType m_Origin;      ///< subtracted from positions, to keep digits
+  bool m_WasHeldBack = false;
+  double m_LargestError = 0.0;
+  std::priority_queue<Candidate> m_Candidates;
+
+  // of triangles
+  std::vector<TriangleType> m_Triangles;
+  std::vector<std::uint8_t> m_IsLeft;
+  std::vector<std::uint8_t> m_IsNew;
+  std::size_t m_NumberLeft;
+
+  // of points
+  std::vector<CornerId> m_FirstCorner; ///< the other corners at the point follow by m_NextCorner
+  std::vector<CornerId> m_NextCorner;  ///< of each corner
+  std::vector<PositionType> m_Positions;
+  std::vector<PositionType> m_Normals; ///< empty if the surface has none
+  std::vector<Quadric> m_Quadrics;
+  std::vector<std::uint32_t> m_Versions; ///< grow when the point takes over another one
+  std::vector<std::uint8_t> m_IsOnBorder;
+  std::vector<std::uint8_t> m_Stays;
+  std::vector<std::uint8_t> m_IsGone;
+  std::vector<std::uint8_t> m_HasMoved;
+  std::vector<std::uint32_t> m_Marks; ///< equal to m_Mark for the points that are marked
+  std::uint32_t m_Mark = 0;
+
+  // only if there is an original to stay near to
+  std::vector<TriangleId> m_Near; ///< of each point, a triangle of the original nearby
+  std::vector<PointId> m_WitnessPoints;
+  std::vector<PositionType> m_WitnessPositions;
+  std::vector<WitnessId> m_FirstWitness; ///< of each triangle; its other witnesses follow by m_NextWitness
+  std::vector<WitnessId> m_NextWitness;
+
+  // of the candidate that is tried
+  TriangleId m_NearPosition = 0;                            ///< a triangle of the original near its position
+  std::vector<FanTriangle> m_Fan;                           ///< the triangles around its position
+  std::vector<std::pair<WitnessId, TriangleId>> m_Assigned; ///< its witnesses and the triangles nearest to them
+};
 
 EdgeCollapse::EdgeCollapse(const TriangleSurface & surface,
-                           const Part & part,
+                           const SurfacePart & part,
                            const std::vector<std::uint8_t> & isHeld,
-                           const Original & original)
-  : m_Surface(surface)
-  , m_Original(original)
-  , m_Ids(part.triangles)
-  , m_Origin(ToPosition(surface.GetPoints()[m_Ids.GetIds().front()]))
-  , m_Triangles(m_Ids.ToLocal(part.triangles))
+                           const OriginalSurface & original)
+  : m_Original(original)
+  , m_Ids(FindPoints(part.triangles))
+  , m_Origin(ToPosition(surface.GetPoints()[m_Ids.front()]))
+  , m_Triangles(ToLocal(part.triangles, m_Ids))
   , m_IsLeft(m_Triangles.size(), 1)
   , m_IsNew(m_Triangles.size(), 0)
   , m_NumberLeft(m_Triangles.size())
-  , m_FirstCorner(m_Ids.GetIds().size(), None)
+  , m_FirstCorner(m_Ids.size(), None)
   , m_NextCorner(3 * m_Triangles.size())
   , m_Quadrics(m_FirstCorner.size())
   , m_Versions(m_FirstCorner.size(), 0)
@@ -82,7 +244,7 @@ EdgeCollapse::EdgeCollapse(const TriangleSurface & surface,
     m_NextCorner[corner] = m_FirstCorner[point];
     m_FirstCorner[point] = corner;
   }
-  for (const PointId id : m_Ids.GetIds())
+  for (const PointId id : m_Ids)
   {
     m_Positions.push_back(Subtract(ToPosition(surface.GetPoints()[id]), m_Origin));
     if (surface.HasNormals())
@@ -109,7 +271,7 @@ EdgeCollapse::EdgeCollapse(const TriangleSurface & surface,
 void
 EdgeCollapse::AddWitnesses(const std::vector<Witness> & witnesses)
 {
-  for (const PointId id : m_Ids.GetIds())
+  for (const PointId id : m_Ids)
   {
     m_Near.push_back((*m_Original.nearPoints)[id]);
   }
@@ -118,13 +280,13 @@ EdgeCollapse::AddWitnesses(const std::vector<Witness> & witnesses)
   {
     const auto & point = m_Original.tree->GetSurface().GetPoints()[witness.point];
     m_WitnessPoints.push_back(witness.point);
-    m_Witnesses.push_back(Subtract(ToPosition(point), m_Origin));
+    m_WitnessPositions.push_back(Subtract(ToPosition(point), m_Origin));
     m_NextWitness.push_back(m_FirstWitness[witness.triangle]);
-    m_FirstWitness[witness.triangle] = static_cast<WitnessId>(m_Witnesses.size() - 1);
+    m_FirstWitness[witness.triangle] = static_cast<WitnessId>(m_WitnessPositions.size() - 1);
   }
 }
 
-/** Around a point inside, each neighbour follows it in one triangle and precedes it in another one. */
+/** A point is on the border unless each neighbour follows it in one triangle and precedes it in another. */
 void
 EdgeCollapse::FindBorder()
 {
@@ -156,8 +318,8 @@ EdgeCollapse::AddQuadrics()
   }
 }
 
-std::vector<EdgeCollapse::Progress>
-EdgeCollapse::Run(const Goal & goal)
+std::vector<CollapseProgress>
+EdgeCollapse::Run(const CollapseGoal & goal)
 {
   m_LargestError = goal.error;
   for (const TriangleType & triangle : m_Triangles)
@@ -170,27 +332,15 @@ EdgeCollapse::Run(const Goal & goal)
       }
     }
   }
-  std::vector<Progress> progress;
+  std::vector<CollapseProgress> progress;
   while (m_NumberLeft > goal.triangles && !m_Candidates.empty())
   {
     const Candidate best = m_Candidates.top();
     m_Candidates.pop();
-    if (m_IsGone[best.from] || m_IsGone[best.to] || m_Versions[best.from] + m_Versions[best.to] != best.version ||
-        !this->IsTopologyKept(best.from, best.to))
+    if (!this->TryCandidate(best))
     {
       continue;
     }
-    const PositionType place = this->PlaceFor(best.from, best.to);
-    if (!this->IsShapeKept(best.from, best.to, place))
-    {
-      continue;
-    }
-    if (!this->StaysNear(best.from, best.to, place))
-    {
-      m_WasHeldBack = true;
-      continue;
-    }
-    this->Collapse(best.from, best.to, place);
     this->ProposeAround(best.to);
     if (progress.empty() || best.error > progress.back().error)
     {
@@ -201,7 +351,30 @@ EdgeCollapse::Run(const Goal & goal)
   return progress;
 }
 
-/** Where one point stays, the other one is to vanish. */
+/** Collapses an edge if it may collapse; returns whether it did. */
+bool
+EdgeCollapse::TryCandidate(const Candidate & candidate)
+{
+  const auto & [error, from, to, version] = candidate;
+  if (m_IsGone[from] || m_IsGone[to] || m_Versions[from] + m_Versions[to] != version || !this->KeepsTopology(from, to))
+  {
+    return false;
+  }
+  const PositionType position = this->FindPosition(from, to);
+  if (!this->KeepsShape(from, to, position))
+  {
+    return false;
+  }
+  if (!this->StaysNear(from, to, position))
+  {
+    m_WasHeldBack = true;
+    return false;
+  }
+  this->Collapse(from, to, position);
+  return true;
+}
+
+/** Makes an edge a candidate. If one of its points stays, the other one vanishes. */
 void
 EdgeCollapse::Propose(PointId a, PointId b)
 {
@@ -213,7 +386,7 @@ EdgeCollapse::Propose(PointId a, PointId b)
   const PointId to = m_Stays[a] ? a : b;
   Quadric quadric = m_Quadrics[from];
   quadric.Add(m_Quadrics[to]);
-  const double error = quadric.ComputeDistance(this->PlaceFor(from, to));
+  const double error = quadric.ComputeDistance(this->FindPosition(from, to));
   if (error <= m_LargestError)
   {
     m_Candidates.push({ static_cast<float>(error), from, to, m_Versions[from] + m_Versions[to] });
@@ -230,9 +403,9 @@ EdgeCollapse::ProposeAround(PointId point)
   this->ForEachTriangle(point, [&](TriangleId, PointId next, PointId) { this->Propose(point, next); });
 }
 
-/** Where the edge is to shrink to; exactly a point of the surface's precision. */
+/** The position to which an edge collapses, rounded to the surface's precision. */
 PositionType
-EdgeCollapse::PlaceFor(PointId from, PointId to) const
+EdgeCollapse::FindPosition(PointId from, PointId to) const
 {
   if (m_Stays[to])
   {
@@ -241,20 +414,20 @@ EdgeCollapse::PlaceFor(PointId from, PointId to) const
   const PositionType middle = Mix(m_Positions[from], m_Positions[to], 0.5);
   Quadric quadric = m_Quadrics[from];
   quadric.Add(m_Quadrics[to]);
-  PositionType place = quadric.FindMinimum(middle);
-  const PositionType edge = Subtract(m_Positions[to], m_Positions[from]);
-  const PositionType way = Subtract(place, middle);
-  if (!(Dot(way, way) <= FurthestPlace * FurthestPlace * Dot(edge, edge)))
+  PositionType position = quadric.FindMinimum(middle);
+  const double squaredEdge = SquaredDistance(m_Positions[to], m_Positions[from]);
+  if (!(SquaredDistance(position, middle) <= FarthestPosition * FarthestPosition * squaredEdge))
   {
-    place = middle;
+    position = middle;
   }
-  return Subtract(ToPosition(ToPoint(Add(place, m_Origin))), m_Origin);
+  return Subtract(ToPosition(ToPoint(Add(position, m_Origin))), m_Origin);
 }
 
-/** The link condition: the points next to both are those opposite to the edge, and no two triangles come to lie upon
- * each other. Points that vanish are inside the patch, so each point next to them follows them in one triangle. */
+/** The link condition: the common neighbours of the two points are the two points opposite to the edge, and no two
+ * triangles become duplicates. The point that vanishes is inside the part, so each of its neighbours follows it in one
+ * triangle. */
 bool
-EdgeCollapse::IsTopologyKept(PointId from, PointId to)
+EdgeCollapse::KeepsTopology(PointId from, PointId to)
 {
   ++m_Mark;
   this->ForEachTriangle(to, [&](TriangleId, PointId next, PointId last) {
@@ -290,14 +463,14 @@ EdgeCollapse::IsTopologyKept(PointId from, PointId to)
 }
 
 bool
-EdgeCollapse::IsShapeKept(PointId from, PointId to, const PositionType & place) const
+EdgeCollapse::KeepsShape(PointId from, PointId to, const PositionType & position) const
 {
-  return this->IsShapeKeptAround(from, to, place) && (m_Stays[to] || this->IsShapeKeptAround(to, from, place));
+  return this->KeepsShapeAround(from, to, position) && (m_Stays[to] || this->KeepsShapeAround(to, from, position));
 }
 
-/** No triangle may lose its area, turn round or become a sliver worse than any before. */
+/** Whether no triangle around a point loses its area, turns by much or becomes a worse sliver than there was before. */
 bool
-EdgeCollapse::IsShapeKeptAround(PointId moved, PointId other, const PositionType & place) const
+EdgeCollapse::KeepsShapeAround(PointId moved, PointId other, const PositionType & position) const
 {
   PositionType fanNormal{};
   double worstBefore = 1.0;
@@ -313,9 +486,9 @@ EdgeCollapse::IsShapeKeptAround(PointId moved, PointId other, const PositionType
       return;
     }
     const Shape before(m_Positions[moved], m_Positions[next], m_Positions[last]);
-    const Shape after(place, m_Positions[next], m_Positions[last]);
+    const Shape after(position, m_Positions[next], m_Positions[last]);
     const auto liesAlong = [&](const PositionType & reference) {
-      return Dot(after.normal, reference) > SmallestCosineOfTurn * after.length * std::sqrt(Dot(reference, reference));
+      return Dot(after.normal, reference) > SmallestCosineOfTurn * after.length * Length(reference);
     };
     isKept = after.quality > 0.0 && after.quality >= std::min(SliverQuality, worstBefore) &&
              (liesAlong(before.normal) || (before.quality < SliverQuality && liesAlong(fanNormal)));
@@ -324,14 +497,22 @@ EdgeCollapse::IsShapeKeptAround(PointId moved, PointId other, const PositionType
 }
 
 bool
-EdgeCollapse::StaysNear(PointId from, PointId to, const PositionType & place)
+EdgeCollapse::StaysNear(PointId from, PointId to, const PositionType & position)
 {
   if (m_Original.tree == nullptr)
   {
     return true;
   }
+  this->CollectFan(from, to);
+  return this->IsNearOriginal(from, to, position) && this->AreWitnessesNear(from, to, position);
+}
+
+/** Collects the triangles that change when an edge collapses. */
+void
+EdgeCollapse::CollectFan(PointId from, PointId to)
+{
   m_Fan.clear();
-  const auto add = [&](PointId moved, PointId other) {
+  const auto collect = [&](PointId moved, PointId other) {
     this->ForEachTriangle(moved, [&](TriangleId id, PointId next, PointId last) {
       if (next != other && last != other)
       {
@@ -339,84 +520,93 @@ EdgeCollapse::StaysNear(PointId from, PointId to, const PositionType & place)
       }
     });
   };
-  add(from, to);
+  collect(from, to);
   if (!m_Stays[to])
   {
-    add(to, from);
+    collect(to, from);
   }
-  return this->IsNearOriginal(from, to, place) && this->AreWitnessesNear(from, to, place);
 }
 
-/** Looks at the place, at the middles of the edges there and at the centres of the triangles around it. */
+/** Checks the position, the middles of the edges there and the centres of the triangles around it. */
 bool
-EdgeCollapse::IsNearOriginal(PointId from, PointId to, const PositionType & place)
+EdgeCollapse::IsNearOriginal(PointId from, PointId to, const PositionType & position)
 {
   const double squaredLimit = m_Original.limit * m_Original.limit;
-  const auto findNear = [&](const PositionType & position, const std::array<TriangleId, 3> & likely) {
-    const PositionType absolute = Add(position, m_Origin);
+  const auto findNear = [&](const PositionType & sample, const std::array<TriangleId, 3> & likely) {
+    const PositionType absolute = Add(sample, m_Origin);
     for (const TriangleId triangle : likely)
     {
-      const PositionType way = Subtract(absolute, m_Original.tree->FindClosestPointOfTriangle(absolute, triangle));
-      if (Dot(way, way) <= NearEnough * NearEnough * squaredLimit)
+      const PositionType closest = m_Original.tree->FindClosestPointOfTriangle(absolute, triangle);
+      if (SquaredDistance(absolute, closest) <= NearEnough * NearEnough * squaredLimit)
       {
         return triangle;
       }
     }
     return m_Original.tree->FindClosestPoint(absolute, squaredLimit).triangle;
   };
-  m_NearPlace = findNear(place, { m_Near[from], m_Near[to], m_Near[to] });
-  return m_NearPlace != TriangleTree::None && std::all_of(m_Fan.begin(), m_Fan.end(), [&](const Fan & fan) {
+  m_NearPosition = findNear(position, { m_Near[from], m_Near[to], m_Near[to] });
+  return m_NearPosition != TriangleTree::None && std::all_of(m_Fan.begin(), m_Fan.end(), [&](const FanTriangle & fan) {
            const PositionType & next = m_Positions[fan.next];
-           const std::array<TriangleId, 3> likely{ m_NearPlace, m_Near[fan.next], m_Near[fan.last] };
-           return findNear(Mix(place, next, 0.5), likely) != TriangleTree::None &&
-                  findNear(Mix(place, Mix(next, m_Positions[fan.last], 0.5), 2.0 / 3.0), likely) != TriangleTree::None;
+           const PositionType oppositeMiddle = Mix(next, m_Positions[fan.last], 0.5);
+           const std::array<TriangleId, 3> likely{ m_NearPosition, m_Near[fan.next], m_Near[fan.last] };
+           return findNear(Mix(position, next, 0.5), likely) != TriangleTree::None &&
+                  findNear(Mix(position, oppositeMiddle, 2.0 / 3.0), likely) != TriangleTree::None;
          });
 }
 
-/** Finds the nearest new triangle for each witness. */
+/** Whether all witnesses of the triangles at an edge are near the triangles around its new position. */
 bool
-EdgeCollapse::AreWitnessesNear(PointId from, PointId to, const PositionType & place)
+EdgeCollapse::AreWitnessesNear(PointId from, PointId to, const PositionType & position)
 {
   m_Assigned.clear();
-  const double squaredLimit = m_Original.limit * m_Original.limit;
   bool areNear = true;
-  const auto assign = [&](TriangleId triangle) {
-    for (WitnessId id = m_FirstWitness[triangle]; areNear && id != None; id = m_NextWitness[id])
-    {
-      double least = std::numeric_limits<double>::infinity();
-      TriangleId nearest = None;
-      for (const Fan & fan : m_Fan)
-      {
-        const PositionType way = Subtract(
-          m_Witnesses[id], ClosestOnTriangle(m_Witnesses[id], { place, m_Positions[fan.next], m_Positions[fan.last] }));
-        const double distance = Dot(way, way);
-        nearest = distance < least ? fan.triangle : nearest;
-        least = std::min(least, distance);
-      }
-      areNear = least <= squaredLimit;
-      m_Assigned.emplace_back(id, nearest);
-    }
-  };
-  this->ForEachTriangle(from, [&](TriangleId id, PointId, PointId) { assign(id); });
+  this->ForEachTriangle(
+    from, [&](TriangleId id, PointId, PointId) { areNear = areNear && this->AssignWitnesses(id, position); });
   if (!m_Stays[to])
   {
     this->ForEachTriangle(to, [&](TriangleId id, PointId next, PointId last) {
       if (next != from && last != from)
       {
-        assign(id);
+        areNear = areNear && this->AssignWitnesses(id, position);
       }
     });
   }
   return areNear;
 }
 
+/** Assigns the witnesses of a triangle to the nearest triangles around a position, until one is too far away. Returns
+ * whether all are near. */
+bool
+EdgeCollapse::AssignWitnesses(TriangleId triangle, const PositionType & position)
+{
+  for (WitnessId id = m_FirstWitness[triangle]; id != None; id = m_NextWitness[id])
+  {
+    const PositionType & witness = m_WitnessPositions[id];
+    double least = std::numeric_limits<double>::infinity();
+    TriangleId nearest = None;
+    for (const FanTriangle & fan : m_Fan)
+    {
+      const double squared = SquaredDistance(
+        witness, ClosestOnTriangle(witness, { position, m_Positions[fan.next], m_Positions[fan.last] }));
+      nearest = squared < least ? fan.id : nearest;
+      least = std::min(least, squared);
+    }
+    if (!(least <= m_Original.limit * m_Original.limit))
+    {
+      return false;
+    }
+    m_Assigned.emplace_back(id, nearest);
+  }
+  return true;
+}
+
 void
-EdgeCollapse::Collapse(PointId from, PointId to, const PositionType & place)
+EdgeCollapse::Collapse(PointId from, PointId to, const PositionType & position)
 {
   if (!m_Stays[to])
   {
-    this->MixNormals(from, to, place);
-    m_Positions[to] = place;
+    this->MixNormals(from, to, position);
+    m_Positions[to] = position;
     m_HasMoved[to] = 1;
     this->ForEachTriangle(to, [&](TriangleId id, PointId, PointId) { m_IsNew[id] = 1; });
   }
@@ -444,7 +634,7 @@ EdgeCollapse::Collapse(PointId from, PointId to, const PositionType & place)
   }
   if (m_Original.tree != nullptr)
   {
-    m_Near[to] = m_NearPlace;
+    m_Near[to] = m_NearPosition;
     this->MoveWitnesses();
   }
 }
@@ -452,9 +642,9 @@ EdgeCollapse::Collapse(PointId from, PointId to, const PositionType & place)
 void
 EdgeCollapse::MoveWitnesses()
 {
-  for (const Fan & fan : m_Fan)
+  for (const FanTriangle & fan : m_Fan)
   {
-    m_FirstWitness[fan.triangle] = None;
+    m_FirstWitness[fan.id] = None;
   }
   for (const auto & [witness, triangle] : m_Assigned)
   {
@@ -463,29 +653,28 @@ EdgeCollapse::MoveWitnesses()
   }
 }
 
-/** The normal of an edge's place nearest to where it has shrunk to. */
+/** Interpolates the normal at the point of the edge nearest to the new position. */
 void
-EdgeCollapse::MixNormals(PointId from, PointId to, const PositionType & place)
+EdgeCollapse::MixNormals(PointId from, PointId to, const PositionType & position)
 {
   if (m_Normals.empty())
   {
     return;
   }
   const PositionType edge = Subtract(m_Positions[to], m_Positions[from]);
-  const double share = Dot(Subtract(place, m_Positions[from]), edge) / Dot(edge, edge);
+  const double share = Dot(Subtract(position, m_Positions[from]), edge) / Dot(edge, edge);
   const PositionType mixed = Mix(m_Normals[from], m_Normals[to], std::clamp(share, 0.0, 1.0));
-  const double length = std::sqrt(Dot(mixed, mixed));
+  const double length = Length(mixed);
   if (length > 0.0)
   {
     m_Normals[to] = { mixed[0] / length, mixed[1] / length, mixed[2] / length };
   }
 }
 
-EdgeCollapse::Part
+CollapsedPart
 EdgeCollapse::GetResult() const
 {
-  Part result;
-  const auto & ids = m_Ids.GetIds();
+  CollapsedPart result;
   for (const bool isNew : { false, true })
   {
     for (TriangleId id = 0; id < m_Triangles.size(); ++id)
@@ -494,44 +683,45 @@ EdgeCollapse::GetResult() const
       {
         continue;
       }
-      const auto number = static_cast<TriangleId>(result.triangles.size());
-      result.triangles.push_back({ ids[m_Triangles[id][0]], ids[m_Triangles[id][1]], ids[m_Triangles[id][2]] });
+      const auto index = static_cast<TriangleId>(result.part.triangles.size());
+      const auto & [a, b, c] = m_Triangles[id];
+      result.part.triangles.push_back({ m_Ids[a], m_Ids[b], m_Ids[c] });
+      result.numberOfOldTriangles += isNew ? 0 : 1;
       for (WitnessId witness = m_FirstWitness.empty() ? None : m_FirstWitness[id]; witness != None;
            witness = m_NextWitness[witness])
       {
-        result.witnesses.push_back({ m_WitnessPoints[witness], number });
+        result.part.witnesses.push_back({ m_WitnessPoints[witness], index });
       }
     }
   }
-  return result;
-}
-
-std::size_t
-EdgeCollapse::CountOldTriangles() const
-{
-  std::size_t count = 0;
-  for (TriangleId id = 0; id < m_Triangles.size(); ++id)
-  {
-    count += m_IsLeft[id] && !m_IsNew[id] ? 1 : 0;
-  }
-  return count;
-}
-
-std::vector<EdgeCollapse::MovedPoint>
-EdgeCollapse::GetMovedPoints() const
-{
-  std::vector<MovedPoint> moved;
   for (PointId point = 0; point < m_Positions.size(); ++point)
   {
     if (m_HasMoved[point] && !m_IsGone[point])
     {
-      moved.push_back({ m_Ids.GetIds()[point],
-                        ToPoint(Add(m_Positions[point], m_Origin)),
-                        m_Normals.empty() ? TriangleSurface::NormalType{} : ToPoint(m_Normals[point]),
-                        m_Near.empty() ? None : m_Near[point] });
+      result.movedPoints.push_back({ m_Ids[point],
+                                     ToPoint(Add(m_Positions[point], m_Origin)),
+                                     m_Normals.empty() ? TriangleSurface::NormalType{} : ToPoint(m_Normals[point]),
+                                     m_Near.empty() ? None : m_Near[point] });
     }
   }
-  return moved;
+  result.wasHeldBack = m_WasHeldBack;
+  return result;
+}
+
+} // namespace
+
+CollapsedPart
+CollapseEdges(const TriangleSurface & surface,
+              const SurfacePart & part,
+              const std::vector<std::uint8_t> & isHeld,
+              const OriginalSurface & original,
+              const CollapseGoal & goal)
+{
+  EdgeCollapse collapse(surface, part, isHeld, original);
+  const std::vector<CollapseProgress> progress = collapse.Run(goal);
+  CollapsedPart result = collapse.GetResult();
+  result.progress = progress;
+  return result;
 }
 
 } // namespace itk

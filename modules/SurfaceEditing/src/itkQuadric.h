@@ -10,16 +10,16 @@ namespace itk
 {
 
 /** \class Quadric
- * \brief Sum of weighted squared distances from planes, as a function of position: Garland and Heckbert, "Surface
+ * \brief The sum of weighted squared distances from planes, as a function of position: Garland and Heckbert, "Surface
  * simplification using quadric error metrics" (SIGGRAPH 1997). */
 class Quadric
 {
 public:
-  /** Adds the plane through a position; the length of its normal is the weight. */
+  /** Adds the plane through a position, weighted by the length of \a normal. */
   void
   AddPlane(const PositionType & position, const PositionType & normal)
   {
-    const double weight = std::sqrt(Dot(normal, normal));
+    const double weight = Length(normal);
     if (!(weight > 0.0))
     {
       return;
@@ -43,7 +43,7 @@ public:
     }
   }
 
-  /** Root of the weighted mean of the squared distances. */
+  /** Root of the weighted mean squared distance. */
   double
   ComputeDistance(const PositionType & p) const
   {
@@ -55,11 +55,11 @@ public:
     return t[10] > 0.0 ? std::sqrt(std::max(0.0, sum) / t[10]) : 0.0;
   }
 
-  /** The position of least distance; along directions in which the distance hardly changes, near \a middle. */
+  /** The position of least distance. It stays near \a middle along directions in which the distance hardly changes. */
   PositionType
   FindMinimum(const PositionType & middle) const
   {
-    constexpr double Pull = 1e-3; // towards the middle, in shares of the planes' weight
+    constexpr double Pull = 1e-3; // towards the middle, relative to the planes' weight
     const auto & t = m_Terms;
     const double pull = Pull * t[10];
     const PositionType x{ t[0] + pull, t[3], t[4] };
@@ -79,7 +79,7 @@ public:
   }
 
 private:
-  std::array<double, 11> m_Terms{}; // xx yy zz xy xz yz x y z 1 of the form, and the sum of the weights
+  std::array<double, 11> m_Terms{}; ///< coefficients of xx yy zz xy xz yz x y z 1, and the sum of the weights
 };
 
 } // namespace itk

@@ -11,7 +11,7 @@ namespace
 
 struct CentredTriangle
 {
-  TriangleSurface::PointType centre; // times 3
+  TriangleSurface::PointType centre; ///< times 3
   TriangleSurface::TriangleType corners;
   std::uint32_t id;
 };
@@ -41,7 +41,8 @@ LongestAxis(const CentredTriangles & triangles, const TriangleRange & range)
   return longest;
 }
 
-/** Puts the triangles of least coordinates first. Returns where the others begin. */
+/** Moves the share \a cut of a range's triangles, with the least coordinates along its longest side, to the front.
+ * Returns where the others begin. */
 std::size_t
 Split(CentredTriangles & triangles, const TriangleRange & range, double cut)
 {
@@ -75,7 +76,7 @@ SortIntoRanges(const TriangleSurface::PointsContainer & points,
     }
   });
 
-  std::vector<TriangleRange> ranges;
+  std::vector<TriangleRange> ranges; // small enough
   std::vector<TriangleRange> large{ { 0, triangles.size() } };
   while (!large.empty())
   {

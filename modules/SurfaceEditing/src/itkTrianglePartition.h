@@ -19,9 +19,9 @@ struct TriangleRange
   }
 };
 
-/** Sorts triangles into compact ranges of at most \a mostTriangles. Each range that is larger is cut in two across its
- * longest side, the first part with the share \a cut of its triangles. \a ids are sorted as the triangles are.
- * O(n log n), several threads, the same result for any number of them; 28 bytes a triangle while it runs. */
+/** Sorts triangles into compact ranges of at most \a mostTriangles. Larger ranges are cut in two across their longest
+ * side; the first part has the share \a cut of the triangles. \a ids are sorted as the triangles are. Time O(n log n),
+ * on several threads with the same result for any number of them; memory 28 bytes per triangle while it runs. */
 std::vector<TriangleRange>
 SortIntoRanges(const TriangleSurface::PointsContainer & points,
                TriangleSurface::TrianglesContainer & triangles,

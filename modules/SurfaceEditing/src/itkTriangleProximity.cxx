@@ -1,24 +1,14 @@
 #include "itkTriangleProximity.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace itk
 {
 namespace
 {
 
-using Corners = std::array<PositionType, 3>;
-
-constexpr double ShareOfSide = 0.25;   // below which pieces are not cut
-constexpr double NearForCentres = 0.9; // of the distance
-
-double
-SquaredDistance(const PositionType & a, const PositionType & b)
-{
-  const PositionType way = Subtract(a, b);
-  return Dot(way, way);
-}
+constexpr double SmallestShareOfSide = 0.25; // smaller pieces are not cut
+constexpr double NearForCentres = 0.9;       // of the distance
 
 PositionType
 Middle(const PositionType & a, const PositionType & b)
@@ -27,7 +17,7 @@ Middle(const PositionType & a, const PositionType & b)
 }
 
 double
-SquaredLongestSide(const Corners & corners)
+SquaredLongestSide(const CornersType & corners)
 {
   const auto & [a, b, c] = corners;
   return std::max({ SquaredDistance(a, b), SquaredDistance(b, c), SquaredDistance(c, a) });
@@ -36,32 +26,31 @@ SquaredLongestSide(const Corners & corners)
 double
 SquaredLongestSide(const TriangleTree & surface, std::uint32_t triangle)
 {
-  const auto & points = surface.GetSurface().GetPoints();
-  const auto & [a, b, c] = surface.GetSurface().GetTriangles()[triangle];
-  return SquaredLongestSide({ ToPosition(points[a]), ToPosition(points[b]), ToPosition(points[c]) });
+  return SquaredLongestSide(CornersOf(surface.GetSurface(), surface.GetSurface().GetTriangles()[triangle]));
 }
 
+/** Proves that a triangle is near a surface, piece by piece. */
 class Proof
 {
 public:
-  Proof(const Corners & whole, const TriangleTree & surface, double distance)
+  Proof(const CornersType & triangle, const TriangleTree & surface, double distance)
     : m_Surface(surface)
     , m_Distance(distance)
-    , m_SquaredSide(SquaredLongestSide(whole))
+    , m_SquaredSide(SquaredLongestSide(triangle))
   {}
 
-  /** Whether all of a piece is near one triangle of the surface. */
+  /** Whether a piece is near one triangle of the surface. */
   bool
-  IsNearTriangle(const Corners & piece, std::uint32_t triangle) const
+  IsNearTriangle(const CornersType & piece, std::uint32_t triangle) const
   {
     return std::all_of(piece.begin(), piece.end(), [&](const PositionType & corner) {
       return this->SquaredDistanceTo(triangle, corner) <= m_Distance * m_Distance;
     });
   }
 
-  /** \param likely a triangle of the surface that may be near */
+  /** Whether a piece is near the surface; \a likely is a triangle of the surface that may be near. */
   bool
-  IsNear(const Corners & piece, std::uint32_t likely) const
+  IsNear(const CornersType & piece, std::uint32_t likely) const
   {
     if (this->IsNearTriangle(piece, likely))
     {
@@ -71,7 +60,7 @@ public:
     const PositionType centre{ (a[0] + b[0] + c[0]) / 3.0, (a[1] + b[1] + c[1]) / 3.0, (a[2] + b[2] + c[2]) / 3.0 };
     const double squaredRadius =
       std::max({ SquaredDistance(a, centre), SquaredDistance(b, centre), SquaredDistance(c, centre) });
-    const double enough = std::max(0.0, m_Distance - std::sqrt(squaredRadius)); // for even the furthest corner
+    const double enough = std::max(0.0, m_Distance - std::sqrt(squaredRadius)); // so that the farthest corner is near
     const Nearest nearest = this->FindNearest(centre, likely, enough * enough);
     if (nearest.triangle == TriangleTree::None)
     {
@@ -95,34 +84,35 @@ public:
 private:
   struct Nearest
   {
-    std::uint32_t triangle; // None if it is not near enough
+    std::uint32_t triangle; ///< None if nothing is near enough
     double squaredDistance;
   };
 
+  /** The triangle nearest to a centre, or any triangle within the squared distance \a enough. */
   Nearest
-  FindNearest(const PositionType & place, std::uint32_t likely, double enough) const
+  FindNearest(const PositionType & centre, std::uint32_t likely, double enough) const
   {
     const double limit = NearForCentres * NearForCentres * m_Distance * m_Distance;
-    const double squared = this->SquaredDistanceTo(likely, place);
+    const double squared = this->SquaredDistanceTo(likely, centre);
     if (squared <= std::min(limit, enough))
     {
       return { likely, squared };
     }
-    const auto nearest = m_Surface.FindClosestPoint(place, std::min(limit, squared), enough);
+    const auto nearest = m_Surface.FindClosestPoint(centre, std::min(limit, squared), enough);
     return nearest.triangle == TriangleTree::None && squared <= limit
              ? Nearest{ likely, squared }
              : Nearest{ nearest.triangle, nearest.squaredDistance };
   }
 
   bool
-  IsSmall(const Corners & piece, std::uint32_t nearest) const
+  IsSmall(const CornersType & piece, std::uint32_t nearest) const
   {
     const double side = std::min(m_SquaredSide, SquaredLongestSide(m_Surface, nearest));
-    return SquaredLongestSide(piece) <= ShareOfSide * ShareOfSide * side;
+    return SquaredLongestSide(piece) <= SmallestShareOfSide * SmallestShareOfSide * side;
   }
 
   bool
-  AreCornersNear(const Corners & piece) const
+  AreCornersNear(const CornersType & piece) const
   {
     const double limit = m_Distance * m_Distance;
     return std::all_of(piece.begin(), piece.end(), [&](const PositionType & corner) {
@@ -131,20 +121,20 @@ private:
   }
 
   double
-  SquaredDistanceTo(std::uint32_t triangle, const PositionType & place) const
+  SquaredDistanceTo(std::uint32_t triangle, const PositionType & position) const
   {
-    return SquaredDistance(place, m_Surface.FindClosestPointOfTriangle(place, triangle));
+    return SquaredDistance(position, m_Surface.FindClosestPointOfTriangle(position, triangle));
   }
 
   const TriangleTree & m_Surface;
   const double m_Distance;
-  const double m_SquaredSide; // the longest of the whole
+  const double m_SquaredSide; ///< longest side of the triangle
 };
 
 } // namespace
 
 bool
-IsWithinDistance(const Corners & corners,
+IsWithinDistance(const CornersType & corners,
                  const TriangleTree & surface,
                  double distance,
                  const std::array<std::uint32_t, 3> & likely)

@@ -1,8 +1,9 @@
 #include "itkTriangleSurfaceSimplification.h"
 
-#include "itkForEachBlock.h"
-#include "itkSimplifiedPatch.h"
+#include "detail/itkPositionArithmetic.h"
 #include "detail/itkTriangleContact.h"
+#include "itkEdgeCollapse.h"
+#include "itkForEachBlock.h"
 #include "itkTrianglePartition.h"
 #include "itkTriangleProximity.h"
 #include "itkTriangleSurfaceMeasures.h"
@@ -22,21 +23,20 @@ using PatchId = std::uint32_t;
 using PointId = std::uint32_t;
 using TriangleId = std::uint32_t;
 using Box = TriangleTree::Box;
-using Contact = TriangleContactEnums::Contact;
-using Corners = std::array<PositionType, 3>;
-using Places = std::vector<std::vector<Box>>; // of each patch
+using Contact = TriangleContact;
+using Boxes = std::vector<std::vector<Box>>; ///< for each patch, boxes in which its triangles are bad
 
 constexpr std::size_t PatchSize = 4096;
 constexpr std::size_t BlockSize = 1024;
 
-/** Where the triangles are cut in two, in the steps one after the other: patches of successive steps have few borders
- * in common. */
+/** The share of the triangles in the first part when triangles are cut in two, in successive steps. It varies so that
+ * the patches of successive steps have few borders in common. */
 constexpr std::array<double, 3> Cuts{ 0.5, 0.36, 0.64 };
 
 constexpr double FirstError = 1.0 / 32.0; // in mean sides of triangles, doubled with each step
-constexpr double LeastGain = 0.95;        // of the triangles left by a step that was worth while
-constexpr double ShareForWitnesses = 0.9; // of the maximumError: what is between them is seldom further than that then
-constexpr unsigned int MostRounds = 32;   // of taking back; in the second half, whole patches are
+constexpr double LargestShareLeft = 0.95; // of the triangles after a worthwhile step
+constexpr double ShareForWitnesses = 0.9; // of maximumError, so that the surface between witnesses is mostly within it
+constexpr unsigned int MostRounds = 32;   // of putting triangles back; the second half puts back whole patches
 
 double
 MeanSide(const TriangleSurface & surface)
@@ -71,40 +71,81 @@ Grown(Box box, float by)
   return box;
 }
 
-Corners
-CornersOf(const TriangleSurface & surface, std::size_t id)
+/** Some triangles of the surface before a step, and what is left of them. Where the new triangles turn out to be bad,
+ * the old ones are held and the patch is simplified again. */
+struct Patch
 {
-  const auto & points = surface.GetPoints();
-  const auto & triangle = surface.GetTriangles()[id];
-  return { ToPosition(points[triangle[0]]), ToPosition(points[triangle[1]]), ToPosition(points[triangle[2]]) };
+  SurfacePart before;
+  Box bounds; ///< of the triangles before
+  std::vector<std::uint8_t> isHeld;
+  CollapsedPart after;
+
+  bool
+  IsSimplified() const
+  {
+    return after.numberOfOldTriangles < after.part.triangles.size();
+  }
+};
+
+Patch
+MakePatch(const TriangleSurface & surface, const TriangleRange & range)
+{
+  Patch patch;
+  const auto * const triangles = surface.GetTriangles().data();
+  patch.before.triangles.assign(triangles + range.begin, triangles + range.end);
+  patch.isHeld.assign(range.Size(), 0);
+  patch.bounds = TriangleTree::BoxOf(surface.GetPoints(), patch.before.triangles.front());
+  for (const auto & triangle : patch.before.triangles)
+  {
+    patch.bounds = TriangleTree::Union(patch.bounds, TriangleTree::BoxOf(surface.GetPoints(), triangle));
+  }
+  return patch;
 }
 
-/** How many triangles of a patch are left after all edges of up to an error have shrunk. */
-std::size_t
-TrianglesLeft(const SimplifiedPatch & patch, double error)
+/** Holds the triangles whose boxes meet one of \a boxes. Returns whether any was not held before. */
+bool
+HoldTriangles(Patch & patch, const TriangleSurface & surface, const std::vector<Box> & boxes)
 {
-  const auto & progress = patch.GetProgress();
+  bool isAnyNew = false;
+  for (std::size_t id = 0; id < patch.isHeld.size(); ++id)
+  {
+    const Box own = TriangleTree::BoxOf(surface.GetPoints(), patch.before.triangles[id]);
+    if (!patch.isHeld[id] &&
+        std::any_of(boxes.begin(), boxes.end(), [&own](const Box & box) { return box.Overlaps(own); }))
+    {
+      patch.isHeld[id] = 1;
+      isAnyNew = true;
+    }
+  }
+  return isAnyNew;
+}
+
+/** How many triangles of a patch are left after all edges of up to an error have collapsed. */
+std::size_t
+CountTriangles(const Patch & patch, double error)
+{
+  const auto & progress = patch.after.progress;
   const auto after =
-    std::upper_bound(progress.begin(), progress.end(), error, [](double value, const SimplifiedPatch::Progress & step) {
+    std::upper_bound(progress.begin(), progress.end(), error, [](double value, const CollapseProgress & step) {
       return value < step.error;
     });
-  return after == progress.begin() ? patch.GetNumberOfTrianglesBefore() : std::prev(after)->triangles;
+  return after == progress.begin() ? patch.before.triangles.size() : std::prev(after)->triangles;
 }
 
 std::size_t
-TrianglesLeft(const std::vector<SimplifiedPatch> & patches, double error)
+CountTriangles(const std::vector<Patch> & patches, double error)
 {
-  return std::accumulate(
-    patches.begin(), patches.end(), std::size_t{ 0 }, [error](std::size_t sum, const SimplifiedPatch & patch) {
-      return sum + TrianglesLeft(patch, error);
-    });
+  return std::accumulate(patches.begin(),
+                         patches.end(),
+                         std::size_t{ 0 },
+                         [error](std::size_t sum, const Patch & patch) { return sum + CountTriangles(patch, error); });
 }
 
-/** A surface that gets simpler step by step. */
+/** A surface that is simplified in steps. */
 class Simplification
 {
 public:
-  /** \param original null if there is no limit to the distance from it */
+  /** \param original null if the distance from it has no limit */
   Simplification(TriangleSurface & surface,
                  const TriangleSurfaceTopology & topology,
                  const TriangleSurfaceSimplificationSettings & settings,
@@ -146,41 +187,44 @@ private:
   void
   CutIntoPatches(double cut);
   void
-  SimplifyPatches(const std::vector<PatchId> & which);
+  SimplifyPatches(const std::vector<PatchId> & patches);
   void
   AimAtTarget(const std::vector<PatchId> & all);
+  bool
+  PutBackBadTriangles(std::vector<PatchId> changed);
   void
-  PutTogether();
-  Places
-  FindBad(const std::vector<PatchId> & patches, bool looksAtAll) const;
+  JoinPatches();
+  Boxes
+  FindBad(const std::vector<PatchId> & patches, bool checksAll) const;
   void
-  FindContacts(const TriangleTree & state, const std::vector<PatchId> & patches, Places & bad) const;
+  FindContacts(const TriangleTree & state, const std::vector<PatchId> & patches, Boxes & bad) const;
   void
-  FindStrays(const std::vector<PatchId> & patches, Places & bad) const;
+  FindStrays(const std::vector<PatchId> & patches, Boxes & bad) const;
   void
-  FindLeftBehind(const TriangleTree & state, const std::vector<PatchId> & patches, bool looksAtAll, Places & bad) const;
+  FindUncovered(const TriangleTree & state, const std::vector<PatchId> & patches, bool checksAll, Boxes & bad) const;
   std::vector<PatchId>
-  Hold(const Places & bad, bool holdsAll);
+  Hold(const Boxes & bad, bool holdsAll);
 
   const SizeValueType m_Target;
   const double m_MaximumError;
   const TriangleSurfaceTopology m_Topology;
   TriangleSurface & m_State;
-  const EdgeCollapse::Original m_Original;
+  const OriginalSurface m_Original;
+  SizeValueType m_PlacesPutBack = 0;
+  bool m_IsHeldBack = false; ///< by maximumError, in the last step
 
-  // empty where there is no limit to the distance
-  std::vector<TriangleId> m_NearPoints;       // a triangle of the original near each point of m_State
-  std::vector<TriangleId> m_WitnessTriangles; // of m_State, that stands for what was at each point of the original
+  // Empty if the distance has no limit.
+  std::vector<TriangleId> m_NearPoints; ///< for each point of m_State, a triangle of the original nearby
+  std::vector<TriangleId>
+    m_WitnessTriangles; ///< for each point of the original, the triangle of m_State that covers it
 
-  // of one step
+  // Of one step.
   TriangleSurface::Pointer m_Before;
-  std::vector<SimplifiedPatch> m_Patches;
-  std::vector<SimplifiedPatch::Goal> m_Goals;
-  std::vector<TriangleId> m_Begin; // of each patch's triangles in m_State, and their end
-  std::vector<PatchId> m_PatchOf;  // each triangle of m_State
-  std::vector<std::uint8_t> m_IsNew;
-  SizeValueType m_PlacesTakenBack = 0;
-  bool m_IsHeldBack = false; // by the maximumError
+  std::vector<Patch> m_Patches;
+  std::vector<CollapseGoal> m_Goals; ///< of the patches
+  std::vector<TriangleId> m_Begin;   ///< first triangle of each patch in m_State, and the end of the last
+  std::vector<PatchId> m_PatchOf;    ///< the patch of each triangle of m_State
+  std::vector<std::uint8_t> m_IsNew; ///< for each triangle of m_State, whether it was not there before the step
 };
 
 TriangleSurfaceSimplificationReport
@@ -195,7 +239,7 @@ Simplification::Run()
   {
     const SizeValueType before = m_State.GetNumberOfTriangles();
     const bool isSound = this->Step(error, Cuts[step % Cuts.size()]);
-    const bool isStuck = m_State.GetNumberOfTriangles() > LeastGain * static_cast<double>(before);
+    const bool isStuck = m_State.GetNumberOfTriangles() > LargestShareLeft * static_cast<double>(before);
     if (!isSound || (isStuck && !(error < limit) && !this->IsAtTarget()))
     {
       report.end =
@@ -205,42 +249,26 @@ Simplification::Run()
     error = std::min(limit, 2.0 * error);
   }
   report.trianglesAfter = m_State.GetNumberOfTriangles();
-  report.placesTakenBack = m_PlacesTakenBack;
+  report.placesTakenBack = m_PlacesPutBack;
   return report;
 }
 
-/** Simplifies the state once. Returns whether the result's topology is as it should be; without that it is the state
- * from before. */
+/** Simplifies the state once. If the result's topology is not that of the original, restores the state from before and
+ * returns false. */
 bool
 Simplification::Step(double error, double cut)
 {
   this->SwapWithBefore();
   this->CutIntoPatches(cut);
   m_Goals.assign(m_Patches.size(), { error, 0 });
-  std::vector<PatchId> changed(m_Patches.size());
-  std::iota(changed.begin(), changed.end(), 0u);
-  this->SimplifyPatches(changed);
-  this->AimAtTarget(changed);
-  this->PutTogether();
-  m_IsHeldBack = false;
-  bool looksAtAll = true;
-  unsigned int round = 0;
-  for (; round < MostRounds; ++round)
-  {
-    const Places bad = this->FindBad(changed, looksAtAll);
-    changed = this->Hold(bad, 2 * round >= MostRounds);
-    if (changed.empty() && looksAtAll)
-    {
-      break;
-    }
-    looksAtAll = changed.empty();
-    this->SimplifyPatches(changed);
-    this->PutTogether();
-  }
-  m_IsHeldBack = m_IsHeldBack || std::any_of(m_Patches.begin(), m_Patches.end(), [](const SimplifiedPatch & patch) {
-                   return patch.WasHeldBack();
-                 });
-  const bool isSound = round < MostRounds && HaveSameTopology(ComputeTopology(m_State), m_Topology);
+  std::vector<PatchId> all(m_Patches.size());
+  std::iota(all.begin(), all.end(), 0u);
+  this->SimplifyPatches(all);
+  this->AimAtTarget(all);
+  this->JoinPatches();
+  const bool isSound = this->PutBackBadTriangles(all) && HaveSameTopology(ComputeTopology(m_State), m_Topology);
+  m_IsHeldBack =
+    std::any_of(m_Patches.begin(), m_Patches.end(), [](const Patch & patch) { return patch.after.wasHeldBack; });
   if (!isSound)
   {
     this->SwapWithBefore();
@@ -263,47 +291,52 @@ Simplification::CutIntoPatches(double cut)
   std::vector<TriangleId> oldIds(m_Before->GetNumberOfTriangles());
   std::iota(oldIds.begin(), oldIds.end(), 0u);
   const auto ranges = SortIntoRanges(m_Before->GetPoints(), m_Before->GetTriangles(), oldIds, PatchSize, cut);
-  struct Place
+  struct TriangleOfPatch
   {
     PatchId patch;
     TriangleId triangle;
   };
-  std::vector<Place> places(oldIds.size());
+  std::vector<TriangleOfPatch> newIds(oldIds.size());
   m_Patches.clear();
   for (const TriangleRange & range : ranges)
   {
     for (std::size_t id = range.begin; id < range.end; ++id)
     {
-      places[oldIds[id]] = { static_cast<PatchId>(m_Patches.size()), static_cast<TriangleId>(id - range.begin) };
+      newIds[oldIds[id]] = { static_cast<PatchId>(m_Patches.size()), static_cast<TriangleId>(id - range.begin) };
     }
-    m_Patches.emplace_back(*m_Before, range.begin, range.end);
+    m_Patches.push_back(MakePatch(*m_Before, range));
   }
   for (PointId point = 0; point < m_WitnessTriangles.size(); ++point)
   {
-    const Place & place = places[m_WitnessTriangles[point]];
-    m_Patches[place.patch].AddWitness({ point, place.triangle });
+    const auto & [patch, triangle] = newIds[m_WitnessTriangles[point]];
+    m_Patches[patch].before.witnesses.push_back({ point, triangle });
   }
 }
 
+/** Simplifies everything in some patches that is not held. */
 void
-Simplification::SimplifyPatches(const std::vector<PatchId> & which)
+Simplification::SimplifyPatches(const std::vector<PatchId> & patches)
 {
-  ForEachInBlocks(which.size(), 1, [&](std::size_t n) { m_Patches[which[n]].Simplify(m_Goals[which[n]], m_Original); });
+  ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
+    Patch & patch = m_Patches[patches[n]];
+    patch.after = CollapseEdges(*m_Before, patch.before, patch.isHeld, m_Original, m_Goals[patches[n]]);
+  });
 }
 
-/** Where the patches have become fewer triangles than asked for, finds the error for which they do just so. */
+/** If the patches together have fewer triangles than the target, simplifies them again to just the target: finds the
+ * error at which they pass it, and shares the last triangles among them. */
 void
 Simplification::AimAtTarget(const std::vector<PatchId> & all)
 {
   const std::size_t target = m_Target;
-  if (TrianglesLeft(m_Patches, std::numeric_limits<double>::infinity()) >= target)
+  if (CountTriangles(m_Patches, std::numeric_limits<double>::infinity()) >= target)
   {
     return;
   }
-  std::vector<double> errors{ -1.0 }; // of no edge
-  for (const SimplifiedPatch & patch : m_Patches)
+  std::vector<double> errors{ -1.0 }; // less than that of any edge
+  for (const Patch & patch : m_Patches)
   {
-    for (const SimplifiedPatch::Progress & progress : patch.GetProgress())
+    for (const CollapseProgress & progress : patch.after.progress)
     {
       errors.push_back(progress.error);
     }
@@ -311,22 +344,43 @@ Simplification::AimAtTarget(const std::vector<PatchId> & all)
   std::sort(errors.begin(), errors.end());
   errors.erase(std::unique(errors.begin(), errors.end()), errors.end());
   const auto enough = std::partition_point(
-    errors.begin() + 1, errors.end(), [&](double error) { return TrianglesLeft(m_Patches, error) > target; });
+    errors.begin() + 1, errors.end(), [&](double error) { return CountTriangles(m_Patches, error) > target; });
   const double tooLittle = *std::prev(enough);
-  const std::size_t least = TrianglesLeft(m_Patches, *enough);
+  const std::size_t least = CountTriangles(m_Patches, *enough);
   const double share =
-    static_cast<double>(target - least) / static_cast<double>(TrianglesLeft(m_Patches, tooLittle) - least);
+    static_cast<double>(target - least) / static_cast<double>(CountTriangles(m_Patches, tooLittle) - least);
   for (const PatchId id : all)
   {
-    const std::size_t left = TrianglesLeft(m_Patches[id], *enough);
-    const double more = share * static_cast<double>(TrianglesLeft(m_Patches[id], tooLittle) - left);
+    const std::size_t left = CountTriangles(m_Patches[id], *enough);
+    const double more = share * static_cast<double>(CountTriangles(m_Patches[id], tooLittle) - left);
     m_Goals[id].triangles = left + static_cast<std::size_t>(more);
   }
   this->SimplifyPatches(all);
 }
 
+/** Puts triangles back where new ones are bad, until no check fails. At first checks all patches, then only changed
+ * ones; a check of all patches comes last. Returns false if that takes too many rounds. */
+bool
+Simplification::PutBackBadTriangles(std::vector<PatchId> changed)
+{
+  bool checksAll = true;
+  for (unsigned int round = 0; round < MostRounds; ++round)
+  {
+    changed = this->Hold(this->FindBad(changed, checksAll), 2 * round >= MostRounds);
+    if (changed.empty() && checksAll)
+    {
+      return true;
+    }
+    checksAll = changed.empty();
+    this->SimplifyPatches(changed);
+    this->JoinPatches();
+  }
+  return false;
+}
+
+/** Makes the state of what is left of the patches. */
 void
-Simplification::PutTogether()
+Simplification::JoinPatches()
 {
   auto & triangles = m_State.GetTriangles();
   m_State.GetPoints() = m_Before->GetPoints();
@@ -337,17 +391,17 @@ Simplification::PutTogether()
   m_IsNew.clear();
   for (PatchId id = 0; id < m_Patches.size(); ++id)
   {
-    const SimplifiedPatch & patch = m_Patches[id];
-    for (const EdgeCollapse::Witness & witness : patch.GetResult().witnesses)
+    const CollapsedPart & after = m_Patches[id].after;
+    for (const Witness & witness : after.part.witnesses)
     {
       m_WitnessTriangles[witness.point] = m_Begin.back() + witness.triangle;
     }
-    triangles.insert(triangles.end(), patch.GetResult().triangles.begin(), patch.GetResult().triangles.end());
-    m_IsNew.resize(m_Begin.back() + patch.GetNumberOfOldTriangles(), 0);
+    triangles.insert(triangles.end(), after.part.triangles.begin(), after.part.triangles.end());
+    m_IsNew.resize(m_Begin.back() + after.numberOfOldTriangles, 0);
     m_IsNew.resize(triangles.size(), 1);
     m_PatchOf.resize(triangles.size(), id);
     m_Begin.push_back(static_cast<TriangleId>(triangles.size()));
-    for (const EdgeCollapse::MovedPoint & moved : patch.GetMovedPoints())
+    for (const MovedPoint & moved : after.movedPoints)
     {
       m_State.GetPoints()[moved.id] = moved.position;
       if (m_Original.tree != nullptr)
@@ -362,25 +416,26 @@ Simplification::PutTogether()
   }
 }
 
-/** Finds places, for each patch, where its new triangles must not stay. Looks at what some patches have changed, or at
- * all. */
-Places
-Simplification::FindBad(const std::vector<PatchId> & patches, bool looksAtAll) const
+/** Finds, for each patch, the boxes in which its new triangles must not stay. Checks what some patches have changed, or
+ * everything. */
+Boxes
+Simplification::FindBad(const std::vector<PatchId> & patches, bool checksAll) const
 {
-  Places bad(m_Patches.size());
+  Boxes bad(m_Patches.size());
   const TriangleTree state(m_State);
   this->FindContacts(state, patches, bad);
   if (m_Original.tree != nullptr)
   {
     this->FindStrays(patches, bad);
-    this->FindLeftBehind(state, patches, looksAtAll, bad);
+    this->FindUncovered(state, patches, checksAll, bad);
   }
   return bad;
 }
 
-/** Adds the new triangles that meet others than their neighbours. One of the two is in one of the given patches. */
+/** Adds the new triangles that meet others elsewhere than at shared corners and sides, for pairs with a triangle in one
+ * of \a patches. */
 void
-Simplification::FindContacts(const TriangleTree & state, const std::vector<PatchId> & patches, Places & bad) const
+Simplification::FindContacts(const TriangleTree & state, const std::vector<PatchId> & patches, Boxes & bad) const
 {
   const auto & points = m_State.GetPoints();
   const auto & triangles = m_State.GetTriangles();
@@ -388,7 +443,7 @@ Simplification::FindContacts(const TriangleTree & state, const std::vector<Patch
   ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
     for (TriangleId id = m_Begin[patches[n]]; id < m_Begin[patches[n] + 1]; ++id)
     {
-      state.VisitTriangles(BoxOf(points, triangles[id]), [&](TriangleId other) {
+      state.VisitTriangles(TriangleTree::BoxOf(points, triangles[id]), [&](TriangleId other) {
         if (other != id && (m_IsNew[id] || m_IsNew[other]) &&
             FindContact(points, triangles[id], triangles[other]) != Contact::Apart)
         {
@@ -404,69 +459,69 @@ Simplification::FindContacts(const TriangleTree & state, const std::vector<Patch
     {
       if (m_IsNew[id])
       {
-        bad[m_PatchOf[id]].push_back(BoxOf(points, triangles[id]));
+        bad[m_PatchOf[id]].push_back(TriangleTree::BoxOf(points, triangles[id]));
       }
     }
   }
 }
 
-/** Adds the new triangles of some patches that are not within the maximumError. */
+/** Adds the new triangles of some patches that are farther than maximumError from the original. */
 void
-Simplification::FindStrays(const std::vector<PatchId> & patches, Places & bad) const
+Simplification::FindStrays(const std::vector<PatchId> & patches, Boxes & bad) const
 {
   ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
     const PatchId patch = patches[n];
     for (TriangleId id = m_Begin[patch]; id < m_Begin[patch + 1]; ++id)
     {
       const auto & [a, b, c] = m_State.GetTriangles()[id];
-      if (m_IsNew[id] && !IsWithinDistance(CornersOf(m_State, id),
+      if (m_IsNew[id] && !IsWithinDistance(CornersOf(m_State, m_State.GetTriangles()[id]),
                                            *m_Original.tree,
                                            m_MaximumError,
                                            { m_NearPoints[a], m_NearPoints[b], m_NearPoints[c] }))
       {
-        bad[patch].push_back(BoxOf(m_State.GetPoints(), m_State.GetTriangles()[id]));
+        bad[patch].push_back(TriangleTree::BoxOf(m_State.GetPoints(), m_State.GetTriangles()[id]));
       }
     }
   });
 }
 
-/** Adds the triangles of the original that the state is not within the maximumError of, for all patches near them. All
- * is well where one triangle stands for all three corners. Looks at those only that some patches stand for, or at all.
- */
+/** Adds the triangles of the original that are farther than maximumError from the state, for all simplified patches
+ * near them. A triangle is near if one triangle covers all its corners. Checks the triangles that some patches cover,
+ * or all. */
 void
-Simplification::FindLeftBehind(const TriangleTree & state,
-                               const std::vector<PatchId> & patches,
-                               bool looksAtAll,
-                               Places & bad) const
+Simplification::FindUncovered(const TriangleTree & state,
+                              const std::vector<PatchId> & patches,
+                              bool checksAll,
+                              Boxes & bad) const
 {
-  std::vector<std::uint8_t> isLookedAt(m_Patches.size(), looksAtAll ? 1 : 0);
+  std::vector<std::uint8_t> isChecked(m_Patches.size(), checksAll ? 1 : 0);
   for (const PatchId patch : patches)
   {
-    isLookedAt[patch] = 1;
+    isChecked[patch] = 1;
   }
   const TriangleSurface & original = m_Original.tree->GetSurface();
   const auto & triangles = original.GetTriangles();
-  std::vector<std::uint8_t> isLeft(triangles.size(), 0);
+  std::vector<std::uint8_t> isUncovered(triangles.size(), 0);
   ForEachInBlocks(triangles.size(), BlockSize, [&](std::size_t id) {
     const auto & [a, b, c] = triangles[id];
     const std::array<TriangleId, 3> near{ m_WitnessTriangles[a], m_WitnessTriangles[b], m_WitnessTriangles[c] };
     const bool isConcerned =
-      std::any_of(near.begin(), near.end(), [&](TriangleId n) { return isLookedAt[m_PatchOf[n]] != 0; });
+      std::any_of(near.begin(), near.end(), [&](TriangleId other) { return isChecked[m_PatchOf[other]] != 0; });
     if (isConcerned && !(near[0] == near[1] && near[1] == near[2]))
     {
-      isLeft[id] = IsWithinDistance(CornersOf(original, id), state, m_MaximumError, near) ? 0 : 1;
+      isUncovered[id] = IsWithinDistance(CornersOf(original, triangles[id]), state, m_MaximumError, near) ? 0 : 1;
     }
   });
   for (TriangleId id = 0; id < triangles.size(); ++id)
   {
-    if (!isLeft[id])
+    if (!isUncovered[id])
     {
       continue;
     }
-    const Box box = Grown(BoxOf(original.GetPoints(), triangles[id]), static_cast<float>(m_MaximumError));
+    const Box box = Grown(TriangleTree::BoxOf(original.GetPoints(), triangles[id]), static_cast<float>(m_MaximumError));
     for (PatchId patch = 0; patch < m_Patches.size(); ++patch)
     {
-      if (m_Patches[patch].IsSimplified() && m_Patches[patch].GetBounds().Overlaps(box))
+      if (m_Patches[patch].IsSimplified() && m_Patches[patch].bounds.Overlaps(box))
       {
         bad[patch].push_back(box);
       }
@@ -474,22 +529,24 @@ Simplification::FindLeftBehind(const TriangleTree & state,
   }
 }
 
-/** Holds what was where new triangles are bad. Returns the patches for which this makes a difference. */
+/** Holds the old triangles in the boxes where new ones are bad; if there is none more to hold, or \a holdsAll, holds
+ * the whole patch. Returns the patches that changed. */
 std::vector<PatchId>
-Simplification::Hold(const Places & bad, bool holdsAll)
+Simplification::Hold(const Boxes & bad, bool holdsAll)
 {
   std::vector<PatchId> changed;
-  for (PatchId patch = 0; patch < m_Patches.size(); ++patch)
+  for (PatchId id = 0; id < m_Patches.size(); ++id)
   {
-    if (bad[patch].empty())
+    if (bad[id].empty())
     {
       continue;
     }
-    m_PlacesTakenBack += bad[patch].size();
-    changed.push_back(patch);
-    if (holdsAll || !m_Patches[patch].Hold(bad[patch]))
+    m_PlacesPutBack += bad[id].size();
+    changed.push_back(id);
+    Patch & patch = m_Patches[id];
+    if (holdsAll || !HoldTriangles(patch, *m_Before, bad[id]))
     {
-      m_Patches[patch].HoldAll();
+      patch.isHeld.assign(patch.isHeld.size(), 1);
     }
   }
   return changed;

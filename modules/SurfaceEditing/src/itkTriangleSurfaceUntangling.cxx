@@ -1,33 +1,38 @@
 #include "itkTriangleSurfaceUntangling.h"
 
 #include "detail/itkExactOrientation.h"
-#include "itkForEachBlock.h"
 #include "detail/itkPositionArithmetic.h"
 #include "detail/itkTriangleContact.h"
+#include "itkForEachBlock.h"
 #include "itkTriangleSurfaceIntersections.h"
 #include "itkTriangleTree.h"
+#include "itkTrianglesOfPoints.h"
 
 #include <algorithm>
-#include <cmath>
 #include <mutex>
-#include <numeric>
-#include <vector>
 
 namespace itk
 {
 namespace
 {
 
-using Ids = std::vector<std::uint32_t>; ///< of points or triangles, ascending, each once
+using Ids = std::vector<std::uint32_t>; ///< of points or triangles
+using Points = TriangleSurface::PointsContainer;
+
+constexpr int MostRounds = 40;
+constexpr int Patience = 16;         // rounds without progress: two cycles of relaxing and pushing outwards and inwards
+constexpr int FirstPushingRound = 4; // the rounds before only relax
+constexpr double PushOverMove = 1.0 / 12.0; // length of a push, over the maximum move
+constexpr double RoundedMove = 1.0 - 1e-6;  // over the maximum move, so that the nearest float is within it
 
 void
-SortOut(Ids & ids)
+SortUnique(Ids & ids)
 {
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
-/** Which of some triangles pass through others, and these. */
+/** The candidates that cross other triangles, and these other triangles. */
 Ids
 FindCrossing(const TriangleSurface & surface, const Ids & candidates)
 {
@@ -42,8 +47,7 @@ FindCrossing(const TriangleSurface & surface, const Ids & candidates)
     {
       const std::uint32_t a = candidates[n];
       tree.VisitTriangles(tree.GetTriangleBox(a), [&](std::uint32_t b) {
-        if (a != b &&
-            FindContact(surface.GetPoints(), triangles[a], triangles[b]) == TriangleContactEnums::Contact::Crossing)
+        if (a != b && FindContact(surface.GetPoints(), triangles[a], triangles[b]) == TriangleContact::Crossing)
         {
           ofBlock.insert(ofBlock.end(), { a, b });
         }
@@ -52,225 +56,143 @@ FindCrossing(const TriangleSurface & surface, const Ids & candidates)
     const std::lock_guard<std::mutex> lock(mutex);
     crossing.insert(crossing.end(), ofBlock.begin(), ofBlock.end());
   });
-  SortOut(crossing);
+  SortUnique(crossing);
   return crossing;
 }
 
-/** The triangles at each point: those of point n are triangles[begin[n]] to triangles[begin[n + 1]]. */
-class TrianglesOfPoints
+/** The points of some triangles, and of the triangles around them if \a withNeighbours. */
+Ids
+FindPoints(const TriangleSurface & surface, const TrianglesOfPoints & fans, const Ids & triangles, bool withNeighbours)
 {
-public:
-  explicit TrianglesOfPoints(const TriangleSurface & surface)
-    : m_Begin(surface.GetNumberOfPoints() + 1, 0)
-    , m_Triangles(3 * surface.GetNumberOfTriangles())
+  Ids points;
+  const auto add = [&](std::uint32_t triangle) {
+    const auto & corners = surface.GetTriangles()[triangle];
+    points.insert(points.end(), corners.begin(), corners.end());
+  };
+  std::for_each(triangles.begin(), triangles.end(), add);
+  SortUnique(points);
+  if (withNeighbours)
   {
-    for (const auto & triangle : surface.GetTriangles())
+    for (const std::uint32_t point : Ids(points))
     {
-      for (const std::uint32_t point : triangle)
-      {
-        ++m_Begin[point + 1];
-      }
+      fans.VisitTriangles(point, add);
     }
-    std::partial_sum(m_Begin.begin(), m_Begin.end(), m_Begin.begin());
-    auto next = m_Begin;
-    for (std::uint32_t n = 0; n < surface.GetNumberOfTriangles(); ++n)
-    {
-      for (const std::uint32_t point : surface.GetTriangles()[n])
-      {
-        m_Triangles[next[point]++] = n;
-      }
-    }
+    SortUnique(points);
   }
+  return points;
+}
 
-  template <typename TVisitor>
-  void
-  Visit(std::uint32_t point, const TVisitor & visit) const
-  {
-    std::for_each(m_Triangles.begin() + static_cast<std::ptrdiff_t>(m_Begin[point]),
-                  m_Triangles.begin() + static_cast<std::ptrdiff_t>(m_Begin[point + 1]),
-                  visit);
-  }
-
-private:
-  std::vector<std::uint64_t> m_Begin;
-  Ids m_Triangles;
-};
-
-class Untangling
+/** Half way to the mean of the neighbours, each of which counts once for each triangle at the point. */
+PositionType
+Relax(const TriangleSurface & surface, const TrianglesOfPoints & fans, std::uint32_t point)
 {
-public:
-  Untangling(TriangleSurface & surface, double maximumMove)
-    : m_Surface(surface)
-    , m_MaximumMove(maximumMove)
-    , m_Fans(surface)
-    , m_Original(surface.GetPoints())
-  {}
-
-  void
-  Run(Ids crossing)
-  {
-    constexpr int rounds = 40;
-    constexpr int patience = 16; // relaxing, and pushing outwards and inwards, twice
-    Ids touched;                 // triangles that have a point that was moved
-    TriangleSurface::PointsContainer best;
-    std::size_t fewest = crossing.size();
-    int lastBetter = 0;
-    for (int round = 0; round < rounds && round <= lastBetter + patience && !crossing.empty(); ++round)
+  PositionType sum{};
+  double count = 0.0;
+  fans.VisitTriangles(point, [&](std::uint32_t triangle) {
+    for (const std::uint32_t corner : surface.GetTriangles()[triangle])
     {
-      const Ids points = this->FindPoints(crossing, round % 4 == 3);
-      this->MovePoints(points, round);
-      for (const std::uint32_t point : points)
+      if (corner != point)
       {
-        m_Fans.Visit(point, [&](std::uint32_t triangle) { touched.push_back(triangle); });
-      }
-      SortOut(touched);
-      crossing = FindCrossing(m_Surface, touched);
-      if (crossing.size() < fewest && this->HaveAreas(touched))
-      {
-        fewest = crossing.size();
-        lastBetter = round;
-        best = m_Surface.GetPoints();
+        sum = Add(sum, ToPosition(surface.GetPoints()[corner]));
+        count += 1.0;
       }
     }
-    m_Surface.GetPoints() = best.empty() ? m_Original : best;
-    m_Surface.Modified();
-    m_Crossing = fewest;
-  }
-
-  TriangleSurfaceUntanglingReport
-  MakeReport(SizeValueType crossingBefore) const
+  });
+  const PositionType position = ToPosition(surface.GetPoints()[point]);
+  PositionType relaxed;
+  for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    TriangleSurfaceUntanglingReport report;
-    report.crossingBefore = crossingBefore;
-    report.crossingAfter = m_Crossing;
-    for (std::size_t n = 0; n < m_Original.size(); ++n)
+    relaxed[axis] = 0.5 * (position[axis] + sum[axis] / count);
+  }
+  return relaxed;
+}
+
+/** The point moved by \a distance along its normal, the mean of the triangles' normals weighted by area. */
+PositionType
+Push(const TriangleSurface & surface, const TrianglesOfPoints & fans, std::uint32_t point, double distance)
+{
+  PositionType normal{};
+  fans.VisitTriangles(point, [&](std::uint32_t triangle) {
+    normal = Add(normal, AreaVector(CornersOf(surface, surface.GetTriangles()[triangle])));
+  });
+  const double length = Length(normal);
+  const double scale = length > 0.0 ? distance / length : 0.0;
+  const PositionType position = ToPosition(surface.GetPoints()[point]);
+  return { position[0] + scale * normal[0], position[1] + scale * normal[1], position[2] + scale * normal[2] };
+}
+
+/** Moves some points. The first rounds relax all of them. Later rounds come in fours: one relaxes, three push, outwards
+ * in one four and inwards in the next. */
+void
+MovePoints(TriangleSurface & surface,
+           const TrianglesOfPoints & fans,
+           const Points & original,
+           double maximumMove,
+           const Ids & points,
+           int round)
+{
+  const bool isPushed = round >= FirstPushingRound && round % 4 != 0;
+  const double push = (round / 4 % 2 == 1 ? PushOverMove : -PushOverMove) * maximumMove;
+  std::vector<PositionType> positions;
+  positions.reserve(points.size());
+  for (const std::uint32_t point : points)
+  {
+    positions.push_back(isPushed ? Push(surface, fans, point, push) : Relax(surface, fans, point));
+  }
+  for (std::size_t n = 0; n < points.size(); ++n)
+  {
+    const PositionType origin = ToPosition(original[points[n]]);
+    const PositionType offset = Subtract(positions[n], origin);
+    const double length = Length(offset);
+    const double scale = length > RoundedMove * maximumMove ? RoundedMove * maximumMove / length : 1.0;
+    for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      if (m_Original[n] != m_Surface.GetPoints()[n])
-      {
-        ++report.pointsMoved;
-        report.largestMove = std::max(report.largestMove, Length(this->OffsetOf(n, m_Surface.GetPoints()[n])));
-      }
+      surface.GetPoints()[points[n]][axis] = static_cast<float>(origin[axis] + scale * offset[axis]);
     }
-    return report;
   }
+}
 
-private:
-  static double
-  Length(const PositionType & vector)
-  {
-    return std::sqrt(Dot(vector, vector));
-  }
+bool
+HaveAreas(const TriangleSurface & surface, const Ids & triangles)
+{
+  const Points & points = surface.GetPoints();
+  return std::all_of(triangles.begin(), triangles.end(), [&](std::uint32_t triangle) {
+    const auto & [a, b, c] = surface.GetTriangles()[triangle];
+    return HasArea(points[a], points[b], points[c]);
+  });
+}
 
-  PositionType
-  OffsetOf(std::size_t point, const TriangleSurface::PointType & place) const
+/** Moves points in rounds and leaves the surface in the best state found. Returns the number of crossing triangles
+ * then. */
+std::size_t
+Untangle(TriangleSurface & surface, const Points & original, double maximumMove, Ids crossing)
+{
+  const TrianglesOfPoints fans(surface);
+  Ids touched; // triangles with a point that was moved
+  Points best = original;
+  std::size_t fewest = crossing.size();
+  int lastBetter = 0;
+  for (int round = 0; round < MostRounds && round <= lastBetter + Patience && !crossing.empty(); ++round)
   {
-    return Subtract(ToPosition(place), ToPosition(m_Original[point]));
-  }
-
-  /** The points of triangles, and maybe all their neighbours. */
-  Ids
-  FindPoints(const Ids & triangles, bool withNeighbours) const
-  {
-    Ids points;
-    const auto add = [&](std::uint32_t triangle) {
-      const auto & corners = m_Surface.GetTriangles()[triangle];
-      points.insert(points.end(), corners.begin(), corners.end());
-    };
-    std::for_each(triangles.begin(), triangles.end(), add);
-    SortOut(points);
-    if (withNeighbours)
-    {
-      for (const std::uint32_t point : Ids(points))
-      {
-        m_Fans.Visit(point, add);
-      }
-      SortOut(points);
-    }
-    return points;
-  }
-
-  /** Half way to the mean of the neighbours, each counted once for each triangle at it. */
-  PositionType
-  Relax(std::uint32_t point) const
-  {
-    PositionType sum{};
-    double count = 0.0;
-    m_Fans.Visit(point, [&](std::uint32_t triangle) {
-      for (const std::uint32_t corner : m_Surface.GetTriangles()[triangle])
-      {
-        if (corner != point)
-        {
-          const auto & place = m_Surface.GetPoints()[corner];
-          sum = { sum[0] + place[0], sum[1] + place[1], sum[2] + place[2] };
-          count += 1.0;
-        }
-      }
-    });
-    const PositionType place = ToPosition(m_Surface.GetPoints()[point]);
-    return { 0.5 * (place[0] + sum[0] / count), 0.5 * (place[1] + sum[1] / count), 0.5 * (place[2] + sum[2] / count) };
-  }
-
-  /** By \a distance along the normal, weighted by the areas of the triangles. */
-  PositionType
-  Push(std::uint32_t point, double distance) const
-  {
-    PositionType normal{};
-    m_Fans.Visit(point, [&](std::uint32_t triangle) {
-      const auto & corners = m_Surface.GetTriangles()[triangle];
-      const PositionType origin = ToPosition(m_Surface.GetPoints()[corners[0]]);
-      const PositionType area = Cross(Subtract(ToPosition(m_Surface.GetPoints()[corners[1]]), origin),
-                                      Subtract(ToPosition(m_Surface.GetPoints()[corners[2]]), origin));
-      normal = { normal[0] + area[0], normal[1] + area[1], normal[2] + area[2] };
-    });
-    const double length = Length(normal);
-    const double scale = length > 0.0 ? distance / length : 0.0;
-    const PositionType place = ToPosition(m_Surface.GetPoints()[point]);
-    return { place[0] + scale * normal[0], place[1] + scale * normal[1], place[2] + scale * normal[2] };
-  }
-
-  /** Rounds come in fours: all relax first, later ones relax once and are then pushed, outwards or inwards. */
-  void
-  MovePoints(const Ids & points, int round)
-  {
-    constexpr int firstPushed = 4;
-    constexpr double pushOverMove = 1.0 / 12.0;
-    const bool isPushed = round >= firstPushed && round % 4 != 0;
-    const double push = (round / 4 % 2 == 1 ? pushOverMove : -pushOverMove) * m_MaximumMove;
-    std::vector<PositionType> places;
-    places.reserve(points.size());
+    const Ids points = FindPoints(surface, fans, crossing, round % 4 == 3);
+    MovePoints(surface, fans, original, maximumMove, points, round);
     for (const std::uint32_t point : points)
     {
-      places.push_back(isPushed ? this->Push(point, push) : this->Relax(point));
+      fans.VisitTriangles(point, [&](std::uint32_t triangle) { touched.push_back(triangle); });
     }
-    for (std::size_t n = 0; n < points.size(); ++n)
+    SortUnique(touched);
+    crossing = FindCrossing(surface, touched);
+    if (crossing.size() < fewest && HaveAreas(surface, touched))
     {
-      const PositionType origin = ToPosition(m_Original[points[n]]);
-      const PositionType offset = Subtract(places[n], origin);
-      const double length = Length(offset);
-      constexpr double rounding = 1.0 - 1e-6; // so that the nearest float is not beyond
-      const double scale = length > rounding * m_MaximumMove ? rounding * m_MaximumMove / length : 1.0;
-      for (unsigned int axis = 0; axis < 3; ++axis)
-      {
-        m_Surface.GetPoints()[points[n]][axis] = static_cast<float>(origin[axis] + scale * offset[axis]);
-      }
+      fewest = crossing.size();
+      lastBetter = round;
+      best = surface.GetPoints();
     }
   }
-
-  bool
-  HaveAreas(const Ids & triangles) const
-  {
-    return std::all_of(triangles.begin(), triangles.end(), [&](std::uint32_t triangle) {
-      const auto & [a, b, c] = m_Surface.GetTriangles()[triangle];
-      return HasArea(m_Surface.GetPoints()[a], m_Surface.GetPoints()[b], m_Surface.GetPoints()[c]);
-    });
-  }
-
-  TriangleSurface & m_Surface;
-  double m_MaximumMove;
-  TrianglesOfPoints m_Fans;
-  TriangleSurface::PointsContainer m_Original;
-  std::size_t m_Crossing = 0;
-};
+  surface.GetPoints() = best;
+  surface.Modified();
+  return fewest;
+}
 
 } // namespace
 
@@ -286,9 +208,20 @@ UntangleSurface(TriangleSurface & surface, double maximumMove)
   {
     return {};
   }
-  Untangling untangling(surface, maximumMove);
-  untangling.Run(crossing);
-  return untangling.MakeReport(crossing.size());
+  const Points original = surface.GetPoints();
+  TriangleSurfaceUntanglingReport report;
+  report.crossingBefore = crossing.size();
+  report.crossingAfter = Untangle(surface, original, maximumMove, crossing);
+  for (std::size_t point = 0; point < original.size(); ++point)
+  {
+    const auto & moved = surface.GetPoints()[point];
+    if (moved != original[point])
+    {
+      ++report.pointsMoved;
+      report.largestMove = std::max(report.largestMove, Distance(ToPosition(moved), ToPosition(original[point])));
+    }
+  }
+  return report;
 }
 
 } // namespace itk
