@@ -3,6 +3,7 @@
 # Makes one library target from a folder shaped like an ITK module:
 #   itk-module.cmake  its declaration, in ITK's own grammar (itk_module(<name> DEPENDS ... DESCRIPTION ...))
 #   include/          public headers        src/  sources, if any, maybe in folders by theme
+#   include/detail/   headers that public templates need, but that no user includes: "detail/itkX.h"
 #   module-options.cmake  what the target needs beyond its dependencies, if anything
 #
 # Dependencies may be ITK modules (ITKCommon), modules of this project, or imported targets (VTK::CommonCore).
@@ -63,9 +64,11 @@ endfunction()
 
 function(_rhombic_install name folder)
   file(GLOB headers CONFIGURE_DEPENDS "${folder}/include/*.h" "${folder}/include/*.hxx")
+  file(GLOB detail_headers CONFIGURE_DEPENDS "${folder}/include/detail/*.h")
   set_target_properties(${name} PROPERTIES OUTPUT_NAME Rhombic${name})
   install(TARGETS ${name} EXPORT Rhombic${name} ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
   install(FILES ${headers} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/Rhombic" COMPONENT development)
+  install(FILES ${detail_headers} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/Rhombic/detail" COMPONENT development)
   install(EXPORT Rhombic${name} NAMESPACE Rhombic:: FILE Rhombic${name}.cmake DESTINATION "${RHOMBIC_PACKAGE_FOLDER}"
           COMPONENT development)
 endfunction()

@@ -1,4 +1,4 @@
-#include "itkFCCBoxSpline.h"
+#include "detail/itkFCCBoxSpline.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "itkFCCBoxSplineInterpolateImageFunction.h"
 
+#include "detail/itkFCCMirror.h"
 #include "itkFCCBoxSplineDecompositionImageFilter.h"
-#include "itkFCCMirror.h"
 #include "itkImage.h"
 #include "itkImageRegionIteratorWithIndex.h"
 #include "itkResampleImageFilter.h"

@@ -1,6 +1,6 @@
 #include "itkFCCLinearInterpolateImageFunction.h"
 
-#include "itkFCCTetrahedron.h"
+#include "detail/itkFCCTetrahedron.h"
 #include "itkImage.h"
 #include "itkImageRegionIteratorWithIndex.h"
 #include "itkResampleImageFilter.h"

@@ -1,6 +1,6 @@
 #include "itkCartesianToNestedFCCImageFilter.h"
 
-#include "itkFCCResamplingChecks.h"
+#include "detail/itkFCCMirror.h"
 #include "itkImageRegionIteratorWithIndex.h"
 
 #include <gtest/gtest.h>
@@ -101,7 +101,8 @@ TEST(CartesianToNestedFCCImageFilter, WithoutAntialiasingSitesAreSamplesAtTheirO
       itk::Index<3> index;
       for (unsigned int axis = 0; axis < 3; ++axis)
       {
-        index[axis] = start[axis] + itk::MirroredSample(site[axis], static_cast<itk::OffsetValueType>(size[axis]));
+        index[axis] =
+          start[axis] + itk::MirrorIntoRange(site[axis], 0, static_cast<itk::OffsetValueType>(size[axis]) - 1);
       }
       ASSERT_EQ(value, image->GetPixel(index));
       if (IsInside(site, size, 0))
@@ -183,7 +184,7 @@ HalfBandByOperator(const std::vector<double> & samples, const itk::Size<3> & siz
     for (unsigned int axis = 3; axis-- > 0;)
     {
       const auto length = static_cast<itk::OffsetValueType>(size[axis]);
-      place = place * size[axis] + static_cast<std::size_t>(itk::MirroredSample(x[axis], length));
+      place = place * size[axis] + static_cast<std::size_t>(itk::MirrorIntoRange(x[axis], 0, length - 1));
     }
     return f[place];
   };
@@ -226,7 +227,8 @@ TEST(CartesianToNestedFCCImageFilter, AntialiasingIsTheOperatorOnVolumesOfAnySiz
     filter->SetInput(image);
     filter->Update();
     ForEachSite(*filter->GetOutput(), [&](const Site & site, float value) {
-      const auto x = static_cast<std::size_t>(itk::MirroredSample(site[0], static_cast<itk::OffsetValueType>(size[0])));
+      const auto x =
+        static_cast<std::size_t>(itk::MirrorIntoRange(site[0], 0, static_cast<itk::OffsetValueType>(size[0]) - 1));
       const auto place =
         (static_cast<std::size_t>(site[2]) * size[1] + static_cast<std::size_t>(site[1])) * size[0] + x;
       ASSERT_NEAR(value, expected[place], 1e-3) << size;

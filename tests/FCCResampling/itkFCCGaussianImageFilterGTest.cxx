@@ -1,7 +1,7 @@
 #include "itkFCCGaussianImageFilter.h"
 
+#include "detail/itkFCCMirror.h"
 #include "itkCommand.h"
-#include "itkFCCMirror.h"
 #include "itkFCCTestImages.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "itkFCCGaussianTaps.h"
+#include "detail/itkFCCGaussianTaps.h"
 
 #include <gtest/gtest.h>
 

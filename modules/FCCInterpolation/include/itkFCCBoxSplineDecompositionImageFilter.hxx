@@ -1,8 +1,8 @@
 #ifndef itkFCCBoxSplineDecompositionImageFilter_hxx
 #define itkFCCBoxSplineDecompositionImageFilter_hxx
 
-#include "itkFCCBoxSpline.h"
-#include "itkFCCMirror.h"
+#include "detail/itkFCCBoxSpline.h"
+#include "detail/itkFCCMirror.h"
 #include "itkInputSamples.h"
 #include "itkMultiThreaderBase.h"
 
@@ -44,9 +44,9 @@ FCCBoxSplineDecompositionImageFilter<TInputImage, TOutputImage>::GenerateData()
   const auto & region = this->GetOutput()->GetBufferedRegion();
   WorkProgress progress(*this, (SizeValueType{ m_NumberOfIterations } + 1) * region.GetSize(2));
   constexpr double toQuasiInterpolant = 1.0;
-  constexpr double fastest = 1.5; // makes the largest factor of the error's parts, 1 - gain * eigenvalue, smallest
+  constexpr double fastest = 1.5; // minimises the largest |1 - gain * eigenvalue|, the error's factor in an iteration
 
-  // Steps go from one buffer to the other and back, such that the last one ends in the output.
+  // Iterations write to two buffers in turn, the last one to the output.
   const std::unique_ptr<CoefficientType[]> spare(
     m_NumberOfIterations > 0 ? new CoefficientType[region.GetNumberOfPixels()] : nullptr);
   CoefficientType * target = this->GetOutput()->GetBufferPointer();
@@ -89,7 +89,7 @@ FCCBoxSplineDecompositionImageFilter<TInputImage, TOutputImage>::Correct(const T
     const TPixel * const corners[4] = { rowAt(-1, -1), rowAt(1, -1), rowAt(-1, 1), rowAt(1, 1) };
     for (IndexValueType i = 0; i < width; ++i)
     {
-      // The neighbours before and after in x; those beyond the ends are mirrored onto the other one.
+      // The neighbours before and after in x; one beyond an end is mirrored onto the other one.
       const IndexValueType before = std::max<IndexValueType>(i + parity - 1, 0);
       const IndexValueType after = std::min(i + parity, width - 1);
       double sum = 0.0;

@@ -1,8 +1,8 @@
 #ifndef itkFCCBoxSplineInterpolateImageFunction_h
 #define itkFCCBoxSplineInterpolateImageFunction_h
 
+#include "detail/itkFCCBoxSpline.h"
 #include "itkCovariantVector.h"
-#include "itkFCCBoxSpline.h"
 #include "itkFCCImage.h"
 #include "itkInterpolateImageFunction.h"
 
@@ -10,12 +10,12 @@ namespace itk
 {
 
 /** \class FCCBoxSplineInterpolateImageFunction
- * \brief Values and gradients of an FCC image between its samples, smooth, by box splines (see FCCBoxSpline).
+ * \brief Smooth values and gradients of an FCC image between its samples, by the six-direction box spline.
  *
- * Piecewise cubic with a continuous gradient, from the 16 coefficients around a point. By default the coefficients are
- * the quasi-interpolant's: the spline reproduces quadratic polynomials, but passes near the samples, not through them;
- * NumberOfIterations makes it interpolate (see FCCBoxSplineDecompositionImageFilter). Values may exceed the samples'
- * range.
+ * The function is piecewise cubic with a continuous gradient; a value costs the 16 coefficients around its point. By
+ * default the coefficients are the quasi-interpolant's: the spline reproduces quadratic polynomials, but passes near
+ * the samples, not through them; with NumberOfIterations it interpolates (see FCCBoxSplineDecompositionImageFilter).
+ * Values may exceed the samples' range.
  *
  * SetInputImage() computes and stores the coefficients, one float per sample. Samples beyond the buffered region are
  * mirrored.

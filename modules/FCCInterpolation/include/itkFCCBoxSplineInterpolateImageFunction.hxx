@@ -1,8 +1,8 @@
 #ifndef itkFCCBoxSplineInterpolateImageFunction_hxx
 #define itkFCCBoxSplineInterpolateImageFunction_hxx
 
+#include "detail/itkFCCMirror.h"
 #include "itkFCCBoxSplineDecompositionImageFilter.h"
-#include "itkFCCMirror.h"
 
 namespace itk
 {

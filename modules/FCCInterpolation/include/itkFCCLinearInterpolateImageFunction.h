@@ -10,9 +10,9 @@ namespace itk
 /** \class FCCLinearInterpolateImageFunction
  * \brief Linear interpolation in the tetrahedra of an FCC image.
  *
- * Continuous within the outermost tetrahedra, reproduces linear fields, and costs four samples. Within the extent of
- * the buffered region but outside its outermost tetrahedra, the weights of the missing samples go to those that exist,
- * so values stay within their range.
+ * The function is continuous within the outermost tetrahedra and reproduces linear fields; a value costs four samples.
+ * Within the extent of the buffered region but outside its outermost tetrahedra, the weights of the existing samples
+ * are scaled to a sum of 1, so that values stay within the samples' range.
  *
  * Takes an FCCImage; a continuous index is (x / 2, y, z) in lattice coordinates (see FCCImage). Usable as the
  * interpolator of itk::ResampleImageFilter with an FCCImage as its input.

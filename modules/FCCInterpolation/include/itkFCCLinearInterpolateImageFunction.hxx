@@ -1,7 +1,7 @@
 #ifndef itkFCCLinearInterpolateImageFunction_hxx
 #define itkFCCLinearInterpolateImageFunction_hxx
 
-#include "itkFCCTetrahedron.h"
+#include "detail/itkFCCTetrahedron.h"
 
 namespace itk
 {

@@ -1,11 +1,11 @@
 #ifndef itkCartesianToFCCImageFilter_h
 #define itkCartesianToFCCImageFilter_h
 
+#include "detail/itkSliceStackPlanes.h"
 #include "itkFCCImage.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
 #include "itkSeparableTaps.h"
-#include "itkSliceStackPlanes.h"
 #include "itkThreadFailure.h"
 #include "itkWorkProgress.h"
 #include "rhombicPixelTypes.h"
@@ -24,11 +24,11 @@ namespace itk
  * by SetDensity(), or the lattice's spacing itself by SetOutputSpacing().
  *
  * The output has the input's direction, unless that is sheared (see below). Its extent (see FCCImage) covers the
- * input's, from the outer face of the first
- * voxel to that of the last, and is centred on it; as long as the lattice's spacing is not larger than the voxels,
- * every input sample lies between output samples. Output index (0, 0, 0) is a sample whatever the input's start index.
- * Where output samples lie beyond the outermost input samples, the field is constant along the axis. Nothing is
- * filtered out before sampling: at densities far below the default, smooth the input first.
+ * input's, from the outer face of the first voxel to that of the last, and is centred on it; as long as the lattice's
+ * spacing is not larger than the voxels, every input sample lies between output samples. The output's indices start at
+ * (0, 0, 0), whatever the input's start index. Where output samples lie beyond the outermost input samples, the field
+ * is constant along the axis. There is no low-pass filter: at densities far below the default, smooth the input
+ * first.
  *
  * Values between samples come from a separable kernel (see SeparableTaps), the cubic B-spline with its prefilter by
  * default, because linear interpolation blurs away what the lattice gains. B-splines overshoot at edges; integer
@@ -37,19 +37,18 @@ namespace itk
  * reach, up to 5 samples along each axis, not a number: replace such samples before.
  *
  * The kernel is applied along y, z, and x in turn. A lattice row lies at constant y and z, so that each of these is a
- * pass over whole rows (see RowArithmetic); the input is converted to float32 a row at a time, and worked on in blocks
- * whose intermediate results fit a processor's cache. Extra memory: 1 MiB per thread, or ten input rows for each of
- * eight output rows if that is more. The filter asks for as much of the input as the requested output needs, and any
- * part of the output has the same bytes whether it is computed alone or with the rest, by one thread or many, on
- * any processor.
+ * pass over whole rows. The input is converted to float32 a row at a time, in blocks whose intermediate results fit a
+ * processor's cache. Extra memory: 1 MiB per thread, or ten input rows for each of eight output rows if that is more.
+ * The filter requests only the part of the input that the requested output needs. Any part of the output has the same
+ * bytes whether it is computed alone or with the rest, by one thread or many, on any processor.
  *
  * **Slanted inputs.** Where the input's axes are not perpendicular (a tilted gantry, a sheared affine), or its slices
- * are unevenly placed (SetSliceOrigins()), samples keep their true places, without a grid in between. The lattice then
- * has perpendicular axes: x along the input's first axis, y in the plane of its slices, z along their normal, towards
- * the last slice. Its extent covers the box, along these axes, around the outer faces of all voxels, and is centred on
- * it; density and aspect refer to the distances between samples of a row, between rows, and between slices (the
- * median). Output samples that are more than half a sample beside the slices get OutsideValue; above and below the
- * stack, the field is constant along the line through its last two slices' origins.
+ * are unevenly placed (SetSliceOrigins()), samples are used at their true positions, and not resampled to an even grid
+ * first. The lattice then has perpendicular axes: x along the input's first axis, y in the plane of its slices, z along
+ * their normal, towards the last slice. Its extent covers the box, along these axes, around the outer faces of all
+ * voxels, and is centred on it; density and aspect refer to the distances between samples of a row, between rows, and
+ * between slices (the median). Output samples that are more than half a sample beside the slices get OutsideValue;
+ * above and below the stack, the field is constant along the line through its last two slices' origins.
  *
  * The kernels work in units of samples, as above. A tilt or shear costs no accuracy: with Linear and CubicBSpline,
  * linear fields of the world are exact, and smooth ones as good as from perpendicular axes. Along unevenly placed
@@ -62,12 +61,12 @@ namespace itk
  * time for a volume, and where the in-plane axes are not perpendicular, with weights for each row: 16 times. Extra
  * memory: 22 input rows per thread.
  *
- * Throws when the input has no samples, or its buffer not those needed, a parameter makes no sense, the lattice would
- * have more samples than can be counted, or the slice origins are not as many as the slices or do not follow each other
- * along their normal.
+ * Throws when the input has no samples or its buffer lacks some that are needed, when a parameter is out of range, when
+ * the lattice would have more than 2^40 samples, and when the slice origins are not as many as the slices or not in
+ * order along their normal.
  *
- * Overridden pipeline methods: VerifyPreconditions() (sensible parameters), GenerateOutputInformation() (places the
- * lattice; refuses slice origins that make no stack), GenerateInputRequestedRegion() (the kernel's reach),
+ * Overridden pipeline methods: VerifyPreconditions() (parameters in range), GenerateOutputInformation() (places
+ * the lattice; refuses slice origins that are not in order), GenerateInputRequestedRegion() (the kernel's reach),
  * BeforeThreadedGenerateData() (large memory pages for the output).
  *
  * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
@@ -106,15 +105,15 @@ public:
   itkSetMacro(OutputSpacing, SpacingType);
   itkGetConstReferenceMacro(OutputSpacing, SpacingType);
 
-  /** How values between samples are computed. Default SeparableKernel::CubicBSpline. */
+  /** The kernel of interpolation. Default SeparableKernel::CubicBSpline. */
   itkSetEnumMacro(Kernel, SeparableKernel);
   itkGetEnumMacro(Kernel, SeparableKernel);
 
   using SliceOriginsType = std::vector<typename TInputImage::PointType>;
 
-  /** Where the first sample of each slice along the input's third axis is, for stacks whose slices are unevenly spaced
-   * or shifted against each other. Default empty: where the input's geometry puts them. As many as the slices, in their
-   * order, which must be that along their normal. */
+  /** Positions in LPS mm of the first sample of each slice along the input's third axis, for stacks whose slices are
+   * unevenly spaced or shifted against each other: one for each slice, in order along the slices' normal. Default
+   * empty: the positions follow from the input's origin, spacing and direction. */
   void
   SetSliceOrigins(const SliceOriginsType & sliceOrigins);
   const SliceOriginsType &
@@ -123,8 +122,7 @@ public:
     return m_SliceOrigins;
   }
 
-  /** What output samples beside a slanted input get. Default zero; best a value of the background, the input's lowest,
-   * say. */
+  /** Value of output samples beside a slanted input. Default 0. The lowest value of the input is a good choice. */
   itkSetMacro(OutsideValue, OutputPixelType);
   itkGetConstMacro(OutsideValue, OutputPixelType);
 
@@ -161,14 +159,11 @@ private:
   void
   Resample(const OutputImageRegionType & region);
 
-  void
-  ResampleStack(const OutputImageRegionType & region);
-
-  /** Taps for the samples of the output region along one axis; along x, for the rows of one parity. */
+  /** Taps for the sites of the region along one axis; along x, for the rows of one parity. */
   SeparableTaps
   MakeTaps(unsigned int axis, const OutputImageRegionType & region, IndexValueType parity = 0) const;
 
-  /** How a part of the output is made of the stack, which must outlive the answer. */
+  /** Where the sites of a region lie in the stack, which must outlive the result. */
   SliceStackPlanes
   MakePlanes(const SliceStack & stack, const OutputImageRegionType & region) const;
 

@@ -1,10 +1,11 @@
 #ifndef itkCartesianToFCCImageFilter_hxx
 #define itkCartesianToFCCImageFilter_hxx
 
+#include "detail/itkHugePages.h"
+#include "detail/itkRowArithmetic.h"
+#include "detail/itkRowPasses.h"
 #include "itkFCCResamplingChecks.h"
-#include "itkHugePages.h"
 #include "itkInputSamples.h"
-#include "itkRowArithmetic.h"
 
 #include <algorithm>
 #include <cmath>
@@ -108,19 +109,16 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateOutputInformation(
   SpacingType first; // from the middle of the input's first sample to the lattice point (0, 0, 0), in samples
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    const double length = lengths[axis];
+    constexpr double tolerance = 1e-9; // of a sample, against rounding
     spacing[axis] = m_OutputSpacing[axis] > 0.0 ? m_OutputSpacing[axis] : scale * inputSpacing[axis];
-
+    const double step = spacing[axis] / inputSpacing[axis];
+    const double units = lengths[axis] / step;
     // Along x a row's samples are two units apart and the rows of the other parity are shifted by one, so that covering
     // the input with both takes one unit more.
-    constexpr double tolerance = 1e-9; // of a sample, against rounding
-    const double step = spacing[axis] / inputSpacing[axis];
-    const double units = length / step;
     const double samples = axis == 0 ? (units + 1.0) / 2.0 : units;
-    const double count = std::max(1.0, std::ceil(samples - tolerance));
-    const double span = axis == 0 ? 2.0 * count - 1.0 : count - 1.0;
-    counts[axis] = count;
-    first[axis] = (length - 1.0 - span * step) / 2.0;
+    counts[axis] = std::max(1.0, std::ceil(samples - tolerance));
+    const double span = axis == 0 ? 2.0 * counts[axis] - 1.0 : counts[axis] - 1.0;
+    first[axis] = (lengths[axis] - 1.0 - span * step) / 2.0;
   }
   if (!IsCountable(counts))
   {
@@ -238,7 +236,7 @@ template <typename TInputImage, typename TOutputImage>
 void
 CartesianToFCCImageFilter<TInputImage, TOutputImage>::DynamicThreadedGenerateData(const OutputImageRegionType & region)
 {
-  m_ThreadFailure.Capture([&] { this->IsSlanted() ? this->ResampleStack(region) : this->Resample(region); });
+  m_ThreadFailure.Capture([&] { this->Resample(region); });
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -255,197 +253,32 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::Resample(const OutputImage
 {
   const TInputImage * const input = this->GetInput();
   TOutputImage * const output = this->GetOutput();
-  const InputImageRegionType buffered = input->GetBufferedRegion();
-  const auto & whole = input->GetLargestPossibleRegion();
+  const auto inputOffset =
+    input->GetLargestPossibleRegion().GetIndex() - typename TInputImage::IndexType{ { 0, 0, 0 } };
   WorkProgress::Share progress(*m_WorkProgress);
-
-  const SeparableTaps xTaps[2] = { this->MakeTaps(0, region, 0), this->MakeTaps(0, region, 1) };
-  const SeparableTaps yTaps = this->MakeTaps(1, region);
-  const SeparableTaps zTaps = this->MakeTaps(2, region);
-
-  // Samples of the input along x, counted from its first one, that this region needs.
-  const SizeValueType xFirst = xTaps[0].GetFirst(0);
-  const SizeValueType xCount = xTaps[1].GetFirst(region.GetSize(0) - 1) + xTaps[1].GetNumberOfTaps() - xFirst;
-  const RowArithmetic::RowTaps rowTaps[2] = { { xTaps[0], region.GetSize(0), xFirst },
-                                              { xTaps[1], region.GetSize(0), xFirst } };
-  const auto inputRow = [&](SizeValueType y, SizeValueType z) {
-    typename TInputImage::IndexType index = whole.GetIndex();
-    index[0] += static_cast<IndexValueType>(xFirst);
-    index[1] += static_cast<IndexValueType>(y);
-    index[2] += static_cast<IndexValueType>(z);
-    return input->GetBufferPointer() + input->ComputeOffset(index);
+  const auto load = [&](const Index<3> & start, SizeValueType length, float * row) {
+    const auto * const samples = input->GetBufferPointer() + input->ComputeOffset(start + inputOffset);
+    RowArithmetic::ConvertFrom(samples, length, row);
+  };
+  const auto store = [&](const Index<3> & start, SizeValueType length, const float * values) {
+    const Index<3> rowStart{ { region.GetIndex(0), start[1], start[2] } };
+    OutputPixelType * const row = output->GetBufferPointer() + output->ComputeOffset(rowStart);
+    OutputPixelType * const begin = row + (start[0] - rowStart[0]);
+    std::fill(row, begin, m_OutsideValue);
+    RowArithmetic::RoundTo(values, length, begin);
+    std::fill(begin + length, row + region.GetSize(0), m_OutsideValue);
+    progress.Completed(region.GetSize(0));
   };
 
-  // Blocks of output rows such that the slabs they are blended from, along z, stay in the second-level cache.
-  constexpr SizeValueType cachedSamples = 256 * 1024;
-  const SizeValueType stride = RowArithmetic::PaddedLength(xCount);
-  const SizeValueType zCount = zTaps.GetNumberOfTaps();
-  const SizeValueType yCount = yTaps.GetNumberOfTaps();
-  const SizeValueType blockSize =
-    std::clamp<SizeValueType>(cachedSamples / (zCount * stride), 8, std::max<SizeValueType>(8, region.GetSize(1)));
-
-  // Rows and slabs are kept in rings: a sample's place is its y or z modulo the ring's length.
-  std::vector<float> rowRing(yCount * stride);
-  std::vector<float> slabRing(zCount * blockSize * stride);
-  std::vector<float> row(stride);
-  std::vector<float> values(rowTaps[0].GetPaddedLength());
-  std::vector<const float *> terms(std::max(yCount, zCount));
-
-  for (SizeValueType blockBegin = 0; blockBegin < region.GetSize(1); blockBegin += blockSize)
+  if (this->IsSlanted())
   {
-    const SizeValueType blockEnd = std::min(blockBegin + blockSize, region.GetSize(1));
-
-    // The input's plane z at the y of the block's output rows.
-    const auto makeSlab = [&](SizeValueType z) {
-      SizeValueType nextRow = 0;
-      for (SizeValueType j = blockBegin; j < blockEnd; ++j)
-      {
-        const SizeValueType first = yTaps.GetFirst(j);
-        for (nextRow = std::max(nextRow, first); nextRow < first + yCount; ++nextRow)
-        {
-          RowArithmetic::ConvertFrom(inputRow(nextRow, z), xCount, rowRing.data() + nextRow % yCount * stride);
-        }
-        for (SizeValueType tap = 0; tap < yCount; ++tap)
-        {
-          terms[tap] = rowRing.data() + (first + tap) % yCount * stride;
-        }
-        float * const slabRow = slabRing.data() + (z % zCount * blockSize + (j - blockBegin)) * stride;
-        RowArithmetic::Blend(terms.data(), yTaps.GetWeights(j), yCount, xCount, slabRow);
-      }
-    };
-
-    SizeValueType nextSlab = 0;
-    for (SizeValueType k = 0; k < region.GetSize(2); ++k)
-    {
-      const SizeValueType first = zTaps.GetFirst(k);
-      for (nextSlab = std::max(nextSlab, first); nextSlab < first + zCount; ++nextSlab)
-      {
-        makeSlab(nextSlab);
-      }
-      for (SizeValueType j = blockBegin; j < blockEnd; ++j)
-      {
-        for (SizeValueType tap = 0; tap < zCount; ++tap)
-        {
-          terms[tap] = slabRing.data() + ((first + tap) % zCount * blockSize + (j - blockBegin)) * stride;
-        }
-        RowArithmetic::Blend(terms.data(), zTaps.GetWeights(k), zCount, xCount, row.data());
-
-        const typename TOutputImage::IndexType index{ { region.GetIndex(0),
-                                                        region.GetIndex(1) + static_cast<IndexValueType>(j),
-                                                        region.GetIndex(2) + static_cast<IndexValueType>(k) } };
-        RowArithmetic::Interpolate(row.data(), rowTaps[FCCLattice::Parity(index[1], index[2])], values.data());
-        RowArithmetic::RoundTo(
-          values.data(), region.GetSize(0), output->GetBufferPointer() + output->ComputeOffset(index));
-        progress.Completed(region.GetSize(0));
-      }
-    }
+    const SliceStack stack(*input, m_SliceOrigins);
+    ResampleStackRows(this->MakePlanes(stack, region), region, load, store);
   }
-}
-
-template <typename TInputImage, typename TOutputImage>
-void
-CartesianToFCCImageFilter<TInputImage, TOutputImage>::ResampleStack(const OutputImageRegionType & region)
-{
-  const TInputImage * const input = this->GetInput();
-  TOutputImage * const output = this->GetOutput();
-  const auto & whole = input->GetLargestPossibleRegion();
-  WorkProgress::Share progress(*m_WorkProgress);
-
-  const SliceStack stack(*input, m_SliceOrigins);
-  const SliceStackPlanes planes = this->MakePlanes(stack, region);
-  const auto needed = planes.FindNeededSamples();
-  const auto xFirst = static_cast<SizeValueType>(needed.GetIndex(0));
-  const SizeValueType xCount = needed.GetSize(0);
-  const SeparableTaps & zTaps = planes.GetSliceTaps();
-  const SizeValueType zCount = zTaps.GetNumberOfTaps();
-
-  const SizeValueType stride = RowArithmetic::PaddedLength(xCount);
-  std::vector<float> sliceRows(zCount * stride);
-  std::vector<const float *> sliceTerms(zCount);
-  for (SizeValueType tap = 0; tap < zCount; ++tap)
+  else
   {
-    sliceTerms[tap] = sliceRows.data() + tap * stride;
-  }
-  const auto blendSlices = [&](SizeValueType k, SizeValueType y, float * blend) {
-    auto index = whole.GetIndex();
-    index[0] += static_cast<IndexValueType>(xFirst);
-    index[1] += static_cast<IndexValueType>(y);
-    index[2] += static_cast<IndexValueType>(zTaps.GetFirst(k));
-    for (SizeValueType tap = 0; tap < zCount; ++tap, ++index[2])
-    {
-      RowArithmetic::ConvertFrom(
-        input->GetBufferPointer() + input->ComputeOffset(index), xCount, sliceRows.data() + tap * stride);
-    }
-    RowArithmetic::Blend(sliceTerms.data(), zTaps.GetWeights(k), zCount, xCount, blend);
-  };
-
-  // The sites of a row, and which of them lie in the input.
-  struct SiteRow
-  {
-    SizeValueType begin;
-    SizeValueType end;
-    RowArithmetic::RowTaps taps;
-  };
-  const auto makeSiteRow = [&](SizeValueType k, double row, IndexValueType parity) -> SiteRow {
-    const std::vector<double> columns = planes.GetColumns(k, row, parity);
-    const auto isInside = [&](double column) { return IsInsideVoxels(column, whole.GetSize(0)); };
-    const auto begin = std::find_if(columns.begin(), columns.end(), isInside);
-    const auto end = std::find_if_not(begin, columns.end(), isInside);
-    return { static_cast<SizeValueType>(begin - columns.begin()),
-             static_cast<SizeValueType>(end - columns.begin()),
-             { planes.MakeColumnTaps(columns), columns.size(), xFirst } };
-  };
-
-  // Blends of the slices' rows in a ring, as in Resample().
-  std::vector<float> ring;
-  std::vector<const float *> terms;
-  std::vector<float> row(stride);
-  std::vector<float> values;
-  for (SizeValueType k = 0; k < region.GetSize(2); ++k)
-  {
-    const std::vector<double> rows = planes.GetRows(k);
-    const SeparableTaps yTaps = planes.MakeRowTaps(rows);
-    const SizeValueType yCount = yTaps.GetNumberOfTaps();
-    ring.resize(yCount * stride);
-    terms.resize(yCount);
-    std::optional<SiteRow> siteRows[2];
-    SizeValueType nextRow = 0;
-    for (SizeValueType j = 0; j < region.GetSize(1); ++j)
-    {
-      const typename TOutputImage::IndexType index{ { region.GetIndex(0),
-                                                      region.GetIndex(1) + static_cast<IndexValueType>(j),
-                                                      region.GetIndex(2) + static_cast<IndexValueType>(k) } };
-      OutputPixelType * const outputRow = output->GetBufferPointer() + output->ComputeOffset(index);
-      const IndexValueType parity = FCCLattice::Parity(index[1], index[2]);
-      auto & sites = siteRows[parity];
-      if (!sites || stack.AreRowsShifted())
-      {
-        sites.emplace(makeSiteRow(k, rows[j], parity));
-      }
-      if (IsInsideVoxels(rows[j], whole.GetSize(1)) && sites->begin < sites->end)
-      {
-        const SizeValueType first = yTaps.GetFirst(j);
-        for (nextRow = std::max(nextRow, first); nextRow < first + yCount; ++nextRow)
-        {
-          blendSlices(k, nextRow, ring.data() + nextRow % yCount * stride);
-        }
-        for (SizeValueType tap = 0; tap < yCount; ++tap)
-        {
-          terms[tap] = ring.data() + (first + tap) % yCount * stride;
-        }
-        RowArithmetic::Blend(terms.data(), yTaps.GetWeights(j), yCount, xCount, row.data());
-        values.resize(sites->taps.GetPaddedLength());
-        RowArithmetic::Interpolate(row.data(), sites->taps, values.data());
-        RowArithmetic::RoundTo(values.data(), region.GetSize(0), outputRow);
-        std::fill(outputRow, outputRow + sites->begin, m_OutsideValue);
-        std::fill(outputRow + sites->end, outputRow + region.GetSize(0), m_OutsideValue);
-      }
-      else
-      {
-        std::fill(outputRow, outputRow + region.GetSize(0), m_OutsideValue);
-      }
-      progress.Completed(region.GetSize(0));
-    }
+    const SeparableTaps xTaps[2] = { this->MakeTaps(0, region, 0), this->MakeTaps(0, region, 1) };
+    ResampleRows(xTaps, this->MakeTaps(1, region), this->MakeTaps(2, region), region, load, store);
   }
 }
 

@@ -22,18 +22,20 @@ namespace itk
  * mirror image about the first and last sample. Where its size along x is odd, that makes the last sample of the rows
  * of parity 1.
  *
- * Half the samples carry half the band: finer detail would come back as false coarse detail. Antialiasing removes it
- * beforehand, with the half-band filter 1/2 + 3/4 A - 1/4 A^3, where A is the mean of a sample's six face neighbours.
- * Its response to a wave is 1 at frequency zero, with vanishing first derivative in A, 1/2 where the two bands meet
- * (A = 0), and 0 at the corner of the spectrum; linear fields pass unchanged. Written out, it is a sum of 45 samples
- * within three steps. Integer outputs are rounded and clamped to the range of their type; arithmetic is in float32. A
- * sample that is not finite spreads as far. Without antialiasing, samples are copied as they are.
+ * Half the samples carry half the band of frequencies: finer detail would turn into false coarse detail (aliasing).
+ * Antialiasing removes it beforehand, with the half-band filter 1/2 + 3/4 A - 1/4 A^3, where A is the mean of a
+ * sample's six face neighbours. Its response to a wave is 1 at frequency zero, with vanishing first derivative in A,
+ * 1/2 where the two bands meet (A = 0), and 0 at the corner of the spectrum; linear fields pass unchanged. Written out,
+ * it is a sum of 45 samples within three steps. Integer outputs are rounded and clamped to the range of their type;
+ * arithmetic is in float32. A sample that is not finite spreads as far. Without antialiasing, samples are copied as
+ * they are.
  *
- * The filter asks for as much of the input as the requested output needs. Any part of the output has the same bytes
- * whether it is computed alone or with the rest, by one thread or many, on any processor. Extra memory: about 1 MiB per
- * thread, more for rows of more than 2500 samples.
+ * The filter requests only the part of the input that the requested output needs. Any part of the output has the same
+ * bytes whether it is computed alone or with the rest, by one thread or many, on any processor. Extra memory: about 1
+ * MiB per thread, more for rows of more than 2500 samples.
  *
- * Throws when the input has no samples, or its buffer not those needed, and when its axes are not perpendicular.
+ * Throws when the input has no samples or its buffer lacks some that are needed, and when its axes are not
+ * perpendicular.
  *
  * Overridden pipeline methods: GenerateOutputInformation() (places the lattice), GenerateInputRequestedRegion() (the
  * half-band filter's reach), BeforeThreadedGenerateData() (large memory pages for the output).
@@ -64,7 +66,7 @@ public:
                 "The output must be an FCCImage of the input's pixel type");
   static_assert(TInputImage::ImageDimension == 3, "The face-centered cubic lattice is three-dimensional");
 
-  /** Whether what the output cannot carry is filtered out before sampling. Default on. */
+  /** Whether frequencies that the output cannot carry are filtered out before sampling. Default on. */
   itkSetMacro(Antialiasing, bool);
   itkGetConstMacro(Antialiasing, bool);
   itkBooleanMacro(Antialiasing);

@@ -5,7 +5,6 @@
 #include "itkMatrix.h"
 #include "itkVector.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -16,10 +15,9 @@ namespace itk
 {
 
 /** \file
- * What the resampling filters ask of geometries, and how they treat borders and rounding. The functions throw nothing.
- * Thread safety: they are pure. */
+ * Checks of geometries, and rounding. The functions throw nothing and are thread safe. */
 
-/** Whether a spacing is positive along all axes, or zero along all: to be derived. */
+/** Whether a spacing is positive along all axes, or zero along all axes, which means that it is not set. */
 inline bool
 IsSpacingOrUnset(const Vector<double, 3> & spacing)
 {
@@ -31,7 +29,7 @@ IsSpacingOrUnset(const Vector<double, 3> & spacing)
   return isPositive || spacing == Vector<double, 3>(0.0);
 }
 
-/** Cosine of the angle between axes that count as perpendicular. */
+/** Largest cosine of the angle between axes that count as perpendicular. */
 constexpr double AxesTolerance = 1e-6;
 
 /** Whether the columns of an image's direction are perpendicular to each other. */
@@ -50,37 +48,12 @@ AreAxesPerpendicular(const Matrix<double, 3, 3> & direction)
   return true;
 }
 
-/** Whether so many samples along each axis can be counted and addressed. */
+/** Whether an image with these numbers of samples along its axes has at most 2^40 samples. */
 inline bool
 IsCountable(const std::array<double, 3> & counts)
 {
-  constexpr double most = 1099511627776.0; // 2^40
+  constexpr double most = 0x1p40;
   return counts[0] * counts[1] * counts[2] <= most;
-}
-
-/** Whether a position, 0 being the first sample, lies in the voxels of an axis of \a length samples. */
-inline bool
-IsInsideVoxels(double position, SizeValueType length)
-{
-  constexpr double tolerance = 1e-6; // against rounding
-  return position >= -0.5 - tolerance && position <= static_cast<double>(length) - 0.5 + tolerance;
-}
-
-/** The sample of an axis that a sample beyond its ends is the mirror image of, about the first and last sample. */
-inline OffsetValueType
-MirroredSample(OffsetValueType sample, OffsetValueType length)
-{
-  if (sample >= 0 && sample < length)
-  {
-    return sample;
-  }
-  if (length == 1)
-  {
-    return 0;
-  }
-  const OffsetValueType period = 2 * (length - 1);
-  const OffsetValueType folded = ((sample % period) + period) % period;
-  return std::min(folded, period - folded);
 }
 
 /** Rounds half away from zero and clamps to the range of an integer type; not-a-number becomes its lowest value. */
@@ -97,9 +70,9 @@ RoundAndClamp(TReal value)
     constexpr auto lowest = static_cast<RealType>(std::numeric_limits<TPixel>::lowest());
     constexpr auto highest = static_cast<RealType>(std::numeric_limits<TPixel>::max());
     const auto real = static_cast<RealType>(value);
-    const RealType clamped = real > lowest ? (real < highest ? real : highest) : lowest;
-    const RealType half = clamped < RealType(0) ? RealType(-0.5) : RealType(0.5);
-    return static_cast<TPixel>(static_cast<std::int64_t>(clamped + half));
+    const RealType floored = real > lowest ? real : lowest; // also where real is not a number
+    const RealType clamped = floored < highest ? floored : highest;
+    return static_cast<TPixel>(static_cast<std::int32_t>(clamped + std::copysign(RealType(0.5), clamped)));
   }
   else
   {

@@ -22,16 +22,16 @@ namespace itk
  * lattice with the default density and back has its old spacing; use the reference image to get the very same grid.
  *
  * Voxels outside the FCC image's extent become DefaultPixelValue. Integer outputs are rounded half away from zero and
- * clamped to the range of their type; arithmetic is in float64. The filter asks for as much of the input as the
- * requested output needs: the sites of the tetrahedra around its voxels (see LocateFCCTetrahedron()). Any part of the
+ * clamped to the range of their type; arithmetic is in float64. The filter requests only the part of the
+ * input that the requested output needs: the sites of the tetrahedra around its voxels. Any part of the
  * output has the same bytes whether it is computed alone or with the rest, by one thread or many.
  *
- * Throws when OutputSpacing is not positive, when the grid would have more voxels than can be counted, and when the
- * input's buffer has not the samples needed.
+ * Throws when OutputSpacing is not positive, when the grid would have more than 2^40 voxels, and when the input's
+ * buffer lacks samples that are needed.
  *
- * Overridden pipeline methods: VerifyPreconditions() (sensible parameters), VerifyInputInformation() (the two inputs
+ * Overridden pipeline methods: VerifyPreconditions() (parameters in range), VerifyInputInformation() (the two inputs
  * need not share a grid), GenerateOutputInformation() (places the grid), GenerateInputRequestedRegion() (the sites
- * around the voxels; nothing of the reference).
+ * around the voxels; no pixels of the reference).
  *
  * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
  *
@@ -63,7 +63,7 @@ public:
   itkSetMacro(OutputSpacing, SpacingType);
   itkGetConstReferenceMacro(OutputSpacing, SpacingType);
 
-  /** A Cartesian image whose grid the output gets; its pixels are not looked at. Default none. */
+  /** A Cartesian image whose grid the output gets; its pixels are not read. Default none. */
   itkSetInputMacro(ReferenceImage, ReferenceImageType);
   itkGetInputMacro(ReferenceImage, ReferenceImageType);
 

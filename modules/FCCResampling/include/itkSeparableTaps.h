@@ -9,7 +9,7 @@
 namespace itk
 {
 
-/** How CartesianToFCCImageFilter computes values between the samples of its input. */
+/** The kernels of interpolation of CartesianToFCCImageFilter: see SeparableTaps. */
 enum class SeparableKernel : unsigned char
 {
   Linear,
@@ -22,7 +22,8 @@ std::ostream &
 operator<<(std::ostream & os, SeparableKernel kernel);
 
 /** \class SeparableTaps
- * \brief For each of a list of positions along one axis: the input samples its value is made of, and their weights.
+ * \brief The input samples, and their weights, that interpolated values at a list of positions along one axis are sums
+ * of.
  *
  * Every position has the same number of *taps*, consecutive samples from GetFirst() on. The weights depend on the
  * position and the axis' full length alone, not on which part of the axis is available, so any part of an output is the
@@ -30,8 +31,9 @@ operator<<(std::ostream & os, SeparableKernel kernel);
  *
  * - Linear: two taps.
  * - CubicBSpline: ten taps that stand for interpolation with the cubic B-spline, prefilter included (Unser, Aldroubi,
- *   Eden 1993). Exactly, every sample has a weight, falling by 1 / 3.73 each sample; here the prefilter is cut to ten
- * in least squares, such that the kernel still interpolates and still reproduces cubic polynomials. Root mean square
+ *   Eden 1993). With the exact prefilter every sample has a weight, which falls by 1 / 3.73 with each sample; here the
+ *   prefilter is cut to ten taps by least squares, such that the kernel still interpolates and still reproduces cubic
+ *   polynomials. Root mean square
  *   errors at the sites of the default lattice, of waves equally distributed in the ball |k| <= K pi per sample, for a
  *   field of root mean square 1, and of the distance fields of a sphere (radius 13.3) and a torus (11, 4.7):
  *
@@ -43,9 +45,8 @@ operator<<(std::ostream & os, SeparableKernel kernel);
  *     B-splines, FIR prefilter        12   1.5e-4    5.0e-3   4.0e-2    2.6e-6    5.3e-4
  *     Lanczos4                         8   3.5e-3    7.5e-3   1.1e-2    1.0e-2    9.1e-3
  *
- *
- * - Lanczos4: sinc(x) sinc(x / 4), eight taps, normalised to a sum of 1. Keeps more of the highest frequencies than the
- *   spline, but does not reproduce even linear fields exactly, hence its errors for smooth fields.
+ * - Lanczos4: sinc(x) sinc(x / 4), eight taps, normalised to a sum of 1. It keeps more of the highest frequencies than
+ *   the spline, but does not even reproduce linear fields exactly, hence its errors for smooth fields.
  *
  * Where samples are not at even steps, their true positions are given, and both higher kernels are the natural cubic
  * spline through the ten samples around the position. It reproduces linear fields exactly, up to the ends. Root mean
@@ -64,7 +65,7 @@ operator<<(std::ostream & os, SeparableKernel kernel);
  * Samples beyond the ends of evenly placed ones are mirror images about the first and last one, as
  * itk::BSplineInterpolateImageFunction has them.
  *
- * Positions outside the samples, [0, length - 1], are moved to the nearest end: the field is constant out there.
+ * Positions outside the samples, [0, length - 1], are moved to the nearest end: the field is constant beyond it.
  *
  * Immutable after construction, so thread safe.
  *
@@ -78,13 +79,13 @@ public:
    *  \param positions in units of samples; 0 is the first sample */
   SeparableTaps(SeparableKernel kernel, SizeValueType length, const std::vector<double> & positions);
 
-  /** For samples that are not evenly placed.
+  /** Taps for samples that are not evenly placed.
    *
    *  \param samples positions of the samples, increasing, at least one; in any unit
    *  \param positions in the same unit */
   SeparableTaps(SeparableKernel kernel, const std::vector<double> & samples, const std::vector<double> & positions);
 
-  /** Taps of each position: 2, 10 or 8, or all samples of a shorter axis. */
+  /** Number of taps of each position: 2, 10 or 8, or all samples of a shorter axis. */
   SizeValueType
   GetNumberOfTaps() const
   {

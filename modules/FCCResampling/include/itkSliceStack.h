@@ -11,7 +11,7 @@ namespace itk
 {
 
 /** \class SliceStack
- * \brief Where the samples of a volume lie whose slices are tilted, sheared, or unevenly placed.
+ * \brief The geometry of a volume whose slices are tilted, sheared, or unevenly placed.
  *
  * All slices have the same two in-plane axes, which may enclose any angle; each slice has its own origin. *Frame
  * coordinates* are millimetres from the first slice's first sample along perpendicular axes: x along the image's first
@@ -31,11 +31,10 @@ public:
   using VectorType = Vector<double, 3>;
   using DirectionType = ImageBase<3>::DirectionType;
 
-  /** \param image the in-plane axes, and where \a sliceOrigins is empty the slices, too; not empty
-   *  \param sliceOrigins the first sample of each slice in the world
+  /** \param image gives the in-plane axes, and the slices' origins if \a sliceOrigins is empty; has samples
+   *  \param sliceOrigins position of the first sample of each slice, in LPS mm
    *
-   * Throws ExceptionObject when the origins are not as many as the slices, or do not follow each other along the
-   * normal. */
+   * Throws ExceptionObject when the origins are not as many as the slices, or not in order along the normal. */
   SliceStack(const ImageBase<3> & image, const std::vector<PointType> & sliceOrigins);
 
   /** The frame's axes in the world; left-handed where the image is. */
@@ -45,8 +44,8 @@ public:
     return m_Direction;
   }
 
-  /** From sample to sample along x, from row to row along y, and from slice to slice along z (the median), in mm. Their
-   * product is the volume per sample. */
+  /** Distances in mm: from sample to sample along x, from row to row along y, and from slice to slice along z (the
+   * median). Their product is the volume per sample. */
   const VectorType &
   GetPitch() const
   {
@@ -75,13 +74,14 @@ public:
   VectorType
   TransformPointToFrame(const PointType & point) const;
 
-  /** The slices that values at \a heights, z of the frame, are made of. Slices at even steps are treated as any other
+  /** The taps over the slices of values at \a heights, z of the frame. Evenly spaced slices are treated like any other
    * axis, others by their true positions. */
   SeparableTaps
   MakeSliceTaps(SeparableKernel kernel, const std::vector<double> & heights) const;
 
-  /** x and y of sample (0, 0) at height z, the \a n-th position of \a taps. Between slices it is interpolated as the
-   * values are; beyond the first and last one, the line through these and their neighbours goes on. */
+  /** x and y in the frame of sample (0, 0) at height z, the \a n-th position of \a taps. Between slices it is
+   * interpolated as the values are; beyond the first and the last slice it is extrapolated linearly from these and
+   * their neighbours. */
   std::array<double, 2>
   GetOriginAt(double z, const SeparableTaps & taps, SizeValueType n) const;
 
@@ -115,12 +115,12 @@ private:
   VectorType m_Pitch;
   VectorType m_Lowest;
   VectorType m_Highest;
-  double m_RowShift{ 0.0 }; // along x, from row to row, in mm
-  bool m_IsEven{ true };
+  double m_RowShift{ 0.0 };               // along x, from row to row, in mm
+  bool m_IsEven{ true };                  // whether the slices are evenly spaced and not shifted
   VectorType m_FirstStep;                 // between the first two slices
-  VectorType m_LastStep;                  // and the last two
+  VectorType m_LastStep;                  // between the last two slices
   std::vector<VectorType> m_SliceOrigins; // in the frame
-  std::vector<double> m_Heights;          // their z
+  std::vector<double> m_Heights;          // z of the slices' origins
 };
 
 } // namespace itk

@@ -1,4 +1,4 @@
-#include "itkFCCGaussianTaps.h"
+#include "detail/itkFCCGaussianTaps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,13 +8,13 @@ namespace itk
 namespace
 {
 
-/** One half of a symmetric factor, from the middle on, and its sums (see FCCGaussianTaps). */
+/** A symmetric factor: its weights from the middle on, and its sums (see FCCGaussianTaps). */
 struct HalfFactor
 {
   std::vector<double> weights;
-  double secondMoment = 0.0;
-  double alternatingSum = 0.0;
-  double alternatingMoment = 0.0;
+  double secondMoment = 0.0;      // m
+  double alternatingSum = 0.0;    // A
+  double alternatingMoment = 0.0; // B
 };
 
 /** The sampled Gaussian in which weights fall by \a decay = exp(-1 / 2q) from the middle to the first step. */
@@ -58,9 +58,9 @@ FindGaussian(double secondMoment, OffsetValueType reach)
   return SampleGaussian(low, reach);
 }
 
-/** The factors whose product has the variances on the lattice. What is wrong with them is made good in proportion, a
- * little at a time: with small variances along one axis alone, moments on the lattice grow with the fourth power of
- * the factor's. */
+/** The factors whose product has the given variances on the lattice, by damped fixed-point iteration. Damping is needed
+ * because with small variances along one axis alone, moments on the lattice grow with the fourth power of the factor's.
+ */
 std::array<HalfFactor, 3>
 FindFactors(const std::array<double, 3> & variances, const std::array<OffsetValueType, 3> & reach)
 {
@@ -115,6 +115,17 @@ FCCGaussianTaps::FCCGaussianTaps(const std::array<double, 3> & variances)
       factor.weights.push_back(static_cast<float>(scale * factors[axis].weights[distance]));
     }
   }
+}
+
+ImageRegion<3>
+FCCGaussianTaps::AddReach(const ImageRegion<3> & region, const ImageRegion<3> & whole) const
+{
+  ImageRegion<3> wider = region;
+  wider.PadByRadius({ { static_cast<SizeValueType>(m_Reach[0] / 2 + 1),
+                        static_cast<SizeValueType>(m_Reach[1]),
+                        static_cast<SizeValueType>(m_Reach[2]) } });
+  wider.Crop(whole);
+  return wider;
 }
 
 } // namespace itk

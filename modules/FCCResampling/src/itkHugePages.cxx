@@ -1,4 +1,4 @@
-#include "itkHugePages.h"
+#include "detail/itkHugePages.h"
 
 #ifdef __linux__
 #include <sys/mman.h>

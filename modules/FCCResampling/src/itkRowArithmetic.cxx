@@ -2,11 +2,11 @@
 #define HWY_TARGET_INCLUDE "itkRowArithmetic.cxx"
 #include <hwy/foreach_target.h> // IWYU pragma: keep
 
-#include "itkRowArithmetic.h"
+#include "detail/itkRowArithmetic.h"
 
 #include <hwy/highway.h>
 
-#include <limits>
+#include <algorithm>
 
 HWY_BEFORE_NAMESPACE();
 namespace itk::RowArithmetic::HWY_NAMESPACE
@@ -18,93 +18,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using RealTag = HWY_CAPPED(float, Granule);
 using RealVector = hn::Vec<RealTag>;
 constexpr RealTag Real;
-
-template <typename TPixel>
-RealVector
-LoadAsReal(const TPixel * row)
-{
-  const hn::RebindToSigned<RealTag> whole;
-  if constexpr (sizeof(TPixel) == sizeof(float))
-  {
-    return hn::ConvertTo(Real, hn::LoadU(whole, row));
-  }
-  else
-  {
-    return hn::ConvertTo(Real, hn::PromoteTo(whole, hn::LoadU(hn::Rebind<TPixel, RealTag>(), row)));
-  }
-}
-
-template <typename TPixel>
-void
-ConvertRow(const TPixel * HWY_RESTRICT row, SizeValueType length, float * HWY_RESTRICT real)
-{
-  const SizeValueType lanes = hn::Lanes(Real);
-  SizeValueType n = 0;
-  for (; n + lanes <= length; n += lanes)
-  {
-    hn::StoreU(LoadAsReal(row + n), Real, real + n);
-  }
-  for (; n < length; ++n)
-  {
-    real[n] = static_cast<float>(row[n]);
-  }
-}
-
-/** Rounds values that lie in the range of the pixel type half away from zero, as RoundAndClamp() does. */
-template <typename TPixel>
-hn::Vec<hn::RebindToSigned<RealTag>>
-Round(RealVector value)
-{
-  const hn::RebindToSigned<RealTag> whole;
-  const auto half = hn::Set(Real, 0.5f);
-  if constexpr (sizeof(TPixel) < sizeof(float))
-  {
-    return hn::ConvertTo(whole, hn::Add(value, hn::CopySign(half, value)));
-  }
-  else
-  {
-    // Adding one half to a wide value would round; its fraction is exact.
-    const auto truncated = hn::Trunc(value);
-    const auto isAway = hn::Ge(hn::Abs(hn::Sub(value, truncated)), half);
-    const auto step = hn::IfThenElseZero(isAway, hn::CopySign(hn::Set(Real, 1.0f), value));
-    return hn::ConvertTo(whole, hn::Add(truncated, step));
-  }
-}
-
-template <typename TPixel>
-void
-RoundRow(const float * HWY_RESTRICT real, SizeValueType length, TPixel * HWY_RESTRICT row)
-{
-  using Limits = std::numeric_limits<TPixel>;
-  const auto lowest = hn::Set(Real, static_cast<float>(Limits::lowest()));
-  const auto highest = hn::Set(Real, static_cast<float>(Limits::max()));
-  const SizeValueType lanes = hn::Lanes(Real);
-  SizeValueType n = 0;
-  for (; n + lanes <= length; n += lanes)
-  {
-    const auto value = hn::LoadU(Real, real + n);
-    // The comparisons are false for not-a-number, which becomes the lowest value.
-    const auto floored = hn::IfThenElse(hn::Gt(value, lowest), value, lowest);
-    const auto clamped = hn::IfThenElse(hn::Lt(floored, highest), floored, highest);
-    const auto rounded = Round<TPixel>(clamped);
-    if constexpr (sizeof(TPixel) < sizeof(float))
-    {
-      const hn::Rebind<TPixel, RealTag> pixels;
-      hn::StoreU(hn::DemoteTo(pixels, rounded), pixels, row + n);
-    }
-    else
-    {
-      // float's highest is one more than the integer's
-      const hn::RebindToSigned<RealTag> whole;
-      const auto isHighest = hn::RebindMask(whole, hn::Ge(clamped, highest));
-      hn::StoreU(hn::IfThenElse(isHighest, hn::Set(whole, Limits::max()), rounded), whole, row + n);
-    }
-  }
-  for (; n < length; ++n)
-  {
-    row[n] = RoundAndClamp<TPixel>(real[n]);
-  }
-}
 
 void
 BlendRows(const float * const * HWY_RESTRICT rows,
@@ -149,7 +62,7 @@ BlendRows(const float * const * HWY_RESTRICT rows,
   }
 }
 
-/** Picks lanes out of two consecutive vectors. Indices are those of the pair. */
+/** Picks lanes out of two consecutive vectors: index 0 is the first lane of the low one. */
 class PairLookup
 {
 public:
@@ -202,7 +115,7 @@ InterpolateRow(const float * HWY_RESTRICT row, const RowTaps & taps, float * HWY
     const float * weights = taps.GetWeights(0) + n;
     const auto offsets = hn::Sub(hn::LoadU(whole, first), hn::Set(whole, first[0]));
     auto sum = hn::Zero(Real);
-    // The same tap of all lanes lies in two consecutive vectors, but for steps of more than two samples.
+    // Unless positions are more than two samples apart, all lanes find one tap's samples in two consecutive vectors.
     if (first[lanes - 1] - first[0] < static_cast<std::int32_t>(2 * lanes))
     {
       const PairLookup lookup(offsets);
@@ -228,48 +141,6 @@ InterpolateRow(const float * HWY_RESTRICT row, const RowTaps & taps, float * HWY
   }
 }
 
-// Exported by name, so not templates.
-void
-ConvertUInt8(const std::uint8_t * row, SizeValueType length, float * real)
-{
-  ConvertRow(row, length, real);
-}
-void
-ConvertInt16(const std::int16_t * row, SizeValueType length, float * real)
-{
-  ConvertRow(row, length, real);
-}
-void
-ConvertUInt16(const std::uint16_t * row, SizeValueType length, float * real)
-{
-  ConvertRow(row, length, real);
-}
-void
-ConvertInt32(const std::int32_t * row, SizeValueType length, float * real)
-{
-  ConvertRow(row, length, real);
-}
-void
-RoundUInt8(const float * real, SizeValueType length, std::uint8_t * row)
-{
-  RoundRow(real, length, row);
-}
-void
-RoundInt16(const float * real, SizeValueType length, std::int16_t * row)
-{
-  RoundRow(real, length, row);
-}
-void
-RoundUInt16(const float * real, SizeValueType length, std::uint16_t * row)
-{
-  RoundRow(real, length, row);
-}
-void
-RoundInt32(const float * real, SizeValueType length, std::int32_t * row)
-{
-  RoundRow(real, length, row);
-}
-
 } // namespace
 } // namespace itk::RowArithmetic::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -278,69 +149,13 @@ HWY_AFTER_NAMESPACE();
 namespace itk::RowArithmetic
 {
 
-HWY_EXPORT(ConvertUInt8);
-HWY_EXPORT(ConvertInt16);
-HWY_EXPORT(ConvertUInt16);
-HWY_EXPORT(ConvertInt32);
-HWY_EXPORT(RoundUInt8);
-HWY_EXPORT(RoundInt16);
-HWY_EXPORT(RoundUInt16);
-HWY_EXPORT(RoundInt32);
 HWY_EXPORT(BlendRows);
 HWY_EXPORT(InterpolateRow);
 
 void
-ConvertFrom(const std::uint8_t * row, SizeValueType length, float * real)
-{
-  HWY_DYNAMIC_DISPATCH(ConvertUInt8)(row, length, real);
-}
-
-void
-ConvertFrom(const std::int16_t * row, SizeValueType length, float * real)
-{
-  HWY_DYNAMIC_DISPATCH(ConvertInt16)(row, length, real);
-}
-
-void
-ConvertFrom(const std::uint16_t * row, SizeValueType length, float * real)
-{
-  HWY_DYNAMIC_DISPATCH(ConvertUInt16)(row, length, real);
-}
-
-void
-ConvertFrom(const std::int32_t * row, SizeValueType length, float * real)
-{
-  HWY_DYNAMIC_DISPATCH(ConvertInt32)(row, length, real);
-}
-
-void
-RoundTo(const float * real, SizeValueType length, std::uint8_t * row)
-{
-  HWY_DYNAMIC_DISPATCH(RoundUInt8)(real, length, row);
-}
-
-void
-RoundTo(const float * real, SizeValueType length, std::int16_t * row)
-{
-  HWY_DYNAMIC_DISPATCH(RoundInt16)(real, length, row);
-}
-
-void
-RoundTo(const float * real, SizeValueType length, std::uint16_t * row)
-{
-  HWY_DYNAMIC_DISPATCH(RoundUInt16)(real, length, row);
-}
-
-void
-RoundTo(const float * real, SizeValueType length, std::int32_t * row)
-{
-  HWY_DYNAMIC_DISPATCH(RoundInt32)(real, length, row);
-}
-
-void
 Blend(const float * const * rows, const float * weights, SizeValueType count, SizeValueType length, float * blend)
 {
-  HWY_DYNAMIC_DISPATCH(BlendRows)(rows, weights, count, (length + Granule - 1) / Granule * Granule, blend);
+  HWY_DYNAMIC_DISPATCH(BlendRows)(rows, weights, count, RoundUpToGranule(length), blend);
 }
 
 void
@@ -351,7 +166,7 @@ Interpolate(const float * row, const RowTaps & taps, float * values)
 
 RowTaps::RowTaps(const SeparableTaps & taps, SizeValueType numberOfPositions, SizeValueType origin)
   : m_NumberOfTaps(taps.GetNumberOfTaps())
-  , m_First((numberOfPositions + Granule - 1) / Granule * Granule)
+  , m_First(RoundUpToGranule(numberOfPositions))
   , m_Weights(m_First.size() * m_NumberOfTaps)
 {
   for (SizeValueType n = 0; n < m_First.size(); ++n)

@@ -1,6 +1,6 @@
 #include "itkSeparableTaps.h"
 
-#include "itkFCCResamplingChecks.h"
+#include "detail/itkFCCMirror.h"
 #include "itkMacro.h"
 #include "itkMath.h"
 
@@ -16,9 +16,9 @@ namespace
 
 constexpr std::size_t CubicTaps = 10;
 constexpr OffsetValueType CubicBefore = CubicTaps / 2 - 1;
-constexpr std::size_t Knots = 4; // of the cubic B-splines that reach a position
+constexpr std::size_t Knots = 4; // cubic B-splines that are not 0 at a position
 
-/** Weights of the samples floor(position) - before ... of an axis without ends. */
+/** Weights of the samples from floor(position) - before on, of an axis without ends. */
 struct Kernel
 {
   OffsetValueType before;
@@ -69,7 +69,7 @@ Solve(std::array<std::array<double, VSize>, VSize> matrix, std::array<std::array
   return sides;
 }
 
-/** [tap][knot]: how much of a sample the coefficient of a B-spline is, that is, the prefilter cut to the taps.
+/** The prefilter cut to the taps: [tap][knot] is the weight of a sample in the coefficient of a B-spline.
  *
  * Uncut, the coefficient of knot k has the frequency response e^{i w k} / B(w), B(w) = (2 + cos w) / 3. Each column is
  * the sequence of ten that comes closest to that in least squares over |w| <= pi, weighted with (1 - (w / pi)^2)^3 for
@@ -186,7 +186,8 @@ MakeKernel(SeparableKernel kernel, double fraction)
   itkGenericExceptionMacro("There is no such SeparableKernel: " << static_cast<int>(kernel) << ".");
 }
 
-/** Whether the step from sample \a n to the next is so much longer than one beside it that a spline would overshoot. */
+/** Whether the step from sample \a n to the next is so much longer than the step before or after that a spline would
+ * overshoot. */
 bool
 IsAbrupt(const std::vector<double> & samples, std::size_t n)
 {
@@ -196,8 +197,8 @@ IsAbrupt(const std::vector<double> & samples, std::size_t n)
          (n + 2 < samples.size() && step > ratio * (samples[n + 2] - samples[n + 1]));
 }
 
-/** Weights, at a position between \a samples \a n and \a n + 1, of \a count samples from \a first on: the natural cubic
- * spline through them.
+/** The weights of \a count samples, from \a first on, in the natural cubic spline through them at a position between
+ * samples \a n and \a n + 1.
  *
  * The spline is a f[n] + b f[n + 1] + c m[n] + d m[n + 1], where m are its second derivatives, which solve A m = R f
  * with the tridiagonal matrices A and R. A is symmetric, so that c and d are turned into weights by solving A w = (c,
@@ -278,7 +279,7 @@ SeparableTaps::SeparableTaps(SeparableKernel kernel, SizeValueType length, const
     for (std::size_t tap = 0; tap < weights.count; ++tap)
     {
       const auto source = sample - weights.before + static_cast<OffsetValueType>(tap);
-      sums[static_cast<std::size_t>(MirroredSample(source, last + 1) - first)] += weights.weights[tap];
+      sums[static_cast<std::size_t>(MirrorIntoRange(source, 0, last) - first)] += weights.weights[tap];
     }
     m_First[n] = static_cast<SizeValueType>(first);
     std::transform(sums.begin(),

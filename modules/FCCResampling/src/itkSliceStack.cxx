@@ -14,7 +14,7 @@ namespace
 
 using VectorType = SliceStack::VectorType;
 
-/** From sample to sample along an axis of the image, in mm. */
+/** The vector from sample to sample along an axis of the image, in mm. */
 VectorType
 StepAlong(const ImageBase<3> & image, unsigned int axis)
 {
@@ -26,7 +26,7 @@ StepAlong(const ImageBase<3> & image, unsigned int axis)
   return step;
 }
 
-/** Whether all slices, the first of which is at 0, are at multiples of a step, but for rounding. */
+/** Whether all slices are at multiples of a step from the first one, which is at 0, up to rounding. */
 bool
 AreEven(const std::vector<VectorType> & origins, const VectorType & step)
 {
@@ -120,7 +120,7 @@ SliceStack::SliceStack(const ImageBase<3> & image, const std::vector<PointType> 
 void
 SliceStack::FindBounds(const Size<3> & size)
 {
-  std::vector<VectorType> planes = m_SliceOrigins; // and the outer faces
+  std::vector<VectorType> planes = m_SliceOrigins; // the outer faces are added
   planes.push_back(m_SliceOrigins.front() - m_FirstStep * 0.5);
   planes.push_back(m_SliceOrigins.back() + m_LastStep * 0.5);
   m_Lowest.Fill(std::numeric_limits<double>::infinity());

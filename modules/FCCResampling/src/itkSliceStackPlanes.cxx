@@ -1,4 +1,4 @@
-#include "itkSliceStackPlanes.h"
+#include "detail/itkSliceStackPlanes.h"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@ namespace itk
 namespace
 {
 
-/** Lattice coordinates of a part's planes along z, in mm. */
+/** z of a region's planes in the stack's frame, in mm. */
 std::vector<double>
 HeightsOf(const ImageRegion<3> & region, double origin, double spacing)
 {
@@ -19,6 +19,15 @@ HeightsOf(const ImageRegion<3> & region, double origin, double spacing)
   return heights;
 }
 
+/** Whether a position along an axis, in samples from the first one, lies in one of the axis' \a length voxels. */
+bool
+IsInsideVoxels(double position, SizeValueType length)
+{
+  constexpr double tolerance = 1e-6; // against rounding
+  return position >= -0.5 - tolerance && position <= static_cast<double>(length) - 0.5 + tolerance;
+}
+
+/** Sets index and size of an axis to the samples that taps need. */
 void
 SetRange(const SeparableTaps & taps, SizeValueType numberOfPositions, unsigned int axis, ImageRegion<3> & range)
 {
@@ -78,6 +87,24 @@ SliceStackPlanes::GetColumns(SizeValueType k, double row, IndexValueType parity)
     columns[i] = m_Stack.GetColumn(m_Origin[0] + m_Spacing[0] * x, row, m_PlaneOrigins[k]);
   }
   return columns;
+}
+
+bool
+SliceStackPlanes::HasRow(double row) const
+{
+  return IsInsideVoxels(row, m_Size[1]);
+}
+
+SliceStackPlanes::SiteRow
+SliceStackPlanes::MakeSiteRow(SizeValueType k, double row, IndexValueType parity, SizeValueType xFirst) const
+{
+  const std::vector<double> columns = this->GetColumns(k, row, parity);
+  const auto isInside = [this](double column) { return IsInsideVoxels(column, m_Size[0]); };
+  const auto begin = std::find_if(columns.begin(), columns.end(), isInside);
+  const auto end = std::find_if_not(begin, columns.end(), isInside);
+  return { static_cast<SizeValueType>(begin - columns.begin()),
+           static_cast<SizeValueType>(end - columns.begin()),
+           { this->MakeColumnTaps(columns), columns.size(), xFirst } };
 }
 
 SliceStackPlanes::RegionType

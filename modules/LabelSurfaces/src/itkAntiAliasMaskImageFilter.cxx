@@ -1,9 +1,9 @@
 #include "itkAntiAliasMaskImageFilter.h"
 
+#include "detail/itkRowArithmetic.h"
 #include "itkInputSamples.h"
 #include "itkMath.h"
 #include "itkMultiThreaderBase.h"
-#include "itkRowArithmetic.h"
 
 #include <algorithm>
 #include <array>

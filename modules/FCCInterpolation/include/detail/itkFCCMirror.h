@@ -7,8 +7,8 @@
 namespace itk
 {
 
-/** A whole number mirrored at both ends of a range, which belong to it, as often as needed, into it. The ends are not
- * repeated. Thread safe. */
+/** Reflects a whole number at the ends of the range from \a first to \a last until it lies in the range. The ends are
+ * not repeated: first - 1 becomes first + 1. */
 inline IndexValueType
 MirrorIntoRange(IndexValueType value, IndexValueType first, IndexValueType last)
 {
@@ -22,10 +22,9 @@ MirrorIntoRange(IndexValueType value, IndexValueType first, IndexValueType last)
   return first + (offset <= length ? offset : 2 * length - offset);
 }
 
-/** The sample of a region that stands for a site outside it: its mirror image in the planes through the region's first
- * and last sites along each axis. These reflections are symmetries of the lattice, so the mirrored samples are one
- * function on all of it. A region one plane thick in y or z repeats that plane, whose parity can't be right
- * everywhere. Thread safe. */
+/** Reflects the index of a site at the planes through a region's first and last sites along each axis until it lies in
+ * the region. These reflections are symmetries of the lattice, so that the mirrored samples are one function on all of
+ * it. A region one plane thick in y or z repeats that plane, although every other plane has the other parity. */
 inline Index<3>
 MirrorIntoRegion(const Index<3> & index, const ImageRegion<3> & region)
 {

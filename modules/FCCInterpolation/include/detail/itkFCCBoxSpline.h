@@ -10,10 +10,10 @@ namespace itk
  * \brief The six-direction box spline of the face-centered cubic lattice.
  *
  * The projection of a six-dimensional cube along the six pairs of nearest neighbours: a function phi of lattice
- * coordinates, piecewise cubic, with continuous first derivatives, not zero within the truncated octahedron |x| < 2,
- * |y| < 2, |z| < 2, |x| + |y| + |z| < 3. Its sum over the sites is 1 everywhere, and the *splines*, the sums of
- * c(s) phi(p - s) over the sites s, contain all quadratic polynomials. At a site phi is 1/2, at its nearest neighbours
- * 1/24, at those beyond 0.
+ * coordinates, piecewise cubic, with continuous first derivatives, positive within the truncated octahedron |x| < 2,
+ * |y| < 2, |z| < 2, |x| + |y| + |z| < 3 and 0 elsewhere. Its sum over all sites is 1 everywhere, and the *splines*, the
+ * sums of c(s) phi(p - s) over the sites s, contain all quadratic polynomials. phi is 1/2 at the site 0, 1/24 at its 12
+ * nearest neighbours, and 0 at all other sites.
  *
  * The formula is that of M. Kim, A. Entezari and J. Peters, "Box spline reconstruction on the face-centered cubic
  * lattice", IEEE Trans. Visualization and Computer Graphics 14 (2008), with its pieces joined: for x >= y >= z >= 0 in
@@ -27,8 +27,6 @@ namespace itk
  * four pieces at its sites. Within each of these, the same 16 sites reach a point, and a spline is one cubic polynomial
  * (Cubic); all pieces of one shape are the same but for reflections, so there are two tables of polynomials, derived
  * here at compile time.
- *
- * Everything here is pure, so thread safe.
  *
  * \ingroup FCCInterpolation
  */
@@ -50,12 +48,12 @@ struct FCCBoxSpline
     Cube    ///< the tetrahedron of a unit cube's odd corners, from a corner that is a site
   };
 
-  /** The part of space around a point where splines are one polynomial. */
+  /** A tetrahedron in which every spline is one polynomial. */
   struct Piece
   {
     Shape shape;
     SiteType origin;    ///< of the piece's own coordinates
-    SiteType direction; ///< 1 or -1 for each axis: theirs
+    SiteType direction; ///< of the piece's own coordinates: 1 or -1 for each axis
     SupportType sites;  ///< the sites s with phi(p - s) > 0 for the points p within the piece
   };
 
@@ -76,7 +74,7 @@ struct FCCBoxSpline
     SiteType origin;
     SiteType direction;
 
-    /** From lattice coordinates to the piece's own. */
+    /** Converts lattice coordinates to the piece's own. */
     PointType
     ToPiece(const PointType & point) const
     {
@@ -88,7 +86,7 @@ struct FCCBoxSpline
       return local;
     }
 
-    /** At a point of the piece, in lattice coordinates. */
+    /** The value at a point of the piece, in lattice coordinates. */
     double
     GetValue(const PointType & point) const
     {
@@ -101,7 +99,7 @@ struct FCCBoxSpline
       return (q[0] + x * ofX + y * ofY + z * ofZ) * AtNearestNeighbor;
     }
 
-    /** At a point of the piece, in lattice coordinates. */
+    /** Value and gradient at a point of the piece, in lattice coordinates. */
     Jet
     GetJet(const PointType & point) const
     {
@@ -186,11 +184,11 @@ private:
     }
   }
 
-  /** 24 phi(p - site) for the points of the piece in which a point lies that is given in tenths. */
+  /** 24 phi(p - site) for the points p of a piece; \a tenths is one of these points, in tenths of lattice units. */
   static constexpr MonomialsType
   PolynomialOf(const SiteType & site, const SiteType & tenths)
   {
-    // |x|, |y| and |z| from the site, as functions, and in the order of their values at the given point.
+    // |x|, |y| and |z| from the site, as affine functions, sorted by their values at the given point, greatest first.
     AffineType sorted[3]{};
     IndexValueType values[3]{};
     for (unsigned int axis = 0; axis < 3; ++axis)

@@ -10,25 +10,29 @@
 namespace itk
 {
 
-/** Arithmetic on rows of float samples, in SIMD code chosen for the processor at run time.
+/** Arithmetic on rows of float samples: the inner loops of the resampling filters.
  *
- * Every result is one sum, from the first term to the last, of products that are rounded before they are added. Lanes
- * hold different results and are never added up, so the bytes are the same for every SIMD target and vector width.
- *
- * The functions of this file throw nothing.
- *
- * Thread safety: they write nothing but what they are given; RowTaps are immutable. */
+ * Blend() and Interpolate() are SIMD code chosen for the processor at run time. Every result is one sum, from the first
+ * term to the last, of products that are rounded before they are added. Lanes hold different results and are never
+ * added up, so the bytes are the same for every processor. The functions throw nothing. */
 namespace RowArithmetic
 {
 
-/** Rows of float are worked on in multiples of so many samples, and may be read by twice as many beyond that. */
+/** Blend() and Interpolate() work on rows in multiples of so many samples, and may read twice as many beyond that. */
 constexpr SizeValueType Granule = 16;
+
+/** \a length rounded up to a multiple of Granule. */
+constexpr SizeValueType
+RoundUpToGranule(SizeValueType length)
+{
+  return (length + Granule - 1) / Granule * Granule;
+}
 
 /** Samples to allocate for a row of \a length samples. They must be initialised. */
 constexpr SizeValueType
 PaddedLength(SizeValueType length)
 {
-  return (length + Granule - 1) / Granule * Granule + 2 * Granule;
+  return RoundUpToGranule(length) + 2 * Granule;
 }
 
 /** real[n] = row[n], for n < length. */
@@ -41,14 +45,6 @@ ConvertFrom(const TPixel * row, SizeValueType length, float * real)
     real[n] = static_cast<float>(row[n]);
   }
 }
-void
-ConvertFrom(const std::uint8_t * row, SizeValueType length, float * real);
-void
-ConvertFrom(const std::int16_t * row, SizeValueType length, float * real);
-void
-ConvertFrom(const std::uint16_t * row, SizeValueType length, float * real);
-void
-ConvertFrom(const std::int32_t * row, SizeValueType length, float * real);
 
 /** row[n] = RoundAndClamp(real[n]), for n < length. */
 template <typename TPixel>
@@ -60,25 +56,18 @@ RoundTo(const float * real, SizeValueType length, TPixel * row)
     row[n] = RoundAndClamp<TPixel>(real[n]);
   }
 }
-void
-RoundTo(const float * real, SizeValueType length, std::uint8_t * row);
-void
-RoundTo(const float * real, SizeValueType length, std::int16_t * row);
-void
-RoundTo(const float * real, SizeValueType length, std::uint16_t * row);
-void
-RoundTo(const float * real, SizeValueType length, std::int32_t * row);
 
-/** blend[n] = weights[0] rows[0][n] + weights[1] rows[1][n] + ..., for n < length; at least one row. Works on
- * \a length rounded up to Granule. */
+/** blend[n] = weights[0] rows[0][n] + weights[1] rows[1][n] + ..., for n < length rounded up to Granule; \a count is
+ * the number of rows, at least one. */
 void
 Blend(const float * const * rows, const float * weights, SizeValueType count, SizeValueType length, float * blend);
 
-/** The taps of all positions along one row, tap by tap. Immutable, so thread safe. */
+/** The taps of all positions along one row, tap by tap. */
 class RowTaps
 {
 public:
   /** \param taps of positions that do not decrease
+   *  \param numberOfPositions how many of them, at least one
    *  \param origin sample of the axis that is the first one of the rows to interpolate */
   RowTaps(const SeparableTaps & taps, SizeValueType numberOfPositions, SizeValueType origin);
 
@@ -88,7 +77,7 @@ public:
     return m_NumberOfTaps;
   }
 
-  /** Positions, rounded up to Granule; those that are made up have weights of zero. */
+  /** Number of positions rounded up to Granule; the additional ones have weights of zero. */
   SizeValueType
   GetPaddedLength() const
   {
@@ -115,8 +104,8 @@ private:
   std::vector<float> m_Weights;
 };
 
-/** values[n] = sum of the n-th position's taps of the row, for all padded positions. The row must have PaddedLength().
- */
+/** values[n] = sum over the taps of position n of weight times sample, for n < taps.GetPaddedLength(). The row must
+ * have PaddedLength(). */
 void
 Interpolate(const float * row, const RowTaps & taps, float * values);
 

@@ -10,11 +10,8 @@ namespace itk
  * \brief The four sites around a point and their barycentric weights.
  *
  * The tetrahedra are those of the six-tetrahedra decomposition: the regular one in each unit cube, and the octahedron
- * around each odd point cut in four about its x diagonal. They are the ones that FCCIsosurfaceFilter marches, so its
- * points lie on the level set of this interpolant, but those that it moves away from a sample.
- *
- *
- * Thread safety: a value.
+ * around each odd point cut in four about its x diagonal. FCCIsosurfaceFilter marches the same tetrahedra, so that its
+ * points lie on the level set of this interpolant, except for those that it moves away from a sample.
  *
  * \ingroup FCCInterpolation
  */
@@ -24,8 +21,7 @@ struct FCCTetrahedron
   std::array<double, 4> weights; ///< not negative, and their sum is 1
 };
 
-/** The tetrahedron that holds a point given in lattice coordinates, finite ones. On a face shared by several, any of
- * them. Thread safe. */
+/** The tetrahedron around a point in finite lattice coordinates. On a face shared by several, any of them. */
 inline FCCTetrahedron
 LocateFCCTetrahedron(const std::array<double, 3> & point)
 {
@@ -53,8 +49,9 @@ LocateFCCTetrahedron(const std::array<double, 3> & point)
   const std::array<double, 4> regular{
     1.0 - (a + b + c) / 2.0, (a + b - c) / 2.0, (a + c - b) / 2.0, (b + c - a) / 2.0
   };
-  // A negative weight says which of the cube's four odd corners is near: the point is in the octahedron around it. Its
-  // sites in this cube are the corner's neighbours along x, y and z; its fourth site is the far end of the row edge.
+  // A negative weight means that the point lies in the octahedron around one of the cube's four odd corners. The
+  // tetrahedron's sites in this cube are the corner's neighbours along x, y and z; its fourth site is the neighbour on
+  // the other side along x.
   const auto octant =
     [&at](IndexValueType x, IndexValueType y, IndexValueType z, double alongX, double alongY, double alongZ) {
       const IndexValueType inward = 1 - 2 * x;
