@@ -10,7 +10,7 @@ namespace rhombic
 {
 
 /** \class BandLimitedField
- * \brief An isotropic random field without any detail finer than a given wavelength: the sum of plane waves
+ * \brief An isotropic random field without detail finer than a given wavelength: the sum of plane waves
  *
  *   sqrt(2 / n) sum cos(2 pi (k . p + phase)),
  *
@@ -24,7 +24,7 @@ namespace rhombic
 class BandLimitedField : public ReferenceField
 {
 public:
-  /** Waves of a field if nothing else is asked for. */
+  /** Default number of waves. */
   static constexpr unsigned int DefaultNumberOfWaves = 96;
 
   /** \param bandLimit length of the longest wave vector, in fractions of the Nyquist frequency of a Cartesian grid of
@@ -33,8 +33,7 @@ public:
    *  \param numberOfWaves rounded up to a multiple of 8 */
   BandLimitedField(double bandLimit, std::uint64_t seed, unsigned int numberOfWaves = DefaultNumberOfWaves);
 
-  double
-  Evaluate(const Vector3 & point) const override;
+  using ReferenceField::Evaluate;
 
   double
   Evaluate(const Vector3 & point, Vector3 & gradient) const override;

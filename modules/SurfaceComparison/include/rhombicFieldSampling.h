@@ -15,8 +15,8 @@ namespace rhombic
 {
 
 /** Allocates an image, whose region and geometry are set, and fills it with scale * field at each sample's position.
- * Integer pixels are rounded; the caller sees to it that they fit. Works with itk::Image and itk::FCCImage, on several
- * threads (itk::MultiThreaderBase). Thread safe for different images. */
+ * Integer pixels are rounded, not clamped: choose a scale that fits. Works with itk::Image and itk::FCCImage, on
+ * several threads (itk::MultiThreaderBase). Thread safe for different images. */
 template <typename TImage>
 void
 SampleField(const ReferenceField & field, double scale, TImage * image)
@@ -38,7 +38,7 @@ SampleField(const ReferenceField & field, double scale, TImage * image)
   });
 }
 
-/** A field on a Cartesian grid of \a count samples along each axis, \a spacing apart, the first at the
+/** Samples a field on a Cartesian grid of \a count samples along each axis, \a spacing apart, the first one at the
  * world's origin. Thread safe. */
 template <typename TPixel>
 typename itk::Image<TPixel, 3>::Pointer
@@ -52,9 +52,8 @@ SampleOnGrid(const ReferenceField & field, itk::SizeValueType count, double spac
   return image;
 }
 
-/** A field on an FCC lattice that covers the cube from 0 to \a edge along each axis; a site is at the world's origin.
- * Thread safe.
- * \param density sites per unit of volume, above 0 */
+/** Samples a field on an FCC lattice that covers the cube from 0 to \a edge along each axis; a site is at the world's
+ * origin. Thread safe. \param density sites per unit of volume, above 0 */
 template <typename TPixel>
 typename itk::FCCImage<TPixel>::Pointer
 SampleOnLattice(const ReferenceField & field, double edge, double density, double scale = 1.0)

@@ -22,13 +22,17 @@ class ReferenceField
 public:
   virtual ~ReferenceField() = default;
 
-  /** The value at a point. */
-  virtual double
-  Evaluate(const Vector3 & point) const = 0;
-
   /** The value and the gradient at a point. */
   virtual double
   Evaluate(const Vector3 & point, Vector3 & gradient) const = 0;
+
+  /** The value at a point. */
+  double
+  Evaluate(const Vector3 & point) const
+  {
+    Vector3 gradient;
+    return this->Evaluate(point, gradient);
+  }
 };
 
 } // namespace rhombic

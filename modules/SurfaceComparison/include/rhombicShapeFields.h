@@ -15,8 +15,7 @@ class SphereField : public ReferenceField
 public:
   SphereField(const Vector3 & center, double radius);
 
-  double
-  Evaluate(const Vector3 & point) const override;
+  using ReferenceField::Evaluate;
 
   double
   Evaluate(const Vector3 & point, Vector3 & gradient) const override;
@@ -40,8 +39,7 @@ public:
    *  \param minor radius of the tube, below major */
   TorusField(const Vector3 & center, const Vector3 & axis, double major, double minor);
 
-  double
-  Evaluate(const Vector3 & point) const override;
+  using ReferenceField::Evaluate;
 
   double
   Evaluate(const Vector3 & point, Vector3 & gradient) const override;
@@ -64,8 +62,7 @@ public:
   /** \param period along each axis, above 0 */
   explicit GyroidField(double period);
 
-  double
-  Evaluate(const Vector3 & point) const override;
+  using ReferenceField::Evaluate;
 
   double
   Evaluate(const Vector3 & point, Vector3 & gradient) const override;

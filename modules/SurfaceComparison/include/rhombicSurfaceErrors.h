@@ -9,24 +9,24 @@ namespace rhombic
 {
 
 /** \class SurfaceErrorSettings
- * \brief Where a surface is judged, and in what unit.
+ * \brief The box in which a surface is compared, and the unit of its errors.
  *
  * Thread safety: a value. */
 struct SurfaceErrorSettings
 {
-  Vector3 lower;     ///< triangles count whose centroid is in the box from here
-  Vector3 upper;     ///< to here: keep away from the border, where surfaces end or are closed
-  double unit = 1.0; ///< h: distances are given in it
+  Vector3 lower;     ///< of the box; only triangles whose centroid is in the box are judged
+  Vector3 upper;     ///< of the box; surfaces end or are closed at a volume's border, so the box keeps away from it
+  double unit = 1.0; ///< h: the unit of distances
 };
 
 /** \class SurfaceErrors
- * \brief How far a surface is from what it should be, and how good its triangles are.
+ * \brief Distances and angles between a surface and the true surface, and the quality of its triangles.
  *
  * Thread safety: a value. */
 struct SurfaceErrors
 {
-  itk::SizeValueType triangles = 0; ///< that were judged
-  double area = 0.0;                ///< of these, in units squared
+  itk::SizeValueType triangles = 0; ///< number of judged triangles
+  double area = 0.0;                ///< of the judged triangles, in units squared
 
   /** Distance to the true surface in units, weighted by area. */
   double meanDistance = 0.0;
@@ -35,14 +35,12 @@ struct SurfaceErrors
   double maximumDistance = 0.0;
 
   /** Angles to the true surface's normal in degrees, weighted by area. */
-  double facetNormalError = 0.0;  ///< of the triangles, at their centroids
-  double vertexNormalError = 0.0; ///< of the points' normals; not a number if there are none
+  double facetNormalError = 0.0;  ///< mean over the triangles, at their centroids
+  double vertexNormalError = 0.0; ///< mean over the points; not a number if the surface has no normals
 
-  /** As itk::ComputeTriangleQuality() has it. */
-  double meanQuality = 0.0;
-  double poorFraction = 0.0; ///< triangles of a quality below itk::TriangleSurfaceQuality::Poor
-
-  double unresolvedFraction = 0.0; ///< of the area: farther than three units from the true surface
+  double meanQuality = 0.0;        ///< of itk::ComputeTriangleQuality()
+  double poorFraction = 0.0;       ///< share of triangles with a quality below itk::TriangleSurfaceQuality::Poor
+  double unresolvedFraction = 0.0; ///< share of the area that is farther than three units from the true surface
 };
 
 /** Compares a surface with that of a field. Distances are measured at seven points of each triangle, with the weights

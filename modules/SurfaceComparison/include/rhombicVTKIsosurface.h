@@ -14,7 +14,7 @@ namespace rhombic
 {
 
 /** \file
- * The surfaces that VTK makes, to compare with. Thread safety: that of VTK, one thread at a time. */
+ * VTK's isosurfaces, to compare with. Thread safety: one thread at a time, as in VTK. */
 
 /** VTK's extractors for Cartesian volumes. */
 enum class VTKExtractor : unsigned char
@@ -23,14 +23,14 @@ enum class VTKExtractor : unsigned char
   MarchingCubes ///< vtkMarchingCubes
 };
 
-/** A volume as VTK sees it, sharing its pixels, which must outlive the result. Spacing and origin are taken over, the
- * direction is not. For std::int16_t and float. */
+/** The volume as VTK's image, which shares the pixels: they must outlive the result. Spacing and origin are copied, the
+ * direction is ignored. For std::int16_t and float. */
 template <typename TPixel>
 vtkSmartPointer<vtkImageData>
 ShareWithVTK(const itk::Image<TPixel, 3> * image);
 
-/** The surface of a volume at an isovalue. VTK's scalars and gradients are off; normals as asked for.
- * How many threads work is vtkSMPTools' affair. vtkFlyingEdges3D is threaded, vtkMarchingCubes is not. */
+/** The surface of a volume at an isovalue, without scalars and gradients. vtkFlyingEdges3D works on as many threads as
+ * vtkSMPTools is set to, vtkMarchingCubes on one. */
 vtkSmartPointer<vtkPolyData>
 ExtractWithVTK(VTKExtractor extractor, vtkImageData * volume, double isovalue, bool normals);
 

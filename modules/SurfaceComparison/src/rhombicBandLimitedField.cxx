@@ -10,8 +10,8 @@ namespace rhombic
 namespace
 {
 
-/** Evenly distributed in [0, 1), from the generator's bits: the standard library's distributions are not the same
- * everywhere. */
+/** A random number evenly distributed in [0, 1). The standard library's own distributions differ between
+ * implementations. */
 double
 Uniform(std::mt19937_64 & random)
 {
@@ -41,12 +41,6 @@ BandLimitedField::BandLimitedField(double bandLimit, std::uint64_t seed, unsigne
     m_Z.push_back(radius * k[2]);
     m_Phases.push_back(Uniform(random));
   }
-}
-
-double
-BandLimitedField::Evaluate(const Vector3 & point) const
-{
-  return m_Amplitude * SumWaves(m_X.data(), m_Y.data(), m_Z.data(), m_Phases.data(), m_X.size(), point).cosine;
 }
 
 double

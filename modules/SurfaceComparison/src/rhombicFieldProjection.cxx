@@ -1,18 +1,11 @@
 #include "rhombicFieldProjection.h"
 
-#include <array>
-#include <cmath>
+#include "rhombicVector3.h"
 
 namespace rhombic
 {
 namespace
 {
-
-double
-Length(const Vector3 & v)
-{
-  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
 
 Vector3
 Along(const Vector3 & point, const Vector3 & direction, double distance)
@@ -20,7 +13,7 @@ Along(const Vector3 & point, const Vector3 & direction, double distance)
   return { point[0] + distance * direction[0], point[1] + distance * direction[1], point[2] + distance * direction[2] };
 }
 
-/** Looks for the foot of the perpendicular from \a point, beginning at \a start. */
+/** Searches for the foot of the perpendicular from \a point onto the surface, by Newton's method from \a start. */
 FieldProjection
 Settle(const ReferenceField & field, const Vector3 & point, const Vector3 & start, double unit)
 {
@@ -33,7 +26,7 @@ Settle(const ReferenceField & field, const Vector3 & point, const Vector3 & star
   for (unsigned int i = 0; i < maximumSteps && !result.isResolved; ++i)
   {
     Vector3 gradient;
-    double height = field.Evaluate(result.point, gradient); // in the end that of the tangent plane over the point
+    double height = field.Evaluate(result.point, gradient); // below: of the tangent plane above the point
     const double slope = Length(gradient);
     if (!(slope > 0.0))
     {
@@ -45,17 +38,17 @@ Settle(const ReferenceField & field, const Vector3 & point, const Vector3 & star
       height += gradient[axis] * (point[axis] - result.point[axis]);
     }
     const Vector3 foot = Along(point, result.normal, height / slope);
-    const Vector3 step{ foot[0] - result.point[0], foot[1] - result.point[1], foot[2] - result.point[2] };
+    const Vector3 step = Difference(foot, result.point);
     const double length = Length(step);
     result.point = Along(result.point, step, length > longestStep * unit ? longestStep * unit / length : 1.0);
     result.isResolved = length < shortestStep * unit;
   }
-  result.distance = Length({ result.point[0] - point[0], result.point[1] - point[1], result.point[2] - point[2] });
+  result.distance = Length(Difference(result.point, point));
   return result;
 }
 
-/** The nearest change of the field's sign on 26 rays from a point, in steps of a tenth of a unit up to three units, and
- * within its step by linear interpolation. Not resolved if there is none. */
+/** Searches for the nearest change of the field's sign on 26 rays from a point, in steps of a tenth of a unit up to
+ * three units, with linear interpolation within a step. Not resolved if there is none. */
 FieldProjection
 Search(const ReferenceField & field, const Vector3 & point, double unit)
 {

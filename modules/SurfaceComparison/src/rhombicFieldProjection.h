@@ -16,12 +16,14 @@ struct FieldProjection
   bool isResolved = false; ///< false when there is no surface within three units; distance is then 3 units
 };
 
-/** Projects a point near a field's surface onto it. A Newton step along the gradient begins; from then on the next
- * guess is the foot of the perpendicular from the point onto the tangent plane at the last one, so the search settles
- * where the gradient runs through the point. Where that does not settle, or ends farther away than 0.4 units,
- * the surface is also looked for along 26 directions around the point, and the nearest find is the answer.
- * \param unit a length that is small for the field: no step is longer than a quarter of it, and the search has settled
- * when a step is shorter than 1e-4 of it */
+/** Projects a point near a field's surface onto it.
+ *
+ * The first step is Newton's, along the gradient. Each later guess is the foot of the perpendicular from the point onto
+ * the tangent plane at the guess before, so that the search converges where the gradient's line runs through the point.
+ * If it does not converge, or ends farther away than 0.4 units, the surface is also searched for along 26 directions
+ * around the point, and the nearest result is returned.
+ * \param unit a length that is small compared with the field's detail: no step is longer than a quarter of it, and the
+ * search has converged when a step is shorter than 1e-4 of it */
 FieldProjection
 ProjectOntoField(const ReferenceField & field, const Vector3 & point, double unit = 1.0);
 

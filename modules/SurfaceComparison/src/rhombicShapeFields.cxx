@@ -1,6 +1,6 @@
 #include "rhombicShapeFields.h"
 
-#include <cmath>
+#include "rhombicVector3.h"
 
 namespace rhombic
 {
@@ -8,18 +8,6 @@ namespace
 {
 
 constexpr double twoPi = 6.283185307179586;
-
-double
-Dot(const Vector3 & a, const Vector3 & b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector3
-Difference(const Vector3 & a, const Vector3 & b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
 
 } // namespace
 
@@ -29,17 +17,10 @@ SphereField::SphereField(const Vector3 & center, double radius)
 {}
 
 double
-SphereField::Evaluate(const Vector3 & point) const
-{
-  const Vector3 d = Difference(point, m_Center);
-  return m_Radius - std::sqrt(Dot(d, d));
-}
-
-double
 SphereField::Evaluate(const Vector3 & point, Vector3 & gradient) const
 {
   const Vector3 d = Difference(point, m_Center);
-  const double distance = std::sqrt(Dot(d, d));
+  const double distance = Length(d);
   const double scale = distance > 0.0 ? -1.0 / distance : 0.0;
   gradient = { scale * d[0], scale * d[1], scale * d[2] };
   return m_Radius - distance;
@@ -50,15 +31,8 @@ TorusField::TorusField(const Vector3 & center, const Vector3 & axis, double majo
   , m_Major(major)
   , m_Minor(minor)
 {
-  const double length = std::sqrt(Dot(axis, axis));
+  const double length = Length(axis);
   m_Axis = { axis[0] / length, axis[1] / length, axis[2] / length };
-}
-
-double
-TorusField::Evaluate(const Vector3 & point) const
-{
-  Vector3 unused;
-  return this->Evaluate(point, unused);
 }
 
 double
@@ -67,7 +41,7 @@ TorusField::Evaluate(const Vector3 & point, Vector3 & gradient) const
   const Vector3 d = Difference(point, m_Center);
   const double height = Dot(d, m_Axis);
   const Vector3 radial{ d[0] - height * m_Axis[0], d[1] - height * m_Axis[1], d[2] - height * m_Axis[2] };
-  const double radius = std::sqrt(Dot(radial, radial));
+  const double radius = Length(radial);
   const double ring = radius - m_Major;
   const double distance = std::sqrt(ring * ring + height * height);
   const double alongRadial = distance > 0.0 && radius > 0.0 ? -ring / (distance * radius) : 0.0;
@@ -82,13 +56,6 @@ TorusField::Evaluate(const Vector3 & point, Vector3 & gradient) const
 GyroidField::GyroidField(double period)
   : m_WaveNumber(twoPi / period)
 {}
-
-double
-GyroidField::Evaluate(const Vector3 & point) const
-{
-  Vector3 unused;
-  return this->Evaluate(point, unused);
-}
 
 double
 GyroidField::Evaluate(const Vector3 & point, Vector3 & gradient) const
