@@ -8,15 +8,15 @@
 namespace rhombic
 {
 
-/** How much two pictures differ. Errors are between sRGB components from 0 to 1. Thread safety: a value. */
+/** Differences between two pictures. Errors are differences of sRGB components from 0 to 1. Thread safety: a value. */
 struct PictureDifference
 {
   double meanError = 0.0;
   double rmsError = 0.0;
   double maxError = 0.0;
-  std::size_t differingPixels = 0; ///< with a component that differs by more than the threshold
-  int worstX = 0;                  ///< column and row of the greatest error, from the top left
-  int worstY = 0;
+  std::size_t differingPixels = 0; ///< number of pixels with a component that differs by more than the threshold
+  int worstX = 0;                  ///< column of the largest error, from the left
+  int worstY = 0;                  ///< row of the largest error, from the top
 };
 
 /** Compares two pictures pixel by pixel; \a threshold is a difference of components from 0 to 1.

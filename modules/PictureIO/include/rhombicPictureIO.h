@@ -10,14 +10,15 @@
 namespace rhombic
 {
 
-/** All that a picture file says besides its pixels. Empty strings are left out. Thread safety: a value. */
+/** The metadata of a picture file. Empty strings are not written. Thread safety: a value. */
 struct PictureMetadata
 {
   std::string software;    ///< the program and its version
-  std::string commandLine; ///< how the picture can be made again
+  std::string commandLine; ///< the command that made the picture
 };
 
-/** Throws Failure(Usage) when WritePicture() would because of the extension: for asking before long work. */
+/** Throws Failure(Usage) where WritePicture() would throw it because of the extension. Call it before long work. Thread
+ * safe. */
 void
 CheckPicturePath(const std::filesystem::path & path);
 
@@ -26,11 +27,11 @@ CheckPicturePath(const std::filesystem::path & path);
  * older one.
  *
  * Throws Failure: Usage when the extension is none of those or the picture has no pixels; Output when the file can't be
- * written or does not hold what it should. Thread safe for different paths. */
+ * written or, read back, does not hold the picture. Thread safe for different paths. */
 void
 WritePicture(const Picture & picture, const std::filesystem::path & path, const PictureMetadata & metadata);
 
-/** As WritePicture(), but the file appears with all others of \a staged. */
+/** As WritePicture(), but the file appears only when \a staged is committed, with all its other files. */
 void
 StagePicture(const Picture & picture,
              const std::filesystem::path & path,
@@ -40,7 +41,8 @@ StagePicture(const Picture & picture,
 /** Reads a picture as 8-bit sRGB. Grey becomes three equal channels, an alpha channel is dropped, and the linear light
  * of EXR is encoded.
  *
- * Throws Failure: NotFound when there is no such file; Unreadable when it is no picture or is damaged. Thread safe. */
+ * Throws Failure: NotFound when there is no such file; Unreadable when it is not a picture or is damaged. Thread safe.
+ */
 Picture
 ReadPicture(const std::filesystem::path & path);
 

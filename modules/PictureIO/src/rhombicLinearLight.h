@@ -7,11 +7,11 @@
 namespace rhombic
 {
 
-/** Linear light from 0 to 1 of 8-bit sRGB components (IEC 61966-2-1). */
+/** Converts 8-bit sRGB components to linear light from 0 to 1 (IEC 61966-2-1). */
 std::vector<float>
 ToLinearLight(const std::vector<std::uint8_t> & encoded);
 
-/** 8-bit sRGB components of linear light; what is below 0 or above 1 is clipped, and what is no number is black. */
+/** Converts linear light to 8-bit sRGB components. Values outside 0 to 1 are clipped; not-a-number becomes 0. */
 std::vector<std::uint8_t>
 FromLinearLight(const std::vector<float> & linear);
 

@@ -18,7 +18,7 @@ SizeOf(const Picture & picture)
   return std::to_string(picture.width) + " x " + std::to_string(picture.height);
 }
 
-/** A view of the picture's pixels. OpenImageIO has none for constant memory, but comparing only reads. */
+/** An image that shares the picture's pixels. OpenImageIO has no image of constant memory, but comparing only reads. */
 OIIO::ImageBuf
 ViewOf(const Picture & picture)
 {
@@ -37,7 +37,7 @@ ComparePictures(const Picture & a, const Picture & b, double threshold)
                   "Cannot compare a picture of " + SizeOf(a) + " pixels with one of " + SizeOf(b) +
                     "; draw both at the same size.");
   }
-  constexpr int oneThread = 1; // sums depend on the order
+  constexpr int oneThread = 1; // the order of summation changes the last digits
   const auto limit = static_cast<float>(threshold);
   const auto result = OIIO::ImageBufAlgo::compare(ViewOf(a), ViewOf(b), limit, limit, OIIO::ROI(), oneThread);
   PictureDifference difference;

@@ -9,18 +9,19 @@
 namespace rhombic
 {
 
-/** What a file format does to a picture. */
+/** Properties of a file format. */
 struct PictureFormat
 {
-  std::string name;         ///< as OpenImageIO calls it
-  OIIO::TypeDesc component; ///< as the file stores it
+  std::string name;         ///< in OpenImageIO
+  OIIO::TypeDesc component; ///< type of the stored components
   std::string compression;
   bool isLinear;   ///< stores linear light instead of sRGB
-  bool isLossless; ///< gives back the same 8-bit picture
-  bool needsFile;  ///< OpenImageIO can't encode it in memory
+  bool isLossless; ///< an 8-bit picture that is read back is the same
+  bool needsFile;  ///< OpenImageIO can't encode the format in memory
 };
 
-/** The format of the path's extension, in any case of letters. Throws Failure(Usage), listing the known extensions. */
+/** The format of the path's extension, in upper or lower case. Throws Failure(Usage), listing the known extensions, for
+ * others. */
 PictureFormat
 FormatOf(const std::filesystem::path & path);
 

@@ -17,7 +17,7 @@ namespace rhombic
 namespace
 {
 
-constexpr std::uintmax_t SmallestFile = 64; // bytes: less than the header of any format here
+constexpr std::uintmax_t SmallestFile = 64; // bytes; the headers of all formats are longer
 constexpr std::uint64_t LargestNumberOfPixels = std::uint64_t{ 1 } << 28;
 
 [[noreturn]] void
@@ -40,7 +40,7 @@ Reason(const std::string & message)
   return end == std::string::npos ? "OpenImageIO gives no reason" : message.substr(0, end + 1);
 }
 
-/** Keeps OpenImageIO from reporting on the terminal what this module does on purpose (see MakeSpec). */
+/** Turns off OpenImageIO's messages on the terminal, which complain about the date that MakeSpec() sets. */
 void
 SilenceOpenImageIO()
 {
@@ -64,9 +64,9 @@ MakeSpec(const Picture & picture, const PictureFormat & format, const PictureMet
   spec.attribute("Compression", format.compression);
   if (format.name == "jpeg")
   {
-    spec.attribute("jpeg:subsampling", "4:4:4"); // thin coloured structures keep their colour
+    spec.attribute("jpeg:subsampling", "4:4:4"); // keeps the colour of thin structures
   }
-  // Without a date the TIFF and EXR writers add today's; they leave out one that is no text.
+  // Without a date the TIFF and EXR writers add the current one. They do not write a date that is not text.
   spec.attribute("DateTime", 0);
   if (!metadata.software.empty())
   {
@@ -89,7 +89,7 @@ WritePixels(OIIO::ImageOutput & output, const Picture & picture, const PictureFo
   return output.write_image(OIIO::TypeDesc::UINT8, picture.pixels.data());
 }
 
-/** Writes to \a file, or to \a memory if there is one. Returns why it failed, or nothing. */
+/** Writes to \a memory if it is not null, to \a file otherwise. Returns the reason of a failure, or an empty string. */
 std::string
 Encode(const Picture & picture,
        const fs::path & file,
@@ -119,7 +119,7 @@ WriteBytes(const std::vector<unsigned char> & bytes, const fs::path & file)
   return stream.flush() ? "" : "not all bytes arrived; check the space on the disk";
 }
 
-/** In memory first where possible: on a full disk, libjpeg ends the process and libpng prints. */
+/** Encodes in memory where possible, because on a full disk libjpeg ends the process and libpng prints. */
 std::string
 WriteFile(const Picture & picture,
           const fs::path & file,
@@ -135,7 +135,7 @@ WriteFile(const Picture & picture,
   return error.empty() ? WriteBytes(memory.buffer(), file) : error;
 }
 
-/** Writers report success on a full disk, so only what can be read again is written. */
+/** Reads the file back and compares it, because writers report success on a full disk. */
 void
 VerifyFile(const Picture & picture, const fs::path & file, const PictureFormat & format, const fs::path & target)
 {
@@ -159,7 +159,7 @@ VerifyFile(const Picture & picture, const fs::path & file, const PictureFormat &
   }
 }
 
-/** The file's components as they are, of one or three channels. */
+/** The file's components in three channels; grey is repeated. */
 template <typename TComponent>
 std::vector<TComponent>
 ReadComponents(OIIO::ImageInput & input, OIIO::TypeDesc type, const fs::path & path)

@@ -7,13 +7,13 @@
 namespace rhombic
 {
 
-/** Where the OpenGL context comes from. */
+/** Where the OpenGL context of a renderer comes from. */
 enum class RenderBackend
 {
-  Automatic,   ///< the first of those below that works
+  Automatic,   ///< the first backend in the order below that works
   Device,      ///< a graphics card, through EGL, without a display
-  Surfaceless, ///< Mesa, through EGL, without a display: in software, or on a card that Mesa drives
-  XDisplay     ///< GLX on the X server that DISPLAY names
+  Surfaceless, ///< Mesa through EGL, without a display: software, or a card with a Mesa driver
+  XDisplay     ///< GLX, on the X server named by the environment variable DISPLAY
 };
 
 /** \class BackendProbe
@@ -25,7 +25,7 @@ struct BackendProbe
   RenderBackend backend;
   std::string name;
   bool usable;
-  std::string detail; ///< the renderer and OpenGL version when usable, or else the reason why not
+  std::string detail; ///< renderer and OpenGL version if usable, otherwise the reason why not
 };
 
 } // namespace rhombic

@@ -10,20 +10,20 @@ namespace rhombic
 {
 
 /** \class RenderSettings
- * \brief How a scene becomes a picture. A side can have 8192 samples: 4096 pixels with two samples each.
+ * \brief Size, view and effects of a picture. Each side has at most 8192 samples: 4096 pixels with two samples each.
  *
- * SurfaceRenderer::CheckSettings() says what is out of range. Thread safety: a value. */
+ * SurfaceRenderer::CheckSettings() throws for values out of range. Thread safety: a value. */
 struct RenderSettings
 {
   int width = 1200;  ///< pixels
   int height = 1200; ///< pixels
   View view = View::Anterior;
-  bool perspective = false; ///< parallel rays otherwise, so that sizes can be compared
+  bool perspective = false; ///< parallel projection otherwise, in which sizes can be compared
   Colour background{ 0.0, 0.0, 0.0 };
-  int samples = 2;                  ///< along each side of a pixel, 1 to 4: 2 means four samples a pixel
+  int samples = 2;                  ///< along each side of a pixel, 1 to 4; 2 gives four samples per pixel
   bool ambientOcclusion = true;     ///< darkens cavities of opaque surfaces
   bool orientationLabels = true;    ///< L, R, A, P, H, F at the picture's edges
-  std::uintmax_t maximumMemory = 0; ///< for drawing, in bytes; 0: half of what is free
+  std::uintmax_t maximumMemory = 0; ///< for drawing, in bytes; 0: half of the free memory
 };
 
 } // namespace rhombic

@@ -14,17 +14,17 @@ namespace rhombic
 {
 
 /** \class SurfaceRenderer
- * \brief Draws surfaces as pictures, without a window and without an X server.
+ * \brief Draws surfaces, without a window and without an X server.
  *
  * The same scene and settings give the same bytes in every run on a machine, with any number of threads.
  *
- * Thread safety: create, use and destroy a renderer on one thread; several threads may each have their own, and take
- * turns while drawing.
+ * Thread safety: create, use and destroy a renderer on one thread. Each thread may have its own; only one of them draws
+ * at a time.
  */
 class SurfaceRenderer
 {
 public:
-  /** Throws Failure(Display) when the backend does not work here. */
+  /** Throws Failure(Display) when the backend does not work on this machine. */
   explicit SurfaceRenderer(RenderBackend backend = RenderBackend::Automatic);
   ~SurfaceRenderer();
 
@@ -32,24 +32,24 @@ public:
   SurfaceRenderer &
   operator=(const SurfaceRenderer &) = delete;
 
-  /** The picture of all surfaces, as large as fits between the picture's margins. Surfaces without triangles are left
-   * out. Surfaces that have no normals are drawn faceted. Translucent surfaces show their near walls only, more opaque
-   * at their outlines, in the right order whatever the order of the list.
+  /** Draws all surfaces, as large as fits between the picture's margins. Surfaces without triangles are skipped.
+   * Surfaces without normals are drawn faceted. Of translucent surfaces only the near walls are drawn, more opaque at
+   * their outlines, sorted by depth.
    *
-   * Throws Failure: Empty when no surface has a triangle; Usage for a setting, colour or opacity out of range;
-   * Memory, before any work, when EstimateMemory() is more than the settings allow, and when there is not enough after
-   * all; Display when the graphics library reports an error. */
+   * Throws Failure: Empty when no surface has a triangle; Usage for a setting, colour or opacity out of range; Memory
+   * when EstimateMemory() is more than the settings allow (before any work), or when memory runs out; Display when the
+   * graphics library reports an error. */
   Picture
   Render(const std::vector<SceneSurface> & scene, const RenderSettings & settings);
 
-  /** Throws Failure(Usage) or Failure(Memory) when Render() would because of the settings: for asking before long work.
-   * Memory is that for a scene without triangles.
-   * \param isTranslucent whether the scene will have translucent surfaces, which take more memory */
+  /** Throws Failure(Usage) or Failure(Memory) where Render() would throw it because of the settings. Call it before
+   * long work. The memory is that of a scene without triangles. \param isTranslucent whether the scene will have
+   * translucent surfaces, which take more memory */
   void
   CheckSettings(const RenderSettings & settings, bool isTranslucent = false) const;
 
-  /** Most bytes that Render() takes at a time in software, with the picture that it returns, beside the surfaces. It
-   * frees all but the picture and some 100 MiB of libraries before it returns. Thread safe. */
+  /** The largest number of bytes that Render() needs at a time with a software renderer, including the picture,
+   * excluding the surfaces. When it returns, the picture and about 100 MiB of libraries stay in memory. Thread safe. */
   static std::uintmax_t
   EstimateMemory(const std::vector<SceneSurface> & scene, const RenderSettings & settings);
 
@@ -57,7 +57,7 @@ public:
   std::string
   GetBackendDescription() const;
 
-  /** Tries every backend in the order of preference. Never throws for a backend that does not work. */
+  /** Tries every backend, in the order of preference. Does not throw for a backend that does not work. */
   static std::vector<BackendProbe>
   ProbeBackends();
 

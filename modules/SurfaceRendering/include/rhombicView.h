@@ -8,9 +8,9 @@ namespace rhombic
 {
 
 /** \file
- * The six standard views. Thread safety: the structs are values, and the functions pure. */
+ * The six standard views. Thread safe. */
 
-/** Where the viewer stands, as an anatomist names it: View::Left is the view of the patient's left side. */
+/** The side of the patient that is seen: View::Left shows the patient's left side. */
 enum class View
 {
   Anterior,
@@ -24,17 +24,18 @@ enum class View
 inline constexpr std::array<View, 6> AllViews{ View::Anterior, View::Posterior, View::Left,
                                                View::Right,    View::Superior,  View::Inferior };
 
-/** A view's axes as LPS unit vectors. They are right-handed: right = look x up. */
+/** A view's axes, as LPS unit vectors: right = look x up. */
 struct ViewFrame
 {
   using DirectionType = std::array<int, 3>;
 
   DirectionType look;  ///< from the viewer into the picture
-  DirectionType up;    ///< to the picture's top edge
-  DirectionType right; ///< to the picture's right edge
+  DirectionType up;    ///< towards the picture's top edge
+  DirectionType right; ///< towards the picture's right edge
 };
 
-/** The letters of the anatomical directions that lie towards a picture's edges. */
+/** The anatomical direction at each edge of a picture: L, R (left, right), A, P (anterior, posterior), H or F (head,
+ * foot). */
 struct EdgeLetters
 {
   char left;
@@ -43,12 +44,12 @@ struct EdgeLetters
   char bottom;
 };
 
-/** The patient stands upright in the anterior, posterior and lateral views. In the superior and inferior views the
- * front of the body is up; the inferior one is the axial slice's usual orientation. */
+/** The head is up in the anterior, posterior and lateral views. In the superior and inferior views the front of the
+ * body is up; the inferior view has the usual orientation of axial slices. */
 ViewFrame
 FrameOf(View view);
 
-/** L, R (left, right), A, P (anterior, posterior), H or F (head, foot) at each edge of the picture. */
+/** The letters at the edges of a view's picture. */
 EdgeLetters
 EdgeLettersOf(View view);
 
@@ -56,7 +57,7 @@ EdgeLettersOf(View view);
 std::string
 NameOf(View view);
 
-/** The view of that name, in any case of letters. Throws Failure(Usage), listing the names, when there is none. */
+/** The view with this name, in upper or lower case. Throws Failure(Usage), listing the names, when there is none. */
 View
 ViewFromName(const std::string & name);
 

@@ -11,20 +11,20 @@ namespace rhombic
 namespace
 {
 
-constexpr double ViewAngle = 30.0;     // degrees, across the shorter side: a natural look
-constexpr double SmallestReach = 1e-3; // mm: a scene without extent has a picture, too
+constexpr double ViewAngle = 30.0;     // degrees, across the shorter side
+constexpr double SmallestReach = 1e-3; // mm, for a scene without extent
 constexpr double Lowest = std::numeric_limits<double>::lowest();
 
-/** How the rays through the inner edges of the margins spread: tangents, 0 when the rays are parallel. */
+/** Slopes of the rays through the inner edges of the margins: tangents, 0 in parallel projection. */
 struct Slopes
 {
   double horizontal = 0.0;
   double vertical = 0.0;
 };
 
-/** What the scene needs along one axis of the picture. Seen from a tip at depth -t, the rays at the margins are at
- * centre +- slope * (t + d) at depth d. So the point at (x, d) is inside when x - slope * d <= centre + slope * t and
- * -x - slope * d <= -centre + slope * t: the greatest left sides tell all. */
+/** The extent of the scene along one axis of the picture. Seen from a camera at depth -t, the rays at the margins are
+ * at centre +- slope * (t + d) at depth d. So a point at (x, d) is inside when x - slope * d <= centre + slope * t and
+ * -x - slope * d <= -centre + slope * t. Only the largest left sides matter: `up` and `down`. */
 struct Extent
 {
   double up = Lowest;
@@ -43,7 +43,7 @@ struct Extent
     return 0.5 * (up - down);
   }
 
-  /** slope * t, or half the size when the rays are parallel. */
+  /** slope * t, or half the size in parallel projection. */
   double
   Reach() const
   {

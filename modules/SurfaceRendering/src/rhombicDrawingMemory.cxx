@@ -12,19 +12,19 @@ namespace rhombic
 namespace
 {
 
-constexpr std::uintmax_t LibraryBytes = 110 << 20; // the libraries that draw, and the shaders they compile
+constexpr std::uintmax_t LibraryBytes = 110 << 20; // graphics libraries and compiled shaders
 
 // For each sample:
-constexpr std::uintmax_t WindowBytes = 28;    // colours and depths of VTK's window, and Mesa's copy of what is read
+constexpr std::uintmax_t WindowBytes = 28;    // colours and depths of VTK's window, and Mesa's copy for reading
 constexpr std::uintmax_t OcclusionBytes = 40; // colour, position, normal, depth and darkness in VTK's occlusion pass
 constexpr std::uintmax_t PeelingBytes = 38;   // four colours, two pairs of depths and one depth in VTK's peeling pass
 
 // For the scene:
 constexpr std::uintmax_t VertexBytes = 24;            // point and normal
-constexpr std::uintmax_t TriangleBytes = 12;          // numbers of its vertices
-constexpr double ShareHandedOver = 1.25;              // of both, as a part is copied while it is handed to OpenGL
-constexpr std::uintmax_t BinnedTriangleBytes = 64;    // of a triangle that waits to be drawn,
-constexpr std::uintmax_t MostBinnedBytes = 100 << 20; // and of all that may wait
+constexpr std::uintmax_t TriangleBytes = 12;          // indices of its vertices
+constexpr double ShareHandedOver = 1.25;              // factor for both: a part is copied while OpenGL receives it
+constexpr std::uintmax_t BinnedTriangleBytes = 64;    // a triangle that waits to be drawn
+constexpr std::uintmax_t MostBinnedBytes = 100 << 20; // all triangles that wait, at most
 
 std::uintmax_t
 BytesOfPixel(const RenderSettings & settings, bool isTranslucent)
@@ -34,7 +34,7 @@ BytesOfPixel(const RenderSettings & settings, bool isTranslucent)
   return static_cast<std::uintmax_t>(settings.samples * settings.samples) * sample + Picture::Channels;
 }
 
-/** A size of the same shape that takes at most these bytes, in words; nothing when there is none. */
+/** Advice to draw a smaller picture of the same shape that needs at most \a bytes; empty when there is none. */
 std::string
 AdviseSize(const RenderSettings & settings, double bytes, double bytesOfPixel)
 {

@@ -9,13 +9,13 @@
 namespace rhombic
 {
 
-/** Bytes that OpenGL takes for the triangles of a scene while it draws them, beside the surfaces themselves. */
+/** Bytes that OpenGL needs for the triangles of a scene while it draws them, without the surfaces themselves. */
 std::uintmax_t
 MemoryToHoldScene(const std::vector<SceneSurface> & scene);
 
-/** Most bytes that drawing takes at a time, with the picture that comes out of it. As measured with Mesa's software
- * renderer; a graphics card has memory of its own.
- * \param sceneBytes what MemoryToHoldScene() says */
+/** The largest number of bytes that drawing needs at a time, including the picture. Measured with Mesa's software
+ * renderer; a graphics card has its own memory.
+ * \param sceneBytes the result of MemoryToHoldScene() */
 std::uintmax_t
 MemoryToDraw(const RenderSettings & settings, bool isTranslucent, std::uintmax_t sceneBytes);
 

@@ -64,7 +64,7 @@ FindFunction(const char * name)
 class EGLContextOfDisplay : public GLContext
 {
 public:
-  /** The display is shared by everyone in this process who asks for it, and so is never terminated. */
+  /** All users of the display in this process share it, so it is never terminated. */
   explicit EGLContextOfDisplay(EGLDisplay display)
     : m_Display(display)
   {
@@ -90,7 +90,7 @@ public:
   void
   MakeCurrent() override
   {
-    // Which of OpenGL and OpenGL ES a thread means is its own state.
+    // The choice between OpenGL and OpenGL ES is a state of each thread.
     if (!eglBindAPI(EGL_OPENGL_API) || !eglMakeCurrent(m_Display, m_Surface, m_Surface, m_Context))
     {
       FailCall("eglMakeCurrent");
@@ -127,7 +127,7 @@ private:
     return config;
   }
 
-  /** VTK draws into buffers of its own; a context without any surface is an extension, so there is a small one. */
+  /** VTK draws into its own buffers. Not every EGL supports a context without a surface, so there is one of 1 pixel. */
   void
   CreateSurface(EGLConfig config)
   {

@@ -7,8 +7,9 @@
 
 #include <GL/gl.h>
 
-// GLEW, which finds OpenGL's functions for VTK, finds them all without an X server, and then fails only for GLX's own.
-// No one here calls those, so this definition, exported by the program (see module-options.cmake), takes GLEW's place.
+// GLEW looks up OpenGL's functions for VTK. Without an X server it finds all of them but those of GLX, and then reports
+// a failure. Nothing here calls GLX through GLEW, so this definition, exported by the program (see
+// module-options.cmake), replaces GLEW's.
 extern "C" unsigned int
 glxewInit();
 

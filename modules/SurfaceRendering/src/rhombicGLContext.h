@@ -10,7 +10,7 @@ namespace rhombic
 {
 
 /** \class GLContext
- * \brief An OpenGL 3.2 core context that belongs to no window. */
+ * \brief An OpenGL 3.2 core context without a window. */
 class GLContext
 {
 public:
@@ -21,7 +21,7 @@ public:
   GLContext &
   operator=(const GLContext &) = delete;
 
-  /** Makes OpenGL calls of this thread go to this context. Throws Failure(Display). */
+  /** Makes this the context of OpenGL calls on this thread. Throws Failure(Display). */
   virtual void
   MakeCurrent() = 0;
 
@@ -31,7 +31,7 @@ public:
 };
 
 /** \class CurrentGLContext
- * \brief Keeps a context current on this thread as long as it lives. */
+ * \brief Keeps a context current on this thread during the lifetime of this object. */
 class CurrentGLContext
 {
 public:
@@ -53,7 +53,8 @@ private:
   GLContext & m_Context;
 };
 
-/** One for each backend. Each throws Failure(Display) with the reason when the backend does not work here. */
+/** The contexts of the backends. Each function throws Failure(Display) with the reason when its backend does not work
+ * on this machine. */
 std::unique_ptr<GLContext>
 CreateDeviceContext();
 std::unique_ptr<GLContext>
@@ -61,18 +62,19 @@ CreateSurfacelessContext();
 std::unique_ptr<GLContext>
 CreateXDisplayContext();
 
-/** A context, and one line about it: backend, renderer and OpenGL version. */
+/** A context, and a line with its backend, renderer and OpenGL version. */
 struct DescribedGLContext
 {
   std::unique_ptr<GLContext> context;
   std::string description;
 };
 
-/** The context of \a backend, proved to give OpenGL 3.2 or newer. Throws Failure(Display) with what to install. */
+/** Creates the context of \a backend and checks that it has OpenGL 3.2 or newer. Throws Failure(Display), naming the
+ * packages to install. */
 DescribedGLContext
 CreateGLContext(RenderBackend backend);
 
-/** Creates a context of every backend, one after the other. */
+/** Tries to create a context of every backend, one after the other. */
 std::vector<BackendProbe>
 ProbeGLContexts();
 

@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-// Xlib defines Bool, None, Status and more as macros: keep it out of every header.
+// Xlib defines Bool, None, Status and more as macros, so no header includes it.
 #include <GL/glx.h>
 #include <X11/Xlib.h>
 
@@ -45,7 +45,7 @@ OpenDisplay()
 }
 
 /** \class XErrorTrap
- * \brief Counts X errors, which end the process otherwise, until the end of its life. */
+ * \brief Counts X errors, which would end the process, during the lifetime of this object. */
 class XErrorTrap
 {
 public:

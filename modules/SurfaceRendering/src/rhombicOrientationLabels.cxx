@@ -21,14 +21,15 @@ LetterSize(const RenderSettings & settings)
   return std::max(LetterShare * std::min(settings.width, settings.height), SmallestLetter);
 }
 
-/** Light from 0 to 1 that an sRGB colour gives (ITU-R BT.709). */
+/** Relative luminance, 0 to 1, of an sRGB colour (ITU-R BT.709). */
 double
 Luminance(const Colour & colour)
 {
   return 0.2126 * std::pow(colour[0], 2.2) + 0.7152 * std::pow(colour[1], 2.2) + 0.0722 * std::pow(colour[2], 2.2);
 }
 
-/** Black or white, whichever contrasts more: the contrast of both is the same at this luminance (WCAG's formula). */
+/** Nearly black or nearly white, whichever has more contrast. At a luminance of 0.179 black and white have the same
+ * contrast (the formula of the Web Content Accessibility Guidelines). */
 double
 LetterBrightness(const Colour & background)
 {

@@ -8,11 +8,11 @@
 namespace rhombic
 {
 
-/** Pixels of the picture that the letters need at each edge. */
+/** Width in pixels of the margin that the letters need at each edge of the picture. */
 double
 OrientationLabelMargin(const RenderSettings & settings);
 
-/** Writes the view's letters at the middle of the picture's edges, black or white against the background. */
+/** Adds the view's letters at the middle of the picture's edges, dark or bright depending on the background. */
 void
 AddOrientationLabels(const RenderSettings & settings, vtkRenderer * renderer);
 

@@ -5,7 +5,7 @@ namespace rhombic
 namespace
 {
 
-/** The mean of a channel over a square of samples; \a first is the channel in the first one. */
+/** The mean of a channel over a square of samples; \a first points to the channel of the first sample. */
 std::uint8_t
 MeanOfSquare(const std::uint8_t * first, std::size_t rowBytes, int samples)
 {

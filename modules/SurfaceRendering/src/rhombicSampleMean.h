@@ -7,10 +7,10 @@ namespace rhombic
 {
 
 /** Fills \a rows rows of the picture from row \a top on. Each pixel becomes the mean of samples x samples of \a drawn,
- * which has the samples of these rows alone: three bytes a sample, rows from the bottom as OpenGL has them.
+ * which holds the samples of these rows only: three bytes per sample, rows from the bottom as in OpenGL.
  *
- * This is as fast in software as OpenGL's multisampling, which smooths outlines only and excludes depth peeling; a
- * filter such as FXAA is faster and breaks thin bones into dots. */
+ * In software this is as fast as OpenGL's multisampling, which smooths outlines only and does not work with depth
+ * peeling. A filter such as FXAA is faster, but breaks thin bones into dots. */
 void
 MeanOfSamples(const std::uint8_t * drawn, int samples, int top, int rows, Picture & picture);
 

@@ -9,7 +9,7 @@ namespace rhombic
 namespace
 {
 
-constexpr int LargestSampledSide = 8192; // larger ones were not tried
+constexpr int LargestSampledSide = 8192; // the largest one that was tested
 
 [[noreturn]] void
 FailUsage(const std::string & sentence)

@@ -25,7 +25,8 @@ MarginOf(const RenderSettings & settings)
   return std::min(margin, 0.25 * side);
 }
 
-/** One light of a studio that moves with the camera: the viewer is at z, right is x, up is y. */
+/** Adds a light that moves with the camera and points at its focal point, from (x, y, z): x is right, y is up, and the
+ * viewer is at (0, 0, 1). */
 void
 AddLight(vtkRenderer * renderer, double x, double y, double z, double intensity)
 {
@@ -60,7 +61,7 @@ DiagonalOf(const std::vector<SceneSurface> & scene)
   return box.GetDiagonalLength();
 }
 
-/** Darkens what lies in cavities, which shows depth that lights alone don't. */
+/** Darkens cavities, which shows depth better than lights alone. */
 void
 AddAmbientOcclusion(const std::vector<SceneSurface> & scene, vtkRenderer * renderer)
 {
@@ -68,19 +69,19 @@ AddAmbientOcclusion(const std::vector<SceneSurface> & scene, vtkRenderer * rende
   renderer->UseSSAOOn();
   renderer->SetSSAORadius(0.1 * diagonal);
   renderer->SetSSAOBias(0.004 * diagonal);
-  renderer->SetSSAOKernelSize(16); // for each sample, and a pixel has several
+  renderer->SetSSAOKernelSize(16); // few, because each pixel has several samples
   renderer->SSAOBlurOn();
 }
 
-/** Draws translucent surfaces from the back to the front, pixel by pixel. Each peel finds the nearest and the farthest
- * wall that are left. What remains after the last one is blended without being sorted: behind four near and four far
- * walls that can't be seen, while each peel draws every triangle again. */
+/** Sorts translucent surfaces by depth in each pixel. Each peel finds the nearest and the farthest wall that are left,
+ * and draws every triangle again. Walls that are left after the last peel are blended without sorting, which can't be
+ * seen between four near and four far walls. */
 void
 AddDepthPeeling(vtkRenderer * renderer)
 {
   renderer->UseDepthPeelingOn();
-  renderer->SetOcclusionRatio(0.0); // until nothing changes, or
-  renderer->SetMaximumNumberOfPeels(4);
+  renderer->SetOcclusionRatio(0.0);     // peels until nothing changes,
+  renderer->SetMaximumNumberOfPeels(4); // but at most so often
 }
 
 } // namespace

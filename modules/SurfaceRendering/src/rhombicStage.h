@@ -11,7 +11,8 @@
 namespace rhombic
 {
 
-/** Surfaces, lights, camera and letters, ready to be drawn by a window of width x height times samples. */
+/** Makes a renderer with surfaces, lights, camera and letters, for a window of settings.samples times the picture's
+ * width and height. */
 vtkSmartPointer<vtkRenderer>
 SetStage(const std::vector<SceneSurface> & scene, const RenderSettings & settings);
 

@@ -11,8 +11,8 @@ namespace rhombic
 namespace
 {
 
-/** A thin wall seen at an angle covers more than one seen squarely, as 1 / cos of the angle: it makes a translucent
- * skin clear in front of what it encloses, and outlines it. */
+/** The opacity of a thin wall seen at an angle: light passes 1 / cos(angle) times as much of it. So a translucent skin
+ * is clear where it faces the viewer, and its outline is visible. */
 constexpr const char * OpacityAtAnAngle = R"(//VTK::Light::Impl
   fragOutput0.a = 1.0 - pow(1.0 - fragOutput0.a, 1.0 / max(abs(normalVCVSOutput.z), 0.15));
 )";
@@ -33,13 +33,13 @@ SetMaterial(const SceneSurface & item, vtkProperty * property)
   const bool translucent = item.opacity < 1.0;
   property->SetInterpolationToPhong();
   property->SetColor(item.colour[0], item.colour[1], item.colour[2]);
-  property->SetAmbient(translucent ? 0.35 : 0.05); // lets the outline of a translucent surface shine
+  property->SetAmbient(translucent ? 0.35 : 0.05); // brightens the outline of a translucent surface
   property->SetDiffuse(0.95);
   property->SetSpecularColor(1.0, 1.0, 1.0);
   property->SetSpecular(0.10);
   property->SetSpecularPower(20.0);
   property->SetOpacity(item.opacity);
-  property->SetBackfaceCulling(translucent); // the far walls would blur what is inside
+  property->SetBackfaceCulling(translucent); // far walls would hide detail inside
 }
 
 } // namespace

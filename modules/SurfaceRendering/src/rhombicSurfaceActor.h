@@ -9,7 +9,7 @@
 namespace rhombic
 {
 
-/** Draws the surface in its colour and opacity. The surface must not change as long as the actor lives. */
+/** Makes an actor with the surface's colour and opacity. The surface must not change during the actor's lifetime. */
 vtkSmartPointer<vtkActor>
 MakeSurfaceActor(const SceneSurface & item);
 

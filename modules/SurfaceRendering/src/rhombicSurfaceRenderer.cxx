@@ -28,7 +28,9 @@ namespace rhombic
 namespace
 {
 
-/** VTK's message window and GLEW's function table are the process's, so renderers take turns. */
+/** Locked while a renderer works: all renderers of the process share VTK's message window and GLEW's table of
+ * functions.
+ */
 std::mutex &
 Turn()
 {
@@ -55,7 +57,7 @@ CheckErrors(const vtkRhombicMessages::Scope & messages)
 }
 
 /** \class RendererInWindow
- * \brief Takes a renderer out of its window again, which frees what it holds on the graphics card. */
+ * \brief A renderer in a window. The destructor removes it, which frees its memory on the graphics card. */
 class RendererInWindow
 {
 public:
@@ -97,7 +99,7 @@ public:
     m_Window->SetSupportsOpenGL(1);
     m_Window->SetUseOffScreenBuffers(true);
     m_Window->SetShowWindow(false);
-    m_Window->SetMultiSamples(0); // MeanOfSamples() does that
+    m_Window->SetMultiSamples(0); // MeanOfSamples() smooths instead
     m_Window->SwapBuffersOff();
   }
 
@@ -112,7 +114,7 @@ public:
     }
     catch (const Failure &)
     {
-      // Without its context there is nothing of VTK's left to free on the graphics card.
+      // The context does not work any more, so its memory on the graphics card is gone.
     }
   }
 
@@ -146,7 +148,7 @@ public:
   }
 
 private:
-  /** Band by band, so that there is no second copy of all samples. */
+  /** Reads the samples band by band, which avoids a second copy of all of them. */
   Picture
   ReadWindow(const RenderSettings & settings) const
   {

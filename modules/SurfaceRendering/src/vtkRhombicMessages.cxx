@@ -9,7 +9,7 @@ vtkStandardNewMacro(vtkRhombicMessages);
 namespace
 {
 
-/** VTK writes "ERROR: In <file>, line <n>\n<class> (<address>): <message>\n\n"; the message is what tells something. */
+/** VTK writes "ERROR: In <file>, line <n>\n<class> (<address>): <message>\n\n"; this is the message alone. */
 std::string
 MessageOf(const char * text)
 {

@@ -9,10 +9,10 @@
 #include <thread>
 
 /** \class vtkRhombicMessages
- * \brief Keeps what VTK would print from this thread, as long as a vtkRhombicMessages::Scope lives.
+ * \brief Catches the messages of VTK on this thread during the lifetime of a vtkRhombicMessages::Scope.
  *
- * Messages of other threads go to the window where they went before. VTK also logs errors to the terminal, beside its
- * window; meanwhile it does not, in any thread. */
+ * Messages of other threads go to VTK's previous message window. VTK's log of errors on the terminal is off for all
+ * threads meanwhile. */
 class vtkRhombicMessages : public vtkOutputWindow
 {
 public:
@@ -23,7 +23,7 @@ public:
   void
   DisplayText(const char * text) override;
 
-  /** The first error, without VTK's decoration, or nothing. */
+  /** The first error, without file, line and class, or an empty string. */
   const std::string &
   GetFirstError() const
   {
