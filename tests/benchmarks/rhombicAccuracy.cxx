@@ -34,7 +34,7 @@ TrianglesOf(const AccuracyResult & result)
   return static_cast<double>(result.errors.triangles);
 }
 
-/** "0.0119 (0.78)": a figure and, relative to marching cubes, its size. */
+/** A figure and its ratio to that of marching cubes, such as "0.0119 (0.78)". */
 std::string
 WithRatio(double value, double reference, int digits)
 {

@@ -43,7 +43,7 @@ JudgeMarchingCubes(const VolumeType * volume, const ReferenceField & field, unsi
   return Judge(*PolyDataToSurface(mesh), field, size);
 }
 
-/** The same stretch with fewer samples, spacing apart, from the cubic B-spline through a volume. */
+/** Resamples a volume to the grid of \a geometry, by the cubic B-spline. */
 VolumeType::Pointer
 Coarsen(const VolumeType * volume, const VolumeType * geometry)
 {
@@ -55,17 +55,17 @@ Coarsen(const VolumeType * volume, const VolumeType * geometry)
   return filter->GetOutput();
 }
 
-/** Adds what one seed gave to the sums; a mesh that is met for the first time takes the next place. */
+/** Adds the result of one seed to the sums of mesh number \a mesh, and increments this number. */
 void
-Add(std::vector<AccuracyResult> & results, std::size_t & place, const AccuracyResult & more)
+Add(std::vector<AccuracyResult> & results, std::size_t & mesh, const AccuracyResult & more)
 {
-  if (place == results.size())
+  if (mesh == results.size())
   {
     results.push_back(more);
-    ++place;
+    ++mesh;
     return;
   }
-  AccuracyResult & sum = results[place++];
+  AccuracyResult & sum = results[mesh++];
   sum.nonManifold += more.nonManifold;
   sum.degenerate += more.degenerate;
   SurfaceErrors & a = sum.errors;
@@ -138,13 +138,13 @@ RunAccuracyCase(const AccuracyCase & experiment, unsigned int size, unsigned int
   std::vector<AccuracyResult> results;
   for (unsigned int seed = 1; seed <= seeds; ++seed)
   {
-    std::size_t place = 0;
+    std::size_t meshNumber = 0;
     const auto field = MakeField(experiment, size, seed);
     const auto volume = SampleOnGrid<float>(*field, size, 1.0);
     AccuracyResult result = JudgeMarchingCubes(volume, *field, size);
     result.mesh = "marching cubes";
     result.isReference = true;
-    Add(results, place, result);
+    Add(results, meshNumber, result);
 
     for (const double density : densities)
     {
@@ -170,7 +170,7 @@ RunAccuracyCase(const AccuracyCase & experiment, unsigned int size, unsigned int
           more.mesh = mesh;
           more.source = source;
           more.density = density;
-          Add(results, place, more);
+          Add(results, meshNumber, more);
         };
         add(JudgeMarchingCubes(isExact ? exactVolume.GetPointer() : resampledVolume.GetPointer(), *field, size),
             "marching cubes, fewer samples");

@@ -14,7 +14,7 @@ GetAccuracyTargets(const AccuracyCase & experiment, const AccuracyResult & refer
   }
   const SurfaceErrors & errors = result.errors;
   const double distance = errors.meanDistance / reference.errors.meanDistance;
-  const double allowance = result.source == SampleSource::Exact ? 0.0 : 0.1; // for what resampling loses
+  const double allowance = result.source == SampleSource::Exact ? 0.0 : 0.1; // for the errors of resampling
   std::vector<AccuracyTarget> targets;
   if (result.density == itk::FCCLattice::NyquistDensity && result.mesh == "fine")
   {

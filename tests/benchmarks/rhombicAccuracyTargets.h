@@ -10,7 +10,7 @@ namespace rhombic
 {
 
 /** \class AccuracyTarget
- * \brief A figure, and what it must not exceed or fall below. */
+ * \brief A figure, and its upper or lower limit. */
 struct AccuracyTarget
 {
   std::string what; ///< "distance", "triangles", "quality", "poor %", "no manifold"
@@ -25,9 +25,9 @@ struct AccuracyTarget
   }
 };
 
-/** What applies to a mesh: for modes fine and lean at the default density, distances and triangles relative to the
- * reference and the quality of triangles; for all modes, that they are manifold without degenerate triangles. Empty for
- * marching cubes. */
+/** The targets of a mesh. Modes fine and lean at the default density have limits for the distance and the number of
+ * triangles, relative to the reference, and for the quality of triangles. All modes must be manifold without degenerate
+ * triangles. Marching cubes has no targets. */
 std::vector<AccuracyTarget>
 GetAccuracyTargets(const AccuracyCase & experiment, const AccuracyResult & reference, const AccuracyResult & result);
 

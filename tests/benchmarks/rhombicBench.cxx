@@ -30,7 +30,7 @@ struct Options
   std::string json;
 };
 
-/** A scan as int16, the pixels that are measured; values that don't fit are cut off, fractions are rounded. */
+/** Reads a scan as int16, with values rounded and clamped. */
 itk::Image<std::int16_t, 3>::Pointer
 ReadInt16(const std::string & path)
 {

@@ -14,7 +14,7 @@ using VolumeType = itk::Image<std::int16_t, 3>;
 using LatticeType = itk::FCCImage<std::int16_t>;
 using RegionType = itk::ImageRegion<3>;
 
-/** The volume's samples as if they were a lattice's. */
+/** A lattice with the same samples in the same order. */
 LatticeType::Pointer
 AsLattice(const VolumeType * volume)
 {
@@ -25,8 +25,8 @@ AsLattice(const VolumeType * volume)
   return lattice;
 }
 
-/** Differences of each sample to its neighbours, added up, with the iterator of the lattice or of the grid: both have
- * GetCenterPixel(); \a get reads neighbour n. */
+/** For each sample, the sum of the differences to its neighbours, with an iterator of the lattice or of the grid.
+ * \param get reads neighbour n */
 template <typename TIterator, typename TGet>
 std::vector<int>
 SumDifferences(TIterator it, itk::SizeValueType samples, const TGet & get)
@@ -62,7 +62,7 @@ SumOnGrid(const VolumeType * volume, const RegionType & region)
                         [](const auto & it, unsigned int n) { return it.GetPixel(n); });
 }
 
-/** What one would write for a region without borders. */
+/** The same with a hand-written loop, for a region whose neighbours are all in the image. */
 std::vector<int>
 SumByHand(const LatticeType * lattice, const RegionType & region)
 {

@@ -9,8 +9,8 @@
 namespace rhombic
 {
 
-/** Reading a DICOM folder, from its path to rescaled values, as the command line does, beside itk::ImageSeriesReader
- * that has been given the sorted names. Nothing for other paths. */
+/** Compares ReadScan() of a DICOM folder with itk::ImageSeriesReader, which gets the sorted names of the files. No
+ * results for paths that are not folders. */
 std::vector<BenchResult>
 MeasureReading(const std::string & path, const BenchSettings & settings);
 

@@ -44,7 +44,7 @@ Resample(const BenchInput & input, itk::SeparableKernel kernel)
   return filter->GetOutput();
 }
 
-/** The same lattice from itk::ResampleImageFilter. */
+/** Resamples to the same lattice with itk::ResampleImageFilter. */
 template <typename TInterpolator>
 LatticeType::Pointer
 ResampleWithITK(const BenchInput & input, const LatticeType * lattice)
@@ -62,7 +62,7 @@ ResampleWithITK(const BenchInput & input, const LatticeType * lattice)
   return filter->GetOutput();
 }
 
-/** Largest difference of two results at every 1009th site of those that lie between samples of the volume. */
+/** The largest difference of two results at every 1009th site, of those that lie between samples of the volume. */
 int
 LargestDifference(const BenchInput & input, const LatticeType * a, const LatticeType * b)
 {
@@ -109,7 +109,7 @@ MeshMemory(vtkPolyData * mesh)
   return static_cast<double>(mesh->GetActualMemorySize()) / 1024.0;
 }
 
-/** Reads every sample, by all threads, so that the sum can't be left out. */
+/** Reads every sample, on all threads. The sum keeps the compiler from skipping that. */
 double
 SumOf(const LatticeType * lattice)
 {
@@ -128,7 +128,7 @@ SumOf(const LatticeType * lattice)
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
-/** Writes as many bytes as a surface has into new memory, by all threads. */
+/** Copies the arrays of a surface to new memory, on all threads. */
 std::unique_ptr<char[]>
 CopyOf(const itk::TriangleSurface * surface)
 {
@@ -319,7 +319,7 @@ MeasureMemory(const BenchInput & input, const BenchSettings & settings)
 {
   std::vector<MemoryResult> results;
   const auto measure = [&](const std::string & candidate, double volume, const auto & work, const auto & memoryOf) {
-    work(); // what libraries allocate once is not the extraction's
+    work(); // so that memory which libraries allocate once is not counted
     if (!ResetPeakMemory())
     {
       return;

@@ -16,7 +16,7 @@ namespace rhombic
 {
 
 /** \class BenchInput
- * \brief What is measured on. */
+ * \brief The volume to measure with. */
 struct BenchInput
 {
   itk::Image<std::int16_t, 3>::ConstPointer volume;
@@ -25,16 +25,16 @@ struct BenchInput
 };
 
 /** \class BenchSettings
- * \brief How it is measured. */
+ * \brief The number of threads and of runs. */
 struct BenchSettings
 {
   unsigned int threads = 1;
-  unsigned int repeats = 7;     ///< pairs of which the median is taken
-  unsigned int slowRepeats = 1; ///< the same where the reference takes minutes
+  unsigned int repeats = 7;     ///< number of pairs of runs
+  unsigned int slowRepeats = 1; ///< number of pairs where the reference takes minutes
 };
 
 /** \class BenchResult
- * \brief One line of the report: how a piece of work compares with the reference for it. */
+ * \brief One line of the report: the times of a candidate and of its reference. */
 struct BenchResult
 {
   std::string section;
@@ -42,28 +42,28 @@ struct BenchResult
   std::string reference;
   unsigned int threads = 1;
   PairedTimes times;
-  std::optional<double> target; ///< the ratio it must reach
-  nlohmann::json details;       ///< what else is worth knowing: sizes of meshes, differences
+  std::optional<double> target; ///< the ratio to reach
+  nlohmann::json details;       ///< sizes of meshes, differences
 };
 
-/** Every extraction mode against vtkFlyingEdges3D and vtkMarchingCubes. */
+/** Compares every extraction mode with vtkFlyingEdges3D and vtkMarchingCubes. */
 std::vector<BenchResult>
 MeasureExtraction(const BenchInput & input, const BenchSettings & settings);
 
-/** Every kernel against itk::ResampleImageFilter with the interpolator of the same kernel. */
+/** Compares every kernel with itk::ResampleImageFilter with the interpolator of the same kernel. */
 std::vector<BenchResult>
 MeasureResampling(const BenchInput & input, const BenchSettings & settings);
 
-/** Cubic B-spline resampling and extraction together against vtkFlyingEdges3D alone. */
+/** Compares cubic B-spline resampling and extraction together with vtkFlyingEdges3D alone. */
 std::vector<BenchResult>
 MeasurePipeline(const BenchInput & input, const BenchSettings & settings);
 
-/** Extraction against no more than reading its input and writing its output once. */
+/** Compares extraction with reading its input and writing its output once. */
 std::vector<BenchResult>
 MeasureFloor(const BenchInput & input, const BenchSettings & settings);
 
-/** Samples and their neighbours by iterator: itk::FCCConstNeighborhoodIterator, in one thread, against
- * itk::ConstNeighborhoodIterator over as many samples, and against a loop written by hand without borders. */
+/** Compares itk::FCCConstNeighborhoodIterator with itk::ConstNeighborhoodIterator over as many samples, and with a
+ * hand-written loop without borders, on one thread. */
 std::vector<BenchResult>
 MeasureNeighbors(const BenchInput & input, const BenchSettings & settings);
 
@@ -73,12 +73,12 @@ struct MemoryResult
 {
   std::string candidate;
   unsigned int threads = 1;
-  double volume = 0.0; ///< the volume's samples
-  double mesh = 0.0;   ///< the arrays of the result
-  double extra = 0.0;  ///< the most that was in use besides these two
+  double volume = 0.0; ///< of the volume's samples
+  double mesh = 0.0;   ///< of the mesh's arrays
+  double extra = 0.0;  ///< the largest amount in use besides these two
 };
 
-/** Every extraction mode and vtkFlyingEdges3D. Nothing where the system does not let it be measured. */
+/** Measures every extraction mode and vtkFlyingEdges3D. No results where ResetPeakMemory() does not work. */
 std::vector<MemoryResult>
 MeasureMemory(const BenchInput & input, const BenchSettings & settings);
 

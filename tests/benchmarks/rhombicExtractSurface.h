@@ -13,7 +13,7 @@ namespace rhombic
 
 using ExtractionMode = itk::FCCIsosurfaceMode;
 
-/** All modes there are. */
+/** All modes. */
 const std::vector<ExtractionMode> &
 GetExtractionModes();
 
@@ -21,9 +21,9 @@ GetExtractionModes();
 const char *
 NameOf(ExtractionMode mode);
 
-/** The surface of an image, by as many threads as ITK is set to use. Normals are made also where the mode can't leave
- * them out. For std::int16_t and float.
- * \param closed whether the surface is closed at the image's border; those of VTK end there */
+/** Extracts the surface of an image, on as many threads as ITK is set to use. For std::int16_t and float.
+ * \param normals whether to make normals; some modes always make them
+ * \param closed whether to close the surface at the image's border; VTK's surfaces end there */
 template <typename TPixel>
 itk::TriangleSurface::Pointer
 ExtractSurface(const itk::FCCImage<TPixel> * image,

@@ -8,7 +8,7 @@
 namespace rhombic
 {
 
-/** Writes a report. Throws Failure(Output). */
+/** Writes a report with an indentation of 2. Throws Failure(Output). */
 void
 WriteJSONFile(const std::string & path, const nlohmann::json & report);
 

@@ -55,7 +55,7 @@ UseThreads(unsigned int threads)
 {
   itk::MultiThreaderBase::SetGlobalMaximumNumberOfThreads(threads);
   itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
-  itk::MultiThreaderBase::New()->SetMaximumNumberOfThreads(threads); // lets the pool grow
+  itk::MultiThreaderBase::New()->SetMaximumNumberOfThreads(threads); // makes the pool grow
   vtkSMPTools::SetBackend(threads > 1 ? "STDThread" : "Sequential");
   vtkSMPTools::Initialize(static_cast<int>(threads));
 }

@@ -6,12 +6,13 @@
 namespace rhombic
 {
 
-/** What figures depend on: {"cpu", "threads", "simd", "compiler", "itk", "vtk", "load"}; simd is the best instruction
- * set that Highway finds, load the mean number of busy threads of the last minute, our own included. */
+/** The machine and libraries: {"cpu", "threads", "simd", "compiler", "itk", "vtk", "load"}. "simd" is the best
+ * instruction set that Highway finds, "load" the mean number of busy threads in the last minute, including this
+ * program's. */
 nlohmann::json
 DescribeMachine();
 
-/** Lets ITK and VTK use this many threads. Call it with growing numbers: ITK's pool never shrinks. */
+/** Sets the number of threads of ITK and VTK. Numbers must not decrease from call to call: ITK's pool never shrinks. */
 void
 UseThreads(unsigned int threads);
 

@@ -8,23 +8,23 @@ namespace rhombic
 {
 
 /** \class PairedTimes
- * \brief Seconds of two pieces of work that were run in turn, A B A B ..., so that what else the machine does, and its
- * clock, meet both alike. */
+ * \brief Times in seconds of two functions that were run in turn, A B A B ..., so that other work on the machine and
+ * changes of its clock affect both alike. */
 struct PairedTimes
 {
   std::vector<double> reference;
   std::vector<double> candidate;
 
-  /** How many times faster the candidate is: reference / candidate of each pair. */
+  /** reference / candidate of each pair: how many times faster the candidate is. */
   std::vector<double>
   GetRatios() const;
 };
 
-/** The middle value, or the mean of the two middle ones. Of no values: not a number. */
+/** The middle value, or the mean of the two middle ones. Not a number if there are no values. */
 double
 Median(std::vector<double> values);
 
-/** Seconds that \a work() takes. What it returns is destroyed after the clock has stopped. */
+/** The time of \a work() in seconds, without the destruction of its result. */
 template <typename TWork>
 double
 TimeOf(const TWork & work)
@@ -36,8 +36,8 @@ TimeOf(const TWork & work)
   return time.count();
 }
 
-/** Runs both in turn, the given number of times each. Where that is more than once, one more run before is not counted:
- * it pays for memory that the machine hands out for the first time. */
+/** Runs both functions in turn, \a repeats times each. If that is more than once, a run before the first one is not
+ * counted: it includes the time for memory that the system hands out for the first time. */
 template <typename TReference, typename TCandidate>
 PairedTimes
 TimePairs(unsigned int repeats, const TReference & reference, const TCandidate & candidate)

@@ -8,16 +8,16 @@ namespace rhombic
  * \brief Resident memory of this process in MiB. */
 struct ProcessMemory
 {
-  double now = 0.0;  ///< at the moment
-  double peak = 0.0; ///< the most since ResetPeakMemory()
+  double now = 0.0;  ///< in use now
+  double peak = 0.0; ///< the largest since ResetPeakMemory()
 };
 
-/** From /proc/self/status. */
+/** Reads /proc/self/status. */
 ProcessMemory
 GetProcessMemory();
 
-/** Returns free memory to the system and starts the peak again at what is in use now; false where the system does not
- * allow that (/proc/self/clear_refs). */
+/** Returns free memory to the system and resets the peak to the memory in use now. Returns false where the system does
+ * not allow that (/proc/self/clear_refs). */
 bool
 ResetPeakMemory();
 

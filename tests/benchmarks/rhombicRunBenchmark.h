@@ -8,8 +8,8 @@
 namespace rhombic
 {
 
-/** Parses the command line, then runs. Returns the exit code, those of `rhombic --help`; what goes wrong is one
- * sentence on the standard error. */
+/** Parses the command line, then calls \a run. Prints a failure as one sentence on the standard error. Returns the exit
+ * code, one of those in `rhombic --help`. */
 int
 RunBenchmark(CLI::App & parser, int argc, char ** argv, const std::function<void()> & run);
 

@@ -37,7 +37,7 @@ TextTable::Print(std::ostream & os) const
   {
     for (std::size_t i = 0; i < widths.size(); ++i)
     {
-      // A column is laid out as its first row's word asks for.
+      // The first row decides on a column's alignment.
       const std::string & example = m_Rows[m_Rows.size() > 1 ? 1 : 0][i];
       const bool isNumber = !example.empty() && std::isdigit(static_cast<unsigned char>(example.front())) != 0;
       os << (i > 0 ? "  " : "") << (isNumber ? std::right : std::left) << std::setw(static_cast<int>(widths[i]))

@@ -9,13 +9,13 @@ namespace rhombic
 {
 
 /** \class TextTable
- * \brief Rows of words under a heading, printed in columns as wide as their widest word, numbers to the right. */
+ * \brief Rows of words under a heading, printed in columns as wide as their widest word; numbers are aligned right. */
 class TextTable
 {
 public:
   explicit TextTable(std::vector<std::string> heading);
 
-  /** Adds a row; words that are missing at its end stay empty. */
+  /** Adds a row. If it has fewer words than the heading, the last columns stay empty. */
   void
   Add(std::vector<std::string> row);
 
