@@ -38,7 +38,11 @@ execute_process(COMMAND gzip -9nc "${PROJECT_SOURCE_DIR}/modules/changelog"
 foreach(component program development)
   install(FILES README.md LICENSE modules/copyright "${PROJECT_BINARY_DIR}/changelog.gz" COMPONENT ${component}
           DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${${component}_package}")
+  install(FILES apps/rhombic/GUIDE.md COMPONENT ${component}
+          DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${${component}_package}/apps/rhombic")
 endforeach()
+install(FILES modules/README.md DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${development_package}/modules"
+        COMPONENT development)
 install(DIRECTORY apps/examples DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${development_package}" COMPONENT development)
 
 set(CPACK_GENERATOR DEB)

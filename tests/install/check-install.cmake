@@ -42,20 +42,20 @@ run(${CMAKE_COMMAND} --build "${WORK}/examples")
 run("${WORK}/examples/ResampleAndSave" "${SCAN}" "${WORK}/example.fcc.nrrd")
 message("ResampleAndSave: ${output}")
 
-# The program of README.md, as it stands there.
-file(READ "${WORK}/prefix/share/doc/librhombic-dev/README.md" readme)
+# The program of the map, as it stands there.
+file(READ "${WORK}/prefix/share/doc/librhombic-dev/modules/README.md" map)
 foreach(pair cmake/CMakeLists.txt cpp/bone.cxx)
   string(REPLACE "/" ";" pair "${pair}")
   list(POP_FRONT pair language file)
-  string(REGEX MATCH "```${language}\n([^`]+)```" block "${readme}")
-  file(WRITE "${WORK}/readme/${file}" "${CMAKE_MATCH_1}")
+  string(REGEX MATCH "```${language}\n([^`]+)```" block "${map}")
+  file(WRITE "${WORK}/map/${file}" "${CMAKE_MATCH_1}")
 endforeach()
-run(${CMAKE_COMMAND} -S "${WORK}/readme" -B "${WORK}/readme/build" -G ${GENERATOR} "-DCMAKE_PREFIX_PATH=${WORK}/prefix"
+run(${CMAKE_COMMAND} -S "${WORK}/map" -B "${WORK}/map/build" -G ${GENERATOR} "-DCMAKE_PREFIX_PATH=${WORK}/prefix"
     -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
-run(${CMAKE_COMMAND} --build "${WORK}/readme/build")
-run("${WORK}/readme/build/bone" "${SCAN}/../phantom.nii.gz" "${WORK}/readme/bone.stl")
-run("${WORK}/prefix/bin/rhombic" audit "${WORK}/readme/bone.stl")
-message("The program of README.md: ${output}")
+run(${CMAKE_COMMAND} --build "${WORK}/map/build")
+run("${WORK}/map/build/bone" "${SCAN}/../phantom.nii.gz" "${WORK}/map/bone.stl")
+run("${WORK}/prefix/bin/rhombic" audit "${WORK}/map/bone.stl")
+message("The program of modules/README.md: ${output}")
 
 # What can't be had is refused by name, unless it is optional; so are packages of other versions than those in the build.
 function(check_refusal component sentence)
