@@ -15,6 +15,7 @@ namespace rhombic
  * \brief A filter that takes noise out of a volume before surfaces are extracted. */
 struct Denoising
 {
+  /** The filter. */
   enum class Kind
   {
     None,

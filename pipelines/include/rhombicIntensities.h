@@ -19,6 +19,8 @@ struct Intensities
 /** Throws Failure(Unreadable) when no value is finite. */
 Intensities
 ComputeIntensities(const ScanImage & image);
+
+/** The same for a lattice volume. */
 Intensities
 ComputeIntensities(const FCCVolume & volume);
 

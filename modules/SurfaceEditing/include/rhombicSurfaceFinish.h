@@ -30,6 +30,7 @@ struct SurfaceFinish
   std::size_t maximumTriangles = 0;   ///< 0: no limit
   double share = 1.0;                 ///< of the surface's triangles to keep, above 0
 
+  /** Whether surfaces are simplified. */
   bool
   Simplifies() const
   {
