@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-/** What the examples ask of what they are given, and how they end when they do not get it. */
+/** Checks of arguments and inputs that the examples share. */
 namespace example
 {
 
@@ -61,7 +61,7 @@ ParsePoint(const char * const * texts)
   return itk::Point<double, 3>(point);
 }
 
-/** Refuses to write over what is read: a file, or one in a folder. */
+/** Throws if the output is the input, or lies in the input folder. */
 inline void
 RequireOther(const std::filesystem::path & output, const std::vector<std::filesystem::path> & inputs)
 {
@@ -93,7 +93,7 @@ ReadEvenScan(const std::filesystem::path & path)
   return rhombic::ReadScan(path, options);
 }
 
-/** Such a scan in a pixel type that is known beforehand: of other scans, no pixel is converted. */
+/** Reads a scan of evenly spaced slices with this pixel type; throws for scans of other pixel types. */
 template <typename TPixel>
 typename itk::Image<TPixel, 3>::Pointer
 ReadEvenImage(const std::filesystem::path & path)
@@ -108,7 +108,7 @@ ReadEvenImage(const std::filesystem::path & path)
   return std::get<typename itk::Image<TPixel, 3>::Pointer>(image);
 }
 
-/** The lowest value of an image: for CT, air. Values that are not a number are left out. */
+/** The lowest value of an image, which is air in a CT. NaN is ignored. */
 template <typename TImage>
 typename TImage::PixelType
 LowestOf(const TImage & image)

@@ -47,7 +47,7 @@ constexpr char exitCodes[] = "Exit codes:\n"
                              "  9   not enough memory\n"
                              "  10  this machine can't draw (see rhombic doctor)";
 
-/** Lets the process open as many files as the system allows it: each output keeps one open until all appear. */
+/** Raises the limit of open files to the system's: each output keeps a file open until all are renamed. */
 void
 RaiseFileLimit()
 {

@@ -14,16 +14,16 @@
 namespace rhombic
 {
 
-/** What a command gets from the program. */
+/** Console, decoder and arguments that the program passes to a command. */
 struct CommandContext
 {
   Console * console;
-  VoxelDecoder * decoder;             ///< for all files that are read
+  VoxelDecoder * decoder;             ///< for all input files
   std::vector<std::string> arguments; ///< after the program's name
 };
 
-/** The command line for metadata. Names of folders, scans and series may say who the patient is: only the last parts of
- * paths are kept, and the values of \a names are replaced by their keys, as SCAN for what was read. */
+/** The command line for metadata. Names of folders, scans and series may identify the patient, so only the last parts
+ * of paths are kept, and arguments that are values of \a names are replaced by their keys, as SCAN. */
 std::string
 DescribeCommandLine(const std::vector<std::string> & arguments, const std::map<std::string, std::string> & names);
 
@@ -46,7 +46,7 @@ AddPhantomCommand(CLI::App & parser);
 CommandRun
 AddDoctorCommand(CLI::App & parser);
 
-/** Versions of the program and the libraries it runs with, a line each. */
+/** Versions of the program and its libraries, a line each. */
 std::string
 VersionText();
 

@@ -14,7 +14,7 @@ namespace rhombic
 namespace
 {
 
-/** Names of files may hold anything: control characters would be commands to the terminal. */
+/** Replaces control characters, which names of files may contain, and which are commands to a terminal. */
 std::string
 Printable(std::string text)
 {

@@ -8,16 +8,16 @@
 namespace rhombic
 {
 
-/** How much the program says on standard error. */
+/** Amount of messages on standard error. */
 enum class Verbosity
 {
   Quiet,  ///< errors only
-  Normal, ///< what was found and decided, and a progress bar on a terminal
-  Verbose ///< the same with the time before each line, and each step's name where there is no terminal
+  Normal, ///< also notes, and a progress bar on a terminal
+  Verbose ///< also the time before each line, and without a terminal the name of each step
 };
 
 /** \class Console
- * \brief Everything the program says besides its results: one progress bar on a terminal, plain lines elsewhere. */
+ * \brief Messages of the program on standard error: one progress bar on a terminal, plain lines elsewhere. */
 class Console
 {
 public:
@@ -26,7 +26,7 @@ public:
   void
   SetVerbosity(Verbosity verbosity);
 
-  /** The functions through which a pipeline speaks to this console, which must outlive them. */
+  /** Events that write to this console, which must outlive them. */
   Events
   MakeEvents();
 

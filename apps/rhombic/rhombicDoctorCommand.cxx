@@ -18,7 +18,7 @@ namespace rhombic
 namespace
 {
 
-/** Draws one triangle: the whole way from a surface to a picture. */
+/** Renders one triangle; returns a description of the OpenGL that did. */
 std::string
 TryToRender()
 {

@@ -76,7 +76,7 @@ PrintStack(const StackReport & stack, bool isEven)
   }
 }
 
-/** What the scan's file says beside its grid. */
+/** Modality, encoding, pixel type and frames. */
 void
 PrintEncoding(const Scan & scan)
 {

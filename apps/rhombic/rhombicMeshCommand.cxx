@@ -27,7 +27,7 @@ struct MeshOptions
   bool requiresWatertight = false;
 };
 
-/** A number of triangles, or a percentage of those that there are. */
+/** A number of triangles, or a percentage of the triangles as extracted. */
 void
 ParseTriangles(const std::string & text, SurfaceFinish & finish)
 {

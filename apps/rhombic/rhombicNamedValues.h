@@ -11,11 +11,12 @@
 namespace rhombic
 {
 
-/** The words that an option takes, in the order in which they are listed, and what they mean. */
+/** The words that an option takes, in the order in which messages list them, and their values. */
 template <typename TValue>
 using NamedValues = std::vector<std::pair<std::string, TValue>>;
 
-/** What a word means. Throws Failure(Usage), with what is near and all of them; \a what is what they name. */
+/** The value of a word. Throws Failure(Usage) for other words, with the nearest word and all of them.
+ * \param what a noun for the value, as "mode" */
 template <typename TValue>
 TValue
 FindNamed(const std::string & what, const std::string & word, const NamedValues<TValue> & values)

@@ -27,7 +27,7 @@ ToSpacing(const std::vector<double> & numbers)
   }
 }
 
-/** One of two words. */
+/** \param accept the word for Policy::Accept; "error" is the other one */
 ScanReadOptions::Policy
 ParsePolicy(const std::string & option, const std::string & text, const std::string & accept)
 {

@@ -18,28 +18,28 @@ namespace rhombic
 {
 
 /** \class ScanOptions
- * \brief The options that say where a scan is and how it gets onto the lattice, shared by several commands. */
+ * \brief The options of several commands for reading a scan and resampling it onto the lattice. */
 class ScanOptions
 {
 public:
-  /** The scan, which of its parts to read, and what to accept. */
+  /** Adds the scan, and options for its series, frame, irregular slices and memory. */
   void
   AddSource(CLI::App & parser);
 
-  /** Density, spacing, kernel, or the nested lattice; noise. */
+  /** Adds density, spacing, kernel, nested lattice and denoising. */
   void
   AddLattice(CLI::App & parser);
 
-  /** Whether reports are written beside outputs. */
+  /** Adds the option to leave out sidecars. */
   void
   AddSidecar(CLI::App & parser);
 
-  /** For the outputs of a command on the source. \param names what else than the source may name the patient, by what
-   * takes its place (see DescribeCommandLine()) */
+  /** Provenance of the command's outputs.
+   * \param names further arguments that may name the patient (see DescribeCommandLine()) */
   Provenance
   GetProvenance(const CommandContext & context, std::map<std::string, std::string> names = {}) const;
 
-  /** What was parsed, to be read with the program's decoder. Throws Failure(Usage). */
+  /** The parsed source, to be read with the program's decoder. Throws Failure(Usage). */
   ScanSource
   GetSource(const CommandContext & context) const;
 

@@ -14,19 +14,19 @@ namespace rhombic
 {
 
 /** \class SurfaceOptions
- * \brief The options that say which surfaces are made of a scan, shared by several commands. */
+ * \brief The options of several commands that select the surfaces of a scan. */
 class SurfaceOptions
 {
 public:
   void
   Add(CLI::App & parser);
 
-  /** What was parsed, and maybe one more surface. When there are neither surfaces nor a label map, the scan itself is
-   * to be the label map. Throws Failure(Usage). */
+  /** The parsed selection, with one more surface if given. Without surfaces and label map, the scan itself is taken as
+   * the label map. Throws Failure(Usage). */
   SurfaceSelection
   GetSelection(const std::optional<SurfaceRequest> & further = std::nullopt) const;
 
-  /** What in the options may name the patient (see DescribeCommandLine()). */
+  /** Values of options that may name the patient (see DescribeCommandLine()). */
   std::map<std::string, std::string>
   GetNames() const
   {

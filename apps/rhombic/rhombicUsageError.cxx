@@ -10,7 +10,7 @@ namespace rhombic
 namespace
 {
 
-/** The command that was named, or the program. */
+/** The command on the command line, or the program if there is none. */
 const CLI::App &
 FindCommand(const CLI::App & program)
 {
@@ -47,7 +47,7 @@ DescribeUnknownOption(const CLI::App & program, const std::string & argument)
     return "The option " + option + " goes behind the command, as in rhombic " + FindCommand(program).get_name() + " " +
            option + ".";
   }
-  std::vector<std::string> names; // without the dashes, which all have in common
+  std::vector<std::string> names; // without dashes
   for (const CLI::Option * const known : options)
   {
     names.insert(names.end(), known->get_lnames().begin(), known->get_lnames().end());
@@ -57,7 +57,7 @@ DescribeUnknownOption(const CLI::App & program, const std::string & argument)
          "see " + HelpOf(program) + " for all of them.";
 }
 
-/** What nothing was expected of: a command, an option, or one path too many. */
+/** An unknown command or option, or one path too many. */
 std::string
 DescribeUnexpected(const CLI::App & program, const CLI::ParseError & error)
 {

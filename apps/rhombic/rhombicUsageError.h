@@ -8,8 +8,8 @@
 namespace rhombic
 {
 
-/** What is wrong with the command line that \a program refused with \a error: a sentence that names the command or
- * option, one that is near if it is unknown, and where the right ones are listed. */
+/** A sentence about a command line that \a program refused with \a error. It names the command or option, the nearest
+ * one if it is unknown, and the help that lists all. */
 std::string
 DescribeUsageError(const CLI::App & program, const CLI::ParseError & error);
 
