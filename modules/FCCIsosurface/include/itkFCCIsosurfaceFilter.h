@@ -60,30 +60,28 @@ namespace itk
  * has the same bytes for any number of threads and any processor.
  *
  * Memory: the surface, a bit for each sample and isovalue (rows are rounded up to words of 64 and have a spare one),
- * and about 20 planes of the volume in float32 for each thread that works; for Lean also another bit in the rows with
- * split sites, and 16 bytes for each of those, while they are found about 40: little but in noise, where most sites of
- * the surface are split, and that comes to half the size of the surface.
+ * and about 20 planes of the volume in float32 for each thread that works. Lean also needs another bit in the rows with
+ * split sites, and 16 bytes for each split site (about 40 while they are found). That is little except in noise, where
+ * most sites of the surface are split and it comes to half the size of the surface.
  *
  * **Streaming.** With NumberOfStreamDivisions above 1 the filter asks for the input in that many slabs of planes of
  * constant z, one after the other, with three planes more on either side, so that of a volume larger than the memory
  * only a slab is in it, if what is upstream can stream; if not, nothing is lost. The output has the same bytes. The
  * input is passed over to classify its samples and to fill the surfaces, for Lean also to count before, which keeps 12
- * bytes for each of the surfaces' points until they are filled. Upstream filters work anew for each slab, and of an
- * abort they learn at their next ProgressEvent, from the second slab on: while ITK makes the first, before this
- * filter's StartEvent, abort what is upstream instead, as in any pipeline. At a slab no more threads work than it has
- * tens of planes, so that the memory hardly grows with their number. Between slabs the input's data are released if its
- * ReleaseDataFlag says so. Afterwards the input's requested region and its buffer are a slab: to have the whole of
- * it, call its UpdateLargestPossibleRegion(). An image without a source is read where it lies.
+ * bytes for each of the surfaces' points until they are filled. Upstream filters run again for each slab. From the
+ * second slab on, an abort of this filter reaches them at their next ProgressEvent; while ITK makes the first, before
+ * this filter's StartEvent, abort what is upstream instead, as in any pipeline. A slab is divided among no more threads
+ * than it has tens of planes, so that memory hardly grows with their number. Between slabs the input's data are
+ * released if its ReleaseDataFlag says so. Afterwards the input's requested region and its buffer are a slab: to have
+ * the whole of it, call its UpdateLargestPossibleRegion(). An image without a source is read where it lies.
  *
- * Throws when an isovalue is not finite, when the surface has 2^32 points or more, when 32-bit positions can't tell
- * its points apart, or when samples are missing from the input's buffer. An isovalue outside the image's range gives an
- * empty surface.
+ * Throws when an isovalue is not finite, when the surface has 2^32 points or more, when its points are too close
+ * together for 32-bit positions, or when samples are missing from the input's buffer. An isovalue outside the image's
+ * range gives an empty surface.
  *
  * Overridden pipeline methods: VerifyPreconditions() (finite isovalues), GenerateInputRequestedRegion() (the whole
  * input, or the first slab; GenerateData() asks for the others), CacheInputReleaseDataFlags() (to know of it between
  * slabs).
- *
- * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
  *
  * \ingroup FCCIsosurface
  */
@@ -109,7 +107,7 @@ public:
                   !std::is_same<PixelType, long double>::value,
                 "Pixels must be integers from char to unsigned long long, float or double");
 
-  /** Nearest that a point comes to the ends of its edge, as a fraction of it. */
+  /** The least distance of a point from the ends of its edge, as a fraction of the edge. */
   static constexpr double MinimumFraction = 1.0 / 1024.0;
 
   using Superclass::SetInput;
@@ -167,7 +165,7 @@ public:
   itkGetConstMacro(Closed, bool);
   itkBooleanMacro(Closed);
 
-  /** How many slabs the input is asked for in, one after the other; at most one a plane is. Default 1: all at once. */
+  /** In how many slabs the input is read, one after the other, at most one for each plane. Default 1: all at once. */
   itkSetClampMacro(NumberOfStreamDivisions, unsigned int, 1, std::numeric_limits<unsigned int>::max());
   itkGetConstMacro(NumberOfStreamDivisions, unsigned int);
 
@@ -195,7 +193,7 @@ protected:
   GenerateData() override;
 
 private:
-  /** MinimumFraction, or more where positions in float32 would not tell a point from the edge's end. */
+  /** MinimumFraction, or more where a point and the edge's end would have the same position in float32. */
   double
   ComputeFraction() const;
 
@@ -226,14 +224,14 @@ private:
   std::vector<FCCSigns>
   Classify(SizeValueType margin);
 
-  /** Makes the surfaces of the isovalues from \a first up to that before \a last in the same passes over the input. */
+  /** Makes the surfaces of the isovalues \a first to \a last - 1 in the same passes over the input. */
   void
   Extract(const std::vector<FCCSigns> & signs, std::size_t first, std::size_t last);
 
   void
   Allocate(TriangleSurface & surface, SizeValueType points, SizeValueType triangles) const;
 
-  /** The sum of all that is told to the progress. */
+  /** The units of progress of the whole update. */
   static constexpr SizeValueType WholeProgress = SizeValueType{ 1 } << 30;
 
   static SizeValueType
@@ -243,9 +241,9 @@ private:
   }
 
   void
-  Resolve(FCCSurfaceExtractor & extraction, float share);
+  Resolve(FCCSurfaceExtractor & extractor, float share);
 
-  /** Planes from one up to that before another. */
+  /** Planes from \a begin to \a end - 1. */
   struct Planes
   {
     SizeValueType begin;

@@ -144,7 +144,7 @@ FCCIsosurfaceFilter<TInputImage>::GenerateData()
   m_WorkProgress.emplace(*this, WholeProgress);
   m_UsedFraction = this->ComputeFraction();
   const std::vector<FCCSigns> signs = this->Classify(FCCSurfaceExtractor::GetMargin(m_Mode, m_Closed));
-  const std::size_t atOnce = this->IsInMemory() ? 1 : signs.size(); // memory is dear, or else the input's samples are
+  const std::size_t atOnce = this->IsInMemory() ? 1 : signs.size(); // saves memory, or else passes over the input
   for (std::size_t first = 0; first < signs.size(); first += atOnce)
   {
     this->Extract(signs, first, first + atOnce);
@@ -157,23 +157,23 @@ void
 FCCIsosurfaceFilter<TInputImage>::Extract(const std::vector<FCCSigns> & signs, std::size_t first, std::size_t last)
 {
   RecyclingMemory scratch;
-  std::vector<std::unique_ptr<FCCSurfaceExtractor>> extractions;
+  std::vector<std::unique_ptr<FCCSurfaceExtractor>> extractors;
   for (std::size_t n = first; n < last; ++n)
   {
-    extractions.push_back(FCCSurfaceExtractor::Make(m_Mode, signs[n], this->MakeField(m_Isovalues[n], scratch)));
+    extractors.push_back(FCCSurfaceExtractor::Make(m_Mode, signs[n], this->MakeField(m_Isovalues[n], scratch)));
   }
   constexpr SizeValueType around = FCCSurfaceExtractor::PlanesAround;
   const SizeValueType planes = signs.front().GetDepth();
   const float share = 0.95f * static_cast<float>(last - first) / static_cast<float>(signs.size());
 
   const auto count = [&](SizeValueType begin, SizeValueType end) {
-    for (const auto & extraction : extractions)
+    for (const auto & extractor : extractors)
     {
       m_WorkProgress->CheckAbort();
-      extraction->Count(begin, end);
+      extractor->Count(begin, end);
     }
   };
-  const bool countReadsSamples = extractions.front()->CountReadsSamples(); // and then there is more to resolve
+  const bool countReadsSamples = extractors.front()->CountReadsSamples(); // and then there is more to resolve
   const float shareOfCount = countReadsSamples ? 0.35f * share : 0.2f * share;
   const float shareOfResolve = countReadsSamples ? 0.35f * share : 0.0f;
   countReadsSamples ? this->ForEachLoadedSlab(planes, around, shareOfCount, count)
@@ -181,22 +181,22 @@ FCCIsosurfaceFilter<TInputImage>::Extract(const std::vector<FCCSigns> & signs, s
 
   for (std::size_t n = first; n < last; ++n)
   {
-    FCCSurfaceExtractor & extraction = *extractions[n - first];
-    this->Resolve(extraction, shareOfResolve / static_cast<float>(last - first));
-    this->Allocate(*this->GetOutput(n), extraction.GetNumberOfPoints(), extraction.GetMostTriangles());
+    FCCSurfaceExtractor & extractor = *extractors[n - first];
+    this->Resolve(extractor, shareOfResolve / static_cast<float>(last - first));
+    this->Allocate(*this->GetOutput(n), extractor.GetNumberOfPoints(), extractor.GetMostTriangles());
   }
   scratch.ReleaseSpare(); // filling needs blocks of other sizes
   this->ForEachLoadedSlab(
     planes, around, share - shareOfCount - shareOfResolve, [&](SizeValueType begin, SizeValueType end) {
       for (std::size_t n = first; n < last; ++n)
       {
-        extractions[n - first]->Fill(begin, end, *this->GetOutput(n));
+        extractors[n - first]->Fill(begin, end, *this->GetOutput(n));
       }
     });
   for (std::size_t n = first; n < last; ++n)
   {
     TriangleSurface & surface = *this->GetOutput(n);
-    extractions[n - first]->Finish(surface);
+    extractors[n - first]->Finish(surface);
     if (!m_Closed)
     {
       surface.RemoveUnusedPoints(); // on edges of no cell, at the ragged ends of rows
@@ -207,7 +207,7 @@ FCCIsosurfaceFilter<TInputImage>::Extract(const std::vector<FCCSigns> & signs, s
 
 template <typename TInputImage>
 void
-FCCIsosurfaceFilter<TInputImage>::Resolve(FCCSurfaceExtractor & extraction, float share)
+FCCIsosurfaceFilter<TInputImage>::Resolve(FCCSurfaceExtractor & extractor, float share)
 {
   const SizeValueType last = m_WorkProgress->GetCompleted() + AmountOf(share);
   FCCSurfaceExtractor::Crew crew;
@@ -221,7 +221,7 @@ FCCIsosurfaceFilter<TInputImage>::Resolve(FCCSurfaceExtractor & extraction, floa
     this->ForEachSlab({ 0, count }, part * share, forEach, { 1, 1 });
   };
   crew.checkAbort = [this] { m_WorkProgress->CheckAbort(); };
-  extraction.Resolve(crew);
+  extractor.Resolve(crew);
   m_WorkProgress->Completed(last - std::min(last, m_WorkProgress->GetCompleted())); // it may have been less work
 }
 
@@ -249,7 +249,7 @@ FCCIsosurfaceFilter<TInputImage>::ComputeFraction() const
   }
   const auto & spacing = image->GetSpacing();
   const double shortestEdge = std::sqrt(2.0) * std::min({ spacing[0], spacing[1], spacing[2] });
-  constexpr double steps = 8.0; // of float32 between two points, so that rounding can't bring them together
+  constexpr double steps = 8.0; // of float32 between two points, so that rounding keeps them apart
   const double resolution = farthest * static_cast<double>(std::numeric_limits<float>::epsilon());
   const double fraction = std::max(MinimumFraction, steps * resolution / shortestEdge);
   if (!(fraction <= 0.25))
@@ -303,11 +303,11 @@ FCCIsosurfaceFilter<TInputImage>::Load(const ImageRegion<3> & region)
     {
       image->PropagateRequestedRegion();
       image->UpdateOutputData();
-      m_WorkProgress->CheckAbort(); // of which some filters upstream don't tell, as StreamingImageFilter
+      m_WorkProgress->CheckAbort(); // some filters upstream, as StreamingImageFilter, end without an exception
     }
     catch (...)
     {
-      image->ReleaseData(); // or what is half made would pass for made at the next update
+      image->ReleaseData(); // so that the next update does not take the unfinished data for finished ones
       throw;
     }
   }

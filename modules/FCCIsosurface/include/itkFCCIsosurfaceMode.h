@@ -12,17 +12,15 @@ namespace itk
  * per unit of volume are means over directions; marching cubes on a Cartesian grid makes 3, and the lattice needs 0.77
  * samples for one of the grid.
  *
- * Thread safety: a value.
- *
  * \ingroup FCCIsosurface
  */
 enum class FCCIsosurfaceMode : unsigned char
 {
-  Tetrahedra,      ///< six tetrahedra a parallelepiped, linear points: the paper's text. 8.32 triangles
+  Tetrahedra,      ///< six tetrahedra in each parallelepiped, linear points: the paper's text. 8.32 triangles
   Octahedra,       ///< regular tetrahedra and whole octahedra, linear points. 6.74 triangles
   Parallelepipeds, ///< whole parallelepipeds as marching cubes has cubes, linear points: the paper's counts. 3.37
   Fine,            ///< as Tetrahedra, with points on the reconstructed field: the most accurate. 8.32 triangles
-  Lean             ///< as Fine, points gathered at sites: the fewest and best-shaped triangles. About 2.3
+  Lean             ///< as Fine, with points gathered at sites: the fewest and best-shaped triangles. About 2.3
 };
 
 inline std::ostream &

@@ -10,12 +10,11 @@ namespace itk
 {
 
 /** \class FCCSigns
- * \brief One bit for each site of a box of the lattice: is it inside?
+ * \brief One bit for each site of a box of the lattice: whether it is inside the surface.
  *
  * Rows are stored as 64-bit words, bit i of a row being site i, followed by a spare zero word; bits past the last site
  * are zero. Rows are counted from (0, 0) whatever the image's start index, so the parity of that row is stored, too.
- *
- * Thread safety: different rows can be written at once.
+ * Different rows can be written at once.
  *
  * \ingroup FCCIsosurface
  */

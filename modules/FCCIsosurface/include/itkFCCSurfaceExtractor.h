@@ -18,8 +18,6 @@ namespace itk
  * \brief From lattice coordinates to the world in mm: points by an affine map, gradients by the transposed inverse of
  * it.
  *
- * Thread safety: a value.
- *
  * \ingroup FCCIsosurface
  */
 struct FCCFrame
@@ -27,7 +25,7 @@ struct FCCFrame
   std::array<double, 3> origin;
   std::array<std::array<double, 3>, 3> matrix;          ///< [world axis][lattice axis]
   std::array<std::array<double, 3>, 3> gradientToWorld; ///< [world axis][lattice axis]
-  double outwardSign;                                   ///< of a gradient, to point outside: 1 or -1
+  double outwardSign;                                   ///< 1 or -1: the factor with which gradients point outside
 
   /** Whether the triangles of the tables, in lattice coordinates, would face inwards in the world. */
   bool
@@ -41,9 +39,8 @@ struct FCCFrame
 };
 
 /** \class FCCScalarField
- * \brief An FCC image of any pixel type and one isovalue, as extraction sees them.
- *
- * Thread safety: a value; any number of threads may call its readers at once.
+ * \brief An FCC image of any pixel type and one isovalue, as extractors see them. Any number of threads may call its
+ * readers at once.
  *
  * \ingroup FCCIsosurface
  */
@@ -52,8 +49,8 @@ struct FCCScalarField
   /** Writes the values of the image's row (\a j, \a k), counted from 0, less the isovalue. */
   using RowReader = std::function<void(SizeValueType j, SizeValueType k, float * values)>;
 
-  /** Writes the values at sites, counted from a layer of one site around the image, less the isovalue: those of the
-   * bits of \a wanted. */
+  /** Writes the values at sites, less the isovalue: values[n] at sites[n] for each bit n of \a wanted. Sites are
+   * counted from a layer of one site around the image. */
   using ValueReader =
     std::function<void(const std::array<SizeValueType, 3> * sites, unsigned int wanted, float * values)>;
 
@@ -62,11 +59,10 @@ struct FCCScalarField
   bool insideIsBelow;
   bool closed;            ///< whether the surface closes where a body reaches the image's border
   double minimumFraction; ///< of an edge that a point stays away from its ends
-  bool isInMemory;        ///< the whole image, or else no more than the slab that is worked at and three planes around
+  bool isInMemory;        ///< whether the whole image is, or else the current slab and PlanesAround it
   RowReader readRow;
   ValueReader readValues;
-  std::pmr::memory_resource *
-    scratch; ///< for what is kept while one slab is worked at; any number of threads may use it
+  std::pmr::memory_resource * scratch; ///< for what is kept during one call of Count() or Fill(), by any thread
 };
 
 /** \class FCCSurfaceExtractor
@@ -74,9 +70,8 @@ struct FCCScalarField
  *
  * Count all planes of the signs once, in slabs of any size and order; Resolve once; give the surface room for the
  * points and triangles there may be, and for as many normals, or none; Fill all planes once, in any slabs; Finish once.
- * The bytes do not depend on how planes are divided into slabs.
- *
- * Thread safety: any number of threads may Count, and later Fill, different slabs at once; the rest is for one thread.
+ * The bytes do not depend on how planes are divided into slabs. Any number of threads may Count, and later Fill,
+ * different slabs at once; the rest is for one thread.
  *
  * \ingroup FCCIsosurface
  */
@@ -88,10 +83,10 @@ public:
   /** The threads that Resolve() works with. */
   struct Crew
   {
-    /** Calls work(n) for each n of a count, on several threads, which is a share of Resolve()'s progress. */
+    /** Calls work(n) for n from 0 to count - 1, on several threads. \a share is that of Resolve()'s progress. */
     std::function<void(SizeValueType count, float share, const std::function<void(SizeValueType n)> & work)> forEach;
 
-    /** Throws when the work is to be ended; called by any thread of work that takes long. */
+    /** Throws when the filter has been told to abort; for any thread, at times. */
     std::function<void()> checkAbort;
   };
 
@@ -102,7 +97,7 @@ public:
   static SizeValueType
   GetMargin(FCCIsosurfaceMode mode, bool closed);
 
-  /** \param signs of the field's samples, with GetMargin() sites around them; must outlive the extraction */
+  /** \param signs of the field's samples, with GetMargin() sites around them; must outlive the extractor */
   static std::unique_ptr<FCCSurfaceExtractor>
   Make(FCCIsosurfaceMode mode, const FCCSigns & signs, const FCCScalarField & field);
 
@@ -116,15 +111,16 @@ public:
   virtual void
   Count(SizeValueType begin, SizeValueType end) = 0;
 
-  /** Sums up what was counted. Reads samples only where the whole image is in memory. */
+  /** Finds from the counts where the points and triangles of each plane begin. Reads samples only where the whole image
+   * is in memory. */
   virtual void
   Resolve(const Crew & crew) = 0;
 
-  /** Known once resolved. */
+  /** The number of points of the surface, known once resolved. */
   virtual SizeValueType
   GetNumberOfPoints() const = 0;
 
-  /** The surface may have fewer. */
+  /** At least the number of triangles of the surface, known once resolved. */
   virtual SizeValueType
   GetMostTriangles() const = 0;
 
@@ -132,7 +128,7 @@ public:
   virtual void
   Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface) = 0;
 
-  /** Removes the room that was not needed. */
+  /** Removes the room that the surface did not need. */
   virtual void
   Finish(TriangleSurface & surface) = 0;
 

@@ -13,8 +13,6 @@ namespace itk
  *
  * Corners are steps from the cell's *anchor*, a site, so that one polyhedron describes all cells of its kind. Its edges
  * must be of the types of FCCLattice::OwnedEdges.
- *
- * \ingroup FCCIsosurface
  */
 struct FCCCell
 {

@@ -36,8 +36,6 @@ namespace itk
  * cutting of loops is the dynamic programme of G. T. Klincsek, "Minimal triangulations of polygonal domains" (1980).
  *
  * \tparam VCorners corners of the cell
- *
- * \ingroup FCCIsosurface
  */
 template <unsigned int VCorners>
 struct FCCCellCases

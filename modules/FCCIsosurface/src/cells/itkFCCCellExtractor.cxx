@@ -1,16 +1,197 @@
 #include "itkFCCCellExtractor.h"
 
+#include "itkFCCOctahedraCases.h"
+#include "itkFCCParallelepipedCases.h"
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
 namespace itk
 {
+namespace
+{
+
+using WordType = FCCSigns::WordType;
+using SiteType = FCCLattice::SiteType;
+
+/** Calls \a use(kind) for each kind of cells of a scheme. */
+template <typename TUse>
+void
+ForEachKind(FCCCellScheme scheme, const TUse & use)
+{
+  switch (scheme)
+  {
+    case FCCCellScheme::Octahedra:
+      use(FCCOctahedraCases::Octahedron{});
+      use(FCCOctahedraCases::TetrahedronAfter{});
+      use(FCCOctahedraCases::TetrahedronBefore{});
+      break;
+    case FCCCellScheme::Parallelepipeds:
+      use(FCCParallelepipedCases::Parallelepiped{});
+      break;
+  }
+}
+
+/** The cells of one kind whose anchors are in one row. */
+template <typename TKind>
+class CellRow
+{
+public:
+  /** \a nothing is a row of sites outside, for those beyond the box of a closed surface; nullptr when it is open. */
+  CellRow(const FCCSigns & signs, SizeValueType j, SizeValueType k, const WordType * nothing)
+    : m_Words(signs.GetNumberOfWords())
+    , m_End(signs.GetWidth())
+  {
+    for (unsigned int corner = 0; corner < TKind::Cell.numberOfCorners; ++corner)
+    {
+      const FCCStepTarget target(signs, j, k, TKind::Cell.corners[corner]);
+      m_Shift[corner] = target.shift;
+      m_Rows[corner] = target.isInBox ? signs.GetRow(target.j, target.k) : nothing;
+      m_Exists = m_Exists && m_Rows[corner] != nullptr;
+      // Cells that stick out along x hold sites of the padding only.
+      m_Begin = target.shift < 0 ? 1 : m_Begin;
+      m_End = target.shift > 0 ? signs.GetWidth() - 1 : m_End;
+    }
+  }
+
+  /** Calls \a use(index of the anchor, case) for each cell through which the surface passes. */
+  template <typename TUse>
+  void
+  ForEachCutCell(const TUse & use) const
+  {
+    for (SizeValueType word = 0; m_Exists && word < m_Words; ++word)
+    {
+      WordType corners[FCCCell::MaximumCorners];
+      WordType any = 0;
+      WordType all = ~WordType{ 0 };
+      for (unsigned int corner = 0; corner < TKind::Cell.numberOfCorners; ++corner)
+      {
+        corners[corner] = FCCBits::Shifted(m_Rows[corner], word, m_Shift[corner]);
+        any |= corners[corner];
+        all &= corners[corner];
+      }
+      const WordType exists = FCCBits::Below(m_End, word) & ~FCCBits::Below(m_Begin, word);
+      FCCBits::ForEach(any & ~all & exists, 0, [&](SizeValueType bit) {
+        unsigned int pattern = 0;
+        for (unsigned int corner = 0; corner < TKind::Cell.numberOfCorners; ++corner)
+        {
+          pattern |= static_cast<unsigned int>(corners[corner] >> bit & 1) << corner;
+        }
+        use(word * FCCSigns::WordBits + bit, TKind::Cases.cases[pattern]);
+      });
+    }
+  }
+
+private:
+  SizeValueType m_Words;
+  SizeValueType m_Begin{ 0 };
+  SizeValueType m_End;
+  bool m_Exists{ true };
+  const WordType * m_Rows[FCCCell::MaximumCorners];
+  IndexValueType m_Shift[FCCCell::MaximumCorners];
+};
+
+/** The cut edges that the cells of *layer* k share, those whose anchors are in plane k. */
+struct LayerEdges
+{
+  const FCCCutEdges * inPlane[3]; ///< of the planes k - 1, k and k + 1
+  const FCCCutEdges * between[2]; ///< between the planes k - 1 and k, and k and k + 1
+};
+
+/** Finds the vertex ids of the cells of one kind whose anchors are in one row. */
+template <typename TKind>
+class CellRowIds
+{
+public:
+  CellRowIds(const FCCSigns & signs, SizeValueType j, SizeValueType k, const LayerEdges & edges)
+  {
+    for (unsigned int edge = 0; edge < TKind::Cell.numberOfEdges; ++edge)
+    {
+      const FCCCell::Edge & found = TKind::Cell.edges[edge];
+      const SiteType & step = TKind::Cell.corners[found.start];
+      const FCCStepTarget start(signs, j, k, step);
+      m_Shift[edge] = start.shift;
+      if (start.isInBox) // edges that are stored elsewhere are not cut
+      {
+        const bool isBetween = FCCStoredEdges::GroupOf(found.type) == FCCStoredEdges::Group::Between;
+        const FCCCutEdges & plane = isBetween ? *edges.between[step[2] + 1] : *edges.inPlane[step[2] + 1];
+        m_Rows[edge] = plane.GetRow(start.j, found.type);
+      }
+    }
+  }
+
+  std::uint32_t
+  GetId(unsigned int edge, SizeValueType i) const
+  {
+    return m_Rows[edge].GetNumber(static_cast<SizeValueType>(static_cast<IndexValueType>(i) + m_Shift[edge]));
+  }
+
+private:
+  FCCCutEdges::Row m_Rows[FCCCell::MaximumEdges];
+  IndexValueType m_Shift[FCCCell::MaximumEdges];
+};
+
+/** A row of sites outside. */
+std::vector<WordType>
+MakeEmptyRow(const FCCSigns & signs)
+{
+  return std::vector<WordType>(signs.GetNumberOfWords() + 1, 0);
+}
+
+/** The triangles of layer \a k: as many as FCCCellExtractor::CountTriangles() says; \a reversed turns them all over.
+ * Cut edges of planes beyond the box are not looked at. */
+void
+FillCellTriangles(const FCCSigns & signs,
+                  FCCCellScheme scheme,
+                  SizeValueType k,
+                  const LayerEdges & edges,
+                  bool closed,
+                  bool reversed,
+                  TriangleSurface::TriangleType * triangles)
+{
+  const unsigned int second = reversed ? 2 : 1;
+  const unsigned int third = reversed ? 1 : 2;
+  const std::vector<WordType> nothing = MakeEmptyRow(signs);
+  ForEachKind(scheme, [&](auto kind) {
+    for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
+    {
+      const CellRow<decltype(kind)> cells(signs, j, k, closed ? nothing.data() : nullptr);
+      const CellRowIds<decltype(kind)> ids(signs, j, k, edges);
+      cells.ForEachCutCell([&](SizeValueType i, const auto & found) {
+        for (unsigned int n = 0; n < found.triangles; ++n)
+        {
+          const auto & corners = found.edges[n];
+          *triangles++ = { ids.GetId(corners[0], i), ids.GetId(corners[second], i), ids.GetId(corners[third], i) };
+        }
+      });
+    }
+  });
+}
+
+} // namespace
+
+std::uint8_t
+FCCCellExtractor::GetEdgeTypes(FCCCellScheme scheme)
+{
+  unsigned int types = 0;
+  ForEachKind(scheme, [&types](auto kind) { types |= decltype(kind)::Cell.GetEdgeTypes(); });
+  return static_cast<std::uint8_t>(types);
+}
 
 SizeValueType
 FCCCellExtractor::CountTriangles(SizeValueType k) const
 {
-  return CountCellTriangles(m_Signs, m_Scheme, k, m_Field.closed);
+  const std::vector<WordType> nothing = MakeEmptyRow(m_Signs);
+  SizeValueType triangles = 0;
+  ForEachKind(m_Scheme, [&](auto kind) {
+    for (SizeValueType j = 0; j < m_Signs.GetHeight(); ++j)
+    {
+      const CellRow<decltype(kind)> cells(m_Signs, j, k, m_Field.closed ? nothing.data() : nullptr);
+      cells.ForEachCutCell([&triangles](SizeValueType, const auto & found) { triangles += found.triangles; });
+    }
+  });
+  return triangles;
 }
 
 void
@@ -18,7 +199,7 @@ FCCCellExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface &
 {
   using Group = FCCStoredEdges::Group;
   const bool reversed = m_Field.frame.IsLeftHanded();
-  // Of the planes before, at and after a layer; no edges are cut before the first plane.
+  // Those of the planes before, at and after a layer; no edges are cut before the first plane.
   FCCCutEdges inPlane[3] = { this->MakeCutEdges(Group::InPlane),
                              this->MakeCutEdges(Group::InPlane),
                              this->MakeCutEdges(Group::InPlane) };

@@ -15,8 +15,6 @@ namespace itk
  *
  * All faces are triangles, so the surface between the cells is unique. Within an octahedron, two opposite corners that
  * are inside alone, or outside alone, have a cap each.
- *
- * \ingroup FCCIsosurface
  */
 struct FCCOctahedraCases
 {

@@ -15,8 +15,6 @@ namespace itk
  * extraction from face-centered cubic lattices", Turk J Elec Eng & Comp Sci 25 (2017).
  *
  * Sites that are connected across a face's short diagonal are nearest neighbours.
- *
- * \ingroup FCCIsosurface
  */
 struct FCCParallelepipedCases
 {

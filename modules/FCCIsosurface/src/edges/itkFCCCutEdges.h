@@ -11,8 +11,6 @@ namespace itk
  *
  * The type of an edge is its place in FCCLattice::OwnedEdges, the steps from the sites that store edges to their other
  * ends. Sets of types are bits.
- *
- * \ingroup FCCIsosurface
  */
 struct FCCStoredEdges
 {
@@ -57,8 +55,6 @@ struct FCCStoredEdges
 
 /** \class FCCStepTarget
  * \brief The sites at one step from those of a row: their row, and how far their indices are from those of the row.
- *
- * \ingroup FCCIsosurface
  */
 struct FCCStepTarget
 {
@@ -80,8 +76,6 @@ struct FCCStepTarget
  * the points on them.
  *
  * Ids count the cut edges row by row, within a row type by type, within a type along x.
- *
- * \ingroup FCCIsosurface
  */
 class FCCCutEdges
 {

@@ -10,8 +10,6 @@ namespace itk
  * \brief What the extractors that put one point on each cut edge have in common: counting and numbering.
  *
  * Signs alone say which edges are cut and which triangles there are; samples are read to place the points.
- *
- * \ingroup FCCIsosurface
  */
 class FCCEdgeExtractor : public FCCSurfaceExtractor
 {

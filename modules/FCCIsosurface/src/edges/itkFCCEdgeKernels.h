@@ -8,8 +8,6 @@ namespace itk
 
 /** \class FCCEdgeBatch
  * \brief Cut edges, gathered so that many points are placed at once.
- *
- * \ingroup FCCIsosurface
  */
 struct FCCEdgeBatch
 {

@@ -15,8 +15,6 @@ namespace itk
  * Between two samples a point lies where their values' interpolation along the edge crosses the isovalue. An edge may
  * lead to a site outside the image (see FCCIsosurfaceFilter on closed surfaces); there, points lie on the faces of the
  * image's extent, and normals are theirs.
- *
- * \ingroup FCCIsosurface
  */
 class FCCEdgePoints
 {
@@ -108,8 +106,6 @@ private:
  * \brief Fills the points and normals of a surface, plane by plane, from the edges that the planes' sites store.
  *
  * Ask for planes in ascending order.
- *
- * \ingroup FCCIsosurface
  */
 class FCCEdgePointFiller
 {

@@ -13,8 +13,6 @@ namespace itk
  * \brief The faces on which a closed surface ends at the border of an image: half a lattice unit beyond its samples.
  *
  * Thread safety: immutable.
- *
- * \ingroup FCCIsosurface
  */
 class FCCExtent
 {

@@ -9,8 +9,6 @@ namespace itk
 /** \class FCCFieldKernels
  * \brief The loops over rows of a field. Gradients are compiled for several instruction sets; the best one the
  * processor has runs, and results have the same bits whichever does.
- *
- * \ingroup FCCIsosurface
  */
 struct FCCFieldKernels
 {

@@ -22,8 +22,6 @@ namespace itk
  * Planes are computed when asked for, and the last few of each kind are kept: ask in ascending order.
  *
  * Memory: planes of float32, 6 of values, 3 of coefficients and 4 for each of gradients, once they are asked for.
- *
- * \ingroup FCCIsosurface
  */
 class FCCFieldPlanes
 {

@@ -9,8 +9,6 @@ namespace itk
 
 /** \class FCCClusterBatch
  * \brief Sites that gather crossings in one vertex, collected so that many vertices are placed at once.
- *
- * \ingroup FCCIsosurface
  */
 struct FCCClusterBatch
 {

@@ -13,8 +13,6 @@ namespace itk
  * A site gathers the crossings that it is nearer to: all of a *whole* site make one vertex, those of a *split* site
  * (see FCCSplitSites) make several. Vertices are numbered first by the whole sites, row by row, then by the split
  * sites, row by row, and their parts.
- *
- * \ingroup FCCIsosurface
  */
 class FCCClusterPlane
 {

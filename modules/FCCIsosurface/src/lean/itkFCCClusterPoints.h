@@ -14,8 +14,6 @@ namespace itk
  * Vertices of several crossings are moved to the reconstructed surface (see PlaceClusters()) when their site is in the
  * image; when it is in the layer around the image, where a closed surface ends, they are the mean of their crossings
  * with the faces of the image's extent. Vertices of one crossing are points on its edge.
- *
- * \ingroup FCCIsosurface
  */
 class FCCClusterPoints
 {

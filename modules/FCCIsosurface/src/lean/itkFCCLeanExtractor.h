@@ -17,8 +17,6 @@ namespace itk
  *
  * Resolve looks at the values around some sites, wherever they are. Where no more than a slab is in memory, Count keeps
  * what Resolve has to know, 12 bytes for each vertex.
- *
- * \ingroup FCCIsosurface
  */
 class FCCLeanExtractor : public FCCSurfaceExtractor
 {

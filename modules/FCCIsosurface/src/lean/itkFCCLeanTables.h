@@ -10,8 +10,6 @@ namespace itk
 /** \class FCCLeanTables
  * \brief What mode `lean` needs to know of the tetrahedra of one kind of step (see FCCMarchingCases), derived at
  * compile time.
- *
- * \ingroup FCCIsosurface
  */
 struct FCCLeanTables
 {

@@ -19,8 +19,6 @@ IsNearerToInside(float sum, bool insideIsBelow)
 /** \class FCCNearerEnds
  * \brief To which end each crossing of the surface with the edges that one plane's sites store is nearer: the *start*,
  * which is the site that stores the edge, or the *end*.
- *
- * \ingroup FCCIsosurface
  */
 class FCCNearerEnds
 {

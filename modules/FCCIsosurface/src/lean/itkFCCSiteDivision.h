@@ -9,8 +9,6 @@ namespace itk
 
 /** \class FCCNeighborhood
  * \brief Where the sites of a site's star are, counted as signs are, and which of them exist.
- *
- * \ingroup FCCIsosurface
  */
 struct FCCNeighborhood
 {
@@ -50,8 +48,6 @@ FindNearerEndsOfStar(const FCCSigns & signs,
 
 /** \class FCCSiteDivision
  * \brief Divides one site's crossings into vertices, while the parts of other sites do not change.
- *
- * \ingroup FCCIsosurface
  */
 class FCCSiteDivision
 {

@@ -14,8 +14,6 @@ namespace itk
  *
  * The crossings of a site are those that it is nearer to. Sets of them are bits of their directions. Vertices are
  * numbered by the lowest directions of their crossings.
- *
- * \ingroup FCCIsosurface
  */
 class FCCSiteParts
 {
@@ -77,8 +75,6 @@ private:
  * \brief The split sites of a box and their parts. A row without any takes no more than a pointer.
  *
  * Different rows can be written at once.
- *
- * \ingroup FCCIsosurface
  */
 class FCCSplitRows
 {

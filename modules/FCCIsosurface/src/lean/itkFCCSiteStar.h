@@ -18,8 +18,6 @@ namespace itk
  * are *adjacent* when the edges' far ends are neighbours: then a side of the surface's polygons joins them.
  *
  * The *sites* of the star are the neighbours, numbered by their direction, and the center.
- *
- * \ingroup FCCIsosurface
  */
 class FCCSiteStar
 {

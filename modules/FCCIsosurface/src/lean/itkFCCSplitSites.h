@@ -21,8 +21,6 @@ namespace itk
  * divided: first into the parts that are connected; a part that breaks a condition still gives up one point, if that
  * helps, or else all. This ends, at the latest with the mesh of the tetrahedra. Whether an edge breaks 2 depends on
  * nothing but the sets of its two ends, so only the surroundings of what was divided need to be looked at again.
- *
- * \ingroup FCCIsosurface
  */
 class FCCSplitSites
 {

@@ -12,8 +12,6 @@ namespace itk
  * \brief How many triangles between whole sites use each site of a plane and the edges that it stores.
  *
  * The counts of a site and its edges are the bytes of one word: a site has at most 48 triangles, an edge fewer.
- *
- * \ingroup FCCIsosurface
  */
 class FCCTriangleUse
 {

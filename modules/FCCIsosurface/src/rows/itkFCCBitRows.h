@@ -15,8 +15,6 @@ namespace itk
  * \brief A row of bits, one for each site, in words as FCCSigns has them: tested, shifted, counted and visited.
  *
  * The functions are always inlined, so that they are compiled for the instruction set of the kernels that call them.
- *
- * \ingroup FCCIsosurface
  */
 struct FCCBits
 {
@@ -138,8 +136,6 @@ struct FCCBits
 
 /** \class FCCBitRows
  * \brief Rows of bits, each with a spare zero word at its end.
- *
- * \ingroup FCCIsosurface
  */
 class FCCBitRows
 {
@@ -199,8 +195,6 @@ protected:
 
 /** \class FCCNumberedBits
  * \brief Rows of bits whose set bits are numbered row by row: no table of numbers, no search.
- *
- * \ingroup FCCIsosurface
  */
 class FCCNumberedBits : public FCCBitRows
 {

@@ -75,15 +75,18 @@ FCCRowKernels::Classify(const TPixel * values,
   TPixel threshold{};
   if (!FindThreshold(isovalue, threshold))
   {
-    ClassifyRow(values, count, [isBelow](TPixel) { return isBelow; }, words);
+    ClassifyRow(
+      values, count, [isBelow](TPixel) { return isBelow; }, words);
   }
   else if (isBelow)
   {
-    ClassifyRow(values, count, [threshold](TPixel value) { return value < threshold; }, words);
+    ClassifyRow(
+      values, count, [threshold](TPixel value) { return value < threshold; }, words);
   }
   else
   {
-    ClassifyRow(values, count, [threshold](TPixel value) { return value >= threshold; }, words);
+    ClassifyRow(
+      values, count, [threshold](TPixel value) { return value >= threshold; }, words);
   }
 }
 

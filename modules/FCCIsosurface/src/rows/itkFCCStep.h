@@ -8,8 +8,6 @@ namespace itk
 
 /** \class FCCStep
  * \brief Arithmetic of steps between sites, at compile time.
- *
- * \ingroup FCCIsosurface
  */
 struct FCCStep
 {

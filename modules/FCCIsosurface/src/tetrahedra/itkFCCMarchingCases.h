@@ -27,8 +27,6 @@ namespace itk
  * are counter-clockwise seen from outside when the lattice's axes are right-handed.
  *
  * The tables are derived here at compile time, from the sites' coordinates alone.
- *
- * \ingroup FCCIsosurface
  */
 struct FCCMarchingCases
 {

@@ -7,9 +7,7 @@ namespace itk
 {
 
 /** \class FCCTetrahedraExtractor
- * \brief Extracts the surface through the lattice's tetrahedra, plane by plane (see FillColumnTriangles()).
- *
- * \ingroup FCCIsosurface
+ * \brief Extracts the surface through the lattice's tetrahedra, column by column (see FCCMarchingCases).
  */
 class FCCTetrahedraExtractor : public FCCEdgeExtractor
 {

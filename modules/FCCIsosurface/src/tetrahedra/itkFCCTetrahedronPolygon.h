@@ -13,8 +13,6 @@ namespace itk
  *
  * Its corners are the crossings on the edges between sites inside and outside, counter-clockwise seen from outside when
  * the lattice's axes are right-handed.
- *
- * \ingroup FCCIsosurface
  */
 struct FCCTetrahedronPolygon
 {
