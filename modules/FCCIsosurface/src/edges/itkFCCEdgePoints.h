@@ -19,6 +19,8 @@ namespace itk
 class FCCEdgePoints
 {
 public:
+  using SiteType = FCCLattice::SiteType;
+
   /** \param region the image's samples
    *  \param frame from lattice coordinates to the world
    *  \param cubic whether values are interpolated by the cubic through four samples instead of linearly; along x,
@@ -57,9 +59,23 @@ public:
     batch.count = 0;
   }
 
-private:
-  using SiteType = FCCLattice::SiteType;
+  const FCCExtent &
+  GetExtent() const
+  {
+    return m_Extent;
+  }
 
+  /** The site at a place that is counted as the field's are. */
+  SiteType
+  SiteOf(SizeValueType i, SizeValueType j, SizeValueType k) const
+  {
+    const auto & first = m_Extent.GetRegion().GetIndex();
+    return FCCLattice::SiteOf({ { first[0] + static_cast<IndexValueType>(i) - 1,
+                                  first[1] + static_cast<IndexValueType>(j) - 1,
+                                  first[2] + static_cast<IndexValueType>(k) - 1 } });
+  }
+
+private:
   /** A row of the signs whose cut edges of one type get points. */
   struct RowOfEdges
   {
@@ -77,16 +93,6 @@ private:
             bool withGradients,
             FCCEdgeBatch & batch,
             const TFlush & flush) const;
-
-  /** The site at a place that is counted as the field's are. */
-  SiteType
-  SiteOf(SizeValueType i, SizeValueType j, SizeValueType k) const
-  {
-    const auto & first = m_Extent.GetRegion().GetIndex();
-    return FCCLattice::SiteOf({ { first[0] + static_cast<IndexValueType>(i) - 1,
-                                  first[1] + static_cast<IndexValueType>(j) - 1,
-                                  first[2] + static_cast<IndexValueType>(k) - 1 } });
-  }
 
   void
   GatherBorder(const SiteType & site, const SiteType & step, bool startsOutside, FCCEdgeBatch & batch) const;

@@ -19,11 +19,10 @@ public:
   void
   GoTo(SizeValueType j, SizeValueType k)
   {
-    if (m_IsSomewhere && m_J == j && m_K == k)
+    if (m_Values != nullptr && m_J == j && m_K == k)
     {
       return;
     }
-    m_IsSomewhere = true;
     m_J = j;
     m_K = k;
     m_Values = m_Field.GetValues(j, k);
@@ -110,7 +109,6 @@ public:
 
 private:
   const FCCFieldPlanes & m_Field;
-  bool m_IsSomewhere{ false };
   SizeValueType m_J{ 0 };
   SizeValueType m_K{ 0 };
   const float * m_Values{ nullptr };
@@ -124,8 +122,6 @@ class FCCClusterPoints::Output
 public:
   Output(const FCCFrame & frame,
          const SiteType & origin,
-         float minimumFraction,
-         float farthest,
          TriangleSurface::PointType * points,
          TriangleSurface::NormalType * normals,
          std::uint8_t * areOutside)
@@ -134,18 +130,19 @@ public:
     , m_Normals(normals)
     , m_AreOutside(areOutside)
   {
-    m_Batch.minimumFraction = minimumFraction;
-    m_Batch.farthest = farthest;
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
       m_Batch.origin[axis] = static_cast<double>(origin[axis]);
     }
   }
 
-  /** Goes on where another one ended. */
-  Output(const FCCFrame & frame, const SiteType & origin, float minimumFraction, float farthest, const Output & before)
-    : Output(frame, origin, minimumFraction, farthest, before.m_Points, before.m_Normals, before.m_AreOutside)
-  {}
+  /** Sets what FCCClusterBatch says of the vertices that are added from now on. */
+  void
+  SetLimits(float minimumFraction, float farthest)
+  {
+    m_Batch.minimumFraction = minimumFraction;
+    m_Batch.farthest = farthest;
+  }
 
   bool
   HasNormals() const
@@ -255,13 +252,13 @@ FCCClusterPoints::Place(const FCCSigns & signs,
                         TriangleSurface::NormalType * normals,
                         std::uint8_t * areOutside) const
 {
-  SiteType origin = this->SiteOf(0, 0, k);
+  SiteType origin = m_EdgePoints.SiteOf(0, 0, k);
   origin[0] -= field.GetParity(0, k);
-  Output ofWholeSites(m_Frame, origin, 0.0f, FarthestOfWhole, points, normals, areOutside);
-  this->PlaceWholeSites(signs, plane, k, field, ofWholeSites);
-  const auto minimumFraction = static_cast<float>(m_MinimumFraction);
-  Output ofSplitSites(m_Frame, origin, minimumFraction, FarthestOfPart, ofWholeSites);
-  this->PlaceSplitSites(plane, k, field, ofSplitSites);
+  Output output(m_Frame, origin, points, normals, areOutside);
+  output.SetLimits(0.0f, FarthestOfWhole);
+  this->PlaceWholeSites(signs, plane, k, field, output);
+  output.SetLimits(static_cast<float>(m_MinimumFraction), FarthestOfPart);
+  this->PlaceSplitSites(plane, k, field, output);
 }
 
 void
@@ -284,7 +281,7 @@ FCCClusterPoints::PlaceWholeSites(const FCCSigns & signs,
       }
       else
       {
-        this->PlaceOnBorder(this->SiteOf(i, j, k), crossings, output);
+        this->PlaceOnBorder(m_EdgePoints.SiteOf(i, j, k), crossings, output);
       }
     });
   }
@@ -335,21 +332,12 @@ FCCClusterPoints::PlaceSplitSites(const FCCClusterPlane & plane,
       }
       else
       {
-        this->PlaceOnBorder(this->SiteOf(i, j, k), crossings, output);
+        this->PlaceOnBorder(m_EdgePoints.SiteOf(i, j, k), crossings, output);
       }
     });
   }
   output.Flush();
   placeSingle();
-}
-
-FCCLattice::SiteType
-FCCClusterPoints::SiteOf(SizeValueType i, SizeValueType j, SizeValueType k) const
-{
-  const auto & first = m_Extent.GetRegion().GetIndex();
-  const SiteType firstSite = FCCLattice::SiteOf(
-    { { first[0] - 1, first[1] + static_cast<IndexValueType>(j) - 1, first[2] + static_cast<IndexValueType>(k) - 1 } });
-  return { firstSite[0] + 2 * static_cast<IndexValueType>(i), firstSite[1], firstSite[2] };
 }
 
 void
@@ -361,7 +349,7 @@ FCCClusterPoints::PlaceOnBorder(const SiteType & site, unsigned int crossings, O
   {
     const SiteType step = FCCSiteStar::StepOf(static_cast<unsigned int>(__builtin_ctz(crossings)));
     const SiteType end{ site[0] + step[0], site[1] + step[1], site[2] + step[2] };
-    const double fraction = m_Extent.FractionToBorder(end, { -step[0], -step[1], -step[2] });
+    const double fraction = m_EdgePoints.GetExtent().FractionToBorder(end, { -step[0], -step[1], -step[2] });
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
       sum[axis] += static_cast<double>(end[axis]) - fraction * static_cast<double>(step[axis]);
@@ -370,7 +358,7 @@ FCCClusterPoints::PlaceOnBorder(const SiteType & site, unsigned int crossings, O
   }
   TriangleSurface::PointType point;
   TriangleSurface::NormalType normal;
-  const auto direction = m_Extent.DirectionTo(site);
+  const auto direction = m_EdgePoints.GetExtent().DirectionTo(site);
   double squared = 0.0;
   std::array<double, 3> outwards{};
   for (unsigned int row = 0; row < 3; ++row)

@@ -19,8 +19,7 @@ class FCCClusterPoints
 {
 public:
   FCCClusterPoints(const ImageRegion<3> & region, const FCCFrame & frame, double minimumFraction)
-    : m_Extent(region)
-    , m_Frame(frame)
+    : m_Frame(frame)
     , m_MinimumFraction(minimumFraction)
     , m_EdgePoints(region, frame, true, minimumFraction, 1)
   {}
@@ -44,9 +43,6 @@ private:
   static constexpr float FarthestOfWhole = 0.5f;
   static constexpr float FarthestOfPart = 0.25f; ///< of a split site: so that its parts stay apart
 
-  SiteType
-  SiteOf(SizeValueType i, SizeValueType j, SizeValueType k) const;
-
   /** The field around the sites of one row in the image. */
   class Row;
 
@@ -66,7 +62,6 @@ private:
   void
   PlaceOnBorder(const SiteType & site, unsigned int crossings, Output & output) const;
 
-  FCCExtent m_Extent;
   FCCFrame m_Frame;
   double m_MinimumFraction;
   FCCEdgePoints m_EdgePoints;

@@ -108,7 +108,7 @@ FCCLeanExtractor::Count(SizeValueType begin, SizeValueType end)
     planes.Find(k + 1);
     const bool isLast = k + 1 == m_Signs.GetDepth();
     const SizeValueType triangles =
-      isLast ? 0 : CountTriangleUse(m_Signs, k, planes.Get(k), planes.Get(k + 1), useOf(k), useOf(k + 1));
+      isLast ? 0 : CountTriangleUse({ m_Signs, k, planes.Get(k), planes.Get(k + 1) }, useOf(k), useOf(k + 1));
     if (k >= begin)
     {
       m_FirstTriangle[k] = triangles;
@@ -247,7 +247,7 @@ FCCLeanExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface &
                         m_Field.closed ? nullptr : m_AreOutside.data() + m_FirstPoint[k]);
     if (k + 1 < m_Signs.GetDepth())
     {
-      filled += FillLeanTriangles(m_Signs, k, planes.Get(k), planes.Get(k + 1), reversed, triangles + filled);
+      filled += FillLeanTriangles({ m_Signs, k, planes.Get(k), planes.Get(k + 1) }, reversed, triangles + filled);
     }
   }
   m_Filled[begin] = filled;

@@ -35,18 +35,14 @@ struct LeanColumn
   Row rows[4];
   SizeValueType stride; ///< from a type to the next
 
-  LeanColumn(const FCCSigns & signs,
-             SizeValueType j,
-             SizeValueType k,
-             const FCCClusterPlane & lower,
-             const FCCClusterPlane & upper)
-    : stride(lower.GetNearerEnds().GetStride())
+  LeanColumn(const FCCLeanLayer & layer, SizeValueType j)
+    : stride(layer.lower.GetNearerEnds().GetStride())
   {
     for (SizeValueType row = 0; row < 4; ++row)
     {
-      const FCCClusterPlane & plane = (row & 2) != 0 ? upper : lower;
+      const FCCClusterPlane & plane = (row & 2) != 0 ? layer.upper : layer.lower;
       const SizeValueType y = j + (row & 1);
-      rows[row] = { signs.GetRow(y, k + (row >> 1)),
+      rows[row] = { layer.signs.GetRow(y, layer.k + (row >> 1)),
                     plane.GetNearerEnds().GetStarts(y, 0),
                     plane.GetNearerEnds().GetEnds(y, 0),
                     plane.GetSplitCrossings(y, 0),
@@ -286,12 +282,13 @@ private:
 
 /** Whether the rows of a column have any site inside. */
 bool
-HasInside(const FCCSigns & signs, SizeValueType j, SizeValueType k)
+HasInside(const FCCLeanLayer & layer, SizeValueType j)
 {
+  const FCCSigns & signs = layer.signs;
   WordType any = 0;
   for (SizeValueType row = 0; row < 4; ++row)
   {
-    const WordType * const words = signs.GetRow(j + (row & 1), k + (row >> 1));
+    const WordType * const words = signs.GetRow(j + (row & 1), layer.k + (row >> 1));
     for (SizeValueType word = 0; word < signs.GetNumberOfWords(); ++word)
     {
       any |= words[word];
@@ -300,23 +297,19 @@ HasInside(const FCCSigns & signs, SizeValueType j, SizeValueType k)
   return any != 0;
 }
 
-/** Calls work(row, column, LeanSteps) for all steps between two planes. */
+/** Calls work(row, column, LeanSteps) for all steps of a layer. */
 template <typename TWork>
 HWY_INLINE void
-ForEachColumn(const FCCSigns & signs,
-              SizeValueType k,
-              const FCCClusterPlane & lower,
-              const FCCClusterPlane & upper,
-              const TWork & work)
+ForEachColumn(const FCCLeanLayer & layer, const TWork & work)
 {
-  for (SizeValueType j = 0; j + 1 < signs.GetHeight(); ++j)
+  for (SizeValueType j = 0; j + 1 < layer.signs.GetHeight(); ++j)
   {
-    if (!HasInside(signs, j, k))
+    if (!HasInside(layer, j))
     {
       continue;
     }
-    const LeanColumn column(signs, j, k, lower, upper);
-    if (signs.GetParity(j, k) == 0)
+    const LeanColumn column(layer, j);
+    if (layer.signs.GetParity(j, layer.k) == 0)
     {
       work(j, column, LeanSteps<0, 0>{});
       work(j, column, LeanSteps<1, 1>{});
@@ -357,19 +350,14 @@ CountColumnUse(const LeanColumn & column, SizeValueType words, FCCTriangleUse::C
 }
 
 SizeValueType
-CountTriangleUse(const FCCSigns & signs,
-                 SizeValueType k,
-                 const FCCClusterPlane & lower,
-                 const FCCClusterPlane & upper,
-                 FCCTriangleUse & lowerUse,
-                 FCCTriangleUse & upperUse)
+CountTriangleUse(const FCCLeanLayer & layer, FCCTriangleUse & lowerUse, FCCTriangleUse & upperUse)
 {
   SizeValueType count = 0;
-  ForEachColumn(signs, k, lower, upper, [&](SizeValueType j, const LeanColumn & column, auto steps) HWY_ATTR {
+  ForEachColumn(layer, [&](SizeValueType j, const LeanColumn & column, auto steps) HWY_ATTR {
     FCCTriangleUse::CountsType * const uses[4] = {
       lowerUse.GetRow(j), lowerUse.GetRow(j + 1), upperUse.GetRow(j), upperUse.GetRow(j + 1)
     };
-    count += CountColumnUse<decltype(steps)>(column, signs.GetNumberOfWords(), uses);
+    count += CountColumnUse<decltype(steps)>(column, layer.signs.GetNumberOfWords(), uses);
   });
   return count;
 }
@@ -381,8 +369,7 @@ FillMixedTetrahedron(const LeanColumn & column,
                      unsigned int tetrahedron,
                      SizeValueType i,
                      SizeValueType j,
-                     const FCCClusterPlane & lower,
-                     const FCCClusterPlane & upper,
+                     const FCCLeanLayer & layer,
                      bool reversed,
                      TriangleSurface::TriangleType * triangles)
 {
@@ -405,7 +392,8 @@ FillMixedTetrahedron(const LeanColumn & column,
       const unsigned int row = TSteps::RowOf(site);
       const Cases::StoredEdge stored = TSteps::StoredEdgeOf(edge);
       const unsigned int direction = stored.start == end ? stored.type : FCCSiteStar::OppositeOf(stored.type);
-      vertices[n] = ((row & 2) != 0 ? upper : lower).GetVertex(j + (row & 1), TSteps::IndexOf(site, i), direction);
+      vertices[n] =
+        ((row & 2) != 0 ? layer.upper : layer.lower).GetVertex(j + (row & 1), TSteps::IndexOf(site, i), direction);
     }
     else
     {
@@ -432,19 +420,14 @@ FillMixedTetrahedron(const LeanColumn & column,
 }
 
 SizeValueType
-FillLeanTriangles(const FCCSigns & signs,
-                  SizeValueType k,
-                  const FCCClusterPlane & lower,
-                  const FCCClusterPlane & upper,
-                  bool reversed,
-                  TriangleSurface::TriangleType * triangles)
+FillLeanTriangles(const FCCLeanLayer & layer, bool reversed, TriangleSurface::TriangleType * triangles)
 {
   TriangleSurface::TriangleType * next = triangles;
-  ForEachColumn(signs, k, lower, upper, [&](SizeValueType j, const LeanColumn & column, auto steps) HWY_ATTR {
+  ForEachColumn(layer, [&](SizeValueType j, const LeanColumn & column, auto steps) HWY_ATTR {
     using Steps = decltype(steps);
     Steps::template ForEachTriangle<true>(
       column,
-      signs.GetNumberOfWords(),
+      layer.signs.GetNumberOfWords(),
       [&](unsigned int tetrahedron, unsigned int leftOut, SizeValueType word, WordType bits) HWY_ATTR
       __attribute__((always_inline)) {
         const auto & sites = Cases::TetrahedronSites[tetrahedron];
@@ -463,7 +446,7 @@ FillLeanTriangles(const FCCSigns & signs,
         for (; bits != 0; bits &= bits - 1)
         {
           const SizeValueType i = word * FCCSigns::WordBits + static_cast<SizeValueType>(__builtin_ctzll(bits));
-          next += FillMixedTetrahedron<Steps>(column, tetrahedron, i, j, lower, upper, reversed, next);
+          next += FillMixedTetrahedron<Steps>(column, tetrahedron, i, j, layer, reversed, next);
         }
       });
   });
@@ -485,25 +468,15 @@ HWY_EXPORT(FillLeanTriangles);
 } // namespace
 
 SizeValueType
-CountTriangleUse(const FCCSigns & signs,
-                 SizeValueType k,
-                 const FCCClusterPlane & lower,
-                 const FCCClusterPlane & upper,
-                 FCCTriangleUse & lowerUse,
-                 FCCTriangleUse & upperUse)
+CountTriangleUse(const FCCLeanLayer & layer, FCCTriangleUse & lowerUse, FCCTriangleUse & upperUse)
 {
-  return HWY_DYNAMIC_DISPATCH(CountTriangleUse)(signs, k, lower, upper, lowerUse, upperUse);
+  return HWY_DYNAMIC_DISPATCH(CountTriangleUse)(layer, lowerUse, upperUse);
 }
 
 SizeValueType
-FillLeanTriangles(const FCCSigns & signs,
-                  SizeValueType k,
-                  const FCCClusterPlane & lower,
-                  const FCCClusterPlane & upper,
-                  bool reversed,
-                  TriangleSurface::TriangleType * triangles)
+FillLeanTriangles(const FCCLeanLayer & layer, bool reversed, TriangleSurface::TriangleType * triangles)
 {
-  return HWY_DYNAMIC_DISPATCH(FillLeanTriangles)(signs, k, lower, upper, reversed, triangles);
+  return HWY_DYNAMIC_DISPATCH(FillLeanTriangles)(layer, reversed, triangles);
 }
 
 } // namespace itk

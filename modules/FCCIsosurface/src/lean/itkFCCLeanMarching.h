@@ -15,25 +15,23 @@ namespace itk
  * each has one crossing of a quadrilateral, which FCCTetrahedronPolygon::FindFirstCorner() cuts from a site inside to a
  * site inside. For whole sites that is logic on bits: 64 steps of a column in one word. */
 
-/** Adds the triangles between the planes \a k and \a k + 1, as they would be if no site were split, to the counts of
- * both planes. Returns how many they are. */
-SizeValueType
-CountTriangleUse(const FCCSigns & signs,
-                 SizeValueType k,
-                 const FCCClusterPlane & lower,
-                 const FCCClusterPlane & upper,
-                 FCCTriangleUse & lowerUse,
-                 FCCTriangleUse & upperUse);
+/** What lies between two planes: the vertices of plane \a k and of plane \a k + 1. */
+struct FCCLeanLayer
+{
+  const FCCSigns & signs;
+  SizeValueType k;
+  const FCCClusterPlane & lower;
+  const FCCClusterPlane & upper;
+};
 
-/** The triangles between the planes \a k and \a k + 1, with numbered vertices. Returns how many they are.
- * \a reversed turns them all over. */
+/** Adds the triangles of a layer, as they would be if no site were split, to the counts of both planes. Returns how
+ * many they are. */
 SizeValueType
-FillLeanTriangles(const FCCSigns & signs,
-                  SizeValueType k,
-                  const FCCClusterPlane & lower,
-                  const FCCClusterPlane & upper,
-                  bool reversed,
-                  TriangleSurface::TriangleType * triangles);
+CountTriangleUse(const FCCLeanLayer & layer, FCCTriangleUse & lowerUse, FCCTriangleUse & upperUse);
+
+/** The triangles of a layer, with numbered vertices. Returns how many they are. \a reversed turns them all over. */
+SizeValueType
+FillLeanTriangles(const FCCLeanLayer & layer, bool reversed, TriangleSurface::TriangleType * triangles);
 
 } // namespace itk
 
