@@ -199,7 +199,7 @@ FCCCellExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface &
 {
   using Group = FCCStoredEdges::Group;
   const bool reversed = m_Field.frame.IsLeftHanded();
-  // Those of the planes before, at and after a layer; no edges are cut before the first plane.
+  // Cut edges of the planes before, at and after a layer; before the first plane there are none.
   FCCCutEdges inPlane[3] = { this->MakeCutEdges(Group::InPlane),
                              this->MakeCutEdges(Group::InPlane),
                              this->MakeCutEdges(Group::InPlane) };

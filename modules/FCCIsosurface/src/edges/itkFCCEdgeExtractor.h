@@ -64,7 +64,7 @@ protected:
     inPlane.Find(k, static_cast<std::uint32_t>(m_InPlane[k]));
   }
 
-  /** The same for those between plane \a k and the next. */
+  /** Finds the cut edges between plane \a k and the next. */
   void
   FindBetween(SizeValueType k, FCCCutEdges & between) const
   {

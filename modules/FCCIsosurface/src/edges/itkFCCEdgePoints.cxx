@@ -10,7 +10,7 @@ namespace
 {
 
 /** The rows of values and gradients along the line of one type of edge, shifted so that element i belongs to the edge
- * that site i owns. */
+ * that site i stores. */
 struct EdgeRows
 {
   const float * values[4] = {};        ///< at the places -1, 0, 1, 2 along the line; the outer ones for cubics only

@@ -118,8 +118,8 @@ class FCCEdgePointFiller
 public:
   FCCEdgePointFiller(const FCCSigns & signs, const FCCScalarField & field, const FCCEdgePoints & edgePoints);
 
-  /** The points on some edges stored by plane \a k of the signs. The surface must have its size; normals are left out
-   * where it has none. */
+  /** Fills the points on some edges stored by plane \a k of the signs. The surface must have its size; normals are left
+   * out where it has none. */
   void
   Fill(SizeValueType k, const FCCCutEdges & inPlane, const FCCCutEdges & between, TriangleSurface & surface);
 

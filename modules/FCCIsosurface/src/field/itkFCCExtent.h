@@ -11,8 +11,6 @@ namespace itk
 
 /** \class FCCExtent
  * \brief The faces on which a closed surface ends at the border of an image: half a lattice unit beyond its samples.
- *
- * Thread safety: immutable.
  */
 class FCCExtent
 {
@@ -29,7 +27,7 @@ public:
     return m_Region;
   }
 
-  /** How far along a step that leads from a sample out of the image its extent ends, as a fraction of the step. */
+  /** The fraction of a step from a sample out of the image at which the step crosses the extent. */
   double
   FractionToBorder(const SiteType & site, const SiteType & step) const
   {
@@ -48,7 +46,8 @@ public:
     return nearest;
   }
 
-  /** Across the faces beyond which a site outside the image lies, in lattice coordinates: -1, 0 or 1 for each axis. */
+  /** The outward direction of the faces beyond which a site outside the image lies, in lattice coordinates: -1, 0 or 1
+   * along each axis. */
   std::array<double, 3>
   DirectionTo(const SiteType & outside) const
   {

@@ -11,7 +11,7 @@ namespace itk
 {
 
 /** \class FCCFieldPlanes
- * \brief What extraction needs to know of the field near one plane of an FCC image: values, coefficients, gradients.
+ * \brief Values, coefficients and gradients of the field in a few planes of an FCC image.
  *
  * Sites are counted from a layer of one site around the image, so real ones begin at 1 along each axis. Values are
  * relative to the isovalue. Those of the layer around the image are extrapolated linearly from within, axis by axis.
@@ -59,23 +59,24 @@ public:
     return m_Stride / FCCFieldKernels::Block - 2;
   }
 
-  /** Makes the values of a plane available; the last six planes are. */
+  /** Makes the values of a plane available, and keeps those of the five planes that were loaded before. */
   void
   LoadValues(SizeValueType k);
 
-  /** The same for planes \a k - 1 to \a k + 1, as far as there are any. */
+  /** Makes the values of planes \a k - 1 to \a k + 1 available, of those that exist. */
   void
   LoadValuesAround(SizeValueType k);
 
-  /** Whether the gradients of a plane have been loaded, and no later one's in their place. */
+  /** Whether the gradients of a plane are available: they have been loaded, and no later ones since in the same place.
+   */
   bool
   HasGradients(SizeValueType k) const
   {
     return m_Gradients[k % m_Gradients.size()].number == k;
   }
 
-  /** Makes the gradients of a plane available where blocks of FCCFieldKernels::Block sites are wanted; the last few
-   * planes are. \param wanted not zero for those, rows of GetNumberOfBlocks() */
+  /** Makes the gradients of a plane available in some blocks of FCCFieldKernels::Block sites, and keeps those of a few
+   * planes that were loaded before. \param wanted for each block, row by row: not zero if it is wanted */
   void
   LoadGradients(SizeValueType k, const std::vector<std::uint8_t> & wanted);
 
@@ -83,8 +84,8 @@ public:
   void
   LoadCoefficientsAround(SizeValueType k);
 
-  /** The gradients of one block of sites, at their places in a row of \a gradients: GradientStride floats a site. The
-   * coefficients around the plane must have been loaded, and the row be one of the image. */
+  /** The gradients of one block of sites, at their places in a row of \a gradients: GradientStride floats for each
+   * site. The coefficients around the plane must have been loaded, and the row be one of the image. */
   void
   ComputeGradients(SizeValueType j, SizeValueType k, SizeValueType block, float * gradients) const;
 
@@ -101,7 +102,7 @@ public:
     return m_Values[k % m_Values.size()].GetRow(j, m_Stride);
   }
 
-  /** FCCFieldKernels::GradientStride floats a site. */
+  /** A row of gradients, FCCFieldKernels::GradientStride floats for each site. */
   const float *
   GetGradients(SizeValueType j, SizeValueType k) const
   {

@@ -20,7 +20,7 @@ using Star = FCCSiteStar;
 
 constexpr std::size_t Capacity = FCCClusterBatch::Capacity;
 
-/** What the vertices of a batch gather, one lane each. */
+/** The crossings that the vertices of a batch gather, one lane for each vertex. */
 struct ClusterCrossings
 {
   alignas(64) float mean[3][Capacity];     ///< of the crossings, from the site

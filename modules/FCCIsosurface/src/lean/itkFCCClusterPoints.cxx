@@ -178,7 +178,7 @@ public:
     }
   }
 
-  /** Where a vertex belongs. */
+  /** The places in the surface that a vertex is written to. */
   struct Vertex
   {
     TriangleSurface::PointType * point;
@@ -207,7 +207,7 @@ public:
     }
   }
 
-  /** Adds a vertex on the border, which has its place. */
+  /** Adds a vertex on the border that has been placed. */
   void
   AddOutside(const TriangleSurface::PointType & point, const TriangleSurface::NormalType & normal)
   {
@@ -216,7 +216,7 @@ public:
     vertex.Set(point, normal);
   }
 
-  /** Places what has been added. */
+  /** Places the vertices that have been added. */
   void
   Flush()
   {

@@ -29,7 +29,7 @@ FCCLeanExtractor::MakePlanes() const
 namespace
 {
 
-/** The planes around the one that is worked at: each is found once, from the one below it. */
+/** Three consecutive planes. Each is found once, from the one below it. */
 class PlaneSequence
 {
 public:

@@ -81,11 +81,12 @@ private:
   const FCCSigns & m_Signs;
   FCCScalarField m_Field;
   FCCSplitSites m_Splits;
-  std::vector<RememberedPlane> m_Remembered;  ///< of each plane, if the image is not in memory
-  std::vector<SizeValueType> m_FirstPoint;    ///< of each plane; counts until Resolve()
-  std::vector<SizeValueType> m_FirstTriangle; ///< where there is room for those of a slab that begins at the plane
-  std::vector<SizeValueType> m_Filled;        ///< triangles of the slab that began at the plane
-  std::vector<std::uint8_t> m_AreOutside;     ///< of each point, unless closed: it belongs to a site outside the image
+  std::vector<RememberedPlane> m_Remembered; ///< of each plane, if the image is not in memory
+  std::vector<SizeValueType> m_FirstPoint;   ///< first point of each plane; counts until Resolve()
+  std::vector<SizeValueType>
+    m_FirstTriangle;                   ///< of each plane: where the triangles of a slab that begins there are written
+  std::vector<SizeValueType> m_Filled; ///< of each plane: the number of triangles of the slab that began there
+  std::vector<std::uint8_t> m_AreOutside; ///< of each point, unless closed: it belongs to a site outside the image
 };
 
 } // namespace itk

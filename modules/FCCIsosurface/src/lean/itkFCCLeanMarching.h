@@ -15,7 +15,7 @@ namespace itk
  * each has one crossing of a quadrilateral, which FCCTetrahedronPolygon::FindFirstCorner() cuts from a site inside to a
  * site inside. For whole sites that is logic on bits: 64 steps of a column in one word. */
 
-/** What lies between two planes: the vertices of plane \a k and of plane \a k + 1. */
+/** Two consecutive planes, \a k and \a k + 1, and their vertices. */
 struct FCCLeanLayer
 {
   const FCCSigns & signs;

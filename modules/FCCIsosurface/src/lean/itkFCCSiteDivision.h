@@ -35,8 +35,8 @@ struct FCCNeighborhood
   }
 };
 
-/** What the values around a site say of the edges there: bit n is set when the end inside is nearer to the crossing on
- * edge n of FCCSiteStar::GetEdges(). It is not looked at for edges that are not cut. */
+/** The nearer ends in the star of a site: bit n is set when the end inside is nearer to the crossing on edge n of
+ * FCCSiteStar::GetEdges(). Bits of edges that are not cut have no meaning. */
 using FCCNearerEndsOfStar = std::uint64_t;
 static_assert(FCCSiteStar::Edges <= 64, "all edges of a star fit into one word");
 

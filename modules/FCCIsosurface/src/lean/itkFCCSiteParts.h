@@ -22,11 +22,6 @@ public:
   FCCSiteParts(unsigned int crossings, unsigned int single);
 
   unsigned int
-  GetCrossings() const
-  {
-    return m_Crossings;
-  }
-  unsigned int
   GetSingle() const
   {
     return m_Single;

@@ -32,16 +32,17 @@ public:
   /** \param signs with a layer of sites around the image; must outlive this */
   explicit FCCSplitSites(const FCCSigns & signs);
 
-  /** Says that sites of a plane may break a condition; of the two ends of an edge that breaks 2, one will do. Sites are
-   * numbered along x, then y, in the plane. Different planes may have suspects added at once. */
+  /** Sets the sites of a plane that may break a condition; for an edge that breaks 2, one of its ends is enough. Sites
+   * are numbered along x, then y, in the plane. Different planes may be set at once. */
   void
   Suspect(SizeValueType k, std::vector<std::uint32_t> && sites)
   {
     m_Suspects[k] = std::move(sites);
   }
 
-  /** Divides what has to be. The numbers of points of each plane and of triangles above it are those of whole sites
-   * before; afterwards, points are right, and triangles at least as many as there will be. */
+  /** Divides sites until no vertex breaks a condition. Before, \a points and \a triangles are the numbers of points of
+   * each plane and of triangles between it and the next when all sites are whole. Afterwards, \a points is right, and
+   * \a triangles is at least right. */
   void
   Resolve(const NearerEndsReader & readNearerEnds,
           const FCCSurfaceExtractor::Crew & crew,

@@ -83,7 +83,7 @@ struct FCCBits
     return word == 0 ? 0 : static_cast<SizeValueType>(__builtin_popcountll(word));
   }
 
-  /** How many bits of a word come before that of site \a i. */
+  /** The number of set bits of a word before the bit of site \a i. */
   [[gnu::always_inline]] static inline SizeValueType
   CountBefore(WordType word, SizeValueType i)
   {
