@@ -6,11 +6,9 @@
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
 #include "itkSeparableTaps.h"
-#include "itkThreadFailure.h"
 #include "itkWorkProgress.h"
 #include "rhombicPixelTypes.h"
 
-#include <optional>
 #include <vector>
 
 namespace itk
@@ -67,7 +65,7 @@ namespace itk
  *
  * Overridden pipeline methods: VerifyPreconditions() (parameters in range), GenerateOutputInformation() (places
  * the lattice; refuses slice origins that are not in order), GenerateInputRequestedRegion() (the kernel's reach),
- * BeforeThreadedGenerateData() (large memory pages for the output).
+ * GenerateData() (large memory pages for the output; failures of all threads).
  *
  * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
  *
@@ -127,7 +125,7 @@ public:
   itkGetConstMacro(OutsideValue, OutputPixelType);
 
 protected:
-  CartesianToFCCImageFilter();
+  CartesianToFCCImageFilter() = default;
   ~CartesianToFCCImageFilter() override = default;
 
   void
@@ -143,13 +141,7 @@ protected:
   GenerateInputRequestedRegion() override;
 
   void
-  BeforeThreadedGenerateData() override;
-
-  void
-  DynamicThreadedGenerateData(const OutputImageRegionType & region) override;
-
-  void
-  AfterThreadedGenerateData() override;
+  GenerateData() override;
 
 private:
   /** Whether the samples are those of a SliceStack rather than of perpendicular axes. */
@@ -157,7 +149,7 @@ private:
   IsSlanted() const;
 
   void
-  Resample(const OutputImageRegionType & region);
+  Resample(const OutputImageRegionType & region, WorkProgress::Share & progress);
 
   /** Taps for the sites of the region along one axis; along x, for the rows of one parity. */
   SeparableTaps
@@ -172,8 +164,6 @@ private:
   SliceOriginsType m_SliceOrigins;
   OutputPixelType m_OutsideValue{};
   SeparableKernel m_Kernel{ SeparableKernel::CubicBSpline };
-  ThreadFailure m_ThreadFailure;
-  std::optional<WorkProgress> m_WorkProgress;
 };
 
 } // namespace itk

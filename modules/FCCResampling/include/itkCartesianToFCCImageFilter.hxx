@@ -1,11 +1,10 @@
 #ifndef itkCartesianToFCCImageFilter_hxx
 #define itkCartesianToFCCImageFilter_hxx
 
-#include "detail/itkHugePages.h"
+#include "detail/itkProduceOutput.h"
 #include "detail/itkRowArithmetic.h"
 #include "detail/itkRowPasses.h"
 #include "itkFCCResamplingChecks.h"
-#include "itkInputSamples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +12,6 @@
 
 namespace itk
 {
-
-template <typename TInputImage, typename TOutputImage>
-CartesianToFCCImageFilter<TInputImage, TOutputImage>::CartesianToFCCImageFilter()
-{
-  this->DynamicMultiThreadingOn();
-  this->ThreaderUpdateProgressOff();
-}
 
 template <typename TInputImage, typename TOutputImage>
 void
@@ -223,39 +215,23 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateInputRequestedRegi
 
 template <typename TInputImage, typename TOutputImage>
 void
-CartesianToFCCImageFilter<TInputImage, TOutputImage>::BeforeThreadedGenerateData()
+CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateData()
 {
-  VerifyInputSamples(*this, *this->GetInput());
-  TOutputImage * const output = this->GetOutput();
-  AdviseHugePages(output->GetBufferPointer(),
-                  output->GetBufferedRegion().GetNumberOfPixels() * sizeof(OutputPixelType));
-  m_WorkProgress.emplace(*this, output->GetRequestedRegion().GetNumberOfPixels());
+  this->AllocateOutputs();
+  ProduceOutput(*this, AllDivided, [this](const OutputImageRegionType & region, WorkProgress::Share & progress) {
+    this->Resample(region, progress);
+  });
 }
 
 template <typename TInputImage, typename TOutputImage>
 void
-CartesianToFCCImageFilter<TInputImage, TOutputImage>::DynamicThreadedGenerateData(const OutputImageRegionType & region)
-{
-  m_ThreadFailure.Capture([&] { this->Resample(region); });
-}
-
-template <typename TInputImage, typename TOutputImage>
-void
-CartesianToFCCImageFilter<TInputImage, TOutputImage>::AfterThreadedGenerateData()
-{
-  m_ThreadFailure.Rethrow();
-  m_WorkProgress->Finish();
-}
-
-template <typename TInputImage, typename TOutputImage>
-void
-CartesianToFCCImageFilter<TInputImage, TOutputImage>::Resample(const OutputImageRegionType & region)
+CartesianToFCCImageFilter<TInputImage, TOutputImage>::Resample(const OutputImageRegionType & region,
+                                                               WorkProgress::Share & progress)
 {
   const TInputImage * const input = this->GetInput();
   TOutputImage * const output = this->GetOutput();
   const auto inputOffset =
     input->GetLargestPossibleRegion().GetIndex() - typename TInputImage::IndexType{ { 0, 0, 0 } };
-  WorkProgress::Share progress(*m_WorkProgress);
   const auto load = [&](const Index<3> & start, SizeValueType length, float * row) {
     const auto * const samples = input->GetBufferPointer() + input->ComputeOffset(start + inputOffset);
     RowArithmetic::ConvertFrom(samples, length, row);

@@ -4,11 +4,8 @@
 #include "itkFCCImage.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
-#include "itkThreadFailure.h"
 #include "itkWorkProgress.h"
 #include "rhombicPixelTypes.h"
-
-#include <optional>
 
 namespace itk
 {
@@ -38,7 +35,7 @@ namespace itk
  * perpendicular.
  *
  * Overridden pipeline methods: GenerateOutputInformation() (places the lattice), GenerateInputRequestedRegion() (the
- * half-band filter's reach), BeforeThreadedGenerateData() (large memory pages for the output).
+ * half-band filter's reach), GenerateData() (large memory pages for the output; failures of all threads).
  *
  * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
  *
@@ -72,7 +69,7 @@ public:
   itkBooleanMacro(Antialiasing);
 
 protected:
-  CartesianToNestedFCCImageFilter();
+  CartesianToNestedFCCImageFilter() = default;
   ~CartesianToNestedFCCImageFilter() override = default;
 
   void
@@ -85,13 +82,7 @@ protected:
   GenerateInputRequestedRegion() override;
 
   void
-  BeforeThreadedGenerateData() override;
-
-  void
-  DynamicThreadedGenerateData(const OutputImageRegionType & region) override;
-
-  void
-  AfterThreadedGenerateData() override;
+  GenerateData() override;
 
 private:
   /** Start of the input's row (y, z), counted from its first sample. */
@@ -99,14 +90,12 @@ private:
   GetInputRow(IndexValueType y, IndexValueType z) const;
 
   void
-  CopySites(const OutputImageRegionType & region);
+  CopySites(const OutputImageRegionType & region, WorkProgress::Share & progress);
 
   void
-  FilterSites(const OutputImageRegionType & region);
+  FilterSites(const OutputImageRegionType & region, WorkProgress::Share & progress);
 
   bool m_Antialiasing{ true };
-  ThreadFailure m_ThreadFailure;
-  std::optional<WorkProgress> m_WorkProgress;
 };
 
 } // namespace itk

@@ -2,23 +2,15 @@
 #define itkCartesianToNestedFCCImageFilter_hxx
 
 #include "detail/itkFCCMirror.h"
-#include "detail/itkHugePages.h"
+#include "detail/itkProduceOutput.h"
 #include "detail/itkRowArithmetic.h"
 #include "detail/itkRowPasses.h"
 #include "itkFCCResamplingChecks.h"
-#include "itkInputSamples.h"
 
 #include <algorithm>
 
 namespace itk
 {
-
-template <typename TInputImage, typename TOutputImage>
-CartesianToNestedFCCImageFilter<TInputImage, TOutputImage>::CartesianToNestedFCCImageFilter()
-{
-  this->DynamicMultiThreadingOn();
-  this->ThreaderUpdateProgressOff();
-}
 
 template <typename TInputImage, typename TOutputImage>
 void
@@ -89,28 +81,12 @@ CartesianToNestedFCCImageFilter<TInputImage, TOutputImage>::GenerateInputRequest
 
 template <typename TInputImage, typename TOutputImage>
 void
-CartesianToNestedFCCImageFilter<TInputImage, TOutputImage>::BeforeThreadedGenerateData()
+CartesianToNestedFCCImageFilter<TInputImage, TOutputImage>::GenerateData()
 {
-  VerifyInputSamples(*this, *this->GetInput());
-  TOutputImage * const output = this->GetOutput();
-  AdviseHugePages(output->GetBufferPointer(), output->GetBufferedRegion().GetNumberOfPixels() * sizeof(PixelType));
-  m_WorkProgress.emplace(*this, output->GetRequestedRegion().GetNumberOfPixels());
-}
-
-template <typename TInputImage, typename TOutputImage>
-void
-CartesianToNestedFCCImageFilter<TInputImage, TOutputImage>::DynamicThreadedGenerateData(
-  const OutputImageRegionType & region)
-{
-  m_ThreadFailure.Capture([&] { m_Antialiasing ? this->FilterSites(region) : this->CopySites(region); });
-}
-
-template <typename TInputImage, typename TOutputImage>
-void
-CartesianToNestedFCCImageFilter<TInputImage, TOutputImage>::AfterThreadedGenerateData()
-{
-  m_ThreadFailure.Rethrow();
-  m_WorkProgress->Finish();
+  this->AllocateOutputs();
+  ProduceOutput(*this, AllDivided, [this](const OutputImageRegionType & region, WorkProgress::Share & progress) {
+    m_Antialiasing ? this->FilterSites(region, progress) : this->CopySites(region, progress);
+  });
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -127,10 +103,10 @@ CartesianToNestedFCCImageFilter<TInputImage, TOutputImage>::GetInputRow(IndexVal
 
 template <typename TInputImage, typename TOutputImage>
 void
-CartesianToNestedFCCImageFilter<TInputImage, TOutputImage>::CopySites(const OutputImageRegionType & region)
+CartesianToNestedFCCImageFilter<TInputImage, TOutputImage>::CopySites(const OutputImageRegionType & region,
+                                                                      WorkProgress::Share & progress)
 {
   TOutputImage * const output = this->GetOutput();
-  WorkProgress::Share progress(*m_WorkProgress);
   const auto length = static_cast<IndexValueType>(this->GetInput()->GetLargestPossibleRegion().GetSize(0));
 
   auto index = region.GetIndex();
@@ -155,10 +131,10 @@ CartesianToNestedFCCImageFilter<TInputImage, TOutputImage>::CopySites(const Outp
 
 template <typename TInputImage, typename TOutputImage>
 void
-CartesianToNestedFCCImageFilter<TInputImage, TOutputImage>::FilterSites(const OutputImageRegionType & region)
+CartesianToNestedFCCImageFilter<TInputImage, TOutputImage>::FilterSites(const OutputImageRegionType & region,
+                                                                        WorkProgress::Share & progress)
 {
   TOutputImage * const output = this->GetOutput();
-  WorkProgress::Share progress(*m_WorkProgress);
   FilterHalfBandRows(
     this->GetInput()->GetLargestPossibleRegion().GetSize(),
     region,

@@ -4,7 +4,6 @@
 #include "detail/itkFCCGaussianTaps.h"
 #include "itkFCCImage.h"
 #include "itkImageToImageFilter.h"
-#include "itkThreadFailure.h"
 #include "itkWorkProgress.h"
 #include "rhombicPixelTypes.h"
 
@@ -110,10 +109,10 @@ private:
   }
 
   void
-  Copy(const RegionType & region, WorkProgress & whole);
+  Copy(const RegionType & region, WorkProgress::Share & progress);
 
   void
-  Smooth(const RegionType & region, const FCCGaussianTaps & taps, WorkProgress & whole);
+  Smooth(const RegionType & region, const FCCGaussianTaps & taps, WorkProgress::Share & progress);
 
   /** Divides smoothed samples by the sum of the weights of the finite samples they were made of. Samples that are not
    * finite themselves get their old values. */

@@ -1,12 +1,10 @@
 #ifndef itkFCCGaussianImageFilter_hxx
 #define itkFCCGaussianImageFilter_hxx
 
-#include "detail/itkHugePages.h"
+#include "detail/itkProduceOutput.h"
 #include "detail/itkRowArithmetic.h"
 #include "detail/itkRowPasses.h"
 #include "itkFCCResamplingChecks.h"
-#include "itkInputSamples.h"
-#include "itkMultiThreaderBase.h"
 
 #include <algorithm>
 #include <cmath>
@@ -89,35 +87,19 @@ template <typename TInputImage, typename TOutputImage>
 void
 FCCGaussianImageFilter<TInputImage, TOutputImage>::GenerateData()
 {
-  VerifyInputSamples(*this, *this->GetInput());
   this->AllocateOutputs();
-  TOutputImage * const output = this->GetOutput();
-  AdviseHugePages(output->GetBufferPointer(),
-                  output->GetBufferedRegion().GetNumberOfPixels() * sizeof(OutputPixelType));
-
-  WorkProgress progress(*this, output->GetRequestedRegion().GetNumberOfPixels());
   const FCCGaussianTaps taps(this->GetVariances());
-  constexpr unsigned int undivided = 2;
-  ThreadFailure failure;
-  MultiThreaderBase * const threader = this->GetMultiThreader();
-  threader->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
-  threader->template ParallelizeImageRegionRestrictDirection<3>(
-    undivided,
-    output->GetRequestedRegion(),
-    [&](const RegionType & region) {
-      failure.Capture([&] { m_Sigma > 0.0 ? this->Smooth(region, taps, progress) : this->Copy(region, progress); });
-    },
-    nullptr);
-  failure.Rethrow();
-  progress.Finish();
+  constexpr unsigned int undivided = 2; // blocks of rows share the planes within reach
+  ProduceOutput(*this, undivided, [&](const RegionType & region, WorkProgress::Share & progress) {
+    m_Sigma > 0.0 ? this->Smooth(region, taps, progress) : this->Copy(region, progress);
+  });
 }
 
 template <typename TInputImage, typename TOutputImage>
 void
-FCCGaussianImageFilter<TInputImage, TOutputImage>::Copy(const RegionType & region, WorkProgress & whole)
+FCCGaussianImageFilter<TInputImage, TOutputImage>::Copy(const RegionType & region, WorkProgress::Share & progress)
 {
   TOutputImage * const output = this->GetOutput();
-  WorkProgress::Share progress(whole);
   const auto end = region.GetIndex() + region.GetSize();
   auto index = region.GetIndex();
   for (; index[2] < end[2]; ++index[2])
@@ -138,10 +120,9 @@ template <typename TInputImage, typename TOutputImage>
 void
 FCCGaussianImageFilter<TInputImage, TOutputImage>::Smooth(const RegionType & region,
                                                           const FCCGaussianTaps & taps,
-                                                          WorkProgress & whole)
+                                                          WorkProgress::Share & progress)
 {
   TOutputImage * const output = this->GetOutput();
-  WorkProgress::Share progress(whole);
   bool isAllFinite = true;
   SmoothRows(
     taps,

@@ -4,11 +4,8 @@
 #include "itkFCCImage.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
-#include "itkThreadFailure.h"
 #include "itkWorkProgress.h"
 #include "rhombicPixelTypes.h"
-
-#include <optional>
 
 namespace itk
 {
@@ -31,7 +28,8 @@ namespace itk
  *
  * Overridden pipeline methods: VerifyPreconditions() (parameters in range), VerifyInputInformation() (the two inputs
  * need not share a grid), GenerateOutputInformation() (places the grid), GenerateInputRequestedRegion() (the sites
- * around the voxels; no pixels of the reference).
+ * around the voxels; no pixels of the reference), GenerateData() (large memory pages for the output; failures of all
+ * threads).
  *
  * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
  *
@@ -92,13 +90,7 @@ protected:
   GenerateInputRequestedRegion() override;
 
   void
-  BeforeThreadedGenerateData() override;
-
-  void
-  DynamicThreadedGenerateData(const OutputImageRegionType & region) override;
-
-  void
-  AfterThreadedGenerateData() override;
+  GenerateData() override;
 
 private:
   /** The lattice samples that voxels of a region may be made of; at least one. */
@@ -106,12 +98,10 @@ private:
   FindNeededSamples(const OutputImageRegionType & region) const;
 
   void
-  Resample(const OutputImageRegionType & region);
+  Resample(const OutputImageRegionType & region, WorkProgress::Share & progress);
 
   SpacingType m_OutputSpacing{ 0.0 };
   OutputPixelType m_DefaultPixelValue{};
-  ThreadFailure m_ThreadFailure;
-  std::optional<WorkProgress> m_WorkProgress;
 };
 
 } // namespace itk

@@ -1,10 +1,10 @@
 #ifndef itkFCCToCartesianImageFilter_hxx
 #define itkFCCToCartesianImageFilter_hxx
 
+#include "detail/itkProduceOutput.h"
 #include "itkFCCLinearInterpolateImageFunction.h"
 #include "itkFCCResamplingChecks.h"
 #include "itkImageScanlineIterator.h"
-#include "itkInputSamples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,6 @@ template <typename TInputImage, typename TOutputImage>
 FCCToCartesianImageFilter<TInputImage, TOutputImage>::FCCToCartesianImageFilter()
 {
   this->AddOptionalInputName("ReferenceImage", 1);
-  this->DynamicMultiThreadingOn();
-  this->ThreaderUpdateProgressOff();
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -146,34 +144,21 @@ FCCToCartesianImageFilter<TInputImage, TOutputImage>::FindNeededSamples(const Ou
 
 template <typename TInputImage, typename TOutputImage>
 void
-FCCToCartesianImageFilter<TInputImage, TOutputImage>::BeforeThreadedGenerateData()
+FCCToCartesianImageFilter<TInputImage, TOutputImage>::GenerateData()
 {
-  VerifyInputSamples(*this, *this->GetInput());
-  m_WorkProgress.emplace(*this, this->GetOutput()->GetRequestedRegion().GetNumberOfPixels());
+  this->AllocateOutputs();
+  ProduceOutput(*this, AllDivided, [this](const OutputImageRegionType & region, WorkProgress::Share & progress) {
+    this->Resample(region, progress);
+  });
 }
 
 template <typename TInputImage, typename TOutputImage>
 void
-FCCToCartesianImageFilter<TInputImage, TOutputImage>::DynamicThreadedGenerateData(const OutputImageRegionType & region)
-{
-  m_ThreadFailure.Capture([&] { this->Resample(region); });
-}
-
-template <typename TInputImage, typename TOutputImage>
-void
-FCCToCartesianImageFilter<TInputImage, TOutputImage>::AfterThreadedGenerateData()
-{
-  m_ThreadFailure.Rethrow();
-  m_WorkProgress->Finish();
-}
-
-template <typename TInputImage, typename TOutputImage>
-void
-FCCToCartesianImageFilter<TInputImage, TOutputImage>::Resample(const OutputImageRegionType & region)
+FCCToCartesianImageFilter<TInputImage, TOutputImage>::Resample(const OutputImageRegionType & region,
+                                                               WorkProgress::Share & progress)
 {
   const TInputImage * const input = this->GetInput();
   TOutputImage * const output = this->GetOutput();
-  WorkProgress::Share progress(*m_WorkProgress);
   const auto interpolator = FCCLinearInterpolateImageFunction<TInputImage>::New();
   interpolator->SetInputImage(input);
 
