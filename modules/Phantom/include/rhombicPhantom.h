@@ -12,66 +12,61 @@ namespace rhombic
 {
 
 /** \file
- * A made-up body, and its CT. Thread safety: the structs are values; the functions say their own. */
+ * A made-up body of known volumes, and its CT. All functions may be called by several threads at once. */
 
 /** A point in LPS millimetres: x towards the patient's left, y to the back, z to the head. */
 using PhantomPoint = std::array<double, 3>;
 
-/** What is known of one organ of the phantom. */
+/** One organ of the phantom. */
 struct PhantomOrgan
 {
-  std::string name;            ///< lower-case words
+  std::string name;            ///< in lower case
   int label;                   ///< its value in the label image, from 1
-  double hounsfield;           ///< of the whole organ
-  double volume;               ///< exact, in mm^3, without what lies inside it and is another organ
-  std::array<float, 3> colour; ///< red, green and blue of sRGB, 0..1
+  double hounsfield;           ///< the value of the whole organ, in Hounsfield units
+  double volume;               ///< exact, in mm^3, without other organs that lie inside
+  std::array<float, 3> colour; ///< red, green and blue of sRGB, 0 to 1
 };
 
-/** The organs by label, without the air around the body (label 0, -1000 HU). Thread safe. */
+/** The organs in the order of their labels. The air around the body, label 0 and -1000 HU, is not among them. */
 const std::vector<PhantomOrgan> &
 PhantomOrgans();
 
-/** How the phantom is sampled. */
-struct PhantomSettings
-{
-  double spacing = 2.0; ///< between samples along each axis, in mm, 0.5 to 10
-};
-
-using PhantomScan = itk::Image<std::int16_t, 3>;
-using PhantomLabels = itk::Image<std::uint8_t, 3>;
-
-/** The label of a point; points on a border belong to the inner organ. Thread safe. */
+/** The label at a point; points on a border belong to the inner organ. */
 int
 PhantomLabelAt(const PhantomPoint & point);
-
-/** The ideal, unsampled CT in Hounsfield units: -1000 in the air, otherwise that of the organ at the point.
- * Thread safe. */
-double
-PhantomHounsfieldAt(const PhantomPoint & point);
 
 /** What a surface at a threshold encloses. */
 struct PhantomEnclosure
 {
   std::vector<int> labels; ///< the organs inside, ascending
-  double volume;           ///< exact, in mm^3, of all points where the ideal CT is at least the threshold
+  double volume;           ///< exact, in mm^3
 };
 
-/** What the isosurface at \a threshold, in Hounsfield units, encloses: 250.5 the bones, the teeth and the marker;
- * -300.5 everything but the lungs and the airway. A sampled scan's surface lies at the ideal place where the threshold
- * is the mean of the two tissues; elsewhere it is off by a fraction of the spacing. Throws Failure(Usage) for
- * thresholds that the air around the body reaches (-1000 and less), or that are no numbers. Thread safe. */
+/** All organs whose value is at least \a threshold, in Hounsfield units: at 250.5 the bones, the teeth and the marker;
+ * at -300.5 everything but the lungs and the airway. The isosurface of a sampled scan lies on the organs' border where
+ * the threshold is the mean of the values on both sides; elsewhere it is off by a fraction of the spacing. Throws
+ * Failure(Usage) for thresholds that are not above -1000. */
 PhantomEnclosure
 PhantomEnclosedBy(double threshold);
 
-/** The CT in Hounsfield units; axes along LPS, air all around the body. Each voxel is the average of the ideal CT over
- * a cube about its centre, rounded. As in a scanner, cubes overlap: their side is twice the spacing, but at most 4 mm,
- * and at least the spacing. Between two tissues, the surface at the mean of both is then where it should be to a few
- * hundredths of the spacing. The same voxels for any number of threads. Throws Failure(Usage) for a spacing out of
- * range, Failure(Memory). Thread safe. */
+struct PhantomSettings
+{
+  double spacing = 2.0; ///< of the samples along each axis, in mm, 0.5 to 10
+};
+
+using PhantomScan = itk::Image<std::int16_t, 3>;
+using PhantomLabels = itk::Image<std::uint8_t, 3>;
+
+/** The CT in Hounsfield units, with axes along LPS and air all around the body.
+ *
+ * Each voxel is the rounded average over a cube about its centre. As in a scanner, cubes overlap: their side is twice
+ * the spacing, but at most 4 mm, and at least the spacing. So the surface at the mean of two tissues is in its place to
+ * a few hundredths of the spacing. The voxels do not depend on the number of threads. Throws Failure: Usage for a
+ * spacing out of range, Memory. */
 PhantomScan::Pointer
 MakePhantomScan(const PhantomSettings & settings = {});
 
-/** The label at each voxel's centre, on the grid of MakePhantomScan(). Throws as it does. Thread safe. */
+/** The label at each voxel's centre, on the grid of MakePhantomScan(), with its exceptions. */
 PhantomLabels::Pointer
 MakePhantomLabels(const PhantomSettings & settings = {});
 

@@ -13,14 +13,12 @@ namespace rhombic
  * - `dicom/`: a CT series, one file a slice, from the feet up; patient PHANTOM, fixed identifiers, no dates;
  * - `phantom.nii.gz`: the same scan, int16 in Hounsfield units;
  * - `phantom-labels.nii.gz`: its labels, uint8;
- * - `phantom-labels.tsv`: their names and colours;
+ * - `phantom-labels.tsv`: names and colours of the labels;
  * - `phantom-organs.csv`: name, label, Hounsfield units, exact volume in ml and colour of each organ.
  *
- * The folder is created, its parents aren't; nothing in it is overwritten. All the files appear together at the end:
- * a failure leaves the folder as it was. Thread safe for different folders.
- *
- * Throws Failure(Output) for a folder that holds anything, whose parent is missing, or that can't be written, and as
- * MakePhantomScan() does. */
+ * The folder is created, but not those above it. The files appear together at the end: a failure leaves the folder as
+ * it was. Throws Failure(Output) for a folder that is not empty, whose parent is missing, or that can't be written; and
+ * as MakePhantomScan() does. */
 void
 WritePhantom(const std::filesystem::path & folder, const PhantomSettings & settings = {});
 

@@ -3,13 +3,12 @@
 
 #include "rhombicPhantomSolids.h"
 
-#include <memory>
 #include <vector>
 
 namespace rhombic
 {
 
-/** What a point of the phantom belongs to; the values of its label image. */
+/** The values of the label image. */
 enum PhantomLabel : int
 {
   PhantomAir = 0,
@@ -38,20 +37,23 @@ enum PhantomLabel : int
   PhantomMarker
 };
 
-/** One solid of the phantom. Two parts either don't overlap, or one lies in the other and is among its descendants. */
+/** One solid of the body. Two parts are either apart, or one lies in the other and is among its descendants. */
 struct PhantomPart
 {
   static constexpr int None = -1;
 
-  std::shared_ptr<const PhantomSolid> solid;
+  PhantomSolid solid;
   PhantomLabel label;
-  int parent; ///< its place in PhantomParts(), before this part's; None in the air
+  int parent; ///< index of the part around this one, which is smaller than this one's; None in the air
 };
 
-/** The body's parts, each after the one that holds it. A point belongs to the last part that contains it. Thread-safe.
- */
+/** The solids of all organs. A point belongs to the last part that contains it. */
 const std::vector<PhantomPart> &
 PhantomParts();
+
+/** The value of an organ, or of the air, in Hounsfield units. */
+double
+HounsfieldOf(int label);
 
 } // namespace rhombic
 

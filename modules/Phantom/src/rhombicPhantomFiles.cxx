@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <initializer_list>
 #include <iomanip>
 #include <locale>
 #include <sstream>
@@ -31,112 +30,37 @@ Fail(const fs::path & path, const std::string & why)
   throw Failure(FailureKind::Output, "Cannot write the phantom to " + path.string() + ": " + why + ".");
 }
 
-/** A hidden folder inside the target: what was written there appears at Commit(), or is gone. */
-class StagingFolder
+/** Makes the folder unless it is there and empty. Returns whether it was made. */
+bool
+MakeFolder(const fs::path & folder)
 {
-public:
-  explicit StagingFolder(const fs::path & target)
-    : m_Target(target)
-    , m_Path(target / (".phantom-" + std::to_string(getpid())))
+  std::error_code error;
+  const bool isNew = fs::create_directory(folder, error);
+  if (error || !fs::is_directory(folder, error))
   {
-    std::error_code error;
-    m_MadeTarget = fs::create_directory(target, error);
-    if (error || !fs::is_directory(target, error))
-    {
-      Fail(target, "the folder can't be made; create the folder above it, or choose another one");
-    }
-    const bool empty = fs::is_empty(target, error);
-    if (error || !empty)
-    {
-      Fail(target, "the folder is not empty; give a new or an empty one");
-    }
-    if (!fs::create_directory(m_Path, error))
-    {
-      Fail(target, "no folder can be made in it; choose another one");
-    }
+    Fail(folder, "the folder can't be made; create the folder above it, or choose another one");
   }
-
-  ~StagingFolder()
+  const bool isEmpty = fs::is_empty(folder, error);
+  if (error || !isEmpty)
   {
-    std::error_code ignored; // nothing more can be done about files that won't go
-    fs::remove_all(m_Path, ignored);
-    if (m_MadeTarget && fs::is_empty(m_Target, ignored))
-    {
-      fs::remove(m_Target, ignored);
-    }
+    Fail(folder, "the folder is not empty; give a new or an empty one");
   }
-
-  StagingFolder(const StagingFolder &) = delete;
-  StagingFolder &
-  operator=(const StagingFolder &) = delete;
-
-  const fs::path &
-  GetPath() const
-  {
-    return m_Path;
-  }
-
-  void
-  Commit()
-  {
-    std::vector<fs::path> entries;
-    for (const auto & entry : fs::directory_iterator(m_Path))
-    {
-      entries.push_back(entry.path());
-    }
-    for (const auto & entry : entries)
-    {
-      fs::rename(entry, m_Target / entry.filename());
-    }
-  }
-
-private:
-  fs::path m_Target;
-  fs::path m_Path;
-  bool m_MadeTarget = false;
-};
-
-/** An element of text; several values are joined by backslashes. */
-struct TextElement
-{
-  gdcm::Tag tag;
-  gdcm::VR kind;
-  std::string value;
-};
-
-void
-Set(gdcm::DataSet & dataset, const std::vector<TextElement> & elements)
-{
-  for (const auto & [tag, kind, value] : elements)
-  {
-    std::string even = value;
-    if (even.size() % 2 != 0)
-    {
-      even += kind == gdcm::VR::UI ? '\0' : ' ';
-    }
-    gdcm::DataElement element(tag, 0, kind);
-    element.SetByteValue(even.data(), static_cast<std::uint32_t>(even.size()));
-    dataset.Replace(element);
-  }
+  return isNew;
 }
 
-/** Sets an element of 16-bit words. */
 void
-Set(gdcm::DataSet & dataset, const gdcm::Tag & tag, const gdcm::VR & kind, const std::vector<std::uint16_t> & words)
+WriteBytes(const fs::path & path, const std::string & bytes)
 {
-  std::string bytes;
-  bytes.reserve(2 * words.size());
-  for (const std::uint16_t word : words)
+  AtomicFile output(path);
+  std::ofstream stream(output.GetTemporaryPath(), std::ios::binary);
+  if (!stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush())
   {
-    bytes += static_cast<char>(word & 0xffu);
-    bytes += static_cast<char>(word >> 8u);
+    Fail(path, "not all bytes arrived; check the space on the disk");
   }
-  gdcm::DataElement element(tag, 0, kind);
-  element.SetByteValue(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  dataset.Replace(element);
+  output.Commit(bytes.size());
 }
 
-/** Decimal strings, at most the 16 characters that DICOM allows for each. */
+/** Numbers as DICOM writes several in one element, each with at most 16 characters. */
 std::string
 Decimals(std::initializer_list<double> values)
 {
@@ -152,102 +76,110 @@ Decimals(std::initializer_list<double> values)
   return text.str();
 }
 
-/** Identifiers of the phantom: under the arc of a UUID made for it once. */
+/** The little-endian bytes of words. */
+template <typename TIterator>
 std::string
-MakeIdentifier(const std::string & tail)
+Words(TIterator first, TIterator last)
 {
-  return "2.25.295168077178222349515311917512233955794." + tail;
+  std::string bytes;
+  for (; first != last; ++first)
+  {
+    bytes += static_cast<char>(*first & 0xff);
+    bytes += static_cast<char>(*first >> 8 & 0xff);
+  }
+  return bytes;
 }
 
-constexpr int RescaleIntercept = -1024; // as scanners store Hounsfield units
-
-void
-SetIdentity(gdcm::DataSet & dataset, const PhantomSettings & settings, std::size_t slice)
+struct DICOMElement
 {
-  const std::string series = "1." + std::to_string(std::lround(1e6 * settings.spacing));
-  const std::string number = std::to_string(slice + 1);
-  // A CT must have its dates, times, physician and tube voltage, but may leave them empty.
-  Set(dataset,
-      { { { 0x0008, 0x0008 }, gdcm::VR::CS, "ORIGINAL\\PRIMARY\\AXIAL" },
-        { { 0x0008, 0x0016 }, gdcm::VR::UI, "1.2.840.10008.5.1.4.1.1.2" }, // CT Image Storage
-        { { 0x0008, 0x0018 }, gdcm::VR::UI, MakeIdentifier(series + ".3." + number) },
-        { { 0x0008, 0x0020 }, gdcm::VR::DA, "" },
-        { { 0x0008, 0x0030 }, gdcm::VR::TM, "" },
-        { { 0x0008, 0x0050 }, gdcm::VR::SH, "" },
-        { { 0x0008, 0x0060 }, gdcm::VR::CS, "CT" },
-        { { 0x0008, 0x0070 }, gdcm::VR::LO, "Rhombic" },
-        { { 0x0008, 0x0090 }, gdcm::VR::PN, "" },
-        { { 0x0008, 0x103e }, gdcm::VR::LO, "Analytic phantom" },
-        { { 0x0010, 0x0010 }, gdcm::VR::PN, "PHANTOM" },
-        { { 0x0010, 0x0020 }, gdcm::VR::LO, "PHANTOM" },
-        { { 0x0010, 0x0030 }, gdcm::VR::DA, "" },
-        { { 0x0010, 0x0040 }, gdcm::VR::CS, "O" },
-        { { 0x0018, 0x0060 }, gdcm::VR::DS, "" },
-        { { 0x0018, 0x5100 }, gdcm::VR::CS, "HFS" },
-        { { 0x0020, 0x000d }, gdcm::VR::UI, MakeIdentifier(series + ".1") },
-        { { 0x0020, 0x000e }, gdcm::VR::UI, MakeIdentifier(series + ".2") },
-        { { 0x0020, 0x0010 }, gdcm::VR::SH, "1" },
-        { { 0x0020, 0x0011 }, gdcm::VR::IS, "1" },
-        { { 0x0020, 0x0012 }, gdcm::VR::IS, "1" },
-        { { 0x0020, 0x0013 }, gdcm::VR::IS, number },
-        { { 0x0020, 0x0052 }, gdcm::VR::UI, MakeIdentifier(series + ".4") },
-        { { 0x0020, 0x1040 }, gdcm::VR::LO, "" } });
-}
+  gdcm::Tag tag;
+  gdcm::VR representation;
+  std::string value;
+};
 
-void
-SetGeometry(gdcm::DataSet & dataset, const PhantomScan & scan, std::size_t slice)
+/** A CT must have its dates, times, physician and tube voltage, but they may be empty. */
+std::vector<DICOMElement>
+DescribeSlice(const PhantomScan & scan, std::size_t slice)
 {
-  const auto & spacing = scan.GetSpacing();
-  const PhantomScan::IndexType index{ { 0, 0, static_cast<itk::IndexValueType>(slice) } };
+  const auto spacing = scan.GetSpacing();
+  const auto size = scan.GetLargestPossibleRegion().GetSize();
   PhantomScan::PointType corner;
-  scan.TransformIndexToPhysicalPoint(index, corner);
-  Set(dataset,
-      { { { 0x0018, 0x0050 }, gdcm::VR::DS, Decimals({ spacing[2] }) },
-        { { 0x0020, 0x0032 }, gdcm::VR::DS, Decimals({ corner[0], corner[1], corner[2] }) },
-        { { 0x0020, 0x0037 }, gdcm::VR::DS, Decimals({ 1, 0, 0, 0, 1, 0 }) },
-        { { 0x0028, 0x0030 }, gdcm::VR::DS, Decimals({ spacing[1], spacing[0] }) } });
+  scan.TransformIndexToPhysicalPoint({ { 0, 0, static_cast<itk::IndexValueType>(slice) } }, corner);
+  const std::string number = std::to_string(slice + 1);
+  const std::string root = "2.25.295168077178222349515311917512233955794."; // from a UUID made for the phantom
+  const std::string series = root + "1." + std::to_string(std::lround(1e6 * spacing[0]));
+  const auto word = [](std::size_t value) { return Words(&value, &value + 1); };
+  using VR = gdcm::VR;
+  return { { { 0x0008, 0x0008 }, VR::CS, "ORIGINAL\\PRIMARY\\AXIAL" },
+           { { 0x0008, 0x0016 }, VR::UI, "1.2.840.10008.5.1.4.1.1.2" }, // CT Image Storage
+           { { 0x0008, 0x0018 }, VR::UI, series + ".3." + number },
+           { { 0x0008, 0x0020 }, VR::DA, "" },
+           { { 0x0008, 0x0030 }, VR::TM, "" },
+           { { 0x0008, 0x0050 }, VR::SH, "" },
+           { { 0x0008, 0x0060 }, VR::CS, "CT" },
+           { { 0x0008, 0x0070 }, VR::LO, "Rhombic" },
+           { { 0x0008, 0x0090 }, VR::PN, "" },
+           { { 0x0008, 0x103e }, VR::LO, "Analytic phantom" },
+           { { 0x0010, 0x0010 }, VR::PN, "PHANTOM" },
+           { { 0x0010, 0x0020 }, VR::LO, "PHANTOM" },
+           { { 0x0010, 0x0030 }, VR::DA, "" },
+           { { 0x0010, 0x0040 }, VR::CS, "O" },
+           { { 0x0018, 0x0050 }, VR::DS, Decimals({ spacing[2] }) },
+           { { 0x0018, 0x0060 }, VR::DS, "" },
+           { { 0x0018, 0x5100 }, VR::CS, "HFS" },
+           { { 0x0020, 0x000d }, VR::UI, series + ".1" },
+           { { 0x0020, 0x000e }, VR::UI, series + ".2" },
+           { { 0x0020, 0x0010 }, VR::SH, "1" },
+           { { 0x0020, 0x0011 }, VR::IS, "1" },
+           { { 0x0020, 0x0012 }, VR::IS, "1" },
+           { { 0x0020, 0x0013 }, VR::IS, number },
+           { { 0x0020, 0x0032 }, VR::DS, Decimals({ corner[0], corner[1], corner[2] }) },
+           { { 0x0020, 0x0037 }, VR::DS, Decimals({ 1, 0, 0, 0, 1, 0 }) },
+           { { 0x0020, 0x0052 }, VR::UI, series + ".4" },
+           { { 0x0020, 0x1040 }, VR::LO, "" },
+           { { 0x0028, 0x0002 }, VR::US, word(1) }, // samples per pixel
+           { { 0x0028, 0x0004 }, VR::CS, "MONOCHROME2" },
+           { { 0x0028, 0x0010 }, VR::US, word(size[1]) }, // rows
+           { { 0x0028, 0x0011 }, VR::US, word(size[0]) }, // columns
+           { { 0x0028, 0x0030 }, VR::DS, Decimals({ spacing[1], spacing[0] }) },
+           { { 0x0028, 0x0100 }, VR::US, word(16) }, // bits allocated, bits stored, high bit
+           { { 0x0028, 0x0101 }, VR::US, word(16) },
+           { { 0x0028, 0x0102 }, VR::US, word(15) },
+           { { 0x0028, 0x0103 }, VR::US, word(1) }, // signed
+           { { 0x0028, 0x1050 }, VR::DS, "40" },    // window
+           { { 0x0028, 0x1051 }, VR::DS, "400" },
+           { { 0x0028, 0x1052 }, VR::DS, "-1024" }, // added to the stored values, as scanners do
+           { { 0x0028, 0x1053 }, VR::DS, "1" },
+           { { 0x0028, 0x1054 }, VR::LO, "HU" } };
+}
+
+/** The stored values of a slice: Hounsfield units + 1024. */
+std::string
+PixelsOf(const PhantomScan & scan, std::size_t slice)
+{
+  const auto size = scan.GetLargestPossibleRegion().GetSize();
+  const std::int16_t * const first = scan.GetBufferPointer() + slice * size[0] * size[1];
+  std::vector<int> stored(size[0] * size[1]);
+  std::transform(first, first + stored.size(), stored.begin(), [](int value) { return value + 1024; });
+  return Words(stored.begin(), stored.end());
 }
 
 void
-SetPixels(gdcm::DataSet & dataset, const PhantomScan & scan, std::size_t slice)
+WriteSlice(const fs::path & path, const PhantomScan & scan, std::size_t slice)
 {
-  const auto & size = scan.GetLargestPossibleRegion().GetSize();
-  const auto setWord = [&dataset](std::uint16_t element, std::size_t value) {
-    Set(dataset, { 0x0028, element }, gdcm::VR::US, { static_cast<std::uint16_t>(value) });
-  };
-  setWord(0x0002, 1);       // samples per pixel
-  setWord(0x0010, size[1]); // rows
-  setWord(0x0011, size[0]); // columns
-  setWord(0x0100, 16);      // bits allocated, bits stored, high bit
-  setWord(0x0101, 16);
-  setWord(0x0102, 15);
-  setWord(0x0103, 1); // signed
-  Set(dataset,
-      { { { 0x0028, 0x0004 }, gdcm::VR::CS, "MONOCHROME2" },
-        { { 0x0028, 0x1050 }, gdcm::VR::DS, "40" }, // window
-        { { 0x0028, 0x1051 }, gdcm::VR::DS, "400" },
-        { { 0x0028, 0x1052 }, gdcm::VR::DS, std::to_string(RescaleIntercept) },
-        { { 0x0028, 0x1053 }, gdcm::VR::DS, "1" },
-        { { 0x0028, 0x1054 }, gdcm::VR::LO, "HU" } });
-
-  const std::size_t count = size[0] * size[1];
-  const std::int16_t * first = scan.GetBufferPointer() + slice * count;
-  std::vector<std::uint16_t> words(count);
-  std::transform(first, first + count, words.begin(), [](int value) {
-    return static_cast<std::uint16_t>(value - RescaleIntercept);
-  });
-  Set(dataset, { 0x7fe0, 0x0010 }, gdcm::VR::OW, words);
-}
-
-void
-WriteSlice(const fs::path & path, const PhantomScan & scan, const PhantomSettings & settings, std::size_t slice)
-{
-  AtomicFile output(path);
+  std::vector<DICOMElement> elements = DescribeSlice(scan, slice);
+  elements.push_back({ { 0x7fe0, 0x0010 }, gdcm::VR::OW, PixelsOf(scan, slice) });
   gdcm::Writer writer;
-  auto & dataset = writer.GetFile().GetDataSet();
-  SetIdentity(dataset, settings, slice);
-  SetGeometry(dataset, scan, slice);
-  SetPixels(dataset, scan, slice);
+  for (auto & [tag, representation, value] : elements)
+  {
+    if (value.size() % 2 != 0)
+    {
+      value += representation == gdcm::VR::UI ? '\0' : ' ';
+    }
+    gdcm::DataElement element(tag, 0, representation);
+    element.SetByteValue(value.data(), static_cast<std::uint32_t>(value.size()));
+    writer.GetFile().GetDataSet().Replace(element);
+  }
   writer.GetFile().GetHeader().SetDataSetTransferSyntax(gdcm::TransferSyntax::ExplicitVRLittleEndian);
   std::ostringstream bytes; // GDCM ends the process when a disk is full
   writer.SetStream(bytes);
@@ -255,29 +187,23 @@ WriteSlice(const fs::path & path, const PhantomScan & scan, const PhantomSetting
   {
     Fail(path, "the DICOM writer failed");
   }
-  const std::string content = bytes.str();
-  std::ofstream stream(output.GetTemporaryPath(), std::ios::binary);
-  if (!stream.write(content.data(), static_cast<std::streamsize>(content.size())).flush())
-  {
-    Fail(path, "not all bytes arrived; check the space on the disk");
-  }
-  output.Commit(content.size());
+  WriteBytes(path, bytes.str());
 }
 
 void
-WriteSeries(const fs::path & folder, const PhantomScan & scan, const PhantomSettings & settings)
+WriteSeries(const fs::path & folder, const PhantomScan & scan)
 {
   fs::create_directory(folder);
   for (std::size_t slice = 0; slice < scan.GetLargestPossibleRegion().GetSize()[2]; ++slice)
   {
     std::ostringstream name;
     name << "slice-" << std::setw(4) << std::setfill('0') << slice + 1 << ".dcm";
-    WriteSlice(folder / name.str(), scan, settings, slice);
+    WriteSlice(folder / name.str(), scan, slice);
   }
 }
 
 std::string
-DescribeColour(const PhantomOrgan & organ)
+ColourOf(const PhantomOrgan & organ)
 {
   std::ostringstream text;
   text << '#' << std::hex << std::setfill('0');
@@ -297,35 +223,51 @@ MakeOrganTable()
   for (const PhantomOrgan & organ : PhantomOrgans())
   {
     text << organ.name << ',' << organ.label << ',' << std::setprecision(0) << organ.hounsfield << ','
-         << std::setprecision(3) << organ.volume / 1000.0 << ',' << DescribeColour(organ) << '\n';
+         << std::setprecision(3) << organ.volume / 1000.0 << ',' << ColourOf(organ) << '\n';
   }
   return text.str();
 }
 
-/** As BIDS has it. */
+/** The table of labels in the layout of BIDS. */
 std::string
 MakeLabelTable()
 {
   std::string text = "index\tname\tcolor\n";
   for (const PhantomOrgan & organ : PhantomOrgans())
   {
-    text += std::to_string(organ.label) + '\t' + organ.name + '\t' + DescribeColour(organ) + '\n';
+    text += std::to_string(organ.label) + '\t' + organ.name + '\t' + ColourOf(organ) + '\n';
   }
   return text;
 }
 
-void
-WriteTable(const fs::path & path, const std::string & table)
+/** Removes a hidden folder at the end, and the folder around it if that was made for it and is empty. */
+struct Cleaner
 {
-  AtomicFile output(path);
-  std::ofstream stream(output.GetTemporaryPath(), std::ios::binary);
-  stream << table;
-  stream.close();
-  if (!stream)
+  fs::path hidden;
+  fs::path folder;
+  bool isNew;
+
+  ~Cleaner()
   {
-    Fail(path, "the table could not be written; check the space on the disk");
+    std::error_code ignored; // nothing more can be done about files that can't be removed
+    fs::remove_all(hidden, ignored);
+    if (isNew && fs::is_empty(folder, ignored))
+    {
+      fs::remove(folder, ignored);
+    }
   }
-  output.Commit(table.size());
+};
+
+/** Writes all files into a new folder. */
+void
+WriteFiles(const fs::path & folder, const PhantomSettings & settings, const PhantomScan::Pointer & scan)
+{
+  fs::create_directory(folder);
+  WriteSeries(folder / "dicom", *scan);
+  WriteScan(scan, folder / "phantom.nii.gz");
+  WriteScan(MakePhantomLabels(settings), folder / "phantom-labels.nii.gz");
+  WriteBytes(folder / "phantom-labels.tsv", MakeLabelTable());
+  WriteBytes(folder / "phantom-organs.csv", MakeOrganTable());
 }
 
 } // namespace
@@ -334,15 +276,16 @@ void
 WritePhantom(const fs::path & folder, const PhantomSettings & settings)
 {
   const auto scan = MakePhantomScan(settings);
+  const bool isNew = MakeFolder(folder);
+  const Cleaner cleaner{ folder / (".phantom-" + std::to_string(getpid())), folder, isNew };
   try
   {
-    StagingFolder staging(folder);
-    WriteSeries(staging.GetPath() / "dicom", *scan, settings);
-    WriteScan(scan, staging.GetPath() / "phantom.nii.gz");
-    WriteScan(MakePhantomLabels(settings), staging.GetPath() / "phantom-labels.nii.gz");
-    WriteTable(staging.GetPath() / "phantom-labels.tsv", MakeLabelTable());
-    WriteTable(staging.GetPath() / "phantom-organs.csv", MakeOrganTable());
-    staging.Commit();
+    WriteFiles(cleaner.hidden, settings, scan);
+    for (const auto name :
+         { "dicom", "phantom.nii.gz", "phantom-labels.nii.gz", "phantom-labels.tsv", "phantom-organs.csv" })
+    {
+      fs::rename(cleaner.hidden / name, folder / name);
+    }
   }
   catch (const Failure &)
   {
