@@ -68,7 +68,9 @@ function(check_refusal component sentence)
   endif()
 endfunction()
 check_refusal(Nonsense "there is no component Nonsense")
-check_refusal(SurfaceComparison "there is no component SurfaceComparison") # an internal module
+foreach(internal SurfaceComparison Phantom)
+  check_refusal(${internal} "there is no component ${internal}")
+endforeach()
 set(without_openimageio -DCMAKE_DISABLE_FIND_PACKAGE_OpenImageIO=ON)
 check_refusal(PictureIO "PictureIO needs the OpenImageIO [0-9]+\\.[0-9]+ it was built with\\." ${without_openimageio})
 run(${CMAKE_COMMAND} -S "${SOURCE}/lattice" -B "${WORK}/optional" -G ${GENERATOR} "-DCMAKE_PREFIX_PATH=${WORK}/prefix"
