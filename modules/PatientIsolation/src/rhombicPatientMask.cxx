@@ -1,11 +1,12 @@
 #include "rhombicPatientMask.h"
 
-#include "rhombicImageAxes.h"
 #include "rhombicTableContact.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 
 namespace rhombic
 {
@@ -13,473 +14,411 @@ namespace
 {
 
 // Lengths are in mm. Tables and holders are hollow, with thin walls; limbs are thick.
-constexpr double coreDepth = 4.5;              // what is deeper than this is a core: of more than 9 mm thickness
-constexpr double bodyDepth = 12.0;             // a core that is somewhere as deep as this is the patient's
+constexpr double coreDepth = 4.5;              // blocks deeper than this are a core, which is more than 9 mm thick
+constexpr double bodyDepth = 12.0;             // a core that is this deep somewhere belongs to the body
 constexpr double longestThinPart = 150.0;      // of the patient, such as a finger or a thin wrist
+constexpr double smallestThinPart = 1.0;       // ml of its core
 constexpr double lowestTissue = -150.0;        // mean HU of a thin part: fat
 constexpr double highestTissue = 300.0;        // to bone within skin
-constexpr double smallHangingVolume = 20.0;    // ml of a thin part that hangs on to the patient,
-constexpr double smallHangingReach = 30.0;     // and how far from the thick parts it ends: always the patient's
-constexpr double largestHangingVolume = 100.0; // what is larger
-constexpr double longestHangingReach = 100.0;  // or reaches further is no part of the patient
-constexpr double smallestHardVolume = 5.0;     // ml of a wall of carbon fibre,
-constexpr double bareShare = 0.7;              // and how much of it is next to open space
-constexpr double tableShare = 0.4;             // of a table's place, this part of all slices shows it detached or thin,
-constexpr double tableShareOccupied = 0.8;     // and this part something
+constexpr double smallHangingVolume = 20.0;    // ml: parts up to this volume that hang on to the patient
+constexpr double smallHangingReach = 30.0;     // and end this near to the cores are always the patient's
+constexpr double largestHangingVolume = 100.0; // ml: parts above this volume
+constexpr double longestHangingReach = 100.0;  // or that reach further than this never are
+constexpr double smallestHardVolume = 5.0;     // ml of a wall of carbon fibre
+constexpr double bareShare = 0.7;              // share of such a wall that is next to open space
+constexpr double tableShare = 0.4;             // share of the slices in which a table's place holds doubtful tissue
+constexpr double tableShareOccupied = 0.8;     // share of the slices in which it holds anything
+constexpr std::uint8_t half = 128;             // of a block's samples
+constexpr std::uint8_t quarter = 64;
 
-
-constexpr std::uint32_t none = 0;
-
-/** What a decision about a component takes, beside its size and place. */
-struct PartMeasures
+/** The thick parts of the solid blocks. */
+struct Cores
 {
-  double greatestDepth = 0.0;
-  double greatestReach = 0.0; ///< from the thick parts
-  double sum = 0.0;           ///< of the blocks' means
-  bool hangsOn = false;       ///< to the patient
+  DistanceImage::Pointer depth; ///< distance to the border of what is solid, negative inside
+  Components components;
+  std::vector<double> greatestDepth; ///< by component
+  std::vector<double> meanValue;     ///< in HU, by component
+  MaskImage::Pointer body;           ///< the components that belong to the body
 };
 
-class PatientFinder
+Cores
+FindCores(const CoarseScan & coarse, const MaskImage & solid)
+{
+  const auto & spacing = coarse.occupancy->GetSpacing();
+  const double halfBlock = 0.5 * std::min({ spacing[0], spacing[1], spacing[2] });
+  Cores cores;
+  cores.depth = DistanceTo(solid);
+  const float * const depths = cores.depth->GetBufferPointer();
+  const std::uint8_t * const isSolid = solid.GetBufferPointer();
+  const auto deep = MakeMask(solid, [=](std::size_t offset) {
+    return isSolid[offset] != 0 && halfBlock - static_cast<double>(depths[offset]) >= coreDepth;
+  });
+  cores.components = FindComponents(*deep, false);
+  const auto & parts = cores.components.parts;
+  const std::uint32_t * const labels = cores.components.labels->GetBufferPointer();
+  cores.greatestDepth.assign(parts.size(), 0.0);
+  cores.meanValue.assign(parts.size(), 0.0);
+  for (std::size_t offset = 0; offset < coarse.NumberOfBlocks(); ++offset)
+  {
+    double & depth = cores.greatestDepth[labels[offset]];
+    depth = std::max(depth, static_cast<double>(-depths[offset]));
+    cores.meanValue[labels[offset]] += coarse.mean->GetBufferPointer()[offset];
+  }
+  for (std::size_t label = 1; label < parts.size(); ++label)
+  {
+    cores.meanValue[label] /= static_cast<double>(parts[label].count);
+  }
+  cores.body =
+    MaskOfParts(cores.components, [&](std::size_t label) { return cores.greatestDepth[label] >= bodyDepth; });
+  return cores;
+}
+
+/** Adds what lies between the first and the last block of the body's cores on lines from front to back: lungs, whose
+ * walls may be thin at the sides. */
+MaskImage::Pointer
+FillBetweenFrontAndBack(const CoarseScan & coarse, const MaskImage & solid, const MaskImage & body)
+{
+  const unsigned int axis = NearestAxis(solid.GetDirection(), 1, coarse.longAxis);
+  const auto & size = solid.GetBufferedRegion().GetSize();
+  const auto step = static_cast<std::size_t>(solid.GetOffsetTable()[axis]);
+  const auto filled = MakeLike<MaskImage>(solid);
+  std::copy_n(solid.GetBufferPointer(), coarse.NumberOfBlocks(), filled->GetBufferPointer());
+  ForEachIndex(size, [&](const itk::Index<3> & index, std::size_t offset) {
+    if (index[axis] != 0)
+    {
+      return;
+    }
+    const std::uint8_t * const line = body.GetBufferPointer() + offset;
+    std::size_t first = 0;
+    std::size_t end = size[axis];
+    while (first < end && line[first * step] == 0)
+    {
+      ++first;
+    }
+    while (end > first && line[(end - 1) * step] == 0)
+    {
+      --end;
+    }
+    for (std::size_t n = first; n < end; ++n)
+    {
+      filled->GetBufferPointer()[offset + n * step] = 1;
+    }
+  });
+  return filled;
+}
+
+void
+NoteKept(double millilitres, const std::string & why, std::vector<std::string> & notes)
+{
+  if (millilitres >= 0.5)
+  {
+    notes.push_back("kept " + std::to_string(std::lround(millilitres)) + " ml that " + why);
+  }
+}
+
+/** Adds the cores that may be a hand or another thin limb to the body. */
+void
+AddThinCores(const CoarseScan & coarse, Cores & cores, std::vector<std::string> & notes)
+{
+  double kept = 0.0;
+  const auto thin = MaskOfParts(cores.components, [&](std::size_t label) {
+    const Component & part = cores.components.parts[label];
+    const auto levels = part.highest[coarse.longAxis] - part.lowest[coarse.longAxis] + 1;
+    const double length = static_cast<double>(levels) * coarse.occupancy->GetSpacing()[coarse.longAxis];
+    const double mean = cores.meanValue[label];
+    const bool isThinPart = cores.greatestDepth[label] < bodyDepth &&
+                            coarse.Millilitres(part.count) >= smallestThinPart && length <= longestThinPart &&
+                            mean >= lowestTissue && mean <= highestTissue;
+    kept += isThinPart ? coarse.Millilitres(part.count) : 0.0;
+    return isThinPart;
+  });
+  const std::uint8_t * const isThin = thin->GetBufferPointer();
+  std::uint8_t * const isBody = cores.body->GetBufferPointer();
+  std::transform(isBody, isBody + coarse.NumberOfBlocks(), isThin, isBody, std::bit_or<>());
+  NoteKept(kept, "lie beside the patient's thick parts, as they may be a hand", notes);
+}
+
+/** The solid blocks within the cores' depth of them, and one block more, because depths are known to a block. */
+MaskImage::Pointer
+Grow(const MaskImage & solid, const DistanceImage & reach)
+{
+  const std::uint8_t * const isSolid = solid.GetBufferPointer();
+  const float * const distances = reach.GetBufferPointer();
+  const auto near = MakeMask(solid, [=](std::size_t offset) {
+    return isSolid[offset] != 0 && static_cast<double>(distances[offset]) <= coreDepth;
+  });
+  return MakeMask(solid, [&](std::size_t offset) { return isSolid[offset] != 0 && IsNear(*near, offset); });
+}
+
+/** Adds those components of the other solid blocks to the patient that share a face with it and for which
+ * isPatient(volume in ml, greatest distance from the cores in mm) is true. Returns the rest. */
+template <typename TFunction>
+MaskImage::Pointer
+AddHangingParts(const CoarseScan & coarse,
+                const MaskImage & others,
+                const DistanceImage & reach,
+                const TFunction & isPatient,
+                MaskImage & patient)
+{
+  const Components components = FindComponents(others, false);
+  const std::uint32_t * const labels = components.labels->GetBufferPointer();
+  std::uint8_t * const isInPatient = patient.GetBufferPointer();
+  std::vector<double> greatestReach(components.parts.size(), 0.0);
+  std::vector<bool> hangsOn(components.parts.size(), false);
+  const auto & size = others.GetBufferedRegion().GetSize();
+  ForEachIndex(size, [&](const itk::Index<3> & index, std::size_t offset) {
+    const std::uint32_t label = labels[offset];
+    if (label != 0)
+    {
+      greatestReach[label] = std::max(greatestReach[label], static_cast<double>(reach.GetBufferPointer()[offset]));
+      ForEachFaceNeighbour(size, index, offset, [&](std::size_t neighbour) {
+        hangsOn[label] = hangsOn[label] || isInPatient[neighbour] != 0;
+      });
+    }
+  });
+  const auto added = MaskOfParts(components, [&](std::size_t label) {
+    return hangsOn[label] && isPatient(coarse.Millilitres(components.parts[label].count), greatestReach[label]);
+  });
+  const std::uint8_t * const isAdded = added->GetBufferPointer();
+  std::transform(isInPatient, isInPatient + coarse.NumberOfBlocks(), isAdded, isInPatient, std::bit_or<>());
+  return MakeMask(others, [&](std::size_t offset) { return labels[offset] != 0 && isAdded[offset] == 0; });
+}
+
+/** Finds walls harder than skin in doubtful tissue, with what touches them: connected, large, and bare. Bone is within
+ * skin, and within cavities that are no open space. */
+MaskImage::Pointer
+FindHardWalls(const CoarseScan & coarse, const MaskImage & doubtful, const DistanceImage & depth)
+{
+  const std::uint8_t * const isDoubtful = doubtful.GetBufferPointer();
+  const std::uint8_t * const hardness = coarse.hardness->GetBufferPointer();
+  const auto hard =
+    MakeMask(doubtful, [=](std::size_t offset) { return isDoubtful[offset] != 0 && hardness[offset] >= quarter; });
+  const Components walls = FindComponents(*hard, true);
+  const auto large = MaskOfParts(
+    walls, [&](std::size_t label) { return coarse.Millilitres(walls.parts[label].count) >= smallestHardVolume; });
+  if (!HasBorder(*large))
+  {
+    return large; // no block
+  }
+  const OpenSpace space = FindOpenSpace(depth, coarse.longAxis);
+  const auto open = FillOpenSpace(space, space.reachesSides);
+  if (!open)
+  {
+    return MakeLike<MaskImage>(doubtful);
+  }
+  const std::uint32_t * const labels = walls.labels->GetBufferPointer();
+  std::vector<std::size_t> bare(walls.parts.size(), 0);
+  for (std::size_t offset = 0; offset < coarse.NumberOfBlocks(); ++offset)
+  {
+    bare[labels[offset]] += large->GetBufferPointer()[offset] != 0 && IsNear(*open, offset) ? 1 : 0;
+  }
+  const auto bareWalls = MaskOfParts(walls, [&](std::size_t label) {
+    return static_cast<double>(bare[label]) >= bareShare * static_cast<double>(walls.parts[label].count);
+  });
+  return MakeMask(doubtful, [&](std::size_t offset) {
+    return isDoubtful[offset] != 0 && hardness[offset] > 0 && IsNear(*bareWalls, offset);
+  });
+}
+
+/** \class Columns
+ * \brief Columns along the patient in the world, as wide as the scan's widest block across it. */
+class Columns
 {
 public:
-  PatientFinder(const CoarseScan & coarse, unsigned int longAxis)
+  explicit Columns(const CoarseScan & coarse)
     : m_Coarse(coarse)
-    , m_LongAxis(longAxis)
-    , m_Size(coarse.occupancy->GetBufferedRegion().GetSize())
-    , m_Count(coarse.NumberOfBlocks())
   {
-    const auto & spacing = coarse.occupancy->GetSpacing();
-    m_Millilitres = spacing[0] * spacing[1] * spacing[2] / 1000.0;
-    m_Narrow = std::min({ spacing[0], spacing[1], spacing[2] });
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::array<double, 2> highest{ -infinity, -infinity };
+    m_Lowest = { infinity, infinity };
+    const auto & size = coarse.occupancy->GetBufferedRegion().GetSize();
+    itk::Index<3> corner;
+    for (corner[2] = 0; corner[2] < static_cast<itk::IndexValueType>(size[2]); ++corner[2]) // also of uneven stacks
+    {
+      for (unsigned int n = 0; n < 4; ++n)
+      {
+        corner[0] = (n & 1) != 0 ? static_cast<itk::IndexValueType>(size[0]) - 1 : 0;
+        corner[1] = (n & 2) != 0 ? static_cast<itk::IndexValueType>(size[1]) - 1 : 0;
+        const auto point = coarse.PointOf(corner);
+        for (unsigned int axis = 0; axis < 2; ++axis)
+        {
+          m_Lowest[axis] = std::min(m_Lowest[axis], point[axis]);
+          highest[axis] = std::max(highest[axis], point[axis]);
+        }
+      }
+    }
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      m_Width = axis != coarse.longAxis ? std::max(m_Width, coarse.occupancy->GetSpacing()[axis]) : m_Width;
+    }
+    m_CountAlongX = this->StepsTo(highest[0], 0) + 1;
+    m_Count = m_CountAlongX * (this->StepsTo(highest[1], 1) + 1);
   }
 
-  PatientMask
-  Find()
+  std::size_t
+  Count() const
   {
-    constexpr std::uint8_t half = 128;
-    const std::uint8_t * const occupancy = m_Coarse.occupancy->GetBufferPointer();
-    m_Found.tissue = MakeMask(*m_Coarse.occupancy, [=](std::size_t n) { return occupancy[n] >= half; });
-    m_Solid = m_Found.tissue;
-    if (!HasBorder(*m_Solid) || !FindCores())
-    {
-      return m_Found;
-    }
-    FillBetweenFrontAndBack();
-    if (!HasBorder(*m_Solid))
-    {
-      return m_Found;
-    }
-    FindCores();
-    AddThinCores();
-    Grow();
-    AddWhatHangsOn();
-    CutTableContacts(*m_Solid, m_LongAxis, 2.0 * coreDepth, *m_Found.patient);
-    return m_Found;
+    return m_Count;
+  }
+
+  /** The column that a block is in. */
+  std::size_t
+  ColumnOf(const itk::Index<3> & index) const
+  {
+    const auto point = m_Coarse.PointOf(index);
+    return this->StepsTo(point[0], 0) + m_CountAlongX * this->StepsTo(point[1], 1);
   }
 
 private:
-  /** The cores of what is solid, and those of them that are as thick as a body. Returns whether there is one. */
-  bool
-  FindCores()
+  std::size_t
+  StepsTo(double coordinate, unsigned int axis) const
   {
-    m_Depth = DistanceTo(*m_Solid);
-    const float * const depths = m_Depth->GetBufferPointer();
-    const std::uint8_t * const solid = m_Solid->GetBufferPointer();
-    const auto core = MakeMask(*m_Depth, [=](std::size_t n) {
-      return solid[n] != 0 && 0.5 * m_Narrow - static_cast<double>(depths[n]) >= coreDepth;
-    });
-    m_Cores = FindComponents(*core, false);
-    const std::uint32_t * const labels = m_Cores.labels->GetBufferPointer();
-    m_Measures.assign(m_Cores.parts.size(), {});
-    for (std::size_t n = 0; n < m_Count; ++n)
-    {
-      PartMeasures & part = m_Measures[labels[n]];
-      part.greatestDepth = std::max(part.greatestDepth, static_cast<double>(-depths[n]));
-      part.sum += m_Coarse.mean->GetBufferPointer()[n];
-    }
-    std::vector<bool> isBody(m_Cores.parts.size(), false);
-    for (std::uint32_t label = 1; label < isBody.size(); ++label)
-    {
-      isBody[label] = m_Measures[label].greatestDepth >= bodyDepth;
-    }
-    m_Core = MakeMask(*core, [&](std::size_t n) { return isBody[labels[n]]; });
-    return HasBorder(*m_Core);
-  }
-
-  /** Those cores too that may be a thin limb. */
-  void
-  AddThinCores()
-  {
-    double millilitres = 0.0;
-    std::vector<bool> isThinPart(m_Cores.parts.size(), false);
-    for (std::uint32_t label = 1; label < isThinPart.size(); ++label)
-    {
-      isThinPart[label] =
-        m_Measures[label].greatestDepth < bodyDepth && IsThinPart(m_Cores.parts[label], m_Measures[label]);
-      millilitres += isThinPart[label] ? Millilitres(m_Cores.parts[label].count) : 0.0;
-    }
-    std::uint8_t * const core = m_Core->GetBufferPointer();
-    for (std::size_t n = 0; n < m_Count; ++n)
-    {
-      core[n] = core[n] != 0 || isThinPart[m_Cores.labels->GetBufferPointer()[n]] ? 1 : 0;
-    }
-    m_Cores = {};
-    NoteKept(millilitres, "lie beside the patient's thick parts, as they may be a hand");
-  }
-
-  bool
-  IsThinPart(const Component & part, const PartMeasures & measures) const
-  {
-    constexpr double smallestVolume = 1.0; // ml of the core
-    const double mean = measures.sum / static_cast<double>(part.count);
-    return Millilitres(part.count) >= smallestVolume && Length(part) <= longestThinPart && mean >= lowestTissue &&
-           mean <= highestTissue;
-  }
-
-  /** What has the patient's cores before it and behind it is in the patient: lungs, whose walls may be thin at the
-   * sides. */
-  void
-  FillBetweenFrontAndBack()
-  {
-    const auto & direction = m_Coarse.occupancy->GetDirection();
-    const unsigned int axis = NearestAxis(direction, 1, m_LongAxis);
-    const std::uint8_t * const core = m_Core->GetBufferPointer();
-    const auto filled = MakeLike<MaskImage>(*m_Solid);
-    std::copy_n(m_Solid->GetBufferPointer(), m_Count, filled->GetBufferPointer());
-    std::size_t step = 1;
-    for (unsigned int lower = 0; lower < axis; ++lower)
-    {
-      step *= m_Size[lower];
-    }
-    ForEachIndex(m_Size, [&](const itk::Index<3> & index, std::size_t n) {
-      if (index[axis] == 0)
-      {
-        std::size_t first = 0;
-        std::size_t end = m_Size[axis];
-        while (first < end && core[n + first * step] == 0)
-        {
-          ++first;
-        }
-        while (end > first && core[n + (end - 1) * step] == 0)
-        {
-          --end;
-        }
-        for (std::size_t place = first; place < end; ++place)
-        {
-          filled->GetBufferPointer()[n + place * step] = 1;
-        }
-      }
-    });
-    m_Solid = filled;
-  }
-
-  /** The tissue within the cores' depth of them, and one block more, because depths are known to a block. */
-  void
-  Grow()
-  {
-    m_Reach = DistanceTo(*m_Core);
-    const float * const reach = m_Reach->GetBufferPointer();
-    const std::uint8_t * const solid = m_Solid->GetBufferPointer();
-    const auto opened =
-      MakeMask(*m_Reach, [&](std::size_t n) { return solid[n] != 0 && static_cast<double>(reach[n]) <= coreDepth; });
-    m_Found.patient = MakeLike<MaskImage>(*opened);
-    std::uint8_t * const patient = m_Found.patient->GetBufferPointer();
-    ForEachIndex(m_Size, [&](const itk::Index<3> & index, std::size_t n) {
-      patient[n] = solid[n] != 0 && HasNeighbour(*opened, index) ? 1 : 0;
-    });
-  }
-
-  /** Whether one of a voxel's 27 neighbours, itself included, is in the mask. */
-  bool
-  HasNeighbour(const MaskImage & mask, const itk::Index<3> & index) const
-  {
-    itk::Index<3> begin;
-    itk::Index<3> end;
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      begin[axis] = std::max<itk::IndexValueType>(index[axis] - 1, 0);
-      end[axis] = std::min<itk::IndexValueType>(index[axis] + 2, static_cast<itk::IndexValueType>(m_Size[axis]));
-    }
-    for (itk::IndexValueType k = begin[2]; k < end[2]; ++k)
-    {
-      for (itk::IndexValueType j = begin[1]; j < end[1]; ++j)
-      {
-        const std::uint8_t * const row = mask.GetBufferPointer() + mask.ComputeOffset({ { 0, j, k } });
-        if (std::find(row + begin[0], row + end[0], 1) != row + end[0])
-        {
-          return true;
-        }
-      }
-    }
-    return false;
-  }
-
-  /** Sorts the thin tissue: first its components, then what is left of those in doubt without the table's places. */
-  void
-  AddWhatHangsOn()
-  {
-    MaskImage::Pointer doubtful = AddComponents(
-      [](double millilitres, double reach) { return millilitres <= smallHangingVolume && reach <= smallHangingReach; });
-    if (HasBorder(*doubtful))
-    {
-      m_Table = MakeLike<MaskImage>(*doubtful);
-      FindHardWalls(*doubtful);
-      FindTablePlaces(*doubtful);
-      double kept = 0.0;
-      AddComponents([&kept](double millilitres, double reach) {
-        const bool isKept = millilitres <= largestHangingVolume && reach <= longestHangingReach;
-        kept += isKept ? millilitres : 0.0;
-        return isKept;
-      });
-      NoteKept(kept, "touch the patient, as they may be thin parts of it");
-    }
-  }
-
-  void
-  NoteKept(double millilitres, const std::string & why)
-  {
-    if (millilitres >= 0.5)
-    {
-      m_Found.notes.push_back("kept " + std::to_string(std::lround(millilitres)) + " ml that " + why);
-    }
-  }
-
-  /** Makes those components of the other tissue the patient's that hang on to it and are as the function says, given
-   * volume in ml and reach in mm. Returns the others, whether they hang on or not. */
-  template <typename TFunction>
-  MaskImage::Pointer
-  AddComponents(const TFunction & isPatient)
-  {
-    std::uint8_t * const patient = m_Found.patient->GetBufferPointer();
-    const std::uint8_t * const solid = m_Solid->GetBufferPointer();
-    const auto others =
-      MakeMask(*m_Solid, [&](std::size_t n) { return solid[n] != 0 && patient[n] == 0 && !IsTable(n); });
-    const Components components = FindComponents(*others, false);
-    const std::uint32_t * const labels = components.labels->GetBufferPointer();
-    std::vector<PartMeasures> measures(components.parts.size());
-    ForEachIndex(m_Size, [&](const itk::Index<3> & index, std::size_t n) {
-      if (labels[n] != none)
-      {
-        PartMeasures & part = measures[labels[n]];
-        part.greatestReach = std::max(part.greatestReach, static_cast<double>(m_Reach->GetBufferPointer()[n]));
-        part.hangsOn = part.hangsOn || TouchesPatient(index, n);
-      }
-    });
-    std::vector<bool> isKept(components.parts.size(), false);
-    for (std::uint32_t label = 1; label < components.parts.size(); ++label)
-    {
-      const PartMeasures & part = measures[label];
-      isKept[label] = part.hangsOn && isPatient(Millilitres(components.parts[label].count), part.greatestReach);
-    }
-    for (std::size_t n = 0; n < m_Count; ++n)
-    {
-      patient[n] = patient[n] != 0 || isKept[labels[n]] ? 1 : 0;
-    }
-    return MakeMask(*others, [&](std::size_t n) { return labels[n] != none && !isKept[labels[n]]; });
-  }
-
-  bool
-  TouchesPatient(const itk::Index<3> & index, std::size_t n) const
-  {
-    const std::uint8_t * const patient = m_Found.patient->GetBufferPointer() + n;
-    std::ptrdiff_t step = 1;
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      const auto last = static_cast<itk::IndexValueType>(m_Size[axis]) - 1;
-      if ((index[axis] > 0 && patient[-step] != 0) || (index[axis] < last && patient[step] != 0))
-      {
-        return true;
-      }
-      step *= static_cast<std::ptrdiff_t>(m_Size[axis]);
-    }
-    return false;
-  }
-
-  /** Takes connected bare walls that are harder than skin out of what is doubtful: bone is within skin, and within
-   * cavities that are no open space. */
-  void
-  FindHardWalls(const MaskImage & doubtful)
-  {
-    constexpr std::uint8_t quarter = 64;
-    const std::uint8_t * const hardness = m_Coarse.hardness->GetBufferPointer();
-    const auto hard =
-      MakeMask(doubtful, [&](std::size_t n) { return doubtful.GetBufferPointer()[n] != 0 && hardness[n] >= quarter; });
-    const Components walls = FindComponents(*hard, true);
-    const auto isLarge = [this](const Component & part) { return Millilitres(part.count) >= smallestHardVolume; };
-    if (std::none_of(walls.parts.begin(), walls.parts.end(), isLarge))
-    {
-      return;
-    }
-    const OpenSpace space = FindOpenSpace(*m_Depth, closedGap, m_LongAxis);
-    const auto open = FillOpenSpace(space, space.reachesSides, closedGap);
-    if (!open)
-    {
-      return;
-    }
-    const std::uint32_t * const labels = walls.labels->GetBufferPointer();
-    std::vector<std::size_t> bare(walls.parts.size(), 0);
-    ForEachIndex(m_Size, [&](const itk::Index<3> & index, std::size_t n) {
-      bare[labels[n]] += labels[n] != none && HasNeighbour(*open, index) ? 1 : 0;
-    });
-    const auto wall = MakeMask(*hard, [&](std::size_t n) {
-      const Component & part = walls.parts[labels[n]];
-      return labels[n] != none && isLarge(part) &&
-             static_cast<double>(bare[labels[n]]) >= bareShare * static_cast<double>(part.count);
-    });
-    std::uint8_t * const table = m_Table->GetBufferPointer();
-    ForEachIndex(m_Size, [&](const itk::Index<3> & index, std::size_t n) {
-      table[n] = doubtful.GetBufferPointer()[n] != 0 && hardness[n] > 0 && HasNeighbour(*wall, index) ? 1 : 0;
-    });
-  }
-
-  /** Finds the places, seen along the patient, where the doubtful tissue is in much of the scan and something in most
-   * of it, as a table is and no thin part of a patient; takes them from the patient, but not from its cores. */
-  void
-  FindTablePlaces(const MaskImage & doubtful)
-  {
-    const std::uint8_t * const solid = m_Solid->GetBufferPointer();
-    const Columns columns(*this);
-    std::vector<std::uint32_t> doubtfulLevels(columns.count, 0);
-    std::vector<std::uint32_t> occupiedLevels(columns.count, 0);
-    std::vector<std::uint32_t> lastDoubtful(columns.count, 0);
-    std::vector<std::uint32_t> lastOccupied(columns.count, 0);
-    std::array<unsigned int, 2> others{ (m_LongAxis + 1) % 3, (m_LongAxis + 2) % 3 };
-    itk::Index<3> index;
-    for (std::uint32_t level = 1; level <= m_Size[m_LongAxis]; ++level)
-    {
-      index[m_LongAxis] = static_cast<itk::IndexValueType>(level) - 1;
-      for (std::size_t v = 0; v < m_Size[others[1]]; ++v)
-      {
-        index[others[1]] = static_cast<itk::IndexValueType>(v);
-        for (std::size_t u = 0; u < m_Size[others[0]]; ++u)
-        {
-          index[others[0]] = static_cast<itk::IndexValueType>(u);
-          const auto n = static_cast<std::size_t>(doubtful.ComputeOffset(index));
-          if (solid[n] == 0)
-          {
-            continue;
-          }
-          const std::size_t column = columns.Of(index);
-          occupiedLevels[column] += lastOccupied[column] != level ? 1 : 0;
-          lastOccupied[column] = level;
-          if (doubtful.GetBufferPointer()[n] != 0)
-          {
-            doubtfulLevels[column] += lastDoubtful[column] != level ? 1 : 0;
-            lastDoubtful[column] = level;
-          }
-        }
-      }
-    }
-    const auto levels = static_cast<double>(m_Size[m_LongAxis]);
-    ForEachIndex(m_Size, [&](const itk::Index<3> & place, std::size_t n) {
-      if (solid[n] != 0 && m_Core->GetBufferPointer()[n] == 0)
-      {
-        const std::size_t column = columns.Of(place);
-        if (static_cast<double>(doubtfulLevels[column]) >= tableShare * levels &&
-            static_cast<double>(occupiedLevels[column]) >= tableShareOccupied * levels)
-        {
-          m_Table->GetBufferPointer()[n] = 1;
-          m_Found.patient->GetBufferPointer()[n] = 0;
-        }
-      }
-    });
-  }
-
-  bool
-  IsTable(std::size_t n) const
-  {
-    return m_Table && m_Table->GetBufferPointer()[n] != 0;
-  }
-
-  /** The world's columns along the patient, as wide as the scan's widest block across it. */
-  struct Columns
-  {
-    explicit Columns(const PatientFinder & finder)
-      : coarse(finder.m_Coarse)
-    {
-      for (unsigned int axis = 0; axis < 3; ++axis)
-      {
-        if (axis != finder.m_LongAxis)
-        {
-          width = std::max(width, coarse.occupancy->GetSpacing()[axis]);
-        }
-      }
-      std::array<double, 2> highest{ -1e9, -1e9 };
-      for (unsigned int corner = 0; corner < 8; ++corner)
-      {
-        itk::Index<3> index;
-        for (unsigned int axis = 0; axis < 3; ++axis)
-        {
-          index[axis] = (corner >> axis & 1u) != 0 ? static_cast<itk::IndexValueType>(finder.m_Size[axis]) - 1 : 0;
-        }
-        // The slices in between may lie anywhere on an uneven stack's axis.
-        for (itk::IndexValueType k = 0; k < static_cast<itk::IndexValueType>(finder.m_Size[2]); ++k)
-        {
-          index[2] = k;
-          const auto point = coarse.PointOf(index);
-          for (unsigned int axis = 0; axis < 2; ++axis)
-          {
-            lowest[axis] = std::min(lowest[axis], point[axis]);
-            highest[axis] = std::max(highest[axis], point[axis]);
-          }
-        }
-      }
-      across = static_cast<std::size_t>((highest[0] - lowest[0]) / width + 0.5) + 1;
-      count = across * (static_cast<std::size_t>((highest[1] - lowest[1]) / width + 0.5) + 1);
-    }
-
-    std::size_t
-    Of(const itk::Index<3> & index) const
-    {
-      const auto point = coarse.PointOf(index);
-      const auto x = static_cast<std::size_t>((point[0] - lowest[0]) / width + 0.5);
-      const auto y = static_cast<std::size_t>((point[1] - lowest[1]) / width + 0.5);
-      return x + across * y;
-    }
-
-    const CoarseScan & coarse;
-    double width = 0.0;
-    std::array<double, 2> lowest{ 1e9, 1e9 };
-    std::size_t across = 0;
-    std::size_t count = 0;
-  };
-
-  double
-  Millilitres(std::size_t count) const
-  {
-    return static_cast<double>(count) * m_Millilitres;
-  }
-
-  /** Of a component along the patient. */
-  double
-  Length(const Component & part) const
-  {
-    return static_cast<double>(part.highest[m_LongAxis] - part.lowest[m_LongAxis] + 1) *
-           m_Coarse.occupancy->GetSpacing()[m_LongAxis];
+    return static_cast<std::size_t>((coordinate - m_Lowest[axis]) / m_Width + 0.5);
   }
 
   const CoarseScan & m_Coarse;
-  unsigned int m_LongAxis;
-  itk::Size<3> m_Size;
-  std::size_t m_Count;
-  double m_Narrow = 0.0;
-  double m_Millilitres = 0.0;
-  PatientMask m_Found;
-  MaskImage::Pointer m_Solid; ///< tissue, and from the second pass on what the patient encloses
-  MaskImage::Pointer m_Core;
-  MaskImage::Pointer m_Table;
-  Components m_Cores;                   ///< of what is solid
-  std::vector<PartMeasures> m_Measures; ///< of the cores, by label
-  DistanceImage::Pointer m_Depth;       ///< in tissue; negative inside
-  DistanceImage::Pointer m_Reach;       ///< from the cores
+  double m_Width = 0.0;
+  std::array<double, 2> m_Lowest{};
+  std::size_t m_CountAlongX = 0;
+  std::size_t m_Count = 0;
 };
+
+/** The number of levels along the patient in which each column holds something. */
+class LevelCounts
+{
+public:
+  LevelCounts(std::size_t columns, std::size_t levels)
+    : m_Counts(columns, 0)
+    , m_IsCounted(columns * levels, false)
+    , m_Levels(levels)
+  {}
+
+  void
+  Add(std::size_t column, std::size_t level)
+  {
+    const std::size_t place = column * m_Levels + level;
+    m_Counts[column] += m_IsCounted[place] ? 0 : 1;
+    m_IsCounted[place] = true;
+  }
+
+  /** The share of all levels. */
+  bool
+  HasShare(std::size_t column, double share) const
+  {
+    return static_cast<double>(m_Counts[column]) >= share * static_cast<double>(m_Levels);
+  }
+
+private:
+  std::vector<std::uint32_t> m_Counts;
+  std::vector<bool> m_IsCounted;
+  std::size_t m_Levels;
+};
+
+/** Finds the columns that hold doubtful tissue in much of the scan and something in most of it, as a table's place does
+ * and no thin part of a patient. Their blocks but for the cores are the table's and not the patient's. */
+void
+TakeTablePlaces(const CoarseScan & coarse,
+                const MaskImage & solid,
+                const MaskImage & doubtful,
+                const MaskImage & body,
+                MaskImage & table,
+                MaskImage & patient)
+{
+  const auto & size = solid.GetBufferedRegion().GetSize();
+  const std::uint8_t * const isSolid = solid.GetBufferPointer();
+  const Columns columns(coarse);
+  LevelCounts doubtfulLevels(columns.Count(), size[coarse.longAxis]);
+  LevelCounts occupiedLevels(columns.Count(), size[coarse.longAxis]);
+  ForEachIndex(size, [&](const itk::Index<3> & index, std::size_t offset) {
+    if (isSolid[offset] != 0)
+    {
+      const std::size_t column = columns.ColumnOf(index);
+      const auto level = static_cast<std::size_t>(index[coarse.longAxis]);
+      occupiedLevels.Add(column, level);
+      if (doubtful.GetBufferPointer()[offset] != 0)
+      {
+        doubtfulLevels.Add(column, level);
+      }
+    }
+  });
+  ForEachIndex(size, [&](const itk::Index<3> & index, std::size_t offset) {
+    if (isSolid[offset] != 0 && body.GetBufferPointer()[offset] == 0)
+    {
+      const std::size_t column = columns.ColumnOf(index);
+      if (doubtfulLevels.HasShare(column, tableShare) && occupiedLevels.HasShare(column, tableShareOccupied))
+      {
+        table.GetBufferPointer()[offset] = 1;
+        patient.GetBufferPointer()[offset] = 0;
+      }
+    }
+  });
+}
+
+/** Adds thin parts that hang on to the patient: small ones first, then larger ones without walls and table places. */
+void
+AddThinParts(const CoarseScan & coarse,
+             const MaskImage & solid,
+             const Cores & cores,
+             const DistanceImage & reach,
+             PatientMask & found)
+{
+  const std::uint8_t * const isSolid = solid.GetBufferPointer();
+  const std::uint8_t * const isPatient = found.patient->GetBufferPointer();
+  const auto others =
+    MakeMask(solid, [=](std::size_t offset) { return isSolid[offset] != 0 && isPatient[offset] == 0; });
+  const auto isSmall = [](double millilitres, double distance) {
+    return millilitres <= smallHangingVolume && distance <= smallHangingReach;
+  };
+  const auto doubtful = AddHangingParts(coarse, *others, reach, isSmall, *found.patient);
+  if (!HasBorder(*doubtful))
+  {
+    return;
+  }
+  const auto table = FindHardWalls(coarse, *doubtful, *cores.depth);
+  TakeTablePlaces(coarse, solid, *doubtful, *cores.body, *table, *found.patient);
+  const auto rest = MakeMask(solid, [&](std::size_t offset) {
+    return isSolid[offset] != 0 && isPatient[offset] == 0 && table->GetBufferPointer()[offset] == 0;
+  });
+  double kept = 0.0;
+  const auto mayBePatient = [&kept](double millilitres, double distance) {
+    const bool isKept = millilitres <= largestHangingVolume && distance <= longestHangingReach;
+    kept += isKept ? millilitres : 0.0;
+    return isKept;
+  };
+  AddHangingParts(coarse, *rest, reach, mayBePatient, *found.patient);
+  NoteKept(kept, "touch the patient, as they may be thin parts of it", found.notes);
+}
 
 } // namespace
 
 PatientMask
-FindPatient(const CoarseScan & coarse, unsigned int longAxis)
+FindPatient(const CoarseScan & coarse)
 {
-  return PatientFinder(coarse, longAxis).Find();
+  const std::uint8_t * const occupancy = coarse.occupancy->GetBufferPointer();
+  PatientMask found;
+  found.tissue = MakeMask(*coarse.occupancy, [=](std::size_t offset) { return occupancy[offset] >= half; });
+  if (!HasBorder(*found.tissue))
+  {
+    return found;
+  }
+  Cores cores = FindCores(coarse, *found.tissue);
+  if (!HasBorder(*cores.body))
+  {
+    return found;
+  }
+  const auto solid = FillBetweenFrontAndBack(coarse, *found.tissue, *cores.body);
+  if (!HasBorder(*solid))
+  {
+    return found;
+  }
+  cores = FindCores(coarse, *solid);
+  AddThinCores(coarse, cores, found.notes);
+  cores.components = {};
+  const auto reach = DistanceTo(*cores.body);
+  found.patient = Grow(*solid, *reach);
+  AddThinParts(coarse, *solid, cores, *reach, found);
+  CutTableContacts(*solid, coarse.longAxis, 2.0 * coreDepth, *found.patient);
+  return found;
 }
 
 } // namespace rhombic

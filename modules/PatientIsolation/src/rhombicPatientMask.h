@@ -17,9 +17,8 @@ struct PatientMask
   std::vector<std::string> notes; ///< what was kept for doubt, a sentence each
 };
 
-/** \a longAxis is the image axis along the patient. */
 PatientMask
-FindPatient(const CoarseScan & coarse, unsigned int longAxis);
+FindPatient(const CoarseScan & coarse);
 
 } // namespace rhombic
 

@@ -1,8 +1,7 @@
 #include "rhombicTableContact.h"
 
-#include "rhombicImageAxes.h"
-
 #include <algorithm>
+#include <cstdlib>
 #include <optional>
 #include <vector>
 
@@ -12,9 +11,9 @@ namespace
 {
 
 constexpr double widestContact = 120.0; // mm, of a patient's back with a table's wall
-constexpr int columnsBeside = 6;        // a contact: the wall's thickness is measured there
+constexpr int columnsBeside = 6;        // columns on either side of a contact, where the wall's thickness is measured
 
-/** A wall in one column: rows from front to back, both in it. */
+/** A wall in one column: its first and last row. */
 struct Wall
 {
   std::ptrdiff_t front;
@@ -42,13 +41,13 @@ public:
   Cut(std::size_t level)
   {
     m_Level = static_cast<itk::IndexValueType>(level);
-    FindBodyAndWalls();
+    FindBacksAndWalls();
     for (std::ptrdiff_t first = 1; first + 1 < m_Columns; ++first)
     {
-      if (IsContact(first) && WallAt(first - 1, m_Ends[Number(first)]))
+      if (IsContact(first) && WallAt(first - 1, Back(first)))
       {
         const std::ptrdiff_t last = FindLastOfContact(first);
-        if (last + 1 < m_Columns && WallAt(last + 1, m_Ends[Number(last)]))
+        if (WallAt(last + 1, Back(last)))
         {
           CutContact(first, last);
         }
@@ -57,14 +56,8 @@ public:
   }
 
 private:
-  static std::size_t
-  Number(std::ptrdiff_t column)
-  {
-    return static_cast<std::size_t>(column);
-  }
-
   std::size_t
-  BlockAt(std::ptrdiff_t column, std::ptrdiff_t row) const
+  OffsetOf(std::ptrdiff_t column, std::ptrdiff_t row) const
   {
     itk::Index<3> index;
     index[m_LongAxis] = m_Level;
@@ -73,23 +66,22 @@ private:
     return static_cast<std::size_t>(m_Solid.ComputeOffset(index));
   }
 
-  /** Of each column, the body's last row, or -1, and the walls. */
   void
-  FindBodyAndWalls()
+  FindBacksAndWalls()
   {
-    m_Ends.assign(Number(m_Columns), -1);
-    m_Walls.assign(Number(m_Columns), {});
+    m_Backs.assign(static_cast<std::size_t>(m_Columns), -1);
+    m_Walls.assign(static_cast<std::size_t>(m_Columns), {});
     for (std::ptrdiff_t column = 0; column < m_Columns; ++column)
     {
-      std::vector<Wall> & walls = m_Walls[Number(column)];
+      std::vector<Wall> & walls = m_Walls[static_cast<std::size_t>(column)];
       for (std::ptrdiff_t row = 0; row < m_Rows; ++row)
       {
-        const std::size_t block = BlockAt(column, row);
-        if (m_Patient.GetBufferPointer()[block] != 0)
+        const std::size_t offset = OffsetOf(column, row);
+        if (m_Patient.GetBufferPointer()[offset] != 0)
         {
-          m_Ends[Number(column)] = row;
+          m_Backs[static_cast<std::size_t>(column)] = row;
         }
-        else if (m_Solid.GetBufferPointer()[block] != 0)
+        else if (m_Solid.GetBufferPointer()[offset] != 0)
         {
           if (walls.empty() || walls.back().back + 1 != row)
           {
@@ -101,50 +93,52 @@ private:
     }
   }
 
-  /** The wall of a column whose back is at that row, or next to it. */
+  std::ptrdiff_t
+  Back(std::ptrdiff_t column) const
+  {
+    return m_Backs[static_cast<std::size_t>(column)];
+  }
+
+  /** The wall of a column whose last row is \a back, or next to it. */
   std::optional<Wall>
   WallAt(std::ptrdiff_t column, std::ptrdiff_t back) const
   {
-    if (column >= 0 && column < m_Columns)
+    if (column < 0 || column >= m_Columns)
     {
-      for (const Wall & wall : m_Walls[Number(column)])
-      {
-        if (std::abs(wall.back - back) <= 1)
-        {
-          return wall;
-        }
-      }
+      return {};
     }
-    return {};
+    const std::vector<Wall> & walls = m_Walls[static_cast<std::size_t>(column)];
+    const auto wall =
+      std::find_if(walls.begin(), walls.end(), [=](const Wall & other) { return std::abs(other.back - back) <= 1; });
+    return wall != walls.end() ? std::optional<Wall>(*wall) : std::nullopt;
   }
 
-  /** Whether the body's last row has no wall behind it. */
+  /** Whether there is a body without a wall behind it. */
   bool
   IsContact(std::ptrdiff_t column) const
   {
-    const std::ptrdiff_t end = m_Ends[Number(column)];
-    return end >= 0 && !WallAt(column, end);
+    return Back(column) >= 0 && !WallAt(column, Back(column));
   }
 
-  /** The last column before a wall, a step, the body's end or the widest contact's. */
+  /** The last column before a wall, a step of the back, the body's end, or where the contact gets too wide. */
   std::ptrdiff_t
   FindLastOfContact(std::ptrdiff_t first) const
   {
     std::ptrdiff_t last = first;
     while (last + 1 < m_Columns && last - first < m_LongestContact && IsContact(last + 1) &&
-           std::abs(m_Ends[Number(last + 1)] - m_Ends[Number(last)]) <= 1 && !WallAt(last + 1, m_Ends[Number(last)]))
+           std::abs(Back(last + 1) - Back(last)) <= 1 && !WallAt(last + 1, Back(last)))
     {
       ++last;
     }
     return last;
   }
 
-  /** Calls the function with the columns beside a contact, from \a column on, and their wall, as far as it goes on. */
+  /** Calls function(column, wall) for the columns beside a contact, from \a column on, as far as the wall goes on. */
   template <typename TFunction>
   void
   FollowWall(std::ptrdiff_t column, std::ptrdiff_t step, const TFunction & function) const
   {
-    std::optional<Wall> wall = WallAt(column, m_Ends[Number(column - step)]);
+    std::optional<Wall> wall = WallAt(column, Back(column - step));
     for (int n = 0; wall && n < columnsBeside; ++n)
     {
       function(column, *wall);
@@ -153,7 +147,7 @@ private:
     }
   }
 
-  /** The greatest thickness beside a contact: next to it, the body has grown into the wall. */
+  /** The wall's greatest thickness beside a contact: next to it, part of the wall counts as the body. */
   std::ptrdiff_t
   ThicknessFrom(std::ptrdiff_t column, std::ptrdiff_t step) const
   {
@@ -175,16 +169,16 @@ private:
     const auto cut = [&](std::ptrdiff_t column, std::ptrdiff_t back) {
       for (std::ptrdiff_t row = std::max<std::ptrdiff_t>(back - thickness + 1, 0); row <= back; ++row)
       {
-        m_Patient.GetBufferPointer()[BlockAt(column, row)] = 0;
+        m_Patient.GetBufferPointer()[OffsetOf(column, row)] = 0;
       }
     };
     for (std::ptrdiff_t column = first; column <= last; ++column)
     {
-      cut(column, m_Ends[Number(column)]);
+      cut(column, Back(column));
     }
-    const auto cutBeside = [&](std::ptrdiff_t column, const Wall & wall) { cut(column, wall.back); };
-    FollowWall(first - 1, -1, cutBeside);
-    FollowWall(last + 1, 1, cutBeside);
+    const auto cutWall = [&](std::ptrdiff_t column, const Wall & wall) { cut(column, wall.back); };
+    FollowWall(first - 1, -1, cutWall);
+    FollowWall(last + 1, 1, cutWall);
   }
 
   const MaskImage & m_Solid;
@@ -194,11 +188,11 @@ private:
   unsigned int m_ColumnAxis;
   std::ptrdiff_t m_Rows;
   std::ptrdiff_t m_Columns;
-  std::ptrdiff_t m_LongestContact;
-  std::ptrdiff_t m_ThickestWall;
+  std::ptrdiff_t m_LongestContact; ///< in columns
+  std::ptrdiff_t m_ThickestWall;   ///< in rows
   itk::IndexValueType m_Level = 0;
-  std::vector<std::ptrdiff_t> m_Ends;
-  std::vector<std::vector<Wall>> m_Walls;
+  std::vector<std::ptrdiff_t> m_Backs;    ///< by column: the body's last row, -1 where there is none
+  std::vector<std::vector<Wall>> m_Walls; ///< by column: what is solid but not the patient
 };
 
 } // namespace

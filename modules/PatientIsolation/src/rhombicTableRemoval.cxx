@@ -1,7 +1,6 @@
 #include "rhombicTableRemoval.h"
 
 #include "rhombicCoarseScan.h"
-#include "rhombicImageAxes.h"
 #include "rhombicPatientMask.h"
 #include "rhombicWording.h"
 
@@ -23,25 +22,26 @@ namespace
 constexpr double tissueThreshold = -300.0; // HU: half way between air and fat or skin
 constexpr double hardThreshold = 150.0;    // HU: higher than skin, lower than bone, metal and carbon fibre
 constexpr double smallestObject = 1.0;     // ml
+constexpr float heightOfRamp = 2000.0f;    // HU: how far the limit of values falls to air at the cut
 
-/** The blocks around the patient, and what is there. */
+/** The blocks around the patient. */
 struct Surroundings
 {
   MaskImage::Pointer outside;
-  MaskImage::Pointer objects;
+  MaskImage::Pointer objects; ///< those that hold something
   double airValue = 0.0;
 };
 
-/** The median of a component's blocks without tissue, in HU. */
+/** The median of a component's blocks without tissue, in HU; infinite when there are none. */
 double
 MedianOfAir(const CoarseScan & coarse, const Components & components, std::uint32_t label)
 {
   std::vector<std::int16_t> values;
-  for (std::size_t n = 0; n < coarse.NumberOfBlocks(); ++n)
+  for (std::size_t offset = 0; offset < coarse.NumberOfBlocks(); ++offset)
   {
-    if (components.labels->GetBufferPointer()[n] == label && coarse.occupancy->GetBufferPointer()[n] == 0)
+    if (components.labels->GetBufferPointer()[offset] == label && coarse.occupancy->GetBufferPointer()[offset] == 0)
     {
-      values.push_back(coarse.mean->GetBufferPointer()[n]);
+      values.push_back(coarse.mean->GetBufferPointer()[offset]);
     }
   }
   if (values.empty())
@@ -53,102 +53,98 @@ MedianOfAir(const CoarseScan & coarse, const Components & components, std::uint3
   return *middle;
 }
 
-/** What is not the patient, nor in it or in its clefts, and is connected with the scan's sides. None when there is no
- * air. */
+/** Finds what is neither the patient nor in its cavities and clefts, and is connected with the scan's sides. None when
+ * there is no air. */
 std::optional<Surroundings>
-FindSurroundings(const CoarseScan & coarse,
-                 const PatientMask & mask,
-                 const DistanceImage & distance,
-                 unsigned int longAxis)
+FindSurroundings(const CoarseScan & coarse, const PatientMask & mask, const DistanceImage & toPatient)
 {
-  const OpenSpace space = FindOpenSpace(distance, closedGap, longAxis);
-  std::vector<bool> isOutside(space.balls.parts.size(), false);
+  const OpenSpace space = FindOpenSpace(toPatient, coarse.longAxis);
+  const auto & parts = space.centres.parts;
+  std::vector<bool> isOutside(parts.size(), false);
   Surroundings found;
   std::size_t largest = 0;
-  for (std::uint32_t label = 1; label < isOutside.size(); ++label)
+  for (std::uint32_t label = 1; label < parts.size(); ++label)
   {
     if (!space.reachesSides[label])
     {
       continue;
     }
-    const double air = MedianOfAir(coarse, space.balls, label);
+    const double air = MedianOfAir(coarse, space.centres, label);
     isOutside[label] = air <= highestAir;
-    if (isOutside[label] && space.balls.parts[label].count > largest)
+    if (isOutside[label] && parts[label].count > largest)
     {
-      largest = space.balls.parts[label].count;
+      largest = parts[label].count;
       found.airValue = air;
     }
   }
-  const auto reached = FillOpenSpace(space, isOutside, closedGap);
+  const auto reached = FillOpenSpace(space, isOutside);
   if (!reached)
   {
     return {};
   }
-  const auto & spacing = coarse.occupancy->GetSpacing();
-  const double diagonal = spacing.GetNorm();
-  const float * const distances = distance.GetBufferPointer();
-  const std::uint8_t * const patient = mask.patient->GetBufferPointer();
-  const std::uint8_t * const tissue = mask.tissue->GetBufferPointer();
+  const double diagonal = coarse.occupancy->GetSpacing().GetNorm();
+  const float * const distances = toPatient.GetBufferPointer();
+  const std::uint8_t * const isPatient = mask.patient->GetBufferPointer();
+  const std::uint8_t * const isTissue = mask.tissue->GetBufferPointer();
   const std::uint8_t * const occupancy = coarse.occupancy->GetBufferPointer();
-  found.outside =
-    MakeMask(distance, [&](std::size_t n) { return patient[n] == 0 && reached->GetBufferPointer()[n] != 0; });
-  found.objects = MakeMask(distance, [&](std::size_t n) {
-    return found.outside->GetBufferPointer()[n] != 0 &&
-           (tissue[n] != 0 || (occupancy[n] != 0 && static_cast<double>(distances[n]) > diagonal));
+  found.outside = MakeMask(
+    toPatient, [&](std::size_t offset) { return isPatient[offset] == 0 && reached->GetBufferPointer()[offset] != 0; });
+  found.objects = MakeMask(toPatient, [&](std::size_t offset) {
+    const bool isApart = static_cast<double>(distances[offset]) > diagonal;
+    return found.outside->GetBufferPointer()[offset] != 0 &&
+           (isTissue[offset] != 0 || (occupancy[offset] != 0 && isApart));
   });
   return found;
 }
 
-RemovedObject
-Measure(const CoarseScan & coarse, const Components & components, std::uint32_t label)
-{
-  const auto & spacing = coarse.occupancy->GetSpacing();
-  const double millilitres = spacing[0] * spacing[1] * spacing[2] / 1000.0 / 255.0;
-  RemovedObject object;
-  object.lowest.Fill(std::numeric_limits<double>::infinity());
-  object.highest.Fill(-std::numeric_limits<double>::infinity());
-  itk::Vector<double, 3> sum;
-  sum.Fill(0.0);
-  double weights = 0.0;
-  const Component & part = components.parts[label];
-  itk::Index<3> index;
-  for (index[2] = part.lowest[2]; index[2] <= part.highest[2]; ++index[2])
-  {
-    for (index[1] = part.lowest[1]; index[1] <= part.highest[1]; ++index[1])
-    {
-      for (index[0] = part.lowest[0]; index[0] <= part.highest[0]; ++index[0])
-      {
-        if (components.labels->GetPixel(index) != label)
-        {
-          continue;
-        }
-        const auto point = coarse.PointOf(index);
-        const double weight = coarse.occupancy->GetPixel(index);
-        sum += point.GetVectorFromOrigin() * weight;
-        weights += weight;
-        for (unsigned int axis = 0; axis < 3; ++axis)
-        {
-          object.lowest[axis] = std::min(object.lowest[axis], point[axis]);
-          object.highest[axis] = std::max(object.highest[axis], point[axis]);
-        }
-      }
-    }
-  }
-  object.millilitres = weights * millilitres;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    object.centroid[axis] = sum[axis] / weights;
-  }
-  return object;
-}
-
-void
-MeasureObjects(const CoarseScan & coarse, const MaskImage & objects, TableRemoval & removal)
+/** Measures each connected object: volumes and centroids count the blocks' shares of tissue. */
+std::vector<RemovedObject>
+MeasureObjects(const CoarseScan & coarse, const MaskImage & objects)
 {
   const Components components = FindComponents(objects, true);
-  for (std::uint32_t label = 1; label < components.parts.size(); ++label)
+  const std::size_t count = components.parts.size();
+  std::vector<RemovedObject> measured(count);
+  std::vector<itk::Vector<double, 3>> sums(count, itk::Vector<double, 3>(0.0));
+  std::vector<double> weights(count, 0.0);
+  for (RemovedObject & object : measured)
   {
-    const RemovedObject object = Measure(coarse, components, label);
+    object.lowest.Fill(std::numeric_limits<double>::infinity());
+    object.highest.Fill(-std::numeric_limits<double>::infinity());
+  }
+  ForEachIndex(objects.GetBufferedRegion().GetSize(), [&](const itk::Index<3> & index, std::size_t offset) {
+    const std::uint32_t label = components.labels->GetBufferPointer()[offset];
+    if (label == 0)
+    {
+      return;
+    }
+    const auto point = coarse.PointOf(index);
+    const double weight = coarse.occupancy->GetBufferPointer()[offset];
+    sums[label] += point.GetVectorFromOrigin() * weight;
+    weights[label] += weight;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      measured[label].lowest[axis] = std::min(measured[label].lowest[axis], point[axis]);
+      measured[label].highest[axis] = std::max(measured[label].highest[axis], point[axis]);
+    }
+  });
+  for (std::size_t label = 1; label < count; ++label)
+  {
+    measured[label].millilitres = weights[label] * (coarse.Millilitres(1) / 255.0);
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      measured[label].centroid[axis] = sums[label][axis] / weights[label];
+    }
+  }
+  measured.erase(measured.begin()); // the outside
+  return measured;
+}
+
+/** Sorts objects by volume, and sums the small ones up. */
+void
+ListObjects(const std::vector<RemovedObject> & objects, TableRemoval & removal)
+{
+  for (const RemovedObject & object : objects)
+  {
     if (object.millilitres >= smallestObject)
     {
       removal.objects.push_back(object);
@@ -164,8 +160,8 @@ MeasureObjects(const CoarseScan & coarse, const MaskImage & objects, TableRemova
   });
 }
 
-/** For each block, how far beyond the patient's border it is in mm, as far as that decides what becomes air; negative
- * where samples stay. */
+/** For each block, how far beyond the cut around the patient it is in mm, clamped to a block's diagonal; negative where
+ * samples stay. */
 DistanceImage::Pointer
 FindExcess(const CoarseScan & coarse, const Surroundings & surroundings, const DistanceImage & toPatient)
 {
@@ -173,135 +169,55 @@ FindExcess(const CoarseScan & coarse, const Surroundings & surroundings, const D
   const double diagonal = coarse.occupancy->GetSpacing().GetNorm();
   const double margin = 2.0 * diagonal;
   const auto excess = MakeLike<DistanceImage>(toPatient);
-  for (std::size_t n = 0; n < coarse.NumberOfBlocks(); ++n)
+  for (std::size_t offset = 0; offset < coarse.NumberOfBlocks(); ++offset)
   {
-    const double patient = toPatient.GetBufferPointer()[n];
-    const double object = toObjects->GetBufferPointer()[n];
-    const bool isOutside = surroundings.outside->GetBufferPointer()[n] != 0 || object <= diagonal;
+    const double patient = toPatient.GetBufferPointer()[offset];
+    const double object = toObjects->GetBufferPointer()[offset];
+    const bool isOutside = surroundings.outside->GetBufferPointer()[offset] != 0 || object <= diagonal;
     const double beyond = std::max(patient - margin, patient - object);
-    excess->GetBufferPointer()[n] = static_cast<float>(isOutside ? std::clamp(beyond, -diagonal, diagonal) : -diagonal);
+    excess->GetBufferPointer()[offset] =
+      static_cast<float>(isOutside ? std::clamp(beyond, -diagonal, diagonal) : -diagonal);
   }
   return excess;
 }
 
-/** The three blocks next to a sample along one axis, and their weights: a quadratic B-spline, which smooths the steps
- * of distances to masks. */
-struct Taps
+/** Lowers the values beyond the cut to air. The limit falls from high values to air within a ramp as wide as a sample,
+ * so that surfaces at any threshold close there, smoothly. */
+template <typename TPixel>
+void
+LowerToAir(itk::Image<TPixel, 3> & image, const BlockShape & shape, const DistanceImage & excess, double airValue)
 {
-  std::array<std::size_t, 3> blocks;
-  std::array<float, 3> weights;
-};
-
-/** For each of the samples along one axis. */
-std::vector<Taps>
-MakeTaps(std::size_t samples, std::size_t samplesPerBlock, std::size_t blocks)
-{
-  std::vector<Taps> taps(samples);
-  for (std::size_t sample = 0; sample < samples; ++sample)
+  const auto & size = image.GetBufferedRegion().GetSize();
+  const auto ramp = static_cast<float>(std::max(image.GetSpacing()[0], image.GetSpacing()[1])); // mm
+  const auto air = static_cast<float>(airValue);
+  std::array<std::vector<Taps<3>>, 3> taps;
+  for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    const std::size_t block = sample / samplesPerBlock;
-    const double place =
-      (static_cast<double>(sample) + 0.5) / static_cast<double>(samplesPerBlock) - static_cast<double>(block) - 0.5;
-    taps[sample].blocks = { block == 0 ? 0 : block - 1, block, std::min(block + 1, blocks - 1) };
-    taps[sample].weights = { static_cast<float>(0.5 * (0.5 - place) * (0.5 - place)),
-                             static_cast<float>(0.75 - place * place),
-                             static_cast<float>(0.5 * (0.5 + place) * (0.5 + place)) };
-  }
-  return taps;
-}
-
-/** \class Cutter
- * \brief Lowers what is beyond the patient's border to air. The limit falls from high values to air within a ramp, so
- * that surfaces at any threshold close there, smoothly. */
-class Cutter
-{
-public:
-  Cutter(const CoarseScan & coarse, const DistanceImage & excess, const itk::ImageBase<3> & grid, double airValue)
-    : m_Excess(excess)
-    , m_Blocks(excess.GetBufferedRegion().GetSize())
-    , m_Ramp(static_cast<float>(std::max(grid.GetSpacing()[0], grid.GetSpacing()[1])))
-    , m_Air(static_cast<float>(airValue))
-  {
-    for (unsigned int axis = 0; axis < 3; ++axis)
+    for (std::size_t sample = 0; sample < size[axis]; ++sample)
     {
-      m_Taps[axis] =
-        MakeTaps(grid.GetLargestPossibleRegion().GetSize(axis), coarse.samplesPerBlock[axis], m_Blocks[axis]);
+      taps[axis].push_back(QuadraticTaps(sample, shape[axis], excess.GetBufferedRegion().GetSize(axis)));
     }
   }
-
-  template <typename TPixel>
-  void
-  CutSlice(itk::Image<TPixel, 3> & image, std::size_t slice) const
-  {
-    std::vector<float> excess(m_Blocks[0]);
-    for (std::size_t row = 0; row < m_Taps[1].size(); ++row)
+  itk::ForEachInBlocks(size[2], 1, [&](std::size_t slice) {
+    for (std::size_t row = 0; row < size[1]; ++row)
     {
-      if (FindExcessOfRow(row, slice, excess) > -0.5f * m_Ramp)
+      const std::vector<float> excessOfRow = InterpolateRow(excess, taps[1][row], taps[2][slice]);
+      if (*std::max_element(excessOfRow.begin(), excessOfRow.end()) <= -0.5f * ramp)
       {
-        CutRow(excess, image.GetBufferPointer() + m_Taps[0].size() * (row + m_Taps[1].size() * slice));
+        continue;
       }
-    }
-  }
-
-private:
-  /** Of the blocks along a row of samples; returns the greatest. */
-  float
-  FindExcessOfRow(std::size_t row, std::size_t slice, std::vector<float> & excess) const
-  {
-    std::fill(excess.begin(), excess.end(), 0.0f);
-    const Taps & rows = m_Taps[1][row];
-    const Taps & slices = m_Taps[2][slice];
-    for (unsigned int k = 0; k < 3; ++k)
-    {
-      for (unsigned int j = 0; j < 3; ++j)
+      TPixel * const samples = image.GetBufferPointer() + size[0] * (row + size[1] * slice);
+      for (std::size_t column = 0; column < size[0]; ++column)
       {
-        const float weight = slices.weights[k] * rows.weights[j];
-        const float * const blocks =
-          m_Excess.GetBufferPointer() + m_Blocks[0] * (rows.blocks[j] + m_Blocks[1] * slices.blocks[k]);
-        for (std::size_t i = 0; i < excess.size(); ++i)
+        const float beyond = InterpolateInRow(excessOfRow, taps[0][column]);
+        const float limit = air + std::max(0.0f, 0.5f - beyond / ramp) * heightOfRamp;
+        if (beyond > -0.5f * ramp && static_cast<float>(samples[column]) > limit)
         {
-          excess[i] += weight * blocks[i];
+          samples[column] = static_cast<TPixel>(limit);
         }
       }
     }
-    return *std::max_element(excess.begin(), excess.end());
-  }
-
-  template <typename TPixel>
-  void
-  CutRow(const std::vector<float> & excess, TPixel * samples) const
-  {
-    constexpr float height = 2000.0f; // HU, over the ramp
-    for (std::size_t x = 0; x < m_Taps[0].size(); ++x)
-    {
-      const Taps & taps = m_Taps[0][x];
-      const float beyond = taps.weights[0] * excess[taps.blocks[0]] + taps.weights[1] * excess[taps.blocks[1]] +
-                           taps.weights[2] * excess[taps.blocks[2]];
-      if (beyond > -0.5f * m_Ramp)
-      {
-        const float limit = m_Air + std::max(0.0f, 0.5f - beyond / m_Ramp) * height;
-        samples[x] = static_cast<float>(samples[x]) > limit ? static_cast<TPixel>(limit) : samples[x];
-      }
-    }
-  }
-
-  const DistanceImage & m_Excess;
-  itk::Size<3> m_Blocks;
-  float m_Ramp; ///< in mm
-  float m_Air;
-  std::array<std::vector<Taps>, 3> m_Taps;
-};
-
-void
-Cut(Scan & scan, const CoarseScan & coarse, const DistanceImage & excess, double airValue)
-{
-  std::visit(
-    [&](const auto & image) {
-      const Cutter cutter(coarse, excess, *image, airValue);
-      itk::ForEachInBlocks(
-        image->GetBufferedRegion().GetSize(2), 1, [&](std::size_t slice) { cutter.CutSlice(*image, slice); });
-    },
-    scan.image);
+  });
 }
 
 void
@@ -337,10 +253,9 @@ RemoveTable(Scan & scan, const Events & events)
   const std::string step = "removing the table";
   events.Progress(step, 0.0);
   TableRemoval removal;
-  const unsigned int longAxis = NearestAxis(GeometryOf(scan.image).GetDirection(), 2);
   const CoarseScan coarse = MakeCoarseScan(scan, tissueThreshold, hardThreshold);
   events.Progress(step, 0.2);
-  PatientMask mask = FindPatient(coarse, longAxis);
+  const PatientMask mask = FindPatient(coarse);
   removal.notes = mask.notes;
   events.Progress(step, 0.6);
   if (!mask.patient)
@@ -350,16 +265,17 @@ RemoveTable(Scan & scan, const Events & events)
     return removal;
   }
   const auto toPatient = DistanceTo(*mask.patient);
-  const auto surroundings = FindSurroundings(coarse, mask, *toPatient, longAxis);
+  const auto surroundings = FindSurroundings(coarse, mask, *toPatient);
   if (surroundings)
   {
     removal.airValue = surroundings->airValue;
-    MeasureObjects(coarse, *surroundings->objects, removal);
+    ListObjects(MeasureObjects(coarse, *surroundings->objects), removal);
   }
   events.Progress(step, 0.8);
   if (!removal.objects.empty())
   {
-    Cut(scan, coarse, *FindExcess(coarse, *surroundings, *toPatient), removal.airValue);
+    const auto excess = FindExcess(coarse, *surroundings, *toPatient);
+    std::visit([&](const auto & image) { LowerToAir(*image, coarse.shape, *excess, removal.airValue); }, scan.image);
     NoteRemoval(removal, events);
   }
   events.Progress(step, 1.0);

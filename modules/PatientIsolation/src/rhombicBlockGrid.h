@@ -1,0 +1,161 @@
+#ifndef rhombicBlockGrid_h
+#define rhombicBlockGrid_h
+
+#include "itkImage.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rhombic
+{
+
+/** \file
+ * Masks, distances and connected parts on a grid of blocks of samples. A block is given by its index, or by its offset
+ * in the buffer. */
+
+using MaskImage = itk::Image<std::uint8_t, 3>; ///< 1 for the blocks in the mask, else 0
+using DistanceImage = itk::Image<float, 3>;    ///< mm
+using LabelImage = itk::Image<std::uint32_t, 3>;
+
+constexpr double ballRadius = 8.0;    ///< mm: a ball of this size has room around a patient, but not in its clefts
+constexpr double highestAir = -940.0; ///< HU: a mean or median of air; lungs without emphysema are higher
+
+/** The image axis nearest to an axis of the patient (0 leads to the left, 1 to the back, 2 to the head), other than
+ * \a except. */
+unsigned int
+NearestAxis(const itk::ImageBase<3>::DirectionType & direction, unsigned int patientAxis, unsigned int except = 3);
+
+/** An image of a grid's size and geometry, filled with zeros. */
+template <typename TImage>
+typename TImage::Pointer
+MakeLike(const itk::ImageBase<3> & grid)
+{
+  const auto image = TImage::New();
+  image->CopyInformation(&grid);
+  image->SetRegions(grid.GetLargestPossibleRegion());
+  image->Allocate(true);
+  return image;
+}
+
+/** The mask of a grid's blocks for which isIn(offset) is true. */
+template <typename TFunction>
+MaskImage::Pointer
+MakeMask(const itk::ImageBase<3> & grid, const TFunction & isIn)
+{
+  const auto mask = MakeLike<MaskImage>(grid);
+  std::uint8_t * const values = mask->GetBufferPointer();
+  const std::size_t count = mask->GetBufferedRegion().GetNumberOfPixels();
+  for (std::size_t offset = 0; offset < count; ++offset)
+  {
+    values[offset] = isIn(offset) ? 1 : 0;
+  }
+  return mask;
+}
+
+/** Whether some blocks are in the mask, and some are not. */
+bool
+HasBorder(const MaskImage & mask);
+
+/** Calls function(index, offset) for each block, in the buffer's order. */
+template <typename TFunction>
+void
+ForEachIndex(const itk::Size<3> & size, const TFunction & function)
+{
+  std::size_t offset = 0;
+  itk::Index<3> index;
+  for (index[2] = 0; index[2] < static_cast<itk::IndexValueType>(size[2]); ++index[2])
+  {
+    for (index[1] = 0; index[1] < static_cast<itk::IndexValueType>(size[1]); ++index[1])
+    {
+      for (index[0] = 0; index[0] < static_cast<itk::IndexValueType>(size[0]); ++index[0])
+      {
+        function(index, offset++);
+      }
+    }
+  }
+}
+
+/** Calls function(offset) for each of the up to six blocks that share a face with a block. */
+template <typename TFunction>
+void
+ForEachFaceNeighbour(const itk::Size<3> & size,
+                     const itk::Index<3> & index,
+                     std::size_t offset,
+                     const TFunction & function)
+{
+  std::size_t step = 1;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    if (index[axis] > 0)
+    {
+      function(offset - step);
+    }
+    if (index[axis] + 1 < static_cast<itk::IndexValueType>(size[axis]))
+    {
+      function(offset + step);
+    }
+    step *= size[axis];
+  }
+}
+
+/** Whether a block or one of its 26 neighbours is in the mask. */
+bool
+IsNear(const MaskImage & mask, std::size_t offset);
+
+/** The distance in mm of blocks from those at the border of the mask, negative inside. The grid's own sides are no
+ * border. The mask must have a border. */
+DistanceImage::Pointer
+DistanceTo(const MaskImage & mask);
+
+/** A connected part of a mask. */
+struct Component
+{
+  std::size_t count = 0;
+  itk::Index<3> lowest; ///< corners of its bounding box
+  itk::Index<3> highest;
+};
+
+/** The connected parts of a mask. */
+struct Components
+{
+  LabelImage::Pointer labels;   ///< from 1; 0 outside
+  std::vector<Component> parts; ///< by label; the first stands for the outside and is empty
+};
+
+/** Parts connected by faces, or also by edges and corners. */
+Components
+FindComponents(const MaskImage & mask, bool isFullyConnected);
+
+/** The mask of the components for which isIn(label) is true; the outside has label 0. */
+template <typename TFunction>
+MaskImage::Pointer
+MaskOfParts(const Components & components, const TFunction & isIn)
+{
+  std::vector<bool> isLabelIn;
+  for (std::size_t label = 0; label < components.parts.size(); ++label)
+  {
+    isLabelIn.push_back(label != 0 && isIn(label));
+  }
+  const std::uint32_t * const labels = components.labels->GetBufferPointer();
+  return MakeMask(*components.labels, [&](std::size_t offset) { return isLabelIn[labels[offset]]; });
+}
+
+/** Where balls of radius ballRadius have room. */
+struct OpenSpace
+{
+  Components centres;             ///< connected places of the balls' centres
+  std::vector<bool> reachesSides; ///< by label: whether the part reaches a side of the grid along the patient
+};
+
+/** The space outside of the mask to which the distances are. */
+OpenSpace
+FindOpenSpace(const DistanceImage & distance, unsigned int longAxis);
+
+/** What the balls fill whose centres are in those parts, by label. Null if there is no such part. */
+MaskImage::Pointer
+FillOpenSpace(const OpenSpace & space, const std::vector<bool> & isPartIn);
+
+} // namespace rhombic
+
+#endif
