@@ -6,6 +6,7 @@
 #include "itkThreadFailure.h"
 #include "itkWorkProgress.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -16,36 +17,32 @@ namespace itk
 /** \class AntiAliasMaskImageFilter
  * \brief A smooth field whose zero surface is the border of a mask, without the steps of its voxels.
  *
- * Input voxels other than 0 are inside. The output is about the depth below the border in voxels, positive inside,
- * beyond 3 voxels without meaning. Its zero surface may be extracted by any means; for
- * CartesianToFCCImageFilter it is as smooth as a scan.
+ * Input voxels other than 0 are inside. The output is the approximate depth below the border in voxels, positive
+ * inside; beyond 3 voxels it has no meaning.
  *
- * Smoothing a mask moves its border inwards where it is convex, and what is small vanishes; holding each voxel in its
- * class instead (R. Whitaker, "Reducing aliasing artifacts in iso-surfaces of binary volumes", 2000, and
- * itk::AntiAliasBinaryImageFilter) lets the border settle at the voxels' centres and leaves the steps that agree with
- * all voxels. What is held here is the **local volume**: with G a Gaussian of 2.5 voxels, the field f starts as the
- * smoothed mask and gets Newton's corrections
+ * Smoothing a mask moves its border inwards where it is convex, and small parts vanish. Methods that keep each voxel in
+ * its class (R. Whitaker, "Reducing aliasing artifacts in iso-surfaces of binary volumes", 2000, and
+ * itk::AntiAliasBinaryImageFilter) leave steps. This filter keeps the **local volume**: with G a Gaussian of 2.5
+ * voxels, the field f starts as the smoothed mask and gets Newton's corrections
  *
  *   f += (2 pi)^(1/2) 2.5  G * (mask - coverage(f)),   coverage(f) = min(1, max(0, f + 1/2)),
  *
- * which make a voxel's coverage by the border, smoothed, that of the mask, so that the border stays where it was on
- * average while its steps vanish.
+ * until the smoothed coverage of the voxels is that of the mask. The border then stays in place on average, and its
+ * steps vanish.
  *
- * Thin parts and sharp edges can't be told in such a wide neighbourhood. Around voxels that end up more than 0.3 on the
- * wrong side, the field is made with a Gaussian of 1.2 voxels and smaller corrections. *Narrow* voxels are those that
- * are still as wrong, and those of sheets and vessels that are one voxel wide: sixteen or more connected voxels in no
- * 2 x 2 x 2 block of their class. Around them the Gaussian is one of 0.7 voxels. Voxels in no such block that are on
- * the wrong side then, too, are *protected*: the field is at least that of a tube of radius 0.6 around them and their
- * connections with all 26 neighbours of their class. So 1-voxel vessels and single voxels stay. *Spurs* don't: one or
- * two such voxels that stick out of something without connecting it with anything. What is left of a part as narrow as
- * a voxel may be thinner than the sampling of the field; then a lattice of the default density misses it here and
- * there.
+ * Thin parts and sharp edges need a smaller neighbourhood. Around voxels that end up more than 0.3 on the wrong side,
+ * the field is made with a Gaussian of 1.2 voxels and smaller corrections. *Narrow* voxels are those that are still
+ * more than 0.3 on the wrong side, and those of sheets and vessels one voxel wide: sixteen or more connected voxels in
+ * no 2 x 2 x 2 block of their class. Around them the Gaussian is one of 0.7 voxels. Voxels in no such block that are
+ * still on the wrong side are *protected*: the field is at least that of a tube of radius 0.6 around them and their
+ * connections with all 26 neighbours of their class. So vessels of one voxel and single voxels stay. *Spurs* do not:
+ * one or two such voxels that stick out of a part and connect it with nothing. A part as narrow as a voxel may become
+ * thinner than a lattice of the default density resolves, and then has gaps.
  *
  * Mean errors against the shape that the mask was made from: distance in voxels, angle of facets in degrees, and area
  * in per cent, of the zero surface extracted from the default lattice; for spheres of radius 10 and 40, a torus
  * (25, 7.3), and a box of 44 turned by 17 degrees (distance and angle of its faces). All were extracted at the level
- * that has the mask's volume; the last column is how far the volume of the first sphere was off without that, in per
- * cent.
+ * that has the mask's volume. Last column: error of the volume of the first sphere at level 0, in per cent.
  *
  *     method                              sphere 10       sphere 40       torus           box             volume
  *     this filter                         .035  1.4 0.0   .029  1.1 0.0   .034  1.9 0.1   .05  0.9 -1.8    -0.2
@@ -54,17 +51,15 @@ namespace itk
  *     the same, RMS error 0.01            .058  4.2 0.3   .068  4.9 0.5   .069  4.3 0.3   .08  5.2 -2.1    -4.3
  *     Whitaker's, 8 times a Gaussian of 1 .084 13.6 3.5   .035  4.0 0.4   .080 10.8 2.3   .13  0.9 -1.7   -11.3
  *
- * Everything is symmetric in inside and outside, but for touching tubes, so that the masks on both sides of a wall get
- * the same wall. Distances are counted in voxels, whatever their spacing. Beyond the image the mask is continued as it
- * is at its border; leave a margin of 4 voxels around it, except where the scan ends.
+ * Inside and outside are treated alike, but for touching tubes, so that the masks on both sides of a wall get the same
+ * wall. Distances are in voxels, whatever their spacing. Beyond the image the mask continues as it is at the border;
+ * leave a margin of 4 voxels around it, except where the scan ends.
  *
- * The whole input is requested and the whole output made, because what is a sheet, a vessel or a spur depends on
- * connected parts of any size. Its bytes are the same for any number of threads, on any processor. Extra memory: 11
- * bytes per voxel. Throws when the input's buffer is not whole.
+ * Requests the whole input and makes the whole output, because sheets, vessels and spurs are connected parts of any
+ * size. The output has the same bytes for any number of threads, on any processor. Extra memory: 11 bytes per voxel.
+ * Throws when the input's buffer is not whole.
  *
- * Overridden pipeline methods: GenerateInputRequestedRegion() and EnlargeOutputRequestedRegion() (the whole).
- *
- * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
+ * Thread safety: that of itk::ProcessObject, one thread at a time; the filter divides its work itself.
  *
  * \ingroup LabelSurfaces
  */
@@ -81,13 +76,13 @@ public:
   itkNewMacro(Self);
   itkTypeMacro(AntiAliasMaskImageFilter, ImageToImageFilter);
 
-  /** Whether all narrow voxels of one-voxel-wide parts are protected, not only those that would get lost: vessels are
-   * whole for sure then, but sheets get uneven. Default off. */
+  /** Whether all narrow voxels of parts one voxel wide are protected, not only those that would be lost. Vessels are
+   * certainly whole then, but sheets become uneven. Default off. */
   itkSetMacro(ProtectAllThinParts, bool);
   itkGetConstMacro(ProtectAllThinParts, bool);
   itkBooleanMacro(ProtectAllThinParts);
 
-  /** Inside voxels that were narrow in the last update, and those of them that were protected. */
+  /** The number of inside voxels that were narrow in the last update, and of those that were protected. */
   itkGetConstMacro(NumberOfNarrowVoxels, SizeValueType);
   itkGetConstMacro(NumberOfProtectedVoxels, SizeValueType);
 
@@ -111,16 +106,16 @@ private:
   using RowReader = std::function<void(SizeValueType row, float * values)>;
   using RowWriter = std::function<void(SizeValueType row, const float * values)>;
 
-  /** Smooths the rows that \a read gives with a Gaussian of \a sigma voxels and hands them to \a write. A row is
-   * numbered y + z height. */
+  /** Smooths the rows from \a read with a Gaussian of \a sigma voxels and passes them to \a write. The number of a row
+   * is y + z height. */
   void
   Smooth(double sigma, const RowReader & read, const RowWriter & write);
 
-  /** The field for a Gaussian of \a sigma voxels after so many corrections, each times \a gain. */
+  /** The field for a Gaussian of \a sigma voxels after a number of corrections, each times \a gain. */
   void
   MatchLocalVolumes(double sigma, unsigned int corrections, float gain, float * field);
 
-  /** By voxel: 0 in a 2 x 2 x 2 block of one class, 1 in none, 2 if it is one of a sheet or vessel. */
+  /** By voxel: 0 in a 2 x 2 x 2 block of its class, 1 in none, 2 in none and part of a sheet or vessel. */
   std::vector<std::uint8_t>
   FindThin();
 
@@ -128,19 +123,19 @@ private:
   bool
   FindNarrow(const std::vector<std::uint8_t> & thin, std::vector<std::uint8_t> & isNarrow);
 
-  /** The marked voxels of one class that are connected with a marked one. They count as seen from then on. */
+  /** The marked voxels connected with a marked one within its class. Sets them as seen. */
   std::vector<SizeValueType>
   CollectPart(SizeValueType first, const std::vector<std::uint8_t> & marked, std::vector<std::uint8_t> & isSeen) const;
 
-  /** Makes the field for a smaller Gaussian and takes it around the marked voxels. */
+  /** Replaces the field around the narrow voxels by that for a smaller Gaussian. */
   void
   Refine(double sigma, unsigned int corrections, float gain, const std::vector<std::uint8_t> & isNarrow);
 
-  /** Marks fewer: those to be protected, but for spurs. */
+  /** Unmarks voxels that need no protection. */
   void
   KeepLost(const std::vector<std::uint8_t> & thin, std::vector<std::uint8_t> & isMarked);
 
-  /** Marks fewer: no spurs. */
+  /** Unmarks spurs. */
   void
   DropSpurs(std::vector<std::uint8_t> & isMarked);
 

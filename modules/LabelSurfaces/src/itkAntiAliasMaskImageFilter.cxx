@@ -21,15 +21,15 @@ struct Scale
 {
   double sigma;
   unsigned int corrections;
-  float gain; // thin parts overshoot Newton's step
+  float gain; // below 1 for thin parts, where Newton's step overshoots
 };
 constexpr Scale Wide{ 2.5, 2, 1.0f };
 constexpr Scale Medium{ 1.2, 4, 0.6f };
 constexpr Scale Fine{ 0.7, 5, 0.3f };
-constexpr float Narrow = 0.3f; // on the wrong side
-constexpr float Lost = 0.03f;  // on the wrong side
-constexpr float TubeRadius = 0.6f;
-constexpr SizeValueType LargestSpur = 2; // voxels
+constexpr float Narrow = 0.3f;     // voxels: depth on the wrong side
+constexpr float Lost = 0.03f;      // voxels: depth on the wrong side
+constexpr float TubeRadius = 0.6f; // voxels
+constexpr SizeValueType LargestSpur = 2;
 constexpr SizeValueType SmallestSheet = 16;
 constexpr unsigned int Passes = Wide.corrections + Medium.corrections + Fine.corrections + 5;
 
@@ -53,21 +53,21 @@ GaussianWeights(double sigma)
   return normalized;
 }
 
-/** The inverse of the slope that smoothing with a Gaussian gives to a step. */
+/** The inverse of the slope of a step smoothed with a Gaussian. */
 double
 InverseSlope(double sigma)
 {
   return sigma * std::sqrt(2.0 * Math::pi);
 }
 
-/** The samples before and behind a row are those at its ends. */
+/** The sample of an axis at \a sample - \a reach, or the nearest one. */
 SizeValueType
 ClampedSample(SizeValueType sample, SizeValueType reach, SizeValueType length)
 {
   return sample < reach ? 0 : std::min(sample - reach, length - 1);
 }
 
-/** Neighbours through faces, edges and corners, of voxels that are given by their place in the buffer. */
+/** The 26 neighbours of voxels, which are given by their offset in the buffer. */
 struct VoxelGrid
 {
   using Coordinates = std::array<OffsetValueType, 3>;
@@ -84,7 +84,7 @@ struct VoxelGrid
   }
 
   SizeValueType
-  PlaceOf(const Coordinates & voxel) const
+  OffsetOf(const Coordinates & voxel) const
   {
     return (static_cast<SizeValueType>(voxel[2]) * size[1] + static_cast<SizeValueType>(voxel[1])) * size[0] +
            static_cast<SizeValueType>(voxel[0]);
@@ -115,14 +115,14 @@ struct VoxelGrid
           const Coordinates neighbor{ center[0] + dx, center[1] + dy, center[2] + dz };
           if ((dx != 0 || dy != 0 || dz != 0) && this->Holds(neighbor))
           {
-            visit(this->PlaceOf(neighbor));
+            visit(this->OffsetOf(neighbor));
           }
         }
       }
     }
   }
 
-  /** Whether a few voxels are one piece: not none, either. */
+  /** Whether a few voxels, at least one, are one connected piece. */
   bool
   AreConnected(std::vector<SizeValueType> voxels) const
   {
@@ -130,7 +130,7 @@ struct VoxelGrid
     {
       return false;
     }
-    auto reached = voxels.begin() + 1; // those before it are connected with the first
+    auto reached = voxels.begin() + 1; // end of the voxels connected with the first
     for (auto from = voxels.begin(); from != reached; ++from)
     {
       const Coordinates here = this->CoordinatesOf(*from);
@@ -244,11 +244,13 @@ AntiAliasMaskImageFilter::Smooth(double sigma, const RowReader & read, const Row
   const std::vector<float> weights = GaussianWeights(sigma);
   const SizeValueType taps = weights.size();
   const SizeValueType reach = taps / 2;
-  const auto [width, height, depth] = m_Size;
+  const SizeValueType width = m_Size[0];
+  const SizeValueType height = m_Size[1];
+  const SizeValueType depth = m_Size[2];
   const SizeValueType stride = RowArithmetic::PaddedLength(width);
 
   // Along x and y, plane by plane.
-  this->ForEach(depth, [&, width = width, height = height](SizeValueType z) {
+  this->ForEach(depth, [&](SizeValueType z) {
     std::vector<float> extended(stride + 2 * reach);
     std::vector<float> plane(height * stride);
     std::vector<float> blend(stride);
@@ -277,7 +279,7 @@ AntiAliasMaskImageFilter::Smooth(double sigma, const RowReader & read, const Row
   });
 
   // Along z, for each y.
-  this->ForEach(height, [&, width = width, height = height, depth = depth](SizeValueType y) {
+  this->ForEach(height, [&](SizeValueType y) {
     std::vector<float> rows(depth * stride);
     std::vector<float> blend(stride);
     std::vector<const float *> terms(taps);
@@ -340,33 +342,34 @@ AntiAliasMaskImageFilter::MatchLocalVolumes(double sigma, unsigned int correctio
 std::vector<std::uint8_t>
 AntiAliasMaskImageFilter::FindThin()
 {
-  const auto [width, height, depth] = m_Size;
+  const SizeValueType width = m_Size[0];
+  const SizeValueType height = m_Size[1];
+  const SizeValueType depth = m_Size[2];
   std::vector<std::uint8_t> thin(width * height * depth);
   const auto sample = [](SizeValueType first, SizeValueType step, SizeValueType length) {
     return ClampedSample(first + step, 1, length);
   };
   // Whether one of the eight 2 x 2 x 2 blocks around a voxel is all of its class.
-  const auto isInBlock =
-    [&, width = width, height = height, depth = depth](SizeValueType x, SizeValueType y, SizeValueType z) {
-      const bool isInside = m_Mask[(z * height + y) * width + x] != 0;
-      for (unsigned int block = 0; block < 8; ++block)
+  const auto isInBlock = [&](SizeValueType x, SizeValueType y, SizeValueType z) {
+    const bool isInside = m_Mask[(z * height + y) * width + x] != 0;
+    for (unsigned int block = 0; block < 8; ++block)
+    {
+      bool isWhole = true;
+      for (unsigned int corner = 0; corner < 8 && isWhole; ++corner)
       {
-        bool isWhole = true;
-        for (unsigned int corner = 0; corner < 8 && isWhole; ++corner)
-        {
-          const SizeValueType blockX = sample(x, (block & 1) + (corner & 1), width);
-          const SizeValueType blockY = sample(y, (block >> 1 & 1) + (corner >> 1 & 1), height);
-          const SizeValueType blockZ = sample(z, (block >> 2) + (corner >> 2), depth);
-          isWhole = (m_Mask[(blockZ * height + blockY) * width + blockX] != 0) == isInside;
-        }
-        if (isWhole)
-        {
-          return true;
-        }
+        const SizeValueType blockX = sample(x, (block & 1) + (corner & 1), width);
+        const SizeValueType blockY = sample(y, (block >> 1 & 1) + (corner >> 1 & 1), height);
+        const SizeValueType blockZ = sample(z, (block >> 2) + (corner >> 2), depth);
+        isWhole = (m_Mask[(blockZ * height + blockY) * width + blockX] != 0) == isInside;
       }
-      return false;
-    };
-  this->ForEach(depth, [&, width = width, height = height](SizeValueType z) {
+      if (isWhole)
+      {
+        return true;
+      }
+    }
+    return false;
+  };
+  this->ForEach(depth, [&](SizeValueType z) {
     for (SizeValueType y = 0; y < height; ++y)
     {
       for (SizeValueType x = 0; x < width; ++x)
@@ -484,7 +487,7 @@ AntiAliasMaskImageFilter::DropSpurs(std::vector<std::uint8_t> & isMarked)
     {
       continue;
     }
-    std::vector<SizeValueType> base; // what it sticks out of
+    std::vector<SizeValueType> base; // voxels that the part sticks out of
     for (const SizeValueType voxel : part)
     {
       grid.ForEachNeighbor(voxel, [&](SizeValueType neighbor) {
@@ -514,7 +517,7 @@ AntiAliasMaskImageFilter::Protect(const std::vector<std::uint8_t> & isProtected,
     constexpr float barely = 0.02f; // no voxel changes sides
     if (grid.Holds(voxel))
     {
-      const SizeValueType offset = grid.PlaceOf(voxel);
+      const SizeValueType offset = grid.OffsetOf(voxel);
       const bool isOwn = (m_Mask[offset] != 0) == isInside;
       m_Field[offset] = side * std::max(side * m_Field[offset], isOwn ? depth : std::min(depth, -barely));
     }
@@ -529,11 +532,11 @@ AntiAliasMaskImageFilter::Protect(const std::vector<std::uint8_t> & isProtected,
           const Voxel neighbor{ voxel[0] + dx, voxel[1] + dy, voxel[2] + dz };
           const auto steps = static_cast<float>(std::abs(dx) + std::abs(dy) + std::abs(dz));
           raise(neighbor, TubeRadius - std::sqrt(steps));
-          if (steps < 2.0f || !grid.Holds(neighbor) || (m_Mask[grid.PlaceOf(neighbor)] != 0) != isInside)
+          if (steps < 2.0f || !grid.Holds(neighbor) || (m_Mask[grid.OffsetOf(neighbor)] != 0) != isInside)
           {
             continue;
           }
-          // The other corners of the square or cube whose diagonal joins the two are this far from it.
+          // The distance of the diagonal between the two from the other corners of its square or cube.
           const float distance = steps == 2.0f ? std::sqrt(1.0f / 2.0f) : std::sqrt(2.0f / 3.0f);
           for (unsigned int corner = 0; corner < 8; ++corner)
           {

@@ -12,7 +12,7 @@ namespace rhombic
 namespace
 {
 
-/** Makes a box hold a run of voxels along x. */
+/** Extends a box to hold a run of voxels along x. */
 void
 Enclose(itk::ImageRegion<3> & box, const itk::Index<3> & first, itk::SizeValueType length)
 {
@@ -31,10 +31,10 @@ Enclose(itk::ImageRegion<3> & box, const itk::Index<3> & first, itk::SizeValueTy
   }
 }
 
-/** Calls \a enclose(value, first index, length) for each run of equal values along x that are not 0. */
-template <typename TImage, typename TEnclose>
+/** Calls function(value, first index, length) for each run of equal values along x that are not 0. */
+template <typename TImage, typename TFunction>
 void
-ForEachRun(const TImage & image, const TEnclose & enclose)
+ForEachRun(const TImage & image, const TFunction & function)
 {
   const auto & region = image.GetBufferedRegion();
   const auto width = static_cast<std::ptrdiff_t>(region.GetSize(0));
@@ -51,7 +51,7 @@ ForEachRun(const TImage & image, const TEnclose & enclose)
         if (value != 0)
         {
           index[0] = region.GetIndex(0) + (begin - row);
-          enclose(value, index, static_cast<itk::SizeValueType>(end - begin));
+          function(value, index, static_cast<itk::SizeValueType>(end - begin));
         }
         begin = end;
       }
@@ -59,6 +59,7 @@ ForEachRun(const TImage & image, const TEnclose & enclose)
   }
 }
 
+/** The mask of a label in a box. */
 MaskImage::Pointer
 CutMask(const ScanImage & image, std::int32_t value, const itk::ImageRegion<3> & box)
 {
@@ -94,7 +95,7 @@ FindLabelBoxes(const ScanImage & image)
 }
 
 LabelPieces::LabelPieces(const ScanImage & image, std::int32_t value, const itk::ImageRegion<3> & box)
-  : m_Whole(GeometryOf(image).GetLargestPossibleRegion())
+  : m_ScanRegion(GeometryOf(image).GetLargestPossibleRegion())
 {
   const auto filter = itk::ConnectedComponentImageFilter<MaskImage, PieceImage>::New();
   filter->SetInput(CutMask(image, value, box));
@@ -144,7 +145,7 @@ LabelPieces::MakeMask(std::size_t piece, itk::SizeValueType margin) const
     auto index = it.GetIndex();
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      index[axis] = std::clamp(index[axis], m_Whole.GetIndex(axis), m_Whole.GetUpperIndex()[axis]);
+      index[axis] = std::clamp(index[axis], m_ScanRegion.GetIndex(axis), m_ScanRegion.GetUpperIndex()[axis]);
     }
     it.Set(box.IsInside(index) && m_Pieces->GetPixel(index) == piece + 1 ? 1 : 0);
   }

@@ -12,7 +12,7 @@ namespace rhombic
 
 using MaskImage = itk::Image<std::uint8_t, 3>;
 
-/** The box around each label's voxels, by the label's value, without the background 0. */
+/** The bounding box of each label, by its value; without the background 0. */
 std::map<std::int32_t, itk::ImageRegion<3>>
 FindLabelBoxes(const ScanImage & image);
 
@@ -21,7 +21,7 @@ FindLabelBoxes(const ScanImage & image);
 class LabelPieces
 {
 public:
-  /** \param box around the label's voxels */
+  /** \param box the label's bounding box */
   LabelPieces(const ScanImage & image, std::int32_t value, const itk::ImageRegion<3> & box);
 
   std::size_t
@@ -30,32 +30,32 @@ public:
     return m_Boxes.size();
   }
 
-  /** How many there would be if voxels were connected through faces only. */
+  /** The number of pieces connected through faces alone. */
   std::size_t
   CountFaceConnectedPieces() const;
 
-  /** Voxels of a piece in each slice of its box. */
+  /** The number of a piece's voxels in each slice of its box. */
   std::vector<std::size_t>
   CountVoxels(std::size_t piece) const;
 
-  /** The box around a piece's voxels. */
+  /** The bounding box of a piece. */
   const itk::ImageRegion<3> &
   GetBox(std::size_t piece) const
   {
     return m_Boxes[piece];
   }
 
-  /** 1 for the piece's voxels, 0 elsewhere, in its box and \a margin voxels around it, on the scan's grid. Beyond the
-   * scan's borders it is as at the borders. */
+  /** A mask of a piece on the scan's grid: its box and \a margin voxels around it. Beyond the scan, the mask continues
+   * as it is at the border. */
   MaskImage::Pointer
   MakeMask(std::size_t piece, itk::SizeValueType margin) const;
 
 private:
   using PieceImage = itk::Image<std::uint32_t, 3>;
 
-  PieceImage::Pointer m_Pieces; // by voxel of the label's box: 0 or the piece's place in the list below, from 1
-  itk::ImageRegion<3> m_Whole;
-  std::vector<itk::ImageRegion<3>> m_Boxes;
+  PieceImage::Pointer m_Pieces; ///< of the label's box: the number of each voxel's piece, from 1; or 0
+  itk::ImageRegion<3> m_ScanRegion;
+  std::vector<itk::ImageRegion<3>> m_Boxes; ///< by piece
 };
 
 } // namespace rhombic

@@ -22,10 +22,10 @@ namespace
 
 constexpr double CubicMillimetresPerMillilitre = 1000.0;
 
-/** The values of the labels that have this name or value. Upper and lower case are the same, unless a label has the
- * very name. Throws Failure(Usage) when there are none. */
+/** The values of the labels with this name or value. Upper and lower case count as the same, unless a label has exactly
+ * this name. Throws Failure(Usage) when there are none. */
 std::set<std::int32_t>
-FindCalled(const std::vector<LabelSummary> & labels, const std::string & nameOrValue)
+FindValues(const std::vector<LabelSummary> & labels, const std::string & nameOrValue)
 {
   using itksys::SystemTools;
   std::set<std::int32_t> exact;
@@ -52,14 +52,14 @@ FindCalled(const std::vector<LabelSummary> & labels, const std::string & nameOrV
   return exact.empty() ? inAnyCase : exact;
 }
 
-/** The labels that settings ask for, in the order of the map. */
+/** The labels of the map that are wanted, or those that its table shows if none are named. */
 std::vector<LabelSummary>
 ChooseLabels(const LabelMap & map, const std::vector<std::string> & wanted)
 {
   std::set<std::int32_t> values;
   for (const std::string & nameOrValue : wanted)
   {
-    values.merge(FindCalled(map.labels, nameOrValue));
+    values.merge(FindValues(map.labels, nameOrValue));
   }
   std::vector<LabelSummary> chosen;
   std::copy_if(map.labels.begin(), map.labels.end(), std::back_inserter(chosen), [&](const LabelSummary & summary) {
@@ -75,8 +75,7 @@ ChooseLabels(const LabelMap & map, const std::vector<std::string> & wanted)
   return chosen;
 }
 
-/** The origins of the slices of a part of the scan's grid. Beyond the scan's slices they continue with the steps at its
- * ends. */
+/** The slice origins of a region of the scan's grid. Beyond the scan they go on with the first or the last step. */
 std::vector<itk::Point<double, 3>>
 CutSliceOrigins(const Scan & scan, const itk::ImageRegion<3> & region)
 {
@@ -119,7 +118,7 @@ CutPiece(const Scan & scan, const LabelPieces & pieces, std::size_t piece, const
   return cut;
 }
 
-/** All surfaces as one, in their order. */
+/** All surfaces as one. */
 itk::TriangleSurface::Pointer
 Join(const std::vector<itk::TriangleSurface::Pointer> & surfaces)
 {
@@ -203,7 +202,7 @@ CheckDensity(double density)
   }
 }
 
-/** Says what did not come out as it should. */
+/** Notes a torn surface, and a volume that differs by more than 1 %. */
 void
 NoteShortcomings(const LabelSurface & made, const Events & events)
 {

@@ -25,23 +25,25 @@ namespace
 using FieldImage = itk::Image<float, 3>;
 using FieldLattice = itk::FCCImage<float>;
 
-constexpr double FinestFactor = 8.0;       // of the density
-constexpr double FinestSmallFactor = 64.0; // the same of small lattices
+constexpr double FinestFactor = 8.0;       // greatest multiple of the density asked for
+constexpr double FinestSmallFactor = 64.0; // the same for small lattices
 constexpr double SmallLattice = 1 << 24;   // sites
-constexpr double LargestLattice = 1 << 26; // sites; it would take seconds for little
-constexpr double LargestDifference = 0.01; // of the volume, relative
-constexpr double GoodDifference = 0.002;
-constexpr unsigned int MostLevels = 6;
-constexpr double FarthestLevel = 0.4; // voxels; beyond 0.5, parts would vanish or grow by themselves
+constexpr double LargestLattice = 1 << 26; // sites; larger ones take seconds for little gain
+constexpr double LargestDifference = 0.01; // between the volumes of surface and voxels, relative
+constexpr double GoodDifference = 0.002;   // the search for the level ends here
+constexpr unsigned int MostLevels = 6;     // tried in one search
+constexpr double FarthestLevel = 0.4;      // voxels; beyond 0.5, parts would vanish or appear
+constexpr std::size_t ThinShare = 4;       // a piece is thin when a quarter of its voxels is narrow
 
-/** The smooth field of a mask, in voxels, cut off at the outer faces of the scan's voxels. */
+/** The smooth field of a mask. */
 struct MaskField
 {
-  FieldImage::Pointer image;
+  FieldImage::Pointer image; ///< depth below the surface in voxels, positive inside
   std::size_t narrowVoxels = 0;
   std::size_t protectedVoxels = 0;
 };
 
+/** Limits the field to the depth below the outer faces of the scan's voxels. */
 void
 CutAtScanBorder(FieldImage & field, const itk::ImageRegion<3> & scanRegion)
 {
@@ -58,8 +60,8 @@ CutAtScanBorder(FieldImage & field, const itk::ImageRegion<3> & scanRegion)
   }
 }
 
-/** Twice the Euler number of the piece's voxels as a solid, whose surface has that Euler characteristic: vertices less
- * edges plus faces less voxels of all that the voxels touch. */
+/** The Euler characteristic of the surface of the piece's voxels. It is twice that of the solid, which is the number of
+ * vertices minus edges plus faces minus voxels. */
 std::ptrdiff_t
 EulerCharacteristicOf(const MaskPiece & piece)
 {
@@ -68,7 +70,7 @@ EulerCharacteristicOf(const MaskPiece & piece)
   const auto isInside = [&](const itk::Index<3> & index) {
     return region.IsInside(index) && piece.scanRegion.IsInside(index) && mask.GetPixel(index) != 0;
   };
-  // Each voxel stands for the vertex, the edges and the faces at its lower end.
+  // Each voxel counts its lowest corner, and the three edges and three faces at that corner.
   std::ptrdiff_t number = 0;
   for (itk::ImageRegionConstIteratorWithIndex<MaskImage> it(&mask, region); !it.IsAtEnd(); ++it)
   {
@@ -97,7 +99,7 @@ EulerCharacteristicOf(const MaskPiece & piece)
   return 2 * number;
 }
 
-/** Of a closed surface. */
+/** The Euler characteristic of a closed surface, which has three edges for two triangles. */
 std::ptrdiff_t
 EulerCharacteristicOf(const itk::TriangleSurface & surface)
 {
@@ -151,14 +153,15 @@ Extract(const FieldLattice & lattice, double level, itk::FCCIsosurfaceMode mode)
   return surface;
 }
 
+/** The relative difference between the volumes. */
 double
 DifferenceOf(const MaskSurface & made, const MaskPiece & piece)
 {
   return std::abs(made.volume / piece.volume - 1.0);
 }
 
-/** Extracts the surface at the level at which it has the piece's volume: Newton's method with the surface's area as the
- * first slope, secants from then on. */
+/** Extracts the surface at the level at which it has the piece's volume. The level is found by the secant method; the
+ * first slope is the surface's area. */
 MaskSurface
 ExtractVolume(const FieldLattice & lattice, const MaskPiece & piece, double firstLevel, itk::FCCIsosurfaceMode mode)
 {
@@ -201,7 +204,7 @@ ExtractVolume(const FieldLattice & lattice, const MaskPiece & piece, double firs
   return best;
 }
 
-/** Bytes that the work on a piece takes: mask, field and what makes it, lattice, and surfaces. */
+/** Bytes for the work on a piece: mask, field, buffers, lattice and surfaces. */
 std::uintmax_t
 MemoryFor(const MaskPiece & piece, double density)
 {
@@ -211,44 +214,42 @@ MemoryFor(const MaskPiece & piece, double density)
   return static_cast<std::uintmax_t>(voxels * (bytesPerVoxel + bytesPerSite * density));
 }
 
-/** \class PieceSurfaces
- * \brief Attempts at the surface of a piece. */
-class PieceSurfaces
+/** \class SurfaceSearch
+ * \brief Looks for the best surface of a piece. */
+class SurfaceSearch
 {
 public:
-  PieceSurfaces(const MaskPiece & piece, const MaskSurfaceSettings & settings)
+  SurfaceSearch(const MaskPiece & piece, const MaskSurfaceSettings & settings)
     : m_Piece(piece)
     , m_Settings(settings)
   {}
 
-  /** The best one, on finer lattices as long as that helps and there is memory for them. */
+  /** Protects all thin parts if a thin piece does not come out whole otherwise. */
   MaskSurface
-  Make()
+  Run()
   {
-    MaskField field = MakeField(m_Piece, false);
-    const std::size_t numberOfVoxels = static_cast<std::size_t>(
-      std::count_if(m_Piece.mask->GetBufferPointer(),
-                    m_Piece.mask->GetBufferPointer() + m_Piece.mask->GetBufferedRegion().GetNumberOfPixels(),
-                    [](std::uint8_t value) { return value != 0; }));
-    constexpr std::size_t thinShare = 4;
-    const bool isThin = thinShare * field.narrowVoxels >= numberOfVoxels;
+    const MaskField field = MakeField(m_Piece, false);
+    const std::uint8_t * const mask = m_Piece.mask->GetBufferPointer();
+    const auto voxels = std::count(mask, mask + m_Piece.mask->GetBufferedRegion().GetNumberOfPixels(), 1);
+    const bool isThin = ThinShare * field.narrowVoxels >= static_cast<std::size_t>(voxels);
     if (isThin)
     {
       m_EulerCharacteristic = EulerCharacteristicOf(m_Piece);
     }
-    MaskSurface best = this->Refine(field);
-    if (isThin && best.shells != 1)
+    const MaskSurface best = this->Refine(field);
+    if (!isThin || best.shells == 1)
     {
-      field = MakeField(m_Piece, true);
-      MaskSurface whole = this->Refine(field);
-      best = this->RankOf(whole) < this->RankOf(best) ? whole : best;
+      return best;
     }
-    return best;
+    const MaskSurface whole = this->Refine(MakeField(m_Piece, true));
+    return this->RankOf(whole) < this->RankOf(best) ? whole : best;
   }
 
 private:
-  /** Less is better: parts, holes of thin pieces that their voxels don't have, volume. */
-  std::tuple<std::size_t, std::ptrdiff_t, double>
+  /** Number of parts; holes of thin pieces that their voxels don't have; difference of the volumes. Less is better. */
+  using Rank = std::tuple<std::size_t, std::ptrdiff_t, double>;
+
+  Rank
   RankOf(const MaskSurface & made) const
   {
     const std::size_t parts = made.shells == 0 ? std::numeric_limits<std::size_t>::max() : made.shells;
@@ -280,10 +281,11 @@ private:
     return made;
   }
 
+  /** The best surface of a field, on finer and finer lattices until two in turn are no better or one is too large. */
   MaskSurface
   Refine(const MaskField & field) const
   {
-    const std::tuple<std::size_t, std::ptrdiff_t, double> perfect{ 1, 0, 0.0 };
+    const Rank perfect{ 1, 0, 0.0 };
     MaskSurface best = this->MakeOn(field, 1.0, 0.0);
     unsigned int failures = 0;
     for (double factor = 2.0; RankOf(best) != perfect && failures < 2 && this->IsAffordable(factor); factor *= 2.0)
@@ -304,7 +306,7 @@ private:
 
   const MaskPiece & m_Piece;
   const MaskSurfaceSettings & m_Settings;
-  std::optional<std::ptrdiff_t> m_EulerCharacteristic; // wanted of the surface; of thin pieces
+  std::optional<std::ptrdiff_t> m_EulerCharacteristic; ///< that a thin piece's surface should have
 };
 
 } // namespace
@@ -316,7 +318,7 @@ MaskToSurface(const MaskPiece & piece, const MaskSurfaceSettings & settings)
                 settings.maximumMemory,
                 "The surface of " + settings.name,
                 "use a coarser lattice, or crop the label map");
-  return PieceSurfaces(piece, settings).Make();
+  return SurfaceSearch(piece, settings).Run();
 }
 
 } // namespace rhombic

@@ -6,30 +6,33 @@
 #include "itkFCCIsosurfaceMode.h"
 #include "itkTriangleSurface.h"
 
-#include <functional>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace rhombic
 {
 
-/** One connected piece of a label, to be given a surface. */
+/** Voxels that a mask must have around its piece. */
+constexpr itk::SizeValueType MaskMargin = 4;
+
+/** One connected piece of a label. */
 struct MaskPiece
 {
   MaskImage::Pointer mask;                         ///< with MaskMargin voxels around the piece
   std::vector<itk::Point<double, 3>> sliceOrigins; ///< as in Scan, one for each slice of the mask, or none
-  itk::ImageRegion<3> scanRegion;                  ///< where the scan is; beyond, the mask is made up
-  double volume = 0.0;                             ///< of the piece's voxels in cubic mm
+  itk::ImageRegion<3> scanRegion;                  ///< the scan's part of the mask; the rest continues its border
+  double volume = 0.0;                             ///< volume of the piece's voxels in mm^3
 };
-
-/** Voxels that a mask must have around its piece. */
-constexpr itk::SizeValueType MaskMargin = 4;
 
 /** The surface of a piece. */
 struct MaskSurface
 {
   itk::TriangleSurface::Pointer surface;
-  double volume = 0.0;    ///< that it encloses, in cubic mm
-  double level = 0.0;     ///< of the field at which it was extracted, in voxels
-  std::size_t shells = 0; ///< components that enclose something
+  double volume = 0.0;    ///< mm^3
+  double level = 0.0;     ///< isovalue of the field, in voxels
+  std::size_t shells = 0; ///< components of positive volume
   bool isFiner = false;   ///< whether its lattice has more sites than asked for
   std::size_t protectedVoxels = 0;
 };
@@ -40,7 +43,7 @@ struct MaskSurfaceSettings
   double density = 0.0; ///< lattice sites per voxel
   itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
   std::uintmax_t maximumMemory = 0;
-  std::string name; ///< of what has this surface, for messages
+  std::string name; ///< the label's, for messages
 };
 
 /** The surface of a piece, with its volume; see LabelsToSurfaces(). Throws Failure(Memory). */

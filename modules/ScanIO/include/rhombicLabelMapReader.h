@@ -12,7 +12,7 @@ namespace rhombic
 {
 
 /** \file
- * Label maps for scans. Thread safety: the structs are values, but that copies of a map share its image (see Scan). */
+ * Reads label maps for scans. Thread safety: the structs are values; copies of a map share its image (see Scan). */
 
 /** A label map, and the names and colours of its labels. */
 struct LabelMap
@@ -37,9 +37,9 @@ IsLabelMap(const Scan & scan);
 std::vector<LabelSummary>
 FindLabels(const Scan & scan, const LabelMapSource & source);
 
-/** Reads the label map of a scan, which may have another grid. The scan's options but for series and frame hold for the
- * map, too. Throws Failure, also when the two don't lie in the same place; what is partly outside goes to the label
- * map's notes. Thread safe. */
+/** Reads the label map of a scan, which may have another grid. The options are those of the scan; series and frame are
+ * ignored. Throws Failure, also when the two do not lie in the same place (see RequireOverlap()); labels partly outside
+ * the scan are noted in the map's scan. Thread safe. */
 LabelMap
 ReadLabelMap(const LabelMapSource & source,
              const ScanReadOptions & options,

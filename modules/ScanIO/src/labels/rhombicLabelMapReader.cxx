@@ -49,7 +49,7 @@ ReadLabelMap(const LabelMapSource & source,
              const std::filesystem::path & scanPath)
 {
   ScanReadOptions mapOptions = options;
-  mapOptions.series.clear(); // the choices among the scan's parts are not those among its label map's
+  mapOptions.series.clear(); // chosen for the scan, not for the map
   mapOptions.frame.reset();
   LabelMap map;
   map.scan = ReadScan(source.path, mapOptions);
