@@ -283,37 +283,6 @@ private:
   std::size_t m_Count = 0;
 };
 
-/** The number of levels along the patient in which each column holds something. */
-class LevelCounts
-{
-public:
-  LevelCounts(std::size_t columns, std::size_t levels)
-    : m_Counts(columns, 0)
-    , m_IsCounted(columns * levels, false)
-    , m_Levels(levels)
-  {}
-
-  void
-  Add(std::size_t column, std::size_t level)
-  {
-    const std::size_t place = column * m_Levels + level;
-    m_Counts[column] += m_IsCounted[place] ? 0 : 1;
-    m_IsCounted[place] = true;
-  }
-
-  /** The share of all levels. */
-  bool
-  HasShare(std::size_t column, double share) const
-  {
-    return static_cast<double>(m_Counts[column]) >= share * static_cast<double>(m_Levels);
-  }
-
-private:
-  std::vector<std::uint32_t> m_Counts;
-  std::vector<bool> m_IsCounted;
-  std::size_t m_Levels;
-};
-
 /** Finds the columns that hold doubtful tissue in much of the scan and something in most of it, as a table's place does
  * and no thin part of a patient. Their blocks but for the cores are the table's and not the patient's. */
 void
@@ -324,32 +293,36 @@ TakeTablePlaces(const CoarseScan & coarse,
                 MaskImage & table,
                 MaskImage & patient)
 {
+  constexpr std::uint8_t nothing = 0;
+  constexpr std::uint8_t something = 1;
+  constexpr std::uint8_t doubtfulTissue = 3;
   const auto & size = solid.GetBufferedRegion().GetSize();
   const std::uint8_t * const isSolid = solid.GetBufferPointer();
+  const std::size_t levels = size[coarse.longAxis];
   const Columns columns(coarse);
-  LevelCounts doubtfulLevels(columns.Count(), size[coarse.longAxis]);
-  LevelCounts occupiedLevels(columns.Count(), size[coarse.longAxis]);
+  std::vector<std::uint8_t> contents(columns.Count() * levels, nothing); // by column and level
   ForEachIndex(size, [&](const itk::Index<3> & index, std::size_t offset) {
     if (isSolid[offset] != 0)
     {
-      const std::size_t column = columns.ColumnOf(index);
-      const auto level = static_cast<std::size_t>(index[coarse.longAxis]);
-      occupiedLevels.Add(column, level);
-      if (doubtful.GetBufferPointer()[offset] != 0)
-      {
-        doubtfulLevels.Add(column, level);
-      }
+      const std::size_t place = columns.ColumnOf(index) * levels + static_cast<std::size_t>(index[coarse.longAxis]);
+      contents[place] |= doubtful.GetBufferPointer()[offset] != 0 ? doubtfulTissue : something;
     }
   });
+  std::vector<bool> isTable;
+  for (auto level = contents.begin(); level != contents.end(); level += static_cast<std::ptrdiff_t>(levels))
+  {
+    const auto end = level + static_cast<std::ptrdiff_t>(levels);
+    const auto doubtfulLevels = static_cast<double>(std::count(level, end, doubtfulTissue));
+    const auto emptyLevels = static_cast<double>(std::count(level, end, nothing));
+    const auto allLevels = static_cast<double>(levels);
+    isTable.push_back(doubtfulLevels >= tableShare * allLevels &&
+                      allLevels - emptyLevels >= tableShareOccupied * allLevels);
+  }
   ForEachIndex(size, [&](const itk::Index<3> & index, std::size_t offset) {
-    if (isSolid[offset] != 0 && body.GetBufferPointer()[offset] == 0)
+    if (isSolid[offset] != 0 && body.GetBufferPointer()[offset] == 0 && isTable[columns.ColumnOf(index)])
     {
-      const std::size_t column = columns.ColumnOf(index);
-      if (doubtfulLevels.HasShare(column, tableShare) && occupiedLevels.HasShare(column, tableShareOccupied))
-      {
-        table.GetBufferPointer()[offset] = 1;
-        patient.GetBufferPointer()[offset] = 0;
-      }
+      table.GetBufferPointer()[offset] = 1;
+      patient.GetBufferPointer()[offset] = 0;
     }
   });
 }

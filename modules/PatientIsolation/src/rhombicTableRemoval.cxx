@@ -102,40 +102,35 @@ std::vector<RemovedObject>
 MeasureObjects(const CoarseScan & coarse, const MaskImage & objects)
 {
   const Components components = FindComponents(objects, true);
-  const std::size_t count = components.parts.size();
-  std::vector<RemovedObject> measured(count);
-  std::vector<itk::Vector<double, 3>> sums(count, itk::Vector<double, 3>(0.0));
-  std::vector<double> weights(count, 0.0);
-  for (RemovedObject & object : measured)
-  {
-    object.lowest.Fill(std::numeric_limits<double>::infinity());
-    object.highest.Fill(-std::numeric_limits<double>::infinity());
-  }
+  RemovedObject empty;
+  empty.centroid.Fill(0.0);
+  empty.lowest.Fill(std::numeric_limits<double>::infinity());
+  empty.highest.Fill(-std::numeric_limits<double>::infinity());
+  std::vector<RemovedObject> measured(components.parts.size(), empty); // first with sums of weights
   ForEachIndex(objects.GetBufferedRegion().GetSize(), [&](const itk::Index<3> & index, std::size_t offset) {
-    const std::uint32_t label = components.labels->GetBufferPointer()[offset];
-    if (label == 0)
+    if (const std::uint32_t label = components.labels->GetBufferPointer()[offset])
     {
-      return;
-    }
-    const auto point = coarse.PointOf(index);
-    const double weight = coarse.occupancy->GetBufferPointer()[offset];
-    sums[label] += point.GetVectorFromOrigin() * weight;
-    weights[label] += weight;
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      measured[label].lowest[axis] = std::min(measured[label].lowest[axis], point[axis]);
-      measured[label].highest[axis] = std::max(measured[label].highest[axis], point[axis]);
+      RemovedObject & object = measured[label];
+      const auto point = coarse.PointOf(index);
+      const double weight = coarse.occupancy->GetBufferPointer()[offset];
+      object.millilitres += weight;
+      object.centroid += point.GetVectorFromOrigin() * weight;
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        object.lowest[axis] = std::min(object.lowest[axis], point[axis]);
+        object.highest[axis] = std::max(object.highest[axis], point[axis]);
+      }
     }
   });
-  for (std::size_t label = 1; label < count; ++label)
+  measured.erase(measured.begin()); // the outside
+  for (RemovedObject & object : measured)
   {
-    measured[label].millilitres = weights[label] * (coarse.Millilitres(1) / 255.0);
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      measured[label].centroid[axis] = sums[label][axis] / weights[label];
+      object.centroid[axis] /= object.millilitres;
     }
+    object.millilitres *= coarse.Millilitres(1) / 255.0;
   }
-  measured.erase(measured.begin()); // the outside
   return measured;
 }
 
