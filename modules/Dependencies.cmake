@@ -29,6 +29,7 @@ add_library(RhombicOptions INTERFACE)
 target_compile_options(RhombicOptions INTERFACE
   -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
   -ffp-contract=off # the same bytes from every build
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage> # a unity build takes sources for headers
   $<$<BOOL:${RHOMBIC_STRICT}>:-Werror>)
 if(RHOMBIC_SANITIZER)
   target_compile_options(RhombicOptions INTERFACE -fsanitize=${RHOMBIC_SANITIZER} -fno-omit-frame-pointer)
