@@ -8,10 +8,14 @@ set -euo pipefail
 start=$PWD
 cd "$(dirname "$0")/.."
 
+echo "1 of 3: packages"
 ./pipelines/install-packages.sh
-./pipelines/build.sh release
-rhombic="$PWD/build/release/bin/rhombic"
+echo "2 of 3: the program (the first time 4 minutes on two cores, later seconds)"
+./pipelines/build.sh release rhombic
+programs="$PWD/build/release/bin"
+rhombic="$programs/rhombic"
 pictures="$PWD/build/demo"
+echo "3 of 3: pictures (a few seconds each)"
 rm -rf "$pictures"
 mkdir -p "$pictures"
 "$rhombic" phantom -o "$pictures/phantom"
@@ -33,3 +37,6 @@ fi
 
 echo "The pictures are in $pictures:"
 ls "$pictures"/*.png
+echo "The program is $rhombic. To call it as rhombic, in this shell or for everybody:"
+echo "  export PATH=\"$programs:\$PATH\""
+echo "  sudo cmake --install build/release --component program    # to /usr/local, from $PWD"

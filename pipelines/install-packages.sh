@@ -1,15 +1,20 @@
 #!/usr/bin/env bash
-# Installs the Debian 12 packages that building and testing Rhombic needs. Says and does nothing when all are there.
+# install-packages.sh [tests]
+#
+# Installs the Debian 12 packages that building and running Rhombic needs; with `tests`, those that its tests need, too.
+# Says and does nothing when all are there.
 set -euo pipefail
 
 packages=(
   ca-certificates ccache cmake g++ git ninja-build pkg-config
   libinsighttoolkit5-dev libvtk9-dev
-  libopenimageio-dev openimageio-tools
+  libopenimageio-dev openimageio-tools # the CMake package of the first looks for the programs of the second
   libegl-dev libegl1 libgl1-mesa-dri libx11-dev
   libcli11-dev libyaml-cpp-dev nlohmann-json3-dev libspdlog-dev zlib1g-dev libhwy-dev libmeshoptimizer-dev
-  libgtest-dev dcm2niix f3d doxygen dpkg-dev file help2man
 )
+if [ "${1-}" = tests ]; then
+  packages+=(libgtest-dev dcm2niix f3d doxygen dpkg-dev file help2man)
+fi
 
 missing=()
 for package in "${packages[@]}"; do
@@ -27,11 +32,35 @@ if [ "$(id -u)" -ne 0 ]; then
   fi
   run=(sudo)
 fi
-echo "Installing ${#missing[@]} packages: ${missing[*]}"
+
+# Prints how far apt is, in steps of 20 %, from the lines that APT::Status-Fd adds to what it says.
+show_progress() {
+  local line stage percent next=0 last=
+  while IFS= read -r line; do
+    case $line in
+      dlstatus:*) stage=downloaded ;;
+      pmstatus:*) stage=installed ;;
+      *) continue ;;
+    esac
+    percent=${line#*:*:}
+    percent=${percent%%[.:]*}
+    [ "$stage" = "$last" ] || next=20
+    last=$stage
+    if [ "$percent" -ge "$next" ]; then
+      echo "  $stage: $percent %"
+      next=$((percent / 20 * 20 + 20))
+    fi
+  done
+}
+
+echo "Installing ${#missing[@]} packages and what they need (1 to 2 minutes and 600 MB of downloads if none are there):"
+echo "  ${missing[*]}"
 log=$(mktemp)
 if ! { "${run[@]}" apt-get update -qq &&
-       "${run[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
-  cat "$log" >&2
+       "${run[@]}" env DEBIAN_FRONTEND=noninteractive \
+         apt-get install -y -q -o APT::Status-Fd=1 --no-install-recommends "${missing[@]}"; } 2>&1 | tee "$log" | show_progress; then
+  grep -vE '^(dl|pm)status:' "$log" | tail -n 40 >&2
+  echo "The packages could not be installed; the whole log is in $log" >&2
   exit 1
 fi
 rm -f "$log"
