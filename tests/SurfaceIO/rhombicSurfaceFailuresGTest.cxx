@@ -1,4 +1,4 @@
-// What can go wrong while a file is written: the old one stays, or the new one is complete, and nothing lies about.
+// Failures while a file is written: the old file stays or the new one is complete, and no temporary file is left.
 
 #include "rhombicSurfaceTest.h"
 
@@ -23,8 +23,8 @@ using rhombic::WriteSurfaces;
 class SurfaceFailures : public SurfaceTest
 {};
 
-/** Runs an action in a process of its own; what wait() says about its end: its exit code is 0 for success, the kind of
- * the failure, or 100 when its sentence does not name \a named. */
+/** Runs an action in a process of its own and returns its status from wait(). The exit code is 0 for success, the kind
+ * of the failure, or 100 if its message does not contain \a named. */
 int
 InChild(const std::function<void()> & action, const std::string & named = {})
 {
@@ -123,7 +123,7 @@ TEST_F(SurfaceFailures, FileSizeLimitThatKillsLeavesTheOldFileAndTheNextWriteCle
   }
 }
 
-/** A file system of its own, of some kilobytes, in a process that may have one. */
+/** A small file system of some kilobytes, in a process that may mount one. */
 bool
 MountSmallDisk(const fs::path & folder)
 {
@@ -202,7 +202,7 @@ TEST_F(SurfaceFailures, MaterialsThatCannotBeWrittenKeepTheObject)
 
 TEST_F(SurfaceFailures, KilledAtAnyMomentTheFileIsTheOldOrTheNewOne)
 {
-  // Two scenes take turns; the next writer is killed after a random time. Whatever is there is one of the two.
+  // Two scenes alternate; each writer is killed after a random time. The file must be one of the two.
   const std::vector<SceneSurface> small{ { "small", MakeSphere(4) } };
   const std::vector<SceneSurface> large{ { "large", MakeSphere(5) } };
   std::mt19937 random(5);

@@ -1,4 +1,4 @@
-// Files that others wrote, or might have: VTK's writers, and files by hand.
+// Files of other programs: of VTK's writers, and made by hand.
 
 #include "rhombicSurfaceTest.h"
 
@@ -37,7 +37,7 @@ protected:
   }
 };
 
-/** Reads our STL with VTK, writes it with one of its writers, and reads that. */
+/** Reads our STL file with VTK, writes it with one of VTK's writers, and reads that file. */
 template <typename TWriter, typename TSetUp>
 std::vector<SceneSurface>
 ThroughVTK(const fs::path & folder, const std::string & extension, const TSetUp & setUp)
@@ -183,7 +183,7 @@ TEST_F(SurfaceFilesOfOthers, OBJWithPolygonsGroupsAndAllKindsOfCorners)
   EXPECT_EQ(read[2].opacity, 0.75);
 }
 
-/** A file of glTF with some JSON and a buffer. */
+/** A glTF file of the given JSON and buffer. */
 std::string
 MakeGLB(std::string json, std::string buffer)
 {
@@ -204,7 +204,7 @@ BytesOf(std::initializer_list<TNumber> numbers)
   return { reinterpret_cast<const char *>(numbers.begin()), numbers.size() * sizeof(TNumber) };
 }
 
-/** A right angle in metres: two points interleaved with normals, as others like it; then indices of two bytes. */
+/** A right-angled triangle in metres: points interleaved with normals, then indices of two bytes. */
 struct HandMadeGLB
 {
   std::string nodes = R"([{"name":"corner","mesh":0}])";
@@ -329,7 +329,7 @@ TEST_F(SurfaceFilesOfOthers, DamagedFilesGetASentence)
 
     rhombic::WriteSurfaces({ { "sphere", MakeSphere(2) } }, m_Folder / ("whole" + extension));
     const std::string whole = ReadBytes(m_Folder / ("whole" + extension));
-    // A part of the lines of OBJ may be a smaller surface.
+    // The first lines of an OBJ file may be a valid smaller surface.
     const std::size_t longest = extension == ".obj" ? whole.find("\nf ") : whole.size() - 1;
     for (int n = 0; n < 60; ++n)
     {

@@ -25,7 +25,7 @@ Bytes(const SceneSurface & scene)
   return { byte(scene.colour[0]), byte(scene.colour[1]), byte(scene.colour[2]), byte(scene.opacity) };
 }
 
-/** Every corner of every triangle is where it was, to the bit, and its normal too. */
+/** Expects the same positions and normals, bit by bit, at the corners of all triangles. */
 void
 ExpectSameCorners(const Surface & read, const Surface & written, bool withNormals, const std::string & what)
 {

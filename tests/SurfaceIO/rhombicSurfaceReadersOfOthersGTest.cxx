@@ -1,4 +1,4 @@
-// Programs by others read our files: VTK, ITK, F3D, and the validator of those who made glTF.
+// Other programs read our files: VTK, ITK, F3D, and Khronos' glTF-Validator.
 
 #include "rhombicReadersOfOthers.h"
 #include "rhombicSurfaceTest.h"
@@ -32,7 +32,7 @@ using rhombictest::ReadWith;
 class SurfaceReadersOfOthers : public SurfaceTest
 {
 protected:
-  /** Two spheres, as far as the format holds them, and their common measures. */
+  /** Writes two spheres, or one if the format holds only one, and returns them. */
   std::vector<SceneSurface>
   Write(const std::string & extension, SurfaceFileSpace space = SurfaceFileSpace::LPS)
   {
@@ -177,7 +177,7 @@ TEST_F(SurfaceReadersOfOthers, ITKReadsOBJ)
   }
 }
 
-/** What a command prints, and its exit code as std::system() gives it. */
+/** The output of a command and its exit code as of std::system(). */
 std::pair<std::string, int>
 RunCommand(const std::string & command, const fs::path & folder)
 {

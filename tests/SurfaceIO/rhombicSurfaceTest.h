@@ -20,7 +20,7 @@ using Surface = itk::TriangleSurface;
 using rhombic::SceneSurface;
 using rhombic::SurfaceFileSpace;
 
-/** A closed sphere by subdividing an octahedron, with 4^\a levels * 8 triangles, facing outwards. */
+/** A sphere of 8 * 4^levels triangles, facing outwards: a subdivided octahedron. */
 inline Surface::Pointer
 MakeSphere(int levels, float radius = 15.0f, const Surface::PointType & centre = { 10, -20, 30 })
 {
@@ -59,7 +59,7 @@ MakeSphere(int levels, float radius = 15.0f, const Surface::PointType & centre =
   return surface;
 }
 
-/** Three spheres apart, with names that files have trouble with. */
+/** Three separate spheres with names that are difficult for file formats. */
 inline std::vector<SceneSurface>
 MakeScene()
 {
@@ -71,7 +71,7 @@ MakeScene()
            { "left kidney", MakeSphere(1, 0.001f, { 1e-4f, -1e6f, 0 }), { 1, 0, 1 }, 0.75 } };
 }
 
-/** Points anywhere in float32, small and large, and triangles of any three. */
+/** Random points of very different magnitudes, and random triangles of them. */
 inline Surface::Pointer
 MakeRandomSurface(unsigned int seed, std::uint32_t points = 300, int triangles = 500)
 {
@@ -112,8 +112,8 @@ WriteBytes(const fs::path & path, const std::string & bytes)
   file << bytes;
 }
 
-/** The kind of the failure of an action, whose sentence names \a named and ends as one; of none a success: fails the
- * test then. */
+/** The kind of an action's failure. Fails the test if the action succeeds, or if the message does not contain \a named
+ * or is not a sentence. */
 template <typename TAction>
 rhombic::FailureKind
 KindOf(TAction action, const std::string & named)

@@ -12,76 +12,77 @@
 namespace rhombic
 {
 
-/** The axes of a file's coordinates: to the patient's left, back and head (ITK, DICOM), or right, front and head. */
+/** The axes of a file's coordinates: to the patient's left, back and head (LPS, as in ITK and DICOM), or to the right,
+ * front and head (RAS). */
 enum class SurfaceFileSpace
 {
   LPS,
   RAS
 };
 
-/** How surfaces are written. Thread safety: a value, but for what the function in it shares. */
+/** How surfaces are written. */
 struct SurfaceFileSettings
 {
   SurfaceFileSpace space = SurfaceFileSpace::LPS;
 
-  /** Gets the surfaces as they were read back, before the file appears; what it throws leaves the target as it was. */
+  /** Is called with the surfaces as read back, before the file appears; if it throws, the target stays as it was. */
   std::function<void(const std::vector<SceneSurface> & read)> inspect{};
 };
 
-/** The extensions of the formats below, for help texts: ".stl, .ply, .obj, .vtp, .glb". */
+/** The extensions of all formats, for help texts: ".stl, .ply, .obj, .vtp, .glb". */
 std::string
 GetSurfaceFileExtensions();
 
-/** Throws Failure(Usage) when WriteSurfaces() would because of the extension: for asking before long work. */
+/** Throws Failure(Usage) if WriteSurfaces() would because of the path; a check before long work. */
 void
 CheckSurfacePath(const std::filesystem::path & path, std::size_t numberOfSurfaces = 1);
 
-/** The files that WriteSurfaces() makes: the path, and for OBJ the materials beside it. */
+/** The files that WriteSurfaces() makes: the path, and for OBJ the file of materials. */
 std::vector<std::filesystem::path>
 SurfaceFilesOf(const std::filesystem::path & path);
 
-/** Writes surfaces in LPS millimetres to one file whose extension, in any case, says the format:
+/** Writes surfaces in LPS millimetres to one file. The extension, in upper or lower case, decides the format:
  *
- * - `.stl`: binary STL; one surface only, its positions only, three of its own for each triangle
- * - `.ply`: binary PLY; shared points, normals, a colour a point; comments keep the surfaces apart
- * - `.obj`: Wavefront OBJ; an object, group and material a surface; colours and opacities in a second file, `.mtl`
- * - `.vtp`: VTK's XML; a colour and the surface's number a triangle; names, colours and opacities as field data
- * - `.glb`: binary glTF 2.0; a node, mesh and material a surface; a root node turns millimetres into the metres, and
- *   the patient's axes into the y-up, of glTF
+ * - `.stl`: binary STL; one surface without normals, three points per triangle
+ * - `.ply`: binary PLY; shared points, normals, a colour per point; comments describe the surfaces
+ * - `.obj`: Wavefront OBJ; an object, group and material per surface; colours and opacities in a second file, `.mtl`
+ * - `.vtp`: VTK's XML; a colour and the surface's number per triangle; names, colours and opacities as field data
+ * - `.glb`: binary glTF 2.0; a node, mesh and material per surface; the matrix of a root node converts millimetres and
+ *   the patient's axes to glTF's metres with y up
  *
- * Each but GLB is in millimetres along the axes of the settings' space, and says so: `SPACE=LPS`, as 3D Slicer expects
- * it. GLB stores them likewise, below its root node. Normals are written if a surface has them (PLY and VTP: if all
- * have), names with control characters and what is not UTF-8 replaced. Positions come back exactly as they were from
- * all formats; colours with 8 bits. The same surfaces give the same bytes, in every locale.
+ * Coordinates are stored in millimetres along the axes of the settings' space, which the file names: `SPACE=LPS`, as
+ * 3D Slicer expects it. Normals are written if a surface has them (PLY and VTP: if all have). Control characters and
+ * invalid UTF-8 in names are replaced. All formats keep positions exactly, and colours with 8 bits. The same surfaces
+ * give the same bytes, in every locale.
  *
- * The file is read back and compared before it appears, complete or not at all; one that existed is replaced. An OBJ's
- * materials appear just before it. Memory: a copy of the surfaces, two for STL, three for OBJ. Throws Failure(Usage)
- * for another extension or several surfaces in an STL, Failure(Empty) for a surface without triangles or no surface,
- * Failure(Output) when the file can't be written, the surfaces are too large for the format or a position is not
- * finite. Thread safe for different files. */
+ * The file is read back and compared before it appears, complete or not at all; an existing file is replaced. The
+ * materials of an OBJ file appear just before it. Memory: a copy of the surfaces, two for STL, three for OBJ. Throws
+ * Failure(Usage) for another extension or several surfaces in an STL file, Failure(Empty) for a surface without
+ * triangles or no surface, and Failure(Output) if the file can't be written, the surfaces are too large for the format
+ * or a position is not finite. */
 void
 WriteSurfaces(const std::vector<SceneSurface> & surfaces,
               const std::filesystem::path & path,
               const SurfaceFileSettings & settings = {});
 
-/** As WriteSurfaces(), but the files appear with all others of \a staged. */
+/** As WriteSurfaces(), but the files appear together with the other files of \a staged. */
 void
 StageSurfaces(const std::vector<SceneSurface> & surfaces,
               const std::filesystem::path & path,
               StagedFiles & staged,
               const SurfaceFileSettings & settings = {});
 
-/** Reads surfaces in LPS millimetres from a file of the formats above, by this or other programs, binary or text. What
- * says SPACE=RAS is turned to LPS; GLB's nodes are applied, its metres and y-up undone. Other formats' numbers are
- * taken for millimetres.
+/** Reads surfaces in LPS millimetres from a file of one of these formats, written by this or other programs, binary or
+ * text. Coordinates that the file says are in RAS are converted. The transforms of a GLB's nodes are applied, and its
+ * metres and y-up undone; numbers in other formats are taken for millimetres.
  *
- * An STL's points are welded where they are the same; polygons become fans of triangles; points of no triangle stay,
- * except in OBJ. Names are the file's own, else its stem; colour and opacity the defaults if there are none. Normals
- * are left out where a point has several. Textures, lines, animations and the like are ignored.
+ * Equal points of an STL file become one point; polygons become fans of triangles; points of no triangle are kept,
+ * except in OBJ. A surface without a name gets the file's stem, one without colour or opacity the defaults. A surface
+ * has no normals if one of its points has several. Textures, lines, animations and the like are ignored.
  *
- * Throws Failure(NotFound), Failure(Usage) for another extension, Failure(Unreadable) for damaged files, those without
- * triangles and parts of the formats that are not supported, Failure(Memory) before they need more than half of what is
- * free. Thread safe. */
+ * Throws Failure(NotFound), Failure(Usage) for another extension, Failure(Unreadable) for damaged files, files without
+ * triangles and unsupported parts of the formats, and Failure(Memory) before it needs more than half of the free
+ * memory. */
 std::vector<SceneSurface>
 ReadSurfaces(const std::filesystem::path & path);
 

@@ -10,21 +10,21 @@
 namespace rhombic
 {
 
-/** The nearest number from 0 to 1; 0 for what is no number. */
+/** The value limited to 0 to 1; 0 for NaN. */
 inline double
 ToUnit(double value)
 {
   return value > 0 ? std::min(value, 1.0) : 0.0;
 }
 
-/** 0 to 1 as 0 to 255, rounded; what is outside becomes the nearest. */
+/** A value from 0 to 1 as 0 to 255, limited and rounded. */
 std::uint8_t
 ToByte(double value);
 
 std::array<std::uint8_t, 3>
 ToBytes(const Colour & colour);
 
-/** From the numbers that files of pictures hold to those that are proportional to light, and back (IEC 61966-2-1). */
+/** From sRGB to linear light and back (IEC 61966-2-1). */
 Colour
 SRGBToLinear(const Colour & colour);
 

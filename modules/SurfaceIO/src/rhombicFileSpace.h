@@ -8,7 +8,7 @@
 namespace rhombic
 {
 
-/** A point or normal along the axes of LPS along those of a space, or the other way round: half a turn about z. */
+/** Converts a point or normal from LPS to a space, or from the space to LPS: half a turn about z. */
 inline std::array<float, 3>
 Turned(const std::array<float, 3> & vector, SurfaceFileSpace space)
 {
@@ -21,7 +21,7 @@ NameOf(SurfaceFileSpace space)
   return space == SurfaceFileSpace::RAS ? "RAS" : "LPS";
 }
 
-/** Turns a surface that was read. */
+/** Converts a surface from a space to LPS. */
 inline void
 TurnFrom(SurfaceFileSpace space, itk::TriangleSurface & surface)
 {

@@ -1,6 +1,7 @@
 #include "rhombicInputFile.h"
 
 #include "rhombicFailure.h"
+#include "rhombicMemoryBudget.h"
 #include "rhombicWords.h"
 
 #include <cerrno>
@@ -68,6 +69,18 @@ void
 InputFile::Refuse(const std::string & why) const
 {
   throw Failure(FailureKind::Unreadable, "Cannot read " + m_Path.string() + ": " + why + ".");
+}
+
+void
+InputFile::RefuseDamaged(const std::string & what) const
+{
+  this->Refuse(what + "; the file is damaged, so export it again");
+}
+
+void
+InputFile::RequireMemoryToRead(std::uintmax_t bytes) const
+{
+  RequireMemory(bytes, 0, "Reading " + m_Path.string());
 }
 
 InputStream::InputStream(const InputFile & file, std::uintmax_t offset, std::uintmax_t end)

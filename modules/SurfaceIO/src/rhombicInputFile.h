@@ -12,11 +12,13 @@ namespace rhombic
 {
 
 /** \class InputFile
- * \brief A regular file of known size, read at any place. */
+ * \brief A regular file of known size, read at any offset. */
 class InputFile
 {
 public:
-  /** Throws Failure(NotFound) when there is none, Failure(Unreadable) when it can't be opened or is no regular file. */
+  /** Throws Failure(NotFound) if there is no such file, Failure(Unreadable) if it can't be opened or is no regular
+   * file.
+   */
   explicit InputFile(const std::filesystem::path & path);
   ~InputFile();
 
@@ -36,13 +38,21 @@ public:
     return m_Size;
   }
 
-  /** Throws Failure(Unreadable) when the file does not reach that far. */
+  /** Throws Failure(Unreadable) if the file ends before offset + size. */
   void
   Read(std::uintmax_t offset, void * to, std::size_t size) const;
 
   /** Throws Failure(Unreadable): "Cannot read PATH: WHY." */
   [[noreturn]] void
   Refuse(const std::string & why) const;
+
+  /** Throws Failure(Unreadable): "Cannot read PATH: WHAT; the file is damaged, so export it again." */
+  [[noreturn]] void
+  RefuseDamaged(const std::string & what) const;
+
+  /** Throws Failure(Memory) if reading the file takes more \a bytes than half of what is free. */
+  void
+  RequireMemoryToRead(std::uintmax_t bytes) const;
 
 private:
   std::filesystem::path m_Path;
@@ -51,11 +61,11 @@ private:
 };
 
 /** \class InputStream
- * \brief Reads numbers or lines of a file one after the other, the file itself in large blocks. */
+ * \brief Reads numbers or lines of a file in order, through large blocks. */
 class InputStream
 {
 public:
-  /** From \a offset up to \a end, or to the file's end. */
+  /** Reads from \a offset to \a end or the end of the file. */
   explicit InputStream(const InputFile & file, std::uintmax_t offset = 0, std::uintmax_t end = UINTMAX_MAX);
 
   const InputFile &
@@ -71,14 +81,14 @@ public:
     return m_End - m_Next + (m_Block.size() - m_Taken);
   }
 
-  /** Where the next byte is in the file. */
+  /** Offset of the next byte in the file. */
   std::uintmax_t
   GetPosition() const
   {
     return m_Next - (m_Block.size() - m_Taken);
   }
 
-  /** Copies bytes; throws Failure(Unreadable) when there are not so many. */
+  /** Copies the next bytes; throws Failure(Unreadable) if there are fewer. */
   void
   Take(void * to, std::size_t size)
   {
@@ -99,12 +109,12 @@ public:
     return number;
   }
 
-  /** The next line without its end, valid until the next call; false at the end. Throws Failure(Unreadable) for lines
-   * longer than a MiB. */
+  /** Gets the next line without its end, valid until the next call; returns false at the end. Throws
+   * Failure(Unreadable) for lines longer than 1 MiB. */
   bool
   TakeLine(std::string_view & line);
 
-  /** Number of the last line, from 1. */
+  /** The number of the last line, counted from 1. */
   std::uintmax_t
   GetLineNumber() const
   {
@@ -116,7 +126,7 @@ public:
   RefuseLine(const std::string & why) const;
 
 private:
-  /** Makes at least \a size bytes ready. */
+  /** Reads on until the block holds at least \a size bytes that have not been taken. */
   void
   Fill(std::size_t size);
 

@@ -11,12 +11,11 @@ namespace rhombic
 {
 
 /** \class OutputFile
- * \brief Collects small records, writes them in large blocks, and says when that fails. */
+ * \brief Collects small records and writes them in large blocks. Throws Failure(Output) if that fails. */
 class OutputFile
 {
 public:
-  /** Empties the file at \a path, which will become \a target: that is what messages name. Throws Failure(Output), like
-   * the rest. */
+  /** Empties the file at \a path. Messages name \a target, which the file will become. */
   OutputFile(const std::filesystem::path & path, const std::filesystem::path & target);
   ~OutputFile();
 
@@ -40,7 +39,7 @@ public:
     m_Block.insert(m_Block.end(), bytes.begin(), bytes.end());
   }
 
-  /** A number, or an array of numbers, as it lies in memory: little endian. */
+  /** Appends a number or an array of numbers, little endian. */
   template <typename TRecord>
   void
   AppendBinary(const TRecord & record)
@@ -49,7 +48,7 @@ public:
     this->Append({ reinterpret_cast<const char *>(&record), sizeof(record) });
   }
 
-  /** To be called once all is appended: the destructor would not say that it failed. */
+  /** Must be called at the end; the destructor does not report failures. */
   void
   Close();
 

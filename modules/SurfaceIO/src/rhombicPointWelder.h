@@ -12,37 +12,38 @@ namespace rhombic
 {
 
 /** \class PointWelder
- * \brief Numbers points by position: the same number for the same three floats, 0 and -0 taken for one.
+ * \brief Gives equal points the same index; 0 and -0 are equal.
  *
- * A hash table with open addressing, 4 bytes a place, two to four places a point. */
+ * A hash table with open addressing: 4 bytes per slot, two to four slots per point. */
 class PointWelder
 {
 public:
   using PointType = itk::TriangleSurface::PointType;
   using PointsContainer = itk::TriangleSurface::PointsContainer;
 
-  /** New points are added at the end of \a points, which nobody else changes meanwhile. */
+  /** Appends new points to \a points, which must not be changed otherwise. */
   explicit PointWelder(PointsContainer & points)
     : m_Points(points)
-    , m_Places(1024, Empty)
+    , m_Slots(1024, Empty)
   {}
 
+  /** The index of the point, which is appended if it is new. */
   std::uint32_t
   Add(const PointType & point)
   {
-    std::uint32_t & place = this->Find(point);
-    if (place != Empty)
+    std::uint32_t & slot = this->Find(point);
+    if (slot != Empty)
     {
-      return place;
+      return slot;
     }
-    const auto number = static_cast<std::uint32_t>(m_Points.size());
-    place = number;
+    const auto index = static_cast<std::uint32_t>(m_Points.size());
+    slot = index;
     m_Points.push_back(point);
-    if (2 * m_Points.size() > m_Places.size())
+    if (2 * m_Points.size() > m_Slots.size())
     {
       this->Grow();
     }
-    return number;
+    return index;
   }
 
 private:
@@ -59,33 +60,33 @@ private:
     return bits;
   }
 
-  /** The place of the point, or where it belongs. */
+  /** The slot of the point, or the empty slot for it. */
   std::uint32_t &
   Find(const PointType & point)
   {
     const Bits bits = BitsOf(point);
     std::uint64_t hash = (std::uint64_t{ bits[0] } << 32 | bits[1]) * 0x9e3779b97f4a7c15u;
     hash = (hash ^ hash >> 32 ^ bits[2]) * 0xd6e8feb86659fd93u;
-    std::size_t place = (hash ^ hash >> 32) & (m_Places.size() - 1);
-    while (m_Places[place] != Empty && BitsOf(m_Points[m_Places[place]]) != bits)
+    std::size_t slot = (hash ^ hash >> 32) & (m_Slots.size() - 1);
+    while (m_Slots[slot] != Empty && BitsOf(m_Points[m_Slots[slot]]) != bits)
     {
-      place = (place + 1) & (m_Places.size() - 1);
+      slot = (slot + 1) & (m_Slots.size() - 1);
     }
-    return m_Places[place];
+    return m_Slots[slot];
   }
 
   void
   Grow()
   {
-    m_Places.assign(2 * m_Places.size(), Empty);
-    for (std::size_t number = 0; number < m_Points.size(); ++number)
+    m_Slots.assign(2 * m_Slots.size(), Empty);
+    for (std::size_t index = 0; index < m_Points.size(); ++index)
     {
-      this->Find(m_Points[number]) = static_cast<std::uint32_t>(number);
+      this->Find(m_Points[index]) = static_cast<std::uint32_t>(index);
     }
   }
 
   PointsContainer & m_Points;
-  std::vector<std::uint32_t> m_Places; ///< a power of two
+  std::vector<std::uint32_t> m_Slots; ///< indices of points; the size is a power of two
 };
 
 } // namespace rhombic

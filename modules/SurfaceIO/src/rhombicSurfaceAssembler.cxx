@@ -1,7 +1,6 @@
 #include "rhombicSurfaceAssembler.h"
 
 #include "rhombicFileSpace.h"
-#include "rhombicMemoryBudget.h"
 
 #include <limits>
 
@@ -10,7 +9,7 @@ namespace rhombic
 namespace
 {
 
-/** Whether the parts are all of the points and faces. Adding up can't overflow. */
+/** Whether the parts add up to all points and faces; written so that nothing overflows. */
 bool
 AddUp(const std::vector<SurfacePart> & parts, std::uintmax_t points, std::uintmax_t faces)
 {
@@ -40,7 +39,7 @@ SurfaceAssembler::SurfaceAssembler(const InputFile & file,
   {
     file.Refuse("it has more points than 32-bit indices reach; divide it");
   }
-  RequireMemory(24 * points + 12 * faces, 0, "Reading " + file.GetPath().string());
+  file.RequireMemoryToRead(24 * points + 12 * faces);
   if (!m_IsDivided)
   {
     parts.assign(1, SurfacePart{});
@@ -98,8 +97,8 @@ SurfaceAssembler::AddFace(const std::vector<std::uint64_t> & corners)
   {
     if (corner < assembled.firstPoint || corner - assembled.firstPoint >= assembled.part.points)
     {
-      m_File.Refuse("a face has a corner at point " + std::to_string(corner) +
-                    ", which its surface does not have; the file is damaged, so export it again");
+      m_File.RefuseDamaged("a face has a corner at point " + std::to_string(corner) +
+                           ", which its surface does not have");
     }
   }
   const auto local = [&](std::size_t n) { return static_cast<std::uint32_t>(corners[n] - assembled.firstPoint); };

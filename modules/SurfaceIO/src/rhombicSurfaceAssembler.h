@@ -10,22 +10,22 @@
 namespace rhombic
 {
 
-/** How a surface looks, and how many of a file's points and faces are its own. */
+/** A surface's name, colour and opacity, and the number of its points and faces in a file. */
 struct SurfacePart
 {
-  SceneSurface look; ///< without surface
+  SceneSurface look; ///< has no surface
   std::uintmax_t points = 0;
   std::uintmax_t faces = 0;
 };
 
 /** \class SurfaceAssembler
- * \brief Deals the points and faces of a file out to the surfaces that follow each other in it. */
+ * \brief Distributes the points and faces of a file to its surfaces, which follow each other in the file. */
 class SurfaceAssembler
 {
 public:
-  /** \a points, 24 bytes each, and \a faces, 12 bytes each, are what the file holds altogether; the caller has compared
-   * them with the file's size. When \a parts do not add up to that, the file has changed since it was divided, and its
-   * surface is one, named after it. Throws Failure(Memory), Failure(Unreadable). */
+  /** \a points and \a faces are the totals of the file, which the caller has compared with the file's size; a point
+   * takes 24 bytes, a face 12. If \a parts do not add up to these totals, another program has changed the file, and
+   * everything becomes one surface named after the file. Throws Failure(Memory), Failure(Unreadable). */
   SurfaceAssembler(const InputFile & file,
                    std::vector<SurfacePart> parts,
                    std::uintmax_t points,
@@ -38,12 +38,12 @@ public:
   void
   AddNormal(const itk::TriangleSurface::NormalType & normal);
 
-  /** A face with corners numbered from 0 in the whole file; more than three make a fan. Throws Failure(Unreadable) for
-   * fewer, and for points that the file or the face's surface does not have. */
+  /** Adds a face by its points' indices in the file; more than three corners make a fan. Throws Failure(Unreadable) for
+   * fewer, and for a point that does not belong to the face's surface. */
   void
   AddFace(const std::vector<std::uint64_t> & corners);
 
-  /** Sets the look of the one surface of a file that has no parts of its own. */
+  /** Sets colour and opacity, if the file has a single surface without a description. */
   void
   SetLook(const Colour & colour, double opacity);
 
@@ -61,13 +61,13 @@ private:
   const InputFile & m_File;
   std::vector<Assembled> m_Surfaces;
   bool m_IsDivided;
-  std::size_t m_PointSurface = 0;  ///< that the next point goes to
-  std::size_t m_NormalSurface = 0; ///< that the next normal goes to
-  std::size_t m_FaceSurface = 0;   ///< that the next face goes to
-  std::uintmax_t m_Faces = 0;      ///< that it has
+  std::size_t m_PointSurface = 0;  ///< index of the surface that gets the next point
+  std::size_t m_NormalSurface = 0; ///< index of the surface that gets the next normal
+  std::size_t m_FaceSurface = 0;   ///< index of the surface that gets the next face
+  std::uintmax_t m_Faces = 0;      ///< number of faces this surface has
 };
 
-/** What a surface without a name is called: the file's name without extension. */
+/** The name of a surface that has none in the file: the file's name without extension. */
 std::string
 NameFromFile(const InputFile & file);
 

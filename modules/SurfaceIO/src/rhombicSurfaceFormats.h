@@ -11,9 +11,9 @@
 namespace rhombic
 {
 
-/** Each writer takes surfaces with triangles, finite positions and names without control characters, fewer than 2^32 -
- * 1 points and triangles altogether. Each reader throws Failure(Unreadable) or Failure(Memory), and may return surfaces
- * without triangles. */
+// Writers take surfaces that have triangles, finite positions and names without control characters, and fewer than
+// 2^32 - 1 points and triangles altogether. Readers throw Failure(Unreadable) or Failure(Memory), and may return
+// surfaces without triangles.
 
 void
 WriteSTL(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
@@ -25,7 +25,7 @@ WritePLY(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, Out
 std::vector<SceneSurface>
 ReadPLY(const InputFile & file);
 
-/** The materials are in a file of their own, named like this one with the extension .mtl. */
+/** WriteMTL() writes the materials, in a file of the same name with the extension .mtl. */
 void
 WriteOBJ(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
 void

@@ -6,15 +6,15 @@
 #include "rhombicInputFile.h"
 #include "rhombicOutputFile.h"
 #include "rhombicSurfaceFormats.h"
+#include "rhombicWords.h"
+
+#include "detail/itkPositionArithmetic.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <cmath>
 #include <limits>
-#include <optional>
 
 namespace fs = std::filesystem;
 
@@ -26,9 +26,9 @@ namespace
 struct SurfaceFormat
 {
   const char * extension;
-  bool holdsScenes;  ///< several surfaces
-  bool holdsLooks;   ///< names and colours, in the file itself
-  bool hasMaterials; ///< in a second file
+  bool holdsScenes;  ///< can hold several surfaces
+  bool holdsLooks;   ///< holds names and colours in the file itself
+  bool hasMaterials; ///< has materials in a second file
   void (*write)(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
   std::vector<SceneSurface> (*read)(const InputFile & file);
 };
@@ -57,10 +57,7 @@ ListExtensions(const TPredicate & isListed)
 const SurfaceFormat &
 FormatOf(const fs::path & path, const char * verb)
 {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char letter) {
-    return static_cast<char>(std::tolower(letter));
-  });
+  const std::string extension = LowerCase(path.extension().string());
   for (const SurfaceFormat & format : SurfaceFormats)
   {
     if (extension == format.extension)
@@ -82,9 +79,8 @@ FailToWrite(const fs::path & path, const std::string & why)
 bool
 IsFinite(const itk::TriangleSurface & surface)
 {
-  return std::all_of(surface.GetPoints().begin(), surface.GetPoints().end(), [](const auto & point) {
-    return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
-  });
+  return std::all_of(
+    surface.GetPoints().begin(), surface.GetPoints().end(), [](const auto & point) { return itk::IsFinite(point); });
 }
 
 void
@@ -117,12 +113,17 @@ CheckSurfaces(const std::vector<SceneSurface> & surfaces, const fs::path & path)
   }
 }
 
-/** The name as every format can hold it: UTF-8 on one line. */
+bool
+IsControl(unsigned char letter)
+{
+  return letter < ' ' || letter == 0x7f;
+}
+
+/** The name in a form that every format can hold: UTF-8 on one line. */
 std::string
 FileName(std::string name)
 {
-  std::replace_if(
-    name.begin(), name.end(), [](unsigned char letter) { return letter < ' ' || letter == 0x7f; }, ' ');
+  std::replace_if(name.begin(), name.end(), IsControl, ' ');
   const nlohmann::json json(name);
   return nlohmann::json::parse(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)).get<std::string>();
 }
@@ -137,7 +138,7 @@ WithFileNames(std::vector<SceneSurface> surfaces)
   return surfaces;
 }
 
-/** Whether all corners are where they were, with the normals they had, in the same order. */
+/** Whether all triangles have the same positions, and normals if \a withNormals, in the same order. */
 bool
 AreEqual(const itk::TriangleSurface & read, const itk::TriangleSurface & written, bool withNormals)
 {
@@ -162,13 +163,13 @@ AreEqual(const itk::TriangleSurface & read, const itk::TriangleSurface & written
 }
 
 bool
-LookAlike(const SceneSurface & read, const SceneSurface & written)
+HaveSameLook(const SceneSurface & read, const SceneSurface & written)
 {
   return read.name == written.name && ToBytes(read.colour) == ToBytes(written.colour) &&
          ToByte(read.opacity) == ToByte(written.opacity);
 }
 
-/** What arrived on the disk, after making sure that it is what was meant. */
+/** Reads a written file and compares it with the surfaces; throws Failure(Output) if it differs. */
 std::vector<SceneSurface>
 ReadBack(const std::vector<SceneSurface> & surfaces,
          const SurfaceFormat & format,
@@ -178,7 +179,7 @@ ReadBack(const std::vector<SceneSurface> & surfaces,
   std::vector<SceneSurface> read = format.read(InputFile(written));
   const auto equal = [&format](const SceneSurface & one, const SceneSurface & other) {
     return AreEqual(*one.surface, *other.surface, one.surface->HasNormals()) &&
-           (!format.holdsLooks || LookAlike(one, other));
+           (!format.holdsLooks || HaveSameLook(one, other));
   };
   if (!std::equal(read.begin(), read.end(), surfaces.begin(), surfaces.end(), equal))
   {
@@ -212,7 +213,7 @@ Stage(const std::vector<SceneSurface> & surfaces,
 {
   if (format.hasMaterials)
   {
-    StageMaterials(surfaces, MaterialsOf(path), staged); // first: an OBJ file that appears finds its materials
+    StageMaterials(surfaces, MaterialsOf(path), staged); // before the OBJ file that names them
   }
   AtomicFile & file = staged.Begin(path);
   OutputFile output(file.GetTemporaryPath(), path);
@@ -247,8 +248,7 @@ CheckSurfacePath(const fs::path & path, std::size_t numberOfSurfaces)
                     ", or a file for each.");
   }
   const std::string name = path.filename().string();
-  const auto isControl = [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; };
-  if (format.hasMaterials && std::any_of(name.begin(), name.end(), isControl))
+  if (format.hasMaterials && std::any_of(name.begin(), name.end(), IsControl))
   {
     throw Failure(FailureKind::Usage,
                   "Cannot write an OBJ file whose name holds line breaks or other control characters, as it must name "

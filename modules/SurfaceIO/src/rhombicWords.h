@@ -1,6 +1,8 @@
 #ifndef rhombicWords_h
 #define rhombicWords_h
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -12,7 +14,7 @@
 namespace rhombic
 {
 
-/** Without spaces, tabs and line ends at its ends. */
+/** The text without blanks at its beginning and end. */
 inline std::string_view
 Trimmed(std::string_view text)
 {
@@ -21,7 +23,7 @@ Trimmed(std::string_view text)
   return first == text.npos ? std::string_view() : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/** A text file's beginning without the mark that some programs put before UTF-8. */
+/** The beginning of a text file without a byte order mark. */
 inline std::string_view
 WithoutMark(std::string_view beginning)
 {
@@ -29,7 +31,17 @@ WithoutMark(std::string_view beginning)
   return beginning.substr(0, mark.size()) == mark ? beginning.substr(mark.size()) : beginning;
 }
 
-/** Takes the next word off a line; empty when there is none. */
+inline std::string
+LowerCase(std::string_view text)
+{
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char letter) {
+    return static_cast<char>(std::tolower(letter));
+  });
+  return lower;
+}
+
+/** Removes the next word from a line and returns it; empty if there is none. */
 inline std::string_view
 TakeWord(std::string_view & line)
 {
@@ -49,8 +61,8 @@ TakeWord(std::string_view & line)
   return word;
 }
 
-/** All of a word as a number, whatever the locale. A float may be too small for its type, then it is 0, but not too
- * large. */
+/** The number that a whole word is, in any locale. A float that is too small becomes 0; one that is too large is none.
+ */
 template <typename TNumber>
 std::optional<TNumber>
 ParseNumber(std::string_view word)
@@ -73,7 +85,7 @@ ParseNumber(std::string_view word)
   return error != std::errc() || end != last ? std::nullopt : std::optional<TNumber>(number);
 }
 
-/** Appends the shortest text that is read as the same number, whatever the locale. */
+/** Appends the shortest text that is read as the same number, in any locale. */
 template <typename TNumber>
 void
 AppendNumber(TNumber number, std::string & text)
@@ -82,7 +94,7 @@ AppendNumber(TNumber number, std::string & text)
   text.append(digits, std::to_chars(digits, digits + sizeof(digits), number).ptr);
 }
 
-/** Whether a comment or header says that coordinates are along the axes of RAS. */
+/** Whether a comment or header says that coordinates are in RAS. */
 inline bool
 SaysRAS(std::string_view text)
 {

@@ -1,6 +1,5 @@
 #include "rhombicFileColours.h"
 #include "rhombicFileSpace.h"
-#include "rhombicMemoryBudget.h"
 #include "rhombicSurfaceAssembler.h"
 #include "rhombicSurfaceFormats.h"
 #include "rhombicWords.h"
@@ -32,7 +31,7 @@ ParseUnit(std::string_view word)
   return ToUnit(ParseNumber<double>(word).value_or(0));
 }
 
-/** Without such a file, surfaces have their default look. */
+/** Reads a file of materials. If there is none, surfaces keep their default colours. */
 void
 ReadMaterials(const std::filesystem::path & path, Materials & materials)
 {
@@ -69,7 +68,8 @@ ReadMaterials(const std::filesystem::path & path, Materials & materials)
 }
 
 /** \class OBJReader
- * \brief Faces of the same object, group and material are one surface, in the order of their first faces. */
+ * \brief Reads an OBJ file. Faces of the same object, group and material become one surface; surfaces are in the order
+ * of their first faces. */
 class OBJReader
 {
 public:
@@ -81,18 +81,18 @@ public:
   std::vector<SceneSurface>
   Read()
   {
-    // A face takes at least two bytes a corner and then 12 bytes of memory; the numbers of points take more.
-    RequireMemory(6 * m_File.GetSize(), 0, "Reading " + m_File.GetPath().string());
+    // Each corner takes at least two bytes in the file and 12 bytes of memory; points take more bytes in the file.
+    m_File.RequireMemoryToRead(6 * m_File.GetSize());
     std::string_view line;
     while (this->TakeLine(line))
     {
       this->ReadLine(line);
     }
     std::vector<SceneSurface> surfaces;
-    std::vector<std::uint32_t> numbers(m_Points.size(), None);
+    std::vector<std::uint32_t> indices(m_Points.size(), None);
     for (Part & part : m_Parts)
     {
-      surfaces.push_back(this->MakeSurface(part, numbers));
+      surfaces.push_back(this->MakeSurface(part, indices));
     }
     return surfaces;
   }
@@ -102,7 +102,7 @@ private:
   {
     std::string name;
     std::string material;
-    itk::TriangleSurface::TrianglesContainer triangles; ///< numbers of the file's points
+    itk::TriangleSurface::TrianglesContainer triangles; ///< indices of the file's points
   };
 
   struct Corner
@@ -111,7 +111,7 @@ private:
     std::uint32_t normal; ///< or None
   };
 
-  /** A line, with those that backslashes join to it. */
+  /** Gets the next line, with the lines that backslashes join to it. */
   bool
   TakeLine(std::string_view & line)
   {
@@ -190,7 +190,7 @@ private:
     return std::find(std::begin(ignored), std::end(ignored), keyword) != std::end(ignored);
   }
 
-  /** Only from the file's own folder or below it. */
+  /** Reads materials, but only from the file's own folder or below it. */
   void
   ReadLibrary(const std::filesystem::path & library)
   {
@@ -216,7 +216,7 @@ private:
     return triple;
   }
 
-  /** From the file's numbers, which begin with 1, or with -1 at the last one so far. */
+  /** Converts an index of the file, which counts from 1, or backwards from -1 at the last one so far. */
   std::uint32_t
   ParseIndex(std::string_view word, std::size_t count) const
   {
@@ -284,21 +284,21 @@ private:
   {
     if (m_Part == nullptr)
     {
-      const auto [place, isNew] = m_PartOfKey.try_emplace(m_Key, m_Parts.size());
+      const auto [found, isNew] = m_PartOfKey.try_emplace(m_Key, m_Parts.size());
       if (isNew)
       {
         const auto named =
           std::find_if(m_Key.begin(), m_Key.end(), [](const std::string & name) { return !name.empty(); });
         m_Parts.push_back({ named == m_Key.end() ? NameFromFile(m_File) : *named, m_Key[2], {} });
       }
-      m_Part = &m_Parts[place->second];
+      m_Part = &m_Parts[found->second];
     }
     return *m_Part;
   }
 
-  /** Takes the part's triangles. \a numbers are None for all points, and so again afterwards. */
+  /** Makes a surface of the part's triangles. \a indices must be None for all points; they are again afterwards. */
   SceneSurface
-  MakeSurface(Part & part, std::vector<std::uint32_t> & numbers) const
+  MakeSurface(Part & part, std::vector<std::uint32_t> & indices) const
   {
     const auto surface = itk::TriangleSurface::New();
     surface->GetTriangles().swap(part.triangles);
@@ -307,9 +307,9 @@ private:
     {
       for (const std::uint32_t point : triangle)
       {
-        if (numbers[point] == None)
+        if (indices[point] == None)
         {
-          numbers[point] = 0;
+          indices[point] = 0;
           used.push_back(point);
         }
       }
@@ -319,7 +319,7 @@ private:
       std::all_of(used.begin(), used.end(), [this](std::uint32_t point) { return m_NormalOfPoint[point] < Several; });
     for (std::size_t n = 0; n < used.size(); ++n)
     {
-      numbers[used[n]] = static_cast<std::uint32_t>(n);
+      indices[used[n]] = static_cast<std::uint32_t>(n);
       surface->GetPoints().push_back(m_Points[used[n]]);
       if (hasNormals)
       {
@@ -330,12 +330,12 @@ private:
     {
       for (std::uint32_t & point : triangle)
       {
-        point = numbers[point];
+        point = indices[point];
       }
     }
     for (const std::uint32_t point : used)
     {
-      numbers[point] = None;
+      indices[point] = None;
     }
     TurnFrom(m_Space, *surface);
     const auto found = m_Materials.find(part.material);
@@ -349,12 +349,12 @@ private:
   SurfaceFileSpace m_Space = SurfaceFileSpace::LPS;
   itk::TriangleSurface::PointsContainer m_Points;
   itk::TriangleSurface::NormalsContainer m_Normals;
-  std::vector<std::uint32_t> m_NormalOfPoint; ///< None before its first face, Several with different ones or a lack
+  std::vector<std::uint32_t> m_NormalOfPoint; ///< index; None before the first face, Several if faces disagree
   std::vector<Corner> m_Corners;              ///< of the face that is being read
   std::array<std::string, 3> m_Key;           ///< object, group, material
   std::map<std::array<std::string, 3>, std::size_t> m_PartOfKey;
   std::vector<Part> m_Parts;
-  Part * m_Part = nullptr; ///< that the next face belongs to, if known
+  Part * m_Part = nullptr; ///< of the next face, if known
   Materials m_Materials;
 };
 

@@ -10,7 +10,7 @@ namespace rhombic
 namespace
 {
 
-/** The name as one word, and another for each surface: what groups and materials are called. */
+/** The names of groups and materials: one word each, all different. */
 std::vector<std::string>
 MakeIdentifiers(const std::vector<SceneSurface> & surfaces)
 {
@@ -31,7 +31,7 @@ MakeIdentifiers(const std::vector<SceneSurface> & surfaces)
   return identifiers;
 }
 
-/** The name as the rest of a line, where a last backslash would join the next one to it. */
+/** The name of an object, without a backslash at the end, which would join the next line. */
 std::string
 ObjectName(const SceneSurface & scene)
 {
@@ -55,7 +55,7 @@ AppendLine(const char * keyword, const TNumbers & numbers, OutputFile & file)
   file.Append(line += '\n');
 }
 
-/** "f 1 2 3", or "f 1//1 2//2 3//3" with normals, which are numbered on their own. */
+/** "f 1 2 3", or "f 1//1 2//2 3//3" with normals, which have indices of their own. */
 void
 AppendFace(const itk::TriangleSurface::TriangleType & triangle,
            std::uint64_t firstPoint,

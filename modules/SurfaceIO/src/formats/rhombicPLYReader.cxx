@@ -1,4 +1,5 @@
 #include "rhombicFileColours.h"
+#include "rhombicNumberType.h"
 #include "rhombicSurfaceAssembler.h"
 #include "rhombicSurfaceFormats.h"
 #include "rhombicWords.h"
@@ -22,23 +23,11 @@ enum class Encoding
   BigEndian
 };
 
-enum class Scalar
-{
-  Int8,
-  UInt8,
-  Int16,
-  UInt16,
-  Int32,
-  UInt32,
-  Float32,
-  Float64
-};
-
 struct Property
 {
   std::string name;
-  Scalar type = Scalar::Float32;
-  std::optional<Scalar> count; ///< of a list
+  NumberType type = NumberType::Float32;
+  std::optional<NumberType> count; ///< type of the count, if the property is a list
 };
 
 struct Element
@@ -56,31 +45,27 @@ struct Header
   std::vector<Element> elements;
 };
 
-std::size_t
-SizeOf(Scalar type)
+NumberType
+ParseType(std::string_view word, const InputStream & stream)
 {
-  constexpr std::size_t sizes[]{ 1, 1, 2, 2, 4, 4, 4, 8 };
-  return sizes[static_cast<std::size_t>(type)];
-}
-
-Scalar
-ParseScalar(std::string_view word, const InputStream & stream)
-{
-  constexpr std::array<std::array<std::string_view, 2>, 8> names{ { { "char", "int8" },
-                                                                    { "uchar", "uint8" },
-                                                                    { "short", "int16" },
-                                                                    { "ushort", "uint16" },
-                                                                    { "int", "int32" },
-                                                                    { "uint", "uint32" },
-                                                                    { "float", "float32" },
-                                                                    { "double", "float64" } } };
-  const auto found =
-    std::find_if(names.begin(), names.end(), [word](const auto & both) { return both[0] == word || both[1] == word; });
-  if (found == names.end())
+  struct Name
   {
-    stream.RefuseLine("PLY has no such type of number");
+    std::string_view name;
+    std::string_view nameWithSize;
+    NumberType type;
+  };
+  constexpr Name names[]{ { "char", "int8", NumberType::Int8 },        { "uchar", "uint8", NumberType::UInt8 },
+                          { "short", "int16", NumberType::Int16 },     { "ushort", "uint16", NumberType::UInt16 },
+                          { "int", "int32", NumberType::Int32 },       { "uint", "uint32", NumberType::UInt32 },
+                          { "float", "float32", NumberType::Float32 }, { "double", "float64", NumberType::Float64 } };
+  for (const Name & known : names)
+  {
+    if (word == known.name || word == known.nameWithSize)
+    {
+      return known.type;
+    }
   }
-  return static_cast<Scalar>(found - names.begin());
+  stream.RefuseLine("PLY has no such type of number");
 }
 
 Encoding
@@ -104,10 +89,10 @@ ParseProperty(std::string_view words, const InputStream & stream)
   std::string_view type = TakeWord(words);
   if (type == "list")
   {
-    property.count = ParseScalar(TakeWord(words), stream);
+    property.count = ParseType(TakeWord(words), stream);
     type = TakeWord(words);
   }
-  property.type = ParseScalar(type, stream);
+  property.type = ParseType(type, stream);
   property.name = TakeWord(words);
   return property;
 }
@@ -126,7 +111,7 @@ ParseElement(std::string_view words, const InputStream & stream)
   return element;
 }
 
-/** What WritePLY() says about a surface; nothing from another program's comment that begins likewise. */
+/** Parses WritePLY()'s description of a surface; nothing if the comment is another program's. */
 std::optional<SurfacePart>
 ParseDescription(std::string_view text)
 {
@@ -216,7 +201,7 @@ ParseHeader(InputStream & stream)
 }
 
 /** \class Values
- * \brief The numbers of the elements, one after the other, whatever their encoding. */
+ * \brief Reads the numbers of the elements in order, in any encoding. */
 class Values
 {
 public:
@@ -225,7 +210,7 @@ public:
     , m_Encoding(encoding)
   {}
 
-  /** Each element of a text file has a line. */
+  /** Goes to the next line of a text file that is not empty: each element has its own line. */
   void
   BeginElement()
   {
@@ -245,36 +230,19 @@ public:
   }
 
   double
-  Take(Scalar type)
+  Take(NumberType type)
   {
     if (m_Encoding == Encoding::Text)
     {
       return this->TakeText();
     }
-    switch (type)
-    {
-      case Scalar::Int8:
-        return this->TakeBinary<std::int8_t>();
-      case Scalar::UInt8:
-        return this->TakeBinary<std::uint8_t>();
-      case Scalar::Int16:
-        return this->TakeBinary<std::int16_t>();
-      case Scalar::UInt16:
-        return this->TakeBinary<std::uint16_t>();
-      case Scalar::Int32:
-        return this->TakeBinary<std::int32_t>();
-      case Scalar::UInt32:
-        return this->TakeBinary<std::uint32_t>();
-      case Scalar::Float32:
-        return this->TakeBinary<float>();
-      default:
-        return this->TakeBinary<double>();
-    }
+    return TakeNumber(
+      type, m_Encoding == Encoding::BigEndian, [this](char * to, std::size_t size) { m_Stream.Take(to, size); });
   }
 
-  /** A count or index. Throws Failure(Unreadable) for numbers that can't be one. */
+  /** Takes a count or index; throws Failure(Unreadable) for any other number. */
   std::uint64_t
-  TakeWhole(Scalar type)
+  TakeWhole(NumberType type)
   {
     const double value = this->Take(type);
     if (!(value >= 0 && value <= UINT32_MAX && value == std::floor(value)))
@@ -297,27 +265,12 @@ private:
     return *value;
   }
 
-  template <typename TNumber>
-  double
-  TakeBinary()
-  {
-    std::array<char, sizeof(TNumber)> bytes;
-    m_Stream.Take(bytes.data(), bytes.size());
-    if (m_Encoding == Encoding::BigEndian)
-    {
-      std::reverse(bytes.begin(), bytes.end());
-    }
-    TNumber number;
-    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char *>(&number));
-    return static_cast<double>(number);
-  }
-
   InputStream & m_Stream;
   Encoding m_Encoding;
   std::string_view m_Line;
 };
 
-/** Numbers of a vertex that matter, by name. */
+/** The properties of a vertex that are read. */
 constexpr std::array<std::string_view, 10> SlotNames{
   "x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "alpha"
 };
@@ -342,7 +295,7 @@ HasSlots(const Element & vertex, std::size_t first, std::size_t count)
   {
     has[SlotOf(property)] = true;
   }
-  return std::all_of(has.begin() + first, has.begin() + first + count, [](bool one) { return one; });
+  return std::all_of(has.begin() + first, has.begin() + first + count, [](bool hasSlot) { return hasSlot; });
 }
 
 bool
@@ -351,7 +304,7 @@ IsIndexList(const Property & property)
   return property.count && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
-/** The fewest bytes an element takes. */
+/** A lower bound for the bytes of an element. */
 std::uintmax_t
 SmallestSize(const Element & element, Encoding encoding)
 {
@@ -398,7 +351,7 @@ SkipProperty(const Property & property, Values & values)
   }
 }
 
-/** The look of all points, if they look the same. */
+/** The colour and opacity of all points, if they are the same. */
 class CommonLook
 {
 public:
@@ -419,8 +372,8 @@ public:
         std::find_if(vertex.properties.begin(), vertex.properties.end(), [](const Property & property) {
           return property.name == SlotNames[FirstColour];
         });
-      const double one = colour->type == Scalar::UInt8 ? 255 : 1; // floats are from 0 to 1
-      const auto unit = [&](std::size_t slot) { return ToUnit((*m_First)[slot] / one); };
+      const double largest = colour->type == NumberType::UInt8 ? 255 : 1;
+      const auto unit = [&](std::size_t slot) { return ToUnit((*m_First)[slot] / largest); };
       assembler.SetLook({ unit(FirstColour), unit(FirstColour + 1), unit(FirstColour + 2) },
                         HasSlots(vertex, Alpha, 1) ? unit(Alpha) : 1.0);
     }

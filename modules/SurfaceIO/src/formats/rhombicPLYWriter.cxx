@@ -11,7 +11,7 @@ namespace rhombic
 namespace
 {
 
-/** What the reader divides the file by: one line of JSON in ASCII a surface. */
+/** A comment for the reader, which tells it where the surfaces are: one line of JSON in ASCII. */
 std::string
 DescribeSurface(const SceneSurface & scene)
 {

@@ -1,12 +1,10 @@
 #include "rhombicFileSpace.h"
-#include "rhombicMemoryBudget.h"
 #include "rhombicPointWelder.h"
 #include "rhombicSurfaceAssembler.h"
 #include "rhombicSurfaceFormats.h"
 #include "rhombicWords.h"
 
 #include <algorithm>
-#include <cctype>
 
 namespace rhombic
 {
@@ -18,6 +16,7 @@ using PointType = itk::TriangleSurface::PointType;
 constexpr std::uintmax_t HeaderSize = 84;
 constexpr std::uintmax_t TriangleSize = 50;
 
+/** The size that a binary file has by its number of triangles. */
 std::uintmax_t
 BinarySize(const InputFile & file)
 {
@@ -30,8 +29,8 @@ std::vector<SceneSurface>
 ReadBinary(const InputFile & file)
 {
   const std::uintmax_t triangles = (file.GetSize() - HeaderSize) / TriangleSize;
-  // A closed surface has half as many points as triangles; the welder's table holds up to four places for each.
-  RequireMemory(12 * triangles + (12 + 16) * triangles / 2, 0, "Reading " + file.GetPath().string());
+  // A closed surface has half as many points as triangles; the welder's table has up to four slots for each point.
+  file.RequireMemoryToRead(12 * triangles + (12 + 16) * triangles / 2);
   InputStream stream(file);
   std::string header(HeaderSize - sizeof(std::uint32_t), '\0');
   stream.Take(header.data(), header.size());
@@ -59,11 +58,11 @@ ReadBinary(const InputFile & file)
   return { read };
 }
 
-/** A solid of a text file while it is read. */
+/** A solid of a text file that is being read. */
 struct Solid
 {
-  explicit Solid(const std::string & itsName)
-    : name(itsName)
+  explicit Solid(const std::string & solidName)
+    : name(solidName)
   {}
 
   const std::string name;
@@ -87,20 +86,10 @@ ParsePoint(std::string_view words, const InputStream & stream)
   return point;
 }
 
-std::string
-LowerCase(std::string_view text)
-{
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char letter) {
-    return static_cast<char>(std::tolower(letter));
-  });
-  return lower;
-}
-
 std::vector<SceneSurface>
 ReadText(const InputFile & file)
 {
-  RequireMemory(file.GetSize(), 0, "Reading " + file.GetPath().string());
+  file.RequireMemoryToRead(file.GetSize());
   InputStream stream(file);
   std::vector<SceneSurface> surfaces;
   std::unique_ptr<Solid> solid;
@@ -158,7 +147,7 @@ BeginsLikeText(const InputFile & file)
 std::vector<SceneSurface>
 ReadSTL(const InputFile & file)
 {
-  // Some binary files begin with "solid" too, so the size is asked first.
+  // Some binary files begin with "solid", too, so the size is checked first.
   if (file.GetSize() >= HeaderSize && file.GetSize() == BinarySize(file))
   {
     return ReadBinary(file);

@@ -1,6 +1,8 @@
 #include "rhombicFileSpace.h"
 #include "rhombicSurfaceFormats.h"
 
+#include "detail/itkPositionArithmetic.h"
+
 #include <cmath>
 
 namespace rhombic
@@ -10,18 +12,12 @@ namespace
 
 using PointType = itk::TriangleSurface::PointType;
 
-/** Of length 1, or 0 for a triangle without area. */
+/** The unit normal, or 0 for a triangle without area. */
 PointType
 FacetNormal(const PointType & a, const PointType & b, const PointType & c)
 {
-  double u[3], v[3];
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    u[axis] = static_cast<double>(b[axis]) - a[axis];
-    v[axis] = static_cast<double>(c[axis]) - a[axis];
-  }
-  const double normal[]{ u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
-  const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+  const itk::PositionType normal = itk::AreaVector({ itk::ToPosition(a), itk::ToPosition(b), itk::ToPosition(c) });
+  const double length = itk::Length(normal);
   const double scale = length > 0 && std::isfinite(length) ? 1 / length : 0;
   return { static_cast<float>(scale * normal[0]),
            static_cast<float>(scale * normal[1]),

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-/** The numbers of binary glTF (Khronos, "glTF 2.0 Specification", sections 4.4, 5.1 and 5.22). */
+/** Constants of binary glTF (Khronos, "glTF 2.0 Specification", sections 4.4, 5.1 and 5.22). */
 namespace rhombic::glb
 {
 
@@ -26,8 +26,8 @@ constexpr int Triangles = 4;
 constexpr int TriangleStrip = 5;
 constexpr int TriangleFan = 6;
 
-/** glTF's metres with y up and z to the front from LPS millimetres, column by column as glTF holds matrices: the
- * patient stands and faces the viewer. */
+/** Matrices, column by column, from LPS or RAS millimetres to glTF's metres with y up and z to the front: the patient
+ * stands and faces the viewer. */
 constexpr std::array<double, 16> FromLPS{ 0.001, 0, 0, 0, 0, 0, -0.001, 0, 0, 0.001, 0, 0, 0, 0, 0, 1 };
 constexpr std::array<double, 16> FromRAS{ -0.001, 0, 0, 0, 0, 0, 0.001, 0, 0, 0.001, 0, 0, 0, 0, 0, 1 };
 

@@ -1,7 +1,6 @@
 #include "rhombicFailure.h"
 #include "rhombicFileColours.h"
 #include "rhombicGLBContainer.h"
-#include "rhombicMemoryBudget.h"
 #include "rhombicSurfaceAssembler.h"
 #include "rhombicSurfaceFormats.h"
 
@@ -22,13 +21,13 @@ namespace
 
 using Json = nlohmann::json;
 
-/** Rotation, scale and translation: x becomes linear x + offset. */
+/** The affine transform x -> linear x + offset. */
 struct Transform
 {
   itk::Matrix<double, 3, 3> linear;
   itk::Vector<double, 3> offset{ 0.0 };
 
-  /** First the other one, then this. */
+  /** The transform that applies \a other first, then this one. */
   Transform
   After(const Transform & other) const
   {
@@ -51,7 +50,7 @@ FromColumns(const std::array<double, 16> & columns)
   return transform;
 }
 
-/** LPS millimetres from glTF's metres with y up: the inverse of glb::FromLPS. */
+/** From glTF's metres with y up to LPS millimetres: the inverse of glb::FromLPS. */
 Transform
 ToLPS()
 {
@@ -63,7 +62,7 @@ ToLPS()
   return transform;
 }
 
-/** An array of JSON in what must be one of numbers. */
+/** The array of numbers called \a name, if there is one. */
 template <std::size_t VCount>
 std::optional<std::array<double, VCount>>
 NumbersAt(const Json & json, const char * name)
@@ -105,7 +104,7 @@ Determinant(const itk::Matrix<double, 3, 3> & m)
          m(0, 2) * (m(1, 0) * m(2, 1) - m(1, 1) * m(2, 0));
 }
 
-/** What normals are multiplied with, up to their length: the cofactors, which unlike the inverse always exist. */
+/** The matrix for normals, up to a factor: the cofactors, which exist even if the inverse does not. */
 itk::Matrix<double, 3, 3>
 NormalMatrix(const itk::Matrix<double, 3, 3> & m)
 {
@@ -123,7 +122,7 @@ NormalMatrix(const itk::Matrix<double, 3, 3> & m)
   return cofactors;
 }
 
-/** Exactly a rotation, as a matrix of 0 and 1 is: then lengths need no mending, which would round. */
+/** Whether the matrix is exactly orthogonal, so that normals keep their length and need no normalization. */
 bool
 KeepsLengths(const itk::Matrix<double, 3, 3> & m)
 {
@@ -138,18 +137,18 @@ ToFloats(const itk::Vector<double, 3> & vector)
   return { static_cast<float>(vector[0]), static_cast<float>(vector[1]), static_cast<float>(vector[2]) };
 }
 
-/** Where the numbers of an accessor lie in the file. */
+/** The bytes of an accessor in the file. */
 struct Accessor
 {
   std::uint64_t begin = 0;
   std::uint64_t stride = 0;
   std::uint64_t count = 0;
-  std::uint64_t componentType = 0; ///< 0 for none: the number of each is its place
+  std::uint64_t componentType = 0; ///< 0 if there are no indices: each corner's index is its position
   std::uint64_t componentSize = 0;
 };
 
 /** \class GLBReader
- * \brief One surface for each primitive of each node's mesh, in the order of the scene. */
+ * \brief Reads one surface for each primitive of each node's mesh, in the order of the scene. */
 class GLBReader
 {
 public:
@@ -170,12 +169,6 @@ public:
   }
 
 private:
-  [[noreturn]] void
-  RefuseDamaged(const std::string & what) const
-  {
-    m_File.Refuse(what + "; the file is damaged, so export it again");
-  }
-
   void
   ReadContainer()
   {
@@ -190,7 +183,7 @@ private:
     const std::uint64_t jsonEnd = sizeof(header) + std::uint64_t{ jsonSize };
     if (size > m_File.GetSize() || jsonEnd > size || jsonSize > longest)
     {
-      this->RefuseDamaged("its parts are longer than the file");
+      m_File.RefuseDamaged("its parts are longer than the file");
     }
     std::string json(jsonSize, '\0');
     m_File.Read(sizeof(header), json.data(), json.size());
@@ -204,12 +197,12 @@ private:
       m_BufferSize = chunk[1] == glb::BinChunk ? chunk[0] : 0;
       if (m_BufferSize > size - m_BufferBegin)
       {
-        this->RefuseDamaged("its parts are longer than the file");
+        m_File.RefuseDamaged("its parts are longer than the file");
       }
     }
   }
 
-  /** An extension that is required may change what the numbers mean. Those of materials do not. */
+  /** Refuses required extensions, which may change what the numbers mean, except those of materials. */
   void
   CheckExtensions() const
   {
@@ -267,7 +260,7 @@ private:
     constexpr int deepest = 1000;
     if (m_IsRead[number] || depth > deepest)
     {
-      this->RefuseDamaged("a node is below two others, or itself");
+      m_File.RefuseDamaged("a node is below two others, or itself");
     }
     m_IsRead[number] = true;
     const Transform transform = parent.After(TransformOf(node));
@@ -321,7 +314,7 @@ private:
     const Accessor positions = this->FindVectors(attributes, "POSITION");
     if (positions.count >= std::numeric_limits<std::uint32_t>::max())
     {
-      this->RefuseDamaged("a mesh has more points than 32-bit indices reach");
+      m_File.RefuseDamaged("a mesh has more points than 32-bit indices reach");
     }
     Accessor indices;
     indices.count = positions.count;
@@ -330,7 +323,7 @@ private:
       indices = this->FindAccessor(primitive.at("indices"), "SCALAR");
     }
     m_Memory += 24 * positions.count + (mode == glb::Triangles ? 4 : 12) * indices.count;
-    RequireMemory(m_Memory, 0, "Reading " + m_File.GetPath().string());
+    m_File.RequireMemoryToRead(m_Memory);
 
     const auto surface = itk::TriangleSurface::New();
     this->ReadVectors(positions, surface->GetPoints());
@@ -344,13 +337,13 @@ private:
       const Accessor normals = this->FindVectors(attributes, "NORMAL");
       if (normals.count != positions.count)
       {
-        this->RefuseDamaged("a mesh has another number of normals than of points");
+        m_File.RefuseDamaged("a mesh has another number of normals than of points");
       }
       this->ReadVectors(normals, surface->GetNormals());
       TurnNormals(transform.linear, surface->GetNormals());
     }
     this->ReadTriangles(indices, mode, *surface);
-    if (Determinant(transform.linear) < 0) // a mirror image; glTF turns its triangles round
+    if (Determinant(transform.linear) < 0) // a reflection: glTF reverses the triangles
     {
       for (auto & triangle : surface->GetTriangles())
       {
@@ -377,7 +370,7 @@ private:
     }
   }
 
-  /** Three floats a point. */
+  /** Finds an attribute of three floats per point. */
   Accessor
   FindVectors(const Json & attributes, const char * name) const
   {
@@ -399,7 +392,7 @@ private:
     }
     if (json.at("type").get_ref<const std::string &>() != type)
     {
-      this->RefuseDamaged("an accessor is not of type " + std::string(type));
+      m_File.RefuseDamaged("an accessor is not of type " + std::string(type));
     }
     const Json & view = this->Item("bufferViews", this->Whole(json, "bufferView"));
     const Json & buffer = this->Item("buffers", this->Whole(view, "buffer"));
@@ -425,7 +418,7 @@ private:
       (accessor.count == 0 || (accessor.count - 1) * accessor.stride + elementSize <= viewSize - offset);
     if (!fits)
     {
-      this->RefuseDamaged("an accessor reaches beyond its buffer");
+      m_File.RefuseDamaged("an accessor reaches beyond its buffer");
     }
     accessor.begin = m_BufferBegin + viewBegin + offset;
     return accessor;
@@ -450,7 +443,7 @@ private:
     }
   }
 
-  /** The numbers of the corners one after the other, with or without indices. */
+  /** Calls \a use(n, index) for each corner in order, with or without indices. */
   template <typename TUse>
   void
   ForEachCorner(const Accessor & indices, std::uint64_t points, const TUse & use) const
@@ -464,8 +457,8 @@ private:
                                                                 : stream.Take<std::uint32_t>();
       if (corner >= points)
       {
-        this->RefuseDamaged("a triangle has a corner at point " + std::to_string(corner) +
-                            ", which its mesh does not have");
+        m_File.RefuseDamaged("a triangle has a corner at point " + std::to_string(corner) +
+                             ", which its mesh does not have");
       }
       use(n, static_cast<std::uint32_t>(corner));
     }
@@ -478,7 +471,7 @@ private:
     if (std::count(std::begin(wholeTypes), std::end(wholeTypes), indices.componentType) == 0 ||
         indices.stride != indices.componentSize)
     {
-      this->RefuseDamaged("the indices of a mesh are no whole numbers, or not close together");
+      m_File.RefuseDamaged("the indices of a mesh are no whole numbers, or not close together");
     }
     auto & triangles = surface.GetTriangles();
     triangles.reserve(mode == glb::Triangles ? indices.count / 3 : indices.count);
@@ -507,7 +500,7 @@ private:
     });
   }
 
-  /** An object of one of the lists of glTF. */
+  /** An item of one of the lists of the JSON. */
   const Json &
   Item(const char * list, std::uint64_t number) const
   {
@@ -519,7 +512,7 @@ private:
   {
     if (!json.is_number_unsigned())
     {
-      this->RefuseDamaged("its JSON has something else where a whole number must be");
+      m_File.RefuseDamaged("its JSON has something else where a whole number must be");
     }
     return json.get<std::uint64_t>();
   }
@@ -540,8 +533,8 @@ private:
   Json m_Json;
   std::uint64_t m_BufferBegin = 0; ///< in the file
   std::uint64_t m_BufferSize = 0;
-  std::uint64_t m_Memory = 0; ///< of what is read
-  std::vector<bool> m_IsRead; ///< of nodes
+  std::uint64_t m_Memory = 0; ///< bytes of the surfaces so far
+  std::vector<bool> m_IsRead; ///< for each node
   std::vector<SceneSurface> m_Surfaces;
 };
 

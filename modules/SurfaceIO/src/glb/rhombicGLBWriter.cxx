@@ -18,10 +18,9 @@ using Json = nlohmann::ordered_json;
 using PointType = itk::TriangleSurface::PointType;
 
 /** \class GLBWriter
- * \brief Positions, normals and indices of one surface after the other, and JSON that says where they are.
+ * \brief Writes positions, normals and indices of each surface, and the JSON that says where they are.
  *
- * The positions are the millimetres that they were, so nothing is rounded; the root node's matrix makes metres of them.
- */
+ * Positions stay in millimetres, so that nothing is rounded; the root node's matrix converts them to metres. */
 class GLBWriter
 {
 public:

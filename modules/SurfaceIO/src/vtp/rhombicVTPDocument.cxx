@@ -16,7 +16,8 @@ namespace rhombic
 namespace
 {
 
-/** Collects the elements while expat parses. Expat is C: what its callbacks throw is kept until it returns. */
+/** Collects the elements while expat parses. Expat is a C library, so exceptions of its callbacks are kept and thrown
+ * again after it has returned. */
 class DocumentParser
 {
 public:
@@ -66,7 +67,8 @@ public:
 private:
   using Attributes = std::map<std::string, std::string, std::less<>>;
 
-  /** Of an element without content, expat reports the end even after it was stopped. */
+  /** Runs an action and keeps its exception. Does nothing after an exception: expat reports the end of an empty element
+   * even after it was stopped. */
   template <typename TAction>
   void
   Guard(const TAction & action)
@@ -173,7 +175,7 @@ private:
     const auto count = text.empty() ? 0 : ParseNumber<std::uint64_t>(text);
     if (!count)
     {
-      m_File.Refuse("its " + name + " is no number; the file is damaged, so export it again");
+      m_File.RefuseDamaged("its " + name + " is no number");
     }
     return *count;
   }
@@ -227,7 +229,7 @@ private:
     m_Array = &arrays.back();
   }
 
-  /** What follows may be no XML. */
+  /** Stops the parser: what follows may be no XML. */
   void
   StartAppended(const Attributes & attributes)
   {
@@ -241,14 +243,14 @@ private:
     }
     if (mark != '_')
     {
-      m_File.Refuse("its appended data do not begin with \"_\"; the file is damaged, so export it again");
+      m_File.RefuseDamaged("its appended data do not begin with \"_\"");
     }
     this->CheckEnd();
     m_Document.appendedAt = place;
     XML_StopParser(m_Parser.get(), XML_FALSE);
   }
 
-  /** Arrays that are not read would not tell that they are missing. */
+  /** Checks that the file is complete, because arrays that are not read are not missed. */
   void
   CheckEnd() const
   {
@@ -264,8 +266,8 @@ private:
   const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> m_Parser;
   std::exception_ptr m_Exception;
   VTPDocument m_Document;
-  std::vector<std::string> m_Path; ///< the elements around
-  VTPArray * m_Array = nullptr;    ///< whose text is being read
+  std::vector<std::string> m_Path; ///< names of the open elements
+  VTPArray * m_Array = nullptr;    ///< the array whose text is being read
 };
 
 } // namespace

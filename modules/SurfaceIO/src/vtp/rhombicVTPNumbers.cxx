@@ -1,12 +1,10 @@
 #include "rhombicVTPNumbers.h"
 
-#include "rhombicMemoryBudget.h"
 #include "rhombicWords.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include <zlib.h>
 
@@ -15,7 +13,7 @@ namespace rhombic
 namespace
 {
 
-/** The six bits of a letter of base64 (RFC 4648), or 64. */
+/** The value of a letter of base64 (RFC 4648), or 64 if it is none. */
 unsigned int
 SixBits(char letter)
 {
@@ -24,7 +22,7 @@ SixBits(char letter)
 }
 
 /** \class EncodedBytes
- * \brief The bytes of an array as the file holds them: raw or as base64, in the file or in its XML. */
+ * \brief Decodes the bytes of an array: raw or base64, appended to the XML or in it. */
 class EncodedBytes
 {
 public:
@@ -61,7 +59,7 @@ public:
     return m_Place;
   }
 
-  /** The next \a size bytes, which are encoded on their own. */
+  /** Takes the next \a size bytes, which are encoded by themselves. */
   std::string
   Take(std::uint64_t size)
   {
@@ -70,7 +68,7 @@ public:
     return bytes;
   }
 
-  /** The same without going on. */
+  /** As Take(), but stays at the place. */
   std::string
   Peek(std::uint64_t size) const
   {
@@ -130,7 +128,7 @@ private:
   std::uint64_t m_Place = 0;
 };
 
-/** The sizes in front of arrays and blocks. */
+/** Decodes the sizes in front of arrays and blocks. */
 class Sizes
 {
 public:
@@ -162,12 +160,12 @@ private:
   std::size_t m_Size;
 };
 
-/** Bytes that zlib compressed in blocks of \a blockSize; the last may be shorter. */
+/** Expands an array that zlib has compressed in blocks of equal size; the last block may be shorter. */
 std::string
 Expand(const InputFile & file, EncodedBytes & encoded, const Sizes & sizes)
 {
   constexpr std::uint64_t largestRatio = 1032; // of zlib
-  constexpr std::size_t numbersBefore = 3;     // of blocks, their size, the last one's size if it is not full
+  constexpr std::size_t numbersBefore = 3;     // number of blocks, block size, size of the last block if it is not full
   const std::uint64_t blocks = sizes.At(encoded.Peek(sizes.GetSize()), 0);
   if (blocks > file.GetSize())
   {
@@ -198,7 +196,7 @@ Expand(const InputFile & file, EncodedBytes & encoded, const Sizes & sizes)
     {
       file.Refuse("its compressed arrays are damaged; export it again");
     }
-    RequireMemory(bytes.size() + expanded, 0, "Reading " + file.GetPath().string());
+    file.RequireMemoryToRead(bytes.size() + expanded);
     const std::size_t before = bytes.size();
     bytes.resize(before + expanded);
     uLongf written = expanded;
@@ -252,7 +250,7 @@ VTPNumbers::VTPNumbers(const InputFile & file, const VTPDocument & document, con
   }
 }
 
-VTPNumbers::Type
+NumberType
 VTPNumbers::ParseType(const InputFile & file, const VTPArray & array)
 {
   constexpr std::array<std::string_view, 10> names{ "Int8",   "UInt8", "Int16",  "UInt16",  "Int32",
@@ -263,22 +261,15 @@ VTPNumbers::ParseType(const InputFile & file, const VTPArray & array)
   {
     file.Refuse("its array " + array.name + " has a type of number that VTP does not have; export it again");
   }
-  return static_cast<Type>(found - names.begin());
-}
-
-std::size_t
-VTPNumbers::GetTypeSize() const
-{
-  constexpr std::size_t sizes[]{ 1, 1, 2, 2, 4, 4, 8, 8, 4, 8 };
-  return sizes[static_cast<std::size_t>(m_Type)];
+  return static_cast<NumberType>(found - names.begin());
 }
 
 std::uint64_t
 VTPNumbers::GetRest() const
 {
   return m_IsText   ? (m_Text.size() + 1) / 2
-         : m_Stream ? m_Stream->GetRest() / this->GetTypeSize()
-                    : (m_Bytes.size() - m_Taken) / this->GetTypeSize();
+         : m_Stream ? m_Stream->GetRest() / SizeOf(m_Type)
+                    : (m_Bytes.size() - m_Taken) / SizeOf(m_Type);
 }
 
 bool
@@ -287,31 +278,20 @@ VTPNumbers::HasMore() const
   return m_IsText ? !Trimmed(m_Text).empty() : this->GetRest() > 0;
 }
 
-template <typename TNumber>
-double
-VTPNumbers::TakeBinary()
+void
+VTPNumbers::TakeBytes(char * to, std::size_t size)
 {
-  std::array<char, sizeof(TNumber)> bytes;
   if (m_Stream)
   {
-    m_Stream->Take(bytes.data(), bytes.size());
+    m_Stream->Take(to, size);
+    return;
   }
-  else if (m_Bytes.size() - m_Taken < bytes.size())
+  if (m_Bytes.size() - m_Taken < size)
   {
-    m_File.Refuse("an array is shorter than it must be; the file is damaged, so export it again");
+    m_File.RefuseDamaged("an array is shorter than it must be");
   }
-  else
-  {
-    std::copy_n(m_Bytes.data() + m_Taken, bytes.size(), bytes.data());
-    m_Taken += bytes.size();
-  }
-  if (m_IsBigEndian)
-  {
-    std::reverse(bytes.begin(), bytes.end());
-  }
-  TNumber number;
-  std::memcpy(&number, bytes.data(), bytes.size());
-  return static_cast<double>(number);
+  std::copy_n(m_Bytes.data() + m_Taken, size, to);
+  m_Taken += size;
 }
 
 double
@@ -322,33 +302,11 @@ VTPNumbers::Take()
     const auto number = ParseNumber<double>(TakeWord(m_Text));
     if (!number)
     {
-      m_File.Refuse("an array has fewer numbers than it must have; the file is damaged, so export it again");
+      m_File.RefuseDamaged("an array has fewer numbers than it must have");
     }
     return *number;
   }
-  switch (m_Type)
-  {
-    case Type::Int8:
-      return this->TakeBinary<std::int8_t>();
-    case Type::UInt8:
-      return this->TakeBinary<std::uint8_t>();
-    case Type::Int16:
-      return this->TakeBinary<std::int16_t>();
-    case Type::UInt16:
-      return this->TakeBinary<std::uint16_t>();
-    case Type::Int32:
-      return this->TakeBinary<std::int32_t>();
-    case Type::UInt32:
-      return this->TakeBinary<std::uint32_t>();
-    case Type::Int64:
-      return this->TakeBinary<std::int64_t>();
-    case Type::UInt64:
-      return this->TakeBinary<std::uint64_t>();
-    case Type::Float32:
-      return this->TakeBinary<float>();
-    default:
-      return this->TakeBinary<double>();
-  }
+  return TakeNumber(m_Type, m_IsBigEndian, [this](char * to, std::size_t size) { this->TakeBytes(to, size); });
 }
 
 std::uint64_t
@@ -358,7 +316,7 @@ VTPNumbers::TakeWhole()
   const double number = this->Take();
   if (!(number >= 0 && number < largest && number == std::floor(number)))
   {
-    m_File.Refuse("an index or size is no whole number; the file is damaged, so export it again");
+    m_File.RefuseDamaged("an index or size is no whole number");
   }
   return static_cast<std::uint64_t>(number);
 }

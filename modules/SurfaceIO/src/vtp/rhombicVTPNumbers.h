@@ -1,6 +1,7 @@
 #ifndef rhombicVTPNumbers_h
 #define rhombicVTPNumbers_h
 
+#include "rhombicNumberType.h"
 #include "rhombicVTPDocument.h"
 
 #include <optional>
@@ -10,14 +11,15 @@ namespace rhombic
 {
 
 /** \class VTPNumbers
- * \brief The numbers of an array one after the other, whatever their type and encoding; of strings, their bytes. */
+ * \brief Reads the numbers of an array in order, in any type and encoding; strings are read as bytes. */
 class VTPNumbers
 {
 public:
-  /** The document must live as long. Throws Failure(Unreadable) when the array's bytes are not there or damaged. */
+  /** Keeps references to the file and the document. Throws Failure(Unreadable) if the array's bytes are missing or
+   * damaged. */
   VTPNumbers(const InputFile & file, const VTPDocument & document, const VTPArray & array);
 
-  /** How many are left; of text, at most so many. */
+  /** The number of numbers that are left; for text, an upper bound. */
   std::uint64_t
   GetRest() const;
 
@@ -28,42 +30,24 @@ public:
   double
   Take();
 
-  /** The same for one that must be whole and not negative. */
+  /** As Take(), for a number that must be whole and not negative. */
   std::uint64_t
   TakeWhole();
 
 private:
-  enum class Type
-  {
-    Int8,
-    UInt8,
-    Int16,
-    UInt16,
-    Int32,
-    UInt32,
-    Int64,
-    UInt64,
-    Float32,
-    Float64
-  };
-
-  static Type
+  static NumberType
   ParseType(const InputFile & file, const VTPArray & array);
 
-  std::size_t
-  GetTypeSize() const;
-
-  template <typename TNumber>
-  double
-  TakeBinary();
+  void
+  TakeBytes(char * to, std::size_t size);
 
   const InputFile & m_File;
-  Type m_Type;
+  NumberType m_Type;
   bool m_IsBigEndian;
   bool m_IsText;
-  std::string_view m_Text;             ///< what is left of it
-  std::optional<InputStream> m_Stream; ///< of bytes that lie in the file as they are
-  std::string m_Bytes;                 ///< those that had to be decoded
+  std::string_view m_Text;             ///< what is left of the text
+  std::optional<InputStream> m_Stream; ///< if the bytes are raw in the file
+  std::string m_Bytes;                 ///< the decoded bytes otherwise
   std::size_t m_Taken = 0;
 };
 

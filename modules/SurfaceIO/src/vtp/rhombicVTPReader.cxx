@@ -11,7 +11,7 @@ namespace
 {
 
 /** \class VTPReader
- * \brief All pieces as one, divided as WriteVTP() describes it. */
+ * \brief Reads all pieces as one and divides them into surfaces by the field data that WriteVTP() writes. */
 class VTPReader
 {
 public:
@@ -68,18 +68,17 @@ private:
     const VTPArray * const array = Find(arrays, section, name);
     if (array == nullptr)
     {
-      m_File.Refuse("its " + section + " are missing; the file is damaged, so export it again");
+      m_File.RefuseDamaged("its " + section + " are missing");
     }
     VTPNumbers numbers(m_File, m_Document, *array);
     if (numbers.GetRest() < count)
     {
-      m_File.Refuse("its array " + array->name +
-                    " is shorter than it must be; the file is damaged, so export it again");
+      m_File.RefuseDamaged("its array " + array->name + " is shorter than it must be");
     }
     return numbers;
   }
 
-  /** Before memory is asked for: the arrays have as many numbers as the piece says. */
+  /** Checks, before memory is allocated, that the arrays have as many numbers as the piece says. */
   void
   CheckPiece(const VTPPiece & piece) const
   {
@@ -121,7 +120,7 @@ private:
     }
   }
 
-  /** Each polygon's corners end where its offset says. */
+  /** Reads polygons: each offset is the end of a polygon's corners. */
   void
   ReadPolygons(const VTPPiece & piece, std::uint64_t firstPoint, SurfaceAssembler & assembler) const
   {

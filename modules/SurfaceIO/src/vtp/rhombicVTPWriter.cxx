@@ -11,7 +11,7 @@ namespace rhombic
 namespace
 {
 
-/** An array of the file: the bytes behind all XML that one of its elements names by their offset. */
+/** An array among the appended data. */
 struct AppendedArray
 {
   std::uint64_t size = 0; ///< bytes
@@ -19,7 +19,7 @@ struct AppendedArray
 };
 
 /** \class VTPWriter
- * \brief One piece for all surfaces, which follow each other. The XML names the arrays; their bytes follow raw.
+ * \brief Writes one piece with all surfaces, with the arrays as raw appended data.
  *
  * Format: VTK File Formats, "XML File Formats", docs.vtk.org. VTK's own writer would need a merged copy of the
  * surfaces, and reports success on a full disk. */
@@ -62,7 +62,7 @@ public:
   }
 
 private:
-  /** \a size is that of its bytes. */
+  /** Adds an array's element to the XML; \a append writes its \a size bytes later. */
   void
   Add(std::string & xml, const std::string & element, std::uint64_t size, std::function<void(OutputFile & file)> append)
   {
@@ -85,7 +85,7 @@ private:
               [bytes](OutputFile & file) { file.Append(bytes); });
   }
 
-  /** A tuple of each surface. */
+  /** Adds an array with a tuple for each surface. */
   template <typename TGetTuple>
   void
   AddTuples(std::string & xml, const std::string & name, const std::string & type, const TGetTuple & getTuple)
@@ -185,7 +185,7 @@ private:
     xml += "</Polys>\n";
   }
 
-  /** A value for each triangle of a surface. */
+  /** Adds an array with a value for each triangle, the same for all triangles of a surface. */
   template <typename TGetValue>
   void
   AddCellValues(std::string & xml, const std::string & element, const TGetValue & getValue)
