@@ -17,7 +17,7 @@ namespace
 
 using SurfacePointer = itk::TriangleSurface::ConstPointer;
 
-/** Keeps the surface alive as an observer that never acts: an array drops its observers when it is destroyed. */
+/** An observer that does nothing but keep the surface alive: an array drops its observers when it is destroyed. */
 class SurfaceKeeper : public vtkCommand
 {
 public:
@@ -37,6 +37,7 @@ private:
   SurfacePointer m_Surface;
 };
 
+/** A VTK array that shares the memory of some tuples of the surface. */
 template <typename TArray, typename TValue, typename TTuples>
 vtkSmartPointer<TArray>
 Wrap(const TTuples & tuples, int components, const SurfacePointer & surface)
@@ -45,7 +46,7 @@ Wrap(const TTuples & tuples, int components, const SurfacePointer & surface)
   constexpr int doNotFree = 1;
   auto array = vtkSmartPointer<TArray>::New();
   array->SetNumberOfComponents(components);
-  // VTK's arrays have no const view; whoever holds the polydata promises not to write (see the header).
+  // VTK's arrays have no const view; the header forbids changes.
   auto * const values = reinterpret_cast<TValue *>(const_cast<TupleType *>(tuples.data()));
   array->SetArray(values, static_cast<vtkIdType>(tuples.size() * sizeof(TupleType) / sizeof(TValue)), doNotFree);
   const auto keeper = vtkSmartPointer<SurfaceKeeper>::Take(SurfaceKeeper::New(surface));
