@@ -214,11 +214,6 @@ TEST(SurfaceErrors, NinetyNinePercentOfTheAreaIsNearer)
   {
   public:
     double
-    Evaluate(const Vector3 & point) const override
-    {
-      return -point[2];
-    }
-    double
     Evaluate(const Vector3 & point, Vector3 & gradient) const override
     {
       gradient = { 0.0, 0.0, -1.0 };

@@ -7,6 +7,12 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <limits>
+
+#ifndef ITK_FOR_EACH_INTEGER_PIXEL // this file includes itself
+#define ITK_FOR_EACH_INTEGER_PIXEL(Apply)                                                                              \
+  Apply(std::uint8_t, UInt8) Apply(std::int16_t, Int16) Apply(std::uint16_t, UInt16) Apply(std::int32_t, Int32)
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace itk::RowArithmetic::HWY_NAMESPACE
@@ -18,6 +24,93 @@ namespace hn = hwy::HWY_NAMESPACE;
 using RealTag = HWY_CAPPED(float, Granule);
 using RealVector = hn::Vec<RealTag>;
 constexpr RealTag Real;
+
+template <typename TPixel>
+RealVector
+LoadAsReal(const TPixel * row)
+{
+  const hn::RebindToSigned<RealTag> whole;
+  if constexpr (sizeof(TPixel) == sizeof(float))
+  {
+    return hn::ConvertTo(Real, hn::LoadU(whole, row));
+  }
+  else
+  {
+    return hn::ConvertTo(Real, hn::PromoteTo(whole, hn::LoadU(hn::Rebind<TPixel, RealTag>(), row)));
+  }
+}
+
+template <typename TPixel>
+void
+ConvertRow(const TPixel * HWY_RESTRICT row, SizeValueType length, float * HWY_RESTRICT real)
+{
+  const SizeValueType lanes = hn::Lanes(Real);
+  SizeValueType n = 0;
+  for (; n + lanes <= length; n += lanes)
+  {
+    hn::StoreU(LoadAsReal(row + n), Real, real + n);
+  }
+  for (; n < length; ++n)
+  {
+    real[n] = static_cast<float>(row[n]);
+  }
+}
+
+/** Rounds values that lie in the range of the pixel type half away from zero, as RoundAndClamp() does. */
+template <typename TPixel>
+hn::Vec<hn::RebindToSigned<RealTag>>
+Round(RealVector value)
+{
+  const hn::RebindToSigned<RealTag> whole;
+  const auto half = hn::Set(Real, 0.5f);
+  if constexpr (sizeof(TPixel) < sizeof(float))
+  {
+    return hn::ConvertTo(whole, hn::Add(value, hn::CopySign(half, value)));
+  }
+  else
+  {
+    // Adding one half to a wide value would round; its fraction is exact.
+    const auto truncated = hn::Trunc(value);
+    const auto isAway = hn::Ge(hn::Abs(hn::Sub(value, truncated)), half);
+    const auto step = hn::IfThenElseZero(isAway, hn::CopySign(hn::Set(Real, 1.0f), value));
+    return hn::ConvertTo(whole, hn::Add(truncated, step));
+  }
+}
+
+template <typename TPixel>
+void
+RoundRow(const float * HWY_RESTRICT real, SizeValueType length, TPixel * HWY_RESTRICT row)
+{
+  using Limits = std::numeric_limits<TPixel>;
+  const auto lowest = hn::Set(Real, static_cast<float>(Limits::lowest()));
+  const auto highest = hn::Set(Real, static_cast<float>(Limits::max()));
+  const SizeValueType lanes = hn::Lanes(Real);
+  SizeValueType n = 0;
+  for (; n + lanes <= length; n += lanes)
+  {
+    const auto value = hn::LoadU(Real, real + n);
+    // The comparisons are false for not-a-number, which becomes the lowest value.
+    const auto floored = hn::IfThenElse(hn::Gt(value, lowest), value, lowest);
+    const auto clamped = hn::IfThenElse(hn::Lt(floored, highest), floored, highest);
+    const auto rounded = Round<TPixel>(clamped);
+    if constexpr (sizeof(TPixel) < sizeof(float))
+    {
+      const hn::Rebind<TPixel, RealTag> pixels;
+      hn::StoreU(hn::DemoteTo(pixels, rounded), pixels, row + n);
+    }
+    else
+    {
+      // float's highest is one more than the integer's
+      const hn::RebindToSigned<RealTag> whole;
+      const auto isHighest = hn::RebindMask(whole, hn::Ge(clamped, highest));
+      hn::StoreU(hn::IfThenElse(isHighest, hn::Set(whole, Limits::max()), rounded), whole, row + n);
+    }
+  }
+  for (; n < length; ++n)
+  {
+    row[n] = RoundAndClamp<TPixel>(real[n]);
+  }
+}
 
 void
 BlendRows(const float * const * HWY_RESTRICT rows,
@@ -141,6 +234,19 @@ InterpolateRow(const float * HWY_RESTRICT row, const RowTaps & taps, float * HWY
   }
 }
 
+// Exported by name, so not templates.
+#define ITK_PIXEL_KERNELS(TPixel, Name)                                                                                \
+  void Convert##Name(const TPixel * row, SizeValueType length, float * real)                                           \
+  {                                                                                                                    \
+    ConvertRow(row, length, real);                                                                                     \
+  }                                                                                                                    \
+  void Round##Name(const float * real, SizeValueType length, TPixel * row)                                             \
+  {                                                                                                                    \
+    RoundRow(real, length, row);                                                                                       \
+  }
+ITK_FOR_EACH_INTEGER_PIXEL(ITK_PIXEL_KERNELS)
+#undef ITK_PIXEL_KERNELS
+
 } // namespace
 } // namespace itk::RowArithmetic::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -148,6 +254,20 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace itk::RowArithmetic
 {
+
+#define ITK_PIXEL_FUNCTIONS(TPixel, Name)                                                                              \
+  HWY_EXPORT(Convert##Name);                                                                                           \
+  HWY_EXPORT(Round##Name);                                                                                             \
+  void ConvertFrom(const TPixel * row, SizeValueType length, float * real)                                             \
+  {                                                                                                                    \
+    HWY_DYNAMIC_DISPATCH(Convert##Name)(row, length, real);                                                            \
+  }                                                                                                                    \
+  void RoundTo(const float * real, SizeValueType length, TPixel * row)                                                 \
+  {                                                                                                                    \
+    HWY_DYNAMIC_DISPATCH(Round##Name)(real, length, row);                                                              \
+  }
+ITK_FOR_EACH_INTEGER_PIXEL(ITK_PIXEL_FUNCTIONS)
+#undef ITK_PIXEL_FUNCTIONS
 
 HWY_EXPORT(BlendRows);
 HWY_EXPORT(InterpolateRow);

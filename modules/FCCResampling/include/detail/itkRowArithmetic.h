@@ -12,7 +12,7 @@ namespace itk
 
 /** Arithmetic on rows of float samples: the inner loops of the resampling filters.
  *
- * Blend() and Interpolate() are SIMD code chosen for the processor at run time. Every result is one sum, from the first
+ * SIMD code is chosen for the processor at run time. Every result is one sum, from the first
  * term to the last, of products that are rounded before they are added. Lanes hold different results and are never
  * added up, so the bytes are the same for every processor. The functions throw nothing. */
 namespace RowArithmetic
@@ -45,6 +45,14 @@ ConvertFrom(const TPixel * row, SizeValueType length, float * real)
     real[n] = static_cast<float>(row[n]);
   }
 }
+void
+ConvertFrom(const std::uint8_t * row, SizeValueType length, float * real);
+void
+ConvertFrom(const std::int16_t * row, SizeValueType length, float * real);
+void
+ConvertFrom(const std::uint16_t * row, SizeValueType length, float * real);
+void
+ConvertFrom(const std::int32_t * row, SizeValueType length, float * real);
 
 /** row[n] = RoundAndClamp(real[n]), for n < length. */
 template <typename TPixel>
@@ -56,6 +64,14 @@ RoundTo(const float * real, SizeValueType length, TPixel * row)
     row[n] = RoundAndClamp<TPixel>(real[n]);
   }
 }
+void
+RoundTo(const float * real, SizeValueType length, std::uint8_t * row);
+void
+RoundTo(const float * real, SizeValueType length, std::int16_t * row);
+void
+RoundTo(const float * real, SizeValueType length, std::uint16_t * row);
+void
+RoundTo(const float * real, SizeValueType length, std::int32_t * row);
 
 /** blend[n] = weights[0] rows[0][n] + weights[1] rows[1][n] + ..., for n < length rounded up to Granule; \a count is
  * the number of rows, at least one. */
