@@ -18,7 +18,7 @@ namespace rhombic
 namespace
 {
 
-constexpr double blockWidth = 4.0;           // mm
+constexpr double gridBlockWidth = 4.0;       // mm
 constexpr double smallestShare = 1.0 / 50.0; // volume of the smallest part kept, relative to the largest part
 constexpr double largestOpening = 0.1;       // share of a part's faces open to the room; more is outside the body
 constexpr double airRange = 60.0;            // HU: air around the body varies by less from its lowest value
@@ -45,7 +45,7 @@ struct BlockValues
   double highest = std::numeric_limits<double>::lowest();
 };
 
-/** Makes blocks about as wide as blockWidth. Values below \a lowest count as \a lowest. */
+/** Makes blocks about as wide as gridBlockWidth. Values below \a lowest count as \a lowest. */
 template <typename TPixel>
 LatticeBlocks
 MakeBlocks(const itk::FCCImage<TPixel> & image, double lowest)
@@ -56,7 +56,7 @@ MakeBlocks(const itk::FCCImage<TPixel> & image, double lowest)
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
     const double step = unitsPerIndex[axis] * image.GetSpacing()[axis];
-    const auto samples = static_cast<std::size_t>(std::max(1l, std::lround(blockWidth / step)));
+    const auto samples = static_cast<std::size_t>(std::max(1l, std::lround(gridBlockWidth / step)));
     blocks.shape[axis] = samples;
     count[axis] = (image.GetBufferedRegion().GetSize(axis) + samples - 1) / samples;
     spacing[axis] = step * static_cast<double>(samples);
@@ -106,7 +106,7 @@ FindPartsAtSides(const MaskImage & mask, unsigned int longAxis, bool takesSides)
       sides += axis != longAxis && (index[axis] == 0 || index[axis] == last) ? 1 : 0;
     }
     const auto distance = static_cast<double>(depth->GetBufferPointer()[offset]);
-    const bool hasRoom = takesSides && distance < 0.5 * blockWidth - ballRadius;
+    const bool hasRoom = takesSides && distance < 0.5 * gridBlockWidth - ballRadius;
     if (sides == 2 || (sides == 1 && hasRoom))
     {
       isFound[labels[offset]] = true;
@@ -155,7 +155,7 @@ MeasureBorders(const Components & components,
       return;
     }
     Border & border = borders[label];
-    border.isDeep = border.isDeep || static_cast<double>(depth->GetBufferPointer()[offset]) < -0.5 * blockWidth;
+    border.isDeep = border.isDeep || static_cast<double>(depth->GetBufferPointer()[offset]) < -0.5 * gridBlockWidth;
     border.faces += 6;
     ForEachFaceNeighbour(size, index, offset, [&](std::size_t neighbour) {
       if (apart.GetBufferPointer()[neighbour] != 0)

@@ -22,7 +22,7 @@ using TriangleType = TriangleSurface::TriangleType;
 
 constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
 
-constexpr double SmallestCosineOfTurn = 0.2; // of a triangle's normal when an edge collapses
+constexpr double SmallestCosineOfCollapse = 0.2; // of a triangle's normal when an edge collapses
 constexpr double SliverQuality = 0.1;    // the normal of a worse triangle is unreliable, and no new one may be worse
 constexpr unsigned int MostAround = 64;  // triangles around a point that vanishes; more would take too long
 constexpr double NearEnough = 0.7;       // of the limit, so that positions in between are near, too
@@ -488,7 +488,7 @@ EdgeCollapse::KeepsShapeAround(PointId moved, PointId other, const PositionType 
     const Shape before(m_Positions[moved], m_Positions[next], m_Positions[last]);
     const Shape after(position, m_Positions[next], m_Positions[last]);
     const auto liesAlong = [&](const PositionType & reference) {
-      return Dot(after.normal, reference) > SmallestCosineOfTurn * after.length * Length(reference);
+      return Dot(after.normal, reference) > SmallestCosineOfCollapse * after.length * Length(reference);
     };
     isKept = after.quality > 0.0 && after.quality >= std::min(SliverQuality, worstBefore) &&
              (liesAlong(before.normal) || (before.quality < SliverQuality && liesAlong(fanNormal)));

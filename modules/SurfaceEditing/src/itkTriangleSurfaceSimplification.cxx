@@ -27,7 +27,7 @@ using Contact = TriangleContact;
 using Boxes = std::vector<std::vector<Box>>; ///< for each patch, boxes in which its triangles are bad
 
 constexpr std::size_t PatchSize = 4096;
-constexpr std::size_t BlockSize = 1024;
+constexpr std::size_t SimplifiedBlock = 1024;
 
 /** The share of the triangles in the first part when triangles are cut in two, in successive steps. It varies so that
  * the patches of successive steps have few borders in common. */
@@ -502,7 +502,7 @@ Simplification::FindUncovered(const TriangleTree & state,
   const TriangleSurface & original = m_Original.tree->GetSurface();
   const auto & triangles = original.GetTriangles();
   std::vector<std::uint8_t> isUncovered(triangles.size(), 0);
-  ForEachInBlocks(triangles.size(), BlockSize, [&](std::size_t id) {
+  ForEachInBlocks(triangles.size(), SimplifiedBlock, [&](std::size_t id) {
     const auto & [a, b, c] = triangles[id];
     const std::array<TriangleId, 3> near{ m_WitnessTriangles[a], m_WitnessTriangles[b], m_WitnessTriangles[c] };
     const bool isConcerned =

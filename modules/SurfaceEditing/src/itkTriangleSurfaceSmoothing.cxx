@@ -17,7 +17,7 @@ using PointType = TriangleSurface::PointType;
 using Triangles = TriangleSurface::TrianglesContainer;
 using Flags = std::vector<std::uint8_t>;
 
-constexpr SizeValueType BlockSize = 4096;
+constexpr SizeValueType SmoothedBlock = 4096;
 
 // Taubin's filter passes frequencies of the graph Laplacian up to 1 / Inwards + 1 / Outwards = 0.1, of [0, 2].
 constexpr double Inwards = 0.5;
@@ -54,7 +54,7 @@ FindInsidePoints(const TriangleSurface & surface, const TrianglesOfPoints & fans
 {
   Flags isInside(surface.GetNumberOfPoints());
   ForEachInBlocks(
-    isInside.size(), BlockSize, [&](SizeValueType point) { isInside[point] = IsInside(fans, point) ? 1 : 0; });
+    isInside.size(), SmoothedBlock, [&](SizeValueType point) { isInside[point] = IsInside(fans, point) ? 1 : 0; });
   return isInside;
 }
 
@@ -112,7 +112,7 @@ bool
 PutBackBadMoves(const Triangles & triangles, const Points & start, const Points & before, Points & points)
 {
   Flags isSpoilt(triangles.size());
-  ForEachInBlocks(triangles.size(), BlockSize, [&](SizeValueType id) {
+  ForEachInBlocks(triangles.size(), SmoothedBlock, [&](SizeValueType id) {
     isSpoilt[id] = IsSpoilt(start, points, triangles[id]) ? 1 : 0;
   });
   bool isAnyPutBack = false;
@@ -133,7 +133,7 @@ void
 ComputeNormals(TriangleSurface & surface, const TrianglesOfPoints & fans)
 {
   const Points & points = surface.GetPoints();
-  ForEachInBlocks(points.size(), BlockSize, [&](SizeValueType point) {
+  ForEachInBlocks(points.size(), SmoothedBlock, [&](SizeValueType point) {
     PositionType sum{};
     fans.VisitNeighbours(point, [&](PointId next, PointId last) {
       const PositionType a = Difference(points[next], points[point]);
@@ -188,7 +188,7 @@ SmoothSurface(TriangleSurface & surface, const TriangleSurfaceSmoothingSettings 
   const Points start = points;
   Points next = points;
   const auto step = [&](double share) {
-    ForEachInBlocks(points.size(), BlockSize, [&](SizeValueType point) {
+    ForEachInBlocks(points.size(), SmoothedBlock, [&](SizeValueType point) {
       next[point] = isInside[point] ? LimitMove(start[point], MoveTowardsMean(points, fans, point, share), maximumMove)
                                     : points[point];
     });

@@ -14,8 +14,8 @@ namespace
 {
 
 using Contact = TriangleContact;
-using Point = TriangleSurface::PointType;
-using Corners = std::array<Point, 3>;
+using MeshPoint = TriangleSurface::PointType;
+using Corners = std::array<MeshPoint, 3>;
 using Signs = std::array<int, 3>;
 
 bool
@@ -86,7 +86,7 @@ ComparePlanarSides(const Corners & sided, const Corners & other, unsigned int ax
   for (unsigned int n = 0; n < 3; ++n)
   {
     int innermost = -1;
-    for (const Point & corner : other)
+    for (const MeshPoint & corner : other)
     {
       innermost = std::max(innermost, sense * OrientationAlongAxis(sided[n], sided[(n + 1) % 3], corner, axis));
     }
@@ -103,7 +103,7 @@ ComparePlanarSides(const Corners & sided, const Corners & other, unsigned int ax
 bool
 RunAlongEachOther(const Corners & first, const Corners & second, unsigned int axis)
 {
-  const auto direction = [](const Point & from, const Point & to, unsigned int u) {
+  const auto direction = [](const MeshPoint & from, const MeshPoint & to, unsigned int u) {
     return (to[u] > from[u]) - (to[u] < from[u]);
   };
   for (unsigned int n = 1; n < 3; ++n)

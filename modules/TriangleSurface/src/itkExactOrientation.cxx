@@ -16,7 +16,7 @@ namespace itk
 namespace
 {
 
-using Point = TriangleSurface::PointType;
+using MeshPoint = TriangleSurface::PointType;
 
 constexpr double RoundingUnit = std::numeric_limits<double>::epsilon() / 2.0; // 2^-53
 constexpr double BoundInPlane = (3.0 + 16.0 * RoundingUnit) * RoundingUnit;
@@ -91,7 +91,7 @@ AddProduct(TSum & sum, double sign, double x, double y, double z)
 /** Adds the determinant of the matrix whose rows are three points. */
 template <typename TSum>
 void
-AddDeterminant(TSum & sum, double sign, const Point & a, const Point & b, const Point & c)
+AddDeterminant(TSum & sum, double sign, const MeshPoint & a, const MeshPoint & b, const MeshPoint & c)
 {
   AddProduct(sum, sign, a[0], b[1], c[2]);
   AddProduct(sum, sign, a[1], b[2], c[0]);
@@ -102,7 +102,7 @@ AddDeterminant(TSum & sum, double sign, const Point & a, const Point & b, const 
 }
 
 int
-ExactOrientationInSpace(const Point & a, const Point & b, const Point & c, const Point & d)
+ExactOrientationInSpace(const MeshPoint & a, const MeshPoint & b, const MeshPoint & c, const MeshPoint & d)
 {
   ExactSum<48> sum;
   AddDeterminant(sum, 1.0, b, c, d);
@@ -115,7 +115,7 @@ ExactOrientationInSpace(const Point & a, const Point & b, const Point & c, const
 } // namespace
 
 int
-OrientationInSpace(const Point & a, const Point & b, const Point & c, const Point & d)
+OrientationInSpace(const MeshPoint & a, const MeshPoint & b, const MeshPoint & c, const MeshPoint & d)
 {
   const double bx = double(b[0]) - a[0], by = double(b[1]) - a[1], bz = double(b[2]) - a[2];
   const double cx = double(c[0]) - a[0], cy = double(c[1]) - a[1], cz = double(c[2]) - a[2];
@@ -129,7 +129,7 @@ OrientationInSpace(const Point & a, const Point & b, const Point & c, const Poin
 }
 
 int
-OrientationAlongAxis(const Point & a, const Point & b, const Point & c, unsigned int axis)
+OrientationAlongAxis(const MeshPoint & a, const MeshPoint & b, const MeshPoint & c, unsigned int axis)
 {
   const unsigned int u = (axis + 1) % 3;
   const unsigned int v = (axis + 2) % 3;
@@ -141,7 +141,7 @@ OrientationAlongAxis(const Point & a, const Point & b, const Point & c, unsigned
     return sign;
   }
   ExactSum<6> sum;
-  const auto add = [&sum, u, v](const Point & from, const Point & to) {
+  const auto add = [&sum, u, v](const MeshPoint & from, const MeshPoint & to) {
     sum.Add(double(from[u]) * to[v]);
     sum.Add(-double(from[v]) * to[u]);
   };
@@ -152,7 +152,7 @@ OrientationAlongAxis(const Point & a, const Point & b, const Point & c, unsigned
 }
 
 bool
-HasArea(const Point & a, const Point & b, const Point & c)
+HasArea(const MeshPoint & a, const MeshPoint & b, const MeshPoint & c)
 {
   return OrientationAlongAxis(a, b, c, 0) != 0 || OrientationAlongAxis(a, b, c, 1) != 0 ||
          OrientationAlongAxis(a, b, c, 2) != 0;

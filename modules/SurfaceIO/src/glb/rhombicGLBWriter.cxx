@@ -14,7 +14,7 @@ namespace rhombic
 namespace
 {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 using PointType = itk::TriangleSurface::PointType;
 
 /** \class GLBWriter
@@ -77,7 +77,7 @@ private:
     m_Json["nodes"][0]["children"].push_back(number + 1);
     m_Json["nodes"].push_back({ { "name", scene.name }, { "mesh", number } });
 
-    Json primitive{ { "attributes", Json::object() }, { "material", number } };
+    OrderedJson primitive{ { "attributes", OrderedJson::object() }, { "material", number } };
     primitive["attributes"]["POSITION"] = this->AddPositions(surface);
     if (surface.HasNormals())
     {
@@ -86,19 +86,19 @@ private:
     }
     primitive["indices"] = this->AddAccessor(
       glb::UnsignedInt, "SCALAR", 3 * surface.GetNumberOfTriangles(), sizeof(std::uint32_t), glb::ElementArrayBuffer);
-    m_Json["meshes"].push_back({ { "name", scene.name }, { "primitives", Json::array({ primitive }) } });
+    m_Json["meshes"].push_back({ { "name", scene.name }, { "primitives", OrderedJson::array({ primitive }) } });
     m_Json["materials"].push_back(MakeMaterial(scene));
   }
 
-  static Json
+  static OrderedJson
   MakeMaterial(const SceneSurface & scene)
   {
     const Colour light = SRGBToLinear(scene.colour);
-    Json material{ { "name", scene.name },
-                   { "pbrMetallicRoughness",
-                     { { "baseColorFactor", { light[0], light[1], light[2], scene.opacity } },
-                       { "metallicFactor", 0 },
-                       { "roughnessFactor", 0.6 } } } };
+    OrderedJson material{ { "name", scene.name },
+                          { "pbrMetallicRoughness",
+                            { { "baseColorFactor", { light[0], light[1], light[2], scene.opacity } },
+                              { "metallicFactor", 0 },
+                              { "roughnessFactor", 0.6 } } } };
     if (scene.opacity < 1)
     {
       material["alphaMode"] = "BLEND";
@@ -162,7 +162,7 @@ private:
 
   const std::vector<SceneSurface> & m_Surfaces;
   SurfaceFileSpace m_Space;
-  Json m_Json;
+  OrderedJson m_Json;
   std::uint64_t m_BufferSize = 0;
 };
 
