@@ -19,7 +19,7 @@ namespace
 using Ids = std::vector<std::uint32_t>; ///< of points or triangles
 using Points = TriangleSurface::PointsContainer;
 
-constexpr int MostRounds = 40;
+constexpr int MostUntanglingRounds = 40;
 constexpr int Patience = 16;         // rounds without progress: two cycles of relaxing and pushing outwards and inwards
 constexpr int FirstPushingRound = 4; // the rounds before only relax
 constexpr double PushOverMove = 1.0 / 12.0; // length of a push, over the maximum move
@@ -172,7 +172,7 @@ Untangle(TriangleSurface & surface, const Points & original, double maximumMove,
   Points best = original;
   std::size_t fewest = crossing.size();
   int lastBetter = 0;
-  for (int round = 0; round < MostRounds && round <= lastBetter + Patience && !crossing.empty(); ++round)
+  for (int round = 0; round < MostUntanglingRounds && round <= lastBetter + Patience && !crossing.empty(); ++round)
   {
     const Ids points = FindPoints(surface, fans, crossing, round % 4 == 3);
     MovePoints(surface, fans, original, maximumMove, points, round);

@@ -35,6 +35,25 @@ static_assert(PlaceOf(-1, -1, 0) == PlaceOf(1, 1, 0) + 6 && PlaceOf(1, -1, 0) ==
               "opposite neighbours are 6 places apart");
 
 HWY_ATTR void
+QuasiInterpolateRow(const float * values,
+                    const float * const * n,
+                    SizeValueType count,
+                    float * HWY_RESTRICT coefficients)
+{
+  constexpr float largest = std::numeric_limits<float>::max();
+  for (SizeValueType first = 0; first < count; first += FCCFieldKernels::Block)
+  {
+    for (SizeValueType i = first; i < first + FCCFieldKernels::Block; ++i)
+    {
+      const float sum = ((n[0][i] + n[6][i]) + (n[1][i] + n[7][i])) + ((n[2][i] + n[8][i]) + (n[3][i] + n[9][i])) +
+                        ((n[4][i] + n[10][i]) + (n[5][i] + n[11][i]));
+      const float coefficient = 1.5f * values[i] - sum * (1.0f / 24.0f);
+      coefficients[i] = coefficient >= -largest && coefficient <= largest ? coefficient : values[i];
+    }
+  }
+}
+
+HWY_ATTR void
 GradientBlock(const float * const * n, std::size_t first, float * HWY_RESTRICT gradients)
 {
   const hn::CappedTag<float, FCCFieldKernels::Block> tag;
@@ -69,26 +88,17 @@ namespace itk
 {
 namespace
 {
+HWY_EXPORT(QuasiInterpolateRow);
 HWY_EXPORT(GradientBlock);
-}
+} // namespace
 
 void
 FCCFieldKernels::QuasiInterpolate(const float * values,
-                                  const NeighborRows & n,
+                                  const NeighborRows & neighbors,
                                   SizeValueType count,
-                                  float * __restrict__ coefficients)
+                                  float * coefficients)
 {
-  constexpr float largest = std::numeric_limits<float>::max();
-  for (SizeValueType first = 0; first < count; first += Block)
-  {
-    for (SizeValueType i = first; i < first + Block; ++i)
-    {
-      const float sum = ((n[0][i] + n[6][i]) + (n[1][i] + n[7][i])) + ((n[2][i] + n[8][i]) + (n[3][i] + n[9][i])) +
-                        ((n[4][i] + n[10][i]) + (n[5][i] + n[11][i]));
-      const float coefficient = 1.5f * values[i] - sum * (1.0f / 24.0f);
-      coefficients[i] = coefficient >= -largest && coefficient <= largest ? coefficient : values[i];
-    }
-  }
+  HWY_DYNAMIC_DISPATCH(QuasiInterpolateRow)(values, neighbors, count, coefficients);
 }
 
 void

@@ -7,8 +7,8 @@ namespace itk
 {
 
 /** \class FCCFieldKernels
- * \brief The loops over rows of a field. Gradients are compiled for several instruction sets; the best one the
- * processor has runs, and results have the same bits whichever does.
+ * \brief The loops over rows of a field, compiled for several instruction sets; the best one the processor has runs,
+ * and results have the same bits whichever does.
  */
 struct FCCFieldKernels
 {
