@@ -24,12 +24,10 @@ namespace itk
  * The output has the input's grid. It has the same bytes for any number of threads; arithmetic is in float64. Extra
  * memory: a second output, if there are iterations.
  *
- * The whole input is requested, and the whole output is produced: every iteration makes a coefficient depend on
- * samples one neighbour further away. Throws when the buffer of the input does not hold all of it.
+ * The whole input is requested, and the whole output is produced: every iteration makes a coefficient depend on samples
+ * one neighbour further away. Throws when the buffer of the input does not hold all of it.
  *
  * Overridden pipeline methods: GenerateInputRequestedRegion() and EnlargeOutputRequestedRegion() (the whole image).
- *
- * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
  *
  * \ingroup FCCInterpolation
  */

@@ -23,8 +23,6 @@ namespace itk
  * Takes an FCCImage; a continuous index is (x / 2, y, z) in lattice coordinates (see FCCImage). Usable as the
  * interpolator of itk::ResampleImageFilter with an FCCImage as its input.
  *
- * Thread safety: any number of threads may evaluate it at once; one thread sets it up before.
- *
  * \ingroup FCCInterpolation
  */
 template <typename TInputImage, typename TCoordRep = double>

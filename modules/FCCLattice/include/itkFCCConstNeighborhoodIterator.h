@@ -33,8 +33,6 @@ namespace itk
  * The constructor throws when the image is a null pointer or was never allocated, or the region is not inside its
  * buffered region. The image must not be deleted, released or allocated anew while the iterator is used.
  *
- * Thread safety: any number of iterators may read one image at the same time.
- *
  * \ingroup FCCLattice
  */
 template <typename TImage>

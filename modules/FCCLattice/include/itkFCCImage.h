@@ -42,8 +42,6 @@ namespace itk
  * are, use them, but a pointer to ImageBase gives wrong positions. SetSpacing() and SetOrigin() work, unlike those of
  * the superclass, which do nothing.
  *
- * Thread safety: that of itk::Image.
- *
  * \ingroup FCCLattice
  */
 template <typename TPixel>

@@ -22,8 +22,6 @@ namespace itk
  * Sites are stored densely in *rows* along x. Index (i, j, k) is the site (2 i + p, j, k), where p = (j + k) mod 2 is
  * the *parity* of the row: neighbouring rows are shifted by one unit, half the distance of the sites in a row.
  *
- * Everything here is constexpr or pure, so thread safe.
- *
  * \ingroup FCCLattice
  */
 struct FCCLattice

@@ -12,8 +12,6 @@ namespace itk
  * Neighbours are read only. Values written to earlier samples are the neighbours of later ones; where that is not
  * wanted, write to another image.
  *
- * Thread safety: no other thread may read or write the samples that an iterator writes.
- *
  * \ingroup FCCLattice
  */
 template <typename TImage>

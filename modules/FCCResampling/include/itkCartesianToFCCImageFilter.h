@@ -25,8 +25,7 @@ namespace itk
  * input's, from the outer face of the first voxel to that of the last, and is centred on it; as long as the lattice's
  * spacing is not larger than the voxels, every input sample lies between output samples. The output's indices start at
  * (0, 0, 0), whatever the input's start index. Where output samples lie beyond the outermost input samples, the field
- * is constant along the axis. There is no low-pass filter: at densities far below the default, smooth the input
- * first.
+ * is constant along the axis. There is no low-pass filter: at densities far below the default, smooth the input first.
  *
  * Values between samples come from a separable kernel (see SeparableTaps), the cubic B-spline with its prefilter by
  * default, because linear interpolation blurs away what the lattice gains. B-splines overshoot at edges; integer
@@ -63,11 +62,9 @@ namespace itk
  * the lattice would have more than 2^40 samples, and when the slice origins are not as many as the slices or not in
  * order along their normal.
  *
- * Overridden pipeline methods: VerifyPreconditions() (parameters in range), GenerateOutputInformation() (places
- * the lattice; refuses slice origins that are not in order), GenerateInputRequestedRegion() (the kernel's reach),
+ * Overridden pipeline methods: VerifyPreconditions() (parameters in range), GenerateOutputInformation() (places the
+ * lattice; refuses slice origins that are not in order), GenerateInputRequestedRegion() (the kernel's reach),
  * GenerateData() (large memory pages for the output; failures of all threads).
- *
- * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
  *
  * \ingroup FCCResampling
  */

@@ -37,8 +37,6 @@ namespace itk
  * Overridden pipeline methods: GenerateOutputInformation() (places the lattice), GenerateInputRequestedRegion() (the
  * half-band filter's reach), GenerateData() (large memory pages for the output; failures of all threads).
  *
- * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
- *
  * \ingroup FCCResampling
  */
 template <typename TInputImage, typename TOutputImage = FCCImage<typename TInputImage::PixelType>>

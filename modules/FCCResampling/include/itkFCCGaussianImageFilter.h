@@ -16,18 +16,18 @@ namespace itk
  * \brief Smooths an FCC image with a Gaussian that is isotropic in millimetres.
  *
  * Sigma is the standard deviation along each axis, whatever the lattice's spacing. Weights are those of a sampled
- * Gaussian, cut off beyond four standard deviations, with exact second moments for every Sigma and spacing:
- * linear fields do not change, quadratic ones change by Sigma^2 / 2 times their Laplacian, and
- * the isosurface of a sphere of radius R in a smooth field is moved inwards by about Sigma^2 / R for a sharp edge.
- * Where slices are much farther apart than Sigma, neighbouring slices get the small weights that make this true. An
- * image one sample thick along y or z is not smoothed along it.
+ * Gaussian, cut off beyond four standard deviations, with exact second moments for every Sigma and spacing: linear
+ * fields do not change, quadratic ones change by Sigma^2 / 2 times their Laplacian, and the isosurface of a sphere of
+ * radius R in a smooth field is moved inwards by about Sigma^2 / R for a sharp edge. Where slices are much farther
+ * apart than Sigma, neighbouring slices get the small weights that make this true. An image one sample thick along y or
+ * z is not smoothed along it.
  *
  * Sites outside the image are mirrored at its first and last sites, as the splines of FCCInterpolation do: the
  * derivative across the faces of the image is zero.
  *
- * Samples that are not finite do not enter the averages of the others and do not change. Integer outputs are
- * rounded half away from zero. Arithmetic is in float32, which is exact enough for 16-bit pixels to preserve
- * constants, and good for 7 digits of wider ones. With Sigma 0 the output is a copy of the input.
+ * Samples that are not finite do not enter the averages of the others and do not change. Integer outputs are rounded
+ * half away from zero. Arithmetic is in float32, which is exact enough for 16-bit pixels to preserve constants, and
+ * good for 7 digits of wider ones. With Sigma 0 the output is a copy of the input.
  *
  * The Gaussian is a product of one factor per axis, and the sum over the even points of the lattice one of sums over
  * even and odd points along each axis: along y, rows are blended into sums over the even and over the odd steps, which
@@ -46,8 +46,6 @@ namespace itk
  * Overridden pipeline methods: VerifyPreconditions() (Sigma in range), VerifyInputInformation() (perpendicular axes,
  * Sigma in proportion to the spacing), GenerateInputRequestedRegion() (the reach), GenerateData() (work is divided
  * along y, not z, because blocks of rows share the planes within reach).
- *
- * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
  *
  * \ingroup FCCResampling
  */

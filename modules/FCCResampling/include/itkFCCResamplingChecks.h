@@ -15,7 +15,7 @@ namespace itk
 {
 
 /** \file
- * Checks of geometries, and rounding. The functions throw nothing and are thread safe. */
+ * Checks of geometries, and rounding. The functions throw nothing. */
 
 /** Whether a spacing is positive along all axes, or zero along all axes, which means that it is not set. */
 inline bool

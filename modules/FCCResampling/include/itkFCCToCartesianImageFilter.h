@@ -19,9 +19,9 @@ namespace itk
  * lattice with the default density and back has its old spacing; use the reference image to get the very same grid.
  *
  * Voxels outside the FCC image's extent become DefaultPixelValue. Integer outputs are rounded half away from zero and
- * clamped to the range of their type; arithmetic is in float64. The filter requests only the part of the
- * input that the requested output needs: the sites of the tetrahedra around its voxels. Any part of the
- * output has the same bytes whether it is computed alone or with the rest, by one thread or many.
+ * clamped to the range of their type; arithmetic is in float64. The filter requests only the part of the input that the
+ * requested output needs: the sites of the tetrahedra around its voxels. Any part of the output has the same bytes
+ * whether it is computed alone or with the rest, by one thread or many.
  *
  * Throws when OutputSpacing is not positive, when the grid would have more than 2^40 voxels, and when the input's
  * buffer lacks samples that are needed.
@@ -30,8 +30,6 @@ namespace itk
  * need not share a grid), GenerateOutputInformation() (places the grid), GenerateInputRequestedRegion() (the sites
  * around the voxels; no pixels of the reference), GenerateData() (large memory pages for the output; failures of all
  * threads).
- *
- * Thread safety: that of itk::ProcessObject, one thread at a time; it divides its work itself.
  *
  * \ingroup FCCResampling
  */

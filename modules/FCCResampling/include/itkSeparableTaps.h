@@ -67,8 +67,6 @@ operator<<(std::ostream & os, SeparableKernel kernel);
  *
  * Positions outside the samples, [0, length - 1], are moved to the nearest end: the field is constant beyond it.
  *
- * Immutable after construction, so thread safe.
- *
  * \ingroup FCCResampling
  */
 class SeparableTaps

@@ -20,8 +20,6 @@ namespace itk
  *
  * Slices and samples are counted from the first one of the image's largest possible region, whatever its start index.
  *
- * Immutable after construction, so thread safe.
- *
  * \ingroup FCCResampling
  */
 class SliceStack

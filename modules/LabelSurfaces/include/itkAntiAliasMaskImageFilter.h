@@ -59,8 +59,6 @@ namespace itk
  * size. The output has the same bytes for any number of threads, on any processor. Extra memory: 11 bytes per voxel.
  * Throws when the input's buffer is not whole.
  *
- * Thread safety: that of itk::ProcessObject, one thread at a time; the filter divides its work itself.
- *
  * \ingroup LabelSurfaces
  */
 class AntiAliasMaskImageFilter : public ImageToImageFilter<Image<std::uint8_t, 3>, Image<float, 3>>

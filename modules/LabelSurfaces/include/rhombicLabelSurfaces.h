@@ -17,7 +17,7 @@ namespace rhombic
 {
 
 /** \file
- * Surfaces of labels. Thread safety: the structs are values; copies of a LabelSurface share its surface. */
+ * Surfaces of labels. Copies of a LabelSurface share its surface. */
 
 /** Which labels get a surface, and how it is made. */
 struct LabelSurfaceSettings
@@ -66,7 +66,7 @@ struct LabelSurface
  * Works on one piece after another, each on all threads. The result has the same bytes for any number of threads.
  *
  * Throws Failure: Usage for a density that is not above 0 and at most 64, and for labels that the map doesn't hold;
- * Empty when there is none to show; Memory, before the work on a piece, for one that is too large. Thread safe. */
+ * Empty when there is none to show; Memory, before the work on a piece, for one that is too large. */
 std::vector<LabelSurface>
 LabelsToSurfaces(const LabelMap & map, const LabelSurfaceSettings & settings, const Events & events);
 

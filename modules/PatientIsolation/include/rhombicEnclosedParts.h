@@ -12,8 +12,7 @@
 namespace rhombic
 {
 
-/** What KeepEnclosedParts() left out of a surface, and what it kept although the scan's sides cut it. Thread safety: a
- * value. */
+/** What KeepEnclosedParts() left out of a surface, and what it kept although the scan's sides cut it. */
 struct EnclosedParts
 {
   double aroundBody = 0.0;          ///< volume left out around the body, in ml
@@ -33,8 +32,6 @@ using SurfaceExtractor = std::function<itk::TriangleSurface::Pointer(const FCCVo
  * in the body: lungs without emphysema are denser. Where no tissue lies between the two, as at the border of a round
  * field of view or in the nose, the volume is cut there, and the surface extracted anew. At isovalues of 0 and more,
  * which are no thresholds of air in HU, and where inside is above, the corners alone decide.
- *
- * Thread safe for different surfaces.
  *
  * \param surface of the volume at the threshold
  * \param extract makes the same surface of a copy of the volume that was cut; called once at most */

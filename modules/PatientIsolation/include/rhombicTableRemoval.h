@@ -23,7 +23,7 @@ enum class TableRule
 bool
 IsTableRemoved(TableRule rule, const Scan & scan);
 
-/** Something that was removed from a scan. Points are in LPS mm. Thread safety: a value. */
+/** Something that was removed from a scan. Points are in LPS mm. */
 struct RemovedObject
 {
   double millilitres = 0.0; ///< volume of its samples at or above -300 HU
@@ -32,7 +32,7 @@ struct RemovedObject
   itk::Point<double, 3> highest;
 };
 
-/** What RemoveTable() did. Thread safety: a value. */
+/** What RemoveTable() did. */
 struct TableRemoval
 {
   std::vector<RemovedObject> objects; ///< those of 1 ml and more, the largest first
@@ -60,8 +60,7 @@ struct TableRemoval
  * smooth, without steps of voxels: samples are lowered to a limit that falls to air within one sample. Surfaces at any
  * threshold stay the same elsewhere. Slices may be tilted or unevenly spaced.
  *
- * Takes up to 40 bytes for each block. The result does not depend on the number of threads. Thread safe for different
- * scans. */
+ * Takes up to 40 bytes for each block. The result does not depend on the number of threads. */
 TableRemoval
 RemoveTable(Scan & scan, const Events & events);
 

@@ -12,7 +12,7 @@ namespace rhombic
 {
 
 /** \file
- * A made-up body of known volumes, and its CT. Thread safe. */
+ * A made-up body of known volumes, and its CT. */
 
 /** A point in LPS millimetres: x towards the patient's left, y to the back, z to the head. */
 using PhantomPoint = std::array<double, 3>;

@@ -18,7 +18,7 @@ namespace rhombic
  *
  * The folder is created, but not those above it. The files appear together at the end: a failure leaves the folder as
  * it was. Throws Failure(Output) for a folder that is not empty, whose parent is missing, or that can't be written; and
- * as MakePhantomScan() does. Thread safe for different folders. */
+ * as MakePhantomScan() does. */
 void
 WritePhantom(const std::filesystem::path & folder, const PhantomSettings & settings = {});
 

@@ -8,7 +8,7 @@
 namespace rhombic
 {
 
-/** Differences between two pictures. Errors are differences of sRGB components from 0 to 1. Thread safety: a value. */
+/** Differences between two pictures. Errors are differences of sRGB components from 0 to 1. */
 struct PictureDifference
 {
   double meanError = 0.0;
@@ -21,7 +21,7 @@ struct PictureDifference
 
 /** Compares two pictures pixel by pixel; \a threshold is a difference of components from 0 to 1.
  *
- * Throws Failure(Usage) when the sizes differ or a picture has no pixels. Thread safe. */
+ * Throws Failure(Usage) when the sizes differ or a picture has no pixels. */
 PictureDifference
 ComparePictures(const Picture & a, const Picture & b, double threshold);
 

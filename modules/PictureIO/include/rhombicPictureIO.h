@@ -10,7 +10,7 @@
 namespace rhombic
 {
 
-/** The metadata of a picture file. Empty strings are not written. Thread safety: a value. */
+/** The metadata of a picture file. Empty strings are not written. */
 struct PictureMetadata
 {
   std::string software;    ///< the program and its version
@@ -27,7 +27,7 @@ CheckPicturePath(const std::filesystem::path & path);
  * older one.
  *
  * Throws Failure: Usage when the extension is none of those or the picture has no pixels; Output when the file can't be
- * written or, read back, does not hold the picture. Thread safe for different paths. */
+ * written or, read back, does not hold the picture. */
 void
 WritePicture(const Picture & picture, const std::filesystem::path & path, const PictureMetadata & metadata);
 
@@ -41,8 +41,7 @@ StagePicture(const Picture & picture,
 /** Reads a picture as 8-bit sRGB. Grey becomes three equal channels, an alpha channel is dropped, and the linear light
  * of EXR is encoded.
  *
- * Throws Failure: NotFound when there is no such file; Unreadable when it is not a picture or is damaged. Thread safe.
- */
+ * Throws Failure: NotFound when there is no such file; Unreadable when it is not a picture or is damaged. */
 Picture
 ReadPicture(const std::filesystem::path & path);
 

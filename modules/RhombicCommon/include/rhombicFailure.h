@@ -30,8 +30,6 @@ enum class FailureKind : int
  *
  * The description is one sentence for the user: what failed, where, and one thing to try. It derives from
  * itk::ExceptionObject, so a host that catches ITK's exceptions catches it too.
- *
- * Thread safety: a value; copies may go to other threads.
  */
 class Failure : public itk::ExceptionObject
 {
@@ -55,7 +53,7 @@ private:
 };
 
 /** The message of a library's exception as part of a sentence: its first line, without the class and address of the
- * object that threw, which ITK puts first. Thread safe. */
+ * object that threw, which ITK puts first. */
 std::string
 DescribeError(const std::exception & error);
 

@@ -8,8 +8,7 @@ namespace rhombic
 {
 
 /** \file
- * Limits of memory, in bytes. Thread safety: any number of threads may call these functions at once; each call asks the
- * system anew. */
+ * Limits of memory, in bytes. Each call asks the system for the free memory anew. */
 
 /** Bytes that can be used without swapping, as Linux estimates (MemAvailable); 0 when the system does not say. */
 std::uintmax_t

@@ -9,9 +9,7 @@ namespace rhombic
 {
 
 /** \class Picture
- * \brief An 8-bit sRGB picture: three bytes (red, green, blue) a pixel, rows from the top, pixels from the left.
- *
- * Thread safety: a value; copies are independent. */
+ * \brief An 8-bit sRGB picture: three bytes (red, green, blue) a pixel, rows from the top, pixels from the left. */
 struct Picture
 {
   static constexpr int Channels = 3;

@@ -9,8 +9,8 @@
 #include <variant>
 
 /** \file
- * The pixel types of scans and of lattice volumes: the one list of them. A variant of images is made from it, and the
- * filters are compiled once for each of its types. Thread safe. */
+ * The pixel types of scans and of lattice volumes: the one list of them. A variant of images is made from it,
+ * and the filters are compiled once for each of its types. */
 
 /** The list. The number of its entries is also in RHOMBIC_INSTANTIATE_FIVE. */
 #define RHOMBIC_PIXEL_TYPES std::uint8_t, std::int16_t, std::uint16_t, std::int32_t, float

@@ -5,9 +5,7 @@ namespace rhombic
 {
 
 /** \class Threshold
- * \brief The isovalue of a surface, and which values are inside.
- *
- * Thread safety: a value. */
+ * \brief The isovalue of a surface, and which values are inside. */
 struct Threshold
 {
   double isovalue = 0.0;      ///< in the volume's units

@@ -13,8 +13,7 @@ namespace rhombic
 {
 
 /** \file
- * Text from numbers, numbers from text, and parts of sentences for users. Nothing here depends on the locale. Thread
- * safety: any number of threads may call these functions at once. */
+ * Text from numbers, numbers from text, and parts of sentences for users. Nothing here depends on the locale. */
 
 /** A number with a fixed count of decimals, from 0 to 100: "12.30". */
 std::string

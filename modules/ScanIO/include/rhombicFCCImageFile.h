@@ -18,7 +18,7 @@ using FCCVolume = PixelTypes::AnyImage<itk::FCCImage>;
 /** Writes a lattice volume as a NRRD file (raw, little-endian) with its lattice in key/value pairs; the format is
  * described in modules/ScanIO/README.md. The file appears whole or not at all. Throws Failure(Output), also for volumes
  * that could not be read back: a null pointer, an image without samples or with samples outside its buffer, geometry
- * that is not finite. Thread safe for different paths. */
+ * that is not finite. */
 void
 WriteFCCImage(const FCCVolume & volume, const std::filesystem::path & path);
 
@@ -28,11 +28,11 @@ StageFCCImage(const FCCVolume & volume, const std::filesystem::path & path, Stag
 
 /** Reads a file of WriteFCCImage(), bit for bit, or one of this format from another program. Throws Failure(NotFound)
  * when there is no such file, and Failure(Unreadable) when it is damaged, too short, or not a volume on this lattice.
- * Thread safe. */
+ */
 FCCVolume
 ReadFCCImage(const std::filesystem::path & path);
 
-/** Whether a file's header says that it is a lattice volume. False for files that can't be read. Thread safe. */
+/** Whether a file's header says that it is a lattice volume. False for files that can't be read. */
 bool
 IsFCCImageFile(const std::filesystem::path & path);
 

@@ -12,7 +12,7 @@
 namespace rhombic
 {
 
-/** A label of a label map and its volume. Thread safety: a value. */
+/** A label of a label map and its volume. */
 struct LabelSummary
 {
   Label label;
@@ -21,27 +21,25 @@ struct LabelSummary
 };
 
 /** Whether a scan's values are labels rather than intensities: at most 4096 different values, all whole numbers of at
- * least 0; and at least half of all adjacent voxels along x that are both not 0 have equal values. Thread safe. */
+ * least 0; and at least half of all adjacent voxels along x that are both not 0 have equal values. */
 bool
 LooksLikeLabelMap(const Scan & scan);
 
 /** The labels in a label map, sorted by value, without the background 0. Labels that \a table lacks are named "label N"
  * and get a colour by their value. Volumes are sums of VoxelVolumes().
  *
- * Throws Failure(Unreadable) when values are not whole numbers or there are more than 4096 different ones. Thread safe.
- */
+ * Throws Failure(Unreadable) when values are not whole numbers or there are more than 4096 different ones. */
 std::vector<LabelSummary>
 SummarizeLabels(const Scan & scan, const LabelTable & table);
 
 /** The fraction of \a inner's box (with the whole of its voxels) that is in \a outer's box in world space, from 0 to 1.
- * Measured at 32 x 32 x 32 points: exactly 0 for boxes that are clearly apart and 1 for a box in itself. Thread safe.
- */
+ * Measured at 32 x 32 x 32 points: exactly 0 for boxes that are clearly apart and 1 for a box in itself. */
 double
 OverlapOfBoxes(const itk::ImageBase<3> & inner, const itk::ImageBase<3> & outer);
 
 /** Checks that the box around all labels of a label map is in its scan, in world space; the two may have different
  * grids. Returns a sentence for the user when less than 99 % of the box is in the scan, else "". Throws
- * Failure(Geometry) when no part of it is. Thread safe. */
+ * Failure(Geometry) when no part of it is. */
 std::string
 RequireOverlap(const Scan & scan,
                const Scan & labels,

@@ -13,8 +13,7 @@ namespace rhombic
 {
 
 /** \file
- * Tables of names and colours for the values of label maps. Thread safety: labels are values, and any number of threads
- * may call these functions at once. */
+ * Tables of names and colours for the values of label maps. */
 
 /** \class Label
  * \brief Name and display properties of a value of a label map. */

@@ -16,7 +16,7 @@ namespace rhombic
 {
 
 /** \file
- * A scan and its description. Thread safety: all structs are values; the functions are thread safe. */
+ * A scan and its description. */
 
 /** A volume in the pixel type it was stored with, in LPS millimetres. */
 using ScanImage = PixelTypes::AnyImage<CartesianImage>;

@@ -18,7 +18,7 @@ class VoxelDecoder;
 /** \class ScanReadOptions
  * \brief Choices of a series or volume, irregular input to accept, and limits.
  *
- * Thread safety: a value, whose copies share the decoder. */
+ * Copies share the decoder. */
 struct ScanReadOptions
 {
   /** How to treat irregular input. */
@@ -84,7 +84,8 @@ struct ScanReadOptions
  * Throws Failure: NotFound (no such path, or no scan in the folder), Usage (no such series or frame, or more than one
  * to choose from), Unreadable (damaged, or colour, vectors, no image...), Geometry, Memory.
  *
- * Thread safe, also with a common decoder. While it runs, warnings of ITK and GDCM are off for the whole process. */
+ * Several threads may share a decoder. While this function runs, warnings of ITK and GDCM are off for the whole
+ * process. */
 Scan
 ReadScan(const std::filesystem::path & path, const ScanReadOptions & options = {});
 
@@ -93,8 +94,7 @@ ReadScan(const std::filesystem::path & path, const ScanReadOptions & options = {
  * included. The chosen series is the one that ReadScan() would read; none is chosen when ReadScan() would ask for a
  * choice.
  *
- * Throws Failure: NotFound, Usage (ScanReadOptions::series names none), Unreadable (a file that is no DICOM image).
- * Thread safe, as ReadScan(). */
+ * Throws Failure: NotFound, Usage (ScanReadOptions::series names none), Unreadable (a file that is no DICOM image). */
 SeriesList
 ListSeries(const std::filesystem::path & path, const ScanReadOptions & options = {});
 

@@ -15,7 +15,7 @@ CheckScanPath(const std::filesystem::path & path);
 
 /** Writes a Cartesian volume as NRRD (.nrrd), NIfTI (.nii, .nii.gz) or MetaImage (.mha), by the path's extension, with
  * only the pixels and the geometry. The file is read back and compared before it appears, because ITK's writers report
- * success on a full disk. Throws Failure: Usage for another extension, Output. Thread safe for different paths. */
+ * success on a full disk. Throws Failure: Usage for another extension, Output. */
 void
 WriteScan(const ScanImage & image, const std::filesystem::path & path);
 

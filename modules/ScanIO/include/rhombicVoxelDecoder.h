@@ -8,7 +8,7 @@
 namespace rhombic
 {
 
-/** A request to unpack voxels. Thread safety: a value. */
+/** A request to unpack voxels. */
 struct VoxelRequest
 {
   /** The kind of file, and the library that reads it. */

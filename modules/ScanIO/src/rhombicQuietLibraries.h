@@ -5,7 +5,7 @@ namespace rhombic
 {
 
 /** Turns ITK's and GDCM's messages off as long as any object of this class exists. The switches are global to the
- * process; the destructor of the last object restores them. Thread safe. */
+ * process; the destructor of the last object restores them. */
 class QuietLibraries
 {
 public:

@@ -18,8 +18,6 @@ namespace rhombic
  * its variance 1, and with many waves its values are nearly Gaussian; the surface at 0 halves space. The same numbers
  * give the same field on every machine, up to rounding. The method is that of M. Shinozuka, "Simulation of multivariate
  * and multidimensional random processes", J. Acoust. Soc. Am. 49 (1971).
- *
- * Thread safety: immutable.
  */
 class BandLimitedField : public ReferenceField
 {

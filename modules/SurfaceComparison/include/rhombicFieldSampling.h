@@ -16,7 +16,7 @@ namespace rhombic
 
 /** Allocates an image, whose region and geometry are set, and fills it with scale * field at each sample's position.
  * Integer pixels are rounded, not clamped: choose a scale that fits. Works with itk::Image and itk::FCCImage, on
- * several threads (itk::MultiThreaderBase). Thread safe for different images. */
+ * several threads (itk::MultiThreaderBase). */
 template <typename TImage>
 void
 SampleField(const ReferenceField & field, double scale, TImage * image)
@@ -39,7 +39,7 @@ SampleField(const ReferenceField & field, double scale, TImage * image)
 }
 
 /** Samples a field on a Cartesian grid of \a count samples along each axis, \a spacing apart, the first one at the
- * world's origin. Thread safe. */
+ * world's origin. */
 template <typename TPixel>
 typename itk::Image<TPixel, 3>::Pointer
 SampleOnGrid(const ReferenceField & field, itk::SizeValueType count, double spacing, double scale = 1.0)
@@ -53,7 +53,7 @@ SampleOnGrid(const ReferenceField & field, itk::SizeValueType count, double spac
 }
 
 /** Samples a field on an FCC lattice that covers the cube from 0 to \a edge along each axis; a site is at the world's
- * origin. Thread safe. \param density sites per unit of volume, above 0 */
+ * origin. \param density sites per unit of volume, above 0 */
 template <typename TPixel>
 typename itk::FCCImage<TPixel>::Pointer
 SampleOnLattice(const ReferenceField & field, double edge, double density, double scale = 1.0)

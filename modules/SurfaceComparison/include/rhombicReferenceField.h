@@ -14,8 +14,6 @@ using Vector3 = std::array<double, 3>;
  *
  * Its *surface* is where it is 0; inside it is positive, so the gradient points inwards. Coordinates have the unit of
  * the world the field is placed in; the experiments take the spacing h of the Cartesian grid as 1.
- *
- * Thread safe.
  */
 class ReferenceField
 {

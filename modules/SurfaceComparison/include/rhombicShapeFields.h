@@ -7,9 +7,7 @@ namespace rhombic
 {
 
 /** \class SphereField
- * \brief The signed distance to a sphere, radius - |p - center|. Its gradient is 0 at the center, where it has none.
- *
- * Thread safety: immutable. */
+ * \brief The signed distance to a sphere, radius - |p - center|. Its gradient is 0 at the center, where it has none. */
 class SphereField : public ReferenceField
 {
 public:
@@ -27,9 +25,7 @@ private:
 
 /** \class TorusField
  * \brief The signed distance to a torus: minor - the distance to its circle, of radius major, about an axis through the
- * center. Its gradient is 0 on the axis and on the circle, where it has none.
- *
- * Thread safety: immutable. */
+ * center. Its gradient is 0 on the axis and on the circle, where it has none. */
 class TorusField : public ReferenceField
 {
 public:
@@ -53,9 +49,7 @@ private:
 
 /** \class GyroidField
  * \brief sin x cos y + sin y cos z + sin z cos x, with x, y, z in units of period / 2 pi: a surface that fills any
- * volume evenly, in all directions (A. H. Schoen 1970).
- *
- * Thread safety: immutable. */
+ * volume evenly, in all directions (A. H. Schoen 1970). */
 class GyroidField : public ReferenceField
 {
 public:

@@ -9,9 +9,7 @@ namespace rhombic
 {
 
 /** \class SurfaceErrorSettings
- * \brief The box in which a surface is compared, and the unit of its errors.
- *
- * Thread safety: a value. */
+ * \brief The box in which a surface is compared, and the unit of its errors. */
 struct SurfaceErrorSettings
 {
   Vector3 lower;     ///< of the box; only triangles whose centroid is in the box are judged
@@ -20,9 +18,7 @@ struct SurfaceErrorSettings
 };
 
 /** \class SurfaceErrors
- * \brief Distances and angles between a surface and the true surface, and the quality of its triangles.
- *
- * Thread safety: a value. */
+ * \brief Distances and angles between a surface and the true surface, and the quality of its triangles. */
 struct SurfaceErrors
 {
   itk::SizeValueType triangles = 0; ///< number of judged triangles
@@ -47,7 +43,7 @@ struct SurfaceErrors
  * that integrate cubic polynomials exactly: corners 1/20, middles of sides 2/15, centroid 9/20 (O. C. Zienkiewicz, "The
  * finite element method"). All 0 when no triangle with an area is judged.
  *
- * Works on several threads (itk::MultiThreaderBase); the result does not depend on their number. Thread safe. */
+ * Works on several threads (itk::MultiThreaderBase); the result does not depend on their number. */
 SurfaceErrors
 ComputeSurfaceErrors(const itk::TriangleSurface & surface,
                      const ReferenceField & field,

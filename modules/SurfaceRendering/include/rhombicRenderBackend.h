@@ -17,9 +17,7 @@ enum class RenderBackend
 };
 
 /** \class BackendProbe
- * \brief Whether a backend works on this machine.
- *
- * Thread safety: a value. */
+ * \brief Whether a backend works on this machine. */
 struct BackendProbe
 {
   RenderBackend backend;

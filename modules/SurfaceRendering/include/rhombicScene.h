@@ -12,7 +12,7 @@ namespace rhombic
 /** \class RenderSettings
  * \brief Size, view and effects of a picture. Each side has at most 8192 samples: 4096 pixels with two samples each.
  *
- * SurfaceRenderer::CheckSettings() throws for values out of range. Thread safety: a value. */
+ * SurfaceRenderer::CheckSettings() throws for values out of range. */
 struct RenderSettings
 {
   int width = 1200;  ///< pixels

@@ -8,7 +8,7 @@ namespace rhombic
 {
 
 /** \file
- * The six standard views. Thread safe. */
+ * The six standard views. */
 
 /** The side of the patient that is seen: View::Left shows the patient's left side. */
 enum class View
