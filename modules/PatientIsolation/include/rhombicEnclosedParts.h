@@ -15,9 +15,9 @@ namespace rhombic
 /** What KeepEnclosedParts() left out of a surface, and what it kept although the scan's sides cut it. */
 struct EnclosedParts
 {
-  double aroundBody = 0.0;          ///< volume left out around the body, in ml
-  std::size_t numberOfSmall = 0;    ///< left out: parts of less than a fiftieth of the volume of the largest one
-  double small = 0.0;               ///< volume of these, in ml
+  double aroundBody = 0.0;       ///< volume left out around the body, in ml
+  std::size_t numberOfSmall = 0; ///< parts left out because they have less than a fiftieth of the largest part's volume
+  double small = 0.0;            ///< volume of these parts, in ml
   std::size_t numberCutBySides = 0; ///< kept parts that end at a side of the scan other than top and bottom
 };
 
@@ -27,14 +27,16 @@ using SurfaceExtractor = std::function<itk::TriangleSurface::Pointer(const FCCVo
 /** Keeps the connected parts of a surface that lie in the body, without small ones: the lungs, also where the scan's
  * sides cut them, but not the air around the patient.
  *
- * Around the body is what is below -940 HU (or less than 60 HU above the lowest values, if that is between -940 and
- * -860 HU) and reaches a corner of the slices, or a side of the scan where a ball of 8 mm radius has room. All else is
- * in the body: lungs without emphysema are denser. Where no tissue lies between the two, as at the border of a round
- * field of view or in the nose, the volume is cut there, and the surface extracted anew. At isovalues of 0 and more,
- * which are no thresholds of air in HU, and where inside is above, the corners alone decide.
+ * Air around the body is a connected part of the values below -940 HU that reaches an edge of the scan along the
+ * patient, or one of the four sides between these edges where a ball of 8 mm radius has room. (If the scan's lowest
+ * values are above -1000 HU, the limit is 60 HU above them, at most -860 HU.) All other parts are in the body: lungs
+ * without emphysema are denser. Where no tissue separates a lung from the air around the body, as at the border of a
+ * round field of view or in the nose, the volume is cut there and the surface extracted anew. If the isovalue is 0 or
+ * more, or values above it are inside, values need not be HU: then parts inside the surface are around the body if they
+ * reach an edge.
  *
- * \param surface of the volume at the threshold
- * \param extract makes the same surface of a copy of the volume that was cut; called once at most */
+ * \param surface the surface of the volume at the threshold; replaced by its kept parts
+ * \param extract extracts the surface of a copy of the volume that was cut; called once at most */
 EnclosedParts
 KeepEnclosedParts(itk::TriangleSurface::Pointer & surface,
                   const FCCVolume & volume,

@@ -14,8 +14,8 @@ namespace rhombic
 /** Whether the scanner's table is removed from a scan. */
 enum class TableRule
 {
-  RemoveFromCT, ///< if the scan says that it is a CT
-  Remove,       ///< also if it does not say what it is
+  RemoveFromCT, ///< from scans whose modality is CT
+  Remove,       ///< from CTs, and from scans of unknown modality
   Keep
 };
 
@@ -35,30 +35,32 @@ struct RemovedObject
 /** What RemoveTable() did. */
 struct TableRemoval
 {
-  std::vector<RemovedObject> objects; ///< those of 1 ml and more, the largest first
+  std::vector<RemovedObject> objects; ///< objects of 1 ml and more, the largest first
   std::size_t numberOfSpecks = 0;     ///< smaller objects
   double millilitresOfSpecks = 0.0;
-  double airValue = 0.0;          ///< median of the air around the patient in HU, which replaced the objects
-  std::vector<std::string> notes; ///< sentences on what was kept in doubt, or why nothing was removed
+  double airValue = 0.0;          ///< median of the air around the patient in HU; the value that replaced the objects
+  std::vector<std::string> notes; ///< parts that were kept in doubt, or why nothing was removed
 };
 
-/** Sets what is around the patient of a CT in HU to air: table, mattress, head holder, sheets, tubes. A scan in which
- * there is no such object of 1 ml or more stays as it is, byte for byte.
+/** Removes the objects around the patient from a CT in HU: table, mattress, head holder, sheets, tubes. Their values
+ * become air. A scan in which there is no such object of 1 ml or more stays as it is, byte for byte.
  *
  * The scan is divided into blocks of about 2 mm; tissue blocks are those with at least half of their samples at or
  * above -300 HU. The patient consists of
  * - the tissue more than 9 mm thick that is connected with tissue at least 24 mm thick, and tissue within 4.5 mm of it;
- * - what lies between such tissue on lines from front to back, which is mostly lung;
+ * - all blocks between the first and the last block of such tissue on lines from front to back, mostly lung;
  * - separate thinner parts of soft tissue no longer than a hand;
- * - thin parts that touch these, such as ears, unless they are large, reach far, are a bare wall harder than skin,
- *   or lie in one place through much of the scan, as a table does.
- * Where the back lies on the wall of a table, the wall is followed through the contact. In doubt, parts are kept, and a
- * note says so.
+ * - thin parts that touch these, such as ears, unless they are large, reach far, are a bare wall harder than skin, or
+ *   repeat at the same position across the patient through much of the scan, as a table does.
  *
- * Around the patient is what balls of 8 mm radius reach from the scan's sides through air. Farther than two blocks'
- * diagonals from the patient all of it becomes air; nearer, what is closer to an object than to the patient. The cut is
- * smooth, without steps of voxels: samples are lowered to a limit that falls to air within one sample. Surfaces at any
- * threshold stay the same elsewhere. Slices may be tilted or unevenly spaced.
+ * Where the back touches the wall of a table, the wall is cut off with the thickness that it has beside the contact. In
+ * doubt, parts are kept, with a note.
+ *
+ * The surroundings are what balls of 8 mm radius can reach from the scan's sides without touching the patient. Farther
+ * than two block diagonals from the patient, all samples of the surroundings become air; nearer, those that are closer
+ * to an object than to the patient. The cut is smooth, without steps of voxels: samples are lowered to a limit that
+ * falls to air within one sample. Surfaces at any threshold stay the same elsewhere. Slices may be tilted or unevenly
+ * spaced.
  *
  * Takes up to 40 bytes for each block. The result does not depend on the number of threads. */
 TableRemoval

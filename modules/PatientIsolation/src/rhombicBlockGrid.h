@@ -18,8 +18,8 @@ using MaskImage = itk::Image<std::uint8_t, 3>; ///< 1 for the blocks in the mask
 using DistanceImage = itk::Image<float, 3>;    ///< mm
 using LabelImage = itk::Image<std::uint32_t, 3>;
 
-constexpr double ballRadius = 8.0;    ///< mm: a ball of this size has room around a patient, but not in its clefts
-constexpr double highestAir = -940.0; ///< HU: a mean or median of air; lungs without emphysema are higher
+constexpr double ballRadius = 8.0;    ///< mm: balls of this size fit around a patient, but not into clefts of the body
+constexpr double highestAir = -940.0; ///< HU: largest mean or median of air; lungs without emphysema are above it
 
 /** The image axis nearest to an axis of the patient (0 leads to the left, 1 to the back, 2 to the head), other than
  * \a except. */
@@ -103,8 +103,8 @@ ForEachFaceNeighbour(const itk::Size<3> & size,
 bool
 IsNear(const MaskImage & mask, std::size_t offset);
 
-/** The distance in mm of blocks from those at the border of the mask, negative inside. The grid's own sides are no
- * border. The mask must have a border. */
+/** The distance in mm of each block from the nearest block at the border of the mask, negative inside. The grid's sides
+ * do not count as a border. The mask must have a border (see HasBorder()). */
 DistanceImage::Pointer
 DistanceTo(const MaskImage & mask);
 
@@ -120,7 +120,7 @@ struct Component
 struct Components
 {
   LabelImage::Pointer labels;   ///< from 1; 0 outside
-  std::vector<Component> parts; ///< by label; the first stands for the outside and is empty
+  std::vector<Component> parts; ///< by label; the first one, for the outside, is empty
 };
 
 /** Parts connected by faces, or also by edges and corners. */
@@ -141,18 +141,19 @@ MaskOfParts(const Components & components, const TFunction & isIn)
   return MakeMask(*components.labels, [&](std::size_t offset) { return isLabelIn[labels[offset]]; });
 }
 
-/** Where balls of radius ballRadius have room. */
+/** The space outside a mask in which balls of radius ballRadius have room. */
 struct OpenSpace
 {
-  Components centres;             ///< connected places of the balls' centres
+  Components centres;             ///< connected parts of the balls' possible centres
   std::vector<bool> reachesSides; ///< by label: whether the part reaches a side of the grid along the patient
 };
 
-/** The space outside of the mask to which the distances are. */
+/** The open space outside a mask. \param distance from the mask, in mm */
 OpenSpace
 FindOpenSpace(const DistanceImage & distance, unsigned int longAxis);
 
-/** What the balls fill whose centres are in those parts, by label. Null if there is no such part. */
+/** The mask of the blocks that balls with centres in the chosen parts cover. Null if no part is chosen. \param isPartIn
+ * by label */
 MaskImage::Pointer
 FillOpenSpace(const OpenSpace & space, const std::vector<bool> & isPartIn);
 

@@ -17,7 +17,7 @@ struct BlockSums
   using SumType = std::conditional_t<std::is_integral_v<TPixel>, std::int64_t, double>;
   std::uint32_t tissue = 0;
   std::uint32_t hard = 0;
-  SumType values = 0; // those that are no number count as 0
+  SumType values = 0; // samples that are not a number count as 0
 };
 
 /** A share of a block's samples out of 255, rounded up, so that one sample is more than none. */
@@ -77,7 +77,7 @@ MakeCoarseScan(const Scan & scan, double tissue, double hard)
   itk::ContinuousIndex<double, 3> first;
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    const bool isWhole = axis == 2 && !scan.sliceOrigins.empty(); // uneven slices: a block has one slice
+    const bool isWhole = axis == 2 && !scan.sliceOrigins.empty(); // blocks of uneven stacks have one slice
     const auto samples = isWhole ? 1l : std::max(1l, std::lround(blockWidth / spacing[axis]));
     coarse.shape[axis] = static_cast<std::size_t>(samples);
     first[axis] = 0.5 * static_cast<double>(samples - 1);

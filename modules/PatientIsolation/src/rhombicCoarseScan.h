@@ -12,11 +12,11 @@ namespace rhombic
 struct CoarseScan
 {
   BlockShape shape{};
-  unsigned int longAxis = 2;                        ///< the image axis along the patient
-  MaskImage::Pointer occupancy;                     ///< share of a block's samples that are tissue: 0 none, 255 all
-  MaskImage::Pointer hardness;                      ///< share that is harder than skin
-  itk::Image<std::int16_t, 3>::Pointer mean;        ///< of a block's samples, in HU
-  std::vector<itk::Vector<double, 3>> sliceOffsets; ///< from a slice's place in the image to its true one; may be empty
+  unsigned int longAxis = 2;                 ///< the image axis along the patient
+  MaskImage::Pointer occupancy;              ///< share of a block's samples that are tissue, from 0 to 255
+  MaskImage::Pointer hardness;               ///< share of a block's samples that are harder than skin, from 0 to 255
+  itk::Image<std::int16_t, 3>::Pointer mean; ///< mean of a block's samples, in HU
+  std::vector<itk::Vector<double, 3>> sliceOffsets; ///< from slices' positions in the image to the true ones, or empty
 
   /** The centre of a block, in LPS mm. */
   itk::Point<double, 3>
@@ -33,7 +33,7 @@ struct CoarseScan
   Millilitres(std::size_t blocks) const;
 };
 
-/** \a tissue and \a hard are the lowest values of what counts as such. */
+/** Divides a CT into blocks. \a tissue and \a hard are the lowest values of tissue and of hard samples, in HU. */
 CoarseScan
 MakeCoarseScan(const Scan & scan, double tissue, double hard);
 

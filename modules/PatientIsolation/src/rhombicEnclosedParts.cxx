@@ -20,7 +20,7 @@ namespace
 
 constexpr double gridBlockWidth = 4.0;       // mm
 constexpr double smallestShare = 1.0 / 50.0; // volume of the smallest part kept, relative to the largest part
-constexpr double largestOpening = 0.1;       // share of a part's faces open to the room; more is outside the body
+constexpr double largestOpening = 0.1;       // largest share of a body part's faces next to air around the body
 constexpr double airRange = 60.0;            // HU: air around the body varies by less from its lowest value
 constexpr double lowestLung = -860.0;        // HU: mean of lungs without emphysema
 constexpr double lowestAir = -1100.0;        // HU: lower values are padding
@@ -28,14 +28,14 @@ constexpr double steepness = 4.0;            // height of a cut's ramp, relative
 constexpr double unitsPerIndex[3] = { 2.0, 1.0, 1.0 }; // lattice units between the samples along each axis
 constexpr double nearSide = 1.25; // lattice units: surfaces end at the scan's border, less than one from the extent's
 
-/** A lattice in blocks, and which of them are around the body. */
+/** A lattice in blocks, and the masks of those around the body. */
 struct LatticeBlocks
 {
   BlockShape shape{};
   itk::Image<float, 3>::Pointer mean;
   MaskImage::Pointer isUniform; ///< blocks whose values are all the same
   MaskImage::Pointer around;    ///< blocks that are inside by the threshold, but around the body
-  MaskImage::Pointer cutOff;    ///< these and others, if some must be cut off the body, as no tissue lies between
+  MaskImage::Pointer cutOff;    ///< blocks to cut off, with those around; null unless a lung is open to the air
 };
 
 struct BlockValues
@@ -88,8 +88,8 @@ MakeInsideMask(const LatticeBlocks & blocks, const Threshold & threshold)
   return MakeMask(*blocks.mean, [=](std::size_t offset) { return threshold.IsInside(means[offset]); });
 }
 
-/** The connected parts of a mask that reach an edge of the scan along the patient, or, if that is asked for, a side
- * along it where a ball of radius ballRadius has room. */
+/** The connected parts of a mask that reach an edge of the scan along the patient, or, if \a takesSides, one of the
+ * four sides between these edges where a ball of radius ballRadius has room. */
 MaskImage::Pointer
 FindPartsAtSides(const MaskImage & mask, unsigned int longAxis, bool takesSides)
 {
@@ -115,15 +115,15 @@ FindPartsAtSides(const MaskImage & mask, unsigned int longAxis, bool takesSides)
   return MaskOfParts(components, [&](std::size_t label) { return isFound[label]; });
 }
 
-/** What lies next to a connected part of a mask, in faces of blocks. */
+/** The border of a connected part of a mask, counted in faces of blocks. */
 struct Border
 {
   std::size_t faces = 0;
-  std::size_t open = 0;       ///< faces to air around the body, without tissue between
-  std::size_t openToRoom = 0; ///< those of them that are not near padding, which was not measured
-  bool isDeep = false;        ///< has a block all of whose neighbours belong to the part; clefts have none
+  std::size_t open = 0;       ///< faces next to air around the body
+  std::size_t openToRoom = 0; ///< open faces that are not near padding: next to air that was measured
+  bool isDeep = false;        ///< whether all neighbours of a block belong to the part; not so in clefts
 
-  /** Whether the part belongs to the body, and is to be cut off from the air. */
+  /** Whether the part belongs to the body, but is open to the air around it. */
   bool
   IsOpenLung() const
   {
@@ -173,8 +173,8 @@ MeasureBorders(const Components & components,
   return borders;
 }
 
-/** Finds parts in the body that are open to the air around it, such as lungs that touch the border of a round field of
- * view, or that a nose in the scan leads to. Returns the blocks to be cut off; null if there is no such part. */
+/** Finds parts in the body that are open to the air around it: lungs that touch the border of a round field of view, or
+ * are connected with it through the nose. Returns the blocks to cut off; null if there is no such part. */
 MaskImage::Pointer
 FindCutOff(const LatticeBlocks & blocks, const MaskImage & inside)
 {
@@ -206,8 +206,8 @@ FindCutOff(const LatticeBlocks & blocks, const MaskImage & inside)
   });
 }
 
-/** Values below this may be air around the body, in HU. Scans that were clipped at a value above -940 HU, or whose air
- * is calibrated to one, have their lowest values there. */
+/** The limit, in HU, below which values may be air around the body. It is higher for scans whose lowest values are
+ * high, because they were clipped or their air was calibrated to a value above -940 HU. */
 double
 HighestAirAround(const LatticeBlocks & blocks, double isovalue)
 {
@@ -249,8 +249,8 @@ MeanAround(const LatticeBlocks & blocks)
   return sum / static_cast<double>(count);
 }
 
-/** Moves the values of what is to be cut off to the other side of the isovalue, by a smooth ramp, so that the surface
- * that arises there has no steps. */
+/** Moves the values of the blocks to cut off to the other side of the isovalue. A smooth ramp at their border keeps the
+ * new surface there free of steps. */
 template <typename TPixel>
 void
 CutOff(itk::FCCImage<TPixel> & image, const LatticeBlocks & blocks, double isovalue)
@@ -298,10 +298,10 @@ CutOff(itk::FCCImage<TPixel> & image, const LatticeBlocks & blocks, double isova
   });
 }
 
-/** What is known about a connected part of a surface. */
+/** A connected part of a surface. */
 struct SurfacePart
 {
-  double millilitres = 0.0; ///< negative where another part is around it
+  double millilitres = 0.0; ///< volume; negative for cavities of other parts
   bool isAround = false;    ///< lies around the body
   bool isCut = false;       ///< ends at a side of the scan
 };
@@ -344,7 +344,7 @@ MeasureParts(const itk::TriangleSurface & surface,
   return parts;
 }
 
-/** Keeps the parts that are in the body, and tells what it leaves out. */
+/** Keeps the parts that are in the body, and returns the volumes left out. */
 template <typename TPixel>
 EnclosedParts
 KeepParts(itk::TriangleSurface & surface, const itk::FCCImage<TPixel> & image, const LatticeBlocks & blocks)

@@ -16,25 +16,25 @@ namespace
 // Lengths are in mm. Tables and holders are hollow, with thin walls; limbs are thick.
 constexpr double coreDepth = 4.5;              // blocks deeper than this are a core, which is more than 9 mm thick
 constexpr double bodyDepth = 12.0;             // a core that is this deep somewhere belongs to the body
-constexpr double longestThinPart = 150.0;      // of the patient, such as a finger or a thin wrist
-constexpr double smallestThinPart = 1.0;       // ml of its core
-constexpr double lowestTissue = -150.0;        // mean HU of a thin part: fat
-constexpr double highestTissue = 300.0;        // to bone within skin
-constexpr double smallHangingVolume = 20.0;    // ml: parts up to this volume that hang on to the patient
-constexpr double smallHangingReach = 30.0;     // and end this near to the cores are always the patient's
-constexpr double largestHangingVolume = 100.0; // ml: parts above this volume
-constexpr double longestHangingReach = 100.0;  // or that reach further than this never are
-constexpr double smallestHardVolume = 5.0;     // ml of a wall of carbon fibre
+constexpr double longestThinPart = 150.0;      // longest separate part, such as a finger or a thin wrist
+constexpr double smallestThinPart = 1.0;       // ml: smallest core of such a part
+constexpr double lowestTissue = -150.0;        // HU: lowest mean of such a part, fat
+constexpr double highestTissue = 300.0;        // HU: highest mean of such a part, bone within skin
+constexpr double smallHangingVolume = 20.0;    // ml: touching parts up to this volume
+constexpr double smallHangingReach = 30.0;     // that end this near to the cores always belong to the patient
+constexpr double largestHangingVolume = 100.0; // ml: touching parts above this volume,
+constexpr double longestHangingReach = 100.0;  // or that reach farther from the cores than this, never do
+constexpr double smallestHardVolume = 5.0;     // ml: smallest wall of carbon fibre
 constexpr double bareShare = 0.7;              // share of such a wall that is next to open space
-constexpr double tableShare = 0.4;             // share of the slices in which a table's place holds doubtful tissue
-constexpr double tableShareOccupied = 0.8;     // share of the slices in which it holds anything
-constexpr std::uint8_t half = 128;             // of a block's samples
+constexpr double tableShare = 0.4;             // share of levels in which a column of the table holds doubtful tissue
+constexpr double tableShareOccupied = 0.8;     // share of levels in which it holds solid blocks
+constexpr std::uint8_t half = 128;             // half of a block's samples, out of 255
 constexpr std::uint8_t quarter = 64;
 
 /** The thick parts of the solid blocks. */
 struct Cores
 {
-  DistanceImage::Pointer depth; ///< distance to the border of what is solid, negative inside
+  DistanceImage::Pointer depth; ///< distance to the border of the solid blocks in mm, negative inside
   Components components;
   std::vector<double> greatestDepth; ///< by component
   std::vector<double> meanValue;     ///< in HU, by component
@@ -73,7 +73,7 @@ FindCores(const CoarseScan & coarse, const MaskImage & solid)
   return cores;
 }
 
-/** Adds what lies between the first and the last block of the body's cores on lines from front to back: lungs, whose
+/** Adds all blocks between the first and the last block of the body's cores on lines from front to back: lungs, whose
  * walls may be thin at the sides. */
 MaskImage::Pointer
 FillBetweenFrontAndBack(const CoarseScan & coarse, const MaskImage & solid, const MaskImage & body)
@@ -116,7 +116,7 @@ NoteKept(double millilitres, const std::string & why, std::vector<std::string> &
   }
 }
 
-/** Adds the cores that may be a hand or another thin limb to the body. */
+/** Adds cores to the body that may be a hand or another thin limb. */
 void
 AddThinCores(const CoarseScan & coarse, Cores & cores, std::vector<std::string> & notes)
 {
@@ -138,7 +138,8 @@ AddThinCores(const CoarseScan & coarse, Cores & cores, std::vector<std::string> 
   NoteKept(kept, "lie beside the patient's thick parts, as they may be a hand", notes);
 }
 
-/** The solid blocks within the cores' depth of them, and one block more, because depths are known to a block. */
+/** The solid blocks within coreDepth of the body's cores, and their neighbours, because depths are known to one block.
+ * \param reach distance from the body's cores, in mm */
 MaskImage::Pointer
 Grow(const MaskImage & solid, const DistanceImage & reach)
 {
@@ -150,8 +151,8 @@ Grow(const MaskImage & solid, const DistanceImage & reach)
   return MakeMask(solid, [&](std::size_t offset) { return isSolid[offset] != 0 && IsNear(*near, offset); });
 }
 
-/** Adds those components of the other solid blocks to the patient that share a face with it and for which
- * isPatient(volume in ml, greatest distance from the cores in mm) is true. Returns the rest. */
+/** Adds components of \a others to the patient if they share a face with it and isPatient(volume in ml, greatest
+ * distance from the cores in mm) is true. Returns the mask of the other components. */
 template <typename TFunction>
 MaskImage::Pointer
 AddHangingParts(const CoarseScan & coarse,
@@ -184,8 +185,8 @@ AddHangingParts(const CoarseScan & coarse,
   return MakeMask(others, [&](std::size_t offset) { return labels[offset] != 0 && isAdded[offset] == 0; });
 }
 
-/** Finds walls harder than skin in doubtful tissue, with what touches them: connected, large, and bare. Bone is within
- * skin, and within cavities that are no open space. */
+/** Finds large, bare walls harder than skin in doubtful tissue, and the hard blocks that touch them. A wall is bare if
+ * most of its blocks are next to open space; bone is covered by skin. */
 MaskImage::Pointer
 FindHardWalls(const CoarseScan & coarse, const MaskImage & doubtful, const DistanceImage & depth)
 {
@@ -198,7 +199,7 @@ FindHardWalls(const CoarseScan & coarse, const MaskImage & doubtful, const Dista
     walls, [&](std::size_t label) { return coarse.Millilitres(walls.parts[label].count) >= smallestHardVolume; });
   if (!HasBorder(*large))
   {
-    return large; // no block
+    return large; // an empty mask
   }
   const OpenSpace space = FindOpenSpace(depth, coarse.longAxis);
   const auto open = FillOpenSpace(space, space.reachesSides);
@@ -221,7 +222,7 @@ FindHardWalls(const CoarseScan & coarse, const MaskImage & doubtful, const Dista
 }
 
 /** \class Columns
- * \brief Columns along the patient in the world, as wide as the scan's widest block across it. */
+ * \brief Divides world space into columns along the patient, as wide as the scan's widest block across the patient. */
 class Columns
 {
 public:
@@ -233,7 +234,7 @@ public:
     m_Lowest = { infinity, infinity };
     const auto & size = coarse.occupancy->GetBufferedRegion().GetSize();
     itk::Index<3> corner;
-    for (corner[2] = 0; corner[2] < static_cast<itk::IndexValueType>(size[2]); ++corner[2]) // also of uneven stacks
+    for (corner[2] = 0; corner[2] < static_cast<itk::IndexValueType>(size[2]); ++corner[2]) // slices may be shifted
     {
       for (unsigned int n = 0; n < 4; ++n)
       {
@@ -283,8 +284,9 @@ private:
   std::size_t m_Count = 0;
 };
 
-/** Finds the columns that hold doubtful tissue in much of the scan and something in most of it, as a table's place does
- * and no thin part of a patient. Their blocks but for the cores are the table's and not the patient's. */
+/** Finds the columns of the table: they hold doubtful tissue in at least tableShare of the levels, and solid blocks in
+ * at least tableShareOccupied, as no thin part of a patient does. Moves their blocks, except for the body's cores, from
+ * the patient to the table. */
 void
 TakeTablePlaces(const CoarseScan & coarse,
                 const MaskImage & solid,
@@ -327,7 +329,8 @@ TakeTablePlaces(const CoarseScan & coarse,
   });
 }
 
-/** Adds thin parts that hang on to the patient: small ones first, then larger ones without walls and table places. */
+/** Adds thin parts that touch the patient: small ones first, then larger ones without hard walls and columns of the
+ * table. */
 void
 AddThinParts(const CoarseScan & coarse,
              const MaskImage & solid,

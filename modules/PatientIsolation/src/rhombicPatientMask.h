@@ -9,12 +9,12 @@
 namespace rhombic
 {
 
-/** Where the patient is in a coarse scan. */
+/** The blocks of the patient in a coarse scan. */
 struct PatientMask
 {
   MaskImage::Pointer tissue;      ///< blocks that are half or more at or above the threshold of tissue
-  MaskImage::Pointer patient;     ///< those of them that are the patient's; null when there is no body
-  std::vector<std::string> notes; ///< what was kept for doubt, a sentence each
+  MaskImage::Pointer patient;     ///< blocks of the patient; null when there is no body
+  std::vector<std::string> notes; ///< parts that were kept in doubt
 };
 
 PatientMask

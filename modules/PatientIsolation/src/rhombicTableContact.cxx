@@ -10,7 +10,7 @@ namespace rhombic
 namespace
 {
 
-constexpr double widestContact = 120.0; // mm, of a patient's back with a table's wall
+constexpr double widestContact = 120.0; // mm: widest contact of a back with a table's wall
 constexpr int columnsBeside = 6;        // columns on either side of a contact, where the wall's thickness is measured
 
 /** A wall in one column: its first and last row. */
@@ -99,7 +99,7 @@ private:
     return m_Backs[static_cast<std::size_t>(column)];
   }
 
-  /** The wall of a column whose last row is \a back, or next to it. */
+  /** The wall of a column that ends in row \a back or one row from it. */
   std::optional<Wall>
   WallAt(std::ptrdiff_t column, std::ptrdiff_t back) const
   {
@@ -113,14 +113,15 @@ private:
     return wall != walls.end() ? std::optional<Wall>(*wall) : std::nullopt;
   }
 
-  /** Whether there is a body without a wall behind it. */
+  /** Whether the column has a body, and no wall that ends where the body does. */
   bool
   IsContact(std::ptrdiff_t column) const
   {
     return Back(column) >= 0 && !WallAt(column, Back(column));
   }
 
-  /** The last column before a wall, a step of the back, the body's end, or where the contact gets too wide. */
+  /** The last column of the contact: before the next wall, a step of the back, or the body's end, and within
+   * widestContact. */
   std::ptrdiff_t
   FindLastOfContact(std::ptrdiff_t first) const
   {
@@ -133,7 +134,8 @@ private:
     return last;
   }
 
-  /** Calls function(column, wall) for the columns beside a contact, from \a column on, as far as the wall goes on. */
+  /** Calls function(column, wall) for up to columnsBeside columns beside a contact, from \a column on, while the wall
+   * continues. */
   template <typename TFunction>
   void
   FollowWall(std::ptrdiff_t column, std::ptrdiff_t step, const TFunction & function) const
@@ -147,7 +149,8 @@ private:
     }
   }
 
-  /** The wall's greatest thickness beside a contact: next to it, part of the wall counts as the body. */
+  /** The wall's greatest thickness beside a contact, in rows. In the columns next to the contact, part of the wall is
+   * in the patient's mask. */
   std::ptrdiff_t
   ThicknessFrom(std::ptrdiff_t column, std::ptrdiff_t step) const
   {
@@ -192,7 +195,7 @@ private:
   std::ptrdiff_t m_ThickestWall;   ///< in rows
   itk::IndexValueType m_Level = 0;
   std::vector<std::ptrdiff_t> m_Backs;    ///< by column: the body's last row, -1 where there is none
-  std::vector<std::vector<Wall>> m_Walls; ///< by column: what is solid but not the patient
+  std::vector<std::vector<Wall>> m_Walls; ///< by column: solid blocks outside the patient
 };
 
 } // namespace

@@ -6,11 +6,11 @@
 namespace rhombic
 {
 
-/** Takes the wall of a table, on which the patient lies, out of the patient's mask. Where the two touch, both are one
- * thick body. The wall is seen to the left and to the right of such a contact, and the body's back has no step there:
- * in between, the wall is as thick as on both sides.
+/** Removes the wall of a table that the patient touches from the patient's mask, in which both are one thick body. The
+ * wall is visible to the left and to the right of the contact; between the two, it is cut off with the thickness that
+ * it has there.
  *
- * \param solid the patient and all that is not air.
+ * \param solid the blocks that are not air, with the patient and the table.
  * \param longAxis the image axis along the patient.
  * \param thickestWall in mm: thicker walls are left alone. */
 void

@@ -22,13 +22,13 @@ namespace
 constexpr double tissueThreshold = -300.0; // HU: half way between air and fat or skin
 constexpr double hardThreshold = 150.0;    // HU: higher than skin, lower than bone, metal and carbon fibre
 constexpr double smallestObject = 1.0;     // ml
-constexpr float heightOfRamp = 2000.0f;    // HU: how far the limit of values falls to air at the cut
+constexpr float heightOfRamp = 2000.0f;    // HU: height from which the limit of values falls to air at the cut
 
 /** The blocks around the patient. */
 struct Surroundings
 {
   MaskImage::Pointer outside;
-  MaskImage::Pointer objects; ///< those that hold something
+  MaskImage::Pointer objects; ///< blocks around the patient with tissue samples
   double airValue = 0.0;
 };
 
@@ -53,8 +53,8 @@ MedianOfAir(const CoarseScan & coarse, const Components & components, std::uint3
   return *middle;
 }
 
-/** Finds what is neither the patient nor in its cavities and clefts, and is connected with the scan's sides. None when
- * there is no air. */
+/** Finds the blocks that are neither the patient nor in its cavities and clefts, and are connected with the scan's
+ * sides. Nothing when there is no air. */
 std::optional<Surroundings>
 FindSurroundings(const CoarseScan & coarse, const PatientMask & mask, const DistanceImage & toPatient)
 {
@@ -106,7 +106,7 @@ MeasureObjects(const CoarseScan & coarse, const MaskImage & objects)
   empty.centroid.Fill(0.0);
   empty.lowest.Fill(std::numeric_limits<double>::infinity());
   empty.highest.Fill(-std::numeric_limits<double>::infinity());
-  std::vector<RemovedObject> measured(components.parts.size(), empty); // first with sums of weights
+  std::vector<RemovedObject> measured(components.parts.size(), empty); // centroids are sums until the last loop
   ForEachIndex(objects.GetBufferedRegion().GetSize(), [&](const itk::Index<3> & index, std::size_t offset) {
     if (const std::uint32_t label = components.labels->GetBufferPointer()[offset])
     {
@@ -134,7 +134,7 @@ MeasureObjects(const CoarseScan & coarse, const MaskImage & objects)
   return measured;
 }
 
-/** Sorts objects by volume, and sums the small ones up. */
+/** Sorts objects by volume, and adds up those below smallestObject. */
 void
 ListObjects(const std::vector<RemovedObject> & objects, TableRemoval & removal)
 {
@@ -155,7 +155,7 @@ ListObjects(const std::vector<RemovedObject> & objects, TableRemoval & removal)
   });
 }
 
-/** For each block, how far beyond the cut around the patient it is in mm, clamped to a block's diagonal; negative where
+/** The distance of each block beyond the cut around the patient in mm, at most a block's diagonal; negative where
  * samples stay. */
 DistanceImage::Pointer
 FindExcess(const CoarseScan & coarse, const Surroundings & surroundings, const DistanceImage & toPatient)

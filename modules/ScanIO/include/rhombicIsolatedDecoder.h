@@ -27,7 +27,7 @@ public:
   {
     std::uintmax_t memory = 512u << 20; ///< bytes besides five times the size of the voxels
     unsigned int seconds = 5;           ///< processor time; one more second for each 4 MiB of voxels
-    unsigned int patience = 4;          ///< the limit of wall clock time is this times the limit of processor time
+    unsigned int patience = 4;          ///< limit of wall clock time, as a multiple of the limit of processor time
   };
 
   /** \param workers the largest number of workers; 0: one for each processor. Throws Failure(Internal) when the system

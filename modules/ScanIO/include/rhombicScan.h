@@ -32,9 +32,9 @@ struct SeriesSummary
   std::string kind;         ///< ImageType, echo, ... that differ from other series of the scan; may be empty
   std::size_t numberOfFiles = 0;
   std::array<std::size_t, 3> size{}; ///< columns, rows, slices
-  std::array<double, 3> spacing{};   ///< of columns, rows and slices, in mm; 0 when unknown, as from ReadScan()
-  std::string problem;               ///< why it can't be read, as "it is ..." or a sentence; empty if it can
-  bool chosen = false;               ///< whether it was read
+  std::array<double, 3> spacing{}; ///< distances of columns, rows and slices, in mm; 0 when unknown, as from ReadScan()
+  std::string problem;             ///< why it can't be read, as "it is ..." or a sentence; empty if it can
+  bool chosen = false;             ///< whether it was read
 };
 
 /** \class SeriesList
@@ -42,7 +42,7 @@ struct SeriesSummary
 struct SeriesList
 {
   std::vector<SeriesSummary> series; ///< with spacings; empty for other formats than DICOM
-  std::size_t filesConsidered = 0;   ///< this and the next three: see Scan
+  std::size_t filesConsidered = 0;   ///< as Scan::filesConsidered, and so are the next three
   std::map<std::string, std::size_t> filesSkipped;
   std::vector<std::string> notes;
   std::vector<std::string> fileNotes;
@@ -55,18 +55,18 @@ struct SliceBlock
   double step = 0; ///< distance of two slices along their normal, in mm
 };
 
-/** A place in a stack where slices are missing. */
+/** A gap in a stack: slices are missing between two others. */
 struct SliceGap
 {
-  double position = 0; ///< of the last slice before the gap, along the slices' normal, in mm
-  double step = 0;     ///< from that slice to the next, in mm
+  double position = 0; ///< position of the last slice before the gap along the slices' normal, in mm
+  double step = 0;     ///< distance from that slice to the next, in mm
   std::size_t numberOfMissing = 0;
 };
 
 /** The geometry of a stack of DICOM slices. */
 struct StackReport
 {
-  double tiltDegrees = 0;   ///< angle of the line through the slices and their normal
+  double tiltDegrees = 0;   ///< angle between the line through the slices and their normal
   double firstPosition = 0; ///< positions of the first and the last slice along the normal, in mm
   double lastPosition = 0;
   std::vector<SliceBlock> blocks; ///< one block for an even stack
@@ -103,18 +103,18 @@ struct Scan
   std::string encoding;   ///< transfer syntax or compression of the voxels, in words
   std::vector<SeriesSummary> series;               ///< all series in the folder; empty for other formats than DICOM
   std::size_t filesConsidered = 0;                 ///< in the folder and its subfolders; 0 for other formats
-  std::map<std::string, std::size_t> filesSkipped; ///< numbers of files of a folder that were left out, by reason
+  std::map<std::string, std::size_t> filesSkipped; ///< numbers of files that were left out, by reason
   std::string choice;                              ///< why the series that was read was chosen
   std::size_t numberOfFrames = 1;                  ///< volumes in the file
   std::size_t frame = 0;                           ///< the volume that was read, from 0
   std::optional<StackReport> stack;                ///< for DICOM volumes
   std::optional<AffineReport> affine;              ///< for NIfTI volumes
-  std::string scaling;                             ///< of stored to true values, in words; empty for none
+  std::string scaling;                ///< how stored values became true ones, in words; empty for unchanged values
   std::optional<double> paddingValue; ///< rescaled value of voxels outside the scanner's view; they were replaced by
                                       ///< the lowest other value
   std::size_t numberOfPaddingSamples = 0;
   std::vector<std::string> notes;     ///< sentences about assumptions, repairs and parts that were left out
-  std::vector<std::string> fileNotes; ///< the same about single files, with their names: to be shown, but not written
+  std::vector<std::string> fileNotes; ///< sentences about single files, with their names: to be shown, but not written
                                       ///< to outputs, as a file's name may be the patient's
 };
 

@@ -66,7 +66,7 @@ CheckGeometry(const VolumeGeometry & geometry,
                        "); export it again from its source");
     }
   }
-  constexpr double smallestVolume = 1e-3; // of a voxel with edges of length 1
+  constexpr double smallestVolume = 1e-3; // volume that three unit axes must span at least
   const double volume = AxisOf(geometry, 0) * itk::CrossProduct(AxisOf(geometry, 1), AxisOf(geometry, 2));
   if (std::abs(volume) < smallestVolume)
   {

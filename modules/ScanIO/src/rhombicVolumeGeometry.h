@@ -27,7 +27,7 @@ MakeGeometry(const itk::Size<3> & size, const itk::Point<double, 3> & origin, co
 
 /** Throws Failure(Geometry) unless all numbers are finite, the spacings are from 1e-9 to 1e9 mm and the axes are
  * linearly independent. Axes whose cosine is more than 1e-3 are refused with Policy::Refuse, and otherwise added to \a
- * notes. \a matrix names the source of the axes in messages: "sform". */
+ * notes. \a matrix names the source of the axes in messages, such as "sform". */
 void
 CheckGeometry(const VolumeGeometry & geometry,
               const std::filesystem::path & path,

@@ -67,13 +67,13 @@ struct ServerRequest
   };
 
   Kind kind = Kind::Start;
-  pid_t pid = 0; ///< of the worker to wait for
+  pid_t pid = 0; ///< the worker to wait for
 };
 
 struct ServerReply
 {
-  pid_t pid = 0;  ///< of the new worker; negative when it could not be started
-  int status = 0; ///< of the ended worker, from waitpid()
+  pid_t pid = 0;  ///< the new worker; negative when it could not be started
+  int status = 0; ///< how the worker ended, from waitpid()
 };
 
 /** A request of the program to a worker. The text of the message is the file's path; its descriptor is the memory for
@@ -81,7 +81,7 @@ struct ServerReply
 struct WorkerRequest
 {
   VoxelRequest::Source source = VoxelRequest::Source::DicomFile;
-  std::uint64_t size = 0;    ///< of the voxels, in bytes
+  std::uint64_t size = 0;    ///< bytes of the voxels
   std::uint64_t memory = 0;  ///< bytes that the worker may allocate
   std::uint64_t seconds = 0; ///< processor time that the worker may use
 };

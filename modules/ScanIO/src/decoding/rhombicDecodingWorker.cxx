@@ -122,7 +122,8 @@ private:
   void * m_Address = MAP_FAILED;
 };
 
-/** Turns off the warnings of ITK and GDCM, which are not about damage. Only libjpeg's warnings of damage remain. */
+/** Turns off the warnings of ITK and GDCM, which are not about damage. Only libjpeg's
+ * warnings of damage remain. */
 void
 SilenceWarnings()
 {
@@ -147,7 +148,7 @@ TakeOutput(int output)
   return text.substr(0, text.find('\n'));
 }
 
-/** Unpacks voxels. Throws also when a codec only warns of damage, as it then invents voxels. */
+/** Unpacks voxels. A warning of damage is a failure, too: the codec has made up the missing voxels. */
 void
 Work(const ReceivedMessage<WorkerRequest> & request, SharedVoxels & voxels, int output)
 {

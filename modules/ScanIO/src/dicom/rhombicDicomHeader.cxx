@@ -92,7 +92,7 @@ struct Element
   std::uint32_t length = 0;
 };
 
-/** Thrown and caught in this file. */
+/** A defect of the header. Thrown and caught in this file only. */
 struct Damage
 {
   std::string what;
@@ -458,7 +458,7 @@ private:
   std::uintmax_t m_Size;
   std::uintmax_t m_Position = 0;
   std::size_t m_NumberOfElements = 0;
-  std::size_t m_NumberOfItems = 0; ///< of wanted sequences
+  std::size_t m_NumberOfItems = 0; ///< items of the sequences that are kept
 };
 
 /** Whether a file without preamble begins as a data set: with an element of group 8 or 2. */

@@ -23,7 +23,7 @@ namespace
 struct FileSlices
 {
   std::shared_ptr<const DicomImageFile> file;
-  std::vector<std::size_t> indices; ///< of the slices in the stack
+  std::vector<std::size_t> indices; ///< positions of the slices in the stack
 };
 
 std::vector<FileSlices>
@@ -129,8 +129,7 @@ FitsInto(const SliceValues & values)
           values.highest <= static_cast<double>(std::numeric_limits<TPixel>::max()));
 }
 
-/** Writes rescaled values, with arbitrary ones for padding. Writes nothing when the values are beyond the pixel type.
- */
+/** Writes rescaled values; those of padding are arbitrary. Writes nothing when the values are beyond the pixel type. */
 template <typename TRaw, typename TPixel>
 SliceValues
 Rescale(const DicomSlice & slice, const TRaw * stored, TPixel * pixels)
@@ -198,7 +197,7 @@ ForEachFrame(const FileSlices & one, const std::vector<DicomSlice> & slices, Vox
   }
 }
 
-/** Threads that the destructor joins, after a call of \a stop. */
+/** Threads. The destructor calls \a stop and joins them. */
 class Threads
 {
 public:

@@ -88,7 +88,7 @@ ReadLabels(const DicomDataSet & dataSet, const DicomImageFile & file)
 /** Slices at equal distances along the normal, and the slice of each frame. */
 struct EvenSlices
 {
-  double first = 0; ///< from the first frame, in mm
+  double first = 0; ///< distance of the first slice from the first frame, in mm
   double step = 0;
   std::size_t count = 1;
   std::vector<std::size_t> sliceOfFrame;
@@ -114,8 +114,8 @@ IsSameStep(double first, double second)
   return std::abs(first - second) <= 0.02 * std::min(first, second);
 }
 
-/** The common divisor of the steps between distances, from a guess. It is refined by the smallest steps first, so that
- * it is accurate enough when it has to count the slices of a large step. */
+/** Refines a guess of the distance between slices, of which all steps between frames are multiples. The smallest steps
+ * come first, so that the distance is accurate enough to count the slices of a large step. */
 double
 RefineStep(const std::vector<double> & places, double guess)
 {
@@ -137,8 +137,9 @@ RefineStep(const std::vector<double> & places, double guess)
   return step;
 }
 
-/** Even slices, with about the given step, that contain all places: the line of least squares through the places over
- * their slice numbers. Nothing when a place is off that line by more than 2 % of a step and rounding. */
+/** Fits slices of equal distance, about \a guess, to the positions of frames (\a places): the least-squares line of
+ * position over slice number. Nothing when a position is off that line by more than 2 % of a step and rounding, or two
+ * frames would be in one slice. */
 std::optional<EvenSlices>
 FitSlices(const std::vector<double> & places, double guess)
 {
@@ -181,9 +182,10 @@ struct SliceTags
   double thickness = 0;
 };
 
-/** The slices of frames at these places. Their step is the smallest distance of two places, unless SpacingBetweenSlices
- * and SliceThickness agree on a smaller one: then no two adjacent slices have frames. For a single place, the step is
- * SpacingBetweenSlices. */
+/** The slices of frames at the positions \a places, in mm along the normal. The step is SpacingBetweenSlices if
+ * SliceThickness agrees with it and it fits; it may be smaller than all distances of frames, when no two adjacent
+ * slices have frames. Otherwise the step is the smallest distance of two frames, or SpacingBetweenSlices if that does
+ * not fit. For a single position, it is SpacingBetweenSlices. */
 EvenSlices
 FindSlices(const std::vector<double> & places, const SliceTags & tags, const DicomImageFile & file, Scan & scan)
 {
@@ -260,7 +262,7 @@ DistancesOf(const Frames & frames)
   return distances;
 }
 
-/** All slices from the first to the last with a frame; those between them may be without. */
+/** All slices from the first frame to the last one; slices in between may have no frame. */
 EvenSlices
 PlaceFrames(const Frames & frames, const SliceTags & tags, Scan & scan)
 {
@@ -268,7 +270,7 @@ PlaceFrames(const Frames & frames, const SliceTags & tags, Scan & scan)
   const std::vector<double> distances = DistancesOf(frames);
   const std::vector<double> places = DistinctDistances(distances);
   EvenSlices slices = FindSlices(places, tags, file, scan);
-  // A file of few frames must not cause any amount of memory to be allocated.
+  // Bounds the memory that a small file with distant frames can request.
   const std::size_t mostSlices = std::max<std::size_t>(1024, 64 * places.size());
   if (slices.count > mostSlices)
   {

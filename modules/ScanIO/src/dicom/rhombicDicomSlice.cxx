@@ -78,7 +78,7 @@ ReadPixelFormat(const DicomHeader & header)
   return format;
 }
 
-/** Why not all pixels of the header are in the file; empty if they are. */
+/** Why the file lacks pixels that its header describes; empty if it has all. */
 std::string
 FindPixelDamage(const DicomHeader & header, const DicomPixelFormat & format)
 {

@@ -130,8 +130,8 @@ FindBlocks(const std::vector<double> & steps)
   return blocks;
 }
 
-/** The larger of the median of up to five steps before and that of up to five steps after step \a i. A step that is
- * much larger than this is a gap and not a change from one block of slices to the next. */
+/** The larger of two medians: of up to five steps before step \a i, and of up to five after it. A step that is much
+ * larger than both is a gap, and not the border between two blocks of slices with different steps. */
 double
 UsualStepAround(const std::vector<double> & steps, std::size_t i)
 {
@@ -149,7 +149,7 @@ UsualStepAround(const std::vector<double> & steps, std::size_t i)
 bool
 IsMultipleAmidUsual(const std::vector<double> & steps, std::size_t i, double usual)
 {
-  constexpr double tolerance = 0.05; // of a step
+  constexpr double tolerance = 0.05; // relative to a step
   const auto isUsual = [usual](double step) { return std::abs(step - usual) <= tolerance * usual; };
   const auto step = steps.begin() + static_cast<std::ptrdiff_t>(i);
   const double ratio = std::round(*step / usual);

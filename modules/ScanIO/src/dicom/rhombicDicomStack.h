@@ -28,9 +28,8 @@ struct DicomStack
  * All other stacks are uneven, and their slices keep their own positions.
  *
  * Throws Failure(Geometry), naming files: when a slice has no plane, there is only one slice, two are at the same
- * position, one is shifted sideways against the next by more than a pixel beyond the tilt of most, all are shifted by
- * more than a tilt of 60 degrees; and, as the options say, for gaps and for tilted (by more than 0.001 rad) or uneven
- * stacks. */
+ * position, one is shifted sideways against the next by a pixel more than the median shift, or the tilt is more than 60
+ * degrees; and, unless the options accept them, for gaps, for tilts of more than 0.001 rad and for uneven steps. */
 DicomStack
 StackSlices(std::vector<DicomSlice> & slices, const ScanReadOptions & options);
 

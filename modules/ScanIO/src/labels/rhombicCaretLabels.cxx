@@ -150,7 +150,7 @@ private:
   LabelCollector m_Labels;
   bool m_IsInTable = false;
   bool m_IsInLabel = false;
-  std::map<std::string, std::string> m_Attributes; ///< of the label that is being read
+  std::map<std::string, std::string> m_Attributes; ///< attributes of the label that is being read
   std::string m_Name;
 };
 

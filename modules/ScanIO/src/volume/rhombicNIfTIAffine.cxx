@@ -186,7 +186,7 @@ PlaceNIfTIVolume(const NIfTIHeader & header,
       RefuseGeometry(path, "its qform holds numbers that are not finite; export it again from its source");
     }
     report.disagreement = distance * millimetresPerUnit;
-    constexpr double tolerance = 1e-2; // of a voxel: quaternions are rounded
+    constexpr double tolerance = 1e-2; // relative to a voxel: quaternions are rounded
     if (distance > tolerance * SmallestStep(affine))
     {
       scan.notes.push_back(path.string() + " gives two positions in the patient, up to " +
