@@ -3,7 +3,7 @@
 //
 //   StreamLargeVolume volume.mha 250.5 64 surface.stl
 //
-// Of the volume, two slabs are in memory at a time: one as it was read, one on the lattice; for each tenth plane of
+// Two slabs of the volume are in memory at a time: one as it was read, one on the lattice; for each tenth plane of
 // them, about 20 planes in float; two bits for each sample; and the surface. The file is read three times; uncompressed
 // MetaImage files can be read in slabs, other files come whole. The mesh file is the same for any number of slabs.
 

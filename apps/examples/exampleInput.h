@@ -21,7 +21,7 @@
 namespace example
 {
 
-/** Says in one line what went wrong, and returns the exit code. */
+/** Prints what went wrong in one line, and returns the exit code. */
 inline int
 Report(const std::exception & error)
 {
@@ -136,7 +136,7 @@ ReadAs(const std::string & what, const std::string & path, const TRead & read)
   }
 }
 
-/** Refuses a file that itk::ImageFileReader would convert to 3-D images of a pixel type without a word. */
+/** Refuses a file that itk::ImageFileReader would silently convert to a 3-D image of a pixel type. */
 template <typename TPixel>
 void
 RequirePixels(const itk::ImageIOBase & file)

@@ -21,12 +21,12 @@ struct Denoising
     None,
     Gaussian,      ///< on the lattice (itk::FCCGaussianImageFilter); fast; rounds corners and shrinks small structures
     EdgePreserving ///< on the scan's grid (itk::GradientAnisotropicDiffusionImageFilter, after P. Perona and J. Malik
-                   ///< 1990); slow; keeps thin and small structures, but also the roughness of edges, and makes steps
-                   ///< of coarse voxels
+                   ///< 1990); slow; keeps thin and small structures, but also rough edges, and makes coarse
+                   ///< voxels visible as steps
   };
 
   Kind kind = Kind::None;
-  double sigma = 0.0; ///< mm: of the Gaussian, or of a Gaussian that smooths flat regions as much
+  double sigma = 0.0; ///< mm: standard deviation of the Gaussian, or of the one that smooths flat regions as much
   double edge = 0.0;  ///< EdgePreserving: gradients above this are edges, in the volume's units per mm
 };
 

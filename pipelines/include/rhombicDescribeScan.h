@@ -22,20 +22,20 @@ struct SuggestedThreshold
 };
 
 /** \class ScanDescription
- * \brief What is in a file or folder. */
+ * \brief The content of a file or folder. */
 struct ScanDescription
 {
   /** The volume that was read; none where a folder has several series of which none was chosen or could be read. */
   std::variant<std::monostate, Scan, FCCVolume> volume;
 
-  Intensities intensities;                         ///< of the volume
+  Intensities intensities;                         ///< intensities of the volume
   std::vector<SuggestedThreshold> thresholds;      ///< none for label maps
-  std::optional<std::vector<LabelSummary>> labels; ///< of the volume, or of the label map named for it
-  std::vector<SeriesSummary> series;               ///< all in the folder, with their spacings; DICOM only
+  std::optional<std::vector<LabelSummary>> labels; ///< labels of the volume, or of the label map named for it
+  std::vector<SeriesSummary> series;               ///< all series in the folder, with their spacings; DICOM only
   std::string choice;                              ///< why the series that was read was chosen
-  std::size_t filesConsidered = 0;                 ///< see Scan, as for the next one
+  std::size_t filesConsidered = 0;                 ///< as Scan::filesConsidered, and so is the next one
   std::map<std::string, std::size_t> filesSkipped;
-  std::vector<std::string> notes; ///< of scan, label map and single files
+  std::vector<std::string> notes; ///< notes on the scan, the label map and single files
 
   bool
   HasVolume() const

@@ -23,7 +23,7 @@ struct ScanSource
 {
   std::filesystem::path path; ///< anything that ReadScan() reads, or a lattice volume that WriteFCCImage() wrote
   ScanReadOptions read;
-  LatticeSettings lattice; ///< of lattice volumes, only the denoising has an effect
+  LatticeSettings lattice; ///< for lattice volumes, only the denoising has an effect
 };
 
 /** \class LabelSelection

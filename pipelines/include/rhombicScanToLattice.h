@@ -20,7 +20,7 @@ namespace rhombic
 struct LatticeSettings
 {
   double density = itk::FCCLattice::NyquistDensity; ///< lattice sites per sample of the scan
-  std::array<double, 3> spacing{ 0.0, 0.0, 0.0 };   ///< of the lattice in mm (see itk::FCCImage); 0: from the density
+  std::array<double, 3> spacing{ 0.0, 0.0, 0.0 };   ///< lattice spacing in mm (see itk::FCCImage); 0: from the density
   itk::SeparableKernel kernel = itk::SeparableKernel::CubicBSpline;
   std::uintmax_t maximumMemory = 0; ///< bytes for scan and lattice; 0: the lattice takes half of the free memory
   Denoising denoising;              ///< none by default

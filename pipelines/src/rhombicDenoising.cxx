@@ -64,7 +64,8 @@ FromReal(const RealImage & real)
   return image;
 }
 
-/** The explicit scheme's steps: short enough to be stable, and so many that what is no edge is smoothed by sigma. */
+/** The steps of ITK's explicit scheme: short enough to be stable, and as many as smooth regions without edges by sigma.
+ */
 struct Steps
 {
   unsigned int count;
@@ -72,7 +73,7 @@ struct Steps
 };
 
 /** ITK's scheme multiplies differences by 1 / spacing once, where a diffusion in mm does so twice: its time is in mm,
- * and a step adds 2 length spacing to sigma^2 along each axis. ITK complains of steps beyond a 16th of the smallest
+ * and a step adds 2 length spacing to sigma^2 along each axis. ITK warns of steps beyond a 16th of the smallest
  * spacing. */
 Steps
 FindSteps(double sigma, const RealImage::SpacingType & spacing)
@@ -101,7 +102,7 @@ DescribeDuration(double seconds)
                isShort ? "second" : "minute");
 }
 
-/** After the filter's first iteration, says how long all of them take if that is long. */
+/** After the filter's first iteration, notes how long all of them will take, if that is long. */
 template <typename TFilter>
 void
 AnnounceDuration(TFilter & filter, const Events & events)
@@ -126,7 +127,7 @@ KeepEdges(RealImage::Pointer image, const Denoising & denoising, const Events & 
   filter->SetNumberOfIterations(steps.count);
   filter->SetTimeStep(steps.length);
   filter->SetFixedAverageGradientMagnitude(denoising.edge);
-  filter->SetConductanceParameter(1.0); // of that gradient
+  filter->SetConductanceParameter(1.0); // relative to that gradient
   filter->InPlaceOn();
   filter->SetInput(image);
   ObserveProgress(*filter, "smoothing", events);

@@ -13,7 +13,8 @@ namespace
 
 constexpr double NotablePercent = 1.0; // smaller differences of volumes are not mentioned
 
-/** The voxels that the surface should enclose, in mm^3, counted without it; unknown where parts were left out. */
+/** Volume in mm^3 of the voxels that the surface should enclose, counted without the surface. Nothing where parts were
+ * left out. */
 std::optional<double>
 CountVoxels(const MeshedSurface & surface, const std::optional<Scan> & scan)
 {
@@ -95,7 +96,7 @@ FileInspection::Measure(const itk::TriangleSurface & read, MeshedSurface & surfa
   m_Events.Note(Summarize(surface.scene.name, surface.measures));
 }
 
-/** Says how finishing changed the volume of the kept parts. */
+/** Notes how finishing changed the volume of the kept parts. */
 void
 FileInspection::NoteFinish(const MeshedSurface & surface) const
 {
@@ -111,7 +112,7 @@ FileInspection::NoteFinish(const MeshedSurface & surface) const
   }
 }
 
-/** Says by how much the volume was off when the surface was extracted, beyond the uncertainty. */
+/** Notes by how much the surface's volume was off after extraction, if by more than the uncertainty. */
 void
 FileInspection::NoteThinParts(const MeshedSurface & surface) const
 {

@@ -93,7 +93,7 @@ public:
     return extracted;
   }
 
-  /** Leaves out of a request's surface what is around the body. */
+  /** Removes the parts around the body from a request's surface. */
   EnclosedParts
   LeaveOutSurroundings(const FCCVolume & volume,
                        const SurfaceRequest & request,

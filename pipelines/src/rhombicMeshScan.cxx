@@ -106,8 +106,9 @@ SizeOf(const itk::TriangleSurface & surface)
   return { ComputeVolume(surface), ComputeArea(surface), surface.GetNumberOfTriangles() };
 }
 
-/** The volume inside the scan's isosurface, estimated from the lattice. Nothing for some of its parts only, for a
- * lattice of another field or of few samples, and for an uncertainty of half the volume or more. */
+/** The volume inside the scan's isosurface, estimated from the lattice. Nothing if only some parts of it are kept, if
+ * the lattice samples another field than the scan or has few sites, or if the uncertainty is half the volume or more.
+ */
 std::optional<IsosurfaceVolume>
 EstimateIsosurface(const LoadedSource & loaded,
                    const SurfaceRequest & request,

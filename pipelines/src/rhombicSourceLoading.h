@@ -21,14 +21,14 @@ SourceVolume
 LoadVolume(const ScanSource & source, const Events & events);
 
 /** \class LoadedSource
- * \brief What surfaces are extracted from. */
+ * \brief The lattice volume that surfaces are extracted from, and the scan behind it. */
 struct LoadedSource
 {
   std::optional<Scan> scan;                 ///< none when the source is a lattice volume or a label map
   std::optional<TableRemoval> tableRemoval; ///< what was removed from the scan
   FCCVolume lattice;                        ///< null without requests
-  itk::ImageBase<3>::Pointer grid;      ///< of the scan, without its values; null when there is none or it is slanted
-  std::vector<SurfaceRequest> requests; ///< with their isovalues
+  itk::ImageBase<3>::Pointer grid;          ///< grid of the scan, without values; null for no or a slanted scan
+  std::vector<SurfaceRequest> requests;     ///< with their isovalues
   std::optional<LabelMap> labels;
 
   /** The scan, or the label map when that is the source; null for lattice volumes. */

@@ -43,7 +43,7 @@ ReportEnclosedParts(const EnclosedParts & parts)
            { "keptPartsCutBySides", parts.numberCutBySides } };
 }
 
-/** What is known of a label's surface without its triangles. */
+/** The report of a label's surface, without its triangles. */
 Report
 ReportLabel(const LabelSurface & surface, const std::string & name)
 {

@@ -24,21 +24,22 @@ namespace itk
  * Pixels may be any integers from char to unsigned long long, float or double; for those of scans (uint8, int16,
  * uint16, int32 and float) the filter is compiled in the library. Whether a sample is inside is exact for all types.
  * Between samples, and for normals, differences from the isovalue count as float32 has them; those of 64-bit integers
- * beyond 2^53 may be rounded to 0 before, as those of doubles below 1e-45 are: then points are still on the edges that
- * are cut, but not where the values tell.
+ * beyond 2^53 may be rounded to 0 before, as those of doubles below 1e-45 are: then points are still on cut edges, but
+ * may be anywhere on them.
  *
  * What is between the samples depends on the mode, see FCCIsosurfaceMode:
  * - Tetrahedra, Octahedra, Parallelepipeds: there is one point on each cut edge of the cells, where linear
  *   interpolation crosses the isovalue.
- * - Fine: the tetrahedra with points where the cubic through four samples on the edge's line crosses it, or for the
- *   longer edges along x, one that also passes through the value in their middle, which the sites around tell.
+ * - Fine: the tetrahedra, with points where the cubic through four samples on the edge's line crosses the isovalue. On
+ *   the longer edges along x, the cubic also passes through the value in the edge's middle, interpolated from the sites
+ *   around it.
  * - Lean (default): each of these points moves to the nearer end of its edge; those of one site become one vertex, so
  *   that triangles straddle the surface of the samples' reconstruction about the site, and triangles that lose a side
  *   vanish. On smooth surfaces that is a third of the triangles of Tetrahedra, and of far better shape, nearer to the
  *   truth than marching cubes. Where it would change the surface's topology (the points of a site form no disk, an edge
  *   would have more than two triangles, or a vertex fewer than three), a site's points gather in parts or stay as in
  *   Fine, so rough surfaces gain less, and noisy ones take longer. Triangles of thin parts may pass through each other,
- *   and a speck of few triangles may come out inside out: UntangleSurface() and TurnMisfacingShells() set that right.
+ *   and a speck of few triangles may be inside out: UntangleSurface() and TurnMisfacingShells() repair both.
  * Points on edges stay at least MinimumFraction of the edge away from both ends (more where 32-bit positions need it):
  * so no triangle is degenerate, even where samples equal the isovalue.
  *
@@ -65,15 +66,15 @@ namespace itk
  * most sites of the surface are split and it comes to half the size of the surface.
  *
  * **Streaming.** With NumberOfStreamDivisions above 1 the filter asks for the input in that many slabs of planes of
- * constant z, one after the other, with three planes more on either side, so that of a volume larger than the memory
- * only a slab is in it, if what is upstream can stream; if not, nothing is lost. The output has the same bytes. The
- * input is passed over to classify its samples and to fill the surfaces, for Lean also to count before, which keeps 12
- * bytes for each of the surfaces' points until they are filled. Upstream filters run again for each slab. From the
- * second slab on, an abort of this filter reaches them at their next ProgressEvent; while ITK makes the first, before
- * this filter's StartEvent, abort what is upstream instead, as in any pipeline. A slab is divided among no more threads
- * than it has tens of planes, so that memory hardly grows with their number. Between slabs the input's data are
- * released if its ReleaseDataFlag says so. Afterwards the input's requested region and its buffer are a slab: to have
- * the whole of it, call its UpdateLargestPossibleRegion(). An image without a source is read where it lies.
+ * constant z, one after the other, with three planes more on either side, so that only a slab of the volume is in
+ * memory if the upstream filters can stream. The output has the same bytes. The input is passed over to classify its
+ * samples and to fill the surfaces, for Lean also to count before, which keeps 12 bytes for each of the surfaces'
+ * points until they are filled. Upstream filters run again for each slab. From the second slab on, an abort of this
+ * filter reaches them at their next ProgressEvent; ITK makes the first slab before this filter's StartEvent: during
+ * that time abort the upstream filters themselves, as in any pipeline. A slab is divided among no more threads than it
+ * has tens of planes, so that memory hardly grows with their number. Between slabs the input's data are released if its
+ * ReleaseDataFlag says so. Afterwards the input's requested region and its buffer are a slab: to have the whole of it,
+ * call its UpdateLargestPossibleRegion(). An image without a source is read where it lies.
  *
  * Throws when an isovalue is not finite, when the surface has 2^32 points or more, when its points are too close
  * together for 32-bit positions, or when samples are missing from the input's buffer. An isovalue outside the image's

@@ -277,7 +277,7 @@ FCCIsosurfaceFilter<TInputImage>::RegionOf(const Planes & division, SizeValueTyp
 {
   ImageRegion<3> region = this->GetRegion();
   const SizeValueType depth = region.GetSize(2);
-  const SizeValueType margin = (planes - depth) / 2; // of the signs
+  const SizeValueType margin = (planes - depth) / 2; // planes of signs beyond the image on either side
   const SizeValueType before = margin + around;
   const SizeValueType begin = division.begin - std::min(before, division.begin);
   const SizeValueType end = std::min(division.end + around - std::min(margin, division.end + around), depth);

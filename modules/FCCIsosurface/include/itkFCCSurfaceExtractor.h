@@ -58,11 +58,11 @@ struct FCCScalarField
   FCCFrame frame;
   bool insideIsBelow;
   bool closed;            ///< whether the surface closes where a body reaches the image's border
-  double minimumFraction; ///< of an edge that a point stays away from its ends
-  bool isInMemory;        ///< whether the whole image is, or else the current slab and PlanesAround it
+  double minimumFraction; ///< least distance of a point from the ends of its edge, relative to the edge
+  bool isInMemory;        ///< whether the whole image is in memory, not only the current slab with PlanesAround
   RowReader readRow;
   ValueReader readValues;
-  std::pmr::memory_resource * scratch; ///< for what is kept during one call of Count() or Fill(), by any thread
+  std::pmr::memory_resource * scratch; ///< working memory of one call of Count() or Fill(), for any thread
 };
 
 /** \class FCCSurfaceExtractor

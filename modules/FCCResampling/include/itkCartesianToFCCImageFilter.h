@@ -64,7 +64,7 @@ namespace itk
  *
  * Overridden pipeline methods: VerifyPreconditions() (parameters in range), GenerateOutputInformation() (places the
  * lattice; refuses slice origins that are not in order), GenerateInputRequestedRegion() (the kernel's reach),
- * GenerateData() (large memory pages for the output; failures of all threads).
+ * GenerateData() (large memory pages for the output; exceptions of all threads are passed on).
  *
  * \ingroup FCCResampling
  */

@@ -101,7 +101,7 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateOutputInformation(
   SpacingType first; // from the middle of the input's first sample to the lattice point (0, 0, 0), in samples
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    constexpr double tolerance = 1e-9; // of a sample, against rounding
+    constexpr double tolerance = 1e-9; // relative to a sample, against rounding
     spacing[axis] = m_OutputSpacing[axis] > 0.0 ? m_OutputSpacing[axis] : scale * inputSpacing[axis];
     const double step = spacing[axis] / inputSpacing[axis];
     const double units = lengths[axis] / step;

@@ -35,7 +35,8 @@ namespace itk
  * perpendicular.
  *
  * Overridden pipeline methods: GenerateOutputInformation() (places the lattice), GenerateInputRequestedRegion() (the
- * half-band filter's reach), GenerateData() (large memory pages for the output; failures of all threads).
+ * half-band filter's reach), GenerateData() (large memory pages for the output; exceptions of all threads are passed
+ * on).
  *
  * \ingroup FCCResampling
  */

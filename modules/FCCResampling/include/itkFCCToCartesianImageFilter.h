@@ -28,8 +28,8 @@ namespace itk
  *
  * Overridden pipeline methods: VerifyPreconditions() (parameters in range), VerifyInputInformation() (the two inputs
  * need not share a grid), GenerateOutputInformation() (places the grid), GenerateInputRequestedRegion() (the sites
- * around the voxels; no pixels of the reference), GenerateData() (large memory pages for the output; failures of all
- * threads).
+ * around the voxels; no pixels of the reference), GenerateData() (large memory pages for the output; exceptions of all
+ * threads are passed on).
  *
  * \ingroup FCCResampling
  */

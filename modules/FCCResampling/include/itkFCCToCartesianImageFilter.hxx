@@ -64,7 +64,7 @@ FCCToCartesianImageFilter<TInputImage, TOutputImage>::GenerateOutputInformation(
   std::array<double, 3> first{}; // the first voxel's centre in lattice coordinates
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    constexpr double tolerance = 1e-9; // of a voxel, against rounding
+    constexpr double tolerance = 1e-9; // relative to a voxel, against rounding
     const double unitsPerIndex = axis == 0 ? 2.0 : 1.0;
     const double units = unitsPerIndex * static_cast<double>(extent.GetSize(axis));
     const double begin = unitsPerIndex * static_cast<double>(extent.GetIndex(axis)) - 0.5;
@@ -107,7 +107,7 @@ FCCToCartesianImageFilter<TInputImage, TOutputImage>::FindNeededSamples(const Ou
   typename TInputImage::RegionType
 {
   const TInputImage * const input = this->GetInput();
-  std::array<double, 3> lowest{}; // of the voxels' centres, in lattice coordinates
+  std::array<double, 3> lowest{}; // lowest centre of a voxel, in lattice coordinates
   std::array<double, 3> highest{};
   for (unsigned int corner = 0; corner < 8; ++corner)
   {

@@ -108,7 +108,7 @@ public:
 private:
   Size<3> m_Size;
   const LoadRow & m_Load;
-  std::vector<IndexValueType> m_Sources; // of the even and odd samples in turn
+  std::vector<IndexValueType> m_Sources; // where even and odd samples in turn come from
   IndexValueType m_First;
   std::vector<float> m_Row;
 };

@@ -9,8 +9,8 @@
 namespace itk
 {
 
-/** A ring of float rows for a pass that moves on along an axis. Row n is kept at place n modulo the number of rows,
- * until a later row needs the place. */
+/** A ring of float rows for a pass that moves on along an axis. Row n is kept at index n modulo the number of rows,
+ * until a later row overwrites it. */
 class RowRing
 {
 public:

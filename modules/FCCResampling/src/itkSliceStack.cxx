@@ -30,7 +30,7 @@ StepAlong(const ImageBase<3> & image, unsigned int axis)
 bool
 AreEven(const std::vector<VectorType> & origins, const VectorType & step)
 {
-  constexpr double tolerance = 1e-6; // of a step
+  constexpr double tolerance = 1e-6; // relative to a step
   for (std::size_t k = 0; k < origins.size(); ++k)
   {
     if ((origins[k] - step * static_cast<double>(k)).GetNorm() > tolerance * step.GetNorm())

@@ -51,9 +51,9 @@ namespace itk
  *     the same, RMS error 0.01            .058  4.2 0.3   .068  4.9 0.5   .069  4.3 0.3   .08  5.2 -2.1    -4.3
  *     Whitaker's, 8 times a Gaussian of 1 .084 13.6 3.5   .035  4.0 0.4   .080 10.8 2.3   .13  0.9 -1.7   -11.3
  *
- * Inside and outside are treated alike, but for touching tubes, so that the masks on both sides of a wall get the same
- * wall. Distances are in voxels, whatever their spacing. Beyond the image the mask continues as it is at the border;
- * leave a margin of 4 voxels around it, except where the scan ends.
+ * Inside and outside are treated alike, except where tubes of both touch, so that the masks on both sides of a wall get
+ * the same wall. Distances are in voxels, whatever their spacing. Beyond the image the mask continues as it is at the
+ * border; leave a margin of 4 voxels around it, except where the scan ends.
  *
  * Requests the whole input and makes the whole output, because sheets, vessels and spurs are connected parts of any
  * size. The output has the same bytes for any number of threads, on any processor. Extra memory: 11 bytes per voxel.

@@ -36,10 +36,10 @@ struct LabelSurface
   std::size_t numberOfVoxels = 0;
   double voxelMillilitres = 0.0;
   double surfaceMillilitres = 0.0;
-  std::size_t pieces = 0;          ///< of the label: voxels connected through faces, edges or corners
-  std::size_t surfacePieces = 0;   ///< of the surface: closed shells of positive volume
-  bool isTorn = false;             ///< more pieces than the label has, even of voxels connected through faces alone
-  std::size_t finerPieces = 0;     ///< pieces whose lattice is finer than asked for
+  std::size_t pieces = 0;        ///< pieces of the label: voxels connected through faces, edges or corners
+  std::size_t surfacePieces = 0; ///< pieces of the surface: closed shells of positive volume
+  bool isTorn = false;           ///< more pieces than the label has, even than its voxels connected through faces alone
+  std::size_t finerPieces = 0;   ///< pieces whose lattice is finer than asked for
   std::size_t protectedVoxels = 0; ///< voxels of parts so thin that smoothing would have lost them
 
   /** The relative difference between the volumes of surface and voxels. */

@@ -53,7 +53,7 @@ public:
 private:
   using PieceImage = itk::Image<std::uint32_t, 3>;
 
-  PieceImage::Pointer m_Pieces; ///< of the label's box: the number of each voxel's piece, from 1; or 0
+  PieceImage::Pointer m_Pieces; ///< in the label's box: the number of each voxel's piece, from 1; or 0
   itk::ImageRegion<3> m_ScanRegion;
   std::vector<itk::ImageRegion<3>> m_Boxes; ///< by piece
 };

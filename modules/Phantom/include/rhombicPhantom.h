@@ -51,7 +51,7 @@ PhantomEnclosedBy(double threshold);
 
 struct PhantomSettings
 {
-  double spacing = 2.0; ///< of the samples along each axis, in mm, 0.5 to 10
+  double spacing = 2.0; ///< distance of samples along each axis, in mm, 0.5 to 10
 };
 
 using PhantomScan = itk::Image<std::int16_t, 3>;

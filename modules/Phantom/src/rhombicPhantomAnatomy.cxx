@@ -234,7 +234,7 @@ struct Rib
   double back;
   double drop;      ///< down to the lowest point
   double rise;      ///< from there up to the breastbone
-  double lastAngle; ///< of floating ribs and those that join the one above; 0 for those that reach the breastbone
+  double lastAngle; ///< where floating ribs, and those that join the rib above, end; 0 for ribs up to the breastbone
 };
 
 void

@@ -12,8 +12,8 @@ namespace rhombic
  * \brief The box in which a surface is compared, and the unit of its errors. */
 struct SurfaceErrorSettings
 {
-  Vector3 lower;     ///< of the box; only triangles whose centroid is in the box are judged
-  Vector3 upper;     ///< of the box; surfaces end or are closed at a volume's border, so the box keeps away from it
+  Vector3 lower;     ///< lower corner of the box; only triangles whose centroid is in the box are judged
+  Vector3 upper;     ///< upper corner; the box must not reach the volume's border, where surfaces end or are closed
   double unit = 1.0; ///< h: the unit of distances
 };
 
@@ -22,7 +22,7 @@ struct SurfaceErrorSettings
 struct SurfaceErrors
 {
   itk::SizeValueType triangles = 0; ///< number of judged triangles
-  double area = 0.0;                ///< of the judged triangles, in units squared
+  double area = 0.0;                ///< area of the judged triangles, in units squared
 
   /** Distance to the true surface in units, weighted by area. */
   double meanDistance = 0.0;
@@ -34,7 +34,7 @@ struct SurfaceErrors
   double facetNormalError = 0.0;  ///< mean over the triangles, at their centroids
   double vertexNormalError = 0.0; ///< mean over the points; not a number if the surface has no normals
 
-  double meanQuality = 0.0;        ///< of itk::ComputeTriangleQuality()
+  double meanQuality = 0.0;        ///< mean of itk::ComputeTriangleQuality()
   double poorFraction = 0.0;       ///< share of triangles with a quality below itk::TriangleSurfaceQuality::Poor
   double unresolvedFraction = 0.0; ///< share of the area that is farther than three units from the true surface
 };

@@ -11,7 +11,7 @@ namespace rhombic
 struct FieldProjection
 {
   Vector3 point{};
-  Vector3 normal{};        ///< of the surface there, of length 1, pointing outside
+  Vector3 normal{};        ///< unit normal of the surface there, pointing outside
   double distance = 0.0;   ///< between the two points, not negative
   bool isResolved = false; ///< false when there is no surface within three units; distance is then 3 units
 };

@@ -14,8 +14,8 @@ constexpr std::size_t waveBatch = 8;
 /** Sums over plane waves at a point, with t = k . p + phase, in waves. */
 struct WaveSums
 {
-  double cosine = 0.0; ///< of cos(2 pi t)
-  Vector3 sine{};      ///< of sin(2 pi t) k
+  double cosine = 0.0; ///< sum of cos(2 pi t)
+  Vector3 sine{};      ///< sum of sin(2 pi t) k
 };
 
 /** \param wavesX,wavesY,wavesZ,phases \a count numbers each, a multiple of waveBatch

@@ -35,7 +35,7 @@ struct TriangleSurfaceSimplificationReport
   SizeValueType trianglesBefore = 0;
   SizeValueType trianglesAfter = 0;
   SimplificationEnd end = SimplificationEnd::Target;
-  SizeValueType placesTakenBack = 0; ///< places where a check failed and triangles were put back
+  SizeValueType placesTakenBack = 0; ///< boxes in which a check failed and triangles were put back
 };
 
 /** Reduces the number of triangles and keeps the topology.

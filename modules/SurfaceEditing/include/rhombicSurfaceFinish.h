@@ -28,7 +28,7 @@ struct SurfaceFinish
    * have a larger error. */
   std::optional<double> maximumError; ///< in mm, above 0; default: a spacing of the lattice
   std::size_t maximumTriangles = 0;   ///< 0: no limit
-  double share = 1.0;                 ///< of the surface's triangles to keep, above 0
+  double share = 1.0;                 ///< share of the surface's triangles to keep, above 0
 
   /** Whether surfaces are simplified. */
   bool
@@ -68,7 +68,7 @@ RemoveParts(itk::TriangleSurface & surface,
  * \brief Moves of points, and volumes in mm^3. */
 struct SmoothingResult
 {
-  double maximumMove; ///< allowed, in mm
+  double maximumMove; ///< largest move that was allowed, in mm
   itk::TriangleSurfaceSmoothingReport moves;
   double volumeBefore;
   double volumeAfter;
@@ -78,10 +78,10 @@ struct SmoothingResult
  * \brief Counts of triangles, distances in mm, and volumes in mm^3. */
 struct SimplificationResult
 {
-  double maximumError; ///< allowed
+  double maximumError; ///< largest error that was allowed
   itk::TriangleSurfaceSimplificationReport triangles;
-  double meanDistance;    ///< between the surfaces before and after, the larger of both directions
-  double maximumDistance; ///< likewise
+  double meanDistance;    ///< mean distance between the surfaces before and after, the larger of both directions
+  double maximumDistance; ///< maximum distance, likewise
   double volumeBefore;
   double volumeAfter;
 };

@@ -22,11 +22,11 @@ using TriangleType = TriangleSurface::TriangleType;
 
 constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
 
-constexpr double SmallestCosineOfCollapse = 0.2; // of a triangle's normal when an edge collapses
+constexpr double SmallestCosineOfCollapse = 0.2; // cosine of the largest turn of a normal when an edge collapses
 constexpr double SliverQuality = 0.1;    // the normal of a worse triangle is unreliable, and no new one may be worse
 constexpr unsigned int MostAround = 64;  // triangles around a point that vanishes; more would take too long
-constexpr double NearEnough = 0.7;       // of the limit, so that positions in between are near, too
-constexpr double FarthestPosition = 1.0; // of a collapsed edge from its middle, in lengths of the edge
+constexpr double NearEnough = 0.7;       // relative to the limit, so that positions in between are near, too
+constexpr double FarthestPosition = 1.0; // distance of the new position from the edge's middle, in lengths of the edge
 
 /** A triangle's normal, twice as long as its area, and its quality: 1 if equilateral, 0 without area. */
 struct Shape
@@ -185,15 +185,15 @@ private:
   double m_LargestError = 0.0;
   std::priority_queue<Candidate> m_Candidates;
 
-  // of triangles
+  // By triangle.
   std::vector<TriangleType> m_Triangles;
   std::vector<std::uint8_t> m_IsLeft;
   std::vector<std::uint8_t> m_IsNew;
   std::size_t m_NumberLeft;
 
-  // of points
-  std::vector<CornerId> m_FirstCorner; ///< the other corners at the point follow by m_NextCorner
-  std::vector<CornerId> m_NextCorner;  ///< of each corner
+  // By point, except m_NextCorner.
+  std::vector<CornerId> m_FirstCorner; ///< one corner at the point; the others follow by m_NextCorner
+  std::vector<CornerId> m_NextCorner;  ///< by corner: the next one at the same point
   std::vector<PositionType> m_Positions;
   std::vector<PositionType> m_Normals; ///< empty if the surface has none
   std::vector<Quadric> m_Quadrics;
@@ -205,14 +205,14 @@ private:
   std::vector<std::uint32_t> m_Marks; ///< equal to m_Mark for the points that are marked
   std::uint32_t m_Mark = 0;
 
-  // only if there is an original to stay near to
-  std::vector<TriangleId> m_Near; ///< of each point, a triangle of the original nearby
+  // Empty unless the distance from the original is limited.
+  std::vector<TriangleId> m_Near; ///< by point: a triangle of the original nearby
   std::vector<PointId> m_WitnessPoints;
   std::vector<PositionType> m_WitnessPositions;
-  std::vector<WitnessId> m_FirstWitness; ///< of each triangle; its other witnesses follow by m_NextWitness
+  std::vector<WitnessId> m_FirstWitness; ///< by triangle; its other witnesses follow by m_NextWitness
   std::vector<WitnessId> m_NextWitness;
 
-  // of the candidate that is tried
+  // The candidate that is tried.
   TriangleId m_NearPosition = 0;                            ///< a triangle of the original near its position
   std::vector<FanTriangle> m_Fan;                           ///< the triangles around its position
   std::vector<std::pair<WitnessId, TriangleId>> m_Assigned; ///< its witnesses and the triangles nearest to them

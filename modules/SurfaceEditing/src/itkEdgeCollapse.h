@@ -20,8 +20,8 @@ struct SurfacePart
   std::vector<Witness> witnesses;
 };
 
-/** The surface to stay near to: sampled positions of the triangles must be near it, its witnesses near the triangles.
- */
+/** The surface before simplification, and the limit of the distance from it: sampled positions of the new triangles
+ * must be near it, and its witnesses near the new triangles. */
 struct OriginalSurface
 {
   const TriangleTree * tree;                     ///< null if the distance has no limit; then there are no witnesses
@@ -29,7 +29,7 @@ struct OriginalSurface
   const std::vector<std::uint32_t> * nearPoints; ///< for each point of the surface, a triangle of the original nearby
 };
 
-/** Edges collapse until one of the two is reached. */
+/** Where collapsing ends: at the first of the two limits. */
 struct CollapseGoal
 {
   double error;              ///< largest error of an edge in mm, see CollapseEdges()
@@ -52,7 +52,7 @@ struct MovedPoint
   std::uint32_t near;                 ///< a triangle of the original nearby
 };
 
-/** What is left of a part. */
+/** A part after its edges have collapsed. */
 struct CollapsedPart
 {
   SurfacePart part;                     ///< first the triangles that have not changed, then the new ones

@@ -8,7 +8,7 @@ namespace
 {
 
 constexpr double SmallestShareOfSide = 0.25; // smaller pieces are not cut
-constexpr double NearForCentres = 0.9;       // of the distance
+constexpr double NearForCentres = 0.9;       // relative to the distance
 
 PositionType
 Middle(const PositionType & a, const PositionType & b)

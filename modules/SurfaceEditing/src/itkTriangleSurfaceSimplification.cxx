@@ -34,8 +34,8 @@ constexpr std::size_t SimplifiedBlock = 1024;
 constexpr std::array<double, 3> Cuts{ 0.5, 0.36, 0.64 };
 
 constexpr double FirstError = 1.0 / 32.0; // in mean sides of triangles, doubled with each step
-constexpr double LargestShareLeft = 0.95; // of the triangles after a worthwhile step
-constexpr double ShareForWitnesses = 0.9; // of maximumError, so that the surface between witnesses is mostly within it
+constexpr double LargestShareLeft = 0.95; // share of the triangles that are left after a worthwhile step, at most
+constexpr double ShareForWitnesses = 0.9; // relative to maximumError, to keep the surface between witnesses within it
 constexpr unsigned int MostRounds = 32;   // of putting triangles back; the second half puts back whole patches
 
 double
@@ -71,12 +71,12 @@ Grown(Box box, float by)
   return box;
 }
 
-/** Some triangles of the surface before a step, and what is left of them. Where the new triangles turn out to be bad,
- * the old ones are held and the patch is simplified again. */
+/** Some triangles of the surface before and after a step. Where a check of the new triangles fails, the old ones are
+ * held and the patch is simplified again. */
 struct Patch
 {
   SurfacePart before;
-  Box bounds; ///< of the triangles before
+  Box bounds; ///< box around the triangles before
   std::vector<std::uint8_t> isHeld;
   CollapsedPart after;
 
@@ -211,17 +211,17 @@ private:
   TriangleSurface & m_State;
   const OriginalSurface m_Original;
   SizeValueType m_PlacesPutBack = 0;
-  bool m_IsHeldBack = false; ///< by maximumError, in the last step
+  bool m_IsHeldBack = false; ///< whether maximumError kept edges from collapsing in the last step
 
   // Empty if the distance has no limit.
   std::vector<TriangleId> m_NearPoints; ///< for each point of m_State, a triangle of the original nearby
   std::vector<TriangleId>
     m_WitnessTriangles; ///< for each point of the original, the triangle of m_State that covers it
 
-  // Of one step.
+  // The current step.
   TriangleSurface::Pointer m_Before;
   std::vector<Patch> m_Patches;
-  std::vector<CollapseGoal> m_Goals; ///< of the patches
+  std::vector<CollapseGoal> m_Goals; ///< by patch
   std::vector<TriangleId> m_Begin;   ///< first triangle of each patch in m_State, and the end of the last
   std::vector<PatchId> m_PatchOf;    ///< the patch of each triangle of m_State
   std::vector<std::uint8_t> m_IsNew; ///< for each triangle of m_State, whether it was not there before the step

@@ -16,7 +16,7 @@ namespace itk
 namespace
 {
 
-using Ids = std::vector<std::uint32_t>; ///< of points or triangles
+using Ids = std::vector<std::uint32_t>; ///< ids of points or triangles
 using Points = TriangleSurface::PointsContainer;
 
 constexpr int MostUntanglingRounds = 40;

@@ -25,7 +25,7 @@ struct SurfaceFileSettings
 {
   SurfaceFileSpace space = SurfaceFileSpace::LPS;
 
-  /** Is called with the surfaces as read back, before the file appears; if it throws, the target stays as it was. */
+  /** Called with the surfaces as read back, before the file appears. If it throws, an older file stays as it was. */
   std::function<void(const std::vector<SceneSurface> & read)> inspect{};
 };
 
@@ -33,7 +33,8 @@ struct SurfaceFileSettings
 std::string
 GetSurfaceFileExtensions();
 
-/** Throws Failure(Usage) if WriteSurfaces() would because of the path; a check before long work. */
+/** Throws Failure(Usage) for a path to which WriteSurfaces() can't write this number of surfaces. Call it before long
+ * work. */
 void
 CheckSurfacePath(const std::filesystem::path & path, std::size_t numberOfSurfaces = 1);
 

@@ -13,7 +13,7 @@ namespace rhombic
 /** A surface's name, colour and opacity, and the number of its points and faces in a file. */
 struct SurfacePart
 {
-  SceneSurface look; ///< has no surface
+  SceneSurface look; ///< name, colour and opacity; its surface is null
   std::uintmax_t points = 0;
   std::uintmax_t faces = 0;
 };

@@ -23,7 +23,8 @@ struct SurfaceMeasures
   std::array<double, 3> centroid{};
   double longestDiameter = 0.0;
 
-  /** Of the scan's samples inside the surface, weighted by their voxels' volumes; none without a scan. */
+  /** Mean and standard deviation of the scan's samples inside the surface, weighted by their voxels' volumes; none
+   * without a scan. */
   std::optional<double> meanValue;
   std::optional<double> standardDeviation;
 

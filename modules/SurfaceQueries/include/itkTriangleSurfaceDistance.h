@@ -22,8 +22,8 @@ struct TriangleSurfaceDistance
  * at most 64 along a side, until no side is longer, and each part has a centre. If there are more than \a
  * mostTriangles, that many are chosen at regular intervals.
  *
- * All 0 if \a surface has no triangles, infinite if \a other has none. Time O(places log triangles); memory 8 bytes per
- * place. The same for any number of threads. */
+ * All 0 if \a surface has no triangles, infinite if \a other has none. Time O(p log triangles) for p sample points;
+ * memory 8 bytes for each. The same for any number of threads. */
 TriangleSurfaceDistance
 ComputeDistance(const TriangleSurface & surface,
                 const TriangleTree & other,

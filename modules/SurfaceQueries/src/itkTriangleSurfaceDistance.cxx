@@ -151,7 +151,7 @@ MeanSide(const TriangleSurface & surface)
 struct ChosenTriangles
 {
   std::size_t step;
-  std::vector<std::uint64_t> firstPlace; ///< of each triangle, after the places of the points; and the end of the last
+  std::vector<std::uint64_t> firstPlace; ///< index of each triangle's first sample point, after the points; and the end
   std::vector<float> pointAreas; ///< area in mm^2 that each point stands for; 0 for points of no chosen triangle
 
   std::size_t
@@ -215,7 +215,7 @@ MeasureCentres(const TriangleSurface & surface,
       const CornersType corners = CornersOf(surface, surface.GetTriangles()[n * chosen.step]);
       const unsigned int parts = CountParts(corners, spacing);
       const double numberOfParts = static_cast<double>(parts) * parts;
-      // The inner corners of parts are not sampled; the centres stand for their share, too.
+      // The inner corners of parts are not sampled; their weight goes to the centres.
       const double area = Area(corners) / numberOfParts * (1.0 - 0.25 / numberOfParts);
       std::size_t place = chosen.firstPlace[n];
       ForEachPart(corners, parts, [&](const PositionType & centre) {

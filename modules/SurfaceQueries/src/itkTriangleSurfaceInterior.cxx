@@ -149,8 +149,8 @@ private:
 
   const TriangleSurface & m_Surface;
   const PlaneFrame & m_Frame;
-  double m_Column; ///< of the plane's origin
-  double m_Row;    ///< of the plane's origin
+  double m_Column; ///< column of the plane's origin
+  double m_Row;    ///< row of the plane's origin
   const std::vector<double> & m_PointHeights;
   double m_Height;
 };

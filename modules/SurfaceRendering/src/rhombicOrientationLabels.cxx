@@ -12,7 +12,7 @@ namespace rhombic
 namespace
 {
 
-constexpr double LetterShare = 0.03;    // of the picture's shorter side
+constexpr double LetterShare = 0.03;    // size, relative to the picture's shorter side
 constexpr double SmallestLetter = 12.0; // pixels
 
 double

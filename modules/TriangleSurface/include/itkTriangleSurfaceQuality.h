@@ -10,8 +10,8 @@ namespace itk
  * \brief How well shaped the triangles of a surface are; all 0 without triangles. */
 struct TriangleSurfaceQuality
 {
-  double mean = 0.0;          ///< of ComputeTriangleQuality(), over the triangles
-  double minimum = 0.0;       ///< of ComputeTriangleQuality(), over the triangles
+  double mean = 0.0;          ///< mean of ComputeTriangleQuality() over the triangles
+  double minimum = 0.0;       ///< least ComputeTriangleQuality() of the triangles
   double poorFraction = 0.0;  ///< share of the triangles with a quality below Poor
   double smallestAngle = 0.0; ///< in degrees, over all triangles
 

@@ -44,7 +44,7 @@ struct FCCBoxSpline
   /** The two kinds of tetrahedra that are pieces. */
   enum Shape : unsigned char
   {
-    Octant, ///< of an octahedron around a site: x, y, z > 0 and x + y + z < 1 from it
+    Octant, ///< eighth of an octahedron around a site: x, y, z > 0 and x + y + z < 1 from it
     Cube    ///< the tetrahedron of a unit cube's odd corners, from a corner that is a site
   };
 
@@ -52,8 +52,8 @@ struct FCCBoxSpline
   struct Piece
   {
     Shape shape;
-    SiteType origin;    ///< of the piece's own coordinates
-    SiteType direction; ///< of the piece's own coordinates: 1 or -1 for each axis
+    SiteType origin;    ///< origin of the piece's own coordinates
+    SiteType direction; ///< directions of the piece's own axes: 1 or -1 for each
     SupportType sites;  ///< the sites s with phi(p - s) > 0 for the points p within the piece
   };
 

@@ -145,7 +145,8 @@ struct FCCCellCases
   constexpr void
   AddTriangles(Case & result, const FCCCell & cell, const Loop & loop)
   {
-    IndexValueType cost[FCCCell::MaximumEdges][FCCCell::MaximumEdges] = {}; // of a stretch with its closing diagonal
+    // By the ends of a stretch: its cost with its closing diagonal.
+    IndexValueType cost[FCCCell::MaximumEdges][FCCCell::MaximumEdges] = {};
     std::uint8_t third[FCCCell::MaximumEdges][FCCCell::MaximumEdges] = {};
     for (unsigned int length = 2; length < loop.size; ++length)
     {

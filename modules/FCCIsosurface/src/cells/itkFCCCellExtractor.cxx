@@ -95,8 +95,8 @@ private:
 /** The cut edges that the cells of *layer* k share, those whose anchors are in plane k. */
 struct LayerEdges
 {
-  const FCCCutEdges * inPlane[3]; ///< of the planes k - 1, k and k + 1
-  const FCCCutEdges * between[2]; ///< between the planes k - 1 and k, and k and k + 1
+  const FCCCutEdges * inPlane[3]; ///< cut edges within the planes k - 1, k and k + 1
+  const FCCCutEdges * between[2]; ///< cut edges between the planes k - 1 and k, and k and k + 1
 };
 
 /** Finds the vertex ids of the cells of one kind whose anchors are in one row. */

@@ -9,7 +9,7 @@ namespace itk
 /** \class FCCStoredEdges
  * \brief The edges of the lattice, each of which is *stored* by one of its ends: by type and in two groups.
  *
- * The type of an edge is its place in FCCLattice::OwnedEdges, the steps from the sites that store edges to their other
+ * The type of an edge is its index in FCCLattice::OwnedEdges, the steps from the sites that store edges to their other
  * ends. Sets of types are bits.
  */
 struct FCCStoredEdges

@@ -18,7 +18,7 @@ namespace
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/** The place of a step in FCCLattice::NearestNeighbors. */
+/** The index of a step in FCCLattice::NearestNeighbors. */
 constexpr unsigned int
 PlaceOf(IndexValueType x, IndexValueType y, IndexValueType z)
 {

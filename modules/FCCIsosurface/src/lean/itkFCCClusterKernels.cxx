@@ -23,8 +23,8 @@ constexpr std::size_t Capacity = FCCClusterBatch::Capacity;
 /** The crossings that the vertices of a batch gather, one lane for each vertex. */
 struct ClusterCrossings
 {
-  alignas(64) float mean[3][Capacity];     ///< of the crossings, from the site
-  alignas(64) float fraction[Capacity];    ///< of the edges before their crossings, the mean
+  alignas(64) float mean[3][Capacity];     ///< mean of the crossings, from the site
+  alignas(64) float fraction[Capacity];    ///< mean fraction of the edges before their crossings
   alignas(64) float along[3][Capacity];    ///< sum of the edges' steps
   alignas(64) float changing[3][Capacity]; ///< the same, each by how much the values change along it
 };

@@ -136,7 +136,7 @@ public:
     }
   }
 
-  /** Sets what FCCClusterBatch says of the vertices that are added from now on. */
+  /** Sets the limits of FCCClusterBatch for the vertices that are added from now on. */
   void
   SetLimits(float minimumFraction, float farthest)
   {

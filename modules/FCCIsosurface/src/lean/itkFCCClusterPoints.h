@@ -41,7 +41,7 @@ private:
 
   /** How far a vertex moves from its crossings' mean to the surface, in units of the distance of nearest neighbours. */
   static constexpr float FarthestOfWhole = 0.5f;
-  static constexpr float FarthestOfPart = 0.25f; ///< of a split site: so that its parts stay apart
+  static constexpr float FarthestOfPart = 0.25f; ///< for the parts of a split site, so that they stay apart
 
   /** The field around the sites of one row in the image. */
   class Row;

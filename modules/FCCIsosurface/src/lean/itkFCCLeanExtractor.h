@@ -81,12 +81,11 @@ private:
   const FCCSigns & m_Signs;
   FCCScalarField m_Field;
   FCCSplitSites m_Splits;
-  std::vector<RememberedPlane> m_Remembered; ///< of each plane, if the image is not in memory
-  std::vector<SizeValueType> m_FirstPoint;   ///< first point of each plane; counts until Resolve()
-  std::vector<SizeValueType>
-    m_FirstTriangle;                   ///< of each plane: where the triangles of a slab that begins there are written
-  std::vector<SizeValueType> m_Filled; ///< of each plane: the number of triangles of the slab that began there
-  std::vector<std::uint8_t> m_AreOutside; ///< of each point, unless closed: it belongs to a site outside the image
+  std::vector<RememberedPlane> m_Remembered;  ///< by plane; empty if the image is in memory
+  std::vector<SizeValueType> m_FirstPoint;    ///< first point of each plane; counts until Resolve()
+  std::vector<SizeValueType> m_FirstTriangle; ///< by plane: where the triangles of a slab that begins there are written
+  std::vector<SizeValueType> m_Filled;        ///< by plane: the number of triangles of the slab that began there
+  std::vector<std::uint8_t> m_AreOutside;     ///< by point, unless closed: whether its site is outside the image
 };
 
 } // namespace itk

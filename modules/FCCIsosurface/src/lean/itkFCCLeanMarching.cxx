@@ -26,7 +26,7 @@ struct LeanColumn
   struct Row
   {
     const WordType * signs;
-    const WordType * starts; ///< of FCCNearerEnds, type by type, as the next two
+    const WordType * starts; ///< rows of FCCNearerEnds, type by type, as the next two
     const WordType * ends;
     const WordType * splitCrossings;
     FCCNumberedBits::Row wholeSites;

@@ -181,7 +181,7 @@ private:
   unsigned int m_Split;
   unsigned int m_Crossings{ 0 }; ///< directions of the crossings that the site is nearer to
   FCCSiteParts m_Parts[FCCSiteStar::Sites];
-  std::uint8_t m_NearerSite[FCCSiteStar::Edges]; ///< of the edges that are cut
+  std::uint8_t m_NearerSite[FCCSiteStar::Edges]; ///< by edge, if it is cut
   unsigned int m_NumberOfPolygons{ 0 };
   Polygon m_Polygons[FCCSiteStar::Tetrahedra];
   unsigned int m_NumberOfTriangles{ 0 };

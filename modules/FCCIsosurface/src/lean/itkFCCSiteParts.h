@@ -113,7 +113,7 @@ private:
   struct Row
   {
     std::vector<WordType> bits;
-    std::vector<FCCSiteParts> parts; ///< of the sites of the bits, ascending
+    std::vector<FCCSiteParts> parts; ///< by set bit, ascending
   };
 
   static SizeValueType

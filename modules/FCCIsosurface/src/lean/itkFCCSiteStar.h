@@ -99,7 +99,7 @@ public:
     return m_Tetrahedra;
   }
 
-  /** The place in GetEdges() of the edge of a tetrahedron's crossing. */
+  /** The index in GetEdges() of the edge of a tetrahedron's crossing. */
   unsigned int
   GetEdge(const Tetrahedron & tetrahedron, const FCCTetrahedronPolygon::Crossing & crossing) const
   {

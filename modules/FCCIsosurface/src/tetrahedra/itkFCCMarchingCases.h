@@ -56,8 +56,8 @@ struct FCCMarchingCases
 
   struct Case
   {
-    std::uint8_t triangles = 0;        ///< of all three tetrahedra
-    std::uint8_t regularTriangles = 0; ///< of the regular tetrahedron, which come first
+    std::uint8_t triangles = 0;        ///< number for all three tetrahedra
+    std::uint8_t regularTriangles = 0; ///< number for the regular tetrahedron, which come first
     std::uint8_t edges[6][3] = {};     ///< the edges of each triangle's corners
   };
 

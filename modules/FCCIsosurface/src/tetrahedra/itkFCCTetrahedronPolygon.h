@@ -25,7 +25,7 @@ struct FCCTetrahedronPolygon
 
   std::uint8_t size = 0;
   Crossing crossings[4] = {};
-  std::uint8_t decider = 0; ///< place of the crossing between the lowest site inside and the lowest site outside
+  std::uint8_t decider = 0; ///< index of the crossing between the lowest site inside and the lowest site outside
 
   /** The polygon with its first corner where a mesh with moved crossings cuts a quadrilateral into two triangles: from
    * the decider to the opposite corner when the decider's nearer end is inside, else along the other diagonal. All that

@@ -11,7 +11,7 @@
 namespace itk
 {
 
-/** Says that a region may be divided along all axes. */
+/** The value of \a undivided for a region that may be divided along all axes. */
 constexpr unsigned int AllDivided = 3;
 
 /** GenerateData() of this module's filters, after AllocateOutputs(). Checks the input's samples, divides the requested

@@ -74,7 +74,7 @@ public:
   {
     SizeValueType begin;
     SizeValueType end;
-    RowArithmetic::RowTaps taps; ///< of all sites
+    RowArithmetic::RowTaps taps; ///< taps of all sites
   };
 
   /** \param k plane

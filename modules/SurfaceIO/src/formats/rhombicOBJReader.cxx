@@ -296,7 +296,8 @@ private:
     return *m_Part;
   }
 
-  /** Makes a surface of the part's triangles. \a indices must be None for all points; they are again afterwards. */
+  /** Makes a surface of the part's triangles. \a indices is working memory: None for each point of the file, before and
+   * after the call. */
   SceneSurface
   MakeSurface(Part & part, std::vector<std::uint32_t> & indices) const
   {
@@ -350,11 +351,11 @@ private:
   itk::TriangleSurface::PointsContainer m_Points;
   itk::TriangleSurface::NormalsContainer m_Normals;
   std::vector<std::uint32_t> m_NormalOfPoint; ///< index; None before the first face, Several if faces disagree
-  std::vector<Corner> m_Corners;              ///< of the face that is being read
+  std::vector<Corner> m_Corners;              ///< corners of the face that is being read
   std::array<std::string, 3> m_Key;           ///< object, group, material
   std::map<std::array<std::string, 3>, std::size_t> m_PartOfKey;
   std::vector<Part> m_Parts;
-  Part * m_Part = nullptr; ///< of the next face, if known
+  Part * m_Part = nullptr; ///< part of the next face; null when it must be looked up
   Materials m_Materials;
 };
 

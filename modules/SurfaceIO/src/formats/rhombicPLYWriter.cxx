@@ -11,7 +11,8 @@ namespace rhombic
 namespace
 {
 
-/** A comment for the reader, which tells it where the surfaces are: one line of JSON in ASCII. */
+/** The comment by which ReadPLY() divides the file into surfaces: name, colour, opacity and numbers of points and
+ * triangles, as one line of JSON in ASCII. */
 std::string
 DescribeSurface(const SceneSurface & scene)
 {

@@ -250,7 +250,7 @@ private:
     XML_StopParser(m_Parser.get(), XML_FALSE);
   }
 
-  /** Checks that the file is complete, because arrays that are not read are not missed. */
+  /** Checks that the file is complete. Reading would not find that out: some arrays are never read. */
   void
   CheckEnd() const
   {

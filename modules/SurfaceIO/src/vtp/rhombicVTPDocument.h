@@ -17,7 +17,7 @@ struct VTPArray
   std::string name;
   std::string type;         ///< Float32, Int64, String...
   std::string format;       ///< ascii, binary or appended
-  std::uint64_t offset = 0; ///< of appended data, from VTPDocument::appendedAt
+  std::uint64_t offset = 0; ///< begin of appended data, from VTPDocument::appendedAt
   std::string text;         ///< between its tags
 };
 

@@ -68,7 +68,7 @@ public:
     return bytes;
   }
 
-  /** As Take(), but stays at the place. */
+  /** As Take(), but the bytes are not taken. */
   std::string
   Peek(std::uint64_t size) const
   {

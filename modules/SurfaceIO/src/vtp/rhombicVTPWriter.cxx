@@ -222,7 +222,7 @@ private:
   std::uint64_t m_Points = 0;
   std::uint64_t m_Triangles = 0;
   bool m_HaveNormals = true;
-  std::uint64_t m_Offset = 0; ///< of the next array, from the start of the appended data
+  std::uint64_t m_Offset = 0; ///< begin of the next array, from the start of the appended data
   std::vector<AppendedArray> m_Arrays;
 };
 
