@@ -85,8 +85,8 @@ main(int argc, char ** argv)
   bool isVerbose = false;
   bool isQuiet = false;
   app.add_option("--threads", threads, "number of threads (default: all cores)")->check(CLI::Range(1u, 1024u));
-  const auto verbose = app.add_flag("-v,--verbose", isVerbose, "say more, with times");
-  app.add_flag("-q,--quiet", isQuiet, "say nothing but errors")->excludes(verbose);
+  const auto verbose = app.add_flag("-v,--verbose", isVerbose, "print more, with times");
+  app.add_flag("-q,--quiet", isQuiet, "print errors only")->excludes(verbose);
 
   const CommandRun * chosen = nullptr;
   std::vector<CommandRun> runs;

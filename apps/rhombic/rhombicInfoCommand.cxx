@@ -164,7 +164,7 @@ PrintSeries(const ScanDescription & description)
   if (!description.series.empty() && choice.empty())
   {
     PrintLine("choose",
-              "one with --series and its id; its place or SeriesNumber will do, too, where no other has that number");
+              "one with --series and its id, or its position or SeriesNumber if no other series has that number");
   }
 }
 

@@ -41,16 +41,16 @@ void
 ScanOptions::AddSource(CLI::App & parser)
 {
   parser.add_option("SCAN", m_Path, "DICOM folder, or NIfTI, NRRD or MetaImage file, or a lattice volume (.fcc.nrrd)");
-  parser.add_option(
-    "--series",
-    m_Series,
-    "which DICOM series: id, UID, place in the list or SeriesNumber (default: the one with most slices by far)");
+  parser.add_option("--series",
+                    m_Series,
+                    "which DICOM series: id, UID, position in the list or SeriesNumber (default: the one with at least "
+                    "twice as many slices as any other)");
   parser.add_option("--frame", m_Frame, "which volume of a file that holds several, from 0")
     ->check(CLI::NonNegativeNumber);
   parser
     .add_option("--on-irregular",
                 m_OnIrregular,
-                "tilted, sheared or unevenly spaced scans: resample from their true places, or error")
+                "tilted, sheared or unevenly spaced scans: resample from their true positions, or error")
     ->capture_default_str();
   parser.add_option("--on-gap", m_OnGap, "missing or damaged slices: error, or interpolate across the gap")
     ->capture_default_str();
@@ -59,7 +59,7 @@ ScanOptions::AddSource(CLI::App & parser)
                 m_MaximumMemory,
                 "most memory for a volume, and then for a picture, as 8G or 500M (default: half of what is free)")
     ->transform(CLI::AsSizeValue(false));
-  parser.add_flag("--analyze", m_AcceptsAnalyze, "read Analyze 7.5 files, which do not say where left and right are");
+  parser.add_flag("--analyze", m_AcceptsAnalyze, "read Analyze 7.5 files, in which left and right are not defined");
   parser.add_flag("--follow-links", m_FollowsLinks, "follow symbolic links in folders");
 }
 
@@ -90,11 +90,12 @@ ScanOptions::AddLattice(CLI::App & parser)
     ->excludes(spacing)
     ->excludes(kernel);
   parser
-    .add_option("--denoise",
-                m_Denoising,
-                "take noise out before surfaces are made: gaussian:SIGMA in mm; or edges:SIGMA,EDGE, which keeps what "
-                "is steeper than EDGE, in the scan's units per mm, and is slow; or none (render --list-presets says "
-                "what suits each)")
+    .add_option(
+      "--denoise",
+      m_Denoising,
+      "remove noise before surfaces are made: gaussian:SIGMA in mm; or edges:SIGMA,EDGE, which keeps gradients "
+      "above EDGE, in the scan's units per mm, and is slow; or none (render --list-presets lists a suggestion "
+      "for each preset)")
     ->capture_default_str();
 }
 

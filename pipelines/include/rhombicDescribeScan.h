@@ -14,10 +14,10 @@ namespace rhombic
 {
 
 /** \class SuggestedThreshold
- * \brief An isovalue worth trying. */
+ * \brief A suggested isovalue, and the tissue that it shows. */
 struct SuggestedThreshold
 {
-  std::string surface; ///< what it shows, as "bone"
+  std::string surface; ///< the tissue, such as "bone"
   double isovalue;
 };
 

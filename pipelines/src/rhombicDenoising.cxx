@@ -182,8 +182,8 @@ CheckDenoising(const Denoising & denoising)
   if (denoising.kind == Denoising::Kind::EdgePreserving && !IsPositive(denoising.edge))
   {
     throw Failure(FailureKind::Usage,
-                  "--denoise edges needs to know how steep an edge is, in the scan's units per mm: a positive number "
-                  "behind sigma, as in edges:0.7,60.");
+                  "--denoise edges needs the least gradient of an edge, in the scan's units per mm: a positive number "
+                  "after sigma, as in edges:0.7,60.");
   }
 }
 

@@ -89,7 +89,7 @@ CheckSlantedScan(const LatticeSettings & settings)
   {
     throw Failure(FailureKind::Usage,
                   "The scan's slices are tilted, sheared or unevenly spaced, which edge-preserving smoothing does not "
-                  "know of; use --denoise gaussian, which works on the lattice.");
+                  "support; use --denoise gaussian, which works on the lattice.");
   }
 }
 

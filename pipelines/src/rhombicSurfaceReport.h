@@ -8,7 +8,7 @@
 namespace rhombic
 {
 
-/** What surfaces are extracted from: scan, removed objects, denoising and lattice, as far as there are any. */
+/** The source of surfaces: scan, removed objects, denoising and lattice, as far as there are any. */
 Report
 ReportSource(const LoadedSource & loaded, const ScanSource & source);
 

@@ -47,7 +47,7 @@ namespace itk
  * interpolates the samples, with coefficients 3/2 f - 1/24 (sum of the 12 neighbours' f) (M. Kim, A. Entezari, J.
  * Peters, "Box spline reconstruction on the face-centered cubic lattice", 2008): at the edge's two ends, blended; for
  * Lean at the vertex, by the expansion about its site to the second order; on the faces of the image's extent it is
- * that of the face. In noise, where the gradient says little about the next edge, normals and triangles may disagree.
+ * that of the face. In noise, where gradients change from edge to edge, normals and triangles may disagree.
  *
  * With Closed on (the default) everything beyond the image counts as outside, and where a body reaches the border, the
  * surface closes on the faces of the image's extent (see FCCImage), so that it encloses what the samples' Voronoi cells
@@ -81,7 +81,7 @@ namespace itk
  * range gives an empty surface.
  *
  * Overridden pipeline methods: VerifyPreconditions() (finite isovalues), GenerateInputRequestedRegion() (the whole
- * input, or the first slab; GenerateData() asks for the others), CacheInputReleaseDataFlags() (to know of it between
+ * input, or the first slab; GenerateData() asks for the others), CacheInputReleaseDataFlags() (to read the flag between
  * slabs).
  *
  * \ingroup FCCIsosurface

@@ -86,7 +86,7 @@ public:
     /** Calls work(n) for n from 0 to count - 1, on several threads. \a share is that of Resolve()'s progress. */
     std::function<void(SizeValueType count, float share, const std::function<void(SizeValueType n)> & work)> forEach;
 
-    /** Throws when the filter has been told to abort; for any thread, at times. */
+    /** Throws when the filter is to abort. Any thread may call it, from time to time. */
     std::function<void()> checkAbort;
   };
 

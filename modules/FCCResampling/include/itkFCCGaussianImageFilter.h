@@ -70,7 +70,7 @@ public:
   static_assert(std::is_base_of<FCCImage<InputPixelType>, TInputImage>::value, "The input must be an FCCImage");
   static_assert(std::is_base_of<FCCImage<OutputPixelType>, TOutputImage>::value, "The output must be an FCCImage");
   static_assert(std::is_integral<InputPixelType>::value || std::is_floating_point<OutputPixelType>::value,
-                "Samples that are not finite have no place in an integer output");
+                "Samples that are not finite can't be stored in an integer output");
 
   /** Standard deviation in mm, at least 0. Default 0: the output is a copy. */
   itkSetMacro(Sigma, double);

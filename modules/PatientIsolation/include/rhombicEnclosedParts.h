@@ -12,7 +12,7 @@
 namespace rhombic
 {
 
-/** What KeepEnclosedParts() left out of a surface, and what it kept although the scan's sides cut it. */
+/** Results of KeepEnclosedParts(): volumes and numbers of parts left out, and of parts that the scan's sides cut. */
 struct EnclosedParts
 {
   double aroundBody = 0.0;       ///< volume left out around the body, in ml

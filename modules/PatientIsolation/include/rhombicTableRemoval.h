@@ -32,7 +32,7 @@ struct RemovedObject
   itk::Point<double, 3> highest;
 };
 
-/** What RemoveTable() did. */
+/** Results of RemoveTable(). */
 struct TableRemoval
 {
   std::vector<RemovedObject> objects; ///< objects of 1 ml and more, the largest first

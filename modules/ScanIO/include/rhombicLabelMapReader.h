@@ -37,8 +37,8 @@ std::vector<LabelSummary>
 FindLabels(const Scan & scan, const LabelMapSource & source);
 
 /** Reads the label map of a scan, which may have another grid. The options are those of the scan; series and frame are
- * ignored. Throws Failure, also when the two do not lie in the same place (see RequireOverlap()); labels partly outside
- * the scan are noted in the map's scan. */
+ * ignored. Throws Failure, also when the two do not overlap (see RequireOverlap()); labels partly outside the scan are
+ * noted in the map's scan. */
 LabelMap
 ReadLabelMap(const LabelMapSource & source,
              const ScanReadOptions & options,

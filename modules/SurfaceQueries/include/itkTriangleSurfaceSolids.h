@@ -6,7 +6,7 @@
 namespace itk
 {
 
-/** What was removed from a surface. */
+/** Shells that were removed from a surface. */
 struct RemovedShells
 {
   SizeValueType solids = 0;   ///< outer shells

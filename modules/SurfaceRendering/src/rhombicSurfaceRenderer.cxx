@@ -52,7 +52,7 @@ CheckErrors(const vtkRhombicMessages::Scope & messages)
       FailureKind::Display,
       "Drawing failed: " +
         (messages.GetFirstError().empty() ? "OpenGL error " + std::to_string(error) : messages.GetFirstError()) +
-        "; try a smaller picture (rhombic doctor tells what draws here).");
+        "; try a smaller picture (rhombic doctor lists the ways to draw on this machine).");
   }
 }
 

@@ -207,7 +207,7 @@ private:
   std::vector<End> m_Ends;
 };
 
-/** What some points contribute to their component. */
+/** Counts over some points of a component. */
 struct ComponentShape
 {
   std::uint32_t component;

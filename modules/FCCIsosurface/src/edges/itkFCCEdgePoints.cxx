@@ -13,7 +13,7 @@ namespace
  * that site i stores. */
 struct EdgeRows
 {
-  const float * values[4] = {};        ///< at the places -1, 0, 1, 2 along the line; the outer ones for cubics only
+  const float * values[4] = {};        ///< at the positions -1, 0, 1, 2 along the line; the outer ones for cubics only
   const float * gradients[2] = {};     ///< FCCFieldKernels::GradientStride floats a site
   const float * nearMiddle[4] = {};    ///< around the middle of an edge along x, for cubics only
   const float * aroundEnds[2][4] = {}; ///< further away, on either side of the middle

@@ -65,7 +65,7 @@ public:
     return m_Extent;
   }
 
-  /** The site at a place that is counted as the field's are. */
+  /** The site with the given indices, which are counted as the field's are. */
   SiteType
   SiteOf(SizeValueType i, SizeValueType j, SizeValueType k) const
   {

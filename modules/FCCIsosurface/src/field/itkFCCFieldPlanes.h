@@ -67,8 +67,7 @@ public:
   void
   LoadValuesAround(SizeValueType k);
 
-  /** Whether the gradients of a plane are available: they have been loaded, and no later ones since in the same place.
-   */
+  /** Whether the gradients of a plane are available: they have been loaded, and no later plane has overwritten them. */
   bool
   HasGradients(SizeValueType k) const
   {
@@ -84,7 +83,7 @@ public:
   void
   LoadCoefficientsAround(SizeValueType k);
 
-  /** The gradients of one block of sites, at their places in a row of \a gradients: GradientStride floats for each
+  /** The gradients of one block of sites, at their positions in a row of \a gradients: GradientStride floats for each
    * site. The coefficients around the plane must have been loaded, and the row be one of the image. */
   void
   ComputeGradients(SizeValueType j, SizeValueType k, SizeValueType block, float * gradients) const;

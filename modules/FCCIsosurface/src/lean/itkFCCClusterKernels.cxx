@@ -182,7 +182,7 @@ struct Expansion
              (xz * step.x + yz * step.y) + zz * step.z };
   }
 
-  /** The gradient at a place, from the site. */
+  /** The gradient at a position relative to the site. */
   HWY_INLINE Vector
   GradientAt(const Vector & place) const
   {
@@ -203,7 +203,7 @@ struct Expansion
     return value - straddling * (((xx + yy) + zz) - across);
   }
 
-  /** Moves a place to where the expansion about a value of \a level at the site vanishes. */
+  /** Moves a position to where the expansion about a value of \a level at the site vanishes. */
   HWY_INLINE Vector
   Project(float level, Vector place) const
   {

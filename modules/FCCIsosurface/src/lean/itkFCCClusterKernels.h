@@ -29,7 +29,7 @@ struct FCCClusterBatch
 /** Places the vertices of sites: the mean of the gathered crossings, each where the parabola through the values before,
  * at and after the site crosses zero (along x, at both ends and in the middle of the edge), moved to where triangles
  * straddle the surface of the field's second-order expansion about the site. The expansion has the given gradient and
- * the second differences of the twelve nearest neighbours. Where that is further away than the batch says, the
+ * the second differences of the twelve nearest neighbours. Where that is further away than batch.farthest, the
  * expansion does not describe the field, and the mean stays. Normals are along that expansion's gradient where it is
  * within 30 degrees of the one interpolated between the site and its edges' far ends, else along the latter; where the
  * values do not change that way, along the changes of the crossed edges. Whole batches are written.

@@ -178,7 +178,7 @@ public:
     }
   }
 
-  /** The places in the surface that a vertex is written to. */
+  /** The elements of the surface that a vertex is written to. */
   struct Vertex
   {
     TriangleSurface::PointType * point;

@@ -24,9 +24,9 @@ public:
     , m_EdgePoints(region, frame, true, minimumFraction, 1)
   {}
 
-  /** Places the vertices of plane \a k, and their normals unless null, and says of each, unless null, whether its site
-   * is outside the image. The arrays begin with the first of them. The field must have loaded the
-   * gradients of the plane and those next to it, or for points without normals, the coefficients around the plane. */
+  /** Places the vertices of plane \a k, and their normals unless null, and sets for each, unless null, whether its site
+   * is outside the image. The arrays begin with the first of them. The field must have loaded the gradients of the
+   * plane and those next to it, or for points without normals, the coefficients around the plane. */
   void
   Place(const FCCSigns & signs,
         const FCCClusterPlane & plane,

@@ -15,8 +15,8 @@ namespace itk
  * A. Gee, "Regularised marching tetrahedra", 1999), but where the surface would not stay a manifold of the same
  * topology (see FCCSplitSites).
  *
- * Resolve looks at the values around some sites, wherever they are. Where no more than a slab is in memory, Count keeps
- * what Resolve has to know, 12 bytes for each vertex.
+ * Resolve reads the values around some sites of any plane. Where no more than a slab is in memory, Count keeps the data
+ * that Resolve needs, 12 bytes for each vertex.
  */
 class FCCLeanExtractor : public FCCSurfaceExtractor
 {

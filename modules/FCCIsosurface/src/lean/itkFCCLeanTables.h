@@ -8,8 +8,8 @@ namespace itk
 {
 
 /** \class FCCLeanTables
- * \brief What mode `lean` needs to know of the tetrahedra of one kind of step (see FCCMarchingCases), derived at
- * compile time.
+ * \brief The tables of mode `lean` for the tetrahedra of one kind of step (see FCCMarchingCases), derived at compile
+ * time.
  */
 struct FCCLeanTables
 {

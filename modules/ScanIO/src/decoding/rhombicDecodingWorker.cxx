@@ -52,8 +52,8 @@ SecondsUsed()
   return static_cast<std::uint64_t>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) + 1;
 }
 
-/** Sets the limits of the whole process: no core files, few open files, and small files. What libraries print goes to
- * \a output. */
+/** Sets the limits of the whole process: no core files, few open files, and small files. The output of libraries goes
+ * to \a output. */
 void
 LimitFiles(int output)
 {
@@ -159,8 +159,7 @@ Work(const ReceivedMessage<WorkerRequest> & request, SharedVoxels & voxels, int 
   DecodeVoxels({ request.message.source, request.text, request.message.size }, voxels.GetData());
   if (const std::string warning = TakeOutput(output); !warning.empty())
   {
-    RefuseVolume(request.text,
-                 "its pixels are damaged, its decoder says (" + warning + "); copy it again from its source");
+    RefuseVolume(request.text, "its pixels are damaged (" + warning + "); copy it again from its source");
   }
 }
 

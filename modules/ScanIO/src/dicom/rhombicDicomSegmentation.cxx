@@ -193,7 +193,7 @@ FindSlices(const std::vector<double> & places, const SliceTags & tags, const Dic
   {
     if (!(tags.spacing > 0))
     {
-      Refuse(file, FailureKind::Geometry, "it has frames in one plane only and does not say how thick this is");
+      Refuse(file, FailureKind::Geometry, "it has frames in one plane only, and no SpacingBetweenSlices");
     }
     return { places.front(), tags.spacing, 1, {} };
   }
@@ -216,7 +216,7 @@ FindSlices(const std::vector<double> & places, const SliceTags & tags, const Dic
   if (tags.spacing > 0 && !IsSameStep(slices->step, tags.spacing))
   {
     scan.notes.push_back("Slices are " + FormatNumber(slices->step, 4) +
-                         " mm apart, as the places of their frames say; " + "SpacingBetweenSlices says " +
+                         " mm apart by the positions of their frames; " + "SpacingBetweenSlices is " +
                          FormatNumber(tags.spacing, 4) + " mm.");
   }
   return *slices;

@@ -172,7 +172,8 @@ FindWanted(const std::vector<DicomSeries> & series, const std::string & wanted, 
   {
     throw Failure(FailureKind::Usage,
                   std::string(found.empty() ? "No series" : "More than one series") + " in " + folder.string() +
-                    " goes by the name that was asked for; choose by id from " + EnumerateSeries(series) + ".");
+                    " has this id, UID, number or position in the list; choose by id from " + EnumerateSeries(series) +
+                    ".");
   }
   return *found.begin();
 }

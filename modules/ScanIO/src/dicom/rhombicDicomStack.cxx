@@ -278,7 +278,7 @@ DescribeBlocks(const std::vector<SliceBlock> & blocks)
   return text + (blocks.size() > named ? ", ..." : "");
 }
 
-constexpr char AdviceOnIrregular[] = "leave out --on-irregular=error to have them resampled from their true places";
+constexpr char AdviceOnIrregular[] = "leave out --on-irregular=error to have them resampled from their true positions";
 
 /** A note on gaps. Throws Failure when they are not accepted. */
 std::string
@@ -311,7 +311,7 @@ AcceptUnevenSteps(const Slices & slices,
   {
     Refuse(slices, description, AdviceOnIrregular);
   }
-  return "The slices are resampled from their true places, because " + description + ".";
+  return "The slices are resampled from their true positions, because " + description + ".";
 }
 
 /** A note on a tilt. Throws Failure when it is not accepted. */
@@ -324,7 +324,7 @@ AcceptTilt(const Slices & slices, double degrees, const ScanReadOptions & option
   {
     Refuse(slices, description, AdviceOnIrregular);
   }
-  return "The slices are resampled from their true places: " + description + ".";
+  return "The slices are resampled from their true positions: " + description + ".";
 }
 
 } // namespace

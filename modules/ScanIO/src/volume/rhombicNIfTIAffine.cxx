@@ -161,7 +161,7 @@ PlaceNIfTIVolume(const NIfTIHeader & header,
                  Scan & scan)
 {
   const bool isAnalyze =
-    header.kind == NIfTIHeader::Kind::Analyze; // its header has other fields at the places of the codes
+    header.kind == NIfTIHeader::Kind::Analyze; // its header has other fields where NIfTI has the codes
   const bool hasSform = !isAnalyze && header.sformCode > 0;
   const bool hasQform = !isAnalyze && header.qformCode > 0;
   const double millimetresPerUnit = isAnalyze ? 1.0 : MillimetresPerUnit(header);

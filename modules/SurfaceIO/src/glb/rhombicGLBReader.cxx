@@ -549,7 +549,7 @@ ReadGLB(const InputFile & file)
   }
   catch (const Json::exception & error)
   {
-    file.Refuse("its JSON is not what glTF asks for (" + DescribeError(error) + "); export it again");
+    file.Refuse("its JSON does not follow glTF (" + DescribeError(error) + "); export it again");
   }
 }
 
