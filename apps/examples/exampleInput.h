@@ -121,7 +121,7 @@ LowestOf(const TImage & image)
   return lowest;
 }
 
-/** Reads a file through ITK, whose exceptions say in several lines that the file is not as expected. */
+/** Reads a file through ITK. Replaces its exceptions of several lines by one sentence. */
 template <typename TRead>
 void
 ReadAs(const std::string & what, const std::string & path, const TRead & read)

@@ -108,7 +108,7 @@ DescribeMismatch(const CLI::App & program, const CLI::ParseError & error)
   return text.substr(0, text.find(':')) + " needs a value (see " + HelpOf(program) + ").";
 }
 
-/** A value that is no number: CLI11 says "Could not convert: --density = abc". */
+/** A value that is no number. CLI11's message is "Could not convert: --density = abc". */
 std::string
 DescribeConversion(const CLI::App & program, const CLI::ParseError & error)
 {

@@ -23,7 +23,7 @@ struct ExtractedSurface : SceneSurface
 
 /** Extracts a closed isosurface for each request, in their order; requests on the same side of their isovalues share
  * one pass over the volume. Walls close surfaces where the scan ends: on the outer faces of the lattice, or, if the
- * grid is known, of its voxels. Notes tell the number of triangles and the parts left out.
+ * grid is known, of its voxels. Notes give the number of triangles and the parts left out.
  *
  * \param grid the grid of the scan that the volume was made from; null for slanted scans
  *

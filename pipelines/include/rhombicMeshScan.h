@@ -29,7 +29,7 @@ struct MeshScanSettings
 };
 
 /** Writes surfaces of a scan; returns the files' paths. All measures, the distance from the scan's isosurface and the
- * audit are those of the written file, read back. Notes tell the main figures; sidecars and the table hold all of them,
+ * audit are those of the written file, read back. Notes give the main figures; sidecars and the table hold all of them,
  * and what finishing changed. All files appear together at the end, or none does.
  *
  * Throws Failure, also for a surface that has to be watertight and is not. */

@@ -39,7 +39,7 @@ ReportDenoising(const Denoising & denoising);
 Report
 ReportLabels(const std::vector<LabelSummary> & labels);
 
-/** Objects that were removed around the patient: volumes in ml, positions, and the value that took their place. */
+/** Objects that were removed around the patient: volumes in ml, positions, and the value that replaced them. */
 Report
 ReportTableRemoval(const TableRemoval & removal);
 

@@ -41,7 +41,7 @@ CheckLatticeSettings(const LatticeSettings & settings);
 
 /** Resamples a scan onto the lattice, in its own pixel type (itk::CartesianToFCCImageFilter, or
  * itk::CartesianToNestedFCCImageFilter). Sites beside tilted, sheared or uneven slices get the scan's lowest value.
- * Edge-preserving denoising is applied to the scan before, Gaussian denoising to the lattice after. Notes tell the
+ * Edge-preserving denoising is applied to the scan before, Gaussian denoising to the lattice after. Notes give the
  * lattice's size.
  *
  * Throws Failure: Usage for settings out of range, for a nested lattice or edge-preserving denoising of a slanted scan,

@@ -9,7 +9,7 @@ namespace rhombic
 namespace
 {
 
-/** Thresholds worth trying for a modality, which is empty when it is unknown. */
+/** Suggested thresholds for a modality, which is empty when it is unknown. */
 std::vector<SuggestedThreshold>
 SuggestThresholds(const std::string & modality, const Intensities & intensities)
 {

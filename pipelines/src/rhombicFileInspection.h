@@ -10,7 +10,7 @@ namespace rhombic
 {
 
 /** \class FileInspection
- * \brief Measures surfaces as their file holds them, and compares them with the scan. Notes tell the main figures. */
+ * \brief Measures surfaces as their file holds them, and compares them with the scan. Notes give the main figures. */
 class FileInspection
 {
 public:

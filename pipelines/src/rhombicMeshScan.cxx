@@ -63,7 +63,7 @@ PathsOf(const fs::path & mesh, const std::vector<MeshedSurface> & surfaces)
   return paths;
 }
 
-/** Throws Failure where files can't be written, or would take the place of each other or of an input. */
+/** Throws Failure where files can't be written, or would overwrite each other or an input. */
 void
 CheckFiles(const std::vector<fs::path> & meshes, const MeshScanSettings & settings)
 {

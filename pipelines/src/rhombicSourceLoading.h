@@ -16,7 +16,7 @@ namespace rhombic
 /** A volume on a Cartesian grid, or on the lattice. */
 using SourceVolume = std::variant<Scan, FCCVolume>;
 
-/** Reads a scan or a lattice volume. Notes say what it is, and what the reader had to assume. Throws Failure. */
+/** Reads a scan or a lattice volume. Notes describe it and list the assumptions of the reader. Throws Failure. */
 SourceVolume
 LoadVolume(const ScanSource & source, const Events & events);
 

@@ -12,7 +12,7 @@ namespace rhombic
 Report
 ReportSource(const LoadedSource & loaded, const ScanSource & source);
 
-/** How an isosurface was asked for, its size, and what was left out of it. */
+/** The request of an isosurface, its size, and the parts left out of it. */
 Report
 ReportIsosurface(const SurfaceRequest & request, const ExtractedSurface & surface, itk::FCCIsosurfaceMode mode);
 

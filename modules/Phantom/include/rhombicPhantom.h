@@ -35,7 +35,7 @@ PhantomOrgans();
 int
 PhantomLabelAt(const PhantomPoint & point);
 
-/** What a surface at a threshold encloses. */
+/** The organs and the volume that a surface at a threshold encloses. */
 struct PhantomEnclosure
 {
   std::vector<int> labels; ///< the organs inside, ascending
@@ -60,8 +60,8 @@ using PhantomLabels = itk::Image<std::uint8_t, 3>;
 /** The CT in Hounsfield units, with axes along LPS and air all around the body.
  *
  * Each voxel is the rounded average over a cube about its centre. As in a scanner, cubes overlap: their side is twice
- * the spacing, but at most 4 mm, and at least the spacing. So the surface at the mean of two tissues is in its place to
- * a few hundredths of the spacing. The voxels do not depend on the number of threads. Throws Failure: Usage for a
+ * the spacing, but at most 4 mm, and at least the spacing. So the surface at the mean of two tissues is off by a few
+ * hundredths of the spacing only. The voxels do not depend on the number of threads. Throws Failure: Usage for a
  * spacing out of range, Memory. */
 PhantomScan::Pointer
 MakePhantomScan(const PhantomSettings & settings = {});

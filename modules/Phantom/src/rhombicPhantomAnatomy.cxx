@@ -6,7 +6,7 @@
 
 // Lengths are in mm, angles of hoops in radians, turns of ellipsoids in degrees. The body stands on z = 0 and is 700
 // tall: a head, a neck and a trunk down to the hips. Where a number looks arbitrary, it places one part clear of its
-// neighbours; the tests say which parts overlap after a change.
+// neighbours; the tests name the parts that overlap after a change.
 
 namespace rhombic
 {

@@ -58,7 +58,7 @@ struct Grid
   {
     return RangeOf(axis, bounds.low[axis], bounds.high[axis]);
   }
-  /** Where in a slab the sample is that has an index along \a axis (1 or 2), and one along the other axis. */
+  /** The offset in a slab of the sample with index \a along on \a axis (1 or 2), and \a across on the other axis. */
   std::size_t
   PlaceInSlab(unsigned axis, long along, long across) const
   {
@@ -184,7 +184,7 @@ LabelSolid(const Grid & grid, long x, const PhantomSolid & solid, int label, std
   }
 }
 
-/** How much a part changes the value of what is around it. */
+/** The value of a part minus that of the part around it. */
 double
 ContrastOf(const PhantomPart & part)
 {

@@ -12,7 +12,7 @@ namespace itk
  *
  * ITK's pipeline does not guarantee it: the update of an image does nothing if the image has no source, even if its
  * data was released, or if its source failed in an earlier update; and an image that was never allocated has a buffered
- * region too. The message says what to do instead. */
+ * region too. The message names a remedy. */
 template <typename TImage>
 void
 VerifyInputSamples(const ProcessObject & filter, const TImage & input, const typename TImage::RegionType & needed)

@@ -10,7 +10,7 @@ namespace rhombic
 /** \file
  * Limits of memory, in bytes. Each call asks the system for the free memory anew. */
 
-/** Bytes that can be used without swapping, as Linux estimates (MemAvailable); 0 when the system does not say. */
+/** Bytes that can be used without swapping, as Linux estimates (MemAvailable); 0 when the system does not report it. */
 std::uintmax_t
 FreeMemory();
 

@@ -91,8 +91,8 @@ ReadScan(const std::filesystem::path & path, const ScanReadOptions & options = {
 
 /** The series that ReadScan() finds at this path, from headers alone. SeriesSummary::problem is the reason for which
  * ReadScan() would refuse a series, in a sentence that may name files; damage that only unpacking finds is not
- * included. The chosen series is the one that ReadScan() would read; none is chosen when ReadScan() would ask for a
- * choice.
+ * included. The chosen series is the one that ReadScan() would read; none is chosen when ReadScan() would refuse to
+ * choose.
  *
  * Throws Failure: NotFound, Usage (ScanReadOptions::series names none), Unreadable (a file that is no DICOM image). */
 SeriesList

@@ -71,7 +71,7 @@ struct JudgedTriangle
   FieldProjection centroid;
 };
 
-/** A distance in units, and the area that it stands for. */
+/** A distance in units, and its weight, an area. */
 using Distance = std::pair<double, double>;
 
 std::vector<JudgedTriangle>

@@ -56,7 +56,7 @@ struct PartRemoval
   }
 };
 
-/** Fills cavities and removes solids of a surface. Notes say what was filled and removed, with its volume.
+/** Fills cavities and removes solids of a surface. Notes list what was filled and removed, with volumes.
  * \param name of the surface, for messages */
 PartRemoval
 RemoveParts(itk::TriangleSurface & surface,
@@ -87,7 +87,7 @@ struct SimplificationResult
 };
 
 /** \class Refinement
- * \brief Results of RefineSurface(); none for a step that was not asked for, or had nothing to do. */
+ * \brief Results of RefineSurface(); none for a step that was not requested or changed nothing. */
 struct Refinement
 {
   std::optional<SmoothingResult> smoothing;
@@ -97,8 +97,8 @@ struct Refinement
 };
 
 /** Smooths a surface, untangles it, simplifies it, and turns shells that face the wrong way. Untangling moves points by
- * one spacing of the lattice at most, where triangles pass through each other. Simplification makes no further
- * triangles that do. Notes tell the results, and how many triangles still pass through others.
+ * one spacing of the lattice at most, where triangles pass through each other. Simplification adds no such triangles.
+ * Notes give the results, and how many triangles still pass through others.
  *
  * \param spacing of the lattice in mm (see MeanSpacingOf())
  * \param name of the surface, for progress and messages

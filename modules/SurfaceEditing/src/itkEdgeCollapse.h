@@ -6,7 +6,7 @@
 namespace itk
 {
 
-/** A point of the original surface, and the triangle that now stands for the surface there. */
+/** A point of the original surface, and the triangle that now covers it. */
 struct Witness
 {
   std::uint32_t point;

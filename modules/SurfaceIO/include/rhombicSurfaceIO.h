@@ -74,7 +74,7 @@ StageSurfaces(const std::vector<SceneSurface> & surfaces,
               const SurfaceFileSettings & settings = {});
 
 /** Reads surfaces in LPS millimetres from a file of one of these formats, written by this or other programs, binary or
- * text. Coordinates that the file says are in RAS are converted. The transforms of a GLB's nodes are applied, and its
+ * text. Coordinates of files that declare RAS are converted. The transforms of a GLB's nodes are applied, and its
  * metres and y-up undone; numbers in other formats are taken for millimetres.
  *
  * Equal points of an STL file become one point; polygons become fans of triangles; points of no triangle are kept,

@@ -94,7 +94,7 @@ AppendNumber(TNumber number, std::string & text)
   text.append(digits, std::to_chars(digits, digits + sizeof(digits), number).ptr);
 }
 
-/** Whether a comment or header says that coordinates are in RAS. */
+/** Whether a comment or header declares that coordinates are in RAS. */
 inline bool
 SaysRAS(std::string_view text)
 {

@@ -66,7 +66,7 @@ private:
   std::uint32_t m_Nearest = TriangleTree::None;
 };
 
-/** A sample point: its distance in mm and the area it stands for in mm^2. */
+/** A sample point: its distance in mm and its weight, an area in mm^2. */
 struct Place
 {
   float distance;
@@ -152,7 +152,7 @@ struct ChosenTriangles
 {
   std::size_t step;
   std::vector<std::uint64_t> firstPlace; ///< index of each triangle's first sample point, after the points; and the end
-  std::vector<float> pointAreas; ///< area in mm^2 that each point stands for; 0 for points of no chosen triangle
+  std::vector<float> pointAreas;         ///< weight of each point, an area in mm^2; 0 for points of no chosen triangle
 
   std::size_t
   GetNumberOfTriangles() const

@@ -73,7 +73,7 @@ struct DicomHeader
   bool hasPixels = false;
   bool hasWords = false;            ///< whether the pixels are 16-bit words (OW), whatever the size of a pixel
   bool isEncapsulated = false;      ///< whether the pixels are fragments of compressed streams
-  ByteRange pixels;                 ///< as the header says: may end beyond the file
+  ByteRange pixels;                 ///< as in the header: may end beyond the file
   std::vector<ByteRange> fragments; ///< compressed streams of encapsulated pixels, without the table of offsets
   std::string damage;               ///< "its ..." when the header is cut off or damaged
 };

@@ -207,7 +207,7 @@ RefuseVectors(const NIfTIHeader & header, const fs::path & path)
   }
 }
 
-/** The scaling of values; nothing for a slope of 0 or NaN, which stands for none, and for slope 1 and intercept 0. */
+/** The scaling of values; nothing for a slope of 0 or NaN, which means no scaling, and for slope 1 and intercept 0. */
 std::optional<ValueScaling>
 ScalingOf(const NIfTIHeader & header, const fs::path & path)
 {

@@ -18,7 +18,7 @@ using OrderedJson = nlohmann::ordered_json;
 using PointType = itk::TriangleSurface::PointType;
 
 /** \class GLBWriter
- * \brief Writes positions, normals and indices of each surface, and the JSON that says where they are.
+ * \brief Writes positions, normals and indices of each surface, and the JSON that describes them.
  *
  * Positions stay in millimetres, so that nothing is rounded; the root node's matrix converts them to metres. */
 class GLBWriter

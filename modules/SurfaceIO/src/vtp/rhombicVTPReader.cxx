@@ -78,7 +78,7 @@ private:
     return numbers;
   }
 
-  /** Checks, before memory is allocated, that the arrays have as many numbers as the piece says. */
+  /** Checks, before memory is allocated, that the lengths of the arrays agree with the counts of the piece. */
   void
   CheckPiece(const VTPPiece & piece) const
   {
