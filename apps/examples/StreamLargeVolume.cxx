@@ -33,13 +33,13 @@ try
   }
   itk::MetaImageIOFactory::RegisterOneFactory();
   itk::NrrdImageIOFactory::RegisterOneFactory();
-  using PixelType = std::int16_t; // what the file must hold
+  using PixelType = std::int16_t; // pixel type that the file must have
   using VolumeType = itk::Image<PixelType, 3>;
   const auto reader = itk::ImageFileReader<VolumeType>::New();
   reader->SetFileName(argv[1]);
   example::ReadAs("a MetaImage or NRRD volume", argv[1], [&] { reader->UpdateOutputInformation(); });
   example::RequirePixels<PixelType>(*reader->GetImageIO());
-  reader->ReleaseDataFlagOn(); // its slab goes as soon as the one on the lattice is made
+  reader->ReleaseDataFlagOn(); // its slab is released as soon as the lattice slab is made
 
   const auto lattice = itk::CartesianToFCCImageFilter<VolumeType>::New();
   lattice->SetInput(reader->GetOutput());

@@ -18,7 +18,7 @@ namespace rhombic
 struct CommandContext
 {
   Console * console;
-  VoxelDecoder * decoder;             ///< for all input files
+  VoxelDecoder * decoder;             ///< unpacks the voxels of all input files
   std::vector<std::string> arguments; ///< after the program's name
 };
 

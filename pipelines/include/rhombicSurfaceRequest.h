@@ -21,7 +21,7 @@ struct SurfaceRequest
   enum class Parts
   {
     All,
-    Enclosed ///< those in the body: see KeepEnclosedParts()
+    Enclosed ///< parts in the body: see KeepEnclosedParts()
   };
 
   std::string name;

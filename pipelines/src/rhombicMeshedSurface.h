@@ -33,12 +33,12 @@ struct MeshedSurface
   std::optional<LabelSurface> label;     ///< for labels; its scene is empty
 
   ExtractedSize extracted;
-  std::optional<IsosurfaceVolume> isosurface; ///< for isosurfaces, of the whole one
+  std::optional<IsosurfaceVolume> isosurface; ///< for isosurfaces: volume of the whole isosurface
 
   PartRemoval parts;
   Refinement refinement;
 
-  itk::SizeValueType points = 0; ///< here and below: of the surface as the file holds it
+  itk::SizeValueType points = 0; ///< this and all below: of the surface as its file holds it
   itk::SizeValueType triangles = 0;
   SurfaceMeasures measures;
   std::optional<SurfaceDeviation> deviation; ///< for isosurfaces of scans

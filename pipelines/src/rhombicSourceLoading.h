@@ -25,7 +25,7 @@ LoadVolume(const ScanSource & source, const Events & events);
 struct LoadedSource
 {
   std::optional<Scan> scan;                 ///< none when the source is a lattice volume or a label map
-  std::optional<TableRemoval> tableRemoval; ///< what was removed from the scan
+  std::optional<TableRemoval> tableRemoval; ///< objects that were removed from the scan
   FCCVolume lattice;                        ///< null without requests
   itk::ImageBase<3>::Pointer grid;          ///< grid of the scan, without values; null for no or a slanted scan
   std::vector<SurfaceRequest> requests;     ///< with their isovalues

@@ -222,7 +222,7 @@ FCCIsosurfaceFilter<TInputImage>::Resolve(FCCSurfaceExtractor & extractor, float
   };
   crew.checkAbort = [this] { m_WorkProgress->CheckAbort(); };
   extractor.Resolve(crew);
-  m_WorkProgress->Completed(last - std::min(last, m_WorkProgress->GetCompleted())); // it may have been less work
+  m_WorkProgress->Completed(last - std::min(last, m_WorkProgress->GetCompleted())); // the work was estimated
 }
 
 template <typename TInputImage>
@@ -249,7 +249,7 @@ FCCIsosurfaceFilter<TInputImage>::ComputeFraction() const
   }
   const auto & spacing = image->GetSpacing();
   const double shortestEdge = std::sqrt(2.0) * std::min({ spacing[0], spacing[1], spacing[2] });
-  constexpr double steps = 8.0; // of float32 between two points, so that rounding keeps them apart
+  constexpr double steps = 8.0; // float32 steps between two points, so that rounding keeps them apart
   const double resolution = farthest * static_cast<double>(std::numeric_limits<float>::epsilon());
   const double fraction = std::max(MinimumFraction, steps * resolution / shortestEdge);
   if (!(fraction <= 0.25))

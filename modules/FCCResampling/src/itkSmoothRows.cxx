@@ -203,7 +203,7 @@ private:
   ImageRegion<3> m_Whole;
   ImageRegion<3> m_Region;
   ImageRegion<3> m_Wider;     // the region and all within reach of it, in the image
-  SizeValueType m_Length;     // of its rows
+  SizeValueType m_Length;     // length of its rows
   SizeValueType m_Stride;     // between rows, in floats
   SizeValueType m_Margin;     // points of a line beyond each end of its row
   SizeValueType m_PlaneCount; // within reach

@@ -26,7 +26,7 @@ using FieldImage = itk::Image<float, 3>;
 using FieldLattice = itk::FCCImage<float>;
 
 constexpr double FinestFactor = 8.0;       // greatest multiple of the density asked for
-constexpr double FinestSmallFactor = 64.0; // the same for small lattices
+constexpr double FinestSmallFactor = 64.0; // greatest multiple for small lattices
 constexpr double SmallLattice = 1 << 24;   // sites
 constexpr double LargestLattice = 1 << 26; // sites; larger ones take seconds for little gain
 constexpr double LargestDifference = 0.01; // between the volumes of surface and voxels, relative

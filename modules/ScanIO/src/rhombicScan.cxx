@@ -28,7 +28,7 @@ VoxelVolumes(const Scan & scan)
   const auto axisStep = [&grid, &spacing](unsigned int axis) {
     return itk::Vector<double, 3>(grid.GetDirection().GetVnlMatrix().get_column(axis).data_block()) * spacing[axis];
   };
-  const itk::Vector<double, 3> pixel = itk::CrossProduct(axisStep(0), axisStep(1)); // as long as its area
+  const itk::Vector<double, 3> pixel = itk::CrossProduct(axisStep(0), axisStep(1)); // its length is the area of a pixel
   if (scan.sliceOrigins.empty() || numberOfSlices < 2)
   {
     return std::vector<double>(numberOfSlices, std::abs(pixel * axisStep(2)));

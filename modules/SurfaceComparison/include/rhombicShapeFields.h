@@ -42,7 +42,7 @@ public:
 
 private:
   Vector3 m_Center;
-  Vector3 m_Axis; ///< of length 1
+  Vector3 m_Axis; ///< unit vector
   double m_Major;
   double m_Minor;
 };

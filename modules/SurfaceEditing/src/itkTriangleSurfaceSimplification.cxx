@@ -36,7 +36,7 @@ constexpr std::array<double, 3> Cuts{ 0.5, 0.36, 0.64 };
 constexpr double FirstError = 1.0 / 32.0; // in mean sides of triangles, doubled with each step
 constexpr double LargestShareLeft = 0.95; // share of the triangles that are left after a worthwhile step, at most
 constexpr double ShareForWitnesses = 0.9; // relative to maximumError, to keep the surface between witnesses within it
-constexpr unsigned int MostRounds = 32;   // of putting triangles back; the second half puts back whole patches
+constexpr unsigned int MostRounds = 32;   // rounds of putting triangles back; the second half puts back whole patches
 
 double
 MeanSide(const TriangleSurface & surface)

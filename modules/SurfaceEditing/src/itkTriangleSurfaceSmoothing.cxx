@@ -23,7 +23,7 @@ constexpr SizeValueType SmoothedBlock = 4096;
 constexpr double Inwards = 0.5;
 constexpr double Outwards = -1.0 / (1.0 / Inwards - 0.1);
 
-constexpr double SmallestCosineOfTurn = 0.1736; // of 80 degrees
+constexpr double SmallestCosineOfTurn = 0.1736; // cosine of 80 degrees
 constexpr double SmallestShareOfArea = 0.1;
 
 PositionType

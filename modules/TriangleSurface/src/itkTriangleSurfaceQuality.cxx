@@ -59,7 +59,7 @@ ComputeQuality(const TriangleSurface & surface)
     return quality;
   }
   quality.minimum = 1.0;
-  double smallestTangent = std::sqrt(3.0); // of 60 degrees
+  double smallestTangent = std::sqrt(3.0); // tangent of 60 degrees
   SizeValueType poor = 0;
   for (const auto & triangle : triangles)
   {

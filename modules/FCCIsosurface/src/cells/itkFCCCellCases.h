@@ -131,7 +131,7 @@ struct FCCCellCases
   static constexpr IndexValueType
   DiagonalCost(const FCCCell & cell, unsigned int a, unsigned int b)
   {
-    constexpr IndexValueType prohibitive = 1000000; // for repeated edges
+    constexpr IndexValueType prohibitive = 1000000; // cost of a diagonal between equal edges
     FCCCell::SiteType step{};
     for (unsigned int axis = 0; axis < 3; ++axis)
     {

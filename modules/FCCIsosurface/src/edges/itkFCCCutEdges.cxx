@@ -18,7 +18,7 @@ ForEachCutWord(const FCCSigns & signs, std::uint8_t type, SizeValueType j, SizeV
     return;
   }
   const WordType * const row = signs.GetRow(j, k);
-  const SizeValueType count = signs.GetWidth() - (end.shift == 1 ? 1 : 0); // of sites whose edge ends in the box
+  const SizeValueType count = signs.GetWidth() - (end.shift == 1 ? 1 : 0); // number of sites whose edge ends in the box
   FCCBits::ForEachShifted(
     signs.GetRow(end.j, end.k), signs.GetNumberOfWords(), end.shift, [&](SizeValueType word, WordType bits) {
       const WordType beforeFirst = end.shift < 0 && word == 0 ? 1 : 0;

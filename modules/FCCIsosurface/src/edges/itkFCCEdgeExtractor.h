@@ -92,7 +92,7 @@ private:
   // By plane: counts until Resolve(), then the number of the first one, and the total at the end.
   std::vector<SizeValueType> m_InPlane;   ///< points on edges within the plane
   std::vector<SizeValueType> m_Between;   ///< points on edges to the next plane
-  std::vector<SizeValueType> m_Triangles; ///< what CountTriangles() counts
+  std::vector<SizeValueType> m_Triangles; ///< results of CountTriangles()
 };
 
 } // namespace itk

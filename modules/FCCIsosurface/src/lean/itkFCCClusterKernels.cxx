@@ -26,7 +26,7 @@ struct ClusterCrossings
   alignas(64) float mean[3][Capacity];     ///< mean of the crossings, from the site
   alignas(64) float fraction[Capacity];    ///< mean fraction of the edges before their crossings
   alignas(64) float along[3][Capacity];    ///< sum of the edges' steps
-  alignas(64) float changing[3][Capacity]; ///< the same, each by how much the values change along it
+  alignas(64) float changing[3][Capacity]; ///< sum of the steps, each times the change of the values along it
 };
 
 constexpr unsigned int AlongX = Star::DirectionOf({ 2, 0, 0 });

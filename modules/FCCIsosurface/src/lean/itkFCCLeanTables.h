@@ -19,7 +19,7 @@ struct FCCLeanTables
   struct Triangle
   {
     std::uint8_t corners[3] = {};           ///< counter-clockwise seen from outside when the corner left out is outside
-    FCCTriangleUse::CountsType use[3] = {}; ///< what it adds at these corners
+    FCCTriangleUse::CountsType use[3] = {}; ///< counts that it adds at these corners
   };
 
   std::uint8_t edges[Cases::Tetrahedra][4][4] = {};           ///< between two corners of a tetrahedron

@@ -127,7 +127,7 @@ private:
   {
     const FCCSiteStar::Tetrahedron * tetrahedron;
     std::uint8_t size;
-    VertexType corners[4]; ///< those of the site itself by their direction, whatever its parts
+    VertexType corners[4]; ///< vertices of the site itself are given by directions, whatever its parts
   };
 
   void

@@ -29,7 +29,7 @@ public:
   static constexpr unsigned int NoDirection = Directions;
   static constexpr unsigned int Center = Directions;
   static constexpr unsigned int Sites = Directions + 1;
-  static constexpr unsigned int Edges = Directions + 36; ///< those of the center and those between neighbours
+  static constexpr unsigned int Edges = Directions + 36; ///< edges at the center, and edges between neighbours
   static constexpr unsigned int Tetrahedra = 24;
 
   static constexpr SiteType

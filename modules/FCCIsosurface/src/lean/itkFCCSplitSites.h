@@ -86,7 +86,7 @@ private:
   const FCCSigns & m_Signs;
   FCCSplitRows m_Split;
   std::vector<std::vector<std::uint32_t>> m_Suspects; ///< by plane; in any order, and maybe several times
-  std::mutex m_Mutex;                                 ///< for those that are added to other planes
+  std::mutex m_Mutex;                                 ///< for suspects that are added to other planes
 };
 
 } // namespace itk

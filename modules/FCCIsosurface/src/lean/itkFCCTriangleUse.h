@@ -35,7 +35,7 @@ public:
   static constexpr bool
   BreakCondition(CountsType counts)
   {
-    constexpr CountsType moreThanTwo = 0xFC * (OfSite() - 1) / 0xFF; // of any edge
+    constexpr CountsType moreThanTwo = 0xFC * (OfSite() - 1) / 0xFF; // bits of counts above 2 of any edge
     constexpr CountsType fewest = 3 * OfSite();
     return (counts & moreThanTwo) != 0 || counts < fewest;
   }

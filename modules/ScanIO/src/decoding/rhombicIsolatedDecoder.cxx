@@ -361,7 +361,7 @@ private:
 
   unsigned int m_Size;
   Limits m_Limits;
-  FileDescriptor m_Socket; ///< to the server
+  FileDescriptor m_Socket; ///< socket to the server
   pid_t m_Server = -1;
   std::mutex m_Mutex; ///< for messages to the server, and m_Idle
   std::vector<Worker> m_Idle;

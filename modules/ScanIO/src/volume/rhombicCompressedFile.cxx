@@ -35,7 +35,7 @@ PassOver(TSource & source, std::uintmax_t size)
   return total;
 }
 
-constexpr std::uintmax_t LargestRatio = 1032; // of deflate
+constexpr std::uintmax_t LargestRatio = 1032; // largest ratio of deflate
 
 } // namespace
 

@@ -35,7 +35,7 @@ struct VTPDocument
 {
   bool isBigEndian = false;
   bool hasLongSizes = false;    ///< sizes in front of arrays have 64 bits
-  bool isCompressed = false;    ///< by zlib
+  bool isCompressed = false;    ///< whether arrays are compressed by zlib
   bool isBase64 = false;        ///< appended data are base64
   std::uint64_t appendedAt = 0; ///< byte of the file from which offsets count; 0 if there are no appended data
   std::vector<VTPArray> fields;

@@ -164,7 +164,7 @@ private:
 std::string
 Expand(const InputFile & file, EncodedBytes & encoded, const Sizes & sizes)
 {
-  constexpr std::uint64_t largestRatio = 1032; // of zlib
+  constexpr std::uint64_t largestRatio = 1032; // largest ratio of zlib
   constexpr std::size_t numbersBefore = 3;     // number of blocks, block size, size of the last block if it is not full
   const std::uint64_t blocks = sizes.At(encoded.Peek(sizes.GetSize()), 0);
   if (blocks > file.GetSize())
