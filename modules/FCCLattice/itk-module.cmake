@@ -1,3 +1,3 @@
 itk_module(FCCLattice
   DEPENDS ITKCommon
-  DESCRIPTION "Images sampled on the face-centered cubic lattice. The only place that knows the lattice's geometry.")
+  DESCRIPTION "Images sampled on the face-centered cubic lattice, and the lattice's geometry.")

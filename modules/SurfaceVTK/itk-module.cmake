@@ -1,3 +1,3 @@
 itk_module(SurfaceVTK
   DEPENDS TriangleSurface VTK::CommonCore VTK::CommonDataModel
-  DESCRIPTION "The triangle surface as vtkPolyData without a copy: the only place that knows both toolkits.")
+  DESCRIPTION "The triangle surface as vtkPolyData, without a copy.")

@@ -45,7 +45,7 @@ private:
   NumberType m_Type;
   bool m_IsBigEndian;
   bool m_IsText;
-  std::string_view m_Text;             ///< what is left of the text
+  std::string_view m_Text;             ///< rest of the text
   std::optional<InputStream> m_Stream; ///< if the bytes are raw in the file
   std::string m_Bytes;                 ///< the decoded bytes otherwise
   std::size_t m_Taken = 0;
