@@ -44,7 +44,7 @@ SurfaceOptions::Add(CLI::App & parser)
     ->allow_extra_args(false);
   parser.add_flag("--keep-table",
                   m_KeepsTable,
-                  "keep what is around the patient of a CT, which is otherwise set to air: table, head holder, sheets");
+                  "keep table, head holder and sheets around the patient of a CT, which are otherwise set to air");
   parser
     .add_option(
       "--mode",

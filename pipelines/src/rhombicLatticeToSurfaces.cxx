@@ -99,7 +99,7 @@ public:
                        const SurfaceRequest & request,
                        itk::TriangleSurface::Pointer & surface) const
   {
-    m_Events.Progress("telling " + request.name + " from what is around the body", 0.0);
+    m_Events.Progress("separating " + request.name + " from air around the body", 0.0);
     return KeepEnclosedParts(surface, volume, request.GetThreshold(), [&](const FCCVolume & cut) {
       return this->Extract(cut, { request }).surfaces.front();
     });
