@@ -53,7 +53,7 @@ private:
   bool m_AcceptsAnalyze = false;
   bool m_FollowsLinks = false;
   bool m_HasNoSidecar = false;
-  double m_Density = itk::FCCLattice::NyquistDensity;
+  double m_Density = itk::FCCLattice::DefaultDensity;
   std::vector<double> m_Spacing;
   std::string m_Kernel = "cubic";
   std::string m_Denoising = "none";

@@ -19,7 +19,7 @@ namespace rhombic
  * \brief The lattice that a scan is resampled onto. A volume that is on a lattice already is only denoised. */
 struct LatticeSettings
 {
-  double density = itk::FCCLattice::NyquistDensity; ///< lattice sites per sample of the scan
+  double density = itk::FCCLattice::DefaultDensity; ///< lattice sites per sample of the scan
   std::array<double, 3> spacing{ 0.0, 0.0, 0.0 };   ///< lattice spacing in mm (see itk::FCCImage); 0: from the density
   itk::SeparableKernel kernel = itk::SeparableKernel::CubicBSpline;
   std::uintmax_t maximumMemory = 0; ///< bytes for scan and lattice; 0: the lattice takes half of the free memory

@@ -153,7 +153,8 @@ CheckLatticeSettings(const LatticeSettings & settings)
   {
     throw Failure(FailureKind::Usage,
                   "The lattice's density must be above 0 and at most 64 sites per sample of the scan, not " +
-                    std::to_string(settings.density) + "; the default is 0.77.");
+                    std::to_string(settings.density) + "; the default is " +
+                    FormatFixed(itk::FCCLattice::DefaultDensity, 2) + ".");
   }
   const auto isUsable = [](double spacing) { return spacing > 0.0 && std::isfinite(spacing); };
   const bool isGiven = std::all_of(settings.spacing.begin(), settings.spacing.end(), isUsable);

@@ -1,4 +1,3 @@
-#include "rhombicInProcessDecoder.h"
 #include "rhombicLatticeToSurfaces.h"
 #include "rhombicScanToLattice.h"
 #include "rhombicScanReader.h"
@@ -47,10 +46,7 @@ TEST_P(RealSurfaces, AreSolidsInTheirFiles)
   {
     GTEST_SKIP() << "RHOMBIC_SCANS is not set";
   }
-  rhombic::InProcessDecoder decoder;
-  rhombic::ScanReadOptions options;
-  options.decoder = &decoder;
-  const auto scan = rhombic::ReadScan(std::filesystem::path(scans) / GetParam().scan, options);
+  const auto scan = rhombic::ReadScan(std::filesystem::path(scans) / GetParam().scan);
   const auto lattice = rhombic::ScanToLattice(scan, {}, {});
   const auto * const grid = rhombic::IsSlanted(scan) ? nullptr : &rhombic::GeometryOf(scan.image);
   const double spacing = std::visit([](const auto & image) { return rhombic::MeanSpacingOf(*image); }, lattice);

@@ -1,4 +1,5 @@
 #include "rhombicScanReport.h"
+#include "rhombicSurfaceReport.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ TEST(ScanReport, ListsRemovedObjects)
   EXPECT_EQ(report["airValue"], -1000.0);
 }
 
-TEST(ScanReport, ListsLabelSurfaces)
+TEST(SurfaceReport, ComparesALabelsSurfaceWithItsVoxels)
 {
   const auto triangles = itk::TriangleSurface::New();
   triangles->GetTriangles().push_back({ 0, 1, 2 });
@@ -29,11 +30,10 @@ TEST(ScanReport, ListsLabelSurfaces)
   surface.scene.surface = triangles;
   surface.voxelMillilitres = 100.0;
   surface.surfaceMillilitres = 101.0;
-  const rhombic::Report report = rhombic::ReportLabelSurfaces({ surface });
-  ASSERT_EQ(report.size(), 1u);
-  EXPECT_EQ(report[0]["name"], "kidney");
-  EXPECT_EQ(report[0]["triangles"], 1u);
-  EXPECT_NEAR(report[0]["volumeDifference"].get<double>(), 0.01, 1e-12);
+  const rhombic::Report report = rhombic::ReportLabelSurface(surface);
+  EXPECT_EQ(report["name"], "kidney");
+  EXPECT_EQ(report["triangles"], 1u);
+  EXPECT_NEAR(report["volumeDifference"].get<double>(), 0.01, 1e-12);
 }
 
 } // namespace

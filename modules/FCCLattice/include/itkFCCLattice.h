@@ -33,6 +33,9 @@ struct FCCLattice
    * 4 / (3 sqrt 3): the ball inside the Brillouin zone has the same radius. */
   static constexpr double NyquistDensity = 0.76980035891950104;
 
+  /** Sites per Cartesian sample wherever none are asked for. */
+  static constexpr double DefaultDensity = NyquistDensity;
+
   /** Volume of a site's Voronoi cell in units of the lattice coordinates. */
   static constexpr double CellVolume = 2.0;
 

@@ -17,7 +17,7 @@ namespace itk
 /** \class CartesianToFCCImageFilter
  * \brief Resamples a Cartesian volume onto the face-centered cubic lattice.
  *
- * By default the lattice has FCCLattice::NyquistDensity (0.7698) times as many samples per volume as the input, which
+ * By default the lattice has FCCLattice::DefaultDensity (0.7698) times as many samples per volume as the input, which
  * carries the same band of frequencies in all directions, and the aspect of the input's voxels. Other densities are set
  * by SetDensity(), or the lattice's spacing itself by SetOutputSpacing().
  *
@@ -91,7 +91,7 @@ public:
   static_assert(std::is_base_of<FCCImage<OutputPixelType>, TOutputImage>::value, "The output must be an FCCImage");
   static_assert(TInputImage::ImageDimension == 3, "The face-centered cubic lattice is three-dimensional");
 
-  /** Output samples per input sample, for the same volume. Default FCCLattice::NyquistDensity. Must be positive. */
+  /** Output samples per input sample, for the same volume. Default FCCLattice::DefaultDensity. Must be positive. */
   itkSetMacro(Density, double);
   itkGetConstMacro(Density, double);
 
@@ -156,7 +156,7 @@ private:
   SliceStackPlanes
   MakePlanes(const SliceStack & stack, const OutputImageRegionType & region) const;
 
-  double m_Density{ FCCLattice::NyquistDensity };
+  double m_Density{ FCCLattice::DefaultDensity };
   SpacingType m_OutputSpacing{ 0.0 };
   SliceOriginsType m_SliceOrigins;
   OutputPixelType m_OutsideValue{};

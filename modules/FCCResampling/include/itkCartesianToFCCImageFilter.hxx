@@ -52,7 +52,7 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::VerifyPreconditions() ITKv
   if (!(m_Density > 0.0) || !std::isfinite(m_Density))
   {
     itkExceptionMacro("Density must be a positive number of output samples per input sample, not "
-                      << m_Density << "; the default is " << FCCLattice::NyquistDensity << ".");
+                      << m_Density << "; the default is " << FCCLattice::DefaultDensity << ".");
   }
   if (m_Kernel > SeparableKernel::Lanczos4)
   {

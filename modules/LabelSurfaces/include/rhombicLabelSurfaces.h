@@ -23,7 +23,7 @@ namespace rhombic
 struct LabelSurfaceSettings
 {
   std::vector<std::string> labels;                  ///< names or values; empty: all that the label table shows
-  double density = itk::FCCLattice::NyquistDensity; ///< lattice sites per voxel
+  double density = itk::FCCLattice::DefaultDensity; ///< lattice sites per voxel
   itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
   std::uintmax_t maximumMemory = 0; ///< for the work on one piece of a label, in bytes; 0: half of what is free
 };

@@ -198,7 +198,8 @@ CheckDensity(double density)
   {
     throw Failure(FailureKind::Usage,
                   "The density of labels' lattices must be above 0 and at most 64 sites per voxel, not " +
-                    std::to_string(density) + "; the default is 0.77.");
+                    std::to_string(density) + "; the default is " + FormatFixed(itk::FCCLattice::DefaultDensity, 2) +
+                    ".");
   }
 }
 

@@ -81,13 +81,6 @@ public:
     return m_End - m_Next + (m_Block.size() - m_Taken);
   }
 
-  /** Offset of the next byte in the file. */
-  std::uintmax_t
-  GetPosition() const
-  {
-    return m_Next - (m_Block.size() - m_Taken);
-  }
-
   /** Copies the next bytes; throws Failure(Unreadable) if there are fewer. */
   void
   Take(void * to, std::size_t size)
@@ -113,13 +106,6 @@ public:
    * Failure(Unreadable) for lines longer than 1 MiB. */
   bool
   TakeLine(std::string_view & line);
-
-  /** The number of the last line, counted from 1. */
-  std::uintmax_t
-  GetLineNumber() const
-  {
-    return m_LineNumber;
-  }
 
   /** Throws Failure(Unreadable): "Cannot read PATH, line N: WHY." */
   [[noreturn]] void

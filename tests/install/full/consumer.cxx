@@ -1,4 +1,3 @@
-#include "rhombicInProcessDecoder.h"
 #include "rhombicLatticeToSurfaces.h"
 #include "rhombicScanToLattice.h"
 #include "rhombicPictureIO.h"
@@ -15,10 +14,7 @@
 int
 main(int, char ** argv)
 {
-  rhombic::InProcessDecoder decoder;
-  rhombic::ScanReadOptions options;
-  options.decoder = &decoder;
-  const rhombic::Scan scan = rhombic::ReadScan(argv[1], options);
+  const rhombic::Scan scan = rhombic::ReadScan(argv[1]);
   const rhombic::FCCVolume lattice = rhombic::ScanToLattice(scan, {}, {});
   rhombic::SurfaceRequest bone;
   bone.name = "bone";
