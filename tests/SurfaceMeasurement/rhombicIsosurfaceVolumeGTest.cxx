@@ -1,6 +1,5 @@
 #include "rhombicIsosurfaceVolume.h"
 
-#include "rhombicFailure.h"
 #include "rhombicLatticeToSurfaces.h"
 #include "rhombicScanToLattice.h"
 #include "rhombicPhantom.h"
@@ -172,14 +171,6 @@ TEST(IsosurfaceVolume, IsTheSameForAnyNumberOfThreads)
   itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
   EXPECT_EQ(one.volume, three.volume);
   EXPECT_EQ(one.uncertainty, three.uncertainty);
-}
-
-TEST(IsosurfaceVolume, NeedsAnIsovalue)
-{
-  const auto scan = MakeScan([](const PointType & p) { return p[0]; }, { { 8, 8, 8 } });
-  SurfaceRequest request;
-  request.name = "it";
-  EXPECT_THROW(rhombic::EstimateIsosurfaceVolume(rhombic::ScanToLattice(scan, {}, {}), request, 1.0), rhombic::Failure);
 }
 
 } // namespace
