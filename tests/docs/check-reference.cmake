@@ -1,7 +1,7 @@
 # Fails if Doxygen warned, or took a macro of ITK's for a function: modules/Documentation.cmake tells it what they make.
 # Classes, functions and enumerations must be documented; left out are functions that ITK's conventions or the standard
-# library's name (overrides, constructors, operators, New(), accessors and predicates without parameters, what containers and allocators have), aliases
-# and variables.
+# library's name (overrides, constructors, operators, New(), what containers and allocators have), accessors and
+# predicates (Get, Is, Has), aliases and variables.
 # cmake -DREFERENCE=<Doxygen's output folder> -P check-reference.cmake
 
 set(conventions "New|SetInput|GetInput|GetOutput|begin|end|size|allocate|deallocate|construct")
@@ -11,7 +11,7 @@ set(wrong "")
 foreach(warning IN LISTS warnings)
   if(warning MATCHES " is not documented" AND
      (warning MATCHES "\\((typedef|variable|friend)\\)| override |Member operator" OR
-      warning MATCHES "Member ((${conventions})\\(|(Get|Is|Has)[A-Za-z]+\\(\\)|[A-Za-z]+(On|Off)\\(\\))"))
+      warning MATCHES "Member ((${conventions})\\(|(Get|Is|Has)[A-Za-z]+\\(|[A-Za-z]+(On|Off)\\(\\))"))
     continue()
   endif()
   string(REGEX MATCH "Member ([A-Za-z]+)\\(.* (class|struct) [A-Za-z:]+::([A-Za-z]+) is not" constructor "${warning}")

@@ -49,6 +49,7 @@ struct PhantomEnclosure
 PhantomEnclosure
 PhantomEnclosedBy(double threshold);
 
+/** The grid of a phantom's scan. */
 struct PhantomSettings
 {
   double spacing = 2.0; ///< distance of samples along each axis, in mm, 0.5 to 10

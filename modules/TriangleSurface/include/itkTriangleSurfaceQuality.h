@@ -24,6 +24,7 @@ ComputeTriangleQuality(const std::array<double, 3> & a,
                        const std::array<double, 3> & b,
                        const std::array<double, 3> & c);
 
+/** Statistics over all triangles of a surface. */
 TriangleSurfaceQuality
 ComputeQuality(const TriangleSurface & surface);
 
