@@ -58,7 +58,7 @@ echo "  ${missing[*]}"
 log=$(mktemp)
 if ! { "${run[@]}" apt-get update -qq &&
        "${run[@]}" env DEBIAN_FRONTEND=noninteractive \
-         apt-get install -y -q -o APT::Status-Fd=1 --no-install-recommends "${missing[@]}"; } 2>&1 | tee "$log" | show_progress; then
+         apt-get install -y -q -o APT::Status-Fd=1 -o Dpkg::Use-Pty=0 --no-install-recommends "${missing[@]}"; } 2>&1 | tee "$log" | show_progress; then
   grep -vE '^(dl|pm)status:' "$log" | tail -n 40 >&2
   echo "The packages could not be installed; the whole log is in $log" >&2
   exit 1
