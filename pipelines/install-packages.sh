@@ -33,19 +33,29 @@ if [ "$(id -u)" -ne 0 ]; then
   run=(sudo)
 fi
 
-# Prints how far apt is, in steps of 20 %, from the lines that APT::Status-Fd adds to what it says.
+# Prints how far apt is, in steps of 20 % of its packages, from the lines that it writes for each of them.
 show_progress() {
-  local line stage percent next=0 last=
+  local line stage percent total=0 count=0 next=0 last=
   while IFS= read -r line; do
     case $line in
-      dlstatus:*) stage=downloaded ;;
-      pmstatus:*) stage=installed ;;
+      *' newly installed, '*)
+        total=${line#*upgraded, }
+        total=${total%% *}
+        continue
+        ;;
+      Get:*) stage=downloaded ;;
+      Unpacking*) stage=unpacked ;;
+      'Setting up'*) stage=installed ;;
       *) continue ;;
     esac
-    percent=${line#*:*:}
-    percent=${percent%%[.:]*}
-    [ "$stage" = "$last" ] || next=20
-    last=$stage
+    [ "$total" -gt 0 ] || continue
+    if [ "$stage" != "$last" ]; then
+      count=0
+      next=20
+      last=$stage
+    fi
+    count=$((count + 1))
+    percent=$((100 * count / total))
     if [ "$percent" -ge "$next" ]; then
       echo "  $stage: $percent %"
       next=$((percent / 20 * 20 + 20))
@@ -58,8 +68,8 @@ echo "  ${missing[*]}"
 log=$(mktemp)
 if ! { "${run[@]}" apt-get update -qq &&
        "${run[@]}" env DEBIAN_FRONTEND=noninteractive \
-         apt-get install -y -q -o APT::Status-Fd=1 -o Dpkg::Use-Pty=0 --no-install-recommends "${missing[@]}"; } 2>&1 | tee "$log" | show_progress; then
-  grep -vE '^(dl|pm)status:' "$log" | tail -n 40 >&2
+         apt-get install -y -q -o Dpkg::Use-Pty=0 --no-install-recommends "${missing[@]}"; } 2>&1 | tee "$log" | show_progress; then
+  tail -n 40 "$log" >&2
   echo "The packages could not be installed; the whole log is in $log" >&2
   exit 1
 fi
