@@ -63,7 +63,7 @@ show_progress() {
   done
 }
 
-echo "Installing ${#missing[@]} packages and what they need (1 to 2 minutes and 600 MB of downloads if none are there):"
+echo "Installing ${#missing[@]} packages and what they need (2 to 3 minutes and 600 MB of downloads if none are there):"
 echo "  ${missing[*]}"
 log=$(mktemp)
 if ! { "${run[@]}" apt-get update -qq &&
