@@ -1,9 +1,13 @@
 #include "rhombicFieldProjection.h"
 
-#include "rhombicVector3.h"
+#include "detail/itkPositionArithmetic.h"
 
 namespace rhombic
 {
+
+using itk::Length;
+using itk::Subtract;
+
 namespace
 {
 
@@ -38,12 +42,12 @@ Settle(const ReferenceField & field, const Vector3 & point, const Vector3 & star
       height += gradient[axis] * (point[axis] - result.point[axis]);
     }
     const Vector3 foot = Along(point, result.normal, height / slope);
-    const Vector3 step = Difference(foot, result.point);
+    const Vector3 step = Subtract(foot, result.point);
     const double length = Length(step);
     result.point = Along(result.point, step, length > longestStep * unit ? longestStep * unit / length : 1.0);
     result.isResolved = length < shortestStep * unit;
   }
-  result.distance = Length(Difference(result.point, point));
+  result.distance = Length(Subtract(result.point, point));
   return result;
 }
 

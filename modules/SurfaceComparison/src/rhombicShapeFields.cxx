@@ -1,9 +1,14 @@
 #include "rhombicShapeFields.h"
 
-#include "rhombicVector3.h"
+#include "detail/itkPositionArithmetic.h"
 
 namespace rhombic
 {
+
+using itk::Dot;
+using itk::Length;
+using itk::Subtract;
+
 namespace
 {
 
@@ -19,7 +24,7 @@ SphereField::SphereField(const Vector3 & center, double radius)
 double
 SphereField::Evaluate(const Vector3 & point, Vector3 & gradient) const
 {
-  const Vector3 d = Difference(point, m_Center);
+  const Vector3 d = Subtract(point, m_Center);
   const double distance = Length(d);
   const double scale = distance > 0.0 ? -1.0 / distance : 0.0;
   gradient = { scale * d[0], scale * d[1], scale * d[2] };
@@ -38,7 +43,7 @@ TorusField::TorusField(const Vector3 & center, const Vector3 & axis, double majo
 double
 TorusField::Evaluate(const Vector3 & point, Vector3 & gradient) const
 {
-  const Vector3 d = Difference(point, m_Center);
+  const Vector3 d = Subtract(point, m_Center);
   const double height = Dot(d, m_Axis);
   const Vector3 radial{ d[0] - height * m_Axis[0], d[1] - height * m_Axis[1], d[2] - height * m_Axis[2] };
   const double radius = Length(radial);

@@ -1,7 +1,8 @@
 #include "rhombicSurfaceErrors.h"
 
+#include "detail/itkPositionArithmetic.h"
+
 #include "rhombicFieldProjection.h"
-#include "rhombicVector3.h"
 
 #include "itkForEachBlock.h"
 #include "itkTriangleSurfaceQuality.h"
@@ -14,6 +15,12 @@
 
 namespace rhombic
 {
+
+using itk::Cross;
+using itk::Dot;
+using itk::Length;
+using itk::Subtract;
+
 namespace
 {
 
@@ -30,7 +37,7 @@ using Corners = std::array<Vector3, 3>;
 Vector3
 AreaVector(const Corners & corners)
 {
-  return Cross(Difference(corners[1], corners[0]), Difference(corners[2], corners[0]));
+  return Cross(Subtract(corners[1], corners[0]), Subtract(corners[2], corners[0]));
 }
 
 Vector3
