@@ -1,3 +1,4 @@
+#include "rhombicBenchCommands.h"
 #include "rhombicBenchReading.h"
 #include "rhombicBenchSections.h"
 #include "rhombicFieldSampling.h"
@@ -118,7 +119,7 @@ Print(const std::vector<BenchResult> & results)
                 Fixed(Median(result.times.reference), 3),
                 Fixed(ratio, 2),
                 Fixed(*least, 2) + "-" + Fixed(*most, 2),
-                result.target ? Fixed(*result.target, 1) : "",
+                result.target ? Fixed(*result.target, 2) : "",
                 result.target ? (ratio >= *result.target ? "ok" : "MISSED") : "",
                 notes });
   }
@@ -186,6 +187,11 @@ Run(const Options & options)
     {
       results = MeasureReading(options.scan, settings);
     }
+    if (isWanted("commands") && !options.scan.empty())
+    {
+      const auto more = MeasureCommands(options.scan, options.threshold, settings);
+      results.insert(results.end(), more.begin(), more.end());
+    }
     measure("extraction", MeasureExtraction);
     measure("resampling", MeasureResampling);
     measure("pipeline", MeasurePipeline);
@@ -240,7 +246,8 @@ main(int argc, char ** argv)
     ->capture_default_str();
   app.add_option("--what", options.what, "what to measure, separated by commas")
     ->delimiter(',')
-    ->check(CLI::IsMember({ "extraction", "resampling", "pipeline", "memory", "floor", "neighbors", "reading", "all" }))
+    ->check(CLI::IsMember(
+      { "extraction", "resampling", "pipeline", "memory", "floor", "neighbors", "reading", "commands", "all" }))
     ->capture_default_str();
   app.add_option("--repeat", options.repeats, "pairs whose median is reported")
     ->check(CLI::Range(1, 1000))
