@@ -1,5 +1,7 @@
 #include "rhombicConsole.h"
 
+#include "rhombicWording.h"
+
 #include <algorithm>
 
 #include <spdlog/sinks/stdout_sinks.h>
@@ -69,6 +71,10 @@ Console::Progress(const std::string & step, double fraction)
   {
     return;
   }
+  if (step != m_Step)
+  {
+    this->AddTimeToStep();
+  }
   if (!m_IsTerminal)
   {
     if (m_Verbosity == Verbosity::Verbose && step != m_Step)
@@ -98,6 +104,44 @@ Console::Finish()
     std::fflush(stderr);
   }
   m_Percent = -1;
+}
+
+void
+Console::AddTimeToStep()
+{
+  const auto now = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - m_StepStart).count();
+  m_StepStart = now;
+  const auto known = std::find_if(
+    m_StepSeconds.begin(), m_StepSeconds.end(), [this](const auto & entry) { return entry.first == m_Step; });
+  if (known == m_StepSeconds.end())
+  {
+    m_StepSeconds.emplace_back(m_Step, seconds);
+  }
+  else
+  {
+    known->second += seconds;
+  }
+}
+
+void
+Console::NoteStepTimes()
+{
+  if (m_Verbosity != Verbosity::Verbose)
+  {
+    return;
+  }
+  this->AddTimeToStep();
+  double sum = 0.0;
+  for (const auto & [step, seconds] : m_StepSeconds)
+  {
+    sum += seconds;
+  }
+  for (const auto & [step, seconds] : m_StepSeconds)
+  {
+    this->Note(FormatFixed(seconds, 2) + " s  " + FormatFixed(100.0 * seconds / sum, 0) + " %  " + step);
+  }
+  this->Note(FormatFixed(sum, 2) + " s  in all");
 }
 
 } // namespace rhombic

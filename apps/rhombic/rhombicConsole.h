@@ -3,7 +3,10 @@
 
 #include "rhombicEvents.h"
 
+#include <chrono>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace rhombic
 {
@@ -13,7 +16,7 @@ enum class Verbosity
 {
   Quiet,  ///< errors only
   Normal, ///< also notes, and a progress bar on a terminal
-  Verbose ///< also the time before each line, and without a terminal the name of each step
+  Verbose ///< also the time before each line, without a terminal the name of each step, and the times of all steps
 };
 
 /** \class Console
@@ -40,14 +43,25 @@ public:
   void
   Finish();
 
+  /** With Verbosity::Verbose: writes the time of each step and its share, in the order of the steps. A step lasts until
+   * progress of another one is reported; what was before the first step is "start". */
+  void
+  NoteStepTimes();
+
 private:
   void
   Progress(const std::string & step, double fraction);
+  void
+  AddTimeToStep();
+
+  using Clock = std::chrono::steady_clock;
 
   Verbosity m_Verbosity = Verbosity::Normal;
   bool m_IsTerminal;
-  std::string m_Step;
+  std::string m_Step = "start";
   int m_Percent = -1;
+  Clock::time_point m_StepStart = Clock::now();
+  std::vector<std::pair<std::string, double>> m_StepSeconds;
 };
 
 } // namespace rhombic
