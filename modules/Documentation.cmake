@@ -40,7 +40,7 @@ set(DOXYGEN_PREDEFINED
     "RHOMBIC_INSTANTIATE(declaration,image)=")
 file(GLOB pages README.md apps/*/*.md modules/README.md modules/*/README.md pipelines/README.md tests/README.md
      tests/*/README.md testdata/README.md)
-file(GLOB headers modules/*/include pipelines/include)
+file(GLOB headers modules/*/include pipelines/include pipelines/*/include)
 doxygen_add_docs(docs ${headers} ${pages} COMMENT "Writing build/.../docs/html")
 add_custom_command(TARGET docs POST_BUILD
                    COMMAND ${CMAKE_COMMAND} "-DREFERENCE=${DOXYGEN_OUTPUT_DIRECTORY}"

@@ -71,6 +71,7 @@ Fail(Console & console, FailureKind kind, const std::string & sentence)
 int
 main(int argc, char ** argv)
 {
+  StartDrawingProgram(argv);
   setenv("EGL_LOG_LEVEL", "fatal", 0); // Mesa would warn of missing drivers beside our own sentence
   RemoveTemporaryFilesOnSignals();
   RaiseFileLimit();
@@ -111,6 +112,7 @@ main(int argc, char ** argv)
     }
     IsolatedDecoder decoder(threads); // before there are more threads
     (*chosen)({ &console, &decoder, std::vector<std::string>(argv + 1, argv + argc) });
+    console.NoteStepTimes();
     console.Finish();
     if (!std::cout.flush())
     {

@@ -1,5 +1,10 @@
 #include "rhombicCommands.h"
 
+#include "itkVersion.h"
+
+#include <OpenImageIO/oiioversion.h>
+#include <vtkVersionMacros.h>
+
 #include <filesystem>
 
 namespace rhombic
@@ -34,6 +39,14 @@ DescribeCommandLine(const std::vector<std::string> & arguments, const std::map<s
     text += " " + option + Describe(argument.substr(option.size()), names);
   }
   return text;
+}
+
+std::string
+VersionText()
+{
+  return "rhombic      " RHOMBIC_VERSION "\nITK          " + std::string(itk::Version::GetITKVersion()) +
+         "\nVTK          " VTK_VERSION "\nOpenImageIO  " + std::to_string(OIIO_VERSION_MAJOR) + "." +
+         std::to_string(OIIO_VERSION_MINOR) + "." + std::to_string(OIIO_VERSION_PATCH) + "\n";
 }
 
 } // namespace rhombic

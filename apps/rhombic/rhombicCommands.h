@@ -46,6 +46,11 @@ AddPhantomCommand(CLI::App & parser);
 CommandRun
 AddDoctorCommand(CLI::App & parser);
 
+/** Replaces this process by the program that draws, if this one can't and \a arguments (as of main()) name a command
+ * that does. Otherwise it returns. */
+void
+StartDrawingProgram(char ** arguments);
+
 /** Versions of the program and its libraries, a line each. */
 std::string
 VersionText();

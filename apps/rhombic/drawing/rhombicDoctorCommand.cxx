@@ -6,10 +6,6 @@
 
 #include "itkMultiThreaderBase.h"
 #include "itkTriangleSurface.h"
-#include "itkVersion.h"
-
-#include <OpenImageIO/imageio.h>
-#include <vtkVersion.h>
 
 #include <iostream>
 
@@ -51,16 +47,6 @@ Doctor()
 }
 
 } // namespace
-
-std::string
-VersionText()
-{
-  return "rhombic      " RHOMBIC_VERSION "\nITK          " + std::string(itk::Version::GetITKVersion()) +
-         "\nVTK          " + vtkVersion::GetVTKVersion() + "\nOpenImageIO  " +
-         std::to_string(OIIO::openimageio_version() / 10000) + "." +
-         std::to_string(OIIO::openimageio_version() / 100 % 100) + "." +
-         std::to_string(OIIO::openimageio_version() % 100) + "\n";
-}
 
 CommandRun
 AddDoctorCommand(CLI::App &)

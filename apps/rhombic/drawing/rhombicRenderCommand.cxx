@@ -117,6 +117,12 @@ Render(const RenderOptions & options, const CommandContext & context)
 
 } // namespace
 
+void
+StartDrawingProgram(char **)
+{
+  // This is the drawing program.
+}
+
 CommandRun
 AddRenderCommand(CLI::App & parser)
 {
