@@ -112,11 +112,12 @@ Console::AddTimeToStep()
   const auto now = Clock::now();
   const double seconds = std::chrono::duration<double>(now - m_StepStart).count();
   m_StepStart = now;
+  const std::string kind = m_Step.substr(0, m_Step.find(' '));
   const auto known = std::find_if(
-    m_StepSeconds.begin(), m_StepSeconds.end(), [this](const auto & entry) { return entry.first == m_Step; });
+    m_StepSeconds.begin(), m_StepSeconds.end(), [&kind](const auto & entry) { return entry.first == kind; });
   if (known == m_StepSeconds.end())
   {
-    m_StepSeconds.emplace_back(m_Step, seconds);
+    m_StepSeconds.emplace_back(kind, seconds);
   }
   else
   {
@@ -133,13 +134,13 @@ Console::NoteStepTimes()
   }
   this->AddTimeToStep();
   double sum = 0.0;
-  for (const auto & [step, seconds] : m_StepSeconds)
+  for (const auto & [kind, seconds] : m_StepSeconds)
   {
     sum += seconds;
   }
-  for (const auto & [step, seconds] : m_StepSeconds)
+  for (const auto & [kind, seconds] : m_StepSeconds)
   {
-    this->Note(FormatFixed(seconds, 2) + " s  " + FormatFixed(100.0 * seconds / sum, 0) + " %  " + step);
+    this->Note(FormatFixed(seconds, 2) + " s  " + FormatFixed(100.0 * seconds / sum, 0) + " %  " + kind);
   }
   this->Note(FormatFixed(sum, 2) + " s  in all");
 }

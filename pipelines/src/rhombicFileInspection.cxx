@@ -158,7 +158,7 @@ FileInspection::MeasureDeviation(const itk::TriangleSurface & read, MeshedSurfac
   constexpr std::size_t quick = 250'000;
   constexpr std::size_t thorough = 10'000'000;
   const std::string & name = surface.scene.name;
-  m_Events.Progress("measuring how far " + name + " is from the scan", 0.0);
+  m_Events.Progress("comparing " + name + " with the scan", 0.0);
   const SurfaceDeviation deviation = ComputeDeviation(read,
                                                       *m_Scan,
                                                       m_Settings.source.lattice.kernel,

@@ -241,12 +241,12 @@ LabelsToSurfaces(const LabelMap & map, const LabelSurfaceSettings & settings, co
     const auto boxVoxels = static_cast<double>(box.GetNumberOfPixels());
     const LabelPieces pieces(map.scan.image, summary.label.value, box);
     surfaces.push_back(MakeSurface(map.scan, summary, pieces, settings, [&](double fraction) {
-      events.Progress("surfaces of labels", (doneVoxels + fraction * boxVoxels) / allVoxels);
+      events.Progress("extracting labels", (doneVoxels + fraction * boxVoxels) / allVoxels);
     }));
     NoteShortcomings(surfaces.back(), events);
     doneVoxels += boxVoxels;
   }
-  events.Progress("surfaces of labels", 1.0);
+  events.Progress("extracting labels", 1.0);
   return surfaces;
 }
 
