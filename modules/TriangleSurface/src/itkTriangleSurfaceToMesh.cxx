@@ -15,23 +15,6 @@ using MeshType = Mesh<float, 3>;
 using QuadEdgeMeshType = QuadEdgeMesh<float, 3>;
 using TriangleCellType = TriangleCell<MeshType::CellType>;
 
-/** Bytes that glibc's malloc takes for a block. */
-constexpr SizeValueType
-HeapBlock(SizeValueType bytes)
-{
-  constexpr SizeValueType header = 8, alignment = 16, least = 32;
-  return std::max(least, (bytes + header + alignment - 1) / alignment * alignment);
-}
-
-/** Bytes of a node of a std::map. */
-template <typename TKey, typename TValue>
-constexpr SizeValueType
-MapNode()
-{
-  constexpr SizeValueType links = 32;
-  return HeapBlock(links + sizeof(std::pair<const TKey, TValue>));
-}
-
 void
 VerifyThreeCorners(const TriangleSurface & surface)
 {
@@ -76,28 +59,6 @@ CopyPoints(const TriangleSurface & surface, TMesh & mesh)
 }
 
 } // namespace
-
-SizeValueType
-EstimateMeshMemory(const TriangleSurface & surface)
-{
-  const SizeValueType perTriangle = sizeof(MeshType::CellType *) + HeapBlock(sizeof(TriangleCellType)) +
-                                    HeapBlock(3 * sizeof(MeshType::PointIdentifier));
-  return surface.GetNumberOfTriangles() * perTriangle + surface.GetNumberOfPoints() * sizeof(MeshType::PointType);
-}
-
-SizeValueType
-EstimateQuadEdgeMeshMemory(const TriangleSurface & surface)
-{
-  using CellPointer = QuadEdgeMeshType::CellType *;
-  const SizeValueType cellNode = MapNode<QuadEdgeMeshType::CellIdentifier, CellPointer>();
-  const SizeValueType perEdge = cellNode + HeapBlock(sizeof(QuadEdgeMeshType::EdgeCellType)) +
-                                2 * HeapBlock(sizeof(QuadEdgeMeshType::QEPrimal)) +
-                                2 * HeapBlock(sizeof(QuadEdgeMeshType::QEDual));
-  const SizeValueType perTriangle = cellNode + HeapBlock(sizeof(QuadEdgeMeshType::PolygonCellType));
-  const SizeValueType perPoint = MapNode<QuadEdgeMeshType::PointIdentifier, QuadEdgeMeshType::PointType>();
-  const SizeValueType triangles = surface.GetNumberOfTriangles();
-  return triangles * perTriangle + triangles * 3 / 2 * perEdge + surface.GetNumberOfPoints() * perPoint;
-}
 
 Mesh<float, 3>::Pointer
 ConvertToMesh(const TriangleSurface & surface)
