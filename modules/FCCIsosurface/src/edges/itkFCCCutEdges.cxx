@@ -26,28 +26,6 @@ ForEachCutWord(const FCCSigns & signs, std::uint8_t type, SizeValueType j, SizeV
     });
 }
 
-/** Bits of the sites of a row that have a neighbour on the other side of the surface. */
-void
-FindBorderSites(const FCCSigns & signs, SizeValueType j, SizeValueType k, std::vector<WordType> & border)
-{
-  const WordType * const row = signs.GetRow(j, k);
-  std::fill(border.begin(), border.end(), 0);
-  for (const auto & edge : FCCLattice::OwnedEdges)
-  {
-    for (const IndexValueType sign : { 1, -1 })
-    {
-      const FCCStepTarget end(signs, j, k, { sign * edge[0], sign * edge[1], sign * edge[2] });
-      if (end.isInBox)
-      {
-        FCCBits::ForEachShifted(signs.GetRow(end.j, end.k),
-                                border.size(),
-                                end.shift,
-                                [&](SizeValueType word, WordType bits) { border[word] |= row[word] ^ bits; });
-      }
-    }
-  }
-}
-
 } // namespace
 
 FCCCutEdges::FCCCutEdges(const FCCSigns & signs, Group group, std::uint8_t types, std::pmr::memory_resource * scratch)
@@ -84,35 +62,6 @@ FCCCutEdges::Count(const FCCSigns & signs, Group group, SizeValueType k, std::ui
     });
   }
   return count;
-}
-
-void
-FindBorderBlocks(const FCCSigns & signs,
-                 SizeValueType k,
-                 SizeValueType block,
-                 SizeValueType blocksOfRow,
-                 SizeValueType offset,
-                 std::vector<std::uint8_t> & blocks)
-{
-  blocks.assign((signs.GetHeight() + 2 * offset) * blocksOfRow, 0);
-  std::vector<WordType> border(signs.GetNumberOfWords());
-  for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
-  {
-    FindBorderSites(signs, j, k, border);
-    std::uint8_t * const row = blocks.data() + (j + offset) * blocksOfRow;
-    for (SizeValueType i = 0; i < signs.GetWidth(); i += block)
-    {
-      const WordType blockBits = border[i / FCCBits::WordBits] >> (i % FCCBits::WordBits);
-      if ((blockBits & ((WordType{ 1 } << block) - 1)) != 0)
-      {
-        row[i / block] = 1;
-        if (offset > 0 && i / block + 1 < blocksOfRow)
-        {
-          row[i / block + 1] = 1;
-        }
-      }
-    }
-  }
 }
 
 } // namespace itk

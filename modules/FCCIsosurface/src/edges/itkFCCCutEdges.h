@@ -2,6 +2,7 @@
 #define itkFCCCutEdges_h
 
 #include "itkFCCBitRows.h"
+#include "itkFCCStepTarget.h"
 
 namespace itk
 {
@@ -51,24 +52,6 @@ struct FCCStoredEdges
       use(static_cast<std::uint8_t>(__builtin_ctz(types)));
     }
   }
-};
-
-/** \class FCCStepTarget
- * \brief The sites at one step from those of a row: their row, and how far their indices are from those of the row.
- */
-struct FCCStepTarget
-{
-  SizeValueType j;
-  SizeValueType k;
-  IndexValueType shift;
-  bool isInBox; ///< whether the row is one of the signs
-
-  FCCStepTarget(const FCCSigns & signs, SizeValueType fromJ, SizeValueType fromK, const FCCLattice::SiteType & step)
-    : j(fromJ + static_cast<SizeValueType>(step[1])) // below 0 wraps around
-    , k(fromK + static_cast<SizeValueType>(step[2]))
-    , shift(FCCLattice::OffsetOf(step, signs.GetParity(fromJ, fromK))[0])
-    , isInBox(j < signs.GetHeight() && k < signs.GetDepth())
-  {}
 };
 
 /** \class FCCCutEdges
@@ -121,16 +104,6 @@ private:
   std::uint32_t m_FirstId{ 0 };
   FCCNumberedBits m_Cut;
 };
-
-/** For each block of \a block sites of plane \a k, row by row: is there one in it with a neighbour on the other side of
- * the surface? Sites are counted from \a offset on within the blocks. */
-void
-FindBorderBlocks(const FCCSigns & signs,
-                 SizeValueType k,
-                 SizeValueType block,
-                 SizeValueType blocksOfRow,
-                 SizeValueType offset,
-                 std::vector<std::uint8_t> & blocks);
 
 } // namespace itk
 

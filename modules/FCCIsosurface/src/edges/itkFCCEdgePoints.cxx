@@ -13,17 +13,24 @@ namespace
  * that site i stores. */
 struct EdgeRows
 {
-  const float * values[4] = {};        ///< at the positions -1, 0, 1, 2 along the line; the outer ones for cubics only
-  const float * gradients[2] = {};     ///< FCCFieldKernels::GradientStride floats a site
-  const float * nearMiddle[4] = {};    ///< around the middle of an edge along x, for cubics only
-  const float * aroundEnds[2][4] = {}; ///< further away, on either side of the middle
+  bool isCubic;
+  bool passesThroughMiddle;
+  bool withGradients;
+  SizeValueType shift;     ///< from a site to the other end of its edge
+  const float * values[4]; ///< at the positions -1, 0, 1, 2 along the line; the outer ones for cubics only
+  FCCFieldPlanes::GradientRow gradients[2]; ///< at both ends
+  const float * nearMiddle[4];              ///< around the middle of an edge along x, for cubics only
+  const float * aroundEnds[2][4];           ///< further away, on either side of the middle
 
   EdgeRows(const FCCFieldPlanes & field,
            const FCCLattice::SiteType & step,
            SizeValueType j,
            SizeValueType k,
            bool cubic,
-           bool withGradients)
+           bool hasGradients)
+    : isCubic(cubic)
+    , passesThroughMiddle(cubic && step[1] == 0 && step[2] == 0)
+    , withGradients(hasGradients)
   {
     const IndexValueType parity = field.GetParity(j, k);
     for (IndexValueType place = cubic ? -1 : 0; place <= (cubic ? 2 : 1); ++place)
@@ -34,10 +41,11 @@ struct EdgeRows
       values[place + 1] = field.GetValues(row, plane) + offset[0];
       if (withGradients && (place == 0 || place == 1))
       {
-        gradients[place] = field.GetGradients(row, plane) + FCCFieldKernels::GradientStride * offset[0];
+        gradients[place] = field.GetGradients(row, plane);
       }
+      shift = place == 1 ? static_cast<SizeValueType>(offset[0]) : shift;
     }
-    if (cubic && step[1] == 0 && step[2] == 0)
+    if (passesThroughMiddle)
     {
       const auto rowAt = [&](const FCCLattice::SiteType & place) {
         const auto offset = FCCLattice::OffsetOf(place, parity);
@@ -59,24 +67,21 @@ struct EdgeRows
   Gather(SizeValueType i, FCCEdgeBatch & batch) const
   {
     const SizeValueType n = batch.count;
-    for (unsigned int place = 0; place < 4; ++place)
+    batch.value[1][n] = values[1][i];
+    batch.value[2][n] = values[2][i];
+    if (isCubic)
     {
-      if (values[place] != nullptr)
-      {
-        batch.value[place][n] = values[place][i];
-      }
+      batch.value[0][n] = values[0][i];
+      batch.value[3][n] = values[3][i];
     }
-    if (nearMiddle[0] != nullptr)
+    if (passesThroughMiddle)
     {
       this->PassThroughMiddle(i, batch);
     }
-    if (gradients[0] != nullptr)
+    if (withGradients)
     {
-      for (unsigned int end = 0; end < 2; ++end)
-      {
-        std::memcpy(
-          batch.gradient[end][n], gradients[end] + FCCFieldKernels::GradientStride * i, sizeof batch.gradient[end][n]);
-      }
+      std::memcpy(batch.gradient[0][n], gradients[0].GetGradient(i), sizeof batch.gradient[0][n]);
+      std::memcpy(batch.gradient[1][n], gradients[1].GetGradient(i + shift), sizeof batch.gradient[1][n]);
     }
   }
 
@@ -250,11 +255,7 @@ FCCEdgePointFiller::FCCEdgePointFiller(const FCCSigns & signs,
   : m_Signs(signs)
   , m_EdgePoints(edgePoints)
   , m_ToField(field.closed ? 0 : 1)
-  , m_Field({ field.region.GetSize(0), field.region.GetSize(1), field.region.GetSize(2) },
-            FCCLattice::Parity(field.region.GetIndex(1) - 1, field.region.GetIndex(2) - 1),
-            field.readRow,
-            2,
-            field.scratch)
+  , m_Field(signs, field, 2)
 {}
 
 void
@@ -266,10 +267,9 @@ FCCEdgePointFiller::Fill(SizeValueType k,
   for (SizeValueType end = k; end < std::min(k + 2, m_Signs.GetDepth()); ++end) // the planes of the edges' ends
   {
     m_Field.LoadValuesAround(end + m_ToField);
-    if (surface.HasNormals() && !m_Field.HasGradients(end + m_ToField))
+    if (surface.HasNormals())
     {
-      FindBorderBlocks(m_Signs, end, FCCFieldKernels::Block, m_Field.GetNumberOfBlocks(), m_ToField, m_Blocks);
-      m_Field.LoadGradients(end + m_ToField, m_Blocks);
+      m_Field.LoadGradients(end + m_ToField);
     }
   }
   for (const FCCCutEdges * const edges : { &inPlane, &between })

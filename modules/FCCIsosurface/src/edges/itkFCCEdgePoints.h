@@ -128,7 +128,6 @@ private:
   const FCCEdgePoints & m_EdgePoints;
   SizeValueType m_ToField; ///< from a plane of the signs to that of the field
   FCCFieldPlanes m_Field;
-  std::vector<std::uint8_t> m_Blocks;
 };
 
 } // namespace itk

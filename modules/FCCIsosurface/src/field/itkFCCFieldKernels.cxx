@@ -3,9 +3,11 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "itkFCCBitRows.h"
 #include "itkFCCFieldKernels.h"
 #include "itkFCCStep.h"
 
+#include <cstring>
 #include <limits>
 
 HWY_BEFORE_NAMESPACE();
@@ -53,7 +55,8 @@ QuasiInterpolateRow(const float * values,
   }
 }
 
-HWY_ATTR void
+/** The gradients at all sites of a block. */
+HWY_INLINE void
 GradientBlock(const float * const * n, std::size_t first, float * HWY_RESTRICT gradients)
 {
   const hn::CappedTag<float, FCCFieldKernels::Block> tag;
@@ -74,7 +77,28 @@ GradientBlock(const float * const * n, std::size_t first, float * HWY_RESTRICT g
                           hn::Mul(eighth, hn::Add(hn::Add(c, d), hn::Add(e, f))),
                           hn::Zero(tag),
                           tag,
-                          gradients + FCCFieldKernels::GradientStride * i);
+                          gradients + FCCFieldKernels::GradientStride * (i - first));
+  }
+}
+
+HWY_ATTR void
+GradientsOfRow(const float * const * n, const FCCBits::WordType * sites, SizeValueType words, float * gradients)
+{
+  constexpr SizeValueType block = FCCFieldKernels::Block;
+  constexpr SizeValueType stride = FCCFieldKernels::GradientStride;
+  alignas(64) float all[block * stride];
+  for (SizeValueType first = 0; first < words * FCCBits::WordBits; first += block)
+  {
+    const FCCBits::WordType wanted =
+      sites[first / FCCBits::WordBits] >> (first % FCCBits::WordBits) & ((FCCBits::WordType{ 1 } << block) - 1);
+    if (wanted != 0)
+    {
+      GradientBlock(n, first, all);
+      FCCBits::ForEach(wanted, 0, [&](SizeValueType i) HWY_ATTR {
+        std::memcpy(gradients, all + stride * i, stride * sizeof(float));
+        gradients += stride;
+      });
+    }
   }
 }
 
@@ -89,7 +113,7 @@ namespace itk
 namespace
 {
 HWY_EXPORT(QuasiInterpolateRow);
-HWY_EXPORT(GradientBlock);
+HWY_EXPORT(GradientsOfRow);
 } // namespace
 
 void
@@ -102,9 +126,12 @@ FCCFieldKernels::QuasiInterpolate(const float * values,
 }
 
 void
-FCCFieldKernels::Gradient(const NeighborRows & neighbors, SizeValueType first, float * gradients)
+FCCFieldKernels::Gradient(const NeighborRows & neighbors,
+                          const std::uint64_t * sites,
+                          SizeValueType words,
+                          float * gradients)
 {
-  HWY_DYNAMIC_DISPATCH(GradientBlock)(neighbors, first, gradients);
+  HWY_DYNAMIC_DISPATCH(GradientsOfRow)(neighbors, sites, words, gradients);
 }
 
 } // namespace itk

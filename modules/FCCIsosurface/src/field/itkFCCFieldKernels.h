@@ -3,6 +3,8 @@
 
 #include "itkFCCLattice.h"
 
+#include <cstdint>
+
 namespace itk
 {
 
@@ -27,9 +29,10 @@ struct FCCFieldKernels
   /** Floats that a gradient takes in memory: x, y, z and nothing, so that it is read at once. */
   static constexpr SizeValueType GradientStride = 4;
 
-  /** One block of a row's gradients in lattice coordinates, sum of d f(x + d) / 8 over the neighbours. */
+  /** The gradients at some sites of a row in lattice coordinates, sum of d f(x + d) / 8 over the neighbours, one after
+   * the other. \param sites \a words words, whose bits are the sites that are wanted */
   static void
-  Gradient(const NeighborRows & neighbors, SizeValueType first, float * gradients);
+  Gradient(const NeighborRows & neighbors, const std::uint64_t * sites, SizeValueType words, float * gradients);
 };
 
 } // namespace itk

@@ -1,32 +1,35 @@
 #include "itkFCCFieldPlanes.h"
 
+#include "itkFCCBorderSites.h"
+
 #include <algorithm>
-#include <utility>
 
 namespace itk
 {
 
-FCCFieldPlanes::FCCFieldPlanes(const std::array<SizeValueType, 3> & size,
-                               IndexValueType parityOfFirstRow,
-                               RowReader readRow,
-                               SizeValueType planesOfGradients,
-                               std::pmr::memory_resource * scratch)
-  : m_Size{ size[0] + 2, size[1] + 2, size[2] + 2 }
-  , m_ParityOfFirstRow(parityOfFirstRow)
-  , m_ReadRow(std::move(readRow))
+FCCFieldPlanes::FCCFieldPlanes(const FCCSigns & signs, const FCCScalarField & field, SizeValueType planesOfGradients)
+  : m_Signs(signs)
+  , m_Size{ field.region.GetSize(0) + 2, field.region.GetSize(1) + 2, field.region.GetSize(2) + 2 }
+  , m_ParityOfFirstRow(FCCLattice::Parity(field.region.GetIndex(1) - 1, field.region.GetIndex(2) - 1))
+  , m_ReadRow(field.readRow)
 {
-  const auto addPlanes = [scratch](std::vector<Plane> & planes, SizeValueType count) {
+  const auto addPlanes = [&field](std::vector<Plane> & planes, SizeValueType count) {
     planes.reserve(count);
     for (SizeValueType n = 0; n < count; ++n)
     {
-      planes.emplace_back(scratch);
+      planes.emplace_back(field.scratch);
     }
   };
   addPlanes(m_Values, 6);
   addPlanes(m_Coefficients, 3);
-  addPlanes(m_Gradients, planesOfGradients);
+  m_Gradients.reserve(planesOfGradients);
+  for (SizeValueType n = 0; n < planesOfGradients; ++n)
+  {
+    m_Gradients.emplace_back(
+      FCCNumberedBits(m_Size[1], (m_Size[0] + FCCBits::WordBits - 1) / FCCBits::WordBits, field.scratch));
+  }
   constexpr SizeValueType block = FCCFieldKernels::Block;
-  constexpr SizeValueType word = 64; // rows are also read by the words of their signs
+  constexpr SizeValueType word = FCCBits::WordBits; // rows are also read by the words of their signs
   m_Stride = (m_Size[0] + word - 1) / word * word + 2 * block;
 }
 
@@ -101,33 +104,42 @@ FCCFieldPlanes::LoadCoefficientsAround(SizeValueType k)
 }
 
 void
-FCCFieldPlanes::ComputeGradients(SizeValueType j, SizeValueType k, SizeValueType block, float * gradients) const
+FCCFieldPlanes::LoadGradients(SizeValueType k)
 {
-  FCCFieldKernels::NeighborRows neighbors;
-  this->GetNeighborRows(m_Coefficients, j, k, neighbors);
-  FCCFieldKernels::Gradient(neighbors, block * FCCFieldKernels::Block, gradients);
-}
-
-void
-FCCFieldPlanes::LoadGradients(SizeValueType k, const std::vector<std::uint8_t> & wanted)
-{
-  if (this->HasGradients(k) || !this->IsReal(2, k))
+  GradientPlane & plane = m_Gradients[k % m_Gradients.size()];
+  if (plane.number == k || !this->IsReal(2, k))
   {
     return;
   }
   this->LoadCoefficientsAround(k);
-  Plane & plane = m_Gradients[k % m_Gradients.size()];
-  plane.samples.resize(this->GetLengthOfGradients() * m_Size[1]);
   plane.number = k;
+  this->FindSites(k, plane.sites);
+  plane.gradients.resize(FCCFieldKernels::GradientStride * plane.sites.Number(0));
   for (SizeValueType j = 1; j + 1 < m_Size[1]; ++j)
   {
-    float * const gradients = plane.GetRow(j, this->GetLengthOfGradients());
-    for (SizeValueType block = 0; block < this->GetNumberOfBlocks(); ++block)
+    FCCFieldKernels::NeighborRows neighbors;
+    this->GetNeighborRows(m_Coefficients, j, k, neighbors);
+    const FCCNumberedBits::Row row = plane.sites.GetNumberedRow(j);
+    FCCFieldKernels::Gradient(neighbors,
+                              row.bits,
+                              plane.sites.GetStride() - 1,
+                              plane.gradients.data() + FCCFieldKernels::GradientStride * row.numberOfWord[0]);
+  }
+}
+
+void
+FCCFieldPlanes::FindSites(SizeValueType k, FCCNumberedBits & sites) const
+{
+  const SizeValueType margin = (m_Size[0] - m_Signs.GetWidth()) / 2; // sites around those that have signs
+  for (SizeValueType j = 1; j + 1 < m_Size[1]; ++j)
+  {
+    FCCSigns::WordType * const row = sites.GetRow(j);
+    FindBorderSites(m_Signs, j - margin, k - margin, row);
+    if (margin > 0)
     {
-      if (wanted[j * this->GetNumberOfBlocks() + block])
-      {
-        this->ComputeGradients(j, k, block, gradients);
-      }
+      row[m_Signs.GetNumberOfWords()] = 0;
+      FCCBits::ForEachShifted(
+        row, sites.GetStride() - 1, -1, [row](SizeValueType word, FCCSigns::WordType bits) { row[word] = bits; });
     }
   }
 }

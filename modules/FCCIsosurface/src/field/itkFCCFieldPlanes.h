@@ -1,10 +1,12 @@
 #ifndef itkFCCFieldPlanes_h
 #define itkFCCFieldPlanes_h
 
+#include "itkFCCBitRows.h"
 #include "itkFCCFieldKernels.h"
 #include "itkFCCSurfaceExtractor.h"
 
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace itk
@@ -17,27 +19,23 @@ namespace itk
  * relative to the isovalue. Those of the layer around the image are extrapolated linearly from within, axis by axis.
  * Coefficients are those of the box spline that quasi-interpolates the values, c = 3/2 f - sum of the 12 neighbours
  * / 24 (Kim, Entezari, Peters, "Box spline reconstruction on the face-centered cubic lattice", 2008). The gradient of
- * that box spline at a site is the sum of d c(x + d) / 8 over the neighbours.
+ * that box spline at a site is the sum of d c(x + d) / 8 over the neighbours. Only sites that have a neighbour on the
+ * other side of the surface have gradients, which are stored one after the other: those of a few planes fit into a
+ * cache.
  *
  * Planes are computed when asked for, and the last few of each kind are kept: ask in ascending order.
  *
- * Memory: planes of float32, 6 of values, 3 of coefficients and 4 for each of gradients, once they are asked for.
+ * Memory: planes of float32, 6 of values and 3 of coefficients, and 16 bytes for each gradient, once they are asked
+ * for.
  */
 class FCCFieldPlanes
 {
 public:
   using RowReader = FCCScalarField::RowReader;
 
-  /** \param size of the image, without the layer around it
-   *  \param parityOfFirstRow that of the first row of the layer around it
-   *  \param readRow reads the image
-   *  \param planesOfGradients how many are kept
-   *  \param scratch for the planes */
-  FCCFieldPlanes(const std::array<SizeValueType, 3> & size,
-                 IndexValueType parityOfFirstRow,
-                 RowReader readRow,
-                 SizeValueType planesOfGradients,
-                 std::pmr::memory_resource * scratch);
+  /** \param signs of the field's samples, with or without the layer around the image; must outlive this
+   *  \param planesOfGradients how many are kept */
+  FCCFieldPlanes(const FCCSigns & signs, const FCCScalarField & field, SizeValueType planesOfGradients);
 
   IndexValueType
   GetParity(SizeValueType j, SizeValueType k) const
@@ -52,13 +50,6 @@ public:
     return index > 0 && index + 1 < m_Size[axis];
   }
 
-  /** Blocks of FCCFieldKernels::Block sites in a row. */
-  SizeValueType
-  GetNumberOfBlocks() const
-  {
-    return m_Stride / FCCFieldKernels::Block - 2;
-  }
-
   /** Makes the values of a plane available, and keeps those of the five planes that were loaded before. */
   void
   LoadValues(SizeValueType k);
@@ -67,33 +58,10 @@ public:
   void
   LoadValuesAround(SizeValueType k);
 
-  /** Whether the gradients of a plane are available: they have been loaded, and no later plane has overwritten them. */
-  bool
-  HasGradients(SizeValueType k) const
-  {
-    return m_Gradients[k % m_Gradients.size()].number == k;
-  }
-
-  /** Makes the gradients of a plane available in some blocks of FCCFieldKernels::Block sites, and keeps those of a few
-   * planes that were loaded before. \param wanted for each block, row by row: not zero if it is wanted */
+  /** Makes the gradients of a plane available, and keeps those of a few planes that were loaded before. Planes of the
+   * layer around the image have none. */
   void
-  LoadGradients(SizeValueType k, const std::vector<std::uint8_t> & wanted);
-
-  /** Makes the coefficients of planes \a k - 1 to \a k + 1 available. The plane must be one of the image. */
-  void
-  LoadCoefficientsAround(SizeValueType k);
-
-  /** The gradients of one block of sites, at their positions in a row of \a gradients: GradientStride floats for each
-   * site. The coefficients around the plane must have been loaded, and the row be one of the image. */
-  void
-  ComputeGradients(SizeValueType j, SizeValueType k, SizeValueType block, float * gradients) const;
-
-  /** Floats of a row of gradients, with the margin that kernels need. */
-  SizeValueType
-  GetLengthOfGradients() const
-  {
-    return FCCFieldKernels::GradientStride * m_Stride;
-  }
+  LoadGradients(SizeValueType k);
 
   const float *
   GetValues(SizeValueType j, SizeValueType k) const
@@ -101,11 +69,26 @@ public:
     return m_Values[k % m_Values.size()].GetRow(j, m_Stride);
   }
 
-  /** A row of gradients, FCCFieldKernels::GradientStride floats for each site. */
-  const float *
+  /** The gradients of a row. */
+  struct GradientRow
+  {
+    FCCNumberedBits::Row sites;
+    const float * gradients; ///< by number of the site, FCCFieldKernels::GradientStride floats for each
+
+    /** The gradient at a site, which must have a neighbour on the other side of the surface. */
+    const float *
+    GetGradient(SizeValueType i) const
+    {
+      return gradients + FCCFieldKernels::GradientStride * sites.GetNumber(i);
+    }
+  };
+
+  /** The gradients of a row of the image. Those of its plane must have been loaded. */
+  GradientRow
   GetGradients(SizeValueType j, SizeValueType k) const
   {
-    return m_Gradients[k % m_Gradients.size()].GetRow(j, this->GetLengthOfGradients());
+    const GradientPlane & plane = m_Gradients[k % m_Gradients.size()];
+    return { plane.sites.GetNumberedRow(j), plane.gradients.data() };
   }
 
 private:
@@ -132,8 +115,27 @@ private:
     }
   };
 
+  struct GradientPlane
+  {
+    SizeValueType number = Plane::None;
+    FCCNumberedBits sites;
+    std::vector<float> gradients;
+
+    explicit GradientPlane(FCCNumberedBits && noSites)
+      : sites(std::move(noSites))
+    {}
+  };
+
   void
   LoadCoefficients(SizeValueType k);
+
+  /** Makes the coefficients of planes \a k - 1 to \a k + 1 available. The plane must be one of the image. */
+  void
+  LoadCoefficientsAround(SizeValueType k);
+
+  /** Finds the sites of a plane that have gradients. */
+  void
+  FindSites(SizeValueType k, FCCNumberedBits & sites) const;
 
   /** Makes a plane available: fill(plane) writes the sites of the image, the layer around it is extrapolated. */
   template <typename TFill>
@@ -155,13 +157,14 @@ private:
                   SizeValueType k,
                   FCCFieldKernels::NeighborRows & rows) const;
 
+  const FCCSigns & m_Signs;
   std::array<SizeValueType, 3> m_Size; // with the layer around the image
   IndexValueType m_ParityOfFirstRow;
   RowReader m_ReadRow;
   SizeValueType m_Stride;
   std::vector<Plane> m_Values;
   std::vector<Plane> m_Coefficients;
-  std::vector<Plane> m_Gradients;
+  std::vector<GradientPlane> m_Gradients;
 };
 
 } // namespace itk

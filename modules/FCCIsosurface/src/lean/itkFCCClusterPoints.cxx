@@ -9,10 +9,10 @@ namespace itk
 class FCCClusterPoints::Row
 {
 public:
-  explicit Row(const FCCFieldPlanes & field)
+  /** \param withFarGradients whether the field has the gradients of the planes on either side, too */
+  Row(const FCCFieldPlanes & field, bool withFarGradients)
     : m_Field(field)
-    , m_HasGradients(field.GetNumberOfBlocks())
-    , m_Gradients(field.GetLengthOfGradients())
+    , m_WithFarGradients(withFarGradients)
   {}
 
   /** Goes to the row (\a j, \a k), unless there already. */
@@ -26,14 +26,21 @@ public:
     m_J = j;
     m_K = k;
     m_Values = m_Field.GetValues(j, k);
+    m_Gradients = m_Field.GetGradients(j, k);
     for (unsigned int direction = 0; direction < FCCSiteStar::Directions; ++direction)
     {
       const auto offset = FCCLattice::OffsetOf(FCCSiteStar::StepOf(direction), m_Field.GetParity(j, k));
-      m_Neighbors[direction] =
-        m_Field.GetValues(j + static_cast<SizeValueType>(offset[1]), k + static_cast<SizeValueType>(offset[2])) +
-        offset[0];
+      const SizeValueType row = j + static_cast<SizeValueType>(offset[1]);
+      const SizeValueType plane = k + static_cast<SizeValueType>(offset[2]);
+      Neighbor & neighbor = m_Neighbors[direction];
+      neighbor.shift = static_cast<SizeValueType>(offset[0]);
+      neighbor.values = m_Field.GetValues(row, plane) + offset[0];
+      neighbor.hasGradients = m_WithFarGradients && m_Field.IsReal(1, row) && m_Field.IsReal(2, plane);
+      if (neighbor.hasGradients)
+      {
+        neighbor.gradients = m_Field.GetGradients(row, plane);
+      }
     }
-    std::fill(m_HasGradients.begin(), m_HasGradients.end(), 0);
   }
 
   IndexValueType
@@ -55,28 +62,17 @@ public:
   float
   GetNeighbor(unsigned int direction, SizeValueType i) const
   {
-    return m_Neighbors[direction][i];
+    return m_Neighbors[direction].values[i];
   }
 
-  /** The gradient's x, y and z. Unless the field has loaded them, those of the sites nearby are computed with it. */
+  /** The gradient's x, y and z. */
   const float *
-  GetGradient(SizeValueType i)
+  GetGradient(SizeValueType i) const
   {
-    if (m_Field.HasGradients(m_K))
-    {
-      return m_Field.GetGradients(m_J, m_K) + FCCFieldKernels::GradientStride * i;
-    }
-    const SizeValueType block = i / FCCFieldKernels::Block;
-    if (m_HasGradients[block] == 0)
-    {
-      m_Field.ComputeGradients(m_J, m_K, block, m_Gradients.data());
-      m_HasGradients[block] = 1;
-    }
-    return m_Gradients.data() + FCCFieldKernels::GradientStride * i;
+    return m_Gradients.GetGradient(i);
   }
 
-  /** The mean of the gradients at the neighbours in some directions. The field must have loaded them; those outside the
-   * image have none. */
+  /** The mean of the gradients at the neighbours in some directions. Those outside the image have none. */
   std::array<float, 3>
   GetFarGradient(SizeValueType i, unsigned int directions) const
   {
@@ -84,15 +80,11 @@ public:
     float count = 0.0f;
     for (; directions != 0; directions &= directions - 1)
     {
-      const auto direction = static_cast<unsigned int>(__builtin_ctz(directions));
-      const auto offset = FCCLattice::OffsetOf(FCCSiteStar::StepOf(direction), this->GetParity());
-      const SizeValueType place[3] = { i + static_cast<SizeValueType>(offset[0]),
-                                       m_J + static_cast<SizeValueType>(offset[1]),
-                                       m_K + static_cast<SizeValueType>(offset[2]) };
-      if (m_Field.IsReal(0, place[0]) && m_Field.IsReal(1, place[1]) && m_Field.IsReal(2, place[2]))
+      const Neighbor & neighbor = m_Neighbors[__builtin_ctz(directions)];
+      const SizeValueType place = i + neighbor.shift;
+      if (neighbor.hasGradients && m_Field.IsReal(0, place))
       {
-        const float * const gradient =
-          m_Field.GetGradients(place[1], place[2]) + FCCFieldKernels::GradientStride * place[0];
+        const float * const gradient = neighbor.gradients.GetGradient(place);
         for (unsigned int axis = 0; axis < 3; ++axis)
         {
           sum[axis] += gradient[axis];
@@ -108,13 +100,22 @@ public:
   }
 
 private:
+  /** The row of the neighbours in one direction. */
+  struct Neighbor
+  {
+    SizeValueType shift; ///< from a site to its neighbour
+    const float * values;
+    bool hasGradients;
+    FCCFieldPlanes::GradientRow gradients;
+  };
+
   const FCCFieldPlanes & m_Field;
+  bool m_WithFarGradients;
   SizeValueType m_J{ 0 };
   SizeValueType m_K{ 0 };
   const float * m_Values{ nullptr };
-  const float * m_Neighbors[FCCSiteStar::Directions] = {};
-  std::vector<std::uint8_t> m_HasGradients;
-  std::vector<float> m_Gradients;
+  FCCFieldPlanes::GradientRow m_Gradients;
+  Neighbor m_Neighbors[FCCSiteStar::Directions];
 };
 
 class FCCClusterPoints::Output
@@ -268,7 +269,7 @@ FCCClusterPoints::PlaceWholeSites(const FCCSigns & signs,
                                   const FCCFieldPlanes & field,
                                   Output & output) const
 {
-  Row row(field);
+  Row row(field, output.HasNormals());
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
   {
     const bool isRealRow = field.IsReal(1, j) && field.IsReal(2, k);
@@ -307,7 +308,7 @@ FCCClusterPoints::PlaceSplitSites(const FCCClusterPlane & plane,
       singleVertices[n].Set(points[n], normals[n]);
     }
   };
-  Row row(field);
+  Row row(field, output.HasNormals());
   for (const FCCClusterPlane::SplitSite & site : plane.GetSplitSites())
   {
     const SizeValueType i = site.i;

@@ -19,13 +19,6 @@ FCCLeanExtractor::FCCLeanExtractor(const FCCSigns & signs, const FCCScalarField 
   , m_Filled(signs.GetDepth())
 {}
 
-FCCFieldPlanes
-FCCLeanExtractor::MakePlanes() const
-{
-  const auto & size = m_Field.region.GetSize();
-  return FCCFieldPlanes({ size[0], size[1], size[2] }, m_Signs.GetParity(0, 0), m_Field.readRow, 3, m_Field.scratch);
-}
-
 namespace
 {
 
@@ -94,7 +87,7 @@ TakeSuspects(const FCCSigns & signs, const FCCClusterPlane & plane, FCCTriangleU
 void
 FCCLeanExtractor::Count(SizeValueType begin, SizeValueType end)
 {
-  FCCFieldPlanes field = this->MakePlanes();
+  FCCFieldPlanes field(m_Signs, m_Field, 3);
   PlaneSequence planes(m_Signs, field, m_Field.insideIsBelow, nullptr, m_Field.scratch);
   std::array<FCCTriangleUse, 2> uses{ FCCTriangleUse(m_Signs, m_Field.scratch),
                                       FCCTriangleUse(m_Signs, m_Field.scratch) };
@@ -196,37 +189,13 @@ FCCLeanExtractor::Resolve(const Crew & crew)
 }
 
 void
-FCCLeanExtractor::LoadForPoints(SizeValueType k,
-                                bool withNormals,
-                                FCCFieldPlanes & field,
-                                std::vector<std::uint8_t> & blocks) const
-{
-  if (!withNormals)
-  {
-    if (field.IsReal(2, k))
-    {
-      field.LoadCoefficientsAround(k);
-    }
-    return;
-  }
-  for (SizeValueType near = k > 0 ? k - 1 : 0; near < std::min(k + 2, m_Signs.GetDepth()); ++near)
-  {
-    if (!field.HasGradients(near))
-    {
-      FindBorderBlocks(m_Signs, near, FCCFieldKernels::Block, field.GetNumberOfBlocks(), 0, blocks);
-      field.LoadGradients(near, blocks);
-    }
-  }
-}
-
-void
 FCCLeanExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface)
 {
-  FCCFieldPlanes field = this->MakePlanes();
+  FCCFieldPlanes field(m_Signs, m_Field, 3);
   PlaneSequence planes(m_Signs, field, m_Field.insideIsBelow, &m_Splits.GetRows(), m_Field.scratch);
   const FCCClusterPoints clusterPoints(m_Field.region, m_Field.frame, m_Field.minimumFraction);
   const bool reversed = m_Field.frame.IsLeftHanded();
-  std::vector<std::uint8_t> blocks;
+  const SizeValueType around = surface.HasNormals() ? 1 : 0; // planes whose gradients are needed
   if (begin > 0)
   {
     planes.Find(begin - 1);
@@ -237,7 +206,10 @@ FCCLeanExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface &
   for (SizeValueType k = begin; k < end; ++k)
   {
     planes.Find(k + 1, static_cast<std::uint32_t>(m_FirstPoint[k + 1]));
-    this->LoadForPoints(k, surface.HasNormals(), field, blocks);
+    for (SizeValueType near = k - std::min(k, around); near < std::min(k + around + 1, m_Signs.GetDepth()); ++near)
+    {
+      field.LoadGradients(near);
+    }
     clusterPoints.Place(m_Signs,
                         planes.Get(k),
                         k,

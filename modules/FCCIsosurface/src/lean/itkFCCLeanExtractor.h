@@ -64,19 +64,12 @@ private:
     std::vector<FCCNearerEndsOfStar> nearerEnds;
   };
 
-  FCCFieldPlanes
-  MakePlanes() const;
-
   RememberedPlane
   Remember(SizeValueType k, const FCCClusterPlane & plane, const FCCFieldPlanes & field) const;
 
   /** The nearer ends in the stars of sites, from the image or from what has been remembered. */
   void
   ReadNearerEnds(const SizeValueType * sites, SizeValueType count, FCCNearerEndsOfStar * nearerEnds) const;
-
-  /** Makes available what FCCClusterPoints needs for plane \a k. */
-  void
-  LoadForPoints(SizeValueType k, bool withNormals, FCCFieldPlanes & field, std::vector<std::uint8_t> & blocks) const;
 
   const FCCSigns & m_Signs;
   FCCScalarField m_Field;

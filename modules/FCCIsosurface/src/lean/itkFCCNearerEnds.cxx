@@ -54,15 +54,13 @@ FCCNearerEnds::FindRow(SizeValueType j,
   const float * const endValues = field.GetValues(end.j, end.k) + end.shift;
   FCCBits::ForEachShifted(endRow, words, end.shift, [&](SizeValueType word, WordType bits) {
     const WordType cut = row[word] ^ bits;
-    if (cut != 0)
-    {
-      const SizeValueType first = word * FCCBits::WordBits;
-      const WordType nearerToInside = FCCBits::Pack([&](SizeValueType n) {
-        return IsNearerToInside(startValues[first + n] + endValues[first + n], insideIsBelow);
-      });
-      ends[word] = cut & (row[word] ^ nearerToInside);
-      starts[word] = cut & ~ends[word];
-    }
+    WordType nearerToInside = 0;
+    FCCBits::ForEach(cut, 0, [&](SizeValueType n) {
+      const SizeValueType i = word * FCCBits::WordBits + n;
+      nearerToInside |= WordType{ IsNearerToInside(startValues[i] + endValues[i], insideIsBelow) } << n;
+    });
+    ends[word] = cut & (row[word] ^ nearerToInside);
+    starts[word] = cut & ~ends[word];
   });
   // The first and last sites of a row are outside the image.
   const auto move = [](SizeValueType i, WordType * from, WordType * to) {
