@@ -135,9 +135,19 @@ struct LeanSteps
   using Tag = hn::CappedTag<WordType, Together>;
   using Words = hn::Vec<Tag>;
 
-  /** Calls use(tetrahedron, corner left out, number of a word, its bits, which may be none) for the triangles between
-   * whole sites, and with \a WithMixed, useMixed(tetrahedron, number of a word, its bits) for the tetrahedra with
-   * crossings of split sites. */
+  /** Calls use(i) for the steps of a group, from word \a first on. */
+  template <typename TUse>
+  static HWY_INLINE void
+  ForEachStep(const Group & group, SizeValueType first, SizeValueType numberOfWords, const TUse & use)
+  {
+    for (SizeValueType word = first; word < std::min(numberOfWords, first + Together); ++word)
+    {
+      FCCBits::ForEach(group.words[word - first], word * FCCBits::WordBits, use);
+    }
+  }
+
+  /** Calls use(tetrahedron, corner left out, steps, first word) for the triangles between whole sites of some steps,
+   * and with \a WithMixed, useMixed(tetrahedron, steps, first word) for tetrahedra with crossings of split sites. */
   template <bool WithMixed, typename TUse, typename TMixed>
   static HWY_INLINE void
   ForEachTriangle(const LeanColumn & column, SizeValueType numberOfWords, const TUse & use, const TMixed & useMixed)
@@ -149,24 +159,15 @@ struct LeanSteps
       {
         continue;
       }
-      const SizeValueType count = std::min(numberOfWords - word, Together);
-#pragma GCC unroll 3
       for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
       {
-#pragma GCC unroll 4
         for (unsigned int leftOut = 0; leftOut < 4; ++leftOut)
         {
-          for (SizeValueType n = 0; n < count; ++n)
-          {
-            use(tetrahedron, leftOut, word + n, triangles.wholes[tetrahedron][leftOut].words[n]);
-          }
+          use(tetrahedron, leftOut, triangles.wholes[tetrahedron][leftOut], word);
         }
         if (WithMixed)
         {
-          for (SizeValueType n = 0; n < count; ++n)
-          {
-            useMixed(tetrahedron, word + n, triangles.mixed[tetrahedron].words[n]);
-          }
+          useMixed(tetrahedron, triangles.mixed[tetrahedron], word);
         }
       }
     }
@@ -330,22 +331,21 @@ CountColumnUse(const LeanColumn & column, SizeValueType words, FCCTriangleUse::C
   TSteps::template ForEachTriangle<false>(
     column,
     words,
-    [&](unsigned int tetrahedron, unsigned int leftOut, SizeValueType word, WordType bits) HWY_ATTR
-    __attribute__((always_inline)) {
+    [&](unsigned int tetrahedron, unsigned int leftOut, const auto & steps, SizeValueType first) HWY_ATTR {
       const FCCLeanTables::Triangle & triangle = TSteps::Tables.triangles[tetrahedron][leftOut];
-      count += static_cast<SizeValueType>(__builtin_popcountll(bits));
-      for (; bits != 0; bits &= bits - 1)
-      {
-        const SizeValueType i = word * FCCSigns::WordBits + static_cast<SizeValueType>(__builtin_ctzll(bits));
-#pragma GCC unroll 3
-        for (unsigned int n = 0; n < 3; ++n)
-        {
-          const unsigned int site = Cases::TetrahedronSites[tetrahedron][triangle.corners[n]];
-          uses[TSteps::RowOf(site)][TSteps::IndexOf(site, i)] += triangle.use[n];
-        }
-      }
+      const auto usesOf = [&](unsigned int n) {
+        const unsigned int site = Cases::TetrahedronSites[tetrahedron][triangle.corners[n]];
+        return uses[TSteps::RowOf(site)] + TSteps::IndexOf(site, 0);
+      };
+      FCCTriangleUse::CountsType * const corners[3] = { usesOf(0), usesOf(1), usesOf(2) };
+      TSteps::ForEachStep(steps, first, words, [&](SizeValueType i) HWY_ATTR {
+        corners[0][i] += triangle.use[0];
+        corners[1][i] += triangle.use[1];
+        corners[2][i] += triangle.use[2];
+        ++count;
+      });
     },
-    [](unsigned int, SizeValueType, WordType) {});
+    [](unsigned int, const auto &, SizeValueType) {});
   return count;
 }
 
@@ -364,7 +364,7 @@ CountTriangleUse(const FCCLeanLayer & layer, FCCTriangleUse & lowerUse, FCCTrian
 
 /** Writes the triangles of a tetrahedron with crossings of split sites. */
 template <typename TSteps>
-SizeValueType
+HWY_NOINLINE SizeValueType
 FillMixedTetrahedron(const LeanColumn & column,
                      unsigned int tetrahedron,
                      SizeValueType i,
@@ -428,26 +428,21 @@ FillLeanTriangles(const FCCLeanLayer & layer, bool reversed, TriangleSurface::Tr
     Steps::template ForEachTriangle<true>(
       column,
       layer.signs.GetNumberOfWords(),
-      [&](unsigned int tetrahedron, unsigned int leftOut, SizeValueType word, WordType bits) HWY_ATTR
-      __attribute__((always_inline)) {
+      [&](unsigned int tetrahedron, unsigned int leftOut, const auto & group, SizeValueType first) HWY_ATTR {
         const auto & sites = Cases::TetrahedronSites[tetrahedron];
         const auto & corners = Steps::Tables.triangles[tetrahedron][leftOut].corners;
-        for (; bits != 0; bits &= bits - 1)
-        {
-          const SizeValueType i = word * FCCSigns::WordBits + static_cast<SizeValueType>(__builtin_ctzll(bits));
+        Steps::ForEachStep(group, first, layer.signs.GetNumberOfWords(), [&](SizeValueType i) HWY_ATTR {
           const std::uint32_t a = Steps::VertexOf(column, sites[corners[0]], i);
           const std::uint32_t b = Steps::VertexOf(column, sites[corners[1]], i);
           const std::uint32_t c = Steps::VertexOf(column, sites[corners[2]], i);
           const bool turned = Steps::IsInside(column, sites[leftOut], i) != reversed;
           *next++ = { a, turned ? c : b, turned ? b : c };
-        }
+        });
       },
-      [&](unsigned int tetrahedron, SizeValueType word, WordType bits) HWY_ATTR {
-        for (; bits != 0; bits &= bits - 1)
-        {
-          const SizeValueType i = word * FCCSigns::WordBits + static_cast<SizeValueType>(__builtin_ctzll(bits));
+      [&](unsigned int tetrahedron, const auto & group, SizeValueType first) HWY_ATTR {
+        Steps::ForEachStep(group, first, layer.signs.GetNumberOfWords(), [&](SizeValueType i) HWY_ATTR {
           next += FillMixedTetrahedron<Steps>(column, tetrahedron, i, j, layer, reversed, next);
-        }
+        });
       });
   });
   return static_cast<SizeValueType>(next - triangles);

@@ -159,10 +159,17 @@ bool
 FCCSiteDivision::StartDividing()
 {
   const FCCSiteStar & star = FCCSiteStar::Get();
-  this->FindTriangles();
-  if (m_Crossings == 0 || (star.IsDisk(m_Crossings) && !this->Breaks(VertexOf(Center, Whole))))
+  if (m_Crossings == 0)
   {
     return false;
+  }
+  if (star.IsDisk(m_Crossings))
+  {
+    this->FindTriangles();
+    if (!this->Breaks(VertexOf(Center, Whole)))
+    {
+      return false;
+    }
   }
   m_Split |= 1U << Center;
   unsigned int single = 0;
@@ -171,30 +178,27 @@ FCCSiteDivision::StartDividing()
   return true;
 }
 
-/** The vertex of a polygon's corner with the parts that the site has now. */
-FCCSiteDivision::VertexType
-FCCSiteDivision::GetCurrentVertex(VertexType corner) const
-{
-  if (corner < VertexOf(Center, 0))
-  {
-    return corner;
-  }
-  return VertexOf(Center, this->IsSplit(Center) ? m_Parts[Center].GetVertex(corner % VerticesOfSite) : Whole);
-}
-
 /** The triangles of the polygons: all that have vertices of the site. */
 void
 FCCSiteDivision::FindTriangles()
 {
+  VertexType centers[VerticesOfSite]; // the site's vertices by direction, with the parts that it has now
+  for (unsigned int direction = 0; direction < FCCSiteStar::Directions; ++direction)
+  {
+    centers[direction] = VertexOf(Center, this->IsSplit(Center) ? m_Parts[Center].GetVertex(direction) : Whole);
+  }
+  const auto currentVertex = [&centers](VertexType corner) {
+    return corner < VertexOf(Center, 0) ? corner : centers[corner % VerticesOfSite];
+  };
   m_NumberOfTriangles = 0;
   for (unsigned int p = 0; p < m_NumberOfPolygons; ++p)
   {
     const Polygon & polygon = m_Polygons[p];
-    const VertexType first = this->GetCurrentVertex(polygon.corners[0]);
-    VertexType last = this->GetCurrentVertex(polygon.corners[1]);
+    const VertexType first = currentVertex(polygon.corners[0]);
+    VertexType last = currentVertex(polygon.corners[1]);
     for (unsigned int n = 2; n < polygon.size; ++n)
     {
-      const VertexType next = this->GetCurrentVertex(polygon.corners[n]);
+      const VertexType next = currentVertex(polygon.corners[n]);
       if (first != last && last != next && next != first)
       {
         m_Triangles[m_NumberOfTriangles++] = { first, last, next };

@@ -133,9 +133,6 @@ private:
   void
   FindPolygons();
 
-  VertexType
-  GetCurrentVertex(VertexType corner) const;
-
   void
   FindTriangles();
 
