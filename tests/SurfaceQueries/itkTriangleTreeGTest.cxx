@@ -13,6 +13,15 @@ namespace
 using Tree = itk::TriangleTree;
 using namespace itk::example;
 
+/** Winding number of the surface around a point: 1 inside an outward-facing surface, 0 outside and in cavities. */
+int
+WindingNumber(const Tree & tree, const Tree::PointType & point)
+{
+  int windings = 0;
+  tree.VisitCrossings(point, [&windings](std::uint32_t, int turns) { windings += turns; });
+  return windings;
+}
+
 /** Distance to a fine grid of the triangle's points, refined around the best one: independent of the tree's formula. */
 double
 SearchedSquaredDistance(const itk::TriangleSurface & surface,
@@ -123,18 +132,18 @@ TEST(TriangleTree, WindsOnceInsideAndNotOutsideEvenAboveVerticesAndEdges)
   {
     for (const float z : { -9.0f, 9.0f })
     {
-      EXPECT_EQ(tree.ComputeWindingNumber({ point[0], point[1], z }), 0);
+      EXPECT_EQ(WindingNumber(tree, { point[0], point[1], z }), 0);
     }
     const double fromCircle = std::abs(std::hypot(point[0], point[1]) - 8.0);
     const double fromCavity = std::hypot(point[0] - 8.0, point[1]);
     if (fromCircle < 2.7 && (fromCavity < 0.8 || fromCavity > 1.001))
     {
-      EXPECT_EQ(tree.ComputeWindingNumber({ point[0], point[1], 0.0f }), fromCavity < 1.0 ? 0 : 1);
+      EXPECT_EQ(WindingNumber(tree, { point[0], point[1], 0.0f }), fromCavity < 1.0 ? 0 : 1);
     }
   }
-  EXPECT_EQ(tree.ComputeWindingNumber({ 0, 0, 0 }), 0);
-  EXPECT_EQ(tree.ComputeWindingNumber({ -8, 0, 0 }), 1);
-  EXPECT_EQ(tree.ComputeWindingNumber({ 8, 0, 0 }), 0);
+  EXPECT_EQ(WindingNumber(tree, { 0, 0, 0 }), 0);
+  EXPECT_EQ(WindingNumber(tree, { -8, 0, 0 }), 1);
+  EXPECT_EQ(WindingNumber(tree, { 8, 0, 0 }), 0);
 }
 
 /** A point on the boundary of two bodies that share a wall is in exactly one of them. */
@@ -160,7 +169,7 @@ TEST(TriangleTree, PointsOnAWallAreOnOneSideOfIt)
                                                     : shift[0] > 0 ? u
                                                                    : v,
                                                     shift[2] > 0 ? 4 : v };
-        EXPECT_EQ(lowerTree.ComputeWindingNumber(wall) + upperTree.ComputeWindingNumber(wall), 1);
+        EXPECT_EQ(WindingNumber(lowerTree, wall) + WindingNumber(upperTree, wall), 1);
       }
     }
   }
@@ -170,7 +179,7 @@ TEST(TriangleTree, EmptyAndBrokenSurfacesHaveNothingNear)
 {
   const auto surface = itk::TriangleSurface::New();
   EXPECT_EQ(Tree(*surface).FindClosestPoint({ 0, 0, 0 }).triangle, Tree::None);
-  EXPECT_EQ(Tree(*surface).ComputeWindingNumber({ 0, 0, 0 }), 0);
+  EXPECT_EQ(WindingNumber(Tree(*surface), { 0, 0, 0 }), 0);
   surface->GetPoints() = { { 0, 0, 0 }, { std::numeric_limits<float>::quiet_NaN(), 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 } };
   surface->GetTriangles() = { { 0, 1, 2 }, { 0, 3, 2 } };
   const Tree tree(*surface);
@@ -193,7 +202,7 @@ TEST(TriangleTree, IsTheSameForAnyNumberOfThreads)
     const auto one = alone.GetLeaf(leaf), other = together.GetLeaf(leaf);
     ASSERT_TRUE(std::equal(one.begin(), one.end(), other.begin(), other.end()));
   }
-  EXPECT_LE(alone.GetMemorySize(), 17u * 300000u);
+  EXPECT_LE(alone.GetMemorySize(), 30u * 300000u);
 }
 
 } // namespace

@@ -32,26 +32,31 @@ SortUnique(Ids & ids)
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
-/** The candidates that cross other triangles, and these other triangles. */
+/** The triangles that cross others, ascending, if only those in \a moved may: \a unmoved is a tree of the surface from
+ * before their points were moved. */
 Ids
-FindCrossing(const TriangleSurface & surface, const Ids & candidates)
+FindCrossing(const TriangleSurface & surface, const TriangleTree & unmoved, const Ids & moved)
 {
   constexpr std::size_t blockSize = 4096;
-  const TriangleTree tree(surface);
+  const TriangleTree movedTree(surface, moved);
   const auto & triangles = surface.GetTriangles();
   Ids crossing;
   std::mutex mutex;
-  ForEachBlock(candidates.size(), blockSize, [&](std::size_t begin, std::size_t end) {
+  ForEachBlock(moved.size(), blockSize, [&](std::size_t begin, std::size_t end) {
     Ids ofBlock;
     for (std::size_t n = begin; n < end; ++n)
     {
-      const std::uint32_t a = candidates[n];
-      tree.VisitTriangles(tree.GetTriangleBox(a), [&](std::uint32_t b) {
-        if (a != b && FindContact(surface.GetPoints(), triangles[a], triangles[b]) == TriangleContact::Crossing)
+      const std::uint32_t a = moved[n];
+      const auto test = [&](std::uint32_t b) {
+        if (FindContact(surface.GetPoints(), triangles[a], triangles[b]) == TriangleContact::Crossing)
         {
           ofBlock.insert(ofBlock.end(), { a, b });
         }
-      });
+      };
+      const TriangleTree::Box box = movedTree.GetTriangleBox(a);
+      movedTree.VisitTriangles(box, [&](std::uint32_t b) { a != b ? test(b) : void(); });
+      unmoved.VisitTriangles(
+        box, [&](std::uint32_t b) { std::binary_search(moved.begin(), moved.end(), b) ? void() : test(b); });
     }
     const std::lock_guard<std::mutex> lock(mutex);
     crossing.insert(crossing.end(), ofBlock.begin(), ofBlock.end());
@@ -165,7 +170,11 @@ HaveAreas(const TriangleSurface & surface, const Ids & triangles)
 /** Moves points in rounds and leaves the surface in the best state found. Returns the number of crossing triangles
  * then. */
 std::size_t
-Untangle(TriangleSurface & surface, const Points & original, double maximumMove, Ids crossing)
+Untangle(TriangleSurface & surface,
+         const TriangleTree & tree,
+         const Points & original,
+         double maximumMove,
+         Ids crossing)
 {
   const TrianglesOfPoints fans(surface);
   Ids touched; // triangles with a point that was moved
@@ -181,7 +190,7 @@ Untangle(TriangleSurface & surface, const Points & original, double maximumMove,
       fans.VisitTriangles(point, [&](std::uint32_t triangle) { touched.push_back(triangle); });
     }
     SortUnique(touched);
-    crossing = FindCrossing(surface, touched);
+    crossing = FindCrossing(surface, tree, touched);
     if (crossing.size() < fewest && HaveAreas(surface, touched))
     {
       fewest = crossing.size();
@@ -203,7 +212,8 @@ UntangleSurface(TriangleSurface & surface, double maximumMove)
   {
     itkGenericExceptionMacro("Untangling needs a distance above 0 mm that points may move, not " << maximumMove << ".");
   }
-  const Ids crossing = FindCrossingTriangles(TriangleTree(surface));
+  const TriangleTree tree(surface);
+  const Ids crossing = FindCrossingTriangles(tree);
   if (crossing.empty())
   {
     return {};
@@ -211,7 +221,7 @@ UntangleSurface(TriangleSurface & surface, double maximumMove)
   const Points original = surface.GetPoints();
   TriangleSurfaceUntanglingReport report;
   report.crossingBefore = crossing.size();
-  report.crossingAfter = Untangle(surface, original, maximumMove, crossing);
+  report.crossingAfter = Untangle(surface, tree, original, maximumMove, crossing);
   for (std::size_t point = 0; point < original.size(); ++point)
   {
     const auto & moved = surface.GetPoints()[point];

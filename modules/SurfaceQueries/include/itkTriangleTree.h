@@ -12,9 +12,10 @@ namespace itk
 /** \class TriangleTree
  * \brief A binary tree of boxes around the triangles of a surface: nearest points, ray crossings, overlapping boxes.
  *
- * Each node halves its triangles across the longest side of the box around their centres, down to leaves of at most
- * four triangles. A node's range of leaves determines its children, so nodes store no links. Built in O(n log n) on
- * several threads, the same for any number of them; memory 16 bytes per triangle, 32 while it is built.
+ * The triangles are sorted along a curve through the cells of a fine grid (see SortAlongCurve()). Each node divides its
+ * part of the curve where that passes into the other half of a box, down to leaves of at most four triangles. Built in
+ * nearly linear time on several threads, the same for any number of them; memory about 25 bytes per triangle, 50 while
+ * it is built.
  *
  * Triangles with a position that is not finite are left out. The tree keeps the surface alive; changing the surface
  * invalidates the tree.
@@ -77,6 +78,9 @@ public:
 
   explicit TriangleTree(const TriangleSurface & surface);
 
+  /** A tree of some of the surface's triangles. */
+  TriangleTree(const TriangleSurface & surface, std::vector<std::uint32_t> triangles);
+
   const TriangleSurface &
   GetSurface() const
   {
@@ -128,11 +132,6 @@ public:
     });
   }
 
-  /** Winding number of a closed surface around a point: 1 inside an outward-facing surface, 0 outside and in cavities.
-   * Exact; for points on the surface see VisitCrossings(). */
-  int
-  ComputeWindingNumber(const PointType & point) const;
-
   Box
   GetTriangleBox(std::uint32_t triangle) const
   {
@@ -175,13 +174,13 @@ public:
   std::size_t
   GetNumberOfLeaves() const
   {
-    return (m_Order.size() + LeafSize - 1) / LeafSize;
+    return m_LeafEnds.size();
   }
 
   Leaf
   GetLeaf(std::size_t leaf) const
   {
-    return { m_Order.data() + leaf * LeafSize, m_Order.data() + std::min(m_Order.size(), (leaf + 1) * LeafSize) };
+    return { m_Order.data() + (leaf > 0 ? m_LeafEnds[leaf - 1] : 0), m_Order.data() + m_LeafEnds[leaf] };
   }
 
   /** Calls \a visit(leaf) in ascending order for every leaf from \a from on whose box has a point in common with \a
@@ -192,14 +191,14 @@ public:
   VisitLeaves(const Box & box, std::size_t from, TVisitor && visit) const
   {
     NodeStack stack;
-    if (!m_Boxes.empty())
+    if (!m_Nodes.empty())
     {
       stack.Push(this->Root());
     }
     while (!stack.IsEmpty())
     {
       const Node node = stack.Pop();
-      if (node.end <= from || !m_Boxes[node.id].Overlaps(box))
+      if (node.end <= from || !m_Nodes[node.id].box.Overlaps(box))
       {
         continue;
       }
@@ -208,8 +207,8 @@ public:
         visit(node.begin);
         continue;
       }
-      stack.Push(node.Right());
-      stack.Push(node.Left());
+      stack.Push(this->RightOf(node));
+      stack.Push(this->LeftOf(node));
     }
   }
 
@@ -217,12 +216,19 @@ public:
   SizeValueType
   GetMemorySize() const
   {
-    return m_Order.size() * sizeof(std::uint32_t) + m_Boxes.size() * sizeof(Box);
+    return (m_Order.size() + m_LeafEnds.size()) * sizeof(std::uint32_t) + m_Nodes.size() * sizeof(StoredNode);
   }
 
 private:
-  /** A node and the leaves [begin, end) below it. Nodes are stored in depth-first order: a node with L leaves and all
-   * nodes below it are 2 L - 1 successive nodes. */
+  /** Nodes are stored in depth-first order: a node with L leaves and all nodes below it are 2 L - 1 successive nodes.
+   */
+  struct StoredNode
+  {
+    Box box;
+    std::uint32_t leavesOfLeft; ///< number of leaves of the left child
+  };
+
+  /** A node's number and the leaves [begin, end) below it. */
   struct Node
   {
     std::size_t id;
@@ -234,21 +240,23 @@ private:
     {
       return end - begin == 1;
     }
-    Node
-    Left() const
-    {
-      return { id + 1, begin, begin + (end - begin) / 2 };
-    }
-    Node
-    Right() const
-    {
-      const std::size_t middle = begin + (end - begin) / 2;
-      return { id + 2 * (middle - begin), middle, end };
-    }
   };
 
-  /** Capacity of a stack of nodes: more than the depth of a tree with 2^32 leaves. */
-  static constexpr std::size_t MostNodes = 64;
+  Node
+  LeftOf(const Node & node) const
+  {
+    return { node.id + 1, node.begin, node.begin + m_Nodes[node.id].leavesOfLeft };
+  }
+  Node
+  RightOf(const Node & node) const
+  {
+    const std::size_t leavesOfLeft = m_Nodes[node.id].leavesOfLeft;
+    return { node.id + 2 * leavesOfLeft, node.begin + leavesOfLeft, node.end };
+  }
+
+  /** Capacity of a stack of nodes: more than the depth, as no cell's number has more bits than 63 and no cell more
+   * triangles than 2^32. */
+  static constexpr std::size_t MostNodes = 128;
 
   class NodeStack
   {
@@ -280,27 +288,7 @@ private:
     return { 0, 0, this->GetNumberOfLeaves() };
   }
 
-  struct CentredTriangle
-  {
-    PointType centre;
-    std::uint32_t triangle;
-  };
-  using CentredTriangles = std::vector<CentredTriangle, BulkAllocator<CentredTriangle>>;
-
-  void
-  SortTriangles();
-  static void
-  Halve(CentredTriangles & centred, const Node & node);
-  static void
-  HalveAllBelow(CentredTriangles & centred, const Node & node);
-  void
-  BuildBoxes();
-  void
-  CollectNodes(const Node & node, unsigned int depth, std::vector<Node> & nodes) const;
-  Box
-  BuildBoxesBelow(const Node & node, unsigned int depth);
-  Box
-  ComputeLeafBox(std::size_t leaf) const;
+  class Builder;
 
   void
   ImproveClosestPoint(const PositionType & position, std::uint32_t triangle, ClosestPoint & closest) const;
@@ -309,8 +297,9 @@ private:
   CountTurns(const PointType & point, std::uint32_t triangle) const;
 
   TriangleSurface::ConstPointer m_Surface;
-  std::vector<std::uint32_t, BulkAllocator<std::uint32_t>> m_Order; ///< ids of the triangles, leaf by leaf
-  std::vector<Box, BulkAllocator<Box>> m_Boxes;                     ///< boxes of the nodes
+  std::vector<std::uint32_t> m_Order;    ///< ids of the triangles, leaf by leaf
+  std::vector<std::uint32_t> m_LeafEnds; ///< for each leaf, how many triangles are in it and those before
+  std::vector<StoredNode, BulkAllocator<StoredNode>> m_Nodes;
 };
 
 } // namespace itk

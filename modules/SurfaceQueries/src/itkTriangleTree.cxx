@@ -2,9 +2,12 @@
 
 #include "detail/itkClosestOnTriangle.h"
 #include "detail/itkExactOrientation.h"
+#include "itkCurveOrder.h"
 #include "itkForEachBlock.h"
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 
 namespace itk
 {
@@ -13,32 +16,6 @@ namespace
 
 using Box = TriangleTree::Box;
 using PointType = TriangleTree::PointType;
-
-constexpr unsigned int ParallelDepth = 6; // levels of the tree, counted from the root, that threads share
-
-constexpr Box EmptyBox = { { std::numeric_limits<float>::infinity(),
-                             std::numeric_limits<float>::infinity(),
-                             std::numeric_limits<float>::infinity() },
-                           { -std::numeric_limits<float>::infinity(),
-                             -std::numeric_limits<float>::infinity(),
-                             -std::numeric_limits<float>::infinity() } };
-
-PointType
-CentreOf(const Box & box)
-{
-  PointType centre;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    centre[axis] = 0.5f * box.lowest[axis] + 0.5f * box.highest[axis];
-  }
-  return centre;
-}
-
-float
-SideOf(const Box & box, unsigned int axis)
-{
-  return box.highest[axis] - box.lowest[axis];
-}
 
 double
 SquaredDistance(const PositionType & position, const Box & box)
@@ -82,136 +59,157 @@ SideOfShifted(const PointType & a, const PointType & b, const PointType & c, con
   return side;
 }
 
+std::vector<std::uint32_t>
+AllTriangles(const TriangleSurface & surface)
+{
+  std::vector<std::uint32_t> triangles(surface.GetNumberOfTriangles());
+  std::iota(triangles.begin(), triangles.end(), 0);
+  return triangles;
+}
+
 } // namespace
 
-TriangleTree::TriangleTree(const TriangleSurface & surface)
-  : m_Surface(&surface)
+/** \class TriangleTree::Builder
+ * \brief Builds the nodes of a tree from triangles along a curve: parts of the curve that are whole subtrees on several
+ * threads, then what is above them. */
+class TriangleTree::Builder
 {
-  this->SortTriangles();
-  this->BuildBoxes();
-}
+public:
+  Builder(TriangleTree & tree, const CurvePlaces & places)
+    : m_Tree(tree)
+    , m_Places(places)
+  {}
 
-void
-TriangleTree::SortTriangles()
-{
-  const auto & points = m_Surface->GetPoints();
-  const auto & triangles = m_Surface->GetTriangles();
-  CentredTriangles centred;
-  centred.reserve(triangles.size());
-  for (std::uint32_t triangle = 0; triangle < triangles.size(); ++triangle)
+  void
+  Build()
   {
-    const auto & corners = triangles[triangle];
-    if (IsFinite(points[corners[0]]) && IsFinite(points[corners[1]]) && IsFinite(points[corners[2]]))
+    this->Cut(0, m_Places.size());
+    ForEachInBlocks(m_Parts.size(), 1, [this](std::size_t n) {
+      Part & part = m_Parts[n];
+      part.nodes.reserve(part.end - part.begin);
+      part.leafEnds.reserve((part.end - part.begin) / 2);
+      this->AppendNodes(part.begin, part.end, part);
+    });
+    std::size_t leaves = 0;
+    for (const Part & part : m_Parts)
     {
-      centred.push_back({ CentreOf(this->GetTriangleBox(triangle)), triangle });
+      leaves += part.leafEnds.size();
     }
+    m_Tree.m_LeafEnds.reserve(leaves);
+    m_Tree.m_Nodes.reserve(2 * leaves - 1);
+    auto next = m_Parts.cbegin();
+    this->Join(0, m_Places.size(), next);
   }
-  m_Order.resize(centred.size());
-  if (centred.empty())
+
+private:
+  static constexpr std::size_t MostOfPart = 8192;
+
+  struct Part
   {
-    return;
-  }
-  std::vector<Node> nodes;
-  for (unsigned int depth = 0; depth < ParallelDepth; ++depth)
+    std::size_t begin; ///< triangles along the curve
+    std::size_t end;
+    std::vector<StoredNode> nodes{};
+    std::vector<std::uint32_t> leafEnds{};
+  };
+
+  /** Where the highest bit changes in which the cells of places [begin, end) differ. */
+  std::size_t
+  FindMiddle(std::size_t begin, std::size_t end) const
   {
-    nodes.clear();
-    this->CollectNodes(this->Root(), depth, nodes);
-    ForEachInBlocks(nodes.size(), 1, [&](std::size_t n) { Halve(centred, nodes[n]); });
+    const std::uint64_t first = m_Places[begin].cell;
+    const std::uint64_t last = m_Places[end - 1].cell;
+    if (first == last)
+    {
+      return begin + (end - begin) / 2;
+    }
+    const int highest = 63 - __builtin_clzll(first ^ last);
+    const CurvePlace middle{ last >> highest << highest, 0 };
+    return static_cast<std::size_t>(std::lower_bound(m_Places.data() + begin, m_Places.data() + end, middle) -
+                                    m_Places.data());
   }
-  nodes.clear();
-  this->CollectNodes(this->Root(), ParallelDepth, nodes);
-  ForEachInBlocks(nodes.size(), 1, [&](std::size_t n) { HalveAllBelow(centred, nodes[n]); });
+
+  void
+  Cut(std::size_t begin, std::size_t end)
+  {
+    if (end - begin <= MostOfPart)
+    {
+      m_Parts.push_back({ begin, end });
+      return;
+    }
+    const std::size_t middle = this->FindMiddle(begin, end);
+    this->Cut(begin, middle);
+    this->Cut(middle, end);
+  }
+
+  /** Appends the node of places [begin, end) and all below it. Returns its number of leaves. */
+  std::uint32_t
+  AppendNodes(std::size_t begin, std::size_t end, Part & part) const
+  {
+    const std::size_t id = part.nodes.size();
+    part.nodes.push_back({ m_Tree.GetTriangleBox(m_Places[begin].triangle), 0 });
+    if (end - begin <= LeafSize)
+    {
+      for (std::size_t n = begin + 1; n < end; ++n)
+      {
+        part.nodes[id].box = Union(part.nodes[id].box, m_Tree.GetTriangleBox(m_Places[n].triangle));
+      }
+      part.leafEnds.push_back(static_cast<std::uint32_t>(end));
+      return 1;
+    }
+    const std::size_t middle = this->FindMiddle(begin, end);
+    const std::uint32_t left = this->AppendNodes(begin, middle, part);
+    const std::uint32_t right = this->AppendNodes(middle, end, part);
+    part.nodes[id] = { Union(part.nodes[id + 1].box, part.nodes[id + 2 * left].box), left };
+    return left + right;
+  }
+
+  /** Appends the node of places [begin, end) and all below it to the tree, from the parts from \a next on. Returns its
+   * number of leaves. */
+  std::uint32_t
+  Join(std::size_t begin, std::size_t end, std::vector<Part>::const_iterator & next) const
+  {
+    auto & nodes = m_Tree.m_Nodes;
+    if (end - begin <= MostOfPart)
+    {
+      const Part & part = *next++;
+      nodes.insert(nodes.end(), part.nodes.begin(), part.nodes.end());
+      m_Tree.m_LeafEnds.insert(m_Tree.m_LeafEnds.end(), part.leafEnds.begin(), part.leafEnds.end());
+      return static_cast<std::uint32_t>(part.leafEnds.size());
+    }
+    const std::size_t id = nodes.size();
+    nodes.emplace_back();
+    const std::size_t middle = this->FindMiddle(begin, end);
+    const std::uint32_t left = this->Join(begin, middle, next);
+    const std::uint32_t right = this->Join(middle, end, next);
+    nodes[id] = { Union(nodes[id + 1].box, nodes[id + 2 * left].box), left };
+    return left + right;
+  }
+
+  TriangleTree & m_Tree;
+  const CurvePlaces & m_Places;
+  std::vector<Part> m_Parts;
+};
+
+TriangleTree::TriangleTree(const TriangleSurface & surface)
+  : TriangleTree(surface, AllTriangles(surface))
+{}
+
+TriangleTree::TriangleTree(const TriangleSurface & surface, std::vector<std::uint32_t> triangles)
+  : m_Surface(&surface)
+  , m_Order(std::move(triangles))
+{
+  const auto isPlaced = [&](std::uint32_t triangle) {
+    const auto & [a, b, c] = surface.GetTriangles()[triangle];
+    return IsFinite(surface.GetPoints()[a]) && IsFinite(surface.GetPoints()[b]) && IsFinite(surface.GetPoints()[c]);
+  };
+  m_Order.erase(std::remove_if(m_Order.begin(), m_Order.end(), std::not_fn(isPlaced)), m_Order.end());
+  const CurvePlaces places = SortAlongCurve(surface, m_Order);
   std::transform(
-    centred.begin(), centred.end(), m_Order.begin(), [](const CentredTriangle & item) { return item.triangle; });
-}
-
-/** Halves a node's triangles across the longest side of the box around their centres. */
-void
-TriangleTree::Halve(CentredTriangles & centred, const Node & node)
-{
-  if (node.IsLeaf())
+    places.begin(), places.end(), m_Order.begin(), [](const CurvePlace & place) { return place.triangle; });
+  if (!places.empty())
   {
-    return;
+    Builder(*this, places).Build();
   }
-  const auto begin = centred.begin() + static_cast<std::ptrdiff_t>(node.begin * LeafSize);
-  const auto middle = centred.begin() + static_cast<std::ptrdiff_t>(node.Right().begin * LeafSize);
-  const auto end = centred.begin() + static_cast<std::ptrdiff_t>(std::min(node.end * LeafSize, centred.size()));
-  Box box = EmptyBox;
-  std::for_each(begin, end, [&box](const CentredTriangle & item) {
-    box = Union(box, Box{ item.centre, item.centre });
-  });
-  unsigned int longest = 0;
-  for (unsigned int axis = 1; axis < 3; ++axis)
-  {
-    longest = SideOf(box, axis) > SideOf(box, longest) ? axis : longest;
-  }
-  std::nth_element(begin, middle, end, [longest](const CentredTriangle & a, const CentredTriangle & b) {
-    return a.centre[longest] != b.centre[longest] ? a.centre[longest] < b.centre[longest] : a.triangle < b.triangle;
-  });
-}
-
-void
-TriangleTree::HalveAllBelow(CentredTriangles & centred, const Node & node)
-{
-  if (!node.IsLeaf())
-  {
-    Halve(centred, node);
-    HalveAllBelow(centred, node.Left());
-    HalveAllBelow(centred, node.Right());
-  }
-}
-
-void
-TriangleTree::BuildBoxes()
-{
-  if (m_Order.empty())
-  {
-    return;
-  }
-  const Node root = this->Root();
-  m_Boxes.resize(2 * root.end - 1);
-  std::vector<Node> subtrees;
-  this->CollectNodes(root, ParallelDepth, subtrees);
-  ForEachBlock(subtrees.size(), 1, [&](std::size_t n, std::size_t) {
-    this->BuildBoxesBelow(subtrees[n], std::numeric_limits<unsigned int>::max());
-  });
-  this->BuildBoxesBelow(root, ParallelDepth);
-}
-
-void
-TriangleTree::CollectNodes(const Node & node, unsigned int depth, std::vector<Node> & nodes) const
-{
-  if (depth == 0 || node.IsLeaf())
-  {
-    nodes.push_back(node);
-    return;
-  }
-  this->CollectNodes(node.Left(), depth - 1, nodes);
-  this->CollectNodes(node.Right(), depth - 1, nodes);
-}
-
-/** Computes the boxes of a node and of \a depth - 1 levels below it; deeper boxes are there already. */
-Box
-TriangleTree::BuildBoxesBelow(const Node & node, unsigned int depth)
-{
-  if (depth > 0)
-  {
-    m_Boxes[node.id] = node.IsLeaf() ? this->ComputeLeafBox(node.begin)
-                                     : Union(this->BuildBoxesBelow(node.Left(), depth - 1),
-                                             this->BuildBoxesBelow(node.Right(), depth - 1));
-  }
-  return m_Boxes[node.id];
-}
-
-Box
-TriangleTree::ComputeLeafBox(std::size_t leaf) const
-{
-  Box box = EmptyBox;
-  for (const std::uint32_t triangle : this->GetLeaf(leaf))
-  {
-    box = Union(box, this->GetTriangleBox(triangle));
-  }
-  return box;
 }
 
 TriangleTree::ClosestPoint
@@ -221,7 +219,7 @@ TriangleTree::FindClosestPoint(const PositionType & position,
 {
   ClosestPoint closest;
   closest.squaredDistance = maximumSquaredDistance;
-  if (m_Boxes.empty())
+  if (m_Nodes.empty())
   {
     return closest;
   }
@@ -231,7 +229,7 @@ TriangleTree::FindClosestPoint(const PositionType & position,
     double squaredDistance;
   };
   const auto measure = [&](const Node & node) {
-    return DistantNode{ node, SquaredDistance(position, m_Boxes[node.id]) };
+    return DistantNode{ node, SquaredDistance(position, m_Nodes[node.id].box) };
   };
   std::array<DistantNode, MostNodes> stack; // the nearest on top
   std::size_t size = 0;
@@ -258,8 +256,8 @@ TriangleTree::FindClosestPoint(const PositionType & position,
       }
       continue;
     }
-    const DistantNode left = measure(top.node.Left());
-    const DistantNode right = measure(top.node.Right());
+    const DistantNode left = measure(this->LeftOf(top.node));
+    const DistantNode right = measure(this->RightOf(top.node));
     const bool isLeftNearer = left.squaredDistance <= right.squaredDistance;
     for (const DistantNode & child : { isLeftNearer ? right : left, isLeftNearer ? left : right })
     {
@@ -305,14 +303,6 @@ TriangleTree::CountTurns(const PointType & point, std::uint32_t triangle) const
     return 0;
   }
   return SideOfShifted(a, b, c, point) == -turn ? turn : 0;
-}
-
-int
-TriangleTree::ComputeWindingNumber(const PointType & point) const
-{
-  int windings = 0;
-  this->VisitCrossings(point, [&windings](std::uint32_t, int turns) { windings += turns; });
-  return windings;
 }
 
 } // namespace itk
