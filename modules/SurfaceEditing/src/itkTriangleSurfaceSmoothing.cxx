@@ -2,7 +2,7 @@
 
 #include "detail/itkPositionArithmetic.h"
 #include "itkForEachBlock.h"
-#include "itkTrianglesOfPoints.h"
+#include "detail/itkTrianglesOfPoints.h"
 
 #include <algorithm>
 

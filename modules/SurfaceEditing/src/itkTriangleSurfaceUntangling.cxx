@@ -6,7 +6,7 @@
 #include "itkForEachBlock.h"
 #include "itkTriangleSurfaceIntersections.h"
 #include "itkTriangleTree.h"
-#include "itkTrianglesOfPoints.h"
+#include "detail/itkTrianglesOfPoints.h"
 
 #include <algorithm>
 #include <mutex>

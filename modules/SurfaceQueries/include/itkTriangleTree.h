@@ -183,6 +183,11 @@ public:
     return { m_Order.data() + (leaf > 0 ? m_LeafEnds[leaf - 1] : 0), m_Order.data() + m_LeafEnds[leaf] };
   }
 
+  /** Cuts the tree into subtrees of at most \a mostTriangles, a leaf's or more: the first leaf of each, ascending, and
+   * the number of leaves. */
+  std::vector<std::size_t>
+  FindSubtrees(std::size_t mostTriangles) const;
+
   /** Calls \a visit(leaf) in ascending order for every leaf from \a from on whose box has a point in common with \a
    * box.
    */

@@ -2,8 +2,10 @@
 
 #include "detail/itkTriangleContact.h"
 #include "itkForEachBlock.h"
+#include "itkUnfoldedPoints.h"
 
 #include <algorithm>
+#include <cstring>
 #include <mutex>
 
 namespace itk
@@ -12,11 +14,11 @@ namespace
 {
 
 using Contact = TriangleContact;
+using Box = TriangleTree::Box;
 using TriangleType = TriangleSurface::TriangleType;
 
-using Boxes = std::array<TriangleTree::Box, TriangleTree::LeafSize>;
-
-constexpr std::size_t BlockOfLeaves = 1024;
+constexpr std::size_t TrianglesOfGroup = 32;
+constexpr std::size_t GroupsOfBlock = 128;
 
 bool
 AreDuplicates(TriangleType a, TriangleType b)
@@ -26,56 +28,178 @@ AreDuplicates(TriangleType a, TriangleType b)
   return a == b;
 }
 
-/** Calls \a visit(a, b, contact) for the pairs of triangles of two leaves, or of one leaf, whose boxes overlap. */
-template <typename TVisitor>
-void
-VisitContacts(const TriangleTree & tree,
-              const Boxes & boxes,
-              std::size_t tested,
-              std::size_t other,
-              const TVisitor & visit)
+/** \class BoxList
+ * \brief Triangles and their boxes, coordinate by coordinate, so that many are compared with one at once. */
+class BoxList
 {
-  const auto & points = tree.GetSurface().GetPoints();
-  const auto & triangles = tree.GetSurface().GetTriangles();
-  const TriangleTree::Leaf first = tree.GetLeaf(tested);
-  const TriangleTree::Leaf second = tree.GetLeaf(other);
-  for (std::size_t m = 0; m < second.size(); ++m)
+public:
+  void
+  Clear()
   {
-    const std::uint32_t b = second.begin()[m];
-    const TriangleTree::Box box = tree.GetTriangleBox(b);
-    for (std::size_t n = 0; n < (other == tested ? m : first.size()); ++n)
+    m_Triangles.clear();
+    for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      if (boxes[n].Overlaps(box))
+      m_Lowest[axis].clear();
+      m_Highest[axis].clear();
+    }
+  }
+
+  void
+  Add(std::uint32_t triangle, const Box & box)
+  {
+    m_Triangles.push_back(triangle);
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      m_Lowest[axis].push_back(box.lowest[axis]);
+      m_Highest[axis].push_back(box.highest[axis]);
+    }
+  }
+
+  std::size_t
+  GetSize() const
+  {
+    return m_Triangles.size();
+  }
+
+  std::uint32_t
+  GetTriangle(std::size_t n) const
+  {
+    return m_Triangles[n];
+  }
+
+  /** Calls \a visit(triangle) for those behind the \a n-th whose boxes overlap its box. */
+  template <typename TVisitor>
+  void
+  VisitOverlapping(std::size_t n, const TVisitor & visit)
+  {
+    const std::size_t size = m_Triangles.size();
+    m_Overlap.resize(size + sizeof(std::uint64_t));
+    const float *x0 = m_Lowest[0].data(), *y0 = m_Lowest[1].data(), *z0 = m_Lowest[2].data();
+    const float *x1 = m_Highest[0].data(), *y1 = m_Highest[1].data(), *z1 = m_Highest[2].data();
+    const Box box{ { x0[n], y0[n], z0[n] }, { x1[n], y1[n], z1[n] } };
+    std::uint8_t * const overlap = m_Overlap.data();
+    for (std::size_t other = n + 1; other < size; ++other)
+    {
+      overlap[other] = (x0[other] <= box.highest[0]) & (box.lowest[0] <= x1[other]) & (y0[other] <= box.highest[1]) &
+                       (box.lowest[1] <= y1[other]) & (z0[other] <= box.highest[2]) & (box.lowest[2] <= z1[other]);
+    }
+    std::fill_n(overlap + size, sizeof(std::uint64_t), 0);
+    for (std::size_t other = n + 1; other < size; other += sizeof(std::uint64_t))
+    {
+      std::uint64_t next;
+      std::memcpy(&next, overlap + other, sizeof(next));
+      for (; next != 0; next &= next - 1)
       {
-        const std::uint32_t a = first.begin()[n];
-        visit(a, b, FindContact(points, triangles[a], triangles[b]));
+        visit(m_Triangles[other + static_cast<std::size_t>(__builtin_ctzll(next)) / 8]);
       }
     }
   }
-}
 
-/** Calls \a visit(a, b, contact) for the triangles of one leaf, without pairs that an earlier leaf has visited. Every
- * \a stride-th leaf is tested. */
-template <typename TVisitor>
-void
-TestLeaf(const TriangleTree & tree, std::size_t leaf, std::size_t stride, const TVisitor & visit)
+private:
+  std::vector<std::uint32_t> m_Triangles;
+  std::array<std::vector<float>, 3> m_Lowest;
+  std::array<std::vector<float>, 3> m_Highest;
+  std::vector<std::uint8_t> m_Overlap;
+};
+
+/** \class ContactSearch
+ * \brief Finds how the triangles of a surface meet elsewhere than at corners and sides they share.
+ *
+ * Triangles are tested in groups, which are small subtrees: those of a group are compared with each other and with all
+ * those around the group. Pairs with a common point at which the surface is not folded need no test. */
+class ContactSearch
 {
-  Boxes boxes;
-  TriangleTree::Box around = tree.GetTriangleBox(*tree.GetLeaf(leaf).begin());
-  auto box = boxes.begin();
-  for (const std::uint32_t triangle : tree.GetLeaf(leaf))
+public:
+  explicit ContactSearch(const TriangleTree & tree)
+    : m_Tree(tree)
+    , m_Groups(tree.FindSubtrees(TrianglesOfGroup))
+    , m_AreUnfolded(FindUnfoldedPoints(tree.GetSurface()))
+  {}
+
+  std::size_t
+  GetNumberOfGroups() const
   {
-    *box = tree.GetTriangleBox(triangle);
-    around = TriangleTree::Union(around, *box++);
+    return m_Groups.size() - 1;
   }
-  tree.VisitLeaves(around, stride == 1 ? leaf : 0, [&](std::size_t other) {
-    const bool isDone = other < leaf && other % stride == 0;
-    if (!isDone)
+
+  /** Calls \a visit(a, b, contact) for pairs with a triangle in a group, without those that an earlier group has
+   * visited. Every \a stride-th group is tested. Returns how many triangles the group has. \a near is for working. */
+  template <typename TVisitor>
+  std::size_t
+  TestGroup(std::size_t group, std::size_t stride, BoxList & near, const TVisitor & visit) const
+  {
+    const std::size_t begin = m_Groups[group];
+    const std::size_t end = m_Groups[group + 1];
+    Box around = m_Tree.GetTriangleBox(*m_Tree.GetLeaf(begin).begin());
+    near.Clear();
+    for (std::size_t leaf = begin; leaf < end; ++leaf)
     {
-      VisitContacts(tree, boxes, leaf, other, visit);
+      for (const std::uint32_t triangle : m_Tree.GetLeaf(leaf))
+      {
+        const Box box = m_Tree.GetTriangleBox(triangle);
+        near.Add(triangle, box);
+        around = TriangleTree::Union(around, box);
+      }
     }
-  });
-}
+    const std::size_t ofGroup = near.GetSize();
+    m_Tree.VisitLeaves(around, stride == 1 ? end : 0, [&](std::size_t leaf) {
+      const bool isInGroup = leaf >= begin && leaf < end;
+      if (!isInGroup && (leaf >= end || this->GroupOf(leaf) % stride != 0))
+      {
+        this->AddLeaf(leaf, around, near);
+      }
+    });
+    const auto & triangles = m_Tree.GetSurface().GetTriangles();
+    for (std::size_t n = 0; n < ofGroup; ++n)
+    {
+      const std::uint32_t a = near.GetTriangle(n);
+      near.VisitOverlapping(n, [&](std::uint32_t b) {
+        if (!this->AreApart(triangles[a], triangles[b]))
+        {
+          visit(a, b, FindContact(m_Tree.GetSurface().GetPoints(), triangles[a], triangles[b]));
+        }
+      });
+    }
+    return ofGroup;
+  }
+
+private:
+  void
+  AddLeaf(std::size_t leaf, const Box & around, BoxList & near) const
+  {
+    for (const std::uint32_t triangle : m_Tree.GetLeaf(leaf))
+    {
+      const Box box = m_Tree.GetTriangleBox(triangle);
+      if (box.Overlaps(around))
+      {
+        near.Add(triangle, box);
+      }
+    }
+  }
+
+  std::size_t
+  GroupOf(std::size_t leaf) const
+  {
+    return static_cast<std::size_t>(std::upper_bound(m_Groups.begin(), m_Groups.end(), leaf) - m_Groups.begin()) - 1;
+  }
+
+  /** Whether two triangles are certain to meet only where they share a corner or a side. */
+  bool
+  AreApart(const TriangleType & a, const TriangleType & b) const
+  {
+    bool areApart = false;
+    for (const std::uint32_t point : a)
+    {
+      const bool isShared = (point == b[0]) | (point == b[1]) | (point == b[2]);
+      areApart |= isShared & (m_AreUnfolded[point] != 0);
+    }
+    return areApart;
+  }
+
+  const TriangleTree & m_Tree;
+  std::vector<std::size_t> m_Groups; ///< the first leaf of each, and the end of the last
+  std::vector<std::uint8_t> m_AreUnfolded;
+};
 
 } // namespace
 
@@ -86,21 +210,22 @@ FindSelfIntersections(const TriangleTree & tree, SizeValueType maximumTestedTria
   const SizeValueType most = std::max<SizeValueType>(TriangleTree::LeafSize, maximumTestedTriangles);
   const std::size_t stride = std::max<std::size_t>(1, (placed + most - 1) / most);
 
+  const ContactSearch search(tree);
   TriangleSurfaceIntersections found;
   found.testedTriangles = tree.GetSurface().GetNumberOfTriangles() - placed;
   found.isSampled = stride > 1;
   std::mutex mutex;
-  ForEachBlock(tree.GetNumberOfLeaves(), BlockOfLeaves, [&](std::size_t begin, std::size_t end) {
+  ForEachBlock(search.GetNumberOfGroups(), GroupsOfBlock, [&](std::size_t begin, std::size_t end) {
     TriangleSurfaceIntersections ofBlock;
     const auto count = [&](std::uint32_t a, std::uint32_t b, Contact contact) {
       const auto & triangles = tree.GetSurface().GetTriangles();
       ofBlock.touchingPairs += contact == Contact::Touching ? 1 : 0;
       ofBlock.crossingPairs += contact == Contact::Crossing && !AreDuplicates(triangles[a], triangles[b]) ? 1 : 0;
     };
-    for (std::size_t leaf = (begin + stride - 1) / stride * stride; leaf < end; leaf += stride)
+    BoxList near;
+    for (std::size_t group = (begin + stride - 1) / stride * stride; group < end; group += stride)
     {
-      TestLeaf(tree, leaf, stride, count);
-      ofBlock.testedTriangles += tree.GetLeaf(leaf).size();
+      ofBlock.testedTriangles += search.TestGroup(group, stride, near, count);
     }
     const std::lock_guard<std::mutex> lock(mutex);
     found.crossingPairs += ofBlock.crossingPairs;
@@ -113,13 +238,15 @@ FindSelfIntersections(const TriangleTree & tree, SizeValueType maximumTestedTria
 std::vector<std::uint32_t>
 FindCrossingTriangles(const TriangleTree & tree)
 {
+  const ContactSearch search(tree);
   std::vector<std::uint32_t> found;
   std::mutex mutex;
-  ForEachBlock(tree.GetNumberOfLeaves(), BlockOfLeaves, [&](std::size_t begin, std::size_t end) {
+  ForEachBlock(search.GetNumberOfGroups(), GroupsOfBlock, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> ofBlock;
-    for (std::size_t leaf = begin; leaf < end; ++leaf)
+    BoxList near;
+    for (std::size_t group = begin; group < end; ++group)
     {
-      TestLeaf(tree, leaf, 1, [&](std::uint32_t a, std::uint32_t b, Contact contact) {
+      search.TestGroup(group, 1, near, [&](std::uint32_t a, std::uint32_t b, Contact contact) {
         if (contact == Contact::Crossing)
         {
           ofBlock.insert(ofBlock.end(), { a, b });

@@ -212,6 +212,32 @@ TriangleTree::TriangleTree(const TriangleSurface & surface, std::vector<std::uin
   }
 }
 
+std::vector<std::size_t>
+TriangleTree::FindSubtrees(std::size_t mostTriangles) const
+{
+  std::vector<std::size_t> begins;
+  NodeStack stack;
+  if (!m_Nodes.empty())
+  {
+    stack.Push(this->Root());
+  }
+  while (!stack.IsEmpty())
+  {
+    const Node node = stack.Pop();
+    const auto triangles =
+      static_cast<std::size_t>(this->GetLeaf(node.end - 1).end() - this->GetLeaf(node.begin).begin());
+    if (node.IsLeaf() || triangles <= mostTriangles)
+    {
+      begins.push_back(node.begin);
+      continue;
+    }
+    stack.Push(this->RightOf(node));
+    stack.Push(this->LeftOf(node));
+  }
+  begins.push_back(this->GetNumberOfLeaves());
+  return begins;
+}
+
 TriangleTree::ClosestPoint
 TriangleTree::FindClosestPoint(const PositionType & position,
                                double maximumSquaredDistance,
