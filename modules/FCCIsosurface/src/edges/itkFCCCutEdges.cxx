@@ -7,23 +7,24 @@ namespace
 
 using WordType = FCCSigns::WordType;
 
-/** Calls use(word, bits of the cut edges) for the edges of one type that a row stores. */
-template <typename TUse>
+/** Writes the bits of the cut edges of one type that a row stores. */
 void
-ForEachCutWord(const FCCSigns & signs, std::uint8_t type, SizeValueType j, SizeValueType k, const TUse & use)
+FindCutEdges(const FCCSigns & signs, std::uint8_t type, SizeValueType j, SizeValueType k, WordType * cut)
 {
+  const SizeValueType words = signs.GetNumberOfWords();
   const FCCStepTarget end(signs, j, k, FCCLattice::OwnedEdges[type]);
-  if (!end.isInBox)
+  if (!end.isInBox || words == 0)
   {
+    std::fill_n(cut, words, 0);
     return;
   }
   const WordType * const row = signs.GetRow(j, k);
-  const SizeValueType count = signs.GetWidth() - (end.shift == 1 ? 1 : 0); // number of sites whose edge ends in the box
-  FCCBits::ForEachShifted(
-    signs.GetRow(end.j, end.k), signs.GetNumberOfWords(), end.shift, [&](SizeValueType word, WordType bits) {
-      const WordType beforeFirst = end.shift < 0 && word == 0 ? 1 : 0;
-      use(word, (row[word] ^ bits) & FCCBits::Below(count, word) & ~beforeFirst);
-    });
+  FCCBits::ForEachShifted(signs.GetRow(end.j, end.k), words, end.shift, [row, cut](SizeValueType word, WordType bits) {
+    cut[word] = row[word] ^ bits;
+  });
+  // Edges that end outside the box, of the first or the last site, are none.
+  cut[0] &= ~WordType{ end.shift < 0 ? 1u : 0u };
+  cut[words - 1] &= FCCBits::Below(signs.GetWidth() - (end.shift > 0 ? 1 : 0), words - 1);
 }
 
 } // namespace
@@ -39,14 +40,15 @@ void
 FCCCutEdges::Find(SizeValueType k, std::uint32_t firstId)
 {
   m_FirstId = firstId;
-  m_Cut.Clear();
+  if (k >= m_Signs->GetDepth())
+  {
+    m_Cut.Clear();
+  }
   SizeValueType row = 0;
   for (SizeValueType j = 0; j < m_Signs->GetHeight() && k < m_Signs->GetDepth(); ++j)
   {
-    FCCStoredEdges::ForEachType(m_Types, [&](std::uint8_t type) {
-      WordType * const cut = m_Cut.GetRow(row++);
-      ForEachCutWord(*m_Signs, type, j, k, [cut](SizeValueType word, WordType bits) { cut[word] = bits; });
-    });
+    FCCStoredEdges::ForEachType(m_Types,
+                                [&](std::uint8_t type) { FindCutEdges(*m_Signs, type, j, k, m_Cut.GetRow(row++)); });
   }
   m_Cut.Number(firstId);
 }
@@ -54,11 +56,16 @@ FCCCutEdges::Find(SizeValueType k, std::uint32_t firstId)
 SizeValueType
 FCCCutEdges::Count(const FCCSigns & signs, Group group, SizeValueType k, std::uint8_t types)
 {
+  std::vector<WordType> cut(signs.GetNumberOfWords());
   SizeValueType count = 0;
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
   {
     FCCStoredEdges::ForEachType(types & FCCStoredEdges::TypesOf(group), [&](std::uint8_t type) {
-      ForEachCutWord(signs, type, j, k, [&count](SizeValueType, WordType bits) { count += FCCBits::Count(bits); });
+      FindCutEdges(signs, type, j, k, cut.data());
+      for (const WordType bits : cut)
+      {
+        count += FCCBits::Count(bits);
+      }
     });
   }
   return count;

@@ -93,8 +93,7 @@ public:
   Row
   GetRow(SizeValueType j, std::uint8_t type) const
   {
-    const auto typesBefore = static_cast<SizeValueType>(__builtin_popcount(m_Types & ((1u << type) - 1)));
-    return m_Cut.GetNumberedRow(j * m_NumberOfTypes + typesBefore);
+    return m_Cut.GetNumberedRow(j * m_NumberOfTypes + FCCBits::CountBefore(m_Types, type));
   }
 
 private:

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <optional>
 
 namespace itk
 {
@@ -154,36 +153,46 @@ FCCEdgePoints::GatherRow(const FCCSigns & signs,
                          FCCEdgeBatch & batch,
                          const TFlush & flush) const
 {
+  const auto end = edges.cut + signs.GetNumberOfWords();
+  if (std::all_of(edges.cut, end, [](FCCSigns::WordType word) { return word == 0; })) // as most rows of a type
+  {
+    return;
+  }
   const SizeValueType toField = 1 - m_Margin;
-  const SizeValueType width = m_Extent.GetRegion().GetSize(0);
   const SiteType & step = FCCLattice::OwnedEdges[edges.type];
   const auto offset = FCCLattice::OffsetOf(step, field.GetParity(edges.j, edges.k));
   const bool isRealRow = field.IsReal(1, edges.j) && field.IsReal(2, edges.k);
   const bool isOtherRealRow = field.IsReal(1, edges.j + static_cast<SizeValueType>(offset[1])) &&
                               field.IsReal(2, edges.k + static_cast<SizeValueType>(offset[2]));
   const SiteType firstSite = this->SiteOf(toField, edges.j, edges.k);
-  std::optional<EdgeRows> rows; // most rows have no cut edges of a type
-  FCCBits::ForEach(edges.cut, signs.GetNumberOfWords(), [&](SizeValueType i) {
-    const SizeValueType start = i + toField;
-    const SizeValueType end = start + static_cast<SizeValueType>(offset[0]);
-    const SiteType site{ firstSite[0] + 2 * static_cast<IndexValueType>(i), firstSite[1], firstSite[2] };
-    const bool isReal = isRealRow && start - 1 < width;
-    if (isReal && isOtherRealRow && end - 1 < width)
-    {
-      if (!rows)
+  const auto forEachEdge = [&](const auto & gather) {
+    FCCBits::ForEach(edges.cut, signs.GetNumberOfWords(), [&](SizeValueType i) {
+      const SiteType site{ firstSite[0] + 2 * static_cast<IndexValueType>(i), firstSite[1], firstSite[2] };
+      gather(i + toField, site);
+      AddEdge(site, step, batch);
+      if (batch.count == FCCEdgeBatch::Capacity)
       {
-        rows.emplace(field, step, edges.j, edges.k, m_Cubic, withGradients);
+        flush();
       }
-      rows->Gather(start, batch);
+    });
+  };
+  const auto isInRow = [width = m_Extent.GetRegion().GetSize(0)](SizeValueType i) { return i - 1 < width; };
+  if (!isRealRow || !isOtherRealRow)
+  {
+    forEachEdge([&](SizeValueType start, const SiteType & site) {
+      this->GatherBorder(site, step, !isRealRow || !isInRow(start), batch);
+    });
+    return;
+  }
+  const EdgeRows rows(field, step, edges.j, edges.k, m_Cubic, withGradients);
+  forEachEdge([&](SizeValueType start, const SiteType & site) {
+    if (isInRow(start) && isInRow(start + static_cast<SizeValueType>(offset[0])))
+    {
+      rows.Gather(start, batch);
     }
     else
     {
-      this->GatherBorder(site, step, !isReal, batch);
-    }
-    AddEdge(site, step, batch);
-    if (batch.count == FCCEdgeBatch::Capacity)
-    {
-      flush();
+      this->GatherBorder(site, step, !isInRow(start), batch);
     }
   });
 }

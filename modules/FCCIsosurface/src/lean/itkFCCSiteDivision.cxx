@@ -73,8 +73,14 @@ FCCSiteDivision::FCCSiteDivision(const FCCSigns & signs,
     const auto [a, b] = edges[n].ends;
     if (this->IsInside(a) != this->IsInside(b))
     {
-      m_NearerSite[n] = this->IsInside(a) == ((nearerEnds >> n & 1) != 0) ? a : b;
-      m_Crossings |= m_NearerSite[n] == Center ? 1U << edges[n].GetDirectionFrom(Center) : 0;
+      const unsigned int site = this->IsInside(a) == ((nearerEnds >> n & 1) != 0) ? a : b;
+      const unsigned int direction = edges[n].GetDirectionFrom(site);
+      m_NearerSite[n] = static_cast<std::uint8_t>(site);
+      m_Corners[n] = VertexOf(site,
+                              site == Center        ? direction
+                              : this->IsSplit(site) ? m_Parts[site].GetVertex(direction)
+                                                    : Whole);
+      m_Crossings |= site == Center ? 1U << direction : 0;
     }
   }
   this->FindPolygons();
@@ -83,8 +89,7 @@ FCCSiteDivision::FCCSiteDivision(const FCCSigns & signs,
 void
 FCCSiteDivision::FindPolygons()
 {
-  const FCCSiteStar & star = FCCSiteStar::Get();
-  for (const FCCSiteStar::Tetrahedron & tetrahedron : star.GetTetrahedra())
+  for (const FCCSiteStar::Tetrahedron & tetrahedron : FCCSiteStar::Get().GetTetrahedra())
   {
     if ((tetrahedron.far & m_Crossings) == 0)
     {
@@ -96,20 +101,15 @@ FCCSiteDivision::FindPolygons()
       pattern |= (m_Inside >> tetrahedron.sites[corner] & 1) << corner;
     }
     const FCCTetrahedronPolygon & found = tetrahedron.polygons[pattern];
-    const unsigned int decider = star.GetEdge(tetrahedron, found.crossings[found.decider]);
-    const unsigned int first = found.FindFirstCorner(this->IsInside(m_NearerSite[decider]));
+    const std::uint8_t(&edges)[4] = tetrahedron.edges[pattern];
+    unsigned int corner = found.FindFirstCorner(this->IsInside(m_NearerSite[edges[found.decider]]));
     Polygon & polygon = m_Polygons[m_NumberOfPolygons++];
     polygon.tetrahedron = &tetrahedron;
     polygon.size = found.size;
     for (unsigned int n = 0; n < found.size; ++n)
     {
-      const unsigned int edge = star.GetEdge(tetrahedron, found.crossings[(first + n) % found.size]);
-      const unsigned int site = m_NearerSite[edge];
-      const unsigned int direction = star.GetEdges()[edge].GetDirectionFrom(site);
-      polygon.corners[n] = VertexOf(site,
-                                    site == Center        ? direction
-                                    : this->IsSplit(site) ? m_Parts[site].GetVertex(direction)
-                                                          : Whole);
+      polygon.corners[n] = m_Corners[edges[corner]];
+      corner = corner + 1u < found.size ? corner + 1 : 0;
     }
   }
 }

@@ -179,6 +179,7 @@ private:
   unsigned int m_Crossings{ 0 }; ///< directions of the crossings that the site is nearer to
   FCCSiteParts m_Parts[FCCSiteStar::Sites];
   std::uint8_t m_NearerSite[FCCSiteStar::Edges]; ///< by edge, if it is cut
+  VertexType m_Corners[FCCSiteStar::Edges];      ///< by edge, if it is cut; of the site itself as in Polygon
   unsigned int m_NumberOfPolygons{ 0 };
   Polygon m_Polygons[FCCSiteStar::Tetrahedra];
   unsigned int m_NumberOfTriangles{ 0 };

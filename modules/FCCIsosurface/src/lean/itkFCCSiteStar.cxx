@@ -56,11 +56,16 @@ FCCSiteStar::FindTetrahedra()
           continue;
         }
         Tetrahedron & tetrahedron = m_Tetrahedra[count++];
-        tetrahedron = { { Center, a, b, c }, 1U << a | 1U << b | 1U << c, {} };
+        tetrahedron = { { Center, a, b, c }, 1U << a | 1U << b | 1U << c, {}, {} };
         for (unsigned int pattern = 0; pattern < 16; ++pattern)
         {
           tetrahedron.polygons[pattern] =
             FCCTetrahedronPolygon::Of({ StepTo(Center), StepTo(a), StepTo(b), StepTo(c) }, pattern);
+          for (unsigned int n = 0; n < tetrahedron.polygons[pattern].size; ++n)
+          {
+            const auto [inside, outside] = tetrahedron.polygons[pattern].crossings[n];
+            tetrahedron.edges[pattern][n] = m_EdgeBetween[tetrahedron.sites[inside]][tetrahedron.sites[outside]];
+          }
         }
       }
     }

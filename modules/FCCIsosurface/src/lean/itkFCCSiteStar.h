@@ -83,6 +83,7 @@ public:
     std::uint8_t sites[4];              ///< the center first
     unsigned int far;                   ///< the directions of the others
     FCCTetrahedronPolygon polygons[16]; ///< by the sites inside
+    std::uint8_t edges[16][4];          ///< the indices in GetEdges() of the edges of the polygons' crossings
   };
 
   static const FCCSiteStar &
@@ -97,13 +98,6 @@ public:
   GetTetrahedra() const
   {
     return m_Tetrahedra;
-  }
-
-  /** The index in GetEdges() of the edge of a tetrahedron's crossing. */
-  unsigned int
-  GetEdge(const Tetrahedron & tetrahedron, const FCCTetrahedronPolygon::Crossing & crossing) const
-  {
-    return m_EdgeBetween[tetrahedron.sites[crossing.inside]][tetrahedron.sites[crossing.outside]];
   }
 
   /** Whether the crossings of a set of directions form a disk with the sides and triangles between them: they are

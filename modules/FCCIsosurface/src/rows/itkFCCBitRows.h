@@ -56,12 +56,13 @@ struct FCCBits
       }
       return;
     }
-    WordType carried = 0;
-    for (SizeValueType word = 0; word < words; ++word)
+    for (SizeValueType word = words; word-- > 1;) // from the last one on, so that none is overwritten too early
     {
-      const WordType bits = row[word];
-      use(word, bits << 1 | carried);
-      carried = bits >> (WordBits - 1);
+      use(word, row[word] << 1 | row[word - 1] >> (WordBits - 1));
+    }
+    if (words > 0)
+    {
+      use(0, row[0] << 1);
     }
   }
 
