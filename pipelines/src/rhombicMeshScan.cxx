@@ -6,6 +6,7 @@
 #include "rhombicSourceLoading.h"
 #include "rhombicSurfaceReport.h"
 
+#include "itkTriangleSurfaceIntersections.h"
 #include "itkTriangleSurfaceMeasures.h"
 
 #include <algorithm>
@@ -184,9 +185,23 @@ SpacingOf(const LoadedSource & loaded)
   return MeanSpacingOf(GeometryOf(loaded.labels->scan.image));
 }
 
+/** Edges of isosurfaces at which rounding may make triangles cross, see RefineSurface(). */
+double
+ShortEdgeOf(const LoadedSource & loaded, itk::FCCIsosurfaceMode mode)
+{
+  using Mode = itk::FCCIsosurfaceMode;
+  const bool isInTetrahedra = mode == Mode::Tetrahedra || mode == Mode::Fine;
+  if (!isInTetrahedra || loaded.requests.empty())
+  {
+    return 0.0;
+  }
+  const auto spacing = std::visit([](const auto & image) { return image->GetSpacing(); }, loaded.lattice);
+  return itk::LongestRoundedEdge * *std::max_element(spacing.Begin(), spacing.End());
+}
+
 /** Removes parts of a surface, smooths and simplifies it. Returns whether anything is left. */
 bool
-Finish(MeshedSurface & surface, const SurfaceFinish & finish, double spacing, const Events & events)
+Finish(MeshedSurface & surface, const SurfaceFinish & finish, double spacing, double shortEdge, const Events & events)
 {
   const auto finished = itk::TriangleSurface::New();
   finished->Graft(surface.scene.surface);
@@ -197,18 +212,23 @@ Finish(MeshedSurface & surface, const SurfaceFinish & finish, double spacing, co
     events.Note(surface.scene.name + ": left out, as all its parts are below --min-volume");
     return false;
   }
-  surface.refinement = RefineSurface(*finished, finish, spacing, surface.scene.name, events);
+  surface.refinement =
+    RefineSurface(*finished, finish, spacing, surface.scene.name, events, surface.request ? shortEdge : 0.0);
   return true;
 }
 
 /** Finishes surfaces, and drops those of which nothing is left. */
 void
-FinishAll(std::vector<MeshedSurface> & surfaces, const SurfaceFinish & finish, double spacing, const Events & events)
+FinishAll(std::vector<MeshedSurface> & surfaces,
+          const SurfaceFinish & finish,
+          double spacing,
+          double shortEdge,
+          const Events & events)
 {
   std::vector<MeshedSurface> finished;
   for (MeshedSurface & surface : surfaces)
   {
-    if (Finish(surface, finish, spacing, events))
+    if (Finish(surface, finish, spacing, shortEdge, events))
     {
       finished.push_back(std::move(surface));
     }
@@ -279,10 +299,11 @@ MeshScan(const MeshScanSettings & settings, const Events & events)
     AddLabels(loaded, settings, events, surfaces);
   }
   const double spacing = SpacingOf(loaded);
+  const double shortEdge = ShortEdgeOf(loaded, settings.surfaces.mode);
   loaded.lattice = FCCVolume();
   loaded.labels.reset();
   CheckFiles(PathsOf(settings.mesh, surfaces), settings);
-  FinishAll(surfaces, settings.finish, spacing, events);
+  FinishAll(surfaces, settings.finish, spacing, shortEdge, events);
 
   const FileInspection inspection(settings, loaded.scan, events);
   const FileStaging staging(settings, inspection, sourceReport);

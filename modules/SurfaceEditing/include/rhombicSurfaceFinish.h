@@ -96,12 +96,14 @@ struct Refinement
   itk::SizeValueType shellsTurned = 0; ///< small shells that faced the wrong way
 };
 
-/** Smooths a surface, untangles it, simplifies it, and turns shells that face the wrong way. Untangling moves points by
- * one spacing of the lattice at most, where triangles pass through each other. Simplification adds no such triangles.
- * Notes give the results, and how many triangles still pass through others.
+/** Smooths a surface, untangles it, simplifies it, and turns shells that face the wrong way, each where it may be
+ * needed. Untangling moves points by one spacing of the lattice at most, where triangles pass through each other.
+ * Simplification adds no such triangles. Notes give the results, and how many triangles still pass through others.
  *
  * \param spacing of the lattice in mm (see MeanSpacingOf())
  * \param name of the surface, for progress and messages
+ * \param shortEdge for a surface whose points lie on the edges of tetrahedra: the edges, in mm, at which its triangles
+ * may cross (see itk::CrossesAtShortEdges()); 0: they may cross anywhere
  *
  * Throws itk::ExceptionObject as itk::UntangleSurface() and itk::SimplifySurface() do. */
 Refinement
@@ -109,7 +111,8 @@ RefineSurface(itk::TriangleSurface & surface,
               const SurfaceFinish & finish,
               double spacing,
               const std::string & name,
-              const Events & events);
+              const Events & events,
+              double shortEdge = 0.0);
 
 } // namespace rhombic
 

@@ -32,31 +32,35 @@ SortUnique(Ids & ids)
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
-/** The triangles that cross others, ascending, if only those in \a moved may: \a unmoved is a tree of the surface from
- * before their points were moved. */
+/** Those of \a candidates that cross other triangles, and these other triangles, ascending. \a unmoved is a tree of the
+ * surface from before the triangles in \a moved were moved. */
 Ids
-FindCrossing(const TriangleSurface & surface, const TriangleTree & unmoved, const Ids & moved)
+FindCrossing(const TriangleSurface & surface, const TriangleTree & unmoved, const Ids & moved, const Ids & candidates)
 {
-  constexpr std::size_t blockSize = 4096;
+  constexpr std::size_t blockSize = 1024;
   const TriangleTree movedTree(surface, moved);
   const auto & triangles = surface.GetTriangles();
   Ids crossing;
   std::mutex mutex;
-  ForEachBlock(moved.size(), blockSize, [&](std::size_t begin, std::size_t end) {
+  ForEachBlock(candidates.size(), blockSize, [&](std::size_t begin, std::size_t end) {
     Ids ofBlock;
     for (std::size_t n = begin; n < end; ++n)
     {
-      const std::uint32_t a = moved[n];
+      const std::uint32_t a = candidates[n];
       const auto test = [&](std::uint32_t b) {
-        if (FindContact(surface.GetPoints(), triangles[a], triangles[b]) == TriangleContact::Crossing)
+        if (a != b && FindContact(surface.GetPoints(), triangles[a], triangles[b]) == TriangleContact::Crossing)
         {
           ofBlock.insert(ofBlock.end(), { a, b });
         }
       };
       const TriangleTree::Box box = movedTree.GetTriangleBox(a);
-      movedTree.VisitTriangles(box, [&](std::uint32_t b) { a != b ? test(b) : void(); });
-      unmoved.VisitTriangles(
-        box, [&](std::uint32_t b) { std::binary_search(moved.begin(), moved.end(), b) ? void() : test(b); });
+      movedTree.VisitTriangles(box, test);
+      unmoved.VisitTriangles(box, [&](std::uint32_t b) {
+        if (!std::binary_search(moved.begin(), moved.end(), b))
+        {
+          test(b);
+        }
+      });
     }
     const std::lock_guard<std::mutex> lock(mutex);
     crossing.insert(crossing.end(), ofBlock.begin(), ofBlock.end());
@@ -185,12 +189,15 @@ Untangle(TriangleSurface & surface,
   {
     const Ids points = FindPoints(surface, fans, crossing, round % 4 == 3);
     MovePoints(surface, fans, original, maximumMove, points, round);
+    Ids changed; // all triangles that crossed others are among them
     for (const std::uint32_t point : points)
     {
-      fans.VisitTriangles(point, [&](std::uint32_t triangle) { touched.push_back(triangle); });
+      fans.VisitTriangles(point, [&](std::uint32_t triangle) { changed.push_back(triangle); });
     }
+    SortUnique(changed);
+    touched.insert(touched.end(), changed.begin(), changed.end());
     SortUnique(touched);
-    crossing = FindCrossing(surface, tree, touched);
+    crossing = FindCrossing(surface, tree, touched, changed);
     if (crossing.size() < fewest && HaveAreas(surface, touched))
     {
       fewest = crossing.size();

@@ -4,6 +4,7 @@
 #include "rhombicWording.h"
 
 #include "itkTriangleSurfaceDistance.h"
+#include "itkTriangleSurfaceIntersections.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceVertexOrder.h"
 
@@ -178,7 +179,8 @@ RefineSurface(itk::TriangleSurface & surface,
               const SurfaceFinish & finish,
               double spacing,
               const std::string & name,
-              const Events & events)
+              const Events & events,
+              double shortEdge)
 {
   Refinement refinement;
   if (finish.smoothing > 0.0)
@@ -188,15 +190,19 @@ RefineSurface(itk::TriangleSurface & surface,
     events.Note(DescribeSmoothing(name, *refinement.smoothing));
   }
   events.Progress("untangling " + name, 0.0);
-  const auto untangled = UntangleSurface(surface, spacing);
-  if (untangled.crossingBefore > 0)
+  const bool isAsExtracted = finish.smoothing <= 0.0 && shortEdge > 0.0 && !CrossesAtShortEdges(surface, shortEdge);
+  if (!isAsExtracted)
   {
-    refinement.untangling = untangled;
-  }
-  if (untangled.crossingAfter > 0)
-  {
-    events.Note(name + ": " + Count(untangled.crossingAfter, "triangle passes", "triangles pass") +
-                " through others of it");
+    const auto untangled = UntangleSurface(surface, spacing);
+    if (untangled.crossingBefore > 0)
+    {
+      refinement.untangling = untangled;
+    }
+    if (untangled.crossingAfter > 0)
+    {
+      events.Note(name + ": " + Count(untangled.crossingAfter, "triangle passes", "triangles pass") +
+                  " through others of it");
+    }
   }
   if (finish.Simplifies())
   {
@@ -204,7 +210,10 @@ RefineSurface(itk::TriangleSurface & surface,
     refinement.simplification = Simplify(surface, finish, spacing);
     events.Note(DescribeSimplification(name, finish, *refinement.simplification));
   }
-  refinement.shellsTurned = TurnMisfacingShells(surface);
+  if (!isAsExtracted || finish.Simplifies())
+  {
+    refinement.shellsTurned = TurnMisfacingShells(surface);
+  }
   return refinement;
 }
 

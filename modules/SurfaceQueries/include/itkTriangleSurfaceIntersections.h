@@ -30,6 +30,16 @@ FindSelfIntersections(const TriangleTree & tree,
 std::vector<std::uint32_t>
 FindCrossingTriangles(const TriangleTree & tree);
 
+/** For a surface whose points lie on the edges of the FCC lattice's tetrahedra: edges at which its triangles may cross
+ * are shorter than this, in units of the lattice's largest spacing. */
+constexpr double LongestRoundedEdge = 0.75;
+
+/** Whether triangles cross that have a point in common, or that lie at different ends of an edge of at most \a longest
+ * mm: all that can cross when a surface's points lie on the edges of tetrahedra, but for rounding (see the module's
+ * README). Exact; far quicker than to test all triangles, and needs no tree. */
+bool
+CrossesAtShortEdges(const TriangleSurface & surface, double longest);
+
 } // namespace itk
 
 #endif

@@ -1,10 +1,12 @@
 #include "itkTriangleSurfaceIntersections.h"
 
+#include "detail/itkPositionArithmetic.h"
 #include "detail/itkTriangleContact.h"
 #include "itkForEachBlock.h"
 #include "itkUnfoldedPoints.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <mutex>
 
@@ -113,7 +115,7 @@ public:
   explicit ContactSearch(const TriangleTree & tree)
     : m_Tree(tree)
     , m_Groups(tree.FindSubtrees(TrianglesOfGroup))
-    , m_AreUnfolded(FindUnfoldedPoints(tree.GetSurface()))
+    , m_AreUnfolded(FindUnfoldedPoints(tree.GetSurface(), TrianglesOfPoints(tree.GetSurface())))
   {}
 
   std::size_t
@@ -259,6 +261,45 @@ FindCrossingTriangles(const TriangleTree & tree)
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
+}
+
+bool
+CrossesAtShortEdges(const TriangleSurface & surface, double longest)
+{
+  const TrianglesOfPoints fans(surface);
+  const std::vector<std::uint8_t> areUnfolded = FindUnfoldedPoints(surface, fans);
+  const auto & points = surface.GetPoints();
+  const auto & triangles = surface.GetTriangles();
+  std::atomic<bool> crosses{ false };
+  const auto test = [&](std::uint32_t a, std::uint32_t b) {
+    const auto isCorner = [&](std::uint32_t point) {
+      return areUnfolded[point] != 0 && std::count(triangles[b].begin(), triangles[b].end(), point) > 0;
+    };
+    if (!std::any_of(triangles[a].begin(), triangles[a].end(), isCorner) &&
+        TriangleTree::BoxOf(points, triangles[a]).Overlaps(TriangleTree::BoxOf(points, triangles[b])) &&
+        FindContact(points, triangles[a], triangles[b]) == Contact::Crossing)
+    {
+      crosses = true;
+    }
+  };
+  constexpr std::size_t pointsOfBlock = 16384;
+  ForEachInBlocks(points.size(), pointsOfBlock, [&](std::size_t point) {
+    fans.VisitTriangles(point, [&](std::uint32_t a) {
+      if (areUnfolded[point] == 0)
+      {
+        fans.VisitTriangles(point, [&](std::uint32_t b) { a < b ? test(a, b) : void(); });
+      }
+    });
+    fans.VisitNeighbours(point, [&](std::uint32_t next, std::uint32_t) {
+      if (Distance(ToPosition(points[point]), ToPosition(points[next])) <= longest)
+      {
+        fans.VisitTriangles(point, [&](std::uint32_t a) {
+          fans.VisitTriangles(next, [&](std::uint32_t b) { a < b ? test(a, b) : void(); });
+        });
+      }
+    });
+  });
+  return crosses;
 }
 
 } // namespace itk

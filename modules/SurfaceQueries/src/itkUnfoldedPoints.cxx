@@ -1,7 +1,6 @@
 #include "itkUnfoldedPoints.h"
 
 #include "detail/itkPositionArithmetic.h"
-#include "detail/itkTrianglesOfPoints.h"
 #include "itkForEachBlock.h"
 
 #include <algorithm>
@@ -93,9 +92,8 @@ private:
 } // namespace
 
 std::vector<std::uint8_t>
-FindUnfoldedPoints(const TriangleSurface & surface)
+FindUnfoldedPoints(const TriangleSurface & surface, const TrianglesOfPoints & triangles)
 {
-  const TrianglesOfPoints triangles(surface);
   std::vector<std::uint8_t> areUnfolded(surface.GetNumberOfPoints());
   constexpr std::size_t pointsOfBlock = 16384;
   ForEachInBlocks(areUnfolded.size(), pointsOfBlock, [&](std::size_t point) {

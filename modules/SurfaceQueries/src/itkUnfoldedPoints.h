@@ -1,7 +1,7 @@
 #ifndef itkUnfoldedPoints_h
 #define itkUnfoldedPoints_h
 
-#include "itkTriangleSurface.h"
+#include "detail/itkTrianglesOfPoints.h"
 
 namespace itk
 {
@@ -13,7 +13,7 @@ namespace itk
  * seen from the same side, and go round the point once: then each is seen in a sector of its own. The direction is that
  * of the triangles' mean normal; a bound on rounding errors makes it a proof. */
 std::vector<std::uint8_t>
-FindUnfoldedPoints(const TriangleSurface & surface);
+FindUnfoldedPoints(const TriangleSurface & surface, const TrianglesOfPoints & triangles);
 
 } // namespace itk
 
