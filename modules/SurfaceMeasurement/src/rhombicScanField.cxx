@@ -10,9 +10,43 @@
 namespace rhombic
 {
 
+namespace
+{
+constexpr itk::SizeValueType MostTaps = 10; // of one axis, see itk::SeparableTaps
+}
+
 /** Weights of the samples around each point of a list. */
 struct ScanField::Taps
 {
+  /** The value at point \a n. The columns' sums of all rows come first, so that they are summed at once.
+   * \param VColumns the number of taps along a row; 0: any */
+  template <itk::SizeValueType VColumns, typename TPixel>
+  float
+  Blend(const TPixel * samples, const itk::Size<3> & size, std::size_t n) const
+  {
+    const itk::SizeValueType count = VColumns > 0 ? VColumns : columns.GetNumberOfTaps();
+    float sums[MostTaps] = {};
+    for (itk::SizeValueType z = 0; z < slices.GetNumberOfTaps(); ++z)
+    {
+      for (itk::SizeValueType y = 0; y < rows.GetNumberOfTaps(); ++y)
+      {
+        const float weight = slices.GetWeights(n)[z] * rows.GetWeights(n)[y];
+        const auto offset = ((slices.GetFirst(n) + z) * size[1] + rows.GetFirst(n) + y) * size[0];
+        const TPixel * const row = samples + offset + columns.GetFirst(n);
+        for (itk::SizeValueType x = 0; x < count; ++x)
+        {
+          sums[x] += weight * static_cast<float>(row[x]);
+        }
+      }
+    }
+    float value = 0.0f;
+    for (itk::SizeValueType x = 0; x < count; ++x)
+    {
+      value += columns.GetWeights(n)[x] * sums[x];
+    }
+    return value;
+  }
+
   itk::SeparableTaps columns;
   itk::SeparableTaps rows;
   itk::SeparableTaps slices;
@@ -28,19 +62,6 @@ IsWellInside(double position, itk::SizeValueType length)
 {
   constexpr double margin = 0.5;
   return position >= margin && position <= static_cast<double>(length) - 1.0 - margin;
-}
-
-template <typename TPixel>
-float
-Blend(const TPixel * samples, const itk::SeparableTaps & taps, std::size_t n)
-{
-  const float * const weights = taps.GetWeights(n);
-  float sum = 0.0f;
-  for (itk::SizeValueType tap = 0; tap < taps.GetNumberOfTaps(); ++tap)
-  {
-    sum += weights[tap] * static_cast<float>(samples[tap]);
-  }
-  return sum;
 }
 
 } // namespace
@@ -124,25 +145,14 @@ ScanField::Evaluate(const std::vector<PointType> & points, itk::SeparableKernel 
   std::visit(
     [&](const auto & image) {
       const auto & size = image->GetLargestPossibleRegion().GetSize();
+      const auto * const samples = image->GetBufferPointer();
+      const bool isCubic = taps.columns.GetNumberOfTaps() == MostTaps;
       for (std::size_t n = 0; n < points.size(); ++n)
       {
-        if (!taps.areKnown[n])
+        if (taps.areKnown[n])
         {
-          continue;
+          values[n] = isCubic ? taps.Blend<MostTaps>(samples, size, n) : taps.Blend<0>(samples, size, n);
         }
-        float value = 0.0f;
-        for (itk::SizeValueType z = 0; z < taps.slices.GetNumberOfTaps(); ++z)
-        {
-          float slice = 0.0f;
-          for (itk::SizeValueType y = 0; y < taps.rows.GetNumberOfTaps(); ++y)
-          {
-            const auto offset = ((taps.slices.GetFirst(n) + z) * size[1] + taps.rows.GetFirst(n) + y) * size[0];
-            const auto * const row = image->GetBufferPointer() + offset + taps.columns.GetFirst(n);
-            slice += taps.rows.GetWeights(n)[y] * Blend(row, taps.columns, n);
-          }
-          value += taps.slices.GetWeights(n)[z] * slice;
-        }
-        values[n] = value;
       }
     },
     m_Scan.image);
