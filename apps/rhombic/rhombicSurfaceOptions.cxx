@@ -42,9 +42,11 @@ SurfaceOptions::Add(CLI::App & parser)
                     "names and colours of labels (ITK-SNAP, Slicer, FreeSurfer, BIDS; default: in or beside the map)");
   parser.add_option("--label", m_ChosenLabels, "one of the labels, by name or value; repeatable (default: all)")
     ->allow_extra_args(false);
-  parser.add_flag("--keep-table",
-                  m_KeepsTable,
-                  "keep table, head holder and sheets around the patient of a CT, which are otherwise set to air");
+  auto * const removes =
+    parser.add_flag("--remove-table",
+                    m_RemovesTable,
+                    "set table, head holder and sheets around the patient of a CT to air, as the ct- presets do");
+  parser.add_flag("--keep-table", m_KeepsTable, "keep them although the preset removes them")->excludes(removes);
   parser
     .add_option(
       "--mode",
@@ -63,12 +65,9 @@ SurfaceOptions::GetSelection(const std::optional<SurfaceRequest> & further) cons
   {
     const Preset preset = FindPreset(m_Preset);
     selection.requests = preset.surfaces;
-    selection.table = preset.removesTable ? TableRule::Remove : TableRule::RemoveFromCT;
+    selection.removesTable = preset.removesTable && !m_KeepsTable;
   }
-  if (m_KeepsTable)
-  {
-    selection.table = TableRule::Keep;
-  }
+  selection.removesTable = selection.removesTable || m_RemovesTable;
   for (const std::string & text : m_Surfaces)
   {
     selection.requests.push_back(ParseSurfaceRequest(text, selection.requests.size()));

@@ -39,6 +39,7 @@ private:
   std::string m_Labels;
   std::string m_LabelTable;
   std::vector<std::string> m_ChosenLabels;
+  bool m_RemovesTable = false;
   bool m_KeepsTable = false;
   std::string m_Mode = "lean";
 };

@@ -2,6 +2,7 @@
 #define rhombicScanReport_h
 
 #include "rhombicDescribeScan.h"
+#include "rhombicTableRemoval.h"
 
 #include <nlohmann/json.hpp>
 

@@ -5,7 +5,6 @@
 #include "rhombicScanReader.h"
 #include "rhombicScanToLattice.h"
 #include "rhombicSurfaceRequest.h"
-#include "rhombicTableRemoval.h"
 
 #include "itkFCCIsosurfaceMode.h"
 
@@ -39,8 +38,8 @@ struct LabelSelection
 struct SurfaceSelection
 {
   std::vector<SurfaceRequest> requests;
-  std::optional<LabelSelection> labels;      ///< from a label map that lies where the scan does
-  TableRule table = TableRule::RemoveFromCT; ///< for isosurfaces; without effect on lattice volumes
+  std::optional<LabelSelection> labels; ///< from a label map that lies where the scan does
+  bool removesTable = false; ///< for isosurfaces of CTs: see RemoveTable(); without effect on lattice volumes
   itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
 };
 

@@ -91,6 +91,26 @@ LoadLabels(const ScanSource & source, const LabelMapSource & labels, const Scan 
   return map;
 }
 
+/** Removes the table if asked; says so if a scan keeps it. Scans of unknown modality are taken for CTs when asked. */
+std::optional<TableRemoval>
+TreatTable(Scan & scan, bool isRemoved, const Events & events)
+{
+  const bool isCT = scan.modality == "CT";
+  if (isRemoved && (isCT || scan.modality.empty()))
+  {
+    return RemoveTable(scan, events);
+  }
+  if (isRemoved)
+  {
+    events.Note("no table is removed, as the scan is no CT, but of modality " + scan.modality);
+  }
+  else if (isCT)
+  {
+    events.Note("the scan is taken as it is; --remove-table removes table, holders and sheets around the patient");
+  }
+  return {};
+}
+
 LoadedSource
 PrepareLattice(FCCVolume volume, const ScanSource & source, const SurfaceSelection & selection, const Events & events)
 {
@@ -128,10 +148,7 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   {
     return loaded;
   }
-  if (IsTableRemoved(selection.table, scan))
-  {
-    loaded.tableRemoval = RemoveTable(scan, events);
-  }
+  loaded.tableRemoval = TreatTable(scan, selection.removesTable, events);
   loaded.requests = ResolveIsovalues(selection.requests, ComputeIntensities(scan.image));
   loaded.lattice = ScanToLattice(scan, source.lattice, events);
   loaded.grid = GridOf(scan);

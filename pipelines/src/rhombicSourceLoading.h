@@ -4,6 +4,7 @@
 #include "rhombicEvents.h"
 #include "rhombicLabelSurfaces.h"
 #include "rhombicScanSource.h"
+#include "rhombicTableRemoval.h"
 
 #include <filesystem>
 #include <optional>
@@ -39,7 +40,8 @@ struct LoadedSource
   }
 };
 
-/** Reads a source, removes the table and resamples onto the lattice, as far as the selection needs it. Throws Failure.
+/** Reads a source, removes the table if asked and resamples onto the lattice, as far as the selection needs it. Throws
+ * Failure.
  */
 LoadedSource
 LoadSource(const ScanSource & source, const SurfaceSelection & selection, const Events & events);

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <random>
 #include <vector>
 
 namespace
@@ -118,22 +120,31 @@ TEST(BlockGrid, NeighboursStayInTheGrid)
   EXPECT_EQ(isNear, (std::vector<bool>{ true, true, false, true, true, false, false, false, false }));
 }
 
-// A ball has room beside a wall, and reaches the sides, but not in a gap that is narrower than itself.
-TEST(BlockGrid, BallsReachWhereTheyHaveRoom)
+TEST(BlockGrid, DistancesAreThoseToTheNearestBlock)
 {
-  const auto grid = MakeImage({ { 60, 20, 20 } }); // blocks of 1 mm
-  const auto isWall = [](std::size_t offset) {
-    const std::size_t x = offset % 60;
-    return x == 30 || x == 40; // a gap of 9 mm
-  };
-  const auto walls = rhombic::MakeMask(*grid, isWall);
-  const auto space = rhombic::FindOpenSpace(*rhombic::DistanceTo(*walls), 2);
-  ASSERT_EQ(space.centres.parts.size(), 3u);
-  EXPECT_EQ(space.reachesSides, (std::vector<bool>{ false, true, true }));
-  const auto filled = rhombic::FillOpenSpace(space, space.reachesSides);
-  for (std::size_t x = 0; x < 60; ++x)
+  std::mt19937 random(1);
+  const auto grid = MakeImage({ { 17, 9, 12 } });
+  const double spacing[3] = { 3.0, 2.5, 4.0 };
+  grid->SetSpacing(spacing);
+  constexpr double reach = 11.0;
+  for (const unsigned int share : { 0u, 1u, 30u })
   {
-    EXPECT_EQ(filled->GetBufferPointer()[x] != 0, x < 30 || x > 40) << x;
+    const auto mask = rhombic::MakeMask(*grid, [&](std::size_t) { return random() % 1000 < share; });
+    const auto distances = rhombic::DistanceTo(*mask, reach);
+    const auto & size = grid->GetBufferedRegion().GetSize();
+    rhombic::ForEachIndex(size, [&](const itk::Index<3> & index, std::size_t offset) {
+      double expected = reach;
+      rhombic::ForEachIndex(size, [&](const itk::Index<3> & other, std::size_t otherOffset) {
+        if (mask->GetBufferPointer()[otherOffset] != 0)
+        {
+          expected = std::min(expected,
+                              std::hypot(3.0 * static_cast<double>(index[0] - other[0]),
+                                         2.5 * static_cast<double>(index[1] - other[1]),
+                                         4.0 * static_cast<double>(index[2] - other[2])));
+        }
+      });
+      EXPECT_NEAR(distances->GetBufferPointer()[offset], expected, 1e-5);
+    });
   }
 }
 

@@ -43,7 +43,8 @@ struct Grid
   unsigned int seed = 1;
 };
 
-constexpr double backOfBody = 95.0; // the table's top touches it: y in mm, positive towards the back
+constexpr double backOfBody = 95.0; // y in mm, positive towards the back
+constexpr double mattress = 10.0;   // mm, between the back and the table; as air in the scan
 constexpr double air = -1000.0;     // HU
 constexpr double tissue = -300.0;   // HU
 constexpr double halfWidth = 250.0; // of the scan in mm, along x
@@ -75,12 +76,13 @@ Patient()
   return objects;
 }
 
-/** A closed shell with foam in it; its top touches the back. */
+/** A closed shell with foam in it. */
 std::vector<Object>
-FlatTable()
+FlatTable(double behindBack = mattress)
 {
-  const auto depth = [](const PointType & p) {
-    return std::min(Slab(p[0], -220.0, 220.0), Slab(p[1], backOfBody, backOfBody + 40.0));
+  const double top = backOfBody + behindBack;
+  const auto depth = [top](const PointType & p) {
+    return std::min(Slab(p[0], -220.0, 220.0), Slab(p[1], top, top + 40.0));
   };
   return { { 300.0, depth }, { -950.0, [=](const PointType & p) { return depth(p) - 4.0; } } };
 }
@@ -90,7 +92,7 @@ std::vector<Object>
 CurvedTable()
 {
   std::vector<Object> objects;
-  for (const double behind : { 0.0, 30.0 })
+  for (const double behind : { mattress, mattress + 30.0 })
   {
     objects.push_back({ 150.0, [=](const PointType & p) {
                          const double radius = 500.0;
@@ -108,7 +110,7 @@ TableWithRails()
   for (const double side : { -1.0, 1.0 })
   {
     objects.push_back({ 600.0, [side](const PointType & p) {
-                         return 9.0 - std::hypot(p[0] - side * 235.0, p[1] - backOfBody - 20.0);
+                         return 9.0 - std::hypot(p[0] - side * 235.0, p[1] - backOfBody - mattress - 20.0);
                        } });
   }
   return objects;
@@ -251,36 +253,36 @@ DepthInPatient(const PointType & point)
   return depth;
 }
 
-/** That the patient stays and the objects go. What is nearer than a block of the search to both is in doubt. */
-void
-ExpectOnlyThePatient(const Grid & grid, const std::vector<Object> & objects)
+/** How far from the true skin the scan's skin may be, in mm. */
+struct Tolerance
 {
-  const auto patient = ValuesOf(MakeScan(grid, Patient()));
+  double inside = 4.0;
+  double outside = 4.0;
+};
+
+/** That the patient stays and the objects go: what is deeper in the patient than the tolerance is tissue as before, and
+ * what is farther outside is not tissue. */
+void
+ExpectOnlyThePatient(const Grid & grid, const std::vector<Object> & objects, const Tolerance & tolerance)
+{
   rhombic::Scan scan = MakeScan(grid, Patient() + objects);
   const auto points = PointsOf(scan);
   const auto before = ValuesOf(scan);
   const auto removal = rhombic::RemoveTable(scan, {});
   const auto after = ValuesOf(scan);
-  constexpr double doubt = 3.0; // mm
-  std::size_t cut = 0;
-  std::size_t cutAtContact = 0;
-  std::size_t patientSamples = 0;
+  std::size_t changed = 0;
   std::size_t objectSamples = 0;
   std::size_t left = 0;
   for (std::size_t n = 0; n < after.size(); ++n)
   {
     const double depth = DepthInPatient(points[n]);
-    const bool isChanged = after[n] != before[n];
-    patientSamples += depth >= 0.0 ? 1 : 0;
-    cut += depth >= doubt && isChanged ? 1 : 0;
-    cutAtContact += patient[n] >= tissue && isChanged ? 1 : 0;
-    const bool isObject = depth < -doubt && patient[n] < tissue && before[n] >= tissue;
+    changed += depth >= tolerance.inside && after[n] != before[n] ? 1 : 0;
+    const bool isObject = depth < -tolerance.outside && before[n] >= tissue;
     objectSamples += isObject ? 1 : 0;
     left += isObject && after[n] >= tissue ? 1 : 0;
   }
-  EXPECT_EQ(cut, 0u);
-  EXPECT_LT(static_cast<double>(cutAtContact), 0.001 * static_cast<double>(patientSamples));
-  EXPECT_LT(static_cast<double>(left), 0.01 * static_cast<double>(objectSamples)) << objectSamples;
+  EXPECT_EQ(changed, 0u);
+  EXPECT_EQ(left, 0u) << "of " << objectSamples;
   EXPECT_FALSE(removal.objects.empty());
 }
 
@@ -315,13 +317,36 @@ TEST(TableRemoval, ScansWithoutATableStayAsTheyAre)
   }
 }
 
-TEST(TableRemoval, TablesThatTouchTheBackGoAndThePatientStays)
+TEST(TableRemoval, TablesGoAndThePatientStays)
 {
   const std::vector<std::vector<Object>> tables{ FlatTable(), CurvedTable(), TableWithRails() };
   for (const Grid & grid : Grids())
   {
     SCOPED_TRACE(grid.seed);
-    ExpectOnlyThePatient(grid, tables[grid.seed % tables.size()] + Tube());
+    ExpectOnlyThePatient(grid, tables[grid.seed % tables.size()] + Tube(), {});
+  }
+}
+
+// The wall of a table can't be told from the skin that lies on it.
+TEST(TableRemoval, AWallStaysWhereTheBackLiesOnIt)
+{
+  const Grid grid = Grids()[0];
+  ExpectOnlyThePatient(grid, FlatTable(0.0) + Tube(), { 4.0, 12.0 });
+}
+
+// A sheet under the back, which touches it in the middle and leaves it to the sides.
+TEST(TableRemoval, TheSkinIsSmoothWhereItTouchesASheet)
+{
+  for (const double spacing : { 0.8, 1.3, 2.0 })
+  {
+    SCOPED_TRACE(spacing);
+    const auto sheet = [](const PointType & p) {
+      const double fromSkin = -Ellipse(p[0], p[1], 150.0, backOfBody) - 0.0004 * p[0] * p[0];
+      return std::min({ Slab(fromSkin, 0.3, 1.8), p[1] - 40.0, 200.0 - std::abs(p[0]) });
+    };
+    ExpectOnlyThePatient({ { spacing, spacing, 4.0 } },
+                         FlatTable() + std::vector<Object>{ { 0.0, sheet } },
+                         { 2.0 * spacing + 1.0, 2.0 * spacing + 1.0 });
   }
 }
 
@@ -336,12 +361,12 @@ TEST(TableRemoval, EarsThatTouchAHeadHolderStay)
     return std::min(Slab(std::hypot(p[0], p[1]), 100.0, 104.0), p[1] + 20.0);
   };
   const Grid grid{ { 1.0, 1.0, 3.0 } };
-  const auto patient = ValuesOf(MakeScan(grid, { { 40.0, head }, { 0.0, ear } }));
   rhombic::Scan scan = MakeScan(grid, { { 40.0, head }, { 0.0, ear }, { 400.0, holder } });
   const auto points = PointsOf(scan);
   const auto before = ValuesOf(scan);
   rhombic::RemoveTable(scan, {});
   const auto after = ValuesOf(scan);
+  std::size_t changed = 0;
   std::size_t earSamples = 0;
   std::size_t earLost = 0;
   std::size_t holderSamples = 0;
@@ -349,13 +374,14 @@ TEST(TableRemoval, EarsThatTouchAHeadHolderStay)
   for (std::size_t n = 0; n < after.size(); ++n)
   {
     const double depth = std::max(head(points[n]), ear(points[n]));
-    EXPECT_FALSE(depth >= 0.0 && holder(points[n]) < -3.0 && after[n] != before[n]) << points[n];
+    changed += depth >= 3.0 && holder(points[n]) < -3.0 && after[n] != before[n] ? 1 : 0;
     earSamples += depth >= 0.0 && head(points[n]) < 0.0 ? 1 : 0;
     earLost += depth >= 0.0 && head(points[n]) < 0.0 && after[n] < tissue ? 1 : 0;
     holderSamples += depth < -3.0 && holder(points[n]) >= 0.0 ? 1 : 0;
     holderLeft += depth < -3.0 && holder(points[n]) >= 0.0 && after[n] >= tissue ? 1 : 0;
   }
-  EXPECT_LT(static_cast<double>(earLost), 0.05 * static_cast<double>(earSamples));
+  EXPECT_EQ(changed, 0u);
+  EXPECT_LT(static_cast<double>(earLost), 0.08 * static_cast<double>(earSamples));
   EXPECT_LT(static_cast<double>(holderLeft), 0.01 * static_cast<double>(holderSamples));
 }
 
@@ -367,7 +393,7 @@ TEST(TableRemoval, TheResultIsTheSameForAnyNumberOfThreads)
   std::vector<std::int16_t> first;
   std::string firstReport;
   const auto threads = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
-  for (const unsigned int count : { 1u, 2u, 3u, 4u })
+  for (const unsigned int count : { 1u, 2u, 3u, 8u })
   {
     itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(count);
     std::copy(values.begin(), values.end(), std::get<ImageType::Pointer>(original.image)->GetBufferPointer());
@@ -414,7 +440,7 @@ TEST(TableRemoval, ReportsVolumeAndPlaceOfWhatIsRemoved)
   EXPECT_NE(notes.front().find("1 object"), std::string::npos) << notes.front();
 }
 
-TEST(TableRemoval, KeepsWhatMayBeAHandAndSaysSo)
+TEST(TableRemoval, KeepsWhatMayBeAHand)
 {
   const std::vector<Object> hand{
     { 30.0,
@@ -425,9 +451,8 @@ TEST(TableRemoval, KeepsWhatMayBeAHandAndSaysSo)
   rhombic::Scan scan = MakeScan(Grids()[0], Patient() + hand);
   const auto before = ValuesOf(scan);
   const auto removal = rhombic::RemoveTable(scan, {});
+  EXPECT_TRUE(removal.objects.empty());
   EXPECT_TRUE(ValuesOf(scan) == before);
-  ASSERT_EQ(removal.notes.size(), 1u);
-  EXPECT_NE(removal.notes.front().find("hand"), std::string::npos) << removal.notes.front();
 }
 
 TEST(TableRemoval, ScansThatAreNotInHounsfieldUnitsStayAsTheyAre)
@@ -444,22 +469,6 @@ TEST(TableRemoval, ScansThatAreNotInHounsfieldUnitsStayAsTheyAre)
   EXPECT_TRUE(ValuesOf(scan) == before);
   EXPECT_TRUE(removal.objects.empty());
   ASSERT_EQ(removal.notes.size(), 1u);
-}
-
-TEST(TableRemoval, ConcernsCTsUnlessItIsRefused)
-{
-  using rhombic::TableRule;
-  rhombic::Scan scan;
-  const std::vector<std::pair<std::string, std::vector<bool>>> expected{ { "CT", { true, true, false } },
-                                                                         { "", { false, true, false } },
-                                                                         { "MR", { false, false, false } } };
-  for (const auto & [modality, removed] : expected)
-  {
-    scan.modality = modality;
-    EXPECT_EQ(rhombic::IsTableRemoved(TableRule::RemoveFromCT, scan), removed[0]) << modality;
-    EXPECT_EQ(rhombic::IsTableRemoved(TableRule::Remove, scan), removed[1]) << modality;
-    EXPECT_EQ(rhombic::IsTableRemoved(TableRule::Keep, scan), removed[2]) << modality;
-  }
 }
 
 /** Real scans, which are no part of the project: RHOMBIC_SCANS says where they are. */

@@ -403,21 +403,25 @@ TEST(CommandLine, ListsPresets)
   EXPECT_EQ(outcome.output.find("none"), std::string::npos) << outcome.output;
 }
 
-TEST(CommandLine, TheTableIsLookedForInCTsUnlessItIsKept)
+TEST(CommandLine, TheTableIsRemovedWhereAPresetOrAnOptionSaysSo)
 {
   const TemporaryFolder folder;
   const std::string dicom = RHOMBIC_TESTDATA "/phantom/dicom";
   const std::vector<std::pair<std::string, bool>> expected{
-    { "mesh " + dicom + " -t -300.5 -o a.stl", true },
-    { "mesh " + dicom + " -t -300.5 --keep-table -o a.stl", false },
+    { "mesh " + dicom + " -t -300.5 -o a.stl", false },
+    { "mesh " + dicom + " -t -300.5 --remove-table -o a.stl", true },
     { "mesh " + phantomNifti + " -t -300.5 -o a.stl", false },
+    { "mesh " + phantomNifti + " -t -300.5 --remove-table -o a.stl", true },
     { "render " + phantomNifti + " --surface skin=-300.5 -o a.png", false },
     { "render " + phantomNifti + " --preset ct-skin -o a.png", true },
     { "render " + phantomNifti + " --preset ct-skin --keep-table -o a.png", false },
   };
   for (const auto & [command, isRemoved] : expected)
   {
-    ASSERT_EQ(Rhombic(command, folder.Path()).exitCode, 0) << command;
+    const Outcome outcome = Rhombic(command, folder.Path());
+    ASSERT_EQ(outcome.exitCode, 0) << command;
+    const bool keepsTableOfCT = command.find(dicom) != std::string::npos && !isRemoved;
+    EXPECT_EQ(outcome.errors.find("--remove-table removes") != std::string::npos, keepsTableOfCT) << outcome.errors;
     const char * const output = command.rfind("mesh", 0) == 0 ? "a.stl.json" : "a.png.json";
     std::ifstream stream(folder.Path() / output);
     const std::string report{ std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>() };

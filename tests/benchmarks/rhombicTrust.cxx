@@ -31,7 +31,7 @@ struct Options
 {
   std::string scan;
   std::vector<double> isovalues;
-  bool isCT = false;
+  bool removesTable = false;
   double share = 10.0;
   double spacings = 1.0;
   std::vector<std::string> modes;
@@ -185,7 +185,7 @@ Run(const Options & options)
 {
   UseThreads(options.threads);
   Scan scan = ReadScan(options.scan);
-  if (IsTableRemoved(options.isCT ? TableRule::Remove : TableRule::RemoveFromCT, scan))
+  if (options.removesTable)
   {
     RemoveTable(scan, {});
   }
@@ -239,7 +239,7 @@ main(int argc, char ** argv)
                 "rhombic-trust" };
   app.add_option("--scan", options.scan, "anything that rhombic reads")->required();
   app.add_option("-t,--threshold", options.isovalues, "isovalue; repeatable")->required()->allow_extra_args(false);
-  app.add_flag("--ct", options.isCT, "the scan is a CT in HU even if it does not say so: its table is removed");
+  app.add_flag("--remove-table", options.removesTable, "the scan is a CT in HU: its table is removed");
   app.add_option("--mode", options.modes, "only this mode; repeatable")->allow_extra_args(false);
   app.add_option("--share", options.share, "triangles kept by simplification, in %")->capture_default_str();
   app.add_option("--max-error", options.spacings, "of simplification, in spacings of the lattice")

@@ -30,7 +30,7 @@ struct Options
                                                   // from air to skin
   std::vector<double> densities{ itk::FCCLattice::NyquistDensity, 3.0 };
   double referenceDensity = 13.7;
-  bool isCT = false;
+  bool removesTable = false;
   unsigned int threads = std::max(1U, std::thread::hardware_concurrency());
   std::string json;
 };
@@ -108,7 +108,7 @@ MeasureAll(const Options & options)
   if (!options.scan.empty())
   {
     Scan scan = ReadScan(options.scan);
-    if (IsTableRemoved(options.isCT ? TableRule::Remove : TableRule::RemoveFromCT, scan))
+    if (options.removesTable)
     {
       RemoveTable(scan, {});
     }
@@ -193,7 +193,7 @@ main(int argc, char ** argv)
   app.add_option("--density", options.densities, "of the lattice; repeatable")->allow_extra_args(false);
   app.add_option("--reference-density", options.referenceDensity, "of the lattice whose samples give the reference")
     ->capture_default_str();
-  app.add_flag("--ct", options.isCT, "the scan is a CT in HU even if it does not say so: its table is removed");
+  app.add_flag("--remove-table", options.removesTable, "the scan is a CT in HU: its table is removed");
   app.add_option("--threads", options.threads, "number of threads")->capture_default_str();
   app.add_option("--json", options.json, "also write a report");
   return RunBenchmark(app, argc, argv, [&options] { Run(options); });

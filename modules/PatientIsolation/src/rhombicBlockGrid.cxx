@@ -1,7 +1,7 @@
 #include "rhombicBlockGrid.h"
 
 #include "itkConnectedComponentImageFilter.h"
-#include "itkSignedMaurerDistanceMapImageFilter.h"
+#include "itkForEachBlock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,15 +58,47 @@ IsNear(const MaskImage & mask, std::size_t offset)
 }
 
 DistanceImage::Pointer
-DistanceTo(const MaskImage & mask)
+DistanceTo(const MaskImage & mask, double reach)
 {
-  const auto filter = itk::SignedMaurerDistanceMapImageFilter<MaskImage, DistanceImage>::New();
-  filter->SetInput(&mask);
-  filter->SetSquaredDistance(false);
-  filter->SetUseImageSpacing(true);
-  filter->SetInsideIsPositive(false);
-  filter->Update();
-  return filter->GetOutput();
+  const auto & size = mask.GetBufferedRegion().GetSize();
+  const std::size_t count = mask.GetBufferedRegion().GetNumberOfPixels();
+  const auto farthest = static_cast<float>(reach * reach);
+  const auto distance = MakeLike<DistanceImage>(mask);
+  float * const squares = distance->GetBufferPointer();
+  const std::uint8_t * const isIn = mask.GetBufferPointer();
+  std::transform(isIn, isIn + count, squares, [=](std::uint8_t value) { return value != 0 ? 0.0f : farthest; });
+  std::vector<float> before(count);
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    std::copy_n(squares, count, before.begin());
+    const double width = mask.GetSpacing()[axis];
+    const auto step = static_cast<std::ptrdiff_t>(mask.GetOffsetTable()[axis]);
+    const auto steps = static_cast<std::ptrdiff_t>(reach / width);
+    const auto length = static_cast<std::ptrdiff_t>(size[0]);
+    itk::ForEachInBlocks(size[1] * size[2], 32, [&](std::size_t row) {
+      float * const least = squares + row * size[0];
+      const auto place = static_cast<std::ptrdiff_t>(axis == 1 ? row % size[1] : row / size[1]); // of the row
+      for (std::ptrdiff_t apart = -steps; apart <= steps; ++apart)
+      {
+        const bool isInGrid = place + apart >= 0 && place + apart < static_cast<std::ptrdiff_t>(size[axis]);
+        if (axis != 0 && !isInGrid)
+        {
+          continue;
+        }
+        const float * const values = before.data() + row * size[0] + apart * step;
+        const double millimetres = static_cast<double>(apart) * width;
+        const auto square = static_cast<float>(millimetres * millimetres);
+        const std::ptrdiff_t first = axis == 0 ? std::max<std::ptrdiff_t>(-apart, 0) : 0;
+        const std::ptrdiff_t end = axis == 0 ? length - std::max<std::ptrdiff_t>(apart, 0) : length;
+        for (std::ptrdiff_t n = first; n < end; ++n)
+        {
+          least[n] = std::min(least[n], values[n] + square);
+        }
+      }
+    });
+  }
+  std::transform(squares, squares + count, squares, [](float square) { return std::sqrt(square); });
+  return distance;
 }
 
 Components
@@ -91,40 +123,6 @@ FindComponents(const MaskImage & mask, bool isFullyConnected)
     }
   });
   return components;
-}
-
-OpenSpace
-FindOpenSpace(const DistanceImage & distance, unsigned int longAxis)
-{
-  const float * const distances = distance.GetBufferPointer();
-  const auto centres =
-    MakeMask(distance, [=](std::size_t offset) { return static_cast<double>(distances[offset]) > ballRadius; });
-  OpenSpace space{ FindComponents(*centres, false), {} };
-  const auto & size = distance.GetBufferedRegion().GetSize();
-  for (const Component & part : space.centres.parts)
-  {
-    bool reaches = false;
-    for (unsigned int axis = 0; axis < 3 && part.count > 0; ++axis)
-    {
-      const auto end = static_cast<itk::IndexValueType>(size[axis]);
-      reaches = reaches || (axis != longAxis && (part.lowest[axis] == 0 || part.highest[axis] + 1 == end));
-    }
-    space.reachesSides.push_back(reaches);
-  }
-  return space;
-}
-
-MaskImage::Pointer
-FillOpenSpace(const OpenSpace & space, const std::vector<bool> & isPartIn)
-{
-  const auto centres = MaskOfParts(space.centres, [&](std::size_t label) { return isPartIn[label]; });
-  if (!HasBorder(*centres))
-  {
-    return nullptr;
-  }
-  const auto distance = DistanceTo(*centres);
-  const float * const distances = distance->GetBufferPointer();
-  return MakeMask(*distance, [=](std::size_t offset) { return static_cast<double>(distances[offset]) <= ballRadius; });
 }
 
 } // namespace rhombic

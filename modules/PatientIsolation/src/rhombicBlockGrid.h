@@ -53,6 +53,13 @@ MakeMask(const itk::ImageBase<3> & grid, const TFunction & isIn)
   return mask;
 }
 
+/** The blocks that are not in the mask. */
+inline MaskImage::Pointer
+Complement(const MaskImage & mask)
+{
+  return MakeMask(mask, [&](std::size_t offset) { return mask.GetBufferPointer()[offset] == 0; });
+}
+
 /** Whether some blocks are in the mask, and some are not. */
 bool
 HasBorder(const MaskImage & mask);
@@ -103,10 +110,9 @@ ForEachFaceNeighbour(const itk::Size<3> & size,
 bool
 IsNear(const MaskImage & mask, std::size_t offset);
 
-/** The distance in mm of each block from the nearest block at the border of the mask, negative inside. The grid's sides
- * do not count as a border. The mask must have a border (see HasBorder()). */
+/** The distance in mm of each block's centre from the nearest one in the mask: 0 in the mask, at most \a reach. */
 DistanceImage::Pointer
-DistanceTo(const MaskImage & mask);
+DistanceTo(const MaskImage & mask, double reach);
 
 /** A connected part of a mask. */
 struct Component
@@ -140,22 +146,6 @@ MaskOfParts(const Components & components, const TFunction & isIn)
   const std::uint32_t * const labels = components.labels->GetBufferPointer();
   return MakeMask(*components.labels, [&](std::size_t offset) { return isLabelIn[labels[offset]]; });
 }
-
-/** The space outside a mask in which balls of radius ballRadius have room. */
-struct OpenSpace
-{
-  Components centres;             ///< connected parts of the balls' possible centres
-  std::vector<bool> reachesSides; ///< by label: whether the part reaches a side of the grid along the patient
-};
-
-/** The open space outside a mask. \param distance from the mask, in mm */
-OpenSpace
-FindOpenSpace(const DistanceImage & distance, unsigned int longAxis);
-
-/** The mask of the blocks that balls with centres in the chosen parts cover. Null if no part is chosen. \param isPartIn
- * by label */
-MaskImage::Pointer
-FillOpenSpace(const OpenSpace & space, const std::vector<bool> & isPartIn);
 
 } // namespace rhombic
 

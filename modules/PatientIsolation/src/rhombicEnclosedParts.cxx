@@ -96,7 +96,8 @@ FindPartsAtSides(const MaskImage & mask, unsigned int longAxis, bool takesSides)
   const Components components = FindComponents(mask, false);
   const std::uint32_t * const labels = components.labels->GetBufferPointer();
   const auto & size = mask.GetBufferedRegion().GetSize();
-  const auto depth = HasBorder(mask) ? DistanceTo(mask) : MakeLike<DistanceImage>(mask);
+  constexpr double room = ballRadius + 0.5 * gridBlockWidth; // to the centre of the nearest block outside the mask
+  const auto depth = DistanceTo(*Complement(mask), 2.0 * room);
   std::vector<bool> isFound(components.parts.size(), false);
   ForEachIndex(size, [&](const itk::Index<3> & index, std::size_t offset) {
     unsigned int sides = 0;
@@ -105,8 +106,7 @@ FindPartsAtSides(const MaskImage & mask, unsigned int longAxis, bool takesSides)
       const auto last = static_cast<itk::IndexValueType>(size[axis]) - 1;
       sides += axis != longAxis && (index[axis] == 0 || index[axis] == last) ? 1 : 0;
     }
-    const auto distance = static_cast<double>(depth->GetBufferPointer()[offset]);
-    const bool hasRoom = takesSides && distance < 0.5 * gridBlockWidth - ballRadius;
+    const bool hasRoom = takesSides && static_cast<double>(depth->GetBufferPointer()[offset]) > room;
     if (sides == 2 || (sides == 1 && hasRoom))
     {
       isFound[labels[offset]] = true;
@@ -144,8 +144,8 @@ MeasureBorders(const Components & components,
   const std::uint8_t * const isUniform = blocks.isUniform->GetBufferPointer();
   const auto padding =
     MakeMask(apart, [=](std::size_t offset) { return isAround[offset] != 0 && isUniform[offset] != 0; });
-  const DistanceImage::Pointer toPadding = HasBorder(*padding) ? DistanceTo(*padding) : nullptr;
-  const auto depth = DistanceTo(apart);
+  const auto toPadding = DistanceTo(*padding, 3.0 * margin);
+  const auto notApart = Complement(apart);
   const auto & size = apart.GetBufferedRegion().GetSize();
   std::vector<Border> borders(components.parts.size());
   ForEachIndex(size, [&](const itk::Index<3> & index, std::size_t offset) {
@@ -155,7 +155,7 @@ MeasureBorders(const Components & components,
       return;
     }
     Border & border = borders[label];
-    border.isDeep = border.isDeep || static_cast<double>(depth->GetBufferPointer()[offset]) < -0.5 * gridBlockWidth;
+    border.isDeep = border.isDeep || !IsNear(*notApart, offset);
     border.faces += 6;
     ForEachFaceNeighbour(size, index, offset, [&](std::size_t neighbour) {
       if (apart.GetBufferPointer()[neighbour] != 0)
@@ -164,7 +164,7 @@ MeasureBorders(const Components & components,
       }
       else if (inside.GetBufferPointer()[neighbour] != 0)
       {
-        const bool isPadding = toPadding && toPadding->GetBufferPointer()[neighbour] <= 2.0 * margin;
+        const bool isPadding = toPadding->GetBufferPointer()[neighbour] <= 2.0 * margin;
         ++border.open;
         border.openToRoom += isPadding ? 0 : 1;
       }
@@ -180,7 +180,7 @@ FindCutOff(const LatticeBlocks & blocks, const MaskImage & inside)
 {
   const double margin = inside.GetSpacing().GetNorm();
   const auto marginAsFloat = static_cast<float>(margin);
-  const auto toAround = DistanceTo(*blocks.around);
+  const auto toAround = DistanceTo(*blocks.around, 2.0 * margin);
   const float * const distances = toAround->GetBufferPointer();
   const std::uint8_t * const isInside = inside.GetBufferPointer();
   const auto apart =
@@ -196,7 +196,7 @@ FindCutOff(const LatticeBlocks & blocks, const MaskImage & inside)
   {
     return nullptr;
   }
-  const auto toLungs = DistanceTo(*lungs);
+  const auto toLungs = DistanceTo(*lungs, 2.0 * margin);
   const std::uint32_t * const labels = components.labels->GetBufferPointer();
   return MakeMask(inside, [&](std::size_t offset) {
     const Border & border = borders[labels[offset]];

@@ -1,12 +1,10 @@
 #include "rhombicPatientMask.h"
 
-#include "rhombicTableContact.h"
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
+#include <map>
+#include <utility>
 
 namespace rhombic
 {
@@ -14,387 +12,208 @@ namespace
 {
 
 // Lengths are in mm. Tables and holders are hollow, with thin walls; limbs are thick.
-constexpr double coreDepth = 4.5;              // blocks deeper than this are a core, which is more than 9 mm thick
-constexpr double bodyDepth = 12.0;             // a core that is this deep somewhere belongs to the body
-constexpr double longestThinPart = 150.0;      // longest separate part, such as a finger or a thin wrist
-constexpr double smallestThinPart = 1.0;       // ml: smallest core of such a part
-constexpr double lowestTissue = -150.0;        // HU: lowest mean of such a part, fat
-constexpr double highestTissue = 300.0;        // HU: highest mean of such a part, bone within skin
-constexpr double smallHangingVolume = 20.0;    // ml: touching parts up to this volume
-constexpr double smallHangingReach = 30.0;     // that end this near to the cores always belong to the patient
-constexpr double largestHangingVolume = 100.0; // ml: touching parts above this volume,
-constexpr double longestHangingReach = 100.0;  // or that reach farther from the cores than this, never do
-constexpr double smallestHardVolume = 5.0;     // ml: smallest wall of carbon fibre
-constexpr double bareShare = 0.7;              // share of such a wall that is next to open space
-constexpr double tableShare = 0.4;             // share of levels in which a column of the table holds doubtful tissue
-constexpr double tableShareOccupied = 0.8;     // share of levels in which it holds solid blocks
-constexpr std::uint8_t half = 128;             // half of a block's samples, out of 255
-constexpr std::uint8_t quarter = 64;
+constexpr double coreDepth = 4.5;      // blocks deeper than this are a core, which is more than 9 mm thick
+constexpr double bodyDepth = 12.0;     // a core that is this deep somewhere belongs to the body
+constexpr double longestHand = 200.0;  // a separate part of soft tissue up to this length may be a hand
+constexpr double lowestSoft = -150.0;  // HU: lowest mean of soft tissue, fat
+constexpr double highestSoft = 300.0;  // HU: highest mean of soft tissue with bone in it
+constexpr double shortReach = 40.0;    // thin parts that end this near to the body are the patient's: ears
+constexpr double longReach = 60.0;     // the same for thin parts without what may be a table: noses
+constexpr double smallestEar = 1000.0; // mm^3
+constexpr double tableShare = 0.5;     // share of the levels along the patient in which a table is at the same place
 
-/** The thick parts of the solid blocks. */
-struct Cores
+void
+Add(const MaskImage & mask, MaskImage & sum)
 {
-  DistanceImage::Pointer depth; ///< distance to the border of the solid blocks in mm, negative inside
-  Components components;
-  std::vector<double> greatestDepth; ///< by component
-  std::vector<double> meanValue;     ///< in HU, by component
-  MaskImage::Pointer body;           ///< the components that belong to the body
-};
-
-Cores
-FindCores(const CoarseScan & coarse, const MaskImage & solid)
-{
-  const auto & spacing = coarse.occupancy->GetSpacing();
-  const double halfBlock = 0.5 * std::min({ spacing[0], spacing[1], spacing[2] });
-  Cores cores;
-  cores.depth = DistanceTo(solid);
-  const float * const depths = cores.depth->GetBufferPointer();
-  const std::uint8_t * const isSolid = solid.GetBufferPointer();
-  const auto deep = MakeMask(solid, [=](std::size_t offset) {
-    return isSolid[offset] != 0 && halfBlock - static_cast<double>(depths[offset]) >= coreDepth;
-  });
-  cores.components = FindComponents(*deep, false);
-  const auto & parts = cores.components.parts;
-  const std::uint32_t * const labels = cores.components.labels->GetBufferPointer();
-  cores.greatestDepth.assign(parts.size(), 0.0);
-  cores.meanValue.assign(parts.size(), 0.0);
-  for (std::size_t offset = 0; offset < coarse.NumberOfBlocks(); ++offset)
-  {
-    double & depth = cores.greatestDepth[labels[offset]];
-    depth = std::max(depth, static_cast<double>(-depths[offset]));
-    cores.meanValue[labels[offset]] += coarse.mean->GetBufferPointer()[offset];
-  }
-  for (std::size_t label = 1; label < parts.size(); ++label)
-  {
-    cores.meanValue[label] /= static_cast<double>(parts[label].count);
-  }
-  cores.body =
-    MaskOfParts(cores.components, [&](std::size_t label) { return cores.greatestDepth[label] >= bodyDepth; });
-  return cores;
+  const std::uint8_t * const begin = mask.GetBufferPointer();
+  const std::uint8_t * const end = begin + mask.GetBufferedRegion().GetNumberOfPixels();
+  std::transform(begin, end, sum.GetBufferPointer(), sum.GetBufferPointer(), std::bit_or<>());
 }
 
-/** Adds all blocks between the first and the last block of the body's cores on lines from front to back: lungs, whose
- * walls may be thin at the sides. */
+/** The connected parts that hold a block of the seeds. */
 MaskImage::Pointer
-FillBetweenFrontAndBack(const CoarseScan & coarse, const MaskImage & solid, const MaskImage & body)
+PartsWithSeeds(const Components & components, const MaskImage & seeds)
 {
-  const unsigned int axis = NearestAxis(solid.GetDirection(), 1, coarse.longAxis);
-  const auto & size = solid.GetBufferedRegion().GetSize();
-  const auto step = static_cast<std::size_t>(solid.GetOffsetTable()[axis]);
-  const auto filled = MakeLike<MaskImage>(solid);
-  std::copy_n(solid.GetBufferPointer(), coarse.NumberOfBlocks(), filled->GetBufferPointer());
+  std::vector<bool> hasSeed(components.parts.size(), false);
+  const std::uint32_t * const labels = components.labels->GetBufferPointer();
+  for (std::size_t offset = 0; offset < seeds.GetBufferedRegion().GetNumberOfPixels(); ++offset)
+  {
+    hasSeed[labels[offset]] = hasSeed[labels[offset]] || seeds.GetBufferPointer()[offset] != 0;
+  }
+  return MaskOfParts(components, [&](std::size_t label) { return hasSeed[label]; });
+}
+
+/** Separate parts of the tissue with a core that may be a hand or another thin limb: short ones of soft tissue. */
+MaskImage::Pointer
+FindHands(const CoarseScan & coarse, const MaskImage & tissue, const MaskImage & cores)
+{
+  const Components components = FindComponents(tissue, false);
+  std::vector<double> sums(components.parts.size(), 0.0);
+  std::vector<bool> hasCore(components.parts.size(), false);
+  for (std::size_t offset = 0; offset < tissue.GetBufferedRegion().GetNumberOfPixels(); ++offset)
+  {
+    const std::uint32_t label = components.labels->GetBufferPointer()[offset];
+    sums[label] += coarse.mean->GetBufferPointer()[offset];
+    hasCore[label] = hasCore[label] || cores.GetBufferPointer()[offset] != 0;
+  }
+  return MaskOfParts(components, [&](std::size_t label) {
+    const Component & part = components.parts[label];
+    double length = 0.0;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const auto blocks = static_cast<double>(part.highest[axis] - part.lowest[axis] + 1);
+      length = std::max(length, blocks * tissue.GetSpacing()[axis]);
+    }
+    const double mean = sums[label] / static_cast<double>(part.count);
+    return hasCore[label] && length <= longestHand && mean >= lowestSoft && mean <= highestSoft;
+  });
+}
+
+/** Adds all blocks between the first and the last block of a mask on lines from front to back: lungs. */
+void
+FillBetweenFrontAndBack(unsigned int longAxis, MaskImage & mask)
+{
+  const unsigned int axis = NearestAxis(mask.GetDirection(), 1, longAxis);
+  const auto & size = mask.GetBufferedRegion().GetSize();
+  const auto step = static_cast<std::size_t>(mask.GetOffsetTable()[axis]);
   ForEachIndex(size, [&](const itk::Index<3> & index, std::size_t offset) {
     if (index[axis] != 0)
     {
       return;
     }
-    const std::uint8_t * const line = body.GetBufferPointer() + offset;
+    std::uint8_t * const line = mask.GetBufferPointer() + offset;
     std::size_t first = 0;
     std::size_t end = size[axis];
-    while (first < end && line[first * step] == 0)
-    {
-      ++first;
-    }
-    while (end > first && line[(end - 1) * step] == 0)
-    {
-      --end;
-    }
+    for (; first < end && line[first * step] == 0; ++first)
+    {}
+    for (; end > first && line[(end - 1) * step] == 0; --end)
+    {}
     for (std::size_t n = first; n < end; ++n)
     {
-      filled->GetBufferPointer()[offset + n * step] = 1;
+      line[n * step] = 1;
     }
   });
-  return filled;
 }
 
-void
-NoteKept(double millilitres, const std::string & why, std::vector<std::string> & notes)
+/** The cores of the tissue that belong to the body, the lungs between them, and hands. Null when nothing is thick. */
+MaskImage::Pointer
+FindBody(const CoarseScan & coarse, const MaskImage & tissue)
 {
-  if (millilitres >= 0.5)
+  const auto & spacing = tissue.GetSpacing();
+  const double halfBlock = 0.5 * std::min({ spacing[0], spacing[1], spacing[2] });
+  const auto depth = DistanceTo(*Complement(tissue), bodyDepth + 2.0 * halfBlock);
+  const auto deeperThan = [&](double limit) {
+    return MakeMask(tissue, [=, depths = depth->GetBufferPointer()](std::size_t offset) {
+      return static_cast<double>(depths[offset]) >= limit + halfBlock;
+    });
+  };
+  const auto cores = deeperThan(coreDepth);
+  const auto body = PartsWithSeeds(FindComponents(*cores, false), *deeperThan(bodyDepth));
+  if (!HasBorder(*body))
   {
-    notes.push_back("kept " + std::to_string(std::lround(millilitres)) + " ml that " + why);
+    return nullptr;
   }
+  FillBetweenFrontAndBack(coarse.longAxis, *body);
+  Add(*FindHands(coarse, tissue, *cores), *body);
+  return body;
 }
 
-/** Adds cores to the body that may be a hand or another thin limb. */
-void
-AddThinCores(const CoarseScan & coarse, Cores & cores, std::vector<std::string> & notes)
-{
-  double kept = 0.0;
-  const auto thin = MaskOfParts(cores.components, [&](std::size_t label) {
-    const Component & part = cores.components.parts[label];
-    const auto levels = part.highest[coarse.longAxis] - part.lowest[coarse.longAxis] + 1;
-    const double length = static_cast<double>(levels) * coarse.occupancy->GetSpacing()[coarse.longAxis];
-    const double mean = cores.meanValue[label];
-    const bool isThinPart = cores.greatestDepth[label] < bodyDepth &&
-                            coarse.Millilitres(part.count) >= smallestThinPart && length <= longestThinPart &&
-                            mean >= lowestTissue && mean <= highestTissue;
-    kept += isThinPart ? coarse.Millilitres(part.count) : 0.0;
-    return isThinPart;
-  });
-  const std::uint8_t * const isThin = thin->GetBufferPointer();
-  std::uint8_t * const isBody = cores.body->GetBufferPointer();
-  std::transform(isBody, isBody + coarse.NumberOfBlocks(), isThin, isBody, std::bit_or<>());
-  NoteKept(kept, "lie beside the patient's thick parts, as they may be a hand", notes);
-}
-
-/** The solid blocks within coreDepth of the body's cores, and their neighbours, because depths are known to one block.
- * \param reach distance from the body's cores, in mm */
+/** The parts of the thin tissue that share a face with the patient and end within \a farthest mm of the body. */
 MaskImage::Pointer
-Grow(const MaskImage & solid, const DistanceImage & reach)
+FindHangingParts(const MaskImage & thin, const MaskImage & patient, const DistanceImage & toBody, double farthest)
 {
-  const std::uint8_t * const isSolid = solid.GetBufferPointer();
-  const float * const distances = reach.GetBufferPointer();
-  const auto near = MakeMask(solid, [=](std::size_t offset) {
-    return isSolid[offset] != 0 && static_cast<double>(distances[offset]) <= coreDepth;
-  });
-  return MakeMask(solid, [&](std::size_t offset) { return isSolid[offset] != 0 && IsNear(*near, offset); });
-}
-
-/** Adds components of \a others to the patient if they share a face with it and isPatient(volume in ml, greatest
- * distance from the cores in mm) is true. Returns the mask of the other components. */
-template <typename TFunction>
-MaskImage::Pointer
-AddHangingParts(const CoarseScan & coarse,
-                const MaskImage & others,
-                const DistanceImage & reach,
-                const TFunction & isPatient,
-                MaskImage & patient)
-{
-  const Components components = FindComponents(others, false);
+  const Components components = FindComponents(thin, false);
   const std::uint32_t * const labels = components.labels->GetBufferPointer();
-  std::uint8_t * const isInPatient = patient.GetBufferPointer();
-  std::vector<double> greatestReach(components.parts.size(), 0.0);
-  std::vector<bool> hangsOn(components.parts.size(), false);
-  const auto & size = others.GetBufferedRegion().GetSize();
+  std::vector<double> reach(components.parts.size(), 0.0);
+  std::vector<bool> touches(components.parts.size(), false);
+  const auto & size = thin.GetBufferedRegion().GetSize();
   ForEachIndex(size, [&](const itk::Index<3> & index, std::size_t offset) {
-    const std::uint32_t label = labels[offset];
-    if (label != 0)
+    if (const std::uint32_t label = labels[offset])
     {
-      greatestReach[label] = std::max(greatestReach[label], static_cast<double>(reach.GetBufferPointer()[offset]));
+      reach[label] = std::max(reach[label], static_cast<double>(toBody.GetBufferPointer()[offset]));
       ForEachFaceNeighbour(size, index, offset, [&](std::size_t neighbour) {
-        hangsOn[label] = hangsOn[label] || isInPatient[neighbour] != 0;
+        touches[label] = touches[label] || patient.GetBufferPointer()[neighbour] != 0;
       });
     }
   });
-  const auto added = MaskOfParts(components, [&](std::size_t label) {
-    return hangsOn[label] && isPatient(coarse.Millilitres(components.parts[label].count), greatestReach[label]);
-  });
-  const std::uint8_t * const isAdded = added->GetBufferPointer();
-  std::transform(isInPatient, isInPatient + coarse.NumberOfBlocks(), isAdded, isInPatient, std::bit_or<>());
-  return MakeMask(others, [&](std::size_t offset) { return labels[offset] != 0 && isAdded[offset] == 0; });
+  return MaskOfParts(components, [&](std::size_t label) { return touches[label] && reach[label] <= farthest; });
 }
 
-/** Finds large, bare walls harder than skin in doubtful tissue, and the hard blocks that touch them. A wall is bare if
- * most of its blocks are next to open space; bone is covered by skin. */
+/** The thin tissue without what is at the same place across the patient at tableShare of the levels along it, as a
+ * table and its holders are. */
 MaskImage::Pointer
-FindHardWalls(const CoarseScan & coarse, const MaskImage & doubtful, const DistanceImage & depth)
+RemoveColumns(const CoarseScan & coarse, const MaskImage & thin)
 {
-  const std::uint8_t * const isDoubtful = doubtful.GetBufferPointer();
-  const std::uint8_t * const hardness = coarse.hardness->GetBufferPointer();
-  const auto hard =
-    MakeMask(doubtful, [=](std::size_t offset) { return isDoubtful[offset] != 0 && hardness[offset] >= quarter; });
-  const Components walls = FindComponents(*hard, true);
-  const auto large = MaskOfParts(
-    walls, [&](std::size_t label) { return coarse.Millilitres(walls.parts[label].count) >= smallestHardVolume; });
-  if (!HasBorder(*large))
+  double width = 0.0; // of a column
+  for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    return large; // an empty mask
+    width = axis != coarse.longAxis ? std::max(width, thin.GetSpacing()[axis]) : width;
   }
-  const OpenSpace space = FindOpenSpace(depth, coarse.longAxis);
-  const auto open = FillOpenSpace(space, space.reachesSides);
-  if (!open)
-  {
-    return MakeLike<MaskImage>(doubtful);
-  }
-  const std::uint32_t * const labels = walls.labels->GetBufferPointer();
-  std::vector<std::size_t> bare(walls.parts.size(), 0);
-  for (std::size_t offset = 0; offset < coarse.NumberOfBlocks(); ++offset)
-  {
-    bare[labels[offset]] += large->GetBufferPointer()[offset] != 0 && IsNear(*open, offset) ? 1 : 0;
-  }
-  const auto bareWalls = MaskOfParts(walls, [&](std::size_t label) {
-    return static_cast<double>(bare[label]) >= bareShare * static_cast<double>(walls.parts[label].count);
-  });
-  return MakeMask(doubtful, [&](std::size_t offset) {
-    return isDoubtful[offset] != 0 && hardness[offset] > 0 && IsNear(*bareWalls, offset);
-  });
-}
-
-/** \class Columns
- * \brief Divides world space into columns along the patient, as wide as the scan's widest block across the patient. */
-class Columns
-{
-public:
-  explicit Columns(const CoarseScan & coarse)
-    : m_Coarse(coarse)
-  {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    std::array<double, 2> highest{ -infinity, -infinity };
-    m_Lowest = { infinity, infinity };
-    const auto & size = coarse.occupancy->GetBufferedRegion().GetSize();
-    itk::Index<3> corner;
-    for (corner[2] = 0; corner[2] < static_cast<itk::IndexValueType>(size[2]); ++corner[2]) // slices may be shifted
-    {
-      for (unsigned int n = 0; n < 4; ++n)
+  const auto columnOf = [&](const itk::Index<3> & index) {
+    const auto point = coarse.PointOf(index);
+    return std::pair(std::lround(point[0] / width), std::lround(point[1] / width));
+  };
+  const auto & size = thin.GetBufferedRegion().GetSize();
+  std::map<std::pair<long, long>, std::vector<bool>> levels;
+  const auto forEachThin = [&](const auto & function) {
+    ForEachIndex(size, [&](const itk::Index<3> & index, std::size_t offset) {
+      if (thin.GetBufferPointer()[offset] != 0)
       {
-        corner[0] = (n & 1) != 0 ? static_cast<itk::IndexValueType>(size[0]) - 1 : 0;
-        corner[1] = (n & 2) != 0 ? static_cast<itk::IndexValueType>(size[1]) - 1 : 0;
-        const auto point = coarse.PointOf(corner);
-        for (unsigned int axis = 0; axis < 2; ++axis)
-        {
-          m_Lowest[axis] = std::min(m_Lowest[axis], point[axis]);
-          highest[axis] = std::max(highest[axis], point[axis]);
-        }
+        function(index, offset);
       }
-    }
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      m_Width = axis != coarse.longAxis ? std::max(m_Width, coarse.occupancy->GetSpacing()[axis]) : m_Width;
-    }
-    m_CountAlongX = this->StepsTo(highest[0], 0) + 1;
-    m_Count = m_CountAlongX * (this->StepsTo(highest[1], 1) + 1);
-  }
-
-  std::size_t
-  Count() const
-  {
-    return m_Count;
-  }
-
-  /** The column that a block is in. */
-  std::size_t
-  ColumnOf(const itk::Index<3> & index) const
-  {
-    const auto point = m_Coarse.PointOf(index);
-    return this->StepsTo(point[0], 0) + m_CountAlongX * this->StepsTo(point[1], 1);
-  }
-
-private:
-  std::size_t
-  StepsTo(double coordinate, unsigned int axis) const
-  {
-    return static_cast<std::size_t>((coordinate - m_Lowest[axis]) / m_Width + 0.5);
-  }
-
-  const CoarseScan & m_Coarse;
-  double m_Width = 0.0;
-  std::array<double, 2> m_Lowest{};
-  std::size_t m_CountAlongX = 0;
-  std::size_t m_Count = 0;
-};
-
-/** Finds the columns of the table: they hold doubtful tissue in at least tableShare of the levels, and solid blocks in
- * at least tableShareOccupied, as no thin part of a patient does. Moves their blocks, except for the body's cores, from
- * the patient to the table. */
-void
-TakeTablePlaces(const CoarseScan & coarse,
-                const MaskImage & solid,
-                const MaskImage & doubtful,
-                const MaskImage & body,
-                MaskImage & table,
-                MaskImage & patient)
-{
-  constexpr std::uint8_t nothing = 0;
-  constexpr std::uint8_t something = 1;
-  constexpr std::uint8_t doubtfulTissue = 3;
-  const auto & size = solid.GetBufferedRegion().GetSize();
-  const std::uint8_t * const isSolid = solid.GetBufferPointer();
-  const std::size_t levels = size[coarse.longAxis];
-  const Columns columns(coarse);
-  std::vector<std::uint8_t> contents(columns.Count() * levels, nothing); // by column and level
-  ForEachIndex(size, [&](const itk::Index<3> & index, std::size_t offset) {
-    if (isSolid[offset] != 0)
-    {
-      const std::size_t place = columns.ColumnOf(index) * levels + static_cast<std::size_t>(index[coarse.longAxis]);
-      contents[place] |= doubtful.GetBufferPointer()[offset] != 0 ? doubtfulTissue : something;
-    }
-  });
-  std::vector<bool> isTable;
-  for (auto level = contents.begin(); level != contents.end(); level += static_cast<std::ptrdiff_t>(levels))
-  {
-    const auto end = level + static_cast<std::ptrdiff_t>(levels);
-    const auto doubtfulLevels = static_cast<double>(std::count(level, end, doubtfulTissue));
-    const auto emptyLevels = static_cast<double>(std::count(level, end, nothing));
-    const auto allLevels = static_cast<double>(levels);
-    isTable.push_back(doubtfulLevels >= tableShare * allLevels &&
-                      allLevels - emptyLevels >= tableShareOccupied * allLevels);
-  }
-  ForEachIndex(size, [&](const itk::Index<3> & index, std::size_t offset) {
-    if (isSolid[offset] != 0 && body.GetBufferPointer()[offset] == 0 && isTable[columns.ColumnOf(index)])
-    {
-      table.GetBufferPointer()[offset] = 1;
-      patient.GetBufferPointer()[offset] = 0;
-    }
-  });
-}
-
-/** Adds thin parts that touch the patient: small ones first, then larger ones without hard walls and columns of the
- * table. */
-void
-AddThinParts(const CoarseScan & coarse,
-             const MaskImage & solid,
-             const Cores & cores,
-             const DistanceImage & reach,
-             PatientMask & found)
-{
-  const std::uint8_t * const isSolid = solid.GetBufferPointer();
-  const std::uint8_t * const isPatient = found.patient->GetBufferPointer();
-  const auto others =
-    MakeMask(solid, [=](std::size_t offset) { return isSolid[offset] != 0 && isPatient[offset] == 0; });
-  const auto isSmall = [](double millilitres, double distance) {
-    return millilitres <= smallHangingVolume && distance <= smallHangingReach;
+    });
   };
-  const auto doubtful = AddHangingParts(coarse, *others, reach, isSmall, *found.patient);
-  if (!HasBorder(*doubtful))
-  {
-    return;
-  }
-  const auto table = FindHardWalls(coarse, *doubtful, *cores.depth);
-  TakeTablePlaces(coarse, solid, *doubtful, *cores.body, *table, *found.patient);
-  const auto rest = MakeMask(solid, [&](std::size_t offset) {
-    return isSolid[offset] != 0 && isPatient[offset] == 0 && table->GetBufferPointer()[offset] == 0;
+  forEachThin([&](const itk::Index<3> & index, std::size_t) {
+    auto & found = levels[columnOf(index)];
+    found.resize(size[coarse.longAxis], false);
+    found[static_cast<std::size_t>(index[coarse.longAxis])] = true;
   });
-  double kept = 0.0;
-  const auto mayBePatient = [&kept](double millilitres, double distance) {
-    const bool isKept = millilitres <= largestHangingVolume && distance <= longestHangingReach;
-    kept += isKept ? millilitres : 0.0;
-    return isKept;
-  };
-  AddHangingParts(coarse, *rest, reach, mayBePatient, *found.patient);
-  NoteKept(kept, "touch the patient, as they may be thin parts of it", found.notes);
+  const auto left = MakeLike<MaskImage>(thin);
+  forEachThin([&](const itk::Index<3> & index, std::size_t offset) {
+    const auto & found = levels[columnOf(index)];
+    const auto count = static_cast<double>(std::count(found.begin(), found.end(), true));
+    left->GetBufferPointer()[offset] = count < tableShare * static_cast<double>(found.size()) ? 1 : 0;
+  });
+  return left;
 }
 
 } // namespace
 
-PatientMask
-FindPatient(const CoarseScan & coarse)
+itk::Point<double, 3>
+CoarseScan::PointOf(const itk::Index<3> & index) const
 {
-  const std::uint8_t * const occupancy = coarse.occupancy->GetBufferPointer();
-  PatientMask found;
-  found.tissue = MakeMask(*coarse.occupancy, [=](std::size_t offset) { return occupancy[offset] >= half; });
-  if (!HasBorder(*found.tissue))
+  itk::Point<double, 3> point;
+  occupancy->TransformIndexToPhysicalPoint(index, point);
+  return sliceOffsets.empty() ? point : point + sliceOffsets[static_cast<std::size_t>(index[2])];
+}
+
+PatientMask
+FindPatient(const CoarseScan & coarse, const MaskImage & tissue)
+{
+  const MaskImage::Pointer body = FindBody(coarse, tissue);
+  if (!body)
   {
-    return found;
+    return {};
   }
-  Cores cores = FindCores(coarse, *found.tissue);
-  if (!HasBorder(*cores.body))
-  {
-    return found;
-  }
-  const auto solid = FillBetweenFrontAndBack(coarse, *found.tissue, *cores.body);
-  if (!HasBorder(*solid))
-  {
-    return found;
-  }
-  cores = FindCores(coarse, *solid);
-  AddThinCores(coarse, cores, found.notes);
-  cores.components = {};
-  const auto reach = DistanceTo(*cores.body);
-  found.patient = Grow(*solid, *reach);
-  AddThinParts(coarse, *solid, cores, *reach, found);
-  CutTableContacts(*solid, coarse.longAxis, 2.0 * coreDepth, *found.patient);
-  return found;
+  const auto toBody = DistanceTo(*body, longReach + 1.0);
+  const auto & spacing = tissue.GetSpacing();
+  const double skin = coreDepth + std::max({ spacing[0], spacing[1], spacing[2] });
+  const std::uint8_t * const isTissue = tissue.GetBufferPointer();
+  const auto patient = MakeMask(tissue, [=, distances = toBody->GetBufferPointer()](std::size_t offset) {
+    const auto distance = static_cast<double>(distances[offset]);
+    return distance == 0.0 || (isTissue[offset] != 0 && distance <= skin);
+  });
+  const auto thin = MakeMask(tissue, [=, isPatient = patient->GetBufferPointer()](std::size_t offset) {
+    return isTissue[offset] != 0 && isPatient[offset] == 0;
+  });
+  const auto hanging = FindHangingParts(*thin, *patient, *toBody, shortReach);
+  Add(*FindHangingParts(*RemoveColumns(coarse, *thin), *patient, *toBody, longReach), *hanging);
+  Add(*hanging, *patient);
+  const Components parts = FindComponents(*hanging, true);
+  const double blockVolume = spacing[0] * spacing[1] * spacing[2];
+  return { patient, MaskOfParts(parts, [&](std::size_t label) {
+             return static_cast<double>(parts.parts[label].count) * blockVolume >= smallestEar;
+           }) };
 }
 
 } // namespace rhombic

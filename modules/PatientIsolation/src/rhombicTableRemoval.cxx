@@ -1,6 +1,5 @@
 #include "rhombicTableRemoval.h"
 
-#include "rhombicCoarseScan.h"
 #include "rhombicPatientMask.h"
 #include "rhombicWording.h"
 
@@ -11,33 +10,93 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <sstream>
+#include <type_traits>
 
 namespace rhombic
 {
 namespace
 {
 
-constexpr double tissueThreshold = -300.0; // HU: half way between air and fat or skin
-constexpr double hardThreshold = 150.0;    // HU: higher than skin, lower than bone, metal and carbon fibre
-constexpr double smallestObject = 1.0;     // ml
-constexpr float heightOfRamp = 2000.0f;    // HU: height from which the limit of values falls to air at the cut
+constexpr double blockWidth = 3.0;           // mm
+constexpr float tissueThreshold = -300;      // HU: half way between air and fat or skin
+constexpr float fat = -100.0f;               // HU
+constexpr std::uint8_t half = 128;           // half of a block's samples, out of 255
+constexpr double smallestObject = 1.0;       // ml
+constexpr double reachOfCut = 20.0;          // mm: how far from objects the skin is drawn anew,
+constexpr double reachAtThinParts = 8.0;     // and at thin parts of the patient
+constexpr float thicknessOfSkin = 3.0f;      // mm
+constexpr float widthOfEdge = 3.0f;          // mm: in this width the drawn skin gives way to the measured one
+constexpr float risePerMillimetre = 2000.0f; // HU: rise of the highest value under the skin
 
-/** The blocks around the patient. */
-struct Surroundings
+/** The grid of blocks of a scan. */
+CoarseScan
+MakeBlocks(const Scan & scan)
 {
-  MaskImage::Pointer outside;
-  MaskImage::Pointer objects; ///< blocks around the patient with tissue samples
-  double airValue = 0.0;
-};
+  const auto & geometry = GeometryOf(scan.image);
+  CoarseScan coarse;
+  coarse.longAxis = NearestAxis(geometry.GetDirection(), 2);
+  auto spacing = geometry.GetSpacing();
+  itk::Size<3> blocks;
+  itk::ContinuousIndex<double, 3> first;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    const bool isWhole = axis == 2 && !scan.sliceOrigins.empty(); // blocks of uneven stacks have one slice
+    const auto samples = isWhole ? 1l : std::max(1l, std::lround(blockWidth / spacing[axis]));
+    coarse.shape[axis] = static_cast<std::size_t>(samples);
+    first[axis] = 0.5 * static_cast<double>(samples - 1);
+    blocks[axis] = (geometry.GetLargestPossibleRegion().GetSize(axis) + coarse.shape[axis] - 1) / coarse.shape[axis];
+    spacing[axis] *= static_cast<double>(samples);
+  }
+  itk::Point<double, 3> origin;
+  geometry.TransformContinuousIndexToPhysicalPoint(first, origin);
+  coarse.occupancy = MaskImage::New();
+  coarse.occupancy->SetOrigin(origin);
+  coarse.occupancy->SetSpacing(spacing);
+  coarse.occupancy->SetDirection(geometry.GetDirection());
+  coarse.occupancy->SetRegions(blocks);
+  coarse.occupancy->Allocate();
+  coarse.mean = MakeLike<itk::Image<std::int16_t, 3>>(*coarse.occupancy);
+  for (std::size_t slice = 0; slice < scan.sliceOrigins.size(); ++slice)
+  {
+    itk::Point<double, 3> even;
+    geometry.TransformIndexToPhysicalPoint({ { 0, 0, static_cast<itk::IndexValueType>(slice) } }, even);
+    coarse.sliceOffsets.push_back(scan.sliceOrigins[slice] - even);
+  }
+  return coarse;
+}
+
+template <typename TPixel>
+void
+FillBlocks(const itk::Image<TPixel, 3> & image, CoarseScan & coarse)
+{
+  struct Sums
+  {
+    std::uint32_t tissue = 0;
+    std::conditional_t<std::is_integral_v<TPixel>, std::int64_t, double> values = 0;
+  };
+  const auto add = [](Sums & sums, TPixel sample) {
+    const auto value = static_cast<float>(sample);
+    sums.tissue += value >= tissueThreshold ? 1 : 0;
+    sums.values += std::isfinite(value) ? sample : TPixel{ 0 };
+  };
+  const auto store = [&](std::size_t block, const Sums & sums, std::size_t samples) {
+    const double mean = static_cast<double>(sums.values) / static_cast<double>(samples);
+    // Rounded up, so that one sample is more than none.
+    coarse.occupancy->GetBufferPointer()[block] =
+      static_cast<std::uint8_t>((sums.tissue * 255 + samples - 1) / samples);
+    coarse.mean->GetBufferPointer()[block] =
+      static_cast<std::int16_t>(std::lround(std::clamp(mean, -32768.0, 32767.0)));
+  };
+  SumBlocks<Sums>(image, coarse.shape, coarse.occupancy->GetBufferedRegion().GetSize(), add, store);
+}
 
 /** The median of a component's blocks without tissue, in HU; infinite when there are none. */
 double
-MedianOfAir(const CoarseScan & coarse, const Components & components, std::uint32_t label)
+MedianOfAir(const CoarseScan & coarse, const Components & components, std::size_t label)
 {
   std::vector<std::int16_t> values;
-  for (std::size_t offset = 0; offset < coarse.NumberOfBlocks(); ++offset)
+  for (std::size_t offset = 0; offset < components.labels->GetBufferedRegion().GetNumberOfPixels(); ++offset)
   {
     if (components.labels->GetBufferPointer()[offset] == label && coarse.occupancy->GetBufferPointer()[offset] == 0)
     {
@@ -53,47 +112,50 @@ MedianOfAir(const CoarseScan & coarse, const Components & components, std::uint3
   return *middle;
 }
 
-/** Finds the blocks that are neither the patient nor in its cavities and clefts, and are connected with the scan's
- * sides. Nothing when there is no air. */
-std::optional<Surroundings>
-FindSurroundings(const CoarseScan & coarse, const PatientMask & mask, const DistanceImage & toPatient)
+/** The blocks around the patient. */
+struct Surroundings
 {
-  const OpenSpace space = FindOpenSpace(toPatient, coarse.longAxis);
-  const auto & parts = space.centres.parts;
-  std::vector<bool> isOutside(parts.size(), false);
+  MaskImage::Pointer outside; ///< null when there is no air around the patient
+  double airValue = 0.0;      ///< median of the air
+};
+
+/** Finds the blocks that balls of radius ballRadius cover which have room outside the patient, come from a side of the
+ * scan along the patient, and are in air. */
+Surroundings
+FindSurroundings(const CoarseScan & coarse, const MaskImage & patient)
+{
+  const auto toPatient = DistanceTo(patient, 2.0 * ballRadius);
+  const auto centres = MakeMask(patient, [distances = toPatient->GetBufferPointer()](std::size_t offset) {
+    return static_cast<double>(distances[offset]) > ballRadius;
+  });
+  const Components components = FindComponents(*centres, false);
+  const auto & size = patient.GetBufferedRegion().GetSize();
   Surroundings found;
   std::size_t largest = 0;
-  for (std::uint32_t label = 1; label < parts.size(); ++label)
-  {
-    if (!space.reachesSides[label])
+  const auto air = MaskOfParts(components, [&](std::size_t label) {
+    const Component & part = components.parts[label];
+    bool reaches = false;
+    for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      continue;
+      const auto end = static_cast<itk::IndexValueType>(size[axis]);
+      reaches = reaches || (axis != coarse.longAxis && (part.lowest[axis] == 0 || part.highest[axis] + 1 == end));
     }
-    const double air = MedianOfAir(coarse, space.centres, label);
-    isOutside[label] = air <= highestAir;
-    if (isOutside[label] && parts[label].count > largest)
+    const double median = reaches ? MedianOfAir(coarse, components, label) : 0.0;
+    const bool isAir = reaches && median <= highestAir;
+    if (isAir && part.count > largest)
     {
-      largest = parts[label].count;
-      found.airValue = air;
+      largest = part.count;
+      found.airValue = median;
     }
-  }
-  const auto reached = FillOpenSpace(space, isOutside);
-  if (!reached)
-  {
-    return {};
-  }
-  const double diagonal = coarse.occupancy->GetSpacing().GetNorm();
-  const float * const distances = toPatient.GetBufferPointer();
-  const std::uint8_t * const isPatient = mask.patient->GetBufferPointer();
-  const std::uint8_t * const isTissue = mask.tissue->GetBufferPointer();
-  const std::uint8_t * const occupancy = coarse.occupancy->GetBufferPointer();
-  found.outside = MakeMask(
-    toPatient, [&](std::size_t offset) { return isPatient[offset] == 0 && reached->GetBufferPointer()[offset] != 0; });
-  found.objects = MakeMask(toPatient, [&](std::size_t offset) {
-    const bool isApart = static_cast<double>(distances[offset]) > diagonal;
-    return found.outside->GetBufferPointer()[offset] != 0 &&
-           (isTissue[offset] != 0 || (occupancy[offset] != 0 && isApart));
+    return isAir;
   });
+  if (largest > 0)
+  {
+    const auto toCentres = DistanceTo(*air, 2.0 * ballRadius);
+    found.outside = MakeMask(patient, [&, distances = toCentres->GetBufferPointer()](std::size_t offset) {
+      return patient.GetBufferPointer()[offset] == 0 && static_cast<double>(distances[offset]) <= ballRadius;
+    });
+  }
   return found;
 }
 
@@ -123,13 +185,14 @@ MeasureObjects(const CoarseScan & coarse, const MaskImage & objects)
     }
   });
   measured.erase(measured.begin()); // the outside
+  const auto & spacing = objects.GetSpacing();
   for (RemovedObject & object : measured)
   {
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
       object.centroid[axis] /= object.millilitres;
     }
-    object.millilitres *= coarse.Millilitres(1) / 255.0;
+    object.millilitres *= spacing[0] * spacing[1] * spacing[2] / 1000.0 / 255.0;
   }
   return measured;
 }
@@ -155,60 +218,108 @@ ListObjects(const std::vector<RemovedObject> & objects, TableRemoval & removal)
   });
 }
 
-/** The distance of each block beyond the cut around the patient in mm, at most a block's diagonal; negative where
- * samples stay. */
-DistanceImage::Pointer
-FindExcess(const CoarseScan & coarse, const Surroundings & surroundings, const DistanceImage & toPatient)
+/** Where the skin is, and where it is drawn anew, by block. */
+struct Cut
 {
-  const auto toObjects = DistanceTo(*surroundings.objects);
-  const double diagonal = coarse.occupancy->GetSpacing().GetNorm();
-  const double margin = 2.0 * diagonal;
-  const auto excess = MakeLike<DistanceImage>(toPatient);
-  for (std::size_t offset = 0; offset < coarse.NumberOfBlocks(); ++offset)
-  {
-    const double patient = toPatient.GetBufferPointer()[offset];
-    const double object = toObjects->GetBufferPointer()[offset];
-    const bool isOutside = surroundings.outside->GetBufferPointer()[offset] != 0 || object <= diagonal;
-    const double beyond = std::max(patient - margin, patient - object);
-    excess->GetBufferPointer()[offset] =
-      static_cast<float>(isOutside ? std::clamp(beyond, -diagonal, diagonal) : -diagonal);
-  }
-  return excess;
-}
+  DistanceImage::Pointer depth; ///< distance from the skin in mm, positive in the patient; right near to the skin
+  DistanceImage::Pointer reach; ///< distance in mm from the end of the space around objects, positive in it
+};
 
-/** Lowers the values beyond the cut to air. The limit falls from high values to air within a ramp as wide as a sample,
- * so that surfaces at any threshold close there, smoothly. */
-template <typename TPixel>
+/** Replaces each value by the mean of it and its neighbours along an axis, with weights of 1, 2 and 1. */
 void
-LowerToAir(itk::Image<TPixel, 3> & image, const BlockShape & shape, const DistanceImage & excess, double airValue)
+Smooth(DistanceImage & image, unsigned int axis)
 {
   const auto & size = image.GetBufferedRegion().GetSize();
-  const auto ramp = static_cast<float>(std::max(image.GetSpacing()[0], image.GetSpacing()[1])); // mm
+  const auto step = static_cast<std::size_t>(image.GetOffsetTable()[axis]);
+  const std::vector<float> before(image.GetBufferPointer(),
+                                  image.GetBufferPointer() + image.GetBufferedRegion().GetNumberOfPixels());
+  ForEachIndex(size, [&](const itk::Index<3> & index, std::size_t offset) {
+    const std::size_t previous = index[axis] == 0 ? offset : offset - step;
+    const std::size_t next = index[axis] + 1 == static_cast<itk::IndexValueType>(size[axis]) ? offset : offset + step;
+    image.GetBufferPointer()[offset] = 0.25f * before[previous] + 0.5f * before[offset] + 0.25f * before[next];
+  });
+}
+
+Cut
+FindCut(const CoarseScan & coarse, const PatientMask & patient, const MaskImage & outside, const MaskImage & objects)
+{
+  const auto & spacing = objects.GetSpacing();
+  const double diagonal = spacing.GetNorm();
+  const auto toPatient = DistanceTo(*patient.all, 1.1 * diagonal);
+  const auto toOthers = DistanceTo(*Complement(*patient.all), 1.1 * diagonal);
+  const auto toOutside = DistanceTo(outside, 2.0 * ballRadius);
+  const auto toHanging = DistanceTo(*patient.hanging, reachOfCut);
+  const auto toObjects = DistanceTo(objects, reachOfCut + diagonal);
+  const double width = std::max(spacing[0], spacing[1]);
+  Cut cut{ MakeLike<DistanceImage>(objects), MakeLike<DistanceImage>(objects) };
+  for (std::size_t offset = 0; offset < objects.GetBufferedRegion().GetNumberOfPixels(); ++offset)
+  {
+    const double apart = std::max(toPatient->GetBufferPointer()[offset], toOthers->GetBufferPointer()[offset]);
+    const double occupancy = coarse.occupancy->GetBufferPointer()[offset] / 255.0;
+    double share = outside.GetBufferPointer()[offset] != 0 ? 0.0 : 1.0;
+    if (apart < 1.05 * diagonal && static_cast<double>(toOutside->GetBufferPointer()[offset]) <= ballRadius)
+    {
+      share = objects.GetBufferPointer()[offset] != 0 ? 0.0 : occupancy;
+    }
+    cut.depth->GetBufferPointer()[offset] = static_cast<float>((share - 0.5) * 2.4 * width);
+    const double reach = std::min(reachOfCut, reachAtThinParts + toHanging->GetBufferPointer()[offset]);
+    cut.reach->GetBufferPointer()[offset] =
+      static_cast<float>(reach - static_cast<double>(toObjects->GetBufferPointer()[offset]));
+  }
+  for (const unsigned int axis : { 0u, 1u, 2u })
+  {
+    Smooth(*cut.depth, axis);
+  }
+  return cut;
+}
+
+/** Sets what lies outside the skin around objects to air, and draws the skin anew: in its outer millimetres, gaps under
+ * a sheet become tissue. The values rise within two samples, so that surfaces at thresholds between air and tissue are
+ * smooth. */
+template <typename TPixel>
+void
+DrawSkin(itk::Image<TPixel, 3> & image, const BlockShape & shape, const Cut & cut, double airValue)
+{
+  const auto & size = image.GetBufferedRegion().GetSize();
+  const auto sampleWidth = static_cast<float>(std::max(image.GetSpacing()[0], image.GetSpacing()[1])); // mm
   const auto air = static_cast<float>(airValue);
   std::array<std::vector<Taps<3>>, 3> taps;
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
     for (std::size_t sample = 0; sample < size[axis]; ++sample)
     {
-      taps[axis].push_back(QuadraticTaps(sample, shape[axis], excess.GetBufferedRegion().GetSize(axis)));
+      taps[axis].push_back(QuadraticTaps(sample, shape[axis], cut.depth->GetBufferedRegion().GetSize(axis)));
     }
   }
   itk::ForEachInBlocks(size[2], 1, [&](std::size_t slice) {
     for (std::size_t row = 0; row < size[1]; ++row)
     {
-      const std::vector<float> excessOfRow = InterpolateRow(excess, taps[1][row], taps[2][slice]);
-      if (*std::max_element(excessOfRow.begin(), excessOfRow.end()) <= -0.5f * ramp)
+      const std::vector<float> reachOfRow = InterpolateRow(*cut.reach, taps[1][row], taps[2][slice]);
+      if (*std::max_element(reachOfRow.begin(), reachOfRow.end()) <= 0.0f)
       {
         continue;
       }
+      const std::vector<float> depthOfRow = InterpolateRow(*cut.depth, taps[1][row], taps[2][slice]);
       TPixel * const samples = image.GetBufferPointer() + size[0] * (row + size[1] * slice);
       for (std::size_t column = 0; column < size[0]; ++column)
       {
-        const float beyond = InterpolateInRow(excessOfRow, taps[0][column]);
-        const float limit = air + std::max(0.0f, 0.5f - beyond / ramp) * heightOfRamp;
-        if (beyond > -0.5f * ramp && static_cast<float>(samples[column]) > limit)
+        const float reach = InterpolateInRow(reachOfRow, taps[0][column]);
+        if (reach <= 0.0f)
         {
-          samples[column] = static_cast<TPixel>(limit);
+          continue;
+        }
+        const float depth = InterpolateInRow(depthOfRow, taps[0][column]);
+        const auto valueAt = [=](float mm) {
+          return std::clamp(tissueThreshold - air * 0.5f * mm / sampleWidth, air, fat);
+        };
+        const float share = std::clamp(thicknessOfSkin - depth, 0.0f, 1.0f) * std::min(reach / widthOfEdge, 1.0f);
+        const float lowest = air + share * (valueAt(depth) - air);
+        const float within = std::max(depth, widthOfEdge - reach);
+        const float highest = valueAt(within) + std::max(within, 0.0f) * risePerMillimetre;
+        const float value = static_cast<float>(samples[column]);
+        if (value < lowest || value > highest)
+        {
+          samples[column] = static_cast<TPixel>(std::max(std::min(value, highest), lowest));
         }
       }
     }
@@ -228,19 +339,9 @@ NoteRemoval(const TableRemoval & removal, const Events & events)
   text << "removed " << std::lround(total) << " ml around the patient: " << Count(removal.objects.size(), "object")
        << " (table, holder, sheets) and " << Count(removal.numberOfSpecks, "speck") << "; --keep-table keeps them";
   events.Note(text.str());
-  for (const std::string & note : removal.notes)
-  {
-    events.Note(note);
-  }
 }
 
 } // namespace
-
-bool
-IsTableRemoved(TableRule rule, const Scan & scan)
-{
-  return rule != TableRule::Keep && (scan.modality == "CT" || (rule == TableRule::Remove && scan.modality.empty()));
-}
 
 TableRemoval
 RemoveTable(Scan & scan, const Events & events)
@@ -248,29 +349,31 @@ RemoveTable(Scan & scan, const Events & events)
   const std::string step = "removing the table";
   events.Progress(step, 0.0);
   TableRemoval removal;
-  const CoarseScan coarse = MakeCoarseScan(scan, tissueThreshold, hardThreshold);
+  CoarseScan coarse = MakeBlocks(scan);
+  std::visit([&](const auto & image) { FillBlocks(*image, coarse); }, scan.image);
+  const std::uint8_t * const occupancy = coarse.occupancy->GetBufferPointer();
+  const auto tissue = MakeMask(*coarse.occupancy, [=](std::size_t offset) { return occupancy[offset] >= half; });
   events.Progress(step, 0.2);
-  const PatientMask mask = FindPatient(coarse);
-  removal.notes = mask.notes;
+  const PatientMask patient = FindPatient(coarse, *tissue);
   events.Progress(step, 0.6);
-  if (!mask.patient)
+  const auto [outside, airValue] = patient.all ? FindSurroundings(coarse, *patient.all) : Surroundings();
+  if (!outside)
   {
     removal.notes.push_back("nothing was removed around the patient: no body was found in air");
     events.Note(removal.notes.back());
     return removal;
   }
-  const auto toPatient = DistanceTo(*mask.patient);
-  const auto surroundings = FindSurroundings(coarse, mask, *toPatient);
-  if (surroundings)
-  {
-    removal.airValue = surroundings->airValue;
-    ListObjects(MeasureObjects(coarse, *surroundings->objects), removal);
-  }
+  removal.airValue = airValue;
+  const auto objects = MakeMask(*outside, [&, isOutside = outside->GetBufferPointer()](std::size_t offset) {
+    return isOutside[offset] != 0 &&
+           (tissue->GetBufferPointer()[offset] != 0 || (occupancy[offset] != 0 && !IsNear(*patient.all, offset)));
+  });
+  ListObjects(MeasureObjects(coarse, *objects), removal);
   events.Progress(step, 0.8);
   if (!removal.objects.empty())
   {
-    const auto excess = FindExcess(coarse, *surroundings, *toPatient);
-    std::visit([&](const auto & image) { LowerToAir(*image, coarse.shape, *excess, removal.airValue); }, scan.image);
+    const Cut cut = FindCut(coarse, patient, *outside, *objects);
+    std::visit([&](const auto & image) { DrawSkin(*image, coarse.shape, cut, removal.airValue); }, scan.image);
     NoteRemoval(removal, events);
   }
   events.Progress(step, 1.0);
