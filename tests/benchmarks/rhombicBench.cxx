@@ -63,6 +63,7 @@ MakeInput(const Options & options)
   else
   {
     input.volume = ReadInt16(options.scan);
+    input.isScan = true;
     input.isovalue = options.threshold;
   }
   return input;

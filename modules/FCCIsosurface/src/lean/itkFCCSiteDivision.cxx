@@ -2,8 +2,6 @@
 
 #include "itkFCCNearerEnds.h"
 
-#include <algorithm>
-
 namespace itk
 {
 
@@ -42,8 +40,9 @@ FindNearerEndsOfStar(const FCCSigns & signs,
   readValues(sites.places, sites.inImage, values);
   const auto & edges = FCCSiteStar::Get().GetEdges();
   FCCNearerEndsOfStar nearerEnds = 0;
-  for (std::size_t n = 0; n < edges.size(); ++n)
+  for (std::uint64_t cut = FCCSiteStar::Get().GetCutEdges(inside); cut != 0; cut &= cut - 1)
   {
+    const auto n = static_cast<unsigned int>(__builtin_ctzll(cut));
     const auto [a, b] = edges[n].ends;
     const unsigned int outside = (inside >> a & 1) != 0 ? b : a;
     const bool isOutsideInImage = (sites.inImage >> outside & 1) != 0;
@@ -68,20 +67,18 @@ FCCSiteDivision::FCCSiteDivision(const FCCSigns & signs,
     m_Parts[site] = split.GetParts(i, j, k);
   }
   const auto & edges = FCCSiteStar::Get().GetEdges();
-  for (std::size_t n = 0; n < edges.size(); ++n)
+  for (std::uint64_t cut = FCCSiteStar::Get().GetCutEdges(m_Inside); cut != 0; cut &= cut - 1)
   {
+    const auto n = static_cast<unsigned int>(__builtin_ctzll(cut));
     const auto [a, b] = edges[n].ends;
-    if (this->IsInside(a) != this->IsInside(b))
-    {
-      const unsigned int site = this->IsInside(a) == ((nearerEnds >> n & 1) != 0) ? a : b;
-      const unsigned int direction = edges[n].GetDirectionFrom(site);
-      m_NearerSite[n] = static_cast<std::uint8_t>(site);
-      m_Corners[n] = VertexOf(site,
-                              site == Center        ? direction
-                              : this->IsSplit(site) ? m_Parts[site].GetVertex(direction)
-                                                    : Whole);
-      m_Crossings |= site == Center ? 1U << direction : 0;
-    }
+    const unsigned int site = this->IsInside(a) == ((nearerEnds >> n & 1) != 0) ? a : b;
+    const unsigned int direction = edges[n].GetDirectionFrom(site);
+    m_NearerSite[n] = static_cast<std::uint8_t>(site);
+    m_Corners[n] = VertexOf(site,
+                            site == Center        ? direction
+                            : this->IsSplit(site) ? m_Parts[site].GetVertex(direction)
+                                                  : Whole);
+    m_Crossings |= site == Center ? 1U << direction : 0;
   }
   this->FindPolygons();
 }
@@ -120,10 +117,7 @@ FCCSiteDivision::GetMostTriangles() const
   std::array<SizeValueType, 2> most{};
   for (unsigned int p = 0; p < m_NumberOfPolygons; ++p)
   {
-    const auto & sites = m_Polygons[p].tetrahedron->sites;
-    const bool isBelow =
-      std::any_of(sites, sites + 4, [](std::uint8_t site) { return FCCSiteStar::StepTo(site)[2] < 0; });
-    most[isBelow ? 0 : 1] += m_Polygons[p].size - 2;
+    most[m_Polygons[p].tetrahedron->isBelow ? 0 : 1] += m_Polygons[p].size - 2;
   }
   return most;
 }

@@ -31,6 +31,8 @@ FCCSiteStar::FindEdges()
         continue;
       }
       m_EdgeBetween[a][b] = m_EdgeBetween[b][a] = count;
+      m_EdgesAt[a] |= std::uint64_t{ 1 } << count;
+      m_EdgesAt[b] |= std::uint64_t{ 1 } << count;
       m_Edges[count++] = { { a, b }, { direction, static_cast<std::uint8_t>(OppositeOf(direction)) } };
       if (a != Center)
       {
@@ -56,7 +58,8 @@ FCCSiteStar::FindTetrahedra()
           continue;
         }
         Tetrahedron & tetrahedron = m_Tetrahedra[count++];
-        tetrahedron = { { Center, a, b, c }, 1U << a | 1U << b | 1U << c, {}, {} };
+        tetrahedron = { { Center, a, b, c }, 1U << a | 1U << b | 1U << c, {}, false, {} };
+        tetrahedron.isBelow = StepTo(a)[2] < 0 || StepTo(b)[2] < 0 || StepTo(c)[2] < 0;
         for (unsigned int pattern = 0; pattern < 16; ++pattern)
         {
           tetrahedron.polygons[pattern] =

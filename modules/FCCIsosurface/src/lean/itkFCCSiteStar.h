@@ -83,6 +83,7 @@ public:
     std::uint8_t sites[4];              ///< the center first
     unsigned int far;                   ///< the directions of the others
     FCCTetrahedronPolygon polygons[16]; ///< by the sites inside
+    bool isBelow;                       ///< whether it lies below the plane of the center
     std::uint8_t edges[16][4];          ///< the indices in GetEdges() of the edges of the polygons' crossings
   };
 
@@ -98,6 +99,18 @@ public:
   GetTetrahedra() const
   {
     return m_Tetrahedra;
+  }
+
+  /** The edges that are cut when some sites are inside, both as bits. */
+  std::uint64_t
+  GetCutEdges(unsigned int inside) const
+  {
+    std::uint64_t cut = 0;
+    for (; inside != 0; inside &= inside - 1)
+    {
+      cut ^= m_EdgesAt[static_cast<unsigned int>(__builtin_ctz(inside))];
+    }
+    return cut;
   }
 
   /** Whether the crossings of a set of directions form a disk with the sides and triangles between them: they are
@@ -126,6 +139,7 @@ private:
 
   std::array<Edge, Edges> m_Edges;
   std::array<std::array<std::uint8_t, Sites>, Sites> m_EdgeBetween{};
+  std::array<std::uint64_t, Sites> m_EdgesAt{}; ///< bits of the edges at a site
   std::array<Tetrahedron, Tetrahedra> m_Tetrahedra;
   std::array<unsigned int, Directions> m_Adjacent{};
   std::bitset<1U << Directions> m_IsDisk;
