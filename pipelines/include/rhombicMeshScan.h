@@ -28,9 +28,10 @@ struct MeshScanSettings
   Provenance provenance;
 };
 
-/** Writes surfaces of a scan; returns the files' paths. All measures, the distance from the scan's isosurface and the
- * audit are those of the written file, read back. Notes give the main figures; sidecars and the table hold all of them,
- * and what finishing changed. All files appear together at the end, or none does.
+/** Writes surfaces of a scan; returns the files' paths. Measures and the distance from the scan's isosurface are taken
+ * while a file is written, and hold for it, as it is read back and compared; the audit is that of the surface read
+ * back. Notes give the main figures; sidecars and the table hold all of them, and what finishing changed. All files
+ * appear together at the end, or none does.
  *
  * Throws Failure, also for a surface that has to be watertight and is not. */
 std::vector<std::filesystem::path>

@@ -69,31 +69,40 @@ NameSteps(const SurfaceFinish & finish)
 } // namespace
 
 void
-FileInspection::Inspect(const itk::TriangleSurface & read, MeshedSurface & surface) const
+FileInspection::Measure(MeshedSurface & surface) const
 {
-  this->Measure(read, surface);
-  this->NoteFinish(surface);
-  this->NoteThinParts(surface);
+  const itk::TriangleSurface & written = *surface.scene.surface;
+  surface.measures = m_Scan ? MeasureSurface(written, *m_Scan) : MeasureSurface(written);
+  surface.measures.voxelVolume = CountVoxels(surface, m_Scan);
+  surface.measures.isosurface = surface.parts.IsNothing() ? surface.isosurface : std::nullopt;
   if (m_Scan && surface.request)
   {
-    this->MeasureDeviation(read, surface);
+    constexpr std::size_t quick = 250'000;
+    constexpr std::size_t thorough = 10'000'000;
+    surface.deviation = ComputeDeviation(written,
+                                         *m_Scan,
+                                         m_Settings.source.lattice.kernel,
+                                         surface.request->GetThreshold(),
+                                         m_Settings.audits ? thorough : quick);
+  }
+}
+
+void
+FileInspection::NoteResults(const itk::TriangleSurface & read, MeshedSurface & surface) const
+{
+  surface.points = read.GetNumberOfPoints();
+  surface.triangles = read.GetNumberOfTriangles();
+  m_Events.Note(Summarize(surface.scene.name, surface.measures));
+  this->NoteFinish(surface);
+  this->NoteThinParts(surface);
+  if (surface.deviation)
+  {
+    this->NoteDeviation(surface.scene.name, *surface.deviation);
   }
   if (m_Settings.audits || m_Settings.requiresWatertight)
   {
     this->Audit(read, surface);
   }
-}
-
-void
-FileInspection::Measure(const itk::TriangleSurface & read, MeshedSurface & surface) const
-{
-  m_Events.Progress("measuring " + surface.scene.name, 0.0);
-  surface.points = read.GetNumberOfPoints();
-  surface.triangles = read.GetNumberOfTriangles();
-  surface.measures = m_Scan ? MeasureSurface(read, *m_Scan) : MeasureSurface(read);
-  surface.measures.voxelVolume = CountVoxels(surface, m_Scan);
-  surface.measures.isosurface = surface.parts.IsNothing() ? surface.isosurface : std::nullopt;
-  m_Events.Note(Summarize(surface.scene.name, surface.measures));
 }
 
 /** Notes how finishing changed the volume of the kept parts. */
@@ -153,17 +162,8 @@ FileInspection::AdviseDensity() const
 }
 
 void
-FileInspection::MeasureDeviation(const itk::TriangleSurface & read, MeshedSurface & surface) const
+FileInspection::NoteDeviation(const std::string & name, const SurfaceDeviation & deviation) const
 {
-  constexpr std::size_t quick = 250'000;
-  constexpr std::size_t thorough = 10'000'000;
-  const std::string & name = surface.scene.name;
-  m_Events.Progress("comparing " + name + " with the scan", 0.0);
-  const SurfaceDeviation deviation = ComputeDeviation(read,
-                                                      *m_Scan,
-                                                      m_Settings.source.lattice.kernel,
-                                                      surface.request->GetThreshold(),
-                                                      m_Settings.audits ? thorough : quick);
   std::string note = name + ": from the scan's isosurface ";
   note += deviation.IsKnown() ? FormatNumber(deviation.mean, 2) + " mm on average, 95 % within " +
                                   FormatNumber(deviation.percentile95, 2) + " mm, all within " +
@@ -176,7 +176,6 @@ FileInspection::MeasureDeviation(const itk::TriangleSurface & read, MeshedSurfac
             this->AdviseDensity();
   }
   m_Events.Note(note);
-  surface.deviation = deviation;
 }
 
 void

@@ -10,7 +10,8 @@ namespace rhombic
 {
 
 /** \class FileInspection
- * \brief Measures surfaces as their file holds them, and compares them with the scan. Notes give the main figures. */
+ * \brief Measures surfaces, compares them with the scan, and audits them as their file holds them. Notes give the main
+ * figures. */
 class FileInspection
 {
 public:
@@ -21,21 +22,24 @@ public:
     , m_Events(events)
   {}
 
-  /** Sets the surface's measures, deviation and audit. Throws Failure(NotWatertight) for a surface that has to be
-   * watertight and is not.
+  /** Sets the surface's measures and deviation. For any thread. The surface is that of the file, as a file is read back
+   * and compared with it. */
+  void
+  Measure(MeshedSurface & surface) const;
+
+  /** Notes the measures, and sets what only the file tells, with the audit. Throws Failure(NotWatertight) for a surface
+   * that has to be watertight and is not.
    * \param read the surface, read back from the file */
   void
-  Inspect(const itk::TriangleSurface & read, MeshedSurface & surface) const;
+  NoteResults(const itk::TriangleSurface & read, MeshedSurface & surface) const;
 
 private:
-  void
-  Measure(const itk::TriangleSurface & read, MeshedSurface & surface) const;
   void
   NoteFinish(const MeshedSurface & surface) const;
   void
   NoteThinParts(const MeshedSurface & surface) const;
   void
-  MeasureDeviation(const itk::TriangleSurface & read, MeshedSurface & surface) const;
+  NoteDeviation(const std::string & name, const SurfaceDeviation & deviation) const;
   void
   Audit(const itk::TriangleSurface & read, MeshedSurface & surface) const;
   std::string

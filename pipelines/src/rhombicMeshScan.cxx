@@ -6,6 +6,7 @@
 #include "rhombicSourceLoading.h"
 #include "rhombicSurfaceReport.h"
 
+#include "itkForEachBlock.h"
 #include "itkTriangleSurfaceIntersections.h"
 #include "itkTriangleSurfaceMeasures.h"
 
@@ -251,7 +252,8 @@ public:
     , m_SourceReport(sourceReport)
   {}
 
-  /** Writes \a count surfaces from \a begin on as one file, to appear with all others of \a staged. */
+  /** Writes \a count surfaces from \a begin on as one file, to appear with all others of \a staged, and meanwhile
+   * measures them. */
   void
   Stage(const fs::path & path, MeshedSurface * begin, std::size_t count, StagedFiles & staged) const
   {
@@ -259,13 +261,22 @@ public:
     std::transform(begin, begin + count, std::back_inserter(scene), [](const auto & surface) { return surface.scene; });
     SurfaceFileSettings file;
     file.space = m_Settings.space;
-    file.inspect = [&](const std::vector<SceneSurface> & read) {
-      for (std::size_t n = 0; n < count; ++n)
+    std::vector<SceneSurface> read;
+    file.inspect = [&read](const std::vector<SceneSurface> & surfaces) { read = surfaces; };
+    itk::ForEachOnThreads(2, [&](std::size_t task) {
+      if (task == 0)
       {
-        m_Inspection.Inspect(*read[n].surface, begin[n]);
+        StageSurfaces(scene, path, staged, file);
       }
-    };
-    StageSurfaces(scene, path, staged, file);
+      else
+      {
+        std::for_each(begin, begin + count, [this](MeshedSurface & surface) { m_Inspection.Measure(surface); });
+      }
+    });
+    for (std::size_t n = 0; n < count; ++n)
+    {
+      m_Inspection.NoteResults(*read[n].surface, begin[n]);
+    }
     Report report = m_SourceReport;
     report["surfaces"] = Report::array();
     for (std::size_t n = 0; n < count; ++n)
