@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+#include <set>
 #include <sstream>
 
 namespace
@@ -101,6 +104,65 @@ TEST(TriangleSurfaceIntersections, OfFoldsAndPiercedNeighbours)
   EXPECT_EQ(Intersect(*surface).crossingPairs + Intersect(*surface).touchingPairs, 0u);
   surface->GetTriangles() = { { 0, 1, 2 }, { 2, 1, 0 }, { 1, 2, 0 } };
   EXPECT_EQ(Intersect(*surface).crossingPairs, 0u) << "duplicates are the topology's";
+}
+
+/** Closed surfaces from smooth to crumpled, with holes, several fans at a point, and flat parts. */
+TEST(TriangleSurfaceIntersections, OfJoinedTrianglesAreThoseOfAllPairs)
+{
+  itk::SizeValueType surfacesWithout = 0, surfacesWith = 0;
+  for (unsigned int seed = 0; seed < 60; ++seed)
+  {
+    const auto surface = MakeSphere(10.0, 3);
+    std::mt19937 random(seed);
+    std::normal_distribution<float> shift(0.0f, 0.15f * static_cast<float>(seed % 12));
+    for (auto & point : surface->GetPoints())
+    {
+      for (float & coordinate : point)
+      {
+        coordinate += shift(random);
+        coordinate = seed % 3 == 1 ? std::round(coordinate) : coordinate; // flat parts, and equal positions
+      }
+    }
+    auto & triangles = surface->GetTriangles();
+    if (seed % 4 == 3)
+    {
+      std::shuffle(triangles.begin(), triangles.end(), random);
+      triangles.resize(triangles.size() - 100);
+    }
+    if (seed % 5 == 4) // two fans at a point
+    {
+      Append(*surface, *MakeSphere(3.0, 2), { 13, 0, 0 });
+      for (std::uint32_t & corner : triangles.back())
+      {
+        corner = triangles.front()[0];
+      }
+      triangles.back()[1] = 7;
+      triangles.back()[2] = 11;
+    }
+    itk::SizeValueType crossing = 0, touching = 0;
+    std::set<std::uint32_t> found;
+    for (std::uint32_t a = 0; a < triangles.size(); ++a)
+    {
+      for (std::uint32_t b = a + 1; b < triangles.size(); ++b)
+      {
+        const Contact contact = FindContact(surface->GetPoints(), triangles[a], triangles[b]);
+        crossing += contact == Contact::Crossing ? 1 : 0;
+        touching += contact == Contact::Touching ? 1 : 0;
+        if (contact == Contact::Crossing)
+        {
+          found.insert({ a, b });
+        }
+      }
+    }
+    const auto intersections = Intersect(*surface);
+    EXPECT_EQ(intersections.crossingPairs, crossing) << seed;
+    EXPECT_EQ(intersections.touchingPairs, touching) << seed;
+    EXPECT_EQ(FindCrossingTriangles(itk::TriangleTree(*surface)),
+              std::vector<std::uint32_t>(found.begin(), found.end()));
+    ++(crossing == 0 ? surfacesWithout : surfacesWith);
+  }
+  EXPECT_GE(surfacesWithout, 4u) << "the test's own surfaces";
+  EXPECT_GE(surfacesWith, 20u) << "the test's own surfaces";
 }
 
 TEST(TriangleSurfaceIntersections, OfASampleSaySo)
