@@ -532,17 +532,18 @@ bool
 EdgeCollapse::IsNearOriginal(PointId from, PointId to, const PositionType & position)
 {
   const double squaredLimit = m_Original.limit * m_Original.limit;
+  const double squaredEnough = NearEnough * NearEnough * squaredLimit;
   const auto findNear = [&](const PositionType & sample, const std::array<TriangleId, 3> & likely) {
     const PositionType absolute = Add(sample, m_Origin);
     for (const TriangleId triangle : likely)
     {
       const PositionType closest = m_Original.tree->FindClosestPointOfTriangle(absolute, triangle);
-      if (SquaredDistance(absolute, closest) <= NearEnough * NearEnough * squaredLimit)
+      if (SquaredDistance(absolute, closest) <= squaredEnough)
       {
         return triangle;
       }
     }
-    return m_Original.tree->FindClosestPoint(absolute, squaredLimit).triangle;
+    return m_Original.tree->FindClosestPoint(absolute, squaredLimit, squaredEnough).triangle;
   };
   m_NearPosition = findNear(position, { m_Near[from], m_Near[to], m_Near[to] });
   return m_NearPosition != TriangleTree::None && std::all_of(m_Fan.begin(), m_Fan.end(), [&](const FanTriangle & fan) {

@@ -439,12 +439,26 @@ Simplification::FindContacts(const TriangleTree & state, const std::vector<Patch
 {
   const auto & points = m_State.GetPoints();
   const auto & triangles = m_State.GetTriangles();
+  std::vector<std::uint8_t> isChecked(m_Patches.size(), 0);
+  for (const PatchId patch : patches)
+  {
+    isChecked[patch] = 1;
+  }
+  // Each pair once: from its new triangle, from the later one if both are new, else from the one in a checked patch.
+  const auto isFoundFromOther = [&](TriangleId id, TriangleId other) {
+    return m_IsNew[other] && isChecked[m_PatchOf[other]] && (!m_IsNew[id] || other > id);
+  };
   std::vector<std::vector<TriangleId>> found(patches.size());
   ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
+    const bool isAnyUnchecked = patches.size() < m_Patches.size();
     for (TriangleId id = m_Begin[patches[n]]; id < m_Begin[patches[n] + 1]; ++id)
     {
+      if (!m_IsNew[id] && !isAnyUnchecked)
+      {
+        continue;
+      }
       state.VisitTriangles(TriangleTree::BoxOf(points, triangles[id]), [&](TriangleId other) {
-        if (other != id && (m_IsNew[id] || m_IsNew[other]) &&
+        if (other != id && (m_IsNew[id] || m_IsNew[other]) && !isFoundFromOther(id, other) &&
             FindContact(points, triangles[id], triangles[other]) != Contact::Apart)
         {
           found[n].push_back(id);
