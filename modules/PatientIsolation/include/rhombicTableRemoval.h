@@ -30,23 +30,27 @@ struct TableRemoval
   std::vector<std::string> notes; ///< why nothing was removed
 };
 
-/** Removes the objects around the patient from a CT in HU: table, mattress, head holder, sheets, tubes. Their values
- * become air. A scan in which there is no such object of 1 ml or more stays as it is, byte for byte.
+/** Removes the objects around the patient from a CT in HU: table, head holder, sheets, tubes. Their values become air.
+ * A scan in which there is no such object of 1 ml or more stays as it is, byte for byte.
  *
  * The patient is what is thick; tables and holders have thin walls. On a grid of blocks of about 3 mm, of which those
  * are tissue that have at least half of their samples at or above -300 HU, the patient consists of
  * - the body: tissue more than 9 mm thick that is connected with tissue at least 24 mm thick, and what lies between
  *   such tissue on lines from front to back, mostly lung;
- * - separate tissue more than 9 mm thick, if it is soft and no longer than a hand;
+ * - separate parts more than 9 mm thick, if they are soft and no longer than a hand;
  * - the skin: tissue within 8 mm of these;
- * - thin parts that touch the skin and end within 40 mm of the body, as ears do. Parts that reach farther are first
- *   freed of what is at the same place along most of the patient, as a table is.
+ * - thin parts that touch the skin and end within 40 mm of the body, as ears do; within 60 mm after what is at the same
+ *   place in half of the scan's length was taken away, as a table is.
  *
- * Objects are other tissue around the patient, where balls of 8 mm radius from the scan's sides have room. Air and
- * objects in the body stay. The cut is smooth, without steps of voxels: samples are lowered to a limit that falls to
- * air within one sample. Surfaces at any threshold stay the same elsewhere. Slices may be tilted or unevenly spaced.
+ * Objects are other tissue around the patient, where balls of 8 mm radius from the scan's sides have room. What is in
+ * the body or in its clefts stays.
  *
- * Takes up to 40 bytes for each block. The result does not depend on the number of threads. */
+ * Sheets and air under them can't be told from the skin that they touch. Within 30 mm of the objects (10 mm at thin
+ * parts), the skin is drawn anew, at the place that the blocks' shares of tissue give: outside it all samples become
+ * air, and in its outer 3 mm, samples below fat become fat, over two samples. Elsewhere samples stay the same. Where a
+ * back lies on the wall of a table without a gap, the wall stays. Slices may be tilted or unevenly spaced.
+ *
+ * Takes up to 50 bytes for each block. The result does not depend on the number of threads. */
 TableRemoval
 RemoveTable(Scan & scan, const Events & events);
 

@@ -15,6 +15,7 @@ struct CoarseScan
   BlockShape shape{};
   unsigned int longAxis = 2;                        ///< the image axis along the patient
   MaskImage::Pointer occupancy;                     ///< share of a block's samples that are tissue, from 0 to 255
+  MaskImage::Pointer share;                         ///< the same, with samples near the threshold counted in part
   itk::Image<std::int16_t, 3>::Pointer mean;        ///< mean of a block's samples, in HU
   std::vector<itk::Vector<double, 3>> sliceOffsets; ///< from slices' positions in the image to the true ones, or empty
 

@@ -18,15 +18,18 @@ namespace rhombic
 namespace
 {
 
-constexpr double blockWidth = 3.0;           // mm
-constexpr float tissueThreshold = -300;      // HU: half way between air and fat or skin
-constexpr float fat = -100.0f;               // HU
-constexpr std::uint8_t half = 128;           // half of a block's samples, out of 255
-constexpr double smallestObject = 1.0;       // ml
-constexpr double reachOfCut = 20.0;          // mm: how far from objects the skin is drawn anew,
-constexpr double reachAtThinParts = 8.0;     // and at thin parts of the patient
-constexpr float thicknessOfSkin = 3.0f;      // mm
-constexpr float widthOfEdge = 3.0f;          // mm: in this width the drawn skin gives way to the measured one
+constexpr double blockWidth = 3.0;        // mm
+constexpr float tissueThreshold = -300;   // HU: half way between air and fat or skin
+constexpr float usualAir = -1000.0f;      // HU
+constexpr float fat = -100.0f;            // HU
+constexpr std::uint8_t half = 128;        // half of a block's samples, out of 255
+constexpr double smallestObject = 1.0;    // ml
+constexpr double reachOfCut = 30.0;       // mm: how far from objects the skin is drawn anew,
+constexpr double reachAtThinParts = 10.0; // and at thin parts of the patient
+constexpr double depthPerShare = 2.4;    // of a block's width: as shares of the blocks that a plane cuts rise, smoothed
+constexpr double thickestSmoothed = 5.0; // mm: the skin is not smoothed across thicker slices
+constexpr float thicknessOfSkin = 3.0f;  // mm
+constexpr float widthOfEdge = 6.0f;      // mm: in this width the drawn skin gives way to the measured one
 constexpr float risePerMillimetre = 2000.0f; // HU: rise of the highest value under the skin
 
 /** The grid of blocks of a scan. */
@@ -56,6 +59,7 @@ MakeBlocks(const Scan & scan)
   coarse.occupancy->SetDirection(geometry.GetDirection());
   coarse.occupancy->SetRegions(blocks);
   coarse.occupancy->Allocate();
+  coarse.share = MakeLike<MaskImage>(*coarse.occupancy);
   coarse.mean = MakeLike<itk::Image<std::int16_t, 3>>(*coarse.occupancy);
   for (std::size_t slice = 0; slice < scan.sliceOrigins.size(); ++slice)
   {
@@ -66,6 +70,15 @@ MakeBlocks(const Scan & scan)
   return coarse;
 }
 
+/** How much of a sample is tissue: 0 in air, one half at the threshold, 1 in fat and above. */
+inline float
+ShareOfTissue(float value)
+{
+  const float below = 0.5f * (value - usualAir) / (tissueThreshold - usualAir);
+  const float above = 0.5f + 0.5f * (value - tissueThreshold) / (fat - tissueThreshold);
+  return std::min(std::max(0.0f, std::max(below, above)), 1.0f);
+}
+
 template <typename TPixel>
 void
 FillBlocks(const itk::Image<TPixel, 3> & image, CoarseScan & coarse)
@@ -73,11 +86,13 @@ FillBlocks(const itk::Image<TPixel, 3> & image, CoarseScan & coarse)
   struct Sums
   {
     std::uint32_t tissue = 0;
+    float share = 0.0f;
     std::conditional_t<std::is_integral_v<TPixel>, std::int64_t, double> values = 0;
   };
   const auto add = [](Sums & sums, TPixel sample) {
     const auto value = static_cast<float>(sample);
     sums.tissue += value >= tissueThreshold ? 1 : 0;
+    sums.share += ShareOfTissue(value);
     sums.values += std::isfinite(value) ? sample : TPixel{ 0 };
   };
   const auto store = [&](std::size_t block, const Sums & sums, std::size_t samples) {
@@ -85,6 +100,8 @@ FillBlocks(const itk::Image<TPixel, 3> & image, CoarseScan & coarse)
     // Rounded up, so that one sample is more than none.
     coarse.occupancy->GetBufferPointer()[block] =
       static_cast<std::uint8_t>((sums.tissue * 255 + samples - 1) / samples);
+    coarse.share->GetBufferPointer()[block] =
+      static_cast<std::uint8_t>(255.0f * sums.share / static_cast<float>(samples) + 0.5f);
     coarse.mean->GetBufferPointer()[block] =
       static_cast<std::int16_t>(std::lround(std::clamp(mean, -32768.0, 32767.0)));
   };
@@ -250,32 +267,50 @@ FindCut(const CoarseScan & coarse, const PatientMask & patient, const MaskImage 
   const auto toOutside = DistanceTo(outside, 2.0 * ballRadius);
   const auto toHanging = DistanceTo(*patient.hanging, reachOfCut);
   const auto toObjects = DistanceTo(objects, reachOfCut + diagonal);
-  const double width = std::max(spacing[0], spacing[1]);
+  const double rise = depthPerShare * std::max(spacing[0], spacing[1]);
   Cut cut{ MakeLike<DistanceImage>(objects), MakeLike<DistanceImage>(objects) };
   for (std::size_t offset = 0; offset < objects.GetBufferedRegion().GetNumberOfPixels(); ++offset)
   {
     const double apart = std::max(toPatient->GetBufferPointer()[offset], toOthers->GetBufferPointer()[offset]);
-    const double occupancy = coarse.occupancy->GetBufferPointer()[offset] / 255.0;
-    double share = outside.GetBufferPointer()[offset] != 0 ? 0.0 : 1.0;
-    if (apart < 1.05 * diagonal && static_cast<double>(toOutside->GetBufferPointer()[offset]) <= ballRadius)
-    {
-      share = objects.GetBufferPointer()[offset] != 0 ? 0.0 : occupancy;
-    }
-    cut.depth->GetBufferPointer()[offset] = static_cast<float>((share - 0.5) * 2.4 * width);
+    const bool isSkin = apart < 1.05 * diagonal && toOutside->GetBufferPointer()[offset] <= ballRadius;
+    const bool isObject = objects.GetBufferPointer()[offset] != 0;
+    const double measured = isObject ? 0.0 : coarse.share->GetBufferPointer()[offset] / 255.0;
+    const double share = isSkin ? measured : outside.GetBufferPointer()[offset] != 0 ? 0.0 : 1.0; // of the patient
+    cut.depth->GetBufferPointer()[offset] = static_cast<float>((share - 0.5) * rise);
     const double reach = std::min(reachOfCut, reachAtThinParts + toHanging->GetBufferPointer()[offset]);
-    cut.reach->GetBufferPointer()[offset] =
-      static_cast<float>(reach - static_cast<double>(toObjects->GetBufferPointer()[offset]));
+    cut.reach->GetBufferPointer()[offset] = static_cast<float>(reach - toObjects->GetBufferPointer()[offset]);
   }
   for (const unsigned int axis : { 0u, 1u, 2u })
   {
-    Smooth(*cut.depth, axis);
+    if (spacing[axis] <= thickestSmoothed)
+    {
+      Smooth(*cut.depth, axis);
+    }
   }
   return cut;
 }
 
-/** Sets what lies outside the skin around objects to air, and draws the skin anew: in its outer millimetres, gaps under
- * a sheet become tissue. The values rise within two samples, so that surfaces at thresholds between air and tissue are
- * smooth. */
+/** The limits of a sample's value near to objects. */
+struct Limits
+{
+  float lowest;
+  float highest;
+};
+
+/** The limits at a depth under the skin, at \a reach mm from the end of the space around objects. Both rise from air to
+ * fat within some two samples, and pass the threshold of tissue at the skin. */
+Limits
+FindLimits(float depth, float reach, float air, float sampleWidth)
+{
+  const auto valueAt = [=](float millimetres) {
+    return std::clamp(tissueThreshold - air * 0.5f * millimetres / sampleWidth, air, fat);
+  };
+  const float share = std::clamp(thicknessOfSkin - depth, 0.0f, 1.0f) * std::min(reach / widthOfEdge, 1.0f);
+  const float within = std::max(depth, widthOfEdge - reach);
+  return { air + share * (valueAt(depth) - air), valueAt(within) + std::max(within, 0.0f) * risePerMillimetre };
+}
+
+/** Sets what lies outside the skin around objects to air, and fills gaps in the skin. */
 template <typename TPixel>
 void
 DrawSkin(itk::Image<TPixel, 3> & image, const BlockShape & shape, const Cut & cut, double airValue)
@@ -309,17 +344,11 @@ DrawSkin(itk::Image<TPixel, 3> & image, const BlockShape & shape, const Cut & cu
           continue;
         }
         const float depth = InterpolateInRow(depthOfRow, taps[0][column]);
-        const auto valueAt = [=](float mm) {
-          return std::clamp(tissueThreshold - air * 0.5f * mm / sampleWidth, air, fat);
-        };
-        const float share = std::clamp(thicknessOfSkin - depth, 0.0f, 1.0f) * std::min(reach / widthOfEdge, 1.0f);
-        const float lowest = air + share * (valueAt(depth) - air);
-        const float within = std::max(depth, widthOfEdge - reach);
-        const float highest = valueAt(within) + std::max(within, 0.0f) * risePerMillimetre;
-        const float value = static_cast<float>(samples[column]);
+        const auto [lowest, highest] = FindLimits(depth, reach, air, sampleWidth);
+        const auto value = static_cast<float>(samples[column]);
         if (value < lowest || value > highest)
         {
-          samples[column] = static_cast<TPixel>(std::max(std::min(value, highest), lowest));
+          samples[column] = static_cast<TPixel>(value < lowest ? lowest : highest);
         }
       }
     }
