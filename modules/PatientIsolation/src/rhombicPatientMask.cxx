@@ -19,7 +19,7 @@ constexpr double lowestSoft = -150.0;  // HU: lowest mean of soft tissue, fat
 constexpr double highestSoft = 300.0;  // HU: highest mean of soft tissue with bone in it
 constexpr double shortReach = 40.0;    // thin parts that end this near to the body are the patient's: ears
 constexpr double longReach = 60.0;     // the same for thin parts without what may be a table: noses
-constexpr double smallestEar = 3000.0; // mm^3
+constexpr double smallestEar = 3000.0; // mm^3: smaller thin parts are not told from the skin (PatientMask::hanging)
 constexpr double tableShare = 0.5;     // share of the levels along the patient in which a table is at the same place
 
 void

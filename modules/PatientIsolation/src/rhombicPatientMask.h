@@ -28,7 +28,7 @@ struct CoarseScan
 struct PatientMask
 {
   MaskImage::Pointer all;
-  MaskImage::Pointer hanging; ///< thin parts that hang on the others, without specks
+  MaskImage::Pointer hanging; ///< thin parts of a few ml and more that hang on the others
 };
 
 /** Finds what is thick, the lungs between, and thin parts that hang on it. The steps are described at RemoveTable().

@@ -257,6 +257,8 @@ Smooth(DistanceImage & image, unsigned int axis)
   });
 }
 
+/** Finds the skin from the blocks' shares of tissue: blocks within ballRadius of the outside that are beside a border
+ * of the patient count as measured, but objects as air. */
 Cut
 FindCut(const CoarseScan & coarse, const PatientMask & patient, const MaskImage & outside, const MaskImage & objects)
 {
