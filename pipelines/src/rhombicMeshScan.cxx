@@ -12,7 +12,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <set>
+#include <utility>
 
 namespace fs = std::filesystem;
 
@@ -186,23 +188,28 @@ SpacingOf(const LoadedSource & loaded)
   return MeanSpacingOf(GeometryOf(loaded.labels->scan.image));
 }
 
-/** Edges of isosurfaces at which rounding may make triangles cross, see RefineSurface(). */
-double
-ShortEdgeOf(const LoadedSource & loaded, itk::FCCIsosurfaceMode mode)
+/** The smallest and the largest spacing of the lattice's axes if isosurfaces' points lie on the edges of its
+ * tetrahedra. */
+std::optional<std::pair<double, double>>
+SpacingsOfTetrahedra(const LoadedSource & loaded, itk::FCCIsosurfaceMode mode)
 {
   using Mode = itk::FCCIsosurfaceMode;
-  const bool isInTetrahedra = mode == Mode::Tetrahedra || mode == Mode::Fine;
-  if (!isInTetrahedra || loaded.requests.empty())
+  if (loaded.requests.empty() || (mode != Mode::Tetrahedra && mode != Mode::Fine))
   {
-    return 0.0;
+    return std::nullopt;
   }
   const auto spacing = std::visit([](const auto & image) { return image->GetSpacing(); }, loaded.lattice);
-  return itk::LongestRoundedEdge * *std::max_element(spacing.Begin(), spacing.End());
+  return std::make_pair(*std::min_element(spacing.Begin(), spacing.End()),
+                        *std::max_element(spacing.Begin(), spacing.End()));
 }
 
 /** Removes parts of a surface, smooths and simplifies it. Returns whether anything is left. */
 bool
-Finish(MeshedSurface & surface, const SurfaceFinish & finish, double spacing, double shortEdge, const Events & events)
+Finish(MeshedSurface & surface,
+       const SurfaceFinish & finish,
+       double spacing,
+       const std::optional<std::pair<double, double>> & tetrahedra,
+       const Events & events)
 {
   const auto finished = itk::TriangleSurface::New();
   finished->Graft(surface.scene.surface);
@@ -213,8 +220,9 @@ Finish(MeshedSurface & surface, const SurfaceFinish & finish, double spacing, do
     events.Note(surface.scene.name + ": left out, as all its parts are below --min-volume");
     return false;
   }
-  surface.refinement =
-    RefineSurface(*finished, finish, spacing, surface.scene.name, events, surface.request ? shortEdge : 0.0);
+  const double shortEdge =
+    surface.request && tetrahedra ? itk::FindLongestRoundedEdge(*finished, tetrahedra->first, tetrahedra->second) : 0.0;
+  surface.refinement = RefineSurface(*finished, finish, spacing, surface.scene.name, events, shortEdge);
   return true;
 }
 
@@ -223,13 +231,13 @@ void
 FinishAll(std::vector<MeshedSurface> & surfaces,
           const SurfaceFinish & finish,
           double spacing,
-          double shortEdge,
+          const std::optional<std::pair<double, double>> & tetrahedra,
           const Events & events)
 {
   std::vector<MeshedSurface> finished;
   for (MeshedSurface & surface : surfaces)
   {
-    if (Finish(surface, finish, spacing, shortEdge, events))
+    if (Finish(surface, finish, spacing, tetrahedra, events))
     {
       finished.push_back(std::move(surface));
     }
@@ -310,11 +318,11 @@ MeshScan(const MeshScanSettings & settings, const Events & events)
     AddLabels(loaded, settings, events, surfaces);
   }
   const double spacing = SpacingOf(loaded);
-  const double shortEdge = ShortEdgeOf(loaded, settings.surfaces.mode);
+  const auto tetrahedra = SpacingsOfTetrahedra(loaded, settings.surfaces.mode);
   loaded.lattice = FCCVolume();
   loaded.labels.reset();
   CheckFiles(PathsOf(settings.mesh, surfaces), settings);
-  FinishAll(surfaces, settings.finish, spacing, shortEdge, events);
+  FinishAll(surfaces, settings.finish, spacing, tetrahedra, events);
 
   const FileInspection inspection(settings, loaded.scan, events);
   const FileStaging staging(settings, inspection, sourceReport);

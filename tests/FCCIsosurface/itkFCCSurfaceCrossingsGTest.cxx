@@ -45,7 +45,8 @@ MakeUnevenNoise(unsigned int seed, double farthest)
 class FCCSurfaceCrossings : public testing::TestWithParam<Mode>
 {};
 
-/** Triangles in different tetrahedra cross at most where CrossesAtShortEdges() looks: the audit finds no others. */
+/** Triangles in different tetrahedra cross at most where FindCrossingTrianglesAtEdges() looks: the audit finds no
+ * others. */
 TEST_P(FCCSurfaceCrossings, OfPointsOnEdgesOfTetrahedraAreAtShortEdges)
 {
   unsigned int crossing = 0;
@@ -61,9 +62,11 @@ TEST_P(FCCSurfaceCrossings, OfPointsOnEdgesOfTetrahedraAreAtShortEdges)
     filter->Update();
     const itk::TriangleSurface & surface = *filter->GetOutput();
     const auto & spacing = image->GetSpacing();
-    const double shortEdge = itk::LongestRoundedEdge * std::max({ spacing[0], spacing[1], spacing[2] });
-    const bool crosses = FindSelfIntersections(itk::TriangleTree(surface)).crossingPairs > 0;
-    EXPECT_EQ(CrossesAtShortEdges(surface, shortEdge), crosses) << seed;
+    const double longest = FindLongestRoundedEdge(
+      surface, std::min({ spacing[0], spacing[1], spacing[2] }), std::max({ spacing[0], spacing[1], spacing[2] }));
+    const auto found = FindCrossingTriangles(itk::TriangleTree(surface));
+    EXPECT_EQ(FindCrossingTrianglesAtEdges(surface, longest), found) << seed;
+    const bool crosses = !found.empty();
     crossing += crosses ? 1 : 0;
     if (farthest == 0.0)
     {

@@ -102,8 +102,8 @@ struct Refinement
  *
  * \param spacing of the lattice in mm (see MeanSpacingOf())
  * \param name of the surface, for progress and messages
- * \param shortEdge for a surface whose points lie on the edges of tetrahedra: the edges, in mm, at which its triangles
- * may cross (see itk::CrossesAtShortEdges()); 0: they may cross anywhere
+ * \param shortEdge for a surface whose points lie on the edges of tetrahedra: the longest edges in mm at which
+ * triangles may cross (see itk::FindLongestRoundedEdge()); 0: they may cross anywhere
  *
  * Throws itk::ExceptionObject as itk::UntangleSurface() and itk::SimplifySurface() do. */
 Refinement

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <optional>
 
 namespace itk
 {
@@ -213,22 +214,35 @@ Untangle(TriangleSurface & surface,
 } // namespace
 
 TriangleSurfaceUntanglingReport
-UntangleSurface(TriangleSurface & surface, double maximumMove)
+UntangleSurface(TriangleSurface & surface, double maximumMove, double shortEdge)
 {
   if (!(maximumMove > 0.0) || !std::isfinite(maximumMove))
   {
     itkGenericExceptionMacro("Untangling needs a distance above 0 mm that points may move, not " << maximumMove << ".");
   }
-  const TriangleTree tree(surface);
-  const Ids crossing = FindCrossingTriangles(tree);
+  std::optional<TriangleTree> tree;
+  Ids crossing;
+  if (shortEdge > 0.0)
+  {
+    crossing = FindCrossingTrianglesAtEdges(surface, shortEdge);
+  }
+  else
+  {
+    tree.emplace(surface);
+    crossing = FindCrossingTriangles(*tree);
+  }
   if (crossing.empty())
   {
     return {};
   }
+  if (!tree)
+  {
+    tree.emplace(surface);
+  }
   const Points original = surface.GetPoints();
   TriangleSurfaceUntanglingReport report;
   report.crossingBefore = crossing.size();
-  report.crossingAfter = Untangle(surface, tree, original, maximumMove, crossing);
+  report.crossingAfter = Untangle(surface, *tree, original, maximumMove, crossing);
   for (std::size_t point = 0; point < original.size(); ++point)
   {
     const auto & moved = surface.GetPoints()[point];

@@ -4,7 +4,6 @@
 #include "rhombicWording.h"
 
 #include "itkTriangleSurfaceDistance.h"
-#include "itkTriangleSurfaceIntersections.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceVertexOrder.h"
 
@@ -190,19 +189,16 @@ RefineSurface(itk::TriangleSurface & surface,
     events.Note(DescribeSmoothing(name, *refinement.smoothing));
   }
   events.Progress("untangling " + name, 0.0);
-  const bool isAsExtracted = finish.smoothing <= 0.0 && shortEdge > 0.0 && !CrossesAtShortEdges(surface, shortEdge);
-  if (!isAsExtracted)
+  const bool isInTetrahedra = finish.smoothing <= 0.0 && shortEdge > 0.0;
+  const auto untangled = UntangleSurface(surface, spacing, isInTetrahedra ? shortEdge : 0.0);
+  if (untangled.crossingBefore > 0)
   {
-    const auto untangled = UntangleSurface(surface, spacing);
-    if (untangled.crossingBefore > 0)
-    {
-      refinement.untangling = untangled;
-    }
-    if (untangled.crossingAfter > 0)
-    {
-      events.Note(name + ": " + Count(untangled.crossingAfter, "triangle passes", "triangles pass") +
-                  " through others of it");
-    }
+    refinement.untangling = untangled;
+  }
+  if (untangled.crossingAfter > 0)
+  {
+    events.Note(name + ": " + Count(untangled.crossingAfter, "triangle passes", "triangles pass") +
+                " through others of it");
   }
   if (finish.Simplifies())
   {
@@ -210,7 +206,7 @@ RefineSurface(itk::TriangleSurface & surface,
     refinement.simplification = Simplify(surface, finish, spacing);
     events.Note(DescribeSimplification(name, finish, *refinement.simplification));
   }
-  if (!isAsExtracted || finish.Simplifies())
+  if (!isInTetrahedra || refinement.untangling || finish.Simplifies())
   {
     refinement.shellsTurned = TurnMisfacingShells(surface);
   }

@@ -30,15 +30,17 @@ FindSelfIntersections(const TriangleTree & tree,
 std::vector<std::uint32_t>
 FindCrossingTriangles(const TriangleTree & tree);
 
-/** For a surface whose points lie on the edges of the FCC lattice's tetrahedra: edges at which its triangles may cross
- * are shorter than this, in units of the lattice's largest spacing. */
-constexpr double LongestRoundedEdge = 0.75;
+/** For a surface whose points lie on the edges of an FCC lattice's tetrahedra, as mode Tetrahedra and Fine of
+ * FCCIsosurfaceFilter make them: edges, in mm, at which rounding may make its triangles cross, are no longer than this.
+ * The module's README derives it.
+ * \param smallestSpacing of the lattice's axes, in mm */
+double
+FindLongestRoundedEdge(const TriangleSurface & surface, double smallestSpacing, double largestSpacing);
 
-/** Whether triangles cross that have a point in common, or that lie at different ends of an edge of at most \a longest
- * mm: all that can cross when a surface's points lie on the edges of tetrahedra, but for rounding (see the module's
- * README). Exact; far quicker than to test all triangles, and needs no tree. */
-bool
-CrossesAtShortEdges(const TriangleSurface & surface, double longest);
+/** The ids of the triangles that cross others with which they have a point in common, or that lie at the other end of
+ * an edge of at most \a longest mm; ascending. Exact; far quicker than to test all triangles, and needs no tree. */
+std::vector<std::uint32_t>
+FindCrossingTrianglesAtEdges(const TriangleSurface & surface, double longest);
 
 } // namespace itk
 

@@ -6,7 +6,6 @@
 #include "itkUnfoldedPoints.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstring>
 #include <mutex>
 
@@ -28,6 +27,13 @@ AreDuplicates(TriangleType a, TriangleType b)
   std::sort(a.begin(), a.end());
   std::sort(b.begin(), b.end());
   return a == b;
+}
+
+void
+SortUnique(std::vector<std::uint32_t> & ids)
+{
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
 /** \class BoxList
@@ -258,19 +264,33 @@ FindCrossingTriangles(const TriangleTree & tree)
     const std::lock_guard<std::mutex> lock(mutex);
     found.insert(found.end(), ofBlock.begin(), ofBlock.end());
   });
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  SortUnique(found);
   return found;
 }
 
-bool
-CrossesAtShortEdges(const TriangleSurface & surface, double longest)
+double
+FindLongestRoundedEdge(const TriangleSurface & surface, double smallestSpacing, double largestSpacing)
+{
+  double farthest = 0.0;
+  for (const double bound : surface.GetBounds())
+  {
+    farthest = std::max(farthest, std::abs(bound));
+  }
+  const double step = farthest * static_cast<double>(std::numeric_limits<float>::epsilon()) / smallestSpacing;
+  const double rounding = std::sqrt(0.75) * step;
+  const double gap = std::max(std::sqrt(2.0) / 1024.0, 8.0 * step);
+  return 4.0 * rounding / (0.7 * gap - 2.0 * rounding) * largestSpacing;
+}
+
+std::vector<std::uint32_t>
+FindCrossingTrianglesAtEdges(const TriangleSurface & surface, double longest)
 {
   const TrianglesOfPoints fans(surface);
   const std::vector<std::uint8_t> areUnfolded = FindUnfoldedPoints(surface, fans);
   const auto & points = surface.GetPoints();
   const auto & triangles = surface.GetTriangles();
-  std::atomic<bool> crosses{ false };
+  std::vector<std::uint32_t> found;
+  std::mutex mutex;
   const auto test = [&](std::uint32_t a, std::uint32_t b) {
     const auto isCorner = [&](std::uint32_t point) {
       return areUnfolded[point] != 0 && std::count(triangles[b].begin(), triangles[b].end(), point) > 0;
@@ -279,7 +299,8 @@ CrossesAtShortEdges(const TriangleSurface & surface, double longest)
         TriangleTree::BoxOf(points, triangles[a]).Overlaps(TriangleTree::BoxOf(points, triangles[b])) &&
         FindContact(points, triangles[a], triangles[b]) == Contact::Crossing)
     {
-      crosses = true;
+      const std::lock_guard<std::mutex> lock(mutex);
+      found.insert(found.end(), { a, b });
     }
   };
   constexpr std::size_t pointsOfBlock = 16384;
@@ -299,7 +320,8 @@ CrossesAtShortEdges(const TriangleSurface & surface, double longest)
       }
     });
   });
-  return crosses;
+  SortUnique(found);
+  return found;
 }
 
 } // namespace itk
