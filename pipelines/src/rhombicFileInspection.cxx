@@ -72,12 +72,14 @@ void
 FileInspection::Measure(MeshedSurface & surface) const
 {
   const itk::TriangleSurface & written = *surface.scene.surface;
+  surface.points = written.GetNumberOfPoints();
+  surface.triangles = written.GetNumberOfTriangles();
   surface.measures = m_Scan ? MeasureSurface(written, *m_Scan) : MeasureSurface(written);
   surface.measures.voxelVolume = CountVoxels(surface, m_Scan);
   surface.measures.isosurface = surface.parts.IsNothing() ? surface.isosurface : std::nullopt;
   if (m_Scan && surface.request)
   {
-    constexpr std::size_t quick = 250'000;
+    constexpr std::size_t quick = 100'000;
     constexpr std::size_t thorough = 10'000'000;
     surface.deviation = ComputeDeviation(written,
                                          *m_Scan,
@@ -88,20 +90,14 @@ FileInspection::Measure(MeshedSurface & surface) const
 }
 
 void
-FileInspection::NoteResults(const itk::TriangleSurface & read, MeshedSurface & surface) const
+FileInspection::NoteResults(const MeshedSurface & surface) const
 {
-  surface.points = read.GetNumberOfPoints();
-  surface.triangles = read.GetNumberOfTriangles();
   m_Events.Note(Summarize(surface.scene.name, surface.measures));
   this->NoteFinish(surface);
   this->NoteThinParts(surface);
   if (surface.deviation)
   {
     this->NoteDeviation(surface.scene.name, *surface.deviation);
-  }
-  if (m_Settings.audits || m_Settings.requiresWatertight)
-  {
-    this->Audit(read, surface);
   }
 }
 

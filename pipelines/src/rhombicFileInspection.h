@@ -22,16 +22,23 @@ public:
     , m_Events(events)
   {}
 
-  /** Sets the surface's measures and deviation. For any thread. The surface is that of the file, as a file is read back
-   * and compared with it. */
+  /** Sets the surface's sizes, measures and deviation. For any thread. */
   void
   Measure(MeshedSurface & surface) const;
 
-  /** Notes the measures, and sets what only the file tells, with the audit. Throws Failure(NotWatertight) for a surface
-   * that has to be watertight and is not.
-   * \param read the surface, read back from the file */
   void
-  NoteResults(const itk::TriangleSurface & read, MeshedSurface & surface) const;
+  NoteResults(const MeshedSurface & surface) const;
+
+  bool
+  NeedsAudit() const
+  {
+    return m_Settings.audits || m_Settings.requiresWatertight;
+  }
+
+  /** Sets and notes the audit of a surface as its file holds it. Throws Failure(NotWatertight) for a surface that has
+   * to be watertight and is not. \param read the surface, read back from the file */
+  void
+  Audit(const itk::TriangleSurface & read, MeshedSurface & surface) const;
 
 private:
   void
@@ -40,8 +47,6 @@ private:
   NoteThinParts(const MeshedSurface & surface) const;
   void
   NoteDeviation(const std::string & name, const SurfaceDeviation & deviation) const;
-  void
-  Audit(const itk::TriangleSurface & read, MeshedSurface & surface) const;
   std::string
   AdviseDensity() const;
 

@@ -270,7 +270,10 @@ public:
     SurfaceFileSettings file;
     file.space = m_Settings.space;
     std::vector<SceneSurface> read;
-    file.inspect = [&read](const std::vector<SceneSurface> & surfaces) { read = surfaces; };
+    if (m_Inspection.NeedsAudit())
+    {
+      file.inspect = [&read](const std::vector<SceneSurface> & surfaces) { read = surfaces; };
+    }
     itk::ForEachOnThreads(2, [&](std::size_t task) {
       if (task == 0)
       {
@@ -283,7 +286,11 @@ public:
     });
     for (std::size_t n = 0; n < count; ++n)
     {
-      m_Inspection.NoteResults(*read[n].surface, begin[n]);
+      m_Inspection.NoteResults(begin[n]);
+      if (m_Inspection.NeedsAudit())
+      {
+        m_Inspection.Audit(*read[n].surface, begin[n]);
+      }
     }
     Report report = m_SourceReport;
     report["surfaces"] = Report::array();

@@ -25,7 +25,8 @@ struct SurfaceFileSettings
 {
   SurfaceFileSpace space = SurfaceFileSpace::LPS;
 
-  /** Called with the surfaces as read back, before the file appears. If it throws, an older file stays as it was. */
+  /** If set, the surfaces are read back from the file and passed to this before the file appears. If it throws, an
+   * older file stays as it was. Memory: a copy of the surfaces, two for STL, three for OBJ. */
   std::function<void(const std::vector<SceneSurface> & read)> inspect{};
 };
 
@@ -56,8 +57,8 @@ SurfaceFilesOf(const std::filesystem::path & path);
  * invalid UTF-8 in names are replaced. All formats keep positions exactly, and colours with 8 bits. The same surfaces
  * give the same bytes, in every locale.
  *
- * The file is read back and compared before it appears, complete or not at all; an existing file is replaced. The
- * materials of an OBJ file appear just before it. Memory: a copy of the surfaces, two for STL, three for OBJ. Throws
+ * The bytes of the file are read back and compared, by their CRC-32, before it appears, complete or not at all; an
+ * existing file is replaced. The materials of an OBJ file appear just before it. Throws
  * Failure(Usage) for another extension or several surfaces in an STL file, Failure(Empty) for a surface without
  * triangles or no surface, and Failure(Output) if the file can't be written, the surfaces are too large for the format
  * or a position is not finite. */

@@ -4,9 +4,11 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 
 #include <fcntl.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #if __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
 #error "The binary formats are little endian; this machine's numbers would have to be turned round."
@@ -16,7 +18,8 @@ namespace rhombic
 {
 
 OutputFile::OutputFile(const std::filesystem::path & path, const std::filesystem::path & target)
-  : m_Target(target)
+  : m_Path(path)
+  , m_Target(target)
   , m_Descriptor(open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC))
 {
   if (m_Descriptor < 0)
@@ -47,8 +50,34 @@ OutputFile::Close()
 }
 
 void
+OutputFile::Digest::Add(const char * bytes, std::size_t count)
+{
+  size += count;
+  checksum = crc32_z(checksum, reinterpret_cast<const Bytef *>(bytes), count);
+}
+
+bool
+OutputFile::HoldsWhatWasAppended() const
+{
+  std::ifstream file(m_Path, std::ios::binary);
+  std::vector<char> block(BlockSize);
+  Digest digest;
+  while (file)
+  {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    digest.Add(block.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  if (!file.eof())
+  {
+    this->Fail();
+  }
+  return digest.size == m_Digest.size && digest.checksum == m_Digest.checksum;
+}
+
+void
 OutputFile::Flush()
 {
+  m_Digest.Add(m_Block.data(), m_Block.size());
   for (std::size_t done = 0; done < m_Block.size();)
   {
     const ssize_t written = write(m_Descriptor, m_Block.data() + done, m_Block.size() - done);

@@ -52,6 +52,11 @@ public:
   void
   Close();
 
+  /** Whether the file, closed and read again, holds what was appended: by its size and the CRC-32 of its bytes. Throws
+   * Failure(Output) if it can't be read. */
+  bool
+  HoldsWhatWasAppended() const;
+
 private:
   static constexpr std::size_t BlockSize = std::size_t{ 1 } << 20;
 
@@ -61,9 +66,21 @@ private:
   [[noreturn]] void
   Fail() const;
 
+  /** Length and CRC-32 of bytes in a row. */
+  struct Digest
+  {
+    std::uint64_t size = 0;
+    unsigned long checksum = 0;
+
+    void
+    Add(const char * bytes, std::size_t count);
+  };
+
+  std::filesystem::path m_Path;
   std::filesystem::path m_Target;
   int m_Descriptor;
   std::vector<char> m_Block;
+  Digest m_Digest; ///< of what was written
 };
 
 } // namespace rhombic
