@@ -2,11 +2,17 @@
 
 #include "rhombicFailure.h"
 
+#include "itkForEachBlock.h"
 #include "itkHistogram.h"
 #include "itkOtsuThresholdCalculator.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <mutex>
+#include <utility>
 
 namespace rhombic
 {
@@ -26,59 +32,89 @@ OtsuThreshold(const Histogram * histogram, bool isInteger)
   return isInteger ? std::floor(threshold) + 0.5 : threshold;
 }
 
-template <typename TPixel>
-Intensities
-Compute(const TPixel * values, std::size_t count)
-{
-  Intensities found;
-  found.lowest = std::numeric_limits<double>::infinity();
-  found.highest = -found.lowest;
-  const auto isCounted = [](TPixel value) {
-    return std::is_integral_v<TPixel> || std::isfinite(static_cast<double>(value));
-  };
-  for (std::size_t n = 0; n < count; ++n)
-  {
-    if (isCounted(values[n]))
-    {
-      found.lowest = std::min(found.lowest, static_cast<double>(values[n]));
-      found.highest = std::max(found.highest, static_cast<double>(values[n]));
-    }
-  }
-  if (found.lowest > found.highest)
-  {
-    throw Failure(FailureKind::Unreadable, "The scan has no finite values; check that it was exported completely.");
-  }
-  if (found.lowest == found.highest)
-  {
-    found.otsu = found.lowest;
-    return found;
-  }
+constexpr std::size_t ValuesOfBlock = std::size_t{ 1 } << 18;
+constexpr std::size_t Bins = 256;
 
-  constexpr std::size_t bins = 256;
-  std::vector<itk::SizeValueType> frequencies(bins, 0);
-  const double scale = static_cast<double>(bins) / (found.highest - found.lowest);
-  for (std::size_t n = 0; n < count; ++n)
-  {
-    if (isCounted(values[n]))
+template <typename TPixel>
+bool
+IsCounted(TPixel value)
+{
+  return std::is_integral_v<TPixel> || std::isfinite(static_cast<double>(value));
+}
+
+/** The lowest and the highest finite value. */
+template <typename TPixel>
+std::pair<TPixel, TPixel>
+FindRange(const TPixel * values, std::size_t count)
+{
+  constexpr TPixel least = std::numeric_limits<TPixel>::lowest();
+  constexpr TPixel most = std::numeric_limits<TPixel>::max();
+  std::pair<TPixel, TPixel> range{ most, least };
+  std::mutex mutex;
+  itk::ForEachBlock(count, ValuesOfBlock, [&](std::size_t begin, std::size_t end) {
+    TPixel lowest = most, highest = least;
+    for (std::size_t n = begin; n < end; ++n)
     {
-      const auto bin = static_cast<std::size_t>((static_cast<double>(values[n]) - found.lowest) * scale);
-      ++frequencies[std::min(bin, bins - 1)];
+      lowest = IsCounted(values[n]) ? std::min(lowest, values[n]) : lowest;
+      highest = IsCounted(values[n]) ? std::max(highest, values[n]) : highest;
     }
-  }
+    const std::lock_guard<std::mutex> lock(mutex);
+    range = { std::min(range.first, lowest), std::max(range.second, highest) };
+  });
+  return range;
+}
+
+template <typename TPixel>
+Histogram::Pointer
+MakeHistogram(const TPixel * values, std::size_t count, double lowest, double highest)
+{
+  using Frequencies = std::array<itk::SizeValueType, Bins>;
+  Frequencies frequencies{};
+  std::mutex mutex;
+  const double scale = static_cast<double>(Bins) / (highest - lowest);
+  itk::ForEachBlock(count, ValuesOfBlock, [&](std::size_t begin, std::size_t end) {
+    Frequencies ofBlock{};
+    for (std::size_t n = begin; n < end; ++n)
+    {
+      if (IsCounted(values[n]))
+      {
+        const auto bin = static_cast<std::size_t>((static_cast<double>(values[n]) - lowest) * scale);
+        ++ofBlock[std::min(bin, Bins - 1)];
+      }
+    }
+    const std::lock_guard<std::mutex> lock(mutex);
+    std::transform(ofBlock.begin(), ofBlock.end(), frequencies.begin(), frequencies.begin(), std::plus<>());
+  });
   const auto histogram = Histogram::New();
   Histogram::SizeType size(1);
   Histogram::MeasurementVectorType low(1);
   Histogram::MeasurementVectorType high(1);
-  size[0] = bins;
-  low[0] = found.lowest;
-  high[0] = found.highest;
+  size[0] = Bins;
+  low[0] = lowest;
+  high[0] = highest;
   histogram->SetMeasurementVectorSize(1);
   histogram->Initialize(size, low, high);
-  for (std::size_t bin = 0; bin < bins; ++bin)
+  for (std::size_t bin = 0; bin < Bins; ++bin)
   {
     histogram->SetFrequency(bin, frequencies[bin]);
   }
-  found.otsu = OtsuThreshold(histogram, std::is_integral_v<TPixel>);
+  return histogram;
+}
+
+template <typename TPixel>
+Intensities
+Compute(const TPixel * values, std::size_t count)
+{
+  const auto [lowest, highest] = FindRange(values, count);
+  Intensities found{ static_cast<double>(lowest), static_cast<double>(highest), static_cast<double>(lowest) };
+  if (found.lowest > found.highest)
+  {
+    throw Failure(FailureKind::Unreadable, "The scan has no finite values; check that it was exported completely.");
+  }
+  if (found.lowest < found.highest)
+  {
+    found.otsu = OtsuThreshold(MakeHistogram(values, count, found.lowest, found.highest), std::is_integral_v<TPixel>);
+  }
   return found;
 }
 

@@ -1,9 +1,12 @@
 #include "rhombicSurfaceMeasures.h"
 
+#include "itkForEachBlock.h"
 #include "itkTriangleSurfaceInterior.h"
 #include "itkTriangleSurfaceMeasures.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace rhombic
 {
@@ -95,10 +98,20 @@ MeasureSurface(const itk::TriangleSurface & surface)
 SurfaceMeasures
 MeasureSurface(const itk::TriangleSurface & surface, const Scan & scan)
 {
-  SurfaceMeasures measures = MeasureSurface(surface);
+  SurfaceMeasures measures;
   const itk::SamplePlanes planes = PlanesOf(scan);
   const std::vector<double> voxelVolumes = VoxelVolumes(scan);
-  const auto slices = std::visit([&](const auto & image) { return SumInterior(surface, *image, planes); }, scan.image);
+  std::vector<SliceSums> slices;
+  itk::ForEachOnThreads(2, [&](std::size_t task) {
+    if (task == 0)
+    {
+      measures = MeasureSurface(surface);
+    }
+    else
+    {
+      slices = std::visit([&](const auto & image) { return SumInterior(surface, *image, planes); }, scan.image);
+    }
+  });
   double volume = 0.0;
   double sum = 0.0; // weighted by the voxels' volumes
   double squares = 0.0;
@@ -122,22 +135,18 @@ double
 CountVoxelVolume(const Scan & scan, const Threshold & threshold)
 {
   const std::vector<double> voxelVolumes = VoxelVolumes(scan);
+  std::vector<double> inside(voxelVolumes.size()); // voxels of each slice
   const auto count = [&](const auto & image) {
     const auto & size = image->GetLargestPossibleRegion().GetSize();
-    const auto * value = image->GetBufferPointer();
-    double volume = 0.0;
-    for (const double voxelVolume : voxelVolumes)
-    {
-      std::size_t inside = 0;
-      for (const auto * const end = value + size[0] * size[1]; value != end; ++value)
-      {
-        inside += threshold.IsInside(static_cast<double>(*value)) ? 1 : 0;
-      }
-      volume += static_cast<double>(inside) * voxelVolume;
-    }
-    return volume;
+    const std::size_t sliceSize = size[0] * size[1];
+    itk::ForEachInBlocks(inside.size(), 1, [&](std::size_t slice) {
+      const auto * const begin = image->GetBufferPointer() + slice * sliceSize;
+      inside[slice] = static_cast<double>(std::count_if(
+        begin, begin + sliceSize, [&](auto value) { return threshold.IsInside(static_cast<double>(value)); }));
+    });
   };
-  return std::visit(count, scan.image);
+  std::visit(count, scan.image);
+  return std::inner_product(inside.begin(), inside.end(), voxelVolumes.begin(), 0.0);
 }
 
 } // namespace rhombic

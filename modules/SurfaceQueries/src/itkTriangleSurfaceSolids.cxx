@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace itk
@@ -250,9 +251,21 @@ CountShells(const TriangleTree & surface)
 SizeValueType
 TurnMisfacingShells(TriangleSurface & surface)
 {
-  const TriangleSurfaceComponents components = FindComponents(surface);
-  const std::vector<std::uint8_t> misfacing =
-    FindMisfacing(TriangleTree(surface), components, ComputeComponentVolumes(surface, components));
+  TriangleSurfaceComponents components;
+  std::vector<double> volumes;
+  std::optional<TriangleTree> tree;
+  ForEachOnThreads(2, [&](std::size_t task) {
+    if (task == 0)
+    {
+      tree.emplace(surface);
+    }
+    else
+    {
+      components = FindComponents(surface);
+      volumes = ComputeComponentVolumes(surface, components);
+    }
+  });
+  const std::vector<std::uint8_t> misfacing = FindMisfacing(*tree, components, volumes);
   for (auto & triangle : surface.GetTriangles())
   {
     if (misfacing[components.ofPoint[triangle[0]]])

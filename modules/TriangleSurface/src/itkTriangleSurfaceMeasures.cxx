@@ -1,6 +1,9 @@
 #include "itkTriangleSurfaceMeasures.h"
 
 #include "detail/itkPositionArithmetic.h"
+#include "itkForEachBlock.h"
+
+#include <numeric>
 
 namespace itk
 {
@@ -22,29 +25,42 @@ SixfoldVolume(const TriangleSurface & surface, const TriangleSurface::TriangleTy
              Cross(Relative(surface, triangle[1], origin), Relative(surface, triangle[2], origin)));
 }
 
+/** The sum of \a term(triangle) over all triangles: sums of blocks of fixed size, so that the number of threads does
+ * not change it. */
+template <typename TTerm>
+double
+SumOverTriangles(const TriangleSurface & surface, const TTerm & term)
+{
+  constexpr std::size_t blockSize = 65536;
+  const auto & triangles = surface.GetTriangles();
+  std::vector<double> sums((triangles.size() + blockSize - 1) / blockSize);
+  ForEachBlock(triangles.size(), blockSize, [&](std::size_t begin, std::size_t end) {
+    double sum = 0.0;
+    for (std::size_t n = begin; n < end; ++n)
+    {
+      sum += term(triangles[n]);
+    }
+    sums[begin / blockSize] = sum;
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
 } // namespace
 
 double
 ComputeArea(const TriangleSurface & surface)
 {
-  double twice = 0.0;
-  for (const auto & triangle : surface.GetTriangles())
-  {
-    twice += Length(
+  const double twice = SumOverTriangles(surface, [&](const auto & triangle) {
+    return Length(
       AreaVector({ Relative(surface, triangle[0]), Relative(surface, triangle[1]), Relative(surface, triangle[2]) }));
-  }
+  });
   return twice / 2.0;
 }
 
 double
 ComputeVolume(const TriangleSurface & surface)
 {
-  double sixfold = 0.0;
-  for (const auto & triangle : surface.GetTriangles())
-  {
-    sixfold += SixfoldVolume(surface, triangle);
-  }
-  return sixfold / 6.0;
+  return SumOverTriangles(surface, [&](const auto & triangle) { return SixfoldVolume(surface, triangle); }) / 6.0;
 }
 
 std::array<double, 3>
