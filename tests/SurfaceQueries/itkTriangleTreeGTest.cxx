@@ -121,6 +121,32 @@ TEST(TriangleTree, VisitsEachTriangleWhoseBoxOverlapsOnce)
   }
 }
 
+TEST(TriangleTree, RefittedFindsWhatANewOneFinds)
+{
+  const auto surface = MakeRandomTriangles(20000, 50.0f, 3.0f, 5);
+  Tree refitted(*surface);
+  std::mt19937 random(6);
+  std::normal_distribution<float> move(0.0f, 4.0f);
+  for (std::size_t point = 0; point < surface->GetNumberOfPoints(); point += 3)
+  {
+    for (float & coordinate : surface->GetPoints()[point])
+    {
+      coordinate += move(random);
+    }
+  }
+  refitted.Refit();
+  const Tree made(*surface);
+  std::uniform_real_distribution<double> place(-5.0, 55.0);
+  for (int query = 0; query < 500; ++query)
+  {
+    const Tree::PositionType position{ place(random), place(random), place(random) };
+    const auto expected = made.FindClosestPoint(position);
+    const auto found = refitted.FindClosestPoint(position);
+    EXPECT_EQ(found.triangle, expected.triangle);
+    EXPECT_EQ(found.point, expected.point);
+  }
+}
+
 TEST(TriangleTree, WindsOnceInsideAndNotOutsideEvenAboveVerticesAndEdges)
 {
   auto surface = MakeTorus(8.0, 3.0, 32);

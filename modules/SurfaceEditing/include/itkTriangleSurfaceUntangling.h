@@ -2,6 +2,7 @@
 #define itkTriangleSurfaceUntangling_h
 
 #include "itkTriangleSurface.h"
+#include "itkTriangleTree.h"
 
 namespace itk
 {
@@ -31,6 +32,10 @@ struct TriangleSurfaceUntanglingReport
  * above 0 or not finite. */
 TriangleSurfaceUntanglingReport
 UntangleSurface(TriangleSurface & surface, double maximumMove, double shortEdge = 0.0);
+
+/** The same with a tree of the surface, which is refitted if points move. */
+TriangleSurfaceUntanglingReport
+UntangleSurface(TriangleSurface & surface, TriangleTree & tree, double maximumMove);
 
 } // namespace itk
 

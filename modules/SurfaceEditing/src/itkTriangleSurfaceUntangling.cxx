@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <mutex>
-#include <optional>
 
 namespace itk
 {
@@ -211,38 +210,22 @@ Untangle(TriangleSurface & surface,
   return fewest;
 }
 
-} // namespace
-
-TriangleSurfaceUntanglingReport
-UntangleSurface(TriangleSurface & surface, double maximumMove, double shortEdge)
+void
+CheckMaximumMove(double maximumMove)
 {
   if (!(maximumMove > 0.0) || !std::isfinite(maximumMove))
   {
     itkGenericExceptionMacro("Untangling needs a distance above 0 mm that points may move, not " << maximumMove << ".");
   }
-  std::optional<TriangleTree> tree;
-  Ids crossing;
-  if (shortEdge > 0.0)
-  {
-    crossing = FindCrossingTrianglesAtEdges(surface, shortEdge);
-  }
-  else
-  {
-    tree.emplace(surface);
-    crossing = FindCrossingTriangles(*tree);
-  }
-  if (crossing.empty())
-  {
-    return {};
-  }
-  if (!tree)
-  {
-    tree.emplace(surface);
-  }
+}
+
+TriangleSurfaceUntanglingReport
+UntangleAndReport(TriangleSurface & surface, const TriangleTree & tree, double maximumMove, const Ids & crossing)
+{
   const Points original = surface.GetPoints();
   TriangleSurfaceUntanglingReport report;
   report.crossingBefore = crossing.size();
-  report.crossingAfter = Untangle(surface, *tree, original, maximumMove, crossing);
+  report.crossingAfter = Untangle(surface, tree, original, maximumMove, crossing);
   for (std::size_t point = 0; point < original.size(); ++point)
   {
     const auto & moved = surface.GetPoints()[point];
@@ -252,6 +235,36 @@ UntangleSurface(TriangleSurface & surface, double maximumMove, double shortEdge)
       report.largestMove = std::max(report.largestMove, Distance(ToPosition(moved), ToPosition(original[point])));
     }
   }
+  return report;
+}
+
+} // namespace
+
+TriangleSurfaceUntanglingReport
+UntangleSurface(TriangleSurface & surface, double maximumMove, double shortEdge)
+{
+  if (!(shortEdge > 0.0))
+  {
+    TriangleTree tree(surface);
+    return UntangleSurface(surface, tree, maximumMove);
+  }
+  CheckMaximumMove(maximumMove);
+  const Ids crossing = FindCrossingTrianglesAtEdges(surface, shortEdge);
+  return crossing.empty() ? TriangleSurfaceUntanglingReport()
+                          : UntangleAndReport(surface, TriangleTree(surface), maximumMove, crossing);
+}
+
+TriangleSurfaceUntanglingReport
+UntangleSurface(TriangleSurface & surface, TriangleTree & tree, double maximumMove)
+{
+  CheckMaximumMove(maximumMove);
+  const Ids crossing = FindCrossingTriangles(tree);
+  if (crossing.empty())
+  {
+    return {};
+  }
+  const TriangleSurfaceUntanglingReport report = UntangleAndReport(surface, tree, maximumMove, crossing);
+  tree.Refit();
   return report;
 }
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace rhombic
 {
@@ -190,7 +191,9 @@ RefineSurface(itk::TriangleSurface & surface,
   }
   events.Progress("untangling " + name, 0.0);
   const bool isInTetrahedra = finish.smoothing <= 0.0 && shortEdge > 0.0;
-  const auto untangled = UntangleSurface(surface, spacing, isInTetrahedra ? shortEdge : 0.0);
+  std::optional<itk::TriangleTree> tree;
+  const auto untangled = isInTetrahedra ? UntangleSurface(surface, spacing, shortEdge)
+                                        : UntangleSurface(surface, tree.emplace(surface), spacing);
   if (untangled.crossingBefore > 0)
   {
     refinement.untangling = untangled;
@@ -202,13 +205,14 @@ RefineSurface(itk::TriangleSurface & surface,
   }
   if (finish.Simplifies())
   {
+    tree.reset();
     events.Progress("simplifying " + name, 0.0);
     refinement.simplification = Simplify(surface, finish, spacing);
     events.Note(DescribeSimplification(name, finish, *refinement.simplification));
   }
   if (!isInTetrahedra || refinement.untangling || finish.Simplifies())
   {
-    refinement.shellsTurned = TurnMisfacingShells(surface);
+    refinement.shellsTurned = tree ? TurnMisfacingShells(surface, *tree) : TurnMisfacingShells(surface);
   }
   return refinement;
 }

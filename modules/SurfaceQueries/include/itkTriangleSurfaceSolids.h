@@ -70,6 +70,10 @@ CountShells(const TriangleTree & surface);
 SizeValueType
 TurnMisfacingShells(TriangleSurface & surface);
 
+/** The same with a tree of the surface, which stays valid. */
+SizeValueType
+TurnMisfacingShells(TriangleSurface & surface, const TriangleTree & tree);
+
 } // namespace itk
 
 #endif

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace itk
@@ -251,21 +250,15 @@ CountShells(const TriangleTree & surface)
 SizeValueType
 TurnMisfacingShells(TriangleSurface & surface)
 {
-  TriangleSurfaceComponents components;
-  std::vector<double> volumes;
-  std::optional<TriangleTree> tree;
-  ForEachOnThreads(2, [&](std::size_t task) {
-    if (task == 0)
-    {
-      tree.emplace(surface);
-    }
-    else
-    {
-      components = FindComponents(surface);
-      volumes = ComputeComponentVolumes(surface, components);
-    }
-  });
-  const std::vector<std::uint8_t> misfacing = FindMisfacing(*tree, components, volumes);
+  return TurnMisfacingShells(surface, TriangleTree(surface));
+}
+
+SizeValueType
+TurnMisfacingShells(TriangleSurface & surface, const TriangleTree & tree)
+{
+  const TriangleSurfaceComponents components = FindComponents(surface);
+  const std::vector<std::uint8_t> misfacing =
+    FindMisfacing(tree, components, ComputeComponentVolumes(surface, components));
   for (auto & triangle : surface.GetTriangles())
   {
     if (misfacing[components.ofPoint[triangle[0]]])
