@@ -6,11 +6,13 @@
 #include "rhombicSourceLoading.h"
 #include "rhombicSurfaceReport.h"
 
+#include "itkFCCScanBorder.h"
 #include "itkForEachBlock.h"
 #include "itkTriangleSurfaceIntersections.h"
 #include "itkTriangleSurfaceMeasures.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -188,19 +190,32 @@ SpacingOf(const LoadedSource & loaded)
   return MeanSpacingOf(GeometryOf(loaded.labels->scan.image));
 }
 
-/** The smallest and the largest spacing of the lattice's axes if isosurfaces' points lie on the edges of its
- * tetrahedra. */
-std::optional<std::pair<double, double>>
-SpacingsOfTetrahedra(const LoadedSource & loaded, itk::FCCIsosurfaceMode mode)
+/** Finds which triangles of an isosurface may cross; nothing if all may. */
+using CandidateSearch = std::function<std::optional<itk::CrossingCandidates>(const itk::TriangleSurface &)>;
+
+/** In modes Tetrahedra and Fine points lie on the edges of tetrahedra, but for those near the walls, which were moved.
+ */
+CandidateSearch
+MakeCandidateSearch(const LoadedSource & loaded, itk::FCCIsosurfaceMode mode)
 {
   using Mode = itk::FCCIsosurfaceMode;
   if (loaded.requests.empty() || (mode != Mode::Tetrahedra && mode != Mode::Fine))
   {
-    return std::nullopt;
+    return [](const itk::TriangleSurface &) { return std::nullopt; };
   }
   const auto spacing = std::visit([](const auto & image) { return image->GetSpacing(); }, loaded.lattice);
-  return std::make_pair(*std::min_element(spacing.Begin(), spacing.End()),
-                        *std::max_element(spacing.Begin(), spacing.End()));
+  const double smallest = *std::min_element(spacing.Begin(), spacing.End());
+  const double largest = *std::max_element(spacing.Begin(), spacing.End());
+  return [smallest, largest, grid = loaded.grid](const itk::TriangleSurface & surface) {
+    constexpr double widthOfTetrahedron = 2.0; // spacings
+    itk::CrossingCandidates candidates;
+    candidates.longestEdge = itk::FindLongestRoundedEdge(surface, smallest, largest);
+    if (grid)
+    {
+      candidates.triangles = itk::FindTrianglesNearWalls(surface, *grid, 1.5 * widthOfTetrahedron * largest);
+    }
+    return std::optional(candidates);
+  };
 }
 
 /** Removes parts of a surface, smooths and simplifies it. Returns whether anything is left. */
@@ -208,7 +223,7 @@ bool
 Finish(MeshedSurface & surface,
        const SurfaceFinish & finish,
        double spacing,
-       const std::optional<std::pair<double, double>> & tetrahedra,
+       const CandidateSearch & findCandidates,
        const Events & events)
 {
   const auto finished = itk::TriangleSurface::New();
@@ -220,9 +235,8 @@ Finish(MeshedSurface & surface,
     events.Note(surface.scene.name + ": left out, as all its parts are below --min-volume");
     return false;
   }
-  const double shortEdge =
-    surface.request && tetrahedra ? itk::FindLongestRoundedEdge(*finished, tetrahedra->first, tetrahedra->second) : 0.0;
-  surface.refinement = RefineSurface(*finished, finish, spacing, surface.scene.name, events, shortEdge);
+  const auto candidates = surface.request ? findCandidates(*finished) : std::nullopt;
+  surface.refinement = RefineSurface(*finished, finish, spacing, surface.scene.name, events, candidates);
   return true;
 }
 
@@ -231,13 +245,13 @@ void
 FinishAll(std::vector<MeshedSurface> & surfaces,
           const SurfaceFinish & finish,
           double spacing,
-          const std::optional<std::pair<double, double>> & tetrahedra,
+          const CandidateSearch & findCandidates,
           const Events & events)
 {
   std::vector<MeshedSurface> finished;
   for (MeshedSurface & surface : surfaces)
   {
-    if (Finish(surface, finish, spacing, tetrahedra, events))
+    if (Finish(surface, finish, spacing, findCandidates, events))
     {
       finished.push_back(std::move(surface));
     }
@@ -325,11 +339,11 @@ MeshScan(const MeshScanSettings & settings, const Events & events)
     AddLabels(loaded, settings, events, surfaces);
   }
   const double spacing = SpacingOf(loaded);
-  const auto tetrahedra = SpacingsOfTetrahedra(loaded, settings.surfaces.mode);
+  const auto findCandidates = MakeCandidateSearch(loaded, settings.surfaces.mode);
   loaded.lattice = FCCVolume();
   loaded.labels.reset();
   CheckFiles(PathsOf(settings.mesh, surfaces), settings);
-  FinishAll(surfaces, settings.finish, spacing, tetrahedra, events);
+  FinishAll(surfaces, settings.finish, spacing, findCandidates, events);
 
   const FileInspection inspection(settings, loaded.scan, events);
   const FileStaging staging(settings, inspection, sourceReport);
@@ -339,7 +353,7 @@ MeshScan(const MeshScanSettings & settings, const Events & events)
   StagedFiles staged;
   for (std::size_t n = 0; n < paths.size(); ++n)
   {
-    events.Progress("writing", static_cast<double>(n) / static_cast<double>(paths.size()));
+    events.Progress("writing and measuring", static_cast<double>(n) / static_cast<double>(paths.size()));
     staging.Stage(paths[n], surfaces.data() + n * perFile, perFile, staged);
   }
   if (!settings.measures.empty())
@@ -347,7 +361,7 @@ MeshScan(const MeshScanSettings & settings, const Events & events)
     StageMeasureTable(surfaces, settings.surfaces.mode, settings.measures, staged);
   }
   staged.Commit();
-  events.Progress("writing", 1.0);
+  events.Progress("writing and measuring", 1.0);
   return paths;
 }
 

@@ -1,5 +1,6 @@
 #include "itkFCCIsosurfaceFilter.h"
 
+#include "itkFCCScanBorder.h"
 #include "itkFCCTestImages.h"
 #include "itkTriangleSurfaceIntersections.h"
 
@@ -15,11 +16,11 @@ using Mode = itk::FCCIsosurfaceMode;
 /** Noise of values so different that points crowd at the ends of their edges, where rounding may make triangles cross.
  */
 ImageType::Pointer
-MakeUnevenNoise(unsigned int seed, double farthest)
+MakeUnevenNoise(unsigned int seed, double farthest, const ImageType::SizeType & size = { { 5, 8, 8 } })
 {
   std::mt19937 random(seed);
   const auto image = ImageType::New();
-  image->SetRegions(ImageType::SizeType{ { 5, 8, 8 } });
+  image->SetRegions(size);
   ImageType::SpacingType spacing;
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
@@ -45,7 +46,50 @@ MakeUnevenNoise(unsigned int seed, double farthest)
 class FCCSurfaceCrossings : public testing::TestWithParam<Mode>
 {};
 
-/** Triangles in different tetrahedra cross at most where FindCrossingTrianglesAtEdges() looks: the audit finds no
+itk::TriangleSurface::Pointer
+Extract(ImageType * image, Mode mode)
+{
+  const auto filter = Filter::New();
+  filter->SetInput(image);
+  filter->SetMode(mode);
+  filter->SetIsovalue(0.0);
+  filter->ComputeNormalsOff();
+  filter->Update();
+  return filter->GetOutput();
+}
+
+double
+LongestRoundedEdge(const itk::TriangleSurface & surface, const ImageType & image)
+{
+  const auto & spacing = image.GetSpacing();
+  return FindLongestRoundedEdge(
+    surface, *std::min_element(spacing.Begin(), spacing.End()), *std::max_element(spacing.Begin(), spacing.End()));
+}
+
+/** A scan whose outermost samples are 0.2 to 1.6 samples inside of the lattice's ends. */
+itk::ImageBase<3>::Pointer
+MakeScanGrid(const ImageType & image, unsigned int seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> wall(0.2, 1.6);
+  const auto low = itk::FindOuterCorner(image, false), high = itk::FindOuterCorner(image, true);
+  constexpr unsigned int samples = 12;
+  const auto scan = itk::ImageBase<3>::New();
+  itk::ImageBase<3>::SpacingType spacing;
+  itk::ImageBase<3>::PointType origin;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    const double before = wall(random), after = wall(random);
+    spacing[axis] = (high[axis] - low[axis]) / (samples - 1 + before + after);
+    origin[axis] = low[axis] + before * spacing[axis];
+  }
+  scan->SetSpacing(spacing);
+  scan->SetOrigin(origin);
+  scan->SetRegions(itk::Size<3>{ { samples, samples, samples } });
+  return scan;
+}
+
+/** Triangles in different tetrahedra cross at most where FindCrossingTriangles() looks: the search of all finds no
  * others. */
 TEST_P(FCCSurfaceCrossings, OfPointsOnEdgesOfTetrahedraAreAtShortEdges)
 {
@@ -54,18 +98,9 @@ TEST_P(FCCSurfaceCrossings, OfPointsOnEdgesOfTetrahedraAreAtShortEdges)
   {
     const double farthest = seed % 3 == 0 ? 0.0 : std::pow(10.0, 1 + seed % 4);
     const auto image = MakeUnevenNoise(seed, farthest);
-    const auto filter = Filter::New();
-    filter->SetInput(image);
-    filter->SetMode(GetParam());
-    filter->SetIsovalue(0.0);
-    filter->ComputeNormalsOff();
-    filter->Update();
-    const itk::TriangleSurface & surface = *filter->GetOutput();
-    const auto & spacing = image->GetSpacing();
-    const double longest = FindLongestRoundedEdge(
-      surface, std::min({ spacing[0], spacing[1], spacing[2] }), std::max({ spacing[0], spacing[1], spacing[2] }));
-    const auto found = FindCrossingTriangles(itk::TriangleTree(surface));
-    EXPECT_EQ(FindCrossingTrianglesAtEdges(surface, longest), found) << seed;
+    const auto surface = Extract(image, GetParam());
+    const auto found = FindCrossingTriangles(itk::TriangleTree(*surface));
+    EXPECT_EQ(FindCrossingTriangles(*surface, { LongestRoundedEdge(*surface, *image) }), found) << seed;
     const bool crosses = !found.empty();
     crossing += crosses ? 1 : 0;
     if (farthest == 0.0)
@@ -74,6 +109,27 @@ TEST_P(FCCSurfaceCrossings, OfPointsOnEdgesOfTetrahedraAreAtShortEdges)
     }
   }
   EXPECT_GT(crossing, 0u) << "the test's own volumes";
+}
+
+/** The same once the walls were moved, which takes points off their edges. */
+TEST_P(FCCSurfaceCrossings, OfMovedWallsAreNearThem)
+{
+  for (unsigned int seed = 0; seed < 60; ++seed)
+  {
+    const auto image = MakeUnevenNoise(seed, seed % 3 == 0 ? 0.0 : 1000.0, { { 9, 16, 16 } });
+    const auto surface = Extract(image, GetParam());
+    const auto scan = MakeScanGrid(*image, seed);
+    const double longest = LongestRoundedEdge(*surface, *image);
+    MoveWallsToBorder(*surface, *scan, itk::FindOuterCorner(*image, false), itk::FindOuterCorner(*image, true));
+    const auto & spacing = image->GetSpacing();
+    const double margin = 3.0 * *std::max_element(spacing.Begin(), spacing.End());
+    const itk::CrossingCandidates candidates{ longest, FindTrianglesNearWalls(*surface, *scan, margin) };
+    if (seed % 2 == 0)
+    {
+      EXPECT_LT(candidates.triangles.size(), surface->GetNumberOfTriangles()) << seed;
+    }
+    EXPECT_EQ(FindCrossingTriangles(*surface, candidates), FindCrossingTriangles(itk::TriangleTree(*surface))) << seed;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FCCSurfaceCrossings, testing::Values(Mode::Tetrahedra, Mode::Fine));

@@ -39,6 +39,11 @@ MoveWallsToBorder(TriangleSurface & surface,
                   const Point<double, 3> & lowCorner,
                   const Point<double, 3> & highCorner);
 
+/** The ids, ascending, of the triangles with a point beyond the scan's outermost samples, where MoveWallsToBorder()
+ * moves points, or less than \a margin mm inside of them. */
+std::vector<std::uint32_t>
+FindTrianglesNearWalls(const TriangleSurface & surface, const ImageBase<3> & scan, double margin);
+
 } // namespace itk
 
 #endif

@@ -1,5 +1,7 @@
 #include "itkFCCScanBorder.h"
 
+#include "itkForEachBlock.h"
+
 #include <algorithm>
 #include <array>
 
@@ -69,6 +71,41 @@ MoveWallsToBorder(TriangleSurface & surface,
     }
   }
   surface.Modified();
+}
+
+std::vector<std::uint32_t>
+FindTrianglesNearWalls(const TriangleSurface & surface, const ImageBase<3> & scan, double margin)
+{
+  const auto & region = scan.GetLargestPossibleRegion();
+  const auto isNear = [&](std::uint32_t id) {
+    Point<double, 3> position;
+    const auto & point = surface.GetPoints()[id];
+    std::copy(point.begin(), point.end(), position.Begin());
+    const auto index = scan.TransformPhysicalPointToContinuousIndex<double>(position);
+    bool isInside = true;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const double samples = margin / scan.GetSpacing()[axis];
+      const auto first = static_cast<double>(region.GetIndex(axis));
+      const double last = first + static_cast<double>(region.GetSize(axis)) - 1.0;
+      isInside &= index[axis] >= first + samples && index[axis] <= last - samples;
+    }
+    return !isInside;
+  };
+  std::vector<std::uint8_t> areNear(surface.GetNumberOfPoints());
+  constexpr std::size_t pointsOfBlock = 16384;
+  ForEachInBlocks(
+    areNear.size(), pointsOfBlock, [&](std::size_t id) { areNear[id] = isNear(static_cast<std::uint32_t>(id)); });
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t triangle = 0; triangle < surface.GetNumberOfTriangles(); ++triangle)
+  {
+    const auto & [a, b, c] = surface.GetTriangles()[triangle];
+    if (areNear[a] != 0 || areNear[b] != 0 || areNear[c] != 0)
+    {
+      found.push_back(triangle);
+    }
+  }
+  return found;
 }
 
 } // namespace itk

@@ -1,8 +1,9 @@
 #ifndef itkTriangleSurfaceUntangling_h
 #define itkTriangleSurfaceUntangling_h
 
-#include "itkTriangleSurface.h"
-#include "itkTriangleTree.h"
+#include "itkTriangleSurfaceIntersections.h"
+
+#include <optional>
 
 namespace itk
 {
@@ -24,18 +25,19 @@ struct TriangleSurfaceUntanglingReport
  * point moves farther than \a maximumMove mm. Ends after 16 rounds without progress, or after 40, with the state that
  * has the fewest crossing triangles and no triangle without area.
  *
- * If \a shortEdge is above 0, triangles cross only at edges of that length in mm (see FindLongestRoundedEdge()), and
- * are only searched there.
- *
  * Runs on several threads, with the same bytes for any number of them; time is one search for crossings plus rounds
  * over the crossing triangles only. Memory about 60 bytes per triangle. Throws ExceptionObject if \a maximumMove is not
  * above 0 or not finite. */
 TriangleSurfaceUntanglingReport
-UntangleSurface(TriangleSurface & surface, double maximumMove, double shortEdge = 0.0);
+UntangleSurface(TriangleSurface & surface, double maximumMove);
 
-/** The same with a tree of the surface, which is refitted if points move. */
+/** The same with a tree of the surface, which is refitted if points move. Triangles cross only where \a candidates say,
+ * if there are any, and are only searched there. */
 TriangleSurfaceUntanglingReport
-UntangleSurface(TriangleSurface & surface, TriangleTree & tree, double maximumMove);
+UntangleSurface(TriangleSurface & surface,
+                TriangleTree & tree,
+                double maximumMove,
+                const std::optional<CrossingCandidates> & candidates = std::nullopt);
 
 } // namespace itk
 

@@ -102,8 +102,7 @@ struct Refinement
  *
  * \param spacing of the lattice in mm (see MeanSpacingOf())
  * \param name of the surface, for progress and messages
- * \param shortEdge for a surface whose points lie on the edges of tetrahedra: the longest edges in mm at which
- * triangles may cross (see itk::FindLongestRoundedEdge()); 0: they may cross anywhere
+ * \param candidates which triangles may cross before the surface is smoothed; nothing: all may
  *
  * Throws itk::ExceptionObject as itk::UntangleSurface() and itk::SimplifySurface() do. */
 Refinement
@@ -112,7 +111,7 @@ RefineSurface(itk::TriangleSurface & surface,
               double spacing,
               const std::string & name,
               const Events & events,
-              double shortEdge = 0.0);
+              const std::optional<itk::CrossingCandidates> & candidates = std::nullopt);
 
 } // namespace rhombic
 

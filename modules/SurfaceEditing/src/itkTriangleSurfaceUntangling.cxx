@@ -210,15 +210,6 @@ Untangle(TriangleSurface & surface,
   return fewest;
 }
 
-void
-CheckMaximumMove(double maximumMove)
-{
-  if (!(maximumMove > 0.0) || !std::isfinite(maximumMove))
-  {
-    itkGenericExceptionMacro("Untangling needs a distance above 0 mm that points may move, not " << maximumMove << ".");
-  }
-}
-
 TriangleSurfaceUntanglingReport
 UntangleAndReport(TriangleSurface & surface, const TriangleTree & tree, double maximumMove, const Ids & crossing)
 {
@@ -241,24 +232,23 @@ UntangleAndReport(TriangleSurface & surface, const TriangleTree & tree, double m
 } // namespace
 
 TriangleSurfaceUntanglingReport
-UntangleSurface(TriangleSurface & surface, double maximumMove, double shortEdge)
+UntangleSurface(TriangleSurface & surface, double maximumMove)
 {
-  if (!(shortEdge > 0.0))
-  {
-    TriangleTree tree(surface);
-    return UntangleSurface(surface, tree, maximumMove);
-  }
-  CheckMaximumMove(maximumMove);
-  const Ids crossing = FindCrossingTrianglesAtEdges(surface, shortEdge);
-  return crossing.empty() ? TriangleSurfaceUntanglingReport()
-                          : UntangleAndReport(surface, TriangleTree(surface), maximumMove, crossing);
+  TriangleTree tree(surface);
+  return UntangleSurface(surface, tree, maximumMove);
 }
 
 TriangleSurfaceUntanglingReport
-UntangleSurface(TriangleSurface & surface, TriangleTree & tree, double maximumMove)
+UntangleSurface(TriangleSurface & surface,
+                TriangleTree & tree,
+                double maximumMove,
+                const std::optional<CrossingCandidates> & candidates)
 {
-  CheckMaximumMove(maximumMove);
-  const Ids crossing = FindCrossingTriangles(tree);
+  if (!(maximumMove > 0.0) || !std::isfinite(maximumMove))
+  {
+    itkGenericExceptionMacro("Untangling needs a distance above 0 mm that points may move, not " << maximumMove << ".");
+  }
+  const Ids crossing = candidates ? FindCrossingTriangles(surface, *candidates) : FindCrossingTriangles(tree);
   if (crossing.empty())
   {
     return {};

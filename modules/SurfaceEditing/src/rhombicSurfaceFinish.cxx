@@ -180,7 +180,7 @@ RefineSurface(itk::TriangleSurface & surface,
               double spacing,
               const std::string & name,
               const Events & events,
-              double shortEdge)
+              const std::optional<itk::CrossingCandidates> & candidates)
 {
   Refinement refinement;
   if (finish.smoothing > 0.0)
@@ -190,10 +190,9 @@ RefineSurface(itk::TriangleSurface & surface,
     events.Note(DescribeSmoothing(name, *refinement.smoothing));
   }
   events.Progress("untangling " + name, 0.0);
-  const bool isInTetrahedra = finish.smoothing <= 0.0 && shortEdge > 0.0;
   std::optional<itk::TriangleTree> tree;
-  const auto untangled = isInTetrahedra ? UntangleSurface(surface, spacing, shortEdge)
-                                        : UntangleSurface(surface, tree.emplace(surface), spacing);
+  const auto untangled =
+    UntangleSurface(surface, tree.emplace(surface), spacing, finish.smoothing > 0.0 ? std::nullopt : candidates);
   if (untangled.crossingBefore > 0)
   {
     refinement.untangling = untangled;
@@ -210,10 +209,7 @@ RefineSurface(itk::TriangleSurface & surface,
     refinement.simplification = Simplify(surface, finish, spacing);
     events.Note(DescribeSimplification(name, finish, *refinement.simplification));
   }
-  if (!isInTetrahedra || refinement.untangling || finish.Simplifies())
-  {
-    refinement.shellsTurned = tree ? TurnMisfacingShells(surface, *tree) : TurnMisfacingShells(surface);
-  }
+  refinement.shellsTurned = tree ? TurnMisfacingShells(surface, *tree) : TurnMisfacingShells(surface);
   return refinement;
 }
 

@@ -37,10 +37,19 @@ FindCrossingTriangles(const TriangleTree & tree);
 double
 FindLongestRoundedEdge(const TriangleSurface & surface, double smallestSpacing, double largestSpacing);
 
-/** The ids of the triangles that cross others with which they have a point in common, or that lie at the other end of
- * an edge of at most \a longest mm; ascending. Exact; far quicker than to test all triangles, and needs no tree. */
+/** \class CrossingCandidates
+ * \brief Which triangles of a surface may cross others: those that have a point in common with the other, those at the
+ * two ends of a short edge, and those of a list. */
+struct CrossingCandidates
+{
+  double longestEdge = 0.0;               ///< in mm, see FindLongestRoundedEdge()
+  std::vector<std::uint32_t> triangles{}; ///< ids
+};
+
+/** The ids of the triangles that cross others or are duplicates, ascending, where the candidates are all that can.
+ * Exact; far quicker than to test all triangles, if the list is short. */
 std::vector<std::uint32_t>
-FindCrossingTrianglesAtEdges(const TriangleSurface & surface, double longest);
+FindCrossingTriangles(const TriangleSurface & surface, const CrossingCandidates & candidates);
 
 } // namespace itk
 

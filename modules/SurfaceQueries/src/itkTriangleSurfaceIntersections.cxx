@@ -209,6 +209,49 @@ private:
   std::vector<std::uint8_t> m_AreUnfolded;
 };
 
+/** The triangles that cross others with which they have a point in common, or that lie at the other end of an edge of
+ * at most \a longest mm; each perhaps several times. */
+std::vector<std::uint32_t>
+FindCrossingAtEdges(const TriangleSurface & surface, double longest)
+{
+  const TrianglesOfPoints fans(surface);
+  const std::vector<std::uint8_t> areUnfolded = FindUnfoldedPoints(surface, fans);
+  const auto & points = surface.GetPoints();
+  const auto & triangles = surface.GetTriangles();
+  std::vector<std::uint32_t> found;
+  std::mutex mutex;
+  const auto test = [&](std::uint32_t a, std::uint32_t b) {
+    const auto isCorner = [&](std::uint32_t point) {
+      return areUnfolded[point] != 0 && std::count(triangles[b].begin(), triangles[b].end(), point) > 0;
+    };
+    if (!std::any_of(triangles[a].begin(), triangles[a].end(), isCorner) &&
+        TriangleTree::BoxOf(points, triangles[a]).Overlaps(TriangleTree::BoxOf(points, triangles[b])) &&
+        FindContact(points, triangles[a], triangles[b]) == Contact::Crossing)
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      found.insert(found.end(), { a, b });
+    }
+  };
+  constexpr std::size_t pointsOfBlock = 16384;
+  ForEachInBlocks(points.size(), pointsOfBlock, [&](std::size_t point) {
+    fans.VisitTriangles(point, [&](std::uint32_t a) {
+      if (areUnfolded[point] == 0)
+      {
+        fans.VisitTriangles(point, [&](std::uint32_t b) { a < b ? test(a, b) : void(); });
+      }
+    });
+    fans.VisitNeighbours(point, [&](std::uint32_t next, std::uint32_t) {
+      if (Distance(ToPosition(points[point]), ToPosition(points[next])) <= longest)
+      {
+        fans.VisitTriangles(point, [&](std::uint32_t a) {
+          fans.VisitTriangles(next, [&](std::uint32_t b) { a != b ? test(a, b) : void(); });
+        });
+      }
+    });
+  });
+  return found;
+}
+
 } // namespace
 
 TriangleSurfaceIntersections
@@ -283,43 +326,11 @@ FindLongestRoundedEdge(const TriangleSurface & surface, double smallestSpacing, 
 }
 
 std::vector<std::uint32_t>
-FindCrossingTrianglesAtEdges(const TriangleSurface & surface, double longest)
+FindCrossingTriangles(const TriangleSurface & surface, const CrossingCandidates & candidates)
 {
-  const TrianglesOfPoints fans(surface);
-  const std::vector<std::uint8_t> areUnfolded = FindUnfoldedPoints(surface, fans);
-  const auto & points = surface.GetPoints();
-  const auto & triangles = surface.GetTriangles();
-  std::vector<std::uint32_t> found;
-  std::mutex mutex;
-  const auto test = [&](std::uint32_t a, std::uint32_t b) {
-    const auto isCorner = [&](std::uint32_t point) {
-      return areUnfolded[point] != 0 && std::count(triangles[b].begin(), triangles[b].end(), point) > 0;
-    };
-    if (!std::any_of(triangles[a].begin(), triangles[a].end(), isCorner) &&
-        TriangleTree::BoxOf(points, triangles[a]).Overlaps(TriangleTree::BoxOf(points, triangles[b])) &&
-        FindContact(points, triangles[a], triangles[b]) == Contact::Crossing)
-    {
-      const std::lock_guard<std::mutex> lock(mutex);
-      found.insert(found.end(), { a, b });
-    }
-  };
-  constexpr std::size_t pointsOfBlock = 16384;
-  ForEachInBlocks(points.size(), pointsOfBlock, [&](std::size_t point) {
-    fans.VisitTriangles(point, [&](std::uint32_t a) {
-      if (areUnfolded[point] == 0)
-      {
-        fans.VisitTriangles(point, [&](std::uint32_t b) { a < b ? test(a, b) : void(); });
-      }
-    });
-    fans.VisitNeighbours(point, [&](std::uint32_t next, std::uint32_t) {
-      if (Distance(ToPosition(points[point]), ToPosition(points[next])) <= longest)
-      {
-        fans.VisitTriangles(point, [&](std::uint32_t a) {
-          fans.VisitTriangles(next, [&](std::uint32_t b) { a < b ? test(a, b) : void(); });
-        });
-      }
-    });
-  });
+  std::vector<std::uint32_t> found = FindCrossingAtEdges(surface, candidates.longestEdge);
+  const std::vector<std::uint32_t> listed = FindCrossingTriangles(TriangleTree(surface, candidates.triangles));
+  found.insert(found.end(), listed.begin(), listed.end());
   SortUnique(found);
   return found;
 }

@@ -42,7 +42,10 @@ struct EdgeRows
       {
         gradients[place] = field.GetGradients(row, plane);
       }
-      shift = place == 1 ? static_cast<SizeValueType>(offset[0]) : shift;
+      if (place == 1)
+      {
+        shift = static_cast<SizeValueType>(offset[0]);
+      }
     }
     if (passesThroughMiddle)
     {
