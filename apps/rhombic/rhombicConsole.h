@@ -43,8 +43,9 @@ public:
   void
   Finish();
 
-  /** With Verbosity::Verbose: writes the time of each kind of step, which is the first word of the step ("measuring"), and
-   * its share. A step lasts until progress of another one is reported; what was before the first step is "start". */
+  /** With Verbosity::Verbose: writes the time of each kind of step, which is the first word of the step ("untangling"),
+   * and its share. A step lasts until progress of another one is reported; what was before the first step is "start".
+   */
   void
   NoteStepTimes();
 

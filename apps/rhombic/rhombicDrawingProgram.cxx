@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <iterator>
+#include <system_error>
 
 #include <unistd.h>
 
@@ -35,12 +36,16 @@ StartDrawingProgram(char ** arguments)
     if (NamesDrawingCommand(*argument)) // perhaps as an option's value: the drawing program has the other commands, too
     {
       std::error_code error;
-      const auto folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-      const auto program = (folder / RHOMBIC_DRAWING_PROGRAM).lexically_normal();
-      execv(program.c_str(), arguments);
+      const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+      const auto program = (self.parent_path() / RHOMBIC_DRAWING_PROGRAM).lexically_normal();
+      if (!error)
+      {
+        execv(program.c_str(), arguments);
+        error.assign(errno, std::generic_category());
+      }
       std::cerr << "rhombic: " << program.string()
-                << ", the part of rhombic that draws, can't be started: " << std::strerror(errno)
-                << "; install rhombic again.\n";
+                << ", the part of rhombic that draws, can't be started: " << error.message()
+                << "; install rhombic again, and mount /proc.\n";
       std::_Exit(1);
     }
   }

@@ -65,9 +65,15 @@ SurfaceOptions::GetSelection(const std::optional<SurfaceRequest> & further) cons
   {
     const Preset preset = FindPreset(m_Preset);
     selection.requests = preset.surfaces;
-    selection.removesTable = preset.removesTable && !m_KeepsTable;
+    if (preset.removesTable)
+    {
+      selection.removesTable = true;
+    }
   }
-  selection.removesTable = selection.removesTable || m_RemovesTable;
+  if (m_RemovesTable || m_KeepsTable)
+  {
+    selection.removesTable = m_RemovesTable;
+  }
   for (const std::string & text : m_Surfaces)
   {
     selection.requests.push_back(ParseSurfaceRequest(text, selection.requests.size()));

@@ -39,7 +39,9 @@ struct SurfaceSelection
 {
   std::vector<SurfaceRequest> requests;
   std::optional<LabelSelection> labels; ///< from a label map that lies where the scan does
-  bool removesTable = false; ///< for isosurfaces of CTs: see RemoveTable(); without effect on lattice volumes
+  /** For isosurfaces of CTs: see RemoveTable(); without effect on lattice volumes. Nothing: not removed, and a note
+   * says so. */
+  std::optional<bool> removesTable;
   itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
 };
 

@@ -91,11 +91,13 @@ LoadLabels(const ScanSource & source, const LabelMapSource & labels, const Scan 
   return map;
 }
 
-/** Removes the table if asked; says so if a scan keeps it. Scans of unknown modality are taken for CTs when asked. */
+/** Removes the table if asked; says so if a scan keeps it unasked. Scans of unknown modality are taken for CTs when
+ * asked. */
 std::optional<TableRemoval>
-TreatTable(Scan & scan, bool isRemoved, const Events & events)
+TreatTable(Scan & scan, const std::optional<bool> & removesTable, const Events & events)
 {
   const bool isCT = scan.modality == "CT";
+  const bool isRemoved = removesTable.value_or(false);
   if (isRemoved && (isCT || scan.modality.empty()))
   {
     return RemoveTable(scan, events);
@@ -104,7 +106,7 @@ TreatTable(Scan & scan, bool isRemoved, const Events & events)
   {
     events.Note("no table is removed, as the scan is no CT, but of modality " + scan.modality);
   }
-  else if (isCT)
+  else if (isCT && !removesTable)
   {
     events.Note("the scan is taken as it is; --remove-table removes table, holders and sheets around the patient");
   }

@@ -15,6 +15,6 @@ endif()
 
 file(COPY "${PROGRAM}" DESTINATION "${WORK}/bin")
 execute_process(COMMAND "${WORK}/bin/rhombic" doctor RESULT_VARIABLE status ERROR_VARIABLE sentence)
-if(NOT status EQUAL 1 OR NOT sentence MATCHES "^rhombic: .*rhombic-draw.*can't be started.*install rhombic again\\.\n$")
+if(NOT status EQUAL 1 OR NOT sentence MATCHES "^rhombic: .*rhombic-draw.*can't be started.*install rhombic again, and mount /proc\\.\n$")
   message(FATAL_ERROR "Without rhombic-draw: exit code ${status}, ${sentence}")
 endif()

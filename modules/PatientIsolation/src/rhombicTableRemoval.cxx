@@ -407,6 +407,12 @@ RemoveTable(Scan & scan, const Events & events)
     std::visit([&](const auto & image) { DrawSkin(*image, coarse.shape, cut, removal.airValue); }, scan.image);
     NoteRemoval(removal, events);
   }
+  else
+  {
+    removal = TableRemoval();
+    removal.notes.push_back("nothing was removed around the patient: there is no object of 1 ml or more");
+    events.Note(removal.notes.back());
+  }
   events.Progress(step, 1.0);
   return removal;
 }
