@@ -36,7 +36,9 @@ public:
   }
 
   /** Sets and notes the audit of a surface as its file holds it. Throws Failure(NotWatertight) for a surface that has
-   * to be watertight and is not. \param read the surface, read back from the file */
+   * to be watertight and is not.
+   *
+   * \param read the surface, read back from the file */
   void
   Audit(const itk::TriangleSurface & read, MeshedSurface & surface) const;
 
