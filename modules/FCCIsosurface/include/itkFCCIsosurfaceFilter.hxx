@@ -457,18 +457,7 @@ FCCIsosurfaceFilter<TInputImage>::MakeField(double isovalue, RecyclingMemory & s
     m_WorkProgress->CheckAbort(); // slabs take long
     FCCRowKernels::Subtract(GetSample(*image, 0, j, k), width, isovalue, values);
   };
-  const auto readValues = [image,
-                           isovalue](const std::array<SizeValueType, 3> * sites, unsigned int wanted, float * values) {
-    for (; wanted != 0; wanted &= wanted - 1)
-    {
-      const auto n = static_cast<unsigned int>(__builtin_ctz(wanted));
-      const auto [i, j, k] = sites[n];
-      const PixelType sample = *GetSample(*image, i - 1, j - 1, k - 1);
-      values[n] = static_cast<float>(static_cast<double>(sample) - isovalue);
-    }
-  };
-  return { this->GetRegion(),  this->MakeFrame(), m_InsideIsBelow, m_Closed, m_UsedFraction,
-           this->IsInMemory(), readRow,           readValues,      &scratch };
+  return { this->GetRegion(), this->MakeFrame(), m_InsideIsBelow, m_Closed, m_UsedFraction, readRow, &scratch };
 }
 
 template <typename TInputImage>

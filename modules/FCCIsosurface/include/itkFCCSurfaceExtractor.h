@@ -49,19 +49,12 @@ struct FCCScalarField
   /** Writes the values of the image's row (\a j, \a k), counted from 0, less the isovalue. */
   using RowReader = std::function<void(SizeValueType j, SizeValueType k, float * values)>;
 
-  /** Writes the values at sites, less the isovalue: values[n] at sites[n] for each bit n of \a wanted. Sites are
-   * counted from a layer of one site around the image. */
-  using ValueReader =
-    std::function<void(const std::array<SizeValueType, 3> * sites, unsigned int wanted, float * values)>;
-
   ImageRegion<3> region;
   FCCFrame frame;
   bool insideIsBelow;
   bool closed;            ///< whether the surface closes where a body reaches the image's border
   double minimumFraction; ///< least distance of a point from the ends of its edge, relative to the edge
-  bool isInMemory;        ///< whether the whole image is in memory, not only the current slab with PlanesAround
   RowReader readRow;
-  ValueReader readValues;
   std::pmr::memory_resource * scratch; ///< working memory of one call of Count() or Fill(), for any thread
 };
 
@@ -111,8 +104,7 @@ public:
   virtual void
   Count(SizeValueType begin, SizeValueType end) = 0;
 
-  /** Finds from the counts where the points and triangles of each plane begin. Reads samples only where the whole image
-   * is in memory. */
+  /** Finds from the counts where the points and triangles of each plane begin. Reads no samples. */
   virtual void
   Resolve(const Crew & crew) = 0;
 

@@ -15,12 +15,9 @@ FCCClusterPlane::FCCClusterPlane(const FCCSigns & signs, std::pmr::memory_resour
 std::uint32_t
 FCCClusterPlane::Find(SizeValueType k,
                       const FCCClusterPlane & below,
-                      const FCCFieldPlanes & field,
-                      bool insideIsBelow,
                       const FCCSplitRows * splits,
                       std::uint32_t first)
 {
-  m_NearerEnds.Find(k, field, insideIsBelow);
   m_WholeSites.Clear();
   m_Split.Clear();
   m_SplitSites.clear();

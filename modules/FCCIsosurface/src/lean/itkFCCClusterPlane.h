@@ -23,17 +23,18 @@ public:
 
   FCCClusterPlane(const FCCSigns & signs, std::pmr::memory_resource * scratch);
 
-  /** Finds nearer ends and vertices of plane \a k from its values and the plane below it, which must have been found
-   * last; \a below is not looked at for plane 0. Vertices are numbered from \a first on; returns the number after the
-   * last. Without \a splits all sites are whole, and no vertex is numbered. */
+  /** Finds the vertices of plane \a k from its nearer ends and the plane below it, which must have been found last;
+   * \a below is not looked at for plane 0. Vertices are numbered from \a first on; returns the number after the last.
+   * Without \a splits all sites are whole, and no vertex is numbered. */
   std::uint32_t
-  Find(SizeValueType k,
-       const FCCClusterPlane & below,
-       const FCCFieldPlanes & field,
-       bool insideIsBelow,
-       const FCCSplitRows * splits,
-       std::uint32_t first);
+  Find(SizeValueType k, const FCCClusterPlane & below, const FCCSplitRows * splits, std::uint32_t first);
 
+  /** To be found before the vertices. */
+  FCCNearerEnds &
+  GetNearerEnds()
+  {
+    return m_NearerEnds;
+  }
   const FCCNearerEnds &
   GetNearerEnds() const
   {

@@ -15,8 +15,7 @@ namespace itk
  * A. Gee, "Regularised marching tetrahedra", 1999), but where the surface would not stay a manifold of the same
  * topology (see FCCSplitSites).
  *
- * Resolve reads the values around some sites of any plane. Where no more than a slab is in memory, Count keeps the data
- * that Resolve needs, 12 bytes for each vertex.
+ * Count reads the values and keeps what the crossings are nearer to, less than a byte for each crossing.
  */
 class FCCLeanExtractor : public FCCSurfaceExtractor
 {
@@ -57,24 +56,10 @@ public:
   Finish(TriangleSurface & surface) override;
 
 private:
-  /** The sites of a plane that have crossings, ascending, and the nearer ends in their stars. */
-  struct RememberedPlane
-  {
-    std::vector<std::uint32_t> sites; ///< numbered along x, then y, in the plane
-    std::vector<FCCNearerEndsOfStar> nearerEnds;
-  };
-
-  RememberedPlane
-  Remember(SizeValueType k, const FCCClusterPlane & plane, const FCCFieldPlanes & field) const;
-
-  /** The nearer ends in the stars of sites, from the image or from what has been remembered. */
-  void
-  ReadNearerEnds(const SizeValueType * sites, SizeValueType count, FCCNearerEndsOfStar * nearerEnds) const;
-
   const FCCSigns & m_Signs;
   FCCScalarField m_Field;
   FCCSplitSites m_Splits;
-  std::vector<RememberedPlane> m_Remembered;  ///< by plane; empty if the image is in memory
+  std::vector<FCCNearerEnds::Packed> m_NearerEnds; ///< by plane
   std::vector<SizeValueType> m_FirstPoint;    ///< first point of each plane; counts until Resolve()
   std::vector<SizeValueType> m_FirstTriangle; ///< by plane: where the triangles of a slab that begins there are written
   std::vector<SizeValueType> m_Filled;        ///< by plane: the number of triangles of the slab that began there

@@ -2,6 +2,23 @@
 
 namespace itk
 {
+namespace
+{
+
+/** Calls use(n) for every eighth bit n from which on any of eight is set. */
+template <typename TUse>
+void
+ForEachByte(FCCBits::WordType word, const TUse & use)
+{
+  while (word != 0)
+  {
+    const auto n = static_cast<unsigned int>(__builtin_ctzll(word)) / 8 * 8;
+    word &= ~(FCCBits::WordType{ 0xFF } << n);
+    use(n);
+  }
+}
+
+} // namespace
 
 FCCNearerEnds::FCCNearerEnds(const FCCSigns & signs, std::pmr::memory_resource * scratch)
   : m_Signs(&signs)
@@ -75,6 +92,56 @@ FCCNearerEnds::FindRow(SizeValueType j,
   if (end.shift != 0)
   {
     move(end.shift > 0 ? last - 1 : 1, starts, ends);
+  }
+}
+
+auto
+FCCNearerEnds::Pack() const -> Packed
+{
+  Packed packed;
+  const SizeValueType words = m_Signs->GetNumberOfWords();
+  for (SizeValueType row = 0; row < m_Signs->GetHeight() * Types; ++row)
+  {
+    for (SizeValueType word = 0; word < words; ++word)
+    {
+      const WordType starts = m_Starts.GetRow(row)[word];
+      ForEachByte(starts | m_Ends.GetRow(row)[word],
+                  [&](unsigned int n) { packed.push_back(static_cast<std::uint8_t>(starts >> n)); });
+    }
+  }
+  packed.shrink_to_fit();
+  return packed;
+}
+
+void
+FCCNearerEnds::Unpack(SizeValueType k, const Packed & packed)
+{
+  const SizeValueType words = m_Signs->GetNumberOfWords();
+  const std::uint8_t * next = packed.data();
+  for (SizeValueType j = 0; j < m_Signs->GetHeight(); ++j)
+  {
+    for (std::uint8_t type = 0; type < Types; ++type)
+    {
+      const FCCStepTarget end(*m_Signs, j, k, FCCLattice::OwnedEdges[type]);
+      WordType * const starts = m_Starts.GetRow(j * Types + type);
+      WordType * const ends = m_Ends.GetRow(j * Types + type);
+      if (!end.isInBox)
+      {
+        std::fill_n(starts, words, 0);
+        std::fill_n(ends, words, 0);
+        continue;
+      }
+      const WordType * const row = m_Signs->GetRow(j, k);
+      const WordType * const endRow = m_Signs->GetRow(end.j, end.k);
+      for (SizeValueType word = 0; word < words; ++word)
+      {
+        const WordType cut = row[word] ^ FCCBits::Shifted(endRow, word, end.shift);
+        WordType isStart = 0;
+        ForEachByte(cut, [&](unsigned int n) { isStart |= WordType{ *next++ } << n; });
+        starts[word] = isStart;
+        ends[word] = cut ^ isStart;
+      }
+    }
   }
 }
 

@@ -33,6 +33,16 @@ public:
   void
   Find(SizeValueType k, const FCCFieldPlanes & field, bool insideIsBelow);
 
+  /** What has been found, without what the signs say: a byte for each eight edges of which any is cut. */
+  using Packed = std::vector<std::uint8_t>;
+
+  Packed
+  Pack() const;
+
+  /** Finds the crossings of plane \a k again. */
+  void
+  Unpack(SizeValueType k, const Packed & packed);
+
   /** Bit i: the edge of this type that site i stores is cut, and its start is nearer to the crossing. */
   const WordType *
   GetStarts(SizeValueType j, std::uint8_t type) const

@@ -1,91 +1,94 @@
 #include "itkFCCSiteDivision.h"
 
-#include "itkFCCNearerEnds.h"
-
 namespace itk
 {
 
-FCCNeighborhood::FCCNeighborhood(const FCCSigns & signs, SizeValueType number)
+FCCStarReader::FCCStarReader(const FCCSigns & signs,
+                             const std::array<const FCCNearerEnds *, 3> & nearerEnds,
+                             SizeValueType j,
+                             SizeValueType k)
+  : m_Width(signs.GetWidth())
 {
-  const SizeValueType size[3] = { signs.GetWidth(), signs.GetHeight(), signs.GetDepth() };
-  const SizeValueType index[3] = { number % size[0], number / size[0] % size[1], number / size[0] / size[1] };
-  const IndexValueType parity = signs.GetParity(index[1], index[2]);
   for (unsigned int site = 0; site < FCCSiteStar::Sites; ++site)
   {
-    const auto offset = FCCLattice::OffsetOf(FCCSiteStar::StepTo(site), parity);
-    bool isInBox = true;
-    bool isInImage = true;
-    auto & place = places[site];
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      place[axis] = index[axis] + static_cast<SizeValueType>(offset[axis]);
-      isInBox = isInBox && place[axis] < size[axis];
-      isInImage = isInImage && place[axis] - 1 < size[axis] - 2;
-    }
-    numbers[site] = (place[2] * size[1] + place[1]) * size[0] + place[0];
-    inBox |= unsigned{ isInBox } << site;
-    inImage |= unsigned{ isInImage } << site;
+    const FCCStepTarget target(signs, j, k, FCCSiteStar::StepTo(site));
+    m_Inside[site] = target.isInBox
+                       ? Bits{ signs.GetRow(target.j, target.k), static_cast<SizeValueType>(target.shift) }
+                       : Bits{ nullptr, m_Width };
+  }
+  for (unsigned int n = 0; n < FCCSiteStar::Edges; ++n)
+  {
+    const FCCSiteStar::Edge & edge = FCCSiteStar::Get().GetEdges()[n];
+    const unsigned int start = edge.ends[0];
+    const FCCStepTarget target(signs, j, k, FCCSiteStar::StepTo(start));
+    const auto plane = static_cast<std::size_t>(FCCSiteStar::StepTo(start)[2] + 1);
+    m_Starts[n] = target.isInBox ? Bits{ nearerEnds[plane]->GetStarts(target.j, edge.directions[0]),
+                                         static_cast<SizeValueType>(target.shift) }
+                                 : Bits{ nullptr, m_Width };
   }
 }
 
-FCCNearerEndsOfStar
-FindNearerEndsOfStar(const FCCSigns & signs,
-                     const FCCScalarField::ValueReader & readValues,
-                     bool insideIsBelow,
-                     SizeValueType site)
+auto
+FCCStarReader::Read(SizeValueType i) const -> Star
 {
-  const FCCNeighborhood sites(signs, site);
-  const unsigned int inside = sites.GetBits(signs, sites.inImage);
-  float values[FCCSiteStar::Sites] = {};
-  readValues(sites.places, sites.inImage, values);
-  const auto & edges = FCCSiteStar::Get().GetEdges();
-  FCCNearerEndsOfStar nearerEnds = 0;
-  for (std::uint64_t cut = FCCSiteStar::Get().GetCutEdges(inside); cut != 0; cut &= cut - 1)
+  Star star{ 0, 0 };
+  for (unsigned int site = 0; site < FCCSiteStar::Sites; ++site)
+  {
+    star.inside |= static_cast<std::uint16_t>(unsigned{ this->Test(m_Inside[site], i) } << site);
+  }
+  for (std::uint64_t cut = FCCSiteStar::Get().GetCutEdges(star.inside); cut != 0; cut &= cut - 1)
   {
     const auto n = static_cast<unsigned int>(__builtin_ctzll(cut));
-    const auto [a, b] = edges[n].ends;
-    const unsigned int outside = (inside >> a & 1) != 0 ? b : a;
-    const bool isOutsideInImage = (sites.inImage >> outside & 1) != 0;
-    const bool nearerToInside = isOutsideInImage && IsNearerToInside(values[a] + values[b], insideIsBelow);
-    nearerEnds |= FCCNearerEndsOfStar{ nearerToInside } << n;
+    star.starts |= std::uint64_t{ this->Test(m_Starts[n], i) } << n;
   }
-  return nearerEnds;
+  return star;
 }
 
 FCCSiteDivision::FCCSiteDivision(const FCCSigns & signs,
                                  const FCCSplitRows & split,
-                                 FCCNearerEndsOfStar nearerEnds,
-                                 SizeValueType number)
-  : m_Neighborhood(signs, number)
-  , m_Inside(m_Neighborhood.GetBits(signs, m_Neighborhood.inImage))
-  , m_Split(m_Neighborhood.GetBits(split, m_Neighborhood.inBox))
+                                 const FCCStarReader::Star & star,
+                                 const std::array<SizeValueType, 3> & place)
 {
-  for (unsigned int sites = m_Split; sites != 0; sites &= sites - 1)
+  const SizeValueType size[3] = { signs.GetWidth(), signs.GetHeight(), signs.GetDepth() };
+  const IndexValueType parity = signs.GetParity(place[1], place[2]);
+  for (unsigned int site = 0; site < FCCSiteStar::Sites; ++site)
   {
-    const auto site = static_cast<unsigned int>(__builtin_ctz(sites));
-    const auto [i, j, k] = m_Neighborhood.places[site];
-    m_Parts[site] = split.GetParts(i, j, k);
+    const auto offset = FCCLattice::OffsetOf(FCCSiteStar::StepTo(site), parity);
+    auto & [i, j, k] = m_Places[site];
+    i = place[0] + static_cast<SizeValueType>(offset[0]);
+    j = place[1] + static_cast<SizeValueType>(offset[1]);
+    k = place[2] + static_cast<SizeValueType>(offset[2]);
+    const bool isInBox = i < size[0] && j < size[1] && k < size[2];
+    if (isInBox && FCCBits::Test(split.GetRow(j, k), i))
+    {
+      m_Split |= 1U << site;
+      m_Parts[site] = split.GetParts(i, j, k);
+    }
   }
-  const auto & edges = FCCSiteStar::Get().GetEdges();
-  for (std::uint64_t cut = FCCSiteStar::Get().GetCutEdges(m_Inside); cut != 0; cut &= cut - 1)
-  {
-    const auto n = static_cast<unsigned int>(__builtin_ctzll(cut));
-    const auto [a, b] = edges[n].ends;
-    const unsigned int site = this->IsInside(a) == ((nearerEnds >> n & 1) != 0) ? a : b;
-    const unsigned int direction = edges[n].GetDirectionFrom(site);
-    m_NearerSite[n] = static_cast<std::uint8_t>(site);
-    m_Corners[n] = VertexOf(site,
-                            site == Center        ? direction
-                            : this->IsSplit(site) ? m_Parts[site].GetVertex(direction)
-                                                  : Whole);
-    m_Crossings |= site == Center ? 1U << direction : 0;
-  }
-  this->FindPolygons();
+  this->FindPolygons(star);
+  this->SetParts(m_Parts[Center]);
 }
 
+/** Finds the site's crossings, and the polygons with any of them. */
 void
-FCCSiteDivision::FindPolygons()
+FCCSiteDivision::FindPolygons(const FCCStarReader::Star & star)
 {
+  const auto & edges = FCCSiteStar::Get().GetEdges();
+  std::uint8_t nearerSites[FCCSiteStar::Edges]; // by edge, if it is cut; so are the corners
+  VertexType corners[FCCSiteStar::Edges];
+  for (std::uint64_t cut = FCCSiteStar::Get().GetCutEdges(star.inside); cut != 0; cut &= cut - 1)
+  {
+    const auto n = static_cast<unsigned int>(__builtin_ctzll(cut));
+    const unsigned int end = (star.starts >> n & 1) != 0 ? 0 : 1;
+    const unsigned int site = edges[n].ends[end];
+    const unsigned int direction = edges[n].directions[end];
+    nearerSites[n] = static_cast<std::uint8_t>(site);
+    corners[n] = VertexOf(site,
+                          site == Center        ? direction
+                          : this->IsSplit(site) ? m_Parts[site].GetVertex(direction)
+                                                : Whole);
+    m_Crossings |= site == Center ? 1U << direction : 0;
+  }
   for (const FCCSiteStar::Tetrahedron & tetrahedron : FCCSiteStar::Get().GetTetrahedra())
   {
     if ((tetrahedron.far & m_Crossings) == 0)
@@ -95,19 +98,30 @@ FCCSiteDivision::FindPolygons()
     unsigned int pattern = 0;
     for (unsigned int corner = 0; corner < 4; ++corner)
     {
-      pattern |= (m_Inside >> tetrahedron.sites[corner] & 1) << corner;
+      pattern |= (unsigned{ star.inside } >> tetrahedron.sites[corner] & 1) << corner;
     }
     const FCCTetrahedronPolygon & found = tetrahedron.polygons[pattern];
-    const std::uint8_t(&edges)[4] = tetrahedron.edges[pattern];
-    unsigned int corner = found.FindFirstCorner(this->IsInside(m_NearerSite[edges[found.decider]]));
+    const std::uint8_t(&crossed)[4] = tetrahedron.edges[pattern];
+    const bool isDeciderNearerToInside = (star.inside >> nearerSites[crossed[found.decider]] & 1) != 0;
+    unsigned int corner = found.FindFirstCorner(isDeciderNearerToInside);
     Polygon & polygon = m_Polygons[m_NumberOfPolygons++];
-    polygon.tetrahedron = &tetrahedron;
+    polygon.isBelow = tetrahedron.isBelow;
     polygon.size = found.size;
     for (unsigned int n = 0; n < found.size; ++n)
     {
-      polygon.corners[n] = m_Corners[edges[corner]];
+      polygon.corners[n] = corners[crossed[corner]];
       corner = corner + 1u < found.size ? corner + 1 : 0;
     }
+  }
+}
+
+void
+FCCSiteDivision::SetParts(const FCCSiteParts & parts)
+{
+  m_Parts[Center] = parts;
+  for (unsigned int direction = 0; direction < FCCSiteStar::Directions; ++direction)
+  {
+    m_Centers[direction] = VertexOf(Center, this->IsSplit(Center) ? parts.GetVertex(direction) : Whole);
   }
 }
 
@@ -117,7 +131,7 @@ FCCSiteDivision::GetMostTriangles() const
   std::array<SizeValueType, 2> most{};
   for (unsigned int p = 0; p < m_NumberOfPolygons; ++p)
   {
-    most[m_Polygons[p].tetrahedron->isBelow ? 0 : 1] += m_Polygons[p].size - 2;
+    most[m_Polygons[p].isBelow ? 0 : 1] += m_Polygons[p].size - 2;
   }
   return most;
 }
@@ -136,7 +150,6 @@ FCCSiteDivision::Divide()
   }
   for (;;)
   {
-    this->FindTriangles();
     const unsigned int broken = this->FindBroken();
     if (broken == 0)
     {
@@ -159,8 +172,9 @@ FCCSiteDivision::StartDividing()
   }
   if (star.IsDisk(m_Crossings))
   {
-    this->FindTriangles();
-    if (!this->Breaks(VertexOf(Center, Whole)))
+    bool hasBrokenEdge = false;
+    const auto triangles = this->CountTriangles([&](unsigned int, VertexType) { hasBrokenEdge = true; });
+    if (!hasBrokenEdge && triangles[Whole] >= FewestTriangles)
     {
       return false;
     }
@@ -168,60 +182,56 @@ FCCSiteDivision::StartDividing()
   m_Split |= 1U << Center;
   unsigned int single = 0;
   FCCSiteParts(m_Crossings, 0).ForEachVertex([&](unsigned int part) { single |= star.IsDisk(part) ? 0 : part; });
-  m_Parts[Center] = FCCSiteParts(m_Crossings, single);
+  this->SetParts(FCCSiteParts(m_Crossings, single));
   return true;
 }
 
-/** The triangles of the polygons: all that have vertices of the site. */
-void
-FCCSiteDivision::FindTriangles()
-{
-  VertexType centers[VerticesOfSite]; // the site's vertices by direction, with the parts that it has now
-  for (unsigned int direction = 0; direction < FCCSiteStar::Directions; ++direction)
-  {
-    centers[direction] = VertexOf(Center, this->IsSplit(Center) ? m_Parts[Center].GetVertex(direction) : Whole);
-  }
-  const auto currentVertex = [&centers](VertexType corner) {
-    return corner < VertexOf(Center, 0) ? corner : centers[corner % VerticesOfSite];
-  };
-  m_NumberOfTriangles = 0;
-  for (unsigned int p = 0; p < m_NumberOfPolygons; ++p)
-  {
-    const Polygon & polygon = m_Polygons[p];
-    const VertexType first = currentVertex(polygon.corners[0]);
-    VertexType last = currentVertex(polygon.corners[1]);
-    for (unsigned int n = 2; n < polygon.size; ++n)
-    {
-      const VertexType next = currentVertex(polygon.corners[n]);
-      if (first != last && last != next && next != first)
-      {
-        m_Triangles[m_NumberOfTriangles++] = { first, last, next };
-      }
-      last = next;
-    }
-  }
-}
-
-/** Whether a vertex has fewer than three triangles, or an edge with more than two. */
-bool
-FCCSiteDivision::Breaks(VertexType vertex) const
-{
-  constexpr unsigned int fewest = 3;
-  bool hasBrokenEdge = false;
-  return this->CountTriangles(vertex, [&](VertexType) { hasBrokenEdge = true; }) < fewest || hasBrokenEdge;
-}
-
-/** The crossings of the site's parts that break a condition, by the triangles found last. */
+/** The crossings of the site's parts of several crossings that break a condition: fewer than three triangles, or an edge
+ * with more than two. */
 unsigned int
 FCCSiteDivision::FindBroken() const
 {
+  unsigned int brokenVertices = 0;
+  const auto triangles =
+    this->CountTriangles([&](unsigned int vertex, VertexType) { brokenVertices |= 1U << vertex; });
   unsigned int broken = 0;
-  m_Parts[Center].ForEachVertex([this, &broken](unsigned int part) {
-    const auto lowest = static_cast<unsigned int>(__builtin_ctz(part));
-    const bool isBroken = !IsSingle(part) && this->Breaks(VertexOf(Center, m_Parts[Center].GetVertex(lowest)));
-    broken |= isBroken ? part : 0;
+  unsigned int vertex = 0;
+  m_Parts[Center].ForEachVertex([&](unsigned int part) {
+    const bool isBroken = (brokenVertices >> vertex & 1) != 0 || triangles[vertex] < FewestTriangles;
+    broken |= isBroken && !IsSingle(part) ? part : 0;
+    ++vertex;
   });
   return broken;
+}
+
+/** The crossings of a part without which it may break no condition: those that take part in all its edges with more
+ * than two triangles. */
+unsigned int
+FCCSiteDivision::FindHelpful(unsigned int part) const
+{
+  const VertexType vertex = m_Centers[__builtin_ctz(part)];
+  VertexType ends[256];
+  unsigned int count = 0;
+  this->CountTriangles([&](unsigned int broken, VertexType end) {
+    if (VertexOf(Center, broken) == vertex)
+    {
+      ends[count++] = end;
+    }
+  });
+  unsigned int helpful = part;
+  for (unsigned int n = 0; n < count; ++n)
+  {
+    unsigned int touching = 0;
+    this->ForEachTriangle([&](const VertexType(&corners)[3], const VertexType(&vertices)[3]) {
+      const bool hasEnd = vertices[0] == ends[n] || vertices[1] == ends[n] || vertices[2] == ends[n];
+      for (unsigned int corner = 0; corner < 3; ++corner)
+      {
+        touching |= hasEnd && vertices[corner] == vertex ? 1U << (corners[corner] % VerticesOfSite) : 0;
+      }
+    });
+    helpful &= touching;
+  }
+  return helpful;
 }
 
 /** Makes one crossing of a part single where that leaves a part that breaks no condition, else all of them. */
@@ -229,20 +239,19 @@ void
 FCCSiteDivision::DividePart(unsigned int part)
 {
   const unsigned int single = m_Parts[Center].GetSingle();
-  for (unsigned int remaining = part; remaining != 0; remaining &= remaining - 1)
+  for (unsigned int remaining = this->FindHelpful(part); remaining != 0; remaining &= remaining - 1)
   {
     const unsigned int crossing = remaining & ~(remaining - 1);
     if (FCCSiteStar::Get().IsDisk(part & ~crossing))
     {
-      m_Parts[Center] = FCCSiteParts(m_Crossings, single | crossing);
-      this->FindTriangles();
+      this->SetParts(FCCSiteParts(m_Crossings, single | crossing));
       if ((this->FindBroken() & part) == 0)
       {
         return;
       }
     }
   }
-  m_Parts[Center] = FCCSiteParts(m_Crossings, single | part);
+  this->SetParts(FCCSiteParts(m_Crossings, single | part));
 }
 
 } // namespace itk

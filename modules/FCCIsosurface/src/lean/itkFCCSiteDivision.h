@@ -1,50 +1,55 @@
 #ifndef itkFCCSiteDivision_h
 #define itkFCCSiteDivision_h
 
+#include "itkFCCNearerEnds.h"
 #include "itkFCCSiteParts.h"
-#include "itkFCCSurfaceExtractor.h"
 
 namespace itk
 {
 
-/** \class FCCNeighborhood
- * \brief Where the sites of a site's star are, counted as signs are, and which of them exist.
+/** \class FCCStarReader
+ * \brief Reads what lies in the stars of a row's sites: which sites are inside, and which crossings are nearer to the
+ * sites that store their edges.
  */
-struct FCCNeighborhood
+class FCCStarReader
 {
-  std::array<SizeValueType, 3> places[FCCSiteStar::Sites];
-  SizeValueType numbers[FCCSiteStar::Sites]; ///< along x, then y, then z
-  unsigned int inBox{ 0 };                   ///< bits of the sites that have signs
-  unsigned int inImage{ 0 };                 ///< bits of those in the image
+public:
+  /** For the row (\a j, \a k). Planes of nearer ends are given below, at and above \a k. */
+  FCCStarReader(const FCCSigns & signs,
+                const std::array<const FCCNearerEnds *, 3> & nearerEnds,
+                SizeValueType j,
+                SizeValueType k);
 
-  FCCNeighborhood(const FCCSigns & signs, SizeValueType number);
-
-  /** The bits of some sites, from rows of bits. */
-  template <typename TRows>
-  unsigned int
-  GetBits(const TRows & rows, unsigned int wanted) const
+  /** The star of a site. */
+  struct Star
   {
-    unsigned int found = 0;
-    for (; wanted != 0; wanted &= wanted - 1)
-    {
-      const auto site = static_cast<unsigned int>(__builtin_ctz(wanted));
-      const auto [i, j, k] = places[site];
-      found |= unsigned{ FCCBits::Test(rows.GetRow(j, k), i) } << site;
-    }
-    return found;
+    std::uint16_t inside; ///< bits of its sites
+    std::uint64_t starts; ///< bits of FCCSiteStar::GetEdges(): the edge's first end is nearer; only for cut edges
+  };
+
+  Star
+  Read(SizeValueType i) const;
+
+private:
+  /** A row of bits, and how far from a site's index its bit is. */
+  struct Bits
+  {
+    const FCCSigns::WordType * row;
+    SizeValueType shift;
+  };
+
+  /** Bits outside the box are 0. */
+  bool
+  Test(const Bits & bits, SizeValueType i) const
+  {
+    const SizeValueType place = i + bits.shift; // below 0 wraps around
+    return place < m_Width && FCCBits::Test(bits.row, place);
   }
+
+  SizeValueType m_Width;
+  Bits m_Inside[FCCSiteStar::Sites];
+  Bits m_Starts[FCCSiteStar::Edges];
 };
-
-/** The nearer ends in the star of a site: bit n is set when the end inside is nearer to the crossing on edge n of
- * FCCSiteStar::GetEdges(). Bits of edges that are not cut have no meaning. */
-using FCCNearerEndsOfStar = std::uint64_t;
-static_assert(FCCSiteStar::Edges <= 64, "all edges of a star fit into one word");
-
-FCCNearerEndsOfStar
-FindNearerEndsOfStar(const FCCSigns & signs,
-                     const FCCScalarField::ValueReader & readValues,
-                     bool insideIsBelow,
-                     SizeValueType site);
 
 /** \class FCCSiteDivision
  * \brief Divides one site's crossings into vertices, while the parts of other sites do not change.
@@ -54,8 +59,8 @@ class FCCSiteDivision
 public:
   FCCSiteDivision(const FCCSigns & signs,
                   const FCCSplitRows & split,
-                  FCCNearerEndsOfStar nearerEnds,
-                  SizeValueType number);
+                  const FCCStarReader::Star & star,
+                  const std::array<SizeValueType, 3> & place);
 
   const FCCSiteParts &
   GetParts() const
@@ -68,18 +73,16 @@ public:
   bool
   Divide();
 
-  /** Calls use(number of a site) for sites that have a vertex with an edge of more than two triangles to a vertex of
+  /** Calls use(place of a site) for sites that have a vertex with an edge of more than two triangles to a vertex of
    * one crossing of this site. When the site has been divided, its own larger vertices have no such edge. */
   template <typename TUse>
   void
   ForEachBrokenNeighbor(const TUse & use) const
   {
-    m_Parts[Center].ForEachVertex([this, &use](unsigned int directions) {
-      if (IsSingle(directions))
+    this->CountTriangles([&](unsigned int, VertexType end) {
+      if (end < VertexOf(Center, 0))
       {
-        const auto direction = static_cast<unsigned int>(__builtin_ctz(directions));
-        this->CountTriangles(VertexOf(Center, m_Parts[Center].GetVertex(direction)),
-                             [&](VertexType end) { use(m_Neighborhood.numbers[end / VerticesOfSite]); });
+        use(m_Places[end / VerticesOfSite]);
       }
     });
   }
@@ -91,6 +94,7 @@ public:
 
 private:
   static constexpr unsigned int Center = FCCSiteStar::Center;
+  static constexpr std::uint8_t FewestTriangles = 3; ///< at a vertex of several crossings
 
   /** A vertex of the star: its site, and its number in the site's parts, or Whole. */
   using VertexType = std::uint8_t;
@@ -99,7 +103,7 @@ private:
   static_assert(FCCSiteStar::Directions <= Whole && FCCSiteStar::Sites * VerticesOfSite <= 256,
                 "a vertex has a number of 8 bits");
 
-  static VertexType
+  static constexpr VertexType
   VertexOf(unsigned int site, unsigned int vertex)
   {
     return static_cast<VertexType>(site * VerticesOfSite + vertex);
@@ -112,11 +116,6 @@ private:
   }
 
   bool
-  IsInside(unsigned int site) const
-  {
-    return (m_Inside >> site & 1) != 0;
-  }
-  bool
   IsSplit(unsigned int site) const
   {
     return (m_Split >> site & 1) != 0;
@@ -125,65 +124,95 @@ private:
   /** A polygon of the surface with crossings of the site, from the corner where it is cut into triangles on. */
   struct Polygon
   {
-    const FCCSiteStar::Tetrahedron * tetrahedron;
+    bool isBelow;
     std::uint8_t size;
     VertexType corners[4]; ///< vertices of the site itself are given by directions, whatever its parts
   };
 
   void
-  FindPolygons();
-
-  void
-  FindTriangles();
+  FindPolygons(const FCCStarReader::Star & star);
 
   bool
   StartDividing();
 
-  bool
-  Breaks(VertexType vertex) const;
+  void
+  SetParts(const FCCSiteParts & parts);
 
   unsigned int
   FindBroken() const;
 
+  unsigned int
+  FindHelpful(unsigned int part) const;
+
   void
   DividePart(unsigned int part);
 
-  /** Counts the triangles of a vertex, and calls use(vertex) for the other ends of its edges with more than two. */
-  template <typename TUse>
-  unsigned int
-  CountTriangles(VertexType vertex, const TUse & use) const
+  /** The vertex of a polygon's corner, with the parts that the site has now. */
+  VertexType
+  VertexAt(VertexType corner) const
   {
-    unsigned int triangles = 0;
-    std::uint8_t uses[256] = {};
-    for (unsigned int n = 0; n < m_NumberOfTriangles; ++n)
+    return corner < VertexOf(Center, 0) ? corner : m_Centers[corner % VerticesOfSite];
+  }
+
+  /** Calls use(three corners, their vertices) for the triangles of the polygons: all that have vertices of the site. */
+  template <typename TUse>
+  void
+  ForEachTriangle(const TUse & use) const
+  {
+    for (unsigned int p = 0; p < m_NumberOfPolygons; ++p)
     {
-      const auto & triangle = m_Triangles[n];
-      if (triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex)
+      const Polygon & polygon = m_Polygons[p];
+      VertexType corners[3] = { polygon.corners[0], 0, polygon.corners[1] };
+      VertexType vertices[3] = { this->VertexAt(corners[0]), 0, this->VertexAt(corners[2]) };
+      for (unsigned int n = 2; n < polygon.size; ++n)
       {
-        ++triangles;
-        for (const VertexType end : triangle)
+        corners[1] = corners[2];
+        vertices[1] = vertices[2];
+        corners[2] = polygon.corners[n];
+        vertices[2] = this->VertexAt(corners[2]);
+        if (vertices[0] != vertices[1] && vertices[1] != vertices[2] && vertices[2] != vertices[0])
         {
-          if (end != vertex && ++uses[end] == 3)
-          {
-            use(end);
-          }
+          use(corners, vertices);
         }
       }
     }
+  }
+
+  /** Counts the triangles of the site's vertices, and calls use(number of a vertex, other end) for their edges with
+   * more than two. */
+  template <typename TUse>
+  std::array<std::uint8_t, VerticesOfSite>
+  CountTriangles(const TUse & use) const
+  {
+    std::array<std::uint8_t, VerticesOfSite> triangles{};
+    std::uint8_t uses[VerticesOfSite][256] = {};
+    this->ForEachTriangle([&](const VertexType(&)[3], const VertexType(&vertices)[3]) {
+      for (unsigned int n = 0; n < 3; ++n)
+      {
+        if (vertices[n] >= VertexOf(Center, 0))
+        {
+          const unsigned int vertex = vertices[n] % VerticesOfSite;
+          ++triangles[vertex];
+          for (const unsigned int other : { (n + 1) % 3, (n + 2) % 3 })
+          {
+            if (++uses[vertex][vertices[other]] == 3)
+            {
+              use(vertex, vertices[other]);
+            }
+          }
+        }
+      }
+    });
     return triangles;
   }
 
-  FCCNeighborhood m_Neighborhood;
-  unsigned int m_Inside;
-  unsigned int m_Split;
+  std::array<SizeValueType, 3> m_Places[FCCSiteStar::Sites];
+  unsigned int m_Split{ 0 };
   unsigned int m_Crossings{ 0 }; ///< directions of the crossings that the site is nearer to
   FCCSiteParts m_Parts[FCCSiteStar::Sites];
-  std::uint8_t m_NearerSite[FCCSiteStar::Edges]; ///< by edge, if it is cut
-  VertexType m_Corners[FCCSiteStar::Edges];      ///< by edge, if it is cut; of the site itself as in Polygon
+  VertexType m_Centers[VerticesOfSite]; ///< the site's vertices, by direction
   unsigned int m_NumberOfPolygons{ 0 };
   Polygon m_Polygons[FCCSiteStar::Tetrahedra];
-  unsigned int m_NumberOfTriangles{ 0 };
-  std::array<VertexType, 3> m_Triangles[2 * FCCSiteStar::Tetrahedra];
 };
 
 } // namespace itk

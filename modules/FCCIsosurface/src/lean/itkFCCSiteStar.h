@@ -68,14 +68,8 @@ public:
   /** An edge between two sites. */
   struct Edge
   {
-    std::uint8_t ends[2];
+    std::uint8_t ends[2];       ///< the site that stores it first
     std::uint8_t directions[2]; ///< from either end to the other
-
-    unsigned int
-    GetDirectionFrom(unsigned int site) const
-    {
-      return directions[ends[0] == site ? 0 : 1];
-    }
   };
 
   struct Tetrahedron

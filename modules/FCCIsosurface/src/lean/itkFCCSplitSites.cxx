@@ -11,7 +11,7 @@ struct FCCSplitSites::SuspectsOfPlane
   struct Suspect
   {
     std::uint32_t number; ///< in the plane
-    FCCNearerEndsOfStar nearerEnds;
+    FCCStarReader::Star star;
   };
 
   struct Divided
@@ -25,8 +25,9 @@ struct FCCSplitSites::SuspectsOfPlane
   std::vector<Divided> divided;
 };
 
-FCCSplitSites::FCCSplitSites(const FCCSigns & signs)
+FCCSplitSites::FCCSplitSites(const FCCSigns & signs, std::pmr::memory_resource * scratch)
   : m_Signs(signs)
+  , m_Scratch(scratch)
   , m_Split(signs)
   , m_Suspects(signs.GetDepth())
 {}
@@ -39,32 +40,52 @@ FCCSplitSites::HasSuspects() const
 
 void
 FCCSplitSites::TakeSuspects(SizeValueType k,
-                            const NearerEndsReader & readNearerEnds,
-                            const FCCSurfaceExtractor::Crew & crew,
+                            const std::array<const FCCNearerEnds *, 3> & nearerEnds,
                             SuspectsOfPlane & suspects)
 {
   std::vector<std::uint32_t> numbers;
   numbers.swap(m_Suspects[k]);
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-
-  constexpr std::size_t batch = 256;
-  std::array<SizeValueType, batch> sites;
-  std::array<FCCNearerEndsOfStar, batch> nearerEnds;
-  const SizeValueType width = m_Signs.GetWidth();
-  for (std::size_t begin = 0; begin < numbers.size(); begin += batch)
+  const auto width = static_cast<std::uint32_t>(m_Signs.GetWidth());
+  for (auto number = numbers.begin(); number != numbers.end();)
   {
-    crew.checkAbort();
-    const std::size_t count = std::min(batch, numbers.size() - begin);
-    std::transform(numbers.data() + begin, numbers.data() + begin + count, sites.begin(), [&](std::uint32_t number) {
-      return k * m_Signs.GetHeight() * width + number;
-    });
-    readNearerEnds(sites.data(), count, nearerEnds.data());
-    for (std::size_t n = 0; n < count; ++n)
+    const std::uint32_t j = *number / width;
+    const FCCStarReader stars(m_Signs, nearerEnds, j, k);
+    for (; number != numbers.end() && *number < (j + 1) * width; ++number)
     {
-      const std::uint32_t number = numbers[begin + n];
-      suspects.ofColor[(number % width & 1) | (number / width & 1) << 1].push_back({ number, nearerEnds[n] });
+      const std::uint32_t i = *number - j * width;
+      suspects.ofColor[(i & 1) | (j & 1) << 1].push_back({ *number, stars.Read(i) });
     }
+  }
+}
+
+/** Takes the suspects of a few planes, whose nearer ends are unpacked one after the other. */
+void
+FCCSplitSites::TakeSuspectsOfSlab(SizeValueType begin,
+                                  SizeValueType end,
+                                  const std::vector<FCCNearerEnds::Packed> & nearerEnds,
+                                  const FCCSurfaceExtractor::Crew & crew,
+                                  std::vector<SuspectsOfPlane> & suspects)
+{
+  std::array<FCCNearerEnds, 3> planes{ FCCNearerEnds(m_Signs, m_Scratch),
+                                       FCCNearerEnds(m_Signs, m_Scratch),
+                                       FCCNearerEnds(m_Signs, m_Scratch) };
+  SizeValueType unpacked = 0; // planes below this one
+  for (SizeValueType k = begin; k < end; ++k)
+  {
+    if (m_Suspects[k].empty())
+    {
+      continue;
+    }
+    crew.checkAbort();
+    for (unpacked = std::max(unpacked, k - std::min<SizeValueType>(k, 1));
+         unpacked < std::min(k + 2, m_Signs.GetDepth());
+         ++unpacked)
+    {
+      planes[unpacked % 3].Unpack(unpacked, nearerEnds[unpacked]);
+    }
+    this->TakeSuspects(k, { &planes[(k + 2) % 3], &planes[k % 3], &planes[(k + 1) % 3] }, suspects[k]);
   }
 }
 
@@ -74,27 +95,27 @@ FCCSplitSites::DivideSuspects(SizeValueType k,
                               const FCCSurfaceExtractor::Crew & crew,
                               SuspectsOfPlane & suspects)
 {
-  const SizeValueType sitesOfPlane = m_Signs.GetHeight() * m_Signs.GetWidth();
+  const auto width = static_cast<std::uint32_t>(m_Signs.GetWidth());
   std::vector<SuspectsOfPlane::Suspect> sites;
   sites.swap(suspects.ofColor[color]);
-  std::vector<SizeValueType> broken;
+  std::vector<std::array<SizeValueType, 3>> broken;
   for (std::size_t n = 0; n < sites.size(); ++n)
   {
     if (n % 64 == 0)
     {
       crew.checkAbort();
     }
-    FCCSiteDivision division(m_Signs, m_Split, sites[n].nearerEnds, k * sitesOfPlane + sites[n].number);
+    FCCSiteDivision division(m_Signs, m_Split, sites[n].star, { sites[n].number % width, sites[n].number / width, k });
     if (division.Divide())
     {
       suspects.divided.push_back({ sites[n].number, division.GetParts(), division.GetMostTriangles() });
-      division.ForEachBrokenNeighbor([&](SizeValueType neighbor) { broken.push_back(neighbor); });
+      division.ForEachBrokenNeighbor([&](const auto & neighbor) { broken.push_back(neighbor); });
     }
   }
   const std::lock_guard<std::mutex> lock(m_Mutex);
-  for (const SizeValueType number : broken)
+  for (const auto [i, j, plane] : broken)
   {
-    m_Suspects[number / sitesOfPlane].push_back(static_cast<std::uint32_t>(number % sitesOfPlane));
+    m_Suspects[plane].push_back(static_cast<std::uint32_t>(j * width + i));
   }
 }
 
@@ -119,17 +140,20 @@ FCCSplitSites::SetDivided(SizeValueType k, SuspectsOfPlane & suspects, std::vect
 }
 
 void
-FCCSplitSites::Resolve(const NearerEndsReader & readNearerEnds,
+FCCSplitSites::Resolve(const std::vector<FCCNearerEnds::Packed> & nearerEnds,
                        const FCCSurfaceExtractor::Crew & crew,
                        std::vector<SizeValueType> & points,
                        std::vector<SizeValueType> & triangles)
 {
   const SizeValueType depth = m_Signs.GetDepth();
+  const SizeValueType slabs = (depth + PlanesOfSlab - 1) / PlanesOfSlab;
   std::vector<SuspectsOfPlane> suspects(depth);
   for (float share = 0.75f; this->HasSuspects(); share *= 0.25f) // most are found in the first round
   {
-    crew.forEach(
-      depth, 0.2f * share, [&](SizeValueType k) { this->TakeSuspects(k, readNearerEnds, crew, suspects[k]); });
+    crew.forEach(slabs, 0.2f * share, [&](SizeValueType slab) {
+      const SizeValueType begin = slab * PlanesOfSlab;
+      this->TakeSuspectsOfSlab(begin, std::min(begin + PlanesOfSlab, depth), nearerEnds, crew, suspects);
+    });
     // Planes of one parity are no neighbours.
     for (const SizeValueType parity : { 0, 1 })
     {

@@ -3,7 +3,6 @@
 
 #include "itkFCCSiteDivision.h"
 
-#include <functional>
 #include <mutex>
 
 namespace itk
@@ -25,12 +24,8 @@ namespace itk
 class FCCSplitSites
 {
 public:
-  /** Finds the nearer ends in the stars of sites that have crossings. Called by several threads. */
-  using NearerEndsReader =
-    std::function<void(const SizeValueType * sites, SizeValueType count, FCCNearerEndsOfStar * nearerEnds)>;
-
   /** \param signs with a layer of sites around the image; must outlive this */
-  explicit FCCSplitSites(const FCCSigns & signs);
+  FCCSplitSites(const FCCSigns & signs, std::pmr::memory_resource * scratch);
 
   /** Sets the sites of a plane that may break a condition; for an edge that breaks 2, one of its ends is enough. Sites
    * are numbered along x, then y, in the plane. Different planes may be set at once. */
@@ -42,9 +37,9 @@ public:
 
   /** Divides sites until no vertex breaks a condition. Before, \a points and \a triangles are the numbers of points of
    * each plane and of triangles between it and the next when all sites are whole. Afterwards, \a points is right, and
-   * \a triangles is at least right. */
+   * \a triangles is at least right. \param nearerEnds of all planes */
   void
-  Resolve(const NearerEndsReader & readNearerEnds,
+  Resolve(const std::vector<FCCNearerEnds::Packed> & nearerEnds,
           const FCCSurfaceExtractor::Crew & crew,
           std::vector<SizeValueType> & points,
           std::vector<SizeValueType> & triangles);
@@ -62,15 +57,25 @@ private:
   /** Sites of a plane that no other of them is a neighbour of are of one color: they can be divided at once. */
   static constexpr unsigned int ColorsOfPlane = 4;
 
+  /** Planes whose suspects are taken together, as the nearer ends of the planes next to them are needed. */
+  static constexpr SizeValueType PlanesOfSlab = 8;
+
   bool
   HasSuspects() const;
 
-  /** Sorts the suspects of a plane by their colors. They are no longer suspects. */
+  /** Sorts the suspects of a plane by their colors. They are no longer suspects. \param nearerEnds of the planes below,
+   * at and above \a k */
   void
   TakeSuspects(SizeValueType k,
-               const NearerEndsReader & readNearerEnds,
-               const FCCSurfaceExtractor::Crew & crew,
+               const std::array<const FCCNearerEnds *, 3> & nearerEnds,
                SuspectsOfPlane & suspects);
+
+  void
+  TakeSuspectsOfSlab(SizeValueType begin,
+                     SizeValueType end,
+                     const std::vector<FCCNearerEnds::Packed> & nearerEnds,
+                     const FCCSurfaceExtractor::Crew & crew,
+                     std::vector<SuspectsOfPlane> & suspects);
 
   /** Divides the suspects of a color and suspects others, but does not write the parts yet. */
   void
@@ -84,6 +89,7 @@ private:
   SetDivided(SizeValueType k, SuspectsOfPlane & suspects, std::vector<SizeValueType> & triangles);
 
   const FCCSigns & m_Signs;
+  std::pmr::memory_resource * m_Scratch;
   FCCSplitRows m_Split;
   std::vector<std::vector<std::uint32_t>> m_Suspects; ///< by plane; in any order, and maybe several times
   std::mutex m_Mutex;                                 ///< for suspects that are added to other planes
