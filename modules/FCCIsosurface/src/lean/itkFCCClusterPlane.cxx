@@ -26,14 +26,6 @@ FCCClusterPlane::Find(SizeValueType k,
   {
     this->FindCrossings(j, k, below);
     WordType * const wholeSites = m_WholeSites.GetRow(j);
-    for (unsigned int direction = 0; direction < Directions; ++direction)
-    {
-      const WordType * const crossings = m_Crossings.GetRow(j * Directions + direction);
-      for (SizeValueType word = 0; word < words; ++word)
-      {
-        wholeSites[word] |= crossings[word];
-      }
-    }
     if (splits != nullptr)
     {
       const WordType * const splitSites = splits->GetRow(j, k);
@@ -56,7 +48,7 @@ FCCClusterPlane::NumberSplitSites(SizeValueType k, const FCCSplitRows & splits, 
   {
     const FCCSiteParts * parts = splits.GetParts(j, k).data();
     FCCBits::ForEach(m_Split.GetRow(j), m_Signs->GetNumberOfWords(), [&](SizeValueType i) {
-      m_SplitSites.push_back({ i, j, parts, first });
+      m_SplitSites.push_back({ static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), *parts, first });
       first += parts->GetNumberOfVertices();
       ++parts;
     });
@@ -64,15 +56,21 @@ FCCClusterPlane::NumberSplitSites(SizeValueType k, const FCCSplitRows & splits, 
   return first;
 }
 
-/** Gathers for each direction the crossings that sites of a row are nearer to. */
+/** Gathers for each direction the crossings that sites of a row are nearer to, and the sites that have any. */
 void
 FCCClusterPlane::FindCrossings(SizeValueType j, SizeValueType k, const FCCClusterPlane & below)
 {
   const SizeValueType words = m_Signs->GetNumberOfWords();
+  WordType * const sites = m_WholeSites.GetRow(j);
   for (std::uint8_t type = 0; type < Types; ++type)
   {
     const WordType * const starts = m_NearerEnds.GetStarts(j, type);
-    std::copy(starts, starts + words, m_Crossings.GetRow(j * Directions + type));
+    WordType * const stored = m_Crossings.GetRow(j * Directions + type);
+    for (SizeValueType word = 0; word < words; ++word)
+    {
+      stored[word] = starts[word];
+      sites[word] |= starts[word];
+    }
 
     const SizeValueType opposite = j * Directions + FCCSiteStar::OppositeOf(type);
     const FCCStepTarget start(*m_Signs, j, k, FCCSiteStar::StepOf(FCCSiteStar::OppositeOf(type)));
@@ -85,7 +83,10 @@ FCCClusterPlane::FindCrossings(SizeValueType j, SizeValueType k, const FCCCluste
     FCCBits::ForEachShifted((start.k == k ? *this : below).m_NearerEnds.GetEnds(start.j, type),
                             words,
                             start.shift,
-                            [crossings](SizeValueType word, WordType bits) { crossings[word] = bits; });
+                            [crossings, sites](SizeValueType word, WordType bits) {
+                              crossings[word] = bits;
+                              sites[word] |= bits;
+                            });
   }
 }
 
@@ -109,17 +110,6 @@ FCCClusterPlane::FindSplitCrossings(SizeValueType j, SizeValueType k, const FCCS
       crossings[word] = (starts[word] & splitStarts[word]) | (ends[word] & splitEnds);
     });
   }
-}
-
-unsigned int
-FCCClusterPlane::GetCrossings(SizeValueType j, SizeValueType i) const
-{
-  unsigned int crossings = 0;
-  for (unsigned int direction = 0; direction < Directions; ++direction)
-  {
-    crossings |= unsigned{ FCCBits::Test(m_Crossings.GetRow(j * Directions + direction), i) } << direction;
-  }
-  return crossings;
 }
 
 } // namespace itk

@@ -50,9 +50,9 @@ public:
 
   struct SplitSite
   {
-    SizeValueType i;
-    SizeValueType j;
-    const FCCSiteParts * parts;
+    std::uint32_t i;
+    std::uint32_t j;
+    FCCSiteParts parts;
     std::uint32_t firstVertex;
   };
   const std::vector<SplitSite> &
@@ -61,12 +61,24 @@ public:
     return m_SplitSites;
   }
 
-  /** The vertex of a split site's crossing in a direction. */
-  std::uint32_t
-  GetVertex(SizeValueType j, SizeValueType i, unsigned int direction) const
+  /** The split sites of a row. */
+  struct SplitRow
   {
-    const SplitSite & site = m_SplitSites[m_Split.GetNumberedRow(j).GetNumber(i)];
-    return site.firstVertex + site.parts->GetVertex(direction);
+    FCCNumberedBits::Row numbers;
+    const SplitSite * sites;
+
+    /** The vertex of a site's crossing in a direction. */
+    [[gnu::always_inline]] std::uint32_t
+    GetVertex(SizeValueType i, unsigned int direction) const
+    {
+      const SplitSite & site = sites[numbers.GetNumber(i)];
+      return site.firstVertex + site.parts.GetVertex(direction);
+    }
+  };
+  SplitRow
+  GetSplitRow(SizeValueType j) const
+  {
+    return { m_Split.GetNumberedRow(j), m_SplitSites.data() };
   }
 
   /** Bit i: the crossing on the edge of this type that site i stores belongs to a split site. */
@@ -76,9 +88,25 @@ public:
     return m_SplitCrossings.GetRow(j * Types + type);
   }
 
-  /** The directions of the crossings that a site is nearer to. */
-  unsigned int
-  GetCrossings(SizeValueType j, SizeValueType i) const;
+  /** Calls use(i, directions of the crossings that the site is nearer to) for the whole sites of a row. */
+  template <typename TUse>
+  void
+  ForEachWholeSite(SizeValueType j, const TUse & use) const
+  {
+    const WordType * const crossings = m_Crossings.GetRow(j * Directions);
+    const SizeValueType stride = m_Crossings.GetStride();
+    for (SizeValueType word = 0; word < m_Signs->GetNumberOfWords(); ++word)
+    {
+      FCCBits::ForEach(m_WholeSites.GetRow(j)[word], 0, [&](SizeValueType bit) {
+        unsigned int directions = 0;
+        for (unsigned int direction = 0; direction < Directions; ++direction)
+        {
+          directions |= static_cast<unsigned int>(crossings[direction * stride + word] >> bit & 1) << direction;
+        }
+        use(word * FCCBits::WordBits + bit, directions);
+      });
+    }
+  }
 
 private:
   void

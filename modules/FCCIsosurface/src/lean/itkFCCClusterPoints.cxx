@@ -273,8 +273,7 @@ FCCClusterPoints::PlaceWholeSites(const FCCSigns & signs,
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
   {
     const bool isRealRow = field.IsReal(1, j) && field.IsReal(2, k);
-    FCCBits::ForEach(plane.GetWholeSites().GetRow(j), signs.GetNumberOfWords(), [&](SizeValueType i) {
-      const unsigned int crossings = plane.GetCrossings(j, i);
+    plane.ForEachWholeSite(j, [&](SizeValueType i, unsigned int crossings) {
       if (isRealRow && field.IsReal(0, i))
       {
         row.GoTo(j, k);
@@ -314,7 +313,7 @@ FCCClusterPoints::PlaceSplitSites(const FCCClusterPlane & plane,
     const SizeValueType i = site.i;
     const SizeValueType j = site.j;
     const bool isReal = field.IsReal(0, i) && field.IsReal(1, j) && field.IsReal(2, k);
-    site.parts->ForEachVertex([&](unsigned int crossings) {
+    site.parts.ForEachVertex([&](unsigned int crossings) {
       const bool isSingle = (crossings & (crossings - 1)) == 0;
       if (isSingle)
       {

@@ -66,8 +66,8 @@ TakeSuspects(const FCCSigns & signs, const FCCClusterPlane & plane, FCCTriangleU
   const FCCSiteStar & star = FCCSiteStar::Get();
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
   {
-    FCCBits::ForEach(plane.GetWholeSites().GetRow(j), signs.GetNumberOfWords(), [&](SizeValueType i) {
-      if (FCCTriangleUse::BreakCondition(use.Take(j, i)) || !star.IsDisk(plane.GetCrossings(j, i)))
+    plane.ForEachWholeSite(j, [&](SizeValueType i, unsigned int crossings) {
+      if (FCCTriangleUse::BreakCondition(use.Take(j, i)) || !star.IsDisk(crossings))
       {
         suspects.push_back(static_cast<std::uint32_t>(j * signs.GetWidth() + i));
       }

@@ -7,6 +7,7 @@
 #include "itkFCCLeanTables.h"
 
 #include <algorithm>
+#include <type_traits>
 
 HWY_BEFORE_NAMESPACE();
 namespace itk
@@ -30,6 +31,7 @@ struct LeanColumn
     const WordType * ends;
     const WordType * splitCrossings;
     FCCNumberedBits::Row wholeSites;
+    FCCClusterPlane::SplitRow splitSites;
   };
 
   Row rows[4];
@@ -46,7 +48,8 @@ struct LeanColumn
                     plane.GetNearerEnds().GetStarts(y, 0),
                     plane.GetNearerEnds().GetEnds(y, 0),
                     plane.GetSplitCrossings(y, 0),
-                    plane.GetWholeSites().GetNumberedRow(y) };
+                    plane.GetWholeSites().GetNumberedRow(y),
+                    plane.GetSplitRow(y) };
     }
   }
 };
@@ -115,6 +118,20 @@ struct LeanSteps
     return column.rows[RowOf(site)].wholeSites.GetNumber(IndexOf(site, i));
   }
 
+  /** The vertex of a crossing that is nearer to one of its edge's sites. */
+  static HWY_INLINE std::uint32_t
+  CrossingVertexOf(const LeanColumn & column, unsigned int edge, unsigned int site, SizeValueType i)
+  {
+    if (!IsSplit(column, edge, i))
+    {
+      return VertexOf(column, site, i);
+    }
+    const Cases::StoredEdge stored = StoredEdgeOf(edge);
+    const bool isStart = stored.start == Cases::EndOf(edge, site);
+    return column.rows[RowOf(site)].splitSites.GetVertex(
+      IndexOf(site, i), isStart ? stored.type : FCCSiteStar::OppositeOf(stored.type));
+  }
+
   /** Words that are worked at together, whatever the width of vectors: the order of triangles depends on it. */
   static constexpr SizeValueType Together = 8;
   static_assert(Together <= FCCSigns::WordsBeyond, "whole groups of words are read");
@@ -147,28 +164,30 @@ struct LeanSteps
   }
 
   /** Calls use(tetrahedron, corner left out, steps, first word) for the triangles between whole sites of some steps,
-   * and with \a WithMixed, useMixed(tetrahedron, steps, first word) for tetrahedra with crossings of split sites. */
+   * and with \a WithMixed, useMixed(tetrahedron, steps, first word) for tetrahedra with crossings of split sites. The
+   * tetrahedron is a constant. */
   template <bool WithMixed, typename TUse, typename TMixed>
   static HWY_INLINE void
   ForEachTriangle(const LeanColumn & column, SizeValueType numberOfWords, const TUse & use, const TMixed & useMixed)
   {
     Triangles triangles;
+    const auto useTetrahedron = [&](auto tetrahedron, SizeValueType word) HWY_ATTR {
+      for (unsigned int leftOut = 0; leftOut < 4; ++leftOut)
+      {
+        use(tetrahedron, leftOut, triangles.wholes[tetrahedron][leftOut], word);
+      }
+      if (WithMixed)
+      {
+        useMixed(tetrahedron, triangles.mixed[tetrahedron], word);
+      }
+    };
     for (SizeValueType word = 0; word < numberOfWords; word += Together)
     {
-      if (!FindInGroup<WithMixed>(column, word, numberOfWords, triangles))
+      if (FindInGroup<WithMixed>(column, word, numberOfWords, triangles))
       {
-        continue;
-      }
-      for (unsigned int tetrahedron = 0; tetrahedron < Cases::Tetrahedra; ++tetrahedron)
-      {
-        for (unsigned int leftOut = 0; leftOut < 4; ++leftOut)
-        {
-          use(tetrahedron, leftOut, triangles.wholes[tetrahedron][leftOut], word);
-        }
-        if (WithMixed)
-        {
-          useMixed(tetrahedron, triangles.mixed[tetrahedron], word);
-        }
+        useTetrahedron(std::integral_constant<unsigned int, 0>{}, word);
+        useTetrahedron(std::integral_constant<unsigned int, 1>{}, word);
+        useTetrahedron(std::integral_constant<unsigned int, 2>{}, word);
       }
     }
   }
@@ -331,7 +350,7 @@ CountColumnUse(const LeanColumn & column, SizeValueType words, FCCTriangleUse::C
   TSteps::template ForEachTriangle<false>(
     column,
     words,
-    [&](unsigned int tetrahedron, unsigned int leftOut, const auto & steps, SizeValueType first) HWY_ATTR {
+    [&](auto tetrahedron, unsigned int leftOut, const auto & steps, SizeValueType first) HWY_ATTR {
       const FCCLeanTables::Triangle & triangle = TSteps::Tables.triangles[tetrahedron][leftOut];
       const auto usesOf = [&](unsigned int n) {
         const unsigned int site = Cases::TetrahedronSites[tetrahedron][triangle.corners[n]];
@@ -345,7 +364,7 @@ CountColumnUse(const LeanColumn & column, SizeValueType words, FCCTriangleUse::C
         ++count;
       });
     },
-    [](unsigned int, const auto &, SizeValueType) {});
+    [](auto, const auto &, SizeValueType) {});
   return count;
 }
 
@@ -363,54 +382,50 @@ CountTriangleUse(const FCCLeanLayer & layer, FCCTriangleUse & lowerUse, FCCTrian
 }
 
 /** Writes the triangles of a tetrahedron with crossings of split sites. */
-template <typename TSteps>
-HWY_NOINLINE SizeValueType
+template <typename TSteps, unsigned int Tetrahedron>
+HWY_ATTR SizeValueType
 FillMixedTetrahedron(const LeanColumn & column,
-                     unsigned int tetrahedron,
                      SizeValueType i,
-                     SizeValueType j,
-                     const FCCLeanLayer & layer,
                      bool reversed,
                      TriangleSurface::TriangleType * triangles)
 {
+  constexpr const auto & sites = Cases::TetrahedronSites[Tetrahedron];
   unsigned int inside = 0;
+#pragma GCC unroll 4
   for (unsigned int corner = 0; corner < 4; ++corner)
   {
-    inside |= unsigned{ TSteps::IsInside(column, Cases::TetrahedronSites[tetrahedron][corner], i) } << corner;
+    inside |= unsigned{ TSteps::IsInside(column, sites[corner], i) } << corner;
   }
-  const FCCTetrahedronPolygon & polygon = TSteps::Tables.polygons[tetrahedron][inside];
-  std::uint32_t vertices[4] = {};
-  bool isDeciderNearerToInside = false;
-  for (unsigned int n = 0; n < polygon.size; ++n)
+  std::uint32_t vertices[4][4]; // of the crossings, by the corners at the ends of their edges
+  bool areNearerToInside[4][4];
+#pragma GCC unroll 4
+  for (unsigned int a = 0; a < 3; ++a)
   {
-    const std::uint8_t edge =
-      TSteps::Tables.edges[tetrahedron][polygon.crossings[n].inside][polygon.crossings[n].outside];
-    const unsigned int end = TSteps::IsNearer(column, edge, 0, i) ? 0 : 1;
-    const std::uint8_t site = Cases::EdgeSites[edge][end];
-    if (TSteps::IsSplit(column, edge, i))
+#pragma GCC unroll 4
+    for (unsigned int b = a + 1; b < 4; ++b)
     {
-      const unsigned int row = TSteps::RowOf(site);
-      const Cases::StoredEdge stored = TSteps::StoredEdgeOf(edge);
-      const unsigned int direction = stored.start == end ? stored.type : FCCSiteStar::OppositeOf(stored.type);
-      vertices[n] =
-        ((row & 2) != 0 ? layer.upper : layer.lower).GetVertex(j + (row & 1), TSteps::IndexOf(site, i), direction);
-    }
-    else
-    {
-      vertices[n] = TSteps::VertexOf(column, site, i);
-    }
-    if (n == polygon.decider)
-    {
-      isDeciderNearerToInside = TSteps::IsInside(column, site, i);
+      if (((inside >> a ^ inside >> b) & 1) != 0)
+      {
+        const unsigned int edge = TSteps::Tables.edges[Tetrahedron][a][b];
+        const bool isNearerToA = TSteps::IsNearer(column, edge, Cases::EndOf(edge, sites[a]), i);
+        vertices[a][b] = vertices[b][a] = isNearerToA ? TSteps::CrossingVertexOf(column, edge, sites[a], i)
+                                                      : TSteps::CrossingVertexOf(column, edge, sites[b], i);
+        areNearerToInside[a][b] = areNearerToInside[b][a] = isNearerToA == ((inside >> a & 1) != 0);
+      }
     }
   }
-  const unsigned int first = polygon.FindFirstCorner(isDeciderNearerToInside);
+  const FCCTetrahedronPolygon & polygon = TSteps::Tables.polygons[Tetrahedron][inside];
+  const auto vertexOf = [&](unsigned int n) HWY_ATTR {
+    return vertices[polygon.crossings[n].inside][polygon.crossings[n].outside];
+  };
+  const auto [decidingInside, decidingOutside] = polygon.crossings[polygon.decider];
+  const unsigned int first = polygon.FindFirstCorner(areNearerToInside[decidingInside][decidingOutside]);
   SizeValueType count = 0;
-  const std::uint32_t a = vertices[first];
-  std::uint32_t b = vertices[first + 1]; // the first corner is 0 or 1
+  const std::uint32_t a = vertexOf(first);
+  std::uint32_t b = vertexOf(first + 1); // the first corner is 0 or 1
   for (unsigned int n = 2; n < polygon.size; ++n)
   {
-    const std::uint32_t c = vertices[first + n < polygon.size ? first + n : 0];
+    const std::uint32_t c = vertexOf(first + n < polygon.size ? first + n : 0);
     if (a != b && b != c && c != a)
     {
       triangles[count++] = { a, reversed ? c : b, reversed ? b : c };
@@ -424,12 +439,12 @@ SizeValueType
 FillLeanTriangles(const FCCLeanLayer & layer, bool reversed, TriangleSurface::TriangleType * triangles)
 {
   TriangleSurface::TriangleType * next = triangles;
-  ForEachColumn(layer, [&](SizeValueType j, const LeanColumn & column, auto steps) HWY_ATTR {
+  ForEachColumn(layer, [&](SizeValueType, const LeanColumn & column, auto steps) HWY_ATTR {
     using Steps = decltype(steps);
     Steps::template ForEachTriangle<true>(
       column,
       layer.signs.GetNumberOfWords(),
-      [&](unsigned int tetrahedron, unsigned int leftOut, const auto & group, SizeValueType first) HWY_ATTR {
+      [&](auto tetrahedron, unsigned int leftOut, const auto & group, SizeValueType first) HWY_ATTR {
         const auto & sites = Cases::TetrahedronSites[tetrahedron];
         const auto & corners = Steps::Tables.triangles[tetrahedron][leftOut].corners;
         Steps::ForEachStep(group, first, layer.signs.GetNumberOfWords(), [&](SizeValueType i) HWY_ATTR {
@@ -440,9 +455,9 @@ FillLeanTriangles(const FCCLeanLayer & layer, bool reversed, TriangleSurface::Tr
           *next++ = { a, turned ? c : b, turned ? b : c };
         });
       },
-      [&](unsigned int tetrahedron, const auto & group, SizeValueType first) HWY_ATTR {
+      [&](auto tetrahedron, const auto & group, SizeValueType first) HWY_ATTR {
         Steps::ForEachStep(group, first, layer.signs.GetNumberOfWords(), [&](SizeValueType i) HWY_ATTR {
-          next += FillMixedTetrahedron<Steps>(column, tetrahedron, i, j, layer, reversed, next);
+          next += FillMixedTetrahedron<Steps, decltype(tetrahedron)::value>(column, i, reversed, next);
         });
       });
   });

@@ -133,14 +133,13 @@ FCCNearerEnds::Unpack(SizeValueType k, const Packed & packed)
       }
       const WordType * const row = m_Signs->GetRow(j, k);
       const WordType * const endRow = m_Signs->GetRow(end.j, end.k);
-      for (SizeValueType word = 0; word < words; ++word)
-      {
-        const WordType cut = row[word] ^ FCCBits::Shifted(endRow, word, end.shift);
+      FCCBits::ForEachShifted(endRow, words, end.shift, [&](SizeValueType word, WordType bits) {
+        const WordType cut = row[word] ^ bits;
         WordType isStart = 0;
         ForEachByte(cut, [&](unsigned int n) { isStart |= WordType{ *next++ } << n; });
         starts[word] = isStart;
         ends[word] = cut ^ isStart;
-      }
+      });
     }
   }
 }

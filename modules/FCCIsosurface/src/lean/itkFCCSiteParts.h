@@ -33,7 +33,7 @@ public:
   }
 
   /** The number of the vertex of a crossing. */
-  unsigned int
+  [[gnu::always_inline]] unsigned int
   GetVertex(unsigned int direction) const
   {
     return static_cast<unsigned int>(m_Vertices >> (BitsOfVertex * direction) & ((1U << BitsOfVertex) - 1));

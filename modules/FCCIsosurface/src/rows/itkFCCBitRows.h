@@ -43,26 +43,34 @@ struct FCCBits
     }
   }
 
-  /** Calls use(word, Shifted()) for all words of a row. It may overwrite the words that it has been given. */
+  /** Calls use(word, Shifted()) for all words of a row, ascending. It may overwrite the words that it has been given. */
   template <typename TUse>
   [[gnu::always_inline]] static inline void
   ForEachShifted(const WordType * row, SizeValueType words, IndexValueType shift, const TUse & use)
   {
-    if (shift >= 0)
+    if (shift == 0)
     {
       for (SizeValueType word = 0; word < words; ++word)
       {
-        use(word, Shifted(row, word, shift));
+        use(word, row[word]);
       }
-      return;
     }
-    for (SizeValueType word = words; word-- > 1;) // from the last one on, so that none is overwritten too early
+    else if (shift > 0)
     {
-      use(word, row[word] << 1 | row[word - 1] >> (WordBits - 1));
+      for (SizeValueType word = 0; word < words; ++word)
+      {
+        use(word, Shifted(row, word, 1));
+      }
     }
-    if (words > 0)
+    else
     {
-      use(0, row[0] << 1);
+      WordType before = 0;
+      for (SizeValueType word = 0; word < words; ++word)
+      {
+        const WordType bits = row[word];
+        use(word, bits << 1 | before >> (WordBits - 1));
+        before = bits;
+      }
     }
   }
 
