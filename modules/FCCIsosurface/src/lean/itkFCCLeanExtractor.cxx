@@ -107,7 +107,11 @@ FCCLeanExtractor::Count(SizeValueType begin, SizeValueType end)
     {
       m_FirstTriangle[k] = triangles;
       m_FirstPoint[k] = planes.Get(k).GetWholeSites().Count();
-      m_Splits.Suspect(k, TakeSuspects(m_Signs, planes.Get(k), useOf(k)));
+      m_Splits.Suspect(k,
+                       TakeSuspects(m_Signs, planes.Get(k), useOf(k)),
+                       { &planes.Get(k + 2).GetNearerEnds(), // of plane k - 1
+                         &planes.Get(k).GetNearerEnds(),
+                         &planes.Get(k + 1).GetNearerEnds() });
       m_NearerEnds[k] = planes.Get(k).GetNearerEnds().Pack();
     }
     else

@@ -98,19 +98,19 @@ FCCNearerEnds::FindRow(SizeValueType j,
 auto
 FCCNearerEnds::Pack() const -> Packed
 {
-  Packed packed;
   const SizeValueType words = m_Signs->GetNumberOfWords();
+  Packed packed(m_Signs->GetHeight() * Types * words * sizeof(WordType));
+  auto next = packed.begin();
   for (SizeValueType row = 0; row < m_Signs->GetHeight() * Types; ++row)
   {
     for (SizeValueType word = 0; word < words; ++word)
     {
       const WordType starts = m_Starts.GetRow(row)[word];
       ForEachByte(starts | m_Ends.GetRow(row)[word],
-                  [&](unsigned int n) { packed.push_back(static_cast<std::uint8_t>(starts >> n)); });
+                  [&](unsigned int n) { *next++ = static_cast<std::uint8_t>(starts >> n); });
     }
   }
-  packed.shrink_to_fit();
-  return packed;
+  return Packed(packed.begin(), next);
 }
 
 void

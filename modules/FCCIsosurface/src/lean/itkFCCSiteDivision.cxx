@@ -1,5 +1,7 @@
 #include "itkFCCSiteDivision.h"
 
+#include <algorithm>
+
 namespace itk
 {
 
@@ -121,8 +123,9 @@ FCCSiteDivision::SetParts(const FCCSiteParts & parts)
   m_Parts[Center] = parts;
   for (unsigned int direction = 0; direction < FCCSiteStar::Directions; ++direction)
   {
-    m_Centers[direction] = VertexOf(Center, this->IsSplit(Center) ? parts.GetVertex(direction) : Whole);
+    m_Centers[direction] = VertexOf(Center, parts.GetVertex(direction));
   }
+  m_NumberOfVertices = std::max(1u, parts.GetNumberOfVertices());
 }
 
 std::array<SizeValueType, 2>
@@ -170,14 +173,9 @@ FCCSiteDivision::StartDividing()
   {
     return false;
   }
-  if (star.IsDisk(m_Crossings))
+  if (star.IsDisk(m_Crossings) && this->FindBrokenVertices(1) == 0)
   {
-    bool hasBrokenEdge = false;
-    const auto triangles = this->CountTriangles([&](unsigned int, VertexType) { hasBrokenEdge = true; });
-    if (!hasBrokenEdge && triangles[Whole] >= FewestTriangles)
-    {
-      return false;
-    }
+    return false;
   }
   m_Split |= 1U << Center;
   unsigned int single = 0;
@@ -186,22 +184,46 @@ FCCSiteDivision::StartDividing()
   return true;
 }
 
-/** The crossings of the site's parts of several crossings that break a condition: fewer than three triangles, or an edge
- * with more than two. */
+unsigned int
+FCCSiteDivision::GetGatheredVertices() const
+{
+  unsigned int gathered = 0;
+  for (unsigned int directions = m_Crossings & ~m_Parts[Center].GetSingle(); directions != 0;
+       directions &= directions - 1)
+  {
+    gathered |= 1U << m_Parts[Center].GetVertex(static_cast<unsigned int>(__builtin_ctz(directions)));
+  }
+  return gathered;
+}
+
+/** Which of some vertices, as bits, have fewer than three triangles, or an edge with more than two. */
+unsigned int
+FCCSiteDivision::FindBrokenVertices(unsigned int wanted) const
+{
+  constexpr unsigned int fewest = 3;
+  unsigned int broken = 0;
+  const auto triangles =
+    this->CountTriangles(wanted, [&broken](unsigned int vertex, VertexType) { broken |= 1U << vertex; });
+  for (unsigned int vertex = 0; vertex < m_NumberOfVertices; ++vertex)
+  {
+    broken |= unsigned{ triangles[vertex] < fewest } << vertex;
+  }
+  return broken & wanted;
+}
+
+/** The crossings of the site's parts that break a condition. */
 unsigned int
 FCCSiteDivision::FindBroken() const
 {
-  unsigned int brokenVertices = 0;
-  const auto triangles =
-    this->CountTriangles([&](unsigned int vertex, VertexType) { brokenVertices |= 1U << vertex; });
-  unsigned int broken = 0;
-  unsigned int vertex = 0;
-  m_Parts[Center].ForEachVertex([&](unsigned int part) {
-    const bool isBroken = (brokenVertices >> vertex & 1) != 0 || triangles[vertex] < FewestTriangles;
-    broken |= isBroken && !IsSingle(part) ? part : 0;
-    ++vertex;
-  });
-  return broken;
+  const unsigned int gathered = this->GetGatheredVertices();
+  const unsigned int broken = gathered == 0 ? 0 : this->FindBrokenVertices(gathered);
+  unsigned int crossings = 0;
+  for (unsigned int direction = 0; broken != 0 && direction < FCCSiteStar::Directions; ++direction)
+  {
+    const bool isBroken = (m_Crossings >> direction & broken >> m_Parts[Center].GetVertex(direction) & 1) != 0;
+    crossings |= unsigned{ isBroken } << direction;
+  }
+  return crossings;
 }
 
 /** The crossings of a part without which it may break no condition: those that take part in all its edges with more
@@ -212,12 +234,7 @@ FCCSiteDivision::FindHelpful(unsigned int part) const
   const VertexType vertex = m_Centers[__builtin_ctz(part)];
   VertexType ends[256];
   unsigned int count = 0;
-  this->CountTriangles([&](unsigned int broken, VertexType end) {
-    if (VertexOf(Center, broken) == vertex)
-    {
-      ends[count++] = end;
-    }
-  });
+  this->CountTriangles(1U << vertex % VerticesOfSite, [&](unsigned int, VertexType end) { ends[count++] = end; });
   unsigned int helpful = part;
   for (unsigned int n = 0; n < count; ++n)
   {
@@ -242,10 +259,11 @@ FCCSiteDivision::DividePart(unsigned int part)
   for (unsigned int remaining = this->FindHelpful(part); remaining != 0; remaining &= remaining - 1)
   {
     const unsigned int crossing = remaining & ~(remaining - 1);
-    if (FCCSiteStar::Get().IsDisk(part & ~crossing))
+    const unsigned int rest = part & ~crossing;
+    if (FCCSiteStar::Get().IsDisk(rest))
     {
       this->SetParts(FCCSiteParts(m_Crossings, single | crossing));
-      if ((this->FindBroken() & part) == 0)
+      if (IsSingle(rest) || this->FindBrokenVertices(1U << m_Centers[__builtin_ctz(rest)] % VerticesOfSite) == 0)
       {
         return;
       }

@@ -79,12 +79,8 @@ public:
   void
   ForEachBrokenNeighbor(const TUse & use) const
   {
-    this->CountTriangles([&](unsigned int, VertexType end) {
-      if (end < VertexOf(Center, 0))
-      {
-        use(m_Places[end / VerticesOfSite]);
-      }
-    });
+    this->CountTriangles(~this->GetGatheredVertices(),
+                         [&](unsigned int, VertexType end) { use(m_Places[end / VerticesOfSite]); });
   }
 
   /** The most triangles that the tetrahedra with crossings of the site can have: between the plane below and its own,
@@ -94,7 +90,6 @@ public:
 
 private:
   static constexpr unsigned int Center = FCCSiteStar::Center;
-  static constexpr std::uint8_t FewestTriangles = 3; ///< at a vertex of several crossings
 
   /** A vertex of the star: its site, and its number in the site's parts, or Whole. */
   using VertexType = std::uint8_t;
@@ -131,6 +126,9 @@ private:
 
   void
   FindPolygons(const FCCStarReader::Star & star);
+
+  unsigned int
+  FindBrokenVertices(unsigned int wanted) const;
 
   bool
   StartDividing();
@@ -178,27 +176,36 @@ private:
     }
   }
 
-  /** Counts the triangles of the site's vertices, and calls use(number of a vertex, other end) for their edges with
-   * more than two. */
+  /** The numbers of the site's vertices of several crossings, as bits. */
+  unsigned int
+  GetGatheredVertices() const;
+
+  /** Counts the triangles of some vertices of the site, and calls use(number of a vertex, other end) for their edges
+   * with more than two. */
   template <typename TUse>
   std::array<std::uint8_t, VerticesOfSite>
-  CountTriangles(const TUse & use) const
+  CountTriangles(unsigned int wanted, const TUse & use) const
   {
     std::array<std::uint8_t, VerticesOfSite> triangles{};
-    std::uint8_t uses[VerticesOfSite][256] = {};
+    std::uint8_t uses[VerticesOfSite][256];
+    for (unsigned int vertex = 0; vertex < m_NumberOfVertices; ++vertex)
+    {
+      std::fill_n(uses[vertex], 256, std::uint8_t{ 0 });
+    }
     this->ForEachTriangle([&](const VertexType(&)[3], const VertexType(&vertices)[3]) {
       for (unsigned int n = 0; n < 3; ++n)
       {
-        if (vertices[n] >= VertexOf(Center, 0))
+        const unsigned int vertex = vertices[n] % VerticesOfSite;
+        if (vertices[n] < VertexOf(Center, 0) || (wanted >> vertex & 1) == 0)
         {
-          const unsigned int vertex = vertices[n] % VerticesOfSite;
-          ++triangles[vertex];
-          for (const unsigned int other : { (n + 1) % 3, (n + 2) % 3 })
+          continue;
+        }
+        ++triangles[vertex];
+        for (const VertexType end : { vertices[(n + 1) % 3], vertices[(n + 2) % 3] })
+        {
+          if (++uses[vertex][end] == 3)
           {
-            if (++uses[vertex][vertices[other]] == 3)
-            {
-              use(vertex, vertices[other]);
-            }
+            use(vertex, end);
           }
         }
       }
@@ -210,7 +217,8 @@ private:
   unsigned int m_Split{ 0 };
   unsigned int m_Crossings{ 0 }; ///< directions of the crossings that the site is nearer to
   FCCSiteParts m_Parts[FCCSiteStar::Sites];
-  VertexType m_Centers[VerticesOfSite]; ///< the site's vertices, by direction
+  unsigned int m_NumberOfVertices{ 1 };
+  VertexType m_Centers[VerticesOfSite]; ///< the site's vertices, by direction; a whole site has vertex 0
   unsigned int m_NumberOfPolygons{ 0 };
   Polygon m_Polygons[FCCSiteStar::Tetrahedra];
 };

@@ -6,47 +6,18 @@
 namespace itk
 {
 
-struct FCCSplitSites::SuspectsOfPlane
-{
-  struct Suspect
-  {
-    std::uint32_t number; ///< in the plane
-    FCCStarReader::Star star;
-  };
-
-  struct Divided
-  {
-    std::uint32_t number;
-    FCCSiteParts parts;
-    std::array<SizeValueType, 2> mostTriangles;
-  };
-
-  std::array<std::vector<Suspect>, ColorsOfPlane> ofColor;
-  std::vector<Divided> divided;
-};
-
 FCCSplitSites::FCCSplitSites(const FCCSigns & signs, std::pmr::memory_resource * scratch)
   : m_Signs(signs)
   , m_Scratch(scratch)
   , m_Split(signs)
-  , m_Suspects(signs.GetDepth())
+  , m_Planes(signs.GetDepth())
 {}
 
-bool
-FCCSplitSites::HasSuspects() const
-{
-  return std::any_of(m_Suspects.begin(), m_Suspects.end(), [](const auto & sites) { return !sites.empty(); });
-}
-
 void
-FCCSplitSites::TakeSuspects(SizeValueType k,
-                            const std::array<const FCCNearerEnds *, 3> & nearerEnds,
-                            SuspectsOfPlane & suspects)
+FCCSplitSites::Suspect(SizeValueType k,
+                       const std::vector<std::uint32_t> & numbers,
+                       const NearerEndsAround & nearerEnds)
 {
-  std::vector<std::uint32_t> numbers;
-  numbers.swap(m_Suspects[k]);
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   const auto width = static_cast<std::uint32_t>(m_Signs.GetWidth());
   for (auto number = numbers.begin(); number != numbers.end();)
   {
@@ -55,18 +26,25 @@ FCCSplitSites::TakeSuspects(SizeValueType k,
     for (; number != numbers.end() && *number < (j + 1) * width; ++number)
     {
       const std::uint32_t i = *number - j * width;
-      suspects.ofColor[(i & 1) | (j & 1) << 1].push_back({ *number, stars.Read(i) });
+      m_Planes[k].suspects[(i & 1) | (j & 1) << 1].push_back({ *number, stars.Read(i) });
     }
   }
 }
 
-/** Takes the suspects of a few planes, whose nearer ends are unpacked one after the other. */
+bool
+FCCSplitSites::HasSuspects() const
+{
+  return std::any_of(m_Planes.begin(), m_Planes.end(), [](const Plane & plane) {
+    return std::any_of(
+      plane.suspects.begin(), plane.suspects.end(), [](const auto & suspects) { return !suspects.empty(); });
+  });
+}
+
 void
-FCCSplitSites::TakeSuspectsOfSlab(SizeValueType begin,
-                                  SizeValueType end,
-                                  const std::vector<FCCNearerEnds::Packed> & nearerEnds,
-                                  const FCCSurfaceExtractor::Crew & crew,
-                                  std::vector<SuspectsOfPlane> & suspects)
+FCCSplitSites::SuspectBroken(SizeValueType begin,
+                             SizeValueType end,
+                             const std::vector<FCCNearerEnds::Packed> & nearerEnds,
+                             const FCCSurfaceExtractor::Crew & crew)
 {
   std::array<FCCNearerEnds, 3> planes{ FCCNearerEnds(m_Signs, m_Scratch),
                                        FCCNearerEnds(m_Signs, m_Scratch),
@@ -74,30 +52,31 @@ FCCSplitSites::TakeSuspectsOfSlab(SizeValueType begin,
   SizeValueType unpacked = 0; // planes below this one
   for (SizeValueType k = begin; k < end; ++k)
   {
-    if (m_Suspects[k].empty())
+    std::vector<std::uint32_t> numbers;
+    numbers.swap(m_Planes[k].broken);
+    if (numbers.empty())
     {
       continue;
     }
     crew.checkAbort();
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
     for (unpacked = std::max(unpacked, k - std::min<SizeValueType>(k, 1));
          unpacked < std::min(k + 2, m_Signs.GetDepth());
          ++unpacked)
     {
       planes[unpacked % 3].Unpack(unpacked, nearerEnds[unpacked]);
     }
-    this->TakeSuspects(k, { &planes[(k + 2) % 3], &planes[k % 3], &planes[(k + 1) % 3] }, suspects[k]);
+    this->Suspect(k, numbers, { &planes[(k + 2) % 3], &planes[k % 3], &planes[(k + 1) % 3] });
   }
 }
 
 void
-FCCSplitSites::DivideSuspects(SizeValueType k,
-                              unsigned int color,
-                              const FCCSurfaceExtractor::Crew & crew,
-                              SuspectsOfPlane & suspects)
+FCCSplitSites::DivideSuspects(SizeValueType k, unsigned int color, const FCCSurfaceExtractor::Crew & crew)
 {
   const auto width = static_cast<std::uint32_t>(m_Signs.GetWidth());
-  std::vector<SuspectsOfPlane::Suspect> sites;
-  sites.swap(suspects.ofColor[color]);
+  std::vector<SuspectedSite> sites;
+  sites.swap(m_Planes[k].suspects[color]);
   std::vector<std::array<SizeValueType, 3>> broken;
   for (std::size_t n = 0; n < sites.size(); ++n)
   {
@@ -108,23 +87,23 @@ FCCSplitSites::DivideSuspects(SizeValueType k,
     FCCSiteDivision division(m_Signs, m_Split, sites[n].star, { sites[n].number % width, sites[n].number / width, k });
     if (division.Divide())
     {
-      suspects.divided.push_back({ sites[n].number, division.GetParts(), division.GetMostTriangles() });
+      m_Planes[k].divided.push_back({ sites[n].number, division.GetParts(), division.GetMostTriangles() });
       division.ForEachBrokenNeighbor([&](const auto & neighbor) { broken.push_back(neighbor); });
     }
   }
   const std::lock_guard<std::mutex> lock(m_Mutex);
   for (const auto [i, j, plane] : broken)
   {
-    m_Suspects[plane].push_back(static_cast<std::uint32_t>(j * width + i));
+    m_Planes[plane].broken.push_back(static_cast<std::uint32_t>(j * width + i));
   }
 }
 
 void
-FCCSplitSites::SetDivided(SizeValueType k, SuspectsOfPlane & suspects, std::vector<SizeValueType> & triangles)
+FCCSplitSites::SetDivided(SizeValueType k, std::vector<SizeValueType> & triangles)
 {
   const SizeValueType width = m_Signs.GetWidth();
-  std::vector<SuspectsOfPlane::Divided> divided;
-  divided.swap(suspects.divided);
+  std::vector<DividedSite> divided;
+  divided.swap(m_Planes[k].divided);
   for (const auto & [number, parts, mostTriangles] : divided)
   {
     const bool isNew = m_Split.Set(number % width, number / width, k, parts);
@@ -147,27 +126,22 @@ FCCSplitSites::Resolve(const std::vector<FCCNearerEnds::Packed> & nearerEnds,
 {
   const SizeValueType depth = m_Signs.GetDepth();
   const SizeValueType slabs = (depth + PlanesOfSlab - 1) / PlanesOfSlab;
-  std::vector<SuspectsOfPlane> suspects(depth);
   for (float share = 0.75f; this->HasSuspects(); share *= 0.25f) // most are found in the first round
   {
-    crew.forEach(slabs, 0.2f * share, [&](SizeValueType slab) {
-      const SizeValueType begin = slab * PlanesOfSlab;
-      this->TakeSuspectsOfSlab(begin, std::min(begin + PlanesOfSlab, depth), nearerEnds, crew, suspects);
-    });
     // Planes of one parity are no neighbours.
     for (const SizeValueType parity : { 0, 1 })
     {
       const SizeValueType count = (depth + 1 - parity) / 2;
       for (unsigned int color = 0; color < ColorsOfPlane; ++color)
       {
-        crew.forEach(count, 0.09f * share, [&](SizeValueType n) {
-          this->DivideSuspects(2 * n + parity, color, crew, suspects[2 * n + parity]);
-        });
-        crew.forEach(count, 0.01f * share, [&](SizeValueType n) {
-          this->SetDivided(2 * n + parity, suspects[2 * n + parity], triangles);
-        });
+        crew.forEach(count, 0.11f * share, [&](SizeValueType n) { this->DivideSuspects(2 * n + parity, color, crew); });
+        crew.forEach(count, 0.01f * share, [&](SizeValueType n) { this->SetDivided(2 * n + parity, triangles); });
       }
     }
+    crew.forEach(slabs, 0.04f * share, [&](SizeValueType slab) {
+      const SizeValueType begin = slab * PlanesOfSlab;
+      this->SuspectBroken(begin, std::min(begin + PlanesOfSlab, depth), nearerEnds, crew);
+    });
   }
   crew.forEach(depth, 0.0f, [&](SizeValueType k) {
     for (SizeValueType j = 0; j < m_Signs.GetHeight(); ++j)

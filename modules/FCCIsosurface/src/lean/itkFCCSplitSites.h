@@ -27,13 +27,13 @@ public:
   /** \param signs with a layer of sites around the image; must outlive this */
   FCCSplitSites(const FCCSigns & signs, std::pmr::memory_resource * scratch);
 
-  /** Sets the sites of a plane that may break a condition; for an edge that breaks 2, one of its ends is enough. Sites
-   * are numbered along x, then y, in the plane. Different planes may be set at once. */
+  /** Nearer ends of the planes below, at and above another. */
+  using NearerEndsAround = std::array<const FCCNearerEnds *, 3>;
+
+  /** Adds sites of a plane that may break a condition, ascending; for an edge that breaks 2, one of its ends is enough.
+   * Sites are numbered along x, then y, in the plane. Sites of different planes may be added at once. */
   void
-  Suspect(SizeValueType k, std::vector<std::uint32_t> && sites)
-  {
-    m_Suspects[k] = std::move(sites);
-  }
+  Suspect(SizeValueType k, const std::vector<std::uint32_t> & numbers, const NearerEndsAround & nearerEnds);
 
   /** Divides sites until no vertex breaks a condition. Before, \a points and \a triangles are the numbers of points of
    * each plane and of triangles between it and the next when all sites are whole. Afterwards, \a points is right, and
@@ -52,47 +52,56 @@ public:
   }
 
 private:
-  struct SuspectsOfPlane;
-
   /** Sites of a plane that no other of them is a neighbour of are of one color: they can be divided at once. */
   static constexpr unsigned int ColorsOfPlane = 4;
 
   /** Planes whose suspects are taken together, as the nearer ends of the planes next to them are needed. */
   static constexpr SizeValueType PlanesOfSlab = 8;
 
+  /** A site that may break a condition. */
+  struct SuspectedSite
+  {
+    std::uint32_t number; ///< in the plane
+    FCCStarReader::Star star;
+  };
+
+  struct DividedSite
+  {
+    std::uint32_t number;
+    FCCSiteParts parts;
+    std::array<SizeValueType, 2> mostTriangles;
+  };
+
+  struct Plane
+  {
+    std::array<std::vector<SuspectedSite>, ColorsOfPlane> suspects;
+    std::vector<DividedSite> divided;  ///< whose parts are not written yet
+    std::vector<std::uint32_t> broken; ///< to be suspected in the next round; in any order, and maybe several times
+  };
+
   bool
   HasSuspects() const;
 
-  /** Sorts the suspects of a plane by their colors. They are no longer suspects. \param nearerEnds of the planes below,
-   * at and above \a k */
+  /** Suspects the broken sites of a few planes. */
   void
-  TakeSuspects(SizeValueType k,
-               const std::array<const FCCNearerEnds *, 3> & nearerEnds,
-               SuspectsOfPlane & suspects);
+  SuspectBroken(SizeValueType begin,
+                SizeValueType end,
+                const std::vector<FCCNearerEnds::Packed> & nearerEnds,
+                const FCCSurfaceExtractor::Crew & crew);
 
+  /** Divides the suspects of a color and finds others that break a condition then, but does not write the parts. */
   void
-  TakeSuspectsOfSlab(SizeValueType begin,
-                     SizeValueType end,
-                     const std::vector<FCCNearerEnds::Packed> & nearerEnds,
-                     const FCCSurfaceExtractor::Crew & crew,
-                     std::vector<SuspectsOfPlane> & suspects);
-
-  /** Divides the suspects of a color and suspects others, but does not write the parts yet. */
-  void
-  DivideSuspects(SizeValueType k,
-                 unsigned int color,
-                 const FCCSurfaceExtractor::Crew & crew,
-                 SuspectsOfPlane & suspects);
+  DivideSuspects(SizeValueType k, unsigned int color, const FCCSurfaceExtractor::Crew & crew);
 
   /** Writes the parts of what was divided. */
   void
-  SetDivided(SizeValueType k, SuspectsOfPlane & suspects, std::vector<SizeValueType> & triangles);
+  SetDivided(SizeValueType k, std::vector<SizeValueType> & triangles);
 
   const FCCSigns & m_Signs;
   std::pmr::memory_resource * m_Scratch;
   FCCSplitRows m_Split;
-  std::vector<std::vector<std::uint32_t>> m_Suspects; ///< by plane; in any order, and maybe several times
-  std::mutex m_Mutex;                                 ///< for suspects that are added to other planes
+  std::vector<Plane> m_Planes;
+  std::mutex m_Mutex; ///< for broken sites of other planes
 };
 
 } // namespace itk
