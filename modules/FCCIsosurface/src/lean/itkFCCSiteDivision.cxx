@@ -143,45 +143,41 @@ bool
 FCCSiteDivision::Divide()
 {
   bool changed = false;
-  if (!this->IsSplit(Center))
+  unsigned int broken = 0;
+  if (this->IsSplit(Center))
   {
-    if (!this->StartDividing())
-    {
-      return false;
-    }
+    broken = this->FindBroken();
+  }
+  else if (FCCSiteStar::Get().IsDisk(m_Crossings))
+  {
+    broken = this->FindBrokenVertices(1) != 0 ? m_Crossings : 0;
+    m_Split |= 1U << Center;
+    this->SetParts(FCCSiteParts(m_Crossings, 0));
+  }
+  else if (m_Crossings != 0)
+  {
+    this->StartDividing();
+    broken = this->FindBroken();
     changed = true;
   }
-  for (;;)
+  for (; broken != 0; broken = this->FindBroken())
   {
-    const unsigned int broken = this->FindBroken();
-    if (broken == 0)
-    {
-      return changed;
-    }
     this->DividePart(FCCSiteStar::Get().PartOf(broken, static_cast<unsigned int>(__builtin_ctz(broken))));
     changed = true;
   }
+  return changed;
 }
 
-/** Splits a whole site that breaks a condition into its connected parts, those that are no disks into single crossings.
- * Returns whether it breaks one. */
-bool
+/** Splits a whole site into its connected parts, those that are no disks into single crossings. */
+void
 FCCSiteDivision::StartDividing()
 {
-  const FCCSiteStar & star = FCCSiteStar::Get();
-  if (m_Crossings == 0)
-  {
-    return false;
-  }
-  if (star.IsDisk(m_Crossings) && this->FindBrokenVertices(1) == 0)
-  {
-    return false;
-  }
-  m_Split |= 1U << Center;
   unsigned int single = 0;
-  FCCSiteParts(m_Crossings, 0).ForEachVertex([&](unsigned int part) { single |= star.IsDisk(part) ? 0 : part; });
+  FCCSiteParts(m_Crossings, 0).ForEachVertex([&single](unsigned int part) {
+    single |= FCCSiteStar::Get().IsDisk(part) ? 0 : part;
+  });
+  m_Split |= 1U << Center;
   this->SetParts(FCCSiteParts(m_Crossings, single));
-  return true;
 }
 
 unsigned int

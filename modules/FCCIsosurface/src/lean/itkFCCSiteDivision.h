@@ -4,6 +4,8 @@
 #include "itkFCCNearerEnds.h"
 #include "itkFCCSiteParts.h"
 
+#include <cstring>
+
 namespace itk
 {
 
@@ -79,8 +81,11 @@ public:
   void
   ForEachBrokenNeighbor(const TUse & use) const
   {
-    this->CountTriangles(~this->GetGatheredVertices(),
-                         [&](unsigned int, VertexType end) { use(m_Places[end / VerticesOfSite]); });
+    const unsigned int single = this->GetVertices() & ~this->GetGatheredVertices();
+    if (single != 0)
+    {
+      this->CountTriangles(single, [&](unsigned int, VertexType end) { use(m_Places[end / VerticesOfSite]); });
+    }
   }
 
   /** The most triangles that the tetrahedra with crossings of the site can have: between the plane below and its own,
@@ -130,7 +135,7 @@ private:
   unsigned int
   FindBrokenVertices(unsigned int wanted) const;
 
-  bool
+  void
   StartDividing();
 
   void
@@ -176,7 +181,14 @@ private:
     }
   }
 
-  /** The numbers of the site's vertices of several crossings, as bits. */
+  /** The numbers of the site's vertices, as bits. */
+  unsigned int
+  GetVertices() const
+  {
+    return (1U << m_NumberOfVertices) - 1;
+  }
+
+  /** Those of its vertices that gather crossings. */
   unsigned int
   GetGatheredVertices() const;
 
@@ -188,10 +200,7 @@ private:
   {
     std::array<std::uint8_t, VerticesOfSite> triangles{};
     std::uint8_t uses[VerticesOfSite][256];
-    for (unsigned int vertex = 0; vertex < m_NumberOfVertices; ++vertex)
-    {
-      std::fill_n(uses[vertex], 256, std::uint8_t{ 0 });
-    }
+    std::memset(uses, 0, m_NumberOfVertices * sizeof uses[0]);
     this->ForEachTriangle([&](const VertexType(&)[3], const VertexType(&vertices)[3]) {
       for (unsigned int n = 0; n < 3; ++n)
       {
