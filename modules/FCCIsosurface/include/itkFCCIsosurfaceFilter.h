@@ -61,20 +61,21 @@ namespace itk
  * has the same bytes for any number of threads and any processor.
  *
  * Memory: the surface, a bit for each sample and isovalue (rows are rounded up to words of 64 and have a spare one),
- * and about 20 planes of the volume in float32 for each thread that works. Lean also needs another bit in the rows with
- * split sites, and 16 bytes for each split site (about 40 while they are found). That is little except in noise, where
- * most sites of the surface are split and it comes to half the size of the surface.
+ * and about 20 planes of the volume in float32 for each thread that works. Lean also needs at most a byte for each edge
+ * that the surface cuts, another bit in the rows with split sites, and 16 bytes for each split site (about 64 while
+ * they are found). That is little except in noise, where most sites of the surface are split and it comes to half the
+ * size of the surface.
  *
  * **Streaming.** With NumberOfStreamDivisions above 1 the filter asks for the input in that many slabs of planes of
  * constant z, one after the other, with three planes more on either side, so that only a slab of the volume is in
  * memory if the upstream filters can stream. The output has the same bytes. The input is passed over to classify its
- * samples and to fill the surfaces, for Lean also to count before, which keeps 12 bytes for each of the surfaces'
- * points until they are filled. Upstream filters run again for each slab. From the second slab on, an abort of this
- * filter reaches them at their next ProgressEvent; ITK makes the first slab before this filter's StartEvent: during
- * that time abort the upstream filters themselves, as in any pipeline. A slab is divided among no more threads than it
- * has tens of planes, so that memory hardly grows with their number. Between slabs the input's data are released if its
- * ReleaseDataFlag says so. Afterwards the input's requested region and its buffer are a slab: to have the whole of it,
- * call its UpdateLargestPossibleRegion(). An image without a source is read where it lies.
+ * samples and to fill the surfaces, for Lean also to count before. Upstream filters run again for each slab. From the
+ * second slab on, an abort of this filter reaches them at their next ProgressEvent; ITK makes the first slab before
+ * this filter's StartEvent: during that time abort the upstream filters themselves, as in any pipeline. A slab is
+ * divided among no more threads than it has tens of planes, so that memory hardly grows with their number. Between
+ * slabs the input's data are released if its ReleaseDataFlag says so. Afterwards the input's requested region and its
+ * buffer are a slab: to have the whole of it, call its UpdateLargestPossibleRegion(). An image without a source is read
+ * where it lies.
  *
  * Throws when an isovalue is not finite, when the surface has 2^32 points or more, when its points are too close
  * together for 32-bit positions, or when samples are missing from the input's buffer. An isovalue outside the image's

@@ -13,16 +13,13 @@ FCCClusterPlane::FCCClusterPlane(const FCCSigns & signs, std::pmr::memory_resour
 {}
 
 std::uint32_t
-FCCClusterPlane::Find(SizeValueType k,
-                      const FCCClusterPlane & below,
-                      const FCCSplitRows * splits,
-                      std::uint32_t first)
+FCCClusterPlane::Find(SizeValueType k, const FCCClusterPlane & below, const FCCSplitRows * splits, std::uint32_t first)
 {
   m_WholeSites.Clear();
   m_Split.Clear();
   m_SplitSites.clear();
   const SizeValueType words = m_Signs->GetNumberOfWords();
-  for (SizeValueType j = 0; j < m_Signs->GetHeight() && k < m_Signs->GetDepth(); ++j)
+  for (SizeValueType j = 0; j < m_Signs->GetHeight(); ++j)
   {
     this->FindCrossings(j, k, below);
     WordType * const wholeSites = m_WholeSites.GetRow(j);
@@ -44,7 +41,7 @@ std::uint32_t
 FCCClusterPlane::NumberSplitSites(SizeValueType k, const FCCSplitRows & splits, std::uint32_t first)
 {
   m_Split.Number(0);
-  for (SizeValueType j = 0; j < m_Signs->GetHeight() && k < m_Signs->GetDepth(); ++j)
+  for (SizeValueType j = 0; j < m_Signs->GetHeight(); ++j)
   {
     const FCCSiteParts * parts = splits.GetParts(j, k).data();
     FCCBits::ForEach(m_Split.GetRow(j), m_Signs->GetNumberOfWords(), [&](SizeValueType i) {

@@ -60,7 +60,7 @@ private:
   FCCScalarField m_Field;
   FCCSplitSites m_Splits;
   std::vector<FCCNearerEnds::Packed> m_NearerEnds; ///< by plane
-  std::vector<SizeValueType> m_FirstPoint;    ///< first point of each plane; counts until Resolve()
+  std::vector<SizeValueType> m_FirstPoint;         ///< first point of each plane; counts until Resolve()
   std::vector<SizeValueType> m_FirstTriangle; ///< by plane: where the triangles of a slab that begins there are written
   std::vector<SizeValueType> m_Filled;        ///< by plane: the number of triangles of the slab that began there
   std::vector<std::uint8_t> m_AreOutside;     ///< by point, unless closed: whether its site is outside the image

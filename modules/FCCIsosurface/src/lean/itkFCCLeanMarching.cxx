@@ -44,12 +44,9 @@ struct LeanColumn
     {
       const FCCClusterPlane & plane = (row & 2) != 0 ? layer.upper : layer.lower;
       const SizeValueType y = j + (row & 1);
-      rows[row] = { layer.signs.GetRow(y, layer.k + (row >> 1)),
-                    plane.GetNearerEnds().GetStarts(y, 0),
-                    plane.GetNearerEnds().GetEnds(y, 0),
-                    plane.GetSplitCrossings(y, 0),
-                    plane.GetWholeSites().GetNumberedRow(y),
-                    plane.GetSplitRow(y) };
+      rows[row] = { layer.signs.GetRow(y, layer.k + (row >> 1)), plane.GetNearerEnds().GetStarts(y, 0),
+                    plane.GetNearerEnds().GetEnds(y, 0),         plane.GetSplitCrossings(y, 0),
+                    plane.GetWholeSites().GetNumberedRow(y),     plane.GetSplitRow(y) };
     }
   }
 };
@@ -118,6 +115,14 @@ struct LeanSteps
     return column.rows[RowOf(site)].wholeSites.GetNumber(IndexOf(site, i));
   }
 
+  template <unsigned int Site>
+  static HWY_INLINE std::uint32_t
+  VertexOf(const LeanColumn & column, SizeValueType i)
+  {
+    constexpr unsigned int row = RowOf(Site);
+    return column.rows[row].wholeSites.GetNumber(i + ShiftOfPair[Site / 2]);
+  }
+
   /** The vertex of a crossing that is nearer to one of its edge's sites. */
   static HWY_INLINE std::uint32_t
   CrossingVertexOf(const LeanColumn & column, unsigned int edge, unsigned int site, SizeValueType i)
@@ -128,8 +133,8 @@ struct LeanSteps
     }
     const Cases::StoredEdge stored = StoredEdgeOf(edge);
     const bool isStart = stored.start == Cases::EndOf(edge, site);
-    return column.rows[RowOf(site)].splitSites.GetVertex(
-      IndexOf(site, i), isStart ? stored.type : FCCSiteStar::OppositeOf(stored.type));
+    return column.rows[RowOf(site)].splitSites.GetVertex(IndexOf(site, i),
+                                                         isStart ? stored.type : FCCSiteStar::OppositeOf(stored.type));
   }
 
   /** Words that are worked at together, whatever the width of vectors: the order of triangles depends on it. */
@@ -165,17 +170,18 @@ struct LeanSteps
 
   /** Calls use(tetrahedron, corner left out, steps, first word) for the triangles between whole sites of some steps,
    * and with \a WithMixed, useMixed(tetrahedron, steps, first word) for tetrahedra with crossings of split sites. The
-   * tetrahedron is a constant. */
+   * tetrahedron and the corner are constants. */
   template <bool WithMixed, typename TUse, typename TMixed>
   static HWY_INLINE void
   ForEachTriangle(const LeanColumn & column, SizeValueType numberOfWords, const TUse & use, const TMixed & useMixed)
   {
     Triangles triangles;
     const auto useTetrahedron = [&](auto tetrahedron, SizeValueType word) HWY_ATTR {
-      for (unsigned int leftOut = 0; leftOut < 4; ++leftOut)
-      {
-        use(tetrahedron, leftOut, triangles.wholes[tetrahedron][leftOut], word);
-      }
+      const auto & wholes = triangles.wholes[tetrahedron];
+      use(tetrahedron, std::integral_constant<unsigned int, 0>{}, wholes[0], word);
+      use(tetrahedron, std::integral_constant<unsigned int, 1>{}, wholes[1], word);
+      use(tetrahedron, std::integral_constant<unsigned int, 2>{}, wholes[2], word);
+      use(tetrahedron, std::integral_constant<unsigned int, 3>{}, wholes[3], word);
       if (WithMixed)
       {
         useMixed(tetrahedron, triangles.mixed[tetrahedron], word);
@@ -350,8 +356,9 @@ CountColumnUse(const LeanColumn & column, SizeValueType words, FCCTriangleUse::C
   TSteps::template ForEachTriangle<false>(
     column,
     words,
-    [&](auto tetrahedron, unsigned int leftOut, const auto & steps, SizeValueType first) HWY_ATTR {
-      const FCCLeanTables::Triangle & triangle = TSteps::Tables.triangles[tetrahedron][leftOut];
+    [&](auto tetrahedron, auto leftOut, const auto & steps, SizeValueType first) HWY_ATTR {
+      constexpr FCCLeanTables::Triangle triangle =
+        TSteps::Tables.triangles[decltype(tetrahedron)::value][decltype(leftOut)::value];
       const auto usesOf = [&](unsigned int n) {
         const unsigned int site = Cases::TetrahedronSites[tetrahedron][triangle.corners[n]];
         return uses[TSteps::RowOf(site)] + TSteps::IndexOf(site, 0);
@@ -415,9 +422,8 @@ FillMixedTetrahedron(const LeanColumn & column,
     }
   }
   const FCCTetrahedronPolygon & polygon = TSteps::Tables.polygons[Tetrahedron][inside];
-  const auto vertexOf = [&](unsigned int n) HWY_ATTR {
-    return vertices[polygon.crossings[n].inside][polygon.crossings[n].outside];
-  };
+  const auto vertexOf = [&](unsigned int n)
+                          HWY_ATTR { return vertices[polygon.crossings[n].inside][polygon.crossings[n].outside]; };
   const auto [decidingInside, decidingOutside] = polygon.crossings[polygon.decider];
   const unsigned int first = polygon.FindFirstCorner(areNearerToInside[decidingInside][decidingOutside]);
   SizeValueType count = 0;
@@ -444,13 +450,14 @@ FillLeanTriangles(const FCCLeanLayer & layer, bool reversed, TriangleSurface::Tr
     Steps::template ForEachTriangle<true>(
       column,
       layer.signs.GetNumberOfWords(),
-      [&](auto tetrahedron, unsigned int leftOut, const auto & group, SizeValueType first) HWY_ATTR {
-        const auto & sites = Cases::TetrahedronSites[tetrahedron];
-        const auto & corners = Steps::Tables.triangles[tetrahedron][leftOut].corners;
+      [&](auto tetrahedron, auto leftOut, const auto & group, SizeValueType first) HWY_ATTR {
+        constexpr const auto & sites = Cases::TetrahedronSites[decltype(tetrahedron)::value];
+        constexpr const auto & corners =
+          Steps::Tables.triangles[decltype(tetrahedron)::value][decltype(leftOut)::value].corners;
         Steps::ForEachStep(group, first, layer.signs.GetNumberOfWords(), [&](SizeValueType i) HWY_ATTR {
-          const std::uint32_t a = Steps::VertexOf(column, sites[corners[0]], i);
-          const std::uint32_t b = Steps::VertexOf(column, sites[corners[1]], i);
-          const std::uint32_t c = Steps::VertexOf(column, sites[corners[2]], i);
+          const std::uint32_t a = Steps::template VertexOf<sites[corners[0]]>(column, i);
+          const std::uint32_t b = Steps::template VertexOf<sites[corners[1]]>(column, i);
+          const std::uint32_t c = Steps::template VertexOf<sites[corners[2]]>(column, i);
           const bool turned = Steps::IsInside(column, sites[leftOut], i) != reversed;
           *next++ = { a, turned ? c : b, turned ? b : c };
         });

@@ -29,9 +29,7 @@ FCCNearerEnds::FCCNearerEnds(const FCCSigns & signs, std::pmr::memory_resource *
 void
 FCCNearerEnds::Find(SizeValueType k, const FCCFieldPlanes & field, bool insideIsBelow)
 {
-  m_Starts.Clear();
-  m_Ends.Clear();
-  for (SizeValueType j = 0; j < m_Signs->GetHeight() && k < m_Signs->GetDepth(); ++j)
+  for (SizeValueType j = 0; j < m_Signs->GetHeight(); ++j)
   {
     for (std::uint8_t type = 0; type < Types; ++type)
     {
@@ -48,6 +46,13 @@ FCCNearerEnds::FindRow(SizeValueType j,
                        bool insideIsBelow)
 {
   const FCCStepTarget end(*m_Signs, j, k, FCCLattice::OwnedEdges[type]);
+  const bool startIsReal = field.IsReal(1, j) && field.IsReal(2, k);
+  const bool endIsReal = field.IsReal(1, end.j) && field.IsReal(2, end.k);
+  if (!startIsReal || !endIsReal)
+  {
+    m_Starts.ClearRow(j * Types + type);
+    m_Ends.ClearRow(j * Types + type);
+  }
   if (!end.isInBox)
   {
     return;
@@ -57,8 +62,6 @@ FCCNearerEnds::FindRow(SizeValueType j,
   const WordType * const endRow = m_Signs->GetRow(end.j, end.k);
   WordType * const starts = m_Starts.GetRow(j * Types + type);
   WordType * const ends = m_Ends.GetRow(j * Types + type);
-  const bool startIsReal = field.IsReal(1, j) && field.IsReal(2, k);
-  const bool endIsReal = field.IsReal(1, end.j) && field.IsReal(2, end.k);
   if (!startIsReal || !endIsReal)
   {
     WordType * const outside = startIsReal ? ends : starts;

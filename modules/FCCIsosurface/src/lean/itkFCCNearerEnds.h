@@ -28,8 +28,7 @@ public:
 
   FCCNearerEnds(const FCCSigns & signs, std::pmr::memory_resource * scratch);
 
-  /** Finds the crossings of plane \a k. The field must have loaded the values of planes \a k and \a k + 1. Planes past
-   * the last have none. */
+  /** Finds the crossings of plane \a k. The field must have loaded the values of planes \a k and \a k + 1. */
   void
   Find(SizeValueType k, const FCCFieldPlanes & field, bool insideIsBelow);
 

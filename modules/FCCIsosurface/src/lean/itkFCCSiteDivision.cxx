@@ -14,9 +14,8 @@ FCCStarReader::FCCStarReader(const FCCSigns & signs,
   for (unsigned int site = 0; site < FCCSiteStar::Sites; ++site)
   {
     const FCCStepTarget target(signs, j, k, FCCSiteStar::StepTo(site));
-    m_Inside[site] = target.isInBox
-                       ? Bits{ signs.GetRow(target.j, target.k), static_cast<SizeValueType>(target.shift) }
-                       : Bits{ nullptr, m_Width };
+    m_Inside[site] = target.isInBox ? Bits{ signs.GetRow(target.j, target.k), static_cast<SizeValueType>(target.shift) }
+                                    : Bits{ nullptr, m_Width };
   }
   for (unsigned int n = 0; n < FCCSiteStar::Edges; ++n)
   {

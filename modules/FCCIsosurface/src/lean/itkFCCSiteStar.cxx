@@ -34,8 +34,8 @@ FCCSiteStar::FindEdges()
       m_EdgeBetween[a][b] = m_EdgeBetween[b][a] = count;
       m_EdgesAt[a] |= std::uint64_t{ 1 } << count;
       m_EdgesAt[b] |= std::uint64_t{ 1 } << count;
-      m_Edges[count++] =
-        direction < StoredDirections ? Edge{ { a, b }, { direction, opposite } } : Edge{ { b, a }, { opposite, direction } };
+      m_Edges[count++] = direction < StoredDirections ? Edge{ { a, b }, { direction, opposite } }
+                                                      : Edge{ { b, a }, { opposite, direction } };
       if (a != Center)
       {
         m_Adjacent[a] |= 1U << b;

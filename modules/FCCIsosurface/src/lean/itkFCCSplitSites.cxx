@@ -14,9 +14,7 @@ FCCSplitSites::FCCSplitSites(const FCCSigns & signs, std::pmr::memory_resource *
 {}
 
 void
-FCCSplitSites::Suspect(SizeValueType k,
-                       const std::vector<std::uint32_t> & numbers,
-                       const NearerEndsAround & nearerEnds)
+FCCSplitSites::Suspect(SizeValueType k, const std::vector<std::uint32_t> & numbers, const NearerEndsAround & nearerEnds)
 {
   const auto width = static_cast<std::uint32_t>(m_Signs.GetWidth());
   for (auto number = numbers.begin(); number != numbers.end();)

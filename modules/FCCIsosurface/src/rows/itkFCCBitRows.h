@@ -43,7 +43,8 @@ struct FCCBits
     }
   }
 
-  /** Calls use(word, Shifted()) for all words of a row, ascending. It may overwrite the words that it has been given. */
+  /** Calls use(word, Shifted()) for all words of a row, ascending. It may overwrite the words that it has been given.
+   */
   template <typename TUse>
   [[gnu::always_inline]] static inline void
   ForEachShifted(const WordType * row, SizeValueType words, IndexValueType shift, const TUse & use)
