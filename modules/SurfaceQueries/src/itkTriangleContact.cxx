@@ -5,6 +5,7 @@
 #include "detail/itkTriangleContact.h"
 
 #include "detail/itkExactOrientation.h"
+#include "detail/itkPositionArithmetic.h"
 
 #include <algorithm>
 
@@ -240,6 +241,33 @@ FindContact(const Corners & first, const Corners & second, unsigned int shared)
   return CompareIntervals(first, firstSides, second, secondSides, shared);
 }
 
+/** Whether all corners of \a other that \a triangle lacks are certain to lie on one side of its plane, by
+ * floating-point numbers alone. */
+bool
+IsBesidePlane(const TriangleSurface::PointsContainer & points,
+              const TriangleSurface::TriangleType & triangle,
+              const TriangleSurface::TriangleType & other)
+{
+  constexpr double rounding = 1e-14; // of a product of three coordinates, over that of the vectors' lengths; generous
+  const auto lengthOf = [](const PositionType & v) { return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]); };
+  const PositionType origin = ToPosition(points[triangle[0]]);
+  const PositionType u = Subtract(ToPosition(points[triangle[1]]), origin);
+  const PositionType v = Subtract(ToPosition(points[triangle[2]]), origin);
+  const PositionType normal = Cross(u, v);
+  const double bound = rounding * lengthOf(u) * lengthOf(v);
+  bool areAbove = true, areBelow = true;
+  for (const std::uint32_t corner : other)
+  {
+    const bool isShared = (corner == triangle[0]) | (corner == triangle[1]) | (corner == triangle[2]);
+    const PositionType offset = Subtract(ToPosition(points[corner]), origin);
+    const double height = Dot(normal, offset);
+    const double leastHeight = bound * lengthOf(offset);
+    areAbove &= isShared | (height > leastHeight);
+    areBelow &= isShared | (height < -leastHeight);
+  }
+  return areAbove != areBelow; // both if all corners are shared
+}
+
 } // namespace
 
 Contact
@@ -247,6 +275,10 @@ FindContact(const TriangleSurface::PointsContainer & points,
             TriangleSurface::TriangleType first,
             TriangleSurface::TriangleType second)
 {
+  if (IsBesidePlane(points, first, second) || IsBesidePlane(points, second, first))
+  {
+    return Contact::Apart;
+  }
   const unsigned int shared = BringSharedFirst(first, second);
   const Corners firstCorners = { points[first[0]], points[first[1]], points[first[2]] };
   const Corners secondCorners = { points[second[0]], points[second[1]], points[second[2]] };

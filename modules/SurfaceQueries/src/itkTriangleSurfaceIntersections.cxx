@@ -18,8 +18,9 @@ using Contact = TriangleContact;
 using Box = TriangleTree::Box;
 using TriangleType = TriangleSurface::TriangleType;
 
-constexpr std::size_t TrianglesOfGroup = 32;
-constexpr std::size_t GroupsOfBlock = 128;
+constexpr std::size_t TrianglesOfPart = 256;
+constexpr std::size_t TrianglesOfSample = 32; // parts where not all are tested
+constexpr std::size_t PartsOfBlock = 16;
 
 bool
 AreDuplicates(TriangleType a, TriangleType b)
@@ -27,6 +28,17 @@ AreDuplicates(TriangleType a, TriangleType b)
   std::sort(a.begin(), a.end());
   std::sort(b.begin(), b.end());
   return a == b;
+}
+
+bool
+HaveCommonCorner(const TriangleType & a, const TriangleType & b)
+{
+  bool haveCommon = false;
+  for (const std::uint32_t corner : a)
+  {
+    haveCommon |= (corner == b[0]) | (corner == b[1]) | (corner == b[2]);
+  }
+  return haveCommon;
 }
 
 void
@@ -37,175 +49,265 @@ SortUnique(std::vector<std::uint32_t> & ids)
 }
 
 /** \class BoxList
- * \brief Triangles and their boxes, coordinate by coordinate, so that many are compared with one at once. */
+ * \brief Boxes in steps of 1/255 of a box around some of them, so that sixteen are compared with one at once. The steps
+ * keep the order of coordinates: boxes that overlap still do. */
 class BoxList
 {
 public:
+  using StepBox = std::array<std::uint8_t, 6>; ///< least x, y, z, greatest x, y, z
+
   void
   Clear()
   {
-    m_Triangles.clear();
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      m_Lowest[axis].clear();
-      m_Highest[axis].clear();
-    }
+    m_Size = 0;
   }
 
   void
-  Add(std::uint32_t triangle, const Box & box)
+  Add(const StepBox & box)
   {
-    m_Triangles.push_back(triangle);
-    for (unsigned int axis = 0; axis < 3; ++axis)
+    if (m_Size + Lanes > m_Sides[0].size())
     {
-      m_Lowest[axis].push_back(box.lowest[axis]);
-      m_Highest[axis].push_back(box.highest[axis]);
+      for (auto & side : m_Sides)
+      {
+        side.resize(2 * side.size() + 16 * Lanes);
+      }
     }
+    for (std::size_t side = 0; side < box.size(); ++side)
+    {
+      m_Sides[side][m_Size] = box[side];
+    }
+    ++m_Size;
   }
 
-  std::size_t
-  GetSize() const
+  StepBox
+  GetBox(std::size_t n) const
   {
-    return m_Triangles.size();
+    StepBox box;
+    for (std::size_t side = 0; side < box.size(); ++side)
+    {
+      box[side] = m_Sides[side][n];
+    }
+    return box;
   }
 
-  std::uint32_t
-  GetTriangle(std::size_t n) const
-  {
-    return m_Triangles[n];
-  }
-
-  /** Calls \a visit(triangle) for those behind the \a n-th whose boxes overlap its box. */
+  /** Calls \a visit(n) for the boxes from number \a from on that overlap \a box. */
   template <typename TVisitor>
   void
-  VisitOverlapping(std::size_t n, const TVisitor & visit)
+  VisitOverlapping(const StepBox & box, std::size_t from, const TVisitor & visit) const
   {
-    const std::size_t size = m_Triangles.size();
-    m_Overlap.resize(size + sizeof(std::uint64_t));
-    const float *x0 = m_Lowest[0].data(), *y0 = m_Lowest[1].data(), *z0 = m_Lowest[2].data();
-    const float *x1 = m_Highest[0].data(), *y1 = m_Highest[1].data(), *z1 = m_Highest[2].data();
-    const Box box{ { x0[n], y0[n], z0[n] }, { x1[n], y1[n], z1[n] } };
-    std::uint8_t * const overlap = m_Overlap.data();
-    for (std::size_t other = n + 1; other < size; ++other)
+    const std::uint8_t *x0 = m_Sides[0].data(), *y0 = m_Sides[1].data(), *z0 = m_Sides[2].data();
+    const std::uint8_t *x1 = m_Sides[3].data(), *y1 = m_Sides[4].data(), *z1 = m_Sides[5].data();
+    const auto [lowX, lowY, lowZ, highX, highY, highZ] = box;
+    for (std::size_t begin = from; begin < m_Size; begin += Lanes)
     {
-      overlap[other] = (x0[other] <= box.highest[0]) & (box.lowest[0] <= x1[other]) & (y0[other] <= box.highest[1]) &
-                       (box.lowest[1] <= y1[other]) & (z0[other] <= box.highest[2]) & (box.lowest[2] <= z1[other]);
-    }
-    std::fill_n(overlap + size, sizeof(std::uint64_t), 0);
-    for (std::size_t other = n + 1; other < size; other += sizeof(std::uint64_t))
-    {
-      std::uint64_t next;
-      std::memcpy(&next, overlap + other, sizeof(next));
-      for (; next != 0; next &= next - 1)
+      std::array<std::uint8_t, Lanes> overlap;
+      for (std::size_t lane = 0; lane < Lanes; ++lane)
       {
-        visit(m_Triangles[other + static_cast<std::size_t>(__builtin_ctzll(next)) / 8]);
+        const std::size_t n = begin + lane;
+        overlap[lane] =
+          (x0[n] <= highX) & (lowX <= x1[n]) & (y0[n] <= highY) & (lowY <= y1[n]) & (z0[n] <= highZ) & (lowZ <= z1[n]);
+      }
+      for (std::size_t lane = 0; lane < Lanes; lane += sizeof(std::uint64_t))
+      {
+        std::uint64_t next;
+        std::memcpy(&next, overlap.data() + lane, sizeof(next));
+        for (; next != 0; next &= next - 1)
+        {
+          const std::size_t n = begin + lane + static_cast<std::size_t>(__builtin_ctzll(next)) / 8;
+          n < m_Size ? visit(n) : void();
+        }
       }
     }
   }
 
 private:
-  std::vector<std::uint32_t> m_Triangles;
-  std::array<std::vector<float>, 3> m_Lowest;
-  std::array<std::vector<float>, 3> m_Highest;
-  std::vector<std::uint8_t> m_Overlap;
+  static constexpr std::size_t Lanes = 16;
+
+  std::size_t m_Size = 0;
+  std::array<std::vector<std::uint8_t>, 6> m_Sides; ///< each with Lanes - 1 more elements at least
+};
+
+/** \class Neighborhood
+ * \brief The triangles of a part of a surface, and those around it. */
+class Neighborhood
+{
+public:
+  /** A triangle, and those of its corners at which the surface is not folded; None for the others. */
+  struct Member
+  {
+    std::uint32_t triangle;
+    TriangleType unfoldedCorners;
+  };
+
+  /** Empties it, for a part within \a around. */
+  void
+  Start(const Box & around)
+  {
+    m_Members.clear();
+    m_Boxes.Clear();
+    m_Origin = around.lowest;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const float length = around.highest[axis] - around.lowest[axis];
+      m_StepsPerMillimetre[axis] = length > 256.0f / std::numeric_limits<float>::max() ? 255.0f / length : 0.0f;
+    }
+  }
+
+  void
+  Add(const Member & member, const Box & box)
+  {
+    m_Members.push_back(member);
+    BoxList::StepBox steps;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      steps[axis] = this->StepOf(box.lowest[axis], axis);
+      steps[axis + 3] = this->StepOf(box.highest[axis], axis);
+    }
+    m_Boxes.Add(steps);
+  }
+
+  /** Calls \a visit(member, other) for pairs whose boxes overlap, or nearly, and whose first is among the first \a
+   * count members. */
+  template <typename TVisitor>
+  void
+  VisitPairs(std::size_t count, const TVisitor & visit)
+  {
+    constexpr std::size_t sizeOfGroup = 16;
+    for (std::size_t begin = 0; begin < count; begin += sizeOfGroup)
+    {
+      const std::size_t end = std::min(count, begin + sizeOfGroup);
+      this->FindNear(begin, end);
+      for (std::size_t n = begin; n < end; ++n)
+      {
+        m_NearBoxes.VisitOverlapping(
+          m_Boxes.GetBox(n), n - begin + 1, [&](std::size_t other) { visit(m_Members[n], m_Members[m_Near[other]]); });
+      }
+    }
+  }
+
+private:
+  std::uint8_t
+  StepOf(float coordinate, unsigned int axis) const
+  {
+    const float step = (coordinate - m_Origin[axis]) * m_StepsPerMillimetre[axis];
+    return static_cast<std::uint8_t>(static_cast<int>(std::min(255.0f, std::max(0.0f, step))));
+  }
+
+  /** Lists the members [begin, end) and those behind them whose boxes overlap the box around these. */
+  void
+  FindNear(std::size_t begin, std::size_t end)
+  {
+    BoxList::StepBox around = m_Boxes.GetBox(begin);
+    m_Near.clear();
+    m_NearBoxes.Clear();
+    const auto add = [this](std::size_t n) {
+      m_Near.push_back(static_cast<std::uint32_t>(n));
+      m_NearBoxes.Add(m_Boxes.GetBox(n));
+    };
+    for (std::size_t n = begin; n < end; ++n)
+    {
+      const BoxList::StepBox box = m_Boxes.GetBox(n);
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        around[axis] = std::min(around[axis], box[axis]);
+        around[axis + 3] = std::max(around[axis + 3], box[axis + 3]);
+      }
+      add(n);
+    }
+    m_Boxes.VisitOverlapping(around, end, add);
+  }
+
+  std::vector<Member> m_Members;
+  BoxList m_Boxes; ///< of the members
+  TriangleTree::PointType m_Origin{};
+  TriangleTree::PointType m_StepsPerMillimetre{};
+  std::vector<std::uint32_t> m_Near; ///< numbers of members
+  BoxList m_NearBoxes;
 };
 
 /** \class ContactSearch
  * \brief Finds how the triangles of a surface meet elsewhere than at corners and sides they share.
  *
- * Triangles are tested in groups, which are small subtrees: those of a group are compared with each other and with all
- * those around the group. Pairs with a common point at which the surface is not folded need no test. */
+ * Triangles are tested in parts, which are small subtrees: those of a part are compared with each other and with all
+ * those around the part. Pairs with a common point at which the surface is not folded need no test. */
 class ContactSearch
 {
 public:
-  explicit ContactSearch(const TriangleTree & tree)
+  /** \param sizeOfPart triangles at most */
+  explicit ContactSearch(const TriangleTree & tree, std::size_t sizeOfPart = TrianglesOfPart)
     : m_Tree(tree)
-    , m_Groups(tree.FindSubtrees(TrianglesOfGroup))
+    , m_Parts(tree.FindSubtrees(sizeOfPart))
     , m_AreUnfolded(FindUnfoldedPoints(tree.GetSurface(), TrianglesOfPoints(tree.GetSurface())))
   {}
 
   std::size_t
-  GetNumberOfGroups() const
+  GetNumberOfParts() const
   {
-    return m_Groups.size() - 1;
+    return m_Parts.size() - 1;
   }
 
-  /** Calls \a visit(a, b, contact) for pairs with a triangle in a group, without those that an earlier group has
-   * visited. Every \a stride-th group is tested. Returns how many triangles the group has. \a near is for working. */
+  /** Calls \a visit(a, b, contact) for pairs with a triangle in a part, without those that an earlier part has
+   * visited. Every \a stride-th part is tested. Returns how many triangles the part has. \a near is for working. */
   template <typename TVisitor>
   std::size_t
-  TestGroup(std::size_t group, std::size_t stride, BoxList & near, const TVisitor & visit) const
+  TestPart(std::size_t part, std::size_t stride, Neighborhood & near, const TVisitor & visit) const
   {
-    const std::size_t begin = m_Groups[group];
-    const std::size_t end = m_Groups[group + 1];
-    Box around = m_Tree.GetTriangleBox(*m_Tree.GetLeaf(begin).begin());
-    near.Clear();
-    for (std::size_t leaf = begin; leaf < end; ++leaf)
+    const std::size_t begin = m_Parts[part];
+    const std::size_t end = m_Parts[part + 1];
+    const TriangleTree::Leaf ofPart{ m_Tree.GetLeaf(begin).begin(), m_Tree.GetLeaf(end - 1).end() };
+    Box around = m_Tree.GetTriangleBox(*ofPart.begin());
+    for (const std::uint32_t triangle : ofPart)
     {
-      for (const std::uint32_t triangle : m_Tree.GetLeaf(leaf))
-      {
-        const Box box = m_Tree.GetTriangleBox(triangle);
-        near.Add(triangle, box);
-        around = TriangleTree::Union(around, box);
-      }
+      around = TriangleTree::Union(around, m_Tree.GetTriangleBox(triangle));
     }
-    const std::size_t ofGroup = near.GetSize();
+    near.Start(around);
+    this->AddTriangles(ofPart, around, near);
     m_Tree.VisitLeaves(around, stride == 1 ? end : 0, [&](std::size_t leaf) {
-      const bool isInGroup = leaf >= begin && leaf < end;
-      if (!isInGroup && (leaf >= end || this->GroupOf(leaf) % stride != 0))
+      const bool isInPart = leaf >= begin && leaf < end;
+      if (!isInPart && (leaf >= end || this->PartOf(leaf) % stride != 0))
       {
-        this->AddLeaf(leaf, around, near);
+        this->AddTriangles(m_Tree.GetLeaf(leaf), around, near);
       }
     });
     const auto & triangles = m_Tree.GetSurface().GetTriangles();
-    for (std::size_t n = 0; n < ofGroup; ++n)
-    {
-      const std::uint32_t a = near.GetTriangle(n);
-      near.VisitOverlapping(n, [&](std::uint32_t b) {
-        if (!this->AreApart(triangles[a], triangles[b]))
-        {
-          visit(a, b, FindContact(m_Tree.GetSurface().GetPoints(), triangles[a], triangles[b]));
-        }
-      });
-    }
-    return ofGroup;
+    near.VisitPairs(ofPart.size(), [&](const Neighborhood::Member & a, const Neighborhood::Member & b) {
+      if (!HaveCommonCorner(triangles[a.triangle], b.unfoldedCorners))
+      {
+        visit(a.triangle,
+              b.triangle,
+              FindContact(m_Tree.GetSurface().GetPoints(), triangles[a.triangle], triangles[b.triangle]));
+      }
+    });
+    return ofPart.size();
   }
 
 private:
   void
-  AddLeaf(std::size_t leaf, const Box & around, BoxList & near) const
+  AddTriangles(const TriangleTree::Leaf & triangles, const Box & around, Neighborhood & near) const
   {
-    for (const std::uint32_t triangle : m_Tree.GetLeaf(leaf))
+    for (const std::uint32_t triangle : triangles)
     {
       const Box box = m_Tree.GetTriangleBox(triangle);
       if (box.Overlaps(around))
       {
-        near.Add(triangle, box);
+        TriangleType corners = m_Tree.GetSurface().GetTriangles()[triangle];
+        for (std::uint32_t & corner : corners)
+        {
+          corner = m_AreUnfolded[corner] ? corner : TriangleTree::None;
+        }
+        near.Add({ triangle, corners }, box);
       }
     }
   }
 
   std::size_t
-  GroupOf(std::size_t leaf) const
+  PartOf(std::size_t leaf) const
   {
-    return static_cast<std::size_t>(std::upper_bound(m_Groups.begin(), m_Groups.end(), leaf) - m_Groups.begin()) - 1;
-  }
-
-  /** Whether two triangles are certain to meet only where they share a corner or a side. */
-  bool
-  AreApart(const TriangleType & a, const TriangleType & b) const
-  {
-    bool areApart = false;
-    for (const std::uint32_t point : a)
-    {
-      const bool isShared = (point == b[0]) | (point == b[1]) | (point == b[2]);
-      areApart |= isShared & (m_AreUnfolded[point] != 0);
-    }
-    return areApart;
+    return static_cast<std::size_t>(std::upper_bound(m_Parts.begin(), m_Parts.end(), leaf) - m_Parts.begin()) - 1;
   }
 
   const TriangleTree & m_Tree;
-  std::vector<std::size_t> m_Groups; ///< the first leaf of each, and the end of the last
+  std::vector<std::size_t> m_Parts; ///< the first leaf of each, and the end of the last
   std::vector<std::uint8_t> m_AreUnfolded;
 };
 
@@ -261,22 +363,22 @@ FindSelfIntersections(const TriangleTree & tree, SizeValueType maximumTestedTria
   const SizeValueType most = std::max<SizeValueType>(TriangleTree::LeafSize, maximumTestedTriangles);
   const std::size_t stride = std::max<std::size_t>(1, (placed + most - 1) / most);
 
-  const ContactSearch search(tree);
+  const ContactSearch search(tree, stride > 1 ? TrianglesOfSample : TrianglesOfPart);
   TriangleSurfaceIntersections found;
   found.testedTriangles = tree.GetSurface().GetNumberOfTriangles() - placed;
   found.isSampled = stride > 1;
   std::mutex mutex;
-  ForEachBlock(search.GetNumberOfGroups(), GroupsOfBlock, [&](std::size_t begin, std::size_t end) {
+  ForEachBlock(search.GetNumberOfParts(), PartsOfBlock, [&](std::size_t begin, std::size_t end) {
     TriangleSurfaceIntersections ofBlock;
     const auto count = [&](std::uint32_t a, std::uint32_t b, Contact contact) {
       const auto & triangles = tree.GetSurface().GetTriangles();
       ofBlock.touchingPairs += contact == Contact::Touching ? 1 : 0;
       ofBlock.crossingPairs += contact == Contact::Crossing && !AreDuplicates(triangles[a], triangles[b]) ? 1 : 0;
     };
-    BoxList near;
-    for (std::size_t group = (begin + stride - 1) / stride * stride; group < end; group += stride)
+    Neighborhood near;
+    for (std::size_t part = (begin + stride - 1) / stride * stride; part < end; part += stride)
     {
-      ofBlock.testedTriangles += search.TestGroup(group, stride, near, count);
+      ofBlock.testedTriangles += search.TestPart(part, stride, near, count);
     }
     const std::lock_guard<std::mutex> lock(mutex);
     found.crossingPairs += ofBlock.crossingPairs;
@@ -292,12 +394,12 @@ FindCrossingTriangles(const TriangleTree & tree)
   const ContactSearch search(tree);
   std::vector<std::uint32_t> found;
   std::mutex mutex;
-  ForEachBlock(search.GetNumberOfGroups(), GroupsOfBlock, [&](std::size_t begin, std::size_t end) {
+  ForEachBlock(search.GetNumberOfParts(), PartsOfBlock, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> ofBlock;
-    BoxList near;
-    for (std::size_t group = begin; group < end; ++group)
+    Neighborhood near;
+    for (std::size_t part = begin; part < end; ++part)
     {
-      search.TestGroup(group, 1, near, [&](std::uint32_t a, std::uint32_t b, Contact contact) {
+      search.TestPart(part, 1, near, [&](std::uint32_t a, std::uint32_t b, Contact contact) {
         if (contact == Contact::Crossing)
         {
           ofBlock.insert(ofBlock.end(), { a, b });
