@@ -1,3 +1,4 @@
+#include "detail/itkTrianglesOfPoints.h"
 #include "itkFCCIsosurfaceFilter.h"
 
 #include "itkFCCScanBorder.h"
@@ -99,8 +100,9 @@ TEST_P(FCCSurfaceCrossings, OfPointsOnEdgesOfTetrahedraAreAtShortEdges)
     const double farthest = seed % 3 == 0 ? 0.0 : std::pow(10.0, 1 + seed % 4);
     const auto image = MakeUnevenNoise(seed, farthest);
     const auto surface = Extract(image, GetParam());
-    const auto found = FindCrossingTriangles(itk::TriangleTree(*surface));
-    EXPECT_EQ(FindCrossingTriangles(*surface, { LongestRoundedEdge(*surface, *image) }), found) << seed;
+    const itk::TrianglesOfPoints fans(*surface);
+    const auto found = FindCrossingTriangles(itk::TriangleTree(*surface), fans);
+    EXPECT_EQ(FindCrossingTriangles(*surface, fans, { LongestRoundedEdge(*surface, *image) }), found) << seed;
     const bool crosses = !found.empty();
     crossing += crosses ? 1 : 0;
     if (farthest == 0.0)
@@ -128,7 +130,10 @@ TEST_P(FCCSurfaceCrossings, OfMovedWallsAreNearThem)
     {
       EXPECT_LT(candidates.triangles.size(), surface->GetNumberOfTriangles()) << seed;
     }
-    EXPECT_EQ(FindCrossingTriangles(*surface, candidates), FindCrossingTriangles(itk::TriangleTree(*surface))) << seed;
+    const itk::TrianglesOfPoints fans(*surface);
+    EXPECT_EQ(FindCrossingTriangles(*surface, fans, candidates),
+              FindCrossingTriangles(itk::TriangleTree(*surface), fans))
+      << seed;
   }
 }
 

@@ -1,3 +1,4 @@
+#include "detail/itkTrianglesOfPoints.h"
 #include "itkTriangleSurfaceAudit.h"
 
 #include "detail/itkTriangleContact.h"
@@ -157,7 +158,7 @@ TEST(TriangleSurfaceIntersections, OfJoinedTrianglesAreThoseOfAllPairs)
     const auto intersections = Intersect(*surface);
     EXPECT_EQ(intersections.crossingPairs, crossing) << seed;
     EXPECT_EQ(intersections.touchingPairs, touching) << seed;
-    EXPECT_EQ(FindCrossingTriangles(itk::TriangleTree(*surface)),
+    EXPECT_EQ(FindCrossingTriangles(itk::TriangleTree(*surface), itk::TrianglesOfPoints(*surface)),
               std::vector<std::uint32_t>(found.begin(), found.end()));
     ++(crossing == 0 ? surfacesWithout : surfacesWith);
   }

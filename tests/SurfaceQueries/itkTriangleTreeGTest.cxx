@@ -121,12 +121,17 @@ TEST(TriangleTree, VisitsEachTriangleWhoseBoxOverlapsOnce)
   }
 }
 
-TEST(TriangleTree, RefittedFindsWhatANewOneFinds)
+TEST(TriangleTree, EnlargedFindsWhatANewOneFinds)
 {
-  const auto surface = MakeRandomTriangles(20000, 50.0f, 3.0f, 5);
-  Tree refitted(*surface);
+  const auto surface = MakeRandomTriangles(2000, 50.0f, 3.0f, 5);
+  Tree enlarged(*surface);
   std::mt19937 random(6);
   std::normal_distribution<float> move(0.0f, 4.0f);
+  std::vector<Tree::Box> before;
+  for (std::uint32_t triangle = 0; triangle < surface->GetNumberOfTriangles(); ++triangle)
+  {
+    before.push_back(enlarged.GetTriangleBox(triangle));
+  }
   for (std::size_t point = 0; point < surface->GetNumberOfPoints(); point += 3)
   {
     for (float & coordinate : surface->GetPoints()[point])
@@ -134,14 +139,17 @@ TEST(TriangleTree, RefittedFindsWhatANewOneFinds)
       coordinate += move(random);
     }
   }
-  refitted.Refit();
+  for (std::uint32_t triangle = 0; triangle < surface->GetNumberOfTriangles(); ++triangle)
+  {
+    enlarged.Enlarge(before[triangle], enlarged.GetTriangleBox(triangle));
+  }
   const Tree made(*surface);
   std::uniform_real_distribution<double> place(-5.0, 55.0);
   for (int query = 0; query < 500; ++query)
   {
     const Tree::PositionType position{ place(random), place(random), place(random) };
     const auto expected = made.FindClosestPoint(position);
-    const auto found = refitted.FindClosestPoint(position);
+    const auto found = enlarged.FindClosestPoint(position);
     EXPECT_EQ(found.triangle, expected.triangle);
     EXPECT_EQ(found.point, expected.point);
   }

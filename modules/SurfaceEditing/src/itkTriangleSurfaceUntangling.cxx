@@ -9,15 +9,17 @@
 #include "detail/itkTrianglesOfPoints.h"
 
 #include <algorithm>
+#include <iterator>
 #include <mutex>
+#include <unordered_map>
 
 namespace itk
 {
 namespace
 {
 
-using Ids = std::vector<std::uint32_t>; ///< ids of points or triangles
-using Points = TriangleSurface::PointsContainer;
+using Ids = std::vector<std::uint32_t>;                                       ///< ids of points or triangles
+using Places = std::unordered_map<std::uint32_t, TriangleSurface::PointType>; ///< of some points
 
 constexpr int MostUntanglingRounds = 40;
 constexpr int Patience = 16;         // rounds without progress: two cycles of relaxing and pushing outwards and inwards
@@ -32,13 +34,12 @@ SortUnique(Ids & ids)
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
-/** Those of \a candidates that cross other triangles, and these other triangles, ascending. \a unmoved is a tree of the
- * surface from before the triangles in \a moved were moved. */
+/** Those of \a candidates that cross other triangles, and these other triangles, ascending. */
 Ids
-FindCrossing(const TriangleSurface & surface, const TriangleTree & unmoved, const Ids & moved, const Ids & candidates)
+FindCrossing(const TriangleTree & tree, const Ids & candidates)
 {
   constexpr std::size_t blockSize = 1024;
-  const TriangleTree movedTree(surface, moved);
+  const TriangleSurface & surface = tree.GetSurface();
   const auto & triangles = surface.GetTriangles();
   Ids crossing;
   std::mutex mutex;
@@ -47,18 +48,10 @@ FindCrossing(const TriangleSurface & surface, const TriangleTree & unmoved, cons
     for (std::size_t n = begin; n < end; ++n)
     {
       const std::uint32_t a = candidates[n];
-      const auto test = [&](std::uint32_t b) {
+      tree.VisitTriangles(tree.GetTriangleBox(a), [&](std::uint32_t b) {
         if (a != b && FindContact(surface.GetPoints(), triangles[a], triangles[b]) == TriangleContact::Crossing)
         {
           ofBlock.insert(ofBlock.end(), { a, b });
-        }
-      };
-      const TriangleTree::Box box = movedTree.GetTriangleBox(a);
-      movedTree.VisitTriangles(box, test);
-      unmoved.VisitTriangles(box, [&](std::uint32_t b) {
-        if (!std::binary_search(moved.begin(), moved.end(), b))
-        {
-          test(b);
         }
       });
     }
@@ -130,12 +123,12 @@ Push(const TriangleSurface & surface, const TrianglesOfPoints & fans, std::uint3
   return { position[0] + scale * normal[0], position[1] + scale * normal[1], position[2] + scale * normal[2] };
 }
 
-/** Moves some points. The first rounds relax all of them. Later rounds come in fours: one relaxes, three push, outwards
- * in one four and inwards in the next. */
+/** Moves some points, and notes where they were in \a original if they are not there. The first rounds relax all of
+ * them. Later rounds come in fours: one relaxes, three push, outwards in one four and inwards in the next. */
 void
 MovePoints(TriangleSurface & surface,
            const TrianglesOfPoints & fans,
-           const Points & original,
+           Places & original,
            double maximumMove,
            const Ids & points,
            int round)
@@ -150,13 +143,14 @@ MovePoints(TriangleSurface & surface,
   }
   for (std::size_t n = 0; n < points.size(); ++n)
   {
-    const PositionType origin = ToPosition(original[points[n]]);
+    TriangleSurface::PointType & point = surface.GetPoints()[points[n]];
+    const PositionType origin = ToPosition(original.emplace(points[n], point).first->second);
     const PositionType offset = Subtract(positions[n], origin);
     const double length = Length(offset);
     const double scale = length > RoundedMove * maximumMove ? RoundedMove * maximumMove / length : 1.0;
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      surface.GetPoints()[points[n]][axis] = static_cast<float>(origin[axis] + scale * offset[axis]);
+      point[axis] = static_cast<float>(origin[axis] + scale * offset[axis]);
     }
   }
 }
@@ -164,69 +158,65 @@ MovePoints(TriangleSurface & surface,
 bool
 HaveAreas(const TriangleSurface & surface, const Ids & triangles)
 {
-  const Points & points = surface.GetPoints();
+  const auto & points = surface.GetPoints();
   return std::all_of(triangles.begin(), triangles.end(), [&](std::uint32_t triangle) {
     const auto & [a, b, c] = surface.GetTriangles()[triangle];
     return HasArea(points[a], points[b], points[c]);
   });
 }
 
-/** Moves points in rounds and leaves the surface in the best state found. Returns the number of crossing triangles
- * then. */
+/** Moves points in rounds, notes where they were in \a original, and leaves the surface in the best state found.
+ * Returns the number of crossing triangles then. */
 std::size_t
 Untangle(TriangleSurface & surface,
-         const TriangleTree & tree,
-         const Points & original,
+         TriangleTree & tree,
+         const TrianglesOfPoints & fans,
          double maximumMove,
-         Ids crossing)
+         Ids crossing,
+         Places & original)
 {
-  const TrianglesOfPoints fans(surface);
   Ids touched; // triangles with a point that was moved
-  Points best = original;
+  Places best;
   std::size_t fewest = crossing.size();
   int lastBetter = 0;
   for (int round = 0; round < MostUntanglingRounds && round <= lastBetter + Patience && !crossing.empty(); ++round)
   {
     const Ids points = FindPoints(surface, fans, crossing, round % 4 == 3);
-    MovePoints(surface, fans, original, maximumMove, points, round);
     Ids changed; // all triangles that crossed others are among them
     for (const std::uint32_t point : points)
     {
       fans.VisitTriangles(point, [&](std::uint32_t triangle) { changed.push_back(triangle); });
     }
     SortUnique(changed);
+    std::vector<TriangleTree::Box> before;
+    std::transform(changed.begin(), changed.end(), std::back_inserter(before), [&](std::uint32_t triangle) {
+      return tree.GetTriangleBox(triangle);
+    });
+    MovePoints(surface, fans, original, maximumMove, points, round);
+    for (std::size_t n = 0; n < changed.size(); ++n)
+    {
+      tree.Enlarge(before[n], tree.GetTriangleBox(changed[n]));
+    }
     touched.insert(touched.end(), changed.begin(), changed.end());
     SortUnique(touched);
-    crossing = FindCrossing(surface, tree, touched, changed);
+    crossing = FindCrossing(tree, changed);
     if (crossing.size() < fewest && HaveAreas(surface, touched))
     {
       fewest = crossing.size();
       lastBetter = round;
-      best = surface.GetPoints();
+      for (const auto & [point, place] : original)
+      {
+        best[point] = surface.GetPoints()[point];
+      }
     }
   }
-  surface.GetPoints() = best;
+  for (const auto & [point, place] : original)
+  {
+    const auto found = best.find(point);
+    surface.GetPoints()[point] = found != best.end() ? found->second : place;
+  }
   surface.Modified();
   return fewest;
-}
-
-TriangleSurfaceUntanglingReport
-UntangleAndReport(TriangleSurface & surface, const TriangleTree & tree, double maximumMove, const Ids & crossing)
-{
-  const Points original = surface.GetPoints();
-  TriangleSurfaceUntanglingReport report;
-  report.crossingBefore = crossing.size();
-  report.crossingAfter = Untangle(surface, tree, original, maximumMove, crossing);
-  for (std::size_t point = 0; point < original.size(); ++point)
-  {
-    const auto & moved = surface.GetPoints()[point];
-    if (moved != original[point])
-    {
-      ++report.pointsMoved;
-      report.largestMove = std::max(report.largestMove, Distance(ToPosition(moved), ToPosition(original[point])));
-    }
-  }
-  return report;
 }
 
 } // namespace
@@ -248,13 +238,23 @@ UntangleSurface(TriangleSurface & surface,
   {
     itkGenericExceptionMacro("Untangling needs a distance above 0 mm that points may move, not " << maximumMove << ".");
   }
-  const Ids crossing = candidates ? FindCrossingTriangles(surface, *candidates) : FindCrossingTriangles(tree);
+  const TrianglesOfPoints fans(surface);
+  const Ids crossing =
+    candidates ? FindCrossingTriangles(surface, fans, *candidates) : FindCrossingTriangles(tree, fans);
   if (crossing.empty())
   {
     return {};
   }
-  const TriangleSurfaceUntanglingReport report = UntangleAndReport(surface, tree, maximumMove, crossing);
-  tree.Refit();
+  Places original;
+  TriangleSurfaceUntanglingReport report;
+  report.crossingBefore = crossing.size();
+  report.crossingAfter = Untangle(surface, tree, fans, maximumMove, crossing, original);
+  for (const auto & [point, place] : original)
+  {
+    const auto & moved = surface.GetPoints()[point];
+    report.pointsMoved += moved != place ? 1 : 0;
+    report.largestMove = std::max(report.largestMove, Distance(ToPosition(moved), ToPosition(place)));
+  }
   return report;
 }
 

@@ -6,6 +6,8 @@
 namespace itk
 {
 
+class TrianglesOfPoints;
+
 /** \class TriangleSurfaceIntersections
  * \brief Pairs of triangles of a surface that meet elsewhere than at corners and sides they share. */
 struct TriangleSurfaceIntersections
@@ -26,9 +28,10 @@ TriangleSurfaceIntersections
 FindSelfIntersections(const TriangleTree & tree,
                       SizeValueType maximumTestedTriangles = std::numeric_limits<SizeValueType>::max());
 
-/** The ids of the triangles that cross others or are duplicates, ascending. Tests all triangles. */
+/** The ids of the triangles that cross others or are duplicates, ascending. Tests all triangles.
+ * \param fans the triangles at the points of the tree's surface */
 std::vector<std::uint32_t>
-FindCrossingTriangles(const TriangleTree & tree);
+FindCrossingTriangles(const TriangleTree & tree, const TrianglesOfPoints & fans);
 
 /** For a surface whose points lie on the edges of an FCC lattice's tetrahedra, as mode Tetrahedra and Fine of
  * FCCIsosurfaceFilter make them: edges, in mm, at which rounding may make its triangles cross, are no longer than this.
@@ -49,7 +52,9 @@ struct CrossingCandidates
 /** The ids of the triangles that cross others or are duplicates, ascending, where the candidates are all that can.
  * Exact; far quicker than to test all triangles, if the list is short. */
 std::vector<std::uint32_t>
-FindCrossingTriangles(const TriangleSurface & surface, const CrossingCandidates & candidates);
+FindCrossingTriangles(const TriangleSurface & surface,
+                      const TrianglesOfPoints & fans,
+                      const CrossingCandidates & candidates);
 
 } // namespace itk
 

@@ -81,10 +81,11 @@ public:
   /** A tree of some of the surface's triangles. */
   TriangleTree(const TriangleSurface & surface, std::vector<std::uint32_t> triangles);
 
-  /** Must be called when points of the surface have moved: sets the boxes anew, in a fifth of the time to build the
-   * tree. Queries are fast as long as the points are about where they were. */
+  /** Must be called when points of a triangle have moved, with its boxes before and after that: enlarges the boxes of
+   * the tree that held the triangle, and a few around it. Queries are fast as long as the points are about where they
+   * were. */
   void
-  Refit();
+  Enlarge(const Box & before, const Box & after);
 
   const TriangleSurface &
   GetSurface() const

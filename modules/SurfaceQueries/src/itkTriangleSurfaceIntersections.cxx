@@ -2,12 +2,14 @@
 
 #include "detail/itkPositionArithmetic.h"
 #include "detail/itkTriangleContact.h"
+#include "detail/itkTrianglesOfPoints.h"
 #include "itkForEachBlock.h"
 #include "itkUnfoldedPoints.h"
 
 #include <algorithm>
 #include <cstring>
 #include <mutex>
+#include <utility>
 
 namespace itk
 {
@@ -233,11 +235,12 @@ private:
 class ContactSearch
 {
 public:
-  /** \param sizeOfPart triangles at most */
-  explicit ContactSearch(const TriangleTree & tree, std::size_t sizeOfPart = TrianglesOfPart)
+  /** \param areUnfolded see FindUnfoldedPoints()
+   *  \param sizeOfPart triangles at most */
+  ContactSearch(const TriangleTree & tree, std::vector<std::uint8_t> areUnfolded, std::size_t sizeOfPart)
     : m_Tree(tree)
     , m_Parts(tree.FindSubtrees(sizeOfPart))
-    , m_AreUnfolded(FindUnfoldedPoints(tree.GetSurface(), TrianglesOfPoints(tree.GetSurface())))
+    , m_AreUnfolded(std::move(areUnfolded))
   {}
 
   std::size_t
@@ -311,13 +314,40 @@ private:
   std::vector<std::uint8_t> m_AreUnfolded;
 };
 
+/** The triangles of a tree that cross others of it, ascending. */
+std::vector<std::uint32_t>
+FindAllCrossing(const TriangleTree & tree, std::vector<std::uint8_t> areUnfolded)
+{
+  const ContactSearch search(tree, std::move(areUnfolded), TrianglesOfPart);
+  std::vector<std::uint32_t> found;
+  std::mutex mutex;
+  ForEachBlock(search.GetNumberOfParts(), PartsOfBlock, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> ofBlock;
+    Neighborhood near;
+    for (std::size_t part = begin; part < end; ++part)
+    {
+      search.TestPart(part, 1, near, [&](std::uint32_t a, std::uint32_t b, Contact contact) {
+        if (contact == Contact::Crossing)
+        {
+          ofBlock.insert(ofBlock.end(), { a, b });
+        }
+      });
+    }
+    const std::lock_guard<std::mutex> lock(mutex);
+    found.insert(found.end(), ofBlock.begin(), ofBlock.end());
+  });
+  SortUnique(found);
+  return found;
+}
+
 /** The triangles that cross others with which they have a point in common, or that lie at the other end of an edge of
  * at most \a longest mm; each perhaps several times. */
 std::vector<std::uint32_t>
-FindCrossingAtEdges(const TriangleSurface & surface, double longest)
+FindCrossingAtEdges(const TriangleSurface & surface,
+                    const TrianglesOfPoints & fans,
+                    const std::vector<std::uint8_t> & areUnfolded,
+                    double longest)
 {
-  const TrianglesOfPoints fans(surface);
-  const std::vector<std::uint8_t> areUnfolded = FindUnfoldedPoints(surface, fans);
   const auto & points = surface.GetPoints();
   const auto & triangles = surface.GetTriangles();
   std::vector<std::uint32_t> found;
@@ -363,7 +393,9 @@ FindSelfIntersections(const TriangleTree & tree, SizeValueType maximumTestedTria
   const SizeValueType most = std::max<SizeValueType>(TriangleTree::LeafSize, maximumTestedTriangles);
   const std::size_t stride = std::max<std::size_t>(1, (placed + most - 1) / most);
 
-  const ContactSearch search(tree, stride > 1 ? TrianglesOfSample : TrianglesOfPart);
+  const TriangleSurface & surface = tree.GetSurface();
+  const ContactSearch search(
+    tree, FindUnfoldedPoints(surface, TrianglesOfPoints(surface)), stride > 1 ? TrianglesOfSample : TrianglesOfPart);
   TriangleSurfaceIntersections found;
   found.testedTriangles = tree.GetSurface().GetNumberOfTriangles() - placed;
   found.isSampled = stride > 1;
@@ -389,28 +421,9 @@ FindSelfIntersections(const TriangleTree & tree, SizeValueType maximumTestedTria
 }
 
 std::vector<std::uint32_t>
-FindCrossingTriangles(const TriangleTree & tree)
+FindCrossingTriangles(const TriangleTree & tree, const TrianglesOfPoints & fans)
 {
-  const ContactSearch search(tree);
-  std::vector<std::uint32_t> found;
-  std::mutex mutex;
-  ForEachBlock(search.GetNumberOfParts(), PartsOfBlock, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint32_t> ofBlock;
-    Neighborhood near;
-    for (std::size_t part = begin; part < end; ++part)
-    {
-      search.TestPart(part, 1, near, [&](std::uint32_t a, std::uint32_t b, Contact contact) {
-        if (contact == Contact::Crossing)
-        {
-          ofBlock.insert(ofBlock.end(), { a, b });
-        }
-      });
-    }
-    const std::lock_guard<std::mutex> lock(mutex);
-    found.insert(found.end(), ofBlock.begin(), ofBlock.end());
-  });
-  SortUnique(found);
-  return found;
+  return FindAllCrossing(tree, FindUnfoldedPoints(tree.GetSurface(), fans));
 }
 
 double
@@ -428,10 +441,13 @@ FindLongestRoundedEdge(const TriangleSurface & surface, double smallestSpacing, 
 }
 
 std::vector<std::uint32_t>
-FindCrossingTriangles(const TriangleSurface & surface, const CrossingCandidates & candidates)
+FindCrossingTriangles(const TriangleSurface & surface,
+                      const TrianglesOfPoints & fans,
+                      const CrossingCandidates & candidates)
 {
-  std::vector<std::uint32_t> found = FindCrossingAtEdges(surface, candidates.longestEdge);
-  const std::vector<std::uint32_t> listed = FindCrossingTriangles(TriangleTree(surface, candidates.triangles));
+  std::vector<std::uint8_t> areUnfolded = FindUnfoldedPoints(surface, fans);
+  std::vector<std::uint32_t> found = FindCrossingAtEdges(surface, fans, areUnfolded, candidates.longestEdge);
+  const auto listed = FindAllCrossing(TriangleTree(surface, candidates.triangles), std::move(areUnfolded));
   found.insert(found.end(), listed.begin(), listed.end());
   SortUnique(found);
   return found;

@@ -213,31 +213,26 @@ TriangleTree::TriangleTree(const TriangleSurface & surface, std::vector<std::uin
 }
 
 void
-TriangleTree::Refit()
+TriangleTree::Enlarge(const Box & before, const Box & after)
 {
-  std::vector<std::size_t> leafNodes;
-  leafNodes.reserve(this->GetNumberOfLeaves());
-  for (std::size_t id = 0; id < m_Nodes.size(); ++id)
+  NodeStack stack;
+  if (!m_Nodes.empty())
   {
-    if (m_Nodes[id].leavesOfLeft == 0)
-    {
-      leafNodes.push_back(id);
-    }
+    stack.Push(this->Root());
   }
-  constexpr std::size_t leavesOfBlock = 8192;
-  ForEachInBlocks(leafNodes.size(), leavesOfBlock, [&](std::size_t leaf) {
-    Box & box = m_Nodes[leafNodes[leaf]].box;
-    box = this->GetTriangleBox(*this->GetLeaf(leaf).begin());
-    for (const std::uint32_t triangle : this->GetLeaf(leaf))
-    {
-      box = Union(box, this->GetTriangleBox(triangle));
-    }
-  });
-  for (std::size_t id = m_Nodes.size(); id-- > 0;)
+  while (!stack.IsEmpty())
   {
-    if (const std::size_t left = m_Nodes[id].leavesOfLeft)
+    const Node node = stack.Pop();
+    Box & box = m_Nodes[node.id].box;
+    if (!box.Overlaps(before))
     {
-      m_Nodes[id].box = Union(m_Nodes[id + 1].box, m_Nodes[id + 2 * left].box);
+      continue;
+    }
+    box = Union(box, after);
+    if (!node.IsLeaf())
+    {
+      stack.Push(this->RightOf(node));
+      stack.Push(this->LeftOf(node));
     }
   }
 }
