@@ -18,13 +18,14 @@ constexpr itk::SizeValueType MostTaps = 10; // of one axis, see itk::SeparableTa
 /** Weights of the samples around each point of a list. */
 struct ScanField::Taps
 {
-  /** The value at point \a n. The columns' sums of all rows come first, so that they are summed at once.
-   * \param VColumns the number of taps along a row; 0: any */
-  template <itk::SizeValueType VColumns, typename TPixel>
+  /** The value at point \a n. The columns' sums of all rows come first, eight columns at once. */
+  template <typename TPixel>
   float
   Blend(const TPixel * samples, const itk::Size<3> & size, std::size_t n) const
   {
-    const itk::SizeValueType count = VColumns > 0 ? VColumns : columns.GetNumberOfTaps();
+    constexpr itk::SizeValueType lanes = 8;
+    const itk::SizeValueType count = columns.GetNumberOfTaps();
+    const itk::SizeValueType inLanes = count / lanes * lanes;
     float sums[MostTaps] = {};
     for (itk::SizeValueType z = 0; z < slices.GetNumberOfTaps(); ++z)
     {
@@ -33,7 +34,14 @@ struct ScanField::Taps
         const float weight = slices.GetWeights(n)[z] * rows.GetWeights(n)[y];
         const auto offset = ((slices.GetFirst(n) + z) * size[1] + rows.GetFirst(n) + y) * size[0];
         const TPixel * const row = samples + offset + columns.GetFirst(n);
-        for (itk::SizeValueType x = 0; x < count; ++x)
+        for (itk::SizeValueType x = 0; x < inLanes; x += lanes)
+        {
+          for (itk::SizeValueType lane = x; lane < x + lanes; ++lane)
+          {
+            sums[lane] += weight * static_cast<float>(row[lane]);
+          }
+        }
+        for (itk::SizeValueType x = inLanes; x < count; ++x)
         {
           sums[x] += weight * static_cast<float>(row[x]);
         }
@@ -146,12 +154,11 @@ ScanField::Evaluate(const std::vector<PointType> & points, itk::SeparableKernel 
     [&](const auto & image) {
       const auto & size = image->GetLargestPossibleRegion().GetSize();
       const auto * const samples = image->GetBufferPointer();
-      const bool isCubic = taps.columns.GetNumberOfTaps() == MostTaps;
       for (std::size_t n = 0; n < points.size(); ++n)
       {
         if (taps.areKnown[n])
         {
-          values[n] = isCubic ? taps.Blend<MostTaps>(samples, size, n) : taps.Blend<0>(samples, size, n);
+          values[n] = taps.Blend(samples, size, n);
         }
       }
     },
