@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 namespace itk
@@ -24,8 +25,8 @@ SquaredDistanceOfPoints(const PointType & a, const PointType & b)
 class PointBoxes
 {
 public:
-  explicit PointBoxes(const TriangleSurface & surface)
-    : m_Points(surface.GetPoints().begin(), surface.GetPoints().end())
+  explicit PointBoxes(std::vector<PointType> points)
+    : m_Points(std::move(points))
   {
     std::size_t leaves = 1;
     while (leaves * LargestLeaf < m_Points.size())
@@ -36,14 +37,13 @@ public:
     this->Split(0, 0, m_Points.size());
   }
 
+  /** The largest squared distance between two points, or \a known if that is larger. */
   double
-  FindLargestDistance()
+  FindLargest(double known)
   {
-    // A good first guess spares most of the search.
-    const PointType end = this->FindFarthestFrom(m_Points.front());
-    m_Largest = SquaredDistanceOfPoints(end, this->FindFarthestFrom(end));
+    m_Largest = known;
     this->Search(0, 0);
-    return std::sqrt(m_Largest);
+    return m_Largest;
   }
 
 private:
@@ -92,14 +92,6 @@ private:
   IsLeaf(std::size_t n) const
   {
     return 2 * n + 1 >= m_Boxes.size();
-  }
-
-  PointType
-  FindFarthestFrom(const PointType & from) const
-  {
-    return *std::max_element(m_Points.begin(), m_Points.end(), [&from](const auto & a, const auto & b) {
-      return SquaredDistanceOfPoints(from, a) < SquaredDistanceOfPoints(from, b);
-    });
   }
 
   /** Squared distance between the farthest corners of two boxes. */
@@ -168,12 +160,45 @@ private:
   double m_Largest = 0.0; ///< squared distance of the best pair so far
 };
 
+PointType
+FindFarthest(const TriangleSurface::PointsContainer & points, const PointType & from)
+{
+  return *std::max_element(points.begin(), points.end(), [&from](const auto & a, const auto & b) {
+    return SquaredDistanceOfPoints(from, a) < SquaredDistanceOfPoints(from, b);
+  });
+}
+
+/** The points that may be ends of a distance of more than \a length. With all points within a radius around a centre,
+ * such an end is farther from the centre than the length less the radius. */
+std::vector<PointType>
+FindEnds(const TriangleSurface::PointsContainer & points, const PointType & centre, double length)
+{
+  constexpr double rounding = 1e-9; // generous
+  const double radius = std::sqrt(SquaredDistanceOfPoints(centre, FindFarthest(points, centre)));
+  const double least = std::max(0.0, length - radius) * (1.0 - rounding);
+  std::vector<PointType> ends;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(ends), [&](const PointType & point) {
+    return !(SquaredDistanceOfPoints(centre, point) < least * least);
+  });
+  return ends;
+}
+
 } // namespace
 
 double
 ComputeLongestDiameter(const TriangleSurface & surface)
 {
-  return surface.GetPoints().empty() ? 0.0 : PointBoxes(surface).FindLargestDistance();
+  const auto & points = surface.GetPoints();
+  if (points.empty())
+  {
+    return 0.0;
+  }
+  // A good first guess spares most of the search.
+  const PointType first = FindFarthest(points, points.front());
+  const PointType second = FindFarthest(points, first);
+  const double guess = SquaredDistanceOfPoints(first, second);
+  const PointType centre{ 0.5f * (first[0] + second[0]), 0.5f * (first[1] + second[1]), 0.5f * (first[2] + second[2]) };
+  return std::sqrt(PointBoxes(FindEnds(points, centre, std::sqrt(guess))).FindLargest(guess));
 }
 
 } // namespace itk
