@@ -15,6 +15,8 @@ namespace
 
 using Vector3 = Vector<double, 3>;
 
+constexpr std::size_t PointsOfBlock = 16384;
+
 Vector3
 ToVector(const TriangleSurface::PointType & point)
 {
@@ -56,14 +58,15 @@ FindTrianglesOfPlanes(const TriangleSurface & surface,
                       const std::vector<double> & pointHeights,
                       const std::vector<double> & planeHeights)
 {
-  const auto & triangles = surface.GetTriangles();
+  std::vector<std::uint32_t> planesBelow(pointHeights.size()); // or at the point
+  ForEachInBlocks(pointHeights.size(), PointsOfBlock, [&](std::size_t point) {
+    const auto above = std::upper_bound(planeHeights.begin(), planeHeights.end(), pointHeights[point]);
+    planesBelow[point] = static_cast<std::uint32_t>(above - planeHeights.begin());
+  });
   const auto planesOf = [&](const TriangleSurface::TriangleType & triangle) {
-    const auto [low, high] =
-      std::minmax({ pointHeights[triangle[0]], pointHeights[triangle[1]], pointHeights[triangle[2]] });
-    const auto first = std::upper_bound(planeHeights.begin(), planeHeights.end(), low);
-    const auto last = std::upper_bound(first, planeHeights.end(), high);
-    return std::pair<std::size_t, std::size_t>(first - planeHeights.begin(), last - planeHeights.begin());
+    return std::minmax({ planesBelow[triangle[0]], planesBelow[triangle[1]], planesBelow[triangle[2]] });
   };
+  const auto & triangles = surface.GetTriangles();
   TrianglesOfPlanes found;
   found.begin.assign(planeHeights.size() + 1, 0);
   for (const auto & triangle : triangles)
@@ -216,8 +219,8 @@ FindInteriorSamples(const TriangleSurface & surface, const SamplePlanes & planes
   }
   const PlaneFrame frame(planes);
   std::vector<double> pointHeights(surface.GetNumberOfPoints());
-  std::transform(surface.GetPoints().begin(), surface.GetPoints().end(), pointHeights.begin(), [&](const auto & point) {
-    return frame.normal * ToVector(point);
+  ForEachInBlocks(pointHeights.size(), PointsOfBlock, [&](std::size_t point) {
+    pointHeights[point] = frame.normal * ToVector(surface.GetPoints()[point]);
   });
   std::vector<double> planeHeights(planes.origins.size());
   std::transform(planes.origins.begin(), planes.origins.end(), planeHeights.begin(), [&](const auto & origin) {
