@@ -16,13 +16,14 @@ struct Intensities
   double otsu = 0.0; ///< N. Otsu's threshold (1979) between background and foreground, from a histogram of 256 bins
 };
 
-/** Throws Failure(Unreadable) when no value is finite. */
+/** Throws Failure(Unreadable) when no value is finite.
+ * \param findsOtsu without it, otsu is the lowest value */
 Intensities
-ComputeIntensities(const ScanImage & image);
+ComputeIntensities(const ScanImage & image, bool findsOtsu = true);
 
 /** The same for a lattice volume. */
 Intensities
-ComputeIntensities(const FCCVolume & volume);
+ComputeIntensities(const FCCVolume & volume, bool findsOtsu = true);
 
 } // namespace rhombic
 

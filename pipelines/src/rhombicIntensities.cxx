@@ -103,7 +103,7 @@ MakeHistogram(const TPixel * values, std::size_t count, double lowest, double hi
 
 template <typename TPixel>
 Intensities
-Compute(const TPixel * values, std::size_t count)
+Compute(const TPixel * values, std::size_t count, bool findsOtsu)
 {
   const auto [lowest, highest] = FindRange(values, count);
   Intensities found{ static_cast<double>(lowest), static_cast<double>(highest), static_cast<double>(lowest) };
@@ -111,7 +111,7 @@ Compute(const TPixel * values, std::size_t count)
   {
     throw Failure(FailureKind::Unreadable, "The scan has no finite values; check that it was exported completely.");
   }
-  if (found.lowest < found.highest)
+  if (findsOtsu && found.lowest < found.highest)
   {
     found.otsu = OtsuThreshold(MakeHistogram(values, count, found.lowest, found.highest), std::is_integral_v<TPixel>);
   }
@@ -120,11 +120,11 @@ Compute(const TPixel * values, std::size_t count)
 
 template <typename TVolume>
 Intensities
-ComputeOfAny(const TVolume & volume)
+ComputeOfAny(const TVolume & volume, bool findsOtsu)
 {
   return std::visit(
-    [](const auto & image) {
-      return Compute(image->GetBufferPointer(), image->GetBufferedRegion().GetNumberOfPixels());
+    [findsOtsu](const auto & image) {
+      return Compute(image->GetBufferPointer(), image->GetBufferedRegion().GetNumberOfPixels(), findsOtsu);
     },
     volume);
 }
@@ -132,15 +132,15 @@ ComputeOfAny(const TVolume & volume)
 } // namespace
 
 Intensities
-ComputeIntensities(const ScanImage & image)
+ComputeIntensities(const ScanImage & image, bool findsOtsu)
 {
-  return ComputeOfAny(image);
+  return ComputeOfAny(image, findsOtsu);
 }
 
 Intensities
-ComputeIntensities(const FCCVolume & volume)
+ComputeIntensities(const FCCVolume & volume, bool findsOtsu)
 {
-  return ComputeOfAny(volume);
+  return ComputeOfAny(volume, findsOtsu);
 }
 
 } // namespace rhombic

@@ -126,7 +126,7 @@ ResampleImage(const TImage & image, const Scan & scan, const LatticeSettings & s
   if (IsSlanted(scan))
   {
     filter->SetSliceOrigins(scan.sliceOrigins);
-    filter->SetOutsideValue(static_cast<typename TImage::PixelType>(ComputeIntensities(scan.image).lowest));
+    filter->SetOutsideValue(static_cast<typename TImage::PixelType>(ComputeIntensities(scan.image, false).lowest));
   }
   return Resample(*filter, scan, settings, events);
 }

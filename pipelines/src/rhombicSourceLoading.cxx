@@ -4,6 +4,7 @@
 #include "rhombicFailure.h"
 #include "rhombicWording.h"
 
+#include <algorithm>
 #include <set>
 
 namespace fs = std::filesystem;
@@ -113,6 +114,16 @@ TreatTable(Scan & scan, const std::optional<bool> & removesTable, const Events &
   return {};
 }
 
+/** The requests with their isovalues. Otsu's threshold is computed only if one of them needs it. */
+template <typename TVolume>
+std::vector<SurfaceRequest>
+ResolveRequests(const std::vector<SurfaceRequest> & requests, const TVolume & volume)
+{
+  const bool needsOtsu =
+    std::any_of(requests.begin(), requests.end(), [](const SurfaceRequest & request) { return !request.isovalue; });
+  return ResolveIsovalues(requests, ComputeIntensities(volume, needsOtsu));
+}
+
 LoadedSource
 PrepareLattice(FCCVolume volume, const ScanSource & source, const SurfaceSelection & selection, const Events & events)
 {
@@ -127,7 +138,7 @@ PrepareLattice(FCCVolume volume, const ScanSource & source, const SurfaceSelecti
                     " is a lattice volume; name the scan, or the label map itself.");
   }
   LoadedSource loaded;
-  loaded.requests = ResolveIsovalues(selection.requests, ComputeIntensities(volume));
+  loaded.requests = ResolveRequests(selection.requests, volume);
   loaded.lattice = DenoiseLattice(volume, source.lattice.denoising, source.lattice.maximumMemory, events);
   return loaded;
 }
@@ -151,7 +162,7 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
     return loaded;
   }
   loaded.tableRemoval = TreatTable(scan, selection.removesTable, events);
-  loaded.requests = ResolveIsovalues(selection.requests, ComputeIntensities(scan.image));
+  loaded.requests = ResolveRequests(selection.requests, scan.image);
   loaded.lattice = ScanToLattice(scan, source.lattice, events);
   loaded.grid = GridOf(scan);
   return loaded;
