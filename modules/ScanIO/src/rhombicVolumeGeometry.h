@@ -3,6 +3,7 @@
 
 #include "rhombicScanReader.h"
 
+#include "detail/itkHugePages.h"
 #include "itkImage.h"
 
 #include <filesystem>
@@ -46,6 +47,7 @@ NewImage(const VolumeGeometry & geometry)
   image->SetSpacing(geometry.spacing);
   image->SetDirection(geometry.direction);
   image->Allocate();
+  itk::AdviseHugePages(image->GetBufferPointer(), image->GetPixelContainer()->Size() * sizeof(TPixel));
   return image;
 }
 
