@@ -168,17 +168,31 @@ FindFarthest(const TriangleSurface::PointsContainer & points, const PointType & 
   });
 }
 
-/** The points that may be ends of a distance of more than \a length. With all points within a radius around a centre,
- * such an end is farther from the centre than the length less the radius. */
+/** The points that may be ends of a distance of more than \a length: the others are nearer than that to all corners of
+ * the box around the points. */
 std::vector<PointType>
-FindEnds(const TriangleSurface::PointsContainer & points, const PointType & centre, double length)
+FindEnds(const TriangleSurface::PointsContainer & points, double length)
 {
+  PointType low = points.front(), high = points.front();
+  for (const PointType & point : points)
+  {
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      low[axis] = std::min(low[axis], point[axis]);
+      high[axis] = std::max(high[axis], point[axis]);
+    }
+  }
   constexpr double rounding = 1e-9; // generous
-  const double radius = std::sqrt(SquaredDistanceOfPoints(centre, FindFarthest(points, centre)));
-  const double least = std::max(0.0, length - radius) * (1.0 - rounding);
+  const double least = length * length * (1.0 - rounding);
   std::vector<PointType> ends;
   std::copy_if(points.begin(), points.end(), std::back_inserter(ends), [&](const PointType & point) {
-    return !(SquaredDistanceOfPoints(centre, point) < least * least);
+    double farthest = 0.0; // squared
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const double reach = std::max(double(point[axis]) - low[axis], double(high[axis]) - point[axis]);
+      farthest += reach * reach;
+    }
+    return !(farthest < least);
   });
   return ends;
 }
@@ -197,8 +211,7 @@ ComputeLongestDiameter(const TriangleSurface & surface)
   const PointType first = FindFarthest(points, points.front());
   const PointType second = FindFarthest(points, first);
   const double guess = SquaredDistanceOfPoints(first, second);
-  const PointType centre{ 0.5f * (first[0] + second[0]), 0.5f * (first[1] + second[1]), 0.5f * (first[2] + second[2]) };
-  return std::sqrt(PointBoxes(FindEnds(points, centre, std::sqrt(guess))).FindLargest(guess));
+  return std::sqrt(PointBoxes(FindEnds(points, std::sqrt(guess))).FindLargest(guess));
 }
 
 } // namespace itk
