@@ -18,6 +18,10 @@
 #include <set>
 #include <utility>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace fs = std::filesystem;
 
 namespace rhombic
@@ -263,6 +267,18 @@ FinishAll(std::vector<MeshedSurface> & surfaces,
   }
 }
 
+/** Drops the lattice and the labels. What extraction freed goes back to the system, so that it does not add to the
+ * memory of the steps behind. */
+void
+DropVolumes(LoadedSource & loaded)
+{
+  loaded.lattice = FCCVolume();
+  loaded.labels.reset();
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
 /** \class FileStaging
  * \brief Writes surfaces as files, with their sidecars. */
 class FileStaging
@@ -340,8 +356,7 @@ MeshScan(const MeshScanSettings & settings, const Events & events)
   }
   const double spacing = SpacingOf(loaded);
   const auto findCandidates = MakeCandidateSearch(loaded, settings.surfaces.mode);
-  loaded.lattice = FCCVolume();
-  loaded.labels.reset();
+  DropVolumes(loaded);
   CheckFiles(PathsOf(settings.mesh, surfaces), settings);
   FinishAll(surfaces, settings.finish, spacing, findCandidates, events);
 

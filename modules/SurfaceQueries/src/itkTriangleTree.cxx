@@ -97,7 +97,7 @@ public:
     }
     m_Tree.m_LeafEnds.reserve(leaves);
     m_Tree.m_Nodes.reserve(2 * leaves - 1);
-    auto next = m_Parts.cbegin();
+    auto next = m_Parts.begin();
     this->Join(0, m_Places.size(), next);
   }
 
@@ -166,12 +166,12 @@ private:
   /** Appends the node of places [begin, end) and all below it to the tree, from the parts from \a next on. Returns its
    * number of leaves. */
   std::uint32_t
-  Join(std::size_t begin, std::size_t end, std::vector<Part>::const_iterator & next) const
+  Join(std::size_t begin, std::size_t end, std::vector<Part>::iterator & next) const
   {
     auto & nodes = m_Tree.m_Nodes;
     if (end - begin <= MostOfPart)
     {
-      const Part & part = *next++;
+      const Part part = std::move(*next++); // its memory is free again when it is copied
       nodes.insert(nodes.end(), part.nodes.begin(), part.nodes.end());
       m_Tree.m_LeafEnds.insert(m_Tree.m_LeafEnds.end(), part.leafEnds.begin(), part.leafEnds.end());
       return static_cast<std::uint32_t>(part.leafEnds.size());
