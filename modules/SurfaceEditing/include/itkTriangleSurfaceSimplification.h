@@ -35,7 +35,7 @@ struct TriangleSurfaceSimplificationReport
   SizeValueType trianglesBefore = 0;
   SizeValueType trianglesAfter = 0;
   SimplificationEnd end = SimplificationEnd::Target;
-  SizeValueType placesTakenBack = 0; ///< boxes in which a check failed and triangles were put back
+  SizeValueType placesTakenBack = 0; ///< triangles that failed a check; the last collapses there were taken back
 };
 
 /** Reduces the number of triangles and keeps the topology.
@@ -51,9 +51,9 @@ struct TriangleSurfaceSimplificationReport
  * triangle, it is checked at points a quarter of its sides apart, the centres against 0.9 maximumError; between these
  * points, rough detail much larger than maximumError may be farther away.
  *
- * The surface is cut into patches of some thousand triangles. Where a check fails, the triangles from before are put
- * back. This is repeated with other patches, so that no border between patches stays for good, and with larger errors
- * until the target is reached.
+ * The surface is cut into patches of some thousand triangles. Where a check fails, the last collapses are taken back.
+ * This is repeated with other patches, so that no border between patches stays for good, and with larger errors until
+ * the target is reached.
  *
  * Time O(n log n) on several threads, the same bytes for any number of them. Checks take longer the smaller
  * maximumError is compared with the triangles. Points of no triangle are removed. The result may have slightly fewer

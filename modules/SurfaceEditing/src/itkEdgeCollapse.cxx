@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <queue>
 #include <tuple>
 
@@ -25,7 +26,6 @@ constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
 constexpr double SmallestCosineOfCollapse = 0.2; // cosine of the largest turn of a normal when an edge collapses
 constexpr double SliverQuality = 0.1;    // the normal of a worse triangle is unreliable, and no new one may be worse
 constexpr unsigned int MostAround = 64;  // triangles around a point that vanishes; more would take too long
-constexpr double NearEnough = 0.7;       // relative to the limit, so that positions in between are near, too
 constexpr double FarthestPosition = 1.0; // distance of the new position from the edge's middle, in lengths of the edge
 
 /** A triangle's normal, twice as long as its area, and its quality: 1 if equilateral, 0 without area. */
@@ -97,8 +97,11 @@ public:
                const std::vector<std::uint8_t> & isHeld,
                const OriginalSurface & original);
 
-  std::vector<CollapseProgress>
-  Run(const CollapseGoal & goal);
+  CollapseLog
+  Run(double largestError);
+
+  void
+  Replay(const CollapseLog & log, const std::vector<std::uint16_t> & mostChanges);
 
   CollapsedPart
   GetResult() const;
@@ -111,6 +114,8 @@ private:
     PointId next;
     PointId last;
   };
+
+  using Fan = std::vector<FanTriangle>;
 
   /** An edge that may collapse; point \a from vanishes. */
   struct Candidate
@@ -127,20 +132,8 @@ private:
     }
   };
 
-  /** Calls \a visit(triangle, next, last) for each triangle {point, next, last}. */
-  template <typename TVisitor>
   void
-  ForEachTriangle(PointId point, const TVisitor & visit) const
-  {
-    for (CornerId corner = m_FirstCorner[point]; corner != None; corner = m_NextCorner[corner])
-    {
-      if (m_IsLeft[corner / 3])
-      {
-        visit(corner / 3, m_Triangles[corner / 3][(corner + 1) % 3], m_Triangles[corner / 3][(corner + 2) % 3]);
-      }
-    }
-  }
-
+  LinkCorners();
   void
   AddWitnesses(const std::vector<Witness> & witnesses);
   void
@@ -148,31 +141,39 @@ private:
   void
   AddQuadrics();
   void
-  Propose(PointId a, PointId b);
+  ProposeAll();
   void
-  ProposeAround(PointId point);
+  Propose(PointId a, PointId b);
   PositionType
   FindPosition(PointId from, PointId to) const;
   bool
-  TryCandidate(const Candidate & candidate);
+  TryCandidate(const Candidate & candidate, CollapseLog & log);
+  void
+  CollectFan(PointId point, Fan & fan) const;
+  void
+  CollectFans(PointId from, PointId to);
   bool
-  KeepsTopology(PointId from, PointId to);
+  KeepsTopology(PointId to);
   bool
   KeepsShape(PointId from, PointId to, const PositionType & position) const;
   bool
-  KeepsShapeAround(PointId moved, PointId other, const PositionType & position) const;
+  KeepsShapeAround(PointId moved, PointId other, const Fan & fan, const PositionType & position) const;
   bool
-  StaysNear(PointId from, PointId to, const PositionType & position);
+  StaysNear(EdgeToCollapse & edge);
+  bool
+  IsNearOriginal(EdgeToCollapse & edge);
+  bool
+  IsNear(const PositionType & sample) const;
+  TriangleId
+  FindNear(const PositionType & sample) const;
+  bool
+  AreWitnessesNear(const PositionType & position);
+  bool
+  IsAsLogged() const;
+  bool
+  MayChange(const std::vector<std::uint16_t> & mostChanges) const;
   void
-  CollectFan(PointId from, PointId to);
-  bool
-  IsNearOriginal(PointId from, PointId to, const PositionType & position);
-  bool
-  AreWitnessesNear(PointId from, PointId to, const PositionType & position);
-  bool
-  AssignWitnesses(TriangleId triangle, const PositionType & position);
-  void
-  Collapse(PointId from, PointId to, const PositionType & position);
+  Collapse(const EdgeToCollapse & edge);
   void
   MoveWitnesses();
   void
@@ -181,15 +182,14 @@ private:
   const OriginalSurface m_Original;
   const std::vector<PointId> m_Ids; ///< the surface's id of each point
   const PositionType m_Origin;      ///< subtracted from positions, to keep digits
-  bool m_WasHeldBack = false;
   double m_LargestError = 0.0;
+  bool m_WasHeldBack = false;
   std::priority_queue<Candidate> m_Candidates;
 
   // By triangle.
   std::vector<TriangleType> m_Triangles;
   std::vector<std::uint8_t> m_IsLeft;
-  std::vector<std::uint8_t> m_IsNew;
-  std::size_t m_NumberLeft;
+  std::vector<std::uint16_t> m_Changes;
 
   // By point, except m_NextCorner.
   std::vector<CornerId> m_FirstCorner; ///< one corner at the point; the others follow by m_NextCorner
@@ -199,22 +199,25 @@ private:
   std::vector<Quadric> m_Quadrics;
   std::vector<std::uint32_t> m_Versions; ///< grow when the point takes over another one
   std::vector<std::uint8_t> m_IsOnBorder;
-  std::vector<std::uint8_t> m_Stays;
+  std::vector<std::uint8_t> m_Stays; ///< on the border or held
   std::vector<std::uint8_t> m_IsGone;
   std::vector<std::uint8_t> m_HasMoved;
-  std::vector<std::uint32_t> m_Marks; ///< equal to m_Mark for the points that are marked
+  std::vector<std::uint8_t> m_IsOther; ///< while a log is replayed: whether the point is not as it was
+  std::vector<std::uint32_t> m_Marks;  ///< equal to m_Mark for the points that are marked
   std::uint32_t m_Mark = 0;
 
   // Empty unless the distance from the original is limited.
-  std::vector<TriangleId> m_Near; ///< by point: a triangle of the original nearby
+  std::vector<TriangleId> m_Near; ///< by point: a triangle of the original near its new position
   std::vector<PointId> m_WitnessPoints;
   std::vector<PositionType> m_WitnessPositions;
   std::vector<WitnessId> m_FirstWitness; ///< by triangle; its other witnesses follow by m_NextWitness
   std::vector<WitnessId> m_NextWitness;
 
   // The candidate that is tried.
-  TriangleId m_NearPosition = 0;                            ///< a triangle of the original near its position
-  std::vector<FanTriangle> m_Fan;                           ///< the triangles around its position
+  std::vector<WitnessId> m_Around; ///< the witnesses of all triangles at its points
+  Fan m_FromFan;
+  Fan m_ToFan;
+  Fan m_Changed;                                            ///< the triangles around its position that change
   std::vector<std::pair<WitnessId, TriangleId>> m_Assigned; ///< its witnesses and the triangles nearest to them
 };
 
@@ -227,23 +230,16 @@ EdgeCollapse::EdgeCollapse(const TriangleSurface & surface,
   , m_Origin(ToPosition(surface.GetPoints()[m_Ids.front()]))
   , m_Triangles(ToLocal(part.triangles, m_Ids))
   , m_IsLeft(m_Triangles.size(), 1)
-  , m_IsNew(m_Triangles.size(), 0)
-  , m_NumberLeft(m_Triangles.size())
+  , m_Changes(m_Triangles.size(), 0)
   , m_FirstCorner(m_Ids.size(), None)
   , m_NextCorner(3 * m_Triangles.size())
-  , m_Quadrics(m_FirstCorner.size())
-  , m_Versions(m_FirstCorner.size(), 0)
-  , m_IsOnBorder(m_FirstCorner.size(), 0)
-  , m_IsGone(m_FirstCorner.size(), 0)
-  , m_HasMoved(m_FirstCorner.size(), 0)
-  , m_Marks(m_FirstCorner.size(), 0)
+  , m_IsOnBorder(m_Ids.size(), 0)
+  , m_IsGone(m_Ids.size(), 0)
+  , m_HasMoved(m_Ids.size(), 0)
+  , m_Near(m_Ids.size(), None)
 {
-  for (CornerId corner = 0; corner < m_NextCorner.size(); ++corner)
-  {
-    const PointId point = m_Triangles[corner / 3][corner % 3];
-    m_NextCorner[corner] = m_FirstCorner[point];
-    m_FirstCorner[point] = corner;
-  }
+  this->LinkCorners();
+  m_Positions.reserve(m_Ids.size());
   for (const PointId id : m_Ids)
   {
     m_Positions.push_back(Subtract(ToPosition(surface.GetPoints()[id]), m_Origin));
@@ -252,35 +248,36 @@ EdgeCollapse::EdgeCollapse(const TriangleSurface & surface,
       m_Normals.push_back(ToPosition(surface.GetNormals()[id]));
     }
   }
-  this->AddQuadrics();
   this->FindBorder();
-  m_Stays = m_IsOnBorder;
-  for (std::size_t id = 0; id < isHeld.size(); ++id)
+  for (PointId point = 0; point < m_Ids.size(); ++point)
   {
-    for (const PointId point : m_Triangles[id])
-    {
-      m_Stays[point] = m_Stays[point] || isHeld[id] ? 1 : 0;
-    }
+    m_Stays.push_back(m_IsOnBorder[point] | isHeld[m_Ids[point]]);
   }
-  if (m_Original.tree != nullptr)
+  if (m_Original.surface != nullptr)
   {
     this->AddWitnesses(part.witnesses);
   }
 }
 
 void
+EdgeCollapse::LinkCorners()
+{
+  for (CornerId corner = 0; corner < m_NextCorner.size(); ++corner)
+  {
+    const PointId point = m_Triangles[corner / 3][corner % 3];
+    m_NextCorner[corner] = m_FirstCorner[point];
+    m_FirstCorner[point] = corner;
+  }
+}
+
+void
 EdgeCollapse::AddWitnesses(const std::vector<Witness> & witnesses)
 {
-  for (const PointId id : m_Ids)
-  {
-    m_Near.push_back((*m_Original.nearPoints)[id]);
-  }
   m_FirstWitness.assign(m_Triangles.size(), None);
   for (const Witness & witness : witnesses)
   {
-    const auto & point = m_Original.tree->GetSurface().GetPoints()[witness.point];
     m_WitnessPoints.push_back(witness.point);
-    m_WitnessPositions.push_back(Subtract(ToPosition(point), m_Origin));
+    m_WitnessPositions.push_back(Subtract(ToPosition(m_Original.surface->GetPoints()[witness.point]), m_Origin));
     m_NextWitness.push_back(m_FirstWitness[witness.triangle]);
     m_FirstWitness[witness.triangle] = static_cast<WitnessId>(m_WitnessPositions.size() - 1);
   }
@@ -290,23 +287,30 @@ EdgeCollapse::AddWitnesses(const std::vector<Witness> & witnesses)
 void
 EdgeCollapse::FindBorder()
 {
-  std::vector<int> balance(m_FirstCorner.size(), 0);
-  for (PointId point = 0; point < m_FirstCorner.size(); ++point)
+  std::vector<int> balance(m_Ids.size(), 0);
+  for (PointId point = 0; point < m_Ids.size(); ++point)
   {
-    this->ForEachTriangle(point, [&](TriangleId, PointId next, PointId last) {
+    this->CollectFan(point, m_FromFan);
+    for (const auto & [id, next, last] : m_FromFan)
+    {
       ++balance[next];
       --balance[last];
-    });
-    this->ForEachTriangle(point, [&](TriangleId, PointId next, PointId last) {
+    }
+    for (const auto & [id, next, last] : m_FromFan)
+    {
       m_IsOnBorder[point] = m_IsOnBorder[point] || balance[next] != 0 || balance[last] != 0 ? 1 : 0;
-    });
-    this->ForEachTriangle(point, [&](TriangleId, PointId next, PointId last) { balance[next] = balance[last] = 0; });
+    }
+    for (const auto & [id, next, last] : m_FromFan)
+    {
+      balance[next] = balance[last] = 0;
+    }
   }
 }
 
 void
 EdgeCollapse::AddQuadrics()
 {
+  m_Quadrics.resize(m_Ids.size());
   for (const TriangleType & triangle : m_Triangles)
   {
     const PositionType & first = m_Positions[triangle[0]];
@@ -318,10 +322,35 @@ EdgeCollapse::AddQuadrics()
   }
 }
 
-std::vector<CollapseProgress>
-EdgeCollapse::Run(const CollapseGoal & goal)
+CollapseLog
+EdgeCollapse::Run(double largestError)
 {
-  m_LargestError = goal.error;
+  m_LargestError = largestError;
+  m_Versions.assign(m_Ids.size(), 0);
+  m_Marks.assign(m_Ids.size(), 0);
+  this->AddQuadrics();
+  this->ProposeAll();
+  CollapseLog log;
+  while (!m_Candidates.empty())
+  {
+    const Candidate best = m_Candidates.top();
+    m_Candidates.pop();
+    if (this->TryCandidate(best, log))
+    {
+      this->CollectFan(best.to, m_ToFan);
+      for (const FanTriangle & fan : m_ToFan)
+      {
+        this->Propose(best.to, fan.next);
+      }
+    }
+  }
+  log.wasHeldBack = m_WasHeldBack;
+  return log;
+}
+
+void
+EdgeCollapse::ProposeAll()
+{
   for (const TriangleType & triangle : m_Triangles)
   {
     for (unsigned int corner = 0; corner < 3; ++corner)
@@ -332,46 +361,6 @@ EdgeCollapse::Run(const CollapseGoal & goal)
       }
     }
   }
-  std::vector<CollapseProgress> progress;
-  while (m_NumberLeft > goal.triangles && !m_Candidates.empty())
-  {
-    const Candidate best = m_Candidates.top();
-    m_Candidates.pop();
-    if (!this->TryCandidate(best))
-    {
-      continue;
-    }
-    this->ProposeAround(best.to);
-    if (progress.empty() || best.error > progress.back().error)
-    {
-      progress.push_back({ best.error, m_NumberLeft });
-    }
-    progress.back().triangles = m_NumberLeft;
-  }
-  return progress;
-}
-
-/** Collapses an edge if it may collapse; returns whether it did. */
-bool
-EdgeCollapse::TryCandidate(const Candidate & candidate)
-{
-  const auto & [error, from, to, version] = candidate;
-  if (m_IsGone[from] || m_IsGone[to] || m_Versions[from] + m_Versions[to] != version || !this->KeepsTopology(from, to))
-  {
-    return false;
-  }
-  const PositionType position = this->FindPosition(from, to);
-  if (!this->KeepsShape(from, to, position))
-  {
-    return false;
-  }
-  if (!this->StaysNear(from, to, position))
-  {
-    m_WasHeldBack = true;
-    return false;
-  }
-  this->Collapse(from, to, position);
-  return true;
 }
 
 /** Makes an edge a candidate. If one of its points stays, the other one vanishes. */
@@ -397,12 +386,6 @@ EdgeCollapse::Propose(PointId a, PointId b)
   }
 }
 
-void
-EdgeCollapse::ProposeAround(PointId point)
-{
-  this->ForEachTriangle(point, [&](TriangleId, PointId next, PointId) { this->Propose(point, next); });
-}
-
 /** The position to which an edge collapses, rounded to the surface's precision. */
 PositionType
 EdgeCollapse::FindPosition(PointId from, PointId to) const
@@ -423,197 +406,297 @@ EdgeCollapse::FindPosition(PointId from, PointId to) const
   return Subtract(ToPosition(ToPoint(Add(position, m_Origin))), m_Origin);
 }
 
+/** Collapses an edge if it may collapse; returns whether it did. */
+bool
+EdgeCollapse::TryCandidate(const Candidate & candidate, CollapseLog & log)
+{
+  const auto & [error, from, to, version] = candidate;
+  if (m_IsGone[from] || m_IsGone[to] || m_Versions[from] + m_Versions[to] != version)
+  {
+    return false;
+  }
+  this->CollectFans(from, to);
+  EdgeToCollapse edge{ from, to, this->FindPosition(from, to), None, error };
+  if (!this->KeepsTopology(to) || !this->KeepsShape(from, to, edge.position))
+  {
+    return false;
+  }
+  if (!this->StaysNear(edge))
+  {
+    m_WasHeldBack = true;
+    return false;
+  }
+  m_Quadrics[to].Add(m_Quadrics[from]);
+  m_Versions[to] += m_Versions[from] + 1;
+  this->Collapse(edge);
+  edge.error = log.edges.empty() ? edge.error : std::max(edge.error, log.edges.back().error);
+  log.edges.push_back(edge);
+  return true;
+}
+
+void
+EdgeCollapse::CollectFan(PointId point, Fan & fan) const
+{
+  fan.clear();
+  for (CornerId corner = m_FirstCorner[point]; corner != None; corner = m_NextCorner[corner])
+  {
+    const TriangleId id = corner / 3;
+    if (m_IsLeft[id])
+    {
+      const TriangleType & triangle = m_Triangles[id];
+      fan.push_back({ id, triangle[(corner + 1) % 3], triangle[(corner + 2) % 3] });
+    }
+  }
+}
+
+/** Collects the triangles at the two points of an edge, and those of them that change when it collapses. */
+void
+EdgeCollapse::CollectFans(PointId from, PointId to)
+{
+  this->CollectFan(from, m_FromFan);
+  this->CollectFan(to, m_ToFan);
+  m_Changed.clear();
+  for (const FanTriangle & fan : m_FromFan)
+  {
+    if (fan.next != to && fan.last != to)
+    {
+      m_Changed.push_back(fan);
+    }
+  }
+  for (const FanTriangle & fan : m_ToFan)
+  {
+    if (!m_Stays[to] && fan.next != from && fan.last != from)
+    {
+      m_Changed.push_back(fan);
+    }
+  }
+}
+
 /** The link condition: the common neighbours of the two points are the two points opposite to the edge, and no two
  * triangles become duplicates. The point that vanishes is inside the part, so each of its neighbours follows it in one
  * triangle. */
 bool
-EdgeCollapse::KeepsTopology(PointId from, PointId to)
+EdgeCollapse::KeepsTopology(PointId to)
 {
   ++m_Mark;
-  this->ForEachTriangle(to, [&](TriangleId, PointId next, PointId last) {
-    m_Marks[next] = m_Mark;
-    m_Marks[last] = m_Mark;
-  });
-  unsigned int degree = 0;
+  for (const FanTriangle & fan : m_ToFan)
+  {
+    m_Marks[fan.next] = m_Mark;
+    m_Marks[fan.last] = m_Mark;
+  }
   unsigned int common = 0;
   bool joinsBorder = false;
   std::array<PointId, 2> opposite{ None, None };
-  this->ForEachTriangle(from, [&](TriangleId, PointId next, PointId) {
-    ++degree;
-    if (next != to && m_Marks[next] == m_Mark)
+  for (const auto & [id, next, last] : m_FromFan)
+  {
+    if (next == to)
+    {
+      continue;
+    }
+    if (m_Marks[next] == m_Mark)
     {
       opposite[common % 2] = next;
       ++common;
     }
-    joinsBorder = joinsBorder || (next != to && m_Marks[next] != m_Mark && m_IsOnBorder[to] && m_IsOnBorder[next]);
-  });
-  if (common != 2 || joinsBorder || degree > MostAround)
+    joinsBorder = joinsBorder || (m_Marks[next] != m_Mark && m_IsOnBorder[to] && m_IsOnBorder[next]);
+  }
+  if (common != 2 || joinsBorder || m_FromFan.size() > MostAround)
   {
     return false;
   }
-  bool isDoubled = false;
-  if (degree == 3)
-  {
-    this->ForEachTriangle(to, [&](TriangleId, PointId next, PointId last) {
-      isDoubled =
-        isDoubled || (next == opposite[0] && last == opposite[1]) || (next == opposite[1] && last == opposite[0]);
-    });
-  }
-  return !isDoubled;
+  return m_FromFan.size() != 3 || std::none_of(m_ToFan.begin(), m_ToFan.end(), [&](const FanTriangle & fan) {
+           return (fan.next == opposite[0] && fan.last == opposite[1]) ||
+                  (fan.next == opposite[1] && fan.last == opposite[0]);
+         });
 }
 
 bool
 EdgeCollapse::KeepsShape(PointId from, PointId to, const PositionType & position) const
 {
-  return this->KeepsShapeAround(from, to, position) && (m_Stays[to] || this->KeepsShapeAround(to, from, position));
+  return this->KeepsShapeAround(from, to, m_FromFan, position) &&
+         (m_Stays[to] || this->KeepsShapeAround(to, from, m_ToFan, position));
 }
 
 /** Whether no triangle around a point loses its area, turns by much or becomes a worse sliver than there was before. */
 bool
-EdgeCollapse::KeepsShapeAround(PointId moved, PointId other, const PositionType & position) const
+EdgeCollapse::KeepsShapeAround(PointId moved, PointId other, const Fan & fan, const PositionType & position) const
 {
   PositionType fanNormal{};
   double worstBefore = 1.0;
-  this->ForEachTriangle(moved, [&](TriangleId, PointId next, PointId last) {
+  for (const auto & [id, next, last] : fan)
+  {
     const Shape shape(m_Positions[moved], m_Positions[next], m_Positions[last]);
     worstBefore = std::min(worstBefore, shape.quality);
     fanNormal = Add(fanNormal, shape.normal);
-  });
-  bool isKept = true;
-  this->ForEachTriangle(moved, [&](TriangleId, PointId next, PointId last) {
-    if (!isKept || next == other || last == other)
+  }
+  return std::all_of(fan.begin(), fan.end(), [&](const FanTriangle & triangle) {
+    const auto & [id, next, last] = triangle;
+    if (next == other || last == other)
     {
-      return;
+      return true;
     }
     const Shape before(m_Positions[moved], m_Positions[next], m_Positions[last]);
     const Shape after(position, m_Positions[next], m_Positions[last]);
     const auto liesAlong = [&](const PositionType & reference) {
       return Dot(after.normal, reference) > SmallestCosineOfCollapse * after.length * Length(reference);
     };
-    isKept = after.quality > 0.0 && after.quality >= std::min(SliverQuality, worstBefore) &&
-             (liesAlong(before.normal) || (before.quality < SliverQuality && liesAlong(fanNormal)));
+    return after.quality > 0.0 && after.quality >= std::min(SliverQuality, worstBefore) &&
+           (liesAlong(before.normal) || (before.quality < SliverQuality && liesAlong(fanNormal)));
   });
-  return isKept;
 }
 
 bool
-EdgeCollapse::StaysNear(PointId from, PointId to, const PositionType & position)
+EdgeCollapse::StaysNear(EdgeToCollapse & edge)
 {
-  if (m_Original.tree == nullptr)
-  {
-    return true;
-  }
-  this->CollectFan(from, to);
-  return this->IsNearOriginal(from, to, position) && this->AreWitnessesNear(from, to, position);
-}
-
-/** Collects the triangles that change when an edge collapses. */
-void
-EdgeCollapse::CollectFan(PointId from, PointId to)
-{
-  m_Fan.clear();
-  const auto collect = [&](PointId moved, PointId other) {
-    this->ForEachTriangle(moved, [&](TriangleId id, PointId next, PointId last) {
-      if (next != other && last != other)
-      {
-        m_Fan.push_back({ id, next, last });
-      }
-    });
-  };
-  collect(from, to);
-  if (!m_Stays[to])
-  {
-    collect(to, from);
-  }
+  return m_Original.surface == nullptr || (this->IsNearOriginal(edge) && this->AreWitnessesNear(edge.position));
 }
 
 /** Checks the position, the middles of the edges there and the centres of the triangles around it. */
 bool
-EdgeCollapse::IsNearOriginal(PointId from, PointId to, const PositionType & position)
+EdgeCollapse::IsNearOriginal(EdgeToCollapse & edge)
 {
-  const double squaredLimit = m_Original.limit * m_Original.limit;
-  const double squaredEnough = NearEnough * NearEnough * squaredLimit;
-  const auto findNear = [&](const PositionType & sample, const std::array<TriangleId, 3> & likely) {
-    const PositionType absolute = Add(sample, m_Origin);
-    for (const TriangleId triangle : likely)
+  m_Around.clear();
+  for (const Fan & fan : std::array<std::reference_wrapper<const Fan>, 2>{ m_FromFan, m_ToFan })
+  {
+    for (const FanTriangle & triangle : fan)
     {
-      const PositionType closest = m_Original.tree->FindClosestPointOfTriangle(absolute, triangle);
-      if (SquaredDistance(absolute, closest) <= squaredEnough)
+      for (WitnessId id = m_FirstWitness[triangle.id]; id != None; id = m_NextWitness[id])
       {
-        return triangle;
+        m_Around.push_back(id);
       }
     }
-    return m_Original.tree->FindClosestPoint(absolute, squaredLimit, squaredEnough).triangle;
-  };
-  m_NearPosition = findNear(position, { m_Near[from], m_Near[to], m_Near[to] });
-  return m_NearPosition != TriangleTree::None && std::all_of(m_Fan.begin(), m_Fan.end(), [&](const FanTriangle & fan) {
+  }
+  const PositionType & position = edge.position;
+  edge.near = this->FindNear(position);
+  return edge.near != None && std::all_of(m_Changed.begin(), m_Changed.end(), [&](const FanTriangle & fan) {
            const PositionType & next = m_Positions[fan.next];
            const PositionType oppositeMiddle = Mix(next, m_Positions[fan.last], 0.5);
-           const std::array<TriangleId, 3> likely{ m_NearPosition, m_Near[fan.next], m_Near[fan.last] };
-           return findNear(Mix(position, next, 0.5), likely) != TriangleTree::None &&
-                  findNear(Mix(position, oppositeMiddle, 2.0 / 3.0), likely) != TriangleTree::None;
+           return this->IsNear(Mix(position, next, 0.5)) && this->IsNear(Mix(position, oppositeMiddle, 2.0 / 3.0));
          });
 }
 
-/** Whether all witnesses of the triangles at an edge are near the triangles around its new position. */
 bool
-EdgeCollapse::AreWitnessesNear(PointId from, PointId to, const PositionType & position)
+EdgeCollapse::IsNear(const PositionType & sample) const
 {
-  m_Assigned.clear();
-  bool areNear = true;
-  this->ForEachTriangle(
-    from, [&](TriangleId id, PointId, PointId) { areNear = areNear && this->AssignWitnesses(id, position); });
-  if (!m_Stays[to])
-  {
-    this->ForEachTriangle(to, [&](TriangleId id, PointId next, PointId last) {
-      if (next != from && last != from)
-      {
-        areNear = areNear && this->AssignWitnesses(id, position);
-      }
-    });
-  }
-  return areNear;
+  const double limit = m_Original.limit * m_Original.limit;
+  return std::any_of(m_Around.begin(),
+                     m_Around.end(),
+                     [&](WitnessId id) { return SquaredDistance(m_WitnessPositions[id], sample) <= limit; }) ||
+         this->FindNear(sample) != None;
 }
 
-/** Assigns the witnesses of a triangle to the nearest triangles around a position, until one is too far away. Returns
- * whether all are near. */
-bool
-EdgeCollapse::AssignWitnesses(TriangleId triangle, const PositionType & position)
+/** A triangle of the original near a sample, among those at the nearest witness around the edge; None if there is none.
+ */
+TriangleId
+EdgeCollapse::FindNear(const PositionType & sample) const
 {
-  for (WitnessId id = m_FirstWitness[triangle]; id != None; id = m_NextWitness[id])
+  double least = std::numeric_limits<double>::infinity();
+  WitnessId witness = None;
+  for (const WitnessId id : m_Around)
   {
-    const PositionType & witness = m_WitnessPositions[id];
-    double least = std::numeric_limits<double>::infinity();
-    TriangleId nearest = None;
-    for (const FanTriangle & fan : m_Fan)
-    {
-      const double squared = SquaredDistance(
-        witness, ClosestOnTriangle(witness, { position, m_Positions[fan.next], m_Positions[fan.last] }));
-      nearest = squared < least ? fan.id : nearest;
-      least = std::min(least, squared);
-    }
-    if (!(least <= m_Original.limit * m_Original.limit))
-    {
-      return false;
-    }
-    m_Assigned.emplace_back(id, nearest);
+    const double squared = SquaredDistance(m_WitnessPositions[id], sample);
+    witness = squared < least ? id : witness;
+    least = std::min(least, squared);
   }
-  return true;
+  if (witness == None)
+  {
+    return None;
+  }
+  const PositionType absolute = Add(sample, m_Origin);
+  TriangleId nearest = None;
+  least = m_Original.limit * m_Original.limit;
+  m_Original.triangles->VisitTriangles(m_WitnessPoints[witness], [&](TriangleId id) {
+    const CornersType corners = CornersOf(*m_Original.surface, m_Original.surface->GetTriangles()[id]);
+    const double squared = SquaredDistance(absolute, ClosestOnTriangle(absolute, corners));
+    nearest = squared <= least ? id : nearest;
+    least = std::min(least, squared);
+  });
+  return nearest;
+}
+
+/** Assigns the witnesses of the triangles at the edge to the nearest triangles around its position, until one is too
+ * far away. Returns whether all are near. */
+bool
+EdgeCollapse::AreWitnessesNear(const PositionType & position)
+{
+  m_Assigned.clear();
+  const auto assign = [&](TriangleId triangle) {
+    for (WitnessId id = m_FirstWitness[triangle]; id != None; id = m_NextWitness[id])
+    {
+      const PositionType & witness = m_WitnessPositions[id];
+      double least = std::numeric_limits<double>::infinity();
+      TriangleId nearest = None;
+      for (const FanTriangle & fan : m_Changed)
+      {
+        const double squared = SquaredDistance(
+          witness, ClosestOnTriangle(witness, { position, m_Positions[fan.next], m_Positions[fan.last] }));
+        nearest = squared < least ? fan.id : nearest;
+        least = std::min(least, squared);
+      }
+      if (!(least <= m_Original.limit * m_Original.limit))
+      {
+        return false;
+      }
+      m_Assigned.emplace_back(id, nearest);
+    }
+    return true;
+  };
+  // All triangles of the vanishing point, and those of the other that change.
+  return std::all_of(m_FromFan.begin(), m_FromFan.end(), [&](const FanTriangle & fan) { return assign(fan.id); }) &&
+         std::all_of(m_Changed.begin() + static_cast<std::ptrdiff_t>(m_FromFan.size() - 2),
+                     m_Changed.end(),
+                     [&](const FanTriangle & fan) { return assign(fan.id); });
 }
 
 void
-EdgeCollapse::Collapse(PointId from, PointId to, const PositionType & position)
+EdgeCollapse::Replay(const CollapseLog & log, const std::vector<std::uint16_t> & mostChanges)
 {
+  m_IsOther.assign(m_Ids.size(), 0);
+  for (const EdgeToCollapse & edge : log.edges)
+  {
+    this->CollectFans(edge.from, edge.to);
+    if (!this->IsAsLogged() || !this->MayChange(mostChanges))
+    {
+      m_IsOther[edge.from] = m_IsOther[edge.to] = 1;
+      continue;
+    }
+    if (m_Original.surface != nullptr)
+    {
+      this->AreWitnessesNear(edge.position);
+    }
+    this->Collapse(edge);
+  }
+}
+
+/** Whether all points around an edge, and its own, are as they were. */
+bool
+EdgeCollapse::IsAsLogged() const
+{
+  const auto isAsLogged = [&](const FanTriangle & fan) { return !m_IsOther[fan.next] && !m_IsOther[fan.last]; };
+  return std::all_of(m_FromFan.begin(), m_FromFan.end(), isAsLogged) &&
+         std::all_of(m_ToFan.begin(), m_ToFan.end(), isAsLogged);
+}
+
+bool
+EdgeCollapse::MayChange(const std::vector<std::uint16_t> & mostChanges) const
+{
+  return std::all_of(m_Changed.begin(), m_Changed.end(), [&](const FanTriangle & fan) {
+    return m_Changes[fan.id] < mostChanges[fan.id];
+  });
+}
+
+void
+EdgeCollapse::Collapse(const EdgeToCollapse & edge)
+{
+  const auto & [from, to, position, near, error] = edge;
   if (!m_Stays[to])
   {
     this->MixNormals(from, to, position);
     m_Positions[to] = position;
+    m_Near[to] = near;
     m_HasMoved[to] = 1;
-    this->ForEachTriangle(to, [&](TriangleId id, PointId, PointId) { m_IsNew[id] = 1; });
   }
   m_IsGone[from] = 1;
-  m_Quadrics[to].Add(m_Quadrics[from]);
-  m_Versions[to] += m_Versions[from] + 1;
   for (CornerId corner = m_FirstCorner[from], next = None; corner != None; corner = next)
   {
     next = m_NextCorner[corner];
@@ -625,17 +708,18 @@ EdgeCollapse::Collapse(PointId from, PointId to, const PositionType & position)
     if (std::find(triangle.begin(), triangle.end(), to) != triangle.end())
     {
       m_IsLeft[corner / 3] = 0;
-      --m_NumberLeft;
       continue;
     }
     triangle[corner % 3] = to;
-    m_IsNew[corner / 3] = 1;
     m_NextCorner[corner] = m_FirstCorner[to];
     m_FirstCorner[to] = corner;
   }
-  if (m_Original.tree != nullptr)
+  for (const FanTriangle & fan : m_Changed)
   {
-    m_Near[to] = m_NearPosition;
+    ++m_Changes[fan.id];
+  }
+  if (m_Original.surface != nullptr)
+  {
     this->MoveWitnesses();
   }
 }
@@ -643,7 +727,7 @@ EdgeCollapse::Collapse(PointId from, PointId to, const PositionType & position)
 void
 EdgeCollapse::MoveWitnesses()
 {
-  for (const FanTriangle & fan : m_Fan)
+  for (const FanTriangle & fan : m_Changed)
   {
     m_FirstWitness[fan.id] = None;
   }
@@ -680,14 +764,15 @@ EdgeCollapse::GetResult() const
   {
     for (TriangleId id = 0; id < m_Triangles.size(); ++id)
     {
-      if (!m_IsLeft[id] || (m_IsNew[id] != 0) != isNew)
+      if (!m_IsLeft[id] || (m_Changes[id] > 0) != isNew)
       {
         continue;
       }
       const auto index = static_cast<TriangleId>(result.part.triangles.size());
       const auto & [a, b, c] = m_Triangles[id];
       result.part.triangles.push_back({ m_Ids[a], m_Ids[b], m_Ids[c] });
-      result.numberOfOldTriangles += isNew ? 0 : 1;
+      result.ids.push_back(id);
+      result.changes.push_back(m_Changes[id]);
       for (WitnessId witness = m_FirstWitness.empty() ? None : m_FirstWitness[id]; witness != None;
            witness = m_NextWitness[witness])
       {
@@ -702,27 +787,39 @@ EdgeCollapse::GetResult() const
       result.movedPoints.push_back({ m_Ids[point],
                                      ToPoint(Add(m_Positions[point], m_Origin)),
                                      m_Normals.empty() ? TriangleSurface::NormalType{} : ToPoint(m_Normals[point]),
-                                     m_Near.empty() ? None : m_Near[point] });
+                                     m_Near[point] });
     }
   }
-  result.wasHeldBack = m_WasHeldBack;
   return result;
 }
 
 } // namespace
 
-CollapsedPart
+CollapseLog
 CollapseEdges(const TriangleSurface & surface,
               const SurfacePart & part,
               const std::vector<std::uint8_t> & isHeld,
               const OriginalSurface & original,
-              const CollapseGoal & goal)
+              double largestError,
+              CollapsedPart & collapsed)
 {
   EdgeCollapse collapse(surface, part, isHeld, original);
-  const std::vector<CollapseProgress> progress = collapse.Run(goal);
-  CollapsedPart result = collapse.GetResult();
-  result.progress = progress;
-  return result;
+  CollapseLog log = collapse.Run(largestError);
+  collapsed = collapse.GetResult();
+  return log;
+}
+
+CollapsedPart
+ReplayCollapses(const TriangleSurface & surface,
+                const SurfacePart & part,
+                const std::vector<std::uint8_t> & isHeld,
+                const OriginalSurface & original,
+                const CollapseLog & log,
+                const std::vector<std::uint16_t> & mostChanges)
+{
+  EdgeCollapse collapse(surface, part, isHeld, original);
+  collapse.Replay(log, mostChanges);
+  return collapse.GetResult();
 }
 
 } // namespace itk

@@ -1,7 +1,8 @@
 #ifndef itkEdgeCollapse_h
 #define itkEdgeCollapse_h
 
-#include "itkTriangleTree.h"
+#include "detail/itkPositionArithmetic.h"
+#include "detail/itkTrianglesOfPoints.h"
 
 namespace itk
 {
@@ -20,27 +21,30 @@ struct SurfacePart
   std::vector<Witness> witnesses;
 };
 
-/** The surface before simplification, and the limit of the distance from it: sampled positions of the new triangles
- * must be near it, and its witnesses near the new triangles. */
+/** The surface before simplification, and the limit of the distance from it: new points must be near it, and its points
+ * near the new triangles. */
 struct OriginalSurface
 {
-  const TriangleTree * tree;                     ///< null if the distance has no limit; then there are no witnesses
-  double limit;                                  ///< largest distance in mm
-  const std::vector<std::uint32_t> * nearPoints; ///< for each point of the surface, a triangle of the original nearby
+  const TriangleSurface * surface;     ///< null if the distance has no limit; then there are no witnesses
+  const TrianglesOfPoints * triangles; ///< of the surface
+  double limit;                        ///< largest distance in mm
 };
 
-/** Where collapsing ends: at the first of the two limits. */
-struct CollapseGoal
+/** An edge that collapses. Points have local ids: indices into the sorted ids of the part's points. */
+struct EdgeToCollapse
 {
-  double error;              ///< largest error of an edge in mm, see CollapseEdges()
-  std::size_t triangles = 0; ///< fewest triangles
+  std::uint32_t from; ///< this point vanishes
+  std::uint32_t to;
+  PositionType position;  ///< new position of the other one, relative to that of the part's first point
+  std::uint32_t near = 0; ///< a triangle of the original near the position
+  double error;           ///< of this edge and all before it, at most
 };
 
-/** How many triangles are left after all edges of up to an error have collapsed. */
-struct CollapseProgress
+/** The edges that collapse, one after the other. */
+struct CollapseLog
 {
-  double error;
-  std::size_t triangles;
+  std::vector<EdgeToCollapse> edges;
+  bool wasHeldBack = false; ///< whether others stayed because of the error or the distance from the original
 };
 
 /** A point that has moved. */
@@ -55,30 +59,41 @@ struct MovedPoint
 /** A part after its edges have collapsed. */
 struct CollapsedPart
 {
-  SurfacePart part;                     ///< first the triangles that have not changed, then the new ones
-  std::size_t numberOfOldTriangles = 0; ///< triangles that have not changed
+  SurfacePart part;                   ///< first the triangles that have not changed, then the new ones
+  std::vector<std::uint32_t> ids;     ///< for each triangle, its index before
+  std::vector<std::uint16_t> changes; ///< for each triangle, how often a corner of it moved
   std::vector<MovedPoint> movedPoints;
-  std::vector<CollapseProgress> progress; ///< by growing error
-  bool wasHeldBack = false; ///< whether edges stayed because of the error or the distance from the original
 };
 
-/** Collapses edges of some triangles of a surface, the edge of least error first.
+/** Finds edges of some triangles of a surface to collapse, the edge of least error first, and \a collapsed, the part
+ * without them.
  *
  * The error is the root of the weighted mean squared distance from the planes of the triangles that the edge's points
  * have absorbed: Garland and Heckbert, "Surface simplification using quadric error metrics" (SIGGRAPH 1997). An edge
- * collapses to the position of least error, and only if
+ * collapses to the position of least error, if that is at most \a largestError (in mm), and only if
  * - the link condition holds, so that the topology stays: Dey et al., "Topology preserving edge contraction" (1999);
  * - no triangle turns by much, loses its area or becomes a sliver;
- * - the surface stays near the original.
+ * - the new point is near the original, and the original's points are near the new triangles.
  *
  * The border of the part stays, and no new edge joins two border points, so that parts simplified one by one fit
- * together. The points of a triangle stay if \a isHeld is 1 for it. */
-CollapsedPart
+ * together. */
+CollapseLog
 CollapseEdges(const TriangleSurface & surface,
               const SurfacePart & part,
               const std::vector<std::uint8_t> & isHeld,
               const OriginalSurface & original,
-              const CollapseGoal & goal);
+              double largestError,
+              CollapsedPart & collapsed);
+
+/** Collapses the edges of a log again, without those that would change a triangle more often than \a mostChanges says,
+ * and without those that depend on them: the triangles around an edge must be as they were when the log was made. */
+CollapsedPart
+ReplayCollapses(const TriangleSurface & surface,
+                const SurfacePart & part,
+                const std::vector<std::uint8_t> & isHeld,
+                const OriginalSurface & original,
+                const CollapseLog & log,
+                const std::vector<std::uint16_t> & mostChanges);
 
 } // namespace itk
 

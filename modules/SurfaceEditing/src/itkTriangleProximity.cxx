@@ -134,16 +134,25 @@ private:
 } // namespace
 
 bool
+IsNearOneTriangle(const CornersType & corners,
+                  const TriangleTree & surface,
+                  double distance,
+                  const std::array<std::uint32_t, 3> & triangles)
+{
+  const Proof proof(corners, surface, distance);
+  return std::any_of(triangles.begin(), triangles.end(), [&](std::uint32_t triangle) {
+    return proof.IsNearTriangle(corners, triangle);
+  });
+}
+
+bool
 IsWithinDistance(const CornersType & corners,
                  const TriangleTree & surface,
                  double distance,
                  const std::array<std::uint32_t, 3> & likely)
 {
-  const Proof proof(corners, surface, distance);
-  return std::any_of(likely.begin(),
-                     likely.end(),
-                     [&](std::uint32_t triangle) { return proof.IsNearTriangle(corners, triangle); }) ||
-         proof.IsNear(corners, likely[0]);
+  return IsNearOneTriangle(corners, surface, distance, likely) ||
+         Proof(corners, surface, distance).IsNear(corners, likely[0]);
 }
 
 } // namespace itk

@@ -22,6 +22,13 @@ IsWithinDistance(const CornersType & corners,
                  double distance,
                  const std::array<std::uint32_t, 3> & likely);
 
+/** Whether all of a triangle is within \a distance of one of three triangles of a surface. */
+bool
+IsNearOneTriangle(const CornersType & corners,
+                  const TriangleTree & surface,
+                  double distance,
+                  const std::array<std::uint32_t, 3> & triangles);
+
 } // namespace itk
 
 #endif

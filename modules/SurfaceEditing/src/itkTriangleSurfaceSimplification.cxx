@@ -10,8 +10,9 @@
 #include "itkTriangleSurfaceTopology.h"
 
 #include <cmath>
-#include <memory>
+#include <mutex>
 #include <numeric>
+#include <optional>
 #include <ostream>
 
 namespace itk
@@ -24,7 +25,7 @@ using PointId = std::uint32_t;
 using TriangleId = std::uint32_t;
 using Box = TriangleTree::Box;
 using Contact = TriangleContact;
-using Boxes = std::vector<std::vector<Box>>; ///< for each patch, boxes in which its triangles are bad
+using Flags = std::vector<std::uint8_t>;
 
 constexpr std::size_t PatchSize = 4096;
 constexpr std::size_t SimplifiedBlock = 1024;
@@ -33,8 +34,10 @@ constexpr std::size_t SimplifiedBlock = 1024;
  * the patches of successive steps have few borders in common. */
 constexpr std::array<double, 3> Cuts{ 0.5, 0.36, 0.64 };
 
-constexpr double FirstError = 1.0 / 32.0; // in mean sides of triangles, doubled with each step
-constexpr double LargestShareLeft = 0.95; // share of the triangles that are left after a worthwhile step, at most
+constexpr double Aim = 0.995;                 // share of the target, since some triangles are put back
+constexpr double FirstError = 1.0 / 8.0;      // in mean sides of triangles, doubled with each step
+constexpr double SmallestShareLeft = 0.4;     // by one step, so that the borders between patches do not differ by much
+constexpr double SmallestShareRemoved = 0.05; // of the triangles, in a worthwhile step that is far from the target
 constexpr double ShareForWitnesses = 0.9; // relative to maximumError, to keep the surface between witnesses within it
 constexpr unsigned int MostRounds = 32;   // rounds of putting triangles back; the second half puts back whole patches
 
@@ -71,20 +74,15 @@ Grown(Box box, float by)
   return box;
 }
 
-/** Some triangles of the surface before and after a step. Where a check of the new triangles fails, the old ones are
- * held and the patch is simplified again. */
+/** Some triangles of the surface before and after a step. */
 struct Patch
 {
   SurfacePart before;
-  Box bounds; ///< box around the triangles before
-  std::vector<std::uint8_t> isHeld;
+  CollapseLog log;
+  std::vector<std::uint16_t> mostChanges; ///< for each triangle before, how often a corner of it may move
   CollapsedPart after;
-
-  bool
-  IsSimplified() const
-  {
-    return after.numberOfOldTriangles < after.part.triangles.size();
-  }
+  std::vector<std::uint16_t> checkedChanges; ///< for each triangle before, how often a corner of it had moved when it
+                                             ///< was last checked
 };
 
 Patch
@@ -93,53 +91,34 @@ MakePatch(const TriangleSurface & surface, const TriangleRange & range)
   Patch patch;
   const auto * const triangles = surface.GetTriangles().data();
   patch.before.triangles.assign(triangles + range.begin, triangles + range.end);
-  patch.isHeld.assign(range.Size(), 0);
-  patch.bounds = TriangleTree::BoxOf(surface.GetPoints(), patch.before.triangles.front());
-  for (const auto & triangle : patch.before.triangles)
-  {
-    patch.bounds = TriangleTree::Union(patch.bounds, TriangleTree::BoxOf(surface.GetPoints(), triangle));
-  }
+  patch.mostChanges.assign(range.Size(), std::numeric_limits<std::uint16_t>::max());
+  patch.checkedChanges.assign(range.Size(), 0);
   return patch;
 }
 
-/** Holds the triangles whose boxes meet one of \a boxes. Returns whether any was not held before. */
-bool
-HoldTriangles(Patch & patch, const TriangleSurface & surface, const std::vector<Box> & boxes)
+/** The surface before simplification. */
+struct Original
 {
-  bool isAnyNew = false;
-  for (std::size_t id = 0; id < patch.isHeld.size(); ++id)
+  TriangleSurface::Pointer surface;
+  TriangleTree tree;
+  TrianglesOfPoints trianglesOfPoints;
+
+  explicit Original(const TriangleSurface & before)
+    : surface(Copy(before))
+    , tree(*surface)
+    , trianglesOfPoints(*surface)
+  {}
+
+private:
+  static TriangleSurface::Pointer
+  Copy(const TriangleSurface & before)
   {
-    const Box own = TriangleTree::BoxOf(surface.GetPoints(), patch.before.triangles[id]);
-    if (!patch.isHeld[id] &&
-        std::any_of(boxes.begin(), boxes.end(), [&own](const Box & box) { return box.Overlaps(own); }))
-    {
-      patch.isHeld[id] = 1;
-      isAnyNew = true;
-    }
+    auto copy = TriangleSurface::New();
+    copy->GetPoints() = before.GetPoints();
+    copy->GetTriangles() = before.GetTriangles();
+    return copy;
   }
-  return isAnyNew;
-}
-
-/** How many triangles of a patch are left after all edges of up to an error have collapsed. */
-std::size_t
-CountTriangles(const Patch & patch, double error)
-{
-  const auto & progress = patch.after.progress;
-  const auto after =
-    std::upper_bound(progress.begin(), progress.end(), error, [](double value, const CollapseProgress & step) {
-      return value < step.error;
-    });
-  return after == progress.begin() ? patch.before.triangles.size() : std::prev(after)->triangles;
-}
-
-std::size_t
-CountTriangles(const std::vector<Patch> & patches, double error)
-{
-  return std::accumulate(patches.begin(),
-                         patches.end(),
-                         std::size_t{ 0 },
-                         [error](std::size_t sum, const Patch & patch) { return sum + CountTriangles(patch, error); });
-}
+};
 
 /** A surface that is simplified in steps. */
 class Simplification
@@ -149,16 +128,17 @@ public:
   Simplification(TriangleSurface & surface,
                  const TriangleSurfaceTopology & topology,
                  const TriangleSurfaceSimplificationSettings & settings,
-                 const TriangleTree * original)
+                 const Original * original)
     : m_Target(settings.targetTriangles)
     , m_MaximumError(settings.maximumError)
     , m_Topology(topology)
     , m_State(surface)
-    , m_Original{ original, ShareForWitnesses * settings.maximumError, &m_NearPoints }
+    , m_Original(original)
     , m_Before(TriangleSurface::New())
   {
     if (original != nullptr)
     {
+      m_Limits = { original->surface, &original->trianglesOfPoints, ShareForWitnesses * m_MaximumError };
       m_NearPoints.resize(surface.GetNumberOfPoints());
       for (TriangleId id = 0; id < surface.GetNumberOfTriangles(); ++id)
       {
@@ -168,7 +148,9 @@ public:
         }
       }
       m_WitnessTriangles = m_NearPoints;
+      m_IsCovered.assign(surface.GetNumberOfTriangles(), 1);
     }
+    m_IsHeld.assign(surface.GetNumberOfPoints(), 0);
   }
 
   TriangleSurfaceSimplificationReport
@@ -187,44 +169,51 @@ private:
   void
   CutIntoPatches(double cut);
   void
-  SimplifyPatches(const std::vector<PatchId> & patches);
+  AimAtTarget();
   void
-  AimAtTarget(const std::vector<PatchId> & all);
+  Replay(const std::vector<PatchId> & patches);
   bool
-  PutBackBadTriangles(std::vector<PatchId> changed);
+  PutBackBadTriangles();
   void
   JoinPatches();
-  Boxes
-  FindBad(const std::vector<PatchId> & patches, bool checksAll) const;
+  Flags
+  FindBad(bool checksAll);
   void
-  FindContacts(const TriangleTree & state, const std::vector<PatchId> & patches, Boxes & bad) const;
+  FindContacts(const TriangleTree & state, Flags & isBad) const;
   void
-  FindStrays(const std::vector<PatchId> & patches, Boxes & bad) const;
+  FindStrays(Flags & isBad) const;
   void
-  FindUncovered(const TriangleTree & state, const std::vector<PatchId> & patches, bool checksAll, Boxes & bad) const;
+  FindUncovered(const TriangleTree & state, bool checksAll, Flags & isBad);
+  void
+  AddAround(TriangleId uncovered, const TriangleTree & state, Flags & isBad) const;
   std::vector<PatchId>
-  Hold(const Boxes & bad, bool holdsAll);
+  Hold(const Flags & isBad, unsigned int round);
 
   const SizeValueType m_Target;
   const double m_MaximumError;
   const TriangleSurfaceTopology m_Topology;
   TriangleSurface & m_State;
-  const OriginalSurface m_Original;
+  const Original * const m_Original;
+  OriginalSurface m_Limits{};
   SizeValueType m_PlacesPutBack = 0;
   bool m_IsHeldBack = false; ///< whether maximumError kept edges from collapsing in the last step
+
+  Flags m_IsHeld; ///< for each point of m_State, whether it stays, because triangles there were bad
 
   // Empty if the distance has no limit.
   std::vector<TriangleId> m_NearPoints; ///< for each point of m_State, a triangle of the original nearby
   std::vector<TriangleId>
     m_WitnessTriangles; ///< for each point of the original, the triangle of m_State that covers it
+  Flags m_IsCovered;    ///< for each triangle of the original, whether the triangles that cover its corners cover it
 
   // The current step.
   TriangleSurface::Pointer m_Before;
+  Flags m_HeldBefore; ///< m_IsHeld before the step
   std::vector<Patch> m_Patches;
-  std::vector<CollapseGoal> m_Goals; ///< by patch
-  std::vector<TriangleId> m_Begin;   ///< first triangle of each patch in m_State, and the end of the last
-  std::vector<PatchId> m_PatchOf;    ///< the patch of each triangle of m_State
-  std::vector<std::uint8_t> m_IsNew; ///< for each triangle of m_State, whether it was not there before the step
+  std::vector<TriangleId> m_Begin; ///< first triangle of each patch in m_State, and the end of the last
+  std::vector<PatchId> m_PatchOf;  ///< the patch of each triangle of m_State
+  Flags m_IsNew;                   ///< for each triangle of m_State, whether it was not there before the step
+  Flags m_IsFresh;                 ///< for each triangle of m_State, whether it was not there at the last check
 };
 
 TriangleSurfaceSimplificationReport
@@ -239,11 +228,13 @@ Simplification::Run()
   {
     const SizeValueType before = m_State.GetNumberOfTriangles();
     const bool isSound = this->Step(error, Cuts[step % Cuts.size()]);
-    const bool isStuck = m_State.GetNumberOfTriangles() > LargestShareLeft * static_cast<double>(before);
+    const SizeValueType removed = before - m_State.GetNumberOfTriangles();
+    const bool isStuck = removed < SmallestShareRemoved * static_cast<double>(before) &&
+                         (m_Target == 0 || 2 * removed < before - m_Target);
     if (!isSound || (isStuck && !(error < limit) && !this->IsAtTarget()))
     {
       report.end =
-        m_IsHeldBack && m_Original.tree != nullptr ? SimplificationEnd::MaximumError : SimplificationEnd::Topology;
+        m_IsHeldBack && m_Original != nullptr ? SimplificationEnd::MaximumError : SimplificationEnd::Topology;
       break;
     }
     error = std::min(limit, 2.0 * error);
@@ -259,16 +250,17 @@ bool
 Simplification::Step(double error, double cut)
 {
   this->SwapWithBefore();
+  m_HeldBefore = m_IsHeld;
   this->CutIntoPatches(cut);
-  m_Goals.assign(m_Patches.size(), { error, 0 });
-  std::vector<PatchId> all(m_Patches.size());
-  std::iota(all.begin(), all.end(), 0u);
-  this->SimplifyPatches(all);
-  this->AimAtTarget(all);
+  ForEachInBlocks(m_Patches.size(), 1, [&](std::size_t id) {
+    Patch & patch = m_Patches[id];
+    patch.log = CollapseEdges(*m_Before, patch.before, m_HeldBefore, m_Limits, error, patch.after);
+  });
+  this->AimAtTarget();
   this->JoinPatches();
-  const bool isSound = this->PutBackBadTriangles(all) && HaveSameTopology(ComputeTopology(m_State), m_Topology);
+  const bool isSound = this->PutBackBadTriangles() && HaveSameTopology(ComputeTopology(m_State), m_Topology);
   m_IsHeldBack =
-    std::any_of(m_Patches.begin(), m_Patches.end(), [](const Patch & patch) { return patch.after.wasHeldBack; });
+    std::any_of(m_Patches.begin(), m_Patches.end(), [](const Patch & patch) { return patch.log.wasHeldBack; });
   if (!isSound)
   {
     this->SwapWithBefore();
@@ -313,66 +305,70 @@ Simplification::CutIntoPatches(double cut)
   }
 }
 
-/** Simplifies everything in some patches that is not held. */
+/** If the patches together have fewer triangles than this step may leave, takes back the collapses of largest error. */
 void
-Simplification::SimplifyPatches(const std::vector<PatchId> & patches)
+Simplification::AimAtTarget()
 {
-  ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
-    Patch & patch = m_Patches[patches[n]];
-    patch.after = CollapseEdges(*m_Before, patch.before, patch.isHeld, m_Original, m_Goals[patches[n]]);
-  });
-}
-
-/** If the patches together have fewer triangles than the target, simplifies them again to just the target: finds the
- * error at which they pass it, and shares the last triangles among them. */
-void
-Simplification::AimAtTarget(const std::vector<PatchId> & all)
-{
-  const std::size_t target = m_Target;
-  if (CountTriangles(m_Patches, std::numeric_limits<double>::infinity()) >= target)
+  std::vector<double> errors;
+  for (const Patch & patch : m_Patches)
+  {
+    for (const EdgeToCollapse & edge : patch.log.edges)
+    {
+      errors.push_back(edge.error);
+    }
+  }
+  const auto before = static_cast<double>(m_Before->GetNumberOfTriangles());
+  const double target = std::max(Aim * static_cast<double>(m_Target), SmallestShareLeft * before);
+  const auto enough = static_cast<std::size_t>(std::ceil(0.5 * (before - target))); // two triangles less each
+  if (errors.size() <= enough)
   {
     return;
   }
-  std::vector<double> errors{ -1.0 }; // less than that of any edge
-  for (const Patch & patch : m_Patches)
+  std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(enough), errors.end());
+  const double limit = errors[enough];
+  const auto isLess = [](const EdgeToCollapse & edge, double error) { return edge.error < error; };
+  const auto isMore = [](double error, const EdgeToCollapse & edge) { return error < edge.error; };
+  auto left = static_cast<std::ptrdiff_t>(enough) -
+              std::count_if(errors.begin(), errors.end(), [limit](double error) { return error < limit; });
+  std::vector<PatchId> changed;
+  for (PatchId id = 0; id < m_Patches.size(); ++id)
   {
-    for (const CollapseProgress & progress : patch.after.progress)
+    auto & edges = m_Patches[id].log.edges;
+    const auto first = std::lower_bound(edges.begin(), edges.end(), limit, isLess);
+    const auto taken = std::min(left, std::upper_bound(first, edges.end(), limit, isMore) - first);
+    left -= taken;
+    if (first + taken != edges.end())
     {
-      errors.push_back(progress.error);
+      edges.erase(first + taken, edges.end());
+      changed.push_back(id);
     }
   }
-  std::sort(errors.begin(), errors.end());
-  errors.erase(std::unique(errors.begin(), errors.end()), errors.end());
-  const auto enough = std::partition_point(
-    errors.begin() + 1, errors.end(), [&](double error) { return CountTriangles(m_Patches, error) > target; });
-  const double tooLittle = *std::prev(enough);
-  const std::size_t least = CountTriangles(m_Patches, *enough);
-  const double share =
-    static_cast<double>(target - least) / static_cast<double>(CountTriangles(m_Patches, tooLittle) - least);
-  for (const PatchId id : all)
-  {
-    const std::size_t left = CountTriangles(m_Patches[id], *enough);
-    const double more = share * static_cast<double>(CountTriangles(m_Patches[id], tooLittle) - left);
-    m_Goals[id].triangles = left + static_cast<std::size_t>(more);
-  }
-  this->SimplifyPatches(all);
+  this->Replay(changed);
 }
 
-/** Puts triangles back where new ones are bad, until no check fails. At first checks all patches, then only changed
- * ones; a check of all patches comes last. Returns false if that takes too many rounds. */
-bool
-Simplification::PutBackBadTriangles(std::vector<PatchId> changed)
+void
+Simplification::Replay(const std::vector<PatchId> & patches)
 {
-  bool checksAll = true;
+  ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
+    Patch & patch = m_Patches[patches[n]];
+    patch.after = ReplayCollapses(*m_Before, patch.before, m_HeldBefore, m_Limits, patch.log, patch.mostChanges);
+  });
+}
+
+/** Puts triangles back where new ones are bad, until no check fails. Returns false if that takes too many rounds. */
+bool
+Simplification::PutBackBadTriangles()
+{
+  bool checksAll = false;
   for (unsigned int round = 0; round < MostRounds; ++round)
   {
-    changed = this->Hold(this->FindBad(changed, checksAll), 2 * round >= MostRounds);
+    const std::vector<PatchId> changed = this->Hold(this->FindBad(checksAll), round);
     if (changed.empty() && checksAll)
     {
       return true;
     }
     checksAll = changed.empty();
-    this->SimplifyPatches(changed);
+    this->Replay(changed);
     this->JoinPatches();
   }
   return false;
@@ -389,22 +385,29 @@ Simplification::JoinPatches()
   m_Begin.assign(1, 0);
   m_PatchOf.clear();
   m_IsNew.clear();
+  m_IsFresh.clear();
   for (PatchId id = 0; id < m_Patches.size(); ++id)
   {
-    const CollapsedPart & after = m_Patches[id].after;
+    Patch & patch = m_Patches[id];
+    const CollapsedPart & after = patch.after;
     for (const Witness & witness : after.part.witnesses)
     {
       m_WitnessTriangles[witness.point] = m_Begin.back() + witness.triangle;
     }
     triangles.insert(triangles.end(), after.part.triangles.begin(), after.part.triangles.end());
-    m_IsNew.resize(m_Begin.back() + after.numberOfOldTriangles, 0);
-    m_IsNew.resize(triangles.size(), 1);
+    for (std::size_t n = 0; n < after.ids.size(); ++n)
+    {
+      std::uint16_t & checked = patch.checkedChanges[after.ids[n]];
+      m_IsNew.push_back(after.changes[n] > 0 ? 1 : 0);
+      m_IsFresh.push_back(after.changes[n] != checked ? 1 : 0);
+      checked = after.changes[n];
+    }
     m_PatchOf.resize(triangles.size(), id);
     m_Begin.push_back(static_cast<TriangleId>(triangles.size()));
     for (const MovedPoint & moved : after.movedPoints)
     {
       m_State.GetPoints()[moved.id] = moved.position;
-      if (m_Original.tree != nullptr)
+      if (m_Original != nullptr)
       {
         m_NearPoints[moved.id] = moved.near;
       }
@@ -416,151 +419,147 @@ Simplification::JoinPatches()
   }
 }
 
-/** Finds, for each patch, the boxes in which its new triangles must not stay. Checks what some patches have changed, or
- * everything. */
-Boxes
-Simplification::FindBad(const std::vector<PatchId> & patches, bool checksAll) const
+/** Finds the new triangles that can't stay, for what has changed since the last check, or for everything. */
+Flags
+Simplification::FindBad(bool checksAll)
 {
-  Boxes bad(m_Patches.size());
+  Flags isBad(m_State.GetNumberOfTriangles(), 0);
   const TriangleTree state(m_State);
-  this->FindContacts(state, patches, bad);
-  if (m_Original.tree != nullptr)
+  this->FindContacts(state, isBad);
+  if (m_Original != nullptr)
   {
-    this->FindStrays(patches, bad);
-    this->FindUncovered(state, patches, checksAll, bad);
+    this->FindStrays(isBad);
+    this->FindUncovered(state, checksAll, isBad);
   }
-  return bad;
+  for (TriangleId id = 0; id < isBad.size(); ++id)
+  {
+    isBad[id] &= m_IsNew[id];
+  }
+  return isBad;
 }
 
-/** Adds the new triangles that meet others elsewhere than at shared corners and sides, for pairs with a triangle in one
- * of \a patches. */
+/** Adds the triangles that meet others elsewhere than at shared corners and sides, for pairs with a new triangle and
+ * one that has changed. */
 void
-Simplification::FindContacts(const TriangleTree & state, const std::vector<PatchId> & patches, Boxes & bad) const
+Simplification::FindContacts(const TriangleTree & state, Flags & isBad) const
 {
   const auto & points = m_State.GetPoints();
   const auto & triangles = m_State.GetTriangles();
-  std::vector<std::uint8_t> isChecked(m_Patches.size(), 0);
-  for (const PatchId patch : patches)
-  {
-    isChecked[patch] = 1;
-  }
-  // Each pair once: from its new triangle, from the later one if both are new, else from the one in a checked patch.
-  const auto isFoundFromOther = [&](TriangleId id, TriangleId other) {
-    return m_IsNew[other] && isChecked[m_PatchOf[other]] && (!m_IsNew[id] || other > id);
-  };
-  std::vector<std::vector<TriangleId>> found(patches.size());
-  ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
-    const bool isAnyUnchecked = patches.size() < m_Patches.size();
-    for (TriangleId id = m_Begin[patches[n]]; id < m_Begin[patches[n] + 1]; ++id)
+  std::vector<TriangleId> found;
+  std::mutex mutex;
+  ForEachInBlocks(triangles.size(), SimplifiedBlock, [&](std::size_t n) {
+    const auto id = static_cast<TriangleId>(n);
+    if (!m_IsFresh[id])
     {
-      if (!m_IsNew[id] && !isAnyUnchecked)
-      {
-        continue;
-      }
-      state.VisitTriangles(TriangleTree::BoxOf(points, triangles[id]), [&](TriangleId other) {
-        if (other != id && (m_IsNew[id] || m_IsNew[other]) && !isFoundFromOther(id, other) &&
-            FindContact(points, triangles[id], triangles[other]) != Contact::Apart)
-        {
-          found[n].push_back(id);
-          found[n].push_back(other);
-        }
-      });
+      return;
     }
+    state.VisitTriangles(TriangleTree::BoxOf(points, triangles[id]), [&](TriangleId other) {
+      if (other != id && (m_IsNew[id] || m_IsNew[other]) && !(m_IsFresh[other] && other > id) &&
+          FindContact(points, triangles[id], triangles[other]) != Contact::Apart)
+      {
+        const std::lock_guard<std::mutex> lock(mutex);
+        found.insert(found.end(), { id, other });
+      }
+    });
   });
-  for (const auto & ids : found)
+  for (const TriangleId id : found)
   {
-    for (const TriangleId id : ids)
-    {
-      if (m_IsNew[id])
-      {
-        bad[m_PatchOf[id]].push_back(TriangleTree::BoxOf(points, triangles[id]));
-      }
-    }
+    isBad[id] = 1;
   }
 }
 
-/** Adds the new triangles of some patches that are farther than maximumError from the original. */
+/** Adds the triangles that have changed and are farther than maximumError from the original. */
 void
-Simplification::FindStrays(const std::vector<PatchId> & patches, Boxes & bad) const
+Simplification::FindStrays(Flags & isBad) const
 {
-  ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
-    const PatchId patch = patches[n];
-    for (TriangleId id = m_Begin[patch]; id < m_Begin[patch + 1]; ++id)
+  ForEachInBlocks(isBad.size(), SimplifiedBlock, [&](std::size_t id) {
+    if (m_IsFresh[id] && m_IsNew[id])
     {
-      const auto & [a, b, c] = m_State.GetTriangles()[id];
-      if (m_IsNew[id] && !IsWithinDistance(CornersOf(m_State, m_State.GetTriangles()[id]),
-                                           *m_Original.tree,
+      const auto & triangle = m_State.GetTriangles()[id];
+      const auto & [a, b, c] = triangle;
+      const bool isNear = IsWithinDistance(CornersOf(m_State, triangle),
+                                           m_Original->tree,
                                            m_MaximumError,
-                                           { m_NearPoints[a], m_NearPoints[b], m_NearPoints[c] }))
-      {
-        bad[patch].push_back(TriangleTree::BoxOf(m_State.GetPoints(), m_State.GetTriangles()[id]));
-      }
+                                           { m_NearPoints[a], m_NearPoints[b], m_NearPoints[c] });
+      isBad[id] |= isNear ? 0 : 1;
     }
   });
 }
 
-/** Adds the triangles of the original that are farther than maximumError from the state, for all simplified patches
- * near them. A triangle is near if one triangle covers all its corners. Checks the triangles that some patches cover,
- * or all. */
+/** Adds the triangles around those of the original that are farther than maximumError from the state. Checks those of
+ * which corners are covered by a triangle that has changed, or all that are not covered by these triangles alone. */
 void
-Simplification::FindUncovered(const TriangleTree & state,
-                              const std::vector<PatchId> & patches,
-                              bool checksAll,
-                              Boxes & bad) const
+Simplification::FindUncovered(const TriangleTree & state, bool checksAll, Flags & isBad)
 {
-  std::vector<std::uint8_t> isChecked(m_Patches.size(), checksAll ? 1 : 0);
-  for (const PatchId patch : patches)
-  {
-    isChecked[patch] = 1;
-  }
-  const TriangleSurface & original = m_Original.tree->GetSurface();
+  const TriangleSurface & original = *m_Original->surface;
   const auto & triangles = original.GetTriangles();
-  std::vector<std::uint8_t> isUncovered(triangles.size(), 0);
+  Flags isUncovered(triangles.size(), 0);
   ForEachInBlocks(triangles.size(), SimplifiedBlock, [&](std::size_t id) {
     const auto & [a, b, c] = triangles[id];
     const std::array<TriangleId, 3> near{ m_WitnessTriangles[a], m_WitnessTriangles[b], m_WitnessTriangles[c] };
-    const bool isConcerned =
-      std::any_of(near.begin(), near.end(), [&](TriangleId other) { return isChecked[m_PatchOf[other]] != 0; });
-    if (isConcerned && !(near[0] == near[1] && near[1] == near[2]))
+    const bool hasChanged = m_IsFresh[near[0]] | m_IsFresh[near[1]] | m_IsFresh[near[2]];
+    if (hasChanged || (checksAll && !m_IsCovered[id]))
     {
-      isUncovered[id] = IsWithinDistance(CornersOf(original, triangles[id]), state, m_MaximumError, near) ? 0 : 1;
+      const CornersType corners = CornersOf(original, triangles[id]);
+      m_IsCovered[id] =
+        (near[0] == near[1] && near[1] == near[2]) || IsNearOneTriangle(corners, state, m_MaximumError, near);
+      isUncovered[id] = !m_IsCovered[id] && !IsWithinDistance(corners, state, m_MaximumError, near);
     }
   });
   for (TriangleId id = 0; id < triangles.size(); ++id)
   {
-    if (!isUncovered[id])
+    if (isUncovered[id])
     {
-      continue;
-    }
-    const Box box = Grown(TriangleTree::BoxOf(original.GetPoints(), triangles[id]), static_cast<float>(m_MaximumError));
-    for (PatchId patch = 0; patch < m_Patches.size(); ++patch)
-    {
-      if (m_Patches[patch].IsSimplified() && m_Patches[patch].bounds.Overlaps(box))
-      {
-        bad[patch].push_back(box);
-      }
+      this->AddAround(id, state, isBad);
     }
   }
 }
 
-/** Holds the old triangles in the boxes where new ones are bad; if there is none more to hold, or \a holdsAll, holds
- * the whole patch. Returns the patches that changed. */
-std::vector<PatchId>
-Simplification::Hold(const Boxes & bad, bool holdsAll)
+/** Adds the new triangles that cover corners of a triangle of the original; if there are none, all around it. */
+void
+Simplification::AddAround(TriangleId uncovered, const TriangleTree & state, Flags & isBad) const
 {
+  const TriangleSurface & original = *m_Original->surface;
+  bool isAnyNew = false;
+  for (const PointId corner : original.GetTriangles()[uncovered])
+  {
+    const TriangleId id = m_WitnessTriangles[corner];
+    isBad[id] = 1;
+    isAnyNew = isAnyNew || m_IsNew[id];
+  }
+  if (!isAnyNew)
+  {
+    const Box box = TriangleTree::BoxOf(original.GetPoints(), original.GetTriangles()[uncovered]);
+    state.VisitTriangles(Grown(box, static_cast<float>(m_MaximumError)), [&](TriangleId id) { isBad[id] = 1; });
+  }
+}
+
+/** Lets bad triangles change less often. Returns the patches that have some. */
+std::vector<PatchId>
+Simplification::Hold(const Flags & isBad, unsigned int round)
+{
+  const int less = 1 << (round / 2);
   std::vector<PatchId> changed;
   for (PatchId id = 0; id < m_Patches.size(); ++id)
   {
-    if (bad[id].empty())
-    {
-      continue;
-    }
-    m_PlacesPutBack += bad[id].size();
-    changed.push_back(id);
     Patch & patch = m_Patches[id];
-    if (holdsAll || !HoldTriangles(patch, *m_Before, bad[id]))
+    SizeValueType bad = 0;
+    for (std::size_t n = 0; n < patch.after.ids.size(); ++n)
     {
-      patch.isHeld.assign(patch.isHeld.size(), 1);
+      if (isBad[m_Begin[id] + n])
+      {
+        patch.mostChanges[patch.after.ids[n]] = static_cast<std::uint16_t>(std::max(0, patch.after.changes[n] - less));
+        ++bad;
+        for (const PointId point : m_State.GetTriangles()[m_Begin[id] + n])
+        {
+          m_IsHeld[point] |= 1;
+        }
+      }
+    }
+    m_PlacesPutBack += bad;
+    if (bad > 0)
+    {
+      changed.push_back(id);
     }
   }
   return changed;
@@ -616,15 +615,12 @@ SimplifySurface(TriangleSurface & surface, const TriangleSurfaceSimplificationSe
   {
     return {};
   }
-  auto original = TriangleSurface::New();
-  std::unique_ptr<TriangleTree> tree;
+  std::optional<Original> original;
   if (std::isfinite(settings.maximumError))
   {
-    original->GetPoints() = surface.GetPoints();
-    original->GetTriangles() = surface.GetTriangles();
-    tree = std::make_unique<TriangleTree>(*original);
+    original.emplace(surface);
   }
-  const auto report = Simplification(surface, topology, settings, tree.get()).Run();
+  const auto report = Simplification(surface, topology, settings, original ? &*original : nullptr).Run();
   surface.RemoveUnusedPoints();
   surface.Modified();
   return report;
