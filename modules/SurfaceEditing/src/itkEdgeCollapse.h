@@ -76,7 +76,7 @@ struct CollapsedPart
  * - the new point is near the original, and the original's points are near the new triangles.
  *
  * The border of the part stays, and no new edge joins two border points, so that parts simplified one by one fit
- * together. */
+ * together. Points of the surface stay if \a isHeld is 1 for them. */
 CollapseLog
 CollapseEdges(const TriangleSurface & surface,
               const SurfacePart & part,

@@ -211,7 +211,6 @@ private:
   Flags m_HeldBefore; ///< m_IsHeld before the step
   std::vector<Patch> m_Patches;
   std::vector<TriangleId> m_Begin; ///< first triangle of each patch in m_State, and the end of the last
-  std::vector<PatchId> m_PatchOf;  ///< the patch of each triangle of m_State
   Flags m_IsNew;                   ///< for each triangle of m_State, whether it was not there before the step
   Flags m_IsFresh;                 ///< for each triangle of m_State, whether it was not there at the last check
 };
@@ -383,7 +382,6 @@ Simplification::JoinPatches()
   m_State.GetNormals() = m_Before->GetNormals();
   triangles.clear();
   m_Begin.assign(1, 0);
-  m_PatchOf.clear();
   m_IsNew.clear();
   m_IsFresh.clear();
   for (PatchId id = 0; id < m_Patches.size(); ++id)
@@ -402,7 +400,6 @@ Simplification::JoinPatches()
       m_IsFresh.push_back(after.changes[n] != checked ? 1 : 0);
       checked = after.changes[n];
     }
-    m_PatchOf.resize(triangles.size(), id);
     m_Begin.push_back(static_cast<TriangleId>(triangles.size()));
     for (const MovedPoint & moved : after.movedPoints)
     {
