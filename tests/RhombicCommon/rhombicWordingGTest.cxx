@@ -119,4 +119,19 @@ TEST(Wording, UnknownNamesComeWithASuggestionOrAdvice)
             "There is no mode 'thin'; use lean or fine.");
 }
 
+TEST(Wording, PatternsMatchNames)
+{
+  using rhombic::MatchesPattern;
+  EXPECT_TRUE(MatchesPattern("liver", "Liver"));
+  EXPECT_FALSE(MatchesPattern("liver", "liver vessel"));
+  EXPECT_TRUE(MatchesPattern("kidney*", "kidney_left"));
+  EXPECT_TRUE(MatchesPattern("*left", "kidney_left"));
+  EXPECT_TRUE(MatchesPattern("*", ""));
+  EXPECT_TRUE(MatchesPattern("rib_*_?", "rib_left_7"));
+  EXPECT_FALSE(MatchesPattern("rib_*_?", "rib_left_10"));
+  EXPECT_TRUE(MatchesPattern("*a*b*", "xxaxxabb"));
+  EXPECT_FALSE(MatchesPattern("a?", "a"));
+  EXPECT_FALSE(MatchesPattern("", "a"));
+}
+
 } // namespace

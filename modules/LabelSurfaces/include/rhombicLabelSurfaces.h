@@ -22,7 +22,8 @@ namespace rhombic
 /** Which labels get a surface, and how it is made. */
 struct LabelSurfaceSettings
 {
-  std::vector<std::string> labels;                  ///< names or values; empty: all that the label table shows
+  std::vector<std::string>
+    labels; ///< names with wildcards (see MatchesPattern()), or values; empty: all that the label table shows
   double density = itk::FCCLattice::DefaultDensity; ///< lattice sites per voxel
   itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
   std::uintmax_t maximumMemory = 0; ///< for the work on one piece of a label, in bytes; 0: half of what is free

@@ -7,8 +7,6 @@
 
 #include "itkTriangleSurfaceMeasures.h"
 
-#include <itksys/SystemTools.hxx>
-
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -22,14 +20,13 @@ namespace
 
 constexpr double CubicMillimetresPerMillilitre = 1000.0;
 
-/** The values of the labels with this name or value. Upper and lower case count as the same, unless a label has exactly
- * this name. Throws Failure(Usage) when there are none. */
+/** The values of the labels with this value, or a name that fits (see MatchesPattern()). A label that has exactly this
+ * name counts alone. Throws Failure(Usage) when there are none. */
 std::set<std::int32_t>
 FindValues(const std::vector<LabelSummary> & labels, const std::string & nameOrValue)
 {
-  using itksys::SystemTools;
   std::set<std::int32_t> exact;
-  std::set<std::int32_t> inAnyCase;
+  std::set<std::int32_t> fitting;
   std::vector<std::string> names;
   for (const LabelSummary & summary : labels)
   {
@@ -38,18 +35,18 @@ FindValues(const std::vector<LabelSummary> & labels, const std::string & nameOrV
     {
       exact.insert(label.value);
     }
-    if (SystemTools::LowerCase(label.name) == SystemTools::LowerCase(nameOrValue))
+    if (MatchesPattern(nameOrValue, label.name))
     {
-      inAnyCase.insert(label.value);
+      fitting.insert(label.value);
     }
     names.push_back(label.name);
   }
-  if (exact.empty() && inAnyCase.empty())
+  if (exact.empty() && fitting.empty())
   {
     throw Failure(FailureKind::Usage,
                   DescribeUnknown("label", nameOrValue, names, "see rhombic info for the label map's labels"));
   }
-  return exact.empty() ? inAnyCase : exact;
+  return exact.empty() ? fitting : exact;
 }
 
 /** The labels of the map that are wanted, or those that its table shows if none are named. */

@@ -22,7 +22,8 @@ enum class FailureKind : int
   Output = 7,        ///< the output can't be written
   NotWatertight = 8, ///< a surface has holes or other defects, and was asked to have none
   Memory = 9,        ///< there is, or would be, too little memory
-  Display = 10       ///< no way to draw on this machine
+  Display = 10,      ///< no way to draw on this machine
+  Different = 11     ///< pictures differ by more than the tolerance
 };
 
 /** \class Failure

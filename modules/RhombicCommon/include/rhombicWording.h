@@ -61,6 +61,11 @@ SplitWords(std::string_view text);
 std::vector<std::string>
 Split(std::string_view text, std::string_view separators);
 
+/** Whether \a text fits a pattern, in which `*` stands for any characters and `?` for any one byte. Upper and lower
+ * case are the same. */
+bool
+MatchesPattern(std::string_view pattern, std::string_view text);
+
 /** The hash of a text (FNV-1a, 64 bits) in 16 hexadecimal digits. */
 std::string
 HashText(std::string_view text);

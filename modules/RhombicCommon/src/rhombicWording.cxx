@@ -124,6 +124,40 @@ Split(std::string_view text, std::string_view separators)
   return parts;
 }
 
+bool
+MatchesPattern(std::string_view pattern, std::string_view text)
+{
+  const std::string wanted = LowerCase(pattern);
+  const std::string word = LowerCase(text);
+  // After a mismatch the last star takes one more character.
+  std::size_t at = 0;
+  std::size_t star = std::string::npos;
+  std::size_t afterStar = 0;
+  for (std::size_t n = 0; n < word.size();)
+  {
+    if (at < wanted.size() && wanted[at] == '*')
+    {
+      star = at++;
+      afterStar = n;
+    }
+    else if (at < wanted.size() && (wanted[at] == '?' || wanted[at] == word[n]))
+    {
+      ++at;
+      ++n;
+    }
+    else if (star != std::string::npos)
+    {
+      at = star + 1;
+      n = ++afterStar;
+    }
+    else
+    {
+      return false;
+    }
+  }
+  return wanted.find_first_not_of('*', at) == std::string::npos;
+}
+
 std::string
 HashText(std::string_view text)
 {

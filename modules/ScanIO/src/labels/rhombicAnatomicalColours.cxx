@@ -120,8 +120,8 @@ ColourOfValue(std::int32_t value)
 
 } // namespace
 
-std::array<std::uint8_t, 3>
-AnatomicalColour(const std::string & name, std::int32_t value)
+std::optional<std::array<std::uint8_t, 3>>
+FindAnatomicalColour(const std::string & name)
 {
   const std::vector<std::string> words = WordsOfName(name);
   const auto * const rule = std::find_if(std::begin(Rules), std::end(Rules), [&words](const Rule & candidate) {
@@ -129,12 +129,18 @@ AnatomicalColour(const std::string & name, std::int32_t value)
   });
   if (rule == std::end(Rules))
   {
-    return ColourOfValue(value);
+    return std::nullopt;
   }
   const bool beginsWithL = words.size() > 1 && words[0] == "l" && !IsDigit(words[1][0]); // L1 is a vertebra
   const bool isLeft = HasWord(words, "left.") || HasWord(words, "sinist") || words.back() == "l" || beginsWithL;
   const Colour sided = Lighten(rule->colour, isLeft ? 0.2 : 0.0);
   return Lighten(sided, HasOddNumber(words) ? -0.1 : 0.0);
+}
+
+std::array<std::uint8_t, 3>
+AnatomicalColour(const std::string & name, std::int32_t value)
+{
+  return FindAnatomicalColour(name).value_or(ColourOfValue(value));
 }
 
 } // namespace rhombic
