@@ -14,6 +14,8 @@ find_package(spdlog REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(HWY REQUIRED)
 find_package(meshoptimizer REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(pangocairo REQUIRED IMPORTED_TARGET pangocairo) # PkgConfig::pangocairo
 
 include("${CMAKE_CURRENT_LIST_DIR}/OpenImageIOWithoutOpenCV.cmake")
 rhombic_openimageio_without_opencv()

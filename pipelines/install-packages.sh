@@ -10,10 +10,11 @@ packages=(
   libinsighttoolkit5-dev libvtk9-dev
   libopenimageio-dev openimageio-tools # the CMake package of the first looks for the programs of the second
   libegl-dev libegl1 libgl1-mesa-dri libx11-dev
+  libpango1.0-dev fonts-dejavu-core
   libcli11-dev libyaml-cpp-dev nlohmann-json3-dev libspdlog-dev zlib1g-dev libhwy-dev libmeshoptimizer-dev
 )
 if [ "${1-}" = tests ]; then
-  packages+=(libgtest-dev dcm2niix f3d doxygen dpkg-dev file help2man)
+  packages+=(libgtest-dev dcm2niix f3d doxygen dpkg-dev file help2man poppler-utils)
 fi
 
 missing=()

@@ -22,29 +22,44 @@ MakeTable()
   return table;
 }
 
+/** A share from 0 to 1 as a byte. */
 std::uint8_t
-Encode(float linear)
+ToByte(float share)
 {
-  const float inside = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;
-  return static_cast<std::uint8_t>(std::lround(255.0f * OIIO::linear_to_sRGB(inside)));
+  const float inside = share > 0.0f ? std::min(share, 1.0f) : 0.0f;
+  return static_cast<std::uint8_t>(std::lround(255.0f * inside));
 }
 
 } // namespace
 
 std::vector<float>
-ToLinearLight(const std::vector<std::uint8_t> & encoded)
+ToLinearLight(const Picture & picture)
 {
   static const auto table = MakeTable();
-  std::vector<float> linear(encoded.size());
-  std::transform(encoded.begin(), encoded.end(), linear.begin(), [](std::uint8_t value) { return table[value]; });
+  const auto channels = static_cast<std::size_t>(picture.channels);
+  std::vector<float> linear(picture.pixels.size());
+  for (std::size_t i = 0; i < linear.size(); ++i)
+  {
+    const std::size_t channel = i % channels;
+    const float alpha = channels == 4 ? static_cast<float>(picture.pixels[i - channel + 3]) / 255.0f : 1.0f;
+    linear[i] = channel == 3 ? alpha : alpha * table[picture.pixels[i]];
+  }
   return linear;
 }
 
 std::vector<std::uint8_t>
-FromLinearLight(const std::vector<float> & linear)
+FromLinearLight(const std::vector<float> & linear, int channels)
 {
+  const auto pixelSize = static_cast<std::size_t>(channels);
   std::vector<std::uint8_t> encoded(linear.size());
-  std::transform(linear.begin(), linear.end(), encoded.begin(), Encode);
+  for (std::size_t i = 0; i < linear.size(); ++i)
+  {
+    const std::size_t channel = i % pixelSize;
+    const float alpha = channels == 4 ? linear[i - channel + 3] : 1.0f;
+    encoded[i] = channel == 3   ? ToByte(alpha)
+                 : alpha > 0.0f ? ToByte(OIIO::linear_to_sRGB(std::max(linear[i], 0.0f) / alpha))
+                                : 0;
+  }
   return encoded;
 }
 

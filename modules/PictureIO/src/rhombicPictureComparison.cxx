@@ -22,7 +22,7 @@ SizeOf(const Picture & picture)
 OIIO::ImageBuf
 ViewOf(const Picture & picture)
 {
-  const OIIO::ImageSpec spec(picture.width, picture.height, Picture::Channels, OIIO::TypeDesc::UINT8);
+  const OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, OIIO::TypeDesc::UINT8);
   return OIIO::ImageBuf(spec, const_cast<std::uint8_t *>(picture.pixels.data()));
 }
 
@@ -31,7 +31,7 @@ ViewOf(const Picture & picture)
 PictureDifference
 ComparePictures(const Picture & a, const Picture & b, double threshold)
 {
-  if (a.width != b.width || a.height != b.height || a.pixels.empty())
+  if (a.width != b.width || a.height != b.height || a.channels != b.channels || a.pixels.empty())
   {
     throw Failure(FailureKind::Usage,
                   "Cannot compare a picture of " + SizeOf(a) + " pixels with one of " + SizeOf(b) +

@@ -4,8 +4,8 @@
 
 #include <itksys/SystemTools.hxx>
 
+#include <algorithm>
 #include <utility>
-#include <vector>
 
 namespace rhombic
 {
@@ -15,33 +15,48 @@ namespace
 const std::vector<std::pair<std::string, PictureFormat>> &
 KnownFormats()
 {
-  static const PictureFormat png{ "png", OIIO::TypeDesc::UINT8, "zip", false, true, false };
-  static const PictureFormat jpeg{ "jpeg", OIIO::TypeDesc::UINT8, "jpeg:95", false, false, false };
-  static const PictureFormat tiff{ "tiff", OIIO::TypeDesc::UINT8, "zip", false, true, true };
-  static const PictureFormat exr{ "openexr", OIIO::TypeDesc::HALF, "zip", true, true, false };
+  using U = PictureUse;
+  constexpr auto bytes = OIIO::TypeDesc::UINT8;
+  static const PictureFormat png{ "png", bytes, "zip", false, true, false, true, { U::Single } };
+  static const PictureFormat jpeg{ "jpeg", bytes, "jpeg:95", false, false, false, false, { U::Single } };
+  static const PictureFormat tiff{ "tiff", bytes, "zip", false, true, true, true, { U::Single, U::Pages } };
+  static const PictureFormat exr{ "openexr", OIIO::TypeDesc::HALF, "zip", true, true, false, true, { U::Single } };
+  static const PictureFormat gif{ "gif", bytes, "none", false, false, true, false, { U::Animation } };
   static const std::vector<std::pair<std::string, PictureFormat>> formats{ { ".png", png },   { ".jpg", jpeg },
                                                                            { ".jpeg", jpeg }, { ".tif", tiff },
-                                                                           { ".tiff", tiff }, { ".exr", exr } };
+                                                                           { ".tiff", tiff }, { ".exr", exr },
+                                                                           { ".gif", gif } };
   return formats;
 }
 
 } // namespace
 
 PictureFormat
-FormatOf(const std::filesystem::path & path)
+FormatOf(const std::filesystem::path & path, PictureUse use, bool hasAlpha)
 {
   const std::string extension = itksys::SystemTools::LowerCase(path.extension().string());
   std::string known;
-  for (const auto & format : KnownFormats())
+  for (const auto & [name, format] : KnownFormats())
   {
-    if (extension == format.first)
+    if (std::find(format.uses.begin(), format.uses.end(), use) == format.uses.end())
     {
-      return format.second;
+      continue;
     }
-    known += (known.empty() ? "" : ", ") + format.first;
+    if (extension == name && hasAlpha && !format.hasAlpha)
+    {
+      throw Failure(FailureKind::Usage,
+                    "Cannot write the picture " + path.string() +
+                      " with a transparent background: the format has none; use .png, .tif or .exr, or a colour.");
+    }
+    if (extension == name)
+    {
+      return format;
+    }
+    known += (known.empty() ? "" : ", ") + name;
   }
+  const std::string what = use == PictureUse::Single ? "picture" : use == PictureUse::Pages ? "pages" : "animation";
   throw Failure(FailureKind::Usage,
-                "Cannot write the picture " + path.string() + ": its extension must be one of " + known + ".");
+                "Cannot write the " + what + " " + path.string() + ": the extension must be one of " + known + ".");
 }
 
 } // namespace rhombic

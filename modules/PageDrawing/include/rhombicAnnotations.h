@@ -1,0 +1,76 @@
+#ifndef rhombicAnnotations_h
+#define rhombicAnnotations_h
+
+#include "rhombicDrawing.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rhombic
+{
+
+/** One surface in a legend. */
+struct LegendRow
+{
+  std::string name;
+  Colour colour{ 0.8, 0.8, 0.8 };
+  std::optional<double> volume; ///< ml
+  std::optional<double> area;   ///< cm2; on sheets
+  std::optional<double> mean;   ///< mean value of the scan inside the surface; on sheets
+};
+
+/** A line over a picture, in its pixels: the edge of a surface in a slice. */
+struct ColouredOutline
+{
+  std::vector<PicturePosition> points;
+  Colour colour{ 1.0, 1.0, 1.0 };
+  bool isClosed = true;
+};
+
+/** What is drawn over a picture. */
+struct Annotations
+{
+  bool letters = true;           ///< the anatomical directions at the four edges
+  bool scaleBar = true;          ///< at the bottom left
+  bool figure = true;            ///< a small human figure as the view sees it, at the bottom right
+  std::string title;             ///< one line at the top left
+  std::string footnote;          ///< at the bottom left, small; lines end with \n
+  std::vector<LegendRow> legend; ///< names and volumes at the right
+  std::vector<ColouredOutline> outlines;
+  Ink background{ { 0.0, 0.0, 0.0 } }; ///< of the picture: text is white on dark ones, else black
+  double textSize = 0.0;               ///< pixels; 0: 1.8 % of the picture's shorter side, at least 11
+};
+
+/** The pixels that the annotations of a picture need at its edges. The figure needs none: it covers a corner. The
+ * legend takes at most two fifths of the width. */
+Margins
+MarginsOf(const Annotations & annotations, int width, int height, const ViewFrame & frame);
+
+/** Draws the annotations of a picture that \a projection describes and that lies at \a place. Text keeps its size
+ * down to half of it where the legend is long; rows beyond that are counted in its last line. */
+void
+DrawAnnotations(Drawing & drawing,
+                const Rectangle & place,
+                const Projection & projection,
+                const Annotations & annotations);
+
+/** Draws annotations over a picture of the projection's size. */
+void
+Annotate(Picture & picture, const Projection & projection, const Annotations & annotations);
+
+/** The length of a scale bar in mm: the largest of 1, 2 or 5 times a power of ten that is at most \a longest mm. */
+double
+ScaleBarLength(double longest);
+
+/** "5 cm", "2 mm" or "0.5 mm". */
+std::string
+FormatLength(double millimetres);
+
+/** Volumes of at least 0.05 with one decimal, smaller ones as "<0.1". */
+std::string
+FormatVolume(double millilitres);
+
+} // namespace rhombic
+
+#endif

@@ -1,0 +1,80 @@
+#ifndef rhombicSheet_h
+#define rhombicSheet_h
+
+#include "rhombicAnnotations.h"
+
+#include <string>
+#include <vector>
+
+namespace rhombic
+{
+
+/** One picture of a sheet. It may have more or fewer pixels than its place, into which it is fitted. */
+struct SheetPicture
+{
+  Picture picture;
+  Projection projection;               ///< of the picture, for letters and scale bar
+  Ink background{ { 0.0, 0.0, 0.0 } }; ///< of the picture, for the colour of letters
+  std::string caption;                 ///< "anterior", "axial"
+  std::string position;                ///< beside the caption, grey: "z = -123.4 mm"
+  std::vector<ColouredOutline> outlines;
+};
+
+/** \class Sheet
+ * \brief What a reader wants of a segmentation on A4 pages: views, slices, a table of surfaces and where they come
+ * from.
+ *
+ * A table that is too long for the first page goes on in columns of further pages. */
+struct Sheet
+{
+  std::string title;
+  std::string subtitle;
+  std::vector<SheetPicture> views;  ///< up to 4, side by side or two by two, whichever shows the scene larger
+  std::vector<SheetPicture> slices; ///< up to 3, in square places
+  double viewAspect = 1.3;          ///< height of the scene in the views, divided by its width
+  std::vector<LegendRow> rows;
+  std::string meanUnit;                ///< of LegendRow::mean: "HU"
+  std::vector<std::string> provenance; ///< lines about scan, lattice and program; a colon ends the grey name of a value
+  bool letters = true;                 ///< at the edges of the pictures
+  bool scaleBar = true;                ///< in each picture
+  bool isLandscape = false;
+  bool isDark = false;
+  double pixelsPerInch = 200.0;
+};
+
+/** Where a sheet's pictures go on its first page, in pixels. */
+struct SheetPlaces
+{
+  int width = 0; ///< of all pages
+  int height = 0;
+  std::vector<Rectangle> views;
+  std::vector<Rectangle> slices;
+};
+
+/** The places of Sheet::views and slices, which depend on everything in the sheet but the pictures: fill the rest in,
+ * then draw each picture as large as its place, or a multiple of it. */
+SheetPlaces
+PlacesOn(const Sheet & sheet);
+
+/** The colour of the sheet's paper: the best background for views. */
+Ink
+PaperOf(const Sheet & sheet);
+
+/** The pages as pictures. Throws Failure(Usage) for more than 4 views or 3 slices. */
+std::vector<Picture>
+DrawSheet(const Sheet & sheet);
+
+/** A PDF file's bytes, and its pages. */
+struct PdfPages
+{
+  std::string bytes;
+  std::size_t count = 0;
+};
+
+/** The pages as PDF, with text and lines that stay sharp, and all pixels of the pictures. */
+PdfPages
+DrawSheetPdf(const Sheet & sheet, const std::string & software);
+
+} // namespace rhombic
+
+#endif

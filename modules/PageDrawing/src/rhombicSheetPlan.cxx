@@ -1,0 +1,266 @@
+#include "rhombicSheetPlan.h"
+
+#include "rhombicFailure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace rhombic
+{
+namespace
+{
+
+using namespace sheet;
+
+constexpr double ShortSide = 210.0; // mm, of A4
+constexpr double LongSide = 297.0;
+constexpr double PictureShare = 0.62;      // of a landscape page's width
+constexpr double WideTableShare = 0.4;     // of a portrait page's height, for rows with the wide pitch
+constexpr double LargestTableShare = 0.47; // for others; longer tables go on on further pages
+constexpr double RowPitch = 4.5;
+constexpr double TightRowPitch = 3.6;
+constexpr double RowTextShare = 0.62;      // of the row pitch
+constexpr double RoomForLetters = 1.25;    // height of a view to that of its scene, at most
+constexpr double SmallestView = 40.0;      // height
+constexpr double PreferenceOfOneRow = 0.9; // two rows fill the page better
+constexpr std::size_t RowsBesideProvenance = 9;
+
+std::size_t
+DivideUp(std::size_t a, std::size_t b)
+{
+  return (a + b - 1) / b;
+}
+
+/** How many columns fit beside each other. */
+std::size_t
+CountColumns(double width, const std::vector<LegendRow> & rows)
+{
+  const double column = NameColumn + FigureColumn * static_cast<double>(CountFigureColumns(rows));
+  return std::max<std::size_t>(1, static_cast<std::size_t>((width + 2.0 * Gap) / (column + 2.0 * Gap)));
+}
+
+std::size_t
+RowsIn(double height, double pitch)
+{
+  return static_cast<std::size_t>(std::max(0.0, (height - HeadingHeight) / pitch));
+}
+
+/** Places beside and under each other in an area, with room for a caption under each. */
+std::vector<Rectangle>
+Grid(const Rectangle & area, std::size_t count, std::size_t columns, double height)
+{
+  const double width = (area.width - Gap * static_cast<double>(columns - 1)) / static_cast<double>(columns);
+  std::vector<Rectangle> places;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    places.push_back({ area.left + static_cast<double>(i % columns) * (width + Gap),
+                       area.top + static_cast<double>(i / columns) * (height + CaptionHeight + 0.5 * Gap),
+                       width,
+                       height });
+  }
+  return places;
+}
+
+/** The views, in one row or two, in an area of which they take what they need. Returns their bottom edge. */
+double
+PlaceViews(const Sheet & s, const Rectangle & area, std::vector<Rectangle> & places)
+{
+  const std::size_t count = s.views.size();
+  if (count == 0)
+  {
+    return area.top;
+  }
+  const double available = area.height - CaptionHeight - Gap;
+  const double width = (area.width - Gap * 3.0) / 4.0;
+  const double height = std::max(SmallestView, std::min(available, RoomForLetters * s.viewAspect * width));
+  const double halfWidth = (area.width - Gap) / 2.0;
+  const double halfHeight =
+    std::min(0.5 * (available - CaptionHeight - 0.5 * Gap), RoomForLetters * s.viewAspect * halfWidth);
+  const double scale = std::min(width, height / s.viewAspect);
+  const double halfScale = std::min(halfWidth, halfHeight / s.viewAspect);
+  const bool isOneRow = count < 3 || PreferenceOfOneRow * scale >= halfScale;
+  places = isOneRow ? Grid(area, count, std::max<std::size_t>(count, 2), height) : Grid(area, count, 2, halfHeight);
+  return places.back().Bottom() + CaptionHeight + Gap;
+}
+
+double
+SliceHeight(double width)
+{
+  return (width - 2.0 * Gap) / 3.0;
+}
+
+/** Views over slices. Returns the bottom edge. */
+double
+PlacePictures(const Sheet & s, const Rectangle & area, SheetPlaces & places)
+{
+  const double slices = s.slices.empty() ? 0.0 : SliceHeight(area.width) + CaptionHeight + Gap;
+  const double top = PlaceViews(s, { area.left, area.top, area.width, area.height - slices }, places.views);
+  places.slices = Grid({ area.left, top, area.width, slices }, s.slices.size(), 3, SliceHeight(area.width));
+  return s.slices.empty() ? top : top + slices;
+}
+
+/** The height of each line of provenance in a column. */
+std::vector<double>
+MeasureProvenance(const Sheet & s, double width, double millimetre)
+{
+  const Drawing measuring(1, 1);
+  TextStyle style;
+  style.size = millimetre * ProvenanceText; // as it is drawn, because widths of letters are rounded
+  std::vector<double> heights;
+  for (const std::string & line : s.provenance)
+  {
+    const auto [name, value] = SplitProvenance(line);
+    const double indent = name.empty() ? 0.0 : ProvenanceIndent;
+    const double height = measuring.HeightOf(value, 0.99 * millimetre * (width - indent), style);
+    heights.push_back(height / millimetre + ProvenanceSpace);
+  }
+  return heights;
+}
+
+/** Divides the lines into columns. Returns the height of the higher one. */
+double
+DivideProvenance(std::size_t columns, SheetPlan & plan)
+{
+  const std::vector<double> & heights = plan.provenanceHeights;
+  const double total = std::accumulate(heights.begin(), heights.end(), 0.0);
+  double first = 0.0;
+  plan.provenanceRows = 0;
+  while (first < total / static_cast<double>(columns) - 1e-9)
+  {
+    first += heights[plan.provenanceRows++];
+  }
+  return heights.empty() ? 0.0 : HeadingHeight + std::max(first, total - first);
+}
+
+/** Table under the pictures, provenance beside it when the table is short, else under it. */
+void
+PlanPortrait(const Sheet & s, SheetPlan & plan)
+{
+  const Rectangle & content = plan.content;
+  const bool isBeside = s.rows.size() <= RowsBesideProvenance;
+  plan.first.columns = isBeside ? 1 : CountColumns(content.width, s.rows);
+  const double half = 0.5 * content.width - Gap;
+  plan.provenanceHeights = MeasureProvenance(s, half, plan.millimetre);
+  const double provenance = DivideProvenance(isBeside ? 1 : 2, plan);
+  const double rows = static_cast<double>(DivideUp(s.rows.size(), plan.first.columns));
+  double table = s.rows.empty() ? 0.0 : HeadingHeight + RowPitch * rows;
+  if (table > WideTableShare * content.height)
+  {
+    table = std::min(HeadingHeight + TightRowPitch * rows, LargestTableShare * content.height);
+  }
+  const double below = isBeside ? std::max(table, provenance) : provenance + Gap + table;
+  const double bottom =
+    PlacePictures(s, { content.left, content.top, content.width, content.height - below }, plan.places);
+  const double width = isBeside ? half : content.width;
+  plan.provenance = isBeside ? Rectangle{ content.Right() - half, bottom, half, provenance }
+                             : Rectangle{ content.left, content.Bottom() - provenance, content.width, provenance };
+  const double end = isBeside ? content.Bottom() : plan.provenance.top - Gap;
+  plan.first.area = { content.left, bottom, width, end - bottom };
+}
+
+/** Table and provenance at the right of the pictures. */
+void
+PlanLandscape(const Sheet & s, SheetPlan & plan)
+{
+  const Rectangle & content = plan.content;
+  const double width = PictureShare * content.width;
+  PlacePictures(s, { content.left, content.top, width, content.height }, plan.places);
+  const double left = content.left + width + 2.0 * Gap;
+  plan.provenanceHeights = MeasureProvenance(s, content.Right() - left, plan.millimetre);
+  const double provenance = DivideProvenance(1, plan);
+  plan.provenance = { left, content.Bottom() - provenance, content.Right() - left, provenance };
+  plan.first.area = { left, content.top, plan.provenance.width, content.height - provenance - Gap };
+  plan.first.columns = CountColumns(plan.first.area.width, s.rows);
+}
+
+void
+Scale(Rectangle & r, double factor)
+{
+  // whole pixels, so that pictures of the place's size are copied
+  const double right = std::round(factor * r.Right());
+  const double bottom = std::round(factor * r.Bottom());
+  r.left = std::round(factor * r.left);
+  r.top = std::round(factor * r.top);
+  r.width = right - r.left;
+  r.height = bottom - r.top;
+}
+
+void
+ScaleToPixels(SheetPlan & plan)
+{
+  for (auto * const rectangles : { &plan.places.views, &plan.places.slices })
+  {
+    for (Rectangle & rectangle : *rectangles)
+    {
+      Scale(rectangle, plan.millimetre);
+    }
+  }
+  for (Rectangle * const r : { &plan.content, &plan.first.area, &plan.further.area, &plan.provenance })
+  {
+    Scale(*r, plan.millimetre);
+  }
+  for (double & height : plan.provenanceHeights)
+  {
+    height *= plan.millimetre;
+  }
+  plan.rowPitch *= plan.millimetre;
+  plan.tableText = RowTextShare * plan.rowPitch;
+}
+
+} // namespace
+
+std::pair<std::string, std::string>
+SplitProvenance(const std::string & line)
+{
+  const std::size_t colon = line.find(": ");
+  return colon == std::string::npos ? std::pair(std::string(), line)
+                                    : std::pair(line.substr(0, colon), line.substr(colon + 2));
+}
+
+std::size_t
+CountFigureColumns(const std::vector<LegendRow> & rows)
+{
+  const auto has = [&rows](const std::optional<double> LegendRow::*figure) {
+    return std::any_of(rows.begin(), rows.end(), [figure](const LegendRow & row) { return (row.*figure).has_value(); });
+  };
+  return std::size_t{ has(&LegendRow::volume) } + has(&LegendRow::area) + has(&LegendRow::mean);
+}
+
+SheetPlan
+PlanSheet(const Sheet & s)
+{
+  if (s.views.size() > 4 || s.slices.size() > 3)
+  {
+    throw Failure(FailureKind::Usage, "A sheet has places for 4 views and 3 slices; leave out the others.");
+  }
+  SheetPlan plan;
+  plan.millimetre = s.pixelsPerInch / 25.4;
+  const double width = s.isLandscape ? LongSide : ShortSide;
+  const double height = s.isLandscape ? ShortSide : LongSide;
+  plan.places.width = static_cast<int>(std::lround(width * plan.millimetre));
+  plan.places.height = static_cast<int>(std::lround(height * plan.millimetre));
+  const double top = TopMargin + TitleHeight;
+  plan.content = { SideMargin, top, width - 2.0 * SideMargin, height - top - FooterHeight };
+  s.isLandscape ? PlanLandscape(s, plan) : PlanPortrait(s, plan);
+
+  plan.rowPitch = RowPitch;
+  if (plan.first.columns * RowsIn(plan.first.area.height, RowPitch) < s.rows.size())
+  {
+    plan.rowPitch = TightRowPitch;
+  }
+  plan.first.rows = RowsIn(plan.first.area.height, plan.rowPitch);
+  plan.further.area = plan.content;
+  plan.further.columns = CountColumns(plan.content.width, s.rows);
+  plan.further.rows = RowsIn(plan.content.height, plan.rowPitch);
+  ScaleToPixels(plan);
+  return plan;
+}
+
+SheetPlaces
+PlacesOn(const Sheet & sheet)
+{
+  return PlanSheet(sheet).places;
+}
+
+} // namespace rhombic
