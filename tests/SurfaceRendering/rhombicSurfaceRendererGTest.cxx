@@ -1,5 +1,5 @@
 #include "rhombicFailure.h"
-#include "rhombicSurfaceRenderer.h"
+#include "rhombicTestScenes.h"
 
 #include <gtest/gtest.h>
 
@@ -18,66 +18,7 @@ namespace
 {
 
 using namespace rhombic;
-
-constexpr Colour Red{ 0.9, 0.1, 0.1 };
-constexpr Colour Green{ 0.1, 0.8, 0.1 };
-constexpr Colour Blue{ 0.1, 0.1, 0.9 };
-
-using Point = std::array<double, 3>;
-
-/** A sphere with normals, from a grid of latitudes and longitudes. */
-itk::TriangleSurface::ConstPointer
-Sphere(const Point & centre, double radius)
-{
-  constexpr std::uint32_t rows = 48;
-  constexpr std::uint32_t columns = 96;
-  const double pi = std::acos(-1.0);
-  auto surface = itk::TriangleSurface::New();
-  for (std::uint32_t row = 0; row <= rows; ++row)
-  {
-    for (std::uint32_t column = 0; column <= columns; ++column)
-    {
-      const double latitude = pi * row / rows;
-      const double longitude = 2.0 * pi * column / columns;
-      const Point normal{ std::sin(latitude) * std::cos(longitude),
-                          std::sin(latitude) * std::sin(longitude),
-                          std::cos(latitude) };
-      surface->GetNormals().push_back(
-        { static_cast<float>(normal[0]), static_cast<float>(normal[1]), static_cast<float>(normal[2]) });
-      surface->GetPoints().push_back({ static_cast<float>(centre[0] + radius * normal[0]),
-                                       static_cast<float>(centre[1] + radius * normal[1]),
-                                       static_cast<float>(centre[2] + radius * normal[2]) });
-    }
-  }
-  for (std::uint32_t row = 0; row < rows; ++row)
-  {
-    for (std::uint32_t column = 0; column < columns; ++column)
-    {
-      const std::uint32_t first = row * (columns + 1) + column;
-      const std::uint32_t below = first + columns + 1;
-      surface->GetTriangles().push_back({ first, below, below + 1 });
-      surface->GetTriangles().push_back({ first, below + 1, first + 1 });
-    }
-  }
-  return surface.GetPointer();
-}
-
-SceneSurface
-Item(const itk::TriangleSurface * surface, const Colour & colour, double opacity = 1.0)
-{
-  return { "test", surface, colour, opacity };
-}
-
-RenderSettings
-Small(View view = View::Anterior)
-{
-  RenderSettings settings;
-  settings.width = 200;
-  settings.height = 160;
-  settings.view = view;
-  settings.orientationLabels = false;
-  return settings;
-}
+using namespace rhombic::test;
 
 /** First and last column and row that are not the (black) background. */
 struct Box
@@ -134,21 +75,6 @@ CentreOf(const Picture & picture, int channel)
   return { 2.0 * sumX / count / picture.width - 1.0, 1.0 - 2.0 * sumY / count / picture.height };
 }
 
-FailureKind
-KindThrownBy(SurfaceRenderer & renderer, const std::vector<SceneSurface> & scene, const RenderSettings & settings)
-{
-  try
-  {
-    renderer.Render(scene, settings);
-  }
-  catch (const Failure & failure)
-  {
-    return failure.GetKind();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return FailureKind::Internal;
-}
-
 std::uint64_t
 HashOf(const Picture & picture)
 {
@@ -168,10 +94,11 @@ DrawEverything()
   settings.width = 240;
   settings.height = 200;
   SurfaceRenderer renderer;
-  return renderer.Render({ Item(Sphere({ 0, 0, 0 }, 50), Red, 0.3),
-                           Item(Sphere({ 10, 0, 5 }, 25), Green),
-                           Item(Sphere({ 20, -15, 15 }, 20), Blue, 0.5) },
-                         settings);
+  return Draw(renderer,
+              { Item(Sphere({ 0, 0, 0 }, 50), Red, 0.3),
+                Item(Sphere({ 10, 0, 5 }, 25), Green),
+                Item(Sphere({ 20, -15, 15 }, 20), Blue, 0.5) },
+              settings);
 }
 
 class SurfaceRendererTest : public testing::Test
@@ -240,17 +167,17 @@ TEST_F(SurfaceRendererTest, EveryViewShowsEachSideWhereItBelongs)
   SurfaceRenderer renderer;
   for (const bool perspective : { false, true })
   {
-    for (const View view : AllViews)
+    for (const View & view : StandardViews())
     {
-      SCOPED_TRACE(NameOf(view));
-      auto settings = Small(view);
+      SCOPED_TRACE(view.name);
+      auto settings = Small();
       settings.perspective = perspective;
-      const auto picture = renderer.Render(scene, settings);
-      const auto frame = FrameOf(view);
+      const auto picture = Draw(renderer, scene, settings, view);
+      const auto & frame = view.frame;
       for (int axis = 0; axis < 3; ++axis)
       {
         const auto centre = CentreOf(picture, axis);
-        const std::array<int, 2> side{ frame.right[axis], frame.up[axis] };
+        const std::array<double, 2> side{ frame.right[axis], frame.up[axis] };
         for (int k = 0; k < 2; ++k)
         {
           if (side[k] != 0)
@@ -267,7 +194,7 @@ TEST_F(SurfaceRendererTest, AnteriorViewHasThePatientsLeftAtTheRight)
 {
   SurfaceRenderer renderer;
   const auto picture =
-    renderer.Render({ Item(Sphere({ 40, 0, 0 }, 15), Red), Item(Sphere({ -40, 0, 0 }, 15), Blue) }, Small());
+    Draw(renderer, { Item(Sphere({ 40, 0, 0 }, 15), Red), Item(Sphere({ -40, 0, 0 }, 15), Blue) }, Small());
   EXPECT_GT(CentreOf(picture, 0)[0], 0.3);
   EXPECT_LT(CentreOf(picture, 2)[0], -0.3);
 }
@@ -281,8 +208,8 @@ TEST_F(SurfaceRendererTest, NearSurfaceHidesTheFarOne)
     const auto * const pixel = picture.At(picture.width / 2, picture.height / 2);
     return pixel[0] > pixel[2];
   };
-  EXPECT_TRUE(isRed(renderer.Render({ front, back }, Small(View::Anterior))));
-  EXPECT_FALSE(isRed(renderer.Render({ front, back }, Small(View::Posterior))));
+  EXPECT_TRUE(isRed(Draw(renderer, { front, back }, Small())));
+  EXPECT_FALSE(isRed(Draw(renderer, { front, back }, Small(), ViewFromText("posterior"))));
 }
 
 TEST_F(SurfaceRendererTest, SceneFillsThePictureUpToTheMargin)
@@ -293,7 +220,7 @@ TEST_F(SurfaceRendererTest, SceneFillsThePictureUpToTheMargin)
   {
     auto settings = Small();
     settings.perspective = perspective;
-    const auto box = DrawnBox(renderer.Render({ Item(Sphere({ 500, -300, 80 }, 30), Red) }, settings));
+    const auto box = DrawnBox(Draw(renderer, { Item(Sphere({ 500, -300, 80 }, 30), Red) }, settings));
     EXPECT_NEAR(box.top, 3, 1);
     EXPECT_NEAR(box.bottom, 156, 1);
     EXPECT_NEAR(box.left + box.right, 199, 2);
@@ -309,7 +236,7 @@ TEST_F(SurfaceRendererTest, WideSceneTouchesTheSideMargins)
     auto settings = Small();
     settings.perspective = perspective;
     const auto box = DrawnBox(
-      renderer.Render({ Item(Sphere({ 90, 0, 0 }, 10), Red), Item(Sphere({ -90, 50, 0 }, 10), Red) }, settings));
+      Draw(renderer, { Item(Sphere({ 90, 0, 0 }, 10), Red), Item(Sphere({ -90, 50, 0 }, 10), Red) }, settings));
     EXPECT_NEAR(box.left, 3, 1);
     EXPECT_NEAR(box.right, 196, 1);
     EXPECT_GT(box.top, 20);
@@ -322,7 +249,7 @@ TEST_F(SurfaceRendererTest, FlatAndTinyScenesAreDrawn)
   triangle->GetPoints() = { { 0, 0, 0 }, { 1e-3f, 0, 0 }, { 0, 0, 1e-3f } };
   triangle->GetTriangles() = { { 0, 1, 2 } };
   SurfaceRenderer renderer;
-  const auto box = DrawnBox(renderer.Render({ Item(triangle, Red) }, Small()));
+  const auto box = DrawnBox(Draw(renderer, { Item(triangle, Red) }, Small()));
   EXPECT_GT(box.bottom - box.top, 60);
 }
 
@@ -331,7 +258,7 @@ TEST_F(SurfaceRendererTest, FacingSurfaceHasItsColour)
   SurfaceRenderer renderer;
   auto settings = Small();
   settings.background = { 0.2, 0.4, 0.6 };
-  const auto picture = renderer.Render({ Item(Sphere({ 0, 0, 0 }, 30), { 0.5, 0.4, 0.3 }) }, settings);
+  const auto picture = Draw(renderer, { Item(Sphere({ 0, 0, 0 }, 30), { 0.5, 0.4, 0.3 }) }, settings);
   const auto * const centre = picture.At(100, 80);
   EXPECT_NEAR(centre[0] / 255.0, 0.5, 0.12);
   EXPECT_NEAR(centre[1] / 255.0, 0.4, 0.12);
@@ -347,7 +274,7 @@ TEST_F(SurfaceRendererTest, NoPartIsBlackOrBurntOut)
   SurfaceRenderer renderer;
   auto settings = Small();
   settings.background = { 1, 1, 1 };
-  const auto picture = renderer.Render({ Item(Sphere({ 0, 0, 0 }, 30), { 0.8, 0.8, 0.8 }) }, settings);
+  const auto picture = Draw(renderer, { Item(Sphere({ 0, 0, 0 }, 30), { 0.8, 0.8, 0.8 }) }, settings);
   for (int x = 30; x < 170; ++x)
   {
     const auto * const pixel = picture.At(x, 80);
@@ -363,8 +290,8 @@ TEST_F(SurfaceRendererTest, SurfaceWithoutNormalsIsFaceted)
   bare->GetPoints() = sphere->GetPoints();
   bare->GetTriangles() = sphere->GetTriangles();
   SurfaceRenderer renderer;
-  const auto smooth = renderer.Render({ Item(sphere, Red) }, Small());
-  const auto faceted = renderer.Render({ Item(bare, Red) }, Small());
+  const auto smooth = Draw(renderer, { Item(sphere, Red) }, Small());
+  const auto faceted = Draw(renderer, { Item(bare, Red) }, Small());
   EXPECT_NE(smooth.pixels, faceted.pixels);
   EXPECT_NEAR(faceted.At(100, 80)[0], smooth.At(100, 80)[0], 12);
 }
@@ -374,11 +301,11 @@ TEST_F(SurfaceRendererTest, TranslucentSurfaceShowsTheOneInside)
   const auto skin = Item(Sphere({ 0, 0, 0 }, 50), Red, 0.4);
   const auto bone = Item(Sphere({ 0, 0, 0 }, 25), Blue);
   SurfaceRenderer renderer;
-  const auto picture = renderer.Render({ skin, bone }, Small());
+  const auto picture = Draw(renderer, { skin, bone }, Small());
   const auto * const centre = picture.At(100, 80);
   EXPECT_GT(centre[0], 60);
   EXPECT_GT(centre[2], 90);
-  EXPECT_EQ(picture.pixels, renderer.Render({ bone, skin }, Small()).pixels);
+  EXPECT_EQ(picture.pixels, Draw(renderer, { bone, skin }, Small()).pixels);
 }
 
 TEST_F(SurfaceRendererTest, TranslucentSurfaceMixesWithTheBackground)
@@ -386,7 +313,7 @@ TEST_F(SurfaceRendererTest, TranslucentSurfaceMixesWithTheBackground)
   SurfaceRenderer renderer;
   auto settings = Small();
   settings.background = { 0.0, 0.4, 1.0 };
-  const auto picture = renderer.Render({ Item(Sphere({ 0, 0, 0 }, 50), { 0.8, 0.4, 0.0 }, 0.3) }, settings);
+  const auto picture = Draw(renderer, { Item(Sphere({ 0, 0, 0 }, 50), { 0.8, 0.4, 0.0 }, 0.3) }, settings);
   const auto * const centre = picture.At(100, 80);
   EXPECT_NEAR(centre[0] / 255.0, 0.3 * 0.8, 0.1); // lit a little more than an opaque surface
   EXPECT_NEAR(centre[1] / 255.0, 0.4, 0.1);
@@ -399,8 +326,8 @@ TEST_F(SurfaceRendererTest, NestedTranslucentSurfacesAreInOrder)
   const auto middle = Item(Sphere({ 0, 0, 0 }, 35), Green, 0.5);
   const auto inner = Item(Sphere({ 0, 0, 0 }, 20), Blue, 0.5);
   SurfaceRenderer renderer;
-  const auto picture = renderer.Render({ outer, middle, inner }, Small());
-  EXPECT_EQ(picture.pixels, renderer.Render({ inner, outer, middle }, Small()).pixels);
+  const auto picture = Draw(renderer, { outer, middle, inner }, Small());
+  EXPECT_EQ(picture.pixels, Draw(renderer, { inner, outer, middle }, Small()).pixels);
   const auto * const centre = picture.At(100, 80);
   EXPECT_GT(centre[0], centre[1]);
   EXPECT_GT(centre[1], centre[2]);
@@ -412,7 +339,7 @@ TEST_F(SurfaceRendererTest, TranslucentSurfaceIsDenserAtItsOutline)
   SurfaceRenderer renderer;
   auto settings = Small();
   settings.background = { 1, 1, 1 };
-  const auto picture = renderer.Render({ Item(Sphere({ 0, 0, 0 }, 50), Red, 0.3) }, settings);
+  const auto picture = Draw(renderer, { Item(Sphere({ 0, 0, 0 }, 50), Red, 0.3) }, settings);
   const int leftmost = 100 - 74;
   EXPECT_LT(picture.At(leftmost, 80)[1], picture.At(100, 80)[1] - 30);
 }
@@ -421,22 +348,22 @@ TEST_F(SurfaceRendererTest, NothingToDrawIsAFailure)
 {
   SurfaceRenderer renderer;
   const auto empty = itk::TriangleSurface::New();
-  EXPECT_EQ(KindThrownBy(renderer, {}, Small()), FailureKind::Empty);
-  EXPECT_EQ(KindThrownBy(renderer, { Item(empty, Red), Item(nullptr, Red) }, Small()), FailureKind::Empty);
+  EXPECT_EQ(KindThrownBy(renderer, Scene(), Small()), FailureKind::Empty);
+  EXPECT_EQ(KindThrownBy(renderer, { { Item(empty, Red), Item(nullptr, Red) }, {}, {} }, Small()), FailureKind::Empty);
   const auto sphere = Item(Sphere({ 0, 0, 0 }, 50), Red);
-  EXPECT_EQ(renderer.Render({ Item(empty, Red), sphere }, Small()).pixels, renderer.Render({ sphere }, Small()).pixels);
+  EXPECT_EQ(Draw(renderer, { Item(empty, Red), sphere }, Small()).pixels, Draw(renderer, { sphere }, Small()).pixels);
 }
 
 TEST_F(SurfaceRendererTest, SettingsOutOfRangeAreFailures)
 {
   SurfaceRenderer renderer;
   const auto surface = Sphere({ 0, 0, 0 }, 50);
-  const std::vector<SceneSurface> scene{ Item(surface, Red) };
-  EXPECT_EQ(KindThrownBy(renderer, { Item(surface, Red, 0.0) }, Small()), FailureKind::Usage);
-  EXPECT_EQ(KindThrownBy(renderer, { Item(surface, Red, std::nan("")) }, Small()), FailureKind::Usage);
-  EXPECT_EQ(KindThrownBy(renderer, { Item(surface, { 0.0, 1.5, 0.0 }) }, Small()), FailureKind::Usage);
+  const Scene scene{ { Item(surface, Red) }, {}, {} };
+  EXPECT_EQ(KindThrownBy(renderer, { { Item(surface, Red, 0.0) }, {}, {} }, Small()), FailureKind::Usage);
+  EXPECT_EQ(KindThrownBy(renderer, { { Item(surface, Red, std::nan("")) }, {}, {} }, Small()), FailureKind::Usage);
+  EXPECT_EQ(KindThrownBy(renderer, { { Item(surface, { 0.0, 1.5, 0.0 }) }, {}, {} }, Small()), FailureKind::Usage);
   auto settings = Small();
-  settings.width = 0;
+  settings.width = -1;
   EXPECT_EQ(KindThrownBy(renderer, scene, settings), FailureKind::Usage);
   settings.width = 100000;
   EXPECT_EQ(KindThrownBy(renderer, scene, settings), FailureKind::Usage);
@@ -445,79 +372,17 @@ TEST_F(SurfaceRendererTest, SettingsOutOfRangeAreFailures)
   EXPECT_EQ(KindThrownBy(renderer, scene, settings), FailureKind::Usage);
 }
 
-TEST_F(SurfaceRendererTest, LettersAreAtTheEdgesAndCanBeTurnedOff)
-{
-  SurfaceRenderer renderer;
-  for (const double grey : { 0.0, 0.5, 1.0 })
-  {
-    auto settings = Small();
-    settings.background = { grey, grey, grey };
-    settings.orientationLabels = true;
-    const auto lettered = renderer.Render({ Item(Sphere({ 0, 0, 0 }, 50), Red) }, settings);
-    settings.orientationLabels = false;
-    const auto plain = renderer.Render({ Item(Sphere({ 0, 0, 0 }, 50), Red) }, settings);
-    const auto contrast = [](const Picture & picture, int left, int top, int width, int height) {
-      int darkest = 255;
-      int brightest = 0;
-      for (int y = top; y < top + height; ++y)
-      {
-        for (int x = left; x < left + width; ++x)
-        {
-          darkest = std::min<int>(darkest, picture.At(x, y)[1]);
-          brightest = std::max<int>(brightest, picture.At(x, y)[1]);
-        }
-      }
-      return brightest - darkest;
-    };
-    const std::array<std::array<int, 4>, 4> edges{
-      { { 0, 70, 18, 20 }, { 182, 70, 18, 20 }, { 90, 0, 20, 17 }, { 90, 143, 20, 17 } }
-    };
-    for (const auto & edge : edges)
-    {
-      EXPECT_GT(contrast(lettered, edge[0], edge[1], edge[2], edge[3]), 80) << "on grey " << grey;
-    }
-    EXPECT_EQ(contrast(plain, 0, 70, 18, 20), 0);
-  }
-}
-
-TEST_F(SurfaceRendererTest, LettersAreAtTheEdgesTheyName)
-{
-  // An R has more ink than an L, and an H more than an F.
-  SurfaceRenderer renderer;
-  const auto ink = [](const Picture & picture, int left, int top, int width, int height) {
-    int sum = 0;
-    for (int y = top; y < top + height; ++y)
-    {
-      for (int x = left; x < left + width; ++x)
-      {
-        sum += picture.At(x, y)[1];
-      }
-    }
-    return sum;
-  };
-  const auto draw = [&renderer](View view) {
-    auto settings = Small(view);
-    settings.orientationLabels = true;
-    return renderer.Render({ Item(Sphere({ 0, 0, 0 }, 50), Red) }, settings);
-  };
-  const auto anterior = draw(View::Anterior);
-  EXPECT_GT(ink(anterior, 0, 70, 18, 20), 1.2 * ink(anterior, 182, 70, 18, 20));
-  EXPECT_GT(ink(anterior, 90, 0, 20, 17), 1.2 * ink(anterior, 90, 143, 20, 17));
-  const auto posterior = draw(View::Posterior);
-  EXPECT_LT(1.2 * ink(posterior, 0, 70, 18, 20), ink(posterior, 182, 70, 18, 20));
-}
-
 TEST_F(SurfaceRendererTest, RenderersLiveSideBySide)
 {
   const std::vector<SceneSurface> scene{ Item(Sphere({ 0, 0, 0 }, 50), Red, 0.5) };
   SurfaceRenderer first;
-  const auto expected = first.Render(scene, Small());
+  const auto expected = Draw(first, scene, Small());
   {
     SurfaceRenderer second;
-    EXPECT_EQ(second.Render(scene, Small()).pixels, expected.pixels);
-    EXPECT_EQ(first.Render(scene, Small()).pixels, expected.pixels);
+    EXPECT_EQ(Draw(second, scene, Small()).pixels, expected.pixels);
+    EXPECT_EQ(Draw(first, scene, Small()).pixels, expected.pixels);
   }
-  EXPECT_EQ(first.Render(scene, Small()).pixels, expected.pixels);
+  EXPECT_EQ(Draw(first, scene, Small()).pixels, expected.pixels);
 }
 
 TEST_F(SurfaceRendererTest, ThreadsHaveTheirOwnRenderers)
@@ -541,15 +406,14 @@ TEST_F(SurfaceRendererTest, PicturesDoNotDependOnTheOnesBefore)
 {
   const std::vector<SceneSurface> scene{ Item(Sphere({ 0, 0, 0 }, 50), Red) };
   SurfaceRenderer renderer;
-  const auto expected = renderer.Render(scene, Small());
-  auto other = Small(View::Left);
+  const auto expected = Draw(renderer, scene, Small());
+  auto other = Small();
   other.width = 333;
   other.samples = 3;
   other.perspective = true;
-  other.orientationLabels = true;
   other.background = { 1, 1, 1 };
-  renderer.Render({ Item(Sphere({ 10, 0, 0 }, 5), Blue, 0.3) }, other);
-  EXPECT_EQ(renderer.Render(scene, Small()).pixels, expected.pixels);
+  Draw(renderer, { Item(Sphere({ 10, 0, 0 }, 5), Blue, 0.3) }, other, ViewFromText("left"));
+  EXPECT_EQ(Draw(renderer, scene, Small()).pixels, expected.pixels);
 }
 
 TEST_F(SurfaceRendererTest, NothingIsPrinted)
@@ -564,7 +428,7 @@ TEST_F(SurfaceRendererTest, NothingIsPrinted)
 TEST_F(SurfaceRendererTest, PictureBeyondTheMemoryAllowedIsAFailureThatNamesOneThatFits)
 {
   SurfaceRenderer renderer;
-  const std::vector<SceneSurface> scene{ Item(Sphere({ 0, 0, 0 }, 50), Red, 0.5) };
+  const Scene scene{ { Item(Sphere({ 0, 0, 0 }, 50), Red, 0.5) }, {}, {} };
   RenderSettings settings;
   settings.width = 4000;
   settings.height = 2000;
@@ -637,20 +501,21 @@ TEST_F(SurfaceRendererTest, DrawingTakesTheMemoryThatIsCounted)
   // The first picture of a process loads libraries that the later ones find.
   constexpr double libraries = 110 << 20;
   SurfaceRenderer renderer;
-  renderer.Render({ Item(Sphere({ 0, 0, 0 }, 50), Red) }, Small());
+  Draw(renderer, { Item(Sphere({ 0, 0, 0 }, 50), Red) }, Small());
   for (const double opacity : { 1.0, 0.3 })
   {
     for (const int side : { 512, 1024 })
     {
       SCOPED_TRACE(std::to_string(side) + " pixels, opacity " + std::to_string(opacity));
-      const std::vector<SceneSurface> scene{ Item(Sphere({ 0, 0, 0 }, 50), Red, opacity),
-                                             Item(Sphere({ 10, 0, 5 }, 25), Green) };
+      const Scene scene{ { Item(Sphere({ 0, 0, 0 }, 50), Red, opacity), Item(Sphere({ 10, 0, 5 }, 25), Green) },
+                         {},
+                         {} };
       RenderSettings settings;
       settings.width = side;
       settings.height = side;
       const double before = MemoryInUse();
       ForgetPeakMemory();
-      const Picture picture = renderer.Render(scene, settings);
+      const Picture picture = Draw(renderer, scene, settings);
       const double peak = static_cast<double>(MemoryOfProcess("VmHWM")) - before;
       const double left = MemoryInUse() - before;
       const auto counted = static_cast<double>(SurfaceRenderer::EstimateMemory(scene, settings));

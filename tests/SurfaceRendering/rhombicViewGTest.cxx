@@ -3,76 +3,145 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace
 {
 
+using rhombic::ObliqueView;
 using rhombic::View;
-using DirectionType = rhombic::ViewFrame::DirectionType;
+using rhombic::ViewFromText;
+using DirectionType = rhombic::Vector3;
 
 void
-ExpectView(View view, DirectionType look, DirectionType up, DirectionType right, const std::string & letters)
+ExpectView(const View & view, DirectionType look, DirectionType up, DirectionType right, const std::string & letters)
 {
-  const auto frame = rhombic::FrameOf(view);
+  const auto & frame = view.frame;
   EXPECT_EQ(frame.look, look);
   EXPECT_EQ(frame.up, up);
   EXPECT_EQ(frame.right, right);
-  const auto edges = rhombic::EdgeLettersOf(view);
-  EXPECT_EQ((std::string{ edges.left, edges.right, edges.top, edges.bottom }), letters);
+  const auto edges = rhombic::EdgeLettersOf(frame);
+  EXPECT_EQ(edges.left + edges.right + edges.top + edges.bottom, letters);
+}
+
+void
+ExpectUsage(const std::string & text, const std::string & inSentence)
+{
+  try
+  {
+    rhombic::ViewFromText(text);
+    ADD_FAILURE() << "there is no view " << text;
+  }
+  catch (const rhombic::Failure & failure)
+  {
+    EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Usage);
+    EXPECT_NE(std::string(failure.GetDescription()).find(inSentence), std::string::npos) << failure.GetDescription();
+  }
 }
 
 // Worked out by hand in LPS: x to the patient's left, y to the back, z to the head. Letters: left, right, top, bottom.
 
 TEST(View, AnteriorLooksAtTheFace)
 {
-  ExpectView(View::Anterior, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, "RLHF");
+  ExpectView(ViewFromText("anterior"), { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, "RLHF");
 }
 
 TEST(View, PosteriorLooksAtTheBack)
 {
-  ExpectView(View::Posterior, { 0, -1, 0 }, { 0, 0, 1 }, { -1, 0, 0 }, "LRHF");
+  ExpectView(ViewFromText("posterior"), { 0, -1, 0 }, { 0, 0, 1 }, { -1, 0, 0 }, "LRHF");
 }
 
 TEST(View, LeftHasTheNoseAtTheLeft)
 {
-  ExpectView(View::Left, { -1, 0, 0 }, { 0, 0, 1 }, { 0, 1, 0 }, "APHF");
+  ExpectView(ViewFromText("left"), { -1, 0, 0 }, { 0, 0, 1 }, { 0, 1, 0 }, "APHF");
 }
 
 TEST(View, RightHasTheNoseAtTheRight)
 {
-  ExpectView(View::Right, { 1, 0, 0 }, { 0, 0, 1 }, { 0, -1, 0 }, "PAHF");
+  ExpectView(ViewFromText("right"), { 1, 0, 0 }, { 0, 0, 1 }, { 0, -1, 0 }, "PAHF");
 }
 
 TEST(View, SuperiorHasThePatientsLeftAtTheLeft)
 {
-  ExpectView(View::Superior, { 0, 0, -1 }, { 0, -1, 0 }, { -1, 0, 0 }, "LRAP");
+  ExpectView(ViewFromText("superior"), { 0, 0, -1 }, { 0, -1, 0 }, { -1, 0, 0 }, "LRAP");
 }
 
 TEST(View, InferiorIsTheRadiologicalAxialOrientation)
 {
-  ExpectView(View::Inferior, { 0, 0, 1 }, { 0, -1, 0 }, { 1, 0, 0 }, "RLAP");
+  ExpectView(ViewFromText("inferior"), { 0, 0, 1 }, { 0, -1, 0 }, { 1, 0, 0 }, "RLAP");
 }
 
 TEST(View, NamesAreReadBack)
 {
-  for (const View view : rhombic::AllViews)
+  for (const View & view : rhombic::StandardViews())
   {
-    EXPECT_EQ(rhombic::ViewFromName(rhombic::NameOf(view)), view);
+    EXPECT_EQ(ViewFromText(view.name), view);
+    EXPECT_EQ(ViewFromText(view.name.substr(0, 3)), view);
+    EXPECT_EQ(ViewFromText(view.name.substr(0, 1)), view);
   }
-  EXPECT_EQ(rhombic::ViewFromName("Anterior"), View::Anterior);
+  EXPECT_EQ(ViewFromText("Anterior"), View());
+  EXPECT_EQ(ViewFromText("H"), ViewFromText("superior"));
+  EXPECT_EQ(ViewFromText("f"), ViewFromText("inferior"));
 }
 
-TEST(View, UnknownNameListsTheKnownOnes)
+TEST(View, ObliqueViewsMeetTheStandardOnesAtRightAngles)
 {
-  try
+  const auto expectSame = [](const View & a, const View & b) {
+    EXPECT_EQ(a.frame.look, b.frame.look) << b.name;
+    EXPECT_EQ(a.frame.up, b.frame.up) << b.name;
+    EXPECT_EQ(a.frame.right, b.frame.right) << b.name;
+  };
+  expectSame(ObliqueView(0, 0), ViewFromText("anterior"));
+  expectSame(ObliqueView(90, 0), ViewFromText("left"));
+  expectSame(ObliqueView(180, 0), ViewFromText("posterior"));
+  expectSame(ObliqueView(-180, 0), ViewFromText("posterior"));
+  expectSame(ObliqueView(-90, 0), ViewFromText("right"));
+  expectSame(ObliqueView(270, 0), ViewFromText("right"));
+  expectSame(ObliqueView(180, 90), ViewFromText("superior"));
+  expectSame(ObliqueView(0, -90), ViewFromText("inferior"));
+}
+
+TEST(View, ObliqueViewsAreAsTheAnglesSay)
+{
+  // From the front, 30 degrees towards the patient's left (x) and 15 degrees up (z).
+  const auto frame = ViewFromText("30,15").frame;
+  const double degree = std::acos(-1.0) / 180.0;
+  EXPECT_NEAR(frame.look[0], -std::sin(30 * degree) * std::cos(15 * degree), 1e-15);
+  EXPECT_NEAR(frame.look[1], std::cos(30 * degree) * std::cos(15 * degree), 1e-15);
+  EXPECT_NEAR(frame.look[2], -std::sin(15 * degree), 1e-15);
+  EXPECT_NEAR(frame.right[0], std::cos(30 * degree), 1e-15);
+  EXPECT_NEAR(frame.right[1], std::sin(30 * degree), 1e-15);
+  EXPECT_NEAR(frame.right[2], 0.0, 1e-15);
+  EXPECT_GT(frame.up[2], 0.9);
+  for (double azimuth = -350.0; azimuth < 360.0; azimuth += 37.0)
   {
-    rhombic::ViewFromName("front");
-    FAIL() << "there is no such view";
+    for (double elevation = -90.0; elevation <= 90.0; elevation += 15.0)
+    {
+      const auto axes = ObliqueView(azimuth, elevation).frame;
+      EXPECT_NEAR(rhombic::Dot(axes.look, axes.look), 1.0, 1e-12);
+      EXPECT_NEAR(rhombic::Dot(axes.up, axes.up), 1.0, 1e-12);
+      EXPECT_NEAR(rhombic::Dot(axes.look, axes.up), 0.0, 1e-12);
+      EXPECT_NEAR(rhombic::Dot(rhombic::Cross(axes.look, axes.up), axes.right), 1.0, 1e-12);
+    }
   }
-  catch (const rhombic::Failure & failure)
-  {
-    EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Usage);
-    EXPECT_NE(std::string(failure.GetDescription()).find("anterior, posterior, left"), std::string::npos);
-  }
+}
+
+TEST(View, NamesOfObliqueViewsFitIntoFileNames)
+{
+  EXPECT_EQ(ViewFromText("30,-15").name, "az30el-15");
+  EXPECT_EQ(ViewFromText("-0,22.5").name, "az0el22.5");
+}
+
+TEST(View, WhatIsNoViewIsAnErrorThatSaysWhatIs)
+{
+  ExpectUsage("front", "anterior, posterior, left");
+  ExpectUsage("", "anterior, posterior, left");
+  ExpectUsage("30,", "30,15");
+  ExpectUsage("30,15,4", "30,15");
+  ExpectUsage("30;15", "30,15");
+  ExpectUsage("nan,15", "degrees");
+  ExpectUsage("361,0", "-360 to 360");
+  ExpectUsage("0,91", "-90 to 90");
 }
 
 } // namespace

@@ -1,7 +1,6 @@
 #ifndef rhombicSurfaceRenderer_h
 #define rhombicSurfaceRenderer_h
 
-#include "rhombicPicture.h"
 #include "rhombicRenderBackend.h"
 #include "rhombicScene.h"
 
@@ -32,26 +31,32 @@ public:
   SurfaceRenderer &
   operator=(const SurfaceRenderer &) = delete;
 
-  /** Draws all surfaces, as large as fits between the picture's margins. Surfaces without triangles are skipped.
-   * Surfaces without normals are drawn faceted. Of translucent surfaces only the near walls are drawn, more opaque at
-   * their outlines, sorted by depth.
+  /** Draws a scene from each view; the triangles are uploaded once. Surfaces without triangles are skipped, those
+   * without normals are drawn faceted. Of translucent surfaces only the near walls are drawn, more opaque at their
+   * outlines. Translucent surfaces and planes are sorted by depth in each sample, up to 16 behind each other.
    *
-   * Throws Failure: Empty when no surface has a triangle; Usage for a setting, colour or opacity out of range; Memory
-   * when EstimateMemory() is more than the settings allow (before any work), or when memory runs out; Display when the
-   * graphics library reports an error. */
-  Picture
-  Render(const std::vector<SceneSurface> & scene, const RenderSettings & settings);
+   * Throws Failure: Empty when no surface has a triangle and there is no plane; Usage for a setting, colour, opacity,
+   * cut or plane out of range; Memory when EstimateMemory() is more than the settings allow (before any work), or when
+   * memory runs out; Display when the graphics library reports an error. */
+  std::vector<RenderedView>
+  Render(const Scene & scene, const RenderSettings & settings, const std::vector<View> & views);
+
+  /** The pictures that Render() would make, without pixels: their projections, with a centre and pixel size that have no
+   * meaning in perspective. Thread safe. Throws as Render() does for settings and surfaces. */
+  static std::vector<Projection>
+  Plan(const Scene & scene, const RenderSettings & settings, const std::vector<View> & views);
 
   /** Throws Failure(Usage) or Failure(Memory) where Render() would throw it because of the settings. Call it before
    * long work. The memory is that of a scene without triangles. \param isTranslucent whether the scene will have
-   * translucent surfaces, which take more memory */
+   * translucent surfaces or planes, which take more memory */
   void
   CheckSettings(const RenderSettings & settings, bool isTranslucent = false) const;
 
-  /** The largest number of bytes that Render() needs at a time with a software renderer, including the picture,
-   * excluding the surfaces. When it returns, the picture and about 100 MiB of libraries stay in memory. Thread safe. */
+  /** The largest number of bytes that Render() needs at a time with a software renderer for one view, including the
+   * picture, excluding the scene. When it returns, the pictures and about 100 MiB of libraries stay in memory. Thread
+   * safe. */
   static std::uintmax_t
-  EstimateMemory(const std::vector<SceneSurface> & scene, const RenderSettings & settings);
+  EstimateMemory(const Scene & scene, const RenderSettings & settings);
 
   /** One line: backend, renderer and OpenGL version. */
   std::string

@@ -1,6 +1,8 @@
 #ifndef rhombicView_h
 #define rhombicView_h
 
+#include "rhombicProjection.h"
+
 #include <array>
 #include <string>
 
@@ -8,58 +10,48 @@ namespace rhombic
 {
 
 /** \file
- * The six standard views. */
+ * From where the patient is seen. */
 
-/** The side of the patient that is seen: View::Left shows the patient's left side. */
-enum class View
+/** \class View
+ * \brief A name and the axes of the picture. By default the anterior view. */
+struct View
 {
-  Anterior,
-  Posterior,
-  Left,
-  Right,
-  Superior,
-  Inferior
+  std::string name = "anterior"; ///< fit for a file name
+  ViewFrame frame{ { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 0 } };
 };
 
-inline constexpr std::array<View, 6> AllViews{ View::Anterior, View::Posterior, View::Left,
-                                               View::Right,    View::Superior,  View::Inferior };
-
-/** A view's axes, as LPS unit vectors: right = look x up. */
-struct ViewFrame
+/** Views are the same when their names are. */
+inline bool
+operator==(const View & a, const View & b)
 {
-  using DirectionType = std::array<int, 3>;
-
-  DirectionType look;  ///< from the viewer into the picture
-  DirectionType up;    ///< towards the picture's top edge
-  DirectionType right; ///< towards the picture's right edge
-};
-
-/** The anatomical direction at each edge of a picture: L, R (left, right), A, P (anterior, posterior), H or F (head,
- * foot). */
-struct EdgeLetters
+  return a.name == b.name;
+}
+inline bool
+operator!=(const View & a, const View & b)
 {
-  char left;
-  char right;
-  char top;
-  char bottom;
-};
+  return !(a == b);
+}
 
-/** The head is up in the anterior, posterior and lateral views. In the superior and inferior views the front of the
- * body is up; the inferior view has the usual orientation of axial slices. */
-ViewFrame
-FrameOf(View view);
+/** Anterior, posterior, left, right, superior and inferior: the side of the patient that is seen. The head is up in the
+ * first four. In the superior and inferior views the front of the body is up; the inferior view has the usual
+ * orientation of axial slices. */
+const std::array<View, 6> &
+StandardViews();
 
-/** The letters at the edges of a view's picture. */
-EdgeLetters
-EdgeLettersOf(View view);
-
-/** "anterior", "posterior", "left", "right", "superior" or "inferior". */
-std::string
-NameOf(View view);
-
-/** The view with this name, in upper or lower case. Throws Failure(Usage), listing the names, when there is none. */
+/** An oblique view. The viewer starts in front of the patient.
+ * \param azimuth degrees, -360 to 360: positive turns the viewer towards the patient's left; 90 is the left view
+ * \param elevation degrees, -90 to 90: positive lifts the viewer towards the head. At 90 the back of the body is up
+ * when the azimuth is 0, its front when the azimuth is 180.
+ *
+ * The name of (30, -15) is "az30el-15". Throws Failure(Usage) for angles out of range. */
 View
-ViewFromName(const std::string & name);
+ObliqueView(double azimuth, double elevation);
+
+/** The view of a text, in upper or lower case: a standard view's name or a beginning of it ("ant", "a"), its edge
+ * letter as h or f for superior and inferior, or two angles as "30,15". Throws Failure(Usage), listing the names, for
+ * another text. */
+View
+ViewFromText(const std::string & text);
 
 } // namespace rhombic
 

@@ -1,6 +1,7 @@
 #include "rhombicCameraFit.h"
 
-#include <vtkMath.h>
+#include "rhombicFailure.h"
+#include "rhombicWording.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +12,13 @@ namespace rhombic
 namespace
 {
 
-constexpr double ViewAngle = 30.0;     // degrees, across the shorter side
+constexpr int DefaultSide = 1200;      // pixels, of a picture whose size is not given
+constexpr double MarginShare = 0.02;   // of the shorter side
 constexpr double SmallestReach = 1e-3; // mm, for a scene without extent
 constexpr double Lowest = std::numeric_limits<double>::lowest();
+
+const double PerspectiveSlope =
+  std::tan(15.0 * std::acos(-1.0) / 180.0); // an angle of 30 degrees across the shorter side
 
 /** Slopes of the rays through the inner edges of the margins: tangents, 0 in parallel projection. */
 struct Slopes
@@ -57,79 +62,250 @@ struct SceneExtent
   Extent vertical;
   double nearest = std::numeric_limits<double>::max();
   double farthest = Lowest;
+
+  void
+  Add(const Vector3 & point, const ViewFrame & frame, const Slopes & slopes)
+  {
+    const double depth = Dot(frame.look, point);
+    horizontal.Add(Dot(frame.right, point), slopes.horizontal * depth);
+    vertical.Add(Dot(frame.up, point), slopes.vertical * depth);
+    nearest = std::min(nearest, depth);
+    farthest = std::max(farthest, depth);
+  }
 };
 
-using DirectionType = ViewFrame::DirectionType;
-
-double
-Along(const DirectionType & direction, const itk::TriangleSurface::PointType & point)
-{
-  return direction[0] * double{ point[0] } + direction[1] * double{ point[1] } + direction[2] * double{ point[2] };
-}
-
 SceneExtent
-Measure(const std::vector<SceneSurface> & scene, const ViewFrame & frame, const Slopes & slopes)
+MeasureScene(const Scene & scene, const ViewFrame & frame, const Slopes & slopes)
 {
   SceneExtent extent;
-  for (const auto & item : scene)
+  for (const auto & item : scene.surfaces)
   {
     for (const auto & point : item.surface->GetPoints())
     {
-      const double depth = Along(frame.look, point);
-      extent.horizontal.Add(Along(frame.right, point), slopes.horizontal * depth);
-      extent.vertical.Add(Along(frame.up, point), slopes.vertical * depth);
-      extent.nearest = std::min(extent.nearest, depth);
-      extent.farthest = std::max(extent.farthest, depth);
+      extent.Add({ point[0], point[1], point[2] }, frame, slopes);
+    }
+  }
+  for (const auto & plane : scene.planes)
+  {
+    const auto width = static_cast<double>(plane.projection.width);
+    const auto height = static_cast<double>(plane.projection.height);
+    for (const PicturePosition & corner :
+         { PicturePosition{ 0, 0 }, PicturePosition{ width, 0 }, { 0, height }, { width, height } })
+    {
+      extent.Add(plane.projection.PointAt(corner), frame, slopes);
     }
   }
   return extent;
 }
 
-void
-PlaceCamera(const ViewFrame & frame, const SceneExtent & extent, double depth, vtkCamera * camera)
+/** The extent of the settings' box, or of the whole scene without one. */
+SceneExtent
+MeasureFitted(const Scene & scene, const RenderSettings & settings, const ViewFrame & frame, const Slopes & slopes)
 {
-  std::array<double, 3> position;
-  for (std::size_t i = 0; i < position.size(); ++i)
+  if (!settings.extent)
   {
-    position[i] =
-      frame.right[i] * extent.horizontal.Centre() + frame.up[i] * extent.vertical.Centre() + frame.look[i] * depth;
+    return MeasureScene(scene, frame, slopes);
   }
-  const double size = std::max(extent.farthest - extent.nearest, 1.0);
-  camera->SetPosition(position.data());
-  camera->SetFocalPoint(
-    position[0] + size * frame.look[0], position[1] + size * frame.look[1], position[2] + size * frame.look[2]);
-  camera->SetViewUp(frame.up[0], frame.up[1], frame.up[2]);
-  const double slack = 0.01 * size;
-  const double nearest = extent.nearest - depth;
-  camera->SetClippingRange(std::max(nearest - slack, 0.5 * nearest), extent.farthest - depth + slack);
+  SceneExtent extent;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    Vector3 point;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      point[axis] = (corner >> axis & 1) != 0 ? settings.extent->highest[axis] : settings.extent->lowest[axis];
+    }
+    extent.Add(point, frame, slopes);
+  }
+  return extent;
+}
+
+/** Whole numbers of pixels. */
+Margins
+MarginsOf(const RenderSettings & settings)
+{
+  const int width = settings.width > 0 ? settings.width : DefaultSide;
+  const int height = settings.height > 0 ? settings.height : DefaultSide;
+  const double margin = std::round(MarginShare * std::min(width, height));
+  const Margins margins = settings.margins.value_or(Margins{ margin, margin, margin, margin });
+  return { std::ceil(margins.left), std::ceil(margins.right), std::ceil(margins.top), std::ceil(margins.bottom) };
+}
+
+/** Pixels between the margins. */
+double
+Inner(int side, double margin, double otherMargin)
+{
+  const double inner = side - margin - otherMargin;
+  if (!(inner >= 1.0))
+  {
+    throw Failure(FailureKind::Usage,
+                  "Margins of " + FormatNumber(margin) + " and " + FormatNumber(otherMargin) +
+                    " pixels leave no room in a picture of " + std::to_string(side) + " pixels.");
+  }
+  return inner;
+}
+
+/** \class Fit
+ * \brief A view's camera on its way: parallel, before the settings' zoom and centre. */
+struct Fit
+{
+  SceneExtent extent; ///< of what is fitted
+  double pixelSize;   ///< at which it fits
+};
+
+/** The pixel size at which the extent fits between the margins of sides that are given, or of the default side when
+ * none is. */
+Fit
+FitParallel(const Scene & scene, const RenderSettings & settings, const Margins & margins, const ViewFrame & frame)
+{
+  Fit fit{ MeasureFitted(scene, settings, frame, {}), 0.0 };
+  const int side = settings.width == 0 && settings.height == 0 ? DefaultSide : 0;
+  if (const int width = std::max(settings.width, side); width > 0)
+  {
+    fit.pixelSize = 2.0 * fit.extent.horizontal.Reach() / Inner(width, margins.left, margins.right);
+  }
+  if (const int height = std::max(settings.height, side); height > 0)
+  {
+    fit.pixelSize =
+      std::max(fit.pixelSize, 2.0 * fit.extent.vertical.Reach() / Inner(height, margins.top, margins.bottom));
+  }
+  return fit;
+}
+
+/** The side of a picture: the given one, or, if that is 0, what an extent needs. */
+int
+SideOf(int given, const Extent & extent, double pixelSize, double margins)
+{
+  // A little less than the quotient, which rounding may have raised above a whole number.
+  const double pixels = std::min(std::ceil(2.0 * extent.Reach() / pixelSize - 1e-6), 1e6);
+  return given > 0 ? given : std::max(static_cast<int>(pixels), 1) + static_cast<int>(margins);
+}
+
+void
+PlaceCentre(const RenderSettings & settings, const SceneExtent & fitted, double depth, Camera & camera)
+{
+  double right = fitted.horizontal.Centre();
+  double up = fitted.vertical.Centre();
+  if (settings.centre)
+  {
+    right = Dot(camera.frame.right, *settings.centre);
+    up = Dot(camera.frame.up, *settings.centre);
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    camera.centre[axis] =
+      right * camera.frame.right[axis] + up * camera.frame.up[axis] + depth * camera.frame.look[axis];
+  }
+}
+
+void
+SetPerspective(const Scene & scene, const RenderSettings & settings, const Margins & margins, Camera & camera)
+{
+  const double slopePerPixel = PerspectiveSlope / (0.5 * std::min(camera.width, camera.height));
+  const Slopes slopes{ 0.5 * Inner(camera.width, margins.left, margins.right) * slopePerPixel,
+                       0.5 * Inner(camera.height, margins.top, margins.bottom) * slopePerPixel };
+  const auto fitted = MeasureFitted(scene, settings, camera.frame, slopes);
+  const double distance =
+    std::max(fitted.horizontal.Reach() / slopes.horizontal, fitted.vertical.Reach() / slopes.vertical);
+  const double depth = 0.5 * (fitted.nearest + fitted.farthest);
+  camera.spread = 1.0 / (distance + depth);
+  camera.pixelSize = slopePerPixel / camera.spread / settings.zoom;
+  PlaceCentre(settings, fitted, depth, camera);
+}
+
+/** Depths of everything, which need not be fitted. */
+void
+SetDepths(const Scene & scene, Camera & camera)
+{
+  const auto all = MeasureScene(scene, camera.frame, {});
+  const double depth = Dot(camera.frame.look, camera.centre);
+  const double slack = 0.01 * std::max(all.farthest - all.nearest, 1.0);
+  camera.nearest = all.nearest - depth - slack;
+  camera.farthest = all.farthest - depth + slack;
+  if (camera.spread > 0.0)
+  {
+    const double eye = -1.0 / camera.spread;
+    camera.nearest = std::max(camera.nearest, eye + 0.01 * (camera.farthest - eye));
+  }
 }
 
 } // namespace
 
-void
-FitCamera(const std::vector<SceneSurface> & scene, const RenderSettings & settings, double margin, vtkCamera * camera)
+double
+Camera::DepthFactor() const
 {
-  const ViewFrame frame = FrameOf(settings.view);
-  const double innerWidth = settings.width - 2.0 * margin;
-  const double innerHeight = settings.height - 2.0 * margin;
-  camera->SetParallelProjection(!settings.perspective);
-  if (settings.perspective)
+  return (2.0 + spread * (farthest + nearest)) / (farthest - nearest);
+}
+
+double
+Camera::DepthOffset() const
+{
+  return -(1.0 + spread * nearest) - DepthFactor() * nearest;
+}
+
+std::array<float, 16>
+Camera::Matrix() const
+{
+  std::array<float, 16> matrix{};
+  const double x = 2.0 / (width * pixelSize);
+  const double y = 2.0 / (height * pixelSize);
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const double slopePerPixel =
-      std::tan(vtkMath::RadiansFromDegrees(0.5 * ViewAngle)) / (0.5 * std::min(settings.width, settings.height));
-    const Slopes slopes{ 0.5 * innerWidth * slopePerPixel, 0.5 * innerHeight * slopePerPixel };
-    const auto extent = Measure(scene, frame, slopes);
-    const double distance =
-      std::max(extent.horizontal.Reach() / slopes.horizontal, extent.vertical.Reach() / slopes.vertical);
-    camera->SetViewAngle(2.0 * vtkMath::DegreesFromRadians(std::atan(0.5 * settings.height * slopePerPixel)));
-    PlaceCamera(frame, extent, -distance, camera);
-    return;
+    const double w = spread * frame.look[axis];
+    matrix[4 * axis] = static_cast<float>(x * frame.right[axis] + 2.0 * rightward / width * w);
+    matrix[4 * axis + 1] = static_cast<float>(y * frame.up[axis] + 2.0 * upward / height * w);
+    matrix[4 * axis + 2] = static_cast<float>(DepthFactor() * frame.look[axis]);
+    matrix[4 * axis + 3] = static_cast<float>(w);
   }
-  const auto extent = Measure(scene, frame, Slopes{});
-  const double pixel = 2.0 * std::max(extent.horizontal.Reach() / innerWidth, extent.vertical.Reach() / innerHeight);
-  camera->SetParallelScale(0.5 * settings.height * pixel);
-  const double standOff = std::max(extent.farthest - extent.nearest, 1.0);
-  PlaceCamera(frame, extent, extent.nearest - standOff, camera);
+  matrix[12] = static_cast<float>(2.0 * rightward / width);
+  matrix[13] = static_cast<float>(2.0 * upward / height);
+  matrix[14] = static_cast<float>(DepthOffset());
+  matrix[15] = 1.0f;
+  return matrix;
+}
+
+Projection
+Camera::ToProjection() const
+{
+  Projection projection{ frame, centre, pixelSize, width, height };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    projection.centre[axis] -= pixelSize * (rightward * frame.right[axis] + upward * frame.up[axis]);
+  }
+  return projection;
+}
+
+std::vector<Camera>
+FitCameras(const Scene & scene, const RenderSettings & settings, const std::vector<View> & views)
+{
+  const Margins margins = MarginsOf(settings);
+  std::vector<Fit> fits;
+  double largest = 0.0;
+  for (const View & view : views)
+  {
+    fits.push_back(FitParallel(scene, settings, margins, view.frame));
+    largest = std::max(largest, fits.back().pixelSize);
+  }
+  std::vector<Camera> cameras;
+  for (std::size_t n = 0; n < views.size(); ++n)
+  {
+    const Fit & fit = fits[n];
+    const double pixelSize = settings.pixelSize.value_or(settings.sameScale ? largest : fit.pixelSize);
+    Camera camera;
+    camera.frame = views[n].frame;
+    camera.width = SideOf(settings.width, fit.extent.horizontal, pixelSize, margins.left + margins.right);
+    camera.height = SideOf(settings.height, fit.extent.vertical, pixelSize, margins.top + margins.bottom);
+    camera.rightward = 0.5 * (margins.left - margins.right);
+    camera.upward = 0.5 * (margins.bottom - margins.top);
+    camera.pixelSize = pixelSize / settings.zoom;
+    PlaceCentre(settings, fit.extent, 0.5 * (fit.extent.nearest + fit.extent.farthest), camera);
+    if (settings.perspective)
+    {
+      SetPerspective(scene, settings, margins, camera);
+    }
+    SetDepths(scene, camera);
+    cameras.push_back(camera);
+  }
+  return cameras;
 }
 
 } // namespace rhombic

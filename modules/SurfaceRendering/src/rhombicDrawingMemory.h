@@ -4,16 +4,17 @@
 #include "rhombicScene.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace rhombic
 {
 
-/** Bytes that OpenGL needs for the triangles of a scene while it draws them, without the surfaces themselves. */
+/** Bytes that OpenGL needs for the triangles and planes of a scene while it draws them, without those of the scene
+ * itself. */
 std::uintmax_t
-MemoryToHoldScene(const std::vector<SceneSurface> & scene);
+MemoryToHoldScene(const Scene & scene);
 
-/** The largest number of bytes that drawing needs at a time, including the picture. Measured with Mesa's software
+/** The largest number of bytes that drawing one view needs at a time, including its picture; a side of 0 pixels counts
+ * as 1200. Measured with Mesa's software
  * renderer; a graphics card has its own memory.
  * \param sceneBytes the result of MemoryToHoldScene() */
 std::uintmax_t

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdio>
 
-#include <GL/gl.h>
+#include <vtk_glew.h>
 
 // GLEW looks up OpenGL's functions for VTK. Without an X server it finds all of them but those of GLX, and then reports
 // a failure. Nothing here calls GLX through GLEW, so this definition, exported by the program (see

@@ -1,7 +1,7 @@
 #ifndef rhombicSceneCheck_h
 #define rhombicSceneCheck_h
 
-#include "rhombicScene.h"
+#include "rhombicCameraFit.h"
 
 #include <vector>
 
@@ -12,15 +12,19 @@ namespace rhombic
 void
 CheckSettings(const RenderSettings & settings, int largestSide);
 
-/** The surfaces that have triangles. Throws Failure: Empty when there is none, Usage for a colour or opacity out of
- * range.
- */
-std::vector<SceneSurface>
-DrawableSurfaces(const std::vector<SceneSurface> & scene);
+/** Throws Failure(Usage) for pictures of cameras that are larger than \a largestSide samples along a side. */
+void
+CheckSizes(const std::vector<Camera> & cameras, int samples, int largestSide);
 
-/** Whether any of the surfaces has an opacity below 1. */
+/** The scene without surfaces that have no triangles. Throws Failure: Empty when nothing is left, Usage for a colour or
+ * opacity out of range, for a cut without direction or of a surface that does not exist, for too many cuts, and for a
+ * plane whose picture and projection differ in size. */
+Scene
+DrawableScene(const Scene & scene);
+
+/** Whether the scene has planes or surfaces with an opacity below 1. */
 bool
-IsTranslucent(const std::vector<SceneSurface> & scene);
+IsTranslucent(const Scene & scene);
 
 } // namespace rhombic
 

@@ -1,27 +1,20 @@
 #include "rhombicSurfaceRenderer.h"
 
+#include "rhombicCameraFit.h"
 #include "rhombicDrawingMemory.h"
 #include "rhombicFailure.h"
 #include "rhombicGLContext.h"
-#include "rhombicSampleMean.h"
+#include "rhombicSceneBuffers.h"
 #include "rhombicSceneCheck.h"
-#include "rhombicStage.h"
+#include "rhombicViewPasses.h"
 #include "vtkRhombicMessages.h"
 
-#include <vtkAutoInit.h>
 #include <vtkGenericOpenGLRenderWindow.h>
-#include <vtkNew.h>
-#include <vtkRenderer.h>
-#include <vtkUnsignedCharArray.h>
 
-#include <algorithm>
 #include <mutex>
 #include <new>
 
-#include <GL/gl.h>
-
-VTK_MODULE_INIT(vtkRenderingOpenGL2);
-VTK_MODULE_INIT(vtkRenderingFreeType);
+#include <vtk_glew.h>
 
 namespace rhombic
 {
@@ -56,31 +49,6 @@ CheckErrors(const vtkRhombicMessages::Scope & messages)
   }
 }
 
-/** \class RendererInWindow
- * \brief A renderer in a window. The destructor removes it, which frees its memory on the graphics card. */
-class RendererInWindow
-{
-public:
-  RendererInWindow(vtkRenderWindow * window, vtkSmartPointer<vtkRenderer> renderer)
-    : m_Window(window)
-    , m_Renderer(std::move(renderer))
-  {
-    m_Window->AddRenderer(m_Renderer);
-  }
-  ~RendererInWindow()
-  {
-    m_Window->RemoveRenderer(m_Renderer);
-  }
-
-  RendererInWindow(const RendererInWindow &) = delete;
-  RendererInWindow &
-  operator=(const RendererInWindow &) = delete;
-
-private:
-  vtkRenderWindow * m_Window;
-  vtkSmartPointer<vtkRenderer> m_Renderer;
-};
-
 /** \class Canvas
  * \brief An OpenGL context with an offscreen window. Mesa frees the textures of a picture only when the context is
  * destroyed. */
@@ -99,8 +67,8 @@ public:
     m_Window->SetSupportsOpenGL(1);
     m_Window->SetUseOffScreenBuffers(true);
     m_Window->SetShowWindow(false);
-    m_Window->SetMultiSamples(0); // MeanOfSamples() smooths instead
     m_Window->SwapBuffersOff();
+    m_Window->OpenGLInit();
   }
 
   ~Canvas()
@@ -122,17 +90,21 @@ public:
   Canvas &
   operator=(const Canvas &) = delete;
 
-  Picture
-  Draw(const std::vector<SceneSurface> & scene, const RenderSettings & settings)
+  std::vector<RenderedView>
+  Draw(const Scene & scene, const RenderSettings & settings, const std::vector<Camera> & cameras)
   {
     const CurrentGLContext current(*m_Context.context);
     const vtkRhombicMessages::Scope messages;
-    m_Window->SetSize(settings.width * settings.samples, settings.height * settings.samples);
-    const RendererInWindow stage(m_Window, SetStage(scene, settings));
-    m_Window->Render();
-    Picture picture = ReadWindow(settings);
-    CheckErrors(messages);
-    return picture;
+    SceneBuffers buffers(scene, settings, m_Window);
+    ViewPasses passes(settings, IsTranslucent(scene), m_Window);
+    std::vector<RenderedView> rendered;
+    for (const Camera & camera : cameras)
+    {
+      rendered.push_back(
+        { passes.Draw(buffers, camera), settings.perspective ? std::nullopt : std::optional(camera.ToProjection()) });
+      CheckErrors(messages);
+    }
+    return rendered;
   }
 
   const std::string &
@@ -148,24 +120,6 @@ public:
   }
 
 private:
-  /** Reads the samples band by band, which avoids a second copy of all of them. */
-  Picture
-  ReadWindow(const RenderSettings & settings) const
-  {
-    constexpr int bandRows = 32;
-    const int columns = settings.width * settings.samples;
-    Picture picture(settings.width, settings.height);
-    vtkNew<vtkUnsignedCharArray> drawn;
-    for (int top = 0; top < settings.height; top += bandRows)
-    {
-      const int rows = std::min(bandRows, settings.height - top);
-      const int lowest = (settings.height - top - rows) * settings.samples;
-      m_Window->GetPixelData(0, lowest, columns - 1, lowest + rows * settings.samples - 1, 0, drawn, 0);
-      MeanOfSamples(drawn->GetPointer(0), settings.samples, top, rows, picture);
-    }
-    return picture;
-  }
-
   DescribedGLContext m_Context;
   vtkSmartPointer<vtkGenericOpenGLRenderWindow> m_Window;
   int m_LargestSide = 0;
@@ -184,19 +138,30 @@ public:
   {}
 
   void
-  Check(const RenderSettings & settings, bool isTranslucent, std::uintmax_t sceneBytes = 0) const
+  Check(const RenderSettings & settings, bool isTranslucent) const
   {
     rhombic::CheckSettings(settings, m_LargestSide);
-    RequireMemoryToDraw(settings, isTranslucent, sceneBytes);
+    RequireMemoryToDraw(settings, isTranslucent, 0);
   }
 
-  Picture
-  Render(const std::vector<SceneSurface> & scene, const RenderSettings & settings)
+  std::vector<RenderedView>
+  Render(const Scene & scene, const RenderSettings & settings, const std::vector<View> & views)
   {
-    const auto drawable = DrawableSurfaces(scene);
-    Check(settings, IsTranslucent(drawable), MemoryToHoldScene(drawable));
+    const Scene drawable = DrawableScene(scene);
+    rhombic::CheckSettings(settings, m_LargestSide);
+    const auto cameras = FitCameras(drawable, settings, views);
+    CheckSizes(cameras, settings.samples, m_LargestSide);
+    std::uintmax_t held = MemoryToHoldScene(drawable);
+    for (const Camera & camera : cameras)
+    {
+      RenderSettings sized = settings;
+      sized.width = camera.width;
+      sized.height = camera.height;
+      RequireMemoryToDraw(sized, IsTranslucent(drawable), held);
+      held += 4 * static_cast<std::uintmax_t>(camera.width) * static_cast<std::uintmax_t>(camera.height); // its picture
+    }
     const auto canvas = m_Canvas ? std::move(m_Canvas) : std::make_unique<Canvas>(m_Backend);
-    return canvas->Draw(drawable, settings);
+    return canvas->Draw(drawable, settings, cameras);
   }
 
   const std::string &
@@ -224,13 +189,13 @@ SurfaceRenderer::~SurfaceRenderer()
   m_Implementation.reset();
 }
 
-Picture
-SurfaceRenderer::Render(const std::vector<SceneSurface> & scene, const RenderSettings & settings)
+std::vector<RenderedView>
+SurfaceRenderer::Render(const Scene & scene, const RenderSettings & settings, const std::vector<View> & views)
 {
   const std::lock_guard<std::mutex> lock(Turn());
   try
   {
-    return m_Implementation->Render(scene, settings);
+    return m_Implementation->Render(scene, settings, views);
   }
   catch (const std::bad_alloc &)
   {
@@ -240,6 +205,17 @@ SurfaceRenderer::Render(const std::vector<SceneSurface> & scene, const RenderSet
   }
 }
 
+std::vector<Projection>
+SurfaceRenderer::Plan(const Scene & scene, const RenderSettings & settings, const std::vector<View> & views)
+{
+  std::vector<Projection> projections;
+  for (const Camera & camera : FitCameras(scene, settings, views))
+  {
+    projections.push_back(camera.ToProjection());
+  }
+  return projections;
+}
+
 void
 SurfaceRenderer::CheckSettings(const RenderSettings & settings, bool isTranslucent) const
 {
@@ -247,9 +223,9 @@ SurfaceRenderer::CheckSettings(const RenderSettings & settings, bool isTransluce
 }
 
 std::uintmax_t
-SurfaceRenderer::EstimateMemory(const std::vector<SceneSurface> & scene, const RenderSettings & settings)
+SurfaceRenderer::EstimateMemory(const Scene & scene, const RenderSettings & settings)
 {
-  const auto drawable = DrawableSurfaces(scene);
+  const Scene drawable = DrawableScene(scene);
   return MemoryToDraw(settings, IsTranslucent(drawable), MemoryToHoldScene(drawable));
 }
 

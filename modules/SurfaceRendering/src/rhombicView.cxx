@@ -5,111 +5,113 @@
 
 #include <itksys/SystemTools.hxx>
 
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <vector>
+
 namespace rhombic
 {
 namespace
 {
 
-using DirectionType = ViewFrame::DirectionType;
+constexpr Vector3 Leftwards{ 1, 0, 0 };
+constexpr Vector3 Rightwards{ -1, 0, 0 };
+constexpr Vector3 Backwards{ 0, 1, 0 };
+constexpr Vector3 Forwards{ 0, -1, 0 };
+constexpr Vector3 Headwards{ 0, 0, 1 };
+constexpr Vector3 Footwards{ 0, 0, -1 };
 
-constexpr DirectionType Leftwards{ 1, 0, 0 };
-constexpr DirectionType Rightwards{ -1, 0, 0 };
-constexpr DirectionType Backwards{ 0, 1, 0 };
-constexpr DirectionType Forwards{ 0, -1, 0 };
-constexpr DirectionType Headwards{ 0, 0, 1 };
-constexpr DirectionType Footwards{ 0, 0, -1 };
-
-DirectionType
-Cross(const DirectionType & a, const DirectionType & b)
+View
+MakeView(const std::string & name, const Vector3 & look, const Vector3 & up)
 {
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+  return { name, { look, up, Cross(look, up) } };
 }
 
-ViewFrame
-MakeFrame(const DirectionType & look, const DirectionType & up)
+/** Sine of an angle in degrees, exact at multiples of 90. */
+double
+Sine(double degrees)
 {
-  return { look, up, Cross(look, up) };
+  const double sine = std::sin(degrees * std::acos(-1.0) / 180.0);
+  return std::abs(sine) < 1e-15 ? 0.0 : sine;
 }
 
-DirectionType
-Opposite(const DirectionType & direction)
+std::string
+NameOfAngle(double degrees)
 {
-  return { -direction[0], -direction[1], -direction[2] };
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << (degrees == 0.0 ? 0.0 : degrees); // not -0
+  return text.str();
 }
 
-char
-LetterOf(const DirectionType & direction)
+/** Two numbers with a comma between them. */
+std::optional<std::array<double, 2>>
+ParseAngles(const std::string & text)
 {
-  constexpr char letters[3][2] = { { 'R', 'L' }, { 'A', 'P' }, { 'F', 'H' } };
-  const int axis = direction[0] != 0 ? 0 : (direction[1] != 0 ? 1 : 2);
-  return letters[axis][direction[axis] > 0];
+  std::array<double, 2> angles{};
+  const char * const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, angles[0]);
+  if (first.ec != std::errc() || first.ptr == end || *first.ptr != ',')
+  {
+    return {};
+  }
+  const auto second = std::from_chars(first.ptr + 1, end, angles[1]);
+  return second.ec == std::errc() && second.ptr == end ? std::optional(angles) : std::nullopt;
 }
 
 } // namespace
 
-ViewFrame
-FrameOf(View view)
+const std::array<View, 6> &
+StandardViews()
 {
-  switch (view)
-  {
-    case View::Anterior:
-      return MakeFrame(Backwards, Headwards);
-    case View::Posterior:
-      return MakeFrame(Forwards, Headwards);
-    case View::Left:
-      return MakeFrame(Rightwards, Headwards);
-    case View::Right:
-      return MakeFrame(Leftwards, Headwards);
-    case View::Superior:
-      return MakeFrame(Footwards, Forwards);
-    case View::Inferior:
-      return MakeFrame(Headwards, Forwards);
-  }
-  throw Failure(FailureKind::Internal, "View " + std::to_string(static_cast<int>(view)) + " does not exist.");
-}
-
-EdgeLetters
-EdgeLettersOf(View view)
-{
-  const ViewFrame frame = FrameOf(view);
-  return { LetterOf(Opposite(frame.right)), LetterOf(frame.right), LetterOf(frame.up), LetterOf(Opposite(frame.up)) };
-}
-
-std::string
-NameOf(View view)
-{
-  switch (view)
-  {
-    case View::Anterior:
-      return "anterior";
-    case View::Posterior:
-      return "posterior";
-    case View::Left:
-      return "left";
-    case View::Right:
-      return "right";
-    case View::Superior:
-      return "superior";
-    case View::Inferior:
-      return "inferior";
-  }
-  throw Failure(FailureKind::Internal, "View " + std::to_string(static_cast<int>(view)) + " does not exist.");
+  static const std::array<View, 6> views{
+    MakeView("anterior", Backwards, Headwards), MakeView("posterior", Forwards, Headwards),
+    MakeView("left", Rightwards, Headwards),    MakeView("right", Leftwards, Headwards),
+    MakeView("superior", Footwards, Forwards),  MakeView("inferior", Headwards, Forwards)
+  };
+  return views;
 }
 
 View
-ViewFromName(const std::string & name)
+ObliqueView(double azimuth, double elevation)
 {
-  const std::string lowerCase = itksys::SystemTools::LowerCase(name);
-  std::vector<std::string> names;
-  for (const View view : AllViews)
+  if (!(std::abs(azimuth) <= 360.0 && std::abs(elevation) <= 90.0))
   {
-    if (lowerCase == NameOf(view))
+    throw Failure(FailureKind::Usage,
+                  "A view's azimuth must be from -360 to 360 degrees and its elevation from -90 to 90, not " +
+                    NameOfAngle(azimuth) + " and " + NameOfAngle(elevation) + ".");
+  }
+  const double sinA = Sine(azimuth);
+  const double cosA = Sine(azimuth + 90.0);
+  const double sinE = Sine(elevation);
+  const double cosE = Sine(elevation + 90.0);
+  return MakeView("az" + NameOfAngle(azimuth) + "el" + NameOfAngle(elevation),
+                  { -cosE * sinA, cosE * cosA, -sinE },
+                  { -sinE * sinA, sinE * cosA, cosE });
+}
+
+View
+ViewFromText(const std::string & text)
+{
+  if (const auto angles = ParseAngles(text))
+  {
+    return ObliqueView((*angles)[0], (*angles)[1]);
+  }
+  const std::string lowerCase = itksys::SystemTools::LowerCase(text);
+  const std::string begin = lowerCase == "h" ? "superior" : lowerCase == "f" ? "inferior" : lowerCase;
+  std::vector<std::string> names;
+  for (const View & view : StandardViews())
+  {
+    if (!begin.empty() && view.name.rfind(begin, 0) == 0)
     {
       return view;
     }
-    names.push_back(NameOf(view));
+    names.push_back(view.name);
   }
-  throw Failure(FailureKind::Usage, DescribeUnknown("view", name, names, "use " + Enumerate(names)));
+  throw Failure(FailureKind::Usage,
+                DescribeUnknown("view", text, names, "use " + Enumerate(names) + ", or angles as 30,15"));
 }
 
 } // namespace rhombic

@@ -1,0 +1,459 @@
+#include "rhombicShaders.h"
+
+#include "rhombicOpenTiles.h"
+
+namespace rhombic
+{
+namespace
+{
+
+std::string
+Define(const std::string & name, int value)
+{
+  return "#define " + name + ' ' + std::to_string(value) + '\n';
+}
+
+/** The first lines of every program. VTK replaces the comments. */
+const std::string Head = "//VTK::System::Dec\n";
+const std::string FragmentHead = Head + "//VTK::Output::Dec\n";
+
+std::string
+Defines(const SurfaceProgram & program)
+{
+  return Define("SMOOTH", program.isSmooth) + Define("TRANSLUCENT", program.isTranslucent) +
+         Define("PLANE", program.isPlane) + Define("CUTS", program.cuts);
+}
+
+std::string
+TileDefines()
+{
+  return Define("SIDE", OpenTiles::Side) + Define("CLOSED", OpenTiles::Closed);
+}
+
+constexpr const char * SurfaceVertex = R"(
+in vec3 point;
+#if SMOOTH
+in vec3 normal;
+out vec3 direction;
+#else
+out vec3 position;
+#endif
+uniform vec3 centre;
+uniform mat4 clipFromCentred;
+uniform float backward; // moves depths, so that of two surfaces in one place the first is seen
+uniform mat3 viewFromPatient; // x right, y up, z towards the viewer
+#if CUTS
+uniform vec4 cuts[CUTS];
+out float gl_ClipDistance[CUTS];
+#endif
+
+void main()
+{
+  vec3 centred = point - centre;
+  gl_Position = clipFromCentred * vec4(centred, 1.0);
+  gl_Position.z += backward * gl_Position.w;
+#if PLANE
+  direction = normal;
+#elif SMOOTH
+  direction = viewFromPatient * normal;
+#else
+  position = viewFromPatient * centred;
+#endif
+#if CUTS
+  for (int n = 0; n < CUTS; ++n)
+  {
+    gl_ClipDistance[n] = dot(cuts[n], vec4(centred, 1.0));
+  }
+#endif
+}
+)";
+
+constexpr const char * Light = R"(
+uniform vec4 light; // strength of key, fill, sky and rim
+uniform vec2 shine; // strength of wide and narrow highlights
+
+// The key light comes from the top left, the fill light from the right, the sky's from above, the rim's from behind.
+vec3 Lit(vec3 colour, vec3 normal)
+{
+  float key = max(0.0, 0.8 * dot(normal, vec3(-0.339, 0.565, 0.753)) + 0.2);
+  float fill = max(0.0, 0.7 * dot(normal, vec3(0.645, -0.242, 0.725)) + 0.3);
+  float rim = 1.0 - clamp(normal.z, 0.0, 1.0);
+  float halfway = max(0.0, dot(normal, vec3(-0.181, 0.302, 0.936)));
+  halfway *= halfway;
+  halfway *= halfway;
+  halfway *= halfway;
+  float wide = halfway * halfway;
+  float narrow = wide * wide * wide * wide;
+  return colour * (light.x * key + light.y * fill + light.z * (1.0 + 0.3 * normal.y) + light.w * rim * rim) +
+    shine.x * wide + shine.y * narrow;
+}
+)";
+
+constexpr const char * SurfaceFragment = R"(
+#if SMOOTH
+in vec3 direction;
+#else
+in vec3 position;
+#endif
+uniform vec4 colour; // opaque: alpha is the surface's number
+#if TRANSLUCENT
+uniform sampler2D depthBefore;
+#endif
+
+void main()
+{
+#if TRANSLUCENT
+  if (gl_FragCoord.z <= texelFetch(depthBefore, ivec2(gl_FragCoord.xy), 0).r + 1e-6)
+  {
+    discard;
+  }
+#endif
+#if SMOOTH
+  vec3 normal = normalize(direction);
+#else
+  vec3 normal = normalize(cross(dFdx(position), dFdy(position)));
+  normal = normal.z < 0.0 ? -normal : normal;
+#endif
+#if TRANSLUCENT
+  // Light passes 1 / cos(angle) times as much of a thin wall. So a translucent skin is clear where it faces the
+  // viewer, and its outline is visible.
+  float alpha = 1.0 - pow(1.0 - colour.a, 1.0 / max(abs(normal.z), 0.15));
+  gl_FragData[0] = vec4(Lit(colour.rgb, normal), alpha);
+#else
+#if SMOOTH
+  normal = gl_FrontFacing ? normal : -normal;
+#endif
+  gl_FragData[0] = vec4(Lit(gl_FrontFacing ? colour.rgb : 0.85 * colour.rgb, normal), colour.a);
+#endif
+}
+)";
+
+constexpr const char * PlaneFragment = R"(
+in vec3 direction; // position in the picture
+uniform sampler2D picture;
+uniform sampler2D depthBefore;
+
+vec4 Texel(ivec2 at)
+{
+  vec4 texel = texelFetch(picture, clamp(at, ivec2(0), textureSize(picture, 0) - 1), 0);
+  return vec4(texel.rgb * texel.a, texel.a);
+}
+
+// The bilinear mean, in which transparent pixels do not count for the colour.
+void main()
+{
+  if (gl_FragCoord.z <= texelFetch(depthBefore, ivec2(gl_FragCoord.xy), 0).r + 1e-6)
+  {
+    discard;
+  }
+  vec2 position = direction.xy - 0.5;
+  ivec2 at = ivec2(floor(position));
+  vec2 share = position - vec2(at);
+  vec4 mean = mix(mix(Texel(at), Texel(at + ivec2(1, 0)), share.x),
+                  mix(Texel(at + ivec2(0, 1)), Texel(at + ivec2(1, 1)), share.x),
+                  share.y);
+  if (mean.a < 0.002)
+  {
+    discard;
+  }
+  gl_FragData[0] = vec4(mean.rgb / mean.a, mean.a);
+}
+)";
+
+constexpr const char * LayerFragment = R"(
+uniform sampler2D layer;
+
+void main()
+{
+  vec4 colour = texelFetch(layer, ivec2(gl_FragCoord.xy), 0);
+  gl_FragData[0] = vec4(colour.rgb * colour.a, colour.a);
+}
+)";
+
+constexpr const char * WholeTargetVertex = R"(
+void main()
+{
+  gl_Position = vec4(float(gl_VertexID % 2) * 4.0 - 1.0, float(gl_VertexID / 2) * 4.0 - 1.0, 0.0, 1.0);
+}
+)";
+
+constexpr const char * OpenTilesVertex = R"(
+uniform sampler2D tiles;
+uniform ivec2 size; // of the target in samples
+
+void main()
+{
+  int columns = textureSize(tiles, 0).x;
+  ivec2 tile = ivec2(gl_VertexID / 6 % columns, gl_VertexID / 6 / columns);
+  int corner = gl_VertexID % 6;
+  ivec2 end = ivec2(corner == 1 || corner == 2 || corner == 4 ? 1 : 0, corner == 2 || corner == 4 || corner == 5 ? 1 : 0);
+  vec2 at = vec2(min((tile + end) * SIDE, size)) / vec2(size);
+  bool isOpen = texelFetch(tiles, tile, 0).r < float(CLOSED);
+  gl_Position = isOpen ? vec4(2.0 * at - 1.0, 0.0, 1.0) : vec4(0.0, 0.0, 0.0, 1.0);
+}
+)";
+
+constexpr const char * NoLayerFragment = R"(
+uniform sampler2D depths;
+
+void main()
+{
+  gl_FragData[0] = vec4(0.0);
+  gl_FragDepth = texelFetch(depths, ivec2(gl_FragCoord.xy), 0).r;
+}
+)";
+
+constexpr const char * OpenTileFragment = R"(
+uniform sampler2D depths;
+uniform sampler2D layerDepths;
+uniform sampler2D tiles; // before this layer
+
+void main()
+{
+  if (texelFetch(tiles, ivec2(gl_FragCoord.xy), 0).r == float(CLOSED))
+  {
+    gl_FragData[0] = vec4(float(CLOSED));
+    return;
+  }
+  ivec2 first = ivec2(gl_FragCoord.xy) * SIDE;
+  ivec2 end = min(first + SIDE, textureSize(depths, 0));
+  float least = float(CLOSED);
+  for (int y = first.y; y < end.y; ++y)
+  {
+    for (int x = first.x; x < end.x; ++x)
+    {
+      float layer = texelFetch(layerDepths, ivec2(x, y), 0).r;
+      least = layer < texelFetch(depths, ivec2(x, y), 0).r ? min(least, layer) : least;
+    }
+  }
+  gl_FragData[0] = vec4(least);
+}
+)";
+
+constexpr const char * ReliefFragment = R"(
+uniform sampler2D depths;
+uniform sampler2D colours;
+uniform vec3 depthRule; // offset, factor and spread of Camera
+
+void main()
+{
+  ivec2 sampled = ivec2(gl_FragCoord.xy) * SAMPLES + SAMPLES / 2;
+  float device = 2.0 * texelFetch(depths, sampled, 0).r - 1.0;
+  float depth = (device - depthRule.x) / (depthRule.y - device * depthRule.z);
+  gl_FragData[0] = vec4(depth, texelFetch(colours, sampled, 0).a, 0.0, 0.0);
+}
+)";
+
+constexpr const char * ShadeFragment = R"(
+uniform sampler2D relief;
+uniform vec2 pixelRule; // a pixel's size at depth 0 and the spread of Camera
+uniform float reach;    // largest distance of what takes light away
+uniform float jump;     // smallest step of depth that is an outline
+uniform int line;       // width of an outline in pixels
+uniform vec4 pairs[PAIRS]; // x, y: a point in the ball seen from the front, z: half the ball's depth there; of radius w
+
+bool IsInside(ivec2 at)
+{
+  return at == clamp(at, ivec2(0), textureSize(relief, 0) - 1);
+}
+
+float Behind(ivec2 at, float depth)
+{
+  vec2 there = texelFetch(relief, clamp(at, ivec2(0), textureSize(relief, 0) - 1), 0).rg;
+  return there.g == 0.0 ? 1e6 : there.r - depth;
+}
+
+float Filled(float behind, float halfDepth, float radius)
+{
+  return clamp(-behind / halfDepth, -1.0, 1.0) * clamp(2.5 + behind / radius, 0.0, 1.0);
+}
+
+float Taken(ivec2 at, float depth, float pixel)
+{
+  float turn = 0.3927 * float((at.x & 3) * 4 + ((at.y & 3) ^ (at.x & 1) * 2)); // 16 angles in each 4 x 4 pixels
+  mat2 rotation = mat2(cos(turn), sin(turn), -sin(turn), cos(turn));
+  float sum = 0.0;
+  for (int n = 0; n < PAIRS; ++n)
+  {
+    float radius = reach * pairs[n].w;
+    ivec2 offset = ivec2(round(rotation * pairs[n].xy * (radius / pixel)));
+    float halfDepth = radius * pairs[n].z;
+    float filled = Filled(Behind(at + offset, depth), halfDepth, radius) +
+                   Filled(Behind(at - offset, depth), halfDepth, radius);
+    sum += IsInside(at + offset) && IsInside(at - offset) ? max(0.0, filled) : 0.0;
+  }
+  return sum / float(PAIRS);
+}
+
+// How much the depth jumps beyond a pixel, in one direction and in the opposite one: by more than the slopes on both
+// sides of the jump explain.
+float Jump(ivec2 at, ivec2 offset, float depth)
+{
+  float after = min(Behind(at + offset, depth), 1e5);
+  float before = min(Behind(at - offset, depth), 1e5);
+  float farAfter = min(Behind(at + 2 * offset, depth), 1e5) - after;
+  float farBefore = min(Behind(at - 2 * offset, depth), 1e5) - before;
+  return max(after - max(0.0, max(farAfter, -before)), before - max(0.0, max(farBefore, -after)));
+}
+
+float Outline(ivec2 at, float depth, float pixel)
+{
+  float least = max(jump, 2.0 * float(line) * pixel);
+  float most = max(max(Jump(at, ivec2(line, 0), depth), Jump(at, ivec2(0, line), depth)),
+                   max(Jump(at, ivec2(line, line), depth), Jump(at, ivec2(line, -line), depth)));
+  return smoothstep(least, 2.0 * least, most);
+}
+
+void main()
+{
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  vec2 here = texelFetch(relief, at, 0).rg;
+  float pixel = pixelRule.x * (1.0 + pixelRule.y * here.r);
+  vec2 shade = vec2(0.0);
+  if (here.g > 0.0)
+  {
+#if OCCLUSION
+    shade.r = Taken(at, here.r, pixel);
+#endif
+#if OUTLINES
+    shade.g = Outline(at, here.r, pixel);
+#endif
+  }
+  gl_FragData[0] = vec4(shade, 0.0, 1.0);
+}
+)";
+
+constexpr const char * PixelFragment = R"(
+uniform sampler2D colours;
+uniform vec4 background; // multiplied by alpha
+#if LAYERS
+uniform sampler2D layers;
+#endif
+#if RELIEF
+uniform sampler2D relief;
+uniform sampler2D shades;
+uniform float alike;    // difference of depth within one surface
+uniform vec2 strengths; // of ambient occlusion and outlines
+
+// The mean of the 16 pixels around that have different angles, without other surfaces; and of 9 pixels for outlines.
+vec2 Shade(ivec2 at)
+{
+  ivec2 last = textureSize(relief, 0) - 1;
+  vec2 here = texelFetch(relief, at, 0).rg;
+  float taken = 0.0;
+  float count = 0.0;
+  float outline = 0.0;
+  for (int y = -2; y < 2; ++y)
+  {
+    for (int x = -2; x < 2; ++x)
+    {
+      ivec2 beside = clamp(at + ivec2(x, y), ivec2(0), last);
+      vec2 there = texelFetch(relief, beside, 0).rg;
+      float counts = there.g > 0.0 && (here.g == 0.0 || abs(there.r - here.r) < alike) ? 1.0 : 0.0;
+      taken += counts * texelFetch(shades, beside, 0).r;
+      count += counts;
+    }
+  }
+  for (int y = -1; y < 2; ++y)
+  {
+    for (int x = -1; x < 2; ++x)
+    {
+      ivec2 beside = clamp(at + ivec2(x, y), ivec2(0), last);
+      outline += texelFetch(shades, beside, 0).g * float((2 - abs(x)) * (2 - abs(y))) / 16.0;
+    }
+  }
+  return vec2(1.0 - min(strengths.x * taken / max(count, 1.0), 0.75), 1.0 - strengths.y * outline);
+}
+#endif
+
+void main()
+{
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  float bright = 1.0;
+#if RELIEF
+  vec2 shade = Shade(at);
+  bright = shade.x * shade.y;
+#endif
+  vec4 sum = vec4(0.0);
+  for (int y = 0; y < SAMPLES; ++y)
+  {
+    for (int x = 0; x < SAMPLES; ++x)
+    {
+      vec4 colour = texelFetch(colours, at * SAMPLES + ivec2(x, y), 0);
+      colour = colour.a > 0.0 ? vec4(colour.rgb * bright, 1.0) : background;
+#if LAYERS
+      vec4 layer = texelFetch(layers, at * SAMPLES + ivec2(x, y), 0);
+      colour = layer + (1.0 - layer.a) * colour;
+#endif
+      sum += colour;
+    }
+  }
+  gl_FragData[0] = vec4(sum.a > 0.0 ? sum.rgb / sum.a : vec3(0.0), sum.a / float(SAMPLES * SAMPLES));
+}
+)";
+
+} // namespace
+
+std::string
+SurfaceVertexShader(const SurfaceProgram & program)
+{
+  return Head + Defines(program) + SurfaceVertex;
+}
+
+std::string
+SurfaceFragmentShader(const SurfaceProgram & program)
+{
+  return FragmentHead + Defines(program) + (program.isPlane ? PlaneFragment : std::string(Light) + SurfaceFragment);
+}
+
+std::string
+WholeTargetVertexShader()
+{
+  return Head + WholeTargetVertex;
+}
+
+std::string
+NoLayerFragmentShader()
+{
+  return FragmentHead + NoLayerFragment;
+}
+
+std::string
+LayerFragmentShader()
+{
+  return FragmentHead + LayerFragment;
+}
+
+std::string
+OpenTilesVertexShader()
+{
+  return Head + TileDefines() + OpenTilesVertex;
+}
+
+std::string
+OpenTileFragmentShader()
+{
+  return FragmentHead + TileDefines() + OpenTileFragment;
+}
+
+std::string
+ReliefFragmentShader(int samples)
+{
+  return FragmentHead + Define("SAMPLES", samples) + ReliefFragment;
+}
+
+std::string
+ShadeFragmentShader(bool hasOcclusion, bool hasOutlines, int pairs)
+{
+  return FragmentHead + Define("OCCLUSION", hasOcclusion) + Define("OUTLINES", hasOutlines) + Define("PAIRS", pairs) +
+         ShadeFragment;
+}
+
+std::string
+PixelFragmentShader(int samples, bool hasRelief, bool hasLayers)
+{
+  return FragmentHead + Define("SAMPLES", samples) + Define("RELIEF", hasRelief) + Define("LAYERS", hasLayers) +
+         PixelFragment;
+}
+
+} // namespace rhombic
