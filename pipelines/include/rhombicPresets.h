@@ -1,6 +1,8 @@
 #ifndef rhombicPresets_h
 #define rhombicPresets_h
 
+#include "rhombicDenoising.h"
+#include "rhombicSceneRules.h"
 #include "rhombicSurfaceRequest.h"
 
 #include <filesystem>
@@ -11,14 +13,15 @@ namespace rhombic
 {
 
 /** \class Preset
- * \brief A named list of surfaces for a kind of scan. */
+ * \brief A named list of surfaces for a kind of scan, and how they are made and drawn. */
 struct Preset
 {
   std::string name;
   std::string description;
-  std::string denoising = "none"; ///< suggested for noisy scans, as ParseDenoising() takes it; not applied
-  bool removesTable = false;      ///< for CTs in HU: removes the scanner's table
+  Denoising denoising;       ///< of the scan or the lattice, before surfaces are made
+  bool removesTable = false; ///< for CTs in HU: removes the scanner's table
   std::vector<SurfaceRequest> surfaces;
+  std::vector<SceneRule> rules; ///< colours and opacities of labels that are shown with the surfaces
 };
 
 /** The built-in presets, from pipelines/presets/. */

@@ -4,6 +4,7 @@
 #include "rhombicLabelMapReader.h"
 #include "rhombicScanReader.h"
 #include "rhombicScanToLattice.h"
+#include "rhombicSceneRules.h"
 #include "rhombicSurfaceRequest.h"
 
 #include "itkFCCIsosurfaceMode.h"
@@ -30,7 +31,7 @@ struct ScanSource
 struct LabelSelection
 {
   LabelMapSource source;           ///< with an empty path the scan itself is the label map
-  std::vector<std::string> labels; ///< names or values; empty: all that the label table does not hide
+  std::vector<std::string> labels; ///< names with wildcards, or values; empty: all that the label table does not hide
 };
 
 /** \class SurfaceSelection
@@ -42,6 +43,7 @@ struct SurfaceSelection
   /** For isosurfaces of CTs: see RemoveTable(); without effect on lattice volumes. Nothing: not removed, and a note
    * says so. */
   std::optional<bool> removesTable;
+  SceneRules rules; ///< which surfaces are shown, and in which colours
   itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
 };
 

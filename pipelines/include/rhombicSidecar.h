@@ -15,9 +15,13 @@ namespace rhombic
  * \brief Program and command that made an output, for its sidecar and its metadata. */
 struct Provenance
 {
-  std::string software; ///< name and version
-  std::string command;  ///< without anything about the patient, nor the scan's path
+  std::string software;               ///< name and version
+  std::vector<std::string> arguments; ///< of the command, without anything about the patient, nor the scan's path
   bool writesSidecars = true;
+
+  /** The command line. */
+  std::string
+  GetCommand() const;
 };
 
 /** The path of an output's report: the output's name and ".json". */

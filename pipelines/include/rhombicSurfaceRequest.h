@@ -3,6 +3,7 @@
 
 #include "rhombicIntensities.h"
 #include "rhombicSceneSurface.h"
+#include "rhombicSurfaceFinish.h"
 #include "rhombicThreshold.h"
 
 #include <cstddef>
@@ -21,7 +22,8 @@ struct SurfaceRequest
   enum class Parts
   {
     All,
-    Enclosed ///< parts in the body: see KeepEnclosedParts()
+    Enclosed, ///< parts in the body: see KeepEnclosedParts()
+    Outermost ///< the outline of the body, without lungs and bowel gas: see FillBody()
   };
 
   std::string name;
@@ -30,6 +32,7 @@ struct SurfaceRequest
   Parts parts = Parts::All;
   Colour colour{ 0.8, 0.8, 0.8 };
   double opacity = 1.0;
+  SurfaceFinish finish; ///< see CombineFinish()
 
   /** The isovalue has to be set: see ResolveIsovalues(). */
   Threshold

@@ -1,11 +1,13 @@
 #include "rhombicLatticeToSurfaces.h"
 
+#include "rhombicBodyFilling.h"
 #include "rhombicFailure.h"
 #include "rhombicObserveProgress.h"
 #include "rhombicWording.h"
 
 #include "itkFCCIsosurfaceFilter.h"
 #include "itkFCCScanBorder.h"
+#include "itkTriangleSurfaceSolids.h"
 
 #include <algorithm>
 
@@ -70,7 +72,7 @@ public:
     , m_Grid(grid)
   {}
 
-  /** One surface for each request, in their order. */
+  /** One surface for each request, in their order; null for outermost parts. */
   Isosurfaces
   Extract(const FCCVolume & volume, const std::vector<SurfaceRequest> & requests) const
   {
@@ -87,7 +89,10 @@ public:
       };
       for (const auto & surface : extracted.surfaces)
       {
-        MoveWallsToBorder(*surface, *m_Grid, cornerOf(false), cornerOf(true));
+        if (surface)
+        {
+          MoveWallsToBorder(*surface, *m_Grid, cornerOf(false), cornerOf(true));
+        }
       }
     }
     return extracted;
@@ -105,8 +110,19 @@ public:
     });
   }
 
+  /** The outline of the body, with its cavities filled. */
+  itk::TriangleSurface::Pointer
+  ExtractOutline(const FCCVolume & volume, SurfaceRequest request) const
+  {
+    m_Events.Progress("filling the body for " + request.name, 0.0);
+    request.parts = SurfaceRequest::Parts::All;
+    const auto surface = this->Extract(FillBody(volume, request.isovalue.value()), { request }).surfaces.front();
+    FillCavities(*surface);
+    return surface;
+  }
+
 private:
-  /** Extracts the surfaces of those requests that are on one side of their isovalues. */
+  /** Extracts the surfaces of those requests that are on one side of their isovalues, but for outermost parts. */
   template <typename TImage>
   void
   ExtractSide(const TImage & image,
@@ -119,7 +135,7 @@ private:
     std::string names;
     for (std::size_t n = 0; n < requests.size(); ++n)
     {
-      if (requests[n].insideIsBelow == insideIsBelow)
+      if (requests[n].insideIsBelow == insideIsBelow && requests[n].parts != SurfaceRequest::Parts::Outermost)
       {
         chosen.push_back(n);
         isovalues.push_back(requests[n].isovalue.value());
@@ -166,6 +182,11 @@ LatticeToSurfaces(const FCCVolume & volume,
       throw Failure(FailureKind::Usage,
                     "The isovalue of " + request.name + " is not known; give a number, or call ResolveIsovalues().");
     }
+    if (request.parts == SurfaceRequest::Parts::Outermost && request.insideIsBelow)
+    {
+      throw Failure(FailureKind::Usage,
+                    "The outermost parts of " + request.name + " are of values above the threshold, not below it.");
+    }
   }
   const IsosurfaceExtraction extraction(mode, events, grid);
   Isosurfaces extracted = extraction.Extract(volume, requests);
@@ -185,6 +206,11 @@ LatticeToSurfaces(const FCCVolume & volume,
     {
       enclosed = extraction.LeaveOutSurroundings(volume, request, surface);
       NoteParts(request.name, *enclosed, events);
+    }
+    else if (request.parts == SurfaceRequest::Parts::Outermost)
+    {
+      surface = extraction.ExtractOutline(volume, request);
+      events.Note(request.name + ": the outline of the body, with lungs and other air inside filled");
     }
     surfaces.push_back({ { request.name, surface.GetPointer(), request.colour, request.opacity }, enclosed });
     RequireTriangles(surfaces.back(), *request.isovalue);

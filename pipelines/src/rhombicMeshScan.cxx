@@ -99,7 +99,8 @@ void
 CheckSettings(const MeshScanSettings & settings)
 {
   const bool isForEach = HasFileForEach(settings.mesh);
-  const std::size_t fewest = settings.surfaces.requests.size() + (settings.surfaces.labels ? 1 : 0);
+  const bool showsAll = settings.surfaces.rules.only.empty() && settings.surfaces.rules.hidden.empty();
+  const std::size_t fewest = showsAll ? settings.surfaces.requests.size() + (settings.surfaces.labels ? 1 : 0) : 1;
   CheckSurfacePath(settings.mesh, isForEach ? 1 : fewest);
   CheckSurfaceFinish(settings.finish);
   if (!settings.measures.empty())
@@ -225,11 +226,12 @@ MakeCandidateSearch(const LoadedSource & loaded, itk::FCCIsosurfaceMode mode)
 /** Removes parts of a surface, smooths and simplifies it. Returns whether anything is left. */
 bool
 Finish(MeshedSurface & surface,
-       const SurfaceFinish & finish,
+       const SurfaceFinish & commandFinish,
        double spacing,
        const CandidateSearch & findCandidates,
        const Events & events)
 {
+  const SurfaceFinish finish = surface.request ? CombineFinish(surface.request->finish, commandFinish) : commandFinish;
   const auto finished = itk::TriangleSurface::New();
   finished->Graft(surface.scene.surface);
   surface.scene.surface = finished;

@@ -1,12 +1,13 @@
 #include "rhombicPresets.h"
 
 #include "rhombicBuiltInPresets.h"
-#include "rhombicDenoising.h"
 #include "rhombicFailure.h"
 #include "rhombicWording.h"
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -42,25 +43,40 @@ RefuseUnknownKeys(const YAML::Node & map, const std::set<std::string> & known, c
   }
 }
 
-/** The value of a key that must be one of two words; \a otherwise when the key is missing. */
-bool
-IsSecondWord(const YAML::Node & value, const char * first, const char * second, const std::string & source)
+/** The position of a key's value in a list of words; 0 when the key is missing. */
+std::size_t
+FindWord(const YAML::Node & value, const std::vector<std::string> & words, const std::string & source)
 {
-  if (!value || value.as<std::string>() == first)
+  const auto found = value ? std::find(words.begin(), words.end(), value.as<std::string>()) : words.begin();
+  if (found == words.end())
   {
-    return false;
+    std::vector<std::string> quoted;
+    std::transform(words.begin(), words.end(), std::back_inserter(quoted), [](const std::string & word) {
+      return "'" + word + "'";
+    });
+    FailToParse(source, "has '" + value.as<std::string>() + "' where " + Enumerate(quoted) + " is expected");
   }
-  if (value.as<std::string>() != second)
+  return static_cast<std::size_t>(found - words.begin());
+}
+
+double
+ParseOpacity(const YAML::Node & node, const std::string & source)
+{
+  const auto opacity = node.as<double>();
+  if (!(opacity > 0.0 && opacity <= 1.0))
   {
-    FailToParse(source, "has '" + value.as<std::string>() + "' where '" + first + "' or '" + second + "' is expected");
+    FailToParse(source, "has an opacity that is not above 0 and at most 1");
   }
-  return true;
+  return opacity;
 }
 
 SurfaceRequest
 ParseSurface(const YAML::Node & node, const std::string & source)
 {
-  RefuseUnknownKeys(node, { "name", "isovalue", "side", "parts", "colour", "opacity" }, source);
+  RefuseUnknownKeys(
+    node,
+    { "name", "isovalue", "side", "parts", "colour", "opacity", "min-volume", "largest", "fill", "smooth" },
+    source);
   for (const char * key : { "name", "isovalue" })
   {
     if (!node[key])
@@ -78,19 +94,43 @@ ParseSurface(const YAML::Node & node, const std::string & source)
       FailToParse(source, "has an isovalue that is not finite");
     }
   }
-  request.insideIsBelow = IsSecondWord(node["side"], "above", "below", source);
-  const bool isEnclosed = IsSecondWord(node["parts"], "all", "enclosed", source);
-  request.parts = isEnclosed ? SurfaceRequest::Parts::Enclosed : SurfaceRequest::Parts::All;
+  request.insideIsBelow = FindWord(node["side"], { "above", "below" }, source) == 1;
+  using Parts = SurfaceRequest::Parts;
+  constexpr std::array<Parts, 3> parts{ Parts::All, Parts::Enclosed, Parts::Outermost };
+  request.parts = parts[FindWord(node["parts"], { "all", "enclosed", "outermost" }, source)];
   if (node["colour"])
   {
     request.colour = ParseColour(node["colour"].as<std::string>());
   }
-  request.opacity = node["opacity"].as<double>(1.0);
-  if (!(request.opacity > 0.0 && request.opacity <= 1.0))
-  {
-    FailToParse(source, "has an opacity that is not above 0 and at most 1");
-  }
+  request.opacity = node["opacity"] ? ParseOpacity(node["opacity"], source) : 1.0;
+  request.finish.minimumVolume = node["min-volume"].as<double>(0.0);
+  request.finish.keepsLargestPart = node["largest"].as<bool>(false);
+  request.finish.fillsCavities = node["fill"].as<bool>(false);
+  request.finish.smoothing = node["smooth"].as<double>(0.0);
+  CheckSurfaceFinish(request.finish);
   return request;
+}
+
+SceneRule
+ParseRule(const YAML::Node & node, const std::string & source)
+{
+  RefuseUnknownKeys(node, { "match", "colour", "opacity" }, source);
+  if (!node["match"])
+  {
+    FailToParse(source, "has a rule without match");
+  }
+  SceneRule rule;
+  rule.pattern = node["match"].as<std::string>();
+  FitsPattern(rule.pattern, ""); // throws for an unknown group
+  if (node["colour"])
+  {
+    rule.colour = ParseColour(node["colour"].as<std::string>());
+  }
+  if (node["opacity"])
+  {
+    rule.opacity = ParseOpacity(node["opacity"], source);
+  }
+  return rule;
 }
 
 bool
@@ -121,16 +161,19 @@ ParsePreset(const std::string & yaml, const std::string & source)
   try
   {
     const YAML::Node root = YAML::Load(yaml);
-    RefuseUnknownKeys(root, { "name", "description", "suggested-denoising", "removes", "surfaces" }, source);
+    RefuseUnknownKeys(root, { "name", "description", "denoise", "removes", "surfaces", "rules" }, source);
     Preset preset;
     preset.name = root["name"].as<std::string>();
     preset.description = root["description"].as<std::string>("");
-    preset.denoising = root["suggested-denoising"].as<std::string>("none");
-    ParseDenoising(preset.denoising);
-    preset.removesTable = IsSecondWord(root["removes"], "nothing", "table", source);
+    preset.denoising = ParseDenoising(root["denoise"].as<std::string>("none"));
+    preset.removesTable = FindWord(root["removes"], { "nothing", "table" }, source) == 1;
     for (const auto & node : root["surfaces"])
     {
       preset.surfaces.push_back(ParseSurface(node, source));
+    }
+    for (const auto & node : root["rules"])
+    {
+      preset.rules.push_back(ParseRule(node, source));
     }
     if (preset.surfaces.empty())
     {

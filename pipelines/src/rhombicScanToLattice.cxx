@@ -177,6 +177,11 @@ ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events 
   const ScanImage image = DenoiseScan(scan.image, settings.denoising, settings.maximumMemory, events);
   const FCCVolume volume =
     std::visit([&](const auto & input) { return ResampleImage(*input, scan, settings, events); }, image);
+  if (settings.denoising.kind == Denoising::Kind::Gaussian)
+  {
+    events.Note("smoothed by a Gaussian of " + FormatNumber(settings.denoising.sigma) +
+                " mm; --denoise none leaves it out");
+  }
   return settings.denoising.kind == Denoising::Kind::Gaussian
            ? DenoiseLattice(volume, settings.denoising, settings.maximumMemory, events)
            : volume;

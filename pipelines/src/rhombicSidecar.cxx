@@ -5,6 +5,17 @@
 namespace rhombic
 {
 
+std::string
+Provenance::GetCommand() const
+{
+  std::string command = "rhombic";
+  for (const std::string & argument : arguments)
+  {
+    command += " " + argument;
+  }
+  return command;
+}
+
 std::filesystem::path
 SidecarOf(const std::filesystem::path & output)
 {
@@ -34,7 +45,8 @@ StageSidecar(const std::filesystem::path & output,
   }
   Report whole{ { "output", output.filename().string() },
                 { "software", provenance.software },
-                { "command", provenance.command } };
+                { "command", provenance.GetCommand() },
+                { "arguments", provenance.arguments } };
   whole.update(report);
   StageText(ToJson(whole) + '\n', SidecarOf(output), staged);
 }

@@ -138,7 +138,9 @@ PrepareLattice(FCCVolume volume, const ScanSource & source, const SurfaceSelecti
                     " is a lattice volume; name the scan, or the label map itself.");
   }
   LoadedSource loaded;
-  loaded.requests = ResolveRequests(selection.requests, volume);
+  std::vector<SurfaceRequest> requests = selection.requests;
+  ApplySceneRules(selection.rules, requests, nullptr);
+  loaded.requests = ResolveRequests(requests, volume);
   loaded.lattice = DenoiseLattice(volume, source.lattice.denoising, source.lattice.maximumMemory, events);
   return loaded;
 }
@@ -150,6 +152,7 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   if (selection.labels && selection.labels->source.path.empty())
   {
     loaded.labels = TakeForLabels(std::move(volume), { source.path, selection.labels->source.table }, events);
+    ApplySceneRules(selection.rules, loaded.requests, &*loaded.labels);
     return loaded;
   }
   Scan & scan = loaded.scan.emplace(std::move(volume));
@@ -157,12 +160,18 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   {
     loaded.labels = LoadLabels(source, selection.labels->source, scan, events);
   }
-  if (selection.requests.empty())
+  std::vector<SurfaceRequest> requests = selection.requests;
+  ApplySceneRules(selection.rules, requests, loaded.labels ? &*loaded.labels : nullptr);
+  if (loaded.labels && loaded.labels->labels.empty())
+  {
+    loaded.labels.reset();
+  }
+  if (requests.empty())
   {
     return loaded;
   }
   loaded.tableRemoval = TreatTable(scan, selection.removesTable, events);
-  loaded.requests = ResolveRequests(selection.requests, scan.image);
+  loaded.requests = ResolveRequests(requests, scan.image);
   loaded.lattice = ScanToLattice(scan, source.lattice, events);
   loaded.grid = GridOf(scan);
   return loaded;

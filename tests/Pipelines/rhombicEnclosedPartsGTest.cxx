@@ -4,6 +4,7 @@
 #include "rhombicPhantom.h"
 
 #include "itkImageAlgorithm.h"
+#include "itkTriangleSurfaceComponents.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
 
@@ -130,6 +131,29 @@ public:
     request.parts = SurfaceRequest::Parts::Enclosed;
     const auto lattice = rhombic::ScanToLattice(scan, {}, {});
     return rhombic::LatticeToSurfaces(lattice, { request }, itk::FCCIsosurfaceMode::Lean, events, m_Scan).front();
+  }
+
+  /** The skin, as the body's outermost parts. */
+  rhombic::ExtractedSurface
+  ExtractOutline() const
+  {
+    rhombic::Scan scan;
+    scan.image = m_Scan;
+    SurfaceRequest request;
+    request.name = "skin";
+    request.isovalue = -300.5;
+    request.parts = SurfaceRequest::Parts::Outermost;
+    const auto lattice = rhombic::ScanToLattice(scan, {}, {});
+    return rhombic::LatticeToSurfaces(lattice, { request }, itk::FCCIsosurfaceMode::Lean, {}, m_Scan).front();
+  }
+
+  /** The volume of all voxels, in ml. */
+  double
+  Millilitres() const
+  {
+    const double spacing = m_Labels->GetSpacing()[0];
+    return static_cast<double>(m_Labels->GetLargestPossibleRegion().GetNumberOfPixels()) * spacing * spacing * spacing /
+           1000.0;
   }
 
 private:
@@ -299,6 +323,33 @@ TEST(EnclosedParts, WhereThereAreNoneItIsSaidWhatIsAround)
     ASSERT_EQ(sentence.find(before), 0u) << sentence;
     EXPECT_NE(sentence.find(" ml around it are left out)"), std::string::npos) << sentence;
     EXPECT_NEAR(std::stod(sentence.substr(before.size())) / crop.AirMillilitres(), 1.0, 0.02);
+  }
+}
+
+TEST(OutermostParts, HoldTheBodyWithItsLungs)
+{
+  const PhantomCrop chest(chestLow, chestHigh);
+  const auto skin = chest.ExtractOutline();
+  const double body = chest.Millilitres() - chest.AirMillilitres();
+  EXPECT_NEAR(itk::ComputeVolume(*skin.surface) / 1000.0,
+              body,
+              0.02 * body);                                // voxels count wholly, the threshold is not half way
+  EXPECT_EQ(itk::FindComponents(*skin.surface).count, 1u); // no lung, no vessel in it
+}
+
+TEST(OutermostParts, HoldLungsThatTopAndBottomCut)
+{
+  for (const double top : { 300.0, 340.0, 380.0 })
+  {
+    PhantomPoint high = chestHigh;
+    high[2] = top;
+    PhantomPoint low = chestLow;
+    low[2] = top - 60.0;
+    const PhantomCrop slab(low, high);
+    ASSERT_GT(slab.LungMillilitres(), 100.0);
+    const auto skin = slab.ExtractOutline();
+    const double body = slab.Millilitres() - slab.AirMillilitres();
+    EXPECT_NEAR(itk::ComputeVolume(*skin.surface) / 1000.0, body, 0.02 * body) << top;
   }
 }
 

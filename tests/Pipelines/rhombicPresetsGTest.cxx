@@ -60,16 +60,31 @@ TEST(Presets, ThoseForCTRemoveTheTable)
   EXPECT_NE(sentence.find("'nothing' or 'table'"), std::string::npos) << sentence;
 }
 
-TEST(Presets, SayWhichDenoisingSuitsThem)
+TEST(Presets, SayHowNoiseIsRemoved)
 {
+  using Kind = rhombic::Denoising::Kind;
   for (const auto & preset : rhombic::GetPresets())
   {
-    EXPECT_EQ(preset.denoising == "none", preset.name == "mr-head") << preset.name;
+    const bool isCT = preset.name.rfind("ct-", 0) == 0;
+    EXPECT_EQ(preset.denoising.kind, isCT ? Kind::Gaussian : Kind::None) << preset.name;
   }
   const std::string surfaces = "surfaces: [{name: a, isovalue: 1}]";
-  EXPECT_EQ(rhombic::ParsePreset("name: x\n" + surfaces, "test").denoising, "none");
-  EXPECT_EQ(rhombic::ParsePreset("name: x\nsuggested-denoising: edges:1,60\n" + surfaces, "test").denoising,
-            "edges:1,60");
+  EXPECT_EQ(rhombic::ParsePreset("name: x\n" + surfaces, "test").denoising.kind, Kind::None);
+  const auto edges = rhombic::ParsePreset("name: x\ndenoise: edges:1,60\n" + surfaces, "test").denoising;
+  EXPECT_EQ(edges.kind, Kind::EdgePreserving);
+  EXPECT_EQ(edges.edge, 60.0);
+}
+
+TEST(Presets, HaveRulesForLabels)
+{
+  const auto preset = rhombic::ParsePreset("name: x\nsurfaces: [{name: a, isovalue: 1}]\n"
+                                           "rules: [{match: 'lung*', opacity: 0.5}, {match: 'group:bones', colour: red}]\n",
+                                           "test");
+  ASSERT_EQ(preset.rules.size(), 2u);
+  EXPECT_EQ(preset.rules[0].pattern, "lung*");
+  EXPECT_EQ(preset.rules[0].opacity, 0.5);
+  EXPECT_FALSE(preset.rules[0].colour.has_value());
+  EXPECT_EQ(preset.rules[1].colour, (rhombic::Colour{ 1.0, 0.0, 0.0 }));
 }
 
 TEST(Presets, ReadEverythingASurfaceHas)
@@ -77,7 +92,7 @@ TEST(Presets, ReadEverythingASurfaceHas)
   const auto preset = rhombic::ParsePreset(
     "name: x\ndescription: d\nsurfaces:\n"
     "  - {name: a, isovalue: -500.5, side: below, parts: enclosed, colour: \"#0000ff\", opacity: 0.25}\n"
-    "  - {name: b, isovalue: otsu}\n",
+    "  - {name: b, isovalue: otsu, parts: outermost, min-volume: 2, largest: true, fill: true, smooth: 0.3}\n",
     "test");
   ASSERT_EQ(preset.surfaces.size(), 2u);
   EXPECT_EQ(preset.surfaces[0].isovalue, -500.5);
@@ -86,6 +101,11 @@ TEST(Presets, ReadEverythingASurfaceHas)
   EXPECT_EQ(preset.surfaces[0].colour, (rhombic::Colour{ 0.0, 0.0, 1.0 }));
   EXPECT_EQ(preset.surfaces[0].opacity, 0.25);
   EXPECT_FALSE(preset.surfaces[1].isovalue.has_value());
+  EXPECT_EQ(preset.surfaces[1].parts, SurfaceRequest::Parts::Outermost);
+  EXPECT_EQ(preset.surfaces[1].finish.minimumVolume, 2.0);
+  EXPECT_TRUE(preset.surfaces[1].finish.keepsLargestPart);
+  EXPECT_TRUE(preset.surfaces[1].finish.fillsCavities);
+  EXPECT_EQ(preset.surfaces[1].finish.smoothing, 0.3);
   EXPECT_FALSE(preset.surfaces[1].insideIsBelow);
 }
 
@@ -109,7 +129,12 @@ TEST(Presets, RefuseDamagedFiles)
                              "name: x\nsurfaces: [{name: a, isovalue: 1, side: left}]",
                              "name: x\ncolor: red\nsurfaces: [{name: a, isovalue: 1}]",
                              "name: x\nsurfaces: [{name: a, isovalue: 1, colr: 2}]",
-                             "name: x\nsuggested-denoising: much\nsurfaces: [{name: a, isovalue: 1}]",
+                             "name: x\nsurfaces: [{name: a, isovalue: 1, parts: inner}]",
+                             "name: x\nsurfaces: [{name: a, isovalue: 1, min-volume: -1}]",
+                             "name: x\nsurfaces: [{name: a, isovalue: 1}]\nrules: [{opacity: 0.5}]",
+                             "name: x\nsurfaces: [{name: a, isovalue: 1}]\nrules: [{match: 'group:bone'}]",
+                             "name: x\nsurfaces: [{name: a, isovalue: 1}]\nrules: [{match: a, opacity: 2}]",
+                             "name: x\ndenoise: much\nsurfaces: [{name: a, isovalue: 1}]",
                              "name: [x\n" })
   {
     const auto sentence =

@@ -38,6 +38,11 @@ struct SurfaceFinish
   }
 };
 
+/** Both finishes in one: what either removes or fills, and the larger limits of either. Simplification is that of
+ * \a second if it simplifies, else that of \a first. */
+SurfaceFinish
+CombineFinish(const SurfaceFinish & first, const SurfaceFinish & second);
+
 /** Throws Failure(Usage) for settings out of their ranges. */
 void
 CheckSurfaceFinish(const SurfaceFinish & finish);
@@ -80,8 +85,9 @@ struct SimplificationResult
 {
   double maximumError; ///< largest error that was allowed
   itk::TriangleSurfaceSimplificationReport triangles;
-  double meanDistance;    ///< mean distance between the surfaces before and after, the larger of both directions
-  double maximumDistance; ///< maximum distance, likewise
+  double meanDistance;    ///< mean distance between the surfaces before and after, from points of up to 30 000
+                          ///< triangles of each (itk::ComputeTwoDistances()); the larger of both directions
+  double maximumDistance; ///< the largest distance of these points
   double volumeBefore;
   double volumeAfter;
 };

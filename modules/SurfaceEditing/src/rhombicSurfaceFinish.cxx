@@ -84,7 +84,8 @@ Simplify(itk::TriangleSurface & surface, const SurfaceFinish & finish, double sp
   settings.maximumError = finish.maximumError.value_or(spacing);
   const auto triangles = SimplifySurface(surface, settings);
   OptimizeForRendering(surface);
-  const auto distances = ComputeTwoDistances(*original, surface);
+  constexpr itk::SizeValueType measuredTriangles = 30'000; // of either surface; simplification itself checks all
+  const auto distances = ComputeTwoDistances(*original, surface, measuredTriangles);
   return { settings.maximumError,
            triangles,
            std::max(distances.fromFirst.mean, distances.fromSecond.mean),
@@ -116,13 +117,24 @@ DescribeSimplification(const std::string & name, const SurfaceFinish & finish, c
     done.triangles.end != itk::SimplificationEnd::Target && (finish.maximumTriangles > 0 || finish.share < 1.0);
   return name + ": simplified from " + std::to_string(done.triangles.trianglesBefore) + " to " +
          std::to_string(done.triangles.trianglesAfter) + " triangles, " + FormatNumber(done.maximumDistance, 3) +
-         " mm away at most; " + DescribeVolumeChange(done.volumeBefore, done.volumeAfter, 3) +
+         " mm away at most where measured; " + DescribeVolumeChange(done.volumeBefore, done.volumeAfter, 3) +
          (isTargetMissed ? "; fewer would be further away than " + FormatNumber(done.maximumError, 3) +
                              " mm, or have other holes and handles"
                          : "");
 }
 
 } // namespace
+
+SurfaceFinish
+CombineFinish(const SurfaceFinish & first, const SurfaceFinish & second)
+{
+  SurfaceFinish both = second.Simplifies() ? second : first;
+  both.minimumVolume = std::max(first.minimumVolume, second.minimumVolume);
+  both.keepsLargestPart = first.keepsLargestPart || second.keepsLargestPart;
+  both.fillsCavities = first.fillsCavities || second.fillsCavities;
+  both.smoothing = std::max(first.smoothing, second.smoothing);
+  return both;
+}
 
 void
 CheckSurfaceFinish(const SurfaceFinish & finish)

@@ -1,0 +1,67 @@
+#ifndef rhombicSceneRules_h
+#define rhombicSceneRules_h
+
+#include "rhombicLabelMapReader.h"
+#include "rhombicSurfaceRequest.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rhombic
+{
+
+/** \file
+ * Which surfaces are shown, and in which colours, by patterns of their names.
+ *
+ * A pattern is a name with `*` for any characters and `?` for one, in upper or lower case, or the name of a group:
+ * group:bones, group:vessels, group:lungs, group:heart, group:brain, group:muscles or group:organs, as TotalSegmentator and FreeSurfer name them.
+ */
+
+/** Colour and opacity of the surfaces whose names fit a pattern. */
+struct SceneRule
+{
+  std::string pattern;
+  std::optional<Colour> colour;
+  std::optional<double> opacity; ///< above 0, at most 1
+};
+
+/** Where the colours of labels come from. */
+enum class LabelColours
+{
+  Anatomy,    ///< of names that are known, those of anatomical illustrations; of others, those of the label table
+  Table,      ///< those of the label table
+  ColourBlind ///< eight colours that colour-blind people tell apart (Okabe and Ito), and lighter and darker ones
+};
+
+/** \class SceneRules
+ * \brief Which surfaces are shown, and in which colours. */
+struct SceneRules
+{
+  std::vector<std::string> only;   ///< patterns of those that are shown; empty: all
+  std::vector<std::string> hidden; ///< patterns of those that are not shown
+  std::vector<SceneRule> rules;    ///< later ones count more
+  LabelColours colours = LabelColours::Anatomy;
+};
+
+/** Whether a name fits a pattern. Throws Failure(Usage) for an unknown group. */
+bool
+FitsPattern(const std::string & pattern, const std::string & name);
+
+/** Opacity and colour written as pattern[=colour][,opacity]: "liver", "liver=#994736,0.5", "lung*=,0.3". Throws
+ * Failure(Usage). */
+SceneRule
+ParseSceneRule(const std::string & text);
+
+/** Leaves those isosurfaces and labels that the rules show, and sets the colours and opacities of these. Labels that
+ * touch get different colours, unless a rule or the table sets them.
+ *
+ * \param labels may be null
+ *
+ * Throws Failure(Usage) for a pattern that fits nothing, suggesting the nearest name, and when nothing is left. */
+void
+ApplySceneRules(const SceneRules & rules, std::vector<SurfaceRequest> & requests, LabelMap * labels);
+
+} // namespace rhombic
+
+#endif

@@ -1,0 +1,226 @@
+#include "rhombicSceneRules.h"
+
+#include "rhombicFailure.h"
+#include "rhombicLabelColours.h"
+#include "rhombicWording.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace rhombic
+{
+namespace
+{
+
+/** The patterns of each group's names. */
+const std::map<std::string, std::vector<std::string>> &
+Groups()
+{
+  static const std::map<std::string, std::vector<std::string>> groups{
+    { "group:bones",
+      { "*bone*",    "rib*",      "*costa*",  "*vertebra*", "sternum*",    "sacrum*", "skull*",      "*clavicula*",
+        "*scapula*", "*humerus*", "*femur*",  "hip_*",      "*pelvis*",    "mandib*", "*tibia*",     "*fibula*",
+        "*radius*",  "*ulna*",    "patella*", "carpal*",    "metacarpal*", "tarsal*", "metatarsal*", "phalanges*" } },
+    { "group:vessels",
+      { "*aorta*", "*artery*", "*vein*", "*vena*", "*vessel*", "*trunk*", "*carotid*", "*subclavian*", "iliac_*" } },
+    { "group:lungs", { "lung*", "*lung", "*lobe*", "trachea*", "bronch*" } },
+    { "group:heart", { "heart*", "*atrium*", "*atrial*", "*myocardium*", "heart_ventricle*" } },
+    { "group:brain",
+      { "*brain*",
+        "*cerebr*",
+        "*cerebell*",
+        "*cortex*",
+        "*thalamus*",
+        "*caudate*",
+        "*putamen*",
+        "*pallidum*",
+        "*hippocampus*",
+        "*amygdala*",
+        "*ventricle*" } },
+    { "group:muscles", { "*muscle*", "gluteus*", "iliopsoas*", "autochthon*", "quadriceps*", "thigh*", "sartorius*" } },
+    { "group:organs",
+      { "liver*",
+        "spleen*",
+        "pancreas*",
+        "*kidney*",
+        "stomach*",
+        "gallbladder*",
+        "*adrenal*",
+        "*bladder*",
+        "prostate*",
+        "colon*",
+        "duodenum*",
+        "small_bowel*",
+        "esophagus*",
+        "*thyroid*",
+        "heart*",
+        "lung*",
+        "brain*" } }
+  };
+  return groups;
+}
+
+std::vector<std::string>
+NamesOf(const std::vector<SurfaceRequest> & requests, const LabelMap * labels)
+{
+  std::vector<std::string> names;
+  for (const SurfaceRequest & request : requests)
+  {
+    names.push_back(request.name);
+  }
+  if (labels != nullptr)
+  {
+    for (const LabelSummary & summary : labels->labels)
+    {
+      names.push_back(summary.label.name);
+    }
+  }
+  return names;
+}
+
+/** Throws Failure(Usage) for a pattern that fits none of the names. */
+void
+RequireFit(const std::string & pattern, const std::vector<std::string> & names)
+{
+  const bool fits =
+    std::any_of(names.begin(), names.end(), [&](const std::string & name) { return FitsPattern(pattern, name); });
+  if (!fits)
+  {
+    throw Failure(FailureKind::Usage,
+                  DescribeUnknown("surface or label", pattern, names, "see rhombic info for the names of labels"));
+  }
+}
+
+bool
+FitsAny(const std::vector<std::string> & patterns, const std::string & name)
+{
+  return std::any_of(
+    patterns.begin(), patterns.end(), [&name](const std::string & pattern) { return FitsPattern(pattern, name); });
+}
+
+bool
+IsShown(const SceneRules & rules, const std::string & name)
+{
+  return (rules.only.empty() || FitsAny(rules.only, name)) && !FitsAny(rules.hidden, name);
+}
+
+void
+ApplyRule(const SceneRule & rule, SurfaceRequest & request)
+{
+  request.colour = rule.colour.value_or(request.colour);
+  request.opacity = rule.opacity.value_or(request.opacity);
+}
+
+void
+ApplyRule(const SceneRule & rule, Label & label)
+{
+  for (std::size_t n = 0; rule.colour && n < 3; ++n)
+  {
+    label.colour[n] = static_cast<std::uint8_t>(std::lround(255.0 * (*rule.colour)[n]));
+  }
+  label.opacity = rule.opacity.value_or(label.opacity);
+}
+
+} // namespace
+
+bool
+FitsPattern(const std::string & pattern, const std::string & name)
+{
+  if (pattern.rfind("group:", 0) != 0)
+  {
+    return MatchesPattern(pattern, name);
+  }
+  const auto group = Groups().find(LowerCase(pattern));
+  if (group == Groups().end())
+  {
+    std::vector<std::string> names;
+    for (const auto & known : Groups())
+    {
+      names.push_back(known.first);
+    }
+    throw Failure(FailureKind::Usage, DescribeUnknown("group", pattern, names, "use " + Enumerate(names)));
+  }
+  return FitsAny(group->second, name);
+}
+
+SceneRule
+ParseSceneRule(const std::string & text)
+{
+  const auto equals = text.find('=');
+  SceneRule rule;
+  rule.pattern = text.substr(0, equals);
+  const auto fields = equals == std::string::npos ? std::vector<std::string>{} : Split(text.substr(equals + 1), ",");
+  if (rule.pattern.empty() || fields.size() > 2)
+  {
+    throw Failure(FailureKind::Usage,
+                  "'" + text +
+                    "' is not name=colour,opacity; write, for example, 'liver=#994736,0.5' or 'lung*=,0.3'.");
+  }
+  if (!fields.empty() && !fields[0].empty())
+  {
+    rule.colour = ParseColour(fields[0]);
+  }
+  if (fields.size() == 2)
+  {
+    rule.opacity = ToNumber<double>(fields[1]);
+    if (!rule.opacity || !(*rule.opacity > 0.0 && *rule.opacity <= 1.0))
+    {
+      throw Failure(FailureKind::Usage,
+                    "'" + fields[1] + "' in '" + text + "' is no opacity; write a number above 0 and at most 1.");
+    }
+  }
+  return rule;
+}
+
+void
+ApplySceneRules(const SceneRules & rules, std::vector<SurfaceRequest> & requests, LabelMap * labels)
+{
+  const std::vector<std::string> names = NamesOf(requests, labels);
+  for (const auto * const patterns : { &rules.only, &rules.hidden })
+  {
+    for (const std::string & pattern : *patterns)
+    {
+      RequireFit(pattern, names);
+    }
+  }
+  if (labels != nullptr)
+  {
+    ColourLabels(*labels, rules.colours); // all of them, so that colours do not depend on what is shown
+  }
+  const auto isHidden = [&rules](const auto & name) { return !IsShown(rules, name); };
+  requests.erase(std::remove_if(requests.begin(),
+                                requests.end(),
+                                [&](const SurfaceRequest & request) { return isHidden(request.name); }),
+                 requests.end());
+  if (labels != nullptr)
+  {
+    auto & list = labels->labels;
+    list.erase(std::remove_if(
+                 list.begin(), list.end(), [&](const LabelSummary & summary) { return isHidden(summary.label.name); }),
+               list.end());
+  }
+  if (!names.empty() && requests.empty() && (labels == nullptr || labels->labels.empty()))
+  {
+    throw Failure(FailureKind::Usage, "No surface is left to show after --only and --hide; leave one of them out.");
+  }
+  for (const SceneRule & rule : rules.rules)
+  {
+    for (SurfaceRequest & request : requests)
+    {
+      if (FitsPattern(rule.pattern, request.name))
+      {
+        ApplyRule(rule, request);
+      }
+    }
+    for (std::size_t n = 0; labels != nullptr && n < labels->labels.size(); ++n)
+    {
+      if (FitsPattern(rule.pattern, labels->labels[n].label.name))
+      {
+        ApplyRule(rule, labels->labels[n].label);
+      }
+    }
+  }
+}
+
+} // namespace rhombic
