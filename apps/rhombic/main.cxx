@@ -28,6 +28,7 @@ constexpr Command commands[] = {
   { "info", "What is in a scan: series, geometry, values, thresholds worth trying", AddInfoCommand },
   { "render", "Pictures of a scan's surfaces", AddRenderCommand },
   { "mesh", "A scan's surface as a file", AddMeshCommand },
+  { "compare-pictures", "Whether two pictures are the same, within a tolerance", AddComparePicturesCommand },
   { "audit", "Whether a surface file is closed, oriented and free of defects", AddAuditCommand },
   { "resample", "A scan on the face-centered cubic lattice, and back", AddResampleCommand },
   { "phantom", "The analytic test scan, with organs of known volume", AddPhantomCommand },
@@ -45,7 +46,8 @@ constexpr char exitCodes[] = "Exit codes:\n"
                              "  7   the output can't be written\n"
                              "  8   a surface is not watertight (--require-watertight)\n"
                              "  9   not enough memory\n"
-                             "  10  this machine can't draw (see rhombic doctor)";
+                             "  10  this machine can't draw (see rhombic doctor)\n"
+                             "  11  pictures differ by more than the tolerance";
 
 /** Raises the limit of open files to the system's: each output keeps a file open until all are renamed. */
 void

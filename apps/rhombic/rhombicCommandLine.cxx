@@ -28,17 +28,17 @@ Describe(const std::string & value, const std::map<std::string, std::string> & n
 
 } // namespace
 
-std::string
-DescribeCommandLine(const std::vector<std::string> & arguments, const std::map<std::string, std::string> & names)
+std::vector<std::string>
+DescribeArguments(const std::vector<std::string> & arguments, const std::map<std::string, std::string> & names)
 {
-  std::string text = "rhombic";
+  std::vector<std::string> described;
   for (const std::string & argument : arguments)
   {
     const auto equals = argument.rfind("-", 0) == 0 ? argument.find('=') : std::string::npos;
     const std::string option = equals == std::string::npos ? "" : argument.substr(0, equals + 1);
-    text += " " + option + Describe(argument.substr(option.size()), names);
+    described.push_back(option + Describe(argument.substr(option.size()), names));
   }
-  return text;
+  return described;
 }
 
 std::string

@@ -22,10 +22,10 @@ struct CommandContext
   std::vector<std::string> arguments; ///< after the program's name
 };
 
-/** The command line for metadata. Names of folders, scans and series may identify the patient, so only the last parts
- * of paths are kept, and arguments that are values of \a names are replaced by their keys, as SCAN. */
-std::string
-DescribeCommandLine(const std::vector<std::string> & arguments, const std::map<std::string, std::string> & names);
+/** The arguments of a command line for metadata. Names of folders, scans and series may identify the patient, so only
+ * the last parts of paths are kept, and arguments that are values of \a names are replaced by their keys, as SCAN. */
+std::vector<std::string>
+DescribeArguments(const std::vector<std::string> & arguments, const std::map<std::string, std::string> & names);
 
 /** Does the command's work once its options are parsed. Throws Failure. */
 using CommandRun = std::function<void(const CommandContext &)>;
@@ -43,6 +43,8 @@ CommandRun
 AddResampleCommand(CLI::App & parser);
 CommandRun
 AddPhantomCommand(CLI::App & parser);
+CommandRun
+AddComparePicturesCommand(CLI::App & parser);
 CommandRun
 AddDoctorCommand(CLI::App & parser);
 

@@ -16,7 +16,7 @@ namespace rhombic
 namespace
 {
 
-constexpr const char * drawingCommands[] = { "render", "doctor" };
+constexpr const char * drawingCommands[] = { "render", "compare-pictures", "doctor" };
 
 bool
 NamesDrawingCommand(const char * argument)
@@ -55,6 +55,12 @@ CommandRun
 AddRenderCommand(CLI::App &)
 {
   return {}; // for the list of commands only
+}
+
+CommandRun
+AddComparePicturesCommand(CLI::App &)
+{
+  return {};
 }
 
 CommandRun

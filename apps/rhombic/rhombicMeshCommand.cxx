@@ -1,5 +1,6 @@
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
+#include "rhombicFinishOptions.h"
 #include "rhombicNamedValues.h"
 #include "rhombicMeshScan.h"
 #include "rhombicScanOptions.h"
@@ -21,7 +22,8 @@ struct MeshOptions
   std::string mesh;
   std::string space = "lps";
   std::string maximumTriangles;
-  SurfaceFinish finish;
+  FinishOptions finish;
+  std::optional<double> maximumError;
   std::string measures;
   bool audits = false;
   bool requiresWatertight = false;
@@ -85,7 +87,7 @@ void
 Mesh(const MeshOptions & options, const CommandContext & context)
 {
   MeshScanSettings settings;
-  settings.source = options.scan.GetSource(context);
+  settings.source = options.scan.GetSource(context, options.surfaces.GetDenoising());
   settings.surfaces = GetSelection(options);
   if (options.mesh.empty())
   {
@@ -93,7 +95,8 @@ Mesh(const MeshOptions & options, const CommandContext & context)
   }
   settings.mesh = options.mesh;
   settings.space = ParseSpace(options.space);
-  settings.finish = options.finish;
+  settings.finish = options.finish.Get();
+  settings.finish.maximumError = options.maximumError;
   ParseTriangles(options.maximumTriangles, settings.finish);
   settings.measures = options.measures;
   settings.audits = options.audits;
@@ -120,14 +123,8 @@ AddMeshCommand(CLI::App & parser)
                     options->mesh,
                     "the mesh: " + GetSurfaceFileExtensions() + "; a file for each surface if its name holds {name}");
   parser.add_option("--space", options->space, "axes of the file: lps or ras, in mm")->capture_default_str();
-  parser.add_option("--min-volume", options->finish.minimumVolume, "remove connected parts of less than this, in ml");
-  parser.add_flag(
-    "--largest", options->finish.keepsLargestPart, "keep the largest connected part of each surface only");
-  parser.add_flag("--fill", options->finish.fillsCavities, "fill cavities: remove shells that lie inside others");
-  parser.add_option("--smooth",
-                    options->finish.smoothing,
-                    "smooth; no point moves further than this many spacings of the lattice, as 0.3");
-  parser.add_option("--max-error", options->finish.maximumError, "simplify, staying within so many mm everywhere");
+  options->finish.Add(parser);
+  parser.add_option("--max-error", options->maximumError, "simplify, staying within so many mm everywhere");
   parser.add_option(
     "--max-triangles",
     options->maximumTriangles,

@@ -89,14 +89,12 @@ ScanOptions::AddLattice(CLI::App & parser)
     ->excludes(density)
     ->excludes(spacing)
     ->excludes(kernel);
-  parser
-    .add_option(
-      "--denoise",
-      m_Denoising,
-      "remove noise before surfaces are made: gaussian:SIGMA in mm; or edges:SIGMA,EDGE, which keeps gradients "
-      "above EDGE, in the scan's units per mm, and is slow; or none (render --list-presets lists a suggestion "
-      "for each preset)")
-    ->capture_default_str();
+  parser.add_option(
+    "--denoise",
+    m_Denoising,
+    "remove noise before surfaces are made: gaussian:SIGMA in mm; or edges:SIGMA,EDGE, which keeps gradients "
+    "above EDGE, in the scan's units per mm, and is slow; or none (default: what the preset asks for, see render "
+    "--list-presets)");
 }
 
 void
@@ -110,11 +108,11 @@ ScanOptions::GetProvenance(const CommandContext & context, std::map<std::string,
 {
   names["SCAN"] = m_Path;
   names["SERIES"] = m_Series;
-  return { "Rhombic " RHOMBIC_VERSION, DescribeCommandLine(context.arguments, names), !m_HasNoSidecar };
+  return { "Rhombic " RHOMBIC_VERSION, DescribeArguments(context.arguments, names), !m_HasNoSidecar };
 }
 
 ScanSource
-ScanOptions::GetSource(const CommandContext & context) const
+ScanOptions::GetSource(const CommandContext & context, const Denoising & otherwise) const
 {
   static const NamedValues<itk::SeparableKernel> kernels{ { "cubic", itk::SeparableKernel::CubicBSpline },
                                                           { "linear", itk::SeparableKernel::Linear },
@@ -136,7 +134,7 @@ ScanOptions::GetSource(const CommandContext & context) const
   source.lattice.density = m_Density;
   source.lattice.spacing = ToSpacing(m_Spacing);
   source.lattice.kernel = FindNamed("kernel", m_Kernel, kernels);
-  source.lattice.denoising = ParseDenoising(m_Denoising);
+  source.lattice.denoising = m_Denoising.empty() ? otherwise : ParseDenoising(m_Denoising);
   source.lattice.nested = m_Nested;
   source.lattice.maximumMemory = source.read.maximumMemory;
   return source;

@@ -35,13 +35,13 @@ public:
   AddSidecar(CLI::App & parser);
 
   /** Provenance of the command's outputs.
-   * \param names further arguments that may name the patient (see DescribeCommandLine()) */
+   * \param names further arguments that may name the patient (see DescribeArguments()) */
   Provenance
   GetProvenance(const CommandContext & context, std::map<std::string, std::string> names = {}) const;
 
   /** The parsed source, to be read with the program's decoder. Throws Failure(Usage). */
   ScanSource
-  GetSource(const CommandContext & context) const;
+  GetSource(const CommandContext & context, const Denoising & otherwise = {}) const;
 
 private:
   std::string m_Path;
@@ -56,7 +56,7 @@ private:
   double m_Density = itk::FCCLattice::DefaultDensity;
   std::vector<double> m_Spacing;
   std::string m_Kernel = "cubic";
-  std::string m_Denoising = "none";
+  std::string m_Denoising;
   bool m_Nested = false;
 };
 

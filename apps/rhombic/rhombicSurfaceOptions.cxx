@@ -21,6 +21,15 @@ ParseMode(const std::string & text)
   return FindNamed("mode", text, modes);
 }
 
+LabelColours
+ParseLabelColours(const std::string & text)
+{
+  static const NamedValues<LabelColours> colours{ { "anatomy", LabelColours::Anatomy },
+                                                  { "file", LabelColours::Table },
+                                                  { "safe", LabelColours::ColourBlind } };
+  return FindNamed("colours", text, colours);
+}
+
 } // namespace
 
 void
@@ -40,8 +49,34 @@ SurfaceOptions::Add(CLI::App & parser)
   parser.add_option("--label-table",
                     m_LabelTable,
                     "names and colours of labels (ITK-SNAP, Slicer, FreeSurfer, BIDS; default: in or beside the map)");
-  parser.add_option("--label", m_ChosenLabels, "one of the labels, by name or value; repeatable (default: all)")
+  parser
+    .add_option("--label",
+                m_ChosenLabels,
+                "one of the labels, by name (with * and ?) or value, and how to draw it: liver, 'rib*', "
+                "liver=#994736,0.5; repeatable (default: all)")
     ->allow_extra_args(false);
+  parser
+    .add_option("--only",
+                m_Only,
+                "the surfaces and labels to show, by name with * and ?, or by group (group:bones, group:vessels, group:lungs, group:heart, "
+                "group:brain, group:muscles, group:organs): 'liver,kidney*'; repeatable")
+    ->delimiter(',')
+    ->allow_extra_args(false);
+  parser.add_option("--hide", m_Hidden, "surfaces and labels that are left out, as --only names them; repeatable")
+    ->delimiter(',')
+    ->allow_extra_args(false);
+  parser
+    .add_option("--draw",
+                m_Rules,
+                "colour and opacity of surfaces and labels by name or group: 'skin=,0.3', 'group:bones=ivory'; repeatable, "
+                "later ones count more")
+    ->allow_extra_args(false);
+  parser
+    .add_option("--colours",
+                m_LabelColours,
+                "colours of labels: anatomy (for names that are known), file (those of the label table) or safe (for "
+                "colour-blind people)")
+    ->capture_default_str();
   auto * const removes =
     parser.add_flag("--remove-table",
                     m_RemovesTable,
@@ -69,6 +104,7 @@ SurfaceOptions::GetSelection(const std::optional<SurfaceRequest> & further) cons
     {
       selection.removesTable = true;
     }
+    selection.rules.rules = preset.rules;
   }
   if (m_RemovesTable || m_KeepsTable)
   {
@@ -84,7 +120,12 @@ SurfaceOptions::GetSelection(const std::optional<SurfaceRequest> & further) cons
   }
   if (!m_Labels.empty() || selection.requests.empty())
   {
-    selection.labels = LabelSelection{ { m_Labels, m_LabelTable }, m_ChosenLabels };
+    selection.labels = LabelSelection{ { m_Labels, m_LabelTable }, {} };
+    for (const std::string & text : m_ChosenLabels)
+    {
+      selection.rules.rules.push_back(ParseSceneRule(text));
+      selection.labels->labels.push_back(selection.rules.rules.back().pattern);
+    }
   }
   else if (!m_LabelTable.empty() || !m_ChosenLabels.empty())
   {
@@ -92,7 +133,29 @@ SurfaceOptions::GetSelection(const std::optional<SurfaceRequest> & further) cons
                   "--label and --label-table are for label maps; name one with --labels, or leave out --preset, "
                   "--surface and -t when SCAN is one.");
   }
+  selection.rules = GetRules(std::move(selection.rules.rules));
   return selection;
+}
+
+SceneRules
+SurfaceOptions::GetRules(std::vector<SceneRule> before) const
+{
+  SceneRules rules;
+  rules.only = m_Only;
+  rules.hidden = m_Hidden;
+  rules.colours = ParseLabelColours(m_LabelColours);
+  rules.rules = std::move(before);
+  for (const std::string & text : m_Rules)
+  {
+    rules.rules.push_back(ParseSceneRule(text));
+  }
+  return rules;
+}
+
+Denoising
+SurfaceOptions::GetDenoising() const
+{
+  return m_Preset.empty() ? Denoising() : FindPreset(m_Preset).denoising;
 }
 
 } // namespace rhombic

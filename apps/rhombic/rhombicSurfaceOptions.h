@@ -26,7 +26,16 @@ public:
   SurfaceSelection
   GetSelection(const std::optional<SurfaceRequest> & further = std::nullopt) const;
 
-  /** Values of options that may name the patient (see DescribeCommandLine()). */
+  /** Which surfaces are shown, and in which colours, by the options; these count more than the rules \a before. Throws
+   * Failure(Usage). */
+  SceneRules
+  GetRules(std::vector<SceneRule> before = {}) const;
+
+  /** The denoising that the preset asks for; none without a preset. Throws Failure. */
+  Denoising
+  GetDenoising() const;
+
+  /** Values of options that may name the patient (see DescribeArguments()). */
   std::map<std::string, std::string>
   GetNames() const
   {
@@ -39,6 +48,10 @@ private:
   std::string m_Labels;
   std::string m_LabelTable;
   std::vector<std::string> m_ChosenLabels;
+  std::vector<std::string> m_Only;
+  std::vector<std::string> m_Hidden;
+  std::vector<std::string> m_Rules;
+  std::string m_LabelColours = "anatomy";
   bool m_RemovesTable = false;
   bool m_KeepsTable = false;
   std::string m_Mode = "lean";

@@ -25,7 +25,7 @@ TryToRender()
   settings.width = 64;
   settings.height = 64;
   SurfaceRenderer renderer;
-  renderer.Render({ { "triangle", triangle.GetPointer(), { 1.0, 1.0, 1.0 }, 1.0 } }, settings);
+  renderer.Render({ { { "triangle", triangle.GetPointer() } }, {}, {} }, settings, { View() });
   return renderer.GetBackendDescription();
 }
 

@@ -3,9 +3,17 @@
 #include "rhombicPresets.h"
 #include "rhombicRenderScan.h"
 #include "rhombicScanOptions.h"
+#include "rhombicFinishOptions.h"
+#include "rhombicNamedValues.h"
+#include "rhombicSurfaceIO.h"
 #include "rhombicSurfaceOptions.h"
+#include "rhombicWording.h"
 
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
 #include <charconv>
+#include <fstream>
 #include <iostream>
 
 namespace rhombic
@@ -16,15 +24,43 @@ namespace
 struct RenderOptions
 {
   ScanOptions scan;
+  std::vector<std::string> furtherFiles;
   SurfaceOptions surfaces;
+  FinishOptions finish;
   std::string picture;
-  std::vector<std::string> views{ "anterior" };
-  std::string size = "1200x1200";
+  std::vector<std::string> views;
+  std::vector<std::string> slices;
+  std::size_t lightbox = 0;
+  std::size_t turntable = 0;
+  bool isSheet = false;
+  bool isLandscape = false;
+  double pixelsPerInch = 200.0;
+
+  std::string style;
+  std::string size;
   std::string background;
+  double zoom = 1.0;
+  std::string focus;
   bool isPerspective = false;
+  bool hasNoShadows = false;
+  bool hasNoSilhouettes = false;
+  std::vector<std::string> cuts;
+  std::vector<std::string> uncut;
+  std::vector<std::string> planes;
+
+  std::string window = "auto";
+  bool isNeurological = false;
+  bool hasNoOutlines = false;
+
+  std::vector<std::string> annotations{ "letters", "scale", "legend" };
   bool hasNoLetters = false;
+  std::string title;
+  std::string from;
   bool listsPresets = false;
 };
+
+void
+AddOptions(RenderOptions & options, CLI::App & parser);
 
 void
 ListPresets()
@@ -45,17 +81,22 @@ ListPresets()
       }
       std::cout << (surface.opacity < 1.0 ? ", translucent" : "") << '\n';
     }
-    if (preset.denoising != "none")
+    if (preset.denoising.kind == Denoising::Kind::Gaussian)
     {
-      std::cout << "    noisy scans: --denoise " << preset.denoising << '\n';
+      std::cout << "    smoothed: --denoise gaussian:" << preset.denoising.sigma << '\n';
     }
   }
 }
 
-/** "1200" or "1600x1200". */
+/** "1200", "1600x1200", or with 0 or nothing for a side that fits: "1200x0". */
 void
 ParseSize(const std::string & text, RenderSettings & render)
 {
+  render.width = render.height = 0;
+  if (text.empty())
+  {
+    return;
+  }
   const char * const end = text.data() + text.size();
   auto parsed = std::from_chars(text.data(), end, render.width);
   render.height = render.width;
@@ -63,56 +104,393 @@ ParseSize(const std::string & text, RenderSettings & render)
   {
     parsed = std::from_chars(parsed.ptr + 1, end, render.height);
   }
-  if (parsed.ec != std::errc() || parsed.ptr != end || render.width <= 0 || render.height <= 0)
+  if (parsed.ec != std::errc() || parsed.ptr != end || render.width < 0 || render.height < 0 ||
+      render.width + render.height == 0)
   {
-    throw Failure(FailureKind::Usage, "'" + text + "' is no picture size; write it as 1200 or 1600x1200.");
+    throw Failure(FailureKind::Usage,
+                  "'" + text + "' is no picture size; write it as 1200, 1600x1200, or 1200x0 for a height that fits.");
   }
 }
 
 std::vector<View>
-ParseViews(const std::vector<std::string> & names)
+ParseViews(const RenderOptions & options)
 {
-  std::vector<View> views;
-  for (const std::string & name : names)
+  if (options.views.empty())
   {
-    if (name == "all")
+    const bool drawsOthers = !options.slices.empty() && options.turntable == 0;
+    return drawsOthers ? std::vector<View>{} : std::vector<View>{ View() };
+  }
+  std::vector<View> views;
+  for (const std::string & text : options.views)
+  {
+    if (text == "all")
     {
-      return { AllViews.begin(), AllViews.end() };
+      views.insert(views.end(), StandardViews().begin(), StandardViews().end());
     }
-    views.push_back(ViewFromName(name));
+    else
+    {
+      views.push_back(ViewFromText(text));
+    }
   }
   return views;
 }
 
-void
-Render(const RenderOptions & options, const CommandContext & context)
+PictureStyle
+ParseStyle(const std::string & text)
 {
-  if (options.listsPresets)
+  static const NamedValues<PictureStyle> styles{ { "clinic", PictureStyle::Clinic },
+                                                 { "paper", PictureStyle::Paper },
+                                                 { "transparent", PictureStyle::Transparent } };
+  return FindNamed("style", text, styles);
+}
+
+AnnotationSettings
+ParseAnnotations(const RenderOptions & options)
+{
+  AnnotationSettings settings;
+  settings.letters = settings.scaleBar = settings.legend = false;
+  static const NamedValues<bool AnnotationSettings::*> known{ { "letters", &AnnotationSettings::letters },
+                                                              { "scale", &AnnotationSettings::scaleBar },
+                                                              { "legend", &AnnotationSettings::legend },
+                                                              { "figure", &AnnotationSettings::figure },
+                                                              { "footnote", &AnnotationSettings::footnote } };
+  for (const std::string & word : options.annotations)
   {
-    ListPresets();
-    return;
+    if (word != "none")
+    {
+      settings.*FindNamed("annotation", word, known) = true;
+    }
   }
+  settings.letters = settings.letters && !options.hasNoLetters;
+  settings.title = options.title;
+  return settings;
+}
+
+template <typename TRequest>
+std::vector<TRequest>
+ParseAll(const std::vector<std::string> & texts, TRequest (*parse)(const std::string &))
+{
+  std::vector<TRequest> requests;
+  std::transform(texts.begin(), texts.end(), std::back_inserter(requests), parse);
+  return requests;
+}
+
+bool
+IsSurfaceFile(const std::filesystem::path & path)
+{
+  const std::string extension = LowerCase(path.extension().string());
+  const std::vector<std::string> known = Split(GetSurfaceFileExtensions(), ", ");
+  return !extension.empty() && std::find(known.begin(), known.end(), extension) != known.end();
+}
+
+PictureSource
+GetPictureSource(const RenderOptions & options, const CommandContext & context)
+{
+  PictureSource source;
+  source.scan = options.scan.GetSource(context, options.surfaces.GetDenoising());
+  source.finish = options.finish.Get();
+  const bool isOfFiles = IsSurfaceFile(source.scan.path);
+  if (!isOfFiles && !options.furtherFiles.empty())
+  {
+    throw Failure(FailureKind::Usage,
+                  "Several inputs can only be surface files (" + GetSurfaceFileExtensions() +
+                    "); give one scan at a time, and a label map with --labels.");
+  }
+  if (isOfFiles)
+  {
+    source.surfaceFiles = { source.scan.path };
+    source.surfaceFiles.insert(source.surfaceFiles.end(), options.furtherFiles.begin(), options.furtherFiles.end());
+    source.surfaces.rules = options.surfaces.GetRules();
+  }
+  else
+  {
+    source.surfaces = options.surfaces.GetSelection();
+  }
+  return source;
+}
+
+SliceSettings
+GetSliceSettings(const RenderOptions & options)
+{
+  SliceSettings slice;
+  slice.window = options.window;
+  slice.convention = options.isNeurological ? SliceConvention::Neurological : SliceConvention::Radiological;
+  slice.outlines = !options.hasNoOutlines;
+  slice.lightbox = options.lightbox;
+  return slice;
+}
+
+std::vector<std::filesystem::path>
+RenderPage(const RenderOptions & options, const CommandContext & context, const Provenance & provenance)
+{
+  RenderSheetSettings settings;
+  settings.source = GetPictureSource(options, context);
+  settings.page = options.picture;
+  if (!options.views.empty())
+  {
+    settings.views = ParseViews(options);
+  }
+  settings.slices = ParseAll(options.slices, ParsePlaneRequest);
+  settings.slice = GetSliceSettings(options);
+  settings.style = options.style.empty() ? PictureStyle::Paper : ParseStyle(options.style);
+  if (settings.style == PictureStyle::Transparent)
+  {
+    throw Failure(FailureKind::Usage, "Pages are not transparent; use --style paper or clinic.");
+  }
+  settings.title = options.title;
+  settings.isLandscape = options.isLandscape;
+  settings.pixelsPerInch = options.pixelsPerInch;
+  settings.provenance = provenance;
+  return RenderSheet(settings, context.console->MakeEvents());
+}
+
+std::vector<std::filesystem::path>
+RenderPictures(const RenderOptions & options, const CommandContext & context, const Provenance & provenance)
+{
   RenderScanSettings settings;
-  settings.source = options.scan.GetSource(context);
-  if (options.picture.empty())
-  {
-    throw Failure(FailureKind::Usage, "No picture is named; give one with -o, for example -o picture.png.");
-  }
+  settings.source = GetPictureSource(options, context);
   settings.picture = options.picture;
-  settings.surfaces = options.surfaces.GetSelection();
-  settings.views = ParseViews(options.views);
+  settings.views = ParseViews(options);
+  settings.slices = ParseAll(options.slices, ParsePlaneRequest);
+  settings.planes = ParseAll(options.planes, ParsePlaneRequest);
+  settings.cuts = ParseAll(options.cuts, ParseCutRequest);
+  settings.uncut = options.uncut;
+  settings.slice = GetSliceSettings(options);
+  settings.turntable = options.turntable;
+  settings.focus = options.focus;
   ParseSize(options.size, settings.render);
+  settings.render.style = options.style.empty() ? PictureStyle::Clinic : ParseStyle(options.style);
   if (!options.background.empty())
   {
     settings.render.background = ParseColour(options.background);
   }
   settings.render.perspective = options.isPerspective;
-  settings.render.orientationLabels = !options.hasNoLetters;
-  settings.provenance = options.scan.GetProvenance(context, options.surfaces.GetNames());
-  for (const auto & picture : RenderScan(settings, context.console->MakeEvents()))
+  settings.render.zoom = options.zoom;
+  settings.render.ambientOcclusion = !options.hasNoShadows;
+  settings.render.silhouettes = !options.hasNoSilhouettes;
+  settings.annotations = ParseAnnotations(options);
+  settings.provenance = provenance;
+  return RenderScan(settings, context.console->MakeEvents());
+}
+
+/** The arguments in a picture's report, without those that a new command gives: the scan, the label map, the output. */
+std::vector<std::string>
+ReadArguments(const std::string & path)
+{
+  std::ifstream file(path);
+  if (!file)
+  {
+    throw Failure(FailureKind::NotFound, "There is no report " + path + "; name a picture's .json file.");
+  }
+  const auto report = nlohmann::json::parse(file, nullptr, false);
+  const auto stored = report.is_object() ? report.value("arguments", nlohmann::json()) : nlohmann::json();
+  if (!stored.is_array() || stored.empty() || stored.front() != "render")
+  {
+    throw Failure(FailureKind::Unreadable,
+                  "The file " + path + " is no report of rhombic render; name the .json beside a picture.");
+  }
+  std::vector<std::string> arguments;
+  for (std::size_t n = 1; n < stored.size(); ++n)
+  {
+    const std::string argument = stored[n].is_string() ? stored[n].get<std::string>() : "";
+    const bool hasGivenValue = argument == "-o" || argument == "--output" || argument == "--labels";
+    const bool isGiven = argument == "SCAN" || (argument.rfind("-o", 0) == 0 && argument.size() > 2) ||
+                         argument.rfind("--output=", 0) == 0 || argument.rfind("--labels=", 0) == 0;
+    n += hasGivenValue ? 1 : 0;
+    if (!hasGivenValue && !isGiven)
+    {
+      arguments.push_back(argument);
+    }
+  }
+  return arguments;
+}
+
+void
+Render(const RenderOptions & options, const CommandContext & context);
+
+/** Draws with the options of a report, and those of this command but --from. */
+void
+RenderAgain(const RenderOptions & options, const CommandContext & context)
+{
+  CommandContext again = context;
+  again.arguments = { "render" };
+  const std::vector<std::string> stored = ReadArguments(options.from);
+  again.arguments.insert(again.arguments.end(), stored.begin(), stored.end());
+  bool isSkipped = false; // --from, with its value
+  bool isCommandFound = false;
+  for (const std::string & argument : context.arguments)
+  {
+    const bool isFrom = argument == "--from";
+    const bool isCommand = argument == "render" && !isCommandFound;
+    isCommandFound = isCommandFound || isCommand;
+    if (!isSkipped && !isFrom && argument.rfind("--from=", 0) != 0 && !isCommand)
+    {
+      again.arguments.push_back(argument);
+    }
+    isSkipped = isFrom;
+  }
+  CLI::App parser("", "rhombic render");
+  parser.allow_extras(); // options of all commands
+  RenderOptions all;
+  AddOptions(all, parser);
+  std::vector<std::string> reversed(again.arguments.rbegin(), again.arguments.rend() - 1);
+  try
+  {
+    parser.parse(reversed);
+  }
+  catch (const CLI::ParseError & error)
+  {
+    throw Failure(FailureKind::Usage,
+                  "The options of " + options.from + " do not go with those of this command: " + error.what() + ".");
+  }
+  Render(all, again);
+}
+
+void
+Render(const RenderOptions & options, const CommandContext & context)
+{
+  if (!options.from.empty())
+  {
+    RenderAgain(options, context);
+    return;
+  }
+  if (options.listsPresets)
+  {
+    ListPresets();
+    return;
+  }
+  if (options.picture.empty())
+  {
+    throw Failure(FailureKind::Usage, "No picture is named; give one with -o, for example -o picture.png.");
+  }
+  const Provenance provenance = options.scan.GetProvenance(context, options.surfaces.GetNames());
+  const auto paths =
+    options.isSheet ? RenderPage(options, context, provenance) : RenderPictures(options, context, provenance);
+  for (const auto & picture : paths)
   {
     context.console->Note("picture: " + picture.string());
   }
+}
+
+/** What is drawn, and from where. */
+void
+AddPictureOptions(RenderOptions & options, CLI::App & parser)
+{
+  parser
+    .add_option(
+      "--view",
+      options.views,
+      "anterior (default), posterior, left, right, superior, inferior or all; or azimuth,elevation in degrees, "
+      "as 30,15: from the front towards the patient's left, and up; repeatable")
+    ->allow_extra_args(false);
+  parser
+    .add_option(
+      "--slice",
+      options.slices,
+      "a slice with the surfaces' outlines: axial, coronal or sagittal, and where: =12.5 (LPS mm), =#40 (of the "
+      "scan), =liver (through its centroid); repeatable")
+    ->allow_extra_args(false);
+  parser
+    .add_option("--lightbox", options.lightbox, "so many slices evenly along the axis of each --slice, in one picture")
+    ->check(CLI::Range(2u, 400u));
+  parser.add_flag("--sheet",
+                  options.isSheet,
+                  "a page (A4) instead: four views, three slices, a table of volumes; .png, .jpg, .tif or .pdf");
+  parser.add_flag("--landscape", options.isLandscape, "a page that is wider than high");
+  parser.add_option("--dpi", options.pixelsPerInch, "pixels per inch of a page")
+    ->check(CLI::Range(36.0, 600.0))
+    ->capture_default_str();
+  parser
+    .add_option("--turntable", options.turntable, "so many views around the patient: one .gif, or numbered pictures")
+    ->check(CLI::Range(2u, 720u));
+  parser.add_option("--size", options.size, "width x height in pixels (default: what fits, the longer side 1200)");
+  parser.add_option("--focus", options.focus, "fit the picture to surfaces by name, as 'kidney*' (default: all)");
+  parser.add_option("--zoom", options.zoom, "enlarge")->check(CLI::PositiveNumber);
+  parser.add_flag("--perspective", options.isPerspective, "perspective instead of parallel projection");
+  parser
+    .add_option(
+      "--cut",
+      options.cuts,
+      "remove what lies above (axial), in front (coronal) or left of a plane (sagittal), named as for --slice, "
+      "or x>12, y<0, z>100 in LPS mm; cut faces show the scan; repeatable")
+    ->allow_extra_args(false);
+  parser.add_option("--uncut", options.uncut, "surfaces that are not cut, by name as --only")
+    ->delimiter(',')
+    ->allow_extra_args(false);
+  parser
+    .add_option("--show-slice", options.planes, "a slice that stands in the scene, named as for --slice; repeatable")
+    ->allow_extra_args(false);
+}
+
+/** How it looks. */
+void
+AddLookOptions(RenderOptions & options, CLI::App & parser)
+{
+  parser.add_option("--style",
+                    options.style,
+                    "clinic (black; default of pictures), paper (white, for print; default of pages) or transparent");
+  parser.add_option("--background", options.background, "a colour: #rrggbb, #rgb or a name, as white");
+  parser.add_flag("--no-shadows", options.hasNoShadows, "do not darken cavities");
+  parser.add_flag("--no-silhouettes", options.hasNoSilhouettes, "do not draw dark lines at outlines");
+  parser
+    .add_option(
+      "--window", options.window, "greys of slices: a name, as bone, lung or brain, width/centre as 350/50, or auto")
+    ->capture_default_str();
+  parser.add_flag("--neurological", options.isNeurological, "slices with the patient's left on the left");
+  parser.add_flag("--no-outlines", options.hasNoOutlines, "slices without the surfaces' outlines");
+  parser
+    .add_option(
+      "--annotate",
+      options.annotations,
+      "what is written over pictures: letters (of directions), scale, legend (of two surfaces or more), figure, "
+      "footnote; or none")
+    ->delimiter(',')
+    ->allow_extra_args(false)
+    ->capture_default_str();
+  parser.add_flag("--no-letters", options.hasNoLetters, "leave out the orientation letters at the edges");
+  parser.add_option("--title", options.title, "a line above the picture, or the page's title");
+}
+
+/** Refuses options together that would not have an effect on each other. */
+void
+AddExclusions(CLI::App & parser)
+{
+  const std::vector<std::string> notOnPages{ "--cut",        "--uncut",          "--show-slice",  "--focus",
+                                             "--zoom",       "--size",           "--turntable",   "--lightbox",
+                                             "--background", "--no-silhouettes", "--perspective", "--no-shadows",
+                                             "--annotate",   "--no-letters" };
+  for (const std::string & option : notOnPages)
+  {
+    parser.get_option("--sheet")->excludes(parser.get_option(option));
+  }
+  for (const char * option : { "--view", "--slice", "--lightbox" })
+  {
+    parser.get_option("--turntable")->excludes(parser.get_option(option));
+  }
+  parser.get_option("--lightbox")->needs(parser.get_option("--slice"));
+  parser.get_option("--uncut")->needs(parser.get_option("--cut"));
+  for (const char * option : { "--landscape", "--dpi" })
+  {
+    parser.get_option(option)->needs(parser.get_option("--sheet"));
+  }
+}
+
+void
+AddOptions(RenderOptions & options, CLI::App & parser)
+{
+  options.scan.AddSource(parser);
+  parser.add_option("FILES", options.furtherFiles, "further surface files, if SCAN is one");
+  parser.add_option(
+    "-o,--output", options.picture, "the picture: .png, .jpg, .tif or .exr; .gif for a turntable, .pdf for a page");
+  options.surfaces.Add(parser);
+  options.finish.Add(parser);
+  AddPictureOptions(options, parser);
+  AddLookOptions(options, parser);
+  AddExclusions(parser);
+  parser.add_option("--from", options.from, "the options that a picture's report (PICTURE.json) holds");
+  parser.add_flag("--list-presets", options.listsPresets, "list the presets and stop");
+  options.scan.AddLattice(parser);
+  options.scan.AddSidecar(parser);
 }
 
 } // namespace
@@ -127,20 +505,7 @@ CommandRun
 AddRenderCommand(CLI::App & parser)
 {
   const auto options = std::make_shared<RenderOptions>();
-  options->scan.AddSource(parser);
-  parser.add_option("-o,--output", options->picture, "the picture: .png, .jpg, .tif or .exr");
-  options->surfaces.Add(parser);
-  parser
-    .add_option("--view", options->views, "anterior, posterior, left, right, superior, inferior or all; repeatable")
-    ->allow_extra_args(false)
-    ->capture_default_str();
-  parser.add_option("--size", options->size, "width x height in pixels")->capture_default_str();
-  parser.add_option("--background", options->background, "a colour: #rrggbb, #rgb or a name, as white (default black)");
-  parser.add_flag("--perspective", options->isPerspective, "perspective instead of parallel projection");
-  parser.add_flag("--no-letters", options->hasNoLetters, "leave out the orientation letters at the edges");
-  parser.add_flag("--list-presets", options->listsPresets, "list the presets and stop");
-  options->scan.AddLattice(parser);
-  options->scan.AddSidecar(parser);
+  AddOptions(*options, parser);
   return [options](const CommandContext & context) { Render(*options, context); };
 }
 

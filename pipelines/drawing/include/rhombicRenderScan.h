@@ -2,32 +2,89 @@
 #define rhombicRenderScan_h
 
 #include "rhombicEvents.h"
-#include "rhombicScanSource.h"
+#include "rhombicPictureSource.h"
+#include "rhombicPlaneRequest.h"
 #include "rhombicScene.h"
 #include "rhombicSidecar.h"
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace rhombic
 {
 
+/** \class AnnotationSettings
+ * \brief What is written over pictures. */
+struct AnnotationSettings
+{
+  bool letters = true;   ///< the anatomical directions at the edges
+  bool scaleBar = true;  ///< in mm or cm; not in perspective
+  bool legend = true;    ///< names and volumes, if there are two surfaces or more
+  bool figure = false;   ///< a small human figure as the view sees it
+  std::string title;     ///< above the picture
+  bool footnote = false; ///< thresholds, lattice and version, below the picture
+};
+
+/** \class SliceSettings
+ * \brief How slices of the scan are drawn. */
+struct SliceSettings
+{
+  std::string window = "auto"; ///< as WindowFromText() takes it
+  SliceConvention convention = SliceConvention::Radiological;
+  bool outlines = true;     ///< of the surfaces
+  std::size_t lightbox = 0; ///< so many slices evenly along each plane's axis in one picture, instead of one slice
+};
+
 /** \class RenderScanSettings
- * \brief From a scan to pictures of its surfaces. */
+ * \brief From a scan or surface files to pictures. */
 struct RenderScanSettings
 {
-  ScanSource source;
-  SurfaceSelection surfaces;
-  RenderSettings render; ///< its view is set from the list below, its memory is the source's
-  std::vector<View> views{ View::Anterior };
-  std::filesystem::path picture; ///< with more than one view, the view's name is added to the stem
+  PictureSource source;
+  RenderSettings render;            ///< its memory is the source's, its margins those of the annotations
+  std::vector<View> views{ {} };    ///< of the surfaces
+  std::string focus;                ///< pattern of the surfaces that the picture is fitted to; empty: all
+  std::vector<CutRequest> cuts;     ///< at most 6; cut faces have the scan's greys
+  std::vector<std::string> uncut;   ///< patterns of surfaces that are not cut
+  std::vector<PlaneRequest> planes; ///< slices that stand in the scene
+  std::vector<PlaneRequest> slices; ///< pictures of slices
+  SliceSettings slice;
+  AnnotationSettings annotations;
+  std::size_t turntable = 0;     ///< number of views around the patient, instead of the views; 0: none
+  std::filesystem::path picture; ///< with more than one, a view's or plane's name is added to the stem; a turntable is
+                                 ///< one .gif, or numbered pictures
   Provenance provenance;
 };
 
-/** Renders a scan, with a sidecar for each picture; returns the pictures' paths. All files appear together at the end,
- * or none does. Throws Failure; for outputs that can't be written or drawn, before the scan is read. */
+/** Draws pictures, with a sidecar for each; returns their paths. All files appear together at the end, or none does.
+ * Throws Failure; for outputs that can't be written or drawn, before the scan is read. */
 std::vector<std::filesystem::path>
 RenderScan(const RenderScanSettings & settings, const Events & events);
+
+/** \class RenderSheetSettings
+ * \brief From a scan or surface files to a page. */
+struct RenderSheetSettings
+{
+  PictureSource source;
+  std::vector<View> views{ StandardViews()[0],
+                           StandardViews()[2],
+                           StandardViews()[1],
+                           StandardViews()[3] }; ///< up to 4
+  std::vector<PlaneRequest> slices; ///< up to 3; none: axial, coronal and sagittal through the middle of the surfaces
+  SliceSettings slice;
+  PictureStyle style = PictureStyle::Paper; ///< Clinic makes a dark page
+  std::string title;
+  bool isLandscape = false;
+  double pixelsPerInch = 200.0; ///< 36 to 600
+  std::filesystem::path page;   ///< .png or .jpg for one page; .tif or .pdf for all
+  Provenance provenance;
+};
+
+/** Draws a page, A4: views, slices with outlines, a table of the surfaces, and where they come
+ * from. Long tables go on on further pages; a format of one page then has a file for each. Returns the files' paths.
+ * Throws as RenderScan() does. */
+std::vector<std::filesystem::path>
+RenderSheet(const RenderSheetSettings & settings, const Events & events);
 
 } // namespace rhombic
 

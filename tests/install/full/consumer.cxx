@@ -24,6 +24,7 @@ main(int, char ** argv)
   const std::filesystem::path folder = argv[2];
   rhombic::WriteSurfaces(surfaces, folder / "bone.stl");
   rhombic::SurfaceRenderer renderer;
-  rhombic::WritePicture(renderer.Render(surfaces, {}), folder / "bone.png", {});
+  rhombic::WritePicture(
+    renderer.Render({ surfaces, {}, {} }, {}, { rhombic::View() }).front().picture, folder / "bone.png", {});
   std::cout << rhombic::SurfaceToPolyData(surfaces.front().surface)->GetNumberOfPolys() << " triangles\n";
 }

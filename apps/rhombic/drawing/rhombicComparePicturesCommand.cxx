@@ -1,0 +1,76 @@
+#include "rhombicCommands.h"
+#include "rhombicFailure.h"
+#include "rhombicPictureComparison.h"
+#include "rhombicPictureIO.h"
+#include "rhombicWording.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <iostream>
+
+namespace rhombic
+{
+namespace
+{
+
+constexpr double LevelsOfComponent = 255.0;
+
+struct ComparePicturesOptions
+{
+  std::string first;
+  std::string second;
+  double tolerance = 0.0;
+  bool isJson = false;
+};
+
+void
+Compare(const ComparePicturesOptions & options)
+{
+  if (options.first.empty() || options.second.empty())
+  {
+    throw Failure(FailureKind::Usage, "Two pictures are needed; name both files.");
+  }
+  const auto difference = ComparePictures(
+    ReadPicture(options.first), ReadPicture(options.second), (options.tolerance + 0.5) / LevelsOfComponent);
+  const double mean = difference.meanError * LevelsOfComponent;
+  const long largest = std::lround(difference.maxError * LevelsOfComponent);
+  if (options.isJson)
+  {
+    const nlohmann::ordered_json report{ { "meanDifference", mean },
+                                         { "largestDifference", largest },
+                                         { "pixelsAboveTolerance", difference.differingPixels },
+                                         { "toleranceOf255", options.tolerance } };
+    std::cout << report.dump(2) << '\n';
+  }
+  else
+  {
+    std::cout << "mean difference " << FormatNumber(mean, 3) << ", largest " << largest << " of 255, "
+              << Count(difference.differingPixels, "pixel") << " above the tolerance\n";
+  }
+  if (difference.differingPixels > 0)
+  {
+    throw Failure(FailureKind::Different,
+                  Count(difference.differingPixels, "pixel differs", "pixels differ") + " by more than " +
+                    FormatNumber(options.tolerance) + " of 255, most in column " + std::to_string(difference.worstX) +
+                    ", row " + std::to_string(difference.worstY) + "; a larger --tolerance accepts that.");
+  }
+}
+
+} // namespace
+
+CommandRun
+AddComparePicturesCommand(CLI::App & parser)
+{
+  const auto options = std::make_shared<ComparePicturesOptions>();
+  parser.add_option("FIRST", options->first, "a picture");
+  parser.add_option("SECOND", options->second, "another one of the same size");
+  parser
+    .add_option("--tolerance", options->tolerance, "largest difference of a red, green, blue or alpha value, 0 to 255")
+    ->check(CLI::Range(0.0, 255.0))
+    ->capture_default_str();
+  parser.add_flag("--json", options->isJson, "the differences as JSON");
+  return [options](const CommandContext &) { Compare(*options); };
+}
+
+} // namespace rhombic

@@ -1,0 +1,39 @@
+#ifndef rhombicPlaneRequest_h
+#define rhombicPlaneRequest_h
+
+#include "rhombicSlicePlane.h"
+
+#include <string>
+
+namespace rhombic
+{
+
+/** \class PlaneRequest
+ * \brief A plane at right angles to an axis of the patient, through a place that is known once there are surfaces. */
+struct PlaneRequest
+{
+  SlicePlane plane = SlicePlane::Axial;
+  std::string place; ///< "12.5": mm along the axis in LPS; "#40": a slice of voxels, from 0; empty: the middle of the
+                     ///< scene; else the centroid of the surfaces whose names fit this pattern (see FitsPattern())
+};
+
+/** \class CutRequest
+ * \brief A plane, and the side of it that is removed. */
+struct CutRequest
+{
+  PlaneRequest plane;
+  bool removesHigher = true; ///< the side of larger coordinates in LPS
+};
+
+/** A plane written as axial, coronal=liver, sagittal=-12.5 or axial=#40. Throws Failure(Usage). */
+PlaneRequest
+ParsePlaneRequest(const std::string & text);
+
+/** A cut written as a plane, or as x>12, y<-30, z>100 in LPS mm for what is removed. Of planes, what lies above
+ * (axial), in front (coronal) or to the patient's left (sagittal) is removed. Throws Failure(Usage). */
+CutRequest
+ParseCutRequest(const std::string & text);
+
+} // namespace rhombic
+
+#endif

@@ -1,0 +1,316 @@
+#include "rhombicPictureScene.h"
+
+#include "rhombicFailure.h"
+#include "rhombicLabelSurfaces.h"
+#include "rhombicLatticeToSurfaces.h"
+#include "rhombicSourceLoading.h"
+#include "rhombicSurfaceIO.h"
+#include "rhombicSurfaceReport.h"
+#include "rhombicWording.h"
+
+#include "itkTriangleSurfaceMeasures.h"
+#include "itkTriangleSurfaceSmoothing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rhombic
+{
+namespace
+{
+
+/** A number of spacings that slices of a scene without a grid have along their longest side. */
+constexpr double SpacingsOfSurfaces = 512.0;
+
+std::string
+DescribeSpacing(const itk::ImageBase<3> & image)
+{
+  const auto & spacing = image.GetSpacing();
+  return FormatNumber(spacing[0], 4) + " x " + FormatNumber(spacing[1], 4) + " x " + FormatNumber(spacing[2], 4) +
+         " mm";
+}
+
+std::string
+DescribeSize(const itk::ImageBase<3> & image)
+{
+  const auto & size = image.GetLargestPossibleRegion().GetSize();
+  return std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]);
+}
+
+/** Removes parts, and smooths. Returns whether anything is left. */
+bool
+Finish(SceneSurface & surface, const SurfaceFinish & finish, double spacing, const Events & events)
+{
+  const auto finished = itk::TriangleSurface::New();
+  finished->Graft(surface.surface);
+  surface.surface = finished;
+  RemoveParts(*finished, finish, surface.name, events);
+  if (finished->GetNumberOfTriangles() == 0)
+  {
+    events.Note(surface.name + ": left out, as all its parts are below --min-volume");
+    return false;
+  }
+  if (finish.smoothing > 0.0)
+  {
+    itk::TriangleSurfaceSmoothingSettings settings;
+    settings.maximumMove = finish.smoothing * spacing;
+    SmoothSurface(*finished, settings);
+  }
+  return true;
+}
+
+void
+AddSurface(const SceneSurface & surface, Report report, PictureScene & scene)
+{
+  LegendRow row;
+  row.name = surface.name;
+  row.colour = surface.colour;
+  row.volume = ComputeVolume(*surface.surface) / CubicMillimetresPerMl;
+  row.area = ComputeArea(*surface.surface) / 100.0;
+  report["volumeInMillilitres"] = *row.volume;
+  scene.surfaces.push_back(surface);
+  scene.rows.push_back(row);
+  scene.report["surfaces"].push_back(std::move(report));
+}
+
+std::string
+DescribeThreshold(const SurfaceRequest & request)
+{
+  return request.name + (request.insideIsBelow ? " below " : " from ") + FormatNumber(request.isovalue.value());
+}
+
+void
+AddIsosurfaces(const LoadedSource & loaded, const PictureSource & source, const Events & events, PictureScene & scene)
+{
+  const auto mode = source.surfaces.mode;
+  const double spacing = std::visit([](const auto & image) { return MeanSpacingOf(*image); }, loaded.lattice);
+  const auto extracted = LatticeToSurfaces(loaded.lattice, loaded.requests, mode, events, loaded.grid);
+  std::vector<std::string> thresholds;
+  for (std::size_t n = 0; n < extracted.size(); ++n)
+  {
+    ExtractedSurface surface = extracted[n];
+    if (Finish(surface, CombineFinish(loaded.requests[n].finish, source.finish), spacing, events))
+    {
+      thresholds.push_back(DescribeThreshold(loaded.requests[n]));
+      AddSurface(surface, ReportIsosurface(loaded.requests[n], surface, mode), scene);
+    }
+  }
+  scene.thresholds = Enumerate(thresholds, "and");
+  const std::string unit = scene.scan && IsInHounsfieldUnits(*scene.scan) ? " HU" : "";
+  scene.facts.push_back("thresholds: " + scene.thresholds + unit);
+}
+
+void
+AddLabels(const LoadedSource & loaded, const PictureSource & source, const Events & events, PictureScene & scene)
+{
+  const double spacing = MeanSpacingOf(GeometryOf(loaded.labels->scan.image));
+  for (LabelSurface & label : LabelsToSurfaces(*loaded.labels, GetLabelSettings(source.scan, source.surfaces), events))
+  {
+    if (Finish(label.scene, source.finish, spacing, events))
+    {
+      AddSurface(label.scene, ReportLabelSurface(label), scene);
+    }
+  }
+}
+
+/** Lines about the scan and the lattice, for a page. */
+void
+AddFacts(const LoadedSource & loaded, const PictureSource & source, PictureScene & scene)
+{
+  if (const Scan * const scan = loaded.FindScan())
+  {
+    const auto & grid = GeometryOf(scan->image);
+    scene.facts.push_back("scan: " + scan->format + (scan->modality.empty() ? "" : " " + scan->modality) + ", " +
+                          DescribeSize(grid) + " voxels of " + DescribeSpacing(grid) + ", axes " +
+                          OrientationLetters(grid.GetDirection()));
+    for (const std::string & note : scan->notes)
+    {
+      scene.facts.push_back("note: " + note);
+    }
+  }
+  if (!loaded.requests.empty())
+  {
+    std::visit(
+      [&scene](const auto & image) {
+        scene.facts.push_back("lattice: face-centered cubic, " + DescribeSize(*image) + " sites, spacing " +
+                              DescribeSpacing(*image));
+      },
+      loaded.lattice);
+    if (source.scan.lattice.denoising.kind == Denoising::Kind::Gaussian)
+    {
+      scene.facts.push_back("smoothed: Gaussian of " + FormatNumber(source.scan.lattice.denoising.sigma) + " mm");
+    }
+  }
+}
+
+/** A box of surfaces for slices, if no grid is known. */
+SliceBox
+BoxOfSurfaces(const std::vector<SceneSurface> & surfaces)
+{
+  const LPSBox box = BoxAround(surfaces);
+  double longest = 1.0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    longest = std::max(longest, box.highest[axis] - box.lowest[axis]);
+  }
+  const double spacing = longest / SpacingsOfSurfaces;
+  return BoxOf(box.lowest, box.highest, { spacing, spacing, spacing });
+}
+
+PictureScene
+MakeSceneOfScan(const PictureSource & source, bool keepsScan, const Events & events)
+{
+  LoadedSource loaded = LoadSource(source.scan, source.surfaces, events);
+  PictureScene scene;
+  scene.report = ReportSource(loaded, source.scan);
+  scene.report["surfaces"] = Report::array();
+  AddFacts(loaded, source, scene);
+  const Scan * const scan = loaded.FindScan();
+  scene.isOriented = scan == nullptr || scan->isOriented;
+  const std::optional<SliceBox> box = scan != nullptr ? std::optional(BoxOf(*scan)) : std::nullopt;
+  if (keepsScan && loaded.scan)
+  {
+    scene.scan = std::move(loaded.scan);
+  }
+  else if (keepsScan && !loaded.labels && !loaded.requests.empty())
+  {
+    scene.scan.emplace().image = LatticeToScan(loaded.lattice, {}, events);
+  }
+  loaded.scan.reset(); // frees memory for the surfaces
+  if (!loaded.requests.empty())
+  {
+    AddIsosurfaces(loaded, source, events, scene);
+  }
+  if (loaded.labels)
+  {
+    AddLabels(loaded, source, events, scene);
+  }
+  if (scene.surfaces.empty())
+  {
+    throw Failure(FailureKind::Empty, "Nothing is left: all parts are below --min-volume; lower it.");
+  }
+  scene.box = box ? *box : BoxOfSurfaces(scene.surfaces);
+  return scene;
+}
+
+/** Surfaces of files, shown and coloured by the rules. */
+PictureScene
+MakeSceneOfFiles(const PictureSource & source, const Events & events)
+{
+  if (source.finish.smoothing > 0.0)
+  {
+    throw Failure(FailureKind::Usage,
+                  "--smooth is in spacings of the lattice, and surface files have none; leave it out.");
+  }
+  PictureScene scene;
+  scene.report["surfaces"] = Report::array();
+  std::vector<SceneSurface> read;
+  std::vector<SurfaceRequest> names;
+  for (const auto & path : source.surfaceFiles)
+  {
+    events.Progress("reading", static_cast<double>(read.size()) / static_cast<double>(source.surfaceFiles.size()));
+    for (const SceneSurface & surface : ReadSurfaces(path))
+    {
+      SurfaceRequest name;
+      name.name = surface.name;
+      name.colour = surface.colour;
+      name.opacity = surface.opacity;
+      names.push_back(name);
+      read.push_back(surface);
+    }
+  }
+  ApplySceneRules(source.surfaces.rules, names, nullptr);
+  auto name = names.begin();
+  for (SceneSurface & surface : read)
+  {
+    if (name == names.end() || name->name != surface.name)
+    {
+      continue; // not shown
+    }
+    surface.colour = name->colour;
+    surface.opacity = name->opacity;
+    ++name;
+    if (Finish(surface, source.finish, 1.0, events))
+    {
+      AddSurface(
+        surface, { { "name", surface.name }, { "triangles", surface.surface->GetNumberOfTriangles() } }, scene);
+    }
+  }
+  if (scene.surfaces.empty())
+  {
+    throw Failure(FailureKind::Empty, "Nothing is left of the surfaces; show more of them, or lower --min-volume.");
+  }
+  scene.box = BoxOfSurfaces(scene.surfaces);
+  scene.facts.push_back("surfaces: " + Count(source.surfaceFiles.size(), "file"));
+  return scene;
+}
+
+} // namespace
+
+PictureScene
+MakePictureScene(const PictureSource & source, bool keepsScan, const Events & events)
+{
+  return source.surfaceFiles.empty() ? MakeSceneOfScan(source, keepsScan, events) : MakeSceneOfFiles(source, events);
+}
+
+std::vector<SceneSurface>
+SurfacesNamed(const std::vector<SceneSurface> & surfaces, const std::string & pattern)
+{
+  std::vector<std::string> names;
+  std::vector<SceneSurface> found;
+  for (const SceneSurface & surface : surfaces)
+  {
+    names.push_back(surface.name);
+    if (FitsPattern(pattern, surface.name))
+    {
+      found.push_back(surface);
+    }
+  }
+  if (found.empty())
+  {
+    throw Failure(FailureKind::Usage, DescribeUnknown("surface", pattern, names, "use " + Enumerate(names)));
+  }
+  return found;
+}
+
+Vector3
+FindPlace(const PlaneRequest & request, const PictureScene & scene)
+{
+  if (request.place.empty())
+  {
+    const LPSBox box = BoxAround(scene.surfaces);
+    return { 0.5 * (box.lowest[0] + box.highest[0]),
+             0.5 * (box.lowest[1] + box.highest[1]),
+             0.5 * (box.lowest[2] + box.highest[2]) };
+  }
+  if (const auto position = ToNumber<double>(request.place); position && std::isfinite(*position))
+  {
+    return PointAtPosition(scene.box, request.plane, *position);
+  }
+  if (request.place[0] == '#')
+  {
+    const auto index = ToNumber<std::size_t>(request.place.substr(1));
+    if (!index || !scene.scan)
+    {
+      throw Failure(FailureKind::Usage,
+                    !index ? "'" + request.place + "' is no slice; write #40 for the 41st."
+                           : "Slices are counted in scans, and this source is none; give a position in mm.");
+    }
+    return PointAtIndex(*scene.scan, request.plane, *index);
+  }
+  Vector3 sum{};
+  double volume = 0.0;
+  for (const SceneSurface & surface : SurfacesNamed(scene.surfaces, request.place))
+  {
+    const auto centroid = ComputeCentroid(*surface.surface);
+    const double share = std::abs(ComputeVolume(*surface.surface));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      sum[axis] += share * centroid[axis];
+    }
+    volume += share;
+  }
+  return { sum[0] / volume, sum[1] / volume, sum[2] / volume };
+}
+
+} // namespace rhombic

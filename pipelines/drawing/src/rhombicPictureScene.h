@@ -1,0 +1,49 @@
+#ifndef rhombicPictureScene_h
+#define rhombicPictureScene_h
+
+#include "rhombicAnnotations.h"
+#include "rhombicEvents.h"
+#include "rhombicGreyWindow.h"
+#include "rhombicPictureSource.h"
+#include "rhombicPlaneRequest.h"
+#include "rhombicScanReport.h"
+#include "rhombicScene.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rhombic
+{
+
+/** \class PictureScene
+ * \brief The surfaces that pictures show, and what else is known of them. */
+struct PictureScene
+{
+  std::vector<SceneSurface> surfaces;
+  std::vector<LegendRow> rows;    ///< of the surfaces, in their order
+  std::optional<Scan> scan;       ///< for greys; none without a scan, and when it was not to be kept
+  SliceBox box;                   ///< of the scan or label map, else around the surfaces
+  bool isOriented = true;         ///< whether it is known how the surfaces lie in the patient
+  std::string thresholds;         ///< "bone from 250.5, skin from -300.5"; empty without isosurfaces
+  std::vector<std::string> facts; ///< "scan: DICOM CT, 512 x 512 x 138, ...", and so on
+  Report report;
+};
+
+/** Reads a source, and makes its surfaces. Throws Failure.
+ * \param keepsScan whether the scan is needed after that */
+PictureScene
+MakePictureScene(const PictureSource & source, bool keepsScan, const Events & events);
+
+/** The point of a plane. Throws Failure(Usage) for a place that no surface's name fits, and for one outside the scene.
+ */
+Vector3
+FindPlace(const PlaneRequest & request, const PictureScene & scene);
+
+/** The surfaces whose names fit a pattern. Throws Failure(Usage), suggesting the nearest name, when there are none. */
+std::vector<SceneSurface>
+SurfacesNamed(const std::vector<SceneSurface> & surfaces, const std::string & pattern);
+
+} // namespace rhombic
+
+#endif

@@ -1,0 +1,205 @@
+#include "rhombicFailure.h"
+#include "rhombicOutlinedSlice.h"
+#include "rhombicPictureIO.h"
+#include "rhombicPictureScene.h"
+#include "rhombicRenderScan.h"
+#include "rhombicSourceLoading.h"
+#include "rhombicSurfaceMeasures.h"
+#include "rhombicSurfaceRenderer.h"
+#include "rhombicWording.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fs = std::filesystem;
+
+namespace rhombic
+{
+namespace
+{
+
+constexpr double PointsPerInch = 72.0;
+constexpr double PointsOfLetters = 7.0; // the size of letters on sheets
+
+bool
+IsPdf(const fs::path & path)
+{
+  return LowerCase(path.extension().string()) == ".pdf";
+}
+
+/** Height of the surfaces divided by their width, the larger of those seen from the front and from the side. */
+double
+AspectOf(const PictureScene & scene)
+{
+  const LPSBox box = BoxAround(scene.surfaces);
+  const double height = box.highest[2] - box.lowest[2];
+  const double width = std::max(box.highest[0] - box.lowest[0], box.highest[1] - box.lowest[1]);
+  return width > 0.0 ? height / width : 1.0;
+}
+
+/** The table's rows, with mean values of the scan. */
+std::vector<LegendRow>
+MeasureRows(const PictureScene & scene)
+{
+  std::vector<LegendRow> rows = scene.rows;
+  for (std::size_t n = 0; scene.scan && n < rows.size(); ++n)
+  {
+    rows[n].mean = MeasureSurface(*scene.surfaces[n].surface, *scene.scan).meanValue;
+  }
+  return rows;
+}
+
+/** The names of a few surfaces, or the number of many. */
+std::string
+TitleOf(const PictureScene & scene)
+{
+  constexpr std::size_t few = 3;
+  std::vector<std::string> names;
+  for (const LegendRow & row : scene.rows)
+  {
+    names.push_back(row.name);
+  }
+  return names.size() <= few ? Enumerate(names, "and") : Count(names.size(), "structure");
+}
+
+/** A sheet without its pictures. */
+Sheet
+PlanSheet(const RenderSheetSettings & settings, const PictureScene & scene, std::size_t slices)
+{
+  Sheet sheet;
+  sheet.title = settings.title.empty() ? TitleOf(scene) : settings.title;
+  sheet.views.resize(settings.views.size());
+  sheet.slices.resize(slices);
+  sheet.viewAspect = AspectOf(scene);
+  sheet.rows = MeasureRows(scene);
+  sheet.meanUnit = scene.scan && IsInHounsfieldUnits(*scene.scan) ? "HU" : "";
+  sheet.provenance = scene.facts;
+  sheet.provenance.push_back("made by: " + settings.provenance.software);
+  sheet.letters = scene.isOriented;
+  sheet.isLandscape = settings.isLandscape;
+  sheet.pixelsPerInch = settings.pixelsPerInch;
+  sheet.isDark = settings.style == PictureStyle::Clinic;
+  for (std::size_t n = 0; n < sheet.views.size(); ++n)
+  {
+    sheet.views[n].caption = settings.views[n].name;
+    sheet.views[n].background = PaperOf(sheet);
+  }
+  return sheet;
+}
+
+/** The planes of the slices: those asked for, or three through the middle; none without a scan or label map. */
+std::vector<PlaneRequest>
+PlanesOf(const RenderSheetSettings & settings)
+{
+  if (!settings.slices.empty() || !settings.source.surfaceFiles.empty())
+  {
+    return settings.slices;
+  }
+  return { { SlicePlane::Axial, "" }, { SlicePlane::Coronal, "" }, { SlicePlane::Sagittal, "" } };
+}
+
+void
+DrawViews(const RenderSheetSettings & settings,
+          const PictureScene & source,
+          const SheetPlaces & places,
+          SurfaceRenderer & renderer,
+          Sheet & sheet)
+{
+  if (places.views.empty())
+  {
+    return;
+  }
+  RenderSettings render;
+  render.width = static_cast<int>(std::lround(places.views.front().width));
+  render.height = static_cast<int>(std::lround(places.views.front().height));
+  render.style = settings.style;
+  render.background = PaperOf(sheet).colour;
+  render.sameScale = true;
+  Annotations annotations; // the sheet draws these over the views
+  annotations.figure = false;
+  annotations.textSize = PointsOfLetters * sheet.pixelsPerInch / PointsPerInch;
+  render.margins = MarginsOf(annotations, render.width, render.height, settings.views.front().frame);
+  render.maximumMemory = settings.source.scan.lattice.maximumMemory;
+  Scene scene;
+  scene.surfaces = source.surfaces;
+  auto drawn = renderer.Render(scene, render, settings.views);
+  for (std::size_t n = 0; n < drawn.size(); ++n)
+  {
+    sheet.views[n].picture = std::move(drawn[n].picture);
+    sheet.views[n].projection = drawn[n].projection.value();
+  }
+}
+
+/** The files of a page's pictures: the path, or numbered ones. */
+std::vector<fs::path>
+PathsOfPages(const fs::path & path, std::size_t pages)
+{
+  std::vector<fs::path> paths{ path };
+  for (std::size_t n = 2; n <= pages; ++n)
+  {
+    paths.push_back(path.parent_path() / (path.stem().string() + "-" + std::to_string(n) + path.extension().string()));
+  }
+  return paths;
+}
+
+std::vector<fs::path>
+StageSheet(const Sheet & sheet, const RenderSheetSettings & settings, StagedFiles & staged)
+{
+  const PictureMetadata metadata{ settings.provenance.software, settings.provenance.GetCommand(), sheet.pixelsPerInch };
+  const std::string extension = LowerCase(settings.page.extension().string());
+  if (IsPdf(settings.page))
+  {
+    const PdfPages pages = DrawSheetPdf(sheet, settings.provenance.software);
+    StagePdf(pages.bytes, pages.count, settings.page, staged);
+    return { settings.page };
+  }
+  const std::vector<Picture> pages = DrawSheet(sheet);
+  if (extension == ".tif" || extension == ".tiff")
+  {
+    StagePages(pages, settings.page, staged, metadata);
+    return { settings.page };
+  }
+  const std::vector<fs::path> paths = PathsOfPages(settings.page, pages.size());
+  for (std::size_t n = 0; n < pages.size(); ++n)
+  {
+    StagePicture(pages[n], paths[n], staged, metadata);
+  }
+  return paths;
+}
+
+} // namespace
+
+std::vector<fs::path>
+RenderSheet(const RenderSheetSettings & settings, const Events & events)
+{
+  CheckOutputs(WithSidecars({ settings.page }, settings.provenance), settings.source.scan, settings.source.surfaces);
+  if (!IsPdf(settings.page))
+  {
+    CheckPicturePath(settings.page);
+  }
+  SurfaceRenderer renderer;
+  const std::vector<PlaneRequest> planes = PlanesOf(settings);
+  const PictureScene scene = MakePictureScene(settings.source, true, events);
+  events.Progress("drawing the page", 0.0);
+  Sheet sheet = PlanSheet(settings, scene, planes.size());
+  const SheetPlaces places = PlacesOn(sheet);
+  DrawViews(settings, scene, places, renderer, sheet);
+  events.Progress("drawing the page", 0.7);
+  for (std::size_t n = 0; n < planes.size(); ++n)
+  {
+    sheet.slices[n] = DrawOutlinedSlice(scene,
+                                        planes[n],
+                                        FindPlace(planes[n], scene),
+                                        settings.slice,
+                                        static_cast<int>(std::lround(places.slices[n].width)),
+                                        static_cast<int>(std::lround(places.slices[n].height)));
+  }
+  StagedFiles staged;
+  const std::vector<fs::path> paths = StageSheet(sheet, settings, staged);
+  StageSidecar(settings.page, settings.provenance, scene.report, staged);
+  staged.Commit();
+  events.Progress("drawing the page", 1.0);
+  return paths;
+}
+
+} // namespace rhombic

@@ -1,0 +1,156 @@
+#include "rhombicSceneCuts.h"
+
+#include "rhombicCapPicture.h"
+#include "rhombicFailure.h"
+#include "rhombicOutline.h"
+#include "rhombicSlicePicture.h"
+#include "rhombicWording.h"
+
+#include <algorithm>
+
+namespace rhombic
+{
+namespace
+{
+
+constexpr double PixelsOfCap = 1500.0; // along the longer side of the scene
+
+/** The number of the LPS axis at right angles to a plane. */
+std::size_t
+AxisOf(SlicePlane plane)
+{
+  return plane == SlicePlane::Axial ? 2 : plane == SlicePlane::Coronal ? 1 : 0;
+}
+
+/** A slice of the scene's box in a plane, of about PixelsOfCap pixels. */
+Projection
+PlaneThrough(const Vector3 & point, SlicePlane plane, const PictureScene & source)
+{
+  const LPSBox box = BoxAround(source.surfaces);
+  double longest = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    longest = std::max(longest, box.highest[axis] - box.lowest[axis]);
+  }
+  return SliceThrough(point, source.box, FrameOf(plane), longest / PixelsOfCap);
+}
+
+Picture
+DrawGreys(const PictureScene & source, const Projection & plane, const std::string & window)
+{
+  return source.scan ? DrawSlice(*source.scan, plane, WindowFromText(window, *source.scan))
+                     : Picture(plane.width, plane.height);
+}
+
+std::vector<std::string>
+NamesOfCutSurfaces(const RenderScanSettings & settings, const PictureScene & source)
+{
+  std::vector<std::string> names;
+  for (const SceneSurface & surface : source.surfaces)
+  {
+    const bool isCut = std::none_of(settings.uncut.begin(), settings.uncut.end(), [&](const std::string & pattern) {
+      return FitsPattern(pattern, surface.name);
+    });
+    if (isCut)
+    {
+      names.push_back(surface.name);
+    }
+  }
+  return names;
+}
+
+/** Throws Failure(Usage) for a cut that removes all or nothing. */
+void
+RequireMeeting(const CutRequest & cut, const Vector3 & point, const PictureScene & source)
+{
+  const LPSBox box = BoxAround(source.surfaces);
+  const std::size_t axis = AxisOf(cut.plane.plane);
+  if (point[axis] <= box.lowest[axis] || point[axis] >= box.highest[axis])
+  {
+    throw Failure(FailureKind::Usage,
+                  std::string("The cut at ") + "xyz"[axis] + " = " + FormatNumber(point[axis], 5) +
+                    " mm does not meet the surfaces, which reach from " + FormatNumber(box.lowest[axis], 5) + " to " +
+                    FormatNumber(box.highest[axis], 5) + " mm; choose a place in between.");
+  }
+}
+
+/** Makes pixels transparent that lie where other planes cut the scene. */
+void
+ClearWhereCut(const Projection & projection, const std::vector<ClipPlane> & cuts, std::size_t own, Picture & picture)
+{
+  for (std::size_t n = 0; n < cuts.size(); ++n)
+  {
+    if (n == own)
+    {
+      continue;
+    }
+    std::uint8_t * alpha = picture.pixels.data() + 3;
+    for (int y = 0; y < picture.height; ++y)
+    {
+      for (int x = 0; x < picture.width; ++x, alpha += 4)
+      {
+        const Vector3 point = projection.PointAt({ x + 0.5, y + 0.5 });
+        const Vector3 offset{ point[0] - cuts[n].point[0], point[1] - cuts[n].point[1], point[2] - cuts[n].point[2] };
+        *alpha = Dot(offset, cuts[n].normal) > 0.0 ? 0 : *alpha;
+      }
+    }
+  }
+}
+
+} // namespace
+
+void
+AddCuts(const RenderScanSettings & settings, const PictureScene & source, Scene & scene)
+{
+  const std::vector<std::string> names = NamesOfCutSurfaces(settings, source);
+  if (!settings.cuts.empty() && names.empty())
+  {
+    throw Failure(FailureKind::Usage, "No surface is left to cut after --uncut; leave it or --cut out.");
+  }
+  for (const CutRequest & cut : settings.cuts)
+  {
+    const Vector3 point = FindPlace(cut.plane, source);
+    RequireMeeting(cut, point, source);
+    ClipPlane plane;
+    plane.point = point;
+    plane.normal = {};
+    plane.normal[AxisOf(cut.plane.plane)] = cut.removesHigher ? 1.0 : -1.0;
+    plane.surfaces = names;
+    scene.cuts.push_back(plane);
+  }
+  for (std::size_t n = 0; n < settings.cuts.size(); ++n)
+  {
+    const Projection projection = PlaneThrough(scene.cuts[n].point, settings.cuts[n].plane.plane, source);
+    std::vector<CapSurface> cut;
+    for (const SceneSurface & surface : source.surfaces)
+    {
+      if (std::find(names.begin(), names.end(), surface.name) != names.end())
+      {
+        constexpr double tint = 0.25;
+        cut.push_back({ CutSurface(*surface.surface, projection), surface.colour, source.scan ? tint : 1.0 });
+        cut.back().tint = source.scan && surface.opacity < 1.0 ? 0.0 : cut.back().tint;
+      }
+    }
+    Picture cap = DrawCap(DrawGreys(source, projection, settings.slice.window), cut);
+    ClearWhereCut(projection, scene.cuts, n, cap);
+    scene.planes.push_back({ std::move(cap), projection });
+  }
+}
+
+void
+AddPlanes(const RenderScanSettings & settings, const PictureScene & source, Scene & scene)
+{
+  for (const PlaneRequest & request : settings.planes)
+  {
+    if (!source.scan)
+    {
+      throw Failure(FailureKind::Usage, "Slices in the scene need a scan, and this source is none.");
+    }
+    const Projection projection = PlaneThrough(FindPlace(request, source), request.plane, source);
+    scene.planes.push_back(
+      { DrawSlice(*source.scan, projection, WindowFromText(settings.slice.window, *source.scan), { 0, 0, 0, 0 }),
+        projection });
+  }
+}
+
+} // namespace rhombic

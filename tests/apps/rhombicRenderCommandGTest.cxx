@@ -1,0 +1,205 @@
+#include "rhombicPictureIO.h"
+#include "rhombicProgram.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+using rhombictest::Outcome;
+using rhombictest::ReadText;
+
+const std::string phantomScan = RHOMBIC_TESTDATA "/phantom/phantom.nii.gz";
+const std::string phantomLabels = RHOMBIC_TESTDATA "/phantom/phantom-labels.nii.gz";
+
+/** Runs `rhombic render` in a new folder. */
+class RenderCommand : public testing::Test
+{
+protected:
+  Outcome
+  Run(const std::string & arguments) const
+  {
+    return rhombictest::RunShell("rhombic " + arguments, m_Folder.Path());
+  }
+
+  void
+  RunWell(const std::string & arguments) const
+  {
+    const Outcome outcome = Run(arguments);
+    EXPECT_EQ(outcome.exitCode, 0) << arguments << "\n" << outcome.errors;
+  }
+
+  rhombic::Picture
+  Read(const std::string & name) const
+  {
+    return rhombic::ReadPicture(m_Folder.Path() / name);
+  }
+
+  std::string
+  Bytes(const std::string & name) const
+  {
+    return ReadText(m_Folder.Path() / name);
+  }
+
+  std::size_t
+  CountFiles() const
+  {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(m_Folder.Path()), fs::directory_iterator()));
+  }
+
+  rhombictest::TemporaryFolder m_Folder;
+};
+
+/** Middle of the pixels that are redder than blue, from the left and top, as shares of the picture. */
+std::array<double, 2>
+MiddleOfRed(const rhombic::Picture & picture)
+{
+  double x = 0.0;
+  double y = 0.0;
+  double count = 0.0;
+  for (int row = 0; row < picture.height; ++row)
+  {
+    for (int column = 0; column < picture.width; ++column)
+    {
+      const std::uint8_t * const pixel = picture.At(column, row);
+      if (pixel[0] > 100 && pixel[1] < 60 && pixel[2] < 60)
+      {
+        x += column + 0.5;
+        y += row + 0.5;
+        count += 1.0;
+      }
+    }
+  }
+  EXPECT_GT(count, 0.0);
+  return { x / count / picture.width, y / count / picture.height };
+}
+
+TEST_F(RenderCommand, TheLiverIsOnTheSideOfItsLetter)
+{
+  // In the patient the liver is on the right: on the left of the anterior view and of radiological slices.
+  const std::string red = phantomLabels + " --draw '*=white' --draw liver=red --no-shadows --no-silhouettes "
+                                          "--annotate none --size 300 ";
+  RunWell("render " + red +
+          "--only 'liver,spleen' --view anterior --view posterior --view superior --view 30,15 -o v.png");
+  EXPECT_LT(MiddleOfRed(Read("v-anterior.png"))[0], 0.5);
+  EXPECT_GT(MiddleOfRed(Read("v-posterior.png"))[0], 0.5);
+  EXPECT_GT(MiddleOfRed(Read("v-superior.png"))[0], 0.5);
+  EXPECT_LT(MiddleOfRed(Read("v-az30el15.png"))[0], 0.5);
+  for (const bool isNeurological : { false, true })
+  {
+    const std::string convention = isNeurological ? "--neurological" : "";
+    RunWell("render " + red + "--slice axial=liver --slice coronal=liver " + convention + " -o s.png");
+    for (const char * name : { "s-axial-liver.png", "s-coronal-liver.png" })
+    {
+      EXPECT_EQ(MiddleOfRed(Read(name))[0] > 0.5, isNeurological) << name;
+    }
+  }
+}
+
+TEST_F(RenderCommand, CutsRemoveTheSideThatIsSaid)
+{
+  // Of the liver, half is left; the cut at its centroid faces the viewer.
+  const std::string options = phantomLabels + " --only liver --draw liver=red --annotate none --size 200 "
+                                              "--no-shadows --no-silhouettes --focus liver ";
+  RunWell("render " + options + "-o whole.png");
+  const auto red = [this](const std::string & name) {
+    const rhombic::Picture picture = Read(name);
+    int count = 0;
+    for (std::size_t n = 0; n < picture.pixels.size(); n += 3)
+    {
+      count += picture.pixels[n] > 60 ? 1 : 0;
+    }
+    return count;
+  };
+  const int whole = red("whole.png");
+  for (const char * cut : { "axial=liver", "sagittal=liver", "'x>-70'", "'x<-70'" })
+  {
+    RunWell("render " + options + "--cut " + cut + " -o cut.png");
+    EXPECT_LT(red("cut.png"), 0.9 * whole) << cut;
+    EXPECT_GT(red("cut.png"), 0.1 * whole) << cut;
+  }
+  RunWell("render " + options + "--cut coronal=liver -o front.png");
+  EXPECT_GT(red("front.png"), 0.5 * whole) << "the cut face itself is seen";
+  EXPECT_NE(Bytes("front.png"), Bytes("whole.png"));
+}
+
+TEST_F(RenderCommand, TheSameCommandMakesTheSameFilesWithAnyNumberOfThreads)
+{
+  const std::string options = phantomScan + " --labels " + phantomLabels +
+                              " --preset ct-organs --cut coronal=liver --slice axial=liver --view 20,10 --size 250 ";
+  RunWell("--threads 1 render " + options + "-o one.png");
+  RunWell("--threads 5 render " + options + "-o five.png");
+  for (const char * view : { "-az20el10.png", "-axial-liver.png" })
+  {
+    // The files also hold their command lines.
+    EXPECT_EQ(Read(std::string("one") + view).pixels, Read(std::string("five") + view).pixels) << view;
+  }
+  RunWell("--threads 1 render " + phantomLabels + " --sheet --no-sidecar -o one.pdf");
+  RunWell("--threads 3 render " + phantomLabels + " --sheet --no-sidecar -o three.pdf");
+  EXPECT_EQ(Bytes("one.pdf"), Bytes("three.pdf"));
+}
+
+TEST_F(RenderCommand, AReportMakesItsPictureAgain)
+{
+  RunWell("render " + phantomScan + " --preset ct-bone --view left --style paper --size 200 -o first.png");
+  RunWell("render " + phantomScan + " --from first.png.json -o second.png");
+  EXPECT_EQ(Read("first.png").pixels, Read("second.png").pixels);
+  EXPECT_EQ(Run("compare-pictures first.png second.png").exitCode, 0);
+  RunWell("render " + phantomScan + " --from second.png.json -o third.png");
+  EXPECT_EQ(Read("first.png").pixels, Read("third.png").pixels) << "the report of a repetition holds all options";
+  RunWell("render " + phantomScan + " --preset ct-bone --view right --style paper --size 200 -o other.png");
+  const Outcome outcome = Run("compare-pictures first.png other.png --tolerance 2");
+  EXPECT_EQ(outcome.exitCode, 11);
+  EXPECT_NE(outcome.errors.find("by more than 2 of 255"), std::string::npos) << outcome.errors;
+}
+
+TEST_F(RenderCommand, PagesListAllLabelsWithTheirVolumes)
+{
+  RunWell("render " + phantomLabels + " --sheet -o page.pdf");
+  EXPECT_EQ(CountFiles(), 2u) << "the page and its report";
+  if (std::system("command -v pdftotext >/dev/null") != 0)
+  {
+    GTEST_SKIP() << "pdftotext is not installed (package poppler-utils)";
+  }
+  const std::string text = rhombictest::RunShell("pdftotext -layout page.pdf -", m_Folder.Path()).output;
+  std::ifstream organs(RHOMBIC_TESTDATA "/phantom/phantom-organs.csv");
+  std::string line;
+  std::getline(organs, line);
+  int found = 0;
+  while (std::getline(organs, line))
+  {
+    const std::string name = line.substr(0, line.find(','));
+    found += text.find(name) != std::string::npos ? 1 : 0;
+  }
+  EXPECT_GE(found, 15) << text;
+  EXPECT_EQ(text.find("phantom-labels"), std::string::npos) << "a file's name may be the patient's";
+}
+
+TEST_F(RenderCommand, TurntablesAreOneAnimationOrNumberedPictures)
+{
+  RunWell("render " + phantomLabels + " --only liver --turntable 6 --size 120 --no-sidecar -o turn.gif");
+  EXPECT_EQ(rhombic::ReadPictures(m_Folder.Path() / "turn.gif").size(), 6u);
+  RunWell("render " + phantomLabels + " --only liver --turntable 3 --size 120 --no-sidecar -o turn.png");
+  std::set<std::string> pictures;
+  for (const char * name : { "turn-001.png", "turn-002.png", "turn-003.png" })
+  {
+    EXPECT_TRUE(pictures.insert(Bytes(name)).second) << name;
+  }
+}
+
+TEST_F(RenderCommand, SurfaceFilesAreDrawnAsTheirScanIs)
+{
+  RunWell("mesh " + phantomScan + " --surface bone=375.5,white -o bone.ply");
+  RunWell("render bone.ply --size 200 --annotate letters -o file.png");
+  RunWell("render " + phantomScan + " --surface bone=375.5,white --size 200 --annotate letters -o scan.png");
+  EXPECT_EQ(Run("compare-pictures file.png scan.png --tolerance 40").exitCode, 0);
+}
+
+} // namespace
