@@ -20,6 +20,6 @@ write_page() { # NAME [COMMAND]
 mkdir -p "$folder"
 rm -f "$folder"/*.gz
 write_page rhombic
-for command in $("$program" --help | sed -n '/^Subcommands:/,/^$/ s/^  \([a-z]\+\) .*/\1/p'); do
+for command in $("$program" --help | sed -n '/^Subcommands:/,/^$/ s/^  \([a-z-]\+\) .*/\1/p'); do
   write_page "rhombic-$command" "$command"
 done
