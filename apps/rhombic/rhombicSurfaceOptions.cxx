@@ -58,7 +58,8 @@ SurfaceOptions::Add(CLI::App & parser)
   parser
     .add_option("--only",
                 m_Only,
-                "the surfaces and labels to show, by name with * and ?, or by group (group:bones, group:vessels, group:lungs, group:heart, "
+                "the surfaces and labels to show, by name with * and ?, or by group (group:bones, group:vessels, "
+                "group:lungs, group:heart, "
                 "group:brain, group:muscles, group:organs): 'liver,kidney*'; repeatable")
     ->delimiter(',')
     ->allow_extra_args(false);
@@ -66,10 +67,11 @@ SurfaceOptions::Add(CLI::App & parser)
     ->delimiter(',')
     ->allow_extra_args(false);
   parser
-    .add_option("--draw",
-                m_Rules,
-                "colour and opacity of surfaces and labels by name or group: 'skin=,0.3', 'group:bones=ivory'; repeatable, "
-                "later ones count more")
+    .add_option(
+      "--draw",
+      m_Rules,
+      "colour and opacity of surfaces and labels by name or group: 'skin=,0.3', 'group:bones=ivory'; repeatable, "
+      "later ones count more")
     ->allow_extra_args(false);
   parser
     .add_option("--colours",

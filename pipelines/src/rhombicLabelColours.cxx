@@ -102,18 +102,6 @@ Distance(const ByteColour & a, const ByteColour & b)
   return std::hypot(first[0] - second[0], first[1] - second[1], first[2] - second[2]);
 }
 
-/** Moves a colour towards white by a fraction, or towards black by a negative one. */
-ByteColour
-Lighten(ByteColour colour, double fraction)
-{
-  for (std::uint8_t & component : colour)
-  {
-    const double target = fraction > 0.0 ? 255.0 : 0.0;
-    component = static_cast<std::uint8_t>(std::lround(component + std::abs(fraction) * (target - component)));
-  }
-  return colour;
-}
-
 /** The smallest distance of a colour from others; large if there are none. */
 double
 SmallestDistance(const ByteColour & colour, const std::vector<ByteColour> & others)

@@ -77,9 +77,10 @@ TEST(Presets, SayHowNoiseIsRemoved)
 
 TEST(Presets, HaveRulesForLabels)
 {
-  const auto preset = rhombic::ParsePreset("name: x\nsurfaces: [{name: a, isovalue: 1}]\n"
-                                           "rules: [{match: 'lung*', opacity: 0.5}, {match: 'group:bones', colour: red}]\n",
-                                           "test");
+  const auto preset =
+    rhombic::ParsePreset("name: x\nsurfaces: [{name: a, isovalue: 1}]\n"
+                         "rules: [{match: 'lung*', opacity: 0.5}, {match: 'group:bones', colour: red}]\n",
+                         "test");
   ASSERT_EQ(preset.rules.size(), 2u);
   EXPECT_EQ(preset.rules[0].pattern, "lung*");
   EXPECT_EQ(preset.rules[0].opacity, 0.5);

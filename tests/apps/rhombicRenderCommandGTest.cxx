@@ -202,4 +202,16 @@ TEST_F(RenderCommand, SurfaceFilesAreDrawnAsTheirScanIs)
   EXPECT_EQ(Run("compare-pictures file.png scan.png --tolerance 40").exitCode, 0);
 }
 
+TEST_F(RenderCommand, NamesOfSurfaceFilesAreNotWritten)
+{
+  RunWell("mesh " + phantomScan + " -t 375.5 --no-sidecar -o Doe.ply");
+  fs::copy(m_Folder.Path() / "Doe.ply", m_Folder.Path() / "Jane.ply");
+  RunWell("render Doe.ply Jane.ply --size 100 -o both.png");
+  for (const char * file : { "both.png", "both.png.json" })
+  {
+    EXPECT_EQ(Bytes(file).find("Doe"), std::string::npos) << file;
+    EXPECT_EQ(Bytes(file).find("Jane"), std::string::npos) << file;
+  }
+}
+
 } // namespace

@@ -14,12 +14,16 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <map>
 #include <iostream>
 
 namespace rhombic
 {
 namespace
 {
+
+/** What stands for a further surface file in reports, before a number. */
+const std::string FurtherFile = "FILE-";
 
 struct RenderOptions
 {
@@ -294,8 +298,9 @@ ReadArguments(const std::string & path)
   {
     const std::string argument = stored[n].is_string() ? stored[n].get<std::string>() : "";
     const bool hasGivenValue = argument == "-o" || argument == "--output" || argument == "--labels";
-    const bool isGiven = argument == "SCAN" || (argument.rfind("-o", 0) == 0 && argument.size() > 2) ||
-                         argument.rfind("--output=", 0) == 0 || argument.rfind("--labels=", 0) == 0;
+    const bool isGiven = argument == "SCAN" || argument.rfind(FurtherFile, 0) == 0 ||
+                         (argument.rfind("-o", 0) == 0 && argument.size() > 2) || argument.rfind("--output=", 0) == 0 ||
+                         argument.rfind("--labels=", 0) == 0;
     n += hasGivenValue ? 1 : 0;
     if (!hasGivenValue && !isGiven)
     {
@@ -363,7 +368,12 @@ Render(const RenderOptions & options, const CommandContext & context)
   {
     throw Failure(FailureKind::Usage, "No picture is named; give one with -o, for example -o picture.png.");
   }
-  const Provenance provenance = options.scan.GetProvenance(context, options.surfaces.GetNames());
+  std::map<std::string, std::string> names = options.surfaces.GetNames();
+  for (const std::string & file : options.furtherFiles)
+  {
+    names[FurtherFile + std::to_string(names.size())] = file;
+  }
+  const Provenance provenance = options.scan.GetProvenance(context, names);
   const auto paths =
     options.isSheet ? RenderPage(options, context, provenance) : RenderPictures(options, context, provenance);
   for (const auto & picture : paths)

@@ -41,8 +41,8 @@ public:
   std::vector<RenderedView>
   Render(const Scene & scene, const RenderSettings & settings, const std::vector<View> & views);
 
-  /** The pictures that Render() would make, without pixels: their projections, with a centre and pixel size that have no
-   * meaning in perspective. Thread safe. Throws as Render() does for settings and surfaces. */
+  /** The pictures that Render() would make, without pixels: their projections, with a centre and pixel size that have
+   * no meaning in perspective. Thread safe. Throws as Render() does for settings and surfaces. */
   static std::vector<Projection>
   Plan(const Scene & scene, const RenderSettings & settings, const std::vector<View> & views);
 

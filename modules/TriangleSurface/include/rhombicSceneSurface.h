@@ -16,7 +16,7 @@ struct SceneSurface
   std::string name; ///< in messages and files
   itk::TriangleSurface::ConstPointer surface;
   Colour colour{ 0.8, 0.8, 0.8 };
-  double opacity = 1.0; ///< above 0, at most 1: share of the background that one wall hides where it is seen face on
+  double opacity = 1.0;  ///< above 0, at most 1: share of the background that one wall hides where it is seen face on
   bool isGlossy = false; ///< shines as if it were wet; matte otherwise
 };
 

@@ -123,9 +123,9 @@ AddFacts(const LoadedSource & loaded, const PictureSource & source, PictureScene
     scene.facts.push_back("scan: " + scan->format + (scan->modality.empty() ? "" : " " + scan->modality) + ", " +
                           DescribeSize(grid) + " voxels of " + DescribeSpacing(grid) + ", axes " +
                           OrientationLetters(grid.GetDirection()));
-    for (const std::string & note : scan->notes)
+    for (const Report & note : scene.report["scan"]["notes"]) // without the scan's name
     {
-      scene.facts.push_back("note: " + note);
+      scene.facts.push_back("note: " + note.get<std::string>());
     }
   }
   if (!loaded.requests.empty())

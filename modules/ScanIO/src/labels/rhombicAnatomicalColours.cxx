@@ -81,18 +81,6 @@ HasOddNumber(const std::vector<std::string> & words)
   return number != words.rend() && (number->back() - '0') % 2 == 1;
 }
 
-/** Moves a colour towards white by a fraction, or towards black by a negative one. */
-Colour
-Lighten(Colour colour, double fraction)
-{
-  for (std::uint8_t & component : colour)
-  {
-    const double target = fraction > 0 ? 255 : 0;
-    component = static_cast<std::uint8_t>(std::lround(component + std::abs(fraction) * (target - component)));
-  }
-  return colour;
-}
-
 /** A colour by its hue (in turns), saturation and brightness (from 0 to 1). */
 Colour
 ColourOfHue(double turns, double saturation, double brightness)
@@ -119,6 +107,17 @@ ColourOfValue(std::int32_t value)
 }
 
 } // namespace
+
+std::array<std::uint8_t, 3>
+Lighten(std::array<std::uint8_t, 3> colour, double fraction)
+{
+  for (std::uint8_t & component : colour)
+  {
+    const double target = fraction > 0 ? 255 : 0;
+    component = static_cast<std::uint8_t>(std::lround(component + std::abs(fraction) * (target - component)));
+  }
+  return colour;
+}
 
 std::optional<std::array<std::uint8_t, 3>>
 FindAnatomicalColour(const std::string & name)
