@@ -79,7 +79,7 @@ FileInspection::Measure(MeshedSurface & surface) const
   surface.measures.isosurface = surface.parts.IsNothing() ? surface.isosurface : std::nullopt;
   if (m_Scan && surface.request)
   {
-    constexpr std::size_t quick = 100'000;
+    constexpr std::size_t quick = 50'000; // the mean's standard error is below 0.5 % of the spread
     constexpr std::size_t thorough = 10'000'000;
     surface.deviation = ComputeDeviation(written,
                                          *m_Scan,
