@@ -26,6 +26,7 @@ struct ExtractedSurface : SceneSurface
  * grid is known, of its voxels. Notes give the number of triangles and the parts left out.
  *
  * \param grid the grid of the scan that the volume was made from; null for slanted scans
+ * \param computesNormals whether points get normals, as in itk::FCCIsosurfaceFilter
  *
  * Throws Failure: Usage for a request without an isovalue (see ResolveIsovalues()) and for outermost parts below one;
  * Empty for a surface without triangles. */
@@ -34,7 +35,8 @@ LatticeToSurfaces(const FCCVolume & volume,
                   const std::vector<SurfaceRequest> & requests,
                   itk::FCCIsosurfaceMode mode,
                   const Events & events,
-                  const itk::ImageBase<3> * grid = nullptr);
+                  const itk::ImageBase<3> * grid = nullptr,
+                  bool computesNormals = true);
 
 } // namespace rhombic
 

@@ -66,10 +66,14 @@ struct Isosurfaces
 class IsosurfaceExtraction
 {
 public:
-  IsosurfaceExtraction(itk::FCCIsosurfaceMode mode, const Events & events, const itk::ImageBase<3> * grid)
+  IsosurfaceExtraction(itk::FCCIsosurfaceMode mode,
+                       const Events & events,
+                       const itk::ImageBase<3> * grid,
+                       bool computesNormals)
     : m_Mode(mode)
     , m_Events(events)
     , m_Grid(grid)
+    , m_ComputesNormals(computesNormals)
   {}
 
   /** One surface for each request, in their order; null for outermost parts. */
@@ -152,6 +156,7 @@ private:
     filter->SetIsovalues(isovalues);
     filter->SetMode(m_Mode);
     filter->SetInsideIsBelow(insideIsBelow);
+    filter->SetComputeNormals(m_ComputesNormals);
     filter->Update();
     for (std::size_t n = 0; n < chosen.size(); ++n)
     {
@@ -164,6 +169,7 @@ private:
   itk::FCCIsosurfaceMode m_Mode;
   const Events & m_Events;
   const itk::ImageBase<3> * m_Grid;
+  bool m_ComputesNormals;
 };
 
 } // namespace
@@ -173,7 +179,8 @@ LatticeToSurfaces(const FCCVolume & volume,
                   const std::vector<SurfaceRequest> & requests,
                   itk::FCCIsosurfaceMode mode,
                   const Events & events,
-                  const itk::ImageBase<3> * grid)
+                  const itk::ImageBase<3> * grid,
+                  bool computesNormals)
 {
   for (const SurfaceRequest & request : requests)
   {
@@ -188,7 +195,7 @@ LatticeToSurfaces(const FCCVolume & volume,
                     "The outermost parts of " + request.name + " are of values above the threshold, not below it.");
     }
   }
-  const IsosurfaceExtraction extraction(mode, events, grid);
+  const IsosurfaceExtraction extraction(mode, events, grid, computesNormals);
   Isosurfaces extracted = extraction.Extract(volume, requests);
   if (extracted.undefinedSamples > 0)
   {

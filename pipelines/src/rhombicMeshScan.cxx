@@ -151,8 +151,8 @@ AddIsosurfaces(const LoadedSource & loaded,
                const Events & events,
                std::vector<MeshedSurface> & surfaces)
 {
-  const auto extracted =
-    LatticeToSurfaces(loaded.lattice, loaded.requests, settings.surfaces.mode, events, loaded.grid);
+  const auto extracted = LatticeToSurfaces(
+    loaded.lattice, loaded.requests, settings.surfaces.mode, events, loaded.grid, StoresNormals(settings.mesh));
   for (std::size_t n = 0; n < extracted.size(); ++n)
   {
     MeshedSurface & surface = surfaces.emplace_back();

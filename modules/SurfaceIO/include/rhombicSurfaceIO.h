@@ -39,6 +39,11 @@ GetSurfaceFileExtensions();
 void
 CheckSurfacePath(const std::filesystem::path & path, std::size_t numberOfSurfaces = 1);
 
+/** Whether files of this format hold the normals of points: all but STL. Throws Failure(Usage) for another extension.
+ */
+bool
+StoresNormals(const std::filesystem::path & path);
+
 /** The files that WriteSurfaces() makes: the path, and for OBJ the file of materials. */
 std::vector<std::filesystem::path>
 SurfaceFilesOf(const std::filesystem::path & path);

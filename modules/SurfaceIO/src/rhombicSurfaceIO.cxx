@@ -214,6 +214,12 @@ CheckSurfacePath(const fs::path & path, std::size_t numberOfSurfaces)
   }
 }
 
+bool
+StoresNormals(const fs::path & path)
+{
+  return FormatOf(path, "write").holdsScenes;
+}
+
 std::vector<fs::path>
 SurfaceFilesOf(const fs::path & path)
 {

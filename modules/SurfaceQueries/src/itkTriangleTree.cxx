@@ -75,9 +75,9 @@ AllTriangles(const TriangleSurface & surface)
 class TriangleTree::Builder
 {
 public:
-  Builder(TriangleTree & tree, const CurvePlaces & places)
+  Builder(TriangleTree & tree, CurvePlaces places)
     : m_Tree(tree)
-    , m_Places(places)
+    , m_Places(std::move(places))
   {}
 
   void
@@ -90,6 +90,7 @@ public:
       part.leafEnds.reserve((part.end - part.begin) / 2);
       this->AppendNodes(part.begin, part.end, part);
     });
+    CurvePlaces().swap(m_Places); // their memory is needed for the joined nodes
     std::size_t leaves = 0;
     for (const Part & part : m_Parts)
     {
@@ -97,8 +98,9 @@ public:
     }
     m_Tree.m_LeafEnds.reserve(leaves);
     m_Tree.m_Nodes.reserve(2 * leaves - 1);
-    auto next = m_Parts.begin();
-    this->Join(0, m_Places.size(), next);
+    auto nextNode = m_AreParts.cbegin();
+    auto nextPart = m_Parts.begin();
+    this->Join(nextNode, nextPart);
   }
 
 private:
@@ -131,7 +133,8 @@ private:
   void
   Cut(std::size_t begin, std::size_t end)
   {
-    if (end - begin <= MostOfPart)
+    m_AreParts.push_back(end - begin <= MostOfPart);
+    if (m_AreParts.back())
     {
       m_Parts.push_back({ begin, end });
       return;
@@ -163,31 +166,30 @@ private:
     return left + right;
   }
 
-  /** Appends the node of places [begin, end) and all below it to the tree, from the parts from \a next on. Returns its
-   * number of leaves. */
+  /** Appends a node and all below it to the tree. Returns its number of leaves. */
   std::uint32_t
-  Join(std::size_t begin, std::size_t end, std::vector<Part>::iterator & next) const
+  Join(std::vector<bool>::const_iterator & nextNode, std::vector<Part>::iterator & nextPart) const
   {
     auto & nodes = m_Tree.m_Nodes;
-    if (end - begin <= MostOfPart)
+    if (*nextNode++)
     {
-      const Part part = std::move(*next++); // its memory is free again when it is copied
+      const Part part = std::move(*nextPart++); // its memory is free again when it is copied
       nodes.insert(nodes.end(), part.nodes.begin(), part.nodes.end());
       m_Tree.m_LeafEnds.insert(m_Tree.m_LeafEnds.end(), part.leafEnds.begin(), part.leafEnds.end());
       return static_cast<std::uint32_t>(part.leafEnds.size());
     }
     const std::size_t id = nodes.size();
     nodes.emplace_back();
-    const std::size_t middle = this->FindMiddle(begin, end);
-    const std::uint32_t left = this->Join(begin, middle, next);
-    const std::uint32_t right = this->Join(middle, end, next);
+    const std::uint32_t left = this->Join(nextNode, nextPart);
+    const std::uint32_t right = this->Join(nextNode, nextPart);
     nodes[id] = { Union(nodes[id + 1].box, nodes[id + 2 * left].box), left };
     return left + right;
   }
 
   TriangleTree & m_Tree;
-  const CurvePlaces & m_Places;
+  CurvePlaces m_Places;
   std::vector<Part> m_Parts;
+  std::vector<bool> m_AreParts; ///< whether nodes are parts: the parts and all nodes above them, in the tree's order
 };
 
 TriangleTree::TriangleTree(const TriangleSurface & surface)
@@ -203,12 +205,12 @@ TriangleTree::TriangleTree(const TriangleSurface & surface, std::vector<std::uin
     return IsFinite(surface.GetPoints()[a]) && IsFinite(surface.GetPoints()[b]) && IsFinite(surface.GetPoints()[c]);
   };
   m_Order.erase(std::remove_if(m_Order.begin(), m_Order.end(), std::not_fn(isPlaced)), m_Order.end());
-  const CurvePlaces places = SortAlongCurve(surface, m_Order);
+  CurvePlaces places = SortAlongCurve(surface, m_Order);
   std::transform(
     places.begin(), places.end(), m_Order.begin(), [](const CurvePlace & place) { return place.triangle; });
   if (!places.empty())
   {
-    Builder(*this, places).Build();
+    Builder(*this, std::move(places)).Build();
   }
 }
 
