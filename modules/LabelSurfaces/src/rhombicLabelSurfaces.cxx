@@ -5,6 +5,7 @@
 #include "rhombicMaskSurface.h"
 #include "rhombicWording.h"
 
+#include "itkForEachBlock.h"
 #include "itkTriangleSurfaceMeasures.h"
 
 #include <algorithm>
@@ -19,6 +20,8 @@ namespace
 {
 
 constexpr double CubicMillimetresPerMillilitre = 1000.0;
+constexpr std::size_t SmallPiece = 1 << 15; // voxels of its box; threads make such pieces side by side
+constexpr std::size_t PiecesAtOnce = 32;    // between two calls of progress
 
 /** The values of the labels with this value, or a name that fits (see MatchesPattern()). A label that has exactly this
  * name counts alone. Throws Failure(Usage) when there are none. */
@@ -142,6 +145,41 @@ Join(const std::vector<itk::TriangleSurface::Pointer> & surfaces)
   return joined;
 }
 
+/** The surface of each piece. Threads share the work on large pieces, and the small pieces among themselves. */
+std::vector<MaskSurface>
+MakePieces(const Scan & scan,
+           const LabelSummary & summary,
+           const LabelPieces & pieces,
+           const LabelSurfaceSettings & settings,
+           const std::function<void(double)> & progress)
+{
+  const std::vector<double> voxelVolumes = VoxelVolumes(scan);
+  std::vector<MaskSurface> made(pieces.GetNumberOfPieces());
+  const auto make = [&](std::size_t piece, bool onOneThread) {
+    made[piece] =
+      MaskToSurface(CutPiece(scan, pieces, piece, voxelVolumes),
+                    { settings.density, settings.mode, settings.maximumMemory, summary.label.name, onOneThread });
+  };
+  std::vector<std::size_t> small;
+  for (std::size_t piece = 0; piece < made.size(); ++piece)
+  {
+    if (pieces.GetBox(piece).GetNumberOfPixels() <= SmallPiece)
+    {
+      small.push_back(piece);
+      continue;
+    }
+    make(piece, false);
+    progress(static_cast<double>(piece + 1 - small.size()) / static_cast<double>(made.size()));
+  }
+  for (std::size_t first = 0; first < small.size(); first += PiecesAtOnce)
+  {
+    progress(static_cast<double>(made.size() - small.size() + first) / static_cast<double>(made.size()));
+    itk::ForEachOnThreads(std::min(PiecesAtOnce, small.size() - first),
+                          [&](std::size_t n) { make(small[first + n], true); });
+  }
+  return made;
+}
+
 LabelSurface
 MakeSurface(const Scan & scan,
             const LabelSummary & summary,
@@ -149,19 +187,14 @@ MakeSurface(const Scan & scan,
             const LabelSurfaceSettings & settings,
             const std::function<void(double)> & progress)
 {
-  const std::vector<double> voxelVolumes = VoxelVolumes(scan);
   LabelSurface made;
   made.value = summary.label.value;
   made.numberOfVoxels = summary.numberOfVoxels;
   made.voxelMillilitres = summary.millilitres;
   made.pieces = pieces.GetNumberOfPieces();
   std::vector<itk::TriangleSurface::Pointer> surfaces;
-  for (std::size_t piece = 0; piece < made.pieces; ++piece)
+  for (const MaskSurface & surface : MakePieces(scan, summary, pieces, settings, progress))
   {
-    progress(static_cast<double>(piece) / static_cast<double>(made.pieces));
-    const MaskSurface surface =
-      MaskToSurface(CutPiece(scan, pieces, piece, voxelVolumes),
-                    { settings.density, settings.mode, settings.maximumMemory, summary.label.name });
     made.surfaceMillilitres += surface.volume / CubicMillimetresPerMillilitre;
     made.surfacePieces += surface.shells;
     made.finerPieces += surface.isFiner ? 1 : 0;

@@ -107,10 +107,22 @@ EulerCharacteristicOf(const itk::TriangleSurface & surface)
          static_cast<std::ptrdiff_t>(surface.GetNumberOfTriangles() / 2);
 }
 
-MaskField
-MakeField(const MaskPiece & piece, bool protectsAll)
+template <typename TFilter>
+auto
+MakeFilter(const MaskSurfaceSettings & settings)
 {
-  const auto filter = itk::AntiAliasMaskImageFilter::New();
+  const auto filter = TFilter::New();
+  if (settings.onOneThread)
+  {
+    filter->SetNumberOfWorkUnits(1);
+  }
+  return filter;
+}
+
+MaskField
+MakeField(const MaskPiece & piece, bool protectsAll, const MaskSurfaceSettings & settings)
+{
+  const auto filter = MakeFilter<itk::AntiAliasMaskImageFilter>(settings);
   filter->SetInput(piece.mask);
   filter->SetProtectAllThinParts(protectsAll);
   filter->Update();
@@ -127,11 +139,11 @@ MakeField(const MaskPiece & piece, bool protectsAll)
 }
 
 FieldLattice::Pointer
-MakeLattice(FieldImage & field, const MaskPiece & piece, double density)
+MakeLattice(FieldImage & field, const MaskPiece & piece, double factor, const MaskSurfaceSettings & settings)
 {
-  const auto filter = itk::CartesianToFCCImageFilter<FieldImage>::New();
+  const auto filter = MakeFilter<itk::CartesianToFCCImageFilter<FieldImage>>(settings);
   filter->SetInput(&field);
-  filter->SetDensity(density);
+  filter->SetDensity(settings.density * factor);
   filter->SetSliceOrigins(piece.sliceOrigins);
   filter->SetOutsideValue(-static_cast<float>(MaskMargin));
   filter->Update();
@@ -141,12 +153,12 @@ MakeLattice(FieldImage & field, const MaskPiece & piece, double density)
 }
 
 itk::TriangleSurface::Pointer
-Extract(const FieldLattice & lattice, double level, itk::FCCIsosurfaceMode mode)
+Extract(const FieldLattice & lattice, double level, const MaskSurfaceSettings & settings)
 {
-  const auto filter = itk::FCCIsosurfaceFilter<FieldLattice>::New();
+  const auto filter = MakeFilter<itk::FCCIsosurfaceFilter<FieldLattice>>(settings);
   filter->SetInput(&lattice);
   filter->SetIsovalue(level);
-  filter->SetMode(mode);
+  filter->SetMode(settings.mode);
   filter->Update();
   itk::TriangleSurface::Pointer surface = filter->GetOutput();
   surface->DisconnectPipeline();
@@ -163,7 +175,10 @@ DifferenceOf(const MaskSurface & made, const MaskPiece & piece)
 /** Extracts the surface at the level at which it has the piece's volume. The level is found by the secant method; the
  * first slope is the surface's area. */
 MaskSurface
-ExtractVolume(const FieldLattice & lattice, const MaskPiece & piece, double firstLevel, itk::FCCIsosurfaceMode mode)
+ExtractVolume(const FieldLattice & lattice,
+              const MaskPiece & piece,
+              double firstLevel,
+              const MaskSurfaceSettings & settings)
 {
   const auto & spacing = piece.mask->GetSpacing();
   const double voxelEdge = std::cbrt(spacing[0] * spacing[1] * spacing[2]);
@@ -175,7 +190,7 @@ ExtractVolume(const FieldLattice & lattice, const MaskPiece & piece, double firs
   {
     MaskSurface made;
     made.level = level;
-    made.surface = Extract(lattice, level, mode);
+    made.surface = Extract(lattice, level, settings);
     made.volume = itk::ComputeVolume(*made.surface);
     if (n == 0 || DifferenceOf(made, piece) < DifferenceOf(best, piece))
     {
@@ -228,7 +243,7 @@ public:
   MaskSurface
   Run()
   {
-    const MaskField field = MakeField(m_Piece, false);
+    const MaskField field = MakeField(m_Piece, false, m_Settings);
     const std::uint8_t * const mask = m_Piece.mask->GetBufferPointer();
     const auto voxels = std::count(mask, mask + m_Piece.mask->GetBufferedRegion().GetNumberOfPixels(), 1);
     const bool isThin = ThinShare * field.narrowVoxels >= static_cast<std::size_t>(voxels);
@@ -241,7 +256,7 @@ public:
     {
       return best;
     }
-    const MaskSurface whole = this->Refine(MakeField(m_Piece, true));
+    const MaskSurface whole = this->Refine(MakeField(m_Piece, true, m_Settings));
     return this->RankOf(whole) < this->RankOf(best) ? whole : best;
   }
 
@@ -274,8 +289,8 @@ private:
   MaskSurface
   MakeOn(const MaskField & field, double factor, double firstLevel) const
   {
-    const auto lattice = MakeLattice(*field.image, m_Piece, m_Settings.density * factor);
-    MaskSurface made = ExtractVolume(*lattice, m_Piece, firstLevel, m_Settings.mode);
+    const auto lattice = MakeLattice(*field.image, m_Piece, factor, m_Settings);
+    MaskSurface made = ExtractVolume(*lattice, m_Piece, firstLevel, m_Settings);
     made.isFiner = factor > 1.0;
     made.protectedVoxels = field.protectedVoxels;
     return made;

@@ -43,7 +43,8 @@ struct MaskSurfaceSettings
   double density = 0.0; ///< lattice sites per voxel
   itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
   std::uintmax_t maximumMemory = 0;
-  std::string name; ///< the label's, for messages
+  std::string name;         ///< the label's, for messages
+  bool onOneThread = false; ///< does all on the calling thread, so that other threads can do other pieces
 };
 
 /** The surface of a piece, with its volume; see LabelsToSurfaces(). Throws Failure(Memory). */
