@@ -72,6 +72,33 @@ TEST(Lightbox, SmallerPicturesLieInTheMiddleAndAlphaIsKept)
   EXPECT_EQ(page.At(35, 15)[3], 0);
 }
 
+TEST(Lightbox, HasTheSizeThatIsGivenAndEvenGaps)
+{
+  const std::vector<Picture> pictures(6, Plain(20, 20, 3, 50));
+  for (int more = 0; more < 12; ++more)
+  {
+    const Picture page = MakeLightbox(pictures, 4, {}, 3, 76 + more, 52 + more);
+    ASSERT_EQ(page.width, 76 + more);
+    ASSERT_EQ(page.height, 52 + more);
+    std::vector<int> gaps{ 0 };
+    for (int x = 0; x < page.width; ++x)
+    {
+      const bool isGap = page.At(x, 4 + more / 4)[0] == 0;
+      gaps.back() += isGap ? 1 : 0;
+      if (!isGap && gaps.back() > 0)
+      {
+        gaps.push_back(0);
+      }
+    }
+    ASSERT_EQ(gaps.size(), 4u);
+    for (const int gap : gaps)
+    {
+      EXPECT_GE(gap, 4);
+      EXPECT_LE(gap, 4 + more / 3 + 1);
+    }
+  }
+}
+
 TEST(Lightbox, NoPictureIsUsage)
 {
   EXPECT_THROW(MakeLightbox({}, 4, {}), rhombic::Failure);

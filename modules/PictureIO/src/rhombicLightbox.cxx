@@ -62,7 +62,12 @@ LightboxColumns(int count, int width, int height, double aspect)
 }
 
 Picture
-MakeLightbox(const std::vector<Picture> & pictures, int gap, const Colour & background, int columns)
+MakeLightbox(const std::vector<Picture> & pictures,
+             int gap,
+             const Colour & background,
+             int columns,
+             int pageWidth,
+             int pageHeight)
 {
   if (pictures.empty())
   {
@@ -80,13 +85,21 @@ MakeLightbox(const std::vector<Picture> & pictures, int gap, const Colour & back
   const int count = static_cast<int>(pictures.size());
   columns = columns > 0 ? std::min(columns, count) : LightboxColumns(count, width, height);
   const int rows = (count + columns - 1) / columns;
-  Picture page = Blank(gap + columns * (width + gap), gap + rows * (height + gap), channels, background);
+  Picture page = Blank(std::max(pageWidth, gap + columns * (width + gap)),
+                       std::max(pageHeight, gap + rows * (height + gap)),
+                       channels,
+                       background);
+  const auto placeIn = [gap](int cell, int cells, int side, int pageSide) {
+    const int begin = gap + cell * (pageSide - gap) / cells;
+    const int end = (cell + 1) * (pageSide - gap) / cells;
+    return begin + (end - begin - side) / 2;
+  };
   for (int i = 0; i < count; ++i)
   {
     const Picture & picture = pictures[static_cast<std::size_t>(i)];
     Paste(picture,
-          gap + i % columns * (width + gap) + (width - picture.width) / 2,
-          gap + i / columns * (height + gap) + (height - picture.height) / 2,
+          placeIn(i % columns, columns, picture.width, page.width),
+          placeIn(i / columns, rows, picture.height, page.height),
           page);
   }
   return page;
