@@ -21,7 +21,7 @@ constexpr double LargestTableShare = 0.47; // for others; longer tables go on on
 constexpr double RowPitch = 4.5;
 constexpr double TightRowPitch = 3.6;
 constexpr double RowTextShare = 0.62;      // of the row pitch
-constexpr double RoomForLetters = 1.25;    // height of a view to that of its scene, at most
+constexpr double RoomForLetters = 7.0;     // at each edge of a view
 constexpr double SmallestView = 40.0;      // height
 constexpr double PreferenceOfOneRow = 0.9; // two rows fill the page better
 constexpr std::size_t RowsBesideProvenance = 9;
@@ -62,6 +62,20 @@ Grid(const Rectangle & area, std::size_t count, std::size_t columns, double heig
   return places;
 }
 
+/** The height of a view whose scene is as wide as the letters leave room. */
+double
+HeightFor(double width, double aspect)
+{
+  return aspect * (width - 2.0 * RoomForLetters) + 2.0 * RoomForLetters;
+}
+
+/** The width of the scene in a view. */
+double
+SceneWidthIn(double width, double height, double aspect)
+{
+  return std::min(width - 2.0 * RoomForLetters, (height - 2.0 * RoomForLetters) / aspect);
+}
+
 /** The views, in one row or two, in an area of which they take what they need. Returns their bottom edge. */
 double
 PlaceViews(const Sheet & s, const Rectangle & area, std::vector<Rectangle> & places)
@@ -73,12 +87,11 @@ PlaceViews(const Sheet & s, const Rectangle & area, std::vector<Rectangle> & pla
   }
   const double available = area.height - CaptionHeight - Gap;
   const double width = (area.width - Gap * 3.0) / 4.0;
-  const double height = std::max(SmallestView, std::min(available, RoomForLetters * s.viewAspect * width));
+  const double height = std::max(SmallestView, std::min(available, HeightFor(width, s.viewAspect)));
   const double halfWidth = (area.width - Gap) / 2.0;
-  const double halfHeight =
-    std::min(0.5 * (available - CaptionHeight - 0.5 * Gap), RoomForLetters * s.viewAspect * halfWidth);
-  const double scale = std::min(width, height / s.viewAspect);
-  const double halfScale = std::min(halfWidth, halfHeight / s.viewAspect);
+  const double halfHeight = std::min(0.5 * (available - CaptionHeight - 0.5 * Gap), HeightFor(halfWidth, s.viewAspect));
+  const double scale = SceneWidthIn(width, height, s.viewAspect);
+  const double halfScale = SceneWidthIn(halfWidth, halfHeight, s.viewAspect);
   const bool isOneRow = count < 3 || PreferenceOfOneRow * scale >= halfScale;
   places = isOneRow ? Grid(area, count, std::max<std::size_t>(count, 2), height) : Grid(area, count, 2, halfHeight);
   return places.back().Bottom() + CaptionHeight + Gap;
