@@ -42,6 +42,8 @@ struct SceneRules
   std::vector<std::string> only;   ///< patterns of those that are shown; empty: all
   std::vector<std::string> hidden; ///< patterns of those that are not shown
   std::vector<SceneRule> rules;    ///< later ones count more
+  std::vector<std::string> needed; ///< patterns that each must fit a surface that is shown
+  bool opensEnclosing = false;     ///< makes labels translucent that enclose others and are opaque in the label table
   LabelColours colours = LabelColours::Anatomy;
 };
 
@@ -59,7 +61,8 @@ ParseSceneRule(const std::string & text);
  *
  * \param labels may be null
  *
- * Throws Failure(Usage) for a pattern that fits nothing, suggesting the nearest name, and when nothing is left. */
+ * Throws Failure(Usage) for a pattern of \a only, \a hidden or \a needed that fits nothing, suggesting the nearest
+ * name, and when nothing is left. */
 void
 ApplySceneRules(const SceneRules & rules, std::vector<SurfaceRequest> & requests, LabelMap * labels);
 

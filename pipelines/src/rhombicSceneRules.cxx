@@ -1,5 +1,6 @@
 #include "rhombicSceneRules.h"
 
+#include "rhombicEnclosingLabels.h"
 #include "rhombicFailure.h"
 #include "rhombicLabelColours.h"
 #include "rhombicWording.h"
@@ -122,6 +123,18 @@ ApplyRule(const SceneRule & rule, Label & label)
   label.opacity = rule.opacity.value_or(label.opacity);
 }
 
+void
+OpenEnclosing(LabelMap & map)
+{
+  constexpr double opacity = 0.2;
+  const std::set<std::int32_t> enclosing = FindEnclosingLabels(map);
+  for (LabelSummary & summary : map.labels)
+  {
+    const bool isOpened = summary.label.opacity == 1.0 && enclosing.count(summary.label.value) != 0;
+    summary.label.opacity = isOpened ? opacity : summary.label.opacity;
+  }
+}
+
 } // namespace
 
 bool
@@ -203,6 +216,14 @@ ApplySceneRules(const SceneRules & rules, std::vector<SurfaceRequest> & requests
   if (!names.empty() && requests.empty() && (labels == nullptr || labels->labels.empty()))
   {
     throw Failure(FailureKind::Usage, "No surface is left to show after --only and --hide; leave one of them out.");
+  }
+  for (const std::string & pattern : rules.needed)
+  {
+    RequireFit(pattern, NamesOf(requests, labels));
+  }
+  if (labels != nullptr && rules.opensEnclosing)
+  {
+    OpenEnclosing(*labels);
   }
   for (const SceneRule & rule : rules.rules)
   {

@@ -1,0 +1,131 @@
+#include "rhombicEnclosingLabels.h"
+
+#include "rhombicWording.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace rhombic
+{
+namespace
+{
+
+constexpr std::size_t RaysAlongSide = 128; // at most, across each side of the map
+constexpr double HiddenShare = 0.95;       // of the rays through a label
+
+/** How many rays meet each label, and how many meet another one before it. */
+struct Encounters
+{
+  std::map<std::int32_t, std::size_t> rays;
+  std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> before; ///< by the label in front and the one behind
+
+  /** \param labels of a ray, in the order in which it meets them first */
+  void
+  Add(const std::vector<std::int32_t> & labels)
+  {
+    for (std::size_t behind = 0; behind < labels.size(); ++behind)
+    {
+      ++rays[labels[behind]];
+      for (std::size_t front = 0; front < behind; ++front)
+      {
+        ++before[{ labels[front], labels[behind] }];
+      }
+    }
+  }
+};
+
+void
+AddUnlessThere(std::int32_t label, std::vector<std::int32_t> & labels)
+{
+  if (std::find(labels.begin(), labels.end(), label) == labels.end())
+  {
+    labels.push_back(label);
+  }
+}
+
+/** Follows rays along an axis, in both directions. */
+template <typename TImage>
+void
+FollowRays(const TImage & image, std::size_t axis, const std::set<std::int32_t> & shown, Encounters & encounters)
+{
+  const auto & size = image.GetBufferedRegion().GetSize();
+  const std::size_t steps[3] = { 1, size[0], size[0] * size[1] };
+  const std::size_t u = (axis + 1) % 3;
+  const std::size_t v = (axis + 2) % 3;
+  const auto strideOf = [&size](std::size_t side) { return (size[side] + RaysAlongSide - 1) / RaysAlongSide; };
+  std::vector<std::int32_t> runs; // of equal values
+  for (std::size_t j = 0; j < size[v]; j += strideOf(v))
+  {
+    for (std::size_t i = 0; i < size[u]; i += strideOf(u))
+    {
+      const auto * voxel = image.GetBufferPointer() + i * steps[u] + j * steps[v];
+      runs.clear();
+      for (std::size_t n = 0; n < size[axis]; ++n, voxel += steps[axis])
+      {
+        const auto value = static_cast<std::int32_t>(*voxel);
+        if (value != 0 && (runs.empty() || runs.back() != value) && shown.count(value) != 0)
+        {
+          runs.push_back(value);
+        }
+      }
+      for (int direction = 0; direction < 2; ++direction)
+      {
+        std::vector<std::int32_t> labels;
+        std::for_each(runs.begin(), runs.end(), [&labels](std::int32_t value) { AddUnlessThere(value, labels); });
+        encounters.Add(labels);
+        std::reverse(runs.begin(), runs.end());
+      }
+    }
+  }
+}
+
+bool
+IsNameOfCover(const std::string & name)
+{
+  static const std::vector<std::string> patterns{ "skin*",   "*fat",     "*fat_*", "*subcutaneous*", "muscle",
+                                                  "muscles", "*_muscle", "body",   "body_*",         "torso*" };
+  return std::any_of(
+    patterns.begin(), patterns.end(), [&name](const std::string & pattern) { return MatchesPattern(pattern, name); });
+}
+
+} // namespace
+
+std::set<std::int32_t>
+FindEnclosingLabels(const LabelMap & map)
+{
+  std::set<std::int32_t> shown;
+  std::set<std::int32_t> enclosing;
+  for (const LabelSummary & summary : map.labels)
+  {
+    if (!summary.label.isVisible)
+    {
+      continue;
+    }
+    shown.insert(summary.label.value);
+    if (IsNameOfCover(summary.label.name))
+    {
+      enclosing.insert(summary.label.value);
+    }
+  }
+  if (shown.size() < 2)
+  {
+    return {};
+  }
+  Encounters encounters;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    std::visit([&](const auto & image) { FollowRays(*image, axis, shown, encounters); }, map.scan.image);
+  }
+  for (const auto & [labels, rays] : encounters.before)
+  {
+    if (static_cast<double>(rays) >= HiddenShare * static_cast<double>(encounters.rays[labels.second]))
+    {
+      enclosing.insert(labels.first);
+    }
+  }
+  return enclosing;
+}
+
+} // namespace rhombic
