@@ -214,4 +214,93 @@ TEST_F(RenderCommand, NamesOfSurfaceFilesAreNotWritten)
   }
 }
 
+TEST_F(RenderCommand, AReportOfOneOfSeveralPicturesMakesThatOne)
+{
+  RunWell("render " + phantomScan +
+          " --preset ct-bone --view left --view superior --slice axial=bone --size 0x200 -o a.png");
+  for (const char * picture : { "a-left", "a-superior", "a-axial-bone" })
+  {
+    const std::string name = picture;
+    RunWell("render " + phantomScan + " --from " + name + ".png.json -o again.png");
+    EXPECT_EQ(Read(name + ".png").pixels, Read("again.png").pixels) << name;
+    RunWell("render " + phantomScan + " --from again.png.json -o third.png");
+    EXPECT_EQ(Read(name + ".png").pixels, Read("third.png").pixels) << name;
+  }
+  RunWell("render " + phantomScan + " --from a-left.png.json --view right -o right.png");
+  EXPECT_NE(Read("right.png").pixels, Read("a-left.png").pixels);
+}
+
+TEST_F(RenderCommand, LightboxesAndTurntablesHaveOneSize)
+{
+  const auto expectSize = [this](const std::string & name, int width, int height) {
+    const rhombic::Picture picture = Read(name);
+    EXPECT_EQ(picture.width, width) << name;
+    EXPECT_EQ(picture.height, height) << name;
+  };
+  const std::string lightbox = "render " + phantomScan + " --preset ct-bone --slice axial --lightbox 7 --size ";
+  RunWell(lightbox + "501x407 -o box.png");
+  expectSize("box.png", 501, 407);
+  RunWell(lightbox + "501x0 -o wide.png");
+  EXPECT_EQ(Read("wide.png").width, 501);
+  RunWell("render " + phantomLabels + " --only 'liver,*lung*' --turntable 3 -o turn.png");
+  const rhombic::Picture first = Read("turn-001.png");
+  expectSize("turn-002.png", first.width, first.height);
+  expectSize("turn-003.png", first.width, first.height);
+  EXPECT_EQ(std::max(first.width, first.height), 1200);
+}
+
+TEST_F(RenderCommand, SlicesOfLabelsWithoutAScanAreFilled)
+{
+  RunWell("render " + phantomLabels +
+          " --only liver --draw liver=red --slice axial=liver --annotate none --no-outlines "
+          "-o slice.png");
+  const rhombic::Picture slice = Read("slice.png");
+  const std::uint8_t * const outside = slice.At(5, 5);
+  EXPECT_GT(outside[0], 30) << "not black";
+  EXPECT_EQ(outside[0], outside[2]);
+  const auto middle = MiddleOfRed(slice);
+  const std::uint8_t * const inside =
+    slice.At(static_cast<int>(middle[0] * slice.width), static_cast<int>(middle[1] * slice.height));
+  EXPECT_GT(inside[0], 120);
+  EXPECT_LT(inside[2], 60);
+}
+
+TEST_F(RenderCommand, BadRequestsAreRefusedInOneSentenceAndLeaveNothing)
+{
+  struct Request
+  {
+    const char * arguments;
+    int exitCode;
+    const char * says;
+  };
+  const std::string bone = "render " + phantomScan + " --preset ct-bone ";
+  const std::string labels = "render " + phantomLabels + " ";
+  for (const Request & request : std::vector<Request>{
+         { "--size 31", 2, "at least 32 pixels" },
+         { "--cut axial=1e9", 2, "reaches from -14 to 714 mm" },
+         { "--cut 'axial>1e9'", 2, "reaches from -14 to 714 mm" },
+         { "--cut 'sideways>1'", 2, "not understood" },
+         { "--slice coronal=-1e9", 2, "choose a place in between" },
+         { "--show-slice sagittal=#999", 2, "slices 0 to 53" },
+         { "--focus bon", 2, "did you mean bone?" },
+         { "--cut axial --uncut bon", 2, "did you mean bone?" },
+         { "--slice axial=bon", 2, "did you mean bone?" },
+         { "--turntable 720 --size 4000 --max-memory 1G", 9, "--size" },
+         { "--sheet --dpi 600 --max-memory 100M", 9, "--dpi" },
+       })
+  {
+    const Outcome outcome = Run(bone + request.arguments + " -q -o picture.png");
+    EXPECT_EQ(outcome.exitCode, request.exitCode) << request.arguments << outcome.errors;
+    EXPECT_NE(outcome.errors.find(request.says), std::string::npos) << request.arguments << outcome.errors;
+    EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+    EXPECT_EQ(CountFiles(), 0u) << request.arguments;
+  }
+  EXPECT_NE(Run(labels + "-o a.gif").errors.find("Only --turntable writes .gif"), std::string::npos);
+  EXPECT_NE(Run(labels + "-o a.pdf").errors.find("Only --sheet writes .pdf"), std::string::npos);
+  EXPECT_NE(Run(labels + "--turntable 8 -o a.webm").errors.find("ffmpeg"), std::string::npos);
+  EXPECT_NE(Run(labels + "--only livr -o a.png").errors.find("did you mean liver?"), std::string::npos);
+  EXPECT_NE(Run(labels + "--only liver --hide liver -o a.png").errors.find("No surface is left"), std::string::npos);
+  EXPECT_EQ(CountFiles(), 0u);
+}
+
 } // namespace

@@ -36,6 +36,7 @@ struct RenderOptions
   std::vector<std::string> slices;
   std::size_t lightbox = 0;
   std::size_t turntable = 0;
+  std::size_t onlyPicture = 0;
   bool isSheet = false;
   bool isLandscape = false;
   double pixelsPerInch = 200.0;
@@ -108,11 +109,16 @@ ParseSize(const std::string & text, RenderSettings & render)
   {
     parsed = std::from_chars(parsed.ptr + 1, end, render.height);
   }
-  if (parsed.ec != std::errc() || parsed.ptr != end || render.width < 0 || render.height < 0 ||
+  constexpr int smallest = 32; // on which there is room for a letter
+  const auto isSide = [](int side) { return side == 0 || side >= smallest; };
+  if (parsed.ec != std::errc() || parsed.ptr != end || !isSide(render.width) || !isSide(render.height) ||
       render.width + render.height == 0)
   {
     throw Failure(FailureKind::Usage,
-                  "'" + text + "' is no picture size; write it as 1200, 1600x1200, or 1200x0 for a height that fits.");
+                  "'" + text +
+                    "' is no picture size; write it as 1200, 1600x1200, or 1200x0 for a height that fits, "
+                    "with sides of at least " +
+                    std::to_string(smallest) + " pixels.");
   }
 }
 
@@ -209,6 +215,7 @@ GetPictureSource(const RenderOptions & options, const CommandContext & context)
   else
   {
     source.surfaces = options.surfaces.GetSelection();
+    source.surfaces.rules.opensEnclosing = source.surfaces.labels && source.surfaces.labels->labels.empty();
   }
   return source;
 }
@@ -261,6 +268,7 @@ RenderPictures(const RenderOptions & options, const CommandContext & context, co
   settings.uncut = options.uncut;
   settings.slice = GetSliceSettings(options);
   settings.turntable = options.turntable;
+  settings.onlyPicture = options.onlyPicture;
   settings.focus = options.focus;
   ParseSize(options.size, settings.render);
   settings.render.style = options.style.empty() ? PictureStyle::Clinic : ParseStyle(options.style);
@@ -277,9 +285,37 @@ RenderPictures(const RenderOptions & options, const CommandContext & context, co
   return RenderScan(settings, context.console->MakeEvents());
 }
 
-/** The arguments in a picture's report, without those that a new command gives: the scan, the label map, the output. */
+/** Throws Failure(Usage) for a file name that only other options or programs write. */
+void
+CheckEnding(const RenderOptions & options)
+{
+  const std::string ending = LowerCase(std::filesystem::path(options.picture).extension().string());
+  if ((ending == ".gif" && options.turntable == 0) || (ending == ".pdf" && !options.isSheet))
+  {
+    throw Failure(FailureKind::Usage,
+                  "Only " + std::string(ending == ".gif" ? "--turntable" : "--sheet") + " writes " + ending +
+                    " files; use it, or name a .png, .jpg, .tif or .exr file.");
+  }
+  if (ending == ".mp4" || ending == ".webm" || ending == ".avi" || ending == ".mov")
+  {
+    throw Failure(FailureKind::Usage,
+                  "Videos are not written; make a .gif, or numbered pictures with -o turn.png, which ffmpeg -i "
+                  "turn-%03d.png turn" +
+                    ending + " joins.");
+  }
+}
+
+/** Whether an argument is an option, or an option and its value: --view or --view=left. */
+bool
+IsOption(const std::string & argument, const std::string & option)
+{
+  return argument == option || argument.rfind(option + "=", 0) == 0;
+}
+
+/** The arguments in a picture's report that draw this picture, without those that a new command gives: the scan, the
+ * label map, the output, and perhaps the views and slices. */
 std::vector<std::string>
-ReadArguments(const std::string & path)
+ReadArguments(const std::string & path, bool areViewsGiven)
 {
   std::ifstream file(path);
   if (!file)
@@ -293,19 +329,28 @@ ReadArguments(const std::string & path)
     throw Failure(FailureKind::Unreadable,
                   "The file " + path + " is no report of rhombic render; name the .json beside a picture.");
   }
+  std::vector<std::string> left{ "-o", "--output", "--labels" };
+  if (areViewsGiven)
+  {
+    left.insert(left.end(), { "--view", "--slice", "--picture" });
+  }
   std::vector<std::string> arguments;
   for (std::size_t n = 1; n < stored.size(); ++n)
   {
     const std::string argument = stored[n].is_string() ? stored[n].get<std::string>() : "";
-    const bool hasGivenValue = argument == "-o" || argument == "--output" || argument == "--labels";
+    const bool isLeft =
+      std::any_of(left.begin(), left.end(), [&](const std::string & option) { return IsOption(argument, option); });
     const bool isGiven = argument == "SCAN" || argument.rfind(FurtherFile, 0) == 0 ||
-                         (argument.rfind("-o", 0) == 0 && argument.size() > 2) || argument.rfind("--output=", 0) == 0 ||
-                         argument.rfind("--labels=", 0) == 0;
-    n += hasGivenValue ? 1 : 0;
-    if (!hasGivenValue && !isGiven)
+                         (argument.rfind("-o", 0) == 0 && argument.size() > 2);
+    n += isLeft && argument.find('=') == std::string::npos ? 1 : 0;
+    if (!isLeft && !isGiven)
     {
       arguments.push_back(argument);
     }
+  }
+  if (!areViewsGiven && report.contains("picture"))
+  {
+    arguments.insert(arguments.end(), { "--picture", report["picture"].dump() });
   }
   return arguments;
 }
@@ -319,7 +364,8 @@ RenderAgain(const RenderOptions & options, const CommandContext & context)
 {
   CommandContext again = context;
   again.arguments = { "render" };
-  const std::vector<std::string> stored = ReadArguments(options.from);
+  const std::vector<std::string> stored =
+    ReadArguments(options.from, !options.views.empty() || !options.slices.empty());
   again.arguments.insert(again.arguments.end(), stored.begin(), stored.end());
   bool isSkipped = false; // --from, with its value
   bool isCommandFound = false;
@@ -368,6 +414,7 @@ Render(const RenderOptions & options, const CommandContext & context)
   {
     throw Failure(FailureKind::Usage, "No picture is named; give one with -o, for example -o picture.png.");
   }
+  CheckEnding(options);
   std::map<std::string, std::string> names = options.surfaces.GetNames();
   for (const std::string & file : options.furtherFiles)
   {
@@ -498,6 +545,7 @@ AddOptions(RenderOptions & options, CLI::App & parser)
   AddLookOptions(options, parser);
   AddExclusions(parser);
   parser.add_option("--from", options.from, "the options that a picture's report (PICTURE.json) holds");
+  parser.add_option("--picture", options.onlyPicture)->group(""); // for --from: which one of several to draw, from 1
   parser.add_flag("--list-presets", options.listsPresets, "list the presets and stop");
   options.scan.AddLattice(parser);
   options.scan.AddSidecar(parser);

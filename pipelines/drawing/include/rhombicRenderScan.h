@@ -51,6 +51,7 @@ struct RenderScanSettings
   SliceSettings slice;
   AnnotationSettings annotations;
   std::size_t turntable = 0;     ///< number of views around the patient, instead of the views; 0: none
+  std::size_t onlyPicture = 0;   ///< the number, from 1, of the only one of views and slices to draw; 0: all
   std::filesystem::path picture; ///< with more than one, a view's or plane's name is added to the stem; a turntable is
                                  ///< one .gif, or numbered pictures
   Provenance provenance;

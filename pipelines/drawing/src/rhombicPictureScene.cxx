@@ -245,6 +245,27 @@ MakeSceneOfFiles(const PictureSource & source, const Events & events)
   return scene;
 }
 
+/** Throws Failure(Usage) for a position that is not in the box. */
+void
+RequireInside(SlicePlane plane, double position, const SliceBox & box)
+{
+  const std::size_t axis = plane == SlicePlane::Axial ? 2 : plane == SlicePlane::Coronal ? 1 : 0;
+  double lowest = box.corner[axis];
+  double highest = box.corner[axis];
+  for (const Vector3 & side : box.sides)
+  {
+    lowest += std::min(0.0, side[axis]);
+    highest += std::max(0.0, side[axis]);
+  }
+  if (position < lowest || position > highest)
+  {
+    throw Failure(FailureKind::Usage,
+                  NameOf(plane) + " " + "xyz"[axis] + " = " + FormatNumber(position, 6) +
+                    " mm is outside of what is shown, which reaches from " + FormatNumber(lowest, 5) + " to " +
+                    FormatNumber(highest, 5) + " mm; choose a place in between.");
+  }
+}
+
 } // namespace
 
 PictureScene
@@ -273,6 +294,18 @@ SurfacesNamed(const std::vector<SceneSurface> & surfaces, const std::string & pa
   return found;
 }
 
+void
+NeedPlaces(const std::vector<PlaneRequest> & requests, SceneRules & rules)
+{
+  for (const PlaneRequest & request : requests)
+  {
+    if (!request.place.empty() && request.place[0] != '#' && !ToNumber<double>(request.place))
+    {
+      rules.needed.push_back(request.place);
+    }
+  }
+}
+
 Vector3
 FindPlace(const PlaneRequest & request, const PictureScene & scene)
 {
@@ -285,6 +318,7 @@ FindPlace(const PlaneRequest & request, const PictureScene & scene)
   }
   if (const auto position = ToNumber<double>(request.place); position && std::isfinite(*position))
   {
+    RequireInside(request.plane, *position, scene.box);
     return PointAtPosition(scene.box, request.plane, *position);
   }
   if (request.place[0] == '#')

@@ -35,6 +35,10 @@ struct PictureScene
 PictureScene
 MakePictureScene(const PictureSource & source, bool keepsScan, const Events & events);
 
+/** Adds the names of surfaces that planes go through to those that are needed. */
+void
+NeedPlaces(const std::vector<PlaneRequest> & requests, SceneRules & rules);
+
 /** The point of a plane. Throws Failure(Usage) for a place that no surface's name fits, and for one outside the scene.
  */
 Vector3

@@ -25,23 +25,26 @@ ParsePlaneRequest(const std::string & text)
 CutRequest
 ParseCutRequest(const std::string & text)
 {
-  const bool isComparison = text.size() > 2 && (text[1] == '>' || text[1] == '<');
-  if (!isComparison)
+  const auto sign = text.find_first_of("<>");
+  if (sign == std::string::npos)
   {
     const PlaneRequest plane = ParsePlaneRequest(text);
     return { plane, plane.plane != SlicePlane::Coronal };
   }
-  const std::string axis = LowerCase(text.substr(0, 1));
-  const std::string place = text.substr(2);
-  if (std::string("xyz").find(axis) == std::string::npos || !ToNumber<double>(place))
+  const std::string axis = LowerCase(text.substr(0, sign));
+  const std::string place = text.substr(sign + 1);
+  for (const SlicePlane plane : { SlicePlane::Sagittal, SlicePlane::Coronal, SlicePlane::Axial })
   {
-    throw Failure(FailureKind::Usage,
-                  "The cut '" + text +
-                    "' is not understood; write x>12, y<-30 or z>100 (mm in LPS) for what is "
-                    "removed, or a plane, as coronal=liver.");
+    const char letter = plane == SlicePlane::Sagittal ? 'x' : plane == SlicePlane::Coronal ? 'y' : 'z';
+    if ((axis == NameOf(plane) || axis == std::string(1, letter)) && ToNumber<double>(place))
+    {
+      return { { plane, place }, text[sign] == '>' };
+    }
   }
-  const SlicePlane plane = axis == "x" ? SlicePlane::Sagittal : axis == "y" ? SlicePlane::Coronal : SlicePlane::Axial;
-  return { { plane, place }, text[1] == '>' };
+  throw Failure(FailureKind::Usage,
+                "The cut '" + text +
+                  "' is not understood; write x>12, y<-30 or z>100 (mm in LPS) for what is "
+                  "removed, or a plane, as coronal=liver.");
 }
 
 } // namespace rhombic

@@ -2,6 +2,7 @@
 
 #include "rhombicFailure.h"
 #include "rhombicLightbox.h"
+#include "rhombicMemoryBudget.h"
 #include "rhombicOutlinedSlice.h"
 #include "rhombicPictureIO.h"
 #include "rhombicPictureScene.h"
@@ -53,6 +54,13 @@ NameOf(const PlaneRequest & request)
   return NameOf(request.plane) + (place.empty() ? "" : "-" + FileStemOf(place));
 }
 
+/** Whether a picture is drawn, by its number from 0 among views and slices. */
+bool
+IsDrawn(const RenderScanSettings & settings, std::size_t picture)
+{
+  return settings.turntable > 0 || settings.onlyPicture == 0 || settings.onlyPicture == picture + 1;
+}
+
 /** One path for each picture, all different: with their names if there are several. */
 std::vector<fs::path>
 PathsOf(const fs::path & picture, const std::vector<std::string> & names)
@@ -96,7 +104,13 @@ PlanPictures(const RenderScanSettings & settings)
   {
     names.push_back(NameOf(slice));
   }
-  return PathsOf(settings.picture, names);
+  if (settings.onlyPicture > names.size())
+  {
+    throw Failure(FailureKind::Usage,
+                  "There is no picture " + std::to_string(settings.onlyPicture) + " among " +
+                    std::to_string(names.size()) + " views and slices" + ".");
+  }
+  return settings.onlyPicture > 0 ? std::vector<fs::path>{ settings.picture } : PathsOf(settings.picture, names);
 }
 
 /** Whether an isosurface is translucent. Labels are not known before they are read; the renderer checks them again. */
@@ -159,6 +173,31 @@ LimitedMargins(const Annotations & annotations, int width, int height, const Vie
   return margins;
 }
 
+Margins
+Larger(const Margins & a, const Margins & b)
+{
+  return { std::max(a.left, b.left), std::max(a.right, b.right), std::max(a.top, b.top), std::max(a.bottom, b.bottom) };
+}
+
+bool
+IsNear(const Margins & a, const Margins & b, double tolerance)
+{
+  return std::abs(a.left - b.left) <= tolerance && std::abs(a.right - b.right) <= tolerance &&
+         std::abs(a.top - b.top) <= tolerance && std::abs(a.bottom - b.bottom) <= tolerance;
+}
+
+/** The margins that leave room for the annotations in all of the pictures. */
+Margins
+LargestMargins(const Annotations & annotations, const std::vector<Projection> & pictures)
+{
+  Margins largest{ 0.0, 0.0, 0.0, 0.0 };
+  for (const Projection & picture : pictures)
+  {
+    largest = Larger(largest, LimitedMargins(annotations, picture.width, picture.height, picture.frame));
+  }
+  return largest;
+}
+
 /** Fits the settings to a scene: what is seen, and margins for the annotations. These depend on the size of the
  * pictures, and that, if it is not given, on them. */
 RenderSettings
@@ -181,21 +220,43 @@ FitToScene(const RenderScanSettings & settings,
                              0.5 * (box.lowest[1] + box.highest[1]),
                              0.5 * (box.lowest[2] + box.highest[2]) };
   }
-  int width = render.width > 0 ? render.width : LongerSide;
-  int height = render.height > 0 ? render.height : LongerSide;
-  constexpr int rounds = 3;
-  for (int n = 0; n < rounds; ++n)
+  const int width = render.width > 0 ? render.width : LongerSide;
+  const int height = render.height > 0 ? render.height : LongerSide;
+  std::vector<Projection> planned(views.size());
+  for (std::size_t n = 0; n < views.size(); ++n)
   {
-    render.margins = LimitedMargins(annotations, width, height, views.front().frame);
-    const Projection planned = SurfaceRenderer::Plan(scene, render, views).front();
-    width = planned.width;
-    height = planned.height;
+    planned[n].width = width;
+    planned[n].height = height;
+    planned[n].frame = views[n].frame;
   }
-  if (views.size() == 1)
+  // Mostly two rounds. Should a legend change its columns to and fro, the wider margins of all further rounds count.
+  constexpr int freeRounds = 4;
+  constexpr int mostRounds = 8;
+  for (int n = 0; n < mostRounds; ++n)
   {
-    render.width = width;
-    render.height = height;
-    render.margins = LimitedMargins(annotations, width, height, views.front().frame);
+    const Margins last = render.margins.value_or(Margins{ 0.0, 0.0, 0.0, 0.0 });
+    const Margins next = LargestMargins(annotations, planned);
+    render.margins = n < freeRounds ? next : Larger(last, next);
+    planned = SurfaceRenderer::Plan(scene, render, views);
+    constexpr double tolerance = 0.5; // pixels
+    if (n > 0 && IsNear(last, *render.margins, tolerance))
+    {
+      break;
+    }
+  }
+  if (settings.turntable > 0) // all frames have one size
+  {
+    for (const Projection & frame : planned)
+    {
+      render.width = std::max(render.width, frame.width);
+      render.height = std::max(render.height, frame.height);
+    }
+    for (Projection & frame : planned)
+    {
+      frame.width = render.width;
+      frame.height = render.height;
+    }
+    render.margins = LargestMargins(annotations, planned);
   }
   return render;
 }
@@ -206,12 +267,16 @@ DrawViews(const RenderScanSettings & settings, const PictureScene & source, Surf
   const bool isTransparent = settings.render.style == PictureStyle::Transparent;
   const Annotations annotations =
     AnnotationsOf(settings, source, { BackgroundOf(settings.render), isTransparent ? 0.0 : 1.0 });
-  const std::vector<View> views = settings.turntable > 0 ? TurntableViews(settings.turntable) : settings.views;
+  std::vector<View> views = settings.turntable > 0 ? TurntableViews(settings.turntable) : settings.views;
   Scene scene;
   scene.surfaces = source.surfaces;
   AddCuts(settings, source, scene);
   AddPlanes(settings, source, scene);
   RenderSettings render = FitToScene(settings, source, scene, views, annotations);
+  if (settings.turntable == 0 && settings.onlyPicture > 0)
+  {
+    views = { views[settings.onlyPicture - 1] };
+  }
   render.maximumMemory = settings.source.scan.lattice.maximumMemory;
   std::vector<Picture> pictures;
   std::vector<RenderedView> drawn = renderer.Render(scene, render, views);
@@ -265,29 +330,58 @@ DrawSliceWithOutlines(const RenderScanSettings & settings,
   const SheetPicture slice = DrawOutlinedSlice(scene, request, point, settings.slice, size.width, size.height);
   Picture picture = slice.picture;
   Annotations annotations = AnnotationsOf(settings, scene, { { 0.0, 0.0, 0.0 } });
-  annotations.title = annotations.title.empty() ? slice.caption + ", " + slice.position : annotations.title;
+  annotations.title += (annotations.title.empty() ? "" : ", ") + slice.caption + ", " + slice.position;
   annotations.legend.clear();
   annotations.outlines = slice.outlines;
   Annotate(picture, slice.projection, annotations);
   return picture;
 }
 
+/** Slices evenly along an axis, in one picture of the settings' size. */
 Picture
-DrawSlices(const RenderScanSettings & settings, const PictureScene & scene, const PlaneRequest & request)
+DrawLightbox(const RenderScanSettings & settings, const PictureScene & scene, const PlaneRequest & request)
 {
-  if (settings.slice.lightbox == 0)
-  {
-    return DrawSliceWithOutlines(settings, scene, request, FindPlace(request, scene));
-  }
+  constexpr int gap = 4; // pixels
+  const int count = static_cast<int>(settings.slice.lightbox);
+  const std::vector<Vector3> points = SpreadEvenly(scene.box, FrameOf(request.plane), settings.slice.lightbox);
   RenderScanSettings tile = settings;
   tile.render.width = tile.render.height = 0;
+  const Projection free = SizedSlice(tile.render, scene, request, points.front(), LongerSideOfTile);
+  const int width = settings.render.width;
+  const int height = settings.render.height;
+  const int columns = width > 0 && height > 0
+                        ? LightboxColumns(count, free.width, free.height, static_cast<double>(width) / height)
+                        : LightboxColumns(count, free.width, free.height);
+  const int rows = (count + columns - 1) / columns;
+  tile.render.width = width > 0 ? std::max(1, (width - gap) / columns - gap) : 0;
+  tile.render.height = height > 0 ? std::max(1, (height - gap) / rows - gap) : 0;
   std::vector<Picture> pictures;
-  for (const Vector3 & point : SpreadEvenly(scene.box, FrameOf(request.plane), settings.slice.lightbox))
+  for (const Vector3 & point : points)
   {
     pictures.push_back(DrawSliceWithOutlines(tile, scene, request, point, LongerSideOfTile));
+    tile.annotations.title.clear(); // the first slice has it
   }
-  constexpr int gap = 4; // pixels
-  return MakeLightbox(pictures, gap, { 0.0, 0.0, 0.0 });
+  return MakeLightbox(pictures, gap, { 0.0, 0.0, 0.0 }, columns, width, height);
+}
+
+/** The source with the names of all surfaces that the settings speak of, so that they are looked up before work. */
+PictureSource
+SourceOf(const RenderScanSettings & settings)
+{
+  PictureSource source = settings.source;
+  SceneRules & rules = source.surfaces.rules;
+  rules.needed = settings.uncut;
+  if (!settings.focus.empty())
+  {
+    rules.needed.push_back(settings.focus);
+  }
+  for (const CutRequest & cut : settings.cuts)
+  {
+    NeedPlaces({ cut.plane }, rules);
+  }
+  NeedPlaces(settings.planes, rules);
+  NeedPlaces(settings.slices, rules);
+  return source;
 }
 
 /** Throws Failure(Usage) for settings that slices can't have. */
@@ -327,7 +421,11 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
     CheckPicturePath(settings.picture, channels);
   }
   CheckSlices(settings);
-  const bool drawsViews = settings.turntable > 0 || !settings.views.empty();
+  bool drawsViews = settings.turntable > 0;
+  for (std::size_t n = 0; n < settings.views.size(); ++n)
+  {
+    drawsViews = drawsViews || IsDrawn(settings, n);
+  }
   std::optional<SurfaceRenderer> renderer;
   RenderSettings render = settings.render;
   render.maximumMemory = settings.source.scan.lattice.maximumMemory;
@@ -335,16 +433,28 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
   {
     renderer.emplace().CheckSettings(render, IsTranslucent(settings.source.surfaces.requests));
   }
-  const PictureScene scene = MakePictureScene(settings.source, NeedsScan(settings), events);
+  const auto sideOf = [](int side) { return static_cast<std::uintmax_t>(side > 0 ? side : LongerSide); };
+  RequireMemory(sideOf(render.width) * sideOf(render.height) * 4 * std::max(settings.turntable, paths.size()),
+                render.maximumMemory,
+                "All pictures together",
+                "choose a smaller --size, or fewer of them");
+  const PictureScene scene = MakePictureScene(SourceOf(settings), NeedsScan(settings), events);
   events.Progress("rendering", 0.0);
   std::vector<Picture> pictures;
   if (drawsViews)
   {
     pictures = DrawViews(settings, scene, *renderer);
   }
-  for (const PlaneRequest & request : settings.slices)
+  for (std::size_t n = 0; n < settings.slices.size(); ++n)
   {
-    pictures.push_back(DrawSlices(settings, scene, request));
+    if (!IsDrawn(settings, settings.views.size() + n))
+    {
+      continue;
+    }
+    const PlaneRequest & request = settings.slices[n];
+    pictures.push_back(settings.slice.lightbox > 0
+                         ? DrawLightbox(settings, scene, request)
+                         : DrawSliceWithOutlines(settings, scene, request, FindPlace(request, scene)));
   }
   StagedFiles staged;
   const PictureMetadata metadata{ settings.provenance.software, settings.provenance.GetCommand() };
@@ -359,9 +469,14 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
   {
     StageAnimation(pictures, SecondsPerTurn / static_cast<double>(pictures.size()), paths.front(), staged);
   }
-  for (const fs::path & path : paths)
+  for (std::size_t n = 0; n < paths.size(); ++n)
   {
-    StageSidecar(path, settings.provenance, scene.report, staged);
+    Report report = scene.report;
+    if (settings.turntable == 0 && paths.size() > 1)
+    {
+      report["picture"] = n + 1;
+    }
+    StageSidecar(paths[n], settings.provenance, report, staged);
   }
   staged.Commit();
   events.Progress("rendering", 1.0);

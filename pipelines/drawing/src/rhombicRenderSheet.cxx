@@ -1,4 +1,5 @@
 #include "rhombicFailure.h"
+#include "rhombicMemoryBudget.h"
 #include "rhombicOutlinedSlice.h"
 #include "rhombicPictureIO.h"
 #include "rhombicPictureScene.h"
@@ -167,6 +168,32 @@ StageSheet(const Sheet & sheet, const RenderSheetSettings & settings, StagedFile
   return paths;
 }
 
+/** Throws Failure(Memory) where there is too little for pages of the resolution, or for views in their largest places.
+ */
+void
+CheckMemory(const RenderSheetSettings & settings, std::size_t slices, const SurfaceRenderer & renderer)
+{
+  Sheet sheet;
+  sheet.views.resize(settings.views.size());
+  sheet.slices.resize(slices);
+  sheet.isLandscape = settings.isLandscape;
+  sheet.pixelsPerInch = settings.pixelsPerInch;
+  const SheetPlaces places = PlacesOn(sheet);
+  RenderSettings render;
+  render.maximumMemory = settings.source.scan.lattice.maximumMemory;
+  constexpr std::uintmax_t bytesPerPixel = 12; // drawing, picture, and its rows as they are written
+  RequireMemory(bytesPerPixel * static_cast<std::uintmax_t>(places.width) * static_cast<std::uintmax_t>(places.height),
+                render.maximumMemory,
+                "A page of " + FormatNumber(settings.pixelsPerInch) + " dots per inch",
+                "choose a smaller --dpi");
+  for (const Rectangle & place : places.views)
+  {
+    render.width = static_cast<int>(std::lround(place.width));
+    render.height = static_cast<int>(std::lround(place.height));
+    renderer.CheckSettings(render);
+  }
+}
+
 } // namespace
 
 std::vector<fs::path>
@@ -179,7 +206,10 @@ RenderSheet(const RenderSheetSettings & settings, const Events & events)
   }
   SurfaceRenderer renderer;
   const std::vector<PlaneRequest> planes = PlanesOf(settings);
-  const PictureScene scene = MakePictureScene(settings.source, true, events);
+  CheckMemory(settings, planes.size(), renderer);
+  PictureSource source = settings.source;
+  NeedPlaces(planes, source.surfaces.rules);
+  const PictureScene scene = MakePictureScene(source, true, events);
   events.Progress("drawing the page", 0.0);
   Sheet sheet = PlanSheet(settings, scene, planes.size());
   const SheetPlaces places = PlacesOn(sheet);
