@@ -1,0 +1,23 @@
+#ifndef itkTriangleSurfaceNormalSmoothing_h
+#define itkTriangleSurfaceNormalSmoothing_h
+
+#include "itkTriangleSurface.h"
+
+namespace itk
+{
+
+/** Smooths a surface's normals for shading where they disagree with its triangles, as those of a scan do where a step
+ * is sharper than the sampling. Points and triangles stay; nothing happens without normals.
+ *
+ * Each point's normal, weighted by the area of the triangles around it, is summed 8 times with those of its neighbours.
+ * The angle between a triangle's normal and the mean of its corners' normals, averaged over the same points, decides
+ * how much of the sum counts: nothing below 12 degrees, all of it from 20 degrees on, linear between.
+ *
+ * Time linear; memory about 140 bytes per point and 12 per triangle while it runs. The same bytes for any number of
+ * threads. */
+void
+SmoothNormals(TriangleSurface & surface);
+
+} // namespace itk
+
+#endif

@@ -1,0 +1,108 @@
+#include "itkTriangleSurfaceNormalSmoothing.h"
+
+#include "detail/itkPositionArithmetic.h"
+#include "detail/itkTrianglesOfPoints.h"
+#include "itkForEachBlock.h"
+#include "itkMath.h"
+
+#include <algorithm>
+
+namespace itk
+{
+namespace
+{
+
+using PointId = std::uint32_t;
+
+constexpr SizeValueType NormalsBlock = 4096;
+constexpr unsigned int Passes = 8;
+constexpr double AngleOfNone = 12.0; // degrees
+constexpr double AngleOfAll = 20.0;  // degrees
+
+/** What is averaged over the neighbourhood of a point. */
+struct NormalSample
+{
+  PositionType normal{};     ///< weighted by area
+  double disagreement = 0.0; ///< mean of 1 - cosine of the angle between triangles and normals
+};
+
+PositionType
+Scaled(const PositionType & a, double factor)
+{
+  return { factor * a[0], factor * a[1], factor * a[2] };
+}
+
+/** The vector of length 1, or 0. */
+PositionType
+Normalized(const PositionType & a)
+{
+  const double length = Length(a);
+  return length > 0.0 ? Scaled(a, 1.0 / length) : PositionType{};
+}
+
+NormalSample
+SampleAt(const TriangleSurface & surface, const TrianglesOfPoints & fans, SizeValueType point)
+{
+  const auto & normals = surface.GetNormals();
+  double area = 0.0;
+  double disagreement = 0.0;
+  fans.VisitTriangles(point, [&](std::uint32_t id) {
+    const auto & triangle = surface.GetTriangles()[id];
+    const PositionType areaVector = AreaVector(CornersOf(surface, triangle));
+    const PositionType mean = Normalized(
+      Add(Add(ToPosition(normals[triangle[0]]), ToPosition(normals[triangle[1]])), ToPosition(normals[triangle[2]])));
+    const double length = Length(areaVector);
+    area += length;
+    disagreement += length - Dot(areaVector, mean);
+  });
+  return { Scaled(ToPosition(normals[point]), area), area > 0.0 ? disagreement / area : 0.0 };
+}
+
+NormalSample
+SumWithNeighbours(const std::vector<NormalSample> & samples, const TrianglesOfPoints & fans, SizeValueType point)
+{
+  NormalSample sum = samples[point];
+  fans.VisitNeighbours(point, [&](PointId next, PointId) {
+    sum.normal = Add(sum.normal, samples[next].normal);
+    sum.disagreement += samples[next].disagreement;
+  });
+  sum.disagreement /= static_cast<double>(1 + fans.GetNumberOfTriangles(point));
+  return sum;
+}
+
+} // namespace
+
+void
+SmoothNormals(TriangleSurface & surface)
+{
+  if (!surface.HasNormals())
+  {
+    return;
+  }
+  const TrianglesOfPoints fans(surface);
+  std::vector<NormalSample> samples(surface.GetNumberOfPoints());
+  std::vector<NormalSample> next(samples.size());
+  ForEachInBlocks(
+    samples.size(), NormalsBlock, [&](SizeValueType point) { samples[point] = SampleAt(surface, fans, point); });
+  for (unsigned int pass = 0; pass < Passes; ++pass)
+  {
+    ForEachInBlocks(samples.size(), NormalsBlock, [&](SizeValueType point) {
+      next[point] = SumWithNeighbours(samples, fans, point);
+    });
+    samples.swap(next);
+  }
+  ForEachInBlocks(samples.size(), NormalsBlock, [&](SizeValueType point) {
+    const double angle = std::sqrt(2.0 * std::max(0.0, samples[point].disagreement)) * 180.0 / Math::pi;
+    const double share = std::clamp((angle - AngleOfNone) / (AngleOfAll - AngleOfNone), 0.0, 1.0);
+    auto & normal = surface.GetNormals()[point];
+    const PositionType blend =
+      Normalized(Add(Scaled(ToPosition(normal), 1.0 - share), Scaled(Normalized(samples[point].normal), share)));
+    if (share > 0.0 && Length(blend) > 0.0)
+    {
+      normal = { static_cast<float>(blend[0]), static_cast<float>(blend[1]), static_cast<float>(blend[2]) };
+    }
+  });
+  surface.Modified();
+}
+
+} // namespace itk
