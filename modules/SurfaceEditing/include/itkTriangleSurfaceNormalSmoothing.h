@@ -10,8 +10,10 @@ namespace itk
  * is sharper than the sampling. Points and triangles stay; nothing happens without normals.
  *
  * Each point's normal, weighted by the area of the triangles around it, is summed 8 times with those of its neighbours.
- * The angle between a triangle's normal and the mean of its corners' normals, averaged over the same points, decides
- * how much of the sum counts: nothing below 12 degrees, all of it from 20 degrees on, linear between.
+ * Two angles, averaged over the same points, decide how much of the sum counts: that between a triangle's normal and
+ * the mean of its corners' normals, and that between the corners' normals and their sum. Nothing counts where the first
+ * is below 4 degrees or 0.6 of the second, as on finely sampled curved surfaces; all counts from 8 degrees and 0.9 on;
+ * linear between.
  *
  * Time linear; memory about 140 bytes per point and 12 per triangle while it runs. The same bytes for any number of
  * threads. */

@@ -16,14 +16,17 @@ using PointId = std::uint32_t;
 
 constexpr SizeValueType NormalsBlock = 4096;
 constexpr unsigned int Passes = 8;
-constexpr double AngleOfNone = 12.0; // degrees
-constexpr double AngleOfAll = 20.0;  // degrees
+constexpr double AngleOfNone = 4.0; // degrees
+constexpr double AngleOfAll = 8.0;  // degrees
+constexpr double RatioOfNone = 0.6;
+constexpr double RatioOfAll = 0.9;
 
 /** What is averaged over the neighbourhood of a point. */
 struct NormalSample
 {
   PositionType normal{};     ///< weighted by area
-  double disagreement = 0.0; ///< mean of 1 - cosine of the angle between triangles and normals
+  double area = 0.0;         ///< of the triangles
+  double disagreement = 0.0; ///< 1 - cosine of the angle between triangles and normals, times area
 };
 
 PositionType
@@ -55,7 +58,7 @@ SampleAt(const TriangleSurface & surface, const TrianglesOfPoints & fans, SizeVa
     area += length;
     disagreement += length - Dot(areaVector, mean);
   });
-  return { Scaled(ToPosition(normals[point]), area), area > 0.0 ? disagreement / area : 0.0 };
+  return { Scaled(ToPosition(normals[point]), area), area, disagreement };
 }
 
 NormalSample
@@ -64,10 +67,30 @@ SumWithNeighbours(const std::vector<NormalSample> & samples, const TrianglesOfPo
   NormalSample sum = samples[point];
   fans.VisitNeighbours(point, [&](PointId next, PointId) {
     sum.normal = Add(sum.normal, samples[next].normal);
+    sum.area += samples[next].area;
     sum.disagreement += samples[next].disagreement;
   });
-  sum.disagreement /= static_cast<double>(1 + fans.GetNumberOfTriangles(point));
   return sum;
+}
+
+double
+ShareBetween(double value, double none, double all)
+{
+  return std::clamp((value - none) / (all - none), 0.0, 1.0);
+}
+
+/** How much of the sum of normals counts. */
+double
+ShareOf(const NormalSample & sum)
+{
+  const double spread = sum.area - Length(sum.normal);
+  if (!(sum.disagreement > 0.0))
+  {
+    return 0.0;
+  }
+  const double angle = std::sqrt(2.0 * sum.disagreement / sum.area) * 180.0 / Math::pi;
+  const double ratio = spread > 0.0 ? std::sqrt(sum.disagreement / spread) : RatioOfAll;
+  return ShareBetween(angle, AngleOfNone, AngleOfAll) * ShareBetween(ratio, RatioOfNone, RatioOfAll);
 }
 
 } // namespace
@@ -92,8 +115,7 @@ SmoothNormals(TriangleSurface & surface)
     samples.swap(next);
   }
   ForEachInBlocks(samples.size(), NormalsBlock, [&](SizeValueType point) {
-    const double angle = std::sqrt(2.0 * std::max(0.0, samples[point].disagreement)) * 180.0 / Math::pi;
-    const double share = std::clamp((angle - AngleOfNone) / (AngleOfAll - AngleOfNone), 0.0, 1.0);
+    const double share = ShareOf(samples[point]);
     auto & normal = surface.GetNormals()[point];
     const PositionType blend =
       Normalized(Add(Scaled(ToPosition(normal), 1.0 - share), Scaled(Normalized(samples[point].normal), share)));
