@@ -9,6 +9,7 @@
 #include "rhombicWording.h"
 
 #include "itkTriangleSurfaceMeasures.h"
+#include "itkTriangleSurfaceNormalSmoothing.h"
 #include "itkTriangleSurfaceSmoothing.h"
 
 #include <algorithm>
@@ -37,7 +38,7 @@ DescribeSize(const itk::ImageBase<3> & image)
   return std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]);
 }
 
-/** Removes parts, and smooths. Returns whether anything is left. */
+/** Removes parts, and smooths, the normals last. Returns whether anything is left. */
 bool
 Finish(SceneSurface & surface, const SurfaceFinish & finish, double spacing, const Events & events)
 {
@@ -56,6 +57,7 @@ Finish(SceneSurface & surface, const SurfaceFinish & finish, double spacing, con
     settings.maximumMove = finish.smoothing * spacing;
     SmoothSurface(*finished, settings);
   }
+  itk::SmoothNormals(*finished);
   return true;
 }
 
