@@ -248,6 +248,7 @@ constexpr const char * ShadeFragment = R"(
 uniform sampler2D relief;
 uniform vec2 pixelRule; // a pixel's size at depth 0 and the spread of Camera
 uniform float reach;    // largest distance of what takes light away
+uniform float detail;   // pits up to this depth take no light away
 uniform float jump;     // smallest step of depth that is an outline
 uniform int line;       // width of an outline in pixels
 uniform vec4 pairs[PAIRS]; // x, y: a point in the ball seen from the front, z: half the ball's depth there; of radius w
@@ -268,6 +269,12 @@ float Filled(float behind, float halfDepth, float radius)
   return clamp(-behind / halfDepth, -1.0, 1.0) * clamp(2.5 + behind / radius, 0.0, 1.0);
 }
 
+// How far the surface lies below the chord between the points on both sides.
+float Sunk(float after, float before, float apart)
+{
+  return -0.5 * (after + before) / length(vec2(1.0, 0.5 * (after - before) / apart));
+}
+
 float Taken(ivec2 at, float depth, float pixel)
 {
   float turn = 0.3927 * float((at.x & 3) * 4 + ((at.y & 3) ^ (at.x & 1) * 2)); // 16 angles in each 4 x 4 pixels
@@ -275,12 +282,14 @@ float Taken(ivec2 at, float depth, float pixel)
   float sum = 0.0;
   for (int n = 0; n < PAIRS; ++n)
   {
-    float radius = reach * pairs[n].w;
+    float radius = max(reach * pairs[n].w, 4.0 * detail);
     ivec2 offset = ivec2(round(rotation * pairs[n].xy * (radius / pixel)));
     float halfDepth = radius * pairs[n].z;
-    float filled = Filled(Behind(at + offset, depth), halfDepth, radius) +
-                   Filled(Behind(at - offset, depth), halfDepth, radius);
-    sum += IsInside(at + offset) && IsInside(at - offset) ? max(0.0, filled) : 0.0;
+    float after = Behind(at + offset, depth);
+    float before = Behind(at - offset, depth);
+    float filled = max(0.0, Filled(after, halfDepth, radius) + Filled(before, halfDepth, radius));
+    filled *= smoothstep(detail, 2.0 * detail, Sunk(after, before, length(pairs[n].xy) * radius));
+    sum += IsInside(at + offset) && IsInside(at - offset) ? filled : 0.0;
   }
   return sum / float(PAIRS);
 }

@@ -96,7 +96,7 @@ public:
     const CurrentGLContext current(*m_Context.context);
     const vtkRhombicMessages::Scope messages;
     SceneBuffers buffers(scene, settings, m_Window);
-    ViewPasses passes(settings, IsTranslucent(scene), m_Window);
+    ViewPasses passes(scene, settings, m_Window);
     std::vector<RenderedView> rendered;
     for (const Camera & camera : cameras)
     {

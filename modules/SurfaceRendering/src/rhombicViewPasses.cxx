@@ -1,5 +1,7 @@
 #include "rhombicViewPasses.h"
 
+#include "rhombicSceneCheck.h"
+
 #include <vtkOpenGLShaderCache.h>
 #include <vtkOpenGLState.h>
 
@@ -15,7 +17,6 @@ namespace
 {
 
 // Lengths as shares of the mean side of the picture.
-constexpr double OcclusionReach = 0.06;
 constexpr double OutlineJump = 0.006;
 constexpr double PixelsPerOutlineWidth = 1000.0; // of the picture's shorter side
 
@@ -84,9 +85,10 @@ TilesAlong(int samples)
 
 } // namespace
 
-ViewPasses::ViewPasses(const RenderSettings & settings, bool isTranslucent, vtkOpenGLRenderWindow * window)
+ViewPasses::ViewPasses(const Scene & scene, const RenderSettings & settings, vtkOpenGLRenderWindow * window)
   : m_Settings(settings)
-  , m_IsTranslucent(isTranslucent)
+  , m_IsTranslucent(IsTranslucent(scene))
+  , m_Lengths(FindOcclusionLengths(scene))
   , m_Window(window)
   , m_Framebuffer(vtkSmartPointer<vtkOpenGLFramebufferObject>::New())
   , m_NoArrays(vtkSmartPointer<vtkOpenGLVertexArrayObject>::New())
@@ -109,7 +111,7 @@ ViewPasses::Draw(SceneBuffers & scene, const Camera & camera)
   {
     DrawLayers(scene, camera);
   }
-  DrawPixels(camera);
+  DrawPixels();
   Picture picture = ReadPixels();
   m_Framebuffer->UnBind();
   return picture;
@@ -253,8 +255,9 @@ ViewPasses::DrawShades(const Camera & camera)
       { { "relief", m_Relief } },
       [&](vtkShaderProgram * program) {
         program->SetUniform2f("pixelRule", pixelRule.data());
-        program->SetUniformf("reach", static_cast<float>(OcclusionReach) * side);
-        program->SetUniformf("jump", static_cast<float>(OutlineJump) * side);
+        program->SetUniformf("reach", m_Lengths.reach);
+        program->SetUniformf("detail", m_Lengths.detail);
+        program->SetUniformf("jump", std::max(static_cast<float>(OutlineJump) * side, 2.0f * m_Lengths.detail));
         program->SetUniformi("line", std::max(static_cast<int>(line), 1));
         program->SetUniform4fv("pairs", numberOfPairs, pairs.data());
       });
@@ -308,7 +311,7 @@ ViewPasses::FindOpenTiles()
 }
 
 void
-ViewPasses::DrawPixels(const Camera & camera)
+ViewPasses::DrawPixels()
 {
   SetTarget(m_Pixels);
   std::vector<Input> inputs{ { "colours", m_Colours } };
@@ -333,7 +336,7 @@ ViewPasses::DrawPixels(const Camera & camera)
     program->SetUniform4f("background", background.data());
     if (HasShades())
     {
-      program->SetUniformf("alike", 0.1f * static_cast<float>(OcclusionReach) * MeanSideInMillimetres(camera));
+      program->SetUniformf("alike", 0.1f * m_Lengths.reach);
       program->SetUniform2f("strengths", strengths.data());
     }
   });

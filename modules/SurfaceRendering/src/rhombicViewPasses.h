@@ -1,6 +1,7 @@
 #ifndef rhombicViewPasses_h
 #define rhombicViewPasses_h
 
+#include "rhombicOcclusionLengths.h"
 #include "rhombicSceneBuffers.h"
 
 #include <vtkOpenGLFramebufferObject.h>
@@ -13,7 +14,7 @@ namespace rhombic
 class ViewPasses
 {
 public:
-  ViewPasses(const RenderSettings & settings, bool isTranslucent, vtkOpenGLRenderWindow * window);
+  ViewPasses(const Scene & scene, const RenderSettings & settings, vtkOpenGLRenderWindow * window);
 
   /** Opaque surfaces; what their surroundings take from their light; translucent layers; the mean of the samples. */
   Picture
@@ -42,7 +43,7 @@ private:
   OpenTiles
   FindOpenTiles();
   void
-  DrawPixels(const Camera & camera);
+  DrawPixels();
   Picture
   ReadPixels() const;
 
@@ -67,6 +68,7 @@ private:
 
   RenderSettings m_Settings;
   bool m_IsTranslucent;
+  OcclusionLengths m_Lengths;
   vtkOpenGLRenderWindow * m_Window;
   vtkSmartPointer<vtkOpenGLFramebufferObject> m_Framebuffer;
   vtkSmartPointer<vtkOpenGLVertexArrayObject> m_NoArrays;
