@@ -9,13 +9,14 @@ namespace itk
 /** Smooths a surface's normals for shading where they disagree with its triangles, as those of a scan do where a step
  * is sharper than the sampling. Points and triangles stay; nothing happens without normals.
  *
- * Each point's normal, weighted by the area of the triangles around it, is summed 8 times with those of its neighbours.
- * Two angles, averaged over the same points, decide how much of the sum counts: that between a triangle's normal and
- * the mean of its corners' normals, and that between the corners' normals and their sum. Nothing counts where the first
- * is below 4 degrees or 0.6 of the second, as on finely sampled curved surfaces; all counts from 8 degrees and 0.9 on;
- * linear between.
+ * Each point's normal, times the area of the triangles around it, and the area vectors of these triangles are summed
+ * with those of its neighbours, 6 times over. The smooth normal is the direction of both sums together.
+ * Two angles, averaged over the same points, decide how much of the smooth normal counts: that between a triangle's
+ * normal and the mean of its corners' normals, and that between the corners' normals and their sum. Nothing counts
+ * where the first is below 4 degrees or 0.6 of the second, as on finely sampled curved surfaces; all counts from 8
+ * degrees and 0.9 on; linear between.
  *
- * Time linear; memory about 140 bytes per point and 12 per triangle while it runs. The same bytes for any number of
+ * Time linear; memory about 170 bytes per point and 12 per triangle while it runs. The same bytes for any number of
  * threads. */
 void
 SmoothNormals(TriangleSurface & surface);

@@ -15,7 +15,7 @@ namespace
 using PointId = std::uint32_t;
 
 constexpr SizeValueType NormalsBlock = 4096;
-constexpr unsigned int Passes = 8;
+constexpr unsigned int Passes = 6;
 constexpr double AngleOfNone = 4.0; // degrees
 constexpr double AngleOfAll = 8.0;  // degrees
 constexpr double RatioOfNone = 0.6;
@@ -24,7 +24,8 @@ constexpr double RatioOfAll = 0.9;
 /** What is averaged over the neighbourhood of a point. */
 struct NormalSample
 {
-  PositionType normal{};     ///< weighted by area
+  PositionType normal{};     ///< of the surface, times area
+  PositionType areaVector{}; ///< of the triangles
   double area = 0.0;         ///< of the triangles
   double disagreement = 0.0; ///< 1 - cosine of the angle between triangles and normals, times area
 };
@@ -47,18 +48,19 @@ NormalSample
 SampleAt(const TriangleSurface & surface, const TrianglesOfPoints & fans, SizeValueType point)
 {
   const auto & normals = surface.GetNormals();
-  double area = 0.0;
-  double disagreement = 0.0;
+  NormalSample sample;
   fans.VisitTriangles(point, [&](std::uint32_t id) {
     const auto & triangle = surface.GetTriangles()[id];
     const PositionType areaVector = AreaVector(CornersOf(surface, triangle));
     const PositionType mean = Normalized(
       Add(Add(ToPosition(normals[triangle[0]]), ToPosition(normals[triangle[1]])), ToPosition(normals[triangle[2]])));
     const double length = Length(areaVector);
-    area += length;
-    disagreement += length - Dot(areaVector, mean);
+    sample.areaVector = Add(sample.areaVector, areaVector);
+    sample.area += length;
+    sample.disagreement += length - Dot(areaVector, mean);
   });
-  return { Scaled(ToPosition(normals[point]), area), area, disagreement };
+  sample.normal = Scaled(ToPosition(normals[point]), sample.area);
+  return sample;
 }
 
 NormalSample
@@ -67,6 +69,7 @@ SumWithNeighbours(const std::vector<NormalSample> & samples, const TrianglesOfPo
   NormalSample sum = samples[point];
   fans.VisitNeighbours(point, [&](PointId next, PointId) {
     sum.normal = Add(sum.normal, samples[next].normal);
+    sum.areaVector = Add(sum.areaVector, samples[next].areaVector);
     sum.area += samples[next].area;
     sum.disagreement += samples[next].disagreement;
   });
@@ -117,8 +120,8 @@ SmoothNormals(TriangleSurface & surface)
   ForEachInBlocks(samples.size(), NormalsBlock, [&](SizeValueType point) {
     const double share = ShareOf(samples[point]);
     auto & normal = surface.GetNormals()[point];
-    const PositionType blend =
-      Normalized(Add(Scaled(ToPosition(normal), 1.0 - share), Scaled(Normalized(samples[point].normal), share)));
+    const PositionType smooth = Normalized(Add(samples[point].normal, samples[point].areaVector));
+    const PositionType blend = Normalized(Add(Scaled(ToPosition(normal), 1.0 - share), Scaled(smooth, share)));
     if (share > 0.0 && Length(blend) > 0.0)
     {
       normal = { static_cast<float>(blend[0]), static_cast<float>(blend[1]), static_cast<float>(blend[2]) };
