@@ -41,6 +41,33 @@ Box(const Point & lowest, const Point & highest)
   return surface;
 }
 
+/** A surface over 81 x 81 points, 1 mm apart, seen from the front. Its normals are those of a plane. \param depthAt
+ * called with x and z, -40 to 40 */
+template <typename TDepthAt>
+itk::TriangleSurface::Pointer
+Relief(const TDepthAt & depthAt)
+{
+  constexpr int half = 40;
+  constexpr std::uint32_t side = 2 * half + 1;
+  auto surface = itk::TriangleSurface::New();
+  for (int z = -half; z <= half; ++z)
+  {
+    for (int x = -half; x <= half; ++x)
+    {
+      surface->GetPoints().push_back(
+        { static_cast<float>(x), static_cast<float>(depthAt(x, z)), static_cast<float>(z) });
+      surface->GetNormals().push_back({ 0.0f, -1.0f, 0.0f });
+      if (x < half && z < half)
+      {
+        const auto first = static_cast<std::uint32_t>(surface->GetNumberOfPoints() - 1);
+        surface->GetTriangles().push_back({ first, first + 1, first + side + 1 });
+        surface->GetTriangles().push_back({ first, first + side + 1, first + side });
+      }
+    }
+  }
+  return surface;
+}
+
 /** The same triangles, none of which share points. */
 itk::TriangleSurface::Pointer
 Separated(const itk::TriangleSurface * surface)
@@ -466,6 +493,54 @@ TEST_F(ScenePicture, CavityIsDarker)
   const Picture shaded = Draw(m_Renderer, scene, settings);
   EXPECT_LT(shaded.At(100, 86)[0], 0.8 * plain.At(100, 86)[0]);
   EXPECT_NEAR(shaded.At(40, 80)[0], plain.At(40, 80)[0], 12);
+}
+
+TEST_F(ScenePicture, PitsShallowerThanTrianglesAreLongAreNotDarker)
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> depth(0.0, 0.65);
+  const auto rough = Relief([&](int, int) { return depth(random); });
+  const auto stepped = Relief([](int x, int z) { return 0.6 * (((x + 2 * z) / 5) % 2); });
+  const auto diamonds = Relief([](int x, int z) { return x % 4 == 0 && z % 6 == 0 ? 0.65 : 0.0; });
+  for (const auto & surface : { rough, stepped, diamonds })
+  {
+    for (const View & view : { View(), ViewFromText("20,10") })
+    {
+      for (const double zoom : { 1.0, 4.0 })
+      {
+        RenderSettings settings = Plain();
+        settings.zoom = zoom;
+        const Picture plain = Draw(m_Renderer, { Item(surface, Red) }, settings, view);
+        settings.ambientOcclusion = true;
+        settings.silhouettes = true;
+        const Picture shaded = Draw(m_Renderer, { Item(surface, Red) }, settings, view);
+        for (int y = 50; y < 110; ++y)
+        {
+          for (int x = 60; x < 140; ++x)
+          {
+            ASSERT_NEAR(shaded.At(x, y)[0], plain.At(x, y)[0], 1) << x << ", " << y << ", zoom " << zoom;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_F(ScenePicture, CavityIsAsDarkWhenEnlarged)
+{
+  const auto bowl = Relief([](int x, int z) { return 2.0 * std::sqrt(std::max(0, 9 - x * x - z * z)); });
+  std::vector<double> bright;
+  for (const double zoom : { 1.0, 2.0, 4.0 })
+  {
+    RenderSettings settings = Plain();
+    settings.zoom = zoom;
+    const int plain = Draw(m_Renderer, { Item(bowl, Red) }, settings).At(100, 80)[0];
+    settings.ambientOcclusion = true;
+    bright.push_back(Draw(m_Renderer, { Item(bowl, Red) }, settings).At(100, 80)[0] / static_cast<double>(plain));
+  }
+  EXPECT_LT(bright[0], 0.7);
+  EXPECT_NEAR(bright[1], bright[0], 0.07);
+  EXPECT_NEAR(bright[2], bright[0], 0.07);
 }
 
 TEST_F(ScenePicture, OutlinesAreDarkAndCanBeTurnedOff)
