@@ -40,12 +40,13 @@ namespace itk
  * bytes whether it is computed alone or with the rest, by one thread or many, on any processor.
  *
  * **Slanted inputs.** Where the input's axes are not perpendicular (a tilted gantry, a sheared affine), or its slices
- * are unevenly placed (SetSliceOrigins()), samples are used at their true positions, and not resampled to an even grid
- * first. The lattice then has perpendicular axes: x along the input's first axis, y in the plane of its slices, z along
- * their normal, towards the last slice. Its extent covers the box, along these axes, around the outer faces of all
- * voxels, and is centred on it; density and aspect refer to the distances between samples of a row, between rows, and
- * between slices (the median). Output samples that are more than half a sample beside the slices get OutsideValue;
- * above and below the stack, the field is constant along the line through its last two slices' origins.
+ * are unevenly placed (as an image from ScanFileReader knows, or SetSliceOrigins() says), samples are used at their
+ * true positions, and not resampled to an even grid first. The lattice then has perpendicular axes: x along the input's
+ * first axis, y in the plane of its slices, z along their normal, towards the last slice. Its extent covers the box,
+ * along these axes, around the outer faces of all voxels, and is centred on it; density and aspect refer to the
+ * distances between samples of a row, between rows, and between slices (the median). Output samples that are more than
+ * half a sample beside the slices get OutsideValue; above and below the stack, the field is constant along the line
+ * through its last two slices' origins.
  *
  * The kernels work in units of samples, as above. A tilt or shear costs no accuracy: with Linear and CubicBSpline,
  * linear fields of the world are exact, and smooth ones as good as from perpendicular axes. Along unevenly placed
@@ -108,7 +109,7 @@ public:
 
   /** Positions in LPS mm of the first sample of each slice along the input's third axis, for stacks whose slices are
    * unevenly spaced or shifted against each other: one for each slice, in order along the slices' normal. Default
-   * empty: the positions follow from the input's origin, spacing and direction. */
+   * empty: the input's own (see SlicePlacement), or else they follow from its origin, spacing and direction. */
   void
   SetSliceOrigins(const SliceOriginsType & sliceOrigins);
   const SliceOriginsType &
@@ -117,7 +118,8 @@ public:
     return m_SliceOrigins;
   }
 
-  /** Value of output samples beside a slanted input. Default 0. The lowest value of the input is a good choice. */
+  /** Value of output samples beside a slanted input. Default 0: the lowest value of an image from ScanFileReader (see
+   * SlicePlacement), and 0 for others. The lowest value of the input is a good choice. */
   itkSetMacro(OutsideValue, OutputPixelType);
   itkGetConstMacro(OutsideValue, OutputPixelType);
 
@@ -141,6 +143,10 @@ protected:
   GenerateData() override;
 
 private:
+  /** The positions that were set, or else those that came with the input; empty where they follow from its geometry. */
+  SliceOriginsType
+  FindSliceOrigins() const;
+
   /** Whether the samples are those of a SliceStack rather than of perpendicular axes. */
   bool
   IsSlanted() const;

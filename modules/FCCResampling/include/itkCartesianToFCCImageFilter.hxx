@@ -38,10 +38,17 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::SetSliceOrigins(const Slic
 }
 
 template <typename TInputImage, typename TOutputImage>
+auto
+CartesianToFCCImageFilter<TInputImage, TOutputImage>::FindSliceOrigins() const -> SliceOriginsType
+{
+  return m_SliceOrigins.empty() ? GetSlicePlacement(*this->GetInput()).origins : m_SliceOrigins;
+}
+
+template <typename TInputImage, typename TOutputImage>
 bool
 CartesianToFCCImageFilter<TInputImage, TOutputImage>::IsSlanted() const
 {
-  return !m_SliceOrigins.empty() || !AreAxesPerpendicular(this->GetInput()->GetDirection());
+  return !this->FindSliceOrigins().empty() || !AreAxesPerpendicular(this->GetInput()->GetDirection());
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -87,7 +94,7 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateOutputInformation(
   }
   if (this->IsSlanted())
   {
-    stack.emplace(*input, m_SliceOrigins);
+    stack.emplace(*input, this->FindSliceOrigins());
     inputSpacing = stack->GetPitch();
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
@@ -193,7 +200,7 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateInputRequestedRegi
   InputImageRegionType needed = input->GetLargestPossibleRegion();
   if (requested.GetNumberOfPixels() > 0 && this->IsSlanted())
   {
-    const SliceStack stack(*input, m_SliceOrigins);
+    const SliceStack stack(*input, this->FindSliceOrigins());
     const auto samples = this->MakePlanes(stack, requested).FindNeededSamples();
     needed.SetIndex(needed.GetIndex() + (samples.GetIndex() - typename TInputImage::IndexType{ { 0, 0, 0 } }));
     needed.SetSize(samples.GetSize());
@@ -236,19 +243,25 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::Resample(const OutputImage
     const auto * const samples = input->GetBufferPointer() + input->ComputeOffset(start + inputOffset);
     RowArithmetic::ConvertFrom(samples, length, row);
   };
+  OutputPixelType outsideValue = m_OutsideValue;
+  if (outsideValue == OutputPixelType{})
+  {
+    const auto lowest = static_cast<float>(GetSlicePlacement(*input).outsideValue);
+    RowArithmetic::RoundTo(&lowest, 1, &outsideValue);
+  }
   const auto store = [&](const Index<3> & start, SizeValueType length, const float * values) {
     const Index<3> rowStart{ { region.GetIndex(0), start[1], start[2] } };
     OutputPixelType * const row = output->GetBufferPointer() + output->ComputeOffset(rowStart);
     OutputPixelType * const begin = row + (start[0] - rowStart[0]);
-    std::fill(row, begin, m_OutsideValue);
+    std::fill(row, begin, outsideValue);
     RowArithmetic::RoundTo(values, length, begin);
-    std::fill(begin + length, row + region.GetSize(0), m_OutsideValue);
+    std::fill(begin + length, row + region.GetSize(0), outsideValue);
     progress.Completed(region.GetSize(0));
   };
 
   if (this->IsSlanted())
   {
-    const SliceStack stack(*input, m_SliceOrigins);
+    const SliceStack stack(*input, this->FindSliceOrigins());
     ResampleStackRows(this->MakePlanes(stack, region), region, load, store);
   }
   else

@@ -1,8 +1,9 @@
 #ifndef itkFCCResamplingChecks_h
 #define itkFCCResamplingChecks_h
 
+#include "itkSlicePlacement.h"
+
 #include "itkImageRegion.h"
-#include "itkMatrix.h"
 #include "itkVector.h"
 
 #include <array>
@@ -27,25 +28,6 @@ IsSpacingOrUnset(const Vector<double, 3> & spacing)
     isPositive = isPositive && spacing[axis] > 0.0 && std::isfinite(spacing[axis]);
   }
   return isPositive || spacing == Vector<double, 3>(0.0);
-}
-
-/** Largest cosine of the angle between axes that count as perpendicular. */
-constexpr double AxesTolerance = 1e-6;
-
-/** Whether the columns of an image's direction are perpendicular to each other. */
-inline bool
-AreAxesPerpendicular(const Matrix<double, 3, 3> & direction)
-{
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    const auto column = direction.GetVnlMatrix().get_column(axis);
-    const auto next = direction.GetVnlMatrix().get_column((axis + 1) % 3);
-    if (std::abs(dot_product(column, next)) > AxesTolerance * column.magnitude() * next.magnitude())
-    {
-      return false;
-    }
-  }
-  return true;
 }
 
 /** Whether an image with these numbers of samples along its axes has at most 2^40 samples. */
