@@ -49,7 +49,7 @@ struct ScanDescription
 };
 
 /** Reads a scan, and lists the series beside it. Of several series, none of which is named, it describes the one that
- * ReadScan() would choose, or their list alone. Files of several volumes are described by their first.
+ * itk::NativeScanFileReader would choose, or their list alone. Files of several volumes are described by their first.
  *
  * \param labels the scan's label map, or an empty path for none; its table is used if the scan itself is a label map
  *

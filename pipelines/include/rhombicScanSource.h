@@ -21,7 +21,7 @@ namespace rhombic
  * \brief The file or folder of a scan, and how the scan gets onto the lattice. Copies share the decoder. */
 struct ScanSource
 {
-  std::filesystem::path path; ///< anything that ReadScan() reads, or a lattice volume that WriteFCCImage() wrote
+  std::filesystem::path path; ///< a scan, or a lattice volume that WriteFCCImage() wrote
   ScanReadOptions read;
   LatticeSettings lattice; ///< for lattice volumes, only the denoising has an effect
 };

@@ -31,10 +31,6 @@ struct LatticeSettings
 double
 MeanSpacingOf(const itk::ImageBase<3> & image);
 
-/** Whether the scan's slices are tilted, sheared or unevenly spaced. */
-bool
-IsSlanted(const Scan & scan);
-
 /** Throws Failure(Usage) for settings out of their ranges. */
 void
 CheckLatticeSettings(const LatticeSettings & settings);

@@ -1,6 +1,7 @@
 #include "rhombicDescribeScan.h"
 
 #include "rhombicFailure.h"
+#include "rhombicSourceLoading.h"
 
 #include <algorithm>
 
@@ -70,7 +71,7 @@ ScanDescription
 DescribeVolume(const ScanSource & source, const LabelMapSource & labels)
 {
   ScanDescription description;
-  const Scan & scan = description.volume.emplace<Scan>(ReadScan(source.path, source.read));
+  const Scan & scan = description.volume.emplace<Scan>(ReadScan(source, {}));
   description.intensities = ComputeIntensities(scan.image);
   description.thresholds = SuggestThresholds(scan.modality, description.intensities);
   description.choice = scan.choice;

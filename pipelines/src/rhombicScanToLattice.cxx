@@ -8,7 +8,6 @@
 
 #include "itkCartesianToFCCImageFilter.h"
 #include "itkCartesianToNestedFCCImageFilter.h"
-#include "itkFCCResamplingChecks.h"
 #include "itkFCCToCartesianImageFilter.h"
 
 #include <algorithm>
@@ -138,12 +137,6 @@ MeanSpacingOf(const itk::ImageBase<3> & image)
 {
   const auto & spacing = image.GetSpacing();
   return std::cbrt(spacing[0] * spacing[1] * spacing[2]);
-}
-
-bool
-IsSlanted(const Scan & scan)
-{
-  return !scan.sliceOrigins.empty() || !itk::AreAxesPerpendicular(GeometryOf(scan.image).GetDirection());
 }
 
 void

@@ -1,7 +1,9 @@
 #include "rhombicSourceLoading.h"
 
+#include "itkNativeScanFileReader.h"
 #include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
+#include "rhombicObserveProgress.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -29,9 +31,7 @@ DescribeGrid(const Scan & scan)
 Scan
 LoadScan(const ScanSource & source, const Events & events)
 {
-  ScanReadOptions options = source.read;
-  options.progress = [&events](double fraction) { events.Progress("reading", fraction); };
-  Scan scan = ReadScan(source.path, options);
+  Scan scan = ReadScan(source, events);
   events.Note(DescribeGrid(scan));
   for (const auto * const notes : { &scan.notes, &scan.fileNotes })
   {
@@ -189,6 +189,17 @@ CheckInput(const fs::path & output, const fs::path & input)
 }
 
 } // namespace
+
+Scan
+ReadScan(const ScanSource & source, const Events & events)
+{
+  const auto reader = itk::NativeScanFileReader::New();
+  reader->SetFileName(source.path.string());
+  reader->SetOptions(source.read);
+  ObserveProgress(*reader, "reading", events);
+  reader->Update();
+  return *reader->GetOutput()->Get();
+}
 
 SourceVolume
 LoadVolume(const ScanSource & source, const Events & events)

@@ -17,6 +17,10 @@ namespace rhombic
 /** A volume on a Cartesian grid, or on the lattice. */
 using SourceVolume = std::variant<Scan, FCCVolume>;
 
+/** Reads a scan, without notes. Throws Failure. */
+Scan
+ReadScan(const ScanSource & source, const Events & events);
+
 /** Reads a scan or a lattice volume. Notes describe it and list the assumptions of the reader. Throws Failure. */
 SourceVolume
 LoadVolume(const ScanSource & source, const Events & events);

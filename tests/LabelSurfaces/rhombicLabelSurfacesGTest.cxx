@@ -1,5 +1,6 @@
 #include "rhombicFailure.h"
 #include "rhombicLabelSurfaces.h"
+#include "rhombicReadScan.h"
 
 #include "itkImageRegionIteratorWithIndex.h"
 #include "itkMath.h"

@@ -1,6 +1,6 @@
 #include "rhombicTableRemoval.h"
 
-#include "rhombicScanReader.h"
+#include "rhombicReadScan.h"
 
 #include "itkImageRegionConstIteratorWithIndex.h"
 #include "itkMath.h"

@@ -1,6 +1,6 @@
 #include "rhombicLatticeToSurfaces.h"
 #include "rhombicScanToLattice.h"
-#include "rhombicScanReader.h"
+#include "rhombicReadScan.h"
 
 #include "itkImageAlgorithm.h"
 #include "itkTriangleSurfaceMeasures.h"

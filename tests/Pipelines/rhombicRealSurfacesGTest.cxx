@@ -1,6 +1,6 @@
 #include "rhombicLatticeToSurfaces.h"
 #include "rhombicScanToLattice.h"
-#include "rhombicScanReader.h"
+#include "rhombicReadScan.h"
 #include "rhombicSurfaceFinish.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicTemporaryFolder.h"

@@ -620,7 +620,7 @@ TEST_F(DicomFolder, ThreadsThatDoNotStartAreDoneWithout)
   {
     try
     {
-      ReadScan(m_Folder, options);
+      rhombic::ReadVoxels(rhombic::OpenScan(m_Folder, options));
     }
     catch (const Stop &)
     {

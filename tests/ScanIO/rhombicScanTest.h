@@ -2,7 +2,7 @@
 #define rhombicScanTest_h
 
 #include "rhombicFailure.h"
-#include "rhombicScanReader.h"
+#include "rhombicReadScan.h"
 #include "rhombicTemporaryFolder.h"
 
 #include <gtest/gtest.h>

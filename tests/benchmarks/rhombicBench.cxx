@@ -5,7 +5,7 @@
 #include "rhombicJSONFile.h"
 #include "rhombicMachine.h"
 #include "rhombicRunBenchmark.h"
-#include "rhombicScanReader.h"
+#include "rhombicReadScan.h"
 #include "rhombicShapeFields.h"
 #include "rhombicTextTable.h"
 

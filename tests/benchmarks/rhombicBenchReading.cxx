@@ -1,8 +1,8 @@
 #include "rhombicBenchReading.h"
 
+#include "itkScanFileReader.h"
 #include "rhombicFailure.h"
 #include "rhombicIsolatedDecoder.h"
-#include "rhombicScanReader.h"
 
 #include "itkGDCMImageIO.h"
 #include "itkGDCMSeriesFileNames.h"
@@ -28,15 +28,23 @@ ReadWithITK(const std::vector<std::string> & names)
   return reader->GetOutput();
 }
 
-bool
-AreSame(const VolumeType & first, const ScanImage & other)
+VolumeType::Pointer
+ReadWithRhombic(const std::string & path, VoxelDecoder & decoder)
 {
-  const auto * const second = std::get_if<VolumeType::Pointer>(&other);
+  const auto reader = itk::ScanFileReader<VolumeType>::New();
+  reader->SetFileName(path);
+  reader->SetDecoder(&decoder);
+  reader->Update();
+  return reader->GetOutput();
+}
+
+bool
+AreSame(const VolumeType & first, const VolumeType & second)
+{
   const auto & region = first.GetBufferedRegion();
-  return second != nullptr && (*second)->GetBufferedRegion() == region &&
-         std::memcmp(first.GetBufferPointer(),
-                     (*second)->GetBufferPointer(),
-                     region.GetNumberOfPixels() * sizeof(std::int16_t)) == 0;
+  return second.GetBufferedRegion() == region && std::memcmp(first.GetBufferPointer(),
+                                                             second.GetBufferPointer(),
+                                                             region.GetNumberOfPixels() * sizeof(std::int16_t)) == 0;
 }
 
 } // namespace
@@ -53,19 +61,17 @@ MeasureReading(const std::string & path, const BenchSettings & settings)
   const std::vector<std::string> names = search->GetInputFileNames();
 
   IsolatedDecoder decoder(settings.threads);
-  ScanReadOptions options;
-  options.decoder = &decoder;
-  if (!AreSame(*ReadWithITK(names), ReadScan(path, options).image))
+  if (!AreSame(*ReadWithITK(names), *ReadWithRhombic(path, decoder)))
   {
     throw Failure(FailureKind::Internal, "Two readers of " + path + " do not agree; the times mean nothing.");
   }
   BenchResult result;
   result.section = "reading";
-  result.candidate = "ReadScan";
+  result.candidate = "itk::ScanFileReader";
   result.reference = "itk::ImageSeriesReader";
   result.threads = settings.threads;
   result.times = TimePairs(
-    settings.repeats, [&] { return ReadWithITK(names); }, [&] { return ReadScan(path, options).image; });
+    settings.repeats, [&] { return ReadWithITK(names); }, [&] { return ReadWithRhombic(path, decoder); });
   result.target = settings.threads > 1 ? std::optional<double>(1.5) : std::nullopt;
   return { result };
 }

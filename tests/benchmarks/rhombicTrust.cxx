@@ -3,7 +3,7 @@
 #include "rhombicScanToLattice.h"
 #include "rhombicMachine.h"
 #include "rhombicRunBenchmark.h"
-#include "rhombicScanReader.h"
+#include "rhombicReadScan.h"
 #include "rhombicSurfaceFinish.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicTableRemoval.h"

@@ -6,7 +6,7 @@
 #include "rhombicMachine.h"
 #include "rhombicPhantom.h"
 #include "rhombicRunBenchmark.h"
-#include "rhombicScanReader.h"
+#include "rhombicReadScan.h"
 #include "rhombicSurfaceMeasures.h"
 #include "rhombicTableRemoval.h"
 #include "rhombicTextTable.h"

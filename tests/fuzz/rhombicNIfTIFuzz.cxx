@@ -1,6 +1,6 @@
 #include "rhombicFailure.h"
 #include "rhombicFuzzProperty.h"
-#include "rhombicScanReader.h"
+#include "rhombicReadScan.h"
 #include "rhombicTemporaryFolder.h"
 
 #include <fstream>

@@ -4,6 +4,8 @@
 #include "rhombicLabelTable.h"
 #include "rhombicPixelTypes.h"
 
+#include "itkCommonEnums.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +34,7 @@ struct SeriesSummary
   std::string kind;         ///< ImageType, echo, ... that differ from other series of the scan; may be empty
   std::size_t numberOfFiles = 0;
   std::array<std::size_t, 3> size{}; ///< columns, rows, slices
-  std::array<double, 3> spacing{}; ///< distances of columns, rows and slices, in mm; 0 when unknown, as from ReadScan()
+  std::array<double, 3> spacing{}; ///< distances of columns, rows and slices, in mm; 0 when unknown, as from OpenScan()
   std::string problem;             ///< why it can't be read, as "it is ..." or a sentence; empty if it can
   bool chosen = false;             ///< whether it was read
 };
@@ -87,7 +89,8 @@ struct AffineReport
  * sets the image's requested region. Copies share the image. */
 struct Scan
 {
-  /** The voxels. The direction may be sheared (a tilted gantry, a sheared affine); the metadata dictionary is empty. */
+  /** The voxels. The direction may be sheared (a tilted gantry, a sheared affine); the metadata dictionary holds at
+   * most a SlicePlacement. */
   ScanImage image;
 
   /** The position of the first voxel of each slice, in LPS mm, when the slices are unevenly spaced; empty otherwise.
@@ -127,6 +130,26 @@ GeometryOf(ScanImage &&) = delete; // the reference would outlive the image
 /** "uint8", "int16", "uint16", "int32" or "float". */
 std::string
 PixelTypeName(const ScanImage & image);
+
+/** The same as "uint8" and so on are to ITK; UNKNOWNCOMPONENTTYPE for a null pointer. */
+itk::IOComponentEnum
+ComponentTypeOf(const ScanImage & image);
+
+/** A copy whose image has size, position and pixel type, but no voxels. */
+Scan
+WithoutVoxels(const Scan & scan);
+
+/** Whether the slices are tilted, sheared or unevenly spaced. */
+bool
+IsSlanted(const Scan & scan);
+
+/** Sets the SlicePlacement of a slanted scan's image; the outside value is 0 when the image has no voxels. */
+void
+AttachPlacement(const Scan & scan);
+
+/** The texts that ScanFileReader documents, for an image's MetaDataDictionary. */
+std::map<std::string, std::string>
+SummarizeScan(const Scan & scan);
 
 /** The volume of a voxel of each slice, in mm^3. In an unevenly spaced stack, a voxel extends halfway to the adjacent
  * slices. */

@@ -58,11 +58,21 @@ struct ScanReadOptions
   /** Runs the libraries that unpack voxels, which damaged files can crash; null: in this process. Not owned. */
   VoxelDecoder * decoder = nullptr;
 
-  /** Called on the calling thread with the progress of reading a DICOM series, from 0 to 1; may be empty. */
+  /** Called on the calling thread with the progress of reading the voxels, from 0 to 1; may be empty. */
   std::function<void(double)> progress;
 };
 
-/** Reads a scan or label map: a folder of DICOM slices, searched with its subfolders; a DICOM file that holds a volume
+/** A scan of which the headers were read. */
+struct UnreadScan
+{
+  /** Its image has size, position and the pixel type that is tried first, but no voxels. Notes about the values are
+   * missing. */
+  Scan scan;
+
+  std::function<void(Scan & scan)> readVoxels; ///< completes a copy of \a scan, any number of times
+};
+
+/** Opens a scan or label map: a folder of DICOM slices, searched with its subfolders; a DICOM file that holds a volume
  * (enhanced multi-frame, or a segmentation); or a NIfTI-1 or -2 (.nii, .hdr with .img, either with .gz), NRRD (.nrrd,
  * .nhdr) or MetaImage (.mha, .mhd) file.
  *
@@ -84,15 +94,19 @@ struct ScanReadOptions
  * Throws Failure: NotFound (no such path, or no scan in the folder), Usage (no such series or frame, or more than one
  * to choose from), Unreadable (damaged, or colour, vectors, no image...), Geometry, Memory.
  *
- * Several threads may share a decoder. While this function runs, warnings of ITK and GDCM are off for the whole
- * process. */
-Scan
-ReadScan(const std::filesystem::path & path, const ScanReadOptions & options = {});
+ * Several threads may share a decoder, which must outlive the result. While these functions run, warnings of ITK and
+ * GDCM are off for the whole process. */
+UnreadScan
+OpenScan(const std::filesystem::path & path, const ScanReadOptions & options = {});
 
-/** The series that ReadScan() finds at this path, from headers alone. SeriesSummary::problem is the reason for which
- * ReadScan() would refuse a series, in a sentence that may name files; damage that only unpacking finds is not
- * included. The chosen series is the one that ReadScan() would read; none is chosen when ReadScan() would refuse to
- * choose.
+/** Reads the voxels, too. Throws Failure as OpenScan() does. The geometry is that of the headers, but where gaps are
+ * accepted and files turn out to be damaged, whose slices are then left out. */
+Scan
+ReadVoxels(const UnreadScan & file);
+
+/** The series that OpenScan() finds at this path, from headers alone. SeriesSummary::problem is the reason for which it
+ * would refuse a series, in a sentence that may name files. The chosen series is the one that it would open; none is
+ * chosen when it would refuse to choose.
  *
  * Throws Failure: NotFound, Usage (ScanReadOptions::series names none), Unreadable (a file that is no DICOM image). */
 SeriesList

@@ -45,7 +45,7 @@ public:
 /** \class VoxelDecoder
  * \brief Runs the libraries that unpack voxels, which damaged files can crash.
  *
- * ReadScan() runs them in its own process by default, IsolatedDecoder in child processes.
+ * The readers run them in their own process by default, IsolatedDecoder in child processes.
  *
  * Thread safety: any number of threads may call Decode() at once. */
 class VoxelDecoder

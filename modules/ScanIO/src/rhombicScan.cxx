@@ -1,7 +1,11 @@
 #include "rhombicScan.h"
 
+#include "itkSlicePlacement.h"
+#include "rhombicWording.h"
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace rhombic
 {
@@ -17,6 +21,71 @@ PixelTypeName(const ScanImage & image)
 {
   return std::visit(
     [](const auto & pointer) { return PixelTypeName<typename std::decay_t<decltype(*pointer)>::PixelType>(); }, image);
+}
+
+itk::IOComponentEnum
+ComponentTypeOf(const ScanImage & image)
+{
+  using Component = itk::IOComponentEnum;
+  constexpr Component types[] = {
+    Component::UCHAR, Component::SHORT, Component::USHORT, Component::INT, Component::FLOAT
+  };
+  static_assert(std::variant_size_v<ScanImage> == std::size(types), "One for each of the pixel types");
+  const bool isNull = std::visit([](const auto & pointer) { return pointer.IsNull(); }, image);
+  return isNull ? Component::UNKNOWNCOMPONENTTYPE : types[image.index()];
+}
+
+Scan
+WithoutVoxels(const Scan & scan)
+{
+  Scan description = scan;
+  std::visit(
+    [](auto & pointer) {
+      const auto frame = std::decay_t<decltype(pointer)>::ObjectType::New();
+      frame->CopyInformation(pointer);
+      pointer = frame;
+    },
+    description.image);
+  return description;
+}
+
+bool
+IsSlanted(const Scan & scan)
+{
+  return !scan.sliceOrigins.empty() || !itk::AreAxesPerpendicular(GeometryOf(scan.image).GetDirection());
+}
+
+void
+AttachPlacement(const Scan & scan)
+{
+  if (!IsSlanted(scan))
+  {
+    return;
+  }
+  std::visit(
+    [&scan](const auto & image) {
+      const auto * const begin = image->GetBufferPointer();
+      const auto * const end = begin + image->GetBufferedRegion().GetNumberOfPixels();
+      auto lowest = begin != end ? *begin : 0;
+      std::for_each(begin, end, [&lowest](auto value) { lowest = std::min<decltype(lowest)>(lowest, value); });
+      itk::SetSlicePlacement(*image, { scan.sliceOrigins, static_cast<double>(lowest) });
+    },
+    scan.image);
+}
+
+std::map<std::string, std::string>
+SummarizeScan(const Scan & scan)
+{
+  const auto chosen =
+    std::find_if(scan.series.begin(), scan.series.end(), [](const SeriesSummary & series) { return series.chosen; });
+  return { { "ScanFormat", scan.format },
+           { "ScanModality", scan.modality },
+           { "ScanEncoding", scan.encoding },
+           { "ScanScaling", scan.scaling },
+           { "ScanSeries", chosen == scan.series.end() ? "" : chosen->id },
+           { "ScanFrame", std::to_string(scan.frame) },
+           { "ScanTiltDegrees", FormatNumber(scan.stack ? scan.stack->tiltDegrees : 0.0) },
+           { "ScanIsOriented", scan.isOriented ? "yes" : "no" } };
 }
 
 std::vector<double>

@@ -35,16 +35,16 @@ IsFolder(const fs::path & path)
   return fs::is_directory(status);
 }
 
-Scan
-Read(const fs::path & path, const ScanReadOptions & options)
+UnreadScan
+Open(const fs::path & path, const ScanReadOptions & options)
 {
   if (IsFolder(path))
   {
-    return ReadDicomFolder(path, options);
+    return OpenDicomFolder(path, options);
   }
   if (!IsVolumeFileName(path))
   {
-    return ReadDicomFile(path, options);
+    return OpenDicomFile(path, options);
   }
   if (!options.series.empty())
   {
@@ -52,7 +52,7 @@ Read(const fs::path & path, const ScanReadOptions & options)
                   "Cannot choose a series of " + path.string() +
                     ": only folders of DICOM files have series; leave it out.");
   }
-  return ReadVolumeFile(path, options);
+  return OpenVolumeFile(path, options);
 }
 
 /** Calls \a read. Turns its exceptions into Failures that name the path. */
@@ -73,6 +73,10 @@ ReadOrFail(const fs::path & path, const TRead & read)
   {
     throw;
   }
+  catch (const itk::ProcessAborted &)
+  {
+    throw;
+  }
   catch (const itk::MemoryAllocationError &)
   {
     throw outOfMemory();
@@ -89,13 +93,23 @@ ReadOrFail(const fs::path & path, const TRead & read)
 
 } // namespace
 
-Scan
-ReadScan(const fs::path & path, const ScanReadOptions & options)
+UnreadScan
+OpenScan(const fs::path & path, const ScanReadOptions & options)
 {
-  InProcessDecoder inProcess;
+  static InProcessDecoder inProcess;
   ScanReadOptions used = options;
   used.decoder = options.decoder != nullptr ? options.decoder : &inProcess;
-  return ReadOrFail(path, [&path, &used] { return Read(path, used); });
+  UnreadScan file = ReadOrFail(path, [&path, &used] { return Open(path, used); });
+  file.readVoxels = [path, readVoxels = file.readVoxels](Scan & scan) { ReadOrFail(path, [&] { readVoxels(scan); }); };
+  return file;
+}
+
+Scan
+ReadVoxels(const UnreadScan & file)
+{
+  Scan scan = file.scan;
+  file.readVoxels(scan);
+  return scan;
 }
 
 SeriesList

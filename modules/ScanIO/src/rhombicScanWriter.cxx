@@ -114,7 +114,7 @@ StageScan(const ScanImage & image, const fs::path & path, StagedFiles & staged)
       options.maximumMemory = std::numeric_limits<std::uintmax_t>::max(); // there was enough for the image itself
       try
       {
-        isComplete = IsSame(*pixels, ReadScan(file.GetTemporaryPath(), options).image);
+        isComplete = IsSame(*pixels, ReadVoxels(OpenScan(file.GetTemporaryPath(), options)).image);
       }
       catch (const Failure &)
       {

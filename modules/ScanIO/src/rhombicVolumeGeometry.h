@@ -36,16 +36,26 @@ CheckGeometry(const VolumeGeometry & geometry,
               ScanReadOptions::Policy onSheared,
               std::vector<std::string> & notes);
 
+/** An image of this geometry without voxels. */
+template <typename TPixel>
+typename itk::Image<TPixel, 3>::Pointer
+NewFrame(const VolumeGeometry & geometry)
+{
+  auto image = itk::Image<TPixel, 3>::New();
+  image->SetLargestPossibleRegion(geometry.size);
+  image->SetOrigin(geometry.origin);
+  image->SetSpacing(geometry.spacing);
+  image->SetDirection(geometry.direction);
+  return image;
+}
+
 /** An allocated image of this geometry, without initial values. */
 template <typename TPixel>
 typename itk::Image<TPixel, 3>::Pointer
 NewImage(const VolumeGeometry & geometry)
 {
-  auto image = itk::Image<TPixel, 3>::New();
+  auto image = NewFrame<TPixel>(geometry);
   image->SetRegions(geometry.size);
-  image->SetOrigin(geometry.origin);
-  image->SetSpacing(geometry.spacing);
-  image->SetDirection(geometry.direction);
   image->Allocate();
   itk::AdviseHugePages(image->GetBufferPointer(), image->GetPixelContainer()->Size() * sizeof(TPixel));
   return image;

@@ -1,6 +1,5 @@
 #include "rhombicScanField.h"
 
-#include "itkFCCResamplingChecks.h"
 
 #include <algorithm>
 #include <array>
@@ -78,7 +77,7 @@ ScanField::ScanField(const Scan & scan, itk::SeparableKernel kernel)
   : m_Scan(scan)
   , m_Kernel(kernel)
 {
-  if (!scan.sliceOrigins.empty() || !itk::AreAxesPerpendicular(GeometryOf(scan.image).GetDirection()))
+  if (IsSlanted(scan))
   {
     m_Stack.emplace(GeometryOf(scan.image), scan.sliceOrigins);
   }

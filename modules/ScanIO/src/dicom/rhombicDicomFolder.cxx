@@ -212,46 +212,51 @@ LeaveOut(const FileFailures & failures, std::vector<DicomSlice> slices, const Sc
   return slices;
 }
 
-/** The geometry of the volume of a series, from its headers. */
-VolumeGeometry
-PlaceSeries(std::vector<DicomSlice> slices, const ScanReadOptions & options)
+/** Stacks slices without those of files that failed. Files that fail when they are read are left out like a gap, too,
+ * if the options accept gaps. */
+UnreadScan
+OpenStack(const std::vector<DicomSlice> & all,
+          const FileFailures & failures,
+          const ScanReadOptions & options,
+          Scan scan)
 {
-  Scan ignored; // takes the notes
-  if (slices.front().kind == DicomSlice::Kind::Segmentation)
-  {
-    return PlaceDicomSegmentation(slices, ignored);
-  }
-  slices = LeaveOut(FindDamagedFiles(slices), std::move(slices), options, ignored);
-  return StackSlices(slices, options).geometry;
-}
-
-/** Stacks and reads slices. Files that can't be read are left out like a gap, if the options accept gaps. */
-void
-ReadStack(std::vector<DicomSlice> slices, const ScanReadOptions & options, Scan & scan)
-{
-  FileFailures failures = FindDamagedFiles(slices);
-  DicomStack stack;
-  DicomPixels pixels;
-  do
-  {
-    slices = LeaveOut(failures, std::move(slices), options, scan);
-    stack = StackSlices(slices, options);
-    pixels = ReadDicomPixels(slices, stack.geometry, options);
-    failures = pixels.failures;
-  } while (!failures.empty());
-
-  scan.image = pixels.image;
+  const Scan found = scan;
+  std::vector<DicomSlice> slices = LeaveOut(failures, all, options, scan);
+  const DicomStack stack = StackSlices(slices, options);
+  scan.image = NewDicomImage(slices, stack.geometry);
   scan.sliceOrigins = stack.sliceOrigins;
   scan.stack = stack.report;
   scan.scaling = DescribeScalingOf(slices);
-  scan.paddingValue = pixels.paddingValue;
-  scan.numberOfPaddingSamples = pixels.numberOfPaddingSamples;
   scan.notes.insert(scan.notes.end(), stack.notes.begin(), stack.notes.end());
   NoteCompression(slices, scan);
+
+  return { scan, [=](Scan & read) {
+            DicomPixels pixels = ReadDicomPixels(slices, stack.geometry, options);
+            if (!pixels.failures.empty())
+            {
+              pixels.failures.insert(failures.begin(), failures.end());
+              read = ReadVoxels(OpenStack(all, pixels.failures, options, found));
+              return;
+            }
+            read.image = pixels.image;
+            read.paddingValue = pixels.paddingValue;
+            read.numberOfPaddingSamples = pixels.numberOfPaddingSamples;
+          } };
 }
 
-Scan
-ReadSlices(const std::vector<DicomSlice> & slices, Scan scan, const fs::path & path, const ScanReadOptions & options)
+UnreadScan
+OpenSeries(const std::vector<DicomSlice> & slices, const ScanReadOptions & options, Scan scan)
+{
+  if (slices.front().kind == DicomSlice::Kind::Segmentation)
+  {
+    NoteCompression(slices, scan);
+    return OpenDicomSegmentation(slices, options.maximumMemory, std::move(scan));
+  }
+  return OpenStack(slices, FindDamagedFiles(slices), options, std::move(scan));
+}
+
+UnreadScan
+OpenSlices(const std::vector<DicomSlice> & slices, Scan scan, const fs::path & path, const ScanReadOptions & options)
 {
   const std::vector<DicomSeries> series = GroupIntoSeries(slices);
   const SeriesChoice choice = ChooseSeries(series, options.series, path);
@@ -261,17 +266,7 @@ ReadSlices(const std::vector<DicomSlice> & slices, Scan scan, const fs::path & p
   scan.modality = scan.series[choice.index].modality;
   const auto others = NoteOthers(scan.series);
   scan.notes.insert(scan.notes.end(), others.begin(), others.end());
-  const std::vector<DicomSlice> & chosen = series[choice.index].slices;
-  if (chosen.front().kind == DicomSlice::Kind::Segmentation)
-  {
-    ReadDicomSegmentation(chosen, options.maximumMemory, scan);
-    NoteCompression(chosen, scan);
-  }
-  else
-  {
-    ReadStack(chosen, options, scan);
-  }
-  return scan;
+  return OpenSeries(series[choice.index].slices, options, std::move(scan));
 }
 
 /** The slices of a folder; at least one. */
@@ -315,18 +310,18 @@ ReadFile(const fs::path & path)
 
 } // namespace
 
-Scan
-ReadDicomFolder(const fs::path & folder, const ScanReadOptions & options)
+UnreadScan
+OpenDicomFolder(const fs::path & folder, const ScanReadOptions & options)
 {
   Scan scan;
   const std::vector<DicomSlice> slices = ReadFolder(folder, options, scan);
-  return ReadSlices(slices, std::move(scan), folder, options);
+  return OpenSlices(slices, std::move(scan), folder, options);
 }
 
-Scan
-ReadDicomFile(const fs::path & path, const ScanReadOptions & options)
+UnreadScan
+OpenDicomFile(const fs::path & path, const ScanReadOptions & options)
 {
-  return ReadSlices(ReadFile(path), Scan(), path, options);
+  return OpenSlices(ReadFile(path), Scan(), path, options);
 }
 
 SeriesList
@@ -346,9 +341,9 @@ ListDicomSeries(const fs::path & path, bool isFolder, const ScanReadOptions & op
     SeriesSummary & summary = list.series[i];
     try
     {
-      const VolumeGeometry geometry = PlaceSeries(series[i].slices, options);
-      std::copy_n(geometry.size.begin(), 3, summary.size.begin());
-      std::copy_n(geometry.spacing.Begin(), 3, summary.spacing.begin());
+      const Scan scan = OpenSeries(series[i].slices, options, Scan()).scan;
+      std::copy_n(GeometryOf(scan.image).GetLargestPossibleRegion().GetSize().begin(), 3, summary.size.begin());
+      std::copy_n(GeometryOf(scan.image).GetSpacing().Begin(), 3, summary.spacing.begin());
     }
     catch (const Failure & failure)
     {

@@ -438,6 +438,15 @@ AreWholeNumbers(const std::vector<DicomSlice> & slices)
 
 } // namespace
 
+ScanImage
+NewDicomImage(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry)
+{
+  return AreStoredAsIs(slices, 8)    ? ScanImage(NewFrame<std::uint8_t>(geometry))
+         : AreStoredAsIs(slices, 16) ? ScanImage(NewFrame<std::uint16_t>(geometry))
+         : AreWholeNumbers(slices)   ? ScanImage(NewFrame<std::int16_t>(geometry))
+                                     : ScanImage(NewFrame<float>(geometry));
+}
+
 DicomPixels
 ReadDicomPixels(const std::vector<DicomSlice> & slices,
                 const VolumeGeometry & geometry,

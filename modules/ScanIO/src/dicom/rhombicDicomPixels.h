@@ -21,6 +21,11 @@ struct DicomPixels
   std::map<std::filesystem::path, std::string> failures; ///< a sentence for each unreadable file
 };
 
+/** The volume of slices without voxels, in the pixel type that ReadDicomPixels() tries first. Values beyond int16
+ * become uint16 or int32. */
+ScanImage
+NewDicomImage(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry);
+
 /** Reads slices in their order into one volume; their files must have no pixelDamage. Uncompressed pixels are read
  * here, the others by the options' decoder, which must be set, in as many files at once as it has workers. Padding is
  * replaced by the lowest other value. It is kept when there is only one other value or padding is the next value below

@@ -392,17 +392,8 @@ IsBinary(const DicomDataSet & dataSet, const DicomImageFile & file)
 
 } // namespace
 
-VolumeGeometry
-PlaceDicomSegmentation(const std::vector<DicomSlice> & frames, Scan & scan)
-{
-  const DicomImageFile & file = *frames.front().file;
-  const auto header = ReadDicomHeader(file.path);
-  IsBinary(header.value().dataSet, file);
-  return GeometryOf(PlaceFrames(frames, ReadSliceTags(header.value().dataSet), scan), frames.front());
-}
-
-void
-ReadDicomSegmentation(const std::vector<DicomSlice> & frames, std::uintmax_t maximumMemory, Scan & scan)
+UnreadScan
+OpenDicomSegmentation(const std::vector<DicomSlice> & frames, std::uintmax_t maximumMemory, Scan scan)
 {
   const DicomImageFile & file = *frames.front().file;
   const auto header = ReadDicomHeader(file.path);
@@ -412,33 +403,31 @@ ReadDicomSegmentation(const std::vector<DicomSlice> & frames, std::uintmax_t max
   scan.labels = ReadLabels(dataSet, file);
   const bool fitsByte = scan.labels.back().value <= std::numeric_limits<std::uint8_t>::max();
   const bool takesByte = isBinary ? fitsByte : file.format.bitsAllocated == 8;
-  const std::uintmax_t voxels = std::uintmax_t{ file.format.columns } * file.format.rows * slices.count;
-  RequireMemory(file.pixels.size + voxels * (takesByte ? 1 : 2), maximumMemory, "Reading " + file.path.string());
   const auto segments = isBinary ? SegmentsOfFrames(dataSet, scan.labels, file) : std::vector<std::uint32_t>();
-  const std::uintmax_t bits =
-    std::uintmax_t{ file.format.columns } * file.format.rows * file.format.frames * file.format.bitsAllocated;
-  const Bytes bytes = ReadStoredBytes(file, 0, (bits + 7) / 8);
+  const VolumeGeometry geometry = GeometryOf(slices, frames.front());
+  scan.image = takesByte ? ScanImage(NewFrame<std::uint8_t>(geometry)) : ScanImage(NewFrame<std::uint16_t>(geometry));
 
-  const auto read = [&](auto pixel) {
-    const auto image = NewImage<decltype(pixel)>(GeometryOf(slices, frames.front()));
-    image->FillBuffer(0);
-    const std::size_t shared =
-      Fill(bytes, file.format, segments, frames, slices.sliceOfFrame, image->GetBufferPointer());
-    if (shared > 0)
-    {
-      scan.notes.push_back(Count(shared, "voxel belongs", "voxels belong") +
-                           " to more than one segment; the last one counts.");
-    }
-    scan.image = image;
-  };
-  if (takesByte)
-  {
-    read(std::uint8_t{});
-  }
-  else
-  {
-    read(std::uint16_t{});
-  }
+  return { scan, [=](Scan & read) {
+            const DicomImageFile & stored = *frames.front().file;
+            const DicomPixelFormat & format = stored.format;
+            const std::uintmax_t pixels = std::uintmax_t{ format.columns } * format.rows;
+            RequireMemory(stored.pixels.size + pixels * slices.count * (takesByte ? 1 : 2),
+                          maximumMemory,
+                          "Reading " + stored.path.string());
+            const Bytes bytes = ReadStoredBytes(stored, 0, (pixels * format.frames * format.bitsAllocated + 7) / 8);
+            const auto fill = [&](auto pixel) {
+              const auto image = NewImage<decltype(pixel)>(geometry);
+              image->FillBuffer(0);
+              read.image = image;
+              return Fill(bytes, format, segments, frames, slices.sliceOfFrame, image->GetBufferPointer());
+            };
+            const std::size_t shared = takesByte ? fill(std::uint8_t{}) : fill(std::uint16_t{});
+            if (shared > 0)
+            {
+              read.notes.push_back(Count(shared, "voxel belongs", "voxels belong") +
+                                   " to more than one segment; the last one counts.");
+            }
+          } };
 }
 
 } // namespace rhombic

@@ -52,7 +52,7 @@ ReadLabelMap(const LabelMapSource & source,
   mapOptions.series.clear(); // chosen for the scan, not for the map
   mapOptions.frame.reset();
   LabelMap map;
-  map.scan = ReadScan(source.path, mapOptions);
+  map.scan = ReadVoxels(OpenScan(source.path, mapOptions));
   map.labels = FindLabels(map.scan, source);
   if (const std::string note = RequireOverlap(scan, map.scan, scanPath, source.path); !note.empty())
   {

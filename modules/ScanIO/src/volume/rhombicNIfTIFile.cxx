@@ -250,8 +250,8 @@ RefuseCutOff(const fs::path & voxels, std::uintmax_t available, std::uintmax_t n
 
 } // namespace
 
-void
-ReadNIfTIFile(const fs::path & path, const ScanReadOptions & options, Scan & scan)
+UnreadScan
+OpenNIfTIFile(const fs::path & path, const ScanReadOptions & options, Scan scan)
 {
   const fs::path headerFile = HeaderFile(path);
   const NIfTIHeader header = ReadNIfTIHeader(headerFile);
@@ -278,39 +278,44 @@ ReadNIfTIFile(const fs::path & path, const ScanReadOptions & options, Scan & sca
   ChooseFrame(sizes[3], options, headerFile, scan);
   const VolumeGeometry geometry =
     PlaceNIfTIVolume(header, { { sizes[0], sizes[1], sizes[2] } }, headerFile, options.onIrregular, scan);
-  RequireMemory(
-    MemoryOfPixels(type, scaling.has_value(), *voxelsPerFrame), options.maximumMemory, "Reading " + path.string());
-
-  UnpackedFile file(voxelsFile);
-  const std::uintmax_t needed = offset + *bytes;
-  const std::uintmax_t bytesPerFrame = *voxelsPerFrame * SizeOf(type);
-  std::uintmax_t position = file.Skip(offset + scan.frame * bytesPerFrame);
-  scan.image = ReadVolumePixels(type, scaling, geometry, [&](std::byte * buffer, std::size_t size) {
-    const std::size_t count = file.Read(buffer, size);
-    position += count;
-    if (count < size)
-    {
-      RefuseCutOff(voxelsFile, position, needed);
-    }
-    if (header.isSwapped)
-    {
-      SwapBytes(buffer, size, SizeOf(type));
-    }
-  });
-  position += file.Skip(needed - position);
-  if (position < needed)
-  {
-    RefuseCutOff(voxelsFile, position, needed);
-  }
-  file.Finish();
-
-  scan.encoding = file.IsCompressed() ? "gzip" : "raw";
+  scan.image = NewVolumeImage(type, scaling.has_value(), geometry);
+  scan.encoding = UnpackedFile(voxelsFile).IsCompressed() ? "gzip" : "raw";
   scan.scaling = DescribeScaling(scaling);
   if (isAnalyze)
   {
     scan.notes.push_back(headerFile.string() +
                          " is an Analyze 7.5 file; its voxels' sizes were used, and no scaling of values.");
   }
+
+  return { scan, [=](Scan & read) {
+            RequireMemory(MemoryOfPixels(type, scaling.has_value(), *voxelsPerFrame),
+                          options.maximumMemory,
+                          "Reading " + path.string());
+            UnpackedFile file(voxelsFile);
+            const std::uintmax_t needed = offset + *bytes;
+            const std::uintmax_t bytesPerFrame = *voxelsPerFrame * SizeOf(type);
+            std::uintmax_t position = file.Skip(offset + read.frame * bytesPerFrame);
+            const auto source = [&](std::byte * buffer, std::size_t size) {
+              const std::size_t count = file.Read(buffer, size);
+              position += count;
+              if (count < size)
+              {
+                RefuseCutOff(voxelsFile, position, needed);
+              }
+              if (header.isSwapped)
+              {
+                SwapBytes(buffer, size, SizeOf(type));
+              }
+            };
+            read.image =
+              ReadVolumePixels(type, scaling, geometry, WithProgress(source, bytesPerFrame, options.progress));
+            position += file.Skip(needed - position);
+            if (position < needed)
+            {
+              RefuseCutOff(voxelsFile, position, needed);
+            }
+            file.Finish();
+          } };
 }
 
 } // namespace rhombic

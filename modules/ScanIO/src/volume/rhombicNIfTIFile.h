@@ -9,11 +9,11 @@
 namespace rhombic
 {
 
-/** Reads a NIfTI-1 or NIfTI-2 file, or a pair of .hdr and .img by the name of either, into \a scan, in one pass and
- * without niftilib. Throws Failure: Unreadable, naming the defect of its header or voxels, Geometry, Usage (no such
- * frame), Memory. */
-void
-ReadNIfTIFile(const std::filesystem::path & path, const ScanReadOptions & options, Scan & scan);
+/** Opens a NIfTI-1 or NIfTI-2 file, or a pair of .hdr and .img by the name of either, and fills \a scan. The voxels are
+ * read in one pass and without niftilib. Throws Failure: Unreadable, naming the defect of its header or voxels,
+ * Geometry, Usage (no such frame), Memory. */
+UnreadScan
+OpenNIfTIFile(const std::filesystem::path & path, const ScanReadOptions & options, Scan scan);
 
 } // namespace rhombic
 

@@ -35,14 +35,15 @@ NumberOfVoxels(const VolumeGeometry & geometry)
 
 /** Reads one volume of a NRRD or MetaImage file that ITK unpacks. */
 ScanImage
-ReadUnpacked(const fs::path & path, const StoredVolume & volume, std::uintmax_t frame, VoxelDecoder & decoder)
+ReadUnpacked(const fs::path & path, const StoredVolume & volume, std::uintmax_t frame, const ScanReadOptions & options)
 {
   const std::size_t voxelSize = SizeOf(volume.type);
   const std::size_t bytes = NumberOfVoxels(volume.geometry) * voxelSize;
-  const auto unpacked = decoder.Decode({ VoxelRequest::Source::VolumeFile, path, bytes * volume.numberOfFrames });
+  const auto unpacked =
+    options.decoder->Decode({ VoxelRequest::Source::VolumeFile, path, bytes * volume.numberOfFrames });
   const std::byte * next = unpacked->GetData() + frame * (volume.areFramesInterleaved ? voxelSize : bytes);
   const std::size_t step = volume.areFramesInterleaved ? voxelSize * volume.numberOfFrames : voxelSize;
-  return ReadVolumePixels(volume.type, volume.scaling, volume.geometry, [&](std::byte * buffer, std::size_t size) {
+  const auto source = [&](std::byte * buffer, std::size_t size) {
     if (step == voxelSize)
     {
       std::memcpy(buffer, next, size);
@@ -53,12 +54,13 @@ ReadUnpacked(const fs::path & path, const StoredVolume & volume, std::uintmax_t 
     {
       std::memcpy(value, next, voxelSize);
     }
-  });
+  };
+  return ReadVolumePixels(volume.type, volume.scaling, volume.geometry, WithProgress(source, bytes, options.progress));
 }
 
 /** Reads one volume of a file whose voxels are a zlib stream, in one pass. */
 ScanImage
-ReadDeflated(const StoredVolume & volume, std::uintmax_t frame)
+ReadDeflated(const StoredVolume & volume, std::uintmax_t frame, const ScanReadOptions & options)
 {
   const DeflatedVoxels & voxels = *volume.deflated;
   const auto refuseCutOff = [&voxels] {
@@ -77,7 +79,8 @@ ReadDeflated(const StoredVolume & volume, std::uintmax_t frame)
   };
   const std::size_t bytes = NumberOfVoxels(volume.geometry) * SizeOf(volume.type);
   stream.Skip(frame * bytes);
-  ScanImage image = ReadVolumePixels(volume.type, volume.scaling, volume.geometry, read);
+  ScanImage image =
+    ReadVolumePixels(volume.type, volume.scaling, volume.geometry, WithProgress(read, bytes, options.progress));
   const std::size_t left = (volume.numberOfFrames - frame - 1) * bytes;
   const auto rest = stream.Finish(left);
   if (!rest || *rest < left)
@@ -87,20 +90,13 @@ ReadDeflated(const StoredVolume & volume, std::uintmax_t frame)
   return image;
 }
 
-/** Reads the voxels of a NRRD or MetaImage file, whose header was checked, and fills the scan. */
-void
-ReadStoredVolume(const fs::path & path, const StoredVolume & volume, const ScanReadOptions & options, Scan & scan)
+/** Fills the scan of a NRRD or MetaImage file, whose header was checked. */
+UnreadScan
+OpenStoredVolume(const fs::path & path, const StoredVolume & volume, const ScanReadOptions & options, Scan scan)
 {
   ChooseFrame(volume.numberOfFrames, options, path, scan);
   CheckGeometry(volume.geometry, path, volume.matrix, options.onIrregular, scan.notes);
-  const std::size_t voxels = NumberOfVoxels(volume.geometry);
-  const std::size_t unpacked = volume.deflated ? 0 : voxels * SizeOf(volume.type) * volume.numberOfFrames;
-  RequireMemory(unpacked + MemoryOfPixels(volume.type, volume.scaling.has_value(), voxels),
-                options.maximumMemory,
-                "Reading " + path.string());
-  scan.image =
-    volume.deflated ? ReadDeflated(volume, scan.frame) : ReadUnpacked(path, volume, scan.frame, *options.decoder);
-
+  scan.image = NewVolumeImage(volume.type, volume.scaling.has_value(), volume.geometry);
   scan.encoding = volume.encoding;
   scan.scaling = DescribeScaling(volume.scaling);
   scan.isOriented = volume.isOriented;
@@ -108,6 +104,15 @@ ReadStoredVolume(const fs::path & path, const StoredVolume & volume, const ScanR
   {
     scan.notes.push_back(path.string() + " " + volume.note + ".");
   }
+  return { scan, [=](Scan & read) {
+            const std::size_t voxels = NumberOfVoxels(volume.geometry);
+            const std::size_t unpacked = volume.deflated ? 0 : voxels * SizeOf(volume.type) * volume.numberOfFrames;
+            RequireMemory(unpacked + MemoryOfPixels(volume.type, volume.scaling.has_value(), voxels),
+                          options.maximumMemory,
+                          "Reading " + path.string());
+            read.image = volume.deflated ? ReadDeflated(volume, read.frame, options)
+                                         : ReadUnpacked(path, volume, read.frame, options);
+          } };
 }
 
 /** Replaces values that are not finite, which would spread when the scan is resampled, by the lowest finite value.
@@ -150,31 +155,35 @@ IsVolumeFileName(const fs::path & path)
   return !VolumeFormatOf(path).empty();
 }
 
-Scan
-ReadVolumeFile(const fs::path & path, const ScanReadOptions & options)
+UnreadScan
+OpenVolumeFile(const fs::path & path, const ScanReadOptions & options)
 {
-  Scan scan;
-  scan.format = VolumeFormatOf(path);
-  if (scan.format == "NIfTI")
+  UnreadScan file;
+  file.scan.format = VolumeFormatOf(path);
+  if (file.scan.format == "NIfTI")
   {
-    ReadNIfTIFile(path, options, scan);
+    file = OpenNIfTIFile(path, options, file.scan);
+  }
+  else if (file.scan.format == "NRRD")
+  {
+    file = OpenStoredVolume(path, ReadNRRDVolume(path), options, file.scan);
+    Scan & scan = file.scan;
+    scan.labels = LabelsOfSegments(ReadNRRDKeyValues(path), path.string(), static_cast<int>(scan.frame));
   }
   else
   {
-    const StoredVolume volume = scan.format == "NRRD" ? ReadNRRDVolume(path) : ReadMetaImageVolume(path);
-    ReadStoredVolume(path, volume, options, scan);
-    if (scan.format == "NRRD")
+    file = OpenStoredVolume(path, ReadMetaImageVolume(path), options, file.scan);
+  }
+  file.readVoxels = [path, readAll = file.readVoxels](Scan & scan) {
+    readAll(scan);
+    if (const std::size_t count = ReplaceNotFinite(scan.image, path); count > 0)
     {
-      scan.labels = LabelsOfSegments(ReadNRRDKeyValues(path), path.string(), static_cast<int>(scan.frame));
+      scan.notes.push_back(path.string() + " holds " +
+                           Count(count, "value that is no finite number", "values that are not finite numbers") +
+                           "; the lowest value took their place.");
     }
-  }
-  if (const std::size_t count = ReplaceNotFinite(scan.image, path); count > 0)
-  {
-    scan.notes.push_back(path.string() + " holds " +
-                         Count(count, "value that is no finite number", "values that are not finite numbers") +
-                         "; the lowest value took their place.");
-  }
-  return scan;
+  };
+  return file;
 }
 
 } // namespace rhombic

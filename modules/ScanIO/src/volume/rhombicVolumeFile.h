@@ -13,9 +13,9 @@ namespace rhombic
 bool
 IsVolumeFileName(const std::filesystem::path & path);
 
-/** Reads a NIfTI, NRRD or MetaImage file. Throws Failure, ITK's exceptions and std::bad_alloc. */
-Scan
-ReadVolumeFile(const std::filesystem::path & path, const ScanReadOptions & options);
+/** Opens a NIfTI, NRRD or MetaImage file. Throws Failure, ITK's exceptions and std::bad_alloc. */
+UnreadScan
+OpenVolumeFile(const std::filesystem::path & path, const ScanReadOptions & options);
 
 } // namespace rhombic
 

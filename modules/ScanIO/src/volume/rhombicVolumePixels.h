@@ -43,6 +43,10 @@ struct ValueScaling
 std::string
 DescribeScaling(const std::optional<ValueScaling> & scaling);
 
+/** A volume without voxels, in the pixel type that ReadVolumePixels() tries first. */
+ScanImage
+NewVolumeImage(StoredType type, bool isScaled, const VolumeGeometry & geometry);
+
 /** The largest number of bytes that ReadVolumePixels() allocates for this number of voxels. */
 std::uintmax_t
 MemoryOfPixels(StoredType type, bool isScaled, std::uintmax_t numberOfVoxels);
@@ -54,7 +58,11 @@ SwapBytes(std::byte * buffer, std::size_t size, std::size_t valueSize);
 /** Reads the next \a size bytes of the voxels, a whole number of voxels, in this machine's byte order. */
 using VoxelSource = std::function<void(std::byte * buffer, std::size_t size)>;
 
-/** Reads the voxels of a volume in one pass, converted as ReadScan() documents. Throws what \a source throws. */
+/** Calls \a progress after each part of \a size bytes that \a source reads, with the fraction; may be empty. */
+VoxelSource
+WithProgress(VoxelSource source, std::uintmax_t size, std::function<void(double)> progress);
+
+/** Reads the voxels of a volume in one pass, converted as OpenScan() documents. Throws what \a source throws. */
 ScanImage
 ReadVolumePixels(StoredType type,
                  const std::optional<ValueScaling> & scaling,

@@ -1,0 +1,208 @@
+#ifndef itkScanFileReaderBase_h
+#define itkScanFileReaderBase_h
+
+#include "rhombicScanReader.h"
+
+#include "itkImageSource.h"
+
+#include <optional>
+#include <string>
+
+namespace itk
+{
+
+/** \class ScanFileReaderBase
+ * \brief What the readers of scans have in common: what is read, and how.
+ *
+ * \tparam TSource the process object that a reader is: ImageSource<TOutputImage> or ProcessObject
+ *
+ * Overridden pipeline methods: GenerateOutputInformation() (reads the headers).
+ *
+ * \ingroup ScanIO
+ */
+template <typename TSource>
+class ITK_TEMPLATE_EXPORT ScanFileReaderBase : public TSource
+{
+public:
+  ITK_DISALLOW_COPY_AND_MOVE(ScanFileReaderBase);
+
+  using Self = ScanFileReaderBase;
+  using Superclass = TSource;
+  using Pointer = SmartPointer<Self>;
+  using ConstPointer = SmartPointer<const Self>;
+
+  itkTypeMacro(ScanFileReaderBase, TSource);
+
+  using OptionsType = rhombic::ScanReadOptions;
+
+  /** A folder of DICOM slices, searched with its subfolders, or a file: DICOM that holds a volume, NIfTI, NRRD,
+   * MetaImage. */
+  itkSetStringMacro(FileName);
+  itkGetStringMacro(FileName);
+
+  /** The DICOM series of a folder: its place in rhombic::ListSeries() from 1, its SeriesNumber, or its UID. Default
+   * empty: the only one, or the one that has at least twice as many slices as any other. */
+  void
+  SetSeries(const std::string & series)
+  {
+    this->Assign(m_Options.series, series);
+  }
+  const std::string &
+  GetSeries() const
+  {
+    return m_Options.series;
+  }
+
+  /** The volume of a file that holds several, from 0. Default unset: such files are refused. */
+  void
+  SetFrame(SizeValueType frame)
+  {
+    this->Assign(m_Options.frame, std::optional<std::size_t>(frame));
+  }
+
+  /** Whether a stack with missing slices is read, with the other slices at their true positions. Default false: it is
+   * refused. When on, UpdateOutputInformation() reads the voxels, too, to leave out the slices of damaged files. */
+  void
+  SetAcceptGaps(bool accept)
+  {
+    using Policy = OptionsType::Policy;
+    this->Assign(m_Options.onGap, accept ? Policy::Accept : Policy::Refuse);
+  }
+  bool
+  GetAcceptGaps() const
+  {
+    return m_Options.onGap == OptionsType::Policy::Accept;
+  }
+  itkBooleanMacro(AcceptGaps);
+
+  /** Whether slices that are tilted or unevenly spaced, and sheared volumes, are read; otherwise they are refused.
+   * Default true. Turn it off where a filter of ITK's comes before CartesianToFCCImageFilter (see ScanFileReader). */
+  void
+  SetAcceptIrregular(bool accept)
+  {
+    using Policy = OptionsType::Policy;
+    this->Assign(m_Options.onIrregular, accept ? Policy::Accept : Policy::Refuse);
+  }
+  bool
+  GetAcceptIrregular() const
+  {
+    return m_Options.onIrregular == OptionsType::Policy::Accept;
+  }
+  itkBooleanMacro(AcceptIrregular);
+
+  /** Runs the libraries that unpack compressed voxels, which damaged files can crash. Default null: in this process. A
+   * rhombic::IsolatedDecoder runs them in child processes; make it at the beginning of main(). Not owned. */
+  void
+  SetDecoder(rhombic::VoxelDecoder * decoder)
+  {
+    this->Assign(m_Options.decoder, decoder);
+  }
+  rhombic::VoxelDecoder *
+  GetDecoder() const
+  {
+    return m_Options.decoder;
+  }
+
+  /** All of these choices and some more at once. Its progress is not called: observe ProgressEvent. */
+  void
+  SetOptions(const OptionsType & options)
+  {
+    m_Options = options;
+    this->Modified();
+  }
+  const OptionsType &
+  GetOptions() const
+  {
+    return m_Options;
+  }
+
+  /** What is known of the scan: format, modality, series, geometry report, scaling, notes. Nothing about the patient,
+   * but fileNotes may name files. After UpdateOutputInformation() from headers, after Update() complete. Its image has
+   * size and position, but no voxels. */
+  const rhombic::Scan &
+  GetScan() const
+  {
+    return m_Scan;
+  }
+
+  /** The type of the scan's own values: UCHAR, SHORT, USHORT, INT or FLOAT (see rhombic::OpenScan()). Before
+   * UpdateOutputInformation() UNKNOWNCOMPONENTTYPE. Values that turn out to be beyond SHORT make it USHORT or INT in
+   * Update(), and those beyond INT make it FLOAT. */
+  IOComponentEnum
+  GetComponentType() const
+  {
+    return rhombic::ComponentTypeOf(m_Scan.image);
+  }
+
+protected:
+  ScanFileReaderBase() = default;
+  ~ScanFileReaderBase() override = default;
+
+  void
+  PrintSelf(std::ostream & os, Indent indent) const override
+  {
+    Superclass::PrintSelf(os, indent);
+    os << indent << "FileName: " << m_FileName << std::endl;
+    os << indent << "Series: " << m_Options.series << std::endl;
+    os << indent << "AcceptGaps: " << this->GetAcceptGaps() << std::endl;
+    os << indent << "AcceptIrregular: " << this->GetAcceptIrregular() << std::endl;
+    os << indent << "Decoder: " << m_Options.decoder << std::endl;
+  }
+
+  void
+  GenerateOutputInformation() override
+  {
+    OptionsType options = m_Options;
+    options.progress = [this](double fraction) {
+      this->UpdateProgress(static_cast<float>(fraction));
+      this->CheckAbort();
+    };
+    m_File = rhombic::OpenScan(m_FileName, options);
+    m_Scan = m_File.scan;
+    rhombic::AttachPlacement(m_Scan);
+  }
+
+  /** Reads the voxels, and completes GetScan(). Reports progress, and throws ProcessAborted. */
+  rhombic::Scan
+  ReadVoxels()
+  {
+    this->UpdateProgress(0.0f);
+    this->CheckAbort();
+    rhombic::Scan scan = rhombic::ReadVoxels(m_File);
+    rhombic::AttachPlacement(scan);
+    m_Scan = rhombic::WithoutVoxels(scan);
+    return scan;
+  }
+
+private:
+  template <typename TValue>
+  void
+  Assign(TValue & option, const TValue & value)
+  {
+    if (option != value)
+    {
+      option = value;
+      this->Modified();
+    }
+  }
+
+  void
+  CheckAbort() const
+  {
+    if (this->GetAbortGenerateData())
+    {
+      ProcessAborted aborted(__FILE__, __LINE__);
+      aborted.SetDescription(std::string(this->GetNameOfClass()) + ": AbortGenerateData was set.");
+      throw aborted;
+    }
+  }
+
+  std::string m_FileName;
+  OptionsType m_Options;
+  rhombic::UnreadScan m_File;
+  rhombic::Scan m_Scan;
+};
+
+} // namespace itk
+
+#endif
