@@ -8,7 +8,6 @@
 #include "itkTriangleSurfaceSolids.h"
 #include "itkTriangleSurfaceUntangling.h"
 #include "rhombicFCCImageFile.h"
-#include "rhombicScanReader.h"
 #include "rhombicSurfaceIO.h"
 
 #include <iostream>
@@ -32,12 +31,10 @@ try
     return itk::TriangleSurface::Pointer(filter->GetOutput());
   };
   const auto resampleAndExtract = [&extract](const rhombic::Scan & scan) {
-    const auto resample = [&](const auto & image) {
+    const auto resample = [&extract](const auto & image) {
       using FilterType = itk::CartesianToFCCImageFilter<typename std::decay_t<decltype(image)>::ObjectType>;
       const auto filter = FilterType::New();
       filter->SetInput(image);
-      filter->SetSliceOrigins(scan.sliceOrigins);         // none if they are evenly placed
-      filter->SetOutsideValue(example::LowestOf(*image)); // beside slices that are tilted
       filter->Update();
       return extract(typename FilterType::OutputImageType::Pointer(filter->GetOutput()));
     };
@@ -45,7 +42,7 @@ try
   };
   const itk::TriangleSurface::Pointer surface = rhombic::IsFCCImageFile(argv[1])
                                                   ? std::visit(extract, rhombic::ReadFCCImage(argv[1]))
-                                                  : resampleAndExtract(rhombic::ReadScan(argv[1]));
+                                                  : resampleAndExtract(example::ReadScan(argv[1]));
   rhombic::WriteSurfaces({ { "surface", surface } }, argv[3]);
   const auto center = itk::ComputeCentroid(*surface);
   const itk::TriangleSurfaceAudit audit = itk::AuditSurface(*surface);

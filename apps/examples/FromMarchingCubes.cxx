@@ -3,6 +3,7 @@
 #include "exampleInput.h"
 #include "itkCartesianToFCCImageFilter.h"
 #include "itkFCCIsosurfaceFilter.h"
+#include "itkScanFileReader.h"
 #include "rhombicSurfaceToPolyData.h"
 
 #include <vtkFlyingEdges3D.h>
@@ -35,7 +36,11 @@ try
     throw std::runtime_error("usage: FromMarchingCubes SCAN THRESHOLD");
   }
   const auto threshold = example::ParseNumber<double>("THRESHOLD", argv[2]);
-  const auto image = example::ReadEvenImage<short>(argv[1]);
+  const auto reader = itk::ScanFileReader<itk::Image<short, 3>>::New();
+  reader->SetFileName(argv[1]);
+  reader->AcceptIrregularOff(); // vtkImageData has evenly placed slices only
+  reader->Update();
+  const auto image = reader->GetOutput();
   const auto & size = image->GetBufferedRegion().GetSize();
   vtkNew<vtkShortArray> values;
   values->SetArray(image->GetBufferPointer(), size[0] * size[1] * size[2], 1);

@@ -3,7 +3,6 @@
 #include "exampleInput.h"
 #include "itkCartesianToFCCImageFilter.h"
 #include "rhombicFCCImageFile.h"
-#include "rhombicScanReader.h"
 
 #include <iostream>
 
@@ -15,12 +14,10 @@ rhombic::FCCVolume
 Resample(const rhombic::Scan & scan)
 {
   return std::visit(
-    [&scan](const auto & image) -> rhombic::FCCVolume {
+    [](const auto & image) -> rhombic::FCCVolume {
       using ImageType = typename std::decay_t<decltype(image)>::ObjectType;
       const auto filter = itk::CartesianToFCCImageFilter<ImageType>::New();
       filter->SetInput(image);
-      filter->SetSliceOrigins(scan.sliceOrigins);         // none if they are evenly placed
-      filter->SetOutsideValue(example::LowestOf(*image)); // beside slices that are tilted
       filter->Update();
       return itk::SmartPointer<itk::FCCImage<typename ImageType::PixelType>>(filter->GetOutput());
     },
@@ -38,7 +35,7 @@ try
     throw std::runtime_error("usage: ResampleAndSave SCAN OUTPUT.fcc.nrrd");
   }
   example::RequireOther(argv[2], { argv[1] });
-  const rhombic::Scan scan = rhombic::ReadScan(argv[1]);
+  const rhombic::Scan scan = example::ReadScan(argv[1]);
   rhombic::WriteFCCImage(Resample(scan), argv[2]);
   const rhombic::FCCVolume volume = rhombic::ReadFCCImage(argv[2]);
   const auto voxels = rhombic::GeometryOf(scan.image).GetLargestPossibleRegion().GetNumberOfPixels();

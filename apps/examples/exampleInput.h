@@ -1,8 +1,8 @@
 #ifndef exampleInput_h
 #define exampleInput_h
 
+#include "itkNativeScanFileReader.h"
 #include "rhombicFailure.h"
-#include "rhombicScanReader.h"
 
 #include "itkImageIOBase.h"
 
@@ -83,29 +83,23 @@ RequireOther(const std::filesystem::path & output, const std::vector<std::filesy
   }
 }
 
-/** A scan for the filters of ITK, which take an image's slices for evenly placed and perpendicular: others are refused.
- * CartesianToFCCImageFilter alone knows Scan::sliceOrigins. */
+/** Reads a scan in its own pixel type. */
 inline rhombic::Scan
-ReadEvenScan(const std::filesystem::path & path)
+ReadScan(const std::string & path, bool acceptsIrregular = true)
 {
-  rhombic::ScanReadOptions options;
-  options.onIrregular = rhombic::ScanReadOptions::Policy::Refuse;
-  return rhombic::ReadScan(path, options);
+  const auto reader = itk::NativeScanFileReader::New();
+  reader->SetFileName(path);
+  reader->SetAcceptIrregular(acceptsIrregular);
+  reader->Update();
+  return *reader->GetOutput()->Get();
 }
 
-/** Reads a scan of evenly spaced slices with this pixel type; throws for scans of other pixel types. */
-template <typename TPixel>
-typename itk::Image<TPixel, 3>::Pointer
-ReadEvenImage(const std::filesystem::path & path)
+/** A scan for the filters of ITK, which take an image's slices for evenly placed and perpendicular: others are refused.
+ * CartesianToFCCImageFilter alone knows where they are. */
+inline rhombic::Scan
+ReadEvenScan(const std::string & path)
 {
-  const rhombic::ScanImage image = ReadEvenScan(path).image;
-  const rhombic::ScanImage wanted = itk::Image<TPixel, 3>::New();
-  if (image.index() != wanted.index())
-  {
-    throw std::runtime_error(path.string() + " holds " + rhombic::PixelTypeName(image) + ", but this example is for " +
-                             rhombic::PixelTypeName(wanted) + "; change its pixel type");
-  }
-  return std::get<typename itk::Image<TPixel, 3>::Pointer>(image);
+  return ReadScan(path, false);
 }
 
 /** The lowest value of an image, which is air in a CT. NaN is ignored. */

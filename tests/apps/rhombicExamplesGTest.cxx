@@ -3,6 +3,7 @@
 #include "itkEuler3DTransform.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -185,11 +186,14 @@ struct Refusal
 TEST_F(Examples, SayWhatIsWrongInsteadOfCrashing)
 {
   const std::string scan = phantom + "/phantom.nii.gz";
-  const std::string labels = phantom + "/phantom-labels.nii.gz";
   const auto & folder = m_Folder.Path();
   WriteMetaImage(folder / "int16.mha", "MET_SHORT", 2);
   WriteMetaImage(folder / "uint16.mha", "MET_USHORT", 2);
   WriteMetaImage(folder / "float.mha", "MET_FLOAT", 4);
+  std::ofstream(folder / "fraction.nhdr") << "NRRD0004\ntype: double\ndimension: 3\nsizes: 1 1 2\nencoding: raw\n"
+                                             "endian: little\ndata file: fraction.raw\n\n";
+  const double fractions[] = { 0.5, 1.0 };
+  std::ofstream(folder / "fraction.raw").write(reinterpret_cast<const char *>(fractions), sizeof(fractions));
   WriteMetaImage(folder / "vectors.mha", "MET_SHORT\nElementNumberOfChannels = 3", 6);
   const std::string flat = "Transform: Euler2DTransform_double_2_2\nParameters: 0 0 0\nFixedParameters: 0 0\n";
   const std::string shift = "Transform: TranslationTransform_double_3_3\nParameters: 1 0 0\nFixedParameters:\n";
@@ -224,7 +228,9 @@ TEST_F(Examples, SayWhatIsWrongInsteadOfCrashing)
          Refusal{ "FromMarchingCubes", "usage: " },
          Refusal{ "FromMarchingCubes missing 0", "no such file" },
          Refusal{ "FromMarchingCubes scan.nii.gz nan", "THRESHOLD can't be 'nan'" },
-         Refusal{ "FromMarchingCubes " + labels + " 0.5", "holds uint8, but this example is for int16" },
+         Refusal{ "ScanToSurface", "usage: " },
+         Refusal{ "ScanToSurface missing 0 out.stl", "no such file" },
+         Refusal{ "ScanToSurface fraction.nhdr 0 out.stl", "as int16: it holds 0.5, and is float itself" },
          Refusal{ "StreamLargeVolume", "usage: " },
          Refusal{ "StreamLargeVolume missing 0 2 out.stl", "missing can't be read as a MetaImage or NRRD volume" },
          Refusal{ "StreamLargeVolume lattice.fcc.nrrd 1000.5 2 out.stl", "on the lattice already" },
@@ -252,6 +258,21 @@ TEST_F(Examples, SayWhatIsWrongInsteadOfCrashing)
     EXPECT_FALSE(std::filesystem::exists(folder / "out.stl") || std::filesystem::exists(folder / "out.fcc.nrrd"));
   }
   EXPECT_TRUE(ReadText(folder / "scan.nii.gz") == ReadText(scan)) << "it was not written over";
+}
+
+TEST_F(Examples, ScanToSurfaceMakesTheSurfaceOfRhombicMesh)
+{
+  for (const char * const scan : { "/dicom", "/phantom.nii.gz" })
+  {
+    Run("ScanToSurface " + phantom + scan + " -485.5 example.stl");
+    Run("rhombic -q mesh " + phantom + scan + " -t -485.5 -o program.stl");
+    const auto ours = nlohmann::json::parse(Run("rhombic audit example.stl --json"))[0];
+    const auto theirs = nlohmann::json::parse(Run("rhombic audit program.stl --json"))[0];
+    EXPECT_TRUE(ours["watertight"]);
+    EXPECT_EQ(ours["triangles"], theirs["triangles"]);
+    EXPECT_NEAR(ours["volumeInMillilitres"].get<double>() / theirs["volumeInMillilitres"].get<double>(), 1.0, 0.02)
+      << "rhombic mesh moves the ends, where the scan cuts the body, onto the scan's faces";
+  }
 }
 
 TEST_F(Examples, FromMarchingCubes)

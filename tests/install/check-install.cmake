@@ -53,9 +53,11 @@ endforeach()
 run(${CMAKE_COMMAND} -S "${WORK}/map" -B "${WORK}/map/build" -G ${GENERATOR} "-DCMAKE_PREFIX_PATH=${WORK}/prefix"
     -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
 run(${CMAKE_COMMAND} --build "${WORK}/map/build")
-run("${WORK}/map/build/bone" "${SCAN}/../phantom.nii.gz" "${WORK}/map/bone.stl")
-run("${WORK}/prefix/bin/rhombic" audit "${WORK}/map/bone.stl")
-message("The program of modules/README.md: ${output}")
+foreach(scan "${SCAN}" "${SCAN}/../phantom.nii.gz")
+  run("${WORK}/map/build/bone" "${scan}" "${WORK}/map/bone.stl")
+  run("${WORK}/prefix/bin/rhombic" audit "${WORK}/map/bone.stl")
+  message("The program of modules/README.md: ${output}")
+endforeach()
 
 # What can't be had is refused by name, unless it is optional; so are packages of other versions than those in the build.
 function(check_refusal component sentence)

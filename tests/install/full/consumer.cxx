@@ -1,7 +1,7 @@
+#include "itkNativeScanFileReader.h"
 #include "rhombicLatticeToSurfaces.h"
 #include "rhombicScanToLattice.h"
 #include "rhombicPictureIO.h"
-#include "rhombicScanReader.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicSurfaceRenderer.h"
 #include "rhombicSurfaceToPolyData.h"
@@ -14,8 +14,10 @@
 int
 main(int, char ** argv)
 {
-  const rhombic::Scan scan = rhombic::ReadScan(argv[1]);
-  const rhombic::FCCVolume lattice = rhombic::ScanToLattice(scan, {}, {});
+  const auto reader = itk::NativeScanFileReader::New();
+  reader->SetFileName(argv[1]);
+  reader->Update();
+  const rhombic::FCCVolume lattice = rhombic::ScanToLattice(*reader->GetOutput()->Get(), {}, {});
   rhombic::SurfaceRequest bone;
   bone.name = "bone";
   bone.isovalue = 375.5;
