@@ -93,7 +93,7 @@ protected:
   {
     try
     {
-      decoder.Decode({ VoxelRequest::Source::DicomFile, path, Bytes });
+      decoder.Decode({ path, Bytes });
     }
     catch (const Failure & failure)
     {
@@ -112,7 +112,7 @@ TEST_F(IsolatedDecoding, GivesTheBytesThatDecodingInProcessGives)
   rhombic::InProcessDecoder inProcess;
   for (std::size_t k = 0; k < 5; ++k)
   {
-    const VoxelRequest request{ VoxelRequest::Source::DicomFile, this->Write(MakeSlice(k), std::to_string(k)), Bytes };
+    const VoxelRequest request{ this->Write(MakeSlice(k), std::to_string(k)), Bytes };
     const auto one = isolated.Decode(request);
     const auto other = inProcess.Decode(request);
     EXPECT_EQ(std::memcmp(one->GetData(), other->GetData(), Bytes), 0);
@@ -247,7 +247,7 @@ TEST_F(IsolatedDecoding, AKilledDecoderIsNoDamage)
     kill(worker, signal);
     try
     {
-      decoder.Decode({ VoxelRequest::Source::DicomFile, good, Bytes });
+      decoder.Decode({ good, Bytes });
       ADD_FAILURE() << "it was decoded";
     }
     catch (const Failure & failure)

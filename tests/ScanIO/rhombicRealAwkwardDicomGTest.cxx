@@ -300,7 +300,7 @@ TEST_F(AwkwardDicom, AStreamIsNotSearchedForItsEnd)
   }
   try
   {
-    m_Decoder.Decode({ rhombic::VoxelRequest::Source::DicomFile, file, std::size_t{ 256 * 1024 * 2 } });
+    m_Decoder.Decode({ file, std::size_t{ 256 * 1024 * 2 } });
     ADD_FAILURE() << "it was decoded";
   }
   catch (const rhombic::Failure & failure)

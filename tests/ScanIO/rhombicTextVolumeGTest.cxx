@@ -3,7 +3,6 @@
 #include "rhombicNRRDHeader.h"
 #include "rhombicNRRDVolume.h"
 #include "rhombicScanTest.h"
-#include "rhombicVoxelDecoder.h"
 
 #include <map>
 #include <random>
@@ -204,8 +203,7 @@ TEST_F(TextVolume, EncodingsAndPlacesOfData)
                              Case{ Raw + space + "data file: a.raw\nbyte skip: -1\n", "", "raw" },
                              Case{ Raw + space + "datafile: below/a.raw\nline skip: 1\n", "", "raw" },
                              Case{ Bare + space + "encoding: gzip\n", Gzipped("01234567"), "gzip" },
-                             Case{ Bare + space + "encoding: txt\n", "48 49 50 51\n52 53 54 55\n", "text" },
-                             Case{ Bare + space + "encoding: hex\n", "30313233\n34353637\n", "hex" } })
+                             Case{ Bare + space + "encoding: gz\nbyte skip: 2\n", Gzipped("ab01234567"), "gzip" } })
   {
     const auto scan = ReadScan(this->WriteNRRD(test.fields, test.data));
     EXPECT_EQ(TextOf(scan), "01234567") << test.fields;
@@ -213,16 +211,23 @@ TEST_F(TextVolume, EncodingsAndPlacesOfData)
   }
   EXPECT_EQ(TextOf(ReadScan(this->WriteNRRD(Raw + space, "01234567", "LOUD.NRRD"))), "01234567");
   EXPECT_EQ(TextOf(ReadScan(this->WriteMetaImage(Meta + Placed, "01234567", "LOUD.MHA"))), "01234567");
-  const auto text = ReadScan(this->WriteMetaImage(Meta + Placed + "BinaryData = False\n", "48 49 50 51 52 53 54 55\n"));
-  EXPECT_EQ(TextOf(text), "01234567");
-  EXPECT_EQ(text.encoding, "text");
+  EXPECT_EQ(TextOf(ReadScan(this->WriteMetaImage(Meta + Placed + "HeaderSize = -1\n", "more01234567"))), "01234567");
+  for (const std::string encoding : { "txt", "ascii", "hex", "bzip2" })
+  {
+    EXPECT_EQ(KindOfReading(this->WriteNRRD(Bare + space + "encoding: " + encoding + "\n", "48 49 50 51 52 53 54 55"),
+                            "encoding '" + encoding + "' is not supported"),
+              FailureKind::Unreadable);
+  }
+  EXPECT_EQ(KindOfReading(this->WriteMetaImage(Meta + Placed + "BinaryData = False\n", "48 49 50 51 52 53 54 55\n"),
+                          "its voxels are text"),
+            FailureKind::Unreadable);
 
   std::string damaged = Gzipped("01234567");
   damaged[damaged.size() - 6] = static_cast<char>(damaged[damaged.size() - 6] ^ 1);
   EXPECT_EQ(KindOfReading(this->WriteNRRD(Bare + space + "encoding: gzip\n", damaged), "damaged"),
             FailureKind::Unreadable);
   const std::string twice = Gzipped(std::string(7, 'x'));
-  EXPECT_EQ(KindOfReading(this->WriteNRRD(Bare + space + "encoding: gzip\n", twice), "7 of 8"),
+  EXPECT_EQ(KindOfReading(this->WriteNRRD(Bare + space + "encoding: gzip\n", twice), "cut off"),
             FailureKind::Unreadable);
 }
 
@@ -330,54 +335,31 @@ TEST_F(TextVolume, KeyValuesOfNRRD)
                rhombic::Failure);
 }
 
-/** Gives every request the same byte. */
-class ConstantDecoder : public rhombic::VoxelDecoder
+TEST_F(TextVolume, NRRDOfEitherByteOrder)
 {
-public:
-  unsigned int
-  GetNumberOfWorkers() const override
+  NIfTITestFile values;
+  for (const bool isBigEndian : { false, true })
   {
-    return 1;
-  }
-
-  std::unique_ptr<rhombic::VoxelBuffer>
-  Decode(const rhombic::VoxelRequest & request) override
-  {
-    class Buffer : public rhombic::VoxelBuffer
+    values.isBigEndian = isBigEndian;
+    const std::string bytes = values.Values(std::vector<std::int16_t>{ -3000, 7 });
+    for (const bool isPacked : { false, true })
     {
-    public:
-      explicit Buffer(std::size_t size)
-        : m_Bytes(size, std::byte{ 'x' })
-      {}
-
-      const std::byte *
-      GetData() const override
-      {
-        return m_Bytes.data();
-      }
-
-    private:
-      const std::vector<std::byte> m_Bytes;
-    };
-    m_Request = request;
-    return std::make_unique<Buffer>(request.size);
+      const std::string fields =
+        "type: int16\ndimension: 3\nsizes: 2 1 1\nendian: " + std::string(isBigEndian ? "big" : "little") +
+        "\nencoding: " + (isPacked ? "gzip" : "raw") + "\n";
+      const auto scan = ReadScan(this->WriteNRRD(fields, isPacked ? Gzipped(bytes) : bytes));
+      EXPECT_EQ(ImageOf<std::int16_t>(scan).GetPixel({ { 0, 0, 0 } }), -3000);
+      EXPECT_EQ(ImageOf<std::int16_t>(scan).GetPixel({ { 1, 0, 0 } }), 7);
+    }
   }
+}
 
-  rhombic::VoxelRequest m_Request;
-};
-
-TEST_F(TextVolume, VoxelsComeThroughTheDecoder)
+TEST_F(TextVolume, MemoryIsLimited)
 {
-  ConstantDecoder decoder;
   ScanReadOptions options;
-  options.decoder = &decoder;
-  const auto path = this->WriteNRRD(Raw + "space: LPS\n" + Directions);
-  EXPECT_EQ(TextOf(ReadScan(path, options)), "xxxxxxxx");
-  EXPECT_EQ(decoder.m_Request.source, rhombic::VoxelRequest::Source::VolumeFile);
-  EXPECT_EQ(decoder.m_Request.path, path);
-  EXPECT_EQ(decoder.m_Request.size, 8u);
-  options.maximumMemory = 15;
-  EXPECT_EQ(KindOfReading(path, "--max-memory", options), FailureKind::Memory);
+  options.maximumMemory = 7;
+  EXPECT_EQ(KindOfReading(this->WriteNRRD(Raw + "space: LPS\n" + Directions), "--max-memory", options),
+            FailureKind::Memory);
 }
 
 /** Any header gives a description or a Failure. */

@@ -8,17 +8,9 @@
 namespace rhombic
 {
 
-/** A request to unpack voxels. */
+/** A request to unpack all frames of a DICOM file with compressed pixels, by GDCM. */
 struct VoxelRequest
 {
-  /** The kind of file, and the library that reads it. */
-  enum class Source
-  {
-    DicomFile, ///< all frames of a DICOM file with compressed pixels, by GDCM
-    VolumeFile ///< a NRRD or MetaImage file, by ITK
-  };
-
-  Source source = Source::DicomFile;
   std::filesystem::path path;
   std::size_t size = 0; ///< bytes of the unpacked voxels, in this machine's byte order
 };

@@ -80,7 +80,6 @@ struct ServerReply
  * the voxels, unless that of the previous request is large enough. */
 struct WorkerRequest
 {
-  VoxelRequest::Source source = VoxelRequest::Source::DicomFile;
   std::uint64_t size = 0;    ///< bytes of the voxels
   std::uint64_t memory = 0;  ///< bytes that the worker may allocate
   std::uint64_t seconds = 0; ///< processor time that the worker may use

@@ -4,7 +4,7 @@
 #include "rhombicFailure.h"
 #include "rhombicSystemCallFilter.h"
 #include "rhombicVolumeRefusal.h"
-#include "rhombicVoxelDecoding.h"
+#include "rhombicDicomDecoding.h"
 
 #include "itkObject.h"
 
@@ -156,7 +156,7 @@ Work(const ReceivedMessage<WorkerRequest> & request, SharedVoxels & voxels, int 
   {
     voxels.Map(request.descriptor.Get());
   }
-  DecodeVoxels({ request.message.source, request.text, request.message.size }, voxels.GetData());
+  DecodeDicomFile(request.text, voxels.GetData(), request.message.size);
   if (const std::string warning = TakeOutput(output); !warning.empty())
   {
     RefuseVolume(request.text, "its pixels are damaged (" + warning + "); copy it again from its source");

@@ -1,6 +1,6 @@
 #include "rhombicInProcessDecoder.h"
 
-#include "rhombicVoxelDecoding.h"
+#include "rhombicDicomDecoding.h"
 
 #include <mutex>
 #include <vector>
@@ -47,7 +47,7 @@ InProcessDecoder::Decode(const VoxelRequest & request)
   auto buffer = std::make_unique<VectorBuffer>(request.size);
   static std::mutex turn;
   const std::lock_guard<std::mutex> lock(turn);
-  DecodeVoxels(request, buffer->GetData());
+  DecodeDicomFile(request.path, buffer->GetData(), request.size);
   return buffer;
 }
 

@@ -174,7 +174,6 @@ public:
   {
     Worker worker = this->TakeWorker();
     WorkerRequest message;
-    message.source = request.source;
     message.size = request.size;
     message.memory = m_Limits.memory + 5 * std::uint64_t{ request.size };
     message.seconds = m_Limits.seconds + request.size / (4u << 20);

@@ -35,8 +35,6 @@ PassOver(TSource & source, std::uintmax_t size)
   return total;
 }
 
-constexpr std::uintmax_t LargestRatio = 1032; // largest ratio of deflate
-
 } // namespace
 
 UnpackedFile::UnpackedFile(const fs::path & path)
@@ -115,61 +113,79 @@ LargestUnpackedSize(const fs::path & path)
   return UnpackedFile(path).IsCompressed() ? size * LargestRatio : size;
 }
 
-InflatedStream::InflatedStream(const fs::path & path, std::uintmax_t offset)
+ByteStream::ByteStream(const fs::path & path, std::uintmax_t offset, bool isDeflated)
   : m_File(path, std::ios::binary)
-  , m_Packed(1 << 16)
-  , m_Stream(new z_stream{})
 {
   m_File.seekg(static_cast<std::streamoff>(offset));
-  constexpr int zlibOrGzip = 15 + 32; // zlib's window bits, and 32 for either header
-  if (inflateInit2(m_Stream.get(), zlibOrGzip) != Z_OK)
+  if (isDeflated)
   {
-    throw std::bad_alloc();
+    m_Packed.resize(1 << 16);
+    m_Inflation.reset(new z_stream{});
+    constexpr int zlibOrGzip = 15 + 32; // zlib's window bits, and 32 for either header
+    if (inflateInit2(m_Inflation.get(), zlibOrGzip) != Z_OK)
+    {
+      throw std::bad_alloc();
+    }
   }
 }
 
-InflatedStream::~InflatedStream()
+ByteStream::~ByteStream()
 {
-  inflateEnd(m_Stream.get());
+  if (m_Inflation)
+  {
+    inflateEnd(m_Inflation.get());
+  }
 }
 
 std::size_t
-InflatedStream::Read(void * buffer, std::size_t size)
+ByteStream::Read(void * buffer, std::size_t size)
 {
+  if (!m_Inflation)
+  {
+    m_File.read(static_cast<char *>(buffer), static_cast<std::streamsize>(size));
+    return static_cast<std::size_t>(m_File.gcount());
+  }
   constexpr std::size_t largest = 1 << 30; // zlib counts in unsigned int
   std::size_t total = 0;
   while (total < size && m_State == Z_OK)
   {
-    if (m_Stream->avail_in == 0)
+    if (m_Inflation->avail_in == 0)
     {
       m_File.read(m_Packed.data(), static_cast<std::streamsize>(m_Packed.size()));
-      m_Stream->next_in = reinterpret_cast<Bytef *>(m_Packed.data());
-      m_Stream->avail_in = static_cast<uInt>(m_File.gcount());
-      if (m_Stream->avail_in == 0)
+      m_Inflation->next_in = reinterpret_cast<Bytef *>(m_Packed.data());
+      m_Inflation->avail_in = static_cast<uInt>(m_File.gcount());
+      if (m_Inflation->avail_in == 0)
       {
         break;
       }
     }
     const auto room = static_cast<uInt>(std::min(largest, size - total));
-    m_Stream->next_out = static_cast<Bytef *>(buffer) + total;
-    m_Stream->avail_out = room;
-    m_State = inflate(m_Stream.get(), Z_NO_FLUSH);
-    total += room - m_Stream->avail_out;
+    m_Inflation->next_out = static_cast<Bytef *>(buffer) + total;
+    m_Inflation->avail_out = room;
+    m_State = inflate(m_Inflation.get(), Z_NO_FLUSH);
+    total += room - m_Inflation->avail_out;
   }
   return total;
 }
 
-std::uintmax_t
-InflatedStream::Skip(std::uintmax_t size)
+void
+ByteStream::Skip(std::uintmax_t size)
 {
-  return PassOver(*this, size);
+  if (m_Inflation)
+  {
+    PassOver(*this, size);
+  }
+  else
+  {
+    m_File.seekg(static_cast<std::streamoff>(size), std::ios::cur);
+  }
 }
 
-std::optional<std::uintmax_t>
-InflatedStream::Finish(std::uintmax_t most)
+bool
+ByteStream::EndsAfter(std::uintmax_t size)
 {
-  const std::uintmax_t total = this->Skip(most + LongestTail);
-  return m_State == Z_STREAM_END ? std::make_optional(total) : std::nullopt;
+  const std::uintmax_t left = PassOver(*this, size + LongestTail);
+  return left >= size && m_State == Z_STREAM_END;
 }
 
 } // namespace rhombic

@@ -51,39 +51,41 @@ private:
 /** The largest number of bytes that may follow the voxels: some writers append a few. */
 constexpr std::uintmax_t LongestTail = 1 << 20;
 
-/** The largest size that a file can have when unpacked: 1032 times its size if its content is gzip, the largest ratio
- * of deflate. */
+/** The largest ratio of deflate. */
+constexpr std::uintmax_t LargestRatio = 1032;
+
+/** The largest size that a file can have when unpacked: LargestRatio times its size if its content is gzip. */
 std::uintmax_t
 LargestUnpackedSize(const std::filesystem::path & path);
 
-/** A zlib or gzip stream that begins somewhere in a file. */
-class InflatedStream
+/** Bytes of a file from an offset on, as they are or unpacked by zlib (zlib or gzip streams). */
+class ByteStream
 {
 public:
-  InflatedStream(const std::filesystem::path & path, std::uintmax_t offset);
-  ~InflatedStream();
+  ByteStream(const std::filesystem::path & path, std::uintmax_t offset, bool isDeflated);
+  ~ByteStream();
 
-  InflatedStream(const InflatedStream &) = delete;
-  InflatedStream &
-  operator=(const InflatedStream &) = delete;
+  ByteStream(const ByteStream &) = delete;
+  ByteStream &
+  operator=(const ByteStream &) = delete;
 
   /** The next \a size bytes, or fewer at the end of the stream or where it is damaged. */
   std::size_t
   Read(void * buffer, std::size_t size);
 
-  /** Skips \a size bytes, or as many as there are. Returns their number. */
-  std::uintmax_t
+  /** Skips \a size bytes, or as many as there are. */
+  void
   Skip(std::uintmax_t size);
 
-  /** Skips the rest of the stream and returns its size. Nothing when the stream is damaged, cut off, or longer than
-   * \a most bytes and LongestTail. */
-  std::optional<std::uintmax_t>
-  Finish(std::uintmax_t most);
+  /** Whether exactly \a size bytes are left, and at most LongestTail more; for compressed streams, whether their end is
+   * there and their checksum right. */
+  bool
+  EndsAfter(std::uintmax_t size);
 
 private:
   std::ifstream m_File;
   std::vector<char> m_Packed;
-  std::unique_ptr<z_stream_s> m_Stream;
+  std::unique_ptr<z_stream_s> m_Inflation; ///< null for bytes that are not compressed
   int m_State = 0;
 };
 

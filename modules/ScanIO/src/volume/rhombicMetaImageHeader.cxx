@@ -1,5 +1,6 @@
 #include "rhombicMetaImageHeader.h"
 
+#include "rhombicCompressedFile.h"
 #include "rhombicTextHeader.h"
 #include "rhombicVolumeFrame.h"
 #include "rhombicVolumeRefusal.h"
@@ -199,48 +200,41 @@ IsBigEndian(const MetaImageHeader & header, const fs::path & path)
   return binaryData || element;
 }
 
-/** Refuses data that is missing or shorter than \a needed bytes. Fills deflated. */
-void
-FindData(const MetaImageHeader & header, std::uintmax_t needed, const fs::path & path, StoredVolume & volume)
+/** Finds the voxels. Refuses data that is missing or shorter than \a needed bytes. */
+StoredVoxels
+FindVoxels(const MetaImageHeader & header, bool isDeflated, std::uintmax_t needed, const fs::path & path)
 {
   const std::string name = header.Get("ElementDataFile");
   if (name.compare(0, 4, "LIST") == 0 || name.find('%') != std::string::npos)
   {
     RefuseVolume(path, "its voxels are spread over several files, which is not supported; write it as one file");
   }
-  const bool isLocal = LowerCase(name) == "local";
-  const fs::path data = isLocal ? path : DetachedFile(path, name);
-  const std::uintmax_t size = fs::file_size(data);
-
   const auto headerSize = NumbersOf(header.Get("HeaderSize"));
   const double skip = headerSize && headerSize->size() == 1 ? headerSize->front() : 0;
   constexpr double largestSkip = 1e15;
-  if (!headerSize || headerSize->size() > 1 || !(skip >= -1 && skip <= largestSkip) ||
-      (skip < 0 && volume.encoding != "raw"))
+  if (!headerSize || headerSize->size() > 1 || !(skip >= -1 && skip <= largestSkip) || (skip < 0 && isDeflated))
   {
     RefuseVolume(path, "its header's HeaderSize makes no sense; export it again from its source");
   }
-  const std::uintmax_t begin = skip > 0 ? static_cast<std::uintmax_t>(skip) : isLocal ? header.size : 0;
-  const std::uintmax_t stored = size - std::min(begin, size);
-  std::uintmax_t available = stored;
-  if (volume.encoding == "zlib")
-  {
-    // MetaIO omits the end without an error when CompressedDataSize is too small.
-    const bool isBigEndian = IsBigEndian(header, path);
-    volume.deflated = DeflatedVoxels{ data, begin, isBigEndian != itk::ByteSwapper<int>::SystemIsBigEndian() };
-    constexpr std::uintmax_t ratio = 1032; // the largest of deflate
-    available = stored * ratio;
-  }
-  else if (volume.encoding == "text")
-  {
-    available = (stored + 1) / 2 * SizeOf(volume.type); // at least a digit and a blank a voxel
-  }
-  if (available < needed)
+  const bool isLocal = LowerCase(name) == "local";
+  StoredVoxels voxels;
+  voxels.path = isLocal ? path : DetachedFile(path, name);
+  voxels.offset = skip > 0 ? static_cast<std::uintmax_t>(skip) : isLocal ? header.size : 0;
+  voxels.isDeflated = isDeflated;
+  voxels.isSwapped = IsBigEndian(header, path) != itk::ByteSwapper<int>::SystemIsBigEndian();
+  const std::uintmax_t size = fs::file_size(voxels.path);
+  const std::uintmax_t stored = size - std::min(voxels.offset, size);
+  if ((isDeflated ? stored * LargestRatio : stored) < needed)
   {
     RefuseVolume(path,
-                 data.string() + " has " + std::to_string(stored) + " bytes for " + std::to_string(needed) +
+                 voxels.path.string() + " has " + std::to_string(stored) + " bytes for " + std::to_string(needed) +
                    " bytes of voxels; it is cut off or damaged, so copy it again");
   }
+  if (skip < 0) // the voxels are at the end
+  {
+    voxels.offset = size - needed;
+  }
+  return voxels;
 }
 
 } // namespace
@@ -253,8 +247,11 @@ ReadMetaImageVolume(const fs::path & path)
   StoredVolume volume;
   volume.type = TypeOf(header, path);
   volume.scaling = ScalingOf(header, path);
-  const bool isText = !header.Get("BinaryData").empty() && !header.IsTrue("BinaryData");
-  volume.encoding = isText ? "text" : header.IsTrue("CompressedData") ? "zlib" : "raw";
+  if (!header.Get("BinaryData").empty() && !header.IsTrue("BinaryData"))
+  {
+    RefuseVolume(path, "its voxels are text, which is not supported; write it with BinaryData = True");
+  }
+  volume.encoding = header.IsTrue("CompressedData") ? "zlib" : "raw";
   volume.numberOfFrames = sizes.size() == 4 ? sizes[3] : 1;
   Place(header, sizes, path, volume);
 
@@ -265,7 +262,7 @@ ReadMetaImageVolume(const fs::path & path)
   {
     RefuseVolume(path, "its dimensions are larger than any volume; export it again from its source");
   }
-  FindData(header, *needed, path, volume);
+  volume.voxels = FindVoxels(header, volume.encoding == "zlib", *needed, path);
   return volume;
 }
 

@@ -7,6 +7,8 @@
 #include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"
 
+#include "itkByteSwapper.h"
+
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -243,16 +245,12 @@ Place(const NRRDHeader & header,
 std::string
 EncodingOf(const NRRDHeader & header, const fs::path & path)
 {
-  static const std::map<std::string, std::string> encodings{ { "raw", "raw" },    { "txt", "text" }, { "text", "text" },
-                                                             { "ascii", "text" }, { "hex", "hex" },  { "gz", "gzip" },
-                                                             { "gzip", "gzip" } };
   const std::string name = LowerCase(header.Get("encoding"));
-  const auto found = encodings.find(name);
-  if (found == encodings.end())
+  if (name != "raw" && name != "gz" && name != "gzip")
   {
     RefuseVolume(path, "its encoding '" + name + "' is not supported; write it as raw or gzip");
   }
-  return found->second;
+  return name == "raw" ? name : "gzip";
 }
 
 /** The position in \a data after \a count lines from \a begin. */
@@ -268,13 +266,13 @@ PassLines(const fs::path & data, std::uintmax_t begin, std::uintmax_t count)
   return file ? static_cast<std::uintmax_t>(file.tellg()) : fs::file_size(data);
 }
 
-/** Refuses data that is missing or shorter than \a needed bytes. */
-void
-CheckData(const NRRDHeader & header,
-          const std::string & encoding,
-          std::uintmax_t needed,
-          std::size_t bytesPerVoxel,
-          const fs::path & path)
+/** Finds the voxels. Refuses data that is missing or shorter than \a needed bytes. */
+StoredVoxels
+FindVoxels(const NRRDHeader & header,
+           bool isDeflated,
+           std::uintmax_t needed,
+           std::size_t bytesPerVoxel,
+           const fs::path & path)
 {
   const std::string name = header.Get("datafile");
   if (name.compare(0, 4, "LIST") == 0 || name.find('%') != std::string::npos)
@@ -282,46 +280,42 @@ CheckData(const NRRDHeader & header,
     RefuseVolume(path, "its voxels are spread over several files, which is not supported; write it as one file");
   }
   const std::string endian = LowerCase(header.Get("endian"));
-  if (bytesPerVoxel > 1 && encoding != "text" && endian != "little" && endian != "big")
+  if (bytesPerVoxel > 1 && endian != "little" && endian != "big")
   {
     RefuseVolume(path, "its header does not say in which byte order its voxels are; export it again from its source");
   }
-  const fs::path data = name.empty() ? path : DetachedFile(path, name);
   const auto lineSkip = CountsOf(header.Get("lineskip"));
   const auto byteSkip = NumbersOf(header.Get("byteskip"));
   const bool hasByteSkip = byteSkip && byteSkip->size() == 1;
   const double skip = hasByteSkip ? byteSkip->front() : 0;
   constexpr double largestSkip = 1e15;
   if (!lineSkip || lineSkip->size() > 1 || !byteSkip || byteSkip->size() > 1 || !(skip >= -1 && skip <= largestSkip) ||
-      (skip < 0 && encoding != "raw"))
+      (skip < 0 && isDeflated))
   {
     RefuseVolume(path, "its header's 'line skip' or 'byte skip' makes no sense; export it again from its source");
   }
 
-  const std::uintmax_t size = fs::file_size(data);
-  const std::uintmax_t begin =
-    PassLines(data, name.empty() ? header.size : 0, lineSkip->empty() ? 0 : lineSkip->front());
-  const auto skipped = static_cast<std::uintmax_t>(std::max(0.0, skip));
-  const std::uintmax_t packed = size - std::min(begin, size);
-  std::uintmax_t available = packed;
-  if (encoding == "gzip")
-  {
-    available = InflatedStream(data, begin).Finish(skipped + needed).value_or(0);
-  }
-  else if (encoding == "hex")
-  {
-    available = packed / 2; // two letters a byte
-  }
-  else if (encoding == "text")
-  {
-    available = (packed + 1) / 2 * bytesPerVoxel; // at least a digit and a blank a voxel
-  }
-  if (available < skipped || available - skipped < needed)
+  StoredVoxels voxels;
+  voxels.path = name.empty() ? path : DetachedFile(path, name);
+  voxels.isDeflated = isDeflated;
+  voxels.isSwapped = (endian == "big") == itk::ByteSwapper<int>::SystemIsLittleEndian();
+  voxels.offset = PassLines(voxels.path, name.empty() ? header.size : 0, lineSkip->empty() ? 0 : lineSkip->front());
+  voxels.skip = static_cast<std::uintmax_t>(std::max(0.0, skip));
+  const std::uintmax_t size = fs::file_size(voxels.path);
+  const std::uintmax_t stored = size - std::min(voxels.offset, size);
+  const std::uintmax_t available = isDeflated ? stored * LargestRatio : stored;
+  if (available < voxels.skip || available - voxels.skip < needed)
   {
     RefuseVolume(path,
-                 data.filename().string() + " has " + std::to_string(available) + " of " +
-                   std::to_string(needed + skipped) + " bytes of voxels; it is cut off or damaged, so copy it again");
+                 voxels.path.filename().string() + " has " + std::to_string(stored) + " bytes for " +
+                   std::to_string(needed + voxels.skip) +
+                   " bytes of voxels; it is cut off or damaged, so copy it again");
   }
+  if (skip < 0) // the voxels are at the end
+  {
+    voxels.offset = size - needed;
+  }
+  return voxels;
 }
 
 } // namespace
@@ -347,7 +341,7 @@ ReadNRRDVolume(const fs::path & path)
   if (frameAxis < sizes.size())
   {
     volume.numberOfFrames = sizes[frameAxis];
-    volume.areFramesInterleaved = frameAxis == 0 || kinds[frameAxis] == "list"; // ITK puts lists first
+    volume.areFramesInterleaved = frameAxis == 0;
   }
   Place(header, sizes, directions, frameAxis, path, volume);
 
@@ -358,7 +352,7 @@ ReadNRRDVolume(const fs::path & path)
   {
     RefuseVolume(path, "its dimensions are larger than any volume; export it again from its source");
   }
-  CheckData(header, volume.encoding, *needed, SizeOf(volume.type), path);
+  volume.voxels = FindVoxels(header, volume.encoding == "gzip", *needed, SizeOf(volume.type), path);
   return volume;
 }
 

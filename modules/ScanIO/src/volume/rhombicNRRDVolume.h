@@ -9,7 +9,7 @@ namespace rhombic
 {
 
 /** Reads the header of a NRRD file (.nrrd, or .nhdr with its data file). Checks its numbers and the length of the data,
- * for compressed data by unpacking it once. A fourth axis, first or last, is taken as several volumes. Throws Failure:
+ * but does not unpack compressed data. A fourth axis, first or last, is taken as several volumes. Throws Failure:
  * Unreadable, naming what is wrong or not supported, Geometry. */
 StoredVolume
 ReadNRRDVolume(const std::filesystem::path & path);

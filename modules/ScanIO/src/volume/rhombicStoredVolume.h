@@ -12,12 +12,14 @@
 namespace rhombic
 {
 
-/** A zlib stream of voxels in a file. */
-struct DeflatedVoxels
+/** Where the voxels of a file are. */
+struct StoredVoxels
 {
   std::filesystem::path path;
-  std::uintmax_t offset = 0;
-  bool isSwapped = false; ///< not in this machine's byte order
+  std::uintmax_t offset = 0; ///< of the first voxel, or of the compressed stream
+  std::uintmax_t skip = 0;   ///< bytes before the first voxel in the unpacked stream
+  bool isDeflated = false;   ///< a zlib or gzip stream
+  bool isSwapped = false;    ///< not in this machine's byte order
 };
 
 /** The content of a NRRD or MetaImage header. */
@@ -29,8 +31,8 @@ struct StoredVolume
   std::uintmax_t numberOfFrames = 1;
   bool areFramesInterleaved = false; ///< whether the values of a voxel in all frames are adjacent
   std::optional<ValueScaling> scaling;
-  std::string encoding;                   ///< "raw", "gzip", "zlib", "text" or "hex"
-  std::optional<DeflatedVoxels> deflated; ///< set when the voxels are not unpacked by ITK
+  std::string encoding; ///< "raw", "gzip" or "zlib"
+  StoredVoxels voxels;
   bool isOriented = true;
   std::string note; ///< assumptions, as the end of a sentence that begins with the path; may be empty
 };

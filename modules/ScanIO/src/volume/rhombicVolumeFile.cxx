@@ -12,13 +12,13 @@
 #include "rhombicVolumeGeometry.h"
 #include "rhombicVolumePixels.h"
 #include "rhombicVolumeRefusal.h"
-#include "rhombicVoxelDecoder.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <vector>
 
 namespace fs = std::filesystem;
 
@@ -33,59 +33,62 @@ NumberOfVoxels(const VolumeGeometry & geometry)
   return geometry.size[0] * geometry.size[1] * geometry.size[2];
 }
 
-/** Reads one volume of a NRRD or MetaImage file that ITK unpacks. */
-ScanImage
-ReadUnpacked(const fs::path & path, const StoredVolume & volume, std::uintmax_t frame, const ScanReadOptions & options)
+/** Reads the values of one frame from groups of a value for each frame. False at the end of the stream. */
+bool
+ReadInterleaved(ByteStream & stream,
+                std::byte * buffer,
+                std::size_t size,
+                std::size_t voxelSize,
+                std::uintmax_t frame,
+                std::uintmax_t frames)
 {
-  const std::size_t voxelSize = SizeOf(volume.type);
-  const std::size_t bytes = NumberOfVoxels(volume.geometry) * voxelSize;
-  const auto unpacked =
-    options.decoder->Decode({ VoxelRequest::Source::VolumeFile, path, bytes * volume.numberOfFrames });
-  const std::byte * next = unpacked->GetData() + frame * (volume.areFramesInterleaved ? voxelSize : bytes);
-  const std::size_t step = volume.areFramesInterleaved ? voxelSize * volume.numberOfFrames : voxelSize;
-  const auto source = [&](std::byte * buffer, std::size_t size) {
-    if (step == voxelSize)
+  const std::size_t groupSize = voxelSize * frames;
+  std::vector<std::byte> groups(std::max<std::size_t>(1, (1 << 20) / groupSize) * groupSize);
+  for (std::byte * const end = buffer + size; buffer != end;)
+  {
+    const std::size_t left = static_cast<std::size_t>(end - buffer) / voxelSize * groupSize;
+    const std::size_t count = stream.Read(groups.data(), std::min(groups.size(), left));
+    if (count % groupSize != 0 || count == 0)
     {
-      std::memcpy(buffer, next, size);
-      next += size;
-      return;
+      return false;
     }
-    for (std::byte * value = buffer; value != buffer + size; value += voxelSize, next += step)
+    for (std::size_t group = 0; group < count; group += groupSize, buffer += voxelSize)
     {
-      std::memcpy(value, next, voxelSize);
+      std::memcpy(buffer, groups.data() + group + frame * voxelSize, voxelSize);
     }
-  };
-  return ReadVolumePixels(volume.type, volume.scaling, volume.geometry, WithProgress(source, bytes, options.progress));
+  }
+  return true;
 }
 
-/** Reads one volume of a file whose voxels are a zlib stream, in one pass. */
+/** Reads one frame of a NRRD or MetaImage file, in one pass. */
 ScanImage
-ReadDeflated(const StoredVolume & volume, std::uintmax_t frame, const ScanReadOptions & options)
+ReadStoredVoxels(const StoredVolume & volume, std::uintmax_t frame, const ScanReadOptions & options)
 {
-  const DeflatedVoxels & voxels = *volume.deflated;
-  const auto refuseCutOff = [&voxels] {
-    RefuseVolume(voxels.path, "its compressed voxels are damaged or cut off; copy it again");
-  };
-  InflatedStream stream(voxels.path, voxels.offset);
+  const StoredVoxels & voxels = volume.voxels;
+  const auto refuse = [&voxels] { RefuseVolume(voxels.path, "its voxels are damaged or cut off; copy it again"); };
+  const std::size_t voxelSize = SizeOf(volume.type);
+  const std::size_t frameSize = NumberOfVoxels(volume.geometry) * voxelSize;
+  ByteStream stream(voxels.path, voxels.offset, voxels.isDeflated);
+  stream.Skip(voxels.skip + (volume.areFramesInterleaved ? 0 : frame * frameSize));
   const auto read = [&](std::byte * buffer, std::size_t size) {
-    if (stream.Read(buffer, size) < size)
+    const bool isRead = volume.areFramesInterleaved
+                          ? ReadInterleaved(stream, buffer, size, voxelSize, frame, volume.numberOfFrames)
+                          : stream.Read(buffer, size) == size;
+    if (!isRead)
     {
-      refuseCutOff();
+      refuse();
     }
     if (voxels.isSwapped)
     {
-      SwapBytes(buffer, size, SizeOf(volume.type));
+      SwapBytes(buffer, size, voxelSize);
     }
   };
-  const std::size_t bytes = NumberOfVoxels(volume.geometry) * SizeOf(volume.type);
-  stream.Skip(frame * bytes);
   ScanImage image =
-    ReadVolumePixels(volume.type, volume.scaling, volume.geometry, WithProgress(read, bytes, options.progress));
-  const std::size_t left = (volume.numberOfFrames - frame - 1) * bytes;
-  const auto rest = stream.Finish(left);
-  if (!rest || *rest < left)
+    ReadVolumePixels(volume.type, volume.scaling, volume.geometry, WithProgress(read, frameSize, options.progress));
+  const std::uintmax_t framesLeft = volume.areFramesInterleaved ? 0 : volume.numberOfFrames - frame - 1;
+  if (voxels.isDeflated && !stream.EndsAfter(framesLeft * frameSize))
   {
-    refuseCutOff();
+    refuse();
   }
   return image;
 }
@@ -105,13 +108,12 @@ OpenStoredVolume(const fs::path & path, const StoredVolume & volume, const ScanR
     scan.notes.push_back(path.string() + " " + volume.note + ".");
   }
   return { scan, [=](Scan & read) {
-            const std::size_t voxels = NumberOfVoxels(volume.geometry);
-            const std::size_t unpacked = volume.deflated ? 0 : voxels * SizeOf(volume.type) * volume.numberOfFrames;
-            RequireMemory(unpacked + MemoryOfPixels(volume.type, volume.scaling.has_value(), voxels),
+            const std::uintmax_t group = volume.areFramesInterleaved ? volume.numberOfFrames * SizeOf(volume.type) : 0;
+            RequireMemory(group +
+                            MemoryOfPixels(volume.type, volume.scaling.has_value(), NumberOfVoxels(volume.geometry)),
                           options.maximumMemory,
                           "Reading " + path.string());
-            read.image = volume.deflated ? ReadDeflated(volume, read.frame, options)
-                                         : ReadUnpacked(path, volume, read.frame, options);
+            read.image = ReadStoredVoxels(volume, read.frame, options);
           } };
 }
 
