@@ -5,7 +5,6 @@ find_package(MPI REQUIRED COMPONENTS C CXX) # Debian's VTK links it without look
 find_package(VTK 9.1 REQUIRED COMPONENTS CommonColor CommonCore CommonDataModel FiltersCore IOGeometry IOPLY IOXML
                                          RenderingCore RenderingFreeType RenderingOpenGL2)
 find_package(OpenGL REQUIRED COMPONENTS EGL)
-find_package(X11 REQUIRED)
 find_package(OpenImageIO 2.4 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(yaml-cpp REQUIRED)

@@ -70,7 +70,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "${ITK_DEBIAN_PACKAGE}" libhwy-dev libmeshoptimizer-dev nlohmann-json3-dev zlib1g-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS # for the components of rendering, pictures and pipelines alone
-    "${VTK_DEBIAN_PACKAGE}" "${OpenImageIO_DEBIAN_PACKAGE}" libegl-dev libpango1.0-dev libx11-dev libyaml-cpp-dev openimageio-tools)
+    "${VTK_DEBIAN_PACKAGE}" "${OpenImageIO_DEBIAN_PACKAGE}" libegl-dev libpango1.0-dev libyaml-cpp-dev openimageio-tools)
 list(JOIN CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
 list(JOIN CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "${method}\nThis package has its modules for programs of your own:

@@ -123,38 +123,31 @@ TEST_F(SurfaceRendererBackend, DrawsWithoutADisplay)
 TEST_F(SurfaceRendererBackend, ProbesTellWhatWorksAndWhyNot)
 {
   const auto probes = SurfaceRenderer::ProbeBackends();
-  ASSERT_EQ(probes.size(), 3u);
+  ASSERT_EQ(probes.size(), 2u);
   EXPECT_TRUE(probes[0].usable || probes[1].usable);
   for (const auto & probe : probes)
   {
     EXPECT_FALSE(probe.name.empty());
     EXPECT_FALSE(probe.detail.empty());
   }
-  EXPECT_FALSE(probes[2].usable);
-  EXPECT_EQ(probes[2].detail, "DISPLAY is not set");
 }
 
 TEST_F(SurfaceRendererBackend, MissingBackendNamesThePackages)
 {
+  if (SurfaceRenderer::ProbeBackends()[0].usable)
+  {
+    GTEST_SKIP() << "there is a graphics card";
+  }
   try
   {
-    SurfaceRenderer{ RenderBackend::XDisplay };
-    FAIL() << "there is no X server";
+    SurfaceRenderer{ RenderBackend::Device };
+    FAIL() << "there is no graphics card";
   }
   catch (const Failure & failure)
   {
     EXPECT_EQ(failure.GetKind(), FailureKind::Display);
     EXPECT_NE(std::string(failure.GetDescription()).find("libegl1"), std::string::npos);
   }
-}
-
-TEST_F(SurfaceRendererBackend, UnreachableXServerIsAReason)
-{
-  setenv("DISPLAY", ":4095", 1);
-  const auto probes = SurfaceRenderer::ProbeBackends();
-  unsetenv("DISPLAY");
-  EXPECT_FALSE(probes[2].usable);
-  EXPECT_EQ(probes[2].detail, "the X server :4095 can't be reached");
 }
 
 TEST_F(SurfaceRendererTest, EveryViewShowsEachSideWhereItBelongs)

@@ -12,8 +12,7 @@ enum class RenderBackend
 {
   Automatic,   ///< the first backend in the order below that works
   Device,      ///< a graphics card, through EGL, without a display
-  Surfaceless, ///< Mesa through EGL, without a display: software, or a card with a Mesa driver
-  XDisplay     ///< GLX, on the X server named by the environment variable DISPLAY
+  Surfaceless  ///< Mesa through EGL, without a display: software, or a card with a Mesa driver
 };
 
 /** \class BackendProbe

@@ -8,7 +8,7 @@
 #include <vtk_glew.h>
 
 // GLEW looks up OpenGL's functions for VTK. Without an X server it finds all of them but those of GLX, and then reports
-// a failure. Nothing here calls GLX through GLEW, so this definition, exported by the program (see
+// a failure. Nothing calls GLX through GLEW, so this definition, exported by the program (see
 // module-options.cmake), replaces GLEW's.
 extern "C" unsigned int
 glxewInit();
@@ -31,10 +31,9 @@ struct Backend
   std::unique_ptr<GLContext> (*create)();
 };
 
-constexpr std::array<Backend, 3> Backends{ {
+constexpr std::array<Backend, 2> Backends{ {
   { RenderBackend::Device, "EGL device", CreateDeviceContext },
   { RenderBackend::Surfaceless, "EGL surfaceless Mesa", CreateSurfacelessContext },
-  { RenderBackend::XDisplay, "X display", CreateXDisplayContext },
 } };
 
 std::string

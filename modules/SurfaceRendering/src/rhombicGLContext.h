@@ -59,8 +59,6 @@ std::unique_ptr<GLContext>
 CreateDeviceContext();
 std::unique_ptr<GLContext>
 CreateSurfacelessContext();
-std::unique_ptr<GLContext>
-CreateXDisplayContext();
 
 /** A context, and a line with its backend, renderer and OpenGL version. */
 struct DescribedGLContext
