@@ -35,6 +35,8 @@ set(DOXYGEN_PREDEFINED
     "itkSetEnumMacro(name,type)=virtual void Set##name(type name)\;"
     "itkGetEnumMacro(name,type)=virtual type Get##name() const\;"
     "itkBooleanMacro(name)=virtual void name##On()\; virtual void name##Off()\;"
+    "itkSetStringMacro(name)=virtual void Set##name(const std::string & name)\;"
+    "itkGetStringMacro(name)=virtual const char * Get##name() const\;"
     "itkSetInputMacro(name,type)=virtual void Set##name(const type * input)\;"
     "itkGetInputMacro(name,type)=virtual const type * Get##name() const\;"
     "RHOMBIC_INSTANTIATE(declaration,image)=")

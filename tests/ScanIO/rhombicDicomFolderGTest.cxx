@@ -609,7 +609,7 @@ TEST_F(DicomFolder, ThreadsThatDoNotStartAreDoneWithout)
   ManyWorkers decoder;
   rhombic::ScanReadOptions options;
   options.decoder = &decoder;
-  EXPECT_NO_THROW(ReadScan(m_Folder, options));
+  EXPECT_NO_THROW(rhombic::ReadVoxels(rhombic::OpenScan(m_Folder, options)));
   pthread_setattr_default_np(&attributes);
 
   struct Stop
