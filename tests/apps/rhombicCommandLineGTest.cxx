@@ -113,7 +113,7 @@ constexpr ErrorCase errorCases[] = {
   { "SliceBeyondTheLast", "render scan.nii.gz --preset ct-bone --slice axial=#900 -o a.png", 2, "900" },
   { "SliceOfAnUnknownLabel", "render labels.nii.gz --slice axial=haert -o a.png", 2, "did you mean heart?" },
   { "BadCut", "render scan.nii.gz --preset ct-bone --cut 'q>1' -o a.png", 2, "x>12" },
-  { "CutOutside", "render scan.nii.gz --preset ct-bone --cut 'x>5000' -o a.png", 2, "does not meet the surfaces" },
+  { "CutOutside", "render scan.nii.gz --preset ct-bone --cut 'x>5000' -o a.png", 2, "is outside of what is shown" },
   { "NothingIsCut",
     "render scan.nii.gz --preset ct-bone --cut axial --uncut '*' -o a.png",
     2,
