@@ -10,9 +10,9 @@ namespace rhombic
 /** Where the OpenGL context of a renderer comes from. */
 enum class RenderBackend
 {
-  Automatic,   ///< the first backend in the order below that works
-  Device,      ///< a graphics card, through EGL, without a display
-  Surfaceless  ///< Mesa through EGL, without a display: software, or a card with a Mesa driver
+  Automatic,  ///< the first backend in the order below that works
+  Device,     ///< a graphics card, through EGL, without a display
+  Surfaceless ///< Mesa through EGL, without a display: software, or a card with a Mesa driver
 };
 
 /** \class BackendProbe
