@@ -78,7 +78,7 @@ GetSelection(const MeshOptions & options)
   {
     throw Failure(FailureKind::Usage,
                   "The threshold '" + options.threshold +
-                    "' is no number; write -t -300.5, -t '<-500.5' for what lies below, or -t otsu.");
+                    "' is no number; write -t -300.5, -t '<-500.5' for what lies below, -t otsu or -t otsu-low.");
   }
   return options.surfaces.GetSelection(request);
 }
@@ -115,9 +115,10 @@ AddMeshCommand(CLI::App & parser)
 {
   const auto options = std::make_shared<MeshOptions>();
   options->scan.AddSource(parser);
-  parser.add_option("-t,--threshold",
-                    options->threshold,
-                    "one surface by its isovalue: a number in the scan's units, <number for what lies below, or otsu");
+  parser.add_option(
+    "-t,--threshold",
+    options->threshold,
+    "one surface by its isovalue: a number in the scan's units, <number for what lies below, otsu or otsu-low");
   options->surfaces.Add(parser);
   parser.add_option("-o,--output",
                     options->mesh,

@@ -40,7 +40,7 @@ SurfaceOptions::Add(CLI::App & parser)
     .add_option("--surface",
                 m_Surfaces,
                 "name=threshold[,colour[,opacity]]; colour: #rrggbb, #rgb or a name, as white; threshold: a number, "
-                "<number for what lies below, or otsu; repeatable")
+                "<number for what lies below, otsu or otsu-low; repeatable")
     ->allow_extra_args(false);
   parser.add_option("--labels",
                     m_Labels,

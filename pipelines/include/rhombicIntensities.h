@@ -8,16 +8,17 @@ namespace rhombic
 {
 
 /** \class Intensities
- * \brief Range and threshold of a volume's finite values, in the volume's units. */
+ * \brief Range and thresholds of a volume's finite values, in the volume's units. */
 struct Intensities
 {
   double lowest = 0.0;
   double highest = 0.0;
-  double otsu = 0.0; ///< N. Otsu's threshold (1979) between background and foreground, from a histogram of 256 bins
+  double otsu = 0.0;    ///< N. Otsu's threshold (1979) between background and foreground, from a histogram of 256 bins
+  double lowOtsu = 0.0; ///< Otsu's threshold of the values up to \ref otsu: in MR, between air and the darkest tissue
 };
 
 /** Throws Failure(Unreadable) when no value is finite.
- * \param findsOtsu without it, otsu is the lowest value */
+ * \param findsOtsu without it, otsu and lowOtsu are the lowest value */
 Intensities
 ComputeIntensities(const ScanImage & image, bool findsOtsu = true);
 

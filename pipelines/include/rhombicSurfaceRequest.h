@@ -27,7 +27,8 @@ struct SurfaceRequest
   };
 
   std::string name;
-  std::optional<double> isovalue; ///< in the scan's units; none: Otsu's threshold of the scan
+  std::optional<double> isovalue; ///< in the scan's units; none: a threshold of the scan by Otsu's method
+  bool usesLowOtsu = false;       ///< without an isovalue: Intensities::lowOtsu, not Intensities::otsu
   bool insideIsBelow = false;
   Parts parts = Parts::All;
   Colour colour{ 0.8, 0.8, 0.8 };
@@ -47,8 +48,8 @@ struct SurfaceRequest
 Colour
 ParseColour(const std::string & text);
 
-/** A threshold written as a number, or `otsu`, with `<` before it if values below are inside. Sets the request's
- * isovalue and insideIsBelow. Returns false for other texts. */
+/** A threshold written as a number, `otsu` or `otsu-low`, with `<` before it if values below are inside. Sets the
+ * request's isovalue, usesLowOtsu and insideIsBelow. Returns false for other texts. */
 bool
 ParseThreshold(const std::string & text, SurfaceRequest & request);
 
@@ -57,7 +58,7 @@ ParseThreshold(const std::string & text, SurfaceRequest & request);
 SurfaceRequest
 ParseSurfaceRequest(const std::string & text, std::size_t number);
 
-/** Sets missing isovalues to Otsu's threshold. Throws Failure(Empty), naming the volume's range, for an isovalue where
+/** Sets missing isovalues to Otsu's thresholds. Throws Failure(Empty), naming the volume's range, for an isovalue where
  * the volume has no surface. */
 std::vector<SurfaceRequest>
 ResolveIsovalues(std::vector<SurfaceRequest> requests, const Intensities & intensities);

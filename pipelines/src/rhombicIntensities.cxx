@@ -64,6 +64,7 @@ FindRange(const TPixel * values, std::size_t count)
   return range;
 }
 
+/** Histogram of the values from lowest to highest. */
 template <typename TPixel>
 Histogram::Pointer
 MakeHistogram(const TPixel * values, std::size_t count, double lowest, double highest)
@@ -76,7 +77,7 @@ MakeHistogram(const TPixel * values, std::size_t count, double lowest, double hi
     Frequencies ofBlock{};
     for (std::size_t n = begin; n < end; ++n)
     {
-      if (IsCounted(values[n]))
+      if (IsCounted(values[n]) && static_cast<double>(values[n]) <= highest)
       {
         const auto bin = static_cast<std::size_t>((static_cast<double>(values[n]) - lowest) * scale);
         ++ofBlock[std::min(bin, Bins - 1)];
@@ -106,14 +107,18 @@ Intensities
 Compute(const TPixel * values, std::size_t count, bool findsOtsu)
 {
   const auto [lowest, highest] = FindRange(values, count);
-  Intensities found{ static_cast<double>(lowest), static_cast<double>(highest), static_cast<double>(lowest) };
+  Intensities found;
+  found.lowest = found.otsu = found.lowOtsu = static_cast<double>(lowest);
+  found.highest = static_cast<double>(highest);
   if (found.lowest > found.highest)
   {
     throw Failure(FailureKind::Unreadable, "The scan has no finite values; check that it was exported completely.");
   }
   if (findsOtsu && found.lowest < found.highest)
   {
-    found.otsu = OtsuThreshold(MakeHistogram(values, count, found.lowest, found.highest), std::is_integral_v<TPixel>);
+    constexpr bool isInteger = std::is_integral_v<TPixel>;
+    found.otsu = OtsuThreshold(MakeHistogram(values, count, found.lowest, found.highest), isInteger);
+    found.lowOtsu = OtsuThreshold(MakeHistogram(values, count, found.lowest, found.otsu), isInteger);
   }
   return found;
 }

@@ -86,13 +86,9 @@ ParseSurface(const YAML::Node & node, const std::string & source)
   }
   SurfaceRequest request;
   request.name = node["name"].as<std::string>();
-  if (node["isovalue"].as<std::string>() != "otsu")
+  if (!ParseThreshold(node["isovalue"].as<std::string>(), request) || request.insideIsBelow)
   {
-    request.isovalue = node["isovalue"].as<double>();
-    if (!std::isfinite(*request.isovalue))
-    {
-      FailToParse(source, "has an isovalue that is not finite");
-    }
+    FailToParse(source, "has an isovalue that is neither a finite number nor otsu or otsu-low");
   }
   request.insideIsBelow = FindWord(node["side"], { "above", "below" }, source) == 1;
   using Parts = SurfaceRequest::Parts;

@@ -36,7 +36,8 @@ ParseThreshold(const std::string & text, SurfaceRequest & request)
   const std::string number = isBelow ? text.substr(1) : text;
   request.insideIsBelow = isBelow;
   request.isovalue = ParseNumber(number);
-  return request.isovalue.has_value() || number == "otsu";
+  request.usesLowOtsu = number == "otsu-low";
+  return request.isovalue.has_value() || request.usesLowOtsu || number == "otsu";
 }
 
 SurfaceRequest
@@ -88,7 +89,7 @@ ResolveIsovalues(std::vector<SurfaceRequest> requests, const Intensities & inten
   {
     if (!request.isovalue)
     {
-      request.isovalue = intensities.otsu;
+      request.isovalue = request.usesLowOtsu ? intensities.lowOtsu : intensities.otsu;
     }
     // At the lowest value or below everything is inside, above the highest nothing: in both cases there is no surface.
     const double isovalue = *request.isovalue;

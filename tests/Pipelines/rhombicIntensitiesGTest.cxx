@@ -40,6 +40,26 @@ TEST(Intensities, FindRangeAndTheThresholdBetweenTwoGroups)
   EXPECT_NE(found.otsu, std::floor(found.otsu)) << "between whole numbers, so that no sample equals it";
 }
 
+/** Noise of the air, dark and bright tissue of an MR: the lower threshold keeps the dark tissue. */
+TEST(Intensities, FindTheThresholdBetweenNoiseAndDarkTissue)
+{
+  std::vector<std::int16_t> values;
+  for (int n = 0; n < 1000; ++n)
+  {
+    values.push_back(static_cast<std::int16_t>(n % 8));
+    values.push_back(static_cast<std::int16_t>(n % 2 == 0 ? 300 + n % 50 : n % 5));
+  }
+  for (int n = 0; n < 200; ++n)
+  {
+    values.push_back(static_cast<std::int16_t>(60 + n % 20));
+  }
+  const auto found = rhombic::ComputeIntensities(MakeImage(values));
+  EXPECT_GT(found.otsu, 79);
+  EXPECT_LT(found.otsu, 300);
+  EXPECT_GT(found.lowOtsu, 7);
+  EXPECT_LT(found.lowOtsu, 60);
+}
+
 TEST(Intensities, DoNotCountWhatIsNotFinite)
 {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -53,11 +73,14 @@ TEST(Intensities, DoNotCountWhatIsNotFinite)
 
 TEST(ResolveIsovalues, FillsInOtsusAndRefusesWhatIsOutside)
 {
-  const rhombic::Intensities intensities{ -1000.0, 2000.0, -100.5 };
-  const auto resolved = rhombic::ResolveIsovalues(
-    { rhombic::ParseSurfaceRequest("a=otsu", 0), rhombic::ParseSurfaceRequest("b=2000", 1) }, intensities);
+  const rhombic::Intensities intensities{ -1000.0, 2000.0, -100.5, -700.5 };
+  const auto resolved = rhombic::ResolveIsovalues({ rhombic::ParseSurfaceRequest("a=otsu", 0),
+                                                    rhombic::ParseSurfaceRequest("b=2000", 1),
+                                                    rhombic::ParseSurfaceRequest("c=otsu-low", 2) },
+                                                  intensities);
   EXPECT_EQ(resolved[0].isovalue, -100.5);
   EXPECT_EQ(resolved[1].isovalue, 2000.0);
+  EXPECT_EQ(resolved[2].isovalue, -700.5);
   for (const char * text : { "bone=2000.5", "bone=-1000", "bone=-5000" })
   {
     try

@@ -82,7 +82,7 @@ ListPresets()
       }
       else
       {
-        std::cout << "Otsu's threshold";
+        std::cout << (surface.usesLowOtsu ? "Otsu's threshold of the values below Otsu's" : "Otsu's threshold");
       }
       std::cout << (surface.opacity < 1.0 ? ", translucent" : "") << '\n';
     }
