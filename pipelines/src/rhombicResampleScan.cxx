@@ -1,6 +1,7 @@
 #include "rhombicResampleScan.h"
 
 #include "rhombicFailure.h"
+#include "rhombicPatientAxes.h"
 #include "rhombicScanReport.h"
 #include "rhombicScanWriter.h"
 #include "rhombicSourceLoading.h"
@@ -13,7 +14,7 @@ namespace
 void
 StageLattice(const Scan & scan, const ResampleScanSettings & settings, const Events & events, StagedFiles & staged)
 {
-  const FCCVolume volume = ScanToLattice(scan, settings.source.lattice, events);
+  const FCCVolume volume = ScanToLattice(OrderAlongPatient(scan), settings.source.lattice, events);
   events.Progress("writing", 0.0);
   StageFCCImage(volume, settings.volume, staged);
   StageSidecar(settings.volume,

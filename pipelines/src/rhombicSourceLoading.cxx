@@ -4,6 +4,7 @@
 #include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
 #include "rhombicObserveProgress.h"
+#include "rhombicPatientAxes.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -172,8 +173,9 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   }
   loaded.tableRemoval = TreatTable(scan, selection.removesTable, events);
   loaded.requests = ResolveRequests(requests, scan.image);
-  loaded.lattice = ScanToLattice(scan, source.lattice, events);
-  loaded.grid = GridOf(scan);
+  const Scan ordered = OrderAlongPatient(scan);
+  loaded.lattice = ScanToLattice(ordered, source.lattice, events);
+  loaded.grid = GridOf(ordered);
   return loaded;
 }
 
