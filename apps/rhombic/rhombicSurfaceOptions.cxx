@@ -67,11 +67,10 @@ SurfaceOptions::Add(CLI::App & parser)
     ->delimiter(',')
     ->allow_extra_args(false);
   parser
-    .add_option(
-      "--draw",
-      m_Rules,
-      "colour and opacity of surfaces and labels by name or group: 'skin=,0.3', 'group:bones=ivory'; repeatable, "
-      "later ones count more")
+    .add_option("--draw",
+                m_Rules,
+                "colour, opacity and look (matte or glossy) of surfaces and labels by name or group: 'skin=,0.3', "
+                "'group:bones=ivory', 'vessels=,,glossy'; repeatable, later ones count more")
     ->allow_extra_args(false);
   parser
     .add_option("--colours",

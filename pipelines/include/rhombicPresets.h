@@ -21,7 +21,7 @@ struct Preset
   Denoising denoising;       ///< of the scan or the lattice, before surfaces are made
   bool removesTable = false; ///< for CTs in HU: removes the scanner's table
   std::vector<SurfaceRequest> surfaces;
-  std::vector<SceneRule> rules; ///< colours and opacities of labels that are shown with the surfaces
+  std::vector<SceneRule> rules; ///< looks of the surfaces, and of labels that are shown with them
 };
 
 /** The built-in presets, from pipelines/presets/. */

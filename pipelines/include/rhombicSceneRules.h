@@ -19,12 +19,13 @@ namespace rhombic
  * and FreeSurfer name them.
  */
 
-/** Colour and opacity of the surfaces whose names fit a pattern. */
+/** Colour, opacity and look of the surfaces whose names fit a pattern. */
 struct SceneRule
 {
   std::string pattern;
   std::optional<Colour> colour;
   std::optional<double> opacity; ///< above 0, at most 1
+  std::optional<bool> isGlossy;  ///< see SceneSurface
 };
 
 /** Where the colours of labels come from. */
@@ -51,10 +52,14 @@ struct SceneRules
 bool
 FitsPattern(const std::string & pattern, const std::string & name);
 
-/** Opacity and colour written as pattern[=colour][,opacity]: "liver", "liver=#994736,0.5", "lung*=,0.3". Throws
- * Failure(Usage). */
+/** Looks written as pattern[=[colour][,[opacity][,matte or glossy]]]: "liver", "liver=#994736,0.5", "lung*=,0.3",
+ * "vessels=,,glossy". Throws Failure(Usage). */
 SceneRule
 ParseSceneRule(const std::string & text);
+
+/** Whether the last rule with a look for this name makes it glossy. */
+bool
+IsGlossy(const std::vector<SceneRule> & rules, const std::string & name);
 
 /** Leaves those isosurfaces and labels that the rules show, and sets the colours and opacities of these. Labels that
  * touch get different colours, unless a rule or the table sets them.

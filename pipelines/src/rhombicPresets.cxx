@@ -75,7 +75,7 @@ ParseSurface(const YAML::Node & node, const std::string & source)
 {
   RefuseUnknownKeys(
     node,
-    { "name", "isovalue", "side", "parts", "colour", "opacity", "min-volume", "largest", "fill", "smooth" },
+    { "name", "isovalue", "side", "parts", "colour", "opacity", "min-volume", "largest", "fill", "smooth", "look" },
     source);
   for (const char * key : { "name", "isovalue" })
   {
@@ -107,10 +107,16 @@ ParseSurface(const YAML::Node & node, const std::string & source)
   return request;
 }
 
+bool
+ParseGloss(const YAML::Node & node, const std::string & source)
+{
+  return FindWord(node, { "matte", "glossy" }, source) == 1;
+}
+
 SceneRule
 ParseRule(const YAML::Node & node, const std::string & source)
 {
-  RefuseUnknownKeys(node, { "match", "colour", "opacity" }, source);
+  RefuseUnknownKeys(node, { "match", "colour", "opacity", "look" }, source);
   if (!node["match"])
   {
     FailToParse(source, "has a rule without match");
@@ -125,6 +131,10 @@ ParseRule(const YAML::Node & node, const std::string & source)
   if (node["opacity"])
   {
     rule.opacity = ParseOpacity(node["opacity"], source);
+  }
+  if (node["look"])
+  {
+    rule.isGlossy = ParseGloss(node["look"], source);
   }
   return rule;
 }
@@ -166,6 +176,10 @@ ParsePreset(const std::string & yaml, const std::string & source)
     for (const auto & node : root["surfaces"])
     {
       preset.surfaces.push_back(ParseSurface(node, source));
+      if (node["look"])
+      {
+        preset.rules.push_back({ preset.surfaces.back().name, {}, {}, ParseGloss(node["look"], source) });
+      }
     }
     for (const auto & node : root["rules"])
     {

@@ -164,17 +164,18 @@ ParseSceneRule(const std::string & text)
   SceneRule rule;
   rule.pattern = text.substr(0, equals);
   const auto fields = equals == std::string::npos ? std::vector<std::string>{} : Split(text.substr(equals + 1), ",");
-  if (rule.pattern.empty() || fields.size() > 2)
+  if (rule.pattern.empty() || fields.size() > 3)
   {
     throw Failure(FailureKind::Usage,
                   "'" + text +
-                    "' is not name=colour,opacity; write, for example, 'liver=#994736,0.5' or 'lung*=,0.3'.");
+                    "' is not name=colour,opacity,look; write, for example, 'liver=#994736,0.5', 'lung*=,0.3' or "
+                    "'vessels=,,glossy'.");
   }
   if (!fields.empty() && !fields[0].empty())
   {
     rule.colour = ParseColour(fields[0]);
   }
-  if (fields.size() == 2)
+  if (fields.size() > 1 && !fields[1].empty())
   {
     rule.opacity = ToNumber<double>(fields[1]);
     if (!rule.opacity || !(*rule.opacity > 0.0 && *rule.opacity <= 1.0))
@@ -183,7 +184,24 @@ ParseSceneRule(const std::string & text)
                     "'" + fields[1] + "' in '" + text + "' is no opacity; write a number above 0 and at most 1.");
     }
   }
+  if (fields.size() > 2)
+  {
+    rule.isGlossy = fields[2] == "glossy";
+    if (!*rule.isGlossy && fields[2] != "matte")
+    {
+      throw Failure(FailureKind::Usage, "'" + fields[2] + "' in '" + text + "' is no look; write matte or glossy.");
+    }
+  }
   return rule;
+}
+
+bool
+IsGlossy(const std::vector<SceneRule> & rules, const std::string & name)
+{
+  const auto last = std::find_if(rules.rbegin(), rules.rend(), [&name](const SceneRule & rule) {
+    return rule.isGlossy && FitsPattern(rule.pattern, name);
+  });
+  return last != rules.rend() && *last->isGlossy;
 }
 
 void

@@ -92,7 +92,7 @@ TEST(Presets, ReadEverythingASurfaceHas)
 {
   const auto preset = rhombic::ParsePreset(
     "name: x\ndescription: d\nsurfaces:\n"
-    "  - {name: a, isovalue: -500.5, side: below, parts: enclosed, colour: \"#0000ff\", opacity: 0.25}\n"
+    "  - {name: a, isovalue: -500.5, side: below, parts: enclosed, colour: \"#0000ff\", opacity: 0.25, look: glossy}\n"
     "  - {name: b, isovalue: otsu, parts: outermost, min-volume: 2, largest: true, fill: true, smooth: 0.3}\n",
     "test");
   ASSERT_EQ(preset.surfaces.size(), 2u);
@@ -101,6 +101,8 @@ TEST(Presets, ReadEverythingASurfaceHas)
   EXPECT_EQ(preset.surfaces[0].parts, SurfaceRequest::Parts::Enclosed);
   EXPECT_EQ(preset.surfaces[0].colour, (rhombic::Colour{ 0.0, 0.0, 1.0 }));
   EXPECT_EQ(preset.surfaces[0].opacity, 0.25);
+  EXPECT_TRUE(rhombic::IsGlossy(preset.rules, "a"));
+  EXPECT_FALSE(rhombic::IsGlossy(preset.rules, "b"));
   EXPECT_FALSE(preset.surfaces[1].isovalue.has_value());
   EXPECT_EQ(preset.surfaces[1].parts, SurfaceRequest::Parts::Outermost);
   EXPECT_EQ(preset.surfaces[1].finish.minimumVolume, 2.0);

@@ -110,6 +110,16 @@ TEST(SceneRules, LaterRulesCountMore)
   EXPECT_EQ(map.labels[1].label.colour, (std::array<std::uint8_t, 3>{ 255, 0, 0 }));
 }
 
+TEST(SceneRules, TheLastRuleWithALookCounts)
+{
+  const std::vector<rhombic::SceneRule> rules{ rhombic::ParseSceneRule("*=,,glossy"),
+                                               rhombic::ParseSceneRule("skin=red,0.5,matte"),
+                                               rhombic::ParseSceneRule("skin=,0.2") };
+  EXPECT_TRUE(rhombic::IsGlossy(rules, "liver"));
+  EXPECT_FALSE(rhombic::IsGlossy(rules, "skin"));
+  EXPECT_FALSE(rhombic::IsGlossy({}, "skin"));
+}
+
 TEST(SceneRules, KnownNamesHaveTheColoursOfAnatomy)
 {
   for (const auto colours : { LabelColours::Anatomy, LabelColours::Table, LabelColours::ColourBlind })
@@ -175,8 +185,15 @@ TEST(SceneRules, SuggestTheNearestName)
 
 TEST(SceneRules, RefuseWhatIsNoRule)
 {
-  for (const char * text :
-       { "", "=red", "liver=red,0", "liver=red,2", "liver=red,0.5,1", "liver=nocolour", "liver=,x" })
+  for (const char * text : { "",
+                             "=red",
+                             "liver=red,0",
+                             "liver=red,2",
+                             "liver=red,0.5,1",
+                             "liver=,,shiny",
+                             "liver=,,glossy,",
+                             "liver=nocolour",
+                             "liver=,x" })
   {
     EXPECT_THROW(rhombic::ParseSceneRule(text), Failure) << text;
   }

@@ -273,7 +273,13 @@ RequireInside(SlicePlane plane, double position, const SliceBox & box)
 PictureScene
 MakePictureScene(const PictureSource & source, bool keepsScan, const Events & events)
 {
-  return source.surfaceFiles.empty() ? MakeSceneOfScan(source, keepsScan, events) : MakeSceneOfFiles(source, events);
+  PictureScene scene =
+    source.surfaceFiles.empty() ? MakeSceneOfScan(source, keepsScan, events) : MakeSceneOfFiles(source, events);
+  for (SceneSurface & surface : scene.surfaces)
+  {
+    surface.isGlossy = IsGlossy(source.surfaces.rules.rules, surface.name);
+  }
+  return scene;
 }
 
 std::vector<SceneSurface>
