@@ -1,4 +1,5 @@
 #include "rhombicDicomTestFile.h"
+#include "rhombicDicomDecoding.h"
 #include "rhombicInProcessDecoder.h"
 #include "rhombicIsolatedDecoder.h"
 #include "rhombicScanTest.h"
@@ -93,7 +94,7 @@ protected:
   {
     try
     {
-      decoder.Decode({ path, Bytes });
+      decoder.Decode({ rhombic::DecodeDicomFile, path, Bytes });
     }
     catch (const Failure & failure)
     {
@@ -112,7 +113,7 @@ TEST_F(IsolatedDecoding, GivesTheBytesThatDecodingInProcessGives)
   rhombic::InProcessDecoder inProcess;
   for (std::size_t k = 0; k < 5; ++k)
   {
-    const VoxelRequest request{ this->Write(MakeSlice(k), std::to_string(k)), Bytes };
+    const VoxelRequest request{ rhombic::DecodeDicomFile, this->Write(MakeSlice(k), std::to_string(k)), Bytes };
     const auto one = isolated.Decode(request);
     const auto other = inProcess.Decode(request);
     EXPECT_EQ(std::memcmp(one->GetData(), other->GetData(), Bytes), 0);
@@ -247,7 +248,7 @@ TEST_F(IsolatedDecoding, AKilledDecoderIsNoDamage)
     kill(worker, signal);
     try
     {
-      decoder.Decode({ good, Bytes });
+      decoder.Decode({ rhombic::DecodeDicomFile, good, Bytes });
       ADD_FAILURE() << "it was decoded";
     }
     catch (const Failure & failure)

@@ -1,3 +1,4 @@
+#include "rhombicDicomDecoding.h"
 #include "rhombicIsolatedDecoder.h"
 #include "rhombicScanTable.h"
 
@@ -300,7 +301,7 @@ TEST_F(AwkwardDicom, AStreamIsNotSearchedForItsEnd)
   }
   try
   {
-    m_Decoder.Decode({ file, std::size_t{ 256 * 1024 * 2 } });
+    m_Decoder.Decode({ rhombic::DecodeDicomFile, file, std::size_t{ 256 * 1024 * 2 } });
     ADD_FAILURE() << "it was decoded";
   }
   catch (const rhombic::Failure & failure)

@@ -2,6 +2,7 @@
 
 #include "rhombicCompressedFrame.h"
 #include "rhombicDicomSlice.h"
+#include "rhombicQuietLibraries.h"
 #include "rhombicVolumeRefusal.h"
 
 #include <gdcmImageReader.h>
@@ -119,9 +120,10 @@ HasUnannouncedBits(const std::byte * voxels, std::size_t size, const DicomPixelF
 
 } // namespace
 
-void
+std::size_t
 DecodeDicomFile(const fs::path & path, std::byte * voxels, std::size_t size)
 {
+  const QuietLibraries quiet; // only libjpeg's warnings of damage remain
   const std::vector<DicomSlice> slices = ReadDicomSlices(path);
   if (slices.empty())
   {
@@ -159,6 +161,7 @@ DecodeDicomFile(const fs::path & path, std::byte * voxels, std::size_t size)
            "its compressed pixels have values of more than the " + std::to_string(image.format.bitsStored) +
              " bits that its header says");
   }
+  return size;
 }
 
 } // namespace rhombic

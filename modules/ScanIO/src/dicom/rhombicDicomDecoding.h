@@ -8,8 +8,8 @@ namespace rhombic
 {
 
 /** Unpacks all frames of a DICOM file with compressed pixels by GDCM, which damaged files can crash (see VoxelDecoder),
- * to \a size bytes. Throws Failure(Unreadable), naming the file, also for another size. */
-void
+ * to \a size bytes, and returns \a size. Throws Failure(Unreadable), naming the file, also for another size. */
+std::size_t
 DecodeDicomFile(const std::filesystem::path & path, std::byte * voxels, std::size_t size);
 
 } // namespace rhombic

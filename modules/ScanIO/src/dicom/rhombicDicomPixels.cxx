@@ -1,5 +1,6 @@
 #include "rhombicDicomPixels.h"
 
+#include "rhombicDicomDecoding.h"
 #include "rhombicFailure.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicStoredBytes.h"
@@ -184,7 +185,7 @@ ForEachFrame(const FileSlices & one, const std::vector<DicomSlice> & slices, Vox
   const std::size_t frameBytes = file.format.FrameBytes();
   if (file.format.isEncapsulated)
   {
-    const auto buffer = decoder.Decode({ file.path, frameBytes * file.format.frames });
+    const auto buffer = decoder.Decode({ DecodeDicomFile, file.path, frameBytes * file.format.frames });
     for (const std::size_t index : one.indices)
     {
       take(index, buffer->GetData() + slices[index].frame * frameBytes);

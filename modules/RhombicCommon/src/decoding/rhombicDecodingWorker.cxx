@@ -3,12 +3,6 @@
 #include "rhombicDecodingMessages.h"
 #include "rhombicFailure.h"
 #include "rhombicSystemCallFilter.h"
-#include "rhombicVolumeRefusal.h"
-#include "rhombicDicomDecoding.h"
-
-#include "itkObject.h"
-
-#include <gdcmTrace.h>
 
 #include <algorithm>
 #include <fstream>
@@ -73,18 +67,18 @@ LimitRequest(const WorkerRequest & request)
   Limit(RLIMIT_CPU, SecondsUsed() + request.seconds);
 }
 
-/** The memory for voxels that is shared with the program. */
-class SharedVoxels
+/** The memory for decoded bytes that is shared with the program. */
+class SharedBytes
 {
 public:
-  SharedVoxels() = default;
-  ~SharedVoxels()
+  SharedBytes() = default;
+  ~SharedBytes()
   {
     this->Unmap();
   }
-  SharedVoxels(const SharedVoxels &) = delete;
-  SharedVoxels &
-  operator=(const SharedVoxels &) = delete;
+  SharedBytes(const SharedBytes &) = delete;
+  SharedBytes &
+  operator=(const SharedBytes &) = delete;
 
   /** Throws std::bad_alloc. */
   void
@@ -122,17 +116,6 @@ private:
   void * m_Address = MAP_FAILED;
 };
 
-/** Turns off the warnings of ITK and GDCM, which are not about damage. Only libjpeg's
- * warnings of damage remain. */
-void
-SilenceWarnings()
-{
-  itk::Object::SetGlobalWarningDisplay(false);
-  gdcm::Trace::SetDebug(false);
-  gdcm::Trace::SetWarning(false);
-  gdcm::Trace::SetError(false);
-}
-
 /** The first line that libraries printed since the last call. */
 std::string
 TakeOutput(int output)
@@ -148,19 +131,22 @@ TakeOutput(int output)
   return text.substr(0, text.find('\n'));
 }
 
-/** Unpacks voxels. A warning of damage is a failure, too: the codec has made up the missing voxels. */
-void
-Work(const ReceivedMessage<WorkerRequest> & request, SharedVoxels & voxels, int output)
+/** Decodes a file and returns the number of bytes. A printed warning is a failure, too: the codec has made up what is
+ * missing. */
+std::size_t
+Work(const ReceivedMessage<WorkerRequest> & request, SharedBytes & bytes, int output)
 {
   if (request.descriptor.Get() >= 0)
   {
-    voxels.Map(request.descriptor.Get());
+    bytes.Map(request.descriptor.Get());
   }
-  DecodeDicomFile(request.text, voxels.GetData(), request.message.size);
+  const std::size_t size = request.message.decode(request.text, bytes.GetData(), request.message.size);
   if (const std::string warning = TakeOutput(output); !warning.empty())
   {
-    RefuseVolume(request.text, "its pixels are damaged (" + warning + "); copy it again from its source");
+    throw Failure(FailureKind::Unreadable,
+                  "Cannot read " + request.text + ": it is damaged (" + warning + "); copy it again from its source.");
   }
+  return size;
 }
 
 /** Makes malloc() keep freed memory: codecs allocate the same large blocks for each file. */
@@ -179,19 +165,17 @@ RunDecodingWorker(int socket)
 {
   const FileDescriptor output(memfd_create("output", MFD_CLOEXEC));
   LimitFiles(output.Get());
-  SilenceWarnings();
   KeepFreedMemory();
   ForbidAllButDecoding(); // forbids threads too: OpenJPEG's would slow down other workers
-  SharedVoxels voxels;
+  SharedBytes bytes;
   while (const auto request = ReceiveMessage<WorkerRequest>(socket))
   {
     WorkerReply reply;
-    reply.size = request->message.size;
     std::string sentence;
     LimitRequest(request->message);
     try
     {
-      Work(*request, voxels, output.Get());
+      reply.size = Work(*request, bytes, output.Get());
     }
     catch (const Failure & failure)
     {

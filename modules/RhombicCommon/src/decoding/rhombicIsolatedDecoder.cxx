@@ -32,7 +32,7 @@ class SharedMemory
 {
 public:
   explicit SharedMemory(std::size_t size)
-    : m_Descriptor(memfd_create("voxels", MFD_CLOEXEC | MFD_ALLOW_SEALING))
+    : m_Descriptor(memfd_create("decoded", MFD_CLOEXEC | MFD_ALLOW_SEALING))
     , m_Size(size)
   {
     if (m_Descriptor.Get() < 0 || ftruncate(m_Descriptor.Get(), static_cast<off_t>(size)) != 0)
@@ -79,7 +79,7 @@ private:
   void * m_Address = nullptr;
 };
 
-/** A worker process, the socket to it, and the memory for its voxels. */
+/** A worker process, the socket to it, and the memory for what it decodes. */
 struct Worker
 {
   pid_t pid = -1;
@@ -174,6 +174,7 @@ public:
   {
     Worker worker = this->TakeWorker();
     WorkerRequest message;
+    message.decode = request.decode;
     message.size = request.size;
     message.memory = m_Limits.memory + 5 * std::uint64_t{ request.size };
     message.seconds = m_Limits.seconds + request.size / (4u << 20);
@@ -184,7 +185,7 @@ public:
     }
     const auto reply =
       this->WaitForReply(worker, message) ? ReceiveMessage<WorkerReply>(worker.socket.Get()) : std::nullopt;
-    if (!reply || reply->message.mark != WorkerReply::Mark || reply->message.size != request.size)
+    if (!reply || reply->message.mark != WorkerReply::Mark || reply->message.size > request.size)
     {
       throw this->EndOf(std::move(worker), request, message);
     }
@@ -193,17 +194,18 @@ public:
       this->WaitForEnd(worker);
       throw this->FailureOf(*reply, request);
     }
-    return std::make_unique<WorkersBuffer>(*this, std::move(worker));
+    return std::make_unique<WorkersBuffer>(*this, std::move(worker), reply->message.size);
   }
 
 private:
-  /** Voxels in the memory of a worker, which becomes idle when the buffer is deleted. */
+  /** Bytes in the memory of a worker, which becomes idle when the buffer is deleted. */
   class WorkersBuffer : public VoxelBuffer
   {
   public:
-    WorkersBuffer(Pool & pool, Worker worker)
+    WorkersBuffer(Pool & pool, Worker worker, std::size_t size)
       : m_Pool(pool)
       , m_Worker(std::move(worker))
+      , m_Size(size)
     {}
 
     ~WorkersBuffer() override
@@ -217,12 +219,19 @@ private:
       return m_Worker.memory->GetData();
     }
 
+    std::size_t
+    GetSize() const override
+    {
+      return m_Size;
+    }
+
   private:
     Pool & m_Pool;
     Worker m_Worker;
+    std::size_t m_Size;
   };
 
-  /** Gives a worker enough memory for voxels. Returns the descriptor of new memory, or -1 if the old one is large
+  /** Gives a worker enough memory for its bytes. Returns the descriptor of new memory, or -1 if the old one is large
    * enough. */
   static int
   ProvideMemory(Worker & worker, std::size_t size)
@@ -350,7 +359,7 @@ private:
     if (reply.message.failure == static_cast<std::int32_t>(FailureKind::Memory))
     {
       return UnreadableBecause(
-        request, "its decoder wanted more than " + std::to_string(m_Limits.memory >> 20) + " MiB besides its voxels");
+        request, "its decoder wanted more than " + std::to_string(m_Limits.memory >> 20) + " MiB besides its content");
     }
     std::string sentence = reply.text;
     std::replace_if(

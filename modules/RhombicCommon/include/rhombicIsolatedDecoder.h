@@ -9,13 +9,13 @@ namespace rhombic
 {
 
 /** \class IsolatedDecoder
- * \brief Unpacks voxels in child processes: a file that crashes its decoder, hangs it or makes it take all memory
+ * \brief Decodes files in child processes: a file that crashes its decoder, hangs it or makes it take all memory
  * becomes a Failure that names the file.
  *
  * The constructor forks a small server, which forks workers when they are needed, one for each file that is decoded at
  * the same time. Construct it before the process starts threads, best at the beginning of main(): a worker is a copy of
  * that early process, which takes a millisecond instead of the start of a program. Workers have no terminal, can't make
- * files, and are limited in memory, processor time and open files; voxels come back through shared memory. All child
+ * files, and are limited in memory, processor time and open files; bytes come back through shared memory. All child
  * processes end with this object, or with the process.
  *
  * Thread safety: any number of threads may call Decode() at once. */
@@ -25,8 +25,8 @@ public:
   /** Limits of a worker for one request. */
   struct Limits
   {
-    std::uintmax_t memory = 512u << 20; ///< bytes besides five times the size of the voxels
-    unsigned int seconds = 5;           ///< processor time; one more second for each 4 MiB of voxels
+    std::uintmax_t memory = 512u << 20; ///< bytes besides five times the size of the request
+    unsigned int seconds = 5;           ///< processor time; one more second for each 4 MiB of the request
     unsigned int patience = 4;          ///< limit of wall clock time, as a multiple of the limit of processor time
   };
 

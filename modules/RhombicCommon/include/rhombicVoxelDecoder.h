@@ -8,15 +8,19 @@
 namespace rhombic
 {
 
-/** A request to unpack all frames of a DICOM file with compressed pixels, by GDCM. */
+/** A request to decode a file. */
 struct VoxelRequest
 {
+  /** Decodes a file to at most \a size bytes and returns their number. May throw Failure and any other exception. */
+  using Function = std::size_t (*)(const std::filesystem::path & path, std::byte * bytes, std::size_t size);
+
+  Function decode = nullptr; ///< a function of the program, or of a library that it loads when it starts
   std::filesystem::path path;
-  std::size_t size = 0; ///< bytes of the unpacked voxels, in this machine's byte order
+  std::size_t size = 0; ///< the largest number of bytes
 };
 
 /** \class VoxelBuffer
- * \brief Unpacked voxels.
+ * \brief The bytes of a decoded file.
  *
  * Thread safety: any number of threads may read it at once. */
 class VoxelBuffer
@@ -28,16 +32,18 @@ public:
   VoxelBuffer &
   operator=(const VoxelBuffer &) = delete;
 
-  /** VoxelRequest::size bytes, aligned for any number, valid as long as this object, which must not outlive the
-   * decoder. */
+  /** GetSize() bytes, aligned for any number, valid as long as this object, which must not outlive the decoder. */
   virtual const std::byte *
   GetData() const = 0;
+
+  virtual std::size_t
+  GetSize() const = 0;
 };
 
 /** \class VoxelDecoder
- * \brief Runs the libraries that unpack voxels, which damaged files can crash.
+ * \brief Runs the libraries that decode files of pixels and surfaces, which damaged files can crash.
  *
- * The readers run them in their own process by default, IsolatedDecoder in child processes.
+ * InProcessDecoder, which readers have by default, runs them in its own process, IsolatedDecoder in child processes.
  *
  * Thread safety: any number of threads may call Decode() at once. */
 class VoxelDecoder
@@ -53,8 +59,8 @@ public:
   virtual unsigned int
   GetNumberOfWorkers() const = 0;
 
-  /** Unpacks the voxels of one file. Throws Failure: Unreadable, naming the file, when it is damaged, not supported, of
-   * another size, or when its decoder crashed or took too long; Memory. */
+  /** Decodes one file. Throws Failure: Unreadable, naming the file, when it is damaged or not supported, or when its
+   * decoder crashed or took too long; Memory. */
   virtual std::unique_ptr<VoxelBuffer>
   Decode(const VoxelRequest & request) = 0;
 };

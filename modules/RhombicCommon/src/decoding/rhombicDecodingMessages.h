@@ -77,10 +77,11 @@ struct ServerReply
 };
 
 /** A request of the program to a worker. The text of the message is the file's path; its descriptor is the memory for
- * the voxels, unless that of the previous request is large enough. */
+ * the decoded bytes, unless that of the previous request is large enough. */
 struct WorkerRequest
 {
-  std::uint64_t size = 0;    ///< bytes of the voxels
+  VoxelRequest::Function decode = nullptr; ///< at the same address in the worker, which is a copy of the program
+  std::uint64_t size = 0;                  ///< the largest number of decoded bytes
   std::uint64_t memory = 0;  ///< bytes that the worker may allocate
   std::uint64_t seconds = 0; ///< processor time that the worker may use
 };

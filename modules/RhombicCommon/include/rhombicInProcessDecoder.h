@@ -7,10 +7,10 @@ namespace rhombic
 {
 
 /** \class InProcessDecoder
- * \brief Unpacks voxels in this process.
+ * \brief Decodes files in this process.
  *
  * Damaged files may end the process. Decode() runs on one thread at a time, in all objects of this class, because
- * GDCM's codecs share state. */
+ * libraries, such as GDCM's codecs, share state. */
 class InProcessDecoder : public VoxelDecoder
 {
 public:

@@ -1,36 +1,35 @@
 #include "rhombicInProcessDecoder.h"
 
-#include "rhombicDicomDecoding.h"
-
 #include <mutex>
-#include <vector>
 
 namespace rhombic
 {
 namespace
 {
 
-class VectorBuffer : public VoxelBuffer
+class LocalBuffer : public VoxelBuffer
 {
 public:
-  explicit VectorBuffer(std::size_t size)
-    : m_Bytes(size)
+  explicit LocalBuffer(const VoxelRequest & request)
+    : m_Bytes(new std::byte[request.size])
+    , m_Size(request.decode(request.path, m_Bytes.get(), request.size))
   {}
 
   const std::byte *
   GetData() const override
   {
-    return m_Bytes.data();
+    return m_Bytes.get();
   }
 
-  std::byte *
-  GetData()
+  std::size_t
+  GetSize() const override
   {
-    return m_Bytes.data();
+    return m_Size;
   }
 
 private:
-  std::vector<std::byte> m_Bytes;
+  std::unique_ptr<std::byte[]> m_Bytes;
+  std::size_t m_Size;
 };
 
 } // namespace
@@ -44,11 +43,9 @@ InProcessDecoder::GetNumberOfWorkers() const
 std::unique_ptr<VoxelBuffer>
 InProcessDecoder::Decode(const VoxelRequest & request)
 {
-  auto buffer = std::make_unique<VectorBuffer>(request.size);
   static std::mutex turn;
   const std::lock_guard<std::mutex> lock(turn);
-  DecodeDicomFile(request.path, buffer->GetData(), request.size);
-  return buffer;
+  return std::make_unique<LocalBuffer>(request);
 }
 
 } // namespace rhombic

@@ -4,7 +4,7 @@
 namespace rhombic
 {
 
-/** Runs a worker process of IsolatedDecoder: unpacks voxels on request into the memory that is sent with the request.
+/** Runs a worker process of IsolatedDecoder: decodes files on request into the memory that is sent with the request.
  * The process ends when the socket is closed, or after the first failure, as a library that failed may have damaged its
  * own state. */
 [[noreturn]] void
