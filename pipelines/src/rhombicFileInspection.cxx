@@ -175,13 +175,13 @@ FileInspection::NoteDeviation(const std::string & name, const SurfaceDeviation &
 }
 
 void
-FileInspection::Audit(const itk::TriangleSurface & read, MeshedSurface & surface) const
+FileInspection::Audit(const itk::TriangleSurface & stored, MeshedSurface & surface) const
 {
   const std::string & name = surface.scene.name;
   m_Events.Progress("auditing " + name, 0.0);
   itk::TriangleSurfaceAuditSettings settings;
   settings.testsIntersections = m_Settings.audits;
-  surface.audit = AuditSurface(read, settings);
+  surface.audit = AuditSurface(stored, settings);
   for (const std::string & line : DescribeAudit(*surface.audit))
   {
     m_Events.Note(name + ": " + line);

@@ -38,9 +38,9 @@ public:
   /** Sets and notes the audit of a surface as its file holds it. Throws Failure(NotWatertight) for a surface that has
    * to be watertight and is not.
    *
-   * \param read the surface, read back from the file */
+   * \param stored the surface as the file holds it */
   void
-  Audit(const itk::TriangleSurface & read, MeshedSurface & surface) const;
+  Audit(const itk::TriangleSurface & stored, MeshedSurface & surface) const;
 
 private:
   void

@@ -301,11 +301,6 @@ public:
     std::transform(begin, begin + count, std::back_inserter(scene), [](const auto & surface) { return surface.scene; });
     SurfaceFileSettings file;
     file.space = m_Settings.space;
-    std::vector<SceneSurface> read;
-    if (m_Inspection.NeedsAudit())
-    {
-      file.inspect = [&read](const std::vector<SceneSurface> & surfaces) { read = surfaces; };
-    }
     itk::ForEachOnThreads(2, [&](std::size_t task) {
       if (task == 0)
       {
@@ -321,7 +316,7 @@ public:
       m_Inspection.NoteResults(begin[n]);
       if (m_Inspection.NeedsAudit())
       {
-        m_Inspection.Audit(*read[n].surface, begin[n]);
+        m_Inspection.Audit(*SurfaceAsStored(*scene[n].surface, path), begin[n]);
       }
     }
     Report report = m_SourceReport;

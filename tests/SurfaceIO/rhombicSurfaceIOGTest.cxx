@@ -87,6 +87,27 @@ TEST_F(SurfaceIO, AnyFloatsComeBackAsTheyWere)
   }
 }
 
+TEST_F(SurfaceIO, StoredSurfacesAreThoseThatAreRead)
+{
+  for (unsigned int seed = 1; seed <= 10; ++seed)
+  {
+    const auto surface = MakeRandomSurface(seed);
+    surface->GetPoints()[7] = surface->GetPoints()[3];
+    surface->GetPoints()[5] = { 0, 1, 2 };
+    surface->GetPoints()[6] = { -0.0f, 1, 2 };
+    for (const std::string extension : Extensions)
+    {
+      const fs::path path = m_Folder / ("stored" + extension);
+      const auto stored = rhombic::SurfaceAsStored(*surface, path);
+      WriteSurfaces({ { "stored", surface } }, path);
+      const auto read = ReadSurfaces(path).at(0).surface;
+      EXPECT_EQ(read->GetPoints(), stored->GetPoints()) << extension;
+      EXPECT_EQ(read->GetTriangles(), stored->GetTriangles()) << extension;
+      EXPECT_EQ(stored->GetNumberOfPoints(), surface->GetNumberOfPoints() - (extension == ".stl" ? 2 : 0));
+    }
+  }
+}
+
 TEST_F(SurfaceIO, SurfacesWithoutNormals)
 {
   auto scene = MakeScene();

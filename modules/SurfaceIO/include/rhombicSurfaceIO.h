@@ -5,12 +5,13 @@
 #include "rhombicSceneSurface.h"
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace rhombic
 {
+
+class VoxelDecoder;
 
 /** The axes of a file's coordinates: to the patient's left, back and head (LPS, as in ITK and DICOM), or to the right,
  * front and head (RAS). */
@@ -24,10 +25,6 @@ enum class SurfaceFileSpace
 struct SurfaceFileSettings
 {
   SurfaceFileSpace space = SurfaceFileSpace::LPS;
-
-  /** If set, the surfaces are read back from the file and passed to this before the file appears. If it throws, an
-   * older file stays as it was. Memory: a copy of the surfaces, two for STL, three for OBJ. */
-  std::function<void(const std::vector<SceneSurface> & read)> inspect{};
 };
 
 /** The extensions of all formats, for help texts: ".stl, .ply, .obj, .vtp, .glb". */
@@ -47,6 +44,11 @@ StoresNormals(const std::filesystem::path & path);
 /** The files that WriteSurfaces() makes: the path, and for OBJ the file of materials. */
 std::vector<std::filesystem::path>
 SurfaceFilesOf(const std::filesystem::path & path);
+
+/** The surface that ReadSurfaces() gets from the file: equal points of an STL file are one point; other formats keep
+ * the surface as it is. */
+itk::TriangleSurface::ConstPointer
+SurfaceAsStored(const itk::TriangleSurface & surface, const std::filesystem::path & path);
 
 /** Writes surfaces in LPS millimetres to one file. The extension, in upper or lower case, decides the format:
  *
@@ -80,8 +82,9 @@ StageSurfaces(const std::vector<SceneSurface> & surfaces,
               const SurfaceFileSettings & settings = {});
 
 /** Reads surfaces in LPS millimetres from a file of one of these formats, written by this or other programs, binary or
- * text. Coordinates of files that declare RAS are converted. The transforms of a GLB's nodes are applied, and its
- * metres and y-up undone; numbers in other formats are taken for millimetres.
+ * text. VTK reads VTP files: a damaged file may end the process, unless \a decoder is an IsolatedDecoder. Coordinates
+ * of files that declare RAS are converted. The transforms of a GLB's nodes are applied, and its metres and y-up undone;
+ * numbers in other formats are taken for millimetres.
  *
  * Equal points of an STL file become one point; polygons become fans of triangles; points of no triangle are kept,
  * except in OBJ. A surface without a name gets the file's stem, one without colour or opacity the defaults. A surface
@@ -91,7 +94,7 @@ StageSurfaces(const std::vector<SceneSurface> & surfaces,
  * triangles and unsupported parts of the formats, and Failure(Memory) before it needs more than half of the free
  * memory. */
 std::vector<SceneSurface>
-ReadSurfaces(const std::filesystem::path & path);
+ReadSurfaces(const std::filesystem::path & path, VoxelDecoder * decoder = nullptr);
 
 } // namespace rhombic
 

@@ -43,7 +43,10 @@ InputFile::InputFile(const std::filesystem::path & path)
 
 InputFile::~InputFile()
 {
-  close(m_Descriptor);
+  if (m_Descriptor >= 0)
+  {
+    close(m_Descriptor);
+  }
 }
 
 void
@@ -52,6 +55,11 @@ InputFile::Read(std::uintmax_t offset, void * to, std::size_t size) const
   if (offset > m_Size || size > m_Size - offset)
   {
     this->Refuse("it ends early; it may be a part of a file, so copy or export it again");
+  }
+  if (m_Bytes != nullptr)
+  {
+    std::copy_n(m_Bytes + offset, size, static_cast<std::byte *>(to));
+    return;
   }
   for (std::size_t done = 0; done < size;)
   {

@@ -12,7 +12,7 @@ namespace rhombic
 {
 
 /** \class InputFile
- * \brief A regular file of known size, read at any offset. */
+ * \brief A regular file of known size, or bytes in its place, read at any offset. */
 class InputFile
 {
 public:
@@ -20,6 +20,13 @@ public:
    * file.
    */
   explicit InputFile(const std::filesystem::path & path);
+
+  /** Reads \a bytes, which must outlive this object, in place of the file. */
+  InputFile(const std::filesystem::path & path, const std::byte * bytes, std::size_t size)
+    : m_Path(path)
+    , m_Bytes(bytes)
+    , m_Size(size)
+  {}
   ~InputFile();
 
   InputFile(const InputFile &) = delete;
@@ -56,7 +63,8 @@ public:
 
 private:
   std::filesystem::path m_Path;
-  int m_Descriptor;
+  int m_Descriptor = -1;
+  const std::byte * m_Bytes = nullptr;
   std::uintmax_t m_Size = 0;
 };
 

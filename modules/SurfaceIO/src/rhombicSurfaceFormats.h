@@ -4,6 +4,7 @@
 #include "rhombicInputFile.h"
 #include "rhombicOutputFile.h"
 #include "rhombicSurfaceIO.h"
+#include "rhombicVoxelDecoder.h"
 
 #include <string>
 #include <vector>
@@ -19,6 +20,8 @@ void
 WriteSTL(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
 std::vector<SceneSurface>
 ReadSTL(const InputFile & file);
+itk::TriangleSurface::Pointer
+JoinEqualPoints(const itk::TriangleSurface & surface);
 
 void
 WritePLY(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
@@ -36,7 +39,7 @@ ReadOBJ(const InputFile & file);
 void
 WriteVTP(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
 std::vector<SceneSurface>
-ReadVTP(const InputFile & file);
+ReadVTP(const InputFile & file, VoxelDecoder & decoder);
 
 void
 WriteGLB(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);

@@ -2,6 +2,7 @@
 
 #include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
+#include "rhombicInProcessDecoder.h"
 #include "rhombicInputFile.h"
 #include "rhombicOutputFile.h"
 #include "rhombicSurfaceFormats.h"
@@ -28,14 +29,22 @@ struct SurfaceFormat
   bool holdsScenes;  ///< can hold several surfaces
   bool hasMaterials; ///< has materials in a second file
   void (*write)(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
-  std::vector<SceneSurface> (*read)(const InputFile & file);
+  std::vector<SceneSurface> (*read)(const InputFile & file, VoxelDecoder & decoder);
 };
 
-constexpr std::array<SurfaceFormat, 5> SurfaceFormats{ { { ".stl", false, false, WriteSTL, ReadSTL },
-                                                         { ".ply", true, false, WritePLY, ReadPLY },
-                                                         { ".obj", true, true, WriteOBJ, ReadOBJ },
+/** A reader that needs no decoder. */
+template <std::vector<SceneSurface> (*VRead)(const InputFile & file)>
+std::vector<SceneSurface>
+ReadHere(const InputFile & file, VoxelDecoder &)
+{
+  return VRead(file);
+}
+
+constexpr std::array<SurfaceFormat, 5> SurfaceFormats{ { { ".stl", false, false, WriteSTL, ReadHere<ReadSTL> },
+                                                         { ".ply", true, false, WritePLY, ReadHere<ReadPLY> },
+                                                         { ".obj", true, true, WriteOBJ, ReadHere<ReadOBJ> },
                                                          { ".vtp", true, false, WriteVTP, ReadVTP },
-                                                         { ".glb", true, false, WriteGLB, ReadGLB } } };
+                                                         { ".glb", true, false, WriteGLB, ReadHere<ReadGLB> } } };
 
 template <typename TPredicate>
 std::string
@@ -178,10 +187,6 @@ Stage(const std::vector<SceneSurface> & surfaces,
   OutputFile output(file.GetTemporaryPath(), path);
   format.write(surfaces, settings.space, output);
   CloseAndProve(output);
-  if (settings.inspect)
-  {
-    settings.inspect(format.read(InputFile(file.GetTemporaryPath())));
-  }
   file.Flush(1);
 }
 
@@ -231,6 +236,16 @@ SurfaceFilesOf(const fs::path & path)
   return files;
 }
 
+itk::TriangleSurface::ConstPointer
+SurfaceAsStored(const itk::TriangleSurface & surface, const fs::path & path)
+{
+  if (FormatOf(path, "write").holdsScenes)
+  {
+    return &surface;
+  }
+  return JoinEqualPoints(surface).GetPointer();
+}
+
 void
 StageSurfaces(const std::vector<SceneSurface> & surfaces,
               const fs::path & path,
@@ -251,11 +266,12 @@ WriteSurfaces(const std::vector<SceneSurface> & surfaces, const fs::path & path,
 }
 
 std::vector<SceneSurface>
-ReadSurfaces(const fs::path & path)
+ReadSurfaces(const fs::path & path, VoxelDecoder * decoder)
 {
+  InProcessDecoder inProcess;
   const SurfaceFormat & format = FormatOf(path, "read");
   const InputFile file(path);
-  std::vector<SceneSurface> surfaces = format.read(file);
+  std::vector<SceneSurface> surfaces = format.read(file, decoder == nullptr ? inProcess : *decoder);
   const auto isEmpty = [](const SceneSurface & scene) { return scene.surface->GetNumberOfTriangles() == 0; };
   surfaces.erase(std::remove_if(surfaces.begin(), surfaces.end(), isEmpty), surfaces.end());
   if (surfaces.empty())

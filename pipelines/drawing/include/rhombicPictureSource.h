@@ -14,7 +14,7 @@ namespace rhombic
  * \brief What pictures are made of: surfaces of a scan, or surface files. */
 struct PictureSource
 {
-  ScanSource scan; ///< without effect if there are surface files
+  ScanSource scan; ///< if there are surface files, only its decoder has an effect
   SurfaceSelection surfaces;
   SurfaceFinish finish;                            ///< of each surface; combined with that of its preset
   std::vector<std::filesystem::path> surfaceFiles; ///< files that ReadSurfaces() reads

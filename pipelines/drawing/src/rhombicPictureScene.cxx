@@ -211,7 +211,7 @@ MakeSceneOfFiles(const PictureSource & source, const Events & events)
   for (const auto & path : source.surfaceFiles)
   {
     events.Progress("reading", static_cast<double>(read.size()) / static_cast<double>(source.surfaceFiles.size()));
-    for (const SceneSurface & surface : ReadSurfaces(path))
+    for (const SceneSurface & surface : ReadSurfaces(path, source.scan.read.decoder))
     {
       SurfaceRequest name;
       name.name = surface.name;

@@ -144,6 +144,22 @@ BeginsLikeText(const InputFile & file)
 
 } // namespace
 
+itk::TriangleSurface::Pointer
+JoinEqualPoints(const itk::TriangleSurface & surface)
+{
+  const auto joined = itk::TriangleSurface::New();
+  joined->GetTriangles().reserve(surface.GetNumberOfTriangles());
+  joined->GetPoints().reserve(surface.GetNumberOfPoints());
+  PointWelder welder(joined->GetPoints());
+  for (const auto & [a, b, c] : surface.GetTriangles())
+  {
+    const auto & points = surface.GetPoints();
+    const std::uint32_t first = welder.Add(points[a]), second = welder.Add(points[b]);
+    joined->GetTriangles().push_back({ first, second, welder.Add(points[c]) });
+  }
+  return joined;
+}
+
 std::vector<SceneSurface>
 ReadSTL(const InputFile & file)
 {
