@@ -82,8 +82,8 @@ struct WorkerRequest
 {
   VoxelRequest::Function decode = nullptr; ///< at the same address in the worker, which is a copy of the program
   std::uint64_t size = 0;                  ///< the largest number of decoded bytes
-  std::uint64_t memory = 0;  ///< bytes that the worker may allocate
-  std::uint64_t seconds = 0; ///< processor time that the worker may use
+  std::uint64_t memory = 0;                ///< bytes that the worker may allocate
+  std::uint64_t seconds = 0;               ///< processor time that the worker may use
 };
 
 /** The reply of a worker. The text of the message is a sentence when it failed. */

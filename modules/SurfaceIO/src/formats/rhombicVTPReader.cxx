@@ -89,7 +89,8 @@ vtkDataArray *
 FindField(vtkPolyData & polyData, const char * name, int components, vtkIdType count)
 {
   vtkDataArray * const array = polyData.GetFieldData()->GetArray(name);
-  const bool fits = array != nullptr && array->GetNumberOfComponents() == components && array->GetNumberOfTuples() == count;
+  const bool fits =
+    array != nullptr && array->GetNumberOfComponents() == components && array->GetNumberOfTuples() == count;
   return fits ? array : nullptr;
 }
 
@@ -114,7 +115,9 @@ DescribeSurfaces(vtkPolyData & polyData)
   }
   for (vtkIdType n = 0; n < count; ++n)
   {
-    const std::array<double, 3> colour{ colours->GetComponent(n, 0), colours->GetComponent(n, 1), colours->GetComponent(n, 2) };
+    const std::array<double, 3> colour{ colours->GetComponent(n, 0),
+                                        colours->GetComponent(n, 1),
+                                        colours->GetComponent(n, 2) };
     const nlohmann::json description{ { "name", static_cast<const std::string &>(names->GetValue(n)) },
                                       { "colour", colour },
                                       { "opacity", opacities->GetComponent(n, 0) },
