@@ -218,7 +218,7 @@ WriteSurfaceFiles(const fs::path & folder)
   surface->GetTriangles() = { { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 } };
   const rhombictest::TemporaryFolder temporary;
   char kind = '\0';
-  for (const std::string extension : { ".stl", ".ply", ".obj", ".vtp", ".glb" })
+  for (const std::string extension : { ".stl", ".ply", ".obj", ".glb" })
   {
     std::vector<rhombic::SceneSurface> scene(kind == 0 ? 1 : 2, { "a b", surface });
     scene.back().opacity = 0.5;
@@ -244,13 +244,6 @@ WriteSurfaceFiles(const fs::path & folder)
   WriteSeed(folder / "corners.obj",
             "\2v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nvt 0 0\ng x\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf -1//-1 -2//1 "
             "\\\n-3//1\n");
-  const std::string arrays =
-    "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0"
-    "</DataArray></Points><Polys><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2"
-    "</DataArray><DataArray type=\"UInt8\" Name=\"offsets\" format=\"binary\">AQAAAAM=</DataArray></Polys>";
-  WriteSeed(folder / "inline.vtp",
-            "\3<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\">" + arrays +
-              "</Piece></PolyData></VTKFile>");
 }
 
 } // namespace
