@@ -32,7 +32,7 @@ Audit(const AuditOptions & options, const CommandContext & context)
   settings.maximumTestedTriangles = options.maximumTested;
   Report report = Report::array();
   std::string leaking;
-  for (const SceneSurface & surface : ReadSurfaces(options.file, context.decoder))
+  for (const SceneSurface & surface : ReadSurfaces(options.file, { GetVTPConverter(), context.decoder }))
   {
     events.Progress("auditing " + surface.name, 0.0);
     const auto audit = AuditSurface(*surface.surface, settings);

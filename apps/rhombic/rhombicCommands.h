@@ -49,9 +49,13 @@ CommandRun
 AddDoctorCommand(CLI::App & parser);
 
 /** Replaces this process by the program that draws, if this one can't and \a arguments (as of main()) name a command
- * that does. Otherwise it returns. */
+ * that does, or the audit of a VTP file. Otherwise it returns. */
 void
 StartDrawingProgram(char ** arguments);
+
+/** What converts VTP files for ReadSurfaces(), by VTK; null in the program that can't draw. */
+VoxelRequest::Function
+GetVTPConverter();
 
 /** Versions of the program and its libraries, a line each. */
 std::string

@@ -1,12 +1,14 @@
 #include "rhombicCommands.h"
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <iterator>
+#include <string>
 #include <system_error>
+#include <vector>
 
+#include <strings.h>
 #include <unistd.h>
 
 // What the program without drawing has in place of the commands in drawing/.
@@ -18,12 +20,21 @@ namespace
 
 constexpr const char * drawingCommands[] = { "render", "compare-pictures", "doctor" };
 
+/** Whether a command draws, or audits a VTP file, which VTK reads. A word may also be the value of an option: the
+ * drawing program has the other commands, too. */
 bool
-NamesDrawingCommand(const char * argument)
+NeedsDrawingProgram(const std::vector<std::string> & words)
 {
-  return std::any_of(std::begin(drawingCommands), std::end(drawingCommands), [argument](const char * command) {
-    return std::strcmp(argument, command) == 0;
-  });
+  const auto isDrawing = [](const std::string & word) {
+    return std::find(std::begin(drawingCommands), std::end(drawingCommands), word) != std::end(drawingCommands);
+  };
+  const auto isVTP = [](const std::string & word) {
+    const auto dot = word.rfind('.');
+    return dot != std::string::npos && strcasecmp(word.c_str() + dot, ".vtp") == 0;
+  };
+  return std::any_of(words.begin(), words.end(), isDrawing) ||
+         (std::find(words.begin(), words.end(), "audit") != words.end() &&
+          std::any_of(words.begin(), words.end(), isVTP));
 }
 
 } // namespace
@@ -31,24 +42,33 @@ NamesDrawingCommand(const char * argument)
 void
 StartDrawingProgram(char ** arguments)
 {
+  std::vector<std::string> words;
   for (char ** argument = arguments; *argument; ++argument)
   {
-    if (NamesDrawingCommand(*argument)) // perhaps as an option's value: the drawing program has the other commands, too
-    {
-      std::error_code error;
-      const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-      const auto program = (self.parent_path() / RHOMBIC_DRAWING_PROGRAM).lexically_normal();
-      if (!error)
-      {
-        execv(program.c_str(), arguments);
-        error.assign(errno, std::generic_category());
-      }
-      std::cerr << "rhombic: " << program.string()
-                << ", the part of rhombic that draws, can't be started: " << error.message()
-                << "; install rhombic again, and mount /proc.\n";
-      std::_Exit(1);
-    }
+    words.emplace_back(*argument);
   }
+  if (!NeedsDrawingProgram(words))
+  {
+    return;
+  }
+  std::error_code error;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  const auto program = (self.parent_path() / RHOMBIC_DRAWING_PROGRAM).lexically_normal();
+  if (!error)
+  {
+    execv(program.c_str(), arguments);
+    error.assign(errno, std::generic_category());
+  }
+  std::cerr << "rhombic: " << program.string()
+            << ", the part of rhombic that draws, can't be started: " << error.message()
+            << "; install rhombic again, and mount /proc.\n";
+  std::_Exit(1);
+}
+
+VoxelRequest::Function
+GetVTPConverter()
+{
+  return nullptr;
 }
 
 CommandRun

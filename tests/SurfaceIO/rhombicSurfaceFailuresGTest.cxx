@@ -17,7 +17,6 @@
 namespace
 {
 
-using rhombic::ReadSurfaces;
 using rhombic::WriteSurfaces;
 
 class SurfaceFailures : public SurfaceTest

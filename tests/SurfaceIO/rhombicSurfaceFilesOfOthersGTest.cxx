@@ -19,7 +19,6 @@
 namespace
 {
 
-using rhombic::ReadSurfaces;
 
 class SurfaceFilesOfOthers : public SurfaceTest
 {
@@ -28,7 +27,7 @@ protected:
   Read(const std::string & name, const std::string & bytes)
   {
     WriteBytes(m_Folder / name, bytes);
-    return ReadSurfaces(m_Folder / name, &m_Decoder);
+    return rhombic::ReadSurfaces(m_Folder / name, { rhombic::ConvertVTPToPLY, &m_Decoder });
   }
 
   rhombic::FailureKind
@@ -343,6 +342,13 @@ TEST_F(SurfaceFilesOfOthers, DamagedFilesGetASentence)
     }
   }
   EXPECT_EQ(KindOf([&] { ReadSurfaces(m_Folder / "file.xyz"); }, ".glb"), Kind::Usage);
+}
+
+TEST_F(SurfaceFilesOfOthers, VTPFilesAreRefusedByProgramsThatDoNotLoadVTK)
+{
+  rhombic::WriteSurfaces({ { "sphere", MakeSphere(2) } }, m_Folder / "a.vtp");
+  EXPECT_EQ(KindOf([&] { rhombic::ReadSurfaces(m_Folder / "a.vtp"); }, "no reader of VTP"),
+            rhombic::FailureKind::Unreadable);
 }
 
 TEST_F(SurfaceFilesOfOthers, IndicesOutOfRangeAreRefused)

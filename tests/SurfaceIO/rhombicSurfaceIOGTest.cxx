@@ -12,7 +12,6 @@
 namespace
 {
 
-using rhombic::ReadSurfaces;
 using rhombic::WriteSurfaces;
 
 class SurfaceIO : public SurfaceTest

@@ -4,6 +4,7 @@
 #include "rhombicFailure.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicTemporaryFolder.h"
+#include "rhombicVTPToPLY.h"
 
 #include <gtest/gtest.h>
 
@@ -19,6 +20,13 @@ namespace fs = std::filesystem;
 using Surface = itk::TriangleSurface;
 using rhombic::SceneSurface;
 using rhombic::SurfaceFileSpace;
+
+/** Reads a file of any format in this process. */
+inline std::vector<SceneSurface>
+ReadSurfaces(const fs::path & path)
+{
+  return rhombic::ReadSurfaces(path, { rhombic::ConvertVTPToPLY });
+}
 
 /** A sphere of 8 * 4^levels triangles, facing outwards: a subdivided octahedron. */
 inline Surface::Pointer

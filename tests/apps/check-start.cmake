@@ -8,7 +8,7 @@ file(GET_RUNTIME_DEPENDENCIES EXECUTABLES "${PROGRAM}" RESOLVED_DEPENDENCIES_VAR
 if(NOT libraries MATCHES "libITKCommon")
   message(FATAL_ERROR "The libraries of ${PROGRAM} can't be listed: ${libraries}")
 endif()
-string(REGEX MATCHALL "lib(vtkRendering|OpenImageIO|GL|EGL|X11|pango|cairo)[^/;]*" drawing "${libraries}")
+string(REGEX MATCHALL "lib(vtk|OpenImageIO|GL|EGL|X11|pango|cairo)[^/;]*" drawing "${libraries}")
 if(drawing)
   message(FATAL_ERROR "${PROGRAM} loads ${drawing}")
 endif()

@@ -1,5 +1,6 @@
 #include "rhombicProgram.h"
 #include "rhombicSurfaceIO.h"
+#include "rhombicVTPToPLY.h"
 
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
@@ -38,7 +39,7 @@ protected:
   std::vector<rhombic::SceneSurface>
   Read(const std::string & file) const
   {
-    return rhombic::ReadSurfaces(m_Folder.Path() / file);
+    return rhombic::ReadSurfaces(m_Folder.Path() / file, { rhombic::ConvertVTPToPLY });
   }
 
   nlohmann::json
@@ -266,6 +267,26 @@ TEST_F(MeshCommand, ALabelTableMakesNoLabelMapOfACT)
   std::ofstream(m_Folder.Path() / "table.txt") << "1 255 0 0 1 1 1 \"a\"\n";
   const auto outcome = this->Mesh("--label-table table.txt -o a.stl");
   EXPECT_EQ(outcome.exitCode, 2) << outcome.errors;
+}
+
+/** VTK reads these files, in a child process of the program that draws. */
+TEST_F(MeshCommand, AuditsOfVTPFilesAreThoseOfPLYFiles)
+{
+  const auto audit = [this](const std::string & file) {
+    return RunShell("rhombic audit --json " + file, m_Folder.Path());
+  };
+  ASSERT_EQ(this->Mesh("-t 375.5 -o same.ply").exitCode, 0);
+  ASSERT_EQ(this->Mesh("-t 375.5 -o same.VTP").exitCode, 0);
+  const Outcome outcome = audit("same.VTP");
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+  EXPECT_EQ(outcome.output, audit("same.ply").output);
+
+  fs::resize_file(m_Folder.Path() / "same.VTP", fs::file_size(m_Folder.Path() / "same.VTP") / 2);
+  const Outcome cut = audit("same.VTP");
+  EXPECT_EQ(cut.exitCode, 4);
+  EXPECT_EQ(cut.errors.find("rhombic: Cannot read same.VTP: "), 0u) << cut.errors;
+  EXPECT_EQ(std::count(cut.errors.begin(), cut.errors.end(), '\n'), 1) << cut.errors;
+  EXPECT_EQ(audit("nowhere.vtp").exitCode, 3);
 }
 
 TEST_F(MeshCommand, AuditTellsSolidsFromCavities)

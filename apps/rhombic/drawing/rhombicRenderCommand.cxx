@@ -7,6 +7,7 @@
 #include "rhombicNamedValues.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicSurfaceOptions.h"
+#include "rhombicVTPToPLY.h"
 #include "rhombicWording.h"
 
 #include <nlohmann/json.hpp>
@@ -557,6 +558,12 @@ void
 StartDrawingProgram(char **)
 {
   // This is the drawing program.
+}
+
+VoxelRequest::Function
+GetVTPConverter()
+{
+  return ConvertVTPToPLY;
 }
 
 CommandRun

@@ -3,6 +3,7 @@
 
 #include "rhombicAtomicFile.h"
 #include "rhombicSceneSurface.h"
+#include "rhombicVoxelDecoder.h"
 
 #include <filesystem>
 #include <string>
@@ -10,8 +11,6 @@
 
 namespace rhombic
 {
-
-class VoxelDecoder;
 
 /** The axes of a file's coordinates: to the patient's left, back and head (LPS, as in ITK and DICOM), or to the right,
  * front and head (RAS). */
@@ -81,10 +80,16 @@ StageSurfaces(const std::vector<SceneSurface> & surfaces,
               StagedFiles & staged,
               const SurfaceFileSettings & settings = {});
 
+/** How VTP files are read: by VTK, which only programs load that read such files. */
+struct VTPReading
+{
+  VoxelRequest::Function convert = nullptr; ///< ConvertVTPToPLY() of SurfaceVTK; null: VTP files are refused
+  VoxelDecoder * decoder = nullptr; ///< runs \a convert; null: in this process, which damaged files may then end
+};
+
 /** Reads surfaces in LPS millimetres from a file of one of these formats, written by this or other programs, binary or
- * text. VTK reads VTP files: a damaged file may end the process, unless \a decoder is an IsolatedDecoder. Coordinates
- * of files that declare RAS are converted. The transforms of a GLB's nodes are applied, and its metres and y-up undone;
- * numbers in other formats are taken for millimetres.
+ * text. Coordinates of files that declare RAS are converted. The transforms of a GLB's nodes are applied, and its
+ * metres and y-up undone; numbers in other formats are taken for millimetres.
  *
  * Equal points of an STL file become one point; polygons become fans of triangles; points of no triangle are kept,
  * except in OBJ. A surface without a name gets the file's stem, one without colour or opacity the defaults. A surface
@@ -94,7 +99,7 @@ StageSurfaces(const std::vector<SceneSurface> & surfaces,
  * triangles and unsupported parts of the formats, and Failure(Memory) before it needs more than half of the free
  * memory. */
 std::vector<SceneSurface>
-ReadSurfaces(const std::filesystem::path & path, VoxelDecoder * decoder = nullptr);
+ReadSurfaces(const std::filesystem::path & path, const VTPReading & vtp = {});
 
 } // namespace rhombic
 

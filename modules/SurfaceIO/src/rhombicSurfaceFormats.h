@@ -4,7 +4,6 @@
 #include "rhombicInputFile.h"
 #include "rhombicOutputFile.h"
 #include "rhombicSurfaceIO.h"
-#include "rhombicVoxelDecoder.h"
 
 #include <string>
 #include <vector>
@@ -20,7 +19,7 @@ void
 WriteSTL(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
 std::vector<SceneSurface>
 ReadSTL(const InputFile & file);
-itk::TriangleSurface::Pointer
+itk::TriangleSurface::ConstPointer
 JoinEqualPoints(const itk::TriangleSurface & surface);
 
 void
@@ -38,8 +37,6 @@ ReadOBJ(const InputFile & file);
 
 void
 WriteVTP(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
-std::vector<SceneSurface>
-ReadVTP(const InputFile & file, VoxelDecoder & decoder);
 
 void
 WriteGLB(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);

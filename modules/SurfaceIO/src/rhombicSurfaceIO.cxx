@@ -29,22 +29,14 @@ struct SurfaceFormat
   bool holdsScenes;  ///< can hold several surfaces
   bool hasMaterials; ///< has materials in a second file
   void (*write)(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
-  std::vector<SceneSurface> (*read)(const InputFile & file, VoxelDecoder & decoder);
+  std::vector<SceneSurface> (*read)(const InputFile & file); ///< null: VTK reads it
 };
 
-/** A reader that needs no decoder. */
-template <std::vector<SceneSurface> (*VRead)(const InputFile & file)>
-std::vector<SceneSurface>
-ReadHere(const InputFile & file, VoxelDecoder &)
-{
-  return VRead(file);
-}
-
-constexpr std::array<SurfaceFormat, 5> SurfaceFormats{ { { ".stl", false, false, WriteSTL, ReadHere<ReadSTL> },
-                                                         { ".ply", true, false, WritePLY, ReadHere<ReadPLY> },
-                                                         { ".obj", true, true, WriteOBJ, ReadHere<ReadOBJ> },
-                                                         { ".vtp", true, false, WriteVTP, ReadVTP },
-                                                         { ".glb", true, false, WriteGLB, ReadHere<ReadGLB> } } };
+constexpr std::array<SurfaceFormat, 5> SurfaceFormats{ { { ".stl", false, false, WriteSTL, ReadSTL },
+                                                         { ".ply", true, false, WritePLY, ReadPLY },
+                                                         { ".obj", true, true, WriteOBJ, ReadOBJ },
+                                                         { ".vtp", true, false, WriteVTP, nullptr },
+                                                         { ".glb", true, false, WriteGLB, ReadGLB } } };
 
 template <typename TPredicate>
 std::string
@@ -190,6 +182,23 @@ Stage(const std::vector<SceneSurface> & surfaces,
   file.Flush(1);
 }
 
+/** VTK makes a PLY file of it in memory, which is checked as any PLY file. */
+std::vector<SceneSurface>
+ReadVTP(const InputFile & file, const VTPReading & vtp)
+{
+  if (vtp.convert == nullptr)
+  {
+    file.Refuse("this program has no reader of VTP files; export it as PLY");
+  }
+  file.RequireMemoryToRead(4 * file.GetSize()); // for VTK, whose indices have 64 bits
+  constexpr std::size_t smallest = 64 << 20;
+  constexpr std::size_t ratio = 16; // larger than that of a polygon's corners stored as bytes
+  InProcessDecoder inProcess;
+  VoxelDecoder & decoder = vtp.decoder == nullptr ? inProcess : *vtp.decoder;
+  const auto ply = decoder.Decode({ vtp.convert, file.GetPath(), smallest + ratio * file.GetSize() });
+  return ReadPLY(InputFile(file.GetPath(), ply->GetData(), ply->GetSize()));
+}
+
 } // namespace
 
 std::string
@@ -239,11 +248,7 @@ SurfaceFilesOf(const fs::path & path)
 itk::TriangleSurface::ConstPointer
 SurfaceAsStored(const itk::TriangleSurface & surface, const fs::path & path)
 {
-  if (FormatOf(path, "write").holdsScenes)
-  {
-    return &surface;
-  }
-  return JoinEqualPoints(surface).GetPointer();
+  return FormatOf(path, "write").holdsScenes ? itk::TriangleSurface::ConstPointer(&surface) : JoinEqualPoints(surface);
 }
 
 void
@@ -266,12 +271,11 @@ WriteSurfaces(const std::vector<SceneSurface> & surfaces, const fs::path & path,
 }
 
 std::vector<SceneSurface>
-ReadSurfaces(const fs::path & path, VoxelDecoder * decoder)
+ReadSurfaces(const fs::path & path, const VTPReading & vtp)
 {
-  InProcessDecoder inProcess;
   const SurfaceFormat & format = FormatOf(path, "read");
   const InputFile file(path);
-  std::vector<SceneSurface> surfaces = format.read(file, decoder == nullptr ? inProcess : *decoder);
+  std::vector<SceneSurface> surfaces = format.read == nullptr ? ReadVTP(file, vtp) : format.read(file);
   const auto isEmpty = [](const SceneSurface & scene) { return scene.surface->GetNumberOfTriangles() == 0; };
   surfaces.erase(std::remove_if(surfaces.begin(), surfaces.end(), isEmpty), surfaces.end());
   if (surfaces.empty())

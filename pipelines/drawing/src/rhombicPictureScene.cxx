@@ -6,6 +6,7 @@
 #include "rhombicSourceLoading.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicSurfaceReport.h"
+#include "rhombicVTPToPLY.h"
 #include "rhombicWording.h"
 
 #include "itkTriangleSurfaceMeasures.h"
@@ -211,7 +212,7 @@ MakeSceneOfFiles(const PictureSource & source, const Events & events)
   for (const auto & path : source.surfaceFiles)
   {
     events.Progress("reading", static_cast<double>(read.size()) / static_cast<double>(source.surfaceFiles.size()));
-    for (const SceneSurface & surface : ReadSurfaces(path, source.scan.read.decoder))
+    for (const SceneSurface & surface : ReadSurfaces(path, { ConvertVTPToPLY, source.scan.read.decoder }))
     {
       SurfaceRequest name;
       name.name = surface.name;

@@ -144,7 +144,7 @@ BeginsLikeText(const InputFile & file)
 
 } // namespace
 
-itk::TriangleSurface::Pointer
+itk::TriangleSurface::ConstPointer
 JoinEqualPoints(const itk::TriangleSurface & surface)
 {
   const auto joined = itk::TriangleSurface::New();
@@ -157,7 +157,7 @@ JoinEqualPoints(const itk::TriangleSurface & surface)
     const std::uint32_t first = welder.Add(points[a]), second = welder.Add(points[b]);
     joined->GetTriangles().push_back({ first, second, welder.Add(points[c]) });
   }
-  return joined;
+  return joined.GetPointer();
 }
 
 std::vector<SceneSurface>

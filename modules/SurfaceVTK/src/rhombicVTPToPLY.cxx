@@ -1,5 +1,6 @@
+#include "rhombicVTPToPLY.h"
+
 #include "rhombicFailure.h"
-#include "rhombicSurfaceFormats.h"
 
 #include <nlohmann/json.hpp>
 
@@ -19,6 +20,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace rhombic
 {
@@ -201,7 +203,8 @@ AppendPolygons(vtkCellArray & polygons, LimitedBytes & ply)
   }
 }
 
-/** Reads a VTP file by VTK and writes it as a binary PLY file. */
+} // namespace
+
 std::size_t
 ConvertVTPToPLY(const fs::path & path, std::byte * bytes, std::size_t size)
 {
@@ -222,19 +225,6 @@ ConvertVTPToPLY(const fs::path & path, std::byte * bytes, std::size_t size)
   AppendPoints(*polyData, normals, ply);
   AppendPolygons(*polyData->GetPolys(), ply);
   return size - ply.GetLeft();
-}
-
-} // namespace
-
-/** VTK reads the file, in a child process of the decoder, and what it found is checked as any PLY file. */
-std::vector<SceneSurface>
-ReadVTP(const InputFile & file, VoxelDecoder & decoder)
-{
-  file.RequireMemoryToRead(4 * file.GetSize()); // for VTK, whose indices have 64 bits
-  constexpr std::size_t smallest = 64 << 20;
-  constexpr std::size_t ratio = 16; // larger than that of a polygon's corners stored as bytes
-  const auto ply = decoder.Decode({ ConvertVTPToPLY, file.GetPath(), smallest + ratio * file.GetSize() });
-  return ReadPLY(InputFile(file.GetPath(), ply->GetData(), ply->GetSize()));
 }
 
 } // namespace rhombic
