@@ -1,6 +1,7 @@
 #include "itkFilterDescriptions.h"
 #include "itkRecordingImageSource.h"
 #include "itkRecordingMultiThreader.h"
+#include "itkRefusal.h"
 
 #include "itkCommand.h"
 
@@ -54,22 +55,6 @@ template <typename TDescription>
 class FilterConformance : public testing::Test
 {};
 TYPED_TEST_SUITE(FilterConformance, Filters, FilterNames);
-
-/** What the filter says when it refuses to update, or nothing. */
-template <typename TWork>
-std::string
-Refusal(const TWork & work)
-{
-  try
-  {
-    work();
-  }
-  catch (const itk::ExceptionObject & failure)
-  {
-    return failure.GetDescription();
-  }
-  return {};
-}
 
 template <typename TFilter>
 std::string

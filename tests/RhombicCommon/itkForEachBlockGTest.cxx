@@ -60,7 +60,12 @@ TEST(ForEachBlock, JobsOfTheThreadPoolMayCallIt)
     visits.size(),
     [&visits](itk::SizeValueType job) {
       itk::ForEachInBlocks(visits[job].size(), 3, [&](std::size_t i) {
-        itk::ForEachInBlocks(5, 1, [&](std::size_t n) { visits[job][i] += n == 4 ? 1 : 0; });
+        itk::ForEachInBlocks(5, 1, [&](std::size_t n) {
+          if (n == 4) // one thread only
+          {
+            ++visits[job][i];
+          }
+        });
       });
     },
     nullptr);

@@ -1,6 +1,7 @@
 #include "itkCartesianToFCCImageFilter.h"
 #include "itkLabelMapFileReader.h"
 #include "itkNativeScanFileReader.h"
+#include "itkRefusal.h"
 #include "itkScanFileReader.h"
 #include "itkSlicePlacement.h"
 #include "rhombicDicomTestFile.h"
@@ -100,22 +101,6 @@ Printed(const itk::Object & object)
   std::ostringstream text;
   object.Print(text);
   return text.str();
-}
-
-/** The sentence of the Failure of \a work; empty when there is none. */
-template <typename TWork>
-std::string
-Refusal(const TWork & work)
-{
-  try
-  {
-    work();
-  }
-  catch (const itk::ExceptionObject & failure)
-  {
-    return failure.GetDescription();
-  }
-  return {};
 }
 
 template <typename TReader>
