@@ -32,12 +32,6 @@ LooksLikeLabelMap(const Scan & scan);
 std::vector<LabelSummary>
 SummarizeLabels(const Scan & scan, const LabelTable & table);
 
-/** The fraction of \a inner's box that is in \a outer's box in world space, from 0 to 1. Boxes extend to the outer
- * faces of the voxels. Measured at 32 x 32 x 32 points: exactly 0 for boxes that are clearly apart and 1 for a box in
- * itself. */
-double
-OverlapOfBoxes(const itk::ImageBase<3> & inner, const itk::ImageBase<3> & outer);
-
 /** Checks that the box around all labels of a label map is in its scan, in world space; the two may have different
  * grids. Returns a sentence for the user when less than 99 % of the box is in the scan, else "". Throws
  * Failure(Geometry) when no part of it is. */

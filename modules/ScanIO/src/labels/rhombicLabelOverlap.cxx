@@ -68,7 +68,8 @@ IsInside(const itk::ImageBase<3> & grid, const itk::Point<double, 3> & point)
   return true;
 }
 
-/** The fraction of a region of \a inner that is in \a outer. */
+/** The fraction of a region of \a inner that is in \a outer, in world space. Both extend to the outer faces of their
+ * voxels. */
 double
 OverlapOfRegion(const itk::ImageBase<3> & inner, const itk::ImageRegion<3> & region, const itk::ImageBase<3> & outer)
 {
@@ -91,12 +92,6 @@ OverlapOfRegion(const itk::ImageBase<3> & inner, const itk::ImageRegion<3> & reg
 }
 
 } // namespace
-
-double
-OverlapOfBoxes(const itk::ImageBase<3> & inner, const itk::ImageBase<3> & outer)
-{
-  return OverlapOfRegion(inner, inner.GetLargestPossibleRegion(), outer);
-}
 
 std::string
 RequireOverlap(const Scan & scan,
