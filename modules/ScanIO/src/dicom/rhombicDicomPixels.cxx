@@ -5,13 +5,14 @@
 #include "rhombicMemoryBudget.h"
 #include "rhombicStoredBytes.h"
 
+#include "itkForEachBlock.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
 #include <mutex>
 #include <optional>
-#include <system_error>
 #include <thread>
 #include <type_traits>
 
@@ -198,82 +199,34 @@ ForEachFrame(const FileSlices & one, const std::vector<DicomSlice> & slices, Vox
   }
 }
 
-/** Threads. The destructor calls \a stop and joins them. */
-class Threads
-{
-public:
-  explicit Threads(std::function<void()> stop)
-    : m_Stop(std::move(stop))
-  {}
-  ~Threads()
-  {
-    m_Stop();
-    this->Join();
-  }
-  Threads(const Threads &) = delete;
-  Threads &
-  operator=(const Threads &) = delete;
-
-  /** Starts as many threads as the system allows, up to \a count. */
-  template <typename TRun>
-  void
-  Start(std::size_t count, TRun run)
-  {
-    m_Threads.reserve(count);
-    try
-    {
-      while (m_Threads.size() < count)
-      {
-        m_Threads.emplace_back(run);
-      }
-    }
-    catch (const std::system_error &)
-    {
-      // Fewer threads do the work.
-    }
-  }
-
-  void
-  Join()
-  {
-    for (std::thread & thread : m_Threads)
-    {
-      thread.join();
-    }
-    m_Threads.clear();
-  }
-
-private:
-  std::function<void()> m_Stop;
-  std::vector<std::thread> m_Threads;
-};
-
 /** Calls `work(n)` for all n below \a count on several threads. This thread is one of them, and reports the progress.
- * When \a work returns false, no further calls are made. */
+ * After an exception, which is passed on, no further calls are made. */
 template <typename TWork>
 void
-InParallel(std::size_t count, std::size_t threads, const std::function<void(double)> & progress, TWork work)
+InParallel(std::size_t count, std::size_t threads, const std::function<void(double)> & progress, const TWork & work)
 {
   std::atomic<std::size_t> next{ 0 };
   std::atomic<std::size_t> done{ 0 };
-  const auto run = [&](bool reports) {
-    for (std::size_t n = next++; n < count; n = next++)
+  const auto caller = std::this_thread::get_id();
+  itk::ForEachOnThreads(std::min(threads, count), [&](std::size_t) {
+    try
     {
-      if (!work(n))
+      for (std::size_t n = next++; n < count; n = next++)
       {
-        next = count;
-      }
-      ++done;
-      if (reports && progress)
-      {
-        progress(static_cast<double>(done) / static_cast<double>(count));
+        work(n);
+        ++done;
+        if (progress && std::this_thread::get_id() == caller)
+        {
+          progress(static_cast<double>(done) / static_cast<double>(count));
+        }
       }
     }
-  };
-  Threads helpers([&next, count] { next = count; });
-  helpers.Start(std::min(threads, count) - 1, [&run] { run(false); });
-  run(true);
-  helpers.Join();
+    catch (...)
+    {
+      next = count;
+      throw;
+    }
+  });
 }
 
 std::optional<double>
@@ -371,9 +324,12 @@ ReadAs(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry, 
   std::vector<SliceValues> values(slices.size());
   std::atomic<bool> fits{ true };
   DicomPixels result;
-  std::exception_ptr fatal;
   std::mutex guard;
-  const auto readFile = [&](std::size_t n) {
+  InParallel(files.size(), decoder.GetNumberOfWorkers(), options.progress, [&](std::size_t n) {
+    if (!fits)
+    {
+      return;
+    }
     try
     {
       ForEachFrame(files[n], slices, decoder, [&](std::size_t index, const std::byte * stored) {
@@ -386,27 +342,14 @@ ReadAs(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry, 
     }
     catch (const Failure & failure)
     {
-      const std::lock_guard<std::mutex> lock(guard);
       if (failure.GetKind() != FailureKind::Unreadable)
       {
-        fatal = std::current_exception();
-        return false;
+        throw;
       }
+      const std::lock_guard<std::mutex> lock(guard);
       result.failures.emplace(files[n].file->path, failure.GetDescription());
     }
-    catch (...)
-    {
-      const std::lock_guard<std::mutex> lock(guard);
-      fatal = std::current_exception();
-      return false;
-    }
-    return fits.load();
-  };
-  InParallel(files.size(), decoder.GetNumberOfWorkers(), options.progress, readFile);
-  if (fatal)
-  {
-    std::rethrow_exception(fatal);
-  }
+  });
   if (!result.failures.empty())
   {
     return result;
@@ -453,27 +396,15 @@ ReadDicomPixels(const std::vector<DicomSlice> & slices,
                 const VolumeGeometry & geometry,
                 const ScanReadOptions & options)
 {
-  std::optional<DicomPixels> pixels;
-  if (AreStoredAsIs(slices, 8))
-  {
-    pixels = ReadAs<std::uint8_t>(slices, geometry, options);
-  }
-  else if (AreStoredAsIs(slices, 16))
-  {
-    pixels = ReadAs<std::uint16_t>(slices, geometry, options);
-  }
   // Headers allow larger values than there are (GE: 16 bits and an intercept of -1024), so the smallest type is tried
   // first.
-  if (!pixels && AreWholeNumbers(slices))
-  {
-    pixels = ReadAs<std::int16_t>(slices, geometry, options);
-    pixels = pixels ? std::move(pixels) : ReadAs<std::uint16_t>(slices, geometry, options);
-    pixels = pixels ? std::move(pixels) : ReadAs<std::int32_t>(slices, geometry, options);
-  }
-  if (!pixels)
-  {
-    pixels = ReadAs<float>(slices, geometry, options);
-  }
+  const auto readAs = [&](const auto & frame) {
+    return ReadAs<typename std::decay_t<decltype(*frame)>::PixelType>(slices, geometry, options);
+  };
+  auto pixels = std::visit(readAs, NewDicomImage(slices, geometry));
+  pixels = pixels ? std::move(pixels) : ReadAs<std::uint16_t>(slices, geometry, options);
+  pixels = pixels ? std::move(pixels) : ReadAs<std::int32_t>(slices, geometry, options);
+  pixels = pixels ? std::move(pixels) : ReadAs<float>(slices, geometry, options);
   return std::move(*pixels);
 }
 
