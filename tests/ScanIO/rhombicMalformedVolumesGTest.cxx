@@ -157,7 +157,7 @@ struct Refused
 
 const Refused refused[] = {
   { "n_bitpix_mismatch.nii", FailureKind::Unreadable, "bitpix" },
-  { "n_crc.nii.gz", FailureKind::Unreadable, "compression is damaged" },
+  { "n_crc.nii.gz", FailureKind::Unreadable, "compressed content is damaged" },
   { "n_dim0_0.nii", FailureKind::Unreadable, "0 dimensions" },
   { "n_dim0_9.nii", FailureKind::Unreadable, "9 dimensions" },
   { "n_dim4_2.nii", FailureKind::Unreadable, "2 volumes" },

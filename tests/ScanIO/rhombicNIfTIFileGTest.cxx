@@ -175,7 +175,7 @@ TEST_F(NIfTIFile, HugeClaimsAreRefusedBeforeAllocating)
   for (const std::int64_t size : { std::int64_t(1) << 31, std::int64_t(1) << 33, std::int64_t(1) << 62 })
   {
     file.dimensions = { 3, size, size, size, 1, 1, 1, 1 };
-    EXPECT_EQ(this->KindOf(file, "more voxels"), FailureKind::Unreadable);
+    EXPECT_EQ(this->KindOf(file, "larger than any volume"), FailureKind::Unreadable);
   }
   file.dimensions = { 7, 2, 2, 2, std::int64_t(1) << 62, std::int64_t(1) << 62, 4, 4 };
   EXPECT_EQ(this->KindOf(file, "dimensions"), FailureKind::Unreadable);

@@ -1,8 +1,6 @@
 #include "rhombicMetaImageHeader.h"
 
-#include "rhombicCompressedFile.h"
 #include "rhombicTextHeader.h"
-#include "rhombicVolumeFrame.h"
 #include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"
 
@@ -200,41 +198,26 @@ IsBigEndian(const MetaImageHeader & header, const fs::path & path)
   return binaryData || element;
 }
 
-/** Finds the voxels. Refuses data that is missing or shorter than \a needed bytes. */
-StoredVoxels
-FindVoxels(const MetaImageHeader & header, bool isDeflated, std::uintmax_t needed, const fs::path & path)
+/** Finds the voxels, and checks that their file is long enough. */
+void
+FindVoxels(const MetaImageHeader & header,
+           const std::vector<std::uintmax_t> & sizes,
+           const fs::path & path,
+           StoredVolume & volume)
 {
+  const bool isDeflated = volume.encoding == "zlib";
   const std::string name = header.Get("ElementDataFile");
-  if (name.compare(0, 4, "LIST") == 0 || name.find('%') != std::string::npos)
-  {
-    RefuseVolume(path, "its voxels are spread over several files, which is not supported; write it as one file");
-  }
-  const auto headerSize = NumbersOf(header.Get("HeaderSize"));
-  const double skip = headerSize && headerSize->size() == 1 ? headerSize->front() : 0;
-  constexpr double largestSkip = 1e15;
-  if (!headerSize || headerSize->size() > 1 || !(skip >= -1 && skip <= largestSkip) || (skip < 0 && isDeflated))
+  const bool isLocal = LowerCase(name) == "local";
+  const auto skip = SkipOf(header.Get("HeaderSize"), isDeflated);
+  if (!skip)
   {
     RefuseVolume(path, "its header's HeaderSize makes no sense; export it again from its source");
   }
-  const bool isLocal = LowerCase(name) == "local";
-  StoredVoxels voxels;
-  voxels.path = isLocal ? path : DetachedFile(path, name);
-  voxels.offset = skip > 0 ? static_cast<std::uintmax_t>(skip) : isLocal ? header.size : 0;
-  voxels.isDeflated = isDeflated;
-  voxels.isSwapped = IsBigEndian(header, path) != itk::ByteSwapper<int>::SystemIsBigEndian();
-  const std::uintmax_t size = fs::file_size(voxels.path);
-  const std::uintmax_t stored = size - std::min(voxels.offset, size);
-  if ((isDeflated ? stored * LargestRatio : stored) < needed)
-  {
-    RefuseVolume(path,
-                 voxels.path.string() + " has " + std::to_string(stored) + " bytes for " + std::to_string(needed) +
-                   " bytes of voxels; it is cut off or damaged, so copy it again");
-  }
-  if (skip < 0) // the voxels are at the end
-  {
-    voxels.offset = size - needed;
-  }
-  return voxels;
+  volume.voxels.path = isLocal ? path : DetachedFile(path, name);
+  volume.voxels.offset = *skip > 0 ? static_cast<std::uintmax_t>(*skip) : isLocal ? header.size : 0;
+  volume.voxels.isDeflated = isDeflated;
+  volume.voxels.isSwapped = IsBigEndian(header, path) != itk::ByteSwapper<int>::SystemIsBigEndian();
+  RequireVoxels(sizes, *skip < 0, path, volume);
 }
 
 } // namespace
@@ -254,15 +237,7 @@ ReadMetaImageVolume(const fs::path & path)
   volume.encoding = header.IsTrue("CompressedData") ? "zlib" : "raw";
   volume.numberOfFrames = sizes.size() == 4 ? sizes[3] : 1;
   Place(header, sizes, path, volume);
-
-  std::vector<std::uintmax_t> factors = sizes;
-  factors.push_back(SizeOf(volume.type));
-  const auto needed = ProductOf(factors);
-  if (!needed)
-  {
-    RefuseVolume(path, "its dimensions are larger than any volume; export it again from its source");
-  }
-  volume.voxels = FindVoxels(header, volume.encoding == "zlib", *needed, path);
+  FindVoxels(header, sizes, path, volume);
   return volume;
 }
 

@@ -1,12 +1,10 @@
 #include "rhombicNIfTIFile.h"
 
 #include "rhombicCompressedFile.h"
-#include "rhombicMemoryBudget.h"
 #include "rhombicNIfTIAffine.h"
 #include "rhombicNIfTIHeader.h"
 #include "rhombicVolumeFormat.h"
 #include "rhombicVolumeFrame.h"
-#include "rhombicVolumePixels.h"
 #include "rhombicVolumeRefusal.h"
 
 #include <algorithm>
@@ -240,82 +238,34 @@ VoxelsOffset(const NIfTIHeader & header, const fs::path & path)
   return static_cast<std::uintmax_t>(header.voxelsOffset);
 }
 
-[[noreturn]] void
-RefuseCutOff(const fs::path & voxels, std::uintmax_t available, std::uintmax_t needed)
-{
-  RefuseVolume(voxels,
-               "it has " + std::to_string(available) + " of " + std::to_string(needed) +
-                 " bytes; it is cut off or damaged, so copy it again");
-}
-
 } // namespace
 
-UnreadScan
-OpenNIfTIFile(const fs::path & path, const ScanReadOptions & options, Scan scan)
+StoredVolume
+ReadNIfTIVolume(const fs::path & path, const ScanReadOptions & options, Scan & scan)
 {
   const fs::path headerFile = HeaderFile(path);
   const NIfTIHeader header = ReadNIfTIHeader(headerFile);
   const bool isAnalyze = header.kind == NIfTIHeader::Kind::Analyze;
-  const fs::path voxelsFile = VoxelsFile(headerFile, header, options);
-
+  StoredVolume volume;
+  volume.voxels.path = VoxelsFile(headerFile, header, options);
   const auto sizes = SizesOf(header, headerFile);
-  const StoredType type = TypeOf(header, headerFile);
+  volume.numberOfFrames = sizes[3];
+  volume.type = TypeOf(header, headerFile);
   if (!isAnalyze)
   {
     RefuseVectors(header, headerFile);
+    volume.scaling = ScalingOf(header, headerFile);
   }
-  const auto scaling = isAnalyze ? std::nullopt : ScalingOf(header, headerFile);
-  const std::uintmax_t offset = VoxelsOffset(header, headerFile);
-  const auto voxelsPerFrame = ProductOf({ sizes[0], sizes[1], sizes[2] });
-  const auto bytes = ProductOf({ sizes[0], sizes[1], sizes[2], sizes[3], SizeOf(type) });
-  const std::uintmax_t largest = LargestUnpackedSize(voxelsFile);
-  if (!bytes || offset + *bytes > largest)
-  {
-    RefuseVolume(headerFile,
-                 "its header announces more voxels than " + voxelsFile.filename().string() +
-                   " can hold; it is cut off or damaged, so copy it again");
-  }
-  ChooseFrame(sizes[3], options, headerFile, scan);
-  const VolumeGeometry geometry =
+  volume.voxels.skip = VoxelsOffset(header, headerFile);
+  volume.voxels.isDeflated = IsGzip(volume.voxels.path);
+  volume.voxels.isSwapped = header.isSwapped;
+  volume.encoding = volume.voxels.isDeflated ? "gzip" : "raw";
+  RequireVoxels({ sizes.begin(), sizes.end() }, false, headerFile, volume);
+  volume.geometry =
     PlaceNIfTIVolume(header, { { sizes[0], sizes[1], sizes[2] } }, headerFile, options.onIrregular, scan);
-  scan.image = NewVolumeImage(type, scaling.has_value(), geometry);
-  scan.encoding = UnpackedFile(voxelsFile).IsCompressed() ? "gzip" : "raw";
-  scan.scaling = DescribeScaling(scaling);
-  if (isAnalyze)
-  {
-    scan.notes.push_back(headerFile.string() +
-                         " is an Analyze 7.5 file; its voxels' sizes were used, and no scaling of values.");
-  }
-
-  return { scan, [=](Scan & read) {
-            RequireMemory(MemoryOfPixels(type, scaling.has_value(), *voxelsPerFrame),
-                          options.maximumMemory,
-                          "Reading " + path.string());
-            UnpackedFile file(voxelsFile);
-            const std::uintmax_t needed = offset + *bytes;
-            const std::uintmax_t bytesPerFrame = *voxelsPerFrame * SizeOf(type);
-            std::uintmax_t position = file.Skip(offset + read.frame * bytesPerFrame);
-            const auto source = [&](std::byte * buffer, std::size_t size) {
-              const std::size_t count = file.Read(buffer, size);
-              position += count;
-              if (count < size)
-              {
-                RefuseCutOff(voxelsFile, position, needed);
-              }
-              if (header.isSwapped)
-              {
-                SwapBytes(buffer, size, SizeOf(type));
-              }
-            };
-            read.image =
-              ReadVolumePixels(type, scaling, geometry, WithProgress(source, bytesPerFrame, options.progress));
-            position += file.Skip(needed - position);
-            if (position < needed)
-            {
-              RefuseCutOff(voxelsFile, position, needed);
-            }
-            file.Finish();
-          } };
+  volume.isOriented = scan.isOriented;
+  volume.note = isAnalyze ? "is an Analyze 7.5 file; its voxels' sizes were used, and no scaling of values" : "";
+  return volume;
 }
 
 } // namespace rhombic

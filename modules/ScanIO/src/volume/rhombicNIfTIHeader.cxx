@@ -120,7 +120,7 @@ std::optional<NIfTIHeader>
 FindNIfTIHeader(const fs::path & path)
 {
   std::string content(Size2, '\0');
-  content.resize(UnpackedFile(path).Read(content.data(), content.size()));
+  content.resize(ByteStream(path, 0, IsGzip(path)).Read(content.data(), content.size()));
 
   for (const bool isSwapped : { false, true })
   {

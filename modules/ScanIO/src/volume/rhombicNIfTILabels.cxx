@@ -16,7 +16,7 @@ std::string
 ReadBeginning(const fs::path & path, std::size_t size)
 {
   std::string bytes(size, '\0');
-  bytes.resize(UnpackedFile(path).Read(bytes.data(), size));
+  bytes.resize(ByteStream(path, 0, IsGzip(path)).Read(bytes.data(), size));
   return bytes;
 }
 

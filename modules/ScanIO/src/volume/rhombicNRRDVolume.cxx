@@ -1,9 +1,7 @@
 #include "rhombicNRRDVolume.h"
 
-#include "rhombicCompressedFile.h"
 #include "rhombicNRRDHeader.h"
 #include "rhombicTextHeader.h"
-#include "rhombicVolumeFrame.h"
 #include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"
 
@@ -266,56 +264,33 @@ PassLines(const fs::path & data, std::uintmax_t begin, std::uintmax_t count)
   return file ? static_cast<std::uintmax_t>(file.tellg()) : fs::file_size(data);
 }
 
-/** Finds the voxels. Refuses data that is missing or shorter than \a needed bytes. */
-StoredVoxels
+/** Finds the voxels, and checks that their file is long enough. */
+void
 FindVoxels(const NRRDHeader & header,
-           bool isDeflated,
-           std::uintmax_t needed,
-           std::size_t bytesPerVoxel,
-           const fs::path & path)
+           const std::vector<std::uintmax_t> & sizes,
+           const fs::path & path,
+           StoredVolume & volume)
 {
+  const bool isDeflated = volume.encoding == "gzip";
   const std::string name = header.Get("datafile");
-  if (name.compare(0, 4, "LIST") == 0 || name.find('%') != std::string::npos)
-  {
-    RefuseVolume(path, "its voxels are spread over several files, which is not supported; write it as one file");
-  }
+  const fs::path file = name.empty() ? path : DetachedFile(path, name);
   const std::string endian = LowerCase(header.Get("endian"));
-  if (bytesPerVoxel > 1 && endian != "little" && endian != "big")
+  if (SizeOf(volume.type) > 1 && endian != "little" && endian != "big")
   {
     RefuseVolume(path, "its header does not say in which byte order its voxels are; export it again from its source");
   }
   const auto lineSkip = CountsOf(header.Get("lineskip"));
-  const auto byteSkip = NumbersOf(header.Get("byteskip"));
-  const bool hasByteSkip = byteSkip && byteSkip->size() == 1;
-  const double skip = hasByteSkip ? byteSkip->front() : 0;
-  constexpr double largestSkip = 1e15;
-  if (!lineSkip || lineSkip->size() > 1 || !byteSkip || byteSkip->size() > 1 || !(skip >= -1 && skip <= largestSkip) ||
-      (skip < 0 && isDeflated))
+  const auto byteSkip = SkipOf(header.Get("byteskip"), isDeflated);
+  if (!lineSkip || lineSkip->size() > 1 || !byteSkip)
   {
     RefuseVolume(path, "its header's 'line skip' or 'byte skip' makes no sense; export it again from its source");
   }
-
-  StoredVoxels voxels;
-  voxels.path = name.empty() ? path : DetachedFile(path, name);
-  voxels.isDeflated = isDeflated;
-  voxels.isSwapped = (endian == "big") == itk::ByteSwapper<int>::SystemIsLittleEndian();
-  voxels.offset = PassLines(voxels.path, name.empty() ? header.size : 0, lineSkip->empty() ? 0 : lineSkip->front());
-  voxels.skip = static_cast<std::uintmax_t>(std::max(0.0, skip));
-  const std::uintmax_t size = fs::file_size(voxels.path);
-  const std::uintmax_t stored = size - std::min(voxels.offset, size);
-  const std::uintmax_t available = isDeflated ? stored * LargestRatio : stored;
-  if (available < voxels.skip || available - voxels.skip < needed)
-  {
-    RefuseVolume(path,
-                 voxels.path.filename().string() + " has " + std::to_string(stored) + " bytes for " +
-                   std::to_string(needed + voxels.skip) +
-                   " bytes of voxels; it is cut off or damaged, so copy it again");
-  }
-  if (skip < 0) // the voxels are at the end
-  {
-    voxels.offset = size - needed;
-  }
-  return voxels;
+  volume.voxels.path = file;
+  volume.voxels.isDeflated = isDeflated;
+  volume.voxels.isSwapped = (endian == "big") == itk::ByteSwapper<int>::SystemIsLittleEndian();
+  volume.voxels.offset = PassLines(file, name.empty() ? header.size : 0, lineSkip->empty() ? 0 : lineSkip->front());
+  volume.voxels.skip = static_cast<std::uintmax_t>(std::max(0.0, *byteSkip));
+  RequireVoxels(sizes, *byteSkip < 0, path, volume);
 }
 
 } // namespace
@@ -344,15 +319,7 @@ ReadNRRDVolume(const fs::path & path)
     volume.areFramesInterleaved = frameAxis == 0;
   }
   Place(header, sizes, directions, frameAxis, path, volume);
-
-  std::vector<std::uintmax_t> factors = sizes;
-  factors.push_back(SizeOf(volume.type));
-  const auto needed = ProductOf(factors);
-  if (!needed)
-  {
-    RefuseVolume(path, "its dimensions are larger than any volume; export it again from its source");
-  }
-  volume.voxels = FindVoxels(header, volume.encoding == "gzip", *needed, SizeOf(volume.type), path);
+  FindVoxels(header, sizes, path, volume);
   return volume;
 }
 

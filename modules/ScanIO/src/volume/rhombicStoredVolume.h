@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace rhombic
 {
@@ -22,7 +23,7 @@ struct StoredVoxels
   bool isSwapped = false;    ///< not in this machine's byte order
 };
 
-/** The content of a NRRD or MetaImage header. */
+/** The content of a NIfTI, NRRD or MetaImage header. */
 struct StoredVolume
 {
   StoredType type = StoredType::UInt8;
@@ -36,6 +37,14 @@ struct StoredVolume
   bool isOriented = true;
   std::string note; ///< assumptions, as the end of a sentence that begins with the path; may be empty
 };
+
+/** Throws Failure(Unreadable), naming \a header, when the file of the voxels can't hold as many as \a sizes say, the
+ * volumes included. With \a areAtEnd, the voxels are the last bytes of their file: sets their offset. */
+void
+RequireVoxels(const std::vector<std::uintmax_t> & sizes,
+              bool areAtEnd,
+              const std::filesystem::path & header,
+              StoredVolume & volume);
 
 } // namespace rhombic
 

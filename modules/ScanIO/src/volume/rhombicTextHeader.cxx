@@ -51,6 +51,16 @@ CountsOf(const std::string & text)
   return fit ? counts : std::nullopt;
 }
 
+std::optional<double>
+SkipOf(const std::string & text, bool isDeflated)
+{
+  constexpr double largest = 1e15;
+  const auto numbers = NumbersOf(text);
+  const double skip = numbers && numbers->size() == 1 ? numbers->front() : 0;
+  const bool isValid = numbers && numbers->size() <= 1 && skip >= -1 && skip <= largest && !(skip < 0 && isDeflated);
+  return isValid ? std::make_optional(skip) : std::nullopt;
+}
+
 std::vector<std::uintmax_t>
 AxisSizes(const std::string & dimensionText, const std::string & sizesText, const fs::path & path)
 {
@@ -75,6 +85,10 @@ AxisSizes(const std::string & dimensionText, const std::string & sizesText, cons
 fs::path
 DetachedFile(const fs::path & header, const std::string & name)
 {
+  if (name.compare(0, 4, "LIST") == 0 || name.find('%') != std::string::npos)
+  {
+    RefuseVolume(header, "its voxels are spread over several files, which is not supported; write it as one file");
+  }
   const fs::path relative(name);
   if (relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end())
   {

@@ -60,61 +60,56 @@ ReadInterleaved(ByteStream & stream,
   return true;
 }
 
-/** Reads one frame of a NRRD or MetaImage file, in one pass. */
+/** Reads one frame, in one pass. */
 ScanImage
 ReadStoredVoxels(const StoredVolume & volume, std::uintmax_t frame, const ScanReadOptions & options)
 {
   const StoredVoxels & voxels = volume.voxels;
-  const auto refuse = [&voxels] { RefuseVolume(voxels.path, "its voxels are damaged or cut off; copy it again"); };
   const std::size_t voxelSize = SizeOf(volume.type);
   const std::size_t frameSize = NumberOfVoxels(volume.geometry) * voxelSize;
   ByteStream stream(voxels.path, voxels.offset, voxels.isDeflated);
   stream.Skip(voxels.skip + (volume.areFramesInterleaved ? 0 : frame * frameSize));
+  std::size_t done = 0;
   const auto read = [&](std::byte * buffer, std::size_t size) {
     const bool isRead = volume.areFramesInterleaved
                           ? ReadInterleaved(stream, buffer, size, voxelSize, frame, volume.numberOfFrames)
                           : stream.Read(buffer, size) == size;
     if (!isRead)
     {
-      refuse();
+      RefuseVolume(voxels.path, "its voxels are damaged or cut off; copy it again");
     }
     if (voxels.isSwapped)
     {
       SwapBytes(buffer, size, voxelSize);
     }
+    done += size;
+    if (options.progress)
+    {
+      options.progress(static_cast<double>(done) / static_cast<double>(frameSize));
+    }
   };
-  ScanImage image =
-    ReadVolumePixels(volume.type, volume.scaling, volume.geometry, WithProgress(read, frameSize, options.progress));
+  ScanImage image = ReadVolumePixels(volume.type, volume.scaling, volume.geometry, read);
   const std::uintmax_t framesLeft = volume.areFramesInterleaved ? 0 : volume.numberOfFrames - frame - 1;
   if (voxels.isDeflated && !stream.EndsAfter(framesLeft * frameSize))
   {
-    refuse();
+    RefuseVolume(voxels.path,
+                 "its compressed content is damaged, cut off, or goes on behind the voxels that its header announces; "
+                 "copy or export it again");
   }
   return image;
 }
 
-/** Fills the scan of a NRRD or MetaImage file, whose header was checked. */
-UnreadScan
-OpenStoredVolume(const fs::path & path, const StoredVolume & volume, const ScanReadOptions & options, Scan scan)
+/** Reads and checks the header. Describes in \a scan what the result can't hold. */
+StoredVolume
+ReadHeader(const fs::path & path, const ScanReadOptions & options, Scan & scan)
 {
-  ChooseFrame(volume.numberOfFrames, options, path, scan);
-  CheckGeometry(volume.geometry, path, volume.matrix, options.onIrregular, scan.notes);
-  scan.image = NewVolumeImage(volume.type, volume.scaling.has_value(), volume.geometry);
-  scan.encoding = volume.encoding;
-  scan.scaling = DescribeScaling(volume.scaling);
-  scan.isOriented = volume.isOriented;
-  if (!volume.note.empty())
+  if (scan.format == "NIfTI")
   {
-    scan.notes.push_back(path.string() + " " + volume.note + ".");
+    return ReadNIfTIVolume(path, options, scan);
   }
-  return { scan, [=](Scan & read) {
-            const std::uintmax_t group = volume.areFramesInterleaved ? volume.numberOfFrames * SizeOf(volume.type) : 0;
-            RequireMemory(group +
-                            MemoryOfPixels(volume.type, volume.scaling.has_value(), NumberOfVoxels(volume.geometry)),
-                          options.maximumMemory,
-                          "Reading " + path.string());
-            read.image = ReadStoredVoxels(volume, read.frame, options);
-          } };
+  const StoredVolume volume = scan.format == "NRRD" ? ReadNRRDVolume(path) : ReadMetaImageVolume(path);
+  CheckGeometry(volume.geometry, path, volume.matrix, options.onIrregular, scan.notes);
+  return volume;
 }
 
 /** Replaces values that are not finite, which would spread when the scan is resampled, by the lowest finite value.
@@ -160,32 +155,37 @@ IsVolumeFileName(const fs::path & path)
 UnreadScan
 OpenVolumeFile(const fs::path & path, const ScanReadOptions & options)
 {
-  UnreadScan file;
-  file.scan.format = VolumeFormatOf(path);
-  if (file.scan.format == "NIfTI")
+  Scan scan;
+  scan.format = VolumeFormatOf(path);
+  const StoredVolume volume = ReadHeader(path, options, scan);
+  ChooseFrame(volume.numberOfFrames, options, path, scan);
+  scan.image = NewVolumeImage(volume.type, volume.scaling.has_value(), volume.geometry);
+  scan.encoding = volume.encoding;
+  scan.scaling = DescribeScaling(volume.scaling);
+  scan.isOriented = volume.isOriented;
+  if (!volume.note.empty())
   {
-    file = OpenNIfTIFile(path, options, file.scan);
+    scan.notes.push_back(path.string() + " " + volume.note + ".");
   }
-  else if (file.scan.format == "NRRD")
+  if (scan.format == "NRRD")
   {
-    file = OpenStoredVolume(path, ReadNRRDVolume(path), options, file.scan);
-    Scan & scan = file.scan;
     scan.labels = LabelsOfSegments(ReadNRRDKeyValues(path), path.string(), static_cast<int>(scan.frame));
   }
-  else
-  {
-    file = OpenStoredVolume(path, ReadMetaImageVolume(path), options, file.scan);
-  }
-  file.readVoxels = [path, readAll = file.readVoxels](Scan & scan) {
-    readAll(scan);
-    if (const std::size_t count = ReplaceNotFinite(scan.image, path); count > 0)
-    {
-      scan.notes.push_back(path.string() + " holds " +
-                           Count(count, "value that is no finite number", "values that are not finite numbers") +
-                           "; the lowest value took their place.");
-    }
-  };
-  return file;
+  return { scan, [=](Scan & read) {
+            const std::uintmax_t group = volume.areFramesInterleaved ? volume.numberOfFrames * SizeOf(volume.type) : 0;
+            RequireMemory(group +
+                            MemoryOfPixels(volume.type, volume.scaling.has_value(), NumberOfVoxels(volume.geometry)),
+                          options.maximumMemory,
+                          "Reading " + path.string());
+            read.image = ReadStoredVoxels(volume, read.frame, options);
+            if (const std::size_t count = ReplaceNotFinite(read.image, path); count > 0)
+            {
+              read.notes.push_back(
+                path.string() + " holds " +
+                Count(count, "value that is no finite number", "values that are not finite numbers") +
+                "; the lowest value took their place.");
+            }
+          } };
 }
 
 } // namespace rhombic

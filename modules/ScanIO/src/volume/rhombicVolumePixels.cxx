@@ -173,20 +173,6 @@ NewVolumeImage(StoredType type, bool isScaled, const VolumeGeometry & geometry)
   });
 }
 
-VoxelSource
-WithProgress(VoxelSource source, std::uintmax_t size, std::function<void(double)> progress)
-{
-  if (!progress)
-  {
-    return source;
-  }
-  return [=, done = std::uintmax_t{ 0 }](std::byte * buffer, std::size_t count) mutable {
-    source(buffer, count);
-    done += count;
-    progress(static_cast<double>(done) / static_cast<double>(size));
-  };
-}
-
 void
 SwapBytes(std::byte * buffer, std::size_t size, std::size_t valueSize)
 {

@@ -58,10 +58,6 @@ SwapBytes(std::byte * buffer, std::size_t size, std::size_t valueSize);
 /** Reads the next \a size bytes of the voxels, a whole number of voxels, in this machine's byte order. */
 using VoxelSource = std::function<void(std::byte * buffer, std::size_t size)>;
 
-/** Calls \a progress after each part of \a size bytes that \a source reads, with the fraction; may be empty. */
-VoxelSource
-WithProgress(VoxelSource source, std::uintmax_t size, std::function<void(double)> progress);
-
 /** Reads the voxels of a volume in one pass, converted as OpenScan() documents. Throws what \a source throws. */
 ScanImage
 ReadVolumePixels(StoredType type,
