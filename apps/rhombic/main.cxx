@@ -6,9 +6,14 @@
 
 #include "itkMultiThreaderBase.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
+#include <mutex>
 #include <new>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 #include <sys/resource.h>
 
@@ -58,6 +63,34 @@ RaiseFileLimit()
   {
     limit.rlim_cur = limit.rlim_max;
     setrlimit(RLIMIT_NOFILE, &limit);
+  }
+}
+
+/** Throws Failure when this process may not start the threads that ITK's pool starts at once, where ITK would end it.
+ */
+void
+RequireThreads()
+{
+  const std::size_t count = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
+  std::vector<std::thread> threads;
+  std::mutex guard;
+  std::unique_lock<std::mutex> allAtOnce(guard);
+  try
+  {
+    while (threads.size() < count)
+    {
+      threads.emplace_back([&guard] { const std::lock_guard<std::mutex> wait(guard); });
+    }
+  }
+  catch (const std::system_error &)
+  {}
+  allAtOnce.unlock();
+  std::for_each(threads.begin(), threads.end(), [](std::thread & thread) { thread.join(); });
+  if (threads.size() < count)
+  {
+    throw Failure(FailureKind::Internal,
+                  "Cannot start " + std::to_string(count) +
+                    " threads; close other programs, or give a lower number as --threads.");
   }
 }
 
@@ -113,6 +146,7 @@ main(int argc, char ** argv)
       itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
     }
     IsolatedDecoder decoder(threads); // before there are more threads
+    RequireThreads();
     (*chosen)({ &console, &decoder, std::vector<std::string>(argv + 1, argv + argc) });
     console.NoteStepTimes();
     console.Finish();
