@@ -7,10 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <system_error>
-#include <thread>
 
-#include <pthread.h>
 
 namespace fs = std::filesystem;
 
@@ -595,23 +592,12 @@ TEST_F(DicomFolder, WordsOfSmallPixelsAreSwappedInBigEndian)
   EXPECT_THROW(text(5, 2), rhombic::Failure);
 }
 
-// No thread can start, as its stack would be too large.
-TEST_F(DicomFolder, ThreadsThatDoNotStartAreDoneWithout)
+TEST_F(DicomFolder, AProgressThatThrowsEndsTheReading)
 {
   WriteStack(m_Folder);
-  pthread_attr_t attributes;
-  pthread_attr_t impossible;
-  ASSERT_EQ(pthread_getattr_default_np(&attributes), 0);
-  ASSERT_EQ(pthread_getattr_default_np(&impossible), 0);
-  ASSERT_EQ(pthread_attr_setstacksize(&impossible, std::size_t{ 1 } << 50), 0);
-  ASSERT_EQ(pthread_setattr_default_np(&impossible), 0);
-  EXPECT_THROW(std::thread([] {}).join(), std::system_error);
   ManyWorkers decoder;
   rhombic::ScanReadOptions options;
   options.decoder = &decoder;
-  EXPECT_NO_THROW(rhombic::ReadVoxels(rhombic::OpenScan(m_Folder, options)));
-  pthread_setattr_default_np(&attributes);
-
   struct Stop
   {};
   options.progress = [](double) { throw Stop(); };
