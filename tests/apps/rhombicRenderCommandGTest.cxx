@@ -230,6 +230,18 @@ TEST_F(RenderCommand, AReportOfOneOfSeveralPicturesMakesThatOne)
   EXPECT_NE(Read("right.png").pixels, Read("a-left.png").pixels);
 }
 
+TEST_F(RenderCommand, PicturesHaveTheScaleThatIsAskedFor)
+{
+  const std::string render = "render " + phantomScan + " --preset ct-skin --annotate none --no-letters ";
+  RunWell(render + "--pixel-size 1 -o coarse.png");
+  RunWell(render + "--pixel-size 0.5 -o fine.png");
+  EXPECT_NEAR(Read("fine.png").width, 2 * Read("coarse.png").width, 4);
+  EXPECT_NEAR(Read("fine.png").height, 2 * Read("coarse.png").height, 4);
+  RunWell(render + "--same-scale --view anterior --view superior -o view.png");
+  EXPECT_EQ(Read("view-anterior.png").width, Read("view-superior.png").width) << "both from right to left";
+  EXPECT_NE(Read("view-anterior.png").height, Read("view-superior.png").height);
+}
+
 TEST_F(RenderCommand, LightboxesAndTurntablesHaveOneSize)
 {
   const auto expectSize = [this](const std::string & name, int width, int height) {

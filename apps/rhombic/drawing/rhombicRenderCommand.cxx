@@ -15,8 +15,9 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
-#include <map>
 #include <iostream>
+#include <map>
+#include <optional>
 
 namespace rhombic
 {
@@ -46,6 +47,8 @@ struct RenderOptions
   std::string size;
   std::string background;
   double zoom = 1.0;
+  std::optional<double> pixelSize;
+  bool hasSameScale = false;
   std::string focus;
   bool isPerspective = false;
   bool hasNoShadows = false;
@@ -279,6 +282,8 @@ RenderPictures(const RenderOptions & options, const CommandContext & context, co
   }
   settings.render.perspective = options.isPerspective;
   settings.render.zoom = options.zoom;
+  settings.render.pixelSize = options.pixelSize;
+  settings.render.sameScale = options.hasSameScale;
   settings.render.ambientOcclusion = !options.hasNoShadows;
   settings.render.silhouettes = !options.hasNoSilhouettes;
   settings.annotations = ParseAnnotations(options);
@@ -464,6 +469,9 @@ AddPictureOptions(RenderOptions & options, CLI::App & parser)
   parser.add_option("--size", options.size, "width x height in pixels (default: what fits, the longer side 1200)");
   parser.add_option("--focus", options.focus, "fit the picture to surfaces by name, as 'kidney*' (default: all)");
   parser.add_option("--zoom", options.zoom, "enlarge")->check(CLI::PositiveNumber);
+  parser.add_option("--pixel-size", options.pixelSize, "mm per pixel, for one scale in the pictures of several scans")
+    ->check(CLI::PositiveNumber);
+  parser.add_flag("--same-scale", options.hasSameScale, "all views at the scale of the view that needs most room");
   parser.add_flag("--perspective", options.isPerspective, "perspective instead of parallel projection");
   parser
     .add_option(
@@ -516,7 +524,7 @@ AddExclusions(CLI::App & parser)
   const std::vector<std::string> notOnPages{ "--cut",        "--uncut",          "--show-slice",  "--focus",
                                              "--zoom",       "--size",           "--turntable",   "--lightbox",
                                              "--background", "--no-silhouettes", "--perspective", "--no-shadows",
-                                             "--annotate",   "--no-letters" };
+                                             "--annotate",   "--no-letters",     "--pixel-size",  "--same-scale" };
   for (const std::string & option : notOnPages)
   {
     parser.get_option("--sheet")->excludes(parser.get_option(option));
@@ -524,6 +532,10 @@ AddExclusions(CLI::App & parser)
   for (const char * option : { "--view", "--slice", "--lightbox" })
   {
     parser.get_option("--turntable")->excludes(parser.get_option(option));
+  }
+  for (const char * option : { "--zoom", "--perspective", "--same-scale" })
+  {
+    parser.get_option("--pixel-size")->excludes(parser.get_option(option));
   }
   parser.get_option("--lightbox")->needs(parser.get_option("--slice"));
   parser.get_option("--uncut")->needs(parser.get_option("--cut"));
