@@ -152,7 +152,7 @@ TEST(Annotations, LettersAreThoseOfTheFrame)
     const Projection projection{ trial == 0 ? Anterior : RandomFrame(random), {}, 1.0, 800, 800 };
     Drawing drawing(800, 800, 100.0, {});
     DrawAnnotations(drawing, { 0.0, 0.0, 800.0, 800.0 }, projection, annotations);
-    const auto text = rhombictest::TextOfPdf(drawing.TakePdf());
+    const auto text = rhombictest::TextOfPdf(drawing.TakeDocument());
     if (!text)
     {
       GTEST_SKIP() << "pdftotext is not installed";
@@ -174,7 +174,7 @@ TEST(Annotations, LegendShowsAllOrCountsTheRest)
     Drawing drawing(side, side, 100.0, {});
     const double extent = side;
     DrawAnnotations(drawing, { 0.0, 0.0, extent, extent }, { Anterior, {}, 1.0, side, side }, annotations);
-    const auto text = rhombictest::TextOfPdf(drawing.TakePdf());
+    const auto text = rhombictest::TextOfPdf(drawing.TakeDocument());
     if (!text)
     {
       GTEST_SKIP() << "pdftotext is not installed";

@@ -240,6 +240,17 @@ TEST(Drawing, LineHasItsWidthAndEllipseItsArea)
   EXPECT_NEAR(area, pi * (50.0 * 30.0 + 20.0 * 10.0), 10.0);
 }
 
+TEST(Drawing, SvgHasItsSizeAndLines)
+{
+  Drawing drawing = Drawing::ForSvg(320, 200);
+  drawing.Line({ { 10.0, 10.0 }, { 300.0, 150.0 } }, { 2.0, { { 1.0, 0.0, 0.0 } } });
+  drawing.Text("text", { 20.0, 100.0 }, {});
+  const std::string svg = drawing.TakeDocument();
+  EXPECT_NE(svg.find("width=\"320px\" height=\"200px\""), std::string::npos) << svg.substr(0, 300);
+  EXPECT_NE(svg.find("M 10 10 L 300 150"), std::string::npos);
+  EXPECT_THROW(Drawing::ForSvg(0, 10), rhombic::Failure);
+}
+
 TEST(Drawing, PdfHasItsPagesAndNoDate)
 {
   const auto make = [] {
@@ -250,7 +261,7 @@ TEST(Drawing, PdfHasItsPagesAndNoDate)
     drawing.NextPage();
     drawing.Text("second", { 100.0, 100.0 }, style);
     EXPECT_EQ(drawing.GetNumberOfPages(), 2u);
-    return drawing.TakePdf();
+    return drawing.TakeDocument();
   };
   const std::string pdf = make();
   EXPECT_EQ(pdf.substr(0, 5), "%PDF-");

@@ -85,7 +85,7 @@ struct PdfProperties
 
 /** \class Drawing
  * \brief Text, lines and pictures, drawn by cairo and pango on transparent pages of one size: pictures, or pages of a
- * PDF with lines and text that stay sharp.
+ * PDF or an SVG file with lines and text that stay sharp.
  *
  * Lengths are in pixels, positions in pixels from the outer corner of the page's top left pixel. Text is UTF-8 in the
  * font DejaVu Sans; letters that it lacks come from other installed fonts. The same calls give the same bytes on one
@@ -101,6 +101,11 @@ public:
 
   /** Begins the first page of a PDF, on which \a pixelsPerInch pixels make an inch. Throws as the other does. */
   Drawing(int width, int height, double pixelsPerInch, const PdfProperties & properties);
+
+  /** A drawing that becomes an SVG file of one page. An id in the file counts the drawings of the process. Throws as
+   * the constructors do. */
+  static Drawing
+  ForSvg(int width, int height);
 
   ~Drawing();
   Drawing(Drawing &&) noexcept;
@@ -180,12 +185,14 @@ public:
   std::vector<Picture>
   TakePictures(const Ink & paper);
 
-  /** The bytes of the PDF file; ends the drawing. */
+  /** The bytes of the PDF or SVG file; ends the drawing. */
   std::string
-  TakePdf();
+  TakeDocument();
 
 private:
   struct Surface;
+  explicit Drawing(std::unique_ptr<Surface> surface);
+
   std::unique_ptr<Surface> m_Surface;
 };
 

@@ -3,6 +3,7 @@
 #include "rhombicFailure.h"
 
 #include <cairo-pdf.h>
+#include <cairo-svg.h>
 #include <pango/pangocairo.h>
 
 #include <algorithm>
@@ -319,7 +320,7 @@ struct Drawing::Surface
   int width = 0;
   int height = 0;
   std::size_t pages = 1;
-  std::string pdf;                  ///< bytes so far; outlives the surface that writes them
+  std::string document;             ///< bytes so far; outlives the surface that writes them
   std::vector<CairoSurface> images; ///< finished pages
   CairoSurface surface;
   CairoContext context;
@@ -367,10 +368,29 @@ Drawing::Drawing(int width, int height, double pixelsPerInch, const PdfPropertie
   m_Surface->width = width;
   m_Surface->height = height;
   const double scale = PointsPerInch / pixelsPerInch;
-  m_Surface->surface.reset(cairo_pdf_surface_create_for_stream(Append, &m_Surface->pdf, scale * width, scale * height));
+  m_Surface->surface.reset(
+    cairo_pdf_surface_create_for_stream(Append, &m_Surface->document, scale * width, scale * height));
   SetProperties(m_Surface->surface.get(), properties);
   m_Surface->Begin();
   cairo_scale(m_Surface->context.get(), scale, scale);
+}
+
+Drawing::Drawing(std::unique_ptr<Surface> surface)
+  : m_Surface(std::move(surface))
+{}
+
+Drawing
+Drawing::ForSvg(int width, int height)
+{
+  CheckSize(width, height);
+  CheckFonts();
+  auto surface = std::make_unique<Surface>();
+  surface->width = width;
+  surface->height = height;
+  surface->surface.reset(cairo_svg_surface_create_for_stream(Append, &surface->document, width, height));
+  cairo_svg_surface_set_document_unit(surface->surface.get(), CAIRO_SVG_UNIT_PX);
+  surface->Begin();
+  return Drawing(std::move(surface));
 }
 
 Drawing::~Drawing() = default;
@@ -591,12 +611,12 @@ Drawing::TakePictures(const Ink & paper)
 }
 
 std::string
-Drawing::TakePdf()
+Drawing::TakeDocument()
 {
   CheckStatus(cairo_status(m_Surface->context.get()));
   cairo_surface_finish(m_Surface->surface.get());
   CheckStatus(cairo_surface_status(m_Surface->surface.get()));
-  return std::move(m_Surface->pdf);
+  return std::move(m_Surface->document);
 }
 
 Ink

@@ -328,7 +328,7 @@ DrawSheetPdf(const Sheet & sheet, const std::string & software)
   Drawing drawing(places.width, places.height, sheet.pixelsPerInch, { sheet.title, software });
   SheetPainter(sheet, drawing).DrawPages();
   const std::size_t count = drawing.GetNumberOfPages();
-  return { drawing.TakePdf(), count };
+  return { drawing.TakeDocument(), count };
 }
 
 } // namespace rhombic
