@@ -61,6 +61,30 @@ TEST(GyroidField, RepeatsAndHasItsGradient)
   ExpectGradientMatchesDifferences(gyroid);
 }
 
+TEST(MarschnerLobbField, HasItsGradientAndValues)
+{
+  const MarschnerLobbField field;
+  EXPECT_DOUBLE_EQ(field.Evaluate({ 0.0, 0.0, 1.0 }), 0.25 * 2.0 / 2.5 - 0.5); // cos(12 pi) is 1
+  EXPECT_DOUBLE_EQ(field.Evaluate({ 0.0, 0.0, -1.0 }), 0.5);
+  for (const double x : { 0.1, 0.33, 0.9 })
+  {
+    Vector3 gradient;
+    field.Evaluate({ x, 0.2, 0.3 }, gradient);
+    EXPECT_NEAR(
+      gradient[0], (field.Evaluate({ x + 1e-6, 0.2, 0.3 }) - field.Evaluate({ x - 1e-6, 0.2, 0.3 })) / 2e-6, 1e-4);
+    EXPECT_NEAR(
+      gradient[2], (field.Evaluate({ x, 0.2, 0.3 + 1e-6 }) - field.Evaluate({ x, 0.2, 0.3 - 1e-6 })) / 2e-6, 1e-4);
+  }
+}
+
+TEST(CornerField, IsThreePlanes)
+{
+  const CornerField field(0.5);
+  EXPECT_EQ(field.Evaluate({ 0.5, -1.0, 0.3 }), 0.0);
+  EXPECT_EQ(field.Evaluate({ 0.1, 0.2, 0.75 }), -0.25);
+  ExpectGradientMatchesDifferences(field);
+}
+
 TEST(BandLimitedField, HasItsGradient)
 {
   ExpectGradientMatchesDifferences(BandLimitedField(0.75, 3));

@@ -158,7 +158,7 @@ TEST(SurfaceErrors, OfAFineSphereThatIsTooLarge)
 {
   const SphereField sphere({ 0, 0, 0 }, 1.0);
   const auto surface = MakeSphere(1.01, 6);
-  const SurfaceErrors errors = ComputeSurfaceErrors(*surface, sphere, everywhere);
+  const SurfaceErrors errors = ComputeSurfaceErrors(*surface, NearestOnField(sphere, everywhere.unit), everywhere);
   EXPECT_EQ(errors.triangles, 8U * 4096U);
   EXPECT_NEAR(errors.area, 4.0 * 3.14159265 * 1.01 * 1.01, 0.01);
   EXPECT_NEAR(errors.meanDistance, 0.01, 2e-4);
@@ -178,8 +178,8 @@ TEST(SurfaceErrors, AreInTheUnitAsked)
   SurfaceErrorSettings settings = everywhere;
   settings.unit = 0.5;
   const auto surface = MakeSphere(1.01, 5);
-  EXPECT_NEAR(ComputeSurfaceErrors(*surface, sphere, settings).meanDistance,
-              2.0 * ComputeSurfaceErrors(*surface, sphere, everywhere).meanDistance,
+  EXPECT_NEAR(ComputeSurfaceErrors(*surface, NearestOnField(sphere, settings.unit), settings).meanDistance,
+              2.0 * ComputeSurfaceErrors(*surface, NearestOnField(sphere, everywhere.unit), everywhere).meanDistance,
               1e-9);
 }
 
@@ -188,9 +188,10 @@ TEST(SurfaceErrors, CountTheTrianglesInTheBoxOnly)
   const SphereField sphere({ 0, 0, 0 }, 1.0);
   SurfaceErrorSettings upperHalf = everywhere;
   upperHalf.lower[2] = 0.0;
-  EXPECT_EQ(ComputeSurfaceErrors(*MakeSphere(1.0, 3), sphere, upperHalf).triangles, 4U * 64U);
+  EXPECT_EQ(ComputeSurfaceErrors(*MakeSphere(1.0, 3), NearestOnField(sphere, upperHalf.unit), upperHalf).triangles,
+            4U * 64U);
   upperHalf.lower[2] = 2.0;
-  EXPECT_EQ(ComputeSurfaceErrors(*MakeSphere(1.0, 3), sphere, upperHalf).triangles, 0U);
+  EXPECT_EQ(ComputeSurfaceErrors(*MakeSphere(1.0, 3), NearestOnField(sphere, upperHalf.unit), upperHalf).triangles, 0U);
 }
 
 TEST(SurfaceErrors, SeeNormalsThatPointInwards)
@@ -202,7 +203,7 @@ TEST(SurfaceErrors, SeeNormalsThatPointInwards)
     std::swap(triangle[0], triangle[1]);
   }
   surface->GetNormals().clear();
-  const SurfaceErrors errors = ComputeSurfaceErrors(*surface, sphere, everywhere);
+  const SurfaceErrors errors = ComputeSurfaceErrors(*surface, NearestOnField(sphere, everywhere.unit), everywhere);
   EXPECT_NEAR(errors.facetNormalError, 180.0, 0.5);
   EXPECT_TRUE(std::isnan(errors.vertexNormalError));
 }
@@ -229,7 +230,8 @@ TEST(SurfaceErrors, NinetyNinePercentOfTheAreaIsNearer)
     surface->GetPoints().insert(surface->GetPoints().end(), { { x, 0.0F, z }, { x + 1.0F, 0.0F, z }, { x, 1.0F, z } });
     surface->GetTriangles().push_back({ first, first + 1, first + 2 });
   }
-  const SurfaceErrors errors = ComputeSurfaceErrors(*surface, PlaneField(), everywhere);
+  const SurfaceErrors errors =
+    ComputeSurfaceErrors(*surface, NearestOnField(PlaneField(), everywhere.unit), everywhere);
   EXPECT_NEAR(errors.meanDistance, 0.01, 1e-9);
   EXPECT_NEAR(errors.rmsDistance, std::sqrt(0.005), 1e-9);
   EXPECT_NEAR(errors.distance99, 0.5, 1e-9);
@@ -246,7 +248,7 @@ TEST(VTKIsosurface, LooksOutsideWhereValuesAreLower)
   {
     const auto surface = PolyDataToSurface(ExtractWithVTK(extractor, volume, 0.0, true));
     EXPECT_TRUE(itk::ComputeTopology(*surface).IsWatertight());
-    const SurfaceErrors errors = ComputeSurfaceErrors(*surface, sphere, everywhere);
+    const SurfaceErrors errors = ComputeSurfaceErrors(*surface, NearestOnField(sphere, everywhere.unit), everywhere);
     EXPECT_LT(errors.meanDistance, 0.05);
     EXPECT_LT(errors.facetNormalError, 5.0);
     EXPECT_LT(errors.vertexNormalError, 5.0);

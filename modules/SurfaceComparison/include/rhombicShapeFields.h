@@ -65,6 +65,35 @@ private:
   double m_WaveNumber; ///< 2 pi / period
 };
 
+/** \class MarschnerLobbField
+ * \brief The test signal of S. Marschner, R. Lobb, "An evaluation of reconstruction filters for volume rendering"
+ * (1994), in the cube from -1 to 1, minus its middle value 0.5: a wave along z and rings about z whose wavelength
+ * shrinks to 1/12 of the cube's edge. */
+class MarschnerLobbField : public ReferenceField
+{
+public:
+  using ReferenceField::Evaluate;
+
+  double
+  Evaluate(const Vector3 & point, Vector3 & gradient) const override;
+};
+
+/** \class CornerField
+ * \brief level - max(x, y, z): the surface is three planes at right angles. */
+class CornerField : public ReferenceField
+{
+public:
+  explicit CornerField(double level);
+
+  using ReferenceField::Evaluate;
+
+  double
+  Evaluate(const Vector3 & point, Vector3 & gradient) const override;
+
+private:
+  double m_Level;
+};
+
 } // namespace rhombic
 
 #endif

@@ -1,9 +1,11 @@
 #ifndef rhombicSurfaceErrors_h
 #define rhombicSurfaceErrors_h
 
-#include "rhombicReferenceField.h"
+#include "rhombicFieldProjection.h"
 
-#include "itkTriangleSurface.h"
+#include "itkTriangleTree.h"
+
+#include <functional>
 
 namespace rhombic
 {
@@ -39,15 +41,42 @@ struct SurfaceErrors
   double unresolvedFraction = 0.0; ///< share of the area that is farther than three units from the true surface
 };
 
-/** Compares a surface with that of a field. Distances are measured at seven points of each triangle, with the weights
+/** Finds the point of the true surface that is nearest to another point. Called by several threads at once. */
+using FindNearest = std::function<FieldProjection(const Vector3 &)>;
+
+/** The nearest points of a field's surface. \a field must outlive the result. \param unit as in ProjectOntoField() */
+FindNearest
+NearestOnField(const ReferenceField & field, double unit);
+
+/** The nearest points of a mesh, with the normals of its triangles. \a tree must outlive the result. */
+FindNearest
+NearestOnMesh(const itk::TriangleTree & tree);
+
+/** Compares a surface with the true one. Distances are measured at seven points of each triangle, with the weights
  * that integrate cubic polynomials exactly: corners 1/20, middles of sides 2/15, centroid 9/20 (O. C. Zienkiewicz, "The
  * finite element method"). All 0 when no triangle with an area is judged.
  *
  * Works on several threads (itk::MultiThreaderBase); the result does not depend on their number. */
 SurfaceErrors
 ComputeSurfaceErrors(const itk::TriangleSurface & surface,
-                     const ReferenceField & field,
+                     const FindNearest & findNearest,
                      const SurfaceErrorSettings & settings);
+
+/** The distances from the points of \a surface to the nearest ones of another, each weighted by a third of the area of
+ * its judged triangles: with the true surface first, how far it is from a mesh. Sets the area and the distances only.
+ */
+SurfaceErrors
+ComputePointDistances(const itk::TriangleSurface & surface,
+                      const FindNearest & findNearest,
+                      const SurfaceErrorSettings & settings);
+
+/** The measure Q of Y. Sahillioglu, "A marching algorithm for isosurface extraction from face-centered cubic lattices"
+ * (2017): the mean over the points of \a surface of q(n . m), where n is the point's normal, m the normal of the
+ * nearest point of \a truth, and q(x) = 1 - x for x > 0, otherwise 1. The printed definition of q lacks its values:
+ * this reading of "1 - if x > 0, if x <= 0" is continuous and between 0 and 1, as all printed figures are. Normals are
+ * those of the triangles around a point, weighted by their area. 0 when a surface has no triangle. */
+double
+ComputeNormalPenalty(const itk::TriangleSurface & surface, const itk::TriangleSurface & truth);
 
 } // namespace rhombic
 

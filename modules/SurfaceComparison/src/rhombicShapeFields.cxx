@@ -2,6 +2,9 @@
 
 #include "detail/itkPositionArithmetic.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace rhombic
 {
 
@@ -76,6 +79,33 @@ GyroidField::Evaluate(const Vector3 & point, Vector3 & gradient) const
                m_WaveNumber * (c[1] * c[2] - s[0] * s[1]),
                m_WaveNumber * (c[2] * c[0] - s[1] * s[2]) };
   return s[0] * c[1] + s[1] * c[2] + s[2] * c[0];
+}
+
+double
+MarschnerLobbField::Evaluate(const Vector3 & point, Vector3 & gradient) const
+{
+  constexpr double alpha = 0.25;
+  constexpr double frequency = 6.0;
+  constexpr double scale = 1.0 / (2.0 * (1.0 + alpha));
+  const double radius = std::sqrt(point[0] * point[0] + point[1] * point[1]);
+  const double phase = twoPi * frequency * std::cos(twoPi / 4.0 * radius);
+  const double slope = -std::sin(phase) * twoPi * frequency * -std::sin(twoPi / 4.0 * radius) * twoPi / 4.0;
+  const double perRadius = radius > 0.0 ? scale * alpha * slope / radius : 0.0;
+  gradient = { perRadius * point[0], perRadius * point[1], -scale * std::cos(twoPi / 4.0 * point[2]) * twoPi / 4.0 };
+  return scale * (1.0 - std::sin(twoPi / 4.0 * point[2]) + alpha * (1.0 + std::cos(phase))) - 0.5;
+}
+
+CornerField::CornerField(double level)
+  : m_Level(level)
+{}
+
+double
+CornerField::Evaluate(const Vector3 & point, Vector3 & gradient) const
+{
+  const auto largest = std::max_element(point.begin(), point.end());
+  gradient = {};
+  gradient[static_cast<std::size_t>(largest - point.begin())] = -1.0;
+  return m_Level - *largest;
 }
 
 } // namespace rhombic

@@ -2,14 +2,13 @@
 
 #include "detail/itkPositionArithmetic.h"
 
-#include "rhombicFieldProjection.h"
-
 #include "itkForEachBlock.h"
 #include "itkTriangleSurfaceQuality.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -126,68 +125,47 @@ SumPointAreas(const std::vector<JudgedTriangle> & triangles, std::size_t numberO
 std::vector<FieldProjection>
 ProjectPoints(const itk::TriangleSurface & surface,
               const std::vector<double> & pointAreas,
-              const ReferenceField & field,
-              double unit)
+              const FindNearest & findNearest)
 {
   std::vector<FieldProjection> projections(pointAreas.size());
   itk::ForEachInBlocks(projections.size(), BlockSize, [&](itk::SizeValueType point) {
     if (pointAreas[point] > 0.0)
     {
-      projections[point] = ProjectOntoField(field, ToVector(surface.GetPoints()[point]), unit);
+      projections[point] = findNearest(ToVector(surface.GetPoints()[point]));
     }
   });
   return projections;
 }
 
 void
-JudgeTriangles(std::vector<JudgedTriangle> & triangles, const ReferenceField & field, double unit)
+JudgeTriangles(std::vector<JudgedTriangle> & triangles, const FindNearest & findNearest)
 {
   itk::ForEachInBlocks(triangles.size(), BlockSize, [&](itk::SizeValueType n) {
     JudgedTriangle & triangle = triangles[n];
     const auto & [a, b, c] = triangle.corners;
     triangle.quality = itk::ComputeTriangleQuality(a, b, c);
-    triangle.sides[0] = ProjectOntoField(field, Middle(a, b), unit);
-    triangle.sides[1] = ProjectOntoField(field, Middle(b, c), unit);
-    triangle.sides[2] = ProjectOntoField(field, Middle(c, a), unit);
-    triangle.centroid = ProjectOntoField(field, Centroid(triangle.corners), unit);
+    triangle.sides[0] = findNearest(Middle(a, b));
+    triangle.sides[1] = findNearest(Middle(b, c));
+    triangle.sides[2] = findNearest(Middle(c, a));
+    triangle.centroid = findNearest(Centroid(triangle.corners));
     triangle.facetNormalError = Angle(AreaVector(triangle.corners), triangle.centroid.normal);
   });
 }
 
-/** Sets all errors of distances. */
+/** Sets all errors of distances and the area, from distances in units and their weights. */
 void
-SummariseDistances(const std::vector<JudgedTriangle> & triangles,
-                   const std::vector<double> & pointAreas,
-                   const std::vector<FieldProjection> & pointProjections,
-                   double unit,
-                   SurfaceErrors & errors)
+SummariseDistances(std::vector<Distance> & distances, SurfaceErrors & errors)
 {
-  std::vector<Distance> distances;
-  distances.reserve(7 * triangles.size());
-  double unresolvedArea = 0.0;
-  const auto add = [&](const FieldProjection & projection, double area) {
-    const double distance = projection.distance / unit;
+  errors.area = 0.0;
+  for (const auto & [distance, area] : distances)
+  {
+    errors.area += area;
     errors.meanDistance += distance * area;
     errors.rmsDistance += distance * distance * area;
     errors.maximumDistance = std::max(errors.maximumDistance, distance);
-    unresolvedArea += projection.isResolved ? 0.0 : area;
-    distances.emplace_back(distance, area);
-  };
-  for (const JudgedTriangle & triangle : triangles)
-  {
-    for (unsigned int n = 0; n < 3; ++n)
-    {
-      if (pointAreas[triangle.ids[n]] > 0.0)
-      {
-        add(pointProjections[triangle.ids[n]], cornerWeight * triangle.area);
-      }
-      add(triangle.sides[n], sideWeight * triangle.area);
-    }
-    add(triangle.centroid, centroidWeight * triangle.area);
   }
   errors.meanDistance /= errors.area;
   errors.rmsDistance = std::sqrt(errors.rmsDistance / errors.area);
-  errors.unresolvedFraction = unresolvedArea / errors.area;
 
   std::sort(distances.begin(), distances.end());
   double fartherArea = 0.0;
@@ -196,6 +174,34 @@ SummariseDistances(const std::vector<JudgedTriangle> & triangles,
     errors.distance99 = it->first;
     fartherArea += it->second;
   }
+}
+
+/** The distances at seven points of each triangle, in units, with their weights. */
+std::vector<Distance>
+CollectDistances(const std::vector<JudgedTriangle> & triangles,
+                 const std::vector<FieldProjection> & pointProjections,
+                 double unit,
+                 double & unresolvedArea)
+{
+  std::vector<Distance> distances;
+  distances.reserve(7 * triangles.size());
+  const auto add = [&](const FieldProjection & projection, double area) {
+    if (area > 0.0)
+    {
+      distances.emplace_back(projection.distance / unit, area);
+      unresolvedArea += projection.isResolved ? 0.0 : area;
+    }
+  };
+  for (const JudgedTriangle & triangle : triangles)
+  {
+    for (unsigned int n = 0; n < 3; ++n)
+    {
+      add(pointProjections[triangle.ids[n]], cornerWeight * triangle.area);
+      add(triangle.sides[n], sideWeight * triangle.area);
+    }
+    add(triangle.centroid, centroidWeight * triangle.area);
+  }
+  return distances;
 }
 
 /** Not a number if the surface has no normals. */
@@ -220,39 +226,146 @@ MeanVertexNormalError(const itk::TriangleSurface & surface,
   return sum / area;
 }
 
+/** For each point the sum of its triangles' normals, as long as their areas. */
+std::vector<Vector3>
+SumNormals(const itk::TriangleSurface & surface)
+{
+  std::vector<Vector3> normals(surface.GetNumberOfPoints());
+  for (const auto & ids : surface.GetTriangles())
+  {
+    const Vector3 normal = AreaVector({ ToVector(surface.GetPoints()[ids[0]]),
+                                        ToVector(surface.GetPoints()[ids[1]]),
+                                        ToVector(surface.GetPoints()[ids[2]]) });
+    for (const std::uint32_t id : ids)
+    {
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        normals[id][axis] += normal[axis];
+      }
+    }
+  }
+  return normals;
+}
+
 } // namespace
+
+FindNearest
+NearestOnField(const ReferenceField & field, double unit)
+{
+  return [&field, unit](const Vector3 & point) { return ProjectOntoField(field, point, unit); };
+}
+
+FindNearest
+NearestOnMesh(const itk::TriangleTree & tree)
+{
+  return [&tree](const Vector3 & point) {
+    FieldProjection projection;
+    const auto closest = tree.FindClosestPoint(point);
+    if (closest.triangle == itk::TriangleTree::None)
+    {
+      projection.distance = std::numeric_limits<double>::infinity();
+      return projection;
+    }
+    const auto & points = tree.GetSurface().GetPoints();
+    const auto & ids = tree.GetSurface().GetTriangles()[closest.triangle];
+    const Vector3 normal = AreaVector({ ToVector(points[ids[0]]), ToVector(points[ids[1]]), ToVector(points[ids[2]]) });
+    const double length = Length(normal);
+    projection.point = closest.point;
+    projection.distance = std::sqrt(closest.squaredDistance);
+    projection.isResolved = true;
+    if (length > 0.0)
+    {
+      projection.normal = { normal[0] / length, normal[1] / length, normal[2] / length };
+    }
+    return projection;
+  };
+}
 
 SurfaceErrors
 ComputeSurfaceErrors(const itk::TriangleSurface & surface,
-                     const ReferenceField & field,
+                     const FindNearest & findNearest,
                      const SurfaceErrorSettings & settings)
 {
   auto triangles = SelectTriangles(surface, settings);
   const auto pointAreas = SumPointAreas(triangles, surface.GetNumberOfPoints());
-  const auto pointProjections = ProjectPoints(surface, pointAreas, field, settings.unit);
-  JudgeTriangles(triangles, field, settings.unit);
+  const auto pointProjections = ProjectPoints(surface, pointAreas, findNearest);
+  JudgeTriangles(triangles, findNearest);
+  double unresolvedArea = 0.0;
+  auto distances = CollectDistances(triangles, pointProjections, settings.unit, unresolvedArea);
+  if (distances.empty())
+  {
+    return SurfaceErrors();
+  }
 
   SurfaceErrors errors;
+  SummariseDistances(distances, errors);
   errors.triangles = triangles.size();
+  errors.unresolvedFraction = unresolvedArea / errors.area;
   double poor = 0.0;
   for (const JudgedTriangle & triangle : triangles)
   {
-    errors.area += triangle.area;
     errors.meanQuality += triangle.quality;
     errors.facetNormalError += triangle.facetNormalError * triangle.area;
     poor += triangle.quality < itk::TriangleSurfaceQuality::Poor ? 1.0 : 0.0;
   }
-  if (!(errors.area > 0.0))
-  {
-    return SurfaceErrors();
-  }
   errors.facetNormalError /= errors.area;
   errors.meanQuality /= static_cast<double>(errors.triangles);
   errors.poorFraction = poor / static_cast<double>(errors.triangles);
-  SummariseDistances(triangles, pointAreas, pointProjections, settings.unit, errors);
   errors.vertexNormalError = MeanVertexNormalError(surface, pointAreas, pointProjections, errors.area);
   errors.area /= settings.unit * settings.unit;
   return errors;
+}
+
+SurfaceErrors
+ComputePointDistances(const itk::TriangleSurface & surface,
+                      const FindNearest & findNearest,
+                      const SurfaceErrorSettings & settings)
+{
+  const auto pointAreas = SumPointAreas(SelectTriangles(surface, settings), surface.GetNumberOfPoints());
+  const auto projections = ProjectPoints(surface, pointAreas, findNearest);
+  std::vector<Distance> distances;
+  for (std::size_t point = 0; point < pointAreas.size(); ++point)
+  {
+    if (pointAreas[point] > 0.0)
+    {
+      distances.emplace_back(projections[point].distance / settings.unit, pointAreas[point]);
+    }
+  }
+  SurfaceErrors errors;
+  if (!distances.empty())
+  {
+    SummariseDistances(distances, errors);
+    errors.area /= settings.unit * settings.unit;
+  }
+  return errors;
+}
+
+double
+ComputeNormalPenalty(const itk::TriangleSurface & surface, const itk::TriangleSurface & truth)
+{
+  if (surface.GetTriangles().empty() || truth.GetTriangles().empty())
+  {
+    return 0.0;
+  }
+  const auto points = itk::TriangleSurface::New(); // those of the truth, each a triangle of one point
+  points->Graft(&truth);
+  points->RemoveUnusedPoints();
+  const auto trueNormals = SumNormals(*points);
+  points->GetTriangles().clear();
+  for (std::uint32_t id = 0; id < points->GetNumberOfPoints(); ++id)
+  {
+    points->GetTriangles().push_back({ id, id, id });
+  }
+  const itk::TriangleTree tree(*points);
+  const auto normals = SumNormals(surface);
+  std::vector<double> penalties(normals.size());
+  itk::ForEachInBlocks(normals.size(), BlockSize, [&](itk::SizeValueType point) {
+    const auto nearest = tree.FindClosestPoint(ToVector(surface.GetPoints()[point])).triangle;
+    const double product = Length(normals[point]) * Length(trueNormals[nearest]);
+    const double cosine = product > 0.0 ? Dot(normals[point], trueNormals[nearest]) / product : 0.0;
+    penalties[point] = 1.0 - std::clamp(cosine, 0.0, 1.0);
+  });
+  return std::accumulate(penalties.begin(), penalties.end(), 0.0) / static_cast<double>(penalties.size());
 }
 
 } // namespace rhombic

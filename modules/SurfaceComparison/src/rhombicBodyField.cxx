@@ -1,0 +1,123 @@
+#include "rhombicBodyField.h"
+
+#include "detail/itkPositionArithmetic.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rhombic
+{
+
+using itk::Dot;
+using itk::Length;
+using itk::Subtract;
+
+namespace
+{
+
+/** How far a point is outside a limb, and the gradient of that. */
+double
+DistanceTo(const Limb & limb, const Vector3 & point, Vector3 & gradient)
+{
+  const Vector3 axis = Subtract(limb.end, limb.begin);
+  const double growth = limb.radiusAtEnd - limb.radiusAtBegin;
+  const double share = Dot(Subtract(point, limb.begin), axis) / Dot(axis, axis);
+  const double t = std::clamp(share, 0.0, 1.0);
+  Vector3 d;
+  for (unsigned int i = 0; i < 3; ++i)
+  {
+    d[i] = point[i] - limb.begin[i] - t * axis[i];
+  }
+  const double length = Length(d);
+  for (unsigned int i = 0; i < 3; ++i)
+  {
+    gradient[i] = (length > 0.0 ? d[i] / length : 0.0) - (t == share ? growth * axis[i] / Dot(axis, axis) : 0.0);
+  }
+  return length - (limb.radiusAtBegin + t * growth);
+}
+
+} // namespace
+
+BodyField::BodyField(std::vector<Limb> limbs, double sharpness)
+  : m_Limbs(std::move(limbs))
+  , m_Sharpness(sharpness)
+{}
+
+double
+BodyField::Evaluate(const Vector3 & point, Vector3 & gradient) const
+{
+  std::vector<double> distances(m_Limbs.size());
+  std::vector<Vector3> gradients(m_Limbs.size());
+  std::transform(
+    m_Limbs.begin(), m_Limbs.end(), gradients.begin(), distances.begin(), [&](const Limb & limb, Vector3 & g) {
+      return DistanceTo(limb, point, g);
+    });
+  const double nearest = *std::min_element(distances.begin(), distances.end());
+  double sum = 0.0;
+  gradient = {};
+  for (std::size_t n = 0; n < distances.size(); ++n)
+  {
+    const double weight = std::exp(m_Sharpness * (nearest - distances[n]));
+    sum += weight;
+    for (unsigned int i = 0; i < 3; ++i)
+    {
+      gradient[i] -= weight * gradients[n][i];
+    }
+  }
+  for (double & component : gradient)
+  {
+    component /= sum;
+  }
+  return std::log(sum) / m_Sharpness - nearest;
+}
+
+BodyField
+MakeHand()
+{
+  constexpr double fourth = 0.09;
+  constexpr double fifth = 0.30; // a gap of 0.05: 0.21 less the radii, more by about 0.01 for blending
+  return BodyField({ { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.40 }, 0.19, 0.20 },       // wrist
+                     { { -0.08, 0.0, 0.42 }, { -0.27, 0.0, 0.98 }, 0.16, 0.105 }, // palm
+                     { { -0.02, 0.0, 0.42 }, { -0.09, 0.0, 1.00 }, 0.16, 0.105 },
+                     { { 0.04, 0.0, 0.42 }, { fourth, 0.0, 0.97 }, 0.16, 0.10 },
+                     { { 0.10, 0.0, 0.42 }, { 0.24, 0.0, 0.86 }, 0.16, 0.10 },
+                     { { -0.28, 0.0, 0.98 }, { -0.40, 0.03, 1.66 }, 0.09, 0.075 },  // second finger
+                     { { -0.09, 0.0, 1.00 }, { -0.12, -0.04, 1.90 }, 0.09, 0.075 }, // third
+                     { { fourth, 0.0, 0.97 }, { fourth, 0.0, 1.75 }, 0.08, 0.08 },  // fourth
+                     { { 0.26, 0.0, 0.86 }, { fifth, 0.0, 1.00 }, 0.09, 0.07 },     // fifth
+                     { { fifth, 0.0, 1.00 }, { fifth, 0.0, 1.50 }, 0.07, 0.07 },
+                     { { -0.12, -0.05, 0.45 }, { -0.42, -0.18, 0.82 }, 0.14, 0.10 }, // thumb
+                     { { -0.42, -0.18, 0.82 }, { -0.55, -0.26, 1.12 }, 0.10, 0.08 } },
+                   60.0);
+}
+
+std::vector<Vector3>
+PointsInGapOfHand()
+{
+  constexpr double middle = 0.2;
+  std::vector<Vector3> points;
+  for (double z = 1.1; z < 1.45; z += 0.01)
+  {
+    points.push_back({ middle, 0.0, z });
+  }
+  return points;
+}
+
+BodyField
+MakeQuadruped()
+{
+  return BodyField({ { { -0.45, 0.0, 0.74 }, { 0.35, 0.0, 0.78 }, 0.31, 0.27 }, // trunk of the body
+                     { { 0.35, 0.0, 0.82 }, { 0.68, 0.0, 0.96 }, 0.22, 0.19 },  // head
+                     { { 0.80, 0.0, 0.92 }, { 0.98, 0.0, 0.62 }, 0.11, 0.07 },  // trunk
+                     { { 0.98, 0.0, 0.62 }, { 1.02, 0.0, 0.30 }, 0.07, 0.05 },
+                     { { 0.58, 0.16, 1.02 }, { 0.46, 0.40, 0.90 }, 0.09, 0.08 }, // ears
+                     { { 0.58, -0.16, 1.02 }, { 0.46, -0.40, 0.90 }, 0.09, 0.08 },
+                     { { 0.32, 0.17, 0.62 }, { 0.34, 0.18, 0.10 }, 0.13, 0.10 }, // legs
+                     { { 0.32, -0.17, 0.62 }, { 0.34, -0.18, 0.10 }, 0.13, 0.10 },
+                     { { -0.50, 0.17, 0.62 }, { -0.50, 0.18, 0.10 }, 0.14, 0.10 },
+                     { { -0.50, -0.17, 0.62 }, { -0.50, -0.18, 0.10 }, 0.14, 0.10 },
+                     { { -0.74, 0.0, 0.84 }, { -0.90, 0.0, 0.48 }, 0.05, 0.03 } }, // tail
+                   40.0);
+}
+
+} // namespace rhombic

@@ -1,0 +1,261 @@
+#include "rhombicComparedMethod.h"
+
+#include "detail/itkPositionArithmetic.h"
+
+#include "rhombicCartesianSurfaces.h"
+#include "rhombicExtractSurface.h"
+#include "rhombicFailure.h"
+#include "rhombicFieldProjection.h"
+#include "rhombicFieldSampling.h"
+#include "rhombicVTKIsosurface.h"
+#include "rhombicWording.h"
+
+#include <algorithm>
+#include <map>
+
+namespace rhombic
+{
+namespace
+{
+
+using VolumeType = itk::Image<float, 3>;
+using LatticeType = itk::FCCImage<float>;
+
+/** The number of steps of a length that cover each side of a box. */
+std::array<int, 3>
+StepsAlong(const FieldBox & box, double step)
+{
+  std::array<int, 3> steps;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    steps[axis] = static_cast<int>(std::ceil((box.upper[axis] - box.lower[axis]) / step - 1e-6));
+  }
+  return steps;
+}
+
+template <typename TImage>
+typename TImage::Pointer
+Sample(const ReferenceField & field,
+       const FieldBox & box,
+       double spacing,
+       const std::array<itk::SizeValueType, 3> & size)
+{
+  const auto image = TImage::New();
+  image->SetRegions(typename TImage::SizeType{ { size[0], size[1], size[2] } });
+  image->SetSpacing(typename TImage::SpacingType(spacing));
+  image->SetOrigin(box.lower.data());
+  SampleField(field, 1.0, image.GetPointer());
+  return image;
+}
+
+ComparedMethod
+OnCartesian(const std::string & name, itk::TriangleSurface::Pointer (*extract)(const VolumeType *))
+{
+  return { name, "Cartesian", [extract](const ReferenceField & field, const FieldBox & box, double density) {
+            const VolumeType::Pointer volume = SampleBox(field, box, std::cbrt(1.0 / density));
+            return PreparedMethod{ volume->GetBufferedRegion().GetNumberOfPixels(),
+                                   [volume, extract] { return extract(volume); } };
+          } };
+}
+
+ComparedMethod
+OnFCC(ExtractionMode mode)
+{
+  return { NameOf(mode), "FCC", [mode](const ReferenceField & field, const FieldBox & box, double density) {
+            const double spacing = std::cbrt(1.0 / (itk::FCCLattice::CellVolume * density));
+            const auto steps = StepsAlong(box, spacing);
+            const LatticeType::Pointer lattice =
+              Sample<LatticeType>(field,
+                                  box,
+                                  spacing,
+                                  { static_cast<itk::SizeValueType>(steps[0] + 1) / 2 + 1,
+                                    static_cast<itk::SizeValueType>(steps[1]) + 1,
+                                    static_cast<itk::SizeValueType>(steps[2]) + 1 });
+            return PreparedMethod{ lattice->GetBufferedRegion().GetNumberOfPixels(),
+                                   [lattice, mode] { return ExtractSurface(lattice.GetPointer(), 0.0, mode, true); } };
+          } };
+}
+
+PreparedMethod
+PrepareBCC(const ReferenceField & field, const FieldBox & box, double density)
+{
+  constexpr double cellVolume = 4.0; // of a site, in units of the spacing
+  const double spacing = std::cbrt(1.0 / (cellVolume * density));
+  const auto steps = StepsAlong(box, spacing);
+  auto grid = std::make_shared<TetrahedraGrid>(
+    SampleOnBCC(field, box.lower, { steps[0] + 1, steps[1] + 1, steps[2] + 1 }, spacing));
+  const auto samples = std::count_if(grid->values.begin(), grid->values.end(), [](float v) { return !std::isnan(v); });
+  return { static_cast<itk::SizeValueType>(samples), [grid] { return MarchTetrahedra(*grid); } };
+}
+
+itk::TriangleSurface::Pointer
+RunVTK(VTKExtractor extractor, const VolumeType * volume)
+{
+  return PolyDataToSurface(ExtractWithVTK(extractor, ShareWithVTK(volume), 0.0, true));
+}
+
+itk::TriangleSurface::Pointer
+RunFlyingEdges(const VolumeType * volume)
+{
+  return RunVTK(VTKExtractor::FlyingEdges, volume);
+}
+
+itk::TriangleSurface::Pointer
+RunTetrahedra(const VolumeType * volume)
+{
+  return MarchTetrahedra(CartesianTetrahedra(volume));
+}
+
+template <itk::TriangleSurface::Pointer (*TExtract)(const VolumeType *)>
+itk::TriangleSurface::Pointer
+WithCubicPoints(const VolumeType * volume)
+{
+  auto surface = TExtract(volume);
+  MovePointsToCubics(volume, *surface);
+  return surface;
+}
+
+} // namespace
+
+VolumeType::Pointer
+SampleBox(const ReferenceField & field, const FieldBox & box, double spacing)
+{
+  const auto steps = StepsAlong(box, spacing);
+  return Sample<VolumeType>(field,
+                            box,
+                            spacing,
+                            { static_cast<itk::SizeValueType>(steps[0]) + 1,
+                              static_cast<itk::SizeValueType>(steps[1]) + 1,
+                              static_cast<itk::SizeValueType>(steps[2]) + 1 });
+}
+
+const std::vector<ComparedMethod> &
+GetComparedMethods()
+{
+  static const std::vector<ComparedMethod> methods{
+    OnCartesian("cuberille", ExtractCuberille),
+    OnCartesian("marching-cubes", [](const VolumeType * v) { return RunVTK(VTKExtractor::MarchingCubes, v); }),
+    OnCartesian("flying-edges", RunFlyingEdges),
+    OnCartesian("marching-cubes-cubic", WithCubicPoints<RunFlyingEdges>),
+    OnCartesian("marching-tetrahedra", RunTetrahedra),
+    OnCartesian("marching-tetrahedra-cubic", WithCubicPoints<RunTetrahedra>),
+    { "bcc-tetrahedra", "BCC", PrepareBCC },
+    OnFCC(ExtractionMode::Parallelepipeds),
+    OnFCC(ExtractionMode::Tetrahedra),
+    OnFCC(ExtractionMode::Octahedra),
+    OnFCC(ExtractionMode::Fine),
+    OnFCC(ExtractionMode::Lean)
+  };
+  return methods;
+}
+
+const ComparedMethod &
+GetComparedMethod(const std::string & name)
+{
+  std::vector<std::string> names;
+  for (const ComparedMethod & method : GetComparedMethods())
+  {
+    if (method.name == name)
+    {
+      return method;
+    }
+    names.push_back(method.name);
+  }
+  throw Failure(FailureKind::Usage, DescribeUnknown("method", name, names, "use " + Enumerate(names) + "."));
+}
+
+double
+DensityOfSamples(const ComparedMethod & method, const FieldBox & box, double samples)
+{
+  class NoField : public ReferenceField
+  {
+  public:
+    double
+    Evaluate(const Vector3 &, Vector3 &) const override
+    {
+      return 0.0;
+    }
+  };
+  double volume = 1.0;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    volume *= box.upper[axis] - box.lower[axis];
+  }
+  const auto excess = [&](double density) {
+    return static_cast<double>(method.prepare(NoField(), box, density).samples) - samples;
+  };
+  constexpr unsigned int steps = 30;
+  double low = 0.3 * samples / volume; // lattices that cover a box have more samples than this
+  double high = 1.2 * samples / volume;
+  for (unsigned int step = 0; step < steps; ++step)
+  {
+    const double middle = std::sqrt(low * high);
+    (excess(middle) < 0.0 ? low : high) = middle;
+  }
+  return std::abs(excess(low)) < std::abs(excess(high)) ? low : high;
+}
+
+itk::TriangleSurface::Pointer
+MakeTrueSurface(const ReferenceField & field, const FieldBox & box, double spacing)
+{
+  const auto volume = SampleBox(field, box, spacing);
+  auto surface = RunVTK(VTKExtractor::FlyingEdges, volume);
+  surface->GetNormals().clear();
+  itk::ForEachInBlocks(surface->GetNumberOfPoints(), 256, [&](itk::SizeValueType n) {
+    auto & p = surface->GetPoints()[n];
+    const FieldProjection projection = ProjectOntoField(field, { p[0], p[1], p[2] }, spacing);
+    if (projection.isResolved && projection.distance < spacing)
+    {
+      p = { static_cast<float>(projection.point[0]),
+            static_cast<float>(projection.point[1]),
+            static_cast<float>(projection.point[2]) };
+    }
+  });
+  return surface;
+}
+
+itk::TriangleSurface::Pointer
+MakeBisectedSphere(const Vector3 & center, double radius, unsigned int bisections)
+{
+  using Triangle = itk::TriangleSurface::TriangleType;
+  std::vector<Vector3> points{ { 1, 1, 1 }, { 1, -1, -1 }, { -1, 1, -1 }, { -1, -1, 1 } };
+  std::vector<Triangle> triangles{ { 0, 1, 2 }, { 0, 3, 1 }, { 0, 2, 3 }, { 1, 3, 2 } };
+  for (unsigned int bisection = 0; bisection < bisections; ++bisection)
+  {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+      const auto [found, isNew] = middles.emplace(std::minmax(a, b), static_cast<std::uint32_t>(points.size()));
+      if (isNew)
+      {
+        const double scale =
+          std::sqrt(3.0) /
+          itk::Length(itk::Subtract(points[a], Vector3{ -points[b][0], -points[b][1], -points[b][2] }));
+        points.push_back({ scale * (points[a][0] + points[b][0]),
+                           scale * (points[a][1] + points[b][1]),
+                           scale * (points[a][2] + points[b][2]) });
+      }
+      return found->second;
+    };
+    std::vector<Triangle> parts;
+    for (const auto & [a, b, c] : triangles)
+    {
+      const std::uint32_t ab = middle(a, b);
+      const std::uint32_t bc = middle(b, c);
+      const std::uint32_t ca = middle(c, a);
+      parts.insert(parts.end(), { { a, ab, ca }, { b, bc, ab }, { c, ca, bc }, { ab, bc, ca } });
+    }
+    triangles = parts;
+  }
+  auto surface = itk::TriangleSurface::New();
+  const double scale = radius / std::sqrt(3.0);
+  for (const Vector3 & p : points)
+  {
+    surface->GetPoints().push_back({ static_cast<float>(center[0] + scale * p[0]),
+                                     static_cast<float>(center[1] + scale * p[1]),
+                                     static_cast<float>(center[2] + scale * p[2]) });
+  }
+  surface->GetTriangles().assign(triangles.begin(), triangles.end());
+  return surface;
+}
+
+} // namespace rhombic
