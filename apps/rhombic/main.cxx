@@ -36,6 +36,7 @@ constexpr Command commands[] = {
   { "compare-pictures", "Whether two pictures are the same, within a tolerance", AddComparePicturesCommand },
   { "audit", "Whether a surface file is closed, oriented and free of defects", AddAuditCommand },
   { "resample", "A scan on the face-centered cubic lattice, and back", AddResampleCommand },
+  { "compare", "Lattices and methods compared, as in the paper: tables, plots, pictures", AddCompareCommand },
   { "phantom", "The analytic test scan, with organs of known volume", AddPhantomCommand },
   { "doctor", "What works on this machine", AddDoctorCommand },
 };

@@ -44,6 +44,8 @@ AddResampleCommand(CLI::App & parser);
 CommandRun
 AddPhantomCommand(CLI::App & parser);
 CommandRun
+AddCompareCommand(CLI::App & parser);
+CommandRun
 AddComparePicturesCommand(CLI::App & parser);
 CommandRun
 AddDoctorCommand(CLI::App & parser);

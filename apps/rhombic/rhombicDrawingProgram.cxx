@@ -18,7 +18,7 @@ namespace rhombic
 namespace
 {
 
-constexpr const char * drawingCommands[] = { "render", "compare-pictures", "doctor" };
+constexpr const char * drawingCommands[] = { "render", "compare", "compare-pictures", "doctor" };
 
 /** Whether a command draws, or audits a VTP file, which VTK reads. A word may also be the value of an option: the
  * drawing program has the other commands, too. */
@@ -75,6 +75,12 @@ CommandRun
 AddRenderCommand(CLI::App &)
 {
   return {}; // for the list of commands only
+}
+
+CommandRun
+AddCompareCommand(CLI::App &)
+{
+  return {};
 }
 
 CommandRun

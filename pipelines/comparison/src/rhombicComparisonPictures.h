@@ -1,0 +1,24 @@
+#ifndef rhombicComparisonPictures_h
+#define rhombicComparisonPictures_h
+
+#include "rhombicDrawing.h"
+#include "rhombicExperimentRun.h"
+
+namespace rhombic
+{
+
+/** The true surface and the rows that are shown, side by side, from each view; with \a showsErrors coloured by the
+ * distance of each triangle's centroid from the true surface. */
+Picture
+DrawSurfaces(const ExperimentRun & run, bool showsErrors);
+
+constexpr int PlotWidth = 1150;
+constexpr int PlotHeight = 470;
+
+/** Mean distance against samples, and against triangles, with a line for each method. */
+void
+DrawPlots(const ExperimentResult & result, Drawing & drawing);
+
+} // namespace rhombic
+
+#endif

@@ -1,0 +1,320 @@
+#include "rhombicExperimentRun.h"
+
+#include "rhombicBandLimitedField.h"
+#include "rhombicBodyField.h"
+#include "rhombicComparedMethod.h"
+#include "rhombicFailure.h"
+#include "rhombicInterpolatedField.h"
+#include "rhombicShapeFields.h"
+#include "rhombicSilhouetteField.h"
+#include "rhombicSurfaceErrors.h"
+#include "rhombicWording.h"
+
+#include "itkMultiThreaderBase.h"
+#include "itkTriangleSurfaceTopology.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <random>
+
+namespace rhombic
+{
+namespace
+{
+
+/** A field, where it is sampled, and its true surface. */
+struct FieldCase
+{
+  std::unique_ptr<ReferenceField> field;
+  FieldBox box{};
+  double spacing = 1.0;                ///< h, or an estimate of it
+  bool isClosed = true;                ///< whether the surface lies within the box
+  itk::TriangleSurface::Pointer truth; ///< if there is a better one than MakeTrueSurface()
+  std::vector<Vector3> gap;            ///< points between close parts of an object
+  bool isObject = false;               ///< whether it counts in place of the field's surface
+};
+
+/** A sphere or torus that nearly fills a cube of \a size samples at spacing 1. The seed determines position and axis.
+ */
+void
+AddShape(bool isSphere, unsigned int size, std::uint64_t seed, FieldCase & made)
+{
+  constexpr unsigned int bisections = 6; // sides about half of h
+  std::mt19937_64 random(seed);
+  const auto uniform = [&random] { return static_cast<double>(random() >> 11U) * 0x1p-53 - 0.5; };
+  const double half = (size - 1) / 2.0;
+  const Vector3 center{ half + uniform(), half + uniform(), half + uniform() };
+  if (isSphere)
+  {
+    made.field = std::make_unique<SphereField>(center, 0.325 * size);
+    made.truth = MakeBisectedSphere(center, 0.325 * size, bisections);
+    return;
+  }
+  const Vector3 axis{ uniform(), uniform(), uniform() };
+  made.field = std::make_unique<TorusField>(center, axis, 0.27 * size, 0.125 * size);
+}
+
+/** The seed shifts the object against the lattice, by up to about its spacing. */
+FieldCase
+MakeSilhouettes(const FieldRequest & request, std::uint64_t seed)
+{
+  constexpr double spacingOfTruth = 0.012;
+  constexpr double leastMargin = 0.03;
+  constexpr double shift = 0.08;
+  std::mt19937_64 random(seed);
+  if (request.object != "hand" && request.object != "quadruped")
+  {
+    throw Failure(FailureKind::Unreadable, "Silhouettes need an object: hand or quadruped.");
+  }
+  FieldCase made;
+  made.isObject = true;
+  made.truth = MakeTrueSurface(request.object == "hand" ? MakeHand() : MakeQuadruped(),
+                               { { -1.3, -0.7, -0.4 }, { 1.3, 0.7, 2.2 } },
+                               spacingOfTruth);
+  made.field = std::make_unique<SilhouetteField>(*made.truth, request.pixels);
+  made.gap = request.object == "hand" ? PointsInGapOfHand() : std::vector<Vector3>();
+  const auto bounds = made.truth->GetBounds();
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    const double before = leastMargin + shift * (static_cast<double>(random() >> 11U) * 0x1p-53);
+    made.box.lower[axis] = bounds[2 * axis] - before;
+    made.box.upper[axis] = bounds[2 * axis + 1] + 2.0 * leastMargin + shift - before;
+  }
+  return made;
+}
+
+FieldCase
+MakeFieldCase(const FieldRequest & request, std::uint64_t seed)
+{
+  if (request.kind == "silhouettes")
+  {
+    return MakeSilhouettes(request, seed);
+  }
+  FieldCase made;
+  const double edge = request.size - 1.0;
+  made.box = { { 0.0, 0.0, 0.0 }, { edge, edge, edge } };
+  made.isClosed = request.kind == "sphere" || request.kind == "torus";
+  if (made.isClosed)
+  {
+    AddShape(request.kind == "sphere", request.size, seed, made);
+  }
+  else if (request.kind == "gyroid")
+  {
+    made.field = std::make_unique<GyroidField>(edge / 3.0);
+  }
+  else if (request.kind == "waves")
+  {
+    made.field = std::make_unique<BandLimitedField>(request.bandLimit, seed);
+  }
+  else if (request.kind == "marschner-lobb" || request.kind == "corner")
+  {
+    made.box = { { -1.0, -1.0, -1.0 }, { 1.0, 1.0, 1.0 } };
+    made.spacing = 2.0 / edge;
+    made.field = request.kind == "corner" ? std::unique_ptr<ReferenceField>(std::make_unique<CornerField>(0.513))
+                                          : std::make_unique<MarschnerLobbField>();
+  }
+  else
+  {
+    throw Failure(FailureKind::Unreadable,
+                  DescribeUnknown("field",
+                                  request.kind,
+                                  { "sphere", "torus", "gyroid", "waves", "marschner-lobb", "corner", "silhouettes" },
+                                  "see pipelines/comparison/README.md."));
+  }
+  return made;
+}
+
+/** What a row has in common with all others of its field. */
+struct Judge
+{
+  const itk::TriangleSurface & truth;
+  FindNearest findNearest;
+  SurfaceErrorSettings settings;
+  std::vector<Vector3> gap;
+};
+
+void
+AddTopology(const itk::TriangleSurface & surface, Figures & figures)
+{
+  const auto topology = itk::ComputeTopology(surface);
+  figures["parts"] = static_cast<double>(topology.components);
+  figures["genus"] = static_cast<double>(topology.genus);
+  figures["open"] = static_cast<double>(topology.boundaryEdges);
+  figures["flaws"] =
+    static_cast<double>(topology.nonManifoldEdges + topology.nonManifoldPoints + topology.degenerateTriangles);
+}
+
+/** The percentage of points that are outside a closed surface. */
+double
+PercentOutside(const std::vector<Vector3> & points, const itk::TriangleTree & tree)
+{
+  const auto isOutside = [&tree](const Vector3 & p) {
+    int turns = 0;
+    tree.VisitCrossings({ static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]) },
+                        [&turns](std::uint32_t, int turn) { turns += turn; });
+    return turns == 0;
+  };
+  return 100.0 * static_cast<double>(std::count_if(points.begin(), points.end(), isOutside)) /
+         static_cast<double>(points.size());
+}
+
+Figures
+JudgeSurface(const itk::TriangleSurface & surface, const Judge & judge)
+{
+  const SurfaceErrors errors = ComputeSurfaceErrors(surface, judge.findNearest, judge.settings);
+  const itk::TriangleTree tree(surface);
+  const SurfaceErrors back = ComputePointDistances(judge.truth, NearestOnMesh(tree), judge.settings);
+  Figures figures{ { "triangles", static_cast<double>(surface.GetNumberOfTriangles()) },
+                   { "q", ComputeNormalPenalty(surface, judge.truth) },
+                   { "mean", errors.meanDistance },
+                   { "rms", errors.rmsDistance },
+                   { "p99", errors.distance99 },
+                   { "max", errors.maximumDistance },
+                   { "back-mean", back.meanDistance },
+                   { "back-rms", back.rmsDistance },
+                   { "back-max", back.maximumDistance },
+                   { "facet", errors.facetNormalError },
+                   { "quality", errors.meanQuality },
+                   { "poor", 100.0 * errors.poorFraction } };
+  if (!judge.gap.empty())
+  {
+    figures["gap"] = PercentOutside(judge.gap, tree);
+  }
+  if (!std::isnan(errors.vertexNormalError))
+  {
+    figures["vertex"] = errors.vertexNormalError;
+  }
+  AddTopology(surface, figures);
+  return figures;
+}
+
+/** Extracts each row's surface in turn, again and again, so that other work on the machine affects all alike. */
+std::vector<double>
+MedianTimes(const std::vector<PreparedMethod> & rows, unsigned int repeats)
+{
+  using Clock = std::chrono::steady_clock;
+  std::vector<std::vector<double>> times(rows.size());
+  const auto threads = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
+  itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(1); // VTK's have one, too: see RunComparison()
+  for (unsigned int repeat = 0; repeat < repeats; ++repeat)
+  {
+    for (std::size_t row = 0; row < rows.size(); ++row)
+    {
+      const auto begin = Clock::now();
+      rows[row].extract();
+      times[row].push_back(std::chrono::duration<double>(Clock::now() - begin).count());
+    }
+  }
+  itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
+  std::vector<double> medians;
+  for (std::vector<double> & ofRow : times)
+  {
+    std::nth_element(ofRow.begin(), ofRow.begin() + static_cast<std::ptrdiff_t>(repeats / 2), ofRow.end());
+    medians.push_back(ofRow[repeats / 2]);
+  }
+  return medians;
+}
+
+/** Adds the figures of one seed to the sum of those before; of maxima the largest is kept. */
+void
+Accumulate(Figures & sum, const Figures & more)
+{
+  for (const auto & [name, value] : more)
+  {
+    const bool isMaximum = name == "max" || name == "back-max";
+    sum[name] = isMaximum ? std::max(sum[name], value) : sum[name] + value;
+  }
+}
+
+double
+DensityOf(const ComparedRow & row, const FieldCase & fieldCase)
+{
+  return row.samples > 0.0 ? DensityOfSamples(GetComparedMethod(row.method), fieldCase.box, row.samples)
+                           : row.density / std::pow(fieldCase.spacing, 3.0);
+}
+
+SurfaceErrorSettings
+JudgedBox(const FieldCase & fieldCase, double spacing)
+{
+  constexpr double margin = 3.0; // h from the border, where surfaces end
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  SurfaceErrorSettings settings{ { -infinity, -infinity, -infinity }, { infinity, infinity, infinity }, spacing };
+  for (unsigned int axis = 0; axis < 3 && !fieldCase.isClosed; ++axis)
+  {
+    settings.lower[axis] = fieldCase.box.lower[axis] + margin * spacing;
+    settings.upper[axis] = fieldCase.box.upper[axis] - margin * spacing;
+  }
+  return settings;
+}
+
+/** Runs the rows on the field of one seed, and adds their figures to the sums. */
+void
+RunSeed(const Experiment & experiment, std::uint64_t seed, unsigned int repeats, ExperimentRun & run)
+{
+  constexpr double truthPerSpacing = 3.0;
+  const FieldCase fieldCase = MakeFieldCase(experiment.field, seed);
+  const double spacing = std::cbrt(1.0 / DensityOf(experiment.rows.front(), fieldCase));
+  const auto truth =
+    fieldCase.truth ? fieldCase.truth : MakeTrueSurface(*fieldCase.field, fieldCase.box, spacing / truthPerSpacing);
+  const itk::TriangleTree tree(*truth);
+  const Judge judge{ *truth,
+                     fieldCase.isObject ? NearestOnMesh(tree) : NearestOnField(*fieldCase.field, spacing),
+                     JudgedBox(fieldCase, spacing),
+                     fieldCase.gap };
+  const InterpolatedField resampled(SampleBox(*fieldCase.field, fieldCase.box, spacing));
+
+  std::vector<PreparedMethod> prepared;
+  for (const ComparedRow & row : experiment.rows)
+  {
+    const ReferenceField & field = row.isResampled ? static_cast<const ReferenceField &>(resampled) : *fieldCase.field;
+    prepared.push_back(GetComparedMethod(row.method).prepare(field, fieldCase.box, DensityOf(row, fieldCase)));
+  }
+  const auto seconds = MedianTimes(prepared, repeats);
+  for (std::size_t row = 0; row < prepared.size(); ++row)
+  {
+    const auto surface = prepared[row].extract();
+    Figures figures = JudgeSurface(*surface, judge);
+    figures["samples"] = static_cast<double>(prepared[row].samples);
+    figures["seconds"] = seconds[row];
+    Accumulate(run.result.rows[row], figures);
+    if (!run.truth)
+    {
+      run.surfaces.push_back(surface);
+    }
+  }
+  if (!run.truth)
+  {
+    run.truth = truth;
+    run.result.spacing = spacing;
+    run.result.truth["triangles"] = static_cast<double>(truth->GetNumberOfTriangles());
+    AddTopology(*truth, run.result.truth);
+  }
+}
+
+} // namespace
+
+ExperimentRun
+RunExperiment(const Experiment & experiment, unsigned int repeats, const Events & events)
+{
+  ExperimentRun run;
+  run.result.experiment = experiment;
+  run.result.rows.resize(experiment.rows.size());
+  for (unsigned int seed = 1; seed <= experiment.seeds; ++seed)
+  {
+    events.Progress(experiment.name, (seed - 1.0) / experiment.seeds);
+    RunSeed(experiment, seed, repeats, run);
+  }
+  for (Figures & figures : run.result.rows)
+  {
+    for (auto & [name, value] : figures)
+    {
+      value /= name == "max" || name == "back-max" ? 1.0 : experiment.seeds;
+    }
+  }
+  return run;
+}
+
+} // namespace rhombic
