@@ -24,6 +24,7 @@ struct PictureMetadata
   std::string software;       ///< the program and its version
   std::string commandLine;    ///< the command that made the picture
   double pixelsPerInch = 0.0; ///< for printing; 0: not written
+  int jpegQuality = 95;       ///< 1 to 100
 };
 
 /** Throws Failure(Usage) where WritePicture() would throw it because of the extension, for a picture of 3 or 4
@@ -31,7 +32,7 @@ struct PictureMetadata
 void
 CheckPicturePath(const std::filesystem::path & path, int channels = 3);
 
-/** Writes a picture in the format of the path's extension: .png, .jpg, .jpeg (quality 95, no alpha), .tif, .tiff, or
+/** Writes a picture in the format of the path's extension: .png, .jpg, .jpeg (no alpha), .tif, .tiff, or
  * .exr (linear light, half floats, colours multiplied by alpha). */
 void
 WritePicture(const Picture & picture, const std::filesystem::path & path, const PictureMetadata & metadata);

@@ -18,7 +18,7 @@ KnownFormats()
   using U = PictureUse;
   constexpr auto bytes = OIIO::TypeDesc::UINT8;
   static const PictureFormat png{ "png", bytes, "zip", false, true, false, true, { U::Single } };
-  static const PictureFormat jpeg{ "jpeg", bytes, "jpeg:95", false, false, false, false, { U::Single } };
+  static const PictureFormat jpeg{ "jpeg", bytes, "jpeg", false, false, false, false, { U::Single } };
   static const PictureFormat tiff{ "tiff", bytes, "zip", false, true, true, true, { U::Single, U::Pages } };
   static const PictureFormat exr{ "openexr", OIIO::TypeDesc::HALF, "zip", true, true, false, true, { U::Single } };
   static const PictureFormat gif{ "gif", bytes, "none", false, false, true, false, { U::Animation } };

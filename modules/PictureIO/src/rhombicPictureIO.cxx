@@ -80,6 +80,7 @@ MakeSpec(const Picture & picture, const PictureFormat & format, const PictureMet
   spec.attribute("Compression", format.compression);
   if (format.name == "jpeg")
   {
+    spec.attribute("Compression", "jpeg:" + std::to_string(metadata.jpegQuality));
     spec.attribute("jpeg:subsampling", "4:4:4"); // keeps the colour of thin structures
   }
   if (metadata.pixelsPerInch > 0.0)
