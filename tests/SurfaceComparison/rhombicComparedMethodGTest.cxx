@@ -7,6 +7,7 @@
 #include "rhombicShapeFields.h"
 #include "rhombicSilhouetteField.h"
 #include "rhombicSurfaceErrors.h"
+#include "rhombicSurfaceToPolyData.h"
 #include "rhombicVTKIsosurface.h"
 
 #include "detail/itkPositionArithmetic.h"
@@ -14,6 +15,8 @@
 #include "itkTriangleSurfaceTopology.h"
 
 #include <gtest/gtest.h>
+#include <vtkHausdorffDistancePointSetFilter.h>
+#include <vtkNew.h>
 
 #include <cmath>
 #include <random>
@@ -93,7 +96,7 @@ TEST(SurfaceErrors, OfConcentricSpheres)
     EXPECT_NEAR(errors.maximumDistance, 0.25, 3e-3);
     EXPECT_NEAR(errors.facetNormalError, 0.0, 0.5);
   }
-  EXPECT_NEAR(ComputeNormalPenalty(*inner, *outer), 0.0, 1e-6);
+  EXPECT_NEAR(ComputeNormalPenalty(*inner, *outer, everywhere), 0.0, 1e-6);
   const itk::TriangleTree tree(*outer);
   EXPECT_NEAR(ComputePointDistances(*inner, NearestOnMesh(tree), everywhere).meanDistance, 0.25, 1e-3);
 }
@@ -111,9 +114,9 @@ TEST(SurfaceErrors, OfPlanesAtAnAngle)
     EXPECT_NEAR(errors.rmsDistance, 5.0 * sine / std::sqrt(3.0), 2e-3);
     EXPECT_NEAR(errors.maximumDistance, 5.0 * sine, 1e-5);
     EXPECT_NEAR(errors.facetNormalError, degrees, 1e-4);
-    EXPECT_NEAR(ComputeNormalPenalty(*plane, *truth), 1.0 - std::cos(degrees * pi / 180.0), 1e-6);
+    EXPECT_NEAR(ComputeNormalPenalty(*plane, *truth, everywhere), 1.0 - std::cos(degrees * pi / 180.0), 1e-6);
   }
-  EXPECT_NEAR(ComputeNormalPenalty(*MakePlane(120.0, 0.0), *truth), 1.0, 1e-12);
+  EXPECT_NEAR(ComputeNormalPenalty(*MakePlane(120.0, 0.0), *truth, everywhere), 1.0, 1e-12);
 }
 
 TEST(SurfaceErrors, OfAShiftedCube)
@@ -169,7 +172,7 @@ TEST(SurfaceErrors, NormalPenaltyTakesTheNearestPoint)
       const Vector3 b = normalOf(*truth, static_cast<std::size_t>(nearest - points.begin()));
       expected += 1.0 - std::max(0.0, itk::Dot(a, b) / (itk::Length(a) * itk::Length(b)));
     }
-    EXPECT_NEAR(ComputeNormalPenalty(*surface, *truth), expected / 60.0, 1e-9);
+    EXPECT_NEAR(ComputeNormalPenalty(*surface, *truth, everywhere), expected / 60.0, 1e-9);
   }
 }
 
@@ -322,21 +325,45 @@ TEST(BodyField, IsClosedAndHasExactGradients)
   }
 }
 
-TEST(BodyField, FingersOfTheHandHaveAGap)
+TEST(BodyField, GapBetweenFingersOfTheHandWidens)
 {
   const BodyField hand = MakeHand();
-  const auto widthOfGap = [&](double z) {
-    double width = 0.0;
-    for (double x = 0.09; x < 0.3; x += 0.001)
-    {
-      width += hand.Evaluate({ x, 0.0, z }) < 0.0 ? 0.001 : 0.0;
-    }
-    return width;
-  };
-  for (const Vector3 & point : PointsInGapOfHand())
+  const auto points = PointsInGapOfHand();
+  EXPECT_LT(points.front().width, 0.01);
+  EXPECT_NEAR(points.back().width, 0.1, 0.01);
+  for (const auto & [p, width] : points)
   {
-    EXPECT_LT(hand.Evaluate(point), -0.015);
+    for (const double side : { -1.0, 1.0 })
+    {
+      EXPECT_LT(hand.Evaluate({ p[0] + side * (0.5 * width - 1e-3), p[1], p[2] }), 0.0);
+      EXPECT_GT(hand.Evaluate({ p[0] + side * (0.5 * width + 1e-3), p[1], p[2] }), 0.0);
+    }
   }
-  EXPECT_NEAR(widthOfGap(1.3), 0.05, 0.015);
-  EXPECT_NEAR(widthOfGap(1.45), 0.05, 0.015);
+}
+
+TEST(SurfaceErrors, AreThoseOfVTK)
+{
+  // Of random spheres and tori against each other; vtkHausdorffDistancePointSetFilter has distances from points to
+  // cells.
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> coordinate(-0.3, 0.3);
+  for (unsigned int run = 0; run < 10; ++run)
+  {
+    const SphereField sphere({ 10.0 + coordinate(random), 10.0 + coordinate(random), 10.0 }, 6.0 + coordinate(random));
+    const TorusField torus({ 10.0, 10.0, 10.0 }, { coordinate(random), 0.2, coordinate(random) }, 5.0, 2.0);
+    const auto a = GetComparedMethod("flying-edges").prepare(sphere, cube, 1.0).extract();
+    const auto b = GetComparedMethod("lean").prepare(torus, cube, 1.0).extract();
+    const itk::TriangleTree treeOfA(*a);
+    const itk::TriangleTree treeOfB(*b);
+    const double ours[]{ ComputePointDistances(*a, NearestOnMesh(treeOfB), everywhere).maximumDistance,
+                         ComputePointDistances(*b, NearestOnMesh(treeOfA), everywhere).maximumDistance };
+    vtkNew<vtkHausdorffDistancePointSetFilter> filter;
+    filter->SetInputData(0, SurfaceToPolyData(a));
+    filter->SetInputData(1, SurfaceToPolyData(b));
+    filter->SetTargetDistanceMethodToPointToCell();
+    filter->Update();
+    EXPECT_NEAR(filter->GetRelativeDistance()[0], ours[0], 1e-5);
+    EXPECT_NEAR(filter->GetRelativeDistance()[1], ours[1], 1e-5);
+    EXPECT_NEAR(filter->GetHausdorffDistance(), std::max(ours[0], ours[1]), 1e-5);
+  }
 }

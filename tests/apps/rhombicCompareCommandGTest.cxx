@@ -1,6 +1,7 @@
 #include "rhombicProgram.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 using namespace rhombictest;
 
@@ -9,25 +10,14 @@ namespace
 
 const std::string experiments = RHOMBIC_SOURCE "/pipelines/comparison/paper.yaml";
 
-/** From the heading of a page's section to the next one, without its pictures. */
+/** From the heading of a page's section to its pictures or the next one. */
 std::string
 SectionOf(const std::string & page, const std::string & heading)
 {
   const auto begin = page.find("## " + heading);
-  if (begin == std::string::npos)
-  {
-    return "";
-  }
-  std::istringstream lines(page.substr(begin, page.find("\n## ", begin) - begin));
-  std::string section;
-  for (std::string line; std::getline(lines, line);)
-  {
-    if (!line.empty() && line[0] != '!')
-    {
-      section += line + '\n';
-    }
-  }
-  return section;
+  return begin == std::string::npos
+           ? ""
+           : page.substr(begin, std::min(page.find("\n![", begin), page.find("\n## ", begin)) - begin);
 }
 
 } // namespace
@@ -44,6 +34,64 @@ TEST(CompareCommand, MakesASectionOfThePageOfResults)
   EXPECT_EQ(section, SectionOf(ReadText(RHOMBIC_SOURCE "/pipelines/comparison/RESULTS.md"), heading));
   EXPECT_NE(ReadText(folder.Path() / "out/figures.csv").find("corner,1,Cartesian"), std::string::npos);
   EXPECT_NE(ReadText(folder.Path() / "out/times.csv").find("corner,1,"), std::string::npos);
+}
+
+/** \class AccuracyLimits
+ * \brief Distances and numbers of triangles relative to marching cubes on a grid with 30 % more samples. */
+struct AccuracyLimits
+{
+  std::string experiment;
+  double fine;          ///< distance
+  double lean;          ///< distance
+  double triangles;     ///< of lean
+  double quality;       ///< of lean's triangles, at least
+  double poor;          ///< of lean's triangles, in %
+  double forResampling; ///< added to both distances
+  double genus;         ///< of a closed surface; -1 for others
+};
+
+class AccuracyOfModes : public testing::TestWithParam<AccuracyLimits>
+{};
+
+INSTANTIATE_TEST_SUITE_P(CompareCommand,
+                         AccuracyOfModes,
+                         testing::Values(AccuracyLimits{ "sphere", 0.46, 0.42, 0.64, 0.91, 0.0, 0.01, 0.0 },
+                                         AccuracyLimits{ "torus", 0.47, 0.60, 0.65, 0.91, 0.0, 0.01, 1.0 },
+                                         AccuracyLimits{ "waves-25", 0.50, 0.80, 0.66, 0.89, 0.5, 0.01, -1.0 },
+                                         AccuracyLimits{ "waves-50", 0.60, 0.92, 0.75, 0.84, 2.1, 0.02, -1.0 },
+                                         AccuracyLimits{ "waves-75", 0.75, 1.04, 0.96, 0.77, 4.7, 0.05, -1.0 }));
+
+TEST_P(AccuracyOfModes, IsWithinLimits)
+{
+  const AccuracyLimits limits = GetParam();
+  const TemporaryFolder folder;
+  const Outcome outcome =
+    RunShell("rhombic compare '" RHOMBIC_SOURCE "/tests/apps/accuracy.yaml' -o out --repeats 1 --no-pictures --only " +
+               limits.experiment,
+             folder.Path());
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+  const auto rows = nlohmann::json::parse(ReadText(folder.Path() / "out/figures.json"))["experiments"][0]["rows"];
+  const auto figure = [&rows](std::size_t row, const char * name) { return rows[row]["figures"][name].get<double>(); };
+  const char * const triangles = limits.genus < 0.0 ? "judged" : "triangles";
+  for (const std::size_t fine : { 1, 3 })
+  {
+    const std::size_t lean = fine + 1;
+    const double allowance = fine == 3 ? limits.forResampling : 0.0;
+    EXPECT_LE(figure(fine, "mean"), (limits.fine + allowance) * figure(0, "mean"));
+    EXPECT_LE(figure(lean, "mean"), (limits.lean + allowance) * figure(0, "mean"));
+    EXPECT_LE(figure(lean, triangles), limits.triangles * figure(0, triangles));
+    EXPECT_GE(figure(lean, "quality"), limits.quality);
+    EXPECT_LE(figure(lean, "poor"), limits.poor);
+    for (const std::size_t row : { fine, lean })
+    {
+      if (limits.genus >= 0.0)
+      {
+        EXPECT_EQ(figure(row, "flaws") + figure(row, "open"), 0.0);
+        EXPECT_EQ(figure(row, "genus"), limits.genus);
+        EXPECT_EQ(figure(row, "parts"), 1.0);
+      }
+    }
+  }
 }
 
 TEST(CompareCommand, IsTheSameWithAnyNumberOfThreads)

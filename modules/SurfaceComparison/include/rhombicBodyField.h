@@ -38,13 +38,20 @@ private:
   double m_Sharpness;
 };
 
-/** An upright hand, 2 units high, with the palm to -y. Between the fourth and the fifth finger there is a gap of 0.05.
- */
+/** An upright hand, 2 units high, with the palm to -y. The gap between the fourth and the fifth finger widens evenly
+ * from the palm to 0.1. */
 BodyField
 MakeHand();
 
-/** Points along the middle of that gap. */
-std::vector<Vector3>
+/** A point in the middle of a gap. */
+struct GapPoint
+{
+  Vector3 point;
+  double width; ///< of the gap there
+};
+
+/** Points along that gap, from its narrow end. */
+std::vector<GapPoint>
 PointsInGapOfHand();
 
 /** A four-legged animal with ears, trunk and tail, 1.2 units high, that looks to +x. */

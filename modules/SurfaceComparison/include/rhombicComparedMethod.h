@@ -31,7 +31,8 @@ struct PreparedMethod
   std::function<itk::TriangleSurface::Pointer()> extract;
 };
 
-/** A lattice and how its surface is made. Samples cover the box, from its lower corner. */
+/** A lattice and how its surface is made. Samples cover the box, from its lower corner; of FCC and BCC every second row
+ * begins or ends up to a spacing inside. */
 struct ComparedMethod
 {
   std::string name;

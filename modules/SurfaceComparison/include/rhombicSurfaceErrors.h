@@ -71,12 +71,14 @@ ComputePointDistances(const itk::TriangleSurface & surface,
                       const SurfaceErrorSettings & settings);
 
 /** The measure Q of Y. Sahillioglu, "A marching algorithm for isosurface extraction from face-centered cubic lattices"
- * (2017): the mean over the points of \a surface of q(n . m), where n is the point's normal, m the normal of the
- * nearest point of \a truth, and q(x) = 1 - x for x > 0, otherwise 1. The printed definition of q lacks its values:
+ * (2017): the mean over the points of \a surface in the box of q(n . m), where n is the point's normal, m the normal of
+ * the nearest point of \a truth, and q(x) = 1 - x for x > 0, otherwise 1. The printed definition of q lacks its values:
  * this reading of "1 - if x > 0, if x <= 0" is continuous and between 0 and 1, as all printed figures are. Normals are
- * those of the triangles around a point, weighted by their area. 0 when a surface has no triangle. */
+ * those of the triangles around a point, weighted by their area. 0 when a surface has no triangle there. */
 double
-ComputeNormalPenalty(const itk::TriangleSurface & surface, const itk::TriangleSurface & truth);
+ComputeNormalPenalty(const itk::TriangleSurface & surface,
+                     const itk::TriangleSurface & truth,
+                     const SurfaceErrorSettings & settings);
 
 } // namespace rhombic
 

@@ -15,6 +15,10 @@ using itk::Subtract;
 namespace
 {
 
+constexpr double FourthFinger = 0.09; // x of its axis
+constexpr Vector3 FifthFinger{ 0.25, 0.0, 1.0 };
+constexpr Vector3 FifthFingertip{ 0.35, 0.0, 1.5 };
+
 /** How far a point is outside a limb, and the gradient of that. */
 double
 DistanceTo(const Limb & limb, const Vector3 & point, Vector3 & gradient)
@@ -74,31 +78,43 @@ BodyField::Evaluate(const Vector3 & point, Vector3 & gradient) const
 BodyField
 MakeHand()
 {
-  constexpr double fourth = 0.09;
-  constexpr double fifth = 0.30; // a gap of 0.05: 0.21 less the radii, more by about 0.01 for blending
   return BodyField({ { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.40 }, 0.19, 0.20 },       // wrist
                      { { -0.08, 0.0, 0.42 }, { -0.27, 0.0, 0.98 }, 0.16, 0.105 }, // palm
                      { { -0.02, 0.0, 0.42 }, { -0.09, 0.0, 1.00 }, 0.16, 0.105 },
-                     { { 0.04, 0.0, 0.42 }, { fourth, 0.0, 0.97 }, 0.16, 0.10 },
+                     { { 0.04, 0.0, 0.42 }, { FourthFinger, 0.0, 0.97 }, 0.16, 0.10 },
                      { { 0.10, 0.0, 0.42 }, { 0.24, 0.0, 0.86 }, 0.16, 0.10 },
-                     { { -0.28, 0.0, 0.98 }, { -0.40, 0.03, 1.66 }, 0.09, 0.075 },  // second finger
-                     { { -0.09, 0.0, 1.00 }, { -0.12, -0.04, 1.90 }, 0.09, 0.075 }, // third
-                     { { fourth, 0.0, 0.97 }, { fourth, 0.0, 1.75 }, 0.08, 0.08 },  // fourth
-                     { { 0.26, 0.0, 0.86 }, { fifth, 0.0, 1.00 }, 0.09, 0.07 },     // fifth
-                     { { fifth, 0.0, 1.00 }, { fifth, 0.0, 1.50 }, 0.07, 0.07 },
+                     { { -0.28, 0.0, 0.98 }, { -0.40, 0.03, 1.66 }, 0.09, 0.075 },             // second finger
+                     { { -0.09, 0.0, 1.00 }, { -0.12, -0.04, 1.90 }, 0.09, 0.075 },            // third
+                     { { FourthFinger, 0.0, 0.97 }, { FourthFinger, 0.0, 1.75 }, 0.08, 0.08 }, // fourth
+                     { { 0.24, 0.0, 0.86 }, FifthFinger, 0.09, 0.07 },                         // fifth
+                     { FifthFinger, FifthFingertip, 0.07, 0.07 },
                      { { -0.12, -0.05, 0.45 }, { -0.42, -0.18, 0.82 }, 0.14, 0.10 }, // thumb
                      { { -0.42, -0.18, 0.82 }, { -0.55, -0.26, 1.12 }, 0.10, 0.08 } },
                    60.0);
 }
 
-std::vector<Vector3>
+std::vector<GapPoint>
 PointsInGapOfHand()
 {
-  constexpr double middle = 0.2;
-  std::vector<Vector3> points;
-  for (double z = 1.1; z < 1.45; z += 0.01)
+  constexpr double step = 5e-4;
+  const BodyField hand = MakeHand();
+  std::vector<GapPoint> points;
+  for (double z = FifthFinger[2]; z < FifthFingertip[2]; z += 0.004)
   {
-    points.push_back({ middle, 0.0, z });
+    const double share = (z - FifthFinger[2]) / (FifthFingertip[2] - FifthFinger[2]);
+    const double right = FifthFinger[0] + share * (FifthFingertip[0] - FifthFinger[0]);
+    double width = 0.0;
+    double sum = 0.0;
+    for (double x = FourthFinger; x < right; x += step)
+    {
+      const bool isOutside = hand.Evaluate({ x, 0.0, z }) < 0.0;
+      width += isOutside ? step : 0.0;
+      sum += isOutside ? step * x : 0.0;
+    }
+    if (width > (points.empty() ? 0.0 : points.back().width))
+    {
+      points.push_back({ { sum / width, 0.0, z }, width });
+    }
   }
   return points;
 }

@@ -68,7 +68,7 @@ OnFCC(ExtractionMode mode)
               Sample<LatticeType>(field,
                                   box,
                                   spacing,
-                                  { static_cast<itk::SizeValueType>(steps[0] + 1) / 2 + 1,
+                                  { static_cast<itk::SizeValueType>(steps[0]) / 2 + 1,
                                     static_cast<itk::SizeValueType>(steps[1]) + 1,
                                     static_cast<itk::SizeValueType>(steps[2]) + 1 });
             return PreparedMethod{ lattice->GetBufferedRegion().GetNumberOfPixels(),
@@ -161,7 +161,7 @@ GetComparedMethod(const std::string & name)
     }
     names.push_back(method.name);
   }
-  throw Failure(FailureKind::Usage, DescribeUnknown("method", name, names, "use " + Enumerate(names) + "."));
+  throw Failure(FailureKind::Usage, DescribeUnknown("method", name, names, "use " + Enumerate(names)));
 }
 
 double

@@ -80,6 +80,17 @@ struct JudgedTriangle
 /** A distance in units, and its weight, an area. */
 using Distance = std::pair<double, double>;
 
+bool
+IsInBox(const Vector3 & point, const SurfaceErrorSettings & settings)
+{
+  bool isInBox = true;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    isInBox = isInBox && point[axis] >= settings.lower[axis] && point[axis] <= settings.upper[axis];
+  }
+  return isInBox;
+}
+
 std::vector<JudgedTriangle>
 SelectTriangles(const itk::TriangleSurface & surface, const SurfaceErrorSettings & settings)
 {
@@ -92,13 +103,7 @@ SelectTriangles(const itk::TriangleSurface & surface, const SurfaceErrorSettings
       return ToVector(surface.GetPoints()[id]);
     });
     triangle.area = Length(AreaVector(triangle.corners)) / 2.0;
-    const Vector3 centroid = Centroid(triangle.corners);
-    bool isInBox = true;
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      isInBox = isInBox && centroid[axis] >= settings.lower[axis] && centroid[axis] <= settings.upper[axis];
-    }
-    if (isInBox)
+    if (IsInBox(Centroid(triangle.corners), settings))
     {
       triangles.push_back(triangle);
     }
@@ -341,7 +346,9 @@ ComputePointDistances(const itk::TriangleSurface & surface,
 }
 
 double
-ComputeNormalPenalty(const itk::TriangleSurface & surface, const itk::TriangleSurface & truth)
+ComputeNormalPenalty(const itk::TriangleSurface & surface,
+                     const itk::TriangleSurface & truth,
+                     const SurfaceErrorSettings & settings)
 {
   if (surface.GetTriangles().empty() || truth.GetTriangles().empty())
   {
@@ -358,14 +365,25 @@ ComputeNormalPenalty(const itk::TriangleSurface & surface, const itk::TriangleSu
   }
   const itk::TriangleTree tree(*points);
   const auto normals = SumNormals(surface);
-  std::vector<double> penalties(normals.size());
-  itk::ForEachInBlocks(normals.size(), BlockSize, [&](itk::SizeValueType point) {
+  std::vector<std::uint32_t> judged;
+  for (std::uint32_t point = 0; point < normals.size(); ++point)
+  {
+    if (IsInBox(ToVector(surface.GetPoints()[point]), settings))
+    {
+      judged.push_back(point);
+    }
+  }
+  std::vector<double> penalties(judged.size());
+  itk::ForEachInBlocks(judged.size(), BlockSize, [&](itk::SizeValueType n) {
+    const std::uint32_t point = judged[n];
     const auto nearest = tree.FindClosestPoint(ToVector(surface.GetPoints()[point])).triangle;
     const double product = Length(normals[point]) * Length(trueNormals[nearest]);
     const double cosine = product > 0.0 ? Dot(normals[point], trueNormals[nearest]) / product : 0.0;
-    penalties[point] = 1.0 - std::clamp(cosine, 0.0, 1.0);
+    penalties[n] = 1.0 - std::clamp(cosine, 0.0, 1.0);
   });
-  return std::accumulate(penalties.begin(), penalties.end(), 0.0) / static_cast<double>(penalties.size());
+  return judged.empty()
+           ? 0.0
+           : std::accumulate(penalties.begin(), penalties.end(), 0.0) / static_cast<double>(penalties.size());
 }
 
 } // namespace rhombic

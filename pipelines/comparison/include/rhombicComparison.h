@@ -19,6 +19,7 @@ struct FieldRequest
   double bandLimit = 0.5;    ///< of waves, in fractions of the Nyquist frequency of the grid
   unsigned int size = 40;    ///< samples along each axis of the grid whose spacing is h; not for silhouettes
   unsigned int pixels = 400; ///< of silhouettes: along the object's height
+  double turn = 0.0;         ///< of silhouettes: degrees about the vertical axis; a multiple of the views' 5
 };
 
 /** A method at one number of samples. */
@@ -61,15 +62,14 @@ struct ComparisonRequest
   std::string text;
   std::vector<Experiment> experiments;
   std::vector<Claim> claims;
+  bool hasLattices = false; ///< whether lattices and their cells are drawn
 };
 
 /** Reads a file of experiments. Throws Failure: NotFound, or Unreadable with what is wrong in it. */
 ComparisonRequest
 ReadComparisonRequest(const std::filesystem::path & path);
 
-/** Figures of a row, by their names: samples, triangles, q, mean, rms, p99, max, back-mean, back-rms, back-max (in h),
- * gap (% of points in the hand's gap that are outside), facet, vertex (degrees), quality, poor (%), parts, genus, open
- * (boundary edges), flaws (non-manifold edges and points, degenerate triangles), seconds. Those without a value are
+/** Figures of a row, by their names; pipelines/comparison/README.md has their meanings. Those without a value are
  * missing. */
 using Figures = std::map<std::string, double>;
 
@@ -78,7 +78,7 @@ struct ExperimentResult
 {
   Experiment experiment;
   double spacing = 0.0; ///< h, in the field's unit of length
-  Figures truth;        ///< triangles, parts, genus of the true surface
+  Figures truth;        ///< triangles, parts, genus of the true surface as a mesh, and facet of a field's
   std::vector<Figures> rows;
 };
 

@@ -4,6 +4,7 @@
 #include "rhombicComparisonReport.h"
 #include "rhombicExperimentRun.h"
 #include "rhombicFailure.h"
+#include "rhombicLatticeDrawings.h"
 #include "rhombicPictureIO.h"
 #include "rhombicSidecar.h"
 
@@ -16,31 +17,47 @@ namespace rhombic
 namespace
 {
 
-/** Draws what an experiment asks for, and returns the names of the files. */
-std::vector<std::string>
+void
+StagePng(Drawing & drawing, const std::filesystem::path & path, StagedFiles & staged)
+{
+  StagePicture(drawing.TakePictures({ { 1.0, 1.0, 1.0 } }).front(), path, staged, {});
+}
+
+/** Draws what an experiment asks for. */
+std::vector<PagePicture>
 StagePictures(const ExperimentRun & run, const std::filesystem::path & folder, StagedFiles & staged)
 {
   const Experiment & experiment = run.result.experiment;
-  std::vector<std::string> names;
+  std::vector<PagePicture> pictures;
   if (experiment.hasPlot)
   {
+    const std::string name = experiment.name + "-plot";
     Drawing svg = Drawing::ForSvg(PlotWidth, PlotHeight);
     DrawPlots(run.result, svg);
-    StageText(svg.TakeDocument(), folder / (experiment.name + "-plot.svg"), staged);
+    StageText(svg.TakeDocument(), folder / (name + ".svg"), staged);
     Drawing png(PlotWidth, PlotHeight);
     DrawPlots(run.result, png);
-    names.push_back(experiment.name + "-plot.png");
-    StagePicture(png.TakePictures({ { 1.0, 1.0, 1.0 } }).front(), folder / names.back(), staged, {});
+    StagePng(png, folder / (name + ".png"), staged);
+    pictures.push_back({ name + ".png",
+                         "Mean distance from the true surface against the number of samples, and of triangles. Lower "
+                         "and further left is better. [SVG](" +
+                           name + ".svg)" });
   }
   if (!experiment.views.empty())
   {
     for (const bool showsErrors : { false, true })
     {
-      names.push_back(experiment.name + (showsErrors ? "-errors.jpg" : "-surfaces.jpg"));
-      StagePicture(DrawSurfaces(run, showsErrors), folder / names.back(), staged, {});
+      pictures.push_back({ experiment.name + (showsErrors ? "-errors.jpg" : "-surfaces.jpg"),
+                           showsErrors
+                             ? "The same surfaces. Colours show how far the middle of each triangle is from the "
+                               "true surface, in h."
+                             : "The true surface, then those of the methods, with flat triangles." });
+      PictureMetadata small;
+      small.jpegQuality = 80;
+      StagePicture(DrawSurfaces(run, showsErrors), folder / pictures.back().file, staged, small);
     }
   }
-  return names;
+  return pictures;
 }
 
 } // namespace
@@ -50,7 +67,7 @@ RunComparison(const ComparisonRequest & request, const ComparisonSettings & sett
 {
   vtkSMPTools::SetBackend("Sequential"); // as many threads as ITK's filters have when times are compared: one
   std::vector<ExperimentResult> results;
-  std::vector<std::vector<std::string>> pictures;
+  std::vector<std::vector<PagePicture>> pictures;
   StagedFiles staged;
   std::filesystem::create_directories(settings.output);
   for (const Experiment & experiment : request.experiments)
@@ -59,7 +76,7 @@ RunComparison(const ComparisonRequest & request, const ComparisonSettings & sett
     {
       const ExperimentRun run = RunExperiment(experiment, settings.repeats, events);
       pictures.push_back(settings.hasPictures ? StagePictures(run, settings.output, staged)
-                                              : std::vector<std::string>());
+                                              : std::vector<PagePicture>());
       results.push_back(run.result);
       events.Note(experiment.name + ": done");
     }
@@ -68,14 +85,29 @@ RunComparison(const ComparisonRequest & request, const ComparisonSettings & sett
   {
     throw Failure(FailureKind::Usage, "There is no experiment '" + settings.only + "' in the file.");
   }
-  std::string page = "# " + request.title + "\n\n" + request.text;
+  std::string page = "# " + request.title + "\n";
   if (settings.only.empty())
+  {
+    page += "\n" + FillIn(request.text, results);
+  }
+  if (settings.only.empty() && !request.claims.empty())
   {
     page += "\n" + MarkdownOf(request.claims, results);
   }
   for (std::size_t n = 0; n < results.size(); ++n)
   {
     page += "\n" + MarkdownOf(results[n], results, pictures[n]);
+  }
+  if (request.hasLattices && settings.only.empty() && settings.hasPictures)
+  {
+    Drawing drawing(LatticeDrawingWidth, LatticeDrawingHeight);
+    DrawLattices(drawing);
+    StagePng(drawing, settings.output / "lattices.png", staged);
+    page +=
+      "\n## Figures 3 to 7: the lattices and their cells\n\n![Lattices and cells](lattices.png)\n\n*How samples are "
+      "left out, how a rhombic "
+      "dodecahedron, the space nearest to a sample of FCC, is made, tiles space and is cut, and how tetrahedra of "
+      "neighbouring parallelepipeds meet: the orange edges fall onto each other.*\n";
   }
   StageText(page, settings.output / "RESULTS.md", staged);
   StageText(FiguresAsCsv(results), settings.output / "figures.csv", staged);

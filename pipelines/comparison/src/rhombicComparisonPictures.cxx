@@ -15,9 +15,10 @@ namespace rhombic
 namespace
 {
 
-constexpr int TileSide = 330; // pixels
-constexpr int HeadHeight = 56;
-constexpr int BarHeight = 52;
+constexpr int PageWidth = 1200; // pixels
+constexpr int LongerSide = 235; // of a view
+constexpr int HeadHeight = 74;
+constexpr int BarHeight = 72;
 constexpr std::size_t NumberOfBands = 9;
 const Ink black{ { 0.1, 0.1, 0.1 } };
 
@@ -68,17 +69,17 @@ void
 DrawColourBar(Drawing & drawing, double range, double top)
 {
   constexpr double left = 20.0;
-  constexpr double width = 56.0;
+  const double width = (drawing.GetWidth() - 2.0 * left) / NumberOfBands;
+  drawing.Text("distance from the true surface, in h; the last colour is for all that is farther",
+               { left, top + 18.0 },
+               { 14.0, black, { {}, 0.0 }, false, Alignment::Left, NumberOfBands * width });
   for (std::size_t band = 0; band < NumberOfBands; ++band)
   {
     const double x = left + width * static_cast<double>(band);
-    drawing.Fill({ x, top + 6.0, width, 16.0 }, { BandColour(band) });
+    drawing.Fill({ x, top + 28.0, width, 16.0 }, { BandColour(band) });
     drawing.Text(
-      FormatNumber(range * static_cast<double>(band) / NumberOfBands, 2), { x, top + 42.0 }, { 14.0, black });
+      FormatNumber(range * static_cast<double>(band) / NumberOfBands, 2), { x, top + 62.0 }, { 14.0, black });
   }
-  drawing.Text("and more: distance from the true surface, in h",
-               { left + width * NumberOfBands + 12.0, top + 20.0 },
-               { 16.0, black });
 }
 
 /** The ends of a logarithmic axis around values: powers of ten, or 2 or 5 times them. */
@@ -176,23 +177,61 @@ DrawPanel(const ExperimentResult & result, const std::string & figure, const Rec
   drawing.Text("mean distance in h, against " + figure, { place.left, place.top - 8.0 }, { 15.0, black });
 }
 
+/** How a picture is divided: a block for each surface, with its views side by side. */
+struct BlockPlan
+{
+  std::vector<std::pair<View, RenderSettings>> views;
+  int viewsWidth = 0;
+  int width = 0; ///< of a block
+  int height = HeadHeight;
+  int columns = 1;
+  int rows = 1;
+};
+
+/** Views are as wide and high as the true surface needs, all at one scale. */
+BlockPlan
+PlanBlocks(const Scene & truth, const std::vector<std::string> & names, std::size_t mostViews, std::size_t blocks)
+{
+  constexpr int leastWidth = 190; // for titles
+  RenderSettings settings;
+  settings.style = PictureStyle::Paper;
+  settings.extent = BoxAround(truth.surfaces);
+  settings.sameScale = true;
+  settings.width = 0;
+  settings.height = 0;
+  std::vector<View> views;
+  std::transform(names.begin(), names.end(), std::back_inserter(views), ViewFromText);
+  views.resize(std::min(views.size(), mostViews));
+  const auto projections = SurfaceRenderer::Plan(truth, settings, views);
+  int longest = 1;
+  for (const Projection & projection : projections)
+  {
+    longest = std::max({ longest, projection.width, projection.height });
+  }
+  BlockPlan plan;
+  for (std::size_t n = 0; n < views.size(); ++n)
+  {
+    settings.width = projections[n].width * LongerSide / longest;
+    settings.height = projections[n].height * LongerSide / longest;
+    plan.views.emplace_back(views[n], settings);
+    plan.viewsWidth += settings.width;
+    plan.height = std::max(plan.height, HeadHeight + settings.height);
+  }
+  plan.width = std::max(plan.viewsWidth, leastWidth);
+  const int most = std::max(1, PageWidth / plan.width);
+  plan.rows = (static_cast<int>(blocks) + most - 1) / most;
+  plan.columns = (static_cast<int>(blocks) + plan.rows - 1) / plan.rows;
+  return plan;
+}
+
 } // namespace
 
 Picture
 DrawSurfaces(const ExperimentRun & run, bool showsErrors)
 {
   const auto & experiment = run.result.experiment;
-  std::vector<View> views;
-  std::transform(experiment.views.begin(), experiment.views.end(), std::back_inserter(views), ViewFromText);
-  RenderSettings settings;
-  settings.width = TileSide;
-  settings.height = TileSide;
-  settings.style = PictureStyle::Paper;
-  settings.extent = BoxAround({ { "truth", run.truth.GetPointer() } });
-
-  const itk::TriangleTree tree(*run.truth);
-  double range = 0.0; // in h
   std::vector<std::size_t> shown;
+  double range = 0.0; // in h
   for (std::size_t row = 0; row < run.surfaces.size(); ++row)
   {
     if (experiment.rows[row].isShown)
@@ -201,26 +240,37 @@ DrawSurfaces(const ExperimentRun & run, bool showsErrors)
       range = std::max(range, run.result.rows[row].at("p99"));
     }
   }
-  const int tiles = static_cast<int>(shown.size() + (showsErrors ? 0 : 1));
-  const int rows = static_cast<int>(views.size());
-  Drawing drawing(tiles * TileSide, HeadHeight + rows * TileSide + (showsErrors ? BarHeight : 0));
+  const Scene truth{ { { "truth", run.truth.GetPointer() } }, {}, {} };
+  const BlockPlan plan = PlanBlocks(truth, experiment.views, showsErrors ? 1 : 2, shown.size() + (showsErrors ? 0 : 1));
+  Drawing drawing(plan.width * plan.columns, plan.height * plan.rows + (showsErrors ? BarHeight : 0));
   SurfaceRenderer renderer;
-  const auto drawTile = [&](int tile, const Scene & scene, const std::string & title, const std::string & subtitle) {
-    const auto pictures = renderer.Render(scene, settings, views);
-    for (int row = 0; row < rows; ++row)
+  int next = 0;
+  const auto drawBlock = [&](const Scene & scene, const std::array<std::string, 3> & lines) {
+    const double left = next % plan.columns * plan.width;
+    const double top = next / plan.columns * plan.height;
+    double x = left + 0.5 * (plan.width - plan.viewsWidth);
+    for (const auto & [view, settings] : plan.views)
     {
-      drawing.Place(pictures[static_cast<std::size_t>(row)].picture,
-                    { double(tile * TileSide), double(HeadHeight + row * TileSide), TileSide, TileSide });
+      const double width = settings.width;
+      drawing.Place(renderer.Render(scene, settings, { view }).front().picture,
+                    { x, top + HeadHeight, width, double(settings.height) });
+      x += width;
     }
-    const double middle = (tile + 0.5) * TileSide;
-    drawing.Text(title, { middle, 24.0 }, { 16.0, black, { {}, 0.0 }, true, Alignment::Centre, TileSide });
-    drawing.Text(subtitle, { middle, 46.0 }, { 14.0, black, { {}, 0.0 }, false, Alignment::Centre });
+    double y = top + 24.0;
+    for (const std::string & line : lines)
+    {
+      drawing.Text(line,
+                   { left + 0.5 * plan.width, y },
+                   { 14.0, black, { {}, 0.0 }, &line == &lines.front(), Alignment::Centre, plan.width - 8.0 });
+      y += 20.0;
+    }
+    ++next;
   };
-  int tile = 0;
   if (!showsErrors)
   {
-    drawTile(tile++, { { { "truth", run.truth.GetPointer() } }, {}, {} }, "true surface", "");
+    drawBlock(truth, { "true surface", "", FormatFixed(run.result.truth.at("triangles"), 0) + " triangles" });
   }
+  const itk::TriangleTree tree(*run.truth);
   for (const std::size_t row : shown)
   {
     auto bare = itk::TriangleSurface::New(); // without normals: facets are seen
@@ -230,16 +280,15 @@ DrawSurfaces(const ExperimentRun & run, bool showsErrors)
                                    : std::vector<SceneSurface>{ { "surface", bare.GetPointer() } },
                        {},
                        {} };
-    const Figures & figures = run.result.rows[row];
-    drawTile(tile++,
-             scene,
-             GetComparedMethod(experiment.rows[row].method).lattice + ", " + LabelOf(run.result, row),
-             FormatFixed(figures.at("samples"), 0) + " samples, " + FormatFixed(figures.at("triangles"), 0) +
-               " triangles");
+    drawBlock(
+      scene,
+      { LabelOf(run.result, row),
+        GetComparedMethod(experiment.rows[row].method).lattice + ", " + std::to_string(run.samples[row]) + " samples",
+        std::to_string(bare->GetNumberOfTriangles()) + " triangles" });
   }
   if (showsErrors)
   {
-    DrawColourBar(drawing, range, HeadHeight + double(rows) * TileSide);
+    DrawColourBar(drawing, range, double(plan.height) * plan.rows);
   }
   return drawing.TakePictures({ { 1.0, 1.0, 1.0 } }).front();
 }

@@ -7,8 +7,8 @@
 namespace rhombic
 {
 
-/** The true surface and the rows that are shown, side by side, from each view; with \a showsErrors coloured by the
- * distance of each triangle's centroid from the true surface. */
+/** The true surface and the rows that are shown, from up to two views; with \a showsErrors the rows from the first
+ * view, coloured by the distance of each triangle's centroid from the true surface. */
 Picture
 DrawSurfaces(const ExperimentRun & run, bool showsErrors);
 

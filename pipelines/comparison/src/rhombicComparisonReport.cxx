@@ -24,14 +24,16 @@ struct Column
 };
 
 constexpr Column columns[] = { { "samples", "samples", false },
+                               { "per h³", "density", false },
                                { "triangles", "triangles", true },
+                               { "judged", "judged", true },
                                { "Q", "q", false },
                                { "mean", "mean", true },
                                { "RMS", "rms", false },
                                { "max", "max", false },
                                { "mean back", "back-mean", true },
                                { "max back", "back-max", false },
-                               { "gap %", "gap", false },
+                               { "gap", "gap", false },
                                { "facet °", "facet", true },
                                { "point °", "vertex", false },
                                { "quality", "quality", false },
@@ -84,32 +86,18 @@ FindFigure(const std::string & reference, const std::vector<ExperimentResult> & 
   const auto row = parts.size() == 3 ? ToNumber<std::size_t>(parts[1]) : std::nullopt;
   for (const ExperimentResult & result : all)
   {
-    if (row && result.experiment.name == parts[0] && *row >= 1 && *row <= result.rows.size() &&
-        result.rows[*row - 1].count(parts[2]) > 0)
+    if (row && result.experiment.name == parts[0] && *row <= result.rows.size())
     {
-      return result.rows[*row - 1].at(parts[2]);
+      const Figures & figures = *row == 0 ? result.truth : result.rows[*row - 1];
+      if (const auto found = figures.find(parts[2]); found != figures.end())
+      {
+        return found->second;
+      }
     }
   }
   throw Failure(FailureKind::Unreadable,
-                "A text has the figure '" + reference + "', which is none; write experiment.row.figure.");
-}
-
-/** Replaces ${...} by figures and their ratios. */
-std::string
-FillIn(const std::string & text, const std::vector<ExperimentResult> & all)
-{
-  std::string filled;
-  std::size_t from = 0;
-  for (std::size_t begin; (begin = text.find("${", from)) != std::string::npos;)
-  {
-    const std::size_t end = std::min(text.find('}', begin), text.size());
-    const auto parts = Split(text.substr(begin + 2, end - begin - 2), "/");
-    filled += text.substr(from, begin - from);
-    filled += parts.size() == 2 ? FormatFixed(FindFigure(parts[0], all) / FindFigure(parts[1], all), 2)
-                                : Format(FindFigure(parts[0], all));
-    from = std::min(end + 1, text.size());
-  }
-  return filled + text.substr(from);
+                "A text has the figure '" + reference +
+                  "', which is none; write experiment.row.figure, with row 0 for the true surface.");
 }
 
 } // namespace
@@ -127,9 +115,26 @@ LabelOf(const ExperimentResult & result, std::size_t row)
 }
 
 std::string
+FillIn(const std::string & text, const std::vector<ExperimentResult> & all)
+{
+  std::string filled;
+  std::size_t from = 0;
+  for (std::size_t begin; (begin = text.find("${", from)) != std::string::npos;)
+  {
+    const std::size_t end = std::min(text.find('}', begin), text.size());
+    const auto parts = Split(text.substr(begin + 2, end - begin - 2), "/");
+    filled += text.substr(from, begin - from);
+    filled += parts.size() == 2 ? FormatFixed(FindFigure(parts[0], all) / FindFigure(parts[1], all), 2)
+                                : Format(FindFigure(parts[0], all));
+    from = std::min(end + 1, text.size());
+  }
+  return filled + text.substr(from);
+}
+
+std::string
 MarkdownOf(const ExperimentResult & result,
            const std::vector<ExperimentResult> & all,
-           const std::vector<std::string> & pictures)
+           const std::vector<PagePicture> & pictures)
 {
   std::string text = "## " + result.experiment.title + "\n\n| lattice | method |";
   std::string line = "|---|---|";
@@ -154,9 +159,9 @@ MarkdownOf(const ExperimentResult & result,
   {
     text += "\n" + FillIn(result.experiment.text, all) + (result.experiment.text.back() == '\n' ? "" : "\n");
   }
-  for (const std::string & picture : pictures)
+  for (const PagePicture & picture : pictures)
   {
-    text += "\n![" + result.experiment.title + "](" + picture + ")\n";
+    text += "\n![" + result.experiment.title + "](" + picture.file + ")\n\n*" + picture.caption + "*\n";
   }
   return text;
 }

@@ -10,11 +10,22 @@ namespace rhombic
 std::string
 LabelOf(const ExperimentResult & result, std::size_t row);
 
-/** The section of one experiment: table and text. \a pictures are paths to put below it. */
+/** A picture on the page. */
+struct PagePicture
+{
+  std::string file;
+  std::string caption;
+};
+
+/** A text with figures in place of ${...}. Throws Failure(Unreadable) for a figure that is not there. */
+std::string
+FillIn(const std::string & text, const std::vector<ExperimentResult> & all);
+
+/** The section of one experiment: table, text and pictures. */
 std::string
 MarkdownOf(const ExperimentResult & result,
            const std::vector<ExperimentResult> & all,
-           const std::vector<std::string> & pictures);
+           const std::vector<PagePicture> & pictures);
 
 /** The table of claims. */
 std::string

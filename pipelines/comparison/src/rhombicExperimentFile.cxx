@@ -49,7 +49,7 @@ public:
         throw Failure(
           FailureKind::Unreadable,
           DescribeUnknown(
-            "key", key, { m_Known.begin(), m_Known.end() }, "compare with pipelines/comparison/paper.yaml."));
+            "key", key, { m_Known.begin(), m_Known.end() }, "compare with pipelines/comparison/paper.yaml"));
       }
     }
   }
@@ -69,6 +69,7 @@ ParseField(const YAML::Node & node)
   map.Get("band-limit", field.bandLimit);
   map.Get("size", field.size);
   map.Get("pixels", field.pixels);
+  map.Get("turn", field.turn);
   map.RefuseOthers();
   return field;
 }
@@ -128,6 +129,7 @@ ReadComparisonRequest(const std::filesystem::path & path)
     Map map(YAML::LoadFile(path.string()));
     map.Get("title", request.title);
     map.Get("text", request.text);
+    map.Get("lattices", request.hasLattices);
     for (const auto & node : map.Get("experiments"))
     {
       request.experiments.push_back(ParseExperiment(node));

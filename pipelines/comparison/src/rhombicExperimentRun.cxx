@@ -17,6 +17,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <random>
 
@@ -33,7 +34,7 @@ struct FieldCase
   double spacing = 1.0;                ///< h, or an estimate of it
   bool isClosed = true;                ///< whether the surface lies within the box
   itk::TriangleSurface::Pointer truth; ///< if there is a better one than MakeTrueSurface()
-  std::vector<Vector3> gap;            ///< points between close parts of an object
+  std::vector<GapPoint> gap;           ///< points between close parts of an object
   bool isObject = false;               ///< whether it counts in place of the field's surface
 };
 
@@ -62,7 +63,7 @@ FieldCase
 MakeSilhouettes(const FieldRequest & request, std::uint64_t seed)
 {
   constexpr double spacingOfTruth = 0.012;
-  constexpr double leastMargin = 0.03;
+  constexpr double leastMargin = 0.07;
   constexpr double shift = 0.08;
   std::mt19937_64 random(seed);
   if (request.object != "hand" && request.object != "quadruped")
@@ -71,11 +72,29 @@ MakeSilhouettes(const FieldRequest & request, std::uint64_t seed)
   }
   FieldCase made;
   made.isObject = true;
-  made.truth = MakeTrueSurface(request.object == "hand" ? MakeHand() : MakeQuadruped(),
-                               { { -1.3, -0.7, -0.4 }, { 1.3, 0.7, 2.2 } },
-                               spacingOfTruth);
+  static std::map<std::string, itk::TriangleSurface::Pointer> objects;
+  itk::TriangleSurface::Pointer & object = objects[request.object];
+  if (!object)
+  {
+    object = MakeTrueSurface(request.object == "hand" ? MakeHand() : MakeQuadruped(),
+                             { { -1.3, -0.7, -0.4 }, { 1.3, 0.7, 2.2 } },
+                             spacingOfTruth);
+  }
+  made.truth = itk::TriangleSurface::New();
+  made.truth->GetPoints() = object->GetPoints();
+  made.truth->GetTriangles() = object->GetTriangles();
+  made.gap = request.object == "hand" ? PointsInGapOfHand() : std::vector<GapPoint>();
+  const double cosine = std::cos(request.turn * 3.14159265358979324 / 180.0);
+  const double sine = std::sin(request.turn * 3.14159265358979324 / 180.0);
+  const auto turn = [&](auto & p) {
+    using Coordinate = std::decay_t<decltype(p[0])>;
+    p = { static_cast<Coordinate>(cosine * p[0] - sine * p[1]),
+          static_cast<Coordinate>(sine * p[0] + cosine * p[1]),
+          p[2] };
+  };
+  std::for_each(made.truth->GetPoints().begin(), made.truth->GetPoints().end(), turn);
+  std::for_each(made.gap.begin(), made.gap.end(), [&](GapPoint & p) { turn(p.point); });
   made.field = std::make_unique<SilhouetteField>(*made.truth, request.pixels);
-  made.gap = request.object == "hand" ? PointsInGapOfHand() : std::vector<Vector3>();
   const auto bounds = made.truth->GetBounds();
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
@@ -122,7 +141,7 @@ MakeFieldCase(const FieldRequest & request, std::uint64_t seed)
                   DescribeUnknown("field",
                                   request.kind,
                                   { "sphere", "torus", "gyroid", "waves", "marschner-lobb", "corner", "silhouettes" },
-                                  "see pipelines/comparison/README.md."));
+                                  "see pipelines/comparison/README.md"));
   }
   return made;
 }
@@ -133,7 +152,7 @@ struct Judge
   const itk::TriangleSurface & truth;
   FindNearest findNearest;
   SurfaceErrorSettings settings;
-  std::vector<Vector3> gap;
+  std::vector<GapPoint> gap;
 };
 
 void
@@ -147,18 +166,22 @@ AddTopology(const itk::TriangleSurface & surface, Figures & figures)
     static_cast<double>(topology.nonManifoldEdges + topology.nonManifoldPoints + topology.degenerateTriangles);
 }
 
-/** The percentage of points that are outside a closed surface. */
+/** The width up to which a gap is closed; of one that is open in some narrower places, the sum of the closed ranges of
+ * widths. */
 double
-PercentOutside(const std::vector<Vector3> & points, const itk::TriangleTree & tree)
+ClosedWidth(const std::vector<GapPoint> & points, const itk::TriangleTree & tree)
 {
-  const auto isOutside = [&tree](const Vector3 & p) {
+  double closed = 0.0;
+  double before = 0.0;
+  for (const auto & [p, width] : points)
+  {
     int turns = 0;
     tree.VisitCrossings({ static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]) },
                         [&turns](std::uint32_t, int turn) { turns += turn; });
-    return turns == 0;
-  };
-  return 100.0 * static_cast<double>(std::count_if(points.begin(), points.end(), isOutside)) /
-         static_cast<double>(points.size());
+    closed += turns == 0 ? 0.0 : width - before;
+    before = width;
+  }
+  return closed;
 }
 
 Figures
@@ -168,7 +191,7 @@ JudgeSurface(const itk::TriangleSurface & surface, const Judge & judge)
   const itk::TriangleTree tree(surface);
   const SurfaceErrors back = ComputePointDistances(judge.truth, NearestOnMesh(tree), judge.settings);
   Figures figures{ { "triangles", static_cast<double>(surface.GetNumberOfTriangles()) },
-                   { "q", ComputeNormalPenalty(surface, judge.truth) },
+                   { "q", ComputeNormalPenalty(surface, judge.truth, judge.settings) },
                    { "mean", errors.meanDistance },
                    { "rms", errors.rmsDistance },
                    { "p99", errors.distance99 },
@@ -181,7 +204,11 @@ JudgeSurface(const itk::TriangleSurface & surface, const Judge & judge)
                    { "poor", 100.0 * errors.poorFraction } };
   if (!judge.gap.empty())
   {
-    figures["gap"] = PercentOutside(judge.gap, tree);
+    figures["gap"] = ClosedWidth(judge.gap, tree) / judge.settings.unit;
+  }
+  if (std::isfinite(judge.settings.lower[0]))
+  {
+    figures["judged"] = static_cast<double>(errors.triangles);
   }
   if (!std::isnan(errors.vertexNormalError))
   {
@@ -278,11 +305,13 @@ RunSeed(const Experiment & experiment, std::uint64_t seed, unsigned int repeats,
     const auto surface = prepared[row].extract();
     Figures figures = JudgeSurface(*surface, judge);
     figures["samples"] = static_cast<double>(prepared[row].samples);
+    figures["density"] = DensityOf(experiment.rows[row], fieldCase) * std::pow(spacing, 3.0);
     figures["seconds"] = seconds[row];
     Accumulate(run.result.rows[row], figures);
     if (!run.truth)
     {
       run.surfaces.push_back(surface);
+      run.samples.push_back(prepared[row].samples);
     }
   }
   if (!run.truth)
@@ -291,6 +320,10 @@ RunSeed(const Experiment & experiment, std::uint64_t seed, unsigned int repeats,
     run.result.spacing = spacing;
     run.result.truth["triangles"] = static_cast<double>(truth->GetNumberOfTriangles());
     AddTopology(*truth, run.result.truth);
+    if (!fieldCase.isObject)
+    {
+      run.result.truth["facet"] = ComputeSurfaceErrors(*truth, judge.findNearest, judge.settings).facetNormalError;
+    }
   }
 }
 

@@ -14,6 +14,7 @@ struct ExperimentRun
   ExperimentResult result;
   itk::TriangleSurface::Pointer truth;
   std::vector<itk::TriangleSurface::Pointer> surfaces; ///< of the rows
+  std::vector<itk::SizeValueType> samples;
 };
 
 ExperimentRun
