@@ -33,6 +33,7 @@ constexpr Command commands[] = {
   { "info", "What is in a scan: series, geometry, values, thresholds worth trying", AddInfoCommand },
   { "render", "Pictures of a scan's surfaces", AddRenderCommand },
   { "mesh", "A scan's surface as a file", AddMeshCommand },
+  { "batch", "Pictures, pages and meshes of many scans", AddBatchCommand },
   { "compare-pictures", "Whether two pictures are the same, within a tolerance", AddComparePicturesCommand },
   { "audit", "Whether a surface file is closed, oriented and free of defects", AddAuditCommand },
   { "resample", "A scan on the face-centered cubic lattice, and back", AddResampleCommand },
@@ -53,7 +54,8 @@ constexpr char exitCodes[] = "Exit codes:\n"
                              "  8   a surface is not watertight (--require-watertight)\n"
                              "  9   not enough memory\n"
                              "  10  this machine can't draw (see rhombic doctor)\n"
-                             "  11  pictures differ by more than the tolerance";
+                             "  11  pictures differ by more than the tolerance\n"
+                             "  12  some cases of a batch failed";
 
 /** Raises the limit of open files to the system's: each output keeps a file open until all are renamed. */
 void
@@ -121,7 +123,9 @@ main(int argc, char ** argv)
   unsigned int threads = 0;
   bool isVerbose = false;
   bool isQuiet = false;
-  app.add_option("--threads", threads, "number of threads (default: all cores)")->check(CLI::Range(1u, 1024u));
+  app.add_option("--threads", threads, "number of threads (default: all cores)")
+    ->envname("RHOMBIC_THREADS")
+    ->check(CLI::Range(1u, 1024u));
   const auto verbose = app.add_flag("-v,--verbose", isVerbose, "print more, with times");
   app.add_flag("-q,--quiet", isQuiet, "print errors only")->excludes(verbose);
 

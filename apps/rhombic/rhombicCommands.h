@@ -36,6 +36,8 @@ AddInfoCommand(CLI::App & parser);
 CommandRun
 AddRenderCommand(CLI::App & parser);
 CommandRun
+AddBatchCommand(CLI::App & parser);
+CommandRun
 AddMeshCommand(CLI::App & parser);
 CommandRun
 AddAuditCommand(CLI::App & parser);

@@ -18,7 +18,7 @@ namespace rhombic
 namespace
 {
 
-constexpr const char * drawingCommands[] = { "render", "compare", "compare-pictures", "doctor" };
+constexpr const char * drawingCommands[] = { "render", "batch", "compare", "compare-pictures", "doctor" };
 
 /** Whether a command draws, or audits a VTP file, which VTK reads. A word may also be the value of an option: the
  * drawing program has the other commands, too. */
@@ -79,6 +79,12 @@ AddRenderCommand(CLI::App &)
 
 CommandRun
 AddCompareCommand(CLI::App &)
+{
+  return {};
+}
+
+CommandRun
+AddBatchCommand(CLI::App &)
 {
   return {};
 }

@@ -58,6 +58,7 @@ ScanOptions::AddSource(CLI::App & parser)
     .add_option("--max-memory",
                 m_MaximumMemory,
                 "most memory for a volume, and then for a picture, as 8G or 500M (default: half of what is free)")
+    ->envname("RHOMBIC_MAX_MEMORY")
     ->transform(CLI::AsSizeValue(false));
   parser.add_flag("--analyze", m_AcceptsAnalyze, "read Analyze 7.5 files, in which left and right are not defined");
   parser.add_flag("--follow-links", m_FollowsLinks, "follow symbolic links in folders");

@@ -3,14 +3,12 @@
 #include "rhombicBuiltInPresets.h"
 #include "rhombicFailure.h"
 #include "rhombicWording.h"
-
-#include <yaml-cpp/yaml.h>
+#include "rhombicYAMLKeys.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <set>
 #include <sstream>
 
 namespace fs = std::filesystem;
@@ -28,18 +26,12 @@ FailToParse(const std::string & source, const std::string & why)
 }
 
 void
-RefuseUnknownKeys(const YAML::Node & map, const std::set<std::string> & known, const std::string & source)
+RefuseUnknownKeys(const YAML::Node & map, const std::vector<std::string> & known, const std::string & source)
 {
-  if (!map.IsMap())
+  const std::string mistake = DescribeKeys(map, known);
+  if (!mistake.empty())
   {
-    FailToParse(source, "is not made of keys and values");
-  }
-  for (const auto & entry : map)
-  {
-    if (known.count(entry.first.as<std::string>()) == 0)
-    {
-      FailToParse(source, "has the unknown key '" + entry.first.as<std::string>() + "'");
-    }
+    FailToParse(source, mistake);
   }
 }
 

@@ -23,7 +23,8 @@ enum class FailureKind : int
   NotWatertight = 8, ///< a surface has holes or other defects, and was asked to have none
   Memory = 9,        ///< there is, or would be, too little memory
   Display = 10,      ///< no way to draw on this machine
-  Different = 11     ///< pictures differ by more than the tolerance
+  Different = 11,    ///< pictures differ by more than the tolerance
+  SomeFailed = 12    ///< some cases of a batch failed
 };
 
 /** \class Failure

@@ -1,0 +1,220 @@
+#include "rhombicCommands.h"
+#include "rhombicFailure.h"
+#include "rhombicMemoryBudget.h"
+#include "rhombicRunBatch.h"
+#include "rhombicUsageError.h"
+#include "rhombicWording.h"
+
+#include "itkMultiThreaderBase.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+namespace rhombic
+{
+namespace
+{
+
+struct BatchOptions
+{
+  std::string collection;
+  std::string output;
+  std::string pipeline;
+  std::vector<std::string> only;
+  unsigned int jobs = 0;
+  std::uint64_t maximumMemory = 0;
+  double maximumSeconds = BatchSettings().maximumSeconds;
+  bool namesFromPaths = false;
+  bool isDryRun = false;
+};
+
+/** The commands that make outputs, as the program itself has them. */
+struct OutputCommands
+{
+  OutputCommands()
+  {
+    program.require_subcommand(1);
+    runs.push_back(AddRenderCommand(*program.add_subcommand("render")));
+    runs.push_back(AddMeshCommand(*program.add_subcommand("mesh")));
+    runs.push_back(AddResampleCommand(*program.add_subcommand("resample")));
+  }
+
+  CLI::App program{ "", "rhombic" };
+  std::vector<CommandRun> runs; ///< hold what the parsers write to
+};
+
+CommandSyntax
+GetSyntax()
+{
+  CommandSyntax syntax;
+  syntax.optionsOf = [](const std::string & command) {
+    std::vector<std::string> names;
+    OutputCommands commands;
+    for (const CLI::Option * const option : commands.program.get_subcommand(command)->get_options())
+    {
+      names.insert(names.end(), option->get_lnames().begin(), option->get_lnames().end());
+    }
+    return names;
+  };
+  syntax.check = [](const std::vector<std::string> & arguments) {
+    OutputCommands commands;
+    try
+    {
+      commands.program.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+    }
+    catch (const CLI::ParseError & error)
+    {
+      throw Failure(FailureKind::Usage, DescribeUsageError(commands.program, error));
+    }
+  };
+  return syntax;
+}
+
+BatchSettings
+GetSettings(const BatchOptions & options, const Events & events)
+{
+  if (options.collection.empty() || options.output.empty())
+  {
+    throw Failure(FailureKind::Usage,
+                  "Name a collection and a folder for the outputs, as in rhombic batch scans -o results.");
+  }
+  BatchSettings settings;
+  settings.pipeline = ReadPipeline(options.pipeline, GetSyntax());
+  CaseCollection collection = FindCases(options.collection, { options.namesFromPaths, options.output });
+  for (const std::string & note : collection.notes)
+  {
+    events.Note(note);
+  }
+  const CommandSyntax syntax = GetSyntax();
+  for (const BatchCase & batchCase : collection.cases) // options of a manifest
+  {
+    for (const PipelineStep & step : settings.pipeline.steps)
+    {
+      std::vector<std::string> arguments = step.arguments;
+      arguments.insert(arguments.end(), batchCase.options.begin(), batchCase.options.end());
+      if (!batchCase.options.empty())
+      {
+        syntax.check(arguments);
+      }
+    }
+  }
+  settings.cases = std::move(collection.cases);
+  settings.only = options.only;
+  settings.output = options.output;
+  settings.program =
+    (std::filesystem::read_symlink("/proc/self/exe").parent_path() / RHOMBIC_PROGRAM).lexically_normal();
+  settings.software = "Rhombic " RHOMBIC_VERSION;
+  settings.maximumSeconds = options.maximumSeconds;
+  const unsigned int threads = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
+  settings.jobs = options.jobs > 0 ? options.jobs : std::max(1u, threads / 2);
+  settings.threads = std::max(1u, threads / settings.jobs);
+  settings.maximumMemory = options.maximumMemory > 0 ? options.maximumMemory : FreeMemory() / 10 * 9 / settings.jobs;
+  return settings;
+}
+
+/** Prints the plan as a manifest. */
+void
+PrintPlan(const BatchSettings & settings, const Events & events)
+{
+  const BatchPlan plan = PlanBatch(settings);
+  std::cout << "case\tscan\tlabels\toptions\tstate\tmegabytes\n";
+  for (std::size_t n = 0; n < settings.cases.size(); ++n)
+  {
+    const BatchCase & batchCase = settings.cases[n];
+    std::cout << batchCase.name << '\t' << batchCase.scan.string() << '\t' << batchCase.labels.string() << '\t';
+    for (const std::string & option : batchCase.options)
+    {
+      std::cout << (&option == &batchCase.options.front() ? "" : " ") << option;
+    }
+    std::cout << '\t' << NameOf(plan.states[n]) << '\t'
+              << FormatFixed(static_cast<double>(batchCase.GetSize()) / 1e6, 1) << '\n';
+  }
+  events.Note(Count(settings.cases.size(), "case") + ", " + std::to_string(settings.jobs) + " at a time, " +
+              Count(settings.threads, "thread") + " and at most " + DescribeBytes(settings.maximumMemory) + " each" +
+              (plan.memory == 0
+                 ? "; no case is done yet that time and memory could be estimated from"
+                 : "; about " + FormatFixed(plan.seconds / 60.0, 1) + " min for what is not done, and up to " +
+                     DescribeBytes(plan.memory) + " each, as those that are done"));
+}
+
+volatile std::sig_atomic_t stopSignal = 0;
+
+extern "C" void
+RememberSignal(int signal)
+{
+  stopSignal = signal;
+}
+
+void
+Batch(const BatchOptions & options, const CommandContext & context)
+{
+  const Events events = context.console->MakeEvents();
+  BatchSettings settings = GetSettings(options, events);
+  if (options.isDryRun)
+  {
+    PrintPlan(settings, events);
+    return;
+  }
+  for (const int signal : { SIGINT, SIGTERM, SIGHUP })
+  {
+    if (std::signal(signal, RememberSignal) == SIG_IGN)
+    {
+      std::signal(signal, SIG_IGN);
+    }
+  }
+  settings.isStopped = [] { return stopSignal != 0; };
+  const BatchSummary summary = RunBatch(settings, events);
+  events.Note(std::to_string(summary.done) + " done, " + std::to_string(summary.failed) + " failed" +
+              (summary.notRun > 0 ? ", " + std::to_string(summary.notRun) + " not run" : "") + ": " + options.output +
+              "/index.html");
+  if (summary.isStopped)
+  {
+    events.Note("stopped; the same command goes on where this one ended");
+    context.console->Finish();
+    std::signal(stopSignal, SIG_DFL);
+    std::raise(stopSignal);
+  }
+  if (summary.failed > 0)
+  {
+    throw Failure(FailureKind::SomeFailed,
+                  Count(summary.failed, "case") + " of " + std::to_string(settings.cases.size()) + " failed; see " +
+                    options.output + "/results.tsv for the causes.");
+  }
+}
+
+} // namespace
+
+CommandRun
+AddBatchCommand(CLI::App & parser)
+{
+  const auto options = std::make_shared<BatchOptions>();
+  parser.add_option(
+    "COLLECTION",
+    options->collection,
+    "a folder of scans, in which every series and volume is a case; a BIDS dataset; or a manifest (.tsv) with columns "
+    "case, scan, labels, options");
+  parser.add_option("-o,--output", options->output, "the folder of all outputs: new, empty, or to go on with");
+  parser.add_option("--pipeline", options->pipeline, "what is made of each case, a .yaml file (default: a page)");
+  parser.add_option("-j,--jobs", options->jobs, "cases at the same time; they share --threads (default: half of them)")
+    ->check(CLI::Range(1u, 1024u));
+  parser
+    .add_option("--max-memory",
+                options->maximumMemory,
+                "most memory of a case, as 8G (default: 90 % of what is free, shared by the jobs)")
+    ->transform(CLI::AsSizeValue(false));
+  parser.add_option("--max-time", options->maximumSeconds, "most seconds of a case")
+    ->check(CLI::PositiveNumber)
+    ->capture_default_str();
+  parser.add_option("--case", options->only, "run this case only, by its name; repeatable")->allow_extra_args(false);
+  parser.add_flag("--names-from-paths",
+                  options->namesFromPaths,
+                  "name cases by their paths in the folder, if these name no patients (default: by a hash)");
+  parser.add_flag("--dry-run", options->isDryRun, "print the cases and their states, as a manifest, and stop");
+  return [options](const CommandContext & context) { Batch(*options, context); };
+}
+
+} // namespace rhombic

@@ -1,0 +1,60 @@
+#ifndef rhombicBatchCases_h
+#define rhombicBatchCases_h
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rhombic
+{
+
+/** \class BatchCase
+ * \brief One scan of a collection. */
+struct BatchCase
+{
+  std::string name;                         ///< of its folder of outputs
+  std::filesystem::path scan;               ///< absolute
+  std::filesystem::path labels;             ///< its label map, absolute; empty for none
+  std::vector<std::string> options;         ///< of each of its commands, as "--series=1b2c"
+  std::vector<std::filesystem::path> files; ///< all that is read, sorted
+
+  /** The size of all files in bytes. */
+  std::uintmax_t
+  GetSize() const;
+};
+
+/** \class CaseSearch
+ * \brief How the cases of a collection are found and named. */
+struct CaseSearch
+{
+  /** Names of cases in a tree of folders are made from their paths, which may name patients. Otherwise they are made
+   * from a hash of the path below the collection. */
+  bool namesFromPaths = false;
+
+  std::filesystem::path excluded; ///< a folder that is not searched
+};
+
+/** \class CaseCollection
+ * \brief The cases of a collection, and notes on what was left out. */
+struct CaseCollection
+{
+  std::vector<BatchCase> cases; ///< in the order of their paths, or of the manifest; names are different
+  std::vector<std::string> notes;
+};
+
+/** The cases of
+ * - a manifest (.tsv): columns case, scan, and perhaps labels and options, with paths relative to the manifest;
+ * - a BIDS dataset (a folder with dataset_description.json and folders sub-...): each volume in a folder anat, with
+ *   its label map (..._dseg) from there or from the derivatives, if there is one;
+ * - any other folder: each DICOM series and each volume file in it and in its subfolders, but for hidden ones and
+ *   symbolic links;
+ * - a single volume file.
+ *
+ * Throws Failure: NotFound when there are none, Usage for a mistake in a manifest, naming its line. */
+CaseCollection
+FindCases(const std::filesystem::path & collection, const CaseSearch & search = {});
+
+} // namespace rhombic
+
+#endif

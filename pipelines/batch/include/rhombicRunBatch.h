@@ -1,0 +1,89 @@
+#ifndef rhombicRunBatch_h
+#define rhombicRunBatch_h
+
+#include "rhombicBatchCases.h"
+#include "rhombicEvents.h"
+#include "rhombicPipelineFile.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace rhombic
+{
+
+/** \class BatchSettings
+ * \brief What RunBatch() does, and within which limits. */
+struct BatchSettings
+{
+  std::vector<BatchCase> cases;
+  std::vector<std::string> only; ///< names of the cases to run; empty: all
+  Pipeline pipeline;
+  std::filesystem::path output;     ///< a folder: new, empty, or of an earlier run
+  std::filesystem::path program;    ///< `rhombic`
+  std::string software;             ///< name and version
+  unsigned int jobs = 1;            ///< cases at the same time
+  unsigned int threads = 1;         ///< of each case
+  std::uintmax_t maximumMemory = 0; ///< of each process, in bytes
+  double maximumSeconds = 3600.0;   ///< of each case
+
+  /** Asked several times a second: true ends the run. May be empty. */
+  std::function<bool()> isStopped;
+};
+
+/** What there is of a case before a run. */
+enum class CaseState
+{
+  Missing, ///< it never ended, or its outputs are gone
+  Changed, ///< its files, the pipeline or the version are others
+  Failed,
+  Done
+};
+
+/** "missing", "changed", "failed" or "done". */
+std::string
+NameOf(CaseState state);
+
+/** \class BatchPlan
+ * \brief The states of the cases, and what running the others takes, estimated from those that are done. */
+struct BatchPlan
+{
+  std::vector<CaseState> states; ///< of BatchSettings::cases
+  double seconds = 0.0;          ///< until all others are done; 0 when no case is done
+  std::uintmax_t memory = 0;     ///< largest of a process so far, in bytes
+};
+
+/** What RunBatch() would do. Reads the inputs of cases whose files changed. Throws Failure(Output). */
+BatchPlan
+PlanBatch(const BatchSettings & settings);
+
+/** \class BatchSummary
+ * \brief Numbers of cases after a run. */
+struct BatchSummary
+{
+  std::size_t done = 0; ///< by this run or an earlier one
+  std::size_t failed = 0;
+  std::size_t notRun = 0;
+  bool isStopped = false;
+};
+
+/** Runs the pipeline's steps on each case that is not done, each step in a child process, and writes into the folder of
+ * outputs: a folder for each case that succeeds, journal.jsonl, results.tsv, results.json, measures.tsv, index.html.
+ *
+ * A case's folder appears when all of its outputs are complete. It is removed before the case runs again. A run that
+ * was killed is continued by the next one; both together write the same outputs as a single run, for any number of
+ * jobs. Paths and names of input files are in none of the outputs.
+ *
+ * Sets RHOMBIC_THREADS and RHOMBIC_MAX_MEMORY in the environment of this process, for the children. The children end
+ * with the calling thread.
+ *
+ * Throws Failure: Usage when \a only names no case, Output, Internal. Failures of cases are in the results. */
+BatchSummary
+RunBatch(const BatchSettings & settings, const Events & events);
+
+} // namespace rhombic
+
+#endif

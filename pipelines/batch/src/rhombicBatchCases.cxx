@@ -1,0 +1,472 @@
+#include "rhombicBatchCases.h"
+
+#include "rhombicFailure.h"
+#include "rhombicScanReader.h"
+#include "rhombicVolumeFormat.h"
+#include "rhombicWording.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <map>
+#include <set>
+
+namespace fs = std::filesystem;
+
+namespace rhombic
+{
+namespace
+{
+
+bool
+IsVolume(const fs::path & path)
+{
+  return !VolumeFormatOf(path).empty();
+}
+
+/** Whether a file begins as DICOM files do, with or without a preamble. */
+bool
+IsDicom(const fs::path & path)
+{
+  std::string start(132, '\0');
+  std::ifstream(path, std::ios::binary).read(start.data(), static_cast<std::streamsize>(start.size()));
+  const bool hasGroup = (start[0] == 2 || start[0] == 8) && start[1] == 0 && start[3] == 0;
+  return start.compare(128, 4, "DICM") == 0 || (hasGroup && start[2] != 0);
+}
+
+/** Files and folders in a folder, sorted, without hidden ones, links and \a excluded. */
+struct FolderEntries
+{
+  std::vector<fs::path> files;
+  std::vector<fs::path> folders;
+};
+
+FolderEntries
+ListFolder(const fs::path & folder, const fs::path & excluded)
+{
+  FolderEntries entries;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+  {
+    const fs::file_status status = entry->symlink_status(error);
+    if (entry->path().filename().string()[0] == '.' || entry->path() == excluded)
+    {
+      continue;
+    }
+    if (fs::is_directory(status))
+    {
+      entries.folders.push_back(entry->path());
+    }
+    else if (fs::is_regular_file(status))
+    {
+      entries.files.push_back(entry->path());
+    }
+  }
+  std::sort(entries.files.begin(), entries.files.end());
+  std::sort(entries.folders.begin(), entries.folders.end());
+  return entries;
+}
+
+/** A path without the extensions of a volume: "a/b" for "a/b.nii.gz". */
+std::string
+StemOf(const fs::path & volume)
+{
+  const std::string text = volume.string();
+  return text.substr(0, text.size() - VolumeExtension(volume).size());
+}
+
+/** All files that belong to a scan or label map: a folder's, or a header's and those of the same stem beside it. */
+void
+AddFiles(const fs::path & path, std::vector<fs::path> & files)
+{
+  const auto add = [&files](const auto & entry) {
+    if (entry.is_regular_file())
+    {
+      files.push_back(entry.path());
+    }
+  };
+  constexpr auto options = fs::directory_options::skip_permission_denied;
+  if (fs::is_directory(path))
+  {
+    for (const auto & entry : fs::recursive_directory_iterator(path, options))
+    {
+      add(entry);
+    }
+    return;
+  }
+  const std::string extension = VolumeExtension(path);
+  if (extension != ".hdr" && extension != ".hdr.gz" && extension != ".img" && extension != ".img.gz" &&
+      extension != ".nhdr" && extension != ".mhd")
+  {
+    files.push_back(path);
+    return;
+  }
+  for (const auto & entry : fs::directory_iterator(path.parent_path(), options))
+  {
+    if (entry.path().string().rfind(StemOf(path) + ".", 0) == 0)
+    {
+      add(entry);
+    }
+  }
+}
+
+/** Fills BatchCase::files. */
+void
+FindFiles(BatchCase & found)
+{
+  AddFiles(found.scan, found.files);
+  if (!found.labels.empty())
+  {
+    AddFiles(found.labels, found.files);
+  }
+  std::sort(found.files.begin(), found.files.end());
+  found.files.erase(std::unique(found.files.begin(), found.files.end()), found.files.end());
+}
+
+/** A text whose letters may be in the name of any file. */
+std::string
+ToFileName(std::string text)
+{
+  const auto isUnsafe = [](unsigned char letter) {
+    return std::isalnum(letter) == 0 && letter != '-' && letter != '.' && letter != '_';
+  };
+  std::replace_if(text.begin(), text.end(), isUnsafe, '_');
+  return text;
+}
+
+/** Finds the cases in a tree of folders. */
+class TreeSearch
+{
+public:
+  TreeSearch(const fs::path & root, const CaseSearch & search)
+    : m_Root(root)
+    , m_Search(search)
+  {}
+
+  CaseCollection
+  Run()
+  {
+    this->Enter(m_Root);
+    if (m_NumberOfOthers > 0)
+    {
+      m_Found.notes.push_back(Count(m_NumberOfOthers, "file") + " left out, neither DICOM nor volumes");
+    }
+    return m_Found;
+  }
+
+private:
+  void
+  Enter(const fs::path & folder)
+  {
+    const FolderEntries entries = ListFolder(folder, m_Search.excluded);
+    bool hasSlices = false;
+    for (const fs::path & file : entries.files)
+    {
+      if (IsVolume(file))
+      {
+        this->AddVolume(file);
+      }
+      else if (file.filename() != "DICOMDIR" && IsDicom(file))
+      {
+        hasSlices = true;
+      }
+      else
+      {
+        ++m_NumberOfOthers;
+      }
+    }
+    if (hasSlices) // those of its subfolders are found with them
+    {
+      this->AddSeries(folder);
+      return;
+    }
+    for (const fs::path & subfolder : entries.folders)
+    {
+      this->Enter(subfolder);
+    }
+  }
+
+  void
+  AddVolume(const fs::path & file)
+  {
+    const std::string extension = VolumeExtension(file);
+    const bool isSecondOfPair = extension == ".img" || extension == ".img.gz";
+    if (!isSecondOfPair || (!fs::exists(StemOf(file) + ".hdr") && !fs::exists(StemOf(file) + ".hdr.gz")))
+    {
+      this->Add(file, "");
+    }
+  }
+
+  /** A folder of slices is one case for each series, or one that ends with the reason for which it can't be read. */
+  void
+  AddSeries(const fs::path & folder)
+  {
+    std::vector<SeriesSummary> series;
+    try
+    {
+      series = ListSeries(folder).series;
+    }
+    catch (const Failure &)
+    {
+      series.clear(); // the case's own command will say it
+    }
+    if (series.size() < 2)
+    {
+      this->Add(folder, "");
+      return;
+    }
+    for (const SeriesSummary & one : series)
+    {
+      this->Add(folder, one.id);
+    }
+  }
+
+  void
+  Add(const fs::path & scan, const std::string & series)
+  {
+    BatchCase found;
+    const std::string place = (scan == m_Root ? scan.filename() : scan.lexically_relative(m_Root)).string() +
+                              (series.empty() ? "" : "/" + series);
+    constexpr std::size_t digits = 12;
+    found.name = m_Search.namesFromPaths ? ToFileName(place) : "case-" + HashText(place).substr(0, digits);
+    found.scan = scan;
+    if (!series.empty())
+    {
+      found.options.push_back("--series=" + series);
+    }
+    m_Found.cases.push_back(found);
+  }
+
+  fs::path m_Root;
+  CaseSearch m_Search;
+  CaseCollection m_Found;
+  std::size_t m_NumberOfOthers = 0;
+};
+
+bool
+IsBIDS(const fs::path & folder)
+{
+  const auto entries = ListFolder(folder, {});
+  return fs::exists(folder / "dataset_description.json") &&
+         std::any_of(entries.folders.begin(), entries.folders.end(), [](const fs::path & path) {
+           return path.filename().string().rfind("sub-", 0) == 0;
+         });
+}
+
+/** The volumes in folders of a name, anywhere in a folder. */
+void
+FindVolumes(const fs::path & folder, const std::string & name, const fs::path & excluded, std::vector<fs::path> & found)
+{
+  const FolderEntries entries = ListFolder(folder, excluded);
+  if (folder.filename() == name)
+  {
+    std::copy_if(entries.files.begin(), entries.files.end(), std::back_inserter(found), IsVolume);
+  }
+  for (const fs::path & subfolder : entries.folders)
+  {
+    FindVolumes(subfolder, name, excluded, found);
+  }
+}
+
+/** "sub-01_ses-1" of ".../sub-01_ses-1_T1w.nii.gz": a BIDS name without its suffix. */
+std::string
+EntitiesOf(const fs::path & volume)
+{
+  const std::string stem = fs::path(StemOf(volume)).filename().string();
+  return stem.substr(0, stem.rfind('_'));
+}
+
+std::string
+SuffixOf(const fs::path & volume)
+{
+  const std::string stem = fs::path(StemOf(volume)).filename().string();
+  return stem.substr(stem.rfind('_') + 1);
+}
+
+CaseCollection
+FindInBIDS(const fs::path & root, const fs::path & excluded)
+{
+  std::vector<fs::path> volumes;
+  FindVolumes(root, "anat", excluded, volumes);
+  CaseCollection found;
+  for (const fs::path & volume : volumes)
+  {
+    const std::string suffix = SuffixOf(volume);
+    const std::string below = volume.lexically_relative(root).begin()->string();
+    if (below.rfind("sub-", 0) != 0 || suffix == "dseg" || suffix == "probseg" || suffix == "mask")
+    {
+      continue;
+    }
+    BatchCase one;
+    one.name = ToFileName(fs::path(StemOf(volume)).filename().string());
+    one.scan = volume;
+    std::vector<fs::path> labels;
+    const std::string entities = EntitiesOf(volume);
+    std::copy_if(volumes.begin(), volumes.end(), std::back_inserter(labels), [&entities](const fs::path & other) {
+      return SuffixOf(other) == "dseg" && (EntitiesOf(other) + "_").rfind(entities + "_", 0) == 0;
+    });
+    if (labels.size() == 1)
+    {
+      one.labels = labels.front();
+    }
+    else if (labels.size() > 1)
+    {
+      found.notes.push_back(one.name + " has " + Count(labels.size(), "label map") +
+                            ", and none is used; choose in a manifest, which --dry-run writes");
+    }
+    found.cases.push_back(one);
+  }
+  return found;
+}
+
+[[noreturn]] void
+FailInManifest(const fs::path & manifest, std::size_t line, const std::string & why)
+{
+  throw Failure(FailureKind::Usage,
+                "The manifest " + manifest.string() + ", line " + std::to_string(line) + ": " + why +
+                  "; rhombic batch FOLDER --dry-run writes one to start from.");
+}
+
+/** The first line of a manifest: its columns. Those that --dry-run adds for the reader may be there. */
+std::vector<std::string>
+ParseHead(const fs::path & manifest, const std::string & line)
+{
+  const std::vector<std::string> known{ "case", "scan", "labels", "options", "state", "megabytes" };
+  std::vector<std::string> columns = Split(line, "\t");
+  for (const std::string & column : columns)
+  {
+    if (std::count(known.begin(), known.end(), column) == 0 || std::count(columns.begin(), columns.end(), column) > 1)
+    {
+      const std::string nearest = NearestName(column, known);
+      FailInManifest(manifest,
+                     1,
+                     "'" + column + "' is no column, or there twice" +
+                       (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+    }
+  }
+  for (const char * const needed : { "case", "scan" })
+  {
+    if (std::count(columns.begin(), columns.end(), needed) == 0)
+    {
+      FailInManifest(manifest, 1, std::string("the column ") + needed + " is missing");
+    }
+  }
+  return columns;
+}
+
+CaseCollection
+ReadManifest(const fs::path & manifest)
+{
+  std::ifstream stream(manifest);
+  CaseCollection found;
+  std::vector<std::string> columns;
+  std::string text;
+  for (std::size_t line = 1; std::getline(stream, text); ++line)
+  {
+    text = text.substr(0, text.find_last_not_of('\r') + 1);
+    if (columns.empty())
+    {
+      columns = ParseHead(manifest, text);
+      continue;
+    }
+    if (Trim(text).empty())
+    {
+      continue;
+    }
+    const std::vector<std::string> fields = Split(text, "\t");
+    if (fields.size() != columns.size())
+    {
+      FailInManifest(
+        manifest, line, Count(fields.size(), "field") + " where there are " + Count(columns.size(), "column"));
+    }
+    std::map<std::string, std::string> row;
+    std::transform(
+      columns.begin(), columns.end(), fields.begin(), std::inserter(row, row.end()), [](auto & a, auto & b) {
+        return std::make_pair(a, b);
+      });
+    BatchCase one;
+    one.name = row["case"];
+    if (one.name.empty() || one.name[0] == '.' || one.name[0] == '-' || one.name != ToFileName(one.name))
+    {
+      FailInManifest(manifest, line, "'" + one.name + "' is no name of a case: letters, digits, . _ and - are allowed");
+    }
+    const auto isSame = [&one](const BatchCase & other) { return other.name == one.name; };
+    if (std::any_of(found.cases.begin(), found.cases.end(), isSame))
+    {
+      FailInManifest(manifest, line, "there is a case " + one.name + " before");
+    }
+    const fs::path folder = manifest.parent_path();
+    one.scan = (folder / row["scan"]).lexically_normal();
+    one.labels = row["labels"].empty() ? fs::path() : (folder / row["labels"]).lexically_normal();
+    for (const std::string_view word : SplitWords(row["options"]))
+    {
+      one.options.emplace_back(word);
+    }
+    found.cases.push_back(one);
+  }
+  return found;
+}
+
+} // namespace
+
+std::uintmax_t
+BatchCase::GetSize() const
+{
+  std::uintmax_t size = 0;
+  for (const fs::path & file : files)
+  {
+    std::error_code error;
+    const std::uintmax_t bytes = fs::file_size(file, error);
+    size += error ? 0 : bytes;
+  }
+  return size;
+}
+
+CaseCollection
+FindCases(const fs::path & path, const CaseSearch & given)
+{
+  std::error_code error;
+  const fs::path collection = fs::canonical(path, error);
+  if (error)
+  {
+    throw Failure(FailureKind::NotFound,
+                  "Cannot read " + path.string() + ": there is no such file or folder; check the spelling.");
+  }
+  CaseSearch search = given;
+  search.excluded = given.excluded.empty() ? fs::path() : fs::weakly_canonical(given.excluded, error);
+  CaseCollection found;
+  if (LowerCase(collection.extension().string()) == ".tsv")
+  {
+    found = ReadManifest(collection);
+  }
+  else if (!fs::is_directory(collection))
+  {
+    found.cases.push_back(
+      { search.namesFromPaths ? ToFileName(fs::path(StemOf(collection)).filename()) : "case", collection, {}, {}, {} });
+  }
+  else
+  {
+    found = IsBIDS(collection) ? FindInBIDS(collection, search.excluded) : TreeSearch(collection, search).Run();
+  }
+  if (found.cases.empty())
+  {
+    throw Failure(FailureKind::NotFound,
+                  "There is no case in " + path.string() +
+                    "; name a folder of scans, a BIDS dataset, or a manifest with lines below its head.");
+  }
+  std::set<std::string> names;
+  for (BatchCase & one : found.cases)
+  {
+    for (unsigned int n = 2; !names.insert(one.name).second; ++n)
+    {
+      one.name += "-" + std::to_string(n);
+    }
+    if (fs::exists(one.scan) && (one.labels.empty() || fs::exists(one.labels)))
+    {
+      FindFiles(one);
+    }
+  }
+  return found;
+}
+
+} // namespace rhombic

@@ -1,0 +1,99 @@
+#ifndef rhombicCaseRun_h
+#define rhombicCaseRun_h
+
+#include "rhombicChildProcess.h"
+#include "rhombicRunBatch.h"
+#include "rhombicScanReport.h"
+
+#include <chrono>
+#include <future>
+#include <memory>
+#include <string>
+
+namespace rhombic
+{
+
+/** The folder in which a case's outputs are made; folders of this prefix are left from killed runs. */
+constexpr char StagePrefix[] = ".stage-";
+
+/** A hash of all options that a case's outputs depend on. */
+std::string
+HashOptions(const BatchCase & batchCase, const Pipeline & pipeline);
+
+/** \class CaseRun
+ * \brief Runs the steps of one case, one child process after the other. */
+class CaseRun
+{
+public:
+  /** Removes what there is of the case and starts its first step. */
+  CaseRun(const BatchCase & batchCase, const BatchSettings & settings);
+
+  /** Removes the stage. */
+  ~CaseRun();
+
+  CaseRun(const CaseRun &) = delete;
+  CaseRun &
+  operator=(const CaseRun &) = delete;
+
+  /** For poll(): readable when there is something to do. */
+  int
+  GetDescriptor() const
+  {
+    return m_Child->GetDescriptor();
+  }
+
+  /** Starts the next step if one has ended. True when the case has ended, with its folder in place if it succeeded. */
+  bool
+  Continue();
+
+  /** The case's line in the journal, once it has ended. */
+  const Report &
+  GetRecord() const
+  {
+    return m_Record;
+  }
+
+  /** The cause of a failure, with names of files, which the record leaves out. */
+  const std::string &
+  GetCause() const
+  {
+    return m_Cause;
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  void
+  StartStep();
+  bool
+  TakeStep();
+  void
+  ChoosePreset();
+  void
+  Fail(int code, const std::string & cause);
+  void
+  Succeed();
+  void
+  AddOutputs();
+  void
+  AddThumbnail();
+
+  const BatchCase & m_Case;
+  const BatchSettings & m_Settings;
+  std::filesystem::path m_Stage;
+  std::size_t m_Step = 0;
+  bool m_IsAsking = false; ///< the child is `rhombic info`
+  bool m_HasPreset = false;
+  std::string m_Preset; ///< the one that "auto" is
+  std::unique_ptr<ChildProcess> m_Child;
+  bool m_IsTooLong = false;
+  Clock::time_point m_Start = Clock::now();
+  Clock::time_point m_ChildStart;
+  std::shared_future<std::string> m_InputHash;
+  Report m_Record;
+  std::string m_Cause;
+};
+
+} // namespace rhombic
+
+#endif

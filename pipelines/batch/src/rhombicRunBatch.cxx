@@ -1,0 +1,318 @@
+#include "rhombicRunBatch.h"
+
+#include "rhombicBatchJournal.h"
+#include "rhombicBatchResults.h"
+#include "rhombicCaseRun.h"
+#include "rhombicFailure.h"
+#include "rhombicFileHash.h"
+#include "rhombicMemoryBudget.h"
+#include "rhombicWording.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+
+#include <poll.h>
+
+namespace fs = std::filesystem;
+
+namespace rhombic
+{
+namespace
+{
+
+/** Whether the outputs of a journal's line are there. */
+bool
+HasOutputs(const Report & record, const fs::path & folder)
+{
+  const Report outputs = record.value("outputs", Report::array());
+  return std::all_of(outputs.begin(), outputs.end(), [&folder](const Report & output) {
+    std::error_code error;
+    return fs::file_size(folder / output.value("name", std::string()), error) ==
+             output.value("bytes", std::uintmax_t{ 0 }) &&
+           !error;
+  });
+}
+
+/** A case's state. When its files have other times or places but the same contents, \a moved is set to a new line for
+ * the journal. */
+CaseState
+FindState(const BatchCase & batchCase, const BatchSettings & settings, const Report * record, Report & moved)
+{
+  if (record == nullptr)
+  {
+    return CaseState::Missing;
+  }
+  const bool isDone = record->value("status", std::string()) == "done";
+  if (!isDone || !HasOutputs(*record, settings.output / batchCase.name))
+  {
+    return isDone ? CaseState::Missing : CaseState::Failed;
+  }
+  const Report input = record->value("input", Report::object());
+  const std::string stamp = HashFileStates(batchCase.files);
+  if (record->value("options", std::string()) != HashOptions(batchCase, settings.pipeline) ||
+      record->value("software", std::string()) != settings.software)
+  {
+    return CaseState::Changed;
+  }
+  if (input.value("stamp", std::string()) != stamp)
+  {
+    if (input.value("md5", std::string()) != HashFiles(batchCase.files))
+    {
+      return CaseState::Changed;
+    }
+    moved = *record;
+    moved["input"]["stamp"] = stamp;
+  }
+  return CaseState::Done;
+}
+
+/** "5 s", "12 min", "3.5 h". */
+std::string
+DescribeDuration(double seconds)
+{
+  return seconds < 90.0     ? FormatFixed(seconds, 0) + " s"
+         : seconds < 5400.0 ? FormatFixed(seconds / 60.0, 0) + " min"
+                            : FormatFixed(seconds / 3600.0, 1) + " h";
+}
+
+/** Whether a case is among those to run. */
+bool
+IsChosen(const BatchCase & batchCase, const std::vector<std::string> & only)
+{
+  return only.empty() || std::find(only.begin(), only.end(), batchCase.name) != only.end();
+}
+
+void
+CheckChoice(const BatchSettings & settings)
+{
+  std::vector<std::string> names;
+  for (const BatchCase & batchCase : settings.cases)
+  {
+    names.push_back(batchCase.name);
+  }
+  for (const std::string & wanted : settings.only)
+  {
+    if (std::find(names.begin(), names.end(), wanted) == names.end())
+    {
+      throw Failure(FailureKind::Usage, DescribeUnknown("case", wanted, names, "--dry-run lists all of them"));
+    }
+  }
+}
+
+/** \class BatchRun
+ * \brief Runs the cases, several at a time. */
+class BatchRun
+{
+public:
+  BatchRun(const BatchSettings & settings, const Events & events)
+    : m_Settings(settings)
+    , m_Events(events)
+    , m_Journal(settings.output)
+  {
+    m_Settings.output = fs::canonical(settings.output); // children run in folders of their own
+  }
+
+  BatchSummary
+  Run()
+  {
+    this->RemoveStages();
+    this->Plan();
+    bool isStopped = false;
+    while (!isStopped && (m_Next < m_Queue.size() || !m_Running.empty()))
+    {
+      while (m_Running.size() < m_Settings.jobs && m_Next < m_Queue.size())
+      {
+        m_Running.push_back(std::make_unique<CaseRun>(*m_Queue[m_Next++], m_Settings));
+      }
+      this->ReportProgress();
+      this->Wait();
+      this->TakeEnded();
+      isStopped = m_Settings.isStopped && m_Settings.isStopped();
+    }
+    m_Running.clear(); // ends their processes, removes their stages
+    BatchSummary summary = this->WriteAll();
+    summary.isStopped = isStopped;
+    return summary;
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  /** Removes what killed runs have left. */
+  void
+  RemoveStages() const
+  {
+    std::vector<fs::path> stages;
+    for (const auto & entry : fs::directory_iterator(m_Settings.output))
+    {
+      if (entry.path().filename().string().rfind(StagePrefix, 0) == 0)
+      {
+        stages.push_back(entry.path());
+      }
+    }
+    for (const fs::path & stage : stages)
+    {
+      fs::remove_all(stage);
+    }
+  }
+
+  /** Finds the cases to run. */
+  void
+  Plan()
+  {
+    std::size_t done = 0;
+    for (const BatchCase & batchCase : m_Settings.cases)
+    {
+      Report moved;
+      const CaseState state = FindState(batchCase, m_Settings, m_Journal.Find(batchCase.name), moved);
+      if (!moved.is_null())
+      {
+        m_Journal.Add(moved);
+      }
+      if (state == CaseState::Done)
+      {
+        ++done;
+      }
+      else if (IsChosen(batchCase, m_Settings.only))
+      {
+        m_Queue.push_back(&batchCase);
+      }
+    }
+    m_Events.Note(Count(m_Settings.cases.size(), "case") + ", " + std::to_string(done) + " done before, " +
+                  std::to_string(m_Queue.size()) + " to run, " + std::to_string(m_Settings.jobs) + " at a time, " +
+                  Count(m_Settings.threads, "thread") + " and at most " + DescribeBytes(m_Settings.maximumMemory) +
+                  " each");
+  }
+
+  /** Until a process ends, for at most a quarter of a second. */
+  void
+  Wait() const
+  {
+    std::vector<pollfd> descriptors;
+    for (const auto & run : m_Running)
+    {
+      descriptors.push_back({ run->GetDescriptor(), POLLIN, 0 });
+    }
+    constexpr int milliseconds = 250;
+    poll(descriptors.data(), descriptors.size(), milliseconds);
+  }
+
+  void
+  TakeEnded()
+  {
+    for (auto run = m_Running.begin(); run != m_Running.end();)
+    {
+      if (!(*run)->Continue())
+      {
+        ++run;
+        continue;
+      }
+      const Report & record = (*run)->GetRecord();
+      m_Journal.Add(record);
+      ++m_Ended;
+      const bool isDone = (*run)->GetCause().empty();
+      m_Failed += isDone ? 0 : 1;
+      m_Events.Note(record["case"].get<std::string>() + ": " +
+                    (isDone ? "done in " + FormatFixed(record["seconds"].get<double>(), 1) + " s, " +
+                                DescribeBytes(record["peakMemory"].get<std::uintmax_t>())
+                            : "failed: " + (*run)->GetCause()));
+      run = m_Running.erase(run);
+    }
+  }
+
+  void
+  ReportProgress() const
+  {
+    const double seconds = std::chrono::duration<double>(Clock::now() - m_Start).count();
+    const double share = static_cast<double>(m_Ended) / static_cast<double>(m_Queue.size());
+    m_Events.Progress("cases: " + std::to_string(m_Ended) + " of " + std::to_string(m_Queue.size()) +
+                        (m_Failed > 0 ? ", " + std::to_string(m_Failed) + " failed" : "") +
+                        (m_Ended > 0 ? ", " + DescribeDuration(seconds * (1.0 / share - 1.0)) + " left" : ""),
+                      share);
+  }
+
+  /** Writes the results of all cases, those of earlier runs included. */
+  BatchSummary
+  WriteAll() const
+  {
+    BatchSummary summary;
+    std::vector<Report> records;
+    for (const BatchCase & batchCase : m_Settings.cases)
+    {
+      const Report * const record = m_Journal.Find(batchCase.name);
+      // A done case that a stopped run was to repeat has lost its outputs.
+      const bool hasRun =
+        record != nullptr && ((*record)["status"] != "done" || HasOutputs(*record, m_Settings.output / batchCase.name));
+      records.push_back(hasRun ? *record : Report{ { "case", batchCase.name }, { "status", "not run" } });
+      ++(!hasRun ? summary.notRun : records.back()["status"] == "done" ? summary.done : summary.failed);
+    }
+    WriteResults(records, m_Settings.output);
+    return summary;
+  }
+
+  BatchSettings m_Settings;
+  const Events & m_Events;
+  BatchJournal m_Journal;
+  std::vector<const BatchCase *> m_Queue;
+  std::size_t m_Next = 0; ///< in the queue
+  std::vector<std::unique_ptr<CaseRun>> m_Running;
+  std::size_t m_Ended = 0;
+  std::size_t m_Failed = 0; ///< of those that ended in this run
+  Clock::time_point m_Start = Clock::now();
+};
+
+} // namespace
+
+std::string
+NameOf(CaseState state)
+{
+  constexpr const char * names[] = { "missing", "changed", "failed", "done" };
+  return names[static_cast<std::size_t>(state)];
+}
+
+BatchPlan
+PlanBatch(const BatchSettings & settings)
+{
+  CheckChoice(settings);
+  BatchPlan plan;
+  if (!fs::exists(settings.output / "journal.jsonl"))
+  {
+    plan.states.resize(settings.cases.size(), CaseState::Missing);
+    return plan;
+  }
+  const BatchJournal journal(settings.output);
+  double seconds = 0.0;
+  std::size_t done = 0;
+  std::size_t others = 0;
+  for (const BatchCase & batchCase : settings.cases)
+  {
+    Report moved;
+    const Report * const record = journal.Find(batchCase.name);
+    plan.states.push_back(FindState(batchCase, settings, record, moved));
+    if (plan.states.back() == CaseState::Done)
+    {
+      ++done;
+      seconds += record->value("seconds", 0.0);
+      plan.memory = std::max(plan.memory, record->value("peakMemory", std::uintmax_t{ 0 }));
+    }
+    else
+    {
+      others += IsChosen(batchCase, settings.only) ? 1 : 0;
+    }
+  }
+  plan.seconds = done == 0 ? 0.0 : seconds / static_cast<double>(done) * static_cast<double>(others) / settings.jobs;
+  return plan;
+}
+
+BatchSummary
+RunBatch(const BatchSettings & settings, const Events & events)
+{
+  CheckChoice(settings);
+  setenv("RHOMBIC_THREADS", std::to_string(settings.threads).c_str(), 1);
+  setenv("RHOMBIC_MAX_MEMORY", std::to_string(settings.maximumMemory).c_str(), 1);
+  return BatchRun(settings, events).Run();
+}
+
+} // namespace rhombic

@@ -1,0 +1,139 @@
+#include "rhombicBatchCases.h"
+
+#include "rhombicFailure.h"
+#include "rhombicTemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+using rhombic::CaseCollection;
+using rhombic::Failure;
+using rhombictest::TemporaryFolder;
+
+const fs::path phantom = fs::path(RHOMBIC_TESTDATA) / "phantom";
+
+void
+WriteFile(const fs::path & path, const std::string & text)
+{
+  fs::create_directories(path.parent_path());
+  std::ofstream(path) << text;
+}
+
+TEST(BatchCases, ATreeHasACaseForEachSeriesAndVolume)
+{
+  const TemporaryFolder folder;
+  const fs::path root = folder.Path() / "DOE^JANE";
+  fs::create_directories(root / "a");
+  fs::copy(phantom / "dicom", root / "a/series");
+  fs::copy(phantom / "phantom.nii.gz", root / "phantom.nii.gz");
+  WriteFile(root / "pair.hdr", "x");
+  WriteFile(root / "pair.img", "x");
+  WriteFile(root / "notes.txt", "x");
+  WriteFile(root / ".hidden/scan.nii", "x");
+  WriteFile(root / "out/page.nrrd", "x");
+  const CaseCollection found = rhombic::FindCases(root, { false, root / "out" });
+  std::set<fs::path> scans;
+  for (const auto & one : found.cases)
+  {
+    scans.insert(one.scan.lexically_relative(fs::canonical(root)));
+    EXPECT_EQ(one.name.find("DOE"), std::string::npos) << one.name;
+    EXPECT_EQ(one.name.rfind("case-", 0), 0u) << one.name;
+  }
+  EXPECT_EQ(scans, (std::set<fs::path>{ "a/series", "pair.hdr", "phantom.nii.gz" }));
+  ASSERT_EQ(found.notes.size(), 1u);
+  EXPECT_NE(found.notes.front().find("1 file"), std::string::npos);
+
+  const auto named = rhombic::FindCases(root, { true, root / "out" }).cases;
+  EXPECT_EQ(named.front().name, "pair.hdr");
+  EXPECT_EQ(named.front().files.size(), 2u) << "header and voxels";
+  EXPECT_EQ(named.back().name, "a_series");
+}
+
+TEST(BatchCases, NamesStayWhenScansAreAdded)
+{
+  const TemporaryFolder folder;
+  WriteFile(folder.Path() / "b.nii", "x");
+  const std::string name = rhombic::FindCases(folder.Path()).cases.front().name;
+  WriteFile(folder.Path() / "a.nii", "x");
+  EXPECT_EQ(rhombic::FindCases(folder.Path()).cases.back().name, name);
+}
+
+TEST(BatchCases, BIDSHasItsNamesAndLabels)
+{
+  const TemporaryFolder folder;
+  const fs::path root = folder.Path();
+  WriteFile(root / "dataset_description.json", "{}");
+  for (const char * const name : { "sub-01/anat/sub-01_T1w.nii.gz",
+                                   "sub-01/anat/sub-01_T1w.json",
+                                   "sub-02/ses-1/anat/sub-02_ses-1_T1w.nii.gz",
+                                   "sub-02/ses-1/anat/sub-02_ses-1_T2w.nii.gz",
+                                   "sub-02/ses-1/func/sub-02_ses-1_bold.nii.gz",
+                                   "derivatives/seg/sub-01/anat/sub-01_space-orig_dseg.nii.gz" })
+  {
+    WriteFile(root / name, "x");
+  }
+  const auto cases = rhombic::FindCases(root).cases;
+  ASSERT_EQ(cases.size(), 3u);
+  EXPECT_EQ(cases[0].name, "sub-01_T1w");
+  EXPECT_EQ(cases[0].labels.filename(), "sub-01_space-orig_dseg.nii.gz");
+  EXPECT_EQ(cases[0].files.size(), 2u);
+  EXPECT_EQ(cases[1].name, "sub-02_ses-1_T1w");
+  EXPECT_TRUE(cases[1].labels.empty());
+}
+
+TEST(BatchCases, AManifestNamesCasesWithPathsRelativeToIt)
+{
+  const TemporaryFolder folder;
+  WriteFile(folder.Path() / "scans/a.nii", "x");
+  const fs::path manifest = folder.Path() / "cases.tsv";
+  WriteFile(manifest, "case\tscan\toptions\r\none\tscans/a.nii\t--frame 2\r\ntwo\tnone.nii\t\r\n");
+  const auto cases = rhombic::FindCases(manifest).cases;
+  ASSERT_EQ(cases.size(), 2u);
+  EXPECT_EQ(cases[0].scan, fs::canonical(folder.Path()) / "scans/a.nii");
+  EXPECT_EQ(cases[0].options, (std::vector<std::string>{ "--frame", "2" }));
+  EXPECT_TRUE(cases[1].files.empty()) << "what is missing is for its command to say";
+}
+
+TEST(BatchCases, MistakesInManifestsAreNamedWithTheirLine)
+{
+  struct Mistake
+  {
+    const char * text;
+    const char * expected;
+  };
+  for (const Mistake & mistake : { Mistake{ "case\tscann\n", "did you mean scan" },
+                                   Mistake{ "case\tlabels\n", "column scan is missing" },
+                                   Mistake{ "case\tscan\na\tx\nb\n", "line 3: 1 field" },
+                                   Mistake{ "case\tscan\na\tx\na\ty\n", "line 3: there is a case a" },
+                                   Mistake{ "case\tscan\n../a\tx\n", "line 2: '../a' is no name" } })
+  {
+    const TemporaryFolder folder;
+    WriteFile(folder.Path() / "m.tsv", mistake.text);
+    try
+    {
+      rhombic::FindCases(folder.Path() / "m.tsv");
+      ADD_FAILURE() << mistake.text;
+    }
+    catch (const Failure & failure)
+    {
+      EXPECT_NE(std::string(failure.GetDescription()).find(mistake.expected), std::string::npos)
+        << failure.GetDescription();
+    }
+  }
+}
+
+TEST(BatchCases, AnEmptyCollectionIsAFailure)
+{
+  const TemporaryFolder folder;
+  EXPECT_THROW(rhombic::FindCases(folder.Path()), Failure);
+  EXPECT_THROW(rhombic::FindCases(folder.Path() / "missing"), Failure);
+}
+
+} // namespace

@@ -1,0 +1,228 @@
+#include "rhombicProgram.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <map>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+using rhombictest::Outcome;
+using rhombictest::ReadText;
+using rhombictest::RunShell;
+using rhombictest::TemporaryFolder;
+
+const fs::path phantom = fs::path(RHOMBIC_TESTDATA) / "phantom";
+
+/** A manifest of variants of the phantom and of broken scans, and a pipeline of two files for each. */
+void
+WriteCollection(const fs::path & folder, int variants)
+{
+  fs::copy(phantom / "dicom", folder / "QzPatient");
+  std::ofstream(folder / "QzEmpty.nii");
+  const std::string whole = ReadText(phantom / "phantom.nii.gz");
+  std::ofstream(folder / "QzShort.nii.gz", std::ios::binary) << whole.substr(0, whole.size() / 2);
+  std::ofstream manifest(folder / "cases.tsv");
+  manifest << "case\tscan\tlabels\toptions\n";
+  for (int n = 0; n < variants; ++n)
+  {
+    manifest << "v" << n << "\tQzPatient\t\t--density " << 0.5 + 0.05 * n << "\n";
+  }
+  manifest << "empty\tQzEmpty.nii\t\t\nshort\tQzShort.nii.gz\t\t\ngone\tQzGone.nii\t\t\n";
+  std::ofstream(folder / "pipeline.yaml") << "options: {density: 1}\n"
+                                             "outputs:\n"
+                                             "  - mesh: bone.stl\n"
+                                             "    threshold: 250.5\n"
+                                             "  - volume: scan.fcc.nrrd\n";
+}
+
+/** The files of a folder, by their path and content, without those that hold times. */
+std::map<std::string, std::string>
+ContentsOf(const fs::path & folder)
+{
+  std::map<std::string, std::string> contents;
+  for (const auto & entry : fs::recursive_directory_iterator(folder))
+  {
+    const std::string path = entry.path().lexically_relative(folder).string();
+    const bool hasTimes = path == "journal.jsonl" || path == "index.html" || path.rfind("results.", 0) == 0;
+    if (!entry.is_directory())
+    {
+      contents[path] = hasTimes ? "" : ReadText(entry.path());
+    }
+  }
+  return contents;
+}
+
+/** Status and cause of each case in results.json. */
+std::map<std::string, std::string>
+ResultsOf(const fs::path & folder)
+{
+  std::map<std::string, std::string> results;
+  for (const auto & one : nlohmann::json::parse(ReadText(folder / "results.json")))
+  {
+    results[one["case"]] = one["status"].get<std::string>() + ": " + one.value("cause", "");
+  }
+  return results;
+}
+
+constexpr char command[] = "rhombic batch cases.tsv --pipeline pipeline.yaml ";
+
+TEST(Batch, BrokenScansAreNamedAndTheOthersDone)
+{
+  const TemporaryFolder folder;
+  WriteCollection(folder.Path(), 2);
+  const Outcome outcome = RunShell(std::string(command) + "-o out", folder.Path());
+  EXPECT_EQ(outcome.exitCode, 12) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("3 cases of 5 failed"), std::string::npos) << outcome.errors;
+  const auto results = ResultsOf(folder.Path() / "out");
+  EXPECT_EQ(results.at("v0"), "done: ");
+  EXPECT_EQ(results.at("v1"), "done: ");
+  for (const char * const broken : { "empty", "short", "gone" })
+  {
+    EXPECT_EQ(results.at(broken).rfind("failed: ", 0), 0u);
+    EXPECT_GT(results.at(broken).size(), 20u);
+    EXPECT_FALSE(fs::exists(folder.Path() / "out" / broken));
+  }
+  for (const auto & [path, content] : ContentsOf(folder.Path()))
+  {
+    if (path.rfind("out/", 0) == 0)
+    {
+      EXPECT_EQ(ReadText(folder.Path() / path).find("Qz"), std::string::npos) << path << " holds the name of a scan";
+    }
+  }
+  const std::string table = ReadText(folder.Path() / "out/results.tsv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 6);
+  const std::string measures = ReadText(folder.Path() / "out/measures.tsv");
+  EXPECT_NE(measures.find("\nv1\tbone.stl\t"), std::string::npos) << measures;
+  const std::string page = ReadText(folder.Path() / "out/index.html");
+  EXPECT_NE(page.find("./v0/bone.stl"), std::string::npos);
+  EXPECT_EQ(page.find("http"), std::string::npos);
+}
+
+TEST(Batch, ARerunDoesWhatIsMissingOrChanged)
+{
+  const TemporaryFolder folder;
+  WriteCollection(folder.Path(), 3);
+  const std::string run = std::string(command) + "-o out --case v0 --case v1 --case v2";
+  const Outcome first = RunShell(run, folder.Path());
+  ASSERT_EQ(first.exitCode, 0) << first.errors;
+  EXPECT_NE(first.errors.find("3 not run"), std::string::npos) << first.errors;
+  const auto runAgain = [&] {
+    const Outcome outcome = RunShell(run, folder.Path());
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+    const auto place = outcome.errors.find(" to run");
+    return outcome.errors.substr(outcome.errors.rfind(' ', place - 1) + 1, 1);
+  };
+  EXPECT_EQ(runAgain(), "0");
+  fs::remove(folder.Path() / "out/v1/bone.stl");
+  EXPECT_EQ(runAgain(), "1");
+  fs::last_write_time(folder.Path() / "QzPatient/slice-0001.dcm", fs::file_time_type::clock::now());
+  EXPECT_EQ(runAgain(), "0") << "a new time, the same contents";
+  fs::rename(folder.Path() / "QzPatient", folder.Path() / "QzOther");
+  EXPECT_EQ(RunShell("sed -i s/QzPatient/QzOther/ cases.tsv", folder.Path()).exitCode, 0);
+  EXPECT_EQ(runAgain(), "0") << "another place, the same contents";
+  std::ofstream(folder.Path() / "QzOther/readme.txt") << "more";
+  EXPECT_EQ(runAgain(), "3") << "contents";
+  std::ofstream(folder.Path() / "pipeline.yaml", std::ios::app) << "    density: 0.6\n";
+  EXPECT_EQ(runAgain(), "3") << "options";
+}
+
+TEST(Batch, KilledRunsGoOnToTheSameOutputs)
+{
+  const TemporaryFolder folder;
+  WriteCollection(folder.Path(), 6);
+  ASSERT_EQ(RunShell(std::string(command) + "-o one --jobs 1", folder.Path()).exitCode, 12);
+  ASSERT_EQ(RunShell(std::string(command) + "-o two --jobs 2", folder.Path()).exitCode, 12);
+  std::mt19937 random(7);
+  for (int n = 0; n < 8; ++n)
+  {
+    const int milliseconds = 150 + static_cast<int>(random() % 1500);
+    const std::string signal = n % 4 == 3 ? "TERM" : "KILL";
+    RunShell(std::string(command) + "-o killed --jobs 2 & sleep " + std::to_string(milliseconds / 1000.0) + "; kill -" +
+               signal + " $! || true; wait || true",
+             folder.Path());
+  }
+  EXPECT_EQ(RunShell(std::string(command) + "-o killed --jobs 2", folder.Path()).exitCode, 12);
+  const auto expected = ContentsOf(folder.Path() / "one");
+  EXPECT_GT(expected.size(), 30u);
+  for (const char * const other : { "two", "killed" })
+  {
+    const auto contents = ContentsOf(folder.Path() / other);
+    EXPECT_TRUE(contents == expected) << other;
+    EXPECT_EQ(ResultsOf(folder.Path() / other), ResultsOf(folder.Path() / "one"));
+  }
+}
+
+TEST(Batch, TwoRunsOnOneFolderExcludeEachOther)
+{
+  const TemporaryFolder folder;
+  WriteCollection(folder.Path(), 2);
+  const Outcome outcome = RunShell("exec 9>out.lock; mkdir out; touch out/journal.jsonl\n"
+                                   "flock out/journal.jsonl " +
+                                     std::string(command) + "-o out",
+                                   folder.Path());
+  EXPECT_EQ(outcome.exitCode, 7);
+  EXPECT_NE(outcome.errors.find("Another run writes to out"), std::string::npos) << outcome.errors;
+}
+
+TEST(Batch, FoldersOfOthersAreNotTouched)
+{
+  const TemporaryFolder folder;
+  WriteCollection(folder.Path(), 1);
+  fs::create_directory(folder.Path() / "out");
+  std::ofstream(folder.Path() / "out/thesis.txt") << "x";
+  EXPECT_EQ(RunShell(std::string(command) + "-o out", folder.Path()).exitCode, 7);
+  EXPECT_TRUE(fs::exists(folder.Path() / "out/thesis.txt"));
+}
+
+TEST(Batch, LimitsEndCasesWithTheirNames)
+{
+  const TemporaryFolder folder;
+  WriteCollection(folder.Path(), 1);
+  std::ofstream(folder.Path() / "slow.yaml") << "outputs: [{mesh: bone.stl, threshold: 250.5, density: 300}]";
+  const Outcome slow =
+    RunShell("rhombic batch cases.tsv --case v0 --pipeline slow.yaml -o slow --max-time 0.1", folder.Path());
+  EXPECT_EQ(slow.exitCode, 12);
+  EXPECT_NE(slow.errors.find("v0: failed: It took longer than 0.1 s"), std::string::npos) << slow.errors;
+  const Outcome large = RunShell(std::string(command) + "--case v0 -o large --max-memory 1M", folder.Path());
+  EXPECT_EQ(large.exitCode, 12);
+  EXPECT_EQ(ResultsOf(folder.Path() / "large").at("v0").rfind("failed: ", 0), 0u);
+}
+
+TEST(Batch, ADryRunIsAManifestOfTheSameCases)
+{
+  const TemporaryFolder folder;
+  WriteCollection(folder.Path(), 2);
+  const Outcome plan = RunShell("rhombic batch . -o out --dry-run", folder.Path());
+  ASSERT_EQ(plan.exitCode, 0) << plan.errors;
+  EXPECT_FALSE(fs::exists(folder.Path() / "out"));
+  std::ofstream(folder.Path() / "plan.tsv") << plan.output;
+  EXPECT_EQ(RunShell("rhombic batch plan.tsv -o out --dry-run", folder.Path()).output, plan.output);
+  EXPECT_EQ(std::count(plan.output.begin(), plan.output.end(), '\n'), 4) << plan.output;
+}
+
+TEST(Batch, TheDefaultIsAPageWithAThumbnail)
+{
+  const TemporaryFolder folder;
+  fs::copy(phantom / "phantom.nii.gz", folder.Path());
+  const Outcome outcome = RunShell("rhombic batch phantom.nii.gz -o out", folder.Path());
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+  for (const char * const file : { "page.png", "page.png.json", "thumbnail.jpg", "case.json" })
+  {
+    EXPECT_TRUE(fs::exists(folder.Path() / "out/case" / file)) << file;
+  }
+  EXPECT_NE(ReadText(folder.Path() / "out/case/page.png.json").find("ct-bone-skin"), std::string::npos);
+  EXPECT_NE(ReadText(folder.Path() / "out/index.html").find("src=\"./case/thumbnail.jpg\""), std::string::npos);
+}
+
+} // namespace

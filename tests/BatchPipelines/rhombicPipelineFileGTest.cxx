@@ -1,0 +1,123 @@
+#include "rhombicPipelineFile.h"
+
+#include "rhombicFailure.h"
+#include "rhombicTemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+namespace
+{
+
+using rhombic::CommandSyntax;
+using rhombic::Failure;
+using rhombic::Pipeline;
+using rhombictest::TemporaryFolder;
+
+/** Commands with a few options, which take any value but "bad". */
+CommandSyntax
+SomeSyntax()
+{
+  CommandSyntax syntax;
+  syntax.optionsOf = [](const std::string & command) -> std::vector<std::string> {
+    return command == "render" ? std::vector<std::string>{ "preset", "labels", "view", "size", "output", "no-shadows" }
+                               : std::vector<std::string>{ "preset", "labels", "smooth" };
+  };
+  syntax.check = [](const std::vector<std::string> & arguments) {
+    if (std::count(arguments.begin(), arguments.end(), "--size=bad") > 0)
+    {
+      throw Failure(rhombic::FailureKind::Usage, "'bad' is no size.");
+    }
+  };
+  return syntax;
+}
+
+Pipeline
+Parse(const std::string & text, const std::string & preset = "")
+{
+  const TemporaryFolder folder;
+  std::ofstream(folder.Path() / "mine.yaml") << preset;
+  std::ofstream(folder.Path() / "pipeline.yaml") << text;
+  return rhombic::ReadPipeline(folder.Path() / "pipeline.yaml", SomeSyntax());
+}
+
+TEST(PipelineFile, OutputsBecomeCommands)
+{
+  const Pipeline pipeline = Parse("options:\n"
+                                  "  preset: ct-bone\n"
+                                  "  smooth: 0.5\n"
+                                  "outputs:\n"
+                                  "  - page: page.pdf\n"
+                                  "    preset: auto\n"
+                                  "  - picture: a.png\n"
+                                  "    view: [left, right]\n"
+                                  "    no-shadows: true\n"
+                                  "    labels: false\n"
+                                  "  - mesh: bone.stl\n");
+  ASSERT_EQ(pipeline.steps.size(), 3u);
+  using Arguments = std::vector<std::string>;
+  EXPECT_EQ(pipeline.steps[0].arguments, (Arguments{ "render", "--sheet" }));
+  EXPECT_TRUE(pipeline.steps[0].choosesPreset);
+  EXPECT_TRUE(pipeline.steps[0].takesLabels);
+  EXPECT_EQ(pipeline.steps[1].arguments,
+            (Arguments{ "render", "--no-shadows", "--preset=ct-bone", "--view=left", "--view=right" }));
+  EXPECT_FALSE(pipeline.steps[1].choosesPreset);
+  EXPECT_FALSE(pipeline.steps[1].takesLabels);
+  EXPECT_EQ(pipeline.steps[2].arguments, (Arguments{ "mesh", "--preset=ct-bone", "--smooth=0.5" }));
+  EXPECT_EQ(pipeline.steps[2].output, "bone.stl");
+}
+
+TEST(PipelineFile, TheDefaultIsAPage)
+{
+  const Pipeline pipeline = rhombic::ReadPipeline({}, SomeSyntax());
+  ASSERT_EQ(pipeline.steps.size(), 1u);
+  EXPECT_EQ(pipeline.steps[0].output, "page.png");
+}
+
+TEST(PipelineFile, ItsHashIsThatOfWhatDeterminesTheOutputs)
+{
+  const std::string text = "outputs: [{mesh: a.stl, preset: mine.yaml}]";
+  const auto hashOf = [](const Pipeline & pipeline) { return pipeline.hash; };
+  EXPECT_NE(hashOf(Parse("outputs: [{mesh: a.stl}]")), hashOf(Parse("outputs: [{mesh: b.stl}]")));
+  EXPECT_NE(hashOf(Parse("outputs: [{mesh: a.stl}]")), hashOf(Parse("outputs: [{mesh: a.stl, labels: false}]")));
+  EXPECT_NE(hashOf(Parse(text, "one")), hashOf(Parse(text, "two")));
+  EXPECT_EQ(hashOf(Parse("outputs: [{mesh: a.stl}]")), hashOf(Parse("description: d\noutputs:\n- mesh: a.stl # x")));
+}
+
+TEST(PipelineFile, MistakesAreNamedWithLineAndNearestKey)
+{
+  struct Mistake
+  {
+    const char * text;
+    const char * expected;
+  };
+  for (const Mistake & mistake :
+       { Mistake{ "outputs:\n  - page: a.png\n    vew: left\n", "'vew' in line 3 (did you mean view?)" },
+         Mistake{ "outputs:\n  - page: a.png\n    output: b.png\n", "'output' in line 3" },
+         Mistake{ "options:\n  sise: 3\noutputs: [{page: a.png}]\n", "'sise' in line 2 (did you mean size?)" },
+         Mistake{ "output:\n  - page: a.png\n", "'output' in line 1 (did you mean outputs?)" },
+         Mistake{ "outputs:\n  - pag: a.png\n", "page, picture, mesh or volume in line 2" },
+         Mistake{ "outputs:\n  - page: a.png\n  - mesh: a.png\n", "second output a.png in line 3" },
+         Mistake{ "outputs:\n  - page: ../a.png\n", "line 2" },
+         Mistake{ "outputs:\n  - page: a.png\n    size: bad\n", "line 2: 'bad' is no size" },
+         Mistake{ "outputs:\n  - page: a.png\n    labels: maybe\n", "true or false is expected, in line 3" },
+         Mistake{ "outputs:\n  - page: [\n", "not valid in line" },
+         Mistake{ "description: nothing\n", "has no outputs" } })
+  {
+    try
+    {
+      Parse(mistake.text);
+      ADD_FAILURE() << mistake.text;
+    }
+    catch (const Failure & failure)
+    {
+      EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Usage);
+      EXPECT_NE(std::string(failure.GetDescription()).find(mistake.expected), std::string::npos)
+        << failure.GetDescription();
+    }
+  }
+}
+
+} // namespace
