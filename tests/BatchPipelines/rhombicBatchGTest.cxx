@@ -39,8 +39,7 @@ WriteCollection(const fs::path & folder, int variants)
     manifest << "v" << n << "\tQzPatient\t\t--density " << 0.5 + 0.05 * n << "\n";
   }
   manifest << "empty\tQzEmpty.nii\t\t\nshort\tQzShort.nii.gz\t\t\ngone\tQzGone.nii\t\t\n";
-  std::ofstream(folder / "pipeline.yaml") << "options: {density: 1}\n"
-                                             "outputs:\n"
+  std::ofstream(folder / "pipeline.yaml") << "outputs:\n"
                                              "  - mesh: bone.stl\n"
                                              "    threshold: 250.5\n"
                                              "  - volume: scan.fcc.nrrd\n";
@@ -133,7 +132,7 @@ TEST(Batch, ARerunDoesWhatIsMissingOrChanged)
   EXPECT_EQ(runAgain(), "0") << "another place, the same contents";
   std::ofstream(folder.Path() / "QzOther/readme.txt") << "more";
   EXPECT_EQ(runAgain(), "3") << "contents";
-  std::ofstream(folder.Path() / "pipeline.yaml", std::ios::app) << "    density: 0.6\n";
+  std::ofstream(folder.Path() / "pipeline.yaml", std::ios::app) << "    kernel: linear\n";
   EXPECT_EQ(runAgain(), "3") << "options";
 }
 
@@ -189,7 +188,7 @@ TEST(Batch, LimitsEndCasesWithTheirNames)
 {
   const TemporaryFolder folder;
   WriteCollection(folder.Path(), 1);
-  std::ofstream(folder.Path() / "slow.yaml") << "outputs: [{mesh: bone.stl, threshold: 250.5, density: 300}]";
+  std::ofstream(folder.Path() / "slow.yaml") << "outputs: [{mesh: bone.stl, threshold: 250.5}]";
   const Outcome slow =
     RunShell("rhombic batch cases.tsv --case v0 --pipeline slow.yaml -o slow --max-time 0.1", folder.Path());
   EXPECT_EQ(slow.exitCode, 12);

@@ -74,6 +74,31 @@ GetSyntax()
   return syntax;
 }
 
+/** Refuses options of a manifest before any case runs. */
+void
+CheckOptions(const std::vector<BatchCase> & cases, const Pipeline & pipeline)
+{
+  const CommandSyntax syntax = GetSyntax();
+  for (const BatchCase & batchCase : cases)
+  {
+    for (std::size_t n = 0; n < pipeline.steps.size() && !batchCase.options.empty(); ++n)
+    {
+      std::vector<std::string> arguments = pipeline.steps[n].arguments;
+      arguments.insert(arguments.end(), batchCase.options.begin(), batchCase.options.end());
+      try
+      {
+        syntax.check(arguments);
+      }
+      catch (const Failure & failure)
+      {
+        throw Failure(FailureKind::Usage,
+                      "The options of the case " + batchCase.name + " don't go with the output " +
+                        pipeline.steps[n].output + ": " + failure.GetDescription());
+      }
+    }
+  }
+}
+
 BatchSettings
 GetSettings(const BatchOptions & options, const Events & events)
 {
@@ -89,19 +114,7 @@ GetSettings(const BatchOptions & options, const Events & events)
   {
     events.Note(note);
   }
-  const CommandSyntax syntax = GetSyntax();
-  for (const BatchCase & batchCase : collection.cases) // options of a manifest
-  {
-    for (const PipelineStep & step : settings.pipeline.steps)
-    {
-      std::vector<std::string> arguments = step.arguments;
-      arguments.insert(arguments.end(), batchCase.options.begin(), batchCase.options.end());
-      if (!batchCase.options.empty())
-      {
-        syntax.check(arguments);
-      }
-    }
-  }
+  CheckOptions(collection.cases, settings.pipeline);
   settings.cases = std::move(collection.cases);
   settings.only = options.only;
   settings.output = options.output;
