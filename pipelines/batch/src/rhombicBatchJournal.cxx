@@ -46,7 +46,8 @@ BatchJournal::BatchJournal(const fs::path & folder)
     Report report = Report::parse(line, nullptr, false);
     if (report.is_object() && report.contains("case"))
     {
-      m_Last[report["case"].get<std::string>()] = std::move(report);
+      const auto name = report["case"].get<std::string>();
+      m_Last[name] = std::move(report);
     }
   }
   if (!isWhole && write(m_Descriptor, "\n", 1) != 1)
