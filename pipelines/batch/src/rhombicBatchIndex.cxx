@@ -24,6 +24,8 @@ form { position: sticky; top: 0; background: #fff; padding: .6em 0; border-botto
 label { margin-right: 1em; }
 table { border-collapse: collapse; width: 100%; }
 td, th { text-align: left; vertical-align: top; padding: .5em .8em .5em 0; border-bottom: 1px solid #ddd; }
+td { overflow-wrap: anywhere; }
+td div { max-height: 150px; min-width: 12em; overflow: auto; }
 td.number, th.number { text-align: right; }
 img { height: 150px; display: block; }
 .done { color: #17692b; } .failed { color: #a01818; } .not { color: #666; }
@@ -138,7 +140,7 @@ MakeRow(const Report & record)
   return "<tr data-status=\"" + word + "\"><td>" + picture + "</td><td>" +
          (status == "done" ? "<a href=\"" + LinkTo(name, "case.json") + "\">" + Escape(name) + "</a>" : Escape(name)) +
          "</td><td><b class=\"" + word + "\">" + status + "</b><br>" + Escape(record.value("cause", std::string())) +
-         "</td><td>" + DescribeVolumes(record) + "</td><td>" + links + "</td><td class=\"number\">" +
+         "</td><td><div>" + DescribeVolumes(record) + "</div></td><td>" + links + "</td><td class=\"number\">" +
          FormatFixed(record.value("seconds", 0.0), 1) + "</td><td class=\"number\">" +
          FormatFixed(record.value("peakMemory", 0.0) / (1u << 20), 0) + "</td></tr>\n";
 }
