@@ -38,7 +38,7 @@ TEST(BatchCases, ATreeHasACaseForEachSeriesAndVolume)
   WriteFile(root / "notes.txt", "x");
   WriteFile(root / ".hidden/scan.nii", "x");
   WriteFile(root / "out/page.nrrd", "x");
-  const CaseCollection found = rhombic::FindCases(root, { false, root / "out" });
+  const CaseCollection found = rhombic::FindCases(root, { false, root / "out", {} });
   std::set<fs::path> scans;
   for (const auto & one : found.cases)
   {
@@ -50,7 +50,7 @@ TEST(BatchCases, ATreeHasACaseForEachSeriesAndVolume)
   ASSERT_EQ(found.notes.size(), 1u);
   EXPECT_NE(found.notes.front().find("1 file"), std::string::npos);
 
-  const auto named = rhombic::FindCases(root, { true, root / "out" }).cases;
+  const auto named = rhombic::FindCases(root, { true, root / "out", {} }).cases;
   EXPECT_EQ(named.front().name, "pair.hdr");
   EXPECT_EQ(named.front().files.size(), 2u) << "header and voxels";
   EXPECT_EQ(named.back().name, "a_series");

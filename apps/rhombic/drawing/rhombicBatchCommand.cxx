@@ -30,6 +30,7 @@ struct BatchOptions
   double maximumSeconds = BatchSettings().maximumSeconds;
   bool namesFromPaths = false;
   bool isDryRun = false;
+  bool writesTables = false;
 };
 
 /** The commands that make outputs, as the program itself has them. */
@@ -109,14 +110,14 @@ GetSettings(const BatchOptions & options, const Events & events)
   }
   BatchSettings settings;
   settings.pipeline = ReadPipeline(options.pipeline, GetSyntax());
-  CaseCollection collection = FindCases(options.collection, { options.namesFromPaths, options.output });
+  CaseCollection collection = FindCases(options.collection, { options.namesFromPaths, options.output, options.only });
   for (const std::string & note : collection.notes)
   {
     events.Note(note);
   }
   CheckOptions(collection.cases, settings.pipeline);
   settings.cases = std::move(collection.cases);
-  settings.only = options.only;
+  settings.isPart = !options.only.empty();
   settings.output = options.output;
   settings.program =
     (std::filesystem::read_symlink("/proc/self/exe").parent_path() / RHOMBIC_PROGRAM).lexically_normal();
@@ -163,6 +164,13 @@ RememberSignal(int signal)
 }
 
 void
+NoteSummary(const BatchSummary & summary, const std::string & place, const Events & events)
+{
+  events.Note(std::to_string(summary.done) + " done, " + std::to_string(summary.failed) + " failed" +
+              (summary.notRun > 0 ? ", " + std::to_string(summary.notRun) + " not run" : "") + ": " + place);
+}
+
+void
 Batch(const BatchOptions & options, const CommandContext & context)
 {
   const Events events = context.console->MakeEvents();
@@ -170,6 +178,12 @@ Batch(const BatchOptions & options, const CommandContext & context)
   if (options.isDryRun)
   {
     PrintPlan(settings, events);
+    return;
+  }
+  if (options.writesTables)
+  {
+    const BatchSummary summary = WriteBatchTables(settings);
+    NoteSummary(summary, options.output + "/index.html", events);
     return;
   }
   for (const int signal : { SIGINT, SIGTERM, SIGHUP })
@@ -181,9 +195,7 @@ Batch(const BatchOptions & options, const CommandContext & context)
   }
   settings.isStopped = [] { return stopSignal != 0; };
   const BatchSummary summary = RunBatch(settings, events);
-  events.Note(std::to_string(summary.done) + " done, " + std::to_string(summary.failed) + " failed" +
-              (summary.notRun > 0 ? ", " + std::to_string(summary.notRun) + " not run" : "") + ": " + options.output +
-              "/index.html");
+  NoteSummary(summary, options.output + (settings.isPart ? "; --tables writes the tables" : "/index.html"), events);
   if (summary.isStopped)
   {
     events.Note("stopped; the same command goes on where this one ended");
@@ -195,7 +207,7 @@ Batch(const BatchOptions & options, const CommandContext & context)
   {
     throw Failure(FailureKind::SomeFailed,
                   Count(summary.failed, "case") + " of " + std::to_string(settings.cases.size()) + " failed; see " +
-                    options.output + "/results.tsv for the causes.");
+                    options.output + (settings.isPart ? "/journal.jsonl" : "/results.tsv") + " for the causes.");
   }
 }
 
@@ -222,7 +234,13 @@ AddBatchCommand(CLI::App & parser)
   parser.add_option("--max-time", options->maximumSeconds, "most seconds of a case")
     ->check(CLI::PositiveNumber)
     ->capture_default_str();
-  parser.add_option("--case", options->only, "run this case only, by its name; repeatable")->allow_extra_args(false);
+  parser
+    .add_option("--case",
+                options->only,
+                "run this case only, by its name, also beside other such runs; writes no tables; repeatable")
+    ->allow_extra_args(false);
+  parser.add_flag(
+    "--tables", options->writesTables, "run nothing; write the tables and the index of what is done so far");
   parser.add_flag("--names-from-paths",
                   options->namesFromPaths,
                   "name cases by their paths in the folder, if these name no patients (default: by a hash)");

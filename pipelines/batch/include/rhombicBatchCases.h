@@ -33,6 +33,7 @@ struct CaseSearch
   bool namesFromPaths = false;
 
   std::filesystem::path excluded; ///< a folder that is not searched
+  std::vector<std::string> only;  ///< names of the cases to choose; empty: all
 };
 
 /** \class CaseCollection
@@ -51,7 +52,8 @@ struct CaseCollection
  *   symbolic links;
  * - a single volume file.
  *
- * Throws Failure: NotFound when there are none, Usage for a mistake in a manifest, naming its line. */
+ * Throws Failure: NotFound when there are none, Usage for a mistake in a manifest, naming its line, and for a chosen
+ * name that no case has. */
 CaseCollection
 FindCases(const std::filesystem::path & collection, const CaseSearch & search = {});
 

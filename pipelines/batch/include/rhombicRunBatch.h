@@ -20,7 +20,9 @@ namespace rhombic
 struct BatchSettings
 {
   std::vector<BatchCase> cases;
-  std::vector<std::string> only; ///< names of the cases to run; empty: all
+  /** The cases are some of a collection. The others may run at the same time, here or on other machines; no tables are
+   * written. */
+  bool isPart = false;
   Pipeline pipeline;
   std::filesystem::path output;     ///< a folder: new, empty, or of an earlier run
   std::filesystem::path program;    ///< `rhombic`
@@ -56,7 +58,7 @@ struct BatchPlan
   std::uintmax_t memory = 0;     ///< largest of a process so far, in bytes
 };
 
-/** What RunBatch() would do. Reads the inputs of cases whose files changed. Throws Failure(Output). */
+/** What RunBatch() would do. Reads the inputs of cases whose files changed. */
 BatchPlan
 PlanBatch(const BatchSettings & settings);
 
@@ -80,9 +82,13 @@ struct BatchSummary
  * Sets RHOMBIC_THREADS and RHOMBIC_MAX_MEMORY in the environment of this process, for the children. The children end
  * with the calling thread.
  *
- * Throws Failure: Usage when \a only names no case, Output, Internal. Failures of cases are in the results. */
+ * Throws Failure: Output, Internal. Failures of cases are in the results. */
 BatchSummary
 RunBatch(const BatchSettings & settings, const Events & events);
+
+/** Writes the tables and the index of what the journal holds so far, also beside runs. Throws Failure(Output). */
+BatchSummary
+WriteBatchTables(const BatchSettings & settings);
 
 } // namespace rhombic
 

@@ -407,6 +407,25 @@ ReadManifest(const fs::path & manifest)
   return found;
 }
 
+/** Leaves the cases of some names. */
+void
+Choose(const std::vector<std::string> & only, std::vector<BatchCase> & cases)
+{
+  std::vector<std::string> names;
+  std::transform(cases.begin(), cases.end(), std::back_inserter(names), [](const auto & one) { return one.name; });
+  for (const std::string & wanted : only)
+  {
+    if (std::find(names.begin(), names.end(), wanted) == names.end())
+    {
+      throw Failure(FailureKind::Usage, DescribeUnknown("case", wanted, names, "--dry-run lists all of them"));
+    }
+  }
+  const auto isOther = [&only](const BatchCase & one) {
+    return std::find(only.begin(), only.end(), one.name) == only.end();
+  };
+  cases.erase(std::remove_if(cases.begin(), cases.end(), isOther), cases.end());
+}
+
 } // namespace
 
 std::uintmax_t
@@ -461,6 +480,13 @@ FindCases(const fs::path & path, const CaseSearch & given)
     {
       one.name += "-" + std::to_string(n);
     }
+  }
+  if (!search.only.empty())
+  {
+    Choose(search.only, found.cases);
+  }
+  for (BatchCase & one : found.cases)
+  {
     if (fs::exists(one.scan) && (one.labels.empty() || fs::exists(one.labels)))
     {
       FindFiles(one);

@@ -1,25 +1,77 @@
 #include "rhombicBatchJournal.h"
 
 #include "rhombicFailure.h"
+#include "rhombicWording.h"
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 namespace fs = std::filesystem;
 
 namespace rhombic
 {
+namespace
+{
 
-BatchJournal::BatchJournal(const fs::path & folder)
-  : m_Path(folder / "journal.jsonl")
+constexpr char journalFile[] = "journal.jsonl";
+
+/** Sets or removes the lock of a range of the file, whose bytes need not exist: byte 0 for adding lines, one byte for
+ * each case. \a length 0 is all that follows. Such locks belong to the open file and work on shared folders, too. */
+bool
+Lock(int descriptor, int command, short type, off_t start, off_t length)
+{
+  struct flock range = {};
+  range.l_type = type;
+  range.l_whence = SEEK_SET;
+  range.l_start = start;
+  range.l_len = length;
+  return fcntl(descriptor, command, &range) == 0;
+}
+
+/** The byte that stands for a case. */
+off_t
+ByteOf(const std::string & name)
+{
+  constexpr std::size_t digits = 15; // fewer than 63 bits
+  return static_cast<off_t>(std::stoull(HashText(name).substr(0, digits), nullptr, 16)) + 1;
+}
+
+Failure
+CannotWrite(const fs::path & path)
+{
+  return Failure(FailureKind::Output, "Cannot write " + path.string() + ": " + std::strerror(errno) + ".");
+}
+
+} // namespace
+
+CaseRecords
+ReadJournal(const fs::path & folder)
+{
+  CaseRecords records;
+  std::ifstream stream(folder / journalFile);
+  std::string line;
+  while (std::getline(stream, line))
+  {
+    Report report = Report::parse(line, nullptr, false); // a line that a killed process has left is none
+    if (report.is_object() && report.contains("case"))
+    {
+      const auto name = report["case"].get<std::string>();
+      records[name] = std::move(report);
+    }
+  }
+  return records;
+}
+
+BatchJournal::BatchJournal(const fs::path & folder, const std::vector<std::string> & cases)
+  : m_Path(folder / journalFile)
 {
   std::error_code error;
-  if (!fs::exists(m_Path, error) && fs::exists(folder, error) && !fs::is_empty(folder, error))
+  const bool hasFiles = fs::exists(folder, error) && !fs::is_empty(folder, error);
+  if (hasFiles && !fs::exists(m_Path, error))
   {
     throw Failure(FailureKind::Output,
                   "The folder " + folder.string() +
@@ -29,31 +81,20 @@ BatchJournal::BatchJournal(const fs::path & folder)
   m_Descriptor = open(m_Path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (m_Descriptor < 0)
   {
-    throw Failure(FailureKind::Output, "Cannot write " + m_Path.string() + ": " + std::strerror(errno) + ".");
+    throw CannotWrite(m_Path);
   }
-  if (flock(m_Descriptor, LOCK_EX | LOCK_NB) != 0)
+  bool isLocked = !cases.empty() || Lock(m_Descriptor, F_OFD_SETLK, F_WRLCK, 1, 0);
+  for (const std::string & name : cases)
+  {
+    isLocked = isLocked && Lock(m_Descriptor, F_OFD_SETLK, F_WRLCK, ByteOf(name), 1);
+  }
+  if (!isLocked)
   {
     close(m_Descriptor);
     throw Failure(FailureKind::Output,
                   "Another run writes to " + folder.string() + "; wait until it ends, or name another folder.");
   }
-  std::ifstream stream(m_Path);
-  std::string line;
-  bool isWhole = true;
-  while (std::getline(stream, line))
-  {
-    isWhole = !stream.eof(); // the last line of a killed process has no end
-    Report report = Report::parse(line, nullptr, false);
-    if (report.is_object() && report.contains("case"))
-    {
-      const auto name = report["case"].get<std::string>();
-      m_Last[name] = std::move(report);
-    }
-  }
-  if (!isWhole && write(m_Descriptor, "\n", 1) != 1)
-  {
-    throw Failure(FailureKind::Output, "Cannot write " + m_Path.string() + ": " + std::strerror(errno) + ".");
-  }
+  m_Records = ReadJournal(folder);
 }
 
 BatchJournal::~BatchJournal()
@@ -61,22 +102,26 @@ BatchJournal::~BatchJournal()
   close(m_Descriptor);
 }
 
-const Report *
-BatchJournal::Find(const std::string & name) const
-{
-  const auto found = m_Last.find(name);
-  return found == m_Last.end() ? nullptr : &found->second;
-}
-
 void
 BatchJournal::Add(const Report & line)
 {
-  const std::string text = line.dump(-1, ' ', false, Report::error_handler_t::replace) + '\n';
-  if (write(m_Descriptor, text.data(), text.size()) != static_cast<ssize_t>(text.size()) || fsync(m_Descriptor) != 0)
+  std::string text = line.dump(-1, ' ', false, Report::error_handler_t::replace) + '\n';
+  const bool isLocked = Lock(m_Descriptor, F_OFD_SETLKW, F_WRLCK, 0, 1);
+  char last = '\n';
+  const off_t size = lseek(m_Descriptor, 0, SEEK_END);
+  if (size > 0 && pread(m_Descriptor, &last, 1, size - 1) == 1 && last != '\n')
   {
-    throw Failure(FailureKind::Output, "Cannot write " + m_Path.string() + ": " + std::strerror(errno) + ".");
+    text.insert(0, 1, '\n'); // ends the line that a killed process has left
   }
-  m_Last[line["case"].get<std::string>()] = line;
+  const bool isWritten = isLocked &&
+                         write(m_Descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
+                         fsync(m_Descriptor) == 0;
+  if (!isWritten)
+  {
+    throw CannotWrite(m_Path);
+  }
+  Lock(m_Descriptor, F_OFD_SETLK, F_UNLCK, 0, 1);
+  m_Records[line["case"].get<std::string>()] = line;
 }
 
 } // namespace rhombic

@@ -187,11 +187,11 @@ HashOptions(const BatchCase & batchCase, const Pipeline & pipeline)
   return HashText(text);
 }
 
-CaseRun::CaseRun(const BatchCase & batchCase, const BatchSettings & settings)
+CaseRun::CaseRun(const BatchCase & batchCase, const BatchSettings & settings, std::shared_future<std::string> inputHash)
   : m_Case(batchCase)
   , m_Settings(settings)
   , m_Stage(settings.output / (StagePrefix + batchCase.name))
-  , m_InputHash(std::async(std::launch::async, HashFiles, batchCase.files).share())
+  , m_InputHash(std::move(inputHash))
 {
   m_Record = { { "case", batchCase.name },
                { "status", "failed" },

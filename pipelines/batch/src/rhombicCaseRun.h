@@ -25,8 +25,8 @@ HashOptions(const BatchCase & batchCase, const Pipeline & pipeline);
 class CaseRun
 {
 public:
-  /** Removes what there is of the case and starts its first step. */
-  CaseRun(const BatchCase & batchCase, const BatchSettings & settings);
+  /** Removes what there is of the case and starts its first step. \a inputHash is that of the case's files. */
+  CaseRun(const BatchCase & batchCase, const BatchSettings & settings, std::shared_future<std::string> inputHash);
 
   /** Removes the stage. */
   ~CaseRun();

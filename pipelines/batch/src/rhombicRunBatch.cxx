@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <future>
+#include <map>
 #include <memory>
 
 #include <poll.h>
@@ -77,28 +79,45 @@ DescribeDuration(double seconds)
                             : FormatFixed(seconds / 3600.0, 1) + " h";
 }
 
-/** Whether a case is among those to run. */
-bool
-IsChosen(const BatchCase & batchCase, const std::vector<std::string> & only)
-{
-  return only.empty() || std::find(only.begin(), only.end(), batchCase.name) != only.end();
-}
-
-void
-CheckChoice(const BatchSettings & settings)
+/** The names to lock: none, which is all, for a whole collection. */
+std::vector<std::string>
+NamesToLock(const BatchSettings & settings)
 {
   std::vector<std::string> names;
   for (const BatchCase & batchCase : settings.cases)
   {
     names.push_back(batchCase.name);
   }
-  for (const std::string & wanted : settings.only)
+  return settings.isPart ? names : std::vector<std::string>();
+}
+
+const Report *
+FindRecord(const CaseRecords & records, const std::string & name)
+{
+  const auto found = records.find(name);
+  return found == records.end() ? nullptr : &found->second;
+}
+
+/** Counts the cases, and writes their tables unless they are a part. */
+BatchSummary
+Summarize(const BatchSettings & settings, const CaseRecords & records)
+{
+  BatchSummary summary;
+  std::vector<Report> lines;
+  for (const BatchCase & batchCase : settings.cases)
   {
-    if (std::find(names.begin(), names.end(), wanted) == names.end())
-    {
-      throw Failure(FailureKind::Usage, DescribeUnknown("case", wanted, names, "--dry-run lists all of them"));
-    }
+    const Report * const record = FindRecord(records, batchCase.name);
+    // A done case that a stopped run was to repeat has lost its outputs.
+    const bool hasRun =
+      record != nullptr && ((*record)["status"] != "done" || HasOutputs(*record, settings.output / batchCase.name));
+    lines.push_back(hasRun ? *record : Report{ { "case", batchCase.name }, { "status", "not run" } });
+    ++(!hasRun ? summary.notRun : lines.back()["status"] == "done" ? summary.done : summary.failed);
   }
+  if (!settings.isPart)
+  {
+    WriteResults(lines, settings.output);
+  }
+  return summary;
 }
 
 /** \class BatchRun
@@ -109,7 +128,7 @@ public:
   BatchRun(const BatchSettings & settings, const Events & events)
     : m_Settings(settings)
     , m_Events(events)
-    , m_Journal(settings.output)
+    , m_Journal(settings.output, NamesToLock(settings))
   {
     m_Settings.output = fs::canonical(settings.output); // children run in folders of their own
   }
@@ -117,14 +136,17 @@ public:
   BatchSummary
   Run()
   {
-    this->RemoveStages();
+    if (!m_Settings.isPart)
+    {
+      this->RemoveStages();
+    }
     this->Plan();
     bool isStopped = false;
     while (!isStopped && (m_Next < m_Queue.size() || !m_Running.empty()))
     {
       while (m_Running.size() < m_Settings.jobs && m_Next < m_Queue.size())
       {
-        m_Running.push_back(std::make_unique<CaseRun>(*m_Queue[m_Next++], m_Settings));
+        m_Running.push_back(this->Start(*m_Queue[m_Next++]));
       }
       this->ReportProgress();
       this->Wait();
@@ -132,7 +154,7 @@ public:
       isStopped = m_Settings.isStopped && m_Settings.isStopped();
     }
     m_Running.clear(); // ends their processes, removes their stages
-    BatchSummary summary = this->WriteAll();
+    BatchSummary summary = Summarize(m_Settings, m_Journal.GetRecords());
     summary.isStopped = isStopped;
     return summary;
   }
@@ -166,7 +188,8 @@ private:
     for (const BatchCase & batchCase : m_Settings.cases)
     {
       Report moved;
-      const CaseState state = FindState(batchCase, m_Settings, m_Journal.Find(batchCase.name), moved);
+      const CaseState state =
+        FindState(batchCase, m_Settings, FindRecord(m_Journal.GetRecords(), batchCase.name), moved);
       if (!moved.is_null())
       {
         m_Journal.Add(moved);
@@ -175,7 +198,7 @@ private:
       {
         ++done;
       }
-      else if (IsChosen(batchCase, m_Settings.only))
+      else
       {
         m_Queue.push_back(&batchCase);
       }
@@ -184,6 +207,18 @@ private:
                   std::to_string(m_Queue.size()) + " to run, " + std::to_string(m_Settings.jobs) + " at a time, " +
                   Count(m_Settings.threads, "thread") + " and at most " + DescribeBytes(m_Settings.maximumMemory) +
                   " each");
+  }
+
+  /** Series in one folder share its hash. */
+  std::unique_ptr<CaseRun>
+  Start(const BatchCase & batchCase)
+  {
+    std::shared_future<std::string> & hash = m_InputHashes[HashFileStates(batchCase.files)];
+    if (!hash.valid())
+    {
+      hash = std::async(std::launch::async, HashFiles, batchCase.files).share();
+    }
+    return std::make_unique<CaseRun>(batchCase, m_Settings, hash);
   }
 
   /** Until a process ends, for at most a quarter of a second. */
@@ -233,31 +268,13 @@ private:
                       share);
   }
 
-  /** Writes the results of all cases, those of earlier runs included. */
-  BatchSummary
-  WriteAll() const
-  {
-    BatchSummary summary;
-    std::vector<Report> records;
-    for (const BatchCase & batchCase : m_Settings.cases)
-    {
-      const Report * const record = m_Journal.Find(batchCase.name);
-      // A done case that a stopped run was to repeat has lost its outputs.
-      const bool hasRun =
-        record != nullptr && ((*record)["status"] != "done" || HasOutputs(*record, m_Settings.output / batchCase.name));
-      records.push_back(hasRun ? *record : Report{ { "case", batchCase.name }, { "status", "not run" } });
-      ++(!hasRun ? summary.notRun : records.back()["status"] == "done" ? summary.done : summary.failed);
-    }
-    WriteResults(records, m_Settings.output);
-    return summary;
-  }
-
   BatchSettings m_Settings;
   const Events & m_Events;
   BatchJournal m_Journal;
   std::vector<const BatchCase *> m_Queue;
   std::size_t m_Next = 0; ///< in the queue
   std::vector<std::unique_ptr<CaseRun>> m_Running;
+  std::map<std::string, std::shared_future<std::string>> m_InputHashes; ///< by the states of the files
   std::size_t m_Ended = 0;
   std::size_t m_Failed = 0; ///< of those that ended in this run
   Clock::time_point m_Start = Clock::now();
@@ -275,21 +292,14 @@ NameOf(CaseState state)
 BatchPlan
 PlanBatch(const BatchSettings & settings)
 {
-  CheckChoice(settings);
   BatchPlan plan;
-  if (!fs::exists(settings.output / "journal.jsonl"))
-  {
-    plan.states.resize(settings.cases.size(), CaseState::Missing);
-    return plan;
-  }
-  const BatchJournal journal(settings.output);
+  const CaseRecords records = ReadJournal(settings.output);
   double seconds = 0.0;
   std::size_t done = 0;
-  std::size_t others = 0;
   for (const BatchCase & batchCase : settings.cases)
   {
     Report moved;
-    const Report * const record = journal.Find(batchCase.name);
+    const Report * const record = FindRecord(records, batchCase.name);
     plan.states.push_back(FindState(batchCase, settings, record, moved));
     if (plan.states.back() == CaseState::Done)
     {
@@ -297,22 +307,24 @@ PlanBatch(const BatchSettings & settings)
       seconds += record->value("seconds", 0.0);
       plan.memory = std::max(plan.memory, record->value("peakMemory", std::uintmax_t{ 0 }));
     }
-    else
-    {
-      others += IsChosen(batchCase, settings.only) ? 1 : 0;
-    }
   }
-  plan.seconds = done == 0 ? 0.0 : seconds / static_cast<double>(done) * static_cast<double>(others) / settings.jobs;
+  const auto others = static_cast<double>(settings.cases.size() - done);
+  plan.seconds = done == 0 ? 0.0 : seconds / static_cast<double>(done) * others / settings.jobs;
   return plan;
 }
 
 BatchSummary
 RunBatch(const BatchSettings & settings, const Events & events)
 {
-  CheckChoice(settings);
   setenv("RHOMBIC_THREADS", std::to_string(settings.threads).c_str(), 1);
   setenv("RHOMBIC_MAX_MEMORY", std::to_string(settings.maximumMemory).c_str(), 1);
   return BatchRun(settings, events).Run();
+}
+
+BatchSummary
+WriteBatchTables(const BatchSettings & settings)
+{
+  return Summarize(settings, ReadJournal(settings.output));
 }
 
 } // namespace rhombic
