@@ -34,6 +34,7 @@ constexpr Command commands[] = {
   { "render", "Pictures of a scan's surfaces", AddRenderCommand },
   { "mesh", "A scan's surface as a file", AddMeshCommand },
   { "batch", "Pictures, pages and meshes of many scans", AddBatchCommand },
+  { "bids", "The same of a BIDS dataset, as a BIDS App", AddBIDSCommand },
   { "compare-pictures", "Whether two pictures are the same, within a tolerance", AddComparePicturesCommand },
   { "audit", "Whether a surface file is closed, oriented and free of defects", AddAuditCommand },
   { "resample", "A scan on the face-centered cubic lattice, and back", AddResampleCommand },

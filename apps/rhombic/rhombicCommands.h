@@ -38,6 +38,8 @@ AddRenderCommand(CLI::App & parser);
 CommandRun
 AddBatchCommand(CLI::App & parser);
 CommandRun
+AddBIDSCommand(CLI::App & parser);
+CommandRun
 AddMeshCommand(CLI::App & parser);
 CommandRun
 AddAuditCommand(CLI::App & parser);

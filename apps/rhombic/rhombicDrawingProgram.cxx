@@ -18,7 +18,7 @@ namespace rhombic
 namespace
 {
 
-constexpr const char * drawingCommands[] = { "render", "batch", "compare", "compare-pictures", "doctor" };
+constexpr const char * drawingCommands[] = { "render", "batch", "bids", "compare", "compare-pictures", "doctor" };
 
 /** Whether a command draws, or audits a VTP file, which VTK reads. A word may also be the value of an option: the
  * drawing program has the other commands, too. */
@@ -85,6 +85,12 @@ AddCompareCommand(CLI::App &)
 
 CommandRun
 AddBatchCommand(CLI::App &)
+{
+  return {};
+}
+
+CommandRun
+AddBIDSCommand(CLI::App &)
 {
   return {};
 }

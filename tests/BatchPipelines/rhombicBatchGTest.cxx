@@ -257,4 +257,51 @@ TEST(Batch, TheDefaultIsAPageWithAThumbnail)
   EXPECT_NE(ReadText(folder.Path() / "out/index.html").find("src=\"./case/thumbnail.jpg\""), std::string::npos);
 }
 
+/** A BIDS dataset of three participants, one of them in a session. */
+void
+WriteDataset(const fs::path & folder)
+{
+  fs::create_directories(folder);
+  std::ofstream(folder / "dataset_description.json") << R"({"Name": "phantoms", "BIDSVersion": "1.8.0"})";
+  std::ofstream(folder / "README") << "Three phantoms.\n";
+  for (const char * const name : { "sub-01/anat/sub-01", "sub-02/anat/sub-02", "sub-03/ses-1/anat/sub-03_ses-1" })
+  {
+    const fs::path scan = folder / (std::string(name) + "_T1w.nii.gz");
+    fs::create_directories(scan.parent_path());
+    fs::copy(phantom / "phantom.nii.gz", scan);
+    std::ofstream(folder / (std::string(name) + "_T1w.json")) << "{}";
+  }
+}
+
+TEST(Batch, ABIDSDatasetBecomesADerivative)
+{
+  const TemporaryFolder folder;
+  WriteDataset(folder.Path() / "data");
+  std::ofstream(folder.Path() / "pipeline.yaml") << "outputs: [{mesh: bone.stl, threshold: 250.5}]";
+  const std::string run = "rhombic bids data data/derivatives/rhombic --pipeline pipeline.yaml ";
+  const fs::path out = folder.Path() / "data/derivatives/rhombic";
+  const Outcome first = RunShell(run + "participant --participant_label 02 sub-03", folder.Path());
+  ASSERT_EQ(first.exitCode, 0) << first.errors;
+  EXPECT_TRUE(fs::exists(out / "sub-02/anat/sub-02_T1w/bone.stl"));
+  EXPECT_TRUE(fs::exists(out / "sub-03/ses-1/anat/sub-03_ses-1_T1w/bone.stl.json"));
+  EXPECT_FALSE(fs::exists(out / "sub-01"));
+  EXPECT_EQ(RunShell(run + "participant --participant-label 1", folder.Path()).exitCode, 2);
+  const Outcome second = RunShell(run + "participant --participant-label sub-01", folder.Path());
+  ASSERT_EQ(second.exitCode, 0) << second.errors;
+  ASSERT_EQ(RunShell(run + "group", folder.Path()).exitCode, 0);
+  const auto description = nlohmann::json::parse(ReadText(out / "dataset_description.json"));
+  EXPECT_EQ(description["DatasetType"], "derivative");
+  EXPECT_EQ(description["GeneratedBy"][0]["Name"], "Rhombic");
+  const std::string table = ReadText(out / "results.tsv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4) << table;
+  EXPECT_NE(ReadText(out / "index.html").find("./sub-01/anat/sub-01_T1w/bone.stl"), std::string::npos);
+  const Outcome whole = RunShell(run + "participant", folder.Path());
+  EXPECT_NE(whole.errors.find("3 done before, 0 to run"), std::string::npos) << whole.errors;
+  EXPECT_EQ(RunShell("rhombic bids out x participant", folder.Path()).exitCode, 3);
+  if (const char * const copy = std::getenv("RHOMBIC_BIDS_COPY"))
+  {
+    fs::copy(folder.Path() / "data", copy, fs::copy_options::recursive); // for check-bids.sh
+  }
+}
+
 } // namespace

@@ -2,6 +2,7 @@
 #include "rhombicFailure.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicRunBatch.h"
+#include "rhombicSidecar.h"
 #include "rhombicUsageError.h"
 #include "rhombicWording.h"
 
@@ -31,6 +32,7 @@ struct BatchOptions
   bool namesFromPaths = false;
   bool isDryRun = false;
   bool writesTables = false;
+  bool isBIDS = false; ///< the outputs are a BIDS dataset, too
 };
 
 /** The commands that make outputs, as the program itself has them. */
@@ -100,6 +102,27 @@ CheckOptions(const std::vector<BatchCase> & cases, const Pipeline & pipeline)
   }
 }
 
+/** "sub-01/anat/sub-01_T1w", below the folder of a derivative. */
+std::filesystem::path
+FolderInBIDS(const BatchCase & one, const std::filesystem::path & dataset)
+{
+  return one.scan.parent_path().lexically_relative(std::filesystem::canonical(dataset)) / one.name;
+}
+
+/** What makes a folder of outputs a BIDS derivative, in which validators leave out the outputs. */
+void
+DescribeDataset(const std::filesystem::path & folder)
+{
+  const Report description{ { "Name", "Surfaces and pictures of scans" },
+                            { "BIDSVersion", "1.8.0" },
+                            { "DatasetType", "derivative" },
+                            { "GeneratedBy", { { { "Name", "Rhombic" }, { "Version", RHOMBIC_VERSION } } } } };
+  StagedFiles staged;
+  StageText(ToJson(description) + '\n', folder / "dataset_description.json", staged);
+  StageText("journal.jsonl\nresults.*\nmeasures.tsv\nindex.html\nsub-*/**\n", folder / ".bidsignore", staged);
+  staged.Commit();
+}
+
 BatchSettings
 GetSettings(const BatchOptions & options, const Events & events)
 {
@@ -117,6 +140,10 @@ GetSettings(const BatchOptions & options, const Events & events)
   }
   CheckOptions(collection.cases, settings.pipeline);
   settings.cases = std::move(collection.cases);
+  for (BatchCase & one : settings.cases)
+  {
+    one.folder = options.isBIDS ? FolderInBIDS(one, options.collection) : one.folder;
+  }
   settings.isPart = !options.only.empty();
   settings.output = options.output;
   settings.program =
@@ -134,25 +161,32 @@ GetSettings(const BatchOptions & options, const Events & events)
 void
 PrintPlan(const BatchSettings & settings, const Events & events)
 {
-  const BatchPlan plan = PlanBatch(settings);
-  std::cout << "case\tscan\tlabels\toptions\tstate\tmegabytes\n";
+  const std::vector<CasePlan> plans = PlanBatch(settings);
+  double seconds = 0.0;
+  std::uintmax_t memory = 0;
+  std::cout << "case\tscan\tlabels\toptions\tstate\tmegabytes\tseconds\tpeak_MiB\n";
   for (std::size_t n = 0; n < settings.cases.size(); ++n)
   {
     const BatchCase & batchCase = settings.cases[n];
+    const CasePlan & plan = plans[n];
     std::cout << batchCase.name << '\t' << batchCase.scan.string() << '\t' << batchCase.labels.string() << '\t';
     for (const std::string & option : batchCase.options)
     {
       std::cout << (&option == &batchCase.options.front() ? "" : " ") << option;
     }
-    std::cout << '\t' << NameOf(plan.states[n]) << '\t'
-              << FormatFixed(static_cast<double>(batchCase.GetSize()) / 1e6, 1) << '\n';
+    std::cout << '\t' << NameOf(plan.state) << '\t' << FormatFixed(static_cast<double>(batchCase.GetSize()) / 1e6, 1)
+              << '\t' << FormatFixed(plan.seconds, 1) << '\t'
+              << FormatFixed(static_cast<double>(plan.memory) / (1u << 20), 0) << '\n';
+    if (plan.state != CaseState::Done)
+    {
+      seconds += plan.seconds;
+      memory = std::max(memory, plan.memory);
+    }
   }
   events.Note(Count(settings.cases.size(), "case") + ", " + std::to_string(settings.jobs) + " at a time, " +
-              Count(settings.threads, "thread") + " and at most " + DescribeBytes(settings.maximumMemory) + " each" +
-              (plan.memory == 0
-                 ? "; no case is done yet that time and memory could be estimated from"
-                 : "; about " + FormatFixed(plan.seconds / 60.0, 1) + " min for what is not done, and up to " +
-                     DescribeBytes(plan.memory) + " each, as those that are done"));
+              Count(settings.threads, "thread") + " and at most " + DescribeBytes(settings.maximumMemory) +
+              " each; estimated: " + FormatFixed(seconds / settings.jobs / 60.0, 1) +
+              " min for what is not done, and up to " + DescribeBytes(memory) + " each");
 }
 
 volatile std::sig_atomic_t stopSignal = 0;
@@ -182,8 +216,7 @@ Batch(const BatchOptions & options, const CommandContext & context)
   }
   if (options.writesTables)
   {
-    const BatchSummary summary = WriteBatchTables(settings);
-    NoteSummary(summary, options.output + "/index.html", events);
+    NoteSummary(WriteBatchTables(settings), options.output + "/index.html", events);
     return;
   }
   for (const int signal : { SIGINT, SIGTERM, SIGHUP })
@@ -195,6 +228,10 @@ Batch(const BatchOptions & options, const CommandContext & context)
   }
   settings.isStopped = [] { return stopSignal != 0; };
   const BatchSummary summary = RunBatch(settings, events);
+  if (options.isBIDS)
+  {
+    DescribeDataset(options.output);
+  }
   NoteSummary(summary, options.output + (settings.isPart ? "; --tables writes the tables" : "/index.html"), events);
   if (summary.isStopped)
   {
@@ -211,6 +248,25 @@ Batch(const BatchOptions & options, const CommandContext & context)
   }
 }
 
+/** The options that batch and bids have. */
+void
+AddRunOptions(CLI::App & parser, BatchOptions & options)
+{
+  parser.add_option("--pipeline", options.pipeline, "what is made of each case, a .yaml file (default: a page)");
+  parser.add_option("-j,--jobs", options.jobs, "cases at the same time; they share --threads (default: half of them)")
+    ->check(CLI::Range(1u, 1024u));
+  parser
+    .add_option("--max-memory",
+                options.maximumMemory,
+                "most memory of a case, as 8G (default: 90 % of what is free, shared by the jobs)")
+    ->transform(CLI::AsSizeValue(false));
+  parser.add_option("--max-time", options.maximumSeconds, "most seconds of a case")
+    ->check(CLI::PositiveNumber)
+    ->capture_default_str();
+  parser.add_flag(
+    "--dry-run", options.isDryRun, "print the cases, their states, and estimates, as a manifest, and stop");
+}
+
 } // namespace
 
 CommandRun
@@ -223,29 +279,65 @@ AddBatchCommand(CLI::App & parser)
     "a folder of scans, in which every series and volume is a case; a BIDS dataset; or a manifest (.tsv) with columns "
     "case, scan, labels, options");
   parser.add_option("-o,--output", options->output, "the folder of all outputs: new, empty, or to go on with");
-  parser.add_option("--pipeline", options->pipeline, "what is made of each case, a .yaml file (default: a page)");
-  parser.add_option("-j,--jobs", options->jobs, "cases at the same time; they share --threads (default: half of them)")
-    ->check(CLI::Range(1u, 1024u));
+  AddRunOptions(parser, *options);
+  CLI::Option * const only =
+    parser
+      .add_option("--case",
+                  options->only,
+                  "run the cases of this name only, which may have wildcards, also beside other such runs; writes no "
+                  "tables; repeatable")
+      ->allow_extra_args(false);
   parser
-    .add_option("--max-memory",
-                options->maximumMemory,
-                "most memory of a case, as 8G (default: 90 % of what is free, shared by the jobs)")
-    ->transform(CLI::AsSizeValue(false));
-  parser.add_option("--max-time", options->maximumSeconds, "most seconds of a case")
-    ->check(CLI::PositiveNumber)
-    ->capture_default_str();
-  parser
-    .add_option("--case",
-                options->only,
-                "run this case only, by its name, also beside other such runs; writes no tables; repeatable")
-    ->allow_extra_args(false);
-  parser.add_flag(
-    "--tables", options->writesTables, "run nothing; write the tables and the index of what is done so far");
+    .add_flag("--tables", options->writesTables, "run nothing; write the tables and the index of what is done so far")
+    ->excludes(only);
   parser.add_flag("--names-from-paths",
                   options->namesFromPaths,
                   "name cases by their paths in the folder, if these name no patients (default: by a hash)");
-  parser.add_flag("--dry-run", options->isDryRun, "print the cases and their states, as a manifest, and stop");
   return [options](const CommandContext & context) { Batch(*options, context); };
+}
+
+CommandRun
+AddBIDSCommand(CLI::App & parser)
+{
+  struct BIDSOptions : BatchOptions
+  {
+    std::string level;
+    std::vector<std::string> participants;
+  };
+  const auto options = std::make_shared<BIDSOptions>();
+  options->isBIDS = true;
+  parser.add_option("BIDS_DIR", options->collection, "a BIDS dataset")->required();
+  parser.add_option("OUT_DIR", options->output, "the folder of the derivative: new, empty, or to go on with")
+    ->required();
+  parser
+    .add_option("LEVEL",
+                options->level,
+                "participant: runs the volumes in anat; group: writes the tables and the index of what is done so far")
+    ->required()
+    ->check(CLI::IsMember({ "participant", "group" }));
+  parser.add_option("--participant-label,--participant_label",
+                    options->participants,
+                    "run these participants only, with or without sub-, also beside other such runs; writes no tables");
+  AddRunOptions(parser, *options);
+  return [options](const CommandContext & context) {
+    if (!IsBIDS(options->collection))
+    {
+      throw Failure(FailureKind::NotFound,
+                    options->collection +
+                      " is no BIDS dataset, a folder with dataset_description.json and folders sub-...; rhombic batch "
+                      "takes other folders.");
+    }
+    options->writesTables = options->level == "group";
+    if (options->writesTables && !options->participants.empty())
+    {
+      throw Failure(FailureKind::Usage, "The level group is of all participants; leave out --participant-label.");
+    }
+    for (const std::string & label : options->participants)
+    {
+      options->only.push_back((label.rfind("sub-", 0) == 0 ? "" : "sub-") + label + "_*");
+    }
+    Batch(*options, context);
+  };
 }
 
 } // namespace rhombic

@@ -13,7 +13,8 @@ namespace rhombic
  * \brief One scan of a collection. */
 struct BatchCase
 {
-  std::string name;                         ///< of its folder of outputs
+  std::string name;
+  std::filesystem::path folder;             ///< of its outputs, below those of the batch: its name, by default
   std::filesystem::path scan;               ///< absolute
   std::filesystem::path labels;             ///< its label map, absolute; empty for none
   std::vector<std::string> options;         ///< of each of its commands, as "--series=1b2c"
@@ -33,7 +34,7 @@ struct CaseSearch
   bool namesFromPaths = false;
 
   std::filesystem::path excluded; ///< a folder that is not searched
-  std::vector<std::string> only;  ///< names of the cases to choose; empty: all
+  std::vector<std::string> only;  ///< names of the cases to choose, with wildcards; empty: all
 };
 
 /** \class CaseCollection
@@ -44,10 +45,14 @@ struct CaseCollection
   std::vector<std::string> notes;
 };
 
+/** Whether a folder is a BIDS dataset: it has dataset_description.json and folders sub-... */
+bool
+IsBIDS(const std::filesystem::path & folder);
+
 /** The cases of
  * - a manifest (.tsv): columns case, scan, and perhaps labels and options, with paths relative to the manifest;
- * - a BIDS dataset (a folder with dataset_description.json and folders sub-...): each volume in a folder anat, with
- *   its label map (..._dseg) from there or from the derivatives, if there is one;
+ * - a BIDS dataset (see IsBIDS()): each volume in a folder anat, with its label map (..._dseg) from there or from the
+ *   derivatives, if there is one;
  * - any other folder: each DICOM series and each volume file in it and in its subfolders, but for hidden ones and
  *   symbolic links;
  * - a single volume file.

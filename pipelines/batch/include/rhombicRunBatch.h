@@ -49,17 +49,19 @@ enum class CaseState
 std::string
 NameOf(CaseState state);
 
-/** \class BatchPlan
- * \brief The states of the cases, and what running the others takes, estimated from those that are done. */
-struct BatchPlan
+/** \class CasePlan
+ * \brief The state of a case, and what it took, or is estimated to take. */
+struct CasePlan
 {
-  std::vector<CaseState> states; ///< of BatchSettings::cases
-  double seconds = 0.0;          ///< until all others are done; 0 when no case is done
-  std::uintmax_t memory = 0;     ///< largest of a process so far, in bytes
+  CaseState state = CaseState::Missing;
+  double seconds = 0.0;
+  std::uintmax_t memory = 0; ///< the largest of a process, in bytes
 };
 
-/** What RunBatch() would do. Reads the inputs of cases whose files changed. */
-BatchPlan
+/** The plans of BatchSettings::cases. Reads the inputs of cases whose files changed, and the headers of those that are
+ * not done: time and memory are estimated from the number of voxels, and corrected by those of the cases that are done.
+ */
+std::vector<CasePlan>
 PlanBatch(const BatchSettings & settings);
 
 /** \class BatchSummary

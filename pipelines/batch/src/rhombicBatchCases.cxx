@@ -243,16 +243,6 @@ private:
   std::size_t m_NumberOfOthers = 0;
 };
 
-bool
-IsBIDS(const fs::path & folder)
-{
-  const auto entries = ListFolder(folder, {});
-  return fs::exists(folder / "dataset_description.json") &&
-         std::any_of(entries.folders.begin(), entries.folders.end(), [](const fs::path & path) {
-           return path.filename().string().rfind("sub-", 0) == 0;
-         });
-}
-
 /** The volumes in folders of a name, anywhere in a folder. */
 void
 FindVolumes(const fs::path & folder, const std::string & name, const fs::path & excluded, std::vector<fs::path> & found)
@@ -331,7 +321,9 @@ FailInManifest(const fs::path & manifest, std::size_t line, const std::string & 
 std::vector<std::string>
 ParseHead(const fs::path & manifest, const std::string & line)
 {
-  const std::vector<std::string> known{ "case", "scan", "labels", "options", "state", "megabytes" };
+  const std::vector<std::string> known{
+    "case", "scan", "labels", "options", "state", "megabytes", "seconds", "peak_MiB"
+  };
   std::vector<std::string> columns = Split(line, "\t");
   for (const std::string & column : columns)
   {
@@ -415,18 +407,30 @@ Choose(const std::vector<std::string> & only, std::vector<BatchCase> & cases)
   std::transform(cases.begin(), cases.end(), std::back_inserter(names), [](const auto & one) { return one.name; });
   for (const std::string & wanted : only)
   {
-    if (std::find(names.begin(), names.end(), wanted) == names.end())
+    const auto isWanted = [&wanted](const std::string & name) { return MatchesPattern(wanted, name); };
+    if (std::none_of(names.begin(), names.end(), isWanted))
     {
       throw Failure(FailureKind::Usage, DescribeUnknown("case", wanted, names, "--dry-run lists all of them"));
     }
   }
   const auto isOther = [&only](const BatchCase & one) {
-    return std::find(only.begin(), only.end(), one.name) == only.end();
+    return std::none_of(
+      only.begin(), only.end(), [&one](const std::string & wanted) { return MatchesPattern(wanted, one.name); });
   };
   cases.erase(std::remove_if(cases.begin(), cases.end(), isOther), cases.end());
 }
 
 } // namespace
+
+bool
+IsBIDS(const fs::path & folder)
+{
+  const auto entries = ListFolder(folder, {});
+  return fs::exists(folder / "dataset_description.json") &&
+         std::any_of(entries.folders.begin(), entries.folders.end(), [](const fs::path & path) {
+           return path.filename().string().rfind("sub-", 0) == 0;
+         });
+}
 
 std::uintmax_t
 BatchCase::GetSize() const
@@ -460,8 +464,12 @@ FindCases(const fs::path & path, const CaseSearch & given)
   }
   else if (!fs::is_directory(collection))
   {
-    found.cases.push_back(
-      { search.namesFromPaths ? ToFileName(fs::path(StemOf(collection)).filename()) : "case", collection, {}, {}, {} });
+    found.cases.push_back({ search.namesFromPaths ? ToFileName(fs::path(StemOf(collection)).filename()) : "case",
+                            {},
+                            collection,
+                            {},
+                            {},
+                            {} });
   }
   else
   {
@@ -487,6 +495,7 @@ FindCases(const fs::path & path, const CaseSearch & given)
   }
   for (BatchCase & one : found.cases)
   {
+    one.folder = one.name;
     if (fs::exists(one.scan) && (one.labels.empty() || fs::exists(one.labels)))
     {
       FindFiles(one);

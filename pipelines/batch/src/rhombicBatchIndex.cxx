@@ -121,6 +121,7 @@ std::string
 MakeRow(const Report & record)
 {
   const auto name = record.value("case", std::string());
+  const auto folder = record.value("folder", std::string());
   const auto status = record.value("status", std::string());
   const std::string word = status.substr(0, status.find(' '));
   std::string picture;
@@ -130,15 +131,16 @@ MakeRow(const Report & record)
     const auto file = output.value("name", std::string());
     if (file == "thumbnail.jpg")
     {
-      picture = "<img loading=\"lazy\" alt=\"\" src=\"" + LinkTo(name, file) + "\">";
+      picture = "<img loading=\"lazy\" alt=\"\" src=\"" + LinkTo(folder, file) + "\">";
     }
     else if (file.size() < 5 || file.substr(file.size() - 5) != ".json")
     {
-      links += (links.empty() ? "" : "<br>") + ("<a href=\"" + LinkTo(name, file) + "\">") + Escape(file) + "</a>";
+      links += (links.empty() ? "" : "<br>") + ("<a href=\"" + LinkTo(folder, file) + "\">") + Escape(file) + "</a>";
     }
   }
   return "<tr data-status=\"" + word + "\"><td>" + picture + "</td><td>" +
-         (status == "done" ? "<a href=\"" + LinkTo(name, "case.json") + "\">" + Escape(name) + "</a>" : Escape(name)) +
+         (status == "done" ? "<a href=\"" + LinkTo(folder, "case.json") + "\">" + Escape(name) + "</a>"
+                           : Escape(name)) +
          "</td><td><b class=\"" + word + "\">" + status + "</b><br>" + Escape(record.value("cause", std::string())) +
          "</td><td><div>" + DescribeVolumes(record) + "</div></td><td>" + links + "</td><td class=\"number\">" +
          FormatFixed(record.value("seconds", 0.0), 1) + "</td><td class=\"number\">" +

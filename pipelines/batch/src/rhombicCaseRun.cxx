@@ -194,6 +194,7 @@ CaseRun::CaseRun(const BatchCase & batchCase, const BatchSettings & settings, st
   , m_InputHash(std::move(inputHash))
 {
   m_Record = { { "case", batchCase.name },
+               { "folder", batchCase.folder.string() },
                { "status", "failed" },
                { "code", 0 },
                { "cause", "" },
@@ -207,7 +208,7 @@ CaseRun::CaseRun(const BatchCase & batchCase, const BatchSettings & settings, st
                    { "stamp", HashFileStates(batchCase.files) } } },
                { "steps", Report::array() } };
   fs::remove_all(m_Stage);
-  fs::remove_all(settings.output / batchCase.name);
+  fs::remove_all(settings.output / batchCase.folder);
   fs::create_directory(m_Stage);
   this->StartStep();
 }
@@ -346,9 +347,10 @@ CaseRun::Succeed()
     fs::remove(m_Stage / errorsFile);
     this->AddThumbnail();
     this->AddOutputs();
-    const fs::path place = m_Settings.output / m_Case.name;
+    const fs::path place = m_Settings.output / m_Case.folder;
+    fs::create_directories(place.parent_path());
     fs::rename(m_Stage, place);
-    const int folder = open(m_Settings.output.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const int folder = open(place.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     fsync(folder);
     close(folder);
     m_Record["status"] = "done";

@@ -6,6 +6,7 @@
 #include "rhombicFailure.h"
 #include "rhombicFileHash.h"
 #include "rhombicMemoryBudget.h"
+#include "rhombicScanReader.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ FindState(const BatchCase & batchCase, const BatchSettings & settings, const Rep
     return CaseState::Missing;
   }
   const bool isDone = record->value("status", std::string()) == "done";
-  if (!isDone || !HasOutputs(*record, settings.output / batchCase.name))
+  if (!isDone || !HasOutputs(*record, settings.output / batchCase.folder))
   {
     return isDone ? CaseState::Missing : CaseState::Failed;
   }
@@ -68,6 +69,44 @@ FindState(const BatchCase & batchCase, const BatchSettings & settings, const Rep
     moved["input"]["stamp"] = stamp;
   }
   return CaseState::Done;
+}
+
+/** The number of voxels of a case's scan, as its headers say; 0 when they can't be read. */
+double
+CountVoxels(const BatchCase & batchCase)
+{
+  ScanReadOptions options;
+  options.onGap = ScanReadOptions::Policy::Accept;
+  options.onSeveralFrames = ScanReadOptions::Policy::Accept;
+  for (const std::string & option : batchCase.options)
+  {
+    constexpr std::string_view series = "--series=";
+    options.series = option.rfind(series, 0) == 0 ? option.substr(series.size()) : options.series;
+  }
+  try
+  {
+    const Scan scan = OpenScan(batchCase.scan, options).scan;
+    return static_cast<double>(GeometryOf(scan.image).GetLargestPossibleRegion().GetNumberOfPixels());
+  }
+  catch (const Failure &)
+  {
+    return 0.0; // the case's own command will say why
+  }
+}
+
+/** What a case takes on two cores, roughly: most have less than twice of it. */
+CasePlan
+Estimate(const BatchCase & batchCase, const Pipeline & pipeline)
+{
+  constexpr double startSeconds = 1.5;
+  constexpr double voxelsPerSecond = 4e6;
+  constexpr double startMemory = 300.0 * (1u << 20);
+  constexpr double bytesPerVoxel = 16.0;
+  const double voxels = CountVoxels(batchCase);
+  CasePlan plan;
+  plan.seconds = static_cast<double>(pipeline.steps.size()) * (startSeconds + voxels / voxelsPerSecond);
+  plan.memory = static_cast<std::uintmax_t>(startMemory + bytesPerVoxel * voxels);
+  return plan;
 }
 
 /** "5 s", "12 min", "3.5 h". */
@@ -109,7 +148,7 @@ Summarize(const BatchSettings & settings, const CaseRecords & records)
     const Report * const record = FindRecord(records, batchCase.name);
     // A done case that a stopped run was to repeat has lost its outputs.
     const bool hasRun =
-      record != nullptr && ((*record)["status"] != "done" || HasOutputs(*record, settings.output / batchCase.name));
+      record != nullptr && ((*record)["status"] != "done" || HasOutputs(*record, settings.output / batchCase.folder));
     lines.push_back(hasRun ? *record : Report{ { "case", batchCase.name }, { "status", "not run" } });
     ++(!hasRun ? summary.notRun : lines.back()["status"] == "done" ? summary.done : summary.failed);
   }
@@ -289,28 +328,39 @@ NameOf(CaseState state)
   return names[static_cast<std::size_t>(state)];
 }
 
-BatchPlan
+std::vector<CasePlan>
 PlanBatch(const BatchSettings & settings)
 {
-  BatchPlan plan;
   const CaseRecords records = ReadJournal(settings.output);
-  double seconds = 0.0;
-  std::size_t done = 0;
+  std::vector<CasePlan> plans;
+  double seconds = 0.0; // of the cases that are done, and as they were estimated
+  double estimatedSeconds = 0.0;
+  double memoryRatio = 0.0;
   for (const BatchCase & batchCase : settings.cases)
   {
     Report moved;
     const Report * const record = FindRecord(records, batchCase.name);
-    plan.states.push_back(FindState(batchCase, settings, record, moved));
-    if (plan.states.back() == CaseState::Done)
+    CasePlan plan = Estimate(batchCase, settings.pipeline);
+    plan.state = FindState(batchCase, settings, record, moved);
+    if (plan.state == CaseState::Done)
     {
-      ++done;
+      estimatedSeconds += plan.seconds;
       seconds += record->value("seconds", 0.0);
-      plan.memory = std::max(plan.memory, record->value("peakMemory", std::uintmax_t{ 0 }));
+      memoryRatio = std::max(memoryRatio, record->value("peakMemory", 0.0) / static_cast<double>(plan.memory));
+      plan.seconds = record->value("seconds", 0.0);
+      plan.memory = record->value("peakMemory", std::uintmax_t{ 0 });
+    }
+    plans.push_back(plan);
+  }
+  for (CasePlan & plan : plans)
+  {
+    if (plan.state != CaseState::Done && estimatedSeconds > 0.0)
+    {
+      plan.seconds *= seconds / estimatedSeconds;
+      plan.memory = static_cast<std::uintmax_t>(static_cast<double>(plan.memory) * memoryRatio);
     }
   }
-  const auto others = static_cast<double>(settings.cases.size() - done);
-  plan.seconds = done == 0 ? 0.0 : seconds / static_cast<double>(done) * others / settings.jobs;
-  return plan;
+  return plans;
 }
 
 BatchSummary
