@@ -41,8 +41,11 @@ run two 2
 RANDOM=7
 for kill in 1 2 3 4 5 6 7 8 9 10; do
   "${batch[@]}" -o killed --jobs 2 2> killed.log &
-  sleep "$(awk "BEGIN { print $seconds * $RANDOM / 32768 / 6 }")"
-  kill -KILL $! 2>/dev/null || echo "run $kill had ended"
+  until [ "$(find killed -maxdepth 1 -name 'v*' 2>/dev/null | wc -l)" -ge $((count * kill / 12)) ]; do
+    sleep 0.05
+  done
+  sleep "$(awk "BEGIN { print 4 * $seconds / $count * $RANDOM / 32768 }")" # up to four cases' time
+  kill -KILL $!
   wait $! 2>/dev/null || true
   echo "killed with $(find killed -maxdepth 1 -name 'v*' | wc -l) cases done"
 done

@@ -304,4 +304,35 @@ TEST(Batch, ABIDSDatasetBecomesADerivative)
   }
 }
 
+TEST(Batch, TheIndexOfManyCasesWorksInABrowser)
+{
+  const TemporaryFolder folder;
+  if (RunShell("command -v chromium", folder.Path()).exitCode != 0)
+  {
+    GTEST_SKIP() << "chromium is not installed";
+  }
+  fs::create_directory(folder.Path() / "out");
+  std::ofstream manifest(folder.Path() / "cases.tsv");
+  std::ofstream journal(folder.Path() / "out/journal.jsonl");
+  manifest << "case\tscan\n";
+  for (int n = 0; n < 300; ++n)
+  {
+    const std::string name = "c" + std::to_string(n);
+    manifest << name << "\tx.nii\n";
+    journal << nlohmann::json{ { "case", name }, { "status", n % 3 == 0 ? "failed" : "done" }, { "cause", "<&>" } }
+            << '\n';
+  }
+  manifest.close();
+  journal.close();
+  ASSERT_EQ(RunShell("rhombic batch cases.tsv -o out --tables", folder.Path()).exitCode, 0);
+  const Outcome page = RunShell("sed -i 's/ name=\"failed\" checked/ name=\"failed\"/' out/index.html\n"
+                                "chromium --headless --no-sandbox --disable-gpu --user-data-dir=profile "
+                                "--dump-dom \"file://$PWD/out/index.html\"",
+                                folder.Path());
+  ASSERT_EQ(page.exitCode, 0) << page.errors;
+  EXPECT_NE(page.output.find("200 of 300 shown"), std::string::npos) << page.output.substr(0, 3000);
+  EXPECT_NE(page.output.find("failed (100)"), std::string::npos);
+  EXPECT_NE(page.output.find("&lt;&amp;&gt;"), std::string::npos);
+}
+
 } // namespace

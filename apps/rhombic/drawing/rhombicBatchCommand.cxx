@@ -109,7 +109,7 @@ FolderInBIDS(const BatchCase & one, const std::filesystem::path & dataset)
   return one.scan.parent_path().lexically_relative(std::filesystem::canonical(dataset)) / one.name;
 }
 
-/** What makes a folder of outputs a BIDS derivative, in which validators leave out the outputs. */
+/** Makes a folder of outputs a BIDS derivative. */
 void
 DescribeDataset(const std::filesystem::path & folder)
 {
@@ -119,7 +119,6 @@ DescribeDataset(const std::filesystem::path & folder)
                             { "GeneratedBy", { { { "Name", "Rhombic" }, { "Version", RHOMBIC_VERSION } } } } };
   StagedFiles staged;
   StageText(ToJson(description) + '\n', folder / "dataset_description.json", staged);
-  StageText("journal.jsonl\nresults.*\nmeasures.tsv\nindex.html\nsub-*/**\n", folder / ".bidsignore", staged);
   staged.Commit();
 }
 
