@@ -232,7 +232,7 @@ TEST(FCCLabelCells, TrianglesPartTwoLabelsAndFaceTheFirst)
   });
 }
 
-/** A path between two sites meets walls if their labels differ, and an even or odd number of those of each label. */
+/** Every path between sites of different labels meets a wall. */
 TEST(FCCLabelCells, EveryLabelIsEnclosed)
 {
   ForEachLabelling([](const std::array<int, 4> & labels) {

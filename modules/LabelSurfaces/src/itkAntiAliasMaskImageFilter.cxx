@@ -26,6 +26,8 @@ struct Scale
 constexpr Scale Wide{ 2.5, 2, 1.0f };
 constexpr Scale Medium{ 1.2, 4, 0.6f };
 constexpr Scale Fine{ 0.7, 5, 0.3f };
+constexpr double WideningByPeriod = 0.3;
+constexpr unsigned int CorrectionsBetweenSlices = 6;
 constexpr float Narrow = 0.3f;     // voxels: depth on the wrong side
 constexpr float Lost = 0.03f;      // voxels: depth on the wrong side
 constexpr float TubeRadius = 0.6f; // voxels
@@ -157,8 +159,24 @@ AntiAliasMaskImageFilter::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);
   os << indent << "ProtectAllThinParts: " << (m_ProtectAllThinParts ? "On" : "Off") << std::endl;
+  os << indent << "SamplePeriod: " << m_SamplePeriod[0] << ' ' << m_SamplePeriod[1] << ' ' << m_SamplePeriod[2]
+     << std::endl;
   os << indent << "NumberOfNarrowVoxels: " << m_NumberOfNarrowVoxels << std::endl;
   os << indent << "NumberOfProtectedVoxels: " << m_NumberOfProtectedVoxels << std::endl;
+}
+
+void
+AntiAliasMaskImageFilter::SetSamplePeriod(const PeriodType & period)
+{
+  if (period != m_SamplePeriod)
+  {
+    if (*std::min_element(period.begin(), period.end()) == 0)
+    {
+      itkExceptionMacro("The SamplePeriod must be at least 1 along each axis.");
+    }
+    m_SamplePeriod = period;
+    this->Modified();
+  }
 }
 
 void
@@ -190,7 +208,10 @@ AntiAliasMaskImageFilter::GenerateData()
   WorkProgress progress(*this, Passes * (size[1] + size[2]));
   m_WorkProgress = &progress;
 
-  this->MatchLocalVolumes(Wide.sigma, Wide.corrections, Wide.gain, m_Field);
+  const auto longestPeriod = *std::max_element(m_SamplePeriod.begin(), m_SamplePeriod.end());
+  m_Widening = std::max(1.0, WideningByPeriod * static_cast<double>(longestPeriod));
+  this->MatchLocalVolumes(
+    Wide.sigma, longestPeriod > 1 ? CorrectionsBetweenSlices : Wide.corrections, Wide.gain, m_Field);
   std::vector<std::uint8_t> thin(size[0] * size[1] * size[2]);
   std::vector<std::uint8_t> isMarked(thin.size());
   if (this->FindNarrow(thin, isMarked))
@@ -300,42 +321,82 @@ AntiAliasMaskImageFilter::Smooth(double sigma, const RowReader & read, const Row
   });
 }
 
+bool
+AntiAliasMaskImageFilter::IsSample(SizeValueType voxel) const
+{
+  const auto coordinates = VoxelGrid{ m_Size }.CoordinatesOf(voxel);
+  const auto & first = this->GetOutput()->GetBufferedRegion().GetIndex();
+  bool isSample = true;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    isSample = isSample && (first[axis] + coordinates[axis]) % static_cast<IndexValueType>(m_SamplePeriod[axis]) == 0;
+  }
+  return isSample;
+}
+
+AntiAliasMaskImageFilter::SampleComb
+AntiAliasMaskImageFilter::MakeComb(unsigned int axis, double sigma) const
+{
+  const std::vector<float> weights = GaussianWeights(sigma);
+  const SizeValueType length = m_Size[axis];
+  const auto period = static_cast<IndexValueType>(m_SamplePeriod[axis]);
+  const IndexValueType first = this->GetOutput()->GetBufferedRegion().GetIndex(axis);
+  SampleComb comb{ std::vector<std::uint8_t>(length), std::vector<float>(length) };
+  for (SizeValueType n = 0; n < length; ++n)
+  {
+    comb.isSample[n] = (first + static_cast<IndexValueType>(n)) % period == 0 ? 1 : 0;
+  }
+  for (SizeValueType n = 0; n < length; ++n)
+  {
+    constexpr float least = 1e-6f; // far from all samples
+    for (SizeValueType tap = 0; tap < weights.size(); ++tap)
+    {
+      comb.share[n] += comb.isSample[ClampedSample(n + tap, weights.size() / 2, length)] != 0 ? weights[tap] : 0.0f;
+    }
+    comb.share[n] = period == 1 ? 1.0f : std::max(least, comb.share[n]);
+  }
+  return comb;
+}
+
 void
-AntiAliasMaskImageFilter::MatchLocalVolumes(double sigma, unsigned int corrections, float gain, float * field)
+AntiAliasMaskImageFilter::MatchLocalVolumes(double narrowSigma, unsigned int corrections, float gain, float * field)
 {
   const SizeValueType width = m_Size[0];
+  const double sigma = m_Widening * narrowSigma;
   const auto slope = static_cast<float>(InverseSlope(sigma));
-  this->Smooth(
-    sigma,
-    [&](SizeValueType row, float * values) {
-      for (SizeValueType x = 0; x < width; ++x)
-      {
-        values[x] = 0.5f * SideOf(m_Mask[row * width + x]);
-      }
-    },
-    [&](SizeValueType row, const float * values) {
-      for (SizeValueType x = 0; x < width; ++x)
-      {
-        field[row * width + x] = slope * values[x];
-      }
-    });
-  for (unsigned int n = 0; n < corrections; ++n)
-  {
+  const SampleComb combs[3] = { this->MakeComb(0, sigma), this->MakeComb(1, sigma), this->MakeComb(2, sigma) };
+  const auto isSampleRow = [&](SizeValueType row) {
+    return combs[1].isSample[row % m_Size[1]] != 0 && combs[2].isSample[row / m_Size[1]] != 0;
+  };
+  // The Gaussian of what the samples miss.
+  const auto smoothMissing = [&](const auto & missingOf, const auto & write) {
     this->Smooth(
       sigma,
       [&](SizeValueType row, float * values) {
+        const bool isSample = isSampleRow(row);
         for (SizeValueType x = 0; x < width; ++x)
         {
-          const float coverage = std::min(1.0f, std::max(0.0f, field[row * width + x] + 0.5f));
-          values[x] = (m_Mask[row * width + x] != 0 ? 1.0f : 0.0f) - coverage;
+          values[x] = isSample && combs[0].isSample[x] != 0 ? missingOf(row * width + x) : 0.0f;
         }
       },
       [&](SizeValueType row, const float * values) {
+        const float share = combs[1].share[row % m_Size[1]] * combs[2].share[row / m_Size[1]];
         for (SizeValueType x = 0; x < width; ++x)
         {
-          field[row * width + x] += gain * slope * values[x];
+          write(row * width + x, values[x] / (share * combs[0].share[x]));
         }
       });
+  };
+  smoothMissing([&](SizeValueType voxel) { return 0.5f * SideOf(m_Mask[voxel]); },
+                [&](SizeValueType voxel, float value) { field[voxel] = slope * value; });
+  for (unsigned int n = 0; n < corrections; ++n)
+  {
+    smoothMissing(
+      [&](SizeValueType voxel) {
+        const float coverage = std::min(1.0f, std::max(0.0f, field[voxel] + 0.5f));
+        return (m_Mask[voxel] != 0 ? 1.0f : 0.0f) - coverage;
+      },
+      [&](SizeValueType voxel, float value) { field[voxel] += gain * slope * value; });
   }
 }
 
@@ -425,7 +486,8 @@ AntiAliasMaskImageFilter::FindNarrow(const std::vector<std::uint8_t> & thin, std
   this->ForEach(m_Size[2], [&](SizeValueType z) {
     for (SizeValueType voxel = z * voxelsPerPlane; voxel < (z + 1) * voxelsPerPlane; ++voxel)
     {
-      isNarrow[voxel] = thin[voxel] == 2 || SideOf(m_Mask[voxel]) * m_Field[voxel] < -Narrow ? 1 : 0;
+      const bool isWrong = SideOf(m_Mask[voxel]) * m_Field[voxel] < -Narrow;
+      isNarrow[voxel] = thin[voxel] == 2 || (isWrong && this->IsSample(voxel)) ? 1 : 0;
       found[z] |= isNarrow[voxel];
       insideCount[z] += isNarrow[voxel] != 0 && m_Mask[voxel] != 0 ? 1 : 0;
     }

@@ -1,0 +1,126 @@
+#ifndef itkLabelsToFCCFilter_h
+#define itkLabelsToFCCFilter_h
+
+#include "itkFCCImage.h"
+#include "itkFCCLabelWeights.h"
+#include "itkImage.h"
+#include "itkProcessObject.h"
+
+#include <array>
+#include <vector>
+
+namespace itk
+{
+
+/** \class LabelsToFCCFilter
+ * \brief Brings a label map onto the FCC lattice, without the steps of its voxels and slices, for
+ * FCCLabelSurfaceFilter.
+ *
+ * Each label, the background 0 included, becomes a smooth field of depth by AntiAliasMaskImageFilter, which keeps local
+ * volumes and thin parts. The fields' values at the sites near walls are the weights; the label of a site is the one of
+ * largest weight. As a site has one label, there is no gap and no overlap.
+ *
+ * Where voxels are more than 1.5 times as long along an axis as along the shortest, the map is refined along it to
+ * voxels that are nearly cubes, and the fields between slices follow from the slices around them. The lattice has
+ * Density sites for each of these voxels. Its direction is the map's; tilted, sheared and unevenly spaced slices are
+ * used at their true positions, as by CartesianToFCCImageFilter. It reaches two voxels beyond the map, where all is 0:
+ * labels that reach the map's border are closed at the outer faces of its voxels.
+ *
+ * Parts one voxel wide are protected, so that vessels stay whole (AntiAliasMaskImageFilter::ProtectAllThinParts).
+ *
+ * Mean distance from the truth in mm and mean angle of facets in degrees, for eight balls of radius 8.6 to 10 mm that
+ * touch one another, of 1 mm voxels in slices of 1, 3 and 6 mm (rhombic-label-walls):
+ *
+ *     method                                                  1 mm          3 mm          6 mm
+ *     this filter and FCCLabelSurfaceFilter                   .08   4.8     .14   7.9     .20   8.7
+ *     rhombic::LabelsToSurfaces()                             .05   2.5     .26  10.4     .82  30.2
+ *     vtkDiscreteFlyingEdges3D, vtkWindowedSincPolyDataFilter .10   4.2     .36   8.2     .70  14.9
+ *
+ * The outputs have the same bytes for any number of threads. Time: that of AntiAliasMaskImageFilter in the bounding box
+ * of each label. Memory: 6 bytes a site; 16 bytes a voxel of the largest label's box; 12 bytes for each label at sites
+ * within three voxels of its surface.
+ *
+ * Throws when the map has no voxels or its buffer is not whole, when the density is not above 0 and at most 64, and
+ * when slice origins are not as many as the slices.
+ *
+ * \ingroup LabelSurfaces
+ */
+class LabelsToFCCFilter : public ProcessObject
+{
+public:
+  ITK_DISALLOW_COPY_AND_MOVE(LabelsToFCCFilter);
+
+  using Self = LabelsToFCCFilter;
+  using Superclass = ProcessObject;
+  using Pointer = SmartPointer<Self>;
+  using ConstPointer = SmartPointer<const Self>;
+
+  itkNewMacro(Self);
+  itkTypeMacro(LabelsToFCCFilter, ProcessObject);
+
+  using LabelType = FCCLabelWeights::LabelType;
+  using InputImageType = Image<LabelType, 3>;
+  using LatticeType = FCCImage<LabelType>;
+  using SliceOriginsType = std::vector<Point<double, 3>>;
+
+  using Superclass::SetInput;
+  void
+  SetInput(const InputImageType * labels);
+  const InputImageType *
+  GetInput() const;
+
+  /** Sites for each voxel, or part of a voxel where thick slices are refined. Default FCCLattice::DefaultDensity. */
+  itkSetMacro(Density, double);
+  itkGetConstMacro(Density, double);
+
+  /** As CartesianToFCCImageFilter::SetSliceOrigins(). */
+  void
+  SetSliceOrigins(const SliceOriginsType & origins);
+  const SliceOriginsType &
+  GetSliceOrigins() const
+  {
+    return m_SliceOrigins;
+  }
+
+  /** The label of each site. */
+  LatticeType *
+  GetOutput();
+
+  /** The weights of labels near walls, sorted. */
+  FCCLabelWeights *
+  GetWeights();
+
+protected:
+  LabelsToFCCFilter();
+  ~LabelsToFCCFilter() override = default;
+
+  void
+  PrintSelf(std::ostream & os, Indent indent) const override;
+
+  using Superclass::MakeOutput;
+  DataObject::Pointer
+  MakeOutput(DataObjectPointerArraySizeType index) override;
+
+  void
+  VerifyPreconditions() ITKv5_CONST override;
+
+  void
+  GenerateOutputInformation() override;
+
+  void
+  EnlargeOutputRequestedRegion(DataObject * output) override;
+
+  void
+  GenerateInputRequestedRegion() override;
+
+  void
+  GenerateData() override;
+
+private:
+  double m_Density;
+  SliceOriginsType m_SliceOrigins;
+};
+
+} // namespace itk
+
+#endif

@@ -1,0 +1,516 @@
+#include "itkLabelsToFCCFilter.h"
+
+#include "itkAntiAliasMaskImageFilter.h"
+#include "itkCartesianToFCCImageFilter.h"
+#include "itkForEachBlock.h"
+#include "itkImageRegionConstIteratorWithIndex.h"
+#include "itkImageRegionIteratorWithIndex.h"
+#include "itkImageSource.h"
+#include "itkInputSamples.h"
+#include "itkMath.h"
+#include "itkWorkProgress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace itk
+{
+namespace
+{
+
+using LabelType = LabelsToFCCFilter::LabelType;
+using LabelImage = LabelsToFCCFilter::InputImageType;
+using Lattice = LabelsToFCCFilter::LatticeType;
+using MaskImage = Image<std::uint8_t, 3>;
+using FieldImage = Image<float, 3>;
+using FieldLattice = FCCImage<float>;
+
+constexpr double LongVoxels = 1.5;                     // times the shortest edge
+constexpr IndexValueType Margin = 2;                   // voxels around the map
+constexpr IndexValueType KernelReach = 6;              // voxels, of the cubic B-spline with its prefilter
+constexpr IndexValueType MaskMargin = 4 + KernelReach; // voxels around a label
+
+/** The map refined to nearly cubic voxels. Samples of the map are those whose index is a multiple of the period. */
+class RefinedMap
+{
+public:
+  RefinedMap(const LabelImage & labels, const LabelsToFCCFilter::SliceOriginsType & origins)
+    : m_Labels(labels)
+  {
+    const auto & spacing = labels.GetSpacing();
+    const double shortest = std::min({ spacing[0], spacing[1], spacing[2] });
+    const auto & size = labels.GetLargestPossibleRegion().GetSize();
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const double length = spacing[axis] / shortest;
+      m_Period[axis] = length > LongVoxels ? static_cast<SizeValueType>(std::lround(length)) : 1;
+      m_Scan.SetIndex(axis, -static_cast<IndexValueType>(m_Period[axis] / 2));
+      m_Scan.SetSize(axis, (size[axis] - 1) * m_Period[axis] + 1 + 2 * (m_Period[axis] / 2));
+    }
+    m_Whole = m_Scan;
+    m_Whole.PadByRadius(Margin);
+    this->PlaceSlices(origins);
+  }
+
+  const std::array<SizeValueType, 3> &
+  GetPeriod() const
+  {
+    return m_Period;
+  }
+
+  /** With the margin around the map. */
+  const ImageRegion<3> &
+  GetWhole() const
+  {
+    return m_Whole;
+  }
+
+  const LabelsToFCCFilter::SliceOriginsType &
+  GetSliceOrigins() const
+  {
+    return m_SliceOrigins;
+  }
+
+  /** An image on the refined grid, of which only a region is to be in memory, not allocated. */
+  template <typename TImage>
+  typename TImage::Pointer
+  MakeImage(const ImageRegion<3> & region) const
+  {
+    const auto image = TImage::New();
+    auto spacing = m_Labels.GetSpacing();
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      spacing[axis] /= static_cast<double>(m_Period[axis]);
+    }
+    image->SetLargestPossibleRegion(m_Whole);
+    image->SetBufferedRegion(region);
+    image->SetRequestedRegion(region);
+    image->SetSpacing(spacing);
+    image->SetDirection(m_Labels.GetDirection());
+    image->SetOrigin(m_Labels.TransformIndexToPhysicalPoint<double>(m_Labels.GetLargestPossibleRegion().GetIndex()));
+    return image;
+  }
+
+  /** Whether voxels' axes are not perpendicular or slices not even, so that boxes of voxels are none of sites. */
+  bool
+  IsSlanted() const
+  {
+    const auto & direction = m_Labels.GetDirection().GetVnlMatrix();
+    constexpr double tolerance = 1e-6;
+    return !m_SliceOrigins.empty() ||
+           (direction.transpose() * direction - vnl_matrix_fixed<double, 3, 3>().set_identity()).absolute_value_max() >
+             tolerance;
+  }
+
+  /** The label of the nearest voxel; of a voxel at the border beyond the map. */
+  LabelType
+  GetNearest(const Index<3> & index) const
+  {
+    const auto & region = m_Labels.GetLargestPossibleRegion();
+    Index<3> nearest;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const auto period = static_cast<IndexValueType>(m_Period[axis]);
+      const IndexValueType voxel = (index[axis] - m_Scan.GetIndex(axis)) / period;
+      nearest[axis] =
+        region.GetIndex(axis) + std::clamp<IndexValueType>(index[axis] < m_Scan.GetIndex(axis) ? 0 : voxel,
+                                                           0,
+                                                           static_cast<IndexValueType>(region.GetSize(axis)) - 1);
+    }
+    return m_Labels.GetPixel(nearest);
+  }
+
+  /** Depth of a voxel below the outer faces of the map, negative beyond it. */
+  float
+  GetDepth(const Index<3> & index) const
+  {
+    double depth = std::numeric_limits<double>::max();
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const double outer = 0.5 * static_cast<double>(m_Period[axis]);
+      const auto last = static_cast<double>((m_Labels.GetLargestPossibleRegion().GetSize(axis) - 1) * m_Period[axis]);
+      const auto position = static_cast<double>(index[axis]);
+      depth = std::min({ depth, position + outer, last + outer - position });
+    }
+    return static_cast<float>(depth);
+  }
+
+  /** The bounding box of each label and a margin around it. */
+  std::map<LabelType, ImageRegion<3>>
+  FindBoxes() const
+  {
+    std::map<LabelType, std::pair<Index<3>, Index<3>>> corners;
+    const auto & first = m_Labels.GetLargestPossibleRegion().GetIndex();
+    for (ImageRegionConstIteratorWithIndex<LabelImage> it(&m_Labels, m_Labels.GetLargestPossibleRegion());
+         !it.IsAtEnd();
+         ++it)
+    {
+      const auto index = it.GetIndex();
+      auto & [low, high] = corners.try_emplace(it.Get(), index, index).first->second;
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        low[axis] = std::min(low[axis], index[axis]);
+        high[axis] = std::max(high[axis], index[axis]);
+      }
+    }
+    corners.try_emplace(0, first, first); // the outside, at least at the map's border
+    std::map<LabelType, ImageRegion<3>> boxes;
+    for (auto & [label, corner] : corners)
+    {
+      ImageRegion<3> box;
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        const auto period = static_cast<IndexValueType>(m_Period[axis]);
+        const IndexValueType margin = MaskMargin + period;
+        const IndexValueType low = (corner.first[axis] - first[axis]) * period - margin;
+        const IndexValueType high = (corner.second[axis] - first[axis]) * period + margin;
+        box.SetIndex(axis, low);
+        box.SetSize(axis, static_cast<SizeValueType>(high - low + 1));
+      }
+      box.Crop(m_Whole);
+      boxes[label] = label == 0 || this->IsSlanted() ? m_Whole : box;
+    }
+    return boxes;
+  }
+
+private:
+  /** Positions of the first voxels of the refined slices, from the slices of the map and with the margin. */
+  void
+  PlaceSlices(const LabelsToFCCFilter::SliceOriginsType & origins)
+  {
+    if (origins.size() < 2)
+    {
+      return;
+    }
+    Vector<double, 3> toFirst(0.0);
+    for (unsigned int axis = 0; axis < 2; ++axis)
+    {
+      toFirst[axis] =
+        static_cast<double>(m_Whole.GetIndex(axis)) / static_cast<double>(m_Period[axis]) * m_Labels.GetSpacing()[axis];
+    }
+    toFirst = m_Labels.GetDirection() * toFirst;
+    for (IndexValueType k = m_Whole.GetIndex(2); k <= m_Whole.GetUpperIndex()[2]; ++k)
+    {
+      const double position = static_cast<double>(k) / static_cast<double>(m_Period[2]);
+      const auto slice =
+        static_cast<std::size_t>(std::clamp(std::floor(position), 0.0, static_cast<double>(origins.size() - 2)));
+      const double share = position - static_cast<double>(slice);
+      m_SliceOrigins.push_back(origins[slice] + (origins[slice + 1] - origins[slice]) * share + toFirst);
+    }
+  }
+
+  const LabelImage & m_Labels;
+  std::array<SizeValueType, 3> m_Period;
+  ImageRegion<3> m_Scan;
+  ImageRegion<3> m_Whole;
+  LabelsToFCCFilter::SliceOriginsType m_SliceOrigins;
+};
+
+/** The depth below the surface of a label in voxels of the refined map, at the voxels of a box. */
+FieldImage::Pointer
+MakeField(const RefinedMap & map, LabelType label, const ImageRegion<3> & box)
+{
+  const auto mask = map.MakeImage<MaskImage>(box);
+  mask->SetLargestPossibleRegion(box);
+  mask->Allocate();
+  for (ImageRegionIteratorWithIndex<MaskImage> it(mask, box); !it.IsAtEnd(); ++it)
+  {
+    it.Set(map.GetNearest(it.GetIndex()) == label ? 1 : 0);
+  }
+  const auto filter = AntiAliasMaskImageFilter::New();
+  filter->SetInput(mask);
+  filter->SetSamplePeriod(map.GetPeriod());
+  filter->ProtectAllThinPartsOn();
+  filter->Update();
+  FieldImage::Pointer field = filter->GetOutput();
+  field->DisconnectPipeline();
+  const float side = label == 0 ? -1.0f : 1.0f;
+  for (ImageRegionIteratorWithIndex<FieldImage> it(field, box); !it.IsAtEnd(); ++it)
+  {
+    // No label but 0 reaches beyond the map.
+    const float depth = std::clamp(it.Get(), -FCCLabelWeights::Limit, FCCLabelWeights::Limit);
+    it.Set(side * std::min(side * depth, map.GetDepth(it.GetIndex())));
+  }
+  return field;
+}
+
+/** \class FieldSource
+ * \brief The source of a field that is a part of the refined map: images without a source end at their buffer. */
+class FieldSource : public ImageSource<FieldImage>
+{
+public:
+  ITK_DISALLOW_COPY_AND_MOVE(FieldSource);
+
+  using Self = FieldSource;
+  using Superclass = ImageSource<FieldImage>;
+  using Pointer = SmartPointer<Self>;
+
+  itkNewMacro(Self);
+
+  FieldImage::Pointer field;
+  ImageRegion<3> whole;
+
+protected:
+  FieldSource() = default;
+  ~FieldSource() override = default;
+
+  void
+  GenerateOutputInformation() override
+  {
+    this->GetOutput()->CopyInformation(field);
+    this->GetOutput()->SetLargestPossibleRegion(whole);
+  }
+
+  void
+  GenerateData() override
+  {
+    this->GetOutput()->SetBufferedRegion(field->GetBufferedRegion());
+    this->GetOutput()->SetPixelContainer(field->GetPixelContainer());
+  }
+};
+
+/** \class FieldResampler
+ * \brief Resamples a field of the refined map onto its lattice. */
+class FieldResampler
+{
+public:
+  using Filter = CartesianToFCCImageFilter<FieldImage>;
+
+  FieldResampler(const RefinedMap & map, FieldImage * field, double density)
+    : m_Source(FieldSource::New())
+    , m_Filter(Filter::New())
+  {
+    m_Source->field = field;
+    m_Source->whole = map.GetWhole();
+    m_Filter->SetInput(m_Source->GetOutput());
+    m_Filter->SetDensity(density);
+    m_Filter->SetSliceOrigins(map.GetSliceOrigins());
+    m_Filter->SetOutsideValue(-FCCLabelWeights::Limit);
+    m_Filter->UpdateOutputInformation();
+  }
+
+  /** The lattice, without samples. */
+  const FieldLattice &
+  GetLattice() const
+  {
+    return *m_Filter->GetOutput();
+  }
+
+  const FieldLattice &
+  Resample(const ImageRegion<3> & sites) const
+  {
+    m_Filter->GetOutput()->SetRequestedRegion(sites);
+    m_Filter->Update();
+    return *m_Filter->GetOutput();
+  }
+
+private:
+  FieldSource::Pointer m_Source;
+  Filter::Pointer m_Filter;
+};
+
+/** The sites of the lattice whose values need no voxels beyond the field's, but where these are the last of all. */
+ImageRegion<3>
+FindSites(const FieldLattice & lattice, const FieldImage & field, const ImageRegion<3> & whole)
+{
+  ImageRegion<3> sites = lattice.GetLargestPossibleRegion();
+  const auto start = field.TransformPhysicalPointToContinuousIndex<double>(lattice.GetOrigin());
+  const ImageRegion<3> & box = field.GetBufferedRegion();
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    const double step = lattice.GetSpacing()[axis] / field.GetSpacing()[axis] * (axis == 0 ? 2.0 : 1.0);
+    IndexValueType begin = sites.GetIndex(axis);
+    IndexValueType end = begin + static_cast<IndexValueType>(sites.GetSize(axis));
+    if (box.GetIndex(axis) > whole.GetIndex(axis))
+    {
+      begin = std::max(begin, Math::Ceil<IndexValueType>((box.GetIndex(axis) + KernelReach - start[axis]) / step));
+    }
+    if (box.GetUpperIndex()[axis] < whole.GetUpperIndex()[axis])
+    {
+      // The sites of rows of parity 1 are half a step further.
+      end = std::min(end, Math::Floor<IndexValueType>((box.GetUpperIndex()[axis] - KernelReach - start[axis]) / step));
+    }
+    sites.SetIndex(axis, begin);
+    sites.SetSize(axis, static_cast<SizeValueType>(std::max<IndexValueType>(0, end - begin)));
+  }
+  return sites;
+}
+
+/** Calls use(index of the row's first site, number of the row in the lattice) for each row of a region, on threads. */
+template <typename TUse>
+void
+ForEachRow(const ImageRegion<3> & region, const ImageRegion<3> & lattice, const TUse & use)
+{
+  const SizeValueType height = region.GetSize(1);
+  ForEachInBlocks(height * region.GetSize(2), 64, [&](std::size_t n) {
+    Index<3> first = region.GetIndex();
+    first[1] += static_cast<IndexValueType>(n % height);
+    first[2] += static_cast<IndexValueType>(n / height);
+    use(first,
+        static_cast<SizeValueType>(first[2] - lattice.GetIndex(2)) * lattice.GetSize(1) +
+          static_cast<SizeValueType>(first[1] - lattice.GetIndex(1)));
+  });
+}
+
+/** Adds the weights of a label where they are below the limit, and gives it the sites where they are the largest. */
+void
+AddLabel(const FieldLattice & field,
+         LabelType label,
+         Lattice & labels,
+         std::vector<float> & largest,
+         FCCLabelWeights & weights)
+{
+  constexpr float limit = FCCLabelWeights::Limit;
+  const auto & sites = field.GetBufferedRegion();
+  ForEachRow(sites, labels.GetLargestPossibleRegion(), [&](const Index<3> & first, SizeValueType row) {
+    const float * const values = field.GetBufferPointer() + field.ComputeOffset(first);
+    const OffsetValueType offset = labels.ComputeOffset(first);
+    LabelType * const rowLabels = labels.GetBufferPointer() + offset;
+    float * const rowLargest = largest.data() + offset;
+    for (SizeValueType i = 0; i < sites.GetSize(0); ++i)
+    {
+      const float weight = std::clamp(values[i], -limit, limit);
+      if (weight > rowLargest[i])
+      {
+        rowLargest[i] = weight;
+        rowLabels[i] = label;
+      }
+      if (std::abs(weight) < limit)
+      {
+        weights.Add(row, { static_cast<std::uint32_t>(first[0]) + static_cast<std::uint32_t>(i), label, weight });
+      }
+    }
+  });
+}
+
+} // namespace
+
+LabelsToFCCFilter::LabelsToFCCFilter()
+  : m_Density(FCCLattice::DefaultDensity)
+{
+  this->SetNumberOfRequiredInputs(1);
+  this->SetNumberOfRequiredOutputs(2);
+  this->ProcessObject::SetNthOutput(0, this->MakeOutput(0));
+  this->ProcessObject::SetNthOutput(1, this->MakeOutput(1));
+}
+
+void
+LabelsToFCCFilter::SetInput(const InputImageType * labels)
+{
+  this->ProcessObject::SetNthInput(0, const_cast<InputImageType *>(labels));
+}
+
+const LabelsToFCCFilter::InputImageType *
+LabelsToFCCFilter::GetInput() const
+{
+  return itkDynamicCastInDebugMode<const InputImageType *>(this->GetPrimaryInput());
+}
+
+void
+LabelsToFCCFilter::SetSliceOrigins(const SliceOriginsType & origins)
+{
+  if (origins != m_SliceOrigins)
+  {
+    m_SliceOrigins = origins;
+    this->Modified();
+  }
+}
+
+LabelsToFCCFilter::LatticeType *
+LabelsToFCCFilter::GetOutput()
+{
+  return itkDynamicCastInDebugMode<LatticeType *>(this->ProcessObject::GetOutput(0));
+}
+
+FCCLabelWeights *
+LabelsToFCCFilter::GetWeights()
+{
+  return itkDynamicCastInDebugMode<FCCLabelWeights *>(this->ProcessObject::GetOutput(1));
+}
+
+DataObject::Pointer
+LabelsToFCCFilter::MakeOutput(DataObjectPointerArraySizeType index)
+{
+  return index == 0 ? DataObject::Pointer(LatticeType::New()) : DataObject::Pointer(FCCLabelWeights::New());
+}
+
+void
+LabelsToFCCFilter::PrintSelf(std::ostream & os, Indent indent) const
+{
+  Superclass::PrintSelf(os, indent);
+  os << indent << "Density: " << m_Density << std::endl;
+  os << indent << "SliceOrigins: " << m_SliceOrigins.size() << std::endl;
+}
+
+void
+LabelsToFCCFilter::GenerateInputRequestedRegion()
+{
+  const_cast<InputImageType *>(this->GetInput())->SetRequestedRegionToLargestPossibleRegion();
+}
+
+void
+LabelsToFCCFilter::VerifyPreconditions() ITKv5_CONST
+{
+  Superclass::VerifyPreconditions();
+  if (!(m_Density > 0.0) || !(m_Density <= 64.0))
+  {
+    itkExceptionMacro("The Density must be above 0 and at most 64 sites per voxel, not " << m_Density << ".");
+  }
+}
+
+void
+LabelsToFCCFilter::GenerateOutputInformation()
+{
+  const InputImageType & image = *this->GetInput();
+  const auto & region = image.GetLargestPossibleRegion();
+  if (region.GetNumberOfPixels() == 0 || (!m_SliceOrigins.empty() && m_SliceOrigins.size() != region.GetSize(2)))
+  {
+    itkExceptionMacro("The map has " << region.GetSize() << " voxels and " << m_SliceOrigins.size()
+                                     << " slice origins; it needs voxels, and an origin for each slice or none.");
+  }
+  const RefinedMap map(image, m_SliceOrigins);
+  const auto grid = map.MakeImage<FieldImage>(map.GetWhole());
+  this->GetOutput()->CopyInformation(&FieldResampler(map, grid, m_Density).GetLattice());
+}
+
+void
+LabelsToFCCFilter::EnlargeOutputRequestedRegion(DataObject * output)
+{
+  output->SetRequestedRegionToLargestPossibleRegion();
+}
+
+void
+LabelsToFCCFilter::GenerateData()
+{
+  const InputImageType & image = *this->GetInput();
+  VerifyInputSamples(*this, image, image.GetLargestPossibleRegion());
+  const RefinedMap map(image, m_SliceOrigins);
+  const auto boxes = map.FindBoxes();
+  WorkProgress progress(*this, boxes.size());
+
+  LatticeType & labels = *this->GetOutput();
+  const auto & region = labels.GetLargestPossibleRegion();
+  labels.SetBufferedRegion(region);
+  labels.Allocate();
+  labels.FillBuffer(0);
+  FCCLabelWeights & weights = *this->GetWeights();
+  weights.SetNumberOfRows(region.GetSize(1) * region.GetSize(2));
+  std::vector<float> largest(region.GetNumberOfPixels(), -FCCLabelWeights::Limit);
+  for (const auto & [label, box] : boxes)
+  {
+    const auto field = MakeField(map, label, box);
+    const FieldResampler resampler(map, field, m_Density);
+    const auto sites = FindSites(resampler.GetLattice(), *field, map.GetWhole());
+    if (sites.GetNumberOfPixels() > 0)
+    {
+      AddLabel(resampler.Resample(sites), label, labels, largest, weights);
+    }
+    progress.Completed(1);
+  }
+  ForEachRow(region, region, [&](const Index<3> &, SizeValueType row) { weights.SortRow(row); });
+  progress.Finish();
+}
+
+} // namespace itk

@@ -1,0 +1,232 @@
+#include "itkLabelsToFCCFilter.h"
+
+#include "itkFCCLabelSurfaceFilter.h"
+#include "itkImageRegionConstIteratorWithIndex.h"
+#include "itkImageRegionIteratorWithIndex.h"
+#include "itkTriangleSurfaceComponents.h"
+#include "itkTriangleSurfaceMeasures.h"
+#include "itkTriangleSurfaceTopology.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+namespace
+{
+
+using Filter = itk::LabelsToFCCFilter;
+using LabelImage = Filter::InputImageType;
+using Point = LabelImage::PointType;
+
+LabelImage::Pointer
+MakeMap(const LabelImage::SizeType & size, double slices, const std::function<int(const Point &)> & labelAt)
+{
+  const auto image = LabelImage::New();
+  image->SetRegions(LabelImage::RegionType({ { 3, -2, 1 } }, size));
+  const double spacing[3] = { 1.0, 1.0, slices };
+  image->SetSpacing(spacing);
+  Point origin;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    const double first = static_cast<double>(image->GetLargestPossibleRegion().GetIndex(axis));
+    origin[axis] = -spacing[axis] * (first + 0.5 * static_cast<double>(size[axis] - 1));
+  }
+  image->SetOrigin(origin);
+  image->Allocate();
+  for (itk::ImageRegionIteratorWithIndex<LabelImage> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+  {
+    it.Set(static_cast<std::uint16_t>(labelAt(image->TransformIndexToPhysicalPoint<double>(it.GetIndex()))));
+  }
+  return image;
+}
+
+itk::LabelWalls::Pointer
+MakeWalls(const LabelImage * map,
+          const Filter::SliceOriginsType & origins = {},
+          unsigned int threads = 0,
+          double density = itk::FCCLattice::DefaultDensity)
+{
+  const auto toLattice = Filter::New();
+  toLattice->SetInput(map);
+  toLattice->SetDensity(density);
+  toLattice->SetSliceOrigins(origins);
+  if (threads > 0)
+  {
+    toLattice->SetNumberOfWorkUnits(threads);
+  }
+  toLattice->Update();
+  const auto surfaces = itk::FCCLabelSurfaceFilter::New();
+  surfaces->SetInput(toLattice->GetOutput());
+  surfaces->SetWeights(toLattice->GetWeights());
+  surfaces->Update();
+  itk::LabelWalls::Pointer walls = surfaces->GetOutput();
+  walls->DisconnectPipeline();
+  return walls;
+}
+
+/** Two half balls that touch in the plane x = 0.3. */
+int
+HalfBalls(const Point & p, double radius)
+{
+  return p.GetVectorFromOrigin().GetNorm() > radius ? 0 : p[0] < 0.3 ? 4 : 9;
+}
+
+double
+Volume(const itk::LabelWalls & walls, std::uint16_t label)
+{
+  return itk::ComputeVolume(*walls.ExtractLabel(label));
+}
+
+TEST(LabelsToFCCFilter, HalfBallsShareTheirWallAndKeepTheirVolumes)
+{
+  constexpr double radius = 14.0;
+  const auto ball = [](const Point & p) { return HalfBalls(p, radius); };
+  const double volume = 4.0 / 3.0 * 3.14159265 * radius * radius * radius;
+  for (const double slices : { 1.0, 3.0, 5.0 })
+  {
+    const auto walls = MakeWalls(MakeMap({ { 40, 38, static_cast<itk::SizeValueType>(40.0 / slices) } }, slices, ball));
+    EXPECT_EQ(walls->FindLabels(), (std::vector<std::uint16_t>{ 4, 9 }));
+    double distance = 0.0;
+    double area = 0.0;
+    for (std::size_t n = 0; n < walls->GetNumberOfTriangles(); ++n)
+    {
+      Point points[3];
+      Point middle(0.0);
+      for (unsigned int corner = 0; corner < 3; ++corner)
+      {
+        for (unsigned int axis = 0; axis < 3; ++axis)
+        {
+          points[corner][axis] = walls->GetPoints()[walls->GetTriangles()[n][corner]][axis];
+          middle[axis] += points[corner][axis] / 3.0;
+        }
+      }
+      const double size = 0.5 * itk::CrossProduct(points[1] - points[0], points[2] - points[0]).GetNorm();
+      const bool isOuter = walls->GetTriangleLabels()[n][0] == 0;
+      distance += size * std::abs(isOuter ? middle.GetVectorFromOrigin().GetNorm() - radius : middle[0] - 0.3);
+      area += size;
+    }
+    EXPECT_LT(distance / area, slices < 2.0 ? 0.1 : slices < 4.0 ? 0.2 : 0.35) << slices;
+    EXPECT_NEAR((Volume(*walls, 4) + Volume(*walls, 9)) / volume, 1.0, slices < 2.0 ? 0.005 : 0.03) << slices;
+    for (const std::uint16_t label : { 4, 9 })
+    {
+      const auto topology = itk::ComputeTopology(*walls->ExtractLabel(label));
+      EXPECT_TRUE(topology.IsWatertight()) << topology;
+      EXPECT_EQ(topology.components, 1u);
+    }
+  }
+}
+
+/** The sites' labels are those of largest weight. */
+TEST(LabelsToFCCFilter, LabelsHaveTheLargestWeight)
+{
+  const auto map = MakeMap({ { 24, 24, 24 } }, 1.0, [](const Point & p) {
+    return (p[0] > 0.0 ? 1 : 0) + (p[1] > 2.0 ? 2 : 0) + (p[2] > -1.0 ? 4 : 0);
+  });
+  const auto filter = Filter::New();
+  filter->SetInput(map);
+  filter->Update();
+  const auto & labels = *filter->GetOutput();
+  const auto & region = labels.GetLargestPossibleRegion();
+  ASSERT_GT(filter->GetWeights()->GetNumberOfWeights(), 1000u);
+  for (itk::ImageRegionConstIteratorWithIndex<Filter::LatticeType> it(&labels, region); !it.IsAtEnd(); ++it)
+  {
+    const auto offset = it.GetIndex() - region.GetIndex();
+    const auto row =
+      static_cast<itk::SizeValueType>(offset[2]) * region.GetSize(1) + static_cast<itk::SizeValueType>(offset[1]);
+    const float * const own = filter->GetWeights()->Find(row, static_cast<std::uint32_t>(offset[0]), it.Get());
+    for (const auto & entry : filter->GetWeights()->GetRow(row))
+    {
+      if (entry.i == static_cast<std::uint32_t>(offset[0]))
+      {
+        EXPECT_GE(own != nullptr ? *own : itk::FCCLabelWeights::Limit, entry.weight);
+      }
+    }
+  }
+}
+
+TEST(LabelsToFCCFilter, VesselsOneVoxelWideStay)
+{
+  const auto map = MakeMap({ { 30, 30, 30 } }, 1.0, [](const Point & p) {
+    const bool isVessel = std::abs(p[1] - 0.37 * p[0]) <= 0.5 && std::abs(p[2] - 0.5) < 0.3;
+    return isVessel ? 2 : p.GetVectorFromOrigin().GetNorm() < 11.0 ? 1 : 0;
+  });
+  for (const double density : { itk::FCCLattice::DefaultDensity, 2.0, 4.0 })
+  {
+    const auto vessel = MakeWalls(map, {}, 0, density)->ExtractLabel(2);
+    EXPECT_EQ(itk::ComputeTopology(*vessel).components, 1u) << density;
+  }
+}
+
+/** A map that is full to its border is closed at the outer faces of its voxels. */
+TEST(LabelsToFCCFilter, LabelsEndAtTheBorderOfTheMap)
+{
+  const auto map = MakeMap({ { 12, 10, 4 } }, 3.0, [](const Point & p) { return p[0] < 0.0 ? 1 : 2; });
+  const auto walls = MakeWalls(map);
+  const auto bounds = walls->GetBounds();
+  const double half[3] = { 6.0, 5.0, 6.0 };
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    EXPECT_NEAR(bounds[2 * axis], -half[axis], 0.2);
+    EXPECT_NEAR(bounds[2 * axis + 1], half[axis], 0.2);
+  }
+  EXPECT_NEAR(Volume(*walls, 1) + Volume(*walls, 2), 12.0 * 10.0 * 12.0, 0.03 * 12.0 * 10.0 * 12.0);
+}
+
+TEST(LabelsToFCCFilter, UnevenAndSlantedSlicesAreWhereTheyAre)
+{
+  constexpr double radius = 12.0;
+  const LabelImage::SizeType size{ { 44, 34, 12 } };
+  const auto map = MakeMap(size, 3.0, [](const Point &) { return 0; });
+  Filter::SliceOriginsType origins;
+  for (itk::SizeValueType slice = 0; slice < size[2]; ++slice)
+  {
+    Point origin = map->TransformIndexToPhysicalPoint<double>(map->GetLargestPossibleRegion().GetIndex());
+    const double even = 3.0 * static_cast<double>(slice);
+    origin[2] += even + (slice % 3 == 0 ? 0.6 : 0.0);
+    origin[0] += 0.25 * even - 4.0;
+    origins.push_back(origin);
+  }
+  for (itk::ImageRegionIteratorWithIndex<LabelImage> it(map, map->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+  {
+    const auto offset = it.GetIndex() - map->GetLargestPossibleRegion().GetIndex();
+    Point point = origins[static_cast<std::size_t>(offset[2])];
+    point[0] += static_cast<double>(offset[0]);
+    point[1] += static_cast<double>(offset[1]);
+    it.Set(static_cast<std::uint16_t>(HalfBalls(point, radius)));
+  }
+  const auto walls = MakeWalls(map, origins);
+  const double volume = 4.0 / 3.0 * 3.14159265 * radius * radius * radius;
+  EXPECT_NEAR((Volume(*walls, 4) + Volume(*walls, 9)) / volume, 1.0, 0.05);
+  const auto bounds = walls->GetBounds();
+  for (unsigned int side = 0; side < 6; ++side)
+  {
+    EXPECT_NEAR(bounds[side], side % 2 == 0 ? -radius : radius, 1.0) << side;
+  }
+}
+
+TEST(LabelsToFCCFilter, BytesDoNotDependOnThreads)
+{
+  const auto map = MakeMap({ { 30, 28, 9 } }, 3.0, [](const Point & p) {
+    return HalfBalls(p, 10.0) != 0 && p[2] > 2.0 ? 3 : HalfBalls(p, 10.0);
+  });
+  const auto one = MakeWalls(map, {}, 1);
+  for (const unsigned int threads : { 2, 3, 8 })
+  {
+    const auto several = MakeWalls(map, {}, threads);
+    EXPECT_EQ(one->GetPoints(), several->GetPoints());
+    EXPECT_EQ(one->GetTriangles(), several->GetTriangles());
+  }
+}
+
+TEST(LabelsToFCCFilter, RefusesWrongSettings)
+{
+  const auto map = MakeMap({ { 4, 4, 4 } }, 1.0, [](const Point &) { return 1; });
+  EXPECT_THROW(MakeWalls(map, Filter::SliceOriginsType(3)), itk::ExceptionObject);
+  const auto filter = Filter::New();
+  filter->SetInput(map);
+  filter->SetDensity(0.0);
+  EXPECT_THROW(filter->Update(), itk::ExceptionObject);
+}
+
+} // namespace
