@@ -51,6 +51,13 @@ public:
   /** The size of weights that are not stored. */
   static constexpr float Limit = 3.0f;
 
+  /** Exchanges all weights. */
+  void
+  Swap(FCCLabelWeights & other)
+  {
+    m_Rows.swap(other.m_Rows);
+  }
+
   /** Removes all weights. */
   void
   SetNumberOfRows(SizeValueType rows);
@@ -72,6 +79,11 @@ public:
   void
   SortRow(SizeValueType row);
 
+  RowType &
+  GetRow(SizeValueType row)
+  {
+    return m_Rows[row];
+  }
   const RowType &
   GetRow(SizeValueType row) const
   {

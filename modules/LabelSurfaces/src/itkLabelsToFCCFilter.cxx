@@ -2,6 +2,7 @@
 
 #include "itkAntiAliasMaskImageFilter.h"
 #include "itkCartesianToFCCImageFilter.h"
+#include "itkFCCLabelSurfaceFilter.h"
 #include "itkForEachBlock.h"
 #include "itkImageRegionConstIteratorWithIndex.h"
 #include "itkImageRegionIteratorWithIndex.h"
@@ -27,6 +28,8 @@ using MaskImage = Image<std::uint8_t, 3>;
 using FieldImage = Image<float, 3>;
 using FieldLattice = FCCImage<float>;
 
+constexpr unsigned int VolumeCorrections = 5;
+constexpr double FarthestOffset = 0.8;                 // of weights; twice as far as walls move, in voxels
 constexpr double LongVoxels = 1.5;                     // times the shortest edge
 constexpr IndexValueType Margin = 2;                   // voxels around the map
 constexpr IndexValueType KernelReach = 6;              // voxels, of the cubic B-spline with its prefilter
@@ -58,6 +61,18 @@ public:
   GetPeriod() const
   {
     return m_Period;
+  }
+
+  /** The edge of a cube of a refined voxel's volume, in mm. */
+  double
+  GetVoxelEdge() const
+  {
+    double volume = 1.0;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      volume *= m_Labels.GetSpacing()[axis] / static_cast<double>(m_Period[axis]);
+    }
+    return std::cbrt(volume);
   }
 
   /** With the margin around the map. */
@@ -385,6 +400,136 @@ AddLabel(const FieldLattice & field,
   });
 }
 
+/** A number for each label. */
+using NumberByLabel = std::map<LabelType, double>;
+
+/** The volumes of the voxels of each label in mm^3. A slice reaches half way to its neighbours. */
+NumberByLabel
+ComputeVoxelVolumes(const LabelImage & map, LabelsToFCCFilter::SliceOriginsType origins)
+{
+  const auto & region = map.GetLargestPossibleRegion();
+  const auto & spacing = map.GetSpacing();
+  Index<3> first = region.GetIndex();
+  for (SizeValueType k = 0; origins.size() < region.GetSize(2); ++k, ++first[2])
+  {
+    origins.push_back(map.TransformIndexToPhysicalPoint<double>(first));
+  }
+  Vector<double, 3> axes[3];
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    for (unsigned int row = 0; row < 3; ++row)
+    {
+      axes[axis][row] = map.GetDirection()(row, axis) * spacing[axis];
+    }
+  }
+  const Vector<double, 3> area = CrossProduct(axes[0], axes[1]);
+  const SizeValueType voxels = region.GetSize(0) * region.GetSize(1);
+  NumberByLabel volumes;
+  for (SizeValueType k = 0; k < region.GetSize(2); ++k)
+  {
+    const bool hasBefore = k > 0;
+    const bool hasAfter = k + 1 < region.GetSize(2);
+    const auto steps = static_cast<double>((hasBefore ? 1 : 0) + (hasAfter ? 1 : 0));
+    const Vector<double, 3> step =
+      steps > 0.0 ? (origins[hasAfter ? k + 1 : k] - origins[hasBefore ? k - 1 : k]) / steps : axes[2];
+    for (SizeValueType n = 0; n < voxels; ++n)
+    {
+      volumes[map.GetBufferPointer()[k * voxels + n]] += std::abs(area * step);
+    }
+  }
+  return volumes;
+}
+
+/** Volumes inside the walls of each label, and the areas of its walls. */
+struct WallMeasures
+{
+  NumberByLabel volumes;
+  NumberByLabel areas;
+};
+
+WallMeasures
+MeasureWalls(const LabelWalls & walls)
+{
+  WallMeasures measures;
+  const auto & points = walls.GetPoints();
+  for (std::size_t n = 0; n < walls.GetNumberOfTriangles(); ++n)
+  {
+    Vector<double, 3> corners[3]; // from a point of the mesh, which keeps digits
+    for (unsigned int corner = 0; corner < 3; ++corner)
+    {
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        corners[corner][axis] =
+          static_cast<double>(points[walls.GetTriangles()[n][corner]][axis]) - static_cast<double>(points[0][axis]);
+      }
+    }
+    const Vector<double, 3> normal = CrossProduct(corners[1] - corners[0], corners[2] - corners[0]);
+    const auto & pair = walls.GetTriangleLabels()[n];
+    measures.volumes[pair[0]] -= corners[0] * normal / 6.0;
+    measures.volumes[pair[1]] += corners[0] * normal / 6.0;
+    for (const LabelType label : pair)
+    {
+      measures.areas[label] += normal.GetNorm() / 2.0;
+    }
+  }
+  return measures;
+}
+
+/** Adds an offset to all weights of each label and gives each site the label of largest weight. */
+void
+AddOffsets(const NumberByLabel & offsets, Lattice & labels, FCCLabelWeights & weights)
+{
+  const auto & region = labels.GetLargestPossibleRegion();
+  ForEachRow(region, region, [&](const Index<3> & first, SizeValueType row) {
+    LabelType * const rowLabels = labels.GetBufferPointer() + labels.ComputeOffset(first);
+    FCCLabelWeights::RowType & entries = weights.GetRow(row);
+    for (FCCLabelWeights::Entry & entry : entries)
+    {
+      const auto offset = offsets.find(entry.label);
+      entry.weight += offset != offsets.end() ? static_cast<float>(offset->second) : 0.0f;
+    }
+    for (const FCCLabelWeights::Entry & entry : entries)
+    {
+      const float * const own = weights.Find(row, entry.i, rowLabels[entry.i]);
+      if (own != nullptr && entry.weight > *own)
+      {
+        rowLabels[entry.i] = entry.label;
+      }
+    }
+  });
+}
+
+/** Moves the walls of all labels so that these have the volumes of their voxels. */
+void
+KeepVolumes(const NumberByLabel & voxelVolumes, double voxelEdge, Lattice & labels, FCCLabelWeights & weights)
+{
+  NumberByLabel sums;
+  for (unsigned int n = 0; n < VolumeCorrections; ++n)
+  {
+    const auto filter = FCCLabelSurfaceFilter::New();
+    filter->SetInput(&labels);
+    filter->SetWeights(&weights);
+    filter->Update();
+    const WallMeasures measures = MeasureWalls(*filter->GetOutput());
+    NumberByLabel offsets;
+    for (const auto & [label, volume] : voxelVolumes)
+    {
+      const auto area = measures.areas.find(label);
+      if (label == 0 || area == measures.areas.end() || !(area->second > 0.0))
+      {
+        continue;
+      }
+      // An offset moves a wall half as far, in voxels.
+      const double wanted = 2.0 * (volume - measures.volumes.at(label)) / (area->second * voxelEdge);
+      double & sum = sums[label];
+      const double next = std::clamp(sum + wanted, -FarthestOffset, FarthestOffset);
+      offsets[label] = next - sum;
+      sum = next;
+    }
+    AddOffsets(offsets, labels, weights);
+  }
+}
+
 } // namespace
 
 LabelsToFCCFilter::LabelsToFCCFilter()
@@ -488,14 +633,18 @@ LabelsToFCCFilter::GenerateData()
   VerifyInputSamples(*this, image, image.GetLargestPossibleRegion());
   const RefinedMap map(image, m_SliceOrigins);
   const auto boxes = map.FindBoxes();
-  WorkProgress progress(*this, boxes.size());
+  WorkProgress progress(*this, boxes.size() + 1);
 
-  LatticeType & labels = *this->GetOutput();
+  // Not the outputs: as inputs of a filter, these would ask for an update of this one.
+  const auto lattice = LatticeType::New();
+  LatticeType & labels = *lattice;
+  labels.CopyInformation(this->GetOutput());
   const auto & region = labels.GetLargestPossibleRegion();
-  labels.SetBufferedRegion(region);
+  labels.SetRegions(region);
   labels.Allocate();
   labels.FillBuffer(0);
-  FCCLabelWeights & weights = *this->GetWeights();
+  const auto newWeights = FCCLabelWeights::New();
+  FCCLabelWeights & weights = *newWeights;
   weights.SetNumberOfRows(region.GetSize(1) * region.GetSize(2));
   std::vector<float> largest(region.GetNumberOfPixels(), -FCCLabelWeights::Limit);
   for (const auto & [label, box] : boxes)
@@ -510,6 +659,9 @@ LabelsToFCCFilter::GenerateData()
     progress.Completed(1);
   }
   ForEachRow(region, region, [&](const Index<3> &, SizeValueType row) { weights.SortRow(row); });
+  KeepVolumes(ComputeVoxelVolumes(image, m_SliceOrigins), map.GetVoxelEdge(), labels, weights);
+  this->GetOutput()->Graft(lattice);
+  this->GetWeights()->Swap(weights);
   progress.Finish();
 }
 
