@@ -1,11 +1,10 @@
-#include "itkCastImageFilter.h"
 #include "itkFCCLabelSurfaceFilter.h"
 #include "itkImageRegionIteratorWithIndex.h"
+#include "itkLabelMapFileReader.h"
 #include "itkLabelsToFCCFilter.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
 #include "rhombicLabelSurfaces.h"
-#include "rhombicScanReader.h"
 
 #include <vtkDiscreteFlyingEdges3D.h>
 #include <vtkIdList.h>
@@ -22,7 +21,6 @@
 #include <exception>
 #include <random>
 #include <utility>
-#include <variant>
 #include <vector>
 
 /** rhombic-label-walls: walls of eight touching balls against the truth, beside other surfaces of labels.
@@ -310,16 +308,10 @@ MeasureVTK(const std::vector<std::vector<Ball>> & scenes, double slices)
 void
 MeasureMap(const char * path)
 {
-  const rhombic::Scan scan = rhombic::ReadScan(path);
-  LabelImage::Pointer map;
-  std::visit(
-    [&map](const auto & image) {
-      const auto cast = itk::CastImageFilter<std::decay_t<decltype(*image)>, LabelImage>::New();
-      cast->SetInput(image);
-      cast->Update();
-      map = cast->GetOutput();
-    },
-    scan.image);
+  const auto reader = itk::LabelMapFileReader<LabelImage>::New();
+  reader->SetFileName(path);
+  reader->Update();
+  const LabelImage::ConstPointer map = reader->GetOutput();
   std::clock_t start = std::clock();
   const auto secondsSince = [&start] {
     const std::clock_t begin = std::exchange(start, std::clock());
@@ -327,7 +319,6 @@ MeasureMap(const char * path)
   };
   const auto toLattice = itk::LabelsToFCCFilter::New();
   toLattice->SetInput(map);
-  toLattice->SetSliceOrigins(scan.sliceOrigins);
   toLattice->Update();
   const double latticeSeconds = secondsSince();
   const auto filter = itk::FCCLabelSurfaceFilter::New();

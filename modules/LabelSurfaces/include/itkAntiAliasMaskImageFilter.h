@@ -14,6 +14,8 @@
 namespace itk
 {
 
+class VoxelBand;
+
 /** \class AntiAliasMaskImageFilter
  * \brief A smooth field whose zero surface is the border of a mask, without the steps of its voxels.
  *
@@ -119,38 +121,44 @@ protected:
 
 private:
   using RowReader = std::function<void(SizeValueType row, float * values)>;
-  using RowWriter = std::function<void(SizeValueType row, const float * values)>;
+  using RowWriter =
+    std::function<void(SizeValueType row, SizeValueType begin, SizeValueType end, const float * values)>;
 
-  /** Smooths the rows from \a read with a Gaussian of \a sigma voxels and passes them to \a write. The number of a row
-   * is y + z height. */
+  /** The voxels within some distance of the border. */
+  VoxelBand
+  FindBand(double width);
+
+  /** Smooths the rows from \a read with a Gaussian of \a sigma voxels and passes the parts of them that are in a band
+   * to \a write. The number of a row is y + z height. */
   void
-  Smooth(double sigma, const RowReader & read, const RowWriter & write);
+  Smooth(double sigma, const VoxelBand & band, const RowReader & read, const RowWriter & write);
 
   /** Whether a voxel, given by its offset in the buffer, is a sample of the shape. */
   bool
   IsSample(SizeValueType voxel) const;
 
-  /** Whether each voxel of an axis is a sample of the shape, and the share of samples in the reach of a Gaussian. */
+  /** Whether each voxel of an axis is a sample of the shape (1 or 0), and the share of samples in the reach of a
+   * Gaussian. */
   struct SampleComb
   {
-    std::vector<std::uint8_t> isSample;
+    std::vector<float> samples;
     std::vector<float> share;
   };
 
   SampleComb
   MakeComb(unsigned int axis, double sigma) const;
 
-  /** The field for a Gaussian of \a sigma voxels after a number of corrections, each times \a gain. */
+  /** The field in a band for a Gaussian of \a sigma voxels after a number of corrections, each times \a gain. */
   void
-  MatchLocalVolumes(double sigma, unsigned int corrections, float gain, float * field);
+  MatchLocalVolumes(double sigma, unsigned int corrections, float gain, const VoxelBand & band, float * field);
 
   /** By voxel: 0 in a 2 x 2 x 2 block of its class, 1 in none, 2 in none and part of a sheet or vessel. */
-  std::vector<std::uint8_t>
-  FindThin();
+  void
+  FindThin(const VoxelBand & band, std::vector<std::uint8_t> & thin);
 
   /** Marks the narrow voxels. Returns whether there are any. */
   bool
-  FindNarrow(const std::vector<std::uint8_t> & thin, std::vector<std::uint8_t> & isNarrow);
+  FindNarrow(const std::vector<std::uint8_t> & thin, const VoxelBand & band, std::vector<std::uint8_t> & isNarrow);
 
   /** The marked voxels connected with a marked one within its class. Sets them as seen. */
   std::vector<SizeValueType>

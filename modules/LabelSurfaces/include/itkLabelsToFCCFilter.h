@@ -76,7 +76,7 @@ public:
   itkSetMacro(Density, double);
   itkGetConstMacro(Density, double);
 
-  /** As CartesianToFCCImageFilter::SetSliceOrigins(). */
+  /** As CartesianToFCCImageFilter::SetSliceOrigins(). Default: those that an image from ScanFileReader has. */
   void
   SetSliceOrigins(const SliceOriginsType & origins);
   const SliceOriginsType &
@@ -120,6 +120,10 @@ protected:
   GenerateData() override;
 
 private:
+  /** Those that were set, or else those that the image has from ScanFileReader. */
+  SliceOriginsType
+  FindSliceOrigins() const;
+
   double m_Density;
   SliceOriginsType m_SliceOrigins;
 };

@@ -4,6 +4,7 @@
 #include "itkInputSamples.h"
 #include "itkMath.h"
 #include "itkMultiThreaderBase.h"
+#include "itkVoxelBand.h"
 
 #include <algorithm>
 #include <array>
@@ -28,6 +29,7 @@ constexpr Scale Medium{ 1.2, 4, 0.6f };
 constexpr Scale Fine{ 0.7, 5, 0.3f };
 constexpr double WideningByPeriod = 0.3;
 constexpr unsigned int CorrectionsBetweenSlices = 6;
+constexpr double BandWidth = 2.0;  // of the wide Gaussian, in sigma: depths there reach 3 voxels
 constexpr float Narrow = 0.3f;     // voxels: depth on the wrong side
 constexpr float Lost = 0.03f;      // voxels: depth on the wrong side
 constexpr float TubeRadius = 0.6f; // voxels
@@ -210,16 +212,24 @@ AntiAliasMaskImageFilter::GenerateData()
 
   const auto longestPeriod = *std::max_element(m_SamplePeriod.begin(), m_SamplePeriod.end());
   m_Widening = std::max(1.0, WideningByPeriod * static_cast<double>(longestPeriod));
+  const VoxelBand band = this->FindBand(BandWidth * m_Widening * Wide.sigma);
+  const auto far = static_cast<float>(0.5 * InverseSlope(m_Widening * Wide.sigma));
+  this->ForEach(size[2], [&](SizeValueType z) {
+    for (SizeValueType voxel = z * size[0] * size[1]; voxel < (z + 1) * size[0] * size[1]; ++voxel)
+    {
+      m_Field[voxel] = m_Mask[voxel] != 0 ? far : -far;
+    }
+  });
   this->MatchLocalVolumes(
-    Wide.sigma, longestPeriod > 1 ? CorrectionsBetweenSlices : Wide.corrections, Wide.gain, m_Field);
+    Wide.sigma, longestPeriod > 1 ? CorrectionsBetweenSlices : Wide.corrections, Wide.gain, band, m_Field);
   std::vector<std::uint8_t> thin(size[0] * size[1] * size[2]);
   std::vector<std::uint8_t> isMarked(thin.size());
-  if (this->FindNarrow(thin, isMarked))
+  if (this->FindNarrow(thin, band, isMarked))
   {
     this->Refine(Medium.sigma, Medium.corrections, Medium.gain, isMarked);
   }
-  thin = this->FindThin();
-  if (this->FindNarrow(thin, isMarked))
+  this->FindThin(band, thin);
+  if (this->FindNarrow(thin, band, isMarked))
   {
     this->Refine(Fine.sigma, Fine.corrections, Fine.gain, isMarked);
     this->KeepLost(thin, isMarked);
@@ -259,8 +269,49 @@ AntiAliasMaskImageFilter::CheckAbortAt(SizeValueType n) const
   }
 }
 
+VoxelBand
+AntiAliasMaskImageFilter::FindBand(double width)
+{
+  const SizeValueType length = m_Size[0];
+  const SizeValueType height = m_Size[1];
+  VoxelBand border(m_Size);
+  this->ForEach(m_Size[2], [&](SizeValueType z) {
+    for (SizeValueType row = z * height; row < (z + 1) * height; ++row)
+    {
+      const std::uint8_t * const voxels = m_Mask + row * length;
+      const SizeValueType y = row - z * height;
+      const std::uint8_t * const others[] = { y > 0 ? voxels - length : voxels,
+                                              y + 1 < height ? voxels + length : voxels,
+                                              z > 0 ? voxels - height * length : voxels,
+                                              z + 1 < m_Size[2] ? voxels + height * length : voxels };
+      for (SizeValueType begin = 0; begin < length; begin += border.GetTileLength())
+      {
+        const SizeValueType end = std::min(begin + border.GetTileLength(), length);
+        bool isBorder = false;
+        for (SizeValueType x = begin; x < end; ++x)
+        {
+          isBorder |= (voxels[x] != 0) != (voxels[std::min(x + 1, length - 1)] != 0);
+        }
+        for (const std::uint8_t * const other : others)
+        {
+          for (SizeValueType x = begin; x < end; ++x)
+          {
+            isBorder |= (voxels[x] != 0) != (other[x] != 0);
+          }
+        }
+        if (isBorder)
+        {
+          border.Mark(row, begin);
+        }
+      }
+    }
+  });
+  const auto reach = static_cast<SizeValueType>(std::ceil(width));
+  return border.Widened({ reach, reach, reach });
+}
+
 void
-AntiAliasMaskImageFilter::Smooth(double sigma, const RowReader & read, const RowWriter & write)
+AntiAliasMaskImageFilter::Smooth(double sigma, const VoxelBand & band, const RowReader & read, const RowWriter & write)
 {
   const std::vector<float> weights = GaussianWeights(sigma);
   const SizeValueType taps = weights.size();
@@ -269,6 +320,8 @@ AntiAliasMaskImageFilter::Smooth(double sigma, const RowReader & read, const Row
   const SizeValueType height = m_Size[1];
   const SizeValueType depth = m_Size[2];
   const SizeValueType stride = RowArithmetic::PaddedLength(width);
+  const VoxelBand smoothedInPlane = band.Widened({ 0, 0, reach });
+  const VoxelBand smoothedInRow = smoothedInPlane.Widened({ 0, reach, 0 });
 
   // Along x and y, plane by plane.
   this->ForEach(depth, [&](SizeValueType z) {
@@ -276,25 +329,34 @@ AntiAliasMaskImageFilter::Smooth(double sigma, const RowReader & read, const Row
     std::vector<float> plane(height * stride);
     std::vector<float> blend(stride);
     std::vector<const float *> terms(taps);
-    for (SizeValueType tap = 0; tap < taps; ++tap)
-    {
-      terms[tap] = extended.data() + tap;
-    }
-    for (SizeValueType y = 0; y < height; ++y)
-    {
-      read(y + z * height, extended.data() + reach);
-      std::fill_n(extended.begin(), reach, extended[reach]);
-      std::fill_n(extended.begin() + static_cast<std::ptrdiff_t>(reach + width), reach, extended[reach + width - 1]);
-      RowArithmetic::Blend(terms.data(), weights.data(), taps, width, plane.data() + y * stride);
-    }
-    for (SizeValueType y = 0; y < height; ++y)
-    {
+    const auto blendRun = [&](const auto & rowOfTap, SizeValueType begin, SizeValueType end, float * result) {
       for (SizeValueType tap = 0; tap < taps; ++tap)
       {
-        terms[tap] = plane.data() + ClampedSample(y + tap, reach, height) * stride;
+        terms[tap] = rowOfTap(tap) + begin;
       }
-      RowArithmetic::Blend(terms.data(), weights.data(), taps, width, blend.data());
-      std::copy_n(blend.data(), width, m_Smoothed + (y + z * height) * width);
+      RowArithmetic::Blend(terms.data(), weights.data(), taps, end - begin, result + begin);
+    };
+    for (SizeValueType y = 0; y < height; ++y)
+    {
+      if (smoothedInRow.HasRow(y + z * height))
+      {
+        read(y + z * height, extended.data() + reach);
+        std::fill_n(extended.begin(), reach, extended[reach]);
+        std::fill_n(extended.begin() + static_cast<std::ptrdiff_t>(reach + width), reach, extended[reach + width - 1]);
+        smoothedInRow.ForEachRun(y + z * height, [&](SizeValueType begin, SizeValueType end) {
+          blendRun([&](SizeValueType tap) { return extended.data() + tap; }, begin, end, plane.data() + y * stride);
+        });
+      }
+    }
+    for (SizeValueType y = 0; y < height; ++y)
+    {
+      smoothedInPlane.ForEachRun(y + z * height, [&](SizeValueType begin, SizeValueType end) {
+        const auto rowOfTap = [&](SizeValueType tap) {
+          return plane.data() + ClampedSample(y + tap, reach, height) * stride;
+        };
+        blendRun(rowOfTap, begin, end, blend.data());
+        std::copy(blend.data() + begin, blend.data() + end, m_Smoothed + (y + z * height) * width + begin);
+      });
     }
     m_WorkProgress->Completed(1);
   });
@@ -306,16 +368,21 @@ AntiAliasMaskImageFilter::Smooth(double sigma, const RowReader & read, const Row
     std::vector<const float *> terms(taps);
     for (SizeValueType z = 0; z < depth; ++z)
     {
-      std::copy_n(m_Smoothed + (y + z * height) * width, width, rows.data() + z * stride);
+      smoothedInPlane.ForEachRun(y + z * height, [&](SizeValueType begin, SizeValueType end) {
+        const float * const smoothed = m_Smoothed + (y + z * height) * width;
+        std::copy(smoothed + begin, smoothed + end, rows.data() + z * stride + begin);
+      });
     }
     for (SizeValueType z = 0; z < depth; ++z)
     {
-      for (SizeValueType tap = 0; tap < taps; ++tap)
-      {
-        terms[tap] = rows.data() + ClampedSample(z + tap, reach, depth) * stride;
-      }
-      RowArithmetic::Blend(terms.data(), weights.data(), taps, width, blend.data());
-      write(y + z * height, blend.data());
+      band.ForEachRun(y + z * height, [&](SizeValueType begin, SizeValueType end) {
+        for (SizeValueType tap = 0; tap < taps; ++tap)
+        {
+          terms[tap] = rows.data() + ClampedSample(z + tap, reach, depth) * stride + begin;
+        }
+        RowArithmetic::Blend(terms.data(), weights.data(), taps, end - begin, blend.data() + begin);
+        write(y + z * height, begin, end, blend.data());
+      });
     }
     m_WorkProgress->Completed(1);
   });
@@ -341,17 +408,17 @@ AntiAliasMaskImageFilter::MakeComb(unsigned int axis, double sigma) const
   const SizeValueType length = m_Size[axis];
   const auto period = static_cast<IndexValueType>(m_SamplePeriod[axis]);
   const IndexValueType first = this->GetOutput()->GetBufferedRegion().GetIndex(axis);
-  SampleComb comb{ std::vector<std::uint8_t>(length), std::vector<float>(length) };
+  SampleComb comb{ std::vector<float>(length), std::vector<float>(length) };
   for (SizeValueType n = 0; n < length; ++n)
   {
-    comb.isSample[n] = (first + static_cast<IndexValueType>(n)) % period == 0 ? 1 : 0;
+    comb.samples[n] = (first + static_cast<IndexValueType>(n)) % period == 0 ? 1.0f : 0.0f;
   }
   for (SizeValueType n = 0; n < length; ++n)
   {
     constexpr float least = 1e-6f; // far from all samples
     for (SizeValueType tap = 0; tap < weights.size(); ++tap)
     {
-      comb.share[n] += comb.isSample[ClampedSample(n + tap, weights.size() / 2, length)] != 0 ? weights[tap] : 0.0f;
+      comb.share[n] += weights[tap] * comb.samples[ClampedSample(n + tap, weights.size() / 2, length)];
     }
     comb.share[n] = period == 1 ? 1.0f : std::max(least, comb.share[n]);
   }
@@ -359,54 +426,77 @@ AntiAliasMaskImageFilter::MakeComb(unsigned int axis, double sigma) const
 }
 
 void
-AntiAliasMaskImageFilter::MatchLocalVolumes(double narrowSigma, unsigned int corrections, float gain, float * field)
+AntiAliasMaskImageFilter::MatchLocalVolumes(double narrowSigma,
+                                            unsigned int corrections,
+                                            float gain,
+                                            const VoxelBand & band,
+                                            float * field)
 {
   const SizeValueType width = m_Size[0];
   const double sigma = m_Widening * narrowSigma;
   const auto slope = static_cast<float>(InverseSlope(sigma));
   const SampleComb combs[3] = { this->MakeComb(0, sigma), this->MakeComb(1, sigma), this->MakeComb(2, sigma) };
+  const float * const samples = combs[0].samples.data();
   const auto isSampleRow = [&](SizeValueType row) {
-    return combs[1].isSample[row % m_Size[1]] != 0 && combs[2].isSample[row / m_Size[1]] != 0;
+    return combs[1].samples[row % m_Size[1]] * combs[2].samples[row / m_Size[1]] > 0.0f;
   };
-  // The Gaussian of what the samples miss.
-  const auto smoothMissing = [&](const auto & missingOf, const auto & write) {
-    this->Smooth(
-      sigma,
-      [&](SizeValueType row, float * values) {
-        const bool isSample = isSampleRow(row);
-        for (SizeValueType x = 0; x < width; ++x)
-        {
-          values[x] = isSample && combs[0].isSample[x] != 0 ? missingOf(row * width + x) : 0.0f;
-        }
-      },
-      [&](SizeValueType row, const float * values) {
-        const float share = combs[1].share[row % m_Size[1]] * combs[2].share[row / m_Size[1]];
-        for (SizeValueType x = 0; x < width; ++x)
-        {
-          write(row * width + x, values[x] / (share * combs[0].share[x]));
-        }
-      });
+  const auto shareOf = [&](SizeValueType row) {
+    return combs[1].share[row % m_Size[1]] * combs[2].share[row / m_Size[1]];
   };
-  smoothMissing([&](SizeValueType voxel) { return 0.5f * SideOf(m_Mask[voxel]); },
-                [&](SizeValueType voxel, float value) { field[voxel] = slope * value; });
+  this->Smooth(
+    sigma,
+    band,
+    [&](SizeValueType row, float * values) {
+      const std::uint8_t * const mask = m_Mask + row * width;
+      const float half = isSampleRow(row) ? 0.5f : 0.0f;
+      for (SizeValueType x = 0; x < width; ++x)
+      {
+        values[x] = samples[x] * (mask[x] != 0 ? half : -half);
+      }
+    },
+    [&](SizeValueType row, SizeValueType begin, SizeValueType end, const float * values) {
+      const float share = shareOf(row);
+      for (SizeValueType x = begin; x < end; ++x)
+      {
+        field[row * width + x] = slope * (values[x] / (share * combs[0].share[x]));
+      }
+    });
   for (unsigned int n = 0; n < corrections; ++n)
   {
-    smoothMissing(
-      [&](SizeValueType voxel) {
-        const float coverage = std::min(1.0f, std::max(0.0f, field[voxel] + 0.5f));
-        return (m_Mask[voxel] != 0 ? 1.0f : 0.0f) - coverage;
+    this->Smooth(
+      sigma,
+      band,
+      [&](SizeValueType row, float * values) {
+        std::fill_n(values, width, 0.0f);
+        const std::uint8_t * const mask = m_Mask + row * width;
+        const float * const depths = field + row * width;
+        if (isSampleRow(row))
+        {
+          band.ForEachRun(row, [&](SizeValueType begin, SizeValueType end) {
+            for (SizeValueType x = begin; x < end; ++x)
+            {
+              const float coverage = std::min(1.0f, std::max(0.0f, depths[x] + 0.5f));
+              values[x] = samples[x] * ((mask[x] != 0 ? 1.0f : 0.0f) - coverage);
+            }
+          });
+        }
       },
-      [&](SizeValueType voxel, float value) { field[voxel] += gain * slope * value; });
+      [&](SizeValueType row, SizeValueType begin, SizeValueType end, const float * values) {
+        const float share = shareOf(row);
+        for (SizeValueType x = begin; x < end; ++x)
+        {
+          field[row * width + x] += gain * slope * (values[x] / (share * combs[0].share[x]));
+        }
+      });
   }
 }
 
-std::vector<std::uint8_t>
-AntiAliasMaskImageFilter::FindThin()
+void
+AntiAliasMaskImageFilter::FindThin(const VoxelBand & band, std::vector<std::uint8_t> & thin)
 {
   const SizeValueType width = m_Size[0];
   const SizeValueType height = m_Size[1];
   const SizeValueType depth = m_Size[2];
-  std::vector<std::uint8_t> thin(width * height * depth);
   const auto sample = [](SizeValueType first, SizeValueType step, SizeValueType length) {
     return ClampedSample(first + step, 1, length);
   };
@@ -433,10 +523,12 @@ AntiAliasMaskImageFilter::FindThin()
   this->ForEach(depth, [&](SizeValueType z) {
     for (SizeValueType y = 0; y < height; ++y)
     {
-      for (SizeValueType x = 0; x < width; ++x)
-      {
-        thin[(z * height + y) * width + x] = isInBlock(x, y, z) ? 0 : 1;
-      }
+      band.ForEachRun(z * height + y, [&](SizeValueType begin, SizeValueType end) {
+        for (SizeValueType x = begin; x < end; ++x)
+        {
+          thin[(z * height + y) * width + x] = isInBlock(x, y, z) ? 0 : 1;
+        }
+      });
     }
   });
   std::vector<std::uint8_t> isSeen(thin.size());
@@ -452,7 +544,6 @@ AntiAliasMaskImageFilter::FindThin()
       }
     }
   }
-  return thin;
 }
 
 std::vector<SizeValueType>
@@ -478,18 +569,26 @@ AntiAliasMaskImageFilter::CollectPart(SizeValueType first,
 }
 
 bool
-AntiAliasMaskImageFilter::FindNarrow(const std::vector<std::uint8_t> & thin, std::vector<std::uint8_t> & isNarrow)
+AntiAliasMaskImageFilter::FindNarrow(const std::vector<std::uint8_t> & thin,
+                                     const VoxelBand & band,
+                                     std::vector<std::uint8_t> & isNarrow)
 {
-  const SizeValueType voxelsPerPlane = m_Size[0] * m_Size[1];
+  const SizeValueType width = m_Size[0];
+  const SizeValueType height = m_Size[1];
   std::vector<std::uint8_t> found(m_Size[2]);
   std::vector<SizeValueType> insideCount(m_Size[2]);
   this->ForEach(m_Size[2], [&](SizeValueType z) {
-    for (SizeValueType voxel = z * voxelsPerPlane; voxel < (z + 1) * voxelsPerPlane; ++voxel)
+    for (SizeValueType row = z * height; row < (z + 1) * height; ++row)
     {
-      const bool isWrong = SideOf(m_Mask[voxel]) * m_Field[voxel] < -Narrow;
-      isNarrow[voxel] = thin[voxel] == 2 || (isWrong && this->IsSample(voxel)) ? 1 : 0;
-      found[z] |= isNarrow[voxel];
-      insideCount[z] += isNarrow[voxel] != 0 && m_Mask[voxel] != 0 ? 1 : 0;
+      band.ForEachRun(row, [&](SizeValueType begin, SizeValueType end) {
+        for (SizeValueType voxel = row * width + begin; voxel < row * width + end; ++voxel)
+        {
+          const bool isWrong = SideOf(m_Mask[voxel]) * m_Field[voxel] < -Narrow;
+          isNarrow[voxel] = thin[voxel] == 2 || (isWrong && this->IsSample(voxel)) ? 1 : 0;
+          found[z] |= isNarrow[voxel];
+          insideCount[z] += isNarrow[voxel] != 0 && m_Mask[voxel] != 0 ? 1 : 0;
+        }
+      });
     }
   });
   m_NumberOfNarrowVoxels = std::accumulate(insideCount.begin(), insideCount.end(), SizeValueType{ 0 });
@@ -502,15 +601,31 @@ AntiAliasMaskImageFilter::Refine(double sigma,
                                  float gain,
                                  const std::vector<std::uint8_t> & isNarrow)
 {
-  const SizeValueType width = m_Size[0];
-  const std::unique_ptr<float[]> fine(new float[isNarrow.size()]);
-  this->MatchLocalVolumes(sigma, corrections, gain, fine.get());
   constexpr double blendingSigma = 1.0;
+  const SizeValueType width = m_Size[0];
+  VoxelBand narrow(m_Size);
+  this->ForEach(m_Size[2], [&](SizeValueType z) {
+    for (SizeValueType row = z * m_Size[1]; row < (z + 1) * m_Size[1]; ++row)
+    {
+      for (SizeValueType x = 0; x < width; ++x)
+      {
+        if (isNarrow[row * width + x] != 0)
+        {
+          narrow.Mark(row, x);
+        }
+      }
+    }
+  });
+  const SizeValueType blended = GaussianWeights(blendingSigma).size() / 2;
+  const SizeValueType reach = blended + GaussianWeights(m_Widening * sigma).size(); // of two corrections
+  const std::unique_ptr<float[]> fine(new float[isNarrow.size()]);
+  this->MatchLocalVolumes(sigma, corrections, gain, narrow.Widened({ reach, reach, reach }), fine.get());
   this->Smooth(
     blendingSigma,
+    narrow.Widened({ blended, blended, blended }),
     [&](SizeValueType row, float * values) { std::copy_n(isNarrow.data() + row * width, width, values); },
-    [&](SizeValueType row, const float * values) {
-      for (SizeValueType x = 0; x < width; ++x)
+    [&](SizeValueType row, SizeValueType begin, SizeValueType end, const float * values) {
+      for (SizeValueType x = begin; x < end; ++x)
       {
         constexpr float steepness = 100.0f; // around a single voxel: 1 up to a distance of 2, 0 from 4 on
         const SizeValueType voxel = row * width + x;

@@ -4,11 +4,10 @@
 #include "itkCartesianToFCCImageFilter.h"
 #include "itkFCCLabelSurfaceFilter.h"
 #include "itkForEachBlock.h"
-#include "itkImageRegionConstIteratorWithIndex.h"
-#include "itkImageRegionIteratorWithIndex.h"
 #include "itkImageSource.h"
 #include "itkInputSamples.h"
 #include "itkMath.h"
+#include "itkSlicePlacement.h"
 #include "itkWorkProgress.h"
 
 #include <algorithm>
@@ -28,7 +27,7 @@ using MaskImage = Image<std::uint8_t, 3>;
 using FieldImage = Image<float, 3>;
 using FieldLattice = FCCImage<float>;
 
-constexpr unsigned int VolumeCorrections = 5;
+constexpr unsigned int VolumeCorrections = 3;
 constexpr double FarthestOffset = 0.8;                 // of weights; twice as far as walls move, in voxels
 constexpr double LongVoxels = 1.5;                     // times the shortest edge
 constexpr IndexValueType Margin = 2;                   // voxels around the map
@@ -112,80 +111,84 @@ public:
   bool
   IsSlanted() const
   {
-    const auto & direction = m_Labels.GetDirection().GetVnlMatrix();
-    constexpr double tolerance = 1e-6;
-    return !m_SliceOrigins.empty() ||
-           (direction.transpose() * direction - vnl_matrix_fixed<double, 3, 3>().set_identity()).absolute_value_max() >
-             tolerance;
+    return !m_SliceOrigins.empty() || !AreAxesPerpendicular(m_Labels.GetDirection());
   }
 
-  /** The label of the nearest voxel; of a voxel at the border beyond the map. */
-  LabelType
-  GetNearest(const Index<3> & index) const
+  /** The index along an axis of the nearest voxel of the map, from its first; beyond the map of that at its border. */
+  SizeValueType
+  GetNearest(unsigned int axis, IndexValueType index) const
   {
-    const auto & region = m_Labels.GetLargestPossibleRegion();
-    Index<3> nearest;
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      const auto period = static_cast<IndexValueType>(m_Period[axis]);
-      const IndexValueType voxel = (index[axis] - m_Scan.GetIndex(axis)) / period;
-      nearest[axis] =
-        region.GetIndex(axis) + std::clamp<IndexValueType>(index[axis] < m_Scan.GetIndex(axis) ? 0 : voxel,
-                                                           0,
-                                                           static_cast<IndexValueType>(region.GetSize(axis)) - 1);
-    }
-    return m_Labels.GetPixel(nearest);
+    const IndexValueType last = m_Scan.GetUpperIndex()[axis];
+    const IndexValueType inScan = std::clamp(index, m_Scan.GetIndex(axis), last) - m_Scan.GetIndex(axis);
+    return std::min(static_cast<SizeValueType>(inScan) / m_Period[axis],
+                    m_Labels.GetLargestPossibleRegion().GetSize(axis) - 1);
   }
 
-  /** Depth of a voxel below the outer faces of the map, negative beyond it. */
+  /** The row of the map nearest to a row of the refined map. */
+  const LabelType *
+  GetNearestRow(const Index<3> & index) const
+  {
+    const auto & size = m_Labels.GetLargestPossibleRegion().GetSize();
+    return m_Labels.GetBufferPointer() +
+           (this->GetNearest(2, index[2]) * size[1] + this->GetNearest(1, index[1])) * size[0];
+  }
+
+  /** Depth along one axis below the outer faces of the map, negative beyond it. */
   float
-  GetDepth(const Index<3> & index) const
+  GetDepth(unsigned int axis, IndexValueType index) const
   {
-    double depth = std::numeric_limits<double>::max();
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      const double outer = 0.5 * static_cast<double>(m_Period[axis]);
-      const auto last = static_cast<double>((m_Labels.GetLargestPossibleRegion().GetSize(axis) - 1) * m_Period[axis]);
-      const auto position = static_cast<double>(index[axis]);
-      depth = std::min({ depth, position + outer, last + outer - position });
-    }
-    return static_cast<float>(depth);
+    const double outer = 0.5 * static_cast<double>(m_Period[axis]);
+    const auto last = static_cast<double>((m_Labels.GetLargestPossibleRegion().GetSize(axis) - 1) * m_Period[axis]);
+    const auto position = static_cast<double>(index);
+    return static_cast<float>(std::min(position + outer, last + outer - position));
   }
 
-  /** The bounding box of each label and a margin around it. */
+  /** The bounding box of each label and a margin around it; of 0, that of all others together. */
   std::map<LabelType, ImageRegion<3>>
   FindBoxes() const
   {
     std::map<LabelType, std::pair<Index<3>, Index<3>>> corners;
-    const auto & first = m_Labels.GetLargestPossibleRegion().GetIndex();
-    for (ImageRegionConstIteratorWithIndex<LabelImage> it(&m_Labels, m_Labels.GetLargestPossibleRegion());
-         !it.IsAtEnd();
-         ++it)
-    {
-      const auto index = it.GetIndex();
-      auto & [low, high] = corners.try_emplace(it.Get(), index, index).first->second;
+    const auto add = [&corners](LabelType label, const Index<3> & index) {
+      auto & [low, high] = corners.try_emplace(label, index, index).first->second;
       for (unsigned int axis = 0; axis < 3; ++axis)
       {
         low[axis] = std::min(low[axis], index[axis]);
         high[axis] = std::max(high[axis], index[axis]);
       }
+    };
+    const auto & size = m_Labels.GetLargestPossibleRegion().GetSize();
+    const LabelType * voxels = m_Labels.GetBufferPointer();
+    for (SizeValueType row = 0; row < size[1] * size[2]; ++row, voxels += size[0])
+    {
+      for (SizeValueType x = 0; x < size[0]; ++x)
+      {
+        // The ends of runs of one label are enough.
+        const bool isInner = x > 0 && x + 1 < size[0] && voxels[x] == voxels[x - 1] && voxels[x] == voxels[x + 1];
+        if (voxels[x] != 0 && !isInner)
+        {
+          const Index<3> index{ { static_cast<IndexValueType>(x),
+                                  static_cast<IndexValueType>(row % size[1]),
+                                  static_cast<IndexValueType>(row / size[1]) } };
+          add(voxels[x], index);
+          add(0, index);
+        }
+      }
     }
-    corners.try_emplace(0, first, first); // the outside, at least at the map's border
     std::map<LabelType, ImageRegion<3>> boxes;
-    for (auto & [label, corner] : corners)
+    for (const auto & [label, corner] : corners)
     {
       ImageRegion<3> box;
       for (unsigned int axis = 0; axis < 3; ++axis)
       {
         const auto period = static_cast<IndexValueType>(m_Period[axis]);
         const IndexValueType margin = MaskMargin + period;
-        const IndexValueType low = (corner.first[axis] - first[axis]) * period - margin;
-        const IndexValueType high = (corner.second[axis] - first[axis]) * period + margin;
+        const IndexValueType low = corner.first[axis] * period - margin;
+        const IndexValueType high = corner.second[axis] * period + margin;
         box.SetIndex(axis, low);
         box.SetSize(axis, static_cast<SizeValueType>(high - low + 1));
       }
       box.Crop(m_Whole);
-      boxes[label] = label == 0 || this->IsSlanted() ? m_Whole : box;
+      boxes[label] = this->IsSlanted() ? m_Whole : box;
     }
     return boxes;
   }
@@ -223,17 +226,43 @@ private:
   LabelsToFCCFilter::SliceOriginsType m_SliceOrigins;
 };
 
+/** Calls use(index of the first voxel of a row, its offset in the buffer) for each row of a box, on threads. */
+template <typename TUse>
+void
+ForEachRow(const ImageRegion<3> & box, const TUse & use)
+{
+  ForEachInBlocks(box.GetSize(1) * box.GetSize(2), 64, [&](std::size_t n) {
+    Index<3> first = box.GetIndex();
+    first[1] += static_cast<IndexValueType>(n % box.GetSize(1));
+    first[2] += static_cast<IndexValueType>(n / box.GetSize(1));
+    use(first, n * box.GetSize(0));
+  });
+}
+
 /** The depth below the surface of a label in voxels of the refined map, at the voxels of a box. */
 FieldImage::Pointer
 MakeField(const RefinedMap & map, LabelType label, const ImageRegion<3> & box)
 {
+  const SizeValueType width = box.GetSize(0);
+  std::vector<SizeValueType> nearest(width);
+  std::vector<float> depths(width);
+  for (SizeValueType n = 0; n < width; ++n)
+  {
+    const IndexValueType x = box.GetIndex(0) + static_cast<IndexValueType>(n);
+    nearest[n] = map.GetNearest(0, x);
+    depths[n] = map.GetDepth(0, x);
+  }
   const auto mask = map.MakeImage<MaskImage>(box);
   mask->SetLargestPossibleRegion(box);
   mask->Allocate();
-  for (ImageRegionIteratorWithIndex<MaskImage> it(mask, box); !it.IsAtEnd(); ++it)
-  {
-    it.Set(map.GetNearest(it.GetIndex()) == label ? 1 : 0);
-  }
+  ForEachRow(box, [&](const Index<3> & first, SizeValueType offset) {
+    const LabelType * const labels = map.GetNearestRow(first);
+    std::uint8_t * const row = mask->GetBufferPointer() + offset;
+    for (SizeValueType n = 0; n < width; ++n)
+    {
+      row[n] = labels[nearest[n]] == label ? 1 : 0;
+    }
+  });
   const auto filter = AntiAliasMaskImageFilter::New();
   filter->SetInput(mask);
   filter->SetSamplePeriod(map.GetPeriod());
@@ -241,13 +270,17 @@ MakeField(const RefinedMap & map, LabelType label, const ImageRegion<3> & box)
   filter->Update();
   FieldImage::Pointer field = filter->GetOutput();
   field->DisconnectPipeline();
-  const float side = label == 0 ? -1.0f : 1.0f;
-  for (ImageRegionIteratorWithIndex<FieldImage> it(field, box); !it.IsAtEnd(); ++it)
-  {
+  ForEachRow(box, [&](const Index<3> & first, SizeValueType offset) {
     // No label but 0 reaches beyond the map.
-    const float depth = std::clamp(it.Get(), -FCCLabelWeights::Limit, FCCLabelWeights::Limit);
-    it.Set(side * std::min(side * depth, map.GetDepth(it.GetIndex())));
-  }
+    const float rowDepth = std::min(map.GetDepth(1, first[1]), map.GetDepth(2, first[2]));
+    const float side = label == 0 ? -1.0f : 1.0f;
+    float * const row = field->GetBufferPointer() + offset;
+    for (SizeValueType n = 0; n < width; ++n)
+    {
+      const float depth = std::clamp(row[n], -FCCLabelWeights::Limit, FCCLabelWeights::Limit);
+      row[n] = side * std::min(side * depth, std::min(rowDepth, depths[n]));
+    }
+  });
   return field;
 }
 
@@ -353,20 +386,12 @@ FindSites(const FieldLattice & lattice, const FieldImage & field, const ImageReg
   return sites;
 }
 
-/** Calls use(index of the row's first site, number of the row in the lattice) for each row of a region, on threads. */
-template <typename TUse>
-void
-ForEachRow(const ImageRegion<3> & region, const ImageRegion<3> & lattice, const TUse & use)
+/** The number of a site's row in a lattice, as FCCLabelWeights counts rows. */
+SizeValueType
+GetRowNumber(const Index<3> & site, const ImageRegion<3> & lattice)
 {
-  const SizeValueType height = region.GetSize(1);
-  ForEachInBlocks(height * region.GetSize(2), 64, [&](std::size_t n) {
-    Index<3> first = region.GetIndex();
-    first[1] += static_cast<IndexValueType>(n % height);
-    first[2] += static_cast<IndexValueType>(n / height);
-    use(first,
-        static_cast<SizeValueType>(first[2] - lattice.GetIndex(2)) * lattice.GetSize(1) +
-          static_cast<SizeValueType>(first[1] - lattice.GetIndex(1)));
-  });
+  return static_cast<SizeValueType>(site[2] - lattice.GetIndex(2)) * lattice.GetSize(1) +
+         static_cast<SizeValueType>(site[1] - lattice.GetIndex(1));
 }
 
 /** Adds the weights of a label where they are below the limit, and gives it the sites where they are the largest. */
@@ -379,8 +404,9 @@ AddLabel(const FieldLattice & field,
 {
   constexpr float limit = FCCLabelWeights::Limit;
   const auto & sites = field.GetBufferedRegion();
-  ForEachRow(sites, labels.GetLargestPossibleRegion(), [&](const Index<3> & first, SizeValueType row) {
-    const float * const values = field.GetBufferPointer() + field.ComputeOffset(first);
+  ForEachRow(sites, [&](const Index<3> & first, SizeValueType fieldOffset) {
+    const SizeValueType row = GetRowNumber(first, labels.GetLargestPossibleRegion());
+    const float * const values = field.GetBufferPointer() + fieldOffset;
     const OffsetValueType offset = labels.ComputeOffset(first);
     LabelType * const rowLabels = labels.GetBufferPointer() + offset;
     float * const rowLargest = largest.data() + offset;
@@ -427,14 +453,22 @@ ComputeVoxelVolumes(const LabelImage & map, LabelsToFCCFilter::SliceOriginsType 
   NumberByLabel volumes;
   for (SizeValueType k = 0; k < region.GetSize(2); ++k)
   {
+    std::map<LabelType, SizeValueType> counts;
+    const LabelType * const slice = map.GetBufferPointer() + k * voxels;
+    for (SizeValueType n = 0, end = 0; n < voxels; n = end)
+    {
+      end = static_cast<SizeValueType>(
+        std::find_if(slice + n, slice + voxels, [&](LabelType label) { return label != slice[n]; }) - slice);
+      counts[slice[n]] += end - n;
+    }
     const bool hasBefore = k > 0;
     const bool hasAfter = k + 1 < region.GetSize(2);
     const auto steps = static_cast<double>((hasBefore ? 1 : 0) + (hasAfter ? 1 : 0));
     const Vector<double, 3> step =
       steps > 0.0 ? (origins[hasAfter ? k + 1 : k] - origins[hasBefore ? k - 1 : k]) / steps : axes[2];
-    for (SizeValueType n = 0; n < voxels; ++n)
+    for (const auto & [label, count] : counts)
     {
-      volumes[map.GetBufferPointer()[k * voxels + n]] += std::abs(area * step);
+      volumes[label] += static_cast<double>(count) * std::abs(area * step);
     }
   }
   return volumes;
@@ -480,20 +514,27 @@ void
 AddOffsets(const NumberByLabel & offsets, Lattice & labels, FCCLabelWeights & weights)
 {
   const auto & region = labels.GetLargestPossibleRegion();
-  ForEachRow(region, region, [&](const Index<3> & first, SizeValueType row) {
-    LabelType * const rowLabels = labels.GetBufferPointer() + labels.ComputeOffset(first);
-    FCCLabelWeights::RowType & entries = weights.GetRow(row);
-    for (FCCLabelWeights::Entry & entry : entries)
+  ForEachRow(region, [&](const Index<3> & first, SizeValueType firstSite) {
+    LabelType * const rowLabels = labels.GetBufferPointer() + firstSite;
+    FCCLabelWeights::RowType & entries = weights.GetRow(GetRowNumber(first, region));
+    for (auto begin = entries.begin(); begin != entries.end();)
     {
-      const auto offset = offsets.find(entry.label);
-      entry.weight += offset != offsets.end() ? static_cast<float>(offset->second) : 0.0f;
-    }
-    for (const FCCLabelWeights::Entry & entry : entries)
-    {
-      const float * const own = weights.Find(row, entry.i, rowLabels[entry.i]);
-      if (own != nullptr && entry.weight > *own)
+      // The weights of one site: its label's, if it is stored, is the one to exceed.
+      auto end = begin;
+      float largest = std::numeric_limits<float>::max();
+      for (; end != entries.end() && end->i == begin->i; ++end)
       {
-        rowLabels[entry.i] = entry.label;
+        const auto offset = offsets.find(end->label);
+        end->weight += offset != offsets.end() ? static_cast<float>(offset->second) : 0.0f;
+        largest = end->label == rowLabels[end->i] ? end->weight : largest;
+      }
+      for (; begin != end; ++begin)
+      {
+        if (begin->weight > largest)
+        {
+          largest = begin->weight;
+          rowLabels[begin->i] = begin->label;
+        }
       }
     }
   });
@@ -563,6 +604,12 @@ LabelsToFCCFilter::SetSliceOrigins(const SliceOriginsType & origins)
   }
 }
 
+LabelsToFCCFilter::SliceOriginsType
+LabelsToFCCFilter::FindSliceOrigins() const
+{
+  return m_SliceOrigins.empty() ? GetSlicePlacement(*this->GetInput()).origins : m_SliceOrigins;
+}
+
 LabelsToFCCFilter::LatticeType *
 LabelsToFCCFilter::GetOutput()
 {
@@ -610,12 +657,13 @@ LabelsToFCCFilter::GenerateOutputInformation()
 {
   const InputImageType & image = *this->GetInput();
   const auto & region = image.GetLargestPossibleRegion();
-  if (region.GetNumberOfPixels() == 0 || (!m_SliceOrigins.empty() && m_SliceOrigins.size() != region.GetSize(2)))
+  const SliceOriginsType origins = this->FindSliceOrigins();
+  if (region.GetNumberOfPixels() == 0 || (!origins.empty() && origins.size() != region.GetSize(2)))
   {
-    itkExceptionMacro("The map has " << region.GetSize() << " voxels and " << m_SliceOrigins.size()
+    itkExceptionMacro("The map has " << region.GetSize() << " voxels and " << origins.size()
                                      << " slice origins; it needs voxels, and an origin for each slice or none.");
   }
-  const RefinedMap map(image, m_SliceOrigins);
+  const RefinedMap map(image, origins);
   const auto grid = map.MakeImage<FieldImage>(map.GetWhole());
   this->GetOutput()->CopyInformation(&FieldResampler(map, grid, m_Density).GetLattice());
 }
@@ -631,7 +679,8 @@ LabelsToFCCFilter::GenerateData()
 {
   const InputImageType & image = *this->GetInput();
   VerifyInputSamples(*this, image, image.GetLargestPossibleRegion());
-  const RefinedMap map(image, m_SliceOrigins);
+  const SliceOriginsType origins = this->FindSliceOrigins();
+  const RefinedMap map(image, origins);
   const auto boxes = map.FindBoxes();
   WorkProgress progress(*this, boxes.size() + 1);
 
@@ -658,8 +707,8 @@ LabelsToFCCFilter::GenerateData()
     }
     progress.Completed(1);
   }
-  ForEachRow(region, region, [&](const Index<3> &, SizeValueType row) { weights.SortRow(row); });
-  KeepVolumes(ComputeVoxelVolumes(image, m_SliceOrigins), map.GetVoxelEdge(), labels, weights);
+  ForEachRow(region, [&](const Index<3> & first, SizeValueType) { weights.SortRow(GetRowNumber(first, region)); });
+  KeepVolumes(ComputeVoxelVolumes(image, origins), map.GetVoxelEdge(), labels, weights);
   this->GetOutput()->Graft(lattice);
   this->GetWeights()->Swap(weights);
   progress.Finish();

@@ -1,0 +1,111 @@
+#ifndef itkVoxelBand_h
+#define itkVoxelBand_h
+
+#include "itkIntTypes.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace itk
+{
+
+/** \class VoxelBand
+ * \brief A set of voxels, such as those near a border, in tiles along x.
+ *
+ * A row, of number y + z height, has at most 64 tiles of a multiple of 16 voxels each, one bit for each tile. Eight
+ * bytes a row. Different rows can be marked at once. */
+class VoxelBand
+{
+public:
+  using SizeType = std::array<SizeValueType, 3>;
+
+  explicit VoxelBand(const SizeType & size)
+    : m_Size(size)
+    , m_TileLength(16 * ((size[0] + 16 * 64 - 1) / (16 * 64)))
+    , m_Rows(size[1] * size[2])
+  {}
+
+  SizeValueType
+  GetTileLength() const
+  {
+    return m_TileLength;
+  }
+
+  /** Adds the tile of a voxel. */
+  void
+  Mark(SizeValueType row, SizeValueType x)
+  {
+    m_Rows[row] |= std::uint64_t{ 1 } << (x / m_TileLength);
+  }
+
+  bool
+  HasRow(SizeValueType row) const
+  {
+    return m_Rows[row] != 0;
+  }
+
+  /** Calls use(begin, end) for the runs of voxels of a row, ascending. */
+  template <typename TUse>
+  void
+  ForEachRun(SizeValueType row, const TUse & use) const
+  {
+    const SizeValueType tiles = (m_Size[0] + m_TileLength - 1) / m_TileLength;
+    for (SizeValueType tile = 0; tile < tiles; ++tile)
+    {
+      const SizeValueType first = tile;
+      while (tile < tiles && (m_Rows[row] >> tile & 1) != 0)
+      {
+        ++tile;
+      }
+      if (tile > first)
+      {
+        use(first * m_TileLength, std::min(tile * m_TileLength, m_Size[0]));
+      }
+    }
+  }
+
+  /** The voxels within some distance of this band along each axis, and along x the rest of their tiles. */
+  VoxelBand
+  Widened(const SizeType & reach) const
+  {
+    VoxelBand wide(*this);
+    for (SizeValueType n = 0; n < reach[0]; n += m_TileLength)
+    {
+      for (std::uint64_t & tiles : wide.m_Rows)
+      {
+        tiles |= tiles << 1 | tiles >> 1;
+      }
+    }
+    wide.Widen(1, m_Size[1], reach[1]);
+    wide.Widen(m_Size[1], m_Size[2], reach[2]);
+    return wide;
+  }
+
+private:
+  /** Widens along y or z: \a length rows, \a step numbers apart. */
+  void
+  Widen(SizeValueType step, SizeValueType length, SizeValueType reach)
+  {
+    const std::vector<std::uint64_t> rows = m_Rows;
+    for (SizeValueType row = 0; reach > 0 && row < rows.size(); ++row)
+    {
+      const SizeValueType position = row / step % length;
+      const SizeValueType first = position - std::min(position, reach);
+      const SizeValueType last = std::min(position + reach, length - 1);
+      for (SizeValueType n = first; n <= last; ++n)
+      {
+        m_Rows[row] |= rows[row - position * step + n * step];
+      }
+    }
+  }
+
+  SizeType m_Size;
+  SizeValueType m_TileLength;
+  std::vector<std::uint64_t> m_Rows;
+};
+
+} // namespace itk
+
+#endif
