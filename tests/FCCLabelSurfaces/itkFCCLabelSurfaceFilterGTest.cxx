@@ -164,6 +164,23 @@ TEST(FCCLabelSurfaceFilter, BlobsGiveSoundWalls)
   }
 }
 
+/** Takes a minute: the label long. */
+TEST(FCCLabelSurfaceFilter, AThousandVolumesGiveSoundWalls)
+{
+  for (unsigned int seed = 0; seed < 500; ++seed)
+  {
+    const int labels = 2 + static_cast<int>(seed % 49);
+    const auto noise = MakeNoise(Region(static_cast<int>(seed % 5) - 2, 4 + seed % 6, 7, 5 + seed % 4), seed, labels);
+    ExpectSoundWalls(*MakeWalls(noise), *noise);
+    const auto blobs = MakeBlobs(Region(static_cast<int>(seed % 7) - 3, 9, 14 + seed % 6, 15), seed, labels);
+    ExpectSoundWalls(*MakeWalls(blobs), *blobs);
+    if (HasFatalFailure())
+    {
+      FAIL() << "seed " << seed;
+    }
+  }
+}
+
 TEST(FCCLabelSurfaceFilter, LabelsReachTo65535)
 {
   const auto image = MakeLabels(Region(0, 3, 4, 4), [](const itk::Index<3> & index) {
