@@ -220,6 +220,8 @@ TEST_F(Examples, SayWhatIsWrongInsteadOfCrashing)
          Refusal{ "ExtractAndMeasure scan.nii.gz nan out.stl", "THRESHOLD can't be 'nan'" },
          Refusal{ "ExtractAndMeasure scan.nii.gz 1e9 out.stl", "no triangles" },
          Refusal{ "ExtractAndMeasure scan.nii.gz 0 out.xyz", "names no surface format" },
+         Refusal{ "LabelsToWalls", "usage: " },
+         Refusal{ "LabelsToWalls missing out.vtp", "no such file" },
          Refusal{ "SegmentationToSurface", "usage: " },
          Refusal{ "SegmentationToSurface missing 0 0 0 2 out.stl", "no such file" },
          Refusal{ "SegmentationToSurface scan.nii.gz 7000 2.3 294.8 2 out.stl", "outside of the scan" },
@@ -280,6 +282,14 @@ TEST_F(Examples, FromMarchingCubes)
   const std::string output = this->Run("FromMarchingCubes " + phantom + "/phantom.nii.gz -485.5");
   EXPECT_GT(Figures(output, "Rhombic")[0], 1000.0);
   EXPECT_LT(Figures(output, "Rhombic")[0], Figures(output, "vtkFlyingEdges3D")[0]);
+}
+
+TEST_F(Examples, LabelsToWallsKeepsTheVolumesOfOrgans)
+{
+  const std::string output = this->Run("LabelsToWalls " + phantom + "/phantom-labels.nii.gz walls.vtp");
+  EXPECT_GT(Figures(output, "triangles").front(), 1000.0);
+  EXPECT_NEAR(Figures(output, "left lung").front() / OrganVolumes()["left lung"], 1.0, 0.03);
+  EXPECT_NE(ReadText((m_Folder.Path() / "walls.vtp").string()).find("Name=\"BoundaryLabels\""), std::string::npos);
 }
 
 /** What the page for VTK's users shows is what the program runs. */
