@@ -59,13 +59,17 @@ class VoxelBand;
  * between slices is the smooth one that agrees with the slices around it, and has no terraces. All Gaussians are wider
  * by 0.3 times the longest period if that is more than 1.
  *
+ * The field is computed within 5 voxels of the border, times the factor by which all Gaussians are wider; beyond, it
+ * has the value of a smoothed mask far from borders, 3.13 or -3.13 times that factor. The smaller Gaussians are used
+ * only around the voxels that need them. So time grows with the area of the border.
+ *
  * Inside and outside are treated alike, except where tubes of both touch, so that the masks on both sides of a wall get
  * the same wall. Distances are in voxels, whatever their spacing. Beyond the image the mask continues as it is at the
  * border; leave a margin of 4 voxels around it, except where the scan ends.
  *
  * Requests the whole input and makes the whole output, because sheets, vessels and spurs are connected parts of any
- * size. The output has the same bytes for any number of threads, on any processor. Extra memory: 11 bytes per voxel.
- * Throws when the input's buffer is not whole.
+ * size. The output has the same bytes for any number of threads, on any processor. Extra memory: 11 bytes per voxel,
+ * of which 8 are touched near the border only. Throws when the input's buffer is not whole.
  *
  * \ingroup LabelSurfaces
  */

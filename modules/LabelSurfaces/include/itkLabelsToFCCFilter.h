@@ -39,8 +39,10 @@ namespace itk
  *     rhombic::LabelsToSurfaces()                             .05   2.5     .26  10.4     .82  30.2
  *     vtkDiscreteFlyingEdges3D, vtkWindowedSincPolyDataFilter .10   4.2     .36   8.2     .70  14.9
  *
- * The outputs have the same bytes for any number of threads. Time: that of AntiAliasMaskImageFilter in the bounding box
- * of each label. Memory: 6 bytes a site; 16 bytes a voxel of the largest label's box; 12 bytes for each label at sites
+ * The outputs have the same bytes for any number of threads. Fields are made one after another, each in the bounding
+ * box of its label and near the label's border only (AntiAliasMaskImageFilter). Time grows with the area of the walls
+ * and, much less, with the voxels of all boxes; slanted maps have the box of the map for each label. Memory: 6 bytes a
+ * site; 20 bytes a voxel of the largest box, which is that of all labels together; 12 bytes for each label at sites
  * within three voxels of its surface.
  *
  * Throws when the map has no voxels or its buffer is not whole, when the density is not above 0 and at most 64, and
