@@ -14,7 +14,7 @@ struct Intensities
   double lowest = 0.0;
   double highest = 0.0;
   double otsu = 0.0;    ///< N. Otsu's threshold (1979) between background and foreground, from a histogram of 256 bins
-  double lowOtsu = 0.0; ///< Otsu's threshold of the values up to \ref otsu: in MR, between air and the darkest tissue
+  double lowOtsu = 0.0; ///< Otsu's threshold of the values up to `otsu`; in MR, between air and the darkest tissue
 };
 
 /** Throws Failure(Unreadable) when no value is finite.
