@@ -3,15 +3,18 @@
 
 #include "rhombicScan.h"
 
+#include <cstdint>
+
 namespace rhombic
 {
 
 /** The scan with its axes in the order of the patient's: the first runs nearest to right-left, the second to
  * anterior-posterior, the third to inferior-superior, each towards +LPS. Samples keep their positions, so that the same
  * volume gives the same lattice whatever the order of its axes in the file. The voxels are copied only if axes change.
- * Slanted scans keep the order of their slices. */
+ * Slanted scans keep the order of their slices. Throws Failure(Memory), before any work, when the copies do not fit.
+ * \param maximumMemory bytes for the copies; 0: half of the free memory */
 Scan
-OrderAlongPatient(const Scan & scan);
+OrderAlongPatient(const Scan & scan, std::uintmax_t maximumMemory = 0);
 
 } // namespace rhombic
 

@@ -1,5 +1,7 @@
 #include "rhombicPatientAxes.h"
 
+#include "rhombicMemoryBudget.h"
+
 #include "itkFlipImageFilter.h"
 #include "itkPermuteAxesImageFilter.h"
 
@@ -51,21 +53,28 @@ Apply(TFilter & filter, const TImage & image)
 
 template <typename TImage>
 typename TImage::Pointer
-OrderAxes(typename TImage::Pointer image)
+OrderAxes(typename TImage::Pointer image, std::uintmax_t maximumMemory)
 {
   const Order order = FindOrder(image->GetDirection());
-  if (order[0] != 0 || order[1] != 1)
+  itk::FixedArray<bool, 3> isReversed;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    isReversed[axis] = image->GetDirection()[axis][order[axis]] < 0.0;
+  }
+  const bool isPermuted = order[0] != 0 || order[1] != 1;
+  const bool isFlipped = isReversed[0] || isReversed[1] || isReversed[2];
+  const std::uintmax_t copies = (isPermuted ? 1 : 0) + (isFlipped ? 1 : 0);
+  RequireMemory(copies * image->GetBufferedRegion().GetNumberOfPixels() * sizeof(typename TImage::PixelType),
+                maximumMemory,
+                "Ordering the scan's axes along the patient's",
+                "crop the scan");
+  if (isPermuted)
   {
     const auto permute = itk::PermuteAxesImageFilter<TImage>::New();
     permute->SetOrder(order);
     image = Apply(*permute, *image);
   }
-  itk::FixedArray<bool, 3> isReversed;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    isReversed[axis] = image->GetDirection()[axis][axis] < 0.0;
-  }
-  if (isReversed[0] || isReversed[1] || isReversed[2])
+  if (isFlipped)
   {
     const auto flip = itk::FlipImageFilter<TImage>::New();
     flip->SetFlipAxes(isReversed);
@@ -78,12 +87,14 @@ OrderAxes(typename TImage::Pointer image)
 } // namespace
 
 Scan
-OrderAlongPatient(const Scan & scan)
+OrderAlongPatient(const Scan & scan, std::uintmax_t maximumMemory)
 {
   Scan ordered = scan;
   if (!IsSlanted(scan))
   {
-    std::visit([](auto & image) { image = OrderAxes<std::decay_t<decltype(*image)>>(image); }, ordered.image);
+    std::visit(
+      [maximumMemory](auto & image) { image = OrderAxes<std::decay_t<decltype(*image)>>(image, maximumMemory); },
+      ordered.image);
   }
   return ordered;
 }

@@ -14,7 +14,8 @@ namespace
 void
 StageLattice(const Scan & scan, const ResampleScanSettings & settings, const Events & events, StagedFiles & staged)
 {
-  const FCCVolume volume = ScanToLattice(OrderAlongPatient(scan), settings.source.lattice, events);
+  const FCCVolume volume =
+    ScanToLattice(OrderAlongPatient(scan, settings.source.lattice.maximumMemory), settings.source.lattice, events);
   events.Progress("writing", 0.0);
   StageFCCImage(volume, settings.volume, staged);
   StageSidecar(settings.volume,

@@ -173,7 +173,7 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   }
   loaded.tableRemoval = TreatTable(scan, selection.removesTable, events);
   loaded.requests = ResolveRequests(requests, scan.image);
-  const Scan ordered = OrderAlongPatient(scan);
+  const Scan ordered = OrderAlongPatient(scan, source.lattice.maximumMemory);
   loaded.lattice = ScanToLattice(ordered, source.lattice, events);
   loaded.grid = GridOf(ordered);
   return loaded;

@@ -1,3 +1,4 @@
+#include "rhombicFailure.h"
 #include "rhombicLatticeToSurfaces.h"
 #include "rhombicPatientAxes.h"
 #include "rhombicScanToLattice.h"
@@ -157,6 +158,10 @@ TEST(Orientations, OrderedAxesRunAlongThePatientAndSamplesStay)
     }
     rhombic::Scan scan;
     scan.image = image;
+    if (trial == 0)
+    {
+      EXPECT_THROW(rhombic::OrderAlongPatient(scan, 1), rhombic::Failure) << "its copies need more than a byte";
+    }
     const auto ordered = std::get<ImageType::Pointer>(rhombic::OrderAlongPatient(scan).image);
     ASSERT_EQ(ordered->GetBufferedRegion().GetNumberOfPixels(), image->GetBufferedRegion().GetNumberOfPixels());
     for (itk::ImageRegionConstIteratorWithIndex<ImageType> it(ordered, ordered->GetBufferedRegion()); !it.IsAtEnd();
