@@ -103,6 +103,33 @@ TEST(CompareCommand, IsTheSameWithAnyNumberOfThreads)
   EXPECT_EQ(ReadText(folder.Path() / "one/figures.csv"), ReadText(folder.Path() / "three/figures.csv"));
 }
 
+TEST(CompareCommand, TakesAScanAsAFieldInAnyOrderOfItsAxes)
+{
+  if (std::getenv("RHOMBIC_SCANS") == nullptr)
+  {
+    GTEST_SKIP() << "RHOMBIC_SCANS is not set";
+  }
+  const TemporaryFolder folder;
+  const auto figuresOf = [&](const std::string & scan) {
+    std::ofstream(folder.Path() / "file.yaml")
+      << "title: T\nexperiments:\n  - name: a\n    field: { kind: scan, file: nifti_orientations_48/" << scan
+      << ", isovalue: 30.5, spacing: 3, size: 40 }\n"
+         "    rows: [ { method: flying-edges, density: 0.7698 }, { method: fine, density: 0.7698 } ]\n";
+    const Outcome outcome = RunShell("rhombic compare file.yaml -o out --no-pictures --repeats 1", folder.Path());
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+    const auto rows = nlohmann::json::parse(ReadText(folder.Path() / "out/figures.json"))["experiments"][0]["rows"];
+    return std::pair(rows[0]["figures"], rows[1]["figures"]);
+  };
+  const auto [edges, fine] = figuresOf("RAS.nii.gz");
+  EXPECT_GT(edges["judged"], 500.0);
+  EXPECT_LT(edges["mean"], 0.3);
+  EXPECT_LT(fine["mean"], 0.85 * edges["mean"].get<double>());
+  const auto [edgesAgain, fineAgain] = figuresOf("AIL.nii.gz");
+  EXPECT_NEAR(fineAgain["mean"], fine["mean"], 1e-4);
+  EXPECT_NEAR(fineAgain["triangles"], fine["triangles"], 4.0);
+  EXPECT_NEAR(edgesAgain["mean"], edges["mean"], 1e-4);
+}
+
 TEST(CompareCommand, RefusesWhatItDoesNotKnow)
 {
   const TemporaryFolder folder;
@@ -115,6 +142,7 @@ TEST(CompareCommand, RefusesWhatItDoesNotKnow)
   EXPECT_EQ(run("kind: corners", "lean").exitCode, 4);
   EXPECT_EQ(run("kynd: corner", "lean").exitCode, 4);
   EXPECT_EQ(run("kind: corner", "leen").exitCode, 2);
+  EXPECT_EQ(run("kind: scan, file: missing.nii", "lean").exitCode, 3);
   EXPECT_EQ(RunShell("rhombic compare missing.yaml -o out", folder.Path()).exitCode, 3);
   EXPECT_EQ(RunShell("rhombic compare '" + experiments + "' -o out --only nothing", folder.Path()).exitCode, 2);
 }

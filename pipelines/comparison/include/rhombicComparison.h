@@ -3,6 +3,7 @@
 
 #include "rhombicEvents.h"
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -14,12 +15,17 @@ namespace rhombic
 /** What is sampled. */
 struct FieldRequest
 {
-  std::string kind;          ///< sphere, torus, gyroid, waves, marschner-lobb, corner, or silhouettes
-  std::string object;        ///< of silhouettes: hand or quadruped
-  double bandLimit = 0.5;    ///< of waves, in fractions of the Nyquist frequency of the grid
-  unsigned int size = 40;    ///< samples along each axis of the grid whose spacing is h; not for silhouettes
-  unsigned int pixels = 400; ///< of silhouettes: along the object's height
-  double turn = 0.0;         ///< of silhouettes: degrees about the vertical axis; a multiple of the views' 5
+  std::string kind;           ///< sphere, torus, gyroid, waves, marschner-lobb, corner, silhouettes or scan
+  std::string object;         ///< of silhouettes: hand or quadruped
+  double bandLimit = 0.5;     ///< of waves, in fractions of the Nyquist frequency of the grid
+  unsigned int size = 40;     ///< samples along each axis of the grid whose spacing is h; not for silhouettes
+  unsigned int pixels = 400;  ///< of silhouettes: along the object's height
+  double turn = 0.0;          ///< of silhouettes: degrees about the vertical axis; a multiple of the views' 5
+  std::filesystem::path file; ///< of scan
+  double isovalue = 0.0;      ///< of scan
+  double spacing = 1.0;       ///< of scan: h, in mm
+  double sigma = 0.5;         ///< of scan: of the Gaussian that smooths it before, in h
+  std::array<double, 3> center{ 0.5, 0.5, 0.5 }; ///< of scan: of the part that is taken, in fractions of the whole
 };
 
 /** A method at one number of samples. */
@@ -43,7 +49,7 @@ struct Experiment
   unsigned int seeds = 1;         ///< fields, or positions of the field on the lattice, over which figures are means
   std::vector<ComparedRow> rows;  ///< the first one is the reference of all ratios
   std::vector<std::string> views; ///< of the pictures, as ViewFromText() takes them
-  bool hasPlot = false;           ///< of errors against samples and triangles
+  bool hasPlot = false;           ///< of errors against samples and triangles, and against times
 };
 
 /** A statement of the paper. */
@@ -65,9 +71,10 @@ struct ComparisonRequest
   bool hasLattices = false; ///< whether lattices and their cells are drawn
 };
 
-/** Reads a file of experiments. Throws Failure: NotFound, or Unreadable with what is wrong in it. */
+/** Reads a file of experiments. Throws Failure: NotFound, or Unreadable with what is wrong in it.
+ * \param scans the folder in which scans are; empty: the file's own */
 ComparisonRequest
-ReadComparisonRequest(const std::filesystem::path & path);
+ReadComparisonRequest(const std::filesystem::path & path, const std::filesystem::path & scans = {});
 
 /** Figures of a row, by their names; pipelines/comparison/README.md has their meanings. Those without a value are
  * missing. */

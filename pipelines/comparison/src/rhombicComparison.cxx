@@ -23,6 +23,22 @@ StagePng(Drawing & drawing, const std::filesystem::path & path, StagedFiles & st
   StagePicture(drawing.TakePictures({ { 1.0, 1.0, 1.0 } }).front(), path, staged, {});
 }
 
+/** Plots the mean distance against figures, as SVG and PNG. */
+void
+StagePlots(const ExperimentResult & result,
+           const std::vector<std::string> & figures,
+           const std::string & name,
+           const std::filesystem::path & folder,
+           StagedFiles & staged)
+{
+  Drawing svg = Drawing::ForSvg(PlotWidth(figures.size()), PlotHeight);
+  DrawPlots(result, figures, svg);
+  StageText(svg.TakeDocument(), folder / (name + ".svg"), staged);
+  Drawing png(PlotWidth(figures.size()), PlotHeight);
+  DrawPlots(result, figures, png);
+  StagePng(png, folder / (name + ".png"), staged);
+}
+
 /** Draws what an experiment asks for. */
 std::vector<PagePicture>
 StagePictures(const ExperimentRun & run, const std::filesystem::path & folder, StagedFiles & staged)
@@ -32,12 +48,8 @@ StagePictures(const ExperimentRun & run, const std::filesystem::path & folder, S
   if (experiment.hasPlot)
   {
     const std::string name = experiment.name + "-plot";
-    Drawing svg = Drawing::ForSvg(PlotWidth, PlotHeight);
-    DrawPlots(run.result, svg);
-    StageText(svg.TakeDocument(), folder / (name + ".svg"), staged);
-    Drawing png(PlotWidth, PlotHeight);
-    DrawPlots(run.result, png);
-    StagePng(png, folder / (name + ".png"), staged);
+    StagePlots(run.result, { "samples", "triangles" }, name, folder, staged);
+    StagePlots(run.result, { "seconds" }, experiment.name + "-times", folder, staged); // not on the page: see times.csv
     pictures.push_back({ name + ".png",
                          "Mean distance from the true surface against the number of samples, and of triangles. Lower "
                          "and further left is better. [SVG](" +

@@ -294,18 +294,24 @@ DrawSurfaces(const ExperimentRun & run, bool showsErrors)
 }
 
 void
-DrawPlots(const ExperimentResult & result, Drawing & drawing)
+DrawPlots(const ExperimentResult & result, const std::vector<std::string> & figures, Drawing & drawing)
 {
-  drawing.Fill({ 0.0, 0.0, PlotWidth, PlotHeight }, { { 1.0, 1.0, 1.0 } });
-  drawing.Text(result.experiment.title, { 20.0, 28.0 }, { 18.0, black, { {}, 0.0 }, true });
-  DrawPanel(result, "samples", { 70.0, 70.0, 360.0, 350.0 }, drawing);
-  DrawPanel(result, "triangles", { 500.0, 70.0, 360.0, 350.0 }, drawing);
+  drawing.Fill({ 0.0, 0.0, double(drawing.GetWidth()), PlotHeight }, { { 1.0, 1.0, 1.0 } });
+  drawing.Text(result.experiment.title,
+               { 20.0, 28.0 },
+               { 18.0, black, { {}, 0.0 }, true, Alignment::Left, drawing.GetWidth() - 40.0 });
+  double left = 70.0;
+  for (const std::string & figure : figures)
+  {
+    DrawPanel(result, figure, { left, 70.0, 360.0, 350.0 }, drawing);
+    left += 430.0;
+  }
   const auto methods = MethodsOf(result);
   for (std::size_t method = 0; method < methods.size(); ++method)
   {
     const double y = 84.0 + 26.0 * static_cast<double>(method);
-    drawing.Line({ { 880.0, y }, { 904.0, y } }, { 3.0, { lineColours[method % std::size(lineColours)] } });
-    drawing.TextAbout(methods[method], { 912.0, y }, { 14.0, black });
+    drawing.Line({ { left - 50.0, y }, { left - 26.0, y } }, { 3.0, { lineColours[method % std::size(lineColours)] } });
+    drawing.TextAbout(methods[method], { left - 18.0, y }, { 14.0, black });
   }
 }
 

@@ -12,12 +12,18 @@ namespace rhombic
 Picture
 DrawSurfaces(const ExperimentRun & run, bool showsErrors);
 
-constexpr int PlotWidth = 1150;
 constexpr int PlotHeight = 470;
 
-/** Mean distance against samples, and against triangles, with a line for each method. */
+/** The width of a picture of some plots. */
+constexpr int
+PlotWidth(std::size_t plots)
+{
+  return 290 + 430 * static_cast<int>(plots);
+}
+
+/** A plot of the mean distance against each of some figures, with a line for each method. */
 void
-DrawPlots(const ExperimentResult & result, Drawing & drawing);
+DrawPlots(const ExperimentResult & result, const std::vector<std::string> & figures, Drawing & drawing);
 
 } // namespace rhombic
 

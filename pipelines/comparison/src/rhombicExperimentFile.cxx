@@ -60,7 +60,7 @@ private:
 };
 
 FieldRequest
-ParseField(const YAML::Node & node)
+ParseField(const YAML::Node & node, const std::filesystem::path & scans)
 {
   FieldRequest field;
   Map map(node);
@@ -70,6 +70,13 @@ ParseField(const YAML::Node & node)
   map.Get("size", field.size);
   map.Get("pixels", field.pixels);
   map.Get("turn", field.turn);
+  std::string file;
+  map.Get("file", file);
+  field.file = scans / file;
+  map.Get("isovalue", field.isovalue);
+  map.Get("spacing", field.spacing);
+  map.Get("sigma", field.sigma);
+  map.Get("center", field.center);
   map.RefuseOthers();
   return field;
 }
@@ -91,7 +98,7 @@ ParseRow(const YAML::Node & node)
 }
 
 Experiment
-ParseExperiment(const YAML::Node & node)
+ParseExperiment(const YAML::Node & node, const std::filesystem::path & scans)
 {
   Experiment experiment;
   Map map(node);
@@ -101,7 +108,7 @@ ParseExperiment(const YAML::Node & node)
   map.Get("seeds", experiment.seeds);
   map.Get("views", experiment.views);
   map.Get("plot", experiment.hasPlot);
-  experiment.field = ParseField(map.Get("field"));
+  experiment.field = ParseField(map.Get("field"), scans);
   for (const auto & row : map.Get("rows"))
   {
     experiment.rows.push_back(ParseRow(row));
@@ -117,7 +124,7 @@ ParseExperiment(const YAML::Node & node)
 } // namespace
 
 ComparisonRequest
-ReadComparisonRequest(const std::filesystem::path & path)
+ReadComparisonRequest(const std::filesystem::path & path, const std::filesystem::path & scans)
 {
   if (!std::filesystem::is_regular_file(path))
   {
@@ -132,7 +139,7 @@ ReadComparisonRequest(const std::filesystem::path & path)
     map.Get("lattices", request.hasLattices);
     for (const auto & node : map.Get("experiments"))
     {
-      request.experiments.push_back(ParseExperiment(node));
+      request.experiments.push_back(ParseExperiment(node, scans.empty() ? path.parent_path() : scans));
     }
     for (const auto & node : map.Get("claims"))
     {

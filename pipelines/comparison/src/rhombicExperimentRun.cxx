@@ -5,6 +5,7 @@
 #include "rhombicComparedMethod.h"
 #include "rhombicFailure.h"
 #include "rhombicInterpolatedField.h"
+#include "rhombicScanField.h"
 #include "rhombicShapeFields.h"
 #include "rhombicSilhouetteField.h"
 #include "rhombicSurfaceErrors.h"
@@ -105,12 +106,38 @@ MakeSilhouettes(const FieldRequest & request, std::uint64_t seed)
   return made;
 }
 
+/** The seed shifts the part by up to half of h along each axis. */
+FieldCase
+MakeScanCase(const FieldRequest & request, std::uint64_t seed)
+{
+  std::mt19937_64 random(seed);
+  const double h = request.spacing;
+  ScanField scan =
+    ReadScanField({ request.file, request.isovalue, request.center, h * request.size, h * request.sigma });
+  FieldCase made;
+  made.field = std::move(scan.field);
+  made.box = scan.box;
+  made.isClosed = false;
+  made.spacing = h;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    const double shift = 0.5 * h * static_cast<double>(random() >> 11U) * 0x1p-53;
+    made.box.lower[axis] += shift;
+    made.box.upper[axis] += shift - 0.5 * h;
+  }
+  return made;
+}
+
 FieldCase
 MakeFieldCase(const FieldRequest & request, std::uint64_t seed)
 {
   if (request.kind == "silhouettes")
   {
     return MakeSilhouettes(request, seed);
+  }
+  if (request.kind == "scan")
+  {
+    return MakeScanCase(request, seed);
   }
   FieldCase made;
   const double edge = request.size - 1.0;
@@ -137,11 +164,12 @@ MakeFieldCase(const FieldRequest & request, std::uint64_t seed)
   }
   else
   {
-    throw Failure(FailureKind::Unreadable,
-                  DescribeUnknown("field",
-                                  request.kind,
-                                  { "sphere", "torus", "gyroid", "waves", "marschner-lobb", "corner", "silhouettes" },
-                                  "see pipelines/comparison/README.md"));
+    throw Failure(
+      FailureKind::Unreadable,
+      DescribeUnknown("field",
+                      request.kind,
+                      { "sphere", "torus", "gyroid", "waves", "marschner-lobb", "corner", "silhouettes", "scan" },
+                      "see pipelines/comparison/README.md"));
   }
   return made;
 }
@@ -307,6 +335,7 @@ RunSeed(const Experiment & experiment, std::uint64_t seed, unsigned int repeats,
     figures["samples"] = static_cast<double>(prepared[row].samples);
     figures["density"] = DensityOf(experiment.rows[row], fieldCase) * std::pow(spacing, 3.0);
     figures["seconds"] = seconds[row];
+    figures["squared-mean"] = figures["mean"] * figures["mean"];
     Accumulate(run.result.rows[row], figures);
     if (!run.truth)
     {
@@ -345,6 +374,12 @@ RunExperiment(const Experiment & experiment, unsigned int repeats, const Events 
     for (auto & [name, value] : figures)
     {
       value /= name == "max" || name == "back-max" ? 1.0 : experiment.seeds;
+    }
+    const double variance = figures["squared-mean"] - figures["mean"] * figures["mean"];
+    figures.erase("squared-mean");
+    if (experiment.seeds > 1)
+    {
+      figures["spread"] = std::sqrt(std::max(0.0, variance) / (experiment.seeds - 1.0));
     }
   }
   return run;
