@@ -64,6 +64,16 @@ struct TriangleSurfaceSimplificationReport
 TriangleSurfaceSimplificationReport
 SimplifySurface(TriangleSurface & surface, const TriangleSurfaceSimplificationSettings & settings);
 
+/** The same for sheets that meet in curves, as walls between labels do.
+ *
+ * \a sheets has the number of each triangle's sheet, small and from 0; it is kept up to date. Edges with three or more
+ * triangles make curves; triangles at an edge with two must be of one sheet. Points of curves collapse along their
+ * curve, other points onto it; points where curves meet or end stay. Distances are checked sheet by sheet. */
+TriangleSurfaceSimplificationReport
+SimplifySurface(TriangleSurface & surface,
+                std::vector<std::uint32_t> & sheets,
+                const TriangleSurfaceSimplificationSettings & settings);
+
 } // namespace itk
 
 #endif

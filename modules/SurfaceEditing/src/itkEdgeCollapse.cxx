@@ -94,7 +94,7 @@ class EdgeCollapse
 public:
   EdgeCollapse(const TriangleSurface & surface,
                const SurfacePart & part,
-               const std::vector<std::uint8_t> & isHeld,
+               const SurfacePoints & points,
                const OriginalSurface & original);
 
   CollapseLog
@@ -137,13 +137,13 @@ private:
   void
   AddWitnesses(const std::vector<Witness> & witnesses);
   void
-  FindBorder();
-  void
   AddQuadrics();
   void
   ProposeAll();
   void
   Propose(PointId a, PointId b);
+  bool
+  KeepsPlace(PointId from, PointId to) const;
   PositionType
   FindPosition(PointId from, PointId to) const;
   bool
@@ -153,7 +153,9 @@ private:
   void
   CollectFans(PointId from, PointId to);
   bool
-  KeepsTopology(PointId to);
+  KeepsTopology(PointId from, PointId to);
+  bool
+  KeepsTriangles(PointId from, PointId to) const;
   bool
   KeepsShape(PointId from, PointId to, const PositionType & position) const;
   bool
@@ -188,6 +190,7 @@ private:
 
   // By triangle.
   std::vector<TriangleType> m_Triangles;
+  const std::vector<std::uint32_t> m_Sheets;
   std::vector<std::uint8_t> m_IsLeft;
   std::vector<std::uint16_t> m_Changes;
 
@@ -198,8 +201,9 @@ private:
   std::vector<PositionType> m_Normals; ///< empty if the surface has none
   std::vector<Quadric> m_Quadrics;
   std::vector<std::uint32_t> m_Versions; ///< grow when the point takes over another one
-  std::vector<std::uint8_t> m_IsOnBorder;
-  std::vector<std::uint8_t> m_Stays; ///< on the border or held
+  std::vector<Stratum> m_Strata;
+  std::vector<std::uint8_t> m_IsOnBorder; ///< of the part, or fixed
+  std::vector<std::uint8_t> m_Stays;      ///< on the border or held
   std::vector<std::uint8_t> m_IsGone;
   std::vector<std::uint8_t> m_HasMoved;
   std::vector<std::uint8_t> m_IsOther; ///< while a log is replayed: whether the point is not as it was
@@ -218,22 +222,23 @@ private:
   Fan m_FromFan;
   Fan m_ToFan;
   Fan m_Changed;                                            ///< the triangles around its position that change
+  std::size_t m_NumberFromChanged = 0;                      ///< of them, at the vanishing point; they come first
   std::vector<std::pair<WitnessId, TriangleId>> m_Assigned; ///< its witnesses and the triangles nearest to them
 };
 
 EdgeCollapse::EdgeCollapse(const TriangleSurface & surface,
                            const SurfacePart & part,
-                           const std::vector<std::uint8_t> & isHeld,
+                           const SurfacePoints & points,
                            const OriginalSurface & original)
   : m_Original(original)
   , m_Ids(FindPoints(part.triangles))
   , m_Origin(ToPosition(surface.GetPoints()[m_Ids.front()]))
   , m_Triangles(ToLocal(part.triangles, m_Ids))
+  , m_Sheets(part.sheets)
   , m_IsLeft(m_Triangles.size(), 1)
   , m_Changes(m_Triangles.size(), 0)
   , m_FirstCorner(m_Ids.size(), None)
   , m_NextCorner(3 * m_Triangles.size())
-  , m_IsOnBorder(m_Ids.size(), 0)
   , m_IsGone(m_Ids.size(), 0)
   , m_HasMoved(m_Ids.size(), 0)
   , m_Near(m_Ids.size(), None)
@@ -248,10 +253,20 @@ EdgeCollapse::EdgeCollapse(const TriangleSurface & surface,
       m_Normals.push_back(ToPosition(surface.GetNormals()[id]));
     }
   }
-  this->FindBorder();
+  std::vector<std::uint32_t> inPart(m_Ids.size(), 0);
+  for (const TriangleType & triangle : m_Triangles)
+  {
+    for (const PointId point : triangle)
+    {
+      ++inPart[point];
+    }
+  }
   for (PointId point = 0; point < m_Ids.size(); ++point)
   {
-    m_Stays.push_back(m_IsOnBorder[point] | isHeld[m_Ids[point]]);
+    const PointId id = m_Ids[point];
+    m_Strata.push_back(points.strata[id]);
+    m_IsOnBorder.push_back(m_Strata[point] == Stratum::Fixed || inPart[point] != points.triangles[id] ? 1 : 0);
+    m_Stays.push_back(m_IsOnBorder[point] | points.isHeld[id]);
   }
   if (m_Original.surface != nullptr)
   {
@@ -280,30 +295,6 @@ EdgeCollapse::AddWitnesses(const std::vector<Witness> & witnesses)
     m_WitnessPositions.push_back(Subtract(ToPosition(m_Original.surface->GetPoints()[witness.point]), m_Origin));
     m_NextWitness.push_back(m_FirstWitness[witness.triangle]);
     m_FirstWitness[witness.triangle] = static_cast<WitnessId>(m_WitnessPositions.size() - 1);
-  }
-}
-
-/** A point is on the border unless each neighbour follows it in one triangle and precedes it in another. */
-void
-EdgeCollapse::FindBorder()
-{
-  std::vector<int> balance(m_Ids.size(), 0);
-  for (PointId point = 0; point < m_Ids.size(); ++point)
-  {
-    this->CollectFan(point, m_FromFan);
-    for (const auto & [id, next, last] : m_FromFan)
-    {
-      ++balance[next];
-      --balance[last];
-    }
-    for (const auto & [id, next, last] : m_FromFan)
-    {
-      m_IsOnBorder[point] = m_IsOnBorder[point] || balance[next] != 0 || balance[last] != 0 ? 1 : 0;
-    }
-    for (const auto & [id, next, last] : m_FromFan)
-    {
-      balance[next] = balance[last] = 0;
-    }
   }
 }
 
@@ -363,7 +354,7 @@ EdgeCollapse::ProposeAll()
   }
 }
 
-/** Makes an edge a candidate. If one of its points stays, the other one vanishes. */
+/** Makes an edge a candidate. If one of its points stays or is of a higher stratum, the other one vanishes. */
 void
 EdgeCollapse::Propose(PointId a, PointId b)
 {
@@ -371,8 +362,13 @@ EdgeCollapse::Propose(PointId a, PointId b)
   {
     return;
   }
-  const PointId from = m_Stays[a] ? b : a;
-  const PointId to = m_Stays[a] ? a : b;
+  const bool isFirstLeft = m_Stays[a] || (!m_Stays[b] && m_Strata[a] > m_Strata[b]);
+  const PointId from = isFirstLeft ? b : a;
+  const PointId to = isFirstLeft ? a : b;
+  if (m_Strata[from] > m_Strata[to])
+  {
+    return;
+  }
   Quadric quadric = m_Quadrics[from];
   quadric.Add(m_Quadrics[to]);
   const double error = quadric.ComputeDistance(this->FindPosition(from, to));
@@ -386,11 +382,18 @@ EdgeCollapse::Propose(PointId a, PointId b)
   }
 }
 
+/** Whether the point that is left stays where it is. */
+bool
+EdgeCollapse::KeepsPlace(PointId from, PointId to) const
+{
+  return m_Stays[to] || m_Strata[to] > m_Strata[from];
+}
+
 /** The position to which an edge collapses, rounded to the surface's precision. */
 PositionType
 EdgeCollapse::FindPosition(PointId from, PointId to) const
 {
-  if (m_Stays[to])
+  if (this->KeepsPlace(from, to))
   {
     return m_Positions[to];
   }
@@ -417,7 +420,7 @@ EdgeCollapse::TryCandidate(const Candidate & candidate, CollapseLog & log)
   }
   this->CollectFans(from, to);
   EdgeToCollapse edge{ from, to, this->FindPosition(from, to), None, error };
-  if (!this->KeepsTopology(to) || !this->KeepsShape(from, to, edge.position))
+  if (!this->KeepsTopology(from, to) || !this->KeepsShape(from, to, edge.position))
   {
     return false;
   }
@@ -463,85 +466,111 @@ EdgeCollapse::CollectFans(PointId from, PointId to)
       m_Changed.push_back(fan);
     }
   }
+  m_NumberFromChanged = m_Changed.size();
   for (const FanTriangle & fan : m_ToFan)
   {
-    if (!m_Stays[to] && fan.next != from && fan.last != from)
+    if (!this->KeepsPlace(from, to) && fan.next != from && fan.last != from)
     {
       m_Changed.push_back(fan);
     }
   }
 }
 
-/** The link condition: the common neighbours of the two points are the two points opposite to the edge, and no two
- * triangles become duplicates. The point that vanishes is inside the part, so each of its neighbours follows it in one
- * triangle. */
+/** The link condition: the common neighbours of the two points are the points opposite to the edge, and no two
+ * triangles become duplicates. A point of a curve vanishes along the curve, and not where the curve would close or meet
+ * another. The point that vanishes is inside the part. */
 bool
-EdgeCollapse::KeepsTopology(PointId to)
+EdgeCollapse::KeepsTopology(PointId from, PointId to)
 {
-  ++m_Mark;
+  m_Mark += 2; // one more for common neighbours
   for (const FanTriangle & fan : m_ToFan)
   {
     m_Marks[fan.next] = m_Mark;
     m_Marks[fan.last] = m_Mark;
   }
-  unsigned int common = 0;
+  std::size_t common = 0;
   bool joinsBorder = false;
-  std::array<PointId, 2> opposite{ None, None };
-  for (const auto & [id, next, last] : m_FromFan)
+  for (const FanTriangle & fan : m_FromFan)
   {
-    if (next == to)
+    for (const PointId point : { fan.next, fan.last })
     {
-      continue;
+      if (point != to && m_Marks[point] == m_Mark)
+      {
+        m_Marks[point] = m_Mark + 1;
+        ++common;
+      }
+      joinsBorder = joinsBorder || (point != to && m_Marks[point] < m_Mark && m_IsOnBorder[to] && m_IsOnBorder[point]);
     }
-    if (m_Marks[next] == m_Mark)
-    {
-      opposite[common % 2] = next;
-      ++common;
-    }
-    joinsBorder = joinsBorder || (m_Marks[next] != m_Mark && m_IsOnBorder[to] && m_IsOnBorder[next]);
   }
-  if (common != 2 || joinsBorder || m_FromFan.size() > MostAround)
-  {
-    return false;
-  }
-  return m_FromFan.size() != 3 || std::none_of(m_ToFan.begin(), m_ToFan.end(), [&](const FanTriangle & fan) {
-           return (fan.next == opposite[0] && fan.last == opposite[1]) ||
-                  (fan.next == opposite[1] && fan.last == opposite[0]);
-         });
+  const std::size_t opposite = m_FromFan.size() - m_NumberFromChanged;
+  const bool isAlong = m_Strata[from] == Stratum::Sheet ? opposite == 2 : opposite > 2;
+  return common == opposite && isAlong && !joinsBorder && m_FromFan.size() <= MostAround &&
+         this->KeepsTriangles(from, to);
+}
+
+/** Whether no two triangles become duplicates, and no two edges of curves. Common neighbours are marked. */
+bool
+EdgeCollapse::KeepsTriangles(PointId from, PointId to) const
+{
+  const auto isCommon = [&](PointId point) { return m_Marks[point] == m_Mark + 1; };
+  const auto isDuplicate = [&](const FanTriangle & fan) {
+    return isCommon(fan.next) && isCommon(fan.last) &&
+           std::any_of(m_FromFan.begin(), m_FromFan.end(), [&](const FanTriangle & other) {
+             return (fan.next == other.last && fan.last == other.next) ||
+                    (fan.next == other.next && fan.last == other.last);
+           });
+  };
+  const auto closesCurve = [&](const FanTriangle & fan) {
+    const PointId opposite = fan.next == to ? fan.last : fan.next;
+    return (fan.next == to || fan.last == to) &&
+           std::count_if(m_FromFan.begin(), m_FromFan.end(), [&](const FanTriangle & other) {
+             return other.next == opposite || other.last == opposite;
+           }) > 2;
+  };
+  return std::none_of(m_ToFan.begin(), m_ToFan.end(), isDuplicate) &&
+         (m_Strata[from] == Stratum::Sheet || std::none_of(m_FromFan.begin(), m_FromFan.end(), closesCurve));
 }
 
 bool
 EdgeCollapse::KeepsShape(PointId from, PointId to, const PositionType & position) const
 {
   return this->KeepsShapeAround(from, to, m_FromFan, position) &&
-         (m_Stays[to] || this->KeepsShapeAround(to, from, m_ToFan, position));
+         (this->KeepsPlace(from, to) || this->KeepsShapeAround(to, from, m_ToFan, position));
 }
 
 /** Whether no triangle around a point loses its area, turns by much or becomes a worse sliver than there was before. */
 bool
 EdgeCollapse::KeepsShapeAround(PointId moved, PointId other, const Fan & fan, const PositionType & position) const
 {
-  PositionType fanNormal{};
+  const auto shapeOf = [&](const FanTriangle & triangle) {
+    return Shape(m_Positions[moved], m_Positions[triangle.next], m_Positions[triangle.last]);
+  };
   double worstBefore = 1.0;
-  for (const auto & [id, next, last] : fan)
+  for (const FanTriangle & triangle : fan)
   {
-    const Shape shape(m_Positions[moved], m_Positions[next], m_Positions[last]);
-    worstBefore = std::min(worstBefore, shape.quality);
-    fanNormal = Add(fanNormal, shape.normal);
+    worstBefore = std::min(worstBefore, shapeOf(triangle).quality);
   }
+  const auto normalOf = [&](std::uint32_t sheet) {
+    PositionType sum{};
+    for (const FanTriangle & triangle : fan)
+    {
+      sum = m_Sheets[triangle.id] == sheet ? Add(sum, shapeOf(triangle).normal) : sum;
+    }
+    return sum;
+  };
   return std::all_of(fan.begin(), fan.end(), [&](const FanTriangle & triangle) {
     const auto & [id, next, last] = triangle;
     if (next == other || last == other)
     {
       return true;
     }
-    const Shape before(m_Positions[moved], m_Positions[next], m_Positions[last]);
+    const Shape before = shapeOf(triangle);
     const Shape after(position, m_Positions[next], m_Positions[last]);
     const auto liesAlong = [&](const PositionType & reference) {
       return Dot(after.normal, reference) > SmallestCosineOfCollapse * after.length * Length(reference);
     };
     return after.quality > 0.0 && after.quality >= std::min(SliverQuality, worstBefore) &&
-           (liesAlong(before.normal) || (before.quality < SliverQuality && liesAlong(fanNormal)));
+           (liesAlong(before.normal) || (before.quality < SliverQuality && liesAlong(normalOf(m_Sheets[id]))));
   });
 }
 
@@ -628,6 +657,10 @@ EdgeCollapse::AreWitnessesNear(const PositionType & position)
       TriangleId nearest = None;
       for (const FanTriangle & fan : m_Changed)
       {
+        if (m_Sheets[fan.id] != m_Sheets[triangle])
+        {
+          continue;
+        }
         const double squared = SquaredDistance(
           witness, ClosestOnTriangle(witness, { position, m_Positions[fan.next], m_Positions[fan.last] }));
         nearest = squared < least ? fan.id : nearest;
@@ -643,7 +676,7 @@ EdgeCollapse::AreWitnessesNear(const PositionType & position)
   };
   // All triangles of the vanishing point, and those of the other that change.
   return std::all_of(m_FromFan.begin(), m_FromFan.end(), [&](const FanTriangle & fan) { return assign(fan.id); }) &&
-         std::all_of(m_Changed.begin() + static_cast<std::ptrdiff_t>(m_FromFan.size() - 2),
+         std::all_of(m_Changed.begin() + static_cast<std::ptrdiff_t>(m_NumberFromChanged),
                      m_Changed.end(),
                      [&](const FanTriangle & fan) { return assign(fan.id); });
 }
@@ -689,7 +722,7 @@ void
 EdgeCollapse::Collapse(const EdgeToCollapse & edge)
 {
   const auto & [from, to, position, near, error] = edge;
-  if (!m_Stays[to])
+  if (!this->KeepsPlace(from, to))
   {
     this->MixNormals(from, to, position);
     m_Positions[to] = position;
@@ -771,6 +804,7 @@ EdgeCollapse::GetResult() const
       const auto index = static_cast<TriangleId>(result.part.triangles.size());
       const auto & [a, b, c] = m_Triangles[id];
       result.part.triangles.push_back({ m_Ids[a], m_Ids[b], m_Ids[c] });
+      result.part.sheets.push_back(m_Sheets[id]);
       result.ids.push_back(id);
       result.changes.push_back(m_Changes[id]);
       for (WitnessId witness = m_FirstWitness.empty() ? None : m_FirstWitness[id]; witness != None;
@@ -798,12 +832,12 @@ EdgeCollapse::GetResult() const
 CollapseLog
 CollapseEdges(const TriangleSurface & surface,
               const SurfacePart & part,
-              const std::vector<std::uint8_t> & isHeld,
+              const SurfacePoints & points,
               const OriginalSurface & original,
               double largestError,
               CollapsedPart & collapsed)
 {
-  EdgeCollapse collapse(surface, part, isHeld, original);
+  EdgeCollapse collapse(surface, part, points, original);
   CollapseLog log = collapse.Run(largestError);
   collapsed = collapse.GetResult();
   return log;
@@ -812,12 +846,12 @@ CollapseEdges(const TriangleSurface & surface,
 CollapsedPart
 ReplayCollapses(const TriangleSurface & surface,
                 const SurfacePart & part,
-                const std::vector<std::uint8_t> & isHeld,
+                const SurfacePoints & points,
                 const OriginalSurface & original,
                 const CollapseLog & log,
                 const std::vector<std::uint16_t> & mostChanges)
 {
-  EdgeCollapse collapse(surface, part, isHeld, original);
+  EdgeCollapse collapse(surface, part, points, original);
   collapse.Replay(log, mostChanges);
   return collapse.GetResult();
 }

@@ -2,7 +2,7 @@
 #define itkEdgeCollapse_h
 
 #include "detail/itkPositionArithmetic.h"
-#include "detail/itkTrianglesOfPoints.h"
+#include "itkPointStrata.h"
 
 namespace itk
 {
@@ -18,7 +18,16 @@ struct Witness
 struct SurfacePart
 {
   std::vector<TriangleSurface::TriangleType> triangles;
+  std::vector<std::uint32_t> sheets; ///< the number of each triangle's sheet
   std::vector<Witness> witnesses;
+};
+
+/** What is known of each point of a surface. */
+struct SurfacePoints
+{
+  std::vector<Stratum> strata;
+  std::vector<std::uint32_t> triangles; ///< the number of triangles at the point
+  std::vector<std::uint8_t> isHeld;     ///< 1 if the point must stay
 };
 
 /** The surface before simplification, and the limit of the distance from it: new points must be near it, and its points
@@ -75,12 +84,15 @@ struct CollapsedPart
  * - no triangle turns by much, loses its area or becomes a sliver;
  * - the new point is near the original, and the original's points are near the new triangles.
  *
+ * Where sheets meet, points of the curve collapse along it, and other points onto it. New triangles are near the
+ * original's of their own sheet.
+ *
  * The border of the part stays, and no new edge joins two border points, so that parts simplified one by one fit
- * together. Points of the surface stay if \a isHeld is 1 for them. */
+ * together. */
 CollapseLog
 CollapseEdges(const TriangleSurface & surface,
               const SurfacePart & part,
-              const std::vector<std::uint8_t> & isHeld,
+              const SurfacePoints & points,
               const OriginalSurface & original,
               double largestError,
               CollapsedPart & collapsed);
@@ -90,7 +102,7 @@ CollapseEdges(const TriangleSurface & surface,
 CollapsedPart
 ReplayCollapses(const TriangleSurface & surface,
                 const SurfacePart & part,
-                const std::vector<std::uint8_t> & isHeld,
+                const SurfacePoints & points,
                 const OriginalSurface & original,
                 const CollapseLog & log,
                 const std::vector<std::uint16_t> & mostChanges);

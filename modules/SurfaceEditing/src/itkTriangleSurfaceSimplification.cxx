@@ -10,6 +10,7 @@
 #include "itkTriangleSurfaceTopology.h"
 
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -26,6 +27,7 @@ using TriangleId = std::uint32_t;
 using Box = TriangleTree::Box;
 using Contact = TriangleContact;
 using Flags = std::vector<std::uint8_t>;
+using Sheets = std::vector<std::uint32_t>; ///< for each triangle, the number of its sheet
 
 constexpr std::size_t PatchSize = 4096;
 constexpr std::size_t SimplifiedBlock = 1024;
@@ -54,13 +56,14 @@ Diagonal(const TriangleSurface & surface)
   return std::hypot(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]);
 }
 
+/** Whether topologies are the same. Curves where sheets meet may have fewer edges and points. */
 bool
-HaveSameTopology(const TriangleSurfaceTopology & a, const TriangleSurfaceTopology & b)
+HaveSameTopology(const TriangleSurfaceTopology & a, const TriangleSurfaceTopology & b, bool isOneSheet)
 {
   return a.components == b.components && a.eulerCharacteristic == b.eulerCharacteristic &&
-         a.boundaryEdges == b.boundaryEdges && a.nonManifoldEdges == b.nonManifoldEdges &&
-         a.misorientedEdges == b.misorientedEdges && a.nonManifoldPoints == b.nonManifoldPoints &&
-         a.degenerateTriangles == b.degenerateTriangles;
+         a.boundaryEdges == b.boundaryEdges && a.misorientedEdges == b.misorientedEdges &&
+         a.degenerateTriangles == b.degenerateTriangles && a.duplicateTriangles == b.duplicateTriangles &&
+         (!isOneSheet || (a.nonManifoldEdges == b.nonManifoldEdges && a.nonManifoldPoints == b.nonManifoldPoints));
 }
 
 Box
@@ -86,36 +89,94 @@ struct Patch
 };
 
 Patch
-MakePatch(const TriangleSurface & surface, const TriangleRange & range)
+MakePatch(const TriangleSurface & surface, const Sheets & sheets, const TriangleRange & range)
 {
   Patch patch;
   const auto * const triangles = surface.GetTriangles().data();
   patch.before.triangles.assign(triangles + range.begin, triangles + range.end);
+  patch.before.sheets.assign(sheets.data() + range.begin, sheets.data() + range.end);
   patch.mostChanges.assign(range.Size(), std::numeric_limits<std::uint16_t>::max());
   patch.checkedChanges.assign(range.Size(), 0);
   return patch;
 }
 
-/** The surface before simplification. */
+/** A tree of all triangles of a surface, and one of each sheet. */
+class SheetTrees
+{
+public:
+  SheetTrees(const TriangleSurface & surface, const Sheets & sheets)
+    : m_All(surface)
+  {
+    std::vector<std::vector<TriangleId>> triangles(*std::max_element(sheets.begin(), sheets.end()) + 1);
+    for (TriangleId id = 0; triangles.size() > 1 && id < sheets.size(); ++id)
+    {
+      triangles[sheets[id]].push_back(id);
+    }
+    for (std::size_t sheet = 0; triangles.size() > 1 && sheet < triangles.size(); ++sheet)
+    {
+      m_Sheets.emplace_back(surface, std::move(triangles[sheet]));
+    }
+  }
+
+  const TriangleTree &
+  GetAll() const
+  {
+    return m_All;
+  }
+  const TriangleTree &
+  Get(std::uint32_t sheet) const
+  {
+    return m_Sheets.empty() ? m_All : m_Sheets[sheet];
+  }
+
+private:
+  TriangleTree m_All;
+  std::vector<TriangleTree> m_Sheets; ///< empty if there is one
+};
+
+/** The surface before simplification. Sheets have no points in common, so that each point lies in one sheet. */
 struct Original
 {
+  Sheets sheets;
   TriangleSurface::Pointer surface;
-  TriangleTree tree;
+  SheetTrees trees;
   TrianglesOfPoints trianglesOfPoints;
 
-  explicit Original(const TriangleSurface & before)
-    : surface(Copy(before))
-    , tree(*surface)
+  Original(const TriangleSurface & before, const Sheets & sheetsBefore)
+    : sheets(sheetsBefore)
+    , surface(Copy(before, sheets))
+    , trees(*surface, sheets)
     , trianglesOfPoints(*surface)
   {}
 
 private:
   static TriangleSurface::Pointer
-  Copy(const TriangleSurface & before)
+  Copy(const TriangleSurface & before, const Sheets & sheets)
   {
     auto copy = TriangleSurface::New();
-    copy->GetPoints() = before.GetPoints();
+    auto & points = copy->GetPoints();
+    points = before.GetPoints();
     copy->GetTriangles() = before.GetTriangles();
+    constexpr auto none = std::numeric_limits<std::uint32_t>::max();
+    Sheets sheetsOfPoints(points.size(), none); // the first sheet keeps the point, others get copies
+    std::map<std::pair<PointId, std::uint32_t>, PointId> copies;
+    for (TriangleId id = 0; id < sheets.size(); ++id)
+    {
+      for (PointId & point : copy->GetTriangles()[id])
+      {
+        std::uint32_t & first = sheetsOfPoints[point];
+        first = first == none ? sheets[id] : first;
+        if (first != sheets[id])
+        {
+          const auto [found, isNew] = copies.try_emplace({ point, sheets[id] }, static_cast<PointId>(points.size()));
+          if (isNew)
+          {
+            points.push_back(before.GetPoints()[point]);
+          }
+          point = found->second;
+        }
+      }
+    }
     return copy;
   }
 };
@@ -126,6 +187,7 @@ class Simplification
 public:
   /** \param original null if the distance from it has no limit */
   Simplification(TriangleSurface & surface,
+                 Sheets & sheets,
                  const TriangleSurfaceTopology & topology,
                  const TriangleSurfaceSimplificationSettings & settings,
                  const Original * original)
@@ -133,6 +195,8 @@ public:
     , m_MaximumError(settings.maximumError)
     , m_Topology(topology)
     , m_State(surface)
+    , m_Sheets(sheets)
+    , m_IsOneSheet(*std::max_element(sheets.begin(), sheets.end()) == 0)
     , m_Original(original)
     , m_Before(TriangleSurface::New())
   {
@@ -147,9 +211,17 @@ public:
           m_NearPoints[point] = id;
         }
       }
-      m_WitnessTriangles = m_NearPoints;
+      m_WitnessTriangles.resize(original->surface->GetNumberOfPoints());
+      for (TriangleId id = 0; id < surface.GetNumberOfTriangles(); ++id)
+      {
+        for (const PointId point : original->surface->GetTriangles()[id])
+        {
+          m_WitnessTriangles[point] = id;
+        }
+      }
       m_IsCovered.assign(surface.GetNumberOfTriangles(), 1);
     }
+    m_Points.strata = FindStrata(surface, TrianglesOfPoints(surface)).strata;
     m_IsHeld.assign(surface.GetNumberOfPoints(), 0);
   }
 
@@ -183,7 +255,7 @@ private:
   void
   FindStrays(Flags & isBad) const;
   void
-  FindUncovered(const TriangleTree & state, bool checksAll, Flags & isBad);
+  FindUncovered(const SheetTrees & state, bool checksAll, Flags & isBad);
   void
   AddAround(TriangleId uncovered, const TriangleTree & state, Flags & isBad) const;
   std::vector<PatchId>
@@ -193,6 +265,8 @@ private:
   const double m_MaximumError;
   const TriangleSurfaceTopology m_Topology;
   TriangleSurface & m_State;
+  Sheets & m_Sheets; ///< of m_State
+  const bool m_IsOneSheet;
   const Original * const m_Original;
   OriginalSurface m_Limits{};
   SizeValueType m_PlacesPutBack = 0;
@@ -208,7 +282,8 @@ private:
 
   // The current step.
   TriangleSurface::Pointer m_Before;
-  Flags m_HeldBefore; ///< m_IsHeld before the step
+  Sheets m_SheetsBefore;
+  SurfacePoints m_Points; ///< before the step
   std::vector<Patch> m_Patches;
   std::vector<TriangleId> m_Begin; ///< first triangle of each patch in m_State, and the end of the last
   Flags m_IsNew;                   ///< for each triangle of m_State, whether it was not there before the step
@@ -249,15 +324,16 @@ bool
 Simplification::Step(double error, double cut)
 {
   this->SwapWithBefore();
-  m_HeldBefore = m_IsHeld;
+  m_Points.isHeld = m_IsHeld;
   this->CutIntoPatches(cut);
   ForEachInBlocks(m_Patches.size(), 1, [&](std::size_t id) {
     Patch & patch = m_Patches[id];
-    patch.log = CollapseEdges(*m_Before, patch.before, m_HeldBefore, m_Limits, error, patch.after);
+    patch.log = CollapseEdges(*m_Before, patch.before, m_Points, m_Limits, error, patch.after);
   });
   this->AimAtTarget();
   this->JoinPatches();
-  const bool isSound = this->PutBackBadTriangles() && HaveSameTopology(ComputeTopology(m_State), m_Topology);
+  const bool isSound =
+    this->PutBackBadTriangles() && HaveSameTopology(ComputeTopology(m_State), m_Topology, m_IsOneSheet);
   m_IsHeldBack =
     std::any_of(m_Patches.begin(), m_Patches.end(), [](const Patch & patch) { return patch.log.wasHeldBack; });
   if (!isSound)
@@ -274,6 +350,7 @@ Simplification::SwapWithBefore()
   m_State.GetPoints().swap(m_Before->GetPoints());
   m_State.GetNormals().swap(m_Before->GetNormals());
   m_State.GetTriangles().swap(m_Before->GetTriangles());
+  m_Sheets.swap(m_SheetsBefore);
 }
 
 void
@@ -287,6 +364,20 @@ Simplification::CutIntoPatches(double cut)
     PatchId patch;
     TriangleId triangle;
   };
+  const Sheets sheets = std::move(m_SheetsBefore);
+  m_SheetsBefore.clear();
+  for (const TriangleId id : oldIds)
+  {
+    m_SheetsBefore.push_back(sheets[id]);
+  }
+  m_Points.triangles.assign(m_Before->GetNumberOfPoints(), 0);
+  for (const auto & triangle : m_Before->GetTriangles())
+  {
+    for (const PointId point : triangle)
+    {
+      ++m_Points.triangles[point];
+    }
+  }
   std::vector<TriangleOfPatch> newIds(oldIds.size());
   m_Patches.clear();
   for (const TriangleRange & range : ranges)
@@ -295,7 +386,7 @@ Simplification::CutIntoPatches(double cut)
     {
       newIds[oldIds[id]] = { static_cast<PatchId>(m_Patches.size()), static_cast<TriangleId>(id - range.begin) };
     }
-    m_Patches.push_back(MakePatch(*m_Before, range));
+    m_Patches.push_back(MakePatch(*m_Before, m_SheetsBefore, range));
   }
   for (PointId point = 0; point < m_WitnessTriangles.size(); ++point)
   {
@@ -350,7 +441,7 @@ Simplification::Replay(const std::vector<PatchId> & patches)
 {
   ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
     Patch & patch = m_Patches[patches[n]];
-    patch.after = ReplayCollapses(*m_Before, patch.before, m_HeldBefore, m_Limits, patch.log, patch.mostChanges);
+    patch.after = ReplayCollapses(*m_Before, patch.before, m_Points, m_Limits, patch.log, patch.mostChanges);
   });
 }
 
@@ -381,6 +472,7 @@ Simplification::JoinPatches()
   m_State.GetPoints() = m_Before->GetPoints();
   m_State.GetNormals() = m_Before->GetNormals();
   triangles.clear();
+  m_Sheets.clear();
   m_Begin.assign(1, 0);
   m_IsNew.clear();
   m_IsFresh.clear();
@@ -393,6 +485,7 @@ Simplification::JoinPatches()
       m_WitnessTriangles[witness.point] = m_Begin.back() + witness.triangle;
     }
     triangles.insert(triangles.end(), after.part.triangles.begin(), after.part.triangles.end());
+    m_Sheets.insert(m_Sheets.end(), after.part.sheets.begin(), after.part.sheets.end());
     for (std::size_t n = 0; n < after.ids.size(); ++n)
     {
       std::uint16_t & checked = patch.checkedChanges[after.ids[n]];
@@ -421,8 +514,8 @@ Flags
 Simplification::FindBad(bool checksAll)
 {
   Flags isBad(m_State.GetNumberOfTriangles(), 0);
-  const TriangleTree state(m_State);
-  this->FindContacts(state, isBad);
+  const SheetTrees state(m_State, m_Sheets);
+  this->FindContacts(state.GetAll(), isBad);
   if (m_Original != nullptr)
   {
     this->FindStrays(isBad);
@@ -473,12 +566,18 @@ Simplification::FindStrays(Flags & isBad) const
     if (m_IsFresh[id] && m_IsNew[id])
     {
       const auto & triangle = m_State.GetTriangles()[id];
-      const auto & [a, b, c] = triangle;
-      const bool isNear = IsWithinDistance(CornersOf(m_State, triangle),
-                                           m_Original->tree,
-                                           m_MaximumError,
-                                           { m_NearPoints[a], m_NearPoints[b], m_NearPoints[c] });
-      isBad[id] |= isNear ? 0 : 1;
+      const CornersType corners = CornersOf(m_State, triangle);
+      const TriangleTree & tree = m_Original->trees.Get(m_Sheets[id]);
+      std::array<TriangleId, 3> near{};
+      for (unsigned int corner = 0; corner < 3; ++corner)
+      {
+        near[corner] = m_NearPoints[triangle[corner]];
+        if (m_Original->sheets[near[corner]] != m_Sheets[id])
+        {
+          near[corner] = tree.FindClosestPoint(corners[corner]).triangle;
+        }
+      }
+      isBad[id] |= IsWithinDistance(corners, tree, m_MaximumError, near) ? 0 : 1;
     }
   });
 }
@@ -486,7 +585,7 @@ Simplification::FindStrays(Flags & isBad) const
 /** Adds the triangles around those of the original that are farther than maximumError from the state. Checks those of
  * which corners are covered by a triangle that has changed, or all that are not covered by these triangles alone. */
 void
-Simplification::FindUncovered(const TriangleTree & state, bool checksAll, Flags & isBad)
+Simplification::FindUncovered(const SheetTrees & state, bool checksAll, Flags & isBad)
 {
   const TriangleSurface & original = *m_Original->surface;
   const auto & triangles = original.GetTriangles();
@@ -498,16 +597,17 @@ Simplification::FindUncovered(const TriangleTree & state, bool checksAll, Flags 
     if (hasChanged || (checksAll && !m_IsCovered[id]))
     {
       const CornersType corners = CornersOf(original, triangles[id]);
+      const TriangleTree & tree = state.Get(m_Original->sheets[id]);
       m_IsCovered[id] =
-        (near[0] == near[1] && near[1] == near[2]) || IsNearOneTriangle(corners, state, m_MaximumError, near);
-      isUncovered[id] = !m_IsCovered[id] && !IsWithinDistance(corners, state, m_MaximumError, near);
+        (near[0] == near[1] && near[1] == near[2]) || IsNearOneTriangle(corners, tree, m_MaximumError, near);
+      isUncovered[id] = !m_IsCovered[id] && !IsWithinDistance(corners, tree, m_MaximumError, near);
     }
   });
   for (TriangleId id = 0; id < triangles.size(); ++id)
   {
     if (isUncovered[id])
     {
-      this->AddAround(id, state, isBad);
+      this->AddAround(id, state.Get(m_Original->sheets[id]), isBad);
     }
   }
 }
@@ -563,7 +663,9 @@ Simplification::Hold(const Flags & isBad, unsigned int round)
 }
 
 void
-VerifyPreconditions(const TriangleSurfaceTopology & topology, const TriangleSurfaceSimplificationSettings & settings)
+VerifyPreconditions(TriangleSurfaceTopology topology,
+                    const TriangleSurfaceSimplificationSettings & settings,
+                    bool isOneSheet)
 {
   if (!(settings.maximumError > 0.0))
   {
@@ -573,6 +675,10 @@ VerifyPreconditions(const TriangleSurfaceTopology & topology, const TriangleSurf
   if (settings.targetTriangles == 0 && !std::isfinite(settings.maximumError))
   {
     itkGenericExceptionMacro("How far to simplify is not said; give a number of triangles or a largest error");
+  }
+  if (!isOneSheet)
+  {
+    topology.nonManifoldEdges = topology.nonManifoldPoints = 0; // where sheets meet
   }
   if (topology.nonManifoldEdges + topology.nonManifoldPoints + topology.misorientedEdges +
         topology.degenerateTriangles >
@@ -605,8 +711,23 @@ operator<<(std::ostream & os, SimplificationEnd end)
 TriangleSurfaceSimplificationReport
 SimplifySurface(TriangleSurface & surface, const TriangleSurfaceSimplificationSettings & settings)
 {
+  Sheets sheets(surface.GetNumberOfTriangles(), 0);
+  return SimplifySurface(surface, sheets, settings);
+}
+
+TriangleSurfaceSimplificationReport
+SimplifySurface(TriangleSurface & surface,
+                std::vector<std::uint32_t> & sheets,
+                const TriangleSurfaceSimplificationSettings & settings)
+{
+  if (sheets.size() != surface.GetNumberOfTriangles())
+  {
+    itkGenericExceptionMacro("There are sheets of " << sheets.size() << " triangles, but the surface has "
+                                                    << surface.GetNumberOfTriangles() << '.');
+  }
   const TriangleSurfaceTopology topology = ComputeTopology(surface);
-  VerifyPreconditions(topology, settings);
+  const bool isOneSheet = std::all_of(sheets.begin(), sheets.end(), [](std::uint32_t sheet) { return sheet == 0; });
+  VerifyPreconditions(topology, settings, isOneSheet);
   surface.RemoveUnusedPoints();
   if (surface.GetTriangles().empty())
   {
@@ -615,9 +736,9 @@ SimplifySurface(TriangleSurface & surface, const TriangleSurfaceSimplificationSe
   std::optional<Original> original;
   if (std::isfinite(settings.maximumError))
   {
-    original.emplace(surface);
+    original.emplace(surface, sheets);
   }
-  const auto report = Simplification(surface, topology, settings, original ? &*original : nullptr).Run();
+  const auto report = Simplification(surface, sheets, topology, settings, original ? &*original : nullptr).Run();
   surface.RemoveUnusedPoints();
   surface.Modified();
   return report;

@@ -2,7 +2,7 @@
 
 #include "detail/itkPositionArithmetic.h"
 #include "itkForEachBlock.h"
-#include "detail/itkTrianglesOfPoints.h"
+#include "itkPointStrata.h"
 
 #include <algorithm>
 
@@ -32,30 +32,16 @@ Difference(const PointType & a, const PointType & b)
   return Subtract(ToPosition(a), ToPosition(b));
 }
 
-/** Whether each neighbour of a point follows it in one triangle and precedes it in another. */
-bool
-IsInside(const TrianglesOfPoints & fans, SizeValueType point)
+/** A point moved by a multiple of a vector. */
+PointType
+Move(const PointType & point, double factor, const PositionType & way)
 {
-  std::vector<PointId> following;
-  std::vector<PointId> preceding;
-  fans.VisitNeighbours(point, [&](PointId next, PointId last) {
-    following.push_back(next);
-    preceding.push_back(last);
-  });
-  std::sort(following.begin(), following.end());
-  std::sort(preceding.begin(), preceding.end());
-  return !following.empty() && following == preceding &&
-         std::adjacent_find(following.begin(), following.end()) == following.end();
-}
-
-/** For each point, 1 if it is inside the surface, 0 if it is on a border or not manifold. */
-Flags
-FindInsidePoints(const TriangleSurface & surface, const TrianglesOfPoints & fans)
-{
-  Flags isInside(surface.GetNumberOfPoints());
-  ForEachInBlocks(
-    isInside.size(), SmoothedBlock, [&](SizeValueType point) { isInside[point] = IsInside(fans, point) ? 1 : 0; });
-  return isInside;
+  PointType moved;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    moved[axis] = static_cast<float>(point[axis] + factor * way[axis]);
+  }
+  return moved;
 }
 
 /** A point moved by \a share of the way to the mean of its neighbours. */
@@ -64,13 +50,17 @@ MoveTowardsMean(const Points & points, const TrianglesOfPoints & fans, SizeValue
 {
   PositionType sum{};
   fans.VisitNeighbours(point, [&](PointId next, PointId) { sum = Add(sum, Difference(points[next], points[point])); });
-  const double factor = share / static_cast<double>(fans.GetNumberOfTriangles(point));
-  PointType moved;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    moved[axis] = static_cast<float>(points[point][axis] + factor * sum[axis]);
-  }
-  return moved;
+  return Move(points[point], share / static_cast<double>(fans.GetNumberOfTriangles(point)), sum);
+}
+
+/** The same along a curve. */
+PointType
+MoveTowardsMean(const Points & points, const CurvePoint & place, double share)
+{
+  const auto & [point, neighbours] = place;
+  return Move(points[point],
+              0.5 * share,
+              Add(Difference(points[neighbours[0]], points[point]), Difference(points[neighbours[1]], points[point])));
 }
 
 /** The position itself, or the nearest one that is not farther than \a maximumMove from \a start. */
@@ -157,7 +147,7 @@ ComputeNormals(TriangleSurface & surface, const TrianglesOfPoints & fans)
 }
 
 TriangleSurfaceSmoothingReport
-MakeReport(const Points & start, const Points & points, const Flags & isInside, double maximumMove)
+MakeReport(const Points & start, const Points & points, const PointStrata & strata, double maximumMove)
 {
   TriangleSurfaceSmoothingReport report;
   for (std::size_t point = 0; point < points.size(); ++point)
@@ -166,7 +156,7 @@ MakeReport(const Points & start, const Points & points, const Flags & isInside, 
     report.meanMove += move / static_cast<double>(points.size());
     report.largestMove = std::max(report.largestMove, move);
     report.pointsAtLimit += move > 0.999 * maximumMove ? 1 : 0;
-    report.pointsOnBorder += isInside[point] ? 0 : 1;
+    report.pointsOnBorder += strata.strata[point] == Stratum::Fixed ? 1 : 0;
   }
   return report;
 }
@@ -183,14 +173,19 @@ SmoothSurface(TriangleSurface & surface, const TriangleSurfaceSmoothingSettings 
                              << maximumMove << " mm when a surface is smoothed; give a number from 0");
   }
   const TrianglesOfPoints fans(surface);
-  const Flags isInside = FindInsidePoints(surface, fans);
+  const PointStrata strata = FindStrata(surface, fans);
   Points & points = surface.GetPoints();
   const Points start = points;
   Points next = points;
   const auto step = [&](double share) {
     ForEachInBlocks(points.size(), SmoothedBlock, [&](SizeValueType point) {
-      next[point] = isInside[point] ? LimitMove(start[point], MoveTowardsMean(points, fans, point, share), maximumMove)
-                                    : points[point];
+      next[point] = strata.strata[point] == Stratum::Sheet
+                      ? LimitMove(start[point], MoveTowardsMean(points, fans, point, share), maximumMove)
+                      : points[point];
+    });
+    ForEachInBlocks(strata.curves.size(), SmoothedBlock, [&](SizeValueType n) {
+      const PointId point = strata.curves[n].point;
+      next[point] = LimitMove(start[point], MoveTowardsMean(points, strata.curves[n], share), maximumMove);
     });
     while (PutBackBadMoves(surface.GetTriangles(), start, points, next))
     {}
@@ -206,7 +201,7 @@ SmoothSurface(TriangleSurface & surface, const TriangleSurfaceSmoothingSettings 
     ComputeNormals(surface, fans);
   }
   surface.Modified();
-  return MakeReport(start, points, isInside, maximumMove);
+  return MakeReport(start, points, strata, maximumMove);
 }
 
 } // namespace itk

@@ -1,0 +1,36 @@
+#ifndef itkPointStrata_h
+#define itkPointStrata_h
+
+#include "detail/itkTrianglesOfPoints.h"
+
+namespace itk
+{
+
+/** Where a point lies in a surface. Points may move and edges collapse within a stratum only. */
+enum class Stratum : std::uint8_t
+{
+  Sheet, ///< inside: each neighbour follows the point in one triangle and precedes it in another
+  Curve, ///< as inside, but for two neighbours with three or more triangles at their edges: there, sheets meet
+  Fixed  ///< on an open border, where curves meet or end, or not manifold
+};
+
+/** A point of a curve and its neighbours on the curve, ascending. */
+struct CurvePoint
+{
+  std::uint32_t point;
+  std::array<std::uint32_t, 2> neighbours;
+};
+
+/** The stratum of each point, and the points of curves, ascending. */
+struct PointStrata
+{
+  std::vector<Stratum> strata;
+  std::vector<CurvePoint> curves;
+};
+
+PointStrata
+FindStrata(const TriangleSurface & surface, const TrianglesOfPoints & fans);
+
+} // namespace itk
+
+#endif
