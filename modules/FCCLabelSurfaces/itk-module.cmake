@@ -1,4 +1,4 @@
 itk_module(FCCLabelSurfaces
-  DEPENDS FCCLattice TriangleSurface ITKCommon
-  PRIVATE_DEPENDS RhombicCommon FCCIsosurface
+  DEPENDS FCCLattice TriangleSurface SurfaceEditing ITKCommon
+  PRIVATE_DEPENDS RhombicCommon SurfaceQueries FCCIsosurface
   DESCRIPTION "One mesh of the walls between the labels of an FCC image.")

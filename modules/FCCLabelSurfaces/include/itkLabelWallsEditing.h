@@ -1,0 +1,31 @@
+#ifndef itkLabelWallsEditing_h
+#define itkLabelWallsEditing_h
+
+#include "itkLabelWalls.h"
+#include "itkTriangleSurfaceSimplification.h"
+#include "itkTriangleSurfaceSmoothing.h"
+
+namespace itk
+{
+
+/** Smooths walls as SmoothSurface() does, without crossings. Points of a wall move along the mean of its points, points
+ * of the curves where walls meet along their curve; where curves meet, points stay.
+ *
+ * No point moves farther than maximumMove. Where triangles would cross, points stay at their start. So the walls of
+ * each label stay a closed, oriented manifold without crossings, if they were. Throws ExceptionObject if maximumMove is
+ * negative or not finite. The same bytes for any number of threads. */
+TriangleSurfaceSmoothingReport
+RelaxWalls(LabelWalls & walls, const TriangleSurfaceSmoothingSettings & settings);
+
+/** Reduces the number of triangles of walls, as SimplifySurface() does, once for both labels of each wall: labels still
+ * share their walls, without gaps and overlaps.
+ *
+ * Points on the curves where walls meet collapse along these, and points where curves meet stay, so that the surface of
+ * each label keeps its topology. Distances are checked wall by wall: each wall, in both directions, against the same
+ * wall before. Throws as SimplifySurface() does. */
+TriangleSurfaceSimplificationReport
+SimplifyWalls(LabelWalls & walls, const TriangleSurfaceSimplificationSettings & settings);
+
+} // namespace itk
+
+#endif

@@ -1,0 +1,131 @@
+#include "itkExampleLabelWalls.h"
+#include "itkLabelWallsEditing.h"
+
+#include "itkMultiThreaderBase.h"
+#include "itkTriangleSurfaceDistance.h"
+#include "itkTriangleSurfaceIntersections.h"
+
+#include <cmath>
+
+namespace
+{
+
+using namespace itk::example;
+
+Walls::Pointer
+Copy(const Walls & walls)
+{
+  const auto copy = Walls::New();
+  copy->Graft(&walls);
+  return copy;
+}
+
+itk::SizeValueType
+CountCrossings(const Walls & walls)
+{
+  const auto found = itk::FindSelfIntersections(itk::TriangleTree(walls));
+  return found.crossingPairs + found.touchingPairs;
+}
+
+/** Random volumes of 2 to 50 labels: noise and blobs by turns. */
+LabelImage::Pointer
+MakeVolume(unsigned int seed)
+{
+  const int labels = 2 + static_cast<int>(7 * seed % 49);
+  return seed % 2 == 0 ? MakeNoise(Region(static_cast<int>(seed % 5) - 2, 4 + seed % 6, 7, 5 + seed % 4), seed, labels)
+                       : MakeBlobs(Region(static_cast<int>(seed % 7) - 3, 9, 14 + seed % 6, 15), seed, labels);
+}
+
+itk::TriangleSurfaceSmoothingSettings
+MovesUpTo(double maximumMove)
+{
+  itk::TriangleSurfaceSmoothingSettings settings;
+  settings.maximumMove = maximumMove;
+  return settings;
+}
+
+itk::TriangleSurfaceSimplificationSettings
+ErrorUpTo(double maximumError)
+{
+  itk::TriangleSurfaceSimplificationSettings settings;
+  settings.maximumError = maximumError;
+  return settings;
+}
+
+TEST(LabelWallsEditing, RelaxedWallsAreSound)
+{
+  for (unsigned int seed = 0; seed < 40; ++seed)
+  {
+    const auto image = MakeVolume(seed);
+    const auto walls = MakeWalls(image);
+    const auto start = walls->GetPoints();
+    RelaxWalls(*walls, MovesUpTo(0.5));
+    ExpectSoundWalls(*walls, *image);
+    ASSERT_EQ(CountCrossings(*walls), 0u) << seed;
+    for (std::size_t n = 0; n < start.size(); ++n)
+    {
+      const auto & a = start[n];
+      const auto & b = walls->GetPoints()[n];
+      ASSERT_LE(std::hypot(double{ b[0] } - a[0], double{ b[1] } - a[1], double{ b[2] } - a[2]), 0.5);
+    }
+  }
+}
+
+TEST(LabelWallsEditing, SimplifiedWallsAreSound)
+{
+  for (unsigned int seed = 0; seed < 40; ++seed)
+  {
+    const auto image = MakeVolume(seed);
+    const auto walls = MakeWalls(image);
+    RelaxWalls(*walls, MovesUpTo(0.5));
+    const auto before = Copy(*walls);
+    const double error = 0.05 + 0.05 * (seed % 8);
+    const auto report = SimplifyWalls(*walls, ErrorUpTo(error));
+    EXPECT_EQ(report.trianglesAfter, walls->GetNumberOfTriangles());
+    ExpectSoundWalls(*walls, *image);
+    ASSERT_EQ(CountCrossings(*walls), 0u) << seed;
+    for (const std::uint16_t label : walls->FindLabels())
+    {
+      const auto surface = walls->ExtractLabel(label);
+      const auto surfaceBefore = before->ExtractLabel(label);
+      const auto topology = itk::ComputeTopology(*surface);
+      const auto topologyBefore = itk::ComputeTopology(*surfaceBefore);
+      ASSERT_EQ(topology.components, topologyBefore.components);
+      ASSERT_EQ(topology.genus, topologyBefore.genus);
+      ASSERT_LE(itk::ComputeTwoDistances(*surface, *surfaceBefore).GetMaximum(), 1.0001 * error)
+        << seed << ' ' << label;
+    }
+  }
+}
+
+TEST(LabelWallsEditing, SmoothBlobsLoseMostTriangles)
+{
+  const auto image = MakeBlobs(Region(0, 30, 60, 60), 1, 12);
+  const auto walls = MakeWalls(image);
+  RelaxWalls(*walls, MovesUpTo(0.5));
+  const auto report = SimplifyWalls(*walls, ErrorUpTo(0.3));
+  EXPECT_LT(report.trianglesAfter, report.trianglesBefore / 6);
+  ExpectSoundWalls(*walls, *image);
+}
+
+TEST(LabelWallsEditing, BytesDoNotDependOnThreads)
+{
+  const auto image = MakeBlobs(Region(-2, 30, 41, 37), 5, 20);
+  const auto start = MakeWalls(image);
+  const itk::ThreadIdType before = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
+  Walls::Pointer one;
+  for (const itk::ThreadIdType threads : { 1, 2, 3, 8 })
+  {
+    itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
+    const auto walls = Copy(*start);
+    RelaxWalls(*walls, MovesUpTo(0.4));
+    SimplifyWalls(*walls, ErrorUpTo(0.1));
+    one = one ? one : walls;
+    EXPECT_EQ(one->GetPoints(), walls->GetPoints());
+    EXPECT_EQ(one->GetTriangles(), walls->GetTriangles());
+    EXPECT_EQ(one->GetTriangleLabels(), walls->GetTriangleLabels());
+  }
+  itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(before);
+}
+
+} // namespace
