@@ -1,7 +1,9 @@
 #include "itkFCCLabelSurfaceFilter.h"
 #include "itkImageRegionIteratorWithIndex.h"
 #include "itkLabelMapFileReader.h"
+#include "itkLabelWallsEditing.h"
 #include "itkLabelsToFCCFilter.h"
+#include "itkTriangleSurfaceInterior.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
 #include "rhombicLabelSurfaces.h"
@@ -19,12 +21,13 @@
 #include <ctime>
 #include <cstdio>
 #include <exception>
+#include <functional>
+#include <map>
 #include <random>
-#include <utility>
 #include <vector>
 
 /** rhombic-label-walls: walls of eight touching balls against the truth, beside other surfaces of labels.
- * rhombic-label-walls MAP: volumes and flaws of the walls of a label map. */
+ * rhombic-label-walls MAP: times, largest errors of volumes and flaws of the walls of a label map. */
 namespace
 {
 
@@ -186,125 +189,267 @@ VolumeError(const LabelImage & map, std::uint16_t label, double volume)
   return 100.0 * (volume / (static_cast<double>(count) * spacing[0] * spacing[1] * spacing[2]) - 1.0);
 }
 
-void
-Print(const char * method, double slices, const std::vector<Errors> & errors, double volume, std::clock_t start)
+using Surfaces = std::vector<itk::TriangleSurface::ConstPointer>;
+
+/** How surfaces of balls fit together: samples near walls between balls that are in none or in several of them. */
+struct Fit
 {
-  double distance = 0.0;
-  double angle = 0.0;
-  for (const Errors & each : errors)
+  double gaps = 0.0;     ///< mm^3
+  double overlaps = 0.0; ///< mm^3
+};
+
+Fit
+MeasureFit(const std::vector<Ball> & balls, const Surfaces & surfaces)
+{
+  constexpr itk::SizeValueType size = 208;
+  constexpr double step = 0.25;
+  constexpr double nearWall = 1.0; // mm
+  itk::SamplePlanes planes;
+  planes.columnStep[0] = planes.rowStep[1] = step;
+  planes.numberOfColumns = planes.numberOfRows = size;
+  for (itk::SizeValueType k = 0; k < size; ++k)
   {
-    distance += each.GetDistance() / static_cast<double>(errors.size());
-    angle += each.GetAngle() / static_cast<double>(errors.size());
+    itk::Point<double, 3> origin(-26.003);
+    origin[2] += step * static_cast<double>(k);
+    planes.origins.push_back(origin);
   }
-  std::printf("%-28s %4.0f %8.3f %8.2f %8.2f %8.2f\n",
-              method,
-              slices,
-              distance,
-              angle,
-              volume,
-              static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
-  std::fflush(stdout);
+  std::vector<std::uint8_t> uses(size * size * size);
+  for (const auto & surface : surfaces)
+  {
+    itk::FindInteriorSamples(*surface, planes, [&uses](auto plane, auto row, auto begin, auto end) {
+      for (auto column = begin; column < end; ++column)
+      {
+        ++uses[(plane * size + row) * size + column];
+      }
+    });
+  }
+  Fit fit;
+  for (std::size_t n = 0; n < uses.size(); ++n)
+  {
+    if (uses[n] != 1)
+    {
+      const itk::Point<double, 3> & origin = planes.origins[n / (size * size)];
+      auto depths = DepthsAt(balls,
+                             { origin[0] + step * static_cast<double>(n % size),
+                               origin[1] + step * static_cast<double>(n / size % size),
+                               origin[2] });
+      std::partial_sort(depths.begin(), depths.begin() + 2, depths.end(), std::greater<>());
+      // Between two balls, far from outside.
+      const bool isWall = depths[1] > nearWall;
+      fit.gaps += isWall && uses[n] == 0 ? step * step * step : 0.0;
+      fit.overlaps += isWall && uses[n] > 1 ? step * step * step : 0.0;
+    }
+  }
+  return fit;
 }
 
+/** The mean results of a method for some scenes. */
+class Results
+{
+public:
+  Results(const std::vector<std::vector<Ball>> & scenes, double slices)
+    : m_Scenes(scenes)
+    , m_Slices(slices)
+  {}
+
+  /** Adds the surfaces of the balls of the next scene; \a mesh has all of their triangles. */
+  void
+  Add(const itk::TriangleSurface & mesh, const Surfaces & surfaces)
+  {
+    const auto & balls = m_Scenes[m_Count++];
+    const auto map = MakeMap(balls, m_Slices);
+    Errors errors(balls);
+    errors.Add(mesh);
+    const Fit fit = MeasureFit(balls, surfaces);
+    const double share = 1.0 / static_cast<double>(m_Scenes.size());
+    m_Distance += share * errors.GetDistance();
+    m_Angle += share * errors.GetAngle();
+    m_Fit.gaps += share * fit.gaps;
+    m_Fit.overlaps += share * fit.overlaps;
+    m_Triangles += share * static_cast<double>(mesh.GetNumberOfTriangles());
+    for (std::size_t n = 0; n < surfaces.size(); ++n)
+    {
+      const double volume = itk::ComputeVolume(*surfaces[n]);
+      m_Volume = std::max(m_Volume, std::abs(VolumeError(*map, static_cast<std::uint16_t>(n + 1), volume)));
+    }
+  }
+
+  void
+  Print(const char * method) const
+  {
+    std::printf("%-20s %4.0f %8.3f %8.2f %9.2f %9.1f %9.1f %10.0f\n",
+                method,
+                m_Slices,
+                m_Distance,
+                m_Angle,
+                m_Volume,
+                m_Fit.gaps,
+                m_Fit.overlaps,
+                m_Triangles);
+    std::fflush(stdout);
+  }
+
+private:
+  const std::vector<std::vector<Ball>> & m_Scenes;
+  const double m_Slices;
+  std::size_t m_Count = 0;
+  double m_Distance = 0.0;
+  double m_Angle = 0.0;
+  double m_Volume = 0.0;
+  double m_Triangles = 0.0;
+  Fit m_Fit;
+};
+
+Surfaces
+ExtractLabels(const itk::LabelWalls & walls)
+{
+  Surfaces surfaces;
+  for (const auto label : walls.FindLabels())
+  {
+    surfaces.emplace_back(walls.ExtractLabel(label));
+  }
+  return surfaces;
+}
+
+itk::LabelWalls::Pointer
+MakeWalls(const LabelImage * map)
+{
+  const auto toLattice = itk::LabelsToFCCFilter::New();
+  toLattice->SetInput(map);
+  toLattice->Update();
+  const auto filter = itk::FCCLabelSurfaceFilter::New();
+  filter->SetInput(toLattice->GetOutput());
+  filter->SetWeights(toLattice->GetWeights());
+  filter->Update();
+  return filter->GetOutput();
+}
+
+/** Walls as they are cut, relaxed by half a voxel (of the shortest edge), and simplified to a tenth. */
 void
 MeasureWalls(const std::vector<std::vector<Ball>> & scenes, double slices)
 {
-  const std::clock_t start = std::clock();
-  std::vector<Errors> errors;
-  double worst = 0.0;
+  Results cut(scenes, slices);
+  Results relaxed(scenes, slices);
+  Results simplified(scenes, slices);
   for (const auto & balls : scenes)
   {
-    const auto map = MakeMap(balls, slices);
-    const auto toLattice = itk::LabelsToFCCFilter::New();
-    toLattice->SetInput(map);
-    toLattice->Update();
-    const auto filter = itk::FCCLabelSurfaceFilter::New();
-    filter->SetInput(toLattice->GetOutput());
-    filter->SetWeights(toLattice->GetWeights());
-    filter->Update();
-    errors.emplace_back(balls).Add(*filter->GetOutput());
-    for (const auto label : filter->GetOutput()->FindLabels())
-    {
-      const double volume = itk::ComputeVolume(*filter->GetOutput()->ExtractLabel(label));
-      worst = std::max(worst, std::abs(VolumeError(*map, label, volume)));
-    }
+    const auto walls = MakeWalls(MakeMap(balls, slices));
+    cut.Add(*walls, ExtractLabels(*walls));
+    itk::TriangleSurfaceSmoothingSettings smoothing;
+    smoothing.maximumMove = 0.5;
+    itk::RelaxWalls(*walls, smoothing);
+    relaxed.Add(*walls, ExtractLabels(*walls));
+    itk::TriangleSurfaceSimplificationSettings simplification;
+    simplification.maximumError = 0.1;
+    itk::SimplifyWalls(*walls, simplification);
+    simplified.Add(*walls, ExtractLabels(*walls));
   }
-  Print("walls", slices, errors, worst, start);
+  cut.Print("walls");
+  relaxed.Print("walls, relaxed");
+  simplified.Print("walls, simplified");
+}
+
+/** All triangles of some surfaces. */
+itk::TriangleSurface::Pointer
+Join(const Surfaces & surfaces)
+{
+  const auto all = itk::TriangleSurface::New();
+  for (const auto & surface : surfaces)
+  {
+    const auto first = static_cast<std::uint32_t>(all->GetNumberOfPoints());
+    for (const auto & [a, b, c] : surface->GetTriangles())
+    {
+      all->GetTriangles().push_back({ first + a, first + b, first + c });
+    }
+    all->GetPoints().insert(all->GetPoints().end(), surface->GetPoints().begin(), surface->GetPoints().end());
+  }
+  return all;
 }
 
 void
 MeasureLabelSurfaces(const std::vector<std::vector<Ball>> & scenes, double slices)
 {
-  const std::clock_t start = std::clock();
-  std::vector<Errors> errors;
-  double worst = 0.0;
+  Results results(scenes, slices);
   for (const auto & balls : scenes)
   {
     const auto image = MakeMap(balls, slices);
     rhombic::LabelMap map;
     map.scan.image = image;
     map.labels = rhombic::SummarizeLabels(map.scan, {});
-    errors.emplace_back(balls);
+    Surfaces surfaces;
     for (const auto & made : rhombic::LabelsToSurfaces(map, {}, {}))
     {
-      errors.back().Add(*made.scene.surface);
-      worst = std::max(worst, 100.0 * std::abs(made.GetVolumeDifference()));
+      surfaces.emplace_back(made.scene.surface);
     }
+    results.Add(*Join(surfaces), surfaces);
   }
-  Print("label surfaces", slices, errors, worst, start);
+  results.Print("label surfaces");
 }
 
-/** Slicer's closed surfaces: smoothing factor 0.5, so 40 iterations and a pass band of 0.01. */
+/** A surface of a label as 3D Slicer makes it by default (vtkBinaryLabelmapToClosedSurfaceConversionRule): in indices,
+ * 20 iterations, smoothing factor 0.5, which is a pass band of 0.01. */
+itk::TriangleSurface::Pointer
+MakeSlicerSurface(vtkImageData * image, int label, const LabelImage & map)
+{
+  vtkNew<vtkDiscreteFlyingEdges3D> edges;
+  edges->SetInputData(image);
+  edges->SetValue(0, label);
+  vtkNew<vtkWindowedSincPolyDataFilter> smoother;
+  smoother->SetInputConnection(edges->GetOutputPort());
+  smoother->SetNumberOfIterations(20);
+  smoother->SetPassBand(0.01);
+  smoother->FeatureEdgeSmoothingOff();
+  smoother->BoundarySmoothingOff();
+  smoother->NonManifoldSmoothingOn();
+  smoother->NormalizeCoordinatesOn();
+  smoother->Update();
+  vtkPolyData * const mesh = smoother->GetOutput();
+  const auto surface = itk::TriangleSurface::New();
+  for (vtkIdType n = 0; n < mesh->GetNumberOfPoints(); ++n)
+  {
+    itk::TriangleSurface::PointType point;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      point[axis] = static_cast<float>(map.GetOrigin()[axis] + map.GetSpacing()[axis] * mesh->GetPoint(n)[axis]);
+    }
+    surface->GetPoints().push_back(point);
+  }
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType n = 0; n < mesh->GetNumberOfCells(); ++n)
+  {
+    mesh->GetCellPoints(n, ids);
+    surface->GetTriangles().push_back({ static_cast<std::uint32_t>(ids->GetId(0)),
+                                        static_cast<std::uint32_t>(ids->GetId(1)),
+                                        static_cast<std::uint32_t>(ids->GetId(2)) });
+  }
+  return surface;
+}
+
 void
 MeasureVTK(const std::vector<std::vector<Ball>> & scenes, double slices)
 {
-  const std::clock_t start = std::clock();
-  std::vector<Errors> errors;
+  Results results(scenes, slices);
   for (const auto & balls : scenes)
   {
     const auto map = MakeMap(balls, slices);
-    errors.emplace_back(balls);
     vtkNew<vtkImageData> image;
     const auto & size = map->GetBufferedRegion().GetSize();
     image->SetDimensions(static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2]));
-    image->SetSpacing(map->GetSpacing().GetDataPointer());
-    image->SetOrigin(map->GetOrigin().GetDataPointer());
     image->AllocateScalars(VTK_UNSIGNED_SHORT, 1);
     std::copy_n(map->GetBufferPointer(),
                 map->GetBufferedRegion().GetNumberOfPixels(),
                 static_cast<std::uint16_t *>(image->GetScalarPointer()));
+    Surfaces surfaces;
     for (int label = 1; label <= 8; ++label)
     {
-      vtkNew<vtkDiscreteFlyingEdges3D> edges;
-      edges->SetInputData(image);
-      edges->SetValue(0, label);
-      vtkNew<vtkWindowedSincPolyDataFilter> smoother;
-      smoother->SetInputConnection(edges->GetOutputPort());
-      smoother->SetNumberOfIterations(40);
-      smoother->SetPassBand(0.01);
-      smoother->FeatureEdgeSmoothingOff();
-      smoother->BoundarySmoothingOff();
-      smoother->NonManifoldSmoothingOn();
-      smoother->NormalizeCoordinatesOn();
-      smoother->Update();
-      vtkPolyData * const mesh = smoother->GetOutput();
-      for (vtkIdType n = 0; n < mesh->GetNumberOfCells(); ++n)
-      {
-        vtkNew<vtkIdList> ids;
-        mesh->GetCellPoints(n, ids);
-        Vector corners[3];
-        for (vtkIdType corner = 0; corner < 3; ++corner)
-        {
-          mesh->GetPoint(ids->GetId(corner), corners[corner].data());
-        }
-        errors.back().Add(corners[0], corners[1], corners[2]);
-      }
+      surfaces.emplace_back(MakeSlicerSurface(image, label, *map));
     }
+    results.Add(*Join(surfaces), surfaces);
   }
-  Print("VTK, windowed sinc", slices, errors, std::nan(""), start);
+  results.Print("VTK as Slicer");
 }
 
-/** Prints the volume and the flaws of each label's surface. */
+/** Prints the time of each step, and the volumes of labels of some sizes after it. */
 void
 MeasureMap(const char * path)
 {
@@ -312,38 +457,62 @@ MeasureMap(const char * path)
   reader->SetFileName(path);
   reader->Update();
   const LabelImage::ConstPointer map = reader->GetOutput();
+  const auto & spacing = map->GetSpacing();
+  const double voxel = spacing[0] * spacing[1] * spacing[2];
+  std::map<std::uint16_t, double> truth;
+  for (std::size_t n = 0; n < map->GetBufferedRegion().GetNumberOfPixels(); ++n)
+  {
+    truth[map->GetBufferPointer()[n]] += voxel;
+  }
   std::clock_t start = std::clock();
-  const auto secondsSince = [&start] {
-    const std::clock_t begin = std::exchange(start, std::clock());
-    return static_cast<double>(start - begin) / CLOCKS_PER_SEC;
+  const auto report = [&](const char * step, const itk::LabelWalls & walls) {
+    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    double large = 0.0;
+    double small = 0.0;
+    double sum = 0.0;
+    double sumTruth = 0.0;
+    std::size_t flaws = 0;
+    for (const auto label : walls.FindLabels())
+    {
+      const auto surface = walls.ExtractLabel(label);
+      const double volume = itk::ComputeVolume(*surface);
+      const double error = 100.0 * std::abs(volume / truth[label] - 1.0);
+      double & worst = truth[label] > 1000.0 ? large : small;
+      worst = std::max(worst, error);
+      sum += volume;
+      sumTruth += truth[label];
+      flaws += itk::ComputeTopology(*surface).IsWatertight() ? 0 : 1;
+    }
+    std::printf("%-20s %8.2f %10zu %9.2f %9.2f %9.3f %6zu\n",
+                step,
+                seconds,
+                static_cast<std::size_t>(walls.GetNumberOfTriangles()),
+                large,
+                small,
+                100.0 * (sum / sumTruth - 1.0),
+                flaws);
+    start = std::clock();
   };
+  std::printf("step                      cpu  triangles   >1 ml %%   <1 ml %%     sum %%  flaws\n");
   const auto toLattice = itk::LabelsToFCCFilter::New();
   toLattice->SetInput(map);
   toLattice->Update();
-  const double latticeSeconds = secondsSince();
   const auto filter = itk::FCCLabelSurfaceFilter::New();
+  report("lattice", *filter->GetOutput());
   filter->SetInput(toLattice->GetOutput());
   filter->SetWeights(toLattice->GetWeights());
   filter->Update();
-  const double surfaceSeconds = secondsSince();
-  const itk::LabelWalls & walls = *filter->GetOutput();
-  std::printf("%zu sites, %zu weights, %zu triangles; cpu: %.2f s to the lattice, %.2f s for the walls\n",
-              static_cast<std::size_t>(toLattice->GetOutput()->GetLargestPossibleRegion().GetNumberOfPixels()),
-              static_cast<std::size_t>(toLattice->GetWeights()->GetNumberOfWeights()),
-              static_cast<std::size_t>(walls.GetNumberOfTriangles()),
-              latticeSeconds,
-              surfaceSeconds);
-  std::printf("label       ml  volume %%  watertight\n");
-  for (const auto label : walls.FindLabels())
-  {
-    const auto surface = walls.ExtractLabel(label);
-    const double volume = itk::ComputeVolume(*surface);
-    std::printf("%5d %8.2f %9.2f  %s\n",
-                static_cast<int>(label),
-                volume / 1000.0,
-                VolumeError(*map, label, volume),
-                itk::ComputeTopology(*surface).IsWatertight() ? "yes" : "NO");
-  }
+  itk::LabelWalls & walls = *filter->GetOutput();
+  report("walls", walls);
+  const double shortest = std::min({ spacing[0], spacing[1], spacing[2] });
+  itk::TriangleSurfaceSmoothingSettings smoothing;
+  smoothing.maximumMove = 0.5 * shortest;
+  itk::RelaxWalls(walls, smoothing);
+  report("relaxed", walls);
+  itk::TriangleSurfaceSimplificationSettings simplification;
+  simplification.maximumError = 0.1 * shortest;
+  itk::SimplifyWalls(walls, simplification);
+  report("simplified", walls);
 }
 
 } // namespace
@@ -362,7 +531,7 @@ try
   {
     scenes.push_back(MakeBalls(seed));
   }
-  std::printf("method                     slices       mm  degrees   volume      cpu\n");
+  std::printf("method             slices       mm  degrees  volume %%  gaps mm3  overlaps  triangles\n");
   for (const double slices : { 1.0, 3.0, 6.0 })
   {
     MeasureWalls(scenes, slices);
