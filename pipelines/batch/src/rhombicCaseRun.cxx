@@ -1,7 +1,7 @@
 #include "rhombicCaseRun.h"
 
+#include "rhombicDigest.h"
 #include "rhombicFailure.h"
-#include "rhombicFileHash.h"
 #include "rhombicPictureIO.h"
 #include "rhombicSidecar.h"
 #include "rhombicWording.h"
