@@ -112,6 +112,23 @@ TEST(Batch, BrokenScansAreNamedAndTheOthersDone)
   EXPECT_EQ(page.find("http"), std::string::npos);
 }
 
+TEST(Batch, PatientsNamesAreInDicomFilesOnlyAndOfDicomScansOnly)
+{
+  const TemporaryFolder folder;
+  fs::create_directory(folder.Path() / "scans");
+  fs::copy(phantom / "dicom", folder.Path() / "scans/dicom");
+  fs::copy(phantom / "phantom.nii.gz", folder.Path() / "scans");
+  std::ofstream(folder.Path() / "pipeline.yaml")
+    << "outputs:\n  - picture: front.png\n    preset: ct-bone\n    size: 100\n    dicom-sc: true\n";
+  const Outcome outcome =
+    RunShell("rhombic batch scans -o out --names-from-paths --pipeline pipeline.yaml", folder.Path());
+  EXPECT_EQ(outcome.exitCode, 12) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("hold the patients' names"), std::string::npos) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("is NIfTI"), std::string::npos) << outcome.errors;
+  const Outcome files = RunShell("cd out; ls */*.dcm */*.jpg; grep -rl PHANTOM .", folder.Path());
+  EXPECT_EQ(files.output, "dicom/front.dcm\ndicom/thumbnail.jpg\n./dicom/front.dcm\n");
+}
+
 TEST(Batch, ARerunDoesWhatIsMissingOrChanged)
 {
   const TemporaryFolder folder;

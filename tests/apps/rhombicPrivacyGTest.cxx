@@ -148,6 +148,7 @@ ExpectNothingGetsOut(const fs::path & scan, const std::string & threshold, const
     "-v render SCAN --surface a=" + threshold + " --size 64 -o a.png",
     "render SCAN --surface a=" + threshold + " --size 64 -o a.tif",
     "render SCAN --surface a=" + threshold + " --size 64 -o a.jpg",
+    "render SCAN --surface a=" + threshold + " --size 64 --dicom-sc -o c.png && rm c.dcm", // the one that is asked to
     "-v mesh SCAN -t " + threshold + " -o a.stl",
     "mesh SCAN -t " + threshold + " -o a.ply",
     "mesh SCAN -t " + threshold + " -o a.vtp",
@@ -183,7 +184,7 @@ ExpectNothingGetsOut(const fs::path & scan, const std::string & threshold, const
     ++files;
     search(ReadText(entry.path()), entry.path().filename().string());
   }
-  EXPECT_EQ(files, 22u) << "outputs and their sidecars";
+  EXPECT_EQ(files, 24u) << "outputs and their sidecars";
 }
 
 TEST(Privacy, NothingAboutThePatientGetsOut)

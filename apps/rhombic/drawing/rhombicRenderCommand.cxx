@@ -41,6 +41,7 @@ struct RenderOptions
   std::size_t onlyPicture = 0;
   bool isSheet = false;
   bool isLandscape = false;
+  bool writesDicom = false;
   double pixelsPerInch = 200.0;
 
   std::string style;
@@ -255,6 +256,7 @@ RenderPage(const RenderOptions & options, const CommandContext & context, const 
   settings.title = options.title;
   settings.isLandscape = options.isLandscape;
   settings.pixelsPerInch = options.pixelsPerInch;
+  settings.writesDicom = options.writesDicom;
   settings.provenance = provenance;
   return RenderSheet(settings, context.console->MakeEvents());
 }
@@ -276,6 +278,11 @@ RenderPictures(const RenderOptions & options, const CommandContext & context, co
   settings.focus = options.focus;
   ParseSize(options.size, settings.render);
   settings.render.style = options.style.empty() ? PictureStyle::Clinic : ParseStyle(options.style);
+  settings.writesDicom = options.writesDicom;
+  if (settings.writesDicom && settings.render.style == PictureStyle::Transparent)
+  {
+    throw Failure(FailureKind::Usage, "DICOM pictures are not transparent; use --style paper or clinic.");
+  }
   if (!options.background.empty())
   {
     settings.render.background = ParseColour(options.background);
@@ -296,6 +303,12 @@ void
 CheckEnding(const RenderOptions & options)
 {
   const std::string ending = LowerCase(std::filesystem::path(options.picture).extension().string());
+  if (ending == ".dcm")
+  {
+    throw Failure(FailureKind::Usage,
+                  "DICOM files are written beside pictures: name a .png file, and add --dicom-sc, which copies the "
+                  "patient's name and study into a DICOM file.");
+  }
   if ((ending == ".gif" && options.turntable == 0) || (ending == ".pdf" && !options.isSheet))
   {
     throw Failure(FailureKind::Usage,
@@ -346,7 +359,7 @@ ReadArguments(const std::string & path, bool areViewsGiven)
     const std::string argument = stored[n].is_string() ? stored[n].get<std::string>() : "";
     const bool isLeft =
       std::any_of(left.begin(), left.end(), [&](const std::string & option) { return IsOption(argument, option); });
-    const bool isGiven = argument == "SCAN" || argument.rfind(FurtherFile, 0) == 0 ||
+    const bool isGiven = argument == "SCAN" || argument == "--dicom-sc" || argument.rfind(FurtherFile, 0) == 0 ||
                          (argument.rfind("-o", 0) == 0 && argument.size() > 2);
     n += isLeft && argument.find('=') == std::string::npos ? 1 : 0;
     if (!isLeft && !isGiven)
@@ -466,6 +479,11 @@ AddPictureOptions(RenderOptions & options, CLI::App & parser)
   parser
     .add_option("--turntable", options.turntable, "so many views around the patient: one .gif, or numbered pictures")
     ->check(CLI::Range(2u, 720u));
+  parser.add_flag(
+    "--dicom-sc",
+    options.writesDicom,
+    "also write each picture, page or turntable as a DICOM file beside it (.dcm, Secondary Capture): a new "
+    "series in the scan's study, with the patient's name and study copied; of DICOM scans only");
   parser.add_option("--size", options.size, "width x height in pixels (default: what fits, the longer side 1200)");
   parser.add_option("--focus", options.focus, "fit the picture to surfaces by name, as 'kidney*' (default: all)");
   parser.add_option("--zoom", options.zoom, "enlarge")->check(CLI::PositiveNumber);

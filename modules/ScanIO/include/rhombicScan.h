@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -116,7 +117,8 @@ struct Scan
   std::optional<double> paddingValue; ///< rescaled value of voxels outside the scanner's view; they were replaced by
                                       ///< the lowest other value
   std::size_t numberOfPaddingSamples = 0;
-  std::vector<std::string> notes;     ///< sentences about assumptions, repairs and parts that were left out
+  std::vector<std::filesystem::path> files; ///< those that hold the volume, sorted; as names for fileNotes
+  std::vector<std::string> notes;           ///< sentences about assumptions, repairs and parts that were left out
   std::vector<std::string> fileNotes; ///< sentences about single files, with their names: to be shown, but not written
                                       ///< to outputs, as a file's name may be the patient's
 };

@@ -79,7 +79,8 @@ struct BatchSummary
  *
  * A case's folder appears when all of its outputs are complete. It is removed before the case runs again. A run that
  * was killed is continued by the next one; both together write the same outputs as a single run, for any number of
- * jobs. Paths and names of input files are in none of the outputs.
+ * jobs. Paths and names of input files are in none of the outputs, and patients' names only in DICOM files that the
+ * pipeline asks for, which a note says.
  *
  * Sets RHOMBIC_THREADS and RHOMBIC_MAX_MEMORY in the environment of this process, for the children. The children end
  * with the calling thread.

@@ -118,6 +118,21 @@ DescribeDuration(double seconds)
                             : FormatFixed(seconds / 3600.0, 1) + " h";
 }
 
+/** Whether an option is given for any output of any case. */
+bool
+IsGiven(const std::string & option, const BatchSettings & settings)
+{
+  const auto isIn = [&option](const auto & arguments) {
+    return std::find(arguments.begin(), arguments.end(), option) != arguments.end();
+  };
+  return std::any_of(settings.pipeline.steps.begin(),
+                     settings.pipeline.steps.end(),
+                     [&isIn](const PipelineStep & step) { return isIn(step.arguments); }) ||
+         std::any_of(settings.cases.begin(), settings.cases.end(), [&isIn](const BatchCase & batchCase) {
+           return isIn(batchCase.options);
+         });
+}
+
 /** The names to lock: none, which is all, for a whole collection. */
 std::vector<std::string>
 NamesToLock(const BatchSettings & settings)
@@ -246,6 +261,10 @@ private:
                   std::to_string(m_Queue.size()) + " to run, " + std::to_string(m_Settings.jobs) + " at a time, " +
                   Count(m_Settings.threads, "thread") + " and at most " + DescribeBytes(m_Settings.maximumMemory) +
                   " each");
+    if (IsGiven("--dicom-sc", m_Settings))
+    {
+      m_Events.Note("DICOM files among the outputs (--dicom-sc) hold the patients' names");
+    }
   }
 
   /** Series in one folder share its hash. */

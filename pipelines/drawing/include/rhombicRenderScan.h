@@ -54,6 +54,8 @@ struct RenderScanSettings
   std::size_t onlyPicture = 0;   ///< the number, from 1, of the only one of views and slices to draw; 0: all
   std::filesystem::path picture; ///< with more than one, a view's or plane's name is added to the stem; a turntable is
                                  ///< one .gif, or numbered pictures
+  bool writesDicom = false; ///< also writes the pictures as DICOM, .dcm in place of the extension (see DicomStudy);
+                            ///< a turntable is one file
   Provenance provenance;
 };
 
@@ -78,6 +80,7 @@ struct RenderSheetSettings
   bool isLandscape = false;
   double pixelsPerInch = 200.0; ///< 36 to 600
   std::filesystem::path page;   ///< .png or .jpg for one page; .tif or .pdf for all
+  bool writesDicom = false;     ///< also writes each page as DICOM, .dcm in place of the extension (see DicomStudy)
   Provenance provenance;
 };
 

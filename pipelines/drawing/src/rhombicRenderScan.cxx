@@ -1,5 +1,6 @@
 #include "rhombicRenderScan.h"
 
+#include "rhombicDicomPictures.h"
 #include "rhombicFailure.h"
 #include "rhombicLightbox.h"
 #include "rhombicMemoryBudget.h"
@@ -409,8 +410,20 @@ CheckSlices(const RenderScanSettings & settings)
 std::vector<fs::path>
 RenderScan(const RenderScanSettings & settings, const Events & events)
 {
-  const std::vector<fs::path> paths = PlanPictures(settings);
-  CheckOutputs(WithSidecars(paths, settings.provenance), settings.source.scan, settings.source.surfaces);
+  std::vector<fs::path> paths = PlanPictures(settings);
+  std::vector<fs::path> dicomPaths;
+  if (settings.writesDicom)
+  {
+    dicomPaths = DicomPathsOf(settings.turntable > 0 ? std::vector<fs::path>{ settings.picture } : paths);
+  }
+  std::vector<fs::path> outputs = WithSidecars(paths, settings.provenance);
+  outputs.insert(outputs.end(), dicomPaths.begin(), dicomPaths.end());
+  CheckOutputs(outputs, settings.source.scan, settings.source.surfaces);
+  std::optional<DicomStudy> study;
+  if (settings.writesDicom)
+  {
+    study = OpenStudy(settings.source, dicomPaths);
+  }
   const int channels = settings.render.style == PictureStyle::Transparent ? 4 : 3;
   if (settings.turntable > 0 && IsGif(settings.picture))
   {
@@ -458,6 +471,7 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
   }
   StagedFiles staged;
   const PictureMetadata metadata{ settings.provenance.software, settings.provenance.GetCommand() };
+  const double secondsPerFrame = SecondsPerTurn / static_cast<double>(pictures.size());
   if (settings.turntable == 0 || !IsGif(settings.picture))
   {
     for (std::size_t n = 0; n < pictures.size(); ++n)
@@ -467,7 +481,7 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
   }
   else
   {
-    StageAnimation(pictures, SecondsPerTurn / static_cast<double>(pictures.size()), paths.front(), staged);
+    StageAnimation(pictures, secondsPerFrame, paths.front(), staged);
   }
   for (std::size_t n = 0; n < paths.size(); ++n)
   {
@@ -477,6 +491,11 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
       report["picture"] = n + 1;
     }
     StageSidecar(paths[n], settings.provenance, report, staged);
+  }
+  if (study)
+  {
+    StageDicom(*study, pictures, dicomPaths, secondsPerFrame, settings.provenance.software, events, staged);
+    paths.insert(paths.end(), dicomPaths.begin(), dicomPaths.end());
   }
   staged.Commit();
   events.Progress("rendering", 1.0);

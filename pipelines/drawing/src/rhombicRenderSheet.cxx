@@ -1,3 +1,4 @@
+#include "rhombicDicomPictures.h"
 #include "rhombicFailure.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicOutlinedSlice.h"
@@ -144,17 +145,19 @@ PathsOfPages(const fs::path & path, std::size_t pages)
 }
 
 std::vector<fs::path>
-StageSheet(const Sheet & sheet, const RenderSheetSettings & settings, StagedFiles & staged)
+StageSheet(const Sheet & sheet,
+           const std::vector<Picture> & pages,
+           const RenderSheetSettings & settings,
+           StagedFiles & staged)
 {
   const PictureMetadata metadata{ settings.provenance.software, settings.provenance.GetCommand(), sheet.pixelsPerInch };
   const std::string extension = LowerCase(settings.page.extension().string());
   if (IsPdf(settings.page))
   {
-    const PdfPages pages = DrawSheetPdf(sheet, settings.provenance.software);
-    StagePdf(pages.bytes, pages.count, settings.page, staged);
+    const PdfPages pdf = DrawSheetPdf(sheet, settings.provenance.software);
+    StagePdf(pdf.bytes, pdf.count, settings.page, staged);
     return { settings.page };
   }
-  const std::vector<Picture> pages = DrawSheet(sheet);
   if (extension == ".tif" || extension == ".tiff")
   {
     StagePages(pages, settings.page, staged, metadata);
@@ -199,7 +202,14 @@ CheckMemory(const RenderSheetSettings & settings, std::size_t slices, const Surf
 std::vector<fs::path>
 RenderSheet(const RenderSheetSettings & settings, const Events & events)
 {
-  CheckOutputs(WithSidecars({ settings.page }, settings.provenance), settings.source.scan, settings.source.surfaces);
+  std::vector<fs::path> outputs = WithSidecars({ settings.page }, settings.provenance);
+  std::optional<DicomStudy> study;
+  if (settings.writesDicom)
+  {
+    outputs.push_back(DicomPathsOf({ settings.page }).front());
+    study = OpenStudy(settings.source, { outputs.back() });
+  }
+  CheckOutputs(outputs, settings.source.scan, settings.source.surfaces);
   if (!IsPdf(settings.page))
   {
     CheckPicturePath(settings.page);
@@ -225,8 +235,15 @@ RenderSheet(const RenderSheetSettings & settings, const Events & events)
                                         static_cast<int>(std::lround(places.slices[n].height)));
   }
   StagedFiles staged;
-  const std::vector<fs::path> paths = StageSheet(sheet, settings, staged);
+  const std::vector<Picture> pages = study || !IsPdf(settings.page) ? DrawSheet(sheet) : std::vector<Picture>();
+  std::vector<fs::path> paths = StageSheet(sheet, pages, settings, staged);
   StageSidecar(settings.page, settings.provenance, scene.report, staged);
+  if (study)
+  {
+    const auto dicomPaths = DicomPathsOf(PathsOfPages(settings.page, pages.size()));
+    StageDicom(*study, pages, dicomPaths, 0.0, settings.provenance.software, events, staged);
+    paths.insert(paths.end(), dicomPaths.begin(), dicomPaths.end());
+  }
   staged.Commit();
   events.Progress("drawing the page", 1.0);
   return paths;

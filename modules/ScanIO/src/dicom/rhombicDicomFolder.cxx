@@ -266,6 +266,12 @@ OpenSlices(const std::vector<DicomSlice> & slices, Scan scan, const fs::path & p
   scan.modality = scan.series[choice.index].modality;
   const auto others = NoteOthers(scan.series);
   scan.notes.insert(scan.notes.end(), others.begin(), others.end());
+  std::set<fs::path> files; // of several slices each, if they are multi-frame
+  for (const DicomSlice & slice : series[choice.index].slices)
+  {
+    files.insert(slice.file->path);
+  }
+  scan.files.assign(files.begin(), files.end());
   return OpenSeries(series[choice.index].slices, options, std::move(scan));
 }
 

@@ -169,9 +169,10 @@ private:
 class Parser
 {
 public:
-  Parser(std::istream & file, std::uintmax_t size)
+  Parser(std::istream & file, std::uintmax_t size, const std::set<DicomTag> & wanted)
     : m_File(file)
     , m_Size(size)
+    , m_Wanted(wanted)
   {}
 
   /** Reads from the beginning of a data set to its pixels or its end. */
@@ -352,7 +353,7 @@ private:
       const Encoding inside = isUnknown ? Encoding{ false, false } : encoding;
       this->ReadSequence(element, inside, depth + 1, dataSet);
     }
-    else if (WantedValues.count(element.tag) != 0)
+    else if (m_Wanted.count(element.tag) != 0)
     {
       dataSet.values[element.tag] = this->ReadBytes(element, LongestValue);
     }
@@ -456,6 +457,7 @@ private:
 
   Pieces m_File;
   std::uintmax_t m_Size;
+  const std::set<DicomTag> & m_Wanted;
   std::uintmax_t m_Position = 0;
   std::size_t m_NumberOfElements = 0;
   std::size_t m_NumberOfItems = 0; ///< items of the sequences that are kept
@@ -567,7 +569,7 @@ DicomDataSet::GetItem(DicomTag tag) const
 }
 
 std::optional<DicomHeader>
-ParseDicomHeader(std::istream & file, std::uintmax_t fileSize)
+ParseDicomHeader(std::istream & file, std::uintmax_t fileSize, const std::set<DicomTag> & wanted)
 {
   constexpr std::uintmax_t preamble = 128;
   const std::string magic = "DICM";
@@ -576,7 +578,7 @@ ParseDicomHeader(std::istream & file, std::uintmax_t fileSize)
 
   DicomHeader header;
   header.fileSize = fileSize;
-  Parser parser(file, fileSize);
+  Parser parser(file, fileSize, wanted.empty() ? WantedValues : wanted);
   const bool hasPreamble = parser.HasBytes(preamble, magic);
   if (!hasPreamble && !LooksLikeDataSet(parser.Peek<std::uint64_t>()))
   {
@@ -603,7 +605,7 @@ ParseDicomHeader(std::istream & file, std::uintmax_t fileSize)
 }
 
 std::optional<DicomHeader>
-ReadDicomHeader(const std::filesystem::path & path)
+ReadDicomHeader(const std::filesystem::path & path, const std::set<DicomTag> & wanted)
 {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
@@ -612,7 +614,7 @@ ReadDicomHeader(const std::filesystem::path & path)
   {
     return {};
   }
-  return ParseDicomHeader(file, size);
+  return ParseDicomHeader(file, size, wanted);
 }
 
 } // namespace rhombic

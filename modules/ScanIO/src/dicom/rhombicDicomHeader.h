@@ -7,6 +7,7 @@
 #include <iosfwd>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ namespace rhombic
 using DicomTag = std::uint32_t;
 
 /** \class DicomDataSet
- * \brief The elements of a DICOM data set that describe its image and geometry, and none about the patient. */
+ * \brief The elements of a DICOM data set that describe its image and geometry, and none about the patient unless
+ * asked. */
 class DicomDataSet
 {
 public:
@@ -83,12 +85,13 @@ struct DicomHeader
  *
  * For untrusted files: every length is compared with the file's, sequences are limited to 64 levels and a million
  * items, headers to 16 million elements, and memory to a few times the size of the elements and items that are kept.
- * Throws nothing but std::bad_alloc. */
+ * Throws nothing but std::bad_alloc.
+ * \param wanted the elements whose values are kept; empty: those that describe image and geometry */
 std::optional<DicomHeader>
-ParseDicomHeader(std::istream & file, std::uintmax_t fileSize);
+ParseDicomHeader(std::istream & file, std::uintmax_t fileSize, const std::set<DicomTag> & wanted = {});
 
 std::optional<DicomHeader>
-ReadDicomHeader(const std::filesystem::path & path);
+ReadDicomHeader(const std::filesystem::path & path, const std::set<DicomTag> & wanted = {});
 
 } // namespace rhombic
 

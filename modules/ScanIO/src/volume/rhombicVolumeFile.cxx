@@ -18,6 +18,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <set>
 #include <vector>
 
 namespace fs = std::filesystem;
@@ -159,6 +160,8 @@ OpenVolumeFile(const fs::path & path, const ScanReadOptions & options)
   scan.format = VolumeFormatOf(path);
   const StoredVolume volume = ReadHeader(path, options, scan);
   ChooseFrame(volume.numberOfFrames, options, path, scan);
+  const std::set<fs::path> files{ path, volume.voxels.path };
+  scan.files.assign(files.begin(), files.end());
   scan.image = NewVolumeImage(volume.type, volume.scaling.has_value(), volume.geometry);
   scan.encoding = volume.encoding;
   scan.scaling = DescribeScaling(volume.scaling);
