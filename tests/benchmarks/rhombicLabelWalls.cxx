@@ -203,7 +203,7 @@ MeasureFit(const std::vector<Ball> & balls, const Surfaces & surfaces)
 {
   constexpr itk::SizeValueType size = 208;
   constexpr double step = 0.25;
-  constexpr double nearWall = 1.0; // mm
+  constexpr double nearWall = 0.25; // mm
   itk::SamplePlanes planes;
   planes.columnStep[0] = planes.rowStep[1] = step;
   planes.numberOfColumns = planes.numberOfRows = size;
@@ -491,6 +491,7 @@ MeasureMap(const char * path)
                 small,
                 100.0 * (sum / sumTruth - 1.0),
                 flaws);
+    std::fflush(stdout);
     start = std::clock();
   };
   std::printf("step                      cpu  triangles   >1 ml %%   <1 ml %%     sum %%  flaws\n");

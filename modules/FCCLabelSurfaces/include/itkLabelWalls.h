@@ -44,6 +44,17 @@ public:
     return m_TriangleLabels;
   }
 
+  /** What the walls of a label enclose. */
+  struct Measures
+  {
+    double volume = 0.0; ///< mm^3
+    double area = 0.0;   ///< mm^2
+  };
+
+  /** The measures of each label, up to the largest; label 0 has the volume of all others, negative. */
+  std::vector<Measures>
+  ComputeMeasures() const;
+
   /** The labels that have walls, ascending, without 0. */
   std::vector<LabelType>
   FindLabels() const;

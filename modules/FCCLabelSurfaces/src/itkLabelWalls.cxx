@@ -1,9 +1,35 @@
 #include "itkLabelWalls.h"
 
+#include "detail/itkPositionArithmetic.h"
+
+#include <algorithm>
 #include <limits>
 
 namespace itk
 {
+
+std::vector<LabelWalls::Measures>
+LabelWalls::ComputeMeasures() const
+{
+  std::vector<Measures> measures(1);
+  for (std::size_t n = 0; n < m_TriangleLabels.size(); ++n)
+  {
+    const auto & [front, back] = m_TriangleLabels[n];
+    measures.resize(std::max(measures.size(), std::size_t{ back } + 1));
+    CornersType corners = CornersOf(*this, this->GetTriangles()[n]);
+    for (PositionType & corner : corners)
+    {
+      corner = Subtract(corner, ToPosition(this->GetPoints().front())); // which keeps digits
+    }
+    const PositionType normal = AreaVector(corners);
+    const double volume = Dot(corners[0], normal) / 6.0;
+    measures[front].volume -= volume;
+    measures[back].volume += volume;
+    measures[front].area += 0.5 * Length(normal);
+    measures[back].area += 0.5 * Length(normal);
+  }
+  return measures;
+}
 
 std::vector<LabelWalls::LabelType>
 LabelWalls::FindLabels() const

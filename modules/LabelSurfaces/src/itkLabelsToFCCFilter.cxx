@@ -474,41 +474,6 @@ ComputeVoxelVolumes(const LabelImage & map, LabelsToFCCFilter::SliceOriginsType 
   return volumes;
 }
 
-/** Volumes inside the walls of each label, and the areas of its walls. */
-struct WallMeasures
-{
-  NumberByLabel volumes;
-  NumberByLabel areas;
-};
-
-WallMeasures
-MeasureWalls(const LabelWalls & walls)
-{
-  WallMeasures measures;
-  const auto & points = walls.GetPoints();
-  for (std::size_t n = 0; n < walls.GetNumberOfTriangles(); ++n)
-  {
-    Vector<double, 3> corners[3]; // from a point of the mesh, which keeps digits
-    for (unsigned int corner = 0; corner < 3; ++corner)
-    {
-      for (unsigned int axis = 0; axis < 3; ++axis)
-      {
-        corners[corner][axis] =
-          static_cast<double>(points[walls.GetTriangles()[n][corner]][axis]) - static_cast<double>(points[0][axis]);
-      }
-    }
-    const Vector<double, 3> normal = CrossProduct(corners[1] - corners[0], corners[2] - corners[0]);
-    const auto & pair = walls.GetTriangleLabels()[n];
-    measures.volumes[pair[0]] -= corners[0] * normal / 6.0;
-    measures.volumes[pair[1]] += corners[0] * normal / 6.0;
-    for (const LabelType label : pair)
-    {
-      measures.areas[label] += normal.GetNorm() / 2.0;
-    }
-  }
-  return measures;
-}
-
 /** Adds an offset to all weights of each label and gives each site the label of largest weight. */
 void
 AddOffsets(const NumberByLabel & offsets, Lattice & labels, FCCLabelWeights & weights)
@@ -551,17 +516,16 @@ KeepVolumes(const NumberByLabel & voxelVolumes, double voxelEdge, Lattice & labe
     filter->SetInput(&labels);
     filter->SetWeights(&weights);
     filter->Update();
-    const WallMeasures measures = MeasureWalls(*filter->GetOutput());
+    const auto measures = filter->GetOutput()->ComputeMeasures();
     NumberByLabel offsets;
     for (const auto & [label, volume] : voxelVolumes)
     {
-      const auto area = measures.areas.find(label);
-      if (label == 0 || area == measures.areas.end() || !(area->second > 0.0))
+      if (label == 0 || label >= measures.size() || !(measures[label].area > 0.0))
       {
         continue;
       }
       // An offset moves a wall half as far, in voxels.
-      const double wanted = 2.0 * (volume - measures.volumes.at(label)) / (area->second * voxelEdge);
+      const double wanted = 2.0 * (volume - measures[label].volume) / (measures[label].area * voxelEdge);
       double & sum = sums[label];
       const double next = std::clamp(sum + wanted, -FarthestOffset, FarthestOffset);
       offsets[label] = next - sum;

@@ -2,8 +2,6 @@
 
 #include "itkForEachBlock.h"
 
-#include <algorithm>
-
 namespace itk
 {
 namespace

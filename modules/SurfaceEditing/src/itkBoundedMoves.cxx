@@ -1,0 +1,104 @@
+#include "itkBoundedMoves.h"
+
+#include "itkForEachBlock.h"
+
+namespace itk
+{
+namespace
+{
+
+using Points = TriangleSurface::PointsContainer;
+using PointType = TriangleSurface::PointType;
+
+constexpr SizeValueType MovedBlock = 4096;
+constexpr double SmallestCosineOfTurn = 0.1736; // cosine of 80 degrees
+constexpr double SmallestShareOfArea = 0.1;
+
+/** The position itself, or the nearest one that is not farther than \a maximumMove from \a start. */
+PointType
+LimitMove(const PointType & start, PointType position, double maximumMove)
+{
+  const PositionType way = Subtract(ToPosition(position), ToPosition(start));
+  double reach = maximumMove / Length(way);
+  while (Length(Subtract(ToPosition(position), ToPosition(start))) > maximumMove)
+  {
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      position[axis] = static_cast<float>(start[axis] + reach * way[axis]);
+    }
+    reach -= 1e-3 * reach; // rounding to float may exceed the limit slightly
+  }
+  return position;
+}
+
+/** Whether a triangle has turned or shrunk too much since the start. */
+bool
+IsSpoilt(const Points & start, const Points & points, const TriangleSurface::TriangleType & triangle)
+{
+  const auto areaVector = [&triangle](const Points & positions) {
+    return AreaVector(
+      { ToPosition(positions[triangle[0]]), ToPosition(positions[triangle[1]]), ToPosition(positions[triangle[2]]) });
+  };
+  const PositionType vectorBefore = areaVector(start);
+  const PositionType vectorAfter = areaVector(points);
+  const double areaBefore = Length(vectorBefore);
+  const double areaAfter = Length(vectorAfter);
+  return !(Dot(vectorBefore, vectorAfter) >= SmallestCosineOfTurn * areaBefore * areaAfter &&
+           areaAfter >= SmallestShareOfArea * areaBefore);
+}
+
+} // namespace
+
+BoundedMoves::BoundedMoves(TriangleSurface & surface, double maximumMove)
+  : m_Surface(surface)
+  , m_MaximumMove(maximumMove)
+  , m_Start(surface.GetPoints())
+  , m_Next(surface.GetPoints())
+{}
+
+BoundedMoves::PointType
+BoundedMoves::Move(const PointType & point, double factor, const PositionType & way)
+{
+  PointType moved;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    moved[axis] = static_cast<float>(point[axis] + factor * way[axis]);
+  }
+  return moved;
+}
+
+void
+BoundedMoves::Step(const std::function<PointType(SizeValueType point)> & find)
+{
+  ForEachInBlocks(m_Next.size(), MovedBlock, [&](SizeValueType point) {
+    m_Next[point] = LimitMove(m_Start[point], find(point), m_MaximumMove);
+  });
+  while (this->PutBackBadMoves())
+  {}
+  m_Surface.GetPoints().swap(m_Next);
+}
+
+/** Puts the points of spoilt triangles back to where they were before the step. That may spoil other triangles: returns
+ * whether any point was put back. */
+bool
+BoundedMoves::PutBackBadMoves()
+{
+  const auto & triangles = m_Surface.GetTriangles();
+  std::vector<std::uint8_t> isSpoilt(triangles.size());
+  ForEachInBlocks(triangles.size(), MovedBlock, [&](SizeValueType id) {
+    isSpoilt[id] = IsSpoilt(m_Start, m_Next, triangles[id]) ? 1 : 0;
+  });
+  bool isAnyPutBack = false;
+  for (std::size_t id = 0; id < triangles.size(); ++id)
+  {
+    for (unsigned int corner = 0; isSpoilt[id] && corner < 3; ++corner)
+    {
+      const std::uint32_t point = triangles[id][corner];
+      isAnyPutBack = isAnyPutBack || m_Next[point] != m_Surface.GetPoints()[point];
+      m_Next[point] = m_Surface.GetPoints()[point];
+    }
+  }
+  return isAnyPutBack;
+}
+
+} // namespace itk
