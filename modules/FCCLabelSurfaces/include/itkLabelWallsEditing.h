@@ -8,12 +8,14 @@
 namespace itk
 {
 
-/** Smooths walls as SmoothSurface() does, without crossings. Points of a wall move along the mean of its points, points
- * of the curves where walls meet along their curve; where curves meet, points stay.
+/** Smooths walls as SmoothSurface() does, and keeps the volume of each label. Points of a wall move towards the mean of
+ * their neighbours, points of the curves where walls meet along their curve; where curves meet, points stay. Then walls
+ * move along their normals until each label has its volume again.
  *
- * No point moves farther than maximumMove. Where triangles would cross, points stay at their start. So the walls of
- * each label stay a closed, oriented manifold without crossings, if they were. Throws ExceptionObject if maximumMove is
- * negative or not finite. The same bytes for any number of threads. */
+ * No point moves farther than maximumMove; where triangles would cross, points stay at their start. So the walls of
+ * each label stay a closed, oriented manifold without crossings, if they were. Labels of which all points are as far as
+ * they may go can have another volume. Throws ExceptionObject if maximumMove is negative or not finite. The same bytes
+ * for any number of threads. */
 TriangleSurfaceSmoothingReport
 RelaxWalls(LabelWalls & walls, const TriangleSurfaceSmoothingSettings & settings);
 
@@ -22,7 +24,8 @@ RelaxWalls(LabelWalls & walls, const TriangleSurfaceSmoothingSettings & settings
  *
  * Points on the curves where walls meet collapse along these, and points where curves meet stay, so that the surface of
  * each label keeps its topology. Distances are checked wall by wall: each wall, in both directions, against the same
- * wall before. Throws as SimplifySurface() does. */
+ * wall before. A tenth of maximumError is kept for moving walls at the end, so that labels keep their volumes. Throws
+ * as SimplifySurface() does. */
 TriangleSurfaceSimplificationReport
 SimplifyWalls(LabelWalls & walls, const TriangleSurfaceSimplificationSettings & settings);
 

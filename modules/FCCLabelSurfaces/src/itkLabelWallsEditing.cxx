@@ -1,15 +1,19 @@
-#include "itkBoundedMoves.h"
 #include "itkLabelWallsEditing.h"
 
+#include "itkBoundedMoves.h"
 #include "detail/itkTrianglesOfPoints.h"
 #include "itkTriangleSurfaceIntersections.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace itk
 {
 namespace
 {
 
-constexpr unsigned int VolumeCorrections = 8;
+constexpr unsigned int VolumeCorrections = 16;
+constexpr double ShareForVolumes = 0.1; // of the largest error of simplification
 
 /** Moves walls along their normals until each label has its volume, or points are as far as they may go. A wall moves
  * by the sum of what its labels want: each a layer on all of its surface as large as what it lacks. */
@@ -73,6 +77,34 @@ RelaxWalls(LabelWalls & walls, const TriangleSurfaceSmoothingSettings & settings
   RestoreVolumes(walls, measures, moves);
   PutBackCrossing(walls, moves.GetStart());
   walls.Modified();
+  return report;
+}
+
+TriangleSurfaceSimplificationReport
+SimplifyWalls(LabelWalls & walls, const TriangleSurfaceSimplificationSettings & settings)
+{
+  const auto measures = walls.ComputeMeasures();
+  auto & labels = walls.GetTriangleLabels();
+  std::vector<LabelWalls::LabelPairType> pairs(labels.begin(), labels.end());
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  std::vector<std::uint32_t> sheets;
+  sheets.reserve(labels.size());
+  for (const LabelWalls::LabelPairType & pair : labels)
+  {
+    sheets.push_back(static_cast<std::uint32_t>(std::lower_bound(pairs.begin(), pairs.end(), pair) - pairs.begin()));
+  }
+  TriangleSurfaceSimplificationSettings shared = settings;
+  shared.maximumError *= 1.0 - ShareForVolumes;
+  const auto report = SimplifySurface(walls, sheets, shared);
+  labels.resize(sheets.size());
+  std::transform(sheets.begin(), sheets.end(), labels.begin(), [&pairs](std::uint32_t sheet) { return pairs[sheet]; });
+  if (std::isfinite(settings.maximumError))
+  {
+    BoundedMoves moves(walls, ShareForVolumes * settings.maximumError);
+    RestoreVolumes(walls, measures, moves);
+    PutBackCrossing(walls, moves.GetStart());
+  }
   return report;
 }
 
