@@ -1,3 +1,4 @@
+#include "rhombicBatchStatistics.h"
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
 #include "rhombicMemoryBudget.h"
@@ -32,6 +33,7 @@ struct BatchOptions
   bool namesFromPaths = false;
   bool isDryRun = false;
   bool writesTables = false;
+  bool writesStatistics = false;
   bool isBIDS = false; ///< the outputs are a BIDS dataset, too
 };
 
@@ -207,6 +209,12 @@ void
 Batch(const BatchOptions & options, const CommandContext & context)
 {
   const Events events = context.console->MakeEvents();
+  if (options.writesStatistics && !options.output.empty())
+  {
+    std::cout << WriteBatchStatistics(options.output);
+    events.Note("statistics: " + options.output + "/statistics.tsv");
+    return;
+  }
   BatchSettings settings = GetSettings(options, events);
   if (options.isDryRun)
   {
@@ -289,6 +297,10 @@ AddBatchCommand(CLI::App & parser)
   parser
     .add_flag("--tables", options->writesTables, "run nothing; write the tables and the index of what is done so far")
     ->excludes(only);
+  parser.add_flag("--stats",
+                  options->writesStatistics,
+                  "run nothing; print and write what the measures of all cases are together (OUT/statistics.tsv), and "
+                  "which cases lie apart; needs no COLLECTION");
   parser.add_flag("--names-from-paths",
                   options->namesFromPaths,
                   "name cases by their paths in the folder, if these name no patients (default: by a hash)");

@@ -1,0 +1,109 @@
+#include "rhombicBatchStatistics.h"
+#include "rhombicFailure.h"
+#include "rhombicProgram.h"
+#include "rhombicWording.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace
+{
+
+using rhombic::Split;
+using rhombictest::ReadText;
+using rhombictest::TemporaryFolder;
+
+constexpr char head[] = "case\toutput\tname\tmode\tvolume\n";
+
+/** The fields of the only line of statistics. */
+std::vector<std::string>
+StatisticsOf(const std::vector<double> & values)
+{
+  const TemporaryFolder folder;
+  std::ofstream table(folder.Path() / "measures.tsv");
+  table << head;
+  for (std::size_t n = 0; n < values.size(); ++n)
+  {
+    table << "c" << n << "\tbone.stl\tbone\tLean\t" << rhombic::FormatExact(values[n]) << '\n';
+  }
+  table.close();
+  rhombic::WriteBatchStatistics(folder.Path());
+  const auto lines = Split(ReadText(folder.Path() / "statistics.tsv"), "\n");
+  EXPECT_EQ(lines.size(), 3u) << "a head, a line, and the end of it";
+  return Split(lines[1], "\t");
+}
+
+double
+NumberOf(const std::string & text)
+{
+  return rhombic::ToNumber<double>(text).value();
+}
+
+TEST(BatchStatistics, QuartilesPartTheValues)
+{
+  std::mt19937 random(5);
+  for (std::size_t count = 1; count < 60; ++count)
+  {
+    std::vector<double> values(count);
+    std::generate(values.begin(), values.end(), [&random] { return static_cast<double>(random() % 100000); });
+    const auto fields = StatisticsOf(values);
+    ASSERT_EQ(fields.size(), 10u);
+    EXPECT_EQ(fields[3], std::to_string(count));
+    std::sort(values.begin(), values.end());
+    EXPECT_EQ(NumberOf(fields[4]), values.front());
+    EXPECT_EQ(NumberOf(fields[8]), values.back());
+    for (const std::size_t quarter : { 1u, 2u, 3u })
+    {
+      // Between the two values that have so many quarters of the steps below them; their mixture where there are two.
+      const std::size_t steps = quarter * (count - 1);
+      const double expected = (values[steps / 4] * static_cast<double>(4 - steps % 4) +
+                               values[(steps + 3) / 4] * static_cast<double>(steps % 4)) /
+                              4.0;
+      EXPECT_NEAR(NumberOf(fields[4 + quarter]), expected, 1.0);
+    }
+  }
+}
+
+TEST(BatchStatistics, ValuesFarFromTheOthersAreNamed)
+{
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(1000.0, 10.0);
+  for (int round = 0; round < 100; ++round)
+  {
+    std::vector<double> values(40);
+    std::generate(values.begin(), values.end(), [&] { return noise(random); });
+    values[11] = 1500.0;
+    values[23] = 200.0;
+    const std::string apart = StatisticsOf(values)[9];
+    EXPECT_NE(apart.find("c11 (1500)"), std::string::npos) << apart;
+    EXPECT_NE(apart.find("c23 (200)"), std::string::npos) << apart;
+    EXPECT_LE(std::count(apart.begin(), apart.end(), '('), 6) << "of the others, few by chance: " << apart;
+  }
+  EXPECT_EQ(StatisticsOf({ 1, 2, 3, 4, 5, 6 })[9], "");
+  EXPECT_EQ(StatisticsOf({ 1, 1, 1, 100 })[9], "") << "too few to tell";
+  EXPECT_EQ(StatisticsOf({ 3, 3, 3, 3, 3, 3 })[9], "");
+  EXPECT_EQ(StatisticsOf({ 3, 3, 3, 3, 3, 3, 3, 3, 3, 7 })[9], "c9 (7)") << "where more than half are the same";
+}
+
+TEST(BatchStatistics, EachMeasureOfEachSurfaceHasALine)
+{
+  const TemporaryFolder folder;
+  EXPECT_THROW(rhombic::WriteBatchStatistics(folder.Path()), rhombic::Failure);
+  std::ofstream(folder.Path() / "measures.tsv") << "case\tarea\toutput\tname\tvolume\n"
+                                                   "1\t5\ta.stl\t7\t10\n"
+                                                   "2\t\ta.stl\t7\t20\n"
+                                                   "2\tnone\ta.stl\tskin\t30\n"
+                                                   "1\t\tb.stl\t7\tinf\n";
+  const std::string text = rhombic::WriteBatchStatistics(folder.Path());
+  EXPECT_EQ(ReadText(folder.Path() / "statistics.tsv"),
+            "output\tname\tmeasure\tcases\tleast\tq1\tmedian\tq3\tlargest\tapart\n"
+            "a.stl\t7\tarea\t1\t5\t5\t5\t5\t5\t\n"
+            "a.stl\t7\tvolume\t2\t10\t12.5\t15\t17.5\t20\t\n"
+            "a.stl\tskin\tvolume\t1\t30\t30\t30\t30\t30\t\n");
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4);
+  EXPECT_EQ(text.find('\t'), std::string::npos);
+}
+
+} // namespace
