@@ -107,6 +107,10 @@ TEST(Batch, BrokenScansAreNamedAndTheOthersDone)
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 6);
   const std::string measures = ReadText(folder.Path() / "out/measures.tsv");
   EXPECT_NE(measures.find("\nv1\tbone.stl\t"), std::string::npos) << measures;
+  for (const char * const column : { "\tvolumeInMillilitres\t", "\tdeviation.meanInMillimetres\t" })
+  {
+    EXPECT_LT(measures.find(column), measures.find('\n')) << measures;
+  }
   const std::string page = ReadText(folder.Path() / "out/index.html");
   EXPECT_NE(page.find("./v0/bone.stl"), std::string::npos);
   EXPECT_EQ(page.find("http"), std::string::npos);

@@ -151,7 +151,25 @@ FindOutputs(const fs::path & folder)
   return files;
 }
 
-/** The numbers and words of each surface in a report, without nested ones. */
+/** Adds the numbers and words of an object of a report, those of objects in it by names such as
+ * deviation.meanInMillimetres. */
+void
+Flatten(const Report & object, const std::string & prefix, Report & flat)
+{
+  for (const auto & [key, value] : object.items())
+  {
+    if (value.is_object())
+    {
+      Flatten(value, key == "measures" ? prefix : prefix + key + '.', flat);
+    }
+    else if (value.is_primitive() && !value.is_null())
+    {
+      flat[prefix + key] = value;
+    }
+  }
+}
+
+/** The measures of each surface in a report. */
 void
 AddSurfaces(const fs::path & sidecar, Report & surfaces)
 {
@@ -162,15 +180,8 @@ AddSurfaces(const fs::path & sidecar, Report & surfaces)
   }
   for (const Report & surface : report["surfaces"])
   {
-    Report flat{ { "output", sidecar.stem().string() } };
-    for (const auto & [key, value] : surface.items())
-    {
-      if (value.is_primitive() && !value.is_null())
-      {
-        flat[key] = value;
-      }
-    }
-    surfaces.push_back(flat);
+    surfaces.push_back({ { "output", sidecar.stem().string() } });
+    Flatten(surface, "", surfaces.back());
   }
 }
 
