@@ -133,6 +133,31 @@ TEST(Batch, PatientsNamesAreInDicomFilesOnlyAndOfDicomScansOnly)
   EXPECT_EQ(files.output, "dicom/front.dcm\ndicom/thumbnail.jpg\n./dicom/front.dcm\n");
 }
 
+TEST(Batch, LargeCasesAreFirstAndTablesInTheOrderOfTheCollection)
+{
+  const TemporaryFolder folder;
+  fs::create_directory(folder.Path() / "scans");
+  for (const auto & [name, size] : { std::pair("a", 10), { "b", 3000 }, { "c", 20 }, { "d", 500 } })
+  {
+    std::ofstream(folder.Path() / "scans" / (std::string(name) + ".nii")) << std::string(size, '\0');
+  }
+  const Outcome outcome = RunShell("rhombic batch scans -o out --names-from-paths --jobs 1", folder.Path());
+  EXPECT_EQ(outcome.exitCode, 12);
+  std::string order;
+  std::istringstream journal(ReadText(folder.Path() / "out/journal.jsonl"));
+  for (std::string line; std::getline(journal, line);)
+  {
+    order += nlohmann::json::parse(line)["case"].get<std::string>() + ' ';
+  }
+  EXPECT_EQ(order, "b.nii d.nii c.nii a.nii ");
+  std::string table;
+  for (const auto & one : nlohmann::json::parse(ReadText(folder.Path() / "out/results.json")))
+  {
+    table += one["case"].get<std::string>() + ' ';
+  }
+  EXPECT_EQ(table, "a.nii b.nii c.nii d.nii ");
+}
+
 TEST(Batch, ARerunDoesWhatIsMissingOrChanged)
 {
   const TemporaryFolder folder;

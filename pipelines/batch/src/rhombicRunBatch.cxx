@@ -234,10 +234,11 @@ private:
     }
   }
 
-  /** Finds the cases to run. */
+  /** Finds the cases to run. The largest are first, so that at the end no job waits long for another. */
   void
   Plan()
   {
+    std::vector<std::pair<std::uintmax_t, const BatchCase *>> queue;
     std::size_t done = 0;
     for (const BatchCase & batchCase : m_Settings.cases)
     {
@@ -254,8 +255,13 @@ private:
       }
       else
       {
-        m_Queue.push_back(&batchCase);
+        queue.emplace_back(batchCase.GetSize(), &batchCase);
       }
+    }
+    std::stable_sort(queue.begin(), queue.end(), [](const auto & a, const auto & b) { return a.first > b.first; });
+    for (const auto & one : queue)
+    {
+      m_Queue.push_back(one.second);
     }
     m_Events.Note(Count(m_Settings.cases.size(), "case") + ", " + std::to_string(done) + " done before, " +
                   std::to_string(m_Queue.size()) + " to run, " + std::to_string(m_Settings.jobs) + " at a time, " +
