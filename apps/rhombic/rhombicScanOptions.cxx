@@ -124,6 +124,7 @@ ScanOptions::GetSource(const CommandContext & context, const Denoising & otherwi
   }
   ScanSource source;
   source.path = m_Path;
+  source.isHashed = !m_HasNoSidecar;
   source.read.series = m_Series;
   source.read.frame = m_Frame;
   source.read.onIrregular = ParsePolicy("--on-irregular", m_OnIrregular, "resample");

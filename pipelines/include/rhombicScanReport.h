@@ -28,6 +28,10 @@ ReportScan(const Scan & scan);
 Report
 ReportWithoutNames(const Scan & scan, const std::filesystem::path & path);
 
+/** Number of files, and the digest of their contents, one after the other. */
+Report
+ReportFiles(const std::vector<std::filesystem::path> & files);
+
 /** Format and geometry. */
 Report
 ReportLattice(const FCCVolume & volume);

@@ -24,6 +24,7 @@ struct ScanSource
   std::filesystem::path path; ///< a scan, or a lattice volume that WriteFCCImage() wrote
   ScanReadOptions read;
   LatticeSettings lattice; ///< for lattice volumes, only the denoising has an effect
+  bool isHashed = false;   ///< whether reports hold a digest of the files that were read
 };
 
 /** \class LabelSelection

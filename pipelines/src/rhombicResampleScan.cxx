@@ -11,6 +11,12 @@ namespace rhombic
 namespace
 {
 
+Report
+ReportInput(const ResampleScanSettings & settings, const std::vector<std::filesystem::path> & files)
+{
+  return settings.source.isHashed ? Report{ { "input", ReportFiles(files) } } : Report::object();
+}
+
 void
 StageLattice(const Scan & scan, const ResampleScanSettings & settings, const Events & events, StagedFiles & staged)
 {
@@ -18,12 +24,11 @@ StageLattice(const Scan & scan, const ResampleScanSettings & settings, const Eve
     ScanToLattice(OrderAlongPatient(scan, settings.source.lattice.maximumMemory), settings.source.lattice, events);
   events.Progress("writing", 0.0);
   StageFCCImage(volume, settings.volume, staged);
-  StageSidecar(settings.volume,
-               settings.provenance,
-               { { "scan", ReportWithoutNames(scan, settings.source.path) },
-                 { "denoising", ReportDenoising(settings.source.lattice.denoising) },
-                 { "lattice", ReportLattice(volume) } },
-               staged);
+  Report report = ReportInput(settings, scan.files);
+  report["scan"] = ReportWithoutNames(scan, settings.source.path);
+  report["denoising"] = ReportDenoising(settings.source.lattice.denoising);
+  report["lattice"] = ReportLattice(volume);
+  StageSidecar(settings.volume, settings.provenance, report, staged);
 }
 
 void
@@ -34,10 +39,10 @@ StageGrid(const FCCVolume & volume, const ResampleScanSettings & settings, const
   const ScanImage image = LatticeToScan(denoised, lattice.spacing, events);
   events.Progress("writing", 0.0);
   StageScan(image, settings.volume, staged);
-  StageSidecar(settings.volume,
-               settings.provenance,
-               { { "denoising", ReportDenoising(lattice.denoising) }, { "lattice", ReportLattice(denoised) } },
-               staged);
+  Report report = ReportInput(settings, { settings.source.path });
+  report["denoising"] = ReportDenoising(lattice.denoising);
+  report["lattice"] = ReportLattice(denoised);
+  StageSidecar(settings.volume, settings.provenance, report, staged);
 }
 
 /** Throws Failure(Usage) for an extension that the kind of volume can't be written with. */

@@ -1,5 +1,7 @@
 #include "rhombicScanReport.h"
 
+#include "rhombicDigest.h"
+
 #include "vnl/vnl_det.h"
 
 #include <cmath>
@@ -187,6 +189,12 @@ ReportWithoutNames(const Scan & scan, const std::filesystem::path & path)
     note = text;
   }
   return report;
+}
+
+Report
+ReportFiles(const std::vector<std::filesystem::path> & files)
+{
+  return { { "files", files.size() }, { "md5", HashFiles(files) } };
 }
 
 Report

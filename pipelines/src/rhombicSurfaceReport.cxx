@@ -190,6 +190,16 @@ Report
 ReportSource(const LoadedSource & loaded, const ScanSource & source)
 {
   Report report = Report::object();
+  if (source.isHashed)
+  {
+    const Scan * const scan = loaded.FindScan();
+    auto files = scan != nullptr ? scan->files : std::vector<std::filesystem::path>{ source.path };
+    if (loaded.scan && loaded.labels)
+    {
+      files.insert(files.end(), loaded.labels->scan.files.begin(), loaded.labels->scan.files.end());
+    }
+    report["input"] = ReportFiles(files);
+  }
   if (const Scan * const scan = loaded.FindScan())
   {
     report["scan"] = ReportWithoutNames(*scan, source.path);

@@ -140,4 +140,28 @@ TEST_F(MeasuresOfFiles, AreThoseAfterEveryFinishingOption)
   }
 }
 
+TEST(Measures, AReportNamesItsInputByItsContents)
+{
+  const TemporaryFolder folder;
+  const std::string phantom = RHOMBIC_TESTDATA "/phantom";
+  const std::string labels = phantom + "/phantom-labels.nii.gz";
+  for (const auto & [command, output, files] :
+       { std::tuple<std::string, std::string, std::string>{
+           "mesh " + scan + " -t 250.5 -o", "a.stl", phantom + "/dicom/*.dcm" },
+         { "mesh " + phantom + "/phantom.nii.gz --labels " + labels + " --label liver -o",
+           "b.stl",
+           phantom + "/phantom.nii.gz " + labels },
+         { "mesh " + labels + " --label liver -o", "c.stl", labels },
+         { "resample " + scan + " -o", "d.fcc.nrrd", phantom + "/dicom/*.dcm" },
+         { "mesh d.fcc.nrrd -t 250.5 -o", "e.stl", "d.fcc.nrrd" },
+         { "resample d.fcc.nrrd -o", "f.nii", "d.fcc.nrrd" } })
+  {
+    const Outcome outcome =
+      RunShell("rhombic -q " + command + " " + output + "; cat " + files + " | md5sum", folder.Path());
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+    const auto report = nlohmann::json::parse(ReadText(folder.Path() / (output + ".json")));
+    EXPECT_EQ(report["input"]["md5"], outcome.output.substr(0, 32)) << command;
+  }
+}
+
 } // namespace
