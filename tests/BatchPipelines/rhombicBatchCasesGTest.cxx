@@ -1,3 +1,4 @@
+#include "../ScanIO/rhombicDicomTestFile.h"
 #include "rhombicBatchCases.h"
 
 #include "rhombicFailure.h"
@@ -24,6 +25,32 @@ WriteFile(const fs::path & path, const std::string & text)
 {
   fs::create_directories(path.parent_path());
   std::ofstream(path) << text;
+}
+
+TEST(BatchCases, LocalizersAreNoCasesButBesideNothingElse)
+{
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string & series, int slices) {
+    for (int k = 0; k < slices; ++k)
+    {
+      DicomTestFile file(4, 4);
+      file.SetSeries(series, "1");
+      file.SetPosition("0\\0\\" + std::to_string(k));
+      file.Write(folder.Path() / (series + "-" + std::to_string(k) + ".dcm"));
+    }
+  };
+  write("1.2.1", 1);
+  write("1.2.2", 1);
+  CaseCollection found = rhombic::FindCases(folder.Path());
+  EXPECT_EQ(found.cases.size(), 2u) << "each ends with the reason for which it is not drawn";
+  write("1.2.3", 3);
+  found = rhombic::FindCases(folder.Path());
+  ASSERT_EQ(found.cases.size(), 1u);
+  EXPECT_EQ(found.cases[0].options.size(), 1u) << "the series is named";
+  ASSERT_EQ(found.notes.size(), 1u);
+  EXPECT_EQ(found.notes[0], "2 DICOM series of a single slice left out, as localizers are");
+  write("1.2.4", 4);
+  EXPECT_EQ(rhombic::FindCases(folder.Path()).cases.size(), 2u);
 }
 
 TEST(BatchCases, ATreeHasACaseForEachSeriesAndVolume)

@@ -53,8 +53,8 @@ IsBIDS(const std::filesystem::path & folder);
  * - a manifest (.tsv): columns case, scan, and perhaps labels and options, with paths relative to the manifest;
  * - a BIDS dataset (see IsBIDS()): each volume in a folder anat, with its label map (..._dseg) from there or from the
  *   derivatives, if there is one;
- * - any other folder: each DICOM series and each volume file in it and in its subfolders, but for hidden ones and
- *   symbolic links;
+ * - any other folder: each DICOM series and each volume file in it and in its subfolders, but for hidden ones,
+ *   symbolic links, and series of a single slice beside others;
  * - a single volume file.
  *
  * Throws Failure: NotFound when there are none, Usage for a mistake in a manifest, naming its line, and for a chosen

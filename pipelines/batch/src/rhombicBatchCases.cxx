@@ -151,6 +151,11 @@ public:
     {
       m_Found.notes.push_back(Count(m_NumberOfOthers, "file") + " left out, neither DICOM nor volumes");
     }
+    if (m_NumberOfSingleSlices > 0)
+    {
+      m_Found.notes.push_back(Count(m_NumberOfSingleSlices, "DICOM series", "DICOM series") +
+                              " of a single slice left out, as localizers are");
+    }
     return m_Found;
   }
 
@@ -197,7 +202,8 @@ private:
     }
   }
 
-  /** A folder of slices is one case for each series, or one that ends with the reason for which it can't be read. */
+  /** A folder of slices is one case for each series, or one that ends with the reason for which it can't be read.
+   * Single slices beside volumes, as localizers, are no cases. */
   void
   AddSeries(const fs::path & folder)
   {
@@ -215,9 +221,18 @@ private:
       this->Add(folder, "");
       return;
     }
+    const auto isSingleSlice = [](const SeriesSummary & one) { return one.size[2] < 2 && !one.problem.empty(); };
+    const bool hasVolumes = !std::all_of(series.begin(), series.end(), isSingleSlice);
     for (const SeriesSummary & one : series)
     {
-      this->Add(folder, one.id);
+      if (hasVolumes && isSingleSlice(one))
+      {
+        ++m_NumberOfSingleSlices;
+      }
+      else
+      {
+        this->Add(folder, one.id);
+      }
     }
   }
 
@@ -241,6 +256,7 @@ private:
   CaseSearch m_Search;
   CaseCollection m_Found;
   std::size_t m_NumberOfOthers = 0;
+  std::size_t m_NumberOfSingleSlices = 0; ///< series
 };
 
 /** The volumes in folders of a name, anywhere in a folder. */
