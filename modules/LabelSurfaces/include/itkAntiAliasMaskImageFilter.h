@@ -128,9 +128,9 @@ private:
   using RowWriter =
     std::function<void(SizeValueType row, SizeValueType begin, SizeValueType end, const float * values)>;
 
-  /** The voxels within some distance of the border. */
+  /** The voxels at the border, on one side of it at least. */
   VoxelBand
-  FindBand(double width);
+  FindBorder();
 
   /** Smooths the rows from \a read with a Gaussian of \a sigma voxels and passes the parts of them that are in a band
    * to \a write. The number of a row is y + z height. */

@@ -212,7 +212,9 @@ AntiAliasMaskImageFilter::GenerateData()
 
   const auto longestPeriod = *std::max_element(m_SamplePeriod.begin(), m_SamplePeriod.end());
   m_Widening = std::max(1.0, WideningByPeriod * static_cast<double>(longestPeriod));
-  const VoxelBand band = this->FindBand(BandWidth * m_Widening * Wide.sigma);
+  const VoxelBand border = this->FindBorder();
+  const auto reach = static_cast<SizeValueType>(std::ceil(BandWidth * m_Widening * Wide.sigma));
+  const VoxelBand band = border.Widened({ reach, reach, reach });
   const auto far = static_cast<float>(0.5 * InverseSlope(m_Widening * Wide.sigma));
   this->ForEach(size[2], [&](SizeValueType z) {
     for (SizeValueType voxel = z * size[0] * size[1]; voxel < (z + 1) * size[0] * size[1]; ++voxel)
@@ -228,7 +230,7 @@ AntiAliasMaskImageFilter::GenerateData()
   {
     this->Refine(Medium.sigma, Medium.corrections, Medium.gain, isMarked);
   }
-  this->FindThin(band, thin);
+  this->FindThin(border.Widened({ 2, 2, 2 }), thin);
   if (this->FindNarrow(thin, band, isMarked))
   {
     this->Refine(Fine.sigma, Fine.corrections, Fine.gain, isMarked);
@@ -270,7 +272,7 @@ AntiAliasMaskImageFilter::CheckAbortAt(SizeValueType n) const
 }
 
 VoxelBand
-AntiAliasMaskImageFilter::FindBand(double width)
+AntiAliasMaskImageFilter::FindBorder()
 {
   const SizeValueType length = m_Size[0];
   const SizeValueType height = m_Size[1];
@@ -306,8 +308,7 @@ AntiAliasMaskImageFilter::FindBand(double width)
       }
     }
   });
-  const auto reach = static_cast<SizeValueType>(std::ceil(width));
-  return border.Widened({ reach, reach, reach });
+  return border;
 }
 
 void
