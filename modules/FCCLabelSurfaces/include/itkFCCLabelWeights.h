@@ -18,7 +18,8 @@ namespace itk
  * edge of the lattice between different labels, for both labels. A weight that is not stored counts as +Limit for the
  * label of the site and as -Limit for others.
  *
- * Rows are those of an image of labels, counted from its first: j + k height. Memory: 12 bytes a weight, 24 a row.
+ * Rows are those of an image of labels, counted from its first: j + k height. Memory: 12 bytes a weight, 48 a row, and
+ * one for each of its sites.
  *
  * Thread safety: different rows can be filled at once.
  *
@@ -56,6 +57,7 @@ public:
   Swap(FCCLabelWeights & other)
   {
     m_Rows.swap(other.m_Rows);
+    m_Begins.swap(other.m_Begins);
   }
 
   /** Removes all weights. */
@@ -108,7 +110,10 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
+  static constexpr std::uint32_t SitesPerBegin = 4;
+
   std::vector<RowType> m_Rows;
+  std::vector<std::vector<std::uint32_t>> m_Begins; ///< of each row: the first entry of some sites, and the end
 };
 
 } // namespace itk

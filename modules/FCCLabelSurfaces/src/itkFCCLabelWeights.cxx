@@ -20,21 +20,39 @@ FCCLabelWeights::SetNumberOfRows(SizeValueType rows)
 {
   m_Rows.clear();
   m_Rows.resize(rows);
+  m_Begins.clear();
+  m_Begins.resize(rows);
 }
 
 void
 FCCLabelWeights::SortRow(SizeValueType row)
 {
-  std::sort(m_Rows[row].begin(), m_Rows[row].end(), IsBefore);
-  m_Rows[row].shrink_to_fit();
+  RowType & entries = m_Rows[row];
+  std::sort(entries.begin(), entries.end(), IsBefore);
+  entries.shrink_to_fit();
+  std::vector<std::uint32_t> & begins = m_Begins[row];
+  begins.clear();
+  for (std::uint32_t n = 0; n < entries.size(); ++n)
+  {
+    begins.resize(std::max<std::size_t>(begins.size(), entries[n].i / SitesPerBegin + 1), n);
+  }
+  begins.push_back(static_cast<std::uint32_t>(entries.size()));
 }
 
 const float *
 FCCLabelWeights::Find(SizeValueType row, std::uint32_t i, LabelType label) const
 {
-  const Entry sought{ i, label, 0.0f };
-  const auto found = std::lower_bound(m_Rows[row].begin(), m_Rows[row].end(), sought, IsBefore);
-  return found != m_Rows[row].end() && found->i == i && found->label == label ? &found->weight : nullptr;
+  const std::vector<std::uint32_t> & begins = m_Begins[row];
+  const std::uint32_t place = i / SitesPerBegin;
+  if (place + 1 >= begins.size())
+  {
+    return nullptr;
+  }
+  const auto end = m_Rows[row].begin() + begins[place + 1];
+  const auto found = std::find_if(m_Rows[row].begin() + begins[place], end, [&](const Entry & entry) {
+    return entry.i == i && entry.label == label;
+  });
+  return found != end ? &found->weight : nullptr;
 }
 
 SizeValueType
@@ -53,6 +71,7 @@ FCCLabelWeights::Initialize()
 {
   Superclass::Initialize();
   std::vector<RowType>().swap(m_Rows);
+  m_Begins.clear();
 }
 
 void
