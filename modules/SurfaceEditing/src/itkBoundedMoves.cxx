@@ -2,6 +2,8 @@
 
 #include "itkForEachBlock.h"
 
+#include <algorithm>
+
 namespace itk
 {
 namespace
@@ -73,29 +75,36 @@ BoundedMoves::Step(const std::function<PointType(SizeValueType point)> & find)
   ForEachInBlocks(m_Next.size(), MovedBlock, [&](SizeValueType point) {
     m_Next[point] = LimitMove(m_Start[point], find(point), m_MaximumMove);
   });
-  while (this->PutBackBadMoves())
+  std::vector<std::uint8_t> isPutBack(m_Next.size(), 1); // in the last round; in the first, all are tested
+  while (this->PutBackBadMoves(isPutBack))
   {}
   m_Surface.GetPoints().swap(m_Next);
 }
 
-/** Puts the points of spoilt triangles back to where they were before the step. That may spoil other triangles: returns
- * whether any point was put back. */
+/** Puts the points of spoilt triangles back to where they were before the step. That may spoil other triangles at these
+ * points: tests those at points that were put back, and returns whether any other was. */
 bool
-BoundedMoves::PutBackBadMoves()
+BoundedMoves::PutBackBadMoves(std::vector<std::uint8_t> & isPutBack)
 {
   const auto & triangles = m_Surface.GetTriangles();
   std::vector<std::uint8_t> isSpoilt(triangles.size());
   ForEachInBlocks(triangles.size(), MovedBlock, [&](SizeValueType id) {
-    isSpoilt[id] = IsSpoilt(m_Start, m_Next, triangles[id]) ? 1 : 0;
+    const auto & [a, b, c] = triangles[id];
+    isSpoilt[id] = (isPutBack[a] | isPutBack[b] | isPutBack[c]) != 0 && IsSpoilt(m_Start, m_Next, triangles[id]);
   });
+  std::fill(isPutBack.begin(), isPutBack.end(), std::uint8_t{ 0 });
   bool isAnyPutBack = false;
   for (std::size_t id = 0; id < triangles.size(); ++id)
   {
     for (unsigned int corner = 0; isSpoilt[id] && corner < 3; ++corner)
     {
       const std::uint32_t point = triangles[id][corner];
-      isAnyPutBack = isAnyPutBack || m_Next[point] != m_Surface.GetPoints()[point];
-      m_Next[point] = m_Surface.GetPoints()[point];
+      if (m_Next[point] != m_Surface.GetPoints()[point])
+      {
+        m_Next[point] = m_Surface.GetPoints()[point];
+        isPutBack[point] = 1;
+        isAnyPutBack = true;
+      }
     }
   }
   return isAnyPutBack;

@@ -38,7 +38,7 @@ public:
 
 private:
   bool
-  PutBackBadMoves();
+  PutBackBadMoves(std::vector<std::uint8_t> & isPutBack);
 
   TriangleSurface & m_Surface;
   const double m_MaximumMove;
