@@ -130,6 +130,15 @@ TEST(LabelWallsEditing, SmoothLabelsKeepTheirVolumes)
   }
 }
 
+TEST(LabelWallsEditing, LabelsTakeTheVolumesAsked)
+{
+  const auto image = MakeBlobs(Region(0, 14, 28, 28), 3, 4);
+  const auto walls = MakeWalls(image);
+  std::vector<double> volumes{ 0.0, 0.0, 1.02 * walls->ComputeMeasures()[2].volume };
+  RelaxWalls(*walls, MovesUpTo(0.5), volumes);
+  EXPECT_NEAR(walls->ComputeMeasures()[2].volume, volumes[2], 0.003 * volumes[2]);
+}
+
 TEST(LabelWallsEditing, SmoothBlobsLoseMostTriangles)
 {
   const auto image = MakeBlobs(Region(0, 14, 28, 28), 1, 4);

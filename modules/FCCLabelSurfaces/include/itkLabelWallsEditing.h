@@ -10,14 +10,20 @@ namespace itk
 
 /** Smooths walls as SmoothSurface() does, and keeps the volume of each label. Points of a wall move towards the mean of
  * their neighbours, points of the curves where walls meet along their curve; where curves meet, points stay. Then walls
- * move along their normals until each label has its volume again.
+ * move along their normals until each label has its volume again, or the one that
+ * \a volumes has for it.
  *
  * No point moves farther than maximumMove; where triangles would cross, points stay at their start. So the walls of
  * each label stay a closed, oriented manifold without crossings, if they were. Labels of which all points are as far as
  * they may go can have another volume. Throws ExceptionObject if maximumMove is negative or not finite. The same bytes
- * for any number of threads. */
+ * for any number of threads.
+ *
+ * \param volumes by label in mm^3, such as LabelsToFCCFilter::GetVoxelVolumes(); labels without one, or with 0, keep
+ * theirs */
 TriangleSurfaceSmoothingReport
-RelaxWalls(LabelWalls & walls, const TriangleSurfaceSmoothingSettings & settings);
+RelaxWalls(LabelWalls & walls,
+           const TriangleSurfaceSmoothingSettings & settings,
+           const std::vector<double> & volumes = {});
 
 /** Reduces the number of triangles of walls, as SimplifySurface() does, once for both labels of each wall: labels still
  * share their walls, without gaps and overlaps.

@@ -69,12 +69,16 @@ PutBackCrossing(LabelWalls & walls, const LabelWalls::PointsContainer & start)
 } // namespace
 
 TriangleSurfaceSmoothingReport
-RelaxWalls(LabelWalls & walls, const TriangleSurfaceSmoothingSettings & settings)
+RelaxWalls(LabelWalls & walls, const TriangleSurfaceSmoothingSettings & settings, const std::vector<double> & volumes)
 {
-  const auto measures = walls.ComputeMeasures();
+  auto wanted = walls.ComputeMeasures();
+  for (std::size_t label = 1; label < std::min(wanted.size(), volumes.size()); ++label)
+  {
+    wanted[label].volume = volumes[label] > 0.0 ? volumes[label] : wanted[label].volume;
+  }
   BoundedMoves moves(walls, settings.maximumMove);
   const TriangleSurfaceSmoothingReport report = SmoothSurface(walls, settings);
-  RestoreVolumes(walls, measures, moves);
+  RestoreVolumes(walls, wanted, moves);
   PutBackCrossing(walls, moves.GetStart());
   walls.Modified();
   return report;

@@ -672,7 +672,14 @@ LabelsToFCCFilter::GenerateData()
     progress.Completed(1);
   }
   ForEachRow(region, [&](const Index<3> & first, SizeValueType) { weights.SortRow(GetRowNumber(first, region)); });
-  KeepVolumes(ComputeVoxelVolumes(image, origins), map.GetVoxelEdge(), labels, weights);
+  const NumberByLabel volumes = ComputeVoxelVolumes(image, origins);
+  KeepVolumes(volumes, map.GetVoxelEdge(), labels, weights);
+  m_VoxelVolumes.clear();
+  for (const auto & [label, volume] : volumes)
+  {
+    m_VoxelVolumes.resize(label + std::size_t{ 1 }, 0.0);
+    m_VoxelVolumes[label] = volume;
+  }
   this->GetOutput()->Graft(lattice);
   this->GetWeights()->Swap(weights);
   progress.Finish();
