@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <cstdio>
@@ -24,10 +25,12 @@
 #include <functional>
 #include <map>
 #include <random>
+#include <string>
 #include <vector>
 
 /** rhombic-label-walls: walls of eight touching balls against the truth, beside other surfaces of labels.
- * rhombic-label-walls MAP: times, largest errors of volumes and flaws of the walls of a label map. */
+ * rhombic-label-walls MAP: times, largest errors of volumes and flaws of the walls of a label map.
+ * rhombic-label-walls MAP cut (or relaxed): the same up to that step. */
 namespace
 {
 
@@ -451,7 +454,7 @@ MeasureVTK(const std::vector<std::vector<Ball>> & scenes, double slices)
 
 /** Prints the time of each step, and the volumes of labels of some sizes after it. */
 void
-MeasureMap(const char * path)
+MeasureMap(const char * path, const std::string & last)
 {
   const auto reader = itk::LabelMapFileReader<LabelImage>::New();
   reader->SetFileName(path);
@@ -465,8 +468,10 @@ MeasureMap(const char * path)
     truth[map->GetBufferPointer()[n]] += voxel;
   }
   std::clock_t start = std::clock();
+  auto startOfWall = std::chrono::steady_clock::now();
   const auto report = [&](const char * step, const itk::LabelWalls & walls) {
     const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - startOfWall;
     double large = 0.0;
     double small = 0.0;
     double sum = 0.0;
@@ -483,9 +488,10 @@ MeasureMap(const char * path)
       sumTruth += truth[label];
       flaws += itk::ComputeTopology(*surface).IsWatertight() ? 0 : 1;
     }
-    std::printf("%-20s %8.2f %10zu %9.2f %9.2f %9.3f %6zu\n",
+    std::printf("%-20s %8.2f %8.2f %10zu %9.2f %9.2f %9.3f %6zu\n",
                 step,
                 seconds,
+                wall.count(),
                 static_cast<std::size_t>(walls.GetNumberOfTriangles()),
                 large,
                 small,
@@ -493,8 +499,9 @@ MeasureMap(const char * path)
                 flaws);
     std::fflush(stdout);
     start = std::clock();
+    startOfWall = std::chrono::steady_clock::now();
   };
-  std::printf("step                      cpu  triangles   >1 ml %%   <1 ml %%     sum %%  flaws\n");
+  std::printf("step                      cpu     wall  triangles   >1 ml %%   <1 ml %%     sum %%  flaws\n");
   const auto toLattice = itk::LabelsToFCCFilter::New();
   toLattice->SetInput(map);
   toLattice->Update();
@@ -505,11 +512,19 @@ MeasureMap(const char * path)
   filter->Update();
   itk::LabelWalls & walls = *filter->GetOutput();
   report("walls", walls);
+  if (last == "cut")
+  {
+    return;
+  }
   const double shortest = std::min({ spacing[0], spacing[1], spacing[2] });
   itk::TriangleSurfaceSmoothingSettings smoothing;
   smoothing.maximumMove = 0.5 * shortest;
-  itk::RelaxWalls(walls, smoothing);
+  itk::RelaxWalls(walls, smoothing, toLattice->GetVoxelVolumes());
   report("relaxed", walls);
+  if (last == "relaxed")
+  {
+    return;
+  }
   itk::TriangleSurfaceSimplificationSettings simplification;
   simplification.maximumError = 0.1 * shortest;
   itk::SimplifyWalls(walls, simplification);
@@ -524,7 +539,7 @@ try
 {
   if (argc > 1)
   {
-    MeasureMap(argv[1]);
+    MeasureMap(argv[1], argc > 2 ? argv[2] : "");
     return 0;
   }
   std::vector<std::vector<Ball>> scenes;
