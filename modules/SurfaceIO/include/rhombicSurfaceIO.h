@@ -54,7 +54,10 @@ SurfaceAsStored(const itk::TriangleSurface & surface, const std::filesystem::pat
  * - `.stl`: binary STL; one surface without normals, three points per triangle
  * - `.ply`: binary PLY; shared points, normals, a colour per point; comments describe the surfaces
  * - `.obj`: Wavefront OBJ; an object, group and material per surface; colours and opacities in a second file, `.mtl`
- * - `.vtp`: VTK's XML; a colour and the surface's number per triangle; names, colours and opacities as field data
+ * - `.vtp`: VTK's XML; a colour and the surface's number per triangle; names, colours and opacities as field data. If
+ *   all surfaces are of labels, their walls, each once and without normals, with two labels per triangle in the cell
+ *   array BoundaryLabels as vtkSurfaceNets3D orders them: the smaller first, 0 for outside last. Triangles are
+ *   counter-clockwise seen from outside of the first
  * - `.glb`: binary glTF 2.0; a node, mesh and material per surface; the matrix of a root node converts millimetres and
  *   the patient's axes to glTF's metres with y up
  *
@@ -91,9 +94,10 @@ struct VTPReading
  * text. Coordinates of files that declare RAS are converted. The transforms of a GLB's nodes are applied, and its
  * metres and y-up undone; numbers in other formats are taken for millimetres.
  *
- * Equal points of an STL file become one point; polygons become fans of triangles; points of no triangle are kept,
- * except in OBJ. A surface without a name gets the file's stem, one without colour or opacity the defaults. A surface
- * has no normals if one of its points has several. Textures, lines, animations and the like are ignored.
+ * VTP files with the cell array BoundaryLabels give the closed surface of each label. Equal points of an STL file
+ * become one point; polygons become fans of triangles; points of no triangle are kept, except in OBJ. A surface without
+ * a name gets the file's stem, one without colour or opacity the defaults. A surface has no normals if one of its
+ * points has several. Textures, lines, animations and the like are ignored.
  *
  * Throws Failure(NotFound), Failure(Usage) for another extension, Failure(Unreadable) for damaged files, files without
  * triangles and unsupported parts of the formats, and Failure(Memory) before it needs more than half of the free

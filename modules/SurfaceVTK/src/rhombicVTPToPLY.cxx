@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
@@ -19,7 +20,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace rhombic
@@ -96,36 +100,75 @@ FindField(vtkPolyData & polyData, const char * name, int components, vtkIdType c
   return fits ? array : nullptr;
 }
 
-/** Comments of a PLY file, as WritePLY() makes them, from the fields that WriteVTP() writes. */
+/** Names, colours and opacities of surfaces, from the fields that WriteVTP() writes. */
+class SurfaceFields
+{
+public:
+  explicit SurfaceFields(vtkPolyData & polyData)
+    : m_Names(vtkStringArray::SafeDownCast(polyData.GetFieldData()->GetAbstractArray("SurfaceNames")))
+    , m_Count(m_Names == nullptr ? 0 : m_Names->GetNumberOfValues())
+    , m_Colours(FindField(polyData, "SurfaceColours", 3, m_Count))
+    , m_Opacities(FindField(polyData, "SurfaceOpacities", 1, m_Count))
+  {}
+
+  /** The number of surfaces; 0 if the fields are not there. */
+  vtkIdType
+  GetCount() const
+  {
+    return m_Colours != nullptr && m_Opacities != nullptr ? m_Count : 0;
+  }
+
+  /** A comment of a PLY file, as WritePLY() makes it. */
+  std::string
+  Describe(vtkIdType surface, double points, double triangles) const
+  {
+    return DescribeSurface(
+      m_Names->GetValue(surface),
+      { m_Colours->GetComponent(surface, 0), m_Colours->GetComponent(surface, 1), m_Colours->GetComponent(surface, 2) },
+      m_Opacities->GetComponent(surface, 0),
+      points,
+      triangles);
+  }
+
+  static std::string
+  DescribeSurface(const std::string & name,
+                  const std::array<double, 3> & colour,
+                  double opacity,
+                  double points,
+                  double triangles)
+  {
+    const nlohmann::json description{
+      { "name", name }, { "colour", colour }, { "opacity", opacity }, { "points", points }, { "triangles", triangles }
+    };
+    return "comment SURFACE " + description.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
+  }
+
+private:
+  vtkStringArray * m_Names;
+  vtkIdType m_Count;
+  vtkDataArray * m_Colours;
+  vtkDataArray * m_Opacities;
+};
+
+/** "comment SPACE=RAS" if the file says so. */
+std::string
+DescribeSpace(vtkPolyData & polyData)
+{
+  auto * const space = vtkStringArray::SafeDownCast(polyData.GetFieldData()->GetAbstractArray("SPACE"));
+  const bool isRAS = space != nullptr && space->GetNumberOfValues() > 0 && space->GetValue(0) == "RAS";
+  return isRAS ? "comment SPACE=RAS\n" : "";
+}
+
+/** Descriptions of the surfaces, which follow each other in the file. */
 std::string
 DescribeSurfaces(vtkPolyData & polyData)
 {
-  const auto findStrings = [&polyData](const char * name) {
-    return vtkStringArray::SafeDownCast(polyData.GetFieldData()->GetAbstractArray(name));
-  };
-  vtkStringArray * const space = findStrings("SPACE");
-  const bool isRAS = space != nullptr && space->GetNumberOfValues() > 0 && space->GetValue(0) == "RAS";
-  std::string comments = isRAS ? "comment SPACE=RAS\n" : "";
-  vtkStringArray * const names = findStrings("SurfaceNames");
-  const vtkIdType count = names == nullptr ? 0 : names->GetNumberOfValues();
-  vtkDataArray * const colours = FindField(polyData, "SurfaceColours", 3, count);
-  vtkDataArray * const opacities = FindField(polyData, "SurfaceOpacities", 1, count);
-  vtkDataArray * const sizes = FindField(polyData, "SurfaceSizes", 2, count);
-  if (colours == nullptr || opacities == nullptr || sizes == nullptr)
+  const SurfaceFields fields(polyData);
+  vtkDataArray * const sizes = FindField(polyData, "SurfaceSizes", 2, fields.GetCount());
+  std::string comments;
+  for (vtkIdType n = 0; sizes != nullptr && n < fields.GetCount(); ++n)
   {
-    return comments;
-  }
-  for (vtkIdType n = 0; n < count; ++n)
-  {
-    const std::array<double, 3> colour{ colours->GetComponent(n, 0),
-                                        colours->GetComponent(n, 1),
-                                        colours->GetComponent(n, 2) };
-    const nlohmann::json description{ { "name", static_cast<const std::string &>(names->GetValue(n)) },
-                                      { "colour", colour },
-                                      { "opacity", opacities->GetComponent(n, 0) },
-                                      { "points", sizes->GetComponent(n, 0) },
-                                      { "triangles", sizes->GetComponent(n, 1) } };
-    comments += "comment SURFACE " + description.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
+    comments += fields.Describe(n, sizes->GetComponent(n, 0), sizes->GetComponent(n, 1));
   }
   return comments;
 }
@@ -166,6 +209,14 @@ private:
   std::size_t m_Left;
 };
 
+std::array<float, 3>
+GetFloats(vtkDataArray & vectors, vtkIdType n)
+{
+  std::array<double, 3> vector{};
+  vectors.GetTuple(n, vector.data());
+  return { static_cast<float>(vector[0]), static_cast<float>(vector[1]), static_cast<float>(vector[2]) };
+}
+
 void
 AppendPoints(vtkPolyData & polyData, vtkDataArray * normals, LimitedBytes & ply)
 {
@@ -175,31 +226,132 @@ AppendPoints(vtkPolyData & polyData, vtkDataArray * normals, LimitedBytes & ply)
     {
       if (vectors != nullptr)
       {
-        std::array<double, 3> vector{};
-        vectors->GetTuple(n, vector.data());
-        const std::array<float, 3> floats{ static_cast<float>(vector[0]),
-                                           static_cast<float>(vector[1]),
-                                           static_cast<float>(vector[2]) };
+        const auto floats = GetFloats(*vectors, n);
         ply.Append(floats.data(), sizeof(floats));
       }
     }
   }
 }
 
-/** Appends the polygons: the number of corners, then their points. */
+/** The number of corners, then their points. */
+using Polygon = std::vector<std::uint32_t>;
+
+void
+GetPolygon(vtkCellArray & polygons, vtkIdType n, vtkIdList * corners, Polygon & polygon)
+{
+  polygons.GetCellAtId(n, corners);
+  polygon.assign(1, static_cast<std::uint32_t>(corners->GetNumberOfIds()));
+  std::transform(corners->begin(), corners->end(), std::back_inserter(polygon), [](vtkIdType corner) {
+    return corner >= 0 && corner < UINT32_MAX ? static_cast<std::uint32_t>(corner) : UINT32_MAX;
+  });
+}
+
 void
 AppendPolygons(vtkCellArray & polygons, LimitedBytes & ply)
 {
   vtkNew<vtkIdList> corners;
-  std::vector<std::uint32_t> numbers;
+  Polygon polygon;
   for (vtkIdType n = 0; n < polygons.GetNumberOfCells(); ++n)
   {
-    polygons.GetCellAtId(n, corners);
-    numbers.assign(1, static_cast<std::uint32_t>(corners->GetNumberOfIds()));
-    std::transform(corners->begin(), corners->end(), std::back_inserter(numbers), [](vtkIdType corner) {
-      return corner >= 0 && corner < UINT32_MAX ? static_cast<std::uint32_t>(corner) : UINT32_MAX;
-    });
-    ply.Append(numbers.data(), numbers.size() * sizeof(std::uint32_t));
+    GetPolygon(polygons, n, corners, polygon);
+    ply.Append(polygon.data(), polygon.size() * sizeof(std::uint32_t));
+  }
+}
+
+std::string
+MakeHeader(const std::string & comments, std::size_t points, bool haveNormals, std::size_t polygons)
+{
+  return "ply\nformat binary_little_endian 1.0\n" + comments + "element vertex " + std::to_string(points) +
+         "\nproperty float x\nproperty float y\nproperty float z\n" +
+         (haveNormals ? "property float nx\nproperty float ny\nproperty float nz\n" : "") + "element face " +
+         std::to_string(polygons) + "\nproperty list uint uint vertex_indices\nend_header\n";
+}
+
+/** The two labels of each polygon, as vtkSurfaceNets3D makes them, after those of points and lines; or null. */
+vtkDataArray *
+FindBoundaryLabels(vtkPolyData & polyData)
+{
+  vtkDataArray * const labels = polyData.GetCellData()->GetArray("BoundaryLabels");
+  const bool fits = labels != nullptr && labels->GetNumberOfComponents() == 2 &&
+                    labels->GetNumberOfTuples() == polyData.GetNumberOfCells();
+  return fits ? labels : nullptr;
+}
+
+/** The closed surface of each label but 0, which is outside, as parts of one PLY file. Walls are counter-clockwise seen
+ * from outside of their first label, and in the surface of the second turned over. */
+void
+AppendLabels(vtkPolyData & polyData, vtkDataArray & boundaryLabels, LimitedBytes & ply)
+{
+  const vtkIdType first = polyData.GetNumberOfVerts() + polyData.GetNumberOfLines();
+  std::map<double, std::vector<std::pair<vtkIdType, bool>>> walls; // of each label; whether they are turned over
+  for (vtkIdType n = 0; n < polyData.GetNumberOfPolys(); ++n)
+  {
+    for (const int side : { 0, 1 })
+    {
+      const double label = boundaryLabels.GetComponent(first + n, side);
+      if (label != 0.0 && !std::isnan(label))
+      {
+        walls[label].emplace_back(n, side == 1);
+      }
+    }
+  }
+  const SurfaceFields fields(polyData);
+  vtkDataArray * const values = FindField(polyData, "SurfaceLabels", 1, fields.GetCount());
+  std::string comments = DescribeSpace(polyData);
+  std::vector<vtkIdType> points;
+  std::vector<Polygon> polygons;
+  std::vector<std::uint32_t> numbers(static_cast<std::size_t>(polyData.GetNumberOfPoints()));
+  vtkNew<vtkIdList> corners;
+  Polygon polygon;
+  for (const auto & [label, parts] : walls)
+  {
+    const std::size_t firstPoint = points.size();
+    for (const auto & [wall, isTurned] : parts)
+    {
+      GetPolygon(*polyData.GetPolys(), wall, corners, polygon);
+      for (auto corner = polygon.begin() + 1; corner != polygon.end(); ++corner)
+      {
+        if (*corner >= numbers.size())
+        {
+          *corner = UINT32_MAX; // refused by the reader of PLY
+          continue;
+        }
+        std::uint32_t & number = numbers[*corner];
+        if (number < firstPoint || number >= points.size() || points[number] != static_cast<vtkIdType>(*corner))
+        {
+          number = static_cast<std::uint32_t>(points.size());
+          points.push_back(*corner);
+        }
+        *corner = number;
+      }
+      if (isTurned)
+      {
+        std::reverse(polygon.begin() + 1, polygon.end());
+      }
+      polygons.push_back(polygon);
+    }
+    vtkIdType surface = 0;
+    while (values != nullptr && surface < fields.GetCount() && values->GetComponent(surface, 0) != label)
+    {
+      ++surface;
+    }
+    const auto pointCount = static_cast<double>(points.size() - firstPoint);
+    const auto triangles = static_cast<double>(parts.size());
+    const std::string name = "label " + std::to_string(std::lround(label));
+    comments += values != nullptr && surface < fields.GetCount()
+                  ? fields.Describe(surface, pointCount, triangles)
+                  : SurfaceFields::DescribeSurface(name, { 204.0, 204.0, 204.0 }, 1.0, pointCount, triangles);
+  }
+  const std::string header = MakeHeader(comments, points.size(), false, polygons.size());
+  ply.Append(header.data(), header.size());
+  for (const vtkIdType point : points)
+  {
+    const auto floats = GetFloats(*polyData.GetPoints()->GetData(), point);
+    ply.Append(floats.data(), sizeof(floats));
+  }
+  for (const Polygon & numbered : polygons)
+  {
+    ply.Append(numbered.data(), numbered.size() * sizeof(std::uint32_t));
   }
 }
 
@@ -209,18 +361,22 @@ std::size_t
 ConvertVTPToPLY(const fs::path & path, std::byte * bytes, std::size_t size)
 {
   const vtkSmartPointer<vtkPolyData> polyData = ReadPolyData(path);
+  LimitedBytes ply(path, bytes, size);
+  if (vtkDataArray * const labels = FindBoundaryLabels(*polyData))
+  {
+    AppendLabels(*polyData, *labels, ply);
+    return size - ply.GetLeft();
+  }
   vtkDataArray * normals = polyData->GetPointData()->GetNormals();
   if (normals != nullptr &&
       (normals->GetNumberOfComponents() != 3 || normals->GetNumberOfTuples() != polyData->GetNumberOfPoints()))
   {
     normals = nullptr;
   }
-  const std::string header =
-    "ply\nformat binary_little_endian 1.0\n" + DescribeSurfaces(*polyData) + "element vertex " +
-    std::to_string(polyData->GetNumberOfPoints()) + "\nproperty float x\nproperty float y\nproperty float z\n" +
-    (normals == nullptr ? "" : "property float nx\nproperty float ny\nproperty float nz\n") + "element face " +
-    std::to_string(polyData->GetNumberOfPolys()) + "\nproperty list uint uint vertex_indices\nend_header\n";
-  LimitedBytes ply(path, bytes, size);
+  const std::string header = MakeHeader(DescribeSpace(*polyData) + DescribeSurfaces(*polyData),
+                                        static_cast<std::size_t>(polyData->GetNumberOfPoints()),
+                                        normals != nullptr,
+                                        static_cast<std::size_t>(polyData->GetNumberOfPolys()));
   ply.Append(header.data(), header.size());
   AppendPoints(*polyData, normals, ply);
   AppendPolygons(*polyData->GetPolys(), ply);

@@ -1,9 +1,11 @@
 #include "rhombicFileColours.h"
 #include "rhombicFileSpace.h"
+#include "rhombicJoinedSurfaces.h"
 #include "rhombicSurfaceFormats.h"
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <limits>
 
 namespace rhombic
@@ -19,7 +21,8 @@ struct AppendedArray
 };
 
 /** \class VTPWriter
- * \brief Writes one piece with all surfaces, with the arrays as raw appended data.
+ * \brief Writes one piece with all surfaces, with the arrays as raw appended data. If all are of labels, they are
+ * joined.
  *
  * Format: VTK File Formats, "XML File Formats", docs.vtk.org. VTK's own writer would need a merged copy of the
  * surfaces, and reports success on a full disk. */
@@ -30,11 +33,22 @@ public:
     : m_Surfaces(surfaces)
     , m_Space(space)
   {
-    for (const SceneSurface & scene : surfaces)
+    if (std::all_of(surfaces.begin(), surfaces.end(), [](const SceneSurface & scene) { return scene.label != 0; }))
     {
-      m_Points += scene.surface->GetNumberOfPoints();
-      m_Triangles += scene.surface->GetNumberOfTriangles();
-      m_HaveNormals = m_HaveNormals && scene.surface->HasNormals();
+      m_Joined = JoinSurfaces(surfaces);
+      m_Meshes.push_back(m_Joined.surface);
+    }
+    else
+    {
+      std::transform(surfaces.begin(), surfaces.end(), std::back_inserter(m_Meshes), [](const SceneSurface & scene) {
+        return scene.surface;
+      });
+    }
+    for (const auto & mesh : m_Meshes)
+    {
+      m_Points += mesh->GetNumberOfPoints();
+      m_Triangles += mesh->GetNumberOfTriangles();
+      m_HaveNormals = m_HaveNormals && mesh->HasNormals();
     }
   }
 
@@ -119,6 +133,13 @@ private:
     this->AddTuples(xml, "SurfaceOpacities", "Float64", [](const SceneSurface & scene) {
       return std::array<double, 1>{ scene.opacity };
     });
+    if (m_Joined.surface)
+    {
+      this->AddTuples(xml, "SurfaceLabels", "Int32", [](const SceneSurface & scene) {
+        return std::array<std::int32_t, 1>{ scene.label };
+      });
+      return;
+    }
     this->AddTuples(xml, "SurfaceSizes", "UInt64", [](const SceneSurface & scene) {
       return std::array<std::uint64_t, 2>{ scene.surface->GetNumberOfPoints(), scene.surface->GetNumberOfTriangles() };
     });
@@ -131,12 +152,12 @@ private:
     {
       xml += "<PointData Normals=\"Normals\">\n";
       this->AddVectors(
-        xml, "Normals", [](const SceneSurface & scene) -> auto & { return scene.surface->GetNormals(); });
+        xml, "Normals", [](const itk::TriangleSurface & mesh) -> auto & { return mesh.GetNormals(); });
       xml += "</PointData>\n";
     }
     xml += "<Points>\n";
     this->AddVectors(
-      xml, "Points", [](const SceneSurface & scene) -> auto & { return scene.surface->GetPoints(); });
+      xml, "Points", [](const itk::TriangleSurface & mesh) -> auto & { return mesh.GetPoints(); });
     xml += "</Points>\n";
   }
 
@@ -148,9 +169,9 @@ private:
               "<DataArray type=\"Float32\" Name=\"" + name + "\" NumberOfComponents=\"3\"",
               sizeof(itk::TriangleSurface::PointType) * m_Points,
               [this, getVectors](OutputFile & file) {
-                for (const SceneSurface & scene : m_Surfaces)
+                for (const auto & mesh : m_Meshes)
                 {
-                  for (const auto & vector : getVectors(scene))
+                  for (const auto & vector : getVectors(*mesh))
                   {
                     file.AppendBinary(Turned(vector, m_Space));
                   }
@@ -166,14 +187,14 @@ private:
     xml += "<Polys>\n";
     this->Add(xml, element + "\"connectivity\"", 3 * sizeof(TIndex) * m_Triangles, [this](OutputFile & file) {
       TIndex first = 0;
-      for (const SceneSurface & scene : m_Surfaces)
+      for (const auto & mesh : m_Meshes)
       {
-        for (const auto & [a, b, c] : scene.surface->GetTriangles())
+        for (const auto & [a, b, c] : mesh->GetTriangles())
         {
           file.AppendBinary(std::array<TIndex, 3>{
             static_cast<TIndex>(first + a), static_cast<TIndex>(first + b), static_cast<TIndex>(first + c) });
         }
-        first += static_cast<TIndex>(scene.surface->GetNumberOfPoints());
+        first += static_cast<TIndex>(mesh->GetNumberOfPoints());
       }
     });
     this->Add(xml, element + "\"offsets\"", sizeof(TIndex) * m_Triangles, [this](OutputFile & file) {
@@ -185,16 +206,21 @@ private:
     xml += "</Polys>\n";
   }
 
-  /** Adds an array with a value for each triangle, the same for all triangles of a surface. */
+  /** Adds an array with a value for each triangle, got from the two surfaces at it, which are counted from 1. */
   template <typename TGetValue>
   void
   AddCellValues(std::string & xml, const std::string & element, const TGetValue & getValue)
   {
-    this->Add(xml, element, sizeof(getValue(std::size_t{})) * m_Triangles, [this, getValue](OutputFile & file) {
-      for (std::size_t surface = 0; surface < m_Surfaces.size(); ++surface)
+    using Sides = std::array<std::uint32_t, 2>;
+    this->Add(xml, element, sizeof(getValue(Sides())) * m_Triangles, [this, getValue](OutputFile & file) {
+      for (const Sides & sides : m_Joined.sides)
       {
-        const auto value = getValue(surface);
-        for (itk::SizeValueType n = 0; n < m_Surfaces[surface].surface->GetNumberOfTriangles(); ++n)
+        file.AppendBinary(getValue(sides));
+      }
+      for (std::uint32_t surface = 1; !m_Joined.surface && surface <= m_Surfaces.size(); ++surface)
+      {
+        const auto value = getValue(Sides{ surface, 0 });
+        for (itk::SizeValueType n = 0; n < m_Surfaces[surface - 1].surface->GetNumberOfTriangles(); ++n)
         {
           file.AppendBinary(value);
         }
@@ -207,17 +233,30 @@ private:
   {
     xml += "<CellData Scalars=\"Colours\">\n";
     this->AddCellValues(
-      xml, "<DataArray type=\"UInt8\" Name=\"Colours\" NumberOfComponents=\"4\"", [this](std::size_t surface) {
-        const auto colour = ToBytes(m_Surfaces[surface].colour);
-        return std::array<std::uint8_t, 4>{ colour[0], colour[1], colour[2], ToByte(m_Surfaces[surface].opacity) };
+      xml, "<DataArray type=\"UInt8\" Name=\"Colours\" NumberOfComponents=\"4\"", [this](const auto & sides) {
+        const SceneSurface & scene = m_Surfaces[sides[0] - 1];
+        const auto colour = ToBytes(scene.colour);
+        return std::array<std::uint8_t, 4>{ colour[0], colour[1], colour[2], ToByte(scene.opacity) };
       });
-    this->AddCellValues(xml, "<DataArray type=\"UInt32\" Name=\"SurfaceNumbers\"", [](std::size_t surface) {
-      return static_cast<std::uint32_t>(surface);
-    });
+    if (m_Joined.surface)
+    {
+      this->AddCellValues(
+        xml, "<DataArray type=\"Int32\" Name=\"BoundaryLabels\" NumberOfComponents=\"2\"", [this](const auto & sides) {
+          return std::array<std::int32_t, 2>{ m_Surfaces[sides[0] - 1].label,
+                                              sides[1] == 0 ? 0 : m_Surfaces[sides[1] - 1].label };
+        });
+    }
+    else
+    {
+      this->AddCellValues(
+        xml, "<DataArray type=\"UInt32\" Name=\"SurfaceNumbers\"", [](const auto & sides) { return sides[0] - 1; });
+    }
     xml += "</CellData>\n";
   }
 
   const std::vector<SceneSurface> & m_Surfaces;
+  JoinedSurfaces m_Joined; ///< null if a surface is of no label
+  std::vector<itk::TriangleSurface::ConstPointer> m_Meshes;
   SurfaceFileSpace m_Space;
   std::uint64_t m_Points = 0;
   std::uint64_t m_Triangles = 0;

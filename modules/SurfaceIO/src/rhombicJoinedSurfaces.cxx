@@ -1,0 +1,97 @@
+#include "rhombicJoinedSurfaces.h"
+
+#include "rhombicPointWelder.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace rhombic
+{
+namespace
+{
+
+/** A triangle of one of the surfaces. */
+struct Face
+{
+  itk::TriangleSurface::TriangleType points; ///< ascending
+  bool isEven;                               ///< whether ascending points go round as those of the triangle
+  std::uint32_t number;                      ///< among the triangles of all surfaces
+};
+
+Face
+MakeFace(itk::TriangleSurface::TriangleType points, std::uint32_t number)
+{
+  bool isEven = true;
+  for (const auto & [a, b] : { std::pair{ 0, 1 }, std::pair{ 1, 2 }, std::pair{ 0, 1 } })
+  {
+    if (points[a] > points[b])
+    {
+      std::swap(points[a], points[b]);
+      isEven = !isEven;
+    }
+  }
+  return { points, isEven, number };
+}
+
+/** For each triangle the one that it is turned over, or its own number. */
+std::vector<std::uint32_t>
+FindOpposites(std::vector<Face> faces)
+{
+  std::vector<std::uint32_t> opposites(faces.size());
+  std::sort(faces.begin(), faces.end(), [](const Face & a, const Face & b) {
+    return std::tie(a.points, a.number) < std::tie(b.points, b.number);
+  });
+  for (auto begin = faces.begin(); begin != faces.end();)
+  {
+    const auto end = std::find_if(begin, faces.end(), [&](const Face & face) { return face.points != begin->points; });
+    const bool isPair = end - begin == 2 && begin->isEven != (begin + 1)->isEven;
+    opposites[begin->number] = isPair ? (begin + 1)->number : begin->number;
+    for (auto face = begin + 1; face != end; ++face)
+    {
+      opposites[face->number] = isPair ? begin->number : face->number;
+    }
+    begin = end;
+  }
+  return opposites;
+}
+
+} // namespace
+
+JoinedSurfaces
+JoinSurfaces(const std::vector<SceneSurface> & surfaces)
+{
+  JoinedSurfaces joined;
+  joined.surface = itk::TriangleSurface::New();
+  PointWelder welder(joined.surface->GetPoints());
+  itk::TriangleSurface::TrianglesContainer triangles;
+  std::vector<Face> faces;
+  std::vector<std::uint32_t> surfaceOf;
+  for (std::size_t n = 0; n < surfaces.size(); ++n)
+  {
+    const itk::TriangleSurface & surface = *surfaces[n].surface;
+    std::vector<std::uint32_t> numbers;
+    for (const auto & point : surface.GetPoints())
+    {
+      numbers.push_back(welder.Add(point));
+    }
+    for (const auto & [a, b, c] : surface.GetTriangles())
+    {
+      triangles.push_back({ numbers[a], numbers[b], numbers[c] });
+      faces.push_back(MakeFace(triangles.back(), static_cast<std::uint32_t>(faces.size())));
+      surfaceOf.push_back(static_cast<std::uint32_t>(n + 1));
+    }
+  }
+  const std::vector<std::uint32_t> opposites = FindOpposites(std::move(faces));
+  for (std::uint32_t n = 0; n < triangles.size(); ++n)
+  {
+    if (opposites[n] >= n)
+    {
+      joined.surface->GetTriangles().push_back(triangles[n]);
+      joined.sides.push_back({ surfaceOf[n], opposites[n] == n ? 0 : surfaceOf[opposites[n]] });
+    }
+  }
+  return joined;
+}
+
+} // namespace rhombic
