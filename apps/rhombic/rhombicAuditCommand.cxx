@@ -2,6 +2,8 @@
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
 #include "rhombicSurfaceIO.h"
+#include "rhombicWallAudit.h"
+#include "rhombicWording.h"
 
 #include <iostream>
 
@@ -12,56 +14,115 @@ namespace
 
 struct AuditOptions
 {
-  std::string file;
+  std::vector<std::string> files;
   bool isJson = false;
   bool requiresWatertight = false;
   std::size_t maximumTested = itk::TriangleSurfaceAuditSettings().maximumTestedTriangles;
 };
 
-void
-Audit(const AuditOptions & options, const CommandContext & context)
+/** \class Auditor
+ * \brief Audits surfaces, and prints or collects the results. */
+class Auditor
 {
-  if (options.file.empty())
+public:
+  Auditor(const AuditOptions & options, const CommandContext & context)
+    : m_Options(options)
+    , m_Context(context)
+    , m_Events(context.console->MakeEvents())
   {
-    throw Failure(FailureKind::Usage, "No surface is named; name a file (" + GetSurfaceFileExtensions() + ").");
+    m_Settings.testsIntersections = options.maximumTested > 0;
+    m_Settings.maximumTestedTriangles = options.maximumTested;
   }
-  const Events events = context.console->MakeEvents();
-  events.Progress("reading", 0.0);
-  itk::TriangleSurfaceAuditSettings settings;
-  settings.testsIntersections = options.maximumTested > 0;
-  settings.maximumTestedTriangles = options.maximumTested;
-  Report report = Report::array();
-  std::string leaking;
-  for (const SceneSurface & surface : ReadSurfaces(options.file, { GetVTPConverter(), context.decoder }))
+
+  void
+  Run()
   {
-    events.Progress("auditing " + surface.name, 0.0);
-    const auto audit = AuditSurface(*surface.surface, settings);
-    report.push_back({ { "name", surface.name } });
-    report.back().update(ReportAudit(audit));
+    std::vector<SceneSurface> surfaces;
+    for (const std::string & file : m_Options.files)
+    {
+      m_Events.Progress("reading", 0.0);
+      for (const SceneSurface & surface : ReadSurfaces(file, { GetVTPConverter(), m_Context.decoder }))
+      {
+        this->AuditOne(surface);
+        surfaces.push_back(surface);
+      }
+    }
+    if (surfaces.size() > 1)
+    {
+      this->AuditTogether(surfaces);
+    }
+    m_Context.console->Finish();
+    if (m_Options.isJson)
+    {
+      std::cout << ToJson(m_Report) << '\n';
+    }
+    if (m_Options.requiresWatertight && !m_Leaking.empty())
+    {
+      throw Failure(FailureKind::NotWatertight,
+                    Enumerate(m_Options.files, "and") + (m_Options.files.size() > 1 ? " are" : " is") +
+                      " not watertight: " + m_Leaking + ".");
+    }
+  }
+
+private:
+  void
+  AuditOne(const SceneSurface & surface)
+  {
+    m_Events.Progress("auditing " + surface.name, 0.0);
+    const auto audit = AuditSurface(*surface.surface, m_Settings);
+    this->Add(surface.name, ReportAudit(audit), DescribeAudit(audit));
     if (!audit.IsWatertight())
     {
-      leaking += (leaking.empty() ? "" : "; ") + surface.name + ": " + DescribeLeaks(audit);
+      this->AddLeak(surface.name + ": " + DescribeLeaks(audit));
     }
-    if (!options.isJson)
+  }
+
+  /** Audits the walls that surfaces share, if they do. */
+  void
+  AuditTogether(const std::vector<SceneSurface> & surfaces)
+  {
+    m_Events.Progress("auditing walls", 0.0);
+    const WallAudit walls = AuditWalls(surfaces, m_Settings);
+    if (walls.sharedTriangles == 0)
     {
-      context.console->Finish();
-      std::cout << surface.name << '\n';
-      for (const std::string & line : DescribeAudit(audit))
+      return;
+    }
+    this->Add("all surfaces together", { { "walls", ReportWalls(walls) } }, { DescribeWalls(walls) });
+    if (!walls.IsSound())
+    {
+      this->AddLeak("walls: " + DescribeWalls(walls));
+    }
+  }
+
+  void
+  Add(const std::string & name, const Report & report, const std::vector<std::string> & lines)
+  {
+    m_Report.push_back({ { "name", name } });
+    m_Report.back().update(report);
+    if (!m_Options.isJson)
+    {
+      m_Context.console->Finish();
+      std::cout << name << '\n';
+      for (const std::string & line : lines)
       {
         std::cout << "  " << line << '\n';
       }
     }
   }
-  context.console->Finish();
-  if (options.isJson)
+
+  void
+  AddLeak(const std::string & leak)
   {
-    std::cout << ToJson(report) << '\n';
+    m_Leaking += (m_Leaking.empty() ? "" : "; ") + leak;
   }
-  if (options.requiresWatertight && !leaking.empty())
-  {
-    throw Failure(FailureKind::NotWatertight, options.file + " is not watertight: " + leaking + ".");
-  }
-}
+
+  const AuditOptions & m_Options;
+  const CommandContext & m_Context;
+  Events m_Events;
+  itk::TriangleSurfaceAuditSettings m_Settings;
+  Report m_Report = Report::array();
+  std::string m_Leaking;
+};
 
 } // namespace
 
@@ -69,7 +130,8 @@ CommandRun
 AddAuditCommand(CLI::App & parser)
 {
   const auto options = std::make_shared<AuditOptions>();
-  parser.add_option("FILE", options->file, "a surface file: " + GetSurfaceFileExtensions());
+  parser.add_option(
+    "FILE", options->files, "surface files, checked one by one and together: " + GetSurfaceFileExtensions());
   parser.add_flag("--json", options->isJson, "write a JSON report");
   parser.add_flag(
     "--require-watertight", options->requiresWatertight, "exit code 8 unless every surface is watertight");
@@ -79,7 +141,13 @@ AddAuditCommand(CLI::App & parser)
                 "triangles tested for self-intersections; of larger surfaces, so many evenly chosen ones; 0: none")
     ->check(CLI::NonNegativeNumber)
     ->capture_default_str();
-  return [options](const CommandContext & context) { Audit(*options, context); };
+  return [options](const CommandContext & context) {
+    if (options->files.empty())
+    {
+      throw Failure(FailureKind::Usage, "No surface is named; name a file (" + GetSurfaceFileExtensions() + ").");
+    }
+    Auditor(*options, context).Run();
+  };
 }
 
 } // namespace rhombic

@@ -1,0 +1,44 @@
+#ifndef rhombicWallAudit_h
+#define rhombicWallAudit_h
+
+#include "rhombicScanReport.h"
+#include "rhombicSceneSurface.h"
+
+#include "itkTriangleSurfaceAudit.h"
+
+#include <string>
+#include <vector>
+
+namespace rhombic
+{
+
+/** Flaws that only show when surfaces are looked at together, as those of labels that share walls. */
+struct WallAudit
+{
+  std::size_t sharedTriangles = 0;   ///< of two surfaces, facing opposite ways in them
+  std::size_t oneSidedTriangles = 0; ///< with the same surface on both sides
+  std::size_t repeatedTriangles = 0; ///< with the points of another, but no wall between two surfaces: overlaps
+  std::size_t loneJunctions = 0;     ///< edges with more than two triangles, where fewer than three regions meet
+  itk::TriangleSurfaceIntersections intersections; ///< of triangles of all surfaces, those of walls counted once
+
+  bool
+  IsSound() const
+  {
+    return oneSidedTriangles + repeatedTriangles + loneJunctions + intersections.crossingPairs == 0;
+  }
+};
+
+/** Joins surfaces by equal points, and counts. What is outside of all surfaces is a region, too. */
+WallAudit
+AuditWalls(const std::vector<SceneSurface> & surfaces, const itk::TriangleSurfaceAuditSettings & settings = {});
+
+Report
+ReportWalls(const WallAudit & audit);
+
+/** The audit in one line. */
+std::string
+DescribeWalls(const WallAudit & audit);
+
+} // namespace rhombic
+
+#endif
