@@ -8,7 +8,8 @@
 namespace rhombic
 {
 
-/** The source of surfaces: files, then those of the label map, if they are hashed; scan, removed objects, denoising and lattice, as far as there are any. */
+/** The source of surfaces: files, then those of the label map, if they are hashed; scan, removed objects, denoising and
+ * lattice, as far as there are any. */
 Report
 ReportSource(const LoadedSource & loaded, const ScanSource & source);
 
