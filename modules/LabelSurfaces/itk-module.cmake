@@ -1,4 +1,4 @@
 itk_module(LabelSurfaces
-  DEPENDS RhombicCommon TriangleSurface ScanIO FCCIsosurface FCCLabelSurfaces ITKCommon
+  DEPENDS RhombicCommon TriangleSurface SurfaceEditing ScanIO FCCIsosurface FCCLabelSurfaces ITKCommon
   PRIVATE_DEPENDS FCCResampling SurfaceQueries ITKConnectedComponents
   DESCRIPTION "Closed surfaces of the labels of a label map, without the steps of its voxels.")

@@ -2,6 +2,7 @@
 
 #include "rhombicFailure.h"
 #include "rhombicFileInspection.h"
+#include "rhombicLabelWalls.h"
 #include "rhombicMeasureTable.h"
 #include "rhombicSourceLoading.h"
 #include "rhombicSurfaceReport.h"
@@ -164,6 +165,37 @@ AddIsosurfaces(const LoadedSource & loaded,
   }
 }
 
+/** Adds labels whose walls are finished once for both sides. */
+void
+AddWalls(const LoadedSource & loaded,
+         const LabelSurfaceSettings & settings,
+         const SurfaceFinish & finish,
+         const Events & events,
+         std::vector<MeshedSurface> & surfaces)
+{
+  LabelMesh mesh = LabelsToWalls(*loaded.labels, settings, events);
+  ExtractSurfaces(mesh);
+  std::vector<ExtractedSize> extracted;
+  for (const LabelSurface & label : mesh.labels)
+  {
+    extracted.push_back(SizeOf(*label.scene.surface));
+  }
+  const double spacing = MeanSpacingOf(GeometryOf(loaded.labels->scan.image));
+  const Refinement refinement = RefineWalls(*mesh.walls, finish, spacing, events);
+  if (refinement.smoothing || refinement.simplification)
+  {
+    ExtractSurfaces(mesh);
+  }
+  for (std::size_t n = 0; n < mesh.labels.size(); ++n)
+  {
+    MeshedSurface & surface = surfaces.emplace_back();
+    surface.scene = std::exchange(mesh.labels[n].scene, {});
+    surface.label = std::move(mesh.labels[n]);
+    surface.extracted = extracted[n];
+    surface.refinement = refinement;
+  }
+}
+
 void
 AddLabels(const LoadedSource & loaded,
           const MeshScanSettings & settings,
@@ -175,6 +207,11 @@ AddLabels(const LoadedSource & loaded,
     events.Note("labels have no noise: --denoise is not for them");
   }
   const LabelSurfaceSettings labelSettings = GetLabelSettings(settings.source, settings.surfaces);
+  if (settings.surfaces.labels->sharesWalls)
+  {
+    AddWalls(loaded, labelSettings, settings.finish, events, surfaces);
+    return;
+  }
   for (LabelSurface & label : LabelsToSurfaces(*loaded.labels, labelSettings, events))
   {
     MeshedSurface & surface = surfaces.emplace_back();
@@ -223,7 +260,8 @@ MakeCandidateSearch(const LoadedSource & loaded, itk::FCCIsosurfaceMode mode)
   };
 }
 
-/** Removes parts of a surface, smooths and simplifies it. Returns whether anything is left. */
+/** Removes parts of a surface; smooths and simplifies it, if it has no shared walls. Returns whether anything is left.
+ */
 bool
 Finish(MeshedSurface & surface,
        const SurfaceFinish & commandFinish,
@@ -241,8 +279,11 @@ Finish(MeshedSurface & surface,
     events.Note(surface.scene.name + ": left out, as all its parts are below --min-volume");
     return false;
   }
-  const auto candidates = surface.request ? findCandidates(*finished) : std::nullopt;
-  surface.refinement = RefineSurface(*finished, finish, spacing, surface.scene.name, events, candidates);
+  if (!surface.label || !surface.label->sharesWalls)
+  {
+    const auto candidates = surface.request ? findCandidates(*finished) : std::nullopt;
+    surface.refinement = RefineSurface(*finished, finish, spacing, surface.scene.name, events, candidates);
+  }
   return true;
 }
 

@@ -1,5 +1,5 @@
 #include "rhombicFailure.h"
-#include "rhombicLabelSurfaces.h"
+#include "rhombicLabelWalls.h"
 #include "rhombicReadScan.h"
 
 #include "itkImageRegionIteratorWithIndex.h"
@@ -12,11 +12,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <map>
 #include <random>
+#include <set>
 
 namespace
 {
@@ -385,6 +387,64 @@ TEST(LabelSurfaces, TouchingLabelsShareTheirWall)
     const double together = (surfaces[0].surfaceMillilitres + surfaces[1].surfaceMillilitres) /
                             (surfaces[0].voxelMillilitres + surfaces[1].voxelMillilitres);
     EXPECT_NEAR(together, 1.0, 0.002);
+  }
+}
+
+/** The triangles of a surface, each from its least corner on; of those \a isTurned the order is reversed. */
+std::set<std::array<std::array<float, 3>, 3>>
+CornersOf(const itk::TriangleSurface & surface, bool isTurned)
+{
+  std::set<std::array<std::array<float, 3>, 3>> all;
+  for (const auto & triangle : surface.GetTriangles())
+  {
+    std::array<std::array<float, 3>, 3> corners;
+    for (unsigned int k = 0; k < 3; ++k)
+    {
+      corners[isTurned ? 2 - k : k] = surface.GetPoints()[triangle[k]];
+    }
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    all.insert(corners);
+  }
+  return all;
+}
+
+TEST(LabelSurfaces, WallsAreTheSameForBothOfTheirLabels)
+{
+  // Two halves of a ball, once with thick slices, finished in every way.
+  for (const double thickness : { 1.0, 4.0 })
+  {
+    const auto map = MakeMap({ { 40, 40, static_cast<itk::SizeValueType>(40 / thickness) } },
+                             Vector(std::array{ 1.0, 1.0, thickness }.data()),
+                             [](const Point & p) {
+                               const double distance = std::hypot(p[0] - 0.3, p[1] + 0.1, p[2] - 0.4);
+                               return distance > 15.0 ? 0 : (p[0] + 0.3 * p[2] > 4.0 ? 1 : 2);
+                             });
+    rhombic::LabelMesh mesh = rhombic::LabelsToWalls(map, {}, {});
+    rhombic::SurfaceFinish finish;
+    finish.smoothing = 0.2;
+    finish.maximumError = 0.2;
+    rhombic::RefineWalls(*mesh.walls, finish, 1.0, {});
+    rhombic::ExtractSurfaces(mesh);
+    ASSERT_EQ(mesh.labels.size(), 2);
+    std::vector<std::set<std::array<std::array<float, 3>, 3>>> triangles;
+    for (const LabelSurface & label : mesh.labels)
+    {
+      EXPECT_TRUE(ComputeTopology(*label.scene.surface).IsWatertight()) << thickness;
+      EXPECT_NEAR(ComputeVolume(*label.scene.surface) / (1000.0 * label.voxelMillilitres), 1.0, 0.01) << thickness;
+      EXPECT_EQ(label.pieces, 1);
+      EXPECT_EQ(label.surfacePieces, 1);
+      triangles.push_back(CornersOf(*label.scene.surface, &label == &mesh.labels.front()));
+    }
+    double onPlane = 0.0;
+    for (const auto & corners : triangles[0])
+    {
+      if (triangles[1].count(corners) != 0)
+      {
+        EXPECT_NEAR(corners[0][0] + 0.3 * corners[0][2], 4.0, 1.0) << thickness;
+        onPlane += 1.0;
+      }
+    }
+    EXPECT_GT(onPlane, 20.0) << thickness;
   }
 }
 

@@ -362,6 +362,29 @@ TEST_F(MeshCommand, NothingMeasuredIsNotZero)
   EXPECT_FALSE(deviation.contains("meanInMillimetres"));
 }
 
+TEST_F(MeshCommand, LabelsShareTheirWalls)
+{
+  ASSERT_EQ(RunShell("rhombic -q phantom --spacing 10 -o coarse", m_Folder.Path()).exitCode, 0);
+  const auto mesh = [this](const std::string & options) {
+    return RunShell("rhombic mesh coarse/phantom-labels.nii.gz --shared-walls " + options, m_Folder.Path());
+  };
+  ASSERT_EQ(mesh("--max-triangles 30% -o '{name}.stl'").exitCode, 0);
+  ASSERT_EQ(mesh("-o walls.vtp").exitCode, 0);
+  for (const std::string files : { "*.stl", "walls.vtp" })
+  {
+    const Outcome audit = RunShell("rhombic audit " + files, m_Folder.Path());
+    EXPECT_EQ(audit.exitCode, 0) << audit.errors;
+    const auto together = audit.output.find("all surfaces together");
+    ASSERT_NE(together, std::string::npos) << audit.output;
+    const std::string all = audit.output.substr(together);
+    EXPECT_GT(std::atoi(all.c_str() + all.find('\n')), 500) << all;
+    EXPECT_NE(all.find("; 0 have one surface on both sides, 0 are there twice; 0 edges "), std::string::npos) << all;
+    EXPECT_NE(all.find("; 0 pairs of triangles cross"), std::string::npos) << all;
+    EXPECT_EQ(audit.output.find("not watertight"), std::string::npos) << audit.output;
+  }
+  EXPECT_EQ(this->Mesh("-t 250.5 --shared-walls -o bone.stl").exitCode, 2) << "no labels";
+}
+
 TEST_F(MeshCommand, TellsWhatItCannotDo)
 {
   const std::pair<const char *, int> cases[] = { { "--preset ct-bone-skin -o two.stl", 2 },

@@ -42,6 +42,7 @@ struct LabelSurface
   bool isTorn = false;           ///< more pieces than the label has, even than its voxels connected through faces alone
   std::size_t finerPieces = 0;   ///< pieces whose lattice is finer than asked for
   std::size_t protectedVoxels = 0; ///< voxels of parts so thin that smoothing would have lost them
+  bool sharesWalls = false;        ///< made by LabelsToWalls()
 
   /** The relative difference between the volumes of surface and voxels. */
   double
@@ -62,7 +63,8 @@ struct LabelSurface
  *
  * Where a label reaches the scan's border, its surface closes at the outer faces of the voxels there. A hollow label
  * has shells inside, too. Slices may be tilted, sheared or unevenly spaced (itk::CartesianToFCCImageFilter). The walls
- * that two neighbouring labels share are extracted for each; they agree within 0.1 voxels.
+ * that two neighbouring labels share are extracted for each; they agree within 0.1 voxels. LabelsToWalls() makes them
+ * once for both.
  *
  * Works on one piece after another, each on all threads. The result has the same bytes for any number of threads.
  *

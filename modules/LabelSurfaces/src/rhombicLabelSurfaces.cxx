@@ -1,18 +1,13 @@
 #include "rhombicLabelSurfaces.h"
 
-#include "rhombicFailure.h"
+#include "rhombicLabelChoice.h"
 #include "rhombicLabelPieces.h"
 #include "rhombicMaskSurface.h"
-#include "rhombicWording.h"
 
 #include "itkForEachBlock.h"
 #include "itkTriangleSurfaceMeasures.h"
 
 #include <algorithm>
-#include <cmath>
-#include <iomanip>
-#include <set>
-#include <sstream>
 
 namespace rhombic
 {
@@ -22,58 +17,6 @@ namespace
 constexpr double CubicMillimetresPerMillilitre = 1000.0;
 constexpr std::size_t SmallPiece = 1 << 15; // voxels of its box; threads make such pieces side by side
 constexpr std::size_t PiecesAtOnce = 32;    // between two calls of progress
-
-/** The values of the labels with this value, or a name that fits (see MatchesPattern()). A label that has exactly this
- * name counts alone. Throws Failure(Usage) when there are none. */
-std::set<std::int32_t>
-FindValues(const std::vector<LabelSummary> & labels, const std::string & nameOrValue)
-{
-  std::set<std::int32_t> exact;
-  std::set<std::int32_t> fitting;
-  std::vector<std::string> names;
-  for (const LabelSummary & summary : labels)
-  {
-    const Label & label = summary.label;
-    if (label.name == nameOrValue || std::to_string(label.value) == nameOrValue)
-    {
-      exact.insert(label.value);
-    }
-    if (MatchesPattern(nameOrValue, label.name))
-    {
-      fitting.insert(label.value);
-    }
-    names.push_back(label.name);
-  }
-  if (exact.empty() && fitting.empty())
-  {
-    throw Failure(FailureKind::Usage,
-                  DescribeUnknown("label", nameOrValue, names, "see rhombic info for the label map's labels"));
-  }
-  return exact.empty() ? fitting : exact;
-}
-
-/** The labels of the map that are wanted, or those that its table shows if none are named. */
-std::vector<LabelSummary>
-ChooseLabels(const LabelMap & map, const std::vector<std::string> & wanted)
-{
-  std::set<std::int32_t> values;
-  for (const std::string & nameOrValue : wanted)
-  {
-    values.merge(FindValues(map.labels, nameOrValue));
-  }
-  std::vector<LabelSummary> chosen;
-  std::copy_if(map.labels.begin(), map.labels.end(), std::back_inserter(chosen), [&](const LabelSummary & summary) {
-    return wanted.empty() ? summary.label.isVisible && summary.label.opacity > 0.0
-                          : values.count(summary.label.value) != 0;
-  });
-  if (chosen.empty())
-  {
-    throw Failure(FailureKind::Empty,
-                  map.labels.empty() ? "The label map holds nothing but background; check that it was exported whole."
-                                     : "The label table hides all labels of the map; name those to show.");
-  }
-  return chosen;
-}
 
 /** The slice origins of a region of the scan's grid. Beyond the scan they go on with the first or the last step. */
 std::vector<itk::Point<double, 3>>
@@ -187,10 +130,7 @@ MakeSurface(const Scan & scan,
             const LabelSurfaceSettings & settings,
             const std::function<void(double)> & progress)
 {
-  LabelSurface made;
-  made.value = summary.label.value;
-  made.numberOfVoxels = summary.numberOfVoxels;
-  made.voxelMillilitres = summary.millilitres;
+  LabelSurface made = DescribeLabel(summary);
   made.pieces = pieces.GetNumberOfPieces();
   std::vector<itk::TriangleSurface::Pointer> surfaces;
   for (const MaskSurface & surface : MakePieces(scan, summary, pieces, settings, progress))
@@ -202,52 +142,8 @@ MakeSurface(const Scan & scan,
     surfaces.push_back(surface.surface);
   }
   made.isTorn = made.surfacePieces > made.pieces && made.surfacePieces > pieces.CountFaceConnectedPieces();
-  made.scene.name = summary.label.name;
   made.scene.surface = Join(surfaces);
-  for (unsigned int channel = 0; channel < 3; ++channel)
-  {
-    made.scene.colour[channel] = summary.label.colour[channel] / 255.0;
-  }
-  made.scene.opacity = summary.label.opacity > 0.0 ? summary.label.opacity : 1.0;
   return made;
-}
-
-std::string
-Percent(double ratio)
-{
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::fixed << std::setprecision(1) << 100.0 * ratio << " %";
-  return text.str();
-}
-
-void
-CheckDensity(double density)
-{
-  if (!(density > 0.0) || !(density <= 64.0))
-  {
-    throw Failure(FailureKind::Usage,
-                  "The density of labels' lattices must be above 0 and at most 64 sites per voxel, not " +
-                    std::to_string(density) + "; the default is " + FormatFixed(itk::FCCLattice::DefaultDensity, 2) +
-                    ".");
-  }
-}
-
-/** Notes a torn surface, and a volume that differs by more than 1 %. */
-void
-NoteShortcomings(const LabelSurface & made, const Events & events)
-{
-  if (made.isTorn || made.surfacePieces < made.pieces)
-  {
-    events.Note(made.scene.name + ": " + Count(made.pieces, "piece") + " became " + std::to_string(made.surfacePieces) +
-                "; parts of it are hardly wider than a voxel");
-  }
-  constexpr double notable = 0.01;
-  if (std::abs(made.GetVolumeDifference()) > notable)
-  {
-    events.Note(made.scene.name + ": the surface's volume differs by " + Percent(made.GetVolumeDifference()) +
-                " from that of its voxels");
-  }
 }
 
 } // namespace
@@ -255,7 +151,7 @@ NoteShortcomings(const LabelSurface & made, const Events & events)
 std::vector<LabelSurface>
 LabelsToSurfaces(const LabelMap & map, const LabelSurfaceSettings & settings, const Events & events)
 {
-  CheckDensity(settings.density);
+  CheckLabelDensity(settings.density);
   const std::vector<LabelSummary> labels = ChooseLabels(map, settings.labels);
   const auto boxes = FindLabelBoxes(map.scan.image);
   double allVoxels = 0.0;

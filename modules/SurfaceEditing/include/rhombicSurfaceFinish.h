@@ -9,6 +9,7 @@
 #include "itkTriangleSurfaceUntangling.h"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -101,6 +102,28 @@ struct Refinement
   std::optional<SimplificationResult> simplification;
   itk::SizeValueType shellsTurned = 0; ///< small shells that faced the wrong way
 };
+
+/** How surfaces of one kind are smoothed, simplified and measured. */
+struct RefinementFunctions
+{
+  std::function<itk::TriangleSurfaceSmoothingReport(itk::TriangleSurface &,
+                                                    const itk::TriangleSurfaceSmoothingSettings &)>
+    smooth;
+  std::function<itk::TriangleSurfaceSimplificationReport(itk::TriangleSurface &,
+                                                         const itk::TriangleSurfaceSimplificationSettings &)>
+    simplify;
+  std::function<double(const itk::TriangleSurface &)> computeVolume; ///< in mm^3
+};
+
+/** Smooths and simplifies a surface that cannot have crossing triangles, with functions of its kind. See
+ * RefineSurface(). */
+Refinement
+RefineBy(const RefinementFunctions & functions,
+         itk::TriangleSurface & surface,
+         const SurfaceFinish & finish,
+         double spacing,
+         const std::string & name,
+         const Events & events);
 
 /** Smooths a surface, untangles it, simplifies it, and turns shells that face the wrong way, each where it may be
  * needed. Untangling moves points by one spacing of the lattice at most, where triangles pass through each other.

@@ -53,13 +53,13 @@ DescribeRemoval(const itk::RemovedShells & removed, double volumeBefore, const s
 }
 
 SmoothingResult
-Smooth(itk::TriangleSurface & surface, double maximumMove)
+Smooth(const RefinementFunctions & functions, itk::TriangleSurface & surface, double maximumMove)
 {
-  const double volumeBefore = ComputeVolume(surface);
+  const double volumeBefore = functions.computeVolume(surface);
   itk::TriangleSurfaceSmoothingSettings settings;
   settings.maximumMove = maximumMove;
-  const auto moves = SmoothSurface(surface, settings);
-  return { maximumMove, moves, volumeBefore, ComputeVolume(surface) };
+  const auto moves = functions.smooth(surface, settings);
+  return { maximumMove, moves, volumeBefore, functions.computeVolume(surface) };
 }
 
 /** The smaller of the two limits of triangles; 0 for none. */
@@ -75,23 +75,22 @@ FindTargetTriangles(const SurfaceFinish & finish, std::size_t triangles)
 }
 
 SimplificationResult
-Simplify(itk::TriangleSurface & surface, const SurfaceFinish & finish, double spacing)
+Simplify(const RefinementFunctions & functions,
+         itk::TriangleSurface & surface,
+         const SurfaceFinish & finish,
+         double spacing)
 {
+  const double volumeBefore = functions.computeVolume(surface);
   const auto original = itk::TriangleSurface::New();
   original->Graft(&surface);
   itk::TriangleSurfaceSimplificationSettings settings;
   settings.targetTriangles = FindTargetTriangles(finish, surface.GetNumberOfTriangles());
   settings.maximumError = finish.maximumError.value_or(spacing);
-  const auto triangles = SimplifySurface(surface, settings);
-  OptimizeForRendering(surface);
+  const auto triangles = functions.simplify(surface, settings);
   constexpr itk::SizeValueType measuredTriangles = 30'000; // of either surface; simplification itself checks all
   const auto distances = ComputeTwoDistances(*original, surface, measuredTriangles);
-  return { settings.maximumError,
-           triangles,
-           std::max(distances.fromFirst.mean, distances.fromSecond.mean),
-           distances.GetMaximum(),
-           ComputeVolume(*original),
-           ComputeVolume(surface) };
+  return { settings.maximumError,  triangles,    std::max(distances.fromFirst.mean, distances.fromSecond.mean),
+           distances.GetMaximum(), volumeBefore, functions.computeVolume(surface) };
 }
 
 /** "volume +0.12 %". */
@@ -187,6 +186,30 @@ RemoveParts(itk::TriangleSurface & surface,
 }
 
 Refinement
+RefineBy(const RefinementFunctions & functions,
+         itk::TriangleSurface & surface,
+         const SurfaceFinish & finish,
+         double spacing,
+         const std::string & name,
+         const Events & events)
+{
+  Refinement refinement;
+  if (finish.smoothing > 0.0)
+  {
+    events.Progress("smoothing " + name, 0.0);
+    refinement.smoothing = Smooth(functions, surface, finish.smoothing * spacing);
+    events.Note(DescribeSmoothing(name, *refinement.smoothing));
+  }
+  if (finish.Simplifies())
+  {
+    events.Progress("simplifying " + name, 0.0);
+    refinement.simplification = Simplify(functions, surface, finish, spacing);
+    events.Note(DescribeSimplification(name, finish, *refinement.simplification));
+  }
+  return refinement;
+}
+
+Refinement
 RefineSurface(itk::TriangleSurface & surface,
               const SurfaceFinish & finish,
               double spacing,
@@ -194,13 +217,16 @@ RefineSurface(itk::TriangleSurface & surface,
               const Events & events,
               const std::optional<itk::CrossingCandidates> & candidates)
 {
-  Refinement refinement;
-  if (finish.smoothing > 0.0)
-  {
-    events.Progress("smoothing " + name, 0.0);
-    refinement.smoothing = Smooth(surface, finish.smoothing * spacing);
-    events.Note(DescribeSmoothing(name, *refinement.smoothing));
-  }
+  const RefinementFunctions functions{ itk::SmoothSurface,
+                                       [](itk::TriangleSurface & simplified, const auto & settings) {
+                                         const auto report = SimplifySurface(simplified, settings);
+                                         OptimizeForRendering(simplified);
+                                         return report;
+                                       },
+                                       itk::ComputeVolume };
+  SurfaceFinish smoothing;
+  smoothing.smoothing = finish.smoothing;
+  Refinement refinement = RefineBy(functions, surface, smoothing, spacing, name, events);
   events.Progress("untangling " + name, 0.0);
   std::optional<itk::TriangleTree> tree;
   const auto untangled =
@@ -217,9 +243,9 @@ RefineSurface(itk::TriangleSurface & surface,
   if (finish.Simplifies())
   {
     tree.reset();
-    events.Progress("simplifying " + name, 0.0);
-    refinement.simplification = Simplify(surface, finish, spacing);
-    events.Note(DescribeSimplification(name, finish, *refinement.simplification));
+    SurfaceFinish simplification = finish;
+    simplification.smoothing = 0.0;
+    refinement.simplification = RefineBy(functions, surface, simplification, spacing, name, events).simplification;
   }
   refinement.shellsTurned = tree ? TurnMisfacingShells(surface, *tree) : TurnMisfacingShells(surface);
   return refinement;

@@ -1,7 +1,7 @@
 #include "rhombicPictureScene.h"
 
 #include "rhombicFailure.h"
-#include "rhombicLabelSurfaces.h"
+#include "rhombicLabelWalls.h"
 #include "rhombicLatticeToSurfaces.h"
 #include "rhombicSourceLoading.h"
 #include "rhombicSurfaceIO.h"
@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rhombic
 {
@@ -107,9 +108,25 @@ void
 AddLabels(const LoadedSource & loaded, const PictureSource & source, const Events & events, PictureScene & scene)
 {
   const double spacing = MeanSpacingOf(GeometryOf(loaded.labels->scan.image));
-  for (LabelSurface & label : LabelsToSurfaces(*loaded.labels, GetLabelSettings(source.scan, source.surfaces), events))
+  const LabelSurfaceSettings settings = GetLabelSettings(source.scan, source.surfaces);
+  SurfaceFinish finish = source.finish;
+  std::vector<LabelSurface> labels;
+  if (source.surfaces.labels->sharesWalls)
   {
-    if (Finish(label.scene, source.finish, spacing, events))
+    LabelMesh mesh = LabelsToWalls(*loaded.labels, settings, events);
+    SurfaceFinish smoothing;
+    smoothing.smoothing = std::exchange(finish.smoothing, 0.0);
+    RefineWalls(*mesh.walls, smoothing, spacing, events);
+    ExtractSurfaces(mesh);
+    labels = std::move(mesh.labels);
+  }
+  else
+  {
+    labels = LabelsToSurfaces(*loaded.labels, settings, events);
+  }
+  for (LabelSurface & label : labels)
+  {
+    if (Finish(label.scene, finish, spacing, events))
     {
       AddSurface(label.scene, ReportLabelSurface(label), scene);
     }
