@@ -3,10 +3,13 @@
 #include "rhombicFailure.h"
 #include "rhombicWording.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <iterator>
+#include <utility>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -154,6 +157,9 @@ RemoveTemporaryFiles(int signal)
   raise(signal);
 }
 
+/** What takes the files that are committed, within CommitTogether(). */
+thread_local StagedFiles * collector = nullptr;
+
 } // namespace
 
 AtomicFile::AtomicFile(const fs::path & target)
@@ -254,6 +260,12 @@ StagedFiles::Begin(const fs::path & target)
 void
 StagedFiles::Commit()
 {
+  if (collector != nullptr)
+  {
+    std::move(m_Files.begin(), m_Files.end(), std::back_inserter(collector->m_Files));
+    m_Files.clear();
+    return;
+  }
   std::string replaced;
   for (const auto & file : m_Files)
   {
@@ -272,6 +284,24 @@ StagedFiles::Commit()
     replaced += (replaced.empty() ? "" : ", ") + target;
   }
   m_Files.clear();
+}
+
+void
+CommitTogether(const std::function<void()> & work)
+{
+  StagedFiles all;
+  StagedFiles * const outer = std::exchange(collector, &all);
+  try
+  {
+    work();
+  }
+  catch (...)
+  {
+    collector = outer;
+    throw;
+  }
+  collector = outer;
+  all.Commit();
 }
 
 void
