@@ -54,8 +54,18 @@ AddComparePicturesCommand(CLI::App & parser);
 CommandRun
 AddDoctorCommand(CLI::App & parser);
 
+/** Adds --pipeline to the parser of render or mesh, which must outlive what is returned; \a otherwise runs without it.
+ */
+CommandRun
+AddPipelineOption(CLI::App & parser, const CommandRun & otherwise);
+
+/** Makes those outputs of a pipeline file that a command makes, all or none, with the same bytes as rhombic batch. In
+ * the program that draws only. Throws Failure. \param command the parser of render or mesh, after parsing */
+void
+RunPipeline(const std::string & file, const CLI::App & command, const CommandContext & context);
+
 /** Replaces this process by the program that draws, if this one can't and \a arguments (as of main()) name a command
- * that does, or the audit of a VTP file. Otherwise it returns. */
+ * that does, a pipeline, or the audit of a VTP file. Otherwise it returns. */
 void
 StartDrawingProgram(char ** arguments);
 

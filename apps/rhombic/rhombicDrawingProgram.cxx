@@ -20,13 +20,14 @@ namespace
 
 constexpr const char * drawingCommands[] = { "render", "batch", "bids", "compare", "compare-pictures", "doctor" };
 
-/** Whether a command draws, or audits a VTP file, which VTK reads. A word may also be the value of an option: the
- * drawing program has the other commands, too. */
+/** Whether a command draws, runs a pipeline, or audits a VTP file, which VTK reads. A word may also be the value of an
+ * option: the drawing program has the other commands, too. */
 bool
 NeedsDrawingProgram(const std::vector<std::string> & words)
 {
   const auto isDrawing = [](const std::string & word) {
-    return std::find(std::begin(drawingCommands), std::end(drawingCommands), word) != std::end(drawingCommands);
+    return word.rfind("--pipeline", 0) == 0 ||
+           std::find(std::begin(drawingCommands), std::end(drawingCommands), word) != std::end(drawingCommands);
   };
   const auto isVTP = [](const std::string & word) {
     const auto dot = word.rfind('.');
@@ -69,6 +70,12 @@ VoxelRequest::Function
 GetVTPConverter()
 {
   return nullptr;
+}
+
+void
+RunPipeline(const std::string &, const CLI::App &, const CommandContext &)
+{
+  // The drawing program has it.
 }
 
 CommandRun

@@ -140,7 +140,7 @@ AddMeshCommand(CLI::App & parser)
                   "each other is reported by --audit, and no reason not to write it");
   options->scan.AddLattice(parser);
   options->scan.AddSidecar(parser);
-  return [options](const CommandContext & context) { Mesh(*options, context); };
+  return AddPipelineOption(parser, [options](const CommandContext & context) { Mesh(*options, context); });
 }
 
 } // namespace rhombic

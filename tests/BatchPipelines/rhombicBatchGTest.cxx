@@ -303,6 +303,93 @@ TEST(Batch, TheDefaultIsAPageWithAThumbnail)
   EXPECT_NE(ReadText(folder.Path() / "out/index.html").find("src=\"./case/thumbnail.jpg\""), std::string::npos);
 }
 
+TEST(Batch, RenderAndMeshMakeTheSameFilesOfAPipeline)
+{
+  const TemporaryFolder folder;
+  fs::create_directory(folder.Path() / "files");
+  fs::copy(phantom / "dicom", folder.Path() / "scan");
+  fs::copy(phantom / "phantom-labels.nii.gz", folder.Path());
+  fs::copy(RHOMBIC_SOURCE "/pipelines/presets/ct-bone.yaml", folder.Path() / "files/mine.yaml");
+  std::ofstream(folder.Path() / "files/all.yaml") << "options: {preset: auto}\n"
+                                                     "outputs:\n"
+                                                     "  - page: page.png\n"
+                                                     "    dpi: 40\n"
+                                                     "    dicom-sc: true\n"
+                                                     "  - mesh: organs.glb\n"
+                                                     "    measures: organs.csv\n"
+                                                     "  - picture: front.png\n"
+                                                     "    size: 100\n"
+                                                     "    view: [left, right]\n"
+                                                     "    labels: false\n"
+                                                     "  - mesh: '{name}.ply'\n"
+                                                     "    preset: mine.yaml\n"
+                                                     "    labels: false\n"
+                                                     "  - volume: scan.fcc.nrrd\n";
+  std::ofstream(folder.Path() / "cases.tsv") << "case\tscan\tlabels\toptions\n"
+                                                "one\tscan\tphantom-labels.nii.gz\t--on-gap=interpolate\n";
+  const Outcome batch = RunShell("rhombic batch cases.tsv --pipeline files/all.yaml -o out", folder.Path());
+  ASSERT_EQ(batch.exitCode, 0) << batch.errors;
+  const std::string arguments =
+    " scan --labels phantom-labels.nii.gz --on-gap interpolate --pipeline files/all.yaml -o a/folder";
+  const Outcome mesh = RunShell("rhombic mesh" + arguments, folder.Path());
+  ASSERT_EQ(mesh.exitCode, 0) << mesh.errors;
+  EXPECT_NE(mesh.errors.find("left out: page.png, which rhombic render makes, front.png, which rhombic render makes, "
+                             "scan.fcc.nrrd, which rhombic resample makes\n"),
+            std::string::npos)
+    << mesh.errors;
+  const Outcome render = RunShell("RHOMBIC_MAX_MEMORY=4G rhombic --threads 3 render" + arguments, folder.Path());
+  ASSERT_EQ(render.exitCode, 0) << render.errors;
+  auto expected = ContentsOf(folder.Path() / "out/one");
+  for (const char * const ofBatchAlone : { "case.json", "thumbnail.jpg", "scan.fcc.nrrd", "scan.fcc.nrrd.json" })
+  {
+    EXPECT_EQ(expected.erase(ofBatchAlone), 1u) << ofBatchAlone;
+  }
+  const auto contents = ContentsOf(folder.Path() / "a/folder");
+  EXPECT_GT(contents.size(), 9u);
+  EXPECT_EQ(contents.count("page.dcm"), 1u);
+  for (const auto & [name, content] : expected)
+  {
+    EXPECT_TRUE(contents.count(name) == 1 && contents.at(name) == content) << name;
+  }
+  EXPECT_EQ(contents.size(), expected.size());
+}
+
+TEST(Batch, RenderAndMeshRefuseWhatIsNotOfAPipeline)
+{
+  const TemporaryFolder folder;
+  fs::copy(phantom / "phantom.nii.gz", folder.Path());
+  const auto meshBy = [&](const std::string & pipeline, const std::string & options) {
+    std::ofstream(folder.Path() / "pipeline.yaml") << pipeline;
+    return RunShell("rhombic mesh phantom.nii.gz --pipeline=pipeline.yaml " + options, folder.Path());
+  };
+  struct Mistake
+  {
+    const char * pipeline;
+    const char * options;
+    int exitCode;
+    const char * expected;
+  };
+  const char * const bone = "outputs:\n  - mesh: bone.stl\n    threshold: 250.5\n";
+  for (const Mistake & mistake :
+       { Mistake{
+           "outputs: [page: a.png]", "-o out", 2, "no output that rhombic mesh makes, but a.png, which rhombic" },
+         Mistake{ "outputs:\n  - mesh: a.stl\n    treshold: 1\n", "-o out", 2, "in line 3 (did you mean threshold?)" },
+         Mistake{ bone, "-o out --space ras", 2, "--space does not go with --pipeline" },
+         Mistake{ bone, "", 2, "a folder with -o" },
+         Mistake{ bone, "-o pipeline.yaml", 7, "the folder pipeline.yaml" },
+         Mistake{ "outputs:\n  - mesh: a.stl\n    threshold: 250.5\n  - mesh: b.stl\n    threshold: 1e9\n",
+                  "-o out",
+                  6,
+                  "1e+09" } })
+  {
+    const Outcome outcome = meshBy(mistake.pipeline, mistake.options);
+    EXPECT_EQ(outcome.exitCode, mistake.exitCode) << outcome.errors;
+    EXPECT_NE(outcome.errors.find(mistake.expected), std::string::npos) << outcome.errors;
+    EXPECT_TRUE(!fs::exists(folder.Path() / "out") || fs::is_empty(folder.Path() / "out")) << "all outputs, or none";
+  }
+  EXPECT_EQ(meshBy(bone, "-o out").exitCode, 0);
+}
+
 /** A BIDS dataset of three participants, one of them in a session. */
 void
 WriteDataset(const fs::path & folder)

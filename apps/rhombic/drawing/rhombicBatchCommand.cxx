@@ -2,9 +2,9 @@
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
 #include "rhombicMemoryBudget.h"
+#include "rhombicOutputCommands.h"
 #include "rhombicRunBatch.h"
 #include "rhombicSidecar.h"
-#include "rhombicUsageError.h"
 #include "rhombicWording.h"
 
 #include "itkMultiThreaderBase.h"
@@ -37,53 +37,11 @@ struct BatchOptions
   bool isBIDS = false; ///< the outputs are a BIDS dataset, too
 };
 
-/** The commands that make outputs, as the program itself has them. */
-struct OutputCommands
-{
-  OutputCommands()
-  {
-    program.require_subcommand(1);
-    runs.push_back(AddRenderCommand(*program.add_subcommand("render")));
-    runs.push_back(AddMeshCommand(*program.add_subcommand("mesh")));
-    runs.push_back(AddResampleCommand(*program.add_subcommand("resample")));
-  }
-
-  CLI::App program{ "", "rhombic" };
-  std::vector<CommandRun> runs; ///< hold what the parsers write to
-};
-
-CommandSyntax
-GetSyntax()
-{
-  CommandSyntax syntax;
-  syntax.optionsOf = [](const std::string & command) {
-    std::vector<std::string> names;
-    OutputCommands commands;
-    for (const CLI::Option * const option : commands.program.get_subcommand(command)->get_options())
-    {
-      names.insert(names.end(), option->get_lnames().begin(), option->get_lnames().end());
-    }
-    return names;
-  };
-  syntax.check = [](const std::vector<std::string> & arguments) {
-    OutputCommands commands;
-    try
-    {
-      commands.program.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
-    }
-    catch (const CLI::ParseError & error)
-    {
-      throw Failure(FailureKind::Usage, DescribeUsageError(commands.program, error));
-    }
-  };
-  return syntax;
-}
-
 /** Refuses options of a manifest before any case runs. */
 void
 CheckOptions(const std::vector<BatchCase> & cases, const Pipeline & pipeline)
 {
-  const CommandSyntax syntax = GetSyntax();
+  const CommandSyntax syntax = OutputCommands::GetSyntax();
   for (const BatchCase & batchCase : cases)
   {
     for (std::size_t n = 0; n < pipeline.steps.size() && !batchCase.options.empty(); ++n)
@@ -133,7 +91,7 @@ GetSettings(const BatchOptions & options, const Events & events)
                   "Name a collection and a folder for the outputs, as in rhombic batch scans -o results.");
   }
   BatchSettings settings;
-  settings.pipeline = ReadPipeline(options.pipeline, GetSyntax());
+  settings.pipeline = ReadPipeline(options.pipeline, OutputCommands::GetSyntax());
   CaseCollection collection = FindCases(options.collection, { options.namesFromPaths, options.output, options.only });
   for (const std::string & note : collection.notes)
   {

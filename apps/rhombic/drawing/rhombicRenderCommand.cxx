@@ -601,7 +601,7 @@ AddRenderCommand(CLI::App & parser)
 {
   const auto options = std::make_shared<RenderOptions>();
   AddOptions(*options, parser);
-  return [options](const CommandContext & context) { Render(*options, context); };
+  return AddPipelineOption(parser, [options](const CommandContext & context) { Render(*options, context); });
 }
 
 } // namespace rhombic

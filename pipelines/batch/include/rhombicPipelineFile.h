@@ -1,6 +1,9 @@
 #ifndef rhombicPipelineFile_h
 #define rhombicPipelineFile_h
 
+#include "rhombicBatchCases.h"
+#include "rhombicSidecar.h"
+
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -49,6 +52,16 @@ struct CommandSyntax
  * Throws Failure: NotFound, or Usage, naming the line of the mistake. */
 Pipeline
 ReadPipeline(const std::filesystem::path & path, const CommandSyntax & syntax);
+
+/** The arguments of `rhombic` for a step of a case.
+ * \param preset what "preset: auto" is for this case (see ChoosePreset()); empty for none */
+std::vector<std::string>
+GetArguments(const PipelineStep & step, const BatchCase & batchCase, const std::string & preset);
+
+/** What "preset: auto" is for a scan, by the report of `rhombic info --json`; empty for a label map, which needs none.
+ */
+std::string
+ChoosePreset(const Report & info, bool hasLabels);
 
 } // namespace rhombic
 

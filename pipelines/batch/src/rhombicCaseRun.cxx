@@ -240,23 +240,13 @@ CaseRun::StartStep()
   if (m_IsAsking)
   {
     arguments.insert(arguments.end(), { "info", m_Case.scan.string(), "--json" });
+    arguments.insert(arguments.end(), m_Case.options.begin(), m_Case.options.end());
   }
   else
   {
-    arguments.push_back(step.arguments.front());
-    arguments.push_back(m_Case.scan.string());
-    arguments.insert(arguments.end(), step.arguments.begin() + 1, step.arguments.end());
-    if (step.takesLabels && !m_Case.labels.empty())
-    {
-      arguments.push_back("--labels=" + m_Case.labels.string());
-    }
-    if (step.choosesPreset && !m_Preset.empty())
-    {
-      arguments.push_back("--preset=" + m_Preset);
-    }
-    arguments.insert(arguments.end(), { "-o", step.output });
+    const std::vector<std::string> ofStep = GetArguments(step, m_Case, m_Preset);
+    arguments.insert(arguments.end(), ofStep.begin(), ofStep.end());
   }
-  arguments.insert(arguments.end(), m_Case.options.begin(), m_Case.options.end());
   m_ChildStart = Clock::now();
   m_Child = std::make_unique<ChildProcess>(
     arguments, m_Stage, std::string(outputFile), std::string(errorsFile), m_Settings.maximumMemory);
@@ -316,29 +306,14 @@ CaseRun::TakeStep()
   }
   else if (m_IsAsking)
   {
-    this->ChoosePreset();
+    m_Preset = ChoosePreset(Report::parse(std::ifstream(m_Stage / outputFile), nullptr, false), !m_Case.labels.empty());
+    m_HasPreset = true;
   }
   else
   {
     ++m_Step;
   }
   return m_Cause.empty();
-}
-
-/** A label map needs no preset; a CT is known by the threshold of bone that is suggested for it. */
-void
-CaseRun::ChoosePreset()
-{
-  const Report info = Report::parse(std::ifstream(m_Stage / outputFile), nullptr, false);
-  m_HasPreset = true;
-  const std::string thresholds =
-    info.is_object() && info.contains("suggestedThresholds") ? info["suggestedThresholds"].dump() : std::string();
-  const bool isCT = thresholds.find("\"bone\"") != std::string::npos;
-  const bool hasLabels = !m_Case.labels.empty();
-  if (info.is_object() && !info.contains("labels"))
-  {
-    m_Preset = isCT ? (hasLabels ? "ct-organs" : "ct-bone-skin") : hasLabels ? "" : "mr-head";
-  }
 }
 
 void

@@ -68,8 +68,6 @@ private:
   bool
   TakeStep();
   void
-  ChoosePreset();
-  void
   Fail(int code, const std::string & cause);
   void
   Succeed();

@@ -104,7 +104,7 @@ private:
     std::vector<std::string> options = m_Syntax.optionsOf(command);
     const auto isOwn = [](const std::string & option) {
       return option == "output" || option == "help" || option == "sheet" || option == "from" ||
-             option == "list-presets" || option == "no-sidecar" || option == "max-memory";
+             option == "list-presets" || option == "no-sidecar" || option == "max-memory" || option == "pipeline";
     };
     options.erase(std::remove_if(options.begin(), options.end(), isOwn), options.end());
     return options;
@@ -283,6 +283,37 @@ ReadPipeline(const fs::path & path, const CommandSyntax & syntax)
     FailInPipeline(path.string(),
                    "is not valid in line " + std::to_string(error.mark.line + 1) + " (" + error.msg + ")");
   }
+}
+
+std::vector<std::string>
+GetArguments(const PipelineStep & step, const BatchCase & batchCase, const std::string & preset)
+{
+  std::vector<std::string> arguments{ step.arguments.front(), batchCase.scan.string() };
+  arguments.insert(arguments.end(), step.arguments.begin() + 1, step.arguments.end());
+  if (step.takesLabels && !batchCase.labels.empty())
+  {
+    arguments.push_back("--labels=" + batchCase.labels.string());
+  }
+  if (step.choosesPreset && !preset.empty())
+  {
+    arguments.push_back("--preset=" + preset);
+  }
+  arguments.insert(arguments.end(), { "-o", step.output });
+  arguments.insert(arguments.end(), batchCase.options.begin(), batchCase.options.end());
+  return arguments;
+}
+
+std::string
+ChoosePreset(const Report & info, bool hasLabels)
+{
+  if (!info.is_object() || info.contains("labels"))
+  {
+    return "";
+  }
+  // A CT is known by the threshold of bone that is suggested for it.
+  const bool isCT =
+    info.contains("suggestedThresholds") && info["suggestedThresholds"].dump().find("\"bone\"") != std::string::npos;
+  return isCT ? (hasLabels ? "ct-organs" : "ct-bone-skin") : hasLabels ? "" : "mr-head";
 }
 
 } // namespace rhombic
