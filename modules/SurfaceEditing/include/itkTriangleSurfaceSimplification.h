@@ -68,7 +68,11 @@ SimplifySurface(TriangleSurface & surface, const TriangleSurfaceSimplificationSe
  *
  * \a sheets has the number of each triangle's sheet, small and from 0; it is kept up to date. Edges with three or more
  * triangles make curves; triangles at an edge with two must be of one sheet. Points of curves collapse along their
- * curve, other points onto it; points where curves meet or end stay. Distances are checked sheet by sheet. */
+ * curve, other points onto it; points where curves meet or end, or sheets meet in a point, stay. Distances are checked
+ * sheet by sheet.
+ *
+ * Throws ExceptionObject if an edge with two triangles has two sheets, or if \a sheets has another number of
+ * triangles; else as above, but edges and points where sheets meet need not be manifold. */
 TriangleSurfaceSimplificationReport
 SimplifySurface(TriangleSurface & surface,
                 std::vector<std::uint32_t> & sheets,

@@ -30,9 +30,10 @@ struct TriangleSurfaceSmoothingReport
  * Where three or more sheets meet in a curve, its points move towards the mean of their two neighbours on the curve.
  *
  * No point moves farther than maximumMove. The points of a triangle that would turn by 80 degrees or more, or lose more
- * than nine tenths of its area, stay where they are. Points on open borders, and where curves meet, stay. Triangles
- * keep their points and order. Normals, if there were any, are computed anew: the triangles' normals weighted by the
- * angle at the point. Parts of the surface that are closer to each other than twice maximumMove may touch afterwards.
+ * than nine tenths of its area, stay where they are. Points on open borders, where curves meet, and where
+ * parts touch in one point, stay. Triangles keep their points and order. Normals, if there were any, are computed anew:
+ * the triangles' normals weighted by the angle at the point. Parts of the surface that are closer to each other than
+ * twice maximumMove may touch afterwards.
  *
  * Time linear; memory about 40 bytes per triangle while it runs. The same bytes for any number of threads. Throws
  * ExceptionObject if maximumMove is negative or not finite. */

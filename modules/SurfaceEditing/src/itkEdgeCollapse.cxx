@@ -482,7 +482,7 @@ EdgeCollapse::CollectFans(PointId from, PointId to)
 bool
 EdgeCollapse::KeepsTopology(PointId from, PointId to)
 {
-  m_Mark += 2; // one more for common neighbours
+  m_Mark += 2; // m_Mark for neighbours of the point that is left, m_Mark + 1 for those of both
   for (const FanTriangle & fan : m_ToFan)
   {
     m_Marks[fan.next] = m_Mark;

@@ -84,8 +84,9 @@ struct CollapsedPart
  * - no triangle turns by much, loses its area or becomes a sliver;
  * - the new point is near the original, and the original's points are near the new triangles.
  *
- * Where sheets meet, points of the curve collapse along it, and other points onto it. New triangles are near the
- * original's of their own sheet.
+ * Where sheets meet, points of the curve collapse along it, and other points onto it. The original's points are near
+ * new triangles of their own sheet; new points are near any sheet of the original, so that the caller must check the
+ * new triangles sheet by sheet.
  *
  * The border of the part stays, and no new edge joins two border points, so that parts simplified one by one fit
  * together. */

@@ -9,42 +9,71 @@ namespace
 
 using PointId = std::uint32_t;
 
+/** The sides opposite to a point in its triangles, {next, last}, ascending. */
+using Link = std::vector<std::array<PointId, 2>>;
+
+/** The number of sides on the paths from one neighbour to another, or back to itself; 0 if a path ends elsewhere. Each
+ * neighbour in between is the first of one side and the last of another. */
+std::size_t
+CountSides(const Link & link, PointId from, PointId to)
+{
+  const auto find = [&link](PointId next) {
+    return std::lower_bound(link.begin(), link.end(), Link::value_type{ next, 0 });
+  };
+  std::size_t sides = 0;
+  for (auto first = find(from); first != link.end() && first->front() == from; ++first)
+  {
+    PointId last = first->back();
+    for (++sides; last != to; ++sides)
+    {
+      if (last == from)
+      {
+        return 0;
+      }
+      last = find(last)->back();
+    }
+  }
+  return sides;
+}
+
 /** The stratum of a point; of a point of a curve, with its neighbours there. */
 Stratum
 FindStratum(const TrianglesOfPoints & fans, SizeValueType point, std::array<PointId, 2> & onCurve)
 {
-  std::vector<PointId> following;
-  std::vector<PointId> preceding;
-  fans.VisitNeighbours(point, [&](PointId next, PointId last) {
-    following.push_back(next);
-    preceding.push_back(last);
-  });
-  std::sort(following.begin(), following.end());
-  std::sort(preceding.begin(), preceding.end());
-  if (!following.empty() && following == preceding &&
-      std::adjacent_find(following.begin(), following.end()) == following.end())
+  Link link;
+  fans.VisitNeighbours(point, [&link](PointId next, PointId last) { link.push_back({ next, last }); });
+  std::sort(link.begin(), link.end());
+  std::vector<std::array<PointId, 2>> neighbours; // and 1 if it is the last of a side
+  for (const auto & [next, last] : link)
   {
-    return Stratum::Sheet;
+    neighbours.push_back({ next, 0 });
+    neighbours.push_back({ last, 1 });
   }
-  std::vector<PointId> neighbours(2 * following.size());
-  std::merge(following.begin(), following.end(), preceding.begin(), preceding.end(), neighbours.begin());
+  std::sort(neighbours.begin(), neighbours.end());
   std::size_t curves = 0;
   for (auto begin = neighbours.begin(); begin != neighbours.end();)
   {
-    const auto end = std::upper_bound(begin, neighbours.end(), *begin);
-    const bool isSheet = end - begin == 2 && std::binary_search(following.begin(), following.end(), *begin) &&
-                         std::binary_search(preceding.begin(), preceding.end(), *begin);
+    const auto end =
+      std::find_if(begin, neighbours.end(), [begin](const auto & other) { return other.front() != begin->front(); });
+    const bool isSheet = end - begin == 2 && begin->back() == 0 && std::prev(end)->back() == 1;
     if (!isSheet && (end - begin < 3 || curves == onCurve.size()))
     {
       return Stratum::Fixed;
     }
     if (!isSheet)
     {
-      onCurve[curves++] = *begin;
+      onCurve[curves++] = begin->front();
     }
     begin = end;
   }
-  return curves == onCurve.size() ? Stratum::Curve : Stratum::Fixed;
+  if (curves == 0)
+  {
+    const bool isSheet = !link.empty() && CountSides(link, link[0][0], link[0][0]) == link.size();
+    return isSheet ? Stratum::Sheet : Stratum::Fixed;
+  }
+  const auto & [a, b] = onCurve;
+  const bool isCurve = curves == 2 && CountSides(link, a, b) + CountSides(link, b, a) == link.size();
+  return isCurve ? Stratum::Curve : Stratum::Fixed;
 }
 
 } // namespace

@@ -11,8 +11,8 @@ namespace itk
 /** Where a point lies in a surface. Points may move and edges collapse within a stratum only. */
 enum class Stratum : std::uint8_t
 {
-  Sheet, ///< inside: each neighbour follows the point in one triangle and precedes it in another
-  Curve, ///< as inside, but for two neighbours with three or more triangles at their edges: there, sheets meet
+  Sheet, ///< inside: its triangles are one closed fan, all of one orientation
+  Curve, ///< sheets meet: its triangles are three or more fans that end at the same two neighbours
   Fixed  ///< on an open border, where curves meet or end, or not manifold
 };
 

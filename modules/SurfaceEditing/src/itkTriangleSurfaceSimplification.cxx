@@ -104,10 +104,10 @@ MakePatch(const TriangleSurface & surface, const Sheets & sheets, const Triangle
 class SheetTrees
 {
 public:
-  SheetTrees(const TriangleSurface & surface, const Sheets & sheets)
+  SheetTrees(const TriangleSurface & surface, const Sheets & sheets, std::size_t numberOfSheets)
     : m_All(surface)
   {
-    std::vector<std::vector<TriangleId>> triangles(*std::max_element(sheets.begin(), sheets.end()) + 1);
+    std::vector<std::vector<TriangleId>> triangles(numberOfSheets);
     for (TriangleId id = 0; triangles.size() > 1 && id < sheets.size(); ++id)
     {
       triangles[sheets[id]].push_back(id);
@@ -138,14 +138,16 @@ private:
 struct Original
 {
   Sheets sheets;
+  std::size_t numberOfSheets;
   TriangleSurface::Pointer surface;
   SheetTrees trees;
   TrianglesOfPoints trianglesOfPoints;
 
   Original(const TriangleSurface & before, const Sheets & sheetsBefore)
     : sheets(sheetsBefore)
+    , numberOfSheets(*std::max_element(sheets.begin(), sheets.end()) + std::size_t{ 1 })
     , surface(Copy(before, sheets))
-    , trees(*surface, sheets)
+    , trees(*surface, sheets, numberOfSheets)
     , trianglesOfPoints(*surface)
   {}
 
@@ -307,8 +309,8 @@ Simplification::Run()
                          (m_Target == 0 || 2 * removed < before - m_Target);
     if (!isSound || (isStuck && !(error < limit) && !this->IsAtTarget()))
     {
-      report.end =
-        m_IsHeldBack && m_Original != nullptr ? SimplificationEnd::MaximumError : SimplificationEnd::Topology;
+      report.end = isSound && m_IsHeldBack && m_Original != nullptr ? SimplificationEnd::MaximumError
+                                                                    : SimplificationEnd::Topology;
       break;
     }
     error = std::min(limit, 2.0 * error);
@@ -514,7 +516,7 @@ Flags
 Simplification::FindBad(bool checksAll)
 {
   Flags isBad(m_State.GetNumberOfTriangles(), 0);
-  const SheetTrees state(m_State, m_Sheets);
+  const SheetTrees state(m_State, m_Sheets, m_Original != nullptr ? m_Original->numberOfSheets : 1);
   this->FindContacts(state.GetAll(), isBad);
   if (m_Original != nullptr)
   {
@@ -662,6 +664,37 @@ Simplification::Hold(const Flags & isBad, unsigned int round)
   return changed;
 }
 
+/** Throws if an edge has two triangles, of two sheets. */
+void
+VerifySheets(const TriangleSurface & surface, const Sheets & sheets)
+{
+  using Side = std::array<std::uint32_t, 3>; // two points and a sheet
+  std::vector<Side> sides;
+  sides.reserve(3 * sheets.size());
+  for (TriangleId id = 0; id < sheets.size(); ++id)
+  {
+    const auto & triangle = surface.GetTriangles()[id];
+    for (unsigned int corner = 0; corner < 3; ++corner)
+    {
+      const auto & [low, high] = std::minmax(triangle[corner], triangle[(corner + 1) % 3]);
+      sides.push_back({ low, high, sheets[id] });
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  for (auto begin = sides.begin(); begin != sides.end();)
+  {
+    const auto end = std::find_if(
+      begin, sides.end(), [begin](const Side & side) { return side[0] != (*begin)[0] || side[1] != (*begin)[1]; });
+    if (end - begin == 2 && *begin != begin[1])
+    {
+      itkGenericExceptionMacro("Sheets " << (*begin)[2] << " and " << begin[1][2]
+                                         << " meet at an edge with two triangles; only edges with three or more can "
+                                            "part sheets");
+    }
+    begin = end;
+  }
+}
+
 void
 VerifyPreconditions(TriangleSurfaceTopology topology,
                     const TriangleSurfaceSimplificationSettings & settings,
@@ -728,6 +761,10 @@ SimplifySurface(TriangleSurface & surface,
   const TriangleSurfaceTopology topology = ComputeTopology(surface);
   const bool isOneSheet = std::all_of(sheets.begin(), sheets.end(), [](std::uint32_t sheet) { return sheet == 0; });
   VerifyPreconditions(topology, settings, isOneSheet);
+  if (!isOneSheet)
+  {
+    VerifySheets(surface, sheets);
+  }
   surface.RemoveUnusedPoints();
   if (surface.GetTriangles().empty())
   {
