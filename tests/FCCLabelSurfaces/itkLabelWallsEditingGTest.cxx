@@ -65,6 +65,90 @@ LargestMove(const Walls & walls, const Walls & start)
   return largest;
 }
 
+using Position = std::array<float, 3>;
+
+/** The labels that meet at each point, where curves of walls meet or end. */
+std::map<Position, std::set<std::uint16_t>>
+FindJunctions(const Walls & walls)
+{
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  std::map<Position, std::set<std::uint16_t>> labels;
+  const auto positionOf = [&walls](std::uint32_t point) {
+    const auto & position = walls.GetPoints()[point];
+    return Position{ position[0], position[1], position[2] };
+  };
+  for (std::size_t n = 0; n < walls.GetNumberOfTriangles(); ++n)
+  {
+    const auto & triangle = walls.GetTriangles()[n];
+    for (unsigned int corner = 0; corner < 3; ++corner)
+    {
+      ++edges[std::minmax(triangle[corner], triangle[(corner + 1) % 3])];
+      labels[positionOf(triangle[corner])].insert(walls.GetTriangleLabels()[n].begin(),
+                                                  walls.GetTriangleLabels()[n].end());
+    }
+  }
+  std::map<std::uint32_t, int> curves;
+  for (const auto & [edge, triangles] : edges)
+  {
+    if (triangles > 2)
+    {
+      ++curves[edge.first];
+      ++curves[edge.second];
+    }
+  }
+  std::map<Position, std::set<std::uint16_t>> junctions;
+  for (const auto & [point, count] : curves)
+  {
+    if (count != 2)
+    {
+      junctions[positionOf(point)] = labels[positionOf(point)];
+    }
+  }
+  return junctions;
+}
+
+/** The triangles between each two labels. */
+std::map<Walls::LabelPairType, itk::TriangleSurface::Pointer>
+FindWalls(const Walls & walls)
+{
+  std::map<Walls::LabelPairType, itk::TriangleSurface::Pointer> found;
+  for (std::size_t n = 0; n < walls.GetNumberOfTriangles(); ++n)
+  {
+    auto & wall = found[walls.GetTriangleLabels()[n]];
+    if (!wall)
+    {
+      wall = itk::TriangleSurface::New();
+      wall->GetPoints() = walls.GetPoints();
+    }
+    wall->GetTriangles().push_back(walls.GetTriangles()[n]);
+  }
+  for (const auto & [pair, wall] : found)
+  {
+    wall->RemoveUnusedPoints();
+  }
+  return found;
+}
+
+/** Expects the same walls with the same topology, none farther from the other than \a error. */
+void
+ExpectNearWalls(const Walls & walls, const Walls & before, double error)
+{
+  const auto found = FindWalls(walls);
+  const auto wanted = FindWalls(before);
+  ASSERT_EQ(found.size(), wanted.size());
+  for (const auto & [pair, wall] : wanted)
+  {
+    ASSERT_EQ(found.count(pair), 1u);
+    const auto & same = *found.at(pair);
+    const auto topology = itk::ComputeTopology(same);
+    const auto topologyBefore = itk::ComputeTopology(*wall);
+    ASSERT_EQ(topology.components, topologyBefore.components);
+    ASSERT_EQ(topology.eulerCharacteristic, topologyBefore.eulerCharacteristic);
+    ASSERT_EQ(topology.nonManifoldEdges, 0u);
+    ASSERT_LE(itk::ComputeTwoDistances(same, *wall).GetMaximum(), 1.0001 * error);
+  }
+}
+
 /** Relaxes and simplifies walls of noise or blobs, and expects all that is promised. */
 void
 ExpectSoundEdits(unsigned int seed)
@@ -73,15 +157,20 @@ ExpectSoundEdits(unsigned int seed)
   const auto image = MakeVolume(seed);
   const auto walls = MakeWalls(image);
   const auto start = Copy(*walls);
-  RelaxWalls(*walls, MovesUpTo(0.5));
+  const auto moves = RelaxWalls(*walls, MovesUpTo(0.5));
   ExpectSoundWalls(*walls, *image);
   ASSERT_EQ(CountCrossings(*walls), 0u);
   ASSERT_LE(LargestMove(*walls, *start), 0.5);
+  ASSERT_DOUBLE_EQ(LargestMove(*walls, *start), moves.largestMove);
+  const auto junctions = FindJunctions(*start);
+  ASSERT_EQ(FindJunctions(*walls), junctions);
 
   const auto relaxed = Copy(*walls);
   const double error = 0.05 + 0.05 * (seed % 8);
   const auto report = SimplifyWalls(*walls, ErrorUpTo(error));
   EXPECT_EQ(report.trianglesAfter, walls->GetNumberOfTriangles());
+  ASSERT_EQ(FindJunctions(*walls), junctions);
+  ExpectNearWalls(*walls, *relaxed, error);
   ExpectSoundWalls(*walls, *image);
   ASSERT_EQ(CountCrossings(*walls), 0u);
   for (const std::uint16_t label : walls->FindLabels())

@@ -9,14 +9,15 @@ namespace itk
 {
 
 /** Smooths walls as SmoothSurface() does, and keeps the volume of each label. Points of a wall move towards the mean of
- * their neighbours, points of the curves where walls meet along their curve; where curves meet, points stay. Then walls
- * move along their normals until each label has its volume again, or the one that
- * \a volumes has for it.
+ * their neighbours, points of the curves where walls meet along their curve. Then walls and their curves move along
+ * their normals until each label has its volume again, or the one that \a volumes has for it. Points where curves meet
+ * or walls touch stay.
  *
- * No point moves farther than maximumMove; where triangles would cross, points stay at their start. So the walls of
- * each label stay a closed, oriented manifold without crossings, if they were. Labels of which all points are as far as
- * they may go can have another volume. Throws ExceptionObject if maximumMove is negative or not finite. The same bytes
- * for any number of threads.
+ * No point moves farther than maximumMove from where it is at the call; where triangles would meet others elsewhere
+ * than at shared corners and sides, points stay there. The report is of all moves together. So the walls of each label
+ * stay a closed, oriented manifold without crossings, if they were. Labels of which all points are as far as they may
+ * go can have another volume. Throws ExceptionObject if maximumMove is negative or not finite. The same bytes for any
+ * number of threads.
  *
  * \param volumes by label in mm^3, such as LabelsToFCCFilter::GetVoxelVolumes(); labels without one, or with 0, keep
  * theirs */
@@ -30,8 +31,8 @@ RelaxWalls(LabelWalls & walls,
  *
  * Points on the curves where walls meet collapse along these, and points where curves meet stay, so that the surface of
  * each label keeps its topology. Distances are checked wall by wall: each wall, in both directions, against the same
- * wall before. A tenth of maximumError is kept for moving walls at the end, so that labels keep their volumes. Throws
- * as SimplifySurface() does. */
+ * wall before. A tenth of maximumError is kept for moving walls at the end, so that labels keep their volumes; if
+ * maximumError is infinite, volumes are not restored. Throws as SimplifySurface() does. */
 TriangleSurfaceSimplificationReport
 SimplifyWalls(LabelWalls & walls, const TriangleSurfaceSimplificationSettings & settings);
 

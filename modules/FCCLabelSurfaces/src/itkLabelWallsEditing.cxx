@@ -1,8 +1,9 @@
 #include "itkLabelWallsEditing.h"
 
 #include "itkBoundedMoves.h"
-#include "detail/itkTrianglesOfPoints.h"
-#include "itkTriangleSurfaceIntersections.h"
+#include "itkForEachBlock.h"
+#include "detail/itkTriangleContact.h"
+#include "itkTriangleTree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,15 +13,20 @@ namespace itk
 namespace
 {
 
+constexpr SizeValueType TestedBlock = 1024;
 constexpr unsigned int VolumeCorrections = 16;
 constexpr double ShareForVolumes = 0.1; // of the largest error of simplification
 
 /** Moves walls along their normals until each label has its volume, or points are as far as they may go. A wall moves
- * by the sum of what its labels want: each a layer on all of its surface as large as what it lacks. */
+ * by the sum of what its labels want: each a layer on all of its surface as large as what it lacks. Fixed points stay.
+ */
 void
-RestoreVolumes(LabelWalls & walls, const std::vector<LabelWalls::Measures> & wanted, BoundedMoves & moves)
+RestoreVolumes(LabelWalls & walls,
+               const std::vector<LabelWalls::Measures> & wanted,
+               const TrianglesOfPoints & fans,
+               const PointStrata & strata,
+               BoundedMoves & moves)
 {
-  const TrianglesOfPoints fans(walls);
   for (unsigned int n = 0; n < VolumeCorrections; ++n)
   {
     const auto measures = walls.ComputeMeasures();
@@ -31,6 +37,10 @@ RestoreVolumes(LabelWalls & walls, const std::vector<LabelWalls::Measures> & wan
       layers[label] = measures[label].area > 0.0 ? lacking / measures[label].area : 0.0;
     }
     moves.Step([&](SizeValueType point) {
+      if (strata.strata[point] == Stratum::Fixed)
+      {
+        return walls.GetPoints()[point];
+      }
       PositionType way{};
       double area = 0.0;
       fans.VisitTriangles(point, [&](std::uint32_t id) {
@@ -47,23 +57,41 @@ RestoreVolumes(LabelWalls & walls, const std::vector<LabelWalls::Measures> & wan
   }
 }
 
-/** Puts the points of triangles that cross others back to their start, until none does. */
-void
-PutBackCrossing(LabelWalls & walls, const LabelWalls::PointsContainer & start)
+/** The ids of the triangles that meet others elsewhere than at shared corners and sides, ascending. */
+std::vector<std::uint32_t>
+FindMeetingTriangles(const LabelWalls & walls)
 {
-  const TrianglesOfPoints fans(walls);
-  for (bool isAnyPutBack = true; isAnyPutBack;)
+  const auto & points = walls.GetPoints();
+  const auto & triangles = walls.GetTriangles();
+  const TriangleTree tree(walls);
+  std::vector<std::uint8_t> meets(triangles.size(), 0);
+  ForEachInBlocks(triangles.size(), TestedBlock, [&](SizeValueType id) {
+    tree.VisitTriangles(TriangleTree::BoxOf(points, triangles[id]), [&](std::uint32_t other) {
+      meets[id] =
+        meets[id] || (other != id && FindContact(points, triangles[id], triangles[other]) != TriangleContact::Apart);
+    });
+  });
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t id = 0; id < meets.size(); ++id)
   {
-    isAnyPutBack = false;
-    for (const std::uint32_t triangle : FindCrossingTriangles(TriangleTree(walls), fans))
+    if (meets[id])
     {
-      for (const std::uint32_t point : walls.GetTriangles()[triangle])
-      {
-        isAnyPutBack = isAnyPutBack || walls.GetPoints()[point] != start[point];
-        walls.GetPoints()[point] = start[point];
-      }
+      found.push_back(id);
     }
   }
+  return found;
+}
+
+/** Restores volumes, and puts points of triangles that then meet others back to their start. */
+TriangleSurfaceSmoothingReport
+FinishMoves(LabelWalls & walls, const std::vector<LabelWalls::Measures> & wanted, BoundedMoves & moves)
+{
+  const TrianglesOfPoints fans(walls);
+  const PointStrata strata = FindStrata(walls, fans);
+  RestoreVolumes(walls, wanted, fans, strata, moves);
+  while (moves.PutBackToStart(FindMeetingTriangles(walls)))
+  {}
+  return moves.Finish(fans, strata);
 }
 
 } // namespace
@@ -77,9 +105,8 @@ RelaxWalls(LabelWalls & walls, const TriangleSurfaceSmoothingSettings & settings
     wanted[label].volume = volumes[label] > 0.0 ? volumes[label] : wanted[label].volume;
   }
   BoundedMoves moves(walls, settings.maximumMove);
-  const TriangleSurfaceSmoothingReport report = SmoothSurface(walls, settings);
-  RestoreVolumes(walls, wanted, moves);
-  PutBackCrossing(walls, moves.GetStart());
+  SmoothSurface(walls, settings);
+  const TriangleSurfaceSmoothingReport report = FinishMoves(walls, wanted, moves);
   walls.Modified();
   return report;
 }
@@ -106,9 +133,9 @@ SimplifyWalls(LabelWalls & walls, const TriangleSurfaceSimplificationSettings & 
   if (std::isfinite(settings.maximumError))
   {
     BoundedMoves moves(walls, ShareForVolumes * settings.maximumError);
-    RestoreVolumes(walls, measures, moves);
-    PutBackCrossing(walls, moves.GetStart());
+    FinishMoves(walls, measures, moves);
   }
+  walls.Modified();
   return report;
 }
 

@@ -3,6 +3,7 @@
 #include "itkForEachBlock.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace itk
 {
@@ -49,6 +50,34 @@ IsSpoilt(const Points & start, const Points & points, const TriangleSurface::Tri
            areaAfter >= SmallestShareOfArea * areaBefore);
 }
 
+/** Computes each point's normal anew: the triangles' normals weighted by their angles at the point. */
+void
+ComputeNormals(TriangleSurface & surface, const TrianglesOfPoints & fans)
+{
+  const Points & points = surface.GetPoints();
+  ForEachInBlocks(points.size(), MovedBlock, [&](SizeValueType point) {
+    PositionType sum{};
+    fans.VisitNeighbours(point, [&](std::uint32_t next, std::uint32_t last) {
+      const PositionType a = Subtract(ToPosition(points[next]), ToPosition(points[point]));
+      const PositionType b = Subtract(ToPosition(points[last]), ToPosition(points[point]));
+      const PositionType normal = Cross(a, b);
+      const double length = Length(normal);
+      const double angle = std::atan2(length, Dot(a, b));
+      for (unsigned int axis = 0; axis < 3 && length > 0.0; ++axis)
+      {
+        sum[axis] += angle * normal[axis] / length;
+      }
+    });
+    if (const double length = Length(sum); length > 0.0)
+    {
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        surface.GetNormals()[point][axis] = static_cast<float>(sum[axis] / length);
+      }
+    }
+  });
+}
+
 } // namespace
 
 BoundedMoves::BoundedMoves(TriangleSurface & surface, double maximumMove)
@@ -79,6 +108,49 @@ BoundedMoves::Step(const std::function<PointType(SizeValueType point)> & find)
   while (this->PutBackBadMoves(isPutBack))
   {}
   m_Surface.GetPoints().swap(m_Next);
+}
+
+bool
+BoundedMoves::PutBackToStart(const std::vector<std::uint32_t> & triangles)
+{
+  Points & points = m_Surface.GetPoints();
+  m_Next.swap(points);
+  points = m_Start;
+  std::vector<std::uint8_t> isPutBack(m_Next.size(), 0);
+  bool isAnyPutBack = false;
+  for (const std::uint32_t id : triangles)
+  {
+    for (const std::uint32_t point : m_Surface.GetTriangles()[id])
+    {
+      isPutBack[point] = isPutBack[point] | (m_Next[point] != m_Start[point] ? 1 : 0);
+      isAnyPutBack = isAnyPutBack || isPutBack[point];
+      m_Next[point] = m_Start[point];
+    }
+  }
+  while (this->PutBackBadMoves(isPutBack))
+  {}
+  points.swap(m_Next);
+  return isAnyPutBack;
+}
+
+TriangleSurfaceSmoothingReport
+BoundedMoves::Finish(const TrianglesOfPoints & fans, const PointStrata & strata)
+{
+  if (m_Surface.HasNormals())
+  {
+    ComputeNormals(m_Surface, fans);
+  }
+  const Points & points = m_Surface.GetPoints();
+  TriangleSurfaceSmoothingReport report;
+  for (std::size_t point = 0; point < points.size(); ++point)
+  {
+    const double move = Length(Subtract(ToPosition(points[point]), ToPosition(m_Start[point])));
+    report.meanMove += move / static_cast<double>(points.size());
+    report.largestMove = std::max(report.largestMove, move);
+    report.pointsAtLimit += move > 0.999 * m_MaximumMove ? 1 : 0;
+    report.pointsOnBorder += strata.strata[point] == Stratum::Fixed ? 1 : 0;
+  }
+  return report;
 }
 
 /** Puts the points of spoilt triangles back to where they were before the step. That may spoil other triangles at these

@@ -2,6 +2,8 @@
 #define itkBoundedMoves_h
 
 #include "detail/itkPositionArithmetic.h"
+#include "itkPointStrata.h"
+#include "itkTriangleSurfaceSmoothing.h"
 
 #include <functional>
 
@@ -26,11 +28,14 @@ public:
   void
   Step(const std::function<PointType(SizeValueType point)> & find);
 
-  const Points &
-  GetStart() const
-  {
-    return m_Start;
-  }
+  /** Puts the points of some triangles back to their start, and those of triangles that have then turned or shrunk too
+   * much. Returns whether any point had moved. */
+  bool
+  PutBackToStart(const std::vector<std::uint32_t> & triangles);
+
+  /** After the last step: computes the normals anew, if there are any, and returns how far points have moved. */
+  TriangleSurfaceSmoothingReport
+  Finish(const TrianglesOfPoints & fans, const PointStrata & strata);
 
   /** A point moved by a multiple of a vector. */
   static PointType

@@ -1,10 +1,8 @@
 #include "itkTriangleSurfaceSmoothing.h"
 
 #include "itkBoundedMoves.h"
-#include "itkForEachBlock.h"
-#include "itkPointStrata.h"
 
-#include <algorithm>
+#include <cmath>
 
 namespace itk
 {
@@ -14,8 +12,6 @@ namespace
 using PointId = std::uint32_t;
 using Points = TriangleSurface::PointsContainer;
 using PointType = TriangleSurface::PointType;
-
-constexpr SizeValueType SmoothedBlock = 4096;
 
 // Taubin's filter passes frequencies of the graph Laplacian up to 1 / Inwards + 1 / Outwards = 0.1, of [0, 2].
 constexpr double Inwards = 0.5;
@@ -45,49 +41,6 @@ MoveAlongCurve(const Points & points, const PointStrata & strata, SizeValueType 
     points[point], 0.5 * share, Add(Difference(points[a], points[point]), Difference(points[b], points[point])));
 }
 
-/** Computes each point's normal anew: the triangles' normals weighted by their angles at the point. */
-void
-ComputeNormals(TriangleSurface & surface, const TrianglesOfPoints & fans)
-{
-  const Points & points = surface.GetPoints();
-  ForEachInBlocks(points.size(), SmoothedBlock, [&](SizeValueType point) {
-    PositionType sum{};
-    fans.VisitNeighbours(point, [&](PointId next, PointId last) {
-      const PositionType a = Difference(points[next], points[point]);
-      const PositionType b = Difference(points[last], points[point]);
-      const PositionType normal = Cross(a, b);
-      const double length = Length(normal);
-      const double angle = std::atan2(length, Dot(a, b));
-      for (unsigned int axis = 0; axis < 3 && length > 0.0; ++axis)
-      {
-        sum[axis] += angle * normal[axis] / length;
-      }
-    });
-    if (const double length = Length(sum); length > 0.0)
-    {
-      for (unsigned int axis = 0; axis < 3; ++axis)
-      {
-        surface.GetNormals()[point][axis] = static_cast<float>(sum[axis] / length);
-      }
-    }
-  });
-}
-
-TriangleSurfaceSmoothingReport
-MakeReport(const Points & start, const Points & points, const PointStrata & strata, double maximumMove)
-{
-  TriangleSurfaceSmoothingReport report;
-  for (std::size_t point = 0; point < points.size(); ++point)
-  {
-    const double move = Length(Difference(points[point], start[point]));
-    report.meanMove += move / static_cast<double>(points.size());
-    report.largestMove = std::max(report.largestMove, move);
-    report.pointsAtLimit += move > 0.999 * maximumMove ? 1 : 0;
-    report.pointsOnBorder += strata.strata[point] == Stratum::Fixed ? 1 : 0;
-  }
-  return report;
-}
-
 } // namespace
 
 TriangleSurfaceSmoothingReport
@@ -113,12 +66,8 @@ SmoothSurface(TriangleSurface & surface, const TriangleSurfaceSmoothingSettings 
                                          : points[point];
     });
   }
-  if (surface.HasNormals())
-  {
-    ComputeNormals(surface, fans);
-  }
   surface.Modified();
-  return MakeReport(moves.GetStart(), points, strata, maximumMove);
+  return moves.Finish(fans, strata);
 }
 
 } // namespace itk
