@@ -219,6 +219,102 @@ TEST(LabelWallsEditing, SmoothLabelsKeepTheirVolumes)
   }
 }
 
+TEST(LabelWallsEditing, RelaxedWallsAreSmoother)
+{
+  const auto ball = MakeLabels(Region(0, 12, 24, 24), [](const itk::Index<3> & index) {
+    const auto site = itk::FCCLattice::SiteOf(index);
+    const auto isInside = std::hypot(site[0] - 12.0, site[1] - 12.0, site[2] - 12.0) < 9.0;
+    return static_cast<std::uint16_t>(isInside ? 1 + (site[0] < 12 ? 1 : 0) : 0);
+  });
+  const auto walls = MakeWalls(ball);
+  const auto before = walls->ComputeMeasures();
+  const auto turnFromRadius = [](const Walls & of) { // mean sine of the angle between normals and radii
+    double sum = 0.0;
+    double area = 0.0;
+    const auto outside = of.ExtractLabel(0);
+    for (const auto & triangle : outside->GetTriangles())
+    {
+      const auto & a = outside->GetPoints()[triangle[0]];
+      const auto & b = outside->GetPoints()[triangle[1]];
+      const auto & c = outside->GetPoints()[triangle[2]];
+      std::array<double, 3> normal{};
+      std::array<double, 3> radius{};
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        const unsigned int next = (axis + 1) % 3;
+        const unsigned int last = (axis + 2) % 3;
+        normal[axis] = (double{ b[next] } - a[next]) * (double{ c[last] } - a[last]) -
+                       (double{ b[last] } - a[last]) * (double{ c[next] } - a[next]);
+        radius[axis] = (double{ a[axis] } + b[axis] + c[axis]) / 3.0 - 12.0;
+      }
+      const double length = std::hypot(normal[0], normal[1], normal[2]);
+      const double dot = normal[0] * radius[0] + normal[1] * radius[1] + normal[2] * radius[2];
+      const double cosine = dot / (length * std::hypot(radius[0], radius[1], radius[2]));
+      sum += length * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+      area += length;
+    }
+    return sum / area;
+  };
+  const double turn = turnFromRadius(*walls);
+  RelaxWalls(*walls, MovesUpTo(0.5));
+  const auto after = walls->ComputeMeasures();
+  EXPECT_LT(turnFromRadius(*walls), 0.6 * turn);
+  for (const std::size_t label : { 0u, 1u, 2u })
+  {
+    EXPECT_LT(after[label].area, before[label].area);
+    EXPECT_NEAR(after[label].volume, before[label].volume, 1e-3 * std::abs(before[label].volume));
+  }
+}
+
+TEST(LabelWallsEditing, WallsOfANarrowGapDoNotMeet)
+{
+  const auto slabs = MakeLabels(Region(0, 9, 18, 18), [](const itk::Index<3> & index) {
+    const auto site = itk::FCCLattice::SiteOf(index);
+    const bool isInside = std::all_of(site.begin(), site.end(), [](auto at) { return at >= 2 && at <= 15; });
+    const bool isGap = site[0] >= 8 && site[0] <= 9 && site[1] > 4;
+    return static_cast<std::uint16_t>(isInside && !isGap ? 1 : 0);
+  });
+  const auto walls = MakeWalls(slabs);
+  const auto start = Copy(*walls);
+  const double volume = 3.0 * walls->ComputeMeasures()[1].volume;
+  const auto report = RelaxWalls(*walls, MovesUpTo(4.0), { 0.0, volume });
+  ExpectSoundWalls(*walls, *slabs);
+  EXPECT_EQ(CountCrossings(*walls), 0u);
+  EXPECT_LT(walls->ComputeMeasures()[1].volume, volume) << "more than the gap has room for";
+  EXPECT_DOUBLE_EQ(report.largestMove, LargestMove(*walls, *start));
+  itk::SizeValueType unmoved = 0;
+  for (std::size_t point = 0; point < start->GetNumberOfPoints(); ++point)
+  {
+    unmoved += walls->GetPoints()[point] == start->GetPoints()[point] ? 1 : 0;
+  }
+  EXPECT_GT(unmoved, 0u);
+  EXPECT_LT(unmoved, start->GetNumberOfPoints());
+}
+
+TEST(LabelWallsEditing, SimplifiedWallsReachATarget)
+{
+  const auto image = MakeBlobs(Region(0, 14, 28, 28), 2, 6);
+  const auto walls = MakeWalls(image);
+  auto settings = ErrorUpTo(2.0);
+  settings.targetTriangles = walls->GetNumberOfTriangles() / 3;
+  const auto report = SimplifyWalls(*walls, settings);
+  EXPECT_EQ(report.end, itk::SimplificationEnd::Target);
+  EXPECT_LE(walls->GetNumberOfTriangles(), settings.targetTriangles);
+  EXPECT_GT(walls->GetNumberOfTriangles(), settings.targetTriangles * 95 / 100);
+  ExpectSoundWalls(*walls, *image);
+}
+
+TEST(LabelWallsEditing, RefusesSenselessSettings)
+{
+  const auto walls = MakeWalls(MakeBlobs(Region(0, 5, 9, 9), 2, 3));
+  const auto points = walls->GetPoints();
+  EXPECT_THROW(RelaxWalls(*walls, MovesUpTo(-1.0)), itk::ExceptionObject);
+  EXPECT_THROW(RelaxWalls(*walls, MovesUpTo(std::nan(""))), itk::ExceptionObject);
+  EXPECT_THROW(SimplifyWalls(*walls, {}), itk::ExceptionObject);
+  EXPECT_THROW(SimplifyWalls(*walls, ErrorUpTo(0.0)), itk::ExceptionObject);
+  EXPECT_EQ(walls->GetPoints(), points);
+}
+
 TEST(LabelWallsEditing, LabelsTakeTheVolumesAsked)
 {
   const auto image = MakeBlobs(Region(0, 14, 28, 28), 3, 4);
