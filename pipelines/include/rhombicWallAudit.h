@@ -32,6 +32,7 @@ struct WallAudit
 WallAudit
 AuditWalls(const std::vector<SceneSurface> & surfaces, const itk::TriangleSurfaceAuditSettings & settings = {});
 
+/** The audit as JSON. */
 Report
 ReportWalls(const WallAudit & audit);
 

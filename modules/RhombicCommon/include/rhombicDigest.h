@@ -21,9 +21,11 @@ public:
   Digest();
   ~Digest();
 
+  /** Adds bytes behind those before. */
   void
   Add(const void * bytes, std::size_t size);
 
+  /** Adds the bytes of a text. */
   void
   Add(std::string_view text)
   {
