@@ -11,14 +11,14 @@ namespace rhombic
 namespace
 {
 
-using Colour = std::array<std::uint8_t, 3>;
+using LabelColour = std::array<std::uint8_t, 3>;
 
 /** A line of data/anatomical-colours.tsv, which explains it. */
 struct Rule
 {
   std::string_view word;
   std::string_view second;
-  Colour colour;
+  LabelColour colour;
 };
 
 constexpr Rule Rules[] = {
@@ -82,7 +82,7 @@ HasOddNumber(const std::vector<std::string> & words)
 }
 
 /** A colour by its hue (in turns), saturation and brightness (from 0 to 1). */
-Colour
+LabelColour
 ColourOfHue(double turns, double saturation, double brightness)
 {
   const auto component = [&](double offset) {
@@ -95,7 +95,7 @@ ColourOfHue(double turns, double saturation, double brightness)
 
 /** A colour whose hue is a golden angle from that of the previous value. Values with nearly the same hue (5, 8 and 13
  * apart) differ in saturation or brightness. */
-Colour
+LabelColour
 ColourOfValue(std::int32_t value)
 {
   constexpr double goldenAngle = 0.381966011250105; // turns
@@ -132,7 +132,7 @@ FindAnatomicalColour(const std::string & name)
   }
   const bool beginsWithL = words.size() > 1 && words[0] == "l" && !IsDigit(words[1][0]); // L1 is a vertebra
   const bool isLeft = HasWord(words, "left.") || HasWord(words, "sinist") || words.back() == "l" || beginsWithL;
-  const Colour sided = Lighten(rule->colour, isLeft ? 0.2 : 0.0);
+  const LabelColour sided = Lighten(rule->colour, isLeft ? 0.2 : 0.0);
   return Lighten(sided, HasOddNumber(words) ? -0.1 : 0.0);
 }
 
