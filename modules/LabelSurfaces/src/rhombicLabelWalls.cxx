@@ -130,71 +130,26 @@ SetNormals(itk::TriangleSurface & surface)
   }
 }
 
-/** The surface of each label below \a labels, in one pass over the walls; none for 0. */
-std::vector<itk::TriangleSurface::Pointer>
-SplitWalls(const itk::LabelWalls & walls, std::size_t labels)
-{
-  std::vector<std::vector<std::uint32_t>> trianglesOf(labels);
-  for (std::size_t n = 0; n < walls.GetNumberOfTriangles(); ++n)
-  {
-    for (const std::uint16_t label : walls.GetTriangleLabels()[n])
-    {
-      trianglesOf[label].push_back(static_cast<std::uint32_t>(n));
-    }
-  }
-  std::vector<itk::TriangleSurface::Pointer> surfaces{ itk::TriangleSurface::New() };
-  std::vector<std::uint16_t> lastLabel(walls.GetNumberOfPoints(), 0);
-  std::vector<std::uint32_t> numbers(walls.GetNumberOfPoints());
-  for (std::size_t label = 1; label < labels; ++label)
-  {
-    const auto surface = itk::TriangleSurface::New();
-    for (const std::uint32_t n : trianglesOf[label])
-    {
-      itk::TriangleSurface::TriangleType triangle = walls.GetTriangles()[n];
-      if (walls.GetTriangleLabels()[n][0] == label)
-      {
-        std::swap(triangle[1], triangle[2]);
-      }
-      for (std::uint32_t & point : triangle)
-      {
-        if (lastLabel[point] != label)
-        {
-          lastLabel[point] = static_cast<std::uint16_t>(label);
-          numbers[point] = static_cast<std::uint32_t>(surface->GetNumberOfPoints());
-          surface->GetPoints().push_back(walls.GetPoints()[point]);
-        }
-        point = numbers[point];
-      }
-      surface->GetTriangles().push_back(triangle);
-    }
-    surfaces.push_back(surface);
-  }
-  return surfaces;
-}
-
 /** Sets the labels of a mesh, with the volumes and pieces of their walls. */
 void
 DescribeLabels(const LabelMap & map, const std::vector<LabelSummary> & labels, LabelMesh & mesh, const Events & events)
 {
   const auto boxes = FindLabelBoxes(map.scan.image);
-  const auto surfaces = SplitWalls(*mesh.walls, labels.size() + 1);
   mesh.labels.resize(labels.size());
-  itk::ForEachOnThreads(labels.size(), [&](std::size_t n) {
+  for (std::size_t n = 0; n < labels.size(); ++n)
+  {
     LabelSurface & label = mesh.labels[n];
     label = DescribeLabel(labels[n]);
     label.sharesWalls = true;
     label.scene.label = label.value;
     const LabelPieces pieces(map.scan.image, label.value, boxes.at(label.value));
     label.pieces = pieces.GetNumberOfPieces();
-    const auto & surface = *surfaces[n + 1];
-    const auto volumes = itk::ComputeComponentVolumes(surface, itk::FindComponents(surface));
+    const auto surface = mesh.walls->ExtractLabel(static_cast<itk::LabelWalls::LabelType>(n + 1));
+    const auto volumes = itk::ComputeComponentVolumes(*surface, itk::FindComponents(*surface));
     label.surfaceMillilitres = std::accumulate(volumes.begin(), volumes.end(), 0.0) / CubicMillimetresPerMl;
     label.surfacePieces = static_cast<std::size_t>(
       std::count_if(volumes.begin(), volumes.end(), [](double volume) { return volume > 0.0; }));
     label.isTorn = label.surfacePieces > label.pieces && label.surfacePieces > pieces.CountFaceConnectedPieces();
-  });
-  for (const LabelSurface & label : mesh.labels)
-  {
     NoteShortcomings(label, events);
   }
 }
@@ -249,10 +204,10 @@ RefineWalls(itk::LabelWalls & walls, const SurfaceFinish & finish, double spacin
 void
 ExtractSurfaces(LabelMesh & mesh)
 {
-  const auto surfaces = SplitWalls(*mesh.walls, mesh.labels.size() + 1);
   itk::ForEachOnThreads(mesh.labels.size(), [&](std::size_t n) {
-    SetNormals(*surfaces[n + 1]);
-    mesh.labels[n].scene.surface = surfaces[n + 1];
+    const auto surface = mesh.walls->ExtractLabel(static_cast<itk::LabelWalls::LabelType>(n + 1));
+    SetNormals(*surface);
+    mesh.labels[n].scene.surface = surface;
   });
 }
 
