@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstring>
 #include <iterator>
+#include <set>
 #include <utility>
 
 #include <fcntl.h>
@@ -234,6 +235,7 @@ AtomicFile::Commit(std::uintmax_t minimumSize)
 {
   this->Flush(minimumSize);
   this->Rename();
+  FlushToDisk(FolderOf(m_Target), O_RDONLY | O_DIRECTORY);
 }
 
 void
@@ -247,7 +249,6 @@ AtomicFile::Rename()
   }
   Unlist(m_Temporary);
   m_Temporary.clear();
-  FlushToDisk(FolderOf(m_Target), O_RDONLY | O_DIRECTORY);
 }
 
 AtomicFile &
@@ -267,6 +268,7 @@ StagedFiles::Commit()
     return;
   }
   std::string replaced;
+  std::set<fs::path> folders;
   for (const auto & file : m_Files)
   {
     const std::string target = file->m_Target.string();
@@ -282,6 +284,11 @@ StagedFiles::Commit()
                   std::string(failure.GetDescription()) + " Files of this run are already in place: " + replaced + ".");
     }
     replaced += (replaced.empty() ? "" : ", ") + target;
+    folders.insert(FolderOf(file->m_Target));
+  }
+  for (const fs::path & folder : folders)
+  {
+    FlushToDisk(folder, O_RDONLY | O_DIRECTORY);
   }
   m_Files.clear();
 }
