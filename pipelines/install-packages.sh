@@ -14,7 +14,7 @@ packages=(
   libcli11-dev libyaml-cpp-dev nlohmann-json3-dev libspdlog-dev zlib1g-dev libhwy-dev libmeshoptimizer-dev
 )
 if [ "${1-}" = tests ]; then
-  packages+=(libgtest-dev dcm2niix dcmtk dicom3tools f3d doxygen dpkg-dev file help2man poppler-utils)
+  packages+=(chromium libgtest-dev dcm2niix dcmtk dicom3tools f3d doxygen dpkg-dev file help2man poppler-utils)
 fi
 
 missing=()
@@ -64,7 +64,7 @@ show_progress() {
   done
 }
 
-echo "Installing ${#missing[@]} packages and what they need (2 to 3 minutes and 600 MB of downloads if none are there):"
+echo "Installing ${#missing[@]} packages and what they need (2 to 3 minutes and 700 MB of downloads if none are there):"
 echo "  ${missing[*]}"
 log=$(mktemp)
 if ! { "${run[@]}" apt-get update -qq &&
