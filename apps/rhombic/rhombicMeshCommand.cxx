@@ -66,11 +66,11 @@ ParseSpace(const std::string & text)
 }
 
 SurfaceSelection
-GetSelection(const MeshOptions & options)
+GetSelection(const MeshOptions & options, const Preset & preset)
 {
   if (options.threshold.empty())
   {
-    return options.surfaces.GetSelection();
+    return options.surfaces.GetSelection(preset);
   }
   SurfaceRequest request;
   request.name = "surface";
@@ -80,19 +80,22 @@ GetSelection(const MeshOptions & options)
                   "The threshold '" + options.threshold +
                     "' is no number; write -t -300.5, -t '<-500.5' for what lies below, -t otsu or -t otsu-low.");
   }
-  return options.surfaces.GetSelection(request);
+  return options.surfaces.GetSelection(preset, request);
 }
 
 void
 Mesh(const MeshOptions & options, const CommandContext & context)
 {
   MeshScanSettings settings;
-  settings.source = options.scan.GetSource(context, options.surfaces.GetDenoising());
-  settings.surfaces = GetSelection(options);
   if (options.mesh.empty())
   {
     throw Failure(FailureKind::Usage, "No file is named; give one with -o, for example -o bone.stl.");
   }
+  const Events events = context.console->MakeEvents();
+  settings.source = options.scan.GetSource(context);
+  const Preset preset = options.surfaces.GetPreset(settings.source, events);
+  options.scan.ApplyPreset(preset, settings.source);
+  settings.surfaces = GetSelection(options, preset);
   settings.mesh = options.mesh;
   settings.space = ParseSpace(options.space);
   settings.finish = options.finish.Get();
@@ -102,7 +105,7 @@ Mesh(const MeshOptions & options, const CommandContext & context)
   settings.audits = options.audits;
   settings.requiresWatertight = options.requiresWatertight;
   settings.provenance = options.scan.GetProvenance(context, options.surfaces.GetNames());
-  for (const auto & mesh : MeshScan(settings, context.console->MakeEvents()))
+  for (const auto & mesh : MeshScan(settings, events))
   {
     context.console->Note("mesh: " + mesh.string());
   }

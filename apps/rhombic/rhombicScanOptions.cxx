@@ -113,7 +113,7 @@ ScanOptions::GetProvenance(const CommandContext & context, std::map<std::string,
 }
 
 ScanSource
-ScanOptions::GetSource(const CommandContext & context, const Denoising & otherwise) const
+ScanOptions::GetSource(const CommandContext & context) const
 {
   static const NamedValues<itk::SeparableKernel> kernels{ { "cubic", itk::SeparableKernel::CubicBSpline },
                                                           { "linear", itk::SeparableKernel::Linear },
@@ -136,10 +136,19 @@ ScanOptions::GetSource(const CommandContext & context, const Denoising & otherwi
   source.lattice.density = m_Density;
   source.lattice.spacing = ToSpacing(m_Spacing);
   source.lattice.kernel = FindNamed("kernel", m_Kernel, kernels);
-  source.lattice.denoising = m_Denoising.empty() ? otherwise : ParseDenoising(m_Denoising);
+  source.lattice.denoising = m_Denoising.empty() ? Denoising() : ParseDenoising(m_Denoising);
   source.lattice.nested = m_Nested;
   source.lattice.maximumMemory = source.read.maximumMemory;
   return source;
+}
+
+void
+ScanOptions::ApplyPreset(const Preset & preset, ScanSource & source) const
+{
+  if (m_Denoising.empty())
+  {
+    source.lattice.denoising = preset.denoising;
+  }
 }
 
 } // namespace rhombic

@@ -2,6 +2,7 @@
 #define rhombicScanOptions_h
 
 #include "rhombicCommands.h"
+#include "rhombicPresets.h"
 #include "rhombicScanSource.h"
 #include "rhombicSidecar.h"
 
@@ -41,7 +42,11 @@ public:
 
   /** The parsed source, to be read with the program's decoder. Throws Failure(Usage). */
   ScanSource
-  GetSource(const CommandContext & context, const Denoising & otherwise = {}) const;
+  GetSource(const CommandContext & context) const;
+
+  /** Denoises the source as the preset asks for, unless --denoise is given. */
+  void
+  ApplyPreset(const Preset & preset, ScanSource & source) const;
 
 private:
   std::string m_Path;

@@ -1,8 +1,8 @@
 #include "rhombicSurfaceOptions.h"
 
+#include "rhombicDescribeScan.h"
 #include "rhombicFailure.h"
 #include "rhombicNamedValues.h"
-#include "rhombicPresets.h"
 
 namespace rhombic
 {
@@ -35,7 +35,10 @@ ParseLabelColours(const std::string & text)
 void
 SurfaceOptions::Add(CLI::App & parser)
 {
-  parser.add_option("--preset", m_Preset, "surfaces by a preset's name, or by a .yaml file like those of the project");
+  parser.add_option(
+    "--preset",
+    m_Preset,
+    "surfaces by a preset's name, or by a .yaml file like those of the project; auto chooses one by the scan's values");
   parser
     .add_option("--surface",
                 m_Surfaces,
@@ -96,20 +99,23 @@ SurfaceOptions::Add(CLI::App & parser)
     ->capture_default_str();
 }
 
+Preset
+SurfaceOptions::GetPreset(ScanSource & source, const Events & events) const
+{
+  const std::string name = m_Preset == "auto" ? ChoosePreset(source, !m_Labels.empty(), events) : m_Preset;
+  return name.empty() ? Preset() : FindPreset(name);
+}
+
 SurfaceSelection
-SurfaceOptions::GetSelection(const std::optional<SurfaceRequest> & further) const
+SurfaceOptions::GetSelection(const Preset & preset, const std::optional<SurfaceRequest> & further) const
 {
   SurfaceSelection selection;
   selection.mode = ParseMode(m_Mode);
-  if (!m_Preset.empty())
+  selection.requests = preset.surfaces;
+  selection.rules.rules = preset.rules;
+  if (preset.removesTable)
   {
-    const Preset preset = FindPreset(m_Preset);
-    selection.requests = preset.surfaces;
-    if (preset.removesTable)
-    {
-      selection.removesTable = true;
-    }
-    selection.rules.rules = preset.rules;
+    selection.removesTable = true;
   }
   if (m_RemovesTable || m_KeepsTable)
   {
@@ -156,12 +162,6 @@ SurfaceOptions::GetRules(std::vector<SceneRule> before) const
     rules.rules.push_back(ParseSceneRule(text));
   }
   return rules;
-}
-
-Denoising
-SurfaceOptions::GetDenoising() const
-{
-  return m_Preset.empty() ? Denoising() : FindPreset(m_Preset).denoising;
 }
 
 } // namespace rhombic

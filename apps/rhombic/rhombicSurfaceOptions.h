@@ -1,6 +1,8 @@
 #ifndef rhombicSurfaceOptions_h
 #define rhombicSurfaceOptions_h
 
+#include "rhombicEvents.h"
+#include "rhombicPresets.h"
 #include "rhombicScanSource.h"
 
 #include <CLI/CLI.hpp>
@@ -21,19 +23,20 @@ public:
   void
   Add(CLI::App & parser);
 
+  /** The preset; without --preset, one of no surfaces. "auto" reads the source's volume to choose one. Throws Failure.
+   */
+  Preset
+  GetPreset(ScanSource & source, const Events & events) const;
+
   /** The parsed selection, with one more surface if given. Without surfaces and label map, the scan itself is taken as
    * the label map. Throws Failure(Usage). */
   SurfaceSelection
-  GetSelection(const std::optional<SurfaceRequest> & further = std::nullopt) const;
+  GetSelection(const Preset & preset, const std::optional<SurfaceRequest> & further = std::nullopt) const;
 
   /** Which surfaces are shown, and in which colours, by the options; these count more than the rules \a before. Throws
    * Failure(Usage). */
   SceneRules
   GetRules(std::vector<SceneRule> before = {}) const;
-
-  /** The denoising that the preset asks for; none without a preset. Throws Failure. */
-  Denoising
-  GetDenoising() const;
 
   /** Values of options that may name the patient (see DescribeArguments()). */
   std::map<std::string, std::string>

@@ -1,6 +1,7 @@
 #ifndef rhombicDescribeScan_h
 #define rhombicDescribeScan_h
 
+#include "rhombicEvents.h"
 #include "rhombicScanSource.h"
 
 #include <cstddef>
@@ -56,6 +57,12 @@ struct ScanDescription
  * Throws Failure. */
 ScanDescription
 DescribeScan(const ScanSource & source, const LabelMapSource & labels);
+
+/** The name of the preset that "auto" stands for: ct-bone-skin for a CT, ct-organs for a CT with labels, mr-head for
+ * other scans and lattice volumes; empty for label maps and other scans with labels, which need none. Reads the source
+ * and keeps its volume there. Throws Failure. */
+std::string
+ChoosePreset(ScanSource & source, bool hasLabels, const Events & events);
 
 } // namespace rhombic
 

@@ -10,8 +10,10 @@
 #include "itkFCCIsosurfaceMode.h"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace rhombic
@@ -25,6 +27,10 @@ struct ScanSource
   ScanReadOptions read;
   LatticeSettings lattice; ///< for lattice volumes, only the denoising has an effect
   bool isHashed = false;   ///< whether reports hold a digest of the files that were read
+
+  /** What the path holds, if it was read before (see ChoosePreset()). The next function that reads the source takes it.
+   * Copies share it. */
+  std::shared_ptr<std::variant<Scan, FCCVolume>> volume;
 };
 
 /** \class LabelSelection

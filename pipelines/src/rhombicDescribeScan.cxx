@@ -127,6 +127,15 @@ DescribeSeries(const ScanSource & source, const LabelMapSource & labels)
   return std::move(*description);
 }
 
+/** Whether a scan has the values of a CT with bone. */
+bool
+IsCT(const Scan & scan)
+{
+  const std::vector<SuggestedThreshold> thresholds =
+    SuggestThresholds(scan.modality, ComputeIntensities(scan.image, false));
+  return thresholds.back().surface == "bone";
+}
+
 } // namespace
 
 bool
@@ -146,6 +155,20 @@ DescribeScan(const ScanSource & source, const LabelMapSource & labels)
   ScanSource first = source;
   first.read.onSeveralFrames = ScanReadOptions::Policy::Accept;
   return DescribeSeries(first, labels);
+}
+
+std::string
+ChoosePreset(ScanSource & source, bool hasLabels, const Events & events)
+{
+  source.volume = std::make_shared<SourceVolume>(LoadVolume(source, events));
+  const Scan * const scan = std::get_if<Scan>(source.volume.get());
+  std::string preset = hasLabels ? "" : "mr-head";
+  if (scan != nullptr)
+  {
+    preset = IsCT(*scan) ? (hasLabels ? "ct-organs" : "ct-bone-skin") : IsLabelMap(*scan) ? "" : preset;
+  }
+  events.Note("preset: " + (preset.empty() ? "none" : preset));
+  return preset;
 }
 
 } // namespace rhombic

@@ -206,6 +206,10 @@ ReadScan(const ScanSource & source, const Events & events)
 SourceVolume
 LoadVolume(const ScanSource & source, const Events & events)
 {
+  if (source.volume)
+  {
+    return std::move(*source.volume);
+  }
   events.Progress("reading", 0.0);
   if (IsFCCImageFile(source.path))
   {

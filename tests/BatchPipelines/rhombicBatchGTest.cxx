@@ -299,8 +299,35 @@ TEST(Batch, TheDefaultIsAPageWithAThumbnail)
   {
     EXPECT_TRUE(fs::exists(folder.Path() / "out/case" / file)) << file;
   }
-  EXPECT_NE(ReadText(folder.Path() / "out/case/page.png.json").find("ct-bone-skin"), std::string::npos);
+  EXPECT_NE(ReadText(folder.Path() / "out/case/page.png.json").find("\"bone\""), std::string::npos);
   EXPECT_NE(ReadText(folder.Path() / "out/index.html").find("src=\"./case/thumbnail.jpg\""), std::string::npos);
+}
+
+TEST(Batch, TheChosenPresetFitsScanAndLabels)
+{
+  const TemporaryFolder folder;
+  std::ofstream(folder.Path() / "pipeline.yaml") << "outputs: [{mesh: a.glb, preset: auto}]";
+  const struct
+  {
+    std::string name, scan, labels, options, preset;
+  } cases[] = { { "ct", phantom / "dicom", "", "--density 0.5", " --preset ct-bone-skin" },
+                { "organs", phantom / "phantom.nii.gz", phantom / "phantom-labels.nii.gz", "", " --preset ct-organs" },
+                { "labels", phantom / "phantom-labels.nii.gz", "", "--density 0.5", "" } };
+  std::ofstream manifest(folder.Path() / "cases.tsv");
+  manifest << "case\tscan\tlabels\toptions\n";
+  for (const auto & one : cases)
+  {
+    manifest << one.name << '\t' << one.scan << '\t' << one.labels << '\t' << one.options << '\n';
+  }
+  manifest.close();
+  const Outcome outcome = RunShell("rhombic batch cases.tsv --pipeline pipeline.yaml -o out", folder.Path());
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+  for (const auto & one : cases)
+  {
+    const std::string labels = one.labels.empty() ? " " : " --labels " + one.labels + " ";
+    RunShell("rhombic mesh " + one.scan + labels + one.options + one.preset + " -o a.glb", folder.Path());
+    EXPECT_TRUE(ReadText(folder.Path() / "out" / one.name / "a.glb") == ReadText(folder.Path() / "a.glb")) << one.name;
+  }
 }
 
 TEST(Batch, RenderAndMeshMakeTheSameFilesOfAPipeline)

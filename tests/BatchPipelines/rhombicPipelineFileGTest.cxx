@@ -58,12 +58,10 @@ TEST(PipelineFile, OutputsBecomeCommands)
                                   "  - mesh: bone.stl\n");
   ASSERT_EQ(pipeline.steps.size(), 3u);
   using Arguments = std::vector<std::string>;
-  EXPECT_EQ(pipeline.steps[0].arguments, (Arguments{ "render", "--sheet" }));
-  EXPECT_TRUE(pipeline.steps[0].choosesPreset);
+  EXPECT_EQ(pipeline.steps[0].arguments, (Arguments{ "render", "--sheet", "--preset=auto" }));
   EXPECT_TRUE(pipeline.steps[0].takesLabels);
   EXPECT_EQ(pipeline.steps[1].arguments,
             (Arguments{ "render", "--no-shadows", "--preset=ct-bone", "--view=left", "--view=right" }));
-  EXPECT_FALSE(pipeline.steps[1].choosesPreset);
   EXPECT_FALSE(pipeline.steps[1].takesLabels);
   EXPECT_EQ(pipeline.steps[2].arguments, (Arguments{ "mesh", "--preset=ct-bone", "--smooth=0.5" }));
   EXPECT_EQ(pipeline.steps[2].output, "bone.stl");

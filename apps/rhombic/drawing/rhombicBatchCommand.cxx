@@ -105,8 +105,8 @@ GetSettings(const BatchOptions & options, const Events & events)
   }
   settings.isPart = !options.only.empty();
   settings.output = options.output;
-  settings.program =
-    (std::filesystem::read_symlink("/proc/self/exe").parent_path() / RHOMBIC_PROGRAM).lexically_normal();
+  settings.drawingProgram = std::filesystem::read_symlink("/proc/self/exe");
+  settings.program = (settings.drawingProgram.parent_path() / RHOMBIC_PROGRAM).lexically_normal();
   settings.software = "Rhombic " RHOMBIC_VERSION;
   settings.maximumSeconds = options.maximumSeconds;
   const unsigned int threads = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -202,7 +203,7 @@ PictureSource
 GetPictureSource(const RenderOptions & options, const CommandContext & context)
 {
   PictureSource source;
-  source.scan = options.scan.GetSource(context, options.surfaces.GetDenoising());
+  source.scan = options.scan.GetSource(context);
   source.finish = options.finish.Get();
   const bool isOfFiles = IsSurfaceFile(source.scan.path);
   if (!isOfFiles && !options.furtherFiles.empty())
@@ -219,7 +220,9 @@ GetPictureSource(const RenderOptions & options, const CommandContext & context)
   }
   else
   {
-    source.surfaces = options.surfaces.GetSelection();
+    const Preset preset = options.surfaces.GetPreset(source.scan, context.console->MakeEvents());
+    options.scan.ApplyPreset(preset, source.scan);
+    source.surfaces = options.surfaces.GetSelection(preset);
     source.surfaces.rules.opensEnclosing = source.surfaces.labels && source.surfaces.labels->labels.empty();
   }
   return source;
@@ -234,6 +237,15 @@ GetSliceSettings(const RenderOptions & options)
   slice.outlines = !options.hasNoOutlines;
   slice.lightbox = options.lightbox;
   return slice;
+}
+
+/** Where a batch wants a small picture, which no picture before has made. From the environment, so that it is not in
+ * reports. */
+std::filesystem::path
+FindThumbnail()
+{
+  const char * const path = std::getenv("RHOMBIC_THUMBNAIL");
+  return path == nullptr || std::filesystem::exists(path) ? "" : path;
 }
 
 std::vector<std::filesystem::path>
@@ -257,6 +269,7 @@ RenderPage(const RenderOptions & options, const CommandContext & context, const 
   settings.isLandscape = options.isLandscape;
   settings.pixelsPerInch = options.pixelsPerInch;
   settings.writesDicom = options.writesDicom;
+  settings.thumbnail = FindThumbnail();
   settings.provenance = provenance;
   return RenderSheet(settings, context.console->MakeEvents());
 }
@@ -294,6 +307,7 @@ RenderPictures(const RenderOptions & options, const CommandContext & context, co
   settings.render.ambientOcclusion = !options.hasNoShadows;
   settings.render.silhouettes = !options.hasNoSilhouettes;
   settings.annotations = ParseAnnotations(options);
+  settings.thumbnail = FindThumbnail();
   settings.provenance = provenance;
   return RenderScan(settings, context.console->MakeEvents());
 }

@@ -1,9 +1,7 @@
 #include "rhombicAtomicFile.h"
-#include "rhombicDescribeScan.h"
 #include "rhombicFailure.h"
 #include "rhombicOutputCommands.h"
 #include "rhombicScanOptions.h"
-#include "rhombicScanReport.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -104,14 +102,6 @@ RunPipeline(const std::string & file, const CLI::App & command, const CommandCon
                     file + " -o results.");
   }
 
-  std::string preset;
-  if (std::any_of(pipeline.steps.begin(), pipeline.steps.end(), [](const auto & step) { return step.choosesPreset; }))
-  {
-    std::vector<std::string> arguments = batchCase.options;
-    arguments.push_back(batchCase.scan.string());
-    scanParser.parse(arguments);
-    preset = ChoosePreset(ReportDescription(DescribeScan(scan.GetSource(context), {})), !batchCase.labels.empty());
-  }
   std::error_code error;
   fs::create_directories(folder, error);
   fs::current_path(folder, error); // names of outputs in options, as of --measures, are relative to it
@@ -122,7 +112,7 @@ RunPipeline(const std::string & file, const CLI::App & command, const CommandCon
   CommitTogether([&] {
     for (const PipelineStep & step : pipeline.steps)
     {
-      const std::vector<std::string> arguments = GetArguments(step, batchCase, preset);
+      const std::vector<std::string> arguments = GetArguments(step, batchCase);
       OutputCommands commands;
       commands.Parse(arguments)({ context.console, context.decoder, arguments });
     }

@@ -18,7 +18,6 @@ struct PipelineStep
 {
   std::string output;                 ///< name of the file
   std::vector<std::string> arguments; ///< the command and its options, without scan, labels and output
-  bool choosesPreset = false;         ///< "preset: auto"
   bool takesLabels = false;           ///< the command shows the labels of cases that have any
   std::size_t line = 0;               ///< in the pipeline file, from 1
 };
@@ -46,22 +45,16 @@ struct CommandSyntax
  *
  * The file is YAML: a list "outputs", and "options" for those of them whose command has the option. Each output is
  * "page", "picture", "mesh" or "volume" with a file's name, and options of the commands render, render, mesh and
- * resample by their long names. "true" gives an option that has no value, "false" leaves it out, a list repeats it. Two
- * keys are not those of the commands: "preset: auto", and "labels: false" for an output without the case's labels.
+ * resample by their long names. "true" gives an option that has no value, "false" leaves it out, a list repeats it. One
+ * key is not that of the commands: "labels: false" for an output without the case's labels.
  *
  * Throws Failure: NotFound, or Usage, naming the line of the mistake. */
 Pipeline
 ReadPipeline(const std::filesystem::path & path, const CommandSyntax & syntax);
 
-/** The arguments of `rhombic` for a step of a case.
- * \param preset what "preset: auto" is for this case (see ChoosePreset()); empty for none */
+/** The arguments of `rhombic` for a step of a case. */
 std::vector<std::string>
-GetArguments(const PipelineStep & step, const BatchCase & batchCase, const std::string & preset);
-
-/** What "preset: auto" is for a scan, by the report of `rhombic info --json`; empty for a label map, which needs none.
- */
-std::string
-ChoosePreset(const Report & info, bool hasLabels);
+GetArguments(const PipelineStep & step, const BatchCase & batchCase);
 
 } // namespace rhombic
 

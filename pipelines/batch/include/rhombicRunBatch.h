@@ -24,13 +24,14 @@ struct BatchSettings
    * written. */
   bool isPart = false;
   Pipeline pipeline;
-  std::filesystem::path output;     ///< a folder: new, empty, or of an earlier run
-  std::filesystem::path program;    ///< `rhombic`
-  std::string software;             ///< name and version
-  unsigned int jobs = 1;            ///< cases at the same time
-  unsigned int threads = 1;         ///< of each case
-  std::uintmax_t maximumMemory = 0; ///< of each process, in bytes
-  double maximumSeconds = 3600.0;   ///< of each case
+  std::filesystem::path output;         ///< a folder: new, empty, or of an earlier run
+  std::filesystem::path program;        ///< `rhombic`
+  std::filesystem::path drawingProgram; ///< for `render`: the one that `rhombic` would start
+  std::string software;                 ///< name and version
+  unsigned int jobs = 1;                ///< cases at the same time
+  unsigned int threads = 1;             ///< of each case
+  std::uintmax_t maximumMemory = 0;     ///< of each process, in bytes
+  double maximumSeconds = 3600.0;       ///< of each case
 
   /** Asked several times a second: true ends the run. May be empty. */
   std::function<bool()> isStopped;
@@ -82,8 +83,8 @@ struct BatchSummary
  * jobs. Paths and names of input files are in none of the outputs, and patients' names only in DICOM files that the
  * pipeline asks for, which a note says.
  *
- * Sets RHOMBIC_THREADS and RHOMBIC_MAX_MEMORY in the environment of this process, for the children. The children end
- * with the calling thread.
+ * Sets RHOMBIC_THREADS, RHOMBIC_MAX_MEMORY and RHOMBIC_THUMBNAIL in the environment of this process, for the children.
+ * The children end with the calling thread.
  *
  * Throws Failure: Output, Internal. Failures of cases are in the results. */
 BatchSummary

@@ -129,7 +129,7 @@ MakeRow(const Report & record)
   for (const Report & output : record.value("outputs", Report::array()))
   {
     const auto file = output.value("name", std::string());
-    if (file == "thumbnail.jpg")
+    if (file == ThumbnailFile)
     {
       picture = "<img loading=\"lazy\" alt=\"\" src=\"" + LinkTo(folder, file) + "\">";
     }

@@ -9,6 +9,9 @@
 namespace rhombic
 {
 
+/** The small picture in a case's folder, which `rhombic render` makes. */
+constexpr char ThumbnailFile[] = "thumbnail.jpg";
+
 /** Writes results.tsv, results.json, measures.tsv and index.html from the cases' lines in the journal. Throws
  * Failure(Output). */
 void

@@ -2,7 +2,6 @@
 
 #include "rhombicDigest.h"
 #include "rhombicFailure.h"
-#include "rhombicPictureIO.h"
 #include "rhombicSidecar.h"
 #include "rhombicWording.h"
 
@@ -24,7 +23,6 @@ namespace
 
 constexpr char outputFile[] = ".output";
 constexpr char errorsFile[] = ".errors";
-constexpr char thumbnailFile[] = "thumbnail.jpg";
 
 double
 SecondsSince(std::chrono::steady_clock::time_point start)
@@ -98,41 +96,6 @@ WithoutNames(std::string sentence, const BatchCase & batchCase, const fs::path &
     ReplaceAll(sentence, name, by);
   }
   return sentence;
-}
-
-bool
-IsPicture(const fs::path & path)
-{
-  const std::string extension = LowerCase(path.extension().string());
-  return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".tif" ||
-         extension == ".tiff";
-}
-
-/** A picture of at most so many pixels a side: means of blocks. */
-Picture
-Shrink(const Picture & picture, int side)
-{
-  const int block = (std::max(picture.width, picture.height) + side - 1) / side;
-  Picture small(std::max(1, picture.width / block), std::max(1, picture.height / block), 3);
-  const int columns = std::min(block, picture.width);
-  const int rows = std::min(block, picture.height);
-  auto pixel = small.pixels.begin();
-  for (int y = 0; y < small.height; ++y)
-  {
-    for (int x = 0; x < small.width; ++x)
-    {
-      for (int channel = 0; channel < 3; ++channel)
-      {
-        int sum = 0;
-        for (int n = 0; n < columns * rows; ++n)
-        {
-          sum += picture.At(x * block + n % columns, y * block + n / columns)[channel];
-        }
-        *pixel++ = static_cast<std::uint8_t>(sum / (columns * rows));
-      }
-    }
-  }
-  return small;
 }
 
 /** The files in a folder that are no notes of this program, sorted. */
@@ -235,18 +198,9 @@ void
 CaseRun::StartStep()
 {
   const PipelineStep & step = m_Settings.pipeline.steps[m_Step];
-  m_IsAsking = step.choosesPreset && !m_HasPreset;
-  std::vector<std::string> arguments{ m_Settings.program.string() };
-  if (m_IsAsking)
-  {
-    arguments.insert(arguments.end(), { "info", m_Case.scan.string(), "--json" });
-    arguments.insert(arguments.end(), m_Case.options.begin(), m_Case.options.end());
-  }
-  else
-  {
-    const std::vector<std::string> ofStep = GetArguments(step, m_Case, m_Preset);
-    arguments.insert(arguments.end(), ofStep.begin(), ofStep.end());
-  }
+  std::vector<std::string> arguments = GetArguments(step, m_Case);
+  arguments.insert(arguments.begin(),
+                   (arguments.front() == "render" ? m_Settings.drawingProgram : m_Settings.program).string());
   m_ChildStart = Clock::now();
   m_Child = std::make_unique<ChildProcess>(
     arguments, m_Stage, std::string(outputFile), std::string(errorsFile), m_Settings.maximumMemory);
@@ -283,12 +237,12 @@ bool
 CaseRun::TakeStep()
 {
   const PipelineStep & step = m_Settings.pipeline.steps[m_Step];
-  m_Record["steps"].push_back({ { "output", m_IsAsking ? "info" : step.output },
+  m_Record["steps"].push_back({ { "output", step.output },
                                 { "seconds", SecondsSince(m_ChildStart) },
                                 { "peakMemory", m_Child->GetPeakMemory() } });
   m_Record["peakMemory"] = std::max(m_Record["peakMemory"].get<std::uintmax_t>(), m_Child->GetPeakMemory());
   const int code = m_Child->GetExitCode();
-  const std::string command = "rhombic " + (m_IsAsking ? std::string("info") : step.arguments.front());
+  const std::string command = "rhombic " + step.arguments.front();
   if (m_IsTooLong)
   {
     this->Fail(1,
@@ -303,11 +257,6 @@ CaseRun::TakeStep()
   {
     const std::string sentence = FindSentence(m_Stage / errorsFile);
     this->Fail(code, sentence.empty() ? command + " ended with exit code " + std::to_string(code) + "." : sentence);
-  }
-  else if (m_IsAsking)
-  {
-    m_Preset = ChoosePreset(Report::parse(std::ifstream(m_Stage / outputFile), nullptr, false), !m_Case.labels.empty());
-    m_HasPreset = true;
   }
   else
   {
@@ -331,7 +280,6 @@ CaseRun::Succeed()
   {
     fs::remove(m_Stage / outputFile);
     fs::remove(m_Stage / errorsFile);
-    this->AddThumbnail();
     this->AddOutputs();
     const fs::path place = m_Settings.output / m_Case.folder;
     fs::create_directories(place.parent_path());
@@ -371,26 +319,6 @@ CaseRun::AddOutputs()
   StagedFiles staged;
   StageText(ToJson(sidecar) + '\n', m_Stage / "case.json", staged);
   staged.Commit();
-}
-
-/** The first picture of the first step that has one, small. */
-void
-CaseRun::AddThumbnail()
-{
-  const auto files = FindOutputs(m_Stage);
-  for (const PipelineStep & step : m_Settings.pipeline.steps)
-  {
-    const std::string stem = fs::path(step.output).stem().string();
-    for (const fs::path & file : files)
-    {
-      if (IsPicture(file) && file.filename().string().rfind(stem, 0) == 0)
-      {
-        constexpr int side = 320;
-        WritePicture(Shrink(ReadPicture(file), side), m_Stage / thumbnailFile, {});
-        return;
-      }
-    }
-  }
 }
 
 } // namespace rhombic

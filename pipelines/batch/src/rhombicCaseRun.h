@@ -73,16 +73,11 @@ private:
   Succeed();
   void
   AddOutputs();
-  void
-  AddThumbnail();
 
   const BatchCase & m_Case;
   const BatchSettings & m_Settings;
   std::filesystem::path m_Stage;
   std::size_t m_Step = 0;
-  bool m_IsAsking = false; ///< the child is `rhombic info`
-  bool m_HasPreset = false;
-  std::string m_Preset; ///< the one that "auto" is
   std::unique_ptr<ChildProcess> m_Child;
   bool m_IsTooLong = false;
   Clock::time_point m_Start = Clock::now();

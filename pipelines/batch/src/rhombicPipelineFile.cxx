@@ -175,7 +175,7 @@ private:
     {
       m_Identity += argument + '\n';
     }
-    m_Identity += std::to_string(step.choosesPreset) + std::to_string(step.takesLabels) + '\n';
+    m_Identity += std::to_string(step.takesLabels) + '\n';
     return step;
   }
 
@@ -198,10 +198,6 @@ private:
         FailInPipeline(m_Source, "has '" + text + "' where true or false is expected, " + LineOf(value));
       }
       step.takesLabels = text == "true";
-    }
-    else if (option == "preset" && text == "auto")
-    {
-      step.choosesPreset = true;
     }
     else if (text == "true")
     {
@@ -286,7 +282,7 @@ ReadPipeline(const fs::path & path, const CommandSyntax & syntax)
 }
 
 std::vector<std::string>
-GetArguments(const PipelineStep & step, const BatchCase & batchCase, const std::string & preset)
+GetArguments(const PipelineStep & step, const BatchCase & batchCase)
 {
   std::vector<std::string> arguments{ step.arguments.front(), batchCase.scan.string() };
   arguments.insert(arguments.end(), step.arguments.begin() + 1, step.arguments.end());
@@ -294,26 +290,9 @@ GetArguments(const PipelineStep & step, const BatchCase & batchCase, const std::
   {
     arguments.push_back("--labels=" + batchCase.labels.string());
   }
-  if (step.choosesPreset && !preset.empty())
-  {
-    arguments.push_back("--preset=" + preset);
-  }
   arguments.insert(arguments.end(), { "-o", step.output });
   arguments.insert(arguments.end(), batchCase.options.begin(), batchCase.options.end());
   return arguments;
-}
-
-std::string
-ChoosePreset(const Report & info, bool hasLabels)
-{
-  if (!info.is_object() || info.contains("labels"))
-  {
-    return "";
-  }
-  // A CT is known by the threshold of bone that is suggested for it.
-  const bool isCT =
-    info.contains("suggestedThresholds") && info["suggestedThresholds"].dump().find("\"bone\"") != std::string::npos;
-  return isCT ? (hasLabels ? "ct-organs" : "ct-bone-skin") : hasLabels ? "" : "mr-head";
 }
 
 } // namespace rhombic

@@ -393,6 +393,7 @@ RunBatch(const BatchSettings & settings, const Events & events)
 {
   setenv("RHOMBIC_THREADS", std::to_string(settings.threads).c_str(), 1);
   setenv("RHOMBIC_MAX_MEMORY", std::to_string(settings.maximumMemory).c_str(), 1);
+  setenv("RHOMBIC_THUMBNAIL", ThumbnailFile, 1);
   return BatchRun(settings, events).Run();
 }
 

@@ -56,6 +56,7 @@ struct RenderScanSettings
                                  ///< one .gif, or numbered pictures
   bool writesDicom = false; ///< also writes the pictures as DICOM, .dcm in place of the extension (see DicomStudy);
                             ///< a turntable is one file
+  std::filesystem::path thumbnail; ///< the first picture, small, as .jpg; empty: none
   Provenance provenance;
 };
 
@@ -78,9 +79,10 @@ struct RenderSheetSettings
   PictureStyle style = PictureStyle::Paper; ///< Clinic makes a dark page
   std::string title;
   bool isLandscape = false;
-  double pixelsPerInch = 200.0; ///< 36 to 600
-  std::filesystem::path page;   ///< .png or .jpg for one page; .tif or .pdf for all
-  bool writesDicom = false;     ///< also writes each page as DICOM, .dcm in place of the extension (see DicomStudy)
+  double pixelsPerInch = 200.0;    ///< 36 to 600
+  std::filesystem::path page;      ///< .png or .jpg for one page; .tif or .pdf for all
+  bool writesDicom = false;        ///< also writes each page as DICOM, .dcm in place of the extension (see DicomStudy)
+  std::filesystem::path thumbnail; ///< the first page, small, as .jpg; not of a .pdf; empty: none
   Provenance provenance;
 };
 

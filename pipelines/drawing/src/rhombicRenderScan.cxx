@@ -10,6 +10,7 @@
 #include "rhombicSceneCuts.h"
 #include "rhombicSourceLoading.h"
 #include "rhombicSurfaceRenderer.h"
+#include "rhombicThumbnail.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -492,6 +493,7 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
     }
     StageSidecar(paths[n], settings.provenance, report, staged);
   }
+  StageThumbnail(pictures, settings.thumbnail, staged);
   if (study)
   {
     StageDicom(*study, pictures, dicomPaths, secondsPerFrame, settings.provenance.software, events, staged);

@@ -8,6 +8,7 @@
 #include "rhombicSourceLoading.h"
 #include "rhombicSurfaceMeasures.h"
 #include "rhombicSurfaceRenderer.h"
+#include "rhombicThumbnail.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -238,6 +239,7 @@ RenderSheet(const RenderSheetSettings & settings, const Events & events)
   const std::vector<Picture> pages = study || !IsPdf(settings.page) ? DrawSheet(sheet) : std::vector<Picture>();
   std::vector<fs::path> paths = StageSheet(sheet, pages, settings, staged);
   StageSidecar(settings.page, settings.provenance, scene.report, staged);
+  StageThumbnail(pages, settings.thumbnail, staged);
   if (study)
   {
     const auto dicomPaths = DicomPathsOf(PathsOfPages(settings.page, pages.size()));

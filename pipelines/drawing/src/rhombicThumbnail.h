@@ -1,0 +1,16 @@
+#ifndef rhombicThumbnail_h
+#define rhombicThumbnail_h
+
+#include "rhombicPictureIO.h"
+
+namespace rhombic
+{
+
+/** Writes the first of some pictures as one of at most 320 pixels a side: means of blocks. Does nothing without
+ * pictures or path. Throws Failure as StagePicture() does. */
+void
+StageThumbnail(const std::vector<Picture> & pictures, const std::filesystem::path & path, StagedFiles & staged);
+
+} // namespace rhombic
+
+#endif
