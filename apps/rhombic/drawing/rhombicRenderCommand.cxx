@@ -357,7 +357,8 @@ ReadArguments(const std::string & path, bool areViewsGiven)
   }
   const auto report = nlohmann::json::parse(file, nullptr, false);
   const auto stored = report.is_object() ? report.value("arguments", nlohmann::json()) : nlohmann::json();
-  if (!stored.is_array() || stored.empty() || stored.front() != "render")
+  const auto command = std::find(stored.begin(), stored.end(), "render"); // options of all commands may stand before
+  if (!stored.is_array() || command == stored.end())
   {
     throw Failure(FailureKind::Unreadable,
                   "The file " + path + " is no report of rhombic render; name the .json beside a picture.");
@@ -368,7 +369,7 @@ ReadArguments(const std::string & path, bool areViewsGiven)
     left.insert(left.end(), { "--view", "--slice", "--picture" });
   }
   std::vector<std::string> arguments;
-  for (std::size_t n = 1; n < stored.size(); ++n)
+  for (auto n = static_cast<std::size_t>(command - stored.begin()) + 1; n < stored.size(); ++n)
   {
     const std::string argument = stored[n].is_string() ? stored[n].get<std::string>() : "";
     const bool isLeft =
@@ -414,7 +415,9 @@ RenderAgain(const RenderOptions & options, const CommandContext & context)
     isSkipped = isFrom;
   }
   CLI::App parser("", "rhombic render");
-  parser.allow_extras(); // options of all commands
+  unsigned int threads = 0; // options of all commands have had their effect
+  parser.add_option("--threads", threads);
+  parser.add_flag("-v,--verbose,-q,--quiet");
   RenderOptions all;
   AddOptions(all, parser);
   std::vector<std::string> reversed(again.arguments.rbegin(), again.arguments.rend() - 1);
