@@ -2,7 +2,6 @@
 #define rhombicPipelineFile_h
 
 #include "rhombicBatchCases.h"
-#include "rhombicSidecar.h"
 
 #include <filesystem>
 #include <functional>
