@@ -33,6 +33,13 @@ public:
   SurfaceSelection
   GetSelection(const Preset & preset, const std::optional<SurfaceRequest> & further = std::nullopt) const;
 
+  /** Whether an option names surfaces of a scan or labels. */
+  bool
+  ChoosesSurfaces() const
+  {
+    return !m_Preset.empty() || !m_Surfaces.empty() || !m_Labels.empty() || !m_ChosenLabels.empty();
+  }
+
   /** Which surfaces are shown, and in which colours, by the options; these count more than the rules \a before. Throws
    * Failure(Usage). */
   SceneRules

@@ -315,4 +315,16 @@ TEST_F(RenderCommand, BadRequestsAreRefusedInOneSentenceAndLeaveNothing)
   EXPECT_EQ(CountFiles(), 0u);
 }
 
+TEST_F(RenderCommand, SurfaceFilesTakeNoOptionsThatChooseSurfacesOfScans)
+{
+  RunWell("mesh " + phantomScan + " -t 375.5 -o bone.stl");
+  for (const std::string & options :
+       std::vector<std::string>{ "--preset ct-bone-skin", "--surface bone=375.5", "--labels " + phantomLabels })
+  {
+    const Outcome outcome = Run("render bone.stl " + options + " -o bone.png");
+    EXPECT_EQ(outcome.exitCode, 2) << options;
+    EXPECT_NE(outcome.errors.find("of surface files, --only and --hide"), std::string::npos) << outcome.errors;
+  }
+}
+
 } // namespace

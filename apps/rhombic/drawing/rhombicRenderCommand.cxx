@@ -214,6 +214,12 @@ GetPictureSource(const RenderOptions & options, const CommandContext & context)
   }
   if (isOfFiles)
   {
+    if (options.surfaces.ChoosesSurfaces())
+    {
+      throw Failure(FailureKind::Usage,
+                    "--preset, --surface, --labels and --label choose surfaces of a scan; of surface files, --only and "
+                    "--hide choose some, and --draw sets colours.");
+    }
     source.surfaceFiles = { source.scan.path };
     source.surfaceFiles.insert(source.surfaceFiles.end(), options.furtherFiles.begin(), options.furtherFiles.end());
     source.surfaces.rules = options.surfaces.GetRules();
