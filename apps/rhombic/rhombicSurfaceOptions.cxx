@@ -52,10 +52,6 @@ SurfaceOptions::Add(CLI::App & parser)
   parser.add_option("--label-table",
                     m_LabelTable,
                     "names and colours of labels (ITK-SNAP, Slicer, FreeSurfer, BIDS; default: in or beside the map)");
-  parser.add_flag("--shared-walls",
-                  m_SharesWalls,
-                  "labels that touch share their wall, without gap and overlap, as simulations and prints of several "
-                  "parts need it; smoother for thick slices; parts hardly wider than a voxel may come apart");
   parser
     .add_option("--label",
                 m_ChosenLabels,
@@ -131,19 +127,19 @@ SurfaceOptions::GetSelection(const Preset & preset, const std::optional<SurfaceR
   }
   if (!m_Labels.empty() || selection.requests.empty())
   {
-    selection.labels = LabelSelection{ { m_Labels, m_LabelTable }, {}, m_SharesWalls };
+    selection.labels = LabelSelection{ { m_Labels, m_LabelTable }, {} };
     for (const std::string & text : m_ChosenLabels)
     {
       selection.rules.rules.push_back(ParseSceneRule(text));
       selection.labels->labels.push_back(selection.rules.rules.back().pattern);
     }
   }
-  else if (!m_LabelTable.empty() || !m_ChosenLabels.empty() || m_SharesWalls)
+  else if (!m_LabelTable.empty() || !m_ChosenLabels.empty())
   {
     throw Failure(
       FailureKind::Usage,
-      "--label, --label-table and --shared-walls are for label maps; name one with --labels, or leave out --preset, "
-      "--surface and -t when SCAN is one.");
+      "--label and --label-table are for label maps; name one with --labels, or leave out --preset, --surface and -t "
+      "when SCAN is one.");
   }
   selection.rules = GetRules(std::move(selection.rules.rules));
   return selection;

@@ -57,7 +57,6 @@ private:
   std::vector<std::string> m_Surfaces;
   std::string m_Labels;
   std::string m_LabelTable;
-  bool m_SharesWalls = false;
   std::vector<std::string> m_ChosenLabels;
   std::vector<std::string> m_Only;
   std::vector<std::string> m_Hidden;

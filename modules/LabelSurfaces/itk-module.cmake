@@ -1,4 +1,4 @@
 itk_module(LabelSurfaces
-  DEPENDS RhombicCommon TriangleSurface SurfaceEditing ScanIO FCCIsosurface FCCLabelSurfaces ITKCommon
-  PRIVATE_DEPENDS FCCResampling SurfaceQueries ITKConnectedComponents
+  DEPENDS RhombicCommon TriangleSurface SurfaceEditing ScanIO FCCLabelSurfaces ITKCommon
+  PRIVATE_DEPENDS FCCResampling SurfaceQueries ITKImageGrid
   DESCRIPTION "Closed surfaces of the labels of a label map, without the steps of its voxels.")

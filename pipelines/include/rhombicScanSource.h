@@ -39,7 +39,6 @@ struct LabelSelection
 {
   LabelMapSource source;           ///< with an empty path the scan itself is the label map
   std::vector<std::string> labels; ///< names with wildcards, or values; empty: all that the label table does not hide
-  bool sharesWalls = false;        ///< labels that touch share their wall: see LabelsToWalls()
 };
 
 /** \class SurfaceSelection

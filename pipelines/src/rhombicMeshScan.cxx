@@ -2,7 +2,7 @@
 
 #include "rhombicFailure.h"
 #include "rhombicFileInspection.h"
-#include "rhombicLabelWalls.h"
+#include "rhombicLabelSurfaces.h"
 #include "rhombicMeasureTable.h"
 #include "rhombicSourceLoading.h"
 #include "rhombicSurfaceReport.h"
@@ -167,13 +167,16 @@ AddIsosurfaces(const LoadedSource & loaded,
 
 /** Adds labels whose walls are finished once for both sides. */
 void
-AddWalls(const LoadedSource & loaded,
-         const LabelSurfaceSettings & settings,
-         const SurfaceFinish & finish,
-         const Events & events,
-         std::vector<MeshedSurface> & surfaces)
+AddLabels(const LoadedSource & loaded,
+          const MeshScanSettings & settings,
+          const Events & events,
+          std::vector<MeshedSurface> & surfaces)
 {
-  LabelMesh mesh = LabelsToWalls(*loaded.labels, settings, events);
+  if (settings.source.lattice.denoising.kind != Denoising::Kind::None)
+  {
+    events.Note("labels have no noise: --denoise is not for them");
+  }
+  LabelMesh mesh = LabelsToWalls(*loaded.labels, GetLabelSettings(settings.source, settings.surfaces), events);
   ExtractSurfaces(mesh);
   std::vector<ExtractedSize> extracted;
   for (const LabelSurface & label : mesh.labels)
@@ -181,7 +184,7 @@ AddWalls(const LoadedSource & loaded,
     extracted.push_back(SizeOf(*label.scene.surface));
   }
   const double spacing = MeanSpacingOf(GeometryOf(loaded.labels->scan.image));
-  const Refinement refinement = RefineWalls(*mesh.walls, finish, spacing, events);
+  const Refinement refinement = RefineWalls(*mesh.walls, settings.finish, spacing, events);
   if (refinement.smoothing || refinement.simplification)
   {
     ExtractSurfaces(mesh);
@@ -193,31 +196,6 @@ AddWalls(const LoadedSource & loaded,
     surface.label = std::move(mesh.labels[n]);
     surface.extracted = extracted[n];
     surface.refinement = refinement;
-  }
-}
-
-void
-AddLabels(const LoadedSource & loaded,
-          const MeshScanSettings & settings,
-          const Events & events,
-          std::vector<MeshedSurface> & surfaces)
-{
-  if (settings.source.lattice.denoising.kind != Denoising::Kind::None)
-  {
-    events.Note("labels have no noise: --denoise is not for them");
-  }
-  const LabelSurfaceSettings labelSettings = GetLabelSettings(settings.source, settings.surfaces);
-  if (settings.surfaces.labels->sharesWalls)
-  {
-    AddWalls(loaded, labelSettings, settings.finish, events, surfaces);
-    return;
-  }
-  for (LabelSurface & label : LabelsToSurfaces(*loaded.labels, labelSettings, events))
-  {
-    MeshedSurface & surface = surfaces.emplace_back();
-    surface.scene = std::exchange(label.scene, {});
-    surface.label = std::move(label);
-    surface.extracted = SizeOf(*surface.scene.surface);
   }
 }
 
@@ -260,7 +238,7 @@ MakeCandidateSearch(const LoadedSource & loaded, itk::FCCIsosurfaceMode mode)
   };
 }
 
-/** Removes parts of a surface; smooths and simplifies it, if it has no shared walls. Returns whether anything is left.
+/** Removes parts of a surface; smooths and simplifies isosurfaces. Returns whether anything is left.
  */
 bool
 Finish(MeshedSurface & surface,
@@ -279,9 +257,9 @@ Finish(MeshedSurface & surface,
     events.Note(surface.scene.name + ": left out, as all its parts are below --min-volume");
     return false;
   }
-  if (!surface.label || !surface.label->sharesWalls)
+  if (surface.request)
   {
-    const auto candidates = surface.request ? findCandidates(*finished) : std::nullopt;
+    const auto candidates = findCandidates(*finished);
     surface.refinement = RefineSurface(*finished, finish, spacing, surface.scene.name, events, candidates);
   }
   return true;

@@ -236,7 +236,6 @@ GetLabelSettings(const ScanSource & source, const SurfaceSelection & selection)
   LabelSurfaceSettings settings;
   settings.labels = selection.labels->labels;
   settings.density = source.lattice.density;
-  settings.mode = selection.mode;
   settings.maximumMemory = source.lattice.maximumMemory;
   return settings;
 }

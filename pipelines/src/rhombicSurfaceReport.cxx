@@ -55,9 +55,7 @@ ReportLabel(const LabelSurface & surface, const std::string & name)
            { "volumeDifference", surface.GetVolumeDifference() },
            { "pieces", surface.pieces },
            { "surfacePieces", surface.surfacePieces },
-           { "isTorn", surface.isTorn },
-           { "finerPieces", surface.finerPieces },
-           { "protectedVoxels", surface.protectedVoxels } };
+           { "isTorn", surface.isTorn } };
 }
 
 Report

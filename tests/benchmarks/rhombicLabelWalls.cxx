@@ -6,7 +6,6 @@
 #include "itkTriangleSurfaceInterior.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
-#include "rhombicLabelSurfaces.h"
 
 #include <vtkDiscreteFlyingEdges3D.h>
 #include <vtkIdList.h>
@@ -369,26 +368,6 @@ Join(const Surfaces & surfaces)
   return all;
 }
 
-void
-MeasureLabelSurfaces(const std::vector<std::vector<Ball>> & scenes, double slices)
-{
-  Results results(scenes, slices);
-  for (const auto & balls : scenes)
-  {
-    const auto image = MakeMap(balls, slices);
-    rhombic::LabelMap map;
-    map.scan.image = image;
-    map.labels = rhombic::SummarizeLabels(map.scan, {});
-    Surfaces surfaces;
-    for (const auto & made : rhombic::LabelsToSurfaces(map, {}, {}))
-    {
-      surfaces.emplace_back(made.scene.surface);
-    }
-    results.Add(*Join(surfaces), surfaces);
-  }
-  results.Print("label surfaces");
-}
-
 /** A surface of a label as 3D Slicer makes it by default (vtkBinaryLabelmapToClosedSurfaceConversionRule): in indices,
  * 20 iterations, smoothing factor 0.5, which is a pass band of 0.01. */
 itk::TriangleSurface::Pointer
@@ -551,7 +530,6 @@ try
   for (const double slices : { 1.0, 3.0, 6.0 })
   {
     MeasureWalls(scenes, slices);
-    MeasureLabelSurfaces(scenes, slices);
     MeasureVTK(scenes, slices);
   }
 }

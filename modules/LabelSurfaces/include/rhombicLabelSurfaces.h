@@ -4,9 +4,10 @@
 #include "rhombicEvents.h"
 #include "rhombicLabelMapReader.h"
 #include "rhombicSceneSurface.h"
+#include "rhombicSurfaceFinish.h"
 
-#include "itkFCCIsosurfaceMode.h"
 #include "itkFCCLattice.h"
+#include "itkLabelWalls.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +18,7 @@ namespace rhombic
 {
 
 /** \file
- * Surfaces of labels. Copies of a LabelSurface share its surface. */
+ * Surfaces of labels. Those of labels that touch share their wall. Copies of a LabelSurface share its surface. */
 
 /** Which labels get a surface, and how it is made. */
 struct LabelSurfaceSettings
@@ -25,24 +26,20 @@ struct LabelSurfaceSettings
   std::vector<std::string>
     labels; ///< names with wildcards (see MatchesPattern()), or values; empty: all that the label table shows
   double density = itk::FCCLattice::DefaultDensity; ///< lattice sites per voxel
-  itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
-  std::uintmax_t maximumMemory = 0; ///< for the work on one piece of a label, in bytes; 0: half of what is free
+  std::uintmax_t maximumMemory = 0;                 ///< bytes; 0: half of what is free
 };
 
-/** The surface of a label, in the label's name, colour and opacity, and how it compares with the label's voxels. */
+/** A label and its surface, in the label's name, colour and opacity, and how it compares with the label's voxels. */
 struct LabelSurface
 {
   SceneSurface scene;
   std::int32_t value = 0;
   std::size_t numberOfVoxels = 0;
   double voxelMillilitres = 0.0;
-  double surfaceMillilitres = 0.0;
-  std::size_t pieces = 0;        ///< pieces of the label: voxels connected through faces, edges or corners
-  std::size_t surfacePieces = 0; ///< pieces of the surface: closed shells of positive volume
-  bool isTorn = false;           ///< more pieces than the label has, even than its voxels connected through faces alone
-  std::size_t finerPieces = 0;   ///< pieces whose lattice is finer than asked for
-  std::size_t protectedVoxels = 0; ///< voxels of parts so thin that smoothing would have lost them
-  bool sharesWalls = false;        ///< made by LabelsToWalls()
+  double surfaceMillilitres = 0.0; ///< before RefineWalls()
+  std::size_t pieces = 0;          ///< pieces of the label: voxels connected through faces, edges or corners
+  std::size_t surfacePieces = 0;   ///< pieces of the surface: closed shells of positive volume
+  bool isTorn = false; ///< more pieces than the label has, even than its voxels connected through faces alone
 
   /** The relative difference between the volumes of surface and voxels. */
   double
@@ -52,26 +49,40 @@ struct LabelSurface
   }
 };
 
-/** A closed surface for each label, in the order of their values, without the steps of the voxels.
+/** Labels and the walls between them. */
+struct LabelMesh
+{
+  itk::LabelWalls::Pointer walls;   ///< of the numbers of labels, from 1; all that is no label here is outside, 0
+  std::vector<LabelSurface> labels; ///< in the order of their values
+};
+
+/** The walls between labels, and between them and all else, without the steps of the voxels: labels that touch share
+ * their wall. The surfaces of the labels are set by ExtractSurfaces().
  *
- * Each piece of a label (voxels connected through faces, edges or corners) becomes a smooth field
- * (itk::AntiAliasMaskImageFilter), is resampled onto the lattice, and is extracted at the level that encloses its
- * voxels' volume. It is made again on finer lattices, as long as that helps, if it comes out in several parts or more
- * than 1 % off its volume, or if it is thin (a quarter of its voxels or more) and has holes that its voxels don't have:
- * with up to 8 times the sites, or 64 times on small lattices. Where voxels of broader parts touch at edges or corners
- * only, the surface may or may not be connected.
+ * The walls are those of itk::LabelsToFCCFilter and itk::FCCLabelSurfaceFilter, smoothed by itk::RelaxWalls(), which
+ * moves points by 0.3 voxels at most. Labels above 1 ml have the volume of their voxels within 1 %.
  *
  * Where a label reaches the scan's border, its surface closes at the outer faces of the voxels there. A hollow label
- * has shells inside, too. Slices may be tilted, sheared or unevenly spaced (itk::CartesianToFCCImageFilter). The walls
- * that two neighbouring labels share are extracted for each; they agree within 0.1 voxels. LabelsToWalls() makes them
- * once for both.
- *
- * Works on one piece after another, each on all threads. The result has the same bytes for any number of threads.
+ * has shells inside, too. Slices may be tilted, sheared or unevenly spaced. The result has the same bytes for any
+ * number of threads.
  *
  * Throws Failure: Usage for a density that is not above 0 and at most 64, and for labels that the map doesn't hold;
- * Empty when there is none to show; Memory, before the work on a piece, for one that is too large. */
-std::vector<LabelSurface>
-LabelsToSurfaces(const LabelMap & map, const LabelSurfaceSettings & settings, const Events & events);
+ * Empty when there is none to show; Unreadable for more than 65,535 labels; Memory, before the work, when it needs too
+ * much. */
+LabelMesh
+LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const Events & events);
+
+/** Smooths and simplifies the walls as \a finish says, once for both labels of each wall, so that labels that touch
+ * still share it (itk::RelaxWalls(), itk::SimplifyWalls()). A limit of triangles is one for all walls together.
+ * Removes no parts. Notes give the results.
+ * \param spacing of the voxels in mm */
+Refinement
+RefineWalls(itk::LabelWalls & walls, const SurfaceFinish & finish, double spacing, const Events & events);
+
+/** Sets the closed surface of each label, with normals: the triangles of its walls, in the order of the mesh. Touching
+ * surfaces have the same points and, turned over, the same triangles on their common wall. */
+void
+ExtractSurfaces(LabelMesh & mesh);
 
 } // namespace rhombic
 

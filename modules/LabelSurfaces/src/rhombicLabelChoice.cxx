@@ -87,6 +87,7 @@ DescribeLabel(const LabelSummary & summary)
   described.numberOfVoxels = summary.numberOfVoxels;
   described.voxelMillilitres = summary.millilitres;
   described.scene.name = summary.label.name;
+  described.scene.label = summary.label.value;
   for (unsigned int channel = 0; channel < 3; ++channel)
   {
     described.scene.colour[channel] = summary.label.colour[channel] / 255.0;

@@ -1,179 +1,296 @@
 #include "rhombicLabelSurfaces.h"
 
+#include "rhombicFailure.h"
 #include "rhombicLabelChoice.h"
 #include "rhombicLabelPieces.h"
-#include "rhombicMaskSurface.h"
+#include "rhombicMemoryBudget.h"
+#include "rhombicObserveProgress.h"
+#include "rhombicWording.h"
 
+#include "itkFCCLabelSurfaceFilter.h"
 #include "itkForEachBlock.h"
+#include "itkLabelWallsEditing.h"
+#include "itkLabelsToFCCFilter.h"
+#include "itkRegionOfInterestImageFilter.h"
 #include "itkTriangleSurfaceMeasures.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <numeric>
 
 namespace rhombic
 {
 namespace
 {
 
-constexpr double CubicMillimetresPerMillilitre = 1000.0;
-constexpr std::size_t SmallPiece = 1 << 15; // voxels of its box; threads make such pieces side by side
-constexpr std::size_t PiecesAtOnce = 32;    // between two calls of progress
+using LabelImage = itk::LabelsToFCCFilter::InputImageType;
 
-/** The slice origins of a region of the scan's grid. Beyond the scan they go on with the first or the last step. */
-std::vector<itk::Point<double, 3>>
-CutSliceOrigins(const Scan & scan, const itk::ImageRegion<3> & region)
+/** The values of labels, and at their place in the list, from 1, their numbers. */
+template <typename TPixel>
+std::uint16_t
+NumberOf(TPixel value, const std::vector<std::int32_t> & values)
 {
-  const auto & origins = scan.sliceOrigins;
-  if (origins.size() < 2)
+  const auto found = std::lower_bound(values.begin(), values.end(), static_cast<std::int32_t>(value));
+  return found != values.end() && *found == static_cast<std::int32_t>(value)
+           ? static_cast<std::uint16_t>(found - values.begin() + 1)
+           : 0;
+}
+
+/** The numbers of the labels, from 1; 0 at all other voxels. */
+LabelImage::Pointer
+NumberLabels(const ScanImage & image, const std::vector<LabelSummary> & labels)
+{
+  std::vector<std::int32_t> values;
+  for (const LabelSummary & summary : labels)
+  {
+    values.push_back(summary.label.value);
+  }
+  const auto numbers = LabelImage::New();
+  const auto number = [&](const auto & voxels) {
+    const auto & region = voxels->GetBufferedRegion();
+    const auto * const from = voxels->GetBufferPointer();
+    numbers->CopyInformation(voxels);
+    numbers->SetRegions(region);
+    numbers->Allocate();
+    itk::ForEachInBlocks(region.GetSize(1) * region.GetSize(2), 64, [&](std::size_t row) {
+      const std::size_t first = row * region.GetSize(0);
+      for (std::size_t n = first; n < first + region.GetSize(0); ++n)
+      {
+        const bool isSame = n > first && from[n] == from[n - 1];
+        numbers->GetBufferPointer()[n] = isSame ? numbers->GetBufferPointer()[n - 1] : NumberOf(from[n], values);
+      }
+    });
+  };
+  std::visit(number, image);
+  return numbers;
+}
+
+/** The box of all voxels that are not 0, and a margin around it beyond which labels have no effect on walls. */
+itk::ImageRegion<3>
+FindBox(const LabelImage & image)
+{
+  constexpr itk::SizeValueType margin = 12; // voxels
+  const auto & region = image.GetBufferedRegion();
+  itk::Index<3> low = region.GetUpperIndex();
+  itk::Index<3> high = region.GetIndex();
+  const std::uint16_t * row = image.GetBufferPointer();
+  const std::size_t width = region.GetSize(0);
+  const auto isLabel = [](std::uint16_t label) { return label != 0; };
+  for (std::size_t n = 0; n < region.GetSize(1) * region.GetSize(2); ++n, row += width)
+  {
+    const std::uint16_t * const begin = std::find_if(row, row + width, isLabel);
+    if (begin == row + width)
+    {
+      continue;
+    }
+    const std::uint16_t * end = row + width;
+    while (!isLabel(end[-1]))
+    {
+      --end;
+    }
+    const std::ptrdiff_t place[3] = { begin - row,
+                                      static_cast<std::ptrdiff_t>(n % region.GetSize(1)),
+                                      static_cast<std::ptrdiff_t>(n / region.GetSize(1)) };
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const itk::IndexValueType first = region.GetIndex(axis) + place[axis];
+      low[axis] = std::min(low[axis], first);
+      high[axis] = std::max(high[axis], axis == 0 ? region.GetIndex(0) + (end - row) - 1 : first);
+    }
+  }
+  itk::ImageRegion<3> box;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    box.SetIndex(axis, low[axis]);
+    box.SetSize(axis, static_cast<itk::SizeValueType>(high[axis] - low[axis] + 1));
+  }
+  box.PadByRadius(margin);
+  box.Crop(region);
+  return box;
+}
+
+LabelImage::Pointer
+Crop(const LabelImage & image, const itk::ImageRegion<3> & box)
+{
+  const auto filter = itk::RegionOfInterestImageFilter<LabelImage, LabelImage>::New();
+  filter->SetInput(&image);
+  filter->SetRegionOfInterest(box);
+  filter->Update();
+  return filter->GetOutput();
+}
+
+/** The slice origins of a part of the scan's grid. */
+std::vector<itk::Point<double, 3>>
+CropSliceOrigins(const Scan & scan, const itk::ImageRegion<3> & box)
+{
+  if (scan.sliceOrigins.empty())
   {
     return {};
   }
   const auto & grid = GeometryOf(scan.image);
   const auto begin = grid.GetLargestPossibleRegion().GetIndex();
-  itk::Index<3> inPlane = region.GetIndex();
+  itk::Index<3> inPlane = box.GetIndex();
   inPlane[2] = begin[2];
   const auto shift =
     grid.TransformIndexToPhysicalPoint<double>(inPlane) - grid.TransformIndexToPhysicalPoint<double>(begin);
-  const auto last = static_cast<itk::IndexValueType>(origins.size()) - 1;
-  std::vector<itk::Point<double, 3>> cut;
-  for (itk::IndexValueType slice = region.GetIndex(2) - begin[2]; cut.size() < region.GetSize(2); ++slice)
-  {
-    const auto nearest = static_cast<std::size_t>(std::clamp<itk::IndexValueType>(slice, 0, last));
-    const auto step = slice < 0 ? origins[1] - origins[0] : origins[origins.size() - 1] - origins[origins.size() - 2];
-    const auto beyond = static_cast<double>(slice - static_cast<itk::IndexValueType>(nearest));
-    cut.push_back(origins[nearest] + shift + step * beyond);
-  }
-  return cut;
+  const auto first = scan.sliceOrigins.begin() + (box.GetIndex(2) - begin[2]);
+  std::vector<itk::Point<double, 3>> origins;
+  std::transform(first,
+                 first + static_cast<std::ptrdiff_t>(box.GetSize(2)),
+                 std::back_inserter(origins),
+                 [&shift](const auto & origin) { return origin + shift; });
+  return origins;
 }
 
-MaskPiece
-CutPiece(const Scan & scan, const LabelPieces & pieces, std::size_t piece, const std::vector<double> & voxelVolumes)
+itk::LabelsToFCCFilter::Pointer
+MakeFilter(const LabelImage & labels, const std::vector<itk::Point<double, 3>> & sliceOrigins, double density)
 {
-  MaskPiece cut;
-  cut.mask = pieces.MakeMask(piece, MaskMargin);
-  cut.scanRegion = GeometryOf(scan.image).GetLargestPossibleRegion();
-  cut.sliceOrigins = CutSliceOrigins(scan, cut.mask->GetBufferedRegion());
-  const auto firstSlice = static_cast<std::size_t>(pieces.GetBox(piece).GetIndex(2) - cut.scanRegion.GetIndex(2));
-  const auto counts = pieces.CountVoxels(piece);
-  for (std::size_t slice = 0; slice < counts.size(); ++slice)
-  {
-    cut.volume += static_cast<double>(counts[slice]) * voxelVolumes[firstSlice + slice];
-  }
-  return cut;
+  const auto filter = itk::LabelsToFCCFilter::New();
+  filter->SetInput(&labels);
+  filter->SetDensity(density);
+  filter->SetSliceOrigins(sliceOrigins);
+  return filter;
 }
 
-/** All surfaces as one. */
-itk::TriangleSurface::Pointer
-Join(const std::vector<itk::TriangleSurface::Pointer> & surfaces)
+/** Bytes for labels and fields, for weights, and for walls. */
+std::uintmax_t
+EstimateMemory(const LabelImage & labels, itk::LabelsToFCCFilter & filter, double density)
 {
-  if (surfaces.size() == 1)
+  constexpr double bytesPerSite = 6.0;
+  constexpr double bytesPerVoxel = 22.0;
+  constexpr double bytesPerChange = 350.0; // of label along x: weights within 3 voxels, and triangles
+  filter.UpdateOutputInformation();
+  const auto sites = static_cast<double>(filter.GetOutput()->GetLargestPossibleRegion().GetNumberOfPixels());
+  const auto voxels = labels.GetBufferedRegion().GetNumberOfPixels();
+  const std::uint16_t * const begin = labels.GetBufferPointer();
+  double changes = 0.0;
+  for (std::size_t n = 1; n < voxels; ++n)
   {
-    return surfaces.front();
+    changes += begin[n] != begin[n - 1] ? 1.0 : 0.0;
   }
-  const auto joined = itk::TriangleSurface::New();
-  for (const auto & surface : surfaces)
+  return static_cast<std::uintmax_t>(sites * bytesPerSite + static_cast<double>(voxels) * bytesPerVoxel +
+                                     changes * bytesPerChange * std::max(1.0, density));
+}
+
+/** Sets unit normals: the mean of the triangles' at each point, by their areas. */
+void
+SetNormals(itk::TriangleSurface & surface)
+{
+  const auto & points = surface.GetPoints();
+  auto & normals = surface.GetNormals();
+  normals.assign(points.size(), {});
+  for (const auto & triangle : surface.GetTriangles())
   {
-    const auto first = static_cast<std::uint32_t>(joined->GetNumberOfPoints());
-    const auto append = [](auto & to, const auto & from) { to.insert(to.end(), from.begin(), from.end()); };
-    append(joined->GetPoints(), surface->GetPoints());
-    append(joined->GetNormals(), surface->GetNormals());
-    for (auto triangle : surface->GetTriangles())
+    std::array<std::array<float, 3>, 2> sides;
+    for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      for (auto & point : triangle)
+      sides[0][axis] = points[triangle[1]][axis] - points[triangle[0]][axis];
+      sides[1][axis] = points[triangle[2]][axis] - points[triangle[0]][axis];
+    }
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const unsigned int next = (axis + 1) % 3;
+      const unsigned int last = (axis + 2) % 3;
+      const float component = sides[0][next] * sides[1][last] - sides[0][last] * sides[1][next];
+      for (const std::uint32_t point : triangle)
       {
-        point += first;
+        normals[point][axis] += component;
       }
-      joined->GetTriangles().push_back(triangle);
     }
   }
-  return joined;
+  for (auto & normal : normals)
+  {
+    const float length = std::hypot(normal[0], normal[1], normal[2]);
+    normal = length > 0.0f ? std::array{ normal[0] / length, normal[1] / length, normal[2] / length }
+                           : std::array{ 0.0f, 0.0f, 1.0f };
+  }
 }
 
-/** The surface of each piece. Threads share the work on large pieces, and the small pieces among themselves. */
-std::vector<MaskSurface>
-MakePieces(const Scan & scan,
-           const LabelSummary & summary,
-           const LabelPieces & pieces,
-           const LabelSurfaceSettings & settings,
-           const std::function<void(double)> & progress)
+/** Sets the volumes and pieces of labels and of their walls. */
+void
+MeasureLabels(const LabelImage & numbers, LabelMesh & mesh)
 {
-  const std::vector<double> voxelVolumes = VoxelVolumes(scan);
-  std::vector<MaskSurface> made(pieces.GetNumberOfPieces());
-  const auto make = [&](std::size_t piece, bool onOneThread) {
-    made[piece] =
-      MaskToSurface(CutPiece(scan, pieces, piece, voxelVolumes),
-                    { settings.density, settings.mode, settings.maximumMemory, summary.label.name, onOneThread });
-  };
-  std::vector<std::size_t> small;
-  for (std::size_t piece = 0; piece < made.size(); ++piece)
+  const auto pieces = CountPieces(numbers, mesh.labels.size() + 1, false);
+  const auto facePieces = CountPieces(numbers, mesh.labels.size() + 1, true);
+  for (std::size_t n = 0; n < mesh.labels.size(); ++n)
   {
-    if (pieces.GetBox(piece).GetNumberOfPixels() <= SmallPiece)
-    {
-      small.push_back(piece);
-      continue;
-    }
-    make(piece, false);
-    progress(static_cast<double>(piece + 1 - small.size()) / static_cast<double>(made.size()));
+    LabelSurface & label = mesh.labels[n];
+    const auto surface = mesh.walls->ExtractLabel(static_cast<itk::LabelWalls::LabelType>(n + 1));
+    const auto volumes = itk::ComputeComponentVolumes(*surface, itk::FindComponents(*surface));
+    label.surfaceMillilitres = std::accumulate(volumes.begin(), volumes.end(), 0.0) / CubicMillimetresPerMl;
+    label.surfacePieces = static_cast<std::size_t>(
+      std::count_if(volumes.begin(), volumes.end(), [](double volume) { return volume > 0.0; }));
+    label.pieces = pieces[n + 1];
+    label.isTorn = label.surfacePieces > label.pieces && label.surfacePieces > facePieces[n + 1];
   }
-  for (std::size_t first = 0; first < small.size(); first += PiecesAtOnce)
-  {
-    progress(static_cast<double>(made.size() - small.size() + first) / static_cast<double>(made.size()));
-    itk::ForEachOnThreads(std::min(PiecesAtOnce, small.size() - first),
-                          [&](std::size_t n) { make(small[first + n], true); });
-  }
-  return made;
-}
-
-LabelSurface
-MakeSurface(const Scan & scan,
-            const LabelSummary & summary,
-            const LabelPieces & pieces,
-            const LabelSurfaceSettings & settings,
-            const std::function<void(double)> & progress)
-{
-  LabelSurface made = DescribeLabel(summary);
-  made.pieces = pieces.GetNumberOfPieces();
-  std::vector<itk::TriangleSurface::Pointer> surfaces;
-  for (const MaskSurface & surface : MakePieces(scan, summary, pieces, settings, progress))
-  {
-    made.surfaceMillilitres += surface.volume / CubicMillimetresPerMillilitre;
-    made.surfacePieces += surface.shells;
-    made.finerPieces += surface.isFiner ? 1 : 0;
-    made.protectedVoxels += surface.protectedVoxels;
-    surfaces.push_back(surface.surface);
-  }
-  made.isTorn = made.surfacePieces > made.pieces && made.surfacePieces > pieces.CountFaceConnectedPieces();
-  made.scene.surface = Join(surfaces);
-  return made;
 }
 
 } // namespace
 
-std::vector<LabelSurface>
-LabelsToSurfaces(const LabelMap & map, const LabelSurfaceSettings & settings, const Events & events)
+LabelMesh
+LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const Events & events)
 {
+  constexpr double smoothing = 0.3; // largest move of a point, in voxels
   CheckLabelDensity(settings.density);
   const std::vector<LabelSummary> labels = ChooseLabels(map, settings.labels);
-  const auto boxes = FindLabelBoxes(map.scan.image);
-  double allVoxels = 0.0;
-  for (const LabelSummary & summary : labels)
+  if (labels.size() > std::numeric_limits<std::uint16_t>::max())
   {
-    allVoxels += static_cast<double>(boxes.at(summary.label.value).GetNumberOfPixels());
+    throw Failure(FailureKind::Unreadable, "Walls can have 65,535 labels; name those to show.");
   }
-  std::vector<LabelSurface> surfaces;
-  double doneVoxels = 0.0;
-  for (const LabelSummary & summary : labels)
+  LabelImage::Pointer numbers = NumberLabels(map.scan.image, labels);
+  const itk::ImageRegion<3> box = FindBox(*numbers);
+  numbers = Crop(*numbers, box);
+  const auto toLattice = MakeFilter(*numbers, CropSliceOrigins(map.scan, box), settings.density);
+  RequireMemory(EstimateMemory(*numbers, *toLattice, settings.density),
+                settings.maximumMemory,
+                "The walls between labels",
+                "use a coarser lattice, or crop the label map");
+  ObserveProgress(*toLattice, "extracting labels", events);
+  toLattice->Update();
+  const auto extract = itk::FCCLabelSurfaceFilter::New();
+  extract->SetInput(toLattice->GetOutput());
+  extract->SetWeights(toLattice->GetWeights());
+  extract->Update();
+  LabelMesh mesh;
+  mesh.walls = extract->GetOutput();
+  mesh.walls->DisconnectPipeline();
+  itk::TriangleSurfaceSmoothingSettings relaxation;
+  const auto & spacing = numbers->GetSpacing();
+  relaxation.maximumMove = smoothing * std::cbrt(spacing[0] * spacing[1] * spacing[2]);
+  itk::RelaxWalls(*mesh.walls, relaxation, toLattice->GetVoxelVolumes());
+  std::transform(labels.begin(), labels.end(), std::back_inserter(mesh.labels), DescribeLabel);
+  MeasureLabels(*numbers, mesh);
+  for (const LabelSurface & label : mesh.labels)
   {
-    const itk::ImageRegion<3> & box = boxes.at(summary.label.value);
-    const auto boxVoxels = static_cast<double>(box.GetNumberOfPixels());
-    const LabelPieces pieces(map.scan.image, summary.label.value, box);
-    surfaces.push_back(MakeSurface(map.scan, summary, pieces, settings, [&](double fraction) {
-      events.Progress("extracting labels", (doneVoxels + fraction * boxVoxels) / allVoxels);
-    }));
-    NoteShortcomings(surfaces.back(), events);
-    doneVoxels += boxVoxels;
+    NoteShortcomings(label, events);
   }
   events.Progress("extracting labels", 1.0);
-  return surfaces;
+  return mesh;
+}
+
+Refinement
+RefineWalls(itk::LabelWalls & walls, const SurfaceFinish & finish, double spacing, const Events & events)
+{
+  const RefinementFunctions functions{
+    [&walls](auto &, const auto & settings) { return itk::RelaxWalls(walls, settings); },
+    [&walls](auto &, const auto & settings) { return itk::SimplifyWalls(walls, settings); },
+    [&walls](auto &) { return -itk::ComputeVolume(*walls.ExtractLabel(0)); }
+  };
+  return RefineBy(functions, walls, finish, spacing, "walls of labels", events);
+}
+
+void
+ExtractSurfaces(LabelMesh & mesh)
+{
+  itk::ForEachOnThreads(mesh.labels.size(), [&](std::size_t n) {
+    const auto surface = mesh.walls->ExtractLabel(static_cast<itk::LabelWalls::LabelType>(n + 1));
+    SetNormals(*surface);
+    mesh.labels[n].scene.surface = surface;
+  });
 }
 
 } // namespace rhombic

@@ -1,7 +1,7 @@
 #include "rhombicPictureScene.h"
 
 #include "rhombicFailure.h"
-#include "rhombicLabelWalls.h"
+#include "rhombicLabelSurfaces.h"
 #include "rhombicLatticeToSurfaces.h"
 #include "rhombicSourceLoading.h"
 #include "rhombicSurfaceIO.h"
@@ -110,21 +110,12 @@ AddLabels(const LoadedSource & loaded, const PictureSource & source, const Event
   const double spacing = MeanSpacingOf(GeometryOf(loaded.labels->scan.image));
   const LabelSurfaceSettings settings = GetLabelSettings(source.scan, source.surfaces);
   SurfaceFinish finish = source.finish;
-  std::vector<LabelSurface> labels;
-  if (source.surfaces.labels->sharesWalls)
-  {
-    LabelMesh mesh = LabelsToWalls(*loaded.labels, settings, events);
-    SurfaceFinish smoothing;
-    smoothing.smoothing = std::exchange(finish.smoothing, 0.0);
-    RefineWalls(*mesh.walls, smoothing, spacing, events);
-    ExtractSurfaces(mesh);
-    labels = std::move(mesh.labels);
-  }
-  else
-  {
-    labels = LabelsToSurfaces(*loaded.labels, settings, events);
-  }
-  for (LabelSurface & label : labels)
+  LabelMesh mesh = LabelsToWalls(*loaded.labels, settings, events);
+  SurfaceFinish smoothing;
+  smoothing.smoothing = std::exchange(finish.smoothing, 0.0);
+  RefineWalls(*mesh.walls, smoothing, spacing, events);
+  ExtractSurfaces(mesh);
+  for (LabelSurface & label : mesh.labels)
   {
     if (Finish(label.scene, finish, spacing, events))
     {
