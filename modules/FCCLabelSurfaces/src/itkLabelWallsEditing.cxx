@@ -1,9 +1,7 @@
 #include "itkLabelWallsEditing.h"
 
 #include "itkBoundedMoves.h"
-#include "itkForEachBlock.h"
-#include "detail/itkTriangleContact.h"
-#include "itkTriangleTree.h"
+#include "itkTriangleSurfaceIntersections.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +11,6 @@ namespace itk
 namespace
 {
 
-constexpr SizeValueType TestedBlock = 1024;
 constexpr unsigned int VolumeCorrections = 16;
 constexpr double ShareForVolumes = 0.1; // of the largest error of simplification
 
@@ -57,41 +54,28 @@ RestoreVolumes(LabelWalls & walls,
   }
 }
 
-/** The ids of the triangles that meet others elsewhere than at shared corners and sides, ascending. */
-std::vector<std::uint32_t>
-FindMeetingTriangles(const LabelWalls & walls)
-{
-  const auto & points = walls.GetPoints();
-  const auto & triangles = walls.GetTriangles();
-  const TriangleTree tree(walls);
-  std::vector<std::uint8_t> meets(triangles.size(), 0);
-  ForEachInBlocks(triangles.size(), TestedBlock, [&](SizeValueType id) {
-    tree.VisitTriangles(TriangleTree::BoxOf(points, triangles[id]), [&](std::uint32_t other) {
-      meets[id] =
-        meets[id] || (other != id && FindContact(points, triangles[id], triangles[other]) != TriangleContact::Apart);
-    });
-  });
-  std::vector<std::uint32_t> found;
-  for (std::uint32_t id = 0; id < meets.size(); ++id)
-  {
-    if (meets[id])
-    {
-      found.push_back(id);
-    }
-  }
-  return found;
-}
-
 /** Restores volumes, and puts points of triangles that then meet others back to their start. */
 TriangleSurfaceSmoothingReport
-FinishMoves(LabelWalls & walls, const std::vector<LabelWalls::Measures> & wanted, BoundedMoves & moves)
+FinishMoves(LabelWalls & walls,
+            const std::vector<LabelWalls::Measures> & wanted,
+            const TrianglesOfPoints & fans,
+            const PointStrata & strata,
+            BoundedMoves & moves)
 {
-  const TrianglesOfPoints fans(walls);
-  const PointStrata strata = FindStrata(walls, fans);
   RestoreVolumes(walls, wanted, fans, strata, moves);
-  while (moves.PutBackToStart(FindMeetingTriangles(walls)))
-  {}
-  return moves.Finish(fans, strata);
+  TriangleTree tree(walls);
+  auto meeting = FindCrossingTriangles(tree, fans, TriangleContact::Touching);
+  while (!meeting.empty())
+  {
+    const auto before = walls.GetPoints();
+    const auto changed = moves.PutBackToStart(meeting);
+    for (const std::uint32_t id : changed)
+    {
+      tree.Enlarge(TriangleTree::BoxOf(before, walls.GetTriangles()[id]), tree.GetTriangleBox(id));
+    }
+    meeting = FindCrossingTriangles(tree, changed, TriangleContact::Touching);
+  }
+  return moves.Finish(strata);
 }
 
 } // namespace
@@ -104,9 +88,11 @@ RelaxWalls(LabelWalls & walls, const TriangleSurfaceSmoothingSettings & settings
   {
     wanted[label].volume = volumes[label] > 0.0 ? volumes[label] : wanted[label].volume;
   }
-  BoundedMoves moves(walls, settings.maximumMove);
-  SmoothSurface(walls, settings);
-  const TriangleSurfaceSmoothingReport report = FinishMoves(walls, wanted, moves);
+  const TrianglesOfPoints fans(walls);
+  const PointStrata strata = FindStrata(walls, fans);
+  BoundedMoves moves(walls, fans, settings.maximumMove);
+  TakeSmoothingSteps(walls, fans, strata, settings.iterations, moves);
+  const TriangleSurfaceSmoothingReport report = FinishMoves(walls, wanted, fans, strata, moves);
   walls.Modified();
   return report;
 }
@@ -132,8 +118,9 @@ SimplifyWalls(LabelWalls & walls, const TriangleSurfaceSimplificationSettings & 
   std::transform(sheets.begin(), sheets.end(), labels.begin(), [&pairs](std::uint32_t sheet) { return pairs[sheet]; });
   if (std::isfinite(settings.maximumError))
   {
-    BoundedMoves moves(walls, ShareForVolumes * settings.maximumError);
-    FinishMoves(walls, measures, moves);
+    const TrianglesOfPoints fans(walls);
+    BoundedMoves moves(walls, fans, ShareForVolumes * settings.maximumError);
+    FinishMoves(walls, measures, fans, FindStrata(walls, fans), moves);
   }
   walls.Modified();
   return report;

@@ -1,34 +1,61 @@
 #include "itkBoundedMoves.h"
 
-#include "itkForEachBlock.h"
-
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 namespace itk
 {
 namespace
 {
 
-using Points = TriangleSurface::PointsContainer;
-using PointType = TriangleSurface::PointType;
-
-constexpr SizeValueType MovedBlock = 4096;
 constexpr double SmallestCosineOfTurn = 0.1736; // cosine of 80 degrees
 constexpr double SmallestShareOfArea = 0.1;
 
-/** The position itself, or the nearest one that is not farther than \a maximumMove from \a start. */
-PointType
-LimitMove(const PointType & start, PointType position, double maximumMove)
+/** The triangles' normals at a point weighted by their angles there; zero if no triangle has an area. */
+PositionType
+SumNormals(const TriangleSurface::PointsContainer & points, const TrianglesOfPoints & fans, SizeValueType point)
+{
+  PositionType sum{};
+  fans.VisitNeighbours(point, [&](std::uint32_t next, std::uint32_t last) {
+    const PositionType a = Subtract(ToPosition(points[next]), ToPosition(points[point]));
+    const PositionType b = Subtract(ToPosition(points[last]), ToPosition(points[point]));
+    const PositionType normal = Cross(a, b);
+    const double length = Length(normal);
+    const double angle = std::atan2(length, Dot(a, b));
+    for (unsigned int axis = 0; axis < 3 && length > 0.0; ++axis)
+    {
+      sum[axis] += angle * normal[axis] / length;
+    }
+  });
+  return sum;
+}
+
+} // namespace
+
+BoundedMoves::BoundedMoves(TriangleSurface & surface, const TrianglesOfPoints & fans, double maximumMove)
+  : m_Surface(surface)
+  , m_Fans(fans)
+  , m_MaximumMove(maximumMove)
+  , m_Start(surface.GetPoints())
+  , m_Next(surface.GetPoints())
+{
+  if (!(maximumMove >= 0.0 && std::isfinite(maximumMove)))
+  {
+    itkGenericExceptionMacro("A point can't move by at most "
+                             << maximumMove << " mm when a surface is smoothed; give a number from 0");
+  }
+}
+
+/** The position itself, or the nearest one that is not too far from \a start. */
+BoundedMoves::PointType
+BoundedMoves::LimitMove(const PointType & start, PointType position) const
 {
   const PositionType way = Subtract(ToPosition(position), ToPosition(start));
-  double reach = maximumMove / Length(way);
-  while (Length(Subtract(ToPosition(position), ToPosition(start))) > maximumMove)
+  double reach = m_MaximumMove / Length(way);
+  while (Distance(ToPosition(position), ToPosition(start)) > m_MaximumMove)
   {
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      position[axis] = static_cast<float>(start[axis] + reach * way[axis]);
-    }
+    position = Move(start, reach, way);
     reach -= 1e-3 * reach; // rounding to float may exceed the limit slightly
   }
   return position;
@@ -36,150 +63,107 @@ LimitMove(const PointType & start, PointType position, double maximumMove)
 
 /** Whether a triangle has turned or shrunk too much since the start. */
 bool
-IsSpoilt(const Points & start, const Points & points, const TriangleSurface::TriangleType & triangle)
+BoundedMoves::IsSpoilt(std::uint32_t triangle) const
 {
-  const auto areaVector = [&triangle](const Points & positions) {
+  const auto areaVector = [&corners = m_Surface.GetTriangles()[triangle]](const Points & points) {
     return AreaVector(
-      { ToPosition(positions[triangle[0]]), ToPosition(positions[triangle[1]]), ToPosition(positions[triangle[2]]) });
+      { ToPosition(points[corners[0]]), ToPosition(points[corners[1]]), ToPosition(points[corners[2]]) });
   };
-  const PositionType vectorBefore = areaVector(start);
-  const PositionType vectorAfter = areaVector(points);
-  const double areaBefore = Length(vectorBefore);
-  const double areaAfter = Length(vectorAfter);
-  return !(Dot(vectorBefore, vectorAfter) >= SmallestCosineOfTurn * areaBefore * areaAfter &&
+  const PositionType before = areaVector(m_Start);
+  const PositionType after = areaVector(m_Next);
+  const double areaBefore = Length(before);
+  const double areaAfter = Length(after);
+  return !(Dot(before, after) >= SmallestCosineOfTurn * areaBefore * areaAfter &&
            areaAfter >= SmallestShareOfArea * areaBefore);
 }
 
-/** Computes each point's normal anew: the triangles' normals weighted by their angles at the point. */
 void
-ComputeNormals(TriangleSurface & surface, const TrianglesOfPoints & fans)
+BoundedMoves::FinishStep()
 {
-  const Points & points = surface.GetPoints();
-  ForEachInBlocks(points.size(), MovedBlock, [&](SizeValueType point) {
-    PositionType sum{};
-    fans.VisitNeighbours(point, [&](std::uint32_t next, std::uint32_t last) {
-      const PositionType a = Subtract(ToPosition(points[next]), ToPosition(points[point]));
-      const PositionType b = Subtract(ToPosition(points[last]), ToPosition(points[point]));
-      const PositionType normal = Cross(a, b);
-      const double length = Length(normal);
-      const double angle = std::atan2(length, Dot(a, b));
-      for (unsigned int axis = 0; axis < 3 && length > 0.0; ++axis)
-      {
-        sum[axis] += angle * normal[axis] / length;
-      }
-    });
-    if (const double length = Length(sum); length > 0.0)
+  std::vector<std::uint32_t> spoilt;
+  std::mutex mutex;
+  ForEachInBlocks(m_Surface.GetNumberOfTriangles(), MovedBlock, [&](SizeValueType id) {
+    if (this->IsSpoilt(static_cast<std::uint32_t>(id)))
     {
-      for (unsigned int axis = 0; axis < 3; ++axis)
-      {
-        surface.GetNormals()[point][axis] = static_cast<float>(sum[axis] / length);
-      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      spoilt.push_back(static_cast<std::uint32_t>(id));
     }
   });
-}
-
-} // namespace
-
-BoundedMoves::BoundedMoves(TriangleSurface & surface, double maximumMove)
-  : m_Surface(surface)
-  , m_MaximumMove(maximumMove)
-  , m_Start(surface.GetPoints())
-  , m_Next(surface.GetPoints())
-{}
-
-BoundedMoves::PointType
-BoundedMoves::Move(const PointType & point, double factor, const PositionType & way)
-{
-  PointType moved;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    moved[axis] = static_cast<float>(point[axis] + factor * way[axis]);
-  }
-  return moved;
-}
-
-void
-BoundedMoves::Step(const std::function<PointType(SizeValueType point)> & find)
-{
-  ForEachInBlocks(m_Next.size(), MovedBlock, [&](SizeValueType point) {
-    m_Next[point] = LimitMove(m_Start[point], find(point), m_MaximumMove);
-  });
-  std::vector<std::uint8_t> isPutBack(m_Next.size(), 1); // in the last round; in the first, all are tested
-  while (this->PutBackBadMoves(isPutBack))
-  {}
+  this->PutBack(std::move(spoilt));
   m_Surface.GetPoints().swap(m_Next);
 }
 
-bool
-BoundedMoves::PutBackToStart(const std::vector<std::uint32_t> & triangles)
+/** Puts the next points of some triangles back to the surface's points. That may spoil other triangles at these points:
+ * puts them back, too. Returns the points that were put back. */
+std::vector<std::uint32_t>
+BoundedMoves::PutBack(std::vector<std::uint32_t> spoilt)
 {
-  Points & points = m_Surface.GetPoints();
-  m_Next.swap(points);
-  points = m_Start;
-  std::vector<std::uint8_t> isPutBack(m_Next.size(), 0);
-  bool isAnyPutBack = false;
-  for (const std::uint32_t id : triangles)
+  std::vector<std::uint32_t> putBack;
+  for (std::size_t done = 0; !spoilt.empty(); done = putBack.size())
   {
-    for (const std::uint32_t point : m_Surface.GetTriangles()[id])
+    for (const std::uint32_t id : spoilt)
     {
-      isPutBack[point] = isPutBack[point] | (m_Next[point] != m_Start[point] ? 1 : 0);
-      isAnyPutBack = isAnyPutBack || isPutBack[point];
-      m_Next[point] = m_Start[point];
+      for (const std::uint32_t point : m_Surface.GetTriangles()[id])
+      {
+        if (m_Next[point] != m_Surface.GetPoints()[point])
+        {
+          m_Next[point] = m_Surface.GetPoints()[point];
+          putBack.push_back(point);
+        }
+      }
+    }
+    spoilt.clear();
+    for (std::size_t n = done; n < putBack.size(); ++n)
+    {
+      m_Fans.VisitTriangles(putBack[n], [&](std::uint32_t id) {
+        if (this->IsSpoilt(id))
+        {
+          spoilt.push_back(id);
+        }
+      });
     }
   }
-  while (this->PutBackBadMoves(isPutBack))
-  {}
-  points.swap(m_Next);
-  return isAnyPutBack;
+  return putBack;
+}
+
+std::vector<std::uint32_t>
+BoundedMoves::PutBackToStart(const std::vector<std::uint32_t> & triangles)
+{
+  m_Next.swap(m_Surface.GetPoints());
+  m_Surface.GetPoints() = m_Start;
+  std::vector<std::uint32_t> changed;
+  for (const std::uint32_t point : this->PutBack(triangles))
+  {
+    m_Fans.VisitTriangles(point, [&](std::uint32_t id) { changed.push_back(id); });
+  }
+  m_Surface.GetPoints().swap(m_Next);
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  return changed;
 }
 
 TriangleSurfaceSmoothingReport
-BoundedMoves::Finish(const TrianglesOfPoints & fans, const PointStrata & strata)
+BoundedMoves::Finish(const PointStrata & strata)
 {
-  if (m_Surface.HasNormals())
-  {
-    ComputeNormals(m_Surface, fans);
-  }
   const Points & points = m_Surface.GetPoints();
+  ForEachInBlocks(m_Surface.GetNormals().size(), MovedBlock, [&](SizeValueType point) {
+    const PositionType sum = SumNormals(points, m_Fans, point);
+    const double length = Length(sum);
+    for (unsigned int axis = 0; axis < 3 && length > 0.0; ++axis)
+    {
+      m_Surface.GetNormals()[point][axis] = static_cast<float>(sum[axis] / length);
+    }
+  });
   TriangleSurfaceSmoothingReport report;
   for (std::size_t point = 0; point < points.size(); ++point)
   {
-    const double move = Length(Subtract(ToPosition(points[point]), ToPosition(m_Start[point])));
+    const double move = Distance(ToPosition(points[point]), ToPosition(m_Start[point]));
     report.meanMove += move / static_cast<double>(points.size());
     report.largestMove = std::max(report.largestMove, move);
     report.pointsAtLimit += move > 0.999 * m_MaximumMove ? 1 : 0;
     report.pointsOnBorder += strata.strata[point] == Stratum::Fixed ? 1 : 0;
   }
   return report;
-}
-
-/** Puts the points of spoilt triangles back to where they were before the step. That may spoil other triangles at these
- * points: tests those at points that were put back, and returns whether any other was. */
-bool
-BoundedMoves::PutBackBadMoves(std::vector<std::uint8_t> & isPutBack)
-{
-  const auto & triangles = m_Surface.GetTriangles();
-  std::vector<std::uint8_t> isSpoilt(triangles.size());
-  ForEachInBlocks(triangles.size(), MovedBlock, [&](SizeValueType id) {
-    const auto & [a, b, c] = triangles[id];
-    isSpoilt[id] = (isPutBack[a] | isPutBack[b] | isPutBack[c]) != 0 && IsSpoilt(m_Start, m_Next, triangles[id]);
-  });
-  std::fill(isPutBack.begin(), isPutBack.end(), std::uint8_t{ 0 });
-  bool isAnyPutBack = false;
-  for (std::size_t id = 0; id < triangles.size(); ++id)
-  {
-    for (unsigned int corner = 0; isSpoilt[id] && corner < 3; ++corner)
-    {
-      const std::uint32_t point = triangles[id][corner];
-      if (m_Next[point] != m_Surface.GetPoints()[point])
-      {
-        m_Next[point] = m_Surface.GetPoints()[point];
-        isPutBack[point] = 1;
-        isAnyPutBack = true;
-      }
-    }
-  }
-  return isAnyPutBack;
 }
 
 } // namespace itk

@@ -2,10 +2,9 @@
 #define itkBoundedMoves_h
 
 #include "detail/itkPositionArithmetic.h"
+#include "itkForEachBlock.h"
 #include "itkPointStrata.h"
 #include "itkTriangleSurfaceSmoothing.h"
-
-#include <functional>
 
 namespace itk
 {
@@ -21,35 +20,68 @@ public:
   using Points = TriangleSurface::PointsContainer;
   using PointType = TriangleSurface::PointType;
 
-  /** \param maximumMove in mm; the surface must live longer */
-  BoundedMoves(TriangleSurface & surface, double maximumMove);
+  /** \param fans the triangles at the points of the surface; both must live longer
+   *  \param maximumMove in mm */
+  BoundedMoves(TriangleSurface & surface, const TrianglesOfPoints & fans, double maximumMove);
 
   /** Moves each point to find(point), which may be called on several threads at once, or as near as it may go. */
+  template <typename TFind>
   void
-  Step(const std::function<PointType(SizeValueType point)> & find);
+  Step(const TFind & find)
+  {
+    ForEachInBlocks(m_Next.size(), MovedBlock, [&](SizeValueType point) {
+      const PointType position = find(point);
+      const PositionType way = Subtract(ToPosition(position), ToPosition(m_Start[point]));
+      const bool isNear = Dot(way, way) < 0.999 * m_MaximumMove * m_MaximumMove;
+      m_Next[point] = isNear ? position : this->LimitMove(m_Start[point], position);
+    });
+    this->FinishStep();
+  }
 
   /** Puts the points of some triangles back to their start, and those of triangles that have then turned or shrunk too
-   * much. Returns whether any point had moved. */
-  bool
+   * much. Returns the triangles at points that had moved, ascending. */
+  std::vector<std::uint32_t>
   PutBackToStart(const std::vector<std::uint32_t> & triangles);
 
   /** After the last step: computes the normals anew, if there are any, and returns how far points have moved. */
   TriangleSurfaceSmoothingReport
-  Finish(const TrianglesOfPoints & fans, const PointStrata & strata);
+  Finish(const PointStrata & strata);
 
   /** A point moved by a multiple of a vector. */
   static PointType
-  Move(const PointType & point, double factor, const PositionType & way);
+  Move(const PointType & point, double factor, const PositionType & way)
+  {
+    return { static_cast<float>(point[0] + factor * way[0]),
+             static_cast<float>(point[1] + factor * way[1]),
+             static_cast<float>(point[2] + factor * way[2]) };
+  }
 
 private:
+  static constexpr SizeValueType MovedBlock = 4096;
+
+  PointType
+  LimitMove(const PointType & start, PointType position) const;
   bool
-  PutBackBadMoves(std::vector<std::uint8_t> & isPutBack);
+  IsSpoilt(std::uint32_t triangle) const;
+  void
+  FinishStep();
+  std::vector<std::uint32_t>
+  PutBack(std::vector<std::uint32_t> spoilt);
 
   TriangleSurface & m_Surface;
+  const TrianglesOfPoints & m_Fans;
   const double m_MaximumMove;
   const Points m_Start;
   Points m_Next;
 };
+
+/** The steps of SmoothSurface(). */
+void
+TakeSmoothingSteps(const TriangleSurface & surface,
+                   const TrianglesOfPoints & fans,
+                   const PointStrata & strata,
+                   unsigned int iterations,
+                   BoundedMoves & moves);
 
 } // namespace itk
 

@@ -12,16 +12,41 @@ using PointId = std::uint32_t;
 /** The sides opposite to a point in its triangles, {next, last}, ascending. */
 using Link = std::vector<std::array<PointId, 2>>;
 
-/** The number of sides on the paths from one neighbour to another, or back to itself; 0 if a path ends elsewhere. Each
- * neighbour in between is the first of one side and the last of another. */
+/** The first side of a link, sorted, from a neighbour on. */
+Link::const_iterator
+FindSide(const Link & link, PointId next)
+{
+  return std::lower_bound(link.begin(), link.end(), Link::value_type{ next, 0 });
+}
+
+/** Whether the sides of a link, sorted, are one closed path. */
+bool
+IsCycle(const Link & link)
+{
+  auto side = link.begin();
+  for (std::size_t sides = 1; sides <= link.size(); ++sides)
+  {
+    const PointId last = side->back();
+    side = FindSide(link, last);
+    if (side == link.end() || side->front() != last)
+    {
+      return false;
+    }
+    if (side == link.begin())
+    {
+      return sides == link.size();
+    }
+  }
+  return false;
+}
+
+/** The number of sides on the paths from one neighbour to another; 0 if a path ends elsewhere. Each neighbour in
+ * between is the first of one side and the last of another. */
 std::size_t
 CountSides(const Link & link, PointId from, PointId to)
 {
-  const auto find = [&link](PointId next) {
-    return std::lower_bound(link.begin(), link.end(), Link::value_type{ next, 0 });
-  };
   std::size_t sides = 0;
-  for (auto first = find(from); first != link.end() && first->front() == from; ++first)
+  for (auto first = FindSide(link, from); first != link.end() && first->front() == from; ++first)
   {
     PointId last = first->back();
     for (++sides; last != to; ++sides)
@@ -30,19 +55,16 @@ CountSides(const Link & link, PointId from, PointId to)
       {
         return 0;
       }
-      last = find(last)->back();
+      last = FindSide(link, last)->back();
     }
   }
   return sides;
 }
 
-/** The stratum of a point; of a point of a curve, with its neighbours there. */
-Stratum
-FindStratum(const TrianglesOfPoints & fans, SizeValueType point, std::array<PointId, 2> & onCurve)
+/** Whether a point whose link is no cycle lies on a curve; if so, with its neighbours there. */
+bool
+IsOnCurve(const Link & link, std::array<PointId, 2> & onCurve)
 {
-  Link link;
-  fans.VisitNeighbours(point, [&link](PointId next, PointId last) { link.push_back({ next, last }); });
-  std::sort(link.begin(), link.end());
   std::vector<std::array<PointId, 2>> neighbours; // and 1 if it is the last of a side
   for (const auto & [next, last] : link)
   {
@@ -55,25 +77,19 @@ FindStratum(const TrianglesOfPoints & fans, SizeValueType point, std::array<Poin
   {
     const auto end =
       std::find_if(begin, neighbours.end(), [begin](const auto & other) { return other.front() != begin->front(); });
-    const bool isSheet = end - begin == 2 && begin->back() == 0 && std::prev(end)->back() == 1;
-    if (!isSheet && (end - begin < 3 || curves == onCurve.size()))
+    const bool isInSheet = end - begin == 2 && begin->back() == 0 && std::prev(end)->back() == 1;
+    if (!isInSheet && (end - begin < 3 || curves == onCurve.size()))
     {
-      return Stratum::Fixed;
+      return false;
     }
-    if (!isSheet)
+    if (!isInSheet)
     {
       onCurve[curves++] = begin->front();
     }
     begin = end;
   }
-  if (curves == 0)
-  {
-    const bool isSheet = !link.empty() && CountSides(link, link[0][0], link[0][0]) == link.size();
-    return isSheet ? Stratum::Sheet : Stratum::Fixed;
-  }
   const auto & [a, b] = onCurve;
-  const bool isCurve = curves == 2 && CountSides(link, a, b) + CountSides(link, b, a) == link.size();
-  return isCurve ? Stratum::Curve : Stratum::Fixed;
+  return curves == 2 && CountSides(link, a, b) + CountSides(link, b, a) == link.size();
 }
 
 } // namespace
@@ -81,21 +97,30 @@ FindStratum(const TrianglesOfPoints & fans, SizeValueType point, std::array<Poin
 PointStrata
 FindStrata(const TriangleSurface & surface, const TrianglesOfPoints & fans)
 {
-  constexpr SizeValueType BlockSize = 4096;
+  constexpr SizeValueType blockSize = 4096;
   PointStrata found;
   found.strata.resize(surface.GetNumberOfPoints());
-  std::array<PointId, 2> onCurve{};
-  ForEachInBlocks(found.strata.size(), BlockSize, [&](SizeValueType point) {
-    std::array<PointId, 2> neighbours{};
-    found.strata[point] = FindStratum(fans, point, neighbours);
-  });
-  for (PointId point = 0; point < found.strata.size(); ++point)
-  {
-    if (found.strata[point] == Stratum::Curve)
+  std::vector<std::vector<CurvePoint>> curves(found.strata.size() / blockSize + 1);
+  ForEachBlock(found.strata.size(), blockSize, [&](SizeValueType begin, SizeValueType end) {
+    Link link;
+    for (SizeValueType point = begin; point < end; ++point)
     {
-      FindStratum(fans, point, onCurve);
-      found.curves.push_back({ point, onCurve });
+      link.clear();
+      fans.VisitNeighbours(point, [&link](PointId next, PointId last) { link.push_back({ next, last }); });
+      std::sort(link.begin(), link.end());
+      CurvePoint curve{ static_cast<PointId>(point), {} };
+      found.strata[point] = IsCycle(link)                       ? Stratum::Sheet
+                            : IsOnCurve(link, curve.neighbours) ? Stratum::Curve
+                                                                : Stratum::Fixed;
+      if (found.strata[point] == Stratum::Curve)
+      {
+        curves[begin / blockSize].push_back(curve);
+      }
     }
+  });
+  for (const auto & ofBlock : curves)
+  {
+    found.curves.insert(found.curves.end(), ofBlock.begin(), ofBlock.end());
   }
   return found;
 }

@@ -2,8 +2,6 @@
 
 #include "itkBoundedMoves.h"
 
-#include <cmath>
-
 namespace itk
 {
 namespace
@@ -17,57 +15,76 @@ using PointType = TriangleSurface::PointType;
 constexpr double Inwards = 0.5;
 constexpr double Outwards = -1.0 / (1.0 / Inwards - 0.1);
 
-PositionType
-Difference(const PointType & a, const PointType & b)
+/** The points towards whose mean each point moves: those around it in a sheet, the two beside it on a curve, none if it
+ * stays. */
+class Neighbours
 {
-  return Subtract(ToPosition(a), ToPosition(b));
-}
+public:
+  Neighbours(const TrianglesOfPoints & fans, const PointStrata & strata)
+    : m_Begin(1, 0)
+  {
+    m_Begin.reserve(strata.strata.size() + 1);
+    auto curve = strata.curves.begin();
+    for (PointId point = 0; point < strata.strata.size(); ++point)
+    {
+      if (strata.strata[point] == Stratum::Sheet)
+      {
+        fans.VisitNeighbours(point, [&](PointId next, PointId) { m_Ids.push_back(next); });
+      }
+      else if (strata.strata[point] == Stratum::Curve)
+      {
+        m_Ids.insert(m_Ids.end(), curve->neighbours.begin(), curve->neighbours.end());
+        ++curve;
+      }
+      m_Begin.push_back(m_Ids.size());
+    }
+  }
 
-/** A point moved by \a share of the way to the mean of its neighbours. */
-PointType
-MoveTowardsMean(const Points & points, const TrianglesOfPoints & fans, SizeValueType point, double share)
-{
-  PositionType sum{};
-  fans.VisitNeighbours(point, [&](PointId next, PointId) { sum = Add(sum, Difference(points[next], points[point])); });
-  return BoundedMoves::Move(points[point], share / static_cast<double>(fans.GetNumberOfTriangles(point)), sum);
-}
+  /** The point moved by \a share of the way to the mean. */
+  PointType
+  MoveTowardsMean(const Points & points, SizeValueType point, double share) const
+  {
+    const std::size_t count = m_Begin[point + 1] - m_Begin[point];
+    const PositionType position = ToPosition(points[point]);
+    PositionType sum{};
+    for (std::size_t n = m_Begin[point]; n < m_Begin[point + 1]; ++n)
+    {
+      sum = Add(sum, Subtract(ToPosition(points[m_Ids[n]]), position));
+    }
+    return count > 0 ? BoundedMoves::Move(points[point], share / static_cast<double>(count), sum) : points[point];
+  }
 
-/** The same along a curve. */
-PointType
-MoveAlongCurve(const Points & points, const PointStrata & strata, SizeValueType point, double share)
-{
-  const auto & [a, b] = strata.FindNeighboursOnCurve(static_cast<PointId>(point));
-  return BoundedMoves::Move(
-    points[point], 0.5 * share, Add(Difference(points[a], points[point]), Difference(points[b], points[point])));
-}
+private:
+  std::vector<std::size_t> m_Begin; ///< index of each point's first neighbour, and the end of the last
+  std::vector<PointId> m_Ids;
+};
 
 } // namespace
+
+void
+TakeSmoothingSteps(const TriangleSurface & surface,
+                   const TrianglesOfPoints & fans,
+                   const PointStrata & strata,
+                   unsigned int iterations,
+                   BoundedMoves & moves)
+{
+  const Neighbours neighbours(fans, strata);
+  for (unsigned int n = 0; n < 2 * iterations; ++n)
+  {
+    const double share = n % 2 == 0 ? Inwards : Outwards;
+    moves.Step([&](SizeValueType point) { return neighbours.MoveTowardsMean(surface.GetPoints(), point, share); });
+  }
+}
 
 TriangleSurfaceSmoothingReport
 SmoothSurface(TriangleSurface & surface, const TriangleSurfaceSmoothingSettings & settings)
 {
-  const double maximumMove = settings.maximumMove;
-  if (!(maximumMove >= 0.0 && std::isfinite(maximumMove)))
-  {
-    itkGenericExceptionMacro("A point can't move by at most "
-                             << maximumMove << " mm when a surface is smoothed; give a number from 0");
-  }
   const TrianglesOfPoints fans(surface);
   const PointStrata strata = FindStrata(surface, fans);
-  const Points & points = surface.GetPoints();
-  BoundedMoves moves(surface, maximumMove);
-  for (unsigned int n = 0; n < 2 * settings.iterations; ++n)
-  {
-    const double share = n % 2 == 0 ? Inwards : Outwards;
-    moves.Step([&](SizeValueType point) {
-      const Stratum stratum = strata.strata[point];
-      return stratum == Stratum::Sheet   ? MoveTowardsMean(points, fans, point, share)
-             : stratum == Stratum::Curve ? MoveAlongCurve(points, strata, point, share)
-                                         : points[point];
-    });
-  }
+  BoundedMoves moves(surface, fans, settings.maximumMove);
+  TakeSmoothingSteps(surface, fans, strata, settings.iterations, moves);
   surface.Modified();
-  return moves.Finish(fans, strata);
+  return moves.Finish(strata);
 }
 
 } // namespace itk

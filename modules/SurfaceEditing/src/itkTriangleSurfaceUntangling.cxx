@@ -2,15 +2,12 @@
 
 #include "detail/itkExactOrientation.h"
 #include "detail/itkPositionArithmetic.h"
-#include "detail/itkTriangleContact.h"
-#include "itkForEachBlock.h"
 #include "itkTriangleSurfaceIntersections.h"
 #include "itkTriangleTree.h"
 #include "detail/itkTrianglesOfPoints.h"
 
 #include <algorithm>
 #include <iterator>
-#include <mutex>
 #include <unordered_map>
 
 namespace itk
@@ -32,34 +29,6 @@ SortUnique(Ids & ids)
 {
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
-
-/** Those of \a candidates that cross other triangles, and these other triangles, ascending. */
-Ids
-FindCrossing(const TriangleTree & tree, const Ids & candidates)
-{
-  constexpr std::size_t blockSize = 1024;
-  const TriangleSurface & surface = tree.GetSurface();
-  const auto & triangles = surface.GetTriangles();
-  Ids crossing;
-  std::mutex mutex;
-  ForEachBlock(candidates.size(), blockSize, [&](std::size_t begin, std::size_t end) {
-    Ids ofBlock;
-    for (std::size_t n = begin; n < end; ++n)
-    {
-      const std::uint32_t a = candidates[n];
-      tree.VisitTriangles(tree.GetTriangleBox(a), [&](std::uint32_t b) {
-        if (a != b && FindContact(surface.GetPoints(), triangles[a], triangles[b]) == TriangleContact::Crossing)
-        {
-          ofBlock.insert(ofBlock.end(), { a, b });
-        }
-      });
-    }
-    const std::lock_guard<std::mutex> lock(mutex);
-    crossing.insert(crossing.end(), ofBlock.begin(), ofBlock.end());
-  });
-  SortUnique(crossing);
-  return crossing;
 }
 
 /** The points of some triangles, and of the triangles around them if \a withNeighbours. */
@@ -199,7 +168,7 @@ Untangle(TriangleSurface & surface,
     }
     touched.insert(touched.end(), changed.begin(), changed.end());
     SortUnique(touched);
-    crossing = FindCrossing(tree, changed);
+    crossing = FindCrossingTriangles(tree, changed);
     if (crossing.size() < fewest && HaveAreas(surface, touched))
     {
       fewest = crossing.size();

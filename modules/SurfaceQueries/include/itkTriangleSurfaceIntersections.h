@@ -1,6 +1,7 @@
 #ifndef itkTriangleSurfaceIntersections_h
 #define itkTriangleSurfaceIntersections_h
 
+#include "detail/itkTriangleContact.h"
 #include "itkTriangleTree.h"
 
 namespace itk
@@ -29,9 +30,18 @@ FindSelfIntersections(const TriangleTree & tree,
                       SizeValueType maximumTestedTriangles = std::numeric_limits<SizeValueType>::max());
 
 /** The ids of the triangles that cross others or are duplicates, ascending. Tests all triangles.
- * \param fans the triangles at the points of the tree's surface */
+ * \param fans the triangles at the points of the tree's surface
+ * \param least Touching to find those that only touch others, too */
 std::vector<std::uint32_t>
-FindCrossingTriangles(const TriangleTree & tree, const TrianglesOfPoints & fans);
+FindCrossingTriangles(const TriangleTree & tree,
+                      const TrianglesOfPoints & fans,
+                      TriangleContact least = TriangleContact::Crossing);
+
+/** The same for those of \a candidates that cross any others, and these others. */
+std::vector<std::uint32_t>
+FindCrossingTriangles(const TriangleTree & tree,
+                      const std::vector<std::uint32_t> & candidates,
+                      TriangleContact least = TriangleContact::Crossing);
 
 /** For a surface whose points lie on the edges of an FCC lattice's tetrahedra, as mode Tetrahedra and Fine of
  * FCCIsosurfaceFilter make them: edges, in mm, at which rounding may make its triangles cross, are no longer than this.

@@ -1,7 +1,6 @@
 #include "itkTriangleSurfaceIntersections.h"
 
 #include "detail/itkPositionArithmetic.h"
-#include "detail/itkTriangleContact.h"
 #include "detail/itkTrianglesOfPoints.h"
 #include "itkForEachBlock.h"
 #include "itkUnfoldedPoints.h"
@@ -314,9 +313,9 @@ private:
   std::vector<std::uint8_t> m_AreUnfolded;
 };
 
-/** The triangles of a tree that cross others of it, ascending. */
+/** The triangles of a tree that cross others of it, or are in another contact of at least that kind, ascending. */
 std::vector<std::uint32_t>
-FindAllCrossing(const TriangleTree & tree, std::vector<std::uint8_t> areUnfolded)
+FindAllCrossing(const TriangleTree & tree, std::vector<std::uint8_t> areUnfolded, Contact least)
 {
   const ContactSearch search(tree, std::move(areUnfolded), TrianglesOfPart);
   std::vector<std::uint32_t> found;
@@ -327,7 +326,7 @@ FindAllCrossing(const TriangleTree & tree, std::vector<std::uint8_t> areUnfolded
     for (std::size_t part = begin; part < end; ++part)
     {
       search.TestPart(part, 1, near, [&](std::uint32_t a, std::uint32_t b, Contact contact) {
-        if (contact == Contact::Crossing)
+        if (contact >= least)
         {
           ofBlock.insert(ofBlock.end(), { a, b });
         }
@@ -421,9 +420,36 @@ FindSelfIntersections(const TriangleTree & tree, SizeValueType maximumTestedTria
 }
 
 std::vector<std::uint32_t>
-FindCrossingTriangles(const TriangleTree & tree, const TrianglesOfPoints & fans)
+FindCrossingTriangles(const TriangleTree & tree, const TrianglesOfPoints & fans, Contact least)
 {
-  return FindAllCrossing(tree, FindUnfoldedPoints(tree.GetSurface(), fans));
+  return FindAllCrossing(tree, FindUnfoldedPoints(tree.GetSurface(), fans), least);
+}
+
+std::vector<std::uint32_t>
+FindCrossingTriangles(const TriangleTree & tree, const std::vector<std::uint32_t> & candidates, Contact least)
+{
+  constexpr std::size_t blockSize = 1024;
+  const TriangleSurface & surface = tree.GetSurface();
+  const auto & triangles = surface.GetTriangles();
+  std::vector<std::uint32_t> found;
+  std::mutex mutex;
+  ForEachBlock(candidates.size(), blockSize, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> ofBlock;
+    for (std::size_t n = begin; n < end; ++n)
+    {
+      const std::uint32_t a = candidates[n];
+      tree.VisitTriangles(tree.GetTriangleBox(a), [&](std::uint32_t b) {
+        if (a != b && FindContact(surface.GetPoints(), triangles[a], triangles[b]) >= least)
+        {
+          ofBlock.insert(ofBlock.end(), { a, b });
+        }
+      });
+    }
+    const std::lock_guard<std::mutex> lock(mutex);
+    found.insert(found.end(), ofBlock.begin(), ofBlock.end());
+  });
+  SortUnique(found);
+  return found;
 }
 
 double
@@ -447,7 +473,8 @@ FindCrossingTriangles(const TriangleSurface & surface,
 {
   std::vector<std::uint8_t> areUnfolded = FindUnfoldedPoints(surface, fans);
   std::vector<std::uint32_t> found = FindCrossingAtEdges(surface, fans, areUnfolded, candidates.longestEdge);
-  const auto listed = FindAllCrossing(TriangleTree(surface, candidates.triangles), std::move(areUnfolded));
+  const auto listed =
+    FindAllCrossing(TriangleTree(surface, candidates.triangles), std::move(areUnfolded), Contact::Crossing);
   found.insert(found.end(), listed.begin(), listed.end());
   SortUnique(found);
   return found;
