@@ -5,14 +5,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace itk
 {
 namespace
 {
 
-constexpr unsigned int VolumeCorrections = 16;
+constexpr unsigned int MostCorrections = 16;
+constexpr double SmallestLayer = 1e-3;  // to correct a volume by, of the largest move
 constexpr double ShareForVolumes = 0.1; // of the largest error of simplification
+
+/** The layer that each label lacks on all of its surface. Returns whether any is thicker than \a least and has become
+ * clearly thinner. */
+bool
+FindLayers(const std::vector<LabelWalls::Measures> & measures,
+           const std::vector<LabelWalls::Measures> & wanted,
+           double least,
+           std::vector<double> & layers)
+{
+  bool isAnyLacking = false;
+  layers.resize(measures.size(), std::numeric_limits<double>::infinity());
+  layers[0] = 0.0;
+  for (std::size_t label = 1; label < layers.size(); ++label)
+  {
+    const double lacking = wanted[label].volume - measures[label].volume;
+    const double layer = measures[label].area > 0.0 ? lacking / measures[label].area : 0.0;
+    isAnyLacking = isAnyLacking || (std::abs(layer) > least && std::abs(layer) < 0.9 * std::abs(layers[label]));
+    layers[label] = layer;
+  }
+  return isAnyLacking;
+}
 
 /** Moves walls along their normals until each label has its volume, or points are as far as they may go. A wall moves
  * by the sum of what its labels want: each a layer on all of its surface as large as what it lacks. Fixed points stay.
@@ -24,58 +47,46 @@ RestoreVolumes(LabelWalls & walls,
                const PointStrata & strata,
                BoundedMoves & moves)
 {
-  for (unsigned int n = 0; n < VolumeCorrections; ++n)
+  std::vector<double> layers; // mm, by label; outside takes what is left
+  const double least = SmallestLayer * moves.GetMaximumMove();
+  for (unsigned int n = 0; n < MostCorrections && FindLayers(walls.ComputeMeasures(), wanted, least, layers); ++n)
   {
-    const auto measures = walls.ComputeMeasures();
-    std::vector<double> layers(measures.size(), 0.0); // mm; outside takes what is left
-    for (std::size_t label = 1; label < layers.size(); ++label)
-    {
-      const double lacking = wanted[label].volume - measures[label].volume;
-      layers[label] = measures[label].area > 0.0 ? lacking / measures[label].area : 0.0;
-    }
     moves.Step([&](SizeValueType point) {
-      if (strata.strata[point] == Stratum::Fixed)
-      {
-        return walls.GetPoints()[point];
-      }
       PositionType way{};
       double area = 0.0;
+      double sum = 0.0; // of the squared layers
       fans.VisitTriangles(point, [&](std::uint32_t id) {
         const PositionType normal = AreaVector(CornersOf(walls, walls.GetTriangles()[id]));
         const auto & [front, back] = walls.GetTriangleLabels()[id];
-        for (unsigned int axis = 0; axis < 3; ++axis)
-        {
-          way[axis] += (layers[back] - layers[front]) * normal[axis];
-        }
+        const double layer = layers[back] - layers[front];
+        way = Add(way, { layer * normal[0], layer * normal[1], layer * normal[2] });
         area += Length(normal);
+        sum += layer * layer * Length(normal);
       });
-      return BoundedMoves::Move(walls.GetPoints()[point], area > 0.0 ? 1.0 / area : 0.0, way);
+      // As far as the triangles at the point sweep the layers' volume.
+      const bool isMoved = sum > 0.0 && strata.strata[point] != Stratum::Fixed;
+      return BoundedMoves::Move(
+        walls.GetPoints()[point], isMoved ? std::min(2.0 / area, sum / Dot(way, way)) : 0.0, way);
     });
   }
 }
 
-/** Restores volumes, and puts points of triangles that then meet others back to their start. */
-TriangleSurfaceSmoothingReport
-FinishMoves(LabelWalls & walls,
-            const std::vector<LabelWalls::Measures> & wanted,
-            const TrianglesOfPoints & fans,
-            const PointStrata & strata,
-            BoundedMoves & moves)
+/** Puts points of triangles that meet others back to their start, until none meet. */
+void
+PutBackMeeting(const LabelWalls & walls, const TrianglesOfPoints & fans, BoundedMoves & moves)
 {
-  RestoreVolumes(walls, wanted, fans, strata, moves);
-  TriangleTree tree(walls);
+  const TriangleTree tree(walls); // of triangles that have since been put back it does not know where they are
+  std::set<std::uint32_t> putBack;
   auto meeting = FindCrossingTriangles(tree, fans, TriangleContact::Touching);
   while (!meeting.empty())
   {
-    const auto before = walls.GetPoints();
-    const auto changed = moves.PutBackToStart(meeting);
-    for (const std::uint32_t id : changed)
-    {
-      tree.Enlarge(TriangleTree::BoxOf(before, walls.GetTriangles()[id]), tree.GetTriangleBox(id));
-    }
-    meeting = FindCrossingTriangles(tree, changed, TriangleContact::Touching);
+    const auto latest = moves.PutBackToStart(meeting);
+    putBack.insert(latest.begin(), latest.end());
+    const TriangleTree others(walls, { putBack.begin(), putBack.end() });
+    meeting = FindCrossingTriangles(tree, latest, TriangleContact::Touching);
+    const auto more = FindCrossingTriangles(others, latest, TriangleContact::Touching);
+    meeting.insert(meeting.end(), more.begin(), more.end());
   }
-  return moves.Finish(strata);
 }
 
 } // namespace
@@ -92,9 +103,10 @@ RelaxWalls(LabelWalls & walls, const TriangleSurfaceSmoothingSettings & settings
   const PointStrata strata = FindStrata(walls, fans);
   BoundedMoves moves(walls, fans, settings.maximumMove);
   TakeSmoothingSteps(walls, fans, strata, settings.iterations, moves);
-  const TriangleSurfaceSmoothingReport report = FinishMoves(walls, wanted, fans, strata, moves);
+  RestoreVolumes(walls, wanted, fans, strata, moves);
+  PutBackMeeting(walls, fans, moves);
   walls.Modified();
-  return report;
+  return moves.Finish(strata);
 }
 
 TriangleSurfaceSimplificationReport
@@ -120,7 +132,10 @@ SimplifyWalls(LabelWalls & walls, const TriangleSurfaceSimplificationSettings & 
   {
     const TrianglesOfPoints fans(walls);
     BoundedMoves moves(walls, fans, ShareForVolumes * settings.maximumError);
-    FinishMoves(walls, measures, fans, FindStrata(walls, fans), moves);
+    const PointStrata strata = FindStrata(walls, fans);
+    RestoreVolumes(walls, measures, fans, strata, moves);
+    PutBackMeeting(walls, fans, moves);
+    moves.Finish(strata);
   }
   walls.Modified();
   return report;

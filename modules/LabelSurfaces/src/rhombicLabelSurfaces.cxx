@@ -259,6 +259,7 @@ LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const
   mesh.walls = extract->GetOutput();
   mesh.walls->DisconnectPipeline();
   itk::TriangleSurfaceSmoothingSettings relaxation;
+  relaxation.iterations = 10;
   const auto & spacing = numbers->GetSpacing();
   relaxation.maximumMove = smoothing * std::cbrt(spacing[0] * spacing[1] * spacing[2]);
   itk::RelaxWalls(*mesh.walls, relaxation, toLattice->GetVoxelVolumes());

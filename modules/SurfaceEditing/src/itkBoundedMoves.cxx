@@ -12,6 +12,13 @@ namespace
 constexpr double SmallestCosineOfTurn = 0.1736; // cosine of 80 degrees
 constexpr double SmallestShareOfArea = 0.1;
 
+PositionType
+AreaVectorOf(const TriangleSurface::PointsContainer & points, const TriangleSurface::TriangleType & triangle)
+{
+  return AreaVector(
+    { ToPosition(points[triangle[0]]), ToPosition(points[triangle[1]]), ToPosition(points[triangle[2]]) });
+}
+
 /** The triangles' normals at a point weighted by their angles there; zero if no triangle has an area. */
 PositionType
 SumNormals(const TriangleSurface::PointsContainer & points, const TrianglesOfPoints & fans, SizeValueType point)
@@ -38,6 +45,7 @@ BoundedMoves::BoundedMoves(TriangleSurface & surface, const TrianglesOfPoints & 
   , m_Fans(fans)
   , m_MaximumMove(maximumMove)
   , m_Start(surface.GetPoints())
+  , m_StartAreas(surface.GetNumberOfTriangles())
   , m_Next(surface.GetPoints())
 {
   if (!(maximumMove >= 0.0 && std::isfinite(maximumMove)))
@@ -45,6 +53,9 @@ BoundedMoves::BoundedMoves(TriangleSurface & surface, const TrianglesOfPoints & 
     itkGenericExceptionMacro("A point can't move by at most "
                              << maximumMove << " mm when a surface is smoothed; give a number from 0");
   }
+  ForEachInBlocks(m_StartAreas.size(), MovedBlock, [&](SizeValueType id) {
+    m_StartAreas[id] = AreaVectorOf(m_Start, surface.GetTriangles()[id]);
+  });
 }
 
 /** The position itself, or the nearest one that is not too far from \a start. */
@@ -65,16 +76,14 @@ BoundedMoves::LimitMove(const PointType & start, PointType position) const
 bool
 BoundedMoves::IsSpoilt(std::uint32_t triangle) const
 {
-  const auto areaVector = [&corners = m_Surface.GetTriangles()[triangle]](const Points & points) {
-    return AreaVector(
-      { ToPosition(points[corners[0]]), ToPosition(points[corners[1]]), ToPosition(points[corners[2]]) });
-  };
-  const PositionType before = areaVector(m_Start);
-  const PositionType after = areaVector(m_Next);
-  const double areaBefore = Length(before);
-  const double areaAfter = Length(after);
-  return !(Dot(before, after) >= SmallestCosineOfTurn * areaBefore * areaAfter &&
-           areaAfter >= SmallestShareOfArea * areaBefore);
+  const PositionType & before = m_StartAreas[triangle];
+  const PositionType after = AreaVectorOf(m_Next, m_Surface.GetTriangles()[triangle]);
+  const double cosine = Dot(before, after);
+  const double squareBefore = Dot(before, before);
+  const double squareAfter = Dot(after, after);
+  return !(cosine >= 0.0 &&
+           cosine * cosine >= SmallestCosineOfTurn * SmallestCosineOfTurn * squareBefore * squareAfter &&
+           squareAfter >= SmallestShareOfArea * SmallestShareOfArea * squareBefore);
 }
 
 void

@@ -24,6 +24,12 @@ public:
    *  \param maximumMove in mm */
   BoundedMoves(TriangleSurface & surface, const TrianglesOfPoints & fans, double maximumMove);
 
+  double
+  GetMaximumMove() const
+  {
+    return m_MaximumMove;
+  }
+
   /** Moves each point to find(point), which may be called on several threads at once, or as near as it may go. */
   template <typename TFind>
   void
@@ -72,6 +78,7 @@ private:
   const TrianglesOfPoints & m_Fans;
   const double m_MaximumMove;
   const Points m_Start;
+  std::vector<PositionType> m_StartAreas; ///< of the triangles, see AreaVector()
   Points m_Next;
 };
 
