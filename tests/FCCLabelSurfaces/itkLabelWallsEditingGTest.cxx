@@ -173,7 +173,9 @@ ExpectSoundEdits(unsigned int seed)
   ExpectNearWalls(*walls, *relaxed, error);
   ExpectSoundWalls(*walls, *image);
   ASSERT_EQ(CountCrossings(*walls), 0u);
-  for (const std::uint16_t label : walls->FindLabels())
+  auto labels = walls->FindLabels();
+  labels.push_back(0);
+  for (const std::uint16_t label : labels)
   {
     const auto surface = walls->ExtractLabel(label);
     const auto before = relaxed->ExtractLabel(label);
@@ -300,7 +302,39 @@ TEST(LabelWallsEditing, SimplifiedWallsReachATarget)
   const auto report = SimplifyWalls(*walls, settings);
   EXPECT_EQ(report.end, itk::SimplificationEnd::Target);
   EXPECT_LE(walls->GetNumberOfTriangles(), settings.targetTriangles);
-  EXPECT_GT(walls->GetNumberOfTriangles(), settings.targetTriangles * 95 / 100);
+  EXPECT_GT(walls->GetNumberOfTriangles(), settings.targetTriangles * 99 / 100);
+  ExpectSoundWalls(*walls, *image);
+}
+
+TEST(LabelWallsEditing, RelaxedWallsNeedFewerTriangles)
+{
+  for (const unsigned int seed : { 3u, 7u })
+  {
+    const auto image = MakeBlobs(Region(0, 9, 14, 15), seed, 3 + static_cast<int>(seed));
+    for (const double error : { 0.35, 0.75 })
+    {
+      const auto cut = MakeWalls(image);
+      const auto relaxed = MakeWalls(image);
+      RelaxWalls(*relaxed, MovesUpTo(0.5));
+      const auto ofCut = SimplifyWalls(*cut, ErrorUpTo(error));
+      const auto ofRelaxed = SimplifyWalls(*relaxed, ErrorUpTo(error));
+      EXPECT_EQ(ofRelaxed.end, itk::SimplificationEnd::MaximumError);
+      EXPECT_LT(ofRelaxed.trianglesAfter, 2 * ofCut.trianglesAfter / 3);
+    }
+  }
+}
+
+TEST(LabelWallsEditing, LabelsOfOneSiteKeepTheirVolumes)
+{
+  const auto image = MakeLabels(Region(0, 8, 16, 16), [](const itk::Index<3> & index) {
+    const auto site = itk::FCCLattice::SiteOf(index);
+    return static_cast<std::uint16_t>(site == itk::FCCLattice::SiteType{ 8, 8, 8 } ? 2 : site[0] < 8 ? 1 : 0);
+  });
+  const auto walls = MakeWalls(image);
+  const double volume = walls->ComputeMeasures()[2].volume;
+  ASSERT_GT(volume, 0.0);
+  RelaxWalls(*walls, MovesUpTo(0.5));
+  EXPECT_NEAR(walls->ComputeMeasures()[2].volume, volume, 0.02 * volume);
   ExpectSoundWalls(*walls, *image);
 }
 

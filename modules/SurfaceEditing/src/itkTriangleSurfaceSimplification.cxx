@@ -190,6 +190,7 @@ public:
   /** \param original null if the distance from it has no limit */
   Simplification(TriangleSurface & surface,
                  Sheets & sheets,
+                 bool isOneSheet,
                  const TriangleSurfaceTopology & topology,
                  const TriangleSurfaceSimplificationSettings & settings,
                  const Original * original)
@@ -198,7 +199,7 @@ public:
     , m_Topology(topology)
     , m_State(surface)
     , m_Sheets(sheets)
-    , m_IsOneSheet(*std::max_element(sheets.begin(), sheets.end()) == 0)
+    , m_IsOneSheet(isOneSheet)
     , m_Original(original)
     , m_Before(TriangleSurface::New())
   {
@@ -402,8 +403,10 @@ void
 Simplification::AimAtTarget()
 {
   std::vector<double> errors;
+  std::size_t removed = 0;
   for (const Patch & patch : m_Patches)
   {
+    removed += patch.before.triangles.size() - patch.after.ids.size();
     for (const EdgeToCollapse & edge : patch.log.edges)
     {
       errors.push_back(edge.error);
@@ -411,7 +414,12 @@ Simplification::AimAtTarget()
   }
   const auto before = static_cast<double>(m_Before->GetNumberOfTriangles());
   const double target = std::max(Aim * static_cast<double>(m_Target), SmallestShareLeft * before);
-  const auto enough = static_cast<std::size_t>(std::ceil(0.5 * (before - target))); // two triangles less each
+  if (static_cast<double>(removed) <= before - target)
+  {
+    return;
+  }
+  const double perCollapse = static_cast<double>(removed) / static_cast<double>(errors.size()); // 2 inside of sheets
+  const auto enough = static_cast<std::size_t>(std::ceil((before - target) / perCollapse));
   if (errors.size() <= enough)
   {
     return;
@@ -775,7 +783,8 @@ SimplifySurface(TriangleSurface & surface,
   {
     original.emplace(surface, sheets);
   }
-  const auto report = Simplification(surface, sheets, topology, settings, original ? &*original : nullptr).Run();
+  const auto report =
+    Simplification(surface, sheets, isOneSheet, topology, settings, original ? &*original : nullptr).Run();
   surface.RemoveUnusedPoints();
   surface.Modified();
   return report;
