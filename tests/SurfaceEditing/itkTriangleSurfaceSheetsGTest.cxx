@@ -192,6 +192,44 @@ TEST(TriangleSurfaceSheets, FlatPagesStayFlatAndMeetAtTheirCurve)
   }
 }
 
+/** Two cones and a disc, each of \a edges triangles, that meet in a ring. */
+Surface::Pointer
+MakeRing(std::uint32_t edges, Sheets & sheets)
+{
+  const auto ring = Surface::New();
+  for (std::uint32_t n = 0; n < edges; ++n)
+  {
+    const double angle = 2.0 * Pi * n / edges;
+    ring->GetPoints().push_back({ static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0.0f });
+  }
+  for (std::uint32_t sheet = 0; sheet < 3; ++sheet)
+  {
+    ring->GetPoints().push_back({ 0.0f, 0.0f, static_cast<float>(sheet) - 1.0f });
+    for (std::uint32_t n = 0; n < edges; ++n)
+    {
+      ring->GetTriangles().push_back({ n, (n + 1) % edges, edges + sheet });
+    }
+    sheets.insert(sheets.end(), edges, sheet);
+  }
+  return ring;
+}
+
+TEST(TriangleSurfaceSheets, RingsKeepThreeEdges)
+{
+  for (const std::uint32_t edges : { 3u, 4u, 5u, 24u })
+  {
+    Sheets sheets;
+    const auto ring = MakeRing(edges, sheets);
+    SimplifySurface(*ring, sheets, ErrorUpTo(10.0));
+    const auto topology = itk::ComputeTopology(*ring);
+    EXPECT_GE(topology.nonManifoldEdges, 3u) << edges;
+    EXPECT_LE(topology.nonManifoldEdges, std::max(3u, edges / 2)) << edges;
+    EXPECT_EQ(topology.eulerCharacteristic, 3) << "a ring with three discs";
+    EXPECT_EQ(topology.degenerateTriangles + topology.duplicateTriangles, 0u);
+    EXPECT_EQ(std::set<std::uint32_t>(sheets.begin(), sheets.end()).size(), 3u);
+  }
+}
+
 TEST(TriangleSurfaceSheets, PointsWhereSheetsTouchStay)
 {
   Sheets sheets;
