@@ -20,9 +20,9 @@ using Sheets = std::vector<std::uint32_t>;
 constexpr std::uint32_t Length = 12;
 constexpr double Pi = 3.14159265358979323846;
 
-/** Flat pages of Length x Length squares that meet at the z axis. */
+/** Flat pages of Length x Length squares that meet at the z axis, each turned by one of \a turns from the last. */
 Surface::Pointer
-MakeBook(std::uint32_t pages, Sheets & sheets)
+MakeBook(std::uint32_t pages, std::uint32_t turns, Sheets & sheets)
 {
   const auto book = Surface::New();
   for (std::uint32_t z = 0; z <= Length; ++z)
@@ -31,7 +31,7 @@ MakeBook(std::uint32_t pages, Sheets & sheets)
   }
   for (std::uint32_t page = 0; page < pages; ++page)
   {
-    const double angle = 2.0 * Pi * page / pages;
+    const double angle = 2.0 * Pi * page / turns;
     const auto idOf = [&](std::uint32_t column, std::uint32_t z) {
       return column == 0 ? z : (1 + page * Length + column - 1) * (Length + 1) + z;
     };
@@ -120,7 +120,7 @@ TEST(TriangleSurfaceSheets, CurvesAreSmoothedAndBordersStay)
   for (const std::uint32_t pages : { 3u, 4u, 7u })
   {
     Sheets sheets;
-    const auto book = MakeBook(pages, sheets);
+    const auto book = MakeBook(pages, pages, sheets);
     std::mt19937 random(pages);
     std::uniform_real_distribution<float> noise(-0.2f, 0.2f);
     double before = 0.0;
@@ -147,10 +147,10 @@ TEST(TriangleSurfaceSheets, CurvesAreSmoothedAndBordersStay)
 
 TEST(TriangleSurfaceSheets, FlatPagesStayFlatAndMeetAtTheirCurve)
 {
-  for (const std::uint32_t pages : { 3u, 4u, 7u })
+  for (const auto & [pages, turns] : { std::array{ 3u, 3u }, { 3u, 4u }, { 4u, 4u }, { 7u, 7u } }) // 3 of 4: a T
   {
     Sheets sheets;
-    const auto book = MakeBook(pages, sheets);
+    const auto book = MakeBook(pages, turns, sheets);
     const auto report = SimplifySurface(*book, sheets, ErrorUpTo(0.05));
     EXPECT_LT(report.trianglesAfter, report.trianglesBefore / 2);
     ASSERT_EQ(sheets.size(), book->GetNumberOfTriangles());
@@ -159,7 +159,7 @@ TEST(TriangleSurfaceSheets, FlatPagesStayFlatAndMeetAtTheirCurve)
     for (std::size_t id = 0; id < sheets.size(); ++id)
     {
       const auto & triangle = book->GetTriangles()[id];
-      const double angle = 2.0 * Pi * sheets[id] / pages;
+      const double angle = 2.0 * Pi * sheets[id] / turns;
       std::array<std::array<double, 2>, 3> onPage{};
       for (unsigned int corner = 0; corner < 3; ++corner)
       {

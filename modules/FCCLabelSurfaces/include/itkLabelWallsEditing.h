@@ -10,7 +10,8 @@ namespace itk
 
 /** Smooths walls as SmoothSurface() does, and keeps the volume of each label. Points of a wall move towards the mean of
  * their neighbours, points of the curves where walls meet along their curve. Then walls and their curves move along
- * their normals until each label has its volume again, or the one that \a volumes has for it. Points where curves meet
+ * their normals until each label has its volume again, or the one that \a volumes has for it: it lacks no layer thicker
+ * than a thousandth of maximumMove. Points where curves meet
  * or walls touch stay.
  *
  * No point moves farther than maximumMove from where it is at the call; where triangles would meet others elsewhere

@@ -7,6 +7,7 @@
 #include "rhombicObserveProgress.h"
 #include "rhombicWording.h"
 
+#include "detail/itkPositionArithmetic.h"
 #include "itkFCCLabelSurfaceFilter.h"
 #include "itkForEachBlock.h"
 #include "itkLabelWallsEditing.h"
@@ -180,33 +181,24 @@ EstimateMemory(const LabelImage & labels, itk::LabelsToFCCFilter & filter, doubl
 void
 SetNormals(itk::TriangleSurface & surface)
 {
-  const auto & points = surface.GetPoints();
-  auto & normals = surface.GetNormals();
-  normals.assign(points.size(), {});
+  std::vector<itk::PositionType> sums(surface.GetNumberOfPoints());
   for (const auto & triangle : surface.GetTriangles())
   {
-    std::array<std::array<float, 3>, 2> sides;
-    for (unsigned int axis = 0; axis < 3; ++axis)
+    const itk::PositionType normal = itk::AreaVector(itk::CornersOf(surface, triangle));
+    for (const std::uint32_t point : triangle)
     {
-      sides[0][axis] = points[triangle[1]][axis] - points[triangle[0]][axis];
-      sides[1][axis] = points[triangle[2]][axis] - points[triangle[0]][axis];
-    }
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      const unsigned int next = (axis + 1) % 3;
-      const unsigned int last = (axis + 2) % 3;
-      const float component = sides[0][next] * sides[1][last] - sides[0][last] * sides[1][next];
-      for (const std::uint32_t point : triangle)
-      {
-        normals[point][axis] += component;
-      }
+      sums[point] = itk::Add(sums[point], normal);
     }
   }
-  for (auto & normal : normals)
+  for (const itk::PositionType & sum : sums)
   {
-    const float length = std::hypot(normal[0], normal[1], normal[2]);
-    normal = length > 0.0f ? std::array{ normal[0] / length, normal[1] / length, normal[2] / length }
-                           : std::array{ 0.0f, 0.0f, 1.0f };
+    const double length = itk::Length(sum);
+    itk::TriangleSurface::NormalType normal{ { 0.0f, 0.0f, 1.0f } };
+    for (unsigned int axis = 0; axis < 3 && length > 0.0; ++axis)
+    {
+      normal[axis] = static_cast<float>(sum[axis] / length);
+    }
+    surface.GetNormals().push_back(normal);
   }
 }
 

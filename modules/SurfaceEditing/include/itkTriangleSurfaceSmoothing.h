@@ -35,7 +35,7 @@ struct TriangleSurfaceSmoothingReport
  * the triangles' normals weighted by the angle at the point. Parts of the surface that are closer to each other than
  * twice maximumMove may touch afterwards.
  *
- * Time linear; memory about 40 bytes per triangle while it runs. The same bytes for any number of threads. Throws
+ * Time linear; memory about 70 bytes per triangle while it runs. The same bytes for any number of threads. Throws
  * ExceptionObject if maximumMove is negative or not finite. */
 TriangleSurfaceSmoothingReport
 SmoothSurface(TriangleSurface & surface, const TriangleSurfaceSmoothingSettings & settings);
