@@ -179,4 +179,21 @@ TEST(FCCLabelSurfaceFilter, WeightsOfAnotherImageAreRefused)
   EXPECT_THROW(MakeWalls(image, weights), itk::ExceptionObject);
 }
 
+TEST(FCCLabelSurfaceFilter, MergedLabelsAreClosedManifolds)
+{
+  for (unsigned int seed = 0; seed < 12; ++seed)
+  {
+    const auto labels = MakeNoise(Region(0, 8, 9, 10), seed, 7);
+    const auto merged = MakeNoise(Region(0, 8, 9, 10), seed, 7);
+    const std::vector<std::uint16_t> numbers{ 0, 3, 1, 1, 2, 3, 0 };
+    for (itk::ImageRegionIteratorWithIndex<LabelImage> it(merged, merged->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+    {
+      it.Set(numbers[it.Get()]);
+    }
+    const auto walls = MakeWalls(labels);
+    walls->MergeLabels(numbers);
+    ExpectSoundWalls(*walls, *merged);
+  }
+}
+
 } // namespace

@@ -64,6 +64,10 @@ public:
   TriangleSurface::Pointer
   ExtractLabel(LabelType label) const;
 
+  /** Gives each label the one that \a labels has for it, which leaves out walls between equal ones. */
+  void
+  MergeLabels(const std::vector<LabelType> & labels);
+
   void
   Initialize() override;
 

@@ -8,6 +8,43 @@
 namespace itk
 {
 
+namespace
+{
+
+/** The points that triangles use, in their order; numbers these in the triangles. */
+TriangleSurface::PointsContainer
+TakeUsedPoints(const TriangleSurface::PointsContainer & points, TriangleSurface::TrianglesContainer & triangles)
+{
+  constexpr auto unused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> numbers(points.size(), unused);
+  for (const auto & triangle : triangles)
+  {
+    for (const std::uint32_t point : triangle)
+    {
+      numbers[point] = 0;
+    }
+  }
+  TriangleSurface::PointsContainer used;
+  for (std::size_t n = 0; n < numbers.size(); ++n)
+  {
+    if (numbers[n] != unused)
+    {
+      numbers[n] = static_cast<std::uint32_t>(used.size());
+      used.push_back(points[n]);
+    }
+  }
+  for (auto & triangle : triangles)
+  {
+    for (std::uint32_t & point : triangle)
+    {
+      point = numbers[point];
+    }
+  }
+  return used;
+}
+
+} // namespace
+
 std::vector<LabelWalls::Measures>
 LabelWalls::ComputeMeasures() const
 {
@@ -65,33 +102,31 @@ LabelWalls::ExtractLabel(LabelType label) const
       triangles.push_back(pair[1] == label ? triangle : TriangleType{ triangle[0], triangle[2], triangle[1] });
     }
   }
-  // The points in use, in their order.
-  constexpr auto unused = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> numbers(this->GetNumberOfPoints(), unused);
-  for (const TriangleType & triangle : triangles)
-  {
-    for (const std::uint32_t point : triangle)
-    {
-      numbers[point] = 0;
-    }
-  }
-  PointsContainer & points = surface->GetPoints();
-  for (std::size_t n = 0; n < numbers.size(); ++n)
-  {
-    if (numbers[n] != unused)
-    {
-      numbers[n] = static_cast<std::uint32_t>(points.size());
-      points.push_back(this->GetPoints()[n]);
-    }
-  }
-  for (TriangleType & triangle : triangles)
-  {
-    for (std::uint32_t & point : triangle)
-    {
-      point = numbers[point];
-    }
-  }
+  surface->GetPoints() = TakeUsedPoints(this->GetPoints(), triangles);
   return surface;
+}
+
+void
+LabelWalls::MergeLabels(const std::vector<LabelType> & labels)
+{
+  TrianglesContainer & triangles = this->GetTriangles();
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n < triangles.size(); ++n)
+  {
+    const LabelType front = labels[m_TriangleLabels[n][0]];
+    const LabelType back = labels[m_TriangleLabels[n][1]];
+    if (front != back)
+    {
+      const TriangleType triangle = triangles[n];
+      triangles[kept] = front < back ? triangle : TriangleType{ triangle[0], triangle[2], triangle[1] };
+      m_TriangleLabels[kept] = { std::min(front, back), std::max(front, back) };
+      ++kept;
+    }
+  }
+  triangles.resize(kept);
+  m_TriangleLabels.resize(kept);
+  this->GetPoints() = TakeUsedPoints(this->GetPoints(), triangles);
+  this->Modified();
 }
 
 void
