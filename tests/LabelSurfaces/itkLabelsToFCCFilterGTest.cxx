@@ -9,8 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <random>
 
 namespace
 {
@@ -155,6 +157,66 @@ TEST(LabelsToFCCFilter, VesselsOneVoxelWideStay)
   {
     const auto vessel = MakeWalls(map, {}, 0, density)->ExtractLabel(2);
     EXPECT_EQ(itk::ComputeTopology(*vessel).components, 1u) << density;
+  }
+}
+
+/** Sheets one voxel thick, in any direction, have no holes. */
+TEST(LabelsToFCCFilter, SheetsOneVoxelThickAreDisks)
+{
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  for (unsigned int n = 0; n < 12; ++n)
+  {
+    double slopes[3] = { normal(random), normal(random), normal(random) };
+    const double steepest =
+      *std::max_element(slopes, slopes + 3, [](double a, double b) { return std::abs(a) < std::abs(b); });
+    const auto map = MakeMap({ { 36, 36, 36 } }, 1.0, [&](const Point & p) {
+      const double offset = (slopes[0] * p[0] + slopes[1] * p[1] + slopes[2] * p[2]) / steepest;
+      return offset > -0.5 && offset <= 0.5 && p.GetVectorFromOrigin().GetNorm() < 15.0 ? 7 : 0;
+    });
+    const auto topology = itk::ComputeTopology(*MakeWalls(map)->ExtractLabel(7));
+    EXPECT_TRUE(topology.IsWatertight()) << topology;
+    EXPECT_EQ(topology.components, 1u) << n;
+    EXPECT_EQ(topology.eulerCharacteristic, 2) << n;
+  }
+}
+
+/** Voxels, bars and blobs far from each other: each is one piece and has its volume. */
+TEST(LabelsToFCCFilter, SpecksOfAnySizeStay)
+{
+  std::mt19937 random(4);
+  std::uniform_int_distribution<int> edge(1, 4);
+  int edges[27][3];
+  for (auto & speck : edges)
+  {
+    for (int & length : speck)
+    {
+      length = edge(random);
+    }
+  }
+  const auto map = MakeMap({ { 36, 36, 36 } }, 1.0, [&](const Point & p) {
+    int speck = 0;
+    bool isIn = true;
+    for (unsigned int axis = 0, factor = 1; axis < 3; ++axis, factor *= 3)
+    {
+      speck += static_cast<int>(factor) * static_cast<int>((p[axis] + 18.0) / 12.0);
+    }
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      isIn =
+        isIn && std::fmod(p[axis] + 18.0, 12.0) >= 3.0 && std::fmod(p[axis] + 18.0, 12.0) < 3.0 + edges[speck][axis];
+    }
+    return isIn ? speck + 1 : 0;
+  });
+  const auto walls = MakeWalls(map);
+  for (std::uint16_t speck = 0; speck < 27; ++speck)
+  {
+    const auto surface = walls->ExtractLabel(static_cast<std::uint16_t>(speck + 1));
+    const auto topology = itk::ComputeTopology(*surface);
+    EXPECT_EQ(topology.components, 1u) << speck;
+    EXPECT_EQ(topology.eulerCharacteristic, 2) << speck;
+    const double volume = edges[speck][0] * edges[speck][1] * edges[speck][2];
+    EXPECT_NEAR(itk::ComputeVolume(*surface) / volume, 1.0, 0.05) << volume;
   }
 }
 

@@ -107,6 +107,19 @@ public:
   itkGetConstMacro(NumberOfNarrowVoxels, SizeValueType);
   itkGetConstMacro(NumberOfProtectedVoxels, SizeValueType);
 
+  /** The inside voxels in no 2 x 2 x 2 block of inside voxels, and those of them that were protected in the last
+   * update, by their offsets in the buffer, ascending. */
+  const std::vector<SizeValueType> &
+  GetThinVoxels() const
+  {
+    return m_ThinVoxels;
+  }
+  const std::vector<SizeValueType> &
+  GetProtectedVoxels() const
+  {
+    return m_ProtectedVoxels;
+  }
+
 protected:
   AntiAliasMaskImageFilter() = default;
   ~AntiAliasMaskImageFilter() override = default;
@@ -160,6 +173,10 @@ private:
   void
   FindThin(const VoxelBand & band, std::vector<std::uint8_t> & thin);
 
+  /** Whether a part of marked voxels sticks out of other voxels of its class, and connects them with nothing. */
+  bool
+  IsSpur(const std::vector<SizeValueType> & part, const std::vector<std::uint8_t> & marked) const;
+
   /** Marks the narrow voxels. Returns whether there are any. */
   bool
   FindNarrow(const std::vector<std::uint8_t> & thin, const VoxelBand & band, std::vector<std::uint8_t> & isNarrow);
@@ -201,6 +218,8 @@ private:
   bool m_ProtectAllThinParts{ false };
   SizeValueType m_NumberOfNarrowVoxels{ 0 };
   SizeValueType m_NumberOfProtectedVoxels{ 0 };
+  std::vector<SizeValueType> m_ThinVoxels;
+  std::vector<SizeValueType> m_ProtectedVoxels;
 };
 
 } // namespace itk

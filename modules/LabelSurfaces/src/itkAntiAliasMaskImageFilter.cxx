@@ -205,6 +205,8 @@ AntiAliasMaskImageFilter::GenerateData()
   m_Field = this->GetOutput()->GetBufferPointer();
   m_NumberOfNarrowVoxels = 0;
   m_NumberOfProtectedVoxels = 0;
+  m_ThinVoxels.clear();
+  m_ProtectedVoxels.clear();
   const std::unique_ptr<float[]> smoothed(new float[size[0] * size[1] * size[2]]);
   m_Smoothed = smoothed.get();
   WorkProgress progress(*this, Passes * (size[1] + size[2]));
@@ -231,6 +233,13 @@ AntiAliasMaskImageFilter::GenerateData()
     this->Refine(Medium.sigma, Medium.corrections, Medium.gain, isMarked);
   }
   this->FindThin(border.Widened({ 2, 2, 2 }), thin);
+  for (SizeValueType voxel = 0; voxel < thin.size(); ++voxel)
+  {
+    if (thin[voxel] != 0 && m_Mask[voxel] != 0)
+    {
+      m_ThinVoxels.push_back(voxel);
+    }
+  }
   if (this->FindNarrow(thin, band, isMarked))
   {
     this->Refine(Fine.sigma, Fine.corrections, Fine.gain, isMarked);
@@ -539,9 +548,10 @@ AntiAliasMaskImageFilter::FindThin(const VoxelBand & band, std::vector<std::uint
     if (thin[voxel] != 0 && isSeen[voxel] == 0)
     {
       const std::vector<SizeValueType> part = this->CollectPart(voxel, thin, isSeen);
+      const bool isNeeded = part.size() >= SmallestSheet || (m_ProtectAllThinParts && !this->IsSpur(part, thin));
       for (const SizeValueType member : part)
       {
-        thin[member] = part.size() < SmallestSheet ? 1 : 2;
+        thin[member] = isNeeded ? 2 : 1;
       }
     }
   }
@@ -567,6 +577,24 @@ AntiAliasMaskImageFilter::CollectPart(SizeValueType first,
     });
   }
   return part;
+}
+
+bool
+AntiAliasMaskImageFilter::IsSpur(const std::vector<SizeValueType> & part,
+                                 const std::vector<std::uint8_t> & marked) const
+{
+  const VoxelGrid grid{ m_Size };
+  std::vector<SizeValueType> base; // voxels that the part sticks out of
+  for (const SizeValueType voxel : part)
+  {
+    grid.ForEachNeighbor(voxel, [&](SizeValueType neighbor) {
+      if (marked[neighbor] == 0 && (m_Mask[voxel] != 0) == (m_Mask[neighbor] != 0))
+      {
+        base.push_back(neighbor);
+      }
+    });
+  }
+  return grid.AreConnected(base);
 }
 
 bool
@@ -651,7 +679,6 @@ AntiAliasMaskImageFilter::KeepLost(const std::vector<std::uint8_t> & thin, std::
 void
 AntiAliasMaskImageFilter::DropSpurs(std::vector<std::uint8_t> & isMarked)
 {
-  const VoxelGrid grid{ m_Size };
   std::vector<std::uint8_t> isSeen(isMarked.size());
   for (SizeValueType first = 0; first < isMarked.size(); ++first)
   {
@@ -661,21 +688,7 @@ AntiAliasMaskImageFilter::DropSpurs(std::vector<std::uint8_t> & isMarked)
       continue;
     }
     const std::vector<SizeValueType> part = this->CollectPart(first, isMarked, isSeen);
-    if (part.size() > LargestSpur)
-    {
-      continue;
-    }
-    std::vector<SizeValueType> base; // voxels that the part sticks out of
-    for (const SizeValueType voxel : part)
-    {
-      grid.ForEachNeighbor(voxel, [&](SizeValueType neighbor) {
-        if (isMarked[neighbor] == 0 && (m_Mask[first] != 0) == (m_Mask[neighbor] != 0))
-        {
-          base.push_back(neighbor);
-        }
-      });
-    }
-    if (grid.AreConnected(base))
+    if (part.size() <= LargestSpur && this->IsSpur(part, isMarked))
     {
       for (const SizeValueType voxel : part)
       {
@@ -733,7 +746,11 @@ AntiAliasMaskImageFilter::Protect(const std::vector<std::uint8_t> & isProtected,
     if (isProtected[offset] != 0 && (m_Mask[offset] != 0) == isInside)
     {
       protect(grid.CoordinatesOf(offset));
-      m_NumberOfProtectedVoxels += isInside ? 1 : 0;
+      if (isInside)
+      {
+        ++m_NumberOfProtectedVoxels;
+        m_ProtectedVoxels.push_back(offset);
+      }
     }
   }
 }

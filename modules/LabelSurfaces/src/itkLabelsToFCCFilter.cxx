@@ -6,8 +6,10 @@
 #include "itkForEachBlock.h"
 #include "itkImageSource.h"
 #include "itkInputSamples.h"
+#include "itkLabelTopology.h"
 #include "itkMath.h"
 #include "itkSlicePlacement.h"
+#include "itkThinPartSites.h"
 #include "itkWorkProgress.h"
 
 #include <algorithm>
@@ -27,8 +29,9 @@ using MaskImage = Image<std::uint8_t, 3>;
 using FieldImage = Image<float, 3>;
 using FieldLattice = FCCImage<float>;
 
-constexpr unsigned int VolumeCorrections = 3;
-constexpr double FarthestOffset = 0.8;                 // of weights; twice as far as walls move, in voxels
+constexpr unsigned int VolumeCorrections = 4;
+constexpr double SteepestSlope = 3.0;                  // of volumes, times that from the area
+constexpr double FarthestOffset = 2.0;                 // of weights; twice as far as walls move, in voxels
 constexpr double LongVoxels = 1.5;                     // times the shortest edge
 constexpr IndexValueType Margin = 2;                   // voxels around the map
 constexpr IndexValueType KernelReach = 6;              // voxels, of the cubic B-spline with its prefilter
@@ -74,6 +77,13 @@ public:
     return std::cbrt(volume);
   }
 
+  /** The map. */
+  const ImageRegion<3> &
+  GetScan() const
+  {
+    return m_Scan;
+  }
+
   /** With the margin around the map. */
   const ImageRegion<3> &
   GetWhole() const
@@ -85,6 +95,21 @@ public:
   GetSliceOrigins() const
   {
     return m_SliceOrigins;
+  }
+
+  /** The position of a voxel's centre in the world. \param image on the refined grid */
+  Point<double, 3>
+  GetPosition(const MaskImage & image, const Index<3> & index) const
+  {
+    Index<3> inSlice = index;
+    if (!m_SliceOrigins.empty())
+    {
+      inSlice[2] = m_Whole.GetIndex(2);
+    }
+    const auto position = image.TransformIndexToPhysicalPoint<double>(inSlice);
+    return m_SliceOrigins.empty() ? position
+                                  : position + (m_SliceOrigins[static_cast<std::size_t>(index[2] - inSlice[2])] -
+                                                image.TransformIndexToPhysicalPoint<double>(m_Whole.GetIndex()));
   }
 
   /** An image on the refined grid, of which only a region is to be in memory, not allocated. */
@@ -239,8 +264,16 @@ ForEachRow(const ImageRegion<3> & box, const TUse & use)
   });
 }
 
-/** The depth below the surface of a label in voxels of the refined map, at the voxels of a box. */
-FieldImage::Pointer
+/** A label in its box of the refined map. */
+struct LabelField
+{
+  MaskImage::Pointer mask;
+  FieldImage::Pointer depths;            ///< below the label's surface, in voxels
+  std::vector<SizeValueType> thinVoxels; ///< offsets in the mask, as AntiAliasMaskImageFilter::GetThinVoxels()
+  std::vector<SizeValueType> protectedVoxels;
+};
+
+LabelField
 MakeField(const RefinedMap & map, LabelType label, const ImageRegion<3> & box)
 {
   const SizeValueType width = box.GetSize(0);
@@ -268,7 +301,7 @@ MakeField(const RefinedMap & map, LabelType label, const ImageRegion<3> & box)
   filter->SetSamplePeriod(map.GetPeriod());
   filter->ProtectAllThinPartsOn();
   filter->Update();
-  FieldImage::Pointer field = filter->GetOutput();
+  const FieldImage::Pointer field = filter->GetOutput();
   field->DisconnectPipeline();
   ForEachRow(box, [&](const Index<3> & first, SizeValueType offset) {
     // No label but 0 reaches beyond the map.
@@ -281,7 +314,7 @@ MakeField(const RefinedMap & map, LabelType label, const ImageRegion<3> & box)
       row[n] = side * std::min(side * depth, std::min(rowDepth, depths[n]));
     }
   });
-  return field;
+  return { mask, field, filter->GetThinVoxels(), filter->GetProtectedVoxels() };
 }
 
 /** \class FieldSource
@@ -426,6 +459,35 @@ AddLabel(const FieldLattice & field,
   });
 }
 
+/** Adds the claims of a label to the sites that its thin parts pass. */
+void
+AddClaims(const RefinedMap & map,
+          const LabelField & field,
+          LabelType label,
+          const Lattice & labels,
+          std::vector<LabelTopology::Claim> & claims)
+{
+  const auto place = [&](const Index<3> & voxel) {
+    return labels.TransformPhysicalPointToLattice(map.GetPosition(*field.mask, voxel));
+  };
+  std::vector<FCCLattice::SiteType> held;
+  for (const SizeValueType voxel : field.protectedVoxels)
+  {
+    held.push_back(FCCLattice::NearestSite(place(field.mask->ComputeIndex(static_cast<OffsetValueType>(voxel)))));
+  }
+  std::sort(held.begin(), held.end());
+  for (const FCCLattice::SiteType & site : FindThinPartSites(*field.mask, map.GetScan(), field.thinVoxels, place))
+  {
+    const Index<3> index = FCCLattice::IndexOf(site);
+    if (labels.GetLargestPossibleRegion().IsInside(index))
+    {
+      claims.push_back({ static_cast<SizeValueType>(labels.ComputeOffset(index)),
+                         label,
+                         std::binary_search(held.begin(), held.end(), site) });
+    }
+  }
+}
+
 /** A number for each label. */
 using NumberByLabel = std::map<LabelType, double>;
 
@@ -474,42 +536,23 @@ ComputeVoxelVolumes(const LabelImage & map, LabelsToFCCFilter::SliceOriginsType 
   return volumes;
 }
 
-/** Adds an offset to all weights of each label and gives each site the label of largest weight. */
+/** Moves the walls of all labels so that these have the volumes of their voxels. The cube root of a volume is nearly
+ * linear in the offset of a label's weights: the first step follows from the label's area, the next ones from its last
+ * two volumes. */
 void
-AddOffsets(const NumberByLabel & offsets, Lattice & labels, FCCLabelWeights & weights)
+KeepVolumes(const NumberByLabel & voxelVolumes,
+            double voxelEdge,
+            const Lattice & labels,
+            const FCCLabelWeights & weights,
+            LabelTopology & topology)
 {
-  const auto & region = labels.GetLargestPossibleRegion();
-  ForEachRow(region, [&](const Index<3> & first, SizeValueType firstSite) {
-    LabelType * const rowLabels = labels.GetBufferPointer() + firstSite;
-    FCCLabelWeights::RowType & entries = weights.GetRow(GetRowNumber(first, region));
-    for (auto begin = entries.begin(); begin != entries.end();)
-    {
-      // The weights of one site: its label's, if it is stored, is the one to exceed.
-      auto end = begin;
-      float largest = std::numeric_limits<float>::max();
-      for (; end != entries.end() && end->i == begin->i; ++end)
-      {
-        const auto offset = offsets.find(end->label);
-        end->weight += offset != offsets.end() ? static_cast<float>(offset->second) : 0.0f;
-        largest = end->label == rowLabels[end->i] ? end->weight : largest;
-      }
-      for (; begin != end; ++begin)
-      {
-        if (begin->weight > largest)
-        {
-          largest = begin->weight;
-          rowLabels[begin->i] = begin->label;
-        }
-      }
-    }
-  });
-}
-
-/** Moves the walls of all labels so that these have the volumes of their voxels. */
-void
-KeepVolumes(const NumberByLabel & voxelVolumes, double voxelEdge, Lattice & labels, FCCLabelWeights & weights)
-{
-  NumberByLabel sums;
+  struct Step
+  {
+    double offset = 0.0; // of all steps together
+    double size = 0.0;   // of the last step
+    double lastRoot = 0.0;
+  };
+  std::map<LabelType, Step> steps;
   for (unsigned int n = 0; n < VolumeCorrections; ++n)
   {
     const auto filter = FCCLabelSurfaceFilter::New();
@@ -520,18 +563,23 @@ KeepVolumes(const NumberByLabel & voxelVolumes, double voxelEdge, Lattice & labe
     NumberByLabel offsets;
     for (const auto & [label, volume] : voxelVolumes)
     {
-      if (label == 0 || label >= measures.size() || !(measures[label].area > 0.0))
+      if (label == 0 || label >= measures.size() || !(measures[label].volume > 0.0))
       {
         continue;
       }
+      Step & step = steps[label];
+      const double root = std::cbrt(measures[label].volume);
       // An offset moves a wall half as far, in voxels.
-      const double wanted = 2.0 * (volume - measures[label].volume) / (measures[label].area * voxelEdge);
-      double & sum = sums[label];
-      const double next = std::clamp(sum + wanted, -FarthestOffset, FarthestOffset);
-      offsets[label] = next - sum;
-      sum = next;
+      double slope = 0.5 * voxelEdge * measures[label].area / (3.0 * root * root);
+      if (step.size != 0.0)
+      {
+        slope *= std::clamp((root - step.lastRoot) / (step.size * slope), 1.0 / SteepestSlope, SteepestSlope);
+      }
+      const double next = std::clamp(step.offset + (std::cbrt(volume) - root) / slope, -FarthestOffset, FarthestOffset);
+      step = { next, next - step.offset, root };
+      offsets[label] = step.size;
     }
-    AddOffsets(offsets, labels, weights);
+    topology.AddOffsets(offsets);
   }
 }
 
@@ -659,21 +707,25 @@ LabelsToFCCFilter::GenerateData()
   const auto newWeights = FCCLabelWeights::New();
   FCCLabelWeights & weights = *newWeights;
   weights.SetNumberOfRows(region.GetSize(1) * region.GetSize(2));
+  std::vector<LabelTopology::Claim> claims;
   std::vector<float> largest(region.GetNumberOfPixels(), -FCCLabelWeights::Limit);
   for (const auto & [label, box] : boxes)
   {
-    const auto field = MakeField(map, label, box);
-    const FieldResampler resampler(map, field, m_Density);
-    const auto sites = FindSites(resampler.GetLattice(), *field, map.GetWhole());
+    const LabelField field = MakeField(map, label, box);
+    const FieldResampler resampler(map, field.depths, m_Density);
+    const auto sites = FindSites(resampler.GetLattice(), *field.depths, map.GetWhole());
     if (sites.GetNumberOfPixels() > 0)
     {
       AddLabel(resampler.Resample(sites), label, labels, largest, weights);
     }
+    AddClaims(map, field, label, labels, claims);
     progress.Completed(1);
   }
   ForEachRow(region, [&](const Index<3> & first, SizeValueType) { weights.SortRow(GetRowNumber(first, region)); });
+  LabelTopology topology(labels, weights);
+  topology.Grant(std::move(claims));
   const NumberByLabel volumes = ComputeVoxelVolumes(image, origins);
-  KeepVolumes(volumes, map.GetVoxelEdge(), labels, weights);
+  KeepVolumes(volumes, map.GetVoxelEdge(), labels, weights, topology);
   m_VoxelVolumes.clear();
   for (const auto & [label, volume] : volumes)
   {

@@ -1,0 +1,195 @@
+#include "itkThinPartSites.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace itk
+{
+namespace
+{
+
+using Position = std::array<double, 3>;
+
+constexpr double Inside = 1.0 + 1e-9; // of d p for the Voronoi cell's faces, d being the nearest neighbours
+
+double
+Dot(const FCCLattice::SiteType & step, const Position & point)
+{
+  double sum = 0.0;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    sum += static_cast<double>(step[axis]) * point[axis];
+  }
+  return sum;
+}
+
+/** Whether a convex polygon meets the Voronoi cell of the site 0: whether anything is left within all of its faces. */
+bool
+MeetsCell(std::vector<Position> polygon)
+{
+  std::vector<Position> rest;
+  for (const FCCLattice::SiteType & face : FCCLattice::NearestNeighbors)
+  {
+    rest.clear();
+    for (std::size_t n = 0; n < polygon.size(); ++n)
+    {
+      const Position & here = polygon[n];
+      const Position & there = polygon[(n + 1) % polygon.size()];
+      const double from = Dot(face, here) - Inside;
+      const double to = Dot(face, there) - Inside;
+      if (from <= 0.0)
+      {
+        rest.push_back(here);
+      }
+      if ((from < 0.0 && to > 0.0) || (from > 0.0 && to < 0.0))
+      {
+        const double share = from / (from - to);
+        Position cut;
+        for (unsigned int axis = 0; axis < 3; ++axis)
+        {
+          cut[axis] = here[axis] + share * (there[axis] - here[axis]);
+        }
+        rest.push_back(cut);
+      }
+    }
+    polygon.swap(rest);
+    if (polygon.empty())
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/** Whether the convex hull of a few points meets the Voronoi cell of the site 0: one of the points' triangles does. */
+bool
+HullMeetsCell(const std::vector<Position> & points)
+{
+  const auto isBeyond = [](const FCCLattice::SiteType & face) {
+    return [&face](const Position & point) { return Dot(face, point) > Inside; };
+  };
+  for (const FCCLattice::SiteType & face : FCCLattice::NearestNeighbors)
+  {
+    if (std::all_of(points.begin(), points.end(), isBeyond(face)))
+    {
+      return false;
+    }
+  }
+  for (std::size_t a = 0; a < points.size(); ++a)
+  {
+    if (MeetsCell({ points[a] }))
+    {
+      return true;
+    }
+  }
+  for (std::size_t a = 0; a < points.size(); ++a)
+  {
+    for (std::size_t b = a + 1; b < points.size(); ++b)
+    {
+      if (points.size() == 2 && MeetsCell({ points[a], points[b] }))
+      {
+        return true;
+      }
+      for (std::size_t c = b + 1; c < points.size(); ++c)
+      {
+        if (MeetsCell({ points[a], points[b], points[c] }))
+        {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+/** Adds the sites whose cells meet the convex hull of a few points. */
+void
+AddSites(const std::vector<Position> & points, std::vector<FCCLattice::SiteType> & sites)
+{
+  FCCLattice::SiteType low;
+  FCCLattice::SiteType high;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    const auto [least, most] = std::minmax_element(
+      points.begin(), points.end(), [axis](const Position & a, const Position & b) { return a[axis] < b[axis]; });
+    low[axis] = static_cast<IndexValueType>(std::ceil((*least)[axis] - Inside));
+    high[axis] = static_cast<IndexValueType>(std::floor((*most)[axis] + Inside));
+  }
+  std::vector<Position> moved(points.size());
+  FCCLattice::SiteType site;
+  for (site[2] = low[2]; site[2] <= high[2]; ++site[2])
+  {
+    for (site[1] = low[1]; site[1] <= high[1]; ++site[1])
+    {
+      for (site[0] = low[0]; site[0] <= high[0]; ++site[0])
+      {
+        if (!FCCLattice::IsSite(site))
+        {
+          continue;
+        }
+        for (std::size_t n = 0; n < points.size(); ++n)
+        {
+          for (unsigned int axis = 0; axis < 3; ++axis)
+          {
+            moved[n][axis] = points[n][axis] - static_cast<double>(site[axis]);
+          }
+        }
+        if (HullMeetsCell(moved))
+        {
+          sites.push_back(site);
+        }
+      }
+    }
+  }
+}
+
+} // namespace
+
+std::vector<FCCLattice::SiteType>
+FindThinPartSites(const Image<std::uint8_t, 3> & mask,
+                  const ImageRegion<3> & region,
+                  const std::vector<SizeValueType> & thin,
+                  const std::function<Position(const Index<3> &)> & placeVoxel)
+{
+  const auto isThin = [&](const Index<3> & voxel) {
+    const auto offset = static_cast<SizeValueType>(mask.ComputeOffset(voxel));
+    return std::binary_search(thin.begin(), thin.end(), offset);
+  };
+  ImageRegion<3> inside = mask.GetBufferedRegion();
+  inside.Crop(region);
+  std::vector<FCCLattice::SiteType> sites;
+  std::vector<Position> points;
+  for (const SizeValueType offset : thin)
+  {
+    const Index<3> voxel = mask.ComputeIndex(static_cast<OffsetValueType>(offset));
+    for (unsigned int cube = 0; cube < 8 && inside.IsInside(voxel); ++cube)
+    {
+      // The first thin voxel of a cube does the work.
+      points.clear();
+      bool isFirst = true;
+      for (unsigned int corner = 0; corner < 8; ++corner)
+      {
+        Index<3> other = voxel;
+        for (unsigned int axis = 0; axis < 3; ++axis)
+        {
+          other[axis] +=
+            static_cast<IndexValueType>(corner >> axis & 1) - static_cast<IndexValueType>(cube >> axis & 1);
+        }
+        if (inside.IsInside(other) && mask.GetPixel(other) != 0)
+        {
+          isFirst = isFirst && (static_cast<SizeValueType>(mask.ComputeOffset(other)) >= offset || !isThin(other));
+          points.push_back(placeVoxel(other));
+        }
+      }
+      if (isFirst && !points.empty())
+      {
+        AddSites(points, sites);
+      }
+    }
+  }
+  std::sort(sites.begin(), sites.end());
+  sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
+  return sites;
+}
+
+} // namespace itk
