@@ -1,6 +1,7 @@
 #include "rhombicLabelPieces.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace rhombic
@@ -84,43 +85,87 @@ JoinRows(std::vector<Run> & runs,
   }
 }
 
-} // namespace
-
-std::vector<std::size_t>
-CountPieces(const LabelImage & image, std::size_t labels, bool throughFacesOnly)
+/** Joins the runs of neighbouring rows to pieces, through faces alone or through edges and corners too. */
+void
+JoinRuns(std::vector<Run> & runs, const std::vector<std::size_t> & firstOfRow, std::size_t height, bool byFace)
 {
-  auto [runs, firstOfRow] = FindRuns(image);
-  const std::size_t height = image.GetBufferedRegion().GetSize(1);
-  const std::uint32_t reach = throughFacesOnly ? 0 : 1;
+  const auto join = [&](std::size_t row, std::size_t other) {
+    JoinRows(runs, firstOfRow[row], firstOfRow[row + 1], firstOfRow[other], firstOfRow[other + 1], byFace ? 0 : 1);
+  };
   for (std::size_t row = 0; row + 1 < firstOfRow.size(); ++row)
   {
-    const auto join = [&, &allRuns = runs, &first = firstOfRow](std::size_t other) {
-      JoinRows(allRuns, first[row], first[row + 1], first[other], first[other + 1], reach);
-    };
     const std::size_t y = row % height;
     if (y > 0)
     {
-      join(row - 1);
+      join(row, row - 1);
     }
-    if (row >= height)
+    if (row < height)
     {
-      join(row - height);
+      continue;
     }
-    if (row >= height && !throughFacesOnly && y > 0)
+    join(row, row - height);
+    if (!byFace && y > 0)
     {
-      join(row - height - 1);
+      join(row, row - height - 1);
     }
-    if (row >= height && !throughFacesOnly && y + 1 < height)
+    if (!byFace && y + 1 < height)
     {
-      join(row - height + 1);
+      join(row, row - height + 1);
     }
   }
+}
+
+/** The number of pieces of each label. */
+std::vector<std::size_t>
+CountPieces(const std::vector<Run> & runs, std::size_t labels)
+{
   std::vector<std::size_t> counts(labels);
   for (std::size_t run = 0; run < runs.size(); ++run)
   {
     counts[runs[run].label] += runs[run].parent == run ? 1 : 0;
   }
   return counts;
+}
+
+} // namespace
+
+LabelPieces
+NumberPieces(LabelImage & image, std::size_t labels)
+{
+  const auto & size = image.GetBufferedRegion().GetSize();
+  auto [runs, firstOfRow] = FindRuns(image);
+  LabelPieces pieces;
+  JoinRuns(runs, firstOfRow, size[1], true);
+  pieces.countsByFace = CountPieces(runs, labels);
+  JoinRuns(runs, firstOfRow, size[1], false);
+  pieces.counts = CountPieces(runs, labels);
+
+  const std::size_t most = std::numeric_limits<std::uint16_t>::max() / std::max<std::size_t>(labels, 2);
+  pieces.labels = { 0 };
+  std::vector<std::size_t> next(labels); // number of a label's next piece, and of its last
+  std::vector<std::size_t> last(labels);
+  for (std::size_t label = 1; label < labels; ++label)
+  {
+    next[label] = pieces.labels.size();
+    pieces.labels.resize(next[label] + std::min(pieces.counts[label], most), static_cast<std::uint16_t>(label));
+    last[label] = pieces.labels.size() - 1;
+  }
+  // The root of a piece is its first run, so its number is known before those of the others.
+  std::vector<std::uint16_t> numbers(runs.size());
+  for (std::size_t row = 0; row + 1 < firstOfRow.size(); ++row)
+  {
+    for (std::size_t run = firstOfRow[row]; run < firstOfRow[row + 1]; ++run)
+    {
+      const std::uint32_t root = FindRoot(runs, static_cast<std::uint32_t>(run));
+      std::size_t & number = next[runs[run].label];
+      numbers[run] =
+        root == run ? static_cast<std::uint16_t>(std::min(number++, last[runs[run].label])) : numbers[root];
+      std::fill(image.GetBufferPointer() + row * size[0] + runs[run].begin,
+                image.GetBufferPointer() + row * size[0] + runs[run].end,
+                numbers[run]);
+    }
+  }
+  return pieces;
 }
 
 } // namespace rhombic

@@ -204,10 +204,8 @@ SetNormals(itk::TriangleSurface & surface)
 
 /** Sets the volumes and pieces of labels and of their walls. */
 void
-MeasureLabels(const LabelImage & numbers, LabelMesh & mesh)
+MeasureLabels(const LabelPieces & pieces, LabelMesh & mesh)
 {
-  const auto pieces = CountPieces(numbers, mesh.labels.size() + 1, false);
-  const auto facePieces = CountPieces(numbers, mesh.labels.size() + 1, true);
   for (std::size_t n = 0; n < mesh.labels.size(); ++n)
   {
     LabelSurface & label = mesh.labels[n];
@@ -216,8 +214,8 @@ MeasureLabels(const LabelImage & numbers, LabelMesh & mesh)
     label.surfaceMillilitres = std::accumulate(volumes.begin(), volumes.end(), 0.0) / CubicMillimetresPerMl;
     label.surfacePieces = static_cast<std::size_t>(
       std::count_if(volumes.begin(), volumes.end(), [](double volume) { return volume > 0.0; }));
-    label.pieces = pieces[n + 1];
-    label.isTorn = label.surfacePieces > label.pieces && label.surfacePieces > facePieces[n + 1];
+    label.pieces = pieces.counts[n + 1];
+    label.isTorn = label.surfacePieces > label.pieces && label.surfacePieces > pieces.countsByFace[n + 1];
   }
 }
 
@@ -236,6 +234,7 @@ LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const
   LabelImage::Pointer numbers = NumberLabels(map.scan.image, labels);
   const itk::ImageRegion<3> box = FindBox(*numbers);
   numbers = Crop(*numbers, box);
+  const LabelPieces pieces = NumberPieces(*numbers, labels.size() + 1); // which keep their volumes as labels do
   const auto toLattice = MakeFilter(*numbers, CropSliceOrigins(map.scan, box), settings.density);
   RequireMemory(EstimateMemory(*numbers, *toLattice, settings.density),
                 settings.maximumMemory,
@@ -256,7 +255,8 @@ LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const
   relaxation.maximumMove = smoothing * std::cbrt(spacing[0] * spacing[1] * spacing[2]);
   itk::RelaxWalls(*mesh.walls, relaxation, toLattice->GetVoxelVolumes());
   std::transform(labels.begin(), labels.end(), std::back_inserter(mesh.labels), DescribeLabel);
-  MeasureLabels(*numbers, mesh);
+  mesh.walls->MergeLabels(pieces.labels);
+  MeasureLabels(pieces, mesh);
   for (const LabelSurface & label : mesh.labels)
   {
     NoteShortcomings(label, events);
