@@ -43,7 +43,7 @@ namespace itk
  *     method                                                  1 mm          3 mm          6 mm
  *     this filter and FCCLabelSurfaceFilter                   .06   4.9     .14   7.9     .20   8.9
  *     the same and RelaxWalls() by half a voxel               .06   4.4     .14   7.7     .20   8.6
- *     rhombic::LabelsToSurfaces()                             .05   2.5     .26  10.4     .82  30.2
+ *     a field and an isosurface for each label alone          .05   2.5     .26  10.4     .82  30.2
  *     vtkDiscreteFlyingEdges3D, vtkWindowedSincPolyDataFilter .06   3.4     .23   7.5     .52  12.5
  *
  * The outputs have the same bytes for any number of threads. Fields are made one after another, each in the bounding
