@@ -449,6 +449,57 @@ TEST(LabelSurfaces, RandomBlobsAreClosedAndWhole)
   }
 }
 
+/** Boxes of one label, two to five voxels long, with one voxel of background or of another label between them. */
+TEST(LabelSurfaces, PiecesOneVoxelApartStayApart)
+{
+  std::mt19937 random(11);
+  for (unsigned int n = 0; n < 4; ++n)
+  {
+    std::array<std::array<bool, 16>, 3> isGap{};
+    std::size_t boxes = 1;
+    for (auto & axis : isGap)
+    {
+      std::size_t count = 1;
+      for (std::size_t place = 2 + random() % 4; place < 14; place += 3 + random() % 4)
+      {
+        axis[place] = true;
+        ++count;
+      }
+      boxes *= count;
+    }
+    const int between = n % 2 == 0 ? 0 : 2;
+    const LabelMap map = MakeMap(16, [&](const Point & p) {
+      const auto isIn = [&](unsigned int axis) { return isGap[axis][static_cast<std::size_t>(p[axis] + 7.6)]; };
+      return isIn(0) || isIn(1) || isIn(2) ? between : 1;
+    });
+    const LabelSurface label = MakeSurfaces(map, {}, {}).front();
+    EXPECT_EQ(label.pieces, boxes);
+    EXPECT_EQ(label.surfacePieces, boxes) << "with label " << between << " between them";
+    EXPECT_TRUE(ComputeTopology(*label.scene.surface).IsWatertight());
+    EXPECT_LT(std::abs(label.GetVolumeDifference()), 0.01) << boxes;
+  }
+}
+
+/** Specks so near to each other that sites are scarce. */
+TEST(LabelSurfaces, AllPiecesOfSparseNoiseStay)
+{
+  std::mt19937 random(12);
+  for (const unsigned int share : { 12, 30 })
+  {
+    const LabelMap map = MakeMap(16, [&](const Point &) {
+      const unsigned int value = random() % share;
+      return value < 3 ? static_cast<int>(value) : 0;
+    });
+    for (const LabelSurface & noise : MakeSurfaces(map, {}, {}))
+    {
+      EXPECT_GE(noise.surfacePieces, noise.pieces) << share;
+      EXPECT_FALSE(noise.isTorn) << share;
+      EXPECT_TRUE(ComputeTopology(*noise.scene.surface).IsWatertight());
+      EXPECT_LT(std::abs(noise.GetVolumeDifference()), 0.02) << noise.pieces;
+    }
+  }
+}
+
 TEST(LabelSurfaces, NoiseIsClosed)
 {
   std::mt19937 random(9);

@@ -34,8 +34,8 @@ namespace itk
  * Voronoi cells are convex and fill space, so sheets as thin as a voxel have no holes and vessels are not torn. Claims
  * that make no difference to the topology of any label are dropped (LabelTopology). Where two thin parts claim a site,
  * the one of larger weight has it, and the background last; so parts that are nearer to each other than 1.7 voxels can
- * still interrupt each other, and thin gaps between parts of a label can close. Give pieces of a label that must stay
- * apart labels of their own.
+ * still interrupt each other, and thin gaps between parts of a label can close. Pieces of a label stay apart if they
+ * have labels of their own in one group (SetGroups()).
  *
  * Mean distance from the truth in mm and mean angle of facets in degrees, for eight balls of radius 8.6 to 10 mm that
  * touch one another, of 1 mm voxels in slices of 1, 3 and 6 mm (rhombic-label-walls):
@@ -94,6 +94,19 @@ public:
     return m_SliceOrigins;
   }
 
+  using GroupsType = std::vector<LabelType>;
+
+  /** The group of each label, 0 being none; labels beyond the end are in none. Labels of a group are kept apart, so
+   * that LabelWalls::MergeLabels() can merge them: where sites of two would be neighbours, a gap between them is left
+   * to other labels or the background. Default: no groups. */
+  void
+  SetGroups(const GroupsType & groups);
+  const GroupsType &
+  GetGroups() const
+  {
+    return m_Groups;
+  }
+
   /** The label of each site. */
   LatticeType *
   GetOutput();
@@ -142,6 +155,7 @@ private:
 
   double m_Density;
   SliceOriginsType m_SliceOrigins;
+  GroupsType m_Groups;
   std::vector<double> m_VoxelVolumes;
 };
 

@@ -66,6 +66,59 @@ struct Link
   }
 };
 
+const Link &
+GetLink()
+{
+  static const Link link;
+  return link;
+}
+
+/** The neighbours of a label. */
+Link::SetType
+SetOf(LabelTopology::LabelType label, const std::array<LabelTopology::LabelType, Link::Size> & neighbors)
+{
+  Link::SetType set = 0;
+  for (unsigned int n = 0; n < Link::Size; ++n)
+  {
+    set |= neighbors[n] == label ? 1u << n : 0u;
+  }
+  return set;
+}
+
+/** The elements of all rows. */
+template <typename TElement>
+std::vector<TElement>
+Join(const std::vector<std::vector<TElement>> & rows)
+{
+  std::vector<TElement> all;
+  for (const auto & row : rows)
+  {
+    all.insert(all.end(), row.begin(), row.end());
+  }
+  return all;
+}
+
+template <typename TChange>
+void
+SortByGain(std::vector<TChange> & changes)
+{
+  std::stable_sort(
+    changes.begin(), changes.end(), [](const TChange & a, const TChange & b) { return a.gain > b.gain; });
+}
+
+/** Calls change(element) for the elements of a list in its order, again and again, and removes those for which it
+ * returns true, until there are no more of these. */
+template <typename TElement, typename TChange>
+void
+ChangeEach(std::vector<TElement> & elements, const TChange & change)
+{
+  for (std::size_t before = elements.size() + 1; before != elements.size();)
+  {
+    before = elements.size();
+    elements.erase(std::remove_if(elements.begin(), elements.end(), change), elements.end());
+  }
+}
+
 } // namespace
 
 float *
@@ -75,50 +128,196 @@ LabelTopology::FindWeight(SizeValueType site, LabelType label)
   return const_cast<float *>(m_Weights.Find(site / width, static_cast<std::uint32_t>(site % width), label));
 }
 
+float
+LabelTopology::GetWeight(SizeValueType site, LabelType label)
+{
+  const float * const weight = this->FindWeight(site, label);
+  return weight != nullptr ? *weight : -FCCLabelWeights::Limit;
+}
+
+LabelTopology::NeighborsType
+LabelTopology::FindNeighbors(SizeValueType site) const
+{
+  const Index<3> index = m_Labels.ComputeIndex(static_cast<OffsetValueType>(site));
+  const IndexValueType parity = FCCLattice::Parity(index[1], index[2]);
+  NeighborsType neighbors;
+  for (unsigned int n = 0; n < Link::Size; ++n)
+  {
+    const Index<3> neighbor = index + FCCLattice::OffsetOf(GetLink().steps[n], parity);
+    neighbors[n] =
+      m_Labels.GetLargestPossibleRegion().IsInside(neighbor) ? m_Labels.GetPixel(neighbor) : LabelType{ 0 };
+  }
+  return neighbors;
+}
+
+bool
+LabelTopology::MeetsGroup(LabelType label, const NeighborsType & neighbors) const
+{
+  const auto groupOf = [this](LabelType of) { return of < m_Groups.size() ? m_Groups[of] : LabelType{ 0 }; };
+  const LabelType group = groupOf(label);
+  return group != 0 && std::any_of(neighbors.begin(), neighbors.end(), [&](LabelType neighbor) {
+           return neighbor != label && groupOf(neighbor) == group;
+         });
+}
+
+void
+LabelTopology::Give(SizeValueType site, LabelType label)
+{
+  const SizeValueType width = m_Labels.GetLargestPossibleRegion().GetSize(0);
+  LabelType & own = m_Labels.GetBufferPointer()[site];
+  for (const LabelType each : { own, label })
+  {
+    if (label != own && this->FindWeight(site, each) == nullptr)
+    {
+      const float weight = each == own ? FCCLabelWeights::Limit : -FCCLabelWeights::Limit;
+      m_Weights.Add(site / width, { static_cast<std::uint32_t>(site % width), each, weight });
+      m_UnsortedRows.push_back(site / width);
+    }
+  }
+  own = label;
+}
+
+void
+LabelTopology::SortWeights()
+{
+  std::sort(m_UnsortedRows.begin(), m_UnsortedRows.end());
+  m_UnsortedRows.erase(std::unique(m_UnsortedRows.begin(), m_UnsortedRows.end()), m_UnsortedRows.end());
+  for (const SizeValueType row : m_UnsortedRows)
+  {
+    m_Weights.SortRow(row);
+  }
+  m_UnsortedRows.clear();
+}
+
 void
 LabelTopology::Grant(std::vector<Claim> claims)
 {
-  const SizeValueType width = m_Labels.GetLargestPossibleRegion().GetSize(0);
-  LabelType * const labels = m_Labels.GetBufferPointer();
   std::stable_sort(claims.begin(), claims.end(), [](const Claim & a, const Claim & b) { return a.site < b.site; });
-  std::vector<SizeValueType> rows; // that get weights
   for (auto begin = claims.begin(), end = begin; begin != claims.end(); begin = end)
   {
-    const LabelType own = labels[begin->site];
+    const LabelType own = m_Labels.GetBufferPointer()[begin->site];
     const auto strengthOf = [&](const Claim & claim) {
-      const float * const weight = this->FindWeight(claim.site, claim.label);
-      const float known = weight != nullptr ? *weight : -FCCLabelWeights::Limit;
-      const float strength = claim.label == own ? std::numeric_limits<float>::max() : known;
+      const float strength =
+        claim.label == own ? std::numeric_limits<float>::max() : this->GetWeight(claim.site, claim.label);
       return std::make_pair(claim.label != 0, strength);
     };
     end = std::find_if(begin, claims.end(), [&](const Claim & claim) { return claim.site != begin->site; });
     const Claim & best =
       *std::max_element(begin, end, [&](const Claim & a, const Claim & b) { return strengthOf(a) < strengthOf(b); });
-    for (const LabelType label : { own, best.label })
-    {
-      if (best.label != own && this->FindWeight(best.site, label) == nullptr)
-      {
-        const float weight = label == own ? FCCLabelWeights::Limit : -FCCLabelWeights::Limit;
-        m_Weights.Add(best.site / width, { static_cast<std::uint32_t>(best.site % width), label, weight });
-        rows.push_back(best.site / width);
-      }
-    }
-    labels[best.site] = best.label;
+    this->Give(best.site, best.label);
     m_IsHeld[best.site] = best.isHeld;
   }
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  for (const SizeValueType row : rows)
-  {
-    m_Weights.SortRow(row);
-  }
+  this->SortWeights();
+  this->AddOffsets({});
+  this->LowerRaised();
+  this->PartGroups();
+  this->PlaceLost();
   this->AddOffsets({});
 }
 
-std::vector<LabelTopology::Doubt>
+template <typename TTest>
+std::vector<LabelTopology::Change>
+LabelTopology::FindWeights(const TTest & test) const
+{
+  const SizeValueType width = m_Labels.GetLargestPossibleRegion().GetSize(0);
+  std::vector<std::vector<Change>> found(m_Weights.GetNumberOfRows());
+  ForEachInBlocks(found.size(), 64, [&](std::size_t row) {
+    for (const FCCLabelWeights::Entry & entry : m_Weights.GetRow(row))
+    {
+      const SizeValueType site = row * width + entry.i;
+      if (test(site, entry))
+      {
+        found[row].push_back({ site, entry.label, entry.weight });
+      }
+    }
+  });
+  return Join(found);
+}
+
+LabelTopology::Change
+LabelTopology::FindGap(SizeValueType site)
+{
+  const NeighborsType neighbors = this->FindNeighbors(site);
+  const LabelType label = m_Labels.GetBufferPointer()[site];
+  const float * const own = this->FindWeight(site, label);
+  Change gap{ site, 0, this->GetWeight(site, 0) };
+  for (const LabelType other : neighbors)
+  {
+    const float weight = this->GetWeight(site, other);
+    if (other != label && weight > gap.gain && !this->MeetsGroup(other, neighbors))
+    {
+      gap = { site, other, weight };
+    }
+  }
+  gap.gain -= own != nullptr ? *own : FCCLabelWeights::Limit;
+  return gap;
+}
+
+void
+LabelTopology::PartGroups()
+{
+  const LabelType * const labels = m_Labels.GetBufferPointer();
+  const auto meets = [this, labels](SizeValueType site, const FCCLabelWeights::Entry & entry) {
+    return entry.label == labels[site] && this->MeetsGroup(entry.label, this->FindNeighbors(site));
+  };
+  std::vector<Change> meetings;
+  for (const Change & meeting : this->FindWeights(meets))
+  {
+    meetings.push_back(this->FindGap(meeting.site));
+  }
+  SortByGain(meetings);
+  for (const bool canBeAlone : { false, true })
+  {
+    ChangeEach(meetings, [&](const Change & meeting) {
+      const NeighborsType neighbors = this->FindNeighbors(meeting.site);
+      if (!this->MeetsGroup(labels[meeting.site], neighbors))
+      {
+        return true;
+      }
+      const Link::SetType same = SetOf(labels[meeting.site], neighbors);
+      const bool canChange = GetLink().IsDisk(same) || (canBeAlone && same == 0);
+      if (canChange)
+      {
+        this->Give(meeting.site, this->FindGap(meeting.site).label);
+      }
+      return canChange;
+    });
+  }
+  this->SortWeights();
+}
+
+void
+LabelTopology::PlaceLost()
+{
+  const LabelType * const labels = m_Labels.GetBufferPointer();
+  std::vector<bool> hasSites(std::numeric_limits<LabelType>::max() + std::size_t{ 1 });
+  hasSites[0] = true;
+  for (SizeValueType site = 0; site < m_Labels.GetLargestPossibleRegion().GetNumberOfPixels(); ++site)
+  {
+    hasSites[labels[site]] = true;
+  }
+  std::vector<Change> places = this->FindWeights(
+    [&hasSites](SizeValueType, const FCCLabelWeights::Entry & entry) { return !hasSites[entry.label]; });
+  SortByGain(places);
+  for (const Change & place : places)
+  {
+    const NeighborsType neighbors = this->FindNeighbors(place.site);
+    const LabelType own = labels[place.site];
+    if (!hasSites[place.label] && (own == 0 || GetLink().IsDisk(SetOf(own, neighbors))) &&
+        !this->MeetsGroup(place.label, neighbors))
+    {
+      this->Give(place.site, place.label);
+      hasSites[place.label] = true;
+    }
+  }
+  this->SortWeights();
+}
+
+std::vector<LabelTopology::Change>
 LabelTopology::FindDoubts(const std::map<LabelType, double> & offsets)
 {
   const SizeValueType width = m_Labels.GetLargestPossibleRegion().GetSize(0);
-  std::vector<std::vector<Doubt>> found(m_Weights.GetNumberOfRows());
+  std::vector<std::vector<Change>> found(m_Weights.GetNumberOfRows());
   ForEachInBlocks(found.size(), 64, [&](std::size_t row) {
     FCCLabelWeights::RowType & entries = m_Weights.GetRow(row);
     for (auto begin = entries.begin(), end = begin; begin != entries.end(); begin = end)
@@ -141,69 +340,52 @@ LabelTopology::FindDoubts(const std::map<LabelType, double> & offsets)
       }
     }
   });
-  std::vector<Doubt> doubts;
-  for (const auto & inRow : found)
-  {
-    doubts.insert(doubts.end(), inRow.begin(), inRow.end());
-  }
-  return doubts;
+  return Join(found);
 }
 
 bool
-LabelTopology::CanChange(const Doubt & doubt) const
+LabelTopology::CanChange(const Change & doubt) const
 {
-  static const Link link;
-  const Index<3> index = m_Labels.ComputeIndex(static_cast<OffsetValueType>(doubt.site));
-  const LabelType label = m_Labels.GetBufferPointer()[doubt.site];
-  Link::SetType before = 0;
-  Link::SetType after = 0;
-  for (unsigned int n = 0; n < Link::Size; ++n)
-  {
-    const Index<3> neighbor = index + FCCLattice::OffsetOf(link.steps[n], FCCLattice::Parity(index[1], index[2]));
-    const bool isIn = m_Labels.GetLargestPossibleRegion().IsInside(neighbor);
-    const LabelType other = isIn ? m_Labels.GetPixel(neighbor) : LabelType{ 0 };
-    before |= other == label ? 1u << n : 0u;
-    after |= other == doubt.strongest ? 1u << n : 0u;
-  }
-  return !m_IsHeld[doubt.site] && link.IsDisk(before) && link.IsDisk(after);
+  const NeighborsType neighbors = this->FindNeighbors(doubt.site);
+  return !m_IsHeld[doubt.site] && !this->MeetsGroup(doubt.label, neighbors) &&
+         GetLink().IsDisk(SetOf(m_Labels.GetBufferPointer()[doubt.site], neighbors)) &&
+         GetLink().IsDisk(SetOf(doubt.label, neighbors));
 }
 
 void
-LabelTopology::Settle(std::vector<Doubt> & doubts)
+LabelTopology::Settle(std::vector<Change> & doubts)
 {
-  std::stable_sort(
-    doubts.begin(), doubts.end(), [](const Doubt & a, const Doubt & b) { return a.lacking > b.lacking; });
-  for (std::size_t before = 0; before != doubts.size();)
+  SortByGain(doubts);
+  ChangeEach(doubts, [this](const Change & doubt) {
+    const bool canChange = this->CanChange(doubt);
+    if (canChange)
+    {
+      m_Labels.GetBufferPointer()[doubt.site] = doubt.label;
+    }
+    return canChange;
+  });
+}
+
+void
+LabelTopology::LowerRaised()
+{
+  for (const Change & raised : m_Raised)
   {
-    before = doubts.size();
-    doubts.erase(std::remove_if(doubts.begin(),
-                                doubts.end(),
-                                [this](const Doubt & doubt) {
-                                  const bool canChange = this->CanChange(doubt);
-                                  if (canChange)
-                                  {
-                                    m_Labels.GetBufferPointer()[doubt.site] = doubt.strongest;
-                                  }
-                                  return canChange;
-                                }),
-                 doubts.end());
+    *this->FindWeight(raised.site, m_Labels.GetBufferPointer()[raised.site]) -= raised.gain;
   }
+  m_Raised.clear();
 }
 
 void
 LabelTopology::AddOffsets(const std::map<LabelType, double> & offsets)
 {
-  const LabelType * const labels = m_Labels.GetBufferPointer();
-  for (const Doubt & raised : m_Raised)
-  {
-    *this->FindWeight(raised.site, labels[raised.site]) -= raised.lacking;
-  }
+  this->LowerRaised();
   m_Raised = this->FindDoubts(offsets);
   this->Settle(m_Raised);
-  for (Doubt & doubt : m_Raised)
+  for (Change & doubt : m_Raised)
   {
-    doubt.lacking += RaisedMargin;
-    *this->FindWeight(doubt.site, labels[doubt.site]) += doubt.lacking;
+    doubt.gain += RaisedMargin;
+    *this->FindWeight(doubt.site, m_Labels.GetBufferPointer()[doubt.site]) += doubt.gain;
   }
 }
 

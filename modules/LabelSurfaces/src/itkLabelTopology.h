@@ -4,6 +4,7 @@
 #include "itkFCCImage.h"
 #include "itkFCCLabelWeights.h"
 
+#include <array>
 #include <map>
 #include <vector>
 
@@ -17,6 +18,11 @@ namespace itk
  * site goes back to the label of largest weight if that leaves the topology of both labels as it is: if the neighbours
  * of either label are a disk on the sphere around the site (its 14 neighbours in the lattice's tetrahedra, 36 edges and
  * 24 triangles). Offsets that are added to the weights of a label change the labels of sites under the same condition.
+ * Labels of one group are kept apart, so that they can be merged later: no edge of the lattice's tetrahedra joins two
+ * of them. Where one does, the site whose label has the least advantage in weight goes to another label beside it or to
+ * the background 0, if its neighbours of its own label are a disk, or none. Labels that have no site then, and those
+ * that lost all their claims, get the one where their weight is largest, if its label can spare it.
+ *
  * Where the label of a site has not the largest weight in the end, its weight is raised to that. */
 class LabelTopology
 {
@@ -25,10 +31,12 @@ public:
   using LatticeType = FCCImage<LabelType>;
 
   /** \param labels of largest weight at each site
-   * \param weights sorted */
-  LabelTopology(LatticeType & labels, FCCLabelWeights & weights)
+   * \param weights sorted
+   * \param groups of each label, 0 being none; empty: there are none */
+  LabelTopology(LatticeType & labels, FCCLabelWeights & weights, const std::vector<LabelType> & groups)
     : m_Labels(labels)
     , m_Weights(weights)
+    , m_Groups(groups)
     , m_IsHeld(labels.GetLargestPossibleRegion().GetNumberOfPixels())
   {}
 
@@ -49,32 +57,77 @@ public:
   AddOffsets(const std::map<LabelType, double> & offsets);
 
 private:
-  /** A site whose label has not the largest weight. */
-  struct Doubt
+  /** The neighbours of a site in the lattice's tetrahedra; 0 beyond the lattice. */
+  using NeighborsType = std::array<LabelType, 14>;
+
+  /** A label that may get a site of another one, and by how much its weight is larger there. */
+  struct Change
   {
     SizeValueType site;
-    LabelType strongest;
-    float lacking;
+    LabelType label;
+    float gain;
   };
 
   float *
   FindWeight(SizeValueType site, LabelType label);
 
-  /** Adds the offsets and returns the sites in doubt, ascending. */
-  std::vector<Doubt>
+  /** The weight, or what counts as that of a label at sites of others. */
+  float
+  GetWeight(SizeValueType site, LabelType label);
+
+  NeighborsType
+  FindNeighbors(SizeValueType site) const;
+
+  /** Whether a label is of the group of another one among the neighbours. */
+  bool
+  MeetsGroup(LabelType label, const NeighborsType & neighbors) const;
+
+  /** Gives a site to a label, and makes sure that weights are stored for it and the one before. Needs SortWeights(). */
+  void
+  Give(SizeValueType site, LabelType label);
+
+  /** Sorts the rows to which weights were added. */
+  void
+  SortWeights();
+
+  /** The labels and their weights for which test(site, entry) is true, in the order of the sites. */
+  template <typename TTest>
+  std::vector<Change>
+  FindWeights(const TTest & test) const;
+
+  /** The label beside a site that is to have it in order that its own does not meet another one of its group. */
+  Change
+  FindGap(SizeValueType site);
+
+  /** Takes sites from labels that meet others of their groups. */
+  void
+  PartGroups();
+
+  /** Gives a site to each label that has weights but no site. */
+  void
+  PlaceLost();
+
+  /** Adds the offsets and returns the sites whose labels have not the largest weight, with those that have. */
+  std::vector<Change>
   FindDoubts(const std::map<LabelType, double> & offsets);
 
-  /** Gives the sites to their strongest labels where that keeps the topology; leaves the others in the list. */
+  /** Makes the changes that keep the topology; leaves the others in the list. */
   void
-  Settle(std::vector<Doubt> & doubts);
+  Settle(std::vector<Change> & doubts);
+
+  /** Gives the raised weights what they were before. */
+  void
+  LowerRaised();
 
   bool
-  CanChange(const Doubt & doubt) const;
+  CanChange(const Change & doubt) const;
 
   LatticeType & m_Labels;
   FCCLabelWeights & m_Weights;
+  const std::vector<LabelType> & m_Groups;
   std::vector<bool> m_IsHeld;
-  std::vector<Doubt> m_Raised; ///< with what was added to the weights of their labels
+  std::vector<Change> m_Raised; ///< what was added to the weights of the labels of these sites
+  std::vector<SizeValueType> m_UnsortedRows;
 };
 
 } // namespace itk

@@ -616,6 +616,16 @@ LabelsToFCCFilter::SetSliceOrigins(const SliceOriginsType & origins)
   }
 }
 
+void
+LabelsToFCCFilter::SetGroups(const GroupsType & groups)
+{
+  if (groups != m_Groups)
+  {
+    m_Groups = groups;
+    this->Modified();
+  }
+}
+
 LabelsToFCCFilter::SliceOriginsType
 LabelsToFCCFilter::FindSliceOrigins() const
 {
@@ -646,6 +656,7 @@ LabelsToFCCFilter::PrintSelf(std::ostream & os, Indent indent) const
   Superclass::PrintSelf(os, indent);
   os << indent << "Density: " << m_Density << std::endl;
   os << indent << "SliceOrigins: " << m_SliceOrigins.size() << std::endl;
+  os << indent << "Groups: " << m_Groups.size() << std::endl;
 }
 
 void
@@ -722,7 +733,7 @@ LabelsToFCCFilter::GenerateData()
     progress.Completed(1);
   }
   ForEachRow(region, [&](const Index<3> & first, SizeValueType) { weights.SortRow(GetRowNumber(first, region)); });
-  LabelTopology topology(labels, weights);
+  LabelTopology topology(labels, weights, m_Groups);
   topology.Grant(std::move(claims));
   const NumberByLabel volumes = ComputeVoxelVolumes(image, origins);
   KeepVolumes(volumes, map.GetVoxelEdge(), labels, weights, topology);

@@ -236,6 +236,7 @@ LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const
   numbers = Crop(*numbers, box);
   const LabelPieces pieces = NumberPieces(*numbers, labels.size() + 1); // which keep their volumes as labels do
   const auto toLattice = MakeFilter(*numbers, CropSliceOrigins(map.scan, box), settings.density);
+  toLattice->SetGroups(pieces.labels);
   RequireMemory(EstimateMemory(*numbers, *toLattice, settings.density),
                 settings.maximumMemory,
                 "The walls between labels",
