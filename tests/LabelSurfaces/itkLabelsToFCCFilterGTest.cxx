@@ -3,6 +3,7 @@
 #include "itkFCCLabelSurfaceFilter.h"
 #include "itkImageRegionConstIteratorWithIndex.h"
 #include "itkImageRegionIteratorWithIndex.h"
+#include "itkMultiThreaderBase.h"
 #include "itkTriangleSurfaceComponents.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
@@ -47,12 +48,14 @@ itk::LabelWalls::Pointer
 MakeWalls(const LabelImage * map,
           const Filter::SliceOriginsType & origins = {},
           unsigned int threads = 0,
-          double density = itk::FCCLattice::DefaultDensity)
+          double density = itk::FCCLattice::DefaultDensity,
+          const Filter::GroupsType & groups = {})
 {
   const auto toLattice = Filter::New();
   toLattice->SetInput(map);
   toLattice->SetDensity(density);
   toLattice->SetSliceOrigins(origins);
+  toLattice->SetGroups(groups);
   if (threads > 0)
   {
     toLattice->SetNumberOfWorkUnits(threads);
@@ -235,29 +238,45 @@ TEST(LabelsToFCCFilter, LabelsEndAtTheBorderOfTheMap)
   EXPECT_NEAR(Volume(*walls, 1) + Volume(*walls, 2), 12.0 * 10.0 * 12.0, 0.03 * 12.0 * 10.0 * 12.0);
 }
 
+/** A map whose slices are at uneven steps and lean, and its slice origins. */
+struct SlantedMap
+{
+  LabelImage::Pointer image;
+  Filter::SliceOriginsType origins;
+
+  SlantedMap(const LabelImage::SizeType & size, double slices)
+    : image(MakeMap(size, slices, [](const Point &) { return 0; }))
+  {
+    for (itk::SizeValueType slice = 0; slice < size[2]; ++slice)
+    {
+      origins.push_back(image->TransformIndexToPhysicalPoint<double>(image->GetLargestPossibleRegion().GetIndex()));
+      const double even = slices * static_cast<double>(slice);
+      origins.back()[2] += even + (slice % 3 == 0 ? 0.2 * slices : 0.0);
+      origins.back()[0] += 0.25 * even - 4.0;
+    }
+  }
+
+  /** Sets the label of each voxel by its place. */
+  void
+  SetLabels(const std::function<int(const Point &)> & labelAt)
+  {
+    for (itk::ImageRegionIteratorWithIndex<LabelImage> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+    {
+      const auto offset = it.GetIndex() - image->GetLargestPossibleRegion().GetIndex();
+      Point point = origins[static_cast<std::size_t>(offset[2])];
+      point[0] += static_cast<double>(offset[0]);
+      point[1] += static_cast<double>(offset[1]);
+      it.Set(static_cast<std::uint16_t>(labelAt(point)));
+    }
+  }
+};
+
 TEST(LabelsToFCCFilter, UnevenAndSlantedSlicesAreWhereTheyAre)
 {
   constexpr double radius = 12.0;
-  const LabelImage::SizeType size{ { 44, 34, 12 } };
-  const auto map = MakeMap(size, 3.0, [](const Point &) { return 0; });
-  Filter::SliceOriginsType origins;
-  for (itk::SizeValueType slice = 0; slice < size[2]; ++slice)
-  {
-    Point origin = map->TransformIndexToPhysicalPoint<double>(map->GetLargestPossibleRegion().GetIndex());
-    const double even = 3.0 * static_cast<double>(slice);
-    origin[2] += even + (slice % 3 == 0 ? 0.6 : 0.0);
-    origin[0] += 0.25 * even - 4.0;
-    origins.push_back(origin);
-  }
-  for (itk::ImageRegionIteratorWithIndex<LabelImage> it(map, map->GetBufferedRegion()); !it.IsAtEnd(); ++it)
-  {
-    const auto offset = it.GetIndex() - map->GetLargestPossibleRegion().GetIndex();
-    Point point = origins[static_cast<std::size_t>(offset[2])];
-    point[0] += static_cast<double>(offset[0]);
-    point[1] += static_cast<double>(offset[1]);
-    it.Set(static_cast<std::uint16_t>(HalfBalls(point, radius)));
-  }
-  const auto walls = MakeWalls(map, origins);
+  SlantedMap map({ { 44, 34, 12 } }, 3.0);
+  map.SetLabels([](const Point & p) { return HalfBalls(p, radius); });
+  const auto walls = MakeWalls(map.image, map.origins);
   const double volume = 4.0 / 3.0 * 3.14159265 * radius * radius * radius;
   EXPECT_NEAR((Volume(*walls, 4) + Volume(*walls, 9)) / volume, 1.0, 0.05);
   const auto bounds = walls->GetBounds();
@@ -265,6 +284,83 @@ TEST(LabelsToFCCFilter, UnevenAndSlantedSlicesAreWhereTheyAre)
   {
     EXPECT_NEAR(bounds[side], side % 2 == 0 ? -radius : radius, 1.0) << side;
   }
+}
+
+/** Each is a label, is one piece at its place, and has the volume of its voxels. */
+TEST(LabelsToFCCFilter, SpecksInSlantedSlicesStay)
+{
+  SlantedMap map({ { 48, 48, 48 } }, 1.0);
+  std::vector<Point> middles(217, Point(0.0));
+  std::vector<double> voxels(217);
+  for (itk::ImageRegionIteratorWithIndex<LabelImage> it(map.image, map.image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+  {
+    const auto offset = it.GetIndex() - map.image->GetLargestPossibleRegion().GetIndex();
+    const bool isIn = offset[0] % 8 < 3 && offset[1] % 8 < 2 && offset[2] % 8 < 4;
+    if (isIn)
+    {
+      const auto speck = static_cast<std::uint16_t>(1 + offset[0] / 8 + 6 * (offset[1] / 8) + 36 * (offset[2] / 8));
+      it.Set(speck);
+      const Point & first = map.origins[static_cast<std::size_t>(offset[2])];
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        middles[speck][axis] += first[axis] + (axis < 2 ? static_cast<double>(offset[axis]) : 0.0);
+      }
+      ++voxels[speck];
+    }
+  }
+  const auto toLattice = Filter::New();
+  toLattice->SetInput(map.image);
+  toLattice->SetSliceOrigins(map.origins);
+  toLattice->Update();
+  const auto walls = MakeWalls(map.image, map.origins);
+  for (std::uint16_t speck = 1; speck <= 216; ++speck)
+  {
+    const auto surface = walls->ExtractLabel(speck);
+    EXPECT_EQ(itk::ComputeTopology(*surface).eulerCharacteristic, 2) << speck;
+    EXPECT_NEAR(itk::ComputeVolume(*surface) / toLattice->GetVoxelVolumes()[speck], 1.0, 0.01) << speck;
+    const auto bounds = surface->GetBounds();
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      EXPECT_NEAR(0.5 * (bounds[2 * axis] + bounds[2 * axis + 1]), middles[speck][axis] / voxels[speck], 0.6) << speck;
+    }
+  }
+}
+
+TEST(LabelsToFCCFilter, ThinPartsInSlantedSlicesAreWhole)
+{
+  // A sheet and a helix that are one voxel thick, in directions of voxels.
+  SlantedMap map({ { 40, 40, 40 } }, 1.0);
+  const auto first = map.image->GetLargestPossibleRegion().GetIndex();
+  for (const double slope : { -0.7, 0.0, 0.4 })
+  {
+    map.SetLabels([](const Point &) { return 0; });
+    for (int y = 2; y < 38; ++y)
+    {
+      for (int z = 2; z < 38; ++z)
+      {
+        const auto x = static_cast<int>(std::lround(20.0 + 0.4 * (y - 20.0) + slope * (z - 20.0)));
+        if (x >= 2 && x < 38)
+        {
+          map.image->SetPixel(first + itk::Offset<3>{ { x, y, z } }, 7);
+        }
+      }
+    }
+    const auto topology = itk::ComputeTopology(*MakeWalls(map.image, map.origins)->ExtractLabel(7));
+    EXPECT_TRUE(topology.IsWatertight()) << topology;
+    EXPECT_EQ(topology.components, 1u) << slope;
+    EXPECT_EQ(topology.eulerCharacteristic, 2) << slope;
+  }
+  map.SetLabels([](const Point &) { return 0; });
+  for (double t = 0.0; t < 18.0; t += 0.002)
+  {
+    const itk::Offset<3> place{
+      { std::lround(20.0 + 14.0 * std::cos(t)), std::lround(20.0 + 14.0 * std::sin(t)), std::lround(3.0 + 1.9 * t) }
+    };
+    map.image->SetPixel(first + place, 3);
+  }
+  const auto topology = itk::ComputeTopology(*MakeWalls(map.image, map.origins)->ExtractLabel(3));
+  EXPECT_TRUE(topology.IsWatertight()) << topology;
+  EXPECT_EQ(topology.components, 1u);
 }
 
 TEST(LabelsToFCCFilter, BytesDoNotDependOnThreads)
@@ -278,6 +374,33 @@ TEST(LabelsToFCCFilter, BytesDoNotDependOnThreads)
     const auto several = MakeWalls(map, {}, threads);
     EXPECT_EQ(one->GetPoints(), several->GetPoints());
     EXPECT_EQ(one->GetTriangles(), several->GetTriangles());
+  }
+}
+
+/** Thin parts, pieces of labels and labels that touch, which are settled one after another. */
+TEST(LabelsToFCCFilter, BytesOfThinPartsAndPiecesDoNotDependOnThreads)
+{
+  std::mt19937 random(17);
+  const auto map = MakeMap({ { 40, 40, 40 } }, 1.0, [&](const Point & p) {
+    const bool isSheet = std::abs(p[2] - 0.3 * p[0]) <= 0.5;
+    const bool isSpeck = random() % 60 == 0;
+    return isSheet ? 1 : isSpeck ? 2 + static_cast<int>(random() % 12) : HalfBalls(p, 9.0);
+  });
+  const Filter::GroupsType groups{ 0, 1, 2, 2, 3, 2, 2, 2, 3, 3, 3, 3, 3, 3 };
+  const auto make = [&](itk::ThreadIdType threads) {
+    const auto before = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
+    itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
+    auto walls = MakeWalls(map, {}, threads, itk::FCCLattice::DefaultDensity, groups);
+    itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(before);
+    return walls;
+  };
+  const auto one = make(1);
+  for (const itk::ThreadIdType threads : { 2, 3, 8 })
+  {
+    const auto several = make(threads);
+    EXPECT_EQ(one->GetPoints(), several->GetPoints());
+    EXPECT_EQ(one->GetTriangles(), several->GetTriangles());
+    EXPECT_EQ(one->GetTriangleLabels(), several->GetTriangleLabels());
   }
 }
 

@@ -48,7 +48,7 @@ namespace itk
  *
  * The outputs have the same bytes for any number of threads. Fields are made one after another, each in the bounding
  * box of its label and near the label's border only (AntiAliasMaskImageFilter). Time grows with the area of the walls
- * and, much less, with the voxels of all boxes; slanted maps have the box of the map for each label. Memory: 6 bytes a
+ * and, much less, with the voxels of all boxes. Memory: 6 bytes a
  * site; 20 bytes a voxel of the largest box, which is that of all labels together; 12 bytes for each label at sites
  * within three voxels of its surface.
  *

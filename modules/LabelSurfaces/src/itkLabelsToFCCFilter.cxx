@@ -30,12 +30,11 @@ using FieldImage = Image<float, 3>;
 using FieldLattice = FCCImage<float>;
 
 constexpr unsigned int VolumeCorrections = 4;
-constexpr double SteepestSlope = 3.0;                  // of volumes, times that from the area
-constexpr double FarthestOffset = 2.0;                 // of weights; twice as far as walls move, in voxels
-constexpr double LongVoxels = 1.5;                     // times the shortest edge
-constexpr IndexValueType Margin = 2;                   // voxels around the map
-constexpr IndexValueType KernelReach = 6;              // voxels, of the cubic B-spline with its prefilter
-constexpr IndexValueType MaskMargin = 4 + KernelReach; // voxels around a label
+constexpr double SteepestSlope = 3.0;     // of volumes, times that from the area
+constexpr double FarthestOffset = 2.0;    // of weights; twice as far as walls move, in voxels
+constexpr double LongVoxels = 1.5;        // times the shortest edge
+constexpr IndexValueType Margin = 2;      // voxels around the map
+constexpr IndexValueType LabelMargin = 4; // voxels around a label in which it has weights
 
 /** The map refined to nearly cubic voxels. Samples of the map are those whose index is a multiple of the period. */
 class RefinedMap
@@ -99,7 +98,7 @@ public:
 
   /** The position of a voxel's centre in the world. \param image on the refined grid */
   Point<double, 3>
-  GetPosition(const MaskImage & image, const Index<3> & index) const
+  GetPosition(const ImageBase<3> & image, const Index<3> & index) const
   {
     Index<3> inSlice = index;
     if (!m_SliceOrigins.empty())
@@ -130,13 +129,6 @@ public:
     image->SetDirection(m_Labels.GetDirection());
     image->SetOrigin(m_Labels.TransformIndexToPhysicalPoint<double>(m_Labels.GetLargestPossibleRegion().GetIndex()));
     return image;
-  }
-
-  /** Whether voxels' axes are not perpendicular or slices not even, so that boxes of voxels are none of sites. */
-  bool
-  IsSlanted() const
-  {
-    return !m_SliceOrigins.empty() || !AreAxesPerpendicular(m_Labels.GetDirection());
   }
 
   /** The index along an axis of the nearest voxel of the map, from its first; beyond the map of that at its border. */
@@ -206,14 +198,14 @@ public:
       for (unsigned int axis = 0; axis < 3; ++axis)
       {
         const auto period = static_cast<IndexValueType>(m_Period[axis]);
-        const IndexValueType margin = MaskMargin + period;
+        const IndexValueType margin = LabelMargin + period;
         const IndexValueType low = corner.first[axis] * period - margin;
         const IndexValueType high = corner.second[axis] * period + margin;
         box.SetIndex(axis, low);
         box.SetSize(axis, static_cast<SizeValueType>(high - low + 1));
       }
       box.Crop(m_Whole);
-      boxes[label] = this->IsSlanted() ? m_Whole : box;
+      boxes[label] = box;
     }
     return boxes;
   }
@@ -359,11 +351,12 @@ class FieldResampler
 public:
   using Filter = CartesianToFCCImageFilter<FieldImage>;
 
-  FieldResampler(const RefinedMap & map, FieldImage * field, double density)
-    : m_Source(FieldSource::New())
+  FieldResampler(const RefinedMap & map, double density)
+    : m_Map(map)
+    , m_Source(FieldSource::New())
     , m_Filter(Filter::New())
   {
-    m_Source->field = field;
+    m_Source->field = map.MakeImage<FieldImage>(map.GetWhole());
     m_Source->whole = map.GetWhole();
     m_Filter->SetInput(m_Source->GetOutput());
     m_Filter->SetDensity(density);
@@ -379,45 +372,70 @@ public:
     return *m_Filter->GetOutput();
   }
 
-  const FieldLattice &
-  Resample(const ImageRegion<3> & sites) const
+  /** A box of sites that holds those at some voxels. */
+  ImageRegion<3>
+  FindSites(const ImageRegion<3> & voxels) const
   {
+    const FieldLattice & lattice = this->GetLattice();
+    std::array<double, 3> low;
+    std::array<double, 3> high;
+    low.fill(std::numeric_limits<double>::max());
+    high.fill(std::numeric_limits<double>::lowest());
+    const Index<3> & first = voxels.GetIndex();
+    const Index<3> last = voxels.GetUpperIndex();
+    for (IndexValueType z = first[2]; z <= last[2]; ++z)
+    {
+      for (const IndexValueType y : { first[1], last[1] })
+      {
+        for (const IndexValueType x : { first[0], last[0] })
+        {
+          const auto point =
+            lattice.TransformPhysicalPointToLattice(m_Map.GetPosition(*m_Source->field, Index<3>{ { x, y, z } }));
+          for (unsigned int axis = 0; axis < 3; ++axis)
+          {
+            low[axis] = std::min(low[axis], point[axis]);
+            high[axis] = std::max(high[axis], point[axis]);
+          }
+        }
+      }
+    }
+    ImageRegion<3> sites;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const double step = axis == 0 ? 2.0 : 1.0;
+      const auto begin = Math::Floor<IndexValueType>((low[axis] - 1.0) / step);
+      sites.SetIndex(axis, begin);
+      sites.SetSize(axis,
+                    static_cast<SizeValueType>(Math::Ceil<IndexValueType>((high[axis] + 1.0) / step) - begin + 1));
+    }
+    sites.Crop(lattice.GetLargestPossibleRegion());
+    return sites;
+  }
+
+  /** The voxels on which the values at some sites depend. */
+  ImageRegion<3>
+  FindVoxels(const ImageRegion<3> & sites) const
+  {
+    m_Filter->GetOutput()->SetRequestedRegion(sites);
+    m_Filter->PropagateRequestedRegion(m_Filter->GetOutput());
+    return m_Source->GetOutput()->GetRequestedRegion();
+  }
+
+  const FieldLattice &
+  Resample(FieldImage * field, const ImageRegion<3> & sites) const
+  {
+    m_Source->field = field;
+    m_Source->Modified();
     m_Filter->GetOutput()->SetRequestedRegion(sites);
     m_Filter->Update();
     return *m_Filter->GetOutput();
   }
 
 private:
+  const RefinedMap & m_Map;
   FieldSource::Pointer m_Source;
   Filter::Pointer m_Filter;
 };
-
-/** The sites of the lattice whose values need no voxels beyond the field's, but where these are the last of all. */
-ImageRegion<3>
-FindSites(const FieldLattice & lattice, const FieldImage & field, const ImageRegion<3> & whole)
-{
-  ImageRegion<3> sites = lattice.GetLargestPossibleRegion();
-  const auto start = field.TransformPhysicalPointToContinuousIndex<double>(lattice.GetOrigin());
-  const ImageRegion<3> & box = field.GetBufferedRegion();
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    const double step = lattice.GetSpacing()[axis] / field.GetSpacing()[axis] * (axis == 0 ? 2.0 : 1.0);
-    IndexValueType begin = sites.GetIndex(axis);
-    IndexValueType end = begin + static_cast<IndexValueType>(sites.GetSize(axis));
-    if (box.GetIndex(axis) > whole.GetIndex(axis))
-    {
-      begin = std::max(begin, Math::Ceil<IndexValueType>((box.GetIndex(axis) + KernelReach - start[axis]) / step));
-    }
-    if (box.GetUpperIndex()[axis] < whole.GetUpperIndex()[axis])
-    {
-      // The sites of rows of parity 1 are half a step further.
-      end = std::min(end, Math::Floor<IndexValueType>((box.GetUpperIndex()[axis] - KernelReach - start[axis]) / step));
-    }
-    sites.SetIndex(axis, begin);
-    sites.SetSize(axis, static_cast<SizeValueType>(std::max<IndexValueType>(0, end - begin)));
-  }
-  return sites;
-}
 
 /** The number of a site's row in a lattice, as FCCLabelWeights counts rows. */
 SizeValueType
@@ -687,8 +705,7 @@ LabelsToFCCFilter::GenerateOutputInformation()
                                      << " slice origins; it needs voxels, and an origin for each slice or none.");
   }
   const RefinedMap map(image, origins);
-  const auto grid = map.MakeImage<FieldImage>(map.GetWhole());
-  this->GetOutput()->CopyInformation(&FieldResampler(map, grid, m_Density).GetLattice());
+  this->GetOutput()->CopyInformation(&FieldResampler(map, m_Density).GetLattice());
 }
 
 void
@@ -722,13 +739,10 @@ LabelsToFCCFilter::GenerateData()
   std::vector<float> largest(region.GetNumberOfPixels(), -FCCLabelWeights::Limit);
   for (const auto & [label, box] : boxes)
   {
-    const LabelField field = MakeField(map, label, box);
-    const FieldResampler resampler(map, field.depths, m_Density);
-    const auto sites = FindSites(resampler.GetLattice(), *field.depths, map.GetWhole());
-    if (sites.GetNumberOfPixels() > 0)
-    {
-      AddLabel(resampler.Resample(sites), label, labels, largest, weights);
-    }
+    const FieldResampler resampler(map, m_Density);
+    const ImageRegion<3> sites = resampler.FindSites(box);
+    const LabelField field = MakeField(map, label, resampler.FindVoxels(sites));
+    AddLabel(resampler.Resample(field.depths, sites), label, labels, largest, weights);
     AddClaims(map, field, label, labels, claims);
     progress.Completed(1);
   }
