@@ -34,8 +34,10 @@ namespace itk
  * Voronoi cells are convex and fill space, so sheets as thin as a voxel have no holes and vessels are not torn. Claims
  * that make no difference to the topology of any label are dropped (LabelTopology). Where two thin parts claim a site,
  * the one of larger weight has it, and the background last; so parts that are nearer to each other than 1.7 voxels can
- * still interrupt each other, and thin gaps between parts of a label can close. Pieces of a label stay apart if they
- * have labels of their own in one group (SetGroups()).
+ * still interrupt each other, and thin gaps between parts of a label can close. Sheets of two labels back to back, each
+ * one voxel thick and 30 wide, have 35 holes each at the default density, 3 at density 2 and none at density 4 (means
+ * of 24 sheets in random directions). Pieces of a label stay apart if they have labels of their own in one group
+ * (SetGroups()).
  *
  * Mean distance from the truth in mm and mean angle of facets in degrees, for eight balls of radius 8.6 to 10 mm that
  * touch one another, of 1 mm voxels in slices of 1, 3 and 6 mm (rhombic-label-walls):
