@@ -140,7 +140,7 @@ NumberPieces(LabelImage & image, std::size_t labels)
   JoinRuns(runs, firstOfRow, size[1], false);
   pieces.counts = CountPieces(runs, labels);
 
-  const std::size_t most = std::numeric_limits<std::uint16_t>::max() / std::max<std::size_t>(labels, 2);
+  const std::size_t most = std::numeric_limits<std::uint16_t>::max() / std::max<std::size_t>(labels - 1, 1);
   pieces.labels = { 0 };
   std::vector<std::size_t> next(labels); // number of a label's next piece, and of its last
   std::vector<std::size_t> last(labels);
