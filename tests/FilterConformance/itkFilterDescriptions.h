@@ -268,7 +268,7 @@ struct AntiAliasMask : Description<itk::AntiAliasMaskImageFilter>
   static std::vector<std::string>
   GetResultNames()
   {
-    return { "NumberOfNarrowVoxels", "NumberOfProtectedVoxels" };
+    return { "ThinVoxels", "ProtectedVoxels" };
   }
 
   static InputImage::Pointer

@@ -134,8 +134,8 @@ TEST(AntiAliasMask, SingleVoxelsAndDiagonalLinesStayInside)
   ForEachVoxel(*mask, *filter->GetOutput(), [](const Index &, std::uint8_t value, float depth) {
     EXPECT_EQ(value != 0, depth > 0.0f);
   });
-  EXPECT_EQ(filter->GetNumberOfNarrowVoxels(), 21);
-  EXPECT_EQ(filter->GetNumberOfProtectedVoxels(), 21);
+  EXPECT_EQ(filter->GetThinVoxels().size(), 21);
+  EXPECT_EQ(filter->GetProtectedVoxels().size(), 21);
 }
 
 TEST(AntiAliasMask, SpursGoAndBridgesStay)

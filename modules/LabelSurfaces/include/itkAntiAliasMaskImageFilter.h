@@ -103,12 +103,8 @@ public:
     return m_SamplePeriod;
   }
 
-  /** The number of inside voxels that were narrow in the last update, and of those that were protected. */
-  itkGetConstMacro(NumberOfNarrowVoxels, SizeValueType);
-  itkGetConstMacro(NumberOfProtectedVoxels, SizeValueType);
-
-  /** The inside voxels in no 2 x 2 x 2 block of inside voxels, and those of them that were protected in the last
-   * update, by their offsets in the buffer, ascending. */
+  /** The inside voxels in no 2 x 2 x 2 block of inside voxels, and the inside voxels that were protected in the
+   * last update, by their offsets in the buffer, ascending. */
   const std::vector<SizeValueType> &
   GetThinVoxels() const
   {
@@ -216,8 +212,6 @@ private:
   PeriodType m_SamplePeriod{ { 1, 1, 1 } };
   double m_Widening{ 1.0 }; ///< of all Gaussians
   bool m_ProtectAllThinParts{ false };
-  SizeValueType m_NumberOfNarrowVoxels{ 0 };
-  SizeValueType m_NumberOfProtectedVoxels{ 0 };
   std::vector<SizeValueType> m_ThinVoxels;
   std::vector<SizeValueType> m_ProtectedVoxels;
 };

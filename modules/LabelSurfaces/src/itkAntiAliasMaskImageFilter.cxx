@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numeric>
 
 namespace itk
 {
@@ -163,8 +162,8 @@ AntiAliasMaskImageFilter::PrintSelf(std::ostream & os, Indent indent) const
   os << indent << "ProtectAllThinParts: " << (m_ProtectAllThinParts ? "On" : "Off") << std::endl;
   os << indent << "SamplePeriod: " << m_SamplePeriod[0] << ' ' << m_SamplePeriod[1] << ' ' << m_SamplePeriod[2]
      << std::endl;
-  os << indent << "NumberOfNarrowVoxels: " << m_NumberOfNarrowVoxels << std::endl;
-  os << indent << "NumberOfProtectedVoxels: " << m_NumberOfProtectedVoxels << std::endl;
+  os << indent << "ThinVoxels: " << m_ThinVoxels.size() << std::endl;
+  os << indent << "ProtectedVoxels: " << m_ProtectedVoxels.size() << std::endl;
 }
 
 void
@@ -203,8 +202,6 @@ AntiAliasMaskImageFilter::GenerateData()
   m_Size = { size[0], size[1], size[2] };
   m_Mask = this->GetInput()->GetBufferPointer();
   m_Field = this->GetOutput()->GetBufferPointer();
-  m_NumberOfNarrowVoxels = 0;
-  m_NumberOfProtectedVoxels = 0;
   m_ThinVoxels.clear();
   m_ProtectedVoxels.clear();
   const std::unique_ptr<float[]> smoothed(new float[size[0] * size[1] * size[2]]);
@@ -605,7 +602,6 @@ AntiAliasMaskImageFilter::FindNarrow(const std::vector<std::uint8_t> & thin,
   const SizeValueType width = m_Size[0];
   const SizeValueType height = m_Size[1];
   std::vector<std::uint8_t> found(m_Size[2]);
-  std::vector<SizeValueType> insideCount(m_Size[2]);
   this->ForEach(m_Size[2], [&](SizeValueType z) {
     for (SizeValueType row = z * height; row < (z + 1) * height; ++row)
     {
@@ -615,12 +611,10 @@ AntiAliasMaskImageFilter::FindNarrow(const std::vector<std::uint8_t> & thin,
           const bool isWrong = SideOf(m_Mask[voxel]) * m_Field[voxel] < -Narrow;
           isNarrow[voxel] = thin[voxel] == 2 || (isWrong && this->IsSample(voxel)) ? 1 : 0;
           found[z] |= isNarrow[voxel];
-          insideCount[z] += isNarrow[voxel] != 0 && m_Mask[voxel] != 0 ? 1 : 0;
         }
       });
     }
   });
-  m_NumberOfNarrowVoxels = std::accumulate(insideCount.begin(), insideCount.end(), SizeValueType{ 0 });
   return std::find(found.begin(), found.end(), 1) != found.end();
 }
 
@@ -748,7 +742,6 @@ AntiAliasMaskImageFilter::Protect(const std::vector<std::uint8_t> & isProtected,
       protect(grid.CoordinatesOf(offset));
       if (isInside)
       {
-        ++m_NumberOfProtectedVoxels;
         m_ProtectedVoxels.push_back(offset);
       }
     }
