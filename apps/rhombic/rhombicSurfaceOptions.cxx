@@ -45,10 +45,18 @@ SurfaceOptions::Add(CLI::App & parser)
                 "name=threshold[,colour[,opacity]]; colour: #rrggbb, #rgb or a name, as white; threshold: a number, "
                 "<number for what lies below, otsu or otsu-low; repeatable")
     ->allow_extra_args(false);
-  parser.add_option("--labels",
-                    m_Labels,
-                    "the surfaces of the scan's label map: NIfTI, NRRD, MetaImage or DICOM SEG (not needed when SCAN "
-                    "itself is a label map)");
+  auto * const labels =
+    parser.add_option("--labels",
+                      m_Labels,
+                      "the surfaces of the scan's label map: NIfTI, NRRD, MetaImage or DICOM SEG (not needed when SCAN "
+                      "itself is a label map)");
+  parser
+    .add_option("--probabilities",
+                m_Probabilities,
+                "in place of --labels: a volume of probabilities of each label, or one file of several volumes; labels "
+                "meet where they are equally probable; repeatable")
+    ->excludes(labels)
+    ->allow_extra_args(false);
   parser.add_option("--label-table",
                     m_LabelTable,
                     "names and colours of labels (ITK-SNAP, Slicer, FreeSurfer, BIDS; default: in or beside the map)");
@@ -98,7 +106,8 @@ SurfaceOptions::Add(CLI::App & parser)
 Preset
 SurfaceOptions::GetPreset(ScanSource & source, const Events & events) const
 {
-  const std::string name = m_Preset == "auto" ? ChoosePreset(source, !m_Labels.empty(), events) : m_Preset;
+  const std::string name =
+    m_Preset == "auto" ? ChoosePreset(source, !m_Labels.empty() || !m_Probabilities.empty(), events) : m_Preset;
   return name.empty() ? Preset() : FindPreset(name);
 }
 
@@ -125,9 +134,10 @@ SurfaceOptions::GetSelection(const Preset & preset, const std::optional<SurfaceR
   {
     selection.requests.push_back(*further);
   }
-  if (!m_Labels.empty() || selection.requests.empty())
+  if (!m_Labels.empty() || !m_Probabilities.empty() || selection.requests.empty())
   {
-    selection.labels = LabelSelection{ { m_Labels, m_LabelTable }, {} };
+    selection.labels =
+      LabelSelection{ { m_Labels, m_LabelTable, { m_Probabilities.begin(), m_Probabilities.end() } }, {} };
     for (const std::string & text : m_ChosenLabels)
     {
       selection.rules.rules.push_back(ParseSceneRule(text));

@@ -37,7 +37,8 @@ public:
   bool
   ChoosesSurfaces() const
   {
-    return !m_Preset.empty() || !m_Surfaces.empty() || !m_Labels.empty() || !m_ChosenLabels.empty();
+    return !m_Preset.empty() || !m_Surfaces.empty() || !m_Labels.empty() || !m_Probabilities.empty() ||
+           !m_ChosenLabels.empty();
   }
 
   /** Which surfaces are shown, and in which colours, by the options; these count more than the rules \a before. Throws
@@ -49,13 +50,19 @@ public:
   std::map<std::string, std::string>
   GetNames() const
   {
-    return { { "LABELS", m_Labels } };
+    std::map<std::string, std::string> names{ { "LABELS", m_Labels } };
+    for (const std::string & path : m_Probabilities)
+    {
+      names["PROBABILITIES" + std::to_string(names.size())] = path;
+    }
+    return names;
   }
 
 private:
   std::string m_Preset;
   std::vector<std::string> m_Surfaces;
   std::string m_Labels;
+  std::vector<std::string> m_Probabilities;
   std::string m_LabelTable;
   std::vector<std::string> m_ChosenLabels;
   std::vector<std::string> m_Only;

@@ -85,7 +85,7 @@ LoadLabels(const ScanSource & source, const LabelMapSource & labels, const Scan 
 {
   events.Progress("reading labels", 0.0);
   LabelMap map = ReadLabelMap(labels, source.read, scan, source.path);
-  events.Note(Count(map.labels.size(), "label") + " in " + labels.path.string());
+  events.Note(Count(map.labels.size(), "label") + " in " + labels.GetFirstPath().string());
   for (const std::string & note : map.scan.notes)
   {
     events.Note(note);
@@ -128,7 +128,7 @@ ResolveRequests(const std::vector<SurfaceRequest> & requests, const TVolume & vo
 LoadedSource
 PrepareLattice(FCCVolume volume, const ScanSource & source, const SurfaceSelection & selection, const Events & events)
 {
-  if (selection.labels && selection.labels->source.path.empty())
+  if (selection.labels && selection.labels->source.IsEmpty())
   {
     RefuseToChoose(source.path);
   }
@@ -150,7 +150,7 @@ LoadedSource
 PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & selection, const Events & events)
 {
   LoadedSource loaded;
-  if (selection.labels && selection.labels->source.path.empty())
+  if (selection.labels && selection.labels->source.IsEmpty())
   {
     loaded.labels = TakeForLabels(std::move(volume), { source.path, selection.labels->source.table }, events);
     ApplySceneRules(selection.rules, loaded.requests, &*loaded.labels);
@@ -251,6 +251,10 @@ CheckOutputs(const std::vector<fs::path> & outputs, const ScanSource & source, c
     {
       CheckInput(output, selection.labels->source.path);
       CheckInput(output, selection.labels->source.table);
+      for (const fs::path & path : selection.labels->source.probabilities)
+      {
+        CheckInput(output, path);
+      }
     }
     const AtomicFile probe(output);
     std::error_code ignored;

@@ -1,3 +1,4 @@
+#include "rhombicNIfTITestFile.h"
 #include "rhombicProgram.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicVTPToPLY.h"
@@ -203,6 +204,42 @@ TEST_F(MeshCommand, AuditJudgesFilesOfOthers)
   EXPECT_EQ(report[0]["misfacingShells"], 0);
   EXPECT_EQ(report[0]["eulerCharacteristic"], 2);
   EXPECT_TRUE(report[0]["watertight"].get<bool>());
+}
+
+/** Two half boxes that share a wall, from the probabilities of both in one file. */
+TEST_F(MeshCommand, ProbabilitiesBecomeSurfacesThatShareWalls)
+{
+  NIfTITestFile file;
+  file.dimensions = { 4, 20, 12, 10, 2, 1, 1, 1 };
+  file.datatype = 16;
+  file.bits = 32;
+  std::vector<float> values;
+  for (const bool isRight : { false, true })
+  {
+    for (int n = 0; n < 20 * 12 * 10; ++n)
+    {
+      const float right = std::clamp(0.5f + 0.2f * (static_cast<float>(n % 20) - 8.3f), 0.0f, 1.0f);
+      values.push_back(isRight ? right : 1.0f - right);
+    }
+  }
+  file.voxels = file.Values(values);
+  std::ofstream(m_Folder.Path() / "soft.nii", std::ios::binary) << file.Bytes();
+  const auto run = [&](const std::string & arguments) {
+    return RunShell("rhombic mesh soft.nii --frame 0 --probabilities soft.nii " + arguments, m_Folder.Path());
+  };
+  ASSERT_EQ(run("-o both.vtp").exitCode, 0);
+  const auto both = this->Read("both.vtp");
+  ASSERT_EQ(both.size(), 2u);
+  const double widths[2] = { 8.8, 11.2 };
+  for (std::size_t n = 0; n < 2; ++n)
+  {
+    EXPECT_TRUE(ComputeTopology(*both[n].surface).IsWatertight());
+    EXPECT_NEAR(ComputeVolume(*both[n].surface), widths[n] * 12.0 * 10.0, 0.02 * widths[n] * 12.0 * 10.0);
+  }
+  ASSERT_EQ(run("--label 2 -o right.stl").exitCode, 0);
+  EXPECT_NEAR(ComputeVolume(*this->Read("right.stl")[0].surface), ComputeVolume(*both[1].surface), 0.1);
+  EXPECT_EQ(run("--labels soft.nii -o x.vtp").exitCode, 2) << "one of the two";
+  EXPECT_EQ(run("-o soft.nii").exitCode, 2);
 }
 
 TEST_F(MeshCommand, OutputsTakeNobodysPlace)

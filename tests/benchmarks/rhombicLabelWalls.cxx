@@ -3,6 +3,7 @@
 #include "itkLabelMapFileReader.h"
 #include "itkLabelWallsEditing.h"
 #include "itkLabelsToFCCFilter.h"
+#include "itkProbabilitiesToFCCFilter.h"
 #include "itkTriangleSurfaceInterior.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
@@ -313,17 +314,25 @@ ExtractLabels(const itk::LabelWalls & walls)
   return surfaces;
 }
 
+template <typename TFilter>
 itk::LabelWalls::Pointer
-MakeWalls(const LabelImage * map)
+MakeWalls(const itk::SmartPointer<TFilter> & toLattice)
 {
-  const auto toLattice = itk::LabelsToFCCFilter::New();
-  toLattice->SetInput(map);
   toLattice->Update();
   const auto filter = itk::FCCLabelSurfaceFilter::New();
   filter->SetInput(toLattice->GetOutput());
   filter->SetWeights(toLattice->GetWeights());
   filter->Update();
   return filter->GetOutput();
+}
+
+/** Settings of relaxation for the scenes. */
+itk::TriangleSurfaceSmoothingSettings
+HalfAVoxel()
+{
+  itk::TriangleSurfaceSmoothingSettings smoothing;
+  smoothing.maximumMove = 0.5;
+  return smoothing;
 }
 
 /** Walls as they are cut, relaxed by half a voxel (of the shortest edge), and simplified to a tenth. */
@@ -335,11 +344,11 @@ MeasureWalls(const std::vector<std::vector<Ball>> & scenes, double slices)
   Results simplified(scenes, slices);
   for (const auto & balls : scenes)
   {
-    const auto walls = MakeWalls(MakeMap(balls, slices));
+    const auto toLattice = itk::LabelsToFCCFilter::New();
+    toLattice->SetInput(MakeMap(balls, slices));
+    const auto walls = MakeWalls(toLattice);
     cut.Add(*walls, ExtractLabels(*walls));
-    itk::TriangleSurfaceSmoothingSettings smoothing;
-    smoothing.maximumMove = 0.5;
-    itk::RelaxWalls(*walls, smoothing);
+    itk::RelaxWalls(*walls, HalfAVoxel());
     relaxed.Add(*walls, ExtractLabels(*walls));
     itk::TriangleSurfaceSimplificationSettings simplification;
     simplification.maximumError = 0.1;
@@ -349,6 +358,63 @@ MeasureWalls(const std::vector<std::vector<Ball>> & scenes, double slices)
   cut.Print("walls");
   relaxed.Print("walls, relaxed");
   simplified.Print("walls, simplified");
+}
+
+/** The share of each voxel that each ball fills, by samples in the voxel. */
+std::vector<itk::Image<float, 3>::Pointer>
+MakeProbabilities(const std::vector<Ball> & balls, double slices)
+{
+  constexpr int samples = 5; // along each axis
+  std::vector<itk::Image<float, 3>::Pointer> volumes;
+  const auto map = MakeMap(balls, slices);
+  for (std::size_t n = 0; n < balls.size(); ++n)
+  {
+    volumes.push_back(itk::Image<float, 3>::New());
+    volumes.back()->CopyInformation(map);
+    volumes.back()->SetRegions(map->GetBufferedRegion());
+    volumes.back()->Allocate(true);
+  }
+  for (itk::ImageRegionIteratorWithIndex<LabelImage> it(map, map->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+  {
+    const auto middle = map->TransformIndexToPhysicalPoint<double>(it.GetIndex());
+    for (int n = 0; n < samples * samples * samples; ++n)
+    {
+      const auto place = [&](unsigned int axis, int sample) {
+        return middle[axis] + map->GetSpacing()[axis] * ((sample + 0.5) / samples - 0.5);
+      };
+      const auto depths =
+        DepthsAt(balls, { place(0, n % samples), place(1, n / samples % samples), place(2, n / samples / samples) });
+      const auto label = std::max_element(depths.begin(), depths.end()) - depths.begin();
+      if (label > 0)
+      {
+        const auto volume = volumes[static_cast<std::size_t>(label - 1)];
+        volume->SetPixel(it.GetIndex(), volume->GetPixel(it.GetIndex()) + 1.0f / (samples * samples * samples));
+      }
+    }
+  }
+  return volumes;
+}
+
+void
+MeasureProbabilities(const std::vector<std::vector<Ball>> & scenes, double slices)
+{
+  Results cut(scenes, slices);
+  Results relaxed(scenes, slices);
+  for (const auto & balls : scenes)
+  {
+    const auto toLattice = itk::ProbabilitiesToFCCFilter::New();
+    const auto volumes = MakeProbabilities(balls, slices);
+    for (unsigned int n = 0; n < volumes.size(); ++n)
+    {
+      toLattice->SetInput(n, volumes[n]);
+    }
+    const auto walls = MakeWalls(toLattice);
+    cut.Add(*walls, ExtractLabels(*walls));
+    itk::RelaxWalls(*walls, HalfAVoxel());
+    relaxed.Add(*walls, ExtractLabels(*walls));
+  }
+  cut.Print("probabilities");
+  relaxed.Print("the same, relaxed");
 }
 
 /** All triangles of some surfaces. */
@@ -530,6 +596,7 @@ try
   for (const double slices : { 1.0, 3.0, 6.0 })
   {
     MeasureWalls(scenes, slices);
+    MeasureProbabilities(scenes, slices);
     MeasureVTK(scenes, slices);
   }
 }

@@ -369,7 +369,7 @@ ReadArguments(const std::string & path, bool areViewsGiven)
     throw Failure(FailureKind::Unreadable,
                   "The file " + path + " is no report of rhombic render; name the .json beside a picture.");
   }
-  std::vector<std::string> left{ "-o", "--output", "--labels" };
+  std::vector<std::string> left{ "-o", "--output", "--labels", "--probabilities" };
   if (areViewsGiven)
   {
     left.insert(left.end(), { "--view", "--slice", "--picture" });

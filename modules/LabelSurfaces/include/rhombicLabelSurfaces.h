@@ -61,7 +61,8 @@ struct LabelMesh
  *
  * The walls are those of itk::LabelsToFCCFilter and itk::FCCLabelSurfaceFilter, smoothed by itk::RelaxWalls(), which
  * moves points by 0.3 voxels at most. Labels above 1 ml have the volume of their voxels within 1 %. Pieces of a
- * label that do not touch are not joined.
+ * label that do not touch are not joined. Where the map has probabilities, the walls are those of
+ * itk::ProbabilitiesToFCCFilter instead, as they are: labels that are not chosen have walls to the others all the same.
  *
  * Where a label reaches the scan's border, its surface closes at the outer faces of the voxels there. A hollow label
  * has shells inside, too. Slices may be tilted, sheared or unevenly spaced. The result has the same bytes for any

@@ -1,9 +1,9 @@
 #include "itkLabelsToFCCFilter.h"
 
+#include "itkLabelsOnLattice.h"
 #include "itkAntiAliasMaskImageFilter.h"
 #include "itkCartesianToFCCImageFilter.h"
 #include "itkFCCLabelSurfaceFilter.h"
-#include "itkForEachBlock.h"
 #include "itkImageSource.h"
 #include "itkInputSamples.h"
 #include "itkLabelTopology.h"
@@ -32,7 +32,6 @@ using FieldLattice = FCCImage<float>;
 constexpr unsigned int VolumeCorrections = 4;
 constexpr double SteepestSlope = 3.0;     // of volumes, times that from the area
 constexpr double FarthestOffset = 2.0;    // of weights; twice as far as walls move, in voxels
-constexpr double LongVoxels = 1.5;        // times the shortest edge
 constexpr IndexValueType Margin = 2;      // voxels around the map
 constexpr IndexValueType LabelMargin = 4; // voxels around a label in which it has weights
 
@@ -42,14 +41,11 @@ class RefinedMap
 public:
   RefinedMap(const LabelImage & labels, const LabelsToFCCFilter::SliceOriginsType & origins)
     : m_Labels(labels)
+    , m_Period(DivideVoxels(labels.GetSpacing()))
   {
-    const auto & spacing = labels.GetSpacing();
-    const double shortest = std::min({ spacing[0], spacing[1], spacing[2] });
     const auto & size = labels.GetLargestPossibleRegion().GetSize();
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      const double length = spacing[axis] / shortest;
-      m_Period[axis] = length > LongVoxels ? static_cast<SizeValueType>(std::lround(length)) : 1;
       m_Scan.SetIndex(axis, -static_cast<IndexValueType>(m_Period[axis] / 2));
       m_Scan.SetSize(axis, (size[axis] - 1) * m_Period[axis] + 1 + 2 * (m_Period[axis] / 2));
     }
@@ -243,19 +239,6 @@ private:
   LabelsToFCCFilter::SliceOriginsType m_SliceOrigins;
 };
 
-/** Calls use(index of the first voxel of a row, its offset in the buffer) for each row of a box, on threads. */
-template <typename TUse>
-void
-ForEachRow(const ImageRegion<3> & box, const TUse & use)
-{
-  ForEachInBlocks(box.GetSize(1) * box.GetSize(2), 64, [&](std::size_t n) {
-    Index<3> first = box.GetIndex();
-    first[1] += static_cast<IndexValueType>(n % box.GetSize(1));
-    first[2] += static_cast<IndexValueType>(n / box.GetSize(1));
-    use(first, n * box.GetSize(0));
-  });
-}
-
 /** A label in its box of the refined map. */
 struct LabelField
 {
@@ -436,46 +419,6 @@ private:
   FieldSource::Pointer m_Source;
   Filter::Pointer m_Filter;
 };
-
-/** The number of a site's row in a lattice, as FCCLabelWeights counts rows. */
-SizeValueType
-GetRowNumber(const Index<3> & site, const ImageRegion<3> & lattice)
-{
-  return static_cast<SizeValueType>(site[2] - lattice.GetIndex(2)) * lattice.GetSize(1) +
-         static_cast<SizeValueType>(site[1] - lattice.GetIndex(1));
-}
-
-/** Adds the weights of a label where they are below the limit, and gives it the sites where they are the largest. */
-void
-AddLabel(const FieldLattice & field,
-         LabelType label,
-         Lattice & labels,
-         std::vector<float> & largest,
-         FCCLabelWeights & weights)
-{
-  constexpr float limit = FCCLabelWeights::Limit;
-  const auto & sites = field.GetBufferedRegion();
-  ForEachRow(sites, [&](const Index<3> & first, SizeValueType fieldOffset) {
-    const SizeValueType row = GetRowNumber(first, labels.GetLargestPossibleRegion());
-    const float * const values = field.GetBufferPointer() + fieldOffset;
-    const OffsetValueType offset = labels.ComputeOffset(first);
-    LabelType * const rowLabels = labels.GetBufferPointer() + offset;
-    float * const rowLargest = largest.data() + offset;
-    for (SizeValueType i = 0; i < sites.GetSize(0); ++i)
-    {
-      const float weight = std::clamp(values[i], -limit, limit);
-      if (weight > rowLargest[i])
-      {
-        rowLargest[i] = weight;
-        rowLabels[i] = label;
-      }
-      if (std::abs(weight) < limit)
-      {
-        weights.Add(row, { static_cast<std::uint32_t>(first[0]) + static_cast<std::uint32_t>(i), label, weight });
-      }
-    }
-  });
-}
 
 /** Adds the claims of a label to the sites that its thin parts pass. */
 void
@@ -742,11 +685,11 @@ LabelsToFCCFilter::GenerateData()
     const FieldResampler resampler(map, m_Density);
     const ImageRegion<3> sites = resampler.FindSites(box);
     const LabelField field = MakeField(map, label, resampler.FindVoxels(sites));
-    AddLabel(resampler.Resample(field.depths, sites), label, labels, largest, weights);
+    AddLabelWeights(resampler.Resample(field.depths, sites), label, labels, largest, weights);
     AddClaims(map, field, label, labels, claims);
     progress.Completed(1);
   }
-  ForEachRow(region, [&](const Index<3> & first, SizeValueType) { weights.SortRow(GetRowNumber(first, region)); });
+  SortWeights(region, weights);
   LabelTopology topology(labels, weights, m_Groups);
   topology.Grant(std::move(claims));
   const NumberByLabel volumes = ComputeVoxelVolumes(image, origins);

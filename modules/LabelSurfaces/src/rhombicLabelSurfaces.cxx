@@ -12,6 +12,7 @@
 #include "itkForEachBlock.h"
 #include "itkLabelWallsEditing.h"
 #include "itkLabelsToFCCFilter.h"
+#include "itkProbabilitiesToFCCFilter.h"
 #include "itkRegionOfInterestImageFilter.h"
 #include "itkTriangleSurfaceMeasures.h"
 
@@ -29,6 +30,8 @@ namespace
 {
 
 using LabelImage = itk::LabelsToFCCFilter::InputImageType;
+
+constexpr itk::SizeValueType BoxMargin = 12; // voxels around labels, beyond which they have no effect on walls
 
 /** The values of labels, and at their place in the list, from 1, their numbers. */
 template <typename TPixel>
@@ -70,50 +73,6 @@ NumberLabels(const ScanImage & image, const std::vector<LabelSummary> & labels)
   return numbers;
 }
 
-/** The box of all voxels that are not 0, and a margin around it beyond which labels have no effect on walls. */
-itk::ImageRegion<3>
-FindBox(const LabelImage & image)
-{
-  constexpr itk::SizeValueType margin = 12; // voxels
-  const auto & region = image.GetBufferedRegion();
-  itk::Index<3> low = region.GetUpperIndex();
-  itk::Index<3> high = region.GetIndex();
-  const std::uint16_t * row = image.GetBufferPointer();
-  const std::size_t width = region.GetSize(0);
-  const auto isLabel = [](std::uint16_t label) { return label != 0; };
-  for (std::size_t n = 0; n < region.GetSize(1) * region.GetSize(2); ++n, row += width)
-  {
-    const std::uint16_t * const begin = std::find_if(row, row + width, isLabel);
-    if (begin == row + width)
-    {
-      continue;
-    }
-    const std::uint16_t * end = row + width;
-    while (!isLabel(end[-1]))
-    {
-      --end;
-    }
-    const std::ptrdiff_t place[3] = { begin - row,
-                                      static_cast<std::ptrdiff_t>(n % region.GetSize(1)),
-                                      static_cast<std::ptrdiff_t>(n / region.GetSize(1)) };
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      const itk::IndexValueType first = region.GetIndex(axis) + place[axis];
-      low[axis] = std::min(low[axis], first);
-      high[axis] = std::max(high[axis], axis == 0 ? region.GetIndex(0) + (end - row) - 1 : first);
-    }
-  }
-  itk::ImageRegion<3> box;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    box.SetIndex(axis, low[axis]);
-    box.SetSize(axis, static_cast<itk::SizeValueType>(high[axis] - low[axis] + 1));
-  }
-  box.PadByRadius(margin);
-  box.Crop(region);
-  return box;
-}
-
 LabelImage::Pointer
 Crop(const LabelImage & image, const itk::ImageRegion<3> & box)
 {
@@ -147,14 +106,12 @@ CropSliceOrigins(const Scan & scan, const itk::ImageRegion<3> & box)
   return origins;
 }
 
-itk::LabelsToFCCFilter::Pointer
-MakeFilter(const LabelImage & labels, const std::vector<itk::Point<double, 3>> & sliceOrigins, double density)
+/** The edge of a cube of a voxel's volume, in mm. */
+double
+VoxelEdge(const itk::ImageBase<3> & image)
 {
-  const auto filter = itk::LabelsToFCCFilter::New();
-  filter->SetInput(&labels);
-  filter->SetDensity(density);
-  filter->SetSliceOrigins(sliceOrigins);
-  return filter;
+  const auto & spacing = image.GetSpacing();
+  return std::cbrt(spacing[0] * spacing[1] * spacing[2]);
 }
 
 /** Bytes for labels and fields, for weights, and for walls. */
@@ -175,6 +132,93 @@ EstimateMemory(const LabelImage & labels, itk::LabelsToFCCFilter & filter, doubl
   }
   return static_cast<std::uintmax_t>(sites * bytesPerSite + static_cast<double>(voxels) * bytesPerVoxel +
                                      changes * bytesPerChange * std::max(1.0, density));
+}
+
+/** The walls between labels on a lattice, smoothed.
+ * \param voxel the edge of a cube of a voxel's volume
+ * \param volumes of labels, which smoothing keeps; or empty */
+template <typename TFilter>
+itk::LabelWalls::Pointer
+ExtractWalls(TFilter & toLattice, double voxel, const std::vector<double> & volumes)
+{
+  const auto extract = itk::FCCLabelSurfaceFilter::New();
+  extract->SetInput(toLattice.GetOutput());
+  extract->SetWeights(toLattice.GetWeights());
+  extract->Update();
+  itk::LabelWalls::Pointer walls = extract->GetOutput();
+  walls->DisconnectPipeline();
+  itk::TriangleSurfaceSmoothingSettings relaxation;
+  relaxation.iterations = 10;
+  relaxation.maximumMove = 0.3 * voxel;
+  itk::RelaxWalls(*walls, relaxation, volumes);
+  return walls;
+}
+
+/** The walls between labels by their voxels.
+ * \param numbers of the labels' pieces, which keep their volumes as labels do */
+itk::LabelWalls::Pointer
+WallsOfVoxels(const LabelImage & numbers,
+              const LabelPieces & pieces,
+              const std::vector<itk::Point<double, 3>> & sliceOrigins,
+              const LabelSurfaceSettings & settings,
+              const Events & events)
+{
+  const auto toLattice = itk::LabelsToFCCFilter::New();
+  toLattice->SetInput(&numbers);
+  toLattice->SetDensity(settings.density);
+  toLattice->SetSliceOrigins(sliceOrigins);
+  toLattice->SetGroups(pieces.labels);
+  RequireMemory(EstimateMemory(numbers, *toLattice, settings.density),
+                settings.maximumMemory,
+                "The walls between labels",
+                "use a coarser lattice, or crop the label map");
+  ObserveProgress(*toLattice, "extracting labels", events);
+  toLattice->Update();
+  itk::LabelWalls::Pointer walls = ExtractWalls(*toLattice, VoxelEdge(numbers), toLattice->GetVoxelVolumes());
+  walls->MergeLabels(pieces.labels);
+  return walls;
+}
+
+/** The walls between labels by their probabilities. */
+itk::LabelWalls::Pointer
+WallsOfProbabilities(const LabelMap & map,
+                     const std::vector<LabelSummary> & labels,
+                     const LabelSurfaceSettings & settings,
+                     const Events & events)
+{
+  const auto toLattice = itk::ProbabilitiesToFCCFilter::New();
+  std::uintmax_t uncertain = 0; // values between 0 and 1
+  for (std::size_t n = 0; n < map.probabilities.size(); ++n)
+  {
+    const auto & volume = *map.probabilities[n];
+    toLattice->SetInput(static_cast<unsigned int>(n), &volume);
+    uncertain += static_cast<std::uintmax_t>(
+      std::count_if(volume.GetBufferPointer(),
+                    volume.GetBufferPointer() + volume.GetBufferedRegion().GetNumberOfPixels(),
+                    [](float value) { return value > 0.0f && value < 1.0f; }));
+  }
+  toLattice->SetDensity(settings.density);
+  toLattice->UpdateOutputInformation();
+  constexpr std::uintmax_t bytesPerSite = 20;
+  constexpr double bytesPerWeight = 25.0; // as vectors grow by doubling
+  const auto sites = toLattice->GetOutput()->GetLargestPossibleRegion().GetNumberOfPixels();
+  const double sitesPerVoxel =
+    static_cast<double>(sites) / map.probabilities.front()->GetBufferedRegion().GetNumberOfPixels();
+  RequireMemory(sites * bytesPerSite +
+                  static_cast<std::uintmax_t>(bytesPerWeight * sitesPerVoxel * static_cast<double>(uncertain)),
+                settings.maximumMemory,
+                "The walls between labels",
+                "use a coarser lattice, or crop the volumes of probabilities");
+  ObserveProgress(*toLattice, "extracting labels", events);
+  toLattice->Update();
+  itk::LabelWalls::Pointer walls = ExtractWalls(*toLattice, VoxelEdge(*map.probabilities.front()), {});
+  std::vector<std::uint16_t> numbers(map.probabilities.size() + 1);
+  for (std::size_t n = 0; n < labels.size(); ++n)
+  {
+    numbers[static_cast<std::size_t>(labels[n].label.value)] = static_cast<std::uint16_t>(n + 1);
+  }
+  walls->MergeLabels(numbers);
+  return walls;
 }
 
 /** Sets unit normals: the mean of the triangles' at each point, by their areas. */
@@ -224,7 +268,6 @@ MeasureLabels(const LabelPieces & pieces, LabelMesh & mesh)
 LabelMesh
 LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const Events & events)
 {
-  constexpr double smoothing = 0.3; // largest move of a point, in voxels
   CheckLabelDensity(settings.density);
   const std::vector<LabelSummary> labels = ChooseLabels(map, settings.labels);
   if (labels.size() > std::numeric_limits<std::uint16_t>::max())
@@ -232,31 +275,16 @@ LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const
     throw Failure(FailureKind::Unreadable, "Walls can have 65,535 labels; name those to show.");
   }
   LabelImage::Pointer numbers = NumberLabels(map.scan.image, labels);
-  const itk::ImageRegion<3> box = FindBox(*numbers);
+  itk::ImageRegion<3> box = RegionOfLabels(numbers);
+  box.PadByRadius(BoxMargin);
+  box.Crop(numbers->GetBufferedRegion());
   numbers = Crop(*numbers, box);
-  const LabelPieces pieces = NumberPieces(*numbers, labels.size() + 1); // which keep their volumes as labels do
-  const auto toLattice = MakeFilter(*numbers, CropSliceOrigins(map.scan, box), settings.density);
-  toLattice->SetGroups(pieces.labels);
-  RequireMemory(EstimateMemory(*numbers, *toLattice, settings.density),
-                settings.maximumMemory,
-                "The walls between labels",
-                "use a coarser lattice, or crop the label map");
-  ObserveProgress(*toLattice, "extracting labels", events);
-  toLattice->Update();
-  const auto extract = itk::FCCLabelSurfaceFilter::New();
-  extract->SetInput(toLattice->GetOutput());
-  extract->SetWeights(toLattice->GetWeights());
-  extract->Update();
+  const LabelPieces pieces = NumberPieces(*numbers, labels.size() + 1);
   LabelMesh mesh;
-  mesh.walls = extract->GetOutput();
-  mesh.walls->DisconnectPipeline();
-  itk::TriangleSurfaceSmoothingSettings relaxation;
-  relaxation.iterations = 10;
-  const auto & spacing = numbers->GetSpacing();
-  relaxation.maximumMove = smoothing * std::cbrt(spacing[0] * spacing[1] * spacing[2]);
-  itk::RelaxWalls(*mesh.walls, relaxation, toLattice->GetVoxelVolumes());
+  mesh.walls = map.probabilities.empty()
+                 ? WallsOfVoxels(*numbers, pieces, CropSliceOrigins(map.scan, box), settings, events)
+                 : WallsOfProbabilities(map, labels, settings, events);
   std::transform(labels.begin(), labels.end(), std::back_inserter(mesh.labels), DescribeLabel);
-  mesh.walls->MergeLabels(pieces.labels);
   MeasureLabels(pieces, mesh);
   for (const LabelSurface & label : mesh.labels)
   {

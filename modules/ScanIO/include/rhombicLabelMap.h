@@ -32,6 +32,10 @@ LooksLikeLabelMap(const Scan & scan);
 std::vector<LabelSummary>
 SummarizeLabels(const Scan & scan, const LabelTable & table);
 
+/** The smallest region that holds all voxels that are not 0; the whole image if all are 0. */
+itk::ImageRegion<3>
+RegionOfLabels(const ScanImage & image);
+
 /** Checks that the box around all labels of a label map is in its scan, in world space; the two may have different
  * grids. Returns a sentence for the user when less than 99 % of the box is in the scan, else "". Throws
  * Failure(Geometry) when no part of it is. */

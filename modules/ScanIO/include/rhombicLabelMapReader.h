@@ -19,6 +19,10 @@ struct LabelMap
 {
   Scan scan;
   std::vector<LabelSummary> labels;
+
+  /** The probabilities of labels 1, 2, ..., from 0 to 1, if the scan's labels are the most probable ones; else empty.
+   */
+  std::vector<itk::Image<float, 3>::Pointer> probabilities = {};
 };
 
 /** Where a label map is, and what its labels mean. */
@@ -26,6 +30,24 @@ struct LabelMapSource
 {
   std::filesystem::path path;
   std::filesystem::path table; ///< empty: the table in the file, or the one beside it (see FindLabelTable())
+
+  /** Volumes of probabilities from 0 to 1, 100 or 255, in place of a map: a file for each label, or one that holds
+   * several volumes. They are numbered from 1, and called as their files if there is no table. */
+  std::vector<std::filesystem::path> probabilities = {};
+
+  /** No file: the scan itself is the label map. */
+  bool
+  IsEmpty() const
+  {
+    return path.empty() && probabilities.empty();
+  }
+
+  /** The map, or the first volume of probabilities. */
+  const std::filesystem::path &
+  GetFirstPath() const
+  {
+    return probabilities.empty() ? path : probabilities.front();
+  }
 };
 
 /** Whether a scan is a label map: it has labels, or its values look like labels (see LooksLikeLabelMap()). */
@@ -38,7 +60,8 @@ FindLabels(const Scan & scan, const LabelMapSource & source);
 
 /** Reads the label map of a scan, which may have another grid. The options are those of the scan; series and frame are
  * ignored. Throws Failure, also when the two do not overlap (see RequireOverlap()); labels partly outside the scan are
- * noted in the map's scan. */
+ * noted in the map's scan. For volumes of probabilities, Failure is Geometry when they have different voxels or
+ * unevenly spaced slices, Unreadable when values are no probabilities, and Usage for more than 4096 volumes. */
 LabelMap
 ReadLabelMap(const LabelMapSource & source,
              const ScanReadOptions & options,

@@ -1,6 +1,7 @@
 #include "rhombicLabelMapReader.h"
 
 #include "rhombicFailure.h"
+#include "rhombicProbabilities.h"
 
 namespace rhombic
 {
@@ -52,9 +53,16 @@ ReadLabelMap(const LabelMapSource & source,
   mapOptions.series.clear(); // chosen for the scan, not for the map
   mapOptions.frame.reset();
   LabelMap map;
-  map.scan = ReadVoxels(OpenScan(source.path, mapOptions));
-  map.labels = FindLabels(map.scan, source);
-  if (const std::string note = RequireOverlap(scan, map.scan, scanPath, source.path); !note.empty())
+  if (source.probabilities.empty())
+  {
+    map.scan = ReadVoxels(OpenScan(source.path, mapOptions));
+    map.labels = FindLabels(map.scan, source);
+  }
+  else
+  {
+    map = ReadProbabilities(source, mapOptions);
+  }
+  if (const std::string note = RequireOverlap(scan, map.scan, scanPath, source.GetFirstPath()); !note.empty())
   {
     map.scan.notes.push_back(note);
   }

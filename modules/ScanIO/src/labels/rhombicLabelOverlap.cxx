@@ -9,10 +9,9 @@ namespace rhombic
 namespace
 {
 
-/** The smallest region that holds all voxels that are not 0; the whole image if all are. */
 template <typename TPixel>
 itk::ImageRegion<3>
-RegionOfLabels(const itk::Image<TPixel, 3> & image)
+RegionOf(const itk::Image<TPixel, 3> & image)
 {
   const itk::ImageRegion<3> whole = image.GetLargestPossibleRegion();
   const auto size = whole.GetSize();
@@ -93,15 +92,20 @@ OverlapOfRegion(const itk::ImageBase<3> & inner, const itk::ImageRegion<3> & reg
 
 } // namespace
 
+itk::ImageRegion<3>
+RegionOfLabels(const ScanImage & image)
+{
+  return std::visit([](const auto & voxels) { return RegionOf(*voxels); }, image);
+}
+
 std::string
 RequireOverlap(const Scan & scan,
                const Scan & labels,
                const std::filesystem::path & scanPath,
                const std::filesystem::path & labelsPath)
 {
-  const itk::ImageRegion<3> region =
-    std::visit([](const auto & image) { return RegionOfLabels(*image); }, labels.image);
-  const double overlap = OverlapOfRegion(GeometryOf(labels.image), region, GeometryOf(scan.image));
+  const double overlap =
+    OverlapOfRegion(GeometryOf(labels.image), RegionOfLabels(labels.image), GeometryOf(scan.image));
   if (overlap == 0)
   {
     throw Failure(FailureKind::Geometry,

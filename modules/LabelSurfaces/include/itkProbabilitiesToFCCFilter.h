@@ -1,0 +1,96 @@
+#ifndef itkProbabilitiesToFCCFilter_h
+#define itkProbabilitiesToFCCFilter_h
+
+#include "itkFCCImage.h"
+#include "itkFCCLabelWeights.h"
+#include "itkImage.h"
+#include "itkImageToImageFilter.h"
+
+namespace itk
+{
+
+/** \class ProbabilitiesToFCCFilter
+ * \brief Brings volumes of probabilities, one for each label, onto the FCC lattice for FCCLabelSurfaceFilter.
+ *
+ * The n-th input, counted from 0, holds the probability of label n + 1, from 0 to 1; label 0 has what the others leave
+ * to 1. Walls lie where two labels are equally probable: probabilities are the weights, mapped linearly from [0, 1] to
+ * [-FCCLabelWeights::Limit, FCCLabelWeights::Limit]; values beyond count as 0 and 1.
+ *
+ * The lattice has Density sites for each voxel, and for each part of a voxel where it is more than 1.5 times as long
+ * along an axis as the shortest edge and is divided into parts that are nearly cubes. Each input is smoothed by a
+ * Gaussian of half a part, as the place of a step that is sharper than the distance of sites would be lost,
+ * and resampled by CartesianToFCCImageFilter. Labels of probability 1 that reach the border of the volume
+ * are closed at the outer faces of the voxels there, less probable ones up to three parts of a voxel further inside.
+ *
+ * All inputs need the same grid, as ImageToImageFilter checks it. It may be sheared; unevenly spaced slices are not
+ * supported. Volumes of labels are not corrected. Mean distance from the truth in mm and mean angle of facets in
+ * degrees, for the balls of LabelsToFCCFilter, where probabilities are the shares of voxels that balls fill
+ * (rhombic-label-walls):
+ *
+ *     method                                                  1 mm          3 mm          6 mm
+ *     this filter and FCCLabelSurfaceFilter                   .06   8.0     .11   9.6     .22  11.6
+ *     the same and RelaxWalls() by half a voxel               .06   4.2     .11   6.9     .22   9.1
+ *
+ * The outputs have the same bytes for any number of threads. Inputs are resampled one after another. Memory: 18 bytes a
+ * site, 12 bytes a voxel, and 12 bytes for each site and label with a probability between 0 and 1.
+ *
+ * Throws when the inputs' grids differ, and when the density is not above 0 and at most 64.
+ *
+ * \ingroup LabelSurfaces
+ */
+class ProbabilitiesToFCCFilter : public ImageToImageFilter<Image<float, 3>, FCCImage<FCCLabelWeights::LabelType>>
+{
+public:
+  ITK_DISALLOW_COPY_AND_MOVE(ProbabilitiesToFCCFilter);
+
+  using Self = ProbabilitiesToFCCFilter;
+  using InputImageType = Image<float, 3>;
+  using LatticeType = FCCImage<FCCLabelWeights::LabelType>;
+  using Superclass = ImageToImageFilter<InputImageType, LatticeType>;
+  using Pointer = SmartPointer<Self>;
+  using ConstPointer = SmartPointer<const Self>;
+
+  itkNewMacro(Self);
+  itkTypeMacro(ProbabilitiesToFCCFilter, ImageToImageFilter);
+
+  /** Sites for each voxel, or part of a voxel where thick slices are divided. Default FCCLattice::DefaultDensity. */
+  itkSetMacro(Density, double);
+  itkGetConstMacro(Density, double);
+
+  /** The weights of labels where they are neither 0 nor 1, sorted. */
+  FCCLabelWeights *
+  GetWeights();
+
+protected:
+  ProbabilitiesToFCCFilter();
+  ~ProbabilitiesToFCCFilter() override = default;
+
+  void
+  PrintSelf(std::ostream & os, Indent indent) const override;
+
+  using Superclass::MakeOutput;
+  DataObject::Pointer
+  MakeOutput(DataObjectPointerArraySizeType index) override;
+
+  void
+  VerifyPreconditions() ITKv5_CONST override;
+
+  void
+  GenerateOutputInformation() override;
+
+  void
+  EnlargeOutputRequestedRegion(DataObject * output) override;
+
+  void
+  GenerateInputRequestedRegion() override;
+
+  void
+  GenerateData() override;
+
+private:
+  double m_Density;
+};
+
+} // namespace itk
+
+#endif

@@ -1,0 +1,237 @@
+#include "rhombicProbabilities.h"
+
+#include "rhombicAnatomicalColours.h"
+#include "rhombicFailure.h"
+#include "rhombicMemoryBudget.h"
+#include "rhombicWording.h"
+
+#include "itkCastImageFilter.h"
+#include "itkForEachBlock.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace fs = std::filesystem;
+
+namespace rhombic
+{
+namespace
+{
+
+using ProbabilityImage = itk::Image<float, 3>;
+
+/** A volume of a file, and the name of its label. */
+struct ProbabilityVolume
+{
+  fs::path path;
+  std::size_t frame = 0;
+  std::string name;
+};
+
+/** The volumes of all files. Checks the memory that they take. */
+std::vector<ProbabilityVolume>
+FindVolumes(const std::vector<fs::path> & paths, ScanReadOptions options)
+{
+  constexpr std::size_t most = 4096;
+  options.onSeveralFrames = ScanReadOptions::Policy::Accept;
+  std::vector<ProbabilityVolume> volumes;
+  double bytes = 0.0;
+  for (const fs::path & path : paths)
+  {
+    const Scan scan = OpenScan(path, options).scan;
+    const auto voxels = static_cast<double>(GeometryOf(scan.image).GetLargestPossibleRegion().GetNumberOfPixels());
+    bytes += voxels * static_cast<double>(scan.numberOfFrames * sizeof(float));
+    if (scan.numberOfFrames > most - volumes.size())
+    {
+      throw Failure(FailureKind::Usage, "There can be 4096 volumes of probabilities; name fewer.");
+    }
+    const std::string file = path.filename().string();
+    const std::string name = file.substr(0, file.find('.', 1));
+    for (std::size_t frame = 0; frame < scan.numberOfFrames; ++frame)
+    {
+      volumes.push_back({ path, frame, scan.numberOfFrames > 1 ? name + ' ' + std::to_string(frame) : name });
+    }
+  }
+  RequireMemory(static_cast<std::uintmax_t>(bytes),
+                options.maximumMemory,
+                "Reading " + std::to_string(volumes.size()) + " volumes of probabilities",
+                "crop or coarsen them, or name fewer");
+  return volumes;
+}
+
+/** Whether the corners of two grids of one size are in the same places. */
+bool
+AreSame(const itk::ImageBase<3> & a, const itk::ImageBase<3> & b)
+{
+  constexpr double tolerance = 0.001; // voxels
+  const auto & region = a.GetLargestPossibleRegion();
+  bool areSame = region == b.GetLargestPossibleRegion();
+  for (unsigned int corner = 0; corner < 4; ++corner)
+  {
+    itk::Index<3> index = region.GetIndex();
+    if (corner < 3)
+    {
+      index[corner] = region.GetUpperIndex()[corner];
+    }
+    const auto place =
+      b.TransformPhysicalPointToContinuousIndex<double>(a.TransformIndexToPhysicalPoint<double>(index));
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      areSame = areSame && std::abs(place[axis] - static_cast<double>(index[axis])) < tolerance;
+    }
+  }
+  return areSame;
+}
+
+void
+CheckGrid(const Scan & scan, const Scan & first, const fs::path & path)
+{
+  const bool isUneven = !scan.sliceOrigins.empty();
+  if (isUneven || !AreSame(GeometryOf(scan.image), GeometryOf(first.image)))
+  {
+    throw Failure(FailureKind::Geometry,
+                  "Cannot use the probabilities in " + path.string() + ": " +
+                    (isUneven ? "its slices are unevenly spaced" : "its voxels are not those of the first volume") +
+                    "; resample all volumes to one grid.");
+  }
+}
+
+/** The voxels as float, in memory of their own or the scan's. */
+ProbabilityImage::Pointer
+ToFloat(const ScanImage & image)
+{
+  return std::visit(
+    [](const auto & pixels) -> ProbabilityImage::Pointer {
+      using Filter = itk::CastImageFilter<typename std::decay_t<decltype(*pixels)>, ProbabilityImage>;
+      const auto cast = Filter::New();
+      cast->SetInput(pixels);
+      cast->Update();
+      ProbabilityImage::Pointer output = cast->GetOutput();
+      output->DisconnectPipeline();
+      return output;
+    },
+    image);
+}
+
+/** The value that stands for certainty: 1, 100 for percent, or 255. */
+float
+FindCertainty(const std::vector<ProbabilityImage::Pointer> & volumes)
+{
+  float lowest = 0.0f;
+  float highest = 0.0f;
+  for (const auto & volume : volumes)
+  {
+    const float * const begin = volume->GetBufferPointer();
+    const auto [low, high] = std::minmax_element(begin, begin + volume->GetBufferedRegion().GetNumberOfPixels());
+    lowest = std::min(lowest, *low);
+    highest = std::max(highest, *high);
+  }
+  constexpr float rounding = 1.01f; // resampled maps overshoot
+  for (const float certainty : { 1.0f, 100.0f, 255.0f })
+  {
+    if (highest <= rounding * certainty && lowest >= (1.0f - rounding) * certainty)
+    {
+      return certainty;
+    }
+  }
+  throw Failure(FailureKind::Unreadable,
+                "The volumes hold no probabilities: their values are from " + std::to_string(lowest) + " to " +
+                  std::to_string(highest) + " and should be from 0 to 1, 100 or 255.");
+}
+
+/** The most probable label of each voxel, where label n + 1 has the n-th volume, and 0 what is left to certainty.
+ * Divides the volumes by it. */
+itk::Image<std::uint16_t, 3>::Pointer
+FindMostProbable(const std::vector<ProbabilityImage::Pointer> & volumes, float certainty)
+{
+  const auto labels = itk::Image<std::uint16_t, 3>::New();
+  labels->CopyInformation(volumes.front());
+  labels->SetRegions(volumes.front()->GetBufferedRegion());
+  labels->Allocate();
+  itk::ForEachInBlocks(volumes.front()->GetBufferedRegion().GetNumberOfPixels(), 4096, [&](std::size_t voxel) {
+    float sum = 0.0f;
+    float largest = 0.0f;
+    std::size_t label = 0;
+    for (std::size_t n = 0; n < volumes.size(); ++n)
+    {
+      float & value = volumes[n]->GetBufferPointer()[voxel];
+      value = std::clamp(value / certainty, 0.0f, 1.0f);
+      sum += value;
+      if (value > largest)
+      {
+        largest = value;
+        label = n + 1;
+      }
+    }
+    labels->GetBufferPointer()[voxel] = static_cast<std::uint16_t>(largest > 1.0f - sum ? label : 0);
+  });
+  return labels;
+}
+
+/** Names for the labels of volumes: those of a table, or else of the files. */
+LabelTable
+FindNames(const LabelMapSource & source, const std::vector<ProbabilityVolume> & volumes)
+{
+  if (!source.table.empty())
+  {
+    return ReadLabelTable(source.table);
+  }
+  if (source.probabilities.size() == 1)
+  {
+    if (auto table = FindLabelTable(source.probabilities.front()))
+    {
+      return *std::move(table);
+    }
+  }
+  LabelTable table;
+  for (const ProbabilityVolume & volume : volumes)
+  {
+    Label label;
+    label.value = static_cast<std::int32_t>(table.size() + 1);
+    label.name = SanitizeLabelName(volume.name, label.value);
+    label.colour = AnatomicalColour(label.name, label.value);
+    table.push_back(label);
+  }
+  return table;
+}
+
+} // namespace
+
+LabelMap
+ReadProbabilities(const LabelMapSource & source, ScanReadOptions options)
+{
+  const std::vector<ProbabilityVolume> volumes = FindVolumes(source.probabilities, options);
+  LabelMap map;
+  for (const ProbabilityVolume & volume : volumes)
+  {
+    options.frame = volume.frame;
+    const Scan scan = ReadVoxels(OpenScan(volume.path, options));
+    if (map.probabilities.empty())
+    {
+      map.scan = WithoutVoxels(scan);
+    }
+    CheckGrid(scan, map.scan, volume.path);
+    map.probabilities.push_back(ToFloat(scan.image));
+    map.probabilities.back()->CopyInformation(map.probabilities.front());
+  }
+  const float certainty = FindCertainty(map.probabilities);
+  map.scan.image = FindMostProbable(map.probabilities, certainty);
+  if (certainty > 1.0f)
+  {
+    map.scan.notes.push_back("probabilities: values up to " + std::to_string(std::lround(certainty)) +
+                             " stand for certainty");
+  }
+  map.labels = SummarizeLabels(map.scan, FindNames(source, volumes));
+  const double voxel = VoxelVolumes(map.scan).front() / CubicMillimetresPerMl;
+  for (LabelSummary & summary : map.labels)
+  {
+    const auto & volume = *map.probabilities[static_cast<std::size_t>(summary.label.value - 1)];
+    const float * const begin = volume.GetBufferPointer();
+    summary.millilitres = voxel * std::accumulate(begin, begin + volume.GetBufferedRegion().GetNumberOfPixels(), 0.0);
+  }
+  return map;
+}
+
+} // namespace rhombic
