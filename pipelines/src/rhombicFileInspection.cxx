@@ -2,9 +2,12 @@
 
 #include "rhombicAuditReport.h"
 #include "rhombicFailure.h"
+#include "rhombicWallAudit.h"
 #include "rhombicWording.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace rhombic
 {
@@ -64,6 +67,13 @@ NameSteps(const SurfaceFinish & finish)
     return finish.Simplifies() ? "smoothing and simplification" : "smoothing";
   }
   return finish.Simplifies() ? "simplification" : "untangling";
+}
+
+[[noreturn]] void
+RefuseToWrite(const std::string & why)
+{
+  throw Failure(FailureKind::NotWatertight,
+                why + ", so nothing was written; leave out --require-watertight to have it all the same.");
 }
 
 } // namespace
@@ -179,19 +189,43 @@ FileInspection::Audit(const itk::TriangleSurface & stored, MeshedSurface & surfa
 {
   const std::string & name = surface.scene.name;
   m_Events.Progress("auditing " + name, 0.0);
-  itk::TriangleSurfaceAuditSettings settings;
-  settings.testsIntersections = m_Settings.audits;
-  surface.audit = AuditSurface(stored, settings);
+  surface.audit = AuditSurface(stored, this->GetAuditSettings());
   for (const std::string & line : DescribeAudit(*surface.audit))
   {
     m_Events.Note(name + ": " + line);
   }
   if (m_Settings.requiresWatertight && !surface.audit->IsWatertight())
   {
-    throw Failure(FailureKind::NotWatertight,
-                  "The surface " + name + " is not watertight (" + DescribeLeaks(*surface.audit) +
-                    "), so nothing was written; leave out --require-watertight to have it all the same.");
+    RefuseToWrite("The surface " + name + " is not watertight (" + DescribeLeaks(*surface.audit) + ")");
   }
+}
+
+std::optional<Report>
+FileInspection::AuditTogether(const std::vector<MeshedSurface> & surfaces) const
+{
+  std::vector<SceneSurface> scene;
+  std::transform(
+    surfaces.begin(), surfaces.end(), std::back_inserter(scene), [](const auto & surface) { return surface.scene; });
+  m_Events.Progress("auditing walls", 0.0);
+  const WallAudit audit = AuditWalls(scene, this->GetAuditSettings());
+  if (audit.sharedTriangles == 0)
+  {
+    return std::nullopt;
+  }
+  m_Events.Note("all surfaces together: " + DescribeWalls(audit));
+  if (m_Settings.requiresWatertight && !audit.IsSound())
+  {
+    RefuseToWrite("The walls that surfaces share have flaws (" + DescribeWalls(audit) + ")");
+  }
+  return ReportWalls(audit);
+}
+
+itk::TriangleSurfaceAuditSettings
+FileInspection::GetAuditSettings() const
+{
+  itk::TriangleSurfaceAuditSettings settings;
+  settings.testsIntersections = m_Settings.audits;
+  return settings;
 }
 
 } // namespace rhombic

@@ -42,7 +42,14 @@ public:
   void
   Audit(const itk::TriangleSurface & stored, MeshedSurface & surface) const;
 
+  /** Notes the audit of the walls that surfaces share, and returns its report; nothing if they share none. Throws
+   * Failure(NotWatertight) as Audit() does. */
+  std::optional<Report>
+  AuditTogether(const std::vector<MeshedSurface> & surfaces) const;
+
 private:
+  itk::TriangleSurfaceAuditSettings
+  GetAuditSettings() const;
   void
   NoteFinish(const MeshedSurface & surface) const;
   void

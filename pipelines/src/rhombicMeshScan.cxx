@@ -360,7 +360,7 @@ MeshScan(const MeshScanSettings & settings, const Events & events)
 {
   CheckSettings(settings);
   LoadedSource loaded = LoadSource(settings.source, settings.surfaces, events);
-  const Report sourceReport = ReportSource(loaded, settings.source);
+  Report sourceReport = ReportSource(loaded, settings.source);
   std::vector<MeshedSurface> surfaces;
   if (!loaded.requests.empty())
   {
@@ -381,6 +381,13 @@ MeshScan(const MeshScanSettings & settings, const Events & events)
   const std::vector<fs::path> paths = PathsOf(settings.mesh, surfaces);
   const std::size_t perFile = HasFileForEach(settings.mesh) ? 1 : surfaces.size();
   CheckSurfacePath(paths.front(), perFile);
+  if (inspection.NeedsAudit() && surfaces.back().label)
+  {
+    if (const auto walls = inspection.AuditTogether(surfaces))
+    {
+      sourceReport["walls"] = *walls;
+    }
+  }
   StagedFiles staged;
   for (std::size_t n = 0; n < paths.size(); ++n)
   {

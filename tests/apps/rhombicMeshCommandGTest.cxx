@@ -227,7 +227,11 @@ TEST_F(MeshCommand, ProbabilitiesBecomeSurfacesThatShareWalls)
   const auto run = [&](const std::string & arguments) {
     return RunShell("rhombic mesh soft.nii --frame 0 --probabilities soft.nii " + arguments, m_Folder.Path());
   };
-  ASSERT_EQ(run("-o both.vtp").exitCode, 0);
+  ASSERT_EQ(run("-o both.vtp --audit --require-watertight").exitCode, 0);
+  const auto walls = this->Sidecar("both.vtp")["walls"];
+  EXPECT_TRUE(walls["sound"].get<bool>());
+  EXPECT_GT(walls["sharedTriangles"].get<int>(), 100);
+  EXPECT_EQ(walls["crossingPairs"], 0);
   const auto both = this->Read("both.vtp");
   ASSERT_EQ(both.size(), 2u);
   const double widths[2] = { 8.8, 11.2 };
