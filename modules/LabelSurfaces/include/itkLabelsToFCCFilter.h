@@ -1,12 +1,9 @@
 #ifndef itkLabelsToFCCFilter_h
 #define itkLabelsToFCCFilter_h
 
-#include "itkFCCImage.h"
-#include "itkFCCLabelWeights.h"
 #include "itkImage.h"
-#include "itkProcessObject.h"
+#include "itkImageToFCCLabelsFilter.h"
 
-#include <array>
 #include <vector>
 
 namespace itk
@@ -54,38 +51,25 @@ namespace itk
  * site; 20 bytes a voxel of the largest box, which is that of all labels together; 12 bytes for each label at sites
  * within three voxels of its surface.
  *
- * Throws when the map has no voxels or its buffer is not whole, when the density is not above 0 and at most 64, and
- * when slice origins are not as many as the slices.
+ * Throws as ImageToFCCLabelsFilter does, when the map has no voxels or its buffer is not whole, and when slice origins
+ * are not as many as the slices.
  *
  * \ingroup LabelSurfaces
  */
-class LabelsToFCCFilter : public ProcessObject
+class LabelsToFCCFilter : public ImageToFCCLabelsFilter<Image<FCCLabelWeights::LabelType, 3>>
 {
 public:
   ITK_DISALLOW_COPY_AND_MOVE(LabelsToFCCFilter);
 
   using Self = LabelsToFCCFilter;
-  using Superclass = ProcessObject;
+  using Superclass = ImageToFCCLabelsFilter<Image<FCCLabelWeights::LabelType, 3>>;
   using Pointer = SmartPointer<Self>;
   using ConstPointer = SmartPointer<const Self>;
 
   itkNewMacro(Self);
-  itkTypeMacro(LabelsToFCCFilter, ProcessObject);
+  itkTypeMacro(LabelsToFCCFilter, ImageToFCCLabelsFilter);
 
-  using LabelType = FCCLabelWeights::LabelType;
-  using InputImageType = Image<LabelType, 3>;
-  using LatticeType = FCCImage<LabelType>;
   using SliceOriginsType = std::vector<Point<double, 3>>;
-
-  using Superclass::SetInput;
-  void
-  SetInput(const InputImageType * labels);
-  const InputImageType *
-  GetInput() const;
-
-  /** Sites for each voxel, or part of a voxel where thick slices are refined. Default FCCLattice::DefaultDensity. */
-  itkSetMacro(Density, double);
-  itkGetConstMacro(Density, double);
 
   /** As CartesianToFCCImageFilter::SetSliceOrigins(). Default: those that an image from ScanFileReader has. */
   void
@@ -109,14 +93,6 @@ public:
     return m_Groups;
   }
 
-  /** The label of each site. */
-  LatticeType *
-  GetOutput();
-
-  /** The weights of labels near walls, sorted. */
-  FCCLabelWeights *
-  GetWeights();
-
   /** The volumes of each label's voxels in mm^3, by label. */
   const std::vector<double> &
   GetVoxelVolumes() const
@@ -125,27 +101,14 @@ public:
   }
 
 protected:
-  LabelsToFCCFilter();
+  LabelsToFCCFilter() = default;
   ~LabelsToFCCFilter() override = default;
 
   void
   PrintSelf(std::ostream & os, Indent indent) const override;
 
-  using Superclass::MakeOutput;
-  DataObject::Pointer
-  MakeOutput(DataObjectPointerArraySizeType index) override;
-
-  void
-  VerifyPreconditions() ITKv5_CONST override;
-
   void
   GenerateOutputInformation() override;
-
-  void
-  EnlargeOutputRequestedRegion(DataObject * output) override;
-
-  void
-  GenerateInputRequestedRegion() override;
 
   void
   GenerateData() override;
@@ -155,7 +118,6 @@ private:
   SliceOriginsType
   FindSliceOrigins() const;
 
-  double m_Density;
   SliceOriginsType m_SliceOrigins;
   GroupsType m_Groups;
   std::vector<double> m_VoxelVolumes;

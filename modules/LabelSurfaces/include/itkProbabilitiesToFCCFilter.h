@@ -1,10 +1,8 @@
 #ifndef itkProbabilitiesToFCCFilter_h
 #define itkProbabilitiesToFCCFilter_h
 
-#include "itkFCCImage.h"
-#include "itkFCCLabelWeights.h"
 #include "itkImage.h"
-#include "itkImageToImageFilter.h"
+#include "itkImageToFCCLabelsFilter.h"
 
 namespace itk
 {
@@ -34,61 +32,32 @@ namespace itk
  * The outputs have the same bytes for any number of threads. Inputs are resampled one after another. Memory: 18 bytes a
  * site, 12 bytes a voxel, and 12 bytes for each site and label with a probability between 0 and 1.
  *
- * Throws when the inputs' grids differ, and when the density is not above 0 and at most 64.
+ * Throws as ImageToFCCLabelsFilter does, and when the inputs have no voxels or their grids differ.
  *
  * \ingroup LabelSurfaces
  */
-class ProbabilitiesToFCCFilter : public ImageToImageFilter<Image<float, 3>, FCCImage<FCCLabelWeights::LabelType>>
+class ProbabilitiesToFCCFilter : public ImageToFCCLabelsFilter<Image<float, 3>>
 {
 public:
   ITK_DISALLOW_COPY_AND_MOVE(ProbabilitiesToFCCFilter);
 
   using Self = ProbabilitiesToFCCFilter;
-  using InputImageType = Image<float, 3>;
-  using LatticeType = FCCImage<FCCLabelWeights::LabelType>;
-  using Superclass = ImageToImageFilter<InputImageType, LatticeType>;
+  using Superclass = ImageToFCCLabelsFilter<Image<float, 3>>;
   using Pointer = SmartPointer<Self>;
   using ConstPointer = SmartPointer<const Self>;
 
   itkNewMacro(Self);
-  itkTypeMacro(ProbabilitiesToFCCFilter, ImageToImageFilter);
-
-  /** Sites for each voxel, or part of a voxel where thick slices are divided. Default FCCLattice::DefaultDensity. */
-  itkSetMacro(Density, double);
-  itkGetConstMacro(Density, double);
-
-  /** The weights of labels where they are neither 0 nor 1, sorted. */
-  FCCLabelWeights *
-  GetWeights();
+  itkTypeMacro(ProbabilitiesToFCCFilter, ImageToFCCLabelsFilter);
 
 protected:
-  ProbabilitiesToFCCFilter();
+  ProbabilitiesToFCCFilter() = default;
   ~ProbabilitiesToFCCFilter() override = default;
-
-  void
-  PrintSelf(std::ostream & os, Indent indent) const override;
-
-  using Superclass::MakeOutput;
-  DataObject::Pointer
-  MakeOutput(DataObjectPointerArraySizeType index) override;
-
-  void
-  VerifyPreconditions() ITKv5_CONST override;
 
   void
   GenerateOutputInformation() override;
 
   void
-  EnlargeOutputRequestedRegion(DataObject * output) override;
-
-  void
-  GenerateInputRequestedRegion() override;
-
-  void
   GenerateData() override;
-
-private:
-  double m_Density;
 };
 
 } // namespace itk

@@ -546,27 +546,6 @@ KeepVolumes(const NumberByLabel & voxelVolumes,
 
 } // namespace
 
-LabelsToFCCFilter::LabelsToFCCFilter()
-  : m_Density(FCCLattice::DefaultDensity)
-{
-  this->SetNumberOfRequiredInputs(1);
-  this->SetNumberOfRequiredOutputs(2);
-  this->ProcessObject::SetNthOutput(0, this->MakeOutput(0));
-  this->ProcessObject::SetNthOutput(1, this->MakeOutput(1));
-}
-
-void
-LabelsToFCCFilter::SetInput(const InputImageType * labels)
-{
-  this->ProcessObject::SetNthInput(0, const_cast<InputImageType *>(labels));
-}
-
-const LabelsToFCCFilter::InputImageType *
-LabelsToFCCFilter::GetInput() const
-{
-  return itkDynamicCastInDebugMode<const InputImageType *>(this->GetPrimaryInput());
-}
-
 void
 LabelsToFCCFilter::SetSliceOrigins(const SliceOriginsType & origins)
 {
@@ -593,47 +572,12 @@ LabelsToFCCFilter::FindSliceOrigins() const
   return m_SliceOrigins.empty() ? GetSlicePlacement(*this->GetInput()).origins : m_SliceOrigins;
 }
 
-LabelsToFCCFilter::LatticeType *
-LabelsToFCCFilter::GetOutput()
-{
-  return itkDynamicCastInDebugMode<LatticeType *>(this->ProcessObject::GetOutput(0));
-}
-
-FCCLabelWeights *
-LabelsToFCCFilter::GetWeights()
-{
-  return itkDynamicCastInDebugMode<FCCLabelWeights *>(this->ProcessObject::GetOutput(1));
-}
-
-DataObject::Pointer
-LabelsToFCCFilter::MakeOutput(DataObjectPointerArraySizeType index)
-{
-  return index == 0 ? DataObject::Pointer(LatticeType::New()) : DataObject::Pointer(FCCLabelWeights::New());
-}
-
 void
 LabelsToFCCFilter::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);
-  os << indent << "Density: " << m_Density << std::endl;
   os << indent << "SliceOrigins: " << m_SliceOrigins.size() << std::endl;
   os << indent << "Groups: " << m_Groups.size() << std::endl;
-}
-
-void
-LabelsToFCCFilter::GenerateInputRequestedRegion()
-{
-  const_cast<InputImageType *>(this->GetInput())->SetRequestedRegionToLargestPossibleRegion();
-}
-
-void
-LabelsToFCCFilter::VerifyPreconditions() ITKv5_CONST
-{
-  Superclass::VerifyPreconditions();
-  if (!(m_Density > 0.0) || !(m_Density <= 64.0))
-  {
-    itkExceptionMacro("The Density must be above 0 and at most 64 sites per voxel, not " << m_Density << ".");
-  }
 }
 
 void
@@ -648,13 +592,7 @@ LabelsToFCCFilter::GenerateOutputInformation()
                                      << " slice origins; it needs voxels, and an origin for each slice or none.");
   }
   const RefinedMap map(image, origins);
-  this->GetOutput()->CopyInformation(&FieldResampler(map, m_Density).GetLattice());
-}
-
-void
-LabelsToFCCFilter::EnlargeOutputRequestedRegion(DataObject * output)
-{
-  output->SetRequestedRegionToLargestPossibleRegion();
+  this->GetOutput()->CopyInformation(&FieldResampler(map, this->GetDensity()).GetLattice());
 }
 
 void
@@ -682,7 +620,7 @@ LabelsToFCCFilter::GenerateData()
   std::vector<float> largest(region.GetNumberOfPixels(), -FCCLabelWeights::Limit);
   for (const auto & [label, box] : boxes)
   {
-    const FieldResampler resampler(map, m_Density);
+    const FieldResampler resampler(map, this->GetDensity());
     const ImageRegion<3> sites = resampler.FindSites(box);
     const LabelField field = MakeField(map, label, resampler.FindVoxels(sites));
     AddLabelWeights(resampler.Resample(field.depths, sites), label, labels, largest, weights);

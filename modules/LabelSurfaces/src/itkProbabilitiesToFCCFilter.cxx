@@ -108,42 +108,6 @@ FindDepths(const ProbabilitiesToFCCFilter::LatticeType & lattice, const Probabil
 
 } // namespace
 
-ProbabilitiesToFCCFilter::ProbabilitiesToFCCFilter()
-  : m_Density(FCCLattice::DefaultDensity)
-{
-  this->SetNumberOfRequiredOutputs(2);
-  this->ProcessObject::SetNthOutput(1, this->MakeOutput(1));
-}
-
-FCCLabelWeights *
-ProbabilitiesToFCCFilter::GetWeights()
-{
-  return itkDynamicCastInDebugMode<FCCLabelWeights *>(this->ProcessObject::GetOutput(1));
-}
-
-DataObject::Pointer
-ProbabilitiesToFCCFilter::MakeOutput(DataObjectPointerArraySizeType index)
-{
-  return index == 0 ? DataObject::Pointer(LatticeType::New()) : DataObject::Pointer(FCCLabelWeights::New());
-}
-
-void
-ProbabilitiesToFCCFilter::PrintSelf(std::ostream & os, Indent indent) const
-{
-  Superclass::PrintSelf(os, indent);
-  os << indent << "Density: " << m_Density << std::endl;
-}
-
-void
-ProbabilitiesToFCCFilter::VerifyPreconditions() ITKv5_CONST
-{
-  Superclass::VerifyPreconditions();
-  if (!(m_Density > 0.0) || !(m_Density <= 64.0))
-  {
-    itkExceptionMacro("The Density must be above 0 and at most 64 sites per voxel, not " << m_Density << ".");
-  }
-}
-
 void
 ProbabilitiesToFCCFilter::GenerateOutputInformation()
 {
@@ -151,23 +115,7 @@ ProbabilitiesToFCCFilter::GenerateOutputInformation()
   {
     itkExceptionMacro("The input has no voxels.");
   }
-  this->GetOutput()->CopyInformation(&Resampler(*this->GetInput(), m_Density).GetLattice());
-}
-
-void
-ProbabilitiesToFCCFilter::EnlargeOutputRequestedRegion(DataObject * output)
-{
-  output->SetRequestedRegionToLargestPossibleRegion();
-}
-
-void
-ProbabilitiesToFCCFilter::GenerateInputRequestedRegion()
-{
-  for (DataObjectPointerArraySizeType n = 0; n < this->GetNumberOfIndexedInputs(); ++n)
-  {
-    const_cast<InputImageType *>(this->GetInput(static_cast<unsigned int>(n)))
-      ->SetRequestedRegionToLargestPossibleRegion();
-  }
+  this->GetOutput()->CopyInformation(&Resampler(*this->GetInput(), this->GetDensity()).GetLattice());
 }
 
 void
@@ -196,7 +144,7 @@ ProbabilitiesToFCCFilter::GenerateData()
   for (unsigned int n = 0; n < inputs; ++n)
   {
     VerifyInputSamples(*this, *this->GetInput(n));
-    Resampler resampler(*this->GetInput(n), m_Density);
+    Resampler resampler(*this->GetInput(n), this->GetDensity());
     Resampler::LatticeType & field = resampler.Resample();
     ForEachRow(region, [&](const Index<3> &, SizeValueType offset) {
       float * const row = field.GetBufferPointer() + offset;
