@@ -93,6 +93,7 @@ TEST_F(Probabilities, OfSeveralFilesAndOfOneAreTheSame)
     EXPECT_EQ(map->labels[0].numberOfVoxels, 60u);
     EXPECT_NEAR(map->labels[0].millilitres, 60 * (0.25 + 0.75) * 8.0 / 1000.0, 1e-6);
   }
+  EXPECT_EQ(files.scan.files.size(), 2u);
   EXPECT_EQ(files.labels[0].label.name, "grey");
   EXPECT_EQ(files.labels[1].label.name, "white");
   EXPECT_EQ(file.labels[1].label.name, "both 1");

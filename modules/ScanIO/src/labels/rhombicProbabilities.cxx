@@ -128,7 +128,7 @@ FindCertainty(const std::vector<ProbabilityImage::Pointer> & volumes)
     lowest = std::min(lowest, *low);
     highest = std::max(highest, *high);
   }
-  constexpr float rounding = 1.01f; // resampled maps overshoot
+  constexpr float rounding = 1.1f; // resampled maps overshoot
   for (const float certainty : { 1.0f, 100.0f, 255.0f })
   {
     if (highest <= rounding * certainty && lowest >= (1.0f - rounding) * certainty)
@@ -211,6 +211,10 @@ ReadProbabilities(const LabelMapSource & source, ScanReadOptions options)
     if (map.probabilities.empty())
     {
       map.scan = WithoutVoxels(scan);
+    }
+    else if (volume.frame == 0)
+    {
+      map.scan.files.insert(map.scan.files.end(), scan.files.begin(), scan.files.end());
     }
     CheckGrid(scan, map.scan, volume.path);
     map.probabilities.push_back(ToFloat(scan.image));
