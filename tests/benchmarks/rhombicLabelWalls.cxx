@@ -28,7 +28,7 @@
 #include <string>
 #include <vector>
 
-/** rhombic-label-walls: walls of eight touching balls against the truth, beside other surfaces of labels.
+/** rhombic-label-walls: walls of labels in scenes against the truth, beside other surfaces of labels.
  * rhombic-label-walls MAP: times, largest errors of volumes and flaws of the walls of a label map.
  * rhombic-label-walls MAP cut (or relaxed): the same up to that step. */
 namespace
@@ -37,46 +37,127 @@ namespace
 using Vector = std::array<double, 3>;
 using LabelImage = itk::LabelsToFCCFilter::InputImageType;
 
-struct Ball
+/** Depths below the surfaces of outside, 0, and of up to eight labels, in mm. */
+using Depths = std::array<double, 9>;
+
+/** Regions of labels. A point belongs to the one of largest depth. */
+struct Scene
 {
-  Vector centre;
-  double radius;
+  std::string name;
+  std::uint16_t labels;
+  std::function<Depths(const Vector &)> depthsAt;
 };
 
+double
+DepthInBall(const Vector & p, const Vector & centre, double radius)
+{
+  return radius - std::hypot(p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]);
+}
+
+double
+Dot(const Vector & a, const Vector & b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/** Depths of which the first are given, and all others so low that nothing belongs to them. */
+Depths
+MakeDepths(const std::vector<double> & given)
+{
+  Depths depths;
+  depths.fill(-1e3);
+  std::copy(given.begin(), given.end(), depths.begin());
+  return depths;
+}
+
 /** Eight balls of radius 8.6 to 10 mm around the corners of a cube, so near that neighbours touch. */
-std::vector<Ball>
+Scene
 MakeBalls(unsigned int seed)
 {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> shift(-0.4, 0.4);
-  std::vector<Ball> balls;
+  std::array<Vector, 8> centres;
   for (unsigned int n = 0; n < 8; ++n)
   {
-    Ball ball{ {}, 8.6 + 1.4 * n / 7.0 };
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      ball.centre[axis] = ((n >> axis & 1) != 0 ? 8.8 : -8.8) + shift(random);
+      centres[n][axis] = ((n >> axis & 1) != 0 ? 8.8 : -8.8) + shift(random);
     }
-    balls.push_back(ball);
   }
-  return balls;
+  return { "touching balls", 8, [centres](const Vector & p) {
+            Depths depths{};
+            for (std::size_t n = 0; n < 8; ++n)
+            {
+              depths[n + 1] = DepthInBall(p, centres[n], 8.6 + 1.4 * static_cast<double>(n) / 7.0);
+            }
+            return depths;
+          } };
 }
 
-/** Depths below the surfaces of outside, which is 0 everywhere, and of the balls. */
-std::array<double, 9>
-DepthsAt(const std::vector<Ball> & balls, const Vector & p)
+Scene
+MakeBallInBall()
 {
-  std::array<double, 9> depths{};
-  for (std::size_t n = 0; n < 8; ++n)
-  {
-    const Vector & c = balls[n].centre;
-    depths[n + 1] = balls[n].radius - std::hypot(p[0] - c[0], p[1] - c[1], p[2] - c[2]);
-  }
-  return depths;
+  return { "ball in ball", 2, [](const Vector & p) {
+            const double outer = DepthInBall(p, { 0.3, -0.2, 0.4 }, 19.0);
+            const double inner = DepthInBall(p, { 3.1, 2.2, -1.7 }, 10.0);
+            return MakeDepths({ -outer, std::min(outer, -inner), inner });
+          } };
+}
+
+/** Slanted layers of 4 to 7 mm in a ball. */
+Scene
+MakeSlabs()
+{
+  return { "slabs in a ball", 7, [](const Vector & p) {
+            const double outer = DepthInBall(p, { 0.3, -0.2, 0.4 }, 20.0);
+            const double height = Dot(p, { 0.48, 0.36, 0.8 });
+            constexpr double borders[] = { -1e3, -13.0, -8.0, -4.0, 1.0, 7.0, 12.0, 1e3 };
+            Depths depths = MakeDepths({ -outer });
+            for (std::size_t n = 0; n < 7; ++n)
+            {
+              depths[n + 1] = std::min({ outer, height - borders[n], borders[n + 1] - height });
+            }
+            return depths;
+          } };
+}
+
+/** A leaning torus in three pieces. */
+Scene
+MakeTorus()
+{
+  return { "torus cut in three", 3, [](const Vector & p) {
+            const double x = Dot(p, { 0.8, 0.0, -0.6 });
+            const double y = p[1];
+            const double z = Dot(p, { 0.6, 0.0, 0.8 });
+            const double torus = 6.5 - std::hypot(std::hypot(x, y) - 15.0, z);
+            Depths depths = MakeDepths({ -torus });
+            for (unsigned int n = 0; n < 3; ++n)
+            {
+              constexpr double third = 2.0 * 3.14159265358979 / 3.0;
+              const auto side = [&](double angle) { return x * std::sin(angle) - y * std::cos(angle); };
+              depths[n + 1] = std::min({ torus, -side(0.3 + n * third), side(0.3 + (n + 1) * third) });
+            }
+            return depths;
+          } };
+}
+
+/** A ball cut in half, and one half cut again. */
+Scene
+MakeTJunction()
+{
+  return { "T-junction in a ball", 3, [](const Vector & p) {
+            const double outer = DepthInBall(p, { 0.3, -0.2, 0.4 }, 18.0);
+            const double first = Dot(p, { 0.8, 0.36, 0.48 }) - 0.7;
+            const double second = Dot(p, { -0.6, 0.48, 0.64 }) + 0.4;
+            return MakeDepths({ -outer,
+                                std::min(outer, first),
+                                std::min({ outer, -first, second }),
+                                std::min({ outer, -first, -second }) });
+          } };
 }
 
 LabelImage::Pointer
-MakeMap(const std::vector<Ball> & balls, double slices)
+MakeMap(const Scene & scene, double slices)
 {
   const auto image = LabelImage::New();
   const auto count = static_cast<itk::SizeValueType>(52.0 / slices);
@@ -89,7 +170,7 @@ MakeMap(const std::vector<Ball> & balls, double slices)
   for (itk::ImageRegionIteratorWithIndex<LabelImage> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
   {
     const auto point = image->TransformIndexToPhysicalPoint<double>(it.GetIndex());
-    const auto depths = DepthsAt(balls, { point[0], point[1], point[2] });
+    const Depths depths = scene.depthsAt({ point[0], point[1], point[2] });
     it.Set(static_cast<std::uint16_t>(std::max_element(depths.begin(), depths.end()) - depths.begin()));
   }
   return image;
@@ -99,8 +180,8 @@ MakeMap(const std::vector<Ball> & balls, double slices)
 class Errors
 {
 public:
-  explicit Errors(const std::vector<Ball> & balls)
-    : m_Balls(balls)
+  explicit Errors(const Scene & scene)
+    : m_Scene(scene)
   {}
 
   void
@@ -122,19 +203,24 @@ public:
       return;
     }
     // The nearest wall is that between the two largest depths.
-    const auto depths = DepthsAt(m_Balls, middle);
+    const Depths depths = m_Scene.depthsAt(middle);
     std::array<std::size_t, 9> order{ { 0, 1, 2, 3, 4, 5, 6, 7, 8 } };
-    std::partial_sort(order.begin(), order.begin() + 2, order.end(), [&](std::size_t m, std::size_t n) {
+    std::partial_sort(order.begin(), order.begin() + 3, order.end(), [&](std::size_t m, std::size_t n) {
       return depths[m] > depths[n];
     });
-    const Vector first = this->GradientOf(order[0], middle);
-    const Vector second = this->GradientOf(order[1], middle);
-    const Vector gradient{ first[0] - second[0], first[1] - second[1], first[2] - second[2] };
-    const double slope = std::hypot(gradient[0], gradient[1], gradient[2]);
-    const double dot = normal[0] * gradient[0] + normal[1] * gradient[1] + normal[2] * gradient[2];
+    const Vector gradient = this->DifferentiateDepths(order[0], order[1], middle);
+    const double slope = std::sqrt(Dot(gradient, gradient));
+    const double angle =
+      std::acos(std::min(1.0, std::abs(Dot(normal, gradient)) / (2.0 * area * slope))) * 180.0 / 3.14159265358979;
     m_Area += area;
     m_Distance += area * (depths[order[0]] - depths[order[1]]) / slope;
-    m_Angle += area * std::acos(std::min(1.0, std::abs(dot) / (2.0 * area * slope))) * 180.0 / 3.14159265358979;
+    m_Angle += area * angle;
+    constexpr double nearJunction = 1.0; // mm
+    if (depths[order[0]] - depths[order[2]] < nearJunction)
+    {
+      m_JunctionArea += area;
+      m_JunctionAngle += area * angle;
+    }
   }
 
   void
@@ -163,23 +249,39 @@ public:
     return m_Angle / m_Area;
   }
 
-private:
-  Vector
-  GradientOf(std::size_t label, const Vector & p) const
+  /** Of facets within 1 mm of a junction of walls. */
+  double
+  GetJunctionAngle() const
   {
-    if (label == 0)
-    {
-      return {};
-    }
-    const Vector & c = m_Balls[label - 1].centre;
-    const double distance = std::hypot(p[0] - c[0], p[1] - c[1], p[2] - c[2]);
-    return { (c[0] - p[0]) / distance, (c[1] - p[1]) / distance, (c[2] - p[2]) / distance };
+    return m_JunctionAngle / m_JunctionArea;
   }
 
-  const std::vector<Ball> & m_Balls;
+private:
+  /** The gradient of the difference of two depths. */
+  Vector
+  DifferentiateDepths(std::size_t one, std::size_t other, const Vector & p) const
+  {
+    constexpr double step = 1e-4;
+    Vector gradient;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      Vector before = p;
+      Vector behind = p;
+      before[axis] -= step;
+      behind[axis] += step;
+      const Depths low = m_Scene.depthsAt(before);
+      const Depths high = m_Scene.depthsAt(behind);
+      gradient[axis] = (high[one] - high[other] - low[one] + low[other]) / (2.0 * step);
+    }
+    return gradient;
+  }
+
+  const Scene & m_Scene;
   double m_Area = 0.0;
   double m_Distance = 0.0;
   double m_Angle = 0.0;
+  double m_JunctionArea = 0.0;
+  double m_JunctionAngle = 0.0;
 };
 
 /** The difference between a volume and that of a label's voxels, in per cent. */
@@ -194,7 +296,7 @@ VolumeError(const LabelImage & map, std::uint16_t label, double volume)
 
 using Surfaces = std::vector<itk::TriangleSurface::ConstPointer>;
 
-/** How surfaces of balls fit together: samples near walls between balls that are in none or in several of them. */
+/** How surfaces fit together: samples near walls between labels that are in none or in several of them. */
 struct Fit
 {
   double gaps = 0.0;     ///< mm^3
@@ -202,11 +304,11 @@ struct Fit
 };
 
 Fit
-MeasureFit(const std::vector<Ball> & balls, const Surfaces & surfaces)
+MeasureFit(const Scene & scene, const Surfaces & surfaces)
 {
   constexpr itk::SizeValueType size = 208;
   constexpr double step = 0.25;
-  constexpr double nearWall = 0.25; // mm
+  constexpr double nearWall = 1.0; // mm
   itk::SamplePlanes planes;
   planes.columnStep[0] = planes.rowStep[1] = step;
   planes.numberOfColumns = planes.numberOfRows = size;
@@ -232,13 +334,13 @@ MeasureFit(const std::vector<Ball> & balls, const Surfaces & surfaces)
     if (uses[n] != 1)
     {
       const itk::Point<double, 3> & origin = planes.origins[n / (size * size)];
-      auto depths = DepthsAt(balls,
-                             { origin[0] + step * static_cast<double>(n % size),
-                               origin[1] + step * static_cast<double>(n / size % size),
-                               origin[2] });
+      Depths depths = scene.depthsAt({ origin[0] + step * static_cast<double>(n % size),
+                                       origin[1] + step * static_cast<double>(n / size % size),
+                                       origin[2] });
+      const double outside = depths[0];
       std::partial_sort(depths.begin(), depths.begin() + 2, depths.end(), std::greater<>());
-      // Between two balls, far from outside.
-      const bool isWall = depths[1] > nearWall;
+      // Between two labels, far from outside.
+      const bool isWall = depths[1] > outside + nearWall;
       fit.gaps += isWall && uses[n] == 0 ? step * step * step : 0.0;
       fit.overlaps += isWall && uses[n] > 1 ? step * step * step : 0.0;
     }
@@ -250,23 +352,24 @@ MeasureFit(const std::vector<Ball> & balls, const Surfaces & surfaces)
 class Results
 {
 public:
-  Results(const std::vector<std::vector<Ball>> & scenes, double slices)
+  Results(const std::vector<Scene> & scenes, double slices)
     : m_Scenes(scenes)
     , m_Slices(slices)
   {}
 
-  /** Adds the surfaces of the balls of the next scene; \a mesh has all of their triangles. */
+  /** Adds the surfaces of the labels of the next scene; \a mesh has all of their triangles. */
   void
   Add(const itk::TriangleSurface & mesh, const Surfaces & surfaces)
   {
-    const auto & balls = m_Scenes[m_Count++];
-    const auto map = MakeMap(balls, m_Slices);
-    Errors errors(balls);
+    const Scene & scene = m_Scenes[m_Count++];
+    const auto map = MakeMap(scene, m_Slices);
+    Errors errors(scene);
     errors.Add(mesh);
-    const Fit fit = MeasureFit(balls, surfaces);
+    const Fit fit = MeasureFit(scene, surfaces);
     const double share = 1.0 / static_cast<double>(m_Scenes.size());
     m_Distance += share * errors.GetDistance();
     m_Angle += share * errors.GetAngle();
+    m_JunctionAngle += share * errors.GetJunctionAngle();
     m_Fit.gaps += share * fit.gaps;
     m_Fit.overlaps += share * fit.overlaps;
     m_Triangles += share * static_cast<double>(mesh.GetNumberOfTriangles());
@@ -280,11 +383,12 @@ public:
   void
   Print(const char * method) const
   {
-    std::printf("%-20s %4.0f %8.3f %8.2f %9.2f %9.1f %9.1f %10.0f\n",
+    std::printf("%-20s %4.0f %8.3f %8.2f %9.2f %9.2f %9.1f %9.1f %10.0f\n",
                 method,
                 m_Slices,
                 m_Distance,
                 m_Angle,
+                m_JunctionAngle,
                 m_Volume,
                 m_Fit.gaps,
                 m_Fit.overlaps,
@@ -293,11 +397,12 @@ public:
   }
 
 private:
-  const std::vector<std::vector<Ball>> & m_Scenes;
+  const std::vector<Scene> & m_Scenes;
   const double m_Slices;
   std::size_t m_Count = 0;
   double m_Distance = 0.0;
   double m_Angle = 0.0;
+  double m_JunctionAngle = 0.0;
   double m_Volume = 0.0;
   double m_Triangles = 0.0;
   Fit m_Fit;
@@ -337,15 +442,15 @@ HalfAVoxel()
 
 /** Walls as they are cut, relaxed by half a voxel (of the shortest edge), and simplified to a tenth. */
 void
-MeasureWalls(const std::vector<std::vector<Ball>> & scenes, double slices)
+MeasureWalls(const std::vector<Scene> & scenes, double slices)
 {
   Results cut(scenes, slices);
   Results relaxed(scenes, slices);
   Results simplified(scenes, slices);
-  for (const auto & balls : scenes)
+  for (const Scene & scene : scenes)
   {
     const auto toLattice = itk::LabelsToFCCFilter::New();
-    toLattice->SetInput(MakeMap(balls, slices));
+    toLattice->SetInput(MakeMap(scene, slices));
     const auto walls = MakeWalls(toLattice);
     cut.Add(*walls, ExtractLabels(*walls));
     itk::RelaxWalls(*walls, HalfAVoxel());
@@ -360,14 +465,14 @@ MeasureWalls(const std::vector<std::vector<Ball>> & scenes, double slices)
   simplified.Print("walls, simplified");
 }
 
-/** The share of each voxel that each ball fills, by samples in the voxel. */
+/** The share of each voxel that each label fills, by samples in the voxel. */
 std::vector<itk::Image<float, 3>::Pointer>
-MakeProbabilities(const std::vector<Ball> & balls, double slices)
+MakeProbabilities(const Scene & scene, double slices)
 {
   constexpr int samples = 5; // along each axis
   std::vector<itk::Image<float, 3>::Pointer> volumes;
-  const auto map = MakeMap(balls, slices);
-  for (std::size_t n = 0; n < balls.size(); ++n)
+  const auto map = MakeMap(scene, slices);
+  for (std::size_t n = 0; n < scene.labels; ++n)
   {
     volumes.push_back(itk::Image<float, 3>::New());
     volumes.back()->CopyInformation(map);
@@ -383,7 +488,7 @@ MakeProbabilities(const std::vector<Ball> & balls, double slices)
         return middle[axis] + map->GetSpacing()[axis] * ((sample + 0.5) / samples - 0.5);
       };
       const auto depths =
-        DepthsAt(balls, { place(0, n % samples), place(1, n / samples % samples), place(2, n / samples / samples) });
+        scene.depthsAt({ place(0, n % samples), place(1, n / samples % samples), place(2, n / samples / samples) });
       const auto label = std::max_element(depths.begin(), depths.end()) - depths.begin();
       if (label > 0)
       {
@@ -396,14 +501,14 @@ MakeProbabilities(const std::vector<Ball> & balls, double slices)
 }
 
 void
-MeasureProbabilities(const std::vector<std::vector<Ball>> & scenes, double slices)
+MeasureProbabilities(const std::vector<Scene> & scenes, double slices)
 {
   Results cut(scenes, slices);
   Results relaxed(scenes, slices);
-  for (const auto & balls : scenes)
+  for (const Scene & scene : scenes)
   {
     const auto toLattice = itk::ProbabilitiesToFCCFilter::New();
-    const auto volumes = MakeProbabilities(balls, slices);
+    const auto volumes = MakeProbabilities(scene, slices);
     for (unsigned int n = 0; n < volumes.size(); ++n)
     {
       toLattice->SetInput(n, volumes[n]);
@@ -474,12 +579,12 @@ MakeSlicerSurface(vtkImageData * image, int label, const LabelImage & map)
 }
 
 void
-MeasureVTK(const std::vector<std::vector<Ball>> & scenes, double slices)
+MeasureVTK(const std::vector<Scene> & scenes, double slices)
 {
   Results results(scenes, slices);
-  for (const auto & balls : scenes)
+  for (const Scene & scene : scenes)
   {
-    const auto map = MakeMap(balls, slices);
+    const auto map = MakeMap(scene, slices);
     vtkNew<vtkImageData> image;
     const auto & size = map->GetBufferedRegion().GetSize();
     image->SetDimensions(static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2]));
@@ -488,7 +593,7 @@ MeasureVTK(const std::vector<std::vector<Ball>> & scenes, double slices)
                 map->GetBufferedRegion().GetNumberOfPixels(),
                 static_cast<std::uint16_t *>(image->GetScalarPointer()));
     Surfaces surfaces;
-    for (int label = 1; label <= 8; ++label)
+    for (int label = 1; label <= scene.labels; ++label)
     {
       surfaces.emplace_back(MakeSlicerSurface(image, label, *map));
     }
@@ -587,17 +692,24 @@ try
     MeasureMap(argv[1], argc > 2 ? argv[2] : "");
     return 0;
   }
-  std::vector<std::vector<Ball>> scenes;
+  std::vector<Scene> balls;
   for (unsigned int seed = 1; seed <= 4; ++seed)
   {
-    scenes.push_back(MakeBalls(seed));
+    balls.push_back(MakeBalls(seed));
   }
-  std::printf("method             slices       mm  degrees  volume %%  gaps mm3  overlaps  triangles\n");
-  for (const double slices : { 1.0, 3.0, 6.0 })
+  const std::vector<std::vector<Scene>> groups{
+    balls, { MakeBallInBall() }, { MakeSlabs() }, { MakeTorus() }, { MakeTJunction() }
+  };
+  for (const auto & scenes : groups)
   {
-    MeasureWalls(scenes, slices);
-    MeasureProbabilities(scenes, slices);
-    MeasureVTK(scenes, slices);
+    std::printf("%-20s slices    mm  degrees  junction  volume %%  gaps mm3  overlaps  triangles\n",
+                scenes.front().name.c_str());
+    for (const double slices : { 1.0, 3.0, 6.0 })
+    {
+      MeasureWalls(scenes, slices);
+      MeasureProbabilities(scenes, slices);
+      MeasureVTK(scenes, slices);
+    }
   }
 }
 catch (const std::exception & error)
