@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 namespace itk
 {
@@ -61,26 +63,32 @@ MeetsCell(std::vector<Position> polygon)
   return true;
 }
 
+/** The faces of the Voronoi cell of the site 0 beyond which a point is, a bit for each. */
+unsigned int
+FacesBefore(const Position & point)
+{
+  unsigned int faces = 0;
+  for (unsigned int n = 0; n < FCCLattice::NearestNeighbors.size(); ++n)
+  {
+    faces |= Dot(FCCLattice::NearestNeighbors[n], point) > Inside ? 1u << n : 0u;
+  }
+  return faces;
+}
+
 /** Whether the convex hull of a few points meets the Voronoi cell of the site 0: one of the points' triangles does. */
 bool
 HullMeetsCell(const std::vector<Position> & points)
 {
-  const auto isBeyond = [](const FCCLattice::SiteType & face) {
-    return [&face](const Position & point) { return Dot(face, point) > Inside; };
-  };
-  for (const FCCLattice::SiteType & face : FCCLattice::NearestNeighbors)
+  std::array<unsigned int, 8> faces;
+  std::transform(points.begin(), points.end(), faces.begin(), FacesBefore);
+  const auto end = faces.begin() + static_cast<std::ptrdiff_t>(points.size());
+  if (std::accumulate(faces.begin(), end, ~0u, std::bit_and<>()) != 0)
   {
-    if (std::all_of(points.begin(), points.end(), isBeyond(face)))
-    {
-      return false;
-    }
+    return false;
   }
-  for (std::size_t a = 0; a < points.size(); ++a)
+  if (std::find(faces.begin(), end, 0u) != end)
   {
-    if (MeetsCell({ points[a] }))
-    {
-      return true;
-    }
+    return true;
   }
   for (std::size_t a = 0; a < points.size(); ++a)
   {
@@ -92,7 +100,7 @@ HullMeetsCell(const std::vector<Position> & points)
       }
       for (std::size_t c = b + 1; c < points.size(); ++c)
       {
-        if (MeetsCell({ points[a], points[b], points[c] }))
+        if ((faces[a] & faces[b] & faces[c]) == 0 && MeetsCell({ points[a], points[b], points[c] }))
         {
           return true;
         }
@@ -167,7 +175,7 @@ FindThinPartSites(const Image<std::uint8_t, 3> & mask,
       // The first thin voxel of a cube does the work.
       points.clear();
       bool isFirst = true;
-      for (unsigned int corner = 0; corner < 8; ++corner)
+      for (unsigned int corner = 0; corner < 8 && isFirst; ++corner)
       {
         Index<3> other = voxel;
         for (unsigned int axis = 0; axis < 3; ++axis)
