@@ -172,8 +172,8 @@ public:
     const float * const weight = m_Weights != nullptr && this->FindRow(site, row)
                                    ? m_Weights->Find(row, static_cast<std::uint32_t>(site[0] - 1), label)
                                    : nullptr;
-    const float unknown = this->GetLabel(site) == label ? FCCLabelWeights::Limit : -FCCLabelWeights::Limit;
-    return static_cast<double>(weight != nullptr ? *weight : unknown);
+    const auto limit = static_cast<double>(FCCLabelWeights::Limit);
+    return weight != nullptr ? static_cast<double>(*weight) : this->GetLabel(site) == label ? limit : -limit;
   }
 
 private:

@@ -4,16 +4,6 @@
 
 namespace itk
 {
-namespace
-{
-
-bool
-IsBefore(const FCCLabelWeights::Entry & a, const FCCLabelWeights::Entry & b)
-{
-  return a.i != b.i ? a.i < b.i : a.label < b.label;
-}
-
-} // namespace
 
 void
 FCCLabelWeights::SetNumberOfRows(SizeValueType rows)
@@ -28,7 +18,9 @@ void
 FCCLabelWeights::SortRow(SizeValueType row)
 {
   RowType & entries = m_Rows[row];
-  std::sort(entries.begin(), entries.end(), IsBefore);
+  std::sort(entries.begin(), entries.end(), [](const Entry & a, const Entry & b) {
+    return a.i != b.i ? a.i < b.i : a.label < b.label;
+  });
   entries.shrink_to_fit();
   std::vector<std::uint32_t> & begins = m_Begins[row];
   begins.clear();

@@ -318,6 +318,11 @@ LabelTopology::FindDoubts(const std::map<LabelType, double> & offsets)
 {
   const SizeValueType width = m_Labels.GetLargestPossibleRegion().GetSize(0);
   std::vector<std::vector<Change>> found(m_Weights.GetNumberOfRows());
+  std::vector<float> offsetOf(std::numeric_limits<LabelType>::max() + std::size_t{ 1 });
+  for (const auto & [label, offset] : offsets)
+  {
+    offsetOf[label] = static_cast<float>(offset);
+  }
   ForEachInBlocks(found.size(), 64, [&](std::size_t row) {
     FCCLabelWeights::RowType & entries = m_Weights.GetRow(row);
     for (auto begin = entries.begin(), end = begin; begin != entries.end(); begin = end)
@@ -329,8 +334,7 @@ LabelTopology::FindDoubts(const std::map<LabelType, double> & offsets)
       auto strongest = begin;
       for (; end != entries.end() && end->i == begin->i; ++end)
       {
-        const auto offset = offsets.find(end->label);
-        end->weight += offset != offsets.end() ? static_cast<float>(offset->second) : 0.0f;
+        end->weight += offsetOf[end->label];
         own = end->label == label ? end->weight : own;
         strongest = end->weight > strongest->weight ? end : strongest;
       }
