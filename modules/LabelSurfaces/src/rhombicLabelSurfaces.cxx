@@ -141,6 +141,7 @@ template <typename TFilter>
 itk::LabelWalls::Pointer
 ExtractWalls(TFilter & toLattice, double voxel, const std::vector<double> & volumes)
 {
+  toLattice.ReleaseDataFlagOn();
   const auto extract = itk::FCCLabelSurfaceFilter::New();
   extract->SetInput(toLattice.GetOutput());
   extract->SetWeights(toLattice.GetWeights());
