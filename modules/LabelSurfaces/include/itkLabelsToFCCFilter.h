@@ -45,11 +45,11 @@ namespace itk
  *     a field and an isosurface for each label alone          .05   2.5     .26  10.4     .82  30.2
  *     vtkDiscreteFlyingEdges3D, vtkWindowedSincPolyDataFilter .06   3.4     .23   7.5     .52  12.5
  *
- * The outputs have the same bytes for any number of threads. Fields are made one after another, each in the bounding
- * box of its label and near the label's border only (AntiAliasMaskImageFilter). Time grows with the area of the walls
- * and, much less, with the voxels of all boxes. Memory: 6 bytes a
- * site; 20 bytes a voxel of the largest box, which is that of all labels together; 12 bytes for each label at sites
- * within three voxels of its surface.
+ * The outputs have the same bytes for any number of threads. Each field is made in the bounding box of its label and
+ * near the label's border only (AntiAliasMaskImageFilter), on one thread while others are made, as many as have
+ * together no more voxels than the box of all labels. Time grows with the area of the walls and, much less, with the
+ * voxels of all boxes. Memory: 6 bytes a site; 20 bytes a voxel of the box of all labels; 12 bytes for each label at
+ * sites within three voxels of its surface.
  *
  * Throws as ImageToFCCLabelsFilter does, when the map has no voxels or its buffer is not whole, and when slice origins
  * are not as many as the slices.

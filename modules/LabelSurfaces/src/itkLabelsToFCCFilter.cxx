@@ -242,14 +242,16 @@ private:
 /** A label in its box of the refined map. */
 struct LabelField
 {
-  MaskImage::Pointer mask;
-  FieldImage::Pointer depths;            ///< below the label's surface, in voxels
-  std::vector<SizeValueType> thinVoxels; ///< offsets in the mask, as AntiAliasMaskImageFilter::GetThinVoxels()
-  std::vector<SizeValueType> protectedVoxels;
+  LabelType label;
+  ImageRegion<3> sites;                     ///< of the lattice, near the label
+  ImageRegion<3> voxels;                    ///< that the values there depend on
+  FieldImage::Pointer depths;               ///< below the label's surface, in voxels
+  std::vector<LabelTopology::Claim> claims; ///< of its thin parts
 };
 
-LabelField
-MakeField(const RefinedMap & map, LabelType label, const ImageRegion<3> & box)
+/** The filter whose output are the depths below a label's surface, in voxels of a box. */
+AntiAliasMaskImageFilter::Pointer
+MakeField(const RefinedMap & map, LabelType label, const ImageRegion<3> & box, ThreadIdType threads)
 {
   const SizeValueType width = box.GetSize(0);
   std::vector<SizeValueType> nearest(width);
@@ -273,11 +275,11 @@ MakeField(const RefinedMap & map, LabelType label, const ImageRegion<3> & box)
   });
   const auto filter = AntiAliasMaskImageFilter::New();
   filter->SetInput(mask);
+  filter->SetNumberOfWorkUnits(threads);
   filter->SetSamplePeriod(map.GetPeriod());
   filter->ProtectAllThinPartsOn();
   filter->Update();
-  const FieldImage::Pointer field = filter->GetOutput();
-  field->DisconnectPipeline();
+  FieldImage * const field = filter->GetOutput();
   ForEachRow(box, [&](const Index<3> & first, SizeValueType offset) {
     // No label but 0 reaches beyond the map.
     const float rowDepth = std::min(map.GetDepth(1, first[1]), map.GetDepth(2, first[2]));
@@ -289,7 +291,7 @@ MakeField(const RefinedMap & map, LabelType label, const ImageRegion<3> & box)
       row[n] = side * std::min(side * depth, std::min(rowDepth, depths[n]));
     }
   });
-  return { mask, field, filter->GetThinVoxels(), filter->GetProtectedVoxels() };
+  return filter;
 }
 
 /** \class FieldSource
@@ -341,6 +343,7 @@ public:
   {
     m_Source->field = map.MakeImage<FieldImage>(map.GetWhole());
     m_Source->whole = map.GetWhole();
+    m_Source->ReleaseDataFlagOn();
     m_Filter->SetInput(m_Source->GetOutput());
     m_Filter->SetDensity(density);
     m_Filter->SetSliceOrigins(map.GetSliceOrigins());
@@ -404,6 +407,7 @@ public:
     return m_Source->GetOutput()->GetRequestedRegion();
   }
 
+  /** Empties the field. */
   const FieldLattice &
   Resample(FieldImage * field, const ImageRegion<3> & sites) const
   {
@@ -411,6 +415,7 @@ public:
     m_Source->Modified();
     m_Filter->GetOutput()->SetRequestedRegion(sites);
     m_Filter->Update();
+    field->Initialize();
     return *m_Filter->GetOutput();
   }
 
@@ -423,21 +428,22 @@ private:
 /** Adds the claims of a label to the sites that its thin parts pass. */
 void
 AddClaims(const RefinedMap & map,
-          const LabelField & field,
+          const AntiAliasMaskImageFilter & filter,
           LabelType label,
           const Lattice & labels,
           std::vector<LabelTopology::Claim> & claims)
 {
+  const MaskImage & mask = *filter.GetInput();
   const auto place = [&](const Index<3> & voxel) {
-    return labels.TransformPhysicalPointToLattice(map.GetPosition(*field.mask, voxel));
+    return labels.TransformPhysicalPointToLattice(map.GetPosition(mask, voxel));
   };
   std::vector<FCCLattice::SiteType> held;
-  for (const SizeValueType voxel : field.protectedVoxels)
+  for (const SizeValueType voxel : filter.GetProtectedVoxels())
   {
-    held.push_back(FCCLattice::NearestSite(place(field.mask->ComputeIndex(static_cast<OffsetValueType>(voxel)))));
+    held.push_back(FCCLattice::NearestSite(place(mask.ComputeIndex(static_cast<OffsetValueType>(voxel)))));
   }
   std::sort(held.begin(), held.end());
-  for (const FCCLattice::SiteType & site : FindThinPartSites(*field.mask, map.GetScan(), field.thinVoxels, place))
+  for (const FCCLattice::SiteType & site : FindThinPartSites(mask, map.GetScan(), filter.GetThinVoxels(), place))
   {
     const Index<3> index = FCCLattice::IndexOf(site);
     if (labels.GetLargestPossibleRegion().IsInside(index))
@@ -602,8 +608,14 @@ LabelsToFCCFilter::GenerateData()
   VerifyInputSamples(*this, image, image.GetLargestPossibleRegion());
   const SliceOriginsType origins = this->FindSliceOrigins();
   const RefinedMap map(image, origins);
-  const auto boxes = map.FindBoxes();
-  WorkProgress progress(*this, boxes.size() + 1);
+  const FieldResampler resampler(map, this->GetDensity());
+  std::vector<LabelField> fields;
+  for (const auto & [label, box] : map.FindBoxes())
+  {
+    const ImageRegion<3> sites = resampler.FindSites(box);
+    fields.push_back({ label, sites, resampler.FindVoxels(sites), nullptr, {} });
+  }
+  WorkProgress progress(*this, fields.size() + 1);
 
   // Not the outputs: as inputs of a filter, these would ask for an update of this one.
   const auto lattice = LatticeType::New();
@@ -618,14 +630,29 @@ LabelsToFCCFilter::GenerateData()
   weights.SetNumberOfRows(region.GetSize(1) * region.GetSize(2));
   std::vector<LabelTopology::Claim> claims;
   std::vector<float> largest(region.GetNumberOfPixels(), -FCCLabelWeights::Limit);
-  for (const auto & [label, box] : boxes)
+  for (auto begin = fields.begin(), end = begin; begin != fields.end();)
   {
-    const FieldResampler resampler(map, this->GetDensity());
-    const ImageRegion<3> sites = resampler.FindSites(box);
-    const LabelField field = MakeField(map, label, resampler.FindVoxels(sites));
-    AddLabelWeights(resampler.Resample(field.depths, sites), label, labels, largest, weights);
-    AddClaims(map, field, label, labels, claims);
-    progress.Completed(1);
+    // Side by side are made as many as have together no more voxels than the first, which is that of 0.
+    SizeValueType voxels = begin->voxels.GetNumberOfPixels();
+    end = std::find_if(begin + 1, fields.end(), [&](const LabelField & field) {
+      voxels += field.voxels.GetNumberOfPixels();
+      return voxels > fields.front().voxels.GetNumberOfPixels();
+    });
+    const ThreadIdType threads = end - begin > 1 ? 1 : this->GetNumberOfWorkUnits();
+    ForEachOnThreads(static_cast<std::size_t>(end - begin), [&](std::size_t n) {
+      LabelField & field = begin[static_cast<std::ptrdiff_t>(n)];
+      const auto filter = MakeField(map, field.label, field.voxels, threads);
+      AddClaims(map, *filter, field.label, labels, field.claims);
+      field.depths = filter->GetOutput();
+      field.depths->DisconnectPipeline();
+      progress.Completed(1);
+    });
+    for (; begin != end; ++begin)
+    {
+      const FieldResampler one(map, this->GetDensity());
+      AddLabelWeights(one.Resample(begin->depths, begin->sites), begin->label, labels, largest, weights);
+      claims.insert(claims.end(), begin->claims.begin(), begin->claims.end());
+    }
   }
   SortWeights(region, weights);
   LabelTopology topology(labels, weights, m_Groups);
