@@ -69,7 +69,7 @@ TEST(FCCLabelSurfaceFilter, SurfacesOfNoiseDoNotCrossWhereverWeightsTie)
     weights->SetNumberOfRows(64);
     for (itk::SizeValueType row = 0; row < 64; ++row)
     {
-      for (std::uint32_t i = 0; i < 6; ++i)
+      for (std::uint16_t i = 0; i < 6; ++i)
       {
         for (std::uint16_t label = 0; label < 5; ++label)
         {
@@ -111,7 +111,7 @@ TEST(FCCLabelSurfaceFilter, TiesOfLinearWeightsAreExact)
     for (std::uint16_t label = 1; label <= 4; ++label)
     {
       it.Set(weightAt(point, label) > weightAt(point, it.Get()) ? label : it.Get());
-      weights->Add(row, { static_cast<std::uint32_t>(offset[0]), label, static_cast<float>(weightAt(point, label)) });
+      weights->Add(row, { static_cast<std::uint16_t>(offset[0]), label, static_cast<float>(weightAt(point, label)) });
     }
   }
   for (itk::SizeValueType row = 0; row < weights->GetNumberOfRows(); ++row)

@@ -408,6 +408,7 @@ TEST(LabelsToFCCFilter, RefusesWrongSettings)
 {
   const auto map = MakeMap({ { 4, 4, 4 } }, 1.0, [](const Point &) { return 1; });
   EXPECT_THROW(MakeWalls(map, Filter::SliceOriginsType(3)), itk::ExceptionObject);
+  EXPECT_THROW(MakeWalls(MakeMap({ { 150000, 1, 1 } }, 1.0, [](const Point &) { return 1; })), itk::ExceptionObject);
   const auto filter = Filter::New();
   filter->SetInput(map);
   filter->SetDensity(0.0);

@@ -18,8 +18,8 @@ namespace itk
  * edge of the lattice between different labels, for both labels. A weight that is not stored counts as +Limit for the
  * label of the site and as -Limit for others.
  *
- * Rows are those of an image of labels, counted from its first: j + k height. Memory: 12 bytes a weight, 48 a row, and
- * one for each of its sites.
+ * Rows are those of an image of labels, counted from its first: j + k height. They have at most 65,536 sites. Memory:
+ * 8 bytes a weight, 48 a row, and one for each of its sites.
  *
  * Thread safety: different rows can be filled at once.
  *
@@ -43,7 +43,7 @@ public:
   /** The weight of a label at the i-th site of a row. */
   struct Entry
   {
-    std::uint32_t i;
+    std::uint16_t i;
     LabelType label;
     float weight;
   };

@@ -14,7 +14,8 @@ namespace itk
  * The first output has the label of each site, the second the weights of labels near walls. Both are made as a whole,
  * from whole inputs.
  *
- * Throws when the density is not above 0 and at most 64.
+ * Throws when the density is not above 0 and at most 64, and when a row of the lattice would have more than 65,535
+ * sites.
  *
  * \ingroup LabelSurfaces
  */

@@ -48,7 +48,7 @@ namespace itk
  * The outputs have the same bytes for any number of threads. Each field is made in the bounding box of its label and
  * near the label's border only (AntiAliasMaskImageFilter), on one thread while others are made, as many as have
  * together no more voxels than the box of all labels. Time grows with the area of the walls and, much less, with the
- * voxels of all boxes. Memory: 6 bytes a site; 20 bytes a voxel of the box of all labels; 12 bytes for each label at
+ * voxels of all boxes. Memory: 6 bytes a site; 20 bytes a voxel of the box of all labels; 8 bytes for each label at
  * sites within three voxels of its surface.
  *
  * Throws as ImageToFCCLabelsFilter does, when the map has no voxels or its buffer is not whole, and when slice origins

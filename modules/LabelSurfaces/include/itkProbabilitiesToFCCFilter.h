@@ -30,7 +30,7 @@ namespace itk
  *     the same and RelaxWalls() by half a voxel               .06   4.2     .11   6.9     .22   9.1
  *
  * The outputs have the same bytes for any number of threads. Inputs are resampled one after another. Memory: 18 bytes a
- * site, 12 bytes a voxel, and 12 bytes for each site and label with a probability between 0 and 1.
+ * site, 12 bytes a voxel, and 8 bytes for each site and label with a probability between 0 and 1.
  *
  * Throws as ImageToFCCLabelsFilter does, and when the inputs have no voxels or their grids differ.
  *

@@ -170,7 +170,7 @@ LabelTopology::Give(SizeValueType site, LabelType label)
     if (label != own && this->FindWeight(site, each) == nullptr)
     {
       const float weight = each == own ? FCCLabelWeights::Limit : -FCCLabelWeights::Limit;
-      m_Weights.Add(site / width, { static_cast<std::uint32_t>(site % width), each, weight });
+      m_Weights.Add(site / width, { static_cast<std::uint16_t>(site % width), each, weight });
       m_UnsortedRows.push_back(site / width);
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace itk
 {
@@ -41,6 +42,11 @@ AddLabelWeights(const FCCImage<float> & field,
 {
   constexpr float limit = FCCLabelWeights::Limit;
   const auto & sites = field.GetBufferedRegion();
+  const SizeValueType length = labels.GetLargestPossibleRegion().GetSize(0);
+  if (length > std::numeric_limits<std::uint16_t>::max())
+  {
+    itkGenericExceptionMacro("A row of the lattice has " << length << " sites, but weights have places for 65,535.");
+  }
   ForEachRow(sites, [&](const Index<3> & first, SizeValueType fieldOffset) {
     const SizeValueType row = GetRowNumber(first, labels.GetLargestPossibleRegion());
     const float * const values = field.GetBufferPointer() + fieldOffset;
@@ -57,7 +63,7 @@ AddLabelWeights(const FCCImage<float> & field,
       }
       if (std::abs(weight) < limit)
       {
-        weights.Add(row, { static_cast<std::uint32_t>(first[0]) + static_cast<std::uint32_t>(i), label, weight });
+        weights.Add(row, { static_cast<std::uint16_t>(static_cast<SizeValueType>(first[0]) + i), label, weight });
       }
     }
   });

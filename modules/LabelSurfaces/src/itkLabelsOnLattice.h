@@ -33,6 +33,7 @@ std::array<SizeValueType, 3>
 DivideVoxels(const Vector<double, 3> & spacing);
 
 /** Adds the weights of a label where they are below the limit, and gives it the sites where they are the largest.
+ * Throws when rows of the lattice have more than 65,535 sites.
  * \param field the weights of the label in a box of the lattice
  * \param largest the largest weight so far, of each site */
 void
