@@ -251,8 +251,7 @@ SetNormals(itk::TriangleSurface & surface)
 void
 MeasureLabels(const LabelPieces & pieces, LabelMesh & mesh)
 {
-  for (std::size_t n = 0; n < mesh.labels.size(); ++n)
-  {
+  itk::ForEachOnThreads(mesh.labels.size(), [&](std::size_t n) {
     LabelSurface & label = mesh.labels[n];
     const auto surface = mesh.walls->ExtractLabel(static_cast<itk::LabelWalls::LabelType>(n + 1));
     const auto volumes = itk::ComputeComponentVolumes(*surface, itk::FindComponents(*surface));
@@ -261,7 +260,7 @@ MeasureLabels(const LabelPieces & pieces, LabelMesh & mesh)
       std::count_if(volumes.begin(), volumes.end(), [](double volume) { return volume > 0.0; }));
     label.pieces = pieces.counts[n + 1];
     label.isTorn = label.surfacePieces > label.pieces && label.surfacePieces > pieces.countsByFace[n + 1];
-  }
+  });
 }
 
 } // namespace
