@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -118,6 +119,30 @@ TEST(LabelsToFCCFilter, HalfBallsShareTheirWallAndKeepTheirVolumes)
       const auto topology = itk::ComputeTopology(*walls->ExtractLabel(label));
       EXPECT_TRUE(topology.IsWatertight()) << topology;
       EXPECT_EQ(topology.components, 1u);
+    }
+  }
+}
+
+/** Slanted layers in a ball: what a layer gains its neighbours lose. */
+TEST(LabelsToFCCFilter, StackedLayersKeepTheirVolumes)
+{
+  for (const double slices : { 1.0, 6.0 })
+  {
+    const auto map =
+      MakeMap({ { 44, 44, static_cast<itk::SizeValueType>(44.0 / slices) } }, slices, [](const Point & p) {
+        const double height = 0.48 * p[0] + 0.36 * p[1] + 0.8 * p[2];
+        return p.GetVectorFromOrigin().GetNorm() > 20.0 ? 0 : static_cast<int>(std::floor((height + 20.0) / 5.0)) + 1;
+      });
+    std::array<std::size_t, 9> voxels{};
+    for (std::size_t n = 0; n < map->GetBufferedRegion().GetNumberOfPixels(); ++n)
+    {
+      ++voxels[map->GetBufferPointer()[n]];
+    }
+    const auto walls = MakeWalls(map);
+    for (std::uint16_t label = 1; label < voxels.size(); ++label)
+    {
+      const double volume = slices * static_cast<double>(voxels[label]);
+      EXPECT_NEAR(Volume(*walls, label) / volume, 1.0, 0.01) << label << " in slices of " << slices << " mm";
     }
   }
 }

@@ -44,16 +44,17 @@ public:
     return m_TriangleLabels;
   }
 
-  /** What the walls of a label enclose. */
-  struct Measures
-  {
-    double volume = 0.0; ///< mm^3
-    double area = 0.0;   ///< mm^2
-  };
+  /** The volume in mm^3 that the walls of each label enclose, up to the largest label; for 0 that of all others,
+   * negative. */
+  std::vector<double>
+  ComputeVolumes() const;
 
-  /** The measures of each label, up to the largest; label 0 has the volume of all others, negative. */
-  std::vector<Measures>
-  ComputeMeasures() const;
+  /** The layers in mm by which labels have to grow, to first order, so that each gains a volume in mm^3 (or loses, if
+   * negative). A wall moves towards its front label by the layer of the back label less that of the front label. Label
+   * 0 has no layer. Solves the linear system of the walls' areas by the Gauss-Seidel method.
+   * \param gains by label, up to the largest */
+  std::vector<double>
+  FindLayers(const std::vector<double> & gains) const;
 
   /** The labels that have walls, ascending, without 0. */
   std::vector<LabelType>

@@ -16,40 +16,39 @@ constexpr unsigned int MostCorrections = 16;
 constexpr double SmallestLayer = 1e-3;  // to correct a volume by, of the largest move
 constexpr double ShareForVolumes = 0.1; // of the largest error of simplification
 
-/** The layer that each label lacks on all of its surface. Returns whether any is thicker than \a least and has become
- * clearly thinner. */
+/** The layers that labels lack to their volumes. Returns whether any is thicker than \a least and has become clearly
+ * thinner. */
 bool
-FindLayers(const std::vector<LabelWalls::Measures> & measures,
-           const std::vector<LabelWalls::Measures> & wanted,
-           double least,
-           std::vector<double> & layers)
+FindLayers(const LabelWalls & walls, const std::vector<double> & wanted, double least, std::vector<double> & layers)
 {
+  std::vector<double> lacking = walls.ComputeVolumes();
+  std::transform(lacking.begin(), lacking.end(), wanted.begin(), lacking.begin(), [](double volume, double want) {
+    return want - volume;
+  });
+  const std::vector<double> found = walls.FindLayers(lacking);
   bool isAnyLacking = false;
-  layers.resize(measures.size(), std::numeric_limits<double>::infinity());
-  layers[0] = 0.0;
-  for (std::size_t label = 1; label < layers.size(); ++label)
+  layers.resize(found.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t label = 0; label < found.size(); ++label)
   {
-    const double lacking = wanted[label].volume - measures[label].volume;
-    const double layer = measures[label].area > 0.0 ? lacking / measures[label].area : 0.0;
-    isAnyLacking = isAnyLacking || (std::abs(layer) > least && std::abs(layer) < 0.9 * std::abs(layers[label]));
-    layers[label] = layer;
+    const double size = std::abs(found[label]);
+    isAnyLacking = isAnyLacking || (size > least && size < 0.9 * std::abs(layers[label]));
+    layers[label] = found[label];
   }
   return isAnyLacking;
 }
 
-/** Moves walls along their normals until each label has its volume, or points are as far as they may go. A wall moves
- * by the sum of what its labels want: each a layer on all of its surface as large as what it lacks. Fixed points stay.
- */
+/** Moves walls along their normals until each label has its volume, or points are as far as they may go. Fixed points
+ * stay. */
 void
 RestoreVolumes(LabelWalls & walls,
-               const std::vector<LabelWalls::Measures> & wanted,
+               const std::vector<double> & wanted,
                const TrianglesOfPoints & fans,
                const PointStrata & strata,
                BoundedMoves & moves)
 {
-  std::vector<double> layers; // mm, by label; outside takes what is left
+  std::vector<double> layers; // mm, by label
   const double least = SmallestLayer * moves.GetMaximumMove();
-  for (unsigned int n = 0; n < MostCorrections && FindLayers(walls.ComputeMeasures(), wanted, least, layers); ++n)
+  for (unsigned int n = 0; n < MostCorrections && FindLayers(walls, wanted, least, layers); ++n)
   {
     moves.Step([&](SizeValueType point) {
       PositionType way{};
@@ -94,10 +93,10 @@ PutBackMeeting(const LabelWalls & walls, const TrianglesOfPoints & fans, Bounded
 TriangleSurfaceSmoothingReport
 RelaxWalls(LabelWalls & walls, const TriangleSurfaceSmoothingSettings & settings, const std::vector<double> & volumes)
 {
-  auto wanted = walls.ComputeMeasures();
+  auto wanted = walls.ComputeVolumes();
   for (std::size_t label = 1; label < std::min(wanted.size(), volumes.size()); ++label)
   {
-    wanted[label].volume = volumes[label] > 0.0 ? volumes[label] : wanted[label].volume;
+    wanted[label] = volumes[label] > 0.0 ? volumes[label] : wanted[label];
   }
   const TrianglesOfPoints fans(walls);
   const PointStrata strata = FindStrata(walls, fans);
@@ -112,7 +111,7 @@ RelaxWalls(LabelWalls & walls, const TriangleSurfaceSmoothingSettings & settings
 TriangleSurfaceSimplificationReport
 SimplifyWalls(LabelWalls & walls, const TriangleSurfaceSimplificationSettings & settings)
 {
-  const auto measures = walls.ComputeMeasures();
+  const auto volumes = walls.ComputeVolumes();
   auto & labels = walls.GetTriangleLabels();
   std::vector<LabelWalls::LabelPairType> pairs(labels.begin(), labels.end());
   std::sort(pairs.begin(), pairs.end());
@@ -133,7 +132,7 @@ SimplifyWalls(LabelWalls & walls, const TriangleSurfaceSimplificationSettings & 
     const TrianglesOfPoints fans(walls);
     BoundedMoves moves(walls, fans, ShareForVolumes * settings.maximumError);
     const PointStrata strata = FindStrata(walls, fans);
-    RestoreVolumes(walls, measures, fans, strata, moves);
+    RestoreVolumes(walls, volumes, fans, strata, moves);
     PutBackMeeting(walls, fans, moves);
     moves.Finish(strata);
   }

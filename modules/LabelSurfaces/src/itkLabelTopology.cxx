@@ -314,15 +314,11 @@ LabelTopology::PlaceLost()
 }
 
 std::vector<LabelTopology::Change>
-LabelTopology::FindDoubts(const std::map<LabelType, double> & offsets)
+LabelTopology::FindDoubts(std::vector<double> offsets)
 {
   const SizeValueType width = m_Labels.GetLargestPossibleRegion().GetSize(0);
   std::vector<std::vector<Change>> found(m_Weights.GetNumberOfRows());
-  std::vector<float> offsetOf(std::numeric_limits<LabelType>::max() + std::size_t{ 1 });
-  for (const auto & [label, offset] : offsets)
-  {
-    offsetOf[label] = static_cast<float>(offset);
-  }
+  offsets.resize(std::numeric_limits<LabelType>::max() + std::size_t{ 1 });
   ForEachInBlocks(found.size(), 64, [&](std::size_t row) {
     FCCLabelWeights::RowType & entries = m_Weights.GetRow(row);
     for (auto begin = entries.begin(), end = begin; begin != entries.end(); begin = end)
@@ -334,7 +330,7 @@ LabelTopology::FindDoubts(const std::map<LabelType, double> & offsets)
       auto strongest = begin;
       for (; end != entries.end() && end->i == begin->i; ++end)
       {
-        end->weight += offsetOf[end->label];
+        end->weight += static_cast<float>(offsets[end->label]);
         own = end->label == label ? end->weight : own;
         strongest = end->weight > strongest->weight ? end : strongest;
       }
@@ -381,7 +377,7 @@ LabelTopology::LowerRaised()
 }
 
 void
-LabelTopology::AddOffsets(const std::map<LabelType, double> & offsets)
+LabelTopology::AddOffsets(std::vector<double> offsets)
 {
   this->LowerRaised();
   m_Raised = this->FindDoubts(offsets);

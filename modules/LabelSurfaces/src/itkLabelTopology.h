@@ -5,7 +5,6 @@
 #include "itkFCCLabelWeights.h"
 
 #include <array>
-#include <map>
 #include <vector>
 
 namespace itk
@@ -52,9 +51,10 @@ public:
   void
   Grant(std::vector<Claim> claims);
 
-  /** Adds an offset to all weights of each label. */
+  /** Adds an offset to all weights of each label.
+   * \param offsets by label; those that are missing are 0 */
   void
-  AddOffsets(const std::map<LabelType, double> & offsets);
+  AddOffsets(std::vector<double> offsets);
 
 private:
   /** The neighbours of a site in the lattice's tetrahedra; 0 beyond the lattice. */
@@ -109,7 +109,7 @@ private:
 
   /** Adds the offsets and returns the sites whose labels have not the largest weight, with those that have. */
   std::vector<Change>
-  FindDoubts(const std::map<LabelType, double> & offsets);
+  FindDoubts(std::vector<double> offsets);
 
   /** Makes the changes that keep the topology; leaves the others in the list. */
   void

@@ -455,11 +455,8 @@ AddClaims(const RefinedMap & map,
   }
 }
 
-/** A number for each label. */
-using NumberByLabel = std::map<LabelType, double>;
-
 /** The volumes of the voxels of each label in mm^3. A slice reaches half way to its neighbours. */
-NumberByLabel
+std::vector<double>
 ComputeVoxelVolumes(const LabelImage & map, LabelsToFCCFilter::SliceOriginsType origins)
 {
   const auto & region = map.GetLargestPossibleRegion();
@@ -479,7 +476,7 @@ ComputeVoxelVolumes(const LabelImage & map, LabelsToFCCFilter::SliceOriginsType 
   }
   const Vector<double, 3> area = CrossProduct(axes[0], axes[1]);
   const SizeValueType voxels = region.GetSize(0) * region.GetSize(1);
-  NumberByLabel volumes;
+  std::vector<double> volumes(1);
   for (SizeValueType k = 0; k < region.GetSize(2); ++k)
   {
     std::map<LabelType, SizeValueType> counts;
@@ -497,56 +494,57 @@ ComputeVoxelVolumes(const LabelImage & map, LabelsToFCCFilter::SliceOriginsType 
       steps > 0.0 ? (origins[hasAfter ? k + 1 : k] - origins[hasBefore ? k - 1 : k]) / steps : axes[2];
     for (const auto & [label, count] : counts)
     {
+      volumes.resize(std::max(volumes.size(), std::size_t{ label } + 1));
       volumes[label] += static_cast<double>(count) * std::abs(area * step);
     }
   }
   return volumes;
 }
 
-/** Moves the walls of all labels so that these have the volumes of their voxels. The cube root of a volume is nearly
- * linear in the offset of a label's weights: the first step follows from the label's area, the next ones from its last
- * two volumes. */
+/** Moves the walls of all labels so that these have the volumes of their voxels. Labels grow by layers that follow from
+ * the walls' areas; what they gained in the last step, compared with what was expected, corrects the next one. */
 void
-KeepVolumes(const NumberByLabel & voxelVolumes,
+KeepVolumes(const std::vector<double> & voxelVolumes,
             double voxelEdge,
             const Lattice & labels,
             const FCCLabelWeights & weights,
             LabelTopology & topology)
 {
-  struct Step
-  {
-    double offset = 0.0; // of all steps together
-    double size = 0.0;   // of the last step
-    double lastRoot = 0.0;
-  };
-  std::map<LabelType, Step> steps;
+  std::vector<double> offsets(voxelVolumes.size()); // of all steps together
+  std::vector<double> volumes(voxelVolumes.size());
+  std::vector<double> expected(voxelVolumes.size()); // gains
   for (unsigned int n = 0; n < VolumeCorrections; ++n)
   {
     const auto filter = FCCLabelSurfaceFilter::New();
     filter->SetInput(&labels);
     filter->SetWeights(&weights);
     filter->Update();
-    const auto measures = filter->GetOutput()->ComputeMeasures();
-    NumberByLabel offsets;
-    for (const auto & [label, volume] : voxelVolumes)
+    const LabelWalls & walls = *filter->GetOutput();
+    std::vector<double> gains(walls.ComputeVolumes());
+    gains.resize(voxelVolumes.size());
+    for (std::size_t label = 1; label < gains.size(); ++label)
     {
-      if (label == 0 || label >= measures.size() || !(measures[label].volume > 0.0))
-      {
-        continue;
-      }
-      Step & step = steps[label];
-      const double root = std::cbrt(measures[label].volume);
-      // An offset moves a wall half as far, in voxels.
-      double slope = 0.5 * voxelEdge * measures[label].area / (3.0 * root * root);
-      if (step.size != 0.0)
-      {
-        slope *= std::clamp((root - step.lastRoot) / (step.size * slope), 1.0 / SteepestSlope, SteepestSlope);
-      }
-      const double next = std::clamp(step.offset + (std::cbrt(volume) - root) / slope, -FarthestOffset, FarthestOffset);
-      step = { next, next - step.offset, root };
-      offsets[label] = step.size;
+      const double volume = gains[label];
+      const double gained = volume - volumes[label];
+      const double ratio = expected[label] != 0.0 ? gained / expected[label] : 1.0;
+      // The cube root of a volume is nearly linear in the layer.
+      const double root = std::cbrt(volume);
+      gains[label] = volume > 0.0 ? 3.0 * root * root * (std::cbrt(voxelVolumes[label]) - root) /
+                                      std::clamp(ratio, 1.0 / SteepestSlope, SteepestSlope)
+                                  : 0.0;
+      volumes[label] = volume;
     }
-    topology.AddOffsets(offsets);
+    const std::vector<double> layers = walls.FindLayers(gains);
+    std::vector<double> steps(gains.size());
+    for (std::size_t label = 1; label < gains.size(); ++label)
+    {
+      // An offset moves a wall half as far, in voxels.
+      const double next = std::clamp(offsets[label] + 2.0 * layers[label] / voxelEdge, -FarthestOffset, FarthestOffset);
+      steps[label] = next - offsets[label];
+      offsets[label] = next;
+    }
+    expected = gains;
+    topology.AddOffsets(steps);
   }
 }
 
@@ -657,14 +655,8 @@ LabelsToFCCFilter::GenerateData()
   SortWeights(region, weights);
   LabelTopology topology(labels, weights, m_Groups);
   topology.Grant(std::move(claims));
-  const NumberByLabel volumes = ComputeVoxelVolumes(image, origins);
-  KeepVolumes(volumes, map.GetVoxelEdge(), labels, weights, topology);
-  m_VoxelVolumes.clear();
-  for (const auto & [label, volume] : volumes)
-  {
-    m_VoxelVolumes.resize(label + std::size_t{ 1 }, 0.0);
-    m_VoxelVolumes[label] = volume;
-  }
+  m_VoxelVolumes = ComputeVoxelVolumes(image, origins);
+  KeepVolumes(m_VoxelVolumes, map.GetVoxelEdge(), labels, weights, topology);
   this->GetOutput()->Graft(lattice);
   this->GetWeights()->Swap(weights);
   progress.Finish();
