@@ -262,7 +262,7 @@ struct AntiAliasMask : Description<itk::AntiAliasMaskImageFilter>
   GetParameters()
   {
     return { MakeParameter(
-      "ProtectAllThinParts", &Filter::SetProtectAllThinParts, &Filter::GetProtectAllThinParts, false, true) };
+      "ProtectSpecksOnly", &Filter::SetProtectSpecksOnly, &Filter::GetProtectSpecksOnly, false, true) };
   }
 
   static std::vector<std::string>
@@ -282,7 +282,7 @@ struct AntiAliasMask : Description<itk::AntiAliasMaskImageFilter>
   static void
   Vary(Filter & filter, const InputImage &, Random & random)
   {
-    filter.SetProtectAllThinParts(Integer(random, 0, 1) == 0);
+    filter.SetProtectSpecksOnly(Integer(random, 0, 1) == 0);
   }
 };
 

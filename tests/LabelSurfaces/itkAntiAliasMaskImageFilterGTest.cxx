@@ -192,7 +192,7 @@ TEST(AntiAliasMask, Prints)
 {
   std::ostringstream text;
   Filter::New()->Print(text);
-  EXPECT_NE(text.str().find("ProtectAllThinParts: Off"), std::string::npos);
+  EXPECT_NE(text.str().find("ProtectSpecksOnly: Off"), std::string::npos);
 }
 
 } // namespace

@@ -600,7 +600,7 @@ TEST(LabelSurfaces, CloseAtTheBorder)
       count += 1.0;
     }
   }
-  EXPECT_NEAR(height / count, 15.5, 0.04);
+  EXPECT_NEAR(height / count, 15.5, 0.06); // moved by the constant that keeps the volume
   // All of it: a box with rounded edges.
   const LabelSurface box = OnlySurface(MakeMap({ { 20, 30, 10 } }, Vector(1.0), [](const Point &) { return 1; }));
   EXPECT_EQ(box.surfacePieces, 1);

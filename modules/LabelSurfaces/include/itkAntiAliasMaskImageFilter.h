@@ -32,14 +32,14 @@ class VoxelBand;
  * until the smoothed coverage of the voxels is that of the mask. The border then stays in place on average, and its
  * steps vanish.
  *
- * Thin parts and sharp edges need a smaller neighbourhood. Around voxels that end up more than 0.3 on the wrong side,
+ * Thin parts and sharp edges need a smaller neighbourhood. Around voxels that end up more than 0.2 on the wrong side,
  * the field is made with a Gaussian of 1.2 voxels and smaller corrections. *Narrow* voxels are those that are still
- * more than 0.3 on the wrong side, and those of sheets and vessels one voxel wide: sixteen or more connected voxels in
- * no 2 x 2 x 2 block of their class. Around them the Gaussian is one of 0.7 voxels. Voxels in no such block that are
- * still on the wrong side are *protected*: the field is at least that of a tube of radius 0.6 around them and their
- * connections with all 26 neighbours of their class. So vessels of one voxel and single voxels stay. *Spurs* do not:
- * one or two such voxels that stick out of a part and connect it with nothing. A part as narrow as a voxel may become
- * thinner than a lattice of the default density resolves, and then has gaps.
+ * more than 0.3 on the wrong side, or on it at all if they are of sheets and vessels one voxel wide: sixteen or more
+ * connected voxels in no 2 x 2 x 2 block of their class. Around them the Gaussian is one of 1 voxel. Voxels in no such
+ * block that are still on the wrong side are *protected*: the field is at least that of a tube of radius 0.6 around
+ * them and their connections with all 26 neighbours of their class. So vessels of one voxel and single voxels stay.
+ * *Spurs* do not: one or two such voxels that stick out of a part and connect it with nothing. A part as narrow as a
+ * voxel may become thinner than a lattice of the default density resolves, and then has gaps.
  *
  * Mean errors against the shape that the mask was made from: distance in voxels, angle of facets in degrees, and area
  * in per cent, of the zero surface extracted from the default lattice; for spheres of radius 10 and 40, a torus
@@ -86,11 +86,11 @@ public:
   itkNewMacro(Self);
   itkTypeMacro(AntiAliasMaskImageFilter, ImageToImageFilter);
 
-  /** Whether all narrow voxels of parts one voxel wide are protected, not only those that would be lost. Vessels are
-   * certainly whole then, but sheets become uneven. Default off. */
-  itkSetMacro(ProtectAllThinParts, bool);
-  itkGetConstMacro(ProtectAllThinParts, bool);
-  itkBooleanMacro(ProtectAllThinParts);
+  /** Whether sheets and vessels one voxel wide are not protected, for users that keep them whole by GetThinVoxels():
+   * they are smoother then. Default off. */
+  itkSetMacro(ProtectSpecksOnly, bool);
+  itkGetConstMacro(ProtectSpecksOnly, bool);
+  itkBooleanMacro(ProtectSpecksOnly);
 
   using PeriodType = std::array<SizeValueType, 3>;
 
@@ -165,7 +165,8 @@ private:
   void
   MatchLocalVolumes(double sigma, unsigned int corrections, float gain, const VoxelBand & band, float * field);
 
-  /** By voxel: 0 in a 2 x 2 x 2 block of its class, 1 in none, 2 in none and part of a sheet or vessel. */
+  /** By voxel: 0 in a 2 x 2 x 2 block of its class, 1 in none; then 2 in a small part that is not a spur, 3 in a sheet
+   * or vessel. */
   void
   FindThin(const VoxelBand & band, std::vector<std::uint8_t> & thin);
 
@@ -173,9 +174,13 @@ private:
   bool
   IsSpur(const std::vector<SizeValueType> & part, const std::vector<std::uint8_t> & marked) const;
 
-  /** Marks the narrow voxels. Returns whether there are any. */
+  /** Marks the narrow voxels: samples more than \a least on the wrong side, and voxels of sheets and vessels that are
+   * on it at all. Returns whether there are any. */
   bool
-  FindNarrow(const std::vector<std::uint8_t> & thin, const VoxelBand & band, std::vector<std::uint8_t> & isNarrow);
+  FindNarrow(const std::vector<std::uint8_t> & thin,
+             const VoxelBand & band,
+             float least,
+             std::vector<std::uint8_t> & isNarrow);
 
   /** The marked voxels connected with a marked one within its class. Sets them as seen. */
   std::vector<SizeValueType>
@@ -211,7 +216,7 @@ private:
   WorkProgress * m_WorkProgress{ nullptr };
   PeriodType m_SamplePeriod{ { 1, 1, 1 } };
   double m_Widening{ 1.0 }; ///< of all Gaussians
-  bool m_ProtectAllThinParts{ false };
+  bool m_ProtectSpecksOnly{ false };
   std::vector<SizeValueType> m_ThinVoxels;
   std::vector<SizeValueType> m_ProtectedVoxels;
 };

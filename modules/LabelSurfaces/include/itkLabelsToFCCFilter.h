@@ -40,8 +40,8 @@ namespace itk
  * touch one another, of 1 mm voxels in slices of 1, 3 and 6 mm (rhombic-label-walls):
  *
  *     method                                                  1 mm          3 mm          6 mm
- *     this filter and FCCLabelSurfaceFilter                   .06   4.9     .14   7.9     .20   8.9
- *     the same and RelaxWalls() by half a voxel               .06   4.4     .14   7.7     .20   8.6
+ *     this filter and FCCLabelSurfaceFilter                   .06   4.6     .14   7.7     .20   8.7
+ *     the same and RelaxWalls() by half a voxel               .06   4.2     .14   7.4     .20   8.4
  *     a field and an isosurface for each label alone          .05   2.5     .26  10.4     .82  30.2
  *     vtkDiscreteFlyingEdges3D, vtkWindowedSincPolyDataFilter .06   3.4     .23   7.5     .52  12.5
  *

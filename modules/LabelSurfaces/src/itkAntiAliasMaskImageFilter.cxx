@@ -25,11 +25,12 @@ struct Scale
 };
 constexpr Scale Wide{ 2.5, 2, 1.0f };
 constexpr Scale Medium{ 1.2, 4, 0.6f };
-constexpr Scale Fine{ 0.7, 5, 0.3f };
+constexpr Scale Fine{ 1.0, 10, 0.5f };
 constexpr double WideningByPeriod = 0.3;
 constexpr unsigned int CorrectionsBetweenSlices = 6;
 constexpr double BandWidth = 2.0;  // of the wide Gaussian, in sigma: depths there reach 3 voxels
-constexpr float Narrow = 0.3f;     // voxels: depth on the wrong side
+constexpr float Narrow = 0.2f;     // voxels: depth on the wrong side; times the widening
+constexpr float VeryNarrow = 0.3f; // voxels: the same, after the medium Gaussian
 constexpr float Lost = 0.03f;      // voxels: depth on the wrong side
 constexpr float TubeRadius = 0.6f; // voxels
 constexpr SizeValueType LargestSpur = 2;
@@ -159,7 +160,7 @@ void
 AntiAliasMaskImageFilter::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);
-  os << indent << "ProtectAllThinParts: " << (m_ProtectAllThinParts ? "On" : "Off") << std::endl;
+  os << indent << "ProtectSpecksOnly: " << (m_ProtectSpecksOnly ? "On" : "Off") << std::endl;
   os << indent << "SamplePeriod: " << m_SamplePeriod[0] << ' ' << m_SamplePeriod[1] << ' ' << m_SamplePeriod[2]
      << std::endl;
   os << indent << "ThinVoxels: " << m_ThinVoxels.size() << std::endl;
@@ -225,7 +226,7 @@ AntiAliasMaskImageFilter::GenerateData()
     Wide.sigma, longestPeriod > 1 ? CorrectionsBetweenSlices : Wide.corrections, Wide.gain, band, m_Field);
   std::vector<std::uint8_t> thin(size[0] * size[1] * size[2]);
   std::vector<std::uint8_t> isMarked(thin.size());
-  if (this->FindNarrow(thin, band, isMarked))
+  if (this->FindNarrow(thin, band, Narrow * static_cast<float>(m_Widening), isMarked))
   {
     this->Refine(Medium.sigma, Medium.corrections, Medium.gain, isMarked);
   }
@@ -237,7 +238,7 @@ AntiAliasMaskImageFilter::GenerateData()
       m_ThinVoxels.push_back(voxel);
     }
   }
-  if (this->FindNarrow(thin, band, isMarked))
+  if (this->FindNarrow(thin, band, VeryNarrow, isMarked))
   {
     this->Refine(Fine.sigma, Fine.corrections, Fine.gain, isMarked);
     this->KeepLost(thin, isMarked);
@@ -545,10 +546,10 @@ AntiAliasMaskImageFilter::FindThin(const VoxelBand & band, std::vector<std::uint
     if (thin[voxel] != 0 && isSeen[voxel] == 0)
     {
       const std::vector<SizeValueType> part = this->CollectPart(voxel, thin, isSeen);
-      const bool isNeeded = part.size() >= SmallestSheet || (m_ProtectAllThinParts && !this->IsSpur(part, thin));
+      const std::uint8_t kind = part.size() >= SmallestSheet ? 3 : this->IsSpur(part, thin) ? 1 : 2;
       for (const SizeValueType member : part)
       {
-        thin[member] = isNeeded ? 2 : 1;
+        thin[member] = kind;
       }
     }
   }
@@ -597,6 +598,7 @@ AntiAliasMaskImageFilter::IsSpur(const std::vector<SizeValueType> & part,
 bool
 AntiAliasMaskImageFilter::FindNarrow(const std::vector<std::uint8_t> & thin,
                                      const VoxelBand & band,
+                                     float least,
                                      std::vector<std::uint8_t> & isNarrow)
 {
   const SizeValueType width = m_Size[0];
@@ -608,8 +610,9 @@ AntiAliasMaskImageFilter::FindNarrow(const std::vector<std::uint8_t> & thin,
       band.ForEachRun(row, [&](SizeValueType begin, SizeValueType end) {
         for (SizeValueType voxel = row * width + begin; voxel < row * width + end; ++voxel)
         {
-          const bool isWrong = SideOf(m_Mask[voxel]) * m_Field[voxel] < -Narrow;
-          isNarrow[voxel] = thin[voxel] == 2 || (isWrong && this->IsSample(voxel)) ? 1 : 0;
+          const float depth = SideOf(m_Mask[voxel]) * m_Field[voxel];
+          const bool isThin = thin[voxel] >= 2 && depth < 0.0f;
+          isNarrow[voxel] = isThin || (depth < -least && this->IsSample(voxel)) ? 1 : 0;
           found[z] |= isNarrow[voxel];
         }
       });
@@ -664,8 +667,9 @@ AntiAliasMaskImageFilter::KeepLost(const std::vector<std::uint8_t> & thin, std::
   this->ForEach(m_Size[2], [&](SizeValueType z) {
     for (SizeValueType voxel = z * voxelsPerPlane; voxel < (z + 1) * voxelsPerPlane; ++voxel)
     {
-      const bool isLost = m_ProtectAllThinParts || SideOf(m_Mask[voxel]) * m_Field[voxel] < -Lost;
-      isMarked[voxel] &= thin[voxel] != 0 && isLost ? 1 : 0;
+      const bool isLost = SideOf(m_Mask[voxel]) * m_Field[voxel] < -Lost;
+      const bool isLeft = thin[voxel] == 0 || (thin[voxel] == 3 && m_ProtectSpecksOnly);
+      isMarked[voxel] &= isLost && !isLeft ? 1 : 0;
     }
   });
 }

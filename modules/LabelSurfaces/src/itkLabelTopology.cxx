@@ -11,7 +11,7 @@ namespace itk
 namespace
 {
 
-constexpr float RaisedMargin = 0.1f; // by which the weight of a site's label exceeds others after it was raised
+constexpr float RaisedMargin = 0.2f; // by which the weight of a site's label exceeds others after it was raised
 
 /** The neighbours of a site in the lattice's tetrahedra, and which of these are neighbours of each other. */
 struct Link

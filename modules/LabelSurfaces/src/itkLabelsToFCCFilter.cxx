@@ -277,7 +277,7 @@ MakeField(const RefinedMap & map, LabelType label, const ImageRegion<3> & box, T
   filter->SetInput(mask);
   filter->SetNumberOfWorkUnits(threads);
   filter->SetSamplePeriod(map.GetPeriod());
-  filter->ProtectAllThinPartsOn();
+  filter->ProtectSpecksOnlyOn(); // the claims of thin parts keep the others whole
   filter->Update();
   FieldImage * const field = filter->GetOutput();
   ForEachRow(box, [&](const Index<3> & first, SizeValueType offset) {
