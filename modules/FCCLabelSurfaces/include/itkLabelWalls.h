@@ -49,13 +49,6 @@ public:
   std::vector<double>
   ComputeVolumes() const;
 
-  /** The layers in mm by which labels have to grow, to first order, so that each gains a volume in mm^3 (or loses, if
-   * negative). A wall moves towards its front label by the layer of the back label less that of the front label. Label
-   * 0 has no layer. Solves the linear system of the walls' areas by the Gauss-Seidel method.
-   * \param gains by label, up to the largest */
-  std::vector<double>
-  FindLayers(const std::vector<double> & gains) const;
-
   /** The labels that have walls, ascending, without 0. */
   std::vector<LabelType>
   FindLabels() const;

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
-#include <utility>
 
 namespace itk
 {
@@ -65,52 +63,6 @@ LabelWalls::ComputeVolumes() const
     volumes[back] += volume;
   }
   return volumes;
-}
-
-std::vector<double>
-LabelWalls::FindLayers(const std::vector<double> & gains) const
-{
-  constexpr unsigned int mostSweeps = 1000;
-  constexpr double smallestChange = 1e-5; // of the largest layer
-  std::map<LabelPairType, double> areas;
-  auto last = areas.end();
-  for (std::size_t n = 0; n < m_TriangleLabels.size(); ++n)
-  {
-    if (last == areas.end() || last->first != m_TriangleLabels[n])
-    {
-      last = areas.try_emplace(m_TriangleLabels[n], 0.0).first;
-    }
-    last->second += 0.5 * Length(AreaVector(CornersOf(*this, this->GetTriangles()[n])));
-  }
-  std::vector<std::vector<std::pair<LabelType, double>>> walls(gains.size()); // of each label: the other, and the area
-  std::vector<double> total(gains.size());
-  for (const auto & [labels, area] : areas)
-  {
-    walls[labels[0]].emplace_back(labels[1], area);
-    walls[labels[1]].emplace_back(labels[0], area);
-    total[labels[0]] += area;
-    total[labels[1]] += area;
-  }
-  std::vector<double> layers(gains.size());
-  double change = 1.0;
-  double largest = 0.0;
-  for (unsigned int sweep = 0; sweep < mostSweeps && change > smallestChange * largest; ++sweep)
-  {
-    change = 0.0;
-    for (std::size_t label = 1; label < gains.size(); ++label)
-    {
-      double sum = gains[label];
-      for (const auto & [other, area] : walls[label])
-      {
-        sum += area * layers[other];
-      }
-      const double layer = total[label] > 0.0 ? sum / total[label] : 0.0;
-      change = std::max(change, std::abs(layer - layers[label]));
-      largest = std::max(largest, std::abs(layer));
-      layers[label] = layer;
-    }
-  }
-  return layers;
 }
 
 std::vector<LabelWalls::LabelType>

@@ -1,11 +1,13 @@
 #include "itkLabelWallsEditing.h"
 
 #include "itkBoundedMoves.h"
+#include "itkLabelWallAreas.h"
 #include "itkTriangleSurfaceIntersections.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace itk
 {
@@ -25,7 +27,7 @@ FindLayers(const LabelWalls & walls, const std::vector<double> & wanted, double 
   std::transform(lacking.begin(), lacking.end(), wanted.begin(), lacking.begin(), [](double volume, double want) {
     return want - volume;
   });
-  const std::vector<double> found = walls.FindLayers(lacking);
+  const std::vector<double> found = LabelWallAreas(walls).FindLayers(std::move(lacking));
   bool isAnyLacking = false;
   layers.resize(found.size(), std::numeric_limits<double>::infinity());
   for (std::size_t label = 0; label < found.size(); ++label)

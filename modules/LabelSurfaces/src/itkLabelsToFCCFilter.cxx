@@ -6,6 +6,7 @@
 #include "itkFCCLabelSurfaceFilter.h"
 #include "itkImageSource.h"
 #include "itkInputSamples.h"
+#include "itkLabelWallAreas.h"
 #include "itkLabelTopology.h"
 #include "itkMath.h"
 #include "itkSlicePlacement.h"
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace itk
 {
@@ -29,8 +31,9 @@ using MaskImage = Image<std::uint8_t, 3>;
 using FieldImage = Image<float, 3>;
 using FieldLattice = FCCImage<float>;
 
-constexpr unsigned int VolumeCorrections = 4;
+constexpr unsigned int MostVolumeCorrections = 6;
 constexpr double SteepestSlope = 3.0;     // of volumes, times that from the area
+constexpr double SettledOffset = 0.008;   // of weights: layers of 0.004 voxels
 constexpr double FarthestOffset = 2.0;    // of weights; twice as far as walls move, in voxels
 constexpr IndexValueType Margin = 2;      // voxels around the map
 constexpr IndexValueType LabelMargin = 4; // voxels around a label in which it has weights
@@ -502,7 +505,7 @@ ComputeVoxelVolumes(const LabelImage & map, LabelsToFCCFilter::SliceOriginsType 
 }
 
 /** Moves the walls of all labels so that these have the volumes of their voxels. Labels grow by layers that follow from
- * the walls' areas; what they gained in the last step, compared with what was expected, corrects the next one. */
+ * the walls' areas; what they gained by the last layers, compared with what the areas say, corrects the next ones. */
 void
 KeepVolumes(const std::vector<double> & voxelVolumes,
             double voxelEdge,
@@ -510,41 +513,44 @@ KeepVolumes(const std::vector<double> & voxelVolumes,
             const FCCLabelWeights & weights,
             LabelTopology & topology)
 {
-  std::vector<double> offsets(voxelVolumes.size()); // of all steps together
-  std::vector<double> volumes(voxelVolumes.size());
-  std::vector<double> expected(voxelVolumes.size()); // gains
-  for (unsigned int n = 0; n < VolumeCorrections; ++n)
+  // An offset of a weight moves a wall half as far, in voxels.
+  const double layerOfOffset = 0.5 * voxelEdge;
+  std::vector<double> offsets(voxelVolumes.size()); // of all rounds together
+  std::vector<double> layers(voxelVolumes.size());  // of the last round
+  std::vector<double> roots(voxelVolumes.size());   // cube roots of volumes, which are nearly linear in the layers
+  bool isSettled = false;
+  for (unsigned int n = 0; n < MostVolumeCorrections && !isSettled; ++n)
   {
     const auto filter = FCCLabelSurfaceFilter::New();
     filter->SetInput(&labels);
     filter->SetWeights(&weights);
     filter->Update();
-    const LabelWalls & walls = *filter->GetOutput();
-    std::vector<double> gains(walls.ComputeVolumes());
+    const LabelWallAreas areas(*filter->GetOutput());
+    std::vector<double> volumes = filter->GetOutput()->ComputeVolumes();
+    std::vector<double> gains = areas.FindGains(layers);
+    volumes.resize(voxelVolumes.size());
     gains.resize(voxelVolumes.size());
     for (std::size_t label = 1; label < gains.size(); ++label)
     {
-      const double volume = gains[label];
-      const double gained = volume - volumes[label];
-      const double ratio = expected[label] != 0.0 ? gained / expected[label] : 1.0;
-      // The cube root of a volume is nearly linear in the layer.
-      const double root = std::cbrt(volume);
-      gains[label] = volume > 0.0 ? 3.0 * root * root * (std::cbrt(voxelVolumes[label]) - root) /
-                                      std::clamp(ratio, 1.0 / SteepestSlope, SteepestSlope)
-                                  : 0.0;
-      volumes[label] = volume;
+      const double root = std::cbrt(std::max(0.0, volumes[label]));
+      const double slope = 3.0 * root * root;
+      const double ratio = gains[label] != 0.0 ? slope * (root - roots[label]) / gains[label] : 1.0;
+      gains[label] =
+        slope * (std::cbrt(voxelVolumes[label]) - root) / std::clamp(ratio, 1.0 / SteepestSlope, SteepestSlope);
+      roots[label] = root;
     }
-    const std::vector<double> layers = walls.FindLayers(gains);
-    std::vector<double> steps(gains.size());
-    for (std::size_t label = 1; label < gains.size(); ++label)
+    layers = areas.FindLayers(std::move(gains));
+    layers.resize(offsets.size());
+    std::vector<double> steps(offsets.size());
+    for (std::size_t label = 1; label < offsets.size(); ++label)
     {
-      // An offset moves a wall half as far, in voxels.
-      const double next = std::clamp(offsets[label] + 2.0 * layers[label] / voxelEdge, -FarthestOffset, FarthestOffset);
+      const double next = std::clamp(offsets[label] + layers[label] / layerOfOffset, -FarthestOffset, FarthestOffset);
       steps[label] = next - offsets[label];
+      layers[label] = steps[label] * layerOfOffset;
       offsets[label] = next;
     }
-    expected = gains;
-    topology.AddOffsets(steps);
+    isSettled = std::all_of(steps.begin(), steps.end(), [](double step) { return std::abs(step) < SettledOffset; });
+    topology.AddOffsets(std::move(steps));
   }
 }
 

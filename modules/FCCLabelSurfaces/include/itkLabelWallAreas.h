@@ -1,0 +1,43 @@
+#ifndef itkLabelWallAreas_h
+#define itkLabelWallAreas_h
+
+#include "itkLabelWalls.h"
+
+#include <utility>
+#include <vector>
+
+namespace itk
+{
+
+/** \class LabelWallAreas
+ * \brief The areas of walls, and how volumes of labels change with them to first order.
+ *
+ * A label grows by a layer in mm on all of its surface, or shrinks if it is negative. A wall between two labels moves
+ * by the difference of their layers, so that what one gains the other loses. Label 0, outside, has no layer.
+ *
+ * \ingroup FCCLabelSurfaces
+ */
+class LabelWallAreas
+{
+public:
+  using LabelType = LabelWalls::LabelType;
+
+  explicit LabelWallAreas(const LabelWalls & walls);
+
+  /** The volumes in mm^3 that labels gain by layers.
+   * \param layers by label; labels beyond the end have none */
+  std::vector<double>
+  FindGains(std::vector<double> layers) const;
+
+  /** The layers by which labels gain volumes: the solution of a linear system, by the Gauss-Seidel method.
+   * \param gains by label; labels beyond the end gain nothing */
+  std::vector<double>
+  FindLayers(std::vector<double> gains) const;
+
+private:
+  std::vector<std::vector<std::pair<LabelType, double>>> m_Walls; ///< of each label: the other, and the area in mm^2
+};
+
+} // namespace itk
+
+#endif
