@@ -74,6 +74,7 @@ TEST_F(Probabilities, OfSeveralFilesAndOfOneAreTheSame)
   const std::array<float, 2> grey{ 0.25f, 0.75f };
   const std::array<float, 2> white{ 0.5f, 0.1f };
   const auto files = this->Read({ this->Write("grey.matter.nii", { grey }), this->Write("white.nii", { white }) });
+  std::ofstream(m_Folder / "both.tsv") << "index\tname\n1\tgrey matter\n2\twhite matter\n";
   const auto file = this->Read({ this->Write("both.nii", { grey, white }) });
   const auto percent = this->Read({ this->Write("percent.nii", { grey, white }, 100.0) });
   const auto bytes = this->Read({ this->Write("bytes.nii", { grey, white }, 255.0) });
@@ -94,9 +95,8 @@ TEST_F(Probabilities, OfSeveralFilesAndOfOneAreTheSame)
     EXPECT_NEAR(map->labels[0].millilitres, 60 * (0.25 + 0.75) * 8.0 / 1000.0, 1e-6);
   }
   EXPECT_EQ(files.scan.files.size(), 2u);
-  EXPECT_EQ(files.labels[0].label.name, "grey");
-  EXPECT_EQ(files.labels[1].label.name, "white");
-  EXPECT_EQ(file.labels[1].label.name, "both 1");
+  EXPECT_EQ(files.labels[1].label.name, "label 2");
+  EXPECT_EQ(file.labels[1].label.name, "white matter");
 }
 
 TEST_F(Probabilities, WhatIsLeftIsBackground)

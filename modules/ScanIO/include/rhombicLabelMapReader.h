@@ -32,7 +32,7 @@ struct LabelMapSource
   std::filesystem::path table; ///< empty: the table in the file, or the one beside it (see FindLabelTable())
 
   /** Volumes of probabilities from 0 to 1, 100 or 255, in place of a map: a file for each label, or one that holds
-   * several volumes. They are numbered from 1, and called as their files if there is no table. */
+   * several volumes. They are numbered from 1, and have no names if there is no table. */
   std::vector<std::filesystem::path> probabilities = {};
 
   /** No file: the scan itself is the label map. */

@@ -1,6 +1,5 @@
 #include "rhombicProbabilities.h"
 
-#include "rhombicAnatomicalColours.h"
 #include "rhombicFailure.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicWording.h"
@@ -22,12 +21,11 @@ namespace
 
 using ProbabilityImage = itk::Image<float, 3>;
 
-/** A volume of a file, and the name of its label. */
+/** A volume of a file. */
 struct ProbabilityVolume
 {
   fs::path path;
   std::size_t frame = 0;
-  std::string name;
 };
 
 /** The volumes of all files. Checks the memory that they take. */
@@ -47,11 +45,9 @@ FindVolumes(const std::vector<fs::path> & paths, ScanReadOptions options)
     {
       throw Failure(FailureKind::Usage, "There can be 4096 volumes of probabilities; name fewer.");
     }
-    const std::string file = path.filename().string();
-    const std::string name = file.substr(0, file.find('.', 1));
     for (std::size_t frame = 0; frame < scan.numberOfFrames; ++frame)
     {
-      volumes.push_back({ path, frame, scan.numberOfFrames > 1 ? name + ' ' + std::to_string(frame) : name });
+      volumes.push_back({ path, frame });
     }
   }
   RequireMemory(static_cast<std::uintmax_t>(bytes),
@@ -170,31 +166,16 @@ FindMostProbable(const std::vector<ProbabilityImage::Pointer> & volumes, float c
   return labels;
 }
 
-/** Names for the labels of volumes: those of a table, or else of the files. */
+/** The table that was named, or that of a single file. Others have no names: files' names may be the patient's. */
 LabelTable
-FindNames(const LabelMapSource & source, const std::vector<ProbabilityVolume> & volumes)
+FindNames(const LabelMapSource & source)
 {
   if (!source.table.empty())
   {
     return ReadLabelTable(source.table);
   }
-  if (source.probabilities.size() == 1)
-  {
-    if (auto table = FindLabelTable(source.probabilities.front()))
-    {
-      return *std::move(table);
-    }
-  }
-  LabelTable table;
-  for (const ProbabilityVolume & volume : volumes)
-  {
-    Label label;
-    label.value = static_cast<std::int32_t>(table.size() + 1);
-    label.name = SanitizeLabelName(volume.name, label.value);
-    label.colour = AnatomicalColour(label.name, label.value);
-    table.push_back(label);
-  }
-  return table;
+  return source.probabilities.size() > 1 ? LabelTable()
+                                         : FindLabelTable(source.probabilities.front()).value_or(LabelTable());
 }
 
 } // namespace
@@ -227,7 +208,7 @@ ReadProbabilities(const LabelMapSource & source, ScanReadOptions options)
     map.scan.notes.push_back("probabilities: values up to " + std::to_string(std::lround(certainty)) +
                              " stand for certainty");
   }
-  map.labels = SummarizeLabels(map.scan, FindNames(source, volumes));
+  map.labels = SummarizeLabels(map.scan, FindNames(source));
   const double voxel = VoxelVolumes(map.scan).front() / CubicMillimetresPerMl;
   for (LabelSummary & summary : map.labels)
   {
