@@ -3,6 +3,7 @@
 
 #include "itkLabelWalls.h"
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -29,10 +30,14 @@ public:
   std::vector<double>
   FindGains(std::vector<double> layers) const;
 
-  /** The layers by which labels gain volumes: the solution of a linear system, by the Gauss-Seidel method.
-   * \param gains by label; labels beyond the end gain nothing */
+  using BoundType = std::function<double(std::size_t label, double layer)>;
+
+  /** The layers by which labels gain volumes, as far as they may: the solution of a linear system, by Gauss-Seidel
+   * sweeps until layers change by less than 1e-5 of the largest.
+   * \param gains by label; labels beyond the end gain nothing
+   * \param bound returns the layer of a label, or the nearest that it may have */
   std::vector<double>
-  FindLayers(std::vector<double> gains) const;
+  FindLayers(std::vector<double> gains, const BoundType & bound) const;
 
 private:
   std::vector<std::vector<std::pair<LabelType, double>>> m_Walls; ///< of each label: the other, and the area in mm^2

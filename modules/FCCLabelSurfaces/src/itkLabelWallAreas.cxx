@@ -46,7 +46,7 @@ LabelWallAreas::FindGains(std::vector<double> layers) const
 }
 
 std::vector<double>
-LabelWallAreas::FindLayers(std::vector<double> gains) const
+LabelWallAreas::FindLayers(std::vector<double> gains, const BoundType & bound) const
 {
   constexpr unsigned int mostSweeps = 1000;
   constexpr double smallestChange = 1e-5; // of the largest layer
@@ -66,7 +66,7 @@ LabelWallAreas::FindLayers(std::vector<double> gains) const
         sum += area * layers[other];
         total += area;
       }
-      const double layer = total > 0.0 ? sum / total : 0.0;
+      const double layer = total > 0.0 ? bound(label, sum / total) : 0.0;
       change = std::max(change, std::abs(layer - layers[label]));
       largest = std::max(largest, std::abs(layer));
       layers[label] = layer;

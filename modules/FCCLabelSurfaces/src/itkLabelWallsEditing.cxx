@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -27,7 +28,8 @@ FindLayers(const LabelWalls & walls, const std::vector<double> & wanted, double 
   std::transform(lacking.begin(), lacking.end(), wanted.begin(), lacking.begin(), [](double volume, double want) {
     return want - volume;
   });
-  const std::vector<double> found = LabelWallAreas(walls).FindLayers(std::move(lacking));
+  const std::vector<double> found =
+    LabelWallAreas(walls).FindLayers(std::move(lacking), [](std::size_t, double layer) { return layer; });
   bool isAnyLacking = false;
   layers.resize(found.size(), std::numeric_limits<double>::infinity());
   for (std::size_t label = 0; label < found.size(); ++label)

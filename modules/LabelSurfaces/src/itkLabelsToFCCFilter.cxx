@@ -1,6 +1,5 @@
 #include "itkLabelsToFCCFilter.h"
 
-#include "itkLabelsOnLattice.h"
 #include "itkAntiAliasMaskImageFilter.h"
 #include "itkCartesianToFCCImageFilter.h"
 #include "itkFCCLabelSurfaceFilter.h"
@@ -8,6 +7,7 @@
 #include "itkInputSamples.h"
 #include "itkLabelWallAreas.h"
 #include "itkLabelTopology.h"
+#include "itkLabelsOnLattice.h"
 #include "itkMath.h"
 #include "itkSlicePlacement.h"
 #include "itkThinPartSites.h"
@@ -539,15 +539,16 @@ KeepVolumes(const std::vector<double> & voxelVolumes,
         slope * (std::cbrt(voxelVolumes[label]) - root) / std::clamp(ratio, 1.0 / SteepestSlope, SteepestSlope);
       roots[label] = root;
     }
-    layers = areas.FindLayers(std::move(gains));
+    layers = areas.FindLayers(std::move(gains), [&](std::size_t label, double layer) {
+      const double offset = label < offsets.size() ? offsets[label] : 0.0;
+      return layerOfOffset * std::clamp(layer / layerOfOffset, -FarthestOffset - offset, FarthestOffset - offset);
+    });
     layers.resize(offsets.size());
     std::vector<double> steps(offsets.size());
     for (std::size_t label = 1; label < offsets.size(); ++label)
     {
-      const double next = std::clamp(offsets[label] + layers[label] / layerOfOffset, -FarthestOffset, FarthestOffset);
-      steps[label] = next - offsets[label];
-      layers[label] = steps[label] * layerOfOffset;
-      offsets[label] = next;
+      steps[label] = layers[label] / layerOfOffset;
+      offsets[label] += steps[label];
     }
     isSettled = std::all_of(steps.begin(), steps.end(), [](double step) { return std::abs(step) < SettledOffset; });
     topology.AddOffsets(std::move(steps));
@@ -644,6 +645,7 @@ LabelsToFCCFilter::GenerateData()
     });
     const ThreadIdType threads = end - begin > 1 ? 1 : this->GetNumberOfWorkUnits();
     ForEachOnThreads(static_cast<std::size_t>(end - begin), [&](std::size_t n) {
+      progress.CheckAbort();
       LabelField & field = begin[static_cast<std::ptrdiff_t>(n)];
       const auto filter = MakeField(map, field.label, field.voxels, threads);
       AddClaims(map, *filter, field.label, labels, field.claims);
