@@ -5,9 +5,7 @@
 #include "rhombicWallAudit.h"
 #include "rhombicWording.h"
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace rhombic
 {
@@ -204,8 +202,13 @@ std::optional<Report>
 FileInspection::AuditTogether(const std::vector<MeshedSurface> & surfaces) const
 {
   std::vector<SceneSurface> scene;
-  std::transform(
-    surfaces.begin(), surfaces.end(), std::back_inserter(scene), [](const auto & surface) { return surface.scene; });
+  for (const MeshedSurface & surface : surfaces)
+  {
+    if (surface.label)
+    {
+      scene.push_back(surface.scene);
+    }
+  }
   m_Events.Progress("auditing walls", 0.0);
   const WallAudit audit = AuditWalls(scene, this->GetAuditSettings());
   if (audit.sharedTriangles == 0)
@@ -213,7 +216,7 @@ FileInspection::AuditTogether(const std::vector<MeshedSurface> & surfaces) const
     return std::nullopt;
   }
   m_Events.Note("all surfaces together: " + DescribeWalls(audit));
-  if (m_Settings.requiresWatertight && !audit.IsSound())
+  if (m_Settings.requiresWatertight && audit.oneSidedTriangles + audit.repeatedTriangles + audit.loneJunctions > 0)
   {
     RefuseToWrite("The walls that surfaces share have flaws (" + DescribeWalls(audit) + ")");
   }

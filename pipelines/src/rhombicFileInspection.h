@@ -42,7 +42,7 @@ public:
   void
   Audit(const itk::TriangleSurface & stored, MeshedSurface & surface) const;
 
-  /** Notes the audit of the walls that surfaces share, and returns its report; nothing if they share none. Throws
+  /** Notes the audit of the walls that labels share, and returns its report; nothing if they share none. Throws
    * Failure(NotWatertight) as Audit() does. */
   std::optional<Report>
   AuditTogether(const std::vector<MeshedSurface> & surfaces) const;
