@@ -85,7 +85,9 @@ LoadLabels(const ScanSource & source, const LabelMapSource & labels, const Scan 
 {
   events.Progress("reading labels", 0.0);
   LabelMap map = ReadLabelMap(labels, source.read, scan, source.path);
-  events.Note(Count(map.labels.size(), "label") + " in " + labels.GetFirstPath().string());
+  events.Note(
+    Count(map.labels.size(), "label") + " in " +
+    (labels.probabilities.size() > 1 ? Count(labels.probabilities.size(), "file") : labels.GetFirstPath().string()));
   for (const std::string & note : map.scan.notes)
   {
     events.Note(note);
@@ -165,6 +167,12 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   ApplySceneRules(selection.rules, requests, loaded.labels ? &*loaded.labels : nullptr);
   if (loaded.labels && loaded.labels->labels.empty())
   {
+    if (requests.empty())
+    {
+      throw Failure(FailureKind::Empty,
+                    selection.labels->source.GetFirstPath().string() +
+                      " holds nothing but background; check that it was exported whole.");
+    }
     loaded.labels.reset();
   }
   if (requests.empty())

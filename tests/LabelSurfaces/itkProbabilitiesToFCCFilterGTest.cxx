@@ -2,6 +2,7 @@
 
 #include "itkFCCLabelSurfaceFilter.h"
 #include "itkImageRegionIteratorWithIndex.h"
+#include "itkMultiThreaderBase.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
 
@@ -42,14 +43,13 @@ MakeVolume(const Probabilities::SizeType & size, double slices, const Field & fi
 }
 
 itk::LabelWalls::Pointer
-MakeWalls(const std::vector<Field> & fields, const Probabilities::SizeType & size, double slices, int threads = 2)
+MakeWalls(const std::vector<Field> & fields, const Probabilities::SizeType & size, double slices)
 {
   const auto toLattice = Filter::New();
   for (unsigned int n = 0; n < fields.size(); ++n)
   {
     toLattice->SetInput(n, MakeVolume(size, slices, fields[n]));
   }
-  toLattice->SetNumberOfWorkUnits(static_cast<itk::ThreadIdType>(threads));
   toLattice->Update();
   const auto surfaces = itk::FCCLabelSurfaceFilter::New();
   surfaces->SetInput(toLattice->GetOutput());
@@ -213,12 +213,20 @@ TEST(ProbabilitiesToFCCFilter, BytesDoNotDependOnThreads)
 {
   const Field wave = [](const Point & p) { return 0.5 + 0.5 * std::sin(0.7 * p[0] + std::cos(0.5 * p[1] + p[2])); };
   const Field other = [&](const Point & p) { return 0.8 - 0.8 * wave(p); };
-  const auto one = MakeWalls({ wave, other }, { { 20, 18, 9 } }, 2.0, 1);
-  for (const int threads : { 2, 3, 8 })
+  const auto make = [&](itk::ThreadIdType threads) {
+    const auto before = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
+    itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
+    auto walls = MakeWalls({ wave, other }, { { 20, 18, 9 } }, 2.0);
+    itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(before);
+    return walls;
+  };
+  const auto one = make(1);
+  for (const itk::ThreadIdType threads : { 2, 3, 8 })
   {
-    const auto several = MakeWalls({ wave, other }, { { 20, 18, 9 } }, 2.0, threads);
+    const auto several = make(threads);
     EXPECT_EQ(one->GetPoints(), several->GetPoints());
     EXPECT_EQ(one->GetTriangles(), several->GetTriangles());
+    EXPECT_EQ(one->GetTriangleLabels(), several->GetTriangleLabels());
   }
 }
 
@@ -228,6 +236,11 @@ TEST(ProbabilitiesToFCCFilter, RefusesOtherGrids)
   const auto filter = Filter::New();
   filter->SetInput(0, MakeVolume({ { 4, 4, 4 } }, 1.0, half));
   filter->SetInput(1, MakeVolume({ { 4, 4, 4 } }, 1.1, half));
+  EXPECT_THROW(filter->Update(), itk::ExceptionObject);
+  filter->SetInput(1, MakeVolume({ { 4, 4, 3 } }, 1.0, half));
+  EXPECT_THROW(filter->Update(), itk::ExceptionObject);
+  filter->SetInput(1, nullptr);
+  filter->SetInput(2, MakeVolume({ { 4, 4, 4 } }, 1.0, half));
   EXPECT_THROW(filter->Update(), itk::ExceptionObject);
 }
 

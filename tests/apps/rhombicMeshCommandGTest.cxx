@@ -243,6 +243,10 @@ TEST_F(MeshCommand, ProbabilitiesBecomeSurfacesThatShareWalls)
   ASSERT_EQ(run("--label 2 -o right.stl").exitCode, 0);
   EXPECT_NEAR(ComputeVolume(*this->Read("right.stl")[0].surface), ComputeVolume(*both[1].surface), 0.1);
   EXPECT_EQ(run("--labels soft.nii -o x.vtp").exitCode, 2) << "one of the two";
+  file.voxels = file.Values(std::vector<float>(values.size(), 0.3f));
+  std::ofstream(m_Folder.Path() / "low.nii", std::ios::binary) << file.Bytes();
+  const auto low = RunShell("rhombic mesh soft.nii --frame 0 --probabilities low.nii -o x.vtp", m_Folder.Path());
+  EXPECT_EQ(low.exitCode, 6) << low.errors;
   EXPECT_EQ(run("-o soft.nii").exitCode, 2);
 }
 

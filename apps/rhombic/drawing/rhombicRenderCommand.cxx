@@ -380,8 +380,8 @@ ReadArguments(const std::string & path, bool areViewsGiven)
     const std::string argument = stored[n].is_string() ? stored[n].get<std::string>() : "";
     const bool isLeft =
       std::any_of(left.begin(), left.end(), [&](const std::string & option) { return IsOption(argument, option); });
-    const bool isGiven = argument == "SCAN" || argument == "--dicom-sc" || argument.rfind(FurtherFile, 0) == 0 ||
-                         (argument.rfind("-o", 0) == 0 && argument.size() > 2);
+    const bool isGiven = argument == "SCAN" || argument.rfind("PROBABILITIES", 0) == 0 || argument == "--dicom-sc" ||
+                         argument.rfind(FurtherFile, 0) == 0 || (argument.rfind("-o", 0) == 0 && argument.size() > 2);
     n += isLeft && argument.find('=') == std::string::npos ? 1 : 0;
     if (!isLeft && !isGiven)
     {

@@ -12,7 +12,7 @@ namespace itk
  *
  * The n-th input, counted from 0, holds the probability of label n + 1, from 0 to 1; label 0 has what the others leave
  * to 1. Walls lie where two labels are equally probable: probabilities are the weights, mapped linearly from [0, 1] to
- * [-FCCLabelWeights::Limit, FCCLabelWeights::Limit]; values beyond count as 0 and 1.
+ * [-FCCLabelWeights::Limit, FCCLabelWeights::Limit].
  *
  * The lattice has Density sites for each voxel, and for each part of a voxel where it is more than 1.5 times as long
  * along an axis as the shortest edge and is divided into parts that are nearly cubes. Each input is smoothed by a
@@ -20,10 +20,9 @@ namespace itk
  * and resampled by CartesianToFCCImageFilter. Labels of probability 1 that reach the border of the volume
  * are closed at the outer faces of the voxels there, less probable ones up to three parts of a voxel further inside.
  *
- * All inputs need the same grid, as ImageToImageFilter checks it. It may be sheared; unevenly spaced slices are not
- * supported. Volumes of labels are not corrected. Mean distance from the truth in mm and mean angle of facets in
- * degrees, for the balls of LabelsToFCCFilter, where probabilities are the shares of voxels that balls fill
- * (rhombic-label-walls):
+ * All inputs need the same grid. It may be sheared; unevenly spaced slices are refused. Volumes of labels are not
+ * corrected. Mean distance from the truth in mm and mean angle of facets in degrees, for the balls of
+ * LabelsToFCCFilter, where probabilities are the shares of voxels that balls fill (rhombic-label-walls):
  *
  *     method                                                  1 mm          3 mm          6 mm
  *     this filter and FCCLabelSurfaceFilter                   .06   8.0     .11   9.6     .22  11.6
@@ -32,7 +31,8 @@ namespace itk
  * The outputs have the same bytes for any number of threads. Inputs are resampled one after another. Memory: 18 bytes a
  * site, 12 bytes a voxel, and 8 bytes for each site and label with a probability between 0 and 1.
  *
- * Throws as ImageToFCCLabelsFilter does, and when the inputs have no voxels or their grids differ.
+ * Throws as ImageToFCCLabelsFilter does, and when inputs are missing, have no voxels, different grids or
+ * unevenly spaced slices, or are more than 65,535.
  *
  * \ingroup LabelSurfaces
  */
@@ -52,6 +52,9 @@ public:
 protected:
   ProbabilitiesToFCCFilter() = default;
   ~ProbabilitiesToFCCFilter() override = default;
+
+  void
+  VerifyInputInformation() ITKv5_CONST override;
 
   void
   GenerateOutputInformation() override;

@@ -1,15 +1,17 @@
 #include "itkProbabilitiesToFCCFilter.h"
 
-#include "itkLabelsOnLattice.h"
 #include "itkCartesianToFCCImageFilter.h"
 #include "itkDiscreteGaussianImageFilter.h"
 #include "itkInputSamples.h"
+#include "itkLabelsOnLattice.h"
+#include "itkSlicePlacement.h"
 #include "itkWorkProgress.h"
 #include "itkZeroFluxNeumannPadImageFilter.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace itk
@@ -18,7 +20,6 @@ namespace
 {
 
 using ProbabilityImage = ProbabilitiesToFCCFilter::InputImageType;
-
 
 constexpr double Sigma = 0.5; // of smoothing, in parts of voxels
 
@@ -109,12 +110,30 @@ FindDepths(const ProbabilitiesToFCCFilter::LatticeType & lattice, const Probabil
 } // namespace
 
 void
+ProbabilitiesToFCCFilter::VerifyInputInformation() ITKv5_CONST
+{
+  Superclass::VerifyInputInformation();
+  const auto & region = this->GetInput()->GetLargestPossibleRegion();
+  const auto inputs = static_cast<unsigned int>(this->GetNumberOfIndexedInputs());
+  if (region.GetNumberOfPixels() == 0 || inputs > std::numeric_limits<LabelType>::max())
+  {
+    itkExceptionMacro("There are " << inputs << " inputs of " << region.GetSize()
+                                   << " voxels; there have to be voxels, and at most 65,535 inputs.");
+  }
+  for (unsigned int n = 0; n < inputs; ++n)
+  {
+    const InputImageType * const input = this->GetInput(n);
+    if (input == nullptr || input->GetLargestPossibleRegion() != region || !GetSlicePlacement(*input).origins.empty())
+    {
+      itkExceptionMacro("Input " << n
+                                 << " is missing, has other voxels than the first input, or unevenly spaced slices.");
+    }
+  }
+}
+
+void
 ProbabilitiesToFCCFilter::GenerateOutputInformation()
 {
-  if (this->GetInput()->GetLargestPossibleRegion().GetNumberOfPixels() == 0)
-  {
-    itkExceptionMacro("The input has no voxels.");
-  }
   this->GetOutput()->CopyInformation(&Resampler(*this->GetInput(), this->GetDensity()).GetLattice());
 }
 

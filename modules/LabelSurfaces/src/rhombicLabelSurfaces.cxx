@@ -115,8 +115,9 @@ VoxelEdge(const itk::ImageBase<3> & image)
 }
 
 /** Bytes for labels and fields, for weights, and for walls. */
+template <typename TFilter>
 std::uintmax_t
-EstimateMemory(const LabelImage & labels, itk::LabelsToFCCFilter & filter, double density)
+EstimateMemory(const LabelImage & labels, TFilter & filter, double density)
 {
   constexpr double bytesPerSite = 6.0;
   constexpr double bytesPerVoxel = 22.0;
@@ -183,6 +184,7 @@ WallsOfVoxels(const LabelImage & numbers,
 /** The walls between labels by their probabilities. */
 itk::LabelWalls::Pointer
 WallsOfProbabilities(const LabelMap & map,
+                     const LabelImage & numbers,
                      const std::vector<LabelSummary> & labels,
                      const LabelSurfaceSettings & settings,
                      const Events & events)
@@ -199,26 +201,27 @@ WallsOfProbabilities(const LabelMap & map,
                     [](float value) { return value > 0.0f && value < 1.0f; }));
   }
   toLattice->SetDensity(settings.density);
-  toLattice->UpdateOutputInformation();
-  constexpr std::uintmax_t bytesPerSite = 20;
-  constexpr double bytesPerWeight = 25.0; // as vectors grow by doubling
-  const auto sites = toLattice->GetOutput()->GetLargestPossibleRegion().GetNumberOfPixels();
-  const double sitesPerVoxel =
-    static_cast<double>(sites) / map.probabilities.front()->GetBufferedRegion().GetNumberOfPixels();
-  RequireMemory(sites * bytesPerSite +
-                  static_cast<std::uintmax_t>(bytesPerWeight * sitesPerVoxel * static_cast<double>(uncertain)),
-                settings.maximumMemory,
-                "The walls between labels",
-                "use a coarser lattice, or crop the volumes of probabilities");
+  constexpr double bytesPerSite = 14.0; // besides labels and weights
+  constexpr double bytesPerVoxel = 16.0;
+  constexpr double bytesPerWeight = 17.0;
+  const auto others = static_cast<double>(EstimateMemory(numbers, *toLattice, settings.density));
+  const auto voxels = static_cast<double>(map.probabilities.front()->GetBufferedRegion().GetNumberOfPixels());
+  const auto sites = static_cast<double>(toLattice->GetOutput()->GetLargestPossibleRegion().GetNumberOfPixels());
+  const double weights = sites / voxels * static_cast<double>(uncertain);
+  RequireMemory(
+    static_cast<std::uintmax_t>(others + sites * bytesPerSite + voxels * bytesPerVoxel + weights * bytesPerWeight),
+    settings.maximumMemory,
+    "The walls between labels",
+    "use a coarser lattice, or crop the volumes of probabilities");
   ObserveProgress(*toLattice, "extracting labels", events);
   toLattice->Update();
   itk::LabelWalls::Pointer walls = ExtractWalls(*toLattice, VoxelEdge(*map.probabilities.front()), {});
-  std::vector<std::uint16_t> numbers(map.probabilities.size() + 1);
+  std::vector<std::uint16_t> chosen(map.probabilities.size() + 1);
   for (std::size_t n = 0; n < labels.size(); ++n)
   {
-    numbers[static_cast<std::size_t>(labels[n].label.value)] = static_cast<std::uint16_t>(n + 1);
+    chosen[static_cast<std::size_t>(labels[n].label.value)] = static_cast<std::uint16_t>(n + 1);
   }
-  walls->MergeLabels(numbers);
+  walls->MergeLabels(chosen);
   return walls;
 }
 
@@ -283,12 +286,13 @@ LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const
   LabelMesh mesh;
   mesh.walls = map.probabilities.empty()
                  ? WallsOfVoxels(*numbers, pieces, CropSliceOrigins(map.scan, box), settings, events)
-                 : WallsOfProbabilities(map, labels, settings, events);
+                 : WallsOfProbabilities(map, *numbers, labels, settings, events);
   std::transform(labels.begin(), labels.end(), std::back_inserter(mesh.labels), DescribeLabel);
   MeasureLabels(pieces, mesh);
-  for (const LabelSurface & label : mesh.labels)
+  if (map.probabilities.empty()) // which have no volumes and pieces to keep
   {
-    NoteShortcomings(label, events);
+    std::for_each(
+      mesh.labels.begin(), mesh.labels.end(), [&](const LabelSurface & label) { NoteShortcomings(label, events); });
   }
   events.Progress("extracting labels", 1.0);
   return mesh;

@@ -36,10 +36,12 @@ FindVolumes(const std::vector<fs::path> & paths, ScanReadOptions options)
   options.onSeveralFrames = ScanReadOptions::Policy::Accept;
   std::vector<ProbabilityVolume> volumes;
   double bytes = 0.0;
+  double largest = 0.0; // of a volume as it is read, and of the labels
   for (const fs::path & path : paths)
   {
     const Scan scan = OpenScan(path, options).scan;
     const auto voxels = static_cast<double>(GeometryOf(scan.image).GetLargestPossibleRegion().GetNumberOfPixels());
+    largest = std::max(largest, 6.0 * voxels);
     bytes += voxels * static_cast<double>(scan.numberOfFrames * sizeof(float));
     if (scan.numberOfFrames > most - volumes.size())
     {
@@ -50,7 +52,7 @@ FindVolumes(const std::vector<fs::path> & paths, ScanReadOptions options)
       volumes.push_back({ path, frame });
     }
   }
-  RequireMemory(static_cast<std::uintmax_t>(bytes),
+  RequireMemory(static_cast<std::uintmax_t>(bytes + largest),
                 options.maximumMemory,
                 "Reading " + std::to_string(volumes.size()) + " volumes of probabilities",
                 "crop or coarsen them, or name fewer");
@@ -94,7 +96,7 @@ CheckGrid(const Scan & scan, const Scan & first, const fs::path & path)
   }
 }
 
-/** The voxels as float, in memory of their own or the scan's. */
+/** The voxels as float, in memory of their own. */
 ProbabilityImage::Pointer
 ToFloat(const ScanImage & image)
 {
@@ -196,6 +198,13 @@ ReadProbabilities(const LabelMapSource & source, ScanReadOptions options)
     else if (volume.frame == 0)
     {
       map.scan.files.insert(map.scan.files.end(), scan.files.begin(), scan.files.end());
+    }
+    for (const std::string & note : scan.notes)
+    {
+      if (std::find(map.scan.notes.begin(), map.scan.notes.end(), note) == map.scan.notes.end())
+      {
+        map.scan.notes.push_back(note);
+      }
     }
     CheckGrid(scan, map.scan, volume.path);
     map.probabilities.push_back(ToFloat(scan.image));

@@ -8,7 +8,8 @@ namespace rhombic
 
 /** Reads volumes of probabilities as a label map of the most probable labels (see LabelMapSource::probabilities).
  * Throws Failure as OpenScan() does, and: Geometry for volumes with other voxels than the first, or with unevenly
- * spaced slices; Unreadable for values below 0 or above 255; Memory; Usage for more than 4096 volumes. */
+ * spaced slices; Unreadable for values more than a tenth beyond their range; Memory; Usage for more than 4096 volumes.
+ */
 LabelMap
 ReadProbabilities(const LabelMapSource & source, ScanReadOptions options);
 
