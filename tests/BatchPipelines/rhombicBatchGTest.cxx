@@ -267,7 +267,7 @@ TEST(Batch, LimitsEndCasesWithTheirNames)
 {
   const TemporaryFolder folder;
   WriteCollection(folder.Path(), 1);
-  std::ofstream(folder.Path() / "slow.yaml") << "outputs: [{mesh: bone.stl, threshold: 250.5}]";
+  std::ofstream(folder.Path() / "slow.yaml") << "outputs: [{page: page.png, preset: ct-bone-skin}]";
   const Outcome slow =
     RunShell("rhombic batch cases.tsv --case v0 --pipeline slow.yaml -o slow --max-time 0.1", folder.Path());
   EXPECT_EQ(slow.exitCode, 12);
