@@ -16,7 +16,6 @@ struct AuditOptions
 {
   std::vector<std::string> files;
   bool isJson = false;
-  bool requiresWatertight = false;
   std::size_t maximumTested = itk::TriangleSurfaceAuditSettings().maximumTestedTriangles;
 };
 
@@ -56,7 +55,7 @@ public:
     {
       std::cout << ToJson(m_Report) << '\n';
     }
-    if (m_Options.requiresWatertight && !m_Leaking.empty())
+    if (!m_Leaking.empty())
     {
       throw Failure(FailureKind::NotWatertight,
                     Enumerate(m_Options.files, "and") + (m_Options.files.size() > 1 ? " are" : " is") +
@@ -88,7 +87,7 @@ private:
       return;
     }
     this->Add("all surfaces together", { { "walls", ReportWalls(walls) } }, { DescribeWalls(walls) });
-    if (!walls.IsSound())
+    if (!walls.IsClosed())
     {
       this->AddLeak("walls: " + DescribeWalls(walls));
     }
@@ -133,8 +132,7 @@ AddAuditCommand(CLI::App & parser)
   parser.add_option(
     "FILE", options->files, "surface files, checked one by one and together: " + GetSurfaceFileExtensions());
   parser.add_flag("--json", options->isJson, "write a JSON report");
-  parser.add_flag(
-    "--require-watertight", options->requiresWatertight, "exit code 8 unless every surface is watertight");
+  parser.add_flag("--require-watertight")->group(""); // of scripts from before this was always required
   parser
     .add_option("--max-tested",
                 options->maximumTested,

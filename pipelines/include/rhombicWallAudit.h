@@ -21,10 +21,17 @@ struct WallAudit
   std::size_t loneJunctions = 0;     ///< edges with more than two triangles, where fewer than three regions meet
   itk::TriangleSurfaceIntersections intersections; ///< of triangles of all surfaces, those of walls counted once
 
+  /** Whether each edge joins as many triangles as regions meet there. Crossings do not count. */
+  bool
+  IsClosed() const
+  {
+    return oneSidedTriangles + repeatedTriangles + loneJunctions == 0;
+  }
+
   bool
   IsSound() const
   {
-    return oneSidedTriangles + repeatedTriangles + loneJunctions + intersections.crossingPairs == 0;
+    return this->IsClosed() && intersections.crossingPairs == 0;
   }
 };
 

@@ -216,7 +216,7 @@ FileInspection::AuditTogether(const std::vector<MeshedSurface> & surfaces) const
     return std::nullopt;
   }
   m_Events.Note("all surfaces together: " + DescribeWalls(audit));
-  if (m_Settings.requiresWatertight && audit.oneSidedTriangles + audit.repeatedTriangles + audit.loneJunctions > 0)
+  if (m_Settings.requiresWatertight && !audit.IsClosed())
   {
     RefuseToWrite("The walls that surfaces share have flaws (" + DescribeWalls(audit) + ")");
   }

@@ -189,11 +189,14 @@ TEST_F(MeshCommand, AuditJudgesFilesOfOthers)
   const auto audit = [&](const std::string & arguments) {
     return RunShell("rhombic audit " + arguments, m_Folder.Path());
   };
-  EXPECT_EQ(audit("closed.obj --require-watertight").exitCode, 0);
-  EXPECT_EQ(audit("open.obj").exitCode, 0);
-  const Outcome leaking = audit("open.obj --require-watertight");
+  EXPECT_EQ(audit("closed.obj").exitCode, 0);
+  const Outcome leaking = audit("closed.obj open.obj");
   EXPECT_EQ(leaking.exitCode, 8);
   EXPECT_NE(leaking.errors.find("3 boundary edges"), std::string::npos) << leaking.errors;
+  EXPECT_EQ(audit("open.obj --require-watertight").exitCode, 8) << "of earlier scripts";
+  const Outcome leakingReport = audit("open.obj --json");
+  EXPECT_EQ(leakingReport.exitCode, 8);
+  EXPECT_FALSE(nlohmann::json::parse(leakingReport.output)[0]["watertight"].get<bool>());
   std::ofstream(m_Folder.Path() / "loose.obj")
     << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 3 2\nf 4 5 6\n";
   EXPECT_NE(audit("loose.obj").output.find("2 points lie where another one does"), std::string::npos);
@@ -204,6 +207,18 @@ TEST_F(MeshCommand, AuditJudgesFilesOfOthers)
   EXPECT_EQ(report[0]["misfacingShells"], 0);
   EXPECT_EQ(report[0]["eulerCharacteristic"], 2);
   EXPECT_TRUE(report[0]["watertight"].get<bool>());
+}
+
+TEST_F(MeshCommand, CrossingsAreNoHoles)
+{
+  std::ofstream(m_Folder.Path() / "crossing.obj")
+    << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+       "v .1 .1 .1\nv 1.1 .1 .1\nv .1 1.1 .1\nv .1 .1 1.1\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n";
+  const Outcome outcome = RunShell("rhombic audit crossing.obj --json", m_Folder.Path());
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+  const auto report = nlohmann::json::parse(outcome.output);
+  EXPECT_TRUE(report[0]["watertight"].get<bool>());
+  EXPECT_GT(report[0]["intersections"]["crossingPairs"].get<int>(), 0);
 }
 
 /** Two half boxes that share a wall, from the probabilities of both in one file. */

@@ -20,7 +20,7 @@ enum class FailureKind : int
   Geometry = 5,      ///< the input's position in the patient can't be known
   Empty = 6,         ///< there is no surface at this isovalue
   Output = 7,        ///< the output can't be written
-  NotWatertight = 8, ///< a surface has holes or other defects, and was asked to have none
+  NotWatertight = 8, ///< a surface has holes or other defects, and should have none
   Memory = 9,        ///< there is, or would be, too little memory
   Display = 10,      ///< no way to draw on this machine
   Different = 11,    ///< pictures differ by more than the tolerance
