@@ -442,6 +442,8 @@ TEST(Batch, ABIDSDatasetBecomesADerivative)
   const fs::path out = folder.Path() / "data/derivatives/rhombic";
   const Outcome first = RunShell(run + "participant --participant_label 02 sub-03", folder.Path());
   ASSERT_EQ(first.exitCode, 0) << first.errors;
+  EXPECT_NE(first.errors.find("the level group writes the tables"), std::string::npos) << first.errors;
+  EXPECT_EQ(first.errors.find("--tables"), std::string::npos) << first.errors;
   EXPECT_TRUE(fs::exists(out / "sub-02/anat/sub-02_T1w/bone.stl"));
   EXPECT_TRUE(fs::exists(out / "sub-03/ses-1/anat/sub-03_ses-1_T1w/bone.stl.json"));
   EXPECT_FALSE(fs::exists(out / "sub-01"));

@@ -197,7 +197,8 @@ Batch(const BatchOptions & options, const CommandContext & context)
   {
     DescribeDataset(options.output);
   }
-  NoteSummary(summary, options.output + (settings.isPart ? "; --tables writes the tables" : "/index.html"), events);
+  const std::string advice = options.isBIDS ? "; the level group writes the tables" : "; --tables writes the tables";
+  NoteSummary(summary, options.output + (settings.isPart ? advice : "/index.html"), events);
   if (summary.isStopped)
   {
     events.Note("stopped; the same command goes on where this one ended");
