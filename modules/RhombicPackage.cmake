@@ -31,6 +31,11 @@ install(FILES "${PROJECT_BINARY_DIR}/RhombicConfig.cmake" "${PROJECT_BINARY_DIR}
 install(TARGETS rhombic RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT program)
 install(TARGETS rhombic-draw RUNTIME DESTINATION "${CMAKE_INSTALL_LIBEXECDIR}/rhombic" COMPONENT program)
 install(DIRECTORY pipelines/presets DESTINATION "${CMAKE_INSTALL_DATADIR}/rhombic" COMPONENT program)
+install(PROGRAMS pipelines/batch/job-array.sh pipelines/batch/receive-study.sh
+        DESTINATION "${CMAKE_INSTALL_DATADIR}/rhombic/batch" COMPONENT program)
+install(FILES pipelines/batch/Snakefile DESTINATION "${CMAKE_INSTALL_DATADIR}/rhombic/batch" COMPONENT program)
+install(DIRECTORY pipelines/batch/slurm-7 pipelines/batch/slurm-8 DESTINATION "${CMAKE_INSTALL_DATADIR}/rhombic/batch"
+        COMPONENT program)
 set(program_package rhombic)
 set(development_package librhombic-dev)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS modules/changelog)
@@ -42,6 +47,8 @@ foreach(component program development)
   install(FILES apps/rhombic/GUIDE.md COMPONENT ${component}
           DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${${component}_package}/apps/rhombic")
 endforeach()
+install(FILES pipelines/batch/README.md COMPONENT program
+        DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${program_package}/pipelines/batch")
 install(FILES modules/README.md DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${development_package}/modules"
         COMPONENT development)
 install(DIRECTORY apps/examples DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${development_package}" COMPONENT development)

@@ -59,6 +59,21 @@ foreach(scan "${SCAN}" "${SCAN}/../phantom.nii.gz")
   message("The program of modules/README.md: ${output}")
 endforeach()
 
+# A program with filters and a writer of ITK's own, built as the map tells.
+string(REGEX MATCHALL "```cmake\n[^`]+```" blocks "${map}")
+list(GET blocks 1 block)
+string(REGEX REPLACE "```(cmake\n)?" "" block "${block}")
+file(WRITE "${WORK}/median/CMakeLists.txt" "${block}")
+file(COPY "${SOURCE}/median/median.cxx" DESTINATION "${WORK}/median")
+run(${CMAKE_COMMAND} -S "${WORK}/median" -B "${WORK}/median/build" -G ${GENERATOR} "-DCMAKE_PREFIX_PATH=${WORK}/prefix"
+    -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
+run(${CMAKE_COMMAND} --build "${WORK}/median/build")
+run("${WORK}/median/build/median" "${SCAN}" "${WORK}/median.nrrd" "${WORK}/median.stl")
+run("${WORK}/prefix/bin/rhombic" info "${WORK}/median.nrrd")
+run("${WORK}/prefix/bin/rhombic" audit "${WORK}/median.stl")
+message("The program with filters of ITK: ${output}")
+check_cluster_files("${WORK}/prefix")
+
 # What can't be had is refused by name, unless it is optional; so are packages of other versions than those in the build.
 function(check_refusal component sentence)
   execute_process(COMMAND ${CMAKE_COMMAND} -S "${SOURCE}/lattice" -B "${WORK}/refused" -G ${GENERATOR} --fresh

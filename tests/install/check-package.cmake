@@ -47,6 +47,7 @@ foreach(page rhombic ${commands})
   endif()
 endforeach()
 run("${WORK}/rhombic/usr/bin/rhombic" -q mesh "${SCAN}" -t 375.5 -o "${WORK}/bone.stl")
+check_cluster_files("${WORK}/rhombic/usr")
 
 unpack(librhombic-dev)
 foreach(library libinsighttoolkit5-dev libvtk9-dev libopenimageio-dev)
