@@ -251,6 +251,7 @@ Finish(MeshedSurface & surface,
   const auto finished = itk::TriangleSurface::New();
   finished->Graft(surface.scene.surface);
   surface.scene.surface = finished;
+  finished->GetTriangles().shrink_to_fit(); // extraction may leave room for more
   surface.parts = RemoveParts(*finished, finish, surface.scene.name, events);
   if (finished->GetNumberOfTriangles() == 0)
   {

@@ -1,12 +1,18 @@
+#include "itkFCCIsosurfaceFilter.h"
 #include "rhombicSurfaceToPolyData.h"
+
+#include "itkFCCTestImages.h"
 
 #include <gtest/gtest.h>
 
 #include <vtkCellArray.h>
-#include <vtkDataArray.h>
+#include <vtkFloatArray.h>
 #include <vtkPointData.h>
 
+#include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace
 {
@@ -21,9 +27,32 @@ MakeSurface()
   return surface;
 }
 
+/** All coordinates, normals and corners, as VTK reads them. */
+std::vector<double>
+ReadAll(vtkPolyData & polyData)
+{
+  std::vector<double> values;
+  for (vtkDataArray * const vectors : { polyData.GetPoints()->GetData(), polyData.GetPointData()->GetNormals() })
+  {
+    for (vtkIdType n = 0; n < vectors->GetNumberOfTuples(); ++n)
+    {
+      const double * const vector = vectors->GetTuple3(n);
+      values.insert(values.end(), vector, vector + 3);
+    }
+  }
+  for (vtkIdType n = 0; n < polyData.GetNumberOfCells(); ++n)
+  {
+    vtkIdType size = 0;
+    const vtkIdType * corners = nullptr;
+    polyData.GetPolys()->GetCellAtId(n, size, corners);
+    values.insert(values.end(), corners, corners + size);
+  }
+  return values;
+}
+
 TEST(SurfaceToPolyData, SharesTheSurfacesMemory)
 {
-  const auto surface = MakeSurface();
+  const itk::TriangleSurface::ConstPointer surface = MakeSurface().GetPointer();
   const auto polyData = rhombic::SurfaceToPolyData(surface);
   EXPECT_EQ(polyData->GetPoints()->GetVoidPointer(0), surface->GetPoints().data());
   EXPECT_EQ(polyData->GetPolys()->GetConnectivityArray()->GetVoidPointer(0), surface->GetTriangles().data());
@@ -44,19 +73,58 @@ TEST(SurfaceToPolyData, HasTheSamePointsAndCells)
   EXPECT_EQ(corners[2], 3);
 }
 
-TEST(SurfaceToPolyData, KeepsTheSurfaceAliveAsLongAsAnyArray)
+TEST(SurfaceToPolyData, ArraysAndTheirShallowCopiesOutliveSurfaceAndPolyData)
 {
+  const auto copy = vtkSmartPointer<vtkFloatArray>::New();
   vtkSmartPointer<vtkDataArray> points;
-  itk::WeakPointer<itk::TriangleSurface> weak;
   {
-    const auto surface = MakeSurface();
-    weak = surface.GetPointer();
-    const auto polyData = rhombic::SurfaceToPolyData(surface);
+    const auto polyData = rhombic::SurfaceToPolyData(MakeSurface());
     points = polyData->GetPoints()->GetData();
-    EXPECT_GT(surface->GetReferenceCount(), 1);
+    copy->ShallowCopy(polyData->GetPointData()->GetNormals());
   }
-  EXPECT_EQ(weak->GetReferenceCount(), 1) << "the points' array holds the last reference";
   EXPECT_EQ(points->GetTuple3(2)[1], 1.0);
+  points = nullptr;
+  EXPECT_EQ(copy->GetTuple3(0)[2], -1.0);
+}
+
+TEST(SurfaceToPolyData, StaysAsItIsWhenTheFilterRunsAgainAndAllElseIsDeleted)
+{
+  using Filter = itk::FCCIsosurfaceFilter<fcctest::ImageType>;
+  for (const bool releases : { true, false })
+  {
+    auto filter = Filter::New();
+    filter->SetInput(
+      fcctest::MakeImage(1.0, 24.0, [](const fcctest::PointType & p) { return fcctest::Sphere(p, 20.0); }));
+    filter->SetReleaseDataBeforeUpdateFlag(releases);
+    std::vector<std::pair<vtkSmartPointer<vtkPolyData>, std::vector<double>>> made;
+    for (const double isovalue : { 0.0, 5.0, -2.0 })
+    {
+      filter->SetIsovalue(isovalue);
+      filter->Update();
+      const auto polyData = rhombic::SurfaceToPolyData(filter->GetOutput());
+      made.emplace_back(polyData, ReadAll(*polyData));
+    }
+    filter = nullptr;
+    for (const auto & [polyData, values] : made)
+    {
+      EXPECT_GT(polyData->GetNumberOfCells(), 1000);
+      EXPECT_EQ(ReadAll(*polyData), values) << releases;
+    }
+    EXPECT_NE(made.front().second, made.back().second);
+  }
+}
+
+TEST(SurfaceToPolyData, StaysAsItIsWhenTheSurfaceIsEdited)
+{
+  const auto surface = MakeSurface();
+  const auto polyData = rhombic::SurfaceToPolyData(surface);
+  const std::vector<double> values = ReadAll(*polyData);
+  surface->GetPoints()[1] = { 7, 7, 7 };
+  surface->GetNormals()[1] = { 0, 0, 1 };
+  std::reverse(surface->GetTriangles().begin(), surface->GetTriangles().end());
+  EXPECT_EQ(ReadAll(*polyData), values);
+  surface->Initialize();
+  EXPECT_EQ(ReadAll(*polyData), values);
 }
 
 TEST(SurfaceToPolyData, EmptySurfacesAndSurfacesWithoutNormalsAreFine)

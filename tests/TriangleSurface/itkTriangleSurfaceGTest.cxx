@@ -47,16 +47,38 @@ TEST(TriangleSurface, VolumeFarFromTheOriginKeepsItsDigits)
   EXPECT_DOUBLE_EQ(ComputeVolume(*surface), 1.0 / 6.0);
 }
 
-TEST(TriangleSurface, GraftCopiesAndInitializeEmpties)
+TEST(TriangleSurface, GraftSharesArraysUntilEitherSurfaceChanges)
 {
   const auto source = MakeTetrahedron();
-  auto target = Surface::New();
+  source->GetNormals().assign(4, { 0, 0, 1 });
+  const auto target = Surface::New();
   target->Graft(source);
-  EXPECT_EQ(target->GetPoints(), source->GetPoints());
+  const Surface & constSource = *source;
+  const Surface & constTarget = *target;
+  EXPECT_EQ(&constTarget.GetPoints(), &constSource.GetPoints());
+  EXPECT_EQ(&constTarget.GetNormals(), &constSource.GetNormals());
+  EXPECT_EQ(&constTarget.GetTriangles(), &constSource.GetTriangles());
+
+  target->GetPoints()[0] = { 5, 5, 5 };
+  EXPECT_EQ(constSource.GetPoints()[0], (Surface::PointType{ 0, 0, 0 }));
+  EXPECT_EQ(constTarget.GetPoints()[1], constSource.GetPoints()[1]);
+  EXPECT_EQ(&constTarget.GetTriangles(), &constSource.GetTriangles()) << "only what changes is copied";
+  source->GetNormals().clear();
+  EXPECT_TRUE(target->HasNormals());
+
   target->Initialize();
   EXPECT_EQ(target->GetNumberOfTriangles(), 0u);
   EXPECT_EQ(source->GetNumberOfTriangles(), 4u);
   EXPECT_THROW(target->Graft(itk::DataObject::New()), itk::ExceptionObject);
+}
+
+TEST(TriangleSurface, AnArrayOfOneSurfaceAloneIsChangedInPlace)
+{
+  const auto surface = MakeTetrahedron();
+  const Surface & constSurface = *surface;
+  Surface::New()->Graft(surface);
+  const auto * const points = constSurface.GetPoints().data();
+  EXPECT_EQ(surface->GetPoints().data(), points);
 }
 
 TEST(TriangleSurface, RemovesUnusedPointsOnly)

@@ -36,12 +36,12 @@ public:
   LabelPairsContainer &
   GetTriangleLabels()
   {
-    return m_TriangleLabels;
+    return m_TriangleLabels.Change();
   }
   const LabelPairsContainer &
   GetTriangleLabels() const
   {
-    return m_TriangleLabels;
+    return m_TriangleLabels.Get();
   }
 
   /** The volume in mm^3 that the walls of each label enclose, up to the largest label; for 0 that of all others,
@@ -65,7 +65,7 @@ public:
   void
   Initialize() override;
 
-  /** Copies the arrays of other LabelWalls. */
+  /** Shares the arrays of other LabelWalls. */
   void
   Graft(const DataObject * data) override;
 
@@ -77,7 +77,7 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
-  LabelPairsContainer m_TriangleLabels;
+  SharedArray<LabelPairsContainer> m_TriangleLabels;
 };
 
 } // namespace itk

@@ -49,9 +49,9 @@ std::vector<double>
 LabelWalls::ComputeVolumes() const
 {
   std::vector<double> volumes(1);
-  for (std::size_t n = 0; n < m_TriangleLabels.size(); ++n)
+  for (std::size_t n = 0; n < this->GetTriangleLabels().size(); ++n)
   {
-    const auto & [front, back] = m_TriangleLabels[n];
+    const auto & [front, back] = this->GetTriangleLabels()[n];
     volumes.resize(std::max(volumes.size(), std::size_t{ back } + 1));
     CornersType corners = CornersOf(*this, this->GetTriangles()[n]);
     for (PositionType & corner : corners)
@@ -69,7 +69,7 @@ std::vector<LabelWalls::LabelType>
 LabelWalls::FindLabels() const
 {
   std::vector<bool> isFound(std::size_t{ 1 } + std::numeric_limits<LabelType>::max());
-  for (const LabelPairType & pair : m_TriangleLabels)
+  for (const LabelPairType & pair : this->GetTriangleLabels())
   {
     isFound[pair[0]] = true;
     isFound[pair[1]] = true;
@@ -90,9 +90,9 @@ LabelWalls::ExtractLabel(LabelType label) const
 {
   const auto surface = TriangleSurface::New();
   TrianglesContainer & triangles = surface->GetTriangles();
-  for (std::size_t n = 0; n < m_TriangleLabels.size(); ++n)
+  for (std::size_t n = 0; n < this->GetTriangleLabels().size(); ++n)
   {
-    const LabelPairType & pair = m_TriangleLabels[n];
+    const LabelPairType & pair = this->GetTriangleLabels()[n];
     if (pair[0] == label || pair[1] == label)
     {
       const TriangleType & triangle = this->GetTriangles()[n];
@@ -107,21 +107,22 @@ void
 LabelWalls::MergeLabels(const std::vector<LabelType> & labels)
 {
   TrianglesContainer & triangles = this->GetTriangles();
+  LabelPairsContainer & pairs = this->GetTriangleLabels();
   std::size_t kept = 0;
   for (std::size_t n = 0; n < triangles.size(); ++n)
   {
-    const LabelType front = labels[m_TriangleLabels[n][0]];
-    const LabelType back = labels[m_TriangleLabels[n][1]];
+    const LabelType front = labels[pairs[n][0]];
+    const LabelType back = labels[pairs[n][1]];
     if (front != back)
     {
       const TriangleType triangle = triangles[n];
       triangles[kept] = front < back ? triangle : TriangleType{ triangle[0], triangle[2], triangle[1] };
-      m_TriangleLabels[kept] = { std::min(front, back), std::max(front, back) };
+      pairs[kept] = { std::min(front, back), std::max(front, back) };
       ++kept;
     }
   }
   triangles.resize(kept);
-  m_TriangleLabels.resize(kept);
+  pairs.resize(kept);
   this->GetPoints() = TakeUsedPoints(this->GetPoints(), triangles);
   this->Modified();
 }
@@ -130,7 +131,7 @@ void
 LabelWalls::Initialize()
 {
   Superclass::Initialize();
-  LabelPairsContainer().swap(m_TriangleLabels);
+  m_TriangleLabels = {};
 }
 
 void
@@ -152,7 +153,7 @@ void
 LabelWalls::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);
-  os << indent << "Triangles with labels: " << m_TriangleLabels.size() << std::endl;
+  os << indent << "Triangles with labels: " << this->GetTriangleLabels().size() << std::endl;
 }
 
 } // namespace itk

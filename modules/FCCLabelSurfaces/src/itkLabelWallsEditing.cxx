@@ -44,7 +44,7 @@ FindLayers(const LabelWalls & walls, const std::vector<double> & wanted, double 
 /** Moves walls along their normals until each label has its volume, or points are as far as they may go. Fixed points
  * stay. */
 void
-RestoreVolumes(LabelWalls & walls,
+RestoreVolumes(const LabelWalls & walls,
                const std::vector<double> & wanted,
                const TrianglesOfPoints & fans,
                const PointStrata & strata,

@@ -128,9 +128,11 @@ MovePointsToCubics(const VolumeType * volume, itk::TriangleSurface & surface)
 {
   constexpr itk::SizeValueType blockSize = 1024;
   const InterpolatedField spline(volume);
-  surface.GetNormals().resize(surface.GetNumberOfPoints());
-  itk::ForEachInBlocks(surface.GetNumberOfPoints(), blockSize, [&](itk::SizeValueType n) {
-    auto & point = surface.GetPoints()[n];
+  auto & points = surface.GetPoints();
+  auto & normals = surface.GetNormals();
+  normals.resize(points.size());
+  itk::ForEachInBlocks(points.size(), blockSize, [&](itk::SizeValueType n) {
+    auto & point = points[n];
     itk::ContinuousIndex<double, 3> position;
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
@@ -148,7 +150,7 @@ MovePointsToCubics(const VolumeType * volume, itk::TriangleSurface & surface)
     const double slope = itk::Length(gradient);
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      surface.GetNormals()[n][axis] = static_cast<float>(slope > 0.0 ? -gradient[axis] / slope : 0.0);
+      normals[n][axis] = static_cast<float>(slope > 0.0 ? -gradient[axis] / slope : 0.0);
     }
   });
 }

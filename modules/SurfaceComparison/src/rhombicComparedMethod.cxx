@@ -201,8 +201,9 @@ MakeTrueSurface(const ReferenceField & field, const FieldBox & box, double spaci
   const auto volume = SampleBox(field, box, spacing);
   auto surface = RunVTK(VTKExtractor::FlyingEdges, volume);
   surface->GetNormals().clear();
-  itk::ForEachInBlocks(surface->GetNumberOfPoints(), 256, [&](itk::SizeValueType n) {
-    auto & p = surface->GetPoints()[n];
+  auto & points = surface->GetPoints();
+  itk::ForEachInBlocks(points.size(), 256, [&](itk::SizeValueType n) {
+    auto & p = points[n];
     const FieldProjection projection = ProjectOntoField(field, { p[0], p[1], p[2] }, spacing);
     if (projection.isResolved && projection.distance < spacing)
     {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <utility>
 
 namespace itk
 {
@@ -54,7 +55,7 @@ BoundedMoves::BoundedMoves(TriangleSurface & surface, const TrianglesOfPoints & 
                              << maximumMove << " mm when a surface is smoothed; give a number from 0");
   }
   ForEachInBlocks(m_StartAreas.size(), MovedBlock, [&](SizeValueType id) {
-    m_StartAreas[id] = AreaVectorOf(m_Start, surface.GetTriangles()[id]);
+    m_StartAreas[id] = AreaVectorOf(m_Start, std::as_const(m_Surface).GetTriangles()[id]);
   });
 }
 
@@ -77,7 +78,7 @@ bool
 BoundedMoves::IsSpoilt(std::uint32_t triangle) const
 {
   const PositionType & before = m_StartAreas[triangle];
-  const PositionType after = AreaVectorOf(m_Next, m_Surface.GetTriangles()[triangle]);
+  const PositionType after = AreaVectorOf(m_Next, std::as_const(m_Surface).GetTriangles()[triangle]);
   const double cosine = Dot(before, after);
   const double squareBefore = Dot(before, before);
   const double squareAfter = Dot(after, after);
@@ -112,7 +113,7 @@ BoundedMoves::PutBack(std::vector<std::uint32_t> spoilt)
   {
     for (const std::uint32_t id : spoilt)
     {
-      for (const std::uint32_t point : m_Surface.GetTriangles()[id])
+      for (const std::uint32_t point : std::as_const(m_Surface).GetTriangles()[id])
       {
         if (m_Next[point] != m_Surface.GetPoints()[point])
         {
@@ -155,12 +156,13 @@ TriangleSurfaceSmoothingReport
 BoundedMoves::Finish(const PointStrata & strata)
 {
   const Points & points = m_Surface.GetPoints();
-  ForEachInBlocks(m_Surface.GetNormals().size(), MovedBlock, [&](SizeValueType point) {
+  auto & normals = m_Surface.GetNormals();
+  ForEachInBlocks(normals.size(), MovedBlock, [&](SizeValueType point) {
     const PositionType sum = SumNormals(points, m_Fans, point);
     const double length = Length(sum);
     for (unsigned int axis = 0; axis < 3 && length > 0.0; ++axis)
     {
-      m_Surface.GetNormals()[point][axis] = static_cast<float>(sum[axis] / length);
+      normals[point][axis] = static_cast<float>(sum[axis] / length);
     }
   });
   TriangleSurfaceSmoothingReport report;

@@ -117,9 +117,10 @@ SmoothNormals(TriangleSurface & surface)
     });
     samples.swap(next);
   }
+  auto & normals = surface.GetNormals();
   ForEachInBlocks(samples.size(), NormalsBlock, [&](SizeValueType point) {
     const double share = ShareOf(samples[point]);
-    auto & normal = surface.GetNormals()[point];
+    auto & normal = normals[point];
     const PositionType smooth = Normalized(Add(samples[point].normal, samples[point].areaVector));
     const PositionType blend = Normalized(Add(Scaled(ToPosition(normal), 1.0 - share), Scaled(smooth, share)));
     if (share > 0.0 && Length(blend) > 0.0)

@@ -572,10 +572,11 @@ Simplification::FindContacts(const TriangleTree & state, Flags & isBad) const
 void
 Simplification::FindStrays(Flags & isBad) const
 {
+  const auto & triangles = m_State.GetTriangles();
   ForEachInBlocks(isBad.size(), SimplifiedBlock, [&](std::size_t id) {
     if (m_IsFresh[id] && m_IsNew[id])
     {
-      const auto & triangle = m_State.GetTriangles()[id];
+      const auto & triangle = triangles[id];
       const CornersType corners = CornersOf(m_State, triangle);
       const TriangleTree & tree = m_Original->trees.Get(m_Sheets[id]);
       std::array<TriangleId, 3> near{};

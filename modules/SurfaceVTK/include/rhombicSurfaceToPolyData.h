@@ -10,8 +10,9 @@ namespace rhombic
 {
 
 /** Wraps a surface as polydata: points, normals and triangle indices share the surface's memory; only VTK's cell
- * offsets (4 bytes per triangle) are new. The surface stays alive as long as any of the arrays does, and must not be
- * changed meanwhile. Points and normals are float32, connectivity is int32.
+ * offsets (4 bytes per triangle) are new. The polydata stays as it is when the surface changes, its filter runs again
+ * or both are deleted. Filters of VTK that write into their input's arrays need a deep copy, as the surface has the
+ * same memory. Points and normals are float32, connectivity is int32.
  *
  * Throws itk::ExceptionObject for a null pointer, and for more than 2^31 - 1 points or corners of triangles. */
 vtkSmartPointer<vtkPolyData>

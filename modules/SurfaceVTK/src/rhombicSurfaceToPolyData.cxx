@@ -1,7 +1,7 @@
 #include "rhombicSurfaceToPolyData.h"
 
+#include <vtkBuffer.h>
 #include <vtkCellArray.h>
-#include <vtkCommand.h>
 #include <vtkFloatArray.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -9,50 +9,56 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <utility>
 
 namespace rhombic
 {
 namespace
 {
 
-using SurfacePointer = itk::TriangleSurface::ConstPointer;
-
-/** An observer that does nothing but keep the surface alive: an array drops its observers when it is destroyed. */
-class SurfaceKeeper : public vtkCommand
+/** The memory of an array of a surface, which lives as long as this buffer does. */
+template <typename TValue, typename TTuples>
+class SharedBuffer : public vtkBuffer<TValue>
 {
 public:
-  static SurfaceKeeper *
-  New(const SurfacePointer & surface)
+  static SharedBuffer *
+  New(std::shared_ptr<const TTuples> tuples)
   {
-    auto * const keeper = new SurfaceKeeper;
-    keeper->m_Surface = surface;
-    return keeper;
+    auto * const buffer = new SharedBuffer;
+    buffer->InitializeObjectBase();
+    buffer->SetFreeFunction(true);
+    // VTK has no arrays of constant values.
+    auto * const values = const_cast<typename TTuples::value_type *>(tuples->data());
+    buffer->SetBuffer(reinterpret_cast<TValue *>(values),
+                      static_cast<vtkIdType>(tuples->size() * sizeof(*values) / sizeof(TValue)));
+    buffer->m_Tuples = std::move(tuples);
+    return buffer;
   }
 
-  void
-  Execute(vtkObject *, unsigned long, void *) override
-  {}
-
 private:
-  SurfacePointer m_Surface;
+  std::shared_ptr<const TTuples> m_Tuples;
 };
 
-/** A VTK array that shares the memory of some tuples of the surface. */
-template <typename TArray, typename TValue, typename TTuples>
-vtkSmartPointer<TArray>
-Wrap(const TTuples & tuples, int components, const SurfacePointer & surface)
+/** An array of VTK whose values are a SharedBuffer. Shallow copies share the buffer. */
+template <typename TArray>
+class SharedArray : public TArray
 {
-  using TupleType = typename TTuples::value_type;
-  constexpr int doNotFree = 1;
-  auto array = vtkSmartPointer<TArray>::New();
-  array->SetNumberOfComponents(components);
-  // VTK's arrays have no const view; the header forbids changes.
-  auto * const values = reinterpret_cast<TValue *>(const_cast<TupleType *>(tuples.data()));
-  array->SetArray(values, static_cast<vtkIdType>(tuples.size() * sizeof(TupleType) / sizeof(TValue)), doNotFree);
-  const auto keeper = vtkSmartPointer<SurfaceKeeper>::Take(SurfaceKeeper::New(surface));
-  array->AddObserver(vtkCommand::UserEvent, keeper);
-  return array;
-}
+public:
+  template <typename TTuples>
+  static vtkSmartPointer<TArray>
+  New(std::shared_ptr<const TTuples> tuples, int components)
+  {
+    auto * const array = new SharedArray;
+    array->InitializeObjectBase();
+    array->Buffer->Delete();
+    array->Buffer = SharedBuffer<typename TArray::ValueType, TTuples>::New(std::move(tuples));
+    array->SetNumberOfComponents(components);
+    array->Size = array->Buffer->GetSize();
+    array->MaxId = array->Size - 1;
+    return vtkSmartPointer<TArray>::Take(array);
+  }
+};
 
 } // namespace
 
@@ -63,9 +69,8 @@ SurfaceToPolyData(const itk::TriangleSurface * surface)
   {
     itkGenericExceptionMacro("VTK's polydata needs a surface, not a null pointer; give the output of a filter");
   }
-  const SurfacePointer keep(surface);
   const auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetData(Wrap<vtkFloatArray, float>(surface->GetPoints(), 3, keep));
+  points->SetData(SharedArray<vtkFloatArray>::New(surface->SharePoints(), 3));
 
   // uint32 indices read as int32 are the same bytes, as long as there are fewer than 2^31 points.
   if (surface->GetNumberOfPoints() > static_cast<itk::SizeValueType>(std::numeric_limits<std::int32_t>::max()) ||
@@ -82,14 +87,14 @@ SurfaceToPolyData(const itk::TriangleSurface * surface)
     offsets->SetValue(i, static_cast<std::int32_t>(3 * i));
   }
   const auto triangles = vtkSmartPointer<vtkCellArray>::New();
-  triangles->SetData(offsets, Wrap<vtkTypeInt32Array, std::int32_t>(surface->GetTriangles(), 1, keep));
+  triangles->SetData(offsets, SharedArray<vtkTypeInt32Array>::New(surface->ShareTriangles(), 1));
 
   auto polyData = vtkSmartPointer<vtkPolyData>::New();
   polyData->SetPoints(points);
   polyData->SetPolys(triangles);
   if (surface->HasNormals())
   {
-    const auto normals = Wrap<vtkFloatArray, float>(surface->GetNormals(), 3, keep);
+    const auto normals = SharedArray<vtkFloatArray>::New(surface->ShareNormals(), 3);
     normals->SetName("Normals");
     polyData->GetPointData()->SetNormals(normals);
   }

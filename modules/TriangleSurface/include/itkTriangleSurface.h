@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace itk
@@ -19,6 +20,12 @@ namespace itk
  * file writers and graphics libraries take without a copy; SurfaceToPolyData() of SurfaceVTK shares them with VTK.
  * itk::Mesh, which allocates every cell on the heap, takes 8 times the memory and itk::QuadEdgeMesh 50 times; see
  * ConvertToMesh() and ConvertToQuadEdgeMesh().
+ *
+ * Surfaces share their arrays after Graft(), and so do the vtkPolyData of SurfaceToPolyData(). A shared array never
+ * changes: accessors of a surface that is not const copy it first, if another object holds it, and Initialize()
+ * replaces it. So read through a reference or pointer to a const surface: several threads at a time, and without a
+ * copy. A reference from GetPoints(), GetNormals() or GetTriangles() holds until Graft() or Initialize(), or until its
+ * array is shared.
  *
  * Points are in LPS millimetres. Triangles are counter-clockwise seen from outside. Normals are unit vectors that
  * point outwards, one per point, or there are none.
@@ -49,50 +56,67 @@ public:
   PointsContainer &
   GetPoints()
   {
-    return m_Points;
+    return m_Points.Change();
   }
   const PointsContainer &
   GetPoints() const
   {
-    return m_Points;
+    return m_Points.Get();
   }
   NormalsContainer &
   GetNormals()
   {
-    return m_Normals;
+    return m_Normals.Change();
   }
   const NormalsContainer &
   GetNormals() const
   {
-    return m_Normals;
+    return m_Normals.Get();
   }
   TrianglesContainer &
   GetTriangles()
   {
-    return m_Triangles;
+    return m_Triangles.Change();
   }
   const TrianglesContainer &
   GetTriangles() const
   {
-    return m_Triangles;
+    return m_Triangles.Get();
+  }
+
+  /** The arrays themselves, to hold on to: what they point to stays as it is, whatever happens to the surface. */
+  std::shared_ptr<const PointsContainer>
+  SharePoints() const
+  {
+    return m_Points.Share();
+  }
+  std::shared_ptr<const NormalsContainer>
+  ShareNormals() const
+  {
+    return m_Normals.Share();
+  }
+  std::shared_ptr<const TrianglesContainer>
+  ShareTriangles() const
+  {
+    return m_Triangles.Share();
   }
 
   SizeValueType
   GetNumberOfPoints() const
   {
-    return m_Points.size();
+    return this->GetPoints().size();
   }
   SizeValueType
   GetNumberOfTriangles() const
   {
-    return m_Triangles.size();
+    return this->GetTriangles().size();
   }
 
   /** Whether there is one normal for each point. */
   bool
   HasNormals() const
   {
-    return !m_Points.empty() && m_Normals.size() == m_Points.size();
+    return !this->GetPoints().empty() && this->GetNormals().size() == this->GetPoints().size();
   }
 
   /** Bytes in the three arrays. */
@@ -114,7 +138,7 @@ public:
   void
   Initialize() override;
 
-  /** Copies the arrays of another TriangleSurface. */
+  /** Shares the arrays of another TriangleSurface. */
   void
   Graft(const DataObject * data) override;
 
@@ -125,10 +149,39 @@ protected:
   void
   PrintSelf(std::ostream & os, Indent indent) const override;
 
+  /** An array that its copies share. The one that changes it takes an array of its own first. */
+  template <typename TContainer>
+  class SharedArray
+  {
+  public:
+    const TContainer &
+    Get() const
+    {
+      return *m_Array;
+    }
+    TContainer &
+    Change()
+    {
+      if (m_Array.use_count() > 1)
+      {
+        m_Array = std::make_shared<TContainer>(*m_Array);
+      }
+      return *m_Array;
+    }
+    std::shared_ptr<const TContainer>
+    Share() const
+    {
+      return m_Array;
+    }
+
+  private:
+    std::shared_ptr<TContainer> m_Array = std::make_shared<TContainer>();
+  };
+
 private:
-  PointsContainer m_Points;
-  NormalsContainer m_Normals;
-  TrianglesContainer m_Triangles;
+  SharedArray<PointsContainer> m_Points;
+  SharedArray<NormalsContainer> m_Normals;
+  SharedArray<TrianglesContainer> m_Triangles;
 };
 
 } // namespace itk

@@ -8,20 +8,21 @@ namespace itk
 SizeValueType
 TriangleSurface::GetMemorySize() const
 {
-  return m_Points.size() * sizeof(PointType) + m_Normals.size() * sizeof(NormalType) +
-         m_Triangles.size() * sizeof(TriangleType);
+  return this->GetPoints().size() * sizeof(PointType) + this->GetNormals().size() * sizeof(NormalType) +
+         this->GetTriangles().size() * sizeof(TriangleType);
 }
 
 std::array<double, 6>
 TriangleSurface::GetBounds() const
 {
-  if (m_Points.empty())
+  const PointsContainer & points = this->GetPoints();
+  if (points.empty())
   {
     return {};
   }
-  PointType lowest = m_Points.front();
+  PointType lowest = points.front();
   PointType highest = lowest;
-  for (const PointType & point : m_Points)
+  for (const PointType & point : points)
   {
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
@@ -35,13 +36,15 @@ TriangleSurface::GetBounds() const
 void
 TriangleSurface::VerifyTriangles() const
 {
-  for (std::size_t id = 0; id < m_Triangles.size(); ++id)
+  const TrianglesContainer & triangles = this->GetTriangles();
+  for (std::size_t id = 0; id < triangles.size(); ++id)
   {
-    const std::uint32_t highest = *std::max_element(m_Triangles[id].begin(), m_Triangles[id].end());
-    if (highest >= m_Points.size())
+    const std::uint32_t highest = *std::max_element(triangles[id].begin(), triangles[id].end());
+    if (highest >= this->GetNumberOfPoints())
     {
       itkGenericExceptionMacro("Triangle " << id << " has point " << highest << ", but the surface has only "
-                                           << m_Points.size() << " points; write the surface again from its source");
+                                           << this->GetNumberOfPoints()
+                                           << " points; write the surface again from its source");
     }
   }
 }
@@ -51,8 +54,11 @@ TriangleSurface::RemoveUnusedPoints()
 {
   constexpr std::uint32_t unused = 0;
   constexpr std::uint32_t used = 1;
-  std::vector<std::uint32_t> newId(m_Points.size(), unused);
-  for (const TriangleType & triangle : m_Triangles)
+  PointsContainer & points = this->GetPoints();
+  NormalsContainer & normals = this->GetNormals();
+  TrianglesContainer & triangles = this->GetTriangles();
+  std::vector<std::uint32_t> newId(points.size(), unused);
+  for (const TriangleType & triangle : triangles)
   {
     for (const std::uint32_t point : triangle)
     {
@@ -65,20 +71,20 @@ TriangleSurface::RemoveUnusedPoints()
   {
     if (newId[point] == used)
     {
-      m_Points[kept] = m_Points[point];
+      points[kept] = points[point];
       if (hasNormals)
       {
-        m_Normals[kept] = m_Normals[point];
+        normals[kept] = normals[point];
       }
       newId[point] = kept++;
     }
   }
-  m_Points.resize(kept);
+  points.resize(kept);
   if (hasNormals)
   {
-    m_Normals.resize(kept);
+    normals.resize(kept);
   }
-  for (TriangleType & triangle : m_Triangles)
+  for (TriangleType & triangle : triangles)
   {
     for (std::uint32_t & point : triangle)
     {
@@ -92,9 +98,9 @@ void
 TriangleSurface::Initialize()
 {
   Superclass::Initialize();
-  PointsContainer().swap(m_Points);
-  NormalsContainer().swap(m_Normals);
-  TrianglesContainer().swap(m_Triangles);
+  m_Points = {};
+  m_Normals = {};
+  m_Triangles = {};
 }
 
 void
@@ -119,9 +125,9 @@ void
 TriangleSurface::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);
-  os << indent << "NumberOfPoints: " << m_Points.size() << std::endl;
-  os << indent << "NumberOfNormals: " << m_Normals.size() << std::endl;
-  os << indent << "NumberOfTriangles: " << m_Triangles.size() << std::endl;
+  os << indent << "NumberOfPoints: " << this->GetNumberOfPoints() << std::endl;
+  os << indent << "NumberOfNormals: " << this->GetNormals().size() << std::endl;
+  os << indent << "NumberOfTriangles: " << this->GetNumberOfTriangles() << std::endl;
 }
 
 } // namespace itk
