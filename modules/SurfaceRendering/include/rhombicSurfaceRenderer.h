@@ -15,7 +15,8 @@ namespace rhombic
 /** \class SurfaceRenderer
  * \brief Draws surfaces, without a window and without an X server.
  *
- * The same scene and settings give the same bytes in every run on a machine, with any number of threads.
+ * The same scene and settings give the same bytes in every run on a machine, with any number of threads. After each
+ * call the OpenGL context that was current on the thread, of EGL or GLX, is current again.
  *
  * Thread safety: create, use and destroy a renderer on one thread. Each thread may have its own; only one of them draws
  * at a time.

@@ -7,18 +7,6 @@
 
 #include <vtk_glew.h>
 
-// GLEW looks up OpenGL's functions for VTK. Without an X server it finds all of them but those of GLX, and then reports
-// a failure. Nothing calls GLX through GLEW, so this definition, exported by the program (see
-// module-options.cmake), replaces GLEW's.
-extern "C" unsigned int
-glxewInit();
-
-extern "C" unsigned int
-glxewInit()
-{
-  return 0;
-}
-
 namespace rhombic
 {
 namespace

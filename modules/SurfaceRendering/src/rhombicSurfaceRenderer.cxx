@@ -1,5 +1,6 @@
 #include "rhombicSurfaceRenderer.h"
 
+#include "rhombicCallersContext.h"
 #include "rhombicCameraFit.h"
 #include "rhombicDrawingMemory.h"
 #include "rhombicFailure.h"
@@ -10,6 +11,7 @@
 #include "vtkRhombicMessages.h"
 
 #include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkObjectFactory.h>
 
 #include <mutex>
 #include <new>
@@ -21,15 +23,54 @@ namespace rhombic
 namespace
 {
 
-/** Locked while a renderer works: all renderers of the process share VTK's message window and GLEW's table of
- * functions.
- */
-std::mutex &
-Turn()
+/** Held while a renderer works: all renderers of the process share VTK's message window and GLEW's table of functions.
+ * Then the caller's OpenGL context is current again. */
+class Turn
 {
-  static std::mutex turn;
-  return turn;
-}
+public:
+  Turn()
+    : m_Lock(Mutex())
+  {}
+
+private:
+  static std::mutex &
+  Mutex()
+  {
+    static std::mutex mutex;
+    return mutex;
+  }
+
+  const std::lock_guard<std::mutex> m_Lock;
+  const CallersContext m_Caller;
+};
+
+/** A window for a context without a display. */
+class Window : public vtkGenericOpenGLRenderWindow
+{
+public:
+  static Window *
+  New();
+
+  bool
+  IsInitialized() const
+  {
+    return this->Initialized;
+  }
+
+  /** GLEW looks up OpenGL's functions for VTK. Without a display it finds all but those of GLX, which nobody calls
+   * here, and reports an error. Where the caller's program has called GLEW, its table stays as it is. */
+  void
+  OpenGLInitContext() override
+  {
+    const GLenum result = GLEW_VERSION_3_2 ? GLEW_OK : glewInit();
+    this->GlewInitValid =
+      result == GLEW_OK || result == GLEW_ERROR_NO_GLX_DISPLAY || result == GLEW_ERROR_GLX_VERSION_11_ONLY;
+    this->Initialized = this->GlewInitValid;
+    this->ContextCreationTime.Modified();
+  }
+};
+
+vtkStandardNewMacro(Window);
 
 void
 CheckErrors(const vtkRhombicMessages::Scope & messages)
@@ -61,7 +102,7 @@ public:
     const CurrentGLContext current(*m_Context.context);
     const vtkRhombicMessages::Scope messages;
     glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &m_LargestSide);
-    m_Window = vtkSmartPointer<vtkGenericOpenGLRenderWindow>::New();
+    m_Window = vtkSmartPointer<Window>::New();
     m_Window->SetReadyForRendering(true);
     m_Window->SetIsCurrent(true);
     m_Window->SetSupportsOpenGL(1);
@@ -69,6 +110,13 @@ public:
     m_Window->SetShowWindow(false);
     m_Window->SwapBuffersOff();
     m_Window->OpenGLInit();
+    if (!m_Window->IsInitialized())
+    {
+      throw Failure(
+        FailureKind::Display,
+        "GLEW finds no functions of OpenGL; install the Debian package libgl1 (rhombic doctor lists the ways "
+        "to draw on this machine).");
+    }
   }
 
   ~Canvas()
@@ -121,7 +169,7 @@ public:
 
 private:
   DescribedGLContext m_Context;
-  vtkSmartPointer<vtkGenericOpenGLRenderWindow> m_Window;
+  vtkSmartPointer<Window> m_Window;
   int m_LargestSide = 0;
 };
 
@@ -179,20 +227,20 @@ private:
 
 SurfaceRenderer::SurfaceRenderer(RenderBackend backend)
 {
-  const std::lock_guard<std::mutex> lock(Turn());
+  const Turn turn;
   m_Implementation = std::make_unique<Implementation>(backend);
 }
 
 SurfaceRenderer::~SurfaceRenderer()
 {
-  const std::lock_guard<std::mutex> lock(Turn());
+  const Turn turn;
   m_Implementation.reset();
 }
 
 std::vector<RenderedView>
 SurfaceRenderer::Render(const Scene & scene, const RenderSettings & settings, const std::vector<View> & views)
 {
-  const std::lock_guard<std::mutex> lock(Turn());
+  const Turn turn;
   try
   {
     return m_Implementation->Render(scene, settings, views);
@@ -238,7 +286,7 @@ SurfaceRenderer::GetBackendDescription() const
 std::vector<BackendProbe>
 SurfaceRenderer::ProbeBackends()
 {
-  const std::lock_guard<std::mutex> lock(Turn());
+  const Turn turn;
   return ProbeGLContexts();
 }
 

@@ -1,0 +1,16 @@
+# cmake -DNM=... "-DFILES=..." -P check-symbols.cmake: libraries and programs must not define a symbol of GLEW, which
+# would replace GLEW's in the whole program of a user.
+foreach(file IN LISTS FILES)
+  set(symbols)
+  foreach(table --debug-syms --dynamic)
+    execute_process(COMMAND "${NM}" --defined-only ${table} "${file}" OUTPUT_VARIABLE found ERROR_QUIET)
+    string(APPEND symbols "${found}")
+  endforeach()
+  if(NOT symbols MATCHES " [TtWV] ")
+    message(FATAL_ERROR "${NM} finds no symbols in ${file}")
+  endif()
+  string(REGEX MATCH "[A-Z] _*(glew|glxew|eglew|GLEW|GLXEW|EGLEW)[A-Za-z0-9_]*" own "${symbols}")
+  if(own)
+    message(FATAL_ERROR "${file} defines '${own}', a symbol of GLEW")
+  endif()
+endforeach()
