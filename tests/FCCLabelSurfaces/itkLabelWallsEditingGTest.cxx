@@ -1,3 +1,5 @@
+#include "itkBruteForceCrossings.h"
+#include "itkExampleCloseSheets.h"
 #include "itkExampleLabelWalls.h"
 #include "itkLabelWallsEditing.h"
 
@@ -202,6 +204,57 @@ TEST(LabelWallsEditing, AThousandVolumesStaySound)
   {
     ExpectSoundEdits(seed);
   }
+}
+
+/** The walls of label 1 around label 2: two spheres or two tori. */
+Walls::Pointer
+MakeThinLabel(unsigned int seed)
+{
+  const auto sheets = MakeCloseSheets(seed % 2 == 0 ? CloseSheets::Spheres : CloseSheets::Tori, seed);
+  const auto walls = Walls::New();
+  walls->GetPoints() = sheets->GetPoints();
+  walls->GetTriangles() = sheets->GetTriangles();
+  auto & triangles = walls->GetTriangles();
+  walls->GetTriangleLabels().assign(triangles.size(), { 0, 1 });
+  for (std::size_t n = triangles.size() / 2; n < triangles.size(); ++n)
+  {
+    std::swap(triangles[n][1], triangles[n][2]); // seen from label 1
+    walls->GetTriangleLabels()[n] = { 1, 2 };
+  }
+  return walls;
+}
+
+/** Smooths and simplifies walls that are close to each other, and expects that none cross. */
+void
+ExpectSoundThinLabels(unsigned int pairs)
+{
+  for (unsigned int seed = 0; seed < pairs; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    const auto walls = MakeThinLabel(seed);
+    if (seed % 4 > 1)
+    {
+      RelaxWalls(*walls, MovesUpTo(1.0));
+      EXPECT_EQ(bruteforce::CountCrossings(*walls), 0u);
+    }
+    auto settings = ErrorUpTo(seed % 3 == 0 ? 5.0 : std::numeric_limits<double>::infinity());
+    settings.targetTriangles = walls->GetNumberOfTriangles() / (3 + seed % 20);
+    const auto report = SimplifyWalls(*walls, settings);
+    EXPECT_LT(report.trianglesAfter, report.trianglesBefore);
+    EXPECT_EQ(bruteforce::CountCrossings(*walls), 0u);
+    EXPECT_EQ(CountCrossings(*walls), 0u) << "or touch";
+  }
+}
+
+TEST(LabelWallsEditing, WallsOfThinLabelsDoNotMeet)
+{
+  ExpectSoundThinLabels(80);
+}
+
+/** The other 750 are in itkTriangleSurfaceCloseSheetsGTest.cxx: the label long. */
+TEST(LabelWallsEditing, AThousandPairsDoNotMeet)
+{
+  ExpectSoundThinLabels(250);
 }
 
 TEST(LabelWallsEditing, SmoothLabelsKeepTheirVolumes)

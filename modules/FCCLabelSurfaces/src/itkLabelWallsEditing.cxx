@@ -2,12 +2,10 @@
 
 #include "itkBoundedMoves.h"
 #include "itkLabelWallAreas.h"
-#include "itkTriangleSurfaceIntersections.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <utility>
 
 namespace itk
@@ -74,24 +72,6 @@ RestoreVolumes(const LabelWalls & walls,
   }
 }
 
-/** Puts points of triangles that meet others back to their start, until none meet. */
-void
-PutBackMeeting(const LabelWalls & walls, const TrianglesOfPoints & fans, BoundedMoves & moves)
-{
-  const TriangleTree tree(walls); // of triangles that have since been put back it does not know where they are
-  std::set<std::uint32_t> putBack;
-  auto meeting = FindCrossingTriangles(tree, fans, TriangleContact::Touching);
-  while (!meeting.empty())
-  {
-    const auto latest = moves.PutBackToStart(meeting);
-    putBack.insert(latest.begin(), latest.end());
-    const TriangleTree others(walls, { putBack.begin(), putBack.end() });
-    meeting = FindCrossingTriangles(tree, latest, TriangleContact::Touching);
-    const auto more = FindCrossingTriangles(others, latest, TriangleContact::Touching);
-    meeting.insert(meeting.end(), more.begin(), more.end());
-  }
-}
-
 } // namespace
 
 TriangleSurfaceSmoothingReport
@@ -107,7 +87,7 @@ RelaxWalls(LabelWalls & walls, const TriangleSurfaceSmoothingSettings & settings
   BoundedMoves moves(walls, fans, settings.maximumMove);
   TakeSmoothingSteps(walls, fans, strata, settings.iterations, moves);
   RestoreVolumes(walls, wanted, fans, strata, moves);
-  PutBackMeeting(walls, fans, moves);
+  moves.PutBackMeeting();
   walls.Modified();
   return moves.Finish(strata);
 }
@@ -137,7 +117,7 @@ SimplifyWalls(LabelWalls & walls, const TriangleSurfaceSimplificationSettings & 
     BoundedMoves moves(walls, fans, ShareForVolumes * settings.maximumError);
     const PointStrata strata = FindStrata(walls, fans);
     RestoreVolumes(walls, volumes, fans, strata, moves);
-    PutBackMeeting(walls, fans, moves);
+    moves.PutBackMeeting();
     moves.Finish(strata);
   }
   walls.Modified();

@@ -32,11 +32,13 @@ struct TriangleSurfaceSmoothingReport
  * No point moves farther than maximumMove. The points of a triangle that would turn by 80 degrees or more, or lose more
  * than nine tenths of its area, stay where they are. Points on open borders, where curves meet, and where
  * parts touch in one point, stay. Triangles keep their points and order. Normals, if there were any, are computed anew:
- * the triangles' normals weighted by the angle at the point. Parts of the surface that are closer to each other than
- * twice maximumMove may touch afterwards.
+ * the triangles' normals weighted by the angle at the point.
  *
- * Time linear; memory about 70 bytes per triangle while it runs. The same bytes for any number of threads. Throws
- * ExceptionObject if maximumMove is negative or not finite. */
+ * At the end, the points of triangles that meet others elsewhere than at shared corners and sides are put back to their
+ * start, until triangles only meet where they met at the start. So there are no new self-intersections.
+ *
+ * Time nearly linear; memory about 120 bytes per triangle while it runs. The same bytes for any number of threads.
+ * Throws ExceptionObject if maximumMove is negative or not finite. */
 TriangleSurfaceSmoothingReport
 SmoothSurface(TriangleSurface & surface, const TriangleSurfaceSmoothingSettings & settings);
 

@@ -115,8 +115,7 @@ struct RefinementFunctions
   std::function<double(const itk::TriangleSurface &)> computeVolume; ///< in mm^3
 };
 
-/** Smooths and simplifies a surface that cannot have crossing triangles, with functions of its kind. See
- * RefineSurface(). */
+/** Smooths and simplifies a surface, with functions of its kind that add no crossing triangles. See RefineSurface(). */
 Refinement
 RefineBy(const RefinementFunctions & functions,
          itk::TriangleSurface & surface,
@@ -125,13 +124,14 @@ RefineBy(const RefinementFunctions & functions,
          const std::string & name,
          const Events & events);
 
-/** Smooths a surface, untangles it, simplifies it, and turns shells that face the wrong way, each where it may be
+/** Untangles a surface, smooths it, simplifies it, and turns shells that face the wrong way, each where it may be
  * needed. Untangling moves points by one spacing of the lattice at most, where triangles pass through each other.
- * Simplification adds no such triangles. Notes give the results, and how many triangles still pass through others.
+ * Smoothing and simplification add no such triangles. Notes give the results, and how many triangles untangling has
+ * left that pass through others.
  *
  * \param spacing of the lattice in mm (see MeanSpacingOf())
  * \param name of the surface, for progress and messages
- * \param candidates which triangles may cross before the surface is smoothed; nothing: all may
+ * \param candidates which triangles may cross; nothing: all may
  *
  * Throws itk::ExceptionObject as itk::UntangleSurface() and itk::SimplifySurface() do. */
 Refinement

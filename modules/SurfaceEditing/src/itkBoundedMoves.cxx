@@ -1,8 +1,11 @@
 #include "itkBoundedMoves.h"
 
+#include "itkTriangleSurfaceIntersections.h"
+
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <set>
 #include <utility>
 
 namespace itk
@@ -136,6 +139,8 @@ BoundedMoves::PutBack(std::vector<std::uint32_t> spoilt)
   return putBack;
 }
 
+/** Puts the points of some triangles back to their start, and those of triangles that have then turned or shrunk too
+ * much. Returns the triangles at points that had moved, ascending. */
 std::vector<std::uint32_t>
 BoundedMoves::PutBackToStart(const std::vector<std::uint32_t> & triangles)
 {
@@ -150,6 +155,23 @@ BoundedMoves::PutBackToStart(const std::vector<std::uint32_t> & triangles)
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   return changed;
+}
+
+void
+BoundedMoves::PutBackMeeting()
+{
+  const TriangleTree tree(m_Surface); // of triangles that have since been put back it does not know where they are
+  std::set<std::uint32_t> putBack;
+  auto meeting = FindCrossingTriangles(tree, m_Fans, TriangleContact::Touching);
+  while (!meeting.empty())
+  {
+    const auto latest = this->PutBackToStart(meeting);
+    putBack.insert(latest.begin(), latest.end());
+    const TriangleTree others(m_Surface, { putBack.begin(), putBack.end() });
+    meeting = FindCrossingTriangles(tree, latest, TriangleContact::Touching);
+    const auto more = FindCrossingTriangles(others, latest, TriangleContact::Touching);
+    meeting.insert(meeting.end(), more.begin(), more.end());
+  }
 }
 
 TriangleSurfaceSmoothingReport

@@ -44,10 +44,10 @@ public:
     this->FinishStep();
   }
 
-  /** Puts the points of some triangles back to their start, and those of triangles that have then turned or shrunk too
-   * much. Returns the triangles at points that had moved, ascending. */
-  std::vector<std::uint32_t>
-  PutBackToStart(const std::vector<std::uint32_t> & triangles);
+  /** Puts the points of triangles that meet others, elsewhere than at shared corners and sides, back to their start,
+   * until the triangles that meet are all at their start. */
+  void
+  PutBackMeeting();
 
   /** After the last step: computes the normals anew, if there are any, and returns how far points have moved. */
   TriangleSurfaceSmoothingReport
@@ -73,6 +73,8 @@ private:
   FinishStep();
   std::vector<std::uint32_t>
   PutBack(std::vector<std::uint32_t> spoilt);
+  std::vector<std::uint32_t>
+  PutBackToStart(const std::vector<std::uint32_t> & triangles);
 
   TriangleSurface & m_Surface;
   const TrianglesOfPoints & m_Fans;

@@ -32,6 +32,8 @@ using Sheets = std::vector<std::uint32_t>; ///< for each triangle, the number of
 constexpr std::size_t PatchSize = 4096;
 constexpr std::size_t SimplifiedBlock = 1024;
 
+constexpr std::uint16_t Absent = std::numeric_limits<std::uint16_t>::max(); // changes of a triangle that is not there
+
 /** The share of the triangles in the first part when triangles are cut in two, in successive steps. It varies so that
  * the patches of successive steps have few borders in common. */
 constexpr std::array<double, 3> Cuts{ 0.5, 0.36, 0.64 };
@@ -84,8 +86,8 @@ struct Patch
   CollapseLog log;
   std::vector<std::uint16_t> mostChanges; ///< for each triangle before, how often a corner of it may move
   CollapsedPart after;
-  std::vector<std::uint16_t> checkedChanges; ///< for each triangle before, how often a corner of it had moved when it
-                                             ///< was last checked
+  std::vector<std::uint16_t> checkedChanges; ///< for each triangle before, how often a corner of it had moved at the
+                                             ///< last check; Absent if the triangle had vanished
 };
 
 Patch
@@ -496,13 +498,15 @@ Simplification::JoinPatches()
     }
     triangles.insert(triangles.end(), after.part.triangles.begin(), after.part.triangles.end());
     m_Sheets.insert(m_Sheets.end(), after.part.sheets.begin(), after.part.sheets.end());
+    std::vector<std::uint16_t> changes(patch.checkedChanges.size(), Absent);
     for (std::size_t n = 0; n < after.ids.size(); ++n)
     {
-      std::uint16_t & checked = patch.checkedChanges[after.ids[n]];
+      const TriangleId before = after.ids[n];
+      changes[before] = after.changes[n];
       m_IsNew.push_back(after.changes[n] > 0 ? 1 : 0);
-      m_IsFresh.push_back(after.changes[n] != checked ? 1 : 0);
-      checked = after.changes[n];
+      m_IsFresh.push_back(after.changes[n] != patch.checkedChanges[before] ? 1 : 0);
     }
+    patch.checkedChanges.swap(changes);
     m_Begin.push_back(static_cast<TriangleId>(triangles.size()));
     for (const MovedPoint & moved : after.movedPoints)
     {

@@ -83,6 +83,7 @@ SmoothSurface(TriangleSurface & surface, const TriangleSurfaceSmoothingSettings 
   const PointStrata strata = FindStrata(surface, fans);
   BoundedMoves moves(surface, fans, settings.maximumMove);
   TakeSmoothingSteps(surface, fans, strata, settings.iterations, moves);
+  moves.PutBackMeeting();
   surface.Modified();
   return moves.Finish(strata);
 }

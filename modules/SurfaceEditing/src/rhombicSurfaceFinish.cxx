@@ -224,28 +224,23 @@ RefineSurface(itk::TriangleSurface & surface,
                                          return report;
                                        },
                                        itk::ComputeVolume };
-  SurfaceFinish smoothing;
-  smoothing.smoothing = finish.smoothing;
-  Refinement refinement = RefineBy(functions, surface, smoothing, spacing, name, events);
   events.Progress("untangling " + name, 0.0);
   std::optional<itk::TriangleTree> tree;
-  const auto untangled =
-    UntangleSurface(surface, tree.emplace(surface), spacing, finish.smoothing > 0.0 ? std::nullopt : candidates);
-  if (untangled.crossingBefore > 0)
-  {
-    refinement.untangling = untangled;
-  }
+  const auto untangled = UntangleSurface(surface, tree.emplace(surface), spacing, candidates);
   if (untangled.crossingAfter > 0)
   {
     events.Note(name + ": " + Count(untangled.crossingAfter, "triangle passes", "triangles pass") +
                 " through others of it");
   }
-  if (finish.Simplifies())
+  Refinement refinement;
+  if (finish.smoothing > 0.0 || finish.Simplifies())
   {
     tree.reset();
-    SurfaceFinish simplification = finish;
-    simplification.smoothing = 0.0;
-    refinement.simplification = RefineBy(functions, surface, simplification, spacing, name, events).simplification;
+    refinement = RefineBy(functions, surface, finish, spacing, name, events);
+  }
+  if (untangled.crossingBefore > 0)
+  {
+    refinement.untangling = untangled;
   }
   refinement.shellsTurned = tree ? TurnMisfacingShells(surface, *tree) : TurnMisfacingShells(surface);
   return refinement;
