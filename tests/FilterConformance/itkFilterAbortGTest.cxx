@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
-#include <ctime>
 #include <random>
 #include <thread>
 
@@ -16,116 +14,178 @@ namespace
 
 using namespace filtertest;
 
-enum class Caller
-{
-  Observer,
-  OtherThread
-};
+/** Share of a filter's work that may be done between an abort and its end: the portions that its threads work on. */
+constexpr float MostAfterAbort = 0.05f;
 
-#ifdef __SANITIZE_THREAD__
-constexpr double MostAfterAbort = 2000.0; // ms, where each access to memory is looked at
-#else
-constexpr double MostAfterAbort = 100.0; // ms
-#endif
-
-/** Time that all threads of the process have spent computing, in ms: what other programs do on a busy machine does not
- * count. */
-double
-ComputingTime()
-{
-  timespec time;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
-struct Abort
-{
-  bool wasThrown = false;
-  double computedAfter = 0.0; ///< ms, by all threads together
-};
-
-/** Aborts an update at some progress, or after some time. */
+/** A filter that counts how often it checks for an abort, and that another thread aborts during one of these checks. */
 template <typename TFilter>
-Abort
-AbortAt(TFilter & filter,
-        float progress,
-        Caller caller,
-        std::chrono::milliseconds longest = std::chrono::milliseconds(500))
+class AbortedFilter : public TFilter
 {
-  std::atomic<double> when{ 0.0 };
-  std::atomic<bool> isUpdating{ true };
-  const auto abort = [&] {
-    when = ComputingTime();
-    filter.AbortGenerateDataOn();
-  };
-  const auto start = std::chrono::steady_clock::now();
-  const auto isTime = [&filter, progress, start, longest] {
-    return filter.GetProgress() >= progress || std::chrono::steady_clock::now() - start > longest;
-  };
-  std::thread other;
-  const auto observer = filter.AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) {
-    if (caller == Caller::Observer && when == 0.0 && isTime())
+public:
+  ITK_DISALLOW_COPY_AND_MOVE(AbortedFilter);
+
+  using Self = AbortedFilter;
+  using Superclass = TFilter;
+  using Pointer = itk::SmartPointer<Self>;
+
+  itkFactorylessNewMacro(Self);
+
+  /** What the next update is to be aborted at: the number of a check, beginning with 1; 0 for none. */
+  void
+  AbortAtCheck(itk::SizeValueType check)
+  {
+    m_Checks = 0;
+    m_AbortAt = check;
+  }
+
+  void
+  Abort()
+  {
+    this->AbortGenerateDataOn();
+    m_ProgressAtAbort = this->GetProgress();
+  }
+
+  /** Every check comes here, from any thread. */
+  const bool &
+  GetAbortGenerateData() const override
+  {
+    if (++m_Checks == m_AbortAt)
     {
-      abort();
+      std::thread([this] { const_cast<Self *>(this)->Abort(); }).join();
     }
-    if (caller == Caller::OtherThread && !other.joinable())
-    {
-      other = std::thread([&] {
-        while (!isTime() && isUpdating)
-        {
-          std::this_thread::sleep_for(std::chrono::microseconds(500));
-        }
-        abort();
-      });
-    }
-  });
-  Abort result;
+    return Superclass::GetAbortGenerateData();
+  }
+
+  itk::SizeValueType
+  GetChecks() const
+  {
+    return m_Checks;
+  }
+
+  /** Share of the work that has been done since the abort. */
+  float
+  GetProgressAfterAbort() const
+  {
+    return this->GetProgress() - m_ProgressAtAbort;
+  }
+
+protected:
+  AbortedFilter() = default;
+  ~AbortedFilter() override = default;
+
+private:
+  mutable std::atomic<itk::SizeValueType> m_Checks{ 0 };
+  itk::SizeValueType m_AbortAt{ 0 };
+  std::atomic<float> m_ProgressAtAbort{ 0.0f };
+};
+
+/** Updates a filter that is to be aborted: whether it says so. */
+template <typename TFilter>
+bool
+IsAborted(TFilter & filter)
+{
   try
   {
+    filter.Modified();
     filter.UpdateLargestPossibleRegion();
   }
   catch (const itk::ProcessAborted &)
   {
-    result.computedAfter = ComputingTime() - when;
-    result.wasThrown = true;
+    return true;
   }
-  isUpdating = false;
-  if (other.joinable())
-  {
-    other.join();
-  }
-  filter.RemoveObserver(observer);
-  return result;
+  return false;
+}
+
+template <typename TFilter>
+itk::SizeValueType
+CountChecks(TFilter & filter)
+{
+  filter.AbortAtCheck(0);
+  EXPECT_FALSE(IsAborted(filter));
+  return filter.GetChecks();
+}
+
+template <typename TImage>
+itk::SizeValueType
+CountRows(const TImage & image)
+{
+  const auto & region = image.GetLargestPossibleRegion();
+  return region.GetSize(1) * region.GetSize(2);
 }
 
 template <typename TDescription>
 class FilterAbort : public testing::Test
-{};
+{
+protected:
+  using Filter = AbortedFilter<typename TDescription::Filter>;
+
+  void
+  SetUp() override
+  {
+    Random random(1);
+    m_Input = TDescription::MakeInput({ { 40, 48, 56 } }, random);
+    TDescription::MakeSlow(*m_Filter);
+    m_Filter->SetInput(m_Input);
+  }
+
+  typename TDescription::InputImage::Pointer m_Input;
+  typename Filter::Pointer m_Filter = Filter::New();
+};
 TYPED_TEST_SUITE(FilterAbort, Filters, FilterNames);
 
-TYPED_TEST(FilterAbort, StopsWithinATenthOfASecond)
+TYPED_TEST(FilterAbort, IsLookedForInEachRow)
 {
-  struct Case
+  const auto & filter = this->m_Filter;
+  filter->SetNumberOfWorkUnits(1);
+  const itk::SizeValueType checks = CountChecks(*filter);
+  if constexpr (std::is_base_of_v<itk::TriangleSurface, std::decay_t<decltype(*filter->GetOutput())>>)
   {
-    Caller caller;
-    unsigned int units;
-    float progress;
-  };
-  Random random(1);
-  const auto input = TypeParam::MakeInput(TypeParam::LargeSize, random);
-  for (const Case & each : { Case{ Caller::Observer, 1, 0.0f },
-                             Case{ Caller::Observer, 4, 0.1f },
-                             Case{ Caller::OtherThread, 1, 0.02f },
-                             Case{ Caller::OtherThread, 4, 0.3f },
-                             Case{ Caller::OtherThread, 1, 0.4f } })
+    EXPECT_GE(checks, TypeParam::PassesOverRows * CountRows(*this->m_Input));
+  }
+  else
   {
-    const auto filter = TypeParam::Filter::New();
-    TypeParam::MakeSlow(*filter);
-    filter->SetInput(input);
-    filter->SetNumberOfWorkUnits(each.units);
-    const Abort abort = AbortAt(*filter, each.progress, each.caller);
-    EXPECT_TRUE(abort.wasThrown) << "at " << each.progress << " with " << each.units << " work units";
-    EXPECT_LE(abort.computedAfter, MostAfterAbort) << "at " << each.progress << " with " << each.units << " work units";
+    EXPECT_GE(checks, TypeParam::PassesOverRows * CountRows(*filter->GetOutput()));
+  }
+}
+
+TYPED_TEST(FilterAbort, EndsTheWork)
+{
+  const auto & filter = this->m_Filter;
+  for (const unsigned int units : { 1u, 4u })
+  {
+    filter->SetNumberOfWorkUnits(units);
+    const itk::SizeValueType checks = CountChecks(*filter);
+    for (const double share : { 0.0, 0.02, 0.1, 0.3, 0.5, 0.8 })
+    {
+      filter->AbortAtCheck(1 + static_cast<itk::SizeValueType>(share * static_cast<double>(checks)));
+      EXPECT_TRUE(IsAborted(*filter)) << "at " << share << " of all checks with " << units << " work units";
+      EXPECT_LE(filter->GetProgressAfterAbort(), MostAfterAbort)
+        << "at " << share << " of all checks with " << units << " work units";
+    }
+  }
+}
+
+TYPED_TEST(FilterAbort, ByAnObserverEndsTheWork)
+{
+  const auto & filter = this->m_Filter;
+  float abortAt = 0.0f;
+  filter->AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) {
+    if (filter->GetProgress() >= abortAt)
+    {
+      abortAt = 2.0f;
+      filter->Abort();
+    }
+  });
+  for (const unsigned int units : { 1u, 4u })
+  {
+    filter->SetNumberOfWorkUnits(units);
+    for (const float progress : { 0.0f, 0.1f, 0.6f })
+    {
+      abortAt = progress;
+      // Where other threads do the rest before the caller's thread reports, nothing is left to be aborted.
+      EXPECT_TRUE(IsAborted(*filter) || (units > 1 && filter->GetProgress() == 1.0f)) << progress;
+      EXPECT_LE(filter->GetProgressAfterAbort(), MostAfterAbort) << progress;
+    }
   }
 }
 
@@ -174,74 +234,73 @@ TEST(FilterAbortWhileStreaming, NothingHalfMadeIsUsedAfterItEither)
 TEST(FilterAbortInNoise, IsosurfacesOfNoiseStopToo)
 {
   const auto input = itk::FCCImage<float>::New();
-  input->SetRegions(SizeType{ { 48, 96, 96 } });
+  input->SetRegions(SizeType{ { 32, 64, 64 } });
   input->Allocate();
   Random random(3);
   std::normal_distribution<float> noise;
   std::generate_n(
     input->GetBufferPointer(), input->GetLargestPossibleRegion().GetNumberOfPixels(), [&] { return noise(random); });
-  const auto filter = itk::FCCIsosurfaceFilter<itk::FCCImage<float>>::New();
+  const auto filter = AbortedFilter<itk::FCCIsosurfaceFilter<itk::FCCImage<float>>>::New();
   filter->SetInput(input);
-  filter->SetNumberOfWorkUnits(2);
-  double last = ComputingTime();
-  double longest = 0.0;
-  const double start = last;
+  filter->SetNumberOfWorkUnits(1); // of several threads, only that of the caller reports
+  itk::SizeValueType last = 0;
+  itk::SizeValueType most = 0;
   const auto observer = filter->AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) {
-    const double now = ComputingTime();
-    longest = std::max(longest, now - last);
-    last = now;
+    most = std::max(most, filter->GetChecks() - last);
+    last = filter->GetChecks();
   });
-  filter->Update();
-  EXPECT_LE(longest, 0.3 * (ComputingTime() - start)) << "without progress, of all computing";
+  const itk::SizeValueType checks = CountChecks(*filter);
+  EXPECT_LE(most, 3 * checks / 10) << "between two reports, of " << checks;
   filter->RemoveObserver(observer);
 
-  for (const float progress : { 0.2f, 0.45f, 0.6f, 0.7f })
+  filter->SetNumberOfWorkUnits(2);
+  for (const itk::SizeValueType tenths : { 2, 4, 5, 6, 7, 9 })
   {
-    filter->Modified();
-    const Abort abort = AbortAt(*filter, progress, Caller::Observer, std::chrono::hours(1));
-    EXPECT_TRUE(abort.wasThrown) << progress;
-    EXPECT_LE(abort.computedAfter, MostAfterAbort) << progress;
+    filter->AbortAtCheck(tenths * checks / 10);
+    EXPECT_TRUE(IsAborted(*filter)) << tenths;
+    EXPECT_LE(filter->GetProgressAfterAbort(), MostAfterAbort) << tenths;
   }
 }
 
 TEST(FilterAbortWhileStreaming, StopsWhatIsUpstreamToo)
 {
   Random random(1);
-  const auto input = CartesianToFCC::MakeInput({ { 160, 160, 160 } }, random);
+  const auto input = CartesianToFCC::MakeInput({ { 80, 80, 80 } }, random);
   const auto resample = CartesianToFCC::Filter::New();
   resample->SetInput(input);
   const auto smooth = FCCGaussian<std::int16_t>::Filter::New();
   smooth->SetInput(resample->GetOutput());
   const auto filter = itk::FCCIsosurfaceFilter<itk::FCCImage<std::int16_t>>::New();
   filter->SetInput(smooth->GetOutput());
-  for (const itk::ProcessObject::Pointer & upstream :
-       std::initializer_list<itk::ProcessObject::Pointer>{ resample, smooth })
-  {
-    resample->SetDensity(20.0);
+  const auto check = [&](auto & upstream) {
+    upstream.SetNumberOfWorkUnits(1); // of several threads, only that of the caller reports
+    resample->SetDensity(2.0);
     smooth->SetSigma(1.0);
     filter->SetNumberOfStreamDivisions(4);
     bool isUpdating = false; // not before: its own update asks for the first slab
     const auto start =
       filter->AddObserver(itk::StartEvent(), [&isUpdating](const itk::EventObject &) { isUpdating = true; });
-    double when = 0.0;
-    const auto observer = upstream->AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) {
-      if (isUpdating && when == 0.0 && upstream->GetProgress() > 0.3f)
+    float progressAtAbort = 0.0f;
+    const auto observer = upstream.AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) {
+      if (isUpdating && progressAtAbort == 0.0f && upstream.GetProgress() > 0.3f)
       {
-        when = ComputingTime();
+        progressAtAbort = upstream.GetProgress();
         filter->AbortGenerateDataOn();
       }
     });
     EXPECT_THROW(filter->Update(), itk::ProcessAborted);
-    EXPECT_GT(when, 0.0);
-    EXPECT_LE(ComputingTime() - when, MostAfterAbort) << upstream->GetNameOfClass();
-    upstream->RemoveObserver(observer);
+    EXPECT_GT(progressAtAbort, 0.3f);
+    EXPECT_LE(upstream.GetProgress() - progressAtAbort, MostAfterAbort) << upstream.GetNameOfClass();
+    upstream.RemoveObserver(observer);
     filter->RemoveObserver(start);
 
     resample->SetDensity(0.2);
     const std::string streamed = UpdatedOutput(*filter);
     filter->SetNumberOfStreamDivisions(1);
     EXPECT_TRUE(UpdatedOutput(*filter) == streamed);
-  }
+  };
+  check(*resample);
+  check(*smooth);
 }
 
 TYPED_TEST(FilterAbort, LeavesAPipelineThatWorks)
@@ -249,12 +308,13 @@ TYPED_TEST(FilterAbort, LeavesAPipelineThatWorks)
   for (unsigned int seed = 0; seed < 12; ++seed)
   {
     const auto example = MakeExample<TypeParam>(seed, { { 20, 20, 20 } });
-    const auto filter = example.makeFilter();
+    const auto filter = TestFixture::Filter::New();
+    example.vary(*filter);
     filter->SetInput(example.input);
     filter->SetNumberOfWorkUnits(1 + seed % 4);
-    const auto caller = seed % 2 == 0 ? Caller::Observer : Caller::OtherThread;
-    const Abort abort = AbortAt(*filter, static_cast<float>(seed) / 20.0f, caller);
-    EXPECT_TRUE(abort.wasThrown || caller == Caller::OtherThread || filter->GetProgress() == 1.0f);
+    filter->AbortAtCheck(1 + seed * CountChecks(*filter) / 20);
+    EXPECT_TRUE(IsAborted(*filter)) << "seed " << seed;
+    filter->AbortAtCheck(0);
     EXPECT_TRUE(UpdatedOutput(*filter) == MakeOutput(example)) << "seed " << seed;
   }
 }

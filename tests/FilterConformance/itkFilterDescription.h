@@ -196,11 +196,13 @@ struct Description
   Vary(Filter &, const InputImage &, Random &)
   {}
 
-  /** Parameters with which an input of LargeSize takes seconds on one core. */
-  static constexpr SizeType LargeSize{ { 256, 256, 256 } };
+  /** Parameters with which each row takes much work. */
   static void
   MakeSlow(Filter &)
   {}
+
+  /** How often each row of the output, or of the input where the output has none, is worked on with them. */
+  static constexpr itk::SizeValueType PassesOverRows = 1;
 };
 
 template <typename T>

@@ -88,7 +88,6 @@ struct CartesianToFCC : Description<itk::CartesianToFCCImageFilter<itk::Image<st
 struct SlantedCartesianToFCC : CartesianToFCC
 {
   static constexpr const char * Name = "SlantedCartesianToFCC";
-  static constexpr SizeType LargeSize{ { 200, 200, 100 } };
 
   static InputImage::Pointer
   MakeInput(const SizeType & size, Random & random)
@@ -131,7 +130,6 @@ struct CartesianToNestedFCC : Description<itk::CartesianToNestedFCCImageFilter<i
 {
   static constexpr const char * Name = "CartesianToNestedFCC";
   static constexpr itk::SizeValueType MostSamples = 8;
-  static constexpr SizeType LargeSize{ { 400, 400, 400 } };
 
   static std::vector<Parameter<Filter>>
   GetParameters()
@@ -150,7 +148,6 @@ struct FCCToCartesian : Description<itk::FCCToCartesianImageFilter<itk::FCCImage
 {
   static constexpr const char * Name = "FCCToCartesian";
   static constexpr itk::SizeValueType MostSamples = 4;
-  static constexpr SizeType LargeSize{ { 100, 200, 200 } };
 
   static std::vector<Parameter<Filter>>
   GetParameters()
@@ -200,7 +197,7 @@ struct FCCToCartesian : Description<itk::FCCToCartesianImageFilter<itk::FCCImage
   static void
   MakeSlow(Filter & filter)
   {
-    filter.SetOutputSpacing(Filter::SpacingType(0.25));
+    filter.SetOutputSpacing(Filter::SpacingType(0.4));
   }
 };
 
@@ -212,7 +209,6 @@ struct FCCGaussian : Description<itk::FCCGaussianImageFilter<itk::FCCImage<TPixe
   using typename Superclass::InputImage;
   static constexpr const char * Name = std::is_floating_point_v<TPixel> ? "FCCGaussianOfFloat" : "FCCGaussian";
   static constexpr itk::SizeValueType MostSamples = 26;
-  static constexpr SizeType LargeSize{ { 400, 60, 500 } };
 
   static std::vector<Parameter<Filter>>
   GetParameters()
@@ -250,13 +246,14 @@ struct FCCGaussian : Description<itk::FCCGaussianImageFilter<itk::FCCImage<TPixe
   {
     filter.SetSigma(100.0);
   }
+  static constexpr itk::SizeValueType PassesOverRows =
+    std::is_floating_point_v<TPixel> ? 3 : 2; // read, made, and read again for samples that are not finite
 };
 
 struct AntiAliasMask : Description<itk::AntiAliasMaskImageFilter>
 {
   static constexpr const char * Name = "AntiAliasMask";
   static constexpr bool IsRegional = false;
-  static constexpr SizeType LargeSize{ { 300, 300, 300 } };
 
   static std::vector<Parameter<Filter>>
   GetParameters()
@@ -290,7 +287,6 @@ struct FCCBoxSplineDecomposition : Description<itk::FCCBoxSplineDecompositionIma
 {
   static constexpr const char * Name = "FCCBoxSplineDecomposition";
   static constexpr bool IsRegional = false;
-  static constexpr SizeType LargeSize{ { 300, 600, 50 } };
 
   static std::vector<Parameter<Filter>>
   GetParameters()
@@ -310,13 +306,13 @@ struct FCCBoxSplineDecomposition : Description<itk::FCCBoxSplineDecompositionIma
   {
     filter.SetNumberOfIterations(20);
   }
+  static constexpr itk::SizeValueType PassesOverRows = 21;
 };
 
 struct FCCIsosurface : Description<itk::FCCIsosurfaceFilter<itk::FCCImage<float>>>
 {
   static constexpr const char * Name = "FCCIsosurface";
   static constexpr bool IsRegional = false;
-  static constexpr SizeType LargeSize{ { 256, 512, 260 } };
 
   static std::vector<Parameter<Filter>>
   GetParameters()
@@ -368,6 +364,7 @@ struct FCCIsosurface : Description<itk::FCCIsosurfaceFilter<itk::FCCImage<float>
   {
     filter.SetIsovalues({ 0.0, 100.0 });
   }
+  static constexpr itk::SizeValueType PassesOverRows = 2 * 2; // points are counted and made for either isovalue
 };
 
 using ImageFilters = testing::Types<CartesianToFCC,
@@ -406,6 +403,7 @@ struct Example
   using InputImage = typename TDescription::InputImage;
 
   typename InputImage::Pointer input;
+  std::function<void(Filter &)> vary;                   ///< sets the parameters
   std::function<typename Filter::Pointer()> makeFilter; ///< the same each time, without an input
 };
 
@@ -416,10 +414,13 @@ MakeExample(unsigned int seed, const SizeType & size)
   Random random(seed);
   Example<TDescription> example;
   example.input = TDescription::MakeInput(size, random);
-  example.makeFilter = [input = example.input, settings = random()] {
+  example.vary = [input = example.input, settings = random()](typename TDescription::Filter & filter) {
     Random again(settings);
+    TDescription::Vary(filter, *input, again);
+  };
+  example.makeFilter = [vary = example.vary] {
     const auto filter = TDescription::Filter::New();
-    TDescription::Vary(*filter, *input, again);
+    vary(*filter);
     return filter;
   };
   return example;
