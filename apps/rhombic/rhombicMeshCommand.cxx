@@ -129,10 +129,10 @@ AddMeshCommand(CLI::App & parser)
   parser.add_option("--space", options->space, "axes of the file: lps or ras, in mm")->capture_default_str();
   options->finish.Add(parser);
   parser.add_option("--max-error", options->maximumError, "simplify, staying within so many mm everywhere");
-  parser.add_option(
-    "--max-triangles",
-    options->maximumTriangles,
-    "simplify each surface to so many triangles, or to a share, as 10%, within --max-error or a lattice spacing");
+  parser.add_option("--max-triangles",
+                    options->maximumTriangles,
+                    "simplify to so many triangles, or to a share, as 10%, within --max-error or a lattice spacing; "
+                    "the number is for each isosurface, and for all labels together");
   parser.add_option("--measures", options->measures, "volumes, areas and other measures as a table: .csv or .json");
   parser.add_flag("--audit",
                   options->audits,

@@ -44,7 +44,8 @@ ReportDenoising(const Denoising & denoising);
 Report
 ReportLabels(const std::vector<LabelSummary> & labels);
 
-/** Objects that were removed around the patient: volumes in ml, positions, and the value that replaced them. */
+/** Objects that were removed around the patient, and separate parts that were kept: volumes in ml, positions, and the
+ * value that replaced the objects. */
 Report
 ReportTableRemoval(const TableRemoval & removal);
 

@@ -5,6 +5,7 @@
 #include "rhombicWallAudit.h"
 #include "rhombicWording.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace rhombic
@@ -105,7 +106,7 @@ FileInspection::NoteResults(const MeshedSurface & surface) const
   this->NoteThinParts(surface);
   if (surface.deviation)
   {
-    this->NoteDeviation(surface.scene.name, *surface.deviation);
+    this->NoteDeviation(surface);
   }
 }
 
@@ -165,19 +166,26 @@ FileInspection::AdviseDensity() const
   return "; try --density " + std::to_string(std::lround(std::ceil(2.0 * lattice.density)));
 }
 
+/** Notes the distance from the scan's isosurface, and the share of points that have none near. */
 void
-FileInspection::NoteDeviation(const std::string & name, const SurfaceDeviation & deviation) const
+FileInspection::NoteDeviation(const MeshedSurface & surface) const
 {
-  std::string note = name + ": from the scan's isosurface ";
+  using Parts = SurfaceRequest::Parts;
+  const SurfaceDeviation & deviation = *surface.deviation;
+  std::string note = surface.scene.name + ": from the scan's isosurface ";
   note += deviation.IsKnown() ? FormatNumber(deviation.mean, 2) + " mm on average, 95 % within " +
                                   FormatNumber(deviation.percentile95, 2) + " mm, all within " +
                                   FormatNumber(deviation.maximum, 2) + " mm"
                               : "at an unknown distance: it has no isosurface near this surface";
-  if (deviation.unresolved > 0)
+  const double percent = 100.0 * static_cast<double>(deviation.unresolved) /
+                         static_cast<double>(std::max<std::size_t>(1, deviation.samples));
+  if (percent > NotablePercent)
   {
-    note += "; around " + std::to_string(deviation.unresolved) + " of " + std::to_string(deviation.samples) +
-            " measured points there is no isosurface within two voxels: small or thin parts may be wrong there" +
-            this->AdviseDensity();
+    const Parts parts = surface.request->parts;
+    note += "; " + FormatFixed(percent, 1) + " % of the measured points have no isosurface within two voxels" +
+            (parts == Parts::Outermost  ? " (an outline also runs across filled hollows)"
+             : parts == Parts::Enclosed ? " (the surface also runs where air around the body was cut off)"
+                                        : "");
   }
   m_Events.Note(note);
 }

@@ -55,7 +55,7 @@ private:
   void
   NoteThinParts(const MeshedSurface & surface) const;
   void
-  NoteDeviation(const std::string & name, const SurfaceDeviation & deviation) const;
+  NoteDeviation(const MeshedSurface & surface) const;
   std::string
   AdviseDensity() const;
 

@@ -224,13 +224,16 @@ Report
 ReportTableRemoval(const TableRemoval & removal)
 {
   Report report;
-  report["objects"] = Report::array();
-  for (const RemovedObject & object : removal.objects)
+  for (const auto & [key, objects] : { std::pair("objects", &removal.objects), std::pair("kept", &removal.kept) })
   {
-    report["objects"].push_back({ { "millilitres", object.millilitres },
-                                  { "centroid", ToArray(object.centroid.GetDataPointer()) },
-                                  { "lowest", ToArray(object.lowest.GetDataPointer()) },
-                                  { "highest", ToArray(object.highest.GetDataPointer()) } });
+    report[key] = Report::array();
+    for (const ScanObject & object : *objects)
+    {
+      report[key].push_back({ { "millilitres", object.millilitres },
+                              { "centroid", ToArray(object.centroid.GetDataPointer()) },
+                              { "lowest", ToArray(object.lowest.GetDataPointer()) },
+                              { "highest", ToArray(object.highest.GetDataPointer()) } });
+    }
   }
   report["specks"] = { { "count", removal.numberOfSpecks }, { "millilitres", removal.millilitresOfSpecks } };
   report["airValue"] = removal.airValue;

@@ -106,6 +106,10 @@ ReportFinish(const MeshedSurface & surface, Report & report)
     report["parts"] = { { "filled", ReportShells(surface.parts.filled) },
                         { "removed", ReportShells(surface.parts.removed) } };
   }
+  if (!surface.parts.warning.empty())
+  {
+    report["warnings"] = { surface.parts.warning };
+  }
   const Refinement & refinement = surface.refinement;
   if (refinement.smoothing)
   {

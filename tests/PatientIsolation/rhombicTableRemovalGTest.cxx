@@ -297,7 +297,7 @@ Describe(const rhombic::TableRemoval & removal)
 {
   std::ostringstream text;
   text.precision(17);
-  for (const rhombic::RemovedObject & object : removal.objects)
+  for (const rhombic::ScanObject & object : removal.objects)
   {
     text << object.millilitres << " ml at " << object.centroid << " from " << object.lowest << " to " << object.highest
          << '\n';
@@ -461,6 +461,32 @@ TEST(TableRemoval, KeepsWhatMayBeAHand)
   EXPECT_TRUE(ValuesOf(scan) == before);
   ASSERT_EQ(removal.notes.size(), 1u);
   EXPECT_NE(removal.notes.front().find("nothing was removed"), std::string::npos) << removal.notes.front();
+}
+
+TEST(TableRemoval, SaysWhichSeparatePartsAreKept)
+{
+  // A head between two walls of a holder, of 18 x 190 x 120 mm each, which can't be told from arms.
+  std::vector<Object> objects{ { 40.0, [](const PointType & p) { return Ellipse(p[0], p[1], 75.0, 95.0); } } };
+  for (const double side : { -1.0, 1.0 })
+  {
+    objects.push_back({ 40.0, [side](const PointType & p) {
+                         return std::min(Slab(side * p[0], 100.0, 118.0), Slab(p[1], -95.0, 95.0));
+                       } });
+  }
+  rhombic::Scan scan = MakeScan(Grids()[0], objects);
+  const auto before = ValuesOf(scan);
+  const auto removal = rhombic::RemoveTable(scan, {});
+  EXPECT_TRUE(removal.objects.empty());
+  EXPECT_EQ(ValuesOf(scan), before);
+  ASSERT_EQ(removal.kept.size(), 2u) << Describe(removal);
+  for (const rhombic::ScanObject & wall : removal.kept)
+  {
+    EXPECT_NEAR(wall.millilitres, 18.0 * 190.0 * 120.0 / 1000.0, 15.0);
+    EXPECT_NEAR(std::abs(wall.centroid[0]), 109.0, 1.0);
+  }
+  ASSERT_EQ(removal.notes.size(), 1u);
+  EXPECT_NE(removal.notes.front().find("kept: 2 parts apart from the largest"), std::string::npos)
+    << removal.notes.front();
 }
 
 TEST(TableRemoval, ScansThatAreNotInHounsfieldUnitsStayAsTheyAre)

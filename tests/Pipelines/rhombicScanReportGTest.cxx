@@ -8,7 +8,7 @@ namespace
 
 TEST(ScanReport, ListsRemovedObjects)
 {
-  rhombic::RemovedObject object;
+  rhombic::ScanObject object;
   object.millilitres = 14.5;
   object.centroid[2] = -3.0;
   rhombic::TableRemoval removal;

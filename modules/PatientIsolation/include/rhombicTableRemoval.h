@@ -11,8 +11,8 @@
 namespace rhombic
 {
 
-/** Something that was removed from a scan. Points are in LPS mm. */
-struct RemovedObject
+/** A connected part of a scan's tissue and objects. Points are in LPS mm. */
+struct ScanObject
 {
   double millilitres = 0.0; ///< volume of its samples at or above -300 HU
   itk::Point<double, 3> centroid;
@@ -23,15 +23,16 @@ struct RemovedObject
 /** Results of RemoveTable(). */
 struct TableRemoval
 {
-  std::vector<RemovedObject> objects; ///< objects of 1 ml and more, the largest first
-  std::size_t numberOfSpecks = 0;     ///< smaller objects
+  std::vector<ScanObject> objects; ///< removed objects of 1 ml and more, the largest first
+  std::size_t numberOfSpecks = 0;  ///< smaller objects
   double millilitresOfSpecks = 0.0;
+  std::vector<ScanObject> kept;   ///< parts of 1 ml and more that count as the patient's, but do not touch the largest
   double airValue = 0.0;          ///< median of the air around the patient in HU; the value that replaced the objects
   std::vector<std::string> notes; ///< why nothing was removed
 };
 
 /** Removes the objects around the patient from a CT in HU: table, head holder, sheets, tubes. Their values become air.
- * A scan in which there is no such object of 1 ml or more stays as it is, byte for byte.
+ * A scan in which no such object of 1 ml or more is told from the patient stays as it is, byte for byte.
  *
  * The patient is what is thick; tables and holders have thin walls. On a grid of blocks of about 3 mm, of which those
  * are tissue that have at least half of their samples at or above -300 HU, the patient consists of

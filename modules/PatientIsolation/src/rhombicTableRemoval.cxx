@@ -177,19 +177,19 @@ FindSurroundings(const CoarseScan & coarse, const MaskImage & patient)
 }
 
 /** Measures each connected object: volumes and centroids count the blocks' shares of tissue. */
-std::vector<RemovedObject>
+std::vector<ScanObject>
 MeasureObjects(const CoarseScan & coarse, const MaskImage & objects)
 {
   const Components components = FindComponents(objects, true);
-  RemovedObject empty;
+  ScanObject empty;
   empty.centroid.Fill(0.0);
   empty.lowest.Fill(std::numeric_limits<double>::infinity());
   empty.highest.Fill(-std::numeric_limits<double>::infinity());
-  std::vector<RemovedObject> measured(components.parts.size(), empty); // centroids are sums until the last loop
+  std::vector<ScanObject> measured(components.parts.size(), empty); // centroids are sums until the last loop
   ForEachIndex(objects.GetBufferedRegion().GetSize(), [&](const itk::Index<3> & index, std::size_t offset) {
     if (const std::uint32_t label = components.labels->GetBufferPointer()[offset])
     {
-      RemovedObject & object = measured[label];
+      ScanObject & object = measured[label];
       const auto point = coarse.PointOf(index);
       const double weight = coarse.occupancy->GetBufferPointer()[offset];
       object.millilitres += weight;
@@ -203,7 +203,7 @@ MeasureObjects(const CoarseScan & coarse, const MaskImage & objects)
   });
   measured.erase(measured.begin()); // the outside
   const auto & spacing = objects.GetSpacing();
-  for (RemovedObject & object : measured)
+  for (ScanObject & object : measured)
   {
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
@@ -214,11 +214,18 @@ MeasureObjects(const CoarseScan & coarse, const MaskImage & objects)
   return measured;
 }
 
+void
+SortByVolume(std::vector<ScanObject> & objects)
+{
+  std::stable_sort(
+    objects.begin(), objects.end(), [](const auto & a, const auto & b) { return a.millilitres > b.millilitres; });
+}
+
 /** Sorts objects by volume, and adds up those below smallestObject. */
 void
-ListObjects(const std::vector<RemovedObject> & objects, TableRemoval & removal)
+ListObjects(const std::vector<ScanObject> & objects, TableRemoval & removal)
 {
-  for (const RemovedObject & object : objects)
+  for (const ScanObject & object : objects)
   {
     if (object.millilitres >= smallestObject)
     {
@@ -230,9 +237,7 @@ ListObjects(const std::vector<RemovedObject> & objects, TableRemoval & removal)
       removal.millilitresOfSpecks += object.millilitres;
     }
   }
-  std::stable_sort(removal.objects.begin(), removal.objects.end(), [](const auto & a, const auto & b) {
-    return a.millilitres > b.millilitres;
-  });
+  SortByVolume(removal.objects);
 }
 
 /** Where the skin is, and where it is drawn anew, by block. */
@@ -357,18 +362,48 @@ DrawSkin(itk::Image<TPixel, 3> & image, const BlockShape & shape, const Cut & cu
   });
 }
 
+/** The parts of the tissue that belong to the patient and do not touch the largest part, largest first. */
+std::vector<ScanObject>
+FindSeparateParts(const CoarseScan & coarse, const MaskImage & tissue, const MaskImage & patient)
+{
+  const auto mask = MakeMask(tissue, [&](std::size_t offset) {
+    return tissue.GetBufferPointer()[offset] != 0 && patient.GetBufferPointer()[offset] != 0;
+  });
+  std::vector<ScanObject> parts = MeasureObjects(coarse, *mask);
+  SortByVolume(parts);
+  const auto isSmall = [](const ScanObject & part) { return part.millilitres < smallestObject; };
+  parts.erase(std::find_if(parts.begin(), parts.end(), isSmall), parts.end());
+  parts.erase(parts.begin(), parts.begin() + (parts.empty() ? 0 : 1));
+  return parts;
+}
+
+double
+SumOfVolumes(const std::vector<ScanObject> & objects)
+{
+  return std::accumulate(objects.begin(), objects.end(), 0.0, [](double sum, const ScanObject & object) {
+    return sum + object.millilitres;
+  });
+}
+
+/** The end of a sentence; empty if there are no such parts. */
+std::string
+DescribeKept(const TableRemoval & removal)
+{
+  return removal.kept.empty()
+           ? ""
+           : "; taken for arms or hands and kept: " + Count(removal.kept.size(), "part") +
+               " apart from the largest, of " + FormatMillilitres(SumOfVolumes(removal.kept)) + " in all";
+}
+
 void
 NoteRemoval(const TableRemoval & removal, const Events & events)
 {
-  const double total =
-    std::accumulate(removal.objects.begin(),
-                    removal.objects.end(),
-                    removal.millilitresOfSpecks,
-                    [](double sum, const RemovedObject & object) { return sum + object.millilitres; });
+  const double total = SumOfVolumes(removal.objects) + removal.millilitresOfSpecks;
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text << "removed " << std::lround(total) << " ml around the patient: " << Count(removal.objects.size(), "object")
-       << " (table, holder, sheets) and " << Count(removal.numberOfSpecks, "speck") << "; --keep-table keeps them";
+       << " (table, holder, sheets) and " << Count(removal.numberOfSpecks, "speck") << "; --keep-table keeps them"
+       << DescribeKept(removal);
   events.Note(text.str());
 }
 
@@ -400,6 +435,7 @@ RemoveTable(Scan & scan, const Events & events)
            (tissue->GetBufferPointer()[offset] != 0 || (occupancy[offset] != 0 && !IsNear(*patient.all, offset)));
   });
   ListObjects(MeasureObjects(coarse, *objects), removal);
+  removal.kept = FindSeparateParts(coarse, *tissue, *patient.all);
   events.Progress(step, 0.8);
   if (!removal.objects.empty())
   {
@@ -409,8 +445,11 @@ RemoveTable(Scan & scan, const Events & events)
   }
   else
   {
-    removal = TableRemoval();
-    removal.notes.push_back("nothing was removed around the patient: there is no object of 1 ml or more");
+    removal.numberOfSpecks = 0;
+    removal.millilitresOfSpecks = 0.0;
+    removal.airValue = 0.0;
+    removal.notes.push_back("nothing was removed: no object of 1 ml or more was told from the patient" +
+                            DescribeKept(removal));
     events.Note(removal.notes.back());
   }
   events.Progress(step, 1.0);

@@ -54,6 +54,7 @@ struct PartRemoval
 {
   itk::RemovedShells filled;  ///< cavities, and the solids inside them
   itk::RemovedShells removed; ///< solids with their cavities
+  std::string warning;        ///< a line if keeping the largest solid left out 5 % of the volume or more
 
   bool
   IsNothing() const
@@ -62,7 +63,8 @@ struct PartRemoval
   }
 };
 
-/** Fills cavities and removes solids of a surface. Notes list what was filled and removed, with volumes.
+/** Fills cavities and removes solids of a surface. Notes list what was filled and removed, with volumes, and
+ * give the warning.
  * \param name of the surface, for messages */
 PartRemoval
 RemoveParts(itk::TriangleSurface & surface,

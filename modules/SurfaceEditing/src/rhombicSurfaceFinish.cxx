@@ -62,6 +62,17 @@ Smooth(const RefinementFunctions & functions, itk::TriangleSurface & surface, do
   return { maximumMove, moves, volumeBefore, functions.computeVolume(surface) };
 }
 
+/** A warning if the largest part alone leaves out much; otherwise empty. */
+std::string
+WarnOfLostParts(const itk::RemovedShells & removed, double volumeBefore)
+{
+  constexpr double notable = 0.05;
+  const double share = removed.volume / volumeBefore;
+  return share >= notable ? "only the largest part is kept, which leaves out " + FormatFixed(100.0 * share, 1) +
+                              " % of the volume; --min-volume in place of --largest removes specks only"
+                          : "";
+}
+
 /** The smaller of the two limits of triangles; 0 for none. */
 std::size_t
 FindTargetTriangles(const SurfaceFinish & finish, std::size_t triangles)
@@ -173,6 +184,7 @@ RemoveParts(itk::TriangleSurface & surface,
   if (finish.keepsLargestPart)
   {
     removal.removed = KeepLargestSolid(surface);
+    removal.warning = WarnOfLostParts(removal.removed, extractedVolume - removal.filled.volume);
   }
   if (finish.minimumVolume > 0.0)
   {
@@ -181,6 +193,10 @@ RemoveParts(itk::TriangleSurface & surface,
   if (removal.removed.solids + removal.removed.cavities > 0)
   {
     events.Note(DescribeRemoval(removal.removed, extractedVolume - removal.filled.volume, name));
+  }
+  if (!removal.warning.empty())
+  {
+    events.Note("warning: " + name + ": " + removal.warning);
   }
   return removal;
 }
