@@ -1,6 +1,7 @@
 #include "rhombicDescribeScan.h"
 
 #include "rhombicFailure.h"
+#include "rhombicLabelDoubts.h"
 #include "rhombicSourceLoading.h"
 
 #include <algorithm>
@@ -47,6 +48,10 @@ DescribeLabels(const Scan & scan,
   if (!labels.path.empty())
   {
     LabelMap map = ReadLabelMap(labels, source.read, scan, source.path);
+    for (const std::string & doubt : FindLabelDoubts(scan, map))
+    {
+      description.notes.push_back("warning: " + doubt);
+    }
     description.labels = std::move(map.labels);
     Append(map.scan.notes, description);
   }

@@ -3,6 +3,7 @@
 #include "itkNativeScanFileReader.h"
 #include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
+#include "rhombicLabelDoubts.h"
 #include "rhombicObserveProgress.h"
 #include "rhombicPatientAxes.h"
 #include "rhombicWording.h"
@@ -162,6 +163,11 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   if (selection.labels)
   {
     loaded.labels = LoadLabels(source, selection.labels->source, scan, events);
+    loaded.warnings = FindLabelDoubts(scan, *loaded.labels);
+    for (const std::string & warning : loaded.warnings)
+    {
+      events.Note("warning: " + warning);
+    }
   }
   std::vector<SurfaceRequest> requests = selection.requests;
   ApplySceneRules(selection.rules, requests, loaded.labels ? &*loaded.labels : nullptr);

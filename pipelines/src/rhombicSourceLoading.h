@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct LoadedSource
   itk::ImageBase<3>::Pointer grid;          ///< grid of the scan, without values; null for no or a slanted scan
   std::vector<SurfaceRequest> requests;     ///< with their isovalues
   std::optional<LabelMap> labels;
+  std::vector<std::string> warnings; ///< what speaks against the labels being those of the scan
 
   /** The scan, or the label map when that is the source; null for lattice volumes. */
   const Scan *

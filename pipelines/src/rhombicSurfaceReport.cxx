@@ -206,6 +206,10 @@ ReportSource(const LoadedSource & loaded, const ScanSource & source)
   {
     report["scan"] = ReportWithoutNames(*scan, source.path);
   }
+  if (!loaded.warnings.empty())
+  {
+    report["warnings"] = loaded.warnings;
+  }
   if (loaded.tableRemoval)
   {
     report["removed"] = ReportTableRemoval(*loaded.tableRemoval);

@@ -139,6 +139,10 @@ AddFacts(const LoadedSource & loaded, const PictureSource & source, PictureScene
       scene.facts.push_back("note: " + note.get<std::string>());
     }
   }
+  for (const std::string & warning : loaded.warnings)
+  {
+    scene.facts.push_back("warning: " + warning);
+  }
   if (!loaded.requests.empty())
   {
     std::visit(
