@@ -1,0 +1,78 @@
+#include "rhombicMeshScan.h"
+#include "rhombicScanWriter.h"
+#include "rhombicTemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+
+using Parts = rhombic::SurfaceRequest::Parts;
+
+/** The notes of making a surface of a scan from -300.5 on. */
+std::string
+NotesOf(const rhombic::ScanImage & image, Parts parts)
+{
+  const rhombictest::TemporaryFolder folder;
+  rhombic::MeshScanSettings settings;
+  settings.source.path = folder.Path() / "scan.nii";
+  rhombic::WriteScan(image, settings.source.path);
+  rhombic::SurfaceRequest request;
+  request.name = "skin";
+  request.isovalue = -300.5;
+  request.parts = parts;
+  settings.surfaces.requests = { request };
+  settings.mesh = folder.Path() / "skin.ply";
+  std::string notes;
+  rhombic::Events events;
+  events.note = [&notes](const std::string & line) { notes += line + '\n'; };
+  rhombic::MeshScan(settings, events);
+  return notes;
+}
+
+/** A block of 90 x 90 x 120 mm in air. If asked, it has a hollow of 50 mm diameter and 90 mm length, from which
+ * clefts of 14 mm width lead to three sides; both are as dense as lung. */
+rhombic::ScanImage
+MakeBlock(bool hasClefts)
+{
+  using ImageType = itk::Image<std::int16_t, 3>;
+  const auto image = ImageType::New();
+  image->SetRegions(itk::Size<3>{ { 70, 70, 40 } });
+  const double spacing[3] = { 2.0, 2.0, 4.0 };
+  image->SetSpacing(spacing);
+  image->Allocate();
+  for (std::size_t n = 0; n < image->GetBufferedRegion().GetNumberOfPixels(); ++n)
+  {
+    const auto index = image->ComputeIndex(static_cast<itk::OffsetValueType>(n));
+    const double x = 2.0 * static_cast<double>(index[0]) - 69.0;
+    const double y = 2.0 * static_cast<double>(index[1]) - 69.0;
+    const double z = 4.0 * static_cast<double>(index[2]) - 78.0;
+    const bool isBlock = std::max(std::abs(x), std::abs(y)) < 45.0 && std::abs(z) < 60.0;
+    const bool isCleft = std::abs(y) < 7.0 || (std::abs(x) < 7.0 && y < 0.0);
+    const bool isHollow = isBlock && hasClefts && std::abs(z) < 45.0 && (std::hypot(x, y) < 25.0 || isCleft);
+    image->GetBufferPointer()[n] = isHollow ? -850 : isBlock ? 40 : -1000;
+  }
+  return itk::SmartPointer<ImageType>(image);
+}
+
+TEST(MeshNotes, SayWhereAnOutlineFillsAHollow)
+{
+  const std::string filled = NotesOf(MakeBlock(true), Parts::Outermost);
+  EXPECT_NE(filled.find("within two voxels (an outline also runs across filled hollows)"), std::string::npos) << filled;
+  EXPECT_EQ(filled.find("--density"), std::string::npos) << "a denser lattice changes nothing there\n" << filled;
+}
+
+TEST(MeshNotes, SayNothingOfHollowsWithoutOne)
+{
+  for (const auto & notes : { NotesOf(MakeBlock(false), Parts::Outermost), NotesOf(MakeBlock(true), Parts::All) })
+  {
+    EXPECT_NE(notes.find("from the scan's isosurface"), std::string::npos) << notes;
+    EXPECT_EQ(notes.find("hollow"), std::string::npos) << notes;
+    EXPECT_EQ(notes.find("no isosurface"), std::string::npos) << notes;
+  }
+}
+
+} // namespace
