@@ -121,7 +121,8 @@ AddMeshCommand(CLI::App & parser)
   parser.add_option(
     "-t,--threshold",
     options->threshold,
-    "one surface by its isovalue: a number in the scan's units, <number for what lies below, otsu or otsu-low");
+    "one surface by its isovalue: a number in the scan's units, <number for what lies below, otsu, otsu-low, "
+    "otsu-lowest or otsu-high");
   options->surfaces.Add(parser);
   parser.add_option("-o,--output",
                     options->mesh,

@@ -35,15 +35,15 @@ ParseLabelColours(const std::string & text)
 void
 SurfaceOptions::Add(CLI::App & parser)
 {
-  parser.add_option(
-    "--preset",
-    m_Preset,
-    "surfaces by a preset's name, or by a .yaml file like those of the project; auto chooses one by the scan's values");
+  parser.add_option("--preset",
+                    m_Preset,
+                    "surfaces by a preset's name, or by a .yaml file like those of the project; auto chooses one by "
+                    "what the scan says and by its values");
   parser
     .add_option("--surface",
                 m_Surfaces,
                 "name=threshold[,colour[,opacity]]; colour: #rrggbb, #rgb or a name, as white; threshold: a number, "
-                "<number for what lies below, otsu or otsu-low; repeatable")
+                "<number for what lies below, otsu, otsu-low, otsu-lowest or otsu-high; repeatable")
     ->allow_extra_args(false);
   auto * const labels =
     parser.add_option("--labels",

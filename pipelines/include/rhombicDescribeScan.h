@@ -58,9 +58,20 @@ struct ScanDescription
 ScanDescription
 DescribeScan(const ScanSource & source, const LabelMapSource & labels);
 
-/** The name of the preset that "auto" stands for: ct-bone-skin for a CT, ct-organs for a CT with labels, mr-head for
- * other scans and lattice volumes; empty for label maps and other scans with labels, which need none. Reads the source
- * and keeps its volume there. Throws Failure. */
+/** The name of the preset that "auto" stands for; empty for label maps, and for labels of scans that are no CT in HU,
+ * which need none.
+ *
+ * | scan | preset |
+ * |---|---|
+ * | CT in HU with air, and with labels | ct-organs |
+ * | CT in HU; of unknown modality with values below -900 and of bone | ct-bone-skin |
+ * | CT in HU without values of bone; without air | ct-skin; ct-bone |
+ * | CT whose values are all -200 or above, which are not taken for HU | uncalibrated-ct |
+ * | PET | pet-hot-spots |
+ * | MR of the head, by its body part; other MR | mr-head; mr-outline |
+ * | anything else, and lattice volumes | outline |
+ *
+ * Reads the source, keeps its volume there and sets its presetChoice, which is noted. Throws Failure. */
 std::string
 ChoosePreset(ScanSource & source, bool hasLabels, const Events & events);
 

@@ -31,6 +31,8 @@ struct ScanSource
   /** What the path holds, if it was read before (see ChoosePreset()). The next function that reads the source takes it.
    * Copies share it. */
   std::shared_ptr<std::variant<Scan, FCCVolume>> volume;
+
+  std::string presetChoice; ///< which preset "auto" stands for, and why; empty if it was not asked for
 };
 
 /** \class LabelSelection

@@ -28,7 +28,7 @@ struct SurfaceRequest
 
   std::string name;
   std::optional<double> isovalue; ///< in the scan's units; none: a threshold of the scan by Otsu's method
-  bool usesLowOtsu = false;       ///< without an isovalue: Intensities::lowOtsu, not Intensities::otsu
+  double Intensities::*otsu = &Intensities::otsu; ///< the threshold that is taken without an isovalue
   bool insideIsBelow = false;
   Parts parts = Parts::All;
   Colour colour{ 0.8, 0.8, 0.8 };
@@ -48,8 +48,8 @@ struct SurfaceRequest
 Colour
 ParseColour(const std::string & text);
 
-/** A threshold written as a number, `otsu` or `otsu-low`, with `<` before it if values below are inside. Sets the
- * request's isovalue, usesLowOtsu and insideIsBelow. Returns false for other texts. */
+/** A threshold written as a number, `otsu`, `otsu-low`, `otsu-lowest` or `otsu-high`, with `<` before it if values
+ * below are inside. Sets the request's isovalue, otsu and insideIsBelow. Returns false for other texts. */
 bool
 ParseThreshold(const std::string & text, SurfaceRequest & request);
 

@@ -1,8 +1,10 @@
 #include "rhombicDescribeScan.h"
 
+#include "rhombicDicomExamination.h"
 #include "rhombicFailure.h"
 #include "rhombicLabelDoubts.h"
 #include "rhombicSourceLoading.h"
+#include "rhombicWording.h"
 
 #include <algorithm>
 
@@ -132,13 +134,73 @@ DescribeSeries(const ScanSource & source, const LabelMapSource & labels)
   return std::move(*description);
 }
 
-/** Whether a scan has the values of a CT with bone. */
-bool
-IsCT(const Scan & scan)
+/** A preset's name, and why it is chosen. */
+struct PresetChoice
 {
-  const std::vector<SuggestedThreshold> thresholds =
-    SuggestThresholds(scan.modality, ComputeIntensities(scan.image, false));
-  return thresholds.back().surface == "bone";
+  std::string preset;
+  std::string reason; ///< "the scan is ..."
+};
+
+/** The choice for a CT, or a scan of unknown modality. */
+PresetChoice
+ChooseForCT(const Scan & scan, const Intensities & intensities)
+{
+  constexpr double nearAir = -900.0;
+  constexpr double belowFat = -200.0; // CTs of the inside of a body have no air
+  constexpr double skin = -300.5;
+  constexpr double bone = 250.5;
+  const bool isNamed = scan.modality == "CT";
+  const bool hasAir = intensities.lowest < nearAir;
+  const bool hasSkin = hasAir && intensities.highest >= skin;
+  const bool hasBone = intensities.highest >= bone;
+  const std::string range = FormatNumber(intensities.lowest) + " to " + FormatNumber(intensities.highest);
+  if (isNamed && intensities.lowest >= belowFat)
+  {
+    return { "uncalibrated-ct",
+             "the scan is a CT whose values (" + range + ") are not taken for HU: there is neither air nor fat" };
+  }
+  if (!isNamed && !(hasAir && hasBone))
+  {
+    return { "outline", "the scan does not say what it is" };
+  }
+  const std::string kind = isNamed ? "the scan is a CT in HU" : "the scan's values (" + range + ") are those of a CT";
+  return hasAir && hasBone ? PresetChoice{ "ct-bone-skin", kind }
+         : hasSkin         ? PresetChoice{ "ct-skin", kind + " without values of bone" }
+         : hasBone         ? PresetChoice{ "ct-bone", kind + " without air" }
+                           : PresetChoice{ "outline", kind + " without values of both sides of skin or bone" };
+}
+
+/** The choice for a scan that is no label map. */
+PresetChoice
+ChooseForScan(const Scan & scan, bool hasLabels)
+{
+  const std::string & modality = scan.modality;
+  const DicomExamination examination = ReadDicomExamination(scan);
+  PresetChoice choice{ "outline", "the scan is of modality " + modality };
+  if (modality.empty() || modality == "CT")
+  {
+    choice = ChooseForCT(scan, ComputeIntensities(scan.image, false));
+  }
+  else if (modality == "PT")
+  {
+    const bool isActivity = examination.units == "Bq/ml";
+    choice = { "pet-hot-spots",
+               "the scan is a PET" + (examination.units.empty() ? "" : " in " + examination.units) +
+                 (isActivity ? " (not turned into SUV)" : "") + "; thresholds follow from its values" };
+  }
+  else if (modality == "MR")
+  {
+    const std::string & part = examination.bodyPart;
+    const bool isHead = part == "HEAD" || part == "BRAIN" || part == "SKULL";
+    choice = { isHead ? "mr-head" : "mr-outline",
+               "the scan is an MR" + (part.empty() ? " that names no body part" : " of body part " + part) };
+  }
+  if (hasLabels)
+  {
+    const bool hasSkin = choice.preset == "ct-bone-skin" || choice.preset == "ct-skin";
+    return { hasSkin ? "ct-organs" : "", choice.reason + ", with labels" };
+  }
+  return choice;
 }
 
 } // namespace
@@ -167,13 +229,14 @@ ChoosePreset(ScanSource & source, bool hasLabels, const Events & events)
 {
   source.volume = std::make_shared<SourceVolume>(LoadVolume(source, events));
   const Scan * const scan = std::get_if<Scan>(source.volume.get());
-  std::string preset = hasLabels ? "" : "mr-head";
+  PresetChoice choice{ "outline", "the source is a lattice volume, which does not say what it is of" };
   if (scan != nullptr)
   {
-    preset = IsCT(*scan) ? (hasLabels ? "ct-organs" : "ct-bone-skin") : IsLabelMap(*scan) ? "" : preset;
+    choice = IsLabelMap(*scan) ? PresetChoice{ "", "the scan is a label map" } : ChooseForScan(*scan, hasLabels);
   }
-  events.Note("preset: " + (preset.empty() ? "none" : preset));
-  return preset;
+  source.presetChoice = (choice.preset.empty() ? "none" : choice.preset) + ", as " + choice.reason;
+  events.Note("preset: " + source.presetChoice);
+  return choice.preset;
 }
 
 } // namespace rhombic

@@ -64,7 +64,7 @@ FindRange(const TPixel * values, std::size_t count)
   return range;
 }
 
-/** Histogram of the values from lowest to highest. */
+/** Histogram of the values from lowest to highest; others are left out. */
 template <typename TPixel>
 Histogram::Pointer
 MakeHistogram(const TPixel * values, std::size_t count, double lowest, double highest)
@@ -77,7 +77,7 @@ MakeHistogram(const TPixel * values, std::size_t count, double lowest, double hi
     Frequencies ofBlock{};
     for (std::size_t n = begin; n < end; ++n)
     {
-      if (IsCounted(values[n]) && static_cast<double>(values[n]) <= highest)
+      if (IsCounted(values[n]) && static_cast<double>(values[n]) >= lowest && static_cast<double>(values[n]) <= highest)
       {
         const auto bin = static_cast<std::size_t>((static_cast<double>(values[n]) - lowest) * scale);
         ++ofBlock[std::min(bin, Bins - 1)];
@@ -108,7 +108,7 @@ Compute(const TPixel * values, std::size_t count, bool findsOtsu)
 {
   const auto [lowest, highest] = FindRange(values, count);
   Intensities found;
-  found.lowest = found.otsu = found.lowOtsu = static_cast<double>(lowest);
+  found.lowest = found.otsu = found.lowOtsu = found.lowestOtsu = found.highOtsu = static_cast<double>(lowest);
   found.highest = static_cast<double>(highest);
   if (found.lowest > found.highest)
   {
@@ -117,8 +117,13 @@ Compute(const TPixel * values, std::size_t count, bool findsOtsu)
   if (findsOtsu && found.lowest < found.highest)
   {
     constexpr bool isInteger = std::is_integral_v<TPixel>;
-    found.otsu = OtsuThreshold(MakeHistogram(values, count, found.lowest, found.highest), isInteger);
-    found.lowOtsu = OtsuThreshold(MakeHistogram(values, count, found.lowest, found.otsu), isInteger);
+    const auto otsuBetween = [&](double low, double high) {
+      return OtsuThreshold(MakeHistogram(values, count, low, high), isInteger);
+    };
+    found.otsu = otsuBetween(found.lowest, found.highest);
+    found.lowOtsu = otsuBetween(found.lowest, found.otsu);
+    found.lowestOtsu = otsuBetween(found.lowest, found.lowOtsu);
+    found.highOtsu = otsuBetween(found.otsu, found.highest);
   }
   return found;
 }

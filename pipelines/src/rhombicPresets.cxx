@@ -80,7 +80,7 @@ ParseSurface(const YAML::Node & node, const std::string & source)
   request.name = node["name"].as<std::string>();
   if (!ParseThreshold(node["isovalue"].as<std::string>(), request) || request.insideIsBelow)
   {
-    FailToParse(source, "has an isovalue that is neither a finite number nor otsu or otsu-low");
+    FailToParse(source, "has an isovalue that is neither a finite number nor otsu, otsu-low, otsu-lowest or otsu-high");
   }
   request.insideIsBelow = FindWord(node["side"], { "above", "below" }, source) == 1;
   using Parts = SurfaceRequest::Parts;

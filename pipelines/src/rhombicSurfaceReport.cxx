@@ -202,6 +202,10 @@ ReportSource(const LoadedSource & loaded, const ScanSource & source)
     }
     report["input"] = ReportFiles(files);
   }
+  if (!source.presetChoice.empty())
+  {
+    report["preset"] = source.presetChoice;
+  }
   if (const Scan * const scan = loaded.FindScan())
   {
     report["scan"] = ReportWithoutNames(*scan, source.path);

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 
 namespace rhombic
 {
@@ -36,8 +37,13 @@ ParseThreshold(const std::string & text, SurfaceRequest & request)
   const std::string number = isBelow ? text.substr(1) : text;
   request.insideIsBelow = isBelow;
   request.isovalue = ParseNumber(number);
-  request.usesLowOtsu = number == "otsu-low";
-  return request.isovalue.has_value() || request.usesLowOtsu || number == "otsu";
+  static const std::map<std::string, double Intensities::*> thresholds{ { "otsu", &Intensities::otsu },
+                                                                        { "otsu-low", &Intensities::lowOtsu },
+                                                                        { "otsu-lowest", &Intensities::lowestOtsu },
+                                                                        { "otsu-high", &Intensities::highOtsu } };
+  const auto found = thresholds.find(number);
+  request.otsu = found != thresholds.end() ? found->second : &Intensities::otsu;
+  return request.isovalue.has_value() || found != thresholds.end();
 }
 
 SurfaceRequest
@@ -89,7 +95,7 @@ ResolveIsovalues(std::vector<SurfaceRequest> requests, const Intensities & inten
   {
     if (!request.isovalue)
     {
-      request.isovalue = request.usesLowOtsu ? intensities.lowOtsu : intensities.otsu;
+      request.isovalue = intensities.*request.otsu;
     }
     // At the lowest value or below everything is inside, above the highest nothing: in both cases there is no surface.
     const double isovalue = *request.isovalue;

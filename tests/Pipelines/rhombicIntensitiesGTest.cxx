@@ -60,6 +60,33 @@ TEST(Intensities, FindTheThresholdBetweenNoiseAndDarkTissue)
   EXPECT_LT(found.lowOtsu, 60);
 }
 
+/** Counts of a PET: air, a body, and two hot spots. */
+TEST(Intensities, FindTheThresholdsOfABodyWithHotSpots)
+{
+  std::vector<std::int16_t> values;
+  for (int n = 0; n < 4000; ++n)
+  {
+    values.push_back(static_cast<std::int16_t>(n % 30));
+  }
+  for (int n = 0; n < 1000; ++n)
+  {
+    values.push_back(static_cast<std::int16_t>(n % 2 == 0 ? 500 + n % 100 : 1800 + n % 200));
+  }
+  for (int n = 0; n < 60; ++n)
+  {
+    values.push_back(static_cast<std::int16_t>(n % 2 == 0 ? 12000 : 20000));
+  }
+  const auto found = rhombic::ComputeIntensities(MakeImage(values));
+  EXPECT_GT(found.lowestOtsu, 29);
+  EXPECT_LT(found.lowestOtsu, 500);
+  EXPECT_GT(found.lowOtsu, 599);
+  EXPECT_LT(found.lowOtsu, 1800);
+  EXPECT_GT(found.otsu, 1999);
+  EXPECT_LT(found.otsu, 12000);
+  EXPECT_GT(found.highOtsu, 12000);
+  EXPECT_LT(found.highOtsu, 20000);
+}
+
 TEST(Intensities, DoNotCountWhatIsNotFinite)
 {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -73,14 +100,18 @@ TEST(Intensities, DoNotCountWhatIsNotFinite)
 
 TEST(ResolveIsovalues, FillsInOtsusAndRefusesWhatIsOutside)
 {
-  const rhombic::Intensities intensities{ -1000.0, 2000.0, -100.5, -700.5 };
+  const rhombic::Intensities intensities{ -1000.0, 2000.0, -100.5, -700.5, -900.5, 600.5 };
   const auto resolved = rhombic::ResolveIsovalues({ rhombic::ParseSurfaceRequest("a=otsu", 0),
                                                     rhombic::ParseSurfaceRequest("b=2000", 1),
-                                                    rhombic::ParseSurfaceRequest("c=otsu-low", 2) },
+                                                    rhombic::ParseSurfaceRequest("c=otsu-low", 2),
+                                                    rhombic::ParseSurfaceRequest("d=otsu-lowest", 3),
+                                                    rhombic::ParseSurfaceRequest("e=<otsu-high", 4) },
                                                   intensities);
   EXPECT_EQ(resolved[0].isovalue, -100.5);
   EXPECT_EQ(resolved[1].isovalue, 2000.0);
   EXPECT_EQ(resolved[2].isovalue, -700.5);
+  EXPECT_EQ(resolved[3].isovalue, -900.5);
+  EXPECT_EQ(resolved[4].isovalue, 600.5);
   for (const char * text : { "bone=2000.5", "bone=-1000", "bone=-5000" })
   {
     try

@@ -88,7 +88,10 @@ ListPresets()
       }
       else
       {
-        std::cout << (surface.usesLowOtsu ? "Otsu's threshold of the values below Otsu's" : "Otsu's threshold");
+        std::cout << (surface.otsu == &Intensities::otsu       ? "Otsu's threshold"
+                      : surface.otsu == &Intensities::lowOtsu  ? "Otsu's threshold of the values below Otsu's"
+                      : surface.otsu == &Intensities::highOtsu ? "Otsu's threshold of the values above Otsu's"
+                                                               : "the third Otsu's threshold towards low values");
       }
       std::cout << (surface.opacity < 1.0 ? ", translucent" : "") << '\n';
     }

@@ -1,5 +1,6 @@
 #include "rhombicPictureScene.h"
 
+#include "rhombicDicomExamination.h"
 #include "rhombicFailure.h"
 #include "rhombicLabelSurfaces.h"
 #include "rhombicLatticeToSurfaces.h"
@@ -100,8 +101,7 @@ AddIsosurfaces(const LoadedSource & loaded, const PictureSource & source, const 
     }
   }
   scene.thresholds = Enumerate(thresholds, "and");
-  const std::string unit = scene.scan && IsInHounsfieldUnits(*scene.scan) ? " HU" : "";
-  scene.facts.push_back("thresholds: " + scene.thresholds + unit);
+  scene.facts.push_back("thresholds: " + scene.thresholds + (scene.unit.empty() ? "" : " " + scene.unit));
 }
 
 void
@@ -186,6 +186,7 @@ MakeSceneOfScan(const PictureSource & source, bool keepsScan, const Events & eve
   if (keepsScan && loaded.scan)
   {
     scene.scan = std::move(loaded.scan);
+    scene.unit = IsInHounsfieldUnits(*scene.scan) ? "HU" : ReadDicomExamination(*scene.scan).units;
   }
   else if (keepsScan && !loaded.labels && !loaded.requests.empty())
   {

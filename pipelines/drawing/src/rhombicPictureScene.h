@@ -26,6 +26,7 @@ struct PictureScene
   SliceBox box;                   ///< of the scan or label map, else around the surfaces
   bool isOriented = true;         ///< whether it is known how the surfaces lie in the patient
   std::string thresholds;         ///< "bone from 250.5, skin from -300.5"; empty without isosurfaces
+  std::string unit;               ///< of the scan's values: "HU", "Bq/ml"; empty if unknown
   std::vector<std::string> facts; ///< "scan: DICOM CT, 512 x 512 x 138, ...", and so on
   Report report;
 };

@@ -75,7 +75,7 @@ PlanSheet(const RenderSheetSettings & settings, const PictureScene & scene, std:
   sheet.slices.resize(slices);
   sheet.viewAspect = AspectOf(scene);
   sheet.rows = MeasureRows(scene);
-  sheet.meanUnit = scene.scan && IsInHounsfieldUnits(*scene.scan) ? "HU" : "";
+  sheet.meanUnit = scene.unit;
   sheet.provenance = scene.facts;
   sheet.provenance.push_back("made by: " + settings.provenance.software);
   sheet.letters = scene.isOriented;

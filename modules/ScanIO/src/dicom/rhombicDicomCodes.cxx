@@ -3,6 +3,7 @@
 #include "rhombicWording.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -46,6 +47,21 @@ const Words ImageTypeWords{ "2D",          "3D",         "ACQUIRED", "ADC",     
                             "TOMO",        "TRACEW",     "TSE",      "VELOCITY", "VMI",         "VOLUME",
                             "W",           "WATER",      "WHOLE" };
 
+// PS3.16, table L-1, without parts of single organs.
+const Words BodyParts{ "ABDOMEN",  "ABDOMENPELVIS", "ANKLE",          "ARM",       "BRAIN",  "BREAST",
+                       "CHEST",    "CHESTABDOMEN",  "CHESTABDPELVIS", "CSPINE",    "ELBOW",  "EXTREMITY",
+                       "FEMUR",    "FOOT",          "FOREARM",        "HAND",      "HEAD",   "HEADNECK",
+                       "HEART",    "HIP",           "HUMERUS",        "KNEE",      "LEG",    "LIVER",
+                       "LSPINE",   "LUNG",          "NECK",           "NECKCHEST", "PELVIS", "PROSTATE",
+                       "SHOULDER", "SKULL",         "SPINE",          "THIGH",     "TSPINE", "WHOLEBODY",
+                       "WRIST" };
+
+// PS3.3, C.8.9.1.1.3.
+const std::map<std::string_view, std::string> UnitNames{ { "BQML", "Bq/ml" },       { "GML", "g/ml" },
+                                                         { "CNTS", "counts" },      { "CPS", "counts/s" },
+                                                         { "CM2ML", "cm2/ml" },     { "PCNT", "%" },
+                                                         { "UMOLMIN", "umol/min" }, { "MLMING", "ml/min/g" } };
+
 bool
 HasOnly(const std::string & text, std::string_view letters)
 {
@@ -64,6 +80,19 @@ std::string
 ModalityOf(const std::string & text)
 {
   return text.empty() || Modalities.count(text) != 0 ? text : "other";
+}
+
+std::string
+BodyPartOf(const std::string & text)
+{
+  return BodyParts.count(text) != 0 ? text : "";
+}
+
+std::string
+UnitsOf(const std::string & text)
+{
+  const auto found = UnitNames.find(text);
+  return found != UnitNames.end() ? found->second : "";
 }
 
 std::string

@@ -27,6 +27,14 @@ NumberTextOf(const std::string & text);
 std::string
 NameCodeOf(const std::string & text);
 
+/** DICOM's terms of body parts; empty for anything else. */
+std::string
+BodyPartOf(const std::string & text);
+
+/** The units of a PET's values in words, by DICOM's terms; empty for anything else. */
+std::string
+UnitsOf(const std::string & text);
+
 } // namespace rhombic
 
 #endif
