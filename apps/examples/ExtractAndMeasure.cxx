@@ -31,10 +31,11 @@ try
     return itk::TriangleSurface::Pointer(filter->GetOutput());
   };
   const auto resampleAndExtract = [&extract](const rhombic::Scan & scan) {
-    const auto resample = [&extract](const auto & image) {
+    const auto resample = [&](const auto & image) {
       using FilterType = itk::CartesianToFCCImageFilter<typename std::decay_t<decltype(image)>::ObjectType>;
       const auto filter = FilterType::New();
       filter->SetInput(image);
+      filter->SetScan(scan); // the places of unevenly spaced slices
       filter->Update();
       return extract(typename FilterType::OutputImageType::Pointer(filter->GetOutput()));
     };

@@ -38,7 +38,7 @@ try
   const auto threshold = example::ParseNumber<double>("THRESHOLD", argv[2]);
   const auto reader = itk::ScanFileReader<itk::Image<short, 3>>::New();
   reader->SetFileName(argv[1]);
-  reader->AcceptIrregularOff(); // vtkImageData has evenly placed slices only
+  reader->AcceptTiltedOff(); // the slices of vtkImageData are neither tilted nor unevenly spaced
   reader->Update();
   const auto image = reader->GetOutput();
   const auto & size = image->GetBufferedRegion().GetSize();

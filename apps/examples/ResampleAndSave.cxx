@@ -14,10 +14,11 @@ rhombic::FCCVolume
 Resample(const rhombic::Scan & scan)
 {
   return std::visit(
-    [](const auto & image) -> rhombic::FCCVolume {
+    [&scan](const auto & image) -> rhombic::FCCVolume {
       using ImageType = typename std::decay_t<decltype(image)>::ObjectType;
       const auto filter = itk::CartesianToFCCImageFilter<ImageType>::New();
       filter->SetInput(image);
+      filter->SetScan(scan); // the places of unevenly spaced slices
       filter->Update();
       return itk::SmartPointer<itk::FCCImage<typename ImageType::PixelType>>(filter->GetOutput());
     },

@@ -18,8 +18,11 @@ try
   using ImageType = itk::Image<short, 3>;
   const auto reader = itk::ScanFileReader<ImageType>::New();
   reader->SetFileName(argv[1]);
+  reader->AcceptUnevenOn(); // no ITK image holds the places of such slices: the lattice filter has them from GetScan()
+  reader->UpdateOutputInformation();
   const auto lattice = itk::CartesianToFCCImageFilter<ImageType>::New();
-  lattice->SetInput(reader->GetOutput());
+  lattice->SetInput(reader->GetOutput()); // or that of any filter of ITK behind it
+  lattice->SetScan(reader->GetScan());
   const auto surface = itk::FCCIsosurfaceFilter<itk::FCCImage<short>>::New();
   surface->SetInput(lattice->GetOutput());
   surface->SetIsovalue(std::stod(argv[2])); // Hounsfield units

@@ -85,17 +85,17 @@ RequireOther(const std::filesystem::path & output, const std::vector<std::filesy
 
 /** Reads a scan in its own pixel type. */
 inline rhombic::Scan
-ReadScan(const std::string & path, bool acceptsIrregular = true)
+ReadScan(const std::string & path, bool acceptsUneven = true)
 {
   const auto reader = itk::NativeScanFileReader::New();
   reader->SetFileName(path);
-  reader->SetAcceptIrregular(acceptsIrregular);
+  reader->SetAcceptUneven(acceptsUneven);
   reader->Update();
   return *reader->GetOutput()->Get();
 }
 
-/** A scan for the filters of ITK, which take an image's slices for evenly placed and perpendicular: others are refused.
- * CartesianToFCCImageFilter alone knows where they are. */
+/** A scan for the filters of ITK, which take an image's slices for evenly spaced: others are refused. SetScan() of
+ * CartesianToFCCImageFilter alone tells where they are. */
 inline rhombic::Scan
 ReadEvenScan(const std::string & path)
 {

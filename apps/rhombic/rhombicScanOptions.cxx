@@ -127,7 +127,8 @@ ScanOptions::GetSource(const CommandContext & context) const
   source.isHashed = !m_HasNoSidecar;
   source.read.series = m_Series;
   source.read.frame = m_Frame;
-  source.read.onIrregular = ParsePolicy("--on-irregular", m_OnIrregular, "resample");
+  source.read.onTilted = ParsePolicy("--on-irregular", m_OnIrregular, "resample");
+  source.read.onUneven = source.read.onTilted;
   source.read.onGap = ParsePolicy("--on-gap", m_OnGap, "interpolate");
   source.read.maximumMemory = m_MaximumMemory;
   source.read.acceptsAnalyze = m_AcceptsAnalyze;

@@ -1,7 +1,6 @@
 #include "rhombicScanToLattice.h"
 
 #include "rhombicFailure.h"
-#include "rhombicIntensities.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicObserveProgress.h"
 #include "rhombicWording.h"
@@ -122,11 +121,7 @@ ResampleImage(const TImage & image, const Scan & scan, const LatticeSettings & s
   filter->SetDensity(settings.density);
   filter->SetOutputSpacing(settings.spacing.data());
   filter->SetKernel(settings.kernel);
-  if (IsSlanted(scan))
-  {
-    filter->SetSliceOrigins(scan.sliceOrigins);
-    filter->SetOutsideValue(static_cast<typename TImage::PixelType>(ComputeIntensities(scan.image, false).lowest));
-  }
+  filter->SetScan(scan);
   return Resample(*filter, scan, settings, events);
 }
 

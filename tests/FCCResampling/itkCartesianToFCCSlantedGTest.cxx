@@ -271,10 +271,10 @@ TEST(CartesianToFCCSlanted, PinsItsDefaults)
 {
   const auto filter = FilterType::New();
   EXPECT_TRUE(filter->GetSliceOrigins().empty());
-  EXPECT_EQ(filter->GetOutsideValue(), 0.0f);
+  EXPECT_FALSE(filter->GetOutsideValue());
   std::ostringstream text;
   filter->Print(text);
-  EXPECT_NE(text.str().find("OutsideValue: 0"), std::string::npos);
+  EXPECT_NE(text.str().find("OutsideValue: (lowest of the input)"), std::string::npos);
   EXPECT_NE(text.str().find("SliceOrigins: 0"), std::string::npos);
 }
 
@@ -413,6 +413,57 @@ TEST(CartesianToFCCSlanted, WhatIsBesideTheSlicesGetsTheOutsideValue)
   }
 }
 
+/** A site of the last plane that lies beside the slices of a stack that is tilted towards larger y. */
+itk::Index<3>
+CornerBeside(const LatticeType & lattice)
+{
+  return { { 0, 0, lattice.GetLargestPossibleRegion().GetUpperIndex()[2] } };
+}
+
+TEST(CartesianToFCCSlanted, ByDefaultTheOutsideValueIsTheLowestOfTheInput)
+{
+  const Stack stack = MakeStack(Kind::TiltedUneven, { { 20, 14, 44 } });
+  stack.image->FillBuffer(500.0f);
+  const auto first = stack.image->GetLargestPossibleRegion().GetIndex();
+  const auto valueAtCorner = [&](const std::optional<float> & outsideValue) {
+    const auto filter = MakeFilter(stack);
+    filter->SetOutsideValue(outsideValue);
+    filter->UpdateOutputInformation();
+    const itk::Index<3> corner = CornerBeside(*filter->GetOutput());
+    filter->GetOutput()->SetRequestedRegion(LatticeType::RegionType(corner, { { 1, 1, 1 } }));
+    filter->Update();
+    return filter->GetOutput()->GetPixel(corner);
+  };
+  EXPECT_EQ(valueAtCorner({}), 500.0f);
+  stack.image->SetPixel({ { first[0] + 19, first[1] + 13, first[2] + 43 } }, 20.0f);
+  stack.image->SetPixel(first, std::numeric_limits<float>::quiet_NaN());
+  stack.image->Modified();
+  EXPECT_EQ(valueAtCorner({}), 20.0f) << "far from the region that is asked for";
+  for (const float value : { 0.0f, 1.0f, -1024.0f })
+  {
+    EXPECT_EQ(valueAtCorner(value), value);
+  }
+
+  const auto filter = MakeFilter(stack);
+  for (const float lowest : { 20.0f, -30.0f })
+  {
+    stack.image->SetPixel({ { first[0] + 10, first[1] + 7, first[2] + 9 } }, lowest);
+    stack.image->Modified();
+    filter->Update();
+    EXPECT_EQ(filter->GetOutput()->GetPixel(CornerBeside(*filter->GetOutput())), lowest) << "found anew";
+  }
+}
+
+TEST(CartesianToFCCSlanted, PrintsSliceOriginsAndOutsideValue)
+{
+  const auto filter = MakeFilter(MakeStack(Kind::Uneven, { { 6, 6, 8 } }));
+  filter->SetOutsideValue(0.0f);
+  std::ostringstream text;
+  filter->Print(text);
+  EXPECT_NE(text.str().find("SliceOrigins: 8, from ["), std::string::npos) << text.str();
+  EXPECT_NE(text.str().find("OutsideValue: 0"), std::string::npos);
+}
+
 TEST(CartesianToFCCSlanted, AnyThreadsAndAnyRegionGiveTheSameBytes)
 {
   std::mt19937 random(29);
@@ -459,6 +510,7 @@ TEST(CartesianToFCCSlanted, AnyThreadsAndAnyRegionGiveTheSameBytes)
       one.SetSize({ { 1, 1, 1 } });
       one.SetIndex({ { 5, 5, 5 } });
       const auto part = MakeFilter(stack, kernel);
+      part->SetOutsideValue(0.0f); // or else the lowest of the whole input
       part->GetOutput()->SetRequestedRegion(one);
       part->Update();
       for (unsigned int axis = 0; axis < 3; ++axis)

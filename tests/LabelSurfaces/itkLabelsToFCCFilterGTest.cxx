@@ -1,12 +1,15 @@
 #include "itkLabelsToFCCFilter.h"
 
+#include "itkCastImageFilter.h"
 #include "itkFCCLabelSurfaceFilter.h"
 #include "itkImageRegionConstIteratorWithIndex.h"
 #include "itkImageRegionIteratorWithIndex.h"
 #include "itkMultiThreaderBase.h"
+#include "itkRefusal.h"
 #include "itkTriangleSurfaceComponents.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
+#include "rhombicScan.h"
 
 #include <gtest/gtest.h>
 
@@ -367,6 +370,30 @@ TEST(LabelsToFCCFilter, UnevenAndSlantedSlicesAreWhereTheyAre)
 }
 
 /** Each is a label, is one piece at its place, and has the volume of its voxels. */
+TEST(LabelsToFCCFilter, UnevenSlicesBehindAFilterAreRefusedWithoutTheScan)
+{
+  SlantedMap map({ { 44, 34, 12 } }, 3.0);
+  map.SetLabels([](const Point & p) { return HalfBalls(p, 12.0); });
+  const auto direct = MakeWalls(map.image, map.origins);
+  rhombic::Scan scan;
+  scan.image = map.image;
+  scan.sliceOrigins = map.origins;
+  rhombic::AttachPlacement(scan);
+  const auto cast = itk::CastImageFilter<LabelImage, LabelImage>::New();
+  cast->InPlaceOff();
+  cast->SetInput(map.image);
+  const auto toLattice = Filter::New();
+  toLattice->SetInput(cast->GetOutput());
+  EXPECT_NE(Refusal([&] { toLattice->Update(); }).find("SetScan"), std::string::npos);
+  toLattice->SetScan(scan);
+  const auto extract = itk::FCCLabelSurfaceFilter::New();
+  extract->SetInput(toLattice->GetOutput());
+  extract->SetWeights(toLattice->GetWeights());
+  extract->Update();
+  EXPECT_EQ(Volume(*extract->GetOutput(), 4), Volume(*direct, 4));
+  EXPECT_EQ(Volume(*extract->GetOutput(), 9), Volume(*direct, 9));
+}
+
 TEST(LabelsToFCCFilter, SpecksInSlantedSlicesStay)
 {
   SlantedMap map({ { 48, 48, 48 } }, 1.0);

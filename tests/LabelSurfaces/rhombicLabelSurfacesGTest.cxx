@@ -790,7 +790,7 @@ TEST(LabelSurfaces, OfRealMapsHaveTheirVoxelsVolumes)
       GTEST_SKIP() << "RHOMBIC_SCANS is not set";
     }
     LabelMap map;
-    map.scan = rhombic::ReadScan(source.path, {});
+    map.scan = rhombic::ReadScan(source.path);
     map.labels = rhombic::FindLabels(map.scan, source);
     for (const LabelSurface & surface : MakeSurfaces(map, {}, {}))
     {

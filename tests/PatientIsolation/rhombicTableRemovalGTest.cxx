@@ -556,7 +556,7 @@ TEST_F(TableOfRealScans, OnlyWhatIsReportedIsLost)
                              Case{ "ct_head_ge8800_dicom", 0.0, 0.0 } })
   {
     SCOPED_TRACE(real.path);
-    rhombic::Scan scan = rhombic::ReadScan(m_Scans / real.path, {});
+    rhombic::Scan scan = rhombic::ReadScan(m_Scans / real.path);
     const double before = MillilitresOf(scan, -300.5);
     const auto removal = rhombic::RemoveTable(scan, {});
     const double after = MillilitresOf(scan, -300.5);
@@ -580,9 +580,9 @@ TEST_F(TableOfRealScans, NoOrganIsTouched)
          std::pair{ folder / "example_ct.nii.gz", folder / "example_seg_fast_force_split.nii.gz" },
          std::pair{ m_Scans / "ct_body_totalseg_dicom_j2k", folder / "example_seg_dicom.nii.gz" } })
   {
-    const rhombic::Scan labels = rhombic::ReadScan(labelPath, {});
-    const rhombic::Scan original = rhombic::ReadScan(path, {});
-    rhombic::Scan scan = rhombic::ReadScan(path, {});
+    const rhombic::Scan labels = rhombic::ReadScan(labelPath);
+    const rhombic::Scan original = rhombic::ReadScan(path);
+    rhombic::Scan scan = rhombic::ReadScan(path);
     EXPECT_FALSE(rhombic::RemoveTable(scan, {}).objects.empty());
     std::size_t organs = 0;
     std::size_t changed = 0;

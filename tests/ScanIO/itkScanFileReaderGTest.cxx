@@ -111,7 +111,8 @@ ExpectBasicObject(const char * name)
   EXPECT_STREQ(reader->GetNameOfClass(), name);
   const itk::LightObject::Pointer another = reader->CreateAnother();
   EXPECT_NE(dynamic_cast<TReader *>(another.GetPointer()), nullptr);
-  for (const char * const line : { "FileName: ", "Series: ", "AcceptGaps: 0", "AcceptIrregular: 1", "Decoder: 0" })
+  for (const char * const line :
+       { "FileName: ", "Series: ", "AcceptGaps: 0", "AcceptTilted: 1", "AcceptUneven: 0", "Decoder: 0" })
   {
     EXPECT_NE(Printed(*reader).find(line), std::string::npos) << line;
   }
@@ -132,13 +133,12 @@ TEST_F(ScanFileReader, IsModifiedByChangesOnly)
 {
   const auto reader = itk::LabelMapFileReader<ImageType>::New();
   rhombic::IsolatedDecoder decoder(1);
-  const std::vector<std::function<void()>> changes{ [&] { reader->SetFileName("scan"); },
-                                                    [&] { reader->SetSeries("2"); },
-                                                    [&] { reader->SetFrame(3); },
-                                                    [&] { reader->AcceptGapsOn(); },
-                                                    [&] { reader->AcceptIrregularOff(); },
-                                                    [&] { reader->SetDecoder(&decoder); },
-                                                    [&] { reader->SetLabelTableFileName("table"); } };
+  const std::vector<std::function<void()>> changes{
+    [&] { reader->SetFileName("scan"); },  [&] { reader->SetSeries("2"); },
+    [&] { reader->SetFrame(3); },          [&] { reader->AcceptGapsOn(); },
+    [&] { reader->AcceptTiltedOff(); },    [&] { reader->AcceptUnevenOn(); },
+    [&] { reader->SetDecoder(&decoder); }, [&] { reader->SetLabelTableFileName("table"); }
+  };
   for (const auto & change : changes)
   {
     const auto before = reader->GetMTime();
@@ -152,7 +152,8 @@ TEST_F(ScanFileReader, IsModifiedByChangesOnly)
   EXPECT_EQ(reader->GetSeries(), "2");
   EXPECT_EQ(reader->GetOptions().frame, 3u);
   EXPECT_TRUE(reader->GetAcceptGaps());
-  EXPECT_FALSE(reader->GetAcceptIrregular());
+  EXPECT_FALSE(reader->GetAcceptTilted());
+  EXPECT_TRUE(reader->GetAcceptUneven());
   EXPECT_EQ(reader->GetDecoder(), &decoder);
   EXPECT_STREQ(reader->GetLabelTableFileName(), "table");
 }
@@ -352,6 +353,7 @@ TEST_F(ScanFileReader, SliceOriginsTravelToTheLattice)
   using LatticeFilter = itk::CartesianToFCCImageFilter<ImageType>;
   const fs::path folder = this->WriteStack("uneven", true);
   const auto native = MakeReader<itk::NativeScanFileReader>(folder);
+  native->AcceptUnevenOn();
   native->Update();
   const rhombic::Scan & scan = *native->GetOutput()->Get();
   ASSERT_EQ(scan.sliceOrigins.size(), Slices);
@@ -365,6 +367,7 @@ TEST_F(ScanFileReader, SliceOriginsTravelToTheLattice)
   told->Update();
 
   const auto reader = MakeReader(folder);
+  reader->AcceptUnevenOn();
   for (const unsigned int units : { 1u, 2u, 3u, 8u })
   {
     const auto untold = LatticeFilter::New();
@@ -377,12 +380,26 @@ TEST_F(ScanFileReader, SliceOriginsTravelToTheLattice)
   }
   EXPECT_EQ(itk::GetSlicePlacement(*reader->GetOutput()).origins, scan.sliceOrigins);
 
-  reader->AcceptIrregularOff();
-  EXPECT_NE(Refusal([&] { reader->Update(); }).find("no regular volume"), std::string::npos);
-  reader->AcceptIrregularOn();
   reader->SetFileName(this->WriteStack("even").string());
   reader->Update();
   EXPECT_TRUE(itk::GetSlicePlacement(*reader->GetOutput()).origins.empty()) << "those of the scan before are gone";
+}
+
+TEST_F(ScanFileReader, UnevenSlicesAreRefusedUnlessAskedFor)
+{
+  const auto isRefused = [](auto & reader) {
+    return Refusal([&] { reader.Update(); }).find("lattice->SetScan(reader->GetScan())") != std::string::npos;
+  };
+  const fs::path folder = this->WriteStack("uneven", true);
+  const auto reader = MakeReader(folder);
+  EXPECT_TRUE(isRefused(*reader));
+  EXPECT_TRUE(isRefused(*MakeReader<itk::NativeScanFileReader>(folder)));
+  EXPECT_TRUE(isRefused(*MakeReader<itk::LabelMapFileReader<ImageType>>(folder)));
+  EXPECT_THROW(rhombic::OpenScan(folder), rhombic::Failure);
+  reader->AcceptUnevenOn();
+  reader->AcceptTiltedOff();
+  EXPECT_EQ(Refusal([&] { reader->Update(); }), "") << "they are not tilted";
+  EXPECT_EQ(reader->GetScan().sliceOrigins.size(), Slices);
 }
 
 TEST_F(ScanFileReader, DescribesTheScanWithoutThePatient)
@@ -416,8 +433,12 @@ TEST_F(ScanFileReader, GapsAreRefusedOrAccepted)
   const auto reader = MakeReader(folder);
   EXPECT_NE(Refusal([&] { reader->Update(); }), "");
   reader->AcceptGapsOn();
+  EXPECT_NE(Refusal([&] { reader->Update(); }).find("AcceptUnevenOn()"), std::string::npos);
+  reader->AcceptUnevenOn();
   reader->UpdateOutputInformation();
   EXPECT_EQ(reader->GetOutput()->GetLargestPossibleRegion().GetSize(2), Slices - 1);
+  EXPECT_EQ(itk::GetSlicePlacement(*reader->GetOutput()).origins.size(), Slices - 1)
+    << "before the voxels are asked for";
   reader->Update();
   EXPECT_EQ(reader->GetOutput()->GetBufferedRegion().GetSize(2), Slices - 1);
   EXPECT_EQ(itk::GetSlicePlacement(*reader->GetOutput()).origins.size(), Slices - 1);
@@ -436,6 +457,7 @@ TEST_F(ScanFileReader, GapsAreRefusedOrAccepted)
   const auto again = MakeReader(folder);
   EXPECT_NE(Refusal([&] { again->Update(); }), "");
   again->AcceptGapsOn();
+  again->AcceptUnevenOn();
   again->UpdateOutputInformation();
   EXPECT_EQ(again->GetOutput()->GetLargestPossibleRegion().GetSize(2), Slices - 2);
   again->Update();
@@ -473,6 +495,7 @@ TEST_F(ScanFileReader, RealTiltedStackOfTwoBlocksLiesWhereItsSlicesSay)
     GTEST_SKIP() << "RHOMBIC_SCANS is not set";
   }
   const auto reader = MakeReader(fs::path(scans) / "ct_head_tilt_varspacing_dicom_rle");
+  reader->AcceptUnevenOn();
   const auto lattice = itk::CartesianToFCCImageFilter<ImageType>::New();
   lattice->SetInput(reader->GetOutput());
   lattice->UpdateOutputInformation();

@@ -284,7 +284,7 @@ TEST_F(DicomFolder, GapIsAcceptedWithTheOtherSlicesInTheirPlaces)
 {
   WriteStack(m_Folder, 6);
   fs::remove(m_Folder / "image2.dcm"); // k = 3
-  rhombic::ScanReadOptions options;
+  rhombic::ScanReadOptions options = rhombic::AcceptUneven();
   options.onGap = rhombic::ScanReadOptions::Policy::Accept;
   const auto scan = ReadScan(m_Folder, options);
   ASSERT_EQ(scan.sliceOrigins.size(), 5u);
@@ -329,7 +329,7 @@ TEST(DicomStack, GapsAreJudgedByTheStepsAround)
 {
   const auto missing = [](std::initializer_list<std::pair<std::size_t, double>> blocks) {
     auto slices = StackWithSteps(Steps(blocks));
-    rhombic::ScanReadOptions options;
+    rhombic::ScanReadOptions options = rhombic::AcceptUneven();
     options.onGap = rhombic::ScanReadOptions::Policy::Accept;
     const auto stack = StackSlices(slices, options);
     std::vector<std::size_t> counts;
@@ -368,7 +368,7 @@ TEST_F(DicomFolder, DamagedSliceIsAGap)
   WriteStack(m_Folder, 6);
   fs::resize_file(m_Folder / "image2.dcm", fs::file_size(m_Folder / "image2.dcm") - 10); // k = 3
   EXPECT_EQ(KindOfReading(m_Folder, "image2.dcm"), FailureKind::Unreadable);
-  rhombic::ScanReadOptions options;
+  rhombic::ScanReadOptions options = rhombic::AcceptUneven();
   options.onGap = rhombic::ScanReadOptions::Policy::Accept;
   const auto scan = ReadScan(m_Folder, options);
   EXPECT_EQ(scan.sliceOrigins.size(), 5u);
@@ -386,7 +386,8 @@ rhombic::ScanReadOptions
 RefuseIrregular()
 {
   rhombic::ScanReadOptions options;
-  options.onIrregular = rhombic::ScanReadOptions::Policy::Refuse;
+  options.onTilted = rhombic::ScanReadOptions::Policy::Refuse;
+  options.onUneven = rhombic::ScanReadOptions::Policy::Refuse;
   return options;
 }
 

@@ -318,6 +318,7 @@ TEST_F(IsolatedDecoding, FolderNamesTheFileThatCrashes)
   options.decoder = &decoder;
   EXPECT_EQ(KindOfReading(m_Folder, "slice2: " + Crash, options), FailureKind::Unreadable);
   options.onGap = rhombic::ScanReadOptions::Policy::Accept;
+  options.onUneven = rhombic::ScanReadOptions::Policy::Accept;
   const auto scan = rhombic::ReadScan(m_Folder, options);
   EXPECT_EQ(scan.sliceOrigins.size(), 4u);
   EXPECT_EQ(ImageOf<std::int16_t>(scan).GetPixel({ { 0, 0, 2 } }), 303 - 1024);

@@ -112,7 +112,7 @@ protected:
   }
 
   rhombic::IsolatedDecoder m_Decoder{ 2 };
-  rhombic::ScanReadOptions m_Options;
+  rhombic::ScanReadOptions m_Options = rhombic::AcceptUneven();
   fs::path m_Files;
 };
 

@@ -217,7 +217,7 @@ TEST_F(MalformedVolumes, EveryFileIsJudged)
 TEST_F(MalformedVolumes, ShearIsRefusedWhenAskedFor)
 {
   ScanReadOptions options;
-  options.onIrregular = ScanReadOptions::Policy::Refuse;
+  options.onTilted = ScanReadOptions::Policy::Refuse;
   EXPECT_EQ(KindOfReading(this->PathOf("shear.nii.gz"), "sform", options), FailureKind::Geometry);
   EXPECT_EQ(KindOfReading(this->PathOf("n_sform_shear_only.nii"), "16.7 degrees", options), FailureKind::Geometry);
 }

@@ -229,7 +229,7 @@ TEST_F(NIfTIFile, ShearIsKeptOrRefused)
   EXPECT_NE(scan.notes[0].find("16.7 degrees"), std::string::npos) << scan.notes[0];
 
   ScanReadOptions options;
-  options.onIrregular = ScanReadOptions::Policy::Refuse;
+  options.onTilted = ScanReadOptions::Policy::Refuse;
   EXPECT_EQ(this->KindOf(file, "sform", options), FailureKind::Geometry);
   EXPECT_NO_THROW(this->Read(NIfTITestFile(), options));
 }

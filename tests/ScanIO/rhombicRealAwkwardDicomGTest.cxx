@@ -223,7 +223,7 @@ protected:
   }
 
   rhombic::IsolatedDecoder m_Decoder{ 2 };
-  rhombic::ScanReadOptions m_Options;
+  rhombic::ScanReadOptions m_Options = rhombic::AcceptUneven();
   fs::path m_Files;
   fs::path m_Folders;
   fs::path m_Segmentations;

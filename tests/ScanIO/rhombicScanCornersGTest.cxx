@@ -227,6 +227,7 @@ TEST_F(ScanCorners, AreThoseOfTheHeaders)
     }
     rhombic::ScanReadOptions options = Series(placed.series);
     options.onGap = rhombic::ScanReadOptions::Policy::Accept;
+    options.onUneven = rhombic::ScanReadOptions::Policy::Accept;
     const auto actual = CornersOfScan(rhombic::ReadScan(m_Scans / placed.path, options));
     auto expected = CornersOfFiles(m_Scans / placed.path);
     EXPECT_EQ(expected.size(), placed.slices);

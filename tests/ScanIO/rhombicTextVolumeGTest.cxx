@@ -104,7 +104,7 @@ TEST_F(TextVolume, ShearIsKeptOrRefused)
   const auto meta =
     this->WriteMetaImage(Meta + "TransformMatrix = 1 0 0 0.3 1 0 0 0 1\nOffset = 0 0 0\nElementSpacing = 1 1 1\n");
   ScanReadOptions refusing;
-  refusing.onIrregular = ScanReadOptions::Policy::Refuse;
+  refusing.onTilted = ScanReadOptions::Policy::Refuse;
   for (const auto & path : { nrrd, meta })
   {
     const auto scan = ReadScan(path);

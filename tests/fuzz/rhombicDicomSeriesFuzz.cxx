@@ -95,7 +95,8 @@ void
 Stack(const DicomSeries & series, ScanReadOptions::Policy policy)
 {
   ScanReadOptions options;
-  options.onIrregular = policy;
+  options.onTilted = policy;
+  options.onUneven = policy;
   options.onGap = policy;
   try
   {

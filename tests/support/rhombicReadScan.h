@@ -8,9 +8,18 @@
 namespace rhombic
 {
 
+/** Options that accept unevenly spaced slices. */
+inline ScanReadOptions
+AcceptUneven()
+{
+  ScanReadOptions options;
+  options.onUneven = ScanReadOptions::Policy::Accept;
+  return options;
+}
+
 /** Reads a scan in one call. */
 inline Scan
-ReadScan(const std::filesystem::path & path, const ScanReadOptions & options = {})
+ReadScan(const std::filesystem::path & path, const ScanReadOptions & options = AcceptUneven())
 {
   const auto reader = itk::NativeScanFileReader::New();
   reader->SetFileName(path.string());

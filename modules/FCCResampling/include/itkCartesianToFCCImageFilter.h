@@ -6,9 +6,11 @@
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
 #include "itkSeparableTaps.h"
+#include "itkSlicePlacement.h"
 #include "itkWorkProgress.h"
 #include "rhombicPixelTypes.h"
 
+#include <optional>
 #include <vector>
 
 namespace itk
@@ -36,12 +38,13 @@ namespace itk
  * The kernel is applied along y, z, and x in turn. A lattice row lies at constant y and z, so that each of these is a
  * pass over whole rows. The input is converted to float32 a row at a time, in blocks whose intermediate results fit a
  * processor's cache. Extra memory: 1 MiB per thread, or ten input rows for each of eight output rows if that is more.
- * The filter requests only the part of the input that the requested output needs. Any part of the output has the same
- * bytes whether it is computed alone or with the rest, by one thread or many, on any processor.
+ * The filter requests only the part of the input that the requested output needs (but see SetOutsideValue()). Any part
+ * of the output has the same bytes whether it is computed alone or with the rest, by one thread or many, on any
+ * processor.
  *
  * **Slanted inputs.** Where the input's axes are not perpendicular (a tilted gantry, a sheared affine), or its slices
- * are unevenly placed (as an image from ScanFileReader knows, or SetSliceOrigins() says), samples are used at their
- * true positions, and not resampled to an even grid first. The lattice then has perpendicular axes: x along the input's
+ * are unevenly placed (as an image from ScanFileReader knows, or SetScan() says), samples are used at their true
+ * positions, and not resampled to an even grid first. The lattice then has perpendicular axes: x along the input's
  * first axis, y in the plane of its slices, z along their normal, towards the last slice. Its extent covers the box,
  * along these axes, around the outer faces of all voxels, and is centred on it; density and aspect refer to the
  * distances between samples of a row, between rows, and between slices (the median). Output samples that are more than
@@ -60,8 +63,8 @@ namespace itk
  * memory: 22 input rows per thread.
  *
  * Throws when the input has no samples or its buffer lacks some that are needed, when a parameter is out of range, when
- * the lattice would have more than 2^40 samples, and when the slice origins are not as many as the slices or not in
- * order along their normal.
+ * the lattice would have more than 2^40 samples, when the slice origins are not as many as the slices or not in order
+ * along their normal, and when the places of unevenly spaced slices are not known (see SetScan()).
  *
  * Overridden pipeline methods: VerifyPreconditions() (parameters in range), GenerateOutputInformation() (places the
  * lattice; refuses slice origins that are not in order), GenerateInputRequestedRegion() (the kernel's reach),
@@ -107,9 +110,22 @@ public:
 
   using SliceOriginsType = std::vector<typename TInputImage::PointType>;
 
-  /** Positions in LPS mm of the first sample of each slice along the input's third axis, for stacks whose slices are
-   * unevenly spaced or shifted against each other: one for each slice, in order along the slices' normal. Default
-   * empty: the input's own (see SlicePlacement), or else they follow from its origin, spacing and direction. */
+  /** The scan that the input is made from, by any filters that keep its slices: those of an unevenly spaced scan lie
+   * where they were scanned (see FindSliceOrigins()), which ITK's filters do not pass on. Default none: an image from
+   * ScanFileReader knows itself, and an image that was made from one with unevenly spaced slices is refused.
+   *
+   * \tparam TScan rhombic::Scan, as `reader->GetScan()`; its PlacementOf() throws when the scan was not read */
+  template <typename TScan>
+  void
+  SetScan(const TScan & scan)
+  {
+    m_Scan = PlacementOf(scan);
+    this->Modified();
+  }
+
+  /** Positions in LPS mm of the first sample of each slice along the input's third axis, for stacks of another source
+   * whose slices are unevenly spaced or shifted against each other: one for each slice, in order along the slices'
+   * normal. Default empty: those of the scan, or else they follow from the input's origin, spacing and direction. */
   void
   SetSliceOrigins(const SliceOriginsType & sliceOrigins);
   const SliceOriginsType &
@@ -118,10 +134,11 @@ public:
     return m_SliceOrigins;
   }
 
-  /** Value of output samples beside a slanted input. Default 0: the lowest value of an image from ScanFileReader (see
-   * SlicePlacement), and 0 for others. The lowest value of the input is a good choice. */
-  itkSetMacro(OutsideValue, OutputPixelType);
-  itkGetConstMacro(OutsideValue, OutputPixelType);
+  /** Value of output samples beside a slanted input. Default none: the lowest value of the input, for which the filter
+   * requests the whole of a slanted input. NaN is not a lowest value. */
+  void
+  SetOutsideValue(const std::optional<OutputPixelType> & outsideValue);
+  itkGetConstReferenceMacro(OutsideValue, std::optional<OutputPixelType>);
 
 protected:
   CartesianToFCCImageFilter() = default;
@@ -143,7 +160,7 @@ protected:
   GenerateData() override;
 
 private:
-  /** The positions that were set, or else those that came with the input; empty where they follow from its geometry. */
+  /** The positions that were set, or else those of the scan; empty where they follow from the input's geometry. */
   SliceOriginsType
   FindSliceOrigins() const;
 
@@ -151,8 +168,12 @@ private:
   bool
   IsSlanted() const;
 
+  /** The value that was set, or else the lowest of the input. */
+  OutputPixelType
+  FindOutsideValue();
+
   void
-  Resample(const OutputImageRegionType & region, WorkProgress::Share & progress);
+  Resample(const OutputImageRegionType & region, OutputPixelType outsideValue, WorkProgress::Share & progress);
 
   /** Taps for the sites of the region along one axis; along x, for the rows of one parity. */
   SeparableTaps
@@ -164,8 +185,11 @@ private:
 
   double m_Density{ FCCLattice::DefaultDensity };
   SpacingType m_OutputSpacing{ 0.0 };
+  SlicePlacement m_Scan;
   SliceOriginsType m_SliceOrigins;
-  OutputPixelType m_OutsideValue{};
+  std::optional<OutputPixelType> m_OutsideValue;
+  OutputPixelType m_LowestValue{};         // of the input
+  ModifiedTimeType m_LowestValueTime{ 0 }; // of the input, when m_LowestValue was found
   SeparableKernel m_Kernel{ SeparableKernel::CubicBSpline };
 };
 

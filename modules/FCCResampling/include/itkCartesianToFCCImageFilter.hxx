@@ -8,7 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
 
 namespace itk
 {
@@ -21,9 +21,19 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::PrintSelf(std::ostream & o
   os << indent << "Density: " << m_Density << std::endl;
   os << indent << "OutputSpacing: " << m_OutputSpacing << std::endl;
   os << indent << "Kernel: " << m_Kernel << std::endl;
-  os << indent << "SliceOrigins: " << m_SliceOrigins.size() << std::endl;
-  os << indent << "OutsideValue: " << static_cast<typename NumericTraits<OutputPixelType>::PrintType>(m_OutsideValue)
-     << std::endl;
+  os << indent << "SliceOrigins: ";
+  PrintSliceOrigins(os, m_SliceOrigins);
+  os << std::endl << indent << "SliceOrigins of the scan: ";
+  PrintSliceOrigins(os, m_Scan.origins);
+  os << std::endl << indent << "OutsideValue: ";
+  if (m_OutsideValue)
+  {
+    os << static_cast<typename NumericTraits<OutputPixelType>::PrintType>(*m_OutsideValue) << std::endl;
+  }
+  else
+  {
+    os << "(lowest of the input)" << std::endl;
+  }
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -38,10 +48,22 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::SetSliceOrigins(const Slic
 }
 
 template <typename TInputImage, typename TOutputImage>
+void
+CartesianToFCCImageFilter<TInputImage, TOutputImage>::SetOutsideValue(
+  const std::optional<OutputPixelType> & outsideValue)
+{
+  if (m_OutsideValue != outsideValue)
+  {
+    m_OutsideValue = outsideValue;
+    this->Modified();
+  }
+}
+
+template <typename TInputImage, typename TOutputImage>
 auto
 CartesianToFCCImageFilter<TInputImage, TOutputImage>::FindSliceOrigins() const -> SliceOriginsType
 {
-  return m_SliceOrigins.empty() ? GetSlicePlacement(*this->GetInput()).origins : m_SliceOrigins;
+  return m_SliceOrigins.empty() ? itk::FindSliceOrigins(*this->GetInput(), m_Scan) : m_SliceOrigins;
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -200,10 +222,13 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateInputRequestedRegi
   InputImageRegionType needed = input->GetLargestPossibleRegion();
   if (requested.GetNumberOfPixels() > 0 && this->IsSlanted())
   {
-    const SliceStack stack(*input, this->FindSliceOrigins());
-    const auto samples = this->MakePlanes(stack, requested).FindNeededSamples();
-    needed.SetIndex(needed.GetIndex() + (samples.GetIndex() - typename TInputImage::IndexType{ { 0, 0, 0 } }));
-    needed.SetSize(samples.GetSize());
+    if (m_OutsideValue) // else the whole input is needed
+    {
+      const SliceStack stack(*input, this->FindSliceOrigins());
+      const auto samples = this->MakePlanes(stack, requested).FindNeededSamples();
+      needed.SetIndex(needed.GetIndex() + (samples.GetIndex() - typename TInputImage::IndexType{ { 0, 0, 0 } }));
+      needed.SetSize(samples.GetSize());
+    }
   }
   else if (requested.GetNumberOfPixels() > 0)
   {
@@ -225,14 +250,38 @@ void
 CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateData()
 {
   this->AllocateOutputs();
-  ProduceOutput(*this, AllDivided, [this](const OutputImageRegionType & region, WorkProgress::Share & progress) {
-    this->Resample(region, progress);
+  const OutputPixelType outsideValue = this->IsSlanted() ? this->FindOutsideValue() : OutputPixelType{};
+  ProduceOutput(*this, AllDivided, [=](const OutputImageRegionType & region, WorkProgress::Share & progress) {
+    this->Resample(region, outsideValue, progress);
   });
+}
+
+template <typename TInputImage, typename TOutputImage>
+auto
+CartesianToFCCImageFilter<TInputImage, TOutputImage>::FindOutsideValue() -> OutputPixelType
+{
+  if (m_OutsideValue)
+  {
+    return *m_OutsideValue;
+  }
+  const TInputImage & input = *this->GetInput();
+  if (m_LowestValueTime != input.GetMTime())
+  {
+    VerifyInputSamples(*this, input, input.GetLargestPossibleRegion());
+    const InputPixelType * const begin = input.GetBufferPointer();
+    const InputPixelType * const end = begin + input.GetBufferedRegion().GetNumberOfPixels();
+    auto lowest = std::numeric_limits<InputPixelType>::max();
+    std::for_each(begin, end, [&lowest](InputPixelType value) { lowest = value < lowest ? value : lowest; });
+    m_LowestValue = RoundAndClamp<OutputPixelType>(static_cast<double>(lowest));
+    m_LowestValueTime = input.GetMTime();
+  }
+  return m_LowestValue;
 }
 
 template <typename TInputImage, typename TOutputImage>
 void
 CartesianToFCCImageFilter<TInputImage, TOutputImage>::Resample(const OutputImageRegionType & region,
+                                                               OutputPixelType outsideValue,
                                                                WorkProgress::Share & progress)
 {
   const TInputImage * const input = this->GetInput();
@@ -243,12 +292,6 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::Resample(const OutputImage
     const auto * const samples = input->GetBufferPointer() + input->ComputeOffset(start + inputOffset);
     RowArithmetic::ConvertFrom(samples, length, row);
   };
-  OutputPixelType outsideValue = m_OutsideValue;
-  if (outsideValue == OutputPixelType{})
-  {
-    const auto lowest = static_cast<float>(GetSlicePlacement(*input).outsideValue);
-    RowArithmetic::RoundTo(&lowest, 1, &outsideValue);
-  }
   const auto store = [&](const Index<3> & start, SizeValueType length, const float * values) {
     const Index<3> rowStart{ { region.GetIndex(0), start[1], start[2] } };
     OutputPixelType * const row = output->GetBufferPointer() + output->ComputeOffset(rowStart);

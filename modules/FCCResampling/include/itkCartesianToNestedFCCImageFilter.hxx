@@ -36,6 +36,11 @@ CartesianToNestedFCCImageFilter<TInputImage, TOutputImage>::GenerateOutputInform
     itkExceptionMacro("The input's axes are not perpendicular to each other, so that every other sample of it is no "
                       "face-centered cubic lattice; resample it with CartesianToFCCImageFilter instead.");
   }
+  if (IsFromUnevenSlices(*input))
+  {
+    itkExceptionMacro("The input's slices are unevenly spaced, so that every other sample of it is no face-centered "
+                      "cubic lattice; resample it with CartesianToFCCImageFilter instead.");
+  }
   OutputImageRegionType outputRegion;
   outputRegion.SetSize(0, (region.GetSize(0) + 1) / 2);
   outputRegion.SetSize(1, region.GetSize(1));

@@ -3,6 +3,7 @@
 
 #include "itkImage.h"
 #include "itkImageToFCCLabelsFilter.h"
+#include "itkSlicePlacement.h"
 
 #include <vector>
 
@@ -73,7 +74,16 @@ public:
 
   using SliceOriginsType = std::vector<Point<double, 3>>;
 
-  /** As CartesianToFCCImageFilter::SetSliceOrigins(). Default: those that an image from ScanFileReader has. */
+  /** As CartesianToFCCImageFilter::SetScan(). */
+  template <typename TScan>
+  void
+  SetScan(const TScan & scan)
+  {
+    m_Scan = PlacementOf(scan);
+    this->Modified();
+  }
+
+  /** As CartesianToFCCImageFilter::SetSliceOrigins(). */
   void
   SetSliceOrigins(const SliceOriginsType & origins);
   const SliceOriginsType &
@@ -116,10 +126,11 @@ protected:
   GenerateData() override;
 
 private:
-  /** Those that were set, or else those that the image has from ScanFileReader. */
+  /** Those that were set, or else those of the scan. */
   SliceOriginsType
   FindSliceOrigins() const;
 
+  SlicePlacement m_Scan;
   SliceOriginsType m_SliceOrigins;
   GroupsType m_Groups;
   std::vector<double> m_VoxelVolumes;

@@ -9,7 +9,6 @@
 #include "itkLabelTopology.h"
 #include "itkLabelsOnLattice.h"
 #include "itkMath.h"
-#include "itkSlicePlacement.h"
 #include "itkThinPartSites.h"
 #include "itkWorkProgress.h"
 
@@ -580,14 +579,18 @@ LabelsToFCCFilter::SetGroups(const GroupsType & groups)
 LabelsToFCCFilter::SliceOriginsType
 LabelsToFCCFilter::FindSliceOrigins() const
 {
-  return m_SliceOrigins.empty() ? GetSlicePlacement(*this->GetInput()).origins : m_SliceOrigins;
+  return m_SliceOrigins.empty() ? itk::FindSliceOrigins(*this->GetInput(), m_Scan) : m_SliceOrigins;
 }
 
 void
 LabelsToFCCFilter::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);
-  os << indent << "SliceOrigins: " << m_SliceOrigins.size() << std::endl;
+  os << indent << "SliceOrigins: ";
+  PrintSliceOrigins(os, m_SliceOrigins);
+  os << std::endl << indent << "SliceOrigins of the scan: ";
+  PrintSliceOrigins(os, m_Scan.origins);
+  os << std::endl;
   os << indent << "Groups: " << m_Groups.size() << std::endl;
 }
 

@@ -57,6 +57,7 @@ public:
     m_Smooth->SetUseImageSpacing(false);
     m_Resample->SetInput(m_Smooth->GetOutput());
     m_Resample->SetOutputSpacing(spacing);
+    m_Resample->SetOutsideValue(0.0f);
   }
 
   /** The lattice, without samples. */
@@ -123,7 +124,7 @@ ProbabilitiesToFCCFilter::VerifyInputInformation() ITKv5_CONST
   for (unsigned int n = 0; n < inputs; ++n)
   {
     const InputImageType * const input = this->GetInput(n);
-    if (input == nullptr || input->GetLargestPossibleRegion() != region || !GetSlicePlacement(*input).origins.empty())
+    if (input == nullptr || input->GetLargestPossibleRegion() != region || IsFromUnevenSlices(*input))
     {
       itkExceptionMacro("Input " << n
                                  << " is missing, has other voxels than the first input, or unevenly spaced slices.");

@@ -16,8 +16,11 @@ namespace itk
  * \code
  * const auto reader = itk::ScanFileReader<itk::Image<short, 3>>::New();
  * reader->SetFileName("head/");
+ * reader->AcceptUnevenOn();
+ * reader->UpdateOutputInformation();
  * const auto lattice = itk::CartesianToFCCImageFilter<itk::Image<short, 3>>::New();
- * lattice->SetInput(reader->GetOutput());
+ * lattice->SetInput(reader->GetOutput()); // or that of any filter of ITK behind it
+ * lattice->SetScan(reader->GetScan());
  * const auto surface = itk::FCCIsosurfaceFilter<itk::FCCImage<short>>::New();
  * surface->SetInput(lattice->GetOutput());
  * surface->SetIsovalue(250.5);
@@ -32,11 +35,12 @@ namespace itk
  * 40000 or 0.5 for short, is an error that names the value: float holds all that scans hold.
  *
  * The output is in LPS millimetres. A tilted gantry or sheared affine makes its direction sheared: its axes are then
- * not perpendicular, which all of ITK's functions of points and indices respect. Of slices that are unevenly spaced,
- * the output's third axis leads from the first to the last, and a SlicePlacement in its MetaDataDictionary holds their
- * true positions (ITK's writers say that they leave it out). CartesianToFCCImageFilter uses it when it is connected
- * directly; ITK's filters do not know it, nor do they pass it on. Behind them, give the lattice filter
- * `reader->GetScan().sliceOrigins`, or turn AcceptIrregular off to have such scans refused.
+ * not perpendicular, which all of ITK's functions of points and indices respect, and its filters keep. Unevenly spaced
+ * slices, which no ITK image holds, are refused unless AcceptUneven is on. The output's third axis then leads from the
+ * first to the last, GetScan() knows their true positions, and so does CartesianToFCCImageFilter by
+ * `SetScan(reader->GetScan())`. A SlicePlacement in the output's MetaDataDictionary holds them too (ITK's writers say
+ * that they leave it out), from which the lattice filter knows a scan that came without SetScan(): directly behind the
+ * reader it uses them, behind filters of ITK, which drop the dictionary, it refuses the image.
  *
  * The MetaDataDictionary holds these texts besides, which ITK's writers may put into files: ScanFormat ("DICOM", ...),
  * ScanModality, ScanEncoding, ScanScaling, ScanSeries (the id of the DICOM series), ScanFrame, ScanTiltDegrees,

@@ -1,6 +1,7 @@
 #ifndef itkScanFileReaderBase_h
 #define itkScanFileReaderBase_h
 
+#include "rhombicFailure.h"
 #include "rhombicScanReader.h"
 
 #include "itkImageSource.h"
@@ -60,8 +61,9 @@ public:
     this->Assign(m_Options.frame, std::optional<std::size_t>(frame));
   }
 
-  /** Whether a stack with missing slices is read, with the other slices at their true positions. Default false: it is
-   * refused. When on, UpdateOutputInformation() reads the voxels, too, to leave out the slices of damaged files. */
+  /** Whether a stack with missing slices is read, with the other slices at their true positions; it needs AcceptUneven,
+   * too. Default false: it is refused. When on, UpdateOutputInformation() reads the voxels, too, to leave out the
+   * slices of damaged files. */
   void
   SetAcceptGaps(bool accept)
   {
@@ -75,20 +77,36 @@ public:
   }
   itkBooleanMacro(AcceptGaps);
 
-  /** Whether slices that are tilted or unevenly spaced, and sheared volumes, are read; otherwise they are refused.
-   * Default true. Turn it off where a filter of ITK's comes before CartesianToFCCImageFilter (see ScanFileReader). */
+  /** Whether slices that are tilted, and sheared volumes, are read, with a sheared direction. Default true; otherwise
+   * they are refused. */
   void
-  SetAcceptIrregular(bool accept)
+  SetAcceptTilted(bool accept)
   {
     using Policy = OptionsType::Policy;
-    this->Assign(m_Options.onIrregular, accept ? Policy::Accept : Policy::Refuse);
+    this->Assign(m_Options.onTilted, accept ? Policy::Accept : Policy::Refuse);
   }
   bool
-  GetAcceptIrregular() const
+  GetAcceptTilted() const
   {
-    return m_Options.onIrregular == OptionsType::Policy::Accept;
+    return m_Options.onTilted == OptionsType::Policy::Accept;
   }
-  itkBooleanMacro(AcceptIrregular);
+  itkBooleanMacro(AcceptTilted);
+
+  /** Whether slices that are unevenly spaced, or some of which are missing, are read. Default false: they are refused,
+   * as no ITK image holds their places. Give the scan to the filter to the lattice then, which also works behind
+   * filters of ITK: `lattice->SetScan(reader->GetScan())`. */
+  void
+  SetAcceptUneven(bool accept)
+  {
+    using Policy = OptionsType::Policy;
+    this->Assign(m_Options.onUneven, accept ? Policy::Accept : Policy::Refuse);
+  }
+  bool
+  GetAcceptUneven() const
+  {
+    return m_Options.onUneven == OptionsType::Policy::Accept;
+  }
+  itkBooleanMacro(AcceptUneven);
 
   /** Runs the libraries that unpack compressed voxels, which damaged files can crash. Default null: in this process. A
    * rhombic::IsolatedDecoder runs them in child processes; make it at the beginning of main(). Not owned. */
@@ -145,7 +163,8 @@ protected:
     os << indent << "FileName: " << m_FileName << std::endl;
     os << indent << "Series: " << m_Options.series << std::endl;
     os << indent << "AcceptGaps: " << this->GetAcceptGaps() << std::endl;
-    os << indent << "AcceptIrregular: " << this->GetAcceptIrregular() << std::endl;
+    os << indent << "AcceptTilted: " << this->GetAcceptTilted() << std::endl;
+    os << indent << "AcceptUneven: " << this->GetAcceptUneven() << std::endl;
     os << indent << "Decoder: " << m_Options.decoder << std::endl;
   }
 
@@ -153,11 +172,13 @@ protected:
   GenerateOutputInformation() override
   {
     OptionsType options = m_Options;
+    options.onUneven = OptionsType::Policy::Accept; // RequirePlaces() refuses them
     options.progress = [this](double fraction) {
       this->UpdateProgress(static_cast<float>(fraction));
       this->CheckAbort();
     };
     m_File = rhombic::OpenScan(m_FileName, options);
+    this->RequirePlaces(m_File.scan);
     m_Scan = m_File.scan;
     rhombic::AttachPlacement(m_Scan);
   }
@@ -169,6 +190,7 @@ protected:
     this->UpdateProgress(0.0f);
     this->CheckAbort();
     rhombic::Scan scan = rhombic::ReadVoxels(m_File);
+    this->RequirePlaces(scan);
     rhombic::AttachPlacement(scan);
     m_Scan = rhombic::WithoutVoxels(scan);
     return scan;
@@ -183,6 +205,20 @@ private:
     {
       option = value;
       this->Modified();
+    }
+  }
+
+  /** Throws Failure (Geometry) for unevenly spaced slices that are not accepted. */
+  void
+  RequirePlaces(const rhombic::Scan & scan) const
+  {
+    if (!this->GetAcceptUneven() && !scan.sliceOrigins.empty())
+    {
+      throw rhombic::Failure(rhombic::FailureKind::Geometry,
+                             "Cannot read " + m_FileName +
+                               " as an ITK image alone: its slices are unevenly spaced, which no ITK image holds; "
+                               "call reader->AcceptUnevenOn(), and lattice->SetScan(reader->GetScan()) of the filter "
+                               "that brings the image to the lattice.");
     }
   }
 

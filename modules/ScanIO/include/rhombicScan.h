@@ -4,6 +4,8 @@
 #include "rhombicLabelTable.h"
 #include "rhombicPixelTypes.h"
 
+#include "itkSlicePlacement.h"
+
 #include "itkCommonEnums.h"
 
 #include <array>
@@ -145,7 +147,12 @@ WithoutVoxels(const Scan & scan);
 bool
 IsSlanted(const Scan & scan);
 
-/** Sets the SlicePlacement of a slanted scan's image; the outside value is 0 when the image has no voxels. */
+/** Where the scan's slices lie: what SetScan() of the filters to the lattice takes. Throws Failure (Usage) for a scan
+ * without an image, as a reader has before UpdateOutputInformation(). */
+itk::SlicePlacement
+PlacementOf(const Scan & scan);
+
+/** Sets the SlicePlacement of an unevenly spaced scan's image. */
 void
 AttachPlacement(const Scan & scan);
 

@@ -33,11 +33,13 @@ struct ScanReadOptions
    * other. */
   std::string series;
 
-  /** For stacks of slices that are tilted or unevenly spaced, and for sheared volumes. When accepted, they have
-   * Scan::sliceOrigins or a sheared direction. */
-  Policy onIrregular = Policy::Accept;
+  /** For stacks of slices that are tilted, and for sheared volumes. When accepted, their direction is sheared. */
+  Policy onTilted = Policy::Accept;
 
-  /** For stacks with missing slices. When accepted, the other slices are at their true positions. */
+  /** For stacks of slices that are unevenly spaced without a gap. When accepted, they have Scan::sliceOrigins. */
+  Policy onUneven = Policy::Refuse;
+
+  /** For stacks with missing slices. When accepted, the other slices are at Scan::sliceOrigins. */
   Policy onGap = Policy::Refuse;
 
   /** The volume of a file that holds several, from 0. */

@@ -1,6 +1,6 @@
 #include "rhombicScan.h"
 
-#include "itkSlicePlacement.h"
+#include "rhombicFailure.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -43,6 +43,7 @@ WithoutVoxels(const Scan & scan)
     [](auto & pointer) {
       const auto frame = std::decay_t<decltype(pointer)>::ObjectType::New();
       frame->CopyInformation(pointer);
+      frame->SetMetaDataDictionary(pointer->GetMetaDataDictionary());
       pointer = frame;
     },
     description.image);
@@ -55,22 +56,32 @@ IsSlanted(const Scan & scan)
   return !scan.sliceOrigins.empty() || !itk::AreAxesPerpendicular(GeometryOf(scan.image).GetDirection());
 }
 
+itk::SlicePlacement
+PlacementOf(const Scan & scan)
+{
+  if (ComponentTypeOf(scan.image) == itk::IOComponentEnum::UNKNOWNCOMPONENTTYPE)
+  {
+    throw Failure(
+      FailureKind::Usage,
+      "The places of a scan's slices are not known before it is read; call UpdateOutputInformation() of its "
+      "reader first.");
+  }
+  if (scan.sliceOrigins.empty())
+  {
+    return {};
+  }
+  const auto grid = itk::ImageBase<3>::New();
+  grid->CopyInformation(&GeometryOf(scan.image));
+  return { scan.sliceOrigins, grid.GetPointer() };
+}
+
 void
 AttachPlacement(const Scan & scan)
 {
-  if (!IsSlanted(scan))
+  if (!scan.sliceOrigins.empty())
   {
-    return;
+    std::visit([&scan](const auto & image) { itk::SetSlicePlacement(*image, PlacementOf(scan)); }, scan.image);
   }
-  std::visit(
-    [&scan](const auto & image) {
-      const auto * const begin = image->GetBufferPointer();
-      const auto * const end = begin + image->GetBufferedRegion().GetNumberOfPixels();
-      auto lowest = begin != end ? *begin : 0;
-      std::for_each(begin, end, [&lowest](auto value) { lowest = std::min<decltype(lowest)>(lowest, value); });
-      itk::SetSlicePlacement(*image, { scan.sliceOrigins, static_cast<double>(lowest) });
-    },
-    scan.image);
 }
 
 std::map<std::string, std::string>

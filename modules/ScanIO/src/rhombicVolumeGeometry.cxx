@@ -87,7 +87,7 @@ CheckGeometry(const VolumeGeometry & geometry,
     {
       RefuseGeometry(path,
                      "its " + matrix + " is sheared: its axes are " + degrees +
-                       " from perpendicular; accept irregular volumes, or resample it to perpendicular axes first");
+                       " from perpendicular; accept sheared volumes, or resample it to perpendicular axes first");
     }
     notes.push_back(path.string() + " is sheared: the axes of its " + matrix + " are " + degrees +
                     " from perpendicular.");

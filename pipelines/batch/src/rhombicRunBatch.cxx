@@ -76,6 +76,7 @@ double
 CountVoxels(const BatchCase & batchCase)
 {
   ScanReadOptions options;
+  options.onUneven = ScanReadOptions::Policy::Accept;
   options.onGap = ScanReadOptions::Policy::Accept;
   options.onSeveralFrames = ScanReadOptions::Policy::Accept;
   for (const std::string & option : batchCase.options)

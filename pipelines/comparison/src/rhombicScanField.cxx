@@ -74,7 +74,9 @@ CutOut(const TImage * image, const FieldBox & box)
 ScanField
 ReadScanField(const ScanFieldRequest & request)
 {
-  const Scan scan = OrderAlongPatient(ReadVoxels(OpenScan(request.file)));
+  ScanReadOptions options;
+  options.onUneven = ScanReadOptions::Policy::Accept; // refused below
+  const Scan scan = OrderAlongPatient(ReadVoxels(OpenScan(request.file, options)));
   if (IsSlanted(scan))
   {
     throw Failure(FailureKind::Unreadable,

@@ -307,7 +307,7 @@ AcceptUnevenSteps(const Slices & slices,
 {
   const std::string description = "the steps between them are uneven: " + DescribeBlocks(blocks) +
                                   "; slices are up to " + FormatNumber(offLine, 4) + " mm off a regular line";
-  if (options.onIrregular == Policy::Refuse)
+  if (options.onUneven == Policy::Refuse)
   {
     Refuse(slices, description, AdviceOnIrregular);
   }
@@ -320,7 +320,7 @@ AcceptTilt(const Slices & slices, double degrees, const ScanReadOptions & option
 {
   const std::string description =
     "they are sheared by " + FormatNumber(degrees, 4) + " degrees against their normal, as a tilted CT gantry does";
-  if (options.onIrregular == Policy::Refuse)
+  if (options.onTilted == Policy::Refuse)
   {
     Refuse(slices, description, AdviceOnIrregular);
   }

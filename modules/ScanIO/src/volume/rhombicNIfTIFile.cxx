@@ -261,8 +261,7 @@ ReadNIfTIVolume(const fs::path & path, const ScanReadOptions & options, Scan & s
   volume.voxels.isSwapped = header.isSwapped;
   volume.encoding = volume.voxels.isDeflated ? "gzip" : "raw";
   RequireVoxels({ sizes.begin(), sizes.end() }, false, headerFile, volume);
-  volume.geometry =
-    PlaceNIfTIVolume(header, { { sizes[0], sizes[1], sizes[2] } }, headerFile, options.onIrregular, scan);
+  volume.geometry = PlaceNIfTIVolume(header, { { sizes[0], sizes[1], sizes[2] } }, headerFile, options.onTilted, scan);
   volume.isOriented = scan.isOriented;
   volume.note = isAnalyze ? "is an Analyze 7.5 file; its voxels' sizes were used, and no scaling of values" : "";
   return volume;

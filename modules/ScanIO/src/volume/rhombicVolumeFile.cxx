@@ -109,7 +109,7 @@ ReadHeader(const fs::path & path, const ScanReadOptions & options, Scan & scan)
     return ReadNIfTIVolume(path, options, scan);
   }
   const StoredVolume volume = scan.format == "NRRD" ? ReadNRRDVolume(path) : ReadMetaImageVolume(path);
-  CheckGeometry(volume.geometry, path, volume.matrix, options.onIrregular, scan.notes);
+  CheckGeometry(volume.geometry, path, volume.matrix, options.onTilted, scan.notes);
   return volume;
 }
 
