@@ -130,7 +130,7 @@ TYPED_TEST(ImageFilterConformance, StreamsItsInput)
   constexpr unsigned int pieces = 4;
   const auto example = MakeExample<TypeParam>(9, { { 8, 9, 80 } });
   const auto source = TestFixture::Source::New(example.input);
-  const auto filter = TypeParam::Filter::New();
+  const auto filter = example.makeFilter();
   filter->SetInput(source->GetOutput());
   const auto streaming = itk::StreamingImageFilter<OutputImage, OutputImage>::New();
   streaming->SetInput(filter->GetOutput());

@@ -23,6 +23,15 @@ ScanFileReader<TOutputImage>::GenerateOutputInformation()
   if (this->GetAcceptGaps())
   {
     m_EarlyScan = this->ReadVoxels();
+    if (!this->GetAcceptUneven() && !m_EarlyScan.sliceOrigins.empty())
+    {
+      m_EarlyScan = {};
+      throw rhombic::Failure(
+        rhombic::FailureKind::Geometry,
+        std::string("Cannot read ") + this->GetFileName() +
+          " as an image: slices are missing, and no ITK image holds the places of the others; call "
+          "reader->AcceptUnevenOn() and lattice->SetScan(reader->GetScan()).");
+    }
   }
   const ImageBase<3> & frame = rhombic::GeometryOf(this->GetScan().image);
   this->GetOutput()->CopyInformation(&frame);

@@ -1,7 +1,6 @@
 #ifndef itkScanFileReaderBase_h
 #define itkScanFileReaderBase_h
 
-#include "rhombicFailure.h"
 #include "rhombicScanReader.h"
 
 #include "itkImageSource.h"
@@ -61,9 +60,9 @@ public:
     this->Assign(m_Options.frame, std::optional<std::size_t>(frame));
   }
 
-  /** Whether a stack with missing slices is read, with the other slices at their true positions; it needs AcceptUneven,
-   * too. Default false: it is refused. When on, UpdateOutputInformation() reads the voxels, too, to leave out the
-   * slices of damaged files. */
+  /** Whether a stack with missing slices is read, with the other slices at their true positions; ScanFileReader needs
+   * AcceptUneven, too. Default false: it is refused. When on, UpdateOutputInformation() reads the voxels, too, to leave
+   * out the slices of damaged files. */
   void
   SetAcceptGaps(bool accept)
   {
@@ -172,13 +171,11 @@ protected:
   GenerateOutputInformation() override
   {
     OptionsType options = m_Options;
-    options.onUneven = OptionsType::Policy::Accept; // RequirePlaces() refuses them
     options.progress = [this](double fraction) {
       this->UpdateProgress(static_cast<float>(fraction));
       this->CheckAbort();
     };
     m_File = rhombic::OpenScan(m_FileName, options);
-    this->RequirePlaces(m_File.scan);
     m_Scan = m_File.scan;
     rhombic::AttachPlacement(m_Scan);
   }
@@ -190,7 +187,6 @@ protected:
     this->UpdateProgress(0.0f);
     this->CheckAbort();
     rhombic::Scan scan = rhombic::ReadVoxels(m_File);
-    this->RequirePlaces(scan);
     rhombic::AttachPlacement(scan);
     m_Scan = rhombic::WithoutVoxels(scan);
     return scan;
@@ -205,20 +201,6 @@ private:
     {
       option = value;
       this->Modified();
-    }
-  }
-
-  /** Throws Failure (Geometry) for unevenly spaced slices that are not accepted. */
-  void
-  RequirePlaces(const rhombic::Scan & scan) const
-  {
-    if (!this->GetAcceptUneven() && !scan.sliceOrigins.empty())
-    {
-      throw rhombic::Failure(rhombic::FailureKind::Geometry,
-                             "Cannot read " + m_FileName +
-                               " as an ITK image alone: its slices are unevenly spaced, which no ITK image holds; "
-                               "call reader->AcceptUnevenOn(), and lattice->SetScan(reader->GetScan()) of the filter "
-                               "that brings the image to the lattice.");
     }
   }
 

@@ -278,8 +278,6 @@ DescribeBlocks(const std::vector<SliceBlock> & blocks)
   return text + (blocks.size() > named ? ", ..." : "");
 }
 
-constexpr char AdviceOnIrregular[] = "leave out --on-irregular=error to have them resampled from their true positions";
-
 /** A note on gaps. Throws Failure when they are not accepted. */
 std::string
 AcceptGaps(const Slices & slices,
@@ -309,7 +307,10 @@ AcceptUnevenSteps(const Slices & slices,
                                   "; slices are up to " + FormatNumber(offLine, 4) + " mm off a regular line";
   if (options.onUneven == Policy::Refuse)
   {
-    Refuse(slices, description, AdviceOnIrregular);
+    Refuse(slices,
+           description,
+           "leave out --on-irregular=error, or in a program call reader->AcceptUnevenOn() and "
+           "lattice->SetScan(reader->GetScan()), to have them resampled from their true positions");
   }
   return "The slices are resampled from their true positions, because " + description + ".";
 }
@@ -322,7 +323,7 @@ AcceptTilt(const Slices & slices, double degrees, const ScanReadOptions & option
     "they are sheared by " + FormatNumber(degrees, 4) + " degrees against their normal, as a tilted CT gantry does";
   if (options.onTilted == Policy::Refuse)
   {
-    Refuse(slices, description, AdviceOnIrregular);
+    Refuse(slices, description, "leave out --on-irregular=error to have them resampled from their true positions");
   }
   return "The slices are resampled from their true positions: " + description + ".";
 }
