@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -64,7 +65,16 @@ TEST(WorkProgress, NoticesAnAbort)
   EXPECT_THROW(progress.CheckAbort(), itk::ProcessAborted);
   EXPECT_THROW(progress.Completed(1), itk::ProcessAborted);
   EXPECT_THROW(share.CheckAbort(), itk::ProcessAborted);
-  EXPECT_THROW(share.Completed(1), itk::ProcessAborted);
+  try
+  {
+    share.Completed(1);
+    FAIL() << "nothing was thrown";
+  }
+  catch (const itk::ProcessAborted & aborted)
+  {
+    EXPECT_NE(std::string(aborted.GetLocation()), "");
+    EXPECT_NE(std::string(aborted.GetFile()).find("itkWorkProgress.h"), std::string::npos);
+  }
 }
 
 } // namespace

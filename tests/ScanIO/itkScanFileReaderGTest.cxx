@@ -150,7 +150,7 @@ TEST_F(ScanFileReader, IsModifiedByChangesOnly)
   }
   EXPECT_STREQ(reader->GetFileName(), "scan");
   EXPECT_EQ(reader->GetSeries(), "2");
-  EXPECT_EQ(reader->GetOptions().frame, 3u);
+  EXPECT_EQ(reader->GetFrame(), 3u);
   EXPECT_TRUE(reader->GetAcceptGaps());
   EXPECT_FALSE(reader->GetAcceptTilted());
   EXPECT_TRUE(reader->GetAcceptUneven());

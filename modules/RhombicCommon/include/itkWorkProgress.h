@@ -39,6 +39,7 @@ public:
     if (m_Filter.GetAbortGenerateData())
     {
       ProcessAborted aborted(__FILE__, __LINE__);
+      aborted.SetLocation(ITK_LOCATION);
       aborted.SetDescription(std::string(m_Filter.GetNameOfClass()) + ": AbortGenerateData was set.");
       throw aborted;
     }

@@ -31,12 +31,17 @@ enum class FailureKind : int
  * \brief The exception of every Rhombic module outside `namespace itk`.
  *
  * The description is one sentence for the user: what failed, where, and one thing to try. It derives from
- * itk::ExceptionObject, so a host that catches ITK's exceptions catches it too.
+ * itk::ExceptionObject, so a host that catches ITK's exceptions catches it too. Its file, line and location are those
+ * of the call of its constructor.
  */
 class Failure : public itk::ExceptionObject
 {
 public:
-  Failure(FailureKind kind, const std::string & description);
+  Failure(FailureKind kind,
+          const std::string & description,
+          const char * file = __builtin_FILE(),
+          unsigned int line = __builtin_LINE(),
+          const char * location = __builtin_FUNCTION());
 
   FailureKind
   GetKind() const

@@ -5,8 +5,12 @@
 namespace rhombic
 {
 
-Failure::Failure(FailureKind kind, const std::string & description)
-  : itk::ExceptionObject("Rhombic", 0, description)
+Failure::Failure(FailureKind kind,
+                 const std::string & description,
+                 const char * file,
+                 unsigned int line,
+                 const char * location)
+  : itk::ExceptionObject(file, line, description, location)
   , m_Kind(kind)
 {}
 

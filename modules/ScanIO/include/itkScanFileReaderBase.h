@@ -59,6 +59,11 @@ public:
   {
     this->Assign(m_Options.frame, std::optional<std::size_t>(frame));
   }
+  const std::optional<std::size_t> &
+  GetFrame() const
+  {
+    return m_Options.frame;
+  }
 
   /** Whether a stack with missing slices is read, with the other slices at their true positions; ScanFileReader needs
    * AcceptUneven, too. Default false: it is refused. When on, UpdateOutputInformation() reads the voxels, too, to leave
@@ -210,6 +215,7 @@ private:
     if (this->GetAbortGenerateData())
     {
       ProcessAborted aborted(__FILE__, __LINE__);
+      aborted.SetLocation(ITK_LOCATION);
       aborted.SetDescription(std::string(this->GetNameOfClass()) + ": AbortGenerateData was set.");
       throw aborted;
     }
