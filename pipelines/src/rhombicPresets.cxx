@@ -2,14 +2,13 @@
 
 #include "rhombicBuiltInPresets.h"
 #include "rhombicFailure.h"
+#include "rhombicTextFile.h"
 #include "rhombicWording.h"
 #include "rhombicYAMLKeys.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 namespace fs = std::filesystem;
 
@@ -141,14 +140,7 @@ IsYamlPath(const std::string & text)
 Preset
 ReadPreset(const fs::path & path)
 {
-  std::ifstream stream(path);
-  if (!stream)
-  {
-    throw Failure(FailureKind::NotFound, "There is no preset file " + path.string() + "; check the path.");
-  }
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return ParsePreset(text.str(), path.string());
+  return ParsePreset(ReadTextFile(path, "preset file"), path.string());
 }
 
 } // namespace

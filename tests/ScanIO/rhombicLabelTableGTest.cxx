@@ -233,6 +233,42 @@ TEST(LabelTable, NamesLineAndFaultOfBadRows)
   ExpectRefusal("1 a\x1b[31m\n b 1 2 3 \x1b\x01\n", "t.txt");
 }
 
+TEST(LabelTable, ReadsTablesOfOtherPrograms)
+{
+  for (const std::string & text :
+       { std::string("index,name\n0,background\n1,liver\n12,\"kidney, left\"\n"),
+         std::string("\xEF\xBB\xBFlabel;name\r\n0;background\r\n1;liver\r\n12;kidney, left\r\n"),
+         std::string("Value\tName\n0\tbackground\n1\tliver\n12\tkidney, left\n"),
+         std::string("name,value\nbackground,0\nliver,1\n\"kidney, left\",12\n"),
+         std::string("0 background\n1 liver\n12 kidney, left\n"),
+         std::string("\xEF\xBB\xBF"
+                     "0\tbackground\r\n1\tliver\r\n12\t\"kidney, left\"\r\n"),
+         std::string("{ \"channel_names\": { \"0\": \"CT\" },\n \"labels\": { \"background\": 0, "
+                     "\"liver\": 1, \"kidney, left\": [12] } }"),
+         std::string("\xEF\xBB\xBF{\"labels\":{\"0\":\"background\",\"12\":\"kidney, "
+                     "left\",\"1\":\"liver\"}}") })
+  {
+    const LabelTable table = ParseLabelTable(text, "t.txt");
+    ASSERT_EQ(table.size(), 3U) << text;
+    EXPECT_EQ(table[1].value, 1);
+    EXPECT_EQ(table[1].name, "liver") << text;
+    EXPECT_EQ(table[1].colour, rhombic::AnatomicalColour("liver", 1));
+    EXPECT_EQ(table[2].value, 12);
+    EXPECT_EQ(table[2].name, "kidney, left") << text;
+    EXPECT_TRUE(table[2].isVisible);
+  }
+  ExpectRefusal("{\"labels\": {\"background\": 0, \"whole tumour\": [1, 2], \"core\": 2}}",
+                "\"whole tumour\" is a region of several values");
+  ExpectRefusal("{\"labels\": [\"liver\"]}", "no object \"labels\"");
+  ExpectRefusal("{\"labels\": {\"liver\": 1, \"spleen\": 1}}", "value 1 is given twice");
+  ExpectRefusal("{\"labels\": {\"liver\": 1.5}}", "no whole number");
+  ExpectRefusal("{\"labels\": {\"liver\"", "no object");
+  ExpectRefusal(std::string("\xFF\xFE"
+                            "1\0 \0l\0",
+                            8),
+                "UTF-16");
+}
+
 TEST(LabelTable, RefusesOtherTexts)
 {
   for (const std::string & text : { std::string(),
@@ -242,7 +278,7 @@ TEST(LabelTable, RefusesOtherTexts)
                                     std::string("1 2 3 4 5 6 7\n"),
                                     std::string("1 a 1 2 3 0\n\0", 13) })
   {
-    ExpectRefusal(text, "it is no label table of ITK-SNAP, 3D Slicer, FreeSurfer or BIDS");
+    ExpectRefusal(text, "it is no label table of ITK-SNAP, 3D Slicer, FreeSurfer, BIDS or nnU-Net");
   }
   ExpectRefusal("# Color procedural file a\n# 2 points\n0 0 0 0\n", "its colours are those of a scale");
 }
@@ -372,6 +408,19 @@ TEST_F(LabelTableFile, FindsTablesBesideLabelMaps)
   EXPECT_EQ(FindLabelTable(map)->size(), 3U);
   this->Write("body.ctbl", Replaced(SlicerText, "102", "1020"));
   EXPECT_THROW(FindLabelTable(map), Failure);
+}
+
+TEST_F(LabelTableFile, FindsTheDatasetOfLabelMaps)
+{
+  const fs::path folder = m_Folder / "Dataset001" / "labelsTr";
+  fs::create_directories(folder);
+  EXPECT_FALSE(rhombic::FindDatasetTable(folder / "case_001.nii.gz").has_value());
+  this->Write("Dataset001/dataset.json", "{\"labels\": {\"background\": 0, \"liver\": 1}}");
+  EXPECT_EQ(rhombic::FindDatasetTable(folder / "case_001.nii.gz")->at(1).name, "liver");
+  this->Write("Dataset001/labelsTr/dataset.json", "{\"Name\": \"of something else\"}");
+  EXPECT_EQ(rhombic::FindDatasetTable(folder / "case_001.nii.gz")->at(1).name, "liver");
+  this->Write("Dataset001/labelsTr/dataset.json", "{\"labels\": {\"spleen\": 1}}");
+  EXPECT_EQ(rhombic::FindDatasetTable(folder / "case_001.nii.gz")->at(0).name, "spleen");
 }
 
 const std::map<std::string, std::string> Segments{

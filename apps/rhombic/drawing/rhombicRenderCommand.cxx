@@ -7,6 +7,7 @@
 #include "rhombicNamedValues.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicSurfaceOptions.h"
+#include "rhombicTextFile.h"
 #include "rhombicVTPToPLY.h"
 #include "rhombicWording.h"
 
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <optional>
@@ -359,12 +359,7 @@ IsOption(const std::string & argument, const std::string & option)
 std::vector<std::string>
 ReadArguments(const std::string & path, bool areViewsGiven)
 {
-  std::ifstream file(path);
-  if (!file)
-  {
-    throw Failure(FailureKind::NotFound, "There is no report " + path + "; name a picture's .json file.");
-  }
-  const auto report = nlohmann::json::parse(file, nullptr, false);
+  const auto report = nlohmann::json::parse(ReadTextFile(path, "report"), nullptr, false);
   const auto stored = report.is_object() ? report.value("arguments", nlohmann::json()) : nlohmann::json();
   const auto command = std::find(stored.begin(), stored.end(), "render"); // options of all commands may stand before
   if (!stored.is_array() || command == stored.end())

@@ -29,13 +29,16 @@ struct Label
 /** Sorted by value, each value once. */
 using LabelTable = std::vector<Label>;
 
-/** Reads the text of a label table: an ITK-SNAP label description, a 3D Slicer colour table (.ctbl, or .csv with
- * columns LabelValue and Name), a FreeSurfer colour table, or a BIDS table (_dseg.tsv). The format is recognised by the
- * content, and by the extension of \a source where a 3D Slicer and a FreeSurfer table look the same: the last number is
- * the opacity in one and the transparency in the other. \a source is the text's name in messages; it is not opened.
+/** Reads the text of a label table: an ITK-SNAP label description, a 3D Slicer colour table (.ctbl), a FreeSurfer
+ * colour table, a table with a header that names the columns LabelValue, index, label or value, and Name, between
+ * commas, semicolons or tabs (3D Slicer's .csv, BIDS' _dseg.tsv, and others), lines of a value and a name, or an
+ * nnU-Net dataset.json. The format is recognised by the content, and by the extension of \a source where a 3D Slicer
+ * and a FreeSurfer table look the same: the last number is the opacity in one and the transparency in the other. A byte
+ * order mark of UTF-8 is skipped. \a source is the text's name in messages; it is not opened.
  *
  * Labels without a colour get one by their names (data/anatomical-colours.tsv). Throws Failure(Unreadable), naming the
- * line, for any other text, values out of range, values given twice, more than 1 MiB, and more than 100,000 lines. */
+ * line, for any other text, text in UTF-16, nnU-Net regions of several values, values out of range, values given twice,
+ * more than 1 MiB, and more than 100,000 lines. */
 LabelTable
 ParseLabelTable(std::string_view text, const std::string & source);
 
@@ -48,6 +51,15 @@ ReadLabelTable(const std::filesystem::path & path);
  * neither. Throws Failure(Unreadable) for a table with mistakes. */
 std::optional<LabelTable>
 FindLabelTable(const std::filesystem::path & volumePath);
+
+/** The labels of a dataset.json of nnU-Net in the folder of a label map or the one above, which is of all label maps
+ * there. Throws as FindLabelTable() does. */
+std::optional<LabelTable>
+FindDatasetTable(const std::filesystem::path & volumePath);
+
+/** The name of a volume file without its folder and extensions: "liver" of "masks/liver.seg.nrrd". */
+std::string
+StemOfVolume(const std::filesystem::path & volumePath);
 
 /** A label's name, safe to show: valid UTF-8 of at most 100 bytes without control characters, changes of writing
  * direction, or spaces at its ends or in a row. "label N" when nothing is left. */

@@ -1,6 +1,7 @@
 #include "rhombicPipelineFile.h"
 
 #include "rhombicFailure.h"
+#include "rhombicTextFile.h"
 #include "rhombicWording.h"
 #include "rhombicYAMLKeys.h"
 
@@ -250,18 +251,7 @@ private:
 std::string
 ReadPipelineText(const fs::path & path)
 {
-  if (path.empty())
-  {
-    return defaultPipeline;
-  }
-  std::ifstream stream(path);
-  if (!stream)
-  {
-    throw Failure(FailureKind::NotFound, "There is no pipeline file " + path.string() + "; check the path.");
-  }
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
+  return path.empty() ? defaultPipeline : ReadTextFile(path, "pipeline file");
 }
 
 } // namespace

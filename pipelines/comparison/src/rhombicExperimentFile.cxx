@@ -1,6 +1,7 @@
 #include "rhombicComparison.h"
 #include "rhombicComparedMethod.h"
 #include "rhombicFailure.h"
+#include "rhombicTextFile.h"
 #include "rhombicWording.h"
 
 #include <yaml-cpp/yaml.h>
@@ -126,14 +127,11 @@ ParseExperiment(const YAML::Node & node, const std::filesystem::path & scans)
 ComparisonRequest
 ReadComparisonRequest(const std::filesystem::path & path, const std::filesystem::path & scans)
 {
-  if (!std::filesystem::is_regular_file(path))
-  {
-    throw Failure(FailureKind::NotFound, "There is no file " + path.string() + "; name a file of experiments.");
-  }
+  const std::string text = ReadTextFile(path, "file of experiments");
   try
   {
     ComparisonRequest request;
-    Map map(YAML::LoadFile(path.string()));
+    Map map(YAML::Load(text));
     map.Get("title", request.title);
     map.Get("text", request.text);
     map.Get("lattices", request.hasLattices);

@@ -1,10 +1,8 @@
 #include "rhombicLabelTable.h"
 
-#include "rhombicFailure.h"
 #include "rhombicLabelTableFormats.h"
+#include "rhombicTextFile.h"
 #include "rhombicWording.h"
-
-#include <fstream>
 
 namespace fs = std::filesystem;
 
@@ -12,29 +10,6 @@ namespace rhombic
 {
 namespace
 {
-
-/** A file of at most LongestLabelTable bytes; one byte more of longer files. */
-std::string
-ReadText(const fs::path & path)
-{
-  if (!fs::exists(path))
-  {
-    throw Failure(FailureKind::NotFound, "There is no label table " + path.string() + "; check the path.");
-  }
-  std::ifstream file;
-  if (fs::is_regular_file(path)) // opening a pipe would wait for its other end
-  {
-    file.open(path, std::ios::binary);
-  }
-  if (!file.is_open())
-  {
-    RefuseTable({ path.string() }, "it is no file, or not yours to read; name a file of labels");
-  }
-  std::string text(LongestLabelTable + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  return text;
-}
 
 /** The labels of a text; nothing when it is no label table. */
 std::optional<LabelTable>
@@ -44,6 +19,7 @@ ParseIfLabelTable(std::string_view text, const std::string & source)
   {
     return std::nullopt;
   }
+  text = WithoutByteOrderMark(text, source);
   const std::vector<TextLine> lines = LinesOfTable(text, source);
   switch (RecogniseLabelTable(text, lines, source))
   {
@@ -51,12 +27,14 @@ ParseIfLabelTable(std::string_view text, const std::string & source)
       return ParseITKSNAPTable(lines, source);
     case LabelTableFormat::SlicerText:
       return ParseSlicerTable(lines, source);
-    case LabelTableFormat::SlicerCSV:
-      return ParseSlicerCSV(lines, source);
     case LabelTableFormat::FreeSurfer:
       return ParseFreeSurferTable(lines, source);
-    case LabelTableFormat::BIDS:
-      return ParseBIDSTable(lines, source);
+    case LabelTableFormat::Columns:
+      return ParseColumnTable(lines, source);
+    case LabelTableFormat::ValueAndName:
+      return ParseValuesAndNames(lines, source);
+    case LabelTableFormat::DatasetJSON:
+      return ParseDatasetJSON(text, source);
     case LabelTableFormat::SlicerProcedural:
       RefuseTable({ source }, "its colours are those of a scale, not of labels; choose a table of labels");
     case LabelTableFormat::None:
@@ -65,9 +43,10 @@ ParseIfLabelTable(std::string_view text, const std::string & source)
   return std::nullopt;
 }
 
-/** The name of a label map without the extensions of volumes. */
+} // namespace
+
 std::string
-StemOf(const fs::path & volumePath)
+StemOfVolume(const fs::path & volumePath)
 {
   std::string name = volumePath.filename().string();
   for (const std::string extension : { ".gz", ".nii", ".hdr", ".img", ".nrrd", ".nhdr", ".seg", ".mha", ".mhd" })
@@ -78,8 +57,6 @@ StemOf(const fs::path & volumePath)
   }
   return name;
 }
-
-} // namespace
 
 LabelTable
 ParseLabelTable(std::string_view text, const std::string & source)
@@ -92,14 +69,16 @@ ParseLabelTable(std::string_view text, const std::string & source)
   {
     return *std::move(table);
   }
-  RefuseTable({ source },
-              "it is no label table of ITK-SNAP, 3D Slicer, FreeSurfer or BIDS; save the labels as one of these");
+  RefuseTable(
+    { source },
+    "it is no label table of ITK-SNAP, 3D Slicer, FreeSurfer, BIDS or nnU-Net, and has no columns of values and "
+    "names; save the labels as one of these");
 }
 
 LabelTable
 ReadLabelTable(const fs::path & path)
 {
-  return ParseLabelTable(ReadText(path), path.string());
+  return ParseLabelTable(ReadTextFile(path, "label table", LongestLabelTable), path.string());
 }
 
 std::optional<LabelTable>
@@ -115,10 +94,28 @@ FindLabelTable(const fs::path & volumePath)
   }
   for (const char * const sideCarExtension : { ".ctbl", ".csv", ".tsv", ".label", ".txt" })
   {
-    const fs::path sideCar = volumePath.parent_path() / (StemOf(volumePath) + sideCarExtension);
+    const fs::path sideCar = volumePath.parent_path() / (StemOfVolume(volumePath) + sideCarExtension);
     if (fs::is_regular_file(sideCar))
     {
-      if (auto table = ParseIfLabelTable(ReadText(sideCar), sideCar.string()))
+      if (auto table = ParseIfLabelTable(ReadTextFile(sideCar, "label table", LongestLabelTable), sideCar.string()))
+      {
+        return table;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<LabelTable>
+FindDatasetTable(const fs::path & volumePath)
+{
+  const fs::path folder = fs::absolute(volumePath).parent_path();
+  for (const fs::path & place : { folder, folder.parent_path() })
+  {
+    const fs::path dataset = place / "dataset.json";
+    if (fs::is_regular_file(dataset))
+    {
+      if (auto table = ParseIfLabelTable(ReadTextFile(dataset, "label table", LongestLabelTable), dataset.string()))
       {
         return table;
       }

@@ -7,6 +7,10 @@
 #include <charconv>
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <utility>
+
+#include <nlohmann/json.hpp>
 
 namespace rhombic
 {
@@ -151,16 +155,54 @@ IsAlphaAlwaysZero(const std::vector<TextLine> & lines)
     lines.begin(), lines.end(), [](const TextLine & line) { return SplitWords(line.text).back() == "0"; });
 }
 
-bool
-HasColumns(std::string_view header, char separator, const std::string & first, const std::string & second)
+/** A label with the colour of its name. */
+Label
+NamedLabel(std::int32_t value, std::string_view name)
+{
+  Label label;
+  label.value = value;
+  label.name = SanitizeLabelName(name, value);
+  label.colour = AnatomicalColour(label.name, value);
+  return label;
+}
+
+/** The separator of a header's columns, and the name of the column of values in lower case. */
+struct LabelColumns
+{
+  char separator;
+  std::string value;
+};
+
+/** Nothing for a line that does not name columns of values and names. */
+std::optional<LabelColumns>
+FindLabelColumns(std::string_view header)
 {
   const std::string lower = LowerCase(header);
   if (std::count(lower.begin(), lower.end(), '"') % 2 != 0)
   {
-    return false;
+    return std::nullopt;
   }
-  const std::vector<std::string> names = FieldsOf(lower, separator, { lower });
-  return std::count(names.begin(), names.end(), first) > 0 && std::count(names.begin(), names.end(), second) > 0;
+  for (const char separator : { ',', ';', '\t' })
+  {
+    const std::vector<std::string> names = FieldsOf(lower, separator, { lower });
+    for (const char * const value : { "labelvalue", "index", "label", "value" })
+    {
+      if (std::count(names.begin(), names.end(), value) > 0 && std::count(names.begin(), names.end(), "name") > 0)
+      {
+        return LabelColumns{ separator, value };
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/** Whether a line is a whole number and a name, not a row of numbers. */
+bool
+LooksLikeValueAndName(const TextLine & line)
+{
+  const std::vector<std::string_view> words = SplitWords(line.text);
+  return words.size() >= 2 && ToNumber<std::int32_t>(words[0]) && !IsNumber(words[1]) &&
+         (words.size() < 4 || !std::all_of(words.end() - 2, words.end(), IsNumber));
 }
 
 } // namespace
@@ -173,13 +215,13 @@ RecogniseLabelTable(std::string_view text, const std::vector<TextLine> & lines, 
     return LabelTableFormat::None;
   }
   const std::string_view first = lines.front().text;
-  if (HasColumns(first, ',', "labelvalue", "name"))
+  if (first.front() == '{' && text.find("\"labels\"") != std::string_view::npos)
   {
-    return LabelTableFormat::SlicerCSV;
+    return LabelTableFormat::DatasetJSON;
   }
-  if (HasColumns(first, '\t', "index", "name"))
+  if (FindLabelColumns(first))
   {
-    return LabelTableFormat::BIDS;
+    return LabelTableFormat::Columns;
   }
 
   constexpr std::size_t longestBeginning = 4096;
@@ -205,7 +247,8 @@ RecogniseLabelTable(std::string_view text, const std::vector<TextLine> & lines, 
   {
     return IsAlphaAlwaysZero(lines) ? LabelTableFormat::FreeSurfer : LabelTableFormat::SlicerText;
   }
-  return LabelTableFormat::None;
+  return std::all_of(lines.begin(), lines.end(), LooksLikeValueAndName) ? LabelTableFormat::ValueAndName
+                                                                        : LabelTableFormat::None;
 }
 
 LabelTable
@@ -253,21 +296,24 @@ ParseFreeSurferTable(const std::vector<TextLine> & lines, const std::string & so
 }
 
 LabelTable
-ParseSlicerCSV(const std::vector<TextLine> & lines, const std::string & source)
+ParseColumnTable(const std::vector<TextLine> & lines, const std::string & source)
 {
-  const ColumnTable table(lines, ',', source);
-  return CollectRows(WithoutHeader(lines), source, [&table](std::string_view line, const TablePlace & place) {
+  const std::optional<LabelColumns> columns = FindLabelColumns(lines.front().text);
+  const ColumnTable table(lines, columns.value().separator, source);
+  return CollectRows(WithoutHeader(lines), source, [&](std::string_view line, const TablePlace & place) {
     const std::vector<std::string> row = table.ReadRow(line, place);
     const std::string red = table.Get(row, "color_r");
     const std::string green = table.Get(row, "color_g");
     const std::string blue = table.Get(row, "color_b");
     const std::string alpha = table.Get(row, "color_a");
-    const bool hasColour = !red.empty() || !green.empty() || !blue.empty();
+    const std::string colour = table.Get(row, "color");
 
     Label label;
-    label.value = LabelValue(table.Get(row, "labelvalue"), place);
+    label.value = LabelValue(table.Get(row, columns->value), place);
     label.name = SanitizeLabelName(table.Get(row, "name"), label.value);
-    label.colour = hasColour ? ByteColour(red, green, blue, place) : AnatomicalColour(label.name, label.value);
+    label.colour = !red.empty() || !green.empty() || !blue.empty() ? ByteColour(red, green, blue, place)
+                   : !colour.empty() && colour != "n/a"            ? HexColour(colour, place)
+                                                                   : AnatomicalColour(label.name, label.value);
     label.opacity = alpha.empty() ? 1 : WholeNumber(alpha, 0, 255, "alpha", place) / 255.0;
     label.isVisible = label.opacity > 0;
     return label;
@@ -275,20 +321,50 @@ ParseSlicerCSV(const std::vector<TextLine> & lines, const std::string & source)
 }
 
 LabelTable
-ParseBIDSTable(const std::vector<TextLine> & lines, const std::string & source)
+ParseValuesAndNames(const std::vector<TextLine> & lines, const std::string & source)
 {
-  const ColumnTable table(lines, '\t', source);
-  return CollectRows(WithoutHeader(lines), source, [&table](std::string_view line, const TablePlace & place) {
-    const std::vector<std::string> row = table.ReadRow(line, place);
-    const std::string colour = table.Get(row, "color");
-    const bool hasColour = !colour.empty() && colour != "n/a";
-
-    Label label;
-    label.value = LabelValue(table.Get(row, "index"), place);
-    label.name = SanitizeLabelName(table.Get(row, "name"), label.value);
-    label.colour = hasColour ? HexColour(colour, place) : AnatomicalColour(label.name, label.value);
-    return label;
+  return CollectRows(lines, source, [](std::string_view line, const TablePlace & place) {
+    const std::string_view value = SplitWords(line).front();
+    return NamedLabel(LabelValue(value, place), WithoutQuotes(Trim(line.substr(value.size()))));
   });
+}
+
+LabelTable
+ParseDatasetJSON(std::string_view json, const std::string & source)
+{
+  const auto dataset = nlohmann::json::parse(json.begin(), json.end(), nullptr, false);
+  const auto labels = dataset.is_object() ? dataset.value("labels", nlohmann::json()) : nlohmann::json();
+  if (!labels.is_object())
+  {
+    RefuseTable({ source }, "it has no object \"labels\", as a dataset.json of nnU-Net has; check that it is one");
+  }
+  LabelCollector collector;
+  for (const auto & [key, value] : labels.items())
+  {
+    const auto & number = value.is_array() && value.size() == 1 ? value.front() : value;
+    if (value.is_array() && value.size() > 1)
+    {
+      RefuseTable({ source },
+                  "its label " + Quoted(key) +
+                    " is a region of several values, and a label map has one value in a voxel; give a label table "
+                    "with a name for each value");
+    }
+    if (number.is_string()) // "1": "liver"
+    {
+      const auto name = number.get<std::string>();
+      const auto [text, what] = ToNumber<std::int32_t>(name) ? std::pair(name, key) : std::pair(key, name);
+      collector.Add(NamedLabel(LabelValue(text, { source }), what), { source });
+    }
+    else if (number.is_number_integer())
+    {
+      collector.Add(NamedLabel(LabelValue(number.dump(), { source }), key), { source });
+    }
+    else
+    {
+      RefuseTable({ source }, "its label " + Quoted(key) + " has no whole number; correct it");
+    }
+  }
+  return collector.Take();
 }
 
 } // namespace rhombic

@@ -20,9 +20,10 @@ enum class LabelTableFormat
   ITKSNAP,
   SlicerText,
   SlicerProcedural, ///< colours of a scale, not of labels: refused
-  SlicerCSV,
   FreeSurfer,
-  BIDS
+  Columns,      ///< with a header: 3D Slicer's .csv, BIDS, and others
+  ValueAndName, ///< lines as `1 liver`
+  DatasetJSON   ///< nnU-Net
 };
 
 /** Recognises a text's format by its comments, its header or its first row, and by the extension of \a source where
@@ -42,20 +43,29 @@ ParseSlicerTable(const std::vector<TextLine> & lines, const std::string & source
 LabelTable
 ParseFreeSurferTable(const std::vector<TextLine> & lines, const std::string & source);
 
-/** Parses a header and rows with at least LabelValue and Name; Color_R, _G and _B, and Color_A (opacity) may be
- * missing. */
+/** Parses a header and rows with at least a value (LabelValue, index, label or value) and a name; Color_R, _G and _B,
+ * and Color_A (opacity), or color (#rrggbb) may be missing. The separator is the header's. */
 LabelTable
-ParseSlicerCSV(const std::vector<TextLine> & lines, const std::string & source);
+ParseColumnTable(const std::vector<TextLine> & lines, const std::string & source);
 
-/** Parses a header and rows with at least index and name; color (#rrggbb) may be missing. */
+/** Parses all lines as rows `value name`. */
 LabelTable
-ParseBIDSTable(const std::vector<TextLine> & lines, const std::string & source);
+ParseValuesAndNames(const std::vector<TextLine> & lines, const std::string & source);
+
+/** Parses the labels of nnU-Net's dataset.json: names with values, or, as before version 2, values with names. Throws
+ * for labels that are regions of several values. */
+LabelTable
+ParseDatasetJSON(std::string_view json, const std::string & source);
 
 /** The segments of one \a layer of a 3D Slicer segmentation (.seg.nrrd), from the key/value pairs of its NRRD header
  * (Segment0_Name, Segment0_LabelValue, ...); each layer numbers its segments independently. Empty when there are none.
  * \a source is for messages. Throws Failure(Unreadable), naming the key. */
 LabelTable
 LabelsOfSegments(const std::map<std::string, std::string> & keyValues, const std::string & source, int layer = 0);
+
+/** Whether the key/value pairs of a NRRD header describe segments. */
+bool
+HasSegments(const std::map<std::string, std::string> & keyValues);
 
 /** The labels in XML as Caret and Connectome Workbench write it:
  * `<LabelTable><Label Key="1" Red="1" Green="0" Blue="0" Alpha="1">liver</Label>`, colours from 0 to 1; empty when

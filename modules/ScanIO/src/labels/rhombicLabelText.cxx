@@ -13,7 +13,6 @@ namespace
 {
 
 constexpr std::size_t MostLines = 100'000;
-constexpr std::string_view ByteOrderMark = "\xEF\xBB\xBF";
 
 } // namespace
 
@@ -37,10 +36,6 @@ Quoted(std::string_view text)
 std::vector<TextLine>
 LinesOfTable(std::string_view text, const std::string & source)
 {
-  if (text.substr(0, ByteOrderMark.size()) == ByteOrderMark)
-  {
-    text.remove_prefix(ByteOrderMark.size());
-  }
   std::vector<TextLine> lines;
   for (std::size_t number = 1; !text.empty(); ++number)
   {

@@ -38,7 +38,7 @@ RefuseTable(const TablePlace & place, const std::string & why);
 std::string
 Quoted(std::string_view text);
 
-/** The lines of a text that are neither blank nor begin with '#'. A byte order mark is skipped. Throws for more than
+/** The lines of a text that are neither blank nor begin with '#'. Throws for more than
  * 100,000 lines. */
 std::vector<TextLine>
 LinesOfTable(std::string_view text, const std::string & source);

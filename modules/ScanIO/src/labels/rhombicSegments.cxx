@@ -37,6 +37,12 @@ SegmentNumbers(const KeyValues & keyValues)
 
 } // namespace
 
+bool
+HasSegments(const KeyValues & keyValues)
+{
+  return !SegmentNumbers(keyValues).empty();
+}
+
 LabelTable
 LabelsOfSegments(const KeyValues & keyValues, const std::string & source, int layer)
 {
