@@ -15,7 +15,7 @@ namespace
 struct InfoOptions
 {
   ScanOptions scan;
-  std::string labels;
+  std::vector<std::string> labels;
   std::string labelTable;
   bool isJson = false;
 };
@@ -194,7 +194,8 @@ void
 Info(const InfoOptions & options, const CommandContext & context)
 {
   const ScanSource source = options.scan.GetSource(context);
-  const ScanDescription description = DescribeScan(source, { options.labels, options.labelTable });
+  const ScanDescription description =
+    DescribeScan(source, { { options.labels.begin(), options.labels.end() }, options.labelTable });
   if (options.isJson)
   {
     std::cout << ToJson(ReportDescription(description)) << '\n';
@@ -217,10 +218,15 @@ AddInfoCommand(CLI::App & parser)
 {
   const auto options = std::make_shared<InfoOptions>();
   options->scan.AddSource(parser);
-  parser.add_option("--labels", options->labels, "a label map of the scan: NIfTI, NRRD, MetaImage or DICOM SEG");
-  parser.add_option("--label-table",
-                    options->labelTable,
-                    "names and colours of labels (ITK-SNAP, Slicer, FreeSurfer, BIDS; default: in or beside the map)");
+  parser
+    .add_option("--labels",
+                options->labels,
+                "a label map of the scan: NIfTI, NRRD, MetaImage or DICOM SEG, or a folder of masks; repeatable")
+    ->allow_extra_args(false);
+  parser.add_option(
+    "--label-table",
+    options->labelTable,
+    "names and colours of labels (ITK-SNAP, Slicer, FreeSurfer, BIDS, nnU-Net, CSV; default: in or beside the map)");
   parser.add_flag("--json", options->isJson, "as JSON, on standard output");
   return [options](const CommandContext & context) { Info(*options, context); };
 }

@@ -40,7 +40,8 @@ ParsePolicy(const std::string & option, const std::string & text, const std::str
 void
 ScanOptions::AddSource(CLI::App & parser)
 {
-  parser.add_option("SCAN", m_Path, "DICOM folder, or NIfTI, NRRD or MetaImage file, or a lattice volume (.fcc.nrrd)");
+  parser.add_option(
+    "SCAN", m_Path, "DICOM folder, NIfTI, NRRD or MetaImage file, folder of masks, or a lattice volume (.fcc.nrrd)");
   parser.add_option("--series",
                     m_Series,
                     "which DICOM series: id, UID, position in the list or SeriesNumber (default: the one with at least "

@@ -46,10 +46,13 @@ SurfaceOptions::Add(CLI::App & parser)
                 "<number for what lies below, otsu, otsu-low, otsu-lowest or otsu-high; repeatable")
     ->allow_extra_args(false);
   auto * const labels =
-    parser.add_option("--labels",
-                      m_Labels,
-                      "the surfaces of the scan's label map: NIfTI, NRRD, MetaImage or DICOM SEG (not needed when SCAN "
-                      "itself is a label map)");
+    parser
+      .add_option(
+        "--labels",
+        m_Labels,
+        "the surfaces of the scan's label map: NIfTI, NRRD, MetaImage or DICOM SEG, or a folder of masks (not "
+        "needed when SCAN itself is one); repeatable, for several that are one segmentation")
+      ->allow_extra_args(false);
   parser
     .add_option("--probabilities",
                 m_Probabilities,
@@ -57,9 +60,10 @@ SurfaceOptions::Add(CLI::App & parser)
                 "meet where they are equally probable; repeatable")
     ->excludes(labels)
     ->allow_extra_args(false);
-  parser.add_option("--label-table",
-                    m_LabelTable,
-                    "names and colours of labels (ITK-SNAP, Slicer, FreeSurfer, BIDS; default: in or beside the map)");
+  parser.add_option(
+    "--label-table",
+    m_LabelTable,
+    "names and colours of labels (ITK-SNAP, Slicer, FreeSurfer, BIDS, nnU-Net, CSV; default: in or beside the map)");
   parser
     .add_option("--label",
                 m_ChosenLabels,
@@ -136,8 +140,9 @@ SurfaceOptions::GetSelection(const Preset & preset, const std::optional<SurfaceR
   }
   if (!m_Labels.empty() || !m_Probabilities.empty() || selection.requests.empty())
   {
-    selection.labels =
-      LabelSelection{ { m_Labels, m_LabelTable, { m_Probabilities.begin(), m_Probabilities.end() } }, {} };
+    selection.labels = LabelSelection{
+      { { m_Labels.begin(), m_Labels.end() }, m_LabelTable, { m_Probabilities.begin(), m_Probabilities.end() } }, {}
+    };
     for (const std::string & text : m_ChosenLabels)
     {
       selection.rules.rules.push_back(ParseSceneRule(text));

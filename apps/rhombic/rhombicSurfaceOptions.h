@@ -50,7 +50,11 @@ public:
   std::map<std::string, std::string>
   GetNames() const
   {
-    std::map<std::string, std::string> names{ { "LABELS", m_Labels } };
+    std::map<std::string, std::string> names;
+    for (const std::string & path : m_Labels)
+    {
+      names["LABELS" + (names.empty() ? "" : std::to_string(names.size() + 1))] = path;
+    }
     for (const std::string & path : m_Probabilities)
     {
       names["PROBABILITIES" + std::to_string(names.size())] = path;
@@ -61,7 +65,7 @@ public:
 private:
   std::string m_Preset;
   std::vector<std::string> m_Surfaces;
-  std::string m_Labels;
+  std::vector<std::string> m_Labels;
   std::vector<std::string> m_Probabilities;
   std::string m_LabelTable;
   std::vector<std::string> m_ChosenLabels;

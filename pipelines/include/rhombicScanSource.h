@@ -39,7 +39,7 @@ struct ScanSource
  * \brief The labels that become surfaces. */
 struct LabelSelection
 {
-  LabelMapSource source;           ///< with an empty path the scan itself is the label map
+  LabelMapSource source;           ///< without a path the scan itself is the label map
   std::vector<std::string> labels; ///< names with wildcards, or values; empty: all that the label table does not hide
 };
 

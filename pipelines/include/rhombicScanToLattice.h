@@ -40,9 +40,9 @@ CheckLatticeSettings(const LatticeSettings & settings);
  * Edge-preserving denoising is applied to the scan before, Gaussian denoising to the lattice after. Notes give the
  * lattice's size.
  *
- * Throws Failure: Usage for settings out of range, for a nested lattice or edge-preserving denoising of a slanted scan,
- * and for a lattice of too many or no sites; Memory, before any work, with a density that would fit; and those of
- * DenoiseScan(). */
+ * Throws Failure: Usage for settings out of range, for labels that overlap, for a nested lattice or edge-preserving
+ * denoising of a slanted scan, and for a lattice of too many or no sites; Memory, before any work, with a density that
+ * would fit; and those of DenoiseScan(). */
 FCCVolume
 ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events & events);
 

@@ -21,6 +21,10 @@ struct WallAudit
   std::size_t loneJunctions = 0;     ///< edges with more than two triangles, where fewer than three regions meet
   itk::TriangleSurfaceIntersections intersections; ///< of triangles of all surfaces, those of walls counted once
 
+  /** Adds the counts of other surfaces, which were looked at by themselves. */
+  void
+  Add(const WallAudit & other);
+
   /** Whether each edge joins as many triangles as regions meet there. Crossings do not count. */
   bool
   IsClosed() const

@@ -47,7 +47,7 @@ DescribeLabels(const Scan & scan,
                const LabelMapSource & labels,
                ScanDescription & description)
 {
-  if (!labels.path.empty())
+  if (!labels.paths.empty())
   {
     LabelMap map = ReadLabelMap(labels, source.read, scan, source.path);
     for (const std::string & doubt : FindLabelDoubts(scan, map))
@@ -59,7 +59,7 @@ DescribeLabels(const Scan & scan,
   }
   else if (!labels.table.empty() || IsLabelMap(scan))
   {
-    description.labels = FindLabels(scan, { source.path, labels.table });
+    description.labels = FindLabels(scan, { { source.path }, labels.table });
     description.thresholds.clear();
   }
 }
@@ -108,7 +108,7 @@ DescribeSeries(const ScanSource & source, const LabelMapSource & labels)
   SeriesList list = ListSeries(source.path, source.read);
   const auto chosen =
     std::find_if(list.series.begin(), list.series.end(), [](const SeriesSummary & series) { return series.chosen; });
-  const bool isListed = list.series.size() > 1 && source.read.series.empty() && labels.path.empty();
+  const bool isListed = list.series.size() > 1 && source.read.series.empty() && labels.paths.empty();
   std::optional<ScanDescription> description;
   try
   {

@@ -45,38 +45,86 @@ AddUnlessThere(std::int32_t label, std::vector<std::int32_t> & labels)
   }
 }
 
-/** Follows rays along an axis, in both directions. */
+/** Voxels [begin, end) of a ray that have one label. */
+struct Run
+{
+  std::size_t begin;
+  std::size_t end;
+  std::int32_t label;
+};
+
+/** Adds the runs of the labels that are shown.
+ * \param first and \param step the offset of the ray's first voxel, and the distance of its voxels */
 template <typename TImage>
 void
-FollowRays(const TImage & image, std::size_t axis, const std::set<std::int32_t> & shown, Encounters & encounters)
+AddRuns(const TImage & image,
+        std::size_t first,
+        std::size_t step,
+        std::size_t length,
+        const std::set<std::int32_t> & shown,
+        std::vector<Run> & runs)
 {
-  const auto & size = image.GetBufferedRegion().GetSize();
+  const auto * voxel = image.GetBufferPointer() + first;
+  std::int32_t last = 0;
+  bool isShown = false;
+  for (std::size_t n = 0; n < length; ++n, voxel += step)
+  {
+    const auto value = static_cast<std::int32_t>(*voxel);
+    if (value != last)
+    {
+      isShown = value != 0 && shown.count(value) != 0;
+      if (isShown)
+      {
+        runs.push_back({ n, n, value });
+      }
+      last = value;
+    }
+    if (isShown)
+    {
+      runs.back().end = n + 1;
+    }
+  }
+}
+
+void
+AddLabels(const std::vector<Run> & runs, Encounters & encounters)
+{
+  std::vector<std::int32_t> labels;
+  std::for_each(runs.begin(), runs.end(), [&labels](const Run & run) { AddUnlessThere(run.label, labels); });
+  encounters.Add(labels);
+}
+
+/** Follows rays along an axis, in both directions. Where labels of several layers begin at one voxel, the first layer
+ * is in front. */
+void
+FollowRays(const std::vector<ScanImage> & layers,
+           std::size_t axis,
+           const std::set<std::int32_t> & shown,
+           Encounters & encounters)
+{
+  const auto & size = GeometryOf(layers.front()).GetLargestPossibleRegion().GetSize();
   const std::size_t steps[3] = { 1, size[0], size[0] * size[1] };
   const std::size_t u = (axis + 1) % 3;
   const std::size_t v = (axis + 2) % 3;
   const auto strideOf = [&size](std::size_t side) { return (size[side] + RaysAlongSide - 1) / RaysAlongSide; };
-  std::vector<std::int32_t> runs; // of equal values
+  std::vector<Run> runs;
   for (std::size_t j = 0; j < size[v]; j += strideOf(v))
   {
     for (std::size_t i = 0; i < size[u]; i += strideOf(u))
     {
-      const auto * voxel = image.GetBufferPointer() + i * steps[u] + j * steps[v];
       runs.clear();
-      for (std::size_t n = 0; n < size[axis]; ++n, voxel += steps[axis])
+      for (const ScanImage & layer : layers)
       {
-        const auto value = static_cast<std::int32_t>(*voxel);
-        if (value != 0 && (runs.empty() || runs.back() != value) && shown.count(value) != 0)
-        {
-          runs.push_back(value);
-        }
+        std::visit(
+          [&](const auto & image) {
+            AddRuns(*image, i * steps[u] + j * steps[v], steps[axis], size[axis], shown, runs);
+          },
+          layer);
       }
-      for (int direction = 0; direction < 2; ++direction)
-      {
-        std::vector<std::int32_t> labels;
-        std::for_each(runs.begin(), runs.end(), [&labels](std::int32_t value) { AddUnlessThere(value, labels); });
-        encounters.Add(labels);
-        std::reverse(runs.begin(), runs.end());
-      }
+      std::stable_sort(runs.begin(), runs.end(), [](const Run & a, const Run & b) { return a.begin < b.begin; });
+      AddLabels(runs, encounters);
+      std::stable_sort(runs.begin(), runs.end(), [](const Run & a, const Run & b) { return a.end > b.end; });
+      AddLabels(runs, encounters);
     }
   }
 }
@@ -113,10 +161,11 @@ FindEnclosingLabels(const LabelMap & map)
   {
     return {};
   }
+  const std::vector<ScanImage> layers = LayersOf(map.scan);
   Encounters encounters;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    std::visit([&](const auto & image) { FollowRays(*image, axis, shown, encounters); }, map.scan.image);
+    FollowRays(layers, axis, shown, encounters);
   }
   for (const auto & [labels, rays] : encounters.before)
   {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace rhombic
 {
@@ -209,21 +210,27 @@ FileInspection::Audit(const itk::TriangleSurface & stored, MeshedSurface & surfa
 std::optional<Report>
 FileInspection::AuditTogether(const std::vector<MeshedSurface> & surfaces) const
 {
-  std::vector<SceneSurface> scene;
+  std::map<std::size_t, std::vector<SceneSurface>> layers; // whose labels do not overlap
   for (const MeshedSurface & surface : surfaces)
   {
     if (surface.label)
     {
-      scene.push_back(surface.scene);
+      layers[surface.label->layer].push_back(surface.scene);
     }
   }
   m_Events.Progress("auditing walls", 0.0);
-  const WallAudit audit = AuditWalls(scene, this->GetAuditSettings());
+  WallAudit audit;
+  for (const auto & [layer, scene] : layers)
+  {
+    audit.Add(AuditWalls(scene, this->GetAuditSettings()));
+  }
   if (audit.sharedTriangles == 0)
   {
     return std::nullopt;
   }
-  m_Events.Note("all surfaces together: " + DescribeWalls(audit));
+  m_Events.Note((layers.size() > 1 ? "all surfaces together, in " + std::to_string(layers.size()) + " layers: "
+                                   : "all surfaces together: ") +
+                DescribeWalls(audit));
   if (m_Settings.requiresWatertight && !audit.IsClosed())
   {
     RefuseToWrite("The walls that surfaces share have flaws (" + DescribeWalls(audit) + ")");

@@ -21,12 +21,14 @@ using TouchingLabels = std::map<std::int32_t, std::set<std::int32_t>>;
 /** Smallest distance, in OKLab, of the colours of labels that touch. */
 constexpr double NotableDistance = 0.045;
 
-/** The values that share a face of a voxel with each other, without the background. */
+/** Pairs of values that are not 0. */
+using LabelPairs = std::set<std::pair<std::int32_t, std::int32_t>>;
+
+/** The values of a layer that share a face of a voxel with each other. */
 template <typename TImage>
-TouchingLabels
-FindTouchingLabels(const TImage & image)
+void
+AddTouching(const TImage & image, LabelPairs & pairs)
 {
-  std::set<std::pair<std::int32_t, std::int32_t>> pairs;
   std::pair<std::int32_t, std::int32_t> last{ 0, 0 }; // neighbours in a row mostly repeat it
   const auto add = [&](auto first, auto second) {
     const std::pair<std::int32_t, std::int32_t> pair{ static_cast<std::int32_t>(first),
@@ -61,6 +63,41 @@ FindTouchingLabels(const TImage & image)
           add(begin[i], begin[i + slice]);
         }
       }
+    }
+  }
+}
+
+/** The values of two layers that share a voxel. */
+template <typename TImage, typename TOtherImage>
+void
+AddOverlapping(const TImage & image, const TOtherImage & other, LabelPairs & pairs)
+{
+  std::pair<std::int32_t, std::int32_t> last{ 0, 0 };
+  const std::size_t voxels = image.GetBufferedRegion().GetNumberOfPixels();
+  for (std::size_t n = 0; n < voxels; ++n)
+  {
+    const std::pair<std::int32_t, std::int32_t> pair{ static_cast<std::int32_t>(image.GetBufferPointer()[n]),
+                                                      static_cast<std::int32_t>(other.GetBufferPointer()[n]) };
+    if (pair.first != 0 && pair.second != 0 && pair != last)
+    {
+      pairs.insert(pair);
+      last = pair;
+    }
+  }
+}
+
+/** The values that touch or overlap each other, without the background. */
+TouchingLabels
+FindTouchingLabels(const Scan & scan)
+{
+  const std::vector<ScanImage> layers = LayersOf(scan);
+  LabelPairs pairs;
+  for (std::size_t n = 0; n < layers.size(); ++n)
+  {
+    std::visit([&pairs](const auto & image) { AddTouching(*image, pairs); }, layers[n]);
+    for (std::size_t other = 0; other < n; ++other)
+    {
+      std::visit([&pairs](const auto & a, const auto & b) { AddOverlapping(*a, *b, pairs); }, layers[n], layers[other]);
     }
   }
   TouchingLabels touching;
@@ -189,8 +226,7 @@ ColourLabels(LabelMap & map, LabelColours colours)
   {
     return;
   }
-  const TouchingLabels touching =
-    std::visit([](const auto & image) { return FindTouchingLabels(*image); }, map.scan.image);
+  const TouchingLabels touching = FindTouchingLabels(map.scan);
   const std::vector<ByteColour> palette = MakeColourBlindPalette();
   std::vector<std::size_t> uses(palette.size(), 0);
   std::map<std::int32_t, ByteColour> done;

@@ -425,7 +425,14 @@ FindLabelDoubts(const Scan & scan, const LabelMap & map)
   std::vector<std::string> doubts{ DescribeOddExtent(scan, map.scan, inScan) };
   if (MayBeInHounsfieldUnits(scan, values))
   {
-    doubts.push_back(DescribeOddValues(map, values));
+    LabelledValues all = values;
+    for (const ScanImage & layer : map.scan.furtherLayers)
+    {
+      const LabelledValues more = ValuesAt(scan, GeometryOf(layer), TakeVoxels(layer), {}, VectorType(0.0));
+      all.labels.insert(all.labels.end(), more.labels.begin(), more.labels.end());
+      all.values.insert(all.values.end(), more.values.begin(), more.values.end());
+    }
+    doubts.push_back(DescribeOddValues(map, all));
   }
   if (const auto move = FindBetterPlace(scan, map, voxels, values))
   {

@@ -184,8 +184,8 @@ AddLabels(const LoadedSource & loaded,
     extracted.push_back(SizeOf(*label.scene.surface));
   }
   const double spacing = MeanSpacingOf(GeometryOf(loaded.labels->scan.image));
-  const Refinement refinement = RefineWalls(*mesh.walls, settings.finish, spacing, events);
-  if (refinement.smoothing || refinement.simplification)
+  const std::vector<Refinement> refinements = RefineWalls(mesh, settings.finish, spacing, events);
+  if (refinements.front().smoothing || refinements.front().simplification)
   {
     ExtractSurfaces(mesh);
   }
@@ -195,7 +195,7 @@ AddLabels(const LoadedSource & loaded,
     surface.scene = std::exchange(mesh.labels[n].scene, {});
     surface.label = std::move(mesh.labels[n]);
     surface.extracted = extracted[n];
-    surface.refinement = refinement;
+    surface.refinement = refinements[surface.label->layer];
   }
 }
 

@@ -158,6 +158,12 @@ FCCVolume
 ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events & events)
 {
   CheckLatticeSettings(settings);
+  if (!scan.furtherLayers.empty())
+  {
+    throw Failure(FailureKind::Usage,
+                  "The labels of this segmentation overlap, so that its voxels have no single value to resample; leave "
+                  "out thresholds to have the surfaces of its labels.");
+  }
   if (IsSlanted(scan))
   {
     CheckSlantedScan(settings);

@@ -73,10 +73,10 @@ TakeForLabels(Scan scan, const LabelMapSource & source, const Events & events)
 {
   if (!IsLabelMap(scan))
   {
-    RefuseToChoose(source.path);
+    RefuseToChoose(source.GetFirstPath());
   }
   std::vector<LabelSummary> labels = FindLabels(scan, source);
-  events.Note(source.path.string() + " is a label map of " + Count(labels.size(), "label") +
+  events.Note(source.GetFirstPath().string() + " is a label map of " + Count(labels.size(), "label") +
               ", of which surfaces are made");
   return { std::move(scan), std::move(labels) };
 }
@@ -86,9 +86,9 @@ LoadLabels(const ScanSource & source, const LabelMapSource & labels, const Scan 
 {
   events.Progress("reading labels", 0.0);
   LabelMap map = ReadLabelMap(labels, source.read, scan, source.path);
-  events.Note(
-    Count(map.labels.size(), "label") + " in " +
-    (labels.probabilities.size() > 1 ? Count(labels.probabilities.size(), "file") : labels.GetFirstPath().string()));
+  events.Note(Count(map.labels.size(), "label") + " in " +
+              (labels.probabilities.size() + labels.paths.size() > 1 ? Count(map.scan.files.size(), "file")
+                                                                     : labels.GetFirstPath().string()));
   for (const std::string & note : map.scan.notes)
   {
     events.Note(note);
@@ -155,7 +155,7 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   LoadedSource loaded;
   if (selection.labels && selection.labels->source.IsEmpty())
   {
-    loaded.labels = TakeForLabels(std::move(volume), { source.path, selection.labels->source.table }, events);
+    loaded.labels = TakeForLabels(std::move(volume), { { source.path }, selection.labels->source.table }, events);
     ApplySceneRules(selection.rules, loaded.requests, &*loaded.labels);
     return loaded;
   }
@@ -263,11 +263,13 @@ CheckOutputs(const std::vector<fs::path> & outputs, const ScanSource & source, c
     CheckInput(output, source.path);
     if (selection.labels)
     {
-      CheckInput(output, selection.labels->source.path);
       CheckInput(output, selection.labels->source.table);
-      for (const fs::path & path : selection.labels->source.probabilities)
+      for (const auto * const inputs : { &selection.labels->source.paths, &selection.labels->source.probabilities })
       {
-        CheckInput(output, path);
+        for (const fs::path & path : *inputs)
+        {
+          CheckInput(output, path);
+        }
       }
     }
     const AtomicFile probe(output);

@@ -65,6 +65,18 @@ CountRepeated(const itk::TriangleSurface & surface)
 
 } // namespace
 
+void
+WallAudit::Add(const WallAudit & other)
+{
+  sharedTriangles += other.sharedTriangles;
+  oneSidedTriangles += other.oneSidedTriangles;
+  repeatedTriangles += other.repeatedTriangles;
+  loneJunctions += other.loneJunctions;
+  intersections.testedTriangles += other.intersections.testedTriangles;
+  intersections.crossingPairs += other.intersections.crossingPairs;
+  intersections.touchingPairs += other.intersections.touchingPairs;
+}
+
 WallAudit
 AuditWalls(const std::vector<SceneSurface> & surfaces, const itk::TriangleSurfaceAuditSettings & settings)
 {

@@ -102,7 +102,9 @@ TEST(BatchCases, BIDSHasItsNamesAndLabels)
                                    "sub-02/ses-1/anat/sub-02_ses-1_T1w.nii.gz",
                                    "sub-02/ses-1/anat/sub-02_ses-1_T2w.nii.gz",
                                    "sub-02/ses-1/func/sub-02_ses-1_bold.nii.gz",
-                                   "derivatives/seg/sub-01/anat/sub-01_space-orig_dseg.nii.gz" })
+                                   "derivatives/seg/sub-01/anat/sub-01_space-orig_dseg.nii.gz",
+                                   "derivatives/seg/sub-02/anat/sub-02_ses-1_dseg/liver.nii.gz",
+                                   "derivatives/seg/sub-02/anat/sub-02_ses-1_dseg/spleen.nii.gz" })
   {
     WriteFile(root / name, "x");
   }
@@ -112,7 +114,8 @@ TEST(BatchCases, BIDSHasItsNamesAndLabels)
   EXPECT_EQ(cases[0].labels.filename(), "sub-01_space-orig_dseg.nii.gz");
   EXPECT_EQ(cases[0].files.size(), 2u);
   EXPECT_EQ(cases[1].name, "sub-02_ses-1_T1w");
-  EXPECT_TRUE(cases[1].labels.empty());
+  EXPECT_EQ(cases[1].labels.filename(), "sub-02_ses-1_dseg") << "a folder of masks";
+  EXPECT_EQ(cases[1].files.size(), 3u);
 }
 
 TEST(BatchCases, AManifestNamesCasesWithPathsRelativeToIt)
@@ -126,6 +129,27 @@ TEST(BatchCases, AManifestNamesCasesWithPathsRelativeToIt)
   EXPECT_EQ(cases[0].scan, fs::canonical(folder.Path()) / "scans/a.nii");
   EXPECT_EQ(cases[0].options, (std::vector<std::string>{ "--frame", "2" }));
   EXPECT_TRUE(cases[1].files.empty()) << "what is missing is for its command to say";
+}
+
+TEST(BatchCases, AManifestMayHaveAByteOrderMarkAndFoldersOfMasks)
+{
+  const TemporaryFolder folder;
+  WriteFile(folder.Path() / "a.nii", "x");
+  WriteFile(folder.Path() / "masks/liver.nii", "x");
+  WriteFile(folder.Path() / "masks/spleen.nii", "x");
+  const fs::path manifest = folder.Path() / "cases.tsv";
+  WriteFile(manifest,
+            "\xEF\xBB\xBF"
+            "case\tscan\tlabels\r\none\ta.nii\tmasks\r\n");
+  const auto cases = rhombic::FindCases(manifest).cases;
+  ASSERT_EQ(cases.size(), 1u);
+  EXPECT_EQ(cases[0].labels, fs::canonical(folder.Path()) / "masks");
+  EXPECT_EQ(cases[0].files.size(), 3u);
+  WriteFile(manifest,
+            std::string("\xFF\xFE"
+                        "c\0a\0s\0e\0",
+                        10));
+  EXPECT_THROW(rhombic::FindCases(manifest), Failure);
 }
 
 TEST(BatchCases, MistakesInManifestsAreNamedWithTheirLine)

@@ -392,7 +392,7 @@ TEST(LabelSurfaces, WallsAreTheSameForBothOfTheirLabels)
     rhombic::SurfaceFinish finish;
     finish.smoothing = 0.2;
     finish.maximumError = 0.2;
-    rhombic::RefineWalls(*mesh.walls, finish, 1.0, {});
+    rhombic::RefineWalls(mesh, finish, 1.0, {});
     rhombic::ExtractSurfaces(mesh);
     ASSERT_EQ(mesh.labels.size(), 2);
     std::vector<std::set<std::array<std::array<float, 3>, 3>>> triangles;
@@ -784,13 +784,13 @@ TEST(LabelSurfaces, OfRealMapsHaveTheirVoxelsVolumes)
                                    "dicom_seg_dcmqi/segmentations/24x38x3/nrrd/label.nrrd" })
   {
     rhombic::LabelMapSource source;
-    source.path = RealMap(name);
-    if (source.path.empty())
+    source.paths = { RealMap(name) };
+    if (source.paths.front().empty())
     {
       GTEST_SKIP() << "RHOMBIC_SCANS is not set";
     }
     LabelMap map;
-    map.scan = rhombic::ReadScan(source.path);
+    map.scan = rhombic::ReadScan(source.paths.front());
     map.labels = rhombic::FindLabels(map.scan, source);
     for (const LabelSurface & surface : MakeSurfaces(map, {}, {}))
     {
@@ -800,6 +800,81 @@ TEST(LabelSurfaces, OfRealMapsHaveTheirVoxelsVolumes)
       EXPECT_FALSE(surface.isTorn) << what;
       EXPECT_LT(std::abs(surface.GetVolumeDifference()), 0.01) << what;
     }
+  }
+}
+
+/** A kidney of radius 12, labelled 1, and a spleen that touches it; in a further layer a tumour inside the kidney and
+ * partly outside of it, and a copy of the spleen in a third one. */
+LabelMap
+MakeOverlappingMap()
+{
+  const auto inside = [](const Point & p, double x, double radius) {
+    return std::hypot(p[0] - x, p[1], p[2]) < radius;
+  };
+  LabelMap map = MakeMap(48, [&](const Point & p) {
+    return p[0] > 8.0 && inside(p, 10.0, 9.0) ? 2 : inside(p, -4.0, 12.0) ? 1 : 0;
+  });
+  map.scan.furtherLayers = { MakeMap(48, [&](const Point & p) { return inside(p, -12.0, 6.0) ? 3 : 0; }).scan.image,
+                             MakeMap(48, [&](const Point & p) {
+                               return p[0] > 8.0 && inside(p, 10.0, 9.0) ? 4 : 0;
+                             }).scan.image };
+  map.labels = rhombic::SummarizeLabels(map.scan, {});
+  return map;
+}
+
+TEST(LabelSurfaces, LabelsThatOverlapAreWhole)
+{
+  const LabelMap map = MakeOverlappingMap();
+  ASSERT_EQ(map.labels.size(), 4);
+  rhombic::LabelMesh mesh = rhombic::LabelsToWalls(map, {}, {});
+  rhombic::ExtractSurfaces(mesh);
+  ASSERT_EQ(mesh.walls.size(), 3);
+  for (std::size_t n = 0; n < 4; ++n)
+  {
+    const LabelSurface & label = mesh.labels[n];
+    EXPECT_EQ(label.value, static_cast<int>(n + 1));
+    EXPECT_EQ(label.layer, n < 2 ? 0 : n - 1);
+    EXPECT_TRUE(ComputeTopology(*label.scene.surface).IsWatertight());
+    EXPECT_NEAR(
+      ComputeVolume(*label.scene.surface) / 1000.0, map.labels[n].millilitres, 0.01 * map.labels[n].millilitres);
+    EXPECT_EQ(label.surfacePieces, 1);
+  }
+  const auto & spleen = *mesh.labels[1].scene.surface;
+  const auto & copy = *mesh.labels[3].scene.surface;
+  EXPECT_NEAR(ComputeVolume(spleen), ComputeVolume(copy), 0.01 * ComputeVolume(copy));
+
+  LabelMap kidney = map;
+  kidney.scan.furtherLayers.clear();
+  kidney.labels.resize(2);
+  const auto alone = MakeSurfaces(kidney, {}, {});
+  EXPECT_EQ(alone[0].scene.surface->GetPoints(), mesh.labels[0].scene.surface->GetPoints())
+    << "a layer has the walls that it has alone";
+
+  const auto tumour = MakeSurfaces(map, { { "3" } }, {});
+  ASSERT_EQ(tumour.size(), 1);
+  EXPECT_EQ(tumour[0].layer, 0) << "the first of those that hold any chosen label";
+  EXPECT_EQ(tumour[0].scene.surface->GetPoints(), mesh.labels[2].scene.surface->GetPoints());
+}
+
+TEST(LabelSurfaces, LayersShareALimitOfTriangles)
+{
+  rhombic::LabelMesh mesh = rhombic::LabelsToWalls(MakeOverlappingMap(), {}, {});
+  rhombic::SurfaceFinish finish;
+  finish.maximumTriangles = 3000;
+  finish.maximumError = 5.0;
+  const auto refinements = rhombic::RefineWalls(mesh, finish, 1.0, {});
+  ASSERT_EQ(refinements.size(), 3);
+  itk::SizeValueType triangles = 0;
+  for (const auto & walls : mesh.walls)
+  {
+    triangles += walls->GetNumberOfTriangles();
+  }
+  EXPECT_LE(triangles, 3000);
+  EXPECT_GE(triangles, 2900);
+  rhombic::ExtractSurfaces(mesh);
+  for (const LabelSurface & label : mesh.labels)
+  {
+    EXPECT_TRUE(ComputeTopology(*label.scene.surface).IsWatertight());
   }
 }
 

@@ -264,6 +264,38 @@ TEST(SceneRules, LabelsThatEncloseOthersAreTranslucentUnlessARuleSaysOtherwise)
   EXPECT_EQ(opacitiesOf(rules), (Opacities{ { "skin", false } }));
 }
 
+TEST(SceneRules, LabelsOfOtherLayersAreSeenAndDiffer)
+{
+  using ImageType = rhombic::CartesianImage<std::uint8_t>;
+  const auto makeLayer = [](int radius, std::uint8_t value) {
+    const auto image = ImageType::New();
+    image->SetRegions(itk::Size<3>{ { 40, 40, 40 } });
+    image->Allocate();
+    for (int n = 0; n < 40 * 40 * 40; ++n)
+    {
+      const bool isInside = std::hypot(n % 40 - 19.5, n / 40 % 40 - 19.5, n / 1600 - 19.5) < radius;
+      image->GetBufferPointer()[n] = isInside ? value : 0;
+    }
+    return ImageType::Pointer(image);
+  };
+  for (const bool isTumourFirst : { false, true })
+  {
+    LabelMap map;
+    map.scan.image = isTumourFirst ? makeLayer(5, 1) : makeLayer(12, 2);
+    map.scan.furtherLayers = { isTumourFirst ? makeLayer(12, 2) : makeLayer(5, 1) };
+    map.labels.resize(2);
+    map.labels[0].label = { 1, "lump", { 10, 200, 30 } };
+    map.labels[1].label = { 2, "bulk", { 10, 200, 30 } };
+    SceneRules rules;
+    rules.opensEnclosing = true;
+    std::vector<SurfaceRequest> requests;
+    ApplySceneRules(rules, requests, &map);
+    EXPECT_EQ(map.labels[0].label.opacity, 1.0);
+    EXPECT_LT(map.labels[1].label.opacity, 1.0);
+    EXPECT_NE(map.labels[0].label.colour, map.labels[1].label.colour);
+  }
+}
+
 TEST(SceneRules, NeededNamesMustBeShown)
 {
   std::vector<SurfaceRequest> requests{ MakeRequest("bone"), MakeRequest("skin") };

@@ -2,6 +2,7 @@
 #include "rhombicLabelMap.h"
 #include "rhombicScanTest.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace
@@ -31,7 +32,7 @@ Text(const char * format, double number)
   return text;
 }
 
-/** A DICOM SEG of two segments; \a spacing is its SpacingBetweenSlices, \a thickness its
+/** A DICOM SEG of three segments; \a spacing is its SpacingBetweenSlices, \a thickness its
  * SliceThickness, if any. */
 DicomTestFile
 MakeSegmentation(const std::vector<SegmentFrame> & frames,
@@ -39,11 +40,11 @@ MakeSegmentation(const std::vector<SegmentFrame> & frames,
                  const std::string & thickness = "")
 {
   DicomTestFile file(Columns, Rows);
-  std::vector<DicomTestDataSet> segments(2);
-  for (std::uint16_t n = 0; n < 2; ++n)
+  std::vector<DicomTestDataSet> segments(3);
+  for (std::uint16_t n = 0; n < 3; ++n)
   {
     segments[n].SetShort(0x00620004, static_cast<std::uint16_t>(n + 1));
-    segments[n].SetText(0x00620005, "LO", n == 0 ? "Liver" : "Spleen");
+    segments[n].SetText(0x00620005, "LO", n == 0 ? "Liver" : n == 1 ? "Spleen" : "Tumour");
   }
   std::vector<DicomTestDataSet> groups;
   std::vector<bool> bits;
@@ -168,6 +169,80 @@ TEST_F(DicomSegmentation, EachFrameKeepsItsSegmentAndPlace)
     const std::size_t k = n / Pixels;
     EXPECT_EQ(image.GetBufferPointer()[n], n % Pixels >= counts[k] ? 0 : k == 1 ? 2 : 1) << n;
   }
+}
+
+/** The values of a voxel in all layers, without 0. */
+std::vector<int>
+ValuesAt(const rhombic::Scan & scan, std::size_t voxel)
+{
+  std::vector<int> values;
+  for (const auto & layer : rhombic::LayersOf(scan))
+  {
+    const auto & image = *std::get<itk::Image<std::uint8_t, 3>::Pointer>(layer);
+    if (image.GetBufferPointer()[voxel] != 0)
+    {
+      values.push_back(image.GetBufferPointer()[voxel]);
+    }
+  }
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+TEST_F(DicomSegmentation, SegmentsThatOverlapAreWhole)
+{
+  struct Case
+  {
+    std::vector<SegmentFrame> frames;
+    std::vector<std::size_t> voxels; ///< by segment
+    std::size_t layers;
+    std::string note;
+  };
+  const Case cases[] = {
+    { { { "0", 1, 15 }, { "1", 1, 12 }, { "1", 2, 5 }, { "2", 1, 9 } }, { 36, 5 }, 2, "5 voxels belong" },
+    { { { "0", 2, 5 }, { "0", 1, 15 }, { "1", 1, 2 } }, { 17, 5 }, 2, "5 voxels belong" },
+    { { { "0", 1, 7 }, { "0", 2, 7 }, { "1", 1, 1 }, { "1", 2, 1 } }, { 8, 8 }, 2, "8 voxels belong" },
+    { { { "0", 1, 7 }, { "0", 2, 5 }, { "0", 3, 3 }, { "1", 1, 0 } }, { 7, 5, 3 }, 3, "5 voxels belong" },
+    { { { "0", 1, 7 }, { "0", 2, 5 }, { "1", 3, 3 } }, { 7, 5, 3 }, 2, "5 voxels belong" },
+    { { { "0", 1, 7 }, { "1", 2, 5 }, { "2", 3, 3 } }, { 7, 5, 3 }, 1, "" },
+  };
+  for (const Case & one : cases)
+  {
+    MakeSegmentation(one.frames, "1").Write(m_Path);
+    const auto scan = ReadScan(m_Path);
+    EXPECT_EQ(scan.furtherLayers.size() + 1, one.layers);
+    ASSERT_EQ(scan.notes.size(), one.note.empty() ? 0u : 1u);
+    EXPECT_TRUE(one.note.empty() || scan.notes[0].find(one.note) == 0) << scan.notes[0];
+    const auto labels = SummarizeLabels(scan, scan.labels);
+    ASSERT_EQ(labels.size(), one.voxels.size());
+    for (std::size_t n = 0; n < labels.size(); ++n)
+    {
+      EXPECT_EQ(labels[n].label.value, static_cast<int>(n + 1));
+      EXPECT_EQ(labels[n].numberOfVoxels, one.voxels[n]) << n;
+    }
+    for (std::size_t voxel = 0; voxel < Pixels; ++voxel) // of the first slice
+    {
+      std::vector<int> expected;
+      for (const SegmentFrame & frame : one.frames)
+      {
+        if (frame.z == "0" && voxel < frame.pixels)
+        {
+          expected.push_back(frame.segment);
+        }
+      }
+      std::sort(expected.begin(), expected.end());
+      EXPECT_EQ(ValuesAt(scan, voxel), expected) << voxel;
+    }
+  }
+}
+
+TEST_F(DicomSegmentation, LayersNeedMemory)
+{
+  MakeSegmentation({ { "0", 1 }, { "0", 2 }, { "1", 1 }, { "900", 1 } }).Write(m_Path);
+  rhombic::ScanReadOptions options;
+  options.maximumMemory = 901 * Pixels + 1000;
+  EXPECT_EQ(KindOfReading(m_Path, "Layer 2 of labels that overlap", options), FailureKind::Memory);
+  options.maximumMemory = 2 * 901 * Pixels;
+  EXPECT_NO_THROW(ReadScan(m_Path, options));
 }
 
 TEST_F(DicomSegmentation, FramesWithoutPlaceAreRefused)

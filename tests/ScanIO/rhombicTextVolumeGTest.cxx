@@ -1,4 +1,5 @@
 #include "rhombicNIfTITestFile.h"
+#include "rhombicLabelMap.h"
 #include "rhombicMetaImageHeader.h"
 #include "rhombicNRRDHeader.h"
 #include "rhombicNRRDVolume.h"
@@ -291,13 +292,14 @@ TEST_F(TextVolume, LayersAndFramesOfNRRD)
                                "space: LPS\nspace directions: none (2,0,0) (0,3,0) (0,0,4)\nspace origin: (5,6,7)\n"
                                "encoding: raw\nSegment0_Name:=Liver\n";
   const auto layers = this->WriteNRRD(segments, "aAbBcCdDeEfFgGhH", "a.seg.nrrd");
-  EXPECT_EQ(KindOfReading(layers, "2 volumes"), FailureKind::Unreadable);
+  const auto both = ReadScan(layers);
+  ASSERT_EQ(both.furtherLayers.size(), 1u);
+  const auto & lower = *std::get<itk::Image<std::uint16_t, 3>::Pointer>(both.image);
+  const auto & upper = *std::get<itk::Image<std::uint16_t, 3>::Pointer>(both.furtherLayers[0]);
+  EXPECT_EQ(std::string(lower.GetBufferPointer(), lower.GetBufferPointer() + 8), "abcdefgh");
+  EXPECT_EQ(std::string(upper.GetBufferPointer(), upper.GetBufferPointer() + 8), "ABCDEFGH");
   EXPECT_EQ(KindOfReading(layers, "--frame", Frame(2)), FailureKind::Usage);
   EXPECT_EQ(TextOf(ReadScan(layers, Frame(0))), "abcdefgh");
-  rhombic::ScanReadOptions first;
-  first.onSeveralFrames = rhombic::ScanReadOptions::Policy::Accept;
-  EXPECT_EQ(TextOf(ReadScan(layers, first)), "abcdefgh");
-  EXPECT_EQ(ReadScan(layers, first).numberOfFrames, 2u);
   const auto second = ReadScan(layers, Frame(1));
   EXPECT_EQ(TextOf(second), "ABCDEFGH");
   EXPECT_EQ(GeometryOf(second.image).GetSpacing()[1], 3);
@@ -310,12 +312,42 @@ TEST_F(TextVolume, LayersAndFramesOfNRRD)
                                "encoding: raw\n";
     return this->WriteNRRD(fields, "abcdefghABCDEFGH");
   };
+  EXPECT_EQ(KindOfReading(series("list"), "2 volumes"), FailureKind::Unreadable);
+  rhombic::ScanReadOptions first;
+  first.onSeveralFrames = rhombic::ScanReadOptions::Policy::Accept;
+  EXPECT_EQ(TextOf(ReadScan(series("list"), first)), "abcdefgh");
+  EXPECT_EQ(ReadScan(series("list"), first).numberOfFrames, 2u);
   EXPECT_EQ(TextOf(ReadScan(series("list"), Frame(1))), "ABCDEFGH");
   EXPECT_EQ(TextOf(ReadScan(series("list"), Frame(0))), "abcdefgh");
   EXPECT_EQ(KindOfReading(series("time"), "kind time", Frame(0)), FailureKind::Unreadable);
   EXPECT_EQ(KindOfReading(series("vector"), "kind vector", Frame(0)), FailureKind::Unreadable);
   const auto plain = this->WriteNRRD("type: uint8\ndimension: 4\nsizes: 2 2 2 2\nencoding: raw\n", "abcdefghABCDEFGH");
   EXPECT_EQ(TextOf(ReadScan(plain, Frame(1))), "ABCDEFGH");
+}
+
+TEST_F(TextVolume, SegmentsOfSeveralLayersAreOneSegmentation)
+{
+  const std::string fields = "type: uint8\ndimension: 4\nsizes: 2 2 2 2\nkinds: list domain domain domain\n"
+                             "space: LPS\nspace directions: none (2,0,0) (0,3,0) (0,0,4)\nspace origin: (5,6,7)\n"
+                             "encoding: raw\nSegment0_Name:=kidney\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n"
+                             "Segment1_Name:=tumour\nSegment1_LabelValue:=1\nSegment1_Layer:=1\n"
+                             "Segment2_Name:=liver\nSegment2_LabelValue:=2\nSegment2_Layer:=1\n";
+  // Pairs of the two layers by voxel: the tumour is inside the kidney, the liver beside both.
+  const std::string pairs{ 1, 0, 1, 1, 1, 0, 1, 0, 0, 0, 0, 2, 0, 2, 0, 0 };
+  const auto scan = ReadScan(this->WriteNRRD(fields, pairs, "a.seg.nrrd"));
+  const auto labels = rhombic::SummarizeLabels(scan, scan.labels);
+  ASSERT_EQ(labels.size(), 3u);
+  EXPECT_EQ(labels[0].label.name, "kidney");
+  EXPECT_EQ(labels[0].numberOfVoxels, 4u);
+  EXPECT_EQ(labels[1].label.name, "tumour");
+  EXPECT_EQ(labels[1].label.value, 2);
+  EXPECT_EQ(labels[1].numberOfVoxels, 1u);
+  EXPECT_EQ(labels[2].label.name, "liver");
+  EXPECT_EQ(labels[2].label.value, 3);
+  EXPECT_EQ(labels[2].numberOfVoxels, 2u);
+  ASSERT_EQ(scan.furtherLayers.size(), 1u);
+  const auto & first = *std::get<itk::Image<std::uint16_t, 3>::Pointer>(scan.image);
+  EXPECT_EQ(first.GetBufferPointer()[5], 3) << "the liver shares the layer of the kidney, which it does not overlap";
 }
 
 TEST_F(TextVolume, VolumesOnTheLatticeAreNoScans)

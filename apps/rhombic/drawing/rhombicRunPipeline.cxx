@@ -94,6 +94,10 @@ RunPipeline(const std::string & file, const CLI::App & command, const CommandCon
   batchCase.options = FindScanOptions(command, scanParser);
   batchCase.scan = AbsolutePathOf(command, "SCAN");
   batchCase.labels = AbsolutePathOf(command, "--labels");
+  if (command.get_option("--labels")->count() > 1)
+  {
+    throw Failure(FailureKind::Usage, "--pipeline takes one --labels; put the masks into a folder, and name that.");
+  }
   const std::string folder = ValueOf(command, "--output");
   if (folder.empty() || batchCase.scan.empty())
   {

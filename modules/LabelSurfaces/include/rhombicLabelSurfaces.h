@@ -34,6 +34,7 @@ struct LabelSurface
 {
   SceneSurface scene;
   std::int32_t value = 0;
+  std::size_t layer = 0; ///< of LabelMesh::walls
   std::size_t numberOfVoxels = 0;
   double voxelMillilitres = 0.0;
   double surfaceMillilitres = 0.0; ///< before RefineWalls()
@@ -52,12 +53,15 @@ struct LabelSurface
 /** Labels and the walls between them. */
 struct LabelMesh
 {
-  itk::LabelWalls::Pointer walls;   ///< of the numbers of labels, from 1; all that is no label here is outside, 0
+  /** Of each layer of the map that holds any of the labels: the walls between the numbers of labels, from 1 over all
+   * layers; all that is no label of the layer is outside, 0. */
+  std::vector<itk::LabelWalls::Pointer> walls;
   std::vector<LabelSurface> labels; ///< in the order of their values
 };
 
 /** The walls between labels, and between them and all else, without the steps of the voxels: labels that touch share
- * their wall. The surfaces of the labels are set by ExtractSurfaces().
+ * their wall. Labels that overlap are in layers, each of which has its own walls. The surfaces of the labels are set by
+ * ExtractSurfaces().
  *
  * The walls are those of itk::LabelsToFCCFilter and itk::FCCLabelSurfaceFilter, smoothed by itk::RelaxWalls(), which
  * moves points by 0.3 voxels at most. Labels above 1 ml have the volume of their voxels within 1 %. Pieces of a
@@ -75,11 +79,11 @@ LabelMesh
 LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const Events & events);
 
 /** Smooths and simplifies the walls as \a finish says, once for both labels of each wall, so that labels that touch
- * still share it (itk::RelaxWalls(), itk::SimplifyWalls()). A limit of triangles is one for all walls together.
- * Removes no parts. Notes give the results.
- * \param spacing of the voxels in mm */
-Refinement
-RefineWalls(itk::LabelWalls & walls, const SurfaceFinish & finish, double spacing, const Events & events);
+ * still share it (itk::RelaxWalls(), itk::SimplifyWalls()). A limit of triangles is one for all walls together, of
+ * which each layer gets a share by its triangles. Removes no parts. Notes give the results, of which there is one for
+ * each layer. \param spacing of the voxels in mm */
+std::vector<Refinement>
+RefineWalls(LabelMesh & mesh, const SurfaceFinish & finish, double spacing, const Events & events);
 
 /** Sets the closed surface of each label, with normals: the triangles of its walls, in the order of the mesh. Touching
  * surfaces have the same points and, turned over, the same triangles on their common wall. */

@@ -250,20 +250,52 @@ SetNormals(itk::TriangleSurface & surface)
   }
 }
 
-/** Sets the volumes and pieces of labels and of their walls. */
+/** Sets the volumes and pieces of the labels of a layer. */
 void
-MeasureLabels(const LabelPieces & pieces, LabelMesh & mesh)
+MeasureLabels(const LabelPieces & pieces, std::size_t layer, LabelMesh & mesh)
 {
   itk::ForEachOnThreads(mesh.labels.size(), [&](std::size_t n) {
+    if (pieces.counts[n + 1] == 0)
+    {
+      return;
+    }
     LabelSurface & label = mesh.labels[n];
-    const auto surface = mesh.walls->ExtractLabel(static_cast<itk::LabelWalls::LabelType>(n + 1));
+    const auto surface = mesh.walls[layer]->ExtractLabel(static_cast<itk::LabelWalls::LabelType>(n + 1));
     const auto volumes = itk::ComputeComponentVolumes(*surface, itk::FindComponents(*surface));
+    label.layer = layer;
     label.surfaceMillilitres = std::accumulate(volumes.begin(), volumes.end(), 0.0) / CubicMillimetresPerMl;
     label.surfacePieces = static_cast<std::size_t>(
       std::count_if(volumes.begin(), volumes.end(), [](double volume) { return volume > 0.0; }));
     label.pieces = pieces.counts[n + 1];
     label.isTorn = label.surfacePieces > label.pieces && label.surfacePieces > pieces.countsByFace[n + 1];
   });
+}
+
+/** Adds the walls of the labels in one layer, if it has any of them. */
+void
+AddLayer(const LabelMap & map,
+         const ScanImage & layer,
+         const std::vector<LabelSummary> & labels,
+         const LabelSurfaceSettings & settings,
+         const Events & events,
+         LabelMesh & mesh)
+{
+  LabelImage::Pointer numbers = NumberLabels(layer, labels);
+  const std::uint16_t * const begin = numbers->GetBufferPointer();
+  const std::uint16_t * const end = begin + numbers->GetBufferedRegion().GetNumberOfPixels();
+  if (!map.scan.furtherLayers.empty() && std::all_of(begin, end, [](std::uint16_t number) { return number == 0; }))
+  {
+    return;
+  }
+  itk::ImageRegion<3> box = RegionOfLabels({ numbers });
+  box.PadByRadius(BoxMargin);
+  box.Crop(numbers->GetBufferedRegion());
+  numbers = Crop(*numbers, box);
+  const LabelPieces pieces = NumberPieces(*numbers, labels.size() + 1);
+  mesh.walls.push_back(map.probabilities.empty()
+                         ? WallsOfVoxels(*numbers, pieces, CropSliceOrigins(map.scan, box), settings, events)
+                         : WallsOfProbabilities(map, *numbers, labels, settings, events));
+  MeasureLabels(pieces, mesh.walls.size() - 1, mesh);
 }
 
 } // namespace
@@ -277,18 +309,12 @@ LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const
   {
     throw Failure(FailureKind::Unreadable, "Walls can have 65,535 labels; name those to show.");
   }
-  LabelImage::Pointer numbers = NumberLabels(map.scan.image, labels);
-  itk::ImageRegion<3> box = RegionOfLabels(numbers);
-  box.PadByRadius(BoxMargin);
-  box.Crop(numbers->GetBufferedRegion());
-  numbers = Crop(*numbers, box);
-  const LabelPieces pieces = NumberPieces(*numbers, labels.size() + 1);
   LabelMesh mesh;
-  mesh.walls = map.probabilities.empty()
-                 ? WallsOfVoxels(*numbers, pieces, CropSliceOrigins(map.scan, box), settings, events)
-                 : WallsOfProbabilities(map, *numbers, labels, settings, events);
   std::transform(labels.begin(), labels.end(), std::back_inserter(mesh.labels), DescribeLabel);
-  MeasureLabels(pieces, mesh);
+  for (const ScanImage & layer : LayersOf(map.scan))
+  {
+    AddLayer(map, layer, labels, settings, events, mesh);
+  }
   if (map.probabilities.empty()) // which have no volumes and pieces to keep
   {
     std::for_each(
@@ -298,22 +324,39 @@ LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const
   return mesh;
 }
 
-Refinement
-RefineWalls(itk::LabelWalls & walls, const SurfaceFinish & finish, double spacing, const Events & events)
+std::vector<Refinement>
+RefineWalls(LabelMesh & mesh, const SurfaceFinish & finish, double spacing, const Events & events)
 {
-  const RefinementFunctions functions{
-    [&walls](auto &, const auto & settings) { return itk::RelaxWalls(walls, settings); },
-    [&walls](auto &, const auto & settings) { return itk::SimplifyWalls(walls, settings); },
-    [&walls](auto &) { return -itk::ComputeVolume(*walls.ExtractLabel(0)); }
-  };
-  return RefineBy(functions, walls, finish, spacing, "walls of labels", events);
+  std::size_t triangles = 0;
+  for (const auto & walls : mesh.walls)
+  {
+    triangles += walls->GetNumberOfTriangles();
+  }
+  std::vector<Refinement> refinements;
+  for (const auto & layer : mesh.walls)
+  {
+    itk::LabelWalls & walls = *layer;
+    const RefinementFunctions functions{
+      [&walls](auto &, const auto & settings) { return itk::RelaxWalls(walls, settings); },
+      [&walls](auto &, const auto & settings) { return itk::SimplifyWalls(walls, settings); },
+      [&walls](auto &) { return -itk::ComputeVolume(*walls.ExtractLabel(0)); }
+    };
+    SurfaceFinish share = finish;
+    if (finish.maximumTriangles > 0)
+    {
+      const std::size_t part = finish.maximumTriangles * walls.GetNumberOfTriangles() / triangles;
+      share.maximumTriangles = std::max<std::size_t>(1, part);
+    }
+    refinements.push_back(RefineBy(functions, walls, share, spacing, "walls of labels", events));
+  }
+  return refinements;
 }
 
 void
 ExtractSurfaces(LabelMesh & mesh)
 {
   itk::ForEachOnThreads(mesh.labels.size(), [&](std::size_t n) {
-    const auto surface = mesh.walls->ExtractLabel(static_cast<itk::LabelWalls::LabelType>(n + 1));
+    const auto surface = mesh.walls[mesh.labels[n].layer]->ExtractLabel(static_cast<itk::LabelWalls::LabelType>(n + 1));
     SetNormals(*surface);
     mesh.labels[n].scene.surface = surface;
   });

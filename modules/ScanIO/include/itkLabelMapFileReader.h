@@ -10,8 +10,9 @@ namespace itk
 /** \class LabelMapFileReader
  * \brief Reads a label map, and the names, colours and volumes of its labels.
  *
- * It reads what ScanFileReader reads, DICOM segmentations (SEG) among them. Throws rhombic::Failure when the values
- * look like intensities and there is no label table.
+ * It reads what ScanFileReader reads, DICOM segmentations (SEG) and folders of masks among them. Throws
+ * rhombic::Failure (Usage) for labels that overlap, which one image cannot hold: rhombic::ReadLabelMap() has them.
+ * Throws rhombic::Failure when the values look like intensities and there is no label table.
  *
  * \ingroup ScanIO
  */
@@ -56,7 +57,13 @@ protected:
   void
   Inspect(const rhombic::Scan & scan) override
   {
-    m_Labels = rhombic::FindLabels(scan, { this->GetFileName(), m_LabelTableFileName });
+    if (!scan.furtherLayers.empty())
+    {
+      throw rhombic::Failure(rhombic::FailureKind::Usage,
+                             std::string("Cannot read ") + this->GetFileName() +
+                               " as one image: its labels overlap; read its layers with rhombic::ReadLabelMap().");
+    }
+    m_Labels = rhombic::FindLabels(scan, { { this->GetFileName() }, m_LabelTableFileName });
   }
 
 private:

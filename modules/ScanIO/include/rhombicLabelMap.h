@@ -25,16 +25,16 @@ struct LabelSummary
 bool
 LooksLikeLabelMap(const Scan & scan);
 
-/** The labels in a label map, sorted by value, without the background 0. Labels that \a table lacks are named "label N"
- * and get a colour by their value. Volumes are sums of VoxelVolumes().
+/** The labels in all layers of a label map, sorted by value, without the background 0. Labels that \a table lacks are
+ * named "label N" and get a colour by their value. Volumes are sums of VoxelVolumes().
  *
  * Throws Failure(Unreadable) when values are not whole numbers or there are more than 4096 different ones. */
 std::vector<LabelSummary>
 SummarizeLabels(const Scan & scan, const LabelTable & table);
 
-/** The smallest region that holds all voxels that are not 0; the whole image if all are 0. */
+/** The smallest region that holds all voxels that are not 0 in any of the layers; the whole image if all are 0. */
 itk::ImageRegion<3>
-RegionOfLabels(const ScanImage & image);
+RegionOfLabels(const std::vector<ScanImage> & layers);
 
 /** Checks that the box around all labels of a label map is in its scan, in world space; the two may have different
  * grids. Returns a sentence for the user when less than 99 % of the box is in the scan, else "". Throws

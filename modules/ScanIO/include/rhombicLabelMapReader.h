@@ -28,8 +28,13 @@ struct LabelMap
 /** Where a label map is, and what its labels mean. */
 struct LabelMapSource
 {
-  std::filesystem::path path;
-  std::filesystem::path table; ///< empty: the table in the file, or the one beside it (see FindLabelTable())
+  /** A label map, or several files and folders of masks and label maps of one grid, which become one (see OpenScan()).
+   */
+  std::vector<std::filesystem::path> paths;
+
+  /** Empty: the table in the file, or the one beside it (see FindLabelTable(), FindDatasetTable()); and a file of 0 and
+   * one other value, 1 or 255, that has neither is called as its file. */
+  std::filesystem::path table = {};
 
   /** Volumes of probabilities from 0 to 1, 100 or 255, in place of a map: a file for each label, or one that holds
    * several volumes. They are numbered from 1, and have no names if there is no table. */
@@ -39,14 +44,14 @@ struct LabelMapSource
   bool
   IsEmpty() const
   {
-    return path.empty() && probabilities.empty();
+    return paths.empty() && probabilities.empty();
   }
 
-  /** The map, or the first volume of probabilities. */
+  /** The first of the paths, of probabilities if there are any. */
   const std::filesystem::path &
   GetFirstPath() const
   {
-    return probabilities.empty() ? path : probabilities.front();
+    return probabilities.empty() ? paths.front() : probabilities.front();
   }
 };
 

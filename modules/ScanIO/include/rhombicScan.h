@@ -96,6 +96,10 @@ struct Scan
    * most a SlicePlacement. */
   ScanImage image;
 
+  /** Of a label map whose labels overlap: further label maps on the grid of \a image. No label is in two of them, and
+   * no two labels have the same value. Empty otherwise. */
+  std::vector<ScanImage> furtherLayers;
+
   /** The position of the first voxel of each slice, in LPS mm, when the slices are unevenly spaced; empty otherwise.
    * All slices have the image's in-plane axes; its third axis then leads from the first to the last slice. */
   std::vector<itk::Point<double, 3>> sliceOrigins;
@@ -130,6 +134,10 @@ const itk::ImageBase<3> &
 GeometryOf(const ScanImage & image);
 const itk::ImageBase<3> &
 GeometryOf(ScanImage &&) = delete; // the reference would outlive the image
+
+/** The image of a label map and its further layers. */
+std::vector<ScanImage>
+LayersOf(const Scan & scan);
 
 /** "uint8", "int16", "uint16", "int32" or "float". */
 std::string

@@ -76,7 +76,10 @@ struct UnreadScan
 
 /** Opens a scan or label map: a folder of DICOM slices, searched with its subfolders; a DICOM file that holds a volume
  * (enhanced multi-frame, or a segmentation); or a NIfTI-1 or -2 (.nii, .hdr with .img, either with .gz), NRRD (.nrrd,
- * .nhdr) or MetaImage (.mha, .mhd) file.
+ * .nhdr) or MetaImage (.mha, .mhd) file. A folder of such files without any DICOM file holds masks, and label maps if
+ * need be, of one grid: they are read as one label map. A label keeps its value, from 1 to 65,535, if no label before
+ * it has the same; otherwise it gets the number after the largest one so far. Labels that overlap, there, in a DICOM
+ * segmentation or in the layers of a .seg.nrrd, are in layers (Scan::furtherLayers).
  *
  * Values are rescaled by the slope and intercept of the file (to HU for CT). The pixel type is the stored one where
  * ScanImage has it and rescaling keeps it; otherwise int8 becomes int16; uint32, int64 and uint64 become int32 if all

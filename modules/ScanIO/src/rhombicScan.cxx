@@ -16,6 +16,14 @@ GeometryOf(const ScanImage & image)
   return std::visit([](const auto & pointer) -> const itk::ImageBase<3> & { return *pointer; }, image);
 }
 
+std::vector<ScanImage>
+LayersOf(const Scan & scan)
+{
+  std::vector<ScanImage> layers{ scan.image };
+  layers.insert(layers.end(), scan.furtherLayers.begin(), scan.furtherLayers.end());
+  return layers;
+}
+
 std::string
 PixelTypeName(const ScanImage & image)
 {
@@ -39,6 +47,7 @@ Scan
 WithoutVoxels(const Scan & scan)
 {
   Scan description = scan;
+  description.furtherLayers.clear();
   std::visit(
     [](auto & pointer) {
       const auto frame = std::decay_t<decltype(pointer)>::ObjectType::New();

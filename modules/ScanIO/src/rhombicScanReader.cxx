@@ -3,6 +3,7 @@
 #include "rhombicDicomFolder.h"
 #include "rhombicFailure.h"
 #include "rhombicInProcessDecoder.h"
+#include "rhombicLabelFiles.h"
 #include "rhombicQuietLibraries.h"
 #include "rhombicVolumeFile.h"
 #include "rhombicVolumeRefusal.h"
@@ -40,7 +41,8 @@ Open(const fs::path & path, const ScanReadOptions & options)
 {
   if (IsFolder(path))
   {
-    return OpenDicomFolder(path, options);
+    const std::vector<fs::path> masks = FindMasks(path, options.followsLinks);
+    return masks.empty() ? OpenDicomFolder(path, options) : OpenLabelFiles(masks, options);
   }
   if (!IsVolumeFileName(path))
   {
@@ -117,7 +119,8 @@ ListSeries(const fs::path & path, const ScanReadOptions & options)
 {
   return ReadOrFail(path, [&path, &options] {
     const bool isFolder = IsFolder(path);
-    return !isFolder && IsVolumeFileName(path) ? SeriesList() : ListDicomSeries(path, isFolder, options);
+    const bool hasSeries = isFolder ? FindMasks(path, options.followsLinks).empty() : !IsVolumeFileName(path);
+    return hasSeries ? ListDicomSeries(path, isFolder, options) : SeriesList();
   });
 }
 

@@ -94,4 +94,27 @@ CheckGeometry(const VolumeGeometry & geometry,
   }
 }
 
+bool
+AreSameGrids(const itk::ImageBase<3> & a, const itk::ImageBase<3> & b)
+{
+  constexpr double tolerance = 0.001; // voxels
+  const auto & region = a.GetLargestPossibleRegion();
+  bool areSame = region == b.GetLargestPossibleRegion();
+  for (unsigned int corner = 0; corner < 4; ++corner)
+  {
+    itk::Index<3> index = region.GetIndex();
+    if (corner < 3)
+    {
+      index[corner] = region.GetUpperIndex()[corner];
+    }
+    const auto place =
+      b.TransformPhysicalPointToContinuousIndex<double>(a.TransformIndexToPhysicalPoint<double>(index));
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      areSame = areSame && std::abs(place[axis] - static_cast<double>(index[axis])) < tolerance;
+    }
+  }
+  return areSame;
+}
+
 } // namespace rhombic

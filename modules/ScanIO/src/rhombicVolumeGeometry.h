@@ -36,6 +36,10 @@ CheckGeometry(const VolumeGeometry & geometry,
               ScanReadOptions::Policy onSheared,
               std::vector<std::string> & notes);
 
+/** Whether two grids have one size, and their corners the same places, within a thousandth of a voxel. */
+bool
+AreSameGrids(const itk::ImageBase<3> & a, const itk::ImageBase<3> & b);
+
 /** An image of this geometry without voxels. */
 template <typename TPixel>
 typename itk::Image<TPixel, 3>::Pointer

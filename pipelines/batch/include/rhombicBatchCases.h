@@ -16,7 +16,7 @@ struct BatchCase
   std::string name;
   std::filesystem::path folder;             ///< of its outputs, below those of the batch: its name, by default
   std::filesystem::path scan;               ///< absolute
-  std::filesystem::path labels;             ///< its label map, absolute; empty for none
+  std::filesystem::path labels;             ///< its label map or folder of masks, absolute; empty for none
   std::vector<std::string> options;         ///< of each of its commands, as "--series=1b2c"
   std::vector<std::filesystem::path> files; ///< all that is read, sorted
 

@@ -2,6 +2,7 @@
 
 #include "rhombicFailure.h"
 #include "rhombicScanReader.h"
+#include "rhombicTextFile.h"
 #include "rhombicVolumeFormat.h"
 #include "rhombicWording.h"
 
@@ -10,6 +11,7 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <sstream>
 
 namespace fs = std::filesystem;
 
@@ -259,21 +261,6 @@ private:
   std::size_t m_NumberOfSingleSlices = 0; ///< series
 };
 
-/** The volumes in folders of a name, anywhere in a folder. */
-void
-FindVolumes(const fs::path & folder, const std::string & name, const fs::path & excluded, std::vector<fs::path> & found)
-{
-  const FolderEntries entries = ListFolder(folder, excluded);
-  if (folder.filename() == name)
-  {
-    std::copy_if(entries.files.begin(), entries.files.end(), std::back_inserter(found), IsVolume);
-  }
-  for (const fs::path & subfolder : entries.folders)
-  {
-    FindVolumes(subfolder, name, excluded, found);
-  }
-}
-
 /** "sub-01_ses-1" of ".../sub-01_ses-1_T1w.nii.gz": a BIDS name without its suffix. */
 std::string
 EntitiesOf(const fs::path & volume)
@@ -287,6 +274,25 @@ SuffixOf(const fs::path & volume)
 {
   const std::string stem = fs::path(StemOf(volume)).filename().string();
   return stem.substr(stem.rfind('_') + 1);
+}
+
+/** The volumes, and folders of masks, in folders of a name, anywhere in a folder. */
+void
+FindVolumes(const fs::path & folder, const std::string & name, const fs::path & excluded, std::vector<fs::path> & found)
+{
+  const FolderEntries entries = ListFolder(folder, excluded);
+  if (folder.filename() == name)
+  {
+    std::copy_if(entries.files.begin(), entries.files.end(), std::back_inserter(found), IsVolume);
+  }
+  for (const fs::path & subfolder : entries.folders)
+  {
+    if (folder.filename() == name && SuffixOf(subfolder) == "dseg") // of masks
+    {
+      found.push_back(subfolder);
+    }
+    FindVolumes(subfolder, name, excluded, found);
+  }
 }
 
 CaseCollection
@@ -365,7 +371,7 @@ ParseHead(const fs::path & manifest, const std::string & line)
 CaseCollection
 ReadManifest(const fs::path & manifest)
 {
-  std::ifstream stream(manifest);
+  std::istringstream stream(ReadTextFile(manifest, "manifest"));
   CaseCollection found;
   std::vector<std::string> columns;
   std::string text;

@@ -113,7 +113,7 @@ AddLabels(const LoadedSource & loaded, const PictureSource & source, const Event
   LabelMesh mesh = LabelsToWalls(*loaded.labels, settings, events);
   SurfaceFinish smoothing;
   smoothing.smoothing = std::exchange(finish.smoothing, 0.0);
-  RefineWalls(*mesh.walls, smoothing, spacing, events);
+  RefineWalls(mesh, smoothing, spacing, events);
   ExtractSurfaces(mesh);
   for (LabelSurface & label : mesh.labels)
   {

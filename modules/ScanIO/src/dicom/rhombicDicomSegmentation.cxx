@@ -3,6 +3,7 @@
 #include "rhombicAnatomicalColours.h"
 #include "rhombicDicomTags.h"
 #include "rhombicFailure.h"
+#include "rhombicLabelLayers.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicStoredBytes.h"
 #include "rhombicVolumeGeometry.h"
@@ -13,6 +14,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <set>
 
 namespace rhombic
 {
@@ -336,36 +338,61 @@ SegmentsOfFrames(const DicomDataSet & dataSet, const LabelTable & labels, const 
   return segments;
 }
 
-/** Fills the label map. Returns the number of voxels that belong to more than one segment. */
-template <typename TPixel>
-std::size_t
-Fill(const Bytes & bytes,
-     const DicomPixelFormat & format,
-     const std::vector<std::uint32_t> & segments,
-     const Frames & frames,
-     const std::vector<std::size_t> & sliceOfFrame,
-     TPixel * pixels)
+/** The stored voxels of a segmentation, the segment of each frame of a binary one, and the slice of each frame. */
+struct SegmentationVoxels
 {
+  const Bytes & bytes;
+  const DicomPixelFormat & format;
+  const std::vector<std::uint32_t> & segments;
+  const Frames & frames;
+  const std::vector<std::size_t> & sliceOfFrame;
+};
+
+/** Calls \a add with each voxel of a label, and the label; of label 0, with those of all labels. */
+template <typename TPixel, typename TAdd>
+void
+VisitLabel(const SegmentationVoxels & voxels, TPixel wanted, const TAdd & add)
+{
+  const DicomPixelFormat & format = voxels.format;
   const std::size_t sliceSize = std::size_t{ format.columns } * format.rows;
-  std::size_t shared = 0;
-  for (std::size_t index = 0; index < frames.size(); ++index)
+  for (std::size_t index = 0; index < voxels.frames.size(); ++index)
   {
-    const std::size_t frame = frames[index].frame;
-    TPixel * const slice = pixels + sliceOfFrame[index] * sliceSize;
-    for (std::size_t n = 0; n < sliceSize; ++n)
+    const std::size_t frame = voxels.frames[index].frame;
+    const bool isOther = !voxels.segments.empty() && wanted != 0 && voxels.segments[frame] != wanted;
+    for (std::size_t n = 0; n < sliceSize && !isOther; ++n)
     {
-      const std::uint32_t stored = StoredPixel(bytes, format, frame * sliceSize + n);
+      const std::uint32_t stored = StoredPixel(voxels.bytes, format, frame * sliceSize + n);
       const bool isPadding = format.padding && stored == format.padding->first;
-      if (stored == 0 || isPadding)
+      const auto label = static_cast<TPixel>(voxels.segments.empty() ? stored : voxels.segments[frame]);
+      if (stored != 0 && !isPadding && (wanted == 0 || wanted == label))
       {
-        continue;
+        add(voxels.sliceOfFrame[index] * sliceSize + n, label);
       }
-      const auto label = static_cast<TPixel>(segments.empty() ? stored : segments[frame]);
-      shared += slice[n] != 0 && slice[n] != label ? 1 : 0;
-      slice[n] = label;
     }
   }
-  return shared;
+}
+
+/** Fills the layers of labels. Returns the number of voxels that belong to more than one segment. */
+template <typename TPixel>
+std::size_t
+Fill(const SegmentationVoxels & voxels, std::uintmax_t maximumMemory, Scan & scan)
+{
+  LabelLayers<TPixel> layers(rhombic::GeometryOf(scan.image), maximumMemory);
+  std::set<TPixel> labels{ 0 };
+  const std::set<std::size_t> slices(voxels.sliceOfFrame.begin(), voxels.sliceOfFrame.end());
+  if (slices.size() < voxels.frames.size()) // so that labels may overlap
+  {
+    labels = { voxels.segments.begin(), voxels.segments.end() };
+    if (labels.empty())
+    {
+      VisitLabel<TPixel>(voxels, 0, [&labels](std::size_t, TPixel label) { labels.insert(label); });
+    }
+  }
+  for (const TPixel label : labels)
+  {
+    layers.Add([&](const auto & add) { VisitLabel(voxels, label, add); });
+  }
+  return layers.Take(scan);
 }
 
 /** Whether a segmentation has a frame for each segment and slice; otherwise its pixels are labels. Throws Failure for
@@ -415,17 +442,12 @@ OpenDicomSegmentation(const std::vector<DicomSlice> & frames, std::uintmax_t max
                           maximumMemory,
                           "Reading " + stored.path.string());
             const Bytes bytes = ReadStoredBytes(stored, 0, (pixels * format.frames * format.bitsAllocated + 7) / 8);
-            const auto fill = [&](auto pixel) {
-              const auto image = NewImage<decltype(pixel)>(geometry);
-              image->FillBuffer(0);
-              read.image = image;
-              return Fill(bytes, format, segments, frames, slices.sliceOfFrame, image->GetBufferPointer());
-            };
-            const std::size_t shared = takesByte ? fill(std::uint8_t{}) : fill(std::uint16_t{});
+            const SegmentationVoxels voxels{ bytes, format, segments, frames, slices.sliceOfFrame };
+            const std::size_t shared = takesByte ? Fill<std::uint8_t>(voxels, maximumMemory, read)
+                                                 : Fill<std::uint16_t>(voxels, maximumMemory, read);
             if (shared > 0)
             {
-              read.notes.push_back(Count(shared, "voxel belongs", "voxels belong") +
-                                   " to more than one segment; the last one counts.");
+              read.notes.push_back(DescribeLayers(shared, read));
             }
           } };
 }

@@ -44,10 +44,11 @@ IsLabelValue(TPixel value)
 }
 
 template <typename TPixel>
-std::map<std::int32_t, LabelCount>
-CountLabels(const itk::Image<TPixel, 3> & image, const std::vector<double> & voxelVolumes)
+void
+CountLabels(const itk::Image<TPixel, 3> & image,
+            const std::vector<double> & voxelVolumes,
+            std::map<std::int32_t, LabelCount> & counts)
 {
-  std::map<std::int32_t, LabelCount> counts;
   const auto size = image.GetLargestPossibleRegion().GetSize();
   const TPixel * pixel = image.GetBufferPointer();
   for (const double voxelVolume : voxelVolumes)
@@ -72,7 +73,6 @@ CountLabels(const itk::Image<TPixel, 3> & image, const std::vector<double> & vox
       pixel = next;
     }
   }
-  return counts;
 }
 
 /** Whether at least half of all adjacent voxels along x that are both not 0 are equal. */
@@ -148,8 +148,11 @@ std::vector<LabelSummary>
 SummarizeLabels(const Scan & scan, const LabelTable & table)
 {
   const std::vector<double> voxelVolumes = VoxelVolumes(scan);
-  const std::map<std::int32_t, LabelCount> counts =
-    std::visit([&voxelVolumes](const auto & image) { return CountLabels(*image, voxelVolumes); }, scan.image);
+  std::map<std::int32_t, LabelCount> counts;
+  for (const ScanImage & layer : LayersOf(scan))
+  {
+    std::visit([&](const auto & image) { CountLabels(*image, voxelVolumes, counts); }, layer);
+  }
 
   std::vector<LabelSummary> summaries;
   for (const auto & [value, count] : counts)

@@ -1,13 +1,19 @@
 #include "rhombicLabelMapReader.h"
 
+#include "rhombicAnatomicalColours.h"
 #include "rhombicFailure.h"
+#include "rhombicLabelFiles.h"
 #include "rhombicProbabilities.h"
+#include "rhombicVolumeFile.h"
+
+namespace fs = std::filesystem;
 
 namespace rhombic
 {
 namespace
 {
 
+/** The table that was named, or that in or beside the label map. */
 LabelTable
 FindTable(const Scan & scan, const LabelMapSource & source)
 {
@@ -15,11 +21,45 @@ FindTable(const Scan & scan, const LabelMapSource & source)
   {
     return ReadLabelTable(source.table);
   }
-  if (!scan.labels.empty() || scan.format == "DICOM")
+  if (!scan.labels.empty() || scan.format == "DICOM" || source.paths.size() != 1)
   {
     return scan.labels;
   }
-  return FindLabelTable(source.path).value_or(LabelTable());
+  return FindLabelTable(source.paths.front()).value_or(LabelTable());
+}
+
+/** Calls the only label of a mask as its file. */
+void
+NameMask(const fs::path & path, std::vector<LabelSummary> & labels)
+{
+  if (labels.size() == 1 && (labels[0].label.value == 1 || labels[0].label.value == 255))
+  {
+    Label & label = labels[0].label;
+    label.name = SanitizeLabelName(StemOfVolume(path), label.value);
+    label.colour = AnatomicalColour(label.name, label.value);
+  }
+}
+
+/** The label map, or all of them as one. */
+UnreadScan
+OpenLabels(const std::vector<fs::path> & paths, const ScanReadOptions & options)
+{
+  if (paths.size() == 1)
+  {
+    return OpenScan(paths.front(), options);
+  }
+  std::vector<fs::path> files;
+  for (const fs::path & path : paths)
+  {
+    const std::vector<fs::path> masks =
+      fs::is_directory(path) ? FindMasks(path, options.followsLinks) : std::vector<fs::path>();
+    files.insert(files.end(), masks.begin(), masks.end());
+    if (masks.empty())
+    {
+      files.push_back(path);
+    }
+  }
+  return OpenLabelFiles(files, options);
 }
 
 } // namespace
@@ -33,14 +73,25 @@ IsLabelMap(const Scan & scan)
 std::vector<LabelSummary>
 FindLabels(const Scan & scan, const LabelMapSource & source)
 {
-  const LabelTable table = FindTable(scan, source);
-  if (table.empty() && !LooksLikeLabelMap(scan))
+  LabelTable table = FindTable(scan, source);
+  if (!table.empty())
+  {
+    return SummarizeLabels(scan, table);
+  }
+  if (!LooksLikeLabelMap(scan))
   {
     throw Failure(FailureKind::Unreadable,
-                  "Cannot take " + source.path.string() +
+                  "Cannot take " + source.GetFirstPath().string() +
                     " for a label map: its values look like intensities; if it is one, give a --label-table.");
   }
-  return SummarizeLabels(scan, table);
+  const bool isFile = source.paths.size() == 1 && IsVolumeFileName(source.paths.front());
+  table = isFile ? FindDatasetTable(source.paths.front()).value_or(LabelTable()) : table;
+  std::vector<LabelSummary> labels = SummarizeLabels(scan, table);
+  if (isFile && table.empty())
+  {
+    NameMask(source.paths.front(), labels);
+  }
+  return labels;
 }
 
 LabelMap
@@ -55,7 +106,7 @@ ReadLabelMap(const LabelMapSource & source,
   LabelMap map;
   if (source.probabilities.empty())
   {
-    map.scan = ReadVoxels(OpenScan(source.path, mapOptions));
+    map.scan = ReadVoxels(OpenLabels(source.paths, mapOptions));
     map.labels = FindLabels(map.scan, source);
   }
   else

@@ -9,14 +9,19 @@ namespace rhombic
 namespace
 {
 
-template <typename TPixel>
-itk::ImageRegion<3>
-RegionOf(const itk::Image<TPixel, 3> & image)
+/** The first voxels that are not 0, and those behind the last, along each axis. */
+struct LabelBox
 {
-  const itk::ImageRegion<3> whole = image.GetLargestPossibleRegion();
-  const auto size = whole.GetSize();
-  itk::Size<3> begin = size;
+  itk::Size<3> begin;
   itk::Size<3> end{ { 0, 0, 0 } };
+};
+
+template <typename TPixel>
+void
+Extend(LabelBox & box, const itk::Image<TPixel, 3> & image)
+{
+  const auto size = image.GetLargestPossibleRegion().GetSize();
+  auto & [begin, end] = box;
   const TPixel * line = image.GetBufferPointer();
   for (std::size_t z = 0; z < size[2]; ++z)
   {
@@ -37,17 +42,6 @@ RegionOf(const itk::Image<TPixel, 3> & image)
       }
     }
   }
-  if (end[2] == 0)
-  {
-    return whole;
-  }
-  itk::ImageRegion<3> region = whole;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    region.SetIndex(axis, whole.GetIndex(axis) + static_cast<itk::IndexValueType>(begin[axis]));
-    region.SetSize(axis, end[axis] - begin[axis]);
-  }
-  return region;
 }
 
 /** Whether a point is in a voxel of a grid. */
@@ -93,9 +87,25 @@ OverlapOfRegion(const itk::ImageBase<3> & inner, const itk::ImageRegion<3> & reg
 } // namespace
 
 itk::ImageRegion<3>
-RegionOfLabels(const ScanImage & image)
+RegionOfLabels(const std::vector<ScanImage> & layers)
 {
-  return std::visit([](const auto & voxels) { return RegionOf(*voxels); }, image);
+  const itk::ImageRegion<3> whole = GeometryOf(layers.front()).GetLargestPossibleRegion();
+  LabelBox box{ whole.GetSize() };
+  for (const ScanImage & layer : layers)
+  {
+    std::visit([&box](const auto & image) { Extend(box, *image); }, layer);
+  }
+  if (box.end[2] == 0)
+  {
+    return whole;
+  }
+  itk::ImageRegion<3> region = whole;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    region.SetIndex(axis, whole.GetIndex(axis) + static_cast<itk::IndexValueType>(box.begin[axis]));
+    region.SetSize(axis, box.end[axis] - box.begin[axis]);
+  }
+  return region;
 }
 
 std::string
@@ -105,7 +115,7 @@ RequireOverlap(const Scan & scan,
                const std::filesystem::path & labelsPath)
 {
   const double overlap =
-    OverlapOfRegion(GeometryOf(labels.image), RegionOfLabels(labels.image), GeometryOf(scan.image));
+    OverlapOfRegion(GeometryOf(labels.image), RegionOfLabels(LayersOf(labels)), GeometryOf(scan.image));
   if (overlap == 0)
   {
     throw Failure(FailureKind::Geometry,

@@ -2,6 +2,7 @@
 
 #include "rhombicFailure.h"
 #include "rhombicMemoryBudget.h"
+#include "rhombicVolumeGeometry.h"
 #include "rhombicWording.h"
 
 #include "itkCastImageFilter.h"
@@ -59,35 +60,11 @@ FindVolumes(const std::vector<fs::path> & paths, ScanReadOptions options)
   return volumes;
 }
 
-/** Whether the corners of two grids of one size are in the same places. */
-bool
-AreSame(const itk::ImageBase<3> & a, const itk::ImageBase<3> & b)
-{
-  constexpr double tolerance = 0.001; // voxels
-  const auto & region = a.GetLargestPossibleRegion();
-  bool areSame = region == b.GetLargestPossibleRegion();
-  for (unsigned int corner = 0; corner < 4; ++corner)
-  {
-    itk::Index<3> index = region.GetIndex();
-    if (corner < 3)
-    {
-      index[corner] = region.GetUpperIndex()[corner];
-    }
-    const auto place =
-      b.TransformPhysicalPointToContinuousIndex<double>(a.TransformIndexToPhysicalPoint<double>(index));
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      areSame = areSame && std::abs(place[axis] - static_cast<double>(index[axis])) < tolerance;
-    }
-  }
-  return areSame;
-}
-
 void
 CheckGrid(const Scan & scan, const Scan & first, const fs::path & path)
 {
   const bool isUneven = !scan.sliceOrigins.empty();
-  if (isUneven || !AreSame(GeometryOf(scan.image), GeometryOf(first.image)))
+  if (isUneven || !AreSameGrids(GeometryOf(scan.image), GeometryOf(first.image)))
   {
     throw Failure(FailureKind::Geometry,
                   "Cannot use the probabilities in " + path.string() + ": " +

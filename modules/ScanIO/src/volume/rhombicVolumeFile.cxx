@@ -2,6 +2,7 @@
 
 #include "rhombicCompressedFile.h"
 #include "rhombicLabelTableFormats.h"
+#include "rhombicLabelUnion.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicMetaImageHeader.h"
 #include "rhombicNIfTIFile.h"
@@ -18,6 +19,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -145,6 +147,23 @@ ReplaceNotFinite(const ScanImage & image, const fs::path & path)
   return count;
 }
 
+/** Reads all layers of a 3D Slicer segmentation, each of which numbers its segments independently. */
+void
+ReadLayers(const StoredVolume & volume,
+           const std::map<std::string, std::string> & segments,
+           const fs::path & path,
+           const ScanReadOptions & options,
+           Scan & scan)
+{
+  LabelUnion labels(GeometryOf(scan.image), options.maximumMemory);
+  for (std::uintmax_t layer = 0; layer < volume.numberOfFrames; ++layer)
+  {
+    labels.Add(ReadStoredVoxels(volume, layer, options),
+               LabelsOfSegments(segments, path.string(), static_cast<int>(layer)));
+  }
+  labels.Take(scan);
+}
+
 } // namespace
 
 bool
@@ -159,10 +178,17 @@ OpenVolumeFile(const fs::path & path, const ScanReadOptions & options)
   Scan scan;
   scan.format = VolumeFormatOf(path);
   const StoredVolume volume = ReadHeader(path, options, scan);
-  ChooseFrame(volume.numberOfFrames, options, path, scan);
+  const auto segments = scan.format == "NRRD" ? ReadNRRDKeyValues(path) : std::map<std::string, std::string>();
+  const bool isLayered = volume.numberOfFrames > 1 && !options.frame && HasSegments(segments);
+  if (!isLayered)
+  {
+    ChooseFrame(volume.numberOfFrames, options, path, scan);
+    scan.labels = LabelsOfSegments(segments, path.string(), static_cast<int>(scan.frame));
+  }
   const std::set<fs::path> files{ path, volume.voxels.path };
   scan.files.assign(files.begin(), files.end());
-  scan.image = NewVolumeImage(volume.type, volume.scaling.has_value(), volume.geometry);
+  scan.image = isLayered ? ScanImage(NewFrame<std::uint16_t>(volume.geometry))
+                         : NewVolumeImage(volume.type, volume.scaling.has_value(), volume.geometry);
   scan.encoding = volume.encoding;
   scan.scaling = DescribeScaling(volume.scaling);
   scan.isOriented = volume.isOriented;
@@ -170,16 +196,17 @@ OpenVolumeFile(const fs::path & path, const ScanReadOptions & options)
   {
     scan.notes.push_back(path.string() + " " + volume.note + ".");
   }
-  if (scan.format == "NRRD")
-  {
-    scan.labels = LabelsOfSegments(ReadNRRDKeyValues(path), path.string(), static_cast<int>(scan.frame));
-  }
   return { scan, [=](Scan & read) {
             const std::uintmax_t group = volume.areFramesInterleaved ? volume.numberOfFrames * SizeOf(volume.type) : 0;
             RequireMemory(group +
                             MemoryOfPixels(volume.type, volume.scaling.has_value(), NumberOfVoxels(volume.geometry)),
                           options.maximumMemory,
                           "Reading " + path.string());
+            if (isLayered)
+            {
+              ReadLayers(volume, segments, path, options, read);
+              return;
+            }
             read.image = ReadStoredVoxels(volume, read.frame, options);
             if (const std::size_t count = ReplaceNotFinite(read.image, path); count > 0)
             {
