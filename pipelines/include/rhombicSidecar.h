@@ -40,9 +40,13 @@ StageSidecar(const std::filesystem::path & output,
              const Report & report,
              StagedFiles & staged);
 
-/** Writes a text file, to appear with all others of \a staged. Throws Failure(Output). */
+/** Writes a text file, to appear with all others of \a staged. Throws Failure(Output).
+ * \param permissions unknown: those of new files */
 void
-StageText(const std::string & text, const std::filesystem::path & path, StagedFiles & staged);
+StageText(const std::string & text,
+          const std::filesystem::path & path,
+          StagedFiles & staged,
+          std::filesystem::perms permissions = std::filesystem::perms::unknown);
 
 } // namespace rhombic
 

@@ -2,6 +2,7 @@
 
 #include "rhombicAuditReport.h"
 #include "rhombicFailure.h"
+#include "rhombicMeasureTable.h"
 #include "rhombicWallAudit.h"
 #include "rhombicWording.h"
 
@@ -15,26 +16,6 @@ namespace
 {
 
 constexpr double NotablePercent = 1.0; // smaller differences of volumes are not mentioned
-
-/** Volume in mm^3 of the voxels that the surface should enclose, counted without the surface. Nothing where parts were
- * left out. */
-std::optional<double>
-CountVoxels(const MeshedSurface & surface, const std::optional<Scan> & scan)
-{
-  if (!surface.parts.IsNothing())
-  {
-    return std::nullopt;
-  }
-  if (surface.label)
-  {
-    return surface.label->voxelMillilitres * CubicMillimetresPerMl;
-  }
-  if (scan && surface.request->parts == SurfaceRequest::Parts::All)
-  {
-    return CountVoxelVolume(*scan, surface.request->GetThreshold());
-  }
-  return std::nullopt;
-}
 
 /** Volume, area and mean value, in one line. */
 std::string
@@ -81,17 +62,13 @@ RefuseToWrite(const std::string & why)
 void
 FileInspection::Measure(MeshedSurface & surface) const
 {
-  const itk::TriangleSurface & written = *surface.scene.surface;
-  surface.points = written.GetNumberOfPoints();
-  surface.triangles = written.GetNumberOfTriangles();
-  surface.measures = m_Scan ? MeasureSurface(written, *m_Scan) : MeasureSurface(written);
-  surface.measures.voxelVolume = CountVoxels(surface, m_Scan);
+  MeasureFinished(m_Scan ? &*m_Scan : nullptr, surface);
   surface.measures.isosurface = surface.parts.IsNothing() ? surface.isosurface : std::nullopt;
   if (m_Scan && surface.request)
   {
     constexpr std::size_t quick = 50'000; // the mean's standard error is below 0.5 % of the spread
     constexpr std::size_t thorough = 10'000'000;
-    surface.deviation = ComputeDeviation(written,
+    surface.deviation = ComputeDeviation(*surface.scene.surface,
                                          *m_Scan,
                                          m_Settings.source.lattice.kernel,
                                          surface.request->GetThreshold(),
@@ -133,7 +110,7 @@ FileInspection::NoteThinParts(const MeshedSurface & surface) const
 {
   if (surface.isosurface)
   {
-    const double error = 100.0 * surface.isosurface->GetErrorOf(surface.extracted.volume);
+    const double error = 100.0 * surface.isosurface->GetErrorOf(surface.extracted->volume);
     if (std::abs(error) > NotablePercent + 100.0 * surface.isosurface->GetRelativeUncertainty())
     {
       m_Events.Note(surface.scene.name + ": parts are thinner than the lattice's spacing, so the surface encloses " +

@@ -5,8 +5,15 @@
 #include "rhombicSurfaceReport.h"
 #include "rhombicWording.h"
 
+#include "itkTriangleSurfaceMeasures.h"
+
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <string>
+#include <cstdint>
+#include <cstring>
+#include <iterator>
+#include <sstream>
 
 namespace fs = std::filesystem;
 
@@ -16,13 +23,137 @@ namespace
 {
 
 using Surface = MeshedSurface;
-using Field = std::string;
+
+/** Null for what is no finite number. */
+Report
+FiniteOrNull(double number)
+{
+  return std::isfinite(number) ? Report(number) : Report();
+}
+
+Report
+FiniteOrNull(const std::optional<double> & number)
+{
+  return number ? FiniteOrNull(*number) : Report();
+}
+
+Report
+ToMillilitres(const std::optional<double> & volume)
+{
+  return volume ? FiniteOrNull(*volume / CubicMillimetresPerMl) : Report();
+}
+
+Report
+FindKind(const Surface & surface)
+{
+  return surface.request ? "isosurface" : surface.label ? "label" : "file";
+}
+
+Report
+FindMode(const Surface & surface)
+{
+  std::ostringstream mode;
+  mode << surface.mode;
+  return surface.request ? Report(mode.str()) : Report();
+}
+
+Report
+FindSide(const Surface & surface)
+{
+  return surface.request ? Report(surface.request->insideIsBelow ? "below" : "above") : Report();
+}
+
+Report
+FindReference(const Surface & surface)
+{
+  const bool isKnown = surface.measures.GetVolumeError().has_value();
+  return isKnown ? Report(surface.measures.isosurface ? "isosurface" : "voxels") : Report();
+}
+
+template <double IsosurfaceVolume::*Member>
+Report
+FindIsosurface(const Surface & surface)
+{
+  const auto & isosurface = surface.measures.isosurface;
+  return isosurface ? ToMillilitres((*isosurface).*Member) : Report();
+}
+
+template <std::size_t Bound>
+Report
+FindBound(const Surface & surface)
+{
+  return FiniteOrNull(surface.measures.bounds[Bound]);
+}
+
+template <std::size_t Axis>
+Report
+FindCentroid(const Surface & surface)
+{
+  return FiniteOrNull(surface.measures.centroid[Axis]);
+}
+
+template <double SurfaceDeviation::*Member>
+Report
+FindDeviation(const Surface & surface)
+{
+  const auto & deviation = surface.deviation;
+  return deviation && deviation->IsKnown() ? FiniteOrNull((*deviation).*Member) : Report();
+}
+
+/** The volume of the voxels that a surface should enclose, in mm^3, counted without the surface. Nothing where parts
+ * were left out. */
+std::optional<double>
+CountVoxels(const Surface & surface, const Scan * scan)
+{
+  if (!surface.parts.IsNothing())
+  {
+    return std::nullopt;
+  }
+  if (surface.label)
+  {
+    return surface.label->voxelMillilitres * CubicMillimetresPerMl;
+  }
+  if (scan != nullptr && surface.request && surface.request->parts == SurfaceRequest::Parts::All)
+  {
+    return CountVoxelVolume(*scan, surface.request->GetThreshold());
+  }
+  return std::nullopt;
+}
+
+/** A hash of a surface's name and triangles, whatever their order. */
+std::string
+Identify(const std::string & name, const itk::TriangleSurface & surface)
+{
+  std::uint64_t sum = 0;
+  for (const auto & triangle : surface.GetTriangles())
+  {
+    std::array<itk::TriangleSurface::PointType, 3> corners;
+    for (std::size_t n = 0; n < 3; ++n)
+    {
+      corners[n] = surface.GetPoints()[triangle[n]];
+    }
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    std::uint64_t hash = 0;
+    for (const auto & corner : corners)
+    {
+      for (const float coordinate : corner)
+      {
+        std::uint32_t bits = 0;
+        std::memcpy(&bits, &coordinate, sizeof(bits));
+        hash = (hash ^ bits) * 0x9e3779b97f4a7c15u; // the golden ratio in 64 bits, as in Steele et al. 2014
+        hash ^= hash >> 29;
+      }
+    }
+    sum += hash;
+  }
+  return HashText(name + '\n' + std::to_string(sum)).substr(0, 12);
+}
 
 /** Text in quotes, in which quotes are doubled (RFC 4180). */
-Field
+std::string
 Quote(const std::string & text)
 {
-  Field field = "\"";
+  std::string field = "\"";
   for (const char letter : text)
   {
     field += letter == '"' ? "\"\"" : std::string(1, letter);
@@ -30,119 +161,22 @@ Quote(const std::string & text)
   return field + '"';
 }
 
-/** Empty for what is no finite number. */
-Field
-ToField(double number)
-{
-  return std::isfinite(number) ? FormatExact(number) : "";
-}
-
-Field
-ToField(const std::optional<double> & number)
-{
-  return number ? ToField(*number) : "";
-}
-
-Field
-ToMillilitres(const std::optional<double> & volume)
-{
-  return volume ? ToField(*volume / CubicMillimetresPerMl) : "";
-}
-
-Field
-FindReference(const Surface & surface)
-{
-  const bool isKnown = surface.measures.GetVolumeError().has_value();
-  return isKnown ? Quote(surface.measures.isosurface ? "isosurface" : "voxels") : "";
-}
-
-template <double IsosurfaceVolume::*Member>
-Field
-FindIsosurface(const Surface & surface)
-{
-  const auto & isosurface = surface.measures.isosurface;
-  return isosurface ? ToMillilitres((*isosurface).*Member) : "";
-}
-
-template <std::size_t Bound>
-Field
-FindBound(const Surface & surface)
-{
-  return ToField(surface.measures.bounds[Bound]);
-}
-
-template <std::size_t Axis>
-Field
-FindCentroid(const Surface & surface)
-{
-  return ToField(surface.measures.centroid[Axis]);
-}
-
-template <double SurfaceDeviation::*Member>
-Field
-FindDeviation(const Surface & surface)
-{
-  const auto & deviation = surface.deviation;
-  return deviation && deviation->IsKnown() ? ToField((*deviation).*Member) : "";
-}
-
-struct Column
-{
-  const char * head;
-  Field (*find)(const Surface & surface);
-};
-
-const Column columns[] = {
-  { "name", [](const Surface & s) { return Quote(s.scene.name); } },
-  { "isovalue", [](const Surface & s) { return s.request ? ToField(s.request->isovalue) : Field(); } },
-  { "inside", [](const Surface & s) { return s.request ? Quote(s.request->insideIsBelow ? "below" : "above") : ""; } },
-  { "volume (ml)", [](const Surface & s) { return ToMillilitres(s.measures.volume); } },
-  { "isosurface volume (ml)", FindIsosurface<&IsosurfaceVolume::volume> },
-  { "isosurface uncertainty (ml)", FindIsosurface<&IsosurfaceVolume::uncertainty> },
-  { "voxel volume (ml)", [](const Surface & s) { return ToMillilitres(s.measures.voxelVolume); } },
-  { "volume error (%)", [](const Surface & s) { return ToField(s.measures.GetVolumeError()); } },
-  { "volume error is of", FindReference },
-  { "area (mm2)", [](const Surface & s) { return ToField(s.measures.area); } },
-  { "x min (mm)", FindBound<0> },
-  { "x max (mm)", FindBound<1> },
-  { "y min (mm)", FindBound<2> },
-  { "y max (mm)", FindBound<3> },
-  { "z min (mm)", FindBound<4> },
-  { "z max (mm)", FindBound<5> },
-  { "centroid x (mm)", FindCentroid<0> },
-  { "centroid y (mm)", FindCentroid<1> },
-  { "centroid z (mm)", FindCentroid<2> },
-  { "longest diameter (mm)", [](const Surface & s) { return ToField(s.measures.longestDiameter); } },
-  { "mean value", [](const Surface & s) { return ToField(s.measures.meanValue); } },
-  { "standard deviation", [](const Surface & s) { return ToField(s.measures.standardDeviation); } },
-  { "triangles", [](const Surface & s) { return std::to_string(s.triangles); } },
-  { "volume as extracted (ml)", [](const Surface & s) { return ToMillilitres(s.extracted.volume); } },
-  { "area as extracted (mm2)", [](const Surface & s) { return ToField(s.extracted.area); } },
-  { "triangles as extracted", [](const Surface & s) { return std::to_string(s.extracted.triangles); } },
-  { "volume change by finishing (%)",
-    [](const Surface & s) { return ToField(PercentChange(s.extracted.volume, s.measures.volume)); } },
-  { "area change by finishing (%)",
-    [](const Surface & s) { return ToField(PercentChange(s.extracted.area, s.measures.area)); } },
-  { "mean deviation (mm)", FindDeviation<&SurfaceDeviation::mean> },
-  { "95 % deviation (mm)", FindDeviation<&SurfaceDeviation::percentile95> },
-  { "largest deviation (mm)", FindDeviation<&SurfaceDeviation::maximum> },
-};
-
 std::string
 ToCSV(const std::vector<MeshedSurface> & surfaces)
 {
-  std::string heads;
-  for (const Column & column : columns)
+  std::string text;
+  for (const MeasureColumn & column : GetMeasureColumns())
   {
-    heads += (heads.empty() ? "" : ",") + std::string(column.head);
+    text += (text.empty() ? "" : ",") + column.name;
   }
-  std::string text = heads + "\r\n";
+  text += "\r\n";
   for (const MeshedSurface & surface : surfaces)
   {
     std::string line;
-    for (const Column & column : columns)
+    for (const MeasureColumn & column : GetMeasureColumns())
     {
-      line += (&column == columns ? "" : ",") + column.find(surface);
+      const Report value = column.find(surface);
+      line += (line.empty() ? "" : ",") + (value.is_string() ? Quote(value.get<std::string>()) : ToField(value));
     }
     text += line + "\r\n";
   }
@@ -150,17 +184,187 @@ ToCSV(const std::vector<MeshedSurface> & surfaces)
 }
 
 std::string
-ToJsonTable(const std::vector<MeshedSurface> & surfaces, itk::FCCIsosurfaceMode mode)
+ToJsonTable(const std::vector<MeshedSurface> & surfaces)
 {
   Report table = Report::array();
-  for (const MeshedSurface & surface : surfaces)
-  {
-    table.push_back(ReportMeshedSurface(surface, mode));
-  }
+  std::transform(surfaces.begin(), surfaces.end(), std::back_inserter(table), ReportMeshedSurface);
   return ToJson(table) + '\n';
 }
 
 } // namespace
+
+const std::vector<MeasureColumn> &
+GetMeasureColumns()
+{
+  static const std::vector<MeasureColumn> columns{
+    { "surface_id",
+      "",
+      "Identifies the surface as finished: a hash of its name and triangles.",
+      [](const Surface & s) { return Report(s.identity); } },
+    { "surface", "", "The surface's name.", [](const Surface & s) { return Report(s.scene.name); } },
+    { "kind", "", "isosurface, label, or file: where the surface comes from.", FindKind },
+    { "label_value",
+      "",
+      "The label's number in the label map.",
+      [](const Surface & s) { return s.label ? Report(s.label->value) : Report(); } },
+    { "isovalue_scan_unit",
+      "unit of the scan's values (HU for CT)",
+      "The threshold of an isosurface.",
+      [](const Surface & s) { return s.request ? FiniteOrNull(s.request->isovalue) : Report(); } },
+    { "inside", "", "above or below: the side of the threshold that is inside.", FindSide },
+    { "mode", "", "How an isosurface is put through the lattice's cells.", FindMode },
+    { "volume_ml",
+      "mL",
+      "The volume that the finished surface encloses.",
+      [](const Surface & s) { return ToMillilitres(s.measures.volume); } },
+    { "isosurface_volume_ml",
+      "mL",
+      "The volume inside the scan's isosurface, estimated from the lattice's samples.",
+      FindIsosurface<&IsosurfaceVolume::volume> },
+    { "isosurface_uncertainty_ml",
+      "mL",
+      "The uncertainty of isosurface_volume_ml.",
+      FindIsosurface<&IsosurfaceVolume::uncertainty> },
+    { "voxel_volume_ml",
+      "mL",
+      "The volume of the voxels of the label, or on the inner side of the threshold.",
+      [](const Surface & s) { return ToMillilitres(s.measures.voxelVolume); } },
+    { "volume_error_percent",
+      "%",
+      "By how much volume_ml is above its reference.",
+      [](const Surface & s) { return FiniteOrNull(s.measures.GetVolumeError()); } },
+    { "volume_error_reference", "", "isosurface or voxels: the reference of volume_error_percent.", FindReference },
+    { "area_mm2",
+      "mm^2",
+      "The area of the finished surface.",
+      [](const Surface & s) { return FiniteOrNull(s.measures.area); } },
+    { "x_min_mm", "mm", "The lowest coordinate to the patient's left (LPS).", FindBound<0> },
+    { "x_max_mm", "mm", "The highest coordinate to the patient's left (LPS).", FindBound<1> },
+    { "y_min_mm", "mm", "The lowest coordinate to the patient's back (LPS).", FindBound<2> },
+    { "y_max_mm", "mm", "The highest coordinate to the patient's back (LPS).", FindBound<3> },
+    { "z_min_mm", "mm", "The lowest coordinate to the patient's head (LPS).", FindBound<4> },
+    { "z_max_mm", "mm", "The highest coordinate to the patient's head (LPS).", FindBound<5> },
+    { "centroid_x_mm", "mm", "The centre of the enclosed volume, to the patient's left (LPS).", FindCentroid<0> },
+    { "centroid_y_mm", "mm", "The centre of the enclosed volume, to the patient's back (LPS).", FindCentroid<1> },
+    { "centroid_z_mm", "mm", "The centre of the enclosed volume, to the patient's head (LPS).", FindCentroid<2> },
+    { "longest_diameter_mm",
+      "mm",
+      "The largest distance between two points of the surface.",
+      [](const Surface & s) { return FiniteOrNull(s.measures.longestDiameter); } },
+    { "mean_scan_unit",
+      "unit of the scan's values (HU for CT)",
+      "The mean of the scan's values inside the surface.",
+      [](const Surface & s) { return FiniteOrNull(s.measures.meanValue); } },
+    { "standard_deviation_scan_unit",
+      "unit of the scan's values (HU for CT)",
+      "The standard deviation of the scan's values inside the surface.",
+      [](const Surface & s) { return FiniteOrNull(s.measures.standardDeviation); } },
+    { "points", "count", "The number of points.", [](const Surface & s) { return Report(s.points); } },
+    { "triangles", "count", "The number of triangles.", [](const Surface & s) { return Report(s.triangles); } },
+    { "extracted_volume_ml",
+      "mL",
+      "The volume at extraction, before parts were removed and the surface was smoothed or simplified.",
+      [](const Surface & s) { return s.extracted ? ToMillilitres(s.extracted->volume) : Report(); } },
+    { "extracted_area_mm2",
+      "mm^2",
+      "The area at extraction.",
+      [](const Surface & s) { return s.extracted ? FiniteOrNull(s.extracted->area) : Report(); } },
+    { "extracted_triangles",
+      "count",
+      "The number of triangles at extraction.",
+      [](const Surface & s) { return s.extracted ? Report(s.extracted->triangles) : Report(); } },
+    { "finishing_volume_change_percent",
+      "%",
+      "By how much volume_ml is above extracted_volume_ml.",
+      [](const Surface & s) {
+        return s.extracted ? FiniteOrNull(PercentChange(s.extracted->volume, s.measures.volume)) : Report();
+      } },
+    { "finishing_area_change_percent",
+      "%",
+      "By how much area_mm2 is above extracted_area_mm2.",
+      [](const Surface & s) {
+        return s.extracted ? FiniteOrNull(PercentChange(s.extracted->area, s.measures.area)) : Report();
+      } },
+    { "deviation_mean_mm",
+      "mm",
+      "The mean distance from the surface to the scan's isosurface.",
+      FindDeviation<&SurfaceDeviation::mean> },
+    { "deviation_percentile95_mm",
+      "mm",
+      "The distance to the scan's isosurface that 95 % of the surface stay within.",
+      FindDeviation<&SurfaceDeviation::percentile95> },
+    { "deviation_maximum_mm",
+      "mm",
+      "The largest distance from the surface to the scan's isosurface.",
+      FindDeviation<&SurfaceDeviation::maximum> },
+    { "deviation_bias_mm",
+      "mm",
+      "The mean of the signed distances; above 0 where the surface lies outside the isosurface.",
+      FindDeviation<&SurfaceDeviation::bias> },
+  };
+  return columns;
+}
+
+ExtractedSize
+MeasureExtracted(const itk::TriangleSurface & surface)
+{
+  return { ComputeVolume(surface), ComputeArea(surface), surface.GetNumberOfTriangles() };
+}
+
+void
+MeasureFinished(const Scan * scan, MeshedSurface & surface)
+{
+  const itk::TriangleSurface & finished = *surface.scene.surface;
+  surface.identity = Identify(surface.scene.name, finished);
+  surface.points = finished.GetNumberOfPoints();
+  surface.triangles = finished.GetNumberOfTriangles();
+  surface.measures = scan != nullptr ? MeasureSurface(finished, *scan) : MeasureSurface(finished);
+  surface.measures.voxelVolume = CountVoxels(surface, scan);
+}
+
+Report
+ReportMeasures(const MeshedSurface & surface)
+{
+  Report report;
+  for (const MeasureColumn & column : GetMeasureColumns())
+  {
+    if (Report value = column.find(surface); !value.is_null())
+    {
+      report[column.name] = std::move(value);
+    }
+  }
+  return report;
+}
+
+void
+DescribeColumn(const std::string & name, const std::string & unit, const std::string & description, Report & columns)
+{
+  columns[name]["Description"] = description;
+  if (!unit.empty())
+  {
+    columns[name]["Units"] = unit;
+  }
+}
+
+Report
+DescribeMeasures()
+{
+  Report columns;
+  for (const MeasureColumn & column : GetMeasureColumns())
+  {
+    DescribeColumn(column.name, column.unit, column.description, columns);
+  }
+  return columns;
+}
+
+std::string
+ToField(const Report & value)
+{
+  std::string text = value.is_null() ? "n/a" : value.is_string() ? value.get<std::string>() : ToJson(value);
+  std::replace_if(
+    text.begin(), text.end(), [](unsigned char letter) { return letter < ' '; }, ' ');
+  return text;
+}
 
 void
 CheckMeasureTablePath(const fs::path & path)
@@ -173,13 +377,10 @@ CheckMeasureTablePath(const fs::path & path)
 }
 
 void
-StageMeasureTable(const std::vector<MeshedSurface> & surfaces,
-                  itk::FCCIsosurfaceMode mode,
-                  const fs::path & path,
-                  StagedFiles & staged)
+StageMeasureTable(const std::vector<MeshedSurface> & surfaces, const fs::path & path, StagedFiles & staged)
 {
   CheckMeasureTablePath(path);
-  StageText(path.extension() == ".csv" ? ToCSV(surfaces) : ToJsonTable(surfaces, mode), path, staged);
+  StageText(path.extension() == ".csv" ? ToCSV(surfaces) : ToJsonTable(surfaces), path, staged);
 }
 
 } // namespace rhombic

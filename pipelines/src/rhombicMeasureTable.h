@@ -3,23 +3,68 @@
 
 #include "rhombicAtomicFile.h"
 #include "rhombicMeshedSurface.h"
+#include "rhombicScanReport.h"
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace rhombic
 {
 
+/** \file
+ * What is measured of surfaces as they are finished: one list of columns, from which reports, tables and pages take
+ * names, units and values. */
+
+/** \class MeasureColumn
+ * \brief One thing that is known of a surface. */
+struct MeasureColumn
+{
+  std::string name;        ///< in snake_case, with the unit at its end
+  std::string unit;        ///< empty for what is no measure
+  std::string description; ///< a sentence
+
+  /** A number or text; null for what is not known. */
+  Report (*find)(const MeshedSurface & surface);
+};
+
+/** All columns; what a table holds has no effect on them. */
+const std::vector<MeasureColumn> &
+GetMeasureColumns();
+
+/** The size of a surface that is not finished yet. */
+ExtractedSize
+MeasureExtracted(const itk::TriangleSurface & surface);
+
+/** Sets the numbers of points and triangles, the measures and the identity of a finished surface. For any thread.
+ * \param scan for the values and voxels inside; may be null */
+void
+MeasureFinished(const Scan * scan, MeshedSurface & surface);
+
+/** What is known of a surface, by column. */
+Report
+ReportMeasures(const MeshedSurface & surface);
+
+/** Adds a column to the description of a table's columns as BIDS has them beside a table (.json). */
+void
+DescribeColumn(const std::string & name, const std::string & unit, const std::string & description, Report & columns);
+
+/** The description of all columns of GetMeasureColumns(). */
+Report
+DescribeMeasures();
+
+/** A field of a tab-separated table: a text without control characters, or a number; "n/a" for null. */
+std::string
+ToField(const Report & value);
+
 /** Throws Failure(Usage) for an extension other than .csv and .json. */
 void
 CheckMeasureTablePath(const std::filesystem::path & path);
 
-/** Writes the measures of surfaces, to appear with all others of \a staged: as .csv a line for each surface, with units
- * in the head line and empty fields for what is not known; as .json all of ReportMeshedSurface(). Throws Failure: Usage
- * for another extension, Output. */
+/** Writes the measures of surfaces, to appear with all others of \a staged: as .csv a line for each surface, with "n/a"
+ * for what is not known; as .json all of ReportMeshedSurface(). Throws Failure: Usage for another extension, Output. */
 void
 StageMeasureTable(const std::vector<MeshedSurface> & surfaces,
-                  itk::FCCIsosurfaceMode mode,
                   const std::filesystem::path & path,
                   StagedFiles & staged);
 

@@ -10,7 +10,6 @@
 #include "itkFCCScanBorder.h"
 #include "itkForEachBlock.h"
 #include "itkTriangleSurfaceIntersections.h"
-#include "itkTriangleSurfaceMeasures.h"
 
 #include <algorithm>
 #include <functional>
@@ -111,13 +110,6 @@ CheckSettings(const MeshScanSettings & settings)
   CheckFiles(isForEach ? std::vector<fs::path>{} : std::vector<fs::path>{ settings.mesh }, settings);
 }
 
-/** The surface's size before it is finished. */
-ExtractedSize
-SizeOf(const itk::TriangleSurface & surface)
-{
-  return { ComputeVolume(surface), ComputeArea(surface), surface.GetNumberOfTriangles() };
-}
-
 /** The volume inside the scan's isosurface, estimated from the lattice. Nothing if only some parts of it are kept, if
  * the lattice samples another field than the scan or has few sites, or if the uncertainty is half the volume or more.
  */
@@ -159,9 +151,10 @@ AddIsosurfaces(const LoadedSource & loaded,
     MeshedSurface & surface = surfaces.emplace_back();
     surface.scene = extracted[n];
     surface.request = loaded.requests[n];
+    surface.mode = settings.surfaces.mode;
     surface.enclosed = extracted[n].enclosed;
-    surface.extracted = SizeOf(*surface.scene.surface);
-    surface.isosurface = EstimateIsosurface(loaded, *surface.request, surface.extracted.area, settings.source.lattice);
+    surface.extracted = MeasureExtracted(*surface.scene.surface);
+    surface.isosurface = EstimateIsosurface(loaded, *surface.request, surface.extracted->area, settings.source.lattice);
   }
 }
 
@@ -181,7 +174,7 @@ AddLabels(const LoadedSource & loaded,
   std::vector<ExtractedSize> extracted;
   for (const LabelSurface & label : mesh.labels)
   {
-    extracted.push_back(SizeOf(*label.scene.surface));
+    extracted.push_back(MeasureExtracted(*label.scene.surface));
   }
   const double spacing = MeanSpacingOf(GeometryOf(loaded.labels->scan.image));
   const std::vector<Refinement> refinements = RefineWalls(mesh, settings.finish, spacing, events);
@@ -343,7 +336,7 @@ public:
     report["surfaces"] = Report::array();
     for (std::size_t n = 0; n < count; ++n)
     {
-      report["surfaces"].push_back(ReportMeshedSurface(begin[n], m_Settings.surfaces.mode));
+      report["surfaces"].push_back(ReportMeshedSurface(begin[n]));
     }
     StageSidecar(path, m_Settings.provenance, report, staged);
   }
@@ -397,7 +390,7 @@ MeshScan(const MeshScanSettings & settings, const Events & events)
   }
   if (!settings.measures.empty())
   {
-    StageMeasureTable(surfaces, settings.surfaces.mode, settings.measures, staged);
+    StageMeasureTable(surfaces, settings.measures, staged);
   }
   staged.Commit();
   events.Progress("writing and measuring", 1.0);

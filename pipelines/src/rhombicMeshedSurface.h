@@ -10,6 +10,7 @@
 #include "itkTriangleSurfaceAudit.h"
 
 #include <optional>
+#include <string>
 
 namespace rhombic
 {
@@ -29,26 +30,28 @@ struct MeshedSurface
   SceneSurface scene;
 
   std::optional<SurfaceRequest> request; ///< for isosurfaces
+  itk::FCCIsosurfaceMode mode{};         ///< for isosurfaces
   std::optional<EnclosedParts> enclosed; ///< for isosurfaces of enclosed parts
   std::optional<LabelSurface> label;     ///< for labels; its scene is empty
 
-  ExtractedSize extracted;
+  std::optional<ExtractedSize> extracted;     ///< for surfaces of scans
   std::optional<IsosurfaceVolume> isosurface; ///< for isosurfaces: volume of the whole isosurface
 
   PartRemoval parts;
   Refinement refinement;
 
-  itk::SizeValueType points = 0; ///< this and all below: of the surface as its file holds it
+  std::string identity; ///< this and all below: of the surface as its file holds it
+  itk::SizeValueType points = 0;
   itk::SizeValueType triangles = 0;
   SurfaceMeasures measures;
   std::optional<SurfaceDeviation> deviation; ///< for isosurfaces of scans
   std::optional<itk::TriangleSurfaceAudit> audit;
 
-  /** Volume of the parts that were kept, as extracted, in mm^3. */
+  /** Volume of the parts that were kept, as extracted, in mm^3. For surfaces of scans. */
   double
   GetVolumeOfKeptParts() const
   {
-    return extracted.volume - parts.filled.volume - parts.removed.volume;
+    return extracted.value().volume - parts.filled.volume - parts.removed.volume;
   }
 };
 

@@ -52,9 +52,16 @@ StageSidecar(const std::filesystem::path & output,
 }
 
 void
-StageText(const std::string & text, const std::filesystem::path & path, StagedFiles & staged)
+StageText(const std::string & text,
+          const std::filesystem::path & path,
+          StagedFiles & staged,
+          std::filesystem::perms permissions)
 {
   AtomicFile & file = staged.Begin(path);
+  if (permissions != std::filesystem::perms::unknown)
+  {
+    std::filesystem::permissions(file.GetTemporaryPath(), permissions); // before there is anything to read
+  }
   std::ofstream(file.GetTemporaryPath(), std::ios::binary) << text;
   file.Flush(text.size());
 }

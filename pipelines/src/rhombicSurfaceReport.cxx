@@ -1,6 +1,7 @@
 #include "rhombicSurfaceReport.h"
 
 #include "rhombicAuditReport.h"
+#include "rhombicMeasureTable.h"
 #include "rhombicWording.h"
 
 #include <sstream>
@@ -26,15 +27,6 @@ ToMillilitres(double volume)
 }
 
 Report
-ReportRequest(const SurfaceRequest & request, itk::FCCIsosurfaceMode mode)
-{
-  return { { "name", request.name },
-           { "isovalue", request.isovalue.value() },
-           { "inside", request.insideIsBelow ? "below" : "above" },
-           { "mode", ToText(mode) } };
-}
-
-Report
 ReportEnclosedParts(const EnclosedParts & parts)
 {
   return { { "leftOutAroundBodyInMillilitres", parts.aroundBody },
@@ -43,16 +35,12 @@ ReportEnclosedParts(const EnclosedParts & parts)
            { "keptPartsCutBySides", parts.numberCutBySides } };
 }
 
-/** The report of a label's surface, without its triangles. */
+/** A label's voxels and pieces, beside its surface's. */
 Report
-ReportLabel(const LabelSurface & surface, const std::string & name)
+ReportLabel(const LabelSurface & surface)
 {
-  return { { "value", surface.value },
-           { "name", name },
-           { "voxels", surface.numberOfVoxels },
-           { "voxelVolumeInMillilitres", surface.voxelMillilitres },
-           { "volumeAsExtractedInMillilitres", surface.surfaceMillilitres },
-           { "volumeDifference", surface.GetVolumeDifference() },
+  return { { "voxels", surface.numberOfVoxels },
+           { "volumeDifferenceInPercent", 100.0 * surface.GetVolumeDifference() },
            { "pieces", surface.pieces },
            { "surfacePieces", surface.surfacePieces },
            { "isTorn", surface.isTorn } };
@@ -130,60 +118,12 @@ ReportFinish(const MeshedSurface & surface, Report & report)
 }
 
 Report
-ReportMeasures(const SurfaceMeasures & measures)
-{
-  Report report{ { "volumeInMillilitres", ToMillilitres(measures.volume) } };
-  if (measures.voxelVolume)
-  {
-    report["voxelVolumeInMillilitres"] = ToMillilitres(*measures.voxelVolume);
-  }
-  if (measures.isosurface)
-  {
-    report["isosurfaceVolumeInMillilitres"] = ToMillilitres(measures.isosurface->volume);
-    report["isosurfaceUncertaintyInMillilitres"] = ToMillilitres(measures.isosurface->uncertainty);
-  }
-  if (const auto error = measures.GetVolumeError())
-  {
-    report["volumeErrorInPercent"] = *error;
-    report["volumeErrorReference"] = measures.isosurface ? "isosurface" : "voxels";
-  }
-  report["areaInSquareMillimetres"] = measures.area;
-  report["boundsInMillimetres"] = measures.bounds;
-  report["centroidInMillimetres"] = measures.centroid;
-  report["longestDiameterInMillimetres"] = measures.longestDiameter;
-  if (measures.meanValue)
-  {
-    report["meanValue"] = *measures.meanValue;
-    report["standardDeviation"] = *measures.standardDeviation;
-  }
-  return report;
-}
-
-Report
-ReportExtractedSize(const ExtractedSize & extracted, const SurfaceMeasures & measures)
-{
-  return { { "volumeInMillilitres", ToMillilitres(extracted.volume) },
-           { "areaInSquareMillimetres", extracted.area },
-           { "triangles", extracted.triangles },
-           { "volumeChangeInPercent", PercentChange(extracted.volume, measures.volume) },
-           { "areaChangeInPercent", PercentChange(extracted.area, measures.area) } };
-}
-
-Report
 ReportDeviation(const SurfaceDeviation & deviation)
 {
-  Report report{ { "of", "the points and triangle centres from the scan's isosurface" },
-                 { "samples", deviation.samples },
-                 { "complete", deviation.isComplete },
-                 { "unresolved", deviation.unresolved } };
-  if (deviation.IsKnown())
-  {
-    report["meanInMillimetres"] = deviation.mean;
-    report["percentile95InMillimetres"] = deviation.percentile95;
-    report["maximumInMillimetres"] = deviation.maximum;
-    report["biasInMillimetres"] = deviation.bias;
-  }
-  return report;
+  return { { "of", "the points and triangle centres from the scan's isosurface" },
+           { "samples", deviation.samples },
+           { "complete", deviation.isComplete },
+           { "unresolved", deviation.unresolved } };
 }
 
 } // namespace
@@ -227,40 +167,18 @@ ReportSource(const LoadedSource & loaded, const ScanSource & source)
 }
 
 Report
-ReportIsosurface(const SurfaceRequest & request, const ExtractedSurface & surface, itk::FCCIsosurfaceMode mode)
+ReportMeshedSurface(const MeshedSurface & surface)
 {
-  Report report = ReportRequest(request, mode);
-  report["points"] = surface.surface->GetNumberOfPoints();
-  report["triangles"] = surface.surface->GetNumberOfTriangles();
-  if (surface.enclosed)
+  Report report{ { "name", surface.scene.name }, { "measures", ReportMeasures(surface) } };
+  if (surface.label)
   {
-    report["enclosed"] = ReportEnclosedParts(*surface.enclosed);
+    report["label"] = ReportLabel(*surface.label);
   }
-  return report;
-}
-
-Report
-ReportLabelSurface(const LabelSurface & surface)
-{
-  Report report = ReportLabel(surface, surface.scene.name);
-  report["triangles"] = surface.scene.surface->GetNumberOfTriangles();
-  return report;
-}
-
-Report
-ReportMeshedSurface(const MeshedSurface & surface, itk::FCCIsosurfaceMode mode)
-{
-  Report report =
-    surface.label ? ReportLabel(*surface.label, surface.scene.name) : ReportRequest(*surface.request, mode);
-  report["points"] = surface.points;
-  report["triangles"] = surface.triangles;
   if (surface.enclosed)
   {
     report["enclosed"] = ReportEnclosedParts(*surface.enclosed);
   }
   ReportFinish(surface, report);
-  report["measures"] = ReportMeasures(surface.measures);
-  report["extracted"] = ReportExtractedSize(surface.extracted, surface.measures);
   if (surface.deviation)
   {
     report["deviation"] = ReportDeviation(*surface.deviation);

@@ -13,17 +13,10 @@ namespace rhombic
 Report
 ReportSource(const LoadedSource & loaded, const ScanSource & source);
 
-/** The request of an isosurface, its size, and the parts left out of it. */
+/** The measures of a finished surface (see rhombicMeasureTable.h), and the results of all steps that it went through.
+ */
 Report
-ReportIsosurface(const SurfaceRequest & request, const ExtractedSurface & surface, itk::FCCIsosurfaceMode mode);
-
-/** The surface of a label, compared with the label's voxels. */
-Report
-ReportLabelSurface(const LabelSurface & surface);
-
-/** The results of all steps that a surface went through. */
-Report
-ReportMeshedSurface(const MeshedSurface & surface, itk::FCCIsosurfaceMode mode);
+ReportMeshedSurface(const MeshedSurface & surface);
 
 } // namespace rhombic
 

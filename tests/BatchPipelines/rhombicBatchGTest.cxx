@@ -94,7 +94,7 @@ TEST(Batch, BrokenScansAreNamedAndTheOthersDone)
   }
   for (const auto & [path, ignored] : ContentsOf(folder.Path()))
   {
-    if (path.rfind("out/", 0) == 0)
+    if (path.rfind("out/", 0) == 0 && path != "out/cases.tsv")
     {
       const std::string content = ReadText(folder.Path() / path); // of those with times, too
       for (const char * const name : { "QzPatient", "QzEmpty", "QzShort", "QzGone" })
@@ -106,14 +106,149 @@ TEST(Batch, BrokenScansAreNamedAndTheOthersDone)
   const std::string table = ReadText(folder.Path() / "out/results.tsv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 6);
   const std::string measures = ReadText(folder.Path() / "out/measures.tsv");
-  EXPECT_NE(measures.find("\nv1\tbone.stl\t"), std::string::npos) << measures;
-  for (const char * const column : { "\tvolumeInMillilitres\t", "\tdeviation.meanInMillimetres\t" })
+  EXPECT_EQ(std::count(measures.begin(), measures.end(), '\n'), 3) << measures;
+  for (const char * const column : { "\tvolume_ml\t", "\tdeviation_mean_mm\t" })
   {
     EXPECT_LT(measures.find(column), measures.find('\n')) << measures;
   }
   const std::string page = ReadText(folder.Path() / "out/index.html");
   EXPECT_NE(page.find("./v0/bone.stl"), std::string::npos);
   EXPECT_EQ(page.find("http"), std::string::npos);
+}
+
+/** The lines of a table, by their columns. */
+std::vector<std::map<std::string, std::string>>
+ReadTable(const fs::path & path)
+{
+  const auto split = [](const std::string & text) {
+    std::vector<std::string> fields(1);
+    for (const char letter : text)
+    {
+      letter == '\t' ? fields.emplace_back() : fields.back().append(1, letter);
+    }
+    return fields;
+  };
+  std::istringstream lines(ReadText(path));
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> heads = split(line);
+  std::vector<std::map<std::string, std::string>> rows;
+  while (std::getline(lines, line))
+  {
+    const std::vector<std::string> fields = split(line);
+    EXPECT_EQ(fields.size(), heads.size()) << line;
+    rows.emplace_back();
+    for (std::size_t n = 0; n < std::min(heads.size(), fields.size()); ++n)
+    {
+      rows.back()[heads[n]] = fields[n];
+    }
+  }
+  return rows;
+}
+
+TEST(Batch, TablesHaveOneLineForEachSurfaceAndColumnsThatDependOnNothing)
+{
+  const TemporaryFolder folder;
+  std::ofstream(folder.Path() / "pipeline.yaml") << "options: {preset: ct-skin, denoise: none}\n"
+                                                    "outputs:\n"
+                                                    "  - mesh: a.stl\n"
+                                                    "  - mesh: b.ply\n"
+                                                    "  - mesh: few.stl\n"
+                                                    "    max-triangles: 10%\n"
+                                                    "  - picture: front.png\n"
+                                                    "    size: 100\n"
+                                                    "    view: [anterior, left]\n"
+                                                    "  - volume: scan.fcc.nrrd\n";
+  std::ofstream(folder.Path() / "labels.yaml") << "outputs: [{mesh: '{name}.stl', label: ['10', '14']}]\n";
+  const std::string labels = (phantom / "phantom-labels.nii.gz").string();
+  const std::string run = "rhombic batch " + (phantom / "dicom").string() + " --names-from-paths --pipeline ";
+  const Outcome outcome = RunShell(run + "pipeline.yaml -o out\nrhombic batch " + labels +
+                                     " --pipeline labels.yaml -o labels\nstat -c %a out/cases.tsv",
+                                   folder.Path());
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+  EXPECT_EQ(outcome.output, "600\n") << "the modes of cases.tsv";
+  EXPECT_NE(ReadText(folder.Path() / "out/cases.tsv").find((phantom / "dicom").string()), std::string::npos);
+
+  const auto measures = ReadTable(folder.Path() / "out/measures.tsv");
+  const auto files = ReadTable(folder.Path() / "out/outputs.tsv");
+  std::map<std::string, std::string> surfaceOf;
+  for (const auto & file : files)
+  {
+    EXPECT_EQ(std::to_string(fs::file_size(folder.Path() / "out" / file.at("file"))), file.at("size_bytes"));
+    surfaceOf[fs::path(file.at("file")).filename()] = file.at("surface_ids");
+  }
+  EXPECT_EQ(surfaceOf.at("a.stl"), surfaceOf.at("b.ply")) << "of one surface";
+  EXPECT_NE(surfaceOf.at("a.stl"), surfaceOf.at("few.stl"));
+  EXPECT_EQ(surfaceOf.at("front-anterior.png"), surfaceOf.at("front-left.png"));
+  EXPECT_EQ(surfaceOf.at("scan.fcc.nrrd"), "n/a");
+  std::map<std::string, int> count;
+  for (const auto & row : measures)
+  {
+    ++count[row.at("surface_id")];
+    EXPECT_EQ(row.at("surface"), "skin");
+    EXPECT_EQ(row.at("label_value"), "n/a");
+    EXPECT_GT(std::stod(row.at("volume_ml")), 20000.0);
+    EXPECT_LT(std::stod(row.at("area_mm2")), 1e6);
+  }
+  for (const char * const file : { "a.stl", "few.stl", "front-left.png" })
+  {
+    EXPECT_EQ(count[surfaceOf.at(file)], 1) << file;
+  }
+  EXPECT_EQ(count.size(), measures.size()) << "no surface is there twice";
+
+  const auto ofLabels = ReadTable(folder.Path() / "labels/measures.tsv");
+  ASSERT_EQ(ofLabels.size(), 2u);
+  EXPECT_EQ(ofLabels[0].at("label_value"), "10");
+  EXPECT_NEAR(std::stod(ofLabels[0].at("voxel_volume_ml")), 1446.91, 0.01);
+  EXPECT_EQ(ofLabels[0].at("mean_scan_unit"), "n/a") << "there is no scan";
+  const auto headOf = [&](const std::string & table) {
+    const std::string text = ReadText(folder.Path() / table);
+    return text.substr(0, text.find('\n'));
+  };
+  EXPECT_EQ(headOf("out/measures.tsv"), headOf("labels/measures.tsv"));
+  for (const char * const table : { "measures", "outputs" })
+  {
+    const auto described =
+      nlohmann::ordered_json::parse(ReadText(folder.Path() / ("out/" + std::string(table) + ".json")));
+    std::string heads;
+    for (const auto & [column, description] : described.items())
+    {
+      heads += (heads.empty() ? "" : "\t") + column;
+      EXPECT_GT(description["Description"].get<std::string>().size(), 10u) << column;
+    }
+    EXPECT_EQ(heads, headOf("out/" + std::string(table) + ".tsv"));
+  }
+
+  const Outcome stats = RunShell("rhombic batch -o out --stats", folder.Path());
+  ASSERT_EQ(stats.exitCode, 0) << stats.errors;
+  EXPECT_NE(ReadText(folder.Path() / "out/statistics.tsv").find("a.stl,b.ply"), std::string::npos);
+  ASSERT_EQ(RunShell(run + "pipeline.yaml -o out --tables --no-cases-table", folder.Path()).exitCode, 0);
+  EXPECT_FALSE(fs::exists(folder.Path() / "out/cases.tsv"));
+}
+
+TEST(Batch, AFailedOutputLeavesTheOthersOfItsCase)
+{
+  const TemporaryFolder folder;
+  fs::copy(phantom / "phantom.nii.gz", folder.Path() / "scan.nii.gz");
+  const std::string good = "outputs:\n  - mesh: a.stl\n    threshold: 250.5\n";
+  std::ofstream(folder.Path() / "pipeline.yaml")
+    << good << "  - mesh: b.stl\n    threshold: 1e9\n  - mesh: c.stl\n    threshold: 350.5\n";
+  const std::string run = "rhombic batch scan.nii.gz --pipeline pipeline.yaml -o out";
+  const Outcome outcome = RunShell(run, folder.Path());
+  EXPECT_EQ(outcome.exitCode, 12) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("Not made: b.stl"), std::string::npos) << outcome.errors;
+  const Outcome files = RunShell("cd out/case && ls -A", folder.Path());
+  EXPECT_EQ(files.output, "a.stl\na.stl.json\nc.stl\nc.stl.json\ncase.json\n");
+  const auto result = ReadTable(folder.Path() / "out/results.tsv").at(0);
+  EXPECT_EQ(result.at("status"), "failed");
+  EXPECT_EQ(result.at("code"), "6");
+  EXPECT_EQ(result.at("failed_outputs"), "b.stl");
+  EXPECT_EQ(ReadTable(folder.Path() / "out/measures.tsv").size(), 2u);
+  EXPECT_NE(ReadText(folder.Path() / "out/index.html").find("./case/c.stl"), std::string::npos);
+  EXPECT_NE(RunShell(run, folder.Path()).errors.find("0 done before, 1 to run"), std::string::npos);
+  std::ofstream(folder.Path() / "pipeline.yaml") << good;
+  EXPECT_EQ(RunShell(run, folder.Path()).exitCode, 0);
+  EXPECT_FALSE(fs::exists(folder.Path() / "out/case/c.stl"));
 }
 
 TEST(Batch, PatientsNamesAreInDicomFilesOnlyAndOfDicomScansOnly)
@@ -131,6 +266,8 @@ TEST(Batch, PatientsNamesAreInDicomFilesOnlyAndOfDicomScansOnly)
   EXPECT_NE(outcome.errors.find("is NIfTI"), std::string::npos) << outcome.errors;
   const Outcome files = RunShell("cd out; ls */*.dcm */*.jpg; grep -rl PHANTOM .", folder.Path());
   EXPECT_EQ(files.output, "dicom/front.dcm\ndicom/thumbnail.jpg\n./dicom/front.dcm\n");
+  EXPECT_NE(ReadText(folder.Path() / "out/outputs.tsv").find("\tdicom/front.dcm\tdicom\tfront.png\t"),
+            std::string::npos);
 }
 
 TEST(Batch, LargeCasesAreFirstAndTablesInTheOrderOfTheCollection)

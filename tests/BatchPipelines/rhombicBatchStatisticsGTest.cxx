@@ -15,7 +15,8 @@ using rhombic::Split;
 using rhombictest::ReadText;
 using rhombictest::TemporaryFolder;
 
-constexpr char head[] = "case\toutput\tname\tmode\tvolume\n";
+constexpr char measureHead[] = "case\tsurface_id\tsurface\tmode\tvolume_ml\n";
+constexpr char outputHead[] = "case\toutput\tsurface_ids\n";
 
 /** The fields of the only line of statistics. */
 std::vector<std::string>
@@ -23,12 +24,16 @@ StatisticsOf(const std::vector<double> & values)
 {
   const TemporaryFolder folder;
   std::ofstream table(folder.Path() / "measures.tsv");
-  table << head;
+  std::ofstream outputs(folder.Path() / "outputs.tsv");
+  table << measureHead;
+  outputs << outputHead;
   for (std::size_t n = 0; n < values.size(); ++n)
   {
-    table << "c" << n << "\tbone.stl\tbone\tLean\t" << rhombic::FormatExact(values[n]) << '\n';
+    table << "c" << n << "\t5f\tbone\tLean\t" << rhombic::FormatExact(values[n]) << '\n';
+    outputs << "c" << n << "\tbone.stl\t5f\n";
   }
   table.close();
+  outputs.close();
   rhombic::WriteBatchStatistics(folder.Path());
   const auto lines = Split(ReadText(folder.Path() / "statistics.tsv"), "\n");
   EXPECT_EQ(lines.size(), 3u) << "a head, a line, and the end of it";
@@ -91,19 +96,32 @@ TEST(BatchStatistics, EachMeasureOfEachSurfaceHasALine)
 {
   const TemporaryFolder folder;
   EXPECT_THROW(rhombic::WriteBatchStatistics(folder.Path()), rhombic::Failure);
-  std::ofstream(folder.Path() / "measures.tsv") << "case\tarea\toutput\tname\tvolume\n"
-                                                   "1\t5\ta.stl\t7\t10\n"
-                                                   "2\t\ta.stl\t7\t20\n"
-                                                   "2\tnone\ta.stl\tskin\t30\n"
-                                                   "1\t\tb.stl\t7\tinf\n";
+  std::ofstream(folder.Path() / "measures.tsv") << "case\tarea_mm2\tsurface_id\tsurface\tvolume_ml\n"
+                                                   "1\t5\ta1\t7\t10\n"
+                                                   "2\tn/a\ta2\t7\t20\n"
+                                                   "2\tn/a\ts2\tskin\t30\n"
+                                                   "1\tn/a\tb1\t7\tinf\n"
+                                                   "2\tn/a\tb2\t7\t40\n";
+  std::ofstream(folder.Path() / "outputs.tsv") << "case\toutput\tsurface_ids\n"
+                                                  "1\ta.stl\ta1\n"
+                                                  "1\tpage.png\ta1\n"
+                                                  "1\tb.stl\tb1\n"
+                                                  "1\tscan.nrrd\tn/a\n"
+                                                  "2\ta.stl\ta2,s2\n"
+                                                  "2\tpage.png\ta2\n"
+                                                  "2\tb.stl\tb2\n";
   const std::string text = rhombic::WriteBatchStatistics(folder.Path());
   EXPECT_EQ(ReadText(folder.Path() / "statistics.tsv"),
-            "output\tname\tmeasure\tcases\tleast\tq1\tmedian\tq3\tlargest\tapart\n"
-            "a.stl\t7\tarea\t1\t5\t5\t5\t5\t5\t\n"
-            "a.stl\t7\tvolume\t2\t10\t12.5\t15\t17.5\t20\t\n"
-            "a.stl\tskin\tvolume\t1\t30\t30\t30\t30\t30\t\n");
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4);
+            "outputs\tsurface\tmeasure\tcases\tleast\tq1\tmedian\tq3\tlargest\tapart\n"
+            "a.stl\tskin\tvolume_ml\t1\t30\t30\t30\t30\t30\t\n"
+            "a.stl,page.png\t7\tvolume_ml\t2\t10\t12.5\t15\t17.5\t20\t\n"
+            "a.stl,page.png\t7\tarea_mm2\t1\t5\t5\t5\t5\t5\t\n"
+            "b.stl\t7\tvolume_ml\t1\t40\t40\t40\t40\t40\t\n")
+    << "surfaces that outputs share once, others by their outputs";
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 5);
   EXPECT_EQ(text.find('\t'), std::string::npos);
+  std::ofstream(folder.Path() / "measures.tsv") << "case\toutput\tname\tvolume\n";
+  EXPECT_THROW(rhombic::WriteBatchStatistics(folder.Path()), rhombic::Failure) << "of another version";
 }
 
 } // namespace

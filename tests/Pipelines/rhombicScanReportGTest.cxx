@@ -25,15 +25,20 @@ TEST(SurfaceReport, ComparesALabelsSurfaceWithItsVoxels)
 {
   const auto triangles = itk::TriangleSurface::New();
   triangles->GetTriangles().push_back({ 0, 1, 2 });
-  rhombic::LabelSurface surface;
+  rhombic::MeshedSurface surface;
   surface.scene.name = "kidney";
   surface.scene.surface = triangles;
-  surface.voxelMillilitres = 100.0;
-  surface.surfaceMillilitres = 101.0;
-  const rhombic::Report report = rhombic::ReportLabelSurface(surface);
+  surface.label.emplace();
+  surface.label->value = 5;
+  surface.label->voxelMillilitres = 100.0;
+  surface.label->surfaceMillilitres = 101.0;
+  surface.triangles = 1;
+  const rhombic::Report report = rhombic::ReportMeshedSurface(surface);
   EXPECT_EQ(report["name"], "kidney");
-  EXPECT_EQ(report["triangles"], 1u);
-  EXPECT_NEAR(report["volumeDifference"].get<double>(), 0.01, 1e-12);
+  EXPECT_EQ(report["measures"]["triangles"], 1u);
+  EXPECT_EQ(report["measures"]["label_value"], 5);
+  EXPECT_FALSE(report["measures"].contains("mean_scan_unit")) << "which is not known";
+  EXPECT_NEAR(report["label"]["volumeDifferenceInPercent"].get<double>(), 1.0, 1e-12);
 }
 
 } // namespace

@@ -85,18 +85,19 @@ protected:
     ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
     const Measures file = Measure(*rhombictest::ReadWithVTK(mesh), extension == ".glb" ? 1000.0 : 1.0);
     auto row = ReadRow(m_Folder.Path() / "body.csv");
-    EXPECT_NEAR(std::stod(row["volume (ml)"]), file.volume, 2e-6 * file.volume);
-    EXPECT_NEAR(std::stod(row["area (mm2)"]), file.area, 2e-6 * file.area);
+    EXPECT_NEAR(std::stod(row["volume_ml"]), file.volume, 2e-6 * file.volume);
+    EXPECT_NEAR(std::stod(row["area_mm2"]), file.area, 2e-6 * file.area);
     EXPECT_EQ(std::stol(row["triangles"]), file.triangles);
-    EXPECT_NEAR(std::stod(row["volume as extracted (ml)"]), extracted.volume, 2e-6 * extracted.volume);
-    EXPECT_NEAR(std::stod(row["area as extracted (mm2)"]), extracted.area, 2e-6 * extracted.area);
-    EXPECT_EQ(std::stol(row["triangles as extracted"]), extracted.triangles);
-    EXPECT_NEAR(std::stod(row["volume change by finishing (%)"]), 100.0 * (file.volume / extracted.volume - 1.0), 1e-3);
+    EXPECT_NEAR(std::stod(row["extracted_volume_ml"]), extracted.volume, 2e-6 * extracted.volume);
+    EXPECT_NEAR(std::stod(row["extracted_area_mm2"]), extracted.area, 2e-6 * extracted.area);
+    EXPECT_EQ(std::stol(row["extracted_triangles"]), extracted.triangles);
+    EXPECT_NEAR(
+      std::stod(row["finishing_volume_change_percent"]), 100.0 * (file.volume / extracted.volume - 1.0), 1e-3);
     const auto report = nlohmann::json::parse(ReadText(mesh.string() + ".json"))["surfaces"][0];
-    EXPECT_NEAR(report["measures"]["volumeInMillilitres"].get<double>(), file.volume, 2e-6 * file.volume);
-    EXPECT_EQ(report["triangles"].get<vtkIdType>(), file.triangles);
+    EXPECT_NEAR(report["measures"]["volume_ml"].get<double>(), file.volume, 2e-6 * file.volume);
+    EXPECT_EQ(report["measures"]["triangles"].get<vtkIdType>(), file.triangles);
     std::ostringstream printed;
-    printed << std::fixed << std::setprecision(1) << "surface: " << std::stod(row["volume (ml)"]) << " ml";
+    printed << std::fixed << std::setprecision(1) << "surface: " << std::stod(row["volume_ml"]) << " ml";
     EXPECT_NE(outcome.errors.find(printed.str()), std::string::npos) << printed.str() << "\n" << outcome.errors;
     const bool isChanged = std::abs(file.volume / extracted.volume - 1.0) > 0.01;
     const bool isSaid = outcome.errors.find("changed the volume by") != std::string::npos ||
@@ -138,6 +139,31 @@ TEST_F(MeasuresOfFiles, AreThoseAfterEveryFinishingOption)
   {
     this->Check(".stl", options);
   }
+}
+
+TEST(Measures, AreTheSameOfAPageAndAMesh)
+{
+  const TemporaryFolder folder;
+  const std::string labels = RHOMBIC_TESTDATA "/phantom/phantom-labels.nii.gz";
+  const std::string options = " " + scan + " --labels " + labels + " --label 10 --label 14 ";
+  const Outcome mesh = RunShell("rhombic mesh" + options + "-o a.ply --measures a.csv", folder.Path());
+  ASSERT_EQ(mesh.exitCode, 0) << mesh.errors;
+  const Outcome page = RunShell("rhombic render" + options + "--sheet --dpi 40 -o page.png", folder.Path());
+  ASSERT_EQ(page.exitCode, 0) << page.errors;
+  const auto ofMesh = nlohmann::json::parse(ReadText(folder.Path() / "a.ply.json"))["surfaces"];
+  const auto ofPage = nlohmann::json::parse(ReadText(folder.Path() / "page.png.json"))["surfaces"];
+  ASSERT_EQ(ofMesh.size(), 2u);
+  EXPECT_EQ(ofPage.size(), 2u);
+  for (std::size_t n = 0; n < 2; ++n)
+  {
+    EXPECT_EQ(ofMesh[n]["measures"], ofPage[n]["measures"]);
+    for (const char * const measure :
+         { "volume_ml", "area_mm2", "mean_scan_unit", "voxel_volume_ml", "extracted_area_mm2" })
+    {
+      EXPECT_TRUE(ofPage[n]["measures"][measure].is_number()) << measure;
+    }
+  }
+  EXPECT_EQ(std::stod(ReadRow(folder.Path() / "a.csv")["area_mm2"]), ofPage[0]["measures"]["area_mm2"].get<double>());
 }
 
 TEST(Measures, AReportNamesItsInputByItsContents)

@@ -70,9 +70,7 @@ TEST_F(MeshCommand, TheReportTellsWhatIsLeftOutOfTheLungs)
 {
   ASSERT_EQ(this->Mesh("--preset ct-lung -o lungs.stl").exitCode, 0);
   ASSERT_EQ(this->Mesh("--surface 'air=<-500.5' -o air.stl").exitCode, 0);
-  const auto volumeOf = [](const nlohmann::json & surface) {
-    return surface["measures"]["volumeInMillilitres"].get<double>();
-  };
+  const auto volumeOf = [](const nlohmann::json & surface) { return surface["measures"]["volume_ml"].get<double>(); };
   const nlohmann::json lungs = this->Sidecar("lungs.stl")["surfaces"][0];
   const nlohmann::json air = this->Sidecar("air.stl")["surfaces"][0];
   const auto around = lungs["enclosed"]["leftOutAroundBodyInMillilitres"].get<double>();
@@ -100,7 +98,7 @@ TEST_F(MeshCommand, NamesInBracesMakeAFileForEach)
                                     "a-soft_parts.stl.json",
                                     "a-bone-2.stl",
                                     "a-bone-2.stl.json" }));
-  EXPECT_EQ(this->Sidecar("a-bone-2.stl")["surfaces"][0]["isovalue"], 500.5);
+  EXPECT_EQ(this->Sidecar("a-bone-2.stl")["surfaces"][0]["measures"]["isovalue_scan_unit"], 500.5);
   ASSERT_EQ(this->Mesh("--surface 'M\xc3\xbcller=375.5' -o '{name}-{name}.stl'").exitCode, 0);
   EXPECT_TRUE(fs::exists(m_Folder.Path() / "M_ller-M_ller.stl"));
 }
@@ -126,7 +124,7 @@ TEST_F(MeshCommand, LabelsBecomeClosedSurfacesOfTheirVolume)
     EXPECT_NEAR(ComputeVolume(*organs[n].surface) / 1000.0 / millilitres[n], 1.0, 0.01);
   }
   const auto report = this->Sidecar("organs.glb")["surfaces"];
-  EXPECT_TRUE(report[0]["measures"]["meanValue"].is_number()) << "of the scan inside the label";
+  EXPECT_TRUE(report[0]["measures"]["mean_scan_unit"].is_number()) << "of the scan inside the label";
 }
 
 TEST_F(MeshCommand, MeasuresAreATable)
@@ -134,16 +132,16 @@ TEST_F(MeshCommand, MeasuresAreATable)
   ASSERT_EQ(this->Mesh("-t -485.5 -o skin.ply --measures table.csv").exitCode, 0);
   const std::string table = ReadText(m_Folder.Path() / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 2);
-  EXPECT_NE(table.find("volume (ml)"), std::string::npos);
+  EXPECT_NE(table.find("volume_ml"), std::string::npos);
   const auto line = table.substr(table.find('\n') + 1);
   EXPECT_EQ(std::count(line.begin(), line.end(), ','),
             std::count(table.begin(), table.end() - static_cast<std::ptrdiff_t>(line.size()), ','));
   const auto measures = this->Sidecar("skin.ply")["surfaces"][0]["measures"];
-  const double volume = measures["volumeInMillilitres"];
+  const double volume = measures["volume_ml"];
   EXPECT_NEAR(volume, ComputeVolume(*this->Read("skin.ply")[0].surface) / 1000.0, 1e-3 * volume);
-  EXPECT_NEAR(measures["voxelVolumeInMillilitres"].get<double>() / volume, 1.0, 0.01);
-  EXPECT_NEAR(measures["isosurfaceVolumeInMillilitres"].get<double>() / volume, 1.0, 0.01);
-  EXPECT_LT(std::abs(measures["volumeErrorInPercent"].get<double>()), 1.0);
+  EXPECT_NEAR(measures["voxel_volume_ml"].get<double>() / volume, 1.0, 0.01);
+  EXPECT_NEAR(measures["isosurface_volume_ml"].get<double>() / volume, 1.0, 0.01);
+  EXPECT_LT(std::abs(measures["volume_error_percent"].get<double>()), 1.0);
 }
 
 TEST_F(MeshCommand, SimplificationStaysWithinItsError)
@@ -310,13 +308,13 @@ TEST_F(MeshCommand, IsosurfaceVolumeIsOfTheScanOrUnknown)
     return this->Sidecar("bone.stl")["surfaces"][0]["measures"];
   };
   const auto plain = measuresOf("");
-  EXPECT_EQ(plain["volumeErrorReference"], "isosurface");
-  EXPECT_GT(plain["isosurfaceUncertaintyInMillilitres"].get<double>(), 0.0);
+  EXPECT_EQ(plain["volume_error_reference"], "isosurface");
+  EXPECT_GT(plain["isosurface_uncertainty_ml"].get<double>(), 0.0);
   for (const char * const options : { "--nested", "--density 0.5", "--denoise gaussian:4" })
   {
     const auto measures = measuresOf(options);
-    EXPECT_FALSE(measures.contains("isosurfaceVolumeInMillilitres")) << options;
-    EXPECT_EQ(measures["volumeErrorReference"], "voxels") << options;
+    EXPECT_FALSE(measures.contains("isosurface_volume_ml")) << options;
+    EXPECT_EQ(measures["volume_error_reference"], "voxels") << options;
   }
   const auto dense = this->Mesh("-t 375.5 --spacing 6 -o bone.stl");
   EXPECT_EQ(dense.errors.find("try --density"), std::string::npos) << "has no effect beside --spacing";
@@ -417,9 +415,9 @@ TEST_F(MeshCommand, SmoothedAndSimplifiedSurfacesDoNotCrossThemselves)
 TEST_F(MeshCommand, NothingMeasuredIsNotZero)
 {
   ASSERT_EQ(this->Mesh("-t '<-500.5' --fill --largest -o box.stl").exitCode, 0);
-  const auto deviation = this->Sidecar("box.stl")["surfaces"][0]["deviation"];
-  EXPECT_EQ(deviation["samples"], 0);
-  EXPECT_FALSE(deviation.contains("meanInMillimetres"));
+  const auto box = this->Sidecar("box.stl")["surfaces"][0];
+  EXPECT_EQ(box["deviation"]["samples"], 0);
+  EXPECT_FALSE(box["measures"].contains("deviation_mean_mm"));
 }
 
 TEST_F(MeshCommand, LabelsShareTheirWalls)

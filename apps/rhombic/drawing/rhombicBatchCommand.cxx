@@ -34,6 +34,7 @@ struct BatchOptions
   bool isDryRun = false;
   bool writesTables = false;
   bool writesStatistics = false;
+  bool hasNoCasesTable = false;
   bool isBIDS = false; ///< the outputs are a BIDS dataset, too
 };
 
@@ -104,6 +105,7 @@ GetSettings(const BatchOptions & options, const Events & events)
     one.folder = options.isBIDS ? FolderInBIDS(one, options.collection) : one.folder;
   }
   settings.isPart = !options.only.empty();
+  settings.writesCasesTable = !options.hasNoCasesTable;
   settings.output = options.output;
   settings.drawingProgram = std::filesystem::read_symlink("/proc/self/exe");
   settings.program = (settings.drawingProgram.parent_path() / RHOMBIC_PROGRAM).lexically_normal();
@@ -229,6 +231,9 @@ AddRunOptions(CLI::App & parser, BatchOptions & options)
   parser.add_option("--max-time", options.maximumSeconds, "most seconds of a case")
     ->check(CLI::PositiveNumber)
     ->capture_default_str();
+  parser.add_flag("--no-cases-table",
+                  options.hasNoCasesTable,
+                  "leave out cases.tsv, which tells the paths of the cases' scans, to its owner alone");
   parser.add_flag(
     "--dry-run", options.isDryRun, "print the cases, their states, and estimates, as a manifest, and stop");
 }

@@ -16,6 +16,7 @@ namespace rhombic
 struct PipelineStep
 {
   std::string output;                 ///< name of the file
+  std::string kind;                   ///< page, picture, mesh or volume
   std::vector<std::string> arguments; ///< the command and its options, without scan, labels and output
   bool takesLabels = false;           ///< the command shows the labels of cases that have any
   std::size_t line = 0;               ///< in the pipeline file, from 1

@@ -23,6 +23,7 @@ struct BatchSettings
   /** The cases are some of a collection. The others may run at the same time, here or on other machines; no tables are
    * written. */
   bool isPart = false;
+  bool writesCasesTable = true; ///< cases.tsv, which names the cases' files
   Pipeline pipeline;
   std::filesystem::path output;         ///< a folder: new, empty, or of an earlier run
   std::filesystem::path program;        ///< `rhombic`
@@ -76,11 +77,13 @@ struct BatchSummary
 };
 
 /** Runs the pipeline's steps on each case that is not done, each step in a child process, and writes into the folder of
- * outputs: a folder for each case that succeeds, journal.jsonl, results.tsv, results.json, measures.tsv, index.html.
+ * outputs: a folder for each case of which anything is made, journal.jsonl, results.tsv, results.json, measures.tsv and
+ * outputs.tsv with the descriptions of their columns (.json), cases.tsv, index.html.
  *
- * A case's folder appears when all of its outputs are complete. It is removed before the case runs again. A run that
- * was killed is continued by the next one; both together write the same outputs as a single run, for any number of
- * jobs. Paths and names of input files are in none of the outputs, and patients' names only in DICOM files that the
+ * A case's folder appears when its last step has ended, with the outputs of all steps that succeeded; the case has
+ * failed if one did not. The folder is removed before the case runs again. A run that was killed is continued by the
+ * next one; both together write the same outputs as a single run, for any number of jobs. Paths and names of input
+ * files are in cases.tsv alone, which only its owner may read, and patients' names only in DICOM files that the
  * pipeline asks for, which a note says.
  *
  * Sets RHOMBIC_THREADS, RHOMBIC_MAX_MEMORY and RHOMBIC_THUMBNAIL in the environment of this process, for the children.

@@ -98,20 +98,19 @@ LinkTo(const std::string & folder, const std::string & file)
   return link;
 }
 
-/** The surfaces and their volumes, of the output that lists most of them. */
+/** The surfaces and their volumes; of several with one name, the first. */
 std::string
 DescribeVolumes(const Report & record)
 {
   std::string text;
   std::vector<std::string> names;
-  for (const Report & surface : record.value("surfaces", Report::array()))
+  for (const Report & surface : record.value("measures", Report::array()))
   {
-    const auto name = surface.value("name", std::string());
-    if (surface.contains("volumeInMillilitres") && std::count(names.begin(), names.end(), name) == 0)
+    const auto name = surface.value("surface", std::string());
+    if (surface.contains("volume_ml") && std::count(names.begin(), names.end(), name) == 0)
     {
       names.push_back(name);
-      text += (text.empty() ? "" : "<br>") + Escape(name) + " " +
-              FormatMillilitres(surface["volumeInMillilitres"].get<double>());
+      text += (text.empty() ? "" : "<br>") + Escape(name) + " " + FormatMillilitres(surface["volume_ml"].get<double>());
     }
   }
   return text;
@@ -138,13 +137,14 @@ MakeRow(const Report & record)
       links += (links.empty() ? "" : "<br>") + ("<a href=\"" + LinkTo(folder, file) + "\">") + Escape(file) + "</a>";
     }
   }
+  const std::string failed = ListOf(record, "failedOutputs");
+  const std::string notMade = failed.empty() ? "" : " Not made: " + failed;
   return "<tr data-status=\"" + word + "\"><td>" + picture + "</td><td>" +
-         (status == "done" ? "<a href=\"" + LinkTo(folder, "case.json") + "\">" + Escape(name) + "</a>"
-                           : Escape(name)) +
-         "</td><td><b class=\"" + word + "\">" + status + "</b><br>" + Escape(record.value("cause", std::string())) +
-         "</td><td><div>" + DescribeVolumes(record) + "</div></td><td>" + links + "</td><td class=\"number\">" +
-         FormatFixed(record.value("seconds", 0.0), 1) + "</td><td class=\"number\">" +
-         FormatFixed(record.value("peakMemory", 0.0) / (1u << 20), 0) + "</td></tr>\n";
+         (!links.empty() ? "<a href=\"" + LinkTo(folder, "case.json") + "\">" + Escape(name) + "</a>" : Escape(name)) +
+         "</td><td><b class=\"" + word + "\">" + status + "</b><br>" +
+         Escape(record.value("cause", std::string()) + notMade) + "</td><td><div>" + DescribeVolumes(record) +
+         "</div></td><td>" + links + "</td><td class=\"number\">" + FormatFixed(record.value("seconds", 0.0), 1) +
+         "</td><td class=\"number\">" + FormatFixed(record.value("peakMemory", 0.0) / (1u << 20), 0) + "</td></tr>\n";
 }
 
 } // namespace
@@ -165,7 +165,8 @@ MakeIndexPage(const std::vector<Report> & cases)
   };
   return head +
          ("<h1>" + Count(cases.size(), "case") + "</h1>\n<p><a href=\"results.tsv\">results.tsv</a> " +
-          "<a href=\"results.json\">results.json</a> <a href=\"measures.tsv\">measures.tsv</a></p>\n<form>") +
+          "<a href=\"results.json\">results.json</a> <a href=\"measures.tsv\">measures.tsv</a> " +
+          "<a href=\"outputs.tsv\">outputs.tsv</a></p>\n<form>") +
          box("done", "done") + box("failed", "failed") + box("not run", "not") +
          "<input type=\"search\" name=\"text\" placeholder=\"words\" aria-label=\"words\"> <output></output></form>\n"
          "<table>\n<thead><tr><th></th><th>case</th><th>status</th><th>volumes</th><th>outputs</th>"

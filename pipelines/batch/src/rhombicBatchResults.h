@@ -1,9 +1,11 @@
 #ifndef rhombicBatchResults_h
 #define rhombicBatchResults_h
 
+#include "rhombicBatchCases.h"
 #include "rhombicScanReport.h"
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace rhombic
@@ -12,10 +14,17 @@ namespace rhombic
 /** The small picture in a case's folder, which `rhombic render` makes. */
 constexpr char ThumbnailFile[] = "thumbnail.jpg";
 
-/** Writes results.tsv, results.json, measures.tsv and index.html from the cases' lines in the journal. Throws
- * Failure(Output). */
+/** The texts of a list in a case's line of the journal, with a comma between them. */
+std::string
+ListOf(const Report & record, const std::string & key);
+
+/** Writes results.tsv, results.json, measures.tsv, outputs.tsv, the descriptions of these two, and index.html from the
+ * cases' lines in the journal; and cases.tsv, a manifest of \a manifest for its owner alone, or removes it if that is
+ * null. Throws Failure(Output). */
 void
-WriteResults(const std::vector<Report> & cases, const std::filesystem::path & folder);
+WriteResults(const std::vector<Report> & cases,
+             const std::vector<BatchCase> * manifest,
+             const std::filesystem::path & folder);
 
 /** The page of WriteResults(): a table of all cases with thumbnails and links, which a script on the page filters. It
  * needs nothing beside the folder. */

@@ -1,6 +1,7 @@
 #include "rhombicBatchStatistics.h"
 
 #include "rhombicFailure.h"
+#include "rhombicMeasureTable.h"
 #include "rhombicSidecar.h"
 #include "rhombicWording.h"
 
@@ -8,7 +9,8 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <tuple>
+#include <set>
+#include <utility>
 
 namespace fs = std::filesystem;
 
@@ -25,9 +27,6 @@ struct CaseValue
   double value;
   std::string name; ///< of the case
 };
-
-/** Output, surface, and column of the measure. */
-using MeasureKey = std::tuple<std::string, std::string, std::size_t>;
 
 /** \param sorted at least one value
  * \param share from 0 to 1 */
@@ -56,33 +55,90 @@ EstimateDeviation(const std::vector<double> & values, double median)
   return middle > 0.0 ? 1.4826 * middle : 1.2533 * sum / static_cast<double>(values.size());
 }
 
-/** The numbers in a table of measures. */
-std::map<MeasureKey, std::vector<CaseValue>>
-ReadMeasures(std::istream & table, Row & columns)
+/** \class Table
+ * \brief A table of tab-separated fields. */
+struct Table
 {
-  std::map<MeasureKey, std::vector<CaseValue>> measures;
-  std::string line;
-  std::getline(table, line);
-  columns = Split(line, "\t");
-  const auto columnOf = [&columns](const std::string & name) {
-    return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin());
-  };
-  const std::size_t output = columnOf("output");
-  const std::size_t surface = columnOf("name");
-  while (std::getline(table, line))
+  Row columns;
+  std::vector<Row> rows; ///< of as many fields
+
+  std::size_t
+  Find(const std::string & column) const
   {
-    const Row fields = Split(line, "\t");
-    for (std::size_t column = 1; column < std::min(fields.size(), columns.size()); ++column)
+    return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin());
+  }
+};
+
+/** Reads a table of a batch. Lines of other lengths than the first are left out. Throws Failure: NotFound; Unreadable
+ * without one of the columns. */
+Table
+ReadTable(const fs::path & path, const Row & needed)
+{
+  std::ifstream stream(path);
+  if (!stream)
+  {
+    throw Failure(FailureKind::NotFound,
+                  "There is no table " + path.string() + "; run the batch first, or write its tables with --tables.");
+  }
+  Table table;
+  std::string line;
+  std::getline(stream, line);
+  table.columns = Split(line, "\t");
+  for (const std::string & column : needed)
+  {
+    if (table.Find(column) == table.columns.size())
     {
-      const auto value = ToNumber<double>(fields[column]);
-      if (value && std::isfinite(*value) && column != output && column != surface && output < fields.size() &&
-          surface < fields.size())
+      throw Failure(FailureKind::Unreadable,
+                    "The table " + path.string() + " has no column " + column +
+                      "; it is of another version: run the batch again, or write its tables with --tables.");
+    }
+  }
+  while (std::getline(stream, line))
+  {
+    table.rows.push_back(Split(line, "\t"));
+    if (table.rows.back().size() != table.columns.size())
+    {
+      table.rows.pop_back();
+    }
+  }
+  return table;
+}
+
+/** The rows of surfaces of one name that the same outputs have in all cases, by these outputs and the name. */
+std::map<std::pair<std::string, std::string>, std::set<std::size_t>>
+GroupSurfaces(const Table & measures, const Table & outputs)
+{
+  std::map<std::pair<std::string, std::string>, std::size_t> rowOf; // by case and identity
+  for (std::size_t n = 0; n < measures.rows.size(); ++n)
+  {
+    rowOf[{ measures.rows[n][measures.Find("case")], measures.rows[n][measures.Find("surface_id")] }] = n;
+  }
+  std::map<std::pair<std::string, std::string>, std::set<std::size_t>> ofOutputs; // by output and name
+  for (const Row & file : outputs.rows)
+  {
+    for (const std::string & identity : Split(file[outputs.Find("surface_ids")], ","))
+    {
+      const auto row = rowOf.find({ file[outputs.Find("case")], identity });
+      if (row != rowOf.end())
       {
-        measures[{ fields[output], fields[surface], column }].push_back({ *value, fields[0] });
+        const std::string & name = measures.rows[row->second][measures.Find("surface")];
+        ofOutputs[{ file[outputs.Find("output")], name }].insert(row->second);
       }
     }
   }
-  return measures;
+  std::map<std::set<std::size_t>, std::pair<std::string, std::string>> merged; // by the rows
+  for (const auto & [key, rows] : ofOutputs)
+  {
+    auto & [names, surface] = merged[rows];
+    names += (names.empty() ? "" : ",") + key.first;
+    surface = key.second;
+  }
+  std::map<std::pair<std::string, std::string>, std::set<std::size_t>> groups;
+  for (const auto & [rows, key] : merged)
+  {
+    groups[key] = rows;
+  }
+  return groups;
 }
 
 Row
@@ -145,21 +201,33 @@ Align(const std::vector<Row> & rows)
 std::string
 WriteBatchStatistics(const fs::path & folder)
 {
-  std::ifstream stream(folder / "measures.tsv");
-  if (!stream)
+  const Table measures = ReadTable(folder / "measures.tsv", { "case", "surface_id", "surface" });
+  const Table outputs = ReadTable(folder / "outputs.tsv", { "case", "output", "surface_ids" });
+  std::vector<Row> rows{
+    { "outputs", "surface", "measure", "cases", "least", "q1", "median", "q3", "largest", "apart" }
+  };
+  for (const auto & [key, members] : GroupSurfaces(measures, outputs))
   {
-    throw Failure(FailureKind::NotFound,
-                  "There is no table " + (folder / "measures.tsv").string() +
-                    "; run the batch first, or write its tables with --tables.");
-  }
-  Row columns;
-  std::vector<Row> rows{ { "output", "name", "measure", "cases", "least", "q1", "median", "q3", "largest", "apart" } };
-  for (const auto & [key, values] : ReadMeasures(stream, columns))
-  {
-    const auto & [output, surface, column] = key;
-    rows.push_back({ output, surface, columns[column] });
-    const Row summary = Summarize(values);
-    rows.back().insert(rows.back().end(), summary.begin(), summary.end());
+    for (const MeasureColumn & measure : GetMeasureColumns())
+    {
+      const std::size_t column = measures.Find(measure.name);
+      std::vector<CaseValue> values;
+      for (const std::size_t n : members)
+      {
+        const Row & row = measures.rows[n];
+        const auto value = column < row.size() ? ToNumber<double>(row[column]) : std::nullopt;
+        if (value && std::isfinite(*value) && !measure.unit.empty())
+        {
+          values.push_back({ *value, row[measures.Find("case")] });
+        }
+      }
+      if (!values.empty())
+      {
+        rows.push_back({ key.first, key.second, measure.name });
+        const Row summary = Summarize(values);
+        rows.back().insert(rows.back().end(), summary.begin(), summary.end());
+      }
+    }
   }
   std::string table;
   for (const Row & row : rows)

@@ -1,5 +1,6 @@
 #include "rhombicCaseRun.h"
 
+#include "rhombicBatchResults.h"
 #include "rhombicDigest.h"
 #include "rhombicFailure.h"
 #include "rhombicSidecar.h"
@@ -98,54 +99,57 @@ WithoutNames(std::string sentence, const BatchCase & batchCase, const fs::path &
   return sentence;
 }
 
-/** The files in a folder that are no notes of this program, sorted. */
+/** All that is in a folder. */
 std::vector<fs::path>
-FindOutputs(const fs::path & folder)
+FindFiles(const fs::path & folder)
 {
   std::vector<fs::path> files;
   for (const auto & entry : fs::directory_iterator(folder))
   {
-    if (entry.path().filename().string()[0] != '.')
-    {
-      files.push_back(entry.path());
-    }
+    files.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end());
   return files;
 }
 
-/** Adds the numbers and words of an object of a report, those of objects in it by names such as
- * deviation.meanInMillimetres. */
-void
-Flatten(const Report & object, const std::string & prefix, Report & flat)
+/** Adds the surfaces in the report of an output to the case's measures: those that other outputs share are there once,
+ * with what is known of any of them. Returns their identities. */
+Report
+AddSurfaces(const fs::path & sidecar, Report & measures)
 {
-  for (const auto & [key, value] : object.items())
+  Report identities = Report::array();
+  const Report report = Report::parse(std::ifstream(sidecar), nullptr, false);
+  for (const Report & surface : report.is_object() ? report.value("surfaces", Report::array()) : Report::array())
   {
-    if (value.is_object())
+    const Report row = surface.value("measures", Report::object());
+    const Report identity = row.value("surface_id", Report());
+    const auto known = std::find_if(measures.begin(), measures.end(), [&](const Report & other) {
+      return other.value("surface_id", Report()) == identity;
+    });
+    if (known == measures.end())
     {
-      Flatten(value, key == "measures" ? prefix : prefix + key + '.', flat);
+      measures.push_back(row);
     }
-    else if (value.is_primitive() && !value.is_null())
+    else
     {
-      flat[prefix + key] = value;
+      Report whole = row;
+      whole.update(*known);
+      *known = whole;
     }
+    identities.push_back(identity);
   }
+  return identities;
 }
 
-/** The measures of each surface in a report. */
-void
-AddSurfaces(const fs::path & sidecar, Report & surfaces)
+/** What a file is that a step has made. */
+std::string
+KindOf(const fs::path & file, const PipelineStep & step)
 {
-  const Report report = Report::parse(std::ifstream(sidecar), nullptr, false);
-  if (!report.is_object() || !report.contains("surfaces") || !report["surfaces"].is_array())
-  {
-    return;
-  }
-  for (const Report & surface : report["surfaces"])
-  {
-    surfaces.push_back({ { "output", sidecar.stem().string() } });
-    Flatten(surface, "", surfaces.back());
-  }
+  const bool isReport = file.extension() == ".json" && fs::exists(file.parent_path() / file.stem());
+  return isReport                                                    ? "report"
+         : file.filename() == ThumbnailFile                          ? "thumbnail"
+         : file.extension() == ".dcm"                                ? "dicom"
+         : file.extension() == ".csv" || file.extension() == ".json" ? "table"
+                                                                     : step.kind;
 }
 
 } // namespace
@@ -153,7 +157,8 @@ AddSurfaces(const fs::path & sidecar, Report & surfaces)
 std::string
 HashOptions(const BatchCase & batchCase, const Pipeline & pipeline)
 {
-  std::string text = pipeline.hash;
+  constexpr char format[] = "2"; // of lines in the journal: cases of another one run again
+  std::string text = format + ('\n' + pipeline.hash);
   for (const std::string & option : batchCase.options)
   {
     text += '\n' + option;
@@ -218,22 +223,28 @@ CaseRun::Continue()
   {
     return false;
   }
-  if (this->TakeStep())
+  this->TakeStep();
+  if (++m_Step < m_Settings.pipeline.steps.size() && !m_IsTooLong)
   {
-    if (m_Step < m_Settings.pipeline.steps.size())
-    {
-      this->StartStep();
-      return false;
-    }
-    m_Record["input"]["md5"] = m_InputHash.get();
-    this->Succeed();
+    this->StartStep();
+    return false;
   }
+  for (; m_Step < m_Settings.pipeline.steps.size(); ++m_Step)
+  {
+    m_Record["failedOutputs"].push_back(m_Settings.pipeline.steps[m_Step].output);
+  }
+  if (!m_Made.empty())
+  {
+    m_Record["input"]["md5"] = m_InputHash.get();
+    this->KeepOutputs();
+  }
+  m_Record["status"] = m_Cause.empty() ? "done" : "failed";
   m_Record["seconds"] = SecondsSince(m_Start);
   return true;
 }
 
-/** Takes what an ended child has left. Whether it succeeded. */
-bool
+/** Takes what an ended child has left. */
+void
 CaseRun::TakeStep()
 {
   const PipelineStep & step = m_Settings.pipeline.steps[m_Step];
@@ -258,28 +269,39 @@ CaseRun::TakeStep()
     const std::string sentence = FindSentence(m_Stage / errorsFile);
     this->Fail(code, sentence.empty() ? command + " ended with exit code " + std::to_string(code) + "." : sentence);
   }
-  else
+  for (const fs::path & file : FindFiles(m_Stage))
   {
-    ++m_Step;
+    const bool isMade = m_Made.count(file.filename().string()) > 0;
+    if (code == 0 && file.filename().string()[0] != '.')
+    {
+      m_Made.emplace(file.filename().string(), &step);
+    }
+    else if (!isMade)
+    {
+      fs::remove_all(file); // what a killed child has left, and notes
+    }
   }
-  return m_Cause.empty();
 }
 
+/** Notes that the running step's output is not made. The case's code and cause are those of its first failure. */
 void
 CaseRun::Fail(int code, const std::string & cause)
 {
-  m_Cause = cause;
-  m_Record["code"] = code;
-  m_Record["cause"] = WithoutNames(cause, m_Case, m_Stage);
+  m_Record["failedOutputs"].push_back(m_Settings.pipeline.steps[m_Step].output);
+  if (m_Cause.empty())
+  {
+    m_Cause = cause;
+    m_Record["code"] = code;
+    m_Record["cause"] = WithoutNames(cause, m_Case, m_Stage);
+  }
 }
 
+/** Moves what was made into the case's folder. */
 void
-CaseRun::Succeed()
+CaseRun::KeepOutputs()
 {
   try
   {
-    fs::remove(m_Stage / outputFile);
-    fs::remove(m_Stage / errorsFile);
     this->AddOutputs();
     const fs::path place = m_Settings.output / m_Case.folder;
     fs::create_directories(place.parent_path());
@@ -287,11 +309,13 @@ CaseRun::Succeed()
     const int folder = open(place.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     fsync(folder);
     close(folder);
-    m_Record["status"] = "done";
   }
   catch (const std::exception & error) // of files: a full disk, a folder that was removed
   {
-    this->Fail(static_cast<int>(FailureKind::Output), DescribeError(error));
+    m_Cause = DescribeError(error);
+    m_Record["code"] = static_cast<int>(FailureKind::Output);
+    m_Record["cause"] = WithoutNames(m_Cause, m_Case, m_Stage);
+    m_Record["outputs"] = Report::array();
   }
 }
 
@@ -300,18 +324,22 @@ void
 CaseRun::AddOutputs()
 {
   m_Record["outputs"] = Report::array();
-  m_Record["surfaces"] = Report::array();
-  for (const fs::path & file : FindOutputs(m_Stage))
+  m_Record["measures"] = Report::array();
+  for (const auto & [name, step] : m_Made)
   {
-    m_Record["outputs"].push_back(
-      { { "name", file.filename().string() }, { "bytes", fs::file_size(file) }, { "md5", HashFiles({ file }) } });
-    if (file.extension() == ".json")
+    const fs::path file = m_Stage / name;
+    m_Record["outputs"].push_back({ { "name", name },
+                                    { "kind", KindOf(file, *step) },
+                                    { "output", step->output },
+                                    { "bytes", fs::file_size(file) },
+                                    { "md5", HashFiles({ file }) } });
+    if (fs::exists(SidecarOf(file)))
     {
-      AddSurfaces(file, m_Record["surfaces"]);
+      m_Record["outputs"].back()["surfaces"] = AddSurfaces(SidecarOf(file), m_Record["measures"]);
     }
   }
   Report sidecar = m_Record;
-  for (const char * const key : { "status", "code", "cause", "seconds", "peakMemory", "steps", "surfaces" })
+  for (const char * const key : { "status", "code", "cause", "seconds", "peakMemory", "steps", "measures" })
   {
     sidecar.erase(key);
   }

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <future>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -21,7 +22,8 @@ std::string
 HashOptions(const BatchCase & batchCase, const Pipeline & pipeline);
 
 /** \class CaseRun
- * \brief Runs the steps of one case, one child process after the other. */
+ * \brief Runs the steps of one case, one child process after the other. A step that fails keeps no other from running,
+ * but for one that takes too long. */
 class CaseRun
 {
 public:
@@ -42,7 +44,8 @@ public:
     return m_Child->GetDescriptor();
   }
 
-  /** Starts the next step if one has ended. True when the case has ended, with its folder in place if it succeeded. */
+  /** Starts the next step if one has ended. True when the case has ended, with its folder in place if any step
+   * succeeded. */
   bool
   Continue();
 
@@ -53,7 +56,7 @@ public:
     return m_Record;
   }
 
-  /** The cause of a failure, with names of files, which the record leaves out. */
+  /** The cause of the first failure, with names of files, which the record leaves out. */
   const std::string &
   GetCause() const
   {
@@ -65,12 +68,12 @@ private:
 
   void
   StartStep();
-  bool
+  void
   TakeStep();
   void
   Fail(int code, const std::string & cause);
   void
-  Succeed();
+  KeepOutputs();
   void
   AddOutputs();
 
@@ -80,6 +83,7 @@ private:
   std::size_t m_Step = 0;
   std::unique_ptr<ChildProcess> m_Child;
   bool m_IsTooLong = false;
+  std::map<std::string, const PipelineStep *> m_Made; ///< names of files, and the steps that made them
   Clock::time_point m_Start = Clock::now();
   Clock::time_point m_ChildStart;
   std::shared_future<std::string> m_InputHash;

@@ -139,6 +139,7 @@ private:
     }
     PipelineStep step;
     step.line = static_cast<std::size_t>(node.Mark().line) + 1;
+    step.kind = kind->key;
     step.arguments = kind->arguments;
     step.output = node[kind->key].as<std::string>();
     if (step.output.empty() || step.output[0] == '.' || step.output.find('/') != std::string::npos)

@@ -162,15 +162,14 @@ Summarize(const BatchSettings & settings, const CaseRecords & records)
   for (const BatchCase & batchCase : settings.cases)
   {
     const Report * const record = FindRecord(records, batchCase.name);
-    // A done case that a stopped run was to repeat has lost its outputs.
-    const bool hasRun =
-      record != nullptr && ((*record)["status"] != "done" || HasOutputs(*record, settings.output / batchCase.folder));
+    // A case that a stopped run was to repeat has lost its outputs.
+    const bool hasRun = record != nullptr && HasOutputs(*record, settings.output / batchCase.folder);
     lines.push_back(hasRun ? *record : Report{ { "case", batchCase.name }, { "status", "not run" } });
     ++(!hasRun ? summary.notRun : lines.back()["status"] == "done" ? summary.done : summary.failed);
   }
   if (!settings.isPart)
   {
-    WriteResults(lines, settings.output);
+    WriteResults(lines, settings.writesCasesTable ? &settings.cases : nullptr, settings.output);
   }
   return summary;
 }
@@ -317,7 +316,7 @@ private:
       m_Events.Note(record["case"].get<std::string>() + ": " +
                     (isDone ? "done in " + FormatFixed(record["seconds"].get<double>(), 1) + " s, " +
                                 DescribeBytes(record["peakMemory"].get<std::uintmax_t>())
-                            : "failed: " + (*run)->GetCause()));
+                            : "failed: " + (*run)->GetCause() + " Not made: " + ListOf(record, "failedOutputs")));
       run = m_Running.erase(run);
     }
   }

@@ -4,6 +4,7 @@
 #include "rhombicFailure.h"
 #include "rhombicLabelSurfaces.h"
 #include "rhombicLatticeToSurfaces.h"
+#include "rhombicMeasureTable.h"
 #include "rhombicSourceLoading.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicSurfaceReport.h"
@@ -43,15 +44,15 @@ DescribeSize(const itk::ImageBase<3> & image)
 
 /** Removes parts, and smooths, the normals last. Returns whether anything is left. */
 bool
-Finish(SceneSurface & surface, const SurfaceFinish & finish, double spacing, const Events & events)
+Finish(MeshedSurface & surface, const SurfaceFinish & finish, double spacing, const Events & events)
 {
   const auto finished = itk::TriangleSurface::New();
-  finished->Graft(surface.surface);
-  surface.surface = finished;
-  RemoveParts(*finished, finish, surface.name, events);
+  finished->Graft(surface.scene.surface);
+  surface.scene.surface = finished;
+  surface.parts = RemoveParts(*finished, finish, surface.scene.name, events);
   if (finished->GetNumberOfTriangles() == 0)
   {
-    events.Note(surface.name + ": left out, as all its parts are below --min-volume");
+    events.Note(surface.scene.name + ": left out, as all its parts are below --min-volume");
     return false;
   }
   if (finish.smoothing > 0.0)
@@ -64,18 +65,20 @@ Finish(SceneSurface & surface, const SurfaceFinish & finish, double spacing, con
   return true;
 }
 
+/** Measures a surface, and adds it. */
 void
-AddSurface(const SceneSurface & surface, Report report, PictureScene & scene)
+AddSurface(MeshedSurface surface, PictureScene & scene)
 {
+  MeasureFinished(scene.scan ? &*scene.scan : nullptr, surface);
   LegendRow row;
-  row.name = surface.name;
-  row.colour = surface.colour;
-  row.volume = ComputeVolume(*surface.surface) / CubicMillimetresPerMl;
-  row.area = ComputeArea(*surface.surface) / 100.0;
-  report["volumeInMillilitres"] = *row.volume;
-  scene.surfaces.push_back(surface);
+  row.name = surface.scene.name;
+  row.colour = surface.scene.colour;
+  row.volume = surface.measures.volume / CubicMillimetresPerMl;
+  row.area = surface.measures.area / 100.0;
+  row.mean = surface.measures.meanValue;
+  scene.surfaces.push_back(surface.scene);
   scene.rows.push_back(row);
-  scene.report["surfaces"].push_back(std::move(report));
+  scene.report["surfaces"].push_back(ReportMeshedSurface(surface));
 }
 
 std::string
@@ -93,11 +96,16 @@ AddIsosurfaces(const LoadedSource & loaded, const PictureSource & source, const 
   std::vector<std::string> thresholds;
   for (std::size_t n = 0; n < extracted.size(); ++n)
   {
-    ExtractedSurface surface = extracted[n];
+    MeshedSurface surface;
+    surface.scene = extracted[n];
+    surface.request = loaded.requests[n];
+    surface.mode = mode;
+    surface.enclosed = extracted[n].enclosed;
+    surface.extracted = MeasureExtracted(*surface.scene.surface);
     if (Finish(surface, CombineFinish(loaded.requests[n].finish, source.finish), spacing, events))
     {
       thresholds.push_back(DescribeThreshold(loaded.requests[n]));
-      AddSurface(surface, ReportIsosurface(loaded.requests[n], surface, mode), scene);
+      AddSurface(surface, scene);
     }
   }
   scene.thresholds = Enumerate(thresholds, "and");
@@ -113,13 +121,20 @@ AddLabels(const LoadedSource & loaded, const PictureSource & source, const Event
   LabelMesh mesh = LabelsToWalls(*loaded.labels, settings, events);
   SurfaceFinish smoothing;
   smoothing.smoothing = std::exchange(finish.smoothing, 0.0);
-  RefineWalls(mesh, smoothing, spacing, events);
+  const bool isExtracted = !RefineWalls(mesh, smoothing, spacing, events).front().smoothing;
   ExtractSurfaces(mesh);
   for (LabelSurface & label : mesh.labels)
   {
-    if (Finish(label.scene, finish, spacing, events))
+    MeshedSurface surface;
+    surface.scene = std::exchange(label.scene, {});
+    surface.label = std::move(label);
+    if (isExtracted)
     {
-      AddSurface(label.scene, ReportLabelSurface(label), scene);
+      surface.extracted = MeasureExtracted(*surface.scene.surface);
+    }
+    if (Finish(surface, finish, spacing, events))
+    {
+      AddSurface(std::move(surface), scene);
     }
   }
 }
@@ -246,10 +261,11 @@ MakeSceneOfFiles(const PictureSource & source, const Events & events)
     surface.colour = name->colour;
     surface.opacity = name->opacity;
     ++name;
-    if (Finish(surface, source.finish, 1.0, events))
+    MeshedSurface shown;
+    shown.scene = surface;
+    if (Finish(shown, source.finish, 1.0, events))
     {
-      AddSurface(
-        surface, { { "name", surface.name }, { "triangles", surface.surface->GetNumberOfTriangles() } }, scene);
+      AddSurface(shown, scene);
     }
   }
   if (scene.surfaces.empty())

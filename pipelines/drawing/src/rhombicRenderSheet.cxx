@@ -6,7 +6,6 @@
 #include "rhombicPictureScene.h"
 #include "rhombicRenderScan.h"
 #include "rhombicSourceLoading.h"
-#include "rhombicSurfaceMeasures.h"
 #include "rhombicSurfaceRenderer.h"
 #include "rhombicThumbnail.h"
 #include "rhombicWording.h"
@@ -40,18 +39,6 @@ AspectOf(const PictureScene & scene)
   return width > 0.0 ? height / width : 1.0;
 }
 
-/** The table's rows, with mean values of the scan. */
-std::vector<LegendRow>
-MeasureRows(const PictureScene & scene)
-{
-  std::vector<LegendRow> rows = scene.rows;
-  for (std::size_t n = 0; scene.scan && n < rows.size(); ++n)
-  {
-    rows[n].mean = MeasureSurface(*scene.surfaces[n].surface, *scene.scan).meanValue;
-  }
-  return rows;
-}
-
 /** The names of a few surfaces, or the number of many. */
 std::string
 TitleOf(const PictureScene & scene)
@@ -74,7 +61,7 @@ PlanSheet(const RenderSheetSettings & settings, const PictureScene & scene, std:
   sheet.views.resize(settings.views.size());
   sheet.slices.resize(slices);
   sheet.viewAspect = AspectOf(scene);
-  sheet.rows = MeasureRows(scene);
+  sheet.rows = scene.rows;
   sheet.meanUnit = scene.unit;
   sheet.provenance = scene.facts;
   sheet.provenance.push_back("made by: " + settings.provenance.software);
