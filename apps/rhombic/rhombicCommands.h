@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -20,6 +21,11 @@ struct CommandContext
   Console * console;
   VoxelDecoder * decoder;             ///< unpacks the voxels of all input files
   std::vector<std::string> arguments; ///< after the program's name
+
+  /** Null: the command runs. Otherwise it checks what it can without reading or writing anything, and adds the files
+   * that it would write, as far as their names are known; console and decoder are not used. For render, mesh and
+   * resample. */
+  std::vector<std::filesystem::path> * planned = nullptr;
 };
 
 /** The arguments of a command line for metadata. Names of folders, scans and series may identify the patient, so only
@@ -59,8 +65,9 @@ AddDoctorCommand(CLI::App & parser);
 CommandRun
 AddPipelineOption(CLI::App & parser, const CommandRun & otherwise);
 
-/** Makes those outputs of a pipeline file that a command makes, all or none, with the same bytes as rhombic batch. In
- * the program that draws only. Throws Failure. \param command the parser of render or mesh, after parsing */
+/** Makes those outputs of a pipeline file that a command makes, with the same bytes as rhombic batch. All are checked
+ * before the first is made; one that fails then keeps no other from being made. In the program that draws only. Throws
+ * Failure, of the kind of the first failure. \param command the parser of render or mesh, after parsing */
 void
 RunPipeline(const std::string & file, const CLI::App & command, const CommandContext & context);
 

@@ -91,11 +91,7 @@ Mesh(const MeshOptions & options, const CommandContext & context)
   {
     throw Failure(FailureKind::Usage, "No file is named; give one with -o, for example -o bone.stl.");
   }
-  const Events events = context.console->MakeEvents();
   settings.source = options.scan.GetSource(context);
-  const Preset preset = options.surfaces.GetPreset(settings.source, events);
-  options.scan.ApplyPreset(preset, settings.source);
-  settings.surfaces = GetSelection(options, preset);
   settings.mesh = options.mesh;
   settings.space = ParseSpace(options.space);
   settings.finish = options.finish.Get();
@@ -105,6 +101,17 @@ Mesh(const MeshOptions & options, const CommandContext & context)
   settings.audits = options.audits;
   settings.requiresWatertight = options.requiresWatertight;
   settings.provenance = options.scan.GetProvenance(context, options.surfaces.GetNames());
+  settings.surfaces = GetSelection(options, options.surfaces.GetNamedPreset());
+  const auto planned = CheckMeshScan(settings);
+  if (context.planned != nullptr)
+  {
+    context.planned->insert(context.planned->end(), planned.begin(), planned.end());
+    return;
+  }
+  const Events events = context.console->MakeEvents();
+  const Preset preset = options.surfaces.GetPreset(settings.source, events);
+  options.scan.ApplyPreset(preset, settings.source);
+  settings.surfaces = GetSelection(options, preset);
   for (const auto & mesh : MeshScan(settings, events))
   {
     context.console->Note("mesh: " + mesh.string());

@@ -25,6 +25,12 @@ Resample(const ResampleOptions & options, const CommandContext & context)
   }
   settings.volume = options.volume;
   settings.provenance = options.scan.GetProvenance(context);
+  if (context.planned != nullptr)
+  {
+    const auto planned = CheckResampleScan(settings);
+    context.planned->insert(context.planned->end(), planned.begin(), planned.end());
+    return;
+  }
   ResampleScan(settings, context.console->MakeEvents());
   context.console->Note("volume: " + settings.volume.string());
 }

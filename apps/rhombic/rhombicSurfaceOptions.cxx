@@ -108,6 +108,12 @@ SurfaceOptions::Add(CLI::App & parser)
 }
 
 Preset
+SurfaceOptions::GetNamedPreset() const
+{
+  return m_Preset.empty() || m_Preset == "auto" ? Preset() : FindPreset(m_Preset);
+}
+
+Preset
 SurfaceOptions::GetPreset(ScanSource & source, const Events & events) const
 {
   const std::string name =

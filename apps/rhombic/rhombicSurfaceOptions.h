@@ -28,6 +28,10 @@ public:
   Preset
   GetPreset(ScanSource & source, const Events & events) const;
 
+  /** As GetPreset(), but "auto" is one of no surfaces, and nothing is read. */
+  Preset
+  GetNamedPreset() const;
+
   /** The parsed selection, with one more surface if given. Without surfaces and label map, the scan itself is taken as
    * the label map. Throws Failure(Usage). */
   SurfaceSelection

@@ -28,6 +28,11 @@ struct MeshScanSettings
   Provenance provenance;
 };
 
+/** Checks what can be checked without reading or writing anything. Returns the files that MeshScan() writes, as far as
+ * their names do not depend on those of surfaces. Throws Failure(Usage). */
+std::vector<std::filesystem::path>
+CheckMeshScan(const MeshScanSettings & settings);
+
 /** Writes surfaces of a scan; returns the files' paths. Measures and the distance from the scan's isosurface are taken
  * while a file is written, and hold for it, as it is read back and compared; the audit is that of the surface read
  * back. Notes give the main figures; sidecars and the table hold all of them, and what finishing changed. All files

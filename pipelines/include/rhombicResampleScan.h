@@ -6,6 +6,7 @@
 #include "rhombicSidecar.h"
 
 #include <filesystem>
+#include <vector>
 
 namespace rhombic
 {
@@ -18,6 +19,11 @@ struct ResampleScanSettings
   std::filesystem::path volume; ///< .nrrd for a lattice volume; .nrrd, .nii, .nii.gz, .mha for a Cartesian one
   Provenance provenance;
 };
+
+/** Checks what can be checked without reading or writing anything. Returns the files that ResampleScan() writes. Throws
+ * Failure(Usage). */
+std::vector<std::filesystem::path>
+CheckResampleScan(const ResampleScanSettings & settings);
 
 /** Resamples a scan onto the lattice, or, when the source is a lattice volume, onto a Cartesian grid of the source's
  * lattice spacing. Throws Failure. */

@@ -10,6 +10,7 @@
 #include "itkFCCIsosurfaceMode.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,7 +27,10 @@ struct ScanSource
   std::filesystem::path path; ///< a scan, or a lattice volume that WriteFCCImage() wrote
   ScanReadOptions read;
   LatticeSettings lattice; ///< for lattice volumes, only the denoising has an effect
-  bool isHashed = false;   ///< whether reports hold a digest of the files that were read
+  /** Called with what the headers tell, before the voxels of a scan are read; may be empty, and may throw. */
+  std::function<void(const Scan & scan)> check;
+
+  bool isHashed = false; ///< whether reports hold a digest of the files that were read
 
   /** What the path holds, if it was read before (see ChoosePreset()). The next function that reads the source takes it.
    * Copies share it. */

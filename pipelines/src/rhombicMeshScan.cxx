@@ -73,9 +73,9 @@ PathsOf(const fs::path & mesh, const std::vector<MeshedSurface> & surfaces)
   return paths;
 }
 
-/** Throws Failure where files can't be written, or would overwrite each other or an input. */
-void
-CheckFiles(const std::vector<fs::path> & meshes, const MeshScanSettings & settings)
+/** All files that are written for surface files. */
+std::vector<fs::path>
+OutputsOf(const std::vector<fs::path> & meshes, const MeshScanSettings & settings)
 {
   std::vector<fs::path> outputs;
   for (const fs::path & mesh : meshes)
@@ -91,23 +91,24 @@ CheckFiles(const std::vector<fs::path> & meshes, const MeshScanSettings & settin
   {
     outputs.push_back(settings.measures);
   }
-  CheckOutputs(outputs, settings.source, settings.surfaces);
+  return outputs;
 }
 
-/** Checks what can be checked before the scan is read. */
+/** Throws Failure(Usage) for a file that can't hold all surfaces of a source, of which the surfaces are not yet made.
+ */
 void
-CheckSettings(const MeshScanSettings & settings)
+CheckNumberOfSurfaces(const LoadedSource & loaded, const MeshScanSettings & settings)
 {
-  const bool isForEach = HasFileForEach(settings.mesh);
-  const bool showsAll = settings.surfaces.rules.only.empty() && settings.surfaces.rules.hidden.empty();
-  const std::size_t fewest = showsAll ? settings.surfaces.requests.size() + (settings.surfaces.labels ? 1 : 0) : 1;
-  CheckSurfacePath(settings.mesh, isForEach ? 1 : fewest);
-  CheckSurfaceFinish(settings.finish);
-  if (!settings.measures.empty())
+  std::size_t fewest = loaded.requests.size();
+  if (loaded.labels)
   {
-    CheckMeasureTablePath(settings.measures);
+    const auto & labels = loaded.labels->labels;
+    const auto shown = std::count_if(labels.begin(), labels.end(), [](const LabelSummary & summary) {
+      return summary.label.isVisible && summary.label.opacity > 0.0;
+    });
+    fewest += settings.surfaces.labels->labels.empty() ? static_cast<std::size_t>(shown) : 1;
   }
-  CheckFiles(isForEach ? std::vector<fs::path>{} : std::vector<fs::path>{ settings.mesh }, settings);
+  CheckSurfacePath(settings.mesh, HasFileForEach(settings.mesh) ? 1 : fewest);
 }
 
 /** The volume inside the scan's isosurface, estimated from the lattice. Nothing if only some parts of it are kept, if
@@ -350,10 +351,27 @@ private:
 } // namespace
 
 std::vector<fs::path>
+CheckMeshScan(const MeshScanSettings & settings)
+{
+  const bool isForEach = HasFileForEach(settings.mesh);
+  const bool showsAll = settings.surfaces.rules.only.empty() && settings.surfaces.rules.hidden.empty();
+  const std::size_t fewest = showsAll ? settings.surfaces.requests.size() + (settings.surfaces.labels ? 1 : 0) : 1;
+  CheckSurfacePath(settings.mesh, isForEach ? 1 : fewest);
+  CheckSurfaceFinish(settings.finish);
+  CheckSelection(settings.surfaces);
+  if (!settings.measures.empty())
+  {
+    CheckMeasureTablePath(settings.measures);
+  }
+  return OutputsOf(isForEach ? std::vector<fs::path>{} : std::vector<fs::path>{ settings.mesh }, settings);
+}
+
+std::vector<fs::path>
 MeshScan(const MeshScanSettings & settings, const Events & events)
 {
-  CheckSettings(settings);
+  CheckOutputs(CheckMeshScan(settings), settings.source, settings.surfaces);
   LoadedSource loaded = LoadSource(settings.source, settings.surfaces, events);
+  CheckNumberOfSurfaces(loaded, settings);
   Report sourceReport = ReportSource(loaded, settings.source);
   std::vector<MeshedSurface> surfaces;
   if (!loaded.requests.empty())
@@ -367,7 +385,7 @@ MeshScan(const MeshScanSettings & settings, const Events & events)
   const double spacing = SpacingOf(loaded);
   const auto findCandidates = MakeCandidateSearch(loaded, settings.surfaces.mode);
   DropVolumes(loaded);
-  CheckFiles(PathsOf(settings.mesh, surfaces), settings);
+  CheckOutputs(OutputsOf(PathsOf(settings.mesh, surfaces), settings), settings.source, settings.surfaces);
   FinishAll(surfaces, settings.finish, spacing, findCandidates, events);
 
   const FileInspection inspection(settings, loaded.scan, events);

@@ -62,11 +62,18 @@ CheckVolumePath(const ResampleScanSettings & settings)
 
 } // namespace
 
+std::vector<std::filesystem::path>
+CheckResampleScan(const ResampleScanSettings & settings)
+{
+  CheckScanPath(settings.volume);
+  return WithSidecars({ settings.volume }, settings.provenance);
+}
+
 void
 ResampleScan(const ResampleScanSettings & settings, const Events & events)
 {
-  CheckOutputs(WithSidecars({ settings.volume }, settings.provenance), settings.source);
   CheckVolumePath(settings);
+  CheckOutputs(CheckResampleScan(settings), settings.source);
   const SourceVolume volume = LoadVolume(settings.source, events);
   StagedFiles staged;
   if (const auto * const scan = std::get_if<Scan>(&volume))

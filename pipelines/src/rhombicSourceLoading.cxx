@@ -170,7 +170,15 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
     }
   }
   std::vector<SurfaceRequest> requests = selection.requests;
-  ApplySceneRules(selection.rules, requests, loaded.labels ? &*loaded.labels : nullptr);
+  SceneRules rules = selection.rules;
+  for (const std::string & label : selection.labels ? selection.labels->labels : std::vector<std::string>())
+  {
+    if (!ToNumber<double>(label)) // a name, no value
+    {
+      rules.needed.push_back(label);
+    }
+  }
+  ApplySceneRules(rules, requests, loaded.labels ? &*loaded.labels : nullptr);
   if (loaded.labels && loaded.labels->labels.empty())
   {
     if (requests.empty())
@@ -213,6 +221,11 @@ ReadScan(const ScanSource & source, const Events & events)
   reader->SetFileName(source.path.string());
   reader->SetOptions(source.read);
   ObserveProgress(*reader, "reading", events);
+  if (source.check)
+  {
+    reader->UpdateOutputInformation();
+    source.check(reader->GetScan());
+  }
   reader->Update();
   return *reader->GetOutput()->Get();
 }
@@ -252,6 +265,16 @@ GetLabelSettings(const ScanSource & source, const SurfaceSelection & selection)
   settings.density = source.lattice.density;
   settings.maximumMemory = source.lattice.maximumMemory;
   return settings;
+}
+
+void
+CheckSelection(const SurfaceSelection & selection)
+{
+  if (!selection.labels) // whose names the label map tells
+  {
+    std::vector<SurfaceRequest> requests = selection.requests;
+    ApplySceneRules(selection.rules, requests, nullptr);
+  }
 }
 
 void

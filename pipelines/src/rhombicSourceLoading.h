@@ -56,6 +56,10 @@ LoadSource(const ScanSource & source, const SurfaceSelection & selection, const 
 LabelSurfaceSettings
 GetLabelSettings(const ScanSource & source, const SurfaceSelection & selection);
 
+/** Throws Failure(Usage) for rules that fit none of the surfaces, where these are known without reading anything. */
+void
+CheckSelection(const SurfaceSelection & selection);
+
 /** Throws Failure for an output that can't be written, that is an input, or that is named twice.
  * \param source and \param selection name the inputs */
 void

@@ -545,14 +545,43 @@ TEST(Batch, RenderAndMeshRefuseWhatIsNotOfAPipeline)
          Mistake{ "outputs:\n  - mesh: a.stl\n    threshold: 250.5\n  - mesh: b.stl\n    threshold: 1e9\n",
                   "-o out",
                   6,
-                  "1e+09" } })
+                  "Not made: b.stl." } })
   {
     const Outcome outcome = meshBy(mistake.pipeline, mistake.options);
     EXPECT_EQ(outcome.exitCode, mistake.exitCode) << outcome.errors;
     EXPECT_NE(outcome.errors.find(mistake.expected), std::string::npos) << outcome.errors;
-    EXPECT_TRUE(!fs::exists(folder.Path() / "out") || fs::is_empty(folder.Path() / "out")) << "all outputs, or none";
+    EXPECT_EQ(fs::exists(folder.Path() / "out/a.stl"), mistake.exitCode == 6) << "what was finished is kept";
+    EXPECT_FALSE(fs::exists(folder.Path() / "out/b.stl"));
   }
   EXPECT_EQ(meshBy(bone, "-o out").exitCode, 0);
+}
+
+TEST(Batch, OutputsThatCannotBeMadeAreRefusedBeforeAnyCaseRuns)
+{
+  const TemporaryFolder folder;
+  fs::copy(phantom / "phantom.nii.gz", folder.Path());
+  fs::copy(phantom / "phantom-labels.nii.gz", folder.Path());
+  std::ofstream(folder.Path() / "cases.tsv") << "case\tscan\tlabels\none\tphantom.nii.gz\tphantom-labels.nii.gz\n";
+  const std::string page = "outputs:\n  - page: page.png\n    preset: auto\n";
+  for (const auto & [more, expected] :
+       { std::pair<std::string, std::string>{ "  - mesh: two.stl\n    preset: ct-bone-skin\n", "line 4" },
+         { "  - mesh: two.stl\n    preset: ct-organs\n", "the output two.stl" },
+         { "  - mesh: bone.xyz\n    preset: ct-bone\n", "line 4" },
+         { "  - mesh: a.stl\n    preset: ct-bone\n    only: bonne\n    labels: false\n", "line 4" },
+         { "  - picture: a.png\n    slice: axial\n    window: lungs\n", "did you mean lung?" },
+         { "  - picture: a.png\n    view: lefft\n", "did you mean left?" },
+         { "  - picture: a.png\n    preset: ct-bnoe\n", "did you mean ct-bone?" },
+         { "  - picture: a.png\n    view: [left, right]\n  - picture: a-left.png\n", "would write a-left.png" },
+         { "  - mesh: a.stl\n    measures: m.csv\n  - mesh: b.stl\n    measures: m.csv\n", "would write m.csv" },
+         { "  - picture: thumbnail.jpg\n", "a batch writes a file thumbnail.jpg itself" },
+         { "  - volume: scan.raw\n", "line 4" } })
+  {
+    std::ofstream(folder.Path() / "pipeline.yaml") << page << more;
+    const Outcome outcome = RunShell("rhombic batch cases.tsv --pipeline pipeline.yaml -o out", folder.Path());
+    EXPECT_EQ(outcome.exitCode, 2) << more << outcome.errors;
+    EXPECT_NE(outcome.errors.find(expected), std::string::npos) << more << outcome.errors;
+    EXPECT_FALSE(fs::exists(folder.Path() / "out"));
+  }
 }
 
 /** A BIDS dataset of three participants, one of them in a session. */

@@ -30,6 +30,7 @@ SomeSyntax()
     {
       throw Failure(rhombic::FailureKind::Usage, "'bad' is no size.");
     }
+    return std::vector<std::filesystem::path>{ arguments.back(), arguments.back() + ".json" };
   };
   return syntax;
 }
@@ -97,7 +98,9 @@ TEST(PipelineFile, MistakesAreNamedWithLineAndNearestKey)
          Mistake{ "options:\n  sise: 3\noutputs: [{page: a.png}]\n", "'sise' in line 2 (did you mean size?)" },
          Mistake{ "output:\n  - page: a.png\n", "'output' in line 1 (did you mean outputs?)" },
          Mistake{ "outputs:\n  - pag: a.png\n", "page, picture, mesh or volume in line 2" },
-         Mistake{ "outputs:\n  - page: a.png\n  - mesh: a.png\n", "second output a.png in line 3" },
+         Mistake{ "outputs:\n  - page: a.png\n  - mesh: a.png\n",
+                  "line 3: it would write a.png, as the output in line 2 does" },
+         Mistake{ "outputs:\n  - page: thumbnail.jpg\n", "line 2: a batch writes a file thumbnail.jpg itself" },
          Mistake{ "outputs:\n  - page: ../a.png\n", "line 2" },
          Mistake{ "outputs:\n  - page: a.png\n    size: bad\n", "line 2: 'bad' is no size" },
          Mistake{ "outputs:\n  - page: a.png\n    labels: maybe\n", "true or false is expected, in line 3" },

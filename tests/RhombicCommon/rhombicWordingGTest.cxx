@@ -107,6 +107,7 @@ TEST(Wording, TheNearestNameIsSuggestedAndNoneThatIsFar)
   EXPECT_EQ(NearestName("", presets), "");
   EXPECT_EQ(NearestName("a", { "b", "c" }), "");
   EXPECT_EQ(NearestName("leen", { "lean", "fine" }), "lean");
+  EXPECT_EQ(NearestName("kidny", { "liver", "kidney_left", "kidney_right" }), "kidney_left") << "a word of a name";
   EXPECT_EQ(NearestName("haert", { "heart", "head" }), "heart") << "two letters exchanged are one mistake";
   EXPECT_EQ(NearestName("thin", { "lean", "fine" }), "");
 }

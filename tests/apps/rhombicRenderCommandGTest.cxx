@@ -327,4 +327,45 @@ TEST_F(RenderCommand, SurfaceFilesTakeNoOptionsThatChooseSurfacesOfScans)
   }
 }
 
+/** A scan whose voxels can't be read tells what is checked before they are. */
+TEST_F(RenderCommand, OptionsAndHeadersAreCheckedBeforeVoxelsAreRead)
+{
+  const std::string whole = ReadText(phantomScan);
+  std::ofstream(m_Folder.Path() / "cut.nii.gz", std::ios::binary) << whole.substr(0, whole.size() / 2);
+  for (const std::string preset : { "ct-bone", "auto" })
+  {
+    const std::string command = "render cut.nii.gz --preset " + preset + " -o a.png ";
+    EXPECT_EQ(Run(command).exitCode, 4) << "the voxels";
+    for (const auto & [options, expected] :
+         { std::pair<std::string, std::string>{ "--slice axial=#500", "There is no axial slice 500" },
+           { "--slice axial=#x", "'#x' is no slice" },
+           { "--slice axial=9999", "is outside of what is shown" },
+           { "--show-slice axial=#500", "There is no axial slice 500" },
+           { "--cut 'x>9999'", "is outside of what is shown" },
+           { "--slice axial --window lungs", "did you mean lung?" },
+           { "--sheet --window lungs", "did you mean lung?" },
+           { "--sheet --slice axial=#500", "There is no axial slice 500" },
+           { "--view lefft", "did you mean left?" },
+           { "--annotate leters", "did you mean letters?" },
+           { "--size 3", "is no picture size" } })
+    {
+      const Outcome outcome = Run(command + options);
+      EXPECT_EQ(outcome.exitCode, 2) << preset << " " << options << "\n" << outcome.errors;
+      EXPECT_NE(outcome.errors.find(expected), std::string::npos) << options << "\n" << outcome.errors;
+    }
+    EXPECT_EQ(Run("mesh cut.nii.gz --preset " + preset + " -o a.xyz").exitCode, 2);
+    EXPECT_EQ(Run("mesh cut.nii.gz --preset " + preset + " -o a.glb --measures a.txt").exitCode, 2);
+  }
+  for (const std::string option : { "--focus bonne", "--only bonne", "--hide bonne", "--slice axial=bonne" })
+  {
+    const Outcome outcome = Run("render cut.nii.gz --preset ct-bone -o a.png " + option);
+    EXPECT_EQ(outcome.exitCode, 2) << option;
+    EXPECT_NE(outcome.errors.find("did you mean bone?"), std::string::npos) << outcome.errors;
+  }
+  const Outcome kidney = Run("render " + phantomLabels + " --focus kidny -o a.png");
+  EXPECT_EQ(kidney.exitCode, 2);
+  EXPECT_NE(kidney.errors.find("did you mean "), std::string::npos) << kidney.errors;
+  EXPECT_EQ(CountFiles(), 1u);
+}
+
 } // namespace

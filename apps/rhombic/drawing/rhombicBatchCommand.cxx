@@ -15,6 +15,8 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <set>
+#include <utility>
 
 namespace rhombic
 {
@@ -38,20 +40,20 @@ struct BatchOptions
   bool isBIDS = false; ///< the outputs are a BIDS dataset, too
 };
 
-/** Refuses options of a manifest before any case runs. */
+/** Refuses options and label maps of cases that do not go with an output, before any case runs. */
 void
 CheckOptions(const std::vector<BatchCase> & cases, const Pipeline & pipeline)
 {
   const CommandSyntax syntax = OutputCommands::GetSyntax();
+  std::set<std::pair<bool, std::vector<std::string>>> checked; // whether there are labels, and options
   for (const BatchCase & batchCase : cases)
   {
-    for (std::size_t n = 0; n < pipeline.steps.size() && !batchCase.options.empty(); ++n)
+    const bool isNew = checked.emplace(!batchCase.labels.empty(), batchCase.options).second;
+    for (std::size_t n = 0; n < pipeline.steps.size() && isNew; ++n)
     {
-      std::vector<std::string> arguments = pipeline.steps[n].arguments;
-      arguments.insert(arguments.end(), batchCase.options.begin(), batchCase.options.end());
       try
       {
-        syntax.check(arguments);
+        syntax.check(GetArguments(pipeline.steps[n], batchCase));
       }
       catch (const Failure & failure)
       {

@@ -41,7 +41,12 @@ OutputCommands::GetSyntax()
     }
     return names;
   };
-  syntax.check = [](const std::vector<std::string> & arguments) { OutputCommands().Parse(arguments); };
+  syntax.check = [](const std::vector<std::string> & arguments) {
+    std::vector<std::filesystem::path> files;
+    OutputCommands commands;
+    commands.Parse(arguments)({ nullptr, nullptr, arguments, &files });
+    return files;
+  };
   return syntax;
 }
 

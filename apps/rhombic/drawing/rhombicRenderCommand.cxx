@@ -202,6 +202,7 @@ IsSurfaceFile(const std::filesystem::path & path)
   return !extension.empty() && std::find(known.begin(), known.end(), extension) != known.end();
 }
 
+/** The source, without the preset that auto chooses: FinishSource() reads the scan for it. */
 PictureSource
 GetPictureSource(const RenderOptions & options, const CommandContext & context)
 {
@@ -229,12 +230,27 @@ GetPictureSource(const RenderOptions & options, const CommandContext & context)
   }
   else
   {
-    const Preset preset = options.surfaces.GetPreset(source.scan, context.console->MakeEvents());
-    options.scan.ApplyPreset(preset, source.scan);
-    source.surfaces = options.surfaces.GetSelection(preset);
-    source.surfaces.rules.opensEnclosing = source.surfaces.labels && source.surfaces.labels->labels.empty();
+    source.surfaces = options.surfaces.GetSelection(options.surfaces.GetNamedPreset());
   }
   return source;
+}
+
+/** Completes a source that was checked. \param places of slices, checked when the headers are read */
+void
+FinishSource(const RenderOptions & options,
+             const CommandContext & context,
+             const std::vector<PlaneRequest> & places,
+             PictureSource & source)
+{
+  if (!source.surfaceFiles.empty())
+  {
+    return;
+  }
+  source.scan.check = [places](const Scan & scan) { CheckPlaces(places, scan); };
+  const Preset preset = options.surfaces.GetPreset(source.scan, context.console->MakeEvents());
+  options.scan.ApplyPreset(preset, source.scan);
+  source.surfaces = options.surfaces.GetSelection(preset);
+  source.surfaces.rules.opensEnclosing = source.surfaces.labels && source.surfaces.labels->labels.empty();
 }
 
 SliceSettings
@@ -257,6 +273,7 @@ FindThumbnail()
   return path == nullptr || std::filesystem::exists(path) ? "" : path;
 }
 
+/** Returns the files, or in a check those that would be written. */
 std::vector<std::filesystem::path>
 RenderPage(const RenderOptions & options, const CommandContext & context, const Provenance & provenance)
 {
@@ -280,9 +297,16 @@ RenderPage(const RenderOptions & options, const CommandContext & context, const 
   settings.writesDicom = options.writesDicom;
   settings.thumbnail = FindThumbnail();
   settings.provenance = provenance;
+  auto planned = CheckRenderSheet(settings);
+  if (context.planned != nullptr)
+  {
+    return planned;
+  }
+  FinishSource(options, context, settings.slices, settings.source);
   return RenderSheet(settings, context.console->MakeEvents());
 }
 
+/** As RenderPage(). */
 std::vector<std::filesystem::path>
 RenderPictures(const RenderOptions & options, const CommandContext & context, const Provenance & provenance)
 {
@@ -318,6 +342,18 @@ RenderPictures(const RenderOptions & options, const CommandContext & context, co
   settings.annotations = ParseAnnotations(options);
   settings.thumbnail = FindThumbnail();
   settings.provenance = provenance;
+  auto planned = CheckRenderScan(settings);
+  if (context.planned != nullptr)
+  {
+    return planned;
+  }
+  std::vector<PlaneRequest> places = settings.slices;
+  places.insert(places.end(), settings.planes.begin(), settings.planes.end());
+  for (const CutRequest & cut : settings.cuts)
+  {
+    places.push_back(cut.plane);
+  }
+  FinishSource(options, context, places, settings.source);
   return RenderScan(settings, context.console->MakeEvents());
 }
 
@@ -463,6 +499,11 @@ Render(const RenderOptions & options, const CommandContext & context)
   const Provenance provenance = options.scan.GetProvenance(context, names);
   const auto paths =
     options.isSheet ? RenderPage(options, context, provenance) : RenderPictures(options, context, provenance);
+  if (context.planned != nullptr)
+  {
+    context.planned->insert(context.planned->end(), paths.begin(), paths.end());
+    return;
+  }
   for (const auto & picture : paths)
   {
     context.console->Note("picture: " + picture.string());

@@ -1,4 +1,3 @@
-#include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
 #include "rhombicOutputCommands.h"
 #include "rhombicScanOptions.h"
@@ -7,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 
 namespace fs = std::filesystem;
 
@@ -113,14 +113,34 @@ RunPipeline(const std::string & file, const CLI::App & command, const CommandCon
   {
     throw Failure(FailureKind::Output, "Cannot write to the folder " + folder + ": " + error.message() + ".");
   }
-  CommitTogether([&] {
-    for (const PipelineStep & step : pipeline.steps)
+  std::vector<std::vector<std::string>> steps;
+  for (const PipelineStep & step : pipeline.steps)
+  {
+    steps.push_back(GetArguments(step, batchCase));
+    OutputCommands::GetSyntax().check(steps.back());
+  }
+  std::optional<Failure> first;
+  std::string failed;
+  for (std::size_t n = 0; n < steps.size(); ++n)
+  {
+    try
     {
-      const std::vector<std::string> arguments = GetArguments(step, batchCase);
       OutputCommands commands;
-      commands.Parse(arguments)({ context.console, context.decoder, arguments });
+      commands.Parse(steps[n])({ context.console, context.decoder, steps[n] });
     }
-  });
+    catch (const Failure & failure)
+    {
+      failed += (failed.empty() ? "" : ", ") + pipeline.steps[n].output;
+      if (!first)
+      {
+        first.emplace(failure);
+      }
+    }
+  }
+  if (first)
+  {
+    throw Failure(first->GetKind(), std::string(first->GetDescription()) + " Not made: " + failed + ".");
+  }
   context.console->Note("folder: " + folder);
 }
 

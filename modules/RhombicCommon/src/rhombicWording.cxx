@@ -197,13 +197,29 @@ NearestName(const std::string & word, const std::vector<std::string> & names)
   const std::string lowerCase = LowerCase(word);
   std::string nearest;
   std::optional<std::size_t> smallest;
-  for (const std::string & name : names)
-  {
-    const auto distance = NearDistance(lowerCase, LowerCase(name));
+  const auto compare = [&](const std::string & part, const std::string & name) {
+    const auto distance = NearDistance(lowerCase, LowerCase(part));
     if (distance && (!smallest || *distance < *smallest))
     {
       smallest = distance;
       nearest = name;
+    }
+  };
+  for (const std::string & name : names)
+  {
+    compare(name, name);
+  }
+  for (std::size_t n = 0; !smallest && n < names.size(); ++n) // one word of a name, as kidney of kidney_left
+  {
+    std::string part;
+    for (const char letter : names[n] + '_')
+    {
+      const bool isLetter = std::isalnum(static_cast<unsigned char>(letter)) != 0;
+      if (!isLetter && part.size() > 3)
+      {
+        compare(part, names[n]);
+      }
+      part = isLetter ? part + letter : "";
     }
   }
   return nearest;

@@ -4,6 +4,7 @@
 #include "rhombicScan.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,11 @@ struct NamedWindow
 /** Usual windows for CT, by name: abdomen, bone, brain, ... */
 const std::vector<NamedWindow> &
 WindowPresets();
+
+/** The window of a text as WindowFromText() takes it, before there is a scan; nothing for "auto". Throws
+ * Failure(Usage). */
+std::optional<GreyWindow>
+ParseWindow(const std::string & text);
 
 /** The window of a text: a preset's name in upper or lower case, width and centre as "350/50", or "auto" for
  * AutomaticWindow(). Throws Failure(Usage) for other texts and for widths that are not above 0. */

@@ -73,12 +73,12 @@ WindowPresets()
   return presets;
 }
 
-GreyWindow
-WindowFromText(const std::string & text, const Scan & scan)
+std::optional<GreyWindow>
+ParseWindow(const std::string & text)
 {
   if (LowerCase(text) == "auto")
   {
-    return AutomaticWindow(scan);
+    return std::nullopt;
   }
   if (const GreyWindow * const preset = FindPreset(text))
   {
@@ -91,7 +91,7 @@ WindowFromText(const std::string & text, const Scan & scan)
     const auto centre = ToNumber<double>(parts[1]);
     if (width && centre && *width > 0.0 && std::isfinite(*width) && std::isfinite(*centre))
     {
-      return { *width, *centre };
+      return GreyWindow{ *width, *centre };
     }
     throw Failure(FailureKind::Usage,
                   "'" + text + "' is no window; give its width, above 0, and its centre, such as 350/50.");
@@ -103,6 +103,13 @@ WindowFromText(const std::string & text, const Scan & scan)
   }
   throw Failure(FailureKind::Usage,
                 DescribeUnknown("window", text, names, "use width and centre, such as 350/50, or " + Enumerate(names)));
+}
+
+GreyWindow
+WindowFromText(const std::string & text, const Scan & scan)
+{
+  const std::optional<GreyWindow> window = ParseWindow(text);
+  return window ? *window : AutomaticWindow(scan);
 }
 
 bool

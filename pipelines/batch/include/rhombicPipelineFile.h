@@ -37,8 +37,9 @@ struct CommandSyntax
   /** The long names of a command's options, without dashes. */
   std::function<std::vector<std::string>(const std::string & command)> optionsOf;
 
-  /** Throws Failure(Usage) when the program would refuse the arguments. */
-  std::function<void(const std::vector<std::string> & arguments)> check;
+  /** Returns the files that the program would write, as far as their names are known. Throws Failure(Usage) when it
+   * would refuse the arguments. Reads and writes nothing. */
+  std::function<std::vector<std::filesystem::path>(const std::vector<std::string> & arguments)> check;
 };
 
 /** Reads a pipeline file, or an empty path for the default: a page, page.png, with "preset: auto".

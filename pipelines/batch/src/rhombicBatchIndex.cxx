@@ -140,7 +140,7 @@ MakeRow(const Report & record)
   const std::string failed = ListOf(record, "failedOutputs");
   const std::string notMade = failed.empty() ? "" : " Not made: " + failed;
   return "<tr data-status=\"" + word + "\"><td>" + picture + "</td><td>" +
-         (!links.empty() ? "<a href=\"" + LinkTo(folder, "case.json") + "\">" + Escape(name) + "</a>" : Escape(name)) +
+         (!links.empty() ? "<a href=\"" + LinkTo(folder, CaseFile) + "\">" + Escape(name) + "</a>" : Escape(name)) +
          "</td><td><b class=\"" + word + "\">" + status + "</b><br>" +
          Escape(record.value("cause", std::string()) + notMade) + "</td><td><div>" + DescribeVolumes(record) +
          "</div></td><td>" + links + "</td><td class=\"number\">" + FormatFixed(record.value("seconds", 0.0), 1) +

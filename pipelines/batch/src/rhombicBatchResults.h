@@ -18,6 +18,9 @@ constexpr char ThumbnailFile[] = "thumbnail.jpg";
 std::string
 ListOf(const Report & record, const std::string & key);
 
+/** The report in a case's folder of all that is there. */
+constexpr char CaseFile[] = "case.json";
+
 /** Writes results.tsv, results.json, measures.tsv, outputs.tsv, the descriptions of these two, and index.html from the
  * cases' lines in the journal; and cases.tsv, a manifest of \a manifest for its owner alone, or removes it if that is
  * null. Throws Failure(Output). */

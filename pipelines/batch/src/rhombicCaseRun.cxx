@@ -345,7 +345,7 @@ CaseRun::AddOutputs()
   }
   sidecar["input"].erase("stamp");
   StagedFiles staged;
-  StageText(ToJson(sidecar) + '\n', m_Stage / "case.json", staged);
+  StageText(ToJson(sidecar) + '\n', m_Stage / CaseFile, staged);
   staged.Commit();
 }
 

@@ -1,5 +1,6 @@
 #include "rhombicPipelineFile.h"
 
+#include "rhombicBatchResults.h"
 #include "rhombicFailure.h"
 #include "rhombicTextFile.h"
 #include "rhombicWording.h"
@@ -228,13 +229,16 @@ private:
 
   /** Lets the command's own parser judge. */
   void
-  Check(const PipelineStep & step) const
+  Check(const PipelineStep & step)
   {
     std::vector<std::string> arguments = step.arguments;
     arguments.insert(arguments.end(), { "SCAN", "-o", step.output });
     try
     {
-      m_Syntax.check(arguments);
+      for (const fs::path & file : m_Syntax.check(arguments))
+      {
+        this->AddFile(file.string(), step);
+      }
     }
     catch (const Failure & failure)
     {
@@ -243,10 +247,28 @@ private:
     }
   }
 
+  /** Refuses files that two outputs, or an output and the batch, would write. */
+  void
+  AddFile(const std::string & file, const PipelineStep & step)
+  {
+    const auto [place, isNew] = m_Files.emplace(file, step.line);
+    if (!isNew)
+    {
+      throw Failure(FailureKind::Usage,
+                    "it would write " + file + ", as the output in line " + std::to_string(place->second) +
+                      " does; give one of them another name.");
+    }
+    if (file == ThumbnailFile || file == CaseFile)
+    {
+      throw Failure(FailureKind::Usage, "a batch writes a file " + file + " itself; give the output another name.");
+    }
+  }
+
   std::string m_Source;
   fs::path m_Folder;
   const CommandSyntax & m_Syntax;
-  std::string m_Identity; ///< all that determines the outputs
+  std::string m_Identity;                     ///< all that determines the outputs
+  std::map<std::string, std::size_t> m_Files; ///< of all outputs, and the lines of these
 };
 
 std::string

@@ -4,6 +4,7 @@
 #include "rhombicSlicePlane.h"
 
 #include <string>
+#include <vector>
 
 namespace rhombic
 {
@@ -24,6 +25,15 @@ struct CutRequest
   PlaneRequest plane;
   bool removesHigher = true; ///< the side of larger coordinates in LPS
 };
+
+/** Throws Failure(Usage) for a position in LPS mm that is not in the box. */
+void
+RequireInside(SlicePlane plane, double position, const SliceBox & box);
+
+/** Throws Failure(Usage) for a slice that a scan does not have and a position outside of it. The scan needs no voxels.
+ */
+void
+CheckPlaces(const std::vector<PlaneRequest> & requests, const Scan & scan);
 
 /** A plane written as axial, coronal=liver, sagittal=-12.5 or axial=#40. Throws Failure(Usage). */
 PlaneRequest

@@ -60,6 +60,11 @@ struct RenderScanSettings
   Provenance provenance;
 };
 
+/** Checks what can be checked without reading or writing anything. Returns the files that RenderScan() writes. Throws
+ * Failure(Usage). */
+std::vector<std::filesystem::path>
+CheckRenderScan(const RenderScanSettings & settings);
+
 /** Draws pictures, with a sidecar for each; returns their paths. All files appear together at the end, or none does.
  * Throws Failure; for outputs that can't be written or drawn, before the scan is read. */
 std::vector<std::filesystem::path>
@@ -85,6 +90,10 @@ struct RenderSheetSettings
   std::filesystem::path thumbnail; ///< the first page, small, as .jpg; not of a .pdf; empty: none
   Provenance provenance;
 };
+
+/** Checks as CheckRenderScan() does. Returns the files of the first page. */
+std::vector<std::filesystem::path>
+CheckRenderSheet(const RenderSheetSettings & settings);
 
 /** Draws a page, A4: views, slices with outlines, a table of the surfaces, and where they come
  * from. Long tables go on on further pages; a format of one page then has a file for each. Returns the files' paths.

@@ -277,27 +277,6 @@ MakeSceneOfFiles(const PictureSource & source, const Events & events)
   return scene;
 }
 
-/** Throws Failure(Usage) for a position that is not in the box. */
-void
-RequireInside(SlicePlane plane, double position, const SliceBox & box)
-{
-  const std::size_t axis = plane == SlicePlane::Axial ? 2 : plane == SlicePlane::Coronal ? 1 : 0;
-  double lowest = box.corner[axis];
-  double highest = box.corner[axis];
-  for (const Vector3 & side : box.sides)
-  {
-    lowest += std::min(0.0, side[axis]);
-    highest += std::max(0.0, side[axis]);
-  }
-  if (position < lowest || position > highest)
-  {
-    throw Failure(FailureKind::Usage,
-                  NameOf(plane) + " " + "xyz"[axis] + " = " + FormatNumber(position, 6) +
-                    " mm is outside of what is shown, which reaches from " + FormatNumber(lowest, 5) + " to " +
-                    FormatNumber(highest, 5) + " mm; choose a place in between.");
-  }
-}
-
 } // namespace
 
 PictureScene
@@ -361,14 +340,11 @@ FindPlace(const PlaneRequest & request, const PictureScene & scene)
   }
   if (request.place[0] == '#')
   {
-    const auto index = ToNumber<std::size_t>(request.place.substr(1));
-    if (!index || !scene.scan)
+    if (!scene.scan)
     {
-      throw Failure(FailureKind::Usage,
-                    !index ? "'" + request.place + "' is no slice; write #40 for the 41st."
-                           : "Slices are counted in scans, and this source is none; give a position in mm.");
+      throw Failure(FailureKind::Usage, "Slices are counted in scans, and this source is none; give a position in mm.");
     }
-    return PointAtIndex(*scene.scan, request.plane, *index);
+    return PointAtIndex(*scene.scan, request.plane, ToNumber<std::size_t>(request.place.substr(1)).value());
   }
   Vector3 sum{};
   double volume = 0.0;

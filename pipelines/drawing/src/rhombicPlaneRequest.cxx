@@ -3,8 +3,47 @@
 #include "rhombicFailure.h"
 #include "rhombicWording.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace rhombic
 {
+
+void
+RequireInside(SlicePlane plane, double position, const SliceBox & box)
+{
+  const std::size_t axis = plane == SlicePlane::Axial ? 2 : plane == SlicePlane::Coronal ? 1 : 0;
+  double lowest = box.corner[axis];
+  double highest = box.corner[axis];
+  for (const Vector3 & side : box.sides)
+  {
+    lowest += std::min(0.0, side[axis]);
+    highest += std::max(0.0, side[axis]);
+  }
+  if (position < lowest || position > highest)
+  {
+    throw Failure(FailureKind::Usage,
+                  NameOf(plane) + " " + "xyz"[axis] + " = " + FormatNumber(position, 6) +
+                    " mm is outside of what is shown, which reaches from " + FormatNumber(lowest, 5) + " to " +
+                    FormatNumber(highest, 5) + " mm; choose a place in between.");
+  }
+}
+
+void
+CheckPlaces(const std::vector<PlaneRequest> & requests, const Scan & scan)
+{
+  for (const PlaneRequest & request : requests)
+  {
+    if (const auto position = ToNumber<double>(request.place); position && std::isfinite(*position))
+    {
+      RequireInside(request.plane, *position, BoxOf(scan));
+    }
+    else if (request.place[0] == '#')
+    {
+      PointAtIndex(scan, request.plane, ToNumber<std::size_t>(request.place.substr(1)).value());
+    }
+  }
+}
 
 PlaneRequest
 ParsePlaneRequest(const std::string & text)
@@ -18,6 +57,10 @@ ParsePlaneRequest(const std::string & text)
     throw Failure(FailureKind::Usage,
                   "The plane '" + text +
                     "' names no place; write axial=12.5 (mm in LPS), axial=#40 (a slice), or axial=liver.");
+  }
+  if (request.place[0] == '#' && !ToNumber<std::size_t>(request.place.substr(1)))
+  {
+    throw Failure(FailureKind::Usage, "'" + request.place + "' is no slice; write #40 for the 41st.");
   }
   return request;
 }

@@ -2,6 +2,7 @@
 
 #include "rhombicDicomPictures.h"
 #include "rhombicFailure.h"
+#include "rhombicGreyWindow.h"
 #include "rhombicLightbox.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicOutlinedSlice.h"
@@ -409,22 +410,8 @@ CheckSlices(const RenderScanSettings & settings)
 } // namespace
 
 std::vector<fs::path>
-RenderScan(const RenderScanSettings & settings, const Events & events)
+CheckRenderScan(const RenderScanSettings & settings)
 {
-  std::vector<fs::path> paths = PlanPictures(settings);
-  std::vector<fs::path> dicomPaths;
-  if (settings.writesDicom)
-  {
-    dicomPaths = DicomPathsOf(settings.turntable > 0 ? std::vector<fs::path>{ settings.picture } : paths);
-  }
-  std::vector<fs::path> outputs = WithSidecars(paths, settings.provenance);
-  outputs.insert(outputs.end(), dicomPaths.begin(), dicomPaths.end());
-  CheckOutputs(outputs, settings.source.scan, settings.source.surfaces);
-  std::optional<DicomStudy> study;
-  if (settings.writesDicom)
-  {
-    study = OpenStudy(settings.source, dicomPaths);
-  }
   const int channels = settings.render.style == PictureStyle::Transparent ? 4 : 3;
   if (settings.turntable > 0 && IsGif(settings.picture))
   {
@@ -435,6 +422,41 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
     CheckPicturePath(settings.picture, channels);
   }
   CheckSlices(settings);
+  ParseWindow(settings.slice.window);
+  const bool isOfFiles = !settings.source.surfaceFiles.empty();
+  if (isOfFiles && !settings.planes.empty())
+  {
+    throw Failure(FailureKind::Usage, "Slices in the scene need a scan, and surface files are none.");
+  }
+  if (!isOfFiles)
+  {
+    CheckSelection(SourceOf(settings).surfaces);
+  }
+  const std::vector<fs::path> paths = PlanPictures(settings);
+  std::vector<fs::path> outputs = WithSidecars(paths, settings.provenance);
+  if (settings.writesDicom)
+  {
+    const auto dicomPaths = DicomPathsOf(settings.turntable > 0 ? std::vector<fs::path>{ settings.picture } : paths);
+    outputs.insert(outputs.end(), dicomPaths.begin(), dicomPaths.end());
+  }
+  return outputs;
+}
+
+std::vector<fs::path>
+RenderScan(const RenderScanSettings & settings, const Events & events)
+{
+  CheckOutputs(CheckRenderScan(settings), settings.source.scan, settings.source.surfaces);
+  std::vector<fs::path> paths = PlanPictures(settings);
+  std::vector<fs::path> dicomPaths;
+  if (settings.writesDicom)
+  {
+    dicomPaths = DicomPathsOf(settings.turntable > 0 ? std::vector<fs::path>{ settings.picture } : paths);
+  }
+  std::optional<DicomStudy> study;
+  if (settings.writesDicom)
+  {
+    study = OpenStudy(settings.source, dicomPaths);
+  }
   bool drawsViews = settings.turntable > 0;
   for (std::size_t n = 0; n < settings.views.size(); ++n)
   {

@@ -1,5 +1,6 @@
 #include "rhombicDicomPictures.h"
 #include "rhombicFailure.h"
+#include "rhombicGreyWindow.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicOutlinedSlice.h"
 #include "rhombicPictureIO.h"
@@ -188,20 +189,37 @@ CheckMemory(const RenderSheetSettings & settings, std::size_t slices, const Surf
 } // namespace
 
 std::vector<fs::path>
-RenderSheet(const RenderSheetSettings & settings, const Events & events)
+CheckRenderSheet(const RenderSheetSettings & settings)
 {
-  std::vector<fs::path> outputs = WithSidecars({ settings.page }, settings.provenance);
-  std::optional<DicomStudy> study;
-  if (settings.writesDicom)
-  {
-    outputs.push_back(DicomPathsOf({ settings.page }).front());
-    study = OpenStudy(settings.source, { outputs.back() });
-  }
-  CheckOutputs(outputs, settings.source.scan, settings.source.surfaces);
   if (!IsPdf(settings.page))
   {
     CheckPicturePath(settings.page);
   }
+  ParseWindow(settings.slice.window);
+  if (settings.source.surfaceFiles.empty())
+  {
+    SurfaceSelection selection = settings.source.surfaces;
+    NeedPlaces(settings.slices, selection.rules);
+    CheckSelection(selection);
+  }
+  std::vector<fs::path> outputs = WithSidecars({ settings.page }, settings.provenance);
+  if (settings.writesDicom)
+  {
+    outputs.push_back(DicomPathsOf({ settings.page }).front());
+  }
+  return outputs;
+}
+
+std::vector<fs::path>
+RenderSheet(const RenderSheetSettings & settings, const Events & events)
+{
+  const std::vector<fs::path> outputs = CheckRenderSheet(settings);
+  std::optional<DicomStudy> study;
+  if (settings.writesDicom)
+  {
+    study = OpenStudy(settings.source, { outputs.back() });
+  }
+  CheckOutputs(outputs, settings.source.scan, settings.source.surfaces);
   SurfaceRenderer renderer;
   const std::vector<PlaneRequest> planes = PlanesOf(settings);
   CheckMemory(settings, planes.size(), renderer);
