@@ -170,7 +170,7 @@ protected:
   rhombic::LabelMap
   Read(const Pair & pair, const rhombic::Scan & scan) const
   {
-    return rhombic::ReadLabelMap({ m_Folder / pair.map, {} }, {}, scan, m_Folder / pair.scan);
+    return rhombic::ReadLabelMap({ { m_Folder / pair.map } }, {}, scan, m_Folder / pair.scan);
   }
 
   fs::path m_Folder;
