@@ -173,6 +173,11 @@ struct Description
   /** Whether the filter makes any part of its output from a part of its input. */
   static constexpr bool IsRegional = true;
 
+  /** Sets what a regional filter needs to ask for parts of its input. */
+  static void
+  AskForParts(Filter &)
+  {}
+
   /** For a regional filter: the most input samples that one output sample may ask for along each axis. */
   static constexpr itk::SizeValueType MostSamples = 0;
 

@@ -90,6 +90,12 @@ struct SlantedCartesianToFCC : CartesianToFCC
 {
   static constexpr const char * Name = "SlantedCartesianToFCC";
 
+  static void
+  AskForParts(Filter & filter)
+  {
+    filter.SetOutsideValue(0);
+  }
+
   static InputImage::Pointer
   MakeInput(const SizeType & size, Random & random)
   {
