@@ -26,8 +26,9 @@ try
     filter->SetInput(lattice);
     filter->SetIsovalue(threshold);
     filter->Update();
-    itk::UntangleSurface(*filter->GetOutput(), 0.5 * lattice->GetSpacing()[0]); // thin parts, by less than half a voxel
-    itk::TurnMisfacingShells(*filter->GetOutput());                             // specks of a few triangles
+    itk::UntangleTriangleSurface(*filter->GetOutput(),
+                                 0.5 * lattice->GetSpacing()[0]);  // thin parts, by less than half a voxel
+    itk::TurnMisfacingTriangleSurfaceShells(*filter->GetOutput()); // specks of a few triangles
     return itk::TriangleSurface::Pointer(filter->GetOutput());
   };
   const auto resampleAndExtract = [&extract](const rhombic::Scan & scan) {
@@ -45,8 +46,8 @@ try
                                                   ? std::visit(extract, rhombic::ReadFCCImage(argv[1]))
                                                   : resampleAndExtract(example::ReadScan(argv[1]));
   rhombic::WriteSurfaces({ { "surface", surface } }, argv[3]);
-  const auto center = itk::ComputeCentroid(*surface);
-  const itk::TriangleSurfaceAudit audit = itk::AuditSurface(*surface);
+  const auto center = itk::ComputeTriangleSurfaceCentroid(*surface);
+  const itk::TriangleSurfaceAudit audit = itk::AuditTriangleSurface(*surface);
   std::cout << "volume: " << audit.volume / 1000.0 << " ml\narea: " << audit.area / 100.0
             << " cm^2\ncentre: " << center[0] << ' ' << center[1] << ' ' << center[2]
             << " mm\nwatertight: " << audit.IsWatertight() << '\n';

@@ -58,7 +58,7 @@ try
   for (const rhombic::LabelSummary & summary : reader->GetLabels())
   {
     const auto surface = walls->ExtractLabel(static_cast<std::uint16_t>(summary.label.value));
-    std::cout << summary.label.name << ": " << itk::ComputeVolume(*surface) / 1000.0 << " ml\n";
+    std::cout << summary.label.name << ": " << itk::ComputeTriangleSurfaceVolume(*surface) / 1000.0 << " ml\n";
   }
 }
 catch (const std::exception & error)

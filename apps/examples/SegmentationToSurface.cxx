@@ -47,7 +47,7 @@ try
   extract->SetInput(toLattice->GetOutput());
   extract->Update();
   rhombic::WriteSurfaces({ { "region", extract->GetOutput() } }, argv[6]);
-  const itk::TriangleSurfaceAudit audit = itk::AuditSurface(*extract->GetOutput());
+  const itk::TriangleSurfaceAudit audit = itk::AuditTriangleSurface(*extract->GetOutput());
   const std::uint8_t * const voxels = mask->GetBufferPointer();
   std::cout << "voxels: " << std::count(voxels, voxels + mask->GetBufferedRegion().GetNumberOfPixels(), 1)
             << "\nvolume: " << audit.volume / 1000.0 << " ml\nwatertight: " << audit.IsWatertight() << '\n';

@@ -68,7 +68,7 @@ private:
   AuditOne(const SceneSurface & surface)
   {
     m_Events.Progress("auditing " + surface.name, 0.0);
-    const auto audit = AuditSurface(*surface.surface, m_Settings);
+    const auto audit = AuditTriangleSurface(*surface.surface, m_Settings);
     this->Add(surface.name, ReportAudit(audit), DescribeAudit(audit));
     if (!audit.IsWatertight())
     {

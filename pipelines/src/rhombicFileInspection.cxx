@@ -173,7 +173,7 @@ FileInspection::Audit(const itk::TriangleSurface & stored, MeshedSurface & surfa
 {
   const std::string & name = surface.scene.name;
   m_Events.Progress("auditing " + name, 0.0);
-  surface.audit = AuditSurface(stored, this->GetAuditSettings());
+  surface.audit = AuditTriangleSurface(stored, this->GetAuditSettings());
   for (const std::string & line : DescribeAudit(*surface.audit))
   {
     m_Events.Note(name + ": " + line);

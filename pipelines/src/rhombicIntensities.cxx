@@ -2,7 +2,7 @@
 
 #include "rhombicFailure.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 #include "itkHistogram.h"
 #include "itkOtsuThresholdCalculator.h"
 
@@ -51,7 +51,7 @@ FindRange(const TPixel * values, std::size_t count)
   constexpr TPixel most = std::numeric_limits<TPixel>::max();
   std::pair<TPixel, TPixel> range{ most, least };
   std::mutex mutex;
-  itk::ForEachBlock(count, ValuesOfBlock, [&](std::size_t begin, std::size_t end) {
+  ForEachBlock(count, ValuesOfBlock, [&](std::size_t begin, std::size_t end) {
     TPixel lowest = most, highest = least;
     for (std::size_t n = begin; n < end; ++n)
     {
@@ -73,7 +73,7 @@ MakeHistogram(const TPixel * values, std::size_t count, double lowest, double hi
   Frequencies frequencies{};
   std::mutex mutex;
   const double scale = static_cast<double>(Bins) / (highest - lowest);
-  itk::ForEachBlock(count, ValuesOfBlock, [&](std::size_t begin, std::size_t end) {
+  ForEachBlock(count, ValuesOfBlock, [&](std::size_t begin, std::size_t end) {
     Frequencies ofBlock{};
     for (std::size_t n = begin; n < end; ++n)
     {

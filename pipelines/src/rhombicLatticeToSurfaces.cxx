@@ -89,13 +89,13 @@ public:
     if (m_Grid != nullptr)
     {
       const auto cornerOf = [&volume](bool isHigh) {
-        return std::visit([isHigh](const auto & image) { return FindOuterCorner(*image, isHigh); }, volume);
+        return std::visit([isHigh](const auto & image) { return FindFCCOuterCorner(*image, isHigh); }, volume);
       };
       for (const auto & surface : extracted.surfaces)
       {
         if (surface)
         {
-          MoveWallsToBorder(*surface, *m_Grid, cornerOf(false), cornerOf(true));
+          MoveFCCWallsToBorder(*surface, *m_Grid, cornerOf(false), cornerOf(true));
         }
       }
     }
@@ -121,7 +121,7 @@ public:
     m_Events.Progress("filling the body for " + request.name, 0.0);
     request.parts = SurfaceRequest::Parts::All;
     const auto surface = this->Extract(FillBody(volume, request.isovalue.value()), { request }).surfaces.front();
-    FillCavities(*surface);
+    FillTriangleSurfaceCavities(*surface);
     return surface;
   }
 

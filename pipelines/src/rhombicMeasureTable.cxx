@@ -308,7 +308,7 @@ GetMeasureColumns()
 ExtractedSize
 MeasureExtracted(const itk::TriangleSurface & surface)
 {
-  return { ComputeVolume(surface), ComputeArea(surface), surface.GetNumberOfTriangles() };
+  return { ComputeTriangleSurfaceVolume(surface), ComputeTriangleSurfaceArea(surface), surface.GetNumberOfTriangles() };
 }
 
 void

@@ -8,7 +8,7 @@
 #include "rhombicSurfaceReport.h"
 
 #include "itkFCCScanBorder.h"
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 #include "itkTriangleSurfaceIntersections.h"
 
 #include <algorithm>
@@ -226,7 +226,7 @@ MakeCandidateSearch(const LoadedSource & loaded, itk::FCCIsosurfaceMode mode)
     candidates.longestEdge = itk::FindLongestRoundedEdge(surface, smallest, largest);
     if (grid)
     {
-      candidates.triangles = itk::FindTrianglesNearWalls(surface, *grid, 1.5 * widthOfTetrahedron * largest);
+      candidates.triangles = itk::FindTrianglesNearFCCWalls(surface, *grid, 1.5 * widthOfTetrahedron * largest);
     }
     return std::optional(candidates);
   };
@@ -315,7 +315,7 @@ public:
     std::transform(begin, begin + count, std::back_inserter(scene), [](const auto & surface) { return surface.scene; });
     SurfaceFileSettings file;
     file.space = m_Settings.space;
-    itk::ForEachOnThreads(2, [&](std::size_t task) {
+    ForEachOnThreads(2, [&](std::size_t task) {
       if (task == 0)
       {
         StageSurfaces(scene, path, staged, file);

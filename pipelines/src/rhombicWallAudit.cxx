@@ -91,7 +91,8 @@ AuditWalls(const std::vector<SceneSurface> & surfaces, const itk::TriangleSurfac
   audit.loneJunctions = CountLoneJunctions(joined);
   if (settings.testsIntersections)
   {
-    audit.intersections = FindSelfIntersections(itk::TriangleTree(*joined.surface), settings.maximumTestedTriangles);
+    audit.intersections =
+      FindTriangleSurfaceSelfIntersections(itk::TriangleTree(*joined.surface), settings.maximumTestedTriangles);
   }
   return audit;
 }

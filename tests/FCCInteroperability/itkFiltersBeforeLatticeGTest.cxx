@@ -151,7 +151,7 @@ VolumeOf(TImage * image, const rhombic::Scan * scan, double isovalue = Edge)
   surface->SetInput(lattice->GetOutput());
   surface->SetIsovalue(isovalue);
   surface->Update();
-  return itk::ComputeVolume(*surface->GetOutput());
+  return itk::ComputeTriangleSurfaceVolume(*surface->GetOutput());
 }
 
 /** A filter of ITK, and the isovalue behind it. */

@@ -123,12 +123,12 @@ TEST_P(FCCCellMarching, AnyInputGivesAWatertightSurface)
     options.insideIsBelow = random() % 2 == 0;
     options.workUnits = 1 + random() % 3;
     const auto surface = Extract(image, GetParam(), options);
-    const auto topology = ComputeTopology(*surface);
+    const auto topology = ComputeTriangleSurfaceTopology(*surface);
     ASSERT_TRUE(topology.IsWatertight()) << "trial " << trial << ": " << region << topology;
     ASSERT_EQ(topology.unusedPoints, 0u);
     if (surface->GetNumberOfTriangles() > 0)
     {
-      ASSERT_GT(ComputeVolume(*surface), 0.0) << "trial " << trial;
+      ASSERT_GT(ComputeTriangleSurfaceVolume(*surface), 0.0) << "trial " << trial;
     }
   }
 }
@@ -175,20 +175,20 @@ TEST_P(FCCCellMarching, ASingleSampleIsASmallPolyhedron)
   image->FillBuffer(0.0f);
   image->SetPixel({ { 2, 3, 3 } }, 1.0f);
   const auto surface = Extract(image, GetParam(), 0.5);
-  const auto topology = ComputeTopology(*surface);
+  const auto topology = ComputeTriangleSurfaceTopology(*surface);
   EXPECT_TRUE(topology.IsWatertight());
   EXPECT_EQ(topology.eulerCharacteristic, 2);
   if (GetParam() == Mode::Octahedra)
   {
     EXPECT_EQ(surface->GetNumberOfPoints(), 12u);
     EXPECT_EQ(surface->GetNumberOfTriangles(), 20u) << "a cuboctahedron";
-    EXPECT_NEAR(ComputeVolume(*surface), 20.0 / 3.0 / 8.0, 1e-5); // edge sqrt(2) / 2
+    EXPECT_NEAR(ComputeTriangleSurfaceVolume(*surface), 20.0 / 3.0 / 8.0, 1e-5); // edge sqrt(2) / 2
   }
   else
   {
     EXPECT_EQ(surface->GetNumberOfPoints(), 6u);
     EXPECT_EQ(surface->GetNumberOfTriangles(), 8u) << "a sheared octahedron";
-    EXPECT_NEAR(ComputeVolume(*surface), 4.0 / 3.0 / 8.0 * 2.0, 1e-5); // the shear has determinant 2
+    EXPECT_NEAR(ComputeTriangleSurfaceVolume(*surface), 4.0 / 3.0 / 8.0 * 2.0, 1e-5); // the shear has determinant 2
   }
 }
 
@@ -199,12 +199,12 @@ TEST_P(FCCCellMarching, TrianglesPerAreaAreThoseOfTheEdges)
   const auto image =
     fcctest::MakeImage(s, radius + 2.0, [radius](const auto & p) { return fcctest::Sphere(p, radius); });
   const auto surface = Extract(image, GetParam(), 0.0);
-  EXPECT_TRUE(ComputeTopology(*surface).IsWatertight());
+  EXPECT_TRUE(ComputeTriangleSurfaceTopology(*surface).IsWatertight());
   const double perArea = static_cast<double>(surface->GetNumberOfTriangles()) / (4.0 * pi * radius * radius);
   const double edges = GetParam() == Mode::Octahedra ? 6.0 : 3.0;
   EXPECT_NEAR(perArea / (edges * std::sqrt(2.0) * s), 1.0, 0.01);
   EXPECT_NEAR(perArea / (GetParam() == Mode::Octahedra ? 6.735 : 3.367), 1.0, 0.01);
-  EXPECT_NEAR(ComputeVolume(*surface) / (4.0 / 3.0 * pi * radius * radius * radius), 1.0, 0.003);
+  EXPECT_NEAR(ComputeTriangleSurfaceVolume(*surface) / (4.0 / 3.0 * pi * radius * radius * radius), 1.0, 0.003);
 }
 
 TEST_P(FCCCellMarching, OpenSurfacesEndAtTheOutermostWholeCells)
@@ -214,7 +214,7 @@ TEST_P(FCCCellMarching, OpenSurfacesEndAtTheOutermostWholeCells)
   options.isovalue = 0.1;
   options.closed = false;
   const auto surface = Extract(image, GetParam(), options);
-  const auto topology = ComputeTopology(*surface);
+  const auto topology = ComputeTriangleSurfaceTopology(*surface);
   EXPECT_GT(topology.boundaryEdges, 0u);
   EXPECT_EQ(topology.nonManifoldEdges + topology.misorientedEdges + topology.degenerateTriangles, 0u) << topology;
   EXPECT_EQ(topology.unusedPoints, 0u);
@@ -233,7 +233,7 @@ TEST_P(FCCCellMarching, NoiseLeftOpenHasManifoldEdges)
     Options options;
     options.isovalue = 1.0;
     options.closed = false;
-    const auto topology = ComputeTopology(*Extract(image, GetParam(), options));
+    const auto topology = ComputeTriangleSurfaceTopology(*Extract(image, GetParam(), options));
     ASSERT_EQ(topology.nonManifoldEdges + topology.misorientedEdges + topology.degenerateTriangles, 0u) << topology;
     ASSERT_EQ(topology.unusedPoints, 0u);
   }
@@ -246,7 +246,7 @@ TEST_P(FCCCellMarching, GivesTheSameBytesForAnyNumberOfThreads)
   options.isovalue = 25.0;
   options.workUnits = 1;
   const auto single = Extract(image, GetParam(), options);
-  EXPECT_TRUE(ComputeTopology(*single).IsWatertight());
+  EXPECT_TRUE(ComputeTriangleSurfaceTopology(*single).IsWatertight());
   for (const unsigned int units : { 2u, 3u, 4u, 61u })
   {
     options.workUnits = units;

@@ -112,7 +112,7 @@ TEST(FCCIsosurfaceFilter, NoiseOfAnySizeIsWatertightAndComplete)
     const auto image = fcctest::MakeNoise(region, trial, levels);
     const auto isovalue = static_cast<double>(random() % static_cast<unsigned int>(levels)); // equal to many samples
     const auto surface = Extract(image, isovalue);
-    const auto topology = ComputeTopology(*surface);
+    const auto topology = ComputeTriangleSurfaceTopology(*surface);
     ASSERT_TRUE(topology.IsWatertight()) << region << topology;
     ASSERT_EQ(topology.unusedPoints, 0u);
     ASSERT_EQ(surface->GetNumberOfTriangles(), CountTrianglesByBruteForce(*image, isovalue)) << region;
@@ -127,12 +127,12 @@ TEST(FCCIsosurfaceFilter, CheckerboardsAndSingleSamplesAreWatertight)
   {
     it.Set(static_cast<float>((it.GetIndex()[0] + it.GetIndex()[2]) % 2));
   }
-  EXPECT_TRUE(ComputeTopology(*Extract(image, 1.0)).IsWatertight());
+  EXPECT_TRUE(ComputeTriangleSurfaceTopology(*Extract(image, 1.0)).IsWatertight());
 
   image->FillBuffer(0.0f);
   image->SetPixel({ { 5, 5, 5 } }, 1.0f);
   const auto surface = Extract(image, 0.5);
-  const auto topology = ComputeTopology(*surface);
+  const auto topology = ComputeTriangleSurfaceTopology(*surface);
   EXPECT_TRUE(topology.IsWatertight());
   EXPECT_EQ(topology.components, 1u);
   EXPECT_EQ(topology.eulerCharacteristic, 2);
@@ -165,7 +165,7 @@ TEST(FCCIsosurfaceFilter, NotANumberAndInfinityLeaveTheSurfaceWatertight)
       it.Set(draw < 3 ? odd[draw] : it.Get());
     }
     const auto surface = Extract(image, 2.0);
-    EXPECT_TRUE(ComputeTopology(*surface).IsWatertight());
+    EXPECT_TRUE(ComputeTriangleSurfaceTopology(*surface).IsWatertight());
     for (const auto & normal : surface->GetNormals())
     {
       ASSERT_NEAR(std::hypot(normal[0], normal[1], normal[2]), 1.0, 1e-5);
@@ -179,11 +179,11 @@ TEST(FCCIsosurfaceFilter, SphereHasItsAreaVolumeAndDistance)
   const double s = std::sqrt(3.0) / 2.0; // the density of the default lattice on a grid of spacing 1
   const auto image = fcctest::MakeImage(s, 13.0, [radius](const auto & p) { return fcctest::Sphere(p, radius); });
   const auto surface = Extract(image, 0.0);
-  const auto topology = ComputeTopology(*surface);
+  const auto topology = ComputeTriangleSurfaceTopology(*surface);
   EXPECT_TRUE(topology.IsWatertight()) << topology;
   EXPECT_EQ(topology.eulerCharacteristic, 2);
-  EXPECT_NEAR(ComputeVolume(*surface) / (4.0 / 3.0 * pi * radius * radius * radius), 1.0, 0.006);
-  EXPECT_NEAR(ComputeArea(*surface) / (4.0 * pi * radius * radius), 1.0, 0.006);
+  EXPECT_NEAR(ComputeTriangleSurfaceVolume(*surface) / (4.0 / 3.0 * pi * radius * radius * radius), 1.0, 0.006);
+  EXPECT_NEAR(ComputeTriangleSurfaceArea(*surface) / (4.0 * pi * radius * radius), 1.0, 0.006);
   const double sagitta = (2.0 * s) * (2.0 * s) / (8.0 * radius); // of the longest edge, along a row
   for (itk::SizeValueType n = 0; n < surface->GetNumberOfPoints(); ++n)
   {
@@ -202,11 +202,11 @@ TEST(FCCIsosurfaceFilter, TorusHasItsGenusAreaAndVolume)
   const double minor = 4.0;
   const auto image = fcctest::MakeImage(0.6, 15.0, [=](const auto & p) { return fcctest::Torus(p, major, minor); });
   const auto surface = Extract(image, 0.0);
-  const auto topology = ComputeTopology(*surface);
+  const auto topology = ComputeTriangleSurfaceTopology(*surface);
   EXPECT_TRUE(topology.IsWatertight()) << topology;
   EXPECT_EQ(topology.eulerCharacteristic, 0);
-  EXPECT_NEAR(ComputeVolume(*surface) / (2.0 * pi * pi * major * minor * minor), 1.0, 0.01);
-  EXPECT_NEAR(ComputeArea(*surface) / (4.0 * pi * pi * major * minor), 1.0, 0.01);
+  EXPECT_NEAR(ComputeTriangleSurfaceVolume(*surface) / (2.0 * pi * pi * major * minor * minor), 1.0, 0.01);
+  EXPECT_NEAR(ComputeTriangleSurfaceArea(*surface) / (4.0 * pi * pi * major * minor), 1.0, 0.01);
 }
 
 // Triangles per unit of area at one sample per unit of volume, averaged over directions: rho times the sum of the mean
@@ -238,7 +238,7 @@ TEST(FCCIsosurfaceFilter, ABodyThatFillsTheImageIsClosedOnItsExtent)
   const double spacing[3] = { 0.5, 0.7, 0.9 };
   image->SetSpacing(spacing);
   const auto surface = Extract(image, 0.5);
-  EXPECT_TRUE(ComputeTopology(*surface).IsWatertight());
+  EXPECT_TRUE(ComputeTriangleSurfaceTopology(*surface).IsWatertight());
   const std::array<double, 6> extent{ 0.5 * 3.5, 0.5 * 23.5, 0.7 * -1.5, 0.7 * 14.5, 0.9 * 2.5, 0.9 * 16.5 };
   const auto bounds = surface->GetBounds();
   for (unsigned int n = 0; n < 6; ++n)
@@ -246,8 +246,8 @@ TEST(FCCIsosurfaceFilter, ABodyThatFillsTheImageIsClosedOnItsExtent)
     EXPECT_NEAR(bounds[n], extent[n], 1e-5);
   }
   const double box = 0.5 * 20.0 * 0.7 * 16.0 * 0.9 * 14.0;
-  EXPECT_NEAR(ComputeVolume(*surface) / box, 1.0, 0.03) << "but for bevelled edges";
-  EXPECT_LT(ComputeVolume(*surface), box);
+  EXPECT_NEAR(ComputeTriangleSurfaceVolume(*surface) / box, 1.0, 0.03) << "but for bevelled edges";
+  EXPECT_LT(ComputeTriangleSurfaceVolume(*surface), box);
 
   itk::SizeValueType onFaces = 0;
   for (itk::SizeValueType n = 0; n < surface->GetNumberOfPoints(); ++n)
@@ -263,7 +263,7 @@ TEST(FCCIsosurfaceFilter, OpenSurfacesEndAtTheOutermostTetrahedra)
 {
   const auto image = fcctest::MakeImage(0.5, 4.0, [](const auto & p) { return 0.3 * p[0] + 0.5 * p[1] + p[2]; });
   const auto open = Extract(image, 0.1, false);
-  const auto topology = ComputeTopology(*open);
+  const auto topology = ComputeTriangleSurfaceTopology(*open);
   EXPECT_GT(topology.boundaryEdges, 0u);
   EXPECT_EQ(topology.nonManifoldEdges + topology.misorientedEdges + topology.nonManifoldPoints, 0u) << topology;
   EXPECT_EQ(topology.components, 1u);
@@ -273,7 +273,7 @@ TEST(FCCIsosurfaceFilter, OpenSurfacesEndAtTheOutermostTetrahedra)
   {
     ASSERT_NEAR(0.3 * point[0] + 0.5 * point[1] + point[2], 0.1, steepest * Filter::MinimumFraction + 1e-5);
   }
-  EXPECT_TRUE(ComputeTopology(*Extract(image, 0.1, true)).IsWatertight());
+  EXPECT_TRUE(ComputeTriangleSurfaceTopology(*Extract(image, 0.1, true)).IsWatertight());
 
   // Inside the image, both are the same.
   const auto sphere = fcctest::MakeImage(0.5, 6.0, [](const auto & p) { return fcctest::Sphere(p, 4.0); });
@@ -291,7 +291,7 @@ TEST(FCCIsosurfaceFilter, NoiseLeftOpenHasManifoldEdges)
       region.SetIndex(axis, static_cast<itk::IndexValueType>(random() % 3));
       region.SetSize(axis, 1 + random() % 8);
     }
-    const auto topology = ComputeTopology(*Extract(fcctest::MakeNoise(region, trial, 3), 1.0, false));
+    const auto topology = ComputeTriangleSurfaceTopology(*Extract(fcctest::MakeNoise(region, trial, 3), 1.0, false));
     // Two parts of the surface may end at one point of the border, so points need not be manifold there.
     ASSERT_EQ(topology.nonManifoldEdges + topology.misorientedEdges + topology.degenerateTriangles, 0u) << topology;
     ASSERT_EQ(topology.unusedPoints, 0u);
@@ -325,8 +325,8 @@ TEST(FCCIsosurfaceFilter, TheSameWorldIsFoundInAnyOrientation)
       it.Set(static_cast<float>(field(image->TransformIndexToPhysicalPoint<double>(it.GetIndex()))));
     }
     const auto surface = Extract(image, 0.0);
-    EXPECT_TRUE(ComputeTopology(*surface).IsWatertight());
-    EXPECT_NEAR(ComputeVolume(*surface), 4.0 / 3.0 * pi * radius * radius * radius / 1.3, 10.0)
+    EXPECT_TRUE(ComputeTriangleSurfaceTopology(*surface).IsWatertight());
+    EXPECT_NEAR(ComputeTriangleSurfaceVolume(*surface), 4.0 / 3.0 * pi * radius * radius * radius / 1.3, 10.0)
       << "positive: not inside out";
     const auto bounds = surface->GetBounds();
     EXPECT_NEAR(bounds[0], 34.0, 0.05);
@@ -361,12 +361,12 @@ TEST(FCCIsosurfaceFilter, InsideIsBelowTurnsTheSameSurfaceOver)
   EXPECT_EQ(filter->GetOutput()->GetTriangles(), ball->GetTriangles());
   EXPECT_EQ(filter->GetOutput()->GetPoints(), ball->GetPoints());
   EXPECT_EQ(filter->GetOutput()->GetNormals(), ball->GetNormals());
-  EXPECT_GT(ComputeVolume(*filter->GetOutput()), 0.0);
+  EXPECT_GT(ComputeTriangleSurfaceVolume(*filter->GetOutput()), 0.0);
 
   image->SetPixel({ { 0, 0, 0 } }, std::numeric_limits<float>::quiet_NaN());
   image->Modified();
   filter->Update();
-  EXPECT_EQ(ComputeTopology(*filter->GetOutput()).components, 2u) << "not-a-number is outside here, too";
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*filter->GetOutput()).components, 2u) << "not-a-number is outside here, too";
 }
 
 TEST(FCCIsosurfaceFilter, NormalsOfALinearFieldAreExactAlsoAtTheFaces)
@@ -423,7 +423,7 @@ TEST(FCCIsosurfaceFilter, PointsStayApartFarFromTheOriginAndInFineImages)
   {
     image->SetSpacing(ImageType::SpacingType(spacing));
     image->SetOrigin(ImageType::PointType(300.0));
-    const auto topology = ComputeTopology(*Extract(image, 2.0));
+    const auto topology = ComputeTriangleSurfaceTopology(*Extract(image, 2.0));
     EXPECT_TRUE(topology.IsWatertight()) << spacing << " mm: " << topology;
   }
   image->SetOrigin(ImageType::PointType(1e6));
@@ -482,7 +482,8 @@ TEST(FCCIsosurfaceFilter, AnAbortAtAnyTimeIsAnException)
     {
       thrown = true;
     }
-    EXPECT_EQ(thrown || ComputeTopology(*filter->GetOutput()).IsWatertight(), true) << "report " << stopAt;
+    EXPECT_EQ(thrown || ComputeTriangleSurfaceTopology(*filter->GetOutput()).IsWatertight(), true)
+      << "report " << stopAt;
     EXPECT_TRUE(thrown || !aborted || filter->GetProgress() == 1.0f);
   }
 }

@@ -93,13 +93,13 @@ TEST_P(FCCIsosurfaceModes, AThousandRandomVolumesAreWatertight)
     const double isovalue = kind == 0 ? 1.0 : static_cast<double>(draw(static_cast<unsigned int>(levels)));
     const bool below = draw(2) == 0;
     const auto surface = Extract(image, isovalue, GetParam(), below);
-    const auto topology = ComputeTopology(*surface);
+    const auto topology = ComputeTriangleSurfaceTopology(*surface);
     ASSERT_TRUE(topology.IsWatertight()) << "trial " << trial << ' ' << region << topology;
     ASSERT_EQ(topology.unusedPoints, 0u);
     triangles += surface->GetNumberOfTriangles();
     if (GetParam() == Mode::Fine || GetParam() == Mode::Lean)
     {
-      const auto expected = ComputeTopology(*Extract(image, isovalue, Mode::Tetrahedra, below));
+      const auto expected = ComputeTriangleSurfaceTopology(*Extract(image, isovalue, Mode::Tetrahedra, below));
       ASSERT_EQ(topology.components, expected.components) << "trial " << trial;
       ASSERT_EQ(topology.eulerCharacteristic, expected.eulerCharacteristic) << "trial " << trial;
     }
@@ -288,9 +288,9 @@ TEST_P(FCCIsosurfaceModes, UndefinedSamplesAreCounted)
 TEST_P(FCCIsosurfaceModes, OpenSurfacesHaveManifoldEdges)
 {
   const auto plane = fcctest::MakeImage(0.5, 4.0, [](const auto & p) { return 0.3 * p[0] + 0.5 * p[1] + p[2]; });
-  EXPECT_TRUE(ComputeTopology(*Extract(plane, 0.1, GetParam())).IsWatertight());
+  EXPECT_TRUE(ComputeTriangleSurfaceTopology(*Extract(plane, 0.1, GetParam())).IsWatertight());
   const auto open = Extract(plane, 0.1, GetParam(), false, 2, false);
-  EXPECT_GT(ComputeTopology(*open).boundaryEdges, 0u);
+  EXPECT_GT(ComputeTriangleSurfaceTopology(*open).boundaryEdges, 0u);
   for (const auto & point : open->GetPoints())
   {
     ASSERT_NEAR(0.3 * point[0] + 0.5 * point[1] + point[2], 0.1, 0.002) << "on the plane, not on the border's faces";
@@ -301,7 +301,7 @@ TEST_P(FCCIsosurfaceModes, OpenSurfacesHaveManifoldEdges)
   {
     const ImageType::RegionType region({ { 0, 0, 0 } }, { { 1 + random() % 8, 1 + random() % 8, 1 + random() % 8 } });
     const auto topology =
-      ComputeTopology(*Extract(fcctest::MakeNoise(region, trial, 3), 1.0, GetParam(), false, 2, false));
+      ComputeTriangleSurfaceTopology(*Extract(fcctest::MakeNoise(region, trial, 3), 1.0, GetParam(), false, 2, false));
     ASSERT_EQ(topology.nonManifoldEdges + topology.misorientedEdges + topology.degenerateTriangles, 0u) << topology;
     ASSERT_EQ(topology.unusedPoints, 0u);
   }

@@ -156,7 +156,7 @@ ExpectWatertight(double isovalue, const TConvert & convert)
     {
       const auto floats = fcctest::MakeNoise({ { { 0, 0, 0 } }, { { 6, 9, 8 } } }, seed, 4);
       const auto surface = Extract(Converted<TPixel>(*floats, convert).GetPointer(), isovalue, mode);
-      const auto topology = ComputeTopology(*surface);
+      const auto topology = ComputeTriangleSurfaceTopology(*surface);
       EXPECT_TRUE(topology.IsWatertight()) << mode << topology;
       EXPECT_EQ(topology.nonFinitePoints, 0u);
       if (mode == Mode::Tetrahedra)

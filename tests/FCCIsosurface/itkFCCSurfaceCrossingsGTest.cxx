@@ -73,7 +73,7 @@ MakeScanGrid(const ImageType & image, unsigned int seed)
 {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> wall(0.2, 1.6);
-  const auto low = itk::FindOuterCorner(image, false), high = itk::FindOuterCorner(image, true);
+  const auto low = itk::FindFCCOuterCorner(image, false), high = itk::FindFCCOuterCorner(image, true);
   constexpr unsigned int samples = 12;
   const auto scan = itk::ImageBase<3>::New();
   itk::ImageBase<3>::SpacingType spacing;
@@ -122,10 +122,11 @@ TEST_P(FCCSurfaceCrossings, OfMovedWallsAreNearThem)
     const auto surface = Extract(image, GetParam());
     const auto scan = MakeScanGrid(*image, seed);
     const double longest = LongestRoundedEdge(*surface, *image);
-    MoveWallsToBorder(*surface, *scan, itk::FindOuterCorner(*image, false), itk::FindOuterCorner(*image, true));
+    MoveFCCWallsToBorder(
+      *surface, *scan, itk::FindFCCOuterCorner(*image, false), itk::FindFCCOuterCorner(*image, true));
     const auto & spacing = image->GetSpacing();
     const double margin = 3.0 * *std::max_element(spacing.Begin(), spacing.End());
-    const itk::CrossingCandidates candidates{ longest, FindTrianglesNearWalls(*surface, *scan, margin) };
+    const itk::CrossingCandidates candidates{ longest, FindTrianglesNearFCCWalls(*surface, *scan, margin) };
     if (seed % 2 == 0)
     {
       EXPECT_LT(candidates.triangles.size(), surface->GetNumberOfTriangles()) << seed;

@@ -115,10 +115,10 @@ ExpectSoundWalls(const Walls & walls, const LabelImage & labels)
   for (const std::uint16_t label : found)
   {
     const auto surface = walls.ExtractLabel(label);
-    const auto topology = itk::ComputeTopology(*surface);
+    const auto topology = itk::ComputeTriangleSurfaceTopology(*surface);
     ASSERT_TRUE(topology.IsWatertight()) << label << '\n' << topology;
     ASSERT_EQ(topology.repeatedPositions, 0u);
-    ASSERT_GT(itk::ComputeVolume(*surface), 0.0);
+    ASSERT_GT(itk::ComputeTriangleSurfaceVolume(*surface), 0.0);
   }
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
   std::map<Edge, std::pair<int, std::set<std::uint16_t>>> edges;

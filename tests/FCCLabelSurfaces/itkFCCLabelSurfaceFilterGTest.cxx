@@ -80,7 +80,7 @@ TEST(FCCLabelSurfaceFilter, SurfacesOfNoiseDoNotCrossWhereverWeightsTie)
     }
     const auto walls = MakeWalls(image, weights);
     ExpectSoundWalls(*walls, *image);
-    EXPECT_EQ(itk::AuditSurface(*walls).intersections.crossingPairs, 0u);
+    EXPECT_EQ(itk::AuditTriangleSurface(*walls).intersections.crossingPairs, 0u);
   }
 }
 

@@ -25,7 +25,7 @@ Copy(const Walls & walls)
 itk::SizeValueType
 CountCrossings(const Walls & walls)
 {
-  const auto found = itk::FindSelfIntersections(itk::TriangleTree(walls));
+  const auto found = itk::FindTriangleSurfaceSelfIntersections(itk::TriangleTree(walls));
   return found.crossingPairs + found.touchingPairs;
 }
 
@@ -142,12 +142,12 @@ ExpectNearWalls(const Walls & walls, const Walls & before, double error)
   {
     ASSERT_EQ(found.count(pair), 1u);
     const auto & same = *found.at(pair);
-    const auto topology = itk::ComputeTopology(same);
-    const auto topologyBefore = itk::ComputeTopology(*wall);
+    const auto topology = itk::ComputeTriangleSurfaceTopology(same);
+    const auto topologyBefore = itk::ComputeTriangleSurfaceTopology(*wall);
     ASSERT_EQ(topology.components, topologyBefore.components);
     ASSERT_EQ(topology.eulerCharacteristic, topologyBefore.eulerCharacteristic);
     ASSERT_EQ(topology.nonManifoldEdges, 0u);
-    ASSERT_LE(itk::ComputeTwoDistances(same, *wall).GetMaximum(), 1.0001 * error);
+    ASSERT_LE(itk::ComputeTriangleSurfaceDistances(same, *wall).GetMaximum(), 1.0001 * error);
   }
 }
 
@@ -159,7 +159,7 @@ ExpectSoundEdits(unsigned int seed)
   const auto image = MakeVolume(seed);
   const auto walls = MakeWalls(image);
   const auto start = Copy(*walls);
-  const auto moves = RelaxWalls(*walls, MovesUpTo(0.5));
+  const auto moves = RelaxLabelWalls(*walls, MovesUpTo(0.5));
   ExpectSoundWalls(*walls, *image);
   ASSERT_EQ(CountCrossings(*walls), 0u);
   ASSERT_LE(LargestMove(*walls, *start), 0.5);
@@ -169,7 +169,7 @@ ExpectSoundEdits(unsigned int seed)
 
   const auto relaxed = Copy(*walls);
   const double error = 0.05 + 0.05 * (seed % 8);
-  const auto report = SimplifyWalls(*walls, ErrorUpTo(error));
+  const auto report = SimplifyLabelWalls(*walls, ErrorUpTo(error));
   EXPECT_EQ(report.trianglesAfter, walls->GetNumberOfTriangles());
   ASSERT_EQ(FindJunctions(*walls), junctions);
   ExpectNearWalls(*walls, *relaxed, error);
@@ -181,11 +181,11 @@ ExpectSoundEdits(unsigned int seed)
   {
     const auto surface = walls->ExtractLabel(label);
     const auto before = relaxed->ExtractLabel(label);
-    const auto topology = itk::ComputeTopology(*surface);
-    const auto topologyBefore = itk::ComputeTopology(*before);
+    const auto topology = itk::ComputeTriangleSurfaceTopology(*surface);
+    const auto topologyBefore = itk::ComputeTriangleSurfaceTopology(*before);
     ASSERT_EQ(topology.components, topologyBefore.components);
     ASSERT_EQ(topology.genus, topologyBefore.genus);
-    ASSERT_LE(itk::ComputeTwoDistances(*surface, *before).GetMaximum(), 1.0001 * error) << label;
+    ASSERT_LE(itk::ComputeTriangleSurfaceDistances(*surface, *before).GetMaximum(), 1.0001 * error) << label;
   }
 }
 
@@ -234,12 +234,12 @@ ExpectSoundThinLabels(unsigned int pairs)
     const auto walls = MakeThinLabel(seed);
     if (seed % 4 > 1)
     {
-      RelaxWalls(*walls, MovesUpTo(1.0));
+      RelaxLabelWalls(*walls, MovesUpTo(1.0));
       EXPECT_EQ(bruteforce::CountCrossings(*walls), 0u);
     }
     auto settings = ErrorUpTo(seed % 3 == 0 ? 5.0 : std::numeric_limits<double>::infinity());
     settings.targetTriangles = walls->GetNumberOfTriangles() / (3 + seed % 20);
-    const auto report = SimplifyWalls(*walls, settings);
+    const auto report = SimplifyLabelWalls(*walls, settings);
     EXPECT_LT(report.trianglesAfter, report.trianglesBefore);
     EXPECT_EQ(bruteforce::CountCrossings(*walls), 0u);
     EXPECT_EQ(CountCrossings(*walls), 0u) << "or touch";
@@ -262,13 +262,13 @@ TEST(LabelWallsEditing, SmoothLabelsKeepTheirVolumes)
   const auto image = MakeBlobs(Region(0, 14, 28, 28), 3, 9);
   const auto walls = MakeWalls(image);
   const auto before = walls->ComputeVolumes();
-  RelaxWalls(*walls, MovesUpTo(0.5));
+  RelaxLabelWalls(*walls, MovesUpTo(0.5));
   const auto relaxed = walls->ComputeVolumes();
-  SimplifyWalls(*walls, ErrorUpTo(0.3));
+  SimplifyLabelWalls(*walls, ErrorUpTo(0.3));
   const auto simplified = walls->ComputeVolumes();
   for (const std::uint16_t label : walls->FindLabels())
   {
-    EXPECT_NEAR(before[label], itk::ComputeVolume(*MakeWalls(image)->ExtractLabel(label)), 1e-2);
+    EXPECT_NEAR(before[label], itk::ComputeTriangleSurfaceVolume(*MakeWalls(image)->ExtractLabel(label)), 1e-2);
     EXPECT_NEAR(relaxed[label], before[label], 0.01 * before[label]) << label;
     EXPECT_NEAR(simplified[label], relaxed[label], 0.01 * before[label]) << label;
   }
@@ -314,14 +314,14 @@ TEST(LabelWallsEditing, RelaxedWallsAreSmoother)
   std::vector<double> areas;
   for (const std::uint16_t label : { 0, 1, 2 })
   {
-    areas.push_back(itk::ComputeArea(*walls->ExtractLabel(label)));
+    areas.push_back(itk::ComputeTriangleSurfaceArea(*walls->ExtractLabel(label)));
   }
-  RelaxWalls(*walls, MovesUpTo(0.5));
+  RelaxLabelWalls(*walls, MovesUpTo(0.5));
   const auto after = walls->ComputeVolumes();
   EXPECT_LT(turnFromRadius(*walls), 0.6 * turn);
   for (const std::size_t label : { 0u, 1u, 2u })
   {
-    EXPECT_LT(itk::ComputeArea(*walls->ExtractLabel(static_cast<std::uint16_t>(label))), areas[label]);
+    EXPECT_LT(itk::ComputeTriangleSurfaceArea(*walls->ExtractLabel(static_cast<std::uint16_t>(label))), areas[label]);
     EXPECT_NEAR(after[label], before[label], 1e-3 * std::abs(before[label]));
   }
 }
@@ -337,7 +337,7 @@ TEST(LabelWallsEditing, WallsOfANarrowGapDoNotMeet)
   const auto walls = MakeWalls(slabs);
   const auto start = Copy(*walls);
   const double volume = 3.0 * walls->ComputeVolumes()[1];
-  const auto report = RelaxWalls(*walls, MovesUpTo(4.0), { 0.0, volume });
+  const auto report = RelaxLabelWalls(*walls, MovesUpTo(4.0), { 0.0, volume });
   ExpectSoundWalls(*walls, *slabs);
   EXPECT_EQ(CountCrossings(*walls), 0u);
   EXPECT_LT(walls->ComputeVolumes()[1], volume) << "more than the gap has room for";
@@ -357,7 +357,7 @@ TEST(LabelWallsEditing, SimplifiedWallsReachATarget)
   const auto walls = MakeWalls(image);
   auto settings = ErrorUpTo(2.0);
   settings.targetTriangles = walls->GetNumberOfTriangles() / 3;
-  const auto report = SimplifyWalls(*walls, settings);
+  const auto report = SimplifyLabelWalls(*walls, settings);
   EXPECT_EQ(report.end, itk::SimplificationEnd::Target);
   EXPECT_LE(walls->GetNumberOfTriangles(), settings.targetTriangles);
   EXPECT_GT(walls->GetNumberOfTriangles(), settings.targetTriangles * 99 / 100);
@@ -373,9 +373,9 @@ TEST(LabelWallsEditing, RelaxedWallsNeedFewerTriangles)
     {
       const auto cut = MakeWalls(image);
       const auto relaxed = MakeWalls(image);
-      RelaxWalls(*relaxed, MovesUpTo(0.5));
-      const auto ofCut = SimplifyWalls(*cut, ErrorUpTo(error));
-      const auto ofRelaxed = SimplifyWalls(*relaxed, ErrorUpTo(error));
+      RelaxLabelWalls(*relaxed, MovesUpTo(0.5));
+      const auto ofCut = SimplifyLabelWalls(*cut, ErrorUpTo(error));
+      const auto ofRelaxed = SimplifyLabelWalls(*relaxed, ErrorUpTo(error));
       EXPECT_EQ(ofRelaxed.end, itk::SimplificationEnd::MaximumError);
       EXPECT_LT(ofRelaxed.trianglesAfter, 2 * ofCut.trianglesAfter / 3);
     }
@@ -391,7 +391,7 @@ TEST(LabelWallsEditing, LabelsOfOneSiteKeepTheirVolumes)
   const auto walls = MakeWalls(image);
   const double volume = walls->ComputeVolumes()[2];
   ASSERT_GT(volume, 0.0);
-  RelaxWalls(*walls, MovesUpTo(0.5));
+  RelaxLabelWalls(*walls, MovesUpTo(0.5));
   EXPECT_NEAR(walls->ComputeVolumes()[2], volume, 0.02 * volume);
   ExpectSoundWalls(*walls, *image);
 }
@@ -400,10 +400,10 @@ TEST(LabelWallsEditing, RefusesSenselessSettings)
 {
   const auto walls = MakeWalls(MakeBlobs(Region(0, 5, 9, 9), 2, 3));
   const auto points = walls->GetPoints();
-  EXPECT_THROW(RelaxWalls(*walls, MovesUpTo(-1.0)), itk::ExceptionObject);
-  EXPECT_THROW(RelaxWalls(*walls, MovesUpTo(std::nan(""))), itk::ExceptionObject);
-  EXPECT_THROW(SimplifyWalls(*walls, {}), itk::ExceptionObject);
-  EXPECT_THROW(SimplifyWalls(*walls, ErrorUpTo(0.0)), itk::ExceptionObject);
+  EXPECT_THROW(RelaxLabelWalls(*walls, MovesUpTo(-1.0)), itk::ExceptionObject);
+  EXPECT_THROW(RelaxLabelWalls(*walls, MovesUpTo(std::nan(""))), itk::ExceptionObject);
+  EXPECT_THROW(SimplifyLabelWalls(*walls, {}), itk::ExceptionObject);
+  EXPECT_THROW(SimplifyLabelWalls(*walls, ErrorUpTo(0.0)), itk::ExceptionObject);
   EXPECT_EQ(walls->GetPoints(), points);
 }
 
@@ -412,7 +412,7 @@ TEST(LabelWallsEditing, LabelsTakeTheVolumesAsked)
   const auto image = MakeBlobs(Region(0, 14, 28, 28), 3, 4);
   const auto walls = MakeWalls(image);
   std::vector<double> volumes{ 0.0, 0.0, 1.02 * walls->ComputeVolumes()[2] };
-  RelaxWalls(*walls, MovesUpTo(0.5), volumes);
+  RelaxLabelWalls(*walls, MovesUpTo(0.5), volumes);
   EXPECT_NEAR(walls->ComputeVolumes()[2], volumes[2], 0.003 * volumes[2]);
 }
 
@@ -420,8 +420,8 @@ TEST(LabelWallsEditing, SmoothBlobsLoseMostTriangles)
 {
   const auto image = MakeBlobs(Region(0, 14, 28, 28), 1, 4);
   const auto walls = MakeWalls(image);
-  RelaxWalls(*walls, MovesUpTo(0.5));
-  const auto report = SimplifyWalls(*walls, ErrorUpTo(0.3));
+  RelaxLabelWalls(*walls, MovesUpTo(0.5));
+  const auto report = SimplifyLabelWalls(*walls, ErrorUpTo(0.3));
   EXPECT_LT(report.trianglesAfter, report.trianglesBefore / 4);
   ExpectSoundWalls(*walls, *image);
 }
@@ -436,8 +436,8 @@ TEST(LabelWallsEditing, BytesDoNotDependOnThreads)
   {
     itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
     const auto walls = Copy(*start);
-    RelaxWalls(*walls, MovesUpTo(0.4));
-    SimplifyWalls(*walls, ErrorUpTo(0.1));
+    RelaxLabelWalls(*walls, MovesUpTo(0.4));
+    SimplifyLabelWalls(*walls, ErrorUpTo(0.1));
     one = one ? one : walls;
     EXPECT_EQ(one->GetPoints(), walls->GetPoints());
     EXPECT_EQ(one->GetTriangles(), walls->GetTriangles());

@@ -84,7 +84,7 @@ HalfBalls(const Point & p, double radius)
 double
 Volume(const itk::LabelWalls & walls, std::uint16_t label)
 {
-  return itk::ComputeVolume(*walls.ExtractLabel(label));
+  return itk::ComputeTriangleSurfaceVolume(*walls.ExtractLabel(label));
 }
 
 TEST(LabelsToFCCFilter, HalfBallsShareTheirWallAndKeepTheirVolumes)
@@ -119,7 +119,7 @@ TEST(LabelsToFCCFilter, HalfBallsShareTheirWallAndKeepTheirVolumes)
     EXPECT_NEAR((Volume(*walls, 4) + Volume(*walls, 9)) / volume, 1.0, slices < 2.0 ? 0.005 : 0.03) << slices;
     for (const std::uint16_t label : { 4, 9 })
     {
-      const auto topology = itk::ComputeTopology(*walls->ExtractLabel(label));
+      const auto topology = itk::ComputeTriangleSurfaceTopology(*walls->ExtractLabel(label));
       EXPECT_TRUE(topology.IsWatertight()) << topology;
       EXPECT_EQ(topology.components, 1u);
     }
@@ -187,7 +187,7 @@ TEST(LabelsToFCCFilter, VesselsOneVoxelWideStay)
   for (const double density : { itk::FCCLattice::DefaultDensity, 2.0, 4.0 })
   {
     const auto vessel = MakeWalls(map, {}, 0, density)->ExtractLabel(2);
-    EXPECT_EQ(itk::ComputeTopology(*vessel).components, 1u) << density;
+    EXPECT_EQ(itk::ComputeTriangleSurfaceTopology(*vessel).components, 1u) << density;
   }
 }
 
@@ -205,7 +205,7 @@ TEST(LabelsToFCCFilter, SheetsOneVoxelThickAreDisks)
       const double offset = (slopes[0] * p[0] + slopes[1] * p[1] + slopes[2] * p[2]) / steepest;
       return offset > -0.5 && offset <= 0.5 && p.GetVectorFromOrigin().GetNorm() < 15.0 ? 7 : 0;
     });
-    const auto topology = itk::ComputeTopology(*MakeWalls(map)->ExtractLabel(7));
+    const auto topology = itk::ComputeTriangleSurfaceTopology(*MakeWalls(map)->ExtractLabel(7));
     EXPECT_TRUE(topology.IsWatertight()) << topology;
     EXPECT_EQ(topology.components, 1u) << n;
     EXPECT_EQ(topology.eulerCharacteristic, 2) << n;
@@ -298,11 +298,11 @@ TEST(LabelsToFCCFilter, SpecksOfAnySizeStay)
   for (std::uint16_t speck = 0; speck < 27; ++speck)
   {
     const auto surface = walls->ExtractLabel(static_cast<std::uint16_t>(speck + 1));
-    const auto topology = itk::ComputeTopology(*surface);
+    const auto topology = itk::ComputeTriangleSurfaceTopology(*surface);
     EXPECT_EQ(topology.components, 1u) << speck;
     EXPECT_EQ(topology.eulerCharacteristic, 2) << speck;
     const double volume = edges[speck][0] * edges[speck][1] * edges[speck][2];
-    EXPECT_NEAR(itk::ComputeVolume(*surface) / volume, 1.0, 0.05) << volume;
+    EXPECT_NEAR(itk::ComputeTriangleSurfaceVolume(*surface) / volume, 1.0, 0.05) << volume;
   }
 }
 
@@ -423,8 +423,8 @@ TEST(LabelsToFCCFilter, SpecksInSlantedSlicesStay)
   for (std::uint16_t speck = 1; speck <= 216; ++speck)
   {
     const auto surface = walls->ExtractLabel(speck);
-    EXPECT_EQ(itk::ComputeTopology(*surface).eulerCharacteristic, 2) << speck;
-    EXPECT_NEAR(itk::ComputeVolume(*surface) / toLattice->GetVoxelVolumes()[speck], 1.0, 0.01) << speck;
+    EXPECT_EQ(itk::ComputeTriangleSurfaceTopology(*surface).eulerCharacteristic, 2) << speck;
+    EXPECT_NEAR(itk::ComputeTriangleSurfaceVolume(*surface) / toLattice->GetVoxelVolumes()[speck], 1.0, 0.01) << speck;
     const auto bounds = surface->GetBounds();
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
@@ -452,7 +452,7 @@ TEST(LabelsToFCCFilter, ThinPartsInSlantedSlicesAreWhole)
         }
       }
     }
-    const auto topology = itk::ComputeTopology(*MakeWalls(map.image, map.origins)->ExtractLabel(7));
+    const auto topology = itk::ComputeTriangleSurfaceTopology(*MakeWalls(map.image, map.origins)->ExtractLabel(7));
     EXPECT_TRUE(topology.IsWatertight()) << topology;
     EXPECT_EQ(topology.components, 1u) << slope;
     EXPECT_EQ(topology.eulerCharacteristic, 2) << slope;
@@ -465,7 +465,7 @@ TEST(LabelsToFCCFilter, ThinPartsInSlantedSlicesAreWhole)
     };
     map.image->SetPixel(first + place, 3);
   }
-  const auto topology = itk::ComputeTopology(*MakeWalls(map.image, map.origins)->ExtractLabel(3));
+  const auto topology = itk::ComputeTriangleSurfaceTopology(*MakeWalls(map.image, map.origins)->ExtractLabel(3));
   EXPECT_TRUE(topology.IsWatertight()) << topology;
   EXPECT_EQ(topology.components, 1u);
 }

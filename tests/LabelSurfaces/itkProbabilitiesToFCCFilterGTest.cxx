@@ -146,7 +146,9 @@ TEST(ProbabilitiesToFCCFilter, OutsideIsWhatIsLeft)
   {
     EXPECT_NEAR(point.GetVectorFromOrigin().GetNorm(), radius, 0.1);
   }
-  EXPECT_NEAR(itk::ComputeVolume(*walls->ExtractLabel(1)), 4.0 / 3.0 * 3.14159265 * radius * radius * radius, 60.0);
+  EXPECT_NEAR(itk::ComputeTriangleSurfaceVolume(*walls->ExtractLabel(1)),
+              4.0 / 3.0 * 3.14159265 * radius * radius * radius,
+              60.0);
 }
 
 /** Two half balls by the shares of voxels that they fill, also in thick slices. */
@@ -175,7 +177,7 @@ TEST(ProbabilitiesToFCCFilter, HalfBallsShareTheirWall)
     EXPECT_EQ(walls->FindLabels(), (std::vector<std::uint16_t>{ 1, 2 }));
     for (const std::uint16_t label : { 1, 2 })
     {
-      const auto topology = itk::ComputeTopology(*walls->ExtractLabel(label));
+      const auto topology = itk::ComputeTriangleSurfaceTopology(*walls->ExtractLabel(label));
       EXPECT_TRUE(topology.IsWatertight()) << topology;
       EXPECT_EQ(topology.components, 1u);
       double sum = 0.0;

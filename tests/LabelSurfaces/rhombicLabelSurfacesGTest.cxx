@@ -98,7 +98,7 @@ OnlySurface(const LabelMap & map, const rhombic::LabelSurfaceSettings & settings
 {
   const auto surfaces = MakeSurfaces(map, settings, {});
   EXPECT_EQ(surfaces.size(), 1);
-  EXPECT_TRUE(ComputeTopology(*surfaces.front().scene.surface).IsWatertight());
+  EXPECT_TRUE(ComputeTriangleSurfaceTopology(*surfaces.front().scene.surface).IsWatertight());
   return surfaces.front();
 }
 
@@ -209,7 +209,7 @@ TEST(LabelSurfaces, BallsAreRoundWhateverTheirPlace)
     const LabelSurface ball = OnlySurface(MakeMap(size, Inside(distance)));
     EXPECT_LT(std::abs(ball.GetVolumeDifference()), 0.0025) << radius;
     const double trueArea = 4.0 * itk::Math::pi * radius * radius;
-    EXPECT_NEAR(ComputeArea(*ball.scene.surface) / trueArea, 1.0, 0.01) << radius;
+    EXPECT_NEAR(ComputeTriangleSurfaceArea(*ball.scene.surface) / trueArea, 1.0, 0.01) << radius;
     const FacetErrors errors = CompareFacets(*ball.scene.surface, distance);
     EXPECT_LT(errors.distance, 0.05) << radius;
     EXPECT_LT(errors.degrees, radius < 8.0 ? 4.0 : 2.5) << radius;
@@ -222,10 +222,10 @@ TEST(LabelSurfaces, ATorusKeepsItsHole)
 {
   const auto distance = Torus(25.0, 7.3);
   const LabelSurface torus = OnlySurface(MakeMap(72, Inside(distance)));
-  EXPECT_EQ(ComputeTopology(*torus.scene.surface).eulerCharacteristic, 0);
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*torus.scene.surface).eulerCharacteristic, 0);
   EXPECT_LT(std::abs(torus.GetVolumeDifference()), 0.0025);
   const double trueArea = 4.0 * itk::Math::pi * itk::Math::pi * 25.0 * 7.3;
-  EXPECT_NEAR(ComputeArea(*torus.scene.surface) / trueArea, 1.0, 0.01);
+  EXPECT_NEAR(ComputeTriangleSurfaceArea(*torus.scene.surface) / trueArea, 1.0, 0.01);
   EXPECT_LT(CompareFacets(*torus.scene.surface, distance).degrees, 2.5);
 }
 
@@ -271,7 +271,7 @@ TEST(LabelSurfaces, SheetsOfOneVoxelAreWhole)
     EXPECT_EQ(sheet.pieces, 1) << normal;
     EXPECT_EQ(sheet.surfacePieces, 1) << normal;
     EXPECT_LT(std::abs(sheet.GetVolumeDifference()), 0.01) << normal;
-    withHoles += ComputeTopology(*sheet.scene.surface).eulerCharacteristic != 2 ? 1 : 0;
+    withHoles += ComputeTriangleSurfaceTopology(*sheet.scene.surface).eulerCharacteristic != 2 ? 1 : 0;
   }
   EXPECT_LE(withHoles, 2) << "where the normal is near a diagonal, voxels touch at corners only";
 }
@@ -331,8 +331,8 @@ TEST(LabelSurfaces, NodulesOfAnySizeStay)
   const LabelSurface nodules = OnlySurface(map);
   EXPECT_EQ(nodules.numberOfVoxels, 100);
   EXPECT_EQ(nodules.pieces, 4);
-  const auto components = itk::FindComponents(*nodules.scene.surface);
-  const auto volumes = itk::ComputeComponentVolumes(*nodules.scene.surface, components);
+  const auto components = itk::FindTriangleSurfaceComponents(*nodules.scene.surface);
+  const auto volumes = itk::ComputeTriangleSurfaceComponentVolumes(*nodules.scene.surface, components);
   ASSERT_EQ(volumes.size(), 4);
   for (unsigned int edge = 1; edge <= 4; ++edge)
   {
@@ -398,8 +398,9 @@ TEST(LabelSurfaces, WallsAreTheSameForBothOfTheirLabels)
     std::vector<std::set<std::array<std::array<float, 3>, 3>>> triangles;
     for (const LabelSurface & label : mesh.labels)
     {
-      EXPECT_TRUE(ComputeTopology(*label.scene.surface).IsWatertight()) << thickness;
-      EXPECT_NEAR(ComputeVolume(*label.scene.surface) / (1000.0 * label.voxelMillilitres), 1.0, 0.01) << thickness;
+      EXPECT_TRUE(ComputeTriangleSurfaceTopology(*label.scene.surface).IsWatertight()) << thickness;
+      EXPECT_NEAR(ComputeTriangleSurfaceVolume(*label.scene.surface) / (1000.0 * label.voxelMillilitres), 1.0, 0.01)
+        << thickness;
       EXPECT_EQ(label.pieces, 1);
       EXPECT_EQ(label.surfacePieces, 1);
       triangles.push_back(CornersOf(*label.scene.surface, &label == &mesh.labels.front()));
@@ -441,7 +442,7 @@ TEST(LabelSurfaces, RandomBlobsAreClosedAndWhole)
     });
     for (const LabelSurface & blob : MakeSurfaces(map, {}, {}))
     {
-      EXPECT_TRUE(ComputeTopology(*blob.scene.surface).IsWatertight()) << seed;
+      EXPECT_TRUE(ComputeTriangleSurfaceTopology(*blob.scene.surface).IsWatertight()) << seed;
       EXPECT_GE(blob.surfacePieces, blob.pieces) << seed;
       EXPECT_FALSE(blob.isTorn) << seed;
       EXPECT_LT(std::abs(blob.GetVolumeDifference()), 0.01) << seed;
@@ -475,7 +476,7 @@ TEST(LabelSurfaces, PiecesOneVoxelApartStayApart)
     const LabelSurface label = MakeSurfaces(map, {}, {}).front();
     EXPECT_EQ(label.pieces, boxes);
     EXPECT_EQ(label.surfacePieces, boxes) << "with label " << between << " between them";
-    EXPECT_TRUE(ComputeTopology(*label.scene.surface).IsWatertight());
+    EXPECT_TRUE(ComputeTriangleSurfaceTopology(*label.scene.surface).IsWatertight());
     EXPECT_LT(std::abs(label.GetVolumeDifference()), 0.01) << boxes;
   }
 }
@@ -494,7 +495,7 @@ TEST(LabelSurfaces, AllPiecesOfSparseNoiseStay)
     {
       EXPECT_GE(noise.surfacePieces, noise.pieces) << share;
       EXPECT_FALSE(noise.isTorn) << share;
-      EXPECT_TRUE(ComputeTopology(*noise.scene.surface).IsWatertight());
+      EXPECT_TRUE(ComputeTriangleSurfaceTopology(*noise.scene.surface).IsWatertight());
       EXPECT_LT(std::abs(noise.GetVolumeDifference()), 0.02) << noise.pieces;
     }
   }
@@ -506,7 +507,7 @@ TEST(LabelSurfaces, NoiseIsClosed)
   const LabelMap map = MakeMap(24, [&](const Point &) { return static_cast<int>(random() % 3); });
   for (const LabelSurface & noise : MakeSurfaces(map, {}, {}))
   {
-    EXPECT_TRUE(ComputeTopology(*noise.scene.surface).IsWatertight());
+    EXPECT_TRUE(ComputeTriangleSurfaceTopology(*noise.scene.surface).IsWatertight());
     EXPECT_LT(std::abs(noise.GetVolumeDifference()), 0.01);
   }
 }
@@ -526,7 +527,8 @@ TEST(LabelSurfaces, VoxelsNeedNotBeCubes)
     }
     const LabelSurface ball = OnlySurface(MakeMap(size, spacing, Inside(distance)));
     EXPECT_LT(std::abs(ball.GetVolumeDifference()), 0.01) << spacing;
-    EXPECT_NEAR(ComputeArea(*ball.scene.surface) / (4.0 * itk::Math::pi * 900.0), 1.0, areaTolerance[n]) << spacing;
+    EXPECT_NEAR(ComputeTriangleSurfaceArea(*ball.scene.surface) / (4.0 * itk::Math::pi * 900.0), 1.0, areaTolerance[n])
+      << spacing;
     EXPECT_EQ(ball.surfacePieces, 1);
   }
 }
@@ -575,7 +577,7 @@ TEST(LabelSurfaces, TiltedAndUnevenStacksKeepTheirPlaces)
     const LabelSurface ball = OnlySurface(MakeTiltedBall(20.0, isUneven));
     EXPECT_LT(std::abs(ball.GetVolumeDifference()), 0.0025);
     const double trueArea = 4.0 * itk::Math::pi * 400.0;
-    EXPECT_NEAR(ComputeArea(*ball.scene.surface) / trueArea, 1.0, 0.015);
+    EXPECT_NEAR(ComputeTriangleSurfaceArea(*ball.scene.surface) / trueArea, 1.0, 0.015);
     EXPECT_LT(CompareFacets(*ball.scene.surface, Ball(At(0.0, 0.0, 0.0), 20.0)).distance, 0.1);
   }
 }
@@ -622,7 +624,7 @@ TEST(LabelSurfaces, HollowLabelsHaveShellsInside)
     return depth >= 0.0 && depth < 3.0 ? 1 : 0;
   }));
   EXPECT_EQ(shell.surfacePieces, 1);
-  EXPECT_EQ(ComputeTopology(*shell.scene.surface).components, 2);
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*shell.scene.surface).components, 2);
   EXPECT_LT(std::abs(shell.GetVolumeDifference()), 0.0025);
 }
 
@@ -795,7 +797,7 @@ TEST(LabelSurfaces, OfRealMapsHaveTheirVoxelsVolumes)
     for (const LabelSurface & surface : MakeSurfaces(map, {}, {}))
     {
       const std::string what = std::string(name) + ", " + surface.scene.name;
-      EXPECT_TRUE(ComputeTopology(*surface.scene.surface).IsWatertight()) << what;
+      EXPECT_TRUE(ComputeTriangleSurfaceTopology(*surface.scene.surface).IsWatertight()) << what;
       EXPECT_GE(surface.surfacePieces, surface.pieces) << what;
       EXPECT_FALSE(surface.isTorn) << what;
       EXPECT_LT(std::abs(surface.GetVolumeDifference()), 0.01) << what;
@@ -834,14 +836,17 @@ TEST(LabelSurfaces, LabelsThatOverlapAreWhole)
     const LabelSurface & label = mesh.labels[n];
     EXPECT_EQ(label.value, static_cast<int>(n + 1));
     EXPECT_EQ(label.layer, n < 2 ? 0 : n - 1);
-    EXPECT_TRUE(ComputeTopology(*label.scene.surface).IsWatertight());
-    EXPECT_NEAR(
-      ComputeVolume(*label.scene.surface) / 1000.0, map.labels[n].millilitres, 0.01 * map.labels[n].millilitres);
+    EXPECT_TRUE(ComputeTriangleSurfaceTopology(*label.scene.surface).IsWatertight());
+    EXPECT_NEAR(ComputeTriangleSurfaceVolume(*label.scene.surface) / 1000.0,
+                map.labels[n].millilitres,
+                0.01 * map.labels[n].millilitres);
     EXPECT_EQ(label.surfacePieces, 1);
   }
   const auto & spleen = *mesh.labels[1].scene.surface;
   const auto & copy = *mesh.labels[3].scene.surface;
-  EXPECT_NEAR(ComputeVolume(spleen), ComputeVolume(copy), 0.01 * ComputeVolume(copy));
+  EXPECT_NEAR(ComputeTriangleSurfaceVolume(spleen),
+              ComputeTriangleSurfaceVolume(copy),
+              0.01 * ComputeTriangleSurfaceVolume(copy));
 
   LabelMap kidney = map;
   kidney.scan.furtherLayers.clear();
@@ -874,7 +879,7 @@ TEST(LabelSurfaces, LayersShareALimitOfTriangles)
   rhombic::ExtractSurfaces(mesh);
   for (const LabelSurface & label : mesh.labels)
   {
-    EXPECT_TRUE(ComputeTopology(*label.scene.surface).IsWatertight());
+    EXPECT_TRUE(ComputeTriangleSurfaceTopology(*label.scene.surface).IsWatertight());
   }
 }
 

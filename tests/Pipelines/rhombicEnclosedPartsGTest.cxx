@@ -170,8 +170,8 @@ private:
 double
 Millilitres(const rhombic::ExtractedSurface & extracted)
 {
-  EXPECT_TRUE(ComputeTopology(*extracted.surface).IsWatertight());
-  return ComputeVolume(*extracted.surface) / 1000.0;
+  EXPECT_TRUE(ComputeTriangleSurfaceTopology(*extracted.surface).IsWatertight());
+  return ComputeTriangleSurfaceVolume(*extracted.surface) / 1000.0;
 }
 
 struct Field
@@ -331,10 +331,10 @@ TEST(OutermostParts, HoldTheBodyWithItsLungs)
   const PhantomCrop chest(chestLow, chestHigh);
   const auto skin = chest.ExtractOutline();
   const double body = chest.Millilitres() - chest.AirMillilitres();
-  EXPECT_NEAR(itk::ComputeVolume(*skin.surface) / 1000.0,
+  EXPECT_NEAR(itk::ComputeTriangleSurfaceVolume(*skin.surface) / 1000.0,
               body,
-              0.02 * body);                                // voxels count wholly, the threshold is not half way
-  EXPECT_EQ(itk::FindComponents(*skin.surface).count, 1u); // no lung, no vessel in it
+              0.02 * body); // voxels count wholly, the threshold is not half way
+  EXPECT_EQ(itk::FindTriangleSurfaceComponents(*skin.surface).count, 1u); // no lung, no vessel in it
 }
 
 TEST(OutermostParts, HoldLungsThatTopAndBottomCut)
@@ -349,7 +349,7 @@ TEST(OutermostParts, HoldLungsThatTopAndBottomCut)
     ASSERT_GT(slab.LungMillilitres(), 100.0);
     const auto skin = slab.ExtractOutline();
     const double body = slab.Millilitres() - slab.AirMillilitres();
-    EXPECT_NEAR(itk::ComputeVolume(*skin.surface) / 1000.0, body, 0.02 * body) << top;
+    EXPECT_NEAR(itk::ComputeTriangleSurfaceVolume(*skin.surface) / 1000.0, body, 0.02 * body) << top;
   }
 }
 

@@ -58,12 +58,12 @@ TEST(PhantomSurfaces, EncloseTheKnownVolumesInEveryMode)
   for (const Mode mode : { Mode::Tetrahedra, Mode::Octahedra, Mode::Parallelepipeds, Mode::Fine, Mode::Lean })
   {
     const auto skin = Extract("skin=-485.5", SurfaceRequest::Parts::All, mode);
-    EXPECT_TRUE(ComputeTopology(*skin).IsWatertight()) << mode;
-    EXPECT_NEAR(ComputeVolume(*skin) / rhombic::PhantomEnclosedBy(-485.5).volume, 1.0, 0.002) << mode;
+    EXPECT_TRUE(ComputeTriangleSurfaceTopology(*skin).IsWatertight()) << mode;
+    EXPECT_NEAR(ComputeTriangleSurfaceVolume(*skin) / rhombic::PhantomEnclosedBy(-485.5).volume, 1.0, 0.002) << mode;
 
     const auto bone = Extract("bone=375.5", SurfaceRequest::Parts::All, mode);
-    EXPECT_TRUE(ComputeTopology(*bone).IsWatertight()) << mode;
-    EXPECT_NEAR(ComputeVolume(*bone) / rhombic::PhantomEnclosedBy(375.5).volume, 1.0, 0.02) << mode;
+    EXPECT_TRUE(ComputeTriangleSurfaceTopology(*bone).IsWatertight()) << mode;
+    EXPECT_NEAR(ComputeTriangleSurfaceVolume(*bone) / rhombic::PhantomEnclosedBy(375.5).volume, 1.0, 0.02) << mode;
   }
 }
 
@@ -165,7 +165,8 @@ TEST(PhantomSurfaces, TheNestedLatticeAndLanczosHoldTheSameBody)
     const auto volume = rhombic::ScanToLattice(PhantomScan(), settings, {});
     const auto skin =
       rhombic::LatticeToSurfaces(volume, { rhombic::ParseSurfaceRequest("skin=-485.5", 0) }, Mode::Lean, {});
-    EXPECT_NEAR(ComputeVolume(*skin.front().surface) / rhombic::PhantomEnclosedBy(-485.5).volume, 1.0, 0.01);
+    EXPECT_NEAR(
+      ComputeTriangleSurfaceVolume(*skin.front().surface) / rhombic::PhantomEnclosedBy(-485.5).volume, 1.0, 0.01);
   }
 }
 
@@ -177,8 +178,8 @@ TEST(PhantomSurfaces, TheEnclosedAirIsTheLungsAndTheAirway)
     exact += organ.hounsfield < -500.0 ? organ.volume : 0.0;
   }
   const auto lungs = Extract("lungs=<-400.5", SurfaceRequest::Parts::Enclosed);
-  EXPECT_TRUE(ComputeTopology(*lungs).IsWatertight());
-  EXPECT_NEAR(ComputeVolume(*lungs) / exact, 1.0, 0.02);
+  EXPECT_TRUE(ComputeTriangleSurfaceTopology(*lungs).IsWatertight());
+  EXPECT_NEAR(ComputeTriangleSurfaceVolume(*lungs) / exact, 1.0, 0.02);
 }
 
 TEST(PhantomSurfaces, TheMarkerIsOnThePatientsLeftInFront)

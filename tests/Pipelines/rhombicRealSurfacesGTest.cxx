@@ -61,7 +61,7 @@ TEST_P(RealSurfaces, AreSolidsInTheirFiles)
     surface->Graft(extracted);
     rhombic::RefineSurface(*surface, {}, spacing, "surface", {});
     rhombic::WriteSurfaces({ { "surface", surface.GetPointer() } }, folder.Path() / "surface.stl");
-    const auto audit = AuditSurface(*rhombic::ReadSurfaces(folder.Path() / "surface.stl").front().surface);
+    const auto audit = AuditTriangleSurface(*rhombic::ReadSurfaces(folder.Path() / "surface.stl").front().surface);
     EXPECT_TRUE(audit.BoundsSolid()) << mode << ": " << audit;
     EXPECT_FALSE(audit.intersections.isSampled);
   }

@@ -71,8 +71,9 @@ TEST(SlantedScan, ABallComesOutRound)
     const auto surfaces = rhombic::LatticeToSurfaces(
       volume, { rhombic::ParseSurfaceRequest("ball=0.5", 0) }, itk::FCCIsosurfaceMode::Fine, {});
     const auto & ball = *surfaces.front().surface;
-    EXPECT_TRUE(ComputeTopology(ball).IsWatertight());
-    EXPECT_NEAR(ComputeVolume(ball) / (4.0 / 3.0 * itk::Math::pi * radius * radius * radius), 1.0, 0.005);
+    EXPECT_TRUE(ComputeTriangleSurfaceTopology(ball).IsWatertight());
+    EXPECT_NEAR(
+      ComputeTriangleSurfaceVolume(ball) / (4.0 / 3.0 * itk::Math::pi * radius * radius * radius), 1.0, 0.005);
     double farthest = 0.0;
     double nearest = 2.0 * radius;
     for (const auto & point : ball.GetPoints())

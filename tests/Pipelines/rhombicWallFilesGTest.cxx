@@ -39,10 +39,10 @@ ExpectSoundFile(const itk::FCCLabelSurfaceFilter::InputImageType * labels, const
   {
     EXPECT_EQ(read[n].name, written[n].name);
     EXPECT_NEAR(read[n].colour[0], written[n].colour[0], 1e-6);
-    const auto audit = itk::AuditSurface(*read[n].surface);
+    const auto audit = itk::AuditTriangleSurface(*read[n].surface);
     ASSERT_TRUE(audit.IsWatertight()) << audit;
     ASSERT_EQ(audit.topology.repeatedPositions, 0u);
-    ASSERT_NEAR(audit.volume, itk::ComputeVolume(*written[n].surface), 1e-6 * audit.volume);
+    ASSERT_NEAR(audit.volume, itk::ComputeTriangleSurfaceVolume(*written[n].surface), 1e-6 * audit.volume);
     triangles += audit.triangles;
   }
   const rhombic::WallAudit audit = rhombic::AuditWalls(read);

@@ -1,6 +1,6 @@
 #include "itkRecyclingMemory.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ TEST(RecyclingMemory, GivesABlockThatIsBackToTheNextOfItsSize)
 TEST(RecyclingMemory, ServesManyThreadsWithBlocksOfTheirOwn)
 {
   itk::RecyclingMemory memory;
-  itk::ForEachInBlocks(2000, 1, [&memory](std::size_t n) {
+  rhombic::ForEachInBlocks(2000, 1, [&memory](std::size_t n) {
     const auto size = 1 + n % 3 * 500;
     std::pmr::vector<std::size_t> numbers(size, &memory);
     EXPECT_EQ(numbers, std::pmr::vector<std::size_t>(size));

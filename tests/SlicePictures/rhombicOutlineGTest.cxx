@@ -178,7 +178,7 @@ MakeCube(float size)
 TEST(Outline, FacesAndPointsInThePlaneAreOnOneSide)
 {
   const auto cube = MakeCube(10.0f);
-  ASSERT_GT(ComputeVolume(*cube), 0.0);
+  ASSERT_GT(ComputeTriangleSurfaceVolume(*cube), 0.0);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     for (const double sign : { 1.0, -1.0 })
@@ -268,7 +268,7 @@ TEST_P(OutlineOfMode, AreasOfParallelSlicesAddUpToTheVolume)
       const Projection plane = PlaneAt(frame, depth);
       volume += step * AreaOf(CutSurface(*filter->GetOutput(), plane), plane);
     }
-    const double expected = ComputeVolume(*filter->GetOutput());
+    const double expected = ComputeTriangleSurfaceVolume(*filter->GetOutput());
     EXPECT_NEAR(volume, expected, 1e-3 * expected);
   }
 }

@@ -88,7 +88,7 @@ TEST(SurfaceErrors, OfConcentricSpheres)
   const auto inner = MakeBisectedSphere({ 1, 2, 3 }, 1.0, 6);
   const auto outer = MakeBisectedSphere({ 1, 2, 3 }, 1.25, 6);
   EXPECT_EQ(inner->GetNumberOfTriangles(), 4U * 4096U);
-  EXPECT_TRUE(itk::ComputeTopology(*inner).IsWatertight());
+  EXPECT_TRUE(itk::ComputeTriangleSurfaceTopology(*inner).IsWatertight());
   for (const SurfaceErrors & errors : { Compare(*inner, *outer), Compare(*outer, *inner) })
   {
     EXPECT_NEAR(errors.meanDistance, 0.25, 1e-3);
@@ -184,11 +184,11 @@ TEST(ComparedMethods, MakeClosedSurfacesOfTheRightVolume)
     const PreparedMethod prepared = method.prepare(sphere, cube, 1.0);
     EXPECT_NEAR(prepared.samples, 9261.0, 1500.0) << method.name;
     const auto surface = prepared.extract();
-    const auto topology = itk::ComputeTopology(*surface);
+    const auto topology = itk::ComputeTriangleSurfaceTopology(*surface);
     EXPECT_EQ(topology.boundaryEdges, 0U) << method.name;
     EXPECT_EQ(topology.misorientedEdges, 0U) << method.name;
     EXPECT_EQ(topology.components, 1U) << method.name;
-    const double volume = itk::ComputeVolume(*surface);
+    const double volume = itk::ComputeTriangleSurfaceVolume(*surface);
     EXPECT_NEAR(volume, 4.0 / 3.0 * pi * 343.0, 40.0) << method.name;
   }
   EXPECT_THROW(GetComparedMethod("marching-cube"), Failure);
@@ -306,7 +306,7 @@ TEST(BodyField, IsClosedAndHasExactGradients)
   for (const BodyField & body : { MakeHand(), MakeQuadruped() })
   {
     const auto surface = MakeTrueSurface(body, { { -1.3, -0.7, -0.4 }, { 1.3, 0.7, 2.2 } }, 0.02);
-    const auto topology = itk::ComputeTopology(*surface);
+    const auto topology = itk::ComputeTriangleSurfaceTopology(*surface);
     EXPECT_EQ(topology.boundaryEdges, 0U);
     EXPECT_EQ(topology.components, 1U);
     EXPECT_EQ(topology.genus, 0U);

@@ -247,7 +247,7 @@ TEST(VTKIsosurface, LooksOutsideWhereValuesAreLower)
   for (const VTKExtractor extractor : { VTKExtractor::FlyingEdges, VTKExtractor::MarchingCubes })
   {
     const auto surface = PolyDataToSurface(ExtractWithVTK(extractor, volume, 0.0, true));
-    EXPECT_TRUE(itk::ComputeTopology(*surface).IsWatertight());
+    EXPECT_TRUE(itk::ComputeTriangleSurfaceTopology(*surface).IsWatertight());
     const SurfaceErrors errors = ComputeSurfaceErrors(*surface, NearestOnField(sphere, everywhere.unit), everywhere);
     EXPECT_LT(errors.meanDistance, 0.05);
     EXPECT_LT(errors.facetNormalError, 5.0);

@@ -19,7 +19,7 @@ void
 ExpectNoContacts(const Surface & surface)
 {
   EXPECT_EQ(bruteforce::CountCrossings(surface), 0u);
-  const auto found = FindSelfIntersections(itk::TriangleTree(surface));
+  const auto found = FindTriangleSurfaceSelfIntersections(itk::TriangleTree(surface));
   EXPECT_EQ(found.crossingPairs + found.touchingPairs, 0u);
 }
 
@@ -35,7 +35,7 @@ ExpectNoContactsOfSimplifiedPairs(unsigned int pairsOfKind)
       const auto surface = MakeCloseSheets(kind, seed);
       itk::TriangleSurfaceSimplificationSettings settings;
       settings.targetTriangles = surface->GetNumberOfTriangles() / (3 + seed % 20);
-      const auto report = SimplifySurface(*surface, settings);
+      const auto report = SimplifyTriangleSurface(*surface, settings);
       before += report.trianglesBefore;
       after += report.trianglesAfter;
       ExpectNoContacts(*surface);
@@ -69,7 +69,7 @@ TEST(TriangleSurfaceCloseSheets, CollapsesTakenBackDoNotCrossOthers)
     itk::example::Append(*surface, *inner, { static_cast<float>(shift), 0.0f, 0.0f });
     itk::TriangleSurfaceSimplificationSettings settings;
     settings.targetTriangles = static_cast<itk::SizeValueType>(target);
-    SimplifySurface(*surface, settings);
+    SimplifyTriangleSurface(*surface, settings);
     SCOPED_TRACE(testing::Message() << "radius " << radius << ", gap " << gap);
     ExpectNoContacts(*surface);
   }
@@ -102,7 +102,7 @@ TEST(TriangleSurfaceCloseSheets, SmoothedSheetsDoNotMeet)
     ASSERT_EQ(bruteforce::CountCrossings(*surface), 0u);
     itk::TriangleSurfaceSmoothingSettings settings;
     settings.maximumMove = 0.5;
-    const auto report = SmoothSurface(*surface, settings);
+    const auto report = SmoothTriangleSurface(*surface, settings);
     EXPECT_GT(report.largestMove, 0.1) << "other points still move";
     ExpectNoContacts(*surface);
   }

@@ -66,7 +66,7 @@ TEST(TriangleSurfaceNormalSmoothing, HalvesTheErrorWhereTrianglesAreRough)
     const auto surface = MakeSphereWithNormals(0.01, 0.15, seed);
     const auto points = surface->GetPoints();
     const double before = MeanAngle(*surface);
-    itk::SmoothNormals(*surface);
+    itk::SmoothTriangleSurfaceNormals(*surface);
     EXPECT_LT(MeanAngle(*surface), 0.5 * before);
     EXPECT_EQ(surface->GetPoints(), points);
   }
@@ -76,7 +76,7 @@ TEST(TriangleSurfaceNormalSmoothing, LeavesAFineSphereAsItIs)
 {
   const auto surface = MakeSphereWithNormals(0.0, 0.0, 1);
   const auto normals = surface->GetNormals();
-  itk::SmoothNormals(*surface);
+  itk::SmoothTriangleSurfaceNormals(*surface);
   EXPECT_EQ(surface->GetNormals(), normals);
 }
 
@@ -86,7 +86,7 @@ TEST(TriangleSurfaceNormalSmoothing, SameBytesForAnyNumberOfThreads)
   const auto smoothed = [](unsigned int count) {
     itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(count);
     const auto surface = MakeSphereWithNormals(0.01, 0.15, 1);
-    itk::SmoothNormals(*surface);
+    itk::SmoothTriangleSurfaceNormals(*surface);
     return surface->GetNormals();
   };
   const auto normals = smoothed(1);
@@ -100,11 +100,11 @@ TEST(TriangleSurfaceNormalSmoothing, SameBytesForAnyNumberOfThreads)
 TEST(TriangleSurfaceNormalSmoothing, TakesSurfacesWithoutNormalsOrTriangles)
 {
   const auto empty = Surface::New();
-  itk::SmoothNormals(*empty);
+  itk::SmoothTriangleSurfaceNormals(*empty);
   EXPECT_EQ(empty->GetNumberOfPoints(), 0u);
 
   const auto bare = itk::example::MakeSphere(Radius, 2);
-  itk::SmoothNormals(*bare);
+  itk::SmoothTriangleSurfaceNormals(*bare);
   EXPECT_FALSE(bare->HasNormals());
 
   const auto single = Surface::New();
@@ -112,7 +112,7 @@ TEST(TriangleSurfaceNormalSmoothing, TakesSurfacesWithoutNormalsOrTriangles)
   single->GetNormals() = { { 0, 0, 1 }, { 0, 0, 1 }, { 0, 0, 1 }, { 1, 0, 0 } };
   single->GetTriangles() = { { 0, 1, 2 } };
   const auto normals = single->GetNormals();
-  itk::SmoothNormals(*single);
+  itk::SmoothTriangleSurfaceNormals(*single);
   EXPECT_EQ(single->GetNormals(), normals);
 }
 

@@ -131,7 +131,7 @@ TEST(TriangleSurfaceSheets, CurvesAreSmoothedAndBordersStay)
       before += FromAxis(book->GetPoints()[z]);
     }
     const auto start = book->GetPoints();
-    const auto report = SmoothSurface(*book, MovesUpTo(0.5));
+    const auto report = SmoothTriangleSurface(*book, MovesUpTo(0.5));
     double after = 0.0;
     for (std::uint32_t z = 1; z < Length; ++z)
     {
@@ -151,7 +151,7 @@ TEST(TriangleSurfaceSheets, FlatPagesStayFlatAndMeetAtTheirCurve)
   {
     Sheets sheets;
     const auto book = MakeBook(pages, turns, sheets);
-    const auto report = SimplifySurface(*book, sheets, ErrorUpTo(0.05));
+    const auto report = SimplifyTriangleSurface(*book, sheets, ErrorUpTo(0.05));
     EXPECT_LT(report.trianglesAfter, report.trianglesBefore / 2);
     ASSERT_EQ(sheets.size(), book->GetNumberOfTriangles());
     std::map<std::array<std::uint32_t, 2>, std::set<std::uint32_t>> sheetsOfEdges;
@@ -220,8 +220,8 @@ TEST(TriangleSurfaceSheets, RingsKeepThreeEdges)
   {
     Sheets sheets;
     const auto ring = MakeRing(edges, sheets);
-    SimplifySurface(*ring, sheets, ErrorUpTo(10.0));
-    const auto topology = itk::ComputeTopology(*ring);
+    SimplifyTriangleSurface(*ring, sheets, ErrorUpTo(10.0));
+    const auto topology = itk::ComputeTriangleSurfaceTopology(*ring);
     EXPECT_GE(topology.nonManifoldEdges, 3u) << edges;
     EXPECT_LE(topology.nonManifoldEdges, std::max(3u, edges / 2)) << edges;
     EXPECT_EQ(topology.eulerCharacteristic, 3) << "a ring with three discs";
@@ -236,11 +236,11 @@ TEST(TriangleSurfaceSheets, PointsWhereSheetsTouchStay)
   std::uint32_t common = 0;
   const auto spheres = MakeTouchingSpheres(sheets, common);
   const auto point = spheres->GetPoints()[common];
-  ASSERT_EQ(itk::ComputeTopology(*spheres).nonManifoldPoints, 1u);
-  EXPECT_EQ(SmoothSurface(*spheres, MovesUpTo(0.05)).pointsOnBorder, 1u);
+  ASSERT_EQ(itk::ComputeTriangleSurfaceTopology(*spheres).nonManifoldPoints, 1u);
+  EXPECT_EQ(SmoothTriangleSurface(*spheres, MovesUpTo(0.05)).pointsOnBorder, 1u);
   EXPECT_EQ(spheres->GetPoints()[common], point);
-  SimplifySurface(*spheres, sheets, ErrorUpTo(0.1));
-  EXPECT_EQ(itk::ComputeTopology(*spheres).nonManifoldPoints, 1u);
+  SimplifyTriangleSurface(*spheres, sheets, ErrorUpTo(0.1));
+  EXPECT_EQ(itk::ComputeTriangleSurfaceTopology(*spheres).nonManifoldPoints, 1u);
   EXPECT_EQ(std::count(spheres->GetPoints().begin(), spheres->GetPoints().end(), point), 1);
 }
 
@@ -249,9 +249,9 @@ TEST(TriangleSurfaceSheets, RefusesSheetsThatPartWithinAManifold)
   const auto sphere = itk::example::MakeSphere(1.0, 3);
   Sheets sheets(sphere->GetNumberOfTriangles(), 0);
   sheets[7] = 1;
-  EXPECT_THROW(SimplifySurface(*sphere, sheets, ErrorUpTo(0.1)), itk::ExceptionObject);
+  EXPECT_THROW(SimplifyTriangleSurface(*sphere, sheets, ErrorUpTo(0.1)), itk::ExceptionObject);
   sheets.pop_back();
-  EXPECT_THROW(SimplifySurface(*sphere, sheets, ErrorUpTo(0.1)), itk::ExceptionObject);
+  EXPECT_THROW(SimplifyTriangleSurface(*sphere, sheets, ErrorUpTo(0.1)), itk::ExceptionObject);
 }
 
 } // namespace

@@ -101,8 +101,8 @@ BorderOf(const Surface & surface)
 void
 ExpectSameTopology(const Surface & before, const Surface & after)
 {
-  const auto expected = ComputeTopology(before);
-  const auto topology = ComputeTopology(after);
+  const auto expected = ComputeTriangleSurfaceTopology(before);
+  const auto topology = ComputeTriangleSurfaceTopology(after);
   EXPECT_EQ(topology.components, expected.components) << topology;
   EXPECT_EQ(topology.eulerCharacteristic, expected.eulerCharacteristic) << topology;
   EXPECT_EQ(topology.boundaryEdges, expected.boundaryEdges) << topology;
@@ -115,7 +115,7 @@ ExpectSameTopology(const Surface & before, const Surface & after)
 itk::SizeValueType
 CountContacts(const Surface & surface)
 {
-  const auto intersections = FindSelfIntersections(itk::TriangleTree(surface));
+  const auto intersections = FindTriangleSurfaceSelfIntersections(itk::TriangleTree(surface));
   return intersections.crossingPairs + intersections.touchingPairs;
 }
 
@@ -123,17 +123,19 @@ TEST(TriangleSurfaceSimplification, SphereReachesItsTarget)
 {
   const auto before = MakeSphere(20.0, 6); // 32768 triangles
   const auto surface = Copy(*before);
-  const auto report = SimplifySurface(*surface, Settings{ 3276 });
+  const auto report = SimplifyTriangleSurface(*surface, Settings{ 3276 });
   EXPECT_EQ(report.end, SimplificationEnd::Target);
   EXPECT_EQ(report.trianglesBefore, 32768u);
   EXPECT_EQ(report.trianglesAfter, surface->GetNumberOfTriangles());
   EXPECT_LE(report.trianglesAfter, 3276u);
   EXPECT_GE(report.trianglesAfter, 3100u);
   ExpectSameTopology(*before, *surface);
-  EXPECT_TRUE(ComputeTopology(*surface).IsWatertight());
+  EXPECT_TRUE(ComputeTriangleSurfaceTopology(*surface).IsWatertight());
   EXPECT_EQ(CountContacts(*surface), 0u);
-  EXPECT_NEAR(ComputeVolume(*surface), ComputeVolume(*before), 0.005 * ComputeVolume(*before));
-  const auto distances = ComputeTwoDistances(*before, *surface);
+  EXPECT_NEAR(ComputeTriangleSurfaceVolume(*surface),
+              ComputeTriangleSurfaceVolume(*before),
+              0.005 * ComputeTriangleSurfaceVolume(*before));
+  const auto distances = ComputeTriangleSurfaceDistances(*before, *surface);
   EXPECT_LT(distances.fromFirst.mean, 0.015);
   EXPECT_LT(distances.GetMaximum(), 0.06);
 }
@@ -145,7 +147,7 @@ TEST(TriangleSurfaceSimplification, NormalsAreThoseOfTheirPlaces)
   {
     surface->GetNormals().push_back({ point[0] / 20.0f, point[1] / 20.0f, point[2] / 20.0f });
   }
-  SimplifySurface(*surface, Settings{ 800 });
+  SimplifyTriangleSurface(*surface, Settings{ 800 });
   ASSERT_TRUE(surface->HasNormals());
   EXPECT_LT(surface->GetNumberOfPoints(), 410u);
   for (std::size_t point = 0; point < surface->GetNumberOfPoints(); ++point)
@@ -167,7 +169,7 @@ TEST(TriangleSurfaceSimplification, MaximumErrorHoldsBothWaysBetweenThePointsToo
     for (const double maximumError : { 0.1, 0.6, 2.5 })
     {
       const auto surface = Copy(*before);
-      const auto report = SimplifySurface(*surface, Settings{ 0, maximumError });
+      const auto report = SimplifyTriangleSurface(*surface, Settings{ 0, maximumError });
       SCOPED_TRACE(maximumError);
       EXPECT_TRUE(report.end == SimplificationEnd::MaximumError || maximumError > 2.0) << report.end;
       EXPECT_LE(bruteforce::FurthestDistance(*before, *surface, 8), maximumError * 1.000001);
@@ -188,7 +190,7 @@ TEST(TriangleSurfaceSimplification, LargerErrorsLeaveFewerTriangles)
   for (const double maximumError : { 0.02, 0.05, 0.2, 1.0 })
   {
     const auto surface = MakeSphere(20.0, 5);
-    const auto report = SimplifySurface(*surface, Settings{ 0, maximumError });
+    const auto report = SimplifyTriangleSurface(*surface, Settings{ 0, maximumError });
     EXPECT_LT(report.trianglesAfter, last) << maximumError;
     last = report.trianglesAfter;
   }
@@ -198,13 +200,13 @@ TEST(TriangleSurfaceSimplification, LargerErrorsLeaveFewerTriangles)
 TEST(TriangleSurfaceSimplification, TargetAndErrorTogetherStopAtTheFirstOfThem)
 {
   auto surface = MakeSphere(20.0, 5);
-  EXPECT_EQ(SimplifySurface(*surface, Settings{ 4000, 1.0 }).end, SimplificationEnd::Target);
+  EXPECT_EQ(SimplifyTriangleSurface(*surface, Settings{ 4000, 1.0 }).end, SimplificationEnd::Target);
   EXPECT_GT(surface->GetNumberOfTriangles(), 3800u);
   surface = MakeSphere(20.0, 5);
-  const auto report = SimplifySurface(*surface, Settings{ 100, 0.05 });
+  const auto report = SimplifyTriangleSurface(*surface, Settings{ 100, 0.05 });
   EXPECT_EQ(report.end, SimplificationEnd::MaximumError);
   EXPECT_GT(report.trianglesAfter, 100u);
-  EXPECT_LE(ComputeTwoDistances(*MakeSphere(20.0, 5), *surface).GetMaximum(), 0.05);
+  EXPECT_LE(ComputeTriangleSurfaceDistances(*MakeSphere(20.0, 5), *surface).GetMaximum(), 0.05);
 }
 
 TEST(TriangleSurfaceSimplification, TorusKeepsItsHoleAndTetrahedraStay)
@@ -215,10 +217,10 @@ TEST(TriangleSurfaceSimplification, TorusKeepsItsHoleAndTetrahedraStay)
     Append(*before, *MakeTetrahedron(0.5f), { 20.0f + n, 0.0f, 0.0f });
   }
   const auto surface = Copy(*before);
-  const auto report = SimplifySurface(*surface, Settings{ 4 });
+  const auto report = SimplifyTriangleSurface(*surface, Settings{ 4 });
   EXPECT_EQ(report.end, SimplificationEnd::Topology);
   ExpectSameTopology(*before, *surface);
-  EXPECT_TRUE(ComputeTopology(*surface).IsWatertight());
+  EXPECT_TRUE(ComputeTriangleSurfaceTopology(*surface).IsWatertight());
   EXPECT_GE(report.trianglesAfter, 50u * 4u + 14u) << "a torus has 14 triangles at least";
   EXPECT_LE(report.trianglesAfter, 50u * 4u + 80u);
 }
@@ -227,12 +229,12 @@ TEST(TriangleSurfaceSimplification, OpenSurfacesKeepTheirBorder)
 {
   const auto before = MakeSheet(60); // several patches
   const auto surface = Copy(*before);
-  SimplifySurface(*surface, Settings{ 0, 0.2 });
+  SimplifyTriangleSurface(*surface, Settings{ 0, 0.2 });
   ExpectSameTopology(*before, *surface);
   EXPECT_EQ(BorderOf(*surface), BorderOf(*before));
   EXPECT_EQ(BorderOf(*surface).size(), 240u);
   EXPECT_LT(surface->GetNumberOfTriangles(), 1500u);
-  EXPECT_NEAR(ComputeArea(*surface), 3600.0, 1e-3);
+  EXPECT_NEAR(ComputeTriangleSurfaceArea(*surface), 3600.0, 1e-3);
 }
 
 TEST(TriangleSurfaceSimplification, SheetsCloseToEachOtherNeverMeet)
@@ -244,7 +246,7 @@ TEST(TriangleSurfaceSimplification, SheetsCloseToEachOtherNeverMeet)
   for (const itk::SizeValueType target : { 2000u, 400u })
   {
     const auto surface = Copy(*before);
-    SimplifySurface(*surface, Settings{ target });
+    SimplifyTriangleSurface(*surface, Settings{ target });
     ExpectSameTopology(*before, *surface);
     EXPECT_EQ(CountContacts(*surface), 0u) << target;
   }
@@ -257,7 +259,7 @@ TEST(TriangleSurfaceSimplification, RoughSurfacesGetNoIntersections)
     const auto before = MakeRoughSphere(20.0, 5, 0.08, seed);
     ASSERT_EQ(CountContacts(*before), 0u);
     const auto surface = Copy(*before);
-    const auto report = SimplifySurface(*surface, Settings{ 819 });
+    const auto report = SimplifyTriangleSurface(*surface, Settings{ 819 });
     EXPECT_EQ(report.end, SimplificationEnd::Target);
     ExpectSameTopology(*before, *surface);
     EXPECT_EQ(CountContacts(*surface), 0u);
@@ -271,7 +273,7 @@ TEST(TriangleSurfaceSimplification, SurfacesThatIntersectThemselvesMay)
   const auto contacts = CountContacts(*before);
   ASSERT_GT(contacts, 0u);
   const auto surface = Copy(*before);
-  SimplifySurface(*surface, Settings{ 500 });
+  SimplifyTriangleSurface(*surface, Settings{ 500 });
   ExpectSameTopology(*before, *surface);
   EXPECT_LE(CountContacts(*surface), contacts);
 }
@@ -286,7 +288,7 @@ TEST(TriangleSurfaceSimplification, IsTheSameForAnyNumberOfThreads)
     itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
     auto & result = results[threads == 1 ? 0 : 1];
     result = Copy(*before);
-    SimplifySurface(*result, Settings{ 4000, 0.8 });
+    SimplifyTriangleSurface(*result, Settings{ 4000, 0.8 });
   }
   itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(usual);
   EXPECT_EQ(results[0]->GetPoints(), results[1]->GetPoints());
@@ -310,7 +312,7 @@ TEST(TriangleSurfaceSimplification, DetailIsLookedAtClosely)
   for (const double maximumError : { 0.01, 0.03, 0.2 })
   {
     const auto surface = Copy(*before);
-    SimplifySurface(*surface, Settings{ 0, maximumError });
+    SimplifyTriangleSurface(*surface, Settings{ 0, maximumError });
     EXPECT_LE(bruteforce::FurthestDistance(*before, *surface, 4), 1.1 * maximumError);
     EXPECT_LE(bruteforce::FurthestDistance(*surface, *before, 8), 1.1 * maximumError);
     ExpectSameTopology(*before, *surface);
@@ -324,9 +326,9 @@ TEST(TriangleSurfaceSimplification, PointsOfNoTriangleDoNotMatter)
   {
     const auto surface = MakeSphere(20.0, 4);
     const auto expected = Copy(*surface);
-    SimplifySurface(*expected, Settings{ 0, 0.2 });
+    SimplifyTriangleSurface(*expected, Settings{ 0, 0.2 });
     surface->GetPoints().push_back({ odd, 0.0f, 0.0f });
-    SimplifySurface(*surface, Settings{ 0, 0.2 });
+    SimplifyTriangleSurface(*surface, Settings{ 0, 0.2 });
     EXPECT_EQ(surface->GetTriangles(), expected->GetTriangles()) << odd;
     EXPECT_EQ(surface->GetPoints(), expected->GetPoints()) << odd;
   }
@@ -335,40 +337,40 @@ TEST(TriangleSurfaceSimplification, PointsOfNoTriangleDoNotMatter)
 TEST(TriangleSurfaceSimplification, SaysWhatEndedIt)
 {
   auto surface = MakeSphere(20.0, 4);
-  EXPECT_EQ(SimplifySurface(*surface, Settings{ 0, 1e30 }).end, SimplificationEnd::Topology);
+  EXPECT_EQ(SimplifyTriangleSurface(*surface, Settings{ 0, 1e30 }).end, SimplificationEnd::Topology);
   EXPECT_EQ(surface->GetNumberOfTriangles(), 4u);
   surface = MakeSphere(20.0, 4);
-  EXPECT_EQ(SimplifySurface(*surface, Settings{ 0, 0.1 }).end, SimplificationEnd::MaximumError);
+  EXPECT_EQ(SimplifyTriangleSurface(*surface, Settings{ 0, 0.1 }).end, SimplificationEnd::MaximumError);
 }
 
 TEST(TriangleSurfaceSimplification, WhatIsSimpleEnoughStaysAsItIs)
 {
   const auto surface = MakeSphere(20.0, 3);
   const auto before = Copy(*surface);
-  const auto report = SimplifySurface(*surface, Settings{ 5000 });
+  const auto report = SimplifyTriangleSurface(*surface, Settings{ 5000 });
   EXPECT_EQ(report.end, SimplificationEnd::Target);
 
   EXPECT_EQ(surface->GetTriangles(), before->GetTriangles());
-  EXPECT_EQ(SimplifySurface(*Surface::New(), Settings{ 0, 1.0 }).trianglesAfter, 0u);
-  EXPECT_THROW(SimplifySurface(*Surface::New(), Settings{}), itk::ExceptionObject);
+  EXPECT_EQ(SimplifyTriangleSurface(*Surface::New(), Settings{ 0, 1.0 }).trianglesAfter, 0u);
+  EXPECT_THROW(SimplifyTriangleSurface(*Surface::New(), Settings{}), itk::ExceptionObject);
 }
 
 TEST(TriangleSurfaceSimplification, RefusesUnsoundSurfacesAndSenselessSettings)
 {
   const auto sphere = MakeSphere(20.0, 2);
-  EXPECT_THROW(SimplifySurface(*sphere, Settings{}), itk::ExceptionObject) << "neither target nor error";
-  EXPECT_THROW(SimplifySurface(*sphere, Settings{ 10, 0.0 }), itk::ExceptionObject);
-  EXPECT_THROW(SimplifySurface(*sphere, Settings{ 10, std::nan("") }), itk::ExceptionObject);
+  EXPECT_THROW(SimplifyTriangleSurface(*sphere, Settings{}), itk::ExceptionObject) << "neither target nor error";
+  EXPECT_THROW(SimplifyTriangleSurface(*sphere, Settings{ 10, 0.0 }), itk::ExceptionObject);
+  EXPECT_THROW(SimplifyTriangleSurface(*sphere, Settings{ 10, std::nan("") }), itk::ExceptionObject);
   const auto triangles = sphere->GetTriangles();
 
   sphere->GetTriangles().push_back({ triangles[0][0], triangles[0][1], triangles[77][2] });
-  EXPECT_THROW(SimplifySurface(*sphere, Settings{ 10 }), itk::ExceptionObject) << "an edge of three triangles";
+  EXPECT_THROW(SimplifyTriangleSurface(*sphere, Settings{ 10 }), itk::ExceptionObject) << "an edge of three triangles";
   sphere->GetTriangles() = triangles;
   std::swap(sphere->GetTriangles()[5][0], sphere->GetTriangles()[5][1]);
-  EXPECT_THROW(SimplifySurface(*sphere, Settings{ 10 }), itk::ExceptionObject) << "a triangle turned round";
+  EXPECT_THROW(SimplifyTriangleSurface(*sphere, Settings{ 10 }), itk::ExceptionObject) << "a triangle turned round";
   sphere->GetTriangles() = triangles;
   sphere->GetPoints()[triangles[0][0]] = sphere->GetPoints()[triangles[0][1]];
-  EXPECT_THROW(SimplifySurface(*sphere, Settings{ 10 }), itk::ExceptionObject) << "a degenerate triangle";
+  EXPECT_THROW(SimplifyTriangleSurface(*sphere, Settings{ 10 }), itk::ExceptionObject) << "a degenerate triangle";
 }
 
 } // namespace

@@ -61,11 +61,11 @@ TEST(TriangleSurfaceSmoothing, NoiseGoesAndTheVolumeStays)
   {
     const auto surface = MakeNoisySphere(20.0, 0.1, seed);
     const double noise = RootMeanSquareFromSphere(*surface, 20.0);
-    const double volume = ComputeVolume(*surface);
+    const double volume = ComputeTriangleSurfaceVolume(*surface);
     const auto triangles = surface->GetTriangles();
-    const auto report = SmoothSurface(*surface, Within(0.5));
+    const auto report = SmoothTriangleSurface(*surface, Within(0.5));
     EXPECT_LT(RootMeanSquareFromSphere(*surface, 20.0), 0.5 * noise);
-    EXPECT_NEAR(ComputeVolume(*surface), volume, 0.004 * volume);
+    EXPECT_NEAR(ComputeTriangleSurfaceVolume(*surface), volume, 0.004 * volume);
     EXPECT_EQ(surface->GetTriangles(), triangles);
     EXPECT_GT(report.meanMove, 0.5 * noise);
     EXPECT_EQ(report.pointsOnBorder, 0u);
@@ -80,7 +80,7 @@ TEST(TriangleSurfaceSmoothing, NoPointMovesFurtherThanAllowed)
   {
     const auto surface = Surface::New();
     surface->Graft(before);
-    const auto report = SmoothSurface(*surface, Within(maximumMove));
+    const auto report = SmoothTriangleSurface(*surface, Within(maximumMove));
     double furthest = 0.0;
     for (std::size_t point = 0; point < surface->GetNumberOfPoints(); ++point)
     {
@@ -99,10 +99,10 @@ TEST(TriangleSurfaceSmoothing, NoPointMovesFurtherThanAllowed)
 TEST(TriangleSurfaceSmoothing, SurfacesStaySound)
 {
   const auto surface = MakeNoisySphere(20.0, 0.3, 5);
-  ASSERT_TRUE(ComputeTopology(*surface).IsWatertight());
-  SmoothSurface(*surface, Within(1.0));
-  EXPECT_TRUE(ComputeTopology(*surface).IsWatertight());
-  EXPECT_EQ(FindSelfIntersections(itk::TriangleTree(*surface)).crossingPairs, 0u);
+  ASSERT_TRUE(ComputeTriangleSurfaceTopology(*surface).IsWatertight());
+  SmoothTriangleSurface(*surface, Within(1.0));
+  EXPECT_TRUE(ComputeTriangleSurfaceTopology(*surface).IsWatertight());
+  EXPECT_EQ(FindTriangleSurfaceSelfIntersections(itk::TriangleTree(*surface)).crossingPairs, 0u);
 }
 
 TEST(TriangleSurfaceSmoothing, OpenBordersStay)
@@ -110,19 +110,19 @@ TEST(TriangleSurfaceSmoothing, OpenBordersStay)
   const auto surface = MakeNoisySphere(20.0, 0.1, 6);
   surface->GetTriangles().resize(surface->GetNumberOfTriangles() / 2);
   surface->RemoveUnusedPoints();
-  const auto topology = ComputeTopology(*surface);
+  const auto topology = ComputeTriangleSurfaceTopology(*surface);
   ASSERT_GT(topology.boundaryEdges, 0u);
-  const auto report = SmoothSurface(*surface, Within(0.5));
+  const auto report = SmoothTriangleSurface(*surface, Within(0.5));
   EXPECT_GT(report.pointsOnBorder, 0u);
   EXPECT_LE(report.pointsOnBorder, topology.boundaryEdges);
-  EXPECT_EQ(ComputeTopology(*surface).boundaryEdges, topology.boundaryEdges);
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*surface).boundaryEdges, topology.boundaryEdges);
 }
 
 TEST(TriangleSurfaceSmoothing, NormalsAreNew)
 {
   const auto surface = MakeNoisySphere(20.0, 0.05, 7);
   surface->GetNormals().assign(surface->GetNumberOfPoints(), { 0.0f, 0.0f, 1.0f });
-  SmoothSurface(*surface, Within(0.5));
+  SmoothTriangleSurface(*surface, Within(0.5));
   for (std::size_t point = 0; point < surface->GetNumberOfPoints(); ++point)
   {
     const auto & position = surface->GetPoints()[point];
@@ -140,7 +140,7 @@ TEST(TriangleSurfaceSmoothing, IsTheSameForAnyNumberOfThreads)
     itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
     auto & result = results[threads == 1 ? 0 : 1];
     result = MakeNoisySphere(20.0, 0.2, 8);
-    SmoothSurface(*result, Within(0.2));
+    SmoothTriangleSurface(*result, Within(0.2));
   }
   itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(usual);
   EXPECT_EQ(results[0]->GetPoints(), results[1]->GetPoints());
@@ -149,10 +149,10 @@ TEST(TriangleSurfaceSmoothing, IsTheSameForAnyNumberOfThreads)
 TEST(TriangleSurfaceSmoothing, RefusesSenselessMoves)
 {
   const auto surface = MakeSphere(20.0, 2);
-  EXPECT_THROW(SmoothSurface(*surface, Within(-0.1)), itk::ExceptionObject);
-  EXPECT_THROW(SmoothSurface(*surface, Within(std::nan(""))), itk::ExceptionObject);
-  EXPECT_THROW(SmoothSurface(*surface, Within(std::numeric_limits<double>::infinity())), itk::ExceptionObject);
-  EXPECT_EQ(SmoothSurface(*Surface::New(), Within(0.1)).meanMove, 0.0) << "an empty surface";
+  EXPECT_THROW(SmoothTriangleSurface(*surface, Within(-0.1)), itk::ExceptionObject);
+  EXPECT_THROW(SmoothTriangleSurface(*surface, Within(std::nan(""))), itk::ExceptionObject);
+  EXPECT_THROW(SmoothTriangleSurface(*surface, Within(std::numeric_limits<double>::infinity())), itk::ExceptionObject);
+  EXPECT_EQ(SmoothTriangleSurface(*Surface::New(), Within(0.1)).meanMove, 0.0) << "an empty surface";
 }
 
 } // namespace

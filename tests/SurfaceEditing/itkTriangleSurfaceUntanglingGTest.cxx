@@ -17,7 +17,7 @@ namespace
 
 using namespace itk::example;
 using itk::TriangleSurface;
-using itk::UntangleSurface;
+using itk::UntangleTriangleSurface;
 
 /** A sphere with some of its points moved sideways by up to \a move, which folds the triangles there. */
 TriangleSurface::Pointer
@@ -40,7 +40,7 @@ MakeTangledSphere(double radius, double move, int count, unsigned int seed)
 itk::SizeValueType
 CrossingsOf(const TriangleSurface & surface)
 {
-  return FindSelfIntersections(itk::TriangleTree(surface)).crossingPairs;
+  return FindTriangleSurfaceSelfIntersections(itk::TriangleTree(surface)).crossingPairs;
 }
 
 TEST(TriangleSurfaceUntangling, LeavesNoCrossings)
@@ -49,17 +49,17 @@ TEST(TriangleSurfaceUntangling, LeavesNoCrossings)
   {
     const auto surface = MakeTangledSphere(20.0, 2.0, 60, seed);
     const auto before = surface->GetPoints();
-    const double volume = ComputeVolume(*surface);
+    const double volume = ComputeTriangleSurfaceVolume(*surface);
     ASSERT_GT(CrossingsOf(*surface), 0u) << "the test's own surface";
-    const auto report = UntangleSurface(*surface, 1.5);
+    const auto report = UntangleTriangleSurface(*surface, 1.5);
     EXPECT_GT(report.crossingBefore, 0u);
     EXPECT_EQ(report.crossingAfter, 0u) << "seed " << seed;
     EXPECT_EQ(CrossingsOf(*surface), 0u);
-    const auto topology = itk::ComputeTopology(*surface);
+    const auto topology = itk::ComputeTriangleSurfaceTopology(*surface);
     EXPECT_TRUE(topology.IsWatertight()) << topology;
     EXPECT_LE(report.largestMove, 1.5);
     EXPECT_LT(report.pointsMoved, 1000u) << "of " << before.size();
-    EXPECT_NEAR(ComputeVolume(*surface) / volume, 1.0, 0.002);
+    EXPECT_NEAR(ComputeTriangleSurfaceVolume(*surface) / volume, 1.0, 0.002);
     itk::SizeValueType moved = 0;
     for (std::size_t n = 0; n < before.size(); ++n)
     {
@@ -73,7 +73,7 @@ TEST(TriangleSurfaceUntangling, LeavesCleanSurfacesAlone)
 {
   const auto surface = MakeTorus(10.0, 3.0, 60);
   const auto before = surface->GetPoints();
-  const auto report = UntangleSurface(*surface, 1.0);
+  const auto report = UntangleTriangleSurface(*surface, 1.0);
   EXPECT_EQ(report.crossingBefore, 0u);
   EXPECT_EQ(report.pointsMoved, 0u);
   EXPECT_TRUE(before == surface->GetPoints());
@@ -85,12 +85,12 @@ TEST(TriangleSurfaceUntangling, DoesNotMakeThingsWorseWhereItCannotHelp)
   const auto surface = MakeSphere(10.0, 3);
   Append(*surface, *MakeSphere(10.0, 3), { 7.0f, 0.5f, 0.25f });
   const auto before = CrossingsOf(*surface);
-  const auto report = UntangleSurface(*surface, 0.5);
+  const auto report = UntangleTriangleSurface(*surface, 0.5);
   EXPECT_GT(report.crossingAfter, 0u);
   EXPECT_LE(report.crossingAfter, report.crossingBefore);
   EXPECT_LE(CrossingsOf(*surface), 2 * before);
   EXPECT_LE(report.largestMove, 0.5);
-  EXPECT_TRUE(itk::ComputeTopology(*surface).IsWatertight());
+  EXPECT_TRUE(itk::ComputeTriangleSurfaceTopology(*surface).IsWatertight());
 }
 
 TEST(TriangleSurfaceUntangling, IsTheSameForAnyNumberOfThreads)
@@ -101,7 +101,7 @@ TEST(TriangleSurfaceUntangling, IsTheSameForAnyNumberOfThreads)
   {
     itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(1 + 4 * n);
     const auto surface = MakeTangledSphere(20.0, 2.0, 60, 3);
-    UntangleSurface(*surface, 1.5);
+    UntangleTriangleSurface(*surface, 1.5);
     points[n] = surface->GetPoints();
   }
   itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
@@ -111,7 +111,7 @@ TEST(TriangleSurfaceUntangling, IsTheSameForAnyNumberOfThreads)
 TEST(TriangleSurfaceUntangling, NeedsRoomToMove)
 {
   const auto surface = MakeTetrahedron();
-  EXPECT_THROW(UntangleSurface(*surface, 0.0), itk::ExceptionObject);
+  EXPECT_THROW(UntangleTriangleSurface(*surface, 0.0), itk::ExceptionObject);
 }
 
 } // namespace

@@ -65,11 +65,11 @@ TEST(TriangleSurfaceVertexOrder, IsBetterAfterwardsAndTheTrianglesAreTheSame)
   EXPECT_GT(TransformsPerTriangle(*surface), 2.5);
   EXPECT_GT(Overfetch(*surface), 5.0);
 
-  OptimizeForRendering(*surface);
+  OptimizeTriangleSurfaceForRendering(*surface);
 
   EXPECT_EQ(SortedTriangles(*surface), triangles);
   EXPECT_EQ(surface->GetNormals(), Surface::NormalsContainer(surface->GetPoints()));
-  EXPECT_EQ(ComputeTopology(*surface).unusedPoints, 0u);
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*surface).unusedPoints, 0u);
   EXPECT_LT(TransformsPerTriangle(*surface), 0.75);
   EXPECT_LT(Overfetch(*surface), 1.2);
   for (std::uint32_t point = 0, id = 0; id < surface->GetTriangles().size(); ++id)
@@ -86,7 +86,7 @@ TEST(TriangleSurfaceVertexOrder, OfNothingIsNothing)
 {
   const auto surface = Surface::New();
   surface->GetPoints().push_back({ 1, 2, 3 });
-  OptimizeForRendering(*surface);
+  OptimizeTriangleSurfaceForRendering(*surface);
   EXPECT_EQ(surface->GetNumberOfPoints(), 0u);
 }
 

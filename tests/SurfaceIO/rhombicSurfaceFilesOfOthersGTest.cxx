@@ -63,8 +63,10 @@ ExpectSphere(const std::vector<SceneSurface> & read, double tolerance)
   ASSERT_EQ(read.size(), 1u);
   const auto sphere = MakeSphere(3);
   EXPECT_EQ(read[0].surface->GetNumberOfPoints(), sphere->GetNumberOfPoints());
-  EXPECT_TRUE(ComputeTopology(*read[0].surface).IsWatertight());
-  EXPECT_NEAR(ComputeVolume(*read[0].surface), ComputeVolume(*sphere), tolerance * ComputeVolume(*sphere));
+  EXPECT_TRUE(ComputeTriangleSurfaceTopology(*read[0].surface).IsWatertight());
+  EXPECT_NEAR(ComputeTriangleSurfaceVolume(*read[0].surface),
+              ComputeTriangleSurfaceVolume(*sphere),
+              tolerance * ComputeTriangleSurfaceVolume(*sphere));
 }
 
 TEST_F(SurfaceFilesOfOthers, VTKsWriters)
@@ -128,7 +130,7 @@ TEST_F(SurfaceFilesOfOthers, TextSTLWithTwoSolids)
   EXPECT_EQ(read[1].name, "two");
   EXPECT_EQ(read[0].surface->GetNumberOfPoints(), 4u);
   EXPECT_EQ(read[0].surface->GetNumberOfTriangles(), 2u);
-  EXPECT_DOUBLE_EQ(ComputeArea(*read[1].surface), 1.0);
+  EXPECT_DOUBLE_EQ(ComputeTriangleSurfaceArea(*read[1].surface), 1.0);
 
   const auto turned = this->Read("ras.stl", "solid ascii SPACE=RAS\n" + square + "endsolid\n");
   EXPECT_EQ(turned[0].surface->GetBounds(), (std::array<double, 6>{ -1, 0, -1, 0, 0, 0 }));

@@ -133,11 +133,13 @@ TEST_F(SurfaceIO, STLIsWeldedByPosition)
   WriteSurfaces({ { "sphere", sphere } }, m_Folder / "sphere.STL");
   const auto read = ReadSurfaces(m_Folder / "sphere.STL");
   EXPECT_EQ(read[0].surface->GetNumberOfPoints(), sphere->GetNumberOfPoints());
-  const auto topology = ComputeTopology(*read[0].surface);
+  const auto topology = ComputeTriangleSurfaceTopology(*read[0].surface);
   EXPECT_TRUE(topology.IsWatertight()) << topology;
   EXPECT_EQ(topology.eulerCharacteristic, 2);
   EXPECT_EQ(read[0].surface->GetBounds(), sphere->GetBounds());
-  EXPECT_NEAR(ComputeVolume(*read[0].surface), ComputeVolume(*sphere), 1e-9 * ComputeVolume(*sphere));
+  EXPECT_NEAR(ComputeTriangleSurfaceVolume(*read[0].surface),
+              ComputeTriangleSurfaceVolume(*sphere),
+              1e-9 * ComputeTriangleSurfaceVolume(*sphere));
 }
 
 TEST_F(SurfaceIO, STLTakesZeroAndMinusZeroForOne)

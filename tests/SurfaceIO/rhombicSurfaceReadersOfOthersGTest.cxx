@@ -87,7 +87,8 @@ ExpectSameMeasures(vtkPolyData & polyData,
   vtkNew<vtkMassProperties> measures;
   measures->SetInputConnection(triangles->GetOutputPort());
   measures->Update();
-  const double area = SumOver(scene, itk::ComputeArea), volume = SumOver(scene, itk::ComputeVolume);
+  const double area = SumOver(scene, itk::ComputeTriangleSurfaceArea),
+               volume = SumOver(scene, itk::ComputeTriangleSurfaceVolume);
   EXPECT_NEAR(measures->GetSurfaceArea() * unit * unit, area, 1e-5 * area);
   EXPECT_NEAR(measures->GetVolume() * unit * unit * unit, volume, 1e-4 * volume);
   for (int side = 0; side < 6; ++side)

@@ -82,8 +82,9 @@ FindVolumes(const rhombic::Scan & scan, const SurfaceRequest & request, Mode mod
   const auto lattice = rhombic::ScanToLattice(scan, settings, {});
   const auto & grid = rhombic::GeometryOf(scan.image);
   const auto surface = rhombic::LatticeToSurfaces(lattice, { request }, mode, {}, &grid).front().surface;
-  return { ComputeVolume(*surface),
-           rhombic::EstimateIsosurfaceVolume(lattice, request.GetThreshold(), ComputeArea(*surface), &grid) };
+  return { ComputeTriangleSurfaceVolume(*surface),
+           rhombic::EstimateIsosurfaceVolume(
+             lattice, request.GetThreshold(), ComputeTriangleSurfaceArea(*surface), &grid) };
 }
 
 TEST(IsosurfaceVolume, IsThatOfABallWithinItsUncertainty)

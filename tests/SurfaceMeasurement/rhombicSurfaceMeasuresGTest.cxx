@@ -154,9 +154,10 @@ TEST(SurfaceWalls, AreOnTheScansBorder)
     for (const Mode mode : AllModes)
     {
       const auto closed = ExtractFrom(scan, 0.0, mode);
-      EXPECT_TRUE(ComputeTopology(*closed.surface).IsWatertight()) << mode;
+      EXPECT_TRUE(ComputeTriangleSurfaceTopology(*closed.surface).IsWatertight()) << mode;
       const double volume = itk::Math::pi * 64.0 * 1.1 * static_cast<double>(slices);
-      EXPECT_NEAR(ComputeVolume(*closed.surface) / volume, 1.0, 0.008) << mode << ", " << slices << " slices";
+      EXPECT_NEAR(ComputeTriangleSurfaceVolume(*closed.surface) / volume, 1.0, 0.008)
+        << mode << ", " << slices << " slices";
     }
   }
 }
@@ -171,7 +172,7 @@ TEST(SurfaceWalls, KeepNoiseWatertight)
       MakeScan([&](const PointType &) { return noise(random); }, { { 11u + static_cast<unsigned int>(trial), 14, 9 } });
     for (const Mode mode : AllModes)
     {
-      const auto topology = ComputeTopology(*ExtractFrom(scan, 0.1, mode).surface);
+      const auto topology = ComputeTriangleSurfaceTopology(*ExtractFrom(scan, 0.1, mode).surface);
       EXPECT_TRUE(topology.IsWatertight()) << mode << ": " << topology;
     }
   }

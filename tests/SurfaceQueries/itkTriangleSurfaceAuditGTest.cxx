@@ -22,7 +22,7 @@ using Contact = itk::TriangleContact;
 itk::TriangleSurfaceIntersections
 Intersect(const Surface & surface)
 {
-  return FindSelfIntersections(itk::TriangleTree(surface));
+  return FindTriangleSurfaceSelfIntersections(itk::TriangleTree(surface));
 }
 
 TEST(TriangleSurfaceQuality, IsOneForEquilateralAndZeroForDegenerateTriangles)
@@ -37,16 +37,16 @@ TEST(TriangleSurfaceQuality, IsOneForEquilateralAndZeroForDegenerateTriangles)
 TEST(TriangleSurfaceQuality, OfATetrahedronsFaces)
 {
   const auto surface = MakeTetrahedron();
-  auto quality = ComputeQuality(*surface);
+  auto quality = ComputeTriangleSurfaceQuality(*surface);
   EXPECT_NEAR(quality.mean, (1.0 + 3.0 * std::sqrt(3.0) / 2.0) / 4.0, 1e-7);
   EXPECT_NEAR(quality.minimum, std::sqrt(3.0) / 2.0, 1e-7);
   EXPECT_NEAR(quality.smallestAngle, 45.0, 1e-5);
   EXPECT_EQ(quality.poorFraction, 0.0);
   surface->GetPoints()[3] = { 0, 0, 0.01f };
-  quality = ComputeQuality(*surface);
+  quality = ComputeTriangleSurfaceQuality(*surface);
   EXPECT_EQ(quality.poorFraction, 0.5);
   EXPECT_NEAR(quality.smallestAngle, std::atan(0.01) * 180.0 / std::acos(-1.0), 1e-5);
-  EXPECT_EQ(ComputeQuality(*Surface::New()).mean, 0.0);
+  EXPECT_EQ(ComputeTriangleSurfaceQuality(*Surface::New()).mean, 0.0);
 }
 
 TEST(TriangleSurfaceIntersections, AreThoseOfAllPairs)
@@ -171,19 +171,19 @@ TEST(TriangleSurfaceIntersections, OfASampleSaySo)
   const auto surface = MakeSphere(5.0, 4);
   Append(*surface, *MakeSphere(5.0, 4), { 6, 0.1f, 0.2f });
   const auto all = Intersect(*surface);
-  const auto sampled = FindSelfIntersections(itk::TriangleTree(*surface), 1000);
+  const auto sampled = FindTriangleSurfaceSelfIntersections(itk::TriangleTree(*surface), 1000);
   EXPECT_TRUE(sampled.isSampled);
   EXPECT_LE(sampled.testedTriangles, 1000u);
   EXPECT_GE(sampled.testedTriangles, 500u);
   EXPECT_GT(sampled.crossingPairs, 0u);
   EXPECT_LT(sampled.crossingPairs, all.crossingPairs);
-  EXPECT_EQ(FindSelfIntersections(itk::TriangleTree(*surface), 4096).crossingPairs, all.crossingPairs);
+  EXPECT_EQ(FindTriangleSurfaceSelfIntersections(itk::TriangleTree(*surface), 4096).crossingPairs, all.crossingPairs);
 }
 
 TEST(TriangleSurfaceAudit, OfASphere)
 {
   const auto surface = MakeSphere(10.0, 5);
-  const auto audit = AuditSurface(*surface);
+  const auto audit = AuditTriangleSurface(*surface);
   EXPECT_TRUE(audit.IsWatertight());
   EXPECT_TRUE(audit.BoundsSolid());
   EXPECT_EQ(audit.points, 4098u);
@@ -194,10 +194,10 @@ TEST(TriangleSurfaceAudit, OfASphere)
   EXPECT_GT(audit.quality.minimum, 0.8);
   itk::TriangleSurfaceAuditSettings settings;
   settings.testsIntersections = false;
-  EXPECT_FALSE(AuditSurface(*surface, settings).BoundsSolid());
-  EXPECT_TRUE(AuditSurface(*surface, settings).IsWatertight());
+  EXPECT_FALSE(AuditTriangleSurface(*surface, settings).BoundsSolid());
+  EXPECT_TRUE(AuditTriangleSurface(*surface, settings).IsWatertight());
   TurnInsideOut(*surface);
-  EXPECT_FALSE(AuditSurface(*surface).IsWatertight()) << "no solid has a negative volume";
+  EXPECT_FALSE(AuditTriangleSurface(*surface).IsWatertight()) << "no solid has a negative volume";
 }
 
 TEST(TriangleSurfaceAudit, FindsShellsThatFaceTheWrongWay)
@@ -206,9 +206,9 @@ TEST(TriangleSurfaceAudit, FindsShellsThatFaceTheWrongWay)
   const auto cavity = MakeSphere(3.0, 3);
   TurnInsideOut(*cavity);
   Append(*surface, *cavity);
-  EXPECT_TRUE(AuditSurface(*surface).IsWatertight());
+  EXPECT_TRUE(AuditTriangleSurface(*surface).IsWatertight());
   Append(*surface, *cavity, { 20, 0, 0 });
-  const auto audit = AuditSurface(*surface);
+  const auto audit = AuditTriangleSurface(*surface);
   EXPECT_TRUE(audit.topology.IsWatertight());
   EXPECT_EQ(audit.shells.misfacing, 1u);
   EXPECT_FALSE(audit.IsWatertight());
@@ -216,27 +216,27 @@ TEST(TriangleSurfaceAudit, FindsShellsThatFaceTheWrongWay)
 
 TEST(TriangleSurfaceAudit, FindsWhatIsWrong)
 {
-  EXPECT_FALSE(AuditSurface(*Surface::New()).IsWatertight());
+  EXPECT_FALSE(AuditTriangleSurface(*Surface::New()).IsWatertight());
   const auto sheet = MakeTetrahedron();
   Append(*sheet, *MakeTetrahedron(), { 5, 5, 5 });
   sheet->GetTriangles().resize(5);
   sheet->GetTriangles().push_back({ 4, 5, 6 });
-  EXPECT_TRUE(AuditSurface(*sheet).topology.IsWatertight()) << "two sides of one triangle";
-  EXPECT_FALSE(AuditSurface(*sheet).IsWatertight());
+  EXPECT_TRUE(AuditTriangleSurface(*sheet).topology.IsWatertight()) << "two sides of one triangle";
+  EXPECT_FALSE(AuditTriangleSurface(*sheet).IsWatertight());
   const auto through = MakeSphere(5.0, 3);
   Append(*through, *MakeSphere(5.0, 3), { 6, 0.1f, 0.2f });
-  EXPECT_TRUE(AuditSurface(*through).IsWatertight());
-  EXPECT_FALSE(AuditSurface(*through).BoundsSolid());
+  EXPECT_TRUE(AuditTriangleSurface(*through).IsWatertight());
+  EXPECT_FALSE(AuditTriangleSurface(*through).BoundsSolid());
   const auto broken = MakeTetrahedron();
   broken->GetTriangles().push_back({ 0, 1, 4 });
-  EXPECT_THROW(AuditSurface(*broken), itk::ExceptionObject);
+  EXPECT_THROW(AuditTriangleSurface(*broken), itk::ExceptionObject);
 }
 
 /** The printed audit, without the digits that depend on the order of sums. */
 std::string
 Counts(const Surface & surface)
 {
-  const auto audit = AuditSurface(surface);
+  const auto audit = AuditTriangleSurface(surface);
   std::ostringstream text;
   text.precision(4);
   text << audit << audit.quality.poorFraction << ' ' << audit.quality.smallestAngle;

@@ -21,7 +21,7 @@ TEST(TriangleSurfaceDistance, ConcentricSpheresAreTheirRadiiApart)
 {
   const auto inner = MakeSphere(10.0, 5);
   const auto outer = MakeSphere(12.0, 5);
-  const auto distances = ComputeTwoDistances(*inner, *outer);
+  const auto distances = ComputeTriangleSurfaceDistances(*inner, *outer);
   for (const auto & distance : { distances.fromFirst, distances.fromSecond })
   {
     EXPECT_NEAR(distance.mean, 2.0, 0.02);
@@ -36,7 +36,7 @@ TEST(TriangleSurfaceDistance, IsNotTheSameBothWays)
   const auto one = MakeSphere(10.0, 4);
   const auto two = MakeSphere(10.0, 4);
   Append(*two, *MakeSphere(1.0, 2), { 30.0f, 0.0f, 0.0f });
-  const auto distances = ComputeTwoDistances(*one, *two);
+  const auto distances = ComputeTriangleSurfaceDistances(*one, *two);
   EXPECT_NEAR(distances.fromFirst.maximum, 0.0, 1e-6);
   EXPECT_NEAR(distances.fromSecond.maximum, 21.0, 0.1);
   EXPECT_NEAR(distances.fromSecond.percentile95, 0.0, 1e-6) << "the small sphere has a hundredth of the area";
@@ -62,7 +62,7 @@ TEST(TriangleSurfaceDistance, MaximumIsThatOfBruteForceAtTheSamePlaces)
         furthest = std::max(furthest, bruteforce::DistanceToSurface(bruteforce::Mix(corners, a, b, c), *two));
       }
     }
-    EXPECT_NEAR(ComputeDistance(*one, TriangleTree(*two)).maximum, furthest, 1e-5);
+    EXPECT_NEAR(ComputeTriangleSurfaceDistance(*one, TriangleTree(*two)).maximum, furthest, 1e-5);
   }
 }
 
@@ -75,17 +75,17 @@ TEST(TriangleSurfaceDistance, LargeTrianglesAreLookedAtInside)
   other->GetPoints() = plate->GetPoints();
   other->GetPoints().push_back({ 20.0f, 30.0f, 5.0f }); // a tent
   other->GetTriangles() = { { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 } };
-  EXPECT_NEAR(ComputeDistance(*plate, TriangleTree(*other), 2.0).maximum, 5.0, 0.5);
-  EXPECT_NEAR(ComputeDistance(*other, TriangleTree(*plate), 2.0).maximum, 5.0, 1e-4);
+  EXPECT_NEAR(ComputeTriangleSurfaceDistance(*plate, TriangleTree(*other), 2.0).maximum, 5.0, 0.5);
+  EXPECT_NEAR(ComputeTriangleSurfaceDistance(*other, TriangleTree(*plate), 2.0).maximum, 5.0, 1e-4);
 }
 
 TEST(TriangleSurfaceDistance, EmptySurfaces)
 {
   const auto sphere = MakeSphere(10.0, 2);
   const auto empty = Surface::New();
-  EXPECT_EQ(ComputeDistance(*empty, TriangleTree(*sphere)).places, 0u);
-  EXPECT_EQ(ComputeDistance(*empty, TriangleTree(*sphere)).maximum, 0.0);
-  EXPECT_TRUE(std::isinf(ComputeDistance(*sphere, TriangleTree(*empty)).maximum));
+  EXPECT_EQ(ComputeTriangleSurfaceDistance(*empty, TriangleTree(*sphere)).places, 0u);
+  EXPECT_EQ(ComputeTriangleSurfaceDistance(*empty, TriangleTree(*sphere)).maximum, 0.0);
+  EXPECT_TRUE(std::isinf(ComputeTriangleSurfaceDistance(*sphere, TriangleTree(*empty)).maximum));
 }
 
 TEST(TriangleSurfaceDistance, IsTheSameForAnyNumberOfThreads)
@@ -97,7 +97,7 @@ TEST(TriangleSurfaceDistance, IsTheSameForAnyNumberOfThreads)
   for (const unsigned int threads : { 1u, 5u })
   {
     itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
-    means[threads == 1 ? 0 : 1] = ComputeDistance(*one, TriangleTree(*two)).mean;
+    means[threads == 1 ? 0 : 1] = ComputeTriangleSurfaceDistance(*one, TriangleTree(*two)).mean;
   }
   itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(usual);
   EXPECT_EQ(means[0], means[1]);

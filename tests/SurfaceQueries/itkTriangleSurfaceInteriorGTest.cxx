@@ -17,7 +17,7 @@ std::vector<int>
 InteriorOf(const Surface & surface, const itk::SamplePlanes & planes)
 {
   std::vector<int> inside(planes.origins.size() * planes.numberOfRows * planes.numberOfColumns, 0);
-  FindInteriorSamples(surface, planes, [&](auto plane, auto row, auto begin, auto end) {
+  FindTriangleSurfaceInteriorSamples(surface, planes, [&](auto plane, auto row, auto begin, auto end) {
     for (auto column = begin; column < end; ++column)
     {
       ++inside[(plane * planes.numberOfRows + row) * planes.numberOfColumns + column];

@@ -35,7 +35,7 @@ MakeNested()
 double
 BallVolume(double radius)
 {
-  return ComputeVolume(*MakeSphere(radius, 4));
+  return ComputeTriangleSurfaceVolume(*MakeSphere(radius, 4));
 }
 
 void
@@ -49,33 +49,38 @@ ExpectRemoved(const itk::RemovedShells & removed, itk::SizeValueType solids, itk
 TEST(TriangleSurfaceSolids, LargestKeepsItsCavityAndNothingElse)
 {
   const auto surface = MakeNested();
-  ExpectRemoved(KeepLargestSolid(*surface), 2, 1, BallVolume(5.0) - BallVolume(2.0) + BallVolume(3.0));
-  EXPECT_NEAR(ComputeVolume(*surface), BallVolume(10.0) - BallVolume(8.0), 1e-3);
-  EXPECT_EQ(ComputeTopology(*surface).components, 2u);
-  EXPECT_EQ(ComputeTopology(*surface).unusedPoints, 0u);
-  ExpectRemoved(KeepLargestSolid(*surface), 0, 0, 0.0);
+  ExpectRemoved(KeepLargestTriangleSurfaceSolid(*surface), 2, 1, BallVolume(5.0) - BallVolume(2.0) + BallVolume(3.0));
+  EXPECT_NEAR(ComputeTriangleSurfaceVolume(*surface), BallVolume(10.0) - BallVolume(8.0), 1e-3);
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*surface).components, 2u);
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*surface).unusedPoints, 0u);
+  ExpectRemoved(KeepLargestTriangleSurfaceSolid(*surface), 0, 0, 0.0);
 }
 
 TEST(TriangleSurfaceSolids, SmallOnesGoWithTheirCavities)
 {
   const auto surface = MakeNested();
-  ExpectRemoved(RemoveSmallSolids(*surface, 0.9 * BallVolume(3.0)), 0, 0, 0.0); // cavities stay, however small
-  ExpectRemoved(RemoveSmallSolids(*surface, 1.1 * BallVolume(3.0)), 1, 0, BallVolume(3.0));
-  EXPECT_NEAR(ComputeVolume(*surface), BallVolume(10.0) - BallVolume(8.0) + BallVolume(5.0) - BallVolume(2.0), 1e-3);
-  ExpectRemoved(RemoveSmallSolids(*surface, 1.1 * BallVolume(5.0)), 1, 1, BallVolume(5.0) - BallVolume(2.0));
-  EXPECT_NEAR(ComputeVolume(*surface), BallVolume(10.0) - BallVolume(8.0), 1e-3);
-  ExpectRemoved(RemoveSmallSolids(*surface, 1.1 * BallVolume(10.0)), 1, 1, BallVolume(10.0) - BallVolume(8.0));
+  ExpectRemoved(
+    RemoveSmallTriangleSurfaceSolids(*surface, 0.9 * BallVolume(3.0)), 0, 0, 0.0); // cavities stay, however small
+  ExpectRemoved(RemoveSmallTriangleSurfaceSolids(*surface, 1.1 * BallVolume(3.0)), 1, 0, BallVolume(3.0));
+  EXPECT_NEAR(ComputeTriangleSurfaceVolume(*surface),
+              BallVolume(10.0) - BallVolume(8.0) + BallVolume(5.0) - BallVolume(2.0),
+              1e-3);
+  ExpectRemoved(
+    RemoveSmallTriangleSurfaceSolids(*surface, 1.1 * BallVolume(5.0)), 1, 1, BallVolume(5.0) - BallVolume(2.0));
+  EXPECT_NEAR(ComputeTriangleSurfaceVolume(*surface), BallVolume(10.0) - BallVolume(8.0), 1e-3);
+  ExpectRemoved(
+    RemoveSmallTriangleSurfaceSolids(*surface, 1.1 * BallVolume(10.0)), 1, 1, BallVolume(10.0) - BallVolume(8.0));
   EXPECT_EQ(surface->GetNumberOfPoints(), 0u);
-  ExpectRemoved(RemoveSmallSolids(*surface, 1.0), 0, 0, 0.0); // nothing is left, and nothing happens
+  ExpectRemoved(RemoveSmallTriangleSurfaceSolids(*surface, 1.0), 0, 0, 0.0); // nothing is left, and nothing happens
 }
 
 TEST(TriangleSurfaceSolids, FilledOnesHaveNothingInside)
 {
   const auto surface = MakeNested();
-  ExpectRemoved(FillCavities(*surface), 1, 2, BallVolume(5.0) - BallVolume(8.0) - BallVolume(2.0));
-  EXPECT_NEAR(ComputeVolume(*surface), BallVolume(10.0) + BallVolume(3.0), 1e-3);
-  EXPECT_TRUE(ComputeTopology(*surface).IsWatertight());
-  ExpectRemoved(FillCavities(*surface), 0, 0, 0.0);
+  ExpectRemoved(FillTriangleSurfaceCavities(*surface), 1, 2, BallVolume(5.0) - BallVolume(8.0) - BallVolume(2.0));
+  EXPECT_NEAR(ComputeTriangleSurfaceVolume(*surface), BallVolume(10.0) + BallVolume(3.0), 1e-3);
+  EXPECT_TRUE(ComputeTriangleSurfaceTopology(*surface).IsWatertight());
+  ExpectRemoved(FillTriangleSurfaceCavities(*surface), 0, 0, 0.0);
 }
 
 /** A torus does not enclose what is in its hole. */
@@ -84,16 +89,16 @@ TEST(TriangleSurfaceSolids, HolesOfATorusAreOutside)
   const auto surface = MakeTorus(10.0, 4.0, 40);
   Append(*surface, *MakeSphere(3.0, 3));
   Append(*surface, *MakeCavity(3.0, { 0, 10, 0 }));
-  EXPECT_EQ(FillCavities(*surface).cavities, 1u);
-  EXPECT_EQ(ComputeTopology(*surface).components, 2u);
+  EXPECT_EQ(FillTriangleSurfaceCavities(*surface).cavities, 1u);
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*surface).components, 2u);
 }
 
 TEST(TriangleSurfaceSolids, InsideOutShellsWithNothingAroundAreSolids)
 {
   const auto surface = MakeCavity(5.0);
   Append(*surface, *MakeSphere(3.0, 4, { 20, 0, 0 }));
-  EXPECT_EQ(KeepLargestSolid(*surface).solids, 1u);
-  EXPECT_LT(ComputeVolume(*surface), 0.0);
+  EXPECT_EQ(KeepLargestTriangleSurfaceSolid(*surface).solids, 1u);
+  EXPECT_LT(ComputeTriangleSurfaceVolume(*surface), 0.0);
 }
 
 /** Noise: a hundred thousand specks around a ball with a cavity, and some in it. */
@@ -114,26 +119,26 @@ TEST(TriangleSurfaceSolids, AreToldApartAmongVeryMany)
   }
   const auto filled = Surface::New();
   filled->Graft(surface);
-  const itk::RemovedShells removed = FillCavities(*filled);
+  const itk::RemovedShells removed = FillTriangleSurfaceCavities(*filled);
   EXPECT_EQ(removed.solids, inside);
   EXPECT_EQ(removed.cavities, 1u);
   const auto large = Surface::New();
   large->Graft(surface);
-  EXPECT_GT(RemoveSmallSolids(*large, 1.0).solids, 80000u);
-  EXPECT_EQ(ComputeTopology(*large).components, 2u);
+  EXPECT_GT(RemoveSmallTriangleSurfaceSolids(*large, 1.0).solids, 80000u);
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*large).components, 2u);
 }
 
 itk::SizeValueType
 CountMisfacing(const Surface & surface)
 {
-  return CountShells(itk::TriangleTree(surface)).misfacing;
+  return CountTriangleSurfaceShells(itk::TriangleTree(surface)).misfacing;
 }
 
 TEST(TriangleSurfaceSolids, FaceOutwardsAndTheirCavitiesInwards)
 {
   const auto surface = MakeNested();
   EXPECT_EQ(CountMisfacing(*surface), 0u);
-  const itk::ShellCounts shells = CountShells(itk::TriangleTree(*surface));
+  const itk::ShellCounts shells = CountTriangleSurfaceShells(itk::TriangleTree(*surface));
   EXPECT_EQ(shells.solids, 3u);
   EXPECT_EQ(shells.cavities, 2u);
   EXPECT_EQ(CountMisfacing(*Surface::New()), 0u);
@@ -161,7 +166,7 @@ TEST(TriangleSurfaceSolids, ThatTouchFaceAsTheyShould)
   {
     const auto surface = MakeTetrahedron(4.0f);
     Append(*surface, *MakeTetrahedron(1.0f), { side, 0, 0 });
-    EXPECT_EQ(ComputeTopology(*surface).repeatedPositions, 1u) << side;
+    EXPECT_EQ(ComputeTriangleSurfaceTopology(*surface).repeatedPositions, 1u) << side;
     EXPECT_EQ(CountMisfacing(*surface), 0u) << side;
   }
 }
@@ -182,17 +187,17 @@ TEST(TriangleSurfaceSolids, SpecksFarAwayHaveTheirOwnSign)
 TEST(TriangleSurfaceSolids, MisfacingShellsAreTurnedWithTheirNormals)
 {
   const auto surface = MakeNested();
-  const double volume = ComputeVolume(*surface);
+  const double volume = ComputeTriangleSurfaceVolume(*surface);
   for (const auto & point : surface->GetPoints())
   {
     surface->GetNormals().push_back(point);
   }
-  EXPECT_EQ(TurnMisfacingShells(*surface), 0u);
+  EXPECT_EQ(TurnMisfacingTriangleSurfaceShells(*surface), 0u);
   Append(*surface, *MakeCavity(1.0, { 0, 0, 40 }));
   surface->GetNormals().resize(surface->GetNumberOfPoints(), { 0, 0, 1 });
-  EXPECT_EQ(TurnMisfacingShells(*surface), 1u);
+  EXPECT_EQ(TurnMisfacingTriangleSurfaceShells(*surface), 1u);
   EXPECT_EQ(CountMisfacing(*surface), 0u);
-  EXPECT_NEAR(ComputeVolume(*surface), volume + BallVolume(1.0), 1e-3);
+  EXPECT_NEAR(ComputeTriangleSurfaceVolume(*surface), volume + BallVolume(1.0), 1e-3);
   EXPECT_EQ(surface->GetNormals().front(), surface->GetPoints().front());
   EXPECT_EQ(surface->GetNormals().back(), (Surface::NormalType{ 0, 0, -1 }));
 }

@@ -25,14 +25,14 @@ TEST(TriangleSurface, IsEmptyWhenNew)
   EXPECT_FALSE(surface->HasNormals());
   EXPECT_EQ(surface->GetMemorySize(), 0u);
   EXPECT_EQ(surface->GetBounds(), (std::array<double, 6>{}));
-  EXPECT_TRUE(ComputeTopology(*surface).IsWatertight());
+  EXPECT_TRUE(ComputeTriangleSurfaceTopology(*surface).IsWatertight());
 }
 
 TEST(TriangleSurface, MeasuresOfATetrahedron)
 {
   const auto surface = MakeTetrahedron();
-  EXPECT_DOUBLE_EQ(ComputeVolume(*surface), 1.0 / 6.0);
-  EXPECT_NEAR(ComputeArea(*surface), 1.5 + std::sqrt(3.0) / 2.0, 1e-12);
+  EXPECT_DOUBLE_EQ(ComputeTriangleSurfaceVolume(*surface), 1.0 / 6.0);
+  EXPECT_NEAR(ComputeTriangleSurfaceArea(*surface), 1.5 + std::sqrt(3.0) / 2.0, 1e-12);
   EXPECT_EQ(surface->GetBounds(), (std::array<double, 6>{ 0, 1, 0, 1, 0, 1 }));
   EXPECT_EQ(surface->GetMemorySize(), 4u * 12u + 4u * 12u);
 }
@@ -44,7 +44,7 @@ TEST(TriangleSurface, VolumeFarFromTheOriginKeepsItsDigits)
   {
     point[0] += 4096.0f;
   }
-  EXPECT_DOUBLE_EQ(ComputeVolume(*surface), 1.0 / 6.0);
+  EXPECT_DOUBLE_EQ(ComputeTriangleSurfaceVolume(*surface), 1.0 / 6.0);
 }
 
 TEST(TriangleSurface, GraftSharesArraysUntilEitherSurfaceChanges)
@@ -111,24 +111,24 @@ TEST(TriangleSurfaceComponents, AreFoundMeasuredAndKept)
   {
     surface->GetPoints()[n][2] *= 3.0f;
   }
-  const auto components = FindComponents(*surface);
+  const auto components = FindTriangleSurfaceComponents(*surface);
   EXPECT_EQ(components.count, 3u);
   EXPECT_EQ(components.ofPoint.front(), 0u);
   EXPECT_EQ(components.ofPoint[11], 2u);
   EXPECT_EQ(components.ofPoint.back(), itk::TriangleSurfaceComponents::None);
-  const auto volumes = ComputeComponentVolumes(*surface, components);
+  const auto volumes = ComputeTriangleSurfaceComponentVolumes(*surface, components);
   EXPECT_NEAR(volumes[0], 1.0 / 6.0, 1e-9);
   EXPECT_NEAR(volumes[1], 0.5, 1e-9);
 
-  KeepComponents(*surface, components, { false, true, false });
+  KeepTriangleSurfaceComponents(*surface, components, { false, true, false });
   EXPECT_EQ(surface->GetNumberOfPoints(), 4u);
-  EXPECT_NEAR(ComputeVolume(*surface), 0.5, 1e-9);
-  EXPECT_TRUE(ComputeTopology(*surface).IsWatertight());
+  EXPECT_NEAR(ComputeTriangleSurfaceVolume(*surface), 0.5, 1e-9);
+  EXPECT_TRUE(ComputeTriangleSurfaceTopology(*surface).IsWatertight());
 }
 
 TEST(TriangleSurfaceTopology, ClosedTetrahedronIsWatertight)
 {
-  const auto topology = ComputeTopology(*MakeTetrahedron());
+  const auto topology = ComputeTriangleSurfaceTopology(*MakeTetrahedron());
   EXPECT_TRUE(topology.IsWatertight()) << topology;
   EXPECT_EQ(topology.components, 1u);
   EXPECT_EQ(topology.eulerCharacteristic, 2);
@@ -138,7 +138,7 @@ TEST(TriangleSurfaceTopology, FindsABoundary)
 {
   auto surface = MakeTetrahedron();
   surface->GetTriangles().pop_back();
-  const auto topology = ComputeTopology(*surface);
+  const auto topology = ComputeTriangleSurfaceTopology(*surface);
   EXPECT_EQ(topology.boundaryEdges, 3u);
   EXPECT_EQ(topology.nonManifoldPoints, 0u) << "a point on a boundary with one path of triangles is manifold";
   EXPECT_EQ(topology.eulerCharacteristic, 1);
@@ -150,7 +150,7 @@ TEST(TriangleSurfaceTopology, FindsAFlippedTriangle)
   auto surface = MakeTetrahedron();
   auto & triangle = surface->GetTriangles().back();
   std::swap(triangle[0], triangle[1]);
-  EXPECT_EQ(ComputeTopology(*surface).misorientedEdges, 3u);
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*surface).misorientedEdges, 3u);
 }
 
 TEST(TriangleSurfaceTopology, FindsAnEdgeOfThreeTriangles)
@@ -158,7 +158,7 @@ TEST(TriangleSurfaceTopology, FindsAnEdgeOfThreeTriangles)
   auto surface = MakeTetrahedron();
   surface->GetPoints().push_back({ 1, -1, 1 });
   surface->GetTriangles().push_back({ 1, 3, 4 });
-  const auto topology = ComputeTopology(*surface);
+  const auto topology = ComputeTriangleSurfaceTopology(*surface);
   EXPECT_EQ(topology.nonManifoldEdges, 1u);
   EXPECT_EQ(topology.boundaryEdges, 2u);
 }
@@ -167,7 +167,7 @@ TEST(TriangleSurfaceTopology, FindsTwoFansAtOnePoint)
 {
   auto surface = MakeTetrahedron();
   Append(*surface, *MakeTetrahedron(), { 5, 0, 0 });
-  EXPECT_EQ(ComputeTopology(*surface).components, 2u);
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*surface).components, 2u);
   for (auto & triangle : surface->GetTriangles())
   {
     for (auto & point : triangle)
@@ -175,7 +175,7 @@ TEST(TriangleSurfaceTopology, FindsTwoFansAtOnePoint)
       point = point == 4 ? 0 : point; // the second one's corner becomes the first one's
     }
   }
-  const auto topology = ComputeTopology(*surface);
+  const auto topology = ComputeTriangleSurfaceTopology(*surface);
   EXPECT_EQ(topology.nonManifoldPoints, 1u);
   EXPECT_EQ(topology.nonManifoldEdges, 0u);
   EXPECT_EQ(topology.unusedPoints, 1u);
@@ -186,27 +186,29 @@ TEST(TriangleSurfaceTopology, FindsDegenerateTriangles)
 {
   auto surface = MakeTetrahedron();
   surface->GetPoints()[3] = surface->GetPoints()[2];
-  EXPECT_EQ(ComputeTopology(*surface).degenerateTriangles, 2u) << "those on the edge between the two corners";
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*surface).degenerateTriangles, 2u)
+    << "those on the edge between the two corners";
   surface->GetPoints()[3][1] = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(ComputeTopology(*surface).degenerateTriangles, 3u) << "those at a position that is no number";
-  EXPECT_EQ(ComputeTopology(*surface).nonFinitePoints, 1u);
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*surface).degenerateTriangles, 3u)
+    << "those at a position that is no number";
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*surface).nonFinitePoints, 1u);
 }
 
 TEST(TriangleSurfaceTopology, CountsHandles)
 {
-  const auto sphere = ComputeTopology(*MakeSphere(5.0, 3));
+  const auto sphere = ComputeTriangleSurfaceTopology(*MakeSphere(5.0, 3));
   EXPECT_TRUE(sphere.IsWatertight()) << sphere;
   EXPECT_EQ(sphere.genus, 0u);
-  const auto torus = ComputeTopology(*MakeTorus(5.0, 2.0, 24));
+  const auto torus = ComputeTriangleSurfaceTopology(*MakeTorus(5.0, 2.0, 24));
   EXPECT_TRUE(torus.IsWatertight()) << torus;
   EXPECT_EQ(torus.eulerCharacteristic, 0);
   EXPECT_EQ(torus.genus, 1u);
   auto both = MakeTorus(5.0, 2.0, 24);
   Append(*both, *MakeTorus(5.0, 2.0, 12), { 20, 0, 0 });
   Append(*both, *MakeSphere(5.0, 1), { 0, 20, 0 });
-  EXPECT_EQ(ComputeTopology(*both).genus, 2u);
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*both).genus, 2u);
   both->GetTriangles().pop_back();
-  EXPECT_EQ(ComputeTopology(*both).genus, 2u) << "an open sphere has no genus, and takes none away";
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*both).genus, 2u) << "an open sphere has no genus, and takes none away";
 }
 
 /** Two tori, each without one triangle, joined at the corners of the holes. */
@@ -228,7 +230,7 @@ TEST(TriangleSurfaceTopology, ADoubleTorusIsOneComponentOfGenusTwo)
       point = point == first[2] + offset ? first[2] : point;
     }
   }
-  const auto topology = ComputeTopology(*surface);
+  const auto topology = ComputeTriangleSurfaceTopology(*surface);
   EXPECT_TRUE(topology.IsWatertight()) << topology;
   EXPECT_EQ(topology.components, 1u);
   EXPECT_EQ(topology.eulerCharacteristic, -2);
@@ -264,12 +266,12 @@ MakeTwisted(std::uint32_t length, std::uint32_t width, bool isRingAcross)
 
 TEST(TriangleSurfaceTopology, OneSidedSurfacesAreManifoldButNotOriented)
 {
-  const auto strip = ComputeTopology(*MakeTwisted(12, 4, false));
+  const auto strip = ComputeTriangleSurfaceTopology(*MakeTwisted(12, 4, false));
   EXPECT_EQ(strip.misorientedEdges, 4u) << strip;
   EXPECT_EQ(strip.nonManifoldEdges + strip.nonManifoldPoints, 0u) << strip;
   EXPECT_EQ(strip.boundaryEdges, 24u) << "one boundary, twice around";
   EXPECT_EQ(strip.eulerCharacteristic, 0);
-  const auto bottle = ComputeTopology(*MakeTwisted(12, 6, true));
+  const auto bottle = ComputeTriangleSurfaceTopology(*MakeTwisted(12, 6, true));
   EXPECT_EQ(bottle.misorientedEdges, 6u) << bottle;
   EXPECT_EQ(bottle.boundaryEdges + bottle.nonManifoldEdges + bottle.nonManifoldPoints, 0u) << bottle;
   EXPECT_EQ(bottle.eulerCharacteristic, 0);
@@ -280,25 +282,26 @@ TEST(TriangleSurfaceTopology, OneSidedSurfacesAreManifoldButNotOriented)
 TEST(TriangleSurfaceTopology, FindsDuplicateTrianglesInAnyOrder)
 {
   auto surface = MakeTetrahedron();
-  EXPECT_EQ(ComputeTopology(*surface).duplicateTriangles, 0u);
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*surface).duplicateTriangles, 0u);
   surface->GetTriangles().push_back({ 2, 1, 0 });
   surface->GetTriangles().push_back({ 1, 2, 0 });
   surface->GetTriangles().push_back({ 3, 2, 1 });
   surface->GetTriangles().push_back({ 3, 3, 1 });
   surface->GetTriangles().push_back({ 3, 3, 1 });
-  EXPECT_EQ(ComputeTopology(*surface).duplicateTriangles, 3u);
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*surface).duplicateTriangles, 3u);
 }
 
 TEST(TriangleSurfaceTopology, FindsRepeatedPositions)
 {
   auto surface = MakeTetrahedron();
   Append(*surface, *MakeTetrahedron(), { 1, 0, 0 });
-  EXPECT_EQ(ComputeTopology(*surface).repeatedPositions, 1u);
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*surface).repeatedPositions, 1u);
   Append(*surface, *MakeTetrahedron(), { -1, 0, 0 });
-  EXPECT_EQ(ComputeTopology(*surface).repeatedPositions, 2u);
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*surface).repeatedPositions, 2u);
   surface->GetPoints()[4][1] = -0.0f;
   surface->GetPoints().push_back({ 0, 0, 0 });
-  EXPECT_EQ(ComputeTopology(*surface).repeatedPositions, 2u) << "0 is at -0, and unused points do not count";
+  EXPECT_EQ(ComputeTriangleSurfaceTopology(*surface).repeatedPositions, 2u)
+    << "0 is at -0, and unused points do not count";
 }
 
 /** Compares every count with simple counting over maps of edges, for random triangles. */
@@ -335,7 +338,7 @@ TEST(TriangleSurfaceTopology, CountsWhatMapsCount)
         ++edges[{ std::min(from, to), std::max(from, to) }][from < to ? 0 : 1];
       }
     }
-    const auto topology = ComputeTopology(*surface);
+    const auto topology = ComputeTriangleSurfaceTopology(*surface);
     itk::SizeValueType boundary = 0, misoriented = 0, nonManifold = 0;
     for (const auto & [edge, uses] : edges)
     {

@@ -52,9 +52,9 @@ TEST(TriangleSurfaceMeasures, LongestDiameterIsThatOfAllPairs)
       }
       surface->GetPoints().push_back(point);
     }
-    ASSERT_EQ(ComputeLongestDiameter(*surface), LongestDiameterByTrial(*surface)) << count << " points";
+    ASSERT_EQ(ComputeTriangleSurfaceLongestDiameter(*surface), LongestDiameterByTrial(*surface)) << count << " points";
   }
-  EXPECT_EQ(ComputeLongestDiameter(*Surface::New()), 0.0);
+  EXPECT_EQ(ComputeTriangleSurfaceLongestDiameter(*Surface::New()), 0.0);
 }
 
 TEST(TriangleSurfaceMeasures, CentroidOfATetrahedronIsTheMeanOfItsCorners)
@@ -62,7 +62,7 @@ TEST(TriangleSurfaceMeasures, CentroidOfATetrahedronIsTheMeanOfItsCorners)
   const auto surface = Surface::New();
   surface->GetPoints() = { { 1000, -500, 8 }, { 1004, -500, 8 }, { 1000, -492, 8 }, { 1000, -500, 20 } };
   surface->GetTriangles() = { { 0, 2, 1 }, { 0, 1, 3 }, { 0, 3, 2 }, { 1, 2, 3 } };
-  const auto centroid = ComputeCentroid(*surface);
+  const auto centroid = ComputeTriangleSurfaceCentroid(*surface);
   EXPECT_NEAR(centroid[0], 1001.0, 1e-9);
   EXPECT_NEAR(centroid[1], -498.0, 1e-9);
   EXPECT_NEAR(centroid[2], 11.0, 1e-9);

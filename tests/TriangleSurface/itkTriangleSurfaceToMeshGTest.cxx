@@ -54,7 +54,7 @@ ExpectSameUpToRotation(const TriangleSurface & a, const TriangleSurface & b)
 TEST(TriangleSurfaceToMesh, HasTheSamePointsAndCells)
 {
   const auto surface = itk::example::MakeTetrahedron(2.0f);
-  const auto mesh = itk::ConvertToMesh(*surface);
+  const auto mesh = itk::ConvertTriangleSurfaceToMesh(*surface);
   ASSERT_EQ(mesh->GetNumberOfPoints(), 4u);
   ASSERT_EQ(mesh->GetNumberOfCells(), 4u);
   EXPECT_EQ(mesh->GetPoint(1)[0], 2.0f);
@@ -71,7 +71,7 @@ TEST(TriangleSurfaceToMesh, ComesBackTheSame)
                                 itk::example::MakeRandomTriangles(50, 10.0f, 1.0f, 7),
                                 TriangleSurface::New() })
   {
-    ExpectSame(*surface, *itk::ConvertToTriangleSurface(*itk::ConvertToMesh(*surface)));
+    ExpectSame(*surface, *itk::ConvertMeshToTriangleSurface(*itk::ConvertTriangleSurfaceToMesh(*surface)));
   }
 }
 
@@ -81,9 +81,9 @@ TEST(TriangleSurfaceToMesh, QuadEdgeMeshComesBackTheSame)
   open->GetTriangles().resize(64); // the upper half
   for (const auto & surface : { itk::example::MakeSphere(10.0, 3), itk::example::MakeTorus(8.0, 3.0, 12), open })
   {
-    const auto mesh = itk::ConvertToQuadEdgeMesh(*surface);
+    const auto mesh = itk::ConvertTriangleSurfaceToQuadEdgeMesh(*surface);
     EXPECT_EQ(mesh->GetNumberOfFaces(), surface->GetNumberOfTriangles());
-    ExpectSameUpToRotation(*surface, *itk::ConvertToTriangleSurface(*mesh));
+    ExpectSameUpToRotation(*surface, *itk::ConvertMeshToTriangleSurface(*mesh));
   }
 }
 
@@ -96,10 +96,10 @@ TEST(TriangleSurfaceToMesh, MemoryIsAsDocumented)
   {
     GTEST_SKIP() << "a sanitizer's malloc keeps no account";
   }
-  const auto mesh = itk::ConvertToMesh(*surface);
+  const auto mesh = itk::ConvertTriangleSurfaceToMesh(*surface);
   const double ofMesh = HeapInUse() - before;
   EXPECT_NEAR(ofMesh / triangles, 142.0, 7.0);
-  const auto quadEdge = itk::ConvertToQuadEdgeMesh(*surface);
+  const auto quadEdge = itk::ConvertTriangleSurfaceToQuadEdgeMesh(*surface);
   EXPECT_NEAR((HeapInUse() - before - ofMesh) / triangles, 930.0, 46.0);
 }
 
@@ -121,15 +121,15 @@ MessageOf(const TConvert & convert)
 TEST(TriangleSurfaceToMesh, RefusesWhatAMeshCannotBe)
 {
   const auto surface = itk::example::MakeTetrahedron();
-  const auto toMesh = [&] { itk::ConvertToMesh(*surface); };
-  const auto toQuadEdgeMesh = [&] { itk::ConvertToQuadEdgeMesh(*surface); };
+  const auto toMesh = [&] { itk::ConvertTriangleSurfaceToMesh(*surface); };
+  const auto toQuadEdgeMesh = [&] { itk::ConvertTriangleSurfaceToQuadEdgeMesh(*surface); };
   surface->GetTriangles().push_back({ 0, 1, 4 });
   const std::string missing = "has point 4, but the surface has only 4 points; write the surface again";
   EXPECT_NE(MessageOf(toMesh).find(missing), std::string::npos);
   EXPECT_NE(MessageOf(toQuadEdgeMesh).find(missing), std::string::npos);
   surface->GetPoints().push_back({ -1, -1, -1 });
   EXPECT_EQ(MessageOf(toMesh), "");
-  EXPECT_NE(MessageOf(toQuadEdgeMesh).find("; use ConvertToMesh()"), std::string::npos)
+  EXPECT_NE(MessageOf(toQuadEdgeMesh).find("; use ConvertTriangleSurfaceToMesh()"), std::string::npos)
     << "an edge with three triangles";
 }
 
@@ -141,24 +141,24 @@ TEST(TriangleSurfaceToMesh, TrianglesWithEqualCornersAreNoFacesOfAQuadEdgeMesh)
     const auto surface = TriangleSurface::New();
     surface->GetPoints() = { { 0, 0, 0 }, { 1, 0, 0 } };
     surface->GetTriangles() = { triangle };
-    const std::string message = MessageOf([&] { itk::ConvertToQuadEdgeMesh(*surface); });
+    const std::string message = MessageOf([&] { itk::ConvertTriangleSurfaceToQuadEdgeMesh(*surface); });
     EXPECT_NE(message.find("has a point twice"), std::string::npos) << message;
-    EXPECT_NE(message.find("; use ConvertToMesh()"), std::string::npos) << message;
-    ExpectSame(*surface, *itk::ConvertToTriangleSurface(*itk::ConvertToMesh(*surface)));
+    EXPECT_NE(message.find("; use ConvertTriangleSurfaceToMesh()"), std::string::npos) << message;
+    ExpectSame(*surface, *itk::ConvertMeshToTriangleSurface(*itk::ConvertTriangleSurfaceToMesh(*surface)));
   }
 }
 
 std::string
 MessageOfConverting(const MeshType & mesh)
 {
-  return MessageOf([&] { itk::ConvertToTriangleSurface(mesh); });
+  return MessageOf([&] { itk::ConvertMeshToTriangleSurface(mesh); });
 }
 
 /** A tetrahedron's triangles, and one more cell. */
 MeshType::Pointer
 MakeMeshWith(MeshType::CellType * another)
 {
-  const auto mesh = itk::ConvertToMesh(*itk::example::MakeTetrahedron());
+  const auto mesh = itk::ConvertTriangleSurfaceToMesh(*itk::example::MakeTetrahedron());
   MeshType::CellAutoPointer cell;
   cell.TakeOwnership(another);
   mesh->SetCell(4, cell);
@@ -195,11 +195,11 @@ TEST(MeshToTriangleSurface, TakesIdsWithGapsAndDoublePrecision)
     mesh->SetPoint(id, point);
   }
   mesh->AddFaceTriangle(40, 3, 5);
-  const auto surface = itk::ConvertToTriangleSurface(*mesh);
+  const auto surface = itk::ConvertMeshToTriangleSurface(*mesh);
   ASSERT_EQ(surface->GetNumberOfPoints(), 3u);
   EXPECT_EQ(surface->GetPoints()[2][0], 40.0f);
   EXPECT_EQ(surface->GetTriangles()[0], (TriangleSurface::TriangleType{ 2, 0, 1 }));
-  EXPECT_EQ(itk::ConvertToTriangleSurface(*itk::Mesh<double, 3>::New())->GetNumberOfTriangles(), 0u);
+  EXPECT_EQ(itk::ConvertMeshToTriangleSurface(*itk::Mesh<double, 3>::New())->GetNumberOfTriangles(), 0u);
 }
 
 } // namespace

@@ -62,7 +62,8 @@ TEST_F(MeshCommand, ScenesHoldTheSurfacesOfAPreset)
     EXPECT_EQ(scene[0].name, "bone") << extension;
     EXPECT_EQ(scene[1].name, "skin") << extension;
     EXPECT_NEAR(scene[1].opacity, 0.25, 0.01) << extension;
-    EXPECT_GT(ComputeVolume(*scene[1].surface), ComputeVolume(*scene[0].surface)) << extension;
+    EXPECT_GT(ComputeTriangleSurfaceVolume(*scene[1].surface), ComputeTriangleSurfaceVolume(*scene[0].surface))
+      << extension;
   }
 }
 
@@ -120,8 +121,8 @@ TEST_F(MeshCommand, LabelsBecomeClosedSurfacesOfTheirVolume)
   constexpr double millilitres[] = { 1446.91, 456.192 }; // brain, left lung: their voxels
   for (std::size_t n = 0; n < 2; ++n)
   {
-    EXPECT_TRUE(ComputeTopology(*organs[n].surface).IsWatertight());
-    EXPECT_NEAR(ComputeVolume(*organs[n].surface) / 1000.0 / millilitres[n], 1.0, 0.01);
+    EXPECT_TRUE(ComputeTriangleSurfaceTopology(*organs[n].surface).IsWatertight());
+    EXPECT_NEAR(ComputeTriangleSurfaceVolume(*organs[n].surface) / 1000.0 / millilitres[n], 1.0, 0.01);
   }
   const auto report = this->Sidecar("organs.glb")["surfaces"];
   EXPECT_TRUE(report[0]["measures"]["mean_scan_unit"].is_number()) << "of the scan inside the label";
@@ -138,7 +139,7 @@ TEST_F(MeshCommand, MeasuresAreATable)
             std::count(table.begin(), table.end() - static_cast<std::ptrdiff_t>(line.size()), ','));
   const auto measures = this->Sidecar("skin.ply")["surfaces"][0]["measures"];
   const double volume = measures["volume_ml"];
-  EXPECT_NEAR(volume, ComputeVolume(*this->Read("skin.ply")[0].surface) / 1000.0, 1e-3 * volume);
+  EXPECT_NEAR(volume, ComputeTriangleSurfaceVolume(*this->Read("skin.ply")[0].surface) / 1000.0, 1e-3 * volume);
   EXPECT_NEAR(measures["voxel_volume_ml"].get<double>() / volume, 1.0, 0.01);
   EXPECT_NEAR(measures["isosurface_volume_ml"].get<double>() / volume, 1.0, 0.01);
   EXPECT_LT(std::abs(measures["volume_error_percent"].get<double>()), 1.0);
@@ -166,7 +167,7 @@ TEST_F(MeshCommand, SmallPartsGoAndSmoothingIsBounded)
   const auto outcome = this->Mesh("-t -300.5 --largest --fill --smooth 0.3 -o one.ply");
   ASSERT_EQ(outcome.exitCode, 0);
   EXPECT_NE(outcome.errors.find("smoothing moved points by"), std::string::npos) << outcome.errors;
-  const auto topology = ComputeTopology(*this->Read("one.ply")[0].surface);
+  const auto topology = ComputeTriangleSurfaceTopology(*this->Read("one.ply")[0].surface);
   EXPECT_EQ(topology.components, 1u);
   EXPECT_TRUE(topology.IsWatertight());
   const auto report = this->Sidecar("one.ply")["surfaces"][0];
@@ -250,11 +251,14 @@ TEST_F(MeshCommand, ProbabilitiesBecomeSurfacesThatShareWalls)
   const double widths[2] = { 8.8, 11.2 };
   for (std::size_t n = 0; n < 2; ++n)
   {
-    EXPECT_TRUE(ComputeTopology(*both[n].surface).IsWatertight());
-    EXPECT_NEAR(ComputeVolume(*both[n].surface), widths[n] * 12.0 * 10.0, 0.02 * widths[n] * 12.0 * 10.0);
+    EXPECT_TRUE(ComputeTriangleSurfaceTopology(*both[n].surface).IsWatertight());
+    EXPECT_NEAR(
+      ComputeTriangleSurfaceVolume(*both[n].surface), widths[n] * 12.0 * 10.0, 0.02 * widths[n] * 12.0 * 10.0);
   }
   ASSERT_EQ(run("--label 2 -o right.stl").exitCode, 0);
-  EXPECT_NEAR(ComputeVolume(*this->Read("right.stl")[0].surface), ComputeVolume(*both[1].surface), 0.1);
+  EXPECT_NEAR(ComputeTriangleSurfaceVolume(*this->Read("right.stl")[0].surface),
+              ComputeTriangleSurfaceVolume(*both[1].surface),
+              0.1);
   EXPECT_EQ(run("--labels soft.nii -o x.vtp").exitCode, 2) << "one of the two";
   file.voxels = file.Values(std::vector<float>(values.size(), 0.3f));
   std::ofstream(m_Folder.Path() / "low.nii", std::ios::binary) << file.Bytes();

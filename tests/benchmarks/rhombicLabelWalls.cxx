@@ -321,7 +321,7 @@ MeasureFit(const Scene & scene, const Surfaces & surfaces)
   std::vector<std::uint8_t> uses(size * size * size);
   for (const auto & surface : surfaces)
   {
-    itk::FindInteriorSamples(*surface, planes, [&uses](auto plane, auto row, auto begin, auto end) {
+    itk::FindTriangleSurfaceInteriorSamples(*surface, planes, [&uses](auto plane, auto row, auto begin, auto end) {
       for (auto column = begin; column < end; ++column)
       {
         ++uses[(plane * size + row) * size + column];
@@ -375,7 +375,7 @@ public:
     m_Triangles += share * static_cast<double>(mesh.GetNumberOfTriangles());
     for (std::size_t n = 0; n < surfaces.size(); ++n)
     {
-      const double volume = itk::ComputeVolume(*surfaces[n]);
+      const double volume = itk::ComputeTriangleSurfaceVolume(*surfaces[n]);
       m_Volume = std::max(m_Volume, std::abs(VolumeError(*map, static_cast<std::uint16_t>(n + 1), volume)));
     }
   }
@@ -453,11 +453,11 @@ MeasureWalls(const std::vector<Scene> & scenes, double slices)
     toLattice->SetInput(MakeMap(scene, slices));
     const auto walls = MakeWalls(toLattice);
     cut.Add(*walls, ExtractLabels(*walls));
-    itk::RelaxWalls(*walls, HalfAVoxel());
+    itk::RelaxLabelWalls(*walls, HalfAVoxel());
     relaxed.Add(*walls, ExtractLabels(*walls));
     itk::TriangleSurfaceSimplificationSettings simplification;
     simplification.maximumError = 0.1;
-    itk::SimplifyWalls(*walls, simplification);
+    itk::SimplifyLabelWalls(*walls, simplification);
     simplified.Add(*walls, ExtractLabels(*walls));
   }
   cut.Print("walls");
@@ -515,7 +515,7 @@ MeasureProbabilities(const std::vector<Scene> & scenes, double slices)
     }
     const auto walls = MakeWalls(toLattice);
     cut.Add(*walls, ExtractLabels(*walls));
-    itk::RelaxWalls(*walls, HalfAVoxel());
+    itk::RelaxLabelWalls(*walls, HalfAVoxel());
     relaxed.Add(*walls, ExtractLabels(*walls));
   }
   cut.Print("probabilities");
@@ -630,13 +630,13 @@ MeasureMap(const char * path, const std::string & last)
     for (const auto label : walls.FindLabels())
     {
       const auto surface = walls.ExtractLabel(label);
-      const double volume = itk::ComputeVolume(*surface);
+      const double volume = itk::ComputeTriangleSurfaceVolume(*surface);
       const double error = 100.0 * std::abs(volume / truth[label] - 1.0);
       double & worst = truth[label] > 1000.0 ? large : small;
       worst = std::max(worst, error);
       sum += volume;
       sumTruth += truth[label];
-      flaws += itk::ComputeTopology(*surface).IsWatertight() ? 0 : 1;
+      flaws += itk::ComputeTriangleSurfaceTopology(*surface).IsWatertight() ? 0 : 1;
     }
     std::printf("%-20s %8.2f %8.2f %10zu %9.2f %9.2f %9.3f %6zu\n",
                 step,
@@ -669,7 +669,7 @@ MeasureMap(const char * path, const std::string & last)
   const double shortest = std::min({ spacing[0], spacing[1], spacing[2] });
   itk::TriangleSurfaceSmoothingSettings smoothing;
   smoothing.maximumMove = 0.5 * shortest;
-  itk::RelaxWalls(walls, smoothing, toLattice->GetVoxelVolumes());
+  itk::RelaxLabelWalls(walls, smoothing, toLattice->GetVoxelVolumes());
   report("relaxed", walls);
   if (last == "relaxed")
   {
@@ -677,7 +677,7 @@ MeasureMap(const char * path, const std::string & last)
   }
   itk::TriangleSurfaceSimplificationSettings simplification;
   simplification.maximumError = 0.1 * shortest;
-  itk::SimplifyWalls(walls, simplification);
+  itk::SimplifyLabelWalls(walls, simplification);
   report("simplified", walls);
 }
 

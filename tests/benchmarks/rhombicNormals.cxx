@@ -236,7 +236,7 @@ PrintCoarseScans()
           const auto lattice = ToLattice(Scan(organ, samples));
           const auto surface = ExtractSurface(lattice.GetPointer(), 500.5, mode, true, true);
           AddAngles(*surface, organ, before);
-          itk::SmoothNormals(*surface);
+          itk::SmoothTriangleSurfaceNormals(*surface);
           AddAngles(*surface, organ, after);
         }
       }
@@ -273,7 +273,7 @@ PrintFineScans()
           .vertexNormalError;
       };
       const double before = angle();
-      itk::SmoothNormals(*surface);
+      itk::SmoothTriangleSurfaceNormals(*surface);
       table.Add({ name, NameOf(mode), Fixed(before, 2), Fixed(angle(), 2) });
     }
   }

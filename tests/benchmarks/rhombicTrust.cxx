@@ -73,7 +73,7 @@ AuditFile(const itk::TriangleSurface & surface, const ScratchFolder & folder)
 {
   const fs::path path = folder.GetPath() / "surface.stl";
   WriteSurfaces({ { "surface", &surface } }, path);
-  return AuditSurface(*ReadSurfaces(path).front().surface);
+  return AuditTriangleSurface(*ReadSurfaces(path).front().surface);
 }
 
 double

@@ -81,8 +81,8 @@ Measure(const Scan & scan, const std::string & name, double isovalue, const Opti
     for (const ExtractionMode mode : modes)
     {
       const auto surface = LatticeToSurfaces(lattice, { request }, mode, {}, grid).front().surface;
-      result.findings.push_back({ NameOf(mode), density, ComputeVolume(*surface) });
-      area = ComputeArea(*surface);
+      result.findings.push_back({ NameOf(mode), density, ComputeTriangleSurfaceVolume(*surface) });
+      area = ComputeTriangleSurfaceArea(*surface);
     }
     result.findings.push_back(
       { "samples", density, EstimateIsosurfaceVolume(lattice, request.GetThreshold(), area, grid).volume });

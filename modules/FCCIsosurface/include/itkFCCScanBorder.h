@@ -10,7 +10,7 @@ namespace itk
 /** The outer corner of a lattice's extent (see FCCImage), at its low or its high end, in LPS mm. */
 template <typename TPixel>
 Point<double, 3>
-FindOuterCorner(const FCCImage<TPixel> & lattice, bool isHigh)
+FindFCCOuterCorner(const FCCImage<TPixel> & lattice, bool isHigh)
 {
   constexpr double unitsPerIndex[3] = { 2.0, 1.0, 1.0 };
   const auto & region = lattice.GetLargestPossibleRegion();
@@ -34,15 +34,15 @@ FindOuterCorner(const FCCImage<TPixel> & lattice, bool isHigh)
  * \param surface extracted from a lattice with these outer corners
  * \param scan the grid that the lattice was resampled from, with perpendicular axes */
 void
-MoveWallsToBorder(TriangleSurface & surface,
-                  const ImageBase<3> & scan,
-                  const Point<double, 3> & lowCorner,
-                  const Point<double, 3> & highCorner);
+MoveFCCWallsToBorder(TriangleSurface & surface,
+                     const ImageBase<3> & scan,
+                     const Point<double, 3> & lowCorner,
+                     const Point<double, 3> & highCorner);
 
-/** The ids, ascending, of the triangles with a point beyond the scan's outermost samples, where MoveWallsToBorder()
+/** The ids, ascending, of the triangles with a point beyond the scan's outermost samples, where MoveFCCWallsToBorder()
  * moves points, or less than \a margin mm inside of them. */
 std::vector<std::uint32_t>
-FindTrianglesNearWalls(const TriangleSurface & surface, const ImageBase<3> & scan, double margin);
+FindTrianglesNearFCCWalls(const TriangleSurface & surface, const ImageBase<3> & scan, double margin);
 
 } // namespace itk
 

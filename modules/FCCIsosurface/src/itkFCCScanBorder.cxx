@@ -1,6 +1,6 @@
 #include "itkFCCScanBorder.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
 #include <array>
@@ -39,10 +39,10 @@ FindAxisEnds(const ImageBase<3> & scan, const Point<double, 3> & lowCorner, cons
 } // namespace
 
 void
-MoveWallsToBorder(TriangleSurface & surface,
-                  const ImageBase<3> & scan,
-                  const Point<double, 3> & lowCorner,
-                  const Point<double, 3> & highCorner)
+MoveFCCWallsToBorder(TriangleSurface & surface,
+                     const ImageBase<3> & scan,
+                     const Point<double, 3> & lowCorner,
+                     const Point<double, 3> & highCorner)
 {
   constexpr double halfVoxel = 0.5;
   const auto ends = FindAxisEnds(scan, lowCorner, highCorner);
@@ -74,7 +74,7 @@ MoveWallsToBorder(TriangleSurface & surface,
 }
 
 std::vector<std::uint32_t>
-FindTrianglesNearWalls(const TriangleSurface & surface, const ImageBase<3> & scan, double margin)
+FindTrianglesNearFCCWalls(const TriangleSurface & surface, const ImageBase<3> & scan, double margin)
 {
   const auto & region = scan.GetLargestPossibleRegion();
   const auto isNear = [&](std::uint32_t id) {
@@ -94,7 +94,7 @@ FindTrianglesNearWalls(const TriangleSurface & surface, const ImageBase<3> & sca
   };
   std::vector<std::uint8_t> areNear(surface.GetNumberOfPoints());
   constexpr std::size_t pointsOfBlock = 16384;
-  ForEachInBlocks(
+  rhombic::ForEachInBlocks(
     areNear.size(), pointsOfBlock, [&](std::size_t id) { areNear[id] = isNear(static_cast<std::uint32_t>(id)); });
   std::vector<std::uint32_t> found;
   for (std::uint32_t triangle = 0; triangle < surface.GetNumberOfTriangles(); ++triangle)

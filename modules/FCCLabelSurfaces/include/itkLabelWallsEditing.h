@@ -8,11 +8,10 @@
 namespace itk
 {
 
-/** Smooths walls as SmoothSurface() does, and keeps the volume of each label. Points of a wall move towards the mean of
- * their neighbours, points of the curves where walls meet along their curve. Then walls and their curves move along
- * their normals until each label has its volume again, or the one that \a volumes has for it: it lacks no layer thicker
- * than a thousandth of maximumMove. Points where curves meet
- * or walls touch stay.
+/** Smooths walls as SmoothTriangleSurface() does, and keeps the volume of each label. Points of a wall move towards the
+ * mean of their neighbours, points of the curves where walls meet along their curve. Then walls and their curves move
+ * along their normals until each label has its volume again, or the one that \a volumes has for it: it lacks no layer
+ * thicker than a thousandth of maximumMove. Points where curves meet or walls touch stay.
  *
  * No point moves farther than maximumMove from where it is at the call; where triangles would meet others elsewhere
  * than at shared corners and sides, points stay there. The report is of all moves together. So the walls of each label
@@ -23,19 +22,19 @@ namespace itk
  * \param volumes by label in mm^3, such as LabelsToFCCFilter::GetVoxelVolumes(); labels without one, or with 0, keep
  * theirs */
 TriangleSurfaceSmoothingReport
-RelaxWalls(LabelWalls & walls,
-           const TriangleSurfaceSmoothingSettings & settings,
-           const std::vector<double> & volumes = {});
+RelaxLabelWalls(LabelWalls & walls,
+                const TriangleSurfaceSmoothingSettings & settings,
+                const std::vector<double> & volumes = {});
 
-/** Reduces the number of triangles of walls, as SimplifySurface() does, once for both labels of each wall: labels still
- * share their walls, without gaps and overlaps.
+/** Reduces the number of triangles of walls, as SimplifyTriangleSurface() does, once for both labels of each wall:
+ * labels still share their walls, without gaps and overlaps.
  *
  * Points on the curves where walls meet collapse along these, and points where curves meet stay, so that the surface of
  * each label keeps its topology. Distances are checked wall by wall: each wall, in both directions, against the same
  * wall before. A tenth of maximumError is kept for moving walls at the end, so that labels keep their volumes; if
- * maximumError is infinite, volumes are not restored. Throws as SimplifySurface() does. */
+ * maximumError is infinite, volumes are not restored. Throws as SimplifyTriangleSurface() does. */
 TriangleSurfaceSimplificationReport
-SimplifyWalls(LabelWalls & walls, const TriangleSurfaceSimplificationSettings & settings);
+SimplifyLabelWalls(LabelWalls & walls, const TriangleSurfaceSimplificationSettings & settings);
 
 } // namespace itk
 

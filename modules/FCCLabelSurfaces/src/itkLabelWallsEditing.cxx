@@ -75,7 +75,9 @@ RestoreVolumes(const LabelWalls & walls,
 } // namespace
 
 TriangleSurfaceSmoothingReport
-RelaxWalls(LabelWalls & walls, const TriangleSurfaceSmoothingSettings & settings, const std::vector<double> & volumes)
+RelaxLabelWalls(LabelWalls & walls,
+                const TriangleSurfaceSmoothingSettings & settings,
+                const std::vector<double> & volumes)
 {
   auto wanted = walls.ComputeVolumes();
   for (std::size_t label = 1; label < std::min(wanted.size(), volumes.size()); ++label)
@@ -93,7 +95,7 @@ RelaxWalls(LabelWalls & walls, const TriangleSurfaceSmoothingSettings & settings
 }
 
 TriangleSurfaceSimplificationReport
-SimplifyWalls(LabelWalls & walls, const TriangleSurfaceSimplificationSettings & settings)
+SimplifyLabelWalls(LabelWalls & walls, const TriangleSurfaceSimplificationSettings & settings)
 {
   const auto volumes = walls.ComputeVolumes();
   auto & labels = walls.GetTriangleLabels();
@@ -108,7 +110,7 @@ SimplifyWalls(LabelWalls & walls, const TriangleSurfaceSimplificationSettings & 
   }
   TriangleSurfaceSimplificationSettings shared = settings;
   shared.maximumError *= 1.0 - ShareForVolumes;
-  const auto report = SimplifySurface(walls, sheets, shared);
+  const auto report = SimplifyTriangleSurface(walls, sheets, shared);
   labels.resize(sheets.size());
   std::transform(sheets.begin(), sheets.end(), labels.begin(), [&pairs](std::uint32_t sheet) { return pairs[sheet]; });
   if (std::isfinite(settings.maximumError))

@@ -88,7 +88,7 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::VerifyPreconditions() ITKv
     itkExceptionMacro("There is no Kernel number " << static_cast<int>(m_Kernel)
                                                    << "; use Linear, CubicBSpline or Lanczos4.");
   }
-  if (!IsSpacingOrUnset(m_OutputSpacing))
+  if (!IsFCCSpacingOrUnset(m_OutputSpacing))
   {
     itkExceptionMacro("OutputSpacing must be positive along each axis, not "
                       << m_OutputSpacing << "; set it to zero along all of them to derive it from Density.");
@@ -141,7 +141,7 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateOutputInformation(
     const double span = axis == 0 ? 2.0 * counts[axis] - 1.0 : counts[axis] - 1.0;
     first[axis] = (lengths[axis] - 1.0 - span * step) / 2.0;
   }
-  if (!IsCountable(counts))
+  if (!IsFCCSizeCountable(counts))
   {
     itkExceptionMacro("The lattice would have " << counts[0] << " x " << counts[1] << " x " << counts[2]
                                                 << " samples; use a larger OutputSpacing or a smaller Density.");

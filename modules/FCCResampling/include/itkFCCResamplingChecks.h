@@ -20,7 +20,7 @@ namespace itk
 
 /** Whether a spacing is positive along all axes, or zero along all axes, which means that it is not set. */
 inline bool
-IsSpacingOrUnset(const Vector<double, 3> & spacing)
+IsFCCSpacingOrUnset(const Vector<double, 3> & spacing)
 {
   bool isPositive = true;
   for (unsigned int axis = 0; axis < 3; ++axis)
@@ -32,7 +32,7 @@ IsSpacingOrUnset(const Vector<double, 3> & spacing)
 
 /** Whether an image with these numbers of samples along its axes has at most 2^40 samples. */
 inline bool
-IsCountable(const std::array<double, 3> & counts)
+IsFCCSizeCountable(const std::array<double, 3> & counts)
 {
   constexpr double most = 0x1p40;
   return counts[0] * counts[1] * counts[2] <= most;

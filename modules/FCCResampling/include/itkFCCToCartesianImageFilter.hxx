@@ -34,7 +34,7 @@ void
 FCCToCartesianImageFilter<TInputImage, TOutputImage>::VerifyPreconditions() ITKv5_CONST
 {
   Superclass::VerifyPreconditions();
-  if (!IsSpacingOrUnset(m_OutputSpacing))
+  if (!IsFCCSpacingOrUnset(m_OutputSpacing))
   {
     itkExceptionMacro("OutputSpacing must be positive along each axis, not "
                       << m_OutputSpacing << "; set it to zero along all of them to derive it from the input's.");
@@ -73,7 +73,7 @@ FCCToCartesianImageFilter<TInputImage, TOutputImage>::GenerateOutputInformation(
     counts[axis] = std::max(1.0, std::floor(units / step + tolerance));
     first[axis] = begin + (units - (counts[axis] - 1.0) * step) / 2.0;
   }
-  if (!IsCountable(counts))
+  if (!IsFCCSizeCountable(counts))
   {
     itkExceptionMacro("The grid would have " << counts[0] << " x " << counts[1] << " x " << counts[2]
                                              << " samples; use a larger OutputSpacing.");

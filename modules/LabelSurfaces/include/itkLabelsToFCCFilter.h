@@ -44,7 +44,7 @@ namespace itk
  *
  *     method                                                  1 mm          3 mm          6 mm
  *     this filter and FCCLabelSurfaceFilter                   .06   4.6     .14   7.7     .20   8.7
- *     the same and RelaxWalls() by half a voxel               .06   4.2     .14   7.4     .20   8.4
+ *     the same and RelaxLabelWalls() by half a voxel               .06   4.2     .14   7.4     .20   8.4
  *     a field and an isosurface for each label alone          .05   2.5     .26  10.4     .82  30.2
  *     vtkDiscreteFlyingEdges3D, vtkWindowedSincPolyDataFilter .06   3.4     .23   7.5     .52  12.5
  *

@@ -26,7 +26,7 @@ namespace itk
  *
  *     method                                                  1 mm          3 mm          6 mm
  *     this filter and FCCLabelSurfaceFilter                   .06   8.0     .11   9.6     .22  11.6
- *     the same and RelaxWalls() by half a voxel               .06   4.2     .11   6.9     .22   9.1
+ *     the same and RelaxLabelWalls() by half a voxel               .06   4.2     .11   6.9     .22   9.1
  *
  * The outputs have the same bytes for any number of threads. Inputs are resampled one after another. Memory: 18 bytes a
  * site, 12 bytes a voxel, and 8 bytes for each site and label with a probability between 0 and 1.

@@ -63,8 +63,8 @@ struct LabelMesh
  * their wall. Labels that overlap are in layers, each of which has its own walls. The surfaces of the labels are set by
  * ExtractSurfaces().
  *
- * The walls are those of itk::LabelsToFCCFilter and itk::FCCLabelSurfaceFilter, smoothed by itk::RelaxWalls(), which
- * moves points by 0.3 voxels at most. Labels above 1 ml have the volume of their voxels within 1 %. Pieces of a
+ * The walls are those of itk::LabelsToFCCFilter and itk::FCCLabelSurfaceFilter, smoothed by itk::RelaxLabelWalls(),
+ * which moves points by 0.3 voxels at most. Labels above 1 ml have the volume of their voxels within 1 %. Pieces of a
  * label that do not touch are not joined. Where the map has probabilities, the walls are those of
  * itk::ProbabilitiesToFCCFilter instead, as they are: labels that are not chosen have walls to the others all the same.
  *
@@ -79,9 +79,9 @@ LabelMesh
 LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const Events & events);
 
 /** Smooths and simplifies the walls as \a finish says, once for both labels of each wall, so that labels that touch
- * still share it (itk::RelaxWalls(), itk::SimplifyWalls()). A limit of triangles is one for all walls together, of
- * which each layer gets a share by its triangles. Removes no parts. Notes give the results, of which there is one for
- * each layer. \param spacing of the voxels in mm */
+ * still share it (itk::RelaxLabelWalls(), itk::SimplifyLabelWalls()). A limit of triangles is one for all walls
+ * together, of which each layer gets a share by its triangles. Removes no parts. Notes give the results, of which there
+ * is one for each layer. \param spacing of the voxels in mm */
 std::vector<Refinement>
 RefineWalls(LabelMesh & mesh, const SurfaceFinish & finish, double spacing, const Events & events);
 

@@ -1,6 +1,6 @@
 #include "itkLabelTopology.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
 #include <array>
@@ -221,7 +221,7 @@ LabelTopology::FindWeights(const TTest & test) const
 {
   const SizeValueType width = m_Labels.GetLargestPossibleRegion().GetSize(0);
   std::vector<std::vector<Change>> found(m_Weights.GetNumberOfRows());
-  ForEachInBlocks(found.size(), 64, [&](std::size_t row) {
+  rhombic::ForEachInBlocks(found.size(), 64, [&](std::size_t row) {
     for (const FCCLabelWeights::Entry & entry : m_Weights.GetRow(row))
     {
       const SizeValueType site = row * width + entry.i;
@@ -319,7 +319,7 @@ LabelTopology::FindDoubts(std::vector<double> offsets)
   const SizeValueType width = m_Labels.GetLargestPossibleRegion().GetSize(0);
   std::vector<std::vector<Change>> found(m_Weights.GetNumberOfRows());
   offsets.resize(std::numeric_limits<LabelType>::max() + std::size_t{ 1 });
-  ForEachInBlocks(found.size(), 64, [&](std::size_t row) {
+  rhombic::ForEachInBlocks(found.size(), 64, [&](std::size_t row) {
     FCCLabelWeights::RowType & entries = m_Weights.GetRow(row);
     for (auto begin = entries.begin(), end = begin; begin != entries.end(); begin = end)
     {

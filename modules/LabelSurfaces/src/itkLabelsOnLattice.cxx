@@ -72,7 +72,7 @@ AddLabelWeights(const FCCImage<float> & field,
 void
 SortWeights(const ImageRegion<3> & lattice, FCCLabelWeights & weights)
 {
-  ForEachInBlocks(lattice.GetSize(1) * lattice.GetSize(2), 64, [&](std::size_t row) { weights.SortRow(row); });
+  rhombic::ForEachInBlocks(lattice.GetSize(1) * lattice.GetSize(2), 64, [&](std::size_t row) { weights.SortRow(row); });
 }
 
 } // namespace itk

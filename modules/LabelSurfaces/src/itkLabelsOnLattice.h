@@ -3,7 +3,7 @@
 
 #include "itkFCCImage.h"
 #include "itkFCCLabelWeights.h"
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <array>
 #include <vector>
@@ -19,7 +19,7 @@ template <typename TUse>
 void
 ForEachRow(const ImageRegion<3> & box, const TUse & use)
 {
-  ForEachInBlocks(box.GetSize(1) * box.GetSize(2), 64, [&](std::size_t n) {
+  rhombic::ForEachInBlocks(box.GetSize(1) * box.GetSize(2), 64, [&](std::size_t n) {
     Index<3> first = box.GetIndex();
     first[1] += static_cast<IndexValueType>(n % box.GetSize(1));
     first[2] += static_cast<IndexValueType>(n / box.GetSize(1));

@@ -647,7 +647,7 @@ LabelsToFCCFilter::GenerateData()
       return voxels > fields.front().voxels.GetNumberOfPixels();
     });
     const ThreadIdType threads = end - begin > 1 ? 1 : this->GetNumberOfWorkUnits();
-    ForEachOnThreads(static_cast<std::size_t>(end - begin), [&](std::size_t n) {
+    rhombic::ForEachOnThreads(static_cast<std::size_t>(end - begin), [&](std::size_t n) {
       progress.CheckAbort();
       LabelField & field = begin[static_cast<std::ptrdiff_t>(n)];
       const auto filter = MakeField(map, field.label, field.voxels, threads);

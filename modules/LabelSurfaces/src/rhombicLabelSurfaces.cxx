@@ -9,7 +9,7 @@
 
 #include "detail/itkPositionArithmetic.h"
 #include "itkFCCLabelSurfaceFilter.h"
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 #include "itkLabelWallsEditing.h"
 #include "itkLabelsToFCCFilter.h"
 #include "itkProbabilitiesToFCCFilter.h"
@@ -60,7 +60,7 @@ NumberLabels(const ScanImage & image, const std::vector<LabelSummary> & labels)
     numbers->CopyInformation(voxels);
     numbers->SetRegions(region);
     numbers->Allocate();
-    itk::ForEachInBlocks(region.GetSize(1) * region.GetSize(2), 64, [&](std::size_t row) {
+    ForEachInBlocks(region.GetSize(1) * region.GetSize(2), 64, [&](std::size_t row) {
       const std::size_t first = row * region.GetSize(0);
       for (std::size_t n = first; n < first + region.GetSize(0); ++n)
       {
@@ -152,7 +152,7 @@ ExtractWalls(TFilter & toLattice, double voxel, const std::vector<double> & volu
   itk::TriangleSurfaceSmoothingSettings relaxation;
   relaxation.iterations = 10;
   relaxation.maximumMove = 0.3 * voxel;
-  itk::RelaxWalls(*walls, relaxation, volumes);
+  itk::RelaxLabelWalls(*walls, relaxation, volumes);
   return walls;
 }
 
@@ -254,14 +254,15 @@ SetNormals(itk::TriangleSurface & surface)
 void
 MeasureLabels(const LabelPieces & pieces, std::size_t layer, LabelMesh & mesh)
 {
-  itk::ForEachOnThreads(mesh.labels.size(), [&](std::size_t n) {
+  ForEachOnThreads(mesh.labels.size(), [&](std::size_t n) {
     if (pieces.counts[n + 1] == 0)
     {
       return;
     }
     LabelSurface & label = mesh.labels[n];
     const auto surface = mesh.walls[layer]->ExtractLabel(static_cast<itk::LabelWalls::LabelType>(n + 1));
-    const auto volumes = itk::ComputeComponentVolumes(*surface, itk::FindComponents(*surface));
+    const auto volumes =
+      itk::ComputeTriangleSurfaceComponentVolumes(*surface, itk::FindTriangleSurfaceComponents(*surface));
     label.layer = layer;
     label.surfaceMillilitres = std::accumulate(volumes.begin(), volumes.end(), 0.0) / CubicMillimetresPerMl;
     label.surfacePieces = static_cast<std::size_t>(
@@ -337,9 +338,9 @@ RefineWalls(LabelMesh & mesh, const SurfaceFinish & finish, double spacing, cons
   {
     itk::LabelWalls & walls = *layer;
     const RefinementFunctions functions{
-      [&walls](auto &, const auto & settings) { return itk::RelaxWalls(walls, settings); },
-      [&walls](auto &, const auto & settings) { return itk::SimplifyWalls(walls, settings); },
-      [&walls](auto &) { return -itk::ComputeVolume(*walls.ExtractLabel(0)); }
+      [&walls](auto &, const auto & settings) { return itk::RelaxLabelWalls(walls, settings); },
+      [&walls](auto &, const auto & settings) { return itk::SimplifyLabelWalls(walls, settings); },
+      [&walls](auto &) { return -itk::ComputeTriangleSurfaceVolume(*walls.ExtractLabel(0)); }
     };
     SurfaceFinish share = finish;
     if (finish.maximumTriangles > 0)
@@ -355,7 +356,7 @@ RefineWalls(LabelMesh & mesh, const SurfaceFinish & finish, double spacing, cons
 void
 ExtractSurfaces(LabelMesh & mesh)
 {
-  itk::ForEachOnThreads(mesh.labels.size(), [&](std::size_t n) {
+  ForEachOnThreads(mesh.labels.size(), [&](std::size_t n) {
     const auto surface = mesh.walls[mesh.labels[n].layer]->ExtractLabel(static_cast<itk::LabelWalls::LabelType>(n + 1));
     SetNormals(*surface);
     mesh.labels[n].scene.surface = surface;

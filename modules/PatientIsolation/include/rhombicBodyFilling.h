@@ -9,7 +9,7 @@ namespace rhombic
 /** A copy of a volume in which the inside of the body is filled: samples deeper than \a depth under the body's outline
  * are at the isovalue or above it, so that the surface at the isovalue is the skin without lungs and bowel gas. Lungs
  * that the scan's top or bottom cuts are filled, too. A sample at the isovalue or above it stays as it is. Cavities
- * that are less deep stay; see itk::FillCavities() for them.
+ * that are less deep stay; see itk::FillTriangleSurfaceCavities() for them.
  *
  * Air around the body is found as by KeepEnclosedParts(), but up to -880 HU, for mattresses of foam. Where there is
  * none, the volume is copied as it is.

@@ -1,7 +1,7 @@
 #include "rhombicBlockGrid.h"
 
 #include "itkConnectedComponentImageFilter.h"
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,7 +75,7 @@ DistanceTo(const MaskImage & mask, double reach)
     const auto step = static_cast<std::ptrdiff_t>(mask.GetOffsetTable()[axis]);
     const auto steps = static_cast<std::ptrdiff_t>(reach / width);
     const auto length = static_cast<std::ptrdiff_t>(size[0]);
-    itk::ForEachInBlocks(size[1] * size[2], 32, [&](std::size_t row) {
+    ForEachInBlocks(size[1] * size[2], 32, [&](std::size_t row) {
       float * const least = squares + row * size[0];
       const auto place = static_cast<std::ptrdiff_t>(axis == 1 ? row % size[1] : row / size[1]); // of the row
       for (std::ptrdiff_t apart = -steps; apart <= steps; ++apart)
@@ -102,7 +102,7 @@ DistanceTo(const MaskImage & mask, double reach)
 }
 
 Components
-FindComponents(const MaskImage & mask, bool isFullyConnected)
+FindTriangleSurfaceComponents(const MaskImage & mask, bool isFullyConnected)
 {
   const auto filter = itk::ConnectedComponentImageFilter<MaskImage, LabelImage>::New();
   filter->SetInput(&mask);

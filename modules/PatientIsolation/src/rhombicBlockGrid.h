@@ -131,7 +131,7 @@ struct Components
 
 /** Parts connected by faces, or also by edges and corners. */
 Components
-FindComponents(const MaskImage & mask, bool isFullyConnected);
+FindTriangleSurfaceComponents(const MaskImage & mask, bool isFullyConnected);
 
 /** The mask of the components for which isIn(label) is true; the outside has label 0. */
 template <typename TFunction>

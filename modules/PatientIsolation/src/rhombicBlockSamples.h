@@ -1,7 +1,7 @@
 #ifndef rhombicBlockSamples_h
 #define rhombicBlockSamples_h
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 #include "itkSize.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ SumBlocks(const TImage & image,
   const auto endOf = [&](unsigned int axis, std::size_t block) {
     return std::min<std::size_t>((block + 1) * shape[axis], size[axis]);
   };
-  itk::ForEachInBlocks(blocks[2], 1, [&](std::size_t slice) {
+  ForEachInBlocks(blocks[2], 1, [&](std::size_t slice) {
     for (std::size_t row = 0; row < blocks[1]; ++row)
     {
       std::vector<TSums> sums(blocks[0]);

@@ -95,7 +95,7 @@ FindCutOff(const LatticeBlocks & blocks, const MaskImage & inside)
   {
     return nullptr;
   }
-  const Components components = FindComponents(*apart, false);
+  const Components components = FindTriangleSurfaceComponents(*apart, false);
   const std::vector<Border> borders = MeasureBorders(components, *apart, inside, blocks, margin);
   const auto lungs = MaskOfParts(components, [&](std::size_t label) { return borders[label].IsOpenLung(); });
   if (!HasBorder(*lungs))
@@ -151,7 +151,7 @@ MeasureParts(const itk::TriangleSurface & surface,
     }
     part.isAround = part.isAround || (!isCutOff && blocks.around->GetPixel(index) != 0);
   }
-  const auto volumes = itk::ComputeComponentVolumes(surface, components);
+  const auto volumes = itk::ComputeTriangleSurfaceComponentVolumes(surface, components);
   for (std::size_t n = 0; n < parts.size(); ++n)
   {
     parts[n].millilitres = volumes[n] / 1000.0;
@@ -168,7 +168,7 @@ KeepParts(itk::TriangleSurface & surface,
           const LatticeBlocks & blocks,
           bool isCutOff)
 {
-  const auto components = itk::FindComponents(surface);
+  const auto components = itk::FindTriangleSurfaceComponents(surface);
   const auto parts = MeasureParts(surface, components, image, blocks, isCutOff);
   double largest = 0.0;
   for (const SurfacePart & part : parts)
@@ -187,7 +187,7 @@ KeepParts(itk::TriangleSurface & surface,
     enclosed.small += isEnclosed && isSmall ? part.millilitres : 0.0;
     enclosed.numberCutBySides += keep.back() && part.isCut ? 1 : 0;
   }
-  itk::KeepComponents(surface, components, keep);
+  itk::KeepTriangleSurfaceComponents(surface, components, keep);
   return enclosed;
 }
 
@@ -212,9 +212,9 @@ KeepEnclosedParts(itk::TriangleSurface::Pointer & surface,
       duplicator->SetInputImage(image);
       duplicator->Update();
       MoveFromAir(*duplicator->GetOutput(), blocks, *cutOff, threshold.isovalue);
-      const double whole = itk::ComputeVolume(*surface);
+      const double whole = itk::ComputeTriangleSurfaceVolume(*surface);
       surface = extract(itk::SmartPointer(duplicator->GetOutput()));
-      const double kept = itk::ComputeVolume(*surface);
+      const double kept = itk::ComputeTriangleSurfaceVolume(*surface);
       EnclosedParts parts = KeepParts(*surface, *image, blocks, true);
       parts.aroundBody = (whole - kept) / 1000.0;
       return parts;

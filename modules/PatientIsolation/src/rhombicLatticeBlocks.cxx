@@ -10,7 +10,7 @@ namespace
 MaskImage::Pointer
 FindPartsAtSides(const MaskImage & mask, unsigned int longAxis, bool takesSides)
 {
-  const Components components = FindComponents(mask, false);
+  const Components components = FindTriangleSurfaceComponents(mask, false);
   const std::uint32_t * const labels = components.labels->GetBufferPointer();
   const auto & size = mask.GetBufferedRegion().GetSize();
   constexpr double room = ballRadius + 0.5 * gridBlockWidth; // to the centre of the nearest block outside the mask

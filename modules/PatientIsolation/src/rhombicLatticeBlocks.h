@@ -129,7 +129,7 @@ MoveFromAir(itk::FCCImage<TPixel> & image, const LatticeBlocks & blocks, const M
   const std::array<std::vector<Taps<2>>, 2> columns{ tapsAlong(0, 0.25), tapsAlong(0, 0.75) }; // by a row's parity
   const std::vector<Taps<2>> rows = tapsAlong(1, 0.5);
   const std::vector<Taps<2>> slices = tapsAlong(2, 0.5);
-  itk::ForEachInBlocks(size[2], 1, [&](std::size_t k) {
+  ForEachInBlocks(size[2], 1, [&](std::size_t k) {
     for (std::size_t j = 0; j < size[1]; ++j)
     {
       const std::vector<float> sharesOfRow = InterpolateRow(mask, rows[j], slices[k]);

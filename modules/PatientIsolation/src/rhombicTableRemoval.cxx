@@ -3,7 +3,7 @@
 #include "rhombicPatientMask.h"
 #include "rhombicWording.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
 #include <array>
@@ -145,7 +145,7 @@ FindSurroundings(const CoarseScan & coarse, const MaskImage & patient)
   const auto centres = MakeMask(patient, [distances = toPatient->GetBufferPointer()](std::size_t offset) {
     return static_cast<double>(distances[offset]) > ballRadius;
   });
-  const Components components = FindComponents(*centres, false);
+  const Components components = FindTriangleSurfaceComponents(*centres, false);
   const auto & size = patient.GetBufferedRegion().GetSize();
   Surroundings found;
   std::size_t largest = 0;
@@ -180,7 +180,7 @@ FindSurroundings(const CoarseScan & coarse, const MaskImage & patient)
 std::vector<ScanObject>
 MeasureObjects(const CoarseScan & coarse, const MaskImage & objects)
 {
-  const Components components = FindComponents(objects, true);
+  const Components components = FindTriangleSurfaceComponents(objects, true);
   ScanObject empty;
   empty.centroid.Fill(0.0);
   empty.lowest.Fill(std::numeric_limits<double>::infinity());
@@ -333,7 +333,7 @@ DrawSkin(itk::Image<TPixel, 3> & image, const BlockShape & shape, const Cut & cu
       taps[axis].push_back(QuadraticTaps(sample, shape[axis], cut.depth->GetBufferedRegion().GetSize(axis)));
     }
   }
-  itk::ForEachInBlocks(size[2], 1, [&](std::size_t slice) {
+  ForEachInBlocks(size[2], 1, [&](std::size_t slice) {
     for (std::size_t row = 0; row < size[1]; ++row)
     {
       const std::vector<float> reachOfRow = InterpolateRow(*cut.reach, taps[1][row], taps[2][slice]);

@@ -3,7 +3,7 @@
 #include "rhombicFailure.h"
 #include "rhombicPhantomAnatomy.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -225,7 +225,7 @@ MakeImage(const PhantomSettings & settings, TValue air, const TAddPart & addPart
   const Grid grid = MakeGrid(settings);
   const auto image = AllocateOn<TImage>(grid);
   const auto width = static_cast<std::size_t>(grid.size[0]);
-  itk::ForEachInBlocks(width, 1, [&](std::size_t i) {
+  ForEachInBlocks(width, 1, [&](std::size_t i) {
     const auto x = static_cast<long>(i);
     std::vector<TValue> slab(static_cast<std::size_t>(grid.size[1] * grid.size[2]), air);
     for (const auto & part : PhantomParts())

@@ -77,7 +77,7 @@ std::vector<Vector3>
 SpreadEvenly(const SliceBox & box, const ViewFrame & frame, std::size_t count);
 
 /** The slice through a point that shows the whole width and height of a box, with the box's middle in the middle of the
- * picture. For the organ or label of a surface, the point may be itk::ComputeCentroid().
+ * picture. For the organ or label of a surface, the point may be itk::ComputeTriangleSurfaceCentroid().
  *
  * \param frame any: slices may be oblique
  * \param pixelSize in mm; 0: the smallest distance of samples along those two sides that are most nearly in the plane,

@@ -1,6 +1,6 @@
 #include "rhombicCapPicture.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +50,7 @@ public:
   VisitPixels(const TVisit & visit) const
   {
     constexpr std::size_t rowsOfBlock = 32;
-    itk::ForEachInBlocks(static_cast<std::size_t>(m_EndRow - m_FirstRow), rowsOfBlock, [&](std::size_t n) {
+    ForEachInBlocks(static_cast<std::size_t>(m_EndRow - m_FirstRow), rowsOfBlock, [&](std::size_t n) {
       const int row = m_FirstRow + static_cast<int>(n);
       const float * const differences = m_Differences.data() + this->RowBegin(row);
       float winding = 0.0f;

@@ -1,6 +1,6 @@
 #include "rhombicOutline.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -40,7 +40,7 @@ FindPointsBehind(const Surface & surface, const Projection & plane)
   const auto & points = surface.GetPoints();
   std::vector<std::uint8_t> isBehind(points.size());
   constexpr std::size_t blockSize = std::size_t(1) << 16;
-  itk::ForEachInBlocks(
+  ForEachInBlocks(
     points.size(), blockSize, [&](std::size_t n) { isBehind[n] = DepthOf(points[n], plane) >= 0.0 ? 1 : 0; });
   return isBehind;
 }
@@ -70,7 +70,7 @@ CutTriangles(const Surface & surface, const std::vector<std::uint8_t> & isBehind
   const auto & triangles = surface.GetTriangles();
   constexpr std::size_t blockSize = std::size_t(1) << 16;
   std::vector<std::vector<CutLine>> linesOfBlocks((triangles.size() + blockSize - 1) / blockSize);
-  itk::ForEachBlock(triangles.size(), blockSize, [&](std::size_t first, std::size_t last) {
+  ForEachBlock(triangles.size(), blockSize, [&](std::size_t first, std::size_t last) {
     std::vector<CutLine> & lines = linesOfBlocks[first / blockSize];
     for (std::size_t n = first; n < last; ++n)
     {

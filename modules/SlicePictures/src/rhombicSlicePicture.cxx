@@ -1,6 +1,6 @@
 #include "rhombicSlicePicture.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 #include "itkSliceStack.h"
 
 #include <algorithm>
@@ -157,7 +157,7 @@ DrawSlice(const Scan & scan, const Projection & plane, const GreyWindow & window
     [&](const auto & image) {
       const StackValues values(*image, scan.sliceOrigins);
       constexpr std::size_t rowsOfBlock = 8;
-      itk::ForEachInBlocks(static_cast<std::size_t>(plane.height), rowsOfBlock, [&](std::size_t row) {
+      ForEachInBlocks(static_cast<std::size_t>(plane.height), rowsOfBlock, [&](std::size_t row) {
         DrawRow(values, plane, static_cast<int>(row), window, background, picture);
       });
     },

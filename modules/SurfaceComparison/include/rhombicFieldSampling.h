@@ -4,7 +4,7 @@
 #include "rhombicReferenceField.h"
 
 #include "itkFCCImage.h"
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 #include "itkImage.h"
 #include "itkImageRegionIteratorWithIndex.h"
 
@@ -24,7 +24,7 @@ SampleField(const ReferenceField & field, double scale, TImage * image)
   using PixelType = typename TImage::PixelType;
   image->Allocate();
   const auto & region = image->GetBufferedRegion();
-  itk::ForEachBlock(region.GetSize(2), 1, [&](std::size_t begin, std::size_t end) {
+  ForEachBlock(region.GetSize(2), 1, [&](std::size_t begin, std::size_t end) {
     auto planes = region;
     planes.SetIndex(2, region.GetIndex(2) + static_cast<itk::IndexValueType>(begin));
     planes.SetSize(2, end - begin);

@@ -4,7 +4,7 @@
 
 #include "rhombicInterpolatedField.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <cmath>
 #include <unordered_map>
@@ -131,7 +131,7 @@ MovePointsToCubics(const VolumeType * volume, itk::TriangleSurface & surface)
   auto & points = surface.GetPoints();
   auto & normals = surface.GetNormals();
   normals.resize(points.size());
-  itk::ForEachInBlocks(points.size(), blockSize, [&](itk::SizeValueType n) {
+  ForEachInBlocks(points.size(), blockSize, [&](itk::SizeValueType n) {
     auto & point = points[n];
     itk::ContinuousIndex<double, 3> position;
     for (unsigned int axis = 0; axis < 3; ++axis)

@@ -202,7 +202,7 @@ MakeTrueSurface(const ReferenceField & field, const FieldBox & box, double spaci
   auto surface = RunVTK(VTKExtractor::FlyingEdges, volume);
   surface->GetNormals().clear();
   auto & points = surface->GetPoints();
-  itk::ForEachInBlocks(points.size(), 256, [&](itk::SizeValueType n) {
+  ForEachInBlocks(points.size(), 256, [&](itk::SizeValueType n) {
     auto & p = points[n];
     const FieldProjection projection = ProjectOntoField(field, { p[0], p[1], p[2] }, spacing);
     if (projection.isResolved && projection.distance < spacing)

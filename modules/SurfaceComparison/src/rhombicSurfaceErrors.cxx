@@ -2,7 +2,7 @@
 
 #include "detail/itkPositionArithmetic.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 #include "itkTriangleSurfaceQuality.h"
 
 #include <algorithm>
@@ -133,7 +133,7 @@ ProjectPoints(const itk::TriangleSurface & surface,
               const FindNearest & findNearest)
 {
   std::vector<FieldProjection> projections(pointAreas.size());
-  itk::ForEachInBlocks(projections.size(), BlockSize, [&](itk::SizeValueType point) {
+  ForEachInBlocks(projections.size(), BlockSize, [&](itk::SizeValueType point) {
     if (pointAreas[point] > 0.0)
     {
       projections[point] = findNearest(ToVector(surface.GetPoints()[point]));
@@ -145,7 +145,7 @@ ProjectPoints(const itk::TriangleSurface & surface,
 void
 JudgeTriangles(std::vector<JudgedTriangle> & triangles, const FindNearest & findNearest)
 {
-  itk::ForEachInBlocks(triangles.size(), BlockSize, [&](itk::SizeValueType n) {
+  ForEachInBlocks(triangles.size(), BlockSize, [&](itk::SizeValueType n) {
     JudgedTriangle & triangle = triangles[n];
     const auto & [a, b, c] = triangle.corners;
     triangle.quality = itk::ComputeTriangleQuality(a, b, c);
@@ -374,7 +374,7 @@ ComputeNormalPenalty(const itk::TriangleSurface & surface,
     }
   }
   std::vector<double> penalties(judged.size());
-  itk::ForEachInBlocks(judged.size(), BlockSize, [&](itk::SizeValueType n) {
+  ForEachInBlocks(judged.size(), BlockSize, [&](itk::SizeValueType n) {
     const std::uint32_t point = judged[n];
     const auto nearest = tree.FindClosestPoint(ToVector(surface.GetPoints()[point])).triangle;
     const double product = Length(normals[point]) * Length(trueNormals[nearest]);

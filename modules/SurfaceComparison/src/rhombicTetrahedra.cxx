@@ -1,6 +1,6 @@
 #include "rhombicCartesianSurfaces.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -179,7 +179,7 @@ SampleOnBCC(const ReferenceField & field, const Vector3 & origin, const std::arr
     { { { -1, 1, 1 }, { 1, -1, 1 }, { 1, 1, -1 } } }, size, origin, { spacing, spacing, spacing }, {}
   };
   grid.values.assign(static_cast<std::size_t>(size[0] * size[1] * size[2]), TetrahedraGrid::NoSite);
-  itk::ForEachInBlocks(static_cast<itk::SizeValueType>(size[2]), 1, [&](itk::SizeValueType plane) {
+  ForEachInBlocks(static_cast<itk::SizeValueType>(size[2]), 1, [&](itk::SizeValueType plane) {
     const int z = static_cast<int>(plane);
     for (int y = z % 2; y < size[1]; y += 2)
     {

@@ -19,7 +19,7 @@ namespace itk
  * Time linear; memory about 170 bytes per point and 12 per triangle while it runs. The same bytes for any number of
  * threads. */
 void
-SmoothNormals(TriangleSurface & surface);
+SmoothTriangleSurfaceNormals(TriangleSurface & surface);
 
 } // namespace itk
 

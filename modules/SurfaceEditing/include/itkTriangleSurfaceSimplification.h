@@ -63,7 +63,7 @@ struct TriangleSurfaceSimplificationReport
  * Throws ExceptionObject if the surface has non-manifold or misoriented edges, non-manifold points or degenerate
  * triangles, if maximumError is not above 0, or if there is neither a target nor a maximumError. */
 TriangleSurfaceSimplificationReport
-SimplifySurface(TriangleSurface & surface, const TriangleSurfaceSimplificationSettings & settings);
+SimplifyTriangleSurface(TriangleSurface & surface, const TriangleSurfaceSimplificationSettings & settings);
 
 /** The same for sheets that meet in curves, as walls between labels do.
  *
@@ -75,9 +75,9 @@ SimplifySurface(TriangleSurface & surface, const TriangleSurfaceSimplificationSe
  * Throws ExceptionObject if an edge with two triangles has two sheets, or if \a sheets has another number of
  * triangles; else as above, but edges and points where sheets meet need not be manifold. */
 TriangleSurfaceSimplificationReport
-SimplifySurface(TriangleSurface & surface,
-                std::vector<std::uint32_t> & sheets,
-                const TriangleSurfaceSimplificationSettings & settings);
+SimplifyTriangleSurface(TriangleSurface & surface,
+                        std::vector<std::uint32_t> & sheets,
+                        const TriangleSurfaceSimplificationSettings & settings);
 
 } // namespace itk
 

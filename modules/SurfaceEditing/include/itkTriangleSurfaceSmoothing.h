@@ -40,7 +40,7 @@ struct TriangleSurfaceSmoothingReport
  * Time nearly linear; memory about 120 bytes per triangle while it runs. The same bytes for any number of threads.
  * Throws ExceptionObject if maximumMove is negative or not finite. */
 TriangleSurfaceSmoothingReport
-SmoothSurface(TriangleSurface & surface, const TriangleSurfaceSmoothingSettings & settings);
+SmoothTriangleSurface(TriangleSurface & surface, const TriangleSurfaceSmoothingSettings & settings);
 
 } // namespace itk
 

@@ -29,15 +29,15 @@ struct TriangleSurfaceUntanglingReport
  * over the crossing triangles only. Memory about 60 bytes per triangle. Throws ExceptionObject if \a maximumMove is not
  * above 0 or not finite. */
 TriangleSurfaceUntanglingReport
-UntangleSurface(TriangleSurface & surface, double maximumMove);
+UntangleTriangleSurface(TriangleSurface & surface, double maximumMove);
 
 /** The same with a tree of the surface, which is refitted if points move. Triangles cross only where \a candidates say,
  * if there are any, and are only searched there. */
 TriangleSurfaceUntanglingReport
-UntangleSurface(TriangleSurface & surface,
-                TriangleTree & tree,
-                double maximumMove,
-                const std::optional<CrossingCandidates> & candidates = std::nullopt);
+UntangleTriangleSurface(TriangleSurface & surface,
+                        TriangleTree & tree,
+                        double maximumMove,
+                        const std::optional<CrossingCandidates> & candidates = std::nullopt);
 
 } // namespace itk
 

@@ -10,7 +10,7 @@ namespace itk
  * their positions and orientation; points of no triangle are removed. Time nearly linear; memory 40 bytes per triangle
  * while it runs. */
 void
-OptimizeForRendering(TriangleSurface & surface);
+OptimizeTriangleSurfaceForRendering(TriangleSurface & surface);
 
 } // namespace itk
 

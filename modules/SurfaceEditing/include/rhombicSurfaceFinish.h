@@ -89,7 +89,7 @@ struct SimplificationResult
   double maximumError; ///< largest error that was allowed
   itk::TriangleSurfaceSimplificationReport triangles;
   double meanDistance;    ///< mean distance between the surfaces before and after, from points of up to 30 000
-                          ///< triangles of each (itk::ComputeTwoDistances()); the larger of both directions
+                          ///< triangles of each (itk::ComputeTriangleSurfaceDistances()); the larger of both directions
   double maximumDistance; ///< the largest distance of these points
   double volumeBefore;
   double volumeAfter;
@@ -135,7 +135,7 @@ RefineBy(const RefinementFunctions & functions,
  * \param name of the surface, for progress and messages
  * \param candidates which triangles may cross; nothing: all may
  *
- * Throws itk::ExceptionObject as itk::UntangleSurface() and itk::SimplifySurface() do. */
+ * Throws itk::ExceptionObject as itk::UntangleTriangleSurface() and itk::SimplifyTriangleSurface() do. */
 Refinement
 RefineSurface(itk::TriangleSurface & surface,
               const SurfaceFinish & finish,

@@ -57,7 +57,7 @@ BoundedMoves::BoundedMoves(TriangleSurface & surface, const TrianglesOfPoints & 
     itkGenericExceptionMacro("A point can't move by at most "
                              << maximumMove << " mm when a surface is smoothed; give a number from 0");
   }
-  ForEachInBlocks(m_StartAreas.size(), MovedBlock, [&](SizeValueType id) {
+  rhombic::ForEachInBlocks(m_StartAreas.size(), MovedBlock, [&](SizeValueType id) {
     m_StartAreas[id] = AreaVectorOf(m_Start, std::as_const(m_Surface).GetTriangles()[id]);
   });
 }
@@ -95,7 +95,7 @@ BoundedMoves::FinishStep()
 {
   std::vector<std::uint32_t> spoilt;
   std::mutex mutex;
-  ForEachInBlocks(m_Surface.GetNumberOfTriangles(), MovedBlock, [&](SizeValueType id) {
+  rhombic::ForEachInBlocks(m_Surface.GetNumberOfTriangles(), MovedBlock, [&](SizeValueType id) {
     if (this->IsSpoilt(static_cast<std::uint32_t>(id)))
     {
       const std::lock_guard<std::mutex> lock(mutex);
@@ -179,7 +179,7 @@ BoundedMoves::Finish(const PointStrata & strata)
 {
   const Points & points = m_Surface.GetPoints();
   auto & normals = m_Surface.GetNormals();
-  ForEachInBlocks(normals.size(), MovedBlock, [&](SizeValueType point) {
+  rhombic::ForEachInBlocks(normals.size(), MovedBlock, [&](SizeValueType point) {
     const PositionType sum = SumNormals(points, m_Fans, point);
     const double length = Length(sum);
     for (unsigned int axis = 0; axis < 3 && length > 0.0; ++axis)

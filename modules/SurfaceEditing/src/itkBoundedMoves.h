@@ -2,7 +2,7 @@
 #define itkBoundedMoves_h
 
 #include "detail/itkPositionArithmetic.h"
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 #include "itkPointStrata.h"
 #include "itkTriangleSurfaceSmoothing.h"
 
@@ -35,7 +35,7 @@ public:
   void
   Step(const TFind & find)
   {
-    ForEachInBlocks(m_Next.size(), MovedBlock, [&](SizeValueType point) {
+    rhombic::ForEachInBlocks(m_Next.size(), MovedBlock, [&](SizeValueType point) {
       const PointType position = find(point);
       const PositionType way = Subtract(ToPosition(position), ToPosition(m_Start[point]));
       const bool isNear = Dot(way, way) < 0.999 * m_MaximumMove * m_MaximumMove;
@@ -84,7 +84,7 @@ private:
   Points m_Next;
 };
 
-/** The steps of SmoothSurface(). */
+/** The steps of SmoothTriangleSurface(). */
 void
 TakeSmoothingSteps(const TriangleSurface & surface,
                    const TrianglesOfPoints & fans,

@@ -371,7 +371,7 @@ EdgeCollapse::Propose(PointId a, PointId b)
   }
   Quadric quadric = m_Quadrics[from];
   quadric.Add(m_Quadrics[to]);
-  const double error = quadric.ComputeDistance(this->FindPosition(from, to));
+  const double error = quadric.ComputeTriangleSurfaceDistance(this->FindPosition(from, to));
   if (error <= m_LargestError)
   {
     m_Candidates.push({ static_cast<float>(error), from, to, m_Versions[from] + m_Versions[to] });

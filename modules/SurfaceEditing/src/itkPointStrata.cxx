@@ -1,6 +1,6 @@
 #include "itkPointStrata.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 namespace itk
 {
@@ -101,7 +101,7 @@ FindStrata(const TriangleSurface & surface, const TrianglesOfPoints & fans)
   PointStrata found;
   found.strata.resize(surface.GetNumberOfPoints());
   std::vector<std::vector<CurvePoint>> curves(found.strata.size() / blockSize + 1);
-  ForEachBlock(found.strata.size(), blockSize, [&](SizeValueType begin, SizeValueType end) {
+  rhombic::ForEachBlock(found.strata.size(), blockSize, [&](SizeValueType begin, SizeValueType end) {
     Link link;
     for (SizeValueType point = begin; point < end; ++point)
     {

@@ -45,7 +45,7 @@ public:
 
   /** Root of the weighted mean squared distance. */
   double
-  ComputeDistance(const PositionType & p) const
+  ComputeTriangleSurfaceDistance(const PositionType & p) const
   {
     const auto & t = m_Terms;
     const double sum =

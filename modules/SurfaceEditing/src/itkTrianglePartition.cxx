@@ -1,6 +1,6 @@
 #include "itkTrianglePartition.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
 
@@ -66,7 +66,7 @@ SortIntoRanges(const TriangleSurface::PointsContainer & points,
                double cut)
 {
   CentredTriangles centred(triangles.size());
-  ForEachInBlocks(triangles.size(), BlockSize, [&](std::size_t id) {
+  rhombic::ForEachInBlocks(triangles.size(), BlockSize, [&](std::size_t id) {
     centred[id].corners = triangles[id];
     centred[id].id = ids[id];
     for (unsigned int axis = 0; axis < 3; ++axis)
@@ -81,7 +81,7 @@ SortIntoRanges(const TriangleSurface::PointsContainer & points,
   while (!large.empty())
   {
     std::vector<std::size_t> middles(large.size());
-    ForEachInBlocks(large.size(), 1, [&](std::size_t n) {
+    rhombic::ForEachInBlocks(large.size(), 1, [&](std::size_t n) {
       middles[n] = large[n].Size() > mostTriangles ? Split(centred, large[n], cut) : large[n].end;
     });
     std::vector<TriangleRange> next;
@@ -97,7 +97,7 @@ SortIntoRanges(const TriangleSurface::PointsContainer & points,
     }
     large.swap(next);
   }
-  ForEachInBlocks(triangles.size(), BlockSize, [&](std::size_t id) {
+  rhombic::ForEachInBlocks(triangles.size(), BlockSize, [&](std::size_t id) {
     triangles[id] = centred[id].corners;
     ids[id] = centred[id].id;
   });

@@ -2,7 +2,7 @@
 
 #include "detail/itkPositionArithmetic.h"
 #include "detail/itkTrianglesOfPoints.h"
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 #include "itkMath.h"
 
 #include <algorithm>
@@ -99,7 +99,7 @@ ShareOf(const NormalSample & sum)
 } // namespace
 
 void
-SmoothNormals(TriangleSurface & surface)
+SmoothTriangleSurfaceNormals(TriangleSurface & surface)
 {
   if (!surface.HasNormals())
   {
@@ -108,17 +108,17 @@ SmoothNormals(TriangleSurface & surface)
   const TrianglesOfPoints fans(surface);
   std::vector<NormalSample> samples(surface.GetNumberOfPoints());
   std::vector<NormalSample> next(samples.size());
-  ForEachInBlocks(
+  rhombic::ForEachInBlocks(
     samples.size(), NormalsBlock, [&](SizeValueType point) { samples[point] = SampleAt(surface, fans, point); });
   for (unsigned int pass = 0; pass < Passes; ++pass)
   {
-    ForEachInBlocks(samples.size(), NormalsBlock, [&](SizeValueType point) {
+    rhombic::ForEachInBlocks(samples.size(), NormalsBlock, [&](SizeValueType point) {
       next[point] = SumWithNeighbours(samples, fans, point);
     });
     samples.swap(next);
   }
   auto & normals = surface.GetNormals();
-  ForEachInBlocks(samples.size(), NormalsBlock, [&](SizeValueType point) {
+  rhombic::ForEachInBlocks(samples.size(), NormalsBlock, [&](SizeValueType point) {
     const double share = ShareOf(samples[point]);
     auto & normal = normals[point];
     const PositionType smooth = Normalized(Add(samples[point].normal, samples[point].areaVector));

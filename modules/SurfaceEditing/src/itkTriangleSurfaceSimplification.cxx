@@ -3,7 +3,7 @@
 #include "detail/itkPositionArithmetic.h"
 #include "detail/itkTriangleContact.h"
 #include "itkEdgeCollapse.h"
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 #include "itkTrianglePartition.h"
 #include "itkTriangleProximity.h"
 #include "itkTriangleSurfaceMeasures.h"
@@ -48,7 +48,8 @@ constexpr unsigned int MostRounds = 32;   // rounds of putting triangles back; t
 double
 MeanSide(const TriangleSurface & surface)
 {
-  return std::sqrt(4.0 / std::sqrt(3.0) * ComputeArea(surface) / static_cast<double>(surface.GetNumberOfTriangles()));
+  return std::sqrt(4.0 / std::sqrt(3.0) * ComputeTriangleSurfaceArea(surface) /
+                   static_cast<double>(surface.GetNumberOfTriangles()));
 }
 
 double
@@ -331,14 +332,14 @@ Simplification::Step(double error, double cut)
   this->SwapWithBefore();
   m_Points.isHeld = m_IsHeld;
   this->CutIntoPatches(cut);
-  ForEachInBlocks(m_Patches.size(), 1, [&](std::size_t id) {
+  rhombic::ForEachInBlocks(m_Patches.size(), 1, [&](std::size_t id) {
     Patch & patch = m_Patches[id];
     patch.log = CollapseEdges(*m_Before, patch.before, m_Points, m_Limits, error, patch.after);
   });
   this->AimAtTarget();
   this->JoinPatches();
   const bool isSound =
-    this->PutBackBadTriangles() && HaveSameTopology(ComputeTopology(m_State), m_Topology, m_IsOneSheet);
+    this->PutBackBadTriangles() && HaveSameTopology(ComputeTriangleSurfaceTopology(m_State), m_Topology, m_IsOneSheet);
   m_IsHeldBack =
     std::any_of(m_Patches.begin(), m_Patches.end(), [](const Patch & patch) { return patch.log.wasHeldBack; });
   if (!isSound)
@@ -451,7 +452,7 @@ Simplification::AimAtTarget()
 void
 Simplification::Replay(const std::vector<PatchId> & patches)
 {
-  ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
+  rhombic::ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
     Patch & patch = m_Patches[patches[n]];
     patch.after = ReplayCollapses(*m_Before, patch.before, m_Points, m_Limits, patch.log, patch.mostChanges);
   });
@@ -551,7 +552,7 @@ Simplification::FindContacts(const TriangleTree & state, Flags & isBad) const
   const auto & triangles = m_State.GetTriangles();
   std::vector<TriangleId> found;
   std::mutex mutex;
-  ForEachInBlocks(triangles.size(), SimplifiedBlock, [&](std::size_t n) {
+  rhombic::ForEachInBlocks(triangles.size(), SimplifiedBlock, [&](std::size_t n) {
     const auto id = static_cast<TriangleId>(n);
     if (!m_IsFresh[id])
     {
@@ -577,7 +578,7 @@ void
 Simplification::FindStrays(Flags & isBad) const
 {
   const auto & triangles = m_State.GetTriangles();
-  ForEachInBlocks(isBad.size(), SimplifiedBlock, [&](std::size_t id) {
+  rhombic::ForEachInBlocks(isBad.size(), SimplifiedBlock, [&](std::size_t id) {
     if (m_IsFresh[id] && m_IsNew[id])
     {
       const auto & triangle = triangles[id];
@@ -605,7 +606,7 @@ Simplification::FindUncovered(const SheetTrees & state, bool checksAll, Flags & 
   const TriangleSurface & original = *m_Original->surface;
   const auto & triangles = original.GetTriangles();
   Flags isUncovered(triangles.size(), 0);
-  ForEachInBlocks(triangles.size(), SimplifiedBlock, [&](std::size_t id) {
+  rhombic::ForEachInBlocks(triangles.size(), SimplifiedBlock, [&](std::size_t id) {
     const auto & [a, b, c] = triangles[id];
     const std::array<TriangleId, 3> near{ m_WitnessTriangles[a], m_WitnessTriangles[b], m_WitnessTriangles[c] };
     const bool hasChanged = m_IsFresh[near[0]] | m_IsFresh[near[1]] | m_IsFresh[near[2]];
@@ -755,23 +756,23 @@ operator<<(std::ostream & os, SimplificationEnd end)
 }
 
 TriangleSurfaceSimplificationReport
-SimplifySurface(TriangleSurface & surface, const TriangleSurfaceSimplificationSettings & settings)
+SimplifyTriangleSurface(TriangleSurface & surface, const TriangleSurfaceSimplificationSettings & settings)
 {
   Sheets sheets(surface.GetNumberOfTriangles(), 0);
-  return SimplifySurface(surface, sheets, settings);
+  return SimplifyTriangleSurface(surface, sheets, settings);
 }
 
 TriangleSurfaceSimplificationReport
-SimplifySurface(TriangleSurface & surface,
-                std::vector<std::uint32_t> & sheets,
-                const TriangleSurfaceSimplificationSettings & settings)
+SimplifyTriangleSurface(TriangleSurface & surface,
+                        std::vector<std::uint32_t> & sheets,
+                        const TriangleSurfaceSimplificationSettings & settings)
 {
   if (sheets.size() != surface.GetNumberOfTriangles())
   {
     itkGenericExceptionMacro("There are sheets of " << sheets.size() << " triangles, but the surface has "
                                                     << surface.GetNumberOfTriangles() << '.');
   }
-  const TriangleSurfaceTopology topology = ComputeTopology(surface);
+  const TriangleSurfaceTopology topology = ComputeTriangleSurfaceTopology(surface);
   const bool isOneSheet = std::all_of(sheets.begin(), sheets.end(), [](std::uint32_t sheet) { return sheet == 0; });
   VerifyPreconditions(topology, settings, isOneSheet);
   if (!isOneSheet)

@@ -77,7 +77,7 @@ TakeSmoothingSteps(const TriangleSurface & surface,
 }
 
 TriangleSurfaceSmoothingReport
-SmoothSurface(TriangleSurface & surface, const TriangleSurfaceSmoothingSettings & settings)
+SmoothTriangleSurface(TriangleSurface & surface, const TriangleSurfaceSmoothingSettings & settings)
 {
   const TrianglesOfPoints fans(surface);
   const PointStrata strata = FindStrata(surface, fans);

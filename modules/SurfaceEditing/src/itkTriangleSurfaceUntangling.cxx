@@ -191,17 +191,17 @@ Untangle(TriangleSurface & surface,
 } // namespace
 
 TriangleSurfaceUntanglingReport
-UntangleSurface(TriangleSurface & surface, double maximumMove)
+UntangleTriangleSurface(TriangleSurface & surface, double maximumMove)
 {
   TriangleTree tree(surface);
-  return UntangleSurface(surface, tree, maximumMove);
+  return UntangleTriangleSurface(surface, tree, maximumMove);
 }
 
 TriangleSurfaceUntanglingReport
-UntangleSurface(TriangleSurface & surface,
-                TriangleTree & tree,
-                double maximumMove,
-                const std::optional<CrossingCandidates> & candidates)
+UntangleTriangleSurface(TriangleSurface & surface,
+                        TriangleTree & tree,
+                        double maximumMove,
+                        const std::optional<CrossingCandidates> & candidates)
 {
   if (!(maximumMove > 0.0) || !std::isfinite(maximumMove))
   {

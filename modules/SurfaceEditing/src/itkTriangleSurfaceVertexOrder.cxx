@@ -20,7 +20,7 @@ Reorder(TContainer & container, const std::vector<unsigned int> & newIds, std::s
 } // namespace
 
 void
-OptimizeForRendering(TriangleSurface & surface)
+OptimizeTriangleSurfaceForRendering(TriangleSurface & surface)
 {
   if (surface.GetTriangles().empty())
   {

@@ -99,7 +99,7 @@ Simplify(const RefinementFunctions & functions,
   settings.maximumError = finish.maximumError.value_or(spacing);
   const auto triangles = functions.simplify(surface, settings);
   constexpr itk::SizeValueType measuredTriangles = 30'000; // of either surface; simplification itself checks all
-  const auto distances = ComputeTwoDistances(*original, surface, measuredTriangles);
+  const auto distances = ComputeTriangleSurfaceDistances(*original, surface, measuredTriangles);
   return { settings.maximumError,  triangles,    std::max(distances.fromFirst.mean, distances.fromSecond.mean),
            distances.GetMaximum(), volumeBefore, functions.computeVolume(surface) };
 }
@@ -172,10 +172,10 @@ RemoveParts(itk::TriangleSurface & surface,
             const Events & events)
 {
   PartRemoval removal;
-  const double extractedVolume = ComputeVolume(surface);
+  const double extractedVolume = ComputeTriangleSurfaceVolume(surface);
   if (finish.fillsCavities)
   {
-    removal.filled = FillCavities(surface);
+    removal.filled = FillTriangleSurfaceCavities(surface);
   }
   if (removal.filled.solids + removal.filled.cavities > 0)
   {
@@ -183,12 +183,12 @@ RemoveParts(itk::TriangleSurface & surface,
   }
   if (finish.keepsLargestPart)
   {
-    removal.removed = KeepLargestSolid(surface);
+    removal.removed = KeepLargestTriangleSurfaceSolid(surface);
     removal.warning = WarnOfLostParts(removal.removed, extractedVolume - removal.filled.volume);
   }
   if (finish.minimumVolume > 0.0)
   {
-    removal.removed += RemoveSmallSolids(surface, finish.minimumVolume * CubicMillimetresPerMl);
+    removal.removed += RemoveSmallTriangleSurfaceSolids(surface, finish.minimumVolume * CubicMillimetresPerMl);
   }
   if (removal.removed.solids + removal.removed.cavities > 0)
   {
@@ -233,16 +233,16 @@ RefineSurface(itk::TriangleSurface & surface,
               const Events & events,
               const std::optional<itk::CrossingCandidates> & candidates)
 {
-  const RefinementFunctions functions{ itk::SmoothSurface,
+  const RefinementFunctions functions{ itk::SmoothTriangleSurface,
                                        [](itk::TriangleSurface & simplified, const auto & settings) {
-                                         const auto report = SimplifySurface(simplified, settings);
-                                         OptimizeForRendering(simplified);
+                                         const auto report = SimplifyTriangleSurface(simplified, settings);
+                                         OptimizeTriangleSurfaceForRendering(simplified);
                                          return report;
                                        },
-                                       itk::ComputeVolume };
+                                       itk::ComputeTriangleSurfaceVolume };
   events.Progress("untangling " + name, 0.0);
   std::optional<itk::TriangleTree> tree;
-  const auto untangled = UntangleSurface(surface, tree.emplace(surface), spacing, candidates);
+  const auto untangled = UntangleTriangleSurface(surface, tree.emplace(surface), spacing, candidates);
   if (untangled.crossingAfter > 0)
   {
     events.Note(name + ": " + Count(untangled.crossingAfter, "triangle passes", "triangles pass") +
@@ -258,7 +258,8 @@ RefineSurface(itk::TriangleSurface & surface,
   {
     refinement.untangling = untangled;
   }
-  refinement.shellsTurned = tree ? TurnMisfacingShells(surface, *tree) : TurnMisfacingShells(surface);
+  refinement.shellsTurned =
+    tree ? TurnMisfacingTriangleSurfaceShells(surface, *tree) : TurnMisfacingTriangleSurfaceShells(surface);
   return refinement;
 }
 

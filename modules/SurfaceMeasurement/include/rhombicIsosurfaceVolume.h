@@ -44,7 +44,7 @@ struct IsosurfaceVolume
  *
  * \param area of the isosurface in mm^2; that of any of its meshes will do
  * \param grid the grid of the scan that the lattice was made from, or null for slanted scans. With it, sites at the
- * border count by the share of them that lies in the grid's voxels, where MoveWallsToBorder() closes surfaces.
+ * border count by the share of them that lies in the grid's voxels, where MoveFCCWallsToBorder() closes surfaces.
  *
  * The result does not depend on the number of threads. */
 IsosurfaceVolume

@@ -1,6 +1,6 @@
 #include "rhombicIsosurfaceVolume.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
 #include <array>
@@ -53,7 +53,7 @@ CountSites(const itk::FCCImage<TPixel> & lattice, const itk::ImageBase<3> * grid
                                                    FindShares(lattice, grid, 1),
                                                    FindShares(lattice, grid, 2) };
   std::vector<double> planes(size[2]);
-  itk::ForEachInBlocks(size[2], 1, [&](std::size_t k) {
+  ForEachInBlocks(size[2], 1, [&](std::size_t k) {
     const TPixel * value = lattice.GetBufferPointer() + k * size[1] * size[0];
     for (itk::SizeValueType j = 0; j < size[1]; ++j)
     {

@@ -2,7 +2,7 @@
 
 #include "rhombicScanField.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -162,7 +162,7 @@ MeasureDistances(const itk::TriangleSurface & surface,
 {
   std::vector<float> distances(count);
   constexpr std::size_t blockSize = 2048;
-  itk::ForEachBlock(count, blockSize, [&](std::size_t begin, std::size_t end) {
+  ForEachBlock(count, blockSize, [&](std::size_t begin, std::size_t end) {
     std::vector<PointType> points;
     for (std::size_t n = begin; n < end; ++n)
     {

@@ -1,6 +1,6 @@
 #include "rhombicSurfaceMeasures.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 #include "itkTriangleSurfaceInterior.h"
 #include "itkTriangleSurfaceMeasures.h"
 
@@ -53,7 +53,7 @@ std::vector<SliceSums>
 SumInterior(const itk::TriangleSurface & surface, const itk::Image<TPixel, 3> & image, const itk::SamplePlanes & planes)
 {
   std::vector<SliceSums> slices(planes.origins.size()); // each is changed by one thread alone
-  FindInteriorSamples(surface, planes, [&](auto slice, auto row, auto begin, auto end) {
+  FindTriangleSurfaceInteriorSamples(surface, planes, [&](auto slice, auto row, auto begin, auto end) {
     const TPixel * const values =
       image.GetBufferPointer() + (slice * planes.numberOfRows + row) * planes.numberOfColumns;
     SliceSums & sums = slices[slice];
@@ -87,11 +87,11 @@ SurfaceMeasures
 MeasureSurface(const itk::TriangleSurface & surface)
 {
   SurfaceMeasures measures;
-  measures.volume = ComputeVolume(surface);
-  measures.area = ComputeArea(surface);
+  measures.volume = ComputeTriangleSurfaceVolume(surface);
+  measures.area = ComputeTriangleSurfaceArea(surface);
   measures.bounds = surface.GetBounds();
-  measures.centroid = ComputeCentroid(surface);
-  measures.longestDiameter = ComputeLongestDiameter(surface);
+  measures.centroid = ComputeTriangleSurfaceCentroid(surface);
+  measures.longestDiameter = ComputeTriangleSurfaceLongestDiameter(surface);
   return measures;
 }
 
@@ -102,7 +102,7 @@ MeasureSurface(const itk::TriangleSurface & surface, const Scan & scan)
   const itk::SamplePlanes planes = PlanesOf(scan);
   const std::vector<double> voxelVolumes = VoxelVolumes(scan);
   std::vector<SliceSums> slices;
-  itk::ForEachOnThreads(2, [&](std::size_t task) {
+  ForEachOnThreads(2, [&](std::size_t task) {
     if (task == 0)
     {
       measures = MeasureSurface(surface);
@@ -139,7 +139,7 @@ CountVoxelVolume(const Scan & scan, const Threshold & threshold)
   const auto count = [&](const auto & image) {
     const auto & size = image->GetLargestPossibleRegion().GetSize();
     const std::size_t sliceSize = size[0] * size[1];
-    itk::ForEachInBlocks(inside.size(), 1, [&](std::size_t slice) {
+    ForEachInBlocks(inside.size(), 1, [&](std::size_t slice) {
       const auto * const begin = image->GetBufferPointer() + slice * sliceSize;
       inside[slice] = static_cast<double>(std::count_if(
         begin, begin + sliceSize, [&](auto value) { return threshold.IsInside(static_cast<double>(value)); }));

@@ -30,7 +30,7 @@ struct TriangleSurfaceAudit
   TriangleSurfaceTopology topology;
   TriangleSurfaceQuality quality;
   TriangleSurfaceIntersections intersections; ///< has no tested triangles if the settings left it out
-  ShellCounts shells;                         ///< see CountShells(); all 0 unless the topology is watertight
+  ShellCounts shells; ///< see CountTriangleSurfaceShells(); all 0 unless the topology is watertight
 
   /** Closed, oriented and manifold, without degenerate or duplicate triangles, with a positive volume, outer shells
    * that face outwards and cavities that face inwards. */
@@ -51,7 +51,7 @@ struct TriangleSurfaceAudit
 /** Computes all of the above on several threads, with the same result for any number of them. Memory about 50 bytes per
  * triangle. Throws ExceptionObject if a triangle refers to a missing point. */
 TriangleSurfaceAudit
-AuditSurface(const TriangleSurface & surface, const TriangleSurfaceAuditSettings & settings = {});
+AuditTriangleSurface(const TriangleSurface & surface, const TriangleSurfaceAuditSettings & settings = {});
 
 std::ostream &
 operator<<(std::ostream & os, const TriangleSurfaceAudit & audit);

@@ -25,10 +25,10 @@ struct TriangleSurfaceDistance
  * All 0 if \a surface has no triangles, infinite if \a other has none. Time O(p log triangles) for p sample points;
  * memory 8 bytes for each. The same for any number of threads. */
 TriangleSurfaceDistance
-ComputeDistance(const TriangleSurface & surface,
-                const TriangleTree & other,
-                double spacing = std::numeric_limits<double>::infinity(),
-                SizeValueType mostTriangles = std::numeric_limits<SizeValueType>::max());
+ComputeTriangleSurfaceDistance(const TriangleSurface & surface,
+                               const TriangleTree & other,
+                               double spacing = std::numeric_limits<double>::infinity(),
+                               SizeValueType mostTriangles = std::numeric_limits<SizeValueType>::max());
 
 /** \class TriangleSurfaceTwoDistances
  * \brief Distances from each of two surfaces to the other. */
@@ -44,11 +44,12 @@ struct TriangleSurfaceTwoDistances
   }
 };
 
-/** ComputeDistance() in both directions, with a spacing of twice the smaller of the surfaces' mean sides. */
+/** ComputeTriangleSurfaceDistance() in both directions, with a spacing of twice the smaller of the surfaces' mean
+ * sides. */
 TriangleSurfaceTwoDistances
-ComputeTwoDistances(const TriangleSurface & first,
-                    const TriangleSurface & second,
-                    SizeValueType mostTriangles = std::numeric_limits<SizeValueType>::max());
+ComputeTriangleSurfaceDistances(const TriangleSurface & first,
+                                const TriangleSurface & second,
+                                SizeValueType mostTriangles = std::numeric_limits<SizeValueType>::max());
 
 } // namespace itk
 

@@ -33,7 +33,9 @@ using VisitInteriorSamples =
  * Calls \a visit for the runs of each plane in order, and for several planes at once on several threads. Time and
  * memory are proportional to the triangles and the planes that each of them crosses. Throws what \a visit throws. */
 void
-FindInteriorSamples(const TriangleSurface & surface, const SamplePlanes & planes, const VisitInteriorSamples & visit);
+FindTriangleSurfaceInteriorSamples(const TriangleSurface & surface,
+                                   const SamplePlanes & planes,
+                                   const VisitInteriorSamples & visit);
 
 } // namespace itk
 

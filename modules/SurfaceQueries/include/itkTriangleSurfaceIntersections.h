@@ -26,8 +26,8 @@ struct TriangleSurfaceIntersections
  * If there are more than \a maximumTestedTriangles, about that many are tested against all others, chosen at regular
  * intervals in the tree's order. Time nearly linear, on several threads with the same result for any number of them. */
 TriangleSurfaceIntersections
-FindSelfIntersections(const TriangleTree & tree,
-                      SizeValueType maximumTestedTriangles = std::numeric_limits<SizeValueType>::max());
+FindTriangleSurfaceSelfIntersections(const TriangleTree & tree,
+                                     SizeValueType maximumTestedTriangles = std::numeric_limits<SizeValueType>::max());
 
 /** The ids of the triangles that cross others or are duplicates, ascending. Tests all triangles.
  * \param fans the triangles at the points of the tree's surface

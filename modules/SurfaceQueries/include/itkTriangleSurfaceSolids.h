@@ -45,16 +45,16 @@ struct ShellCounts
 
 /** Removes all solids but the largest one, the first if several are equally large. */
 RemovedShells
-KeepLargestSolid(TriangleSurface & surface);
+KeepLargestTriangleSurfaceSolid(TriangleSurface & surface);
 
 /** Removes the solids with a volume below \a minimumVolume (in mm^3). Cavities, however small, are removed only with
  * their solid. */
 RemovedShells
-RemoveSmallSolids(TriangleSurface & surface, double minimumVolume);
+RemoveSmallTriangleSurfaceSolids(TriangleSurface & surface, double minimumVolume);
 
 /** Removes every component that lies inside another one: cavities and everything in them. */
 RemovedShells
-FillCavities(TriangleSurface & surface);
+FillTriangleSurfaceCavities(TriangleSurface & surface);
 
 ///@}
 
@@ -63,16 +63,16 @@ FillCavities(TriangleSurface & surface);
  * its inside twice or negatively. Where components cross or touch, the winding number depends on the point; this looks
  * at the points of each shell with the least and the greatest x, and one correct winding number is enough. */
 ShellCounts
-CountShells(const TriangleTree & surface);
+CountTriangleSurfaceShells(const TriangleTree & surface);
 
-/** Reverses the triangles and normals of the components that CountShells() counts as misfacing; returns how many. Meant
- * for specks that extraction or smoothing has turned inside out. */
+/** Reverses the triangles and normals of the components that CountTriangleSurfaceShells() counts as misfacing; returns
+ * how many. Meant for specks that extraction or smoothing has turned inside out. */
 SizeValueType
-TurnMisfacingShells(TriangleSurface & surface);
+TurnMisfacingTriangleSurfaceShells(TriangleSurface & surface);
 
 /** The same with a tree of the surface, which stays valid. */
 SizeValueType
-TurnMisfacingShells(TriangleSurface & surface, const TriangleTree & tree);
+TurnMisfacingTriangleSurfaceShells(TriangleSurface & surface, const TriangleTree & tree);
 
 } // namespace itk
 

@@ -1,6 +1,6 @@
 #include "itkCurveOrder.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 #include "itkTriangleTree.h"
 
 #include <algorithm>
@@ -45,7 +45,7 @@ Box
 FindBox(const TriangleSurface & surface, const std::vector<std::uint32_t> & triangles)
 {
   std::vector<Box> ofBlocks((triangles.size() + TrianglesOfBlock - 1) / TrianglesOfBlock);
-  ForEachBlock(triangles.size(), TrianglesOfBlock, [&](std::size_t begin, std::size_t end) {
+  rhombic::ForEachBlock(triangles.size(), TrianglesOfBlock, [&](std::size_t begin, std::size_t end) {
     const auto first = CentreOf(surface, triangles[begin]);
     Box box{ first, first };
     for (std::size_t n = begin + 1; n < end; ++n)
@@ -75,7 +75,7 @@ FindPlaces(const TriangleSurface & surface, const std::vector<std::uint32_t> & t
   constexpr double last = (1U << BitsOfAxis) - 1;
   const double cellsPerMillimetre = longest > 0.0 ? last / longest : 0.0;
   CurvePlaces places(triangles.size());
-  ForEachInBlocks(triangles.size(), TrianglesOfBlock, [&](std::size_t n) {
+  rhombic::ForEachInBlocks(triangles.size(), TrianglesOfBlock, [&](std::size_t n) {
     const auto centre = CentreOf(surface, triangles[n]);
     std::uint64_t cell = 0;
     for (unsigned int axis = 0; axis < 3; ++axis)
@@ -100,7 +100,7 @@ SortByBuckets(CurvePlaces & places)
 {
   const std::size_t blocks = (places.size() + TrianglesOfBlock - 1) / TrianglesOfBlock;
   std::vector<std::array<std::uint32_t, NumberOfBuckets>> next(blocks); // counts, then where the next one goes
-  ForEachBlock(places.size(), TrianglesOfBlock, [&](std::size_t begin, std::size_t end) {
+  rhombic::ForEachBlock(places.size(), TrianglesOfBlock, [&](std::size_t begin, std::size_t end) {
     auto & counts = next[begin / TrianglesOfBlock];
     for (std::size_t n = begin; n < end; ++n)
     {
@@ -118,7 +118,7 @@ SortByBuckets(CurvePlaces & places)
     ends[bucket] = sum;
   }
   CurvePlaces sorted(places.size());
-  ForEachBlock(places.size(), TrianglesOfBlock, [&](std::size_t begin, std::size_t end) {
+  rhombic::ForEachBlock(places.size(), TrianglesOfBlock, [&](std::size_t begin, std::size_t end) {
     auto & ofBlock = next[begin / TrianglesOfBlock];
     for (std::size_t n = begin; n < end; ++n)
     {
@@ -127,7 +127,7 @@ SortByBuckets(CurvePlaces & places)
   });
   places.swap(sorted);
   constexpr std::size_t bucketsOfBlock = 256;
-  ForEachInBlocks(NumberOfBuckets, bucketsOfBlock, [&](std::size_t bucket) {
+  rhombic::ForEachInBlocks(NumberOfBuckets, bucketsOfBlock, [&](std::size_t bucket) {
     const std::size_t begin = bucket > 0 ? ends[bucket - 1] : 0;
     std::sort(places.data() + begin, places.data() + ends[bucket]);
   });

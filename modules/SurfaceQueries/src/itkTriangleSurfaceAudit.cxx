@@ -8,24 +8,24 @@ namespace itk
 {
 
 TriangleSurfaceAudit
-AuditSurface(const TriangleSurface & surface, const TriangleSurfaceAuditSettings & settings)
+AuditTriangleSurface(const TriangleSurface & surface, const TriangleSurfaceAuditSettings & settings)
 {
   surface.VerifyTriangles();
   TriangleSurfaceAudit audit;
   audit.points = surface.GetNumberOfPoints();
   audit.triangles = surface.GetNumberOfTriangles();
-  audit.area = ComputeArea(surface);
-  audit.volume = ComputeVolume(surface);
-  audit.topology = ComputeTopology(surface);
-  audit.quality = ComputeQuality(surface);
+  audit.area = ComputeTriangleSurfaceArea(surface);
+  audit.volume = ComputeTriangleSurfaceVolume(surface);
+  audit.topology = ComputeTriangleSurfaceTopology(surface);
+  audit.quality = ComputeTriangleSurfaceQuality(surface);
   const TriangleTree tree(surface);
   if (audit.topology.IsWatertight())
   {
-    audit.shells = CountShells(tree);
+    audit.shells = CountTriangleSurfaceShells(tree);
   }
   if (settings.testsIntersections)
   {
-    audit.intersections = FindSelfIntersections(tree, settings.maximumTestedTriangles);
+    audit.intersections = FindTriangleSurfaceSelfIntersections(tree, settings.maximumTestedTriangles);
   }
   return audit;
 }

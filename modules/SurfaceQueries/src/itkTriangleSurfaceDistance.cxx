@@ -1,7 +1,7 @@
 #include "itkTriangleSurfaceDistance.h"
 
 #include "detail/itkPositionArithmetic.h"
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <cmath>
 #include <utility>
@@ -190,7 +190,7 @@ MeasurePoints(const TriangleSurface & surface,
               const ChosenTriangles & chosen,
               std::vector<Place> & places)
 {
-  ForEachBlock(surface.GetNumberOfPoints(), BlockSize, [&](std::size_t first, std::size_t last) {
+  rhombic::ForEachBlock(surface.GetNumberOfPoints(), BlockSize, [&](std::size_t first, std::size_t last) {
     Distances distances(other);
     for (std::size_t point = first; point < last; ++point)
     {
@@ -208,7 +208,7 @@ MeasureCentres(const TriangleSurface & surface,
                double spacing,
                std::vector<Place> & places)
 {
-  ForEachBlock(chosen.GetNumberOfTriangles(), BlockSize, [&](std::size_t first, std::size_t last) {
+  rhombic::ForEachBlock(chosen.GetNumberOfTriangles(), BlockSize, [&](std::size_t first, std::size_t last) {
     Distances distances(other);
     for (std::size_t n = first; n < last; ++n)
     {
@@ -228,10 +228,10 @@ MeasureCentres(const TriangleSurface & surface,
 } // namespace
 
 TriangleSurfaceDistance
-ComputeDistance(const TriangleSurface & surface,
-                const TriangleTree & other,
-                double spacing,
-                SizeValueType mostTriangles)
+ComputeTriangleSurfaceDistance(const TriangleSurface & surface,
+                               const TriangleTree & other,
+                               double spacing,
+                               SizeValueType mostTriangles)
 {
   const ChosenTriangles chosen = ChooseTriangles(surface, spacing, mostTriangles);
   std::vector<Place> places(chosen.firstPlace.back());
@@ -241,11 +241,13 @@ ComputeDistance(const TriangleSurface & surface,
 }
 
 TriangleSurfaceTwoDistances
-ComputeTwoDistances(const TriangleSurface & first, const TriangleSurface & second, SizeValueType mostTriangles)
+ComputeTriangleSurfaceDistances(const TriangleSurface & first,
+                                const TriangleSurface & second,
+                                SizeValueType mostTriangles)
 {
   const double spacing = 2.0 * std::min(MeanSide(first), MeanSide(second));
-  return { ComputeDistance(first, TriangleTree(second), spacing, mostTriangles),
-           ComputeDistance(second, TriangleTree(first), spacing, mostTriangles) };
+  return { ComputeTriangleSurfaceDistance(first, TriangleTree(second), spacing, mostTriangles),
+           ComputeTriangleSurfaceDistance(second, TriangleTree(first), spacing, mostTriangles) };
 }
 
 } // namespace itk

@@ -1,6 +1,6 @@
 #include "itkTriangleSurfaceInterior.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,7 +59,7 @@ FindTrianglesOfPlanes(const TriangleSurface & surface,
                       const std::vector<double> & planeHeights)
 {
   std::vector<std::uint32_t> planesBelow(pointHeights.size()); // or at the point
-  ForEachInBlocks(pointHeights.size(), PointsOfBlock, [&](std::size_t point) {
+  rhombic::ForEachInBlocks(pointHeights.size(), PointsOfBlock, [&](std::size_t point) {
     const auto above = std::upper_bound(planeHeights.begin(), planeHeights.end(), pointHeights[point]);
     planesBelow[point] = static_cast<std::uint32_t>(above - planeHeights.begin());
   });
@@ -211,7 +211,9 @@ VisitRuns(SizeValueType plane,
 } // namespace
 
 void
-FindInteriorSamples(const TriangleSurface & surface, const SamplePlanes & planes, const VisitInteriorSamples & visit)
+FindTriangleSurfaceInteriorSamples(const TriangleSurface & surface,
+                                   const SamplePlanes & planes,
+                                   const VisitInteriorSamples & visit)
 {
   if (planes.origins.empty() || planes.numberOfRows == 0 || planes.numberOfColumns == 0)
   {
@@ -219,7 +221,7 @@ FindInteriorSamples(const TriangleSurface & surface, const SamplePlanes & planes
   }
   const PlaneFrame frame(planes);
   std::vector<double> pointHeights(surface.GetNumberOfPoints());
-  ForEachInBlocks(pointHeights.size(), PointsOfBlock, [&](std::size_t point) {
+  rhombic::ForEachInBlocks(pointHeights.size(), PointsOfBlock, [&](std::size_t point) {
     pointHeights[point] = frame.normal * ToVector(surface.GetPoints()[point]);
   });
   std::vector<double> planeHeights(planes.origins.size());
@@ -228,7 +230,7 @@ FindInteriorSamples(const TriangleSurface & surface, const SamplePlanes & planes
   });
   const TrianglesOfPlanes found = FindTrianglesOfPlanes(surface, pointHeights, planeHeights);
 
-  ForEachInBlocks(planes.origins.size(), 1, [&](SizeValueType plane) {
+  rhombic::ForEachInBlocks(planes.origins.size(), 1, [&](SizeValueType plane) {
     const PlaneCut cut(surface, frame, planes.origins[plane], pointHeights, planeHeights[plane]);
     std::vector<Crossing> crossings;
     for (std::uint64_t n = found.begin[plane]; n < found.begin[plane + 1]; ++n)

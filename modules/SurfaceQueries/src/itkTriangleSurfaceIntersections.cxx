@@ -2,7 +2,7 @@
 
 #include "detail/itkPositionArithmetic.h"
 #include "detail/itkTrianglesOfPoints.h"
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 #include "itkUnfoldedPoints.h"
 
 #include <algorithm>
@@ -320,7 +320,7 @@ FindAllCrossing(const TriangleTree & tree, std::vector<std::uint8_t> areUnfolded
   const ContactSearch search(tree, std::move(areUnfolded), TrianglesOfPart);
   std::vector<std::uint32_t> found;
   std::mutex mutex;
-  ForEachBlock(search.GetNumberOfParts(), PartsOfBlock, [&](std::size_t begin, std::size_t end) {
+  rhombic::ForEachBlock(search.GetNumberOfParts(), PartsOfBlock, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> ofBlock;
     Neighborhood near;
     for (std::size_t part = begin; part < end; ++part)
@@ -364,7 +364,7 @@ FindCrossingAtEdges(const TriangleSurface & surface,
     }
   };
   constexpr std::size_t pointsOfBlock = 16384;
-  ForEachInBlocks(points.size(), pointsOfBlock, [&](std::size_t point) {
+  rhombic::ForEachInBlocks(points.size(), pointsOfBlock, [&](std::size_t point) {
     fans.VisitTriangles(point, [&](std::uint32_t a) {
       if (areUnfolded[point] == 0)
       {
@@ -386,7 +386,7 @@ FindCrossingAtEdges(const TriangleSurface & surface,
 } // namespace
 
 TriangleSurfaceIntersections
-FindSelfIntersections(const TriangleTree & tree, SizeValueType maximumTestedTriangles)
+FindTriangleSurfaceSelfIntersections(const TriangleTree & tree, SizeValueType maximumTestedTriangles)
 {
   const SizeValueType placed = tree.GetNumberOfPlacedTriangles();
   const SizeValueType most = std::max<SizeValueType>(TriangleTree::LeafSize, maximumTestedTriangles);
@@ -399,7 +399,7 @@ FindSelfIntersections(const TriangleTree & tree, SizeValueType maximumTestedTria
   found.testedTriangles = tree.GetSurface().GetNumberOfTriangles() - placed;
   found.isSampled = stride > 1;
   std::mutex mutex;
-  ForEachBlock(search.GetNumberOfParts(), PartsOfBlock, [&](std::size_t begin, std::size_t end) {
+  rhombic::ForEachBlock(search.GetNumberOfParts(), PartsOfBlock, [&](std::size_t begin, std::size_t end) {
     TriangleSurfaceIntersections ofBlock;
     const auto count = [&](std::uint32_t a, std::uint32_t b, Contact contact) {
       const auto & triangles = tree.GetSurface().GetTriangles();
@@ -433,7 +433,7 @@ FindCrossingTriangles(const TriangleTree & tree, const std::vector<std::uint32_t
   const auto & triangles = surface.GetTriangles();
   std::vector<std::uint32_t> found;
   std::mutex mutex;
-  ForEachBlock(candidates.size(), blockSize, [&](std::size_t begin, std::size_t end) {
+  rhombic::ForEachBlock(candidates.size(), blockSize, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> ofBlock;
     for (std::size_t n = begin; n < end; ++n)
     {

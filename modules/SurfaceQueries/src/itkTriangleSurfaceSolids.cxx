@@ -1,6 +1,6 @@
 #include "itkTriangleSurfaceSolids.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 #include "itkTriangleSurfaceComponents.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleTree.h"
@@ -78,9 +78,9 @@ FindOuterShells(const TriangleSurface & surface,
                 const std::vector<double> & volumes)
 {
   const TriangleTree tree(surface);
-  const std::vector<PointId> points = FindFirstPoints(components);
+  const std::vector<PointId> points = FindTriangleSurfaceFirstPoints(components);
   std::vector<ComponentId> shells(components.count);
-  ForEachInBlocks(components.count, BlockOfComponents, [&](std::size_t id) {
+  rhombic::ForEachInBlocks(components.count, BlockOfComponents, [&](std::size_t id) {
     const auto component = static_cast<ComponentId>(id);
     ComponentId & shell = shells[component];
     shell = component;
@@ -111,7 +111,7 @@ FindEnds(const TriangleSurface & surface, const TriangleSurfaceComponents & comp
 {
   const auto & points = surface.GetPoints();
   std::vector<Ends> ends(components.count);
-  const std::vector<PointId> first = FindFirstPoints(components);
+  const std::vector<PointId> first = FindTriangleSurfaceFirstPoints(components);
   std::transform(first.begin(), first.end(), ends.begin(), [](PointId point) { return Ends{ point, point }; });
   for (PointId point = 0; point < points.size(); ++point)
   {
@@ -125,7 +125,7 @@ FindEnds(const TriangleSurface & surface, const TriangleSurfaceComponents & comp
   return ends;
 }
 
-/** For each component, 1 if it is misfacing, see CountShells(), else 0. */
+/** For each component, 1 if it is misfacing, see CountTriangleSurfaceShells(), else 0. */
 std::vector<std::uint8_t>
 FindMisfacing(const TriangleTree & tree,
               const TriangleSurfaceComponents & components,
@@ -133,7 +133,7 @@ FindMisfacing(const TriangleTree & tree,
 {
   const std::vector<Ends> ends = FindEnds(tree.GetSurface(), components);
   std::vector<std::uint8_t> misfacing(components.count);
-  ForEachInBlocks(components.count, BlockOfComponents, [&](std::size_t component) {
+  rhombic::ForEachInBlocks(components.count, BlockOfComponents, [&](std::size_t component) {
     const int expected = volumes[component] < 0.0 ? 1 : 0;
     misfacing[component] = CountWindings(tree, components, ends[component].least) != expected &&
                            CountWindings(tree, components, ends[component].greatest) != expected;
@@ -146,9 +146,9 @@ std::vector<std::uint8_t>
 FindOutermost(const TriangleSurface & surface, const TriangleSurfaceComponents & components)
 {
   const TriangleTree tree(surface);
-  const std::vector<PointId> points = FindFirstPoints(components);
+  const std::vector<PointId> points = FindTriangleSurfaceFirstPoints(components);
   std::vector<std::uint8_t> isOutermost(components.count);
-  ForEachInBlocks(components.count, BlockOfComponents, [&](std::size_t component) {
+  rhombic::ForEachInBlocks(components.count, BlockOfComponents, [&](std::size_t component) {
     isOutermost[component] = FindEnclosing(tree, components, points[component]).empty();
   });
   return isOutermost;
@@ -162,7 +162,7 @@ Keep(TriangleSurface & surface,
      const std::vector<bool> & keep,
      const TPredicate & isCavity)
 {
-  const double volumeBefore = ComputeVolume(surface);
+  const double volumeBefore = ComputeTriangleSurfaceVolume(surface);
   RemovedShells removed;
   for (ComponentId component = 0; component < components.count; ++component)
   {
@@ -173,8 +173,8 @@ Keep(TriangleSurface & surface,
   }
   if (removed.solids + removed.cavities > 0)
   {
-    KeepComponents(surface, components, keep);
-    removed.volume = volumeBefore - ComputeVolume(surface);
+    KeepTriangleSurfaceComponents(surface, components, keep);
+    removed.volume = volumeBefore - ComputeTriangleSurfaceVolume(surface);
   }
   return removed;
 }
@@ -198,10 +198,10 @@ KeepSolids(TriangleSurface & surface,
 } // namespace
 
 RemovedShells
-KeepLargestSolid(TriangleSurface & surface)
+KeepLargestTriangleSurfaceSolid(TriangleSurface & surface)
 {
-  const TriangleSurfaceComponents components = FindComponents(surface);
-  const std::vector<double> volumes = ComputeComponentVolumes(surface, components);
+  const TriangleSurfaceComponents components = FindTriangleSurfaceComponents(surface);
+  const std::vector<double> volumes = ComputeTriangleSurfaceComponentVolumes(surface, components);
   const std::vector<ComponentId> shells = FindOuterShells(surface, components, volumes);
   ComponentId largest = shells.empty() ? 0 : shells.front();
   for (const ComponentId shell : shells)
@@ -212,31 +212,31 @@ KeepLargestSolid(TriangleSurface & surface)
 }
 
 RemovedShells
-RemoveSmallSolids(TriangleSurface & surface, double minimumVolume)
+RemoveSmallTriangleSurfaceSolids(TriangleSurface & surface, double minimumVolume)
 {
-  const TriangleSurfaceComponents components = FindComponents(surface);
-  const std::vector<double> volumes = ComputeComponentVolumes(surface, components);
+  const TriangleSurfaceComponents components = FindTriangleSurfaceComponents(surface);
+  const std::vector<double> volumes = ComputeTriangleSurfaceComponentVolumes(surface, components);
   const std::vector<ComponentId> shells = FindOuterShells(surface, components, volumes);
   return KeepSolids(
     surface, components, shells, [&](ComponentId shell) { return std::abs(volumes[shell]) >= minimumVolume; });
 }
 
 RemovedShells
-FillCavities(TriangleSurface & surface)
+FillTriangleSurfaceCavities(TriangleSurface & surface)
 {
-  const TriangleSurfaceComponents components = FindComponents(surface);
+  const TriangleSurfaceComponents components = FindTriangleSurfaceComponents(surface);
   const std::vector<std::uint8_t> isOutermost = FindOutermost(surface, components);
-  const std::vector<double> volumes = ComputeComponentVolumes(surface, components);
+  const std::vector<double> volumes = ComputeTriangleSurfaceComponentVolumes(surface, components);
   return Keep(surface, components, { isOutermost.begin(), isOutermost.end() }, [&volumes](ComponentId component) {
     return volumes[component] < 0.0;
   });
 }
 
 ShellCounts
-CountShells(const TriangleTree & surface)
+CountTriangleSurfaceShells(const TriangleTree & surface)
 {
-  const TriangleSurfaceComponents components = FindComponents(surface.GetSurface());
-  const std::vector<double> volumes = ComputeComponentVolumes(surface.GetSurface(), components);
+  const TriangleSurfaceComponents components = FindTriangleSurfaceComponents(surface.GetSurface());
+  const std::vector<double> volumes = ComputeTriangleSurfaceComponentVolumes(surface.GetSurface(), components);
   const std::vector<std::uint8_t> misfacing = FindMisfacing(surface, components, volumes);
   ShellCounts counts;
   for (ComponentId component = 0; component < components.count; ++component)
@@ -248,17 +248,17 @@ CountShells(const TriangleTree & surface)
 }
 
 SizeValueType
-TurnMisfacingShells(TriangleSurface & surface)
+TurnMisfacingTriangleSurfaceShells(TriangleSurface & surface)
 {
-  return TurnMisfacingShells(surface, TriangleTree(surface));
+  return TurnMisfacingTriangleSurfaceShells(surface, TriangleTree(surface));
 }
 
 SizeValueType
-TurnMisfacingShells(TriangleSurface & surface, const TriangleTree & tree)
+TurnMisfacingTriangleSurfaceShells(TriangleSurface & surface, const TriangleTree & tree)
 {
-  const TriangleSurfaceComponents components = FindComponents(surface);
+  const TriangleSurfaceComponents components = FindTriangleSurfaceComponents(surface);
   const std::vector<std::uint8_t> misfacing =
-    FindMisfacing(tree, components, ComputeComponentVolumes(surface, components));
+    FindMisfacing(tree, components, ComputeTriangleSurfaceComponentVolumes(surface, components));
   for (auto & triangle : surface.GetTriangles())
   {
     if (misfacing[components.ofPoint[triangle[0]]])

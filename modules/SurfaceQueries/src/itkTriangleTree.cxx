@@ -3,7 +3,7 @@
 #include "detail/itkClosestOnTriangle.h"
 #include "detail/itkExactOrientation.h"
 #include "itkCurveOrder.h"
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
 #include <functional>
@@ -84,7 +84,7 @@ public:
   Build()
   {
     this->Cut(0, m_Places.size());
-    ForEachInBlocks(m_Parts.size(), 1, [this](std::size_t n) {
+    rhombic::ForEachInBlocks(m_Parts.size(), 1, [this](std::size_t n) {
       Part & part = m_Parts[n];
       part.nodes.reserve(part.end - part.begin);
       part.leafEnds.reserve((part.end - part.begin) / 2);

@@ -1,7 +1,7 @@
 #include "itkUnfoldedPoints.h"
 
 #include "detail/itkPositionArithmetic.h"
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
 
@@ -96,7 +96,7 @@ FindUnfoldedPoints(const TriangleSurface & surface, const TrianglesOfPoints & tr
 {
   std::vector<std::uint8_t> areUnfolded(surface.GetNumberOfPoints());
   constexpr std::size_t pointsOfBlock = 16384;
-  ForEachInBlocks(areUnfolded.size(), pointsOfBlock, [&](std::size_t point) {
+  rhombic::ForEachInBlocks(areUnfolded.size(), pointsOfBlock, [&](std::size_t point) {
     areUnfolded[point] = Fan(surface, triangles, static_cast<std::uint32_t>(point)).IsUnfolded();
   });
   return areUnfolded;

@@ -15,7 +15,7 @@ namespace itk
  * points or more. Not thread safe for a QuadEdgeMesh, whose cells collect their points on demand. */
 template <typename TPixel, typename TTraits>
 TriangleSurface::Pointer
-ConvertToTriangleSurface(const Mesh<TPixel, 3, TTraits> & mesh);
+ConvertMeshToTriangleSurface(const Mesh<TPixel, 3, TTraits> & mesh);
 
 } // namespace itk
 

@@ -9,7 +9,7 @@ namespace itk
 
 template <typename TPixel, typename TTraits>
 TriangleSurface::Pointer
-ConvertToTriangleSurface(const Mesh<TPixel, 3, TTraits> & mesh)
+ConvertMeshToTriangleSurface(const Mesh<TPixel, 3, TTraits> & mesh)
 {
   using PointIdentifier = typename Mesh<TPixel, 3, TTraits>::PointIdentifier;
   auto surface = TriangleSurface::New();

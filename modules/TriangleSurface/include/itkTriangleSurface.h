@@ -19,7 +19,7 @@ namespace itk
  * Points and normals are float32 triples and triangles are uint32 index triples, each in one contiguous array that
  * file writers and graphics libraries take without a copy; SurfaceToPolyData() of SurfaceVTK shares them with VTK.
  * itk::Mesh, which allocates every cell on the heap, takes 8 times the memory and itk::QuadEdgeMesh 50 times; see
- * ConvertToMesh() and ConvertToQuadEdgeMesh().
+ * ConvertTriangleSurfaceToMesh() and ConvertTriangleSurfaceToQuadEdgeMesh().
  *
  * Surfaces share their arrays after Graft(), and so do the vtkPolyData of SurfaceToPolyData(). A shared array never
  * changes: accessors of a surface that is not const copy it first, if another object holds it, and Initialize()

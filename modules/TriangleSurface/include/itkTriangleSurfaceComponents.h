@@ -21,15 +21,17 @@ struct TriangleSurfaceComponents
 
 /** Triangles that share a point are connected. Time nearly linear; memory 4 bytes per point, 8 while it runs. */
 TriangleSurfaceComponents
-FindComponents(const TriangleSurface & surface);
+FindTriangleSurfaceComponents(const TriangleSurface & surface);
 
 /** The first point of each component. */
 std::vector<std::uint32_t>
-FindFirstPoints(const TriangleSurfaceComponents & components);
+FindTriangleSurfaceFirstPoints(const TriangleSurfaceComponents & components);
 
 /** Removes the components for which \a keep is false, and all points that no triangle uses. */
 void
-KeepComponents(TriangleSurface & surface, const TriangleSurfaceComponents & components, const std::vector<bool> & keep);
+KeepTriangleSurfaceComponents(TriangleSurface & surface,
+                              const TriangleSurfaceComponents & components,
+                              const std::vector<bool> & keep);
 
 } // namespace itk
 

@@ -9,24 +9,24 @@ namespace itk
 
 /** Sum of the triangles' areas in mm^2. */
 double
-ComputeArea(const TriangleSurface & surface);
+ComputeTriangleSurfaceArea(const TriangleSurface & surface);
 
 /** Enclosed volume in mm^3 by the divergence theorem, positive if the triangles face outwards. Meaningful for closed
  * surfaces only. */
 double
-ComputeVolume(const TriangleSurface & surface);
+ComputeTriangleSurfaceVolume(const TriangleSurface & surface);
 
 /** Centroid of the enclosed volume in LPS mm, for closed surfaces; 0 if the volume is 0. */
 std::array<double, 3>
-ComputeCentroid(const TriangleSurface & surface);
+ComputeTriangleSurfaceCentroid(const TriangleSurface & surface);
 
 /** The largest distance between two points in mm; 0 without points. Exact. Memory about 20 bytes per point. */
 double
-ComputeLongestDiameter(const TriangleSurface & surface);
+ComputeTriangleSurfaceLongestDiameter(const TriangleSurface & surface);
 
-/** The volume of each component in mm^3, as ComputeVolume(). */
+/** The volume of each component in mm^3, as ComputeTriangleSurfaceVolume(). */
 std::vector<double>
-ComputeComponentVolumes(const TriangleSurface & surface, const TriangleSurfaceComponents & components);
+ComputeTriangleSurfaceComponentVolumes(const TriangleSurface & surface, const TriangleSurfaceComponents & components);
 
 } // namespace itk
 

@@ -26,7 +26,7 @@ ComputeTriangleQuality(const std::array<double, 3> & a,
 
 /** Statistics over all triangles of a surface. */
 TriangleSurfaceQuality
-ComputeQuality(const TriangleSurface & surface);
+ComputeTriangleSurfaceQuality(const TriangleSurface & surface);
 
 } // namespace itk
 

@@ -13,13 +13,14 @@ namespace itk
  * where the surface itself has 18, or 24 with normals: itk::Mesh allocates each cell, and the cell its point ids.
  * Throws ExceptionObject if a triangle refers to a missing point. */
 Mesh<float, 3>::Pointer
-ConvertToMesh(const TriangleSurface & surface);
+ConvertTriangleSurfaceToMesh(const TriangleSurface & surface);
 
-/** Copies the surface into an itk::QuadEdgeMesh, whose filters walk along edges; otherwise as ConvertToMesh(). Throws
- * ExceptionObject also if the surface is not an oriented manifold (a border is allowed) or if a triangle has equal
- * corners, which a QuadEdgeMesh cannot hold. It takes about 930 bytes per triangle of a closed surface. */
+/** Copies the surface into an itk::QuadEdgeMesh, whose filters walk along edges; otherwise as
+ * ConvertTriangleSurfaceToMesh(). Throws ExceptionObject also if the surface is not an oriented manifold (a border is
+ * allowed) or if a triangle has equal corners, which a QuadEdgeMesh cannot hold. It takes about 930 bytes per triangle
+ * of a closed surface. */
 QuadEdgeMesh<float, 3>::Pointer
-ConvertToQuadEdgeMesh(const TriangleSurface & surface);
+ConvertTriangleSurfaceToQuadEdgeMesh(const TriangleSurface & surface);
 
 } // namespace itk
 

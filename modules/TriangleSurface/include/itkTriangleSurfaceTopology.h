@@ -38,7 +38,7 @@ struct TriangleSurfaceTopology
 /** Time O(n log n) for sorting the positions, on several threads, with the same result for any number of them. Memory
  * about 40 bytes per triangle. */
 TriangleSurfaceTopology
-ComputeTopology(const TriangleSurface & surface);
+ComputeTriangleSurfaceTopology(const TriangleSurface & surface);
 
 std::ostream &
 operator<<(std::ostream & os, const TriangleSurfaceTopology & topology);

@@ -1,7 +1,7 @@
 #ifndef itkParallelSort_h
 #define itkParallelSort_h
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 namespace itk
 {
@@ -17,11 +17,12 @@ ParallelSort(TContainer & items)
   const auto at = [size](TContainer & container, std::size_t index) {
     return container.begin() + static_cast<std::ptrdiff_t>(std::min(index, size));
   };
-  ForEachBlock(size, block, [&](std::size_t begin, std::size_t end) { std::sort(at(items, begin), at(items, end)); });
+  rhombic::ForEachBlock(
+    size, block, [&](std::size_t begin, std::size_t end) { std::sort(at(items, begin), at(items, end)); });
   TContainer merged(size > block ? size : 0);
   for (std::size_t sorted = block; sorted < size; sorted *= 2)
   {
-    ForEachBlock(size, 2 * sorted, [&](std::size_t begin, std::size_t end) {
+    rhombic::ForEachBlock(size, 2 * sorted, [&](std::size_t begin, std::size_t end) {
       const auto middle = at(items, begin + sorted);
       std::merge(at(items, begin), middle, middle, at(items, end), at(merged, begin));
     });

@@ -45,7 +45,7 @@ private:
 } // namespace
 
 TriangleSurfaceComponents
-FindComponents(const TriangleSurface & surface)
+FindTriangleSurfaceComponents(const TriangleSurface & surface)
 {
   DisjointSets sets(surface.GetNumberOfPoints());
   TriangleSurfaceComponents components;
@@ -71,7 +71,7 @@ FindComponents(const TriangleSurface & surface)
 }
 
 std::vector<std::uint32_t>
-FindFirstPoints(const TriangleSurfaceComponents & components)
+FindTriangleSurfaceFirstPoints(const TriangleSurfaceComponents & components)
 {
   std::vector<std::uint32_t> first;
   first.reserve(components.count);
@@ -86,7 +86,9 @@ FindFirstPoints(const TriangleSurfaceComponents & components)
 }
 
 void
-KeepComponents(TriangleSurface & surface, const TriangleSurfaceComponents & components, const std::vector<bool> & keep)
+KeepTriangleSurfaceComponents(TriangleSurface & surface,
+                              const TriangleSurfaceComponents & components,
+                              const std::vector<bool> & keep)
 {
   auto & triangles = surface.GetTriangles();
   triangles.erase(std::remove_if(triangles.begin(),

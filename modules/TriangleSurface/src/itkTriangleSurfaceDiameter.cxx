@@ -200,7 +200,7 @@ FindEnds(const TriangleSurface::PointsContainer & points, double length)
 } // namespace
 
 double
-ComputeLongestDiameter(const TriangleSurface & surface)
+ComputeTriangleSurfaceLongestDiameter(const TriangleSurface & surface)
 {
   const auto & points = surface.GetPoints();
   if (points.empty())

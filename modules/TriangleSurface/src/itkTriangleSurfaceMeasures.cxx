@@ -1,7 +1,7 @@
 #include "itkTriangleSurfaceMeasures.h"
 
 #include "detail/itkPositionArithmetic.h"
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <numeric>
 
@@ -34,7 +34,7 @@ SumOverTriangles(const TriangleSurface & surface, const TTerm & term)
   constexpr std::size_t blockSize = 65536;
   const auto & triangles = surface.GetTriangles();
   std::vector<double> sums((triangles.size() + blockSize - 1) / blockSize);
-  ForEachBlock(triangles.size(), blockSize, [&](std::size_t begin, std::size_t end) {
+  rhombic::ForEachBlock(triangles.size(), blockSize, [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
     for (std::size_t n = begin; n < end; ++n)
     {
@@ -48,7 +48,7 @@ SumOverTriangles(const TriangleSurface & surface, const TTerm & term)
 } // namespace
 
 double
-ComputeArea(const TriangleSurface & surface)
+ComputeTriangleSurfaceArea(const TriangleSurface & surface)
 {
   const double twice = SumOverTriangles(surface, [&](const auto & triangle) {
     return Length(
@@ -58,13 +58,13 @@ ComputeArea(const TriangleSurface & surface)
 }
 
 double
-ComputeVolume(const TriangleSurface & surface)
+ComputeTriangleSurfaceVolume(const TriangleSurface & surface)
 {
   return SumOverTriangles(surface, [&](const auto & triangle) { return SixfoldVolume(surface, triangle); }) / 6.0;
 }
 
 std::array<double, 3>
-ComputeCentroid(const TriangleSurface & surface)
+ComputeTriangleSurfaceCentroid(const TriangleSurface & surface)
 {
   double sixfold = 0.0;
   PositionType moment{};
@@ -90,9 +90,9 @@ ComputeCentroid(const TriangleSurface & surface)
 }
 
 std::vector<double>
-ComputeComponentVolumes(const TriangleSurface & surface, const TriangleSurfaceComponents & components)
+ComputeTriangleSurfaceComponentVolumes(const TriangleSurface & surface, const TriangleSurfaceComponents & components)
 {
-  const std::vector<std::uint32_t> origins = FindFirstPoints(components);
+  const std::vector<std::uint32_t> origins = FindTriangleSurfaceFirstPoints(components);
   std::vector<double> volumes(components.count, 0.0);
   for (const auto & triangle : surface.GetTriangles())
   {

@@ -50,7 +50,7 @@ ComputeTriangleQuality(const PositionType & a, const PositionType & b, const Pos
 }
 
 TriangleSurfaceQuality
-ComputeQuality(const TriangleSurface & surface)
+ComputeTriangleSurfaceQuality(const TriangleSurface & surface)
 {
   const auto & triangles = surface.GetTriangles();
   TriangleSurfaceQuality quality;

@@ -22,10 +22,11 @@ VerifyThreeCorners(const TriangleSurface & surface)
   {
     if (a == b || b == c || c == a)
     {
-      itkGenericExceptionMacro("The triangle of points "
-                               << a << ", " << b << " and " << c
-                               << " has a point twice, which no face of a QuadEdgeMesh can; use ConvertToMesh(), or "
-                                  "remove the triangle first");
+      itkGenericExceptionMacro(
+        "The triangle of points "
+        << a << ", " << b << " and " << c
+        << " has a point twice, which no face of a QuadEdgeMesh can; use ConvertTriangleSurfaceToMesh(), or "
+           "remove the triangle first");
     }
   }
 }
@@ -33,14 +34,14 @@ VerifyThreeCorners(const TriangleSurface & surface)
 void
 VerifyManifold(const TriangleSurface & surface)
 {
-  const TriangleSurfaceTopology topology = ComputeTopology(surface);
+  const TriangleSurfaceTopology topology = ComputeTriangleSurfaceTopology(surface);
   if (topology.nonManifoldEdges + topology.nonManifoldPoints + topology.misorientedEdges > 0)
   {
-    itkGenericExceptionMacro(
-      "The surface has "
-      << topology.nonManifoldEdges << " edges and " << topology.nonManifoldPoints
-      << " points that are not manifold, and " << topology.misorientedEdges
-      << " misoriented edges, of which a QuadEdgeMesh can have none; use ConvertToMesh(), or mend the surface first");
+    itkGenericExceptionMacro("The surface has " << topology.nonManifoldEdges << " edges and "
+                                                << topology.nonManifoldPoints << " points that are not manifold, and "
+                                                << topology.misorientedEdges
+                                                << " misoriented edges, of which a QuadEdgeMesh can have none; use "
+                                                   "ConvertTriangleSurfaceToMesh(), or mend the surface first");
   }
 }
 
@@ -61,7 +62,7 @@ CopyPoints(const TriangleSurface & surface, TMesh & mesh)
 } // namespace
 
 Mesh<float, 3>::Pointer
-ConvertToMesh(const TriangleSurface & surface)
+ConvertTriangleSurfaceToMesh(const TriangleSurface & surface)
 {
   surface.VerifyTriangles();
   const auto mesh = MeshType::New();
@@ -81,7 +82,7 @@ ConvertToMesh(const TriangleSurface & surface)
 }
 
 QuadEdgeMesh<float, 3>::Pointer
-ConvertToQuadEdgeMesh(const TriangleSurface & surface)
+ConvertTriangleSurfaceToQuadEdgeMesh(const TriangleSurface & surface)
 {
   surface.VerifyTriangles();
   VerifyThreeCorners(surface);
@@ -93,9 +94,10 @@ ConvertToQuadEdgeMesh(const TriangleSurface & surface)
     const QuadEdgeMeshType::PointIdList corners(triangle.begin(), triangle.end());
     if (mesh->AddFaceWithSecurePointList(corners) == nullptr)
     {
-      itkGenericExceptionMacro("The triangle of points "
-                               << triangle[0] << ", " << triangle[1] << " and " << triangle[2]
-                               << " does not fit into a QuadEdgeMesh beside those before it; use ConvertToMesh()");
+      itkGenericExceptionMacro(
+        "The triangle of points "
+        << triangle[0] << ", " << triangle[1] << " and " << triangle[2]
+        << " does not fit into a QuadEdgeMesh beside those before it; use ConvertTriangleSurfaceToMesh()");
     }
   }
   return mesh;

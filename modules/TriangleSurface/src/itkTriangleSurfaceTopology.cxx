@@ -260,11 +260,11 @@ CountFans(const PointLinks & all,
 void
 CountConnections(const TriangleSurface & surface, TriangleSurfaceTopology & topology)
 {
-  const TriangleSurfaceComponents components = FindComponents(surface);
+  const TriangleSurfaceComponents components = FindTriangleSurfaceComponents(surface);
   const PointLinks all = CollectLinks(surface);
   std::vector<ComponentShape> shapes(components.count);
   std::mutex mutex;
-  ForEachBlock(surface.GetNumberOfPoints(), BlockOfPoints, [&](std::size_t begin, std::size_t end) {
+  rhombic::ForEachBlock(surface.GetNumberOfPoints(), BlockOfPoints, [&](std::size_t begin, std::size_t end) {
     TriangleSurfaceTopology ofBlock;
     const std::vector<ComponentShape> shapesOfBlock = CountFans(all, components, begin, end, ofBlock);
     const std::lock_guard<std::mutex> lock(mutex);
@@ -303,7 +303,7 @@ CountDegenerateTriangles(const TriangleSurface & surface)
 {
   const auto & triangles = surface.GetTriangles();
   std::atomic<SizeValueType> count{ 0 };
-  ForEachBlock(triangles.size(), BlockOfPoints, [&](std::size_t begin, std::size_t end) {
+  rhombic::ForEachBlock(triangles.size(), BlockOfPoints, [&](std::size_t begin, std::size_t end) {
     const auto at = [&triangles](std::size_t n) { return triangles.begin() + static_cast<std::ptrdiff_t>(n); };
     count += static_cast<SizeValueType>(
       std::count_if(at(begin), at(end), [&surface](const auto & triangle) { return IsDegenerate(surface, triangle); }));
@@ -349,7 +349,7 @@ CountPositions(const TriangleSurface & surface, TriangleSurfaceTopology & topolo
 } // namespace
 
 TriangleSurfaceTopology
-ComputeTopology(const TriangleSurface & surface)
+ComputeTriangleSurfaceTopology(const TriangleSurface & surface)
 {
   TriangleSurfaceTopology topology;
   topology.degenerateTriangles = CountDegenerateTriangles(surface);

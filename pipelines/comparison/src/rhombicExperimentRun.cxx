@@ -186,7 +186,7 @@ struct Judge
 void
 AddTopology(const itk::TriangleSurface & surface, Figures & figures)
 {
-  const auto topology = itk::ComputeTopology(surface);
+  const auto topology = itk::ComputeTriangleSurfaceTopology(surface);
   figures["parts"] = static_cast<double>(topology.components);
   figures["genus"] = static_cast<double>(topology.genus);
   figures["open"] = static_cast<double>(topology.boundaryEdges);

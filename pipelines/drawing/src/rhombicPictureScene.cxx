@@ -59,9 +59,9 @@ Finish(MeshedSurface & surface, const SurfaceFinish & finish, double spacing, co
   {
     itk::TriangleSurfaceSmoothingSettings settings;
     settings.maximumMove = finish.smoothing * spacing;
-    SmoothSurface(*finished, settings);
+    SmoothTriangleSurface(*finished, settings);
   }
-  itk::SmoothNormals(*finished);
+  itk::SmoothTriangleSurfaceNormals(*finished);
   return true;
 }
 
@@ -350,8 +350,8 @@ FindPlace(const PlaneRequest & request, const PictureScene & scene)
   double volume = 0.0;
   for (const SceneSurface & surface : SurfacesNamed(scene.surfaces, request.place))
   {
-    const auto centroid = ComputeCentroid(*surface.surface);
-    const double share = std::abs(ComputeVolume(*surface.surface));
+    const auto centroid = ComputeTriangleSurfaceCentroid(*surface.surface);
+    const double share = std::abs(ComputeTriangleSurfaceVolume(*surface.surface));
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       sum[axis] += share * centroid[axis];

@@ -28,9 +28,10 @@ main()
   surface->Update();
 
   const double exact = 4000.0 / 3.0 * std::acos(-1.0);
-  const double volume = ComputeVolume(*surface->GetOutput());
+  const double volume = ComputeTriangleSurfaceVolume(*surface->GetOutput());
   std::cout << surface->GetOutput()->GetNumberOfTriangles() << " triangles, " << volume << " mm^3, exactly " << exact
             << '\n';
-  const bool isGood = ComputeTopology(*surface->GetOutput()).IsWatertight() && std::abs(volume / exact - 1.0) < 0.005;
+  const bool isGood =
+    ComputeTriangleSurfaceTopology(*surface->GetOutput()).IsWatertight() && std::abs(volume / exact - 1.0) < 0.005;
   return isGood ? 0 : 1;
 }

@@ -5,7 +5,7 @@
 #include "rhombicMemoryBudget.h"
 #include "rhombicStoredBytes.h"
 
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
 #include <atomic>
@@ -208,7 +208,7 @@ InParallel(std::size_t count, std::size_t threads, const std::function<void(doub
   std::atomic<std::size_t> next{ 0 };
   std::atomic<std::size_t> done{ 0 };
   const auto caller = std::this_thread::get_id();
-  itk::ForEachOnThreads(std::min(threads, count), [&](std::size_t) {
+  ForEachOnThreads(std::min(threads, count), [&](std::size_t) {
     try
     {
       for (std::size_t n = next++; n < count; n = next++)

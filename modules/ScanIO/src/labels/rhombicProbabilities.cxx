@@ -6,7 +6,7 @@
 #include "rhombicWording.h"
 
 #include "itkCastImageFilter.h"
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -125,7 +125,7 @@ FindMostProbable(const std::vector<ProbabilityImage::Pointer> & volumes, float c
   labels->CopyInformation(volumes.front());
   labels->SetRegions(volumes.front()->GetBufferedRegion());
   labels->Allocate();
-  itk::ForEachInBlocks(volumes.front()->GetBufferedRegion().GetNumberOfPixels(), 4096, [&](std::size_t voxel) {
+  ForEachInBlocks(volumes.front()->GetBufferedRegion().GetNumberOfPixels(), 4096, [&](std::size_t voxel) {
     float sum = 0.0f;
     float largest = 0.0f;
     std::size_t label = 0;

@@ -1,4 +1,4 @@
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include "itkMultiThreaderBase.h"
 #include "itkThreadFailure.h"
@@ -10,7 +10,7 @@
 #include <memory>
 #include <mutex>
 
-namespace itk
+namespace rhombic
 {
 namespace
 {
@@ -55,7 +55,7 @@ private:
   std::size_t m_Ended{ 0 };
   std::mutex m_Mutex;
   std::condition_variable m_AllEnded;
-  ThreadFailure m_Failure;
+  itk::ThreadFailure m_Failure;
 };
 
 } // namespace
@@ -64,12 +64,12 @@ void
 ForEachOnThreads(std::size_t count, const std::function<void(std::size_t)> & work)
 {
   const auto shared = std::make_shared<SharedWork>(count, work);
-  const std::size_t threads = std::min<std::size_t>(count, MultiThreaderBase::GetGlobalDefaultNumberOfThreads());
+  const std::size_t threads = std::min<std::size_t>(count, itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads());
   try
   {
     for (std::size_t helper = 1; helper < threads; ++helper)
     {
-      ThreadPool::GetInstance()->AddWork([shared] { shared->Help(); });
+      itk::ThreadPool::GetInstance()->AddWork([shared] { shared->Help(); });
     }
   }
   catch (const std::exception &) // no memory or no more threads: fewer threads do the work
@@ -78,4 +78,4 @@ ForEachOnThreads(std::size_t count, const std::function<void(std::size_t)> & wor
   shared->Join();
 }
 
-} // namespace itk
+} // namespace rhombic

@@ -1,11 +1,11 @@
-#ifndef itkForEachBlock_h
-#define itkForEachBlock_h
+#ifndef rhombicForEachBlock_h
+#define rhombicForEachBlock_h
 
 #include <algorithm>
 #include <cstddef>
 #include <functional>
 
-namespace itk
+namespace rhombic
 {
 
 /** Calls \a work(n) for each n below \a count, on this thread and on idle threads of ITK's pool: at most
@@ -40,6 +40,6 @@ ForEachInBlocks(std::size_t size, std::size_t blockSize, const TWork & work)
   });
 }
 
-} // namespace itk
+} // namespace rhombic
 
 #endif

@@ -1,4 +1,4 @@
-#include "itkForEachBlock.h"
+#include "rhombicForEachBlock.h"
 
 #include "itkMultiThreaderBase.h"
 
@@ -21,9 +21,9 @@ TEST(ForEachBlock, VisitsEachPlaceOnce)
     for (const std::size_t blockSize : { 1u, 3u, 1000u, 5000u })
     {
       std::vector<int> visits(size);
-      itk::ForEachInBlocks(size, blockSize, [&visits](std::size_t i) { ++visits[i]; });
+      rhombic::ForEachInBlocks(size, blockSize, [&visits](std::size_t i) { ++visits[i]; });
       EXPECT_EQ(visits, std::vector<int>(size, 1));
-      itk::ForEachBlock(size, blockSize, [&](std::size_t begin, std::size_t end) {
+      rhombic::ForEachBlock(size, blockSize, [&](std::size_t begin, std::size_t end) {
         EXPECT_LT(begin, end);
         EXPECT_LE(end - begin, blockSize);
         for (std::size_t i = begin; i < end; ++i)
@@ -47,7 +47,7 @@ TEST(ForEachBlock, AnExceptionOfAnyThreadReachesTheCaller)
         throw std::runtime_error("at " + std::to_string(i));
       }
     };
-    EXPECT_THROW(itk::ForEachInBlocks(size, 1, failAt), std::runtime_error) << failing;
+    EXPECT_THROW(rhombic::ForEachInBlocks(size, 1, failAt), std::runtime_error) << failing;
   }
 }
 
@@ -58,8 +58,8 @@ TEST(ForEachBlock, JobsOfTheThreadPoolMayCallIt)
     0,
     visits.size(),
     [&visits](itk::SizeValueType job) {
-      itk::ForEachInBlocks(visits[job].size(), 3, [&](std::size_t i) {
-        itk::ForEachInBlocks(5, 1, [&](std::size_t n) {
+      rhombic::ForEachInBlocks(visits[job].size(), 3, [&](std::size_t i) {
+        rhombic::ForEachInBlocks(5, 1, [&](std::size_t n) {
           if (n == 4) // one thread only
           {
             ++visits[job][i];
@@ -79,7 +79,7 @@ TEST(ForEachBlock, WorksOnSeveralThreadsAndOnNoMoreThanTheGlobalDefaultNumber)
     itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
     std::mutex mutex;
     std::set<std::thread::id> ids;
-    itk::ForEachInBlocks(1000, 1, [&](std::size_t) {
+    rhombic::ForEachInBlocks(1000, 1, [&](std::size_t) {
       const std::lock_guard<std::mutex> lock(mutex);
       ids.insert(std::this_thread::get_id());
     });
@@ -91,7 +91,7 @@ TEST(ForEachBlock, WorksOnSeveralThreadsAndOnNoMoreThanTheGlobalDefaultNumber)
   if (usual > 1)
   {
     std::promise<void> began[2];
-    itk::ForEachInBlocks(2, 1, [&](std::size_t i) {
+    rhombic::ForEachInBlocks(2, 1, [&](std::size_t i) {
       began[i].set_value();
       began[1 - i].get_future().wait();
     });
