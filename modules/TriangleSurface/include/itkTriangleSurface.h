@@ -90,11 +90,13 @@ public:
   {
     return m_Points.Share();
   }
+  /** As SharePoints(). */
   std::shared_ptr<const NormalsContainer>
   ShareNormals() const
   {
     return m_Normals.Share();
   }
+  /** As SharePoints(). */
   std::shared_ptr<const TrianglesContainer>
   ShareTriangles() const
   {
@@ -154,11 +156,13 @@ protected:
   class SharedArray
   {
   public:
+    /** The array, to be read. */
     const TContainer &
     Get() const
     {
       return *m_Array;
     }
+    /** The array, to be changed; a copy of it if others hold it. */
     TContainer &
     Change()
     {
@@ -168,6 +172,7 @@ protected:
       }
       return *m_Array;
     }
+    /** The array, to be held on to. */
     std::shared_ptr<const TContainer>
     Share() const
     {
