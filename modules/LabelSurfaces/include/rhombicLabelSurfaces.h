@@ -80,8 +80,10 @@ LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const
 
 /** Smooths and simplifies the walls as \a finish says, once for both labels of each wall, so that labels that touch
  * still share it (itk::RelaxLabelWalls(), itk::SimplifyLabelWalls()). A limit of triangles is one for all walls
- * together, of which each layer gets a share by its triangles. Removes no parts. Notes give the results, of which there
- * is one for each layer. \param spacing of the voxels in mm */
+ * together, of which each layer gets a share by its triangles, at least one. Removes no parts. Notes give the results,
+ * of which there is one for each layer.
+ *
+ * \param spacing of the voxels in mm */
 std::vector<Refinement>
 RefineWalls(LabelMesh & mesh, const SurfaceFinish & finish, double spacing, const Events & events);
 

@@ -348,7 +348,9 @@ RefineWalls(LabelMesh & mesh, const SurfaceFinish & finish, double spacing, cons
       const std::size_t part = finish.maximumTriangles * walls.GetNumberOfTriangles() / triangles;
       share.maximumTriangles = std::max<std::size_t>(1, part);
     }
-    refinements.push_back(RefineBy(functions, walls, share, spacing, "walls of labels", events));
+    const std::string place = " in layer " + std::to_string(1 + refinements.size());
+    const std::string name = "walls of labels" + (mesh.walls.size() > 1 ? place : "");
+    refinements.push_back(RefineBy(functions, walls, share, spacing, name, events));
   }
   return refinements;
 }

@@ -391,8 +391,8 @@ DescribeKept(const TableRemoval & removal)
 {
   return removal.kept.empty()
            ? ""
-           : "; taken for arms or hands and kept: " + Count(removal.kept.size(), "part") +
-               " apart from the largest, of " + FormatMillilitres(SumOfVolumes(removal.kept)) + " in all";
+           : "; kept as the patient's: " + Count(removal.kept.size(), "part") + " apart from the largest, of " +
+               FormatMillilitres(SumOfVolumes(removal.kept)) + " in all";
 }
 
 void
