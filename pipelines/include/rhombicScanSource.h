@@ -56,7 +56,8 @@ struct SurfaceSelection
   /** For isosurfaces of CTs: see RemoveTable(); without effect on lattice volumes. Nothing: not removed, and a note
    * says so. */
   std::optional<bool> removesTable;
-  SceneRules rules; ///< which surfaces are shown, and in which colours
+  SceneRules rules;         ///< which surfaces are shown, and in which colours
+  bool lacksPreset = false; ///< the preset's surfaces are not known yet
   itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
 };
 

@@ -106,7 +106,8 @@ CheckNumberOfSurfaces(const LoadedSource & loaded, const MeshScanSettings & sett
     const auto shown = std::count_if(labels.begin(), labels.end(), [](const LabelSummary & summary) {
       return summary.label.isVisible && summary.label.opacity > 0.0;
     });
-    fewest += settings.surfaces.labels->labels.empty() ? static_cast<std::size_t>(shown) : 1;
+    const bool areAllKept = settings.surfaces.labels->labels.empty() && settings.finish.minimumVolume == 0.0;
+    fewest += areAllKept ? static_cast<std::size_t>(shown) : 1;
   }
   CheckSurfacePath(settings.mesh, HasFileForEach(settings.mesh) ? 1 : fewest);
 }

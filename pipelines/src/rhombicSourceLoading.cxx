@@ -270,7 +270,7 @@ GetLabelSettings(const ScanSource & source, const SurfaceSelection & selection)
 void
 CheckSelection(const SurfaceSelection & selection)
 {
-  if (!selection.labels) // whose names the label map tells
+  if (!selection.labels && !selection.lacksPreset) // whose names are not known yet
   {
     std::vector<SurfaceRequest> requests = selection.requests;
     ApplySceneRules(selection.rules, requests, nullptr);

@@ -183,11 +183,11 @@ constexpr ErrorCase errorCases[] = {
   { "UnknownVolumeFormat", "resample scan.nii.gz -o a.xyz", 2, ".nrrd" },
   { "UnknownVolumeFormatBack", "resample scan.fcc.nrrd -o a.xyz", 2, ".nii.gz" },
   { "PictureFolderMissing", "render scan.nii.gz --preset ct-bone -o missing/a.png", 7, "missing" },
-  { "PictureIsAFolder", "render scan.nii.gz --preset ct-bone -o file", 7, "folder" },
+  { "PictureIsAFolder", "render scan.nii.gz --preset ct-bone -o folder.png", 7, "folder" },
   { "MeshFolderMissing", "mesh scan.nii.gz -t 250.5 -o missing/a.stl", 7, "missing" },
   { "VolumeFolderMissing", "resample scan.nii.gz -o missing/a.nrrd", 7, "missing" },
-  { "PictureIsADevice", "render scan.nii.gz --preset ct-bone -o /dev/full", 7, "/dev/full" },
-  { "OutputIsTheInput", "resample scan.nii.gz -o scan.nii.gz", 2, "input" },
+  { "PictureIsADevice", "render scan.nii.gz --preset ct-bone -o device.png", 7, "device.png" },
+  { "OutputIsTheInput", "resample scan.fcc.nrrd -o scan.fcc.nrrd", 2, "input" },
   { "PhantomWithoutFolder", "phantom", 2, "-o" },
   { "PhantomIntoAFullFolder", "phantom -o file", 7, "file" },
   { "PhantomTooFine", "phantom -o new --spacing 0.001", 2, "spacing" },
@@ -215,6 +215,8 @@ TEST_P(CommandLineErrors, AreOneSentenceAndTheDocumentedExitCode)
   std::ofstream(folder.Path() / "bare.yaml") << "name: p\nsurfaces: [{name: a}]\n";
   fs::create_directory(folder.Path() / "empty");
   fs::create_directory(folder.Path() / "file");
+  fs::create_directory(folder.Path() / "folder.png");
+  fs::create_symlink("/dev/full", folder.Path() / "device.png");
   std::ofstream(folder.Path() / "file" / "something") << "something\n";
   fs::copy(phantomNifti, folder.Path() / "scan.nii.gz");
   fs::copy(phantomLabels, folder.Path() / "labels.nii.gz");
@@ -626,7 +628,7 @@ TEST(CommandLine, SidecarsTellWhatWasReadAndDone)
                              "\"command\": \"rhombic mesh SCAN -t 375.5 --mode fine -o bone.stl\"",
                              "\"format\": \"NIfTI\"",
                              "\"orientation\": \"LPS\"",
-                             "\"isovalue\": 375.5",
+                             "\"isovalue_scan_unit\": 375.5",
                              "\"triangles\":",
                              "face-centered cubic" })
   {

@@ -203,10 +203,6 @@ MakeSceneOfScan(const PictureSource & source, bool keepsScan, const Events & eve
     scene.scan = std::move(loaded.scan);
     scene.unit = IsInHounsfieldUnits(*scene.scan) ? "HU" : ReadDicomExamination(*scene.scan).units;
   }
-  else if (keepsScan && !loaded.labels && !loaded.requests.empty())
-  {
-    scene.scan.emplace().image = LatticeToScan(loaded.lattice, {}, events);
-  }
   loaded.scan.reset(); // frees memory for the surfaces
   if (!loaded.requests.empty())
   {
@@ -215,6 +211,10 @@ MakeSceneOfScan(const PictureSource & source, bool keepsScan, const Events & eve
   if (loaded.labels)
   {
     AddLabels(loaded, source, events, scene);
+  }
+  else if (keepsScan && !scene.scan && !loaded.requests.empty()) // a lattice volume, whose samples are no voxels
+  {
+    scene.scan.emplace().image = LatticeToScan(loaded.lattice, {}, events);
   }
   if (scene.surfaces.empty())
   {
