@@ -64,6 +64,8 @@ SurfaceOptions::Add(CLI::App & parser)
     "--label-table",
     m_LabelTable,
     "names and colours of labels (ITK-SNAP, Slicer, FreeSurfer, BIDS, nnU-Net, CSV; default: in or beside the map)");
+  parser.add_flag("--unnamed-mask", m_LeavesMaskUnnamed, "do not call the label of a mask as its file")
+    ->group(""); // batches set it, as the names of their files may be the patients'
   parser
     .add_option("--label",
                 m_ChosenLabels,
@@ -128,6 +130,7 @@ SurfaceOptions::GetSelection(const Preset & preset, const std::optional<SurfaceR
   selection.mode = ParseMode(m_Mode);
   selection.requests = preset.surfaces;
   selection.rules.rules = preset.rules;
+  selection.lacksPreset = m_Preset == "auto" && preset.surfaces.empty();
   if (preset.removesTable)
   {
     selection.removesTable = true;
@@ -147,8 +150,10 @@ SurfaceOptions::GetSelection(const Preset & preset, const std::optional<SurfaceR
   if (!m_Labels.empty() || !m_Probabilities.empty() || selection.requests.empty())
   {
     selection.labels = LabelSelection{
-      { { m_Labels.begin(), m_Labels.end() }, m_LabelTable, { m_Probabilities.begin(), m_Probabilities.end() } }, {}
+      { { m_Labels.begin(), m_Labels.end() }, m_LabelTable, true, { m_Probabilities.begin(), m_Probabilities.end() } },
+      {}
     };
+    selection.labels->source.namesMask = !m_LeavesMaskUnnamed;
     for (const std::string & text : m_ChosenLabels)
     {
       selection.rules.rules.push_back(ParseSceneRule(text));

@@ -72,6 +72,7 @@ private:
   std::vector<std::string> m_Labels;
   std::vector<std::string> m_Probabilities;
   std::string m_LabelTable;
+  bool m_LeavesMaskUnnamed = false;
   std::vector<std::string> m_ChosenLabels;
   std::vector<std::string> m_Only;
   std::vector<std::string> m_Hidden;

@@ -860,7 +860,7 @@ TEST_F(DicomFolder, FoldersWithoutDicom)
   std::ofstream(m_Folder / "readme.txt") << "text";
   EXPECT_EQ(KindOfReading(m_Folder, m_Folder.string()), FailureKind::NotFound);
   std::ofstream(m_Folder / "head.nii.gz") << "whatever";
-  EXPECT_EQ(KindOfReading(m_Folder, (m_Folder / "head.nii.gz").string()), FailureKind::NotFound);
+  EXPECT_EQ(KindOfReading(m_Folder, (m_Folder / "head.nii.gz").string()), FailureKind::Unreadable); // for a mask
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "rhombicNIfTITestFile.h"
 #include "rhombicDicomTestFile.h"
+#include "itkScanFileReader.h"
 #include "rhombicLabelMapReader.h"
 #include "rhombicScanTest.h"
 
@@ -115,8 +116,31 @@ TEST_F(LabelFiles, SeveralFilesAreOneSegmentation)
             (Texts{ "1 liver 40", "2 spleen 3", "5 label 5 2", "6 tumour 10" }));
   EXPECT_EQ(Describe(this->Read({ map, liver }).labels), (Texts{ "1 spleen 3", "5 label 5 2", "6 liver 40" }));
   std::ofstream(m_Folder / "table.txt") << "1 left lobe\n6 right lobe\n";
-  EXPECT_EQ(Describe(this->Read({ map, liver }, m_Folder / "table.txt").labels),
-            (Texts{ "1 left lobe 3", "5 label 5 2", "6 right lobe 40" }));
+  EXPECT_THROW(this->Read({ map, liver }, m_Folder / "table.txt"), Failure) << "numbers are by the files' order";
+  EXPECT_THROW(this->Read({ m_Masks }, m_Folder / "table.txt"), Failure);
+  EXPECT_EQ(Describe(this->Read({ map }, m_Folder / "table.txt").labels), (Texts{ "1 left lobe 3", "5 label 5 2" }));
+}
+
+TEST_F(LabelFiles, AMaskIsCalledAsItsFileUnlessThatIsUnwanted)
+{
+  const auto liver = this->WriteMask("liver.nii", 0, 40);
+  EXPECT_EQ(Describe(this->Read({ liver }).labels), (Texts{ "1 liver 40" }));
+  rhombic::LabelMapSource source{ { liver } };
+  source.namesMask = false;
+  EXPECT_EQ(Describe(rhombic::FindLabels(rhombic::ReadScan(liver), source)), (Texts{ "1 label 1 40" }));
+}
+
+TEST_F(LabelFiles, LabelsThatOverlapAreNoImage)
+{
+  this->WriteMask("liver.nii", 0, 40);
+  this->WriteMask("spleen.nii", 50, 60);
+  const auto reader = itk::ScanFileReader<itk::Image<std::uint8_t, 3>>::New();
+  reader->SetFileName(m_Masks.string());
+  reader->Update();
+  this->WriteMask("tumour.nii", 30, 45);
+  const auto other = itk::ScanFileReader<itk::Image<std::uint8_t, 3>>::New();
+  other->SetFileName(m_Masks.string());
+  EXPECT_THROW(other->Update(), Failure);
 }
 
 TEST_F(LabelFiles, WhatIsNoMaskOfTheGridIsRefused)

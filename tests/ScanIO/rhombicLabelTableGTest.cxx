@@ -402,12 +402,29 @@ TEST_F(LabelTableFile, FindsTablesBesideLabelMaps)
   this->Write("body.txt", "These are the labels of the body.\n");
   this->Write("body.csv", "a,b\n1,2\n");
   EXPECT_FALSE(FindLabelTable(map).has_value());
+  for (const char * const notes : { "2 lesions found\n", "2 lesions, checked twice\n", "2 lesions\n2 readers\n" })
+  {
+    this->Write("body.txt", notes);
+    EXPECT_FALSE(FindLabelTable(map).has_value()) << notes;
+  }
+  this->Write("body.csv", "name,value\nvolume_ml,12.5\n");
+  EXPECT_FALSE(FindLabelTable(map).has_value()) << "of measures";
   this->Write("body.tsv", BIDS);
   EXPECT_EQ(FindLabelTable(map)->size(), 2U);
   this->Write("body.ctbl", SlicerText);
   EXPECT_EQ(FindLabelTable(map)->size(), 3U);
   this->Write("body.ctbl", Replaced(SlicerText, "102", "1020"));
   EXPECT_THROW(FindLabelTable(map), Failure);
+}
+
+TEST_F(LabelTableFile, LongFilesAreRefusedWithAByteOrderMarkToo)
+{
+  const std::string lines(std::size_t{ 1 } << 20, '\n');
+  for (const std::string mark : { "", "\xEF\xBB\xBF" })
+  {
+    this->Write("long.txt", mark + "1 liver\n" + lines + "junk\n");
+    EXPECT_THROW(rhombic::ReadLabelTable(m_Folder / "long.txt"), Failure);
+  }
 }
 
 TEST_F(LabelTableFile, FindsTheDatasetOfLabelMaps)
@@ -421,6 +438,9 @@ TEST_F(LabelTableFile, FindsTheDatasetOfLabelMaps)
   EXPECT_EQ(rhombic::FindDatasetTable(folder / "case_001.nii.gz")->at(1).name, "liver");
   this->Write("Dataset001/labelsTr/dataset.json", "{\"labels\": {\"spleen\": 1}}");
   EXPECT_EQ(rhombic::FindDatasetTable(folder / "case_001.nii.gz")->at(0).name, "spleen");
+  this->Write("Dataset001/dataset.json", "{\"labels\": {\"whole tumour\": [1, 2], \"core\": 2}}");
+  this->Write("Dataset001/labelsTr/dataset.json", "{\"labels\": [\"a\", \"b\"]}");
+  EXPECT_FALSE(rhombic::FindDatasetTable(folder / "case_001.nii.gz").has_value()) << "names of no label map";
 }
 
 const std::map<std::string, std::string> Segments{

@@ -49,7 +49,7 @@ protected:
   {
     rhombic::ScanReadOptions options;
     options.onSeveralFrames = rhombic::ScanReadOptions::Policy::Accept;
-    return rhombic::ReadLabelMap({ {}, {}, paths }, {}, rhombic::ReadScan(paths.front(), options), paths.front());
+    return rhombic::ReadLabelMap({ {}, {}, true, paths }, {}, rhombic::ReadScan(paths.front(), options), paths.front());
   }
 
   FailureKind

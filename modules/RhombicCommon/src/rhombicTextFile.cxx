@@ -2,6 +2,7 @@
 
 #include "rhombicFailure.h"
 
+#include <algorithm>
 #include <fstream>
 
 namespace rhombic
@@ -31,8 +32,8 @@ ReadTextFile(const std::filesystem::path & path, const std::string & kind, std::
   {
     text.append(block, 0, static_cast<std::size_t>(file.gcount()));
   }
-  text.resize(text.size() > most ? most + 1 : text.size());
   text.erase(0, text.size() - WithoutByteOrderMark(text, path.string()).size());
+  text.resize(std::min(text.size(), most) + (text.size() > most ? 1 : 0));
   return text;
 }
 

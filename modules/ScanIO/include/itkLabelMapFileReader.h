@@ -57,12 +57,6 @@ protected:
   void
   Inspect(const rhombic::Scan & scan) override
   {
-    if (!scan.furtherLayers.empty())
-    {
-      throw rhombic::Failure(rhombic::FailureKind::Usage,
-                             std::string("Cannot read ") + this->GetFileName() +
-                               " as one image: its labels overlap; read its layers with rhombic::ReadLabelMap().");
-    }
     m_Labels = rhombic::FindLabels(scan, { { this->GetFileName() }, m_LabelTableFileName });
   }
 

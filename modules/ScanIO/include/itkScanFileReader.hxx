@@ -73,6 +73,12 @@ ScanFileReader<TOutputImage>::GenerateData()
                            std::string("Cannot read ") + this->GetFileName() +
                              ": its files changed while they were read; read it again.");
   }
+  if (!scan.furtherLayers.empty())
+  {
+    throw rhombic::Failure(rhombic::FailureKind::Usage,
+                           std::string("Cannot read ") + this->GetFileName() +
+                             " as one image: its labels overlap; read its layers with rhombic::ReadLabelMap().");
+  }
   this->Inspect(scan);
   std::visit([this](const auto & voxels) { this->TakeVoxels(*voxels); }, scan.image);
 }

@@ -32,6 +32,10 @@ LooksLikeLabelMap(const Scan & scan);
 std::vector<LabelSummary>
 SummarizeLabels(const Scan & scan, const LabelTable & table);
 
+/** Whether these are the labels of a mask: a single one, of value 1 or 255. */
+bool
+IsMask(const std::vector<LabelSummary> & labels);
+
 /** The smallest region that holds all voxels that are not 0 in any of the layers; the whole image if all are 0. */
 itk::ImageRegion<3>
 RegionOfLabels(const std::vector<ScanImage> & layers);

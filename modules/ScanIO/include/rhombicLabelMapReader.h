@@ -32,9 +32,12 @@ struct LabelMapSource
    */
   std::vector<std::filesystem::path> paths;
 
-  /** Empty: the table in the file, or the one beside it (see FindLabelTable(), FindDatasetTable()); and a file of 0 and
-   * one other value, 1 or 255, that has neither is called as its file. */
+  /** Empty: the table in the file, or the one beside it (see FindLabelTable(), FindDatasetTable()); and a mask that
+   * has neither is called as its file (see namesMask). */
   std::filesystem::path table = {};
+
+  /** Whether the label of a mask in a file of its own is called as the file, whose name may be the patient's. */
+  bool namesMask = true;
 
   /** Volumes of probabilities from 0 to 1, 100 or 255, in place of a map: a file for each label, or one that holds
    * several volumes. They are numbered from 1, and have no names if there is no table. */

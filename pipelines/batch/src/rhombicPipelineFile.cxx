@@ -303,6 +303,10 @@ GetArguments(const PipelineStep & step, const BatchCase & batchCase)
   {
     arguments.push_back("--labels=" + batchCase.labels.string());
   }
+  if (step.arguments.front() != "resample") // which makes no surfaces
+  {
+    arguments.push_back("--unnamed-mask");
+  }
   arguments.insert(arguments.end(), { "-o", step.output });
   arguments.insert(arguments.end(), batchCase.options.begin(), batchCase.options.end());
   return arguments;

@@ -144,6 +144,12 @@ LooksLikeLabelMap(const Scan & scan)
   return std::visit([](const auto & image) { return HoldsPieces(*image) && HoldsLabelValues(*image); }, scan.image);
 }
 
+bool
+IsMask(const std::vector<LabelSummary> & labels)
+{
+  return labels.size() == 1 && (labels.front().label.value == 1 || labels.front().label.value == 255);
+}
+
 std::vector<LabelSummary>
 SummarizeLabels(const Scan & scan, const LabelTable & table)
 {

@@ -19,6 +19,13 @@ FindTable(const Scan & scan, const LabelMapSource & source)
 {
   if (!source.table.empty())
   {
+    if (source.paths.size() > 1 || (scan.format != "DICOM" && fs::is_directory(source.GetFirstPath())))
+    {
+      throw Failure(FailureKind::Usage,
+                    "The label table " + source.table.string() +
+                      " can't name the labels of several files, which are called as their files and numbered in their "
+                      "order; leave it out, or make one label map of them.");
+    }
     return ReadLabelTable(source.table);
   }
   if (!scan.labels.empty() || scan.format == "DICOM" || source.paths.size() != 1)
@@ -28,16 +35,13 @@ FindTable(const Scan & scan, const LabelMapSource & source)
   return FindLabelTable(source.paths.front()).value_or(LabelTable());
 }
 
-/** Calls the only label of a mask as its file. */
+/** Calls the label of a mask as its file. */
 void
 NameMask(const fs::path & path, std::vector<LabelSummary> & labels)
 {
-  if (labels.size() == 1 && (labels[0].label.value == 1 || labels[0].label.value == 255))
-  {
-    Label & label = labels[0].label;
-    label.name = SanitizeLabelName(StemOfVolume(path), label.value);
-    label.colour = AnatomicalColour(label.name, label.value);
-  }
+  Label & label = labels.front().label;
+  label.name = SanitizeLabelName(StemOfVolume(path), label.value);
+  label.colour = AnatomicalColour(label.name, label.value);
 }
 
 /** The label map, or all of them as one. */
@@ -87,7 +91,7 @@ FindLabels(const Scan & scan, const LabelMapSource & source)
   const bool isFile = source.paths.size() == 1 && IsVolumeFileName(source.paths.front());
   table = isFile ? FindDatasetTable(source.paths.front()).value_or(LabelTable()) : table;
   std::vector<LabelSummary> labels = SummarizeLabels(scan, table);
-  if (isFile && table.empty())
+  if (isFile && source.namesMask && table.empty() && IsMask(labels))
   {
     NameMask(source.paths.front(), labels);
   }

@@ -11,9 +11,17 @@ namespace rhombic
 namespace
 {
 
-/** The labels of a text; nothing when it is no label table. */
+/** How a file became a label table: by a user who named it, or by its own name. */
+enum class TableChoice
+{
+  Named,
+  Found
+};
+
+/** The labels of a text; nothing when it is no label table. A text that was found is none if it may as well be notes,
+ * or the description of another data set. */
 std::optional<LabelTable>
-ParseIfLabelTable(std::string_view text, const std::string & source)
+ParseIfLabelTable(std::string_view text, const std::string & source, TableChoice choice)
 {
   if (text.size() > LongestLabelTable)
   {
@@ -21,7 +29,12 @@ ParseIfLabelTable(std::string_view text, const std::string & source)
   }
   text = WithoutByteOrderMark(text, source);
   const std::vector<TextLine> lines = LinesOfTable(text, source);
-  switch (RecogniseLabelTable(text, lines, source))
+  const LabelTableFormat format = RecogniseLabelTable(text, lines, source);
+  if (choice == TableChoice::Found && !IsSurelyLabelTable(format, text, lines))
+  {
+    return std::nullopt;
+  }
+  switch (format)
   {
     case LabelTableFormat::ITKSNAP:
       return ParseITKSNAPTable(lines, source);
@@ -65,7 +78,7 @@ ParseLabelTable(std::string_view text, const std::string & source)
   {
     RefuseTable({ source }, "it is longer than 1 MiB, too long for a label table; check that it is one");
   }
-  if (auto table = ParseIfLabelTable(text, source))
+  if (auto table = ParseIfLabelTable(text, source, TableChoice::Named))
   {
     return *std::move(table);
   }
@@ -97,7 +110,8 @@ FindLabelTable(const fs::path & volumePath)
     const fs::path sideCar = volumePath.parent_path() / (StemOfVolume(volumePath) + sideCarExtension);
     if (fs::is_regular_file(sideCar))
     {
-      if (auto table = ParseIfLabelTable(ReadTextFile(sideCar, "label table", LongestLabelTable), sideCar.string()))
+      if (auto table = ParseIfLabelTable(
+            ReadTextFile(sideCar, "label table", LongestLabelTable), sideCar.string(), TableChoice::Found))
       {
         return table;
       }
@@ -115,7 +129,8 @@ FindDatasetTable(const fs::path & volumePath)
     const fs::path dataset = place / "dataset.json";
     if (fs::is_regular_file(dataset))
     {
-      if (auto table = ParseIfLabelTable(ReadTextFile(dataset, "label table", LongestLabelTable), dataset.string()))
+      if (auto table = ParseIfLabelTable(
+            ReadTextFile(dataset, "label table", LongestLabelTable), dataset.string(), TableChoice::Found))
       {
         return table;
       }

@@ -196,6 +196,21 @@ FindLabelColumns(std::string_view header)
   return std::nullopt;
 }
 
+/** The value of "labels" in a dataset.json; null if there is none. */
+nlohmann::json
+LabelsOfDataset(std::string_view json)
+{
+  const auto dataset = nlohmann::json::parse(json.begin(), json.end(), nullptr, false);
+  return dataset.is_object() ? dataset.value("labels", nlohmann::json()) : nlohmann::json();
+}
+
+/** Whether a name in a dataset.json is that of several values. */
+bool
+IsRegion(const nlohmann::json & value)
+{
+  return value.is_array() && value.size() > 1;
+}
+
 /** Whether a line is a whole number and a name, not a row of numbers. */
 bool
 LooksLikeValueAndName(const TextLine & line)
@@ -249,6 +264,22 @@ RecogniseLabelTable(std::string_view text, const std::vector<TextLine> & lines, 
   }
   return std::all_of(lines.begin(), lines.end(), LooksLikeValueAndName) ? LabelTableFormat::ValueAndName
                                                                         : LabelTableFormat::None;
+}
+
+bool
+IsSurelyLabelTable(LabelTableFormat format, std::string_view text, const std::vector<TextLine> & lines)
+{
+  if (format == LabelTableFormat::Columns)
+  {
+    const std::string column = FindLabelColumns(lines.front().text).value().value;
+    return column == "labelvalue" || column == "index";
+  }
+  if (format == LabelTableFormat::DatasetJSON)
+  {
+    const auto labels = LabelsOfDataset(text);
+    return labels.is_object() && std::none_of(labels.begin(), labels.end(), IsRegion);
+  }
+  return format != LabelTableFormat::ValueAndName;
 }
 
 LabelTable
@@ -332,8 +363,7 @@ ParseValuesAndNames(const std::vector<TextLine> & lines, const std::string & sou
 LabelTable
 ParseDatasetJSON(std::string_view json, const std::string & source)
 {
-  const auto dataset = nlohmann::json::parse(json.begin(), json.end(), nullptr, false);
-  const auto labels = dataset.is_object() ? dataset.value("labels", nlohmann::json()) : nlohmann::json();
+  const nlohmann::json labels = LabelsOfDataset(json);
   if (!labels.is_object())
   {
     RefuseTable({ source }, "it has no object \"labels\", as a dataset.json of nnU-Net has; check that it is one");
@@ -342,7 +372,7 @@ ParseDatasetJSON(std::string_view json, const std::string & source)
   for (const auto & [key, value] : labels.items())
   {
     const auto & number = value.is_array() && value.size() == 1 ? value.front() : value;
-    if (value.is_array() && value.size() > 1)
+    if (IsRegion(value))
     {
       RefuseTable({ source },
                   "its label " + Quoted(key) +

@@ -31,6 +31,11 @@ enum class LabelTableFormat
 LabelTableFormat
 RecogniseLabelTable(std::string_view text, const std::vector<TextLine> & lines, const std::string & source);
 
+/** Whether a text of that format is a table of labels and nothing else: not lines of a number and words, nor columns
+ * called "value" or "label" and "name", which may be notes or measures, nor a dataset.json of other tasks. */
+bool
+IsSurelyLabelTable(LabelTableFormat format, std::string_view text, const std::vector<TextLine> & lines);
+
 /** Parses all lines as rows `IDX R G B A VIS MSH "LABEL"`. A label is visible if VIS and MSH are set. */
 LabelTable
 ParseITKSNAPTable(const std::vector<TextLine> & lines, const std::string & source);

@@ -46,7 +46,7 @@ LabelUnion::Add(const ScanImage & map, const LabelTable & table, const std::opti
     Label label = summary.label;
     const bool isNamed =
       std::any_of(table.begin(), table.end(), [&label](const Label & known) { return known.value == label.value; });
-    const bool isMask = maskName && labels.size() == 1 && !isNamed;
+    const bool isMask = maskName && IsMask(labels) && !isNamed;
     const std::uint16_t number = this->NumberFor(isMask && label.value == 255 ? 1 : label.value);
     numbers[label.value] = number;
     label.value = number;

@@ -25,9 +25,9 @@ public:
     : m_Layers(grid, maximumMemory)
   {}
 
-  /** Adds a label map, whose labels are called as \a table says. \a maskName is the name of a map's only label if the
-   * table lacks it; its value 255 then counts as 1. Returns whether there was any label. Throws Failure: Unreadable for
-   * values that are no whole numbers and for more than 4096 labels, Memory. */
+  /** Adds a label map, whose labels are called as \a table says. \a maskName is the name of the label of a mask (see
+   * IsMask()) if the table lacks it; its value 255 then counts as 1. Returns whether there was any label. Throws
+   * Failure: Unreadable for values that are no whole numbers and for more than 4096 labels, Memory. */
   bool
   Add(const ScanImage & map, const LabelTable & table, const std::optional<std::string> & maskName = {});
 
