@@ -115,6 +115,31 @@ protected:
   rhombic::LabelMap m_Map;
 };
 
+TEST_F(LabelDoubtsOfThePhantom, FurtherLayersCountToo)
+{
+  const auto bone = std::find_if(m_Map.labels.begin(), m_Map.labels.end(), [](const rhombic::LabelSummary & summary) {
+    return summary.label.name.find("lung") != std::string::npos;
+  });
+  ASSERT_NE(bone, m_Map.labels.end());
+  bone->label.name = "ribs";
+  auto layer = itk::Image<std::uint8_t, 3>::New();
+  std::visit(
+    [&](const auto & image) {
+      layer->CopyInformation(image);
+      layer->SetRegions(image->GetBufferedRegion());
+      layer->Allocate(true);
+      for (std::size_t n = 0; n < image->GetBufferedRegion().GetNumberOfPixels(); ++n)
+      {
+        const bool isBone = static_cast<int>(image->GetBufferPointer()[n]) == bone->label.value;
+        layer->GetBufferPointer()[n] = isBone ? static_cast<std::uint8_t>(bone->label.value) : 0;
+        image->GetBufferPointer()[n] = isBone ? 0 : image->GetBufferPointer()[n];
+      }
+    },
+    m_Map.scan.image);
+  m_Map.scan.furtherLayers = { layer };
+  EXPECT_NE(DoubtsOf(m_Scan, m_Map).find("ribs -"), std::string::npos) << DoubtsOf(m_Scan, m_Map);
+}
+
 TEST_F(LabelDoubtsOfThePhantom, NoneOfItsOwnLabels)
 {
   EXPECT_EQ(DoubtsOf(m_Scan, m_Map), "");
