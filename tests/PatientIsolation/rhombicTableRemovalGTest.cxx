@@ -485,7 +485,7 @@ TEST(TableRemoval, SaysWhichSeparatePartsAreKept)
     EXPECT_NEAR(std::abs(wall.centroid[0]), 109.0, 1.0);
   }
   ASSERT_EQ(removal.notes.size(), 1u);
-  EXPECT_NE(removal.notes.front().find("kept: 2 parts apart from the largest"), std::string::npos)
+  EXPECT_NE(removal.notes.front().find("kept as the patient's: 2 parts apart from the largest"), std::string::npos)
     << removal.notes.front();
 }
 
