@@ -251,6 +251,43 @@ TEST(Batch, AFailedOutputLeavesTheOthersOfItsCase)
   EXPECT_FALSE(fs::exists(folder.Path() / "out/case/c.stl"));
 }
 
+TEST(Batch, TheMeasuresOfASurfaceDependOnNoNamesOfOutputs)
+{
+  std::vector<std::map<std::string, std::string>> first;
+  for (const char * const page : { "a.png", "z.png" })
+  {
+    const TemporaryFolder folder;
+    std::ofstream(folder.Path() / "pipeline.yaml")
+      << "options: {surface: [bone=375.5]}\noutputs: [{page: " << page << ", dpi: 40}, {mesh: b.stl}]\n";
+    const std::string scan = (phantom / "phantom.nii.gz").string();
+    const Outcome outcome = RunShell("rhombic batch " + scan + " --pipeline pipeline.yaml -o out", folder.Path());
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+    const auto measures = ReadTable(folder.Path() / "out/measures.tsv");
+    ASSERT_EQ(measures.size(), 1u) << "page and mesh share the surface";
+    EXPECT_NE(measures[0].at("isosurface_volume_ml"), "n/a");
+    EXPECT_EQ(measures[0].at("volume_error_reference"), "isosurface");
+    const double reference = std::stod(measures[0].at("isosurface_volume_ml"));
+    EXPECT_NEAR(std::stod(measures[0].at("volume_error_percent")),
+                100.0 * (std::stod(measures[0].at("volume_ml")) / reference - 1.0),
+                1e-3);
+    first = first.empty() ? measures : first;
+    EXPECT_EQ(measures, first) << page;
+  }
+}
+
+TEST(Batch, AManifestInTheFolderOfOutputsIsNotRemoved)
+{
+  const TemporaryFolder folder;
+  WriteCollection(folder.Path(), 1);
+  ASSERT_EQ(RunShell(std::string(command) + "-o out", folder.Path()).exitCode, 12);
+  const std::string manifest = ReadText(folder.Path() / "out/cases.tsv");
+  const Outcome outcome =
+    RunShell("rhombic batch ./out/cases.tsv --pipeline pipeline.yaml -o out --tables --no-cases-table", folder.Path());
+  EXPECT_EQ(outcome.exitCode, 2);
+  EXPECT_NE(outcome.errors.find("would remove the manifest out/cases.tsv"), std::string::npos) << outcome.errors;
+  EXPECT_EQ(ReadText(folder.Path() / "out/cases.tsv"), manifest);
+}
+
 TEST(Batch, PatientsNamesAreInDicomFilesOnlyAndOfDicomScansOnly)
 {
   const TemporaryFolder folder;
@@ -355,6 +392,19 @@ StartRun(const std::string & options)
 {
   return std::string(command) + "-o out " + options +
          " &\nuntil ls -d out/.stage-* 2>&1; do sleep 0.01; done\nkill -STOP $!\n";
+}
+
+TEST(Batch, ACaseThatCanNotBePutInPlaceHasNoOutputs)
+{
+  const TemporaryFolder folder;
+  WriteCollection(folder.Path(), 1);
+  const std::string goOn = "mkdir -p out/v0/others\nkill -CONT $!\nwait $!\n";
+  EXPECT_EQ(RunShell(StartRun("--case v0") + goOn, folder.Path()).exitCode, 12);
+  const auto record = nlohmann::json::parse(ReadText(folder.Path() / "out/journal.jsonl"));
+  EXPECT_EQ(record["code"], 7);
+  EXPECT_EQ(record["failedOutputs"], nlohmann::json({ "bone.stl", "scan.fcc.nrrd" }));
+  EXPECT_TRUE(record["outputs"].empty());
+  EXPECT_FALSE(record.contains("measures"));
 }
 
 TEST(Batch, TwoRunsOfACaseExcludeEachOther)

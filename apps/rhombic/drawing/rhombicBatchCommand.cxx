@@ -16,6 +16,7 @@
 #include <iostream>
 #include <memory>
 #include <set>
+#include <system_error>
 #include <utility>
 
 namespace rhombic
@@ -92,6 +93,13 @@ GetSettings(const BatchOptions & options, const Events & events)
   {
     throw Failure(FailureKind::Usage,
                   "Name a collection and a folder for the outputs, as in rhombic batch scans -o results.");
+  }
+  const std::string casesTable = options.output + "/cases.tsv";
+  std::error_code missing;
+  if (options.hasNoCasesTable && std::filesystem::equivalent(options.collection, casesTable, missing))
+  {
+    throw Failure(FailureKind::Usage,
+                  "--no-cases-table would remove the manifest " + casesTable + "; leave it out, or move the manifest.");
   }
   BatchSettings settings;
   settings.pipeline = ReadPipeline(options.pipeline, OutputCommands::GetSyntax());

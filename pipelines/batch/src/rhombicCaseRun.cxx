@@ -112,7 +112,8 @@ FindFiles(const fs::path & folder)
 }
 
 /** Adds the surfaces in the report of an output to the case's measures: those that other outputs share are there once,
- * with what is known of any of them. Returns their identities. */
+ * with what is known of any of them. A report that knows the volume of the isosurface tells the volume's error and its
+ * reference. Returns their identities. */
 Report
 AddSurfaces(const fs::path & sidecar, Report & measures)
 {
@@ -131,8 +132,9 @@ AddSurfaces(const fs::path & sidecar, Report & measures)
     }
     else
     {
-      Report whole = row;
-      whole.update(*known);
+      const bool isPreferred = row.contains("isosurface_volume_ml");
+      Report whole = isPreferred ? *known : row;
+      whole.update(isPreferred ? row : *known);
       *known = whole;
     }
     identities.push_back(identity);
@@ -316,6 +318,12 @@ CaseRun::KeepOutputs()
     m_Record["code"] = static_cast<int>(FailureKind::Output);
     m_Record["cause"] = WithoutNames(m_Cause, m_Case, m_Stage);
     m_Record["outputs"] = Report::array();
+    m_Record["failedOutputs"] = Report::array();
+    for (const PipelineStep & step : m_Settings.pipeline.steps)
+    {
+      m_Record["failedOutputs"].push_back(step.output);
+    }
+    m_Record.erase("measures");
   }
 }
 
