@@ -1,6 +1,7 @@
 #ifndef itkThreadFailure_h
 #define itkThreadFailure_h
 
+#include <atomic>
 #include <exception>
 #include <mutex>
 #include <utility>
@@ -20,11 +21,15 @@ namespace itk
 class ThreadFailure
 {
 public:
-  /** Calls work(), and keeps its exception if it is the first. */
+  /** Calls work() and keeps its exception, unless there is one already. */
   template <typename TWork>
   void
   Capture(const TWork & work)
   {
+    if (m_HasFailed)
+    {
+      return;
+    }
     try
     {
       work();
@@ -35,6 +40,7 @@ public:
       if (!m_First)
       {
         m_First = std::current_exception();
+        m_HasFailed = true;
       }
     }
   }
@@ -45,6 +51,7 @@ public:
   {
     if (const std::exception_ptr first = std::exchange(m_First, nullptr))
     {
+      m_HasFailed = false;
       std::rethrow_exception(first);
     }
   }
@@ -52,6 +59,7 @@ public:
 private:
   std::mutex m_Mutex;
   std::exception_ptr m_First;
+  std::atomic<bool> m_HasFailed{ false };
 };
 
 } // namespace itk

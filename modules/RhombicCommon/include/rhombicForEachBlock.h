@@ -9,10 +9,10 @@ namespace rhombic
 {
 
 /** Calls \a work(n) for each n below \a count, on this thread and on idle threads of ITK's pool: at most
- * MultiThreaderBase's global default number of threads in all. Returns after the last call, and throws the first
- * exception. Unlike MultiThreaderBase, it never waits for a pool thread that has not started yet, so jobs of the pool
- * may call it without a deadlock.
- * Thread safety: \a work is called on several threads at once, and any number of threads may call this. */
+ * MultiThreaderBase's global default number of threads in all. Returns after the last call. After an exception no
+ * further call begins, and the first exception is thrown. Unlike MultiThreaderBase, it never waits for a pool thread
+ * that has not started yet, so jobs of the pool may call it without a deadlock. Thread safety: \a work is called on
+ * several threads at once, and any number of threads may call this. */
 void
 ForEachOnThreads(std::size_t count, const std::function<void(std::size_t)> & work);
 
