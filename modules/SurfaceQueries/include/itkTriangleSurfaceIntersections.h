@@ -3,6 +3,7 @@
 
 #include "detail/itkTriangleContact.h"
 #include "itkTriangleTree.h"
+#include "rhombicStagedProgress.h"
 
 namespace itk
 {
@@ -31,7 +32,17 @@ FindTriangleSurfaceSelfIntersections(const TriangleTree & tree,
 
 /** The ids of the triangles that cross others or are duplicates, ascending. Tests all triangles.
  * \param fans the triangles at the points of the tree's surface
- * \param least Touching to find those that only touch others, too */
+ * \param least Touching to find those that only touch others, too
+ * \param progress its next stage is the search
+ * \param stageEnd share of the whole that is done after the stage */
+std::vector<std::uint32_t>
+FindCrossingTriangles(const TriangleTree & tree,
+                      const TrianglesOfPoints & fans,
+                      TriangleContact least,
+                      rhombic::StagedProgress & progress,
+                      double stageEnd);
+
+/** The same without progress. */
 std::vector<std::uint32_t>
 FindCrossingTriangles(const TriangleTree & tree,
                       const TrianglesOfPoints & fans,

@@ -315,9 +315,14 @@ private:
 
 /** The triangles of a tree that cross others of it, or are in another contact of at least that kind, ascending. */
 std::vector<std::uint32_t>
-FindAllCrossing(const TriangleTree & tree, std::vector<std::uint8_t> areUnfolded, Contact least)
+FindAllCrossing(const TriangleTree & tree,
+                std::vector<std::uint8_t> areUnfolded,
+                Contact least,
+                rhombic::StagedProgress & progress,
+                double stageEnd)
 {
   const ContactSearch search(tree, std::move(areUnfolded), TrianglesOfPart);
+  progress.Begin(stageEnd, search.GetNumberOfParts());
   std::vector<std::uint32_t> found;
   std::mutex mutex;
   rhombic::ForEachBlock(search.GetNumberOfParts(), PartsOfBlock, [&](std::size_t begin, std::size_t end) {
@@ -332,8 +337,11 @@ FindAllCrossing(const TriangleTree & tree, std::vector<std::uint8_t> areUnfolded
         }
       });
     }
-    const std::lock_guard<std::mutex> lock(mutex);
-    found.insert(found.end(), ofBlock.begin(), ofBlock.end());
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      found.insert(found.end(), ofBlock.begin(), ofBlock.end());
+    }
+    progress.Completed(end - begin);
   });
   SortUnique(found);
   return found;
@@ -420,9 +428,20 @@ FindTriangleSurfaceSelfIntersections(const TriangleTree & tree, SizeValueType ma
 }
 
 std::vector<std::uint32_t>
+FindCrossingTriangles(const TriangleTree & tree,
+                      const TrianglesOfPoints & fans,
+                      Contact least,
+                      rhombic::StagedProgress & progress,
+                      double stageEnd)
+{
+  return FindAllCrossing(tree, FindUnfoldedPoints(tree.GetSurface(), fans), least, progress, stageEnd);
+}
+
+std::vector<std::uint32_t>
 FindCrossingTriangles(const TriangleTree & tree, const TrianglesOfPoints & fans, Contact least)
 {
-  return FindAllCrossing(tree, FindUnfoldedPoints(tree.GetSurface(), fans), least);
+  rhombic::StagedProgress silent({});
+  return FindCrossingTriangles(tree, fans, least, silent, 1.0);
 }
 
 std::vector<std::uint32_t>
@@ -473,8 +492,9 @@ FindCrossingTriangles(const TriangleSurface & surface,
 {
   std::vector<std::uint8_t> areUnfolded = FindUnfoldedPoints(surface, fans);
   std::vector<std::uint32_t> found = FindCrossingAtEdges(surface, fans, areUnfolded, candidates.longestEdge);
-  const auto listed =
-    FindAllCrossing(TriangleTree(surface, candidates.triangles), std::move(areUnfolded), Contact::Crossing);
+  rhombic::StagedProgress silent({});
+  const auto listed = FindAllCrossing(
+    TriangleTree(surface, candidates.triangles), std::move(areUnfolded), Contact::Crossing, silent, 1.0);
   found.insert(found.end(), listed.begin(), listed.end());
   SortUnique(found);
   return found;
