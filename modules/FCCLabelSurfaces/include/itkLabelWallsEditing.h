@@ -20,11 +20,13 @@ namespace itk
  * number of threads.
  *
  * \param volumes by label in mm^3, such as LabelsToFCCFilter::GetVoxelVolumes(); labels without one, or with 0, keep
- * theirs */
+ * theirs
+ * \param report as that of SmoothTriangleSurface() */
 TriangleSurfaceSmoothingReport
 RelaxLabelWalls(LabelWalls & walls,
                 const TriangleSurfaceSmoothingSettings & settings,
-                const std::vector<double> & volumes = {});
+                const std::vector<double> & volumes = {},
+                const rhombic::ProgressFunction & report = {});
 
 /** Reduces the number of triangles of walls, as SimplifyTriangleSurface() does, once for both labels of each wall:
  * labels still share their walls, without gaps and overlaps.
@@ -32,9 +34,11 @@ RelaxLabelWalls(LabelWalls & walls,
  * Points on the curves where walls meet collapse along these, and points where curves meet stay, so that the surface of
  * each label keeps its topology. Distances are checked wall by wall: each wall, in both directions, against the same
  * wall before. A tenth of maximumError is kept for moving walls at the end, so that labels keep their volumes; if
- * maximumError is infinite, volumes are not restored. Throws as SimplifyTriangleSurface() does. */
+ * maximumError is infinite, volumes are not restored. Reports and throws as SimplifyTriangleSurface() does. */
 TriangleSurfaceSimplificationReport
-SimplifyLabelWalls(LabelWalls & walls, const TriangleSurfaceSimplificationSettings & settings);
+SimplifyLabelWalls(LabelWalls & walls,
+                   const TriangleSurfaceSimplificationSettings & settings,
+                   const rhombic::ProgressFunction & report = {});
 
 } // namespace itk
 

@@ -40,35 +40,40 @@ FindLayers(const LabelWalls & walls, const std::vector<double> & wanted, double 
 }
 
 /** Moves walls along their normals until each label has its volume, or points are as far as they may go. Fixed points
- * stay. */
+ * stay. It is one stage of the progress. */
 void
 RestoreVolumes(const LabelWalls & walls,
                const std::vector<double> & wanted,
                const TrianglesOfPoints & fans,
                const PointStrata & strata,
-               BoundedMoves & moves)
+               BoundedMoves & moves,
+               rhombic::StagedProgress & progress,
+               double stageEnd)
 {
+  progress.Begin(stageEnd, MostCorrections * walls.GetNumberOfPoints());
   std::vector<double> layers; // mm, by label
   const double least = SmallestLayer * moves.GetMaximumMove();
   for (unsigned int n = 0; n < MostCorrections && FindLayers(walls, wanted, least, layers); ++n)
   {
-    moves.Step([&](SizeValueType point) {
-      PositionType way{};
-      double area = 0.0;
-      double sum = 0.0; // of the squared layers
-      fans.VisitTriangles(point, [&](std::uint32_t id) {
-        const PositionType normal = AreaVector(CornersOf(walls, walls.GetTriangles()[id]));
-        const auto & [front, back] = walls.GetTriangleLabels()[id];
-        const double layer = layers[back] - layers[front];
-        way = Add(way, { layer * normal[0], layer * normal[1], layer * normal[2] });
-        area += Length(normal);
-        sum += layer * layer * Length(normal);
-      });
-      // As far as the triangles at the point sweep the layers' volume.
-      const bool isMoved = sum > 0.0 && strata.strata[point] != Stratum::Fixed;
-      return BoundedMoves::Move(
-        walls.GetPoints()[point], isMoved ? std::min(2.0 / area, sum / Dot(way, way)) : 0.0, way);
-    });
+    moves.Step(
+      [&](SizeValueType point) {
+        PositionType way{};
+        double area = 0.0;
+        double sum = 0.0; // of the squared layers
+        fans.VisitTriangles(point, [&](std::uint32_t id) {
+          const PositionType normal = AreaVector(CornersOf(walls, walls.GetTriangles()[id]));
+          const auto & [front, back] = walls.GetTriangleLabels()[id];
+          const double layer = layers[back] - layers[front];
+          way = Add(way, { layer * normal[0], layer * normal[1], layer * normal[2] });
+          area += Length(normal);
+          sum += layer * layer * Length(normal);
+        });
+        // As far as the triangles at the point sweep the layers' volume.
+        const bool isMoved = sum > 0.0 && strata.strata[point] != Stratum::Fixed;
+        return BoundedMoves::Move(
+          walls.GetPoints()[point], isMoved ? std::min(2.0 / area, sum / Dot(way, way)) : 0.0, way);
+      },
+      progress);
   }
 }
 
@@ -77,8 +82,11 @@ RestoreVolumes(const LabelWalls & walls,
 TriangleSurfaceSmoothingReport
 RelaxLabelWalls(LabelWalls & walls,
                 const TriangleSurfaceSmoothingSettings & settings,
-                const std::vector<double> & volumes)
+                const std::vector<double> & volumes,
+                const rhombic::ProgressFunction & report)
 {
+  settings.Verify();
+  rhombic::StagedProgress progress(report);
   auto wanted = walls.ComputeVolumes();
   for (std::size_t label = 1; label < std::min(wanted.size(), volumes.size()); ++label)
   {
@@ -87,16 +95,22 @@ RelaxLabelWalls(LabelWalls & walls,
   const TrianglesOfPoints fans(walls);
   const PointStrata strata = FindStrata(walls, fans);
   BoundedMoves moves(walls, fans, settings.maximumMove);
-  TakeSmoothingSteps(walls, fans, strata, settings.iterations, moves);
-  RestoreVolumes(walls, wanted, fans, strata, moves);
-  moves.PutBackMeeting();
+  TakeSmoothingSteps(walls, fans, strata, settings.iterations, moves, progress, 0.5);
+  RestoreVolumes(walls, wanted, fans, strata, moves, progress, 0.8);
+  moves.PutBackMeeting(progress, 1.0);
   walls.Modified();
   return moves.Finish(strata);
 }
 
 TriangleSurfaceSimplificationReport
-SimplifyLabelWalls(LabelWalls & walls, const TriangleSurfaceSimplificationSettings & settings)
+SimplifyLabelWalls(LabelWalls & walls,
+                   const TriangleSurfaceSimplificationSettings & settings,
+                   const rhombic::ProgressFunction & report)
 {
+  constexpr double shareOfVolumes = 0.1; // of the work
+  const auto reportFrom = [&report](double begin, double share) -> rhombic::ProgressFunction {
+    return [&report, begin, share](double done) { report ? report(begin + share * done) : void(); };
+  };
   const auto volumes = walls.ComputeVolumes();
   auto & labels = walls.GetTriangleLabels();
   std::vector<LabelWalls::LabelPairType> pairs(labels.begin(), labels.end());
@@ -110,7 +124,7 @@ SimplifyLabelWalls(LabelWalls & walls, const TriangleSurfaceSimplificationSettin
   }
   TriangleSurfaceSimplificationSettings shared = settings;
   shared.maximumError *= 1.0 - ShareForVolumes;
-  const auto report = SimplifyTriangleSurface(walls, sheets, shared);
+  const auto result = SimplifyTriangleSurface(walls, sheets, shared, reportFrom(0.0, 1.0 - shareOfVolumes));
   labels.resize(sheets.size());
   std::transform(sheets.begin(), sheets.end(), labels.begin(), [&pairs](std::uint32_t sheet) { return pairs[sheet]; });
   if (std::isfinite(settings.maximumError))
@@ -118,12 +132,13 @@ SimplifyLabelWalls(LabelWalls & walls, const TriangleSurfaceSimplificationSettin
     const TrianglesOfPoints fans(walls);
     BoundedMoves moves(walls, fans, ShareForVolumes * settings.maximumError);
     const PointStrata strata = FindStrata(walls, fans);
-    RestoreVolumes(walls, volumes, fans, strata, moves);
-    moves.PutBackMeeting();
+    rhombic::StagedProgress progress(reportFrom(1.0 - shareOfVolumes, shareOfVolumes));
+    RestoreVolumes(walls, volumes, fans, strata, moves, progress, 0.5);
+    moves.PutBackMeeting(progress, 1.0);
     moves.Finish(strata);
   }
   walls.Modified();
-  return report;
+  return result;
 }
 
 } // namespace itk

@@ -337,11 +337,15 @@ RefineWalls(LabelMesh & mesh, const SurfaceFinish & finish, double spacing, cons
   for (const auto & layer : mesh.walls)
   {
     itk::LabelWalls & walls = *layer;
-    const RefinementFunctions functions{
-      [&walls](auto &, const auto & settings) { return itk::RelaxLabelWalls(walls, settings); },
-      [&walls](auto &, const auto & settings) { return itk::SimplifyLabelWalls(walls, settings); },
-      [&walls](auto &) { return -itk::ComputeTriangleSurfaceVolume(*walls.ExtractLabel(0)); }
-    };
+    const RefinementFunctions functions{ [&walls](auto &, const auto & settings, const auto & report) {
+                                          return itk::RelaxLabelWalls(walls, settings, {}, report);
+                                        },
+                                         [&walls](auto &, const auto & settings, const auto & report) {
+                                           return itk::SimplifyLabelWalls(walls, settings, report);
+                                         },
+                                         [&walls](auto &) {
+                                           return -itk::ComputeTriangleSurfaceVolume(*walls.ExtractLabel(0));
+                                         } };
     SurfaceFinish share = finish;
     if (finish.maximumTriangles > 0)
     {

@@ -2,6 +2,7 @@
 #define itkTriangleSurfaceSimplification_h
 
 #include "itkTriangleSurface.h"
+#include "rhombicStagedProgress.h"
 
 #include <iosfwd>
 #include <limits>
@@ -15,6 +16,10 @@ struct TriangleSurfaceSimplificationSettings
 {
   SizeValueType targetTriangles = 0;                             ///< 0 for as few as the error allows
   double maximumError = std::numeric_limits<double>::infinity(); ///< in mm, above 0
+
+  /** Throws ExceptionObject if maximumError is not above 0, or if there is neither a target nor a maximumError. */
+  void
+  Verify() const;
 };
 
 /** Why a simplification ended. */
@@ -60,10 +65,15 @@ struct TriangleSurfaceSimplificationReport
  * maximumError is compared with the triangles. Points of no triangle are removed. The result may have slightly fewer
  * triangles than the target.
  *
- * Throws ExceptionObject if the surface has non-manifold or misoriented edges, non-manifold points or degenerate
- * triangles, if maximumError is not above 0, or if there is neither a target nor a maximumError. */
+ * \a report receives the share of the triangles to remove that are removed; at an error without a target their number
+ * is not known before, and the share may end far below 1. What it throws leaves the surface unfit for use.
+ *
+ * Throws ExceptionObject as Verify() of the settings does, and if the surface has non-manifold or misoriented edges,
+ * non-manifold points or degenerate triangles. */
 TriangleSurfaceSimplificationReport
-SimplifyTriangleSurface(TriangleSurface & surface, const TriangleSurfaceSimplificationSettings & settings);
+SimplifyTriangleSurface(TriangleSurface & surface,
+                        const TriangleSurfaceSimplificationSettings & settings,
+                        const rhombic::ProgressFunction & report = {});
 
 /** The same for sheets that meet in curves, as walls between labels do.
  *
@@ -77,7 +87,8 @@ SimplifyTriangleSurface(TriangleSurface & surface, const TriangleSurfaceSimplifi
 TriangleSurfaceSimplificationReport
 SimplifyTriangleSurface(TriangleSurface & surface,
                         std::vector<std::uint32_t> & sheets,
-                        const TriangleSurfaceSimplificationSettings & settings);
+                        const TriangleSurfaceSimplificationSettings & settings,
+                        const rhombic::ProgressFunction & report = {});
 
 } // namespace itk
 

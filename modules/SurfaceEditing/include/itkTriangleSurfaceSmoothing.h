@@ -2,6 +2,7 @@
 #define itkTriangleSurfaceSmoothing_h
 
 #include "itkTriangleSurface.h"
+#include "rhombicStagedProgress.h"
 
 namespace itk
 {
@@ -12,6 +13,10 @@ struct TriangleSurfaceSmoothingSettings
 {
   unsigned int iterations = 20; ///< pairs of one step inwards and one step outwards
   double maximumMove = 0.0;     ///< largest distance of a point from its start in mm, finite and not negative
+
+  /** Throws ExceptionObject if maximumMove is negative or not finite. */
+  void
+  Verify() const;
 };
 
 /** \class TriangleSurfaceSmoothingReport
@@ -38,9 +43,12 @@ struct TriangleSurfaceSmoothingReport
  * start, until triangles only meet where they met at the start. So there are no new self-intersections.
  *
  * Time nearly linear; memory about 120 bytes per triangle while it runs. The same bytes for any number of threads.
- * Throws ExceptionObject if maximumMove is negative or not finite. */
+ * \a report receives the share of the work that is done; what it throws leaves the surface partly smoothed.
+ * Throws ExceptionObject as Verify() of the settings does. */
 TriangleSurfaceSmoothingReport
-SmoothTriangleSurface(TriangleSurface & surface, const TriangleSurfaceSmoothingSettings & settings);
+SmoothTriangleSurface(TriangleSurface & surface,
+                      const TriangleSurfaceSmoothingSettings & settings,
+                      const rhombic::ProgressFunction & report = {});
 
 } // namespace itk
 

@@ -32,12 +32,14 @@ TriangleSurfaceUntanglingReport
 UntangleTriangleSurface(TriangleSurface & surface, double maximumMove);
 
 /** The same with a tree of the surface, which is refitted if points move. Triangles cross only where \a candidates say,
- * if there are any, and are only searched there. */
+ * if there are any, and are only searched there. \a report receives the share of the work that is done; what it throws
+ * leaves the surface partly untangled. */
 TriangleSurfaceUntanglingReport
 UntangleTriangleSurface(TriangleSurface & surface,
                         TriangleTree & tree,
                         double maximumMove,
-                        const std::optional<CrossingCandidates> & candidates = std::nullopt);
+                        const std::optional<CrossingCandidates> & candidates = std::nullopt,
+                        const rhombic::ProgressFunction & report = {});
 
 } // namespace itk
 

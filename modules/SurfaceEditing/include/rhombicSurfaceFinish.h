@@ -109,10 +109,12 @@ struct Refinement
 struct RefinementFunctions
 {
   std::function<itk::TriangleSurfaceSmoothingReport(itk::TriangleSurface &,
-                                                    const itk::TriangleSurfaceSmoothingSettings &)>
+                                                    const itk::TriangleSurfaceSmoothingSettings &,
+                                                    const ProgressFunction &)>
     smooth;
   std::function<itk::TriangleSurfaceSimplificationReport(itk::TriangleSurface &,
-                                                         const itk::TriangleSurfaceSimplificationSettings &)>
+                                                         const itk::TriangleSurfaceSimplificationSettings &,
+                                                         const ProgressFunction &)>
     simplify;
   std::function<double(const itk::TriangleSurface &)> computeVolume; ///< in mm^3
 };

@@ -52,11 +52,6 @@ BoundedMoves::BoundedMoves(TriangleSurface & surface, const TrianglesOfPoints & 
   , m_StartAreas(surface.GetNumberOfTriangles())
   , m_Next(surface.GetPoints())
 {
-  if (!(maximumMove >= 0.0 && std::isfinite(maximumMove)))
-  {
-    itkGenericExceptionMacro("A point can't move by at most "
-                             << maximumMove << " mm when a surface is smoothed; give a number from 0");
-  }
   rhombic::ForEachInBlocks(m_StartAreas.size(), MovedBlock, [&](SizeValueType id) {
     m_StartAreas[id] = AreaVectorOf(m_Start, std::as_const(m_Surface).GetTriangles()[id]);
   });
@@ -158,13 +153,14 @@ BoundedMoves::PutBackToStart(const std::vector<std::uint32_t> & triangles)
 }
 
 void
-BoundedMoves::PutBackMeeting()
+BoundedMoves::PutBackMeeting(rhombic::StagedProgress & progress, double stageEnd)
 {
   const TriangleTree tree(m_Surface); // of triangles that have since been put back it does not know where they are
   std::set<std::uint32_t> putBack;
-  auto meeting = FindCrossingTriangles(tree, m_Fans, TriangleContact::Touching);
+  auto meeting = FindCrossingTriangles(tree, m_Fans, TriangleContact::Touching, progress, stageEnd);
   while (!meeting.empty())
   {
+    progress.Completed(0);
     const auto latest = this->PutBackToStart(meeting);
     putBack.insert(latest.begin(), latest.end());
     const TriangleTree others(m_Surface, { putBack.begin(), putBack.end() });

@@ -3,6 +3,7 @@
 
 #include "detail/itkPositionArithmetic.h"
 #include "rhombicForEachBlock.h"
+#include "rhombicStagedProgress.h"
 #include "itkPointStrata.h"
 #include "itkTriangleSurfaceSmoothing.h"
 
@@ -30,24 +31,29 @@ public:
     return m_MaximumMove;
   }
 
-  /** Moves each point to find(point), which may be called on several threads at once, or as near as it may go. */
+  /** Moves each point to find(point), which may be called on several threads at once, or as near as it may go. Counts
+   * the points as completed parts. */
   template <typename TFind>
   void
-  Step(const TFind & find)
+  Step(const TFind & find, rhombic::StagedProgress & progress)
   {
-    rhombic::ForEachInBlocks(m_Next.size(), MovedBlock, [&](SizeValueType point) {
-      const PointType position = find(point);
-      const PositionType way = Subtract(ToPosition(position), ToPosition(m_Start[point]));
-      const bool isNear = Dot(way, way) < 0.999 * m_MaximumMove * m_MaximumMove;
-      m_Next[point] = isNear ? position : this->LimitMove(m_Start[point], position);
+    rhombic::ForEachBlock(m_Next.size(), MovedBlock, [&](SizeValueType begin, SizeValueType end) {
+      for (SizeValueType point = begin; point < end; ++point)
+      {
+        const PointType position = find(point);
+        const PositionType way = Subtract(ToPosition(position), ToPosition(m_Start[point]));
+        const bool isNear = Dot(way, way) < 0.999 * m_MaximumMove * m_MaximumMove;
+        m_Next[point] = isNear ? position : this->LimitMove(m_Start[point], position);
+      }
+      progress.Completed(end - begin);
     });
     this->FinishStep();
   }
 
   /** Puts the points of triangles that meet others, elsewhere than at shared corners and sides, back to their start,
-   * until the triangles that meet are all at their start. */
+   * until the triangles that meet are all at their start. It is one stage of the progress. */
   void
-  PutBackMeeting();
+  PutBackMeeting(rhombic::StagedProgress & progress, double stageEnd);
 
   /** After the last step: computes the normals anew, if there are any, and returns how far points have moved. */
   TriangleSurfaceSmoothingReport
@@ -84,13 +90,15 @@ private:
   Points m_Next;
 };
 
-/** The steps of SmoothTriangleSurface(). */
+/** The steps of SmoothTriangleSurface(), as one stage of the progress. */
 void
 TakeSmoothingSteps(const TriangleSurface & surface,
                    const TrianglesOfPoints & fans,
                    const PointStrata & strata,
                    unsigned int iterations,
-                   BoundedMoves & moves);
+                   BoundedMoves & moves,
+                   rhombic::StagedProgress & progress,
+                   double stageEnd);
 
 } // namespace itk
 

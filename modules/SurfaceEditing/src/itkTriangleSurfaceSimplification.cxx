@@ -196,8 +196,10 @@ public:
                  bool isOneSheet,
                  const TriangleSurfaceTopology & topology,
                  const TriangleSurfaceSimplificationSettings & settings,
-                 const Original * original)
-    : m_Target(settings.targetTriangles)
+                 const Original * original,
+                 rhombic::StagedProgress & progress)
+    : m_Progress(progress)
+    , m_Target(settings.targetTriangles)
     , m_MaximumError(settings.maximumError)
     , m_Topology(topology)
     , m_State(surface)
@@ -240,6 +242,11 @@ private:
   {
     return m_Target > 0 && m_State.GetNumberOfTriangles() <= m_Target;
   }
+  void
+  BeginStage(SizeValueType trianglesBefore);
+  template <typename TWork>
+  void
+  ForEachTriangle(std::size_t triangles, const TWork & work) const;
   bool
   Step(double error, double cut);
   void
@@ -267,6 +274,7 @@ private:
   std::vector<PatchId>
   Hold(const Flags & isBad, unsigned int round);
 
+  rhombic::StagedProgress & m_Progress;
   const SizeValueType m_Target;
   const double m_MaximumError;
   const TriangleSurfaceTopology m_Topology;
@@ -307,6 +315,7 @@ Simplification::Run()
   for (std::size_t step = 0; !this->IsAtTarget(); ++step)
   {
     const SizeValueType before = m_State.GetNumberOfTriangles();
+    this->BeginStage(report.trianglesBefore);
     const bool isSound = this->Step(error, Cuts[step % Cuts.size()]);
     const SizeValueType removed = before - m_State.GetNumberOfTriangles();
     const bool isStuck = removed < SmallestShareRemoved * static_cast<double>(before) &&
@@ -324,6 +333,32 @@ Simplification::Run()
   return report;
 }
 
+/** Begins the stage of a step, which removes all triangles that a step may remove, as far as is known before. */
+void
+Simplification::BeginStage(SizeValueType trianglesBefore)
+{
+  const auto triangles = static_cast<double>(m_State.GetNumberOfTriangles());
+  const auto all = static_cast<double>(trianglesBefore);
+  const auto target = static_cast<double>(m_Target);
+  const std::size_t checks = m_Original != nullptr ? 3 : 1; // contacts; strays and what is uncovered
+  m_Progress.Begin((all - std::max(target, SmallestShareLeft * triangles)) / (all - target),
+                   (1 + checks) * m_State.GetNumberOfTriangles());
+}
+
+/** Calls \a work(id) for the ids of triangles, on several threads, and counts the triangles as completed parts. */
+template <typename TWork>
+void
+Simplification::ForEachTriangle(std::size_t triangles, const TWork & work) const
+{
+  rhombic::ForEachBlock(triangles, SimplifiedBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t id = begin; id < end; ++id)
+    {
+      work(id);
+    }
+    m_Progress.Completed(end - begin);
+  });
+}
+
 /** Simplifies the state once. If the result's topology is not that of the original, restores the state from before and
  * returns false. */
 bool
@@ -335,6 +370,7 @@ Simplification::Step(double error, double cut)
   rhombic::ForEachInBlocks(m_Patches.size(), 1, [&](std::size_t id) {
     Patch & patch = m_Patches[id];
     patch.log = CollapseEdges(*m_Before, patch.before, m_Points, m_Limits, error, patch.after);
+    m_Progress.Completed(patch.before.triangles.size());
   });
   this->AimAtTarget();
   this->JoinPatches();
@@ -455,6 +491,7 @@ Simplification::Replay(const std::vector<PatchId> & patches)
   rhombic::ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
     Patch & patch = m_Patches[patches[n]];
     patch.after = ReplayCollapses(*m_Before, patch.before, m_Points, m_Limits, patch.log, patch.mostChanges);
+    m_Progress.Completed(0);
   });
 }
 
@@ -552,7 +589,7 @@ Simplification::FindContacts(const TriangleTree & state, Flags & isBad) const
   const auto & triangles = m_State.GetTriangles();
   std::vector<TriangleId> found;
   std::mutex mutex;
-  rhombic::ForEachInBlocks(triangles.size(), SimplifiedBlock, [&](std::size_t n) {
+  this->ForEachTriangle(triangles.size(), [&](std::size_t n) {
     const auto id = static_cast<TriangleId>(n);
     if (!m_IsFresh[id])
     {
@@ -578,7 +615,7 @@ void
 Simplification::FindStrays(Flags & isBad) const
 {
   const auto & triangles = m_State.GetTriangles();
-  rhombic::ForEachInBlocks(isBad.size(), SimplifiedBlock, [&](std::size_t id) {
+  this->ForEachTriangle(isBad.size(), [&](std::size_t id) {
     if (m_IsFresh[id] && m_IsNew[id])
     {
       const auto & triangle = triangles[id];
@@ -606,7 +643,7 @@ Simplification::FindUncovered(const SheetTrees & state, bool checksAll, Flags & 
   const TriangleSurface & original = *m_Original->surface;
   const auto & triangles = original.GetTriangles();
   Flags isUncovered(triangles.size(), 0);
-  rhombic::ForEachInBlocks(triangles.size(), SimplifiedBlock, [&](std::size_t id) {
+  this->ForEachTriangle(triangles.size(), [&](std::size_t id) {
     const auto & [a, b, c] = triangles[id];
     const std::array<TriangleId, 3> near{ m_WitnessTriangles[a], m_WitnessTriangles[b], m_WitnessTriangles[c] };
     const bool hasChanged = m_IsFresh[near[0]] | m_IsFresh[near[1]] | m_IsFresh[near[2]];
@@ -710,19 +747,8 @@ VerifySheets(const TriangleSurface & surface, const Sheets & sheets)
 }
 
 void
-VerifyPreconditions(TriangleSurfaceTopology topology,
-                    const TriangleSurfaceSimplificationSettings & settings,
-                    bool isOneSheet)
+VerifyTopology(TriangleSurfaceTopology topology, bool isOneSheet)
 {
-  if (!(settings.maximumError > 0.0))
-  {
-    itkGenericExceptionMacro("A simplified surface can't be within " << settings.maximumError
-                                                                     << " mm of the original; give a number above 0");
-  }
-  if (settings.targetTriangles == 0 && !std::isfinite(settings.maximumError))
-  {
-    itkGenericExceptionMacro("How far to simplify is not said; give a number of triangles or a largest error");
-  }
   if (!isOneSheet)
   {
     topology.nonManifoldEdges = topology.nonManifoldPoints = 0; // where sheets meet
@@ -755,18 +781,36 @@ operator<<(std::ostream & os, SimplificationEnd end)
   return os << "unknown";
 }
 
+void
+TriangleSurfaceSimplificationSettings::Verify() const
+{
+  if (!(maximumError > 0.0))
+  {
+    itkGenericExceptionMacro("A simplified surface can't be within " << maximumError
+                                                                     << " mm of the original; give a number above 0");
+  }
+  if (targetTriangles == 0 && !std::isfinite(maximumError))
+  {
+    itkGenericExceptionMacro("How far to simplify is not said; give a number of triangles or a largest error");
+  }
+}
+
 TriangleSurfaceSimplificationReport
-SimplifyTriangleSurface(TriangleSurface & surface, const TriangleSurfaceSimplificationSettings & settings)
+SimplifyTriangleSurface(TriangleSurface & surface,
+                        const TriangleSurfaceSimplificationSettings & settings,
+                        const rhombic::ProgressFunction & report)
 {
   Sheets sheets(surface.GetNumberOfTriangles(), 0);
-  return SimplifyTriangleSurface(surface, sheets, settings);
+  return SimplifyTriangleSurface(surface, sheets, settings, report);
 }
 
 TriangleSurfaceSimplificationReport
 SimplifyTriangleSurface(TriangleSurface & surface,
                         std::vector<std::uint32_t> & sheets,
-                        const TriangleSurfaceSimplificationSettings & settings)
+                        const TriangleSurfaceSimplificationSettings & settings,
+                        const rhombic::ProgressFunction & report)
 {
+  settings.Verify();
   if (sheets.size() != surface.GetNumberOfTriangles())
   {
     itkGenericExceptionMacro("There are sheets of " << sheets.size() << " triangles, but the surface has "
@@ -774,7 +818,7 @@ SimplifyTriangleSurface(TriangleSurface & surface,
   }
   const TriangleSurfaceTopology topology = ComputeTriangleSurfaceTopology(surface);
   const bool isOneSheet = std::all_of(sheets.begin(), sheets.end(), [](std::uint32_t sheet) { return sheet == 0; });
-  VerifyPreconditions(topology, settings, isOneSheet);
+  VerifyTopology(topology, isOneSheet);
   if (!isOneSheet)
   {
     VerifySheets(surface, sheets);
@@ -789,11 +833,12 @@ SimplifyTriangleSurface(TriangleSurface & surface,
   {
     original.emplace(surface, sheets);
   }
-  const auto report =
-    Simplification(surface, sheets, isOneSheet, topology, settings, original ? &*original : nullptr).Run();
+  rhombic::StagedProgress progress(report);
+  const auto result =
+    Simplification(surface, sheets, isOneSheet, topology, settings, original ? &*original : nullptr, progress).Run();
   surface.RemoveUnusedPoints();
   surface.Modified();
-  return report;
+  return result;
 }
 
 } // namespace itk

@@ -66,24 +66,42 @@ TakeSmoothingSteps(const TriangleSurface & surface,
                    const TrianglesOfPoints & fans,
                    const PointStrata & strata,
                    unsigned int iterations,
-                   BoundedMoves & moves)
+                   BoundedMoves & moves,
+                   rhombic::StagedProgress & progress,
+                   double stageEnd)
 {
   const Neighbours neighbours(fans, strata);
+  progress.Begin(stageEnd, 2 * iterations * surface.GetNumberOfPoints());
   for (unsigned int n = 0; n < 2 * iterations; ++n)
   {
     const double share = n % 2 == 0 ? Inwards : Outwards;
-    moves.Step([&](SizeValueType point) { return neighbours.MoveTowardsMean(surface.GetPoints(), point, share); });
+    moves.Step([&](SizeValueType point) { return neighbours.MoveTowardsMean(surface.GetPoints(), point, share); },
+               progress);
+  }
+}
+
+void
+TriangleSurfaceSmoothingSettings::Verify() const
+{
+  if (!(maximumMove >= 0.0 && std::isfinite(maximumMove)))
+  {
+    itkGenericExceptionMacro("A point can't move by at most "
+                             << maximumMove << " mm when a surface is smoothed; give a number from 0");
   }
 }
 
 TriangleSurfaceSmoothingReport
-SmoothTriangleSurface(TriangleSurface & surface, const TriangleSurfaceSmoothingSettings & settings)
+SmoothTriangleSurface(TriangleSurface & surface,
+                      const TriangleSurfaceSmoothingSettings & settings,
+                      const rhombic::ProgressFunction & report)
 {
+  settings.Verify();
+  rhombic::StagedProgress progress(report);
   const TrianglesOfPoints fans(surface);
   const PointStrata strata = FindStrata(surface, fans);
   BoundedMoves moves(surface, fans, settings.maximumMove);
-  TakeSmoothingSteps(surface, fans, strata, settings.iterations, moves);
-  moves.PutBackMeeting();
+  TakeSmoothingSteps(surface, fans, strata, settings.iterations, moves, progress, 0.7);
+  moves.PutBackMeeting(progress, 1.0);
   surface.Modified();
   return moves.Finish(strata);
 }

@@ -142,8 +142,10 @@ Untangle(TriangleSurface & surface,
          const TrianglesOfPoints & fans,
          double maximumMove,
          Ids crossing,
-         Places & original)
+         Places & original,
+         rhombic::StagedProgress & progress)
 {
+  progress.Begin(1.0, MostUntanglingRounds);
   Ids touched; // triangles with a point that was moved
   Places best;
   std::size_t fewest = crossing.size();
@@ -169,6 +171,7 @@ Untangle(TriangleSurface & surface,
     touched.insert(touched.end(), changed.begin(), changed.end());
     SortUnique(touched);
     crossing = FindCrossingTriangles(tree, changed);
+    progress.Completed(1);
     if (crossing.size() < fewest && HaveAreas(surface, touched))
     {
       fewest = crossing.size();
@@ -201,30 +204,32 @@ TriangleSurfaceUntanglingReport
 UntangleTriangleSurface(TriangleSurface & surface,
                         TriangleTree & tree,
                         double maximumMove,
-                        const std::optional<CrossingCandidates> & candidates)
+                        const std::optional<CrossingCandidates> & candidates,
+                        const rhombic::ProgressFunction & report)
 {
   if (!(maximumMove > 0.0) || !std::isfinite(maximumMove))
   {
     itkGenericExceptionMacro("Untangling needs a distance above 0 mm that points may move, not " << maximumMove << ".");
   }
+  rhombic::StagedProgress progress(report);
   const TrianglesOfPoints fans(surface);
-  const Ids crossing =
-    candidates ? FindCrossingTriangles(surface, fans, *candidates) : FindCrossingTriangles(tree, fans);
+  const Ids crossing = candidates ? FindCrossingTriangles(surface, fans, *candidates)
+                                  : FindCrossingTriangles(tree, fans, TriangleContact::Crossing, progress, 0.5);
   if (crossing.empty())
   {
     return {};
   }
   Places original;
-  TriangleSurfaceUntanglingReport report;
-  report.crossingBefore = crossing.size();
-  report.crossingAfter = Untangle(surface, tree, fans, maximumMove, crossing, original);
+  TriangleSurfaceUntanglingReport result;
+  result.crossingBefore = crossing.size();
+  result.crossingAfter = Untangle(surface, tree, fans, maximumMove, crossing, original, progress);
   for (const auto & [point, place] : original)
   {
     const auto & moved = surface.GetPoints()[point];
-    report.pointsMoved += moved != place ? 1 : 0;
-    report.largestMove = std::max(report.largestMove, Distance(ToPosition(moved), ToPosition(place)));
+    result.pointsMoved += moved != place ? 1 : 0;
+    result.largestMove = std::max(result.largestMove, Distance(ToPosition(moved), ToPosition(place)));
   }
-  return report;
+  return result;
 }
 
 } // namespace itk

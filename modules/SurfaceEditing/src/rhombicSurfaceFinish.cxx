@@ -53,12 +53,15 @@ DescribeRemoval(const itk::RemovedShells & removed, double volumeBefore, const s
 }
 
 SmoothingResult
-Smooth(const RefinementFunctions & functions, itk::TriangleSurface & surface, double maximumMove)
+Smooth(const RefinementFunctions & functions,
+       itk::TriangleSurface & surface,
+       double maximumMove,
+       const ProgressFunction & report)
 {
   const double volumeBefore = functions.computeVolume(surface);
   itk::TriangleSurfaceSmoothingSettings settings;
   settings.maximumMove = maximumMove;
-  const auto moves = functions.smooth(surface, settings);
+  const auto moves = functions.smooth(surface, settings, report);
   return { maximumMove, moves, volumeBefore, functions.computeVolume(surface) };
 }
 
@@ -71,6 +74,14 @@ WarnOfLostParts(const itk::RemovedShells & removed, double volumeBefore)
   return share >= notable ? "only the largest part is kept, which leaves out " + FormatFixed(100.0 * share, 1) +
                               " % of the volume; --min-volume in place of --largest removes specks only"
                           : "";
+}
+
+/** Reports the progress of a step, which begins. */
+ProgressFunction
+ReportStep(const Events & events, const std::string & step)
+{
+  events.Progress(step, 0.0);
+  return [&events, step](double share) { events.Progress(step, share); };
 }
 
 /** The smaller of the two limits of triangles; 0 for none. */
@@ -89,7 +100,8 @@ SimplificationResult
 Simplify(const RefinementFunctions & functions,
          itk::TriangleSurface & surface,
          const SurfaceFinish & finish,
-         double spacing)
+         double spacing,
+         const ProgressFunction & report)
 {
   const double volumeBefore = functions.computeVolume(surface);
   const auto original = itk::TriangleSurface::New();
@@ -97,7 +109,7 @@ Simplify(const RefinementFunctions & functions,
   itk::TriangleSurfaceSimplificationSettings settings;
   settings.targetTriangles = FindTargetTriangles(finish, surface.GetNumberOfTriangles());
   settings.maximumError = finish.maximumError.value_or(spacing);
-  const auto triangles = functions.simplify(surface, settings);
+  const auto triangles = functions.simplify(surface, settings, report);
   constexpr itk::SizeValueType measuredTriangles = 30'000; // of either surface; simplification itself checks all
   const auto distances = ComputeTriangleSurfaceDistances(*original, surface, measuredTriangles);
   return { settings.maximumError,  triangles,    std::max(distances.fromFirst.mean, distances.fromSecond.mean),
@@ -212,14 +224,14 @@ RefineBy(const RefinementFunctions & functions,
   Refinement refinement;
   if (finish.smoothing > 0.0)
   {
-    events.Progress("smoothing " + name, 0.0);
-    refinement.smoothing = Smooth(functions, surface, finish.smoothing * spacing);
+    const ProgressFunction report = ReportStep(events, "smoothing " + name);
+    refinement.smoothing = Smooth(functions, surface, finish.smoothing * spacing, report);
     events.Note(DescribeSmoothing(name, *refinement.smoothing));
   }
   if (finish.Simplifies())
   {
-    events.Progress("simplifying " + name, 0.0);
-    refinement.simplification = Simplify(functions, surface, finish, spacing);
+    const ProgressFunction report = ReportStep(events, "simplifying " + name);
+    refinement.simplification = Simplify(functions, surface, finish, spacing, report);
     events.Note(DescribeSimplification(name, finish, *refinement.simplification));
   }
   return refinement;
@@ -233,16 +245,18 @@ RefineSurface(itk::TriangleSurface & surface,
               const Events & events,
               const std::optional<itk::CrossingCandidates> & candidates)
 {
-  const RefinementFunctions functions{ itk::SmoothTriangleSurface,
-                                       [](itk::TriangleSurface & simplified, const auto & settings) {
-                                         const auto report = SimplifyTriangleSurface(simplified, settings);
-                                         OptimizeTriangleSurfaceForRendering(simplified);
-                                         return report;
-                                       },
-                                       itk::ComputeTriangleSurfaceVolume };
-  events.Progress("untangling " + name, 0.0);
+  const RefinementFunctions functions{
+    itk::SmoothTriangleSurface,
+    [](itk::TriangleSurface & simplified, const auto & settings, const auto & report) {
+      const auto result = SimplifyTriangleSurface(simplified, settings, report);
+      OptimizeTriangleSurfaceForRendering(simplified);
+      return result;
+    },
+    itk::ComputeTriangleSurfaceVolume
+  };
+  const ProgressFunction report = ReportStep(events, "untangling " + name);
   std::optional<itk::TriangleTree> tree;
-  const auto untangled = UntangleTriangleSurface(surface, tree.emplace(surface), spacing, candidates);
+  const auto untangled = UntangleTriangleSurface(surface, tree.emplace(surface), spacing, candidates, report);
   if (untangled.crossingAfter > 0)
   {
     events.Note(name + ": " + Count(untangled.crossingAfter, "triangle passes", "triangles pass") +
