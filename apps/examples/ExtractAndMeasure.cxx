@@ -4,9 +4,8 @@
 #include "itkCartesianToFCCImageFilter.h"
 #include "itkFCCIsosurfaceFilter.h"
 #include "itkTriangleSurfaceAudit.h"
+#include "itkTriangleSurfaceFinishFilter.h"
 #include "itkTriangleSurfaceMeasures.h"
-#include "itkTriangleSurfaceSolids.h"
-#include "itkTriangleSurfaceUntangling.h"
 #include "rhombicFCCImageFile.h"
 #include "rhombicSurfaceIO.h"
 
@@ -25,11 +24,11 @@ try
     const auto filter = itk::FCCIsosurfaceFilter<typename std::decay_t<decltype(lattice)>::ObjectType>::New();
     filter->SetInput(lattice);
     filter->SetIsovalue(threshold);
-    filter->Update();
-    itk::UntangleTriangleSurface(*filter->GetOutput(),
-                                 0.5 * lattice->GetSpacing()[0]);  // thin parts, by less than half a voxel
-    itk::TurnMisfacingTriangleSurfaceShells(*filter->GetOutput()); // specks of a few triangles
-    return itk::TriangleSurface::Pointer(filter->GetOutput());
+    const auto finish = itk::TriangleSurfaceFinishFilter::New(); // triangles of thin parts may cross
+    finish->SetInput(filter->GetOutput());
+    finish->SetSpacing(0.5 * lattice->GetSpacing()[0]);
+    finish->Update();
+    return itk::TriangleSurface::Pointer(finish->GetOutput());
   };
   const auto resampleAndExtract = [&extract](const rhombic::Scan & scan) {
     const auto resample = [&](const auto & image) {

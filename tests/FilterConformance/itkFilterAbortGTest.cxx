@@ -114,7 +114,7 @@ CountRows(const TImage & image)
 }
 
 template <typename TDescription>
-class FilterAbort : public testing::Test
+class AnyFilterAbort : public testing::Test
 {
 protected:
   using Filter = AbortedFilter<typename TDescription::Filter>;
@@ -126,11 +126,27 @@ protected:
     m_Input = TDescription::MakeInput({ { 40, 48, 56 } }, random);
     TDescription::MakeSlow(*m_Filter);
     m_Filter->SetInput(m_Input);
+    if (TDescription::ChecksOnOneThread)
+    {
+      itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(1); // for the same number of checks in each update
+    }
   }
 
+  void
+  TearDown() override
+  {
+    itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(m_UsualThreads);
+  }
+
+  const itk::ThreadIdType m_UsualThreads = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
   typename TDescription::InputImage::Pointer m_Input;
   typename Filter::Pointer m_Filter = Filter::New();
 };
+TYPED_TEST_SUITE(AnyFilterAbort, AllFilters, FilterNames);
+
+template <typename TDescription>
+class FilterAbort : public AnyFilterAbort<TDescription>
+{};
 TYPED_TEST_SUITE(FilterAbort, Filters, FilterNames);
 
 TYPED_TEST(FilterAbort, IsLookedForInEachRow)
@@ -148,7 +164,7 @@ TYPED_TEST(FilterAbort, IsLookedForInEachRow)
   }
 }
 
-TYPED_TEST(FilterAbort, EndsTheWork)
+TYPED_TEST(AnyFilterAbort, EndsTheWork)
 {
   const auto & filter = this->m_Filter;
   for (const unsigned int units : { 1u, 4u })
@@ -165,7 +181,7 @@ TYPED_TEST(FilterAbort, EndsTheWork)
   }
 }
 
-TYPED_TEST(FilterAbort, ByAnObserverEndsTheWork)
+TYPED_TEST(AnyFilterAbort, ByAnObserverEndsTheWork)
 {
   const auto & filter = this->m_Filter;
   float abortAt = 0.0f;
@@ -188,6 +204,11 @@ TYPED_TEST(FilterAbort, ByAnObserverEndsTheWork)
     }
   }
 }
+
+template <typename TDescription>
+class SurfaceFilterAbort : public AnyFilterAbort<TDescription>
+{};
+TYPED_TEST_SUITE(SurfaceFilterAbort, SurfaceFilters, FilterNames);
 
 TEST(FilterAbortWhileStreaming, NothingHalfMadeIsUsedAfterItEither)
 {
@@ -303,7 +324,7 @@ TEST(FilterAbortWhileStreaming, StopsWhatIsUpstreamToo)
   check(*smooth);
 }
 
-TYPED_TEST(FilterAbort, LeavesAPipelineThatWorks)
+TYPED_TEST(AnyFilterAbort, LeavesAPipelineThatWorks)
 {
   for (unsigned int seed = 0; seed < 12; ++seed)
   {
@@ -317,6 +338,29 @@ TYPED_TEST(FilterAbort, LeavesAPipelineThatWorks)
     filter->AbortAtCheck(0);
     EXPECT_TRUE(UpdatedOutput(*filter) == MakeOutput(example)) << "seed " << seed;
   }
+}
+
+/** Surfaces of any size are checked for an abort after each part of the work. */
+TYPED_TEST(SurfaceFilterAbort, IsLookedForOften)
+{
+  constexpr itk::SizeValueType trianglesOfPart = 10'000;
+  const itk::SizeValueType checks = CountChecks(*this->m_Filter);
+  EXPECT_GE(checks, this->m_Input->GetNumberOfTriangles() / trianglesOfPart + 20);
+}
+
+TYPED_TEST(SurfaceFilterAbort, OnSeveralThreadsEndsTheWorkAndLeavesNoOutput)
+{
+  itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(4);
+  const auto & filter = this->m_Filter;
+  filter->AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) {
+    if (filter->GetProgress() >= 0.3f)
+    {
+      filter->Abort();
+    }
+  });
+  EXPECT_TRUE(IsAborted(*filter));
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfTriangles(), 0u);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0u);
 }
 
 } // namespace

@@ -56,6 +56,12 @@ class FilterConformance : public testing::Test
 {};
 TYPED_TEST_SUITE(FilterConformance, Filters, FilterNames);
 
+/** For filters of images and of surfaces. */
+template <typename TDescription>
+class AnyFilterConformance : public testing::Test
+{};
+TYPED_TEST_SUITE(AnyFilterConformance, AllFilters, FilterNames);
+
 template <typename TFilter>
 std::string
 Printed(const TFilter & filter)
@@ -65,7 +71,7 @@ Printed(const TFilter & filter)
   return text.str();
 }
 
-TYPED_TEST(FilterConformance, IsCreatedThroughItsBaseClass)
+TYPED_TEST(AnyFilterConformance, IsCreatedThroughItsBaseClass)
 {
   const itk::LightObject::Pointer filter = TypeParam::Filter::New().GetPointer();
   const itk::LightObject::Pointer another = filter->CreateAnother();
@@ -78,7 +84,7 @@ TYPED_TEST(FilterConformance, IsCreatedThroughItsBaseClass)
   EXPECT_NE(typeName.find(std::to_string(name.size()) + name), std::string::npos) << name << " is called " << typeName;
 }
 
-TYPED_TEST(FilterConformance, HasItsDocumentedDefaults)
+TYPED_TEST(AnyFilterConformance, HasItsDocumentedDefaults)
 {
   const auto filter = TypeParam::Filter::New();
   for (const auto & parameter : TypeParam::GetParameters())
@@ -87,7 +93,7 @@ TYPED_TEST(FilterConformance, HasItsDocumentedDefaults)
   }
 }
 
-TYPED_TEST(FilterConformance, KeepsWhatIsSetAndIsModifiedByChangesOnly)
+TYPED_TEST(AnyFilterConformance, KeepsWhatIsSetAndIsModifiedByChangesOnly)
 {
   const auto filter = TypeParam::Filter::New();
   for (const auto & parameter : TypeParam::GetParameters())
@@ -107,7 +113,7 @@ TYPED_TEST(FilterConformance, KeepsWhatIsSetAndIsModifiedByChangesOnly)
   }
 }
 
-TYPED_TEST(FilterConformance, PrintsEveryParameterAndItsValue)
+TYPED_TEST(AnyFilterConformance, PrintsEveryParameterAndItsValue)
 {
   const auto filter = TypeParam::Filter::New();
   for (const auto & parameter : TypeParam::GetParameters())
@@ -129,7 +135,7 @@ TYPED_TEST(FilterConformance, PrintsEveryParameterAndItsValue)
   }
 }
 
-TYPED_TEST(FilterConformance, RefusesBadParametersNamingTheRemedy)
+TYPED_TEST(AnyFilterConformance, RefusesBadParametersNamingTheRemedy)
 {
   Random random(1);
   const auto input = TypeParam::MakeInput({ { 6, 7, 8 } }, random);
@@ -138,6 +144,7 @@ TYPED_TEST(FilterConformance, RefusesBadParametersNamingTheRemedy)
     for (const auto & refusal : parameter.refusals)
     {
       const auto filter = TypeParam::Filter::New();
+      TypeParam::SetWhatHasNoDefault(*filter);
       filter->SetInput(input);
       for (unsigned int time = 0; time < 2; ++time)
       {
@@ -153,7 +160,7 @@ TYPED_TEST(FilterConformance, RefusesBadParametersNamingTheRemedy)
   }
 }
 
-TYPED_TEST(FilterConformance, RefusesToWorkWithoutAnInput)
+TYPED_TEST(AnyFilterConformance, RefusesToWorkWithoutAnInput)
 {
   const auto filter = TypeParam::Filter::New();
   EXPECT_NE(Refusal([&] { filter->UpdateOutputInformation(); }), "");
@@ -161,10 +168,11 @@ TYPED_TEST(FilterConformance, RefusesToWorkWithoutAnInput)
   EXPECT_NE(Refusal([&] { filter->UpdateLargestPossibleRegion(); }), "");
 
   const auto example = MakeExample<TypeParam>(2);
-  filter->SetInput(example.input);
-  filter->Update();
-  filter->SetInput(nullptr);
-  EXPECT_NE(Refusal([&] { filter->Update(); }), "");
+  const auto another = example.makeFilter();
+  another->SetInput(example.input);
+  another->Update();
+  another->SetInput(nullptr);
+  EXPECT_NE(Refusal([&] { another->Update(); }), "");
 }
 
 TYPED_TEST(FilterConformance, TakesAnInputWithoutSamplesOrRefusesIt)
@@ -275,7 +283,7 @@ TYPED_TEST(FilterConformance, TakesTheGlobalDefaultNumberOfThreads)
   itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(usual);
 }
 
-TYPED_TEST(FilterConformance, LeavesItsInputAsItIs)
+TYPED_TEST(AnyFilterConformance, LeavesItsInputAsItIs)
 {
   for (unsigned int seed = 0; seed < 10; ++seed)
   {
@@ -288,7 +296,7 @@ TYPED_TEST(FilterConformance, LeavesItsInputAsItIs)
   }
 }
 
-TYPED_TEST(FilterConformance, RunsOnlyWhenSomethingChanged)
+TYPED_TEST(AnyFilterConformance, RunsOnlyWhenSomethingChanged)
 {
   const auto example = MakeExample<TypeParam>(4);
   const auto filter = example.makeFilter();
@@ -338,7 +346,7 @@ TYPED_TEST(FilterConformance, FreesAnInputThatIsToBeReleased)
   }
 }
 
-TYPED_TEST(FilterConformance, ProgressesFromZeroToOne)
+TYPED_TEST(AnyFilterConformance, ProgressesFromZeroToOne)
 {
   const auto check = [caller = std::this_thread::get_id()](
                        const Example<TypeParam> & example, unsigned int units, std::size_t fewestReports) {

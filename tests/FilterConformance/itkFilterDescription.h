@@ -4,7 +4,7 @@
 #include "itkFCCImage.h"
 #include "itkImage.h"
 #include "itkImageAlgorithm.h"
-#include "itkTriangleSurface.h"
+#include "itkTriangleSurfaceToTriangleSurfaceFilter.h"
 
 #include <cmath>
 #include <cstring>
@@ -173,6 +173,11 @@ struct Description
   /** Whether the filter makes any part of its output from a part of its input. */
   static constexpr bool IsRegional = true;
 
+  /** Sets what must be set before an update. */
+  static void
+  SetWhatHasNoDefault(Filter &)
+  {}
+
   /** Sets what a regional filter needs to ask for parts of its input. */
   static void
   AskForParts(Filter &)
@@ -205,6 +210,9 @@ struct Description
   static void
   MakeSlow(Filter &)
   {}
+
+  /** Whether only the thread that updates the filter looks for an abort. */
+  static constexpr bool ChecksOnOneThread = false;
 
   /** How often each row of the output, or of the input where the output has none, is worked on with them. */
   static constexpr itk::SizeValueType PassesOverRows = 1;
@@ -260,12 +268,19 @@ std::string
 UpdatedOutput(TFilter & filter)
 {
   filter.UpdateLargestPossibleRegion();
-  std::string bytes;
-  for (unsigned int n = 0; n < filter.GetNumberOfIndexedOutputs(); ++n)
+  if constexpr (std::is_base_of_v<itk::TriangleSurfaceToTriangleSurfaceFilter, TFilter>)
   {
-    bytes += Snapshot(*filter.GetOutput(n));
+    return Snapshot(*filter.GetOutput());
   }
-  return bytes;
+  else
+  {
+    std::string bytes;
+    for (unsigned int n = 0; n < filter.GetNumberOfIndexedOutputs(); ++n)
+    {
+      bytes += Snapshot(*filter.GetOutput(n));
+    }
+    return bytes;
+  }
 }
 
 /** A part of a region, not empty. */

@@ -10,6 +10,10 @@
 #include "itkFCCGaussianImageFilter.h"
 #include "itkFCCIsosurfaceFilter.h"
 #include "itkFCCToCartesianImageFilter.h"
+#include "itkTriangleSurfaceFinishFilter.h"
+#include "itkTriangleSurfaceSimplificationFilter.h"
+#include "itkTriangleSurfaceSmoothingFilter.h"
+#include "itkExampleSurfaces.h"
 
 #include <gtest/gtest.h>
 
@@ -374,6 +378,181 @@ struct FCCIsosurface : Description<itk::FCCIsosurfaceFilter<itk::FCCImage<float>
   static constexpr itk::SizeValueType PassesOverRows = 2 * 2; // points are counted and made for either isovalue
 };
 
+/** What filters of surfaces have in common. */
+template <typename TFilter>
+struct SurfaceDescription
+{
+  using Filter = TFilter;
+  using InputImage = itk::TriangleSurface;
+
+  static constexpr bool ChecksOnOneThread = true;
+
+  static void
+  SetWhatHasNoDefault(Filter &)
+  {}
+
+  static std::vector<std::string>
+  GetResultNames()
+  {
+    return {};
+  }
+
+  /** A rough ball with a speck beside it. */
+  static itk::TriangleSurface::Pointer
+  MakeInput(const SizeType & size, Random & random)
+  {
+    const auto surface = itk::example::MakeSphere(20.0, size[0] < 30 ? 3 : 6);
+    for (auto & point : surface->GetPoints())
+    {
+      const auto factor = static_cast<float>(Uniform(random, 0.999, 1.001));
+      std::transform(point.begin(), point.end(), point.begin(), [factor](float x) { return x * factor; });
+    }
+    itk::example::Append(*surface, *itk::example::MakeSphere(1.0, 2), { 30.0f, 0.0f, 0.0f });
+    return surface;
+  }
+};
+
+struct SurfaceSimplification : SurfaceDescription<itk::TriangleSurfaceSimplificationFilter>
+{
+  static constexpr const char * Name = "SurfaceSimplification";
+
+  static void
+  SetWhatHasNoDefault(Filter & filter)
+  {
+    filter.SetTargetTriangles(100);
+  }
+
+  static std::vector<Parameter<Filter>>
+  GetParameters()
+  {
+    auto target = MakeParameter("TargetTriangles",
+                                &Filter::SetTargetTriangles,
+                                &Filter::GetTargetTriangles,
+                                itk::SizeValueType{ 0 },
+                                itk::SizeValueType{ 100 });
+    auto error = MakeParameter(
+      "MaximumError", &Filter::SetMaximumError, &Filter::GetMaximumError, Infinity, 0.1, { 0.0, -1.0, NaN }, "above 0");
+    return { target, error };
+  }
+
+  static std::vector<std::string>
+  GetResultNames()
+  {
+    return { "TrianglesBefore", "TrianglesAfter", "PlacesTakenBack" };
+  }
+
+  static void
+  Vary(Filter & filter, const InputImage &, Random & random)
+  {
+    filter.SetMaximumError(Uniform(random, 0.05, 0.2));
+  }
+
+  static void
+  MakeSlow(Filter & filter)
+  {
+    filter.SetTargetTriangles(2'000);
+    filter.SetMaximumError(0.5);
+  }
+};
+
+struct SurfaceSmoothing : SurfaceDescription<itk::TriangleSurfaceSmoothingFilter>
+{
+  static constexpr const char * Name = "SurfaceSmoothing";
+
+  static std::vector<Parameter<Filter>>
+  GetParameters()
+  {
+    return { MakeParameter("Iterations", &Filter::SetIterations, &Filter::GetIterations, 20u, 5u),
+             MakeParameter("MaximumMove",
+                           &Filter::SetMaximumMove,
+                           &Filter::GetMaximumMove,
+                           0.0,
+                           0.3,
+                           { -1.0, NaN, Infinity },
+                           "give a number from 0") };
+  }
+
+  static std::vector<std::string>
+  GetResultNames()
+  {
+    return { "MeanMove", "LargestMove", "PointsAtLimit", "PointsOnBorder" };
+  }
+
+  static void
+  Vary(Filter & filter, const InputImage &, Random & random)
+  {
+    filter.SetMaximumMove(Uniform(random, 0.05, 0.2));
+  }
+
+  static void
+  MakeSlow(Filter & filter)
+  {
+    filter.SetMaximumMove(0.5);
+  }
+};
+
+struct SurfaceFinish : SurfaceDescription<itk::TriangleSurfaceFinishFilter>
+{
+  static constexpr const char * Name = "SurfaceFinish";
+
+  static std::vector<Parameter<Filter>>
+  GetParameters()
+  {
+    return { MakeParameter("Spacing",
+                           &Filter::SetSpacing,
+                           &Filter::GetSpacing,
+                           1.0,
+                           0.5,
+                           { 0.0, -1.0, NaN, Infinity },
+                           "give that of the lattice"),
+             MakeParameter("MinimumVolume",
+                           &Filter::SetMinimumVolume,
+                           &Filter::GetMinimumVolume,
+                           0.0,
+                           1.0,
+                           { -1.0, NaN, Infinity },
+                           "must be 0 ml or more"),
+             MakeParameter("KeepLargestPart", &Filter::SetKeepLargestPart, &Filter::GetKeepLargestPart, false, true),
+             MakeParameter("FillCavities", &Filter::SetFillCavities, &Filter::GetFillCavities, false, true),
+             MakeParameter(
+               "Smoothing", &Filter::SetSmoothing, &Filter::GetSmoothing, 0.0, 0.5, { -1.0, 2.0, NaN }, "0 to 1"),
+             MakeParameter("MaximumError",
+                           &Filter::SetMaximumError,
+                           &Filter::GetMaximumError,
+                           0.0,
+                           0.1,
+                           { -1.0, NaN, Infinity },
+                           "must be above 0"),
+             MakeParameter("MaximumTriangles",
+                           &Filter::SetMaximumTriangles,
+                           &Filter::GetMaximumTriangles,
+                           itk::SizeValueType{ 0 },
+                           itk::SizeValueType{ 100 }) };
+  }
+
+  static std::vector<std::string>
+  GetResultNames()
+  {
+    return { "Notes" };
+  }
+
+  static void
+  Vary(Filter & filter, const InputImage &, Random & random)
+  {
+    filter.SetSmoothing(Uniform(random, 0.1, 0.3));
+    filter.SetMaximumError(Uniform(random, 0.05, 0.2));
+    filter.KeepLargestPartOn();
+  }
+
+  static void
+  MakeSlow(Filter & filter)
+  {
+    filter.SetSmoothing(0.5);
+    filter.SetMaximumTriangles(2'000);
+  }
+};
+
+using SurfaceFilters = testing::Types<SurfaceSimplification, SurfaceSmoothing, SurfaceFinish>;
 using ImageFilters = testing::Types<CartesianToFCC,
                                     SlantedCartesianToFCC,
                                     CartesianToNestedFCC,
@@ -391,6 +570,18 @@ using Filters = testing::Types<CartesianToFCC,
                                AntiAliasMask,
                                FCCBoxSplineDecomposition,
                                FCCIsosurface>;
+using AllFilters = testing::Types<CartesianToFCC,
+                                  SlantedCartesianToFCC,
+                                  CartesianToNestedFCC,
+                                  FCCToCartesian,
+                                  FCCGaussian<std::int16_t>,
+                                  FCCGaussian<float>,
+                                  AntiAliasMask,
+                                  FCCBoxSplineDecomposition,
+                                  FCCIsosurface,
+                                  SurfaceSimplification,
+                                  SurfaceSmoothing,
+                                  SurfaceFinish>;
 
 struct FilterNames
 {

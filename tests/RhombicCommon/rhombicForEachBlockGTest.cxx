@@ -1,9 +1,11 @@
 #include "rhombicForEachBlock.h"
+#include "rhombicStagedProgress.h"
 
 #include "itkMultiThreaderBase.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <future>
 #include <mutex>
 #include <set>
@@ -49,6 +51,58 @@ TEST(ForEachBlock, AnExceptionOfAnyThreadReachesTheCaller)
     };
     EXPECT_THROW(rhombic::ForEachInBlocks(size, 1, failAt), std::runtime_error) << failing;
   }
+}
+
+/** Runs work with a global default number of threads. */
+template <typename TWork>
+void
+WithThreads(itk::ThreadIdType threads, const TWork & work)
+{
+  const auto usual = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
+  itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
+  work();
+  itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(usual);
+}
+
+TEST(ForEachBlock, AfterAnExceptionNoFurtherPartBegins)
+{
+  std::size_t calls = 0;
+  WithThreads(1, [&calls] {
+    const auto failAtFifth = [&calls](std::size_t) { ++calls == 5 ? throw std::runtime_error("at 5") : void(); };
+    EXPECT_THROW(rhombic::ForEachOnThreads(1'000, failAtFifth), std::runtime_error);
+  });
+  EXPECT_EQ(calls, 5u);
+}
+
+TEST(StagedProgress, RisesThroughItsStagesOnTheCallersThread)
+{
+  std::vector<double> shares;
+  rhombic::StagedProgress progress([&shares](double share) { shares.push_back(share); });
+  for (const double end : { 0.25, 0.2, 1.0 }) // none of them falls
+  {
+    progress.Begin(end, 100);
+    rhombic::ForEachOnThreads(50, [&progress](std::size_t) { progress.Completed(2); });
+    progress.Completed(0);
+  }
+  EXPECT_EQ(shares.front(), 0.0);
+  EXPECT_EQ(shares.back(), 1.0);
+  EXPECT_GT(std::count(shares.begin(), shares.end(), 0.25), 0);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end())) << testing::PrintToString(shares);
+}
+
+TEST(StagedProgress, WhatTheReportThrowsEndsTheLoop)
+{
+  struct Stop
+  {};
+  rhombic::StagedProgress progress([](double share) { share > 0.5 ? throw Stop() : void(); });
+  progress.Begin(1.0, 1'000);
+  std::size_t calls = 0;
+  const auto work = [&](std::size_t) {
+    ++calls;
+    progress.Completed(1);
+  };
+  WithThreads(1, [&work] { EXPECT_THROW(rhombic::ForEachOnThreads(1'000, work), Stop); });
+  EXPECT_EQ(calls, 501u);
 }
 
 TEST(ForEachBlock, JobsOfTheThreadPoolMayCallIt)

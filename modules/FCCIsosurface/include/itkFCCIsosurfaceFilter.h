@@ -39,9 +39,9 @@ namespace itk
  *   truth than marching cubes. Where it would change the surface's topology (the points of a site form no disk, an edge
  *   would have more than two triangles, or a vertex fewer than three), a site's points gather in parts or stay as in
  *   Fine, so rough surfaces gain less, and noisy ones take longer. Triangles of thin parts may pass through each other,
- *   and a speck of few triangles may be inside out: UntangleTriangleSurface() and TurnMisfacingTriangleSurfaceShells()
- * repair both. Points on edges stay at least MinimumFraction of the edge away from both ends (more where 32-bit
- * positions need it): so no triangle is degenerate, even where samples equal the isovalue.
+ *   and a speck of few triangles may be inside out: TriangleSurfaceFinishFilter repairs both.
+ * Points on edges stay at least MinimumFraction of the edge away from both ends (more where 32-bit positions need it):
+ * so no triangle is degenerate, even where samples equal the isovalue.
  *
  * Each point has a normal, unless ComputeNormals is off: the gradient, pointing outside, of the box spline that quasi-
  * interpolates the samples, with coefficients 3/2 f - 1/24 (sum of the 12 neighbours' f) (M. Kim, A. Entezari, J.

@@ -15,6 +15,8 @@ namespace itk
  * stays as it is. Progress is reported and AbortGenerateData is looked for during the work, on the thread that updates
  * the filter; an aborted update throws ProcessAborted and leaves the output empty.
  *
+ * The work runs on as many threads as MultiThreaderBase's global default number; NumberOfWorkUnits has no effect.
+ *
  * Throws ExceptionObject if a triangle of the input refers to a missing point, or if the input's data were released and
  * nothing makes them anew.
  *
