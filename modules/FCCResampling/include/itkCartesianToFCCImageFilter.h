@@ -73,7 +73,9 @@ namespace itk
  * \ingroup FCCResampling
  */
 template <typename TInputImage, typename TOutputImage = FCCImage<typename TInputImage::PixelType>>
-class ITK_TEMPLATE_EXPORT CartesianToFCCImageFilter : public ImageToImageFilter<TInputImage, TOutputImage>
+class ITK_TEMPLATE_EXPORT CartesianToFCCImageFilter
+  : public ImageToImageFilter<TInputImage, TOutputImage>
+  , public SlicePlacingFilter
 {
 public:
   ITK_DISALLOW_COPY_AND_MOVE(CartesianToFCCImageFilter);

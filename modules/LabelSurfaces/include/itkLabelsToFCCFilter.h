@@ -59,7 +59,9 @@ namespace itk
  *
  * \ingroup LabelSurfaces
  */
-class LabelsToFCCFilter : public ImageToFCCLabelsFilter<Image<FCCLabelWeights::LabelType, 3>>
+class LabelsToFCCFilter
+  : public ImageToFCCLabelsFilter<Image<FCCLabelWeights::LabelType, 3>>
+  , public SlicePlacingFilter
 {
 public:
   ITK_DISALLOW_COPY_AND_MOVE(LabelsToFCCFilter);

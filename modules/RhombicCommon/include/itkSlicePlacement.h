@@ -38,7 +38,17 @@ SetSlicePlacement(DataObject & image, const SlicePlacement & placement);
 SlicePlacement
 GetSlicePlacement(const DataObject & image);
 
-/** Whether an image, or any image that it is made from in its pipeline, has a SlicePlacement with origins. */
+/** \class SlicePlacingFilter
+ * \brief Base of filters whose output lies where the slices of their input do, however these are spaced. */
+class SlicePlacingFilter
+{
+protected:
+  SlicePlacingFilter() = default;
+  virtual ~SlicePlacingFilter() = default;
+};
+
+/** Whether an image, or any image that it is made from in its pipeline, has a SlicePlacement with origins. What a
+ * SlicePlacingFilter makes lies where it should. */
 bool
 IsFromUnevenSlices(const DataObject & image);
 

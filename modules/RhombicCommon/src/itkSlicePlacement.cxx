@@ -100,7 +100,7 @@ IsFromUnevenSlices(const DataObject & image)
     return true;
   }
   const auto source = image.GetSource();
-  if (source.IsNull())
+  if (source.IsNull() || dynamic_cast<const SlicePlacingFilter *>(source.GetPointer()) != nullptr)
   {
     return false;
   }
