@@ -192,41 +192,6 @@ TEST(StagedFiles, AppearTogether)
 }
 
 /** Writes a file and commits it. */
-void
-CommitOne(const fs::path & path)
-{
-  rhombic::StagedFiles staged;
-  AtomicFile & file = staged.Begin(path);
-  Write(file.GetTemporaryPath(), "new");
-  file.Flush(1);
-  staged.Commit();
-}
-
-TEST(StagedFiles, OfSeveralCommitsAppearTogether)
-{
-  const rhombictest::TemporaryFolder folder;
-  rhombic::CommitTogether([&] {
-    CommitOne(folder.Path() / "a");
-    CommitOne(folder.Path() / "b");
-    EXPECT_FALSE(fs::exists(folder.Path() / "a"));
-  });
-  EXPECT_EQ(Read(folder.Path() / "a") + Read(folder.Path() / "b"), "newnew");
-  EXPECT_EQ(FilesIn(folder.Path()), 2u);
-}
-
-TEST(StagedFiles, OfSeveralCommitsAreGoneAfterAFailure)
-{
-  const rhombictest::TemporaryFolder folder;
-  EXPECT_THROW(rhombic::CommitTogether([&] {
-                 CommitOne(folder.Path() / "a");
-                 CommitOne(folder.Path() / "missing" / "b");
-               }),
-               Failure);
-  EXPECT_EQ(FilesIn(folder.Path()), 0u);
-  CommitOne(folder.Path() / "c");
-  EXPECT_EQ(Read(folder.Path() / "c"), "new");
-}
-
 TEST(StagedFiles, AreGoneWithoutCommit)
 {
   const rhombictest::TemporaryFolder folder;

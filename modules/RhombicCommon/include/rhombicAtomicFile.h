@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -86,11 +85,6 @@ public:
 private:
   std::vector<std::unique_ptr<AtomicFile>> m_Files;
 };
-
-/** Runs \a work. The files that StagedFiles commit meanwhile on this thread are renamed together at its end, or removed
- * if it throws. Throws what \a work throws, and Failure(Output) as StagedFiles::Commit() does. */
-void
-CommitTogether(const std::function<void()> & work);
 
 /** Makes SIGINT, SIGTERM and SIGHUP remove the temporary files of all AtomicFiles before they end the process as usual.
  * Signals that are ignored, as SIGHUP under nohup, stay ignored. SIGXFSZ is ignored, so that a file beyond the

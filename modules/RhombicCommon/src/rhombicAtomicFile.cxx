@@ -8,9 +8,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <iterator>
 #include <set>
-#include <utility>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -158,9 +156,6 @@ RemoveTemporaryFiles(int signal)
   raise(signal);
 }
 
-/** What takes the files that are committed, within CommitTogether(). */
-thread_local StagedFiles * collector = nullptr;
-
 } // namespace
 
 AtomicFile::AtomicFile(const fs::path & target)
@@ -261,12 +256,6 @@ StagedFiles::Begin(const fs::path & target)
 void
 StagedFiles::Commit()
 {
-  if (collector != nullptr)
-  {
-    std::move(m_Files.begin(), m_Files.end(), std::back_inserter(collector->m_Files));
-    m_Files.clear();
-    return;
-  }
   std::string replaced;
   std::set<fs::path> folders;
   for (const auto & file : m_Files)
@@ -291,24 +280,6 @@ StagedFiles::Commit()
     FlushToDisk(folder, O_RDONLY | O_DIRECTORY);
   }
   m_Files.clear();
-}
-
-void
-CommitTogether(const std::function<void()> & work)
-{
-  StagedFiles all;
-  StagedFiles * const outer = std::exchange(collector, &all);
-  try
-  {
-    work();
-  }
-  catch (...)
-  {
-    collector = outer;
-    throw;
-  }
-  collector = outer;
-  all.Commit();
 }
 
 void
