@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <iostream>
 #include <mutex>
-#include <new>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -170,22 +169,9 @@ main(int argc, char ** argv)
   {
     return Fail(console, FailureKind::Usage, DescribeUsageError(app, error));
   }
-  catch (const Failure & failure)
+  catch (const std::exception &)
   {
+    const Failure failure = FailureOfException();
     return Fail(console, failure.GetKind(), failure.GetDescription());
-  }
-  catch (const itk::MemoryAllocationError &)
-  {
-    return Fail(
-      console, FailureKind::Memory, "There is not enough memory; try a lower --density or close other programs.");
-  }
-  catch (const std::bad_alloc &)
-  {
-    return Fail(
-      console, FailureKind::Memory, "There is not enough memory; try a lower --density or close other programs.");
-  }
-  catch (const std::exception & error)
-  {
-    return Fail(console, FailureKind::Internal, DescribeError(error) + "; this is a defect, please report it.");
   }
 }

@@ -3,6 +3,7 @@
 #include "rhombicWording.h"
 
 #include <algorithm>
+#include <new>
 #include <vector>
 
 namespace rhombic
@@ -134,6 +135,32 @@ DescribeUsageError(const CLI::App & program, const CLI::ParseError & error)
       return DescribeConversion(program, error);
     default:
       return std::string(error.what()) + " (see " + HelpOf(program) + ").";
+  }
+}
+
+Failure
+FailureOfException()
+{
+  constexpr const char * noMemory = "There is not enough memory; try a lower --density or close other programs.";
+  try
+  {
+    throw;
+  }
+  catch (const Failure & failure)
+  {
+    return failure;
+  }
+  catch (const itk::MemoryAllocationError &)
+  {
+    return { FailureKind::Memory, noMemory };
+  }
+  catch (const std::bad_alloc &)
+  {
+    return { FailureKind::Memory, noMemory };
+  }
+  catch (const std::exception & error)
+  {
+    return { FailureKind::Internal, DescribeError(error) + "; this is a defect, please report it." };
   }
 }
 

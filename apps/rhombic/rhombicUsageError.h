@@ -1,6 +1,8 @@
 #ifndef rhombicUsageError_h
 #define rhombicUsageError_h
 
+#include "rhombicFailure.h"
+
 #include <CLI/CLI.hpp>
 
 #include <string>
@@ -12,6 +14,10 @@ namespace rhombic
  * one if it is unknown, and the help that lists all. */
 std::string
 DescribeUsageError(const CLI::App & program, const CLI::ParseError & error);
+
+/** The failure, with its exit code, of the exception that is being handled. */
+Failure
+FailureOfException();
 
 } // namespace rhombic
 

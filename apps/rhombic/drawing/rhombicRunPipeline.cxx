@@ -1,6 +1,7 @@
 #include "rhombicFailure.h"
 #include "rhombicOutputCommands.h"
 #include "rhombicScanOptions.h"
+#include "rhombicUsageError.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -128,12 +129,12 @@ RunPipeline(const std::string & file, const CLI::App & command, const CommandCon
       OutputCommands commands;
       commands.Parse(steps[n])({ context.console, context.decoder, steps[n] });
     }
-    catch (const Failure & failure)
+    catch (const std::exception &)
     {
       failed += (failed.empty() ? "" : ", ") + pipeline.steps[n].output;
       if (!first)
       {
-        first.emplace(failure);
+        first.emplace(FailureOfException());
       }
     }
   }
