@@ -4,6 +4,7 @@
 #include "itkCastImageFilter.h"
 #include "itkImageRegionIteratorWithIndex.h"
 #include "itkMath.h"
+#include "itkStreamingImageFilter.h"
 
 #include <gtest/gtest.h>
 
@@ -518,6 +519,60 @@ TEST(CartesianToFCCSlanted, AnyThreadsAndAnyRegionGiveTheSameBytes)
         EXPECT_LE(stack.image->GetRequestedRegion().GetSize(axis), 13u);
       }
     }
+  }
+}
+
+// The value outside is that of a sample which most parts do not need.
+TEST(CartesianToFCCSlanted, PartsHaveTheDefaultOutsideValueOfTheWhole)
+{
+  constexpr float lowest = -77.0f;
+  for (const Kind kind : slantedKinds)
+  {
+    SCOPED_TRACE(static_cast<int>(kind));
+    const Stack stack = MakeStack(kind, { { 20, 14, 44 } });
+    stack.image->FillBuffer(500.0f);
+    stack.image->SetPixel(stack.image->GetLargestPossibleRegion().GetUpperIndex(), lowest);
+    const auto whole = MakeFilter(stack, Kernel::Linear);
+    whole->Update();
+    const LatticeType & expected = *whole->GetOutput();
+    const auto all = expected.GetLargestPossibleRegion();
+    // Its output holds no more than what is asked for.
+    const auto source = itk::CastImageFilter<ImageType, ImageType>::New();
+    source->SetInput(stack.image);
+    source->InPlaceOff();
+    int outside = 0;
+    const auto compare = [&](const LatticeType & part, const LatticeType::RegionType & region) {
+      for (itk::ImageRegionConstIteratorWithIndex<LatticeType> it(&part, region); !it.IsAtEnd(); ++it)
+      {
+        ASSERT_EQ(it.Get(), expected.GetPixel(it.GetIndex())) << it.GetIndex() << region;
+        outside += it.Get() == lowest ? 1 : 0;
+      }
+    };
+    for (const unsigned int axis : { 0u, 1u, 2u })
+    {
+      for (const bool isLast : { false, true })
+      {
+        auto region = all;
+        region.SetSize(axis, 1);
+        region.SetIndex(axis, isLast ? all.GetUpperIndex()[axis] : 0);
+        const auto part = MakeFilter(stack, Kernel::Linear);
+        part->SetInput(source->GetOutput());
+        part->GetOutput()->SetRequestedRegion(region);
+        part->Update();
+        compare(*part->GetOutput(), region);
+      }
+    }
+    for (const unsigned int divisions : { 1u, 2u, 3u, 7u, 1000u })
+    {
+      const auto streamed = MakeFilter(stack, Kernel::Linear);
+      streamed->SetInput(source->GetOutput());
+      const auto streaming = itk::StreamingImageFilter<LatticeType, LatticeType>::New();
+      streaming->SetInput(streamed->GetOutput());
+      streaming->SetNumberOfStreamDivisions(divisions);
+      streaming->Update();
+      compare(*streaming->GetOutput(), all);
+    }
+    EXPECT_GT(outside, kind == Kind::Uneven ? 0 : 100);
   }
 }
 

@@ -388,7 +388,8 @@ TEST_F(ScanFileReader, SliceOriginsTravelToTheLattice)
 TEST_F(ScanFileReader, UnevenSlicesAreRefusedUnlessAskedFor)
 {
   const auto isRefused = [](auto & reader) {
-    return Refusal([&] { reader.Update(); }).find("lattice->SetScan(reader->GetScan())") != std::string::npos;
+    return Refusal([&] { reader.UpdateOutputInformation(); }).find("lattice->SetScan(reader->GetScan())") !=
+           std::string::npos;
   };
   const fs::path folder = this->WriteStack("uneven", true);
   const auto reader = MakeReader(folder);

@@ -47,8 +47,9 @@ protected:
   virtual ~SlicePlacingFilter() = default;
 };
 
-/** Whether an image, or any image that it is made from in its pipeline, has a SlicePlacement with origins. What a
- * SlicePlacingFilter makes lies where it should. */
+/** Whether an image, or any image that its samples are made from in its pipeline, has a SlicePlacement with origins.
+ * What a SlicePlacingFilter makes lies where its geometry says, whatever it is made from; an input with the name
+ * ReferenceImage lends its geometry only. */
 bool
 IsFromUnevenSlices(const DataObject & image);
 

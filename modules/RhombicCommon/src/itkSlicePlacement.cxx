@@ -1,5 +1,6 @@
 #include "itkSlicePlacement.h"
 
+#include "itkInputDataObjectConstIterator.h"
 #include "itkMetaDataObject.h"
 
 #include <algorithm>
@@ -104,10 +105,14 @@ IsFromUnevenSlices(const DataObject & image)
   {
     return false;
   }
-  const auto inputs = source->GetInputs();
-  return std::any_of(inputs.begin(), inputs.end(), [](const DataObject::Pointer & input) {
-    return input.IsNotNull() && IsFromUnevenSlices(*input);
-  });
+  for (InputDataObjectConstIterator input(source); !input.IsAtEnd(); ++input)
+  {
+    if (input.GetName() != "ReferenceImage" && input.GetInput() != nullptr && IsFromUnevenSlices(*input.GetInput()))
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 std::vector<Point<double, 3>>
@@ -123,7 +128,7 @@ FindSliceOrigins(const ImageBase<3> & image, const SlicePlacement & scan)
   {
     itkGenericExceptionMacro("The input is made from a scan with unevenly spaced slices, whose places a filter in "
                              "between has left out; call SetScan(reader->GetScan()), or DisconnectPipeline() of an "
-                             "image that has other slices.");
+                             "image whose samples lie where its geometry says.");
   }
   return {};
 }
