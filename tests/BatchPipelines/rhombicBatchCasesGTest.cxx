@@ -118,6 +118,22 @@ TEST(BatchCases, BIDSHasItsNamesAndLabels)
   EXPECT_EQ(cases[1].files.size(), 3u);
 }
 
+TEST(BatchCases, PathsThatATableCannotHoldAreLeftOut)
+{
+  for (const char * const name : { "a\tb.nii", "a\nb.nii", "a\rb.nii" })
+  {
+    const TemporaryFolder folder;
+    WriteFile(folder.Path() / name, "x");
+    EXPECT_THROW(rhombic::FindCases(folder.Path()), Failure);
+    WriteFile(folder.Path() / "c.nii", "x");
+    const CaseCollection found = rhombic::FindCases(folder.Path());
+    ASSERT_EQ(found.cases.size(), 1u);
+    EXPECT_EQ(found.cases.front().scan.filename(), "c.nii");
+    ASSERT_EQ(found.notes.size(), 1u);
+    EXPECT_NE(found.notes.front().find("has a tab or line break"), std::string::npos) << found.notes.front();
+  }
+}
+
 TEST(BatchCases, AManifestNamesCasesWithPathsRelativeToIt)
 {
   const TemporaryFolder folder;

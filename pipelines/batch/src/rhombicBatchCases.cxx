@@ -442,6 +442,31 @@ Choose(const std::vector<std::string> & only, std::vector<BatchCase> & cases)
   cases.erase(std::remove_if(cases.begin(), cases.end(), isOther), cases.end());
 }
 
+/** Leaves out the cases that a table of cases can't hold, and notes them. Throws Failure(Usage) when none is left. */
+void
+LeaveOutUnlistable(CaseCollection & found)
+{
+  std::vector<BatchCase> listable;
+  for (const BatchCase & one : found.cases)
+  {
+    if ((one.scan.string() + one.labels.string()).find_first_of("\t\r\n") == std::string::npos)
+    {
+      listable.push_back(one);
+    }
+    else
+    {
+      found.notes.push_back(one.name +
+                            " left out: the path of its scan or labels has a tab or line break, which the table of "
+                            "cases cannot hold; rename the file or folder");
+    }
+  }
+  if (listable.empty())
+  {
+    throw Failure(FailureKind::Usage, "Case " + found.notes.back() + ".");
+  }
+  found.cases = listable;
+}
+
 } // namespace
 
 bool
@@ -511,6 +536,7 @@ FindCases(const fs::path & path, const CaseSearch & given)
       one.name += "-" + std::to_string(n);
     }
   }
+  LeaveOutUnlistable(found);
   if (!search.only.empty())
   {
     Choose(search.only, found.cases);

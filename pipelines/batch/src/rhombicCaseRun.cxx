@@ -274,7 +274,7 @@ CaseRun::TakeStep()
   for (const fs::path & file : FindFiles(m_Stage))
   {
     const bool isMade = m_Made.count(file.filename().string()) > 0;
-    if (code == 0 && file.filename().string()[0] != '.')
+    if (code == 0 && !m_IsTooLong && file.filename().string()[0] != '.')
     {
       m_Made.emplace(file.filename().string(), &step);
     }
