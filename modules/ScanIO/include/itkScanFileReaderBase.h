@@ -96,9 +96,9 @@ public:
   }
   itkBooleanMacro(AcceptTilted);
 
-  /** Whether slices that are unevenly spaced, or some of which are missing, are read. Default false: they are refused,
-   * as no ITK image holds their places. Give the scan to the filter to the lattice then, which also works behind
-   * filters of ITK: `lattice->SetScan(reader->GetScan())`. */
+  /** Whether slices that are unevenly spaced are read, and by ScanFileReader the slices that AcceptGaps leaves. Default
+   * false: they are refused, as no ITK image holds their places. Give the scan to the filter to the lattice then, which
+   * also works behind filters of ITK: `lattice->SetScan(reader->GetScan())`. */
   void
   SetAcceptUneven(bool accept)
   {
