@@ -28,8 +28,11 @@ struct MeshScanSettings
   Provenance provenance;
 };
 
-/** Checks what can be checked without reading or writing anything. Returns the files that MeshScan() writes, as far as
- * their names do not depend on those of surfaces. Throws Failure(Usage). */
+/** What stands for the name of a surface in the name of a file. */
+constexpr char NamePlaceholder[] = "{name}";
+
+/** Checks what can be checked without reading or writing anything. Returns the files that MeshScan() writes; names of
+ * surfaces, which are not known yet, are NamePlaceholder. Throws Failure(Usage). */
 std::vector<std::filesystem::path>
 CheckMeshScan(const MeshScanSettings & settings);
 

@@ -29,8 +29,6 @@ namespace rhombic
 namespace
 {
 
-constexpr char NamePlaceholder[] = "{name}";
-
 bool
 HasFileForEach(const fs::path & mesh)
 {
@@ -354,17 +352,16 @@ private:
 std::vector<fs::path>
 CheckMeshScan(const MeshScanSettings & settings)
 {
-  const bool isForEach = HasFileForEach(settings.mesh);
   const bool showsAll = settings.surfaces.rules.only.empty() && settings.surfaces.rules.hidden.empty();
   const std::size_t fewest = showsAll ? settings.surfaces.requests.size() + (settings.surfaces.labels ? 1 : 0) : 1;
-  CheckSurfacePath(settings.mesh, isForEach ? 1 : fewest);
+  CheckSurfacePath(settings.mesh, HasFileForEach(settings.mesh) ? 1 : fewest);
   CheckSurfaceFinish(settings.finish);
   CheckSelection(settings.surfaces);
   if (!settings.measures.empty())
   {
     CheckMeasureTablePath(settings.measures);
   }
-  return OutputsOf(isForEach ? std::vector<fs::path>{} : std::vector<fs::path>{ settings.mesh }, settings);
+  return OutputsOf({ settings.mesh }, settings);
 }
 
 std::vector<fs::path>

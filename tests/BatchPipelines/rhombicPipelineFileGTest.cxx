@@ -85,6 +85,14 @@ TEST(PipelineFile, ItsHashIsThatOfWhatDeterminesTheOutputs)
   EXPECT_EQ(hashOf(Parse("outputs: [{mesh: a.stl}]")), hashOf(Parse("description: d\noutputs:\n- mesh: a.stl # x")));
 }
 
+TEST(PipelineFile, NamesOfSurfacesMayStandWhereTheyMakeNoTwoFilesTheSame)
+{
+  EXPECT_EQ(Parse("outputs: [{mesh: 'a-{name}.stl'}, {mesh: 'b-{name}.stl'}, {mesh: a.stl}, {mesh: 'a-{name}.ply'}, "
+                  "{mesh: 'a.stl-{name}.stl'}]")
+              .steps.size(),
+            5u);
+}
+
 TEST(PipelineFile, MistakesAreNamedWithLineAndNearestKey)
 {
   struct Mistake
@@ -99,7 +107,13 @@ TEST(PipelineFile, MistakesAreNamedWithLineAndNearestKey)
          Mistake{ "output:\n  - page: a.png\n", "'output' in line 1 (did you mean outputs?)" },
          Mistake{ "outputs:\n  - pag: a.png\n", "page, picture, mesh or volume in line 2" },
          Mistake{ "outputs:\n  - page: a.png\n  - mesh: a.png\n",
-                  "line 3: it would write a.png, as the output in line 2 does" },
+                  "line 3: it would write a.png, as the output in line 2 does; give" },
+         Mistake{
+           "outputs:\n  - mesh: '{name}.stl'\n  - mesh: bone.stl\n",
+           "line 3: it would write bone.stl, as the output in line 2 does with {name}.stl and some name of a surface" },
+         Mistake{
+           "outputs:\n  - mesh: bone-{name}.stl\n  - mesh: '{name}.stl'\n",
+           "line 3: it would write {name}.stl, as the output in line 2 does with bone-{name}.stl and some name" },
          Mistake{ "outputs:\n  - page: thumbnail.jpg\n", "line 2: a batch writes a file thumbnail.jpg itself" },
          Mistake{ "outputs:\n  - page: ../a.png\n", "line 2" },
          Mistake{ "outputs:\n  - page: a.png\n    size: bad\n", "line 2: 'bad' is no size" },

@@ -2,12 +2,14 @@
 
 #include "rhombicBatchResults.h"
 #include "rhombicFailure.h"
+#include "rhombicMeshScan.h"
 #include "rhombicTextFile.h"
 #include "rhombicWording.h"
 #include "rhombicYAMLKeys.h"
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <sstream>
 
@@ -48,6 +50,41 @@ std::string
 LineOf(const YAML::Node & node)
 {
   return "in line " + std::to_string(node.Mark().line + 1);
+}
+
+/** What stands before the first and behind the last placeholder of a file's name; both are the whole name if there is
+ * none. */
+struct NameEnds
+{
+  explicit NameEnds(const std::string & name)
+    : hasPlaceholder(name.find(NamePlaceholder) != std::string::npos)
+    , begin(name.substr(0, name.find(NamePlaceholder)))
+    , end(hasPlaceholder ? name.substr(name.rfind(NamePlaceholder) + std::size(NamePlaceholder) - 1) : name)
+  {}
+
+  bool hasPlaceholder;
+  std::string begin;
+  std::string end;
+};
+
+/** Whether names of surfaces may make two files the same. */
+bool
+MayBeSame(const std::string & first, const std::string & second)
+{
+  const NameEnds one(first);
+  const NameEnds other(second);
+  if (!one.hasPlaceholder && !other.hasPlaceholder)
+  {
+    return first == second;
+  }
+  const auto beginsAs = [](const NameEnds & name, const NameEnds & pattern) {
+    return pattern.hasPlaceholder && name.begin.rfind(pattern.begin, 0) == 0;
+  };
+  const auto endsAs = [](const NameEnds & name, const NameEnds & pattern) {
+    const auto common = std::min(name.end.size(), pattern.end.size());
+    return pattern.hasPlaceholder && name.end.substr(name.end.size() - common) == pattern.end;
+  };
+  return (beginsAs(one, other) || beginsAs(other, one)) && (endsAs(one, other) || endsAs(other, one));
 }
 
 /** Reads one pipeline file. */
@@ -251,13 +288,17 @@ private:
   void
   AddFile(const std::string & file, const PipelineStep & step)
   {
-    const auto [place, isNew] = m_Files.emplace(file, step.line);
-    if (!isNew)
+    for (const auto & [other, line] : m_Files)
     {
-      throw Failure(FailureKind::Usage,
-                    "it would write " + file + ", as the output in line " + std::to_string(place->second) +
-                      " does; give one of them another name.");
+      if (MayBeSame(file, other))
+      {
+        throw Failure(FailureKind::Usage,
+                      "it would write " + file + ", as the output in line " + std::to_string(line) + " does" +
+                        (file == other ? "" : " with " + other + " and some name of a surface") +
+                        "; give one of them another name.");
+      }
     }
+    m_Files.emplace(file, step.line);
     if (file == ThumbnailFile || file == CaseFile)
     {
       throw Failure(FailureKind::Usage, "a batch writes a file " + file + " itself; give the output another name.");
