@@ -40,9 +40,9 @@ set(DOXYGEN_PREDEFINED
     "itkSetInputMacro(name,type)=virtual void Set##name(const type * input)\;"
     "itkGetInputMacro(name,type)=virtual const type * Get##name() const\;"
     "RHOMBIC_INSTANTIATE(declaration,image)=")
-file(GLOB pages README.md apps/*/*.md modules/README.md modules/*/README.md pipelines/README.md pipelines/*/*.md tests/README.md
+file(GLOB pages README.md apps/*/*.md modules/README.md modules/*/*/README.md pipelines/README.md pipelines/*/*.md tests/README.md
      tests/*/README.md testdata/README.md)
-file(GLOB headers modules/*/include pipelines/include pipelines/*/include)
+file(GLOB headers modules/*/*/include pipelines/include pipelines/*/include)
 doxygen_add_docs(docs ${headers} ${pages} COMMENT "Writing build/.../docs/html")
 add_custom_command(TARGET docs POST_BUILD
                    COMMAND ${CMAKE_COMMAND} "-DREFERENCE=${DOXYGEN_OUTPUT_DIRECTORY}"

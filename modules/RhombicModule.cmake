@@ -1,6 +1,6 @@
 # rhombic_add_module(<folder>)
 #
-# Makes one library target from a folder shaped like an ITK module:
+# Makes one library target from a folder shaped like an ITK module, as modules/lattice/FCCLattice:
 #   itk-module.cmake  its declaration, in ITK's own grammar (itk_module(<name> DEPENDS ... DESCRIPTION ...))
 #   include/          public headers        src/  sources, if any, maybe in folders by theme
 #   include/detail/   headers that public templates need, but that no user includes: "detail/itkX.h"

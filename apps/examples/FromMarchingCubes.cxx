@@ -1,4 +1,4 @@
-// An isosurface as vtkPolyData, beside that of vtkFlyingEdges3D: modules/SurfaceVTK/README.md explains the function.
+// An isosurface as vtkPolyData, beside that of vtkFlyingEdges3D: modules/surfaces/SurfaceVTK/README.md explains the function.
 
 #include "exampleInput.h"
 #include "itkCartesianToFCCImageFilter.h"

@@ -1,4 +1,4 @@
-#include "../ScanIO/rhombicDicomTestFile.h"
+#include "../scans/ScanIO/rhombicDicomTestFile.h"
 #include "rhombicBatchCases.h"
 
 #include "rhombicFailure.h"

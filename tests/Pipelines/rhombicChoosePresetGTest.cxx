@@ -1,4 +1,4 @@
-#include "../ScanIO/rhombicDicomTestFile.h"
+#include "../scans/ScanIO/rhombicDicomTestFile.h"
 #include "rhombicDescribeScan.h"
 #include "rhombicPresets.h"
 #include "rhombicTemporaryFolder.h"

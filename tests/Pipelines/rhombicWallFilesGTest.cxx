@@ -3,7 +3,7 @@
 #include "rhombicVTPToPLY.h"
 #include "rhombicWallAudit.h"
 
-#include "../FCCLabelSurfaces/itkExampleLabelWalls.h"
+#include "../labels/FCCLabelSurfaces/itkExampleLabelWalls.h"
 
 namespace
 {

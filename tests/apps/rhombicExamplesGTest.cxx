@@ -295,7 +295,7 @@ TEST_F(Examples, LabelsToWallsKeepsTheVolumesOfOrgans)
 /** What the page for VTK's users shows is what the program runs. */
 TEST(ExamplesPage, ShowsTheExample)
 {
-  const std::string page = ReadText(RHOMBIC_SOURCE "/modules/SurfaceVTK/README.md");
+  const std::string page = ReadText(RHOMBIC_SOURCE "/modules/surfaces/SurfaceVTK/README.md");
   const std::string begin = "vtkSmartPointer<vtkPolyData>\nExtractSurface";
   const std::size_t from = page.find(begin);
   ASSERT_NE(from, std::string::npos);

@@ -1,7 +1,7 @@
 # Fails unless each module, and pipelines/, has a README.md that tells what threads may do with it.
 # cmake -DSOURCE=<top folder> -P check-modules.cmake
 
-file(GLOB declarations "${SOURCE}/modules/*/itk-module.cmake" "${SOURCE}/pipelines/itk-module.cmake")
+file(GLOB declarations "${SOURCE}/modules/*/*/itk-module.cmake" "${SOURCE}/pipelines/itk-module.cmake")
 if(NOT declarations)
   message(FATAL_ERROR "There are no modules in ${SOURCE}")
 endif()

@@ -1,6 +1,6 @@
 // `rhombicFuzzSeeds FOLDER` writes the inputs that fuzzing begins with to FOLDER/<target>/.
 
-#include "../ScanIO/rhombicDicomTestFile.h"
+#include "../scans/ScanIO/rhombicDicomTestFile.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicTemporaryFolder.h"
 

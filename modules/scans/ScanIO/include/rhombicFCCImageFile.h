@@ -16,7 +16,7 @@ class StagedFiles;
 using FCCVolume = PixelTypes::AnyImage<itk::FCCImage>;
 
 /** Writes a lattice volume as a NRRD file (raw, little-endian) with its lattice in key/value pairs; the format is
- * described in modules/ScanIO/README.md. The file appears whole or not at all. Throws Failure(Output), also for volumes
+ * described in modules/scans/ScanIO/README.md. The file appears whole or not at all. Throws Failure(Output), also for volumes
  * that could not be read back: a null pointer, an image without samples or with samples outside its buffer, geometry
  * that is not finite. */
 void

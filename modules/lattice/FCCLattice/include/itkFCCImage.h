@@ -31,7 +31,7 @@ namespace itk
  * row of parity 1 lie at i + 1/2. Interpolators written for Cartesian images are therefore wrong on an FCCImage; use
  * those of FCCInterpolation.
  *
- * **With ITK's filters.** modules/FCCLattice/README.md has a table of the filters that work, those that have a
+ * **With ITK's filters.** modules/lattice/FCCLattice/README.md has a table of the filters that work, those that have a
  * replacement here, and those that are meaningless on a lattice. Pixel-wise filters, iterators, statistics and
  * streaming work. itk::ResampleImageFilter works with FCCImages as its input, its output, or both, if an FCC input gets
  * an interpolator of FCCInterpolation instead of the default one: for a SpecialCoordinatesImage it calls the transforms

@@ -16,7 +16,7 @@
 #include <type_traits>
 
 /** Filters of ITK that take an FCCImage for a Cartesian one: what they make of it is not what they promise. These tests
- * hold the warnings of modules/FCCLattice/README.md: where one fails, the table there is wrong. */
+ * hold the warnings of modules/lattice/FCCLattice/README.md: where one fails, the table there is wrong. */
 namespace
 {
 

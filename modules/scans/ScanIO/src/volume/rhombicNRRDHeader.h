@@ -12,7 +12,7 @@ namespace rhombic
 /** The lines of a NRRD header. */
 struct NRRDHeader
 {
-  /** The key and value of a volume on the face-centered cubic lattice (modules/ScanIO/README.md). */
+  /** The key and value of a volume on the face-centered cubic lattice (modules/scans/ScanIO/README.md). */
   static constexpr char LatticeKey[] = "lattice";
   static constexpr char LatticeValue[] = "fcc parity rows";
 

@@ -225,12 +225,12 @@ TEST_F(SurfaceReadersOfOthers, GLTFValidatorFindsNothing)
   const char * const validator = std::getenv("RHOMBIC_GLTF_VALIDATOR");
   if (validator == nullptr)
   {
-    GTEST_SKIP() << "RHOMBIC_GLTF_VALIDATOR is not set: tests/SurfaceIO/validate-gltf.sh sets it";
+    GTEST_SKIP() << "RHOMBIC_GLTF_VALIDATOR is not set: tests/surfaces/SurfaceIO/validate-gltf.sh sets it";
   }
   const auto validate = [&](const std::vector<SceneSurface> & scene, SurfaceFileSpace space) {
     const fs::path path = m_Folder / "scene.glb";
     WriteSurfaces(scene, path, { space });
-    const std::string script = std::string(RHOMBIC_SOURCE) + "/tests/SurfaceIO/validate-gltf.js";
+    const std::string script = std::string(RHOMBIC_SOURCE) + "/tests/surfaces/SurfaceIO/validate-gltf.js";
     const auto [output, status] =
       RunCommand("node '" + script + "' '" + validator + "' '" + path.string() + "'", m_Folder);
     EXPECT_EQ(status, 0);
