@@ -16,6 +16,7 @@ struct AuditOptions
 {
   std::vector<std::string> files;
   bool isJson = false;
+  bool requiresWatertight = true;
   std::size_t maximumTested = itk::TriangleSurfaceAuditSettings().maximumTestedTriangles;
 };
 
@@ -126,19 +127,26 @@ private:
 } // namespace
 
 CommandRun
-AddAuditCommand(CLI::App & parser)
+AddAuditCommand(CommandSettings & command)
 {
+  static const SettingsTable<AuditOptions> table{
+    { "FILE",
+      &AuditOptions::files,
+      "surface files, checked one by one and together: " + GetSurfaceFileExtensions(),
+      OfKind(SettingKind::Source) },
+    { "--json", &AuditOptions::isJson, "write a JSON report" },
+    { "--require-watertight", // of scripts from before this was always required
+      &AuditOptions::requiresWatertight,
+      "",
+      Hidden() },
+    { "--max-tested",
+      &AuditOptions::maximumTested,
+      "triangles tested for self-intersections; of larger surfaces, so many evenly chosen ones; 0: none",
+      Checked(CLI::NonNegativeNumber),
+      ShowingDefault() },
+  };
   const auto options = std::make_shared<AuditOptions>();
-  parser.add_option(
-    "FILE", options->files, "surface files, checked one by one and together: " + GetSurfaceFileExtensions());
-  parser.add_flag("--json", options->isJson, "write a JSON report");
-  parser.add_flag("--require-watertight")->group(""); // of scripts from before this was always required
-  parser
-    .add_option("--max-tested",
-                options->maximumTested,
-                "triangles tested for self-intersections; of larger surfaces, so many evenly chosen ones; 0: none")
-    ->check(CLI::NonNegativeNumber)
-    ->capture_default_str();
+  command.Add(table, *options);
   return [options](const CommandContext & context) {
     if (options->files.empty())
     {

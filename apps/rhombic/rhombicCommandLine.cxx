@@ -1,44 +1,133 @@
-#include "rhombicCommands.h"
+#include "rhombicCommandLine.h"
+
+#include "rhombicFailure.h"
+#include "rhombicUsageError.h"
 
 #include "itkVersion.h"
 
 #include <OpenImageIO/oiioversion.h>
 #include <vtkVersionMacros.h>
 
-#include <filesystem>
+#include <algorithm>
 
 namespace rhombic
 {
-
 namespace
 {
 
-std::string
-Describe(const std::string & value, const std::map<std::string, std::string> & names)
+struct CommandEntry
 {
-  for (const auto & [name, secret] : names)
-  {
-    if (!secret.empty() && value == secret)
-    {
-      return name;
-    }
-  }
-  return value.find('/') == std::string::npos ? value : std::filesystem::path(value).filename().string();
+  const char * name;
+  const char * description;
+  CommandRun (*add)(CommandSettings &);
+};
+
+constexpr CommandEntry entries[] = {
+  { "info", "What is in a scan: series, geometry, values, thresholds worth trying", AddInfoCommand },
+  { "render", "Pictures of a scan's surfaces", AddRenderCommand },
+  { "mesh", "A scan's surface as a file", AddMeshCommand },
+  { "batch", "Pictures, pages and meshes of many scans", AddBatchCommand },
+  { "bids", "The same of a BIDS dataset, as a BIDS App", AddBIDSCommand },
+  { "compare-pictures", "Whether two pictures are the same, within a tolerance", AddComparePicturesCommand },
+  { "audit", "Whether a surface file is closed, oriented and free of defects", AddAuditCommand },
+  { "resample", "A scan on the face-centered cubic lattice, and back", AddResampleCommand },
+  { "compare", "Lattices and methods compared, as in the paper: tables, plots, pictures", AddCompareCommand },
+  { "phantom", "The analytic test scan, with organs of known volume", AddPhantomCommand },
+  { "doctor", "What works on this machine", AddDoctorCommand },
+};
+
+constexpr char exitCodes[] = "Exit codes:\n"
+                             "  0   done\n"
+                             "  1   a defect in rhombic; please report it\n"
+                             "  2   wrong usage: an option, a preset, a file extension\n"
+                             "  3   no such file or folder, or no scan in it\n"
+                             "  4   the input is damaged or of a kind that is not supported\n"
+                             "  5   the input's position in the patient can't be known\n"
+                             "  6   there is no surface at this threshold\n"
+                             "  7   the output can't be written\n"
+                             "  8   a surface is not watertight (audit, --require-watertight)\n"
+                             "  9   not enough memory\n"
+                             "  10  this machine can't draw (see rhombic doctor)\n"
+                             "  11  pictures differ by more than the tolerance\n"
+                             "  12  some cases of a batch failed";
+
+const SettingsTable<ProgramOptions> &
+ProgramTable()
+{
+  static const SettingsTable<ProgramOptions> table{
+    { "--threads",
+      &ProgramOptions::threads,
+      "number of threads (default: all cores)",
+      DefaultsTo("RHOMBIC_THREADS"),
+      Checked(CLI::Range(1u, 1024u)) },
+    { "-v,--verbose", &ProgramOptions::isVerbose, "print more, with times" },
+    { "-q,--quiet", &ProgramOptions::isQuiet, "print errors only", Excludes({ "--verbose" }) },
+  };
+  return table;
 }
 
 } // namespace
 
-std::vector<std::string>
-DescribeArguments(const std::vector<std::string> & arguments, const std::map<std::string, std::string> & names)
+CommandLine::CommandLine()
+  : m_Parser(std::string("Rhombic: ") + RHOMBIC_DESCRIPTION, "rhombic")
+  , m_Program(m_Parser)
 {
-  std::vector<std::string> described;
-  for (const std::string & argument : arguments)
+  m_Parser.footer(exitCodes);
+  m_Parser.require_subcommand(1);
+  m_Parser.fallthrough();
+  m_Parser.set_version_flag("--version", VersionText());
+  m_Program.Add(ProgramTable(), m_Options);
+  m_Program.Relate();
+  for (const CommandEntry & entry : entries)
   {
-    const auto equals = argument.rfind("-", 0) == 0 ? argument.find('=') : std::string::npos;
-    const std::string option = equals == std::string::npos ? "" : argument.substr(0, equals + 1);
-    described.push_back(option + Describe(argument.substr(option.size()), names));
+    CLI::App * const parser = m_Parser.add_subcommand(entry.name, entry.description);
+    parser->footer(exitCodes);
+    m_Commands.push_back(std::make_unique<Command>(*parser));
+    m_Commands.back()->run = entry.add(m_Commands.back()->settings);
+    m_Commands.back()->settings.Relate();
   }
-  return described;
+}
+
+Command &
+CommandLine::Parse(const std::vector<std::string> & words)
+{
+  try
+  {
+    m_Parser.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    return this->Get(m_Parser.get_subcommands().front()->get_name());
+  }
+  catch (const CLI::Success &)
+  {
+    throw;
+  }
+  catch (const CLI::ParseError & error)
+  {
+    const auto named = m_Parser.get_subcommands();
+    throw Failure(FailureKind::Usage, DescribeUsageError(m_Parser, named.empty() ? m_Parser : *named.front(), error));
+  }
+}
+
+Command &
+CommandLine::Set(const std::string & command, const Report & settings)
+{
+  Command & chosen = this->Get(command);
+  try
+  {
+    chosen.settings.Set(settings);
+  }
+  catch (const CLI::ParseError & error)
+  {
+    throw Failure(FailureKind::Usage, DescribeUsageError(m_Parser, *m_Parser.get_subcommand(command), error));
+  }
+  return chosen;
+}
+
+Command &
+CommandLine::Get(const std::string & command)
+{
+  return **std::find_if(m_Commands.begin(), m_Commands.end(), [&command](const auto & known) {
+    return known->settings.GetCommand() == command;
+  });
 }
 
 std::string

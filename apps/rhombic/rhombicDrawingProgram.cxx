@@ -73,43 +73,43 @@ GetVTPConverter()
 }
 
 void
-RunPipeline(const std::string &, const CLI::App &, const CommandContext &)
+RunPipeline(const std::string &, const CommandContext &)
 {
   // The drawing program has it.
 }
 
 CommandRun
-AddRenderCommand(CLI::App &)
+AddRenderCommand(CommandSettings &)
 {
   return {}; // for the list of commands only
 }
 
 CommandRun
-AddCompareCommand(CLI::App &)
+AddCompareCommand(CommandSettings &)
 {
   return {};
 }
 
 CommandRun
-AddBatchCommand(CLI::App &)
+AddBatchCommand(CommandSettings &)
 {
   return {};
 }
 
 CommandRun
-AddBIDSCommand(CLI::App &)
+AddBIDSCommand(CommandSettings &)
 {
   return {};
 }
 
 CommandRun
-AddComparePicturesCommand(CLI::App &)
+AddComparePicturesCommand(CommandSettings &)
 {
   return {};
 }
 
 CommandRun
-AddDoctorCommand(CLI::App &)
+AddDoctorCommand(CommandSettings &)
 {
   return {};
 }

@@ -193,7 +193,7 @@ Print(const ScanDescription & description)
 void
 Info(const InfoOptions & options, const CommandContext & context)
 {
-  const ScanSource source = options.scan.GetSource(context);
+  const ScanSource source = options.scan.GetSource(context.decoder);
   const ScanDescription description =
     DescribeScan(source, { { options.labels.begin(), options.labels.end() }, options.labelTable });
   if (options.isJson)
@@ -214,20 +214,22 @@ Info(const InfoOptions & options, const CommandContext & context)
 } // namespace
 
 CommandRun
-AddInfoCommand(CLI::App & parser)
+AddInfoCommand(CommandSettings & command)
 {
+  static const SettingsTable<InfoOptions> table{
+    { "--labels",
+      &InfoOptions::labels,
+      "a label map of the scan: NIfTI, NRRD, MetaImage or DICOM SEG, or a folder of masks; repeatable",
+      OfKind(SettingKind::Source) },
+    { "--label-table",
+      &InfoOptions::labelTable,
+      "names and colours of labels (ITK-SNAP, Slicer, FreeSurfer, BIDS, nnU-Net, CSV; default: in or beside the map)",
+      OfKind(SettingKind::InputFile) },
+    { "--json", &InfoOptions::isJson, "as JSON, on standard output" },
+  };
   const auto options = std::make_shared<InfoOptions>();
-  options->scan.AddSource(parser);
-  parser
-    .add_option("--labels",
-                options->labels,
-                "a label map of the scan: NIfTI, NRRD, MetaImage or DICOM SEG, or a folder of masks; repeatable")
-    ->allow_extra_args(false);
-  parser.add_option(
-    "--label-table",
-    options->labelTable,
-    "names and colours of labels (ITK-SNAP, Slicer, FreeSurfer, BIDS, nnU-Net, CSV; default: in or beside the map)");
-  parser.add_flag("--json", options->isJson, "as JSON, on standard output");
+  command.Add(ScanOptions::SourceTable(), options->scan);
+  command.Add(table, *options);
   return [options](const CommandContext & context) { Info(*options, context); };
 }
 

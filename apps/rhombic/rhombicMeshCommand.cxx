@@ -1,6 +1,5 @@
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
-#include "rhombicFinishOptions.h"
 #include "rhombicNamedValues.h"
 #include "rhombicMeshScan.h"
 #include "rhombicScanOptions.h"
@@ -18,12 +17,11 @@ struct MeshOptions
 {
   ScanOptions scan;
   SurfaceOptions surfaces;
+  SurfaceFinish finish;
   std::string threshold;
   std::string mesh;
   std::string space = "lps";
   std::string maximumTriangles;
-  FinishOptions finish;
-  std::optional<double> maximumError;
   std::string measures;
   bool audits = false;
   bool requiresWatertight = false;
@@ -91,16 +89,15 @@ Mesh(const MeshOptions & options, const CommandContext & context)
   {
     throw Failure(FailureKind::Usage, "No file is named; give one with -o, for example -o bone.stl.");
   }
-  settings.source = options.scan.GetSource(context);
+  settings.source = options.scan.GetSource(context.decoder);
   settings.mesh = options.mesh;
   settings.space = ParseSpace(options.space);
-  settings.finish = options.finish.Get();
-  settings.finish.maximumError = options.maximumError;
+  settings.finish = options.finish;
   ParseTriangles(options.maximumTriangles, settings.finish);
   settings.measures = options.measures;
   settings.audits = options.audits;
   settings.requiresWatertight = options.requiresWatertight;
-  settings.provenance = options.scan.GetProvenance(context, options.surfaces.GetNames());
+  settings.provenance = options.scan.GetProvenance(*context.settings);
   settings.surfaces = GetSelection(options, options.surfaces.GetNamedPreset());
   const auto planned = CheckMeshScan(settings);
   if (context.planned != nullptr)
@@ -121,37 +118,53 @@ Mesh(const MeshOptions & options, const CommandContext & context)
 } // namespace
 
 CommandRun
-AddMeshCommand(CLI::App & parser)
+AddMeshCommand(CommandSettings & command)
 {
+  static const SettingsTable<MeshOptions> threshold{
+    { "-t,--threshold",
+      &MeshOptions::threshold,
+      "one surface by its isovalue: a number in the scan's units, <number for what lies below, otsu, otsu-low, "
+      "otsu-lowest or otsu-high" },
+  };
+  static const SettingsTable<MeshOptions> file{
+    { "-o,--output",
+      &MeshOptions::mesh,
+      "the mesh: " + GetSurfaceFileExtensions() + "; a file for each surface if its name holds {name}",
+      OfKind(SettingKind::Output) },
+    { "--space", &MeshOptions::space, "axes of the file: lps or ras, in mm", ShowingDefault() },
+  };
+  static const SettingsTable<MeshOptions> checks{
+    { "--max-error",
+      &MeshOptions::finish,
+      &SurfaceFinish::maximumError,
+      "simplify, staying within so many mm everywhere" },
+    { "--max-triangles",
+      &MeshOptions::maximumTriangles,
+      "simplify to so many triangles, or to a share, as 10%, within --max-error or a lattice spacing; the number is "
+      "for "
+      "each isosurface, and for all labels together" },
+    { "--measures",
+      &MeshOptions::measures,
+      "volumes, areas and other measures as a table: .csv or .json",
+      OfKind(SettingKind::Output) },
+    { "--audit",
+      &MeshOptions::audits,
+      "check the files read back: closed, manifold, self-intersections, distance to the scan's isosurface" },
+    { "--require-watertight",
+      &MeshOptions::requiresWatertight,
+      "write no file with holes or other defects, but end with exit code 8; that triangles pass through each other is "
+      "reported by --audit, and no reason not to write it" },
+  };
   const auto options = std::make_shared<MeshOptions>();
-  options->scan.AddSource(parser);
-  parser.add_option(
-    "-t,--threshold",
-    options->threshold,
-    "one surface by its isovalue: a number in the scan's units, <number for what lies below, otsu, otsu-low, "
-    "otsu-lowest or otsu-high");
-  options->surfaces.Add(parser);
-  parser.add_option("-o,--output",
-                    options->mesh,
-                    "the mesh: " + GetSurfaceFileExtensions() + "; a file for each surface if its name holds {name}");
-  parser.add_option("--space", options->space, "axes of the file: lps or ras, in mm")->capture_default_str();
-  options->finish.Add(parser);
-  parser.add_option("--max-error", options->maximumError, "simplify, staying within so many mm everywhere");
-  parser.add_option("--max-triangles",
-                    options->maximumTriangles,
-                    "simplify to so many triangles, or to a share, as 10%, within --max-error or a lattice spacing; "
-                    "the number is for each isosurface, and for all labels together");
-  parser.add_option("--measures", options->measures, "volumes, areas and other measures as a table: .csv or .json");
-  parser.add_flag("--audit",
-                  options->audits,
-                  "check the files read back: closed, manifold, self-intersections, distance to the scan's isosurface");
-  parser.add_flag("--require-watertight",
-                  options->requiresWatertight,
-                  "write no file with holes or other defects, but end with exit code 8; that triangles pass through "
-                  "each other is reported by --audit, and no reason not to write it");
-  options->scan.AddLattice(parser);
-  options->scan.AddSidecar(parser);
-  return AddPipelineOption(parser, [options](const CommandContext & context) { Mesh(*options, context); });
+  command.Add(ScanOptions::SourceTable(), options->scan);
+  command.Add(threshold, *options);
+  command.Add(SurfaceOptions::Table(), options->surfaces);
+  command.Add(file, *options);
+  command.Add(FinishTable(), options->finish);
+  command.Add(checks, *options);
+  command.Add(ScanOptions::LatticeTable(), options->scan);
+  command.Add(ScanOptions::SidecarTable(), options->scan);
+  return AddPipelineOption(command, [options](const CommandContext & context) { Mesh(*options, context); });
 }
 
 } // namespace rhombic

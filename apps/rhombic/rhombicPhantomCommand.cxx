@@ -28,11 +28,14 @@ MakePhantom(const PhantomOptions & options, const CommandContext & context)
 } // namespace
 
 CommandRun
-AddPhantomCommand(CLI::App & parser)
+AddPhantomCommand(CommandSettings & command)
 {
+  static const SettingsTable<PhantomOptions> table{
+    { "-o,--output", &PhantomOptions::folder, "a folder that is new or empty", OfKind(SettingKind::Output) },
+    { "--spacing", &PhantomOptions::settings, &PhantomSettings::spacing, "voxel size in mm", ShowingDefault() },
+  };
   const auto options = std::make_shared<PhantomOptions>();
-  parser.add_option("-o,--output", options->folder, "a folder that is new or empty");
-  parser.add_option("--spacing", options->settings.spacing, "voxel size in mm")->capture_default_str();
+  command.Add(table, *options);
   return [options](const CommandContext & context) { MakePhantom(*options, context); };
 }
 

@@ -6,20 +6,28 @@ namespace rhombic
 {
 
 CommandRun
-AddPipelineOption(CLI::App & parser, const CommandRun & otherwise)
+AddPipelineOption(CommandSettings & command, const CommandRun & otherwise)
 {
-  const auto pipeline = std::make_shared<std::string>();
-  parser.add_option("--pipeline",
-                    *pipeline,
-                    "make what this command makes of a pipeline file (.yaml, as of rhombic batch); -o is the folder");
-  return [&parser, pipeline, otherwise](const CommandContext & context) {
-    if (pipeline->empty())
+  struct Options
+  {
+    std::string pipeline;
+  };
+  static const SettingsTable<Options> table{
+    { "--pipeline",
+      &Options::pipeline,
+      "make what this command makes of a pipeline file (.yaml, as of rhombic batch); -o is the folder",
+      OfKind(SettingKind::Run) },
+  };
+  const auto options = std::make_shared<Options>();
+  command.Add(table, *options);
+  return [options, otherwise](const CommandContext & context) {
+    if (options->pipeline.empty())
     {
       otherwise(context);
     }
     else
     {
-      RunPipeline(*pipeline, parser, context);
+      RunPipeline(options->pipeline, context);
     }
   };
 }

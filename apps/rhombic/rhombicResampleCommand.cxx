@@ -18,13 +18,13 @@ void
 Resample(const ResampleOptions & options, const CommandContext & context)
 {
   ResampleScanSettings settings;
-  settings.source = options.scan.GetSource(context);
+  settings.source = options.scan.GetSource(context.decoder);
   if (options.volume.empty())
   {
     throw Failure(FailureKind::Usage, "No output is named; give one with -o, for example -o scan.fcc.nrrd.");
   }
   settings.volume = options.volume;
-  settings.provenance = options.scan.GetProvenance(context);
+  settings.provenance = options.scan.GetProvenance(*context.settings);
   if (context.planned != nullptr)
   {
     const auto planned = CheckResampleScan(settings);
@@ -38,15 +38,19 @@ Resample(const ResampleOptions & options, const CommandContext & context)
 } // namespace
 
 CommandRun
-AddResampleCommand(CLI::App & parser)
+AddResampleCommand(CommandSettings & command)
 {
+  static const SettingsTable<ResampleOptions> table{
+    { "-o,--output",
+      &ResampleOptions::volume,
+      "the lattice volume (.nrrd); when SCAN is one, the Cartesian volume (.nrrd, .nii, .nii.gz, .mha)",
+      OfKind(SettingKind::Output) },
+  };
   const auto options = std::make_shared<ResampleOptions>();
-  options->scan.AddSource(parser);
-  parser.add_option("-o,--output",
-                    options->volume,
-                    "the lattice volume (.nrrd); when SCAN is one, the Cartesian volume (.nrrd, .nii, .nii.gz, .mha)");
-  options->scan.AddLattice(parser);
-  options->scan.AddSidecar(parser);
+  command.Add(ScanOptions::SourceTable(), options->scan);
+  command.Add(table, *options);
+  command.Add(ScanOptions::LatticeTable(), options->scan);
+  command.Add(ScanOptions::SidecarTable(), options->scan);
   return [options](const CommandContext & context) { Resample(*options, context); };
 }
 

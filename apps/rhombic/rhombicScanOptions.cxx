@@ -37,109 +37,118 @@ ParsePolicy(const std::string & option, const std::string & text, const std::str
 
 } // namespace
 
-void
-ScanOptions::AddSource(CLI::App & parser)
+const SettingsTable<ScanOptions> &
+ScanOptions::SourceTable()
 {
-  parser.add_option(
-    "SCAN", m_Path, "DICOM folder, NIfTI, NRRD or MetaImage file, folder of masks, or a lattice volume (.fcc.nrrd)");
-  parser.add_option("--series",
-                    m_Series,
-                    "which DICOM series: id, UID, position in the list or SeriesNumber (default: the one with at least "
-                    "twice as many slices as any other)");
-  parser.add_option("--frame", m_Frame, "which volume of a file that holds several, from 0")
-    ->check(CLI::NonNegativeNumber);
-  parser
-    .add_option("--on-irregular",
-                m_OnIrregular,
-                "tilted, sheared or unevenly spaced scans: resample from their true positions, or error")
-    ->capture_default_str();
-  parser.add_option("--on-gap", m_OnGap, "missing or damaged slices: error, or interpolate across the gap")
-    ->capture_default_str();
-  parser
-    .add_option("--max-memory",
-                m_MaximumMemory,
-                "most memory for a volume, and then for a picture, as 8G or 500M (default: half of what is free)")
-    ->envname("RHOMBIC_MAX_MEMORY")
-    ->transform(CLI::AsSizeValue(false));
-  parser.add_flag("--analyze", m_AcceptsAnalyze, "read Analyze 7.5 files, in which left and right are not defined");
-  parser.add_flag("--follow-links", m_FollowsLinks, "follow symbolic links in folders");
+  static const SettingsTable<ScanOptions> table{
+    { "SCAN",
+      &ScanOptions::scan,
+      "DICOM folder, NIfTI, NRRD or MetaImage file, folder of masks, or a lattice volume (.fcc.nrrd)",
+      OfKind(SettingKind::Source) },
+    { "--series",
+      &ScanOptions::series,
+      "which DICOM series: id, UID, position in the list or SeriesNumber (default: the one with at least twice as many "
+      "slices as any other)",
+      OfKind(SettingKind::Source) },
+    { "--frame",
+      &ScanOptions::frame,
+      "which volume of a file that holds several, from 0",
+      Checked(CLI::NonNegativeNumber) },
+    { "--on-irregular",
+      &ScanOptions::onIrregular,
+      "tilted, sheared or unevenly spaced scans: resample from their true positions, or error",
+      ShowingDefault() },
+    { "--on-gap",
+      &ScanOptions::onGap,
+      "missing or damaged slices: error, or interpolate across the gap",
+      ShowingDefault() },
+    { "--max-memory",
+      &ScanOptions::maximumMemory,
+      "most memory for a volume, and then for a picture, as 8G or 500M (default: half of what is free)",
+      DefaultsTo("RHOMBIC_MAX_MEMORY"),
+      InBytes(),
+      OfKind(SettingKind::Run) },
+    { "--analyze", &ScanOptions::acceptsAnalyze, "read Analyze 7.5 files, in which left and right are not defined" },
+    { "--follow-links", &ScanOptions::followsLinks, "follow symbolic links in folders" },
+  };
+  return table;
 }
 
-void
-ScanOptions::AddLattice(CLI::App & parser)
+const SettingsTable<ScanOptions> &
+ScanOptions::LatticeTable()
 {
-  CLI::Option * const density =
-    parser
-      .add_option(
-        "--density",
-        m_Density,
-        "lattice sites per sample of the scan (this and the next three: without effect when SCAN is a lattice volume)")
-      ->capture_default_str();
-  CLI::Option * const spacing =
-    parser.add_option("--spacing", m_Spacing, "lattice spacing in mm, one number or x,y,z, instead of a density")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::PositiveNumber);
-  CLI::Option * const kernel =
-    parser
-      .add_option("--kernel", m_Kernel, "how values between samples are computed: cubic (B-spline), linear or lanczos")
-      ->capture_default_str();
-  parser
-    .add_flag("--nested",
-              m_Nested,
-              "instead: every other sample of the scan, without interpolation, after a half-band filter; density 0.5")
-    ->excludes(density)
-    ->excludes(spacing)
-    ->excludes(kernel);
-  parser.add_option(
-    "--denoise",
-    m_Denoising,
-    "remove noise before surfaces are made: gaussian:SIGMA in mm; or edges:SIGMA,EDGE, which keeps gradients "
-    "above EDGE, in the scan's units per mm, and is slow; or none (default: what the preset asks for, see render "
-    "--list-presets)");
+  static const SettingsTable<ScanOptions> table{
+    { "--density",
+      &ScanOptions::density,
+      "lattice sites per sample of the scan (this and the next three: without effect when SCAN is a lattice volume)",
+      ShowingDefault() },
+    { "--spacing",
+      &ScanOptions::spacing,
+      "lattice spacing in mm, one number or x,y,z, instead of a density",
+      SplitAtCommas(),
+      Checked(CLI::PositiveNumber) },
+    { "--kernel",
+      &ScanOptions::kernel,
+      "how values between samples are computed: cubic (B-spline), linear or lanczos",
+      ShowingDefault() },
+    { "--nested",
+      &ScanOptions::isNested,
+      "instead: every other sample of the scan, without interpolation, after a half-band filter; density 0.5",
+      Excludes({ "--density", "--spacing", "--kernel" }) },
+    { "--denoise",
+      &ScanOptions::denoising,
+      "remove noise before surfaces are made: gaussian:SIGMA in mm; or edges:SIGMA,EDGE, which keeps gradients above "
+      "EDGE, in the scan's units per mm, and is slow; or none (default: what the preset asks for, see render "
+      "--list-presets)" },
+  };
+  return table;
 }
 
-void
-ScanOptions::AddSidecar(CLI::App & parser)
+const SettingsTable<ScanOptions> &
+ScanOptions::SidecarTable()
 {
-  parser.add_flag("--no-sidecar", m_HasNoSidecar, "do not write the report beside each output (OUTPUT.json)");
+  static const SettingsTable<ScanOptions> table{
+    { "--no-sidecar",
+      &ScanOptions::hasNoSidecar,
+      "do not write the report beside each output (OUTPUT.json)",
+      OfKind(SettingKind::Run) },
+  };
+  return table;
 }
 
 Provenance
-ScanOptions::GetProvenance(const CommandContext & context, std::map<std::string, std::string> names) const
+ScanOptions::GetProvenance(const CommandSettings & command) const
 {
-  names["SCAN"] = m_Path;
-  names["SERIES"] = m_Series;
-  return { "Rhombic " RHOMBIC_VERSION, DescribeArguments(context.arguments, names), !m_HasNoSidecar };
+  return { "Rhombic " RHOMBIC_VERSION, command.GetRecordedCommand(), command.GetRecorded(), !hasNoSidecar };
 }
 
 ScanSource
-ScanOptions::GetSource(const CommandContext & context) const
+ScanOptions::GetSource(VoxelDecoder * decoder) const
 {
   static const NamedValues<itk::SeparableKernel> kernels{ { "cubic", itk::SeparableKernel::CubicBSpline },
                                                           { "linear", itk::SeparableKernel::Linear },
                                                           { "lanczos", itk::SeparableKernel::Lanczos4 } };
-  if (m_Path.empty())
+  if (scan.empty())
   {
     throw Failure(FailureKind::Usage, "No scan is given; name a DICOM folder or a volume file (see --help).");
   }
   ScanSource source;
-  source.path = m_Path;
-  source.isHashed = !m_HasNoSidecar;
-  source.read.series = m_Series;
-  source.read.frame = m_Frame;
-  source.read.onTilted = ParsePolicy("--on-irregular", m_OnIrregular, "resample");
+  source.path = scan;
+  source.isHashed = !hasNoSidecar;
+  source.read.series = series;
+  source.read.frame = frame;
+  source.read.onTilted = ParsePolicy("--on-irregular", onIrregular, "resample");
   source.read.onUneven = source.read.onTilted;
-  source.read.onGap = ParsePolicy("--on-gap", m_OnGap, "interpolate");
-  source.read.maximumMemory = m_MaximumMemory;
-  source.read.acceptsAnalyze = m_AcceptsAnalyze;
-  source.read.followsLinks = m_FollowsLinks;
-  source.read.decoder = context.decoder;
-  source.lattice.density = m_Density;
-  source.lattice.spacing = ToSpacing(m_Spacing);
-  source.lattice.kernel = FindNamed("kernel", m_Kernel, kernels);
-  source.lattice.denoising = m_Denoising.empty() ? Denoising() : ParseDenoising(m_Denoising);
-  source.lattice.nested = m_Nested;
+  source.read.onGap = ParsePolicy("--on-gap", onGap, "interpolate");
+  source.read.maximumMemory = maximumMemory;
+  source.read.acceptsAnalyze = acceptsAnalyze;
+  source.read.followsLinks = followsLinks;
+  source.read.decoder = decoder;
+  source.lattice.density = density;
+  source.lattice.spacing = ToSpacing(spacing);
+  source.lattice.kernel = FindNamed("kernel", kernel, kernels);
+  source.lattice.denoising = denoising.empty() ? Denoising() : ParseDenoising(denoising);
+  source.lattice.nested = isNested;
   source.lattice.maximumMemory = source.read.maximumMemory;
   return source;
 }
@@ -147,7 +156,7 @@ ScanOptions::GetSource(const CommandContext & context) const
 void
 ScanOptions::ApplyPreset(const Preset & preset, ScanSource & source) const
 {
-  if (m_Denoising.empty())
+  if (denoising.empty())
   {
     source.lattice.denoising = preset.denoising;
   }

@@ -6,11 +6,7 @@
 #include "rhombicScanSource.h"
 #include "rhombicSidecar.h"
 
-#include <CLI/CLI.hpp>
-
 #include <cstdint>
-#include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,50 +15,47 @@ namespace rhombic
 {
 
 /** \class ScanOptions
- * \brief The options of several commands for reading a scan and resampling it onto the lattice. */
-class ScanOptions
+ * \brief The settings of several commands for reading a scan and resampling it onto the lattice. */
+struct ScanOptions
 {
-public:
-  /** Adds the scan, and options for its series, frame, irregular slices and memory. */
-  void
-  AddSource(CLI::App & parser);
+  std::string scan;
+  std::string series;
+  std::optional<std::size_t> frame;
+  std::string onIrregular = "resample";
+  std::string onGap = "error";
+  std::uint64_t maximumMemory = 0;
+  bool acceptsAnalyze = false;
+  bool followsLinks = false;
+  double density = itk::FCCLattice::DefaultDensity;
+  std::vector<double> spacing;
+  std::string kernel = "cubic";
+  bool isNested = false;
+  std::string denoising;
+  bool hasNoSidecar = false;
 
-  /** Adds density, spacing, kernel, nested lattice and denoising. */
-  void
-  AddLattice(CLI::App & parser);
+  /** The scan, its series and frame, irregular slices and memory. */
+  static const SettingsTable<ScanOptions> &
+  SourceTable();
 
-  /** Adds the option to leave out sidecars. */
-  void
-  AddSidecar(CLI::App & parser);
+  /** Density, spacing, kernel, nested lattice and denoising. */
+  static const SettingsTable<ScanOptions> &
+  LatticeTable();
 
-  /** Provenance of the command's outputs.
-   * \param names further arguments that may name the patient (see DescribeArguments()) */
+  /** Whether outputs have sidecars. */
+  static const SettingsTable<ScanOptions> &
+  SidecarTable();
+
+  /** Provenance of the command's outputs. */
   Provenance
-  GetProvenance(const CommandContext & context, std::map<std::string, std::string> names = {}) const;
+  GetProvenance(const CommandSettings & command) const;
 
-  /** The parsed source, to be read with the program's decoder. Throws Failure(Usage). */
+  /** The source, to be read with \a decoder. Throws Failure(Usage). */
   ScanSource
-  GetSource(const CommandContext & context) const;
+  GetSource(VoxelDecoder * decoder) const;
 
-  /** Denoises the source as the preset asks for, unless --denoise is given. */
+  /** Denoises the source as the preset asks for, unless \a denoising is given. */
   void
   ApplyPreset(const Preset & preset, ScanSource & source) const;
-
-private:
-  std::string m_Path;
-  std::string m_Series;
-  std::string m_OnIrregular = "resample";
-  std::string m_OnGap = "error";
-  std::uint64_t m_MaximumMemory = 0;
-  std::optional<std::size_t> m_Frame;
-  bool m_AcceptsAnalyze = false;
-  bool m_FollowsLinks = false;
-  bool m_HasNoSidecar = false;
-  double m_Density = itk::FCCLattice::DefaultDensity;
-  std::vector<double> m_Spacing;
-  std::string m_Kernel = "cubic";
-  std::string m_Denoising;
-  bool m_Nested = false;
 };
 
 } // namespace rhombic

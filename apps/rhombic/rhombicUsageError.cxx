@@ -11,42 +11,33 @@ namespace rhombic
 namespace
 {
 
-/** The command on the command line, or the program if there is none. */
-const CLI::App &
-FindCommand(const CLI::App & program)
-{
-  const auto named = program.get_subcommands();
-  return named.empty() ? program : *named.front();
-}
-
 /** "rhombic render --help". */
 std::string
-HelpOf(const CLI::App & program)
+HelpOf(const CLI::App & program, const CLI::App & command)
 {
-  const CLI::App & command = FindCommand(program);
   return program.get_name() + (&command == &program ? "" : " " + command.get_name()) + " --help";
 }
 
 /** The options that can be given: the command's, and those of the program. */
 std::vector<const CLI::Option *>
-FindOptions(const CLI::App & program)
+FindOptions(const CLI::App & program, const CLI::App & command)
 {
-  std::vector<const CLI::Option *> options = FindCommand(program).get_options();
+  std::vector<const CLI::Option *> options = command.get_options();
   const auto ofProgram = program.get_options();
   options.insert(options.end(), ofProgram.begin(), ofProgram.end());
   return options;
 }
 
 std::string
-DescribeUnknownOption(const CLI::App & program, const std::string & argument)
+DescribeUnknownOption(const CLI::App & program, const CLI::App & command, const std::string & argument)
 {
   const std::string option = argument.substr(0, argument.find('='));
-  const auto options = FindOptions(program);
+  const auto options = FindOptions(program, command);
   const auto isIt = [&option](const CLI::Option * known) { return known->check_name(option); };
   if (std::any_of(options.begin(), options.end(), isIt))
   {
-    return "The option " + option + " goes behind the command, as in rhombic " + FindCommand(program).get_name() + " " +
-           option + ".";
+    return "The option " + option + " goes behind the command, as in rhombic " + command.get_name() + " " + option +
+           ".";
   }
   std::vector<std::string> names; // without dashes
   for (const CLI::Option * const known : options)
@@ -55,49 +46,50 @@ DescribeUnknownOption(const CLI::App & program, const std::string & argument)
   }
   const std::string nearest = NearestName(option.substr(option.find_first_not_of('-')), names);
   return "There is no option " + option + "; " + (nearest.empty() ? "" : "did you mean --" + nearest + "? Otherwise ") +
-         "see " + HelpOf(program) + " for all of them.";
+         "see " + HelpOf(program, command) + " for all of them.";
 }
 
 /** An unknown command or option, or one path too many. */
 std::string
-DescribeUnexpected(const CLI::App & program, const CLI::ParseError & error)
+DescribeUnexpected(const CLI::App & program, const CLI::App & command, const CLI::ParseError & error)
 {
   const std::vector<std::string> unexpected = program.remaining(true); // in the order in which they were given
   const auto isOption = [](const std::string & word) {
     return word.size() > 1 && word[0] == '-' && word.find_first_not_of('-') != std::string::npos;
   };
   const auto option = std::find_if(unexpected.begin(), unexpected.end(), isOption);
-  const bool isCommandMissing = &FindCommand(program) == &program;
+  const bool isCommandMissing = &command == &program;
   if (option != unexpected.end() && (!isCommandMissing || option == unexpected.begin()))
   {
-    return DescribeUnknownOption(program, *option);
+    return DescribeUnknownOption(program, command, *option);
   }
   if (unexpected.empty() && isCommandMissing)
   {
-    return "No command is given; " + HelpOf(program) + " lists them.";
+    return "No command is given; " + HelpOf(program, command) + " lists them.";
   }
   if (unexpected.empty())
   {
-    return std::string(error.what()) + "; see " + HelpOf(program) + ".";
+    return std::string(error.what()) + "; see " + HelpOf(program, command) + ".";
   }
   if (isCommandMissing)
   {
     std::vector<std::string> names;
-    for (const CLI::App * const command : program.get_subcommands([](const CLI::App *) { return true; }))
+    for (const CLI::App * const known : program.get_subcommands([](const CLI::App *) { return true; }))
     {
-      names.push_back(command->get_name());
+      names.push_back(known->get_name());
     }
-    return DescribeUnknown("command", unexpected.front(), names, "see " + HelpOf(program) + " for all of them");
+    return DescribeUnknown(
+      "command", unexpected.front(), names, "see " + HelpOf(program, command) + " for all of them");
   }
-  return "'" + unexpected.front() + "' is one name too many; a name with spaces needs quotes (see " + HelpOf(program) +
-         ").";
+  return "'" + unexpected.front() + "' is one name too many; a name with spaces needs quotes (see " +
+         HelpOf(program, command) + ").";
 }
 
 /** An option that has too many values, or none. */
 std::string
-DescribeMismatch(const CLI::App & program, const CLI::ParseError & error)
+DescribeMismatch(const CLI::App & program, const CLI::App & command, const CLI::ParseError & error)
 {
-  for (const CLI::Option * const option : FindOptions(program))
+  for (const CLI::Option * const option : FindOptions(program, command))
   {
     const int most = option->get_items_expected_max(); // 0 for flags, which may be repeated
     if (most > 0 && option->count() > static_cast<std::size_t>(most))
@@ -106,35 +98,35 @@ DescribeMismatch(const CLI::App & program, const CLI::ParseError & error)
     }
   }
   const std::string text = error.what(); // the option's name, ": ", and what is missing
-  return text.substr(0, text.find(':')) + " needs a value (see " + HelpOf(program) + ").";
+  return text.substr(0, text.find(':')) + " needs a value (see " + HelpOf(program, command) + ").";
 }
 
 /** A value that is no number. CLI11's message is "Could not convert: --density = abc". */
 std::string
-DescribeConversion(const CLI::App & program, const CLI::ParseError & error)
+DescribeConversion(const CLI::App & program, const CLI::App & command, const CLI::ParseError & error)
 {
   const std::string text = error.what();
   const auto colon = text.find(": ");
   return (colon == std::string::npos ? text : text.substr(colon + 2)) +
-         " is no number, or no whole number where one is needed (see " + HelpOf(program) + ").";
+         " is no number, or no whole number where one is needed (see " + HelpOf(program, command) + ").";
 }
 
 } // namespace
 
 std::string
-DescribeUsageError(const CLI::App & program, const CLI::ParseError & error)
+DescribeUsageError(const CLI::App & program, const CLI::App & command, const CLI::ParseError & error)
 {
   switch (static_cast<CLI::ExitCodes>(error.get_exit_code()))
   {
     case CLI::ExitCodes::RequiredError: // also when there is a command that the program does not know
     case CLI::ExitCodes::ExtrasError:
-      return DescribeUnexpected(program, error);
+      return DescribeUnexpected(program, command, error);
     case CLI::ExitCodes::ArgumentMismatch:
-      return DescribeMismatch(program, error);
+      return DescribeMismatch(program, command, error);
     case CLI::ExitCodes::ConversionError:
-      return DescribeConversion(program, error);
+      return DescribeConversion(program, command, error);
     default:
-      return std::string(error.what()) + " (see " + HelpOf(program) + ").";
+      return std::string(error.what()) + " (see " + HelpOf(program, command) + ").";
   }
 }
 

@@ -10,10 +10,11 @@
 namespace rhombic
 {
 
-/** A sentence about a command line that \a program refused with \a error. It names the command or option, the nearest
- * one if it is unknown, and the help that lists all. */
+/** A sentence about settings that \a program refused with \a error. It names the command or option, the nearest one if
+ * it is unknown, and the help that lists all.
+ * \param command whose settings they are; the program if none is named */
 std::string
-DescribeUsageError(const CLI::App & program, const CLI::ParseError & error);
+DescribeUsageError(const CLI::App & program, const CLI::App & command, const CLI::ParseError & error);
 
 /** The failure, with its exit code, of the exception that is being handled. */
 Failure

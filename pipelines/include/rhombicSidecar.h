@@ -12,16 +12,14 @@ namespace rhombic
 {
 
 /** \class Provenance
- * \brief Program and command that made an output, for its sidecar and its metadata. */
+ * \brief Program and command that made an output, for its sidecar and its metadata. Nothing here is about the patient,
+ * and nothing that has no effect on the output. */
 struct Provenance
 {
-  std::string software;               ///< name and version
-  std::vector<std::string> arguments; ///< of the command, without anything about the patient, nor the scan's path
+  std::string software; ///< name and version
+  std::string command;  ///< as a reader may type it again: "rhombic render SCAN --preset=ct-bone"
+  Report settings;      ///< of the command, by their names
   bool writesSidecars = true;
-
-  /** The command line. */
-  std::string
-  GetCommand() const;
 };
 
 /** The path of an output's report: the output's name and ".json". */

@@ -5,17 +5,6 @@
 namespace rhombic
 {
 
-std::string
-Provenance::GetCommand() const
-{
-  std::string command = "rhombic";
-  for (const std::string & argument : arguments)
-  {
-    command += " " + argument;
-  }
-  return command;
-}
-
 std::filesystem::path
 SidecarOf(const std::filesystem::path & output)
 {
@@ -45,8 +34,8 @@ StageSidecar(const std::filesystem::path & output,
   }
   Report whole{ { "output", output.filename().string() },
                 { "software", provenance.software },
-                { "command", provenance.GetCommand() },
-                { "arguments", provenance.arguments } };
+                { "command", provenance.command },
+                { "settings", provenance.settings } };
   whole.update(report);
   StageText(ToJson(whole) + '\n', SidecarOf(output), staged);
 }

@@ -14,23 +14,37 @@ namespace
 using rhombic::CommandSyntax;
 using rhombic::Failure;
 using rhombic::Pipeline;
+using rhombic::Report;
 using rhombictest::TemporaryFolder;
 
-/** Commands with a few options, which take any value but "bad". */
+/** Commands with a few settings, which take any value but "bad". */
 CommandSyntax
 SomeSyntax()
 {
   CommandSyntax syntax;
-  syntax.optionsOf = [](const std::string & command) -> std::vector<std::string> {
-    return command == "render" ? std::vector<std::string>{ "preset", "labels", "view", "size", "output", "no-shadows" }
-                               : std::vector<std::string>{ "preset", "labels", "smooth" };
+  syntax.settingsOf = [](const std::string & command) -> std::vector<CommandSyntax::Setting> {
+    std::vector<CommandSyntax::Setting> settings{ { "preset", true, false }, { "labels", false, false } };
+    for (const char * const name : { "view", "size", "no-shadows" })
+    {
+      if (command == "render")
+      {
+        settings.push_back({ name, false, false });
+      }
+    }
+    if (command == "mesh")
+    {
+      settings.push_back({ "smooth", false, false });
+      settings.push_back({ "measures", false, true });
+    }
+    return settings;
   };
-  syntax.check = [](const std::vector<std::string> & arguments) {
-    if (std::count(arguments.begin(), arguments.end(), "--size=bad") > 0)
+  syntax.check = [](const std::string &, const Report & settings) {
+    if (settings.value("size", "") == "bad")
     {
       throw Failure(rhombic::FailureKind::Usage, "'bad' is no size.");
     }
-    return std::vector<std::filesystem::path>{ arguments.back(), arguments.back() + ".json" };
+    const auto output = settings["output"].get<std::string>();
+    return std::vector<std::filesystem::path>{ output, output + ".json" };
   };
   return syntax;
 }
@@ -58,14 +72,39 @@ TEST(PipelineFile, OutputsBecomeCommands)
                                   "    labels: false\n"
                                   "  - mesh: bone.stl\n");
   ASSERT_EQ(pipeline.steps.size(), 3u);
-  using Arguments = std::vector<std::string>;
-  EXPECT_EQ(pipeline.steps[0].arguments, (Arguments{ "render", "--sheet", "--preset=auto" }));
+  EXPECT_EQ(pipeline.steps[0].command, "render");
+  EXPECT_EQ(pipeline.steps[0].settings, (Report{ { "sheet", true }, { "preset", "auto" } }));
   EXPECT_TRUE(pipeline.steps[0].takesLabels);
-  EXPECT_EQ(pipeline.steps[1].arguments,
-            (Arguments{ "render", "--no-shadows", "--preset=ct-bone", "--view=left", "--view=right" }));
+  EXPECT_EQ(pipeline.steps[1].settings,
+            (Report{ { "preset", "ct-bone" }, { "view", { "left", "right" } }, { "no-shadows", true } }));
   EXPECT_FALSE(pipeline.steps[1].takesLabels);
-  EXPECT_EQ(pipeline.steps[2].arguments, (Arguments{ "mesh", "--preset=ct-bone", "--smooth=0.5" }));
+  EXPECT_EQ(pipeline.steps[2].command, "mesh");
+  EXPECT_EQ(pipeline.steps[2].settings, (Report{ { "preset", "ct-bone" }, { "smooth", "0.5" } }));
   EXPECT_EQ(pipeline.steps[2].output, "bone.stl");
+}
+
+TEST(PipelineFile, FilesOfAStepLieInTheFolderOfItsOutputs)
+{
+  const Pipeline pipeline = Parse("outputs:\n  - mesh: bone.stl\n    measures: m.csv\n    preset: mine.yaml\n", "x");
+  rhombic::BatchCase batchCase;
+  batchCase.scan = "/scans/a";
+  batchCase.labels = "/scans/b";
+  const Report settings = rhombic::GetSettings(pipeline.steps[0], batchCase, { { "frame", 1 } }, "/out");
+  EXPECT_EQ(settings["scan"], "/scans/a");
+  EXPECT_EQ(settings["labels"], "/scans/b");
+  EXPECT_EQ(settings["output"], "/out/bone.stl");
+  EXPECT_EQ(settings["measures"], "/out/m.csv");
+  EXPECT_EQ(settings["frame"], 1);
+  const auto preset = settings["preset"].get<std::string>();
+  EXPECT_EQ(preset.substr(preset.rfind('/')), "/mine.yaml");
+}
+
+TEST(PipelineFile, SettingsOfACaseJoinTheLists)
+{
+  const Pipeline pipeline = Parse("outputs: [{picture: a.png, view: [left, right], size: 300}]");
+  const Report settings = rhombic::GetSettings(pipeline.steps[0], {}, { { "view", "top" }, { "size", 200 } }, "");
+  EXPECT_EQ(settings["view"], (Report{ "left", "right", "top" }));
+  EXPECT_EQ(settings["size"], (Report{ "300", 200 })); // which the command refuses
 }
 
 TEST(PipelineFile, TheDefaultIsAPage)

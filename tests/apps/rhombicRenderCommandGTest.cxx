@@ -2,6 +2,7 @@
 #include "rhombicProgram.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -138,8 +139,7 @@ TEST_F(RenderCommand, TheSameCommandMakesTheSameFilesWithAnyNumberOfThreads)
   RunWell("--threads 5 render " + options + "-o five.png");
   for (const char * view : { "-az20el10.png", "-axial-liver.png" })
   {
-    // The files also hold their command lines.
-    EXPECT_EQ(Read(std::string("one") + view).pixels, Read(std::string("five") + view).pixels) << view;
+    EXPECT_EQ(Bytes(std::string("one") + view), Bytes(std::string("five") + view)) << view;
   }
   RunWell("--threads 1 render " + phantomLabels + " --sheet --no-sidecar -o one.pdf");
   RunWell("--threads 3 render " + phantomLabels + " --sheet --no-sidecar -o three.pdf");
@@ -150,14 +150,51 @@ TEST_F(RenderCommand, AReportMakesItsPictureAgain)
 {
   RunWell("--threads 2 render " + phantomScan + " --preset auto --view left --style paper --size 200 -o first.png");
   RunWell("-q --threads 1 render " + phantomScan + " --from first.png.json -o second.png");
-  EXPECT_EQ(Read("first.png").pixels, Read("second.png").pixels);
+  EXPECT_EQ(Bytes("first.png"), Bytes("second.png")) << "metadata holds what has an effect on the picture only";
   EXPECT_EQ(Run("compare-pictures first.png second.png").exitCode, 0);
   RunWell("render " + phantomScan + " --from second.png.json -o third.png");
-  EXPECT_EQ(Read("first.png").pixels, Read("third.png").pixels) << "the report of a repetition holds all options";
+  EXPECT_EQ(Bytes("first.png"), Bytes("third.png")) << "the report of a repetition holds all settings";
+  RunWell("render " + phantomScan + " --from second.png.json --size 100 -o small.png");
+  EXPECT_EQ(Read("small.png").width, 100) << "settings that are given count more";
   RunWell("render " + phantomScan + " --preset ct-bone-skin --view right --style paper --size 200 -o other.png");
   const Outcome outcome = Run("compare-pictures first.png other.png --tolerance 2");
   EXPECT_EQ(outcome.exitCode, 11);
   EXPECT_NE(outcome.errors.find("by more than 2 of 255"), std::string::npos) << outcome.errors;
+}
+
+TEST_F(RenderCommand, ReportsHoldSettingsAndNothingOfThePatient)
+{
+  fs::create_directories(m_Folder.Path() / "Doe");
+  fs::copy(RHOMBIC_SOURCE "/pipelines/presets/ct-bone.yaml", m_Folder.Path() / "Doe/mine.yaml");
+  RunWell("-v --threads 2 render " + phantomScan + " --labels " + phantomLabels +
+          " --preset Doe/mine.yaml --slice axial --window 350/50 --only 'bone,liver' --dpi=90 --sheet --max-memory 2G "
+          "-o Doe/page.png");
+  const auto report = nlohmann::ordered_json::parse(Bytes("Doe/page.png.json"));
+  const nlohmann::ordered_json expected{ { "scan", "SCAN" },
+                                         { "preset", "mine.yaml" },
+                                         { "labels", { "LABELS" } },
+                                         { "only", { "bone", "liver" } },
+                                         { "slice", { "axial" } },
+                                         { "sheet", true },
+                                         { "dpi", 90 },
+                                         { "window", "350/50" } };
+  EXPECT_EQ(report["settings"], expected) << report["settings"];
+  EXPECT_EQ(report["command"],
+            "rhombic render SCAN --preset=mine.yaml --labels=LABELS --only=bone --only=liver --slice=axial --sheet "
+            "--dpi=90 --window=350/50");
+}
+
+TEST_F(RenderCommand, AReportOfBeforeMakesItsPictureAgain)
+{
+  const std::string options = " --preset auto --view left --size 150 --window bone";
+  RunWell("render " + phantomScan + options + " -o first.png");
+  std::ofstream(m_Folder.Path() / "old.json")
+    << R"({"command": "rhombic -q render SCAN", "arguments": ["-q", "--threads",
+    "2", "render", "SCAN", "--preset", "auto", "--view", "left", "--size=150", "--labels", "LABELS", "-ofirst.png",
+    "--window", "bone", "--dicom-sc"]})";
+  RunWell("render " + phantomScan + " --from old.json -o second.png");
+  EXPECT_EQ(Bytes("first.png"), Bytes("second.png"));
+  EXPECT_FALSE(fs::exists(m_Folder.Path() / "second.dcm"));
 }
 
 TEST_F(RenderCommand, PagesListAllLabelsWithTheirVolumes)

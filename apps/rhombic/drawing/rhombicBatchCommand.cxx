@@ -1,8 +1,8 @@
 #include "rhombicBatchStatistics.h"
-#include "rhombicCommands.h"
+#include "rhombicCommandLine.h"
+#include "rhombicCommandSyntax.h"
 #include "rhombicFailure.h"
 #include "rhombicMemoryBudget.h"
-#include "rhombicOutputCommands.h"
 #include "rhombicRunBatch.h"
 #include "rhombicSidecar.h"
 #include "rhombicWording.h"
@@ -14,8 +14,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
-#include <set>
 #include <system_error>
 #include <utility>
 
@@ -41,28 +41,33 @@ struct BatchOptions
   bool isBIDS = false; ///< the outputs are a BIDS dataset, too
 };
 
-/** Refuses options and label maps of cases that do not go with an output, before any case runs. */
+/** Parses the options of cases. Refuses options and label maps that do not go with an output, before any case runs. */
 void
-CheckOptions(const std::vector<BatchCase> & cases, const Pipeline & pipeline)
+ParseOptions(std::vector<BatchCase> & cases, const Pipeline & pipeline)
 {
-  const CommandSyntax syntax = OutputCommands::GetSyntax();
-  std::set<std::pair<bool, std::vector<std::string>>> checked; // whether there are labels, and options
-  for (const BatchCase & batchCase : cases)
+  const CommandSyntax syntax = GetCommandSyntax();
+  std::map<std::pair<bool, std::vector<std::string>>, std::map<std::string, Report>> known; // by labels and options
+  for (BatchCase & batchCase : cases)
   {
-    const bool isNew = checked.emplace(!batchCase.labels.empty(), batchCase.options).second;
+    const auto [place, isNew] =
+      known.emplace(std::pair(!batchCase.labels.empty(), batchCase.options), batchCase.settings);
     for (std::size_t n = 0; n < pipeline.steps.size() && isNew; ++n)
     {
+      const PipelineStep & step = pipeline.steps[n];
       try
       {
-        syntax.check(GetArguments(pipeline.steps[n], batchCase));
+        Report & settings = place->second[step.command];
+        settings = syntax.parse(step.command, batchCase.options);
+        syntax.check(step.command, GetSettings(step, batchCase, settings, ""));
       }
       catch (const Failure & failure)
       {
         throw Failure(FailureKind::Usage,
-                      "The options of the case " + batchCase.name + " don't go with the output " +
-                        pipeline.steps[n].output + ": " + failure.GetDescription());
+                      "The options of the case " + batchCase.name + " don't go with the output " + step.output + ": " +
+                        failure.GetDescription());
       }
     }
+    batchCase.settings = place->second;
   }
 }
 
@@ -102,13 +107,13 @@ GetSettings(const BatchOptions & options, const Events & events)
                   "--no-cases-table would remove the manifest " + casesTable + "; leave it out, or move the manifest.");
   }
   BatchSettings settings;
-  settings.pipeline = ReadPipeline(options.pipeline, OutputCommands::GetSyntax());
+  settings.pipeline = ReadPipeline(options.pipeline, GetCommandSyntax());
   CaseCollection collection = FindCases(options.collection, { options.namesFromPaths, options.output, options.only });
   for (const std::string & note : collection.notes)
   {
     events.Note(note);
   }
-  CheckOptions(collection.cases, settings.pipeline);
+  ParseOptions(collection.cases, settings.pipeline);
   settings.cases = std::move(collection.cases);
   for (BatchCase & one : settings.cases)
   {
@@ -119,6 +124,7 @@ GetSettings(const BatchOptions & options, const Events & events)
   settings.output = options.output;
   settings.drawingProgram = std::filesystem::read_symlink("/proc/self/exe");
   settings.program = (settings.drawingProgram.parent_path() / RHOMBIC_PROGRAM).lexically_normal();
+  settings.requestOption = RequestOption;
   settings.software = "Rhombic " RHOMBIC_VERSION;
   settings.maximumSeconds = options.maximumSeconds;
   const unsigned int threads = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
@@ -226,102 +232,120 @@ Batch(const BatchOptions & options, const CommandContext & context)
   }
 }
 
-/** The options that batch and bids have. */
-void
-AddRunOptions(CLI::App & parser, BatchOptions & options)
+/** The settings that batch and bids have. */
+const SettingsTable<BatchOptions> &
+RunTable()
 {
-  parser.add_option("--pipeline", options.pipeline, "what is made of each case, a .yaml file (default: a page)");
-  parser.add_option("-j,--jobs", options.jobs, "cases at the same time; they share --threads (default: half of them)")
-    ->check(CLI::Range(1u, 1024u));
-  parser
-    .add_option("--max-memory",
-                options.maximumMemory,
-                "most memory of a case, as 8G (default: 90 % of what is free, shared by the jobs)")
-    ->transform(CLI::AsSizeValue(false));
-  parser.add_option("--max-time", options.maximumSeconds, "most seconds of a case")
-    ->check(CLI::PositiveNumber)
-    ->capture_default_str();
-  parser.add_flag("--no-cases-table",
-                  options.hasNoCasesTable,
-                  "leave out cases.tsv, which tells the paths of the cases' scans, to its owner alone");
-  parser.add_flag(
-    "--dry-run", options.isDryRun, "print the cases, their states, and estimates, as a manifest, and stop");
+  static const SettingsTable<BatchOptions> table{
+    { "--pipeline", &BatchOptions::pipeline, "what is made of each case, a .yaml file (default: a page)" },
+    { "-j,--jobs",
+      &BatchOptions::jobs,
+      "cases at the same time; they share --threads (default: half of them)",
+      Checked(CLI::Range(1u, 1024u)) },
+    { "--max-memory",
+      &BatchOptions::maximumMemory,
+      "most memory of a case, as 8G (default: 90 % of what is free, shared by the jobs)",
+      InBytes() },
+    { "--max-time",
+      &BatchOptions::maximumSeconds,
+      "most seconds of a case",
+      Checked(CLI::PositiveNumber),
+      ShowingDefault() },
+    { "--no-cases-table",
+      &BatchOptions::hasNoCasesTable,
+      "leave out cases.tsv, which tells the paths of the cases' scans, to its owner alone" },
+    { "--dry-run", &BatchOptions::isDryRun, "print the cases, their states, and estimates, as a manifest, and stop" },
+  };
+  return table;
 }
 
 } // namespace
 
 CommandRun
-AddBatchCommand(CLI::App & parser)
+AddBatchCommand(CommandSettings & command)
 {
+  static const SettingsTable<BatchOptions> folders{
+    { "COLLECTION",
+      &BatchOptions::collection,
+      "a folder of scans, in which every series and volume is a case; a BIDS dataset; or a manifest (.tsv) with "
+      "columns "
+      "case, scan, labels, options" },
+    { "-o,--output", &BatchOptions::output, "the folder of all outputs: new, empty, or to go on with" },
+  };
+  static const SettingsTable<BatchOptions> choice{
+    { "--case",
+      &BatchOptions::only,
+      "run the cases of this name only, which may have wildcards, also beside other such runs; writes no tables; "
+      "repeatable" },
+    { "--tables",
+      &BatchOptions::writesTables,
+      "run nothing; write the tables and the index of what is done so far",
+      Excludes({ "--case" }) },
+    { "--stats",
+      &BatchOptions::writesStatistics,
+      "run nothing; print and write what the measures of all cases are together (OUT/statistics.tsv), and which cases "
+      "lie "
+      "apart; needs no COLLECTION" },
+    { "--names-from-paths",
+      &BatchOptions::namesFromPaths,
+      "name cases by their paths in the folder, if these name no patients (default: by a hash)" },
+  };
   const auto options = std::make_shared<BatchOptions>();
-  parser.add_option(
-    "COLLECTION",
-    options->collection,
-    "a folder of scans, in which every series and volume is a case; a BIDS dataset; or a manifest (.tsv) with columns "
-    "case, scan, labels, options");
-  parser.add_option("-o,--output", options->output, "the folder of all outputs: new, empty, or to go on with");
-  AddRunOptions(parser, *options);
-  CLI::Option * const only =
-    parser
-      .add_option("--case",
-                  options->only,
-                  "run the cases of this name only, which may have wildcards, also beside other such runs; writes no "
-                  "tables; repeatable")
-      ->allow_extra_args(false);
-  parser
-    .add_flag("--tables", options->writesTables, "run nothing; write the tables and the index of what is done so far")
-    ->excludes(only);
-  parser.add_flag("--stats",
-                  options->writesStatistics,
-                  "run nothing; print and write what the measures of all cases are together (OUT/statistics.tsv), and "
-                  "which cases lie apart; needs no COLLECTION");
-  parser.add_flag("--names-from-paths",
-                  options->namesFromPaths,
-                  "name cases by their paths in the folder, if these name no patients (default: by a hash)");
+  command.Add(folders, *options);
+  command.Add(RunTable(), *options);
+  command.Add(choice, *options);
   return [options](const CommandContext & context) { Batch(*options, context); };
 }
 
 CommandRun
-AddBIDSCommand(CLI::App & parser)
+AddBIDSCommand(CommandSettings & command)
 {
-  struct BIDSOptions : BatchOptions
+  struct BIDSOptions
   {
+    BatchOptions batch;
     std::string level;
     std::vector<std::string> participants;
   };
+  static const SettingsTable<BIDSOptions> table{
+    { "BIDS_DIR", &BIDSOptions::batch, &BatchOptions::collection, "a BIDS dataset", Required() },
+    { "OUT_DIR",
+      &BIDSOptions::batch,
+      &BatchOptions::output,
+      "the folder of the derivative: new, empty, or to go on with",
+      Required() },
+    { "LEVEL",
+      &BIDSOptions::level,
+      "participant: runs the volumes in anat; group: writes the tables and the index of what is done so far",
+      Required(),
+      Checked(CLI::IsMember({ "participant", "group" })) },
+    { "--participant-label,--participant_label",
+      &BIDSOptions::participants,
+      "run these participants only, with or without sub-, also beside other such runs; writes no tables",
+      SeveralBehindOneName() },
+  };
   const auto options = std::make_shared<BIDSOptions>();
-  options->isBIDS = true;
-  parser.add_option("BIDS_DIR", options->collection, "a BIDS dataset")->required();
-  parser.add_option("OUT_DIR", options->output, "the folder of the derivative: new, empty, or to go on with")
-    ->required();
-  parser
-    .add_option("LEVEL",
-                options->level,
-                "participant: runs the volumes in anat; group: writes the tables and the index of what is done so far")
-    ->required()
-    ->check(CLI::IsMember({ "participant", "group" }));
-  parser.add_option("--participant-label,--participant_label",
-                    options->participants,
-                    "run these participants only, with or without sub-, also beside other such runs; writes no tables");
-  AddRunOptions(parser, *options);
+  options->batch.isBIDS = true;
+  command.Add(table, *options);
+  command.Add(RunTable(), options->batch);
   return [options](const CommandContext & context) {
-    if (!IsBIDS(options->collection))
+    BatchOptions & batch = options->batch;
+    if (!IsBIDS(batch.collection))
     {
       throw Failure(FailureKind::NotFound,
-                    options->collection +
+                    batch.collection +
                       " is no BIDS dataset, a folder with dataset_description.json and folders sub-...; rhombic batch "
                       "takes other folders.");
     }
-    options->writesTables = options->level == "group";
-    if (options->writesTables && !options->participants.empty())
+    batch.writesTables = options->level == "group";
+    if (batch.writesTables && !options->participants.empty())
     {
       throw Failure(FailureKind::Usage, "The level group is of all participants; leave out --participant-label.");
     }
     for (const std::string & label : options->participants)
     {
-      options->only.push_back((label.rfind("sub-", 0) == 0 ? "" : "sub-") + label + "_*");
+      batch.only.push_back((label.rfind("sub-", 0) == 0 ? "" : "sub-") + label + "_*");
     }
-    Batch(*options, context);
+    Batch(batch, context);
   };
 }
 

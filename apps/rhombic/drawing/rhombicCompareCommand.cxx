@@ -5,29 +5,49 @@
 namespace rhombic
 {
 
-CommandRun
-AddCompareCommand(CLI::App & parser)
+namespace
 {
-  struct Options
-  {
-    std::string experiments;
-    std::string output;
-    std::string scans;
-    ComparisonSettings settings;
+
+struct CompareOptions
+{
+  std::string experiments;
+  std::string output;
+  std::string scans;
+  bool hasNoPictures = false;
+  ComparisonSettings settings;
+};
+
+} // namespace
+
+CommandRun
+AddCompareCommand(CommandSettings & command)
+{
+  static const SettingsTable<CompareOptions> table{
+    { "EXPERIMENTS", &CompareOptions::experiments, "a file of experiments, as pipelines/comparison/paper.yaml" },
+    { "-o,--output",
+      &CompareOptions::output,
+      "folder for tables and pictures",
+      Required(),
+      OfKind(SettingKind::Output) },
+    { "--only", &CompareOptions::settings, &ComparisonSettings::only, "run this experiment alone" },
+    { "--scans",
+      &CompareOptions::scans,
+      "folder of the scans that EXPERIMENTS names; without it, its own folder",
+      DefaultsTo("RHOMBIC_SCANS"),
+      OfKind(SettingKind::Source) },
+    { "--repeats",
+      &CompareOptions::settings,
+      &ComparisonSettings::repeats,
+      "runs of each method, of which the median time is taken",
+      Checked(CLI::Range(1u, 1000u)),
+      ShowingDefault() },
+    { "--no-pictures", &CompareOptions::hasNoPictures, "tables only" },
   };
-  const auto options = std::make_shared<Options>();
-  parser.add_option("EXPERIMENTS", options->experiments, "a file of experiments, as pipelines/comparison/paper.yaml");
-  parser.add_option("-o,--output", options->output, "folder for tables and pictures")->required();
-  parser.add_option("--only", options->settings.only, "run this experiment alone");
-  parser
-    .add_option("--scans", options->scans, "folder of the scans that EXPERIMENTS names; without it, its own folder")
-    ->envname("RHOMBIC_SCANS");
-  parser.add_option("--repeats", options->settings.repeats, "runs of each method, of which the median time is taken")
-    ->check(CLI::Range(1u, 1000u))
-    ->capture_default_str();
-  parser.add_flag("!--no-pictures", options->settings.hasPictures, "tables only");
+  const auto options = std::make_shared<CompareOptions>();
+  command.Add(table, *options);
   return [options](const CommandContext & context) {
     options->settings.output = options->output;
+    options->settings.hasPictures = !options->hasNoPictures;
     RunComparison(
       ReadComparisonRequest(options->experiments, options->scans), options->settings, context.console->MakeEvents());
   };

@@ -60,16 +60,20 @@ Compare(const ComparePicturesOptions & options)
 } // namespace
 
 CommandRun
-AddComparePicturesCommand(CLI::App & parser)
+AddComparePicturesCommand(CommandSettings & command)
 {
+  static const SettingsTable<ComparePicturesOptions> table{
+    { "FIRST", &ComparePicturesOptions::first, "a picture" },
+    { "SECOND", &ComparePicturesOptions::second, "another one of the same size" },
+    { "--tolerance",
+      &ComparePicturesOptions::tolerance,
+      "largest difference of a red, green, blue or alpha value, 0 to 255",
+      Checked(CLI::Range(0.0, 255.0)),
+      ShowingDefault() },
+    { "--json", &ComparePicturesOptions::isJson, "the differences as JSON" },
+  };
   const auto options = std::make_shared<ComparePicturesOptions>();
-  parser.add_option("FIRST", options->first, "a picture");
-  parser.add_option("SECOND", options->second, "another one of the same size");
-  parser
-    .add_option("--tolerance", options->tolerance, "largest difference of a red, green, blue or alpha value, 0 to 255")
-    ->check(CLI::Range(0.0, 255.0))
-    ->capture_default_str();
-  parser.add_flag("--json", options->isJson, "the differences as JSON");
+  command.Add(table, *options);
   return [options](const CommandContext &) { Compare(*options); };
 }
 

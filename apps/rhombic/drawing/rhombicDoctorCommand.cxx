@@ -1,4 +1,4 @@
-#include "rhombicCommands.h"
+#include "rhombicCommandLine.h"
 #include "rhombicFailure.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicPictureIO.h"
@@ -49,7 +49,7 @@ Doctor()
 } // namespace
 
 CommandRun
-AddDoctorCommand(CLI::App &)
+AddDoctorCommand(CommandSettings &)
 {
   return [](const CommandContext &) { Doctor(); };
 }

@@ -3,7 +3,6 @@
 #include "rhombicPresets.h"
 #include "rhombicRenderScan.h"
 #include "rhombicScanOptions.h"
-#include "rhombicFinishOptions.h"
 #include "rhombicNamedValues.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicSurfaceOptions.h"
@@ -11,13 +10,9 @@
 #include "rhombicVTPToPLY.h"
 #include "rhombicWording.h"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <charconv>
-#include <cstdlib>
 #include <iostream>
-#include <map>
 #include <optional>
 
 namespace rhombic
@@ -25,15 +20,12 @@ namespace rhombic
 namespace
 {
 
-/** What stands for a further surface file in reports, before a number. */
-const std::string FurtherFile = "FILE-";
-
 struct RenderOptions
 {
   ScanOptions scan;
   std::vector<std::string> furtherFiles;
   SurfaceOptions surfaces;
-  FinishOptions finish;
+  SurfaceFinish finish;
   std::string picture;
   std::vector<std::string> views;
   std::vector<std::string> slices;
@@ -68,10 +60,11 @@ struct RenderOptions
   std::string title;
   std::string from;
   bool listsPresets = false;
+  std::string thumbnail;
 };
 
 void
-AddOptions(RenderOptions & options, CLI::App & parser);
+AddTables(RenderOptions & options, CommandSettings & command);
 
 void
 ListPresets()
@@ -207,8 +200,9 @@ PictureSource
 GetPictureSource(const RenderOptions & options, const CommandContext & context)
 {
   PictureSource source;
-  source.scan = options.scan.GetSource(context);
-  source.finish = options.finish.Get();
+  source.scan = options.scan.GetSource(context.decoder);
+  source.finish = options.finish;
+  CheckSurfaceFinish(source.finish);
   const bool isOfFiles = IsSurfaceFile(source.scan.path);
   if (!isOfFiles && !options.furtherFiles.empty())
   {
@@ -264,18 +258,9 @@ GetSliceSettings(const RenderOptions & options)
   return slice;
 }
 
-/** Where a batch wants a small picture, which no picture before has made. From the environment, so that it is not in
- * reports. */
-std::filesystem::path
-FindThumbnail()
-{
-  const char * const path = std::getenv("RHOMBIC_THUMBNAIL");
-  return path == nullptr || std::filesystem::exists(path) ? "" : path;
-}
-
 /** Returns the files, or in a check those that would be written. */
 std::vector<std::filesystem::path>
-RenderPage(const RenderOptions & options, const CommandContext & context, const Provenance & provenance)
+RenderPage(const RenderOptions & options, const CommandContext & context)
 {
   RenderSheetSettings settings;
   settings.source = GetPictureSource(options, context);
@@ -295,8 +280,8 @@ RenderPage(const RenderOptions & options, const CommandContext & context, const 
   settings.isLandscape = options.isLandscape;
   settings.pixelsPerInch = options.pixelsPerInch;
   settings.writesDicom = options.writesDicom;
-  settings.thumbnail = FindThumbnail();
-  settings.provenance = provenance;
+  settings.thumbnail = options.thumbnail;
+  settings.provenance = options.scan.GetProvenance(*context.settings);
   auto planned = CheckRenderSheet(settings);
   if (context.planned != nullptr)
   {
@@ -308,7 +293,7 @@ RenderPage(const RenderOptions & options, const CommandContext & context, const 
 
 /** As RenderPage(). */
 std::vector<std::filesystem::path>
-RenderPictures(const RenderOptions & options, const CommandContext & context, const Provenance & provenance)
+RenderPictures(const RenderOptions & options, const CommandContext & context)
 {
   RenderScanSettings settings;
   settings.source = GetPictureSource(options, context);
@@ -340,8 +325,8 @@ RenderPictures(const RenderOptions & options, const CommandContext & context, co
   settings.render.ambientOcclusion = !options.hasNoShadows;
   settings.render.silhouettes = !options.hasNoSilhouettes;
   settings.annotations = ParseAnnotations(options);
-  settings.thumbnail = FindThumbnail();
-  settings.provenance = provenance;
+  settings.thumbnail = options.thumbnail;
+  settings.provenance = options.scan.GetProvenance(*context.settings);
   auto planned = CheckRenderScan(settings);
   if (context.planned != nullptr)
   {
@@ -383,94 +368,73 @@ CheckEnding(const RenderOptions & options)
   }
 }
 
-/** Whether an argument is an option, or an option and its value: --view or --view=left. */
-bool
-IsOption(const std::string & argument, const std::string & option)
+/** The settings in a report of before, which has the words of the command line. */
+Report
+ParseOldReport(const Report & report)
 {
-  return argument == option || argument.rfind(option + "=", 0) == 0;
+  std::vector<std::string> words;
+  for (const Report & word : report.value("arguments", Report::array()))
+  {
+    words.push_back(word.is_string() ? word.get<std::string>() : "");
+  }
+  const auto command = std::find(words.begin(), words.end(), "render"); // options of all commands may stand before
+  if (command == words.end())
+  {
+    return nullptr;
+  }
+  CLI::App parser("", "render");
+  unsigned int threads = 0;
+  parser.add_option("--threads", threads);
+  parser.add_flag("-v,--verbose,-q,--quiet");
+  CommandSettings settings(parser);
+  RenderOptions options;
+  AddTables(options, settings);
+  parser.parse(std::vector<std::string>(words.rbegin(), std::make_reverse_iterator(command + 1)));
+  return settings.GetRecorded();
 }
 
-/** The arguments in a picture's report that draw this picture, without those that a new command gives: the scan, the
- * label map, the output, and perhaps the views and slices. */
-std::vector<std::string>
-ReadArguments(const std::string & path, bool areViewsGiven)
+/** The settings in a picture's report that draw this picture, but for the views and slices if others are given. */
+Report
+ReadSettings(const std::string & path, bool areViewsGiven)
 {
-  const auto report = nlohmann::json::parse(ReadTextFile(path, "report"), nullptr, false);
-  const auto stored = report.is_object() ? report.value("arguments", nlohmann::json()) : nlohmann::json();
-  const auto command = std::find(stored.begin(), stored.end(), "render"); // options of all commands may stand before
-  if (!stored.is_array() || command == stored.end())
+  const Report report = Report::parse(ReadTextFile(path, "report"), nullptr, false);
+  const bool isOfRender = report.is_object() && report.value("command", std::string()).rfind("rhombic render", 0) == 0;
+  Report settings = isOfRender && report.contains("settings") ? report["settings"]
+                    : report.is_object()                      ? ParseOldReport(report)
+                                                              : Report();
+  if (!settings.is_object())
   {
     throw Failure(FailureKind::Unreadable,
                   "The file " + path + " is no report of rhombic render; name the .json beside a picture.");
   }
-  std::vector<std::string> left{ "-o", "--output", "--labels", "--probabilities" };
+  settings.erase("dicom-sc"); // copies the patient's name, and so has to be asked for each time
   if (areViewsGiven)
   {
-    left.insert(left.end(), { "--view", "--slice", "--picture" });
-  }
-  std::vector<std::string> arguments;
-  for (auto n = static_cast<std::size_t>(command - stored.begin()) + 1; n < stored.size(); ++n)
-  {
-    const std::string argument = stored[n].is_string() ? stored[n].get<std::string>() : "";
-    const bool isLeft =
-      std::any_of(left.begin(), left.end(), [&](const std::string & option) { return IsOption(argument, option); });
-    const bool isGiven = argument == "SCAN" || argument.rfind("PROBABILITIES", 0) == 0 || argument == "--dicom-sc" ||
-                         argument.rfind(FurtherFile, 0) == 0 || (argument.rfind("-o", 0) == 0 && argument.size() > 2);
-    n += isLeft && argument.find('=') == std::string::npos ? 1 : 0;
-    if (!isLeft && !isGiven)
+    for (const char * const key : { "view", "slice", "picture" })
     {
-      arguments.push_back(argument);
+      settings.erase(key);
     }
   }
-  if (!areViewsGiven && report.contains("picture"))
+  else if (report.contains("picture"))
   {
-    arguments.insert(arguments.end(), { "--picture", report["picture"].dump() });
+    settings["picture"] = report["picture"];
   }
-  return arguments;
+  return settings;
 }
 
+/** Takes the settings of a report that are not given. */
 void
-Render(const RenderOptions & options, const CommandContext & context);
-
-/** Draws with the options of a report, and those of this command but --from. */
-void
-RenderAgain(const RenderOptions & options, const CommandContext & context)
+TakeSettingsOfReport(const RenderOptions & options, CommandSettings & command)
 {
-  CommandContext again = context;
-  again.arguments = { "render" };
-  const std::vector<std::string> stored =
-    ReadArguments(options.from, !options.views.empty() || !options.slices.empty());
-  again.arguments.insert(again.arguments.end(), stored.begin(), stored.end());
-  bool isSkipped = false; // --from, with its value
-  bool isCommandFound = false;
-  for (const std::string & argument : context.arguments)
-  {
-    const bool isFrom = argument == "--from";
-    const bool isCommand = argument == "render" && !isCommandFound;
-    isCommandFound = isCommandFound || isCommand;
-    if (!isSkipped && !isFrom && argument.rfind("--from=", 0) != 0 && !isCommand)
-    {
-      again.arguments.push_back(argument);
-    }
-    isSkipped = isFrom;
-  }
-  CLI::App parser("", "rhombic render");
-  unsigned int threads = 0; // options of all commands have had their effect
-  parser.add_option("--threads", threads);
-  parser.add_flag("-v,--verbose,-q,--quiet");
-  RenderOptions all;
-  AddOptions(all, parser);
-  std::vector<std::string> reversed(again.arguments.rbegin(), again.arguments.rend() - 1);
   try
   {
-    parser.parse(reversed);
+    command.SetRecorded(ReadSettings(options.from, !options.views.empty() || !options.slices.empty()));
   }
   catch (const CLI::ParseError & error)
   {
     throw Failure(FailureKind::Usage,
                   "The options of " + options.from + " do not go with those of this command: " + error.what() + ".");
   }
-  Render(all, again);
 }
 
 void
@@ -478,8 +442,7 @@ Render(const RenderOptions & options, const CommandContext & context)
 {
   if (!options.from.empty())
   {
-    RenderAgain(options, context);
-    return;
+    TakeSettingsOfReport(options, *context.settings);
   }
   if (options.listsPresets)
   {
@@ -491,14 +454,7 @@ Render(const RenderOptions & options, const CommandContext & context)
     throw Failure(FailureKind::Usage, "No picture is named; give one with -o, for example -o picture.png.");
   }
   CheckEnding(options);
-  std::map<std::string, std::string> names = options.surfaces.GetNames();
-  for (const std::string & file : options.furtherFiles)
-  {
-    names[FurtherFile + std::to_string(names.size())] = file;
-  }
-  const Provenance provenance = options.scan.GetProvenance(context, names);
-  const auto paths =
-    options.isSheet ? RenderPage(options, context, provenance) : RenderPictures(options, context, provenance);
+  const auto paths = options.isSheet ? RenderPage(options, context) : RenderPictures(options, context);
   if (context.planned != nullptr)
   {
     context.planned->insert(context.planned->end(), paths.begin(), paths.end());
@@ -511,137 +467,146 @@ Render(const RenderOptions & options, const CommandContext & context)
 }
 
 /** What is drawn, and from where. */
-void
-AddPictureOptions(RenderOptions & options, CLI::App & parser)
+const SettingsTable<RenderOptions> &
+PictureTable()
 {
-  parser
-    .add_option(
-      "--view",
-      options.views,
-      "anterior (default), posterior, left, right, superior, inferior or all; or azimuth,elevation in degrees, "
-      "as 30,15: from the front towards the patient's left, and up; repeatable")
-    ->allow_extra_args(false);
-  parser
-    .add_option(
-      "--slice",
-      options.slices,
-      "a slice with the surfaces' outlines: axial, coronal or sagittal, and where: =12.5 (LPS mm), =#40 (of the "
-      "scan), =liver (through its centroid); repeatable")
-    ->allow_extra_args(false);
-  parser
-    .add_option("--lightbox", options.lightbox, "so many slices evenly along the axis of each --slice, in one picture")
-    ->check(CLI::Range(2u, 400u));
-  parser.add_flag("--sheet",
-                  options.isSheet,
-                  "a page (A4) instead: four views, three slices, a table of volumes; .png, .jpg, .tif or .pdf");
-  parser.add_flag("--landscape", options.isLandscape, "a page that is wider than high");
-  parser.add_option("--dpi", options.pixelsPerInch, "pixels per inch of a page")
-    ->check(CLI::Range(36.0, 600.0))
-    ->capture_default_str();
-  parser
-    .add_option("--turntable", options.turntable, "so many views around the patient: one .gif, or numbered pictures")
-    ->check(CLI::Range(2u, 720u));
-  parser.add_flag(
-    "--dicom-sc",
-    options.writesDicom,
-    "also write each picture, page or turntable as a DICOM file beside it (.dcm, Secondary Capture): a new "
-    "series in the scan's study, with the patient's name and study copied; of DICOM scans only");
-  parser.add_option("--size", options.size, "width x height in pixels (default: what fits, the longer side 1200)");
-  parser.add_option("--focus", options.focus, "fit the picture to surfaces by name, as 'kidney*' (default: all)");
-  parser.add_option("--zoom", options.zoom, "enlarge")->check(CLI::PositiveNumber);
-  parser.add_option("--pixel-size", options.pixelSize, "mm per pixel, for one scale in the pictures of several scans")
-    ->check(CLI::PositiveNumber);
-  parser.add_flag("--same-scale", options.hasSameScale, "all views at the scale of the view that needs most room");
-  parser.add_flag("--perspective", options.isPerspective, "perspective instead of parallel projection");
-  parser
-    .add_option(
-      "--cut",
-      options.cuts,
-      "remove what lies above (axial), in front (coronal) or left of a plane (sagittal), named as for --slice, "
-      "or x>12, y<0, z>100 in LPS mm; cut faces show the scan; repeatable")
-    ->allow_extra_args(false);
-  parser.add_option("--uncut", options.uncut, "surfaces that are not cut, by name as --only")
-    ->delimiter(',')
-    ->allow_extra_args(false);
-  parser
-    .add_option("--show-slice", options.planes, "a slice that stands in the scene, named as for --slice; repeatable")
-    ->allow_extra_args(false);
+  static const SettingsTable<RenderOptions> table{
+    { "--view",
+      &RenderOptions::views,
+      "anterior (default), posterior, left, right, superior, inferior or all; or azimuth,elevation in degrees, as "
+      "30,15: "
+      "from the front towards the patient's left, and up; repeatable" },
+    { "--slice",
+      &RenderOptions::slices,
+      "a slice with the surfaces' outlines: axial, coronal or sagittal, and where: =12.5 (LPS mm), =#40 (of the scan), "
+      "=liver (through its centroid); repeatable" },
+    { "--lightbox",
+      &RenderOptions::lightbox,
+      "so many slices evenly along the axis of each --slice, in one picture",
+      Checked(CLI::Range(2u, 400u)),
+      Needs({ "--slice" }) },
+    { "--sheet",
+      &RenderOptions::isSheet,
+      "a page (A4) instead: four views, three slices, a table of volumes; .png, .jpg, .tif or .pdf",
+      Excludes({ "--cut",
+                 "--uncut",
+                 "--show-slice",
+                 "--focus",
+                 "--zoom",
+                 "--size",
+                 "--turntable",
+                 "--lightbox",
+                 "--background",
+                 "--no-silhouettes",
+                 "--perspective",
+                 "--no-shadows",
+                 "--annotate",
+                 "--no-letters",
+                 "--pixel-size",
+                 "--same-scale" }) },
+    { "--landscape", &RenderOptions::isLandscape, "a page that is wider than high", Needs({ "--sheet" }) },
+    { "--dpi",
+      &RenderOptions::pixelsPerInch,
+      "pixels per inch of a page",
+      Checked(CLI::Range(36.0, 600.0)),
+      ShowingDefault(),
+      Needs({ "--sheet" }) },
+    { "--turntable",
+      &RenderOptions::turntable,
+      "so many views around the patient: one .gif, or numbered pictures",
+      Checked(CLI::Range(2u, 720u)),
+      Excludes({ "--view", "--slice", "--lightbox" }) },
+    { "--dicom-sc",
+      &RenderOptions::writesDicom,
+      "also write each picture, page or turntable as a DICOM file beside it (.dcm, Secondary Capture): a new series in "
+      "the scan's study, with the patient's name and study copied; of DICOM scans only" },
+    { "--size", &RenderOptions::size, "width x height in pixels (default: what fits, the longer side 1200)" },
+    { "--focus", &RenderOptions::focus, "fit the picture to surfaces by name, as 'kidney*' (default: all)" },
+    { "--zoom", &RenderOptions::zoom, "enlarge", Checked(CLI::PositiveNumber) },
+    { "--pixel-size",
+      &RenderOptions::pixelSize,
+      "mm per pixel, for one scale in the pictures of several scans",
+      Checked(CLI::PositiveNumber),
+      Excludes({ "--zoom", "--perspective", "--same-scale" }) },
+    { "--same-scale", &RenderOptions::hasSameScale, "all views at the scale of the view that needs most room" },
+    { "--perspective", &RenderOptions::isPerspective, "perspective instead of parallel projection" },
+    { "--cut",
+      &RenderOptions::cuts,
+      "remove what lies above (axial), in front (coronal) or left of a plane (sagittal), named as for --slice, or "
+      "x>12, "
+      "y<0, z>100 in LPS mm; cut faces show the scan; repeatable" },
+    { "--uncut",
+      &RenderOptions::uncut,
+      "surfaces that are not cut, by name as --only",
+      SplitAtCommas(),
+      Needs({ "--cut" }) },
+    { "--show-slice", &RenderOptions::planes, "a slice that stands in the scene, named as for --slice; repeatable" },
+  };
+  return table;
 }
 
-/** How it looks. */
-void
-AddLookOptions(RenderOptions & options, CLI::App & parser)
+/** How pictures look. */
+const SettingsTable<RenderOptions> &
+LookTable()
 {
-  parser.add_option("--style",
-                    options.style,
-                    "clinic (black; default of pictures), paper (white, for print; default of pages) or transparent");
-  parser.add_option("--background", options.background, "a colour: #rrggbb, #rgb or a name, as white");
-  parser.add_flag("--no-shadows", options.hasNoShadows, "do not darken cavities");
-  parser.add_flag("--no-silhouettes", options.hasNoSilhouettes, "do not draw dark lines at outlines");
-  parser
-    .add_option(
-      "--window", options.window, "greys of slices: a name, as bone, lung or brain, width/centre as 350/50, or auto")
-    ->capture_default_str();
-  parser.add_flag("--neurological", options.isNeurological, "slices with the patient's left on the left");
-  parser.add_flag("--no-outlines", options.hasNoOutlines, "slices without the surfaces' outlines");
-  parser
-    .add_option(
-      "--annotate",
-      options.annotations,
+  static const SettingsTable<RenderOptions> table{
+    { "--style",
+      &RenderOptions::style,
+      "clinic (black; default of pictures), paper (white, for print; default of pages) or transparent" },
+    { "--background", &RenderOptions::background, "a colour: #rrggbb, #rgb or a name, as white" },
+    { "--no-shadows", &RenderOptions::hasNoShadows, "do not darken cavities" },
+    { "--no-silhouettes", &RenderOptions::hasNoSilhouettes, "do not draw dark lines at outlines" },
+    { "--window",
+      &RenderOptions::window,
+      "greys of slices: a name, as bone, lung or brain, width/centre as 350/50, or auto",
+      ShowingDefault() },
+    { "--neurological", &RenderOptions::isNeurological, "slices with the patient's left on the left" },
+    { "--no-outlines", &RenderOptions::hasNoOutlines, "slices without the surfaces' outlines" },
+    { "--annotate",
+      &RenderOptions::annotations,
       "what is written over pictures: letters (of directions), scale, legend (of two surfaces or more), figure, "
-      "footnote; or none")
-    ->delimiter(',')
-    ->allow_extra_args(false)
-    ->capture_default_str();
-  parser.add_flag("--no-letters", options.hasNoLetters, "leave out the orientation letters at the edges");
-  parser.add_option("--title", options.title, "a line above the picture, or the page's title");
-}
-
-/** Refuses options together that would not have an effect on each other. */
-void
-AddExclusions(CLI::App & parser)
-{
-  const std::vector<std::string> notOnPages{ "--cut",        "--uncut",          "--show-slice",  "--focus",
-                                             "--zoom",       "--size",           "--turntable",   "--lightbox",
-                                             "--background", "--no-silhouettes", "--perspective", "--no-shadows",
-                                             "--annotate",   "--no-letters",     "--pixel-size",  "--same-scale" };
-  for (const std::string & option : notOnPages)
-  {
-    parser.get_option("--sheet")->excludes(parser.get_option(option));
-  }
-  for (const char * option : { "--view", "--slice", "--lightbox" })
-  {
-    parser.get_option("--turntable")->excludes(parser.get_option(option));
-  }
-  for (const char * option : { "--zoom", "--perspective", "--same-scale" })
-  {
-    parser.get_option("--pixel-size")->excludes(parser.get_option(option));
-  }
-  parser.get_option("--lightbox")->needs(parser.get_option("--slice"));
-  parser.get_option("--uncut")->needs(parser.get_option("--cut"));
-  for (const char * option : { "--landscape", "--dpi" })
-  {
-    parser.get_option(option)->needs(parser.get_option("--sheet"));
-  }
+      "footnote; "
+      "or none",
+      SplitAtCommas(),
+      ShowingDefault() },
+    { "--no-letters", &RenderOptions::hasNoLetters, "leave out the orientation letters at the edges" },
+    { "--title", &RenderOptions::title, "a line above the picture, or the page's title" },
+    { "--from",
+      &RenderOptions::from,
+      "the options that a picture's report (PICTURE.json) holds",
+      OfKind(SettingKind::Run) },
+    { "--picture", // for --from: which one of several to draw, from 1
+      &RenderOptions::onlyPicture,
+      "",
+      Hidden() },
+    { "--thumbnail", // for batches: the first picture, small
+      &RenderOptions::thumbnail,
+      "",
+      Hidden(),
+      OfKind(SettingKind::Output) },
+    { "--list-presets", &RenderOptions::listsPresets, "list the presets and stop", OfKind(SettingKind::Run) },
+  };
+  return table;
 }
 
 void
-AddOptions(RenderOptions & options, CLI::App & parser)
+AddTables(RenderOptions & options, CommandSettings & command)
 {
-  options.scan.AddSource(parser);
-  parser.add_option("FILES", options.furtherFiles, "further surface files, if SCAN is one");
-  parser.add_option(
-    "-o,--output", options.picture, "the picture: .png, .jpg, .tif or .exr; .gif for a turntable, .pdf for a page");
-  options.surfaces.Add(parser);
-  options.finish.Add(parser);
-  AddPictureOptions(options, parser);
-  AddLookOptions(options, parser);
-  AddExclusions(parser);
-  parser.add_option("--from", options.from, "the options that a picture's report (PICTURE.json) holds");
-  parser.add_option("--picture", options.onlyPicture)->group(""); // for --from: which one of several to draw, from 1
-  parser.add_flag("--list-presets", options.listsPresets, "list the presets and stop");
-  options.scan.AddLattice(parser);
-  options.scan.AddSidecar(parser);
+  static const SettingsTable<RenderOptions> files{
+    { "FILES", &RenderOptions::furtherFiles, "further surface files, if SCAN is one", OfKind(SettingKind::Source) },
+    { "-o,--output",
+      &RenderOptions::picture,
+      "the picture: .png, .jpg, .tif or .exr; .gif for a turntable, .pdf for a page",
+      OfKind(SettingKind::Output) },
+  };
+  command.Add(ScanOptions::SourceTable(), options.scan);
+  command.Add(files, options);
+  command.Add(SurfaceOptions::Table(), options.surfaces);
+  command.Add(FinishTable(), options.finish);
+  command.Add(PictureTable(), options);
+  command.Add(LookTable(), options);
+  command.Add(ScanOptions::LatticeTable(), options.scan);
+  command.Add(ScanOptions::SidecarTable(), options.scan);
 }
 
 } // namespace
@@ -659,11 +624,11 @@ GetVTPConverter()
 }
 
 CommandRun
-AddRenderCommand(CLI::App & parser)
+AddRenderCommand(CommandSettings & command)
 {
   const auto options = std::make_shared<RenderOptions>();
-  AddOptions(*options, parser);
-  return AddPipelineOption(parser, [options](const CommandContext & context) { Render(*options, context); });
+  AddTables(*options, command);
+  return AddPipelineOption(command, [options](const CommandContext & context) { Render(*options, context); });
 }
 
 } // namespace rhombic

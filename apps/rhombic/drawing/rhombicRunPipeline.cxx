@@ -1,11 +1,11 @@
+#include "rhombicCommandLine.h"
+#include "rhombicCommandSyntax.h"
 #include "rhombicFailure.h"
-#include "rhombicOutputCommands.h"
 #include "rhombicScanOptions.h"
 #include "rhombicUsageError.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 
@@ -16,42 +16,33 @@ namespace rhombic
 namespace
 {
 
-/** The value of an option, or nothing. */
-std::string
-ValueOf(const CLI::App & command, const std::string & option)
+/** The settings of reading the scan that a command has, for all outputs. Refuses others, which a pipeline file holds.
+ */
+Report
+FindScanSettings(const Report & given)
 {
-  const auto & values = command.get_option(option)->results();
-  return values.empty() ? "" : values.front();
-}
-
-fs::path
-AbsolutePathOf(const CLI::App & command, const std::string & option)
-{
-  const std::string path = ValueOf(command, option);
-  return path.empty() ? fs::path() : fs::absolute(path);
-}
-
-/** The options of reading the scan that a command line has. Refuses others, which a pipeline file holds. */
-std::vector<std::string>
-FindScanOptions(const CLI::App & command, const CLI::App & scanOptions)
-{
-  std::vector<std::string> found;
-  for (const CLI::Option * const option : command.get_options([](const auto * one) { return one->count() > 0; }))
+  CLI::App parser;
+  CommandSettings source(parser);
+  ScanOptions options;
+  source.Add(ScanOptions::SourceTable(), options);
+  Report known = Report::object();
+  for (const auto & setting : source.GetNames())
   {
-    const std::string name = option->get_name();
-    if (name == "--max-memory")
+    known[setting.first] = true;
+  }
+  Report found = Report::object();
+  for (const auto & [name, value] : given.items())
+  {
+    if (known.contains(name))
     {
-      setenv("RHOMBIC_MAX_MEMORY", ValueOf(command, name).c_str(), 1); // which reports of outputs do not hold
+      found[name] = value;
     }
-    else if (name != "SCAN" && name != "--output" && name != "--labels" && name != "--pipeline")
+    else if (name != "scan" && name != "output" && name != "labels" && name != "pipeline")
     {
-      if (scanOptions.get_option_no_throw(name) == nullptr)
-      {
-        throw Failure(FailureKind::Usage,
-                      name + " does not go with --pipeline, whose file holds the options of its outputs; only SCAN, "
-                             "-o, --labels and options of reading the scan, as --series, do.");
-      }
-      found.push_back(option->get_items_expected_max() == 0 ? name : name + "=" + ValueOf(command, name));
+      throw Failure(FailureKind::Usage,
+                    "--" + name +
+                      " does not go with --pipeline, whose file holds the options of its outputs; only SCAN, "
+                      "-o, --labels and options of reading the scan, as --series, do.");
     }
   }
   return found;
@@ -62,11 +53,11 @@ void
 KeepStepsOf(const std::string & command, const std::string & file, Pipeline & pipeline, const Events & events)
 {
   const auto others = std::stable_partition(
-    pipeline.steps.begin(), pipeline.steps.end(), [&](const auto & step) { return step.arguments.front() == command; });
+    pipeline.steps.begin(), pipeline.steps.end(), [&](const auto & step) { return step.command == command; });
   std::string outputs;
   for (auto other = others; other != pipeline.steps.end(); ++other)
   {
-    outputs += (outputs.empty() ? "" : ", ") + other->output + ", which rhombic " + other->arguments.front() + " makes";
+    outputs += (outputs.empty() ? "" : ", ") + other->output + ", which rhombic " + other->command + " makes";
   }
   if (others == pipeline.steps.begin())
   {
@@ -83,42 +74,41 @@ KeepStepsOf(const std::string & command, const std::string & file, Pipeline & pi
 } // namespace
 
 void
-RunPipeline(const std::string & file, const CLI::App & command, const CommandContext & context)
+RunPipeline(const std::string & file, const CommandContext & context)
 {
-  Pipeline pipeline = ReadPipeline(file, OutputCommands::GetSyntax());
-  KeepStepsOf(command.get_name(), file, pipeline, context.console->MakeEvents());
+  const std::string & command = context.settings->GetCommand();
+  Pipeline pipeline = ReadPipeline(file, GetCommandSyntax());
+  KeepStepsOf(command, file, pipeline, context.console->MakeEvents());
 
-  CLI::App scanParser;
-  ScanOptions scan;
-  scan.AddSource(scanParser);
-  BatchCase batchCase;
-  batchCase.options = FindScanOptions(command, scanParser);
-  batchCase.scan = AbsolutePathOf(command, "SCAN");
-  batchCase.labels = AbsolutePathOf(command, "--labels");
-  if (command.get_option("--labels")->count() > 1)
+  const Report given = context.settings->Get();
+  const Report scanSettings = FindScanSettings(given);
+  const Report labels = given.value("labels", Report::array());
+  if (labels.size() > 1)
   {
     throw Failure(FailureKind::Usage, "--pipeline takes one --labels; put the masks into a folder, and name that.");
   }
-  const std::string folder = ValueOf(command, "--output");
-  if (folder.empty() || batchCase.scan.empty())
+  const std::string folder = given.value("output", std::string());
+  if (folder.empty() || !given.contains("scan"))
   {
     throw Failure(FailureKind::Usage,
-                  "Name a scan, and a folder with -o, as in rhombic " + command.get_name() + " scan --pipeline " +
-                    file + " -o results.");
+                  "Name a scan, and a folder with -o, as in rhombic " + command + " scan --pipeline " + file +
+                    " -o results.");
   }
+  BatchCase batchCase;
+  batchCase.scan = given["scan"].get<std::string>();
+  batchCase.labels = labels.empty() ? "" : labels[0].get<std::string>();
 
   std::error_code error;
   fs::create_directories(folder, error);
-  fs::current_path(folder, error); // names of outputs in options, as of --measures, are relative to it
   if (error)
   {
     throw Failure(FailureKind::Output, "Cannot write to the folder " + folder + ": " + error.message() + ".");
   }
-  std::vector<std::vector<std::string>> steps;
+  std::vector<Report> steps;
   for (const PipelineStep & step : pipeline.steps)
   {
-    steps.push_back(GetArguments(step, batchCase));
-    OutputCommands::GetSyntax().check(steps.back());
+    steps.push_back(GetSettings(step, batchCase, scanSettings, folder));
+    GetCommandSyntax().check(command, steps.back());
   }
   std::optional<Failure> first;
   std::string failed;
@@ -126,8 +116,9 @@ RunPipeline(const std::string & file, const CLI::App & command, const CommandCon
   {
     try
     {
-      OutputCommands commands;
-      commands.Parse(steps[n])({ context.console, context.decoder, steps[n] });
+      CommandLine commandLine;
+      Command & step = commandLine.Set(command, steps[n]);
+      step.run({ context.console, context.decoder, &step.settings });
     }
     catch (const std::exception &)
     {

@@ -1,8 +1,11 @@
 #ifndef rhombicBatchCases_h
 #define rhombicBatchCases_h
 
+#include "rhombicScanReport.h"
+
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,6 +21,7 @@ struct BatchCase
   std::filesystem::path scan;               ///< absolute
   std::filesystem::path labels;             ///< its label map or folder of masks, absolute; empty for none
   std::vector<std::string> options;         ///< of each of its commands, as "--series=1b2c"
+  std::map<std::string, Report> settings;   ///< that the options set, by the command's name
   std::vector<std::filesystem::path> files; ///< all that is read, sorted
 
   /** The size of all files in bytes. */

@@ -2,6 +2,7 @@
 #define rhombicPipelineFile_h
 
 #include "rhombicBatchCases.h"
+#include "rhombicScanReport.h"
 
 #include <filesystem>
 #include <functional>
@@ -15,11 +16,13 @@ namespace rhombic
  * \brief One output of each case, and the command of `rhombic` that makes it. */
 struct PipelineStep
 {
-  std::string output;                 ///< name of the file
-  std::string kind;                   ///< page, picture, mesh or volume
-  std::vector<std::string> arguments; ///< the command and its options, without scan, labels and output
-  bool takesLabels = false;           ///< the command shows the labels of cases that have any
-  std::size_t line = 0;               ///< in the pipeline file, from 1
+  std::string output;             ///< name of the file
+  std::string kind;               ///< page, picture, mesh or volume
+  std::string command;            ///< of `rhombic`
+  Report settings;                ///< of the command, by their names, without scan, labels and output
+  std::vector<std::string> files; ///< names of those settings that are files to write, but for the output
+  bool takesLabels = false;       ///< the command shows the labels of cases that have any
+  std::size_t line = 0;           ///< in the pipeline file, from 1
 };
 
 /** \class Pipeline
@@ -31,15 +34,25 @@ struct Pipeline
 };
 
 /** \class CommandSyntax
- * \brief The options of `rhombic`'s commands. */
+ * \brief The settings of `rhombic`'s commands. */
 struct CommandSyntax
 {
-  /** The long names of a command's options, without dashes. */
-  std::function<std::vector<std::string>(const std::string & command)> optionsOf;
+  /** A setting that a pipeline file may hold. */
+  struct Setting
+  {
+    std::string name;
+    bool isInputFile; ///< that may lie beside the pipeline file
+    bool isOutput;    ///< a file to write, beside the command's main output
+  };
 
-  /** Returns the files that the program would write, as far as their names are known. Throws Failure(Usage) when it
-   * would refuse the arguments. Reads and writes nothing. */
-  std::function<std::vector<std::filesystem::path>(const std::vector<std::string> & arguments)> check;
+  std::function<std::vector<Setting>(const std::string & command)> settingsOf;
+
+  /** Returns the files that the command would write; names of surfaces, which are not known yet, are
+   * NamePlaceholder. Throws Failure(Usage) when it would refuse the settings. Reads and writes nothing. */
+  std::function<std::vector<std::filesystem::path>(const std::string & command, const Report & settings)> check;
+
+  /** The settings that options have, as words of a command line. Throws Failure(Usage). */
+  std::function<Report(const std::string & command, const std::vector<std::string> & options)> parse;
 };
 
 /** Reads a pipeline file, or an empty path for the default: a page, page.png, with "preset: auto".
@@ -53,9 +66,14 @@ struct CommandSyntax
 Pipeline
 ReadPipeline(const std::filesystem::path & path, const CommandSyntax & syntax);
 
-/** The arguments of `rhombic` for a step of a case. */
-std::vector<std::string>
-GetArguments(const PipelineStep & step, const BatchCase & batchCase);
+/** All settings of the command for a step of a case, whose outputs are written to a folder.
+ * \param further settings, as those that CommandSyntax::parse() finds in the case's options. Lists go behind the
+ * step's; what may be given once is refused by the command if the step has it. */
+Report
+GetSettings(const PipelineStep & step,
+            const BatchCase & batchCase,
+            const Report & further,
+            const std::filesystem::path & folder);
 
 } // namespace rhombic
 

@@ -27,6 +27,7 @@ struct BatchSettings
   Pipeline pipeline;
   std::filesystem::path output;         ///< a folder: new, empty, or of an earlier run
   std::filesystem::path program;        ///< `rhombic`
+  std::string requestOption;            ///< its argument when standard input holds its command
   std::filesystem::path drawingProgram; ///< for `render`: the one that `rhombic` would start
   std::string software;                 ///< name and version
   unsigned int jobs = 1;                ///< cases at the same time
@@ -86,8 +87,8 @@ struct BatchSummary
  * files are in cases.tsv alone, which only its owner may read, and patients' names only in DICOM files that the
  * pipeline asks for, which a note says.
  *
- * Sets RHOMBIC_THREADS, RHOMBIC_MAX_MEMORY and RHOMBIC_THUMBNAIL in the environment of this process, for the children.
- * The children end with the calling thread.
+ * The children end with the calling thread. Each gets {"command": "mesh", "settings": {...}, "threads": 2} on standard
+ * input, and writes {"failure": sentence} to standard output if it fails.
  *
  * Throws Failure: Output, Internal. Failures of cases are in the results. */
 BatchSummary

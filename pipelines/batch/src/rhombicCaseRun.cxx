@@ -22,8 +22,8 @@ namespace rhombic
 namespace
 {
 
-constexpr char outputFile[] = ".output";
-constexpr char errorsFile[] = ".errors";
+constexpr char requestFile[] = ".request";
+constexpr char resultFile[] = ".result";
 
 double
 SecondsSince(std::chrono::steady_clock::time_point start)
@@ -31,19 +31,12 @@ SecondsSince(std::chrono::steady_clock::time_point start)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/** The sentence with which the program ended. */
+/** The sentence with which a command ended; empty if it was killed. */
 std::string
-FindSentence(const fs::path & errors)
+FindSentence(const fs::path & result)
 {
-  std::ifstream stream(errors);
-  std::string line;
-  std::string last;
-  while (std::getline(stream, line))
-  {
-    last = Trim(line).empty() ? last : line;
-  }
-  const std::string prefix = "rhombic: ";
-  return last.rfind(prefix, 0) == 0 ? last.substr(prefix.size()) : last;
+  const Report report = Report::parse(std::ifstream(result), nullptr, false);
+  return report.is_object() ? report.value("failure", std::string()) : "";
 }
 
 /** Replaces a text wherever no letter or digit is beside it. */
@@ -62,6 +55,18 @@ ReplaceAll(std::string & text, const std::string & part, const std::string & by)
     }
     place += isPartOfWord ? 1 : by.size();
   }
+}
+
+/** A sentence in which files of a folder have their names alone. */
+std::string
+WithoutFolder(std::string sentence, const fs::path & folder)
+{
+  const std::string part = folder.string() + '/';
+  for (auto place = sentence.find(part); place != std::string::npos; place = sentence.find(part, place))
+  {
+    sentence.erase(place, part.size());
+  }
+  return sentence;
 }
 
 /** A sentence in which nothing of the names of a case's files is left, as they may name the patient. Names of one to
@@ -159,7 +164,7 @@ KindOf(const fs::path & file, const PipelineStep & step)
 std::string
 HashOptions(const BatchCase & batchCase, const Pipeline & pipeline)
 {
-  constexpr char format[] = "2"; // of lines in the journal: cases of another one run again
+  constexpr char format[] = "3"; // of lines in the journal: cases of another one run again
   std::string text = format + ('\n' + pipeline.hash);
   for (const std::string & option : batchCase.options)
   {
@@ -205,12 +210,26 @@ void
 CaseRun::StartStep()
 {
   const PipelineStep & step = m_Settings.pipeline.steps[m_Step];
-  std::vector<std::string> arguments = GetArguments(step, m_Case);
-  arguments.insert(arguments.begin(),
-                   (arguments.front() == "render" ? m_Settings.drawingProgram : m_Settings.program).string());
+  const auto options = m_Case.settings.find(step.command);
+  Report request{ { "command", step.command }, { "threads", m_Settings.threads } };
+  Report & settings = request["settings"];
+  settings = GetSettings(step, m_Case, options == m_Case.settings.end() ? Report::object() : options->second, m_Stage);
+  if (!settings.contains("max-memory"))
+  {
+    settings["max-memory"] = m_Settings.maximumMemory;
+  }
+  if (step.command == "render" && !fs::exists(m_Stage / ThumbnailFile))
+  {
+    settings["thumbnail"] = (m_Stage / ThumbnailFile).string();
+  }
+  std::ofstream(m_Stage / requestFile) << request.dump();
   m_ChildStart = Clock::now();
   m_Child = std::make_unique<ChildProcess>(
-    arguments, m_Stage, std::string(outputFile), std::string(errorsFile), m_Settings.maximumMemory);
+    std::vector<std::string>{ (step.command == "render" ? m_Settings.drawingProgram : m_Settings.program).string(),
+                              m_Settings.requestOption },
+    m_Stage / requestFile,
+    m_Stage / resultFile,
+    m_Settings.maximumMemory);
 }
 
 bool
@@ -255,7 +274,7 @@ CaseRun::TakeStep()
                                 { "peakMemory", m_Child->GetPeakMemory() } });
   m_Record["peakMemory"] = std::max(m_Record["peakMemory"].get<std::uintmax_t>(), m_Child->GetPeakMemory());
   const int code = m_Child->GetExitCode();
-  const std::string command = "rhombic " + step.arguments.front();
+  const std::string command = "rhombic " + step.command;
   if (m_IsTooLong)
   {
     this->Fail(1,
@@ -268,7 +287,7 @@ CaseRun::TakeStep()
   }
   else if (code > 0)
   {
-    const std::string sentence = FindSentence(m_Stage / errorsFile);
+    const std::string sentence = WithoutFolder(FindSentence(m_Stage / resultFile), m_Stage);
     this->Fail(code, sentence.empty() ? command + " ended with exit code " + std::to_string(code) + "." : sentence);
   }
   for (const fs::path & file : FindFiles(m_Stage))

@@ -29,9 +29,8 @@ OpenAs(int stream, const char * path, int flags)
 } // namespace
 
 ChildProcess::ChildProcess(const std::vector<std::string> & arguments,
-                           const std::filesystem::path & folder,
-                           const std::string & output,
-                           const std::string & errors,
+                           const std::filesystem::path & input,
+                           const std::filesystem::path & output,
                            std::uintmax_t memory)
 {
   std::vector<char *> texts;
@@ -49,8 +48,8 @@ ChildProcess::ChildProcess(const std::vector<std::string> & arguments,
     constexpr int written = O_WRONLY | O_CREAT | O_TRUNC;
     setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() == parent && chdir(folder.c_str()) == 0 && OpenAs(STDIN_FILENO, "/dev/null", O_RDONLY) &&
-        OpenAs(STDOUT_FILENO, output.c_str(), written) && OpenAs(STDERR_FILENO, errors.c_str(), written))
+    if (getppid() == parent && OpenAs(STDIN_FILENO, input.c_str(), O_RDONLY) &&
+        OpenAs(STDOUT_FILENO, output.c_str(), written) && OpenAs(STDERR_FILENO, "/dev/null", O_WRONLY))
     {
       setrlimit(RLIMIT_CORE, &noCore);
       setrlimit(RLIMIT_DATA, &allocations);

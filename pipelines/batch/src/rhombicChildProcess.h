@@ -19,12 +19,11 @@ namespace rhombic
 class ChildProcess
 {
 public:
-  /** Starts the program \a arguments[0] in a folder, without input, with its standard output and error in the files
-   * \a output and \a errors there. \a memory is the most that it can allocate, in bytes. Throws Failure(Internal). */
+  /** Starts the program \a arguments[0] with the files \a input and \a output as its standard streams, and without
+   * standard error. \a memory is the most that it can allocate, in bytes. Throws Failure(Internal). */
   ChildProcess(const std::vector<std::string> & arguments,
-               const std::filesystem::path & folder,
-               const std::string & output,
-               const std::string & errors,
+               const std::filesystem::path & input,
+               const std::filesystem::path & output,
                std::uintmax_t memory);
   ~ChildProcess();
 

@@ -22,22 +22,17 @@ namespace
 
 constexpr char defaultPipeline[] = "outputs:\n  - page: page.png\n    preset: auto\n";
 
-/** A kind of output, and the arguments that make it. */
+/** A kind of output, and the command that makes it. */
 struct OutputKind
 {
   const char * key;
-  std::vector<std::string> arguments;
+  const char * command;
 };
 
-const std::vector<OutputKind> &
-OutputKinds()
-{
-  static const std::vector<OutputKind> kinds{ { "page", { "render", "--sheet" } },
-                                              { "picture", { "render" } },
-                                              { "mesh", { "mesh" } },
-                                              { "volume", { "resample" } } };
-  return kinds;
-}
+constexpr OutputKind OutputKinds[] = { { "page", "render" },
+                                       { "picture", "render" },
+                                       { "mesh", "mesh" },
+                                       { "volume", "resample" } };
 
 [[noreturn]] void
 FailInPipeline(const std::string & source, const std::string & why)
@@ -136,27 +131,16 @@ private:
     }
   }
 
-  /** The options that may be in the file: those of a command, but for what the batch itself gives. */
-  std::vector<std::string>
-  OptionsOf(const std::string & command) const
-  {
-    std::vector<std::string> options = m_Syntax.optionsOf(command);
-    const auto isOwn = [](const std::string & option) {
-      return option == "output" || option == "help" || option == "sheet" || option == "from" ||
-             option == "list-presets" || option == "no-sidecar" || option == "max-memory" || option == "pipeline";
-    };
-    options.erase(std::remove_if(options.begin(), options.end(), isOwn), options.end());
-    return options;
-  }
-
   void
   CheckCommonOptions(const YAML::Node & options) const
   {
     std::vector<std::string> known;
-    for (const OutputKind & kind : OutputKinds())
+    for (const OutputKind & kind : OutputKinds)
     {
-      const auto more = this->OptionsOf(kind.arguments.front());
-      known.insert(known.end(), more.begin(), more.end());
+      for (const CommandSyntax::Setting & setting : m_Syntax.settingsOf(kind.command))
+      {
+        known.push_back(setting.name);
+      }
     }
     this->CheckKeysOf(options, known);
   }
@@ -166,7 +150,7 @@ private:
   {
     std::vector<std::string> keys;
     const OutputKind * kind = nullptr;
-    for (const OutputKind & known : OutputKinds())
+    for (const OutputKind & known : OutputKinds)
     {
       keys.emplace_back(known.key);
       kind = kind == nullptr && node.IsMap() && node[known.key] ? &known : kind;
@@ -178,83 +162,84 @@ private:
     PipelineStep step;
     step.line = static_cast<std::size_t>(node.Mark().line) + 1;
     step.kind = kind->key;
-    step.arguments = kind->arguments;
+    step.command = kind->command;
     step.output = node[kind->key].as<std::string>();
     if (step.output.empty() || step.output[0] == '.' || step.output.find('/') != std::string::npos)
     {
       FailInPipeline(m_Source, "has '" + step.output + "' where the name of a file is expected, " + LineOf(node));
     }
-    const std::vector<std::string> options = this->OptionsOf(kind->arguments.front());
-    std::vector<std::string> known = options;
-    known.emplace_back(kind->key);
+    const std::vector<CommandSyntax::Setting> settings = m_Syntax.settingsOf(step.command);
+    std::vector<std::string> known{ kind->key };
+    for (const CommandSyntax::Setting & setting : settings)
+    {
+      known.push_back(setting.name);
+    }
     this->CheckKeysOf(node, known);
 
-    step.takesLabels = std::count(options.begin(), options.end(), "labels") > 0;
-    std::map<std::string, YAML::Node> values; // an output's own ones replace the common ones
-    for (const auto & entry : common)
+    step.settings = step.kind == "page" ? Report{ { "sheet", true } } : Report::object();
+    for (const CommandSyntax::Setting & setting : settings)
     {
-      if (std::count(options.begin(), options.end(), entry.first.as<std::string>()) > 0)
+      const YAML::Node own = node[setting.name]; // replaces the common one
+      const YAML::Node value = own || !common ? own : common[setting.name];
+      if (setting.name == "labels")
       {
-        values[entry.first.as<std::string>()].reset(entry.second);
+        step.takesLabels = !value || this->ParseTakesLabels(value);
       }
-    }
-    for (const auto & entry : node)
-    {
-      if (entry.first.as<std::string>() != kind->key)
+      else if (value)
       {
-        values[entry.first.as<std::string>()].reset(entry.second);
+        this->AddSetting(setting, value, step);
       }
-    }
-    for (const auto & [option, value] : values)
-    {
-      this->AddOption(option, value, step);
     }
     this->Check(step);
-    m_Identity += step.output + '\n';
-    for (const std::string & argument : step.arguments)
-    {
-      m_Identity += argument + '\n';
-    }
-    m_Identity += std::to_string(step.takesLabels) + '\n';
+    m_Identity +=
+      step.output + '\n' + step.command + '\n' + step.settings.dump() + '\n' + std::to_string(step.takesLabels) + '\n';
     return step;
   }
 
-  void
-  AddOption(const std::string & option, const YAML::Node & value, PipelineStep & step)
+  bool
+  ParseTakesLabels(const YAML::Node & value) const
   {
-    if (value.IsSequence())
+    const auto text = value.as<std::string>();
+    if (text != "true" && text != "false")
     {
-      for (const auto & one : value)
+      FailInPipeline(m_Source, "has '" + text + "' where true or false is expected, " + LineOf(value));
+    }
+    return text == "true";
+  }
+
+  void
+  AddSetting(const CommandSyntax::Setting & setting, const YAML::Node & value, PipelineStep & step)
+  {
+    Report texts = Report::array();
+    for (const auto & text : value.IsSequence() ? value.as<std::vector<std::string>>()
+                                                : std::vector<std::string>{ value.as<std::string>() })
+    {
+      if (text == "true")
       {
-        this->AddOption(option, one, step);
+        texts.push_back(true);
       }
+      else if (text != "false")
+      {
+        texts.push_back(setting.isInputFile ? this->FindFile(text) : text);
+      }
+    }
+    if (texts.empty())
+    {
       return;
     }
-    const auto text = value.as<std::string>();
-    if (option == "labels")
+    step.settings[setting.name] = texts.size() == 1 ? Report(texts[0]) : texts;
+    if (setting.isOutput)
     {
-      if (text != "true" && text != "false")
-      {
-        FailInPipeline(m_Source, "has '" + text + "' where true or false is expected, " + LineOf(value));
-      }
-      step.takesLabels = text == "true";
-    }
-    else if (text == "true")
-    {
-      step.arguments.push_back("--" + option);
-    }
-    else if (text != "false")
-    {
-      step.arguments.push_back("--" + option + "=" + this->FindFile(option, text));
+      step.files.push_back(setting.name);
     }
   }
 
-  /** The absolute path of a preset or label table that lies beside the pipeline file; other values as they are. */
+  /** The absolute path of a file that lies beside the pipeline file; other values as they are. */
   std::string
-  FindFile(const std::string & option, const std::string & value)
+  FindFile(const std::string & value)
   {
     const fs::path path = m_Folder / value;
-    if ((option != "preset" && option != "label-table") || value.empty() || !fs::is_regular_file(path))
+    if (value.empty() || !fs::is_regular_file(path))
     {
       return value;
     }
@@ -264,15 +249,15 @@ private:
     return path.lexically_normal().string();
   }
 
-  /** Lets the command's own parser judge. */
+  /** Lets the command judge. */
   void
   Check(const PipelineStep & step)
   {
-    std::vector<std::string> arguments = step.arguments;
-    arguments.insert(arguments.end(), { "SCAN", "-o", step.output });
+    BatchCase anyCase;
+    anyCase.scan = "SCAN";
     try
     {
-      for (const fs::path & file : m_Syntax.check(arguments))
+      for (const fs::path & file : m_Syntax.check(step.command, GetSettings(step, anyCase, Report::object(), "")))
       {
         this->AddFile(file.string(), step);
       }
@@ -312,6 +297,21 @@ private:
   std::map<std::string, std::size_t> m_Files; ///< of all outputs, and the lines of these
 };
 
+/** Both values, or lists of values, in one list. */
+Report
+Joined(const Report & first, const Report & second)
+{
+  Report all = Report::array();
+  for (const Report * const part : { &first, &second })
+  {
+    for (const Report & value : part->is_array() ? *part : Report::array({ *part }))
+    {
+      all.push_back(value);
+    }
+  }
+  return all;
+}
+
 std::string
 ReadPipelineText(const fs::path & path)
 {
@@ -335,22 +335,30 @@ ReadPipeline(const fs::path & path, const CommandSyntax & syntax)
   }
 }
 
-std::vector<std::string>
-GetArguments(const PipelineStep & step, const BatchCase & batchCase)
+Report
+GetSettings(const PipelineStep & step, const BatchCase & batchCase, const Report & further, const fs::path & folder)
 {
-  std::vector<std::string> arguments{ step.arguments.front(), batchCase.scan.string() };
-  arguments.insert(arguments.end(), step.arguments.begin() + 1, step.arguments.end());
+  Report settings{ { "scan", batchCase.scan.string() } };
+  settings.update(step.settings);
   if (step.takesLabels && !batchCase.labels.empty())
   {
-    arguments.push_back("--labels=" + batchCase.labels.string());
+    settings["labels"] = batchCase.labels.string();
   }
-  if (step.arguments.front() != "resample") // which makes no surfaces
+  if (step.command != "resample") // which makes no surfaces
   {
-    arguments.push_back("--unnamed-mask");
+    settings["unnamed-mask"] = true;
   }
-  arguments.insert(arguments.end(), { "-o", step.output });
-  arguments.insert(arguments.end(), batchCase.options.begin(), batchCase.options.end());
-  return arguments;
+  for (const auto & [name, value] : further.items())
+  {
+    Report & known = settings[name];
+    known = known.is_null() || value.is_boolean() ? Report(value) : Joined(known, value);
+  }
+  settings["output"] = (folder / step.output).string();
+  for (const std::string & file : step.files)
+  {
+    settings[file] = (folder / settings[file].get<std::string>()).string();
+  }
+  return settings;
 }
 
 } // namespace rhombic

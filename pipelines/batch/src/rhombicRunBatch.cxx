@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <future>
 #include <map>
 #include <memory>
@@ -79,10 +78,9 @@ CountVoxels(const BatchCase & batchCase)
   options.onUneven = ScanReadOptions::Policy::Accept;
   options.onGap = ScanReadOptions::Policy::Accept;
   options.onSeveralFrames = ScanReadOptions::Policy::Accept;
-  for (const std::string & option : batchCase.options)
+  for (const auto & ofCommand : batchCase.settings)
   {
-    constexpr std::string_view series = "--series=";
-    options.series = option.rfind(series, 0) == 0 ? option.substr(series.size()) : options.series;
+    options.series = ofCommand.second.value("series", options.series);
   }
   try
   {
@@ -119,18 +117,18 @@ DescribeDuration(double seconds)
                             : FormatFixed(seconds / 3600.0, 1) + " h";
 }
 
-/** Whether an option is given for any output of any case. */
+/** Whether a setting is given for any output of any case. */
 bool
-IsGiven(const std::string & option, const BatchSettings & settings)
+IsGiven(const std::string & name, const BatchSettings & settings)
 {
-  const auto isIn = [&option](const auto & arguments) {
-    return std::find(arguments.begin(), arguments.end(), option) != arguments.end();
-  };
+  const auto hasIt = [&name](const Report & report) { return report.contains(name); };
   return std::any_of(settings.pipeline.steps.begin(),
                      settings.pipeline.steps.end(),
-                     [&isIn](const PipelineStep & step) { return isIn(step.arguments); }) ||
-         std::any_of(settings.cases.begin(), settings.cases.end(), [&isIn](const BatchCase & batchCase) {
-           return isIn(batchCase.options);
+                     [&hasIt](const PipelineStep & step) { return hasIt(step.settings); }) ||
+         std::any_of(settings.cases.begin(), settings.cases.end(), [&hasIt](const BatchCase & batchCase) {
+           return std::any_of(batchCase.settings.begin(), batchCase.settings.end(), [&hasIt](const auto & ofCommand) {
+             return hasIt(ofCommand.second);
+           });
          });
 }
 
@@ -267,7 +265,7 @@ private:
                   std::to_string(m_Queue.size()) + " to run, " + std::to_string(m_Settings.jobs) + " at a time, " +
                   Count(m_Settings.threads, "thread") + " and at most " + DescribeBytes(m_Settings.maximumMemory) +
                   " each");
-    if (IsGiven("--dicom-sc", m_Settings))
+    if (IsGiven("dicom-sc", m_Settings))
     {
       m_Events.Note("DICOM files among the outputs (--dicom-sc) hold the patients' names");
     }
@@ -391,9 +389,6 @@ PlanBatch(const BatchSettings & settings)
 BatchSummary
 RunBatch(const BatchSettings & settings, const Events & events)
 {
-  setenv("RHOMBIC_THREADS", std::to_string(settings.threads).c_str(), 1);
-  setenv("RHOMBIC_MAX_MEMORY", std::to_string(settings.maximumMemory).c_str(), 1);
-  setenv("RHOMBIC_THUMBNAIL", ThumbnailFile, 1);
   return BatchRun(settings, events).Run();
 }
 

@@ -493,7 +493,7 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
                          : DrawSliceWithOutlines(settings, scene, request, FindPlace(request, scene)));
   }
   StagedFiles staged;
-  const PictureMetadata metadata{ settings.provenance.software, settings.provenance.GetCommand() };
+  const PictureMetadata metadata{ settings.provenance.software, settings.provenance.command };
   const double secondsPerFrame = SecondsPerTurn / static_cast<double>(pictures.size());
   if (settings.turntable == 0 || !IsGif(settings.picture))
   {

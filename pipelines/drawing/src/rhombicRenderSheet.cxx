@@ -139,7 +139,7 @@ StageSheet(const Sheet & sheet,
            const RenderSheetSettings & settings,
            StagedFiles & staged)
 {
-  const PictureMetadata metadata{ settings.provenance.software, settings.provenance.GetCommand(), sheet.pixelsPerInch };
+  const PictureMetadata metadata{ settings.provenance.software, settings.provenance.command, sheet.pixelsPerInch };
   const std::string extension = LowerCase(settings.page.extension().string());
   if (IsPdf(settings.page))
   {

@@ -1,0 +1,93 @@
+#ifndef rhombicCommandLine_h
+#define rhombicCommandLine_h
+
+#include "rhombicCommands.h"
+#include "rhombicSettings.h"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace rhombic
+{
+
+/** \class Command
+ * \brief A command with its settings. */
+struct Command
+{
+  explicit Command(CLI::App & parser)
+    : settings(parser)
+  {}
+
+  CommandSettings settings;
+  CommandRun run; ///< holds what the settings set
+};
+
+/** \class ProgramOptions
+ * \brief The options of all commands. */
+struct ProgramOptions
+{
+  unsigned int threads = 0; ///< 0: as many as there are cores
+  bool isVerbose = false;
+  bool isQuiet = false;
+};
+
+/** \class CommandLine
+ * \brief The program's commands, one of which is chosen, with its settings, by a command line or by JSON. Each object
+ * takes one of either. */
+class CommandLine
+{
+public:
+  CommandLine();
+
+  CommandLine(const CommandLine &) = delete;
+  CommandLine &
+  operator=(const CommandLine &) = delete;
+
+  /** The command of the words that follow the program's name. Throws Failure(Usage), and CLI::Success for --help and
+   * --version. */
+  Command &
+  Parse(const std::vector<std::string> & words);
+
+  /** A command with the settings of JSON (see CommandSettings). Throws Failure(Usage). */
+  Command &
+  Set(const std::string & command, const Report & settings);
+
+  /** A command without settings. */
+  Command &
+  Get(const std::string & command);
+
+  const ProgramOptions &
+  GetOptions() const
+  {
+    return m_Options;
+  }
+
+  /** Prints what --help or --version asked for; returns the exit code. */
+  int
+  Print(const CLI::Success & asked) const
+  {
+    return m_Parser.exit(asked);
+  }
+
+private:
+  CLI::App m_Parser;
+  CommandSettings m_Program;
+  ProgramOptions m_Options;
+  std::vector<std::unique_ptr<Command>> m_Commands;
+};
+
+/** The only argument of the program when standard input holds its command: {"command": "mesh", "settings": {...},
+ * "threads": 2}, with settings as CommandSettings has them. If the command fails, standard output holds
+ * {"failure": sentence}. */
+constexpr char RequestOption[] = "--request";
+
+/** Versions of the program and its libraries, a line each. */
+std::string
+VersionText();
+
+} // namespace rhombic
+
+#endif

@@ -1,0 +1,334 @@
+#include "rhombicSettings.h"
+
+#include "rhombicWording.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace rhombic
+{
+namespace
+{
+
+/** \class GivenItems
+ * \brief Settings for CLI11, which takes what it calls a configuration from a stream; the stream is not read. */
+class GivenItems : public CLI::Config
+{
+public:
+  explicit GivenItems(std::vector<CLI::ConfigItem> given)
+    : m_Given(std::move(given))
+  {}
+
+  std::string
+  to_config(const CLI::App *, bool, bool, std::string) const override
+  {
+    return "";
+  }
+
+  std::vector<CLI::ConfigItem>
+  from_config(std::istream &) const override
+  {
+    return m_Given;
+  }
+
+private:
+  std::vector<CLI::ConfigItem> m_Given;
+};
+
+std::vector<std::string>
+ToTexts(const Report & value)
+{
+  std::vector<std::string> texts;
+  for (const Report & item : value.is_array() ? value : Report::array({ value }))
+  {
+    texts.push_back(item.is_string() ? item.get<std::string>() : item.dump());
+  }
+  return texts;
+}
+
+Report
+ToValue(const std::string & text, bool isNumber)
+{
+  const Report number = isNumber ? Report::parse(text, nullptr, false) : Report();
+  return number.is_number() ? number : Report(text);
+}
+
+/** "SCAN", or "LABELS2" for the second of a list. */
+std::string
+Placeholder(const std::string & key, std::size_t position)
+{
+  std::string name = key;
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::toupper(c); });
+  return name + (position > 0 ? std::to_string(position + 1) : "");
+}
+
+/** The value that reports hold. */
+std::string
+Recorded(const std::string & text, SettingKind kind, const std::string & key, std::size_t position)
+{
+  return kind == SettingKind::Source      ? Placeholder(key, position)
+         : kind == SettingKind::InputFile ? std::filesystem::path(text).filename().string()
+                                          : text;
+}
+
+bool
+IsFlag(const CLI::Option & option)
+{
+  return option.get_items_expected_max() == 0;
+}
+
+bool
+IsRecorded(SettingKind kind)
+{
+  return kind != SettingKind::Output && kind != SettingKind::Run;
+}
+
+} // namespace
+
+SettingTrait
+OfKind(SettingKind kind)
+{
+  return [kind](SettingTraits & traits) { traits.kind = kind; };
+}
+
+SettingTrait
+Checked(const CLI::Validator & check)
+{
+  return [check](SettingTraits & traits) { traits.checks.push_back(check); };
+}
+
+SettingTrait
+Excludes(std::vector<std::string> names)
+{
+  return [names](SettingTraits & traits) { traits.excludes = names; };
+}
+
+SettingTrait
+Needs(std::vector<std::string> names)
+{
+  return [names](SettingTraits & traits) { traits.needs = names; };
+}
+
+SettingTrait
+DefaultsTo(std::string environment)
+{
+  return [environment](SettingTraits & traits) { traits.environment = environment; };
+}
+
+SettingTrait
+InBytes()
+{
+  return [](SettingTraits & traits) { traits.isInBytes = true; };
+}
+
+SettingTrait
+SeveralBehindOneName()
+{
+  return [](SettingTraits & traits) { traits.hasSeveralBehindOneName = true; };
+}
+
+SettingTrait
+SplitAtCommas()
+{
+  return [](SettingTraits & traits) { traits.isSplitAtCommas = true; };
+}
+
+SettingTrait
+ShowingDefault()
+{
+  return [](SettingTraits & traits) { traits.showsDefault = true; };
+}
+
+SettingTrait
+Hidden()
+{
+  return [](SettingTraits & traits) { traits.isHidden = true; };
+}
+
+SettingTrait
+Required()
+{
+  return [](SettingTraits & traits) { traits.isRequired = true; };
+}
+
+void
+CommandSettings::AddRow(CLI::Option * option, const SettingTraits & traits)
+{
+  const bool isNamedByPlace = option->get_lnames().empty();
+  for (const CLI::Validator & check : traits.checks)
+  {
+    option->check(check);
+  }
+  if (traits.isInBytes)
+  {
+    option->transform(CLI::AsSizeValue(false));
+  }
+  if (traits.isSplitAtCommas)
+  {
+    option->delimiter(',');
+  }
+  if (option->get_items_expected_max() > 1 && !isNamedByPlace && !traits.hasSeveralBehindOneName)
+  {
+    option->allow_extra_args(false);
+  }
+  if (traits.showsDefault)
+  {
+    option->capture_default_str();
+  }
+  if (traits.isHidden)
+  {
+    option->group("");
+  }
+  if (!traits.environment.empty())
+  {
+    option->envname(traits.environment);
+  }
+  option->required(traits.isRequired);
+  m_Rows.push_back({ isNamedByPlace ? LowerCase(option->get_name()) : option->get_lnames().front(), option, traits });
+}
+
+void
+CommandSettings::Relate()
+{
+  for (const Row & row : m_Rows)
+  {
+    for (const std::string & name : row.traits.excludes)
+    {
+      row.option->excludes(m_Parser.get_option(name));
+    }
+    for (const std::string & name : row.traits.needs)
+    {
+      row.option->needs(m_Parser.get_option(name));
+    }
+  }
+}
+
+Report
+CommandSettings::Get() const
+{
+  Report settings = Report::object();
+  for (const Row & row : m_Rows)
+  {
+    if (row.option->count() == 0)
+    {
+      continue;
+    }
+    Report & value = settings[row.key];
+    if (IsFlag(*row.option))
+    {
+      value = true;
+      continue;
+    }
+    for (const std::string & text : row.option->results())
+    {
+      value.push_back(ToValue(text, row.traits.isNumber));
+    }
+    if (row.option->get_items_expected_max() == 1)
+    {
+      value = Report(value[0]);
+    }
+  }
+  return settings;
+}
+
+Report
+CommandSettings::GetRecorded() const
+{
+  const Report given = this->Get();
+  Report recorded = Report::object();
+  for (const Row & row : m_Rows)
+  {
+    const SettingKind kind = row.traits.kind;
+    if (!given.contains(row.key) || !IsRecorded(kind))
+    {
+      continue;
+    }
+    recorded[row.key] = given[row.key];
+    const bool isHidden = kind == SettingKind::Source || kind == SettingKind::InputFile;
+    const std::vector<std::string> texts = isHidden ? ToTexts(given[row.key]) : std::vector<std::string>();
+    for (std::size_t n = 0; n < texts.size(); ++n)
+    {
+      (given[row.key].is_array() ? recorded[row.key][n] : recorded[row.key]) = Recorded(texts[n], kind, row.key, n);
+    }
+  }
+  return recorded;
+}
+
+std::string
+CommandSettings::GetRecordedCommand() const
+{
+  const Report recorded = this->GetRecorded();
+  std::string places;
+  std::string options;
+  for (const Row & row : m_Rows)
+  {
+    if (!recorded.contains(row.key))
+    {
+      continue;
+    }
+    for (const std::string & text : ToTexts(recorded[row.key]))
+    {
+      if (row.option->get_lnames().empty())
+      {
+        places += " " + text;
+      }
+      else
+      {
+        options += " --" + row.key + (IsFlag(*row.option) ? "" : "=" + text);
+      }
+    }
+  }
+  return "rhombic " + this->GetCommand() + places + options;
+}
+
+void
+CommandSettings::Set(const Report & settings)
+{
+  std::vector<CLI::ConfigItem> items;
+  for (const auto & [key, value] : settings.items())
+  {
+    const auto row = std::find_if(m_Rows.begin(), m_Rows.end(), [&key = key](const Row & r) { return r.key == key; });
+    if (row == m_Rows.end())
+    {
+      throw CLI::ConfigError::Extras(key);
+    }
+    if (value == Report(false))
+    {
+      continue;
+    }
+    const auto & names = row->option->get_lnames();
+    items.push_back({ {}, names.empty() ? row->option->get_name() : names.front(), ToTexts(value) });
+  }
+  m_Parser.config_formatter(std::make_shared<GivenItems>(items));
+  std::istringstream unread;
+  m_Parser.parse_from_stream(unread);
+}
+
+void
+CommandSettings::SetRecorded(Report settings)
+{
+  for (const Row & row : m_Rows)
+  {
+    if (row.traits.kind == SettingKind::Source)
+    {
+      settings.erase(row.key);
+    }
+  }
+  this->Set(settings);
+}
+
+std::vector<std::pair<std::string, SettingKind>>
+CommandSettings::GetNames() const
+{
+  std::vector<std::pair<std::string, SettingKind>> names;
+  for (const Row & row : m_Rows)
+  {
+    if (!row.option->get_lnames().empty())
+    {
+      names.emplace_back(row.key, row.traits.kind);
+    }
+  }
+  return names;
+}
+
+} // namespace rhombic

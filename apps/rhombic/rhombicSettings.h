@@ -1,0 +1,224 @@
+#ifndef rhombicSettings_h
+#define rhombicSettings_h
+
+#include "rhombicScanReport.h"
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace rhombic
+{
+
+/** What a setting names, which decides what reports hold of it. */
+enum class SettingKind
+{
+  Value,     ///< a value: reports hold it
+  InputFile, ///< a file without patient data, as a preset: reports hold its name without folders
+  Source,    ///< a scan, a series or a label map, whose name may identify the patient: reports hold its setting's name
+  Output,    ///< a file or folder that is written: reports leave it out
+  Run        ///< how the command runs, as its memory, with the same outputs: reports leave it out
+};
+
+/** \class SettingTraits
+ * \brief What a row of a table of settings says beyond name, member and help text. */
+struct SettingTraits
+{
+  SettingKind kind = SettingKind::Value;
+  std::vector<CLI::Validator> checks;   ///< of each value
+  std::vector<std::string> excludes;    ///< names of settings, with dashes, that do not go with this one
+  std::vector<std::string> needs;       ///< names of settings, with dashes, without which this one has no effect
+  std::string environment;              ///< the variable of the environment that is the default
+  bool isInBytes = false;               ///< may have a unit, as 8G
+  bool hasSeveralBehindOneName = false; ///< of a list: "--option A B"; otherwise the name is repeated
+  bool isSplitAtCommas = false;         ///< of a list: "--option A,B"
+  bool showsDefault = false;            ///< in the help text
+  bool isHidden = false;                ///< from the help text
+  bool isRequired = false;
+  bool isNumber = false;
+};
+
+/** Sets a trait of a row; each function below returns one. */
+using SettingTrait = std::function<void(SettingTraits &)>;
+
+SettingTrait
+OfKind(SettingKind kind);
+SettingTrait
+Checked(const CLI::Validator & check);
+SettingTrait
+Excludes(std::vector<std::string> names);
+SettingTrait
+Needs(std::vector<std::string> names);
+SettingTrait
+DefaultsTo(std::string environment);
+SettingTrait
+InBytes();
+SettingTrait
+SeveralBehindOneName();
+SettingTrait
+SplitAtCommas();
+SettingTrait
+ShowingDefault();
+SettingTrait
+Hidden();
+SettingTrait
+Required();
+
+/** \class Setting
+ * \brief A row of a table of settings: names, member and help text, and traits if any.
+ *
+ * Names are those of CLI11: "-o,--output", or "SCAN" for a setting that is named by its place. Members are texts,
+ * numbers, optional numbers and lists; a bool is set by its name alone. Defaults are the members' own. */
+template <typename TSettings>
+class Setting
+{
+public:
+  template <typename TMember, typename... TTraits>
+  Setting(const std::string & names, TMember TSettings::*member, const std::string & help, TTraits... traits)
+    : m_AddTo([=](CLI::App & parser, TSettings & settings) { return AddOption(parser, names, settings.*member, help); })
+  {
+    this->SetTraits<TMember>(traits...);
+  }
+
+  /** A member of a member. */
+  template <typename TPart, typename TMember, typename... TTraits>
+  Setting(const std::string & names,
+          TPart TSettings::*part,
+          TMember TPart::*member,
+          const std::string & help,
+          TTraits... traits)
+    : m_AddTo(
+        [=](CLI::App & parser, TSettings & settings) { return AddOption(parser, names, settings.*part.*member, help); })
+  {
+    this->SetTraits<TMember>(traits...);
+  }
+
+  CLI::Option *
+  AddTo(CLI::App & parser, TSettings & settings) const
+  {
+    return m_AddTo(parser, settings);
+  }
+
+  const SettingTraits &
+  GetTraits() const
+  {
+    return m_Traits;
+  }
+
+private:
+  template <typename TMember>
+  static CLI::Option *
+  AddOption(CLI::App & parser, const std::string & names, TMember & member, const std::string & help)
+  {
+    if constexpr (std::is_same_v<TMember, bool>)
+    {
+      return parser.add_flag(names, member, help);
+    }
+    else
+    {
+      return parser.add_option(names, member, help);
+    }
+  }
+
+  template <typename TMember, typename... TTraits>
+  void
+  SetTraits(TTraits... traits)
+  {
+    m_Traits.isNumber = !std::is_same_v<TMember, bool> && !std::is_same_v<TMember, std::string> &&
+                        !std::is_same_v<TMember, std::vector<std::string>>;
+    (traits(m_Traits), ...);
+  }
+
+  std::function<CLI::Option *(CLI::App &, TSettings &)> m_AddTo;
+  SettingTraits m_Traits;
+};
+
+template <typename TSettings>
+using SettingsTable = std::vector<Setting<TSettings>>;
+
+/** \class CommandSettings
+ * \brief The settings of a command, which a command line or JSON sets. JSON has their long names without dashes, or in
+ * lower case for those named by their place; a setting without a value is true, a list is an array. */
+class CommandSettings
+{
+public:
+  /** \a parser must outlive this object. */
+  explicit CommandSettings(CLI::App & parser)
+    : m_Parser(parser)
+  {}
+
+  CommandSettings(const CommandSettings &) = delete;
+  CommandSettings &
+  operator=(const CommandSettings &) = delete;
+
+  /** Adds the rows of a table, in the order of the help text. The members that they set must outlive this object. */
+  template <typename TSettings>
+  void
+  Add(const SettingsTable<TSettings> & table, TSettings & settings)
+  {
+    for (const Setting<TSettings> & row : table)
+    {
+      this->AddRow(row.AddTo(m_Parser, settings), row.GetTraits());
+    }
+  }
+
+  /** Once all tables are added: relates the settings that exclude or need others. */
+  void
+  Relate();
+
+  const std::string &
+  GetCommand() const
+  {
+    return m_Parser.get_name();
+  }
+
+  /** All that are given, with paths and names of files. */
+  Report
+  Get() const;
+
+  /** What reports hold of those that are given: no folders, nothing that may name the patient, nothing that does not
+   * change what is made. */
+  Report
+  GetRecorded() const;
+
+  /** The command line that a reader may type again, of the recorded settings: "rhombic render SCAN --preset=ct-bone".
+   */
+  std::string
+  GetRecordedCommand() const;
+
+  /** Sets those of \a settings that are not given yet. Throws CLI::ParseError as the parser does, also for unknown
+   * names. */
+  void
+  Set(const Report & settings);
+
+  /** As Set(), of what GetRecorded() gave, but for scans, series and label maps, of which reports hold no names. */
+  void
+  SetRecorded(Report settings);
+
+  /** The names in JSON and the kinds of all settings but those named by their place. */
+  std::vector<std::pair<std::string, SettingKind>>
+  GetNames() const;
+
+private:
+  struct Row
+  {
+    std::string key; ///< in JSON
+    CLI::Option * option;
+    SettingTraits traits;
+  };
+
+  void
+  AddRow(CLI::Option * option, const SettingTraits & traits);
+
+  CLI::App & m_Parser;
+  std::vector<Row> m_Rows;
+};
+
+} // namespace rhombic
+
+#endif
