@@ -51,14 +51,25 @@ FindWord(const YAML::Node & value, const std::vector<std::string> & words, const
 }
 
 double
-ParseOpacity(const YAML::Node & node, const std::string & source)
+ReadOpacity(const YAML::Node & node, const std::string & source)
 {
-  const auto opacity = node.as<double>();
-  if (!(opacity > 0.0 && opacity <= 1.0))
+  const auto opacity = ParseOpacity(node.as<std::string>());
+  if (!opacity)
   {
     FailToParse(source, "has an opacity that is not above 0 and at most 1");
   }
-  return opacity;
+  return *opacity;
+}
+
+bool
+ReadGloss(const YAML::Node & node, const std::string & source)
+{
+  const auto gloss = ParseGloss(node.as<std::string>());
+  if (!gloss)
+  {
+    FailToParse(source, "has '" + node.as<std::string>() + "' where 'matte' or 'glossy' is expected");
+  }
+  return *gloss;
 }
 
 SurfaceRequest
@@ -89,19 +100,13 @@ ParseSurface(const YAML::Node & node, const std::string & source)
   {
     request.colour = ParseColour(node["colour"].as<std::string>());
   }
-  request.opacity = node["opacity"] ? ParseOpacity(node["opacity"], source) : 1.0;
+  request.opacity = node["opacity"] ? ReadOpacity(node["opacity"], source) : 1.0;
   request.finish.minimumVolume = node["min-volume"].as<double>(0.0);
   request.finish.keepsLargestPart = node["largest"].as<bool>(false);
   request.finish.fillsCavities = node["fill"].as<bool>(false);
   request.finish.smoothing = node["smooth"].as<double>(0.0);
   CheckSurfaceFinish(request.finish);
   return request;
-}
-
-bool
-ParseGloss(const YAML::Node & node, const std::string & source)
-{
-  return FindWord(node, { "matte", "glossy" }, source) == 1;
 }
 
 SceneRule
@@ -121,11 +126,11 @@ ParseRule(const YAML::Node & node, const std::string & source)
   }
   if (node["opacity"])
   {
-    rule.opacity = ParseOpacity(node["opacity"], source);
+    rule.opacity = ReadOpacity(node["opacity"], source);
   }
   if (node["look"])
   {
-    rule.isGlossy = ParseGloss(node["look"], source);
+    rule.isGlossy = ReadGloss(node["look"], source);
   }
   return rule;
 }
@@ -162,7 +167,7 @@ ParsePreset(const std::string & yaml, const std::string & source)
       preset.surfaces.push_back(ParseSurface(node, source));
       if (node["look"])
       {
-        preset.rules.push_back({ preset.surfaces.back().name, {}, {}, ParseGloss(node["look"], source) });
+        preset.rules.push_back({ preset.surfaces.back().name, {}, {}, ReadGloss(node["look"], source) });
       }
     }
     for (const auto & node : root["rules"])

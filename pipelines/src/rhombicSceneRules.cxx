@@ -177,8 +177,8 @@ ParseSceneRule(const std::string & text)
   }
   if (fields.size() > 1 && !fields[1].empty())
   {
-    rule.opacity = ToNumber<double>(fields[1]);
-    if (!rule.opacity || !(*rule.opacity > 0.0 && *rule.opacity <= 1.0))
+    rule.opacity = ParseOpacity(fields[1]);
+    if (!rule.opacity)
     {
       throw Failure(FailureKind::Usage,
                     "'" + fields[1] + "' in '" + text + "' is no opacity; write a number above 0 and at most 1.");
@@ -186,8 +186,8 @@ ParseSceneRule(const std::string & text)
   }
   if (fields.size() > 2)
   {
-    rule.isGlossy = fields[2] == "glossy";
-    if (!*rule.isGlossy && fields[2] != "matte")
+    rule.isGlossy = ParseGloss(fields[2]);
+    if (!rule.isGlossy)
     {
       throw Failure(FailureKind::Usage, "'" + fields[2] + "' in '" + text + "' is no look; write matte or glossy.");
     }

@@ -46,6 +46,19 @@ ParseThreshold(const std::string & text, SurfaceRequest & request)
   return request.isovalue.has_value() || found != thresholds.end();
 }
 
+std::optional<double>
+ParseOpacity(const std::string & text)
+{
+  const auto opacity = ParseNumber(text);
+  return opacity && *opacity > 0.0 && *opacity <= 1.0 ? opacity : std::nullopt;
+}
+
+std::optional<bool>
+ParseGloss(const std::string & text)
+{
+  return text == "glossy" || text == "matte" ? std::optional(text == "glossy") : std::nullopt;
+}
+
 SurfaceRequest
 ParseSurfaceRequest(const std::string & text, std::size_t number)
 {
@@ -74,8 +87,8 @@ ParseSurfaceRequest(const std::string & text, std::size_t number)
   }
   if (fields.size() > 2)
   {
-    const auto opacity = ParseNumber(fields[2]);
-    if (!opacity || !(*opacity > 0.0) || *opacity > 1.0)
+    const auto opacity = ParseOpacity(fields[2]);
+    if (!opacity)
     {
       throw refuse("has an opacity that is not above 0 and at most 1");
     }
