@@ -106,10 +106,11 @@ Mesh(const MeshOptions & options, const CommandContext & context)
     return;
   }
   const Events events = context.console->MakeEvents();
-  const Preset preset = options.surfaces.GetPreset(settings.source, events);
+  std::optional<SourceVolume> volume;
+  const Preset preset = options.surfaces.GetPreset(settings.source, volume, events);
   options.scan.ApplyPreset(preset, settings.source);
   settings.surfaces = GetSelection(options, preset);
-  for (const auto & mesh : MeshScan(settings, events))
+  for (const auto & mesh : MeshScan(settings, events, std::move(volume)))
   {
     context.console->Note("mesh: " + mesh.string());
   }

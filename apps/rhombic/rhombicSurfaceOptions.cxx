@@ -3,6 +3,7 @@
 #include "rhombicDescribeScan.h"
 #include "rhombicFailure.h"
 #include "rhombicNamedValues.h"
+#include "rhombicSourceLoading.h"
 
 namespace rhombic
 {
@@ -113,10 +114,17 @@ SurfaceOptions::GetNamedPreset() const
 }
 
 Preset
-SurfaceOptions::GetPreset(ScanSource & source, const Events & events) const
+SurfaceOptions::GetPreset(ScanSource & source, std::optional<SourceVolume> & volume, const Events & events) const
 {
-  const std::string name =
-    preset == "auto" ? ChoosePreset(source, !labels.empty() || !probabilities.empty(), events) : preset;
+  std::string name = preset;
+  if (preset == "auto")
+  {
+    volume = LoadVolume(source, events);
+    const PresetChoice choice = ChoosePreset(*volume, !labels.empty() || !probabilities.empty());
+    source.presetChoice = choice.Describe();
+    events.Note("preset: " + source.presetChoice);
+    name = choice.preset;
+  }
   return name.empty() ? Preset() : FindPreset(name);
 }
 

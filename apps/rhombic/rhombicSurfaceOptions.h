@@ -36,10 +36,10 @@ struct SurfaceOptions
   static const SettingsTable<SurfaceOptions> &
   Table();
 
-  /** The preset; without --preset, one of no surfaces. "auto" reads the source's volume to choose one. Throws Failure.
-   */
+  /** The preset; without --preset, one of no surfaces. "auto" reads the source to choose one: \a volume is what it
+   * holds, and the source's presetChoice tells why. Throws Failure. */
   Preset
-  GetPreset(ScanSource & source, const Events & events) const;
+  GetPreset(ScanSource & source, std::optional<SourceVolume> & volume, const Events & events) const;
 
   /** As GetPreset(), but "auto" is one of no surfaces, and nothing is read. */
   Preset

@@ -1,7 +1,6 @@
 #ifndef rhombicDescribeScan_h
 #define rhombicDescribeScan_h
 
-#include "rhombicEvents.h"
 #include "rhombicScanSource.h"
 
 #include <cstddef>
@@ -58,8 +57,22 @@ struct ScanDescription
 ScanDescription
 DescribeScan(const ScanSource & source, const LabelMapSource & labels);
 
-/** The name of the preset that "auto" stands for; empty for label maps, and for labels of scans that are no CT in HU,
- * which need none.
+/** \class PresetChoice
+ * \brief The preset that "auto" stands for. */
+struct PresetChoice
+{
+  std::string preset; ///< its name; empty for none
+  std::string reason; ///< "the scan is ..."
+
+  /** "ct-bone, as the scan is a CT in HU without air". */
+  std::string
+  Describe() const
+  {
+    return (preset.empty() ? "none" : preset) + ", as " + reason;
+  }
+};
+
+/** The preset for a volume; none for label maps, and for labels of scans that are no CT in HU, which need none.
  *
  * | scan | preset |
  * |---|---|
@@ -71,9 +84,11 @@ DescribeScan(const ScanSource & source, const LabelMapSource & labels);
  * | MR of the head, by its body part; other MR | mr-head; mr-outline |
  * | anything else, and lattice volumes | outline |
  *
- * Reads the source, keeps its volume there and sets its presetChoice, which is noted. Throws Failure. */
-std::string
-ChoosePreset(ScanSource & source, bool hasLabels, const Events & events);
+ * \param hasLabels whether labels are shown, too
+ *
+ * Throws Failure. */
+PresetChoice
+ChoosePreset(const SourceVolume & volume, bool hasLabels);
 
 } // namespace rhombic
 

@@ -8,6 +8,7 @@
 #include "rhombicSurfaceIO.h"
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace rhombic
@@ -41,9 +42,11 @@ CheckMeshScan(const MeshScanSettings & settings);
  * back. Notes give the main figures; sidecars and the table hold all of them, and what finishing changed. All files
  * appear together at the end, or none does.
  *
+ * \param volume what the source holds, if it was read before
+ *
  * Throws Failure, also for a surface that has to be watertight and is not. */
 std::vector<std::filesystem::path>
-MeshScan(const MeshScanSettings & settings, const Events & events);
+MeshScan(const MeshScanSettings & settings, const Events & events, std::optional<SourceVolume> volume = std::nullopt);
 
 } // namespace rhombic
 

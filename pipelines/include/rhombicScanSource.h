@@ -11,7 +11,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -32,12 +31,11 @@ struct ScanSource
 
   bool isHashed = false; ///< whether reports hold a digest of the files that were read
 
-  /** What the path holds, if it was read before (see ChoosePreset()). The next function that reads the source takes it.
-   * Copies share it. */
-  std::shared_ptr<std::variant<Scan, FCCVolume>> volume;
-
   std::string presetChoice; ///< which preset "auto" stands for, and why; empty if it was not asked for
 };
+
+/** What a source holds: a volume on a Cartesian grid, or on the lattice. */
+using SourceVolume = std::variant<Scan, FCCVolume>;
 
 /** \class LabelSelection
  * \brief The labels that become surfaces. */

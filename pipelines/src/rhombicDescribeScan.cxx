@@ -134,13 +134,6 @@ DescribeSeries(const ScanSource & source, const LabelMapSource & labels)
   return std::move(*description);
 }
 
-/** A preset's name, and why it is chosen. */
-struct PresetChoice
-{
-  std::string preset;
-  std::string reason; ///< "the scan is ..."
-};
-
 /** The choice for a CT, or a scan of unknown modality. */
 PresetChoice
 ChooseForCT(const Scan & scan, const Intensities & intensities)
@@ -224,19 +217,15 @@ DescribeScan(const ScanSource & source, const LabelMapSource & labels)
   return DescribeSeries(first, labels);
 }
 
-std::string
-ChoosePreset(ScanSource & source, bool hasLabels, const Events & events)
+PresetChoice
+ChoosePreset(const SourceVolume & volume, bool hasLabels)
 {
-  source.volume = std::make_shared<SourceVolume>(LoadVolume(source, events));
-  const Scan * const scan = std::get_if<Scan>(source.volume.get());
-  PresetChoice choice{ "outline", "the source is a lattice volume, which does not say what it is of" };
-  if (scan != nullptr)
+  const Scan * const scan = std::get_if<Scan>(&volume);
+  if (scan == nullptr)
   {
-    choice = IsLabelMap(*scan) ? PresetChoice{ "", "the scan is a label map" } : ChooseForScan(*scan, hasLabels);
+    return { "outline", "the source is a lattice volume, which does not say what it is of" };
   }
-  source.presetChoice = (choice.preset.empty() ? "none" : choice.preset) + ", as " + choice.reason;
-  events.Note("preset: " + source.presetChoice);
-  return choice.preset;
+  return IsLabelMap(*scan) ? PresetChoice{ "", "the scan is a label map" } : ChooseForScan(*scan, hasLabels);
 }
 
 } // namespace rhombic

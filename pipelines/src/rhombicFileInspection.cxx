@@ -17,28 +17,6 @@ namespace
 
 constexpr double NotablePercent = 1.0; // smaller differences of volumes are not mentioned
 
-/** Volume, area and mean value, in one line. */
-std::string
-Summarize(const std::string & name, const SurfaceMeasures & measures)
-{
-  const auto toMillilitres = [](double volume) { return FormatFixed(volume / CubicMillimetresPerMl, 1); };
-  std::string text = name + ": " + toMillilitres(measures.volume) + " ml";
-  if (measures.isosurface)
-  {
-    const double error = *measures.GetVolumeError();
-    text += ", " + FormatFixed(std::abs(error), 1) + (error < 0.0 ? " % less" : " % more") +
-            " than the scan's isosurface encloses (" + toMillilitres(measures.isosurface->volume) + " +- " +
-            toMillilitres(measures.isosurface->uncertainty) + " ml)";
-  }
-  if (measures.voxelVolume)
-  {
-    text += ", voxels " + toMillilitres(*measures.voxelVolume) + " ml";
-  }
-  text += ", " + FormatFixed(measures.area / 100.0, 1) + " cm2, longest diameter " +
-          FormatFixed(measures.longestDiameter, 1) + " mm";
-  return measures.meanValue ? text + ", mean value " + FormatFixed(*measures.meanValue, 1) : text;
-}
-
 /** The steps of finishing that may have changed the volume of parts. */
 std::string
 NameSteps(const SurfaceFinish & finish)
@@ -79,7 +57,7 @@ FileInspection::Measure(MeshedSurface & surface) const
 void
 FileInspection::NoteResults(const MeshedSurface & surface) const
 {
-  m_Events.Note(Summarize(surface.scene.name, surface.measures));
+  m_Events.Note(SummarizeMeasures(surface));
   this->NoteFinish(surface);
   this->NoteThinParts(surface);
   if (surface.deviation)
@@ -114,8 +92,7 @@ FileInspection::NoteThinParts(const MeshedSurface & surface) const
     if (std::abs(error) > NotablePercent + 100.0 * surface.isosurface->GetRelativeUncertainty())
     {
       m_Events.Note(surface.scene.name + ": parts are thinner than the lattice's spacing, so the surface encloses " +
-                    FormatFixed(std::abs(error), 1) + (error < 0.0 ? " % less" : " % more") + " than the isosurface" +
-                    this->AdviseDensity());
+                    DescribeDifference(error) + " than the isosurface" + this->AdviseDensity());
     }
   }
   else if (surface.request && surface.measures.voxelVolume)

@@ -2,7 +2,7 @@
 #define rhombicFileInspection_h
 
 #include "rhombicMeshScan.h"
-#include "rhombicMeshedSurface.h"
+#include "rhombicSourceSurfaces.h"
 
 #include <optional>
 

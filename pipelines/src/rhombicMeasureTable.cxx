@@ -78,6 +78,15 @@ FindIsosurface(const Surface & surface)
   return isosurface ? ToMillilitres((*isosurface).*Member) : Report();
 }
 
+std::string
+SayIsosurface(double ml, const Surface & surface)
+{
+  const auto & measures = surface.measures;
+  return DescribeDifference(measures.GetVolumeError().value()) + " than the scan's isosurface encloses (" +
+         FormatFixed(ml, 1) + " +- " + FormatMillilitres(measures.isosurface->uncertainty / CubicMillimetresPerMl) +
+         ")";
+}
+
 template <std::size_t Bound>
 Report
 FindBound(const Surface & surface)
@@ -216,11 +225,13 @@ GetMeasureColumns()
     { "volume_ml",
       "mL",
       "The volume that the finished surface encloses.",
-      [](const Surface & s) { return ToMillilitres(s.measures.volume); } },
+      [](const Surface & s) { return ToMillilitres(s.measures.volume); },
+      [](double ml, const Surface &) { return FormatMillilitres(ml); } },
     { "isosurface_volume_ml",
       "mL",
       "The volume inside the scan's isosurface, estimated from the lattice's samples.",
-      FindIsosurface<&IsosurfaceVolume::volume> },
+      FindIsosurface<&IsosurfaceVolume::volume>,
+      SayIsosurface },
     { "isosurface_uncertainty_ml",
       "mL",
       "The uncertainty of isosurface_volume_ml.",
@@ -228,7 +239,8 @@ GetMeasureColumns()
     { "voxel_volume_ml",
       "mL",
       "The volume of the voxels of the label, or on the inner side of the threshold.",
-      [](const Surface & s) { return ToMillilitres(s.measures.voxelVolume); } },
+      [](const Surface & s) { return ToMillilitres(s.measures.voxelVolume); },
+      [](double ml, const Surface &) { return "voxels " + FormatMillilitres(ml); } },
     { "volume_error_percent",
       "%",
       "By how much volume_ml is above its reference.",
@@ -237,7 +249,8 @@ GetMeasureColumns()
     { "area_mm2",
       "mm^2",
       "The area of the finished surface.",
-      [](const Surface & s) { return FiniteOrNull(s.measures.area); } },
+      [](const Surface & s) { return FiniteOrNull(s.measures.area); },
+      [](double area, const Surface &) { return FormatFixed(area / 100.0, 1) + " cm2"; } },
     { "x_min_mm", "mm", "The lowest coordinate to the patient's left (LPS).", FindBound<0> },
     { "x_max_mm", "mm", "The highest coordinate to the patient's left (LPS).", FindBound<1> },
     { "y_min_mm", "mm", "The lowest coordinate to the patient's back (LPS).", FindBound<2> },
@@ -250,11 +263,13 @@ GetMeasureColumns()
     { "longest_diameter_mm",
       "mm",
       "The largest distance between two points of the surface.",
-      [](const Surface & s) { return FiniteOrNull(s.measures.longestDiameter); } },
+      [](const Surface & s) { return FiniteOrNull(s.measures.longestDiameter); },
+      [](double diameter, const Surface &) { return "longest diameter " + FormatFixed(diameter, 1) + " mm"; } },
     { "mean_scan_unit",
       "unit of the scan's values (HU for CT)",
       "The mean of the scan's values inside the surface.",
-      [](const Surface & s) { return FiniteOrNull(s.measures.meanValue); } },
+      [](const Surface & s) { return FiniteOrNull(s.measures.meanValue); },
+      [](double mean, const Surface &) { return "mean value " + FormatFixed(mean, 1); } },
     { "standard_deviation_scan_unit",
       "unit of the scan's values (HU for CT)",
       "The standard deviation of the scan's values inside the surface.",
@@ -334,6 +349,27 @@ ReportMeasures(const MeshedSurface & surface)
     }
   }
   return report;
+}
+
+std::string
+SummarizeMeasures(const MeshedSurface & surface)
+{
+  std::string text;
+  for (const MeasureColumn & column : GetMeasureColumns())
+  {
+    const Report value = column.say != nullptr ? column.find(surface) : Report();
+    if (!value.is_null())
+    {
+      text += (text.empty() ? ": " : ", ") + column.say(value.get<double>(), surface);
+    }
+  }
+  return surface.scene.name + text;
+}
+
+std::string
+DescribeDifference(double percent)
+{
+  return FormatFixed(std::abs(percent), 1) + (percent < 0.0 ? " % less" : " % more");
 }
 
 void

@@ -2,25 +2,14 @@
 
 #include "rhombicFailure.h"
 #include "rhombicFileInspection.h"
-#include "rhombicLabelSurfaces.h"
 #include "rhombicMeasureTable.h"
-#include "rhombicSourceLoading.h"
+#include "rhombicForEachBlock.h"
 #include "rhombicSurfaceReport.h"
 
-#include "itkFCCScanBorder.h"
-#include "rhombicForEachBlock.h"
-#include "itkTriangleSurfaceIntersections.h"
-
 #include <algorithm>
-#include <functional>
 #include <iterator>
-#include <optional>
 #include <set>
 #include <utility>
-
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 namespace fs = std::filesystem;
 
@@ -110,190 +99,6 @@ CheckNumberOfSurfaces(const LoadedSource & loaded, const MeshScanSettings & sett
   CheckSurfacePath(settings.mesh, HasFileForEach(settings.mesh) ? 1 : fewest);
 }
 
-/** The volume inside the scan's isosurface, estimated from the lattice. Nothing if only some parts of it are kept, if
- * the lattice samples another field than the scan or has few sites, or if the uncertainty is half the volume or more.
- */
-std::optional<IsosurfaceVolume>
-EstimateIsosurface(const LoadedSource & loaded,
-                   const SurfaceRequest & request,
-                   double area,
-                   const LatticeSettings & settings)
-{
-  constexpr double fewestSites = 0.7; // per sample of the scan
-  const bool isFieldOfScan = loaded.scan && !settings.nested && settings.denoising.kind == Denoising::Kind::None;
-  if (!isFieldOfScan || request.parts != SurfaceRequest::Parts::All)
-  {
-    return std::nullopt;
-  }
-  const auto countOf = [](const itk::ImageBase<3> & image) {
-    return static_cast<double>(image.GetLargestPossibleRegion().GetNumberOfPixels());
-  };
-  const double sites = std::visit([&](const auto & image) { return countOf(*image); }, loaded.lattice);
-  if (sites < fewestSites * countOf(GeometryOf(loaded.scan->image)))
-  {
-    return std::nullopt;
-  }
-  const auto estimate =
-    EstimateIsosurfaceVolume(loaded.lattice, request.GetThreshold(), area, loaded.grid.GetPointer());
-  return estimate.uncertainty < 0.5 * estimate.volume ? std::optional(estimate) : std::nullopt;
-}
-
-void
-AddIsosurfaces(const LoadedSource & loaded,
-               const MeshScanSettings & settings,
-               const Events & events,
-               std::vector<MeshedSurface> & surfaces)
-{
-  const auto extracted = LatticeToSurfaces(
-    loaded.lattice, loaded.requests, settings.surfaces.mode, events, loaded.grid, StoresNormals(settings.mesh));
-  for (std::size_t n = 0; n < extracted.size(); ++n)
-  {
-    MeshedSurface & surface = surfaces.emplace_back();
-    surface.scene = extracted[n];
-    surface.request = loaded.requests[n];
-    surface.mode = settings.surfaces.mode;
-    surface.enclosed = extracted[n].enclosed;
-    surface.extracted = MeasureExtracted(*surface.scene.surface);
-    surface.isosurface = EstimateIsosurface(loaded, *surface.request, surface.extracted->area, settings.source.lattice);
-  }
-}
-
-/** Adds labels whose walls are finished once for both sides. */
-void
-AddLabels(const LoadedSource & loaded,
-          const MeshScanSettings & settings,
-          const Events & events,
-          std::vector<MeshedSurface> & surfaces)
-{
-  if (settings.source.lattice.denoising.kind != Denoising::Kind::None)
-  {
-    events.Note("labels have no noise: --denoise is not for them");
-  }
-  LabelMesh mesh = LabelsToWalls(*loaded.labels, GetLabelSettings(settings.source, settings.surfaces), events);
-  ExtractSurfaces(mesh);
-  std::vector<ExtractedSize> extracted;
-  for (const LabelSurface & label : mesh.labels)
-  {
-    extracted.push_back(MeasureExtracted(*label.scene.surface));
-  }
-  const double spacing = MeanSpacingOf(GeometryOf(loaded.labels->scan.image));
-  const std::vector<Refinement> refinements = RefineWalls(mesh, settings.finish, spacing, events);
-  if (refinements.front().smoothing || refinements.front().simplification)
-  {
-    ExtractSurfaces(mesh);
-  }
-  for (std::size_t n = 0; n < mesh.labels.size(); ++n)
-  {
-    MeshedSurface & surface = surfaces.emplace_back();
-    surface.scene = std::exchange(mesh.labels[n].scene, {});
-    surface.label = std::move(mesh.labels[n]);
-    surface.extracted = extracted[n];
-    surface.refinement = refinements[surface.label->layer];
-  }
-}
-
-/** The spacing that surfaces were sampled with, in mm. */
-double
-SpacingOf(const LoadedSource & loaded)
-{
-  if (!loaded.requests.empty())
-  {
-    return std::visit([](const auto & image) { return MeanSpacingOf(*image); }, loaded.lattice);
-  }
-  return MeanSpacingOf(GeometryOf(loaded.labels->scan.image));
-}
-
-/** Finds which triangles of an isosurface may cross; nothing if all may. */
-using CandidateSearch = std::function<std::optional<itk::CrossingCandidates>(const itk::TriangleSurface &)>;
-
-/** In modes Tetrahedra and Fine points lie on the edges of tetrahedra, but for those near the walls, which were moved.
- */
-CandidateSearch
-MakeCandidateSearch(const LoadedSource & loaded, itk::FCCIsosurfaceMode mode)
-{
-  using Mode = itk::FCCIsosurfaceMode;
-  if (loaded.requests.empty() || (mode != Mode::Tetrahedra && mode != Mode::Fine))
-  {
-    return [](const itk::TriangleSurface &) { return std::nullopt; };
-  }
-  const auto spacing = std::visit([](const auto & image) { return image->GetSpacing(); }, loaded.lattice);
-  const double smallest = *std::min_element(spacing.Begin(), spacing.End());
-  const double largest = *std::max_element(spacing.Begin(), spacing.End());
-  return [smallest, largest, grid = loaded.grid](const itk::TriangleSurface & surface) {
-    constexpr double widthOfTetrahedron = 2.0; // spacings
-    itk::CrossingCandidates candidates;
-    candidates.longestEdge = itk::FindLongestRoundedEdge(surface, smallest, largest);
-    if (grid)
-    {
-      candidates.triangles = itk::FindTrianglesNearFCCWalls(surface, *grid, 1.5 * widthOfTetrahedron * largest);
-    }
-    return std::optional(candidates);
-  };
-}
-
-/** Removes parts of a surface; smooths and simplifies isosurfaces. Returns whether anything is left.
- */
-bool
-Finish(MeshedSurface & surface,
-       const SurfaceFinish & commandFinish,
-       double spacing,
-       const CandidateSearch & findCandidates,
-       const Events & events)
-{
-  const SurfaceFinish finish = surface.request ? CombineFinish(surface.request->finish, commandFinish) : commandFinish;
-  const auto finished = itk::TriangleSurface::New();
-  finished->Graft(surface.scene.surface);
-  surface.scene.surface = finished;
-  finished->GetTriangles().shrink_to_fit(); // extraction may leave room for more
-  surface.parts = RemoveParts(*finished, finish, surface.scene.name, events);
-  if (finished->GetNumberOfTriangles() == 0)
-  {
-    events.Note(surface.scene.name + ": left out, as all its parts are below --min-volume");
-    return false;
-  }
-  if (surface.request)
-  {
-    const auto candidates = findCandidates(*finished);
-    surface.refinement = RefineSurface(*finished, finish, spacing, surface.scene.name, events, candidates);
-  }
-  return true;
-}
-
-/** Finishes surfaces, and drops those of which nothing is left. */
-void
-FinishAll(std::vector<MeshedSurface> & surfaces,
-          const SurfaceFinish & finish,
-          double spacing,
-          const CandidateSearch & findCandidates,
-          const Events & events)
-{
-  std::vector<MeshedSurface> finished;
-  for (MeshedSurface & surface : surfaces)
-  {
-    if (Finish(surface, finish, spacing, findCandidates, events))
-    {
-      finished.push_back(std::move(surface));
-    }
-  }
-  surfaces.swap(finished);
-  if (surfaces.empty())
-  {
-    throw Failure(FailureKind::Empty, "Nothing is left: all parts are below --min-volume; lower it.");
-  }
-}
-
-/** Drops the lattice and the labels. What extraction freed goes back to the system, so that it does not add to the
- * memory of the steps behind. */
-void
-DropVolumes(LoadedSource & loaded)
-{
-  loaded.lattice = FCCVolume();
-  loaded.labels.reset();
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
-}
-
 /** \class FileStaging
  * \brief Writes surfaces as files, with their sidecars. */
 class FileStaging
@@ -365,26 +170,17 @@ CheckMeshScan(const MeshScanSettings & settings)
 }
 
 std::vector<fs::path>
-MeshScan(const MeshScanSettings & settings, const Events & events)
+MeshScan(const MeshScanSettings & settings, const Events & events, std::optional<SourceVolume> volume)
 {
   CheckOutputs(CheckMeshScan(settings), settings.source, settings.surfaces);
-  LoadedSource loaded = LoadSource(settings.source, settings.surfaces, events);
+  LoadedSource loaded = LoadSource(settings.source, settings.surfaces, std::move(volume), events);
   CheckNumberOfSurfaces(loaded, settings);
   Report sourceReport = ReportSource(loaded, settings.source);
-  std::vector<MeshedSurface> surfaces;
-  if (!loaded.requests.empty())
-  {
-    AddIsosurfaces(loaded, settings, events, surfaces);
-  }
-  if (loaded.labels)
-  {
-    AddLabels(loaded, settings, events, surfaces);
-  }
-  const double spacing = SpacingOf(loaded);
-  const auto findCandidates = MakeCandidateSearch(loaded, settings.surfaces.mode);
-  DropVolumes(loaded);
+  SourceSurfaces making(settings.source, settings.surfaces, settings.finish, SurfaceUse::Files, events);
+  std::vector<MeshedSurface> surfaces = making.Extract(loaded, StoresNormals(settings.mesh));
+  loaded.DropVolumes();
   CheckOutputs(OutputsOf(PathsOf(settings.mesh, surfaces), settings), settings.source, settings.surfaces);
-  FinishAll(surfaces, settings.finish, spacing, findCandidates, events);
+  making.Finish(surfaces);
 
   const FileInspection inspection(settings, loaded.scan, events);
   const FileStaging staging(settings, inspection, sourceReport);

@@ -11,6 +11,10 @@
 #include <algorithm>
 #include <set>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace fs = std::filesystem;
 
 namespace rhombic
@@ -233,10 +237,6 @@ ReadScan(const ScanSource & source, const Events & events)
 SourceVolume
 LoadVolume(const ScanSource & source, const Events & events)
 {
-  if (source.volume)
-  {
-    return std::move(*source.volume);
-  }
   events.Progress("reading", 0.0);
   if (IsFCCImageFile(source.path))
   {
@@ -245,26 +245,32 @@ LoadVolume(const ScanSource & source, const Events & events)
   return LoadScan(source, events);
 }
 
+void
+LoadedSource::DropVolumes()
+{
+  lattice = FCCVolume();
+  labels.reset();
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
 LoadedSource
-LoadSource(const ScanSource & source, const SurfaceSelection & selection, const Events & events)
+LoadSource(const ScanSource & source,
+           const SurfaceSelection & selection,
+           std::optional<SourceVolume> volume,
+           const Events & events)
 {
   CheckLatticeSettings(source.lattice);
-  SourceVolume volume = LoadVolume(source, events);
-  if (auto * const lattice = std::get_if<FCCVolume>(&volume))
+  if (!volume)
+  {
+    volume = LoadVolume(source, events);
+  }
+  if (auto * const lattice = std::get_if<FCCVolume>(&*volume))
   {
     return PrepareLattice(std::move(*lattice), source, selection, events);
   }
-  return PrepareScan(std::get<Scan>(std::move(volume)), source, selection, events);
-}
-
-LabelSurfaceSettings
-GetLabelSettings(const ScanSource & source, const SurfaceSelection & selection)
-{
-  LabelSurfaceSettings settings;
-  settings.labels = selection.labels->labels;
-  settings.density = source.lattice.density;
-  settings.maximumMemory = source.lattice.maximumMemory;
-  return settings;
+  return PrepareScan(std::get<Scan>(*std::move(volume)), source, selection, events);
 }
 
 void

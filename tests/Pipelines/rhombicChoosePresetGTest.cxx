@@ -1,6 +1,6 @@
 #include "../scans/ScanIO/rhombicDicomTestFile.h"
 #include "rhombicDescribeScan.h"
-#include "rhombicPresets.h"
+#include "rhombicSourceLoading.h"
 #include "rhombicTemporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -39,16 +39,7 @@ MakeScan(const std::string & modality, float lowest, float highest)
 std::string
 ChoiceFor(const rhombic::Scan & scan, bool hasLabels = false)
 {
-  rhombic::ScanSource source;
-  source.volume = std::make_shared<std::variant<rhombic::Scan, rhombic::FCCVolume>>(scan);
-  std::string note;
-  rhombic::Events events;
-  events.note = [&note](const std::string & line) { note = line; };
-  const std::string preset = rhombic::ChoosePreset(source, hasLabels, events);
-  EXPECT_EQ(note, "preset: " + source.presetChoice);
-  EXPECT_EQ(source.presetChoice.rfind((preset.empty() ? "none" : preset) + ", as ", 0), 0u) << source.presetChoice;
-  EXPECT_NE(source.volume, nullptr) << "the next function takes the volume";
-  return source.presetChoice;
+  return rhombic::ChoosePreset(scan, hasLabels).Describe();
 }
 
 void
@@ -127,7 +118,8 @@ TEST(ChoosePreset, OfRealScans)
   {
     rhombic::ScanSource source;
     source.path = fs::path(scans) / name;
-    EXPECT_EQ(rhombic::ChoosePreset(source, false, {}), preset) << source.presetChoice;
+    const auto choice = rhombic::ChoosePreset(rhombic::LoadVolume(source, {}), false);
+    EXPECT_EQ(choice.preset, preset) << choice.Describe();
   }
 }
 

@@ -229,22 +229,25 @@ GetPictureSource(const RenderOptions & options, const CommandContext & context)
   return source;
 }
 
-/** Completes a source that was checked. \param places of slices, checked when the headers are read */
-void
+/** Completes a source that was checked; returns what the scan's source holds, if it was read for that.
+ * \param places of slices, checked when the headers are read */
+std::optional<SourceVolume>
 FinishSource(const RenderOptions & options,
              const CommandContext & context,
              const std::vector<PlaneRequest> & places,
              PictureSource & source)
 {
+  std::optional<SourceVolume> volume;
   if (!source.surfaceFiles.empty())
   {
-    return;
+    return volume;
   }
   source.scan.check = [places](const Scan & scan) { CheckPlaces(places, scan); };
-  const Preset preset = options.surfaces.GetPreset(source.scan, context.console->MakeEvents());
+  const Preset preset = options.surfaces.GetPreset(source.scan, volume, context.console->MakeEvents());
   options.scan.ApplyPreset(preset, source.scan);
   source.surfaces = options.surfaces.GetSelection(preset);
   source.surfaces.rules.opensEnclosing = source.surfaces.labels && source.surfaces.labels->labels.empty();
+  return volume;
 }
 
 SliceSettings
@@ -287,8 +290,8 @@ RenderPage(const RenderOptions & options, const CommandContext & context)
   {
     return planned;
   }
-  FinishSource(options, context, settings.slices, settings.source);
-  return RenderSheet(settings, context.console->MakeEvents());
+  auto volume = FinishSource(options, context, settings.slices, settings.source);
+  return RenderSheet(settings, context.console->MakeEvents(), std::move(volume));
 }
 
 /** As RenderPage(). */
@@ -338,8 +341,8 @@ RenderPictures(const RenderOptions & options, const CommandContext & context)
   {
     places.push_back(cut.plane);
   }
-  FinishSource(options, context, places, settings.source);
-  return RenderScan(settings, context.console->MakeEvents());
+  auto volume = FinishSource(options, context, places, settings.source);
+  return RenderScan(settings, context.console->MakeEvents(), std::move(volume));
 }
 
 /** Throws Failure(Usage) for a file name that only other options or programs write. */

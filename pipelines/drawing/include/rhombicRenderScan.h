@@ -8,6 +8,7 @@
 #include "rhombicSidecar.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,9 +67,13 @@ std::vector<std::filesystem::path>
 CheckRenderScan(const RenderScanSettings & settings);
 
 /** Draws pictures, with a sidecar for each; returns their paths. All files appear together at the end, or none does.
- * Throws Failure; for outputs that can't be written or drawn, before the scan is read. */
+ * Throws Failure; for outputs that can't be written or drawn, before the scan is read.
+ *
+ * \param volume what the scan's source holds, if it was read before */
 std::vector<std::filesystem::path>
-RenderScan(const RenderScanSettings & settings, const Events & events);
+RenderScan(const RenderScanSettings & settings,
+           const Events & events,
+           std::optional<SourceVolume> volume = std::nullopt);
 
 /** \class RenderSheetSettings
  * \brief From a scan or surface files to a page. */
@@ -97,9 +102,13 @@ CheckRenderSheet(const RenderSheetSettings & settings);
 
 /** Draws a page, A4: views, slices with outlines, a table of the surfaces, and where they come
  * from. Long tables go on on further pages; a format of one page then has a file for each. Returns the files' paths.
- * Throws as RenderScan() does. */
+ * Throws as RenderScan() does.
+ *
+ * \param volume what the scan's source holds, if it was read before */
 std::vector<std::filesystem::path>
-RenderSheet(const RenderSheetSettings & settings, const Events & events);
+RenderSheet(const RenderSheetSettings & settings,
+            const Events & events,
+            std::optional<SourceVolume> volume = std::nullopt);
 
 } // namespace rhombic
 

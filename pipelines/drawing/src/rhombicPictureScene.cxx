@@ -2,18 +2,14 @@
 
 #include "rhombicDicomExamination.h"
 #include "rhombicFailure.h"
-#include "rhombicLabelSurfaces.h"
-#include "rhombicLatticeToSurfaces.h"
 #include "rhombicMeasureTable.h"
-#include "rhombicSourceLoading.h"
+#include "rhombicSourceSurfaces.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicSurfaceReport.h"
 #include "rhombicVTPToPLY.h"
 #include "rhombicWording.h"
 
 #include "itkTriangleSurfaceMeasures.h"
-#include "itkTriangleSurfaceNormalSmoothing.h"
-#include "itkTriangleSurfaceSmoothing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,32 +38,9 @@ DescribeSize(const itk::ImageBase<3> & image)
   return std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]);
 }
 
-/** Removes parts, and smooths, the normals last. Returns whether anything is left. */
-bool
-Finish(MeshedSurface & surface, const SurfaceFinish & finish, double spacing, const Events & events)
-{
-  const auto finished = itk::TriangleSurface::New();
-  finished->Graft(surface.scene.surface);
-  surface.scene.surface = finished;
-  surface.parts = RemoveParts(*finished, finish, surface.scene.name, events);
-  if (finished->GetNumberOfTriangles() == 0)
-  {
-    events.Note(surface.scene.name + ": left out, as all its parts are below --min-volume");
-    return false;
-  }
-  if (finish.smoothing > 0.0)
-  {
-    itk::TriangleSurfaceSmoothingSettings settings;
-    settings.maximumMove = finish.smoothing * spacing;
-    SmoothTriangleSurface(*finished, settings);
-  }
-  itk::SmoothTriangleSurfaceNormals(*finished);
-  return true;
-}
-
-/** Measures a surface, and adds it. */
+/** Measures a finished surface, and adds it. */
 void
-AddSurface(MeshedSurface surface, PictureScene & scene)
+AddSurface(MeshedSurface & surface, PictureScene & scene)
 {
   MeasureFinished(scene.scan ? &*scene.scan : nullptr, surface);
   LegendRow row;
@@ -85,58 +58,6 @@ std::string
 DescribeThreshold(const SurfaceRequest & request)
 {
   return request.name + (request.insideIsBelow ? " below " : " from ") + FormatNumber(request.isovalue.value());
-}
-
-void
-AddIsosurfaces(const LoadedSource & loaded, const PictureSource & source, const Events & events, PictureScene & scene)
-{
-  const auto mode = source.surfaces.mode;
-  const double spacing = std::visit([](const auto & image) { return MeanSpacingOf(*image); }, loaded.lattice);
-  const auto extracted = LatticeToSurfaces(loaded.lattice, loaded.requests, mode, events, loaded.grid);
-  std::vector<std::string> thresholds;
-  for (std::size_t n = 0; n < extracted.size(); ++n)
-  {
-    MeshedSurface surface;
-    surface.scene = extracted[n];
-    surface.request = loaded.requests[n];
-    surface.mode = mode;
-    surface.enclosed = extracted[n].enclosed;
-    surface.extracted = MeasureExtracted(*surface.scene.surface);
-    if (Finish(surface, CombineFinish(loaded.requests[n].finish, source.finish), spacing, events))
-    {
-      thresholds.push_back(DescribeThreshold(loaded.requests[n]));
-      AddSurface(surface, scene);
-    }
-  }
-  scene.thresholds = Enumerate(thresholds, "and");
-  scene.facts.push_back("thresholds: " + scene.thresholds + (scene.unit.empty() ? "" : " " + scene.unit));
-}
-
-void
-AddLabels(const LoadedSource & loaded, const PictureSource & source, const Events & events, PictureScene & scene)
-{
-  const double spacing = MeanSpacingOf(GeometryOf(loaded.labels->scan.image));
-  const LabelSurfaceSettings settings = GetLabelSettings(source.scan, source.surfaces);
-  SurfaceFinish finish = source.finish;
-  LabelMesh mesh = LabelsToWalls(*loaded.labels, settings, events);
-  SurfaceFinish smoothing;
-  smoothing.smoothing = std::exchange(finish.smoothing, 0.0);
-  const bool isExtracted = !RefineWalls(mesh, smoothing, spacing, events).front().smoothing;
-  ExtractSurfaces(mesh);
-  for (LabelSurface & label : mesh.labels)
-  {
-    MeshedSurface surface;
-    surface.scene = std::exchange(label.scene, {});
-    surface.label = std::move(label);
-    if (isExtracted)
-    {
-      surface.extracted = MeasureExtracted(*surface.scene.surface);
-    }
-    if (Finish(surface, finish, spacing, events))
-    {
-      AddSurface(std::move(surface), scene);
-    }
-  }
 }
 
 /** Lines about the scan and the lattice, for a page. */
@@ -187,38 +108,57 @@ BoxOfSurfaces(const std::vector<SceneSurface> & surfaces)
   return BoxOf(box.lowest, box.highest, { spacing, spacing, spacing });
 }
 
-PictureScene
-MakeSceneOfScan(const PictureSource & source, bool keepsScan, const Events & events)
+/** Measures finished surfaces, and adds them with their thresholds, if any are isosurfaces. */
+void
+AddSurfaces(std::vector<MeshedSurface> & surfaces, bool hasThresholds, PictureScene & scene)
 {
-  LoadedSource loaded = LoadSource(source.scan, source.surfaces, events);
+  std::vector<std::string> thresholds;
+  for (MeshedSurface & surface : surfaces)
+  {
+    if (surface.request)
+    {
+      thresholds.push_back(DescribeThreshold(*surface.request));
+    }
+    AddSurface(surface, scene);
+  }
+  if (hasThresholds)
+  {
+    scene.thresholds = Enumerate(thresholds, "and");
+    scene.facts.push_back("thresholds: " + scene.thresholds + (scene.unit.empty() ? "" : " " + scene.unit));
+  }
+}
+
+PictureScene
+MakeSceneOfScan(const PictureSource & source, std::optional<SourceVolume> volume, bool keepsScan, const Events & events)
+{
+  LoadedSource loaded = LoadSource(source.scan, source.surfaces, std::move(volume), events);
   PictureScene scene;
   scene.report = ReportSource(loaded, source.scan);
   scene.report["surfaces"] = Report::array();
   AddFacts(loaded, source, scene);
   const Scan * const scan = loaded.FindScan();
-  scene.isOriented = scan == nullptr || scan->isOriented;
-  const std::optional<SliceBox> box = scan != nullptr ? std::optional(BoxOf(*scan)) : std::nullopt;
+  const bool isLattice = scan == nullptr;
+  scene.isOriented = isLattice || scan->isOriented;
+  const std::optional<SliceBox> box = isLattice ? std::nullopt : std::optional(BoxOf(*scan));
   if (keepsScan && loaded.scan)
   {
     scene.scan = std::move(loaded.scan);
     scene.unit = IsInHounsfieldUnits(*scene.scan) ? "HU" : ReadDicomExamination(*scene.scan).units;
   }
   loaded.scan.reset(); // frees memory for the surfaces
-  if (!loaded.requests.empty())
+  SourceSurfaces making(source.scan, source.surfaces, source.finish, SurfaceUse::Pictures, events);
+  std::vector<MeshedSurface> surfaces = making.Extract(loaded);
+  std::optional<Scan> greys; // of a lattice volume, whose samples are no voxels: nothing is measured in them
+  if (isLattice && keepsScan)
   {
-    AddIsosurfaces(loaded, source, events, scene);
+    greys.emplace().image = LatticeToScan(loaded.lattice, {}, events);
   }
-  if (loaded.labels)
+  loaded.DropVolumes();
+  making.Finish(surfaces);
+  AddSurfaces(surfaces, !loaded.requests.empty(), scene);
+  if (greys)
   {
-    AddLabels(loaded, source, events, scene);
-  }
-  else if (keepsScan && !scene.scan && !loaded.requests.empty()) // a lattice volume, whose samples are no voxels
-  {
-    scene.scan.emplace().image = LatticeToScan(loaded.lattice, {}, events);
-  }
-  if (scene.surfaces.empty())
-  {
-    throw Failure(FailureKind::Empty, "Nothing is left: all parts are below --min-volume; lower it.");
+    scene.scan = std::move(greys);
   }
   scene.box = box ? *box : BoxOfSurfaces(scene.surfaces);
   return scene;
@@ -233,6 +173,7 @@ MakeSceneOfFiles(const PictureSource & source, const Events & events)
     throw Failure(FailureKind::Usage,
                   "--smooth is in spacings of the lattice, and surface files have none; leave it out.");
   }
+  const SourceSurfaces making(source.scan, source.surfaces, source.finish, SurfaceUse::Pictures, events);
   PictureScene scene;
   scene.report["surfaces"] = Report::array();
   std::vector<SceneSurface> read;
@@ -263,7 +204,7 @@ MakeSceneOfFiles(const PictureSource & source, const Events & events)
     ++name;
     MeshedSurface shown;
     shown.scene = surface;
-    if (Finish(shown, source.finish, 1.0, events))
+    if (making.Finish(shown))
     {
       AddSurface(shown, scene);
     }
@@ -280,10 +221,13 @@ MakeSceneOfFiles(const PictureSource & source, const Events & events)
 } // namespace
 
 PictureScene
-MakePictureScene(const PictureSource & source, bool keepsScan, const Events & events)
+MakePictureScene(const PictureSource & source,
+                 std::optional<SourceVolume> volume,
+                 bool keepsScan,
+                 const Events & events)
 {
-  PictureScene scene =
-    source.surfaceFiles.empty() ? MakeSceneOfScan(source, keepsScan, events) : MakeSceneOfFiles(source, events);
+  PictureScene scene = source.surfaceFiles.empty() ? MakeSceneOfScan(source, std::move(volume), keepsScan, events)
+                                                   : MakeSceneOfFiles(source, events);
   for (SceneSurface & surface : scene.surfaces)
   {
     surface.isGlossy = IsGlossy(source.surfaces.rules.rules, surface.name);

@@ -32,9 +32,13 @@ struct PictureScene
 };
 
 /** Reads a source, and makes its surfaces. Throws Failure.
+ * \param volume what the scan's source holds, if it was read before
  * \param keepsScan whether the scan is needed after that */
 PictureScene
-MakePictureScene(const PictureSource & source, bool keepsScan, const Events & events);
+MakePictureScene(const PictureSource & source,
+                 std::optional<SourceVolume> volume,
+                 bool keepsScan,
+                 const Events & events);
 
 /** Adds the names of surfaces that planes go through to those that are needed. */
 void

@@ -443,7 +443,7 @@ CheckRenderScan(const RenderScanSettings & settings)
 }
 
 std::vector<fs::path>
-RenderScan(const RenderScanSettings & settings, const Events & events)
+RenderScan(const RenderScanSettings & settings, const Events & events, std::optional<SourceVolume> volume)
 {
   CheckOutputs(CheckRenderScan(settings), settings.source.scan, settings.source.surfaces);
   std::vector<fs::path> paths = PlanPictures(settings);
@@ -474,7 +474,7 @@ RenderScan(const RenderScanSettings & settings, const Events & events)
                 render.maximumMemory,
                 "All pictures together",
                 "choose a smaller --size, or fewer of them");
-  const PictureScene scene = MakePictureScene(SourceOf(settings), NeedsScan(settings), events);
+  const PictureScene scene = MakePictureScene(SourceOf(settings), std::move(volume), NeedsScan(settings), events);
   events.Progress("rendering", 0.0);
   std::vector<Picture> pictures;
   if (drawsViews)

@@ -211,7 +211,7 @@ CheckRenderSheet(const RenderSheetSettings & settings)
 }
 
 std::vector<fs::path>
-RenderSheet(const RenderSheetSettings & settings, const Events & events)
+RenderSheet(const RenderSheetSettings & settings, const Events & events, std::optional<SourceVolume> volume)
 {
   const std::vector<fs::path> outputs = CheckRenderSheet(settings);
   std::optional<DicomStudy> study;
@@ -225,7 +225,7 @@ RenderSheet(const RenderSheetSettings & settings, const Events & events)
   CheckMemory(settings, planes.size(), renderer);
   PictureSource source = settings.source;
   NeedPlaces(planes, source.surfaces.rules);
-  const PictureScene scene = MakePictureScene(source, true, events);
+  const PictureScene scene = MakePictureScene(source, std::move(volume), true, events);
   events.Progress("drawing the page", 0.0);
   Sheet sheet = PlanSheet(settings, scene, planes.size());
   const SheetPlaces places = PlacesOn(sheet);

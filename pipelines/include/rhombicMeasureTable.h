@@ -2,7 +2,7 @@
 #define rhombicMeasureTable_h
 
 #include "rhombicAtomicFile.h"
-#include "rhombicMeshedSurface.h"
+#include "rhombicSourceSurfaces.h"
 #include "rhombicScanReport.h"
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace rhombic
 {
 
 /** \file
- * What is measured of surfaces as they are finished: one list of columns, from which reports, tables and pages take
+ * What is measured of surfaces as they are finished: one list of columns, from which reports, tables and sentences take
  * names, units and values. */
 
 /** \class MeasureColumn
@@ -26,6 +26,9 @@ struct MeasureColumn
 
   /** A number or text; null for what is not known. */
   Report (*find)(const MeshedSurface & surface);
+
+  /** The part of SummarizeMeasures() with the found number; null for columns that the sentence leaves out. */
+  std::string (*say)(double number, const MeshedSurface & surface) = nullptr;
 };
 
 /** All columns; what a table holds has no effect on them. */
@@ -44,6 +47,21 @@ MeasureFinished(const Scan * scan, MeshedSurface & surface);
 /** What is known of a surface, by column. */
 Report
 ReportMeasures(const MeshedSurface & surface);
+
+/** The main measures of a surface in one line: "liver: 1502.3 ml, voxels 1501.0 ml, ...". */
+std::string
+SummarizeMeasures(const MeshedSurface & surface);
+
+/** Change in %. */
+inline double
+PercentChange(double before, double after)
+{
+  return 100.0 * (after - before) / before;
+}
+
+/** "2.0 % less" or "2.0 % more". */
+std::string
+DescribeDifference(double percent);
 
 /** Adds a column to the description of a table's columns as BIDS has them beside a table (.json). */
 void

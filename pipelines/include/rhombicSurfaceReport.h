@@ -1,9 +1,8 @@
 #ifndef rhombicSurfaceReport_h
 #define rhombicSurfaceReport_h
 
-#include "rhombicMeshedSurface.h"
+#include "rhombicSourceSurfaces.h"
 #include "rhombicScanReport.h"
-#include "rhombicSourceLoading.h"
 
 namespace rhombic
 {

@@ -2,21 +2,16 @@
 #define rhombicSourceLoading_h
 
 #include "rhombicEvents.h"
-#include "rhombicLabelSurfaces.h"
 #include "rhombicScanSource.h"
 #include "rhombicTableRemoval.h"
 
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace rhombic
 {
-
-/** A volume on a Cartesian grid, or on the lattice. */
-using SourceVolume = std::variant<Scan, FCCVolume>;
 
 /** Reads a scan, without notes. Throws Failure. */
 Scan
@@ -44,17 +39,22 @@ struct LoadedSource
   {
     return scan ? &*scan : labels ? &labels->scan : nullptr;
   }
+
+  /** Drops the lattice and the labels. The freed memory goes back to the system, so that it does not add to the memory
+   * of the steps behind. */
+  void
+  DropVolumes();
 };
 
 /** Reads a source, removes the table if asked and resamples onto the lattice, as far as the selection needs it. Throws
  * Failure.
- */
+ *
+ * \param volume what the source holds, if it was read before */
 LoadedSource
-LoadSource(const ScanSource & source, const SurfaceSelection & selection, const Events & events);
-
-/** How the surfaces of a selection's labels are made. */
-LabelSurfaceSettings
-GetLabelSettings(const ScanSource & source, const SurfaceSelection & selection);
+LoadSource(const ScanSource & source,
+           const SurfaceSelection & selection,
+           std::optional<SourceVolume> volume,
+           const Events & events);
 
 /** Throws Failure(Usage) for rules that fit none of the surfaces, where these are known without reading anything. */
 void

@@ -1,0 +1,207 @@
+#include "rhombicSourceSurfaces.h"
+
+#include "rhombicFailure.h"
+#include "rhombicMeasureTable.h"
+
+#include "itkFCCScanBorder.h"
+#include "itkTriangleSurfaceIntersections.h"
+#include "itkTriangleSurfaceNormalSmoothing.h"
+#include "itkTriangleSurfaceSmoothing.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace rhombic
+{
+namespace
+{
+
+/** The volume inside the scan's isosurface, estimated from the lattice. Nothing if only some parts of it are kept, if
+ * the lattice samples another field than the scan or has few sites, or if the uncertainty is half the volume or more.
+ */
+std::optional<IsosurfaceVolume>
+EstimateIsosurface(const LoadedSource & loaded,
+                   const SurfaceRequest & request,
+                   double area,
+                   const LatticeSettings & settings)
+{
+  constexpr double fewestSites = 0.7; // per sample of the scan
+  const bool isFieldOfScan = loaded.scan && !settings.nested && settings.denoising.kind == Denoising::Kind::None;
+  if (!isFieldOfScan || request.parts != SurfaceRequest::Parts::All)
+  {
+    return std::nullopt;
+  }
+  const auto countOf = [](const itk::ImageBase<3> & image) {
+    return static_cast<double>(image.GetLargestPossibleRegion().GetNumberOfPixels());
+  };
+  const double sites = std::visit([&](const auto & image) { return countOf(*image); }, loaded.lattice);
+  if (sites < fewestSites * countOf(GeometryOf(loaded.scan->image)))
+  {
+    return std::nullopt;
+  }
+  const auto estimate =
+    EstimateIsosurfaceVolume(loaded.lattice, request.GetThreshold(), area, loaded.grid.GetPointer());
+  return estimate.uncertainty < 0.5 * estimate.volume ? std::optional(estimate) : std::nullopt;
+}
+
+/** How the surfaces of a selection's labels are made. */
+LabelSurfaceSettings
+LabelSettingsOf(const LatticeSettings & lattice, const SurfaceSelection & selection)
+{
+  LabelSurfaceSettings settings;
+  settings.labels = selection.labels->labels;
+  settings.density = lattice.density;
+  settings.maximumMemory = lattice.maximumMemory;
+  return settings;
+}
+
+} // namespace
+
+std::vector<MeshedSurface>
+SourceSurfaces::Extract(const LoadedSource & loaded, bool computesNormals)
+{
+  std::vector<MeshedSurface> surfaces;
+  if (!loaded.requests.empty())
+  {
+    this->AddIsosurfaces(loaded, computesNormals, surfaces);
+  }
+  if (loaded.labels)
+  {
+    this->AddLabels(loaded, surfaces);
+  }
+  return surfaces;
+}
+
+void
+SourceSurfaces::AddIsosurfaces(const LoadedSource & loaded, bool computesNormals, std::vector<MeshedSurface> & surfaces)
+{
+  m_Grid = loaded.grid;
+  m_Lattice = itk::ImageBase<3>::New();
+  std::visit([this](const auto & image) { m_Lattice->CopyInformation(image); }, loaded.lattice);
+  auto extracted =
+    LatticeToSurfaces(loaded.lattice, loaded.requests, m_Selection.mode, m_Events, loaded.grid, computesNormals);
+  for (std::size_t n = 0; n < extracted.size(); ++n)
+  {
+    MeshedSurface & surface = surfaces.emplace_back();
+    surface.enclosed = extracted[n].enclosed;
+    surface.scene = std::move(extracted[n]);
+    surface.request = loaded.requests[n];
+    surface.mode = m_Selection.mode;
+    surface.extracted = MeasureExtracted(*surface.scene.surface);
+    if (m_Use == SurfaceUse::Files)
+    {
+      surface.isosurface = EstimateIsosurface(loaded, *surface.request, surface.extracted->area, m_Source.lattice);
+    }
+  }
+}
+
+void
+SourceSurfaces::AddLabels(const LoadedSource & loaded, std::vector<MeshedSurface> & surfaces) const
+{
+  const bool isForFiles = m_Use == SurfaceUse::Files;
+  if (isForFiles && m_Source.lattice.denoising.kind != Denoising::Kind::None)
+  {
+    m_Events.Note("labels have no noise: --denoise is not for them");
+  }
+  SurfaceFinish smoothing;
+  smoothing.smoothing = m_Finish.smoothing;
+  LabelMesh mesh = LabelsToWalls(*loaded.labels, LabelSettingsOf(m_Source.lattice, m_Selection), m_Events);
+  const bool isMeasured = isForFiles || smoothing.smoothing == 0.0; // else the surfaces would be extracted for it alone
+  std::vector<std::optional<ExtractedSize>> extracted(mesh.labels.size());
+  if (isMeasured)
+  {
+    ExtractSurfaces(mesh);
+    std::transform(mesh.labels.begin(), mesh.labels.end(), extracted.begin(), [](const LabelSurface & label) {
+      return MeasureExtracted(*label.scene.surface);
+    });
+  }
+  const double spacing = MeanSpacingOf(GeometryOf(loaded.labels->scan.image));
+  const std::vector<Refinement> refinements = RefineWalls(mesh, isForFiles ? m_Finish : smoothing, spacing, m_Events);
+  if (!isMeasured || refinements.front().smoothing || refinements.front().simplification)
+  {
+    ExtractSurfaces(mesh);
+  }
+  for (std::size_t n = 0; n < mesh.labels.size(); ++n)
+  {
+    MeshedSurface & surface = surfaces.emplace_back();
+    surface.scene = std::exchange(mesh.labels[n].scene, {});
+    surface.label = std::move(mesh.labels[n]);
+    surface.extracted = extracted[n];
+    surface.refinement = isForFiles ? refinements[surface.label->layer] : Refinement();
+  }
+}
+
+bool
+SourceSurfaces::Finish(MeshedSurface & surface) const
+{
+  const std::string & name = surface.scene.name;
+  const SurfaceFinish finish = surface.request ? CombineFinish(surface.request->finish, m_Finish) : m_Finish;
+  const auto finished = itk::TriangleSurface::New();
+  finished->Graft(surface.scene.surface);
+  surface.scene.surface = finished;
+  finished->GetTriangles().shrink_to_fit(); // extraction may leave room for more
+  surface.parts = RemoveParts(*finished, finish, name, m_Events);
+  if (finished->GetNumberOfTriangles() == 0)
+  {
+    m_Events.Note(name + ": left out, as all its parts are below --min-volume");
+    return false;
+  }
+  if (m_Use == SurfaceUse::Files && surface.request)
+  {
+    surface.refinement =
+      RefineSurface(*finished, finish, MeanSpacingOf(*m_Lattice), name, m_Events, this->FindCandidates(*finished));
+  }
+  if (m_Use == SurfaceUse::Pictures)
+  {
+    if (surface.request && finish.smoothing > 0.0)
+    {
+      itk::TriangleSurfaceSmoothingSettings settings;
+      settings.maximumMove = finish.smoothing * MeanSpacingOf(*m_Lattice);
+      SmoothTriangleSurface(*finished, settings);
+    }
+    itk::SmoothTriangleSurfaceNormals(*finished);
+  }
+  return true;
+}
+
+void
+SourceSurfaces::Finish(std::vector<MeshedSurface> & surfaces) const
+{
+  std::vector<MeshedSurface> finished;
+  for (MeshedSurface & surface : surfaces)
+  {
+    if (this->Finish(surface))
+    {
+      finished.push_back(std::move(surface));
+    }
+  }
+  surfaces.swap(finished);
+  if (surfaces.empty())
+  {
+    throw Failure(FailureKind::Empty, "Nothing is left: all parts are below --min-volume; lower it.");
+  }
+}
+
+/** The triangles of an isosurface that may cross; nothing if all may. In modes Tetrahedra and Fine points lie on the
+ * edges of tetrahedra, but for those near the walls, which were moved. */
+std::optional<itk::CrossingCandidates>
+SourceSurfaces::FindCandidates(const itk::TriangleSurface & surface) const
+{
+  using Mode = itk::FCCIsosurfaceMode;
+  if (m_Selection.mode != Mode::Tetrahedra && m_Selection.mode != Mode::Fine)
+  {
+    return std::nullopt;
+  }
+  constexpr double widthOfTetrahedron = 2.0; // spacings
+  const auto & spacing = m_Lattice->GetSpacing();
+  const auto [smallest, largest] = std::minmax_element(spacing.Begin(), spacing.End());
+  itk::CrossingCandidates candidates;
+  candidates.longestEdge = itk::FindLongestRoundedEdge(surface, *smallest, *largest);
+  if (m_Grid)
+  {
+    candidates.triangles = itk::FindTrianglesNearFCCWalls(surface, *m_Grid, 1.5 * widthOfTetrahedron * *largest);
+  }
+  return candidates;
+}
+
+} // namespace rhombic
