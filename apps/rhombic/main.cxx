@@ -74,6 +74,21 @@ ReadRequest()
   return request;
 }
 
+/** What another process gets on standard output: {"outputs": [{"name": "bone.stl", "kind": "mesh", "measures":
+ * [...]}]}.
+ */
+Report
+ReportOutputs(const std::vector<OutputFile> & outputs)
+{
+  Report report{ { "outputs", Report::array() } };
+  for (const OutputFile & output : outputs)
+  {
+    report["outputs"].push_back(
+      { { "name", output.path.filename().string() }, { "kind", output.kind }, { "measures", output.measures } });
+  }
+  return report;
+}
+
 /** Runs the command that the words name, or that standard input requests. */
 void
 Run(CommandLine & commandLine, const std::vector<std::string> & words, bool isRequested, Console & console)
@@ -91,9 +106,13 @@ Run(CommandLine & commandLine, const std::vector<std::string> & words, bool isRe
   }
   IsolatedDecoder decoder(threads); // before there are more threads
   RequireThreads();
-  command.run({ &console, &decoder, &command.settings });
+  const std::vector<OutputFile> outputs = command.run({ &console, &decoder, &command.settings });
   console.NoteStepTimes();
   console.Finish();
+  if (isRequested)
+  {
+    std::cout << ToJson(ReportOutputs(outputs));
+  }
   if (!std::cout.flush())
   {
     throw Failure(FailureKind::Output, "Cannot write to standard output; is the disk full, or the pipe closed?");

@@ -80,8 +80,8 @@ private:
 };
 
 /** The only argument of the program when standard input holds its command: {"command": "mesh", "settings": {...},
- * "threads": 2}, with settings as CommandSettings has them. If the command fails, standard output holds
- * {"failure": sentence}. */
+ * "threads": 2}, with settings as CommandSettings has them. Standard output then holds {"outputs": [{"name":
+ * "bone.stl", "kind": "mesh", "measures": [...]}]}, or {"failure": sentence}. */
 constexpr char RequestOption[] = "--request";
 
 /** Versions of the program and its libraries, a line each. */

@@ -3,6 +3,7 @@
 
 #include "rhombicConsole.h"
 #include "rhombicSettings.h"
+#include "rhombicSidecar.h"
 #include "rhombicVoxelDecoder.h"
 
 #include <filesystem>
@@ -20,14 +21,14 @@ struct CommandContext
   VoxelDecoder * decoder;     ///< unpacks the voxels of all input files
   CommandSettings * settings; ///< of the command
 
-  /** Null: the command runs. Otherwise it checks what it can without reading or writing anything, and adds the files
-   * that it would write, as far as their names are known; console and decoder are not used. For render, mesh and
-   * resample. */
-  std::vector<std::filesystem::path> * planned = nullptr;
+  /** Whether the command only checks what it can without reading or writing anything, and returns the files that it
+   * would write, without kinds and measures; console and decoder are not used. For render, mesh and resample. */
+  bool onlyChecks = false;
 };
 
-/** Does the command's work once its options are parsed. Throws Failure. */
-using CommandRun = std::function<void(const CommandContext &)>;
+/** Does the command's work once its settings are set. Returns the files of render, mesh and resample. Throws Failure.
+ */
+using CommandRun = std::function<std::vector<OutputFile>(const CommandContext &)>;
 
 /** Each adds its settings and returns what to run. */
 CommandRun
@@ -52,6 +53,10 @@ CommandRun
 AddComparePicturesCommand(CommandSettings & command);
 CommandRun
 AddDoctorCommand(CommandSettings & command);
+
+/** Notes the files that a user looks for, each behind a word, as "mesh: bone.stl". */
+void
+NoteOutputs(const std::string & word, const std::vector<OutputFile> & outputs, Console & console);
 
 /** Adds --pipeline to the settings of render or mesh; \a otherwise runs without it. */
 CommandRun

@@ -230,7 +230,10 @@ AddInfoCommand(CommandSettings & command)
   const auto options = std::make_shared<InfoOptions>();
   command.Add(ScanOptions::SourceTable(), options->scan);
   command.Add(table, *options);
-  return [options](const CommandContext & context) { Info(*options, context); };
+  return [options](const CommandContext & context) {
+    Info(*options, context);
+    return std::vector<OutputFile>();
+  };
 }
 
 } // namespace rhombic

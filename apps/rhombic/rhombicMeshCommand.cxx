@@ -81,7 +81,7 @@ GetSelection(const MeshOptions & options, const Preset & preset)
   return options.surfaces.GetSelection(preset, request);
 }
 
-void
+std::vector<OutputFile>
 Mesh(const MeshOptions & options, const CommandContext & context)
 {
   MeshScanSettings settings;
@@ -99,21 +99,20 @@ Mesh(const MeshOptions & options, const CommandContext & context)
   settings.requiresWatertight = options.requiresWatertight;
   settings.provenance = options.scan.GetProvenance(*context.settings);
   settings.surfaces = GetSelection(options, options.surfaces.GetNamedPreset());
-  const auto planned = CheckMeshScan(settings);
-  if (context.planned != nullptr)
+  std::vector<OutputFile> outputs;
+  AddOutputs(CheckMeshScan(settings), "", outputs);
+  if (context.onlyChecks)
   {
-    context.planned->insert(context.planned->end(), planned.begin(), planned.end());
-    return;
+    return outputs;
   }
   const Events events = context.console->MakeEvents();
   std::optional<SourceVolume> volume;
   const Preset preset = options.surfaces.GetPreset(settings.source, volume, events);
   options.scan.ApplyPreset(preset, settings.source);
   settings.surfaces = GetSelection(options, preset);
-  for (const auto & mesh : MeshScan(settings, events, std::move(volume)))
-  {
-    context.console->Note("mesh: " + mesh.string());
-  }
+  outputs = MeshScan(settings, events, std::move(volume));
+  NoteOutputs("mesh", outputs, *context.console);
+  return outputs;
 }
 
 } // namespace
@@ -165,7 +164,7 @@ AddMeshCommand(CommandSettings & command)
   command.Add(checks, *options);
   command.Add(ScanOptions::LatticeTable(), options->scan);
   command.Add(ScanOptions::SidecarTable(), options->scan);
-  return AddPipelineOption(command, [options](const CommandContext & context) { Mesh(*options, context); });
+  return AddPipelineOption(command, [options](const CommandContext & context) { return Mesh(*options, context); });
 }
 
 } // namespace rhombic

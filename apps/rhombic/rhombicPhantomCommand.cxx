@@ -36,7 +36,10 @@ AddPhantomCommand(CommandSettings & command)
   };
   const auto options = std::make_shared<PhantomOptions>();
   command.Add(table, *options);
-  return [options](const CommandContext & context) { MakePhantom(*options, context); };
+  return [options](const CommandContext & context) {
+    MakePhantom(*options, context);
+    return std::vector<OutputFile>();
+  };
 }
 
 } // namespace rhombic

@@ -5,6 +5,18 @@
 namespace rhombic
 {
 
+void
+NoteOutputs(const std::string & word, const std::vector<OutputFile> & outputs, Console & console)
+{
+  for (const OutputFile & output : outputs)
+  {
+    if (output.isMain)
+    {
+      console.Note(word + ": " + output.path.string());
+    }
+  }
+}
+
 CommandRun
 AddPipelineOption(CommandSettings & command, const CommandRun & otherwise)
 {
@@ -23,12 +35,10 @@ AddPipelineOption(CommandSettings & command, const CommandRun & otherwise)
   return [options, otherwise](const CommandContext & context) {
     if (options->pipeline.empty())
     {
-      otherwise(context);
+      return otherwise(context);
     }
-    else
-    {
-      RunPipeline(options->pipeline, context);
-    }
+    RunPipeline(options->pipeline, context);
+    return std::vector<OutputFile>();
   };
 }
 

@@ -14,7 +14,7 @@ struct ResampleOptions
   std::string volume;
 };
 
-void
+std::vector<OutputFile>
 Resample(const ResampleOptions & options, const CommandContext & context)
 {
   ResampleScanSettings settings;
@@ -25,14 +25,15 @@ Resample(const ResampleOptions & options, const CommandContext & context)
   }
   settings.volume = options.volume;
   settings.provenance = options.scan.GetProvenance(*context.settings);
-  if (context.planned != nullptr)
+  std::vector<OutputFile> outputs;
+  if (context.onlyChecks)
   {
-    const auto planned = CheckResampleScan(settings);
-    context.planned->insert(context.planned->end(), planned.begin(), planned.end());
-    return;
+    AddOutputs(CheckResampleScan(settings), "", outputs);
+    return outputs;
   }
-  ResampleScan(settings, context.console->MakeEvents());
-  context.console->Note("volume: " + settings.volume.string());
+  outputs = ResampleScan(settings, context.console->MakeEvents());
+  NoteOutputs("volume", outputs, *context.console);
+  return outputs;
 }
 
 } // namespace
@@ -51,7 +52,7 @@ AddResampleCommand(CommandSettings & command)
   command.Add(table, *options);
   command.Add(ScanOptions::LatticeTable(), options->scan);
   command.Add(ScanOptions::SidecarTable(), options->scan);
-  return [options](const CommandContext & context) { Resample(*options, context); };
+  return [options](const CommandContext & context) { return Resample(*options, context); };
 }
 
 } // namespace rhombic

@@ -1,8 +1,12 @@
 #include "rhombicSettings.h"
 
+#include "rhombicFailure.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
+#include <cctype>
+#include <iterator>
+#include <memory>
 #include <sstream>
 
 namespace rhombic
@@ -284,13 +288,19 @@ CommandSettings::GetRecordedCommand() const
 void
 CommandSettings::Set(const Report & settings)
 {
+  std::vector<std::string> known;
+  std::transform(m_Rows.begin(), m_Rows.end(), std::back_inserter(known), [](const Row & row) { return row.key; });
   std::vector<CLI::ConfigItem> items;
   for (const auto & [key, value] : settings.items())
   {
     const auto row = std::find_if(m_Rows.begin(), m_Rows.end(), [&key = key](const Row & r) { return r.key == key; });
     if (row == m_Rows.end())
     {
-      throw CLI::ConfigError::Extras(key);
+      throw Failure(FailureKind::Usage,
+                    DescribeUnknown("setting of rhombic " + this->GetCommand(),
+                                    key,
+                                    known,
+                                    "see rhombic " + this->GetCommand() + " --help for all of them"));
     }
     if (value == Report(false))
     {

@@ -191,8 +191,8 @@ public:
   std::string
   GetRecordedCommand() const;
 
-  /** Sets those of \a settings that are not given yet. Throws CLI::ParseError as the parser does, also for unknown
-   * names. */
+  /** Sets those of \a settings that are not given yet. Throws CLI::ParseError as the parser does, and Failure(Usage)
+   * for an unknown name. */
   void
   Set(const Report & settings);
 

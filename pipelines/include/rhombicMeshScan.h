@@ -37,7 +37,7 @@ constexpr char NamePlaceholder[] = "{name}";
 std::vector<std::filesystem::path>
 CheckMeshScan(const MeshScanSettings & settings);
 
-/** Writes surfaces of a scan; returns the files' paths. Measures and the distance from the scan's isosurface are taken
+/** Writes surfaces of a scan; returns all files. Measures and the distance from the scan's isosurface are taken
  * while a file is written, and hold for it, as it is read back and compared; the audit is that of the surface read
  * back. Notes give the main figures; sidecars and the table hold all of them, and what finishing changed. All files
  * appear together at the end, or none does.
@@ -45,7 +45,7 @@ CheckMeshScan(const MeshScanSettings & settings);
  * \param volume what the source holds, if it was read before
  *
  * Throws Failure, also for a surface that has to be watertight and is not. */
-std::vector<std::filesystem::path>
+std::vector<OutputFile>
 MeshScan(const MeshScanSettings & settings, const Events & events, std::optional<SourceVolume> volume = std::nullopt);
 
 } // namespace rhombic

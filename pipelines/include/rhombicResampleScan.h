@@ -26,8 +26,8 @@ std::vector<std::filesystem::path>
 CheckResampleScan(const ResampleScanSettings & settings);
 
 /** Resamples a scan onto the lattice, or, when the source is a lattice volume, onto a Cartesian grid of the source's
- * lattice spacing. Throws Failure. */
-void
+ * lattice spacing; returns all files. Throws Failure. */
+std::vector<OutputFile>
 ResampleScan(const ResampleScanSettings & settings, const Events & events);
 
 } // namespace rhombic

@@ -22,6 +22,31 @@ struct Provenance
   bool writesSidecars = true;
 };
 
+/** \class OutputFile
+ * \brief A file that a command makes. */
+struct OutputFile
+{
+  std::filesystem::path path;
+  std::string kind;                  ///< page, picture, mesh, volume, report, table, dicom or thumbnail
+  Report measures = Report::array(); ///< of each surface that the file holds or shows (see rhombicMeasureTable.h)
+  bool isMain = true;                ///< whether a user looks for the file; others, as reports, lie beside those
+};
+
+/** An output with the measures of the surfaces in its report. */
+OutputFile
+MakeOutput(const std::filesystem::path & path, const std::string & kind, const Report & report);
+
+/** Adds files without surfaces of their own. */
+void
+AddOutputs(const std::vector<std::filesystem::path> & paths,
+           const std::string & kind,
+           std::vector<OutputFile> & outputs,
+           bool areMain = true);
+
+/** Adds the report beside each of the outputs, if any are written. */
+void
+AddSidecars(const Provenance & provenance, std::vector<OutputFile> & outputs);
+
 /** The path of an output's report: the output's name and ".json". */
 std::filesystem::path
 SidecarOf(const std::filesystem::path & output);

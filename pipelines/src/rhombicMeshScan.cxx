@@ -112,7 +112,7 @@ public:
 
   /** Writes \a count surfaces from \a begin on as one file, to appear with all others of \a staged, and meanwhile
    * measures them. */
-  void
+  OutputFile
   Stage(const fs::path & path, MeshedSurface * begin, std::size_t count, StagedFiles & staged) const
   {
     std::vector<SceneSurface> scene;
@@ -144,6 +144,7 @@ public:
       report["surfaces"].push_back(ReportMeshedSurface(begin[n]));
     }
     StageSidecar(path, m_Settings.provenance, report, staged);
+    return MakeOutput(path, "mesh", report);
   }
 
 private:
@@ -169,7 +170,7 @@ CheckMeshScan(const MeshScanSettings & settings)
   return OutputsOf({ settings.mesh }, settings);
 }
 
-std::vector<fs::path>
+std::vector<OutputFile>
 MeshScan(const MeshScanSettings & settings, const Events & events, std::optional<SourceVolume> volume)
 {
   CheckOutputs(CheckMeshScan(settings), settings.source, settings.surfaces);
@@ -195,18 +196,26 @@ MeshScan(const MeshScanSettings & settings, const Events & events, std::optional
     }
   }
   StagedFiles staged;
+  std::vector<OutputFile> outputs;
   for (std::size_t n = 0; n < paths.size(); ++n)
   {
     events.Progress("writing and measuring", static_cast<double>(n) / static_cast<double>(paths.size()));
-    staging.Stage(paths[n], surfaces.data() + n * perFile, perFile, staged);
+    outputs.push_back(staging.Stage(paths[n], surfaces.data() + n * perFile, perFile, staged));
+  }
+  AddSidecars(settings.provenance, outputs);
+  for (const fs::path & path : paths)
+  {
+    const std::vector<fs::path> files = SurfaceFilesOf(path);
+    AddOutputs({ files.begin() + 1, files.end() }, "mesh", outputs, false);
   }
   if (!settings.measures.empty())
   {
     StageMeasureTable(surfaces, settings.measures, staged);
+    outputs.push_back({ settings.measures, "table", Report::array(), false });
   }
   staged.Commit();
   events.Progress("writing and measuring", 1.0);
-  return paths;
+  return outputs;
 }
 
 } // namespace rhombic

@@ -69,7 +69,7 @@ CheckResampleScan(const ResampleScanSettings & settings)
   return WithSidecars({ settings.volume }, settings.provenance);
 }
 
-void
+std::vector<OutputFile>
 ResampleScan(const ResampleScanSettings & settings, const Events & events)
 {
   CheckVolumePath(settings);
@@ -86,6 +86,9 @@ ResampleScan(const ResampleScanSettings & settings, const Events & events)
   }
   staged.Commit();
   events.Progress("writing", 1.0);
+  std::vector<OutputFile> outputs{ { settings.volume, "volume" } };
+  AddSidecars(settings.provenance, outputs);
+  return outputs;
 }
 
 } // namespace rhombic

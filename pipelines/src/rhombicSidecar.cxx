@@ -5,6 +5,39 @@
 namespace rhombic
 {
 
+OutputFile
+MakeOutput(const std::filesystem::path & path, const std::string & kind, const Report & report)
+{
+  OutputFile output{ path, kind };
+  for (const Report & surface : report.value("surfaces", Report::array()))
+  {
+    output.measures.push_back(surface["measures"]);
+  }
+  return output;
+}
+
+void
+AddOutputs(const std::vector<std::filesystem::path> & paths,
+           const std::string & kind,
+           std::vector<OutputFile> & outputs,
+           bool areMain)
+{
+  for (const std::filesystem::path & path : paths)
+  {
+    outputs.push_back({ path, kind, Report::array(), areMain });
+  }
+}
+
+void
+AddSidecars(const Provenance & provenance, std::vector<OutputFile> & outputs)
+{
+  const std::size_t count = provenance.writesSidecars ? outputs.size() : 0;
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    outputs.push_back({ SidecarOf(outputs[n].path), "report", Report::array(), false });
+  }
+}
+
 std::filesystem::path
 SidecarOf(const std::filesystem::path & output)
 {

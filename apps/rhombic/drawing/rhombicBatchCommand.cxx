@@ -294,7 +294,10 @@ AddBatchCommand(CommandSettings & command)
   command.Add(folders, *options);
   command.Add(RunTable(), *options);
   command.Add(choice, *options);
-  return [options](const CommandContext & context) { Batch(*options, context); };
+  return [options](const CommandContext & context) {
+    Batch(*options, context);
+    return std::vector<OutputFile>();
+  };
 }
 
 CommandRun
@@ -346,6 +349,7 @@ AddBIDSCommand(CommandSettings & command)
       batch.only.push_back((label.rfind("sub-", 0) == 0 ? "" : "sub-") + label + "_*");
     }
     Batch(batch, context);
+    return std::vector<OutputFile>();
   };
 }
 

@@ -38,7 +38,10 @@ GetCommandSyntax()
     CommandLine commandLine;
     std::vector<std::filesystem::path> files;
     Command & checked = commandLine.Set(command, settings);
-    checked.run({ nullptr, nullptr, &checked.settings, &files });
+    for (const OutputFile & output : checked.run({ nullptr, nullptr, &checked.settings, true }))
+    {
+      files.push_back(output.path);
+    }
     return files;
   };
   syntax.parse = [](const std::string & command, const std::vector<std::string> & options) {

@@ -74,7 +74,10 @@ AddComparePicturesCommand(CommandSettings & command)
   };
   const auto options = std::make_shared<ComparePicturesOptions>();
   command.Add(table, *options);
-  return [options](const CommandContext &) { Compare(*options); };
+  return [options](const CommandContext &) {
+    Compare(*options);
+    return std::vector<OutputFile>();
+  };
 }
 
 } // namespace rhombic

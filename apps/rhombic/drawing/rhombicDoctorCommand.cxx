@@ -51,7 +51,10 @@ Doctor()
 CommandRun
 AddDoctorCommand(CommandSettings &)
 {
-  return [](const CommandContext &) { Doctor(); };
+  return [](const CommandContext &) {
+    Doctor();
+    return std::vector<OutputFile>();
+  };
 }
 
 } // namespace rhombic

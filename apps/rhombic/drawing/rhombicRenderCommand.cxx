@@ -262,7 +262,7 @@ GetSliceSettings(const RenderOptions & options)
 }
 
 /** Returns the files, or in a check those that would be written. */
-std::vector<std::filesystem::path>
+std::vector<OutputFile>
 RenderPage(const RenderOptions & options, const CommandContext & context)
 {
   RenderSheetSettings settings;
@@ -285,8 +285,9 @@ RenderPage(const RenderOptions & options, const CommandContext & context)
   settings.writesDicom = options.writesDicom;
   settings.thumbnail = options.thumbnail;
   settings.provenance = options.scan.GetProvenance(*context.settings);
-  auto planned = CheckRenderSheet(settings);
-  if (context.planned != nullptr)
+  std::vector<OutputFile> planned;
+  AddOutputs(CheckRenderSheet(settings), "", planned);
+  if (context.onlyChecks)
   {
     return planned;
   }
@@ -295,7 +296,7 @@ RenderPage(const RenderOptions & options, const CommandContext & context)
 }
 
 /** As RenderPage(). */
-std::vector<std::filesystem::path>
+std::vector<OutputFile>
 RenderPictures(const RenderOptions & options, const CommandContext & context)
 {
   RenderScanSettings settings;
@@ -330,8 +331,9 @@ RenderPictures(const RenderOptions & options, const CommandContext & context)
   settings.annotations = ParseAnnotations(options);
   settings.thumbnail = options.thumbnail;
   settings.provenance = options.scan.GetProvenance(*context.settings);
-  auto planned = CheckRenderScan(settings);
-  if (context.planned != nullptr)
+  std::vector<OutputFile> planned;
+  AddOutputs(CheckRenderScan(settings), "", planned);
+  if (context.onlyChecks)
   {
     return planned;
   }
@@ -440,7 +442,7 @@ TakeSettingsOfReport(const RenderOptions & options, CommandSettings & command)
   }
 }
 
-void
+std::vector<OutputFile>
 Render(const RenderOptions & options, const CommandContext & context)
 {
   if (!options.from.empty())
@@ -450,23 +452,19 @@ Render(const RenderOptions & options, const CommandContext & context)
   if (options.listsPresets)
   {
     ListPresets();
-    return;
+    return {};
   }
   if (options.picture.empty())
   {
     throw Failure(FailureKind::Usage, "No picture is named; give one with -o, for example -o picture.png.");
   }
   CheckEnding(options);
-  const auto paths = options.isSheet ? RenderPage(options, context) : RenderPictures(options, context);
-  if (context.planned != nullptr)
+  std::vector<OutputFile> outputs = options.isSheet ? RenderPage(options, context) : RenderPictures(options, context);
+  if (!context.onlyChecks)
   {
-    context.planned->insert(context.planned->end(), paths.begin(), paths.end());
-    return;
+    NoteOutputs("picture", outputs, *context.console);
   }
-  for (const auto & picture : paths)
-  {
-    context.console->Note("picture: " + picture.string());
-  }
+  return outputs;
 }
 
 /** What is drawn, and from where. */
@@ -631,7 +629,7 @@ AddRenderCommand(CommandSettings & command)
 {
   const auto options = std::make_shared<RenderOptions>();
   AddTables(*options, command);
-  return AddPipelineOption(command, [options](const CommandContext & context) { Render(*options, context); });
+  return AddPipelineOption(command, [options](const CommandContext & context) { return Render(*options, context); });
 }
 
 } // namespace rhombic

@@ -88,7 +88,8 @@ struct BatchSummary
  * pipeline asks for, which a note says.
  *
  * The children end with the calling thread. Each gets {"command": "mesh", "settings": {...}, "threads": 2} on standard
- * input, and writes {"failure": sentence} to standard output if it fails.
+ * input, and writes {"outputs": [{"name": "bone.stl", "kind": "mesh", "measures": [...]}]} or {"failure": sentence} to
+ * standard output.
  *
  * Throws Failure: Output, Internal. Failures of cases are in the results. */
 BatchSummary

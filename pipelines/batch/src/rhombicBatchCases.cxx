@@ -511,12 +511,9 @@ FindCases(const fs::path & path, const CaseSearch & given)
   }
   else if (!fs::is_directory(collection))
   {
-    found.cases.push_back({ search.namesFromPaths ? ToFileName(fs::path(StemOf(collection)).filename()) : "case",
-                            {},
-                            collection,
-                            {},
-                            {},
-                            {} });
+    BatchCase & only = found.cases.emplace_back();
+    only.name = search.namesFromPaths ? ToFileName(fs::path(StemOf(collection)).filename()) : "case";
+    only.scan = collection;
   }
   else
   {

@@ -31,12 +31,12 @@ SecondsSince(std::chrono::steady_clock::time_point start)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/** The sentence with which a command ended; empty if it was killed. */
-std::string
-FindSentence(const fs::path & result)
+/** What a command wrote to standard output; an empty object if it was killed. */
+Report
+ReadResult(const fs::path & path)
 {
-  const Report report = Report::parse(std::ifstream(result), nullptr, false);
-  return report.is_object() ? report.value("failure", std::string()) : "";
+  Report result = Report::parse(std::ifstream(path), nullptr, false);
+  return result.is_object() ? result : Report::object();
 }
 
 /** Replaces a text wherever no letter or digit is beside it. */
@@ -116,17 +116,15 @@ FindFiles(const fs::path & folder)
   return files;
 }
 
-/** Adds the surfaces in the report of an output to the case's measures: those that other outputs share are there once,
- * with what is known of any of them. A report that knows the volume of the isosurface tells the volume's error and its
- * reference. Returns their identities. */
+/** Adds measures of an output's surfaces to those of the case: surfaces that outputs share are there once, with what is
+ * known of any of them. Measures that know the volume of the isosurface tell the volume's error and its reference.
+ * Returns the surfaces' identities. */
 Report
-AddSurfaces(const fs::path & sidecar, Report & measures)
+AddMeasures(const Report & rows, Report & measures)
 {
   Report identities = Report::array();
-  const Report report = Report::parse(std::ifstream(sidecar), nullptr, false);
-  for (const Report & surface : report.is_object() ? report.value("surfaces", Report::array()) : Report::array())
+  for (const Report & row : rows)
   {
-    const Report row = surface.value("measures", Report::object());
     const Report identity = row.value("surface_id", Report());
     const auto known = std::find_if(measures.begin(), measures.end(), [&](const Report & other) {
       return other.value("surface_id", Report()) == identity;
@@ -145,18 +143,6 @@ AddSurfaces(const fs::path & sidecar, Report & measures)
     identities.push_back(identity);
   }
   return identities;
-}
-
-/** What a file is that a step has made. */
-std::string
-KindOf(const fs::path & file, const PipelineStep & step)
-{
-  const bool isReport = file.extension() == ".json" && fs::exists(file.parent_path() / file.stem());
-  return isReport                                                    ? "report"
-         : file.filename() == ThumbnailFile                          ? "thumbnail"
-         : file.extension() == ".dcm"                                ? "dicom"
-         : file.extension() == ".csv" || file.extension() == ".json" ? "table"
-                                                                     : step.kind;
 }
 
 } // namespace
@@ -274,6 +260,7 @@ CaseRun::TakeStep()
                                 { "peakMemory", m_Child->GetPeakMemory() } });
   m_Record["peakMemory"] = std::max(m_Record["peakMemory"].get<std::uintmax_t>(), m_Child->GetPeakMemory());
   const int code = m_Child->GetExitCode();
+  const Report result = ReadResult(m_Stage / resultFile);
   const std::string command = "rhombic " + step.command;
   if (m_IsTooLong)
   {
@@ -287,19 +274,19 @@ CaseRun::TakeStep()
   }
   else if (code > 0)
   {
-    const std::string sentence = WithoutFolder(FindSentence(m_Stage / resultFile), m_Stage);
+    const std::string sentence = WithoutFolder(result.value("failure", std::string()), m_Stage);
     this->Fail(code, sentence.empty() ? command + " ended with exit code " + std::to_string(code) + "." : sentence);
+  }
+  for (Report output : code == 0 && !m_IsTooLong ? result.value("outputs", Report::array()) : Report::array())
+  {
+    output["output"] = step.output;
+    m_Made.emplace(output["name"].get<std::string>(), output);
   }
   for (const fs::path & file : FindFiles(m_Stage))
   {
-    const bool isMade = m_Made.count(file.filename().string()) > 0;
-    if (code == 0 && !m_IsTooLong && file.filename().string()[0] != '.')
+    if (m_Made.count(file.filename().string()) == 0)
     {
-      m_Made.emplace(file.filename().string(), &step);
-    }
-    else if (!isMade)
-    {
-      fs::remove_all(file); // what a killed child has left, and notes
+      fs::remove_all(file); // what a killed child has left
     }
   }
 }
@@ -352,17 +339,17 @@ CaseRun::AddOutputs()
 {
   m_Record["outputs"] = Report::array();
   m_Record["measures"] = Report::array();
-  for (const auto & [name, step] : m_Made)
+  for (const auto & [name, made] : m_Made)
   {
     const fs::path file = m_Stage / name;
     m_Record["outputs"].push_back({ { "name", name },
-                                    { "kind", KindOf(file, *step) },
-                                    { "output", step->output },
+                                    { "kind", made["kind"] },
+                                    { "output", made["output"] },
                                     { "bytes", fs::file_size(file) },
                                     { "md5", HashFiles({ file }) } });
-    if (fs::exists(SidecarOf(file)))
+    if (!made["measures"].empty())
     {
-      m_Record["outputs"].back()["surfaces"] = AddSurfaces(SidecarOf(file), m_Record["measures"]);
+      m_Record["outputs"].back()["surfaces"] = AddMeasures(made["measures"], m_Record["measures"]);
     }
   }
   Report sidecar = m_Record;

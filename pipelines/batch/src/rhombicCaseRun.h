@@ -83,7 +83,7 @@ private:
   std::size_t m_Step = 0;
   std::unique_ptr<ChildProcess> m_Child;
   bool m_IsTooLong = false;
-  std::map<std::string, const PipelineStep *> m_Made; ///< names of files, and the steps that made them
+  std::map<std::string, Report> m_Made; ///< what is made, by the names of files
   Clock::time_point m_Start = Clock::now();
   Clock::time_point m_ChildStart;
   std::shared_future<std::string> m_InputHash;

@@ -66,11 +66,11 @@ struct RenderScanSettings
 std::vector<std::filesystem::path>
 CheckRenderScan(const RenderScanSettings & settings);
 
-/** Draws pictures, with a sidecar for each; returns their paths. All files appear together at the end, or none does.
+/** Draws pictures, with a sidecar for each; returns all files. They appear together at the end, or none does.
  * Throws Failure; for outputs that can't be written or drawn, before the scan is read.
  *
  * \param volume what the scan's source holds, if it was read before */
-std::vector<std::filesystem::path>
+std::vector<OutputFile>
 RenderScan(const RenderScanSettings & settings,
            const Events & events,
            std::optional<SourceVolume> volume = std::nullopt);
@@ -101,11 +101,11 @@ std::vector<std::filesystem::path>
 CheckRenderSheet(const RenderSheetSettings & settings);
 
 /** Draws a page, A4: views, slices with outlines, a table of the surfaces, and where they come
- * from. Long tables go on on further pages; a format of one page then has a file for each. Returns the files' paths.
+ * from. Long tables go on on further pages; a format of one page then has a file for each. Returns all files.
  * Throws as RenderScan() does.
  *
  * \param volume what the scan's source holds, if it was read before */
-std::vector<std::filesystem::path>
+std::vector<OutputFile>
 RenderSheet(const RenderSheetSettings & settings,
             const Events & events,
             std::optional<SourceVolume> volume = std::nullopt);

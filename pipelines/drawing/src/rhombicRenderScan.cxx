@@ -407,6 +407,42 @@ CheckSlices(const RenderScanSettings & settings)
   }
 }
 
+/** Writes the pictures, or the one file of a turntable, with their reports. */
+std::vector<OutputFile>
+StagePictures(const std::vector<Picture> & pictures,
+              const std::vector<fs::path> & paths,
+              double secondsPerFrame,
+              const RenderScanSettings & settings,
+              const Report & sceneReport,
+              StagedFiles & staged)
+{
+  const PictureMetadata metadata{ settings.provenance.software, settings.provenance.command };
+  if (settings.turntable > 0 && IsGif(settings.picture))
+  {
+    StageAnimation(pictures, secondsPerFrame, paths.front(), staged);
+  }
+  else
+  {
+    for (std::size_t n = 0; n < pictures.size(); ++n)
+    {
+      StagePicture(pictures[n], paths[n], staged, metadata);
+    }
+  }
+  std::vector<OutputFile> outputs;
+  for (std::size_t n = 0; n < paths.size(); ++n)
+  {
+    Report report = sceneReport;
+    if (settings.turntable == 0 && paths.size() > 1)
+    {
+      report["picture"] = n + 1;
+    }
+    StageSidecar(paths[n], settings.provenance, report, staged);
+    outputs.push_back(MakeOutput(paths[n], "picture", report));
+  }
+  AddSidecars(settings.provenance, outputs);
+  return outputs;
+}
+
 } // namespace
 
 std::vector<fs::path>
@@ -442,11 +478,11 @@ CheckRenderScan(const RenderScanSettings & settings)
   return outputs;
 }
 
-std::vector<fs::path>
+std::vector<OutputFile>
 RenderScan(const RenderScanSettings & settings, const Events & events, std::optional<SourceVolume> volume)
 {
   CheckOutputs(CheckRenderScan(settings), settings.source.scan, settings.source.surfaces);
-  std::vector<fs::path> paths = PlanPictures(settings);
+  const std::vector<fs::path> paths = PlanPictures(settings);
   std::vector<fs::path> dicomPaths;
   if (settings.writesDicom)
   {
@@ -493,37 +529,17 @@ RenderScan(const RenderScanSettings & settings, const Events & events, std::opti
                          : DrawSliceWithOutlines(settings, scene, request, FindPlace(request, scene)));
   }
   StagedFiles staged;
-  const PictureMetadata metadata{ settings.provenance.software, settings.provenance.command };
   const double secondsPerFrame = SecondsPerTurn / static_cast<double>(pictures.size());
-  if (settings.turntable == 0 || !IsGif(settings.picture))
-  {
-    for (std::size_t n = 0; n < pictures.size(); ++n)
-    {
-      StagePicture(pictures[n], paths[n], staged, metadata);
-    }
-  }
-  else
-  {
-    StageAnimation(pictures, secondsPerFrame, paths.front(), staged);
-  }
-  for (std::size_t n = 0; n < paths.size(); ++n)
-  {
-    Report report = scene.report;
-    if (settings.turntable == 0 && paths.size() > 1)
-    {
-      report["picture"] = n + 1;
-    }
-    StageSidecar(paths[n], settings.provenance, report, staged);
-  }
-  StageThumbnail(pictures, settings.thumbnail, staged);
+  std::vector<OutputFile> outputs = StagePictures(pictures, paths, secondsPerFrame, settings, scene.report, staged);
+  StageThumbnail(pictures, settings.thumbnail, staged, outputs);
   if (study)
   {
     StageDicom(*study, pictures, dicomPaths, secondsPerFrame, settings.provenance.software, events, staged);
-    paths.insert(paths.end(), dicomPaths.begin(), dicomPaths.end());
+    AddOutputs(dicomPaths, "dicom", outputs);
   }
   staged.Commit();
   events.Progress("rendering", 1.0);
-  return paths;
+  return outputs;
 }
 
 } // namespace rhombic

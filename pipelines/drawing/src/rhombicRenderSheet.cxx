@@ -210,16 +210,16 @@ CheckRenderSheet(const RenderSheetSettings & settings)
   return outputs;
 }
 
-std::vector<fs::path>
+std::vector<OutputFile>
 RenderSheet(const RenderSheetSettings & settings, const Events & events, std::optional<SourceVolume> volume)
 {
-  const std::vector<fs::path> outputs = CheckRenderSheet(settings);
+  const std::vector<fs::path> planned = CheckRenderSheet(settings);
   std::optional<DicomStudy> study;
   if (settings.writesDicom)
   {
-    study = OpenStudy(settings.source, { outputs.back() });
+    study = OpenStudy(settings.source, { planned.back() });
   }
-  CheckOutputs(outputs, settings.source.scan, settings.source.surfaces);
+  CheckOutputs(planned, settings.source.scan, settings.source.surfaces);
   SurfaceRenderer renderer;
   const std::vector<PlaneRequest> planes = PlanesOf(settings);
   CheckMemory(settings, planes.size(), renderer);
@@ -242,18 +242,21 @@ RenderSheet(const RenderSheetSettings & settings, const Events & events, std::op
   }
   StagedFiles staged;
   const std::vector<Picture> pages = study || !IsPdf(settings.page) ? DrawSheet(sheet) : std::vector<Picture>();
-  std::vector<fs::path> paths = StageSheet(sheet, pages, settings, staged);
+  const std::vector<fs::path> paths = StageSheet(sheet, pages, settings, staged);
   StageSidecar(settings.page, settings.provenance, scene.report, staged);
-  StageThumbnail(pages, settings.thumbnail, staged);
+  std::vector<OutputFile> outputs{ MakeOutput(paths.front(), "page", scene.report) };
+  AddSidecars(settings.provenance, outputs);
+  AddOutputs({ paths.begin() + 1, paths.end() }, "page", outputs);
+  StageThumbnail(pages, settings.thumbnail, staged, outputs);
   if (study)
   {
     const auto dicomPaths = DicomPathsOf(PathsOfPages(settings.page, pages.size()));
     StageDicom(*study, pages, dicomPaths, 0.0, settings.provenance.software, events, staged);
-    paths.insert(paths.end(), dicomPaths.begin(), dicomPaths.end());
+    AddOutputs(dicomPaths, "dicom", outputs);
   }
   staged.Commit();
   events.Progress("drawing the page", 1.0);
-  return paths;
+  return outputs;
 }
 
 } // namespace rhombic

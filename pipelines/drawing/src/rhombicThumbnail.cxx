@@ -40,12 +40,16 @@ Shrink(const Picture & picture, int side)
 } // namespace
 
 void
-StageThumbnail(const std::vector<Picture> & pictures, const std::filesystem::path & path, StagedFiles & staged)
+StageThumbnail(const std::vector<Picture> & pictures,
+               const std::filesystem::path & path,
+               StagedFiles & staged,
+               std::vector<OutputFile> & outputs)
 {
   constexpr int side = 320; // pixels
   if (!pictures.empty() && !path.empty())
   {
     StagePicture(Shrink(pictures.front(), side), path, staged, {});
+    outputs.push_back({ path, "thumbnail", Report::array(), false });
   }
 }
 
