@@ -78,10 +78,10 @@ ReadRequest()
  * [...]}]}.
  */
 Report
-ReportOutputs(const std::vector<OutputFile> & outputs)
+ReportOutputs(const std::vector<MadeFile> & outputs)
 {
   Report report{ { "outputs", Report::array() } };
-  for (const OutputFile & output : outputs)
+  for (const MadeFile & output : outputs)
   {
     report["outputs"].push_back(
       { { "name", output.path.filename().string() }, { "kind", output.kind }, { "measures", output.measures } });
@@ -106,7 +106,7 @@ Run(CommandLine & commandLine, const std::vector<std::string> & words, bool isRe
   }
   IsolatedDecoder decoder(threads); // before there are more threads
   RequireThreads();
-  const std::vector<OutputFile> outputs = command.run({ &console, &decoder, &command.settings });
+  const std::vector<MadeFile> outputs = command.run({ &console, &decoder, &command.settings });
   console.NoteStepTimes();
   console.Finish();
   if (isRequested)

@@ -153,7 +153,7 @@ AddAuditCommand(CommandSettings & command)
       throw Failure(FailureKind::Usage, "No surface is named; name a file (" + GetSurfaceFileExtensions() + ").");
     }
     Auditor(*options, context).Run();
-    return std::vector<OutputFile>();
+    return std::vector<MadeFile>();
   };
 }
 

@@ -28,7 +28,7 @@ struct CommandContext
 
 /** Does the command's work once its settings are set. Returns the files of render, mesh and resample. Throws Failure.
  */
-using CommandRun = std::function<std::vector<OutputFile>(const CommandContext &)>;
+using CommandRun = std::function<std::vector<MadeFile>(const CommandContext &)>;
 
 /** Each adds its settings and returns what to run. */
 CommandRun
@@ -56,7 +56,7 @@ AddDoctorCommand(CommandSettings & command);
 
 /** Notes the files that a user looks for, each behind a word, as "mesh: bone.stl". */
 void
-NoteOutputs(const std::string & word, const std::vector<OutputFile> & outputs, Console & console);
+NoteOutputs(const std::string & word, const std::vector<MadeFile> & outputs, Console & console);
 
 /** Adds --pipeline to the settings of render or mesh; \a otherwise runs without it. */
 CommandRun

@@ -232,7 +232,7 @@ AddInfoCommand(CommandSettings & command)
   command.Add(table, *options);
   return [options](const CommandContext & context) {
     Info(*options, context);
-    return std::vector<OutputFile>();
+    return std::vector<MadeFile>();
   };
 }
 

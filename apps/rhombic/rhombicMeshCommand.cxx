@@ -81,7 +81,7 @@ GetSelection(const MeshOptions & options, const Preset & preset)
   return options.surfaces.GetSelection(preset, request);
 }
 
-std::vector<OutputFile>
+std::vector<MadeFile>
 Mesh(const MeshOptions & options, const CommandContext & context)
 {
   MeshScanSettings settings;
@@ -99,7 +99,7 @@ Mesh(const MeshOptions & options, const CommandContext & context)
   settings.requiresWatertight = options.requiresWatertight;
   settings.provenance = options.scan.GetProvenance(*context.settings);
   settings.surfaces = GetSelection(options, options.surfaces.GetNamedPreset());
-  std::vector<OutputFile> outputs;
+  std::vector<MadeFile> outputs;
   AddOutputs(CheckMeshScan(settings), "", outputs);
   if (context.onlyChecks)
   {

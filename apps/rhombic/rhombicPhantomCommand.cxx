@@ -38,7 +38,7 @@ AddPhantomCommand(CommandSettings & command)
   command.Add(table, *options);
   return [options](const CommandContext & context) {
     MakePhantom(*options, context);
-    return std::vector<OutputFile>();
+    return std::vector<MadeFile>();
   };
 }
 

@@ -6,9 +6,9 @@ namespace rhombic
 {
 
 void
-NoteOutputs(const std::string & word, const std::vector<OutputFile> & outputs, Console & console)
+NoteOutputs(const std::string & word, const std::vector<MadeFile> & outputs, Console & console)
 {
-  for (const OutputFile & output : outputs)
+  for (const MadeFile & output : outputs)
   {
     if (output.isMain)
     {
@@ -38,7 +38,7 @@ AddPipelineOption(CommandSettings & command, const CommandRun & otherwise)
       return otherwise(context);
     }
     RunPipeline(options->pipeline, context);
-    return std::vector<OutputFile>();
+    return std::vector<MadeFile>();
   };
 }
 

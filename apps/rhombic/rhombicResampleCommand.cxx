@@ -14,7 +14,7 @@ struct ResampleOptions
   std::string volume;
 };
 
-std::vector<OutputFile>
+std::vector<MadeFile>
 Resample(const ResampleOptions & options, const CommandContext & context)
 {
   ResampleScanSettings settings;
@@ -25,7 +25,7 @@ Resample(const ResampleOptions & options, const CommandContext & context)
   }
   settings.volume = options.volume;
   settings.provenance = options.scan.GetProvenance(*context.settings);
-  std::vector<OutputFile> outputs;
+  std::vector<MadeFile> outputs;
   if (context.onlyChecks)
   {
     AddOutputs(CheckResampleScan(settings), "", outputs);

@@ -333,7 +333,7 @@ CommandSettings::GetNames() const
   std::vector<std::pair<std::string, SettingKind>> names;
   for (const Row & row : m_Rows)
   {
-    if (!row.option->get_lnames().empty())
+    if (!row.option->get_lnames().empty() && !row.traits.isHidden)
     {
       names.emplace_back(row.key, row.traits.kind);
     }

@@ -200,7 +200,7 @@ public:
   void
   SetRecorded(Report settings);
 
-  /** The names in JSON and the kinds of all settings but those named by their place. */
+  /** The names in JSON and the kinds of all settings but those that are hidden or named by their place. */
   std::vector<std::pair<std::string, SettingKind>>
   GetNames() const;
 

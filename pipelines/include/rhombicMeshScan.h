@@ -45,7 +45,7 @@ CheckMeshScan(const MeshScanSettings & settings);
  * \param volume what the source holds, if it was read before
  *
  * Throws Failure, also for a surface that has to be watertight and is not. */
-std::vector<OutputFile>
+std::vector<MadeFile>
 MeshScan(const MeshScanSettings & settings, const Events & events, std::optional<SourceVolume> volume = std::nullopt);
 
 } // namespace rhombic

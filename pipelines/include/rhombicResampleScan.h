@@ -27,7 +27,7 @@ CheckResampleScan(const ResampleScanSettings & settings);
 
 /** Resamples a scan onto the lattice, or, when the source is a lattice volume, onto a Cartesian grid of the source's
  * lattice spacing; returns all files. Throws Failure. */
-std::vector<OutputFile>
+std::vector<MadeFile>
 ResampleScan(const ResampleScanSettings & settings, const Events & events);
 
 } // namespace rhombic

@@ -22,9 +22,9 @@ struct Provenance
   bool writesSidecars = true;
 };
 
-/** \class OutputFile
+/** \class MadeFile
  * \brief A file that a command makes. */
-struct OutputFile
+struct MadeFile
 {
   std::filesystem::path path;
   std::string kind;                  ///< page, picture, mesh, volume, report, table, dicom or thumbnail
@@ -33,19 +33,19 @@ struct OutputFile
 };
 
 /** An output with the measures of the surfaces in its report. */
-OutputFile
+MadeFile
 MakeOutput(const std::filesystem::path & path, const std::string & kind, const Report & report);
 
 /** Adds files without surfaces of their own. */
 void
 AddOutputs(const std::vector<std::filesystem::path> & paths,
            const std::string & kind,
-           std::vector<OutputFile> & outputs,
+           std::vector<MadeFile> & outputs,
            bool areMain = true);
 
 /** Adds the report beside each of the outputs, if any are written. */
 void
-AddSidecars(const Provenance & provenance, std::vector<OutputFile> & outputs);
+AddSidecars(const Provenance & provenance, std::vector<MadeFile> & outputs);
 
 /** The path of an output's report: the output's name and ".json". */
 std::filesystem::path

@@ -112,7 +112,7 @@ public:
 
   /** Writes \a count surfaces from \a begin on as one file, to appear with all others of \a staged, and meanwhile
    * measures them. */
-  OutputFile
+  MadeFile
   Stage(const fs::path & path, MeshedSurface * begin, std::size_t count, StagedFiles & staged) const
   {
     std::vector<SceneSurface> scene;
@@ -170,7 +170,7 @@ CheckMeshScan(const MeshScanSettings & settings)
   return OutputsOf({ settings.mesh }, settings);
 }
 
-std::vector<OutputFile>
+std::vector<MadeFile>
 MeshScan(const MeshScanSettings & settings, const Events & events, std::optional<SourceVolume> volume)
 {
   CheckOutputs(CheckMeshScan(settings), settings.source, settings.surfaces);
@@ -196,7 +196,7 @@ MeshScan(const MeshScanSettings & settings, const Events & events, std::optional
     }
   }
   StagedFiles staged;
-  std::vector<OutputFile> outputs;
+  std::vector<MadeFile> outputs;
   for (std::size_t n = 0; n < paths.size(); ++n)
   {
     events.Progress("writing and measuring", static_cast<double>(n) / static_cast<double>(paths.size()));

@@ -69,7 +69,7 @@ CheckResampleScan(const ResampleScanSettings & settings)
   return WithSidecars({ settings.volume }, settings.provenance);
 }
 
-std::vector<OutputFile>
+std::vector<MadeFile>
 ResampleScan(const ResampleScanSettings & settings, const Events & events)
 {
   CheckVolumePath(settings);
@@ -86,7 +86,7 @@ ResampleScan(const ResampleScanSettings & settings, const Events & events)
   }
   staged.Commit();
   events.Progress("writing", 1.0);
-  std::vector<OutputFile> outputs{ { settings.volume, "volume" } };
+  std::vector<MadeFile> outputs{ { settings.volume, "volume" } };
   AddSidecars(settings.provenance, outputs);
   return outputs;
 }

@@ -5,10 +5,10 @@
 namespace rhombic
 {
 
-OutputFile
+MadeFile
 MakeOutput(const std::filesystem::path & path, const std::string & kind, const Report & report)
 {
-  OutputFile output{ path, kind };
+  MadeFile output{ path, kind };
   for (const Report & surface : report.value("surfaces", Report::array()))
   {
     output.measures.push_back(surface["measures"]);
@@ -19,7 +19,7 @@ MakeOutput(const std::filesystem::path & path, const std::string & kind, const R
 void
 AddOutputs(const std::vector<std::filesystem::path> & paths,
            const std::string & kind,
-           std::vector<OutputFile> & outputs,
+           std::vector<MadeFile> & outputs,
            bool areMain)
 {
   for (const std::filesystem::path & path : paths)
@@ -29,7 +29,7 @@ AddOutputs(const std::vector<std::filesystem::path> & paths,
 }
 
 void
-AddSidecars(const Provenance & provenance, std::vector<OutputFile> & outputs)
+AddSidecars(const Provenance & provenance, std::vector<MadeFile> & outputs)
 {
   const std::size_t count = provenance.writesSidecars ? outputs.size() : 0;
   for (std::size_t n = 0; n < count; ++n)

@@ -296,7 +296,7 @@ AddBatchCommand(CommandSettings & command)
   command.Add(choice, *options);
   return [options](const CommandContext & context) {
     Batch(*options, context);
-    return std::vector<OutputFile>();
+    return std::vector<MadeFile>();
   };
 }
 
@@ -349,7 +349,7 @@ AddBIDSCommand(CommandSettings & command)
       batch.only.push_back((label.rfind("sub-", 0) == 0 ? "" : "sub-") + label + "_*");
     }
     Batch(batch, context);
-    return std::vector<OutputFile>();
+    return std::vector<MadeFile>();
   };
 }
 

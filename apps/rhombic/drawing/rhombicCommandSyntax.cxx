@@ -13,7 +13,7 @@ namespace
 bool
 IsOfPipeline(const std::string & name, SettingKind kind)
 {
-  return kind == SettingKind::Run || name == "output" || name == "sheet" || name == "thumbnail";
+  return kind == SettingKind::Run || name == "output" || name == "sheet";
 }
 
 } // namespace
@@ -38,7 +38,7 @@ GetCommandSyntax()
     CommandLine commandLine;
     std::vector<std::filesystem::path> files;
     Command & checked = commandLine.Set(command, settings);
-    for (const OutputFile & output : checked.run({ nullptr, nullptr, &checked.settings, true }))
+    for (const MadeFile & output : checked.run({ nullptr, nullptr, &checked.settings, true }))
     {
       files.push_back(output.path);
     }

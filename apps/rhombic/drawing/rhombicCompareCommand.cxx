@@ -50,7 +50,7 @@ AddCompareCommand(CommandSettings & command)
     options->settings.hasPictures = !options->hasNoPictures;
     RunComparison(
       ReadComparisonRequest(options->experiments, options->scans), options->settings, context.console->MakeEvents());
-    return std::vector<OutputFile>();
+    return std::vector<MadeFile>();
   };
 }
 

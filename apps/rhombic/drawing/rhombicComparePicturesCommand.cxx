@@ -76,7 +76,7 @@ AddComparePicturesCommand(CommandSettings & command)
   command.Add(table, *options);
   return [options](const CommandContext &) {
     Compare(*options);
-    return std::vector<OutputFile>();
+    return std::vector<MadeFile>();
   };
 }
 

@@ -53,7 +53,7 @@ AddDoctorCommand(CommandSettings &)
 {
   return [](const CommandContext &) {
     Doctor();
-    return std::vector<OutputFile>();
+    return std::vector<MadeFile>();
   };
 }
 

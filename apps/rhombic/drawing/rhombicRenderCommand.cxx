@@ -262,7 +262,7 @@ GetSliceSettings(const RenderOptions & options)
 }
 
 /** Returns the files, or in a check those that would be written. */
-std::vector<OutputFile>
+std::vector<MadeFile>
 RenderPage(const RenderOptions & options, const CommandContext & context)
 {
   RenderSheetSettings settings;
@@ -285,7 +285,7 @@ RenderPage(const RenderOptions & options, const CommandContext & context)
   settings.writesDicom = options.writesDicom;
   settings.thumbnail = options.thumbnail;
   settings.provenance = options.scan.GetProvenance(*context.settings);
-  std::vector<OutputFile> planned;
+  std::vector<MadeFile> planned;
   AddOutputs(CheckRenderSheet(settings), "", planned);
   if (context.onlyChecks)
   {
@@ -296,7 +296,7 @@ RenderPage(const RenderOptions & options, const CommandContext & context)
 }
 
 /** As RenderPage(). */
-std::vector<OutputFile>
+std::vector<MadeFile>
 RenderPictures(const RenderOptions & options, const CommandContext & context)
 {
   RenderScanSettings settings;
@@ -331,7 +331,7 @@ RenderPictures(const RenderOptions & options, const CommandContext & context)
   settings.annotations = ParseAnnotations(options);
   settings.thumbnail = options.thumbnail;
   settings.provenance = options.scan.GetProvenance(*context.settings);
-  std::vector<OutputFile> planned;
+  std::vector<MadeFile> planned;
   AddOutputs(CheckRenderScan(settings), "", planned);
   if (context.onlyChecks)
   {
@@ -442,7 +442,7 @@ TakeSettingsOfReport(const RenderOptions & options, CommandSettings & command)
   }
 }
 
-std::vector<OutputFile>
+std::vector<MadeFile>
 Render(const RenderOptions & options, const CommandContext & context)
 {
   if (!options.from.empty())
@@ -459,7 +459,7 @@ Render(const RenderOptions & options, const CommandContext & context)
     throw Failure(FailureKind::Usage, "No picture is named; give one with -o, for example -o picture.png.");
   }
   CheckEnding(options);
-  std::vector<OutputFile> outputs = options.isSheet ? RenderPage(options, context) : RenderPictures(options, context);
+  std::vector<MadeFile> outputs = options.isSheet ? RenderPage(options, context) : RenderPictures(options, context);
   if (!context.onlyChecks)
   {
     NoteOutputs("picture", outputs, *context.console);

@@ -70,7 +70,7 @@ CheckRenderScan(const RenderScanSettings & settings);
  * Throws Failure; for outputs that can't be written or drawn, before the scan is read.
  *
  * \param volume what the scan's source holds, if it was read before */
-std::vector<OutputFile>
+std::vector<MadeFile>
 RenderScan(const RenderScanSettings & settings,
            const Events & events,
            std::optional<SourceVolume> volume = std::nullopt);
@@ -105,7 +105,7 @@ CheckRenderSheet(const RenderSheetSettings & settings);
  * Throws as RenderScan() does.
  *
  * \param volume what the scan's source holds, if it was read before */
-std::vector<OutputFile>
+std::vector<MadeFile>
 RenderSheet(const RenderSheetSettings & settings,
             const Events & events,
             std::optional<SourceVolume> volume = std::nullopt);

@@ -408,7 +408,7 @@ CheckSlices(const RenderScanSettings & settings)
 }
 
 /** Writes the pictures, or the one file of a turntable, with their reports. */
-std::vector<OutputFile>
+std::vector<MadeFile>
 StagePictures(const std::vector<Picture> & pictures,
               const std::vector<fs::path> & paths,
               double secondsPerFrame,
@@ -428,7 +428,7 @@ StagePictures(const std::vector<Picture> & pictures,
       StagePicture(pictures[n], paths[n], staged, metadata);
     }
   }
-  std::vector<OutputFile> outputs;
+  std::vector<MadeFile> outputs;
   for (std::size_t n = 0; n < paths.size(); ++n)
   {
     Report report = sceneReport;
@@ -478,7 +478,7 @@ CheckRenderScan(const RenderScanSettings & settings)
   return outputs;
 }
 
-std::vector<OutputFile>
+std::vector<MadeFile>
 RenderScan(const RenderScanSettings & settings, const Events & events, std::optional<SourceVolume> volume)
 {
   CheckOutputs(CheckRenderScan(settings), settings.source.scan, settings.source.surfaces);
@@ -530,7 +530,7 @@ RenderScan(const RenderScanSettings & settings, const Events & events, std::opti
   }
   StagedFiles staged;
   const double secondsPerFrame = SecondsPerTurn / static_cast<double>(pictures.size());
-  std::vector<OutputFile> outputs = StagePictures(pictures, paths, secondsPerFrame, settings, scene.report, staged);
+  std::vector<MadeFile> outputs = StagePictures(pictures, paths, secondsPerFrame, settings, scene.report, staged);
   StageThumbnail(pictures, settings.thumbnail, staged, outputs);
   if (study)
   {

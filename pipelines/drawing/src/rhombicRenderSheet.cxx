@@ -210,7 +210,7 @@ CheckRenderSheet(const RenderSheetSettings & settings)
   return outputs;
 }
 
-std::vector<OutputFile>
+std::vector<MadeFile>
 RenderSheet(const RenderSheetSettings & settings, const Events & events, std::optional<SourceVolume> volume)
 {
   const std::vector<fs::path> planned = CheckRenderSheet(settings);
@@ -244,7 +244,7 @@ RenderSheet(const RenderSheetSettings & settings, const Events & events, std::op
   const std::vector<Picture> pages = study || !IsPdf(settings.page) ? DrawSheet(sheet) : std::vector<Picture>();
   const std::vector<fs::path> paths = StageSheet(sheet, pages, settings, staged);
   StageSidecar(settings.page, settings.provenance, scene.report, staged);
-  std::vector<OutputFile> outputs{ MakeOutput(paths.front(), "page", scene.report) };
+  std::vector<MadeFile> outputs{ MakeOutput(paths.front(), "page", scene.report) };
   AddSidecars(settings.provenance, outputs);
   AddOutputs({ paths.begin() + 1, paths.end() }, "page", outputs);
   StageThumbnail(pages, settings.thumbnail, staged, outputs);

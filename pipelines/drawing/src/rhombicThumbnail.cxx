@@ -43,7 +43,7 @@ void
 StageThumbnail(const std::vector<Picture> & pictures,
                const std::filesystem::path & path,
                StagedFiles & staged,
-               std::vector<OutputFile> & outputs)
+               std::vector<MadeFile> & outputs)
 {
   constexpr int side = 320; // pixels
   if (!pictures.empty() && !path.empty())

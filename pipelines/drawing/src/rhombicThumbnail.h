@@ -13,7 +13,7 @@ void
 StageThumbnail(const std::vector<Picture> & pictures,
                const std::filesystem::path & path,
                StagedFiles & staged,
-               std::vector<OutputFile> & outputs);
+               std::vector<MadeFile> & outputs);
 
 } // namespace rhombic
 
