@@ -2,7 +2,6 @@
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
 #include "rhombicSurfaceIO.h"
-#include "rhombicWallAudit.h"
 #include "rhombicWording.h"
 
 #include <iostream>

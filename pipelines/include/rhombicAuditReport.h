@@ -2,8 +2,7 @@
 #define rhombicAuditReport_h
 
 #include "rhombicScanReport.h"
-
-#include "itkTriangleSurfaceAudit.h"
+#include "rhombicWallAudit.h"
 
 #include <string>
 #include <vector>
@@ -22,6 +21,14 @@ DescribeAudit(const itk::TriangleSurfaceAudit & audit);
 /** The defects that keep a surface from being watertight, as "3 boundary edges"; empty when it is. */
 std::string
 DescribeLeaks(const itk::TriangleSurfaceAudit & audit);
+
+/** An audit of walls as JSON. */
+Report
+ReportWalls(const WallAudit & audit);
+
+/** An audit of walls in one line. */
+std::string
+DescribeWalls(const WallAudit & audit);
 
 } // namespace rhombic
 

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 
 namespace rhombic
 {
@@ -26,6 +27,10 @@ struct LatticeSettings
   Denoising denoising;              ///< none by default
   bool nested = false; ///< takes every other sample of the scan instead, without interpolation; density 0.5
 };
+
+/** A denoising written as `none`, `gaussian:SIGMA` or `edges:SIGMA,EDGE`. Throws Failure(Usage). */
+Denoising
+ParseDenoising(const std::string & text);
 
 /** The spacing in mm of an isotropic grid or lattice with as many samples per volume. */
 double

@@ -1,7 +1,7 @@
 #ifndef rhombicSceneRules_h
 #define rhombicSceneRules_h
 
-#include "rhombicLabelMapReader.h"
+#include "rhombicLabelColours.h"
 #include "rhombicSurfaceRequest.h"
 
 #include <optional>
@@ -26,14 +26,6 @@ struct SceneRule
   std::optional<Colour> colour;
   std::optional<double> opacity; ///< above 0, at most 1
   std::optional<bool> isGlossy;  ///< see SceneSurface
-};
-
-/** Where the colours of labels come from. */
-enum class LabelColours
-{
-  Anatomy,    ///< of names that are known, those of anatomical illustrations; of others, those of the label table
-  Table,      ///< those of the label table
-  ColourBlind ///< eight colours that colour-blind people tell apart (Okabe and Ito), and lighter and darker ones
 };
 
 /** \class SceneRules

@@ -3,7 +3,6 @@
 #include "rhombicAuditReport.h"
 #include "rhombicFailure.h"
 #include "rhombicMeasureTable.h"
-#include "rhombicWallAudit.h"
 #include "rhombicWording.h"
 
 #include <algorithm>

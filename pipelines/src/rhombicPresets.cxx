@@ -2,6 +2,7 @@
 
 #include "rhombicBuiltInPresets.h"
 #include "rhombicFailure.h"
+#include "rhombicScanToLattice.h"
 #include "rhombicTextFile.h"
 #include "rhombicWording.h"
 #include "rhombicYAMLKeys.h"

@@ -1,22 +1,16 @@
-#include "rhombicFailure.h"
 #include "rhombicLatticeToSurfaces.h"
 #include "rhombicPatientAxes.h"
 #include "rhombicScanToLattice.h"
 #include "rhombicReadScan.h"
 
 #include "itkImageAlgorithm.h"
-#include "itkEuler3DTransform.h"
-#include "itkImageRegionIterator.h"
-#include "itkImageRegionConstIteratorWithIndex.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <random>
 #include <set>
 #include <string>
 #include <utility>
@@ -114,72 +108,6 @@ TEST(Orientations, TheSameBrainStoredIn48WaysHasTheSameSurface)
       ASSERT_EQ(brain->GetTriangles(), reference->GetTriangles());
       EXPECT_LT(FindLargestDistance(*brain, *reference), 0.001); // positions in the files' affines are float
     }
-  }
-}
-
-/** Directions of scans: all orders and signs of axes, turned by up to 45 degrees; left-handed ones too. */
-itk::Matrix<double, 3, 3>
-MakeDirection(std::mt19937 & random)
-{
-  std::array<unsigned int, 3> order{ 0, 1, 2 };
-  std::shuffle(order.begin(), order.end(), random);
-  itk::Matrix<double, 3, 3> axes;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    axes[axis][order[axis]] = random() % 2 == 0 ? 1.0 : -1.0;
-  }
-  const auto turn = itk::Euler3DTransform<double>::New();
-  const double quarter = itk::Math::pi_over_4;
-  const auto angle = [&] {
-    return random() % 4 == 0 ? quarter : std::uniform_real_distribution<>(-quarter, quarter)(random);
-  };
-  turn->SetRotation(angle(), angle(), angle());
-  return turn->GetMatrix() * axes;
-}
-
-TEST(Orientations, OrderedAxesRunAlongThePatientAndSamplesStay)
-{
-  std::mt19937 random(7);
-  for (int trial = 0; trial < 300; ++trial)
-  {
-    SCOPED_TRACE(trial);
-    const auto image = ImageType::New();
-    image->SetRegions(itk::Size<3>{ { 2 + random() % 4, 2 + random() % 4, 2 + random() % 4 } });
-    const double spacing[] = { 0.5, 1.25, 3.0 };
-    const double origin[] = { -20.0, 7.5, 100.0 };
-    image->SetSpacing(spacing);
-    image->SetOrigin(origin);
-    image->SetDirection(MakeDirection(random));
-    image->Allocate();
-    float value = 0.0f;
-    for (itk::ImageRegionIterator<ImageType> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
-    {
-      it.Set(++value);
-    }
-    rhombic::Scan scan;
-    scan.image = image;
-    if (trial == 0)
-    {
-      EXPECT_THROW(rhombic::OrderAlongPatient(scan, 1), rhombic::Failure) << "its copies need more than a byte";
-    }
-    const auto ordered = std::get<ImageType::Pointer>(rhombic::OrderAlongPatient(scan).image);
-    ASSERT_EQ(ordered->GetBufferedRegion().GetNumberOfPixels(), image->GetBufferedRegion().GetNumberOfPixels());
-    for (itk::ImageRegionConstIteratorWithIndex<ImageType> it(ordered, ordered->GetBufferedRegion()); !it.IsAtEnd();
-         ++it)
-    {
-      const auto position = ordered->TransformIndexToPhysicalPoint<double>(it.GetIndex());
-      const auto index = image->TransformPhysicalPointToIndex(position);
-      ASSERT_TRUE(image->GetBufferedRegion().IsInside(index));
-      EXPECT_LT(position.EuclideanDistanceTo(image->TransformIndexToPhysicalPoint<double>(index)), 1e-9);
-      EXPECT_EQ(it.Get(), image->GetPixel(index));
-    }
-    double sum = 0.0;
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      EXPECT_GE(ordered->GetDirection()[axis][axis], 0.0);
-      sum += ordered->GetDirection()[axis][axis];
-    }
-    EXPECT_GT(sum, 1.7) << "no other order of axes is closer";
   }
 }
 

@@ -7,14 +7,12 @@
 #include <cmath>
 #include <map>
 #include <random>
-#include <set>
 
 namespace
 {
 
 using rhombic::ApplySceneRules;
 using rhombic::Failure;
-using rhombic::LabelColours;
 using rhombic::LabelMap;
 using rhombic::SceneRules;
 using rhombic::SurfaceRequest;
@@ -118,44 +116,6 @@ TEST(SceneRules, TheLastRuleWithALookCounts)
   EXPECT_TRUE(rhombic::IsGlossy(rules, "liver"));
   EXPECT_FALSE(rhombic::IsGlossy(rules, "skin"));
   EXPECT_FALSE(rhombic::IsGlossy({}, "skin"));
-}
-
-TEST(SceneRules, KnownNamesHaveTheColoursOfAnatomy)
-{
-  for (const auto colours : { LabelColours::Anatomy, LabelColours::Table, LabelColours::ColourBlind })
-  {
-    LabelMap map = MakeMap({ "liver", "thing" });
-    std::vector<SurfaceRequest> requests;
-    SceneRules rules;
-    rules.colours = colours;
-    ApplySceneRules(rules, requests, &map);
-    const std::array<std::uint8_t, 3> cyan{ 0, 255, 255 };
-    EXPECT_EQ(map.labels[0].label.colour == cyan, colours == LabelColours::Table);
-    EXPECT_EQ(map.labels[1].label.colour == cyan, colours != LabelColours::ColourBlind);
-    if (colours != LabelColours::Table)
-    {
-      EXPECT_NE(map.labels[1].label.colour, map.labels[0].label.colour);
-    }
-  }
-}
-
-TEST(SceneRules, LabelsThatTouchHaveDifferentColours)
-{
-  // All of one colour in the table, and in the map all pairs touch.
-  for (const auto colours : { LabelColours::Anatomy, LabelColours::ColourBlind })
-  {
-    LabelMap map = MakeMap({ "a", "b", "c", "lung_upper_lobe_left", "lung_lower_lobe_left", "liver", "liver_2" });
-    std::vector<SurfaceRequest> requests;
-    SceneRules rules;
-    rules.colours = colours;
-    ApplySceneRules(rules, requests, &map);
-    std::set<std::array<std::uint8_t, 3>> different;
-    for (const auto & summary : map.labels)
-    {
-      different.insert(summary.label.colour);
-    }
-    EXPECT_EQ(different.size(), map.labels.size());
-  }
 }
 
 TEST(SceneRules, AWholeListOfLabelsKeepsItsColoursWhenSomeAreHidden)
@@ -262,38 +222,6 @@ TEST(SceneRules, LabelsThatEncloseOthersAreTranslucentUnlessARuleSaysOtherwise)
   rules.hidden.clear();
   rules.only = { "skin" };
   EXPECT_EQ(opacitiesOf(rules), (Opacities{ { "skin", false } }));
-}
-
-TEST(SceneRules, LabelsOfOtherLayersAreSeenAndDiffer)
-{
-  using ImageType = rhombic::CartesianImage<std::uint8_t>;
-  const auto makeLayer = [](int radius, std::uint8_t value) {
-    const auto image = ImageType::New();
-    image->SetRegions(itk::Size<3>{ { 40, 40, 40 } });
-    image->Allocate();
-    for (int n = 0; n < 40 * 40 * 40; ++n)
-    {
-      const bool isInside = std::hypot(n % 40 - 19.5, n / 40 % 40 - 19.5, n / 1600 - 19.5) < radius;
-      image->GetBufferPointer()[n] = isInside ? value : 0;
-    }
-    return ImageType::Pointer(image);
-  };
-  for (const bool isTumourFirst : { false, true })
-  {
-    LabelMap map;
-    map.scan.image = isTumourFirst ? makeLayer(5, 1) : makeLayer(12, 2);
-    map.scan.furtherLayers = { isTumourFirst ? makeLayer(12, 2) : makeLayer(5, 1) };
-    map.labels.resize(2);
-    map.labels[0].label = { 1, "lump", { 10, 200, 30 } };
-    map.labels[1].label = { 2, "bulk", { 10, 200, 30 } };
-    SceneRules rules;
-    rules.opensEnclosing = true;
-    std::vector<SurfaceRequest> requests;
-    ApplySceneRules(rules, requests, &map);
-    EXPECT_EQ(map.labels[0].label.opacity, 1.0);
-    EXPECT_LT(map.labels[1].label.opacity, 1.0);
-    EXPECT_NE(map.labels[0].label.colour, map.labels[1].label.colour);
-  }
 }
 
 TEST(SceneRules, NeededNamesMustBeShown)

@@ -1,5 +1,5 @@
 #include "rhombicFileSpace.h"
-#include "rhombicPointWelder.h"
+#include "detail/rhombicPointWelder.h"
 #include "rhombicSurfaceAssembler.h"
 #include "rhombicSurfaceFormats.h"
 #include "rhombicWords.h"

@@ -1,6 +1,6 @@
 #include "rhombicJoinedSurfaces.h"
 
-#include "rhombicPointWelder.h"
+#include "detail/rhombicPointWelder.h"
 
 #include <algorithm>
 #include <tuple>

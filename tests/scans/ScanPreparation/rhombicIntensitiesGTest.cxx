@@ -1,7 +1,6 @@
 #include "rhombicIntensities.h"
 
 #include "rhombicFailure.h"
-#include "rhombicSurfaceRequest.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +10,6 @@ namespace
 {
 
 using rhombic::Failure;
-using rhombic::FailureKind;
 
 template <typename TPixel>
 typename itk::Image<TPixel, 3>::Pointer
@@ -96,35 +94,6 @@ TEST(Intensities, DoNotCountWhatIsNotFinite)
   EXPECT_EQ(found.highest, 3.0);
   EXPECT_THROW(rhombic::ComputeIntensities(MakeImage<float>({ nan, nan })), Failure);
   EXPECT_EQ(rhombic::ComputeIntensities(MakeImage<float>({ 2.0f, 2.0f })).otsu, 2.0);
-}
-
-TEST(ResolveIsovalues, FillsInOtsusAndRefusesWhatIsOutside)
-{
-  const rhombic::Intensities intensities{ -1000.0, 2000.0, -100.5, -700.5, -900.5, 600.5 };
-  const auto resolved = rhombic::ResolveIsovalues({ rhombic::ParseSurfaceRequest("a=otsu", 0),
-                                                    rhombic::ParseSurfaceRequest("b=2000", 1),
-                                                    rhombic::ParseSurfaceRequest("c=otsu-low", 2),
-                                                    rhombic::ParseSurfaceRequest("d=otsu-lowest", 3),
-                                                    rhombic::ParseSurfaceRequest("e=<otsu-high", 4) },
-                                                  intensities);
-  EXPECT_EQ(resolved[0].isovalue, -100.5);
-  EXPECT_EQ(resolved[1].isovalue, 2000.0);
-  EXPECT_EQ(resolved[2].isovalue, -700.5);
-  EXPECT_EQ(resolved[3].isovalue, -900.5);
-  EXPECT_EQ(resolved[4].isovalue, 600.5);
-  for (const char * text : { "bone=2000.5", "bone=-1000", "bone=-5000" })
-  {
-    try
-    {
-      rhombic::ResolveIsovalues({ rhombic::ParseSurfaceRequest(text, 0) }, intensities);
-      ADD_FAILURE() << text;
-    }
-    catch (const Failure & failure)
-    {
-      EXPECT_EQ(failure.GetKind(), FailureKind::Empty);
-      EXPECT_NE(std::string(failure.GetDescription()).find("from -1000 to 2000"), std::string::npos);
-    }
-  }
 }
 
 } // namespace

@@ -1,7 +1,6 @@
 #include "rhombicWallAudit.h"
 
 #include "rhombicJoinedSurfaces.h"
-#include "rhombicWording.h"
 
 #include <algorithm>
 #include <array>
@@ -95,32 +94,6 @@ AuditWalls(const std::vector<SceneSurface> & surfaces, const itk::TriangleSurfac
       FindTriangleSurfaceSelfIntersections(itk::TriangleTree(*joined.surface), settings.maximumTestedTriangles);
   }
   return audit;
-}
-
-Report
-ReportWalls(const WallAudit & audit)
-{
-  return { { "sound", audit.IsSound() },
-           { "sharedTriangles", audit.sharedTriangles },
-           { "oneSidedTriangles", audit.oneSidedTriangles },
-           { "repeatedTriangles", audit.repeatedTriangles },
-           { "loneJunctions", audit.loneJunctions },
-           { "testedTriangles", audit.intersections.testedTriangles },
-           { "crossingPairs", audit.intersections.crossingPairs },
-           { "touchingPairs", audit.intersections.touchingPairs } };
-}
-
-std::string
-DescribeWalls(const WallAudit & audit)
-{
-  return Count(audit.sharedTriangles, "triangle is", "triangles are") + " walls between two surfaces; " +
-         std::to_string(audit.oneSidedTriangles) + " have one surface on both sides, " +
-         std::to_string(audit.repeatedTriangles) + " are there twice; " +
-         Count(audit.loneJunctions, "edge has", "edges have") +
-         " more than two triangles where fewer than three regions meet; " +
-         (audit.intersections.testedTriangles == 0
-            ? "crossings: not looked for"
-            : Count(audit.intersections.crossingPairs, "pair") + " of triangles cross");
 }
 
 } // namespace rhombic

@@ -3,7 +3,7 @@
 #include "rhombicVTPToPLY.h"
 #include "rhombicWallAudit.h"
 
-#include "../labels/FCCLabelSurfaces/itkExampleLabelWalls.h"
+#include "itkExampleLabelWalls.h"
 
 namespace
 {
@@ -46,7 +46,8 @@ ExpectSoundFile(const itk::FCCLabelSurfaceFilter::InputImageType * labels, const
     triangles += audit.triangles;
   }
   const rhombic::WallAudit audit = rhombic::AuditWalls(read);
-  ASSERT_TRUE(audit.IsSound()) << DescribeWalls(audit);
+  ASSERT_TRUE(audit.IsSound()) << audit.oneSidedTriangles << ' ' << audit.repeatedTriangles << ' '
+                               << audit.loneJunctions << ' ' << audit.intersections.crossingPairs;
   ASSERT_EQ(triangles - audit.sharedTriangles, walls->GetNumberOfTriangles());
 }
 

@@ -1,6 +1,5 @@
 #include "rhombicLabelDoubts.h"
 
-#include "rhombicSceneRules.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -54,7 +53,7 @@ FindTissueRule(const std::string & name)
         -50.0,
         500.0 } }
   };
-  const auto fits = [&name](const std::string & pattern) { return FitsPattern(pattern, name); };
+  const auto fits = [&name](const std::string & pattern) { return MatchesPattern(pattern, name); };
   const auto * const rule = std::find_if(rules.begin(), rules.end(), [&](const TissueRule & candidate) {
     return std::any_of(candidate.patterns.begin(), candidate.patterns.end(), fits);
   });

@@ -1,12 +1,11 @@
 #ifndef rhombicWallAudit_h
 #define rhombicWallAudit_h
 
-#include "rhombicScanReport.h"
 #include "rhombicSceneSurface.h"
 
 #include "itkTriangleSurfaceAudit.h"
 
-#include <string>
+#include <cstddef>
 #include <vector>
 
 namespace rhombic
@@ -42,14 +41,6 @@ struct WallAudit
 /** Joins surfaces by equal points, and counts. What is outside of all surfaces is a region, too. */
 WallAudit
 AuditWalls(const std::vector<SceneSurface> & surfaces, const itk::TriangleSurfaceAuditSettings & settings = {});
-
-/** The audit as JSON. */
-Report
-ReportWalls(const WallAudit & audit);
-
-/** The audit in one line. */
-std::string
-DescribeWalls(const WallAudit & audit);
 
 } // namespace rhombic
 

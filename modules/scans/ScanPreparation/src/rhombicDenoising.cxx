@@ -7,7 +7,6 @@
 
 #include "itkGradientAnisotropicDiffusionImageFilter.h"
 #include "itkFCCGaussianImageFilter.h"
-#include "itkFCCResamplingChecks.h"
 
 #include <algorithm>
 #include <chrono>
@@ -137,39 +136,6 @@ KeepEdges(RealImage::Pointer image, const Denoising & denoising, const Events & 
 }
 
 } // namespace
-
-Denoising
-ParseDenoising(const std::string & text)
-{
-  Denoising denoising;
-  const auto colon = text.find(':');
-  const std::string name = text.substr(0, colon);
-  std::vector<std::string> numbers;
-  if (colon != std::string::npos)
-  {
-    numbers = Split(text.substr(colon + 1), ",");
-  }
-  const auto numberAt = [&numbers](std::size_t n) {
-    return n < numbers.size() ? ToNumber<double>(numbers[n]).value_or(0.0) : 0.0;
-  };
-  if (name == "gaussian" && numbers.size() <= 1)
-  {
-    denoising = { Denoising::Kind::Gaussian, numberAt(0), 0.0 };
-  }
-  else if (name == "edges" && numbers.size() <= 2)
-  {
-    denoising = { Denoising::Kind::EdgePreserving, numberAt(0), numberAt(1) };
-  }
-  else if (text != "none")
-  {
-    throw Failure(FailureKind::Usage,
-                  "'" + text +
-                    "' is no way to take noise out; write none, gaussian:SIGMA (in mm), for example gaussian:0.7, or "
-                    "edges:SIGMA,EDGE (in mm, and in the scan's units per mm), for example edges:0.7,60.");
-  }
-  CheckDenoising(denoising);
-  return denoising;
-}
 
 void
 CheckDenoising(const Denoising & denoising)

@@ -6,7 +6,6 @@
 #include "rhombicScan.h"
 
 #include <cstdint>
-#include <string>
 
 namespace rhombic
 {
@@ -29,10 +28,6 @@ struct Denoising
   double sigma = 0.0; ///< mm: standard deviation of the Gaussian, or of the one that smooths flat regions as much
   double edge = 0.0;  ///< EdgePreserving: gradients above this are edges, in the volume's units per mm
 };
-
-/** A denoising written as `none`, `gaussian:SIGMA` or `edges:SIGMA,EDGE`. Throws Failure(Usage). */
-Denoising
-ParseDenoising(const std::string & text);
 
 /** Throws Failure(Usage) unless the parameters are positive and finite. */
 void
