@@ -20,19 +20,6 @@ struct InfoOptions
   bool isJson = false;
 };
 
-/** Numbers with six digits, as "512 x 512 x 138". */
-template <typename TNumbers>
-std::string
-FormatProduct(const TNumbers & numbers)
-{
-  std::string text;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    text += (axis == 0 ? "" : " x ") + FormatNumber(static_cast<double>(numbers[axis]));
-  }
-  return text;
-}
-
 void
 PrintLine(const std::string & name, const std::string & text)
 {

@@ -20,18 +20,18 @@ namespace rhombic
  * \brief One thing that is known of a surface. */
 struct MeasureColumn
 {
-  std::string name;        ///< in snake_case, with the unit at its end
-  std::string unit;        ///< empty for what is no measure
-  std::string description; ///< a sentence
+  const char * name;        ///< in snake_case, with the unit at its end
+  const char * unit;        ///< empty for columns that are no measures
+  const char * description; ///< a sentence
 
-  /** A number or text; null for what is not known. */
+  /** A number or text; null for an unknown value. */
   Report (*find)(const MeshedSurface & surface);
 
   /** The part of SummarizeMeasures() with the found number; null for columns that the sentence leaves out. */
   std::string (*say)(double number, const MeshedSurface & surface) = nullptr;
 };
 
-/** All columns; what a table holds has no effect on them. */
+/** All columns, in the order of tables. Each table has all of them. */
 const std::vector<MeasureColumn> &
 GetMeasureColumns();
 

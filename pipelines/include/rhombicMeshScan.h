@@ -42,7 +42,7 @@ CheckMeshScan(const MeshScanSettings & settings);
  * back. Notes give the main figures; sidecars and the table hold all of them, and what finishing changed. All files
  * appear together at the end, or none does.
  *
- * \param volume what the source holds, if it was read before
+ * \param volume the source's volume, if the caller has read the source already
  *
  * Throws Failure, also for a surface that has to be watertight and is not. */
 std::vector<MadeFile>

@@ -20,11 +20,8 @@ namespace rhombic
 /** JSON that keeps the order in which it was written. */
 using Report = nlohmann::ordered_json;
 
-/** Format, geometry, series, and what the reader had to assume or repair. */
-Report
-ReportScan(const Scan & scan);
-
-/** ReportScan() for outputs: notes don't name the scan's file, whose name may be the patient's. */
+/** Format, geometry, series, and what the reader had to assume or repair, for outputs: notes don't name the scan's
+ * file, whose name may be the patient's. */
 Report
 ReportWithoutNames(const Scan & scan, const std::filesystem::path & path);
 
@@ -39,10 +36,6 @@ ReportLattice(const FCCVolume & volume);
 /** Kind, and its parameters in mm and in the scan's units. */
 Report
 ReportDenoising(const Denoising & denoising);
-
-/** For each label: value, name, colour (`#rrggbb`), voxels and ml. */
-Report
-ReportLabels(const std::vector<LabelSummary> & labels);
 
 /** Objects that were removed around the patient, and separate parts that were kept: volumes in ml, positions, and the
  * value that replaced the objects. */

@@ -31,7 +31,7 @@ struct LoadedSource
   itk::ImageBase<3>::Pointer grid;          ///< grid of the scan, without values; null for no or a slanted scan
   std::vector<SurfaceRequest> requests;     ///< with their isovalues
   std::optional<LabelMap> labels;
-  std::vector<std::string> warnings; ///< what speaks against the labels being those of the scan
+  std::vector<std::string> warnings; ///< doubts that the labels belong to the scan (FindLabelDoubts())
 
   /** The scan, or the label map when that is the source; null for lattice volumes. */
   const Scan *
@@ -49,7 +49,7 @@ struct LoadedSource
 /** Reads a source, removes the table if asked and resamples onto the lattice, as far as the selection needs it. Throws
  * Failure.
  *
- * \param volume what the source holds, if it was read before */
+ * \param volume the source's volume, if the caller has read the source already */
 LoadedSource
 LoadSource(const ScanSource & source,
            const SurfaceSelection & selection,

@@ -67,7 +67,7 @@ enum class SurfaceUse
 /** \class SourceSurfaces
  * \brief Makes the surfaces of a source in two steps, between which the source's volumes can be dropped.
  *
- * What is given to the constructor must outlive it. */
+ * All arguments of the constructor must outlive the object. */
 class SourceSurfaces
 {
 public:
@@ -95,7 +95,7 @@ public:
   bool
   Finish(MeshedSurface & surface) const;
 
-  /** Finishes surfaces, and drops those of which nothing is left. Throws Failure(Empty) if nothing is left of all. */
+  /** Finishes surfaces, and drops surfaces without triangles. Throws Failure(Empty) if no surface is left. */
   void
   Finish(std::vector<MeshedSurface> & surfaces) const;
 

@@ -2,11 +2,14 @@
 
 #include "rhombicAuditReport.h"
 #include "rhombicFailure.h"
+#include "rhombicForEachBlock.h"
 #include "rhombicMeasureTable.h"
+#include "rhombicSurfaceReport.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 namespace rhombic
@@ -36,6 +39,43 @@ RefuseToWrite(const std::string & why)
 
 } // namespace
 
+MadeFile
+FileInspection::Stage(const std::filesystem::path & path,
+                      MeshedSurface * begin,
+                      std::size_t count,
+                      const Report & sourceReport,
+                      StagedFiles & staged) const
+{
+  std::vector<SceneSurface> scene;
+  std::transform(begin, begin + count, std::back_inserter(scene), [](const auto & surface) { return surface.scene; });
+  SurfaceFileSettings file;
+  file.space = m_Settings.space;
+  ForEachOnThreads(2, [&](std::size_t task) {
+    if (task == 0)
+    {
+      StageSurfaces(scene, path, staged, file);
+    }
+    else
+    {
+      std::for_each(begin, begin + count, [this](MeshedSurface & surface) { this->Measure(surface); });
+    }
+  });
+  Report report = sourceReport;
+  report["surfaces"] = Report::array();
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    this->NoteResults(begin[n]);
+    if (this->NeedsAudit())
+    {
+      this->Audit(*SurfaceAsStored(*scene[n].surface, path), begin[n]);
+    }
+    report["surfaces"].push_back(ReportMeshedSurface(begin[n]));
+  }
+  StageSidecar(path, m_Settings.provenance, report, staged);
+  return MakeOutput(path, "mesh", report);
+}
+
+/** Sets the surface's sizes, measures and deviation. For any thread. */
 void
 FileInspection::Measure(MeshedSurface & surface) const
 {
@@ -144,6 +184,8 @@ FileInspection::NoteDeviation(const MeshedSurface & surface) const
   m_Events.Note(note);
 }
 
+/** Sets and notes the audit of a surface.
+ * \param stored the surface as the file holds it */
 void
 FileInspection::Audit(const itk::TriangleSurface & stored, MeshedSurface & surface) const
 {

@@ -10,8 +10,8 @@ namespace rhombic
 {
 
 /** \class FileInspection
- * \brief Measures surfaces, compares them with the scan, and audits them as their file holds them. Notes give the main
- * figures. */
+ * \brief Writes surfaces as files, measures them, compares them with the scan, and audits them as their file holds
+ * them. Notes give the main figures. */
 class FileInspection
 {
 public:
@@ -22,12 +22,16 @@ public:
     , m_Events(events)
   {}
 
-  /** Sets the surface's sizes, measures and deviation. For any thread. */
-  void
-  Measure(MeshedSurface & surface) const;
-
-  void
-  NoteResults(const MeshedSurface & surface) const;
+  /** Writes \a count surfaces from \a begin on as one file with its sidecar, to appear with all others of \a staged,
+   * and sets their measures, deviation and audit. Throws Failure, NotWatertight for a surface that has to be watertight
+   * and is not.
+   * \param sourceReport the sidecar's part about the source */
+  MadeFile
+  Stage(const std::filesystem::path & path,
+        MeshedSurface * begin,
+        std::size_t count,
+        const Report & sourceReport,
+        StagedFiles & staged) const;
 
   bool
   NeedsAudit() const
@@ -35,21 +39,20 @@ public:
     return m_Settings.audits || m_Settings.requiresWatertight;
   }
 
-  /** Sets and notes the audit of a surface as its file holds it. Throws Failure(NotWatertight) for a surface that has
-   * to be watertight and is not.
-   *
-   * \param stored the surface as the file holds it */
-  void
-  Audit(const itk::TriangleSurface & stored, MeshedSurface & surface) const;
-
   /** Notes the audit of the walls that labels share, and returns its report; nothing if they share none. Throws
-   * Failure(NotWatertight) as Audit() does. */
+   * Failure(NotWatertight) as Stage() does. */
   std::optional<Report>
   AuditTogether(const std::vector<MeshedSurface> & surfaces) const;
 
 private:
+  void
+  Measure(MeshedSurface & surface) const;
+  void
+  Audit(const itk::TriangleSurface & stored, MeshedSurface & surface) const;
   itk::TriangleSurfaceAuditSettings
   GetAuditSettings() const;
+  void
+  NoteResults(const MeshedSurface & surface) const;
   void
   NoteFinish(const MeshedSurface & surface) const;
   void

@@ -24,7 +24,7 @@ namespace
 
 using Surface = MeshedSurface;
 
-/** Null for what is no finite number. */
+/** Null for NaN and infinite numbers. */
 Report
 FiniteOrNull(double number)
 {
@@ -38,9 +38,16 @@ FiniteOrNull(const std::optional<double> & number)
 }
 
 Report
-ToMillilitres(const std::optional<double> & volume)
+MillilitresOrNull(const std::optional<double> & volume)
 {
   return volume ? FiniteOrNull(*volume / CubicMillimetresPerMl) : Report();
+}
+
+template <auto Member>
+Report
+FindMeasure(const Surface & surface)
+{
+  return FiniteOrNull(surface.measures.*Member);
 }
 
 Report
@@ -75,7 +82,7 @@ Report
 FindIsosurface(const Surface & surface)
 {
   const auto & isosurface = surface.measures.isosurface;
-  return isosurface ? ToMillilitres((*isosurface).*Member) : Report();
+  return isosurface ? MillilitresOrNull((*isosurface).*Member) : Report();
 }
 
 std::string
@@ -158,6 +165,119 @@ Identify(const std::string & name, const itk::TriangleSurface & surface)
   return HashText(name + '\n' + std::to_string(sum)).substr(0, 12);
 }
 
+constexpr MeasureColumn Columns[] = {
+  { "surface_id",
+    "",
+    "Identifies the surface as finished: a hash of its name and triangles.",
+    [](const Surface & s) { return Report(s.identity); } },
+  { "surface", "", "The surface's name.", [](const Surface & s) { return Report(s.scene.name); } },
+  { "kind", "", "isosurface, label, or file: where the surface comes from.", FindKind },
+  { "label_value",
+    "",
+    "The label's number in the label map.",
+    [](const Surface & s) { return s.label ? Report(s.label->value) : Report(); } },
+  { "isovalue_scan_unit",
+    "unit of the scan's values (HU for CT)",
+    "The threshold of an isosurface.",
+    [](const Surface & s) { return s.request ? FiniteOrNull(s.request->isovalue) : Report(); } },
+  { "inside", "", "above or below: the side of the threshold that is inside.", FindSide },
+  { "mode", "", "How an isosurface is put through the lattice's cells.", FindMode },
+  { "volume_ml",
+    "mL",
+    "The volume that the finished surface encloses.",
+    [](const Surface & s) { return MillilitresOrNull(s.measures.volume); },
+    [](double ml, const Surface &) { return FormatMillilitres(ml); } },
+  { "isosurface_volume_ml",
+    "mL",
+    "The volume inside the scan's isosurface, estimated from the lattice's samples.",
+    FindIsosurface<&IsosurfaceVolume::volume>,
+    SayIsosurface },
+  { "isosurface_uncertainty_ml",
+    "mL",
+    "The uncertainty of isosurface_volume_ml.",
+    FindIsosurface<&IsosurfaceVolume::uncertainty> },
+  { "voxel_volume_ml",
+    "mL",
+    "The volume of the voxels of the label, or on the inner side of the threshold.",
+    [](const Surface & s) { return MillilitresOrNull(s.measures.voxelVolume); },
+    [](double ml, const Surface &) { return "voxels " + FormatMillilitres(ml); } },
+  { "volume_error_percent",
+    "%",
+    "By how much volume_ml is above its reference.",
+    [](const Surface & s) { return FiniteOrNull(s.measures.GetVolumeError()); } },
+  { "volume_error_reference", "", "isosurface or voxels: the reference of volume_error_percent.", FindReference },
+  { "area_mm2",
+    "mm^2",
+    "The area of the finished surface.",
+    FindMeasure<&SurfaceMeasures::area>,
+    [](double area, const Surface &) { return FormatFixed(area / 100.0, 1) + " cm2"; } },
+  { "x_min_mm", "mm", "The lowest coordinate to the patient's left (LPS).", FindBound<0> },
+  { "x_max_mm", "mm", "The highest coordinate to the patient's left (LPS).", FindBound<1> },
+  { "y_min_mm", "mm", "The lowest coordinate to the patient's back (LPS).", FindBound<2> },
+  { "y_max_mm", "mm", "The highest coordinate to the patient's back (LPS).", FindBound<3> },
+  { "z_min_mm", "mm", "The lowest coordinate to the patient's head (LPS).", FindBound<4> },
+  { "z_max_mm", "mm", "The highest coordinate to the patient's head (LPS).", FindBound<5> },
+  { "centroid_x_mm", "mm", "The centre of the enclosed volume, to the patient's left (LPS).", FindCentroid<0> },
+  { "centroid_y_mm", "mm", "The centre of the enclosed volume, to the patient's back (LPS).", FindCentroid<1> },
+  { "centroid_z_mm", "mm", "The centre of the enclosed volume, to the patient's head (LPS).", FindCentroid<2> },
+  { "longest_diameter_mm",
+    "mm",
+    "The largest distance between two points of the surface.",
+    FindMeasure<&SurfaceMeasures::longestDiameter>,
+    [](double diameter, const Surface &) { return "longest diameter " + FormatFixed(diameter, 1) + " mm"; } },
+  { "mean_scan_unit",
+    "unit of the scan's values (HU for CT)",
+    "The mean of the scan's values inside the surface.",
+    FindMeasure<&SurfaceMeasures::meanValue>,
+    [](double mean, const Surface &) { return "mean value " + FormatFixed(mean, 1); } },
+  { "standard_deviation_scan_unit",
+    "unit of the scan's values (HU for CT)",
+    "The standard deviation of the scan's values inside the surface.",
+    FindMeasure<&SurfaceMeasures::standardDeviation> },
+  { "points", "count", "The number of points.", [](const Surface & s) { return Report(s.points); } },
+  { "triangles", "count", "The number of triangles.", [](const Surface & s) { return Report(s.triangles); } },
+  { "extracted_volume_ml",
+    "mL",
+    "The volume at extraction, before parts were removed and the surface was smoothed or simplified.",
+    [](const Surface & s) { return s.extracted ? MillilitresOrNull(s.extracted->volume) : Report(); } },
+  { "extracted_area_mm2",
+    "mm^2",
+    "The area at extraction.",
+    [](const Surface & s) { return s.extracted ? FiniteOrNull(s.extracted->area) : Report(); } },
+  { "extracted_triangles",
+    "count",
+    "The number of triangles at extraction.",
+    [](const Surface & s) { return s.extracted ? Report(s.extracted->triangles) : Report(); } },
+  { "finishing_volume_change_percent",
+    "%",
+    "By how much volume_ml is above extracted_volume_ml.",
+    [](const Surface & s) {
+      return s.extracted ? FiniteOrNull(PercentChange(s.extracted->volume, s.measures.volume)) : Report();
+    } },
+  { "finishing_area_change_percent",
+    "%",
+    "By how much area_mm2 is above extracted_area_mm2.",
+    [](const Surface & s) {
+      return s.extracted ? FiniteOrNull(PercentChange(s.extracted->area, s.measures.area)) : Report();
+    } },
+  { "deviation_mean_mm",
+    "mm",
+    "The mean distance from the surface to the scan's isosurface.",
+    FindDeviation<&SurfaceDeviation::mean> },
+  { "deviation_percentile95_mm",
+    "mm",
+    "The distance to the scan's isosurface that 95 % of the surface stay within.",
+    FindDeviation<&SurfaceDeviation::percentile95> },
+  { "deviation_maximum_mm",
+    "mm",
+    "The largest distance from the surface to the scan's isosurface.",
+    FindDeviation<&SurfaceDeviation::maximum> },
+  { "deviation_bias_mm",
+    "mm",
+    "The mean of the signed distances; above 0 where the surface lies outside the isosurface.",
+    FindDeviation<&SurfaceDeviation::bias> },
+};
+
 /** Text in quotes, in which quotes are doubled (RFC 4180). */
 std::string
 Quote(const std::string & text)
@@ -176,7 +296,7 @@ ToCSV(const std::vector<MeshedSurface> & surfaces)
   std::string text;
   for (const MeasureColumn & column : GetMeasureColumns())
   {
-    text += (text.empty() ? "" : ",") + column.name;
+    text += (text.empty() ? "" : ",") + std::string(column.name);
   }
   text += "\r\n";
   for (const MeshedSurface & surface : surfaces)
@@ -205,118 +325,7 @@ ToJsonTable(const std::vector<MeshedSurface> & surfaces)
 const std::vector<MeasureColumn> &
 GetMeasureColumns()
 {
-  static const std::vector<MeasureColumn> columns{
-    { "surface_id",
-      "",
-      "Identifies the surface as finished: a hash of its name and triangles.",
-      [](const Surface & s) { return Report(s.identity); } },
-    { "surface", "", "The surface's name.", [](const Surface & s) { return Report(s.scene.name); } },
-    { "kind", "", "isosurface, label, or file: where the surface comes from.", FindKind },
-    { "label_value",
-      "",
-      "The label's number in the label map.",
-      [](const Surface & s) { return s.label ? Report(s.label->value) : Report(); } },
-    { "isovalue_scan_unit",
-      "unit of the scan's values (HU for CT)",
-      "The threshold of an isosurface.",
-      [](const Surface & s) { return s.request ? FiniteOrNull(s.request->isovalue) : Report(); } },
-    { "inside", "", "above or below: the side of the threshold that is inside.", FindSide },
-    { "mode", "", "How an isosurface is put through the lattice's cells.", FindMode },
-    { "volume_ml",
-      "mL",
-      "The volume that the finished surface encloses.",
-      [](const Surface & s) { return ToMillilitres(s.measures.volume); },
-      [](double ml, const Surface &) { return FormatMillilitres(ml); } },
-    { "isosurface_volume_ml",
-      "mL",
-      "The volume inside the scan's isosurface, estimated from the lattice's samples.",
-      FindIsosurface<&IsosurfaceVolume::volume>,
-      SayIsosurface },
-    { "isosurface_uncertainty_ml",
-      "mL",
-      "The uncertainty of isosurface_volume_ml.",
-      FindIsosurface<&IsosurfaceVolume::uncertainty> },
-    { "voxel_volume_ml",
-      "mL",
-      "The volume of the voxels of the label, or on the inner side of the threshold.",
-      [](const Surface & s) { return ToMillilitres(s.measures.voxelVolume); },
-      [](double ml, const Surface &) { return "voxels " + FormatMillilitres(ml); } },
-    { "volume_error_percent",
-      "%",
-      "By how much volume_ml is above its reference.",
-      [](const Surface & s) { return FiniteOrNull(s.measures.GetVolumeError()); } },
-    { "volume_error_reference", "", "isosurface or voxels: the reference of volume_error_percent.", FindReference },
-    { "area_mm2",
-      "mm^2",
-      "The area of the finished surface.",
-      [](const Surface & s) { return FiniteOrNull(s.measures.area); },
-      [](double area, const Surface &) { return FormatFixed(area / 100.0, 1) + " cm2"; } },
-    { "x_min_mm", "mm", "The lowest coordinate to the patient's left (LPS).", FindBound<0> },
-    { "x_max_mm", "mm", "The highest coordinate to the patient's left (LPS).", FindBound<1> },
-    { "y_min_mm", "mm", "The lowest coordinate to the patient's back (LPS).", FindBound<2> },
-    { "y_max_mm", "mm", "The highest coordinate to the patient's back (LPS).", FindBound<3> },
-    { "z_min_mm", "mm", "The lowest coordinate to the patient's head (LPS).", FindBound<4> },
-    { "z_max_mm", "mm", "The highest coordinate to the patient's head (LPS).", FindBound<5> },
-    { "centroid_x_mm", "mm", "The centre of the enclosed volume, to the patient's left (LPS).", FindCentroid<0> },
-    { "centroid_y_mm", "mm", "The centre of the enclosed volume, to the patient's back (LPS).", FindCentroid<1> },
-    { "centroid_z_mm", "mm", "The centre of the enclosed volume, to the patient's head (LPS).", FindCentroid<2> },
-    { "longest_diameter_mm",
-      "mm",
-      "The largest distance between two points of the surface.",
-      [](const Surface & s) { return FiniteOrNull(s.measures.longestDiameter); },
-      [](double diameter, const Surface &) { return "longest diameter " + FormatFixed(diameter, 1) + " mm"; } },
-    { "mean_scan_unit",
-      "unit of the scan's values (HU for CT)",
-      "The mean of the scan's values inside the surface.",
-      [](const Surface & s) { return FiniteOrNull(s.measures.meanValue); },
-      [](double mean, const Surface &) { return "mean value " + FormatFixed(mean, 1); } },
-    { "standard_deviation_scan_unit",
-      "unit of the scan's values (HU for CT)",
-      "The standard deviation of the scan's values inside the surface.",
-      [](const Surface & s) { return FiniteOrNull(s.measures.standardDeviation); } },
-    { "points", "count", "The number of points.", [](const Surface & s) { return Report(s.points); } },
-    { "triangles", "count", "The number of triangles.", [](const Surface & s) { return Report(s.triangles); } },
-    { "extracted_volume_ml",
-      "mL",
-      "The volume at extraction, before parts were removed and the surface was smoothed or simplified.",
-      [](const Surface & s) { return s.extracted ? ToMillilitres(s.extracted->volume) : Report(); } },
-    { "extracted_area_mm2",
-      "mm^2",
-      "The area at extraction.",
-      [](const Surface & s) { return s.extracted ? FiniteOrNull(s.extracted->area) : Report(); } },
-    { "extracted_triangles",
-      "count",
-      "The number of triangles at extraction.",
-      [](const Surface & s) { return s.extracted ? Report(s.extracted->triangles) : Report(); } },
-    { "finishing_volume_change_percent",
-      "%",
-      "By how much volume_ml is above extracted_volume_ml.",
-      [](const Surface & s) {
-        return s.extracted ? FiniteOrNull(PercentChange(s.extracted->volume, s.measures.volume)) : Report();
-      } },
-    { "finishing_area_change_percent",
-      "%",
-      "By how much area_mm2 is above extracted_area_mm2.",
-      [](const Surface & s) {
-        return s.extracted ? FiniteOrNull(PercentChange(s.extracted->area, s.measures.area)) : Report();
-      } },
-    { "deviation_mean_mm",
-      "mm",
-      "The mean distance from the surface to the scan's isosurface.",
-      FindDeviation<&SurfaceDeviation::mean> },
-    { "deviation_percentile95_mm",
-      "mm",
-      "The distance to the scan's isosurface that 95 % of the surface stay within.",
-      FindDeviation<&SurfaceDeviation::percentile95> },
-    { "deviation_maximum_mm",
-      "mm",
-      "The largest distance from the surface to the scan's isosurface.",
-      FindDeviation<&SurfaceDeviation::maximum> },
-    { "deviation_bias_mm",
-      "mm",
-      "The mean of the signed distances; above 0 where the surface lies outside the isosurface.",
-      FindDeviation<&SurfaceDeviation::bias> },
-  };
+  static const std::vector<MeasureColumn> columns(std::begin(Columns), std::end(Columns));
   return columns;
 }
 

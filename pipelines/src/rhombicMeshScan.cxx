@@ -3,11 +3,9 @@
 #include "rhombicFailure.h"
 #include "rhombicFileInspection.h"
 #include "rhombicMeasureTable.h"
-#include "rhombicForEachBlock.h"
 #include "rhombicSurfaceReport.h"
 
 #include <algorithm>
-#include <iterator>
 #include <set>
 #include <utility>
 
@@ -99,60 +97,6 @@ CheckNumberOfSurfaces(const LoadedSource & loaded, const MeshScanSettings & sett
   CheckSurfacePath(settings.mesh, HasFileForEach(settings.mesh) ? 1 : fewest);
 }
 
-/** \class FileStaging
- * \brief Writes surfaces as files, with their sidecars. */
-class FileStaging
-{
-public:
-  FileStaging(const MeshScanSettings & settings, const FileInspection & inspection, const Report & sourceReport)
-    : m_Settings(settings)
-    , m_Inspection(inspection)
-    , m_SourceReport(sourceReport)
-  {}
-
-  /** Writes \a count surfaces from \a begin on as one file, to appear with all others of \a staged, and meanwhile
-   * measures them. */
-  MadeFile
-  Stage(const fs::path & path, MeshedSurface * begin, std::size_t count, StagedFiles & staged) const
-  {
-    std::vector<SceneSurface> scene;
-    std::transform(begin, begin + count, std::back_inserter(scene), [](const auto & surface) { return surface.scene; });
-    SurfaceFileSettings file;
-    file.space = m_Settings.space;
-    ForEachOnThreads(2, [&](std::size_t task) {
-      if (task == 0)
-      {
-        StageSurfaces(scene, path, staged, file);
-      }
-      else
-      {
-        std::for_each(begin, begin + count, [this](MeshedSurface & surface) { m_Inspection.Measure(surface); });
-      }
-    });
-    for (std::size_t n = 0; n < count; ++n)
-    {
-      m_Inspection.NoteResults(begin[n]);
-      if (m_Inspection.NeedsAudit())
-      {
-        m_Inspection.Audit(*SurfaceAsStored(*scene[n].surface, path), begin[n]);
-      }
-    }
-    Report report = m_SourceReport;
-    report["surfaces"] = Report::array();
-    for (std::size_t n = 0; n < count; ++n)
-    {
-      report["surfaces"].push_back(ReportMeshedSurface(begin[n]));
-    }
-    StageSidecar(path, m_Settings.provenance, report, staged);
-    return MakeOutput(path, "mesh", report);
-  }
-
-private:
-  const MeshScanSettings & m_Settings;
-  const FileInspection & m_Inspection;
-  const Report & m_SourceReport;
-};
-
 } // namespace
 
 std::vector<fs::path>
@@ -184,7 +128,6 @@ MeshScan(const MeshScanSettings & settings, const Events & events, std::optional
   making.Finish(surfaces);
 
   const FileInspection inspection(settings, loaded.scan, events);
-  const FileStaging staging(settings, inspection, sourceReport);
   const std::vector<fs::path> paths = PathsOf(settings.mesh, surfaces);
   const std::size_t perFile = HasFileForEach(settings.mesh) ? 1 : surfaces.size();
   CheckSurfacePath(paths.front(), perFile);
@@ -200,7 +143,7 @@ MeshScan(const MeshScanSettings & settings, const Events & events, std::optional
   for (std::size_t n = 0; n < paths.size(); ++n)
   {
     events.Progress("writing and measuring", static_cast<double>(n) / static_cast<double>(paths.size()));
-    outputs.push_back(staging.Stage(paths[n], surfaces.data() + n * perFile, perFile, staged));
+    outputs.push_back(inspection.Stage(paths[n], surfaces.data() + n * perFile, perFile, sourceReport, staged));
   }
   AddSidecars(settings.provenance, outputs);
   for (const fs::path & path : paths)

@@ -38,11 +38,10 @@ ReportGrid(const itk::ImageBase<3> & grid, bool isOriented, Report & report)
 Report
 ReportStack(const StackReport & stack)
 {
-  Report report;
-  report["tiltDegrees"] = stack.tiltDegrees;
-  report["firstPosition"] = stack.firstPosition;
-  report["lastPosition"] = stack.lastPosition;
-  report["blocks"] = Report::array();
+  Report report{ { "tiltDegrees", stack.tiltDegrees },
+                 { "firstPosition", stack.firstPosition },
+                 { "lastPosition", stack.lastPosition },
+                 { "blocks", Report::array() } };
   for (const SliceBlock & block : stack.blocks)
   {
     report["blocks"].push_back({ { "steps", block.numberOfSteps }, { "step", block.step } });
@@ -59,14 +58,9 @@ ReportStack(const StackReport & stack)
 Report
 ReportSeries(const SeriesSummary & series)
 {
-  Report report;
-  report["number"] = series.number;
-  report["id"] = series.id;
-  report["seriesNumber"] = series.seriesNumber;
-  report["modality"] = series.modality;
-  report["kind"] = series.kind;
-  report["files"] = series.numberOfFiles;
-  report["size"] = series.size;
+  Report report{ { "number", series.number },     { "id", series.id },     { "seriesNumber", series.seriesNumber },
+                 { "modality", series.modality }, { "kind", series.kind }, { "files", series.numberOfFiles },
+                 { "size", series.size } };
   if (series.spacing[0] > 0.0)
   {
     report["spacing"] = series.spacing;
@@ -87,24 +81,16 @@ ReportSeriesOf(const std::vector<SeriesSummary> & series)
   return report;
 }
 
-Report
-ReportSkippedFiles(const std::map<std::string, std::size_t> & filesSkipped)
+/** The series and files of a scan or a description, and notes. */
+template <typename TDescription>
+void
+ReportFolder(const TDescription & description, Report & report)
 {
-  return filesSkipped.empty() ? Report::object() : Report(filesSkipped);
-}
-
-/** Where nothing could be read: the series alone. */
-Report
-ReportFolder(const ScanDescription & description)
-{
-  Report report;
-  report["format"] = "DICOM";
   report["series"] = ReportSeriesOf(description.series);
   report["choice"] = description.choice;
   report["filesConsidered"] = description.filesConsidered;
-  report["filesSkipped"] = ReportSkippedFiles(description.filesSkipped);
+  report["filesSkipped"] = description.filesSkipped.empty() ? Report::object() : Report(description.filesSkipped);
   report["notes"] = description.notes;
-  return report;
 }
 
 void
@@ -117,34 +103,15 @@ ReportIntensities(const ScanDescription & description, Report & report)
   }
 }
 
-} // namespace
-
-std::string
-OrientationLetters(const itk::ImageBase<3>::DirectionType & direction)
-{
-  constexpr char letters[3][2] = { { 'L', 'R' }, { 'P', 'A' }, { 'S', 'I' } };
-  std::string text;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    unsigned int nearest = 0;
-    for (unsigned int row = 1; row < 3; ++row)
-    {
-      nearest = std::abs(direction[row][axis]) > std::abs(direction[nearest][axis]) ? row : nearest;
-    }
-    text += letters[nearest][direction[nearest][axis] < 0.0 ? 1 : 0];
-  }
-  return text;
-}
-
+/** Format, geometry, series, and what the reader had to assume or repair. */
 Report
 ReportScan(const Scan & scan)
 {
-  Report report;
-  report["format"] = scan.format;
-  report["modality"] = scan.modality;
-  report["encoding"] = scan.encoding;
-  report["pixelType"] = PixelTypeName(scan.image);
-  report["scaling"] = scan.scaling;
+  Report report{ { "format", scan.format },
+                 { "modality", scan.modality },
+                 { "encoding", scan.encoding },
+                 { "pixelType", PixelTypeName(scan.image) },
+                 { "scaling", scan.scaling } };
   ReportGrid(GeometryOf(scan.image), scan.isOriented, report);
   if (scan.stack)
   {
@@ -164,12 +131,43 @@ ReportScan(const Scan & scan)
     report["frames"] = scan.numberOfFrames;
     report["frame"] = scan.frame;
   }
-  report["series"] = ReportSeriesOf(scan.series);
-  report["choice"] = scan.choice;
-  report["filesConsidered"] = scan.filesConsidered;
-  report["filesSkipped"] = ReportSkippedFiles(scan.filesSkipped);
-  report["notes"] = scan.notes;
+  ReportFolder(scan, report);
   return report;
+}
+
+/** For each label: value, name, colour (`#rrggbb`), voxels and ml. */
+Report
+ReportLabels(const std::vector<LabelSummary> & labels)
+{
+  Report report = Report::array();
+  for (const LabelSummary & summary : labels)
+  {
+    report.push_back({ { "value", summary.label.value },
+                       { "name", summary.label.name },
+                       { "colour", ToHexadecimal(summary.label) },
+                       { "voxels", summary.numberOfVoxels },
+                       { "millilitres", summary.millilitres } });
+  }
+  return report;
+}
+
+} // namespace
+
+std::string
+OrientationLetters(const itk::ImageBase<3>::DirectionType & direction)
+{
+  constexpr char letters[3][2] = { { 'L', 'R' }, { 'P', 'A' }, { 'S', 'I' } };
+  std::string text;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    unsigned int nearest = 0;
+    for (unsigned int row = 1; row < 3; ++row)
+    {
+      nearest = std::abs(direction[row][axis]) > std::abs(direction[nearest][axis]) ? row : nearest;
+    }
+    text += letters[nearest][direction[nearest][axis] < 0.0 ? 1 : 0];
+  }
+  return text;
 }
 
 Report
@@ -242,28 +240,15 @@ ReportTableRemoval(const TableRemoval & removal)
 }
 
 Report
-ReportLabels(const std::vector<LabelSummary> & labels)
-{
-  Report report = Report::array();
-  for (const LabelSummary & summary : labels)
-  {
-    report.push_back({ { "value", summary.label.value },
-                       { "name", summary.label.name },
-                       { "colour", ToHexadecimal(summary.label) },
-                       { "voxels", summary.numberOfVoxels },
-                       { "millilitres", summary.millilitres } });
-  }
-  return report;
-}
-
-Report
 ReportDescription(const ScanDescription & description)
 {
-  if (!description.HasVolume())
-  {
-    return ReportFolder(description);
-  }
   Report report;
+  if (!description.HasVolume()) // nothing could be read: the series alone
+  {
+    report["format"] = "DICOM";
+    ReportFolder(description, report);
+    return report;
+  }
   if (const auto * const scan = std::get_if<Scan>(&description.volume))
   {
     report = ReportScan(*scan);

@@ -38,17 +38,6 @@ RequireLatticeMemory(const itk::FCCImage<TPixel> & lattice, const Scan & scan, c
                                  : "crop the scan");
 }
 
-/** "100 x 200 x 150 sites, spacing 0.9 x 0.9 x 0.9 mm". */
-std::string
-DescribeLattice(const itk::ImageBase<3> & lattice)
-{
-  const auto & size = lattice.GetLargestPossibleRegion().GetSize();
-  const auto & spacing = lattice.GetSpacing();
-  return std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]) +
-         " sites, spacing " + FormatNumber(spacing[0]) + " x " + FormatNumber(spacing[1]) + " x " +
-         FormatNumber(spacing[2]) + " mm";
-}
-
 /** Throws Failure(Usage) for a lattice or grid that the filter refuses, naming the options. */
 template <typename TFilter>
 void
@@ -101,7 +90,8 @@ Resample(TFilter & filter, const Scan & scan, const LatticeSettings & settings, 
   RequireLatticeMemory(*filter.GetOutput(), scan, settings);
   filter.Update();
   const auto lattice = TakeOutput(filter);
-  events.Note("lattice: " + DescribeLattice(*lattice));
+  events.Note("lattice: " + FormatProduct(lattice->GetLargestPossibleRegion().GetSize()) + " sites, spacing " +
+              FormatProduct(lattice->GetSpacing()) + " mm");
   return lattice;
 }
 

@@ -27,11 +27,18 @@ std::string
 DescribeGrid(const Scan & scan)
 {
   const auto & grid = GeometryOf(scan.image);
-  const auto & size = grid.GetLargestPossibleRegion().GetSize();
-  const auto & spacing = grid.GetSpacing();
-  return scan.format + (scan.modality.empty() ? "" : " " + scan.modality) + ": " + std::to_string(size[0]) + " x " +
-         std::to_string(size[1]) + " x " + std::to_string(size[2]) + " samples, spacing " + FormatNumber(spacing[0]) +
-         " x " + FormatNumber(spacing[1]) + " x " + FormatNumber(spacing[2]) + " mm, " + PixelTypeName(scan.image);
+  return scan.format + (scan.modality.empty() ? "" : " " + scan.modality) + ": " +
+         FormatProduct(grid.GetLargestPossibleRegion().GetSize()) + " samples, spacing " +
+         FormatProduct(grid.GetSpacing()) + " mm, " + PixelTypeName(scan.image);
+}
+
+void
+NoteAll(const std::vector<std::string> & notes, const Events & events, const std::string & before = "")
+{
+  for (const std::string & note : notes)
+  {
+    events.Note(before + note);
+  }
 }
 
 Scan
@@ -39,13 +46,8 @@ LoadScan(const ScanSource & source, const Events & events)
 {
   Scan scan = ReadScan(source, events);
   events.Note(DescribeGrid(scan));
-  for (const auto * const notes : { &scan.notes, &scan.fileNotes })
-  {
-    for (const std::string & note : *notes)
-    {
-      events.Note(note);
-    }
-  }
+  NoteAll(scan.notes, events);
+  NoteAll(scan.fileNotes, events);
   return scan;
 }
 
@@ -93,10 +95,7 @@ LoadLabels(const ScanSource & source, const LabelMapSource & labels, const Scan 
   events.Note(Count(map.labels.size(), "label") + " in " +
               (labels.probabilities.size() + labels.paths.size() > 1 ? Count(map.scan.files.size(), "file")
                                                                      : labels.GetFirstPath().string()));
-  for (const std::string & note : map.scan.notes)
-  {
-    events.Note(note);
-  }
+  NoteAll(map.scan.notes, events);
   return map;
 }
 
@@ -168,10 +167,7 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   {
     loaded.labels = LoadLabels(source, selection.labels->source, scan, events);
     loaded.warnings = FindLabelDoubts(scan, *loaded.labels);
-    for (const std::string & warning : loaded.warnings)
-    {
-      events.Note("warning: " + warning);
-    }
+    NoteAll(loaded.warnings, events, "warning: ");
   }
   std::vector<SurfaceRequest> requests = selection.requests;
   SceneRules rules = selection.rules;

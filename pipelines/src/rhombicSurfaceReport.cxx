@@ -27,7 +27,7 @@ ToMillilitres(double volume)
 }
 
 Report
-ReportEnclosedParts(const EnclosedParts & parts)
+ToReport(const EnclosedParts & parts)
 {
   return { { "leftOutAroundBodyInMillilitres", parts.aroundBody },
            { "leftOutSmallParts", parts.numberOfSmall },
@@ -37,7 +37,7 @@ ReportEnclosedParts(const EnclosedParts & parts)
 
 /** A label's voxels and pieces, beside its surface's. */
 Report
-ReportLabel(const LabelSurface & surface)
+ToReport(const LabelSurface & surface)
 {
   return { { "voxels", surface.numberOfVoxels },
            { "volumeDifferenceInPercent", 100.0 * surface.GetVolumeDifference() },
@@ -55,7 +55,7 @@ ReportShells(const itk::RemovedShells & shells)
 }
 
 Report
-ReportSmoothing(const SmoothingResult & smoothing)
+ToReport(const SmoothingResult & smoothing)
 {
   return { { "maximumMoveInMillimetres", smoothing.maximumMove },
            { "meanMoveInMillimetres", smoothing.moves.meanMove },
@@ -65,7 +65,7 @@ ReportSmoothing(const SmoothingResult & smoothing)
 }
 
 Report
-ReportUntangling(const itk::TriangleSurfaceUntanglingReport & untangling)
+ToReport(const itk::TriangleSurfaceUntanglingReport & untangling)
 {
   return { { "crossingTrianglesBefore", untangling.crossingBefore },
            { "crossingTrianglesAfter", untangling.crossingAfter },
@@ -74,7 +74,7 @@ ReportUntangling(const itk::TriangleSurfaceUntanglingReport & untangling)
 }
 
 Report
-ReportSimplification(const SimplificationResult & simplification)
+ToReport(const SimplificationResult & simplification)
 {
   return { { "trianglesBefore", simplification.triangles.trianglesBefore },
            { "trianglesAfter", simplification.triangles.trianglesAfter },
@@ -86,44 +86,24 @@ ReportSimplification(const SimplificationResult & simplification)
            { "maximumDistanceInMillimetres", simplification.maximumDistance } };
 }
 
-void
-ReportFinish(const MeshedSurface & surface, Report & report)
-{
-  if (!surface.parts.IsNothing())
-  {
-    report["parts"] = { { "filled", ReportShells(surface.parts.filled) },
-                        { "removed", ReportShells(surface.parts.removed) } };
-  }
-  if (!surface.parts.warning.empty())
-  {
-    report["warnings"] = { surface.parts.warning };
-  }
-  const Refinement & refinement = surface.refinement;
-  if (refinement.smoothing)
-  {
-    report["smoothing"] = ReportSmoothing(*refinement.smoothing);
-  }
-  if (refinement.untangling)
-  {
-    report["untangling"] = ReportUntangling(*refinement.untangling);
-  }
-  if (refinement.simplification)
-  {
-    report["simplification"] = ReportSimplification(*refinement.simplification);
-  }
-  if (refinement.shellsTurned > 0)
-  {
-    report["shellsTurned"] = refinement.shellsTurned;
-  }
-}
-
 Report
-ReportDeviation(const SurfaceDeviation & deviation)
+ToReport(const SurfaceDeviation & deviation)
 {
   return { { "of", "the points and triangle centres from the scan's isosurface" },
            { "samples", deviation.samples },
            { "complete", deviation.isComplete },
            { "unresolved", deviation.unresolved } };
+}
+
+/** Adds the result of a step, if there is one. */
+template <typename TResult>
+void
+AddStep(const char * key, const std::optional<TResult> & result, Report & report)
+{
+  if (result)
+  {
+    report[key] = ToReport(*result);
+  }
 }
 
 } // namespace
@@ -170,19 +150,25 @@ Report
 ReportMeshedSurface(const MeshedSurface & surface)
 {
   Report report{ { "name", surface.scene.name }, { "measures", ReportMeasures(surface) } };
-  if (surface.label)
+  AddStep("label", surface.label, report);
+  AddStep("enclosed", surface.enclosed, report);
+  if (!surface.parts.IsNothing())
   {
-    report["label"] = ReportLabel(*surface.label);
+    report["parts"] = { { "filled", ReportShells(surface.parts.filled) },
+                        { "removed", ReportShells(surface.parts.removed) } };
   }
-  if (surface.enclosed)
+  if (!surface.parts.warning.empty())
   {
-    report["enclosed"] = ReportEnclosedParts(*surface.enclosed);
+    report["warnings"] = { surface.parts.warning };
   }
-  ReportFinish(surface, report);
-  if (surface.deviation)
+  AddStep("smoothing", surface.refinement.smoothing, report);
+  AddStep("untangling", surface.refinement.untangling, report);
+  AddStep("simplification", surface.refinement.simplification, report);
+  if (surface.refinement.shellsTurned > 0)
   {
-    report["deviation"] = ReportDeviation(*surface.deviation);
+    report["shellsTurned"] = surface.refinement.shellsTurned;
   }
+  AddStep("deviation", surface.deviation, report);
   if (surface.audit)
   {
     report["audit"] = ReportAudit(*surface.audit);

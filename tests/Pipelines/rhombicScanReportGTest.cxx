@@ -1,3 +1,4 @@
+#include "rhombicMeasureTable.h"
 #include "rhombicScanReport.h"
 #include "rhombicSurfaceReport.h"
 
@@ -39,6 +40,22 @@ TEST(SurfaceReport, ComparesALabelsSurfaceWithItsVoxels)
   EXPECT_EQ(report["measures"]["label_value"], 5);
   EXPECT_FALSE(report["measures"].contains("mean_scan_unit")) << "which is not known";
   EXPECT_NEAR(report["label"]["volumeDifferenceInPercent"].get<double>(), 1.0, 1e-12);
+}
+
+TEST(MeasureTable, SaysTheMainMeasuresInALine)
+{
+  rhombic::MeshedSurface surface;
+  surface.scene.name = "liver";
+  surface.measures.volume = 1234560.0;
+  surface.measures.area = 45670.0;
+  surface.measures.longestDiameter = 200.04;
+  EXPECT_EQ(rhombic::SummarizeMeasures(surface), "liver: 1234.6 ml, 456.7 cm2, longest diameter 200.0 mm");
+  surface.measures.voxelVolume = 1234000.0;
+  surface.measures.meanValue = 55.58;
+  surface.measures.isosurface = rhombic::IsosurfaceVolume{ 1200000.0, 3000.0 };
+  EXPECT_EQ(rhombic::SummarizeMeasures(surface),
+            "liver: 1234.6 ml, 2.9 % more than the scan's isosurface encloses (1200.0 +- 3.0 ml), voxels 1234.0 ml, "
+            "456.7 cm2, longest diameter 200.0 mm, mean value 55.6");
 }
 
 } // namespace

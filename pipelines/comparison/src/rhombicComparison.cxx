@@ -4,7 +4,6 @@
 #include "rhombicComparisonReport.h"
 #include "rhombicExperimentRun.h"
 #include "rhombicFailure.h"
-#include "rhombicLatticeDrawings.h"
 #include "rhombicPictureIO.h"
 #include "rhombicSidecar.h"
 

@@ -25,6 +25,14 @@ PlotWidth(std::size_t plots)
 void
 DrawPlots(const ExperimentResult & result, const std::vector<std::string> & figures, Drawing & drawing);
 
+constexpr int LatticeDrawingWidth = 1040;
+constexpr int LatticeDrawingHeight = 550;
+
+/** The paper's Figures 3 to 7: nested lattices, how a rhombic dodecahedron is made and tiles space, its
+ * parallelepipeds, their six tetrahedra, and how tetrahedra of neighbours meet. */
+void
+DrawLattices(Drawing & drawing);
+
 } // namespace rhombic
 
 #endif

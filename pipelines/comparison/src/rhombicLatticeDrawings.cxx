@@ -1,4 +1,4 @@
-#include "rhombicLatticeDrawings.h"
+#include "rhombicComparisonPictures.h"
 
 #include "rhombicView.h"
 

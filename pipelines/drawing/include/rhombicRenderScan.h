@@ -69,7 +69,7 @@ CheckRenderScan(const RenderScanSettings & settings);
 /** Draws pictures, with a sidecar for each; returns all files. They appear together at the end, or none does.
  * Throws Failure; for outputs that can't be written or drawn, before the scan is read.
  *
- * \param volume what the scan's source holds, if it was read before */
+ * \param volume the scan's volume, if the caller has read the scan already */
 std::vector<MadeFile>
 RenderScan(const RenderScanSettings & settings,
            const Events & events,
@@ -104,7 +104,7 @@ CheckRenderSheet(const RenderSheetSettings & settings);
  * from. Long tables go on on further pages; a format of one page then has a file for each. Returns all files.
  * Throws as RenderScan() does.
  *
- * \param volume what the scan's source holds, if it was read before */
+ * \param volume the scan's volume, if the caller has read the scan already */
 std::vector<MadeFile>
 RenderSheet(const RenderSheetSettings & settings,
             const Events & events,

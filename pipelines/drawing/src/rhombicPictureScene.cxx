@@ -23,19 +23,12 @@ namespace
 /** A number of spacings that slices of a scene without a grid have along their longest side. */
 constexpr double SpacingsOfSurfaces = 512.0;
 
+/** "512 x 512 x 138 voxels of 0.7 x 0.7 x 2 mm", with the words between size and spacing. */
 std::string
-DescribeSpacing(const itk::ImageBase<3> & image)
+DescribeGrid(const itk::ImageBase<3> & image, const std::string & words)
 {
-  const auto & spacing = image.GetSpacing();
-  return FormatNumber(spacing[0], 4) + " x " + FormatNumber(spacing[1], 4) + " x " + FormatNumber(spacing[2], 4) +
+  return FormatProduct(image.GetLargestPossibleRegion().GetSize()) + words + FormatProduct(image.GetSpacing(), 4) +
          " mm";
-}
-
-std::string
-DescribeSize(const itk::ImageBase<3> & image)
-{
-  const auto & size = image.GetLargestPossibleRegion().GetSize();
-  return std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]);
 }
 
 /** Measures a finished surface, and adds it. */
@@ -68,8 +61,7 @@ AddFacts(const LoadedSource & loaded, const PictureSource & source, PictureScene
   {
     const auto & grid = GeometryOf(scan->image);
     scene.facts.push_back("scan: " + scan->format + (scan->modality.empty() ? "" : " " + scan->modality) + ", " +
-                          DescribeSize(grid) + " voxels of " + DescribeSpacing(grid) + ", axes " +
-                          OrientationLetters(grid.GetDirection()));
+                          DescribeGrid(grid, " voxels of ") + ", axes " + OrientationLetters(grid.GetDirection()));
     for (const Report & note : scene.report["scan"]["notes"]) // without the scan's name
     {
       scene.facts.push_back("note: " + note.get<std::string>());
@@ -83,8 +75,7 @@ AddFacts(const LoadedSource & loaded, const PictureSource & source, PictureScene
   {
     std::visit(
       [&scene](const auto & image) {
-        scene.facts.push_back("lattice: face-centered cubic, " + DescribeSize(*image) + " sites, spacing " +
-                              DescribeSpacing(*image));
+        scene.facts.push_back("lattice: face-centered cubic, " + DescribeGrid(*image, " sites, spacing "));
       },
       loaded.lattice);
     if (source.scan.lattice.denoising.kind == Denoising::Kind::Gaussian)

@@ -32,7 +32,7 @@ struct PictureScene
 };
 
 /** Reads a source, and makes its surfaces. Throws Failure.
- * \param volume what the scan's source holds, if it was read before
+ * \param volume the scan's volume, if the caller has read the scan already
  * \param keepsScan whether the scan is needed after that */
 PictureScene
 MakePictureScene(const PictureSource & source,
@@ -40,7 +40,7 @@ MakePictureScene(const PictureSource & source,
                  bool keepsScan,
                  const Events & events);
 
-/** Adds the names of surfaces that planes go through to those that are needed. */
+/** Adds the names of surfaces that planes go through to the needed names. */
 void
 NeedPlaces(const std::vector<PlaneRequest> & requests, SceneRules & rules);
 

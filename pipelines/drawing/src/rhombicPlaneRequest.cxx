@@ -12,7 +12,7 @@ namespace rhombic
 void
 RequireInside(SlicePlane plane, double position, const SliceBox & box)
 {
-  const std::size_t axis = plane == SlicePlane::Axial ? 2 : plane == SlicePlane::Coronal ? 1 : 0;
+  const std::size_t axis = AxisOf(plane);
   double lowest = box.corner[axis];
   double highest = box.corner[axis];
   for (const Vector3 & side : box.sides)

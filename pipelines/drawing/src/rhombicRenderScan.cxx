@@ -1,17 +1,14 @@
 #include "rhombicRenderScan.h"
 
-#include "rhombicDicomPictures.h"
 #include "rhombicFailure.h"
 #include "rhombicGreyWindow.h"
 #include "rhombicLightbox.h"
 #include "rhombicMemoryBudget.h"
-#include "rhombicOutlinedSlice.h"
-#include "rhombicPictureIO.h"
+#include "rhombicPictureFiles.h"
 #include "rhombicPictureScene.h"
-#include "rhombicSceneCuts.h"
+#include "rhombicScenePlanes.h"
 #include "rhombicSourceLoading.h"
 #include "rhombicSurfaceRenderer.h"
-#include "rhombicThumbnail.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -116,6 +113,17 @@ PlanPictures(const RenderScanSettings & settings)
   return settings.onlyPicture > 0 ? std::vector<fs::path>{ settings.picture } : PathsOf(settings.picture, names);
 }
 
+/** The DICOM files beside the pictures, if any are written. */
+std::vector<fs::path>
+PlanDicom(const RenderScanSettings & settings)
+{
+  if (!settings.writesDicom)
+  {
+    return {};
+  }
+  return DicomPathsOf(settings.turntable > 0 ? std::vector<fs::path>{ settings.picture } : PlanPictures(settings));
+}
+
 /** Whether an isosurface is translucent. Labels are not known before they are read; the renderer checks them again. */
 bool
 IsTranslucent(const std::vector<SurfaceRequest> & requests)
@@ -201,8 +209,8 @@ LargestMargins(const Annotations & annotations, const std::vector<Projection> & 
   return largest;
 }
 
-/** Fits the settings to a scene: what is seen, and margins for the annotations. These depend on the size of the
- * pictures, and that, if it is not given, on them. */
+/** Fits the settings to a scene: its extent, and margins for the annotations. The margins depend on the size of the
+ * pictures; a size that is not given depends on the margins. */
 RenderSettings
 FitToScene(const RenderScanSettings & settings,
            const PictureScene & source,
@@ -297,7 +305,7 @@ DrawViews(const RenderScanSettings & settings, const PictureScene & source, Surf
   return pictures;
 }
 
-/** The size of a slice's picture: what is given, and of the other side as much as the slice needs. */
+/** The size of a slice's picture: given sides as they are, other sides as long as the slice needs. */
 Projection
 SizedSlice(const RenderSettings & render,
            const PictureScene & scene,
@@ -367,7 +375,7 @@ DrawLightbox(const RenderScanSettings & settings, const PictureScene & scene, co
   return MakeLightbox(pictures, gap, { 0.0, 0.0, 0.0 }, columns, width, height);
 }
 
-/** The source with the names of all surfaces that the settings speak of, so that they are looked up before work. */
+/** The source with the names of all surfaces in the settings, so that unknown names are refused before the work. */
 PictureSource
 SourceOf(const RenderScanSettings & settings)
 {
@@ -468,13 +476,9 @@ CheckRenderScan(const RenderScanSettings & settings)
   {
     CheckSelection(SourceOf(settings).surfaces);
   }
-  const std::vector<fs::path> paths = PlanPictures(settings);
-  std::vector<fs::path> outputs = WithSidecars(paths, settings.provenance);
-  if (settings.writesDicom)
-  {
-    const auto dicomPaths = DicomPathsOf(settings.turntable > 0 ? std::vector<fs::path>{ settings.picture } : paths);
-    outputs.insert(outputs.end(), dicomPaths.begin(), dicomPaths.end());
-  }
+  std::vector<fs::path> outputs = WithSidecars(PlanPictures(settings), settings.provenance);
+  const std::vector<fs::path> dicomPaths = PlanDicom(settings);
+  outputs.insert(outputs.end(), dicomPaths.begin(), dicomPaths.end());
   return outputs;
 }
 
@@ -483,16 +487,8 @@ RenderScan(const RenderScanSettings & settings, const Events & events, std::opti
 {
   CheckOutputs(CheckRenderScan(settings), settings.source.scan, settings.source.surfaces);
   const std::vector<fs::path> paths = PlanPictures(settings);
-  std::vector<fs::path> dicomPaths;
-  if (settings.writesDicom)
-  {
-    dicomPaths = DicomPathsOf(settings.turntable > 0 ? std::vector<fs::path>{ settings.picture } : paths);
-  }
-  std::optional<DicomStudy> study;
-  if (settings.writesDicom)
-  {
-    study = OpenStudy(settings.source, dicomPaths);
-  }
+  const std::vector<fs::path> dicomPaths = PlanDicom(settings);
+  const std::optional<DicomStudy> study = OpenStudy(settings.source, dicomPaths);
   bool drawsViews = settings.turntable > 0;
   for (std::size_t n = 0; n < settings.views.size(); ++n)
   {

@@ -1,14 +1,11 @@
-#include "rhombicDicomPictures.h"
 #include "rhombicFailure.h"
 #include "rhombicGreyWindow.h"
 #include "rhombicMemoryBudget.h"
-#include "rhombicOutlinedSlice.h"
-#include "rhombicPictureIO.h"
+#include "rhombicPictureFiles.h"
 #include "rhombicPictureScene.h"
-#include "rhombicRenderScan.h"
+#include "rhombicScenePlanes.h"
 #include "rhombicSourceLoading.h"
 #include "rhombicSurfaceRenderer.h"
-#include "rhombicThumbnail.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -214,11 +211,8 @@ std::vector<MadeFile>
 RenderSheet(const RenderSheetSettings & settings, const Events & events, std::optional<SourceVolume> volume)
 {
   const std::vector<fs::path> planned = CheckRenderSheet(settings);
-  std::optional<DicomStudy> study;
-  if (settings.writesDicom)
-  {
-    study = OpenStudy(settings.source, { planned.back() });
-  }
+  const auto study = OpenStudy(
+    settings.source, settings.writesDicom ? std::vector<fs::path>{ planned.back() } : std::vector<fs::path>());
   CheckOutputs(planned, settings.source.scan, settings.source.surfaces);
   SurfaceRenderer renderer;
   const std::vector<PlaneRequest> planes = PlanesOf(settings);

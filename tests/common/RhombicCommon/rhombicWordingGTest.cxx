@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -30,6 +31,8 @@ TEST(Wording, NumbersAreThoseOfPrintf)
   }
   EXPECT_EQ(rhombic::FormatFixed(std::numeric_limits<double>::max(), 100).size(), 309u + 1u + 100u);
   EXPECT_EQ(rhombic::FormatMillilitres(12.34), "12.3 ml");
+  EXPECT_EQ(rhombic::FormatProduct(std::array<unsigned long, 3>{ 512, 512, 138 }), "512 x 512 x 138");
+  EXPECT_EQ(rhombic::FormatProduct(std::array<double, 3>{ 0.7, 1.0 / 3.0, 2.0 }, 3), "0.7 x 0.333 x 2");
 }
 
 TEST(Wording, ExactNumbersAreReadBack)

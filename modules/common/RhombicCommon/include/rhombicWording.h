@@ -23,6 +23,15 @@ FormatFixed(double value, int decimals);
 std::string
 FormatNumber(double value, int digits = 6);
 
+/** Numbers of three axes with at most \a digits significant digits, as "512 x 512 x 138" or "0.7 x 0.7 x 2". */
+template <typename TNumbers>
+std::string
+FormatProduct(const TNumbers & numbers, int digits = 6)
+{
+  const auto format = [digits](auto number) { return FormatNumber(static_cast<double>(number), digits); };
+  return format(numbers[0]) + " x " + format(numbers[1]) + " x " + format(numbers[2]);
+}
+
 /** The shortest text that is read back as the same number. */
 std::string
 FormatExact(double value);

@@ -30,6 +30,10 @@ enum class SliceConvention
   Neurological  ///< from the head and from behind: the patient's right is on the picture's right
 };
 
+/** The number of the LPS axis at right angles to a plane: its coordinate is the same in all of a slice. */
+std::size_t
+AxisOf(SlicePlane plane);
+
 /** "axial", "coronal" or "sagittal". */
 std::string
 NameOf(SlicePlane plane);

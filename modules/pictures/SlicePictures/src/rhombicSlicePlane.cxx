@@ -15,13 +15,6 @@ namespace
 
 constexpr std::array<SlicePlane, 3> AllPlanes{ SlicePlane::Axial, SlicePlane::Coronal, SlicePlane::Sagittal };
 
-/** The coordinate of LPS that is constant in a slice. */
-std::size_t
-AxisOf(SlicePlane plane)
-{
-  return plane == SlicePlane::Axial ? 2 : plane == SlicePlane::Coronal ? 1 : 0;
-}
-
 Vector3
 Add(const Vector3 & point, const Vector3 & direction, double factor)
 {
@@ -105,6 +98,12 @@ NumberOfPixels(double length, double pixelSize)
 }
 
 } // namespace
+
+std::size_t
+AxisOf(SlicePlane plane)
+{
+  return plane == SlicePlane::Axial ? 2 : plane == SlicePlane::Coronal ? 1 : 0;
+}
 
 std::string
 NameOf(SlicePlane plane)

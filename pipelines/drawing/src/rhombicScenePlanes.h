@@ -1,8 +1,9 @@
-#ifndef rhombicSceneCuts_h
-#define rhombicSceneCuts_h
+#ifndef rhombicScenePlanes_h
+#define rhombicScenePlanes_h
 
 #include "rhombicPictureScene.h"
 #include "rhombicRenderScan.h"
+#include "rhombicSheet.h"
 
 namespace rhombic
 {
@@ -15,6 +16,16 @@ AddCuts(const RenderScanSettings & settings, const PictureScene & source, Scene 
 /** Adds slices that stand in the scene. */
 void
 AddPlanes(const RenderScanSettings & settings, const PictureScene & source, Scene & scene);
+
+/** A slice of the scan in greys, black without a scan, and the curves along which it cuts the surfaces, in their
+ * colours, fitted into so many pixels. */
+SheetPicture
+DrawOutlinedSlice(const PictureScene & scene,
+                  const PlaneRequest & request,
+                  const Vector3 & point,
+                  const SliceSettings & settings,
+                  int width,
+                  int height);
 
 } // namespace rhombic
 
