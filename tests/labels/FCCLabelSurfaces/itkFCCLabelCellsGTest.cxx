@@ -60,58 +60,12 @@ TEST(FCCLabelCells, ThereAreFifteenCasesWithOneTwoFiveOrTwelveTriangles)
     const unsigned int pattern = PatternOf(labels);
     patterns.insert(pattern);
     const std::map<int, unsigned int> triangles{ { 0, 0 }, { 3, 1 }, { 4, 2 }, { 5, 5 }, { 6, 12 } };
-    EXPECT_EQ(itk::FCCLabelTables.cases[pattern].size, triangles.at(__builtin_popcount(pattern)));
+    EXPECT_EQ(itk::FCCLabelCases[pattern].size, triangles.at(__builtin_popcount(pattern)));
   });
   EXPECT_EQ(patterns.size(), 15u);
   for (unsigned int pattern = 0; pattern < Cells::Cases; ++pattern)
   {
-    EXPECT_EQ(itk::FCCLabelTables.cases[pattern].exists, patterns.count(pattern) == 1);
-  }
-}
-
-TEST(FCCLabelCells, SimplicesAreStoredOnceByTheirLowestSite)
-{
-  std::set<std::vector<itk::FCCLattice::SiteType>> found;
-  unsigned int sizes[5] = {};
-  for (const Cells::Simplex & simplex : itk::FCCLabelTables.simplices)
-  {
-    ++sizes[simplex.size];
-    EXPECT_TRUE(found.insert({ simplex.steps, simplex.steps + simplex.size }).second);
-    for (unsigned int n = 0; n < simplex.size; ++n)
-    {
-      EXPECT_TRUE(itk::FCCLattice::IsSite(simplex.steps[n]));
-      EXPECT_TRUE(n == 0 || itk::FCCStep::IsLower(simplex.steps[n - 1], simplex.steps[n]));
-    }
-  }
-  EXPECT_EQ(sizes[2], Cells::Edges);
-  EXPECT_EQ(sizes[3], Cells::Faces);
-  EXPECT_EQ(sizes[4], Cells::Tetrahedra);
-}
-
-TEST(FCCLabelCells, PartsAreWhereTheirSitesAre)
-{
-  for (const Cells::Simplex & simplex : itk::FCCLabelTables.simplices)
-  {
-    for (unsigned int set = 1; set < 1u << simplex.size; ++set)
-    {
-      if (Cells::SizeOf(set) < 2)
-      {
-        continue;
-      }
-      const Cells::Part & part = simplex.parts[set];
-      ASSERT_LT(part.type, Cells::Types);
-      const Cells::Simplex & type = itk::FCCLabelTables.simplices[part.type];
-      unsigned int member = 0;
-      for (unsigned int n = 0; n < simplex.size; ++n)
-      {
-        if ((set >> n & 1) != 0)
-        {
-          const auto step = itk::FCCStep::Subtract(simplex.steps[n], simplex.steps[part.site]);
-          EXPECT_TRUE(itk::FCCStep::AreEqual(step, type.steps[member++]));
-        }
-      }
-      EXPECT_EQ(member, type.size);
-    }
+    EXPECT_EQ(itk::FCCLabelCases[pattern].exists, patterns.count(pattern) == 1);
   }
 }
 
@@ -121,7 +75,7 @@ class Walls
 public:
   Walls(const std::array<int, 4> & labels, unsigned int seed)
     : m_Labels(labels)
-    , m_Case(itk::FCCLabelTables.cases[PatternOf(labels)])
+    , m_Case(itk::FCCLabelCases[PatternOf(labels)])
   {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> share(0.001, 1.0);
@@ -219,7 +173,7 @@ TEST(FCCLabelCells, TrianglesPartTwoLabelsAndFaceTheFirst)
         for (const unsigned int corner : corners)
         {
           EXPECT_EQ(corner & (1u << triangle.sides[0] | 1u << triangle.sides[1]) ? 1 : 0, 1);
-          edges += Cells::SizeOf(corner) == 2 ? 1 : 0;
+          edges += itk::FCCCells::SizeOf(corner) == 2 ? 1 : 0;
         }
         EXPECT_GE(edges, 1u);
         const double orientation = Orientation(walls.GetPoint(corners[0]),

@@ -1,6 +1,7 @@
 #include "itkFCCLinearInterpolateImageFunction.h"
 
 #include "detail/itkFCCTetrahedron.h"
+#include "itkFCCCells.h"
 #include "itkImage.h"
 #include "itkImageRegionIteratorWithIndex.h"
 #include "itkResampleImageFilter.h"
@@ -54,6 +55,12 @@ TEST(FCCTetrahedron, WeightsAreBarycentricCoordinatesOfSites)
     for (unsigned int corner = 0; corner < 4; ++corner)
     {
       ASSERT_TRUE(itk::FCCLattice::IsSite(tetrahedron.sites[corner]));
+      for (unsigned int other = 0; other < corner; ++other)
+      {
+        const auto step = itk::FCCStep::Subtract(tetrahedron.sites[corner], tetrahedron.sites[other]);
+        ASSERT_LT(itk::FCCCells::DirectionOf(step), itk::FCCCells::Directions)
+          << "the tetrahedra are those of FCCCells";
+      }
       ASSERT_GE(tetrahedron.weights[corner], -1e-12);
       weights += tetrahedron.weights[corner];
       for (unsigned int axis = 0; axis < 3; ++axis)

@@ -73,6 +73,38 @@ TEST_P(FCCMarchingCasesTest, TetrahedraFillAColumnStep)
   }
 }
 
+/** Steps of both kinds have the six tetrahedra of FCCCells. */
+TEST(FCCMarchingCases, TetrahedraAreThoseOfFCCCells)
+{
+  using Sites = std::set<itk::FCCLattice::SiteType>;
+  std::set<Sites> found;
+  for (unsigned int kind = 0; kind < Cases::Kinds; ++kind)
+  {
+    for (const auto & sites : Cases::TetrahedronSites)
+    {
+      auto lowest = Cases::SiteOf(kind, sites[0]);
+      for (const unsigned int site : sites)
+      {
+        const auto other = Cases::SiteOf(kind, site);
+        lowest = itk::FCCStep::IsLower(other, lowest) ? other : lowest;
+      }
+      Sites steps;
+      for (const unsigned int site : sites)
+      {
+        steps.insert(itk::FCCStep::Subtract(Cases::SiteOf(kind, site), lowest));
+      }
+      EXPECT_TRUE(found.insert(steps).second);
+    }
+  }
+  std::set<Sites> expected;
+  for (unsigned int type = itk::FCCCells::FirstTetrahedron; type < itk::FCCCells::Types; ++type)
+  {
+    const auto & steps = itk::FCCCells::Simplices[type].steps;
+    expected.insert({ steps, steps + 4 });
+  }
+  EXPECT_EQ(found, expected);
+}
+
 TEST_P(FCCMarchingCasesTest, EdgesAreThoseOfTheTetrahedraAndAreStoredOnce)
 {
   const unsigned int kind = GetParam();

@@ -5,7 +5,6 @@ namespace itk
 namespace
 {
 
-using Cells = FCCLabelCells;
 using WordType = FCCBits::WordType;
 
 } // namespace
@@ -14,7 +13,7 @@ bool
 FCCLabelBox::HasSimplices(SizeValueType j, SizeValueType k, unsigned int type) const
 {
   bool isIn = true;
-  for (const auto & step : FCCLabelTables.simplices[type].steps)
+  for (const auto & step : FCCCells::Simplices[type].steps)
   {
     isIn = isIn && j + static_cast<SizeValueType>(step[1]) < this->GetHeight() && // below 0 wraps around
            k + static_cast<SizeValueType>(step[2]) < this->GetDepth();
@@ -39,7 +38,7 @@ FCCLabelBox::Plane::Plane(const FCCLabelBox & box, SizeValueType k)
 
 FCCLabelPlane::FCCLabelPlane(const FCCLabelBox & box)
   : m_Box(box)
-  , m_Bits(box.GetHeight() * Cells::Types, box.GetNumberOfWords(), std::pmr::get_default_resource())
+  , m_Bits(box.GetHeight() * FCCCells::Types, box.GetNumberOfWords(), std::pmr::get_default_resource())
 {}
 
 void
@@ -49,7 +48,7 @@ FCCLabelPlane::FindEdges(SizeValueType k, const FCCLabelBox::Plane & labels, con
   m_Bits.Clear();
   for (SizeValueType j = 0; j < m_Box.GetHeight(); ++j)
   {
-    for (unsigned int type = 0; type < Cells::Edges; ++type)
+    for (unsigned int type = 0; type < FCCCells::Edges; ++type)
     {
       if (!m_Box.HasSimplices(j, k, type))
       {
@@ -60,7 +59,7 @@ FCCLabelPlane::FindEdges(SizeValueType k, const FCCLabelBox::Plane & labels, con
       const FCCLabelBox::LabelType * const ends =
         (step[2] == 0 ? labels : next).GetRow(j + static_cast<SizeValueType>(step[1])) +
         FCCLattice::OffsetOf(step, m_Box.GetParity(j, k))[0];
-      WordType * const bits = m_Bits.GetRow(j * Cells::Types + type);
+      WordType * const bits = m_Bits.GetRow(j * FCCCells::Types + type);
       for (SizeValueType word = 0; word < m_Box.GetNumberOfWords(); ++word)
       {
         const SizeValueType first = word * FCCBits::WordBits;
@@ -75,17 +74,17 @@ FCCLabelPlane::FindFacesAndTetrahedra(const FCCLabelPlane & next)
 {
   for (SizeValueType j = 0; j < m_Box.GetHeight(); ++j)
   {
-    for (unsigned int type = Cells::FirstFace; type < Cells::Types; ++type)
+    for (unsigned int type = FCCCells::FirstFace; type < FCCCells::Types; ++type)
     {
       if (!m_Box.HasSimplices(j, m_K, type))
       {
         continue;
       }
-      WordType * const bits = m_Bits.GetRow(j * Cells::Types + type);
+      WordType * const bits = m_Bits.GetRow(j * FCCCells::Types + type);
       std::fill_n(bits, m_Box.GetNumberOfWords(), ~WordType{ 0 });
-      for (unsigned int set = 1; set < 1u << FCCLabelTables.simplices[type].size; ++set)
+      for (unsigned int set = 1; set < 1u << FCCCells::Simplices[type].size; ++set)
       {
-        if (Cells::SizeOf(set) == 2)
+        if (FCCCells::SizeOf(set) == 2)
         {
           const FCCLabelPart cut(m_Box, *this, next, j, type, set);
           for (SizeValueType word = 0; word < m_Box.GetNumberOfWords(); ++word)
@@ -105,8 +104,8 @@ FCCLabelPart::FCCLabelPart(const FCCLabelBox & box,
                            unsigned int type,
                            unsigned int set)
 {
-  const Cells::Simplex & simplex = FCCLabelTables.simplices[type];
-  const Cells::Part & part = simplex.parts[set];
+  const FCCCells::Simplex & simplex = FCCCells::Simplices[type];
+  const FCCCells::Part & part = simplex.parts[set];
   const FCCLattice::SiteType & step = simplex.steps[part.site];
   row = (step[2] == 0 ? plane : next).GetRow(j + static_cast<SizeValueType>(step[1]), part.type);
   shift = FCCLattice::OffsetOf(step, box.GetParity(j, plane.GetPlane()))[0];

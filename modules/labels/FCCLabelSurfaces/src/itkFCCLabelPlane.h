@@ -1,7 +1,7 @@
 #ifndef itkFCCLabelPlane_h
 #define itkFCCLabelPlane_h
 
-#include "itkFCCBitRows.h"
+#include "detail/itkFCCBitRows.h"
 #include "itkFCCLabelCells.h"
 
 #include <vector>
@@ -50,7 +50,7 @@ public:
   SizeValueType
   GetNumberOfWords() const
   {
-    return (this->GetWidth() + FCCBits::WordBits - 1) / FCCBits::WordBits;
+    return FCCBits::WordsOf(this->GetWidth());
   }
 
   /** Parity of a row of the box. Its first row is one step in y and one in z from the image's, of the same parity. */
@@ -135,7 +135,7 @@ public:
   Row
   GetRow(SizeValueType j, unsigned int type) const
   {
-    return m_Bits.GetNumberedRow(j * FCCLabelCells::Types + type);
+    return m_Bits.GetNumberedRow(j * FCCCells::Types + type);
   }
 
 private:

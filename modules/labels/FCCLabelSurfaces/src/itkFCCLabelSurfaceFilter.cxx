@@ -80,7 +80,7 @@ public:
   {
     for (unsigned int set = 1; set < 16; ++set)
     {
-      if (Cells::SizeOf(set) >= 2)
+      if (FCCCells::SizeOf(set) >= 2)
       {
         m_Parts[set].emplace(box, plane, next, j, type, set);
       }
@@ -111,7 +111,7 @@ public:
         {
           pattern |= static_cast<unsigned int>(cut[edge] >> (i % FCCBits::WordBits) & 1) << edge;
         }
-        use(i, FCCLabelTables.cases[pattern]);
+        use(i, FCCLabelCases[pattern]);
       });
     }
   }
@@ -132,7 +132,7 @@ CountTriangles(const FCCLabelBox & box, const FCCLabelPlane & plane, const FCCLa
   SizeValueType count = 0;
   for (SizeValueType j = 0; j < box.GetHeight(); ++j)
   {
-    for (unsigned int type = Cells::FirstTetrahedron; type < Cells::Types; ++type)
+    for (unsigned int type = FCCCells::FirstTetrahedron; type < FCCCells::Types; ++type)
     {
       if (box.HasSimplices(j, plane.GetPlane(), type))
       {
@@ -241,7 +241,7 @@ private:
 TriangleSurface::PointType
 PlacePoint(const SiteReader & reader, const BoxFrame & frame, const Index<3> & index, unsigned int type)
 {
-  const Cells::Simplex & simplex = FCCLabelTables.simplices[type];
+  const FCCCells::Simplex & simplex = FCCCells::Simplices[type];
   Index<3> sites[FCCLabelTie::Most];
   for (unsigned int n = 0; n < simplex.size; ++n)
   {
@@ -283,7 +283,7 @@ FillPoints(const FCCLabelBox & box,
 {
   for (SizeValueType j = 0; j < box.GetHeight(); ++j)
   {
-    for (unsigned int type = 0; type < Cells::Types; ++type)
+    for (unsigned int type = 0; type < FCCCells::Types; ++type)
     {
       FCCBits::ForEach(plane.GetRow(j, type).bits, box.GetNumberOfWords(), [&](SizeValueType i) {
         *points++ = PlacePoint(reader, frame, BoxIndex(i, j, plane.GetPlane()), type);
@@ -304,13 +304,13 @@ FillTriangles(const FCCLabelBox & box,
   const bool isLeftHanded = frame.IsLeftHanded();
   for (SizeValueType j = 0; j < box.GetHeight(); ++j)
   {
-    for (unsigned int type = Cells::FirstTetrahedron; type < Cells::Types; ++type)
+    for (unsigned int type = FCCCells::FirstTetrahedron; type < FCCCells::Types; ++type)
     {
       if (!box.HasSimplices(j, plane.GetPlane(), type))
       {
         continue;
       }
-      const Cells::Simplex & simplex = FCCLabelTables.simplices[type];
+      const FCCCells::Simplex & simplex = FCCCells::Simplices[type];
       const TetrahedraRow row(box, plane, next, j, type);
       row.ForEach(box.GetNumberOfWords(), [&](SizeValueType i, const Cells::Case & found) {
         LabelWalls::LabelType labels[4];

@@ -1,6 +1,6 @@
 #include "itkLabelWallsEditing.h"
 
-#include "itkBoundedMoves.h"
+#include "detail/itkBoundedMoves.h"
 #include "itkLabelWallAreas.h"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 #include "rhombicForEachBlock.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 namespace itk
@@ -13,72 +12,12 @@ namespace
 
 constexpr float RaisedMargin = 0.2f; // by which the weight of a site's label exceeds others after it was raised
 
-/** The neighbours of a site in the lattice's tetrahedra, and which of these are neighbours of each other. */
-struct Link
+/** The neighbours that have a label, as bits of their directions. */
+unsigned int
+SetOf(LabelTopology::LabelType label, const std::array<LabelTopology::LabelType, FCCCells::Directions> & neighbors)
 {
-  static constexpr unsigned int Size = 14;
-  using SetType = unsigned int; ///< a bit for each neighbour
-
-  std::array<FCCLattice::SiteType, Size> steps;
-  std::array<SetType, Size> neighbors{};
-
-  Link()
-  {
-    for (unsigned int n = 0; n < FCCLattice::OwnedEdges.size(); ++n)
-    {
-      const auto & [x, y, z] = FCCLattice::OwnedEdges[n];
-      steps[2 * n] = { x, y, z };
-      steps[2 * n + 1] = { -x, -y, -z };
-    }
-    for (unsigned int a = 0; a < Size; ++a)
-    {
-      for (unsigned int b = 0; b < Size; ++b)
-      {
-        const FCCLattice::SiteType step{ steps[b][0] - steps[a][0],
-                                         steps[b][1] - steps[a][1],
-                                         steps[b][2] - steps[a][2] };
-        neighbors[a] |= std::find(steps.begin(), steps.end(), step) != steps.end() ? 1u << b : 0u;
-      }
-    }
-  }
-
-  /** Whether a set is connected and not empty. */
-  bool
-  IsConnected(SetType set) const
-  {
-    SetType reached = set & (~set + 1);
-    for (SetType before = 0; reached != before;)
-    {
-      before = reached;
-      for (unsigned int n = 0; n < Size; ++n)
-      {
-        reached |= (before >> n & 1) != 0 ? neighbors[n] & set : 0u;
-      }
-    }
-    return set != 0 && reached == set;
-  }
-
-  /** On a sphere, a set is a disk if it and the rest are connected. */
-  bool
-  IsDisk(SetType set) const
-  {
-    return this->IsConnected(set) && this->IsConnected(~set & ((1u << Size) - 1));
-  }
-};
-
-const Link &
-GetLink()
-{
-  static const Link link;
-  return link;
-}
-
-/** The neighbours of a label. */
-Link::SetType
-SetOf(LabelTopology::LabelType label, const std::array<LabelTopology::LabelType, Link::Size> & neighbors)
-{
-  Link::SetType set = 0;
-  for (unsigned int n = 0; n < Link::Size; ++n)
+  unsigned int set = 0;
+  for (unsigned int n = 0; n < FCCCells::Directions; ++n)
   {
     set |= neighbors[n] == label ? 1u << n : 0u;
   }
@@ -141,9 +80,9 @@ LabelTopology::FindNeighbors(SizeValueType site) const
   const Index<3> index = m_Labels.ComputeIndex(static_cast<OffsetValueType>(site));
   const IndexValueType parity = FCCLattice::Parity(index[1], index[2]);
   NeighborsType neighbors;
-  for (unsigned int n = 0; n < Link::Size; ++n)
+  for (unsigned int n = 0; n < FCCCells::Directions; ++n)
   {
-    const Index<3> neighbor = index + FCCLattice::OffsetOf(GetLink().steps[n], parity);
+    const Index<3> neighbor = index + FCCLattice::OffsetOf(FCCCells::StepOf(n), parity);
     neighbors[n] =
       m_Labels.GetLargestPossibleRegion().IsInside(neighbor) ? m_Labels.GetPixel(neighbor) : LabelType{ 0 };
   }
@@ -274,8 +213,8 @@ LabelTopology::PartGroups()
       {
         return true;
       }
-      const Link::SetType same = SetOf(labels[meeting.site], neighbors);
-      const bool canChange = GetLink().IsDisk(same) || (canBeAlone && same == 0);
+      const unsigned int same = SetOf(labels[meeting.site], neighbors);
+      const bool canChange = FCCCells::IsDisk(same) || (canBeAlone && same == 0);
       if (canChange)
       {
         this->Give(meeting.site, this->FindGap(meeting.site).label);
@@ -303,7 +242,7 @@ LabelTopology::PlaceLost()
   {
     const NeighborsType neighbors = this->FindNeighbors(place.site);
     const LabelType own = labels[place.site];
-    if (!hasSites[place.label] && (own == 0 || GetLink().IsDisk(SetOf(own, neighbors))) &&
+    if (!hasSites[place.label] && (own == 0 || FCCCells::IsDisk(SetOf(own, neighbors))) &&
         !this->MeetsGroup(place.label, neighbors))
     {
       this->Give(place.site, place.label);
@@ -348,8 +287,8 @@ LabelTopology::CanChange(const Change & doubt) const
 {
   const NeighborsType neighbors = this->FindNeighbors(doubt.site);
   return !m_IsHeld[doubt.site] && !this->MeetsGroup(doubt.label, neighbors) &&
-         GetLink().IsDisk(SetOf(m_Labels.GetBufferPointer()[doubt.site], neighbors)) &&
-         GetLink().IsDisk(SetOf(doubt.label, neighbors));
+         FCCCells::IsDisk(SetOf(m_Labels.GetBufferPointer()[doubt.site], neighbors)) &&
+         FCCCells::IsDisk(SetOf(doubt.label, neighbors));
 }
 
 void

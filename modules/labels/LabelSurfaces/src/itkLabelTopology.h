@@ -1,10 +1,10 @@
 #ifndef itkLabelTopology_h
 #define itkLabelTopology_h
 
+#include "itkFCCCells.h"
 #include "itkFCCImage.h"
 #include "itkFCCLabelWeights.h"
 
-#include <array>
 #include <vector>
 
 namespace itk
@@ -15,12 +15,12 @@ namespace itk
  *
  * A thin part claims the sites that its middle passes, even if another label has a larger weight there. Then each such
  * site goes back to the label of largest weight if that leaves the topology of both labels as it is: if the neighbours
- * of either label are a disk on the sphere around the site (its 14 neighbours in the lattice's tetrahedra, 36 edges and
- * 24 triangles). Offsets that are added to the weights of a label change the labels of sites under the same condition.
- * Labels of one group are kept apart, so that they can be merged later: no edge of the lattice's tetrahedra joins two
- * of them. Where one does, the site whose label has the least advantage in weight goes to another label beside it or to
- * the background 0, if its neighbours of its own label are a disk, or none. Labels that have no site then, and those
- * that lost all their claims, get the one where their weight is largest, if its label can spare it.
+ * of either label are a disk in the site's link (see FCCCells). Offsets that are added to the weights of a label change
+ * the labels of sites under the same condition. Labels of one group are kept apart, so that they can be merged later:
+ * no edge of the lattice's tetrahedra joins two of them. Where one does, the site whose label has the least advantage
+ * in weight goes to another label beside it or to the background 0, if its neighbours of its own label are a disk, or
+ * none. Labels that have no site then, and those that lost all their claims, get the one where their weight is largest,
+ * if its label can spare it.
  *
  * Where the label of a site has not the largest weight in the end, its weight is raised to that. */
 class LabelTopology
@@ -57,8 +57,8 @@ public:
   AddOffsets(std::vector<double> offsets);
 
 private:
-  /** The neighbours of a site in the lattice's tetrahedra; 0 beyond the lattice. */
-  using NeighborsType = std::array<LabelType, 14>;
+  /** The labels of a site's neighbours (see FCCCells), by direction; 0 beyond the lattice. */
+  using NeighborsType = std::array<LabelType, FCCCells::Directions>;
 
   /** A label that may get a site of another one, and by how much its weight is larger there. */
   struct Change

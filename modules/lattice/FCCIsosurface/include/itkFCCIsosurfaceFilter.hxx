@@ -400,11 +400,11 @@ FCCIsosurfaceFilter<TInputImage>::Classify(SizeValueType margin)
         }
         for (std::size_t n = 0; n < signs.size(); ++n)
         {
-          FCCRowKernels::Classify(
-            values, region.GetSize(0), m_Isovalues[n], m_InsideIsBelow, signs[n].GetRow(j + margin, k + margin));
+          FCCSigns::WordType * const row = signs[n].GetRow(j + margin, k + margin);
+          FCCRowKernels::Classify(values, region.GetSize(0), m_Isovalues[n], m_InsideIsBelow, row);
           if (margin > 0)
           {
-            signs[n].ShiftRow(j + margin, k + margin);
+            FCCBits::MoveUp(row, signs[n].GetNumberOfWords());
           }
         }
       }

@@ -1,10 +1,8 @@
 #ifndef itkFCCSigns_h
 #define itkFCCSigns_h
 
+#include "detail/itkFCCBitRows.h"
 #include "itkFCCLattice.h"
-
-#include <cstdint>
-#include <vector>
 
 namespace itk
 {
@@ -12,22 +10,23 @@ namespace itk
 /** \class FCCSigns
  * \brief One bit for each site of a box of the lattice: whether it is inside the surface.
  *
- * Rows are stored as 64-bit words, bit i of a row being site i, followed by a spare zero word; bits past the last site
- * are zero. Rows are counted from (0, 0) whatever the image's start index, so the parity of that row is stored, too.
- * Different rows can be written at once.
+ * Rows are stored as FCCBitRows has them. Rows are counted from (0, 0) whatever the image's start index, so the parity
+ * of that row is stored, too. Different rows can be written at once.
  *
  * \ingroup FCCIsosurface
  */
 class FCCSigns
 {
 public:
-  using WordType = std::uint64_t;
-  static constexpr SizeValueType WordBits = 64;
+  using WordType = FCCBits::WordType;
 
-  /** Words that may be read beyond the last row, so that rows can be read by whole vectors. */
-  static constexpr SizeValueType WordsBeyond = 8;
-
-  FCCSigns(SizeValueType width, SizeValueType height, SizeValueType depth, IndexValueType parityOfFirstRow);
+  FCCSigns(SizeValueType width, SizeValueType height, SizeValueType depth, IndexValueType parityOfFirstRow)
+    : m_Width(width)
+    , m_Height(height)
+    , m_Depth(depth)
+    , m_ParityOfFirstRow(parityOfFirstRow)
+    , m_Rows(height * depth, FCCBits::WordsOf(width), std::pmr::get_default_resource())
+  {}
 
   SizeValueType
   GetWidth() const
@@ -48,7 +47,7 @@ public:
   SizeValueType
   GetNumberOfWords() const
   {
-    return m_Stride - 1;
+    return m_Rows.GetStride() - 1;
   }
 
   /** 0 for a row whose sites have an even x, else 1: FCCLattice::Parity(). */
@@ -62,26 +61,41 @@ public:
   WordType *
   GetRow(SizeValueType j, SizeValueType k)
   {
-    return m_Words.data() + (k * m_Height + j) * m_Stride;
+    return m_Rows.GetRow(k * m_Height + j);
   }
-  /** The words of a row. */
   const WordType *
   GetRow(SizeValueType j, SizeValueType k) const
   {
-    return m_Words.data() + (k * m_Height + j) * m_Stride;
+    return m_Rows.GetRow(k * m_Height + j);
   }
-
-  /** Moves the bits of a row one site up; there must be room. */
-  void
-  ShiftRow(SizeValueType j, SizeValueType k);
 
 private:
   SizeValueType m_Width;
   SizeValueType m_Height;
   SizeValueType m_Depth;
-  SizeValueType m_Stride;
   IndexValueType m_ParityOfFirstRow;
-  std::vector<WordType> m_Words;
+  FCCBitRows m_Rows;
+};
+
+/** \class FCCStepTarget
+ * \brief The sites at one step from those of a row of the signs: their row, and how far their indices are from those of
+ * the row.
+ *
+ * \ingroup FCCIsosurface
+ */
+struct FCCStepTarget
+{
+  SizeValueType j;
+  SizeValueType k;
+  IndexValueType shift;
+  bool isInBox; ///< whether the row is one of the signs
+
+  FCCStepTarget(const FCCSigns & signs, SizeValueType fromJ, SizeValueType fromK, const FCCLattice::SiteType & step)
+    : j(fromJ + static_cast<SizeValueType>(step[1])) // below 0 wraps around
+    , k(fromK + static_cast<SizeValueType>(step[2]))
+    , shift(FCCLattice::OffsetOf(step, signs.GetParity(fromJ, fromK))[0])
+    , isInBox(j < signs.GetHeight() && k < signs.GetDepth())
+  {}
 };
 
 } // namespace itk

@@ -1,4 +1,4 @@
-#include "itkBoundedMoves.h"
+#include "detail/itkBoundedMoves.h"
 
 #include "itkTriangleSurfaceIntersections.h"
 

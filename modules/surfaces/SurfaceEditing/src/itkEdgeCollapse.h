@@ -2,7 +2,7 @@
 #define itkEdgeCollapse_h
 
 #include "detail/itkPositionArithmetic.h"
-#include "itkPointStrata.h"
+#include "detail/itkPointStrata.h"
 
 namespace itk
 {

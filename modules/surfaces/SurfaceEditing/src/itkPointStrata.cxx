@@ -1,4 +1,4 @@
-#include "itkPointStrata.h"
+#include "detail/itkPointStrata.h"
 
 #include "rhombicForEachBlock.h"
 

@@ -1,6 +1,6 @@
 #include "itkTriangleSurfaceSmoothing.h"
 
-#include "itkBoundedMoves.h"
+#include "detail/itkBoundedMoves.h"
 
 namespace itk
 {

@@ -1,7 +1,7 @@
 #ifndef itkFCCCell_h
 #define itkFCCCell_h
 
-#include "itkFCCStep.h"
+#include "itkFCCCells.h"
 
 #include <cstdint>
 
@@ -124,14 +124,10 @@ struct FCCCell
     {
       const std::uint8_t start = face.corners[n];
       const std::uint8_t end = face.corners[(n + 1) % face.size];
-      const SiteType step = FCCStep::Subtract(corners[end], corners[start]);
-      for (std::uint8_t type = 0; type < FCCLattice::OwnedEdges.size(); ++type)
+      const unsigned int type = FCCCells::DirectionOf(FCCStep::Subtract(corners[end], corners[start]));
+      if (type < FCCCells::Edges) // the edge's other face runs along it the other way, so it is added once
       {
-        // The edge's other face runs along it the other way, so it is added once.
-        if (FCCStep::AreEqual(step, FCCLattice::OwnedEdges[type]))
-        {
-          edges[numberOfEdges++] = { start, end, type };
-        }
+        edges[numberOfEdges++] = { start, end, static_cast<std::uint8_t>(type) };
       }
     }
   }

@@ -78,7 +78,7 @@ public:
         {
           pattern |= static_cast<unsigned int>(corners[corner] >> bit & 1) << corner;
         }
-        use(word * FCCSigns::WordBits + bit, TKind::Cases.cases[pattern]);
+        use(word * FCCBits::WordBits + bit, TKind::Cases.cases[pattern]);
       });
     }
   }

@@ -1,8 +1,8 @@
 #ifndef itkFCCCutEdges_h
 #define itkFCCCutEdges_h
 
-#include "itkFCCBitRows.h"
-#include "itkFCCStepTarget.h"
+#include "itkFCCCells.h"
+#include "itkFCCSigns.h"
 
 namespace itk
 {
@@ -10,13 +10,11 @@ namespace itk
 /** \class FCCStoredEdges
  * \brief The edges of the lattice, each of which is *stored* by one of its ends: by type and in two groups.
  *
- * The type of an edge is its index in FCCLattice::OwnedEdges, the steps from the sites that store edges to their other
- * ends. Sets of types are bits.
+ * Types of edges are those of FCCCells. Sets of types are bits.
  */
 struct FCCStoredEdges
 {
-  static constexpr std::uint8_t NumberOfTypes = FCCLattice::OwnedEdges.size();
-  static constexpr std::uint8_t AllTypes = (1u << NumberOfTypes) - 1;
+  static constexpr std::uint8_t AllTypes = (1u << FCCCells::Edges) - 1;
 
   /** Edges within a plane of constant z, and between it and the next. */
   enum class Group : unsigned char
@@ -35,7 +33,7 @@ struct FCCStoredEdges
   TypesOf(Group group)
   {
     unsigned int types = 0;
-    for (std::uint8_t type = 0; type < NumberOfTypes; ++type)
+    for (std::uint8_t type = 0; type < FCCCells::Edges; ++type)
     {
       types |= GroupOf(type) == group ? 1u << type : 0;
     }

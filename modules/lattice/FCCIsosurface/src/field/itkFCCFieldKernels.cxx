@@ -3,9 +3,9 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "itkFCCBitRows.h"
+#include "detail/itkFCCBitRows.h"
 #include "itkFCCFieldKernels.h"
-#include "itkFCCStep.h"
+#include "itkFCCCells.h"
 
 #include <cstring>
 #include <limits>

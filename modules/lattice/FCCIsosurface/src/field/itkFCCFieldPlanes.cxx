@@ -1,11 +1,34 @@
 #include "itkFCCFieldPlanes.h"
 
-#include "itkFCCBorderSites.h"
+#include "itkFCCCells.h"
 
 #include <algorithm>
 
 namespace itk
 {
+namespace
+{
+
+/** Writes one bit for each site of a row of the signs: has it a neighbour on the other side of the surface? */
+void
+FindBorderSites(const FCCSigns & signs, SizeValueType j, SizeValueType k, FCCSigns::WordType * border)
+{
+  const FCCSigns::WordType * const row = signs.GetRow(j, k);
+  std::fill_n(border, signs.GetNumberOfWords(), 0);
+  for (unsigned int direction = 0; direction < FCCCells::Directions; ++direction)
+  {
+    const FCCStepTarget end(signs, j, k, FCCCells::StepOf(direction));
+    if (end.isInBox)
+    {
+      FCCBits::ForEachShifted(signs.GetRow(end.j, end.k),
+                              signs.GetNumberOfWords(),
+                              end.shift,
+                              [&](SizeValueType word, FCCSigns::WordType bits) { border[word] |= row[word] ^ bits; });
+    }
+  }
+}
+
+} // namespace
 
 FCCFieldPlanes::FCCFieldPlanes(const FCCSigns & signs, const FCCScalarField & field, SizeValueType planesOfGradients)
   : m_Signs(signs)
@@ -25,12 +48,10 @@ FCCFieldPlanes::FCCFieldPlanes(const FCCSigns & signs, const FCCScalarField & fi
   m_Gradients.reserve(planesOfGradients);
   for (SizeValueType n = 0; n < planesOfGradients; ++n)
   {
-    m_Gradients.emplace_back(
-      FCCNumberedBits(m_Size[1], (m_Size[0] + FCCBits::WordBits - 1) / FCCBits::WordBits, field.scratch));
+    m_Gradients.emplace_back(FCCNumberedBits(m_Size[1], FCCBits::WordsOf(m_Size[0]), field.scratch));
   }
   constexpr SizeValueType block = FCCFieldKernels::Block;
-  constexpr SizeValueType word = FCCBits::WordBits; // rows are also read by the words of their signs
-  m_Stride = (m_Size[0] + word - 1) / word * word + 2 * block;
+  m_Stride = FCCBits::WordsOf(m_Size[0]) * FCCBits::WordBits + 2 * block; // rows are also read by words of signs
 }
 
 template <typename TFill>
@@ -138,8 +159,7 @@ FCCFieldPlanes::FindSites(SizeValueType k, FCCNumberedBits & sites) const
     if (margin > 0)
     {
       row[m_Signs.GetNumberOfWords()] = 0;
-      FCCBits::ForEachShifted(
-        row, sites.GetStride() - 1, -1, [row](SizeValueType word, FCCSigns::WordType bits) { row[word] = bits; });
+      FCCBits::MoveUp(row, sites.GetStride() - 1);
     }
   }
 }

@@ -1,7 +1,7 @@
 #ifndef itkFCCFieldPlanes_h
 #define itkFCCFieldPlanes_h
 
-#include "itkFCCBitRows.h"
+#include "detail/itkFCCBitRows.h"
 #include "itkFCCFieldKernels.h"
 #include "itkFCCSurfaceExtractor.h"
 

@@ -16,7 +16,7 @@ namespace
 {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Star = FCCSiteStar;
+using Star = FCCCells;
 
 constexpr std::size_t Capacity = FCCClusterBatch::Capacity;
 

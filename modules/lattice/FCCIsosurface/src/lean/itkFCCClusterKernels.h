@@ -1,7 +1,7 @@
 #ifndef itkFCCClusterKernels_h
 #define itkFCCClusterKernels_h
 
-#include "itkFCCSiteStar.h"
+#include "itkFCCCells.h"
 #include "itkFCCSurfaceExtractor.h"
 
 namespace itk
@@ -15,15 +15,15 @@ struct FCCClusterBatch
   static constexpr SizeValueType Capacity = 16;
 
   SizeValueType count = 0;
-  float value[Capacity];                             ///< values at the sites, less the isovalue
-  float neighbor[FCCSiteStar::Directions][Capacity]; ///< values at their neighbours, less the isovalue
-  float gradient[3][Capacity];                       ///< at the sites, in lattice coordinates
-  float farGradient[3][Capacity];                    ///< the mean at the far ends of their crossed edges, for normals
-  std::uint32_t crossings[Capacity];                 ///< directions of the crossings that the vertex gathers
-  float site[3][Capacity];                           ///< in lattice coordinates, from the origin below
-  double origin[3];                                  ///< in lattice coordinates
-  float minimumFraction; ///< least distance of a crossing from the site, relative to its edge
-  float farthest;        ///< largest move of a vertex, in distances of nearest neighbours
+  float value[Capacity];                          ///< values at the sites, less the isovalue
+  float neighbor[FCCCells::Directions][Capacity]; ///< values at their neighbours, less the isovalue
+  float gradient[3][Capacity];                    ///< at the sites, in lattice coordinates
+  float farGradient[3][Capacity];                 ///< the mean at the far ends of their crossed edges, for normals
+  std::uint32_t crossings[Capacity];              ///< directions of the crossings that the vertex gathers
+  float site[3][Capacity];                        ///< in lattice coordinates, from the origin below
+  double origin[3];                               ///< in lattice coordinates
+  float minimumFraction;                          ///< least distance of a crossing from the site, relative to its edge
+  float farthest;                                 ///< largest move of a vertex, in distances of nearest neighbours
 };
 
 /** Places the vertices of sites: the mean of the gathered crossings, each where the parabola through the values before,

@@ -69,8 +69,8 @@ FCCClusterPlane::FindCrossings(SizeValueType j, SizeValueType k, const FCCCluste
       sites[word] |= starts[word];
     }
 
-    const SizeValueType opposite = j * Directions + FCCSiteStar::OppositeOf(type);
-    const FCCStepTarget start(*m_Signs, j, k, FCCSiteStar::StepOf(FCCSiteStar::OppositeOf(type)));
+    const SizeValueType opposite = j * Directions + FCCCells::OppositeOf(type);
+    const FCCStepTarget start(*m_Signs, j, k, FCCCells::StepOf(FCCCells::OppositeOf(type)));
     if (!start.isInBox)
     {
       m_Crossings.ClearRow(opposite);

@@ -19,7 +19,7 @@ class FCCClusterPlane
 public:
   using WordType = FCCSigns::WordType;
   static constexpr std::uint8_t Types = FCCNearerEnds::Types;
-  static constexpr unsigned int Directions = FCCSiteStar::Directions;
+  static constexpr unsigned int Directions = FCCCells::Directions;
 
   FCCClusterPlane(const FCCSigns & signs, std::pmr::memory_resource * scratch);
 

@@ -27,9 +27,9 @@ public:
     m_K = k;
     m_Values = m_Field.GetValues(j, k);
     m_Gradients = m_Field.GetGradients(j, k);
-    for (unsigned int direction = 0; direction < FCCSiteStar::Directions; ++direction)
+    for (unsigned int direction = 0; direction < FCCCells::Directions; ++direction)
     {
-      const auto offset = FCCLattice::OffsetOf(FCCSiteStar::StepOf(direction), m_Field.GetParity(j, k));
+      const auto offset = FCCLattice::OffsetOf(FCCCells::StepOf(direction), m_Field.GetParity(j, k));
       const SizeValueType row = j + static_cast<SizeValueType>(offset[1]);
       const SizeValueType plane = k + static_cast<SizeValueType>(offset[2]);
       Neighbor & neighbor = m_Neighbors[direction];
@@ -115,7 +115,7 @@ private:
   SizeValueType m_K{ 0 };
   const float * m_Values{ nullptr };
   FCCFieldPlanes::GradientRow m_Gradients;
-  Neighbor m_Neighbors[FCCSiteStar::Directions];
+  Neighbor m_Neighbors[FCCCells::Directions];
 };
 
 class FCCClusterPoints::Output
@@ -158,7 +158,7 @@ public:
     const SizeValueType n = m_Batch.count;
     this->Skip(m_Vertices[n], false);
     m_Batch.value[n] = row.GetValue(i);
-    for (unsigned int direction = 0; direction < FCCSiteStar::Directions; ++direction)
+    for (unsigned int direction = 0; direction < FCCCells::Directions; ++direction)
     {
       m_Batch.neighbor[direction][n] = row.GetNeighbor(direction, i);
     }
@@ -319,7 +319,7 @@ FCCClusterPoints::PlaceSplitSites(const FCCClusterPlane & plane,
       {
         const auto direction = static_cast<unsigned int>(__builtin_ctz(crossings));
         output.Skip(singleVertices[single.count], !isReal);
-        m_EdgePoints.Gather({ i, j, k }, FCCSiteStar::StepOf(direction), field, output.HasNormals(), single);
+        m_EdgePoints.Gather({ i, j, k }, FCCCells::StepOf(direction), field, output.HasNormals(), single);
         if (single.count == FCCEdgeBatch::Capacity)
         {
           placeSingle();
@@ -347,7 +347,7 @@ FCCClusterPoints::PlaceOnBorder(const SiteType & site, unsigned int crossings, O
   double count = 0.0;
   for (; crossings != 0; crossings &= crossings - 1)
   {
-    const SiteType step = FCCSiteStar::StepOf(static_cast<unsigned int>(__builtin_ctz(crossings)));
+    const SiteType step = FCCCells::StepOf(static_cast<unsigned int>(__builtin_ctz(crossings)));
     const SiteType end{ site[0] + step[0], site[1] + step[1], site[2] + step[2] };
     const double fraction = m_EdgePoints.GetExtent().FractionToBorder(end, { -step[0], -step[1], -step[2] });
     for (unsigned int axis = 0; axis < 3; ++axis)

@@ -63,11 +63,10 @@ std::vector<std::uint32_t>
 TakeSuspects(const FCCSigns & signs, const FCCClusterPlane & plane, FCCTriangleUse & use)
 {
   std::vector<std::uint32_t> suspects;
-  const FCCSiteStar & star = FCCSiteStar::Get();
   for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
   {
     plane.ForEachWholeSite(j, [&](SizeValueType i, unsigned int crossings) {
-      if (FCCTriangleUse::BreakCondition(use.Take(j, i)) || !star.IsDisk(crossings))
+      if (FCCTriangleUse::BreakCondition(use.Take(j, i)) || !FCCCells::IsDisk(crossings))
       {
         suspects.push_back(static_cast<std::uint32_t>(j * signs.GetWidth() + i));
       }

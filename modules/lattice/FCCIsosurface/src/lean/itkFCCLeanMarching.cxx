@@ -134,12 +134,12 @@ struct LeanSteps
     const Cases::StoredEdge stored = StoredEdgeOf(edge);
     const bool isStart = stored.start == Cases::EndOf(edge, site);
     return column.rows[RowOf(site)].splitSites.GetVertex(IndexOf(site, i),
-                                                         isStart ? stored.type : FCCSiteStar::OppositeOf(stored.type));
+                                                         isStart ? stored.type : FCCCells::OppositeOf(stored.type));
   }
 
   /** Words that are worked at together, whatever the width of vectors: the order of triangles depends on it. */
   static constexpr SizeValueType Together = 8;
-  static_assert(Together <= FCCSigns::WordsBeyond, "whole groups of words are read");
+  static_assert(Together <= FCCBitRows::WordsBeyond, "whole groups of words are read");
 
   /** Some words of bits. */
   struct Group

@@ -24,7 +24,7 @@ class FCCNearerEnds
 {
 public:
   using WordType = FCCSigns::WordType;
-  static constexpr std::uint8_t Types = FCCStoredEdges::NumberOfTypes;
+  static constexpr std::uint8_t Types = FCCCells::Edges;
 
   FCCNearerEnds(const FCCSigns & signs, std::pmr::memory_resource * scratch);
 

@@ -19,7 +19,7 @@ FCCStarReader::FCCStarReader(const FCCSigns & signs,
   }
   for (unsigned int n = 0; n < FCCSiteStar::Edges; ++n)
   {
-    const FCCSiteStar::Edge & edge = FCCSiteStar::Get().GetEdges()[n];
+    const FCCSiteStar::Edge & edge = FCCStarOfSite.edges[n];
     const unsigned int start = edge.ends[0];
     const FCCStepTarget target(signs, j, k, FCCSiteStar::StepTo(start));
     const auto plane = static_cast<std::size_t>(FCCSiteStar::StepTo(start)[2] + 1);
@@ -37,7 +37,7 @@ FCCStarReader::Read(SizeValueType i) const -> Star
   {
     star.inside |= static_cast<std::uint16_t>(unsigned{ this->Test(m_Inside[site], i) } << site);
   }
-  for (std::uint64_t cut = FCCSiteStar::Get().GetCutEdges(star.inside); cut != 0; cut &= cut - 1)
+  for (std::uint64_t cut = FCCStarOfSite.GetCutEdges(star.inside); cut != 0; cut &= cut - 1)
   {
     const auto n = static_cast<unsigned int>(__builtin_ctzll(cut));
     star.starts |= std::uint64_t{ this->Test(m_Starts[n], i) } << n;
@@ -74,10 +74,10 @@ FCCSiteDivision::FCCSiteDivision(const FCCSigns & signs,
 void
 FCCSiteDivision::FindPolygons(const FCCStarReader::Star & star)
 {
-  const auto & edges = FCCSiteStar::Get().GetEdges();
+  const auto & edges = FCCStarOfSite.edges;
   std::uint8_t nearerSites[FCCSiteStar::Edges]; // by edge, if it is cut; so are the corners
   VertexType corners[FCCSiteStar::Edges];
-  for (std::uint64_t cut = FCCSiteStar::Get().GetCutEdges(star.inside); cut != 0; cut &= cut - 1)
+  for (std::uint64_t cut = FCCStarOfSite.GetCutEdges(star.inside); cut != 0; cut &= cut - 1)
   {
     const auto n = static_cast<unsigned int>(__builtin_ctzll(cut));
     const unsigned int end = (star.starts >> n & 1) != 0 ? 0 : 1;
@@ -90,7 +90,7 @@ FCCSiteDivision::FindPolygons(const FCCStarReader::Star & star)
                                                 : Whole);
     m_Crossings |= site == Center ? 1U << direction : 0;
   }
-  for (const FCCSiteStar::Tetrahedron & tetrahedron : FCCSiteStar::Get().GetTetrahedra())
+  for (const FCCSiteStar::Tetrahedron & tetrahedron : FCCStarOfSite.tetrahedra)
   {
     if ((tetrahedron.far & m_Crossings) == 0)
     {
@@ -120,7 +120,7 @@ void
 FCCSiteDivision::SetParts(const FCCSiteParts & parts)
 {
   m_Parts[Center] = parts;
-  for (unsigned int direction = 0; direction < FCCSiteStar::Directions; ++direction)
+  for (unsigned int direction = 0; direction < FCCCells::Directions; ++direction)
   {
     m_Centers[direction] = VertexOf(Center, parts.GetVertex(direction));
   }
@@ -147,7 +147,7 @@ FCCSiteDivision::Divide()
   {
     broken = this->FindBroken();
   }
-  else if (FCCSiteStar::Get().IsDisk(m_Crossings))
+  else if (FCCCells::IsDisk(m_Crossings))
   {
     broken = this->FindBrokenVertices(1) != 0 ? m_Crossings : 0;
     m_Split |= 1U << Center;
@@ -161,7 +161,7 @@ FCCSiteDivision::Divide()
   }
   for (; broken != 0; broken = this->FindBroken())
   {
-    this->DividePart(FCCSiteStar::Get().PartOf(broken, static_cast<unsigned int>(__builtin_ctz(broken))));
+    this->DividePart(FCCCells::PartOf(broken, static_cast<unsigned int>(__builtin_ctz(broken))));
     changed = true;
   }
   return changed;
@@ -173,7 +173,7 @@ FCCSiteDivision::StartDividing()
 {
   unsigned int single = 0;
   FCCSiteParts(m_Crossings, 0).ForEachVertex([&single](unsigned int part) {
-    single |= FCCSiteStar::Get().IsDisk(part) ? 0 : part;
+    single |= FCCCells::IsDisk(part) ? 0 : part;
   });
   m_Split |= 1U << Center;
   this->SetParts(FCCSiteParts(m_Crossings, single));
@@ -213,7 +213,7 @@ FCCSiteDivision::FindBroken() const
   const unsigned int gathered = this->GetGatheredVertices();
   const unsigned int broken = gathered == 0 ? 0 : this->FindBrokenVertices(gathered);
   unsigned int crossings = 0;
-  for (unsigned int direction = 0; broken != 0 && direction < FCCSiteStar::Directions; ++direction)
+  for (unsigned int direction = 0; broken != 0 && direction < FCCCells::Directions; ++direction)
   {
     const bool isBroken = (m_Crossings >> direction & broken >> m_Parts[Center].GetVertex(direction) & 1) != 0;
     crossings |= unsigned{ isBroken } << direction;
@@ -255,7 +255,7 @@ FCCSiteDivision::DividePart(unsigned int part)
   {
     const unsigned int crossing = remaining & ~(remaining - 1);
     const unsigned int rest = part & ~crossing;
-    if (FCCSiteStar::Get().IsDisk(rest))
+    if (FCCCells::IsDisk(rest))
     {
       this->SetParts(FCCSiteParts(m_Crossings, single | crossing));
       if (IsSingle(rest) || this->FindBrokenVertices(1U << m_Centers[__builtin_ctz(rest)] % VerticesOfSite) == 0)

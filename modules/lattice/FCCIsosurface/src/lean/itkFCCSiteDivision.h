@@ -26,7 +26,7 @@ public:
   struct Star
   {
     std::uint16_t inside; ///< bits of its sites
-    std::uint64_t starts; ///< bits of FCCSiteStar::GetEdges(): the edge's first end is nearer; only for cut edges
+    std::uint64_t starts; ///< bits of FCCSiteStar::edges: the edge's first end is nearer; only for cut edges
   };
 
   Star
@@ -100,7 +100,7 @@ private:
   using VertexType = std::uint8_t;
   static constexpr unsigned int VerticesOfSite = 16;
   static constexpr unsigned int Whole = 15;
-  static_assert(FCCSiteStar::Directions <= Whole && FCCSiteStar::Sites * VerticesOfSite <= 256,
+  static_assert(FCCCells::Directions <= Whole && FCCSiteStar::Sites * VerticesOfSite <= 256,
                 "a vertex has a number of 8 bits");
 
   static constexpr VertexType

@@ -1,6 +1,7 @@
 #ifndef itkFCCSiteParts_h
 #define itkFCCSiteParts_h
 
+#include "itkFCCSigns.h"
 #include "itkFCCSiteStar.h"
 
 #include <memory>
@@ -49,7 +50,7 @@ public:
     {
       const auto lowest = static_cast<unsigned int>(__builtin_ctz(remaining));
       const bool isGathered = (gathered >> lowest & 1) != 0;
-      const unsigned int directions = isGathered ? FCCSiteStar::Get().PartOf(gathered, lowest) : 1U << lowest;
+      const unsigned int directions = isGathered ? FCCCells::PartOf(gathered, lowest) : 1U << lowest;
       remaining &= ~directions;
       use(directions);
     }
@@ -57,7 +58,7 @@ public:
 
 private:
   static constexpr unsigned int BitsOfVertex = 4;
-  static_assert(FCCSiteStar::Directions <= 1U << BitsOfVertex && BitsOfVertex * FCCSiteStar::Directions <= 64,
+  static_assert(FCCCells::Directions <= 1U << BitsOfVertex && BitsOfVertex * FCCCells::Directions <= 64,
                 "the vertices of all directions fit into one word");
 
   std::uint16_t m_Crossings = 0;

@@ -1,143 +1,133 @@
 #ifndef itkFCCSiteStar_h
 #define itkFCCSiteStar_h
 
-#include "itkFCCCutEdges.h"
+#include "itkFCCCells.h"
 #include "itkFCCTetrahedronPolygon.h"
-
-#include <array>
-#include <bitset>
 
 namespace itk
 {
 
 /** \class FCCSiteStar
- * \brief The edges and tetrahedra at a site, which are the same for all sites, and what sets of crossings look like.
+ * \brief The edges and tetrahedra around a site, which are the same for all sites, and the surface in the tetrahedra.
  *
- * *Directions* 0 to 6 are the steps of FCCLattice::OwnedEdges, along edges that the site stores; 7 to 13 are their
- * opposites, along edges that its neighbours store. A set of directions is bits. The crossings of two edges of the site
- * are *adjacent* when the edges' far ends are neighbours: then a side of the surface's polygons joins them.
- *
- * The *sites* of the star are the neighbours, numbered by their direction, and the center.
+ * The *sites* of the star are the neighbours, numbered by their directions (see FCCCells), and the *center*. Sets of
+ * sites and of edges are bits.
  */
-class FCCSiteStar
+struct FCCSiteStar
 {
-public:
-  using SiteType = FCCLattice::SiteType;
-
-  static constexpr unsigned int StoredDirections = FCCStoredEdges::NumberOfTypes;
-  static constexpr unsigned int Directions = 2 * StoredDirections;
-  static constexpr unsigned int NoDirection = Directions;
-  static constexpr unsigned int Center = Directions;
-  static constexpr unsigned int Sites = Directions + 1;
-  static constexpr unsigned int Edges = Directions + 36; ///< edges at the center, and edges between neighbours
+  static constexpr unsigned int Center = FCCCells::Directions;
+  static constexpr unsigned int Sites = FCCCells::Directions + 1;
+  static constexpr unsigned int Edges = FCCCells::Directions + 36; ///< those at the center, and those of its link
   static constexpr unsigned int Tetrahedra = 24;
 
-  static constexpr SiteType
-  StepOf(unsigned int direction)
-  {
-    const auto & step = FCCLattice::OwnedEdges[direction % StoredDirections];
-    const IndexValueType sign = direction < StoredDirections ? 1 : -1;
-    return { sign * step[0], sign * step[1], sign * step[2] };
-  }
-
   /** The step from the center to a site. */
-  static constexpr SiteType
+  static constexpr FCCLattice::SiteType
   StepTo(unsigned int site)
   {
-    return site == Center ? SiteType{ 0, 0, 0 } : StepOf(site);
-  }
-
-  /** NoDirection for a step that is none. */
-  static constexpr unsigned int
-  DirectionOf(const SiteType & step)
-  {
-    unsigned int direction = 0;
-    while (direction < Directions && !FCCStep::AreEqual(StepOf(direction), step))
-    {
-      ++direction;
-    }
-    return direction;
-  }
-
-  static constexpr unsigned int
-  OppositeOf(unsigned int direction)
-  {
-    return (direction + StoredDirections) % Directions;
+    return site == Center ? FCCLattice::SiteType{ 0, 0, 0 } : FCCCells::StepOf(site);
   }
 
   /** An edge between two sites. */
   struct Edge
   {
-    std::uint8_t ends[2];       ///< the site that stores it first
-    std::uint8_t directions[2]; ///< from either end to the other
+    std::uint8_t ends[2] = {};       ///< the site that stores it first
+    std::uint8_t directions[2] = {}; ///< from either end to the other
   };
 
   struct Tetrahedron
   {
-    std::uint8_t sites[4];              ///< the center first
-    unsigned int far;                   ///< the directions of the others
-    FCCTetrahedronPolygon polygons[16]; ///< by the sites inside
-    bool isBelow;                       ///< whether it lies below the plane of the center
-    std::uint8_t edges[16][4];          ///< the indices in GetEdges() of the edges of the polygons' crossings
+    std::uint8_t sites[4] = {};              ///< the center first
+    unsigned int far = 0;                    ///< the other sites, as bits
+    FCCTetrahedronPolygon polygons[16] = {}; ///< by the sites inside
+    bool isBelow = false;                    ///< whether it lies below the plane of the center
+    std::uint8_t edges[16][4] = {};          ///< the edges of the polygons' crossings
   };
 
-  static const FCCSiteStar &
-  Get();
+  Edge edges[Edges] = {};
+  std::uint64_t edgesAt[Sites] = {}; ///< the edges at each site
+  Tetrahedron tetrahedra[Tetrahedra] = {};
 
-  const std::array<Edge, Edges> &
-  GetEdges() const
-  {
-    return m_Edges;
-  }
-  const std::array<Tetrahedron, Tetrahedra> &
-  GetTetrahedra() const
-  {
-    return m_Tetrahedra;
-  }
-
-  /** The edges that are cut when some sites are inside, both as bits. */
+  /** The edges that are cut when some sites are inside. */
   std::uint64_t
   GetCutEdges(unsigned int inside) const
   {
     std::uint64_t cut = 0;
     for (; inside != 0; inside &= inside - 1)
     {
-      cut ^= m_EdgesAt[static_cast<unsigned int>(__builtin_ctz(inside))];
+      cut ^= edgesAt[static_cast<unsigned int>(__builtin_ctz(inside))];
     }
     return cut;
   }
 
-  /** Whether the crossings of a set of directions form a disk with the sides and triangles between them: they are
-   * connected, and points - sides + triangles = 1. */
-  bool
-  IsDisk(unsigned int set) const
+  static constexpr FCCSiteStar
+  Make()
   {
-    return m_IsDisk[set];
+    FCCSiteStar star;
+    star.FindEdges();
+    unsigned int count = 0;
+    for (unsigned int type = FCCCells::FirstTetrahedron; type < FCCCells::Types; ++type)
+    {
+      for (unsigned int center = 0; center < 4; ++center)
+      {
+        star.FindTetrahedron(FCCCells::Simplices[type], center, star.tetrahedra[count++]);
+      }
+    }
+    return star;
   }
 
-  /** The directions of a set that are connected with one of them by adjacent crossings. */
-  unsigned int
-  PartOf(unsigned int set, unsigned int direction) const;
-
 private:
-  FCCSiteStar();
+  constexpr void
+  FindEdges()
+  {
+    unsigned int count = 0;
+    for (std::uint8_t a = 0; a < Sites; ++a)
+    {
+      for (std::uint8_t b = 0; b < Sites; ++b)
+      {
+        const auto direction =
+          static_cast<std::uint8_t>(FCCCells::DirectionOf(FCCStep::Subtract(StepTo(b), StepTo(a))));
+        if (direction < FCCCells::Edges) // a stores it
+        {
+          edgesAt[a] |= std::uint64_t{ 1 } << count;
+          edgesAt[b] |= std::uint64_t{ 1 } << count;
+          edges[count++] = { { a, b }, { direction, static_cast<std::uint8_t>(FCCCells::OppositeOf(direction)) } };
+        }
+      }
+    }
+  }
 
-  void
-  FindEdges();
-
-  void
-  FindTetrahedra();
-
-  void
-  FindDisks();
-
-  std::array<Edge, Edges> m_Edges;
-  std::array<std::array<std::uint8_t, Sites>, Sites> m_EdgeBetween{};
-  std::array<std::uint64_t, Sites> m_EdgesAt{}; ///< bits of the edges at a site
-  std::array<Tetrahedron, Tetrahedra> m_Tetrahedra;
-  std::array<unsigned int, Directions> m_Adjacent{};
-  std::bitset<1U << Directions> m_IsDisk;
+  /** The tetrahedron of a type of which one of its sites is the center. */
+  constexpr void
+  FindTetrahedron(const FCCCells::Simplex & type, unsigned int center, Tetrahedron & tetrahedron) const
+  {
+    tetrahedron.sites[0] = Center;
+    for (unsigned int n = 0, size = 1; n < 4; ++n)
+    {
+      const auto step = FCCStep::Subtract(type.steps[n], type.steps[center]);
+      if (n != center)
+      {
+        tetrahedron.sites[size++] = static_cast<std::uint8_t>(FCCCells::DirectionOf(step));
+        tetrahedron.far |= 1u << FCCCells::DirectionOf(step);
+      }
+      tetrahedron.isBelow = tetrahedron.isBelow || step[2] < 0;
+    }
+    const auto & sites = tetrahedron.sites;
+    for (unsigned int pattern = 0; pattern < 16; ++pattern)
+    {
+      FCCTetrahedronPolygon & polygon = tetrahedron.polygons[pattern];
+      polygon =
+        FCCTetrahedronPolygon::Of({ StepTo(sites[0]), StepTo(sites[1]), StepTo(sites[2]), StepTo(sites[3]) }, pattern);
+      for (unsigned int n = 0; n < polygon.size; ++n)
+      {
+        const std::uint64_t joining =
+          edgesAt[sites[polygon.crossings[n].inside]] & edgesAt[sites[polygon.crossings[n].outside]];
+        tetrahedron.edges[pattern][n] = static_cast<std::uint8_t>(__builtin_ctzll(joining));
+      }
+    }
+  }
 };
+
+inline constexpr FCCSiteStar FCCStarOfSite = FCCSiteStar::Make();
 
 } // namespace itk
 

@@ -26,9 +26,9 @@ public:
   static constexpr CountsType
   OfSite()
   {
-    return OfEdge(FCCStoredEdges::NumberOfTypes);
+    return OfEdge(FCCCells::Edges);
   }
-  static_assert(FCCStoredEdges::NumberOfTypes == 7, "a word has one byte for each type, and one for the site");
+  static_assert(FCCCells::Edges == 7, "a word has one byte for each type, and one for the site");
 
   /** Whether the counts break condition 2 or 3 of FCCSplitSites. All triangles have been counted, so the counts of
    * edges are even. */
@@ -41,7 +41,7 @@ public:
   }
 
   FCCTriangleUse(const FCCSigns & signs, std::pmr::memory_resource * scratch)
-    : m_Stride(signs.GetNumberOfWords() * FCCSigns::WordBits + 1)
+    : m_Stride(signs.GetNumberOfWords() * FCCBits::WordBits + 1)
     , m_Counts(m_Stride * signs.GetHeight(), scratch)
   {}
 

@@ -93,12 +93,10 @@ struct FCCMarchingCases
     {
       const unsigned int site = EdgeSites[edge][start];
       const auto step = FCCStep::Subtract(SiteOf(kind, EdgeSites[edge][1 - start]), SiteOf(kind, site));
-      for (std::uint8_t type = 0; type < FCCLattice::OwnedEdges.size(); ++type)
+      const unsigned int type = FCCCells::DirectionOf(step);
+      if (type < FCCCells::Edges)
       {
-        if (FCCStep::AreEqual(step, FCCLattice::OwnedEdges[type]))
-        {
-          return { start, RowOf(kind, site), type, static_cast<std::uint8_t>(site / 2) };
-        }
+        return { start, RowOf(kind, site), static_cast<std::uint8_t>(type), static_cast<std::uint8_t>(site / 2) };
       }
     }
     return {};

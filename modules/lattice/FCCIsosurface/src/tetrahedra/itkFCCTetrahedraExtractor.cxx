@@ -177,7 +177,7 @@ FillColumns(const FCCSigns & signs,
         for (WordType active = steps.Active(); active != 0; active &= active - 1)
         {
           const auto bit = static_cast<SizeValueType>(__builtin_ctzll(active));
-          const SizeValueType i = word * FCCSigns::WordBits + bit;
+          const SizeValueType i = word * FCCBits::WordBits + bit;
           const Cases::Case & found = FCCMarchingTables.cases[kind][steps.PatternOf(bit)];
           const bool hasQuarters = (steps.quarters >> bit & 1) != 0;
           const unsigned int count = hasQuarters ? found.triangles : found.regularTriangles;

@@ -1,7 +1,7 @@
 #ifndef itkFCCTetrahedronPolygon_h
 #define itkFCCTetrahedronPolygon_h
 
-#include "itkFCCStep.h"
+#include "itkFCCCells.h"
 
 #include <cstdint>
 

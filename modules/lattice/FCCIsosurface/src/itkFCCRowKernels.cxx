@@ -1,6 +1,6 @@
 #include "itkFCCRowKernels.h"
 
-#include "itkFCCBitRows.h"
+#include "detail/itkFCCBitRows.h"
 
 #include <cmath>
 #include <limits>

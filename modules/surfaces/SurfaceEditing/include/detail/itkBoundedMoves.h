@@ -4,7 +4,7 @@
 #include "detail/itkPositionArithmetic.h"
 #include "rhombicForEachBlock.h"
 #include "rhombicStagedProgress.h"
-#include "itkPointStrata.h"
+#include "detail/itkPointStrata.h"
 #include "itkTriangleSurfaceSmoothing.h"
 
 namespace itk

@@ -1,9 +1,10 @@
 #ifndef itkFCCBitRows_h
 #define itkFCCBitRows_h
 
-#include "itkFCCSigns.h"
+#include "itkIntTypes.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <memory_resource>
 #include <vector>
@@ -12,14 +13,22 @@ namespace itk
 {
 
 /** \class FCCBits
- * \brief A row of bits, one for each site, in words as FCCSigns has them: tested, shifted, counted and visited.
+ * \brief A row of bits, one for each site, in words: tested, shifted, counted and visited. Bit i of a row is that of
+ * site i; bits past the last site are zero.
  *
  * The functions are always inlined, so that they are compiled for the instruction set of the kernels that call them.
  */
 struct FCCBits
 {
-  using WordType = FCCSigns::WordType;
-  static constexpr SizeValueType WordBits = FCCSigns::WordBits;
+  using WordType = std::uint64_t;
+  static constexpr SizeValueType WordBits = 64;
+
+  /** The words of a row of some bits. */
+  static constexpr SizeValueType
+  WordsOf(SizeValueType bits)
+  {
+    return (bits + WordBits - 1) / WordBits;
+  }
 
   [[gnu::always_inline]] static inline bool
   Test(const WordType * row, SizeValueType i)
@@ -73,6 +82,13 @@ struct FCCBits
         before = bits;
       }
     }
+  }
+
+  /** Moves the bits of a row one site up; there must be room. */
+  [[gnu::always_inline]] static inline void
+  MoveUp(WordType * row, SizeValueType words)
+  {
+    ForEachShifted(row, words, -1, [row](SizeValueType word, WordType bits) { row[word] = bits; });
   }
 
   /** The bits of one word that stand for sites below \a count. */
@@ -156,10 +172,13 @@ class FCCBitRows
 public:
   using WordType = FCCBits::WordType;
 
+  /** Words that may be read beyond the last row, so that rows can be read by whole vectors. */
+  static constexpr SizeValueType WordsBeyond = 8;
+
   /** \param words of a row that hold sites */
   FCCBitRows(SizeValueType rows, SizeValueType words, std::pmr::memory_resource * scratch)
     : m_Stride(words + 1)
-    , m_Words(rows * m_Stride + FCCSigns::WordsBeyond, scratch)
+    , m_Words(rows * m_Stride + WordsBeyond, scratch)
   {}
 
   /** Words from a row to the next. */
