@@ -3,18 +3,13 @@
 
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
-#include "itkThreadFailure.h"
-#include "itkWorkProgress.h"
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace itk
 {
-
-class VoxelBand;
 
 /** \class AntiAliasMaskImageFilter
  * \brief A smooth field whose zero surface is the border of a mask, without the steps of its voxels.
@@ -133,89 +128,7 @@ protected:
   GenerateData() override;
 
 private:
-  using RowReader = std::function<void(SizeValueType row, float * values)>;
-  using RowWriter =
-    std::function<void(SizeValueType row, SizeValueType begin, SizeValueType end, const float * values)>;
-
-  /** The voxels at the border, on one side of it at least. */
-  VoxelBand
-  FindBorder();
-
-  /** Smooths the rows from \a read with a Gaussian of \a sigma voxels and passes the parts of them that are in a band
-   * to \a write. The number of a row is y + z height. */
-  void
-  Smooth(double sigma, const VoxelBand & band, const RowReader & read, const RowWriter & write);
-
-  /** Whether a voxel, given by its offset in the buffer, is a sample of the shape. */
-  bool
-  IsSample(SizeValueType voxel) const;
-
-  /** Whether each voxel of an axis is a sample of the shape (1 or 0), and the share of samples in the reach of a
-   * Gaussian. */
-  struct SampleComb
-  {
-    std::vector<float> samples;
-    std::vector<float> share;
-  };
-
-  SampleComb
-  MakeComb(unsigned int axis, double sigma) const;
-
-  /** The field in a band for a Gaussian of \a sigma voxels after a number of corrections, each times \a gain. */
-  void
-  MatchLocalVolumes(double sigma, unsigned int corrections, float gain, const VoxelBand & band, float * field);
-
-  /** By voxel: 0 in a 2 x 2 x 2 block of its class, 1 in none; then 2 in a small part that is not a spur, 3 in a sheet
-   * or vessel. */
-  void
-  FindThin(const VoxelBand & band, std::vector<std::uint8_t> & thin);
-
-  /** Whether a part of marked voxels sticks out of other voxels of its class, and connects them with nothing. */
-  bool
-  IsSpur(const std::vector<SizeValueType> & part, const std::vector<std::uint8_t> & marked) const;
-
-  /** Marks the narrow voxels: samples more than \a least on the wrong side, and voxels of sheets and vessels that are
-   * on it at all. Returns whether there are any. */
-  bool
-  FindNarrow(const std::vector<std::uint8_t> & thin,
-             const VoxelBand & band,
-             float least,
-             std::vector<std::uint8_t> & isNarrow);
-
-  /** The marked voxels connected with a marked one within its class. Sets them as seen. */
-  std::vector<SizeValueType>
-  CollectPart(SizeValueType first, const std::vector<std::uint8_t> & marked, std::vector<std::uint8_t> & isSeen) const;
-
-  /** Replaces the field around the narrow voxels by that for a smaller Gaussian. */
-  void
-  Refine(double sigma, unsigned int corrections, float gain, const std::vector<std::uint8_t> & isNarrow);
-
-  /** Unmarks voxels that need no protection. */
-  void
-  KeepLost(const std::vector<std::uint8_t> & thin, std::vector<std::uint8_t> & isMarked);
-
-  /** Unmarks spurs. */
-  void
-  DropSpurs(std::vector<std::uint8_t> & isMarked);
-
-  /** Puts tubes around the marked voxels of one class. */
-  void
-  Protect(const std::vector<std::uint8_t> & isProtected, bool isInside);
-
-  void
-  ForEach(SizeValueType count, const std::function<void(SizeValueType)> & work);
-
-  /** Checks for an abort at some of the steps of a serial loop. */
-  void
-  CheckAbortAt(SizeValueType n) const;
-
-  const std::uint8_t * m_Mask{ nullptr };
-  float * m_Field{ nullptr };
-  std::array<SizeValueType, 3> m_Size{};
-  float * m_Smoothed{ nullptr };
-  WorkProgress * m_WorkProgress{ nullptr };
   PeriodType m_SamplePeriod{ { 1, 1, 1 } };
-  double m_Widening{ 1.0 }; ///< of all Gaussians
   bool m_ProtectSpecksOnly{ false };
   std::vector<SizeValueType> m_ThinVoxels;
   std::vector<SizeValueType> m_ProtectedVoxels;

@@ -4,12 +4,24 @@
 #include "itkInputSamples.h"
 #include "itkMath.h"
 #include "itkMultiThreaderBase.h"
+#include "itkThreadFailure.h"
 #include "itkVoxelBand.h"
+#include "itkWorkProgress.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <numeric>
+#include <vector>
+
+/** \file
+ * Words. A voxel's *class* is inside or outside. Its *depth* is the field on its own side of the border: below 0 the
+ * field puts the voxel on the wrong side. A *thin* voxel is in no 2 x 2 x 2 block of its class; connected thin voxels
+ * of one class are a *part*. The *band* is the voxels near the border, for which the field is made. A voxel is known by
+ * its offset in the buffer, a row of voxels along x by its number y + z height. */
 
 namespace itk
 {
@@ -24,10 +36,10 @@ struct Scale
   float gain; // below 1 for thin parts, where Newton's step overshoots
 };
 constexpr Scale Wide{ 2.5, 2, 1.0f };
+constexpr Scale WideBetweenSlices{ 2.5, 6, 1.0f };
 constexpr Scale Medium{ 1.2, 4, 0.6f };
 constexpr Scale Fine{ 1.0, 10, 0.5f };
 constexpr double WideningByPeriod = 0.3;
-constexpr unsigned int CorrectionsBetweenSlices = 6;
 constexpr double BandWidth = 2.0;  // of the wide Gaussian, in sigma: depths there reach 3 voxels
 constexpr float Narrow = 0.2f;     // voxels: depth on the wrong side; times the widening
 constexpr float VeryNarrow = 0.3f; // voxels: the same, after the medium Gaussian
@@ -37,41 +49,27 @@ constexpr SizeValueType LargestSpur = 2;
 constexpr SizeValueType SmallestSheet = 16;
 constexpr unsigned int Passes = Wide.corrections + Medium.corrections + Fine.corrections + 5;
 
-/** Weights of a Gaussian at -r, ..., r voxels, r being three sigma, rounded up. */
-std::vector<float>
-GaussianWeights(double sigma)
+/** What the voxels of a voxel's class around it make of it. */
+enum class VoxelForm : std::uint8_t
 {
-  const auto reach = static_cast<int>(std::ceil(3.0 * sigma));
-  std::vector<double> weights;
-  double sum = 0.0;
-  for (int n = -reach; n <= reach; ++n)
-  {
-    weights.push_back(std::exp(-0.5 * n * n / (sigma * sigma)));
-    sum += weights.back();
-  }
-  std::vector<float> normalized;
-  for (const double weight : weights)
-  {
-    normalized.push_back(static_cast<float>(weight / sum));
-  }
-  return normalized;
-}
+  Thick,     ///< in a 2 x 2 x 2 block of its class
+  Thin,      ///< in none, and not yet known to be one of the others
+  Spur,      ///< in a part of fewer than SmallestSheet thin voxels that connects nothing
+  SmallPart, ///< in another part of fewer than SmallestSheet thin voxels
+  Sheet      ///< in a larger part: a sheet or vessel
+};
 
-/** The inverse of the slope of a step smoothed with a Gaussian. */
-double
-InverseSlope(double sigma)
-{
-  return sigma * std::sqrt(2.0 * Math::pi);
-}
+/** For each voxel, 1 if it belongs to the set and 0 if not. */
+using VoxelSet = std::vector<std::uint8_t>;
 
-/** The sample of an axis at \a sample - \a reach, or the nearest one. */
+/** The index along an axis that is \a reach before \a index, or the nearest in an image of \a length voxels. */
 SizeValueType
-ClampedSample(SizeValueType sample, SizeValueType reach, SizeValueType length)
+ClampedIndex(SizeValueType index, SizeValueType reach, SizeValueType length)
 {
-  return sample < reach ? 0 : std::min(sample - reach, length - 1);
+  return index < reach ? 0 : std::min(index - reach, length - 1);
 }
 
-/** The 26 neighbours of voxels, which are given by their offset in the buffer. */
+/** The neighbours of voxels through faces, edges and corners: 26. */
 struct VoxelGrid
 {
   using Coordinates = std::array<OffsetValueType, 3>;
@@ -105,23 +103,17 @@ struct VoxelGrid
     return isIn;
   }
 
+  /** Calls visit(coordinates) for each neighbour in the image. */
   template <typename TVisit>
   void
-  ForEachNeighbor(SizeValueType voxel, const TVisit & visit) const
+  ForEachNeighbor(const Coordinates & voxel, const TVisit & visit) const
   {
-    const Coordinates center = this->CoordinatesOf(voxel);
-    for (const OffsetValueType dz : { -1, 0, 1 })
+    for (OffsetValueType n = 0; n < 27; ++n)
     {
-      for (const OffsetValueType dy : { -1, 0, 1 })
+      const Coordinates neighbor{ voxel[0] + n % 3 - 1, voxel[1] + n / 3 % 3 - 1, voxel[2] + n / 9 - 1 };
+      if (neighbor != voxel && this->Holds(neighbor))
       {
-        for (const OffsetValueType dx : { -1, 0, 1 })
-        {
-          const Coordinates neighbor{ center[0] + dx, center[1] + dy, center[2] + dz };
-          if ((dx != 0 || dy != 0 || dz != 0) && this->Holds(neighbor))
-          {
-            visit(this->OffsetOf(neighbor));
-          }
-        }
+        visit(neighbor);
       }
     }
   }
@@ -148,10 +140,582 @@ struct VoxelGrid
   }
 };
 
-constexpr float
-SideOf(std::uint8_t mask)
+/** The mask and its field, and the threads of the filter: what all passes work with. */
+struct MaskWork
 {
-  return mask != 0 ? 1.0f : -1.0f;
+  AntiAliasMaskImageFilter & filter;
+  WorkProgress & progress;
+  std::array<SizeValueType, 3> size;
+  const std::uint8_t * mask;
+  float * field;
+  float * scratch; ///< for each voxel
+  double widening; ///< of all Gaussians
+
+  SizeValueType
+  GetNumberOfVoxels() const
+  {
+    return size[0] * size[1] * size[2];
+  }
+
+  bool
+  IsInside(SizeValueType voxel) const
+  {
+    return mask[voxel] != 0;
+  }
+
+  float
+  GetDepth(SizeValueType voxel) const
+  {
+    return this->IsInside(voxel) ? field[voxel] : -field[voxel];
+  }
+
+  /** Whether a voxel is a sample of the shape along one axis. */
+  bool
+  IsSample(unsigned int axis, SizeValueType index) const
+  {
+    const IndexValueType first = filter.GetOutput()->GetBufferedRegion().GetIndex(axis);
+    return (first + static_cast<IndexValueType>(index)) % static_cast<IndexValueType>(filter.GetSamplePeriod()[axis]) ==
+           0;
+  }
+
+  bool
+  IsSample(SizeValueType voxel) const
+  {
+    return this->IsSample(0, voxel % size[0]) && this->IsSample(1, voxel / size[0] % size[1]) &&
+           this->IsSample(2, voxel / size[0] / size[1]);
+  }
+
+  /** Calls use(n) for each n below \a count on the filter's threads. */
+  void
+  ForEach(SizeValueType count, const std::function<void(SizeValueType)> & use) const
+  {
+    ThreadFailure failure;
+    MultiThreaderBase * const threader = filter.GetMultiThreader();
+    threader->SetNumberOfWorkUnits(filter.GetNumberOfWorkUnits());
+    threader->ParallelizeArray(
+      0,
+      count,
+      [&](SizeValueType n) {
+        failure.Capture([&] {
+          progress.CheckAbort();
+          use(n);
+        });
+      },
+      nullptr);
+    failure.Rethrow();
+  }
+
+  /** Calls use(row) for each row, plane by plane on the filter's threads. */
+  template <typename TUse>
+  void
+  ForEachRow(const TUse & use) const
+  {
+    this->ForEach(size[2], [&](SizeValueType z) {
+      for (SizeValueType row = z * size[1]; row < (z + 1) * size[1]; ++row)
+      {
+        use(row);
+      }
+    });
+  }
+
+  /** Calls use(voxel) for the voxels of a band, row by row. */
+  template <typename TUse>
+  void
+  ForEachVoxel(const VoxelBand & band, const TUse & use) const
+  {
+    this->ForEachRow([&](SizeValueType row) {
+      band.ForEachRun(row, [&](SizeValueType begin, SizeValueType end) {
+        for (SizeValueType voxel = row * size[0] + begin; voxel < row * size[0] + end; ++voxel)
+        {
+          use(voxel);
+        }
+      });
+    });
+  }
+
+  /** Checks for an abort at some of the steps of a serial loop. */
+  void
+  CheckAbortAt(SizeValueType n) const
+  {
+    constexpr SizeValueType period = 4096;
+    if (n % period == 0)
+    {
+      progress.CheckAbort();
+    }
+  }
+};
+
+// ---- Gaussians of rows
+
+/** Weights of a Gaussian at -r, ..., r voxels, r being three sigma, rounded up. */
+std::vector<float>
+GaussianWeights(double sigma)
+{
+  const auto reach = static_cast<int>(std::ceil(3.0 * sigma));
+  std::vector<double> weights;
+  double sum = 0.0;
+  for (int n = -reach; n <= reach; ++n)
+  {
+    weights.push_back(std::exp(-0.5 * n * n / (sigma * sigma)));
+    sum += weights.back();
+  }
+  std::vector<float> normalized;
+  for (const double weight : weights)
+  {
+    normalized.push_back(static_cast<float>(weight / sum));
+  }
+  return normalized;
+}
+
+/** The inverse of the slope of a step smoothed with a Gaussian. */
+double
+InverseSlope(double sigma)
+{
+  return sigma * std::sqrt(2.0 * Math::pi);
+}
+
+/** Writes the values of a row to be smoothed. */
+using RowReader = std::function<void(SizeValueType row, float * values)>;
+
+/** Takes the smoothed values of a part of a row; values[x] is that of voxel x. */
+using RowWriter = std::function<void(SizeValueType row, SizeValueType begin, SizeValueType end, const float * values)>;
+
+/** Smooths rows along y or z at the voxels of a band.
+ * \param rows the rows of numbers \a first, first + step, ..., each \a stride values long */
+void
+SmoothAcrossRows(const std::vector<float> & weights,
+                 const std::vector<float> & rows,
+                 SizeValueType stride,
+                 SizeValueType first,
+                 SizeValueType step,
+                 const VoxelBand & band,
+                 const RowWriter & write)
+{
+  const SizeValueType count = rows.size() / stride;
+  std::vector<const float *> terms(weights.size());
+  std::vector<float> blend(stride);
+  for (SizeValueType n = 0; n < count; ++n)
+  {
+    band.ForEachRun(first + n * step, [&](SizeValueType begin, SizeValueType end) {
+      for (SizeValueType tap = 0; tap < terms.size(); ++tap)
+      {
+        terms[tap] = rows.data() + ClampedIndex(n + tap, terms.size() / 2, count) * stride + begin;
+      }
+      RowArithmetic::Blend(terms.data(), weights.data(), terms.size(), end - begin, blend.data() + begin);
+      write(first + n * step, begin, end, blend.data());
+    });
+  }
+}
+
+/** Smooths the rows of \a read with a Gaussian and passes their parts in a band to \a write. */
+void
+Smooth(const MaskWork & work, double sigma, const VoxelBand & band, const RowReader & read, const RowWriter & write)
+{
+  const std::vector<float> weights = GaussianWeights(sigma);
+  const SizeValueType reach = weights.size() / 2;
+  const SizeValueType width = work.size[0];
+  const SizeValueType height = work.size[1];
+  const SizeValueType depth = work.size[2];
+  const SizeValueType stride = RowArithmetic::PaddedLength(width);
+  const VoxelBand smoothedInPlane = band.Widened({ 0, 0, reach });
+  const VoxelBand smoothedInRow = smoothedInPlane.Widened({ 0, reach, 0 });
+
+  // Along x and y, plane by plane.
+  work.ForEach(depth, [&](SizeValueType z) {
+    std::vector<float> extended(stride + 2 * reach);
+    std::vector<float> plane(height * stride);
+    std::vector<const float *> terms(weights.size());
+    for (SizeValueType y = 0; y < height; ++y)
+    {
+      if (smoothedInRow.HasRow(y + z * height))
+      {
+        read(y + z * height, extended.data() + reach);
+        std::fill_n(extended.begin(), reach, extended[reach]);
+        std::fill_n(extended.begin() + static_cast<std::ptrdiff_t>(reach + width), reach, extended[reach + width - 1]);
+      }
+      smoothedInRow.ForEachRun(y + z * height, [&](SizeValueType begin, SizeValueType end) {
+        std::iota(terms.begin(), terms.end(), extended.data() + begin);
+        float * const blend = plane.data() + y * stride + begin;
+        RowArithmetic::Blend(terms.data(), weights.data(), terms.size(), end - begin, blend);
+      });
+    }
+    const auto toScratch = [&](SizeValueType row, SizeValueType begin, SizeValueType end, const float * values) {
+      std::copy(values + begin, values + end, work.scratch + row * width + begin);
+    };
+    SmoothAcrossRows(weights, plane, stride, z * height, 1, smoothedInPlane, toScratch);
+    work.progress.Completed(1);
+  });
+
+  // Along z, for each y.
+  work.ForEach(height, [&](SizeValueType y) {
+    std::vector<float> rows(depth * stride);
+    for (SizeValueType z = 0; z < depth; ++z)
+    {
+      smoothedInPlane.ForEachRun(y + z * height, [&](SizeValueType begin, SizeValueType end) {
+        const float * const smoothed = work.scratch + (y + z * height) * width;
+        std::copy(smoothed + begin, smoothed + end, rows.data() + z * stride + begin);
+      });
+    }
+    SmoothAcrossRows(weights, rows, stride, y, height, band, write);
+    work.progress.Completed(1);
+  });
+}
+
+// ---- Passes, in the order of their use
+
+/** Finds the voxels at the border, on one side of it at least. */
+VoxelBand
+FindBorder(const MaskWork & work)
+{
+  const SizeValueType length = work.size[0];
+  const SizeValueType height = work.size[1];
+  VoxelBand border(work.size);
+  work.ForEachRow([&](SizeValueType row) {
+    const std::uint8_t * const voxels = work.mask + row * length;
+    const SizeValueType y = row % height;
+    const SizeValueType z = row / height;
+    const std::uint8_t * const others[] = { y > 0 ? voxels - length : voxels,
+                                            y + 1 < height ? voxels + length : voxels,
+                                            z > 0 ? voxels - height * length : voxels,
+                                            z + 1 < work.size[2] ? voxels + height * length : voxels };
+    for (SizeValueType begin = 0; begin < length; begin += border.GetTileLength())
+    {
+      const SizeValueType end = std::min(begin + border.GetTileLength(), length);
+      bool isBorder = false;
+      for (SizeValueType x = begin; x < end; ++x)
+      {
+        isBorder |= (voxels[x] != 0) != (voxels[std::min(x + 1, length - 1)] != 0);
+      }
+      for (const std::uint8_t * const other : others)
+      {
+        for (SizeValueType x = begin; x < end; ++x)
+        {
+          isBorder |= (voxels[x] != 0) != (other[x] != 0);
+        }
+      }
+      if (isBorder)
+      {
+        border.Mark(row, begin);
+      }
+    }
+  });
+  return border;
+}
+
+/** By voxel of an axis: 1 for a sample of the shape and 0 for others, and the share of samples in a Gaussian's reach.
+ */
+struct AxisSamples
+{
+  std::vector<float> isSample;
+  std::vector<float> share;
+};
+
+AxisSamples
+FindSamples(const MaskWork & work, unsigned int axis, double sigma)
+{
+  const std::vector<float> weights = GaussianWeights(sigma);
+  const SizeValueType length = work.size[axis];
+  AxisSamples samples{ std::vector<float>(length), std::vector<float>(length) };
+  for (SizeValueType n = 0; n < length; ++n)
+  {
+    samples.isSample[n] = work.IsSample(axis, n) ? 1.0f : 0.0f;
+  }
+  for (SizeValueType n = 0; n < length; ++n)
+  {
+    constexpr float least = 1e-6f; // far from all samples
+    for (SizeValueType tap = 0; tap < weights.size(); ++tap)
+    {
+      samples.share[n] += weights[tap] * samples.isSample[ClampedIndex(n + tap, weights.size() / 2, length)];
+    }
+    samples.share[n] = work.filter.GetSamplePeriod()[axis] == 1 ? 1.0f : std::max(least, samples.share[n]);
+  }
+  return samples;
+}
+
+/** Makes the field in a band whose smoothed coverage of the samples is that of the mask. */
+void
+MatchLocalVolumes(const MaskWork & work, const Scale & scale, const VoxelBand & band, float * field)
+{
+  const SizeValueType width = work.size[0];
+  const SizeValueType height = work.size[1];
+  const double sigma = work.widening * scale.sigma;
+  const auto slope = static_cast<float>(InverseSlope(sigma));
+  const AxisSamples alongX = FindSamples(work, 0, sigma);
+  const AxisSamples alongY = FindSamples(work, 1, sigma);
+  const AxisSamples alongZ = FindSamples(work, 2, sigma);
+  for (unsigned int n = 0; n <= scale.corrections; ++n)
+  {
+    const bool isFirst = n == 0; // the field is 0 everywhere, its coverage 1/2
+    const float factor = isFirst ? slope : scale.gain * slope;
+    const auto readLack = [&](SizeValueType row, float * values) {
+      const auto read = [&, mask = work.mask + row * width](SizeValueType begin, SizeValueType end) {
+        for (SizeValueType x = begin; x < end; ++x)
+        {
+          const float coverage = isFirst ? 0.5f : std::min(1.0f, std::max(0.0f, field[row * width + x] + 0.5f));
+          values[x] = alongX.isSample[x] * ((mask[x] != 0 ? 1.0f : 0.0f) - coverage);
+        }
+      };
+      std::fill_n(values, width, 0.0f);
+      if (alongY.isSample[row % height] * alongZ.isSample[row / height] > 0.0f)
+      {
+        isFirst ? read(0, width) : band.ForEachRun(row, read);
+      }
+    };
+    const auto correct = [&](SizeValueType row, SizeValueType begin, SizeValueType end, const float * values) {
+      const float share = alongY.share[row % height] * alongZ.share[row / height];
+      for (SizeValueType x = begin; x < end; ++x)
+      {
+        const float correction = factor * (values[x] / (share * alongX.share[x]));
+        field[row * width + x] = isFirst ? correction : field[row * width + x] + correction;
+      }
+    };
+    Smooth(work, sigma, band, readLack, correct);
+  }
+}
+
+/** Finds the narrow voxels: samples more than \a least on the wrong side, and voxels of small parts and sheets that are
+ * on it at all. Returns whether there are any. */
+bool
+FindNarrow(const MaskWork & work,
+           const std::vector<VoxelForm> & forms,
+           const VoxelBand & band,
+           float least,
+           VoxelSet & isNarrow)
+{
+  std::atomic<bool> isAny{ false };
+  work.ForEachVoxel(band, [&](SizeValueType voxel) {
+    const float depth = work.GetDepth(voxel);
+    const bool isThinPart = forms[voxel] == VoxelForm::SmallPart || forms[voxel] == VoxelForm::Sheet;
+    isNarrow[voxel] = (isThinPart && depth < 0.0f) || (depth < -least && work.IsSample(voxel)) ? 1 : 0;
+    if (isNarrow[voxel] != 0)
+    {
+      isAny = true;
+    }
+  });
+  return isAny;
+}
+
+/** Replaces the field around the narrow voxels by that for a smaller Gaussian. */
+void
+Refine(const MaskWork & work, const Scale & scale, const VoxelSet & isNarrow)
+{
+  constexpr double blendingSigma = 1.0;
+  const SizeValueType width = work.size[0];
+  VoxelBand narrow(work.size);
+  work.ForEachRow([&](SizeValueType row) {
+    for (SizeValueType x = 0; x < width; ++x)
+    {
+      if (isNarrow[row * width + x] != 0)
+      {
+        narrow.Mark(row, x);
+      }
+    }
+  });
+  const SizeValueType blended = GaussianWeights(blendingSigma).size() / 2;
+  const SizeValueType reach = blended + GaussianWeights(work.widening * scale.sigma).size(); // of two corrections
+  const std::unique_ptr<float[]> fine(new float[isNarrow.size()]);
+  MatchLocalVolumes(work, scale, narrow.Widened({ reach, reach, reach }), fine.get());
+  Smooth(
+    work,
+    blendingSigma,
+    narrow.Widened({ blended, blended, blended }),
+    [&](SizeValueType row, float * values) { std::copy_n(isNarrow.data() + row * width, width, values); },
+    [&](SizeValueType row, SizeValueType begin, SizeValueType end, const float * values) {
+      for (SizeValueType x = begin; x < end; ++x)
+      {
+        constexpr float steepness = 100.0f; // around a single voxel: 1 up to a distance of 2, 0 from 4 on
+        const SizeValueType voxel = row * width + x;
+        work.field[voxel] += std::min(1.0f, steepness * values[x]) * (fine[voxel] - work.field[voxel]);
+      }
+    });
+}
+
+/** Whether one of the eight 2 x 2 x 2 blocks around a voxel is all of its class. */
+bool
+IsThick(const MaskWork & work, SizeValueType voxel)
+{
+  const auto & size = work.size;
+  const SizeValueType index[3] = { voxel % size[0], voxel / size[0] % size[1], voxel / size[0] / size[1] };
+  SizeValueType near[3][3]; // along each axis: the indices before, at and behind the voxel, in the image
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    for (SizeValueType step = 0; step < 3; ++step)
+    {
+      near[axis][step] = ClampedIndex(index[axis] + step, 1, size[axis]);
+    }
+  }
+  for (unsigned int block = 0; block < 8; ++block)
+  {
+    bool isWhole = true;
+    for (unsigned int corner = 0; corner < 8 && isWhole; ++corner)
+    {
+      const SizeValueType x = near[0][(block & 1) + (corner & 1)];
+      const SizeValueType y = near[1][(block >> 1 & 1) + (corner >> 1 & 1)];
+      const SizeValueType z = near[2][(block >> 2) + (corner >> 2)];
+      isWhole = work.IsInside((z * size[1] + y) * size[0] + x) == work.IsInside(voxel);
+    }
+    if (isWhole)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/** Calls use(part) for the connected members of one class, part by part, in the order of their first voxels. */
+template <typename TTest, typename TUse>
+void
+ForEachPart(const MaskWork & work, const TTest & isMember, const TUse & use)
+{
+  const VoxelGrid grid{ work.size };
+  VoxelSet isSeen(work.GetNumberOfVoxels());
+  for (SizeValueType first = 0; first < isSeen.size(); ++first)
+  {
+    work.CheckAbortAt(first);
+    if (!isMember(first) || isSeen[first] != 0)
+    {
+      continue;
+    }
+    std::vector<SizeValueType> part{ first };
+    isSeen[first] = 1;
+    for (SizeValueType n = 0; n < part.size(); ++n)
+    {
+      work.CheckAbortAt(n);
+      grid.ForEachNeighbor(grid.CoordinatesOf(part[n]), [&](const VoxelGrid::Coordinates & coordinates) {
+        const SizeValueType neighbor = grid.OffsetOf(coordinates);
+        if (isMember(neighbor) && isSeen[neighbor] == 0 && work.IsInside(first) == work.IsInside(neighbor))
+        {
+          isSeen[neighbor] = 1;
+          part.push_back(neighbor);
+        }
+      });
+    }
+    use(part);
+  }
+}
+
+/** Whether a part sticks out of other voxels of its class, and connects them with nothing. */
+template <typename TTest>
+bool
+IsSpur(const MaskWork & work, const std::vector<SizeValueType> & part, const TTest & isMember)
+{
+  const VoxelGrid grid{ work.size };
+  std::vector<SizeValueType> base; // voxels that the part sticks out of
+  for (const SizeValueType voxel : part)
+  {
+    grid.ForEachNeighbor(grid.CoordinatesOf(voxel), [&](const VoxelGrid::Coordinates & coordinates) {
+      const SizeValueType neighbor = grid.OffsetOf(coordinates);
+      if (!isMember(neighbor) && work.IsInside(voxel) == work.IsInside(neighbor))
+      {
+        base.push_back(neighbor);
+      }
+    });
+  }
+  return grid.AreConnected(base);
+}
+
+/** Finds the forms of the voxels in a band; all others are thick. */
+void
+FindForms(const MaskWork & work, const VoxelBand & band, std::vector<VoxelForm> & forms)
+{
+  work.ForEachVoxel(
+    band, [&](SizeValueType voxel) { forms[voxel] = IsThick(work, voxel) ? VoxelForm::Thick : VoxelForm::Thin; });
+  const auto isThin = [&forms](SizeValueType voxel) { return forms[voxel] != VoxelForm::Thick; };
+  ForEachPart(work, isThin, [&](const std::vector<SizeValueType> & part) {
+    const VoxelForm form = part.size() >= SmallestSheet ? VoxelForm::Sheet
+                           : IsSpur(work, part, isThin) ? VoxelForm::Spur
+                                                        : VoxelForm::SmallPart;
+    for (const SizeValueType voxel : part)
+    {
+      forms[voxel] = form;
+    }
+  });
+}
+
+/** Leaves the protected voxels of the narrow ones: thin voxels that are still on the wrong side, without spurs. */
+void
+KeepProtected(const MaskWork & work, const std::vector<VoxelForm> & forms, VoxelSet & isNarrow)
+{
+  work.ForEachRow([&](SizeValueType row) {
+    for (SizeValueType voxel = row * work.size[0]; voxel < (row + 1) * work.size[0]; ++voxel)
+    {
+      const bool isUnprotectedForm =
+        forms[voxel] == VoxelForm::Thick || (forms[voxel] == VoxelForm::Sheet && work.filter.GetProtectSpecksOnly());
+      isNarrow[voxel] &= work.GetDepth(voxel) < -Lost && !isUnprotectedForm ? 1 : 0;
+    }
+  });
+  const auto isMember = [&isNarrow](SizeValueType voxel) { return isNarrow[voxel] != 0; };
+  ForEachPart(work, isMember, [&](const std::vector<SizeValueType> & part) {
+    if (part.size() <= LargestSpur && IsSpur(work, part, isMember))
+    {
+      for (const SizeValueType voxel : part)
+      {
+        isNarrow[voxel] = 0;
+      }
+    }
+  });
+}
+
+/** Puts tubes around the protected voxels of one class. */
+void
+PutTubes(const MaskWork & work, const VoxelSet & isProtected, bool isInside)
+{
+  using Voxel = VoxelGrid::Coordinates;
+  const VoxelGrid grid{ work.size };
+  const float side = isInside ? 1.0f : -1.0f;
+  const auto raise = [&](const Voxel & coordinates, float depth) {
+    constexpr float barely = 0.02f; // no voxel changes sides
+    const SizeValueType voxel = grid.OffsetOf(coordinates);
+    const bool isOwn = work.IsInside(voxel) == isInside;
+    work.field[voxel] = side * std::max(side * work.field[voxel], isOwn ? depth : std::min(depth, -barely));
+  };
+  for (SizeValueType n = 0; n < isProtected.size(); ++n)
+  {
+    work.CheckAbortAt(n);
+    if (isProtected[n] == 0 || work.IsInside(n) != isInside)
+    {
+      continue;
+    }
+    const Voxel voxel = grid.CoordinatesOf(n);
+    raise(voxel, TubeRadius);
+    grid.ForEachNeighbor(voxel, [&](const Voxel & neighbor) {
+      float steps = 0.0f;
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        steps += neighbor[axis] != voxel[axis] ? 1.0f : 0.0f;
+      }
+      raise(neighbor, TubeRadius - std::sqrt(steps));
+      if (steps < 2.0f || work.IsInside(grid.OffsetOf(neighbor)) != isInside)
+      {
+        return;
+      }
+      // The distance of the diagonal between the two from the other corners of its square or cube.
+      const float distance = steps == 2.0f ? std::sqrt(1.0f / 2.0f) : std::sqrt(2.0f / 3.0f);
+      for (unsigned int corner = 0; corner < 8; ++corner)
+      {
+        raise({ ((corner & 1) != 0 ? neighbor : voxel)[0],
+                ((corner & 2) != 0 ? neighbor : voxel)[1],
+                ((corner & 4) != 0 ? neighbor : voxel)[2] },
+              TubeRadius - distance);
+      }
+    });
+  }
+}
+
+/** The inside voxels that pass a test, ascending. */
+template <typename TTest>
+std::vector<SizeValueType>
+ListInside(const MaskWork & work, const TTest & test)
+{
+  std::vector<SizeValueType> voxels;
+  for (SizeValueType voxel = 0; voxel < work.GetNumberOfVoxels(); ++voxel)
+  {
+    if (test(voxel) && work.IsInside(voxel))
+    {
+      voxels.push_back(voxel);
+    }
+  }
+  return voxels;
 }
 
 } // namespace
@@ -200,556 +764,47 @@ AntiAliasMaskImageFilter::GenerateData()
   VerifyInputSamples(*this, *this->GetInput());
   this->AllocateOutputs();
   const auto & size = this->GetOutput()->GetBufferedRegion().GetSize();
-  m_Size = { size[0], size[1], size[2] };
-  m_Mask = this->GetInput()->GetBufferPointer();
-  m_Field = this->GetOutput()->GetBufferPointer();
-  m_ThinVoxels.clear();
-  m_ProtectedVoxels.clear();
-  const std::unique_ptr<float[]> smoothed(new float[size[0] * size[1] * size[2]]);
-  m_Smoothed = smoothed.get();
-  WorkProgress progress(*this, Passes * (size[1] + size[2]));
-  m_WorkProgress = &progress;
-
+  const std::unique_ptr<float[]> scratch(new float[size[0] * size[1] * size[2]]);
   const auto longestPeriod = *std::max_element(m_SamplePeriod.begin(), m_SamplePeriod.end());
-  m_Widening = std::max(1.0, WideningByPeriod * static_cast<double>(longestPeriod));
-  const VoxelBand border = this->FindBorder();
-  const auto reach = static_cast<SizeValueType>(std::ceil(BandWidth * m_Widening * Wide.sigma));
+  WorkProgress progress(*this, Passes * (size[1] + size[2]));
+  const MaskWork work{ *this,
+                       progress,
+                       { size[0], size[1], size[2] },
+                       this->GetInput()->GetBufferPointer(),
+                       this->GetOutput()->GetBufferPointer(),
+                       scratch.get(),
+                       std::max(1.0, WideningByPeriod * static_cast<double>(longestPeriod)) };
+
+  const VoxelBand border = FindBorder(work);
+  const auto reach = static_cast<SizeValueType>(std::ceil(BandWidth * work.widening * Wide.sigma));
   const VoxelBand band = border.Widened({ reach, reach, reach });
-  const auto far = static_cast<float>(0.5 * InverseSlope(m_Widening * Wide.sigma));
-  this->ForEach(size[2], [&](SizeValueType z) {
-    for (SizeValueType voxel = z * size[0] * size[1]; voxel < (z + 1) * size[0] * size[1]; ++voxel)
+  const auto far = static_cast<float>(0.5 * InverseSlope(work.widening * Wide.sigma));
+  work.ForEachRow([&](SizeValueType row) {
+    for (SizeValueType voxel = row * size[0]; voxel < (row + 1) * size[0]; ++voxel)
     {
-      m_Field[voxel] = m_Mask[voxel] != 0 ? far : -far;
+      work.field[voxel] = work.IsInside(voxel) ? far : -far;
     }
   });
-  this->MatchLocalVolumes(
-    Wide.sigma, longestPeriod > 1 ? CorrectionsBetweenSlices : Wide.corrections, Wide.gain, band, m_Field);
-  std::vector<std::uint8_t> thin(size[0] * size[1] * size[2]);
-  std::vector<std::uint8_t> isMarked(thin.size());
-  if (this->FindNarrow(thin, band, Narrow * static_cast<float>(m_Widening), isMarked))
+  MatchLocalVolumes(work, longestPeriod > 1 ? WideBetweenSlices : Wide, band, work.field);
+
+  std::vector<VoxelForm> forms(work.GetNumberOfVoxels(), VoxelForm::Thick); // not yet known
+  VoxelSet isNarrow(work.GetNumberOfVoxels());
+  if (FindNarrow(work, forms, band, Narrow * static_cast<float>(work.widening), isNarrow))
   {
-    this->Refine(Medium.sigma, Medium.corrections, Medium.gain, isMarked);
+    Refine(work, Medium, isNarrow);
   }
-  this->FindThin(border.Widened({ 2, 2, 2 }), thin);
-  for (SizeValueType voxel = 0; voxel < thin.size(); ++voxel)
+  FindForms(work, border.Widened({ 2, 2, 2 }), forms);
+  m_ThinVoxels = ListInside(work, [&](SizeValueType voxel) { return forms[voxel] != VoxelForm::Thick; });
+  m_ProtectedVoxels.clear();
+  if (FindNarrow(work, forms, band, VeryNarrow, isNarrow))
   {
-    if (thin[voxel] != 0 && m_Mask[voxel] != 0)
-    {
-      m_ThinVoxels.push_back(voxel);
-    }
-  }
-  if (this->FindNarrow(thin, band, VeryNarrow, isMarked))
-  {
-    this->Refine(Fine.sigma, Fine.corrections, Fine.gain, isMarked);
-    this->KeepLost(thin, isMarked);
-    this->DropSpurs(isMarked);
-    this->Protect(isMarked, false);
-    this->Protect(isMarked, true);
+    Refine(work, Fine, isNarrow);
+    KeepProtected(work, forms, isNarrow);
+    PutTubes(work, isNarrow, false);
+    PutTubes(work, isNarrow, true);
+    m_ProtectedVoxels = ListInside(work, [&](SizeValueType voxel) { return isNarrow[voxel] != 0; });
   }
   progress.Finish();
-}
-
-void
-AntiAliasMaskImageFilter::ForEach(SizeValueType count, const std::function<void(SizeValueType)> & work)
-{
-  ThreadFailure failure;
-  MultiThreaderBase * const threader = this->GetMultiThreader();
-  threader->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
-  threader->ParallelizeArray(
-    0,
-    count,
-    [&](SizeValueType n) {
-      failure.Capture([&] {
-        m_WorkProgress->CheckAbort();
-        work(n);
-      });
-    },
-    nullptr);
-  failure.Rethrow();
-}
-
-void
-AntiAliasMaskImageFilter::CheckAbortAt(SizeValueType n) const
-{
-  constexpr SizeValueType period = 4096;
-  if (n % period == 0)
-  {
-    m_WorkProgress->CheckAbort();
-  }
-}
-
-VoxelBand
-AntiAliasMaskImageFilter::FindBorder()
-{
-  const SizeValueType length = m_Size[0];
-  const SizeValueType height = m_Size[1];
-  VoxelBand border(m_Size);
-  this->ForEach(m_Size[2], [&](SizeValueType z) {
-    for (SizeValueType row = z * height; row < (z + 1) * height; ++row)
-    {
-      const std::uint8_t * const voxels = m_Mask + row * length;
-      const SizeValueType y = row - z * height;
-      const std::uint8_t * const others[] = { y > 0 ? voxels - length : voxels,
-                                              y + 1 < height ? voxels + length : voxels,
-                                              z > 0 ? voxels - height * length : voxels,
-                                              z + 1 < m_Size[2] ? voxels + height * length : voxels };
-      for (SizeValueType begin = 0; begin < length; begin += border.GetTileLength())
-      {
-        const SizeValueType end = std::min(begin + border.GetTileLength(), length);
-        bool isBorder = false;
-        for (SizeValueType x = begin; x < end; ++x)
-        {
-          isBorder |= (voxels[x] != 0) != (voxels[std::min(x + 1, length - 1)] != 0);
-        }
-        for (const std::uint8_t * const other : others)
-        {
-          for (SizeValueType x = begin; x < end; ++x)
-          {
-            isBorder |= (voxels[x] != 0) != (other[x] != 0);
-          }
-        }
-        if (isBorder)
-        {
-          border.Mark(row, begin);
-        }
-      }
-    }
-  });
-  return border;
-}
-
-void
-AntiAliasMaskImageFilter::Smooth(double sigma, const VoxelBand & band, const RowReader & read, const RowWriter & write)
-{
-  const std::vector<float> weights = GaussianWeights(sigma);
-  const SizeValueType taps = weights.size();
-  const SizeValueType reach = taps / 2;
-  const SizeValueType width = m_Size[0];
-  const SizeValueType height = m_Size[1];
-  const SizeValueType depth = m_Size[2];
-  const SizeValueType stride = RowArithmetic::PaddedLength(width);
-  const VoxelBand smoothedInPlane = band.Widened({ 0, 0, reach });
-  const VoxelBand smoothedInRow = smoothedInPlane.Widened({ 0, reach, 0 });
-
-  // Along x and y, plane by plane.
-  this->ForEach(depth, [&](SizeValueType z) {
-    std::vector<float> extended(stride + 2 * reach);
-    std::vector<float> plane(height * stride);
-    std::vector<float> blend(stride);
-    std::vector<const float *> terms(taps);
-    const auto blendRun = [&](const auto & rowOfTap, SizeValueType begin, SizeValueType end, float * result) {
-      for (SizeValueType tap = 0; tap < taps; ++tap)
-      {
-        terms[tap] = rowOfTap(tap) + begin;
-      }
-      RowArithmetic::Blend(terms.data(), weights.data(), taps, end - begin, result + begin);
-    };
-    for (SizeValueType y = 0; y < height; ++y)
-    {
-      if (smoothedInRow.HasRow(y + z * height))
-      {
-        read(y + z * height, extended.data() + reach);
-        std::fill_n(extended.begin(), reach, extended[reach]);
-        std::fill_n(extended.begin() + static_cast<std::ptrdiff_t>(reach + width), reach, extended[reach + width - 1]);
-        smoothedInRow.ForEachRun(y + z * height, [&](SizeValueType begin, SizeValueType end) {
-          blendRun([&](SizeValueType tap) { return extended.data() + tap; }, begin, end, plane.data() + y * stride);
-        });
-      }
-    }
-    for (SizeValueType y = 0; y < height; ++y)
-    {
-      smoothedInPlane.ForEachRun(y + z * height, [&](SizeValueType begin, SizeValueType end) {
-        const auto rowOfTap = [&](SizeValueType tap) {
-          return plane.data() + ClampedSample(y + tap, reach, height) * stride;
-        };
-        blendRun(rowOfTap, begin, end, blend.data());
-        std::copy(blend.data() + begin, blend.data() + end, m_Smoothed + (y + z * height) * width + begin);
-      });
-    }
-    m_WorkProgress->Completed(1);
-  });
-
-  // Along z, for each y.
-  this->ForEach(height, [&](SizeValueType y) {
-    std::vector<float> rows(depth * stride);
-    std::vector<float> blend(stride);
-    std::vector<const float *> terms(taps);
-    for (SizeValueType z = 0; z < depth; ++z)
-    {
-      smoothedInPlane.ForEachRun(y + z * height, [&](SizeValueType begin, SizeValueType end) {
-        const float * const smoothed = m_Smoothed + (y + z * height) * width;
-        std::copy(smoothed + begin, smoothed + end, rows.data() + z * stride + begin);
-      });
-    }
-    for (SizeValueType z = 0; z < depth; ++z)
-    {
-      band.ForEachRun(y + z * height, [&](SizeValueType begin, SizeValueType end) {
-        for (SizeValueType tap = 0; tap < taps; ++tap)
-        {
-          terms[tap] = rows.data() + ClampedSample(z + tap, reach, depth) * stride + begin;
-        }
-        RowArithmetic::Blend(terms.data(), weights.data(), taps, end - begin, blend.data() + begin);
-        write(y + z * height, begin, end, blend.data());
-      });
-    }
-    m_WorkProgress->Completed(1);
-  });
-}
-
-bool
-AntiAliasMaskImageFilter::IsSample(SizeValueType voxel) const
-{
-  const auto coordinates = VoxelGrid{ m_Size }.CoordinatesOf(voxel);
-  const auto & first = this->GetOutput()->GetBufferedRegion().GetIndex();
-  bool isSample = true;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    isSample = isSample && (first[axis] + coordinates[axis]) % static_cast<IndexValueType>(m_SamplePeriod[axis]) == 0;
-  }
-  return isSample;
-}
-
-AntiAliasMaskImageFilter::SampleComb
-AntiAliasMaskImageFilter::MakeComb(unsigned int axis, double sigma) const
-{
-  const std::vector<float> weights = GaussianWeights(sigma);
-  const SizeValueType length = m_Size[axis];
-  const auto period = static_cast<IndexValueType>(m_SamplePeriod[axis]);
-  const IndexValueType first = this->GetOutput()->GetBufferedRegion().GetIndex(axis);
-  SampleComb comb{ std::vector<float>(length), std::vector<float>(length) };
-  for (SizeValueType n = 0; n < length; ++n)
-  {
-    comb.samples[n] = (first + static_cast<IndexValueType>(n)) % period == 0 ? 1.0f : 0.0f;
-  }
-  for (SizeValueType n = 0; n < length; ++n)
-  {
-    constexpr float least = 1e-6f; // far from all samples
-    for (SizeValueType tap = 0; tap < weights.size(); ++tap)
-    {
-      comb.share[n] += weights[tap] * comb.samples[ClampedSample(n + tap, weights.size() / 2, length)];
-    }
-    comb.share[n] = period == 1 ? 1.0f : std::max(least, comb.share[n]);
-  }
-  return comb;
-}
-
-void
-AntiAliasMaskImageFilter::MatchLocalVolumes(double narrowSigma,
-                                            unsigned int corrections,
-                                            float gain,
-                                            const VoxelBand & band,
-                                            float * field)
-{
-  const SizeValueType width = m_Size[0];
-  const double sigma = m_Widening * narrowSigma;
-  const auto slope = static_cast<float>(InverseSlope(sigma));
-  const SampleComb combs[3] = { this->MakeComb(0, sigma), this->MakeComb(1, sigma), this->MakeComb(2, sigma) };
-  const float * const samples = combs[0].samples.data();
-  const auto isSampleRow = [&](SizeValueType row) {
-    return combs[1].samples[row % m_Size[1]] * combs[2].samples[row / m_Size[1]] > 0.0f;
-  };
-  const auto shareOf = [&](SizeValueType row) {
-    return combs[1].share[row % m_Size[1]] * combs[2].share[row / m_Size[1]];
-  };
-  this->Smooth(
-    sigma,
-    band,
-    [&](SizeValueType row, float * values) {
-      const std::uint8_t * const mask = m_Mask + row * width;
-      const float half = isSampleRow(row) ? 0.5f : 0.0f;
-      for (SizeValueType x = 0; x < width; ++x)
-      {
-        values[x] = samples[x] * (mask[x] != 0 ? half : -half);
-      }
-    },
-    [&](SizeValueType row, SizeValueType begin, SizeValueType end, const float * values) {
-      const float share = shareOf(row);
-      for (SizeValueType x = begin; x < end; ++x)
-      {
-        field[row * width + x] = slope * (values[x] / (share * combs[0].share[x]));
-      }
-    });
-  for (unsigned int n = 0; n < corrections; ++n)
-  {
-    this->Smooth(
-      sigma,
-      band,
-      [&](SizeValueType row, float * values) {
-        std::fill_n(values, width, 0.0f);
-        const std::uint8_t * const mask = m_Mask + row * width;
-        const float * const depths = field + row * width;
-        if (isSampleRow(row))
-        {
-          band.ForEachRun(row, [&](SizeValueType begin, SizeValueType end) {
-            for (SizeValueType x = begin; x < end; ++x)
-            {
-              const float coverage = std::min(1.0f, std::max(0.0f, depths[x] + 0.5f));
-              values[x] = samples[x] * ((mask[x] != 0 ? 1.0f : 0.0f) - coverage);
-            }
-          });
-        }
-      },
-      [&](SizeValueType row, SizeValueType begin, SizeValueType end, const float * values) {
-        const float share = shareOf(row);
-        for (SizeValueType x = begin; x < end; ++x)
-        {
-          field[row * width + x] += gain * slope * (values[x] / (share * combs[0].share[x]));
-        }
-      });
-  }
-}
-
-void
-AntiAliasMaskImageFilter::FindThin(const VoxelBand & band, std::vector<std::uint8_t> & thin)
-{
-  const SizeValueType width = m_Size[0];
-  const SizeValueType height = m_Size[1];
-  const SizeValueType depth = m_Size[2];
-  const auto sample = [](SizeValueType first, SizeValueType step, SizeValueType length) {
-    return ClampedSample(first + step, 1, length);
-  };
-  // Whether one of the eight 2 x 2 x 2 blocks around a voxel is all of its class.
-  const auto isInBlock = [&](SizeValueType x, SizeValueType y, SizeValueType z) {
-    const bool isInside = m_Mask[(z * height + y) * width + x] != 0;
-    for (unsigned int block = 0; block < 8; ++block)
-    {
-      bool isWhole = true;
-      for (unsigned int corner = 0; corner < 8 && isWhole; ++corner)
-      {
-        const SizeValueType blockX = sample(x, (block & 1) + (corner & 1), width);
-        const SizeValueType blockY = sample(y, (block >> 1 & 1) + (corner >> 1 & 1), height);
-        const SizeValueType blockZ = sample(z, (block >> 2) + (corner >> 2), depth);
-        isWhole = (m_Mask[(blockZ * height + blockY) * width + blockX] != 0) == isInside;
-      }
-      if (isWhole)
-      {
-        return true;
-      }
-    }
-    return false;
-  };
-  this->ForEach(depth, [&](SizeValueType z) {
-    for (SizeValueType y = 0; y < height; ++y)
-    {
-      band.ForEachRun(z * height + y, [&](SizeValueType begin, SizeValueType end) {
-        for (SizeValueType x = begin; x < end; ++x)
-        {
-          thin[(z * height + y) * width + x] = isInBlock(x, y, z) ? 0 : 1;
-        }
-      });
-    }
-  });
-  std::vector<std::uint8_t> isSeen(thin.size());
-  for (SizeValueType voxel = 0; voxel < thin.size(); ++voxel)
-  {
-    this->CheckAbortAt(voxel);
-    if (thin[voxel] != 0 && isSeen[voxel] == 0)
-    {
-      const std::vector<SizeValueType> part = this->CollectPart(voxel, thin, isSeen);
-      const std::uint8_t kind = part.size() >= SmallestSheet ? 3 : this->IsSpur(part, thin) ? 1 : 2;
-      for (const SizeValueType member : part)
-      {
-        thin[member] = kind;
-      }
-    }
-  }
-}
-
-std::vector<SizeValueType>
-AntiAliasMaskImageFilter::CollectPart(SizeValueType first,
-                                      const std::vector<std::uint8_t> & marked,
-                                      std::vector<std::uint8_t> & isSeen) const
-{
-  const VoxelGrid grid{ m_Size };
-  std::vector<SizeValueType> part{ first };
-  isSeen[first] = 1;
-  for (SizeValueType n = 0; n < part.size(); ++n)
-  {
-    this->CheckAbortAt(n);
-    grid.ForEachNeighbor(part[n], [&](SizeValueType neighbor) {
-      if (marked[neighbor] != 0 && isSeen[neighbor] == 0 && (m_Mask[first] != 0) == (m_Mask[neighbor] != 0))
-      {
-        isSeen[neighbor] = 1;
-        part.push_back(neighbor);
-      }
-    });
-  }
-  return part;
-}
-
-bool
-AntiAliasMaskImageFilter::IsSpur(const std::vector<SizeValueType> & part,
-                                 const std::vector<std::uint8_t> & marked) const
-{
-  const VoxelGrid grid{ m_Size };
-  std::vector<SizeValueType> base; // voxels that the part sticks out of
-  for (const SizeValueType voxel : part)
-  {
-    grid.ForEachNeighbor(voxel, [&](SizeValueType neighbor) {
-      if (marked[neighbor] == 0 && (m_Mask[voxel] != 0) == (m_Mask[neighbor] != 0))
-      {
-        base.push_back(neighbor);
-      }
-    });
-  }
-  return grid.AreConnected(base);
-}
-
-bool
-AntiAliasMaskImageFilter::FindNarrow(const std::vector<std::uint8_t> & thin,
-                                     const VoxelBand & band,
-                                     float least,
-                                     std::vector<std::uint8_t> & isNarrow)
-{
-  const SizeValueType width = m_Size[0];
-  const SizeValueType height = m_Size[1];
-  std::vector<std::uint8_t> found(m_Size[2]);
-  this->ForEach(m_Size[2], [&](SizeValueType z) {
-    for (SizeValueType row = z * height; row < (z + 1) * height; ++row)
-    {
-      band.ForEachRun(row, [&](SizeValueType begin, SizeValueType end) {
-        for (SizeValueType voxel = row * width + begin; voxel < row * width + end; ++voxel)
-        {
-          const float depth = SideOf(m_Mask[voxel]) * m_Field[voxel];
-          const bool isThin = thin[voxel] >= 2 && depth < 0.0f;
-          isNarrow[voxel] = isThin || (depth < -least && this->IsSample(voxel)) ? 1 : 0;
-          found[z] |= isNarrow[voxel];
-        }
-      });
-    }
-  });
-  return std::find(found.begin(), found.end(), 1) != found.end();
-}
-
-void
-AntiAliasMaskImageFilter::Refine(double sigma,
-                                 unsigned int corrections,
-                                 float gain,
-                                 const std::vector<std::uint8_t> & isNarrow)
-{
-  constexpr double blendingSigma = 1.0;
-  const SizeValueType width = m_Size[0];
-  VoxelBand narrow(m_Size);
-  this->ForEach(m_Size[2], [&](SizeValueType z) {
-    for (SizeValueType row = z * m_Size[1]; row < (z + 1) * m_Size[1]; ++row)
-    {
-      for (SizeValueType x = 0; x < width; ++x)
-      {
-        if (isNarrow[row * width + x] != 0)
-        {
-          narrow.Mark(row, x);
-        }
-      }
-    }
-  });
-  const SizeValueType blended = GaussianWeights(blendingSigma).size() / 2;
-  const SizeValueType reach = blended + GaussianWeights(m_Widening * sigma).size(); // of two corrections
-  const std::unique_ptr<float[]> fine(new float[isNarrow.size()]);
-  this->MatchLocalVolumes(sigma, corrections, gain, narrow.Widened({ reach, reach, reach }), fine.get());
-  this->Smooth(
-    blendingSigma,
-    narrow.Widened({ blended, blended, blended }),
-    [&](SizeValueType row, float * values) { std::copy_n(isNarrow.data() + row * width, width, values); },
-    [&](SizeValueType row, SizeValueType begin, SizeValueType end, const float * values) {
-      for (SizeValueType x = begin; x < end; ++x)
-      {
-        constexpr float steepness = 100.0f; // around a single voxel: 1 up to a distance of 2, 0 from 4 on
-        const SizeValueType voxel = row * width + x;
-        m_Field[voxel] += std::min(1.0f, steepness * values[x]) * (fine[voxel] - m_Field[voxel]);
-      }
-    });
-}
-
-void
-AntiAliasMaskImageFilter::KeepLost(const std::vector<std::uint8_t> & thin, std::vector<std::uint8_t> & isMarked)
-{
-  const SizeValueType voxelsPerPlane = m_Size[0] * m_Size[1];
-  this->ForEach(m_Size[2], [&](SizeValueType z) {
-    for (SizeValueType voxel = z * voxelsPerPlane; voxel < (z + 1) * voxelsPerPlane; ++voxel)
-    {
-      const bool isLost = SideOf(m_Mask[voxel]) * m_Field[voxel] < -Lost;
-      const bool isLeft = thin[voxel] == 0 || (thin[voxel] == 3 && m_ProtectSpecksOnly);
-      isMarked[voxel] &= isLost && !isLeft ? 1 : 0;
-    }
-  });
-}
-
-void
-AntiAliasMaskImageFilter::DropSpurs(std::vector<std::uint8_t> & isMarked)
-{
-  std::vector<std::uint8_t> isSeen(isMarked.size());
-  for (SizeValueType first = 0; first < isMarked.size(); ++first)
-  {
-    this->CheckAbortAt(first);
-    if (isMarked[first] == 0 || isSeen[first] != 0)
-    {
-      continue;
-    }
-    const std::vector<SizeValueType> part = this->CollectPart(first, isMarked, isSeen);
-    if (part.size() <= LargestSpur && this->IsSpur(part, isMarked))
-    {
-      for (const SizeValueType voxel : part)
-      {
-        isMarked[voxel] = 0;
-      }
-    }
-  }
-}
-
-void
-AntiAliasMaskImageFilter::Protect(const std::vector<std::uint8_t> & isProtected, bool isInside)
-{
-  using Voxel = VoxelGrid::Coordinates;
-  const VoxelGrid grid{ m_Size };
-  const float side = isInside ? 1.0f : -1.0f;
-  const auto raise = [&](const Voxel & voxel, float depth) {
-    constexpr float barely = 0.02f; // no voxel changes sides
-    if (grid.Holds(voxel))
-    {
-      const SizeValueType offset = grid.OffsetOf(voxel);
-      const bool isOwn = (m_Mask[offset] != 0) == isInside;
-      m_Field[offset] = side * std::max(side * m_Field[offset], isOwn ? depth : std::min(depth, -barely));
-    }
-  };
-  const auto protect = [&](const Voxel & voxel) {
-    for (const OffsetValueType dz : { -1, 0, 1 })
-    {
-      for (const OffsetValueType dy : { -1, 0, 1 })
-      {
-        for (const OffsetValueType dx : { -1, 0, 1 })
-        {
-          const Voxel neighbor{ voxel[0] + dx, voxel[1] + dy, voxel[2] + dz };
-          const auto steps = static_cast<float>(std::abs(dx) + std::abs(dy) + std::abs(dz));
-          raise(neighbor, TubeRadius - std::sqrt(steps));
-          if (steps < 2.0f || !grid.Holds(neighbor) || (m_Mask[grid.OffsetOf(neighbor)] != 0) != isInside)
-          {
-            continue;
-          }
-          // The distance of the diagonal between the two from the other corners of its square or cube.
-          const float distance = steps == 2.0f ? std::sqrt(1.0f / 2.0f) : std::sqrt(2.0f / 3.0f);
-          for (unsigned int corner = 0; corner < 8; ++corner)
-          {
-            raise({ voxel[0] + ((corner & 1) != 0 ? dx : 0),
-                    voxel[1] + ((corner & 2) != 0 ? dy : 0),
-                    voxel[2] + ((corner & 4) != 0 ? dz : 0) },
-                  TubeRadius - distance);
-          }
-        }
-      }
-    }
-  };
-  for (SizeValueType offset = 0; offset < isProtected.size(); ++offset)
-  {
-    this->CheckAbortAt(offset);
-    if (isProtected[offset] != 0 && (m_Mask[offset] != 0) == isInside)
-    {
-      protect(grid.CoordinatesOf(offset));
-      if (isInside)
-      {
-        m_ProtectedVoxels.push_back(offset);
-      }
-    }
-  }
 }
 
 } // namespace itk
