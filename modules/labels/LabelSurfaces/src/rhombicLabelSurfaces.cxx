@@ -1,8 +1,7 @@
 #include "rhombicLabelSurfaces.h"
 
 #include "rhombicFailure.h"
-#include "rhombicLabelChoice.h"
-#include "rhombicLabelPieces.h"
+#include "rhombicLabelNumbers.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicObserveProgress.h"
 #include "rhombicWording.h"
@@ -29,48 +28,39 @@ namespace rhombic
 namespace
 {
 
-using LabelImage = itk::LabelsToFCCFilter::InputImageType;
+using LabelImage = NumberImage;
 
 constexpr itk::SizeValueType BoxMargin = 12; // voxels around labels, beyond which they have no effect on walls
 
-/** The values of labels, and at their place in the list, from 1, their numbers. */
-template <typename TPixel>
-std::uint16_t
-NumberOf(TPixel value, const std::vector<std::int32_t> & values)
+/** Throws Failure(Usage) for a density that is not above 0 and at most 64. */
+void
+CheckLabelDensity(double density)
 {
-  const auto found = std::lower_bound(values.begin(), values.end(), static_cast<std::int32_t>(value));
-  return found != values.end() && *found == static_cast<std::int32_t>(value)
-           ? static_cast<std::uint16_t>(found - values.begin() + 1)
-           : 0;
+  if (!(density > 0.0) || !(density <= 64.0))
+  {
+    throw Failure(FailureKind::Usage,
+                  "The density of labels' lattices must be above 0 and at most 64 sites per voxel, not " +
+                    std::to_string(density) + "; the default is " + FormatFixed(itk::FCCLattice::DefaultDensity, 2) +
+                    ".");
+  }
 }
 
-/** The numbers of the labels, from 1; 0 at all other voxels. */
-LabelImage::Pointer
-NumberLabels(const ScanImage & image, const std::vector<LabelSummary> & labels)
+/** The label's name, colour, opacity and voxels, without a surface. */
+LabelSurface
+DescribeLabel(const LabelSummary & summary)
 {
-  std::vector<std::int32_t> values;
-  for (const LabelSummary & summary : labels)
+  LabelSurface described;
+  described.value = summary.label.value;
+  described.numberOfVoxels = summary.numberOfVoxels;
+  described.voxelMillilitres = summary.millilitres;
+  described.scene.name = summary.label.name;
+  described.scene.label = summary.label.value;
+  for (unsigned int channel = 0; channel < 3; ++channel)
   {
-    values.push_back(summary.label.value);
+    described.scene.colour[channel] = summary.label.colour[channel] / 255.0;
   }
-  const auto numbers = LabelImage::New();
-  const auto number = [&](const auto & voxels) {
-    const auto & region = voxels->GetBufferedRegion();
-    const auto * const from = voxels->GetBufferPointer();
-    numbers->CopyInformation(voxels);
-    numbers->SetRegions(region);
-    numbers->Allocate();
-    ForEachInBlocks(region.GetSize(1) * region.GetSize(2), 64, [&](std::size_t row) {
-      const std::size_t first = row * region.GetSize(0);
-      for (std::size_t n = first; n < first + region.GetSize(0); ++n)
-      {
-        const bool isSame = n > first && from[n] == from[n - 1];
-        numbers->GetBufferPointer()[n] = isSame ? numbers->GetBufferPointer()[n - 1] : NumberOf(from[n], values);
-      }
-    });
-  };
-  std::visit(number, image);
-  return numbers;
+  described.scene.opacity = summary.label.opacity > 0.0 ? summary.label.opacity : 1.0;
+  return described;
 }
 
 LabelImage::Pointer
@@ -297,6 +287,23 @@ AddLayer(const LabelMap & map,
                          ? WallsOfVoxels(*numbers, pieces, CropSliceOrigins(map.scan, box), settings, events)
                          : WallsOfProbabilities(map, *numbers, labels, settings, events));
   MeasureLabels(pieces, mesh.walls.size() - 1, mesh);
+}
+
+/** Notes a torn surface, and a volume that differs by more than 1 %. */
+void
+NoteShortcomings(const LabelSurface & made, const Events & events)
+{
+  if (made.isTorn || made.surfacePieces < made.pieces)
+  {
+    events.Note(made.scene.name + ": " + Count(made.pieces, "piece") + " became " + std::to_string(made.surfacePieces) +
+                "; parts of it are hardly wider than a voxel");
+  }
+  constexpr double notable = 0.01;
+  if (std::abs(made.GetVolumeDifference()) > notable)
+  {
+    events.Note(made.scene.name + ": the surface's volume differs by " +
+                FormatFixed(100.0 * made.GetVolumeDifference(), 1) + " % from that of its voxels");
+  }
 }
 
 } // namespace

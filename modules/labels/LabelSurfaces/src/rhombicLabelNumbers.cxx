@@ -1,0 +1,262 @@
+#include "rhombicLabelNumbers.h"
+
+#include "rhombicFailure.h"
+#include "rhombicForEachBlock.h"
+#include "rhombicWording.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace rhombic
+{
+namespace
+{
+
+/** The values of the labels with this value, or a name that fits (see MatchesPattern()). A label that has exactly this
+ * name counts alone. Throws Failure(Usage) when there are none. */
+std::set<std::int32_t>
+FindValues(const std::vector<LabelSummary> & labels, const std::string & nameOrValue)
+{
+  std::set<std::int32_t> exact;
+  std::set<std::int32_t> fitting;
+  std::vector<std::string> names;
+  for (const LabelSummary & summary : labels)
+  {
+    const Label & label = summary.label;
+    if (label.name == nameOrValue || std::to_string(label.value) == nameOrValue)
+    {
+      exact.insert(label.value);
+    }
+    if (MatchesPattern(nameOrValue, label.name))
+    {
+      fitting.insert(label.value);
+    }
+    names.push_back(label.name);
+  }
+  if (exact.empty() && fitting.empty())
+  {
+    throw Failure(FailureKind::Usage,
+                  DescribeUnknown("label", nameOrValue, names, "see rhombic info for the label map's labels"));
+  }
+  return exact.empty() ? fitting : exact;
+}
+
+/** The values of labels, and at their place in the list, from 1, their numbers. */
+template <typename TPixel>
+std::uint16_t
+NumberOf(TPixel value, const std::vector<std::int32_t> & values)
+{
+  const auto found = std::lower_bound(values.begin(), values.end(), static_cast<std::int32_t>(value));
+  return found != values.end() && *found == static_cast<std::int32_t>(value)
+           ? static_cast<std::uint16_t>(found - values.begin() + 1)
+           : 0;
+}
+
+/** Voxels [begin, end) of a row that have one label. Runs of one piece are a tree of parents. */
+struct Run
+{
+  std::uint32_t begin;
+  std::uint32_t end;
+  std::uint32_t parent;
+  std::uint16_t label;
+};
+
+/** The runs of all rows that are not 0, and the first run of each row. */
+std::pair<std::vector<Run>, std::vector<std::size_t>>
+FindRuns(const NumberImage & image)
+{
+  const auto & size = image.GetBufferedRegion().GetSize();
+  std::vector<Run> runs;
+  std::vector<std::size_t> firstOfRow;
+  for (std::size_t row = 0; row < size[1] * size[2]; ++row)
+  {
+    firstOfRow.push_back(runs.size());
+    ForEachRun(image.GetBufferPointer() + row * size[0],
+               size[0],
+               [&runs](std::uint16_t label, std::size_t begin, std::size_t end) {
+                 if (label != 0)
+                 {
+                   runs.push_back({ static_cast<std::uint32_t>(begin),
+                                    static_cast<std::uint32_t>(end),
+                                    static_cast<std::uint32_t>(runs.size()),
+                                    label });
+                 }
+               });
+  }
+  firstOfRow.push_back(runs.size());
+  return { runs, firstOfRow };
+}
+
+std::uint32_t
+FindRoot(std::vector<Run> & runs, std::uint32_t run)
+{
+  while (runs[run].parent != run)
+  {
+    run = runs[run].parent = runs[runs[run].parent].parent;
+  }
+  return run;
+}
+
+/** Joins runs of one label in two rows that overlap or are less than \a reach voxels apart. */
+void
+JoinRows(std::vector<Run> & runs,
+         const std::vector<std::size_t> & firstOfRow,
+         std::size_t row,
+         std::size_t otherRow,
+         std::uint32_t reach)
+{
+  std::size_t first = firstOfRow[otherRow]; // run of the other row that a run of this row can reach
+  const std::size_t end = firstOfRow[otherRow + 1];
+  for (std::size_t n = firstOfRow[row]; n < firstOfRow[row + 1]; ++n)
+  {
+    while (first < end && runs[first].end + reach <= runs[n].begin)
+    {
+      ++first;
+    }
+    for (std::size_t other = first; other < end && runs[other].begin < runs[n].end + reach; ++other)
+    {
+      if (runs[other].label == runs[n].label)
+      {
+        const std::uint32_t a = FindRoot(runs, static_cast<std::uint32_t>(n));
+        const std::uint32_t b = FindRoot(runs, static_cast<std::uint32_t>(other));
+        runs[std::max(a, b)].parent = std::min(a, b);
+      }
+    }
+  }
+}
+
+/** Joins the runs of neighbouring rows to pieces, through faces alone or through edges and corners too. */
+void
+JoinRuns(std::vector<Run> & runs, const std::vector<std::size_t> & firstOfRow, std::size_t height, bool byFace)
+{
+  const std::uint32_t reach = byFace ? 0 : 1;
+  for (std::size_t row = 0; row + 1 < firstOfRow.size(); ++row)
+  {
+    const std::size_t y = row % height;
+    if (y > 0)
+    {
+      JoinRows(runs, firstOfRow, row, row - 1, reach);
+    }
+    if (row >= height)
+    {
+      const std::size_t before = row - height; // in the slice before
+      JoinRows(runs, firstOfRow, row, before, reach);
+      if (!byFace && y > 0)
+      {
+        JoinRows(runs, firstOfRow, row, before - 1, reach);
+      }
+      if (!byFace && y + 1 < height)
+      {
+        JoinRows(runs, firstOfRow, row, before + 1, reach);
+      }
+    }
+  }
+}
+
+/** The number of pieces of each label. */
+std::vector<std::size_t>
+CountPieces(const std::vector<Run> & runs, std::size_t labels)
+{
+  std::vector<std::size_t> counts(labels);
+  for (std::size_t run = 0; run < runs.size(); ++run)
+  {
+    counts[runs[run].label] += runs[run].parent == run ? 1 : 0;
+  }
+  return counts;
+}
+
+} // namespace
+
+std::vector<LabelSummary>
+ChooseLabels(const LabelMap & map, const std::vector<std::string> & wanted)
+{
+  std::set<std::int32_t> values;
+  for (const std::string & nameOrValue : wanted)
+  {
+    values.merge(FindValues(map.labels, nameOrValue));
+  }
+  std::vector<LabelSummary> chosen;
+  std::copy_if(map.labels.begin(), map.labels.end(), std::back_inserter(chosen), [&](const LabelSummary & summary) {
+    return wanted.empty() ? summary.label.isVisible && summary.label.opacity > 0.0
+                          : values.count(summary.label.value) != 0;
+  });
+  if (chosen.empty())
+  {
+    throw Failure(FailureKind::Empty,
+                  map.labels.empty() ? "The label map holds nothing but background; check that it was exported whole."
+                                     : "The label table hides all labels of the map; name those to show.");
+  }
+  return chosen;
+}
+
+NumberImage::Pointer
+NumberLabels(const ScanImage & image, const std::vector<LabelSummary> & labels)
+{
+  std::vector<std::int32_t> values;
+  for (const LabelSummary & summary : labels)
+  {
+    values.push_back(summary.label.value);
+  }
+  const auto numbers = NumberImage::New();
+  const auto number = [&](const auto & voxels) {
+    const auto & region = voxels->GetBufferedRegion();
+    const auto * const from = voxels->GetBufferPointer();
+    numbers->CopyInformation(voxels);
+    numbers->SetRegions(region);
+    numbers->Allocate();
+    ForEachInBlocks(region.GetSize(1) * region.GetSize(2), 64, [&](std::size_t row) {
+      const std::size_t first = row * region.GetSize(0);
+      for (std::size_t n = first; n < first + region.GetSize(0); ++n)
+      {
+        const bool isSame = n > first && from[n] == from[n - 1];
+        numbers->GetBufferPointer()[n] = isSame ? numbers->GetBufferPointer()[n - 1] : NumberOf(from[n], values);
+      }
+    });
+  };
+  std::visit(number, image);
+  return numbers;
+}
+
+LabelPieces
+NumberPieces(NumberImage & image, std::size_t labels)
+{
+  const auto & size = image.GetBufferedRegion().GetSize();
+  auto [runs, firstOfRow] = FindRuns(image);
+  LabelPieces pieces;
+  JoinRuns(runs, firstOfRow, size[1], true);
+  pieces.countsByFace = CountPieces(runs, labels);
+  JoinRuns(runs, firstOfRow, size[1], false);
+  pieces.counts = CountPieces(runs, labels);
+
+  const std::size_t most = std::numeric_limits<std::uint16_t>::max() / std::max<std::size_t>(labels - 1, 1);
+  pieces.labels = { 0 };
+  std::vector<std::size_t> next(labels); // number of a label's next piece, and of its last
+  std::vector<std::size_t> last(labels);
+  for (std::size_t label = 1; label < labels; ++label)
+  {
+    next[label] = pieces.labels.size();
+    pieces.labels.resize(next[label] + std::min(pieces.counts[label], most), static_cast<std::uint16_t>(label));
+    last[label] = pieces.labels.size() - 1;
+  }
+  // The root of a piece is its first run, so its number is known before those of the others.
+  std::vector<std::uint16_t> numbers(runs.size());
+  for (std::size_t row = 0; row + 1 < firstOfRow.size(); ++row)
+  {
+    for (std::size_t run = firstOfRow[row]; run < firstOfRow[row + 1]; ++run)
+    {
+      const std::uint32_t root = FindRoot(runs, static_cast<std::uint32_t>(run));
+      std::size_t & number = next[runs[run].label];
+      numbers[run] =
+        root == run ? static_cast<std::uint16_t>(std::min(number++, last[runs[run].label])) : numbers[root];
+      std::fill(image.GetBufferPointer() + row * size[0] + runs[run].begin,
+                image.GetBufferPointer() + row * size[0] + runs[run].end,
+                numbers[run]);
+    }
+  }
+  return pieces;
+}
+
+} // namespace rhombic
