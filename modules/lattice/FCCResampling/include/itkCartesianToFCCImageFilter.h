@@ -1,7 +1,7 @@
 #ifndef itkCartesianToFCCImageFilter_h
 #define itkCartesianToFCCImageFilter_h
 
-#include "detail/itkSliceStackPlanes.h"
+#include "detail/itkCartesianToFCCRows.h"
 #include "itkFCCImage.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
@@ -177,13 +177,9 @@ private:
   void
   Resample(const OutputImageRegionType & region, OutputPixelType outsideValue, WorkProgress::Share & progress);
 
-  /** Taps for the sites of the region along one axis; along x, for the rows of one parity. */
-  SeparableTaps
-  MakeTaps(unsigned int axis, const OutputImageRegionType & region, IndexValueType parity = 0) const;
-
-  /** Where the sites of a region lie in the stack, which must outlive the result. */
-  SliceStackPlanes
-  MakePlanes(const SliceStack & stack, const OutputImageRegionType & region) const;
+  /** The kernel, from the input's geometry to the output's. */
+  CartesianToFCCRows
+  MakeRows() const;
 
   double m_Density{ FCCLattice::DefaultDensity };
   SpacingType m_OutputSpacing{ 0.0 };

@@ -3,7 +3,6 @@
 
 #include "detail/itkProduceOutput.h"
 #include "detail/itkRowArithmetic.h"
-#include "detail/itkRowPasses.h"
 #include "itkFCCResamplingChecks.h"
 
 #include <algorithm>
@@ -177,39 +176,10 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateOutputInformation(
 }
 
 template <typename TInputImage, typename TOutputImage>
-SeparableTaps
-CartesianToFCCImageFilter<TInputImage, TOutputImage>::MakeTaps(unsigned int axis,
-                                                               const OutputImageRegionType & region,
-                                                               IndexValueType parity) const
+CartesianToFCCRows
+CartesianToFCCImageFilter<TInputImage, TOutputImage>::MakeRows() const
 {
-  const TInputImage * const input = this->GetInput();
-  const TOutputImage * const output = this->GetOutput();
-  // The output's axes are the input's: along each, positions depend on one lattice coordinate alone.
-  const auto first = input->template TransformPhysicalPointToContinuousIndex<double>(output->GetOrigin());
-  const double start = first[axis] - static_cast<double>(input->GetLargestPossibleRegion().GetIndex(axis));
-  const double step = output->GetSpacing()[axis] / input->GetSpacing()[axis];
-
-  std::vector<double> positions(region.GetSize(axis));
-  for (SizeValueType n = 0; n < positions.size(); ++n)
-  {
-    const auto index = region.GetIndex(axis) + static_cast<IndexValueType>(n);
-    positions[n] = start + step * static_cast<double>(axis == 0 ? 2 * index + parity : index);
-  }
-  return SeparableTaps(m_Kernel, input->GetLargestPossibleRegion().GetSize(axis), positions);
-}
-
-template <typename TInputImage, typename TOutputImage>
-SliceStackPlanes
-CartesianToFCCImageFilter<TInputImage, TOutputImage>::MakePlanes(const SliceStack & stack,
-                                                                 const OutputImageRegionType & region) const
-{
-  const TOutputImage * const output = this->GetOutput();
-  return SliceStackPlanes(stack,
-                          m_Kernel,
-                          this->GetInput()->GetLargestPossibleRegion().GetSize(),
-                          stack.TransformPointToFrame(output->GetOrigin()),
-                          output->GetSpacing(),
-                          region);
+  return { *this->GetInput(), *this->GetOutput(), m_Kernel, this->FindSliceOrigins() };
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -220,27 +190,9 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::GenerateInputRequestedRegi
   auto * const input = const_cast<TInputImage *>(this->GetInput());
   const OutputImageRegionType & requested = this->GetOutput()->GetRequestedRegion();
   InputImageRegionType needed = input->GetLargestPossibleRegion();
-  if (requested.GetNumberOfPixels() > 0 && this->IsSlanted())
+  if (requested.GetNumberOfPixels() > 0 && (m_OutsideValue || !this->IsSlanted()))
   {
-    if (m_OutsideValue) // else the whole input is needed
-    {
-      const SliceStack stack(*input, this->FindSliceOrigins());
-      const auto samples = this->MakePlanes(stack, requested).FindNeededSamples();
-      needed.SetIndex(needed.GetIndex() + (samples.GetIndex() - typename TInputImage::IndexType{ { 0, 0, 0 } }));
-      needed.SetSize(samples.GetSize());
-    }
-  }
-  else if (requested.GetNumberOfPixels() > 0)
-  {
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      const SeparableTaps even = this->MakeTaps(axis, requested, 0);
-      const SeparableTaps odd = this->MakeTaps(axis, requested, 1); // the same as even, but along x
-      const SizeValueType first = even.GetFirst(0);
-      const SizeValueType last = odd.GetFirst(requested.GetSize(axis) - 1) + odd.GetNumberOfTaps();
-      needed.SetIndex(axis, needed.GetIndex(axis) + static_cast<IndexValueType>(first));
-      needed.SetSize(axis, last - first);
-    }
+    needed = this->MakeRows().FindNeededSamples(requested);
   }
   input->SetRequestedRegion(needed);
 }
@@ -286,10 +238,8 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::Resample(const OutputImage
 {
   const TInputImage * const input = this->GetInput();
   TOutputImage * const output = this->GetOutput();
-  const auto inputOffset =
-    input->GetLargestPossibleRegion().GetIndex() - typename TInputImage::IndexType{ { 0, 0, 0 } };
   const auto load = [&](const Index<3> & start, SizeValueType length, float * row) {
-    const auto * const samples = input->GetBufferPointer() + input->ComputeOffset(start + inputOffset);
+    const auto * const samples = input->GetBufferPointer() + input->ComputeOffset(start);
     RowArithmetic::ConvertFrom(samples, length, row);
   };
   const auto store = [&](const Index<3> & start, SizeValueType length, const float * values) {
@@ -302,16 +252,7 @@ CartesianToFCCImageFilter<TInputImage, TOutputImage>::Resample(const OutputImage
     progress.Completed(region.GetSize(0));
   };
 
-  if (this->IsSlanted())
-  {
-    const SliceStack stack(*input, this->FindSliceOrigins());
-    ResampleStackRows(this->MakePlanes(stack, region), region, load, store);
-  }
-  else
-  {
-    const SeparableTaps xTaps[2] = { this->MakeTaps(0, region, 0), this->MakeTaps(0, region, 1) };
-    ResampleRows(xTaps, this->MakeTaps(1, region), this->MakeTaps(2, region), region, load, store);
-  }
+  this->MakeRows().Resample(region, load, store);
 }
 
 } // namespace itk
