@@ -29,15 +29,15 @@ namespace itk
  * used at their true positions, as by CartesianToFCCImageFilter. It reaches two voxels beyond the map, where all is 0:
  * labels that reach the map's border are closed at the outer faces of its voxels.
  *
- * Thin parts, of voxels in no 2 x 2 x 2 block of their label, claim the sites whose Voronoi cells their middle passes,
- * whatever the weights are there: the convex hulls of the centres of a label's voxels in cubes of eight neighbours.
- * Voronoi cells are convex and fill space, so sheets as thin as a voxel have no holes and vessels are not torn. Claims
- * that make no difference to the topology of any label are dropped (LabelTopology). Where two thin parts claim a site,
- * the one of larger weight has it, and the background last; so parts that are nearer to each other than 1.7 voxels can
- * still interrupt each other, and thin gaps between parts of a label can close. Sheets of two labels back to back, each
- * one voxel thick and 30 wide, have 33 holes each at the default density, 19 at density 2 and none at density 4 (means
- * of 24 pairs in random directions). Pieces of a label stay apart if they have labels of their own in one group
- * (SetGroups()).
+ * A thin part, of voxels in no 2 x 2 x 2 block of their label, is a candidate for the sites whose Voronoi cells its
+ * middle passes, whatever the weights are there: the middle is the convex hulls of the centres of a label's voxels in
+ * cubes of eight neighbours. Voronoi cells are convex and fill space, so sheets as thin as a voxel have no holes and
+ * vessels are not torn. Sites that make no difference to the topology of any label go back to the label of largest
+ * weight (LabelTopology). Of several candidates for a site the one of largest weight gets it, and the background last;
+ * so parts that are nearer to each other than 1.7 voxels can still interrupt each other, and thin gaps between parts of
+ * a label can close. Sheets of two labels back to back, each one voxel thick and 30 wide, have 33 holes each at the
+ * default density, 19 at density 2 and none at density 4 (means of 24 pairs in random directions). Pieces of a label
+ * stay apart if they have labels of their own in one group (SetGroups()).
  *
  * Mean distance from the truth in mm and mean angle of facets in degrees, for eight balls of radius 8.6 to 10 mm that
  * touch one another, of 1 mm voxels in slices of 1, 3 and 6 mm (rhombic-label-walls):
@@ -49,10 +49,10 @@ namespace itk
  *     vtkDiscreteFlyingEdges3D, vtkWindowedSincPolyDataFilter .06   3.4     .23   7.5     .52  12.5
  *
  * The outputs have the same bytes for any number of threads. Each field is made in the bounding box of its label and
- * near the label's border only (AntiAliasMaskImageFilter), on one thread while others are made, as many as have
- * together no more voxels than the box of all labels. Time grows with the area of the walls and, much less, with the
- * voxels of all boxes. Memory: 6 bytes a site; 20 bytes a voxel of the box of all labels; 8 bytes for each label at
- * sites within three voxels of its surface.
+ * near the label's border only (AntiAliasMaskImageFilter). Labels are made side by side, each on one thread, while
+ * their boxes have together no more voxels than the box of all labels. Time grows with the area of the walls and, much
+ * less, with the voxels of all boxes. Memory: 6 bytes a site; 20 bytes a voxel of the box of all labels; 8 bytes for
+ * each label at sites within three voxels of its surface.
  *
  * Throws as ImageToFCCLabelsFilter does, when the map has no voxels or its buffer is not whole, and when slice origins
  * are not as many as the slices.
@@ -128,7 +128,7 @@ protected:
   GenerateData() override;
 
 private:
-  /** Those that were set, or else those of the scan. */
+  /** The origins that were set, or else those of the scan. */
   SliceOriginsType
   FindSliceOrigins() const;
 

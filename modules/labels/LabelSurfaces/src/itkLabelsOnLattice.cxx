@@ -6,18 +6,6 @@
 
 namespace itk
 {
-namespace
-{
-
-/** The number of a site's row in a lattice, as FCCLabelWeights counts rows. */
-SizeValueType
-GetRowNumber(const Index<3> & site, const ImageRegion<3> & lattice)
-{
-  return static_cast<SizeValueType>(site[2] - lattice.GetIndex(2)) * lattice.GetSize(1) +
-         static_cast<SizeValueType>(site[1] - lattice.GetIndex(1));
-}
-
-} // namespace
 
 std::array<SizeValueType, 3>
 DivideVoxels(const Vector<double, 3> & spacing)
@@ -33,46 +21,49 @@ DivideVoxels(const Vector<double, 3> & spacing)
   return parts;
 }
 
+StrongestLabels::StrongestLabels(FCCImage<LabelType> & labels, FCCLabelWeights & weights)
+  : m_Labels(labels)
+  , m_Weights(weights)
+  , m_Largest(labels.GetLargestPossibleRegion().GetNumberOfPixels(), -FCCLabelWeights::Limit)
+{
+  const auto & size = labels.GetLargestPossibleRegion().GetSize();
+  labels.FillBuffer(0);
+  weights.SetNumberOfRows(size[1] * size[2]);
+}
+
 void
-AddLabelWeights(const FCCImage<float> & field,
-                FCCLabelWeights::LabelType label,
-                FCCImage<FCCLabelWeights::LabelType> & labels,
-                std::vector<float> & largest,
-                FCCLabelWeights & weights)
+StrongestLabels::Add(const FCCImage<float> & field, LabelType label)
 {
   constexpr float limit = FCCLabelWeights::Limit;
   const auto & sites = field.GetBufferedRegion();
-  const SizeValueType length = labels.GetLargestPossibleRegion().GetSize(0);
+  const SizeValueType length = m_Labels.GetLargestPossibleRegion().GetSize(0);
   if (length > std::numeric_limits<std::uint16_t>::max())
   {
     itkGenericExceptionMacro("A row of the lattice has " << length << " sites, but weights have places for 65,535.");
   }
   ForEachRow(sites, [&](const Index<3> & first, SizeValueType fieldOffset) {
-    const SizeValueType row = GetRowNumber(first, labels.GetLargestPossibleRegion());
     const float * const values = field.GetBufferPointer() + fieldOffset;
-    const OffsetValueType offset = labels.ComputeOffset(first);
-    FCCLabelWeights::LabelType * const rowLabels = labels.GetBufferPointer() + offset;
-    float * const rowLargest = largest.data() + offset;
+    const auto firstSite = static_cast<SizeValueType>(m_Labels.ComputeOffset(first));
     for (SizeValueType i = 0; i < sites.GetSize(0); ++i)
     {
       const float weight = std::clamp(values[i], -limit, limit);
-      if (weight > rowLargest[i])
+      if (weight > m_Largest[firstSite + i])
       {
-        rowLargest[i] = weight;
-        rowLabels[i] = label;
+        m_Largest[firstSite + i] = weight;
+        m_Labels.GetBufferPointer()[firstSite + i] = label;
       }
       if (std::abs(weight) < limit)
       {
-        weights.Add(row, { static_cast<std::uint16_t>(static_cast<SizeValueType>(first[0]) + i), label, weight });
+        m_Weights.Add(firstSite / length, { static_cast<std::uint16_t>(firstSite % length + i), label, weight });
       }
     }
   });
 }
 
 void
-SortWeights(const ImageRegion<3> & lattice, FCCLabelWeights & weights)
+StrongestLabels::SortWeights()
 {
-  rhombic::ForEachInBlocks(lattice.GetSize(1) * lattice.GetSize(2), 64, [&](std::size_t row) { weights.SortRow(row); });
+  rhombic::ForEachInBlocks(m_Weights.GetNumberOfRows(), 64, [this](std::size_t row) { m_Weights.SortRow(row); });
 }
 
 } // namespace itk

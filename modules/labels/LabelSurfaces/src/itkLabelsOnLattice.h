@@ -3,16 +3,18 @@
 
 #include "itkFCCImage.h"
 #include "itkFCCLabelWeights.h"
+#include "itkImage.h"
 #include "rhombicForEachBlock.h"
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace itk
 {
 
 /** \file
- * What filters that bring labels onto the lattice have in common. */
+ * Passes of the filters that bring labels onto the lattice. */
 
 /** Calls use(index of the first sample of a row, its offset in the buffer) for each row of a box, on threads. */
 template <typename TUse>
@@ -32,20 +34,46 @@ ForEachRow(const ImageRegion<3> & box, const TUse & use)
 std::array<SizeValueType, 3>
 DivideVoxels(const Vector<double, 3> & spacing);
 
-/** Adds the weights of a label where they are below the limit, and gives it the sites where they are the largest.
- * Throws when rows of the lattice have more than 65,535 sites.
- * \param field the weights of the label in a box of the lattice
- * \param largest the largest weight so far, of each site */
-void
-AddLabelWeights(const FCCImage<float> & field,
-                FCCLabelWeights::LabelType label,
-                FCCImage<FCCLabelWeights::LabelType> & labels,
-                std::vector<float> & largest,
-                FCCLabelWeights & weights);
+/** \class StrongestLabels
+ * \brief Gives each site of a lattice the label of largest weight, label by label, and stores the weights below the
+ * limit. */
+class StrongestLabels
+{
+public:
+  using LabelType = FCCLabelWeights::LabelType;
 
-/** Sorts all rows, as FCCLabelWeights::Find() needs it. */
-void
-SortWeights(const ImageRegion<3> & lattice, FCCLabelWeights & weights);
+  /** Empties the labels, which are allocated, and the weights. */
+  StrongestLabels(FCCImage<LabelType> & labels, FCCLabelWeights & weights);
+
+  /** Adds the weights of a label in a box of the lattice. Throws when rows of the lattice have more than 65,535
+   * sites. */
+  void
+  Add(const FCCImage<float> & field, LabelType label);
+
+  /** Sorts the weights, as FCCLabelWeights::Find() needs it. */
+  void
+  SortWeights();
+
+private:
+  FCCImage<LabelType> & m_Labels;
+  FCCLabelWeights & m_Weights;
+  std::vector<float> m_Largest; ///< weight so far, of each site
+};
+
+/** The sites whose Voronoi cells hold a part of the middle of thin parts, sorted. The middle is made of the convex
+ * hulls of the inside voxels' centres in each cube of eight neighbouring centres that has a thin voxel. Voronoi cells
+ * are convex and fill space, so the sites of a middle that is connected are connected, and those of a plane have no
+ * holes. In itkThinPartSites.cxx.
+ *
+ * \param mask voxels other than 0 are inside
+ * \param region the voxels of the mask that count
+ * \param thin offsets of the thin voxels in the mask's buffer, ascending
+ * \param placeVoxel gives the position of a voxel's centre in lattice coordinates */
+std::vector<FCCLattice::SiteType>
+FindThinPartSites(const Image<std::uint8_t, 3> & mask,
+                  const ImageRegion<3> & region,
+                  const std::vector<SizeValueType> & thin,
+                  const std::function<std::array<double, 3>(const Index<3> &)> & placeVoxel);
 
 } // namespace itk
 

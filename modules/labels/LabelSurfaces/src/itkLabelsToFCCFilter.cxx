@@ -1,22 +1,28 @@
 #include "itkLabelsToFCCFilter.h"
 
+#include "detail/itkCartesianToFCCRows.h"
 #include "itkAntiAliasMaskImageFilter.h"
 #include "itkCartesianToFCCImageFilter.h"
 #include "itkFCCLabelSurfaceFilter.h"
-#include "itkImageSource.h"
 #include "itkInputSamples.h"
-#include "itkLabelWallAreas.h"
 #include "itkLabelTopology.h"
+#include "itkLabelWallAreas.h"
 #include "itkLabelsOnLattice.h"
 #include "itkMath.h"
-#include "itkThinPartSites.h"
 #include "itkWorkProgress.h"
+#include "rhombicLabelNumbers.h"
+#include "rhombicScan.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
+
+/** \file
+ * Words. The *refined map* has the map's voxels divided into nearly cubic ones; its *samples* are the centres of the
+ * map's voxels. The *field* of a label is the depth below its surface in refined voxels; its values at sites are the
+ * label's *weights*. The *candidates* of a label are the sites that its thin parts pass. */
 
 namespace itk
 {
@@ -26,6 +32,7 @@ namespace
 using LabelType = LabelsToFCCFilter::LabelType;
 using LabelImage = LabelsToFCCFilter::InputImageType;
 using Lattice = LabelsToFCCFilter::LatticeType;
+using SliceOrigins = LabelsToFCCFilter::SliceOriginsType;
 using MaskImage = Image<std::uint8_t, 3>;
 using FieldImage = Image<float, 3>;
 using FieldLattice = FCCImage<float>;
@@ -37,22 +44,29 @@ constexpr double FarthestOffset = 2.0;    // of weights; twice as far as walls m
 constexpr IndexValueType Margin = 2;      // voxels around the map
 constexpr IndexValueType LabelMargin = 4; // voxels around a label in which it has weights
 
-/** The map refined to nearly cubic voxels. Samples of the map are those whose index is a multiple of the period. */
+/** The map refined to nearly cubic voxels. A sample has an index that is a multiple of the period along each axis. */
 class RefinedMap
 {
 public:
-  RefinedMap(const LabelImage & labels, const LabelsToFCCFilter::SliceOriginsType & origins)
+  RefinedMap(const LabelImage & labels, const SliceOrigins & origins)
     : m_Labels(labels)
     , m_Period(DivideVoxels(labels.GetSpacing()))
+    , m_Grid(FieldImage::New())
   {
     const auto & size = labels.GetLargestPossibleRegion().GetSize();
+    auto spacing = labels.GetSpacing();
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      m_Scan.SetIndex(axis, -static_cast<IndexValueType>(m_Period[axis] / 2));
-      m_Scan.SetSize(axis, (size[axis] - 1) * m_Period[axis] + 1 + 2 * (m_Period[axis] / 2));
+      m_MapRegion.SetIndex(axis, -static_cast<IndexValueType>(m_Period[axis] / 2));
+      m_MapRegion.SetSize(axis, (size[axis] - 1) * m_Period[axis] + 1 + 2 * (m_Period[axis] / 2));
+      spacing[axis] /= static_cast<double>(m_Period[axis]);
     }
-    m_Whole = m_Scan;
-    m_Whole.PadByRadius(Margin);
+    ImageRegion<3> whole = m_MapRegion;
+    whole.PadByRadius(Margin);
+    m_Grid->SetLargestPossibleRegion(whole);
+    m_Grid->SetSpacing(spacing);
+    m_Grid->SetDirection(labels.GetDirection());
+    m_Grid->SetOrigin(labels.TransformIndexToPhysicalPoint<double>(labels.GetLargestPossibleRegion().GetIndex()));
     this->PlaceSlices(origins);
   }
 
@@ -62,80 +76,57 @@ public:
     return m_Period;
   }
 
+  /** The refined grid with a margin around the map, without voxels in memory. */
+  const FieldImage &
+  GetGrid() const
+  {
+    return *m_Grid;
+  }
+
+  /** The voxels of the grid that are the map's. */
+  const ImageRegion<3> &
+  GetMapRegion() const
+  {
+    return m_MapRegion;
+  }
+
   /** The edge of a cube of a refined voxel's volume, in mm. */
   double
   GetVoxelEdge() const
   {
-    double volume = 1.0;
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      volume *= m_Labels.GetSpacing()[axis] / static_cast<double>(m_Period[axis]);
-    }
-    return std::cbrt(volume);
+    const auto & spacing = m_Grid->GetSpacing();
+    return std::cbrt(spacing[0] * spacing[1] * spacing[2]);
   }
 
-  /** The map. */
-  const ImageRegion<3> &
-  GetScan() const
-  {
-    return m_Scan;
-  }
-
-  /** With the margin around the map. */
-  const ImageRegion<3> &
-  GetWhole() const
-  {
-    return m_Whole;
-  }
-
-  const LabelsToFCCFilter::SliceOriginsType &
+  /** Positions of the first voxels of the grid's slices; empty for slices at even steps. */
+  const SliceOrigins &
   GetSliceOrigins() const
   {
     return m_SliceOrigins;
   }
 
-  /** The position of a voxel's centre in the world. \param image on the refined grid */
+  /** The position of a voxel's centre in the world. */
   Point<double, 3>
-  GetPosition(const ImageBase<3> & image, const Index<3> & index) const
+  GetPosition(const Index<3> & index) const
   {
-    Index<3> inSlice = index;
-    if (!m_SliceOrigins.empty())
+    const Index<3> & first = m_Grid->GetLargestPossibleRegion().GetIndex();
+    if (m_SliceOrigins.empty())
     {
-      inSlice[2] = m_Whole.GetIndex(2);
+      return m_Grid->TransformIndexToPhysicalPoint<double>(index);
     }
-    const auto position = image.TransformIndexToPhysicalPoint<double>(inSlice);
-    return m_SliceOrigins.empty() ? position
-                                  : position + (m_SliceOrigins[static_cast<std::size_t>(index[2] - inSlice[2])] -
-                                                image.TransformIndexToPhysicalPoint<double>(m_Whole.GetIndex()));
-  }
-
-  /** An image on the refined grid, of which only a region is to be in memory, not allocated. */
-  template <typename TImage>
-  typename TImage::Pointer
-  MakeImage(const ImageRegion<3> & region) const
-  {
-    const auto image = TImage::New();
-    auto spacing = m_Labels.GetSpacing();
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      spacing[axis] /= static_cast<double>(m_Period[axis]);
-    }
-    image->SetLargestPossibleRegion(m_Whole);
-    image->SetBufferedRegion(region);
-    image->SetRequestedRegion(region);
-    image->SetSpacing(spacing);
-    image->SetDirection(m_Labels.GetDirection());
-    image->SetOrigin(m_Labels.TransformIndexToPhysicalPoint<double>(m_Labels.GetLargestPossibleRegion().GetIndex()));
-    return image;
+    const Index<3> inFirstSlice{ { index[0], index[1], first[2] } };
+    return m_Grid->TransformIndexToPhysicalPoint<double>(inFirstSlice) +
+           (m_SliceOrigins[static_cast<std::size_t>(index[2] - first[2])] -
+            m_Grid->TransformIndexToPhysicalPoint<double>(first));
   }
 
   /** The index along an axis of the nearest voxel of the map, from its first; beyond the map of that at its border. */
   SizeValueType
   GetNearest(unsigned int axis, IndexValueType index) const
   {
-    const IndexValueType last = m_Scan.GetUpperIndex()[axis];
-    const IndexValueType inScan = std::clamp(index, m_Scan.GetIndex(axis), last) - m_Scan.GetIndex(axis);
-    return std::min(static_cast<SizeValueType>(inScan) / m_Period[axis],
+    const IndexValueType last = m_MapRegion.GetUpperIndex()[axis];
+    const IndexValueType inMap = std::clamp(index, m_MapRegion.GetIndex(axis), last) - m_MapRegion.GetIndex(axis);
+    return std::min(static_cast<SizeValueType>(inMap) / m_Period[axis],
                     m_Labels.GetLargestPossibleRegion().GetSize(axis) - 1);
   }
 
@@ -158,73 +149,24 @@ public:
     return static_cast<float>(std::min(position + outer, last + outer - position));
   }
 
-  /** The bounding box of each label and a margin around it; of 0, that of all others together. */
-  std::map<LabelType, ImageRegion<3>>
-  FindBoxes() const
-  {
-    std::map<LabelType, std::pair<Index<3>, Index<3>>> corners;
-    const auto add = [&corners](LabelType label, const Index<3> & index) {
-      auto & [low, high] = corners.try_emplace(label, index, index).first->second;
-      for (unsigned int axis = 0; axis < 3; ++axis)
-      {
-        low[axis] = std::min(low[axis], index[axis]);
-        high[axis] = std::max(high[axis], index[axis]);
-      }
-    };
-    const auto & size = m_Labels.GetLargestPossibleRegion().GetSize();
-    const LabelType * voxels = m_Labels.GetBufferPointer();
-    for (SizeValueType row = 0; row < size[1] * size[2]; ++row, voxels += size[0])
-    {
-      for (SizeValueType x = 0; x < size[0]; ++x)
-      {
-        // The ends of runs of one label are enough.
-        const bool isInner = x > 0 && x + 1 < size[0] && voxels[x] == voxels[x - 1] && voxels[x] == voxels[x + 1];
-        if (voxels[x] != 0 && !isInner)
-        {
-          const Index<3> index{ { static_cast<IndexValueType>(x),
-                                  static_cast<IndexValueType>(row % size[1]),
-                                  static_cast<IndexValueType>(row / size[1]) } };
-          add(voxels[x], index);
-          add(0, index);
-        }
-      }
-    }
-    std::map<LabelType, ImageRegion<3>> boxes;
-    for (const auto & [label, corner] : corners)
-    {
-      ImageRegion<3> box;
-      for (unsigned int axis = 0; axis < 3; ++axis)
-      {
-        const auto period = static_cast<IndexValueType>(m_Period[axis]);
-        const IndexValueType margin = LabelMargin + period;
-        const IndexValueType low = corner.first[axis] * period - margin;
-        const IndexValueType high = corner.second[axis] * period + margin;
-        box.SetIndex(axis, low);
-        box.SetSize(axis, static_cast<SizeValueType>(high - low + 1));
-      }
-      box.Crop(m_Whole);
-      boxes[label] = box;
-    }
-    return boxes;
-  }
-
 private:
   /** Positions of the first voxels of the refined slices, from the slices of the map and with the margin. */
   void
-  PlaceSlices(const LabelsToFCCFilter::SliceOriginsType & origins)
+  PlaceSlices(const SliceOrigins & origins)
   {
     if (origins.size() < 2)
     {
       return;
     }
+    const ImageRegion<3> & whole = m_Grid->GetLargestPossibleRegion();
     Vector<double, 3> toFirst(0.0);
     for (unsigned int axis = 0; axis < 2; ++axis)
     {
       toFirst[axis] =
-        static_cast<double>(m_Whole.GetIndex(axis)) / static_cast<double>(m_Period[axis]) * m_Labels.GetSpacing()[axis];
+        static_cast<double>(whole.GetIndex(axis)) / static_cast<double>(m_Period[axis]) * m_Labels.GetSpacing()[axis];
     }
     toFirst = m_Labels.GetDirection() * toFirst;
-    for (IndexValueType k = m_Whole.GetIndex(2); k <= m_Whole.GetUpperIndex()[2]; ++k)
+    for (IndexValueType k = whole.GetIndex(2); k <= whole.GetUpperIndex()[2]; ++k)
     {
       const double position = static_cast<double>(k) / static_cast<double>(m_Period[2]);
       const auto slice =
@@ -236,269 +178,253 @@ private:
 
   const LabelImage & m_Labels;
   std::array<SizeValueType, 3> m_Period;
-  ImageRegion<3> m_Scan;
-  ImageRegion<3> m_Whole;
-  LabelsToFCCFilter::SliceOriginsType m_SliceOrigins;
+  ImageRegion<3> m_MapRegion;
+  FieldImage::Pointer m_Grid;
+  SliceOrigins m_SliceOrigins;
 };
 
-/** A label in its box of the refined map. */
-struct LabelField
+// ---- Passes, in the order of their use
+
+/** Makes the lattice of a refined map, without samples. */
+FieldLattice::Pointer
+MakeLattice(const RefinedMap & map, double density)
 {
-  LabelType label;
-  ImageRegion<3> sites;                     ///< of the lattice, near the label
-  ImageRegion<3> voxels;                    ///< that the values there depend on
-  FieldImage::Pointer depths;               ///< below the label's surface, in voxels
-  std::vector<LabelTopology::Claim> claims; ///< of its thin parts
-};
+  const auto filter = CartesianToFCCImageFilter<FieldImage>::New();
+  filter->SetInput(&map.GetGrid());
+  filter->SetDensity(density);
+  filter->SetSliceOrigins(map.GetSliceOrigins());
+  filter->UpdateOutputInformation();
+  FieldLattice::Pointer lattice = filter->GetOutput();
+  lattice->DisconnectPipeline();
+  return lattice;
+}
 
-/** The filter whose output are the depths below a label's surface, in voxels of a box. */
+/** Finds the bounding box of each label of the map with a margin, in refined voxels; for 0 that of all others. */
+std::map<LabelType, ImageRegion<3>>
+FindBoxes(const LabelImage & labels, const RefinedMap & map)
+{
+  std::map<LabelType, std::pair<Index<3>, Index<3>>> corners;
+  const auto add = [&corners](LabelType label, const Index<3> & index) {
+    auto & [low, high] = corners.try_emplace(label, index, index).first->second;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      low[axis] = std::min(low[axis], index[axis]);
+      high[axis] = std::max(high[axis], index[axis]);
+    }
+  };
+  const auto & size = labels.GetLargestPossibleRegion().GetSize();
+  for (SizeValueType row = 0; row < size[1] * size[2]; ++row)
+  {
+    const LabelType * const voxels = labels.GetBufferPointer() + row * size[0];
+    rhombic::ForEachRun(voxels, size[0], [&](LabelType label, SizeValueType begin, SizeValueType end) {
+      for (const SizeValueType x : { begin, end - 1 })
+      {
+        const Index<3> index{ { static_cast<IndexValueType>(x),
+                                static_cast<IndexValueType>(row % size[1]),
+                                static_cast<IndexValueType>(row / size[1]) } };
+        if (label != 0)
+        {
+          add(label, index);
+          add(0, index);
+        }
+      }
+    });
+  }
+  std::map<LabelType, ImageRegion<3>> boxes;
+  for (const auto & [label, corner] : corners)
+  {
+    ImageRegion<3> & box = boxes[label];
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const auto period = static_cast<IndexValueType>(map.GetPeriod()[axis]);
+      const IndexValueType low = corner.first[axis] * period - period - LabelMargin;
+      const IndexValueType high = corner.second[axis] * period + period + LabelMargin;
+      box.SetIndex(axis, low);
+      box.SetSize(axis, static_cast<SizeValueType>(high - low + 1));
+    }
+    box.Crop(map.GetGrid().GetLargestPossibleRegion());
+  }
+  return boxes;
+}
+
+/** Finds a box of sites that holds those at some refined voxels. */
+ImageRegion<3>
+FindSites(const RefinedMap & map, const FieldLattice & lattice, const ImageRegion<3> & voxels)
+{
+  std::array<double, 3> low;
+  std::array<double, 3> high;
+  low.fill(std::numeric_limits<double>::max());
+  high.fill(std::numeric_limits<double>::lowest());
+  const Index<3> & first = voxels.GetIndex();
+  const Index<3> last = voxels.GetUpperIndex();
+  for (IndexValueType z = first[2]; z <= last[2]; ++z) // slices may be shifted against each other
+  {
+    for (unsigned int corner = 0; corner < 4; ++corner)
+    {
+      const Index<3> voxel{ { (corner & 1) != 0 ? last[0] : first[0], (corner & 2) != 0 ? last[1] : first[1], z } };
+      const auto point = lattice.TransformPhysicalPointToLattice(map.GetPosition(voxel));
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        low[axis] = std::min(low[axis], point[axis]);
+        high[axis] = std::max(high[axis], point[axis]);
+      }
+    }
+  }
+  ImageRegion<3> sites;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    const double step = axis == 0 ? 2.0 : 1.0;
+    const auto begin = Math::Floor<IndexValueType>((low[axis] - 1.0) / step);
+    const auto end = Math::Ceil<IndexValueType>((high[axis] + 1.0) / step) + 1;
+    sites.SetIndex(axis, begin);
+    sites.SetSize(axis, static_cast<SizeValueType>(end - begin));
+  }
+  sites.Crop(lattice.GetLargestPossibleRegion());
+  return sites;
+}
+
+/** Makes the mask of a label in a box of the refined map: 1 at voxels nearest to its voxels, 0 at others. */
+MaskImage::Pointer
+MakeMask(const RefinedMap & map, LabelType label, const ImageRegion<3> & box)
+{
+  const auto mask = MaskImage::New();
+  mask->CopyInformation(&map.GetGrid());
+  mask->SetRegions(box);
+  mask->Allocate();
+  std::vector<SizeValueType> nearest(box.GetSize(0));
+  for (SizeValueType n = 0; n < nearest.size(); ++n)
+  {
+    nearest[n] = map.GetNearest(0, box.GetIndex(0) + static_cast<IndexValueType>(n));
+  }
+  ForEachRow(box, [&](const Index<3> & first, SizeValueType offset) {
+    const LabelType * const labels = map.GetNearestRow(first);
+    std::transform(nearest.begin(), nearest.end(), mask->GetBufferPointer() + offset, [&](SizeValueType x) {
+      return static_cast<std::uint8_t>(labels[x] == label ? 1 : 0);
+    });
+  });
+  return mask;
+}
+
+/** Makes a label's field, in the box of its mask, and finds the mask's thin voxels: the result is the filter that has
+ * them. No label but 0 reaches beyond the map. */
 AntiAliasMaskImageFilter::Pointer
 MakeField(const RefinedMap & map, LabelType label, const ImageRegion<3> & box, ThreadIdType threads)
 {
-  const SizeValueType width = box.GetSize(0);
-  std::vector<SizeValueType> nearest(width);
-  std::vector<float> depths(width);
-  for (SizeValueType n = 0; n < width; ++n)
-  {
-    const IndexValueType x = box.GetIndex(0) + static_cast<IndexValueType>(n);
-    nearest[n] = map.GetNearest(0, x);
-    depths[n] = map.GetDepth(0, x);
-  }
-  const auto mask = map.MakeImage<MaskImage>(box);
-  mask->SetLargestPossibleRegion(box);
-  mask->Allocate();
-  ForEachRow(box, [&](const Index<3> & first, SizeValueType offset) {
-    const LabelType * const labels = map.GetNearestRow(first);
-    std::uint8_t * const row = mask->GetBufferPointer() + offset;
-    for (SizeValueType n = 0; n < width; ++n)
-    {
-      row[n] = labels[nearest[n]] == label ? 1 : 0;
-    }
-  });
   const auto filter = AntiAliasMaskImageFilter::New();
-  filter->SetInput(mask);
+  filter->SetInput(MakeMask(map, label, box));
   filter->SetNumberOfWorkUnits(threads);
   filter->SetSamplePeriod(map.GetPeriod());
-  filter->ProtectSpecksOnlyOn(); // the claims of thin parts keep the others whole
+  filter->ProtectSpecksOnlyOn(); // candidates keep the other thin parts whole
   filter->Update();
-  FieldImage * const field = filter->GetOutput();
+  std::vector<float> depthsInMap(box.GetSize(0));
+  for (SizeValueType n = 0; n < depthsInMap.size(); ++n)
+  {
+    depthsInMap[n] = map.GetDepth(0, box.GetIndex(0) + static_cast<IndexValueType>(n));
+  }
   ForEachRow(box, [&](const Index<3> & first, SizeValueType offset) {
-    // No label but 0 reaches beyond the map.
     const float rowDepth = std::min(map.GetDepth(1, first[1]), map.GetDepth(2, first[2]));
     const float side = label == 0 ? -1.0f : 1.0f;
-    float * const row = field->GetBufferPointer() + offset;
-    for (SizeValueType n = 0; n < width; ++n)
+    float * const row = filter->GetOutput()->GetBufferPointer() + offset;
+    for (SizeValueType n = 0; n < depthsInMap.size(); ++n)
     {
       const float depth = std::clamp(row[n], -FCCLabelWeights::Limit, FCCLabelWeights::Limit);
-      row[n] = side * std::min(side * depth, std::min(rowDepth, depths[n]));
+      row[n] = side * std::min(side * depth, std::min(rowDepth, depthsInMap[n]));
     }
   });
   return filter;
 }
 
-/** \class FieldSource
- * \brief The source of a field that is a part of the refined map: images without a source end at their buffer. */
-class FieldSource : public ImageSource<FieldImage>
+/** Resamples a field onto a box of sites; beside a slanted map weights are lowest. */
+FieldLattice::Pointer
+ResampleField(const CartesianToFCCRows & rows,
+              const FieldImage & field,
+              const FieldLattice & lattice,
+              const ImageRegion<3> & sites)
 {
-public:
-  ITK_DISALLOW_COPY_AND_MOVE(FieldSource);
-
-  using Self = FieldSource;
-  using Superclass = ImageSource<FieldImage>;
-  using Pointer = SmartPointer<Self>;
-
-  itkNewMacro(Self);
-
-  FieldImage::Pointer field;
-  ImageRegion<3> whole;
-
-protected:
-  FieldSource() = default;
-  ~FieldSource() override = default;
-
-  void
-  GenerateOutputInformation() override
-  {
-    this->GetOutput()->CopyInformation(field);
-    this->GetOutput()->SetLargestPossibleRegion(whole);
-  }
-
-  void
-  GenerateData() override
-  {
-    this->GetOutput()->SetBufferedRegion(field->GetBufferedRegion());
-    this->GetOutput()->SetPixelContainer(field->GetPixelContainer());
-  }
-};
-
-/** \class FieldResampler
- * \brief Resamples a field of the refined map onto its lattice. */
-class FieldResampler
-{
-public:
-  using Filter = CartesianToFCCImageFilter<FieldImage>;
-
-  FieldResampler(const RefinedMap & map, double density)
-    : m_Map(map)
-    , m_Source(FieldSource::New())
-    , m_Filter(Filter::New())
-  {
-    m_Source->field = map.MakeImage<FieldImage>(map.GetWhole());
-    m_Source->whole = map.GetWhole();
-    m_Source->ReleaseDataFlagOn();
-    m_Filter->SetInput(m_Source->GetOutput());
-    m_Filter->SetDensity(density);
-    m_Filter->SetSliceOrigins(map.GetSliceOrigins());
-    m_Filter->SetOutsideValue(-FCCLabelWeights::Limit);
-    m_Filter->UpdateOutputInformation();
-  }
-
-  /** The lattice, without samples. */
-  const FieldLattice &
-  GetLattice() const
-  {
-    return *m_Filter->GetOutput();
-  }
-
-  /** A box of sites that holds those at some voxels. */
-  ImageRegion<3>
-  FindSites(const ImageRegion<3> & voxels) const
-  {
-    const FieldLattice & lattice = this->GetLattice();
-    std::array<double, 3> low;
-    std::array<double, 3> high;
-    low.fill(std::numeric_limits<double>::max());
-    high.fill(std::numeric_limits<double>::lowest());
-    const Index<3> & first = voxels.GetIndex();
-    const Index<3> last = voxels.GetUpperIndex();
-    for (IndexValueType z = first[2]; z <= last[2]; ++z)
-    {
-      for (const IndexValueType y : { first[1], last[1] })
-      {
-        for (const IndexValueType x : { first[0], last[0] })
-        {
-          const auto point =
-            lattice.TransformPhysicalPointToLattice(m_Map.GetPosition(*m_Source->field, Index<3>{ { x, y, z } }));
-          for (unsigned int axis = 0; axis < 3; ++axis)
-          {
-            low[axis] = std::min(low[axis], point[axis]);
-            high[axis] = std::max(high[axis], point[axis]);
-          }
-        }
-      }
-    }
-    ImageRegion<3> sites;
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      const double step = axis == 0 ? 2.0 : 1.0;
-      const auto begin = Math::Floor<IndexValueType>((low[axis] - 1.0) / step);
-      sites.SetIndex(axis, begin);
-      sites.SetSize(axis,
-                    static_cast<SizeValueType>(Math::Ceil<IndexValueType>((high[axis] + 1.0) / step) - begin + 1));
-    }
-    sites.Crop(lattice.GetLargestPossibleRegion());
-    return sites;
-  }
-
-  /** The voxels on which the values at some sites depend. */
-  ImageRegion<3>
-  FindVoxels(const ImageRegion<3> & sites) const
-  {
-    m_Filter->GetOutput()->SetRequestedRegion(sites);
-    m_Filter->PropagateRequestedRegion(m_Filter->GetOutput());
-    return m_Source->GetOutput()->GetRequestedRegion();
-  }
-
-  /** Empties the field. */
-  const FieldLattice &
-  Resample(FieldImage * field, const ImageRegion<3> & sites) const
-  {
-    m_Source->field = field;
-    m_Source->Modified();
-    m_Filter->GetOutput()->SetRequestedRegion(sites);
-    m_Filter->Update();
-    field->Initialize();
-    return *m_Filter->GetOutput();
-  }
-
-private:
-  const RefinedMap & m_Map;
-  FieldSource::Pointer m_Source;
-  Filter::Pointer m_Filter;
-};
-
-/** Adds the claims of a label to the sites that its thin parts pass. */
-void
-AddClaims(const RefinedMap & map,
-          const AntiAliasMaskImageFilter & filter,
-          LabelType label,
-          const Lattice & labels,
-          std::vector<LabelTopology::Claim> & claims)
-{
-  const MaskImage & mask = *filter.GetInput();
-  const auto place = [&](const Index<3> & voxel) {
-    return labels.TransformPhysicalPointToLattice(map.GetPosition(mask, voxel));
+  const auto weights = FieldLattice::New();
+  weights->CopyInformation(&lattice);
+  weights->SetBufferedRegion(sites);
+  weights->Allocate();
+  weights->FillBuffer(-FCCLabelWeights::Limit);
+  const auto load = [&field](const Index<3> & start, SizeValueType length, float * row) {
+    std::copy_n(field.GetBufferPointer() + field.ComputeOffset(start), length, row);
   };
-  std::vector<FCCLattice::SiteType> held;
-  for (const SizeValueType voxel : filter.GetProtectedVoxels())
+  const auto store = [&weights](const Index<3> & start, SizeValueType length, const float * values) {
+    std::copy_n(values, length, weights->GetBufferPointer() + weights->ComputeOffset(start));
+  };
+  constexpr std::size_t planes = 16; // of a slab for one thread
+  rhombic::ForEachBlock(sites.GetSize(2), planes, [&](std::size_t begin, std::size_t end) {
+    ImageRegion<3> slab = sites;
+    slab.SetIndex(2, sites.GetIndex(2) + static_cast<IndexValueType>(begin));
+    slab.SetSize(2, end - begin);
+    rows.Resample(slab, load, store);
+  });
+  return weights;
+}
+
+/** Finds a label's candidates: the sites that its thin parts pass. Candidates of protected voxels are locked. */
+std::vector<LabelTopology::Claim>
+FindCandidates(const RefinedMap & map, const AntiAliasMaskImageFilter & field, LabelType label, const Lattice & labels)
+{
+  const MaskImage & mask = *field.GetInput();
+  const auto place = [&](const Index<3> & voxel) {
+    return labels.TransformPhysicalPointToLattice(map.GetPosition(voxel));
+  };
+  std::vector<FCCLattice::SiteType> locked;
+  for (const SizeValueType voxel : field.GetProtectedVoxels())
   {
-    held.push_back(FCCLattice::NearestSite(place(mask.ComputeIndex(static_cast<OffsetValueType>(voxel)))));
+    locked.push_back(FCCLattice::NearestSite(place(mask.ComputeIndex(static_cast<OffsetValueType>(voxel)))));
   }
-  std::sort(held.begin(), held.end());
-  for (const FCCLattice::SiteType & site : FindThinPartSites(mask, map.GetScan(), filter.GetThinVoxels(), place))
+  std::sort(locked.begin(), locked.end());
+  std::vector<LabelTopology::Claim> candidates;
+  for (const FCCLattice::SiteType & site : FindThinPartSites(mask, map.GetMapRegion(), field.GetThinVoxels(), place))
   {
     const Index<3> index = FCCLattice::IndexOf(site);
     if (labels.GetLargestPossibleRegion().IsInside(index))
     {
-      claims.push_back({ static_cast<SizeValueType>(labels.ComputeOffset(index)),
-                         label,
-                         std::binary_search(held.begin(), held.end(), site) });
+      candidates.push_back({ static_cast<SizeValueType>(labels.ComputeOffset(index)),
+                             label,
+                             std::binary_search(locked.begin(), locked.end(), site) });
     }
   }
+  return candidates;
 }
 
-/** The volumes of the voxels of each label in mm^3. A slice reaches half way to its neighbours. */
-std::vector<double>
-ComputeVoxelVolumes(const LabelImage & map, LabelsToFCCFilter::SliceOriginsType origins)
+/** A label in its box, and what it brings onto the lattice. */
+struct LabelInBox
 {
-  const auto & region = map.GetLargestPossibleRegion();
-  const auto & spacing = map.GetSpacing();
-  Index<3> first = region.GetIndex();
-  for (SizeValueType k = 0; origins.size() < region.GetSize(2); ++k, ++first[2])
-  {
-    origins.push_back(map.TransformIndexToPhysicalPoint<double>(first));
-  }
-  Vector<double, 3> axes[3];
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    for (unsigned int row = 0; row < 3; ++row)
-    {
-      axes[axis][row] = map.GetDirection()(row, axis) * spacing[axis];
-    }
-  }
-  const Vector<double, 3> area = CrossProduct(axes[0], axes[1]);
-  const SizeValueType voxels = region.GetSize(0) * region.GetSize(1);
+  LabelType label;
+  ImageRegion<3> sites;  ///< near the label
+  ImageRegion<3> voxels; ///< of the refined map, on which the weights at the sites depend
+  FieldLattice::Pointer weights;
+  std::vector<LabelTopology::Claim> candidates;
+};
+
+/** Computes the volumes of the voxels of each label in mm^3. */
+std::vector<double>
+ComputeVoxelVolumes(const LabelImage & map, const SliceOrigins & origins)
+{
+  rhombic::Scan scan;
+  const auto grid = LabelImage::New();
+  grid->CopyInformation(&map);
+  scan.image = grid;
+  scan.sliceOrigins = origins;
+  const SizeValueType voxelsOfSlice =
+    map.GetLargestPossibleRegion().GetSize(0) * map.GetLargestPossibleRegion().GetSize(1);
+  const LabelType * slice = map.GetBufferPointer();
   std::vector<double> volumes(1);
-  for (SizeValueType k = 0; k < region.GetSize(2); ++k)
+  for (const double voxelVolume : rhombic::VoxelVolumes(scan))
   {
     std::map<LabelType, SizeValueType> counts;
-    const LabelType * const slice = map.GetBufferPointer() + k * voxels;
-    for (SizeValueType n = 0, end = 0; n < voxels; n = end)
-    {
-      end = static_cast<SizeValueType>(
-        std::find_if(slice + n, slice + voxels, [&](LabelType label) { return label != slice[n]; }) - slice);
-      counts[slice[n]] += end - n;
-    }
-    const bool hasBefore = k > 0;
-    const bool hasAfter = k + 1 < region.GetSize(2);
-    const auto steps = static_cast<double>((hasBefore ? 1 : 0) + (hasAfter ? 1 : 0));
-    const Vector<double, 3> step =
-      steps > 0.0 ? (origins[hasAfter ? k + 1 : k] - origins[hasBefore ? k - 1 : k]) / steps : axes[2];
+    rhombic::ForEachRun(slice, voxelsOfSlice, [&](LabelType label, SizeValueType begin, SizeValueType end) {
+      counts[label] += end - begin;
+    });
     for (const auto & [label, count] : counts)
     {
       volumes.resize(std::max(volumes.size(), std::size_t{ label } + 1));
-      volumes[label] += static_cast<double>(count) * std::abs(area * step);
+      volumes[label] += static_cast<double>(count) * voxelVolume;
     }
+    slice += voxelsOfSlice;
   }
   return volumes;
 }
@@ -605,8 +531,7 @@ LabelsToFCCFilter::GenerateOutputInformation()
     itkExceptionMacro("The map has " << region.GetSize() << " voxels and " << origins.size()
                                      << " slice origins; it needs voxels, and an origin for each slice or none.");
   }
-  const RefinedMap map(image, origins);
-  this->GetOutput()->CopyInformation(&FieldResampler(map, this->GetDensity()).GetLattice());
+  this->GetOutput()->CopyInformation(MakeLattice(RefinedMap(image, origins), this->GetDensity()));
 }
 
 void
@@ -616,60 +541,55 @@ LabelsToFCCFilter::GenerateData()
   VerifyInputSamples(*this, image, image.GetLargestPossibleRegion());
   const SliceOriginsType origins = this->FindSliceOrigins();
   const RefinedMap map(image, origins);
-  const FieldResampler resampler(map, this->GetDensity());
-  std::vector<LabelField> fields;
-  for (const auto & [label, box] : map.FindBoxes())
+  const FieldLattice::ConstPointer lattice = MakeLattice(map, this->GetDensity());
+  const CartesianToFCCRows rows(map.GetGrid(), *lattice, SeparableKernel::CubicBSpline, map.GetSliceOrigins());
+  std::vector<LabelInBox> boxes;
+  for (const auto & [label, box] : FindBoxes(image, map))
   {
-    const ImageRegion<3> sites = resampler.FindSites(box);
-    fields.push_back({ label, sites, resampler.FindVoxels(sites), nullptr, {} });
+    const ImageRegion<3> sites = FindSites(map, *lattice, box);
+    boxes.push_back({ label, sites, rows.FindNeededSamples(sites), nullptr, {} });
   }
-  WorkProgress progress(*this, fields.size() + 1);
+  WorkProgress progress(*this, boxes.size() + 1);
 
   // Not the outputs: as inputs of a filter, these would ask for an update of this one.
-  const auto lattice = LatticeType::New();
-  LatticeType & labels = *lattice;
-  labels.CopyInformation(this->GetOutput());
-  const auto & region = labels.GetLargestPossibleRegion();
-  labels.SetRegions(region);
-  labels.Allocate();
-  labels.FillBuffer(0);
-  const auto newWeights = FCCLabelWeights::New();
-  FCCLabelWeights & weights = *newWeights;
-  weights.SetNumberOfRows(region.GetSize(1) * region.GetSize(2));
-  std::vector<LabelTopology::Claim> claims;
-  std::vector<float> largest(region.GetNumberOfPixels(), -FCCLabelWeights::Limit);
-  for (auto begin = fields.begin(), end = begin; begin != fields.end();)
+  const auto labels = LatticeType::New();
+  labels->CopyInformation(lattice);
+  labels->SetRegions(lattice->GetLargestPossibleRegion());
+  labels->Allocate();
+  const auto weights = FCCLabelWeights::New();
+  StrongestLabels strongest(*labels, *weights);
+  std::vector<LabelTopology::Claim> candidates;
+  for (auto begin = boxes.begin(), end = begin; begin != boxes.end();)
   {
-    // Side by side are made as many as have together no more voxels than the first, which is that of 0.
+    // Labels are made side by side while their boxes have together no more voxels than that of 0, the first.
     SizeValueType voxels = begin->voxels.GetNumberOfPixels();
-    end = std::find_if(begin + 1, fields.end(), [&](const LabelField & field) {
-      voxels += field.voxels.GetNumberOfPixels();
-      return voxels > fields.front().voxels.GetNumberOfPixels();
+    end = std::find_if(begin + 1, boxes.end(), [&](const LabelInBox & box) {
+      voxels += box.voxels.GetNumberOfPixels();
+      return voxels > boxes.front().voxels.GetNumberOfPixels();
     });
     const ThreadIdType threads = end - begin > 1 ? 1 : this->GetNumberOfWorkUnits();
     rhombic::ForEachOnThreads(static_cast<std::size_t>(end - begin), [&](std::size_t n) {
       progress.CheckAbort();
-      LabelField & field = begin[static_cast<std::ptrdiff_t>(n)];
-      const auto filter = MakeField(map, field.label, field.voxels, threads);
-      AddClaims(map, *filter, field.label, labels, field.claims);
-      field.depths = filter->GetOutput();
-      field.depths->DisconnectPipeline();
+      LabelInBox & box = begin[static_cast<std::ptrdiff_t>(n)];
+      const auto field = MakeField(map, box.label, box.voxels, threads);
+      box.candidates = FindCandidates(map, *field, box.label, *labels);
+      box.weights = ResampleField(rows, *field->GetOutput(), *lattice, box.sites);
       progress.Completed(1);
     });
     for (; begin != end; ++begin)
     {
-      const FieldResampler one(map, this->GetDensity());
-      AddLabelWeights(one.Resample(begin->depths, begin->sites), begin->label, labels, largest, weights);
-      claims.insert(claims.end(), begin->claims.begin(), begin->claims.end());
+      strongest.Add(*begin->weights, begin->label);
+      begin->weights = nullptr;
+      candidates.insert(candidates.end(), begin->candidates.begin(), begin->candidates.end());
     }
   }
-  SortWeights(region, weights);
-  LabelTopology topology(labels, weights, m_Groups);
-  topology.Grant(std::move(claims));
+  strongest.SortWeights();
+  LabelTopology topology(*labels, *weights, m_Groups);
+  topology.Grant(std::move(candidates));
   m_VoxelVolumes = ComputeVoxelVolumes(image, origins);
-  KeepVolumes(m_VoxelVolumes, map.GetVoxelEdge(), labels, weights, topology);
-  this->GetOutput()->Graft(lattice);
-  this->GetWeights()->Swap(weights);
+  KeepVolumes(m_VoxelVolumes, map.GetVoxelEdge(), *labels, *weights, topology);
+  this->GetOutput()->Graft(labels);
+  this->GetWeights()->Swap(*weights);
   progress.Finish();
 }
 

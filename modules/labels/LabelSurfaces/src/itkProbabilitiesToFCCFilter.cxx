@@ -147,18 +147,15 @@ ProbabilitiesToFCCFilter::GenerateData()
   this->AllocateOutputs();
   LatticeType & labels = *this->GetOutput();
   const auto & region = labels.GetLargestPossibleRegion();
-  labels.FillBuffer(0);
-  FCCLabelWeights & weights = *this->GetWeights();
-  weights.SetNumberOfRows(region.GetSize(1) * region.GetSize(2));
-  std::vector<float> largest(region.GetNumberOfPixels(), -limit);
-  const auto background = Resampler::LatticeType::New(); // its weight: that of probability 1 - sum
+  StrongestLabels strongest(labels, *this->GetWeights());
+  const auto background = Resampler::LatticeType::New(); // the weight of label 0, of probability 1 - sum of the others
   background->CopyInformation(&labels);
   background->SetRegions(region);
   background->Allocate();
   background->FillBuffer(limit);
   const std::vector<float> depths = FindDepths(labels, *this->GetInput());
   const auto addLabel = [&](const Resampler::LatticeType & field, unsigned int label) {
-    AddLabelWeights(field, static_cast<FCCLabelWeights::LabelType>(label), labels, largest, weights);
+    strongest.Add(field, static_cast<LabelType>(label));
     progress.Completed(1);
   };
   for (unsigned int n = 0; n < inputs; ++n)
@@ -168,10 +165,10 @@ ProbabilitiesToFCCFilter::GenerateData()
     Resampler::LatticeType & field = resampler.Resample();
     ForEachRow(region, [&](const Index<3> &, SizeValueType offset) {
       float * const row = field.GetBufferPointer() + offset;
-      float * const left = background->GetBufferPointer() + offset;
+      float * const rest = background->GetBufferPointer() + offset;
       for (SizeValueType i = 0; i < region.GetSize(0); ++i)
       {
-        left[i] -= 2.0f * limit * row[i];
+        rest[i] -= 2.0f * limit * row[i];
         row[i] = std::min(limit * (2.0f * row[i] - 1.0f), depths[offset + i]);
       }
     });
@@ -183,7 +180,7 @@ ProbabilitiesToFCCFilter::GenerateData()
                  background->GetBufferPointer(),
                  [](float depth, float weight) { return std::max(weight, -depth); });
   addLabel(*background, 0);
-  SortWeights(region, weights);
+  strongest.SortWeights();
   progress.Finish();
 }
 

@@ -1,8 +1,7 @@
-#include "itkThinPartSites.h"
+#include "itkLabelsOnLattice.h"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
 
 namespace itk
@@ -25,7 +24,8 @@ Dot(const FCCLattice::SiteType & step, const Position & point)
   return sum;
 }
 
-/** Whether a convex polygon meets the Voronoi cell of the site 0: whether anything is left within all of its faces. */
+/** Whether a convex polygon meets the Voronoi cell of the site 0: whether a part of it is within all of the cell's
+ * faces. */
 bool
 MeetsCell(std::vector<Position> polygon)
 {
@@ -172,7 +172,7 @@ FindThinPartSites(const Image<std::uint8_t, 3> & mask,
     const Index<3> voxel = mask.ComputeIndex(static_cast<OffsetValueType>(offset));
     for (unsigned int cube = 0; cube < 8 && inside.IsInside(voxel); ++cube)
     {
-      // The first thin voxel of a cube does the work.
+      // Each cube is handled at its first thin voxel.
       points.clear();
       bool isFirst = true;
       for (unsigned int corner = 0; corner < 8 && isFirst; ++corner)
