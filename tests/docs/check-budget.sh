@@ -57,6 +57,6 @@ done < <(long_functions)
 
 while read -r place; do
   say "a source folder of another module is taken: $place"
-done < <(grep -rn 'RHOMBIC_SOURCE_FOLDERS' --include=CMakeLists.txt --include='*.cmake' modules pipelines apps |
+done < <(grep -rnE 'RHOMBIC_SOURCE_FOLDERS|(modules|pipelines)/[A-Za-z/]*src\b' --include=CMakeLists.txt --include='*.cmake' modules pipelines apps |
            grep -v '^modules/RhombicModule.cmake' || true)
 exit $((mistakes > 0))

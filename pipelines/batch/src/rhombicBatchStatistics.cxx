@@ -216,7 +216,7 @@ WriteBatchStatistics(const fs::path & folder)
       {
         const Row & row = measures.rows[n];
         const auto value = column < row.size() ? ToNumber<double>(row[column]) : std::nullopt;
-        if (value && std::isfinite(*value) && !measure.unit.empty())
+        if (value && std::isfinite(*value) && measure.unit[0] != '\0')
         {
           values.push_back({ *value, row[measures.Find("case")] });
         }
