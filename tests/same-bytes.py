@@ -2,7 +2,7 @@
 """same-bytes.py FOLDER: rewrites the outputs of rhombic in FOLDER so that two runs of one command are the same bytes, for same-bytes.sh.
 
 Left out are times, memory, and how a command was given, which is
-  in reports and results (.json, .jsonl): "arguments", "command", "options"; of files that hold them, also size and MD5,
+  in reports and results (.json, .jsonl): "arguments", "settings", "command", "options"; of files that hold them, also size and MD5,
   in pictures: the description (PNG "Description"; "ImageDescription" of JPEG, TIFF; "comments" of EXR; IPTC of both),
   in tables of a batch: seconds, peak_MiB, and size and MD5 of files that hold a description.
 All else stays: pixels as they are encoded, other metadata, other fields in their order.
@@ -19,7 +19,7 @@ import struct
 import sys
 
 DESCRIBED = {"page", "picture", "report", "thumbnail"}  # kinds of files that hold how the command was given
-UNSTEADY = {"arguments", "command", "options", "seconds", "peakMemory", "stamp"}
+UNSTEADY = {"arguments", "settings", "command", "options", "seconds", "peakMemory", "stamp"}
 
 
 def json_without_runs(value):
