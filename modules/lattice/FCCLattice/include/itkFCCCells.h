@@ -18,36 +18,42 @@ struct FCCStep
 {
   using SiteType = FCCLattice::SiteType;
 
+  /** a + b. */
   static constexpr SiteType
   Add(const SiteType & a, const SiteType & b)
   {
     return { a[0] + b[0], a[1] + b[1], a[2] + b[2] };
   }
 
+  /** a - b. */
   static constexpr SiteType
   Subtract(const SiteType & a, const SiteType & b)
   {
     return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
   }
 
+  /** A multiple of a step. */
   static constexpr SiteType
   Multiply(IndexValueType factor, const SiteType & step)
   {
     return { factor * step[0], factor * step[1], factor * step[2] };
   }
 
+  /** Whether all three indices are equal. */
   static constexpr bool
   AreEqual(const SiteType & a, const SiteType & b)
   {
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
   }
 
+  /** Squared length in units of the indices. */
   static constexpr IndexValueType
   SquaredLength(const SiteType & step)
   {
     return step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
   }
 
+  /** Cross product of two steps. */
   static constexpr SiteType
   Cross(const SiteType & a, const SiteType & b)
   {
@@ -109,6 +115,7 @@ struct FCCCells
     std::uint8_t type = 0;
   };
 
+  /** An edge, face or tetrahedron of the lattice's cells. */
   struct Simplex
   {
     std::uint8_t size = 0;
@@ -130,6 +137,7 @@ struct FCCCells
   static constexpr unsigned int Directions = 2 * Edges;
   static constexpr unsigned int AllDirections = (1u << Directions) - 1;
 
+  /** The step to the neighbour in a direction, below Directions. */
   static constexpr SiteType
   StepOf(unsigned int direction)
   {
@@ -148,6 +156,7 @@ struct FCCCells
     return direction;
   }
 
+  /** The direction back from the neighbour in a direction. */
   static constexpr unsigned int
   OppositeOf(unsigned int direction)
   {
