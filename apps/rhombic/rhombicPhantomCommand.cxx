@@ -1,6 +1,6 @@
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
-#include "rhombicPhantomFiles.h"
+#include "rhombicPhantom.h"
 
 namespace rhombic
 {

@@ -5,7 +5,7 @@
 
 #include "itkFCCScanBorder.h"
 #include "itkTriangleSurfaceIntersections.h"
-#include "itkTriangleSurfaceNormalSmoothing.h"
+#include "itkTriangleSurfaceForRendering.h"
 #include "itkTriangleSurfaceSmoothing.h"
 
 #include <algorithm>

@@ -4,7 +4,6 @@
 #include "rhombicPhantom.h"
 
 #include "itkImageAlgorithm.h"
-#include "itkTriangleSurfaceComponents.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
 

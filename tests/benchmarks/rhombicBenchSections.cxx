@@ -2,7 +2,6 @@
 
 #include "rhombicExtractSurface.h"
 #include "rhombicProcessMemory.h"
-#include "rhombicVTKIsosurface.h"
 
 #include "itkBSplineInterpolateImageFunction.h"
 #include "itkCartesianToFCCImageFilter.h"
@@ -104,9 +103,9 @@ TargetOf(ExtractionMode mode, bool normals, bool isScan)
 }
 
 std::string
-WithNormals(const char * name, bool normals)
+WithNormals(const std::string & name, bool normals)
 {
-  return std::string(name) + (normals ? ", normals" : ", no normals");
+  return name + (normals ? ", normals" : ", no normals");
 }
 
 double
@@ -282,12 +281,12 @@ MeasurePipeline(const BenchInput & input, const BenchSettings & settings)
     };
     BenchResult result;
     result.section = "pipeline";
-    result.candidate = WithNormals((std::string("cubic B-spline + ") + NameOf(mode)).c_str(), true);
+    result.candidate = WithNormals("cubic B-spline + " + NameOf(mode), true);
     result.reference = "vtkFlyingEdges3D, normals";
     result.threads = settings.threads;
     result.times = TimePairs(
       settings.repeats, [&] { return ExtractWithVTK(VTKExtractor::FlyingEdges, volume, input.isovalue, true); }, work);
-    result.target = NameOf(mode) == std::string("lean") ? std::optional<double>(1.0) : std::nullopt;
+    result.target = NameOf(mode) == "lean" ? std::optional<double>(1.0) : std::nullopt;
     results.push_back(result);
   }
   return results;

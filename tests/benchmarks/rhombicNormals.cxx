@@ -1,4 +1,3 @@
-#include "rhombicBandLimitedField.h"
 #include "rhombicExtractSurface.h"
 #include "rhombicFieldSampling.h"
 #include "rhombicShapeFields.h"
@@ -6,7 +5,7 @@
 #include "rhombicTextTable.h"
 
 #include "itkCartesianToFCCImageFilter.h"
-#include "itkTriangleSurfaceNormalSmoothing.h"
+#include "itkTriangleSurfaceForRendering.h"
 
 #include <algorithm>
 #include <array>

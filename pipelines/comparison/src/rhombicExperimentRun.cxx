@@ -1,11 +1,10 @@
 #include "rhombicExperimentRun.h"
 
-#include "rhombicBandLimitedField.h"
 #include "rhombicBodyField.h"
 #include "rhombicComparedMethod.h"
 #include "rhombicFailure.h"
-#include "rhombicInterpolatedField.h"
-#include "rhombicScanField.h"
+#include "rhombicFieldSampling.h"
+#include "rhombicScanPart.h"
 #include "rhombicShapeFields.h"
 #include "rhombicSilhouetteField.h"
 #include "rhombicSurfaceErrors.h"
@@ -112,8 +111,7 @@ MakeScanCase(const FieldRequest & request, std::uint64_t seed)
 {
   std::mt19937_64 random(seed);
   const double h = request.spacing;
-  ScanField scan =
-    ReadScanField({ request.file, request.isovalue, request.center, h * request.size, h * request.sigma });
+  ScanPart scan = ReadScanPart({ request.file, request.isovalue, request.center, h * request.size, h * request.sigma });
   FieldCase made;
   made.field = std::move(scan.field);
   made.box = scan.box;

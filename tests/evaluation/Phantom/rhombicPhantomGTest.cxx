@@ -1,7 +1,6 @@
 #include "rhombicFailure.h"
 #include "rhombicPhantom.h"
 #include "rhombicPhantomAnatomy.h"
-#include "rhombicPhantomFiles.h"
 
 #include "itkGDCMImageIO.h"
 #include "itkGDCMSeriesFileNames.h"

@@ -3,12 +3,11 @@
 #include "rhombicComparedMethod.h"
 #include "rhombicFailure.h"
 #include "rhombicFieldSampling.h"
-#include "rhombicInterpolatedField.h"
 #include "rhombicShapeFields.h"
 #include "rhombicSilhouetteField.h"
 #include "rhombicSurfaceErrors.h"
 #include "rhombicSurfaceToPolyData.h"
-#include "rhombicVTKIsosurface.h"
+#include "rhombicExtractSurface.h"
 
 #include "detail/itkPositionArithmetic.h"
 #include "itkTriangleSurfaceMeasures.h"

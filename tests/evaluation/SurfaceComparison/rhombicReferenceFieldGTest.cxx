@@ -1,6 +1,7 @@
-#include "rhombicBandLimitedField.h"
 #include "rhombicFieldSampling.h"
 #include "rhombicShapeFields.h"
+
+#include "itkFCCImage.h"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +13,22 @@ using namespace rhombic;
 
 namespace
 {
+
+/** Samples a field on an FCC lattice that covers the cube from 0 to \a edge along each axis; a site is at the world's
+ * origin. \param density sites per unit of volume, above 0 */
+template <typename TPixel>
+typename itk::FCCImage<TPixel>::Pointer
+SampleOnLattice(const ReferenceField & field, double edge, double density, double scale = 1.0)
+{
+  using ImageType = itk::FCCImage<TPixel>;
+  const double spacing = std::cbrt(1.0 / (itk::FCCLattice::CellVolume * density));
+  const auto rows = static_cast<itk::SizeValueType>(std::ceil(edge / spacing)) + 1;
+  const auto image = ImageType::New();
+  image->SetRegions(typename ImageType::SizeType{ { rows / 2 + 1, rows, rows } });
+  image->SetSpacing(typename ImageType::SpacingType(spacing));
+  SampleField(field, scale, image.GetPointer());
+  return image;
+}
 
 void
 ExpectGradientMatchesDifferences(const ReferenceField & field)

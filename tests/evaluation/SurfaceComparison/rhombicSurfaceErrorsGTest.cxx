@@ -1,9 +1,8 @@
-#include "rhombicBandLimitedField.h"
-#include "rhombicFieldProjection.h"
+#include "rhombicReferenceField.h"
 #include "rhombicFieldSampling.h"
 #include "rhombicShapeFields.h"
 #include "rhombicSurfaceErrors.h"
-#include "rhombicVTKIsosurface.h"
+#include "rhombicExtractSurface.h"
 
 #include "itkTriangleSurfaceTopology.h"
 

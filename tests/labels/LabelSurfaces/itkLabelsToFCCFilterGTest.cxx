@@ -6,7 +6,6 @@
 #include "itkImageRegionIteratorWithIndex.h"
 #include "itkMultiThreaderBase.h"
 #include "itkRefusal.h"
-#include "itkTriangleSurfaceComponents.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
 #include "rhombicScan.h"

@@ -1,4 +1,4 @@
-#include "itkTriangleSurfaceNormalSmoothing.h"
+#include "itkTriangleSurfaceForRendering.h"
 
 #include "itkExampleSurfaces.h"
 #include "itkMultiThreaderBase.h"

@@ -1,4 +1,4 @@
-#include "itkTriangleSurfaceVertexOrder.h"
+#include "itkTriangleSurfaceForRendering.h"
 #include "itkTriangleSurfaceTopology.h"
 #include "itkExampleSurfaces.h"
 

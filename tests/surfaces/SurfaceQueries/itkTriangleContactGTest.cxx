@@ -1,6 +1,6 @@
-#include "detail/itkTriangleContact.h"
+#include "itkTriangleSurfaceIntersections.h"
 
-#include "detail/itkExactOrientation.h"
+#include "detail/itkPositionArithmetic.h"
 
 #include <gtest/gtest.h>
 

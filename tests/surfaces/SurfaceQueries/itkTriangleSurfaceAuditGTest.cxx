@@ -1,7 +1,7 @@
 #include "detail/itkTrianglesOfPoints.h"
 #include "itkTriangleSurfaceAudit.h"
 
-#include "detail/itkTriangleContact.h"
+#include "itkTriangleSurfaceIntersections.h"
 #include "itkExampleSurfaces.h"
 #include "itkMultiThreaderBase.h"
 

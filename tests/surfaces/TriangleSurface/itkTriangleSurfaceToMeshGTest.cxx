@@ -1,5 +1,4 @@
-#include "itkMeshToTriangleSurface.h"
-#include "itkTriangleSurfaceToMesh.h"
+#include "itkTriangleSurfaceMeshConversion.h"
 
 #include "itkExampleSurfaces.h"
 

@@ -1,7 +1,8 @@
 #ifndef rhombicProjection_h
 #define rhombicProjection_h
 
-#include <array>
+#include "rhombicVector3.h"
+
 #include <string>
 
 namespace rhombic
@@ -9,9 +10,6 @@ namespace rhombic
 
 /** \file
  * How a picture lies in the patient: used by views of surfaces, slices, and what is drawn over both. */
-
-/** A point in LPS mm, or a direction. */
-using Vector3 = std::array<double, 3>;
 
 /** The axes of a picture, as LPS unit vectors at right angles: right = look x up. */
 struct ViewFrame
@@ -64,14 +62,6 @@ struct Projection
   Vector3
   PointAt(const PicturePosition & position) const;
 };
-
-/** The dot product. */
-double
-Dot(const Vector3 & a, const Vector3 & b);
-
-/** The cross product. */
-Vector3
-Cross(const Vector3 & a, const Vector3 & b);
 
 } // namespace rhombic
 

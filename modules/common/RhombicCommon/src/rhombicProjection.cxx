@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace rhombic
 {
@@ -62,18 +61,6 @@ Projection::PointAt(const PicturePosition & position) const
     point[axis] = centre[axis] + right * frame.right[axis] + up * frame.up[axis];
   }
   return point;
-}
-
-double
-Dot(const Vector3 & a, const Vector3 & b)
-{
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
-
-Vector3
-Cross(const Vector3 & a, const Vector3 & b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
 }
 
 } // namespace rhombic

@@ -44,7 +44,7 @@ struct PhantomPart
 
   PhantomSolid solid;
   PhantomLabel label;
-  int parent; ///< index of the part around this one, which is smaller than this one's; None in the air
+  int parent; ///< index of the part around this part, smaller than that of this part; None in the air
 };
 
 /** The solids of all organs. A point belongs to the last part that contains it. */

@@ -1,4 +1,4 @@
-#include "rhombicPhantomFiles.h"
+#include "rhombicPhantom.h"
 
 #include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"

@@ -92,12 +92,12 @@ MakeGrid(const PhantomSettings & settings)
   return grid;
 }
 
-/** Points spread evenly over the unit square about 0, no two of them in one row or column: a Fibonacci lattice. */
+/** Points spread evenly over the unit square about 0, no two of them in the same row or column: a Fibonacci lattice. */
 const std::vector<std::array<double, 2>> &
 SubSamples()
 {
   static const auto samples = [] {
-    constexpr int count = 55; // this Fibonacci number and the one before it
+    constexpr int count = 55; // this Fibonacci number, and the number before it
     constexpr int step = 34;
     std::vector<std::array<double, 2>> points;
     for (int i = 0; i < count; ++i)

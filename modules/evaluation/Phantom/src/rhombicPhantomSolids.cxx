@@ -41,7 +41,7 @@ RangeOf(const PhantomProfile & profile)
   return { low->value, high->value };
 }
 
-/** The profile whose knots lie at a depth below the curve of another one, at right angles to it. */
+/** The profile whose knots lie at a depth below the curve of another profile, at right angles to that curve. */
 PhantomProfile
 InsetProfile(const PhantomProfile & profile, const PhantomProfile & depth)
 {

@@ -106,7 +106,7 @@ struct PhantomLoft
   std::vector<PhantomRelief> reliefs = {};
 };
 
-/** The loft that lies at a depth, in mm, below the surface of another one; the depth is a function of z. Reliefs keep
+/** The loft that lies at a depth, in mm, below the surface of another loft; the depth is a function of z. Reliefs keep
  * their heights. */
 PhantomLoft
 InsetOf(const PhantomLoft & loft, const PhantomProfile & depth);

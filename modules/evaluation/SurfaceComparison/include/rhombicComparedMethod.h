@@ -45,7 +45,7 @@ struct ComparedMethod
 const std::vector<ComparedMethod> &
 GetComparedMethods();
 
-/** The one of a name. Throws Failure(Usage), which lists the names, when there is none. */
+/** The method of a name. Throws Failure(Usage), which lists the names, when there is none. */
 const ComparedMethod &
 GetComparedMethod(const std::string & name);
 

@@ -4,8 +4,14 @@
 #include "itkFCCImage.h"
 #include "itkFCCIsosurfaceMode.h"
 #include "itkTriangleSurface.h"
+#include "itkImage.h"
+
+#include <vtkImageData.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace rhombic
@@ -18,7 +24,7 @@ const std::vector<ExtractionMode> &
 GetExtractionModes();
 
 /** "tetrahedra", ... */
-const char *
+std::string
 NameOf(ExtractionMode mode);
 
 /** Extracts the surface of an image, on as many threads as ITK is set to use. For std::int16_t and float.
@@ -31,6 +37,31 @@ ExtractSurface(const itk::FCCImage<TPixel> * image,
                ExtractionMode mode,
                bool normals,
                bool closed = false);
+
+/** \file
+ * VTK's isosurfaces, to compare with. Thread safety: one thread at a time, as in VTK. */
+
+/** VTK's extractors for Cartesian volumes. */
+enum class VTKExtractor : unsigned char
+{
+  FlyingEdges,  ///< vtkFlyingEdges3D
+  MarchingCubes ///< vtkMarchingCubes
+};
+
+/** The volume as VTK's image, which shares the pixels: they must outlive the result. Spacing and origin are copied, the
+ * direction is ignored. For std::int16_t and float. */
+template <typename TPixel>
+vtkSmartPointer<vtkImageData>
+ShareWithVTK(const itk::Image<TPixel, 3> * image);
+
+/** The surface of a volume at an isovalue, without scalars and gradients. vtkFlyingEdges3D works on as many threads as
+ * vtkSMPTools is set to, vtkMarchingCubes on one. */
+vtkSmartPointer<vtkPolyData>
+ExtractWithVTK(VTKExtractor extractor, vtkImageData * volume, double isovalue, bool normals);
+
+/** A copy of a mesh of triangles, with its normals if it has any. Throws Failure(Internal) for other cells. */
+itk::TriangleSurface::Pointer
+PolyDataToSurface(vtkPolyData * mesh);
 
 } // namespace rhombic
 

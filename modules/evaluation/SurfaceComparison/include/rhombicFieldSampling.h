@@ -2,11 +2,10 @@
 #define rhombicFieldSampling_h
 
 #include "rhombicReferenceField.h"
-
-#include "itkFCCImage.h"
 #include "rhombicForEachBlock.h"
 #include "itkImage.h"
 #include "itkImageRegionIteratorWithIndex.h"
+#include "itkBSplineInterpolateImageFunction.h"
 
 #include <cmath>
 #include <limits>
@@ -52,21 +51,35 @@ SampleOnGrid(const ReferenceField & field, itk::SizeValueType count, double spac
   return image;
 }
 
-/** Samples a field on an FCC lattice that covers the cube from 0 to \a edge along each axis; a site is at the world's
- * origin. \param density sites per unit of volume, above 0 */
-template <typename TPixel>
-typename itk::FCCImage<TPixel>::Pointer
-SampleOnLattice(const ReferenceField & field, double edge, double density, double scale = 1.0)
+/** \class InterpolatedField
+ * \brief The cubic B-spline through the samples of a volume, mirrored at its border. */
+class InterpolatedField : public ReferenceField
 {
-  using ImageType = itk::FCCImage<TPixel>;
-  const double spacing = std::cbrt(1.0 / (itk::FCCLattice::CellVolume * density));
-  const auto rows = static_cast<itk::SizeValueType>(std::ceil(edge / spacing)) + 1;
-  const auto image = ImageType::New();
-  image->SetRegions(typename ImageType::SizeType{ { rows / 2 + 1, rows, rows } });
-  image->SetSpacing(typename ImageType::SpacingType(spacing));
-  SampleField(field, scale, image.GetPointer());
-  return image;
-}
+public:
+  explicit InterpolatedField(const itk::Image<float, 3> * volume)
+    : m_Spline(SplineType::New())
+  {
+    m_Spline->SetSplineOrder(3);
+    m_Spline->SetInputImage(volume);
+  }
+
+  using ReferenceField::Evaluate;
+
+  double
+  Evaluate(const Vector3 & point, Vector3 & gradient) const override
+  {
+    SplineType::OutputType value;
+    SplineType::CovariantVectorType derivative;
+    const double coordinates[3]{ point[0], point[1], point[2] };
+    m_Spline->EvaluateValueAndDerivative(itk::Point<double, 3>(coordinates), value, derivative);
+    gradient = { derivative[0], derivative[1], derivative[2] };
+    return value;
+  }
+
+private:
+  using SplineType = itk::BSplineInterpolateImageFunction<itk::Image<float, 3>, double, double>;
+  SplineType::Pointer m_Spline;
+};
 
 } // namespace rhombic
 

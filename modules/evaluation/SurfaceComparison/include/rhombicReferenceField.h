@@ -1,13 +1,10 @@
 #ifndef rhombicReferenceField_h
 #define rhombicReferenceField_h
 
-#include <array>
+#include "rhombicVector3.h"
 
 namespace rhombic
 {
-
-/** A point or vector of three coordinates. */
-using Vector3 = std::array<double, 3>;
 
 /** \class ReferenceField
  * \brief A smooth function of space whose values and gradients are known exactly.
@@ -32,6 +29,27 @@ public:
     return this->Evaluate(point, gradient);
   }
 };
+
+/** \class FieldProjection
+ * \brief The point of a field's surface that is nearest to another point. */
+struct FieldProjection
+{
+  Vector3 point{};
+  Vector3 normal{};        ///< unit normal of the surface there, pointing outside
+  double distance = 0.0;   ///< between the two points, not negative
+  bool isResolved = false; ///< false when there is no surface within three units; distance is then 3 units
+};
+
+/** Projects a point near a field's surface onto it.
+ *
+ * The first step is Newton's, along the gradient. Each later guess is the foot of the perpendicular from the point onto
+ * the tangent plane at the guess before, so that the search converges where the gradient's line runs through the point.
+ * If it does not converge, or ends farther away than 0.4 units, the surface is also searched for along 26 directions
+ * around the point, and the nearest result is returned.
+ * \param unit a length that is small compared with the field's detail: no step is longer than a quarter of it, and the
+ * search has converged when a step is shorter than 1e-4 of it */
+FieldProjection
+ProjectOntoField(const ReferenceField & field, const Vector3 & point, double unit = 1.0);
 
 } // namespace rhombic
 

@@ -33,7 +33,7 @@ private:
   void
   Draw(const itk::TriangleSurface & object, unsigned int view);
 
-  /** A point in a picture, in pixels from the centre of the first one. */
+  /** A point in a picture, in pixels from the centre of the first pixel. */
   std::array<double, 2>
   Project(const Vector3 & point, unsigned int view) const;
 

@@ -1,7 +1,7 @@
 #ifndef rhombicSurfaceErrors_h
 #define rhombicSurfaceErrors_h
 
-#include "rhombicFieldProjection.h"
+#include "rhombicReferenceField.h"
 
 #include "itkTriangleTree.h"
 

@@ -1,17 +1,10 @@
 #include "rhombicBodyField.h"
 
-#include "detail/itkPositionArithmetic.h"
-
 #include <algorithm>
 #include <cmath>
 
 namespace rhombic
 {
-
-using itk::Dot;
-using itk::Length;
-using itk::Subtract;
-
 namespace
 {
 

@@ -1,8 +1,6 @@
 #include "rhombicCartesianSurfaces.h"
 
-#include "detail/itkPositionArithmetic.h"
-
-#include "rhombicInterpolatedField.h"
+#include "rhombicFieldSampling.h"
 
 #include "rhombicForEachBlock.h"
 
@@ -147,7 +145,7 @@ MovePointsToCubics(const VolumeType * volume, itk::TriangleSurface & surface)
     }
     Vector3 gradient;
     spline.Evaluate(moved, gradient);
-    const double slope = itk::Length(gradient);
+    const double slope = Length(gradient);
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
       normals[n][axis] = static_cast<float>(slope > 0.0 ? -gradient[axis] / slope : 0.0);

@@ -5,9 +5,8 @@
 #include "rhombicCartesianSurfaces.h"
 #include "rhombicExtractSurface.h"
 #include "rhombicFailure.h"
-#include "rhombicFieldProjection.h"
+#include "rhombicReferenceField.h"
 #include "rhombicFieldSampling.h"
-#include "rhombicVTKIsosurface.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -22,13 +21,13 @@ using VolumeType = itk::Image<float, 3>;
 using LatticeType = itk::FCCImage<float>;
 
 /** The number of steps of a length that cover each side of a box. */
-std::array<int, 3>
+std::array<itk::SizeValueType, 3>
 StepsAlong(const FieldBox & box, double step)
 {
-  std::array<int, 3> steps;
+  std::array<itk::SizeValueType, 3> steps;
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    steps[axis] = static_cast<int>(std::ceil((box.upper[axis] - box.lower[axis]) / step - 1e-6));
+    steps[axis] = static_cast<itk::SizeValueType>(std::ceil((box.upper[axis] - box.lower[axis]) / step - 1e-6));
   }
   return steps;
 }
@@ -65,12 +64,7 @@ OnFCC(ExtractionMode mode)
             const double spacing = std::cbrt(1.0 / (itk::FCCLattice::CellVolume * density));
             const auto steps = StepsAlong(box, spacing);
             const LatticeType::Pointer lattice =
-              Sample<LatticeType>(field,
-                                  box,
-                                  spacing,
-                                  { static_cast<itk::SizeValueType>(steps[0]) / 2 + 1,
-                                    static_cast<itk::SizeValueType>(steps[1]) + 1,
-                                    static_cast<itk::SizeValueType>(steps[2]) + 1 });
+              Sample<LatticeType>(field, box, spacing, { steps[0] / 2 + 1, steps[1] + 1, steps[2] + 1 });
             return PreparedMethod{ lattice->GetBufferedRegion().GetNumberOfPixels(),
                                    [lattice, mode] { return ExtractSurface(lattice.GetPointer(), 0.0, mode, true); } };
           } };
@@ -82,8 +76,9 @@ PrepareBCC(const ReferenceField & field, const FieldBox & box, double density)
   constexpr double cellVolume = 4.0; // of a site, in units of the spacing
   const double spacing = std::cbrt(1.0 / (cellVolume * density));
   const auto steps = StepsAlong(box, spacing);
+  const auto sizeAlong = [&steps](unsigned int axis) { return static_cast<int>(steps[axis]) + 1; };
   auto grid = std::make_shared<TetrahedraGrid>(
-    SampleOnBCC(field, box.lower, { steps[0] + 1, steps[1] + 1, steps[2] + 1 }, spacing));
+    SampleOnBCC(field, box.lower, { sizeAlong(0), sizeAlong(1), sizeAlong(2) }, spacing));
   const auto samples = std::count_if(grid->values.begin(), grid->values.end(), [](float v) { return !std::isnan(v); });
   return { static_cast<itk::SizeValueType>(samples), [grid] { return MarchTetrahedra(*grid); } };
 }
@@ -121,12 +116,7 @@ VolumeType::Pointer
 SampleBox(const ReferenceField & field, const FieldBox & box, double spacing)
 {
   const auto steps = StepsAlong(box, spacing);
-  return Sample<VolumeType>(field,
-                            box,
-                            spacing,
-                            { static_cast<itk::SizeValueType>(steps[0]) + 1,
-                              static_cast<itk::SizeValueType>(steps[1]) + 1,
-                              static_cast<itk::SizeValueType>(steps[2]) + 1 });
+  return Sample<VolumeType>(field, box, spacing, { steps[0] + 1, steps[1] + 1, steps[2] + 1 });
 }
 
 const std::vector<ComparedMethod> &
@@ -204,12 +194,10 @@ MakeTrueSurface(const ReferenceField & field, const FieldBox & box, double spaci
   auto & points = surface->GetPoints();
   ForEachInBlocks(points.size(), 256, [&](itk::SizeValueType n) {
     auto & p = points[n];
-    const FieldProjection projection = ProjectOntoField(field, { p[0], p[1], p[2] }, spacing);
+    const FieldProjection projection = ProjectOntoField(field, itk::ToPosition(p), spacing);
     if (projection.isResolved && projection.distance < spacing)
     {
-      p = { static_cast<float>(projection.point[0]),
-            static_cast<float>(projection.point[1]),
-            static_cast<float>(projection.point[2]) };
+      p = itk::ToPoint(projection.point);
     }
   });
   return surface;
@@ -228,12 +216,8 @@ MakeBisectedSphere(const Vector3 & center, double radius, unsigned int bisection
       const auto [found, isNew] = middles.emplace(std::minmax(a, b), static_cast<std::uint32_t>(points.size()));
       if (isNew)
       {
-        const double scale =
-          std::sqrt(3.0) /
-          itk::Length(itk::Subtract(points[a], Vector3{ -points[b][0], -points[b][1], -points[b][2] }));
-        points.push_back({ scale * (points[a][0] + points[b][0]),
-                           scale * (points[a][1] + points[b][1]),
-                           scale * (points[a][2] + points[b][2]) });
+        const Vector3 sum = Add(points[a], points[b]);
+        points.push_back(Scaled(sum, std::sqrt(3.0) / Length(sum)));
       }
       return found->second;
     };
@@ -251,9 +235,7 @@ MakeBisectedSphere(const Vector3 & center, double radius, unsigned int bisection
   const double scale = radius / std::sqrt(3.0);
   for (const Vector3 & p : points)
   {
-    surface->GetPoints().push_back({ static_cast<float>(center[0] + scale * p[0]),
-                                     static_cast<float>(center[1] + scale * p[1]),
-                                     static_cast<float>(center[2] + scale * p[2]) });
+    surface->GetPoints().push_back(itk::ToPoint(Along(center, p, scale)));
   }
   surface->GetTriangles().assign(triangles.begin(), triangles.end());
   return surface;

@@ -1,9 +1,42 @@
 #include "rhombicExtractSurface.h"
 
 #include "itkFCCIsosurfaceFilter.h"
+#include "rhombicWording.h"
+#include "rhombicFailure.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
+#include <vtkDataArray.h>
+#include <vtkFloatArray.h>
+#include <vtkFlyingEdges3D.h>
+#include <vtkMarchingCubes.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkShortArray.h>
+
+#include <sstream>
+#include <type_traits>
 
 namespace rhombic
 {
+namespace
+{
+
+template <typename TExtractor>
+vtkSmartPointer<vtkPolyData>
+Extract(vtkImageData * volume, double isovalue, bool normals)
+{
+  const vtkNew<TExtractor> extractor;
+  extractor->SetInputData(volume);
+  extractor->SetValue(0, isovalue);
+  extractor->SetComputeScalars(false);
+  extractor->SetComputeGradients(false);
+  extractor->SetComputeNormals(normals);
+  extractor->Update();
+  return extractor->GetOutput();
+}
+
+} // namespace
 
 const std::vector<ExtractionMode> &
 GetExtractionModes()
@@ -16,23 +49,12 @@ GetExtractionModes()
   return modes;
 }
 
-const char *
+std::string
 NameOf(ExtractionMode mode)
 {
-  switch (mode)
-  {
-    case ExtractionMode::Tetrahedra:
-      return "tetrahedra";
-    case ExtractionMode::Octahedra:
-      return "octahedra";
-    case ExtractionMode::Parallelepipeds:
-      return "parallelepipeds";
-    case ExtractionMode::Fine:
-      return "fine";
-    case ExtractionMode::Lean:
-      return "lean";
-  }
-  return "";
+  std::ostringstream name;
+  name << mode;
+  return LowerCase(name.str());
 }
 
 template <typename TPixel>
@@ -53,5 +75,79 @@ template itk::TriangleSurface::Pointer
 ExtractSurface<std::int16_t>(const itk::FCCImage<std::int16_t> *, double, ExtractionMode, bool, bool);
 template itk::TriangleSurface::Pointer
 ExtractSurface<float>(const itk::FCCImage<float> *, double, ExtractionMode, bool, bool);
+
+template <typename TPixel>
+vtkSmartPointer<vtkImageData>
+ShareWithVTK(const itk::Image<TPixel, 3> * image)
+{
+  static_assert(std::is_same_v<TPixel, std::int16_t> || std::is_same_v<TPixel, float>, "No VTK array for this type");
+  using ArrayType = std::conditional_t<std::is_same_v<TPixel, float>, vtkFloatArray, vtkShortArray>;
+  constexpr int doNotFree = 1;
+
+  const auto & size = image->GetBufferedRegion().GetSize();
+  auto volume = vtkSmartPointer<vtkImageData>::New();
+  volume->SetDimensions(static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2]));
+  volume->SetSpacing(image->GetSpacing().GetDataPointer());
+  volume->SetOrigin(image->GetOrigin().GetDataPointer());
+  const vtkNew<ArrayType> pixels;
+  pixels->SetArray(const_cast<TPixel *>(image->GetBufferPointer()),
+                   static_cast<vtkIdType>(image->GetBufferedRegion().GetNumberOfPixels()),
+                   doNotFree);
+  volume->GetPointData()->SetScalars(pixels);
+  return volume;
+}
+
+template vtkSmartPointer<vtkImageData>
+ShareWithVTK<std::int16_t>(const itk::Image<std::int16_t, 3> *);
+template vtkSmartPointer<vtkImageData>
+ShareWithVTK<float>(const itk::Image<float, 3> *);
+
+vtkSmartPointer<vtkPolyData>
+ExtractWithVTK(VTKExtractor extractor, vtkImageData * volume, double isovalue, bool normals)
+{
+  return extractor == VTKExtractor::FlyingEdges ? Extract<vtkFlyingEdges3D>(volume, isovalue, normals)
+                                                : Extract<vtkMarchingCubes>(volume, isovalue, normals);
+}
+
+itk::TriangleSurface::Pointer
+PolyDataToSurface(vtkPolyData * mesh)
+{
+  const auto toArray = [](const double tuple[3]) {
+    return std::array<float, 3>{ static_cast<float>(tuple[0]),
+                                 static_cast<float>(tuple[1]),
+                                 static_cast<float>(tuple[2]) };
+  };
+  auto surface = itk::TriangleSurface::New();
+  surface->GetPoints().reserve(static_cast<std::size_t>(mesh->GetNumberOfPoints()));
+  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+  {
+    surface->GetPoints().push_back(toArray(mesh->GetPoint(i)));
+  }
+  if (vtkDataArray * const normals = mesh->GetPointData()->GetNormals())
+  {
+    surface->GetNormals().reserve(static_cast<std::size_t>(normals->GetNumberOfTuples()));
+    for (vtkIdType i = 0; i < normals->GetNumberOfTuples(); ++i)
+    {
+      surface->GetNormals().push_back(toArray(normals->GetTuple3(i)));
+    }
+  }
+  surface->GetTriangles().reserve(static_cast<std::size_t>(mesh->GetNumberOfPolys()));
+  const auto cells = vtk::TakeSmartPointer(mesh->GetPolys()->NewIterator());
+  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
+  {
+    vtkIdType count;
+    const vtkIdType * points;
+    cells->GetCurrentCell(count, points);
+    if (count != 3)
+    {
+      throw Failure(FailureKind::Internal,
+                    "A mesh from VTK has a cell of " + std::to_string(count) + " points; only triangles are compared.");
+    }
+    surface->GetTriangles().push_back({ static_cast<std::uint32_t>(points[0]),
+                                        static_cast<std::uint32_t>(points[1]),
+                                        static_cast<std::uint32_t>(points[2]) });
+  }
+  return surface;
+}
 
 } // namespace rhombic

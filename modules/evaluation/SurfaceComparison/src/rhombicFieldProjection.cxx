@@ -1,21 +1,9 @@
-#include "rhombicFieldProjection.h"
-
-#include "detail/itkPositionArithmetic.h"
+#include "rhombicReferenceField.h"
 
 namespace rhombic
 {
-
-using itk::Length;
-using itk::Subtract;
-
 namespace
 {
-
-Vector3
-Along(const Vector3 & point, const Vector3 & direction, double distance)
-{
-  return { point[0] + distance * direction[0], point[1] + distance * direction[1], point[2] + distance * direction[2] };
-}
 
 /** Searches for the foot of the perpendicular from \a point onto the surface, by Newton's method from \a start. */
 FieldProjection
@@ -57,7 +45,7 @@ FieldProjection
 Search(const ReferenceField & field, const Vector3 & point, double unit)
 {
   constexpr unsigned int steps = 30;
-  constexpr unsigned int rays = 27; // the one in the middle has no direction
+  constexpr unsigned int rays = 27; // the middle ray has no direction
   const double stepLength = 0.1 * unit;
 
   std::array<double, rays> values;

@@ -1,17 +1,10 @@
 #include "rhombicShapeFields.h"
 
-#include "detail/itkPositionArithmetic.h"
-
 #include <algorithm>
 #include <cmath>
 
 namespace rhombic
 {
-
-using itk::Dot;
-using itk::Length;
-using itk::Subtract;
-
 namespace
 {
 
@@ -30,7 +23,7 @@ SphereField::Evaluate(const Vector3 & point, Vector3 & gradient) const
   const Vector3 d = Subtract(point, m_Center);
   const double distance = Length(d);
   const double scale = distance > 0.0 ? -1.0 / distance : 0.0;
-  gradient = { scale * d[0], scale * d[1], scale * d[2] };
+  gradient = Scaled(d, scale);
   return m_Radius - distance;
 }
 
@@ -48,7 +41,7 @@ TorusField::Evaluate(const Vector3 & point, Vector3 & gradient) const
 {
   const Vector3 d = Subtract(point, m_Center);
   const double height = Dot(d, m_Axis);
-  const Vector3 radial{ d[0] - height * m_Axis[0], d[1] - height * m_Axis[1], d[2] - height * m_Axis[2] };
+  const Vector3 radial = Along(d, m_Axis, -height);
   const double radius = Length(radial);
   const double ring = radius - m_Major;
   const double distance = std::sqrt(ring * ring + height * height);

@@ -1,7 +1,5 @@
 #include "rhombicSilhouetteField.h"
 
-#include "detail/itkPositionArithmetic.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +15,7 @@ SilhouetteField::SilhouetteField(const itk::TriangleSurface & object, unsigned i
   }
   const auto bounds = object.GetBounds();
   m_PixelSize = (bounds[5] - bounds[4]) / rows;
-  m_Rows = static_cast<int>(rows) + 2; // an empty one on each side
+  m_Rows = static_cast<int>(rows) + 2; // an empty row on each side
   m_Columns = static_cast<int>(std::ceil(2.0 * reach / m_PixelSize)) + 2;
   m_Bottom = bounds[4] - 0.5 * m_PixelSize;
   m_Left = -0.5 * (m_Columns - 1) * m_PixelSize;
@@ -33,7 +31,7 @@ SilhouetteField::SilhouetteField(const itk::TriangleSurface & object, unsigned i
 std::array<double, 2>
 SilhouetteField::Project(const Vector3 & point, unsigned int view) const
 {
-  return { (itk::Dot(point, m_Axes[view]) - m_Left) / m_PixelSize, (point[2] - m_Bottom) / m_PixelSize };
+  return { (Dot(point, m_Axes[view]) - m_Left) / m_PixelSize, (point[2] - m_Bottom) / m_PixelSize };
 }
 
 /** Sets the pixels whose centre is in the projection of a triangle. */

@@ -3,7 +3,7 @@
 #include "detail/itkPositionArithmetic.h"
 
 #include "rhombicForEachBlock.h"
-#include "itkTriangleSurfaceQuality.h"
+#include "itkTriangleSurfaceMeasures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +14,6 @@
 
 namespace rhombic
 {
-
-using itk::Cross;
-using itk::Dot;
-using itk::Length;
-using itk::Subtract;
-
 namespace
 {
 
@@ -29,15 +23,10 @@ constexpr double sideWeight = 2.0 / 15.0;
 constexpr double centroidWeight = 9.0 / 20.0;
 constexpr std::size_t BlockSize = 256;
 
-/** The corners of a triangle. */
-using Corners = std::array<Vector3, 3>;
-
-/** A normal as long as twice the triangle's area, towards the side from which the corners are counter-clockwise. */
-Vector3
-AreaVector(const Corners & corners)
-{
-  return Cross(Subtract(corners[1], corners[0]), Subtract(corners[2], corners[0]));
-}
+using itk::AreaVector;
+using itk::CornersOf;
+using itk::CornersType;
+using itk::ToPosition;
 
 Vector3
 Middle(const Vector3 & a, const Vector3 & b)
@@ -46,7 +35,7 @@ Middle(const Vector3 & a, const Vector3 & b)
 }
 
 Vector3
-Centroid(const Corners & corners)
+Centroid(const CornersType & corners)
 {
   const auto & [a, b, c] = corners;
   return { (a[0] + b[0] + c[0]) / 3.0, (a[1] + b[1] + c[1]) / 3.0, (a[2] + b[2] + c[2]) / 3.0 };
@@ -59,17 +48,11 @@ Angle(const Vector3 & a, const Vector3 & b)
   return degreesPerRadian * std::atan2(Length(Cross(a, b)), Dot(a, b));
 }
 
-Vector3
-ToVector(const std::array<float, 3> & values)
-{
-  return { values[0], values[1], values[2] };
-}
-
 /** A triangle in the box, and what is measured at it. */
 struct JudgedTriangle
 {
   itk::TriangleSurface::TriangleType ids;
-  Corners corners;
+  CornersType corners;
   double area;
   double quality;
   double facetNormalError;
@@ -78,7 +61,7 @@ struct JudgedTriangle
 };
 
 /** A distance in units, and its weight, an area. */
-using Distance = std::pair<double, double>;
+using WeightedDistance = std::pair<double, double>;
 
 bool
 IsInBox(const Vector3 & point, const SurfaceErrorSettings & settings)
@@ -99,9 +82,7 @@ SelectTriangles(const itk::TriangleSurface & surface, const SurfaceErrorSettings
   {
     JudgedTriangle triangle{};
     triangle.ids = ids;
-    std::transform(ids.begin(), ids.end(), triangle.corners.begin(), [&](std::uint32_t id) {
-      return ToVector(surface.GetPoints()[id]);
-    });
+    triangle.corners = CornersOf(surface, ids);
     triangle.area = Length(AreaVector(triangle.corners)) / 2.0;
     if (IsInBox(Centroid(triangle.corners), settings))
     {
@@ -136,7 +117,7 @@ ProjectPoints(const itk::TriangleSurface & surface,
   ForEachInBlocks(projections.size(), BlockSize, [&](itk::SizeValueType point) {
     if (pointAreas[point] > 0.0)
     {
-      projections[point] = findNearest(ToVector(surface.GetPoints()[point]));
+      projections[point] = findNearest(ToPosition(surface.GetPoints()[point]));
     }
   });
   return projections;
@@ -159,7 +140,7 @@ JudgeTriangles(std::vector<JudgedTriangle> & triangles, const FindNearest & find
 
 /** Sets all errors of distances and the area, from distances in units and their weights. */
 void
-SummariseDistances(std::vector<Distance> & distances, SurfaceErrors & errors)
+SummariseDistances(std::vector<WeightedDistance> & distances, SurfaceErrors & errors)
 {
   errors.area = 0.0;
   for (const auto & [distance, area] : distances)
@@ -182,13 +163,13 @@ SummariseDistances(std::vector<Distance> & distances, SurfaceErrors & errors)
 }
 
 /** The distances at seven points of each triangle, in units, with their weights. */
-std::vector<Distance>
+std::vector<WeightedDistance>
 CollectDistances(const std::vector<JudgedTriangle> & triangles,
                  const std::vector<FieldProjection> & pointProjections,
                  double unit,
                  double & unresolvedArea)
 {
-  std::vector<Distance> distances;
+  std::vector<WeightedDistance> distances;
   distances.reserve(7 * triangles.size());
   const auto add = [&](const FieldProjection & projection, double area) {
     if (area > 0.0)
@@ -225,7 +206,7 @@ MeanVertexNormalError(const itk::TriangleSurface & surface,
   {
     if (pointAreas[point] > 0.0)
     {
-      sum += pointAreas[point] * Angle(ToVector(surface.GetNormals()[point]), pointProjections[point].normal);
+      sum += pointAreas[point] * Angle(ToPosition(surface.GetNormals()[point]), pointProjections[point].normal);
     }
   }
   return sum / area;
@@ -238,15 +219,10 @@ SumNormals(const itk::TriangleSurface & surface)
   std::vector<Vector3> normals(surface.GetNumberOfPoints());
   for (const auto & ids : surface.GetTriangles())
   {
-    const Vector3 normal = AreaVector({ ToVector(surface.GetPoints()[ids[0]]),
-                                        ToVector(surface.GetPoints()[ids[1]]),
-                                        ToVector(surface.GetPoints()[ids[2]]) });
+    const Vector3 normal = AreaVector(CornersOf(surface, ids));
     for (const std::uint32_t id : ids)
     {
-      for (unsigned int axis = 0; axis < 3; ++axis)
-      {
-        normals[id][axis] += normal[axis];
-      }
+      normals[id] = Add(normals[id], normal);
     }
   }
   return normals;
@@ -271,9 +247,8 @@ NearestOnMesh(const itk::TriangleTree & tree)
       projection.distance = std::numeric_limits<double>::infinity();
       return projection;
     }
-    const auto & points = tree.GetSurface().GetPoints();
-    const auto & ids = tree.GetSurface().GetTriangles()[closest.triangle];
-    const Vector3 normal = AreaVector({ ToVector(points[ids[0]]), ToVector(points[ids[1]]), ToVector(points[ids[2]]) });
+    const itk::TriangleSurface & surface = tree.GetSurface();
+    const Vector3 normal = AreaVector(CornersOf(surface, surface.GetTriangles()[closest.triangle]));
     const double length = Length(normal);
     projection.point = closest.point;
     projection.distance = std::sqrt(closest.squaredDistance);
@@ -328,7 +303,7 @@ ComputePointDistances(const itk::TriangleSurface & surface,
 {
   const auto pointAreas = SumPointAreas(SelectTriangles(surface, settings), surface.GetNumberOfPoints());
   const auto projections = ProjectPoints(surface, pointAreas, findNearest);
-  std::vector<Distance> distances;
+  std::vector<WeightedDistance> distances;
   for (std::size_t point = 0; point < pointAreas.size(); ++point)
   {
     if (pointAreas[point] > 0.0)
@@ -368,7 +343,7 @@ ComputeNormalPenalty(const itk::TriangleSurface & surface,
   std::vector<std::uint32_t> judged;
   for (std::uint32_t point = 0; point < normals.size(); ++point)
   {
-    if (IsInBox(ToVector(surface.GetPoints()[point]), settings))
+    if (IsInBox(ToPosition(surface.GetPoints()[point]), settings))
     {
       judged.push_back(point);
     }
@@ -376,7 +351,7 @@ ComputeNormalPenalty(const itk::TriangleSurface & surface,
   std::vector<double> penalties(judged.size());
   ForEachInBlocks(judged.size(), BlockSize, [&](itk::SizeValueType n) {
     const std::uint32_t point = judged[n];
-    const auto nearest = tree.FindClosestPoint(ToVector(surface.GetPoints()[point])).triangle;
+    const auto nearest = tree.FindClosestPoint(ToPosition(surface.GetPoints()[point])).triangle;
     const double product = Length(normals[point]) * Length(trueNormals[nearest]);
     const double cosine = product > 0.0 ? Dot(normals[point], trueNormals[nearest]) / product : 0.0;
     penalties[n] = 1.0 - std::clamp(cosine, 0.0, 1.0);

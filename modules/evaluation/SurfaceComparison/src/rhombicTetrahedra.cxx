@@ -1,6 +1,7 @@
 #include "rhombicCartesianSurfaces.h"
 
 #include "rhombicForEachBlock.h"
+#include "detail/itkPositionArithmetic.h"
 
 #include <algorithm>
 #include <cmath>
@@ -142,11 +143,8 @@ private:
     {
       constexpr double margin = 1e-4;
       const double t = std::clamp<double>(begin.value / (double{ begin.value } - end.value), margin, 1.0 - margin);
-      const Vector3 p = m_Grid.GetPosition(begin.point);
-      const Vector3 q = m_Grid.GetPosition(end.point);
-      m_Surface->GetPoints().push_back({ static_cast<float>(p[0] + t * (q[0] - p[0])),
-                                         static_cast<float>(p[1] + t * (q[1] - p[1])),
-                                         static_cast<float>(p[2] + t * (q[2] - p[2])) });
+      const Vector3 point = Mix(m_Grid.GetPosition(begin.point), m_Grid.GetPosition(end.point), t);
+      m_Surface->GetPoints().push_back(itk::ToPoint(point));
     }
     return found->second;
   }

@@ -3,7 +3,7 @@
 #include "rhombicLatticeBlocks.h"
 
 #include "itkImageDuplicator.h"
-#include "itkTriangleSurfaceComponents.h"
+#include "itkTriangleSurfaceTopology.h"
 #include "itkTriangleSurfaceMeasures.h"
 
 #include <algorithm>

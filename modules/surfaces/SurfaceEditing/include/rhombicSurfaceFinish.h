@@ -39,8 +39,8 @@ struct SurfaceFinish
   }
 };
 
-/** Both finishes in one: what either removes or fills, and the larger limits of either. Simplification is that of
- * \a second if it simplifies, else that of \a first. */
+/** One finish of two: removes and fills all that either does, with the larger limits of the two. Simplification is that
+ * of \a second if it simplifies, else that of \a first. */
 SurfaceFinish
 CombineFinish(const SurfaceFinish & first, const SurfaceFinish & second);
 

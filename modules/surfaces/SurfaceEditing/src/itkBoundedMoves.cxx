@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <set>
 #include <utility>
 
@@ -15,13 +14,6 @@ namespace
 
 constexpr double SmallestCosineOfTurn = 0.1736; // cosine of 80 degrees
 constexpr double SmallestShareOfArea = 0.1;
-
-PositionType
-AreaVectorOf(const TriangleSurface::PointsContainer & points, const TriangleSurface::TriangleType & triangle)
-{
-  return AreaVector(
-    { ToPosition(points[triangle[0]]), ToPosition(points[triangle[1]]), ToPosition(points[triangle[2]]) });
-}
 
 /** The triangles' normals at a point weighted by their angles there; zero if no triangle has an area. */
 PositionType
@@ -53,11 +45,11 @@ BoundedMoves::BoundedMoves(TriangleSurface & surface, const TrianglesOfPoints & 
   , m_Next(surface.GetPoints())
 {
   rhombic::ForEachInBlocks(m_StartAreas.size(), MovedBlock, [&](SizeValueType id) {
-    m_StartAreas[id] = AreaVectorOf(m_Start, std::as_const(m_Surface).GetTriangles()[id]);
+    m_StartAreas[id] = AreaVector(CornersOf(m_Start, std::as_const(m_Surface).GetTriangles()[id]));
   });
 }
 
-/** The position itself, or the nearest one that is not too far from \a start. */
+/** The position itself, or the nearest position that is not too far from \a start. */
 BoundedMoves::PointType
 BoundedMoves::LimitMove(const PointType & start, PointType position) const
 {
@@ -76,7 +68,7 @@ bool
 BoundedMoves::IsSpoilt(std::uint32_t triangle) const
 {
   const PositionType & before = m_StartAreas[triangle];
-  const PositionType after = AreaVectorOf(m_Next, std::as_const(m_Surface).GetTriangles()[triangle]);
+  const PositionType after = AreaVector(CornersOf(m_Next, std::as_const(m_Surface).GetTriangles()[triangle]));
   const double cosine = Dot(before, after);
   const double squareBefore = Dot(before, before);
   const double squareAfter = Dot(after, after);
@@ -88,16 +80,16 @@ BoundedMoves::IsSpoilt(std::uint32_t triangle) const
 void
 BoundedMoves::FinishStep()
 {
-  std::vector<std::uint32_t> spoilt;
-  std::mutex mutex;
-  rhombic::ForEachInBlocks(m_Surface.GetNumberOfTriangles(), MovedBlock, [&](SizeValueType id) {
-    if (this->IsSpoilt(static_cast<std::uint32_t>(id)))
+  const auto findSpoilt = [this](std::size_t begin, std::size_t end, std::vector<std::uint32_t> & spoilt) {
+    for (auto id = static_cast<std::uint32_t>(begin); id < end; ++id)
     {
-      const std::lock_guard<std::mutex> lock(mutex);
-      spoilt.push_back(static_cast<std::uint32_t>(id));
+      if (this->IsSpoilt(id))
+      {
+        spoilt.push_back(id);
+      }
     }
-  });
-  this->PutBack(std::move(spoilt));
+  };
+  this->PutBack(CollectIds(m_Surface.GetNumberOfTriangles(), MovedBlock, findSpoilt));
   m_Surface.GetPoints().swap(m_Next);
 }
 
@@ -147,8 +139,7 @@ BoundedMoves::PutBackToStart(const std::vector<std::uint32_t> & triangles)
     m_Fans.VisitTriangles(point, [&](std::uint32_t id) { changed.push_back(id); });
   }
   m_Surface.GetPoints().swap(m_Next);
-  std::sort(changed.begin(), changed.end());
-  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  SortUnique(changed);
   return changed;
 }
 
@@ -157,7 +148,7 @@ BoundedMoves::PutBackMeeting(rhombic::StagedProgress & progress, double stageEnd
 {
   const TriangleTree tree(m_Surface); // of triangles that have since been put back it does not know where they are
   std::set<std::uint32_t> putBack;
-  auto meeting = FindCrossingTriangles(tree, m_Fans, TriangleContact::Touching, progress, stageEnd);
+  auto meeting = FindCrossingTriangles(tree, m_Fans, TriangleContact::Touching, &progress, stageEnd);
   while (!meeting.empty())
   {
     progress.Completed(0);

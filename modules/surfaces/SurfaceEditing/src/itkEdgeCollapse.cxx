@@ -24,7 +24,7 @@ using TriangleType = TriangleSurface::TriangleType;
 constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
 
 constexpr double SmallestCosineOfCollapse = 0.2; // cosine of the largest turn of a normal when an edge collapses
-constexpr double SliverQuality = 0.1;    // the normal of a worse triangle is unreliable, and no new one may be worse
+constexpr double SliverQuality = 0.1; // the normal of a worse triangle is unreliable, and no new triangle may be worse
 constexpr unsigned int MostAround = 64;  // triangles around a point that vanishes; more would take too long
 constexpr double FarthestPosition = 1.0; // distance of the new position from the edge's middle, in lengths of the edge
 
@@ -47,18 +47,6 @@ struct Shape
   }
 };
 
-PositionType
-Mix(const PositionType & a, const PositionType & b, double shareOfB)
-{
-  return { a[0] + shareOfB * (b[0] - a[0]), a[1] + shareOfB * (b[1] - a[1]), a[2] + shareOfB * (b[2] - a[2]) };
-}
-
-PointType
-ToPoint(const PositionType & position)
-{
-  return { static_cast<float>(position[0]), static_cast<float>(position[1]), static_cast<float>(position[2]) };
-}
-
 /** The distinct points of some triangles, ascending. */
 std::vector<PointId>
 FindPoints(const std::vector<TriangleType> & triangles)
@@ -69,8 +57,7 @@ FindPoints(const std::vector<TriangleType> & triangles)
   {
     ids.insert(ids.end(), triangle.begin(), triangle.end());
   }
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  SortUnique(ids);
   return ids;
 }
 
@@ -92,19 +79,134 @@ ToLocal(std::vector<TriangleType> triangles, const std::vector<PointId> & ids)
 class EdgeCollapse
 {
 public:
-  EdgeCollapse(const TriangleSurface & surface,
-               const SurfacePart & part,
-               const SurfacePoints & points,
-               const OriginalSurface & original);
+  EdgeCollapse(const SurfaceOfParts & whole, const SurfacePart & part)
+    : m_Original(whole.original)
+    , m_Ids(FindPoints(part.triangles))
+    , m_Origin(ToPosition(whole.surface.GetPoints()[m_Ids.front()]))
+    , m_Triangles(ToLocal(part.triangles, m_Ids))
+    , m_Sheets(part.sheets)
+    , m_Remains(m_Triangles.size(), 1)
+    , m_Changes(m_Triangles.size(), 0)
+    , m_FirstCorner(m_Ids.size(), None)
+    , m_NextCorner(3 * m_Triangles.size())
+    , m_IsGone(m_Ids.size(), 0)
+    , m_HasMoved(m_Ids.size(), 0)
+    , m_Near(m_Ids.size(), None)
+  {
+    this->LinkCorners();
+    m_Positions.reserve(m_Ids.size());
+    for (const PointId id : m_Ids)
+    {
+      m_Positions.push_back(Subtract(ToPosition(whole.surface.GetPoints()[id]), m_Origin));
+      if (whole.surface.HasNormals())
+      {
+        m_Normals.push_back(ToPosition(whole.surface.GetNormals()[id]));
+      }
+    }
+    std::vector<std::uint32_t> inPart(m_Ids.size(), 0);
+    for (const TriangleType & triangle : m_Triangles)
+    {
+      for (const PointId point : triangle)
+      {
+        ++inPart[point];
+      }
+    }
+    for (PointId point = 0; point < m_Ids.size(); ++point)
+    {
+      const PointId id = m_Ids[point];
+      m_Strata.push_back(whole.points.strata[id]);
+      m_IsOnBorder.push_back(m_Strata[point] == Stratum::Fixed || inPart[point] != whole.points.triangles[id] ? 1 : 0);
+      m_Stays.push_back(m_IsOnBorder[point] | whole.points.isHeld[id]);
+    }
+    if (m_Original.surface != nullptr)
+    {
+      this->AddWitnesses(part.witnesses);
+    }
+  }
 
   CollapseLog
-  Run(double largestError);
+  Run(double largestError)
+  {
+    m_LargestError = largestError;
+    m_Versions.assign(m_Ids.size(), 0);
+    m_Marks.assign(m_Ids.size(), 0);
+    this->AddQuadrics();
+    this->ProposeAll();
+    CollapseLog log;
+    while (!m_Candidates.empty())
+    {
+      const Candidate best = m_Candidates.top();
+      m_Candidates.pop();
+      if (this->TryCandidate(best, log))
+      {
+        this->CollectFan(best.to, m_ToFan);
+        for (const FanTriangle & fan : m_ToFan)
+        {
+          this->Propose(best.to, fan.next);
+        }
+      }
+    }
+    log.wasHeldBack = m_WasHeldBack;
+    return log;
+  }
 
   void
-  Replay(const CollapseLog & log, const std::vector<std::uint16_t> & mostChanges);
+  Replay(const CollapseLog & log, const std::vector<std::uint16_t> & mostChanges)
+  {
+    m_IsOther.assign(m_Ids.size(), 0);
+    for (const EdgeToCollapse & edge : log.edges)
+    {
+      this->CollectFans(edge.from, edge.to);
+      if (!this->IsAsLogged() || !this->MayChange(mostChanges))
+      {
+        m_IsOther[edge.from] = m_IsOther[edge.to] = 1;
+        continue;
+      }
+      if (m_Original.surface != nullptr)
+      {
+        this->AreWitnessesNear(edge.position);
+      }
+      this->Collapse(edge);
+    }
+  }
 
   CollapsedPart
-  GetResult() const;
+  GetResult() const
+  {
+    CollapsedPart result;
+    for (const bool isNew : { false, true })
+    {
+      for (TriangleId id = 0; id < m_Triangles.size(); ++id)
+      {
+        if (!m_Remains[id] || (m_Changes[id] > 0) != isNew)
+        {
+          continue;
+        }
+        const auto index = static_cast<TriangleId>(result.part.triangles.size());
+        const auto & [a, b, c] = m_Triangles[id];
+        result.part.triangles.push_back({ m_Ids[a], m_Ids[b], m_Ids[c] });
+        result.part.sheets.push_back(m_Sheets[id]);
+        result.ids.push_back(id);
+        result.changes.push_back(m_Changes[id]);
+        for (WitnessId witness = m_FirstWitness.empty() ? None : m_FirstWitness[id]; witness != None;
+             witness = m_NextWitness[witness])
+        {
+          result.part.witnesses.push_back({ m_WitnessPoints[witness], index });
+        }
+      }
+    }
+    for (PointId point = 0; point < m_Positions.size(); ++point)
+    {
+      if (m_HasMoved[point] && !m_IsGone[point])
+      {
+        result.movedPoints.push_back({ m_Ids[point],
+                                       ToPoint(Add(m_Positions[point], m_Origin)),
+                                       m_Normals.empty() ? TriangleSurface::NormalType{} : ToPoint(m_Normals[point]),
+                                       m_Near[point] });
+      }
+    }
+    return result;
+  }
 
 private:
   /** A triangle {point, next, last} around a point. */
@@ -133,53 +235,476 @@ private:
   };
 
   void
-  LinkCorners();
+  LinkCorners()
+  {
+    for (CornerId corner = 0; corner < m_NextCorner.size(); ++corner)
+    {
+      const PointId point = m_Triangles[corner / 3][corner % 3];
+      m_NextCorner[corner] = m_FirstCorner[point];
+      m_FirstCorner[point] = corner;
+    }
+  }
+
   void
-  AddWitnesses(const std::vector<Witness> & witnesses);
+  AddWitnesses(const std::vector<Witness> & witnesses)
+  {
+    m_FirstWitness.assign(m_Triangles.size(), None);
+    for (const Witness & witness : witnesses)
+    {
+      m_WitnessPoints.push_back(witness.point);
+      m_WitnessPositions.push_back(Subtract(ToPosition(m_Original.surface->GetPoints()[witness.point]), m_Origin));
+      m_NextWitness.push_back(m_FirstWitness[witness.triangle]);
+      m_FirstWitness[witness.triangle] = static_cast<WitnessId>(m_WitnessPositions.size() - 1);
+    }
+  }
+
   void
-  AddQuadrics();
+  AddQuadrics()
+  {
+    m_Quadrics.resize(m_Ids.size());
+    for (const TriangleType & triangle : m_Triangles)
+    {
+      const PositionType & first = m_Positions[triangle[0]];
+      const Shape shape(first, m_Positions[triangle[1]], m_Positions[triangle[2]]);
+      for (const PointId point : triangle)
+      {
+        m_Quadrics[point].AddPlane(first, shape.normal);
+      }
+    }
+  }
+
   void
-  ProposeAll();
+  ProposeAll()
+  {
+    for (const TriangleType & triangle : m_Triangles)
+    {
+      for (unsigned int corner = 0; corner < 3; ++corner)
+      {
+        if (triangle[corner] < triangle[(corner + 1) % 3])
+        {
+          this->Propose(triangle[corner], triangle[(corner + 1) % 3]);
+        }
+      }
+    }
+  }
+
+  /** Makes an edge a candidate. If one of its points stays or is of a higher stratum, the other point vanishes. */
   void
-  Propose(PointId a, PointId b);
+  Propose(PointId a, PointId b)
+  {
+    if (m_Stays[a] && m_Stays[b])
+    {
+      return;
+    }
+    const bool keepsFirst = m_Stays[a] || (!m_Stays[b] && m_Strata[a] > m_Strata[b]);
+    const PointId from = keepsFirst ? b : a;
+    const PointId to = keepsFirst ? a : b;
+    if (m_Strata[from] > m_Strata[to])
+    {
+      return;
+    }
+    Quadric quadric = m_Quadrics[from];
+    quadric.Add(m_Quadrics[to]);
+    const double error = quadric.ComputeDistance(this->FindPosition(from, to));
+    if (error <= m_LargestError)
+    {
+      m_Candidates.push({ static_cast<float>(error), from, to, m_Versions[from] + m_Versions[to] });
+    }
+    else
+    {
+      m_WasHeldBack = true;
+    }
+  }
+
+  /** Whether the point to which an edge collapses stays where it is. */
   bool
-  KeepsPlace(PointId from, PointId to) const;
+  KeepsPlace(PointId from, PointId to) const
+  {
+    return m_Stays[to] || m_Strata[to] > m_Strata[from];
+  }
+
+  /** The position to which an edge collapses, rounded to the surface's precision. */
   PositionType
-  FindPosition(PointId from, PointId to) const;
+  FindPosition(PointId from, PointId to) const
+  {
+    if (this->KeepsPlace(from, to))
+    {
+      return m_Positions[to];
+    }
+    const PositionType middle = Mix(m_Positions[from], m_Positions[to], 0.5);
+    Quadric quadric = m_Quadrics[from];
+    quadric.Add(m_Quadrics[to]);
+    PositionType position = quadric.FindMinimum(middle);
+    const double squaredEdge = SquaredDistance(m_Positions[to], m_Positions[from]);
+    if (!(SquaredDistance(position, middle) <= FarthestPosition * FarthestPosition * squaredEdge))
+    {
+      position = middle;
+    }
+    return Subtract(ToPosition(ToPoint(Add(position, m_Origin))), m_Origin);
+  }
+
+  /** Collapses an edge if it may collapse; returns whether it did. */
   bool
-  TryCandidate(const Candidate & candidate, CollapseLog & log);
+  TryCandidate(const Candidate & candidate, CollapseLog & log)
+  {
+    const auto & [error, from, to, version] = candidate;
+    if (m_IsGone[from] || m_IsGone[to] || m_Versions[from] + m_Versions[to] != version)
+    {
+      return false;
+    }
+    this->CollectFans(from, to);
+    EdgeToCollapse edge{ from, to, this->FindPosition(from, to), None, error };
+    if (!this->KeepsTopology(from, to) || !this->KeepsShape(from, to, edge.position))
+    {
+      return false;
+    }
+    if (!this->StaysNear(edge))
+    {
+      m_WasHeldBack = true;
+      return false;
+    }
+    m_Quadrics[to].Add(m_Quadrics[from]);
+    m_Versions[to] += m_Versions[from] + 1;
+    this->Collapse(edge);
+    edge.error = log.edges.empty() ? edge.error : std::max(edge.error, log.edges.back().error);
+    log.edges.push_back(edge);
+    return true;
+  }
+
   void
-  CollectFan(PointId point, Fan & fan) const;
+  CollectFan(PointId point, Fan & fan) const
+  {
+    fan.clear();
+    for (CornerId corner = m_FirstCorner[point]; corner != None; corner = m_NextCorner[corner])
+    {
+      const TriangleId id = corner / 3;
+      if (m_Remains[id])
+      {
+        const TriangleType & triangle = m_Triangles[id];
+        fan.push_back({ id, triangle[(corner + 1) % 3], triangle[(corner + 2) % 3] });
+      }
+    }
+  }
+
+  /** Collects the triangles at the two points of an edge, and those of them that change when it collapses. */
   void
-  CollectFans(PointId from, PointId to);
+  CollectFans(PointId from, PointId to)
+  {
+    this->CollectFan(from, m_FromFan);
+    this->CollectFan(to, m_ToFan);
+    m_Changed.clear();
+    for (const FanTriangle & fan : m_FromFan)
+    {
+      if (fan.next != to && fan.last != to)
+      {
+        m_Changed.push_back(fan);
+      }
+    }
+    m_NumberFromChanged = m_Changed.size();
+    for (const FanTriangle & fan : m_ToFan)
+    {
+      if (!this->KeepsPlace(from, to) && fan.next != from && fan.last != from)
+      {
+        m_Changed.push_back(fan);
+      }
+    }
+  }
+
+  /** The link condition: the common neighbours of the two points are the points opposite to the edge, and no two
+   * triangles become duplicates. A point of a curve vanishes along the curve, and not where the curve would close or
+   * meet another. The point that vanishes is inside the part. */
   bool
-  KeepsTopology(PointId from, PointId to);
+  KeepsTopology(PointId from, PointId to)
+  {
+    m_Mark += 2; // m_Mark for neighbours of point to, m_Mark + 1 for neighbours of both points
+    for (const FanTriangle & fan : m_ToFan)
+    {
+      m_Marks[fan.next] = m_Mark;
+      m_Marks[fan.last] = m_Mark;
+    }
+    std::size_t common = 0;
+    bool joinsBorder = false;
+    for (const FanTriangle & fan : m_FromFan)
+    {
+      for (const PointId point : { fan.next, fan.last })
+      {
+        if (point != to && m_Marks[point] == m_Mark)
+        {
+          m_Marks[point] = m_Mark + 1;
+          ++common;
+        }
+        joinsBorder =
+          joinsBorder || (point != to && m_Marks[point] < m_Mark && m_IsOnBorder[to] && m_IsOnBorder[point]);
+      }
+    }
+    const std::size_t opposite = m_FromFan.size() - m_NumberFromChanged;
+    const bool isAlong = m_Strata[from] == Stratum::Sheet ? opposite == 2 : opposite > 2;
+    return common == opposite && isAlong && !joinsBorder && m_FromFan.size() <= MostAround &&
+           this->KeepsTriangles(from, to);
+  }
+
+  /** Whether no two triangles become duplicates, and no two edges of curves. Common neighbours are marked. */
   bool
-  KeepsTriangles(PointId from, PointId to) const;
+  KeepsTriangles(PointId from, PointId to) const
+  {
+    const auto isCommon = [&](PointId point) { return m_Marks[point] == m_Mark + 1; };
+    const auto isDuplicate = [&](const FanTriangle & fan) {
+      return isCommon(fan.next) && isCommon(fan.last) &&
+             std::any_of(m_FromFan.begin(), m_FromFan.end(), [&](const FanTriangle & other) {
+               return (fan.next == other.last && fan.last == other.next) ||
+                      (fan.next == other.next && fan.last == other.last);
+             });
+    };
+    const auto closesCurve = [&](const FanTriangle & fan) {
+      const PointId opposite = fan.next == to ? fan.last : fan.next;
+      return (fan.next == to || fan.last == to) &&
+             std::count_if(m_FromFan.begin(), m_FromFan.end(), [&](const FanTriangle & other) {
+               return other.next == opposite || other.last == opposite;
+             }) > 2;
+    };
+    return std::none_of(m_ToFan.begin(), m_ToFan.end(), isDuplicate) &&
+           (m_Strata[from] == Stratum::Sheet || std::none_of(m_FromFan.begin(), m_FromFan.end(), closesCurve));
+  }
+
   bool
-  KeepsShape(PointId from, PointId to, const PositionType & position) const;
+  KeepsShape(PointId from, PointId to, const PositionType & position) const
+  {
+    return this->KeepsShapeAround(from, to, m_FromFan, position) &&
+           (this->KeepsPlace(from, to) || this->KeepsShapeAround(to, from, m_ToFan, position));
+  }
+
+  /** Whether no triangle around a point loses its area, turns by much or becomes a worse sliver than there was before.
+   */
   bool
-  KeepsShapeAround(PointId moved, PointId other, const Fan & fan, const PositionType & position) const;
+  KeepsShapeAround(PointId moved, PointId other, const Fan & fan, const PositionType & position) const
+  {
+    const auto shapeOf = [&](const FanTriangle & triangle) {
+      return Shape(m_Positions[moved], m_Positions[triangle.next], m_Positions[triangle.last]);
+    };
+    double worstBefore = 1.0;
+    for (const FanTriangle & triangle : fan)
+    {
+      worstBefore = std::min(worstBefore, shapeOf(triangle).quality);
+    }
+    const auto normalOf = [&](std::uint32_t sheet) {
+      PositionType sum{};
+      for (const FanTriangle & triangle : fan)
+      {
+        sum = m_Sheets[triangle.id] == sheet ? Add(sum, shapeOf(triangle).normal) : sum;
+      }
+      return sum;
+    };
+    return std::all_of(fan.begin(), fan.end(), [&](const FanTriangle & triangle) {
+      const auto & [id, next, last] = triangle;
+      if (next == other || last == other)
+      {
+        return true;
+      }
+      const Shape before = shapeOf(triangle);
+      const Shape after(position, m_Positions[next], m_Positions[last]);
+      const auto liesAlong = [&](const PositionType & reference) {
+        return Dot(after.normal, reference) > SmallestCosineOfCollapse * after.length * Length(reference);
+      };
+      return after.quality > 0.0 && after.quality >= std::min(SliverQuality, worstBefore) &&
+             (liesAlong(before.normal) || (before.quality < SliverQuality && liesAlong(normalOf(m_Sheets[id]))));
+    });
+  }
+
   bool
-  StaysNear(EdgeToCollapse & edge);
+  StaysNear(EdgeToCollapse & edge)
+  {
+    return m_Original.surface == nullptr || (this->IsNearOriginal(edge) && this->AreWitnessesNear(edge.position));
+  }
+
+  /** Checks the position, the middles of the edges there and the centres of the triangles around it. */
   bool
-  IsNearOriginal(EdgeToCollapse & edge);
+  IsNearOriginal(EdgeToCollapse & edge)
+  {
+    m_Around.clear();
+    for (const Fan & fan : std::array<std::reference_wrapper<const Fan>, 2>{ m_FromFan, m_ToFan })
+    {
+      for (const FanTriangle & triangle : fan)
+      {
+        for (WitnessId id = m_FirstWitness[triangle.id]; id != None; id = m_NextWitness[id])
+        {
+          m_Around.push_back(id);
+        }
+      }
+    }
+    const PositionType & position = edge.position;
+    edge.near = this->FindNear(position);
+    return edge.near != None && std::all_of(m_Changed.begin(), m_Changed.end(), [&](const FanTriangle & fan) {
+             const PositionType & next = m_Positions[fan.next];
+             const PositionType oppositeMiddle = Mix(next, m_Positions[fan.last], 0.5);
+             return this->IsNear(Mix(position, next, 0.5)) && this->IsNear(Mix(position, oppositeMiddle, 2.0 / 3.0));
+           });
+  }
+
   bool
-  IsNear(const PositionType & sample) const;
+  IsNear(const PositionType & sample) const
+  {
+    const double limit = m_Original.limit * m_Original.limit;
+    return std::any_of(m_Around.begin(),
+                       m_Around.end(),
+                       [&](WitnessId id) { return SquaredDistance(m_WitnessPositions[id], sample) <= limit; }) ||
+           this->FindNear(sample) != None;
+  }
+
+  /** A triangle of the original near a sample, among those at the nearest witness around the edge; None if there is
+   * none.
+   */
   TriangleId
-  FindNear(const PositionType & sample) const;
+  FindNear(const PositionType & sample) const
+  {
+    double least = std::numeric_limits<double>::infinity();
+    WitnessId witness = None;
+    for (const WitnessId id : m_Around)
+    {
+      const double squared = SquaredDistance(m_WitnessPositions[id], sample);
+      witness = squared < least ? id : witness;
+      least = std::min(least, squared);
+    }
+    if (witness == None)
+    {
+      return None;
+    }
+    const PositionType absolute = Add(sample, m_Origin);
+    TriangleId nearest = None;
+    least = m_Original.limit * m_Original.limit;
+    m_Original.triangles->VisitTriangles(m_WitnessPoints[witness], [&](TriangleId id) {
+      const CornersType corners = CornersOf(*m_Original.surface, m_Original.surface->GetTriangles()[id]);
+      const double squared = SquaredDistance(absolute, ClosestOnTriangle(absolute, corners));
+      nearest = squared <= least ? id : nearest;
+      least = std::min(least, squared);
+    });
+    return nearest;
+  }
+
+  /** Assigns the witnesses of the triangles at the edge to the nearest triangles around its position, until a witness
+   * is too far away. Returns whether all are near. */
   bool
-  AreWitnessesNear(const PositionType & position);
+  AreWitnessesNear(const PositionType & position)
+  {
+    m_Assigned.clear();
+    const auto assign = [&](TriangleId triangle) {
+      for (WitnessId id = m_FirstWitness[triangle]; id != None; id = m_NextWitness[id])
+      {
+        const PositionType & witness = m_WitnessPositions[id];
+        double least = std::numeric_limits<double>::infinity();
+        TriangleId nearest = None;
+        for (const FanTriangle & fan : m_Changed)
+        {
+          if (m_Sheets[fan.id] != m_Sheets[triangle])
+          {
+            continue;
+          }
+          const double squared = SquaredDistance(
+            witness, ClosestOnTriangle(witness, { position, m_Positions[fan.next], m_Positions[fan.last] }));
+          nearest = squared < least ? fan.id : nearest;
+          least = std::min(least, squared);
+        }
+        if (!(least <= m_Original.limit * m_Original.limit))
+        {
+          return false;
+        }
+        m_Assigned.emplace_back(id, nearest);
+      }
+      return true;
+    };
+    // All triangles of the vanishing point, and those of the other that change.
+    return std::all_of(m_FromFan.begin(), m_FromFan.end(), [&](const FanTriangle & fan) { return assign(fan.id); }) &&
+           std::all_of(m_Changed.begin() + static_cast<std::ptrdiff_t>(m_NumberFromChanged),
+                       m_Changed.end(),
+                       [&](const FanTriangle & fan) { return assign(fan.id); });
+  }
+
+  /** Whether all points around an edge, and its own, are as they were. */
   bool
-  IsAsLogged() const;
+  IsAsLogged() const
+  {
+    const auto isAsLogged = [&](const FanTriangle & fan) { return !m_IsOther[fan.next] && !m_IsOther[fan.last]; };
+    return std::all_of(m_FromFan.begin(), m_FromFan.end(), isAsLogged) &&
+           std::all_of(m_ToFan.begin(), m_ToFan.end(), isAsLogged);
+  }
+
   bool
-  MayChange(const std::vector<std::uint16_t> & mostChanges) const;
+  MayChange(const std::vector<std::uint16_t> & mostChanges) const
+  {
+    return std::all_of(m_Changed.begin(), m_Changed.end(), [&](const FanTriangle & fan) {
+      return m_Changes[fan.id] < mostChanges[fan.id];
+    });
+  }
+
   void
-  Collapse(const EdgeToCollapse & edge);
+  Collapse(const EdgeToCollapse & edge)
+  {
+    const auto & [from, to, position, near, error] = edge;
+    if (!this->KeepsPlace(from, to))
+    {
+      this->MixNormals(from, to, position);
+      m_Positions[to] = position;
+      m_Near[to] = near;
+      m_HasMoved[to] = 1;
+    }
+    m_IsGone[from] = 1;
+    for (CornerId corner = m_FirstCorner[from], next = None; corner != None; corner = next)
+    {
+      next = m_NextCorner[corner];
+      TriangleType & triangle = m_Triangles[corner / 3];
+      if (!m_Remains[corner / 3])
+      {
+        continue;
+      }
+      if (std::find(triangle.begin(), triangle.end(), to) != triangle.end())
+      {
+        m_Remains[corner / 3] = 0;
+        continue;
+      }
+      triangle[corner % 3] = to;
+      m_NextCorner[corner] = m_FirstCorner[to];
+      m_FirstCorner[to] = corner;
+    }
+    for (const FanTriangle & fan : m_Changed)
+    {
+      ++m_Changes[fan.id];
+    }
+    if (m_Original.surface != nullptr)
+    {
+      this->MoveWitnesses();
+    }
+  }
+
   void
-  MoveWitnesses();
+  MoveWitnesses()
+  {
+    for (const FanTriangle & fan : m_Changed)
+    {
+      m_FirstWitness[fan.id] = None;
+    }
+    for (const auto & [witness, triangle] : m_Assigned)
+    {
+      m_NextWitness[witness] = m_FirstWitness[triangle];
+      m_FirstWitness[triangle] = witness;
+    }
+  }
+
+  /** Interpolates the normal at the point of the edge nearest to the new position. */
   void
-  MixNormals(PointId from, PointId to, const PositionType & position);
+  MixNormals(PointId from, PointId to, const PositionType & position)
+  {
+    if (m_Normals.empty())
+    {
+      return;
+    }
+    const PositionType edge = Subtract(m_Positions[to], m_Positions[from]);
+    const double share = Dot(Subtract(position, m_Positions[from]), edge) / Dot(edge, edge);
+    const PositionType mixed = Mix(m_Normals[from], m_Normals[to], std::clamp(share, 0.0, 1.0));
+    const double length = Length(mixed);
+    if (length > 0.0)
+    {
+      m_Normals[to] = { mixed[0] / length, mixed[1] / length, mixed[2] / length };
+    }
+  }
 
   const OriginalSurface m_Original;
   const std::vector<PointId> m_Ids; ///< the surface's id of each point
@@ -191,16 +716,16 @@ private:
   // By triangle.
   std::vector<TriangleType> m_Triangles;
   const std::vector<std::uint32_t> m_Sheets;
-  std::vector<std::uint8_t> m_IsLeft;
+  std::vector<std::uint8_t> m_Remains;
   std::vector<std::uint16_t> m_Changes;
 
   // By point, except m_NextCorner.
   std::vector<CornerId> m_FirstCorner; ///< one corner at the point; the others follow by m_NextCorner
-  std::vector<CornerId> m_NextCorner;  ///< by corner: the next one at the same point
+  std::vector<CornerId> m_NextCorner;  ///< by corner: the next corner at the same point
   std::vector<PositionType> m_Positions;
   std::vector<PositionType> m_Normals; ///< empty if the surface has none
   std::vector<Quadric> m_Quadrics;
-  std::vector<std::uint32_t> m_Versions; ///< grow when the point takes over another one
+  std::vector<std::uint32_t> m_Versions; ///< grow when the point takes over another point
   std::vector<Stratum> m_Strata;
   std::vector<std::uint8_t> m_IsOnBorder; ///< of the part, or fixed
   std::vector<std::uint8_t> m_Stays;      ///< on the border or held
@@ -226,632 +751,24 @@ private:
   std::vector<std::pair<WitnessId, TriangleId>> m_Assigned; ///< its witnesses and the triangles nearest to them
 };
 
-EdgeCollapse::EdgeCollapse(const TriangleSurface & surface,
-                           const SurfacePart & part,
-                           const SurfacePoints & points,
-                           const OriginalSurface & original)
-  : m_Original(original)
-  , m_Ids(FindPoints(part.triangles))
-  , m_Origin(ToPosition(surface.GetPoints()[m_Ids.front()]))
-  , m_Triangles(ToLocal(part.triangles, m_Ids))
-  , m_Sheets(part.sheets)
-  , m_IsLeft(m_Triangles.size(), 1)
-  , m_Changes(m_Triangles.size(), 0)
-  , m_FirstCorner(m_Ids.size(), None)
-  , m_NextCorner(3 * m_Triangles.size())
-  , m_IsGone(m_Ids.size(), 0)
-  , m_HasMoved(m_Ids.size(), 0)
-  , m_Near(m_Ids.size(), None)
-{
-  this->LinkCorners();
-  m_Positions.reserve(m_Ids.size());
-  for (const PointId id : m_Ids)
-  {
-    m_Positions.push_back(Subtract(ToPosition(surface.GetPoints()[id]), m_Origin));
-    if (surface.HasNormals())
-    {
-      m_Normals.push_back(ToPosition(surface.GetNormals()[id]));
-    }
-  }
-  std::vector<std::uint32_t> inPart(m_Ids.size(), 0);
-  for (const TriangleType & triangle : m_Triangles)
-  {
-    for (const PointId point : triangle)
-    {
-      ++inPart[point];
-    }
-  }
-  for (PointId point = 0; point < m_Ids.size(); ++point)
-  {
-    const PointId id = m_Ids[point];
-    m_Strata.push_back(points.strata[id]);
-    m_IsOnBorder.push_back(m_Strata[point] == Stratum::Fixed || inPart[point] != points.triangles[id] ? 1 : 0);
-    m_Stays.push_back(m_IsOnBorder[point] | points.isHeld[id]);
-  }
-  if (m_Original.surface != nullptr)
-  {
-    this->AddWitnesses(part.witnesses);
-  }
-}
-
-void
-EdgeCollapse::LinkCorners()
-{
-  for (CornerId corner = 0; corner < m_NextCorner.size(); ++corner)
-  {
-    const PointId point = m_Triangles[corner / 3][corner % 3];
-    m_NextCorner[corner] = m_FirstCorner[point];
-    m_FirstCorner[point] = corner;
-  }
-}
-
-void
-EdgeCollapse::AddWitnesses(const std::vector<Witness> & witnesses)
-{
-  m_FirstWitness.assign(m_Triangles.size(), None);
-  for (const Witness & witness : witnesses)
-  {
-    m_WitnessPoints.push_back(witness.point);
-    m_WitnessPositions.push_back(Subtract(ToPosition(m_Original.surface->GetPoints()[witness.point]), m_Origin));
-    m_NextWitness.push_back(m_FirstWitness[witness.triangle]);
-    m_FirstWitness[witness.triangle] = static_cast<WitnessId>(m_WitnessPositions.size() - 1);
-  }
-}
-
-void
-EdgeCollapse::AddQuadrics()
-{
-  m_Quadrics.resize(m_Ids.size());
-  for (const TriangleType & triangle : m_Triangles)
-  {
-    const PositionType & first = m_Positions[triangle[0]];
-    const Shape shape(first, m_Positions[triangle[1]], m_Positions[triangle[2]]);
-    for (const PointId point : triangle)
-    {
-      m_Quadrics[point].AddPlane(first, shape.normal);
-    }
-  }
-}
-
-CollapseLog
-EdgeCollapse::Run(double largestError)
-{
-  m_LargestError = largestError;
-  m_Versions.assign(m_Ids.size(), 0);
-  m_Marks.assign(m_Ids.size(), 0);
-  this->AddQuadrics();
-  this->ProposeAll();
-  CollapseLog log;
-  while (!m_Candidates.empty())
-  {
-    const Candidate best = m_Candidates.top();
-    m_Candidates.pop();
-    if (this->TryCandidate(best, log))
-    {
-      this->CollectFan(best.to, m_ToFan);
-      for (const FanTriangle & fan : m_ToFan)
-      {
-        this->Propose(best.to, fan.next);
-      }
-    }
-  }
-  log.wasHeldBack = m_WasHeldBack;
-  return log;
-}
-
-void
-EdgeCollapse::ProposeAll()
-{
-  for (const TriangleType & triangle : m_Triangles)
-  {
-    for (unsigned int corner = 0; corner < 3; ++corner)
-    {
-      if (triangle[corner] < triangle[(corner + 1) % 3])
-      {
-        this->Propose(triangle[corner], triangle[(corner + 1) % 3]);
-      }
-    }
-  }
-}
-
-/** Makes an edge a candidate. If one of its points stays or is of a higher stratum, the other one vanishes. */
-void
-EdgeCollapse::Propose(PointId a, PointId b)
-{
-  if (m_Stays[a] && m_Stays[b])
-  {
-    return;
-  }
-  const bool isFirstLeft = m_Stays[a] || (!m_Stays[b] && m_Strata[a] > m_Strata[b]);
-  const PointId from = isFirstLeft ? b : a;
-  const PointId to = isFirstLeft ? a : b;
-  if (m_Strata[from] > m_Strata[to])
-  {
-    return;
-  }
-  Quadric quadric = m_Quadrics[from];
-  quadric.Add(m_Quadrics[to]);
-  const double error = quadric.ComputeTriangleSurfaceDistance(this->FindPosition(from, to));
-  if (error <= m_LargestError)
-  {
-    m_Candidates.push({ static_cast<float>(error), from, to, m_Versions[from] + m_Versions[to] });
-  }
-  else
-  {
-    m_WasHeldBack = true;
-  }
-}
-
-/** Whether the point that is left stays where it is. */
-bool
-EdgeCollapse::KeepsPlace(PointId from, PointId to) const
-{
-  return m_Stays[to] || m_Strata[to] > m_Strata[from];
-}
-
-/** The position to which an edge collapses, rounded to the surface's precision. */
-PositionType
-EdgeCollapse::FindPosition(PointId from, PointId to) const
-{
-  if (this->KeepsPlace(from, to))
-  {
-    return m_Positions[to];
-  }
-  const PositionType middle = Mix(m_Positions[from], m_Positions[to], 0.5);
-  Quadric quadric = m_Quadrics[from];
-  quadric.Add(m_Quadrics[to]);
-  PositionType position = quadric.FindMinimum(middle);
-  const double squaredEdge = SquaredDistance(m_Positions[to], m_Positions[from]);
-  if (!(SquaredDistance(position, middle) <= FarthestPosition * FarthestPosition * squaredEdge))
-  {
-    position = middle;
-  }
-  return Subtract(ToPosition(ToPoint(Add(position, m_Origin))), m_Origin);
-}
-
-/** Collapses an edge if it may collapse; returns whether it did. */
-bool
-EdgeCollapse::TryCandidate(const Candidate & candidate, CollapseLog & log)
-{
-  const auto & [error, from, to, version] = candidate;
-  if (m_IsGone[from] || m_IsGone[to] || m_Versions[from] + m_Versions[to] != version)
-  {
-    return false;
-  }
-  this->CollectFans(from, to);
-  EdgeToCollapse edge{ from, to, this->FindPosition(from, to), None, error };
-  if (!this->KeepsTopology(from, to) || !this->KeepsShape(from, to, edge.position))
-  {
-    return false;
-  }
-  if (!this->StaysNear(edge))
-  {
-    m_WasHeldBack = true;
-    return false;
-  }
-  m_Quadrics[to].Add(m_Quadrics[from]);
-  m_Versions[to] += m_Versions[from] + 1;
-  this->Collapse(edge);
-  edge.error = log.edges.empty() ? edge.error : std::max(edge.error, log.edges.back().error);
-  log.edges.push_back(edge);
-  return true;
-}
-
-void
-EdgeCollapse::CollectFan(PointId point, Fan & fan) const
-{
-  fan.clear();
-  for (CornerId corner = m_FirstCorner[point]; corner != None; corner = m_NextCorner[corner])
-  {
-    const TriangleId id = corner / 3;
-    if (m_IsLeft[id])
-    {
-      const TriangleType & triangle = m_Triangles[id];
-      fan.push_back({ id, triangle[(corner + 1) % 3], triangle[(corner + 2) % 3] });
-    }
-  }
-}
-
-/** Collects the triangles at the two points of an edge, and those of them that change when it collapses. */
-void
-EdgeCollapse::CollectFans(PointId from, PointId to)
-{
-  this->CollectFan(from, m_FromFan);
-  this->CollectFan(to, m_ToFan);
-  m_Changed.clear();
-  for (const FanTriangle & fan : m_FromFan)
-  {
-    if (fan.next != to && fan.last != to)
-    {
-      m_Changed.push_back(fan);
-    }
-  }
-  m_NumberFromChanged = m_Changed.size();
-  for (const FanTriangle & fan : m_ToFan)
-  {
-    if (!this->KeepsPlace(from, to) && fan.next != from && fan.last != from)
-    {
-      m_Changed.push_back(fan);
-    }
-  }
-}
-
-/** The link condition: the common neighbours of the two points are the points opposite to the edge, and no two
- * triangles become duplicates. A point of a curve vanishes along the curve, and not where the curve would close or meet
- * another. The point that vanishes is inside the part. */
-bool
-EdgeCollapse::KeepsTopology(PointId from, PointId to)
-{
-  m_Mark += 2; // m_Mark for neighbours of the point that is left, m_Mark + 1 for those of both
-  for (const FanTriangle & fan : m_ToFan)
-  {
-    m_Marks[fan.next] = m_Mark;
-    m_Marks[fan.last] = m_Mark;
-  }
-  std::size_t common = 0;
-  bool joinsBorder = false;
-  for (const FanTriangle & fan : m_FromFan)
-  {
-    for (const PointId point : { fan.next, fan.last })
-    {
-      if (point != to && m_Marks[point] == m_Mark)
-      {
-        m_Marks[point] = m_Mark + 1;
-        ++common;
-      }
-      joinsBorder = joinsBorder || (point != to && m_Marks[point] < m_Mark && m_IsOnBorder[to] && m_IsOnBorder[point]);
-    }
-  }
-  const std::size_t opposite = m_FromFan.size() - m_NumberFromChanged;
-  const bool isAlong = m_Strata[from] == Stratum::Sheet ? opposite == 2 : opposite > 2;
-  return common == opposite && isAlong && !joinsBorder && m_FromFan.size() <= MostAround &&
-         this->KeepsTriangles(from, to);
-}
-
-/** Whether no two triangles become duplicates, and no two edges of curves. Common neighbours are marked. */
-bool
-EdgeCollapse::KeepsTriangles(PointId from, PointId to) const
-{
-  const auto isCommon = [&](PointId point) { return m_Marks[point] == m_Mark + 1; };
-  const auto isDuplicate = [&](const FanTriangle & fan) {
-    return isCommon(fan.next) && isCommon(fan.last) &&
-           std::any_of(m_FromFan.begin(), m_FromFan.end(), [&](const FanTriangle & other) {
-             return (fan.next == other.last && fan.last == other.next) ||
-                    (fan.next == other.next && fan.last == other.last);
-           });
-  };
-  const auto closesCurve = [&](const FanTriangle & fan) {
-    const PointId opposite = fan.next == to ? fan.last : fan.next;
-    return (fan.next == to || fan.last == to) &&
-           std::count_if(m_FromFan.begin(), m_FromFan.end(), [&](const FanTriangle & other) {
-             return other.next == opposite || other.last == opposite;
-           }) > 2;
-  };
-  return std::none_of(m_ToFan.begin(), m_ToFan.end(), isDuplicate) &&
-         (m_Strata[from] == Stratum::Sheet || std::none_of(m_FromFan.begin(), m_FromFan.end(), closesCurve));
-}
-
-bool
-EdgeCollapse::KeepsShape(PointId from, PointId to, const PositionType & position) const
-{
-  return this->KeepsShapeAround(from, to, m_FromFan, position) &&
-         (this->KeepsPlace(from, to) || this->KeepsShapeAround(to, from, m_ToFan, position));
-}
-
-/** Whether no triangle around a point loses its area, turns by much or becomes a worse sliver than there was before. */
-bool
-EdgeCollapse::KeepsShapeAround(PointId moved, PointId other, const Fan & fan, const PositionType & position) const
-{
-  const auto shapeOf = [&](const FanTriangle & triangle) {
-    return Shape(m_Positions[moved], m_Positions[triangle.next], m_Positions[triangle.last]);
-  };
-  double worstBefore = 1.0;
-  for (const FanTriangle & triangle : fan)
-  {
-    worstBefore = std::min(worstBefore, shapeOf(triangle).quality);
-  }
-  const auto normalOf = [&](std::uint32_t sheet) {
-    PositionType sum{};
-    for (const FanTriangle & triangle : fan)
-    {
-      sum = m_Sheets[triangle.id] == sheet ? Add(sum, shapeOf(triangle).normal) : sum;
-    }
-    return sum;
-  };
-  return std::all_of(fan.begin(), fan.end(), [&](const FanTriangle & triangle) {
-    const auto & [id, next, last] = triangle;
-    if (next == other || last == other)
-    {
-      return true;
-    }
-    const Shape before = shapeOf(triangle);
-    const Shape after(position, m_Positions[next], m_Positions[last]);
-    const auto liesAlong = [&](const PositionType & reference) {
-      return Dot(after.normal, reference) > SmallestCosineOfCollapse * after.length * Length(reference);
-    };
-    return after.quality > 0.0 && after.quality >= std::min(SliverQuality, worstBefore) &&
-           (liesAlong(before.normal) || (before.quality < SliverQuality && liesAlong(normalOf(m_Sheets[id]))));
-  });
-}
-
-bool
-EdgeCollapse::StaysNear(EdgeToCollapse & edge)
-{
-  return m_Original.surface == nullptr || (this->IsNearOriginal(edge) && this->AreWitnessesNear(edge.position));
-}
-
-/** Checks the position, the middles of the edges there and the centres of the triangles around it. */
-bool
-EdgeCollapse::IsNearOriginal(EdgeToCollapse & edge)
-{
-  m_Around.clear();
-  for (const Fan & fan : std::array<std::reference_wrapper<const Fan>, 2>{ m_FromFan, m_ToFan })
-  {
-    for (const FanTriangle & triangle : fan)
-    {
-      for (WitnessId id = m_FirstWitness[triangle.id]; id != None; id = m_NextWitness[id])
-      {
-        m_Around.push_back(id);
-      }
-    }
-  }
-  const PositionType & position = edge.position;
-  edge.near = this->FindNear(position);
-  return edge.near != None && std::all_of(m_Changed.begin(), m_Changed.end(), [&](const FanTriangle & fan) {
-           const PositionType & next = m_Positions[fan.next];
-           const PositionType oppositeMiddle = Mix(next, m_Positions[fan.last], 0.5);
-           return this->IsNear(Mix(position, next, 0.5)) && this->IsNear(Mix(position, oppositeMiddle, 2.0 / 3.0));
-         });
-}
-
-bool
-EdgeCollapse::IsNear(const PositionType & sample) const
-{
-  const double limit = m_Original.limit * m_Original.limit;
-  return std::any_of(m_Around.begin(),
-                     m_Around.end(),
-                     [&](WitnessId id) { return SquaredDistance(m_WitnessPositions[id], sample) <= limit; }) ||
-         this->FindNear(sample) != None;
-}
-
-/** A triangle of the original near a sample, among those at the nearest witness around the edge; None if there is none.
- */
-TriangleId
-EdgeCollapse::FindNear(const PositionType & sample) const
-{
-  double least = std::numeric_limits<double>::infinity();
-  WitnessId witness = None;
-  for (const WitnessId id : m_Around)
-  {
-    const double squared = SquaredDistance(m_WitnessPositions[id], sample);
-    witness = squared < least ? id : witness;
-    least = std::min(least, squared);
-  }
-  if (witness == None)
-  {
-    return None;
-  }
-  const PositionType absolute = Add(sample, m_Origin);
-  TriangleId nearest = None;
-  least = m_Original.limit * m_Original.limit;
-  m_Original.triangles->VisitTriangles(m_WitnessPoints[witness], [&](TriangleId id) {
-    const CornersType corners = CornersOf(*m_Original.surface, m_Original.surface->GetTriangles()[id]);
-    const double squared = SquaredDistance(absolute, ClosestOnTriangle(absolute, corners));
-    nearest = squared <= least ? id : nearest;
-    least = std::min(least, squared);
-  });
-  return nearest;
-}
-
-/** Assigns the witnesses of the triangles at the edge to the nearest triangles around its position, until one is too
- * far away. Returns whether all are near. */
-bool
-EdgeCollapse::AreWitnessesNear(const PositionType & position)
-{
-  m_Assigned.clear();
-  const auto assign = [&](TriangleId triangle) {
-    for (WitnessId id = m_FirstWitness[triangle]; id != None; id = m_NextWitness[id])
-    {
-      const PositionType & witness = m_WitnessPositions[id];
-      double least = std::numeric_limits<double>::infinity();
-      TriangleId nearest = None;
-      for (const FanTriangle & fan : m_Changed)
-      {
-        if (m_Sheets[fan.id] != m_Sheets[triangle])
-        {
-          continue;
-        }
-        const double squared = SquaredDistance(
-          witness, ClosestOnTriangle(witness, { position, m_Positions[fan.next], m_Positions[fan.last] }));
-        nearest = squared < least ? fan.id : nearest;
-        least = std::min(least, squared);
-      }
-      if (!(least <= m_Original.limit * m_Original.limit))
-      {
-        return false;
-      }
-      m_Assigned.emplace_back(id, nearest);
-    }
-    return true;
-  };
-  // All triangles of the vanishing point, and those of the other that change.
-  return std::all_of(m_FromFan.begin(), m_FromFan.end(), [&](const FanTriangle & fan) { return assign(fan.id); }) &&
-         std::all_of(m_Changed.begin() + static_cast<std::ptrdiff_t>(m_NumberFromChanged),
-                     m_Changed.end(),
-                     [&](const FanTriangle & fan) { return assign(fan.id); });
-}
-
-void
-EdgeCollapse::Replay(const CollapseLog & log, const std::vector<std::uint16_t> & mostChanges)
-{
-  m_IsOther.assign(m_Ids.size(), 0);
-  for (const EdgeToCollapse & edge : log.edges)
-  {
-    this->CollectFans(edge.from, edge.to);
-    if (!this->IsAsLogged() || !this->MayChange(mostChanges))
-    {
-      m_IsOther[edge.from] = m_IsOther[edge.to] = 1;
-      continue;
-    }
-    if (m_Original.surface != nullptr)
-    {
-      this->AreWitnessesNear(edge.position);
-    }
-    this->Collapse(edge);
-  }
-}
-
-/** Whether all points around an edge, and its own, are as they were. */
-bool
-EdgeCollapse::IsAsLogged() const
-{
-  const auto isAsLogged = [&](const FanTriangle & fan) { return !m_IsOther[fan.next] && !m_IsOther[fan.last]; };
-  return std::all_of(m_FromFan.begin(), m_FromFan.end(), isAsLogged) &&
-         std::all_of(m_ToFan.begin(), m_ToFan.end(), isAsLogged);
-}
-
-bool
-EdgeCollapse::MayChange(const std::vector<std::uint16_t> & mostChanges) const
-{
-  return std::all_of(m_Changed.begin(), m_Changed.end(), [&](const FanTriangle & fan) {
-    return m_Changes[fan.id] < mostChanges[fan.id];
-  });
-}
-
-void
-EdgeCollapse::Collapse(const EdgeToCollapse & edge)
-{
-  const auto & [from, to, position, near, error] = edge;
-  if (!this->KeepsPlace(from, to))
-  {
-    this->MixNormals(from, to, position);
-    m_Positions[to] = position;
-    m_Near[to] = near;
-    m_HasMoved[to] = 1;
-  }
-  m_IsGone[from] = 1;
-  for (CornerId corner = m_FirstCorner[from], next = None; corner != None; corner = next)
-  {
-    next = m_NextCorner[corner];
-    TriangleType & triangle = m_Triangles[corner / 3];
-    if (!m_IsLeft[corner / 3])
-    {
-      continue;
-    }
-    if (std::find(triangle.begin(), triangle.end(), to) != triangle.end())
-    {
-      m_IsLeft[corner / 3] = 0;
-      continue;
-    }
-    triangle[corner % 3] = to;
-    m_NextCorner[corner] = m_FirstCorner[to];
-    m_FirstCorner[to] = corner;
-  }
-  for (const FanTriangle & fan : m_Changed)
-  {
-    ++m_Changes[fan.id];
-  }
-  if (m_Original.surface != nullptr)
-  {
-    this->MoveWitnesses();
-  }
-}
-
-void
-EdgeCollapse::MoveWitnesses()
-{
-  for (const FanTriangle & fan : m_Changed)
-  {
-    m_FirstWitness[fan.id] = None;
-  }
-  for (const auto & [witness, triangle] : m_Assigned)
-  {
-    m_NextWitness[witness] = m_FirstWitness[triangle];
-    m_FirstWitness[triangle] = witness;
-  }
-}
-
-/** Interpolates the normal at the point of the edge nearest to the new position. */
-void
-EdgeCollapse::MixNormals(PointId from, PointId to, const PositionType & position)
-{
-  if (m_Normals.empty())
-  {
-    return;
-  }
-  const PositionType edge = Subtract(m_Positions[to], m_Positions[from]);
-  const double share = Dot(Subtract(position, m_Positions[from]), edge) / Dot(edge, edge);
-  const PositionType mixed = Mix(m_Normals[from], m_Normals[to], std::clamp(share, 0.0, 1.0));
-  const double length = Length(mixed);
-  if (length > 0.0)
-  {
-    m_Normals[to] = { mixed[0] / length, mixed[1] / length, mixed[2] / length };
-  }
-}
-
-CollapsedPart
-EdgeCollapse::GetResult() const
-{
-  CollapsedPart result;
-  for (const bool isNew : { false, true })
-  {
-    for (TriangleId id = 0; id < m_Triangles.size(); ++id)
-    {
-      if (!m_IsLeft[id] || (m_Changes[id] > 0) != isNew)
-      {
-        continue;
-      }
-      const auto index = static_cast<TriangleId>(result.part.triangles.size());
-      const auto & [a, b, c] = m_Triangles[id];
-      result.part.triangles.push_back({ m_Ids[a], m_Ids[b], m_Ids[c] });
-      result.part.sheets.push_back(m_Sheets[id]);
-      result.ids.push_back(id);
-      result.changes.push_back(m_Changes[id]);
-      for (WitnessId witness = m_FirstWitness.empty() ? None : m_FirstWitness[id]; witness != None;
-           witness = m_NextWitness[witness])
-      {
-        result.part.witnesses.push_back({ m_WitnessPoints[witness], index });
-      }
-    }
-  }
-  for (PointId point = 0; point < m_Positions.size(); ++point)
-  {
-    if (m_HasMoved[point] && !m_IsGone[point])
-    {
-      result.movedPoints.push_back({ m_Ids[point],
-                                     ToPoint(Add(m_Positions[point], m_Origin)),
-                                     m_Normals.empty() ? TriangleSurface::NormalType{} : ToPoint(m_Normals[point]),
-                                     m_Near[point] });
-    }
-  }
-  return result;
-}
-
 } // namespace
 
 CollapseLog
-CollapseEdges(const TriangleSurface & surface,
-              const SurfacePart & part,
-              const SurfacePoints & points,
-              const OriginalSurface & original,
-              double largestError,
-              CollapsedPart & collapsed)
+CollapseEdges(const SurfaceOfParts & whole, const SurfacePart & part, double largestError, CollapsedPart & collapsed)
 {
-  EdgeCollapse collapse(surface, part, points, original);
+  EdgeCollapse collapse(whole, part);
   CollapseLog log = collapse.Run(largestError);
   collapsed = collapse.GetResult();
   return log;
 }
 
 CollapsedPart
-ReplayCollapses(const TriangleSurface & surface,
+ReplayCollapses(const SurfaceOfParts & whole,
                 const SurfacePart & part,
-                const SurfacePoints & points,
-                const OriginalSurface & original,
                 const CollapseLog & log,
                 const std::vector<std::uint16_t> & mostChanges)
 {
-  EdgeCollapse collapse(surface, part, points, original);
+  EdgeCollapse collapse(whole, part);
   collapse.Replay(log, mostChanges);
   return collapse.GetResult();
 }

@@ -39,12 +39,20 @@ struct OriginalSurface
   double limit;                        ///< largest distance in mm
 };
 
+/** A surface whose parts are simplified one by one. */
+struct SurfaceOfParts
+{
+  const TriangleSurface & surface;
+  const SurfacePoints & points;
+  const OriginalSurface & original;
+};
+
 /** An edge that collapses. Points have local ids: indices into the sorted ids of the part's points. */
 struct EdgeToCollapse
 {
   std::uint32_t from; ///< this point vanishes
   std::uint32_t to;
-  PositionType position;  ///< new position of the other one, relative to that of the part's first point
+  PositionType position;  ///< new position of point \a to, relative to that of the part's first point
   std::uint32_t near = 0; ///< a triangle of the original near the position
   double error;           ///< of this edge and all before it, at most
 };
@@ -91,20 +99,13 @@ struct CollapsedPart
  * The border of the part stays, and no new edge joins two border points, so that parts simplified one by one fit
  * together. */
 CollapseLog
-CollapseEdges(const TriangleSurface & surface,
-              const SurfacePart & part,
-              const SurfacePoints & points,
-              const OriginalSurface & original,
-              double largestError,
-              CollapsedPart & collapsed);
+CollapseEdges(const SurfaceOfParts & whole, const SurfacePart & part, double largestError, CollapsedPart & collapsed);
 
 /** Collapses the edges of a log again, without those that would change a triangle more often than \a mostChanges says,
  * and without those that depend on them: the triangles around an edge must be as they were when the log was made. */
 CollapsedPart
-ReplayCollapses(const TriangleSurface & surface,
+ReplayCollapses(const SurfaceOfParts & whole,
                 const SurfacePart & part,
-                const SurfacePoints & points,
-                const OriginalSurface & original,
                 const CollapseLog & log,
                 const std::vector<std::uint16_t> & mostChanges);
 

@@ -45,7 +45,7 @@ public:
 
   /** Root of the weighted mean squared distance. */
   double
-  ComputeTriangleSurfaceDistance(const PositionType & p) const
+  ComputeDistance(const PositionType & p) const
   {
     const auto & t = m_Terms;
     const double sum =

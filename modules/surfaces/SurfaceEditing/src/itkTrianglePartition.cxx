@@ -20,33 +20,17 @@ using CentredTriangles = std::vector<CentredTriangle, BulkAllocator<CentredTrian
 
 constexpr std::size_t BlockSize = 4096;
 
-unsigned int
-LongestAxis(const CentredTriangles & triangles, const TriangleRange & range)
-{
-  TriangleSurface::PointType lowest = triangles[range.begin].centre;
-  TriangleSurface::PointType highest = lowest;
-  for (std::size_t id = range.begin; id < range.end; ++id)
-  {
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      lowest[axis] = std::min(lowest[axis], triangles[id].centre[axis]);
-      highest[axis] = std::max(highest[axis], triangles[id].centre[axis]);
-    }
-  }
-  unsigned int longest = 0;
-  for (unsigned int axis = 1; axis < 3; ++axis)
-  {
-    longest = highest[axis] - lowest[axis] > highest[longest] - lowest[longest] ? axis : longest;
-  }
-  return longest;
-}
-
 /** Moves the share \a cut of a range's triangles, with the least coordinates along its longest side, to the front.
  * Returns where the others begin. */
 std::size_t
 Split(CentredTriangles & triangles, const TriangleRange & range, double cut)
 {
-  const unsigned int axis = LongestAxis(triangles, range);
+  PointBox box{ triangles[range.begin].centre, triangles[range.begin].centre };
+  for (std::size_t id = range.begin; id < range.end; ++id)
+  {
+    box.Add(triangles[id].centre);
+  }
+  const unsigned int axis = box.FindLongestAxis();
   const std::size_t middle = range.begin + static_cast<std::size_t>(cut * static_cast<double>(range.Size()));
   std::nth_element(
     triangles.data() + range.begin,

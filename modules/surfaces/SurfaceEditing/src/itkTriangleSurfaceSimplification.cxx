@@ -1,7 +1,7 @@
 #include "itkTriangleSurfaceSimplification.h"
 
 #include "detail/itkPositionArithmetic.h"
-#include "detail/itkTriangleContact.h"
+#include "itkTriangleSurfaceIntersections.h"
 #include "itkEdgeCollapse.h"
 #include "rhombicForEachBlock.h"
 #include "itkTrianglePartition.h"
@@ -11,7 +11,6 @@
 
 #include <cmath>
 #include <map>
-#include <mutex>
 #include <numeric>
 #include <optional>
 #include <ostream>
@@ -25,7 +24,6 @@ using PatchId = std::uint32_t;
 using PointId = std::uint32_t;
 using TriangleId = std::uint32_t;
 using Box = TriangleTree::Box;
-using Contact = TriangleContact;
 using Flags = std::vector<std::uint8_t>;
 using Sheets = std::vector<std::uint32_t>; ///< for each triangle, the number of its sheet
 
@@ -103,7 +101,7 @@ MakePatch(const TriangleSurface & surface, const Sheets & sheets, const Triangle
   return patch;
 }
 
-/** A tree of all triangles of a surface, and one of each sheet. */
+/** A tree of all triangles of a surface, and a tree of each sheet. */
 class SheetTrees
 {
 public:
@@ -234,7 +232,33 @@ public:
   }
 
   TriangleSurfaceSimplificationReport
-  Run();
+  Run()
+  {
+    TriangleSurfaceSimplificationReport report;
+    report.trianglesBefore = m_State.GetNumberOfTriangles();
+    const double limit = std::min(m_MaximumError, Diagonal(m_State));
+    double error = std::min(limit, FirstError * MeanSide(m_State));
+    report.end = SimplificationEnd::Target;
+    for (std::size_t step = 0; !this->IsAtTarget(); ++step)
+    {
+      const SizeValueType before = m_State.GetNumberOfTriangles();
+      this->BeginStage(report.trianglesBefore);
+      const bool isSound = this->Step(error, Cuts[step % Cuts.size()]);
+      const SizeValueType removed = before - m_State.GetNumberOfTriangles();
+      const bool isStuck = removed < SmallestShareRemoved * static_cast<double>(before) &&
+                           (m_Target == 0 || 2 * removed < before - m_Target);
+      if (!isSound || (isStuck && !(error < limit) && !this->IsAtTarget()))
+      {
+        report.end = isSound && m_IsHeldBack && m_Original != nullptr ? SimplificationEnd::MaximumError
+                                                                      : SimplificationEnd::Topology;
+        break;
+      }
+      error = std::min(limit, 2.0 * error);
+    }
+    report.trianglesAfter = m_State.GetNumberOfTriangles();
+    report.placesTakenBack = m_PlacesPutBack;
+    return report;
+  }
 
 private:
   bool
@@ -242,37 +266,390 @@ private:
   {
     return m_Target > 0 && m_State.GetNumberOfTriangles() <= m_Target;
   }
+  /** Begins the stage of a step, which removes all triangles that a step may remove, as far as is known before. */
   void
-  BeginStage(SizeValueType trianglesBefore);
+  BeginStage(SizeValueType trianglesBefore)
+  {
+    const auto triangles = static_cast<double>(m_State.GetNumberOfTriangles());
+    const auto all = static_cast<double>(trianglesBefore);
+    const auto target = static_cast<double>(m_Target);
+    const std::size_t checks = m_Original != nullptr ? 3 : 1; // contacts; strays and what is uncovered
+    m_Progress.Begin((all - std::max(target, SmallestShareLeft * triangles)) / (all - target),
+                     (1 + checks) * m_State.GetNumberOfTriangles());
+  }
+
+  /** Calls \a work(id) for the ids of triangles, on several threads, and counts the triangles as completed parts. */
   template <typename TWork>
   void
-  ForEachTriangle(std::size_t triangles, const TWork & work) const;
+  ForEachTriangle(std::size_t triangles, const TWork & work) const
+  {
+    rhombic::ForEachBlock(triangles, SimplifiedBlock, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t id = begin; id < end; ++id)
+      {
+        work(id);
+      }
+      m_Progress.Completed(end - begin);
+    });
+  }
+
+  /** Simplifies the state once. If the result's topology is not that of the original, restores the state from before
+   * and returns false. */
   bool
-  Step(double error, double cut);
+  Step(double error, double cut)
+  {
+    this->SwapWithBefore();
+    m_Points.isHeld = m_IsHeld;
+    this->CutIntoPatches(cut);
+    rhombic::ForEachInBlocks(m_Patches.size(), 1, [&](std::size_t id) {
+      Patch & patch = m_Patches[id];
+      patch.log = CollapseEdges({ *m_Before, m_Points, m_Limits }, patch.before, error, patch.after);
+      m_Progress.Completed(patch.before.triangles.size());
+    });
+    this->AimAtTarget();
+    this->JoinPatches();
+    const bool isSound = this->PutBackBadTriangles() &&
+                         HaveSameTopology(ComputeTriangleSurfaceTopology(m_State), m_Topology, m_IsOneSheet);
+    m_IsHeldBack =
+      std::any_of(m_Patches.begin(), m_Patches.end(), [](const Patch & patch) { return patch.log.wasHeldBack; });
+    if (!isSound)
+    {
+      this->SwapWithBefore();
+    }
+    m_Patches.clear();
+    return isSound;
+  }
+
   void
-  SwapWithBefore();
+  SwapWithBefore()
+  {
+    m_State.GetPoints().swap(m_Before->GetPoints());
+    m_State.GetNormals().swap(m_Before->GetNormals());
+    m_State.GetTriangles().swap(m_Before->GetTriangles());
+    m_Sheets.swap(m_SheetsBefore);
+  }
+
   void
-  CutIntoPatches(double cut);
+  CutIntoPatches(double cut)
+  {
+    std::vector<TriangleId> oldIds(m_Before->GetNumberOfTriangles());
+    std::iota(oldIds.begin(), oldIds.end(), 0u);
+    const auto ranges = SortIntoRanges(m_Before->GetPoints(), m_Before->GetTriangles(), oldIds, PatchSize, cut);
+    struct TriangleOfPatch
+    {
+      PatchId patch;
+      TriangleId triangle;
+    };
+    const Sheets sheets = std::move(m_SheetsBefore);
+    m_SheetsBefore.clear();
+    for (const TriangleId id : oldIds)
+    {
+      m_SheetsBefore.push_back(sheets[id]);
+    }
+    m_Points.triangles.assign(m_Before->GetNumberOfPoints(), 0);
+    for (const auto & triangle : m_Before->GetTriangles())
+    {
+      for (const PointId point : triangle)
+      {
+        ++m_Points.triangles[point];
+      }
+    }
+    std::vector<TriangleOfPatch> newIds(oldIds.size());
+    m_Patches.clear();
+    for (const TriangleRange & range : ranges)
+    {
+      for (std::size_t id = range.begin; id < range.end; ++id)
+      {
+        newIds[oldIds[id]] = { static_cast<PatchId>(m_Patches.size()), static_cast<TriangleId>(id - range.begin) };
+      }
+      m_Patches.push_back(MakePatch(*m_Before, m_SheetsBefore, range));
+    }
+    for (PointId point = 0; point < m_WitnessTriangles.size(); ++point)
+    {
+      const auto & [patch, triangle] = newIds[m_WitnessTriangles[point]];
+      m_Patches[patch].before.witnesses.push_back({ point, triangle });
+    }
+  }
+
+  /** If the patches together have fewer triangles than this step may leave, takes back the collapses of largest error.
+   */
   void
-  AimAtTarget();
+  AimAtTarget()
+  {
+    std::vector<double> errors;
+    std::size_t removed = 0;
+    for (const Patch & patch : m_Patches)
+    {
+      removed += patch.before.triangles.size() - patch.after.ids.size();
+      for (const EdgeToCollapse & edge : patch.log.edges)
+      {
+        errors.push_back(edge.error);
+      }
+    }
+    const auto before = static_cast<double>(m_Before->GetNumberOfTriangles());
+    const double target = std::max(Aim * static_cast<double>(m_Target), SmallestShareLeft * before);
+    if (static_cast<double>(removed) <= before - target)
+    {
+      return;
+    }
+    const double perCollapse = static_cast<double>(removed) / static_cast<double>(errors.size()); // 2 inside of sheets
+    const auto enough = static_cast<std::size_t>(std::ceil((before - target) / perCollapse));
+    if (errors.size() <= enough)
+    {
+      return;
+    }
+    std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(enough), errors.end());
+    const double limit = errors[enough];
+    const auto isLess = [](const EdgeToCollapse & edge, double error) { return edge.error < error; };
+    const auto isMore = [](double error, const EdgeToCollapse & edge) { return error < edge.error; };
+    auto left = static_cast<std::ptrdiff_t>(enough) -
+                std::count_if(errors.begin(), errors.end(), [limit](double error) { return error < limit; });
+    std::vector<PatchId> changed;
+    for (PatchId id = 0; id < m_Patches.size(); ++id)
+    {
+      auto & edges = m_Patches[id].log.edges;
+      const auto first = std::lower_bound(edges.begin(), edges.end(), limit, isLess);
+      const auto taken = std::min(left, std::upper_bound(first, edges.end(), limit, isMore) - first);
+      left -= taken;
+      if (first + taken != edges.end())
+      {
+        edges.erase(first + taken, edges.end());
+        changed.push_back(id);
+      }
+    }
+    this->Replay(changed);
+  }
+
   void
-  Replay(const std::vector<PatchId> & patches);
+  Replay(const std::vector<PatchId> & patches)
+  {
+    rhombic::ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
+      Patch & patch = m_Patches[patches[n]];
+      patch.after = ReplayCollapses({ *m_Before, m_Points, m_Limits }, patch.before, patch.log, patch.mostChanges);
+      m_Progress.Completed(0);
+    });
+  }
+
+  /** Puts triangles back where new triangles are bad, until no check fails. Returns false if that takes too many
+   * rounds. */
   bool
-  PutBackBadTriangles();
+  PutBackBadTriangles()
+  {
+    bool checksAll = false;
+    for (unsigned int round = 0; round < MostRounds; ++round)
+    {
+      const std::vector<PatchId> changed = this->Hold(this->FindBad(checksAll), round);
+      if (changed.empty() && checksAll)
+      {
+        return true;
+      }
+      checksAll = changed.empty();
+      this->Replay(changed);
+      this->JoinPatches();
+    }
+    return false;
+  }
+
+  /** Makes the state of what is left of the patches. */
   void
-  JoinPatches();
+  JoinPatches()
+  {
+    auto & triangles = m_State.GetTriangles();
+    m_State.GetPoints() = m_Before->GetPoints();
+    m_State.GetNormals() = m_Before->GetNormals();
+    triangles.clear();
+    m_Sheets.clear();
+    m_Begin.assign(1, 0);
+    m_IsNew.clear();
+    m_IsFresh.clear();
+    for (PatchId id = 0; id < m_Patches.size(); ++id)
+    {
+      Patch & patch = m_Patches[id];
+      const CollapsedPart & after = patch.after;
+      for (const Witness & witness : after.part.witnesses)
+      {
+        m_WitnessTriangles[witness.point] = m_Begin.back() + witness.triangle;
+      }
+      triangles.insert(triangles.end(), after.part.triangles.begin(), after.part.triangles.end());
+      m_Sheets.insert(m_Sheets.end(), after.part.sheets.begin(), after.part.sheets.end());
+      std::vector<std::uint16_t> changes(patch.checkedChanges.size(), Absent);
+      for (std::size_t n = 0; n < after.ids.size(); ++n)
+      {
+        const TriangleId before = after.ids[n];
+        changes[before] = after.changes[n];
+        m_IsNew.push_back(after.changes[n] > 0 ? 1 : 0);
+        m_IsFresh.push_back(after.changes[n] != patch.checkedChanges[before] ? 1 : 0);
+      }
+      patch.checkedChanges.swap(changes);
+      m_Begin.push_back(static_cast<TriangleId>(triangles.size()));
+      for (const MovedPoint & moved : after.movedPoints)
+      {
+        m_State.GetPoints()[moved.id] = moved.position;
+        if (m_Original != nullptr)
+        {
+          m_NearPoints[moved.id] = moved.near;
+        }
+        if (m_Before->HasNormals())
+        {
+          m_State.GetNormals()[moved.id] = moved.normal;
+        }
+      }
+    }
+  }
+
+  /** Finds the new triangles that can't stay, for what has changed since the last check, or for everything. */
   Flags
-  FindBad(bool checksAll);
+  FindBad(bool checksAll)
+  {
+    Flags isBad(m_State.GetNumberOfTriangles(), 0);
+    const SheetTrees state(m_State, m_Sheets, m_Original != nullptr ? m_Original->numberOfSheets : 1);
+    this->FindContacts(state.GetAll(), isBad);
+    if (m_Original != nullptr)
+    {
+      this->FindStrays(isBad);
+      this->FindUncovered(state, checksAll, isBad);
+    }
+    for (TriangleId id = 0; id < isBad.size(); ++id)
+    {
+      isBad[id] &= m_IsNew[id];
+    }
+    return isBad;
+  }
+
+  /** Adds the triangles that meet others elsewhere than at shared corners and sides, for pairs with a new triangle and
+   * a triangle that has changed. */
   void
-  FindContacts(const TriangleTree & state, Flags & isBad) const;
+  FindContacts(const TriangleTree & state, Flags & isBad) const
+  {
+    const auto & points = m_State.GetPoints();
+    const auto & triangles = m_State.GetTriangles();
+    const auto find = [&](std::size_t begin, std::size_t end, std::vector<TriangleId> & found) {
+      for (auto id = static_cast<TriangleId>(begin); id < end; ++id)
+      {
+        if (!m_IsFresh[id])
+        {
+          continue;
+        }
+        state.VisitTriangles(TriangleTree::BoxOf(points, triangles[id]), [&](TriangleId other) {
+          if (other != id && (m_IsNew[id] || m_IsNew[other]) && !(m_IsFresh[other] && other > id) &&
+              FindContact(points, triangles[id], triangles[other]) != TriangleContact::Apart)
+          {
+            found.insert(found.end(), { id, other });
+          }
+        });
+      }
+      m_Progress.Completed(end - begin);
+    };
+    for (const TriangleId id : CollectIds(triangles.size(), SimplifiedBlock, find))
+    {
+      isBad[id] = 1;
+    }
+  }
+
+  /** Adds the triangles that have changed and are farther than maximumError from the original. */
   void
-  FindStrays(Flags & isBad) const;
+  FindStrays(Flags & isBad) const
+  {
+    const auto & triangles = m_State.GetTriangles();
+    this->ForEachTriangle(isBad.size(), [&](std::size_t id) {
+      if (m_IsFresh[id] && m_IsNew[id])
+      {
+        const auto & triangle = triangles[id];
+        const CornersType corners = CornersOf(m_State, triangle);
+        const TriangleTree & tree = m_Original->trees.Get(m_Sheets[id]);
+        std::array<TriangleId, 3> near{};
+        for (unsigned int corner = 0; corner < 3; ++corner)
+        {
+          near[corner] = m_NearPoints[triangle[corner]];
+          if (m_Original->sheets[near[corner]] != m_Sheets[id])
+          {
+            near[corner] = tree.FindClosestPoint(corners[corner]).triangle;
+          }
+        }
+        isBad[id] |= IsWithinDistance(corners, tree, m_MaximumError, near) ? 0 : 1;
+      }
+    });
+  }
+
+  /** Adds the triangles around those of the original that are farther than maximumError from the state. Checks those of
+   * which corners are covered by a triangle that has changed, or all that are not covered by these triangles alone. */
   void
-  FindUncovered(const SheetTrees & state, bool checksAll, Flags & isBad);
+  FindUncovered(const SheetTrees & state, bool checksAll, Flags & isBad)
+  {
+    const TriangleSurface & original = *m_Original->surface;
+    const auto & triangles = original.GetTriangles();
+    Flags isUncovered(triangles.size(), 0);
+    this->ForEachTriangle(triangles.size(), [&](std::size_t id) {
+      const auto & [a, b, c] = triangles[id];
+      const std::array<TriangleId, 3> near{ m_WitnessTriangles[a], m_WitnessTriangles[b], m_WitnessTriangles[c] };
+      const bool hasChanged = m_IsFresh[near[0]] | m_IsFresh[near[1]] | m_IsFresh[near[2]];
+      if (hasChanged || (checksAll && !m_IsCovered[id]))
+      {
+        const CornersType corners = CornersOf(original, triangles[id]);
+        const TriangleTree & tree = state.Get(m_Original->sheets[id]);
+        m_IsCovered[id] =
+          (near[0] == near[1] && near[1] == near[2]) || IsNearOneTriangle(corners, tree, m_MaximumError, near);
+        isUncovered[id] = !m_IsCovered[id] && !IsWithinDistance(corners, tree, m_MaximumError, near);
+      }
+    });
+    for (TriangleId id = 0; id < triangles.size(); ++id)
+    {
+      if (isUncovered[id])
+      {
+        this->AddAround(id, state.Get(m_Original->sheets[id]), isBad);
+      }
+    }
+  }
+
+  /** Adds the new triangles that cover corners of a triangle of the original; if there are none, all around it. */
   void
-  AddAround(TriangleId uncovered, const TriangleTree & state, Flags & isBad) const;
+  AddAround(TriangleId uncovered, const TriangleTree & state, Flags & isBad) const
+  {
+    const TriangleSurface & original = *m_Original->surface;
+    bool isAnyNew = false;
+    for (const PointId corner : original.GetTriangles()[uncovered])
+    {
+      const TriangleId id = m_WitnessTriangles[corner];
+      isBad[id] = 1;
+      isAnyNew = isAnyNew || m_IsNew[id];
+    }
+    if (!isAnyNew)
+    {
+      const Box box = TriangleTree::BoxOf(original.GetPoints(), original.GetTriangles()[uncovered]);
+      state.VisitTriangles(Grown(box, static_cast<float>(m_MaximumError)), [&](TriangleId id) { isBad[id] = 1; });
+    }
+  }
+
+  /** Lets bad triangles change less often. Returns the patches that have some. */
   std::vector<PatchId>
-  Hold(const Flags & isBad, unsigned int round);
+  Hold(const Flags & isBad, unsigned int round)
+  {
+    const int less = 1 << (round / 2);
+    std::vector<PatchId> changed;
+    for (PatchId id = 0; id < m_Patches.size(); ++id)
+    {
+      Patch & patch = m_Patches[id];
+      SizeValueType bad = 0;
+      for (std::size_t n = 0; n < patch.after.ids.size(); ++n)
+      {
+        if (isBad[m_Begin[id] + n])
+        {
+          patch.mostChanges[patch.after.ids[n]] =
+            static_cast<std::uint16_t>(std::max(0, patch.after.changes[n] - less));
+          ++bad;
+          for (const PointId point : m_State.GetTriangles()[m_Begin[id] + n])
+          {
+            m_IsHeld[point] |= 1;
+          }
+        }
+      }
+      m_PlacesPutBack += bad;
+      if (bad > 0)
+      {
+        changed.push_back(id);
+      }
+    }
+    return changed;
+  }
 
   rhombic::StagedProgress & m_Progress;
   const SizeValueType m_Target;
@@ -303,417 +680,6 @@ private:
   Flags m_IsNew;                   ///< for each triangle of m_State, whether it was not there before the step
   Flags m_IsFresh;                 ///< for each triangle of m_State, whether it was not there at the last check
 };
-
-TriangleSurfaceSimplificationReport
-Simplification::Run()
-{
-  TriangleSurfaceSimplificationReport report;
-  report.trianglesBefore = m_State.GetNumberOfTriangles();
-  const double limit = std::min(m_MaximumError, Diagonal(m_State));
-  double error = std::min(limit, FirstError * MeanSide(m_State));
-  report.end = SimplificationEnd::Target;
-  for (std::size_t step = 0; !this->IsAtTarget(); ++step)
-  {
-    const SizeValueType before = m_State.GetNumberOfTriangles();
-    this->BeginStage(report.trianglesBefore);
-    const bool isSound = this->Step(error, Cuts[step % Cuts.size()]);
-    const SizeValueType removed = before - m_State.GetNumberOfTriangles();
-    const bool isStuck = removed < SmallestShareRemoved * static_cast<double>(before) &&
-                         (m_Target == 0 || 2 * removed < before - m_Target);
-    if (!isSound || (isStuck && !(error < limit) && !this->IsAtTarget()))
-    {
-      report.end = isSound && m_IsHeldBack && m_Original != nullptr ? SimplificationEnd::MaximumError
-                                                                    : SimplificationEnd::Topology;
-      break;
-    }
-    error = std::min(limit, 2.0 * error);
-  }
-  report.trianglesAfter = m_State.GetNumberOfTriangles();
-  report.placesTakenBack = m_PlacesPutBack;
-  return report;
-}
-
-/** Begins the stage of a step, which removes all triangles that a step may remove, as far as is known before. */
-void
-Simplification::BeginStage(SizeValueType trianglesBefore)
-{
-  const auto triangles = static_cast<double>(m_State.GetNumberOfTriangles());
-  const auto all = static_cast<double>(trianglesBefore);
-  const auto target = static_cast<double>(m_Target);
-  const std::size_t checks = m_Original != nullptr ? 3 : 1; // contacts; strays and what is uncovered
-  m_Progress.Begin((all - std::max(target, SmallestShareLeft * triangles)) / (all - target),
-                   (1 + checks) * m_State.GetNumberOfTriangles());
-}
-
-/** Calls \a work(id) for the ids of triangles, on several threads, and counts the triangles as completed parts. */
-template <typename TWork>
-void
-Simplification::ForEachTriangle(std::size_t triangles, const TWork & work) const
-{
-  rhombic::ForEachBlock(triangles, SimplifiedBlock, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t id = begin; id < end; ++id)
-    {
-      work(id);
-    }
-    m_Progress.Completed(end - begin);
-  });
-}
-
-/** Simplifies the state once. If the result's topology is not that of the original, restores the state from before and
- * returns false. */
-bool
-Simplification::Step(double error, double cut)
-{
-  this->SwapWithBefore();
-  m_Points.isHeld = m_IsHeld;
-  this->CutIntoPatches(cut);
-  rhombic::ForEachInBlocks(m_Patches.size(), 1, [&](std::size_t id) {
-    Patch & patch = m_Patches[id];
-    patch.log = CollapseEdges(*m_Before, patch.before, m_Points, m_Limits, error, patch.after);
-    m_Progress.Completed(patch.before.triangles.size());
-  });
-  this->AimAtTarget();
-  this->JoinPatches();
-  const bool isSound =
-    this->PutBackBadTriangles() && HaveSameTopology(ComputeTriangleSurfaceTopology(m_State), m_Topology, m_IsOneSheet);
-  m_IsHeldBack =
-    std::any_of(m_Patches.begin(), m_Patches.end(), [](const Patch & patch) { return patch.log.wasHeldBack; });
-  if (!isSound)
-  {
-    this->SwapWithBefore();
-  }
-  m_Patches.clear();
-  return isSound;
-}
-
-void
-Simplification::SwapWithBefore()
-{
-  m_State.GetPoints().swap(m_Before->GetPoints());
-  m_State.GetNormals().swap(m_Before->GetNormals());
-  m_State.GetTriangles().swap(m_Before->GetTriangles());
-  m_Sheets.swap(m_SheetsBefore);
-}
-
-void
-Simplification::CutIntoPatches(double cut)
-{
-  std::vector<TriangleId> oldIds(m_Before->GetNumberOfTriangles());
-  std::iota(oldIds.begin(), oldIds.end(), 0u);
-  const auto ranges = SortIntoRanges(m_Before->GetPoints(), m_Before->GetTriangles(), oldIds, PatchSize, cut);
-  struct TriangleOfPatch
-  {
-    PatchId patch;
-    TriangleId triangle;
-  };
-  const Sheets sheets = std::move(m_SheetsBefore);
-  m_SheetsBefore.clear();
-  for (const TriangleId id : oldIds)
-  {
-    m_SheetsBefore.push_back(sheets[id]);
-  }
-  m_Points.triangles.assign(m_Before->GetNumberOfPoints(), 0);
-  for (const auto & triangle : m_Before->GetTriangles())
-  {
-    for (const PointId point : triangle)
-    {
-      ++m_Points.triangles[point];
-    }
-  }
-  std::vector<TriangleOfPatch> newIds(oldIds.size());
-  m_Patches.clear();
-  for (const TriangleRange & range : ranges)
-  {
-    for (std::size_t id = range.begin; id < range.end; ++id)
-    {
-      newIds[oldIds[id]] = { static_cast<PatchId>(m_Patches.size()), static_cast<TriangleId>(id - range.begin) };
-    }
-    m_Patches.push_back(MakePatch(*m_Before, m_SheetsBefore, range));
-  }
-  for (PointId point = 0; point < m_WitnessTriangles.size(); ++point)
-  {
-    const auto & [patch, triangle] = newIds[m_WitnessTriangles[point]];
-    m_Patches[patch].before.witnesses.push_back({ point, triangle });
-  }
-}
-
-/** If the patches together have fewer triangles than this step may leave, takes back the collapses of largest error. */
-void
-Simplification::AimAtTarget()
-{
-  std::vector<double> errors;
-  std::size_t removed = 0;
-  for (const Patch & patch : m_Patches)
-  {
-    removed += patch.before.triangles.size() - patch.after.ids.size();
-    for (const EdgeToCollapse & edge : patch.log.edges)
-    {
-      errors.push_back(edge.error);
-    }
-  }
-  const auto before = static_cast<double>(m_Before->GetNumberOfTriangles());
-  const double target = std::max(Aim * static_cast<double>(m_Target), SmallestShareLeft * before);
-  if (static_cast<double>(removed) <= before - target)
-  {
-    return;
-  }
-  const double perCollapse = static_cast<double>(removed) / static_cast<double>(errors.size()); // 2 inside of sheets
-  const auto enough = static_cast<std::size_t>(std::ceil((before - target) / perCollapse));
-  if (errors.size() <= enough)
-  {
-    return;
-  }
-  std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(enough), errors.end());
-  const double limit = errors[enough];
-  const auto isLess = [](const EdgeToCollapse & edge, double error) { return edge.error < error; };
-  const auto isMore = [](double error, const EdgeToCollapse & edge) { return error < edge.error; };
-  auto left = static_cast<std::ptrdiff_t>(enough) -
-              std::count_if(errors.begin(), errors.end(), [limit](double error) { return error < limit; });
-  std::vector<PatchId> changed;
-  for (PatchId id = 0; id < m_Patches.size(); ++id)
-  {
-    auto & edges = m_Patches[id].log.edges;
-    const auto first = std::lower_bound(edges.begin(), edges.end(), limit, isLess);
-    const auto taken = std::min(left, std::upper_bound(first, edges.end(), limit, isMore) - first);
-    left -= taken;
-    if (first + taken != edges.end())
-    {
-      edges.erase(first + taken, edges.end());
-      changed.push_back(id);
-    }
-  }
-  this->Replay(changed);
-}
-
-void
-Simplification::Replay(const std::vector<PatchId> & patches)
-{
-  rhombic::ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
-    Patch & patch = m_Patches[patches[n]];
-    patch.after = ReplayCollapses(*m_Before, patch.before, m_Points, m_Limits, patch.log, patch.mostChanges);
-    m_Progress.Completed(0);
-  });
-}
-
-/** Puts triangles back where new ones are bad, until no check fails. Returns false if that takes too many rounds. */
-bool
-Simplification::PutBackBadTriangles()
-{
-  bool checksAll = false;
-  for (unsigned int round = 0; round < MostRounds; ++round)
-  {
-    const std::vector<PatchId> changed = this->Hold(this->FindBad(checksAll), round);
-    if (changed.empty() && checksAll)
-    {
-      return true;
-    }
-    checksAll = changed.empty();
-    this->Replay(changed);
-    this->JoinPatches();
-  }
-  return false;
-}
-
-/** Makes the state of what is left of the patches. */
-void
-Simplification::JoinPatches()
-{
-  auto & triangles = m_State.GetTriangles();
-  m_State.GetPoints() = m_Before->GetPoints();
-  m_State.GetNormals() = m_Before->GetNormals();
-  triangles.clear();
-  m_Sheets.clear();
-  m_Begin.assign(1, 0);
-  m_IsNew.clear();
-  m_IsFresh.clear();
-  for (PatchId id = 0; id < m_Patches.size(); ++id)
-  {
-    Patch & patch = m_Patches[id];
-    const CollapsedPart & after = patch.after;
-    for (const Witness & witness : after.part.witnesses)
-    {
-      m_WitnessTriangles[witness.point] = m_Begin.back() + witness.triangle;
-    }
-    triangles.insert(triangles.end(), after.part.triangles.begin(), after.part.triangles.end());
-    m_Sheets.insert(m_Sheets.end(), after.part.sheets.begin(), after.part.sheets.end());
-    std::vector<std::uint16_t> changes(patch.checkedChanges.size(), Absent);
-    for (std::size_t n = 0; n < after.ids.size(); ++n)
-    {
-      const TriangleId before = after.ids[n];
-      changes[before] = after.changes[n];
-      m_IsNew.push_back(after.changes[n] > 0 ? 1 : 0);
-      m_IsFresh.push_back(after.changes[n] != patch.checkedChanges[before] ? 1 : 0);
-    }
-    patch.checkedChanges.swap(changes);
-    m_Begin.push_back(static_cast<TriangleId>(triangles.size()));
-    for (const MovedPoint & moved : after.movedPoints)
-    {
-      m_State.GetPoints()[moved.id] = moved.position;
-      if (m_Original != nullptr)
-      {
-        m_NearPoints[moved.id] = moved.near;
-      }
-      if (m_Before->HasNormals())
-      {
-        m_State.GetNormals()[moved.id] = moved.normal;
-      }
-    }
-  }
-}
-
-/** Finds the new triangles that can't stay, for what has changed since the last check, or for everything. */
-Flags
-Simplification::FindBad(bool checksAll)
-{
-  Flags isBad(m_State.GetNumberOfTriangles(), 0);
-  const SheetTrees state(m_State, m_Sheets, m_Original != nullptr ? m_Original->numberOfSheets : 1);
-  this->FindContacts(state.GetAll(), isBad);
-  if (m_Original != nullptr)
-  {
-    this->FindStrays(isBad);
-    this->FindUncovered(state, checksAll, isBad);
-  }
-  for (TriangleId id = 0; id < isBad.size(); ++id)
-  {
-    isBad[id] &= m_IsNew[id];
-  }
-  return isBad;
-}
-
-/** Adds the triangles that meet others elsewhere than at shared corners and sides, for pairs with a new triangle and
- * one that has changed. */
-void
-Simplification::FindContacts(const TriangleTree & state, Flags & isBad) const
-{
-  const auto & points = m_State.GetPoints();
-  const auto & triangles = m_State.GetTriangles();
-  std::vector<TriangleId> found;
-  std::mutex mutex;
-  this->ForEachTriangle(triangles.size(), [&](std::size_t n) {
-    const auto id = static_cast<TriangleId>(n);
-    if (!m_IsFresh[id])
-    {
-      return;
-    }
-    state.VisitTriangles(TriangleTree::BoxOf(points, triangles[id]), [&](TriangleId other) {
-      if (other != id && (m_IsNew[id] || m_IsNew[other]) && !(m_IsFresh[other] && other > id) &&
-          FindContact(points, triangles[id], triangles[other]) != Contact::Apart)
-      {
-        const std::lock_guard<std::mutex> lock(mutex);
-        found.insert(found.end(), { id, other });
-      }
-    });
-  });
-  for (const TriangleId id : found)
-  {
-    isBad[id] = 1;
-  }
-}
-
-/** Adds the triangles that have changed and are farther than maximumError from the original. */
-void
-Simplification::FindStrays(Flags & isBad) const
-{
-  const auto & triangles = m_State.GetTriangles();
-  this->ForEachTriangle(isBad.size(), [&](std::size_t id) {
-    if (m_IsFresh[id] && m_IsNew[id])
-    {
-      const auto & triangle = triangles[id];
-      const CornersType corners = CornersOf(m_State, triangle);
-      const TriangleTree & tree = m_Original->trees.Get(m_Sheets[id]);
-      std::array<TriangleId, 3> near{};
-      for (unsigned int corner = 0; corner < 3; ++corner)
-      {
-        near[corner] = m_NearPoints[triangle[corner]];
-        if (m_Original->sheets[near[corner]] != m_Sheets[id])
-        {
-          near[corner] = tree.FindClosestPoint(corners[corner]).triangle;
-        }
-      }
-      isBad[id] |= IsWithinDistance(corners, tree, m_MaximumError, near) ? 0 : 1;
-    }
-  });
-}
-
-/** Adds the triangles around those of the original that are farther than maximumError from the state. Checks those of
- * which corners are covered by a triangle that has changed, or all that are not covered by these triangles alone. */
-void
-Simplification::FindUncovered(const SheetTrees & state, bool checksAll, Flags & isBad)
-{
-  const TriangleSurface & original = *m_Original->surface;
-  const auto & triangles = original.GetTriangles();
-  Flags isUncovered(triangles.size(), 0);
-  this->ForEachTriangle(triangles.size(), [&](std::size_t id) {
-    const auto & [a, b, c] = triangles[id];
-    const std::array<TriangleId, 3> near{ m_WitnessTriangles[a], m_WitnessTriangles[b], m_WitnessTriangles[c] };
-    const bool hasChanged = m_IsFresh[near[0]] | m_IsFresh[near[1]] | m_IsFresh[near[2]];
-    if (hasChanged || (checksAll && !m_IsCovered[id]))
-    {
-      const CornersType corners = CornersOf(original, triangles[id]);
-      const TriangleTree & tree = state.Get(m_Original->sheets[id]);
-      m_IsCovered[id] =
-        (near[0] == near[1] && near[1] == near[2]) || IsNearOneTriangle(corners, tree, m_MaximumError, near);
-      isUncovered[id] = !m_IsCovered[id] && !IsWithinDistance(corners, tree, m_MaximumError, near);
-    }
-  });
-  for (TriangleId id = 0; id < triangles.size(); ++id)
-  {
-    if (isUncovered[id])
-    {
-      this->AddAround(id, state.Get(m_Original->sheets[id]), isBad);
-    }
-  }
-}
-
-/** Adds the new triangles that cover corners of a triangle of the original; if there are none, all around it. */
-void
-Simplification::AddAround(TriangleId uncovered, const TriangleTree & state, Flags & isBad) const
-{
-  const TriangleSurface & original = *m_Original->surface;
-  bool isAnyNew = false;
-  for (const PointId corner : original.GetTriangles()[uncovered])
-  {
-    const TriangleId id = m_WitnessTriangles[corner];
-    isBad[id] = 1;
-    isAnyNew = isAnyNew || m_IsNew[id];
-  }
-  if (!isAnyNew)
-  {
-    const Box box = TriangleTree::BoxOf(original.GetPoints(), original.GetTriangles()[uncovered]);
-    state.VisitTriangles(Grown(box, static_cast<float>(m_MaximumError)), [&](TriangleId id) { isBad[id] = 1; });
-  }
-}
-
-/** Lets bad triangles change less often. Returns the patches that have some. */
-std::vector<PatchId>
-Simplification::Hold(const Flags & isBad, unsigned int round)
-{
-  const int less = 1 << (round / 2);
-  std::vector<PatchId> changed;
-  for (PatchId id = 0; id < m_Patches.size(); ++id)
-  {
-    Patch & patch = m_Patches[id];
-    SizeValueType bad = 0;
-    for (std::size_t n = 0; n < patch.after.ids.size(); ++n)
-    {
-      if (isBad[m_Begin[id] + n])
-      {
-        patch.mostChanges[patch.after.ids[n]] = static_cast<std::uint16_t>(std::max(0, patch.after.changes[n] - less));
-        ++bad;
-        for (const PointId point : m_State.GetTriangles()[m_Begin[id] + n])
-        {
-          m_IsHeld[point] |= 1;
-        }
-      }
-    }
-    m_PlacesPutBack += bad;
-    if (bad > 0)
-    {
-      changed.push_back(id);
-    }
-  }
-  return changed;
-}
 
 /** Throws if an edge has two triangles, of two sheets. */
 void

@@ -1,6 +1,5 @@
 #include "itkTriangleSurfaceUntangling.h"
 
-#include "detail/itkExactOrientation.h"
 #include "detail/itkPositionArithmetic.h"
 #include "itkTriangleSurfaceIntersections.h"
 #include "itkTriangleTree.h"
@@ -23,13 +22,6 @@ constexpr int Patience = 16;         // rounds without progress: two cycles of r
 constexpr int FirstPushingRound = 4; // the rounds before only relax
 constexpr double PushOverMove = 1.0 / 12.0; // length of a push, over the maximum move
 constexpr double RoundedMove = 1.0 - 1e-6;  // over the maximum move, so that the nearest float is within it
-
-void
-SortUnique(Ids & ids)
-{
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
 
 /** The points of some triangles, and of the triangles around them if \a withNeighbours. */
 Ids
@@ -88,8 +80,7 @@ Push(const TriangleSurface & surface, const TrianglesOfPoints & fans, std::uint3
   });
   const double length = Length(normal);
   const double scale = length > 0.0 ? distance / length : 0.0;
-  const PositionType position = ToPosition(surface.GetPoints()[point]);
-  return { position[0] + scale * normal[0], position[1] + scale * normal[1], position[2] + scale * normal[2] };
+  return Along(ToPosition(surface.GetPoints()[point]), normal, scale);
 }
 
 /** Moves some points, and notes where they were in \a original if they are not there. The first rounds relax all of
@@ -117,10 +108,7 @@ MovePoints(TriangleSurface & surface,
     const PositionType offset = Subtract(positions[n], origin);
     const double length = Length(offset);
     const double scale = length > RoundedMove * maximumMove ? RoundedMove * maximumMove / length : 1.0;
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      point[axis] = static_cast<float>(origin[axis] + scale * offset[axis]);
-    }
+    point = ToPoint(Along(origin, offset, scale));
   }
 }
 
@@ -214,7 +202,7 @@ UntangleTriangleSurface(TriangleSurface & surface,
   rhombic::StagedProgress progress(report);
   const TrianglesOfPoints fans(surface);
   const Ids crossing = candidates ? FindCrossingTriangles(surface, fans, *candidates)
-                                  : FindCrossingTriangles(tree, fans, TriangleContact::Crossing, progress, 0.5);
+                                  : FindCrossingTriangles(tree, fans, TriangleContact::Crossing, &progress, 0.5);
   if (crossing.empty())
   {
     return {};

@@ -5,7 +5,7 @@
 
 #include "itkTriangleSurfaceDistance.h"
 #include "itkTriangleSurfaceMeasures.h"
-#include "itkTriangleSurfaceVertexOrder.h"
+#include "itkTriangleSurfaceForRendering.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #define itkTriangleSurfaceAudit_h
 
 #include "itkTriangleSurfaceIntersections.h"
-#include "itkTriangleSurfaceQuality.h"
+#include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceSolids.h"
 #include "itkTriangleSurfaceTopology.h"
 

@@ -1,12 +1,28 @@
 #ifndef itkTriangleSurfaceIntersections_h
 #define itkTriangleSurfaceIntersections_h
 
-#include "detail/itkTriangleContact.h"
 #include "itkTriangleTree.h"
 #include "rhombicStagedProgress.h"
 
 namespace itk
 {
+
+/** How two triangles of a surface meet, apart from the corners and sides they share. */
+enum class TriangleContact : std::uint8_t
+{
+  Apart,    ///< they have no other point in common
+  Touching, ///< they have another point in common, but their insides do not meet
+  Crossing  ///< they pass through each other, or lie in one plane and overlap
+};
+
+/** Finds how two triangles meet. Exact: no tolerance, and no rounding decides.
+ *
+ * Corners are shared if their indices are equal; equal positions with different indices touch. Triangles that share all
+ * corners are duplicates and cross. A triangle without area is apart from every other. Positions must be finite. */
+TriangleContact
+FindContact(const TriangleSurface::PointsContainer & points,
+            TriangleSurface::TriangleType first,
+            TriangleSurface::TriangleType second);
 
 class TrianglesOfPoints;
 
@@ -33,20 +49,14 @@ FindTriangleSurfaceSelfIntersections(const TriangleTree & tree,
 /** The ids of the triangles that cross others or are duplicates, ascending. Tests all triangles.
  * \param fans the triangles at the points of the tree's surface
  * \param least Touching to find those that only touch others, too
- * \param progress its next stage is the search
+ * \param progress if not null, its next stage is the search
  * \param stageEnd share of the whole that is done after the stage */
 std::vector<std::uint32_t>
 FindCrossingTriangles(const TriangleTree & tree,
                       const TrianglesOfPoints & fans,
-                      TriangleContact least,
-                      rhombic::StagedProgress & progress,
-                      double stageEnd);
-
-/** The same without progress. */
-std::vector<std::uint32_t>
-FindCrossingTriangles(const TriangleTree & tree,
-                      const TrianglesOfPoints & fans,
-                      TriangleContact least = TriangleContact::Crossing);
+                      TriangleContact least = TriangleContact::Crossing,
+                      rhombic::StagedProgress * progress = nullptr,
+                      double stageEnd = 1.0);
 
 /** The same for those of \a candidates that cross any others, and these others. */
 std::vector<std::uint32_t>

@@ -26,7 +26,7 @@ struct RemovedShells
 /** The shells of a closed surface. */
 struct ShellCounts
 {
-  SizeValueType solids = 0;    ///< outer shells, misfacing ones included
+  SizeValueType solids = 0;    ///< outer shells, also those that face the wrong way
   SizeValueType cavities = 0;  ///< shells inside a solid that face inwards
   SizeValueType misfacing = 0; ///< shells that face the wrong way
 };
@@ -43,7 +43,7 @@ struct ShellCounts
  * The functions keep the order of the remaining triangles and points. */
 ///@{
 
-/** Removes all solids but the largest one, the first if several are equally large. */
+/** Removes all solids but the largest solid, the first if several are equally large. */
 RemovedShells
 KeepLargestTriangleSurfaceSolid(TriangleSurface & surface);
 

@@ -1,6 +1,7 @@
 #ifndef itkTriangleTree_h
 #define itkTriangleTree_h
 
+#include "itkPointBox.h"
 #include "itkTriangleSurface.h"
 
 #include <algorithm>
@@ -27,21 +28,7 @@ class TriangleTree
 public:
   using PointType = TriangleSurface::PointType;
   using PositionType = std::array<double, 3>;
-
-  /** A closed box, by its corners with the least and the greatest coordinates in mm. */
-  struct Box
-  {
-    PointType lowest;
-    PointType highest;
-
-    /** Whether the boxes have a point in common; boxes that touch do. */
-    bool
-    Overlaps(const Box & other) const
-    {
-      return lowest[0] <= other.highest[0] && other.lowest[0] <= highest[0] && lowest[1] <= other.highest[1] &&
-             other.lowest[1] <= highest[1] && lowest[2] <= other.highest[2] && other.lowest[2] <= highest[2];
-    }
-  };
+  using Box = PointBox;
 
   /** The smallest box around two boxes. */
   static Box
@@ -93,7 +80,7 @@ public:
     return *m_Surface;
   }
 
-  /** Finds the point of the surface nearest to \a position; if there are several, the one of the triangle with the
+  /** Finds the point of the surface nearest to \a position; if there are several, the point of the triangle with the
    * lowest id. If no point is within \a maximumSquaredDistance (in mm^2), the result has that squaredDistance and the
    * triangle None. The search may end early with any point within \a enoughSquaredDistance (in mm^2). */
   ClosestPoint
@@ -201,26 +188,14 @@ public:
   void
   VisitLeaves(const Box & box, std::size_t from, TVisitor && visit) const
   {
-    NodeStack stack;
-    if (!m_Nodes.empty())
-    {
-      stack.Push(this->Root());
-    }
-    while (!stack.IsEmpty())
-    {
-      const Node node = stack.Pop();
-      if (node.end <= from || !m_Nodes[node.id].box.Overlaps(box))
-      {
-        continue;
-      }
-      if (node.IsLeaf())
+    this->VisitNodes([&](const Node & node) {
+      const bool isVisited = node.end > from && m_Nodes[node.id].box.Overlaps(box);
+      if (isVisited && node.IsLeaf())
       {
         visit(node.begin);
-        continue;
       }
-      stack.Push(this->RightOf(node));
-      stack.Push(this->LeftOf(node));
-    }
+      return isVisited;
+    });
   }
 
   /** Bytes, without the surface. */
@@ -269,34 +244,33 @@ private:
    * triangles than 2^32. */
   static constexpr std::size_t MostNodes = 128;
 
-  class NodeStack
-  {
-  public:
-    bool
-    IsEmpty() const
-    {
-      return m_Size == 0;
-    }
-    void
-    Push(const Node & node)
-    {
-      m_Nodes[m_Size++] = node;
-    }
-    Node
-    Pop()
-    {
-      return m_Nodes[--m_Size];
-    }
-
-  private:
-    std::array<Node, MostNodes> m_Nodes;
-    std::size_t m_Size = 0;
-  };
-
   Node
   Root() const
   {
     return { 0, 0, this->GetNumberOfLeaves() };
+  }
+
+  /** Calls \a visit(node) depth first, left children before right ones, for the root and the children of all nodes for
+   * which it returns true. */
+  template <typename TVisitor>
+  void
+  VisitNodes(const TVisitor & visit) const
+  {
+    std::array<Node, MostNodes> stack;
+    std::size_t size = 0;
+    if (!m_Nodes.empty())
+    {
+      stack[size++] = this->Root();
+    }
+    while (size > 0)
+    {
+      const Node node = stack[--size];
+      if (visit(node) && !node.IsLeaf())
+      {
+        stack[size++] = this->RightOf(node);
+        stack[size++] = this->LeftOf(node);
+      }
+    }
   }
 
   class Builder;

@@ -50,8 +50,7 @@ FindBox(const TriangleSurface & surface, const std::vector<std::uint32_t> & tria
     Box box{ first, first };
     for (std::size_t n = begin + 1; n < end; ++n)
     {
-      const auto centre = CentreOf(surface, triangles[n]);
-      box = TriangleTree::Union(box, { centre, centre });
+      box.Add(CentreOf(surface, triangles[n]));
     }
     ofBlocks[begin / TrianglesOfBlock] = box;
   });

@@ -2,9 +2,8 @@
 // both planes. The ends of the intervals are put in order by the signs of determinants of the corners themselves,
 // without computing a point of the line: P. Guigue, O. Devillers, "Fast and Robust Triangle-Triangle Overlap Test Using
 // Orientation Predicates", Journal of Graphics Tools 8 (2003).
-#include "detail/itkTriangleContact.h"
+#include "itkTriangleSurfaceIntersections.h"
 
-#include "detail/itkExactOrientation.h"
 #include "detail/itkPositionArithmetic.h"
 
 #include <algorithm>
@@ -43,7 +42,7 @@ FindAxis(const Corners & corners)
   return axis;
 }
 
-/** Rotates the corners of both triangles until the shared ones come first; returns the number of shared corners. */
+/** Rotates the corners of both triangles until the shared corners come first; returns the number of shared corners. */
 unsigned int
 BringSharedFirst(TriangleSurface::TriangleType & first, TriangleSurface::TriangleType & second)
 {
@@ -138,7 +137,8 @@ FindContactInPlane(const Corners & first, const Corners & second, unsigned int s
   return contact;
 }
 
-/** The sides of a triangle's plane on which the corners of another one lie; the first \a shared corners lie in it. */
+/** The sides of a triangle's plane on which the corners of another triangle lie; the first \a shared corners lie in it.
+ */
 Signs
 FindSides(const Corners & plane, const Corners & corners, unsigned int shared)
 {

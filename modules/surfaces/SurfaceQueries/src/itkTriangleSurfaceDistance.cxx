@@ -39,8 +39,8 @@ At(const CornersType & corners, double u, double v)
   return position;
 }
 
-/** Distances of sample points that are mostly close to the ones before: the triangle nearest to the last sample point
- * bounds the search. */
+/** Distances of sample points that are mostly close to the sample points before: the triangle nearest to the last
+ * sample point bounds the search. */
 class Distances
 {
 public:

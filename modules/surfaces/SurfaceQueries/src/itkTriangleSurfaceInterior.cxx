@@ -171,7 +171,7 @@ AppendCrossings(const std::array<PlanePoint, 2> & ends, SizeValueType numberOfRo
 {
   // Always from the lower to the higher row, so that rounding does not depend on which way the triangle faces.
   const auto & [low, high] = ends[0].row < ends[1].row ? std::tie(ends[0], ends[1]) : std::tie(ends[1], ends[0]);
-  // A row on the surface is taken to lie just above it: rows above the lower end, up to the higher one.
+  // A row on the surface is taken to lie just above it: rows above the lower end, up to the higher end.
   const double first = std::max(0.0, std::floor(low.row) + 1.0);
   const double last = std::min(static_cast<double>(numberOfRows) - 1.0, std::floor(high.row));
   for (double row = first; row <= last; row += 1.0)

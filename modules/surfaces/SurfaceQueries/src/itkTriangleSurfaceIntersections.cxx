@@ -3,7 +3,6 @@
 #include "detail/itkPositionArithmetic.h"
 #include "detail/itkTrianglesOfPoints.h"
 #include "rhombicForEachBlock.h"
-#include "itkUnfoldedPoints.h"
 
 #include <algorithm>
 #include <cstring>
@@ -40,13 +39,6 @@ HaveCommonCorner(const TriangleType & a, const TriangleType & b)
     haveCommon |= (corner == b[0]) | (corner == b[1]) | (corner == b[2]);
   }
   return haveCommon;
-}
-
-void
-SortUnique(std::vector<std::uint32_t> & ids)
-{
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
 /** \class BoxList
@@ -323,32 +315,23 @@ FindAllCrossing(const TriangleTree & tree,
 {
   const ContactSearch search(tree, std::move(areUnfolded), TrianglesOfPart);
   progress.Begin(stageEnd, search.GetNumberOfParts());
-  std::vector<std::uint32_t> found;
-  std::mutex mutex;
-  rhombic::ForEachBlock(search.GetNumberOfParts(), PartsOfBlock, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint32_t> ofBlock;
+  return CollectIds(search.GetNumberOfParts(), PartsOfBlock, [&](std::size_t begin, std::size_t end, auto & found) {
     Neighborhood near;
     for (std::size_t part = begin; part < end; ++part)
     {
       search.TestPart(part, 1, near, [&](std::uint32_t a, std::uint32_t b, Contact contact) {
         if (contact >= least)
         {
-          ofBlock.insert(ofBlock.end(), { a, b });
+          found.insert(found.end(), { a, b });
         }
       });
     }
-    {
-      const std::lock_guard<std::mutex> lock(mutex);
-      found.insert(found.end(), ofBlock.begin(), ofBlock.end());
-    }
     progress.Completed(end - begin);
   });
-  SortUnique(found);
-  return found;
 }
 
 /** The triangles that cross others with which they have a point in common, or that lie at the other end of an edge of
- * at most \a longest mm; each perhaps several times. */
+ * at most \a longest mm. */
 std::vector<std::uint32_t>
 FindCrossingAtEdges(const TriangleSurface & surface,
                     const TrianglesOfPoints & fans,
@@ -357,9 +340,7 @@ FindCrossingAtEdges(const TriangleSurface & surface,
 {
   const auto & points = surface.GetPoints();
   const auto & triangles = surface.GetTriangles();
-  std::vector<std::uint32_t> found;
-  std::mutex mutex;
-  const auto test = [&](std::uint32_t a, std::uint32_t b) {
+  const auto test = [&](std::uint32_t a, std::uint32_t b, std::vector<std::uint32_t> & found) {
     const auto isCorner = [&](std::uint32_t point) {
       return areUnfolded[point] != 0 && std::count(triangles[b].begin(), triangles[b].end(), point) > 0;
     };
@@ -367,28 +348,32 @@ FindCrossingAtEdges(const TriangleSurface & surface,
         TriangleTree::BoxOf(points, triangles[a]).Overlaps(TriangleTree::BoxOf(points, triangles[b])) &&
         FindContact(points, triangles[a], triangles[b]) == Contact::Crossing)
     {
-      const std::lock_guard<std::mutex> lock(mutex);
       found.insert(found.end(), { a, b });
     }
   };
-  constexpr std::size_t pointsOfBlock = 16384;
-  rhombic::ForEachInBlocks(points.size(), pointsOfBlock, [&](std::size_t point) {
+  const auto testAround = [&](std::size_t point, std::vector<std::uint32_t> & found) {
     fans.VisitTriangles(point, [&](std::uint32_t a) {
       if (areUnfolded[point] == 0)
       {
-        fans.VisitTriangles(point, [&](std::uint32_t b) { a < b ? test(a, b) : void(); });
+        fans.VisitTriangles(point, [&](std::uint32_t b) { a < b ? test(a, b, found) : void(); });
       }
     });
     fans.VisitNeighbours(point, [&](std::uint32_t next, std::uint32_t) {
       if (Distance(ToPosition(points[point]), ToPosition(points[next])) <= longest)
       {
         fans.VisitTriangles(point, [&](std::uint32_t a) {
-          fans.VisitTriangles(next, [&](std::uint32_t b) { a != b ? test(a, b) : void(); });
+          fans.VisitTriangles(next, [&](std::uint32_t b) { a != b ? test(a, b, found) : void(); });
         });
       }
     });
+  };
+  constexpr std::size_t pointsOfBlock = 16384;
+  return CollectIds(points.size(), pointsOfBlock, [&](std::size_t begin, std::size_t end, auto & found) {
+    for (std::size_t point = begin; point < end; ++point)
+    {
+      testAround(point, found);
+    }
   });
-  return found;
 }
 
 } // namespace
@@ -431,17 +416,12 @@ std::vector<std::uint32_t>
 FindCrossingTriangles(const TriangleTree & tree,
                       const TrianglesOfPoints & fans,
                       Contact least,
-                      rhombic::StagedProgress & progress,
+                      rhombic::StagedProgress * progress,
                       double stageEnd)
 {
-  return FindAllCrossing(tree, FindUnfoldedPoints(tree.GetSurface(), fans), least, progress, stageEnd);
-}
-
-std::vector<std::uint32_t>
-FindCrossingTriangles(const TriangleTree & tree, const TrianglesOfPoints & fans, Contact least)
-{
   rhombic::StagedProgress silent({});
-  return FindCrossingTriangles(tree, fans, least, silent, 1.0);
+  return FindAllCrossing(
+    tree, FindUnfoldedPoints(tree.GetSurface(), fans), least, progress == nullptr ? silent : *progress, stageEnd);
 }
 
 std::vector<std::uint32_t>
@@ -450,25 +430,18 @@ FindCrossingTriangles(const TriangleTree & tree, const std::vector<std::uint32_t
   constexpr std::size_t blockSize = 1024;
   const TriangleSurface & surface = tree.GetSurface();
   const auto & triangles = surface.GetTriangles();
-  std::vector<std::uint32_t> found;
-  std::mutex mutex;
-  rhombic::ForEachBlock(candidates.size(), blockSize, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint32_t> ofBlock;
+  return CollectIds(candidates.size(), blockSize, [&](std::size_t begin, std::size_t end, auto & found) {
     for (std::size_t n = begin; n < end; ++n)
     {
       const std::uint32_t a = candidates[n];
       tree.VisitTriangles(tree.GetTriangleBox(a), [&](std::uint32_t b) {
         if (a != b && FindContact(surface.GetPoints(), triangles[a], triangles[b]) >= least)
         {
-          ofBlock.insert(ofBlock.end(), { a, b });
+          found.insert(found.end(), { a, b });
         }
       });
     }
-    const std::lock_guard<std::mutex> lock(mutex);
-    found.insert(found.end(), ofBlock.begin(), ofBlock.end());
   });
-  SortUnique(found);
-  return found;
 }
 
 double

@@ -1,7 +1,7 @@
 #include "itkTriangleSurfaceSolids.h"
 
 #include "rhombicForEachBlock.h"
-#include "itkTriangleSurfaceComponents.h"
+#include "itkTriangleSurfaceTopology.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleTree.h"
 

@@ -1,7 +1,7 @@
 #include "itkTriangleTree.h"
 
 #include "detail/itkClosestOnTriangle.h"
-#include "detail/itkExactOrientation.h"
+#include "detail/itkPositionArithmetic.h"
 #include "itkCurveOrder.h"
 #include "rhombicForEachBlock.h"
 
@@ -217,50 +217,28 @@ TriangleTree::TriangleTree(const TriangleSurface & surface, std::vector<std::uin
 void
 TriangleTree::Enlarge(const Box & before, const Box & after)
 {
-  NodeStack stack;
-  if (!m_Nodes.empty())
-  {
-    stack.Push(this->Root());
-  }
-  while (!stack.IsEmpty())
-  {
-    const Node node = stack.Pop();
+  this->VisitNodes([&](const Node & node) {
     Box & box = m_Nodes[node.id].box;
-    if (!box.Overlaps(before))
-    {
-      continue;
-    }
-    box = Union(box, after);
-    if (!node.IsLeaf())
-    {
-      stack.Push(this->RightOf(node));
-      stack.Push(this->LeftOf(node));
-    }
-  }
+    const bool isEnlarged = box.Overlaps(before);
+    box = isEnlarged ? Union(box, after) : box;
+    return isEnlarged;
+  });
 }
 
 std::vector<std::size_t>
 TriangleTree::FindSubtrees(std::size_t mostTriangles) const
 {
   std::vector<std::size_t> begins;
-  NodeStack stack;
-  if (!m_Nodes.empty())
-  {
-    stack.Push(this->Root());
-  }
-  while (!stack.IsEmpty())
-  {
-    const Node node = stack.Pop();
+  this->VisitNodes([&](const Node & node) {
     const auto triangles =
       static_cast<std::size_t>(this->GetLeaf(node.end - 1).end() - this->GetLeaf(node.begin).begin());
-    if (node.IsLeaf() || triangles <= mostTriangles)
+    const bool isCut = !node.IsLeaf() && triangles > mostTriangles;
+    if (!isCut)
     {
       begins.push_back(node.begin);
-      continue;
     }
-    stack.Push(this->RightOf(node));
-    stack.Push(this->LeftOf(node));
-  }
+    return isCut;
+  });
   begins.push_back(this->GetNumberOfLeaves());
   return begins;
 }

@@ -1,7 +1,7 @@
-#include "itkUnfoldedPoints.h"
+#include "detail/itkTrianglesOfPoints.h"
 
-#include "detail/itkPositionArithmetic.h"
 #include "rhombicForEachBlock.h"
+#include "detail/itkPositionArithmetic.h"
 
 #include <algorithm>
 

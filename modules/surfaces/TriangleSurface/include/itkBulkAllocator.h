@@ -1,14 +1,11 @@
 #ifndef itkBulkAllocator_h
 #define itkBulkAllocator_h
 
-#include <cstddef>
+#include "detail/itkHugePages.h"
+
 #include <cstdlib>
 #include <new>
 #include <utility>
-
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
 
 namespace itk
 {
@@ -51,9 +48,7 @@ public:
     {
       throw std::bad_alloc();
     }
-#ifdef MADV_HUGEPAGE
-    madvise(block, bytes, MADV_HUGEPAGE); // only a hint
-#endif
+    AdviseHugePages(block, bytes);
     return static_cast<T *>(block);
   }
 

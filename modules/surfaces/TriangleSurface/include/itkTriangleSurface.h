@@ -151,7 +151,7 @@ protected:
   void
   PrintSelf(std::ostream & os, Indent indent) const override;
 
-  /** An array that its copies share. The one that changes it takes an array of its own first. */
+  /** An array that its copies share. A copy that changes it takes an array of its own first. */
   template <typename TContainer>
   class SharedArray
   {

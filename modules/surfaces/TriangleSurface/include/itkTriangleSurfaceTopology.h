@@ -4,9 +4,35 @@
 #include "itkTriangleSurface.h"
 
 #include <iosfwd>
+#include <limits>
 
 namespace itk
 {
+
+/** \class TriangleSurfaceComponents
+ * \brief The connected component of each point of a surface. */
+struct TriangleSurfaceComponents
+{
+  /** The component of points that no triangle uses. */
+  static constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
+
+  std::uint32_t count = 0;
+  std::vector<std::uint32_t> ofPoint; ///< 0 to count - 1, numbered by each component's first point, or None
+};
+
+/** Triangles that share a point are connected. Time nearly linear; memory 4 bytes per point, 8 while it runs. */
+TriangleSurfaceComponents
+FindTriangleSurfaceComponents(const TriangleSurface & surface);
+
+/** The first point of each component. */
+std::vector<std::uint32_t>
+FindTriangleSurfaceFirstPoints(const TriangleSurfaceComponents & components);
+
+/** Removes the components for which \a keep is false, and all points that no triangle uses. */
+void
+KeepTriangleSurfaceComponents(TriangleSurface & surface,
+                              const TriangleSurfaceComponents & components,
+                              const std::vector<bool> & keep);
 
 /** \class TriangleSurfaceTopology
  * \brief Counts over the connectivity of a surface: components, genus and flaws. */
@@ -19,10 +45,10 @@ struct TriangleSurfaceTopology
   SizeValueType nonManifoldPoints = 0; ///< points whose triangles are not one fan, in any orientation
   SizeValueType unusedPoints = 0;      ///< points that no triangle uses
   SizeValueType nonFinitePoints = 0;   ///< used points with a coordinate that is infinite or no number
-  SizeValueType repeatedPositions = 0; ///< used points at the position of an earlier one: a reader may join the two
+  SizeValueType repeatedPositions = 0; ///< used points at the position of an earlier point: a reader may join the two
   SizeValueType degenerateTriangles =
     0; ///< triangles with a repeated point, a repeated position, no area, or a position that is not finite
-  SizeValueType duplicateTriangles = 0;    ///< triangles with the three points of an earlier one, in any order
+  SizeValueType duplicateTriangles = 0;    ///< triangles with the three points of an earlier triangle, in any order
   OffsetValueType eulerCharacteristic = 0; ///< used points - edges + triangles; 2 for each sphere, 0 for each torus
   SizeValueType genus = 0; ///< handles of all components that are closed, oriented and manifold: 1 for each torus
 

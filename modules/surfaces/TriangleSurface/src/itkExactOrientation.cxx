@@ -5,7 +5,7 @@
 // Coordinates are float32, which makes the exact part short: a product of two (48 bits) is one double and a product of
 // three (72 bits) the sum of two, without rounding. Nothing underflows or overflows: the products of three lie between
 // 2^-447 and 2^384.
-#include "detail/itkExactOrientation.h"
+#include "detail/itkPositionArithmetic.h"
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,7 @@
 #include "itkTriangleSurface.h"
 
+#include "itkPointBox.h"
+
 #include <algorithm>
 
 namespace itk
@@ -20,16 +22,12 @@ TriangleSurface::GetBounds() const
   {
     return {};
   }
-  PointType lowest = points.front();
-  PointType highest = lowest;
+  PointBox box{ points.front(), points.front() };
   for (const PointType & point : points)
   {
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      lowest[axis] = std::min(lowest[axis], point[axis]);
-      highest[axis] = std::max(highest[axis], point[axis]);
-    }
+    box.Add(point);
   }
+  const auto & [lowest, highest] = box;
   return { lowest[0], highest[0], lowest[1], highest[1], lowest[2], highest[2] };
 }
 

@@ -1,6 +1,7 @@
 #include "itkTriangleSurfaceMeasures.h"
 
 #include "detail/itkPositionArithmetic.h"
+#include "itkPointBox.h"
 
 #include <algorithm>
 #include <functional>
@@ -52,8 +53,7 @@ private:
   /** The points [begin, end) and the box around them. */
   struct Box
   {
-    PointType low;
-    PointType high;
+    PointBox bounds;
     std::size_t begin;
     std::size_t end;
   };
@@ -62,24 +62,16 @@ private:
   Split(std::size_t n, std::size_t begin, std::size_t end)
   {
     Box & box = m_Boxes[n];
-    box = { m_Points[begin], m_Points[begin], begin, end };
+    box = { { m_Points[begin], m_Points[begin] }, begin, end };
     for (std::size_t point = begin; point < end; ++point)
     {
-      for (unsigned int axis = 0; axis < 3; ++axis)
-      {
-        box.low[axis] = std::min(box.low[axis], m_Points[point][axis]);
-        box.high[axis] = std::max(box.high[axis], m_Points[point][axis]);
-      }
+      box.bounds.Add(m_Points[point]);
     }
     if (this->IsLeaf(n))
     {
       return;
     }
-    unsigned int longest = 0;
-    for (unsigned int axis = 1; axis < 3; ++axis)
-    {
-      longest = box.high[axis] - box.low[axis] > box.high[longest] - box.low[longest] ? axis : longest;
-    }
+    const unsigned int longest = box.bounds.FindLongestAxis();
     const std::size_t middle = (begin + end) / 2;
     const auto at = [this](std::size_t point) { return m_Points.begin() + static_cast<std::ptrdiff_t>(point); };
     std::nth_element(
@@ -98,14 +90,16 @@ private:
   double
   BoundOf(std::size_t a, std::size_t b) const
   {
+    const PointBox & boxOfA = m_Boxes[a].bounds;
+    const PointBox & boxOfB = m_Boxes[b].bounds;
     PointType cornerOfA;
     PointType cornerOfB;
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      const bool isALower = static_cast<double>(m_Boxes[b].high[axis]) - m_Boxes[a].low[axis] >
-                            static_cast<double>(m_Boxes[a].high[axis]) - m_Boxes[b].low[axis];
-      cornerOfA[axis] = isALower ? m_Boxes[a].low[axis] : m_Boxes[a].high[axis];
-      cornerOfB[axis] = isALower ? m_Boxes[b].high[axis] : m_Boxes[b].low[axis];
+      const bool isALower =
+        double(boxOfB.highest[axis]) - boxOfA.lowest[axis] > double(boxOfA.highest[axis]) - boxOfB.lowest[axis];
+      cornerOfA[axis] = isALower ? boxOfA.lowest[axis] : boxOfA.highest[axis];
+      cornerOfB[axis] = isALower ? boxOfB.highest[axis] : boxOfB.lowest[axis];
     }
     return SquaredDistanceOfPoints(cornerOfA, cornerOfB);
   }
@@ -173,15 +167,8 @@ FindFarthest(const TriangleSurface::PointsContainer & points, const PointType & 
 std::vector<PointType>
 FindEnds(const TriangleSurface::PointsContainer & points, double length)
 {
-  PointType low = points.front(), high = points.front();
-  for (const PointType & point : points)
-  {
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      low[axis] = std::min(low[axis], point[axis]);
-      high[axis] = std::max(high[axis], point[axis]);
-    }
-  }
+  PointBox box{ points.front(), points.front() };
+  std::for_each(points.begin(), points.end(), [&box](const PointType & point) { box.Add(point); });
   constexpr double rounding = 1e-9; // generous
   const double least = length * length * (1.0 - rounding);
   std::vector<PointType> ends;
@@ -189,7 +176,7 @@ FindEnds(const TriangleSurface::PointsContainer & points, double length)
     double farthest = 0.0; // squared
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      const double reach = std::max(double(point[axis]) - low[axis], double(high[axis]) - point[axis]);
+      const double reach = std::max(double(point[axis]) - box.lowest[axis], double(box.highest[axis]) - point[axis]);
       farthest += reach * reach;
     }
     return !(farthest < least);

@@ -1,10 +1,9 @@
 #include "itkTriangleSurfaceTopology.h"
 
-#include "detail/itkExactOrientation.h"
 #include "detail/itkPositionArithmetic.h"
-#include "itkParallelSort.h"
-#include "itkTriangleSurfaceComponents.h"
+#include "rhombicForEachBlock.h"
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <numeric>
@@ -15,9 +14,67 @@ namespace itk
 namespace
 {
 
+/** Sets of the items from 0 to size - 1; each item begins in a set of its own. */
+class DisjointSets
+{
+public:
+  explicit DisjointSets(std::size_t size)
+    : m_Parent(size)
+  {
+    std::iota(m_Parent.begin(), m_Parent.end(), 0u);
+  }
+
+  /** The smallest item of the set. */
+  std::uint32_t
+  Find(std::uint32_t item)
+  {
+    while (m_Parent[item] != item)
+    {
+      m_Parent[item] = m_Parent[m_Parent[item]];
+      item = m_Parent[item];
+    }
+    return item;
+  }
+
+  void
+  Join(std::uint32_t a, std::uint32_t b)
+  {
+    const std::uint32_t firstOfA = Find(a);
+    const std::uint32_t firstOfB = Find(b);
+    m_Parent[std::max(firstOfA, firstOfB)] = std::min(firstOfA, firstOfB);
+  }
+
+private:
+  std::vector<std::uint32_t> m_Parent;
+};
+
 using PointId = std::uint32_t;
 
 constexpr std::size_t BlockOfPoints = 1 << 14;
+
+/** Sorts by operator< on several threads: sorts blocks, then merges them in pairs. Items that compare equal must be
+ * indistinguishable. Takes the items' memory once more. */
+template <typename TContainer>
+void
+ParallelSort(TContainer & items)
+{
+  constexpr std::size_t block = 1 << 16;
+  const std::size_t size = items.size();
+  const auto at = [size](TContainer & container, std::size_t index) {
+    return container.begin() + static_cast<std::ptrdiff_t>(std::min(index, size));
+  };
+  rhombic::ForEachBlock(
+    size, block, [&](std::size_t begin, std::size_t end) { std::sort(at(items, begin), at(items, end)); });
+  TContainer merged(size > block ? size : 0);
+  for (std::size_t sorted = block; sorted < size; sorted *= 2)
+  {
+    rhombic::ForEachBlock(size, 2 * sorted, [&](std::size_t begin, std::size_t end) {
+      const auto middle = at(items, begin + sorted);
+      std::merge(at(items, begin), middle, middle, at(items, end), at(merged, begin));
+    });
+    items.swap(merged);
+  }
+}
 
 /** The link of a point in a triangle: the opposite side, in the triangle's direction. */
 struct Link
@@ -347,6 +404,60 @@ CountPositions(const TriangleSurface & surface, TriangleSurfaceTopology & topolo
 }
 
 } // namespace
+
+TriangleSurfaceComponents
+FindTriangleSurfaceComponents(const TriangleSurface & surface)
+{
+  DisjointSets sets(surface.GetNumberOfPoints());
+  TriangleSurfaceComponents components;
+  components.ofPoint.assign(surface.GetNumberOfPoints(), TriangleSurfaceComponents::None);
+  for (const auto & triangle : surface.GetTriangles())
+  {
+    sets.Join(triangle[0], triangle[1]);
+    sets.Join(triangle[1], triangle[2]);
+    for (const std::uint32_t point : triangle)
+    {
+      components.ofPoint[point] = 0; // used; the number follows
+    }
+  }
+  for (std::uint32_t point = 0; point < components.ofPoint.size(); ++point)
+  {
+    if (components.ofPoint[point] != TriangleSurfaceComponents::None)
+    {
+      const std::uint32_t first = sets.Find(point);
+      components.ofPoint[point] = first == point ? components.count++ : components.ofPoint[first];
+    }
+  }
+  return components;
+}
+
+std::vector<std::uint32_t>
+FindTriangleSurfaceFirstPoints(const TriangleSurfaceComponents & components)
+{
+  std::vector<std::uint32_t> first;
+  first.reserve(components.count);
+  for (std::uint32_t point = 0; point < components.ofPoint.size(); ++point)
+  {
+    if (components.ofPoint[point] == first.size())
+    {
+      first.push_back(point);
+    }
+  }
+  return first;
+}
+
+void
+KeepTriangleSurfaceComponents(TriangleSurface & surface,
+                              const TriangleSurfaceComponents & components,
+                              const std::vector<bool> & keep)
+{
+  auto & triangles = surface.GetTriangles();
+  triangles.erase(std::remove_if(triangles.begin(),
+                                 triangles.end(),
+                                 [&](const auto & triangle) { return !keep[components.ofPoint[triangle[0]]]; }),
+                  triangles.end());
+  surface.RemoveUnusedPoints();
+}
 
 TriangleSurfaceTopology
 ComputeTriangleSurfaceTopology(const TriangleSurface & surface)

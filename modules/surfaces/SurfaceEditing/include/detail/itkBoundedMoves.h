@@ -63,9 +63,7 @@ public:
   static PointType
   Move(const PointType & point, double factor, const PositionType & way)
   {
-    return { static_cast<float>(point[0] + factor * way[0]),
-             static_cast<float>(point[1] + factor * way[1]),
-             static_cast<float>(point[2] + factor * way[2]) };
+    return ToPoint(Along(ToPosition(point), way, factor));
   }
 
 private:

@@ -28,17 +28,6 @@ struct PointStrata
 {
   std::vector<Stratum> strata;
   std::vector<CurvePoint> curves;
-
-  /** For a point of a curve. */
-  const std::array<std::uint32_t, 2> &
-  FindNeighboursOnCurve(std::uint32_t point) const
-  {
-    return std::lower_bound(curves.begin(),
-                            curves.end(),
-                            point,
-                            [](const CurvePoint & curve, std::uint32_t sought) { return curve.point < sought; })
-      ->neighbours;
-  }
 };
 
 PointStrata

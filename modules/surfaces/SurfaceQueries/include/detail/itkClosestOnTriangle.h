@@ -9,13 +9,6 @@
 namespace itk
 {
 
-/** from + share * way */
-inline PositionType
-Along(const PositionType & from, const PositionType & way, double share)
-{
-  return { from[0] + share * way[0], from[1] + share * way[1], from[2] + share * way[2] };
-}
-
 inline PositionType
 ClosestOnSegment(const PositionType & position, const PositionType & a, const PositionType & b)
 {

@@ -2,11 +2,40 @@
 #define itkTrianglesOfPoints_h
 
 #include "itkTriangleSurface.h"
+#include "rhombicForEachBlock.h"
 
+#include <algorithm>
+#include <mutex>
 #include <numeric>
 
 namespace itk
 {
+
+/** Sorts ids and removes repeated ids. */
+inline void
+SortUnique(std::vector<std::uint32_t> & ids)
+{
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+/** Calls \a work(begin, end, found) for blocks of [0, size), on several threads. Returns the ids that the calls append
+ * to \a found, sorted, each of them once. */
+template <typename TWork>
+std::vector<std::uint32_t>
+CollectIds(std::size_t size, std::size_t blockSize, const TWork & work)
+{
+  std::vector<std::uint32_t> ids;
+  std::mutex mutex;
+  rhombic::ForEachBlock(size, blockSize, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> ofBlock;
+    work(begin, end, ofBlock);
+    const std::lock_guard<std::mutex> lock(mutex);
+    ids.insert(ids.end(), ofBlock.begin(), ofBlock.end());
+  });
+  SortUnique(ids);
+  return ids;
+}
 
 /** \class TrianglesOfPoints
  * \brief The ids of the triangles at each point of a surface, ascending. A change of the triangles invalidates it. */
@@ -25,7 +54,7 @@ public:
         ++m_Begin[point];
       }
     }
-    // The sums are where each point's ids end; filling them in from the last one on moves them to where they begin.
+    // The sums are where each point's ids end; filling them in from the last id on moves them to where they begin.
     std::partial_sum(m_Begin.begin(), m_Begin.end(), m_Begin.begin());
     for (std::size_t id = m_Triangles.size(); id-- > 0;)
     {
@@ -70,6 +99,15 @@ private:
   std::vector<std::size_t> m_Begin; ///< index of each point's first id, and the end of the last
   std::vector<std::uint32_t> m_Ids;
 };
+
+/** For each point, 1 if it is certain that no two triangles at it meet elsewhere than at corners and sides they share,
+ * else 0.
+ *
+ * It is certain if the triangles at the point form one closed fan, and there is a direction from which all of them are
+ * seen from the same side, and go round the point once: then each is seen in a sector of its own. The direction is that
+ * of the triangles' mean normal; a bound on rounding errors makes it a proof. */
+std::vector<std::uint8_t>
+FindUnfoldedPoints(const TriangleSurface & surface, const TrianglesOfPoints & triangles);
 
 } // namespace itk
 

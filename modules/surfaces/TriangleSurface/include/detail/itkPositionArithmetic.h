@@ -2,14 +2,24 @@
 #define itkPositionArithmetic_h
 
 #include "itkTriangleSurface.h"
-
-#include <cmath>
+#include "rhombicVector3.h"
 
 namespace itk
 {
 
+using rhombic::Add;
+using rhombic::Along;
+using rhombic::Cross;
+using rhombic::Distance;
+using rhombic::Dot;
+using rhombic::Length;
+using rhombic::Mix;
+using rhombic::Scaled;
+using rhombic::SquaredDistance;
+using rhombic::Subtract;
+
 /** A position, or a difference of two, in double precision. */
-using PositionType = std::array<double, 3>;
+using PositionType = rhombic::Vector3;
 
 /** The positions of a triangle's corners. */
 using CornersType = std::array<PositionType, 3>;
@@ -20,11 +30,22 @@ ToPosition(const TriangleSurface::PointType & point)
   return { point[0], point[1], point[2] };
 }
 
+inline TriangleSurface::PointType
+ToPoint(const PositionType & position)
+{
+  return { static_cast<float>(position[0]), static_cast<float>(position[1]), static_cast<float>(position[2]) };
+}
+
+inline CornersType
+CornersOf(const TriangleSurface::PointsContainer & points, const TriangleSurface::TriangleType & triangle)
+{
+  return { ToPosition(points[triangle[0]]), ToPosition(points[triangle[1]]), ToPosition(points[triangle[2]]) };
+}
+
 inline CornersType
 CornersOf(const TriangleSurface & surface, const TriangleSurface::TriangleType & triangle)
 {
-  const auto & points = surface.GetPoints();
-  return { ToPosition(points[triangle[0]]), ToPosition(points[triangle[1]]), ToPosition(points[triangle[2]]) };
+  return CornersOf(surface.GetPoints(), triangle);
 }
 
 inline bool
@@ -33,55 +54,34 @@ IsFinite(const TriangleSurface::PointType & point)
   return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
 }
 
-inline PositionType
-Add(const PositionType & a, const PositionType & b)
-{
-  return { a[0] + b[0], a[1] + b[1], a[2] + b[2] };
-}
-
-inline PositionType
-Subtract(const PositionType & a, const PositionType & b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
-inline double
-Dot(const PositionType & a, const PositionType & b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-inline PositionType
-Cross(const PositionType & a, const PositionType & b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
-
-inline double
-Length(const PositionType & a)
-{
-  return std::sqrt(Dot(a, a));
-}
-
-inline double
-SquaredDistance(const PositionType & a, const PositionType & b)
-{
-  const PositionType difference = Subtract(a, b);
-  return Dot(difference, difference);
-}
-
-inline double
-Distance(const PositionType & a, const PositionType & b)
-{
-  return std::sqrt(SquaredDistance(a, b));
-}
-
 /** The triangle's normal, as long as twice its area. */
 inline PositionType
 AreaVector(const CornersType & corners)
 {
   return Cross(Subtract(corners[1], corners[0]), Subtract(corners[2], corners[0]));
 }
+
+/** The side of the plane through \a a, \a b and \a c on which \a d lies: 1 in front of the triangle's counter-clockwise
+ * side, -1 behind it, 0 in the plane. Exact for finite points. */
+int
+OrientationInSpace(const TriangleSurface::PointType & a,
+                   const TriangleSurface::PointType & b,
+                   const TriangleSurface::PointType & c,
+                   const TriangleSurface::PointType & d);
+
+/** The turn from \a a over \a b to \a c seen against \a axis (0, 1 or 2): 1 counter-clockwise, -1 clockwise, 0
+ * straight. It is the sign of the triangle normal's component along that axis. Exact for finite points. */
+int
+OrientationAlongAxis(const TriangleSurface::PointType & a,
+                     const TriangleSurface::PointType & b,
+                     const TriangleSurface::PointType & c,
+                     unsigned int axis);
+
+/** Whether three points are not on one line. Exact for finite points. */
+bool
+HasArea(const TriangleSurface::PointType & a,
+        const TriangleSurface::PointType & b,
+        const TriangleSurface::PointType & c);
 
 } // namespace itk
 

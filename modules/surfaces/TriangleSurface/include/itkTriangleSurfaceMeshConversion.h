@@ -1,5 +1,9 @@
-#ifndef itkMeshToTriangleSurface_hxx
-#define itkMeshToTriangleSurface_hxx
+#ifndef itkTriangleSurfaceMeshConversion_h
+#define itkTriangleSurfaceMeshConversion_h
+
+#include "itkMesh.h"
+#include "itkQuadEdgeMesh.h"
+#include "itkTriangleSurface.h"
 
 #include <algorithm>
 #include <limits>
@@ -7,6 +11,26 @@
 namespace itk
 {
 
+/** Copies the surface into an itk::Mesh of triangle cells, for ITK's mesh filters: the same ids of points and
+ * triangles, in LPS mm, without normals. Triangles may have equal corners. It takes about 142 bytes per triangle,
+ * where the surface itself has 18, or 24 with normals: itk::Mesh allocates each cell, and the cell its point ids.
+ * Throws ExceptionObject if a triangle refers to a missing point. */
+Mesh<float, 3>::Pointer
+ConvertTriangleSurfaceToMesh(const TriangleSurface & surface);
+
+/** Copies the surface into an itk::QuadEdgeMesh, whose filters walk along edges; otherwise as
+ * ConvertTriangleSurfaceToMesh(). Throws ExceptionObject also if the surface is not an oriented manifold (a border is
+ * allowed) or if a triangle has equal corners, which a QuadEdgeMesh cannot hold. It takes about 930 bytes per triangle
+ * of a closed surface. */
+QuadEdgeMesh<float, 3>::Pointer
+ConvertTriangleSurfaceToQuadEdgeMesh(const TriangleSurface & surface);
+
+/** Copies the triangles of an itk::Mesh or itk::QuadEdgeMesh into a surface: points and triangles in the order of their
+ * ids, which may have gaps; coordinates rounded to float32; no normals. Polygons of three points count as triangles.
+ * Points of no triangle are kept.
+ *
+ * Throws ExceptionObject if a cell is not a triangle, if a triangle refers to a missing point, or if there are 2^32
+ * points or more. Not thread safe for a QuadEdgeMesh, whose cells collect their points on demand. */
 template <typename TPixel, typename TTraits>
 TriangleSurface::Pointer
 ConvertMeshToTriangleSurface(const Mesh<TPixel, 3, TTraits> & mesh)

@@ -1,9 +1,11 @@
-#include "itkTriangleSurfaceNormalSmoothing.h"
+#include "itkTriangleSurfaceForRendering.h"
 
 #include "detail/itkPositionArithmetic.h"
 #include "detail/itkTrianglesOfPoints.h"
 #include "rhombicForEachBlock.h"
 #include "itkMath.h"
+
+#include <meshoptimizer.h>
 
 #include <algorithm>
 
@@ -29,12 +31,6 @@ struct NormalSample
   double area = 0.0;         ///< of the triangles
   double disagreement = 0.0; ///< 1 - cosine of the angle between triangles and normals, times area
 };
-
-PositionType
-Scaled(const PositionType & a, double factor)
-{
-  return { factor * a[0], factor * a[1], factor * a[2] };
-}
 
 /** The vector of length 1, or 0. */
 PositionType
@@ -96,6 +92,16 @@ ShareOf(const NormalSample & sum)
   return ShareBetween(angle, AngleOfNone, AngleOfAll) * ShareBetween(ratio, RatioOfNone, RatioOfAll);
 }
 
+template <typename TContainer>
+void
+Reorder(TContainer & container, const std::vector<unsigned int> & newIds, std::size_t newSize)
+{
+  TContainer ordered(newSize);
+  meshopt_remapVertexBuffer(
+    ordered.data(), container.data(), container.size(), sizeof(typename TContainer::value_type), newIds.data());
+  container.swap(ordered);
+}
+
 } // namespace
 
 void
@@ -125,9 +131,35 @@ SmoothTriangleSurfaceNormals(TriangleSurface & surface)
     const PositionType blend = Normalized(Add(Scaled(ToPosition(normal), 1.0 - share), Scaled(smooth, share)));
     if (share > 0.0 && Length(blend) > 0.0)
     {
-      normal = { static_cast<float>(blend[0]), static_cast<float>(blend[1]), static_cast<float>(blend[2]) };
+      normal = ToPoint(blend);
     }
   });
+  surface.Modified();
+}
+
+void
+OptimizeTriangleSurfaceForRendering(TriangleSurface & surface)
+{
+  if (surface.GetTriangles().empty())
+  {
+    surface.RemoveUnusedPoints();
+    return;
+  }
+  const std::size_t numberOfPoints = surface.GetNumberOfPoints();
+  const std::size_t numberOfIndices = 3 * surface.GetNumberOfTriangles();
+  TriangleSurface::TrianglesContainer triangles(surface.GetNumberOfTriangles());
+  unsigned int * const indices = triangles.front().data();
+  meshopt_optimizeVertexCache(indices, surface.GetTriangles().front().data(), numberOfIndices, numberOfPoints);
+
+  std::vector<unsigned int> newIds(numberOfPoints);
+  const std::size_t used = meshopt_optimizeVertexFetchRemap(newIds.data(), indices, numberOfIndices, numberOfPoints);
+  meshopt_remapIndexBuffer(indices, indices, numberOfIndices, newIds.data());
+  if (surface.HasNormals())
+  {
+    Reorder(surface.GetNormals(), newIds, used);
+  }
+  Reorder(surface.GetPoints(), newIds, used);
+  surface.GetTriangles().swap(triangles);
   surface.Modified();
 }
 

@@ -1,7 +1,7 @@
-#include "rhombicScanField.h"
+#include "rhombicScanPart.h"
 
 #include "rhombicFailure.h"
-#include "rhombicInterpolatedField.h"
+#include "rhombicFieldSampling.h"
 #include "rhombicPatientAxes.h"
 #include "rhombicScanReader.h"
 
@@ -21,7 +21,7 @@ using VolumeType = itk::Image<float, 3>;
 
 /** The box of a request along the axes of a volume, from its first sample. */
 FieldBox
-BoxIn(const itk::ImageBase<3> & volume, const ScanFieldRequest & request)
+BoxIn(const itk::ImageBase<3> & volume, const ScanPartRequest & request)
 {
   FieldBox box;
   for (unsigned int axis = 0; axis < 3; ++axis)
@@ -71,8 +71,8 @@ CutOut(const TImage * image, const FieldBox & box)
 
 } // namespace
 
-ScanField
-ReadScanField(const ScanFieldRequest & request)
+ScanPart
+ReadScanPart(const ScanPartRequest & request)
 {
   ScanReadOptions options;
   options.onUneven = ScanReadOptions::Policy::Accept; // refused below

@@ -1,5 +1,5 @@
-#ifndef itkTriangleSurfaceNormalSmoothing_h
-#define itkTriangleSurfaceNormalSmoothing_h
+#ifndef itkTriangleSurfaceForRendering_h
+#define itkTriangleSurfaceForRendering_h
 
 #include "itkTriangleSurface.h"
 
@@ -20,6 +20,12 @@ namespace itk
  * threads. */
 void
 SmoothTriangleSurfaceNormals(TriangleSurface & surface);
+
+/** Reorders triangles for the vertex cache of graphics cards, then points and normals by first use. Triangles keep
+ * their positions and orientation; points of no triangle are removed. Time nearly linear; memory 40 bytes per triangle
+ * while it runs. */
+void
+OptimizeTriangleSurfaceForRendering(TriangleSurface & surface);
 
 } // namespace itk
 

@@ -1,5 +1,5 @@
-#ifndef rhombicScanField_h
-#define rhombicScanField_h
+#ifndef rhombicScanPart_h
+#define rhombicScanPart_h
 
 #include "rhombicComparedMethod.h"
 
@@ -11,7 +11,7 @@ namespace rhombic
 {
 
 /** What part of a scan becomes a field. */
-struct ScanFieldRequest
+struct ScanPartRequest
 {
   std::filesystem::path file;
   double isovalue = 0.0;
@@ -21,7 +21,7 @@ struct ScanFieldRequest
 };
 
 /** A field and the box in which it is known, in mm along the scan's axes, in the order of the patient's. */
-struct ScanField
+struct ScanPart
 {
   std::unique_ptr<ReferenceField> field;
   FieldBox box{};
@@ -29,8 +29,8 @@ struct ScanField
 
 /** The cubic B-spline through the smoothed voxels of a part of a scan, minus an isovalue. The part is shortened where
  * the scan ends. Throws Failure: those of OpenScan(), and Unreadable for slanted and uneven stacks of slices. */
-ScanField
-ReadScanField(const ScanFieldRequest & request);
+ScanPart
+ReadScanPart(const ScanPartRequest & request);
 
 } // namespace rhombic
 

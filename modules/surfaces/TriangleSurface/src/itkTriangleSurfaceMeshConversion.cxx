@@ -1,4 +1,4 @@
-#include "itkTriangleSurfaceToMesh.h"
+#include "itkTriangleSurfaceMeshConversion.h"
 
 #include "itkTriangleSurfaceTopology.h"
 
