@@ -1,16 +1,14 @@
 #ifndef rhombicPicture_h
 #define rhombicPicture_h
 
-#include <array>
+#include "rhombicColour.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace rhombic
 {
-
-/** Red, green and blue from 0 to 1, as sRGB encodes them. */
-using Colour = std::array<double, 3>;
 
 /** \class Picture
  * \brief An 8-bit sRGB picture: red, green, blue and perhaps alpha of each pixel, rows from the top, pixels from the

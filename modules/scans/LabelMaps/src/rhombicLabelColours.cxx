@@ -1,6 +1,7 @@
 #include "rhombicLabelColours.h"
 
 #include "rhombicAnatomicalColours.h"
+#include "rhombicColour.h"
 
 #include <algorithm>
 #include <array>
@@ -117,8 +118,7 @@ ToOKLab(const ByteColour & colour)
   std::array<double, 3> linear;
   for (std::size_t n = 0; n < 3; ++n)
   {
-    const double encoded = colour[n] / 255.0;
-    linear[n] = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+    linear[n] = SRGBToLinear(colour[n] / 255.0);
   }
   const auto cone = [&linear](double red, double green, double blue) {
     return std::cbrt(red * linear[0] + green * linear[1] + blue * linear[2]);

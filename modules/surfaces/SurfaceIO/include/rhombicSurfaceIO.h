@@ -96,7 +96,7 @@ struct VTPReading
  *
  * VTP files with the cell array BoundaryLabels give the closed surface of each label. Equal points of an STL file
  * become one point; polygons become fans of triangles; points of no triangle are kept, except in OBJ. A surface without
- * a name gets the file's stem, one without colour or opacity the defaults. A surface has no normals if one of its
+ * a name gets the file's stem, a surface without colour or opacity the defaults. A surface has no normals if one of its
  * points has several. Textures, lines, animations and the like are ignored.
  *
  * Throws Failure(NotFound), Failure(Usage) for another extension, Failure(Unreadable) for damaged files, files without

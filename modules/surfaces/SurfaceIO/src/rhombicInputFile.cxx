@@ -91,19 +91,14 @@ InputFile::RequireMemoryToRead(std::uintmax_t bytes) const
   RequireMemory(bytes, 0, "Reading " + m_Path.string());
 }
 
-InputStream::InputStream(const InputFile & file, std::uintmax_t offset, std::uintmax_t end)
-  : m_File(file)
-  , m_Next(std::min(offset, file.GetSize()))
-  , m_End(std::clamp(end, m_Next, file.GetSize()))
-{}
-
 void
 InputStream::Fill(std::size_t size)
 {
   m_Block.erase(m_Block.begin(), m_Block.begin() + static_cast<std::ptrdiff_t>(m_Taken));
   m_Taken = 0;
   const std::size_t kept = m_Block.size();
-  const auto more = static_cast<std::size_t>(std::min<std::uintmax_t>(std::max(size, BlockSize), m_End - m_Next));
+  const auto more =
+    static_cast<std::size_t>(std::min<std::uintmax_t>(std::max(size, BlockSize), m_File.GetSize() - m_Next));
   if (kept + more < size)
   {
     m_File.Refuse("it ends early; it may be a part of a file, so copy or export it again");
@@ -123,7 +118,7 @@ InputStream::TakeLine(std::string_view & line)
     const std::size_t available = m_Block.size() - m_Taken;
     const void * const found =
       available == searched ? nullptr : std::memchr(begin + searched, '\n', available - searched);
-    const bool isLast = found == nullptr && m_Next == m_End;
+    const bool isLast = found == nullptr && m_Next == m_File.GetSize();
     if (isLast && available == 0)
     {
       return false;

@@ -73,8 +73,11 @@ private:
 class InputStream
 {
 public:
-  /** Reads from \a offset to \a end or the end of the file. */
-  explicit InputStream(const InputFile & file, std::uintmax_t offset = 0, std::uintmax_t end = UINTMAX_MAX);
+  /** Reads from \a offset to the end of the file. */
+  explicit InputStream(const InputFile & file, std::uintmax_t offset = 0)
+    : m_File(file)
+    , m_Next(std::min(offset, file.GetSize()))
+  {}
 
   const InputFile &
   GetFile() const
@@ -86,7 +89,7 @@ public:
   std::uintmax_t
   GetRest() const
   {
-    return m_End - m_Next + (m_Block.size() - m_Taken);
+    return m_File.GetSize() - m_Next + (m_Block.size() - m_Taken);
   }
 
   /** Copies the next bytes; throws Failure(Unreadable) if there are fewer. */
@@ -126,7 +129,6 @@ private:
 
   const InputFile & m_File;
   std::uintmax_t m_Next; ///< first byte of the file that is not in the block
-  std::uintmax_t m_End;
   std::vector<char> m_Block;
   std::size_t m_Taken = 0;
   std::uintmax_t m_LineNumber = 0;

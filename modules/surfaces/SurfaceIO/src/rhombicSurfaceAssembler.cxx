@@ -1,6 +1,6 @@
 #include "rhombicSurfaceAssembler.h"
 
-#include "rhombicFileSpace.h"
+#include "rhombicSurfaceFormats.h"
 
 #include <limits>
 

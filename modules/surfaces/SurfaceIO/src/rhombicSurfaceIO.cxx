@@ -26,7 +26,7 @@ namespace
 struct SurfaceFormat
 {
   const char * extension;
-  bool holdsScenes;  ///< can hold several surfaces
+  bool holdsSeveral; ///< can hold several surfaces
   bool hasMaterials; ///< has materials in a second file
   void (*write)(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
   std::vector<SceneSurface> (*read)(const InputFile & file); ///< null: VTK reads it
@@ -86,20 +86,20 @@ void
 CheckSurfaces(const std::vector<SceneSurface> & surfaces, const fs::path & path)
 {
   std::uint64_t points = 0, triangles = 0;
-  for (const SceneSurface & scene : surfaces)
+  for (const SceneSurface & item : surfaces)
   {
-    if (scene.surface->GetNumberOfTriangles() == 0)
+    if (item.surface->GetNumberOfTriangles() == 0)
     {
       throw Failure(FailureKind::Empty,
-                    "Nothing to write to " + path.string() + ": the surface " + scene.name +
+                    "Nothing to write to " + path.string() + ": the surface " + item.name +
                       " has no triangles; try another isovalue.");
     }
-    if (!IsFinite(*scene.surface))
+    if (!IsFinite(*item.surface))
     {
-      FailToWrite(path, "the surface " + scene.name + " has positions that are no numbers; check where it comes from");
+      FailToWrite(path, "the surface " + item.name + " has positions that are no numbers; check where it comes from");
     }
-    points += scene.surface->GetNumberOfPoints();
-    triangles += scene.surface->GetNumberOfTriangles();
+    points += item.surface->GetNumberOfPoints();
+    triangles += item.surface->GetNumberOfTriangles();
   }
   if (triangles == 0)
   {
@@ -130,22 +130,27 @@ FileName(std::string name)
 std::vector<SceneSurface>
 WithFileNames(std::vector<SceneSurface> surfaces)
 {
-  for (SceneSurface & scene : surfaces)
+  for (SceneSurface & item : surfaces)
   {
-    scene.name = FileName(scene.name);
+    item.name = FileName(item.name);
   }
   return surfaces;
 }
 
-/** Closes a written file, and throws Failure(Output) if it does not hold what was appended. */
+/** Stages a file that \a write fills. Throws Failure(Output) if the file does not hold what was appended. */
+template <typename TWrite>
 void
-CloseAndProve(OutputFile & file)
+StageFile(const fs::path & path, StagedFiles & staged, const TWrite & write)
 {
-  file.Close();
-  if (!file.HoldsWhatWasAppended())
+  AtomicFile & file = staged.Begin(path);
+  OutputFile output(file.GetTemporaryPath(), path);
+  write(output);
+  output.Close();
+  if (!output.HoldsWhatWasAppended())
   {
-    FailToWrite(file.GetTarget(), "it is not the same when it is read back; check the disk");
+    FailToWrite(path, "it is not the same when it is read back; check the disk");
   }
+  file.Flush(1);
 }
 
 fs::path
@@ -154,35 +159,7 @@ MaterialsOf(const fs::path & path)
   return fs::path(path).replace_extension(".mtl");
 }
 
-void
-StageMaterials(const std::vector<SceneSurface> & surfaces, const fs::path & path, StagedFiles & staged)
-{
-  AtomicFile & file = staged.Begin(path);
-  OutputFile output(file.GetTemporaryPath(), path);
-  WriteMTL(surfaces, output);
-  CloseAndProve(output);
-  file.Flush(1);
-}
-
-void
-Stage(const std::vector<SceneSurface> & surfaces,
-      const SurfaceFormat & format,
-      const fs::path & path,
-      const SurfaceFileSettings & settings,
-      StagedFiles & staged)
-{
-  if (format.hasMaterials)
-  {
-    StageMaterials(surfaces, MaterialsOf(path), staged); // before the OBJ file that names them
-  }
-  AtomicFile & file = staged.Begin(path);
-  OutputFile output(file.GetTemporaryPath(), path);
-  format.write(surfaces, settings.space, output);
-  CloseAndProve(output);
-  file.Flush(1);
-}
-
-/** VTK makes a PLY file of it in memory, which is checked as any PLY file. */
+/** VTK makes a PLY file of a VTP file in memory, which is checked as any PLY file. */
 std::vector<SceneSurface>
 ReadVTP(const InputFile & file, const VTPReading & vtp)
 {
@@ -211,12 +188,12 @@ void
 CheckSurfacePath(const fs::path & path, std::size_t numberOfSurfaces)
 {
   const SurfaceFormat & format = FormatOf(path, "write");
-  if (numberOfSurfaces > 1 && !format.holdsScenes)
+  if (numberOfSurfaces > 1 && !format.holdsSeveral)
   {
     throw Failure(FailureKind::Usage,
                   "Cannot write " + path.string() + ": an STL file holds one surface, and there are " +
                     std::to_string(numberOfSurfaces) + "; use one of " +
-                    ListExtensions([](const SurfaceFormat & other) { return other.holdsScenes; }) +
+                    ListExtensions([](const SurfaceFormat & other) { return other.holdsSeveral; }) +
                     ", or a file for each.");
   }
   const std::string name = path.filename().string();
@@ -231,7 +208,7 @@ CheckSurfacePath(const fs::path & path, std::size_t numberOfSurfaces)
 bool
 StoresNormals(const fs::path & path)
 {
-  return FormatOf(path, "write").holdsScenes;
+  return FormatOf(path, "write").holdsSeveral;
 }
 
 std::vector<fs::path>
@@ -248,7 +225,7 @@ SurfaceFilesOf(const fs::path & path)
 itk::TriangleSurface::ConstPointer
 SurfaceAsStored(const itk::TriangleSurface & surface, const fs::path & path)
 {
-  return FormatOf(path, "write").holdsScenes ? itk::TriangleSurface::ConstPointer(&surface) : JoinEqualPoints(surface);
+  return FormatOf(path, "write").holdsSeveral ? itk::TriangleSurface::ConstPointer(&surface) : JoinEqualPoints(surface);
 }
 
 void
@@ -259,7 +236,13 @@ StageSurfaces(const std::vector<SceneSurface> & surfaces,
 {
   CheckSurfacePath(path, surfaces.size());
   CheckSurfaces(surfaces, path);
-  Stage(WithFileNames(surfaces), FormatOf(path, "write"), path, settings, staged);
+  const std::vector<SceneSurface> named = WithFileNames(surfaces);
+  const SurfaceFormat & format = FormatOf(path, "write");
+  if (format.hasMaterials) // before the OBJ file that names them
+  {
+    StageFile(MaterialsOf(path), staged, [&named](OutputFile & file) { WriteMTL(named, file); });
+  }
+  StageFile(path, staged, [&](OutputFile & file) { format.write(named, settings.space, file); });
 }
 
 void
@@ -276,7 +259,7 @@ ReadSurfaces(const fs::path & path, const VTPReading & vtp)
   const SurfaceFormat & format = FormatOf(path, "read");
   const InputFile file(path);
   std::vector<SceneSurface> surfaces = format.read == nullptr ? ReadVTP(file, vtp) : format.read(file);
-  const auto isEmpty = [](const SceneSurface & scene) { return scene.surface->GetNumberOfTriangles() == 0; };
+  const auto isEmpty = [](const SceneSurface & item) { return item.surface->GetNumberOfTriangles() == 0; };
   surfaces.erase(std::remove_if(surfaces.begin(), surfaces.end(), isEmpty), surfaces.end());
   if (surfaces.empty())
   {

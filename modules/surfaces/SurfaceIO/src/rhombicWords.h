@@ -1,27 +1,17 @@
 #ifndef rhombicWords_h
 #define rhombicWords_h
 
-#include <algorithm>
-#include <cctype>
-#include <charconv>
+#include "rhombicInputFile.h"
+#include "rhombicWording.h"
+
+#include <array>
 #include <cmath>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <system_error>
 #include <type_traits>
 
 namespace rhombic
 {
-
-/** The text without blanks at its beginning and end. */
-inline std::string_view
-Trimmed(std::string_view text)
-{
-  constexpr std::string_view blanks = " \t\r\n\v\f";
-  const std::size_t first = text.find_first_not_of(blanks);
-  return first == text.npos ? std::string_view() : text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 /** The beginning of a text file without a byte order mark. */
 inline std::string_view
@@ -31,38 +21,19 @@ WithoutMark(std::string_view beginning)
   return beginning.substr(0, mark.size()) == mark ? beginning.substr(mark.size()) : beginning;
 }
 
-inline std::string
-LowerCase(std::string_view text)
-{
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char letter) {
-    return static_cast<char>(std::tolower(letter));
-  });
-  return lower;
-}
-
 /** Removes the next word from a line and returns it; empty if there is none. */
 inline std::string_view
 TakeWord(std::string_view & line)
 {
-  const auto isBlank = [](char letter) { return letter == ' ' || letter == '\t' || letter == '\r' || letter == '\n'; };
-  std::size_t begin = 0;
-  while (begin < line.size() && isBlank(line[begin]))
-  {
-    ++begin;
-  }
-  std::size_t end = begin;
-  while (end < line.size() && !isBlank(line[end]))
-  {
-    ++end;
-  }
-  const std::string_view word = line.substr(begin, end - begin);
-  line.remove_prefix(end);
+  constexpr std::string_view blanks = " \t\r\n";
+  line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+  const std::string_view word = line.substr(0, line.find_first_of(blanks));
+  line.remove_prefix(word.size());
   return word;
 }
 
-/** The number that a whole word is, in any locale. A float that is too small becomes 0; one that is too large is none.
- */
+/** The number that a whole word is, perhaps with a plus sign. A float that is too small becomes 0; a float that is
+ * too large is none. */
 template <typename TNumber>
 std::optional<TNumber>
 ParseNumber(std::string_view word)
@@ -71,34 +42,33 @@ ParseNumber(std::string_view word)
   {
     word.remove_prefix(1);
   }
-  TNumber number{};
-  const char * const last = word.data() + word.size();
-  const auto [end, error] = std::from_chars(word.data(), last, number);
+  const auto number = ToNumber<TNumber>(word);
   if constexpr (std::is_same_v<TNumber, float>)
   {
-    if (error == std::errc::result_out_of_range)
+    if (!number)
     {
-      const std::optional<double> precise = ParseNumber<double>(word);
+      const auto precise = ToNumber<double>(word);
       return precise && std::abs(*precise) < 1 ? std::optional<float>(static_cast<float>(*precise)) : std::nullopt;
     }
   }
-  return error != std::errc() || end != last ? std::nullopt : std::optional<TNumber>(number);
+  return number;
 }
 
-/** Appends the shortest text that is read as the same number, in any locale. */
-template <typename TNumber>
-void
-AppendNumber(TNumber number, std::string & text)
+/** The three numbers that begin a line. Throws Failure(Unreadable) with a reason if there are fewer. */
+inline std::array<float, 3>
+ParseTriple(std::string_view words, const InputStream & stream, const char * why)
 {
-  char digits[64];
-  text.append(digits, std::to_chars(digits, digits + sizeof(digits), number).ptr);
-}
-
-/** Whether a comment or header declares that coordinates are in RAS. */
-inline bool
-SaysRAS(std::string_view text)
-{
-  return text.find("SPACE=RAS") != text.npos;
+  std::array<float, 3> triple;
+  for (float & value : triple)
+  {
+    const auto number = ParseNumber<float>(TakeWord(words));
+    if (!number)
+    {
+      stream.RefuseLine(why);
+    }
+    value = *number;
+  }
+  return triple;
 }
 
 } // namespace rhombic

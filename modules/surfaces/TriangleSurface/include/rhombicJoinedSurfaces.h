@@ -10,8 +10,8 @@
 namespace rhombic
 {
 
-/** Several surfaces as one mesh, in which touching ones share their wall: equal points are one point, and a triangle of
- * two surfaces that faces opposite ways in them is one triangle. */
+/** Several surfaces as one mesh, in which touching surfaces share their wall: equal points are one point, and a
+ * triangle of two surfaces that faces opposite ways in them is one triangle. */
 struct JoinedSurfaces
 {
   itk::TriangleSurface::Pointer surface; ///< as the first surface with the triangle has it; without normals

@@ -34,7 +34,7 @@ MakeFace(itk::TriangleSurface::TriangleType points, std::uint32_t number)
   return { points, isEven, number };
 }
 
-/** For each triangle the one that it is turned over, or its own number. */
+/** For each triangle the number of the triangle that it is turned over, or its own number. */
 std::vector<std::uint32_t>
 FindOpposites(std::vector<Face> faces)
 {

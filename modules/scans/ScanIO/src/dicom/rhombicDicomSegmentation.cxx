@@ -1,6 +1,7 @@
 #include "rhombicDicomSegmentation.h"
 
 #include "rhombicAnatomicalColours.h"
+#include "rhombicColour.h"
 #include "rhombicDicomTags.h"
 #include "rhombicFailure.h"
 #include "rhombicLabelLayers.h"
@@ -39,14 +40,6 @@ FromLab(double f)
   return f > delta ? f * f * f : 3 * delta * delta * (f - 4.0 / 29.0);
 }
 
-std::uint8_t
-EncodeSRGB(double linear)
-{
-  const double clamped = std::clamp(linear, 0.0, 1.0);
-  const double encoded = clamped <= 0.0031308 ? 12.92 * clamped : 1.055 * std::pow(clamped, 1 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255 * encoded));
-}
-
 /** sRGB from DICOM's 16-bit CIE L*a*b* (PS3.3, C.10.7.1.1), whose white is D50. The matrix is XYZ to sRGB with the
  * Bradford adaptation from D50 (B. Lindbloom). */
 std::array<std::uint8_t, 3>
@@ -59,9 +52,9 @@ ColourOf(const std::vector<std::uint16_t> & lab)
   const double x = 0.96422 * FromLab(middle + a / 500);
   const double y = FromLab(middle);
   const double z = 0.82521 * FromLab(middle - b / 200);
-  return { EncodeSRGB(3.1338561 * x - 1.6168667 * y - 0.4906146 * z),
-           EncodeSRGB(-0.9787684 * x + 1.9161415 * y + 0.0334540 * z),
-           EncodeSRGB(0.0719453 * x - 0.2289914 * y + 1.4052427 * z) };
+  return ToBytes({ LinearToSRGB(3.1338561 * x - 1.6168667 * y - 0.4906146 * z),
+                   LinearToSRGB(-0.9787684 * x + 1.9161415 * y + 0.0334540 * z),
+                   LinearToSRGB(0.0719453 * x - 0.2289914 * y + 1.4052427 * z) });
 }
 
 LabelTable

@@ -1,5 +1,3 @@
-#include "rhombicFileColours.h"
-#include "rhombicFileSpace.h"
 #include "rhombicJoinedSurfaces.h"
 #include "rhombicSurfaceFormats.h"
 
@@ -33,15 +31,15 @@ public:
     : m_Surfaces(surfaces)
     , m_Space(space)
   {
-    if (std::all_of(surfaces.begin(), surfaces.end(), [](const SceneSurface & scene) { return scene.label != 0; }))
+    if (std::all_of(surfaces.begin(), surfaces.end(), [](const SceneSurface & item) { return item.label != 0; }))
     {
       m_Joined = JoinSurfaces(surfaces);
       m_Meshes.push_back(m_Joined.surface);
     }
     else
     {
-      std::transform(surfaces.begin(), surfaces.end(), std::back_inserter(m_Meshes), [](const SceneSurface & scene) {
-        return scene.surface;
+      std::transform(surfaces.begin(), surfaces.end(), std::back_inserter(m_Meshes), [](const SceneSurface & item) {
+        return item.surface;
       });
     }
     for (const auto & mesh : m_Meshes)
@@ -111,9 +109,9 @@ private:
                 std::to_string(components) + "\" NumberOfTuples=\"" + std::to_string(m_Surfaces.size()) + "\"",
               sizeof(TupleType) * m_Surfaces.size(),
               [this, getTuple](OutputFile & file) {
-                for (const SceneSurface & scene : m_Surfaces)
+                for (const SceneSurface & item : m_Surfaces)
                 {
-                  file.AppendBinary(getTuple(scene));
+                  file.AppendBinary(getTuple(item));
                 }
               });
   }
@@ -122,26 +120,26 @@ private:
   AddFields(std::string & xml)
   {
     std::vector<std::string> names;
-    for (const SceneSurface & scene : m_Surfaces)
+    for (const SceneSurface & item : m_Surfaces)
     {
-      names.push_back(scene.name);
+      names.push_back(item.name);
     }
     this->AddStrings(xml, "SPACE", { NameOf(m_Space) });
     this->AddStrings(xml, "UNIT", { "mm" });
     this->AddStrings(xml, "SurfaceNames", names);
-    this->AddTuples(xml, "SurfaceColours", "UInt8", [](const SceneSurface & scene) { return ToBytes(scene.colour); });
-    this->AddTuples(xml, "SurfaceOpacities", "Float64", [](const SceneSurface & scene) {
-      return std::array<double, 1>{ scene.opacity };
+    this->AddTuples(xml, "SurfaceColours", "UInt8", [](const SceneSurface & item) { return ToBytes(item.colour); });
+    this->AddTuples(xml, "SurfaceOpacities", "Float64", [](const SceneSurface & item) {
+      return std::array<double, 1>{ item.opacity };
     });
     if (m_Joined.surface)
     {
-      this->AddTuples(xml, "SurfaceLabels", "Int32", [](const SceneSurface & scene) {
-        return std::array<std::int32_t, 1>{ scene.label };
+      this->AddTuples(xml, "SurfaceLabels", "Int32", [](const SceneSurface & item) {
+        return std::array<std::int32_t, 1>{ item.label };
       });
       return;
     }
-    this->AddTuples(xml, "SurfaceSizes", "UInt64", [](const SceneSurface & scene) {
-      return std::array<std::uint64_t, 2>{ scene.surface->GetNumberOfPoints(), scene.surface->GetNumberOfTriangles() };
+    this->AddTuples(xml, "SurfaceSizes", "UInt64", [](const SceneSurface & item) {
+      return std::array<std::uint64_t, 2>{ item.surface->GetNumberOfPoints(), item.surface->GetNumberOfTriangles() };
     });
   }
 
@@ -234,9 +232,9 @@ private:
     xml += "<CellData Scalars=\"Colours\">\n";
     this->AddCellValues(
       xml, "<DataArray type=\"UInt8\" Name=\"Colours\" NumberOfComponents=\"4\"", [this](const auto & sides) {
-        const SceneSurface & scene = m_Surfaces[sides[0] - 1];
-        const auto colour = ToBytes(scene.colour);
-        return std::array<std::uint8_t, 4>{ colour[0], colour[1], colour[2], ToByte(scene.opacity) };
+        const SceneSurface & item = m_Surfaces[sides[0] - 1];
+        const auto colour = ToBytes(item.colour);
+        return std::array<std::uint8_t, 4>{ colour[0], colour[1], colour[2], ToByte(item.opacity) };
       });
     if (m_Joined.surface)
     {

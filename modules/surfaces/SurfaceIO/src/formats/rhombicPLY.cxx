@@ -1,5 +1,3 @@
-#include "rhombicFileColours.h"
-#include "rhombicNumberType.h"
 #include "rhombicSurfaceAssembler.h"
 #include "rhombicSurfaceFormats.h"
 #include "rhombicWords.h"
@@ -9,12 +7,106 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 namespace rhombic
 {
 namespace
 {
+
+/** The comment by which ReadPLY() divides the file into surfaces: name, colour, opacity and numbers of points and
+ * triangles, as one line of JSON in ASCII. */
+std::string
+DescribeSurface(const SceneSurface & item)
+{
+  const nlohmann::json description{ { "name", item.name },
+                                    { "colour", ToBytes(item.colour) },
+                                    { "opacity", item.opacity },
+                                    { "points", item.surface->GetNumberOfPoints() },
+                                    { "triangles", item.surface->GetNumberOfTriangles() } };
+  return "comment SURFACE " + description.dump(-1, ' ', true) + "\n";
+}
+
+std::string
+MakeHeader(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, bool haveNormals)
+{
+  std::string header = std::string("ply\nformat binary_little_endian 1.0\ncomment Rhombic\ncomment SPACE=") +
+                       NameOf(space) + "\ncomment UNIT=mm\n";
+  itk::SizeValueType points = 0, triangles = 0;
+  for (const SceneSurface & item : surfaces)
+  {
+    header += DescribeSurface(item);
+    points += item.surface->GetNumberOfPoints();
+    triangles += item.surface->GetNumberOfTriangles();
+  }
+  header += "element vertex " + std::to_string(points) + "\nproperty float x\nproperty float y\nproperty float z\n";
+  header += haveNormals ? "property float nx\nproperty float ny\nproperty float nz\n" : "";
+  header += "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n";
+  return header + "element face " + std::to_string(triangles) +
+         "\nproperty list uchar uint vertex_indices\nend_header\n";
+}
+
+/** The types of numbers. */
+enum class NumberType
+{
+  Int8,
+  UInt8,
+  Int16,
+  UInt16,
+  Int32,
+  UInt32,
+  Float32,
+  Float64
+};
+
+std::size_t
+SizeOf(NumberType type)
+{
+  constexpr std::size_t sizes[]{ 1, 1, 2, 2, 4, 4, 4, 8 };
+  return sizes[static_cast<std::size_t>(type)];
+}
+
+template <typename TNumber, typename TTakeBytes>
+double
+TakeNumberAs(bool isBigEndian, const TTakeBytes & takeBytes)
+{
+  std::array<char, sizeof(TNumber)> bytes;
+  takeBytes(bytes.data(), bytes.size());
+  if (isBigEndian)
+  {
+    std::reverse(bytes.begin(), bytes.end());
+  }
+  TNumber number;
+  std::memcpy(&number, bytes.data(), bytes.size());
+  return static_cast<double>(number);
+}
+
+/** Decodes the next number; \a takeBytes(to, size) gets its bytes. */
+template <typename TTakeBytes>
+double
+TakeNumber(NumberType type, bool isBigEndian, const TTakeBytes & takeBytes)
+{
+  switch (type)
+  {
+    case NumberType::Int8:
+      return TakeNumberAs<std::int8_t>(isBigEndian, takeBytes);
+    case NumberType::UInt8:
+      return TakeNumberAs<std::uint8_t>(isBigEndian, takeBytes);
+    case NumberType::Int16:
+      return TakeNumberAs<std::int16_t>(isBigEndian, takeBytes);
+    case NumberType::UInt16:
+      return TakeNumberAs<std::uint16_t>(isBigEndian, takeBytes);
+    case NumberType::Int32:
+      return TakeNumberAs<std::int32_t>(isBigEndian, takeBytes);
+    case NumberType::UInt32:
+      return TakeNumberAs<std::uint32_t>(isBigEndian, takeBytes);
+    case NumberType::Float32:
+      return TakeNumberAs<float>(isBigEndian, takeBytes);
+    default:
+      return TakeNumberAs<double>(isBigEndian, takeBytes);
+  }
+}
 
 enum class Encoding
 {
@@ -163,7 +255,7 @@ ParseHeader(InputStream & stream)
 {
   Header header;
   std::string_view line;
-  if (!stream.TakeLine(line) || Trimmed(line) != "ply")
+  if (!stream.TakeLine(line) || Trim(line) != "ply")
   {
     stream.RefuseLine("a PLY file begins with \"ply\"; check what kind of file it is");
   }
@@ -214,7 +306,7 @@ public:
   void
   BeginElement()
   {
-    while (m_Encoding == Encoding::Text && Trimmed(m_Line).empty())
+    while (m_Encoding == Encoding::Text && Trim(m_Line).empty())
     {
       if (!m_Stream.TakeLine(m_Line))
       {
@@ -420,16 +512,17 @@ ReadVertices(const Element & vertex, Values & values, SurfaceAssembler & assembl
   look.Set(assembler, vertex);
 }
 
+/** Reads elements that are no vertices. \a assembler gets the lists of indices; null: all properties are skipped. */
 void
-ReadFaces(const Element & face, Values & values, SurfaceAssembler & assembler)
+ReadElements(const Element & element, Values & values, SurfaceAssembler * assembler)
 {
   std::vector<std::uint64_t> corners;
-  for (std::uintmax_t n = 0; n < face.count; ++n)
+  for (std::uintmax_t n = 0; n < element.count; ++n)
   {
     values.BeginElement();
-    for (const Property & property : face.properties)
+    for (const Property & property : element.properties)
     {
-      if (!IsIndexList(property))
+      if (assembler == nullptr || !IsIndexList(property))
       {
         SkipProperty(property, values);
         continue;
@@ -439,27 +532,46 @@ ReadFaces(const Element & face, Values & values, SurfaceAssembler & assembler)
       {
         corners.push_back(values.TakeWhole(property.type));
       }
-      assembler.AddFace(corners);
-    }
-    values.EndElement();
-  }
-}
-
-void
-SkipElements(const Element & element, Values & values)
-{
-  for (std::uintmax_t n = 0; n < element.count; ++n)
-  {
-    values.BeginElement();
-    for (const Property & property : element.properties)
-    {
-      SkipProperty(property, values);
+      assembler->AddFace(corners);
     }
     values.EndElement();
   }
 }
 
 } // namespace
+
+void
+WritePLY(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file)
+{
+  const bool haveNormals =
+    std::all_of(surfaces.begin(), surfaces.end(), [](const SceneSurface & item) { return item.surface->HasNormals(); });
+  file.Append(MakeHeader(surfaces, space, haveNormals));
+  for (const SceneSurface & item : surfaces)
+  {
+    const auto & points = item.surface->GetPoints();
+    const auto colour = ToBytes(item.colour);
+    const std::array<std::uint8_t, 4> look{ colour[0], colour[1], colour[2], ToByte(item.opacity) };
+    for (std::size_t n = 0; n < points.size(); ++n)
+    {
+      file.AppendBinary(Turned(points[n], space));
+      if (haveNormals)
+      {
+        file.AppendBinary(Turned(item.surface->GetNormals()[n], space));
+      }
+      file.AppendBinary(look);
+    }
+  }
+  std::uint32_t firstPoint = 0;
+  for (const SceneSurface & item : surfaces)
+  {
+    for (const auto & [a, b, c] : item.surface->GetTriangles())
+    {
+      file.AppendBinary(std::uint8_t{ 3 });
+      file.AppendBinary(itk::TriangleSurface::TriangleType{ firstPoint + a, firstPoint + b, firstPoint + c });
+    }
+    firstPoint += static_cast<std::uint32_t>(item.surface->GetNumberOfPoints());
+  }
+}
 
 std::vector<SceneSurface>
 ReadPLY(const InputFile & file)
@@ -479,8 +591,7 @@ ReadPLY(const InputFile & file)
   for (const Element & element : header.elements)
   {
     &element == &vertex ? ReadVertices(element, values, assembler)
-    : &element == &face ? ReadFaces(element, values, assembler)
-                        : SkipElements(element, values);
+                        : ReadElements(element, values, &element == &face ? &assembler : nullptr);
   }
   return assembler.Take(header.space);
 }

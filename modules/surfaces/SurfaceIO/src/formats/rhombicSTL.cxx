@@ -1,10 +1,11 @@
-#include "rhombicFileSpace.h"
 #include "detail/rhombicPointWelder.h"
 #include "rhombicSurfaceAssembler.h"
 #include "rhombicSurfaceFormats.h"
 #include "rhombicWords.h"
+#include "detail/itkPositionArithmetic.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rhombic
 {
@@ -12,6 +13,16 @@ namespace
 {
 
 using PointType = itk::TriangleSurface::PointType;
+
+/** The unit normal, or 0 for a triangle without area. */
+PointType
+FacetNormal(const PointType & a, const PointType & b, const PointType & c)
+{
+  const itk::PositionType normal = itk::AreaVector({ itk::ToPosition(a), itk::ToPosition(b), itk::ToPosition(c) });
+  const double length = itk::Length(normal);
+  const double scale = length > 0 && std::isfinite(length) ? 1 / length : 0;
+  return itk::ToPoint(itk::Scaled(normal, scale));
+}
 
 constexpr std::uintmax_t HeaderSize = 84;
 constexpr std::uintmax_t TriangleSize = 50;
@@ -70,22 +81,6 @@ struct Solid
   PointWelder welder{ surface->GetPoints() };
 };
 
-PointType
-ParsePoint(std::string_view words, const InputStream & stream)
-{
-  PointType point;
-  for (float & coordinate : point)
-  {
-    const auto number = ParseNumber<float>(TakeWord(words));
-    if (!number)
-    {
-      stream.RefuseLine("a vertex needs three numbers");
-    }
-    coordinate = *number;
-  }
-  return point;
-}
-
 std::vector<SceneSurface>
 ReadText(const InputFile & file)
 {
@@ -102,11 +97,11 @@ ReadText(const InputFile & file)
     if (keyword == "solid" && solid == nullptr)
     {
       space = SaysRAS(line) ? SurfaceFileSpace::RAS : SurfaceFileSpace::LPS;
-      solid = std::make_unique<Solid>(std::string(Trimmed(line)));
+      solid = std::make_unique<Solid>(std::string(Trim(line)));
     }
     else if (keyword == "vertex" && solid != nullptr)
     {
-      corners.push_back(solid->welder.Add(ParsePoint(line, stream)));
+      corners.push_back(solid->welder.Add(ParseTriple(line, stream, "a vertex needs three numbers")));
     }
     else if (keyword == "endloop" && solid != nullptr && corners.size() == 3)
     {
@@ -139,10 +134,32 @@ BeginsLikeText(const InputFile & file)
 {
   std::string begin(std::min<std::uintmax_t>(file.GetSize(), 512), '\0');
   file.Read(0, begin.data(), begin.size());
-  return LowerCase(Trimmed(WithoutMark(begin)).substr(0, 5)) == "solid";
+  return LowerCase(Trim(WithoutMark(begin)).substr(0, 5)) == "solid";
 }
 
 } // namespace
+
+void
+WriteSTL(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file)
+{
+  const itk::TriangleSurface & surface = *surfaces.front().surface;
+  // Must not begin with "solid", which announces a text file.
+  std::string header = std::string("Rhombic SPACE=") + NameOf(space) + " UNIT=mm";
+  header.resize(80, ' ');
+  file.Append(header);
+  file.AppendBinary(static_cast<std::uint32_t>(surface.GetNumberOfTriangles()));
+  for (const auto & triangle : surface.GetTriangles())
+  {
+    const PointType a = Turned(surface.GetPoints()[triangle[0]], space);
+    const PointType b = Turned(surface.GetPoints()[triangle[1]], space);
+    const PointType c = Turned(surface.GetPoints()[triangle[2]], space);
+    file.AppendBinary(FacetNormal(a, b, c));
+    file.AppendBinary(a);
+    file.AppendBinary(b);
+    file.AppendBinary(c);
+    file.AppendBinary(std::uint16_t{ 0 });
+  }
+}
 
 itk::TriangleSurface::ConstPointer
 JoinEqualPoints(const itk::TriangleSurface & surface)

@@ -1,12 +1,12 @@
-#include "rhombicFileColours.h"
-#include "rhombicFileSpace.h"
 #include "rhombicSurfaceAssembler.h"
 #include "rhombicSurfaceFormats.h"
 #include "rhombicWords.h"
 
 #include <algorithm>
+#include <charconv>
 #include <limits>
 #include <map>
+#include <set>
 #include <tuple>
 
 namespace rhombic
@@ -14,8 +14,82 @@ namespace rhombic
 namespace
 {
 
+/** The names of groups and materials: one word each, all different. */
+std::vector<std::string>
+MakeIdentifiers(const std::vector<SceneSurface> & surfaces)
+{
+  std::vector<std::string> identifiers;
+  std::set<std::string> used;
+  for (const SceneSurface & item : surfaces)
+  {
+    std::string base = item.name.empty() ? "surface" : item.name;
+    std::replace_if(
+      base.begin(), base.end(), [](char letter) { return letter == ' ' || letter == '#' || letter == '\\'; }, '_');
+    std::string identifier = base;
+    for (int number = 2; !used.insert(identifier).second; ++number)
+    {
+      identifier = base + "_" + std::to_string(number);
+    }
+    identifiers.push_back(identifier);
+  }
+  return identifiers;
+}
+
+/** The name of an object, without a backslash at the end, which would join the next line. */
+std::string
+ObjectName(const SceneSurface & item)
+{
+  std::string name(Trim(item.name));
+  if (!name.empty() && name.back() == '\\')
+  {
+    name.back() = '_';
+  }
+  return name.empty() ? "surface" : name;
+}
+
+/** Appends the shortest text that is read as the same number, in any locale. */
+template <typename TNumber>
+void
+AppendNumber(TNumber number, std::string & text)
+{
+  char digits[64];
+  text.append(digits, std::to_chars(digits, digits + sizeof(digits), number).ptr);
+}
+
+template <typename TNumbers>
+void
+AppendLine(const char * keyword, const TNumbers & numbers, OutputFile & file)
+{
+  std::string line(keyword);
+  for (const auto number : numbers)
+  {
+    AppendNumber(number, line += ' ');
+  }
+  file.Append(line += '\n');
+}
+
+/** "f 1 2 3", or "f 1//1 2//2 3//3" with normals, which have indices of their own. */
+void
+AppendFace(const itk::TriangleSurface::TriangleType & triangle,
+           std::uint64_t firstPoint,
+           std::optional<std::uint64_t> firstNormal,
+           OutputFile & file)
+{
+  std::string line("f");
+  for (const std::uint32_t corner : triangle)
+  {
+    AppendNumber(firstPoint + corner, line += ' ');
+    if (firstNormal)
+    {
+      AppendNumber(*firstNormal + corner, line += "//");
+    }
+  }
+  file.Append(line += '\n');
+}
+
 constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t Several = None - 1;
+constexpr const char * NoTriple = "three numbers are needed here; the file is damaged, so export it again";
 
 struct Material
 {
@@ -50,7 +124,7 @@ ReadMaterials(const std::filesystem::path & path, Materials & materials)
     const std::string_view keyword = TakeWord(line);
     if (keyword == "newmtl")
     {
-      material = &materials[std::string(Trimmed(line))];
+      material = &materials[std::string(Trim(line))];
     }
     else if (material != nullptr && keyword == "Kd")
     {
@@ -146,7 +220,7 @@ private:
     const std::string_view keyword = TakeWord(line);
     if (keyword == "v")
     {
-      m_Points.push_back(this->ParseTriple(line));
+      m_Points.push_back(ParseTriple(line, m_Stream, NoTriple));
       m_NormalOfPoint.push_back(None);
       if (m_Points.size() >= Several)
       {
@@ -155,7 +229,7 @@ private:
     }
     else if (keyword == "vn")
     {
-      m_Normals.push_back(this->ParseTriple(line));
+      m_Normals.push_back(ParseTriple(line, m_Stream, NoTriple));
     }
     else if (keyword == "f")
     {
@@ -163,12 +237,12 @@ private:
     }
     else if (keyword == "o" || keyword == "g" || keyword == "usemtl")
     {
-      m_Key[keyword == "o" ? 0 : keyword == "g" ? 1 : 2] = Trimmed(line);
+      m_Key[keyword == "o" ? 0 : keyword == "g" ? 1 : 2] = Trim(line);
       m_Part = nullptr;
     }
     else if (keyword == "mtllib")
     {
-      this->ReadLibrary(Trimmed(line));
+      this->ReadLibrary(Trim(line));
     }
     else if (!keyword.empty() && keyword[0] == '#')
     {
@@ -200,23 +274,7 @@ private:
     }
   }
 
-  std::array<float, 3>
-  ParseTriple(std::string_view words) const
-  {
-    std::array<float, 3> triple;
-    for (float & value : triple)
-    {
-      const auto number = ParseNumber<float>(TakeWord(words));
-      if (!number)
-      {
-        m_Stream.RefuseLine("three numbers are needed here; the file is damaged, so export it again");
-      }
-      value = *number;
-    }
-    return triple;
-  }
-
-  /** Converts an index of the file, which counts from 1, or backwards from -1 at the last one so far. */
+  /** Converts an index of the file, which counts from 1, or backwards from -1 at the last point or normal so far. */
   std::uint32_t
   ParseIndex(std::string_view word, std::size_t count) const
   {
@@ -360,6 +418,54 @@ private:
 };
 
 } // namespace
+
+void
+WriteOBJ(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file)
+{
+  const std::vector<std::string> identifiers = MakeIdentifiers(surfaces);
+  const std::string materials = file.GetTarget().filename().replace_extension(".mtl").string();
+  file.Append(std::string("# Rhombic\n# SPACE=") + NameOf(space) + "\n# UNIT=mm\nmtllib " + materials + "\n");
+  std::uint64_t firstPoint = 1;
+  std::uint64_t firstNormal = 1;
+  for (std::size_t n = 0; n < surfaces.size(); ++n)
+  {
+    const itk::TriangleSurface & surface = *surfaces[n].surface;
+    file.Append("o " + ObjectName(surfaces[n]) + "\ng " + identifiers[n] + "\nusemtl " + identifiers[n] + "\n");
+    for (const auto & point : surface.GetPoints())
+    {
+      AppendLine("v", Turned(point, space), file);
+    }
+    const bool hasNormals = surface.HasNormals();
+    if (hasNormals)
+    {
+      for (const auto & normal : surface.GetNormals())
+      {
+        AppendLine("vn", Turned(normal, space), file);
+      }
+    }
+    for (const auto & triangle : surface.GetTriangles())
+    {
+      AppendFace(triangle, firstPoint, hasNormals ? std::optional<std::uint64_t>(firstNormal) : std::nullopt, file);
+    }
+    firstPoint += surface.GetNumberOfPoints();
+    firstNormal += hasNormals ? surface.GetNumberOfPoints() : 0;
+  }
+}
+
+void
+WriteMTL(const std::vector<SceneSurface> & surfaces, OutputFile & file)
+{
+  const std::vector<std::string> identifiers = MakeIdentifiers(surfaces);
+  file.Append("# Rhombic: colours as sRGB encodes them\n");
+  for (std::size_t n = 0; n < surfaces.size(); ++n)
+  {
+    const std::array<double, 1> opacity{ surfaces[n].opacity };
+    file.Append("newmtl " + identifiers[n] + "\n");
+    AppendLine("Kd", surfaces[n].colour, file);
+    AppendLine("d", opacity, file);
+    file.Append("illum 1\n");
+  }
+}
 
 std::vector<SceneSurface>
 ReadOBJ(const InputFile & file)

@@ -1,10 +1,8 @@
 #include "rhombicFailure.h"
-#include "rhombicFileColours.h"
-#include "rhombicGLBContainer.h"
 #include "rhombicSurfaceAssembler.h"
 #include "rhombicSurfaceFormats.h"
-
 #include "itkMatrix.h"
+#include "itkPointBox.h"
 
 #include <nlohmann/json.hpp>
 
@@ -19,6 +17,183 @@ namespace rhombic
 namespace
 {
 
+/** Constants of binary glTF (Khronos, "glTF 2.0 Specification", sections 4.4, 5.1 and 5.22). */
+namespace glb
+{
+
+constexpr std::uint32_t Magic = 0x46546c67;     // "glTF"
+constexpr std::uint32_t JsonChunk = 0x4e4f534a; // "JSON"
+constexpr std::uint32_t BinChunk = 0x004e4942;  // "BIN"
+constexpr std::uint32_t HeaderSize = 12;
+constexpr std::uint32_t ChunkHeaderSize = 8;
+
+constexpr int UnsignedByte = 5121;
+constexpr int UnsignedShort = 5123;
+constexpr int UnsignedInt = 5125;
+constexpr int Float = 5126;
+
+constexpr int ArrayBuffer = 34962;
+constexpr int ElementArrayBuffer = 34963;
+
+constexpr int Triangles = 4;
+constexpr int TriangleStrip = 5;
+constexpr int TriangleFan = 6;
+
+/** Matrices, column by column, from LPS or RAS millimetres to glTF's metres with y up and z to the front: the patient
+ * stands and faces the viewer. */
+constexpr std::array<double, 16> FromLPS{ 0.001, 0, 0, 0, 0, 0, -0.001, 0, 0, 0.001, 0, 0, 0, 0, 0, 1 };
+constexpr std::array<double, 16> FromRAS{ -0.001, 0, 0, 0, 0, 0, 0.001, 0, 0, 0.001, 0, 0, 0, 0, 0, 1 };
+
+} // namespace glb
+
+using OrderedJson = nlohmann::ordered_json;
+using PointType = itk::TriangleSurface::PointType;
+
+/** \class GLBWriter
+ * \brief Writes positions, normals and indices of each surface, and the JSON that describes them.
+ *
+ * Positions stay in millimetres, so that nothing is rounded; the root node's matrix converts them to metres. */
+class GLBWriter
+{
+public:
+  GLBWriter(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space)
+    : m_Surfaces(surfaces)
+    , m_Space(space)
+  {
+    m_Json["asset"] = { { "version", "2.0" }, { "generator", "Rhombic" } };
+    m_Json["scene"] = 0;
+    m_Json["scenes"] = { { { "nodes", { 0 } } } };
+    m_Json["nodes"].push_back({ { "name", "millimetres" },
+                                { "matrix", space == SurfaceFileSpace::RAS ? glb::FromRAS : glb::FromLPS },
+                                { "extras", { { "SPACE", NameOf(space) }, { "unit", "mm" }, { "scale", 0.001 } } } });
+    for (const SceneSurface & item : surfaces)
+    {
+      this->AddSurface(item);
+    }
+    m_Json["buffers"].push_back({ { "byteLength", m_BufferSize } });
+  }
+
+  void
+  Write(OutputFile & file) const
+  {
+    std::string json = m_Json.dump();
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const std::uint64_t size = glb::HeaderSize + 2 * glb::ChunkHeaderSize + json.size() + m_BufferSize;
+    if (size > std::numeric_limits<std::uint32_t>::max())
+    {
+      throw Failure(FailureKind::Output,
+                    "Cannot write " + file.GetTarget().string() + ": " + std::to_string(size) +
+                      " bytes are more than the 4 GiB of a GLB file; choose .vtp or a lower density.");
+    }
+    const auto append = [&file](std::uint64_t number) { file.AppendBinary(static_cast<std::uint32_t>(number)); };
+    append(glb::Magic);
+    append(2); // version
+    append(size);
+    append(json.size());
+    append(glb::JsonChunk);
+    file.Append(json);
+    append(m_BufferSize);
+    append(glb::BinChunk);
+    for (const SceneSurface & item : m_Surfaces)
+    {
+      this->AppendSurface(*item.surface, file);
+    }
+  }
+
+private:
+  void
+  AddSurface(const SceneSurface & item)
+  {
+    const itk::TriangleSurface & surface = *item.surface;
+    const std::size_t number = m_Json["nodes"].size() - 1;
+    m_Json["nodes"][0]["children"].push_back(number + 1);
+    m_Json["nodes"].push_back({ { "name", item.name }, { "mesh", number } });
+
+    OrderedJson primitive{ { "attributes", OrderedJson::object() }, { "material", number } };
+    primitive["attributes"]["POSITION"] = this->AddPositions(surface);
+    if (surface.HasNormals())
+    {
+      primitive["attributes"]["NORMAL"] =
+        this->AddAccessor(glb::Float, "VEC3", surface.GetNumberOfPoints(), sizeof(PointType), glb::ArrayBuffer);
+    }
+    primitive["indices"] = this->AddAccessor(
+      glb::UnsignedInt, "SCALAR", 3 * surface.GetNumberOfTriangles(), sizeof(std::uint32_t), glb::ElementArrayBuffer);
+    m_Json["meshes"].push_back({ { "name", item.name }, { "primitives", OrderedJson::array({ primitive }) } });
+    m_Json["materials"].push_back(MakeMaterial(item));
+  }
+
+  static OrderedJson
+  MakeMaterial(const SceneSurface & item)
+  {
+    Colour light;
+    std::transform(item.colour.begin(), item.colour.end(), light.begin(), SRGBToLinear);
+    OrderedJson material{ { "name", item.name },
+                          { "pbrMetallicRoughness",
+                            { { "baseColorFactor", { light[0], light[1], light[2], item.opacity } },
+                              { "metallicFactor", 0 },
+                              { "roughnessFactor", 0.6 } } } };
+    if (item.opacity < 1)
+    {
+      material["alphaMode"] = "BLEND";
+    }
+    return material;
+  }
+
+  std::size_t
+  AddPositions(const itk::TriangleSurface & surface)
+  {
+    const std::size_t accessor =
+      this->AddAccessor(glb::Float, "VEC3", surface.GetNumberOfPoints(), sizeof(PointType), glb::ArrayBuffer);
+    const PointType first = Turned(surface.GetPoints().front(), m_Space);
+    itk::PointBox box{ first, first };
+    for (const PointType & point : surface.GetPoints())
+    {
+      box.Add(Turned(point, m_Space));
+    }
+    m_Json["accessors"][accessor]["min"] = box.lowest;
+    m_Json["accessors"][accessor]["max"] = box.highest;
+    return accessor;
+  }
+
+  std::size_t
+  AddAccessor(int componentType, const char * type, std::uint64_t count, std::uint64_t elementSize, int target)
+  {
+    const std::size_t number = m_Json["accessors"].size();
+    const std::uint64_t size = count * elementSize;
+    m_Json["bufferViews"].push_back(
+      { { "buffer", 0 }, { "byteOffset", m_BufferSize }, { "byteLength", size }, { "target", target } });
+    m_Json["accessors"].push_back(
+      { { "bufferView", number }, { "componentType", componentType }, { "count", count }, { "type", type } });
+    m_BufferSize += size;
+    return number;
+  }
+
+  void
+  AppendSurface(const itk::TriangleSurface & surface, OutputFile & file) const
+  {
+    for (const auto & point : surface.GetPoints())
+    {
+      file.AppendBinary(Turned(point, m_Space));
+    }
+    if (surface.HasNormals())
+    {
+      for (const auto & normal : surface.GetNormals())
+      {
+        file.AppendBinary(Turned(normal, m_Space));
+      }
+    }
+    for (const auto & triangle : surface.GetTriangles())
+    {
+      file.AppendBinary(triangle);
+    }
+  }
+
+  const std::vector<SceneSurface> & m_Surfaces;
+  SurfaceFileSpace m_Space;
+  OrderedJson m_Json;
+  std::uint64_t m_BufferSize = 0;
+};
+
 using Json = nlohmann::json;
 
 /** The affine transform x -> linear x + offset. */
@@ -27,7 +202,7 @@ struct Transform
   itk::Matrix<double, 3, 3> linear;
   itk::Vector<double, 3> offset{ 0.0 };
 
-  /** The transform that applies \a other first, then this one. */
+  /** The transform that applies \a other first, then this transform. */
   Transform
   After(const Transform & other) const
   {
@@ -284,10 +459,10 @@ private:
       const std::uint64_t mode = primitive.contains("mode") ? this->Whole(primitive, "mode") : glb::Triangles;
       if (mode == glb::Triangles || mode == glb::TriangleStrip || mode == glb::TriangleFan)
       {
-        SceneSurface scene = this->ReadLook(primitive);
-        scene.name = name;
-        scene.surface = this->ReadPrimitive(primitive, mode, transform);
-        m_Surfaces.push_back(std::move(scene));
+        SceneSurface item = this->ReadLook(primitive);
+        item.name = name;
+        item.surface = this->ReadPrimitive(primitive, mode, transform);
+        m_Surfaces.push_back(std::move(item));
       }
     }
   }
@@ -295,16 +470,16 @@ private:
   SceneSurface
   ReadLook(const Json & primitive) const
   {
-    SceneSurface scene;
+    SceneSurface item;
     if (primitive.contains("material"))
     {
       const Json & material = this->Item("materials", this->Whole(primitive, "material"));
       const Json surface = material.value("pbrMetallicRoughness", Json::object());
       const auto factor = NumbersAt<4>(surface, "baseColorFactor").value_or(std::array<double, 4>{ 1, 1, 1, 1 });
-      scene.colour = LinearToSRGB({ factor[0], factor[1], factor[2] });
-      scene.opacity = material.value("alphaMode", "OPAQUE") == "BLEND" ? ToUnit(factor[3]) : 1.0;
+      std::transform(factor.begin(), factor.begin() + 3, item.colour.begin(), LinearToSRGB);
+      item.opacity = material.value("alphaMode", "OPAQUE") == "BLEND" ? ToUnit(factor[3]) : 1.0;
     }
-    return scene;
+    return item;
   }
 
   itk::TriangleSurface::Pointer
@@ -539,6 +714,12 @@ private:
 };
 
 } // namespace
+
+void
+WriteGLB(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file)
+{
+  GLBWriter(surfaces, space).Write(file);
+}
 
 std::vector<SceneSurface>
 ReadGLB(const InputFile & file)
