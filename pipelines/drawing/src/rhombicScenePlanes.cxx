@@ -1,8 +1,6 @@
 #include "rhombicScenePlanes.h"
 
-#include "rhombicCapPicture.h"
 #include "rhombicFailure.h"
-#include "rhombicOutline.h"
 #include "rhombicSlicePicture.h"
 #include "rhombicWording.h"
 

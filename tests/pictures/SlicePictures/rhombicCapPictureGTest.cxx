@@ -1,4 +1,4 @@
-#include "rhombicCapPicture.h"
+#include "rhombicSlicePicture.h"
 
 #include "itkMultiThreaderBase.h"
 

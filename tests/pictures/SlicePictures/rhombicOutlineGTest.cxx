@@ -1,4 +1,4 @@
-#include "rhombicOutline.h"
+#include "rhombicSlicePicture.h"
 
 #include "itkExampleSurfaces.h"
 #include "itkFCCIsosurfaceFilter.h"

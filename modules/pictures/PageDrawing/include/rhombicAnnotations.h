@@ -38,7 +38,7 @@ struct Annotations
   std::string footnote;          ///< at the bottom left, small; lines end with \n
   std::vector<LegendRow> legend; ///< names and volumes at the right
   std::vector<ColouredOutline> outlines;
-  Ink background{ { 0.0, 0.0, 0.0 } }; ///< of the picture: text is white on dark ones, else black
+  Ink background{ { 0.0, 0.0, 0.0 } }; ///< of the picture: text is white on a dark picture, else black
   double textSize = 0.0;               ///< pixels; 0: 1.8 % of the picture's shorter side, at least 11
 };
 
@@ -58,6 +58,11 @@ DrawAnnotations(Drawing & drawing,
 /** Draws annotations over a picture of the projection's size. */
 void
 Annotate(Picture & picture, const Projection & projection, const Annotations & annotations);
+
+/** Draws a standing human figure as a view sees it, in a square place. The face is light, so that front and back
+ * differ. */
+void
+DrawOrientationFigure(Drawing & drawing, const Rectangle & place, const ViewFrame & frame, const Ink & outline);
 
 /** The length of a scale bar in mm: the largest of 1, 2 or 5 times a power of ten that is at most \a longest mm. */
 double

@@ -1,7 +1,6 @@
 #include "rhombicAnnotations.h"
 
 #include "rhombicFailure.h"
-#include "rhombicOrientationFigure.h"
 #include "rhombicWording.h"
 
 #include <algorithm>

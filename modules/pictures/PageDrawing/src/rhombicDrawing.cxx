@@ -317,8 +317,8 @@ SetProperties(cairo_surface_t * pdf, const PdfProperties & properties)
 
 struct Drawing::Surface
 {
-  int width = 0;
-  int height = 0;
+  const int width;
+  const int height;
   std::size_t pages = 1;
   std::string document;             ///< bytes so far; outlives the surface that writes them
   std::vector<CairoSurface> images; ///< finished pages
@@ -329,6 +329,15 @@ struct Drawing::Surface
   IsPdf() const
   {
     return cairo_surface_get_type(surface.get()) == CAIRO_SURFACE_TYPE_PDF;
+  }
+
+  /** Checks the size of the pages, and whether there is a font. */
+  Surface(int pageWidth, int pageHeight)
+    : width(pageWidth)
+    , height(pageHeight)
+  {
+    CheckSize(width, height);
+    CheckFonts();
   }
 
   /** Text without hinting, so that it has the same shape everywhere. */
@@ -350,23 +359,15 @@ struct Drawing::Surface
 };
 
 Drawing::Drawing(int width, int height)
-  : m_Surface(std::make_unique<Surface>())
+  : m_Surface(std::make_unique<Surface>(width, height))
 {
-  CheckSize(width, height);
-  CheckFonts();
-  m_Surface->width = width;
-  m_Surface->height = height;
   m_Surface->surface = NewImage(CAIRO_FORMAT_ARGB32, width, height);
   m_Surface->Begin();
 }
 
 Drawing::Drawing(int width, int height, double pixelsPerInch, const PdfProperties & properties)
-  : m_Surface(std::make_unique<Surface>())
+  : m_Surface(std::make_unique<Surface>(width, height))
 {
-  CheckSize(width, height);
-  CheckFonts();
-  m_Surface->width = width;
-  m_Surface->height = height;
   const double scale = PointsPerInch / pixelsPerInch;
   m_Surface->surface.reset(
     cairo_pdf_surface_create_for_stream(Append, &m_Surface->document, scale * width, scale * height));
@@ -382,11 +383,7 @@ Drawing::Drawing(std::unique_ptr<Surface> surface)
 Drawing
 Drawing::ForSvg(int width, int height)
 {
-  CheckSize(width, height);
-  CheckFonts();
-  auto surface = std::make_unique<Surface>();
-  surface->width = width;
-  surface->height = height;
+  auto surface = std::make_unique<Surface>(width, height);
   surface->surface.reset(cairo_svg_surface_create_for_stream(Append, &surface->document, width, height));
   cairo_svg_surface_set_document_unit(surface->surface.get(), CAIRO_SVG_UNIT_PX);
   surface->Begin();
@@ -601,7 +598,7 @@ Drawing::TakePictures(const Ink & paper)
     {
       const std::size_t channel = i % static_cast<std::size_t>(picture.channels);
       const double component = channel == 3 ? paper.opacity : paper.colour[channel];
-      picture.pixels[i] = static_cast<std::uint8_t>(std::lround(255.0 * component));
+      picture.pixels[i] = ToByte(component);
     }
     CompositeImage(image.get(), picture);
     image.reset();

@@ -1,4 +1,4 @@
-#include "rhombicOrientationFigure.h"
+#include "rhombicAnnotations.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ struct BodyPart
   Colour colour{};
 };
 
-/** Parts with one edge around all of them. The first one tells whether the group is before or behind others. */
+/** Parts with one edge around all of them. The first part tells whether the group is before or behind others. */
 struct BodyGroup
 {
   std::vector<BodyPart> parts;

@@ -200,13 +200,9 @@ private:
   std::vector<std::string>
   FiguresOf(const LegendRow * row) const
   {
-    const auto & rows = m_Sheet.rows;
-    const auto has = [&rows](const std::optional<double> LegendRow::*figure) {
-      return std::any_of(rows.begin(), rows.end(), [figure](const LegendRow & r) { return (r.*figure).has_value(); });
-    };
     std::vector<std::string> figures;
-    const auto add = [&](const std::optional<double> LegendRow::*figure, const std::string & heading, bool isSize) {
-      if (has(figure))
+    const auto add = [&](std::optional<double> LegendRow::*figure, const std::string & heading, bool isSize) {
+      if (HasFigure(m_Sheet.rows, figure))
       {
         const std::optional<double> value = row ? row->*figure : std::nullopt;
         figures.push_back(!row ? heading : !value ? "\u2013" : isSize ? FormatVolume(*value) : FormatFixed(*value, 1));

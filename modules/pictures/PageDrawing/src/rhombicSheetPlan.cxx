@@ -36,7 +36,11 @@ DivideUp(std::size_t a, std::size_t b)
 std::size_t
 CountColumns(double width, const std::vector<LegendRow> & rows)
 {
-  const double column = NameColumn + FigureColumn * static_cast<double>(CountFigureColumns(rows));
+  double column = NameColumn;
+  for (const auto figure : { &LegendRow::volume, &LegendRow::area, &LegendRow::mean })
+  {
+    column += HasFigure(rows, figure) ? FigureColumn : 0.0;
+  }
   return std::max<std::size_t>(1, static_cast<std::size_t>((width + 2.0 * Gap) / (column + 2.0 * Gap)));
 }
 
@@ -131,7 +135,7 @@ MeasureProvenance(const Sheet & s, double width, double millimetre)
   return heights;
 }
 
-/** Divides the lines into columns. Returns the height of the higher one. */
+/** Divides the lines into columns. Returns the height of the higher column. */
 double
 DivideProvenance(std::size_t columns, SheetPlan & plan)
 {
@@ -231,13 +235,10 @@ SplitProvenance(const std::string & line)
                                     : std::pair(line.substr(0, colon), line.substr(colon + 2));
 }
 
-std::size_t
-CountFigureColumns(const std::vector<LegendRow> & rows)
+bool
+HasFigure(const std::vector<LegendRow> & rows, std::optional<double> LegendRow::*figure)
 {
-  const auto has = [&rows](const std::optional<double> LegendRow::*figure) {
-    return std::any_of(rows.begin(), rows.end(), [figure](const LegendRow & row) { return (row.*figure).has_value(); });
-  };
-  return std::size_t{ has(&LegendRow::volume) } + has(&LegendRow::area) + has(&LegendRow::mean);
+  return std::any_of(rows.begin(), rows.end(), [figure](const LegendRow & row) { return (row.*figure).has_value(); });
 }
 
 SheetPlan

@@ -52,9 +52,9 @@ constexpr double FigureColumn = 15.0;
 std::pair<std::string, std::string>
 SplitProvenance(const std::string & line);
 
-/** The number of columns of figures in the table: those of volume, area and mean that any row has. */
-std::size_t
-CountFigureColumns(const std::vector<LegendRow> & rows);
+/** Whether any row has a figure, which is a column of the table then. */
+bool
+HasFigure(const std::vector<LegendRow> & rows, std::optional<double> LegendRow::*figure);
 
 /** Throws Failure(Usage) for more pictures than a sheet has places for. */
 SheetPlan

@@ -58,7 +58,7 @@ bool
 IsInHounsfieldUnits(const Scan & scan);
 
 /** For scans in HU "soft-tissue". For other scans from the
- * 1st to the 99th percentile of the values above the lowest one, which may stand for no data. About 260 thousand
+ * 1st to the 99th percentile of the values above the lowest value, which may stand for no data. About 260 thousand
  * values are taken, at equal distances. */
 GreyWindow
 AutomaticWindow(const Scan & scan);

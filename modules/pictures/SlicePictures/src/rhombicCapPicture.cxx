@@ -1,4 +1,4 @@
-#include "rhombicCapPicture.h"
+#include "rhombicSlicePicture.h"
 
 #include "rhombicForEachBlock.h"
 
@@ -90,7 +90,7 @@ private:
   }
 
   /** Adds a piece of a side within a row, from \a left to \a right. Column -1 is all that is on the left of the
-   * picture, the column after the last one all that is on its right. */
+   * picture, the column after the last column is all on its right. */
   void
   AddPiece(int row, double left, double right, double signedHeight)
   {
@@ -116,7 +116,7 @@ private:
 };
 
 std::uint8_t
-ToByte(float value)
+RoundToByte(float value)
 {
   return static_cast<std::uint8_t>(value + 0.5f);
 }
@@ -137,9 +137,9 @@ AddToPixel(const std::uint8_t * slice, const CapSurface & surface, float share, 
   {
     const float tinted =
       slice[channel] + tint * (255.0f * static_cast<float>(surface.colour[channel]) - slice[channel]);
-    cap[channel] = ToByte(cap[channel] + weight * (tinted - cap[channel]));
+    cap[channel] = RoundToByte(cap[channel] + weight * (tinted - cap[channel]));
   }
-  cap[3] = ToByte(alpha);
+  cap[3] = RoundToByte(alpha);
 }
 
 } // namespace

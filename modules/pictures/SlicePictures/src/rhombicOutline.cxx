@@ -1,4 +1,4 @@
-#include "rhombicOutline.h"
+#include "rhombicSlicePicture.h"
 
 #include "rhombicForEachBlock.h"
 
@@ -17,7 +17,7 @@ using Surface = itk::TriangleSurface;
 using CrossedEdge = std::uint64_t;
 
 /** The line in which the plane cuts a triangle, with the inside of the surface on its right in the picture. It begins
- * on the edge that comes from behind the plane and ends on the one that goes behind it, when the triangle's edges are
+ * on the edge that comes from behind the plane and ends on the edge that goes behind it, when the triangle's edges are
  * followed counter-clockwise as seen from outside. So it begins where the line of the next triangle ends. */
 struct CutLine
 {
@@ -29,8 +29,7 @@ struct CutLine
 double
 DepthOf(const Surface::PointType & point, const Projection & plane)
 {
-  return (point[0] - plane.centre[0]) * plane.frame.look[0] + (point[1] - plane.centre[1]) * plane.frame.look[1] +
-         (point[2] - plane.centre[2]) * plane.frame.look[2];
+  return Dot(Subtract({ point[0], point[1], point[2] }, plane.centre), plane.frame.look);
 }
 
 /** For each point of the surface 1 if it is in the plane or behind it, otherwise 0. */
@@ -141,7 +140,7 @@ PositionOn(CrossedEdge edge, const Surface & surface, const Projection & plane)
   return { a.x + share * (b.x - a.x), a.y + share * (b.y - a.y) };
 }
 
-/** Appends a position that differs from the last one. */
+/** Appends a position that differs from the last position. */
 void
 Append(const PicturePosition & position, std::vector<PicturePosition> & points)
 {
@@ -151,7 +150,7 @@ Append(const PicturePosition & position, std::vector<PicturePosition> & points)
   }
 }
 
-/** Follows the lines from one on, until the curve ends or comes back, and marks them. */
+/** Follows the lines from a first line on, until the curve ends or comes back to that line, and marks them. */
 Outline
 TraceCurve(std::size_t line,
            const std::vector<CutLine> & lines,
@@ -195,7 +194,8 @@ CutSurface(const itk::TriangleSurface & surface, const Projection & plane)
   }
   std::vector<bool> isTraced(lines.size(), false);
   std::vector<Outline> outlines;
-  for (const bool isClosed : { false, true }) // what begins nowhere else; then what is left goes round
+  for (const bool isClosed :
+       { false, true }) // first the curves that begin on an open edge; the lines that are left form closed curves
   {
     for (std::size_t line = 0; line < lines.size(); ++line)
     {

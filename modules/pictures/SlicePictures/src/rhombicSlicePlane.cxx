@@ -16,18 +16,12 @@ namespace
 constexpr std::array<SlicePlane, 3> AllPlanes{ SlicePlane::Axial, SlicePlane::Coronal, SlicePlane::Sagittal };
 
 Vector3
-Add(const Vector3 & point, const Vector3 & direction, double factor)
-{
-  return { point[0] + factor * direction[0], point[1] + factor * direction[1], point[2] + factor * direction[2] };
-}
-
-Vector3
 MiddleOf(const SliceBox & box)
 {
   Vector3 middle = box.corner;
   for (const Vector3 & side : box.sides)
   {
-    middle = Add(middle, side, 0.5);
+    middle = Along(middle, side, 0.5);
   }
   return middle;
 }
@@ -51,7 +45,7 @@ SmallestSpacing(const SliceBox & box, const Vector3 & look)
   std::array<double, 3> steepness{};
   for (std::size_t n = 0; n < 3; ++n)
   {
-    steepness[n] = std::abs(Dot(box.sides[n], look)) / std::sqrt(Dot(box.sides[n], box.sides[n]));
+    steepness[n] = std::abs(Dot(box.sides[n], look)) / Length(box.sides[n]);
   }
   const auto across =
     static_cast<std::size_t>(std::max_element(steepness.begin(), steepness.end()) - steepness.begin());
@@ -69,7 +63,7 @@ Vector3
 CentreOfSlice(const Vector3 & point, const SliceBox & box, const Vector3 & look)
 {
   const Vector3 middle = MiddleOf(box);
-  const double depth = Dot(Add(point, middle, -1.0), look);
+  const double depth = Dot(Subtract(point, middle), look);
   const double beside = std::abs(depth) - 0.5 * LengthAlong(look, box);
   constexpr double tolerance = 1e-6; // mm: slices in the faces of the box are in it
   if (!(beside <= tolerance))
@@ -79,7 +73,7 @@ CentreOfSlice(const Vector3 & point, const SliceBox & box, const Vector3 & look)
                     " mm outside of what is shown, whose middle is at " + Describe(middle) +
                     "; choose a position between its ends.");
   }
-  return Add(middle, look, depth);
+  return Along(middle, look, depth);
 }
 
 int
@@ -224,7 +218,8 @@ SpreadEvenly(const SliceBox & box, const ViewFrame & frame, std::size_t count)
   std::vector<Vector3> points;
   for (std::size_t n = 0; n < count; ++n)
   {
-    points.push_back(Add(middle, frame.look, step * (static_cast<double>(n) + 0.5 - 0.5 * static_cast<double>(count))));
+    points.push_back(
+      Along(middle, frame.look, step * (static_cast<double>(n) + 0.5 - 0.5 * static_cast<double>(count))));
   }
   return points;
 }

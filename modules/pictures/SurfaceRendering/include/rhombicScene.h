@@ -77,7 +77,7 @@ struct RenderSettings
   std::optional<LPSBox> extent;    ///< what fits between the margins; by default all surfaces and planes
   std::optional<Vector3> centre;   ///< the LPS point between the margins; by default the middle of the extent
   double zoom = 1.0;               ///< above 1 enlarges
-  std::optional<double> pixelSize; ///< in mm, instead of the one that fits; for parallel projection
+  std::optional<double> pixelSize; ///< in mm, instead of the size that fits; for parallel projection
   bool sameScale = false;          ///< all views have the pixel size of the view that needs the largest
 
   PictureStyle style = PictureStyle::Clinic;

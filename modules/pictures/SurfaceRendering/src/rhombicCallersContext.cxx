@@ -1,4 +1,4 @@
-#include "rhombicCallersContext.h"
+#include "rhombicGLContext.h"
 
 #include <EGL/egl.h>
 #include <GL/glx.h> // defines macros such as None, so this file is compiled alone, see module-options.cmake

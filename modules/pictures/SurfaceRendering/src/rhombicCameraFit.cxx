@@ -171,7 +171,7 @@ FitParallel(const Scene & scene, const RenderSettings & settings, const Margins 
   return fit;
 }
 
-/** The side of a picture: the given one, or, if that is 0, what an extent needs. */
+/** The side of a picture: the given side, or, if that is 0, as long as an extent needs. */
 int
 SideOf(int given, const Extent & extent, double pixelSize, double margins)
 {
@@ -190,11 +190,8 @@ PlaceCentre(const RenderSettings & settings, const SceneExtent & fitted, double 
     right = Dot(camera.frame.right, *settings.centre);
     up = Dot(camera.frame.up, *settings.centre);
   }
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    camera.centre[axis] =
-      right * camera.frame.right[axis] + up * camera.frame.up[axis] + depth * camera.frame.look[axis];
-  }
+  const ViewFrame & frame = camera.frame;
+  camera.centre = Along(Along(Scaled(frame.right, right), frame.up, up), frame.look, depth);
 }
 
 void

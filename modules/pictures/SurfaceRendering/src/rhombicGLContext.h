@@ -1,7 +1,7 @@
 #ifndef rhombicGLContext_h
 #define rhombicGLContext_h
 
-#include "rhombicRenderBackend.h"
+#include "rhombicSurfaceRenderer.h"
 
 #include <memory>
 #include <string>
@@ -9,25 +9,52 @@
 namespace rhombic
 {
 
+/** \class CallersContext
+ * \brief Keeps what is current for OpenGL on this thread, of EGL or GLX, and makes it current again when destroyed.
+ *
+ * Meanwhile nothing of GLX is current, so that a context of EGL can be. */
+class CallersContext
+{
+public:
+  CallersContext();
+  ~CallersContext();
+
+  CallersContext(const CallersContext &) = delete;
+  CallersContext &
+  operator=(const CallersContext &) = delete;
+
+private:
+  struct State;
+  std::unique_ptr<const State> m_State;
+};
+
 /** \class GLContext
- * \brief An OpenGL 3.2 core context without a window. */
+ * \brief An OpenGL 3.2 core context of EGL, without a window. */
 class GLContext
 {
 public:
-  GLContext() = default;
-  virtual ~GLContext() = default;
+  using EGLHandle = void *;
+
+  /** Throws Failure(Display). All users of the display in this process share it, so it is never terminated. */
+  explicit GLContext(EGLHandle display);
+  ~GLContext();
 
   GLContext(const GLContext &) = delete;
   GLContext &
   operator=(const GLContext &) = delete;
 
   /** Makes this the context of OpenGL calls on this thread. Throws Failure(Display). */
-  virtual void
-  MakeCurrent() = 0;
+  void
+  MakeCurrent();
 
   /** Leaves this thread without a context. */
-  virtual void
-  Release() = 0;
+  void
+  Release();
+
+private:
+  EGLHandle m_Display;
+  EGLHandle m_Surface = nullptr;
+  EGLHandle m_Context = nullptr;
 };
 
 /** \class CurrentGLContext
@@ -52,13 +79,6 @@ public:
 private:
   GLContext & m_Context;
 };
-
-/** The contexts of the backends. Each function throws Failure(Display) with the reason when its backend does not work
- * on this machine. */
-std::unique_ptr<GLContext>
-CreateDeviceContext();
-std::unique_ptr<GLContext>
-CreateSurfacelessContext();
 
 /** A context, and a line with its backend, renderer and OpenGL version. */
 struct DescribedGLContext

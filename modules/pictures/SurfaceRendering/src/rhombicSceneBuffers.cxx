@@ -1,5 +1,7 @@
 #include "rhombicSceneBuffers.h"
 
+#include "detail/itkPositionArithmetic.h"
+
 #include <vtkOpenGLShaderCache.h>
 #include <vtkOpenGLState.h>
 #include <vtkType.h>
@@ -43,7 +45,7 @@ FloatsOf(const Vector3 & vector)
 std::array<float, 4>
 EquationOf(const ClipPlane & cut, const Vector3 & centre)
 {
-  const double length = std::sqrt(Dot(cut.normal, cut.normal));
+  const double length = Length(cut.normal);
   double offset = 0.0;
   std::array<float, 4> equation{};
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -98,7 +100,6 @@ IsClosed(const itk::TriangleSurface * surface)
   // The hashes of the edges that run from the smaller to the larger index, less those of the others.
   std::uint64_t sum = 0;
   double volume = 0.0;
-  const auto & points = surface->GetPoints();
   for (const auto & triangle : surface->GetTriangles())
   {
     for (std::size_t k = 0; k < 3; ++k)
@@ -107,12 +108,8 @@ IsClosed(const itk::TriangleSurface * surface)
       const std::uint64_t to = triangle[(k + 1) % 3];
       sum += from < to ? Mix(from << 32 | to) : -Mix(to << 32 | from);
     }
-    const auto & a = points[triangle[0]];
-    const auto & b = points[triangle[1]];
-    const auto & c = points[triangle[2]];
-    volume += a[0] * (double{ b[1] } * c[2] - double{ b[2] } * c[1]) +
-              a[1] * (double{ b[2] } * c[0] - double{ b[0] } * c[2]) +
-              a[2] * (double{ b[0] } * c[1] - double{ b[1] } * c[0]);
+    const auto [a, b, c] = itk::CornersOf(*surface, triangle);
+    volume += Dot(a, Cross(b, c));
   }
   return sum == 0 && volume > 0.0;
 }
@@ -237,7 +234,7 @@ SceneBuffers::DrawCells(const Batch & batch, const Camera & camera, const OpenTi
   std::array<std::vector<const TriangleCell *>, 64> slabs;
   for (const TriangleCell & cell : batch.cells)
   {
-    const Footprint footprint = FootprintOf(cell.lowest, cell.highest, camera);
+    const Footprint footprint = FootprintOf(cell.box, camera);
     if (open.MayShow(footprint))
     {
       const auto last = static_cast<float>(slabs.size() - 1);

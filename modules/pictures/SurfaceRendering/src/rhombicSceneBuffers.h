@@ -2,7 +2,6 @@
 #define rhombicSceneBuffers_h
 
 #include "rhombicCameraFit.h"
-#include "rhombicOpenTiles.h"
 #include "rhombicShaders.h"
 #include "rhombicTriangleCells.h"
 

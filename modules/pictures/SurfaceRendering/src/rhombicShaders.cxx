@@ -1,6 +1,6 @@
 #include "rhombicShaders.h"
 
-#include "rhombicOpenTiles.h"
+#include "rhombicTriangleCells.h"
 
 namespace rhombic
 {

@@ -1,8 +1,6 @@
 #include "rhombicSurfaceRenderer.h"
 
-#include "rhombicCallersContext.h"
 #include "rhombicCameraFit.h"
-#include "rhombicDrawingMemory.h"
 #include "rhombicFailure.h"
 #include "rhombicGLContext.h"
 #include "rhombicSceneBuffers.h"
@@ -175,60 +173,21 @@ private:
 
 } // namespace
 
-class SurfaceRenderer::Implementation
+struct SurfaceRenderer::Implementation
 {
-public:
-  explicit Implementation(RenderBackend backend)
-    : m_Backend(backend)
-    , m_Canvas(std::make_unique<Canvas>(backend))
-    , m_Description(m_Canvas->GetDescription())
-    , m_LargestSide(m_Canvas->GetLargestSide())
-  {}
-
-  void
-  Check(const RenderSettings & settings, bool isTranslucent) const
-  {
-    rhombic::CheckSettings(settings, m_LargestSide);
-    RequireMemoryToDraw(settings, isTranslucent, 0);
-  }
-
-  std::vector<RenderedView>
-  Render(const Scene & scene, const RenderSettings & settings, const std::vector<View> & views)
-  {
-    const Scene drawable = DrawableScene(scene);
-    rhombic::CheckSettings(settings, m_LargestSide);
-    const auto cameras = FitCameras(drawable, settings, views);
-    CheckSizes(cameras, settings.samples, m_LargestSide);
-    std::uintmax_t held = MemoryToHoldScene(drawable);
-    for (const Camera & camera : cameras)
-    {
-      RenderSettings sized = settings;
-      sized.width = camera.width;
-      sized.height = camera.height;
-      RequireMemoryToDraw(sized, IsTranslucent(drawable), held);
-      held += 4 * static_cast<std::uintmax_t>(camera.width) * static_cast<std::uintmax_t>(camera.height); // its picture
-    }
-    const auto canvas = m_Canvas ? std::move(m_Canvas) : std::make_unique<Canvas>(m_Backend);
-    return canvas->Draw(drawable, settings, cameras);
-  }
-
-  const std::string &
-  GetDescription() const
-  {
-    return m_Description;
-  }
-
-private:
-  RenderBackend m_Backend;
-  std::unique_ptr<Canvas> m_Canvas; ///< for the first picture
-  std::string m_Description;
-  int m_LargestSide;
+  RenderBackend backend;
+  std::unique_ptr<Canvas> canvas; ///< for the first picture
+  std::string description;
+  int largestSide; ///< samples
 };
 
 SurfaceRenderer::SurfaceRenderer(RenderBackend backend)
 {
   const Turn turn;
-  m_Implementation = std::make_unique<Implementation>(backend);
+  auto canvas = std::make_unique<Canvas>(backend);
+  const std::string description = canvas->GetDescription();
+  const int largestSide = canvas->GetLargestSide();
+  m_Implementation.reset(new Implementation{ backend, std::move(canvas), description, largestSide });
 }
 
 SurfaceRenderer::~SurfaceRenderer()
@@ -243,7 +202,22 @@ SurfaceRenderer::Render(const Scene & scene, const RenderSettings & settings, co
   const Turn turn;
   try
   {
-    return m_Implementation->Render(scene, settings, views);
+    const Scene drawable = DrawableScene(scene);
+    rhombic::CheckSettings(settings, m_Implementation->largestSide);
+    const auto cameras = FitCameras(drawable, settings, views);
+    CheckSizes(cameras, settings.samples, m_Implementation->largestSide);
+    std::uintmax_t held = MemoryToHoldScene(drawable);
+    for (const Camera & camera : cameras)
+    {
+      RenderSettings sized = settings;
+      sized.width = camera.width;
+      sized.height = camera.height;
+      RequireMemoryToDraw(sized, IsTranslucent(drawable), held);
+      held += 4 * static_cast<std::uintmax_t>(camera.width) * static_cast<std::uintmax_t>(camera.height); // its picture
+    }
+    auto & first = m_Implementation->canvas;
+    const auto canvas = first ? std::move(first) : std::make_unique<Canvas>(m_Implementation->backend);
+    return canvas->Draw(drawable, settings, cameras);
   }
   catch (const std::bad_alloc &)
   {
@@ -267,7 +241,8 @@ SurfaceRenderer::Plan(const Scene & scene, const RenderSettings & settings, cons
 void
 SurfaceRenderer::CheckSettings(const RenderSettings & settings, bool isTranslucent) const
 {
-  m_Implementation->Check(settings, isTranslucent);
+  rhombic::CheckSettings(settings, m_Implementation->largestSide);
+  RequireMemoryToDraw(settings, isTranslucent, 0);
 }
 
 std::uintmax_t
@@ -280,7 +255,7 @@ SurfaceRenderer::EstimateMemory(const Scene & scene, const RenderSettings & sett
 std::string
 SurfaceRenderer::GetBackendDescription() const
 {
-  return m_Implementation->GetDescription();
+  return m_Implementation->description;
 }
 
 std::vector<BackendProbe>

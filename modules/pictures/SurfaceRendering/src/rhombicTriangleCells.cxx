@@ -10,7 +10,7 @@ namespace
 
 constexpr double TrianglesPerCell = 500.0; // about, of a surface that is not folded much
 
-/** A grid of cubes over a surface; one for each triangle, at its first point. */
+/** A grid of cubes over a surface. A triangle belongs to the cube with its first point. */
 class CellGrid
 {
 public:
@@ -61,21 +61,24 @@ private:
 TriangleCell
 MakeCell(const itk::TriangleSurface * surface, const TriangleCells & ordered, std::size_t first, std::size_t end)
 {
-  TriangleCell cell{ surface->GetPoints()[ordered.triangles[first][0]], {}, first, end - first };
-  cell.highest = cell.lowest;
+  const auto & points = surface->GetPoints();
+  const auto & start = points[ordered.triangles[first][0]];
+  TriangleCell cell{ { start, start }, first, end - first };
   for (std::size_t n = first; n < end; ++n)
   {
     for (const auto index : ordered.triangles[n])
     {
-      const auto & point = surface->GetPoints()[index];
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        cell.lowest[axis] = std::min(cell.lowest[axis], point[axis]);
-        cell.highest[axis] = std::max(cell.highest[axis], point[axis]);
-      }
+      cell.box.Add(points[index]);
     }
   }
   return cell;
+}
+
+/** The tile at a position in tiles. */
+int
+TileAt(double position, int count)
+{
+  return static_cast<int>(std::clamp(std::floor(position), 0.0, static_cast<double>(count - 1)));
 }
 
 } // namespace
@@ -110,6 +113,65 @@ SortIntoCells(const itk::TriangleSurface * surface)
     }
   }
   return ordered;
+}
+
+Footprint
+FootprintOf(const itk::PointBox & box, const Camera & camera)
+{
+  constexpr float slack = 1e-4f;
+  const auto matrix = camera.Matrix();
+  Footprint footprint{ 2.0f, -1.0f, 2.0f, -1.0f, 1.0f, 0.0f };
+  for (unsigned int corner = 0; corner < 8; ++corner)
+  {
+    std::array<float, 4> clip{ matrix[12], matrix[13], matrix[14], matrix[15] };
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const float coordinate = (corner >> axis & 1U) != 0 ? box.highest[axis] : box.lowest[axis];
+      for (std::size_t row = 0; row < 4; ++row)
+      {
+        clip[row] += matrix[4 * axis + row] * (coordinate - static_cast<float>(camera.centre[axis]));
+      }
+    }
+    if (clip[3] <= 0.0f) // beside or behind the viewer
+    {
+      return {};
+    }
+    footprint.left = std::min(footprint.left, 0.5f + 0.5f * clip[0] / clip[3] - slack);
+    footprint.right = std::max(footprint.right, 0.5f + 0.5f * clip[0] / clip[3] + slack);
+    footprint.bottom = std::min(footprint.bottom, 0.5f + 0.5f * clip[1] / clip[3] - slack);
+    footprint.top = std::max(footprint.top, 0.5f + 0.5f * clip[1] / clip[3] + slack);
+    footprint.nearest = std::min(footprint.nearest, 0.5f + 0.5f * clip[2] / clip[3]);
+    footprint.farthest = std::max(footprint.farthest, 0.5f + 0.5f * clip[2] / clip[3] + slack);
+  }
+  return footprint;
+}
+
+bool
+OpenTiles::MayShow(const Footprint & footprint) const
+{
+  if (footprint.right < 0.0f || footprint.left > 1.0f || footprint.top < 0.0f || footprint.bottom > 1.0f)
+  {
+    return false;
+  }
+  const int lastColumn = TileAt(footprint.right * width, columns);
+  const int lastRow = TileAt(footprint.top * height, rows);
+  for (int row = TileAt(footprint.bottom * height, rows); row <= lastRow; ++row)
+  {
+    for (int column = TileAt(footprint.left * width, columns); column <= lastColumn; ++column)
+    {
+      if (depths[static_cast<std::size_t>(row * columns + column)] < footprint.farthest)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool
+OpenTiles::AllAreClosed() const
+{
+  return std::all_of(depths.begin(), depths.end(), [](float depth) { return depth == Closed; });
 }
 
 } // namespace rhombic

@@ -3,12 +3,7 @@
 #include "rhombicFailure.h"
 #include "rhombicWording.h"
 
-#include <itksys/SystemTools.hxx>
-
-#include <charconv>
 #include <cmath>
-#include <optional>
-#include <sstream>
 #include <vector>
 
 namespace rhombic
@@ -40,25 +35,7 @@ Sine(double degrees)
 std::string
 NameOfAngle(double degrees)
 {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << (degrees == 0.0 ? 0.0 : degrees); // not -0
-  return text.str();
-}
-
-/** Two numbers with a comma between them. */
-std::optional<std::array<double, 2>>
-ParseAngles(const std::string & text)
-{
-  std::array<double, 2> angles{};
-  const char * const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, angles[0]);
-  if (first.ec != std::errc() || first.ptr == end || *first.ptr != ',')
-  {
-    return {};
-  }
-  const auto second = std::from_chars(first.ptr + 1, end, angles[1]);
-  return second.ec == std::errc() && second.ptr == end ? std::optional(angles) : std::nullopt;
+  return FormatNumber(degrees == 0.0 ? 0.0 : degrees); // not -0
 }
 
 } // namespace
@@ -95,11 +72,14 @@ ObliqueView(double azimuth, double elevation)
 View
 ViewFromText(const std::string & text)
 {
-  if (const auto angles = ParseAngles(text))
+  const std::vector<std::string> parts = Split(text, ",");
+  const auto azimuth = ToNumber<double>(parts.front());
+  const auto elevation = ToNumber<double>(parts.back());
+  if (parts.size() == 2 && azimuth && elevation)
   {
-    return ObliqueView((*angles)[0], (*angles)[1]);
+    return ObliqueView(*azimuth, *elevation);
   }
-  const std::string lowerCase = itksys::SystemTools::LowerCase(text);
+  const std::string lowerCase = LowerCase(text);
   const std::string begin = lowerCase == "h" ? "superior" : lowerCase == "f" ? "inferior" : lowerCase;
   std::vector<std::string> names;
   for (const View & view : StandardViews())
