@@ -1,3 +1,3 @@
 itk_module(FCCLattice
-  DEPENDS ITKCommon
+  DEPENDS RhombicCommon ITKCommon
   DESCRIPTION "Images sampled on the face-centered cubic lattice, and the lattice's geometry.")

@@ -1,5 +1,4 @@
-#include "itkFCCOctahedraCases.h"
-#include "itkFCCParallelepipedCases.h"
+#include "itkFCCCellKinds.h"
 
 #include <gtest/gtest.h>
 
@@ -9,16 +8,15 @@
 namespace
 {
 
-using Octahedra = itk::FCCOctahedraCases;
-using Parallelepiped = itk::FCCParallelepipedCases::Parallelepiped;
+using Octahedron = itk::FCCOctahedron;
+using Parallelepiped = itk::FCCParallelepiped;
 using Site = itk::FCCLattice::SiteType;
 using EdgePair = std::pair<unsigned int, unsigned int>;
 
 template <typename TKind>
 class FCCCellCases : public testing::Test
 {};
-using Kinds =
-  testing::Types<Octahedra::Octahedron, Octahedra::TetrahedronAfter, Octahedra::TetrahedronBefore, Parallelepiped>;
+using Kinds = testing::Types<Octahedron, itk::FCCTetrahedronAfter, itk::FCCTetrahedronBefore, Parallelepiped>;
 TYPED_TEST_SUITE(FCCCellCases, Kinds, );
 
 bool
@@ -124,9 +122,8 @@ TEST(FCCOctahedraCases, HaveTheTrianglesOfTheirKinds)
 {
   // Corners 0 and 1 are opposite, as are 2 and 3, and 4 and 5.
   const auto trianglesOf = [](unsigned int pattern) {
-    EXPECT_EQ(Octahedra::Octahedron::Cases.cases[pattern].triangles,
-              Octahedra::Octahedron::Cases.cases[63 - pattern].triangles);
-    return static_cast<unsigned int>(Octahedra::Octahedron::Cases.cases[pattern].triangles);
+    EXPECT_EQ(Octahedron::Cases.cases[pattern].triangles, Octahedron::Cases.cases[63 - pattern].triangles);
+    return static_cast<unsigned int>(Octahedron::Cases.cases[pattern].triangles);
   };
   EXPECT_EQ(trianglesOf(0b000000), 0u);
   EXPECT_EQ(trianglesOf(0b000001), 2u);
@@ -135,7 +132,7 @@ TEST(FCCOctahedraCases, HaveTheTrianglesOfTheirKinds)
   EXPECT_EQ(trianglesOf(0b010101), 4u) << "a face";
   EXPECT_EQ(trianglesOf(0b000111), 6u) << "an opposite pair and another corner";
   EXPECT_EQ(itk::FCCLattice::OwnedEdges.size(), 7u);
-  EXPECT_EQ(Octahedra::Octahedron::Cell.GetEdgeTypes(), 0x7e) << "all but the row edge";
+  EXPECT_EQ(Octahedron::Cell.GetEdgeTypes(), 0x7e) << "all but the row edge";
 }
 
 TEST(FCCParallelepipedCases, ConnectSitesAcrossShortDiagonals)

@@ -6,13 +6,10 @@
 #include "itkLabelWalls.h"
 #include "itkProcessObject.h"
 
-#include <functional>
-
 namespace itk
 {
 
 class FCCLabelBox;
-class WorkProgress;
 
 /** \class FCCLabelSurfaceFilter
  * \brief The walls between the labels of an FCC image, as one mesh: no gaps, no overlaps.
@@ -60,31 +57,52 @@ public:
 
   using Superclass::SetInput;
   void
-  SetInput(const InputImageType * labels);
+  SetInput(const InputImageType * labels)
+  {
+    this->ProcessObject::SetNthInput(0, const_cast<InputImageType *>(labels));
+  }
   const InputImageType *
-  GetInput() const;
+  GetInput() const
+  {
+    return itkDynamicCastInDebugMode<const InputImageType *>(this->GetPrimaryInput());
+  }
 
   /** Weights of the labels near walls, sorted. Default none. */
-  void
-  SetWeights(const FCCLabelWeights * weights);
-  const FCCLabelWeights *
-  GetWeights() const;
+  itkSetInputMacro(Weights, FCCLabelWeights);
+  itkGetInputMacro(Weights, FCCLabelWeights);
 
   LabelWalls *
-  GetOutput();
+  GetOutput()
+  {
+    return itkDynamicCastInDebugMode<LabelWalls *>(this->GetPrimaryOutput());
+  }
   const LabelWalls *
-  GetOutput() const;
+  GetOutput() const
+  {
+    return itkDynamicCastInDebugMode<const LabelWalls *>(this->GetPrimaryOutput());
+  }
 
 protected:
-  FCCLabelSurfaceFilter();
+  FCCLabelSurfaceFilter()
+  {
+    this->SetNumberOfRequiredInputs(1);
+    this->SetNumberOfRequiredOutputs(1);
+    this->ProcessObject::SetNthOutput(0, this->MakeOutput(0));
+  }
   ~FCCLabelSurfaceFilter() override = default;
 
   using Superclass::MakeOutput;
   DataObject::Pointer
-  MakeOutput(DataObjectPointerArraySizeType index) override;
+  MakeOutput(DataObjectPointerArraySizeType) override
+  {
+    return LabelWalls::New().GetPointer();
+  }
 
   void
-  GenerateInputRequestedRegion() override;
+  GenerateInputRequestedRegion() override
+  {
+    const_cast<InputImageType *>(this->GetInput())->SetRequestedRegionToLargestPossibleRegion();
+  }
 
   void
   GenerateData() override;
@@ -96,12 +114,6 @@ private:
     SizeValueType points = 0;
     SizeValueType triangles = 0;
   };
-
-  /** Calls \a work(begin, end) for slabs of planes, on several threads. */
-  void
-  ForEachSlab(SizeValueType planes,
-              WorkProgress & progress,
-              const std::function<void(SizeValueType, SizeValueType)> & work);
 
   /** Writes the points and triangles of the planes from \a begin to \a end - 1. */
   void

@@ -1,10 +1,9 @@
 #include "itkFCCLabelSurfaceFilter.h"
 
+#include "detail/itkForEachSlab.h"
 #include "itkFCCLabelPlane.h"
 #include "itkFCCLabelTie.h"
 #include "itkInputSamples.h"
-#include "itkMultiThreaderBase.h"
-#include "itkThreadFailure.h"
 #include "itkWorkProgress.h"
 
 #include <algorithm>
@@ -126,21 +125,30 @@ private:
   std::optional<FCCLabelPart> m_Parts[16];
 };
 
-SizeValueType
-CountTriangles(const FCCLabelBox & box, const FCCLabelPlane & plane, const FCCLabelPlane & next)
+/** Calls use(row, j, type) for the rows of tetrahedra that a plane stores. */
+template <typename TUse>
+void
+ForEachTetrahedraRow(const FCCLabelBox & box, const FCCLabelPlane & plane, const FCCLabelPlane & next, const TUse & use)
 {
-  SizeValueType count = 0;
   for (SizeValueType j = 0; j < box.GetHeight(); ++j)
   {
     for (unsigned int type = FCCCells::FirstTetrahedron; type < FCCCells::Types; ++type)
     {
       if (box.HasSimplices(j, plane.GetPlane(), type))
       {
-        TetrahedraRow(box, plane, next, j, type)
-          .ForEach(box.GetNumberOfWords(), [&](SizeValueType, const Cells::Case & found) { count += found.size; });
+        use(TetrahedraRow(box, plane, next, j, type), j, type);
       }
     }
   }
+}
+
+SizeValueType
+CountTriangles(const FCCLabelBox & box, const FCCLabelPlane & plane, const FCCLabelPlane & next)
+{
+  SizeValueType count = 0;
+  ForEachTetrahedraRow(box, plane, next, [&](const TetrahedraRow & row, SizeValueType, unsigned int) {
+    row.ForEach(box.GetNumberOfWords(), [&](SizeValueType, const Cells::Case & found) { count += found.size; });
+  });
   return count;
 }
 
@@ -302,122 +310,30 @@ FillTriangles(const FCCLabelBox & box,
               LabelWalls::LabelPairType * pairs)
 {
   const bool isLeftHanded = frame.IsLeftHanded();
-  for (SizeValueType j = 0; j < box.GetHeight(); ++j)
-  {
-    for (unsigned int type = FCCCells::FirstTetrahedron; type < FCCCells::Types; ++type)
-    {
-      if (!box.HasSimplices(j, plane.GetPlane(), type))
+  ForEachTetrahedraRow(box, plane, next, [&](const TetrahedraRow & row, SizeValueType j, unsigned int type) {
+    const FCCCells::Simplex & simplex = FCCCells::Simplices[type];
+    row.ForEach(box.GetNumberOfWords(), [&](SizeValueType i, const Cells::Case & found) {
+      LabelWalls::LabelType labels[4];
+      for (unsigned int n = 0; n < 4; ++n)
       {
-        continue;
+        labels[n] = reader.GetLabel(frame.Step(BoxIndex(i, j, plane.GetPlane()), simplex.steps[n]));
       }
-      const FCCCells::Simplex & simplex = FCCCells::Simplices[type];
-      const TetrahedraRow row(box, plane, next, j, type);
-      row.ForEach(box.GetNumberOfWords(), [&](SizeValueType i, const Cells::Case & found) {
-        LabelWalls::LabelType labels[4];
-        for (unsigned int n = 0; n < 4; ++n)
-        {
-          labels[n] = reader.GetLabel(frame.Step(BoxIndex(i, j, plane.GetPlane()), simplex.steps[n]));
-        }
-        for (unsigned int n = 0; n < found.size; ++n)
-        {
-          const Cells::Triangle & triangle = found.triangles[n];
-          const LabelWalls::LabelType front = labels[triangle.sides[0]];
-          const LabelWalls::LabelType back = labels[triangle.sides[1]];
-          const bool isTurned = (front > back) != (simplex.isPositive == isLeftHanded);
-          const std::uint32_t second = row.GetNumber(triangle.corners[1], i);
-          const std::uint32_t third = row.GetNumber(triangle.corners[2], i);
-          *triangles++ = { row.GetNumber(triangle.corners[0], i),
-                           isTurned ? third : second,
-                           isTurned ? second : third };
-          *pairs++ = { std::min(front, back), std::max(front, back) };
-        }
-      });
-    }
-  }
+      for (unsigned int n = 0; n < found.size; ++n)
+      {
+        const Cells::Triangle & triangle = found.triangles[n];
+        const LabelWalls::LabelType front = labels[triangle.sides[0]];
+        const LabelWalls::LabelType back = labels[triangle.sides[1]];
+        const bool isTurned = (front > back) != (simplex.isPositive == isLeftHanded);
+        const std::uint32_t second = row.GetNumber(triangle.corners[1], i);
+        const std::uint32_t third = row.GetNumber(triangle.corners[2], i);
+        *triangles++ = { row.GetNumber(triangle.corners[0], i), isTurned ? third : second, isTurned ? second : third };
+        *pairs++ = { std::min(front, back), std::max(front, back) };
+      }
+    });
+  });
 }
 
 } // namespace
-
-FCCLabelSurfaceFilter::FCCLabelSurfaceFilter()
-{
-  this->SetNumberOfRequiredInputs(1);
-  this->SetNumberOfRequiredOutputs(1);
-  this->ProcessObject::SetNthOutput(0, this->MakeOutput(0));
-}
-
-void
-FCCLabelSurfaceFilter::SetInput(const InputImageType * labels)
-{
-  this->ProcessObject::SetNthInput(0, const_cast<InputImageType *>(labels));
-}
-
-const FCCLabelSurfaceFilter::InputImageType *
-FCCLabelSurfaceFilter::GetInput() const
-{
-  return itkDynamicCastInDebugMode<const InputImageType *>(this->GetPrimaryInput());
-}
-
-void
-FCCLabelSurfaceFilter::SetWeights(const FCCLabelWeights * weights)
-{
-  this->ProcessObject::SetInput("Weights", const_cast<FCCLabelWeights *>(weights));
-}
-
-const FCCLabelWeights *
-FCCLabelSurfaceFilter::GetWeights() const
-{
-  return itkDynamicCastInDebugMode<const FCCLabelWeights *>(this->ProcessObject::GetInput("Weights"));
-}
-
-LabelWalls *
-FCCLabelSurfaceFilter::GetOutput()
-{
-  return itkDynamicCastInDebugMode<LabelWalls *>(this->GetPrimaryOutput());
-}
-
-const LabelWalls *
-FCCLabelSurfaceFilter::GetOutput() const
-{
-  return itkDynamicCastInDebugMode<const LabelWalls *>(this->GetPrimaryOutput());
-}
-
-DataObject::Pointer
-FCCLabelSurfaceFilter::MakeOutput(DataObjectPointerArraySizeType)
-{
-  return LabelWalls::New().GetPointer();
-}
-
-void
-FCCLabelSurfaceFilter::GenerateInputRequestedRegion()
-{
-  const_cast<InputImageType *>(this->GetInput())->SetRequestedRegionToLargestPossibleRegion();
-}
-
-void
-FCCLabelSurfaceFilter::ForEachSlab(SizeValueType planes,
-                                   WorkProgress & progress,
-                                   const std::function<void(SizeValueType, SizeValueType)> & work)
-{
-  const SizeValueType units = std::max<SizeValueType>(1, this->GetNumberOfWorkUnits());
-  const SizeValueType planesPerSlab = std::clamp<SizeValueType>(planes / (4 * units), 1, 64);
-  ThreadFailure failure;
-  MultiThreaderBase * const threader = this->GetMultiThreader();
-  threader->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
-  threader->ParallelizeArray(
-    0,
-    (planes + planesPerSlab - 1) / planesPerSlab,
-    [&](SizeValueType slab) {
-      failure.Capture([&] {
-        const SizeValueType begin = slab * planesPerSlab;
-        const SizeValueType end = std::min(begin + planesPerSlab, planes);
-        progress.CheckAbort();
-        work(begin, end);
-        progress.Completed(end - begin);
-      });
-    },
-    nullptr);
-  failure.Rethrow();
-}
 
 void
 FCCLabelSurfaceFilter::Fill(const FCCLabelBox & box,
@@ -465,8 +381,15 @@ FCCLabelSurfaceFilter::GenerateData()
                         { region.GetSize(0), region.GetSize(1), region.GetSize(2) },
                         FCCLattice::Parity(region.GetIndex(1), region.GetIndex(2)));
   WorkProgress progress(*this, 2 * box.GetDepth());
+  const auto forEachSlab = [&](const auto & work) {
+    ForEachSlab(*this, box.GetDepth(), 1, 64, [&](SizeValueType begin, SizeValueType end) {
+      progress.CheckAbort();
+      work(begin, end);
+      progress.Completed(end - begin);
+    });
+  };
   std::vector<Counts> before(box.GetDepth() + 1); // first the counts of plane k at k + 1
-  this->ForEachSlab(box.GetDepth(), progress, [&](SizeValueType begin, SizeValueType end) {
+  forEachSlab([&](SizeValueType begin, SizeValueType end) {
     PlaneWindow window(box, begin);
     for (SizeValueType k = begin; k < end; ++k)
     {
@@ -489,8 +412,7 @@ FCCLabelSurfaceFilter::GenerateData()
   walls.GetPoints().resize(before.back().points);
   walls.GetTriangles().resize(before.back().triangles);
   walls.GetTriangleLabels().resize(before.back().triangles);
-  this->ForEachSlab(
-    box.GetDepth(), progress, [&](SizeValueType begin, SizeValueType end) { this->Fill(box, begin, end, before); });
+  forEachSlab([&](SizeValueType begin, SizeValueType end) { this->Fill(box, begin, end, before); });
   progress.Finish();
 }
 

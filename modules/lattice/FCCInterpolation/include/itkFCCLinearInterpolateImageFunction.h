@@ -1,6 +1,6 @@
 #ifndef itkFCCLinearInterpolateImageFunction_h
 #define itkFCCLinearInterpolateImageFunction_h
-
+#include "detail/itkFCCTetrahedron.h"
 #include "itkFCCImage.h"
 #include "itkInterpolateImageFunction.h"
 
@@ -43,10 +43,46 @@ public:
                 "FCCLinearInterpolateImageFunction interpolates FCCImages only");
 
   void
-  SetInputImage(const TInputImage * image) override;
+  SetInputImage(const TInputImage * image) override
+  {
+    Superclass::SetInputImage(image);
+    if (image != nullptr)
+    {
+      // The extent along x is half a lattice unit, a quarter of an index, around the even and odd rows' samples.
+      this->m_StartContinuousIndex[0] += static_cast<TCoordRep>(0.25);
+      this->m_EndContinuousIndex[0] += static_cast<TCoordRep>(0.25);
+    }
+  }
 
   OutputType
-  EvaluateAtContinuousIndex(const ContinuousIndexType & index) const override;
+  EvaluateAtContinuousIndex(const ContinuousIndexType & index) const override
+  {
+    const TInputImage * const image = this->GetInputImage();
+    const std::array<double, 3> point{ 2.0 * index[0], static_cast<double>(index[1]), static_cast<double>(index[2]) };
+    const FCCTetrahedron tetrahedron = LocateFCCTetrahedron(point);
+
+    double sum = 0.0;
+    double weight = 0.0;
+    for (unsigned int corner = 0; corner < 4; ++corner)
+    {
+      const IndexType site = FCCLattice::IndexOf(tetrahedron.sites[corner]);
+      if (tetrahedron.weights[corner] > 0.0 && this->IsInsideBuffer(site))
+      {
+        sum += tetrahedron.weights[corner] * static_cast<double>(image->GetPixel(site));
+        weight += tetrahedron.weights[corner];
+      }
+    }
+    if (weight > 0.0)
+    {
+      return static_cast<OutputType>(sum / weight);
+    }
+    IndexType nearest = FCCLattice::IndexOf(FCCLattice::NearestSite(point));
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      nearest[axis] = std::min(std::max(nearest[axis], this->m_StartIndex[axis]), this->m_EndIndex[axis]);
+    }
+    return static_cast<OutputType>(image->GetPixel(nearest));
+  }
 
   /** One sample in each direction. */
   SizeType
@@ -61,9 +97,5 @@ protected:
 };
 
 } // namespace itk
-
-#ifndef ITK_MANUAL_INSTANTIATION
-#include "itkFCCLinearInterpolateImageFunction.hxx"
-#endif
 
 #endif

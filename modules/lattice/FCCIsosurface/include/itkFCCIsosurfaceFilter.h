@@ -8,6 +8,7 @@
 #include "itkWorkProgress.h"
 #include "rhombicPixelTypes.h"
 
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -114,19 +115,51 @@ public:
 
   using Superclass::SetInput;
   void
-  SetInput(const InputImageType * image);
+  SetInput(const InputImageType * image)
+  {
+    this->ProcessObject::SetNthInput(0, const_cast<InputImageType *>(image));
+  }
   const InputImageType *
-  GetInput() const;
+  GetInput() const
+  {
+    return itkDynamicCastInDebugMode<const InputImageType *>(this->GetPrimaryInput());
+  }
 
   /** The surface of the first isovalue, or of the \a n-th. */
   TriangleSurface *
-  GetOutput(DataObjectPointerArraySizeType n = 0);
+  GetOutput(DataObjectPointerArraySizeType n = 0)
+  {
+    return itkDynamicCastInDebugMode<TriangleSurface *>(this->ProcessObject::GetOutput(n));
+  }
   const TriangleSurface *
-  GetOutput(DataObjectPointerArraySizeType n = 0) const;
+  GetOutput(DataObjectPointerArraySizeType n = 0) const
+  {
+    return itkDynamicCastInDebugMode<const TriangleSurface *>(this->ProcessObject::GetOutput(n));
+  }
 
   /** The values at which surfaces lie, in units of the pixels: at least one, all finite. Default 0. */
   void
-  SetIsovalues(const std::vector<double> & isovalues);
+  SetIsovalues(const std::vector<double> & isovalues)
+  {
+    if (isovalues == m_Isovalues)
+    {
+      return;
+    }
+    if (isovalues.empty())
+    {
+      itkExceptionMacro("There must be at least one isovalue; leave the Isovalues at 0 or choose one.");
+    }
+    m_Isovalues = isovalues;
+    this->SetNumberOfIndexedOutputs(isovalues.size());
+    for (std::size_t n = 0; n < isovalues.size(); ++n)
+    {
+      if (this->ProcessObject::GetOutput(n) == nullptr)
+      {
+        this->ProcessObject::SetNthOutput(n, this->MakeOutput(n));
+      }
+    }
+    this->Modified();
+  }
   const std::vector<double> &
   GetIsovalues() const
   {
@@ -172,24 +205,71 @@ public:
   itkGetConstMacro(NumberOfStreamDivisions, unsigned int);
 
 protected:
-  FCCIsosurfaceFilter();
+  FCCIsosurfaceFilter()
+  {
+    this->SetNumberOfRequiredInputs(1);
+    this->SetNumberOfRequiredOutputs(1);
+    this->ProcessObject::SetNthOutput(0, this->MakeOutput(0));
+  }
   ~FCCIsosurfaceFilter() override = default;
 
   void
-  PrintSelf(std::ostream & os, Indent indent) const override;
+  PrintSelf(std::ostream & os, Indent indent) const override
+  {
+    Superclass::PrintSelf(os, indent);
+    os << indent << "Isovalues:";
+    for (const double isovalue : m_Isovalues)
+    {
+      os << ' ' << isovalue;
+    }
+    os << std::endl;
+    os << indent << "Mode: " << m_Mode << std::endl;
+    os << indent << "ComputeNormals: " << (m_ComputeNormals ? "On" : "Off") << std::endl;
+    os << indent << "NumberOfUndefinedSamples: " << m_NumberOfUndefinedSamples << std::endl;
+    os << indent << "InsideIsBelow: " << (m_InsideIsBelow ? "On" : "Off") << std::endl;
+    os << indent << "Closed: " << (m_Closed ? "On" : "Off") << std::endl;
+    os << indent << "NumberOfStreamDivisions: " << m_NumberOfStreamDivisions << std::endl;
+  }
 
   using Superclass::MakeOutput;
   DataObject::Pointer
-  MakeOutput(DataObjectPointerArraySizeType index) override;
+  MakeOutput(DataObjectPointerArraySizeType) override
+  {
+    return TriangleSurface::New().GetPointer();
+  }
 
   void
-  VerifyPreconditions() ITKv5_CONST override;
+  VerifyPreconditions() ITKv5_CONST override
+  {
+    Superclass::VerifyPreconditions();
+    for (const double isovalue : m_Isovalues)
+    {
+      if (!std::isfinite(isovalue))
+      {
+        itkExceptionMacro("Isovalue must be a finite number, not " << isovalue
+                                                                   << "; choose one in the range of the samples.");
+      }
+    }
+    if (m_Mode > FCCIsosurfaceMode::Lean)
+    {
+      itkExceptionMacro("There is no Mode number " << static_cast<int>(m_Mode) << "; use one of FCCIsosurfaceMode.");
+    }
+  }
 
   void
-  GenerateInputRequestedRegion() override;
+  GenerateInputRequestedRegion() override
+  {
+    const SizeValueType depth = this->GetRegion().GetSize(2);
+    const_cast<InputImageType *>(this->GetInput())
+      ->SetRequestedRegion(this->RegionOf(this->FindDivision(depth, 0), depth, 0));
+  }
 
   void
-  CacheInputReleaseDataFlags() override;
+  CacheInputReleaseDataFlags() override
+  {
+    m_ReleasesInput = this->GetInput()->ShouldIReleaseData();
+    Superclass::CacheInputReleaseDataFlags();
+  }
 
   void
   GenerateData() override;
@@ -214,9 +294,15 @@ private:
     return this->GetInput()->GetBufferedRegion().IsInside(this->GetRegion());
   }
 
-  /** A sample in an image's buffer, counted from the first of its largest possible region. */
+  /** The samples of a row in an image's buffer. Rows are counted from the first of the largest possible region. */
   static const PixelType *
-  GetSample(const InputImageType & image, SizeValueType i, SizeValueType j, SizeValueType k);
+  GetRow(const InputImageType & image, SizeValueType j, SizeValueType k)
+  {
+    const auto & first = image.GetLargestPossibleRegion().GetIndex();
+    return image.GetBufferPointer() +
+           image.ComputeOffset(
+             { { first[0], first[1] + static_cast<IndexValueType>(j), first[2] + static_cast<IndexValueType>(k) } });
+  }
 
   /** Its readers read what the input's buffer holds when they are called. */
   FCCScalarField
@@ -270,7 +356,7 @@ private:
   void
   ForEachLoadedSlab(SizeValueType planes, SizeValueType around, float share, const TWork & work);
 
-  /** How many planes each thread works at in one go: few keep threads busy, many save work at their borders. */
+  /** How many planes each thread works at in one go, see itk::ForEachSlab(). */
   struct PlanesInOneGo
   {
     SizeValueType least;

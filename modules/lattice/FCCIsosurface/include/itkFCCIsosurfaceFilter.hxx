@@ -1,11 +1,10 @@
 #ifndef itkFCCIsosurfaceFilter_hxx
 #define itkFCCIsosurfaceFilter_hxx
 
+#include "detail/itkForEachSlab.h"
 #include "itkAbortForwarding.h"
 #include "itkFCCRowKernels.h"
 #include "itkInputSamples.h"
-#include "itkMultiThreaderBase.h"
-#include "itkThreadFailure.h"
 
 #include <algorithm>
 #include <atomic>
@@ -14,128 +13,6 @@
 
 namespace itk
 {
-
-template <typename TInputImage>
-FCCIsosurfaceFilter<TInputImage>::FCCIsosurfaceFilter()
-{
-  this->SetNumberOfRequiredInputs(1);
-  this->SetNumberOfRequiredOutputs(1);
-  this->ProcessObject::SetNthOutput(0, this->MakeOutput(0));
-}
-
-template <typename TInputImage>
-void
-FCCIsosurfaceFilter<TInputImage>::SetInput(const InputImageType * image)
-{
-  this->ProcessObject::SetNthInput(0, const_cast<InputImageType *>(image));
-}
-
-template <typename TInputImage>
-auto
-FCCIsosurfaceFilter<TInputImage>::GetInput() const -> const InputImageType *
-{
-  return itkDynamicCastInDebugMode<const InputImageType *>(this->GetPrimaryInput());
-}
-
-template <typename TInputImage>
-TriangleSurface *
-FCCIsosurfaceFilter<TInputImage>::GetOutput(DataObjectPointerArraySizeType n)
-{
-  return itkDynamicCastInDebugMode<TriangleSurface *>(this->ProcessObject::GetOutput(n));
-}
-
-template <typename TInputImage>
-const TriangleSurface *
-FCCIsosurfaceFilter<TInputImage>::GetOutput(DataObjectPointerArraySizeType n) const
-{
-  return itkDynamicCastInDebugMode<const TriangleSurface *>(this->ProcessObject::GetOutput(n));
-}
-
-template <typename TInputImage>
-void
-FCCIsosurfaceFilter<TInputImage>::SetIsovalues(const std::vector<double> & isovalues)
-{
-  if (isovalues == m_Isovalues)
-  {
-    return;
-  }
-  if (isovalues.empty())
-  {
-    itkExceptionMacro("There must be at least one isovalue; leave the Isovalues at 0 or choose one.");
-  }
-  m_Isovalues = isovalues;
-  this->SetNumberOfIndexedOutputs(isovalues.size());
-  for (std::size_t n = 0; n < isovalues.size(); ++n)
-  {
-    if (this->ProcessObject::GetOutput(n) == nullptr)
-    {
-      this->ProcessObject::SetNthOutput(n, this->MakeOutput(n));
-    }
-  }
-  this->Modified();
-}
-
-template <typename TInputImage>
-DataObject::Pointer
-FCCIsosurfaceFilter<TInputImage>::MakeOutput(DataObjectPointerArraySizeType)
-{
-  return TriangleSurface::New().GetPointer();
-}
-
-template <typename TInputImage>
-void
-FCCIsosurfaceFilter<TInputImage>::PrintSelf(std::ostream & os, Indent indent) const
-{
-  Superclass::PrintSelf(os, indent);
-  os << indent << "Isovalues:";
-  for (const double isovalue : m_Isovalues)
-  {
-    os << ' ' << isovalue;
-  }
-  os << std::endl;
-  os << indent << "Mode: " << m_Mode << std::endl;
-  os << indent << "ComputeNormals: " << (m_ComputeNormals ? "On" : "Off") << std::endl;
-  os << indent << "NumberOfUndefinedSamples: " << m_NumberOfUndefinedSamples << std::endl;
-  os << indent << "InsideIsBelow: " << (m_InsideIsBelow ? "On" : "Off") << std::endl;
-  os << indent << "Closed: " << (m_Closed ? "On" : "Off") << std::endl;
-  os << indent << "NumberOfStreamDivisions: " << m_NumberOfStreamDivisions << std::endl;
-}
-
-template <typename TInputImage>
-void
-FCCIsosurfaceFilter<TInputImage>::VerifyPreconditions() ITKv5_CONST
-{
-  Superclass::VerifyPreconditions();
-  for (const double isovalue : m_Isovalues)
-  {
-    if (!std::isfinite(isovalue))
-    {
-      itkExceptionMacro("Isovalue must be a finite number, not " << isovalue
-                                                                 << "; choose one in the range of the samples.");
-    }
-  }
-  if (m_Mode > FCCIsosurfaceMode::Lean)
-  {
-    itkExceptionMacro("There is no Mode number " << static_cast<int>(m_Mode) << "; use one of FCCIsosurfaceMode.");
-  }
-}
-
-template <typename TInputImage>
-void
-FCCIsosurfaceFilter<TInputImage>::GenerateInputRequestedRegion()
-{
-  const SizeValueType depth = this->GetRegion().GetSize(2);
-  const_cast<InputImageType *>(this->GetInput())
-    ->SetRequestedRegion(this->RegionOf(this->FindDivision(depth, 0), depth, 0));
-}
-
-template <typename TInputImage>
-void
-FCCIsosurfaceFilter<TInputImage>::CacheInputReleaseDataFlags()
-{
-  m_ReleasesInput = this->GetInput()->ShouldIReleaseData();
-  Superclass::CacheInputReleaseDataFlags();
-}
 
 template <typename TInputImage>
 void
@@ -210,8 +87,8 @@ void
 FCCIsosurfaceFilter<TInputImage>::Resolve(FCCSurfaceExtractor & extractor, float share)
 {
   const SizeValueType last = m_WorkProgress->GetCompleted() + AmountOf(share);
-  FCCSurfaceExtractor::Crew crew;
-  crew.forEach = [this, share](SizeValueType count, float part, const std::function<void(SizeValueType)> & work) {
+  FCCSurfaceExtractor::Workers workers;
+  workers.forEach = [this, share](SizeValueType count, float part, const std::function<void(SizeValueType)> & work) {
     const auto forEach = [&work](SizeValueType begin, SizeValueType end) {
       for (SizeValueType n = begin; n < end; ++n)
       {
@@ -220,8 +97,8 @@ FCCIsosurfaceFilter<TInputImage>::Resolve(FCCSurfaceExtractor & extractor, float
     };
     this->ForEachSlab({ 0, count }, part * share, forEach, { 1, 1 });
   };
-  crew.checkAbort = [this] { m_WorkProgress->CheckAbort(); };
-  extractor.Resolve(crew);
+  workers.checkAbort = [this] { m_WorkProgress->CheckAbort(); };
+  extractor.Resolve(workers);
   m_WorkProgress->Completed(last - std::min(last, m_WorkProgress->GetCompleted())); // the work was estimated
 }
 
@@ -344,26 +221,12 @@ FCCIsosurfaceFilter<TInputImage>::ForEachSlab(const Planes & planes,
                                               const PlanesInOneGo & inOneGo)
 {
   const SizeValueType count = planes.end - planes.begin;
-  const SizeValueType units = std::max<SizeValueType>(1, this->GetNumberOfWorkUnits());
-  const SizeValueType planesPerSlab = std::clamp(count / (4 * units), inOneGo.least, inOneGo.most);
-  const SizeValueType slabs = (count + planesPerSlab - 1) / planesPerSlab;
   const SizeValueType amount = AmountOf(share);
-  ThreadFailure failure;
-  MultiThreaderBase * const threader = this->GetMultiThreader();
-  threader->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
-  threader->ParallelizeArray(
-    0,
-    slabs,
-    [&](SizeValueType slab) {
-      failure.Capture([&] {
-        m_WorkProgress->CheckAbort();
-        const SizeValueType begin = planes.begin + slab * planesPerSlab;
-        work(begin, std::min(begin + planesPerSlab, planes.end));
-        m_WorkProgress->Completed(amount * (slab + 1) / slabs - amount * slab / slabs);
-      });
-    },
-    nullptr);
-  failure.Rethrow();
+  itk::ForEachSlab(*this, count, inOneGo.least, inOneGo.most, [&](SizeValueType begin, SizeValueType end) {
+    m_WorkProgress->CheckAbort();
+    work(planes.begin + begin, planes.begin + end);
+    m_WorkProgress->Completed(amount * end / count - amount * begin / count);
+  });
 }
 
 template <typename TInputImage>
@@ -390,7 +253,7 @@ FCCIsosurfaceFilter<TInputImage>::Classify(SizeValueType margin)
       m_WorkProgress->CheckAbort();
       for (SizeValueType j = 0; j < region.GetSize(1); ++j)
       {
-        const PixelType * const values = GetSample(*image, 0, j, k);
+        const PixelType * const values = GetRow(*image, j, k);
         if constexpr (std::is_floating_point_v<PixelType>)
         {
           for (SizeValueType i = 0; i < region.GetSize(0); ++i)
@@ -435,19 +298,6 @@ FCCIsosurfaceFilter<TInputImage>::Allocate(TriangleSurface & surface,
 }
 
 template <typename TInputImage>
-auto
-FCCIsosurfaceFilter<TInputImage>::GetSample(const InputImageType & image,
-                                            SizeValueType i,
-                                            SizeValueType j,
-                                            SizeValueType k) -> const PixelType *
-{
-  const auto & first = image.GetLargestPossibleRegion().GetIndex();
-  return image.GetBufferPointer() + image.ComputeOffset({ { first[0] + static_cast<IndexValueType>(i),
-                                                            first[1] + static_cast<IndexValueType>(j),
-                                                            first[2] + static_cast<IndexValueType>(k) } });
-}
-
-template <typename TInputImage>
 FCCScalarField
 FCCIsosurfaceFilter<TInputImage>::MakeField(double isovalue, RecyclingMemory & scratch) const
 {
@@ -455,7 +305,7 @@ FCCIsosurfaceFilter<TInputImage>::MakeField(double isovalue, RecyclingMemory & s
   const SizeValueType width = this->GetRegion().GetSize(0);
   const auto readRow = [this, image, width, isovalue](SizeValueType j, SizeValueType k, float * values) {
     m_WorkProgress->CheckAbort(); // slabs take long
-    FCCRowKernels::Subtract(GetSample(*image, 0, j, k), width, isovalue, values);
+    FCCRowKernels::Subtract(GetRow(*image, j, k), width, isovalue, values);
   };
   return { this->GetRegion(), this->MakeFrame(), m_InsideIsBelow, m_Closed, m_UsedFraction, readRow, &scratch };
 }

@@ -12,16 +12,8 @@ template <typename TPixel>
 Point<double, 3>
 FindFCCOuterCorner(const FCCImage<TPixel> & lattice, bool isHigh)
 {
-  constexpr double unitsPerIndex[3] = { 2.0, 1.0, 1.0 };
-  const auto & region = lattice.GetLargestPossibleRegion();
-  std::array<double, 3> corner{};
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    const auto index =
-      static_cast<double>(region.GetIndex(axis)) + (isHigh ? static_cast<double>(region.GetSize(axis)) : 0.0);
-    corner[axis] = unitsPerIndex[axis] * index - 0.5;
-  }
-  return lattice.template TransformLatticeToPhysicalPoint<double>(corner);
+  const FCCExtent extent(lattice.GetLargestPossibleRegion());
+  return lattice.template TransformLatticeToPhysicalPoint<double>(isHigh ? extent.GetHighest() : extent.GetLowest());
 }
 
 /** Moves the walls that close a surface to the outer faces of the scan's outermost voxels. A lattice ends a little

@@ -74,7 +74,7 @@ public:
   ITK_DISALLOW_COPY_AND_MOVE(FCCSurfaceExtractor);
 
   /** The threads that Resolve() works with. */
-  struct Crew
+  struct Workers
   {
     /** Calls work(n) for n from 0 to count - 1, on several threads. \a share is that of Resolve()'s progress. */
     std::function<void(SizeValueType count, float share, const std::function<void(SizeValueType n)> & work)> forEach;
@@ -96,7 +96,7 @@ public:
 
   virtual ~FCCSurfaceExtractor() = default;
 
-  /** Whether Count() reads samples; if not, the signs are enough. */
+  /** Whether Count() reads samples; otherwise the signs are enough. */
   virtual bool
   CountReadsSamples() const = 0;
 
@@ -106,15 +106,24 @@ public:
 
   /** Finds from the counts where the points and triangles of each plane begin. Reads no samples. */
   virtual void
-  Resolve(const Crew & crew) = 0;
+  Resolve(const Workers &)
+  {
+    this->SumUp();
+  }
 
   /** The number of points of the surface, known once resolved. */
-  virtual SizeValueType
-  GetNumberOfPoints() const = 0;
+  SizeValueType
+  GetNumberOfPoints() const
+  {
+    return m_FirstPoint.back();
+  }
 
   /** At least the number of triangles of the surface, known once resolved. */
-  virtual SizeValueType
-  GetMostTriangles() const = 0;
+  SizeValueType
+  GetMostTriangles() const
+  {
+    return m_FirstTriangle.back();
+  }
 
   /** Makes the points and triangles of planes. */
   virtual void
@@ -122,10 +131,25 @@ public:
 
   /** Removes the room that the surface did not need. */
   virtual void
-  Finish(TriangleSurface & surface) = 0;
+  Finish(TriangleSurface &)
+  {}
 
 protected:
-  FCCSurfaceExtractor() = default;
+  FCCSurfaceExtractor(const FCCSigns & signs, const FCCScalarField & field)
+    : m_Signs(signs)
+    , m_Field(field)
+    , m_FirstPoint(signs.GetDepth() + 1)
+    , m_FirstTriangle(signs.GetDepth() + 1)
+  {}
+
+  /** Turns the counts of points and triangles into the numbers before each plane. */
+  void
+  SumUp();
+
+  const FCCSigns & m_Signs;
+  FCCScalarField m_Field;
+  std::vector<SizeValueType> m_FirstPoint;    ///< by plane: the count until Resolve(); at the end the sum
+  std::vector<SizeValueType> m_FirstTriangle; ///< the same for triangles, or for the most there can be
 };
 
 } // namespace itk

@@ -1,8 +1,8 @@
 #include "itkFCCSurfaceExtractor.h"
 
-#include "itkFCCCellExtractor.h"
-#include "itkFCCLeanExtractor.h"
-#include "itkFCCTetrahedraExtractor.h"
+#include "itkFCCExtractors.h"
+
+#include <utility>
 
 namespace itk
 {
@@ -19,15 +19,28 @@ FCCSurfaceExtractor::Make(FCCIsosurfaceMode mode, const FCCSigns & signs, const 
   switch (mode)
   {
     case FCCIsosurfaceMode::Tetrahedra:
-      return std::make_unique<FCCTetrahedraExtractor>(signs, field, false);
+      return MakeFCCTetrahedraExtractor(signs, field, false);
     case FCCIsosurfaceMode::Fine:
-      return std::make_unique<FCCTetrahedraExtractor>(signs, field, true);
+      return MakeFCCTetrahedraExtractor(signs, field, true);
     case FCCIsosurfaceMode::Octahedra:
-      return std::make_unique<FCCCellExtractor>(signs, field, FCCCellScheme::Octahedra);
+      return MakeFCCCellExtractor(signs, field, FCCCellScheme::Octahedra);
     case FCCIsosurfaceMode::Parallelepipeds:
-      return std::make_unique<FCCCellExtractor>(signs, field, FCCCellScheme::Parallelepipeds);
+      return MakeFCCCellExtractor(signs, field, FCCCellScheme::Parallelepipeds);
     default:
-      return std::make_unique<FCCLeanExtractor>(signs, field);
+      return MakeFCCLeanExtractor(signs, field);
+  }
+}
+
+void
+FCCSurfaceExtractor::SumUp()
+{
+  for (std::vector<SizeValueType> * const counts : { &m_FirstPoint, &m_FirstTriangle })
+  {
+    SizeValueType sum = 0;
+    for (SizeValueType & count : *counts)
+    {
+      sum += std::exchange(count, sum);
+    }
   }
 }
 

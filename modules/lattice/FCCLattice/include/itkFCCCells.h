@@ -124,7 +124,8 @@ struct FCCCells
     bool isPositive = false; ///< whether FCCStep::Orientation() of a tetrahedron's sites is
   };
 
-  /** The simplices that a site stores: edges in the order of FCCLattice::OwnedEdges, faces, tetrahedra. */
+  /** The simplices that a site stores: edges in the order of FCCLattice::OwnedEdges, faces, tetrahedra. Of these,
+   * the first two are the regular tetrahedra in the unit cubes after and before the site. */
   static const std::array<Simplex, Types> Simplices;
 
   /** The number of members of a set of at most four sites. */

@@ -1,8 +1,7 @@
 #ifndef itkFCCImage_h
 #define itkFCCImage_h
-
 #include "itkContinuousIndex.h"
-#include "itkFCCLattice.h"
+#include "itkFCCExtent.h"
 #include "itkNumericTraits.h"
 #include "itkSpecialCoordinatesImage.h"
 
@@ -25,7 +24,7 @@ namespace itk
  * image. Spacing may differ between the axes, and Direction may be any invertible matrix.
  *
  * The *extent* of an image is the box from half a lattice unit before its first sites to half a unit after its last
- * ones along each axis; points in it count as inside.
+ * ones along each axis (see FCCExtent); points in it count as inside.
  *
  * A continuous index is (x / 2, y, z): linear in the point. It equals the index in rows of parity 0; the samples of a
  * row of parity 1 lie at i + 1/2. Interpolators written for Cartesian images are therefore wrong on an FCCImage; use
@@ -124,75 +123,157 @@ public:
   /** Lattice coordinates of a point, any real numbers. */
   template <typename TCoordRep>
   std::array<double, 3>
-  TransformPhysicalPointToLattice(const Point<TCoordRep, 3> & point) const;
+  TransformPhysicalPointToLattice(const Point<TCoordRep, 3> & point) const
+  {
+    std::array<double, 3> coordinates{};
+    for (unsigned int row = 0; row < 3; ++row)
+    {
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        coordinates[row] += this->m_PhysicalPointToIndex[row][axis] * (point[axis] - this->m_Origin[axis]);
+      }
+    }
+    return coordinates;
+  }
 
   /** The point with the given lattice coordinates. */
   template <typename TCoordRep>
   Point<TCoordRep, 3>
-  TransformLatticeToPhysicalPoint(const std::array<double, 3> & coordinates) const;
+  TransformLatticeToPhysicalPoint(const std::array<double, 3> & coordinates) const
+  {
+    Point<TCoordRep, 3> point;
+    for (unsigned int row = 0; row < 3; ++row)
+    {
+      double sum = this->m_Origin[row];
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        sum += this->m_IndexToPhysicalPoint[row][axis] * coordinates[axis];
+      }
+      point[row] = static_cast<TCoordRep>(sum);
+    }
+    return point;
+  }
 
   /** Whether lattice coordinates lie in the extent of a region of this image. */
   static bool
-  IsInsideExtent(const std::array<double, 3> & coordinates, const RegionType & region);
+  IsInsideExtent(const std::array<double, 3> & coordinates, const RegionType & region)
+  {
+    return FCCExtent(region).IsInside(coordinates);
+  }
 
   /** Index of the sample whose Voronoi cell holds the point; returns whether it is in the largest possible region. */
   template <typename TCoordRep>
   bool
-  TransformPhysicalPointToIndex(const Point<TCoordRep, 3> & point, IndexType & index) const;
+  TransformPhysicalPointToIndex(const Point<TCoordRep, 3> & point, IndexType & index) const
+  {
+    index = FCCLattice::IndexOf(FCCLattice::NearestSite(this->TransformPhysicalPointToLattice(point)));
+    return this->GetLargestPossibleRegion().IsInside(index);
+  }
 
   /** The same, inside or not. */
   template <typename TCoordRep>
   IndexType
-  TransformPhysicalPointToIndex(const Point<TCoordRep, 3> & point) const;
+  TransformPhysicalPointToIndex(const Point<TCoordRep, 3> & point) const
+  {
+    IndexType index;
+    this->TransformPhysicalPointToIndex(point, index);
+    return index;
+  }
 
   /** Continuous index of a point; returns whether it is in the extent of the largest possible region. */
   template <typename TCoordRep, typename TIndexRep>
   bool
   TransformPhysicalPointToContinuousIndex(const Point<TCoordRep, 3> & point,
-                                          ContinuousIndex<TIndexRep, 3> & index) const;
+                                          ContinuousIndex<TIndexRep, 3> & index) const
+  {
+    const auto coordinates = this->TransformPhysicalPointToLattice(point);
+    index[0] = static_cast<TIndexRep>(coordinates[0] / 2.0);
+    index[1] = static_cast<TIndexRep>(coordinates[1]);
+    index[2] = static_cast<TIndexRep>(coordinates[2]);
+    return IsInsideExtent(coordinates, this->GetLargestPossibleRegion());
+  }
 
   /** The same, inside or not. */
   template <typename TIndexRep, typename TCoordRep>
   ContinuousIndex<TIndexRep, 3>
-  TransformPhysicalPointToContinuousIndex(const Point<TCoordRep, 3> & point) const;
+  TransformPhysicalPointToContinuousIndex(const Point<TCoordRep, 3> & point) const
+  {
+    ContinuousIndex<TIndexRep, 3> index;
+    this->TransformPhysicalPointToContinuousIndex(point, index);
+    return index;
+  }
 
   /** The point, in LPS mm, at a continuous index inside or outside of the image. */
   template <typename TCoordRep, typename TIndexRep>
   void
   TransformContinuousIndexToPhysicalPoint(const ContinuousIndex<TIndexRep, 3> & index,
-                                          Point<TCoordRep, 3> & point) const;
+                                          Point<TCoordRep, 3> & point) const
+  {
+    point = this->template TransformLatticeToPhysicalPoint<TCoordRep>(
+      { 2.0 * static_cast<double>(index[0]), static_cast<double>(index[1]), static_cast<double>(index[2]) });
+  }
 
   /** The same, returned. */
   template <typename TCoordRep, typename TIndexRep>
   Point<TCoordRep, 3>
-  TransformContinuousIndexToPhysicalPoint(const ContinuousIndex<TIndexRep, 3> & index) const;
+  TransformContinuousIndexToPhysicalPoint(const ContinuousIndex<TIndexRep, 3> & index) const
+  {
+    Point<TCoordRep, 3> point;
+    this->TransformContinuousIndexToPhysicalPoint(index, point);
+    return point;
+  }
 
   /** The point, in LPS mm, of a sample inside or outside of the image. */
   template <typename TCoordRep>
   void
-  TransformIndexToPhysicalPoint(const IndexType & index, Point<TCoordRep, 3> & point) const;
+  TransformIndexToPhysicalPoint(const IndexType & index, Point<TCoordRep, 3> & point) const
+  {
+    const SiteType site = FCCLattice::SiteOf(index);
+    point = this->template TransformLatticeToPhysicalPoint<TCoordRep>(
+      { static_cast<double>(site[0]), static_cast<double>(site[1]), static_cast<double>(site[2]) });
+  }
 
   /** The same, returned. */
   template <typename TCoordRep>
   Point<TCoordRep, 3>
-  TransformIndexToPhysicalPoint(const IndexType & index) const;
+  TransformIndexToPhysicalPoint(const IndexType & index) const
+  {
+    Point<TCoordRep, 3> point;
+    this->TransformIndexToPhysicalPoint(index, point);
+    return point;
+  }
 
   /** Shares another FCCImage's pixels and takes over its geometry and regions. */
   void
-  Graft(const Self * image);
+  Graft(const Self * image)
+  {
+    if (image != nullptr)
+    {
+      Superclass::Graft(image);
+      this->SetPixelContainer(const_cast<typename Superclass::PixelContainer *>(image->GetPixelContainer()));
+    }
+  }
 
 protected:
   FCCImage() = default;
   ~FCCImage() override = default;
 
   void
-  Graft(const DataObject * data) override;
+  Graft(const DataObject * data) override
+  {
+    if (data == nullptr)
+    {
+      return;
+    }
+    const auto * const image = dynamic_cast<const Self *>(data);
+    if (image == nullptr)
+    {
+      itkExceptionMacro("Only an FCCImage of the same pixel type can be grafted; got " << data->GetNameOfClass());
+    }
+    this->Graft(image);
+  }
 };
 
 } // namespace itk
-
-#ifndef ITK_MANUAL_INSTANTIATION
-#include "itkFCCImage.hxx"
-#endif
 
 #endif

@@ -1,7 +1,7 @@
 #ifndef itkFCCBoxSpline_h
 #define itkFCCBoxSpline_h
 
-#include "itkFCCLattice.h"
+#include "detail/itkFCCTetrahedron.h"
 
 namespace itk
 {
@@ -129,10 +129,6 @@ struct FCCBoxSpline
   /** The spline of the coefficients of a piece's sites, in their order. */
   static Cubic
   MakeCubic(const Piece & piece, const std::array<double, SupportSize> & coefficients);
-
-  /** phi and its gradient. For many sites at a time, MakeCubic() is faster. */
-  static Jet
-  Evaluate(const PointType & point);
 
 private:
   /** An affine function of the piece's coordinates: the factors of 1, x, y and z. */
@@ -284,29 +280,15 @@ inline constexpr FCCBoxSpline::Table FCCBoxSpline::Tables[2] = { FCCBoxSpline::M
 inline auto
 FCCBoxSpline::FindPiece(const PointType & point) -> Piece
 {
-  // Within the unit cube, mirrored along x when needed so that its lowest corner is a site.
-  Piece piece{ Cube, {}, { 1, 1, 1 }, {} };
-  PointType local;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    const double lower = std::floor(point[axis]);
-    piece.origin[axis] = static_cast<IndexValueType>(lower);
-    local[axis] = point[axis] - lower;
-  }
-  if (!FCCLattice::IsSite(piece.origin))
-  {
-    piece.origin[0] += 1;
-    piece.direction[0] = -1;
-    local[0] = 1.0 - local[0];
-  }
-
+  const FCCUnitCube cube(point);
+  Piece piece{ Cube, cube.corner, { cube.xStep, 1, 1 }, {} };
   constexpr SiteType cubeSites[4] = { { 0, 0, 0 }, { 1, 1, 0 }, { 1, 0, 1 }, { 0, 1, 1 } };
   for (const SiteType & site : cubeSites)
   {
     double distance = 0.0;
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      distance += site[axis] == 0 ? local[axis] : 1.0 - local[axis];
+      distance += site[axis] == 0 ? cube.local[axis] : 1.0 - cube.local[axis];
     }
     if (distance < 1.0)
     {
@@ -343,26 +325,6 @@ FCCBoxSpline::MakeCubic(const Piece & piece, const std::array<double, SupportSiz
     cubic.coefficients[monomial] = sum;
   }
   return cubic;
-}
-
-inline auto
-FCCBoxSpline::Evaluate(const PointType & point) -> Jet
-{
-  constexpr double farthest = 2.0;
-  for (const double coordinate : point)
-  {
-    if (!(std::abs(coordinate) <= farthest)) // false for NaN, too
-    {
-      return {};
-    }
-  }
-  const Piece piece = FindPiece(point);
-  std::array<double, SupportSize> coefficients{};
-  for (unsigned int n = 0; n < SupportSize; ++n)
-  {
-    coefficients[n] = piece.sites[n] == SiteType{ 0, 0, 0 } ? 1.0 : 0.0;
-  }
-  return MakeCubic(piece, coefficients).GetJet(point);
 }
 
 } // namespace itk

@@ -6,6 +6,36 @@
 namespace itk
 {
 
+/** \class FCCUnitCube
+ * \brief The unit cube around a point, with a site as its first corner: the lowest, or the next along x.
+ *
+ * \ingroup FCCInterpolation
+ */
+struct FCCUnitCube
+{
+  FCCLattice::SiteType corner;
+  IndexValueType xStep;        ///< from the corner into the cube: 1 or -1
+  std::array<double, 3> local; ///< distances of the point from the corner along the axes, 0 to 1
+
+  /** \param point in finite lattice coordinates */
+  explicit FCCUnitCube(const std::array<double, 3> & point)
+    : xStep(1)
+  {
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const double lower = std::floor(point[axis]);
+      corner[axis] = static_cast<IndexValueType>(lower);
+      local[axis] = point[axis] - lower;
+    }
+    if (!FCCLattice::IsSite(corner))
+    {
+      corner[0] += 1;
+      local[0] = 1.0 - local[0];
+      xStep = -1;
+    }
+  }
+};
+
 /** \class FCCTetrahedron
  * \brief The four sites around a point and their barycentric weights.
  *
@@ -25,25 +55,10 @@ struct FCCTetrahedron
 inline FCCTetrahedron
 LocateFCCTetrahedron(const std::array<double, 3> & point)
 {
-  // Within the unit cube, mirrored along x when needed so that its lowest corner is a site.
-  FCCLattice::SiteType corner;
-  std::array<double, 3> local;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    const double lower = std::floor(point[axis]);
-    corner[axis] = static_cast<IndexValueType>(lower);
-    local[axis] = point[axis] - lower;
-  }
-  IndexValueType xStep = 1;
-  if (!FCCLattice::IsSite(corner))
-  {
-    corner[0] += 1;
-    local[0] = 1.0 - local[0];
-    xStep = -1;
-  }
-  const auto [a, b, c] = local;
-  const auto at = [&corner, xStep](IndexValueType x, IndexValueType y, IndexValueType z) {
-    return FCCLattice::SiteType{ corner[0] + xStep * x, corner[1] + y, corner[2] + z };
+  const FCCUnitCube cube(point);
+  const auto [a, b, c] = cube.local;
+  const auto at = [&cube](IndexValueType x, IndexValueType y, IndexValueType z) {
+    return FCCLattice::SiteType{ cube.corner[0] + cube.xStep * x, cube.corner[1] + y, cube.corner[2] + z };
   };
 
   const std::array<double, 4> regular{

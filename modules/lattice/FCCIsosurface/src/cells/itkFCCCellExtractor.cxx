@@ -1,7 +1,6 @@
-#include "itkFCCCellExtractor.h"
-
-#include "itkFCCOctahedraCases.h"
-#include "itkFCCParallelepipedCases.h"
+#include "itkFCCCellKinds.h"
+#include "itkFCCEdgeExtractor.h"
+#include "itkFCCExtractors.h"
 
 #include <algorithm>
 #include <iterator>
@@ -23,12 +22,12 @@ ForEachKind(FCCCellScheme scheme, const TUse & use)
   switch (scheme)
   {
     case FCCCellScheme::Octahedra:
-      use(FCCOctahedraCases::Octahedron{});
-      use(FCCOctahedraCases::TetrahedronAfter{});
-      use(FCCOctahedraCases::TetrahedronBefore{});
+      use(FCCOctahedron{});
+      use(FCCTetrahedronAfter{});
+      use(FCCTetrahedronBefore{});
       break;
     case FCCCellScheme::Parallelepipeds:
-      use(FCCParallelepipedCases::Parallelepiped{});
+      use(FCCParallelepiped{});
       break;
   }
 }
@@ -169,15 +168,33 @@ FillCellTriangles(const FCCSigns & signs,
   });
 }
 
-} // namespace
-
+/** The types of the edges of a scheme's cells, as bits. */
 std::uint8_t
-FCCCellExtractor::GetEdgeTypes(FCCCellScheme scheme)
+EdgeTypesOf(FCCCellScheme scheme)
 {
   unsigned int types = 0;
   ForEachKind(scheme, [&types](auto kind) { types |= decltype(kind)::Cell.GetEdgeTypes(); });
   return static_cast<std::uint8_t>(types);
 }
+
+class FCCCellExtractor : public FCCEdgeExtractor
+{
+public:
+  FCCCellExtractor(const FCCSigns & signs, const FCCScalarField & field, FCCCellScheme scheme)
+    : FCCEdgeExtractor(signs, field, EdgeTypesOf(scheme), false)
+    , m_Scheme(scheme)
+  {}
+
+  void
+  Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface) override;
+
+protected:
+  SizeValueType
+  CountTriangles(SizeValueType k) const override;
+
+private:
+  FCCCellScheme m_Scheme;
+};
 
 SizeValueType
 FCCCellExtractor::CountTriangles(SizeValueType k) const
@@ -226,6 +243,14 @@ FCCCellExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface &
     std::rotate(std::begin(inPlane), std::begin(inPlane) + 1, std::end(inPlane));
     std::swap(between[0], between[1]);
   }
+}
+
+} // namespace
+
+std::unique_ptr<FCCSurfaceExtractor>
+MakeFCCCellExtractor(const FCCSigns & signs, const FCCScalarField & field, FCCCellScheme scheme)
+{
+  return std::make_unique<FCCCellExtractor>(signs, field, scheme);
 }
 
 } // namespace itk

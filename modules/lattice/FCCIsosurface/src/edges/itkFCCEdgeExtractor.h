@@ -21,31 +21,25 @@ public:
   }
 
   void
-  Count(SizeValueType begin, SizeValueType end) override;
-
-  void
-  Resolve(const Crew & crew) override;
-
-  SizeValueType
-  GetNumberOfPoints() const override
+  Count(SizeValueType begin, SizeValueType end) override
   {
-    return m_InPlane.back();
+    for (SizeValueType k = begin; k < end; ++k)
+    {
+      m_InPlane[k] = FCCCutEdges::Count(m_Signs, FCCStoredEdges::Group::InPlane, k, m_Types);
+      m_FirstPoint[k] = m_InPlane[k] + FCCCutEdges::Count(m_Signs, FCCStoredEdges::Group::Between, k, m_Types);
+      m_FirstTriangle[k] = this->CountTriangles(k);
+    }
   }
-
-  SizeValueType
-  GetMostTriangles() const override
-  {
-    return m_Triangles.back();
-  }
-
-  void
-  Finish(TriangleSurface &) override
-  {}
 
 protected:
   /** \param types of edges that have points: bits, as FCCStoredEdges has them
    *  \param cubic see FCCEdgePoints */
-  FCCEdgeExtractor(const FCCSigns & signs, const FCCScalarField & field, std::uint8_t types, bool cubic);
+  FCCEdgeExtractor(const FCCSigns & signs, const FCCScalarField & field, std::uint8_t types, bool cubic)
+    : FCCSurfaceExtractor(signs, field)
+    , m_Types(types)
+    , m_EdgePoints(field, cubic, field.closed ? 1 : 0)
+    , m_InPlane(signs.GetDepth())
+  {}
 
   /** Number of triangles between plane \a k and the next, or of layer \a k of cells. */
   virtual SizeValueType
@@ -61,14 +55,14 @@ protected:
   void
   Find(SizeValueType k, FCCCutEdges & inPlane) const
   {
-    inPlane.Find(k, static_cast<std::uint32_t>(m_InPlane[k]));
+    inPlane.Find(k, static_cast<std::uint32_t>(m_FirstPoint[k]));
   }
 
   /** Finds the cut edges between plane \a k and the next. */
   void
   FindBetween(SizeValueType k, FCCCutEdges & between) const
   {
-    between.Find(k, static_cast<std::uint32_t>(m_Between[k]));
+    between.Find(k, static_cast<std::uint32_t>(m_FirstPoint[k] + m_InPlane[k]));
   }
 
   FCCEdgePointFiller
@@ -80,19 +74,13 @@ protected:
   TriangleSurface::TriangleType *
   GetTriangles(SizeValueType k, TriangleSurface & surface) const
   {
-    return surface.GetTriangles().data() + m_Triangles[k];
+    return surface.GetTriangles().data() + m_FirstTriangle[k];
   }
-
-  const FCCSigns & m_Signs;
-  FCCScalarField m_Field;
 
 private:
   std::uint8_t m_Types;
   FCCEdgePoints m_EdgePoints;
-  // By plane: counts until Resolve(), then the number of the first one, and the total at the end.
-  std::vector<SizeValueType> m_InPlane;   ///< points on edges within the plane
-  std::vector<SizeValueType> m_Between;   ///< points on edges to the next plane
-  std::vector<SizeValueType> m_Triangles; ///< results of CountTriangles()
+  std::vector<SizeValueType> m_InPlane; ///< by plane: points on edges within it, which come before those to the next
 };
 
 } // namespace itk

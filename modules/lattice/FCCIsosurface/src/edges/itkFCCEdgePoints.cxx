@@ -31,37 +31,25 @@ struct EdgeRows
     , passesThroughMiddle(cubic && step[1] == 0 && step[2] == 0)
     , withGradients(hasGradients)
   {
-    const IndexValueType parity = field.GetParity(j, k);
     for (IndexValueType place = cubic ? -1 : 0; place <= (cubic ? 2 : 1); ++place)
     {
-      const auto offset = FCCLattice::OffsetOf({ place * step[0], place * step[1], place * step[2] }, parity);
-      const SizeValueType row = j + static_cast<SizeValueType>(offset[1]);
-      const SizeValueType plane = k + static_cast<SizeValueType>(offset[2]);
-      values[place + 1] = field.GetValues(row, plane) + offset[0];
-      if (withGradients && (place == 0 || place == 1))
-      {
-        gradients[place] = field.GetGradients(row, plane);
-      }
-      if (place == 1)
-      {
-        shift = static_cast<SizeValueType>(offset[0]);
-      }
+      values[place + 1] = field.GetValues(j, k, FCCStep::Multiply(place, step));
     }
-    if (passesThroughMiddle)
+    const auto toEnd = FCCLattice::OffsetOf(step, field.GetParity(j, k));
+    shift = static_cast<SizeValueType>(toEnd[0]);
+    if (withGradients)
     {
-      const auto rowAt = [&](const FCCLattice::SiteType & place) {
-        const auto offset = FCCLattice::OffsetOf(place, parity);
-        return field.GetValues(j + static_cast<SizeValueType>(offset[1]), k + static_cast<SizeValueType>(offset[2])) +
-               offset[0];
-      };
-      for (unsigned int n = 0; n < 4; ++n)
-      {
-        const IndexValueType sign = n < 2 ? 1 : -1;
-        const IndexValueType other = n % 2 == 0 ? sign : -sign;
-        nearMiddle[n] = rowAt({ step[0] / 2, n % 2 == 0 ? sign : 0, n % 2 == 0 ? 0 : sign });
-        aroundEnds[0][n] = rowAt({ 0, sign, other });
-        aroundEnds[1][n] = rowAt({ step[0], sign, other });
-      }
+      gradients[0] = field.GetGradients(j, k);
+      gradients[1] =
+        field.GetGradients(j + static_cast<SizeValueType>(toEnd[1]), k + static_cast<SizeValueType>(toEnd[2]));
+    }
+    for (unsigned int n = 0; passesThroughMiddle && n < 4; ++n)
+    {
+      const IndexValueType sign = n < 2 ? 1 : -1;
+      const IndexValueType other = n % 2 == 0 ? sign : -sign;
+      nearMiddle[n] = field.GetValues(j, k, { step[0] / 2, n % 2 == 0 ? sign : 0, n % 2 == 0 ? 0 : sign });
+      aroundEnds[0][n] = field.GetValues(j, k, { 0, sign, other });
+      aroundEnds[1][n] = field.GetValues(j, k, { step[0], sign, other });
     }
   }
 
@@ -109,15 +97,11 @@ private:
 
 } // namespace
 
-FCCEdgePoints::FCCEdgePoints(const ImageRegion<3> & region,
-                             const FCCFrame & frame,
-                             bool cubic,
-                             double minimumFraction,
-                             SizeValueType margin)
-  : m_Extent(region)
-  , m_Frame(frame)
+FCCEdgePoints::FCCEdgePoints(const FCCScalarField & field, bool cubic, SizeValueType margin)
+  : m_Extent(field.region)
+  , m_Frame(field.frame)
   , m_Cubic(cubic)
-  , m_MinimumFraction(minimumFraction)
+  , m_MinimumFraction(field.minimumFraction)
   , m_Margin(margin)
 {}
 
@@ -246,8 +230,8 @@ FCCEdgePoints::GatherBorder(const SiteType & site,
                             bool startsOutside,
                             FCCEdgeBatch & batch) const
 {
-  const SiteType end{ site[0] + step[0], site[1] + step[1], site[2] + step[2] };
-  const double fraction = startsOutside ? 1.0 - m_Extent.FractionToBorder(end, { -step[0], -step[1], -step[2] })
+  const SiteType end = FCCStep::Add(site, step);
+  const double fraction = startsOutside ? 1.0 - m_Extent.FractionToBorder(end, FCCStep::Multiply(-1, step))
                                         : m_Extent.FractionToBorder(site, step);
   for (unsigned int place = 0; place < 4; ++place)
   {

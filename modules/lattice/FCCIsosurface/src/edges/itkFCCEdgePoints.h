@@ -21,17 +21,10 @@ class FCCEdgePoints
 public:
   using SiteType = FCCLattice::SiteType;
 
-  /** \param region the image's samples
-   *  \param frame from lattice coordinates to the world
-   *  \param cubic whether values are interpolated by the cubic through four samples instead of linearly; along x,
+  /** \param cubic whether values are interpolated by the cubic through four samples instead of linearly; along x,
    *         where these are further apart than those around, by one that passes through the edge's middle, too
-   *  \param minimumFraction of an edge that a point stays away from its ends
    *  \param margin 1 when signs count sites from a layer around the image, otherwise 0 */
-  FCCEdgePoints(const ImageRegion<3> & region,
-                const FCCFrame & frame,
-                bool cubic,
-                double minimumFraction,
-                SizeValueType margin);
+  FCCEdgePoints(const FCCScalarField & field, bool cubic, SizeValueType margin);
 
   /** Places the points on the cut edges of plane \a k of the signs, in the order of their ids, and their normals unless
    * null. The arrays begin with the first of these points. */

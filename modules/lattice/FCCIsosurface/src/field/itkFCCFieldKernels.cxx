@@ -122,7 +122,7 @@ FCCFieldKernels::QuasiInterpolate(const float * values,
                                   SizeValueType count,
                                   float * coefficients)
 {
-  HWY_DYNAMIC_DISPATCH(QuasiInterpolateRow)(values, neighbors, count, coefficients);
+  HWY_DYNAMIC_DISPATCH(QuasiInterpolateRow)(values, neighbors.data(), count, coefficients);
 }
 
 void
@@ -131,7 +131,7 @@ FCCFieldKernels::Gradient(const NeighborRows & neighbors,
                           SizeValueType words,
                           float * gradients)
 {
-  HWY_DYNAMIC_DISPATCH(GradientsOfRow)(neighbors, sites, words, gradients);
+  HWY_DYNAMIC_DISPATCH(GradientsOfRow)(neighbors.data(), sites, words, gradients);
 }
 
 } // namespace itk

@@ -3,6 +3,7 @@
 
 #include "itkFCCLattice.h"
 
+#include <array>
 #include <cstdint>
 
 namespace itk
@@ -19,7 +20,7 @@ struct FCCFieldKernels
 
   /** The twelve neighbours' rows of a row of sites, shifted so that element i is the neighbour of site i, in the order
    * of FCCLattice::NearestNeighbors. */
-  using NeighborRows = const float * [12];
+  using NeighborRows = std::array<const float *, 12>;
 
   /** Coefficients of the box spline that quasi-interpolates a row of values: 3/2 f - sum of neighbours / 24. Where that
    * is not finite, the value itself. Whole blocks are computed. */

@@ -107,21 +107,12 @@ FCCFieldPlanes::LoadCoefficients(SizeValueType k)
     this->LoadValuesAround(plane.number);
     for (SizeValueType j = 1; j + 1 < m_Size[1]; ++j)
     {
-      FCCFieldKernels::NeighborRows neighbors;
-      this->GetNeighborRows(m_Values, j, plane.number, neighbors);
-      FCCFieldKernels::QuasiInterpolate(
-        this->GetValues(j, plane.number), neighbors, m_Size[0], plane.GetRow(j, m_Stride));
+      FCCFieldKernels::QuasiInterpolate(this->GetValues(j, plane.number),
+                                        this->GetNeighborRows(m_Values, j, plane.number),
+                                        m_Size[0],
+                                        plane.GetRow(j, m_Stride));
     }
   });
-}
-
-void
-FCCFieldPlanes::LoadCoefficientsAround(SizeValueType k)
-{
-  for (SizeValueType near = k - 1; near <= k + 1; ++near)
-  {
-    this->LoadCoefficients(near);
-  }
 }
 
 void
@@ -132,16 +123,17 @@ FCCFieldPlanes::LoadGradients(SizeValueType k)
   {
     return;
   }
-  this->LoadCoefficientsAround(k);
+  for (SizeValueType near = k - 1; near <= k + 1; ++near)
+  {
+    this->LoadCoefficients(near);
+  }
   plane.number = k;
   this->FindSites(k, plane.sites);
   plane.gradients.resize(FCCFieldKernels::GradientStride * plane.sites.Number(0));
   for (SizeValueType j = 1; j + 1 < m_Size[1]; ++j)
   {
-    FCCFieldKernels::NeighborRows neighbors;
-    this->GetNeighborRows(m_Coefficients, j, k, neighbors);
     const FCCNumberedBits::Row row = plane.sites.GetNumberedRow(j);
-    FCCFieldKernels::Gradient(neighbors,
+    FCCFieldKernels::Gradient(this->GetNeighborRows(m_Coefficients, j, k),
                               row.bits,
                               plane.sites.GetStride() - 1,
                               plane.gradients.data() + FCCFieldKernels::GradientStride * row.numberOfWord[0]);
@@ -219,19 +211,15 @@ FCCFieldPlanes::ExtrapolateRow(const float * near, const float * far, IndexValue
   }
 }
 
-void
-FCCFieldPlanes::GetNeighborRows(const std::vector<Plane> & planes,
-                                SizeValueType j,
-                                SizeValueType k,
-                                FCCFieldKernels::NeighborRows & rows) const
+FCCFieldKernels::NeighborRows
+FCCFieldPlanes::GetNeighborRows(const std::vector<Plane> & planes, SizeValueType j, SizeValueType k) const
 {
-  const IndexValueType parity = this->GetParity(j, k);
-  for (unsigned int n = 0; n < 12; ++n)
+  FCCFieldKernels::NeighborRows rows;
+  for (std::size_t n = 0; n < rows.size(); ++n)
   {
-    const auto offset = FCCLattice::OffsetOf(FCCLattice::NearestNeighbors[n], parity);
-    const SizeValueType plane = k + static_cast<SizeValueType>(offset[2]);
-    rows[n] = planes[plane % planes.size()].GetRow(j + static_cast<SizeValueType>(offset[1]), m_Stride) + offset[0];
+    rows[n] = this->GetRow(planes, j, k, FCCLattice::NearestNeighbors[n]);
   }
+  return rows;
 }
 
 } // namespace itk

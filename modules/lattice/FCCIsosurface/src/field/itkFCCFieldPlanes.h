@@ -69,6 +69,13 @@ public:
     return m_Values[k % m_Values.size()].GetRow(j, m_Stride);
   }
 
+  /** The values at a step from the sites of a row: element i belongs to the row's site i. */
+  const float *
+  GetValues(SizeValueType j, SizeValueType k, const FCCLattice::SiteType & step) const
+  {
+    return this->GetRow(m_Values, j, k, step);
+  }
+
   /** The gradients of a row. */
   struct GradientRow
   {
@@ -129,10 +136,6 @@ private:
   void
   LoadCoefficients(SizeValueType k);
 
-  /** Makes the coefficients of planes \a k - 1 to \a k + 1 available. The plane must be one of the image. */
-  void
-  LoadCoefficientsAround(SizeValueType k);
-
   /** Finds the sites of a plane that have gradients. */
   void
   FindSites(SizeValueType k, FCCNumberedBits & sites) const;
@@ -151,11 +154,16 @@ private:
   void
   ExtrapolateRow(const float * near, const float * far, IndexValueType parity, float * row) const;
 
-  void
-  GetNeighborRows(const std::vector<Plane> & planes,
-                  SizeValueType j,
-                  SizeValueType k,
-                  FCCFieldKernels::NeighborRows & rows) const;
+  const float *
+  GetRow(const std::vector<Plane> & planes, SizeValueType j, SizeValueType k, const FCCLattice::SiteType & step) const
+  {
+    const auto offset = FCCLattice::OffsetOf(step, this->GetParity(j, k));
+    const SizeValueType plane = k + static_cast<SizeValueType>(offset[2]);
+    return planes[plane % planes.size()].GetRow(j + static_cast<SizeValueType>(offset[1]), m_Stride) + offset[0];
+  }
+
+  FCCFieldKernels::NeighborRows
+  GetNeighborRows(const std::vector<Plane> & planes, SizeValueType j, SizeValueType k) const;
 
   const FCCSigns & m_Signs;
   std::array<SizeValueType, 3> m_Size; // with the layer around the image

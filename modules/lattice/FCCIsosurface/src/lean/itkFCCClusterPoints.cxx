@@ -29,12 +29,13 @@ public:
     m_Gradients = m_Field.GetGradients(j, k);
     for (unsigned int direction = 0; direction < FCCCells::Directions; ++direction)
     {
-      const auto offset = FCCLattice::OffsetOf(FCCCells::StepOf(direction), m_Field.GetParity(j, k));
+      const SiteType step = FCCCells::StepOf(direction);
+      const auto offset = FCCLattice::OffsetOf(step, m_Field.GetParity(j, k));
       const SizeValueType row = j + static_cast<SizeValueType>(offset[1]);
       const SizeValueType plane = k + static_cast<SizeValueType>(offset[2]);
       Neighbor & neighbor = m_Neighbors[direction];
       neighbor.shift = static_cast<SizeValueType>(offset[0]);
-      neighbor.values = m_Field.GetValues(row, plane) + offset[0];
+      neighbor.values = m_Field.GetValues(j, k, step);
       neighbor.hasGradients = m_WithFarGradients && m_Field.IsReal(1, row) && m_Field.IsReal(2, plane);
       if (neighbor.hasGradients)
       {
@@ -348,8 +349,8 @@ FCCClusterPoints::PlaceOnBorder(const SiteType & site, unsigned int crossings, O
   for (; crossings != 0; crossings &= crossings - 1)
   {
     const SiteType step = FCCCells::StepOf(static_cast<unsigned int>(__builtin_ctz(crossings)));
-    const SiteType end{ site[0] + step[0], site[1] + step[1], site[2] + step[2] };
-    const double fraction = m_EdgePoints.GetExtent().FractionToBorder(end, { -step[0], -step[1], -step[2] });
+    const SiteType end = FCCStep::Add(site, step);
+    const double fraction = m_EdgePoints.GetExtent().FractionToBorder(end, FCCStep::Multiply(-1, step));
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
       sum[axis] += static_cast<double>(end[axis]) - fraction * static_cast<double>(step[axis]);

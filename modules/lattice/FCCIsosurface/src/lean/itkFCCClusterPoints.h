@@ -18,10 +18,10 @@ namespace itk
 class FCCClusterPoints
 {
 public:
-  FCCClusterPoints(const ImageRegion<3> & region, const FCCFrame & frame, double minimumFraction)
-    : m_Frame(frame)
-    , m_MinimumFraction(minimumFraction)
-    , m_EdgePoints(region, frame, true, minimumFraction, 1)
+  explicit FCCClusterPoints(const FCCScalarField & field)
+    : m_Frame(field.frame)
+    , m_MinimumFraction(field.minimumFraction)
+    , m_EdgePoints(field, true, 1)
   {}
 
   /** Places the vertices of plane \a k, and their normals unless null, and sets for each, unless null, whether its site

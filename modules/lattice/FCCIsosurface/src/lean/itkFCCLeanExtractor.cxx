@@ -1,24 +1,13 @@
-#include "itkFCCLeanExtractor.h"
-
 #include "itkFCCClusterPoints.h"
+#include "itkFCCExtractors.h"
 #include "itkFCCLeanMarching.h"
+#include "itkFCCSplitSites.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace itk
 {
-
-FCCLeanExtractor::FCCLeanExtractor(const FCCSigns & signs, const FCCScalarField & field)
-  : m_Signs(signs)
-  , m_Field(field)
-  , m_Splits(signs, field.scratch)
-  , m_NearerEnds(signs.GetDepth())
-  , m_FirstPoint(signs.GetDepth() + 1)
-  , m_FirstTriangle(signs.GetDepth() + 1)
-  , m_Filled(signs.GetDepth())
-{}
-
 namespace
 {
 
@@ -75,7 +64,40 @@ TakeSuspects(const FCCSigns & signs, const FCCClusterPlane & plane, FCCTriangleU
   return suspects;
 }
 
-} // namespace
+class FCCLeanExtractor : public FCCSurfaceExtractor
+{
+public:
+  FCCLeanExtractor(const FCCSigns & signs, const FCCScalarField & field)
+    : FCCSurfaceExtractor(signs, field)
+    , m_Splits(signs, field.scratch)
+    , m_NearerEnds(signs.GetDepth())
+    , m_Filled(signs.GetDepth())
+  {}
+
+  bool
+  CountReadsSamples() const override
+  {
+    return true;
+  }
+
+  void
+  Count(SizeValueType begin, SizeValueType end) override;
+
+  void
+  Resolve(const Workers & workers) override;
+
+  void
+  Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface) override;
+
+  void
+  Finish(TriangleSurface & surface) override;
+
+private:
+  FCCSplitSites m_Splits;
+  std::vector<FCCNearerEnds::Packed> m_NearerEnds; ///< by plane
+  std::vector<SizeValueType> m_Filled;             ///< by plane: the number of triangles of the slab that began there
+  std::vector<std::uint8_t> m_AreOutside;          ///< by point, unless closed: whether its site is outside the image
+};
 
 void
 FCCLeanExtractor::Count(SizeValueType begin, SizeValueType end)
@@ -121,17 +143,10 @@ FCCLeanExtractor::Count(SizeValueType begin, SizeValueType end)
 }
 
 void
-FCCLeanExtractor::Resolve(const Crew & crew)
+FCCLeanExtractor::Resolve(const Workers & workers)
 {
-  m_Splits.Resolve(m_NearerEnds, crew, m_FirstPoint, m_FirstTriangle);
-  for (std::vector<SizeValueType> * const counts : { &m_FirstPoint, &m_FirstTriangle })
-  {
-    SizeValueType sum = 0;
-    for (SizeValueType & count : *counts)
-    {
-      sum += std::exchange(count, sum);
-    }
-  }
+  m_Splits.Resolve(m_NearerEnds, workers, m_FirstPoint, m_FirstTriangle);
+  this->SumUp();
   m_AreOutside.resize(m_Field.closed ? 0 : this->GetNumberOfPoints());
 }
 
@@ -143,7 +158,7 @@ FCCLeanExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface &
   const auto findNearerEnds = [this](SizeValueType k, FCCNearerEnds & nearerEnds) {
     nearerEnds.Unpack(k, m_NearerEnds[k]);
   };
-  const FCCClusterPoints clusterPoints(m_Field.region, m_Field.frame, m_Field.minimumFraction);
+  const FCCClusterPoints clusterPoints(m_Field);
   const bool reversed = m_Field.frame.IsLeftHanded();
   const SizeValueType around = surface.HasNormals() ? 1 : 0; // planes whose gradients are needed
   if (begin > 0)
@@ -193,6 +208,14 @@ FCCLeanExtractor::Finish(TriangleSurface & surface)
     });
   }
   triangles.erase(end, triangles.end());
+}
+
+} // namespace
+
+std::unique_ptr<FCCSurfaceExtractor>
+MakeFCCLeanExtractor(const FCCSigns & signs, const FCCScalarField & field)
+{
+  return std::make_unique<FCCLeanExtractor>(signs, field);
 }
 
 } // namespace itk

@@ -3,7 +3,6 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "itkFCCLeanMarching.h"
 #include "itkFCCLeanTables.h"
 
 #include <algorithm>

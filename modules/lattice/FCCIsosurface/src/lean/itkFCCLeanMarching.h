@@ -2,8 +2,9 @@
 #define itkFCCLeanMarching_h
 
 #include "itkFCCClusterPlane.h"
-#include "itkFCCTriangleUse.h"
 #include "itkTriangleSurface.h"
+
+#include <utility>
 
 namespace itk
 {
@@ -14,6 +15,67 @@ namespace itk
  * its sites have a crossing of its edges: three that do span one triangle, four span two, and fewer none. When four do,
  * each has one crossing of a quadrilateral, which FCCTetrahedronPolygon::FindFirstCorner() cuts from a site inside to a
  * site inside. For whole sites that is logic on bits: 64 steps of a column in one word. */
+
+/** \class FCCTriangleUse
+ * \brief How many triangles between whole sites use each site of a plane and the edges that it stores.
+ *
+ * The counts of a site and its edges are the bytes of one word: a site has at most 48 triangles, an edge fewer.
+ */
+class FCCTriangleUse
+{
+public:
+  using CountsType = std::uint64_t;
+
+  static constexpr CountsType
+  OfEdge(std::uint8_t type)
+  {
+    return CountsType{ 1 } << (8 * type);
+  }
+  static constexpr CountsType
+  OfSite()
+  {
+    return OfEdge(FCCCells::Edges);
+  }
+  static_assert(FCCCells::Edges == 7, "a word has one byte for each type, and one for the site");
+
+  /** Whether the counts break condition 2 or 3 of FCCSplitSites. All triangles have been counted, so the counts of
+   * edges are even. */
+  static constexpr bool
+  BreakCondition(CountsType counts)
+  {
+    constexpr CountsType moreThanTwo = 0xFC * (OfSite() - 1) / 0xFF; // bits of counts above 2 of any edge
+    constexpr CountsType fewest = 3 * OfSite();
+    return (counts & moreThanTwo) != 0 || counts < fewest;
+  }
+
+  FCCTriangleUse(const FCCSigns & signs, std::pmr::memory_resource * scratch)
+    : m_Stride(signs.GetNumberOfWords() * FCCBits::WordBits + 1)
+    , m_Counts(m_Stride * signs.GetHeight(), scratch)
+  {}
+
+  CountsType *
+  GetRow(SizeValueType j)
+  {
+    return m_Counts.data() + j * m_Stride;
+  }
+
+  /** The counts of a site, which are 0 afterwards. */
+  CountsType
+  Take(SizeValueType j, SizeValueType i)
+  {
+    return std::exchange(this->GetRow(j)[i], 0);
+  }
+
+  void
+  Clear()
+  {
+    std::fill(m_Counts.begin(), m_Counts.end(), 0);
+  }
+
+private:
+  SizeValueType m_Stride; ///< sites from a row to the next
+  std::pmr::vector<CountsType> m_Counts;
+};
 
 /** Two consecutive planes, \a k and \a k + 1, and their vertices. */
 struct FCCLeanLayer

@@ -1,8 +1,8 @@
 #ifndef itkFCCLeanTables_h
 #define itkFCCLeanTables_h
 
+#include "itkFCCLeanMarching.h"
 #include "itkFCCMarchingCases.h"
-#include "itkFCCTriangleUse.h"
 
 namespace itk
 {

@@ -71,7 +71,7 @@ FCCNearerEnds::FindRow(SizeValueType j,
   }
 
   const float * const startValues = field.GetValues(j, k);
-  const float * const endValues = field.GetValues(end.j, end.k) + end.shift;
+  const float * const endValues = field.GetValues(j, k, FCCLattice::OwnedEdges[type]);
   FCCBits::ForEachShifted(endRow, words, end.shift, [&](SizeValueType word, WordType bits) {
     const WordType cut = row[word] ^ bits;
     WordType nearerToInside = 0;

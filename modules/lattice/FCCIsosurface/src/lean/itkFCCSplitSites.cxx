@@ -42,7 +42,7 @@ void
 FCCSplitSites::SuspectBroken(SizeValueType begin,
                              SizeValueType end,
                              const std::vector<FCCNearerEnds::Packed> & nearerEnds,
-                             const FCCSurfaceExtractor::Crew & crew)
+                             const FCCSurfaceExtractor::Workers & workers)
 {
   std::array<FCCNearerEnds, 3> planes{ FCCNearerEnds(m_Signs, m_Scratch),
                                        FCCNearerEnds(m_Signs, m_Scratch),
@@ -56,7 +56,7 @@ FCCSplitSites::SuspectBroken(SizeValueType begin,
     {
       continue;
     }
-    crew.checkAbort();
+    workers.checkAbort();
     std::sort(numbers.begin(), numbers.end());
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
     for (unpacked = std::max(unpacked, k - std::min<SizeValueType>(k, 1));
@@ -70,7 +70,7 @@ FCCSplitSites::SuspectBroken(SizeValueType begin,
 }
 
 void
-FCCSplitSites::DivideSuspects(SizeValueType k, unsigned int color, const FCCSurfaceExtractor::Crew & crew)
+FCCSplitSites::DivideSuspects(SizeValueType k, unsigned int color, const FCCSurfaceExtractor::Workers & workers)
 {
   const auto width = static_cast<std::uint32_t>(m_Signs.GetWidth());
   std::vector<SuspectedSite> sites;
@@ -80,7 +80,7 @@ FCCSplitSites::DivideSuspects(SizeValueType k, unsigned int color, const FCCSurf
   {
     if (n % 64 == 0)
     {
-      crew.checkAbort();
+      workers.checkAbort();
     }
     FCCSiteDivision division(m_Signs, m_Split, sites[n].star, { sites[n].number % width, sites[n].number / width, k });
     if (division.Divide())
@@ -118,7 +118,7 @@ FCCSplitSites::SetDivided(SizeValueType k, std::vector<SizeValueType> & triangle
 
 void
 FCCSplitSites::Resolve(const std::vector<FCCNearerEnds::Packed> & nearerEnds,
-                       const FCCSurfaceExtractor::Crew & crew,
+                       const FCCSurfaceExtractor::Workers & workers,
                        std::vector<SizeValueType> & points,
                        std::vector<SizeValueType> & triangles)
 {
@@ -132,16 +132,17 @@ FCCSplitSites::Resolve(const std::vector<FCCNearerEnds::Packed> & nearerEnds,
       const SizeValueType count = (depth + 1 - parity) / 2;
       for (unsigned int color = 0; color < ColorsOfPlane; ++color)
       {
-        crew.forEach(count, 0.11f * share, [&](SizeValueType n) { this->DivideSuspects(2 * n + parity, color, crew); });
-        crew.forEach(count, 0.01f * share, [&](SizeValueType n) { this->SetDivided(2 * n + parity, triangles); });
+        workers.forEach(
+          count, 0.11f * share, [&](SizeValueType n) { this->DivideSuspects(2 * n + parity, color, workers); });
+        workers.forEach(count, 0.01f * share, [&](SizeValueType n) { this->SetDivided(2 * n + parity, triangles); });
       }
     }
-    crew.forEach(slabs, 0.04f * share, [&](SizeValueType slab) {
+    workers.forEach(slabs, 0.04f * share, [&](SizeValueType slab) {
       const SizeValueType begin = slab * PlanesOfSlab;
-      this->SuspectBroken(begin, std::min(begin + PlanesOfSlab, depth), nearerEnds, crew);
+      this->SuspectBroken(begin, std::min(begin + PlanesOfSlab, depth), nearerEnds, workers);
     });
   }
-  crew.forEach(depth, 0.0f, [&](SizeValueType k) {
+  workers.forEach(depth, 0.0f, [&](SizeValueType k) {
     for (SizeValueType j = 0; j < m_Signs.GetHeight(); ++j)
     {
       for (const FCCSiteParts & parts : m_Split.GetParts(j, k))

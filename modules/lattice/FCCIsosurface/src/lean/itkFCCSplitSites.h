@@ -40,7 +40,7 @@ public:
    * \a triangles is at least right. \param nearerEnds of all planes */
   void
   Resolve(const std::vector<FCCNearerEnds::Packed> & nearerEnds,
-          const FCCSurfaceExtractor::Crew & crew,
+          const FCCSurfaceExtractor::Workers & workers,
           std::vector<SizeValueType> & points,
           std::vector<SizeValueType> & triangles);
 
@@ -87,11 +87,11 @@ private:
   SuspectBroken(SizeValueType begin,
                 SizeValueType end,
                 const std::vector<FCCNearerEnds::Packed> & nearerEnds,
-                const FCCSurfaceExtractor::Crew & crew);
+                const FCCSurfaceExtractor::Workers & workers);
 
   /** Divides the suspects of a color and finds others that break a condition then, but does not write the parts. */
   void
-  DivideSuspects(SizeValueType k, unsigned int color, const FCCSurfaceExtractor::Crew & crew);
+  DivideSuspects(SizeValueType k, unsigned int color, const FCCSurfaceExtractor::Workers & workers);
 
   /** Writes the parts of what was divided. */
   void

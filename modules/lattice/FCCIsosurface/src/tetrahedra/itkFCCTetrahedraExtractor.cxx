@@ -3,8 +3,9 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "itkFCCEdgeExtractor.h"
+#include "itkFCCExtractors.h"
 #include "itkFCCMarchingCases.h"
-#include "itkFCCTetrahedraExtractor.h"
 
 #include <utility>
 
@@ -206,13 +207,24 @@ namespace
 {
 HWY_EXPORT(CountColumns);
 HWY_EXPORT(FillColumns);
-} // namespace
 
-SizeValueType
-FCCTetrahedraExtractor::CountTriangles(SizeValueType k) const
+class FCCTetrahedraExtractor : public FCCEdgeExtractor
 {
-  return k + 1 < m_Signs.GetDepth() ? HWY_DYNAMIC_DISPATCH(CountColumns)(m_Signs, k) : 0;
-}
+public:
+  FCCTetrahedraExtractor(const FCCSigns & signs, const FCCScalarField & field, bool cubic)
+    : FCCEdgeExtractor(signs, field, FCCStoredEdges::AllTypes, cubic)
+  {}
+
+  void
+  Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface) override;
+
+protected:
+  SizeValueType
+  CountTriangles(SizeValueType k) const override
+  {
+    return k + 1 < m_Signs.GetDepth() ? HWY_DYNAMIC_DISPATCH(CountColumns)(m_Signs, k) : 0;
+  }
+};
 
 void
 FCCTetrahedraExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface)
@@ -235,6 +247,14 @@ FCCTetrahedraExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSur
     }
     std::swap(lower, upper);
   }
+}
+
+} // namespace
+
+std::unique_ptr<FCCSurfaceExtractor>
+MakeFCCTetrahedraExtractor(const FCCSigns & signs, const FCCScalarField & field, bool cubic)
+{
+  return std::make_unique<FCCTetrahedraExtractor>(signs, field, cubic);
 }
 
 } // namespace itk

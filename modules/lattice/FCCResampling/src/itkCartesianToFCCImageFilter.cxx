@@ -1,6 +1,0 @@
-#include "itkCartesianToFCCImageFilter.h"
-
-namespace itk
-{
-RHOMBIC_INSTANTIATE(template class CartesianToFCCImageFilter, rhombic::CartesianImage);
-} // namespace itk
