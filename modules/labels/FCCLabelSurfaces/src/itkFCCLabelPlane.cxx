@@ -2,12 +2,6 @@
 
 namespace itk
 {
-namespace
-{
-
-using WordType = FCCBits::WordType;
-
-} // namespace
 
 bool
 FCCLabelBox::HasSimplices(SizeValueType j, SizeValueType k, unsigned int type) const
@@ -59,7 +53,7 @@ FCCLabelPlane::FindEdges(SizeValueType k, const FCCLabelBox::Plane & labels, con
       const FCCLabelBox::LabelType * const ends =
         (step[2] == 0 ? labels : next).GetRow(j + static_cast<SizeValueType>(step[1])) +
         FCCLattice::OffsetOf(step, m_Box.GetParity(j, k))[0];
-      WordType * const bits = m_Bits.GetRow(j * FCCCells::Types + type);
+      FCCBits::WordType * const bits = m_Bits.GetRow(j * FCCCells::Types + type);
       for (SizeValueType word = 0; word < m_Box.GetNumberOfWords(); ++word)
       {
         const SizeValueType first = word * FCCBits::WordBits;
@@ -80,8 +74,8 @@ FCCLabelPlane::FindFacesAndTetrahedra(const FCCLabelPlane & next)
       {
         continue;
       }
-      WordType * const bits = m_Bits.GetRow(j * FCCCells::Types + type);
-      std::fill_n(bits, m_Box.GetNumberOfWords(), ~WordType{ 0 });
+      FCCBits::WordType * const bits = m_Bits.GetRow(j * FCCCells::Types + type);
+      std::fill_n(bits, m_Box.GetNumberOfWords(), ~FCCBits::WordType{ 0 });
       for (unsigned int set = 1; set < 1u << FCCCells::Simplices[type].size; ++set)
       {
         if (FCCCells::SizeOf(set) == 2)

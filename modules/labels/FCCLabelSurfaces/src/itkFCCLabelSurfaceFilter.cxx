@@ -250,21 +250,21 @@ TriangleSurface::PointType
 PlacePoint(const SiteReader & reader, const BoxFrame & frame, const Index<3> & index, unsigned int type)
 {
   const FCCCells::Simplex & simplex = FCCCells::Simplices[type];
-  Index<3> sites[FCCLabelTie::Most];
+  Index<3> sites[4];
   for (unsigned int n = 0; n < simplex.size; ++n)
   {
     sites[n] = frame.Step(index, simplex.steps[n]);
   }
-  FCCLabelTie tie{ simplex.size, {} };
+  double weights[4][4] = {};
   for (unsigned int n = 0; n < simplex.size; ++n)
   {
     const auto label = reader.GetLabel(sites[n]);
     for (unsigned int site = 0; site < simplex.size; ++site)
     {
-      tie.weights[site][n] = reader.GetWeight(sites[site], label);
+      weights[site][n] = reader.GetWeight(sites[site], label);
     }
   }
-  const auto coordinates = tie.Find(FCCLabelSurfaceFilter::MinimumFraction);
+  const auto coordinates = FindFCCLabelTie(simplex.size, weights, FCCLabelSurfaceFilter::MinimumFraction);
   std::array<double, 3> steps{};
   for (unsigned int n = 0; n < simplex.size; ++n)
   {

@@ -9,12 +9,12 @@ namespace itk
 namespace
 {
 
-using Coordinates = std::array<double, FCCLabelTie::Most>;
+using Coordinates = std::array<double, 4>;
 
 /** Solves the rows a x = b of \a size equations, each row being a and b, by elimination with pivots. Returns whether
  * there is one solution. */
 bool
-Solve(double (&rows)[FCCLabelTie::Most][FCCLabelTie::Most + 1], unsigned int size, Coordinates & solution)
+Solve(double (&rows)[4][5], unsigned int size, Coordinates & solution)
 {
   constexpr double singular = 1e-9; // weights are float32 of the size of 1
   for (unsigned int column = 0; column < size; ++column)
@@ -47,11 +47,11 @@ Solve(double (&rows)[FCCLabelTie::Most][FCCLabelTie::Most + 1], unsigned int siz
 
 } // namespace
 
-std::array<double, FCCLabelTie::Most>
-FCCLabelTie::Find(double least) const
+std::array<double, 4>
+FindFCCLabelTie(unsigned int size, const double (&weights)[4][4], double least)
 {
   const unsigned int last = size - 1;
-  double rows[Most][Most + 1] = {};
+  double rows[4][5] = {};
   for (unsigned int site = 0; site < size; ++site)
   {
     for (unsigned int label = 0; label < last; ++label)

@@ -6,23 +6,14 @@
 namespace itk
 {
 
-/** \class FCCLabelTie
- * \brief The point of a simplex where the weights of its sites' labels are equal. */
-struct FCCLabelTie
-{
-  static constexpr unsigned int Most = 4;
-
-  unsigned int size; ///< sites: 2, 3 or 4
-
-  /** weights[site][n]: at a site, of the label of the n-th site. */
-  double weights[Most][Most];
-
-  /** Barycentric coordinates of the point. Where the weights, which are linear, tie outside of the simplex, the point
-   * is moved towards the simplex's middle until each coordinate is at least \a least. The middle if they tie nowhere.
-   */
-  std::array<double, Most>
-  Find(double least) const;
-};
+/** Barycentric coordinates of the point of a simplex where the weights of its sites' labels are equal. Where the
+ * weights, which are linear, tie outside of the simplex, the point is moved towards the simplex's middle until each
+ * coordinate is at least \a least. The middle if they tie nowhere.
+ *
+ * \param size sites of the simplex: 2, 3 or 4
+ * \param weights by site and label: [site][n] is the weight at a site of the label of the n-th site */
+std::array<double, 4>
+FindFCCLabelTie(unsigned int size, const double (&weights)[4][4], double least);
 
 } // namespace itk
 
