@@ -1,5 +1,6 @@
 #ifndef itkFCCBoxSplineDecompositionImageFilter_h
 #define itkFCCBoxSplineDecompositionImageFilter_h
+
 #include "detail/itkFCCBoxSpline.h"
 #include "detail/itkFCCMirror.h"
 #include "detail/itkForEachSlab.h"

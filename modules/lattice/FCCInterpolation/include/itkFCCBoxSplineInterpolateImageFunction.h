@@ -1,5 +1,6 @@
 #ifndef itkFCCBoxSplineInterpolateImageFunction_h
 #define itkFCCBoxSplineInterpolateImageFunction_h
+
 #include "detail/itkFCCBoxSpline.h"
 #include "detail/itkFCCMirror.h"
 #include "itkCovariantVector.h"

@@ -1,5 +1,6 @@
 #ifndef itkFCCLinearInterpolateImageFunction_h
 #define itkFCCLinearInterpolateImageFunction_h
+
 #include "detail/itkFCCTetrahedron.h"
 #include "itkFCCImage.h"
 #include "itkInterpolateImageFunction.h"

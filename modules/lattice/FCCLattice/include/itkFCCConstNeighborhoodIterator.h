@@ -1,5 +1,6 @@
 #ifndef itkFCCConstNeighborhoodIterator_h
 #define itkFCCConstNeighborhoodIterator_h
+
 #include "itkFCCImage.h"
 #include "itkMacro.h"
 

@@ -1,5 +1,6 @@
 #ifndef itkFCCImage_h
 #define itkFCCImage_h
+
 #include "itkContinuousIndex.h"
 #include "itkFCCExtent.h"
 #include "itkNumericTraits.h"

@@ -1,5 +1,6 @@
 #ifndef itkCartesianToNestedFCCImageFilter_h
 #define itkCartesianToNestedFCCImageFilter_h
+
 #include "detail/itkFCCMirror.h"
 #include "detail/itkProduceOutput.h"
 #include "detail/itkRowArithmetic.h"

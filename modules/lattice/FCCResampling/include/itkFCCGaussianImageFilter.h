@@ -1,5 +1,6 @@
 #ifndef itkFCCGaussianImageFilter_h
 #define itkFCCGaussianImageFilter_h
+
 #include "detail/itkFCCGaussianTaps.h"
 #include "detail/itkProduceOutput.h"
 #include "detail/itkRowArithmetic.h"

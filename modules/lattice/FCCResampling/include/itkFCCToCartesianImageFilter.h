@@ -1,5 +1,6 @@
 #ifndef itkFCCToCartesianImageFilter_h
 #define itkFCCToCartesianImageFilter_h
+
 #include "detail/itkProduceOutput.h"
 #include "itkFCCImage.h"
 #include "itkFCCLinearInterpolateImageFunction.h"

@@ -3,7 +3,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "itkFCCEdgeKernels.h"
+#include "itkFCCEdgePoints.h"
 
 #include <limits>
 

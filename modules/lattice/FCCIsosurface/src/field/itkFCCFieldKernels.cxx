@@ -4,8 +4,8 @@
 #include <hwy/highway.h>
 
 #include "detail/itkFCCBitRows.h"
-#include "itkFCCFieldKernels.h"
 #include "itkFCCCells.h"
+#include "itkFCCFieldPlanes.h"
 
 #include <cstring>
 #include <limits>

@@ -3,7 +3,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "itkFCCClusterKernels.h"
+#include "itkFCCClusterPoints.h"
 
 #include <limits>
 
