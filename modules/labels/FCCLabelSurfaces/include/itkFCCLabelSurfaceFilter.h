@@ -23,16 +23,16 @@ class FCCLabelBox;
  * - edges with more than two triangles are where three labels or more meet.
  *
  * With weights (SetWeights()), a point lies where the weights of its labels tie, interpolated linearly: on edges that
- * is always between the ends if the label of each site is the one of largest weight. Ties outside of their face or
+ * is always between the ends if the label of each site has the largest weight there. Ties outside of their face or
  * tetrahedron are moved towards its middle. Without weights, points are in the middle.
  *
- * The passes are those of isosurfaces: cut edges as bits; counts of each plane; sums, which give each plane its part of
- * the output; points and triangles of all planes. Faces and tetrahedra follow from the bits of their edges. The output
- * has the same bytes for any number of threads. Time grows with the number of sites and with the area of the walls, not
- * with the number of labels. Memory: the mesh, and 13 bytes a site of three planes for each thread.
+ * The passes are the same as for isosurfaces: cut edges as bits; counts of each plane; sums, which give each plane its
+ * part of the output; points and triangles of all planes. Faces and tetrahedra follow from the bits of their edges. The
+ * output has the same bytes for any number of threads. Time grows with the number of sites and with the area of the
+ * walls, not with the number of labels. Memory: the mesh, and 13 bytes a site of three planes for each thread.
  *
- * The output has no normals. Throws when samples are missing from the input's buffer, when the weights have not one row
- * for each of the image's, and when the mesh has 2^32 points or more.
+ * The output has no normals. Throws when samples are missing from the input's buffer, when the weights do not have one
+ * row for each of the image's, and when the mesh has 2^32 points or more.
  *
  * \ingroup FCCLabelSurfaces
  */

@@ -18,8 +18,8 @@ namespace itk
  * edge of the lattice between different labels, for both labels. A weight that is not stored counts as +Limit for the
  * label of the site and as -Limit for others.
  *
- * Rows are those of an image of labels, counted from its first: j + k height. They have at most 65,535 sites. Memory:
- * 8 bytes a weight, 48 a row, and one for each of its sites.
+ * Rows are the rows of an image of labels, counted from the first: j + k height. A row has at most 65,535 sites.
+ * Memory: 8 bytes a weight, 48 bytes a row, and one byte for each site of a row.
  *
  * Thread safety: different rows can be filled at once.
  *

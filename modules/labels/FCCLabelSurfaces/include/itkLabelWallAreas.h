@@ -14,7 +14,8 @@ namespace itk
  * \brief The areas of walls, and how volumes of labels change with them to first order.
  *
  * A label grows by a layer in mm on all of its surface, or shrinks if it is negative. A wall between two labels moves
- * by the difference of their layers, so that what one gains the other loses. Label 0, outside, has no layer.
+ * by the difference of their layers, so that one label gains the volume that the other loses. Label 0, outside, has no
+ * layer.
  *
  * \ingroup FCCLabelSurfaces
  */
@@ -26,7 +27,7 @@ public:
   explicit LabelWallAreas(const LabelWalls & walls);
 
   /** The volumes in mm^3 that labels gain by layers.
-   * \param layers by label; labels beyond the end have none */
+   * \param layers by label; labels beyond the end have no layer */
   std::vector<double>
   FindGains(std::vector<double> layers) const;
 

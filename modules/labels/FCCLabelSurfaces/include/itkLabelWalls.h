@@ -10,8 +10,9 @@ namespace itk
  * \brief The walls between labelled regions, as one mesh in which each triangle knows the two labels that it parts.
  *
  * Label 0 is outside. The labels of a triangle are in ascending order, and the triangle is counter-clockwise seen from
- * the region of the first. So the triangles whose second label is L belong to the surface of L as they are, and those
- * whose first label is L belong to it turned over. Four bytes a triangle more than a TriangleSurface.
+ * the region of the first. So the triangles whose second label is L belong to the surface of L as they are, and the
+ * triangles whose first label is L belong to that surface turned over. Four bytes a triangle more than a
+ * TriangleSurface.
  *
  * \ingroup FCCLabelSurfaces
  */
@@ -58,7 +59,7 @@ public:
   TriangleSurface::Pointer
   ExtractLabel(LabelType label) const;
 
-  /** Gives each label the one that \a labels has for it, which leaves out walls between equal ones. */
+  /** Replaces each label by labels[label], and removes the walls between labels that become equal. */
   void
   MergeLabels(const std::vector<LabelType> & labels);
 

@@ -10,8 +10,8 @@ namespace itk
 
 /** Smooths walls as SmoothTriangleSurface() does, and keeps the volume of each label. Points of a wall move towards the
  * mean of their neighbours, points of the curves where walls meet along their curve. Then walls and their curves move
- * along their normals until each label has its volume again, or the one that \a volumes has for it: it lacks no layer
- * thicker than a thousandth of maximumMove. Points where curves meet or walls touch stay.
+ * along their normals until each label has its volume again, or the volume that \a volumes gives: no label lacks a
+ * layer thicker than a thousandth of maximumMove. Points where curves meet or walls touch stay.
  *
  * No point moves farther than maximumMove from where it is at the call; where triangles would meet others elsewhere
  * than at shared corners and sides, points stay there. The report is of all moves together. So the walls of each label
@@ -19,8 +19,8 @@ namespace itk
  * go can have another volume. Throws ExceptionObject if maximumMove is negative or not finite. The same bytes for any
  * number of threads.
  *
- * \param volumes by label in mm^3, such as LabelsToFCCFilter::GetVoxelVolumes(); labels without one, or with 0, keep
- * theirs
+ * \param volumes by label in mm^3, such as LabelsToFCCFilter::GetVoxelVolumes(); labels without a volume, or with 0,
+ * keep their own
  * \param report as that of SmoothTriangleSurface() */
 TriangleSurfaceSmoothingReport
 RelaxLabelWalls(LabelWalls & walls,

@@ -149,7 +149,7 @@ struct FCCLabelCells
     result.exists = true;
     for (unsigned int d = 0; d < 4; ++d)
     {
-      // Being equal is transitive: of the three edges of a face not just one is cut.
+      // Being equal is transitive: a face has no single cut edge.
       unsigned int cut = 0;
       for (unsigned int a = 0; a < 4; ++a)
       {

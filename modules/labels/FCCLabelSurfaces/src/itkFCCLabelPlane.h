@@ -20,7 +20,7 @@ public:
   using LabelType = std::uint16_t;
   using SizeType = std::array<SizeValueType, 3>;
 
-  /** \param labels those of the image, rows along x
+  /** \param labels of the image, rows along x
    * \param parity of the image's first row */
   FCCLabelBox(const LabelType * labels, const SizeType & size, IndexValueType parity)
     : m_Labels(labels)
@@ -53,7 +53,8 @@ public:
     return FCCBits::WordsOf(this->GetWidth());
   }
 
-  /** Parity of a row of the box. Its first row is one step in y and one in z from the image's, of the same parity. */
+  /** Parity of a row of the box. The box's first row is one step in y and one in z from the image's first row, and has
+   * the same parity. */
   IndexValueType
   GetParity(SizeValueType j, SizeValueType k) const
   {
@@ -68,13 +69,13 @@ public:
     return j >= 1 && k >= 1 && j <= m_ImageSize[1] && k <= m_ImageSize[2];
   }
 
-  /** Labels of a plane; those past the box are 0. */
+  /** Labels of a plane; labels past the box are 0. */
   class Plane
   {
   public:
     Plane(const FCCLabelBox & box, SizeValueType k);
 
-    /** The labels of a row, which may be read from -1 to the end of its last word and one more. */
+    /** The labels of a row, which may be read from -1 to one past the end of its last word. */
     const LabelType *
     GetRow(SizeValueType j) const
     {

@@ -19,8 +19,8 @@ namespace
 using Cells = FCCLabelCells;
 using WordType = FCCBits::WordType;
 
-/** The planes around those that are worked at: labels and simplices of this plane and the next, and the edges of the
- * one after. */
+/** The planes around the plane that is worked at: labels and simplices of this plane and the next, and the edges of the
+ * plane after that. */
 class PlaneWindow
 {
 public:
@@ -213,7 +213,7 @@ public:
     , m_First(image.GetLargestPossibleRegion().GetIndex())
   {}
 
-  /** The index in the box of the site at a step from one at an index. */
+  /** The index in the box of the site at a step from the site at an index. */
   Index<3>
   Step(const Index<3> & from, const FCCLattice::SiteType & step) const
   {

@@ -40,7 +40,7 @@ FindLayers(const LabelWalls & walls, const std::vector<double> & wanted, double 
 }
 
 /** Moves walls along their normals until each label has its volume, or points are as far as they may go. Fixed points
- * stay. It is one stage of the progress. */
+ * stay. This is one stage of the progress. */
 void
 RestoreVolumes(const LabelWalls & walls,
                const std::vector<double> & wanted,

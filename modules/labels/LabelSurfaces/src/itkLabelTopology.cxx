@@ -149,7 +149,7 @@ LabelTopology::Grant(std::vector<Claim> claims)
   this->SortWeights();
   this->AddOffsets({});
   this->LowerRaised();
-  this->PartGroups();
+  this->SeparateGroups();
   this->PlaceLost();
   this->AddOffsets({});
 }
@@ -174,26 +174,26 @@ LabelTopology::FindWeights(const TTest & test) const
 }
 
 LabelTopology::Change
-LabelTopology::FindGap(SizeValueType site)
+LabelTopology::FindReplacement(SizeValueType site)
 {
   const NeighborsType neighbors = this->FindNeighbors(site);
   const LabelType label = m_Labels.GetBufferPointer()[site];
   const float * const own = this->FindWeight(site, label);
-  Change gap{ site, 0, this->GetWeight(site, 0) };
+  Change replacement{ site, 0, this->GetWeight(site, 0) };
   for (const LabelType other : neighbors)
   {
     const float weight = this->GetWeight(site, other);
-    if (other != label && weight > gap.gain && !this->MeetsGroup(other, neighbors))
+    if (other != label && weight > replacement.gain && !this->MeetsGroup(other, neighbors))
     {
-      gap = { site, other, weight };
+      replacement = { site, other, weight };
     }
   }
-  gap.gain -= own != nullptr ? *own : FCCLabelWeights::Limit;
-  return gap;
+  replacement.gain -= own != nullptr ? *own : FCCLabelWeights::Limit;
+  return replacement;
 }
 
 void
-LabelTopology::PartGroups()
+LabelTopology::SeparateGroups()
 {
   const LabelType * const labels = m_Labels.GetBufferPointer();
   const auto meets = [this, labels](SizeValueType site, const FCCLabelWeights::Entry & entry) {
@@ -202,7 +202,7 @@ LabelTopology::PartGroups()
   std::vector<Change> meetings;
   for (const Change & meeting : this->FindWeights(meets))
   {
-    meetings.push_back(this->FindGap(meeting.site));
+    meetings.push_back(this->FindReplacement(meeting.site));
   }
   SortByGain(meetings);
   for (const bool canBeAlone : { false, true })
@@ -217,7 +217,7 @@ LabelTopology::PartGroups()
       const bool canChange = FCCCells::IsDisk(same) || (canBeAlone && same == 0);
       if (canChange)
       {
-        this->Give(meeting.site, this->FindGap(meeting.site).label);
+        this->Give(meeting.site, this->FindReplacement(meeting.site).label);
       }
       return canChange;
     });
@@ -253,7 +253,7 @@ LabelTopology::PlaceLost()
 }
 
 std::vector<LabelTopology::Change>
-LabelTopology::FindDoubts(std::vector<double> offsets)
+LabelTopology::FindOutweighed(std::vector<double> offsets)
 {
   const SizeValueType width = m_Labels.GetLargestPossibleRegion().GetSize(0);
   std::vector<std::vector<Change>> found(m_Weights.GetNumberOfRows());
@@ -262,7 +262,7 @@ LabelTopology::FindDoubts(std::vector<double> offsets)
     FCCLabelWeights::RowType & entries = m_Weights.GetRow(row);
     for (auto begin = entries.begin(), end = begin; begin != entries.end(); begin = end)
     {
-      // The weights of one site: its label's, if it is stored, is the one to exceed.
+      // The weights of one site: the weight of its label, if stored, is to be exceeded.
       const SizeValueType site = row * width + begin->i;
       const LabelType label = m_Labels.GetBufferPointer()[site];
       float own = std::numeric_limits<float>::max();
@@ -283,23 +283,23 @@ LabelTopology::FindDoubts(std::vector<double> offsets)
 }
 
 bool
-LabelTopology::CanChange(const Change & doubt) const
+LabelTopology::CanChange(const Change & change) const
 {
-  const NeighborsType neighbors = this->FindNeighbors(doubt.site);
-  return !m_IsHeld[doubt.site] && !this->MeetsGroup(doubt.label, neighbors) &&
-         FCCCells::IsDisk(SetOf(m_Labels.GetBufferPointer()[doubt.site], neighbors)) &&
-         FCCCells::IsDisk(SetOf(doubt.label, neighbors));
+  const NeighborsType neighbors = this->FindNeighbors(change.site);
+  return !m_IsHeld[change.site] && !this->MeetsGroup(change.label, neighbors) &&
+         FCCCells::IsDisk(SetOf(m_Labels.GetBufferPointer()[change.site], neighbors)) &&
+         FCCCells::IsDisk(SetOf(change.label, neighbors));
 }
 
 void
-LabelTopology::Settle(std::vector<Change> & doubts)
+LabelTopology::MakeChanges(std::vector<Change> & changes)
 {
-  SortByGain(doubts);
-  ChangeEach(doubts, [this](const Change & doubt) {
-    const bool canChange = this->CanChange(doubt);
+  SortByGain(changes);
+  ChangeEach(changes, [this](const Change & change) {
+    const bool canChange = this->CanChange(change);
     if (canChange)
     {
-      m_Labels.GetBufferPointer()[doubt.site] = doubt.label;
+      m_Labels.GetBufferPointer()[change.site] = change.label;
     }
     return canChange;
   });
@@ -319,12 +319,12 @@ void
 LabelTopology::AddOffsets(std::vector<double> offsets)
 {
   this->LowerRaised();
-  m_Raised = this->FindDoubts(offsets);
-  this->Settle(m_Raised);
-  for (Change & doubt : m_Raised)
+  m_Raised = this->FindOutweighed(offsets);
+  this->MakeChanges(m_Raised);
+  for (Change & change : m_Raised)
   {
-    doubt.gain += RaisedMargin;
-    *this->FindWeight(doubt.site, m_Labels.GetBufferPointer()[doubt.site]) += doubt.gain;
+    change.gain += RaisedMargin;
+    *this->FindWeight(change.site, m_Labels.GetBufferPointer()[change.site]) += change.gain;
   }
 }
 

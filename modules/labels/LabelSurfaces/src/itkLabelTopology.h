@@ -17,12 +17,13 @@ namespace itk
  * site goes back to the label of largest weight if that leaves the topology of both labels as it is: if the neighbours
  * of either label are a disk in the site's link (see FCCCells). Offsets that are added to the weights of a label change
  * the labels of sites under the same condition. Labels of one group are kept apart, so that they can be merged later:
- * no edge of the lattice's tetrahedra joins two of them. Where one does, the site whose label has the least advantage
- * in weight goes to another label beside it or to the background 0, if its neighbours of its own label are a disk, or
- * none. Labels that have no site then, and those that lost all their claims, get the one where their weight is largest,
- * if its label can spare it.
+ * no edge of the lattice's tetrahedra joins two labels of a group. Where an edge does, the site whose label has the
+ * least advantage in weight gets the label of a neighbour or the background 0, if its neighbours of its own label are a
+ * disk, or it has no such neighbour. Labels that have no site then get the site where their weight is largest, if the
+ * label of that site can spare it.
  *
- * Where the label of a site has not the largest weight in the end, its weight is raised to that. */
+ * Where another label has a larger weight than the label of a site in the end, the weight of the site's label is raised
+ * above it. */
 class LabelTopology
 {
 public:
@@ -31,7 +32,7 @@ public:
 
   /** \param labels of largest weight at each site
    * \param weights sorted
-   * \param groups of each label, 0 being none; empty: there are none */
+   * \param groups of each label; 0, or past the end: no group */
   LabelTopology(LatticeType & labels, FCCLabelWeights & weights, const std::vector<LabelType> & groups)
     : m_Labels(labels)
     , m_Weights(weights)
@@ -47,12 +48,12 @@ public:
     bool isHeld;
   };
 
-  /** Gives the sites to those that claim them; of several to the one of largest weight, and to 0 last. */
+  /** Gives each claimed site to the label that claims it; of several, to the label of largest weight, and to 0 last. */
   void
   Grant(std::vector<Claim> claims);
 
   /** Adds an offset to all weights of each label.
-   * \param offsets by label; those that are missing are 0 */
+   * \param offsets by label; 0 for labels past the end */
   void
   AddOffsets(std::vector<double> offsets);
 
@@ -60,7 +61,7 @@ private:
   /** The labels of a site's neighbours (see FCCCells), by direction; 0 beyond the lattice. */
   using NeighborsType = std::array<LabelType, FCCCells::Directions>;
 
-  /** A label that may get a site of another one, and by how much its weight is larger there. */
+  /** A label that a site may get, and by how much its weight exceeds the weight of the site's label. */
   struct Change
   {
     SizeValueType site;
@@ -71,18 +72,18 @@ private:
   float *
   FindWeight(SizeValueType site, LabelType label);
 
-  /** The weight, or what counts as that of a label at sites of others. */
+  /** The weight of a label at a site; -FCCLabelWeights::Limit if none is stored. */
   float
   GetWeight(SizeValueType site, LabelType label);
 
   NeighborsType
   FindNeighbors(SizeValueType site) const;
 
-  /** Whether a label is of the group of another one among the neighbours. */
+  /** Whether another label among the neighbours is of a label's group. */
   bool
   MeetsGroup(LabelType label, const NeighborsType & neighbors) const;
 
-  /** Gives a site to a label, and makes sure that weights are stored for it and the one before. Needs SortWeights(). */
+  /** Gives a site to a label, and stores weights for the label before and after. SortWeights() must follow. */
   void
   Give(SizeValueType site, LabelType label);
 
@@ -95,38 +96,39 @@ private:
   std::vector<Change>
   FindWeights(const TTest & test) const;
 
-  /** The label beside a site that is to have it in order that its own does not meet another one of its group. */
+  /** The label that a site is to get when its own label meets another label of its group: the label of a neighbour with
+   * the largest weight, or 0. */
   Change
-  FindGap(SizeValueType site);
+  FindReplacement(SizeValueType site);
 
-  /** Takes sites from labels that meet others of their groups. */
+  /** Changes the labels of sites that have a neighbour of another label of the same group. */
   void
-  PartGroups();
+  SeparateGroups();
 
   /** Gives a site to each label that has weights but no site. */
   void
   PlaceLost();
 
-  /** Adds the offsets and returns the sites whose labels have not the largest weight, with those that have. */
+  /** Adds the offsets. Returns the sites whose labels do not have the largest weight, with the labels that have it. */
   std::vector<Change>
-  FindDoubts(std::vector<double> offsets);
+  FindOutweighed(std::vector<double> offsets);
 
   /** Makes the changes that keep the topology; leaves the others in the list. */
   void
-  Settle(std::vector<Change> & doubts);
+  MakeChanges(std::vector<Change> & changes);
 
-  /** Gives the raised weights what they were before. */
+  /** Undoes the raising of weights. */
   void
   LowerRaised();
 
   bool
-  CanChange(const Change & doubt) const;
+  CanChange(const Change & change) const;
 
   LatticeType & m_Labels;
   FCCLabelWeights & m_Weights;
   const std::vector<LabelType> & m_Groups;
   std::vector<bool> m_IsHeld;
-  std::vector<Change> m_Raised; ///< what was added to the weights of the labels of these sites
+  std::vector<Change> m_Raised; ///< sites whose label's weight was raised, and by how much
   std::vector<SizeValueType> m_UnsortedRows;
 };
 

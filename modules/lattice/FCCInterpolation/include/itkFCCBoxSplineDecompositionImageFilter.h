@@ -32,7 +32,7 @@ namespace itk
  * memory: a second output, if there are iterations.
  *
  * The whole input is requested, and the whole output is produced: every iteration makes a coefficient depend on samples
- * one neighbour further away. Throws when the buffer of the input does not hold all of it.
+ * one neighbour further away. Throws when the buffer of the input does not hold the whole input.
  *
  * Overridden pipeline methods: GenerateInputRequestedRegion() and EnlargeOutputRequestedRegion() (the whole image).
  *
@@ -137,7 +137,7 @@ private:
       const TPixel * const corners[4] = { rowAt(-1, -1), rowAt(1, -1), rowAt(-1, 1), rowAt(1, 1) };
       for (IndexValueType i = 0; i < width; ++i)
       {
-        // The neighbours before and after in x; one beyond an end is mirrored onto the other one.
+        // The neighbours before and after in x; a neighbour beyond an end is mirrored onto the other neighbour.
         const IndexValueType before = std::max<IndexValueType>(i + parity - 1, 0);
         const IndexValueType after = std::min(i + parity, width - 1);
         double sum = 0.0;

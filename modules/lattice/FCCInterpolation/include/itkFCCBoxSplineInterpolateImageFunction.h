@@ -120,7 +120,7 @@ public:
     return derivative;
   }
 
-  /** Value and gradient at the cost of one of them. */
+  /** Value and gradient at the cost of the gradient. */
   void
   EvaluateValueAndDerivativeAtContinuousIndex(const ContinuousIndexType & index,
                                               OutputType & value,

@@ -22,7 +22,7 @@ namespace itk
  * other air); not-a-number is outside and counted. Triangles are counter-clockwise seen from outside, points are in LPS
  * mm. One output for each isovalue, in their order.
  *
- * Pixels may be any integers from char to unsigned long long, float or double; for those of scans (uint8, int16,
+ * Pixels may be any integers from char to unsigned long long, float or double; for the types of scans (uint8, int16,
  * uint16, int32 and float) the filter is compiled in the library. Whether a sample is inside is exact for all types.
  * Between samples, and for normals, differences from the isovalue count as float32 has them; those of 64-bit integers
  * beyond 2^53 may be rounded to 0 before, as those of doubles below 1e-45 are: then points are still on cut edges, but
@@ -34,13 +34,13 @@ namespace itk
  * - Fine: the tetrahedra, with points where the cubic through four samples on the edge's line crosses the isovalue. On
  *   the longer edges along x, the cubic also passes through the value in the edge's middle, interpolated from the sites
  *   around it.
- * - Lean (default): each of these points moves to the nearer end of its edge; those of one site become one vertex, so
+ * - Lean (default): each of these points moves to the nearer end of its edge; all of one site become one vertex, so
  *   that triangles straddle the surface of the samples' reconstruction about the site, and triangles that lose a side
  *   vanish. On smooth surfaces that is a third of the triangles of Tetrahedra, and of far better shape, nearer to the
  *   truth than marching cubes. Where it would change the surface's topology (the points of a site form no disk, an edge
  *   would have more than two triangles, or a vertex fewer than three), a site's points gather in parts or stay as in
- *   Fine, so rough surfaces gain less, and noisy ones take longer. Triangles of thin parts may pass through each other,
- *   and a speck of few triangles may be inside out: TriangleSurfaceFinishFilter repairs both.
+ *   Fine, so rough surfaces gain less, and noisy surfaces take longer. Triangles of thin parts may pass through each
+ *   other, and a speck of few triangles may be inside out: TriangleSurfaceFinishFilter repairs both.
  * Points on edges stay at least MinimumFraction of the edge away from both ends (more where 32-bit positions need it):
  * so no triangle is degenerate, even where samples equal the isovalue.
  *
@@ -190,7 +190,7 @@ public:
   /** Samples of the last update that were not a number; they count as outside. */
   itkGetConstMacro(NumberOfUndefinedSamples, SizeValueType);
 
-  /** Whether samples below the isovalue are inside instead of those at or above it. Default off. */
+  /** Whether samples below the isovalue are inside instead of samples at or above it. Default off. */
   itkSetMacro(InsideIsBelow, bool);
   itkGetConstMacro(InsideIsBelow, bool);
   itkBooleanMacro(InsideIsBelow);
@@ -304,7 +304,7 @@ private:
              { { first[0], first[1] + static_cast<IndexValueType>(j), first[2] + static_cast<IndexValueType>(k) } });
   }
 
-  /** Its readers read what the input's buffer holds when they are called. */
+  /** The input and an isovalue, as extractors see them. Its readers read the input's buffer when they are called. */
   FCCScalarField
   MakeField(double isovalue, RecyclingMemory & scratch) const;
 
@@ -338,7 +338,7 @@ private:
     SizeValueType end;
   };
 
-  /** The part of the image's planes, or those of its signs, that is streamed together with plane \a k. */
+  /** The part of the image's \a planes, or of the planes of its signs, that is streamed together with plane \a k. */
   Planes
   FindDivision(SizeValueType planes, SizeValueType k) const;
 
@@ -350,8 +350,8 @@ private:
   void
   Load(const ImageRegion<3> & region);
 
-  /** Loads one division of \a planes with those \a around it after the other, and works at each as ForEachSlab() does.
-   */
+  /** Loads one division of \a planes after the other, with the planes \a around it, and works at each as ForEachSlab()
+   * does. */
   template <typename TWork>
   void
   ForEachLoadedSlab(SizeValueType planes, SizeValueType around, float share, const TWork & work);
@@ -364,8 +364,8 @@ private:
   };
   static constexpr SizeValueType MostPlanes = 64;
 
-  /** Each thread keeps about 20 planes around those it works at: so they are about twice those of a slab that is
-   * loaded, however many threads there are. */
+  /** Each thread keeps about 20 planes around the planes that it works at: with slabs of this size, all threads
+   * together keep about twice the planes that are loaded, however many threads there are. */
   static constexpr SizeValueType LeastPlanesOfSlab = 10;
 
   /** Calls \a work(begin, end) for slabs of planes, by several threads, and reports its share of the progress. */

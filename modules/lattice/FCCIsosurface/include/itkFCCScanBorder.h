@@ -17,8 +17,8 @@ FindFCCOuterCorner(const FCCImage<TPixel> & lattice, bool isHigh)
 }
 
 /** Moves the walls that close a surface to the outer faces of the scan's outermost voxels. A lattice ends a little
- * beyond or inside of them, by less than one of its spacings, and so would the volume of a structure that the scan
- * cuts.
+ * beyond or inside of these faces, by less than one of its spacings, and so would the volume of a structure that the
+ * scan cuts.
  *
  * Beyond the outermost samples the field is constant along each axis, so the surface there is stretched or compressed
  * along the axis; between samples it stays.

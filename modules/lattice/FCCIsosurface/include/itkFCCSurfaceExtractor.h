@@ -59,7 +59,7 @@ struct FCCScalarField
 };
 
 /** \class FCCSurfaceExtractor
- * \brief Makes the isosurface of a field in two passes over slabs of its planes: one counts, one fills.
+ * \brief Makes the isosurface of a field in two passes over slabs of its planes: the first counts, the second fills.
  *
  * Count all planes of the signs once, in slabs of any size and order; Resolve once; give the surface room for the
  * points and triangles there may be, and for as many normals, or none; Fill all planes once, in any slabs; Finish once.

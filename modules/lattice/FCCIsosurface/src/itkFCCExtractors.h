@@ -34,9 +34,9 @@ MakeFCCCellExtractor(const FCCSigns & signs, const FCCScalarField & field, FCCCe
  * A. Gee, "Regularised marching tetrahedra", 1999), but where the surface would not stay a manifold of the same
  * topology (see FCCSplitSites).
  *
- * Count() reads the values and keeps what the crossings are nearer to, less than a byte for each crossing. Resolve()
- * splits sites. Finish() moves the triangles of all slabs together, and removes those that close a surface that is to
- * stay open. */
+ * Count() reads the values and keeps the nearer ends of the crossings, less than a byte for each crossing. Resolve()
+ * splits sites. Finish() moves the triangles of all slabs together, and removes triangles that close a surface that is
+ * to stay open. */
 std::unique_ptr<FCCSurfaceExtractor>
 MakeFCCLeanExtractor(const FCCSigns & signs, const FCCScalarField & field);
 

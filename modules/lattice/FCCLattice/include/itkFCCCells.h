@@ -108,7 +108,7 @@ struct FCCCells
   static constexpr unsigned int FirstTetrahedron = Edges + Faces;
   static constexpr unsigned int Types = Edges + Faces + Tetrahedra;
 
-  /** A simplex within another one. */
+  /** A simplex within another simplex. */
   struct Part
   {
     std::uint8_t site = 0; ///< which site of the other simplex is the lowest of the part
@@ -124,8 +124,8 @@ struct FCCCells
     bool isPositive = false; ///< whether FCCStep::Orientation() of a tetrahedron's sites is
   };
 
-  /** The simplices that a site stores: edges in the order of FCCLattice::OwnedEdges, faces, tetrahedra. Of these,
-   * the first two are the regular tetrahedra in the unit cubes after and before the site. */
+  /** The simplices that a site stores: edges in the order of FCCLattice::OwnedEdges, faces, tetrahedra. The
+   * first two tetrahedra are the regular ones, in the unit cubes after and before the site. */
   static const std::array<Simplex, Types> Simplices;
 
   /** The number of members of a set of at most four sites. */

@@ -210,7 +210,7 @@ private:
       m_Steps[n] = isInside ? offset[0] + offset[1] * table[1] + offset[2] * table[2] : 0;
       m_InBounds = m_InBounds && isInside;
     }
-    // The first and the last sample of a buffered row have other steps than those between them.
+    // The first and the last sample of a buffered row have other steps than the samples between them.
     const IndexValueType last = m_BufferedRegion.GetUpperIndex()[0];
     m_EndOfSpan = m_X == m_BufferedRegion.GetIndex(0) || m_X == last ? m_X + 1 : std::min(endOfRow, last);
   }

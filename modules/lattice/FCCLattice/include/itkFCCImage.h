@@ -29,14 +29,15 @@ namespace itk
  *
  * A continuous index is (x / 2, y, z): linear in the point. It equals the index in rows of parity 0; the samples of a
  * row of parity 1 lie at i + 1/2. Interpolators written for Cartesian images are therefore wrong on an FCCImage; use
- * those of FCCInterpolation.
+ * the interpolators of FCCInterpolation.
  *
- * **With ITK's filters.** modules/lattice/FCCLattice/README.md has a table of the filters that work, those that have a
- * replacement here, and those that are meaningless on a lattice. Pixel-wise filters, iterators, statistics and
- * streaming work. itk::ResampleImageFilter works with FCCImages as its input, its output, or both, if an FCC input gets
- * an interpolator of FCCInterpolation instead of the default one: for a SpecialCoordinatesImage it calls the transforms
- * below for every sample instead of assuming that rows are straight. There is deliberately no neighbourhood accessor,
- * so that filters of Cartesian neighbourhoods don't compile; use FCCConstNeighborhoodIterator.
+ * **With ITK's filters.** modules/lattice/FCCLattice/README.md has a table of the filters that work, the filters that
+ * have a replacement here, and the filters that are meaningless on a lattice. Pixel-wise filters, iterators, statistics
+ * and streaming work. itk::ResampleImageFilter works with FCCImages as its input, its output, or both, if an FCC input
+ * gets an interpolator of FCCInterpolation instead of the default interpolator: for a SpecialCoordinatesImage that
+ * filter calls the transforms below for every sample instead of assuming that rows are straight. There is deliberately
+ * no neighbourhood accessor, so that filters of Cartesian neighbourhoods don't compile; use
+ * FCCConstNeighborhoodIterator.
  *
  * The transforms below hide those of ImageBase, which are not virtual: templates of the image's type, as ITK's filters
  * are, use them, but a pointer to ImageBase gives wrong positions. SetSpacing() and SetOrigin() work, unlike those of

@@ -33,7 +33,7 @@ struct FCCLattice
    * 4 / (3 sqrt 3): the ball inside the Brillouin zone has the same radius. */
   static constexpr double NyquistDensity = 0.76980035891950104;
 
-  /** Sites per Cartesian sample wherever none are asked for. */
+  /** Sites per Cartesian sample wherever no other density is asked for. */
   static constexpr double DefaultDensity = NyquistDensity;
 
   /** Volume of a site's Voronoi cell in units of the lattice coordinates. */
@@ -54,9 +54,9 @@ struct FCCLattice
                                                                 { 0, 1, -1 } } };
 
   /** The edges of the six-tetrahedra decomposition that are assigned to a site; the other seven at the site are
-   * assigned to its neighbours. First the edge along the row, which is the diagonal of an octahedron, then those to the
-   * nearest neighbours that come later in storage: in the same plane of constant z (1 and 2) and in the next one (3 to
-   * 6). */
+   * assigned to its neighbours. First the edge along the row, which is the diagonal of an octahedron, then the edges to
+   * the nearest neighbours that come later in storage: in the same plane of constant z (1 and 2) and in the next one (3
+   * to 6). */
   static constexpr std::array<SiteType, 7> OwnedEdges{
     { { 2, 0, 0 }, { 1, 1, 0 }, { -1, 1, 0 }, { 1, 0, 1 }, { -1, 0, 1 }, { 0, 1, 1 }, { 0, -1, 1 } }
   };

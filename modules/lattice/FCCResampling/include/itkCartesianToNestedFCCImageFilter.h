@@ -18,7 +18,8 @@ namespace itk
 {
 
 /** \class CartesianToNestedFCCImageFilter
- * \brief Keeps every other sample of a Cartesian volume: those on the face-centered cubic lattice nested in its grid.
+ * \brief Keeps every other sample of a Cartesian volume: the samples on the face-centered cubic lattice nested in its
+ * grid.
  *
  * The output has half as many samples as the input, its direction, and its spacing. Lattice coordinates (x, y, z),
  * whose sum is even (see FCCLattice), count the input's samples from its first one, whatever its start index; so

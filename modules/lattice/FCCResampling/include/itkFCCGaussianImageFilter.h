@@ -23,7 +23,7 @@ namespace itk
  *
  * Sigma is the standard deviation along each axis, whatever the lattice's spacing. Weights are those of a sampled
  * Gaussian, cut off beyond four standard deviations, with exact second moments for every Sigma and spacing: linear
- * fields do not change, quadratic ones change by Sigma^2 / 2 times their Laplacian, and the isosurface of a sphere of
+ * fields do not change, quadratic fields change by Sigma^2 / 2 times their Laplacian, and the isosurface of a sphere of
  * radius R in a smooth field is moved inwards by about Sigma^2 / R for a sharp edge. Where slices are much farther
  * apart than Sigma, neighbouring slices get the small weights that make this true. An image one sample thick along y or
  * z is not smoothed along it.
@@ -43,7 +43,7 @@ namespace itk
  * whether it is computed alone or with the rest, by one thread or many, on any processor. Samples that are not finite
  * double the time.
  *
- * The axes must be perpendicular; those of all outputs of this module's filters are. The filter requests only the part
+ * The axes must be perpendicular, as in all outputs of this module's filters. The filter requests only the part
  * of the input that the requested output needs.
  *
  * Throws when Sigma is negative, not finite, or more than about a thousand times the spacing, when the axes are not
@@ -235,7 +235,7 @@ private:
   {
     const RegionType & whole = this->GetInput()->GetLargestPossibleRegion();
     TOutputImage * const output = this->GetOutput();
-    float allWeights = 0.0f; // makes the division of a sample without such neighbours one by exactly 1
+    float allWeights = 0.0f; // where all samples within reach are finite: these sums are divided by exactly 1
     SmoothRows(
       taps,
       whole,

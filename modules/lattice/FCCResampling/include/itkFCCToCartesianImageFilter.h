@@ -20,7 +20,7 @@ namespace itk
 /** \class FCCToCartesianImageFilter
  * \brief Resamples an FCC image onto a Cartesian grid by linear interpolation in the lattice's tetrahedra.
  *
- * The grid is that of the reference image if one is set, an optional second input. Otherwise it has the FCC image's
+ * The grid is the grid of the reference image, an optional second input, if set. Otherwise it has the FCC image's
  * direction, the spacing that makes the FCC image's samples FCCLattice::NyquistDensity times as many as the grid's (or
  * SetOutputSpacing()), and its voxels tile the FCC image's extent, centred on it. So an image resampled onto the
  * lattice with the default density and back has its old spacing; use the reference image to get the very same grid.

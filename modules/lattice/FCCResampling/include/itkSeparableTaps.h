@@ -58,11 +58,11 @@ operator<<(std::ostream & os, SeparableKernel kernel);
  *     blocks of ten, steps 1 and 1/2 spline         0.8e-5    2.7e-5    4.0e-4    1.2e-2
  *     the same                       Linear         2.4e-3    9.1e-3    3.7e-2    1.4e-1
  *
- * In a step more than 2.5 times as long as one beside it (missing samples) the spline would overshoot an edge by more
- * than a third of its height, and the field is linear there. CubicBSpline, applied to samples as if they were even,
- * would bend a linear field by up to 8 % of the change of the step wherever that changes.
+ * In a step more than 2.5 times as long as a step beside it (missing samples) the spline would overshoot an edge by
+ * more than a third of its height, and the field is linear there. CubicBSpline, applied to samples as if they were
+ * even, would bend a linear field by up to 8 % of the change of the step wherever that changes.
  *
- * Samples beyond the ends of evenly placed ones are mirror images about the first and last one, as
+ * Samples beyond the ends of evenly placed samples are mirror images about the first and last sample, as
  * itk::BSplineInterpolateImageFunction has them.
  *
  * Positions outside the samples, [0, length - 1], are moved to the nearest end: the field is constant beyond it.

@@ -57,7 +57,7 @@ MakeHalfBandTerms()
 }
 
 /** Loads input rows as two rows, their samples of even and of odd x, so that each term of the filter is a run of
- * consecutive samples. Sample n of these is x = 2 (begin + n - Margin), and one more. */
+ * consecutive samples. Sample n of the even row is at x = 2 (begin + n - Margin), of the odd row at the next x. */
 class SplitRowLoader
 {
 public:
@@ -88,7 +88,7 @@ public:
     return RowArithmetic::PaddedLength(m_Sources.size() / 2);
   }
 
-  /** Loads row (y, z), or its mirror image in the input. The odd samples begin GetStride() behind the even ones. */
+  /** Loads row (y, z), or its mirror image in the input. The odd samples begin GetStride() behind the even samples. */
   void
   Load(IndexValueType y, IndexValueType z, float * even)
   {

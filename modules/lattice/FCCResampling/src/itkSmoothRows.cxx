@@ -69,7 +69,7 @@ public:
   }
 
 private:
-  /** Fills a ring along an axis with all that is within reach of an index of the region. */
+  /** Fills a ring along an axis with all rows or planes within reach of an index of the region. */
   template <typename TMake>
   void
   AdvanceTo(unsigned int axis, IndexValueType index, RowRing & ring, const TMake & make)
@@ -91,14 +91,14 @@ private:
     return static_cast<SizeValueType>(index - m_Whole.GetIndex(axis));
   }
 
-  /** The row or plane that stands for one beyond the image's ends. */
+  /** The row or plane that stands for a row or plane beyond the image's ends. */
   SizeValueType
   MirroredNumberOf(unsigned int axis, IndexValueType index) const
   {
     return this->NumberOf(axis, MirrorIntoRange(index, m_Whole.GetIndex(axis), m_Whole.GetUpperIndex()[axis]));
   }
 
-  /** Blends of row j of a plane along y: those over the even steps (0) or over the odd ones (1). */
+  /** Blends of row j of a plane along y: over the even steps (0) or over the odd steps (1). */
   float *
   GetSlabRow(unsigned int oddSteps, IndexValueType j, SizeValueType plane)
   {

@@ -23,8 +23,9 @@ MirrorIntoRange(IndexValueType value, IndexValueType first, IndexValueType last)
 }
 
 /** Reflects the index of a site at the planes through a region's first and last sites along each axis until it lies in
- * the region. These reflections are symmetries of the lattice, so that the mirrored samples are one function on all of
- * it. A region one plane thick in y or z repeats that plane, although every other plane has the other parity. */
+ * the region. These reflections are symmetries of the lattice, so that the mirrored samples are one function on the
+ * whole lattice. A region one plane thick in y or z repeats that plane, although every other plane has the other
+ * parity. */
 inline Index<3>
 MirrorIntoRegion(const Index<3> & index, const ImageRegion<3> & region)
 {

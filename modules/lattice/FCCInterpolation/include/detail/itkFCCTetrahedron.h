@@ -39,9 +39,8 @@ struct FCCUnitCube
 /** \class FCCTetrahedron
  * \brief The four sites around a point and their barycentric weights.
  *
- * The tetrahedra are those of the six-tetrahedra decomposition: the regular one in each unit cube, and the octahedron
- * around each odd point cut in four about its x diagonal. FCCIsosurfaceFilter marches the same tetrahedra, so that its
- * points lie on the level set of this interpolant, except for those that it moves away from a sample.
+ * The tetrahedra are those of FCCCells. FCCIsosurfaceFilter marches the same tetrahedra, so that its points lie on the
+ * level set of this interpolant, except for points that it moves away from a sample.
  *
  * \ingroup FCCInterpolation
  */

@@ -33,7 +33,7 @@ struct FCCCell
   struct Edge
   {
     std::uint8_t start = 0; ///< the corner that stores the edge
-    std::uint8_t end = 0;   ///< the other one
+    std::uint8_t end = 0;   ///< the other corner
     std::uint8_t type = 0;  ///< which of FCCLattice::OwnedEdges it is
   };
 
@@ -64,7 +64,7 @@ struct FCCCell
     return static_cast<std::uint8_t>(types);
   }
 
-  /** Adds the face through three corners if they are the first three of one, the second and third in any order. */
+  /** Adds the face through three corners if these are the face's first corners, the second and third in any order. */
   constexpr void
   AddFaceThrough(std::uint8_t a, std::uint8_t b, std::uint8_t c)
   {
@@ -91,7 +91,7 @@ struct FCCCell
       return;
     }
 
-    // From each corner to the one that has all others on the left, seen from outside: from the side without corners.
+    // From each corner to the corner that leaves all others on the left, seen from outside: the side without corners.
     unsigned int apex = 0; // any corner off the face
     while (this->Orientation(a, b, c, apex) == 0)
     {

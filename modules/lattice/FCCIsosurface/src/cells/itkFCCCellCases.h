@@ -19,16 +19,16 @@ namespace itk
  * axes are right-handed.
  *
  * A face with two cut edges has one segment. A quadrilateral whose opposite corners are inside is *ambiguous*: the
- * corners at the ends of its short diagonal are taken as connected, so the segments cut off the other two. It is what
- * marching the two triangles beside the short diagonal gives, which can't be cut itself. Both cells at a face see the
+ * corners at the ends of its short diagonal are taken as connected, so the segments cut off the other two. Marching
+ * the two triangles beside the short diagonal, which can't be cut itself, gives the same. Both cells at a face see the
  * same segments, so the surface has no cracks.
  *
  * Why the surface is a manifold for any signs: each cut edge is on one segment of each face around it, so the triangles
  * at its point form one fan, unless two of them share an edge with other triangles, too. Segments differ, as they lie
- * on different faces or on different sides of one. Two edges are common to several cells only if they lie on a common
- * face; so it is enough that no diagonal joins two edges of one face. Among the ways to cut a loop into triangles
- * without such a diagonal, the one with the least sum of squared lengths of the diagonals is taken, points being at the
- * middle of their edges. Then no triangle is degenerate, either: three points on the border of a convex cell are
+ * on different faces or on different sides of one. Two edges are common to several cells only if both lie on a
+ * common face; so it is enough that no diagonal joins two edges of one face. Among the ways to cut a loop into
+ * triangles without such a diagonal, that with the least sum of squared lengths of the diagonals is taken, points being
+ * at the middle of their edges. Then no triangle is degenerate, either: three points on the border of a convex cell are
  * collinear only if they lie on one face.
  *
  * The tables are derived here at compile time. The idea that segments on faces, loops and then triangles are found by
@@ -141,7 +141,7 @@ struct FCCCellCases
     return cell.onOneFace[a][b] ? prohibitive : FCCStep::SquaredLength(step);
   }
 
-  /** Cuts a loop into triangles: between each two of its points, the best third one, from short stretches to long. */
+  /** Cuts a loop into triangles: finds the best third point between each two points, from short stretches to long. */
   constexpr void
   AddTriangles(Case & result, const FCCCell & cell, const Loop & loop)
   {

@@ -37,7 +37,7 @@ template <typename TKind>
 class CellRow
 {
 public:
-  /** \a nothing is a row of sites outside, for those beyond the box of a closed surface; nullptr when it is open. */
+  /** \param nothing a row of sites outside, for sites beyond the box of a closed surface; nullptr if open */
   CellRow(const FCCSigns & signs, SizeValueType j, SizeValueType k, const WordType * nothing)
     : m_Words(signs.GetNumberOfWords())
     , m_End(signs.GetWidth())
@@ -91,7 +91,7 @@ private:
   IndexValueType m_Shift[FCCCell::MaximumCorners];
 };
 
-/** The cut edges that the cells of *layer* k share, those whose anchors are in plane k. */
+/** The cut edges that the cells of *layer* k share, the cells whose anchors are in plane k. */
 struct LayerEdges
 {
   const FCCCutEdges * inPlane[3]; ///< cut edges within the planes k - 1, k and k + 1

@@ -22,7 +22,7 @@ FindCutEdges(const FCCSigns & signs, std::uint8_t type, SizeValueType j, SizeVal
   FCCBits::ForEachShifted(signs.GetRow(end.j, end.k), words, end.shift, [row, cut](SizeValueType word, WordType bits) {
     cut[word] = row[word] ^ bits;
   });
-  // Edges that end outside the box, of the first or the last site, are none.
+  // The first or the last site has no edge that ends outside the box.
   cut[0] &= ~WordType{ end.shift < 0 ? 1u : 0u };
   cut[words - 1] &= FCCBits::Below(signs.GetWidth() - (end.shift > 0 ? 1 : 0), words - 1);
 }

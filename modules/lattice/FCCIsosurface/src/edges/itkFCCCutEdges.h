@@ -65,7 +65,7 @@ public:
   using Group = FCCStoredEdges::Group;
   using Row = FCCNumberedBits::Row;
 
-  /** \param types those that the decomposition of space into cells has, of which the group's are taken */
+  /** \param types of the edges of the cells; the types of the group are taken */
   FCCCutEdges(const FCCSigns & signs, Group group, std::uint8_t types, std::pmr::memory_resource * scratch);
 
   /** Finds the cut edges that plane \a k stores and numbers them from \a firstId. Planes past the last have none. */

@@ -51,7 +51,7 @@ protected:
     return FCCCutEdges(m_Signs, group, m_Types, m_Field.scratch);
   }
 
-  /** Finds the cut edges of plane \a k, with the ids of their points; of planes past the last, none. */
+  /** Finds the cut edges of plane \a k, with the ids of their points. Planes past the last have no edges. */
   void
   Find(SizeValueType k, FCCCutEdges & inPlane) const
   {
@@ -80,7 +80,7 @@ protected:
 private:
   std::uint8_t m_Types;
   FCCEdgePoints m_EdgePoints;
-  std::vector<SizeValueType> m_InPlane; ///< by plane: points on edges within it, which come before those to the next
+  std::vector<SizeValueType> m_InPlane; ///< by plane: points on edges within the plane, which come first
 };
 
 } // namespace itk

@@ -16,7 +16,7 @@ struct EdgeRows
   bool passesThroughMiddle;
   bool withGradients;
   SizeValueType shift;     ///< from a site to the other end of its edge
-  const float * values[4]; ///< at the positions -1, 0, 1, 2 along the line; the outer ones for cubics only
+  const float * values[4]; ///< at the positions -1, 0, 1, 2 along the line; the outer values for cubics only
   FCCFieldPlanes::GradientRow gradients[2]; ///< at both ends
   const float * nearMiddle[4];              ///< around the middle of an edge along x, for cubics only
   const float * aroundEnds[2][4];           ///< further away, on either side of the middle
@@ -78,7 +78,7 @@ struct EdgeRows
 private:
   /** Moves the outer values of an edge along x, so that the cubic has the value of the field at the edge's middle. On
    * this line samples are further apart than around it: without them steps look like stairs. The middle is that of an
-   * octahedron: its value follows, up to third order, from those at the 6 corners and the 8 sites above its faces. */
+   * octahedron: its value follows, to third order, from the values at the 6 corners and the 8 sites above its faces. */
   void
   PassThroughMiddle(SizeValueType i, FCCEdgeBatch & batch) const
   {

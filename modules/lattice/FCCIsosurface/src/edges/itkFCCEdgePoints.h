@@ -40,7 +40,7 @@ PlaceOnEdges(const FCCEdgeBatch & batch,
  *
  * Between two samples a point lies where their values' interpolation along the edge crosses the isovalue. An edge may
  * lead to a site outside the image (see FCCIsosurfaceFilter on closed surfaces); there, points lie on the faces of the
- * image's extent, and normals are theirs.
+ * image's extent, with the normals of these faces.
  */
 class FCCEdgePoints
 {
@@ -48,7 +48,7 @@ public:
   using SiteType = FCCLattice::SiteType;
 
   /** \param cubic whether values are interpolated by the cubic through four samples instead of linearly; along x,
-   *         where these are further apart than those around, by one that passes through the edge's middle, too
+   *         where samples are further apart than around, by a cubic that also passes through the edge's middle
    *  \param margin 1 when signs count sites from a layer around the image, otherwise 0 */
   FCCEdgePoints(const FCCScalarField & field, bool cubic, SizeValueType margin);
 
@@ -138,7 +138,7 @@ public:
   FCCEdgePointFiller(const FCCSigns & signs, const FCCScalarField & field, const FCCEdgePoints & edgePoints);
 
   /** Fills the points on some edges stored by plane \a k of the signs. The surface must have its size; normals are left
-   * out where it has none. */
+   * out where the surface has no normals. */
   void
   Fill(SizeValueType k, const FCCCutEdges & inPlane, const FCCCutEdges & between, TriangleSurface & surface);
 

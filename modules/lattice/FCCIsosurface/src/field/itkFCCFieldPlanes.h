@@ -41,13 +41,13 @@ struct FCCFieldKernels
 /** \class FCCFieldPlanes
  * \brief Values, coefficients and gradients of the field in a few planes of an FCC image.
  *
- * Sites are counted from a layer of one site around the image, so real ones begin at 1 along each axis. Values are
- * relative to the isovalue. Those of the layer around the image are extrapolated linearly from within, axis by axis.
- * Coefficients are those of the box spline that quasi-interpolates the values, c = 3/2 f - sum of the 12 neighbours
- * / 24 (Kim, Entezari, Peters, "Box spline reconstruction on the face-centered cubic lattice", 2008). The gradient of
- * that box spline at a site is the sum of d c(x + d) / 8 over the neighbours. Only sites that have a neighbour on the
- * other side of the surface have gradients, which are stored one after the other: those of a few planes fit into a
- * cache.
+ * Sites are counted from a layer of one site around the image, so the image's sites begin at 1 along each axis. Values
+ * are relative to the isovalue. Values of the layer around the image are extrapolated linearly from within, axis by
+ * axis. Coefficients are those of the box spline that quasi-interpolates the values, c = 3/2 f - sum of the 12
+ * neighbours / 24 (Kim, Entezari, Peters, "Box spline reconstruction on the face-centered cubic lattice", 2008). The
+ * gradient of that box spline at a site is the sum of d c(x + d) / 8 over the neighbours. Only sites that have a
+ * neighbour on the other side of the surface have gradients, which are stored one after the other: the gradients of a
+ * few planes fit into a cache.
  *
  * Planes are computed when asked for, and the last few of each kind are kept: ask in ascending order.
  *
@@ -69,23 +69,23 @@ public:
     return (m_ParityOfFirstRow + static_cast<IndexValueType>(j + k)) & 1;
   }
 
-  /** Whether an index along an axis is one of the image, not one of the layer around it. */
+  /** Whether an index along an axis is in the image, not in the layer around it. */
   bool
   IsReal(unsigned int axis, SizeValueType index) const
   {
     return index > 0 && index + 1 < m_Size[axis];
   }
 
-  /** Makes the values of a plane available, and keeps those of the five planes that were loaded before. */
+  /** Makes the values of a plane available, and keeps the values of the five planes that were loaded before. */
   void
   LoadValues(SizeValueType k);
 
-  /** Makes the values of planes \a k - 1 to \a k + 1 available, of those that exist. */
+  /** Makes the values of the planes \a k - 1 to \a k + 1 available, as far as they exist. */
   void
   LoadValuesAround(SizeValueType k);
 
-  /** Makes the gradients of a plane available, and keeps those of a few planes that were loaded before. Planes of the
-   * layer around the image have none. */
+  /** Makes the gradients of a plane available, and keeps the gradients of a few planes that were loaded before. Planes
+   * of the layer around the image have no gradients. */
   void
   LoadGradients(SizeValueType k);
 

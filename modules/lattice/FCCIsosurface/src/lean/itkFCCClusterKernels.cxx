@@ -42,7 +42,7 @@ constexpr unsigned int AroundMiddle[2][4] = { { Star::DirectionOf({ 1, 1, 0 }),
                                                 Star::DirectionOf({ -1, 0, -1 }) } };
 
 /** Finds the crossings of parabolas with zero, one for each edge: through the values before, at and after the site, but
- * for edges along x, where sites are further apart, through those at the ends and the mean around the middle. */
+ * for edges along x, where sites are further apart, through the values at the ends and the mean around the middle. */
 HWY_ATTR void
 FindCrossings(const FCCClusterBatch & batch, ClusterCrossings & found)
 {
@@ -231,7 +231,7 @@ FindOutwards(const FCCClusterBatch & batch,
              float outwardSign,
              std::size_t n)
 {
-  // The expansion's gradient is the most accurate one where it agrees with that interpolated along the edges.
+  // The expansion's gradient is the most accurate where it agrees with the gradient interpolated along the edges.
   const Vector expanded = expansion.GradientAt(place);
   const float t = crossings.fraction[n];
   const Vector & near = expansion.gradient;
@@ -256,7 +256,7 @@ FindOutwards(const FCCClusterBatch & batch,
   const float sum = (__builtin_fabsf(best.x) + __builtin_fabsf(best.y)) + __builtin_fabsf(best.z);
   const bool hasNormal = sum > 0.0f && sum <= std::numeric_limits<float>::max();
   const float scale = outwardSign / sum;
-  // Without a gradient: away from the site if it is inside, towards it otherwise; both is better than nothing.
+  // Without a gradient: away from a site inside, towards a site outside; the 1e-3 serves crossings at the site.
   const float side = batch.value[n] >= 0.0f ? -outwardSign : outwardSign;
   const Vector mean = Get(crossings.mean, n);
   return { hasNormal ? scale * best.x : side * (mean.x + 1e-3f),
@@ -264,7 +264,7 @@ FindOutwards(const FCCClusterBatch & batch,
            hasNormal ? scale * best.z : side * mean.z };
 }
 
-/** Points and unit normals in the world, written one by one. */
+/** Points and unit normals in the world, written vertex by vertex. */
 HWY_ATTR void
 TurnToWorld(const FCCClusterBatch & batch,
             const FCCFrame & frame,

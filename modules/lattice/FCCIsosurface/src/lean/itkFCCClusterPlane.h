@@ -10,9 +10,9 @@ namespace itk
 /** \class FCCClusterPlane
  * \brief The vertices of one plane, by the sites that gather their crossings.
  *
- * A site gathers the crossings that it is nearer to: all of a *whole* site make one vertex, those of a *split* site
- * (see FCCSplitSites) make several. Vertices are numbered first by the whole sites, row by row, then by the split
- * sites, row by row, and their parts.
+ * A site gathers the crossings that it is nearer to: all crossings of a *whole* site make one vertex, the crossings of
+ * a *split* site (see FCCSplitSites) make several. Vertices are numbered first by the whole sites, row by row, then by
+ * the split sites, row by row, and their parts.
  */
 class FCCClusterPlane
 {

@@ -73,7 +73,7 @@ public:
     return m_Gradients.GetGradient(i);
   }
 
-  /** The mean of the gradients at the neighbours in some directions. Those outside the image have none. */
+  /** The mean of the gradients at the neighbours in some directions. Neighbours outside the image do not count. */
   std::array<float, 3>
   GetFarGradient(SizeValueType i, unsigned int directions) const
   {

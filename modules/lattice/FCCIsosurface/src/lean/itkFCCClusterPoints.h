@@ -59,7 +59,7 @@ public:
 
   /** Places the vertices of plane \a k, and their normals unless null, and sets for each, unless null, whether its site
    * is outside the image. The arrays begin with the first of them. The field must have loaded the gradients of the
-   * plane, and for normals of those next to it, too. */
+   * plane, and for normals also of the planes next to it. */
   void
   Place(const FCCSigns & signs,
         const FCCClusterPlane & plane,

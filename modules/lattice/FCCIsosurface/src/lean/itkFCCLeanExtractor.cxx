@@ -4,14 +4,13 @@
 #include "itkFCCSplitSites.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace itk
 {
 namespace
 {
 
-/** Three consecutive planes. Each is found once, from the one below it. */
+/** Three consecutive planes. Each plane is found once, from the plane below it. */
 class PlaneSequence
 {
 public:

@@ -51,7 +51,7 @@ struct LeanColumn
 };
 
 /** The steps of one kind. \tparam Shift 1 when the next pair's index is one more than this pair's, else 0. All loops
- * over its tables unroll, so that none is left. */
+ * over its tables unroll, so that no loop is left. */
 template <unsigned int Kind, unsigned int Shift>
 struct LeanSteps
 {
@@ -77,7 +77,7 @@ struct LeanSteps
     return FCCMarchingTables.storedEdges[Kind][edge];
   }
 
-  /** The row that says whether an edge's crossing is nearer to one of EdgeSites. */
+  /** The row of bits of one end of an edge, one of EdgeSites: is the crossing nearer to it? */
   static HWY_INLINE const WordType *
   NearerRow(const LeanColumn & column, unsigned int edge, unsigned int end)
   {
@@ -292,7 +292,7 @@ private:
 #pragma GCC unroll 4
       for (unsigned int leftOut = 0; leftOut < 4; ++leftOut)
       {
-        // The corner left out has no crossing, or all four have: then it is one of those outside.
+        // The corner left out has no crossing, or all four corners have a crossing and the corner left out is outside.
         const auto & corners = Tables.triangles[tetrahedron][leftOut].corners;
         const Words spanned =
           hn::And(hasCrossing[corners[0]], hn::And(hasCrossing[corners[1]], hasCrossing[corners[2]]));

@@ -12,9 +12,9 @@ namespace itk
 /** \file
  * The triangles of mode `lean`. Every crossing has moved to its nearer end (FCCNearerEnds), so a tetrahedron's triangle
  * keeps its area when its three corners have moved to three sites. What is left of a tetrahedron depends on which of
- * its sites have a crossing of its edges: three that do span one triangle, four span two, and fewer none. When four do,
- * each has one crossing of a quadrilateral, which FCCTetrahedronPolygon::FindFirstCorner() cuts from a site inside to a
- * site inside. For whole sites that is logic on bits: 64 steps of a column in one word. */
+ * its sites have a crossing of its edges: three such sites span one triangle, four span two, and fewer none. Each of
+ * four sites has one crossing of a quadrilateral, which FCCTetrahedronPolygon::FindFirstCorner() cuts from a site
+ * inside to a site inside. For whole sites that is logic on bits: 64 steps of a column in one word. */
 
 /** \class FCCTriangleUse
  * \brief How many triangles between whole sites use each site of a plane and the edges that it stores.

@@ -167,7 +167,7 @@ FCCSiteDivision::Divide()
   return changed;
 }
 
-/** Splits a whole site into its connected parts, those that are no disks into single crossings. */
+/** Splits a whole site into its connected parts, and parts that are no disks into single crossings. */
 void
 FCCSiteDivision::StartDividing()
 {
@@ -221,8 +221,8 @@ FCCSiteDivision::FindBroken() const
   return crossings;
 }
 
-/** The crossings of a part without which it may break no condition: those that take part in all its edges with more
- * than two triangles. */
+/** The crossings of a part without which the part may break no condition: the crossings that take part in all edges of
+ * the part with more than two triangles. */
 unsigned int
 FCCSiteDivision::FindHelpful(unsigned int part) const
 {

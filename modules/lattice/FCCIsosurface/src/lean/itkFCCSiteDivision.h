@@ -10,8 +10,8 @@ namespace itk
 {
 
 /** \class FCCStarReader
- * \brief Reads what lies in the stars of a row's sites: which sites are inside, and which crossings are nearer to the
- * sites that store their edges.
+ * \brief Reads the stars of a row's sites: which sites are inside, and which crossings are nearer to the sites that
+ * store their edges.
  */
 class FCCStarReader
 {
@@ -89,7 +89,7 @@ public:
   }
 
   /** The most triangles that the tetrahedra with crossings of the site can have: between the plane below and its own,
-   * and between its own and the one above. These are the triangles before clustering. */
+   * and between its own and the plane above. These are the triangles before clustering. */
   std::array<SizeValueType, 2>
   GetMostTriangles() const;
 
@@ -188,7 +188,7 @@ private:
     return (1U << m_NumberOfVertices) - 1;
   }
 
-  /** Those of its vertices that gather crossings. */
+  /** The numbers of the site's vertices that gather crossings, as bits. */
   unsigned int
   GetGatheredVertices() const;
 

@@ -13,8 +13,8 @@ namespace itk
  * \brief The vertices that the crossings of a split site make: *single* crossings are vertices by themselves, the
  * others gather in connected parts, each of which is one vertex.
  *
- * The crossings of a site are those that it is nearer to. Sets of them are bits of their directions. Vertices are
- * numbered by the lowest directions of their crossings.
+ * The crossings of a site are the crossings that the site is nearer to. Sets of crossings are bits of their directions.
+ * Vertices are numbered by the lowest directions of their crossings.
  */
 class FCCSiteParts
 {

@@ -17,7 +17,7 @@ struct FCCSiteStar
 {
   static constexpr unsigned int Center = FCCCells::Directions;
   static constexpr unsigned int Sites = FCCCells::Directions + 1;
-  static constexpr unsigned int Edges = FCCCells::Directions + 36; ///< those at the center, and those of its link
+  static constexpr unsigned int Edges = FCCCells::Directions + 36; ///< at the center, and of its link
   static constexpr unsigned int Tetrahedra = 24;
 
   /** The step from the center to a site. */

@@ -19,7 +19,7 @@ namespace itk
  * All sites begin with one set each: all the crossings that they are nearer to. A set that breaks a condition is
  * divided: first into the parts that are connected; a part that breaks a condition still gives up one point, if that
  * helps, or else all. This ends, at the latest with the mesh of the tetrahedra. Whether an edge breaks 2 depends on
- * nothing but the sets of its two ends, so only the surroundings of what was divided need to be looked at again.
+ * nothing but the sets of its two ends, so only the surroundings of divided sites need to be looked at again.
  */
 class FCCSplitSites
 {
@@ -52,7 +52,7 @@ public:
   }
 
 private:
-  /** Sites of a plane that no other of them is a neighbour of are of one color: they can be divided at once. */
+  /** Sites of one color in a plane have no neighbours of that color in the plane: they can be divided at once. */
   static constexpr unsigned int ColorsOfPlane = 4;
 
   /** Planes whose suspects are taken together, as the nearer ends of the planes next to them are needed. */
@@ -93,7 +93,7 @@ private:
   void
   DivideSuspects(SizeValueType k, unsigned int color, const FCCSurfaceExtractor::Workers & workers);
 
-  /** Writes the parts of what was divided. */
+  /** Writes the parts of divided sites. */
   void
   SetDivided(SizeValueType k, std::vector<SizeValueType> & triangles);
 

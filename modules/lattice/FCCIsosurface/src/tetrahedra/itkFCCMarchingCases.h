@@ -12,13 +12,13 @@ namespace itk
  * A *column* is the square prism between the rows A (j, k), B (j+1, k), C (j, k+1) and D (j+1, k+1). Rows A and D have
  * one parity, B and C the other, so along x the column's sites come in alternating *pairs* AD, BC, AD, BC ... one
  * lattice unit apart. Every tetrahedron of the six-tetrahedra decomposition that touches the prism lies in it, and
- * spans two or three consecutive pairs. A *step* is what starts at one pair; with the pair's rows called first and
- * second:
+ * spans two or three consecutive pairs. A *step* is the tetrahedra that start at one pair; with the pair's rows called
+ * first and second:
  *
  *   sites  0, 1  first and second row of this pair
  *          2, 3  first and second row of the next pair, of the other kind
  *          4, 5  first and second row of the pair after that, of this kind again
- *   tetrahedra  {0 1 2 3}  the regular one between this pair and the next
+ *   tetrahedra  {0 1 2 3}  the regular tetrahedron between this pair and the next
  *               {0 4 2 3}  the quarter of an octahedron about its diagonal 0-4
  *               {1 5 2 3}  the quarter of another octahedron about its diagonal 1-5
  *
@@ -50,7 +50,7 @@ struct FCCMarchingCases
 
   static constexpr std::uint8_t TetrahedronSites[Tetrahedra][4] = { { 0, 1, 2, 3 }, { 0, 4, 2, 3 }, { 1, 5, 2, 3 } };
 
-  /** The two sites of each edge. Edges between sites 4 and 5, or among later ones, belong to later steps. */
+  /** The two sites of each edge. Edges between sites 4 and 5, or among later sites, belong to later steps. */
   static constexpr std::uint8_t EdgeSites[Edges][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 },
                                                         { 0, 4 }, { 1, 5 }, { 2, 4 }, { 3, 4 }, { 2, 5 }, { 3, 5 } };
 
@@ -67,7 +67,7 @@ struct FCCMarchingCases
     std::uint8_t start = 0; ///< which of EdgeSites stores it
     Row row = A;
     std::uint8_t type = 0;
-    std::uint8_t pair = 0; ///< 0: this pair, 1: the next, 2: the one after
+    std::uint8_t pair = 0; ///< 0: this pair, 1: the next pair, 2: the pair after
   };
 
   /** Row of a site of a step. */
