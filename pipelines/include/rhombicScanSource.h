@@ -1,7 +1,7 @@
 #ifndef rhombicScanSource_h
 #define rhombicScanSource_h
 
-#include "rhombicLabelMapReader.h"
+#include "rhombicLabelMap.h"
 #include "rhombicScanReader.h"
 #include "rhombicScanToLattice.h"
 #include "rhombicSceneRules.h"

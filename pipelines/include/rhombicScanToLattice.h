@@ -5,6 +5,7 @@
 #include "rhombicEvents.h"
 #include "rhombicFCCImageFile.h"
 #include "rhombicScan.h"
+#include "rhombicVoxelGrid.h"
 
 #include "itkFCCLattice.h"
 #include "itkSeparableTaps.h"
@@ -31,10 +32,6 @@ struct LatticeSettings
 /** A denoising written as `none`, `gaussian:SIGMA` or `edges:SIGMA,EDGE`. Throws Failure(Usage). */
 Denoising
 ParseDenoising(const std::string & text);
-
-/** The spacing in mm of an isotropic grid or lattice with as many samples per volume. */
-double
-MeanSpacingOf(const itk::ImageBase<3> & image);
 
 /** Throws Failure(Usage) for settings out of their ranges. */
 void

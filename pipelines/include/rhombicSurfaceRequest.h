@@ -4,7 +4,7 @@
 #include "rhombicIntensities.h"
 #include "rhombicSceneSurface.h"
 #include "rhombicSurfaceFinish.h"
-#include "rhombicThreshold.h"
+#include "rhombicPixelTypes.h"
 
 #include <cstddef>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "rhombicDescribeScan.h"
 
-#include "rhombicDicomExamination.h"
+#include "rhombicScanReader.h"
 #include "rhombicFailure.h"
 #include "rhombicLabelDoubts.h"
 #include "rhombicSourceLoading.h"

@@ -1,8 +1,8 @@
 #include "rhombicLatticeToSurfaces.h"
 
-#include "rhombicBodyFilling.h"
+#include "rhombicEnclosedParts.h"
 #include "rhombicFailure.h"
-#include "rhombicObserveProgress.h"
+#include "rhombicEvents.h"
 #include "rhombicWording.h"
 
 #include "itkFCCIsosurfaceFilter.h"

@@ -2,8 +2,8 @@
 
 #include "rhombicBuiltInPresets.h"
 #include "rhombicFailure.h"
+#include "rhombicFiles.h"
 #include "rhombicScanToLattice.h"
-#include "rhombicTextFile.h"
 #include "rhombicWording.h"
 #include "rhombicYAMLKeys.h"
 

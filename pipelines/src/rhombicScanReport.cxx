@@ -1,6 +1,6 @@
 #include "rhombicScanReport.h"
 
-#include "rhombicDigest.h"
+#include "rhombicFiles.h"
 
 #include "vnl/vnl_det.h"
 

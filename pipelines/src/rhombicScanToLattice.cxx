@@ -2,7 +2,7 @@
 
 #include "rhombicFailure.h"
 #include "rhombicMemoryBudget.h"
-#include "rhombicObserveProgress.h"
+#include "rhombicEvents.h"
 #include "rhombicWording.h"
 
 #include "itkCartesianToFCCImageFilter.h"
@@ -148,13 +148,6 @@ ParseDenoising(const std::string & text)
   }
   CheckDenoising(denoising);
   return denoising;
-}
-
-double
-MeanSpacingOf(const itk::ImageBase<3> & image)
-{
-  const auto & spacing = image.GetSpacing();
-  return std::cbrt(spacing[0] * spacing[1] * spacing[2]);
 }
 
 void

@@ -4,7 +4,7 @@
 #include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
 #include "rhombicLabelDoubts.h"
-#include "rhombicObserveProgress.h"
+#include "rhombicEvents.h"
 #include "rhombicPatientAxes.h"
 #include "rhombicWording.h"
 

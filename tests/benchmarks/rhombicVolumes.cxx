@@ -1,5 +1,4 @@
 #include "rhombicExtractSurface.h"
-#include "rhombicIsosurfaceVolume.h"
 #include "rhombicJSONFile.h"
 #include "rhombicLatticeToSurfaces.h"
 #include "rhombicScanToLattice.h"

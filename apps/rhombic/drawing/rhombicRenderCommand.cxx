@@ -6,7 +6,7 @@
 #include "rhombicNamedValues.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicSurfaceOptions.h"
-#include "rhombicTextFile.h"
+#include "rhombicFiles.h"
 #include "rhombicVTPToPLY.h"
 #include "rhombicWording.h"
 

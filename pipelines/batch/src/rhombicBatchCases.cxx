@@ -2,8 +2,7 @@
 
 #include "rhombicFailure.h"
 #include "rhombicScanReader.h"
-#include "rhombicTextFile.h"
-#include "rhombicVolumeFormat.h"
+#include "rhombicFiles.h"
 #include "rhombicWording.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "rhombicCaseRun.h"
 
 #include "rhombicBatchResults.h"
-#include "rhombicDigest.h"
+#include "rhombicFiles.h"
 #include "rhombicFailure.h"
 #include "rhombicSidecar.h"
 #include "rhombicWording.h"

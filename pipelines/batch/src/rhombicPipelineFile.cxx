@@ -3,7 +3,7 @@
 #include "rhombicBatchResults.h"
 #include "rhombicFailure.h"
 #include "rhombicMeshScan.h"
-#include "rhombicTextFile.h"
+#include "rhombicFiles.h"
 #include "rhombicWording.h"
 #include "rhombicYAMLKeys.h"
 

@@ -3,7 +3,7 @@
 #include "rhombicBatchJournal.h"
 #include "rhombicBatchResults.h"
 #include "rhombicCaseRun.h"
-#include "rhombicDigest.h"
+#include "rhombicFiles.h"
 #include "rhombicFailure.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicScanReader.h"

@@ -1,7 +1,7 @@
 #include "rhombicComparison.h"
 #include "rhombicComparedMethod.h"
 #include "rhombicFailure.h"
-#include "rhombicTextFile.h"
+#include "rhombicFiles.h"
 #include "rhombicWording.h"
 
 #include <yaml-cpp/yaml.h>

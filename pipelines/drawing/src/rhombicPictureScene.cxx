@@ -1,6 +1,6 @@
 #include "rhombicPictureScene.h"
 
-#include "rhombicDicomExamination.h"
+#include "rhombicScanReader.h"
 #include "rhombicFailure.h"
 #include "rhombicMeasureTable.h"
 #include "rhombicSourceSurfaces.h"

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -75,6 +76,23 @@ TEST(WorkProgress, NoticesAnAbort)
     EXPECT_NE(std::string(aborted.GetLocation()), "");
     EXPECT_NE(std::string(aborted.GetFile()).find("itkWorkProgress.h"), std::string::npos);
   }
+}
+
+TEST(WorkProgress, LoopsOnTheFiltersThreads)
+{
+  const auto worker = Worker::New();
+  itk::WorkProgress progress(*worker, 100);
+  std::vector<int> visits(100);
+  progress.ForEach(100, [&](itk::SizeValueType n) {
+    ++visits[n];
+    progress.Completed(1);
+  });
+  EXPECT_EQ(visits, std::vector<int>(100, 1));
+  EXPECT_EQ(progress.GetCompleted(), 100u);
+  const auto failAtSeventh = [](itk::SizeValueType n) { n == 7 ? throw std::runtime_error("at 7") : void(); };
+  EXPECT_THROW(progress.ForEach(100, failAtSeventh), std::runtime_error);
+  worker->AbortGenerateDataOn();
+  EXPECT_THROW(progress.ForEach(100, [](itk::SizeValueType) { FAIL() << "work began"; }), itk::ProcessAborted);
 }
 
 } // namespace

@@ -1,5 +1,4 @@
 #include "rhombicForEachBlock.h"
-#include "rhombicStagedProgress.h"
 
 #include "itkMultiThreaderBase.h"
 
@@ -72,6 +71,25 @@ TEST(ForEachBlock, AfterAnExceptionNoFurtherPartBegins)
     EXPECT_THROW(rhombic::ForEachOnThreads(1'000, failAtFifth), std::runtime_error);
   });
   EXPECT_EQ(calls, 5u);
+}
+
+TEST(ForEachBlock, ReportsOnTheCallersThreadAndKeepsToALimitOfThreads)
+{
+  const auto caller = std::this_thread::get_id();
+  std::vector<double> shares;
+  const auto report = [&](double share) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    shares.push_back(share);
+  };
+  std::vector<int> visits(40);
+  rhombic::ForEachOnThreads(
+    visits.size(), [&](std::size_t n) { ++visits[n]; }, report);
+  EXPECT_EQ(visits, std::vector<int>(40, 1));
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end())) << testing::PrintToString(shares);
+  shares.clear();
+  const auto isCaller = [&](std::size_t) { EXPECT_EQ(std::this_thread::get_id(), caller); };
+  rhombic::ForEachOnThreads(4, isCaller, report, 1);
+  EXPECT_EQ(shares, (std::vector<double>{ 0.25, 0.5, 0.75, 1.0 }));
 }
 
 TEST(StagedProgress, RisesThroughItsStagesOnTheCallersThread)

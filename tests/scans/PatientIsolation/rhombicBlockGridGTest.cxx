@@ -1,5 +1,4 @@
 #include "rhombicBlockGrid.h"
-#include "rhombicBlockSamples.h"
 
 #include <gtest/gtest.h>
 

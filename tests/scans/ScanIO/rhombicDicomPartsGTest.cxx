@@ -1,7 +1,6 @@
 // Single steps of reading DICOM, with inputs that fuzzing found (tests/fuzz).
 
 #include "rhombicCompressedFrame.h"
-#include "rhombicDicomCodes.h"
 #include "rhombicDicomHeader.h"
 #include "rhombicDicomStack.h"
 #include "rhombicFailure.h"

@@ -1,7 +1,7 @@
 #include "rhombicNIfTITestFile.h"
 #include "rhombicDicomTestFile.h"
 #include "itkScanFileReader.h"
-#include "rhombicLabelMapReader.h"
+#include "rhombicLabelMap.h"
 #include "rhombicScanTest.h"
 
 #include <fstream>

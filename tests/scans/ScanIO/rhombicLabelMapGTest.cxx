@@ -1,4 +1,4 @@
-#include "rhombicAnatomicalColours.h"
+#include "rhombicLabelTable.h"
 #include "rhombicLabelMap.h"
 #include "rhombicScanTest.h"
 

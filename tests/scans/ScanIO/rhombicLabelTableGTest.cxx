@@ -1,4 +1,4 @@
-#include "rhombicAnatomicalColours.h"
+#include "rhombicLabelTable.h"
 #include "rhombicLabelTableFormats.h"
 #include "rhombicScanTest.h"
 

@@ -1,4 +1,4 @@
-#include "rhombicNRRDHeader.h"
+#include "rhombicTextHeader.h"
 
 #include <gtest/gtest.h>
 

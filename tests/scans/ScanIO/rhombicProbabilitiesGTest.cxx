@@ -1,4 +1,4 @@
-#include "rhombicLabelMapReader.h"
+#include "rhombicLabelMap.h"
 #include "rhombicNIfTITestFile.h"
 #include "rhombicScanTest.h"
 

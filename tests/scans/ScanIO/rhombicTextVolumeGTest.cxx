@@ -1,8 +1,7 @@
 #include "rhombicNIfTITestFile.h"
 #include "rhombicLabelMap.h"
-#include "rhombicMetaImageHeader.h"
-#include "rhombicNRRDHeader.h"
-#include "rhombicNRRDVolume.h"
+#include "rhombicTextHeader.h"
+#include "rhombicStoredVolume.h"
 #include "rhombicScanTest.h"
 
 #include <map>

@@ -1,4 +1,4 @@
-#include "rhombicIsosurfaceVolume.h"
+#include "rhombicSurfaceMeasures.h"
 
 #include "rhombicLatticeToSurfaces.h"
 #include "rhombicScanToLattice.h"

@@ -2,6 +2,7 @@
 #define itkRecyclingMemory_h
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <memory_resource>
 #include <mutex>
@@ -103,6 +104,12 @@ private:
   std::mutex m_Mutex;
   std::pmr::map<Kind, Spare *> m_Spare; ///< the first block of each linked list
 };
+
+/** Asks the operating system for large pages behind memory that is about to be written for the first time. With pages
+ * of 4 KiB, page faults take up to a third of the time of resampling a volume. Does nothing on systems other than
+ * Linux. Throws nothing. */
+void
+AdviseHugePages(void * memory, std::size_t bytes);
 
 } // namespace itk
 

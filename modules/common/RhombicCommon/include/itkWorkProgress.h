@@ -1,14 +1,72 @@
 #ifndef itkWorkProgress_h
 #define itkWorkProgress_h
 
+#include "itkCommand.h"
+#include "itkMultiThreaderBase.h"
 #include "itkProcessObject.h"
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
+#include <map>
+#include <mutex>
 #include <utility>
 
 namespace itk
 {
+
+/** \class ThreadFailure
+ * \brief Carries the first exception of a filter's threads to the thread that called it.
+ *
+ * The thread pool of ITK 5.2 drops exceptions of all its threads but the calling one, and the filter's Update() would
+ * return as if nothing had failed. Each thread works inside Capture(); after all have joined, the caller calls
+ * Rethrow().
+ *
+ * Thread safety: Capture() may run on any number of threads at once.
+ */
+class ThreadFailure
+{
+public:
+  /** Calls work() and keeps its exception, unless there is one already. */
+  template <typename TWork>
+  void
+  Capture(const TWork & work)
+  {
+    if (m_HasFailed)
+    {
+      return;
+    }
+    try
+    {
+      work();
+    }
+    catch (...)
+    {
+      const std::lock_guard<std::mutex> lock(m_Mutex);
+      if (!m_First)
+      {
+        m_First = std::current_exception();
+        m_HasFailed = true;
+      }
+    }
+  }
+
+  /** Throws the first captured exception, if there is one, and forgets it. */
+  void
+  Rethrow()
+  {
+    if (const std::exception_ptr first = std::exchange(m_First, nullptr))
+    {
+      m_HasFailed = false;
+      std::rethrow_exception(first);
+    }
+  }
+
+private:
+  std::mutex m_Mutex;
+  std::exception_ptr m_First;
+  std::atomic<bool> m_HasFailed{ false };
+};
 
 /** \class WorkProgress
  * \brief Progress and abort checks of a filter whose threads share its work.
@@ -32,17 +90,22 @@ public:
     m_Filter.UpdateProgress(0.0f);
   }
 
-  /** Throws ProcessAborted if the filter's AbortGenerateData is on. */
-  void
-  CheckAbort() const
+  /** Throws ProcessAborted if a filter's AbortGenerateData is on. */
+  static void
+  CheckAbort(const ProcessObject & filter)
   {
-    if (m_Filter.GetAbortGenerateData())
+    if (filter.GetAbortGenerateData())
     {
       ProcessAborted aborted(__FILE__, __LINE__);
       aborted.SetLocation(ITK_LOCATION);
-      aborted.SetDescription(std::string(m_Filter.GetNameOfClass()) + ": AbortGenerateData was set.");
+      aborted.SetDescription(std::string(filter.GetNameOfClass()) + ": AbortGenerateData was set.");
       throw aborted;
     }
+  }
+  void
+  CheckAbort() const
+  {
+    CheckAbort(m_Filter);
   }
 
   /** Counts work that is done, and checks for an abort. */
@@ -51,6 +114,28 @@ public:
   {
     this->Add(work);
     this->CheckAbort();
+  }
+
+  /** Calls work(n) for each n below \a count on the filter's threads, and checks for an abort before each call. After
+   * an exception no further call begins, and the first exception is thrown. */
+  template <typename TWork>
+  void
+  ForEach(SizeValueType count, const TWork & work)
+  {
+    ThreadFailure failure;
+    MultiThreaderBase * const threader = m_Filter.GetMultiThreader();
+    threader->SetNumberOfWorkUnits(m_Filter.GetNumberOfWorkUnits());
+    threader->ParallelizeArray(
+      0,
+      count,
+      [&](SizeValueType n) {
+        failure.Capture([&] {
+          this->CheckAbort();
+          work(n);
+        });
+      },
+      nullptr);
+    failure.Rethrow();
   }
 
   /** The work that has been counted. */
@@ -125,6 +210,67 @@ private:
   ProcessObject & m_Filter;
   SizeValueType m_Work;
   std::atomic<SizeValueType> m_Done{ 0 };
+};
+
+/** \class AbortForwarding
+ * \brief As long as it exists, an abort of a filter also aborts the process objects upstream of its input.
+ *
+ * For filters that update their input piece by piece in GenerateData(), where ITK does not pass an abort upstream. Each
+ * upstream process object checks the filter's AbortGenerateData at its own ProgressEvents. It then throws
+ * ProcessAborted through the input's Update(), or ends without an exception, as StreamingImageFilter does: the caller
+ * has to check AbortGenerateData after the update and discard the incomplete data. A process object that reports no
+ * progress runs to its end.
+ *
+ * Thread safety: for the thread that updates the filter.
+ */
+class AbortForwarding
+{
+public:
+  AbortForwarding(const ProcessObject & filter, const DataObject & input)
+    : m_Filter(filter)
+  {
+    this->Observe(input);
+  }
+
+  AbortForwarding(const AbortForwarding &) = delete;
+  AbortForwarding &
+  operator=(const AbortForwarding &) = delete;
+
+  ~AbortForwarding()
+  {
+    for (const auto & [source, observer] : m_Observers)
+    {
+      source->RemoveObserver(observer);
+    }
+  }
+
+private:
+  void
+  Observe(const DataObject & data)
+  {
+    const ProcessObject::Pointer source = data.GetSource().GetPointer();
+    if (source == nullptr || m_Observers.count(source) > 0)
+    {
+      return;
+    }
+    m_Observers[source] =
+      source->AddObserver(ProgressEvent(), [this, source = source.GetPointer()](const EventObject &) {
+        if (m_Filter.GetAbortGenerateData() && !source->GetAbortGenerateData())
+        {
+          source->AbortGenerateDataOn();
+        }
+      });
+    for (const auto & input : source->GetInputs())
+    {
+      if (input != nullptr)
+      {
+        this->Observe(*input);
+      }
+    }
+  }
+
+  const ProcessObject & m_Filter;
+  std::map<ProcessObject::Pointer, unsigned long> m_Observers;
 };
 
 } // namespace itk

@@ -4,6 +4,11 @@
 #include <functional>
 #include <string>
 
+namespace itk
+{
+class ProcessObject;
+}
+
 namespace rhombic
 {
 
@@ -40,6 +45,11 @@ struct Events
     }
   }
 };
+
+/** Reports a filter's progress to Events::progress as that of \a step. \a events must outlive the filter's work. Thread
+ * safety: that of itk::Object::AddObserver(). */
+void
+ObserveProgress(itk::ProcessObject & filter, const std::string & step, const Events & events);
 
 } // namespace rhombic
 

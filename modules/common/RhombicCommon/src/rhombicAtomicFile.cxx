@@ -3,7 +3,6 @@
 #include "rhombicFailure.h"
 #include "rhombicWording.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
@@ -61,26 +60,14 @@ ExtensionOf(const fs::path & path)
 constexpr std::size_t listedFiles = 4096;
 std::atomic<const char *> temporaryFiles[listedFiles];
 
+/** Replaces the first entry that is \a before by \a after; null is an entry that is free. */
 void
-List(const fs::path & path)
+ReplaceListed(const char * before, const char * after)
 {
   for (auto & entry : temporaryFiles)
   {
-    const char * empty = nullptr;
-    if (entry.compare_exchange_strong(empty, path.c_str()))
-    {
-      return;
-    }
-  }
-}
-
-void
-Unlist(const fs::path & path)
-{
-  for (auto & entry : temporaryFiles)
-  {
-    const char * listed = path.c_str();
-    if (entry.compare_exchange_strong(listed, nullptr))
+    const char * listed = before;
+    if (entry.compare_exchange_strong(listed, after))
     {
       return;
     }
@@ -194,14 +181,14 @@ AtomicFile::AtomicFile(const fs::path & target)
   {
     Fail(target, std::string(std::strerror(errno)) + "; choose another folder or file name");
   }
-  List(m_Temporary);
+  ReplaceListed(nullptr, m_Temporary.c_str());
 }
 
 AtomicFile::~AtomicFile()
 {
   if (!m_Temporary.empty())
   {
-    Unlist(m_Temporary);
+    ReplaceListed(m_Temporary.c_str(), nullptr);
     std::error_code ignored; // a destructor must not throw
     fs::remove(m_Temporary, ignored);
   }
@@ -242,7 +229,7 @@ AtomicFile::Rename()
   {
     Fail(m_Target, error.message());
   }
-  Unlist(m_Temporary);
+  ReplaceListed(m_Temporary.c_str(), nullptr);
   m_Temporary.clear();
 }
 

@@ -1,10 +1,9 @@
 #include "rhombicForEachBlock.h"
 
 #include "itkMultiThreaderBase.h"
-#include "itkThreadFailure.h"
+#include "itkWorkProgress.h"
 #include "itkThreadPool.h"
 
-#include <atomic>
 #include <condition_variable>
 #include <exception>
 #include <memory>
@@ -24,13 +23,20 @@ public:
     , m_Work(work)
   {}
 
-  /** Works on pieces while there are any. */
+  /** Works on pieces while there are any, and reports the share of pieces that have ended. */
   void
-  Help()
+  Help(const ProgressFunction & report = {})
   {
     for (std::size_t n = m_Next++; n < m_Count; n = m_Next++)
     {
-      m_Failure.Capture([&] { m_Work(n); });
+      m_Failure.Capture([&] {
+        m_Work(n);
+        const std::size_t done = ++m_Done;
+        if (report)
+        {
+          report(static_cast<double>(done) / static_cast<double>(m_Count));
+        }
+      });
       const std::lock_guard<std::mutex> lock(m_Mutex);
       if (++m_Ended == m_Count)
       {
@@ -52,6 +58,7 @@ private:
   std::size_t m_Count;
   const std::function<void(std::size_t)> & m_Work; ///< valid until all pieces have ended
   std::atomic<std::size_t> m_Next{ 0 };
+  std::atomic<std::size_t> m_Done{ 0 }; ///< pieces that ended without an exception
   std::size_t m_Ended{ 0 };
   std::mutex m_Mutex;
   std::condition_variable m_AllEnded;
@@ -61,10 +68,14 @@ private:
 } // namespace
 
 void
-ForEachOnThreads(std::size_t count, const std::function<void(std::size_t)> & work)
+ForEachOnThreads(std::size_t count,
+                 const std::function<void(std::size_t)> & work,
+                 const ProgressFunction & report,
+                 std::size_t mostThreads)
 {
   const auto shared = std::make_shared<SharedWork>(count, work);
-  const std::size_t threads = std::min<std::size_t>(count, itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads());
+  const std::size_t threads =
+    std::min<std::size_t>({ count, itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads(), mostThreads });
   try
   {
     for (std::size_t helper = 1; helper < threads; ++helper)
@@ -74,7 +85,7 @@ ForEachOnThreads(std::size_t count, const std::function<void(std::size_t)> & wor
   }
   catch (const std::exception &) // no memory or no more threads: fewer threads do the work
   {}
-  shared->Help();
+  shared->Help(report);
   shared->Join();
 }
 

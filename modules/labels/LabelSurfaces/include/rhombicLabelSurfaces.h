@@ -2,7 +2,7 @@
 #define rhombicLabelSurfaces_h
 
 #include "rhombicEvents.h"
-#include "rhombicLabelMapReader.h"
+#include "rhombicLabelMap.h"
 #include "rhombicSceneSurface.h"
 #include "rhombicSurfaceFinish.h"
 

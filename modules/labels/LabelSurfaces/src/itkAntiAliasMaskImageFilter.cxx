@@ -3,8 +3,6 @@
 #include "detail/itkRowArithmetic.h"
 #include "itkInputSamples.h"
 #include "itkMath.h"
-#include "itkMultiThreaderBase.h"
-#include "itkThreadFailure.h"
 #include "itkVoxelBand.h"
 #include "itkWorkProgress.h"
 
@@ -189,20 +187,7 @@ struct MaskWork
   void
   ForEach(SizeValueType count, const std::function<void(SizeValueType)> & use) const
   {
-    ThreadFailure failure;
-    MultiThreaderBase * const threader = filter.GetMultiThreader();
-    threader->SetNumberOfWorkUnits(filter.GetNumberOfWorkUnits());
-    threader->ParallelizeArray(
-      0,
-      count,
-      [&](SizeValueType n) {
-        failure.Capture([&] {
-          progress.CheckAbort();
-          use(n);
-        });
-      },
-      nullptr);
-    failure.Rethrow();
+    progress.ForEach(count, use);
   }
 
   /** Calls use(row) for each row, plane by plane on the filter's threads. */

@@ -1,7 +1,7 @@
 #ifndef rhombicLabelNumbers_h
 #define rhombicLabelNumbers_h
 
-#include "rhombicLabelMapReader.h"
+#include "rhombicLabelMap.h"
 
 #include "itkImage.h"
 

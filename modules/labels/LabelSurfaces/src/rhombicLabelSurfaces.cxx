@@ -3,7 +3,7 @@
 #include "rhombicFailure.h"
 #include "rhombicLabelNumbers.h"
 #include "rhombicMemoryBudget.h"
-#include "rhombicObserveProgress.h"
+#include "rhombicEvents.h"
 #include "rhombicWording.h"
 
 #include "detail/itkPositionArithmetic.h"

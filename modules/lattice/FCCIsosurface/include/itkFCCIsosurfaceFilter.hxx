@@ -2,9 +2,9 @@
 #define itkFCCIsosurfaceFilter_hxx
 
 #include "detail/itkForEachSlab.h"
-#include "itkAbortForwarding.h"
 #include "itkFCCRowKernels.h"
 #include "itkInputSamples.h"
+#include "itkWorkProgress.h"
 
 #include <algorithm>
 #include <atomic>

@@ -2,6 +2,7 @@
 
 #include "itkFCCResamplingChecks.h"
 #include "itkMacro.h"
+#include "rhombicVoxelGrid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,31 +15,14 @@ namespace
 
 using VectorType = SliceStack::VectorType;
 
-/** The vector from sample to sample along an axis of the image, in mm. */
-VectorType
-StepAlong(const ImageBase<3> & image, unsigned int axis)
-{
-  VectorType step;
-  for (unsigned int row = 0; row < 3; ++row)
-  {
-    step[row] = image.GetDirection()[row][axis] * image.GetSpacing()[axis];
-  }
-  return step;
-}
-
-/** Whether all slices are at multiples of a step from the first one, which is at 0, up to rounding. */
+/** Whether the slices may be interpolated as samples at equal steps are, which is faster. Of slices that are even only
+ * within EvenSliceTolerance(), all places are kept, so only rounding is tolerated here. */
 bool
-AreEven(const std::vector<VectorType> & origins, const VectorType & step)
+AreExactlyEven(const std::vector<SliceStack::PointType> & origins)
 {
   constexpr double tolerance = 1e-6; // relative to a step
-  for (std::size_t k = 0; k < origins.size(); ++k)
-  {
-    if ((origins[k] - step * static_cast<double>(k)).GetNorm() > tolerance * step.GetNorm())
-    {
-      return false;
-    }
-  }
-  return true;
+  const double meanStep = (origins.back() - origins.front()).GetNorm() / static_cast<double>(origins.size() - 1);
+  return rhombic::DistanceFromEvenSlices(origins) <= tolerance * meanStep;
 }
 
 } // namespace
@@ -54,15 +38,15 @@ SliceStack::SliceStack(const ImageBase<3> & image, const std::vector<PointType> 
   }
   image.TransformIndexToPhysicalPoint(region.GetIndex(), m_Origin);
   std::vector<PointType> origins = sliceOrigins;
-  const VectorType imageStep = StepAlong(image, 2);
+  const VectorType imageStep = rhombic::StepAlong(image, 2);
   for (SizeValueType k = 0; origins.size() < count; ++k)
   {
     origins.push_back(m_Origin + imageStep * static_cast<double>(k));
   }
   m_Origin = origins.front();
 
-  const VectorType columnStep = StepAlong(image, 0);
-  const VectorType rowStep = StepAlong(image, 1);
+  const VectorType columnStep = rhombic::StepAlong(image, 0);
+  const VectorType rowStep = rhombic::StepAlong(image, 1);
   VectorType x = columnStep;
   m_Pitch[0] = x.Normalize();
   m_RowShift = rowStep * x;
@@ -101,7 +85,7 @@ SliceStack::SliceStack(const ImageBase<3> & image, const std::vector<PointType> 
   if (count > 1)
   {
     const VectorType meanStep = m_SliceOrigins.back() / static_cast<double>(count - 1);
-    m_IsEven = AreEven(m_SliceOrigins, meanStep);
+    m_IsEven = AreExactlyEven(origins);
     m_FirstStep = m_IsEven ? meanStep : m_SliceOrigins[1];
     m_LastStep = m_IsEven ? meanStep : m_SliceOrigins[count - 1] - m_SliceOrigins[count - 2];
     const auto median = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);

@@ -1,7 +1,7 @@
 #ifndef rhombicEnclosingLabels_h
 #define rhombicEnclosingLabels_h
 
-#include "rhombicLabelMapReader.h"
+#include "rhombicLabelMap.h"
 
 #include <cstdint>
 #include <set>

@@ -1,7 +1,7 @@
 #ifndef rhombicLabelColours_h
 #define rhombicLabelColours_h
 
-#include "rhombicLabelMapReader.h"
+#include "rhombicLabelMap.h"
 
 namespace rhombic
 {

@@ -1,7 +1,7 @@
 #ifndef rhombicLabelDoubts_h
 #define rhombicLabelDoubts_h
 
-#include "rhombicLabelMapReader.h"
+#include "rhombicLabelMap.h"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "rhombicLabelColours.h"
 
-#include "rhombicAnatomicalColours.h"
 #include "rhombicColour.h"
+#include "rhombicLabelTable.h"
 
 #include <algorithm>
 #include <array>

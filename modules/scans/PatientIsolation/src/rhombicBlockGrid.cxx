@@ -1,10 +1,6 @@
 #include "rhombicBlockGrid.h"
 
 #include "itkConnectedComponentImageFilter.h"
-#include "rhombicForEachBlock.h"
-
-#include <algorithm>
-#include <cmath>
 
 namespace rhombic
 {
@@ -102,7 +98,7 @@ DistanceTo(const MaskImage & mask, double reach)
 }
 
 Components
-FindTriangleSurfaceComponents(const MaskImage & mask, bool isFullyConnected)
+FindMaskComponents(const MaskImage & mask, bool isFullyConnected)
 {
   const auto filter = itk::ConnectedComponentImageFilter<MaskImage, LabelImage>::New();
   filter->SetInput(&mask);

@@ -1,8 +1,14 @@
 #ifndef rhombicBlockGrid_h
 #define rhombicBlockGrid_h
 
-#include "itkImage.h"
+#include "rhombicForEachBlock.h"
 
+#include "itkImage.h"
+#include "itkSize.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -131,7 +137,7 @@ struct Components
 
 /** Parts connected by faces, or also by edges and corners. */
 Components
-FindTriangleSurfaceComponents(const MaskImage & mask, bool isFullyConnected);
+FindMaskComponents(const MaskImage & mask, bool isFullyConnected);
 
 /** The mask of the components for which isIn(label) is true; the outside has label 0. */
 template <typename TFunction>
@@ -145,6 +151,129 @@ MaskOfParts(const Components & components, const TFunction & isIn)
   }
   const std::uint32_t * const labels = components.labels->GetBufferPointer();
   return MakeMask(*components.labels, [&](std::size_t offset) { return isLabelIn[labels[offset]]; });
+}
+
+/** \file
+ * From the samples of an image to blocks of them, and back by interpolation. Blocks at the far sides may have fewer
+ * samples than others. */
+
+/** Samples of a block along each axis. */
+using BlockShape = std::array<std::size_t, 3>;
+
+/** Summarizes the samples of each block: calls add(sums, value) for each sample, in the buffer's order, then
+ * store(offset of the block, sums, number of samples). The sums begin as TSums(). Slices of blocks are worked on in
+ * parallel. */
+template <typename TSums, typename TImage, typename TAdd, typename TStore>
+void
+SumBlocks(const TImage & image,
+          const BlockShape & shape,
+          const itk::Size<3> & blocks,
+          const TAdd & add,
+          const TStore & store)
+{
+  const auto & size = image.GetBufferedRegion().GetSize();
+  const auto beginOf = [&](unsigned int axis, std::size_t block) { return block * shape[axis]; };
+  const auto endOf = [&](unsigned int axis, std::size_t block) {
+    return std::min<std::size_t>((block + 1) * shape[axis], size[axis]);
+  };
+  ForEachInBlocks(blocks[2], 1, [&](std::size_t slice) {
+    for (std::size_t row = 0; row < blocks[1]; ++row)
+    {
+      std::vector<TSums> sums(blocks[0]);
+      for (std::size_t k = beginOf(2, slice); k < endOf(2, slice); ++k)
+      {
+        for (std::size_t j = beginOf(1, row); j < endOf(1, row); ++j)
+        {
+          const auto * const samples = image.GetBufferPointer() + size[0] * (j + size[1] * k);
+          for (std::size_t column = 0; column < blocks[0]; ++column)
+          {
+            TSums sum = sums[column];
+            const std::size_t end = endOf(0, column);
+            for (std::size_t i = beginOf(0, column); i < end; ++i)
+            {
+              add(sum, samples[i]);
+            }
+            sums[column] = sum;
+          }
+        }
+      }
+      const std::size_t perColumn = (endOf(1, row) - beginOf(1, row)) * (endOf(2, slice) - beginOf(2, slice));
+      for (std::size_t column = 0; column < blocks[0]; ++column)
+      {
+        store(column + blocks[0] * (row + blocks[1] * slice),
+              sums[column],
+              (endOf(0, column) - beginOf(0, column)) * perColumn);
+      }
+    }
+  });
+}
+
+/** The blocks next to a sample along one axis, and their weights. */
+template <std::size_t VCount>
+struct Taps
+{
+  std::array<std::size_t, VCount> blocks;
+  std::array<float, VCount> weights;
+};
+
+/** Linear interpolation, constant beyond the outer blocks' centres.
+ * \param position in samples, from the outer face of the first one */
+inline Taps<2>
+LinearTaps(double position, std::size_t samplesPerBlock, std::size_t blocks)
+{
+  const double last = static_cast<double>(blocks - 1);
+  const double block = std::clamp(position / static_cast<double>(samplesPerBlock) - 0.5, 0.0, last);
+  const auto first = static_cast<std::size_t>(block);
+  const auto share = static_cast<float>(block - std::floor(block));
+  return { { first, std::min(first + 1, blocks - 1) }, { 1.0f - share, share } };
+}
+
+/** The weights of a quadratic B-spline, which smooths the steps of distances to masks. */
+inline Taps<3>
+QuadraticTaps(std::size_t sample, std::size_t samplesPerBlock, std::size_t blocks)
+{
+  const std::size_t block = sample / samplesPerBlock;
+  const double offset =
+    (static_cast<double>(sample) + 0.5) / static_cast<double>(samplesPerBlock) - static_cast<double>(block) - 0.5;
+  return { { block == 0 ? 0 : block - 1, block, std::min(block + 1, blocks - 1) },
+           { static_cast<float>(0.5 * (0.5 - offset) * (0.5 - offset)),
+             static_cast<float>(0.75 - offset * offset),
+             static_cast<float>(0.5 * (0.5 + offset) * (0.5 + offset)) } };
+}
+
+/** The values of a field of blocks at a row of samples, for each block along the row. */
+template <typename TImage, std::size_t VCount>
+std::vector<float>
+InterpolateRow(const TImage & field, const Taps<VCount> & rows, const Taps<VCount> & slices)
+{
+  const auto & blocks = field.GetBufferedRegion().GetSize();
+  std::vector<float> values(blocks[0], 0.0f);
+  for (std::size_t k = 0; k < VCount; ++k)
+  {
+    for (std::size_t j = 0; j < VCount; ++j)
+    {
+      const float weight = slices.weights[k] * rows.weights[j];
+      const auto * const row = field.GetBufferPointer() + blocks[0] * (rows.blocks[j] + blocks[1] * slices.blocks[k]);
+      for (std::size_t i = 0; i < values.size(); ++i)
+      {
+        values[i] += weight * static_cast<float>(row[i]);
+      }
+    }
+  }
+  return values;
+}
+
+/** The value at a sample of what InterpolateRow() returned. */
+template <std::size_t VCount>
+float
+InterpolateInRow(const std::vector<float> & values, const Taps<VCount> & columns)
+{
+  float value = 0.0f;
+  for (std::size_t n = 0; n < VCount; ++n)
+  {
+    value += columns.weights[n] * values[columns.blocks[n]];
+  }
+  return value;
 }
 
 } // namespace rhombic

@@ -47,7 +47,7 @@ PartsWithSeeds(const Components & components, const MaskImage & seeds)
 MaskImage::Pointer
 FindHands(const CoarseScan & coarse, const MaskImage & tissue, const MaskImage & cores)
 {
-  const Components components = FindTriangleSurfaceComponents(tissue, false);
+  const Components components = FindMaskComponents(tissue, false);
   std::vector<double> sums(components.parts.size(), 0.0);
   std::vector<bool> hasCore(components.parts.size(), false);
   for (std::size_t offset = 0; offset < tissue.GetBufferedRegion().GetNumberOfPixels(); ++offset)
@@ -108,7 +108,7 @@ FindBody(const CoarseScan & coarse, const MaskImage & tissue)
     });
   };
   const auto cores = deeperThan(coreDepth);
-  const auto body = PartsWithSeeds(FindTriangleSurfaceComponents(*cores, false), *deeperThan(bodyDepth));
+  const auto body = PartsWithSeeds(FindMaskComponents(*cores, false), *deeperThan(bodyDepth));
   if (!HasBorder(*body))
   {
     return nullptr;
@@ -122,7 +122,7 @@ FindBody(const CoarseScan & coarse, const MaskImage & tissue)
 MaskImage::Pointer
 FindHangingParts(const MaskImage & thin, const MaskImage & patient, const DistanceImage & toBody, double farthest)
 {
-  const Components components = FindTriangleSurfaceComponents(thin, false);
+  const Components components = FindMaskComponents(thin, false);
   const std::uint32_t * const labels = components.labels->GetBufferPointer();
   std::vector<double> reach(components.parts.size(), 0.0);
   std::vector<bool> touches(components.parts.size(), false);
@@ -168,13 +168,13 @@ RemoveColumns(const CoarseScan & coarse, const MaskImage & thin)
     found.resize(size[coarse.longAxis], false);
     found[static_cast<std::size_t>(index[coarse.longAxis])] = true;
   });
-  const auto left = MakeLike<MaskImage>(thin);
+  const auto rest = MakeLike<MaskImage>(thin);
   forEachThin([&](const itk::Index<3> & index, std::size_t offset) {
     const auto & found = levels[columnOf(index)];
     const auto count = static_cast<double>(std::count(found.begin(), found.end(), true));
-    left->GetBufferPointer()[offset] = count < tableShare * static_cast<double>(found.size()) ? 1 : 0;
+    rest->GetBufferPointer()[offset] = count < tableShare * static_cast<double>(found.size()) ? 1 : 0;
   });
-  return left;
+  return rest;
 }
 
 } // namespace
@@ -209,7 +209,7 @@ FindPatient(const CoarseScan & coarse, const MaskImage & tissue)
   const auto hanging = FindHangingParts(*thin, *patient, *toBody, shortReach);
   Add(*FindHangingParts(*RemoveColumns(coarse, *thin), *patient, *toBody, longReach), *hanging);
   Add(*hanging, *patient);
-  const Components parts = FindTriangleSurfaceComponents(*hanging, true);
+  const Components parts = FindMaskComponents(*hanging, true);
   const double blockVolume = spacing[0] * spacing[1] * spacing[2];
   return { patient, MaskOfParts(parts, [&](std::size_t label) {
              return static_cast<double>(parts.parts[label].count) * blockVolume >= smallestEar;

@@ -2,7 +2,6 @@
 #define rhombicPatientMask_h
 
 #include "rhombicBlockGrid.h"
-#include "rhombicBlockSamples.h"
 
 #include <vector>
 

@@ -145,7 +145,7 @@ FindSurroundings(const CoarseScan & coarse, const MaskImage & patient)
   const auto centres = MakeMask(patient, [distances = toPatient->GetBufferPointer()](std::size_t offset) {
     return static_cast<double>(distances[offset]) > ballRadius;
   });
-  const Components components = FindTriangleSurfaceComponents(*centres, false);
+  const Components components = FindMaskComponents(*centres, false);
   const auto & size = patient.GetBufferedRegion().GetSize();
   Surroundings found;
   std::size_t largest = 0;
@@ -180,7 +180,7 @@ FindSurroundings(const CoarseScan & coarse, const MaskImage & patient)
 std::vector<ScanObject>
 MeasureObjects(const CoarseScan & coarse, const MaskImage & objects)
 {
-  const Components components = FindTriangleSurfaceComponents(objects, true);
+  const Components components = FindMaskComponents(objects, true);
   ScanObject empty;
   empty.centroid.Fill(0.0);
   empty.lowest.Fill(std::numeric_limits<double>::infinity());

@@ -2,7 +2,7 @@
 #define itkLabelMapFileReader_h
 
 #include "itkScanFileReader.h"
-#include "rhombicLabelMapReader.h"
+#include "rhombicLabelMap.h"
 
 namespace itk
 {

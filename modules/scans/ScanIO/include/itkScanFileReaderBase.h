@@ -4,6 +4,7 @@
 #include "rhombicScanReader.h"
 
 #include "itkImageSource.h"
+#include "itkWorkProgress.h"
 
 #include <optional>
 #include <string>
@@ -178,7 +179,7 @@ protected:
     OptionsType options = m_Options;
     options.progress = [this](double fraction) {
       this->UpdateProgress(static_cast<float>(fraction));
-      this->CheckAbort();
+      WorkProgress::CheckAbort(*this);
     };
     m_File = rhombic::OpenScan(m_FileName, options);
     m_Scan = m_File.scan;
@@ -190,7 +191,7 @@ protected:
   ReadVoxels()
   {
     this->UpdateProgress(0.0f);
-    this->CheckAbort();
+    WorkProgress::CheckAbort(*this);
     rhombic::Scan scan = rhombic::ReadVoxels(m_File);
     rhombic::AttachPlacement(scan);
     m_Scan = rhombic::WithoutVoxels(scan);
@@ -206,18 +207,6 @@ private:
     {
       option = value;
       this->Modified();
-    }
-  }
-
-  void
-  CheckAbort() const
-  {
-    if (this->GetAbortGenerateData())
-    {
-      ProcessAborted aborted(__FILE__, __LINE__);
-      aborted.SetLocation(ITK_LOCATION);
-      aborted.SetDescription(std::string(this->GetNameOfClass()) + ": AbortGenerateData was set.");
-      throw aborted;
     }
   }
 

@@ -117,6 +117,26 @@ ReadVoxels(const UnreadScan & file);
 SeriesList
 ListSeries(const std::filesystem::path & path, const ScanReadOptions & options = {});
 
+/** A path's extension in lower case, including the part before ".gz": ".nii", ".nii.gz". */
+std::string
+VolumeExtension(const std::filesystem::path & path);
+
+/** "NIfTI", "NRRD" or "MetaImage" by the extension, in upper or lower case; empty for others. */
+std::string
+VolumeFormatOf(const std::filesystem::path & path);
+
+/** \class DicomExamination
+ * \brief What a DICOM scan says about its values and the region it shows. Both are words of the standard. */
+struct DicomExamination
+{
+  std::string bodyPart; ///< DICOM's term (0018,0015) in upper case: HEAD, ABDOMEN, ...; empty if unknown
+  std::string units;    ///< of a PET's values (0054,1001): "Bq/ml", "g/ml", "counts", ...; empty if unknown
+};
+
+/** Reads the first file of a scan; both texts are empty for other formats than DICOM. */
+DicomExamination
+ReadDicomExamination(const Scan & scan);
+
 } // namespace rhombic
 
 #endif

@@ -1,14 +1,11 @@
 #include "rhombicScanReader.h"
 
-#include "rhombicDicomFolder.h"
 #include "rhombicFailure.h"
 #include "rhombicInProcessDecoder.h"
-#include "rhombicLabelFiles.h"
 #include "rhombicQuietLibraries.h"
-#include "rhombicVolumeFile.h"
+#include "rhombicScanFormats.h"
 #include "rhombicVolumeRefusal.h"
 
-#include <algorithm>
 #include <new>
 
 namespace fs = std::filesystem;
@@ -44,7 +41,7 @@ Open(const fs::path & path, const ScanReadOptions & options)
     const std::vector<fs::path> masks = FindMasks(path, options.followsLinks);
     return masks.empty() ? OpenDicomFolder(path, options) : OpenLabelFiles(masks, options);
   }
-  if (!IsVolumeFileName(path))
+  if (VolumeFormatOf(path).empty())
   {
     return OpenDicomFile(path, options);
   }
@@ -119,7 +116,7 @@ ListSeries(const fs::path & path, const ScanReadOptions & options)
 {
   return ReadOrFail(path, [&path, &options] {
     const bool isFolder = IsFolder(path);
-    const bool hasSeries = isFolder ? FindMasks(path, options.followsLinks).empty() : !IsVolumeFileName(path);
+    const bool hasSeries = isFolder ? FindMasks(path, options.followsLinks).empty() : VolumeFormatOf(path).empty();
     return hasSeries ? ListDicomSeries(path, isFolder, options) : SeriesList();
   });
 }

@@ -1,6 +1,5 @@
 #include "rhombicScanWriter.h"
 
-#include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
 #include "rhombicScanReader.h"
 

@@ -16,12 +16,7 @@ namespace
 itk::Vector<double, 3>
 AxisOf(const VolumeGeometry & geometry, unsigned int axis)
 {
-  itk::Vector<double, 3> vector;
-  for (unsigned int row = 0; row < 3; ++row)
-  {
-    vector[row] = geometry.direction[row][axis];
-  }
-  return vector;
+  return itk::Vector<double, 3>(geometry.direction.GetVnlMatrix().get_column(axis).data_block());
 }
 
 } // namespace

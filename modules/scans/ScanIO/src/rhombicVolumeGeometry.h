@@ -3,7 +3,7 @@
 
 #include "rhombicScanReader.h"
 
-#include "detail/itkHugePages.h"
+#include "itkRecyclingMemory.h"
 #include "itkImage.h"
 
 #include <filesystem>

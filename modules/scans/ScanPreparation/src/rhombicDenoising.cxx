@@ -2,7 +2,7 @@
 
 #include "rhombicFailure.h"
 #include "rhombicMemoryBudget.h"
-#include "rhombicObserveProgress.h"
+#include "rhombicEvents.h"
 #include "rhombicWording.h"
 
 #include "itkGradientAnisotropicDiffusionImageFilter.h"

@@ -2,7 +2,7 @@
 #define rhombicSurfaceDeviation_h
 
 #include "rhombicScan.h"
-#include "rhombicThreshold.h"
+#include "rhombicPixelTypes.h"
 
 #include "itkSeparableTaps.h"
 #include "itkTriangleSurface.h"

@@ -2,7 +2,7 @@
 #define itkTriangleSurfaceSimplification_h
 
 #include "itkTriangleSurface.h"
-#include "rhombicStagedProgress.h"
+#include "rhombicForEachBlock.h"
 
 #include <iosfwd>
 #include <limits>

@@ -2,7 +2,7 @@
 #define itkTriangleSurfaceSmoothing_h
 
 #include "itkTriangleSurface.h"
-#include "rhombicStagedProgress.h"
+#include "rhombicForEachBlock.h"
 
 namespace itk
 {

@@ -3,7 +3,7 @@
 
 #include "itkProcessObject.h"
 #include "itkTriangleSurface.h"
-#include "rhombicStagedProgress.h"
+#include "rhombicForEachBlock.h"
 
 namespace itk
 {

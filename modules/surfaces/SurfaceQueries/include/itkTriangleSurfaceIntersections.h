@@ -2,7 +2,7 @@
 #define itkTriangleSurfaceIntersections_h
 
 #include "itkTriangleTree.h"
-#include "rhombicStagedProgress.h"
+#include "rhombicForEachBlock.h"
 
 namespace itk
 {

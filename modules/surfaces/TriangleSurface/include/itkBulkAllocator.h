@@ -1,7 +1,7 @@
 #ifndef itkBulkAllocator_h
 #define itkBulkAllocator_h
 
-#include "detail/itkHugePages.h"
+#include "itkRecyclingMemory.h"
 
 #include <cstdlib>
 #include <new>

@@ -1,9 +1,8 @@
 #ifndef itkForEachSlab_h
 #define itkForEachSlab_h
 
-#include "itkMultiThreaderBase.h"
 #include "itkProcessObject.h"
-#include "itkThreadFailure.h"
+#include "itkWorkProgress.h"
 
 #include <algorithm>
 

@@ -1,11 +1,10 @@
 #ifndef itkProduceOutput_h
 #define itkProduceOutput_h
 
-#include "detail/itkHugePages.h"
+#include "itkRecyclingMemory.h"
 #include "itkImageRegion.h"
 #include "itkInputSamples.h"
 #include "itkMultiThreaderBase.h"
-#include "itkThreadFailure.h"
 #include "itkWorkProgress.h"
 
 namespace itk

@@ -2,7 +2,6 @@
 #define rhombicCompressedFrame_h
 
 #include "rhombicDicomSlice.h"
-#include "rhombicTransferSyntax.h"
 
 #include <string>
 #include <string_view>

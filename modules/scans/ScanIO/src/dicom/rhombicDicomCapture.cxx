@@ -1,8 +1,7 @@
 #include "rhombicDicomCapture.h"
 
 #include "rhombicDicomHeader.h"
-#include "rhombicDicomTags.h"
-#include "rhombicDigest.h"
+#include "rhombicFiles.h"
 #include "rhombicFailure.h"
 #include "rhombicQuietLibraries.h"
 #include "rhombicWording.h"

@@ -1,12 +1,9 @@
-#include "rhombicDicomCodes.h"
+#include "rhombicDicomHeader.h"
 
 #include "rhombicWording.h"
 
 #include <algorithm>
-#include <map>
-#include <set>
 #include <string_view>
-#include <vector>
 
 namespace rhombic
 {

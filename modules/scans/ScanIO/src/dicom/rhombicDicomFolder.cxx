@@ -1,13 +1,11 @@
-#include "rhombicDicomFolder.h"
+#include "rhombicScanFormats.h"
 
-#include "rhombicDicomPixels.h"
-#include "rhombicDicomSegmentation.h"
+#include "rhombicDicomHeader.h"
 #include "rhombicDicomSeries.h"
+#include "rhombicDicomSlice.h"
 #include "rhombicDicomStack.h"
 #include "rhombicFailure.h"
-#include "rhombicFolderFiles.h"
-#include "rhombicTransferSyntax.h"
-#include "rhombicVolumeFile.h"
+#include "rhombicFiles.h"
 #include "rhombicVolumePixels.h"
 #include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"
@@ -26,7 +24,8 @@ namespace
 [[noreturn]] void
 RefuseFolder(const fs::path & folder, const FolderFiles & files, const Scan & scan)
 {
-  const auto volume = std::find_if(files.paths.begin(), files.paths.end(), IsVolumeFileName);
+  const auto volume = std::find_if(
+    files.paths.begin(), files.paths.end(), [](const fs::path & path) { return !VolumeFormatOf(path).empty(); });
   std::string why = "it holds no DICOM images; give the folder that does";
   if (volume != files.paths.end())
   {
@@ -357,6 +356,19 @@ ListDicomSeries(const fs::path & path, bool isFolder, const ScanReadOptions & op
     }
   }
   return list;
+}
+
+DicomExamination
+ReadDicomExamination(const Scan & scan)
+{
+  if (scan.format != "DICOM" || scan.files.empty())
+  {
+    return {};
+  }
+  const auto header = ReadDicomHeader(scan.files.front(), { DicomTags::BodyPartExamined, DicomTags::Units });
+  return header ? DicomExamination{ BodyPartOf(header->dataSet.GetText(DicomTags::BodyPartExamined)),
+                                    UnitsOf(header->dataSet.GetText(DicomTags::Units)) }
+                : DicomExamination();
 }
 
 } // namespace rhombic

@@ -1,6 +1,6 @@
 #include "rhombicDicomHeader.h"
 
-#include "rhombicDicomTags.h"
+#include "rhombicFiles.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -9,7 +9,6 @@
 #include <cstring>
 #include <fstream>
 #include <istream>
-#include <set>
 
 namespace rhombic
 {
@@ -27,56 +26,12 @@ constexpr std::size_t LongestValue = 1 << 16;
 constexpr std::size_t MostElements = 1 << 24; // takes some seconds, for a file of zeros
 constexpr std::size_t MostItems = 1 << 20;    // each takes at least 8 bytes of the file and a hundred of memory
 
-const std::set<DicomTag> WantedValues{ DicomTags::ImageType,
-                                       DicomTags::SOPClassUID,
-                                       DicomTags::Modality,
-                                       DicomTags::FrameType,
-                                       DicomTags::EchoTime,
-                                       DicomTags::EchoNumbers,
-                                       DicomTags::EffectiveEchoTime,
-                                       DicomTags::SliceThickness,
-                                       DicomTags::SpacingBetweenSlices,
-                                       DicomTags::SeriesInstanceUID,
-                                       DicomTags::SeriesNumber,
-                                       DicomTags::AcquisitionNumber,
-                                       DicomTags::ImagePositionPatient,
-                                       DicomTags::ImageOrientationPatient,
-                                       DicomTags::TemporalPositionIdentifier,
-                                       DicomTags::StackID,
-                                       DicomTags::TemporalPositionIndex,
-                                       DicomTags::SamplesPerPixel,
-                                       DicomTags::PhotometricInterpretation,
-                                       DicomTags::NumberOfFrames,
-                                       DicomTags::Rows,
-                                       DicomTags::Columns,
-                                       DicomTags::PixelSpacing,
-                                       DicomTags::BitsAllocated,
-                                       DicomTags::BitsStored,
-                                       DicomTags::HighBit,
-                                       DicomTags::PixelRepresentation,
-                                       DicomTags::PixelPaddingValue,
-                                       DicomTags::PixelPaddingRangeLimit,
-                                       DicomTags::RescaleIntercept,
-                                       DicomTags::RescaleSlope,
-                                       DicomTags::SegmentationType,
-                                       DicomTags::SegmentNumber,
-                                       DicomTags::SegmentLabel,
-                                       DicomTags::ReferencedSegmentNumber,
-                                       DicomTags::RecommendedDisplayCIELabValue };
-
-const std::set<DicomTag> WantedSequences{ DicomTags::MREchoSequence,
-                                          DicomTags::MRImageFrameTypeSequence,
-                                          DicomTags::CTImageFrameTypeSequence,
-                                          DicomTags::FrameContentSequence,
-                                          DicomTags::PlanePositionSequence,
-                                          DicomTags::PlaneOrientationSequence,
-                                          DicomTags::ModalityLUTSequence,
-                                          DicomTags::PixelMeasuresSequence,
-                                          DicomTags::PixelValueTransformationSequence,
-                                          DicomTags::SegmentSequence,
-                                          DicomTags::SegmentIdentificationSequence,
-                                          DicomTags::SharedFunctionalGroupsSequence,
-                                          DicomTags::PerFrameFunctionalGroupsSequence };
+#define RHOMBIC_TAKE(name, number) number,
+#define RHOMBIC_LEAVE(name, number)
+const std::set<DicomTag> WantedValues{ RHOMBIC_DICOM_TAGS(RHOMBIC_TAKE, RHOMBIC_LEAVE, RHOMBIC_LEAVE) };
+const std::set<DicomTag> WantedSequences{ RHOMBIC_DICOM_TAGS(RHOMBIC_LEAVE, RHOMBIC_TAKE, RHOMBIC_LEAVE) };
+#undef RHOMBIC_TAKE
+#undef RHOMBIC_LEAVE
 
 /** The encoding of the elements of a data set (PS3.5, 7.1). */
 struct Encoding
@@ -262,14 +217,9 @@ private:
   TNumber
   ReadNumber(bool isBigEndian)
   {
-    unsigned char bytes[sizeof(TNumber)];
-    this->Read(reinterpret_cast<char *>(bytes), sizeof(bytes));
-    TNumber number = 0;
-    for (std::size_t n = 0; n < sizeof(TNumber); ++n)
-    {
-      number = static_cast<TNumber>(number << 8 | bytes[isBigEndian ? n : sizeof(TNumber) - 1 - n]);
-    }
-    return number;
+    char bytes[sizeof(TNumber)];
+    this->Read(bytes, sizeof(bytes));
+    return NumberAt<TNumber>({ bytes, sizeof(bytes) }, 0, isBigEndian);
   }
 
   /** Whether the next element names the type of its value. The transfer syntax may be wrong about it, also for single
@@ -483,12 +433,7 @@ NumbersIn(const std::string & bytes, bool isBigEndian)
   std::vector<TNumber> numbers;
   for (std::size_t offset = 0; offset + sizeof(TNumber) <= bytes.size(); offset += sizeof(TNumber))
   {
-    std::string one = bytes.substr(offset, sizeof(TNumber));
-    if (isBigEndian)
-    {
-      std::reverse(one.begin(), one.end());
-    }
-    std::memcpy(&numbers.emplace_back(), one.data(), sizeof(TNumber));
+    numbers.push_back(NumberAt<TNumber>(bytes, offset, isBigEndian));
   }
   return numbers;
 }

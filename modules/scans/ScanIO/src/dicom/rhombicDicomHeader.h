@@ -1,7 +1,6 @@
 #ifndef rhombicDicomHeader_h
 #define rhombicDicomHeader_h
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
@@ -16,6 +15,69 @@ namespace rhombic
 
 /** Group and element of a DICOM tag: 0x00280010 is Rows. */
 using DicomTag = std::uint32_t;
+
+/** The elements that Rhombic reads from DICOM files, by their names in the standard (PS3.6): values that describe image
+ * and geometry, sequences, and others, which are read if they are asked for. The rest is skipped. */
+#define RHOMBIC_DICOM_TAGS(VALUE, SEQUENCE, OTHER)                                                                     \
+  VALUE(ImageType, 0x00080008)                                                                                         \
+  VALUE(SOPClassUID, 0x00080016)                                                                                       \
+  VALUE(Modality, 0x00080060)                                                                                          \
+  VALUE(FrameType, 0x00089007)                                                                                         \
+  VALUE(EchoTime, 0x00180081)                                                                                          \
+  VALUE(EchoNumbers, 0x00180086)                                                                                       \
+  VALUE(EffectiveEchoTime, 0x00189082)                                                                                 \
+  SEQUENCE(MREchoSequence, 0x00189114)                                                                                 \
+  SEQUENCE(MRImageFrameTypeSequence, 0x00189226)                                                                       \
+  SEQUENCE(CTImageFrameTypeSequence, 0x00189329)                                                                       \
+  OTHER(BodyPartExamined, 0x00180015)                                                                                  \
+  VALUE(SliceThickness, 0x00180050)                                                                                    \
+  VALUE(SpacingBetweenSlices, 0x00180088)                                                                              \
+  VALUE(SeriesInstanceUID, 0x0020000e)                                                                                 \
+  VALUE(SeriesNumber, 0x00200011)                                                                                      \
+  VALUE(AcquisitionNumber, 0x00200012)                                                                                 \
+  VALUE(ImagePositionPatient, 0x00200032)                                                                              \
+  VALUE(ImageOrientationPatient, 0x00200037)                                                                           \
+  VALUE(TemporalPositionIdentifier, 0x00200100)                                                                        \
+  VALUE(StackID, 0x00209056)                                                                                           \
+  SEQUENCE(FrameContentSequence, 0x00209111)                                                                           \
+  SEQUENCE(PlanePositionSequence, 0x00209113)                                                                          \
+  SEQUENCE(PlaneOrientationSequence, 0x00209116)                                                                       \
+  VALUE(TemporalPositionIndex, 0x00209128)                                                                             \
+  VALUE(SamplesPerPixel, 0x00280002)                                                                                   \
+  VALUE(PhotometricInterpretation, 0x00280004)                                                                         \
+  VALUE(NumberOfFrames, 0x00280008)                                                                                    \
+  VALUE(Rows, 0x00280010)                                                                                              \
+  VALUE(Columns, 0x00280011)                                                                                           \
+  VALUE(PixelSpacing, 0x00280030)                                                                                      \
+  VALUE(BitsAllocated, 0x00280100)                                                                                     \
+  VALUE(BitsStored, 0x00280101)                                                                                        \
+  VALUE(HighBit, 0x00280102)                                                                                           \
+  VALUE(PixelRepresentation, 0x00280103)                                                                               \
+  VALUE(PixelPaddingValue, 0x00280120)                                                                                 \
+  VALUE(PixelPaddingRangeLimit, 0x00280121)                                                                            \
+  VALUE(RescaleIntercept, 0x00281052)                                                                                  \
+  VALUE(RescaleSlope, 0x00281053)                                                                                      \
+  SEQUENCE(ModalityLUTSequence, 0x00283000)                                                                            \
+  SEQUENCE(PixelMeasuresSequence, 0x00289110)                                                                          \
+  SEQUENCE(PixelValueTransformationSequence, 0x00289145)                                                               \
+  OTHER(Units, 0x00541001)                                                                                             \
+  VALUE(SegmentationType, 0x00620001)                                                                                  \
+  SEQUENCE(SegmentSequence, 0x00620002)                                                                                \
+  VALUE(SegmentNumber, 0x00620004)                                                                                     \
+  VALUE(SegmentLabel, 0x00620005)                                                                                      \
+  SEQUENCE(SegmentIdentificationSequence, 0x0062000a)                                                                  \
+  VALUE(ReferencedSegmentNumber, 0x0062000b)                                                                           \
+  VALUE(RecommendedDisplayCIELabValue, 0x0062000d)                                                                     \
+  SEQUENCE(SharedFunctionalGroupsSequence, 0x52009229)                                                                 \
+  SEQUENCE(PerFrameFunctionalGroupsSequence, 0x52009230)                                                               \
+  OTHER(PixelData, 0x7fe00010)
+
+#define RHOMBIC_DICOM_TAG(name, number) constexpr DicomTag name = number;
+namespace DicomTags
+{
+RHOMBIC_DICOM_TAGS(RHOMBIC_DICOM_TAG, RHOMBIC_DICOM_TAG, RHOMBIC_DICOM_TAG)
+} // namespace DicomTags
+#undef RHOMBIC_DICOM_TAG
 
 /** \class DicomDataSet
  * \brief The elements of a DICOM data set that describe its image and geometry, and none about the patient unless
@@ -92,6 +154,37 @@ ParseDicomHeader(std::istream & file, std::uintmax_t fileSize, const std::set<Di
 
 std::optional<DicomHeader>
 ReadDicomHeader(const std::filesystem::path & path, const std::set<DicomTag> & wanted = {});
+
+/** \name Header texts without personal data
+ * People write names and dates into any field, so only numbers and known words are kept. */
+///@{
+
+/** DICOM's codes of modalities, "other" for anything else, empty for an empty text. */
+std::string
+ModalityOf(const std::string & text);
+
+/** Values of ImageType: values of known words are kept; others become "other-" and four digits of their hash. */
+std::string
+ImageTypeOf(const std::string & text);
+
+/** Numbers (IS, DS), one or several between backslashes; empty for anything else. */
+std::string
+NumberTextOf(const std::string & text);
+
+/** A name that may be free text: numbers of up to four digits are kept; others become "other-" and four digits of their
+ * hash. */
+std::string
+NameCodeOf(const std::string & text);
+
+/** DICOM's terms of body parts; empty for anything else. */
+std::string
+BodyPartOf(const std::string & text);
+
+/** The units of a PET's values in words, by DICOM's terms; empty for anything else. */
+std::string
+UnitsOf(const std::string & text);
+
+///@}
 
 } // namespace rhombic
 

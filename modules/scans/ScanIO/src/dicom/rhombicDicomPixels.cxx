@@ -1,4 +1,4 @@
-#include "rhombicDicomPixels.h"
+#include "rhombicDicomStack.h"
 
 #include "rhombicDicomDecoding.h"
 #include "rhombicFailure.h"
@@ -13,7 +13,6 @@
 #include <limits>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <type_traits>
 
 namespace rhombic
@@ -53,21 +52,21 @@ public:
   using ValueType = std::conditional_t<sizeof(TRaw) < 4, std::int32_t, std::int64_t>;
 
   explicit StoredValue(const DicomPixelFormat & format)
-    : m_Left(static_cast<int>(8 * sizeof(ValueType)) - 1 - static_cast<int>(format.highBit))
-    , m_Right(static_cast<int>(8 * sizeof(ValueType)) - static_cast<int>(format.bitsStored))
+    : m_LeftShift(static_cast<int>(8 * sizeof(ValueType)) - 1 - static_cast<int>(format.highBit))
+    , m_RightShift(static_cast<int>(8 * sizeof(ValueType)) - static_cast<int>(format.bitsStored))
     , m_IsSigned(format.isSigned)
   {}
 
   ValueType
   operator()(TRaw raw) const
   {
-    const auto atTop = static_cast<std::make_unsigned_t<ValueType>>(raw) << m_Left;
-    return m_IsSigned ? static_cast<ValueType>(atTop) >> m_Right : static_cast<ValueType>(atTop >> m_Right);
+    const auto atTop = static_cast<std::make_unsigned_t<ValueType>>(raw) << m_LeftShift;
+    return m_IsSigned ? static_cast<ValueType>(atTop) >> m_RightShift : static_cast<ValueType>(atTop >> m_RightShift);
   }
 
 private:
-  int m_Left;
-  int m_Right;
+  int m_LeftShift;
+  int m_RightShift;
   bool m_IsSigned;
 };
 
@@ -180,53 +179,23 @@ Rescale(const DicomSlice & slice, const std::byte * stored, TPixel * pixels)
 /** Calls `take(index, stored)` for each slice of a file: its index in the stack, and its stored pixels. */
 template <typename TTake>
 void
-ForEachFrame(const FileSlices & one, const std::vector<DicomSlice> & slices, VoxelDecoder & decoder, TTake take)
+ForEachFrame(const FileSlices & fileSlices, const std::vector<DicomSlice> & slices, VoxelDecoder & decoder, TTake take)
 {
-  const DicomImageFile & file = *one.file;
+  const DicomImageFile & file = *fileSlices.file;
   const std::size_t frameBytes = file.format.FrameBytes();
   if (file.format.isEncapsulated)
   {
     const auto buffer = decoder.Decode({ DecodeDicomFile, file.path, frameBytes * file.format.frames });
-    for (const std::size_t index : one.indices)
+    for (const std::size_t index : fileSlices.indices)
     {
       take(index, buffer->GetData() + slices[index].frame * frameBytes);
     }
     return;
   }
-  for (const std::size_t index : one.indices)
+  for (const std::size_t index : fileSlices.indices)
   {
     take(index, ReadStoredBytes(file, slices[index].frame * frameBytes, frameBytes).data());
   }
-}
-
-/** Calls `work(n)` for all n below \a count on several threads. This thread is one of them, and reports the progress.
- * After an exception, which is passed on, no further calls are made. */
-template <typename TWork>
-void
-InParallel(std::size_t count, std::size_t threads, const std::function<void(double)> & progress, const TWork & work)
-{
-  std::atomic<std::size_t> next{ 0 };
-  std::atomic<std::size_t> done{ 0 };
-  const auto caller = std::this_thread::get_id();
-  ForEachOnThreads(std::min(threads, count), [&](std::size_t) {
-    try
-    {
-      for (std::size_t n = next++; n < count; n = next++)
-      {
-        work(n);
-        ++done;
-        if (progress && std::this_thread::get_id() == caller)
-        {
-          progress(static_cast<double>(done) / static_cast<double>(count));
-        }
-      }
-    }
-    catch (...)
-    {
-      next = count;
-      throw;
-    }
-  });
 }
 
 std::optional<double>
@@ -294,9 +263,9 @@ MemoryToRead(const std::vector<DicomSlice> & slices, const std::vector<FileSlice
 {
   std::uintmax_t bytes = 0;
   std::uintmax_t largest = 0;
-  for (const FileSlices & one : files)
+  for (const FileSlices & fileSlices : files)
   {
-    const DicomPixelFormat & format = one.file->format;
+    const DicomPixelFormat & format = fileSlices.file->format;
     const std::uintmax_t held = format.isEncapsulated ? 2 * format.frames + 1 : 1;
     largest = std::max(largest, held * format.FrameBytes());
   }
@@ -325,7 +294,7 @@ ReadAs(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry, 
   std::atomic<bool> fits{ true };
   DicomPixels result;
   std::mutex guard;
-  InParallel(files.size(), decoder.GetNumberOfWorkers(), options.progress, [&](std::size_t n) {
+  const auto readFile = [&](std::size_t n) {
     if (!fits)
     {
       return;
@@ -349,7 +318,8 @@ ReadAs(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry, 
       const std::lock_guard<std::mutex> lock(guard);
       result.failures.emplace(files[n].file->path, failure.GetDescription());
     }
-  });
+  };
+  ForEachOnThreads(files.size(), readFile, options.progress, decoder.GetNumberOfWorkers());
   if (!result.failures.empty())
   {
     return result;

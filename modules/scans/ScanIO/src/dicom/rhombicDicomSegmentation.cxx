@@ -1,13 +1,11 @@
-#include "rhombicDicomSegmentation.h"
+#include "rhombicDicomStack.h"
 
-#include "rhombicAnatomicalColours.h"
 #include "rhombicColour.h"
-#include "rhombicDicomTags.h"
+#include "rhombicDicomHeader.h"
 #include "rhombicFailure.h"
 #include "rhombicLabelLayers.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicStoredBytes.h"
-#include "rhombicVolumeGeometry.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -123,10 +121,10 @@ RefineStep(const std::vector<double> & places, double guess)
   double step = guess;
   double length = 0;
   double count = 0;
-  for (const double one : steps)
+  for (const double distance : steps)
   {
-    length += one;
-    count += std::max(1.0, std::round(one / step));
+    length += distance;
+    count += std::max(1.0, std::round(distance / step));
     step = length / count;
   }
   return step;
@@ -134,7 +132,8 @@ RefineStep(const std::vector<double> & places, double guess)
 
 /** Fits slices of equal distance, about \a guess, to the positions of frames (\a places): the least-squares line of
  * position over slice number. Nothing when a position is off that line by more than 2 % of a step and rounding, or two
- * frames would be in one slice. */
+ * frames would be in one slice. More is tolerated than EvenSliceTolerance(): programs that write segmentations round
+ * the positions of a scan anew, and a label map has no places for uneven frames. */
 std::optional<EvenSlices>
 FitSlices(const std::vector<double> & places, double guess)
 {
@@ -365,9 +364,9 @@ VisitLabel(const SegmentationVoxels & voxels, TPixel wanted, const TAdd & add)
   }
 }
 
-/** Fills the layers of labels. Returns the number of voxels that belong to more than one segment. */
+/** Fills the layers of labels. */
 template <typename TPixel>
-std::size_t
+void
 Fill(const SegmentationVoxels & voxels, std::uintmax_t maximumMemory, Scan & scan)
 {
   LabelLayers<TPixel> layers(rhombic::GeometryOf(scan.image), maximumMemory);
@@ -385,7 +384,7 @@ Fill(const SegmentationVoxels & voxels, std::uintmax_t maximumMemory, Scan & sca
   {
     layers.Add([&](const auto & add) { VisitLabel(voxels, label, add); });
   }
-  return layers.Take(scan);
+  layers.Take(scan);
 }
 
 /** Whether a segmentation has a frame for each segment and slice; otherwise its pixels are labels. Throws Failure for
@@ -436,12 +435,8 @@ OpenDicomSegmentation(const std::vector<DicomSlice> & frames, std::uintmax_t max
                           "Reading " + stored.path.string());
             const Bytes bytes = ReadStoredBytes(stored, 0, (pixels * format.frames * format.bitsAllocated + 7) / 8);
             const SegmentationVoxels voxels{ bytes, format, segments, frames, slices.sliceOfFrame };
-            const std::size_t shared = takesByte ? Fill<std::uint8_t>(voxels, maximumMemory, read)
-                                                 : Fill<std::uint16_t>(voxels, maximumMemory, read);
-            if (shared > 0)
-            {
-              read.notes.push_back(DescribeLayers(shared, read));
-            }
+            const auto fill = takesByte ? Fill<std::uint8_t> : Fill<std::uint16_t>;
+            fill(voxels, maximumMemory, read);
           } };
 }
 

@@ -1,6 +1,6 @@
 #include "rhombicDicomSeries.h"
 
-#include "rhombicDicomCodes.h"
+#include "rhombicDicomHeader.h"
 #include "rhombicDicomStack.h"
 #include "rhombicFailure.h"
 #include "rhombicVolumeRefusal.h"
@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <map>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -130,11 +131,11 @@ void
 NameSeries(std::vector<DicomSeries> & series)
 {
   std::map<std::string, int> parts;
-  for (DicomSeries & one : series)
+  for (DicomSeries & named : series)
   {
-    const std::string & uid = one.slices.front().seriesUID;
+    const std::string & uid = named.slices.front().seriesUID;
     const int part = ++parts[uid];
-    one.id = HashText(uid) + (part > 1 ? "-" + std::to_string(part) : "");
+    named.id = HashText(uid) + (part > 1 ? "-" + std::to_string(part) : "");
   }
 }
 
@@ -187,10 +188,7 @@ RankSeries(const std::vector<DicomSeries> & series)
     return std::make_tuple(slice.refusal.empty(), slice.kind == DicomSlice::Kind::Scan, series[i].slices.size());
   };
   std::vector<std::size_t> indices(series.size());
-  for (std::size_t i = 0; i < indices.size(); ++i)
-  {
-    indices[i] = i;
-  }
+  std::iota(indices.begin(), indices.end(), 0u);
   std::stable_sort(indices.begin(), indices.end(), [&rank](std::size_t first, std::size_t second) {
     return rank(first) > rank(second);
   });
@@ -237,12 +235,12 @@ GroupIntoSeries(const std::vector<DicomSlice> & slices)
     std::move(parts.begin(), parts.end(), std::back_inserter(series));
   }
   std::stable_sort(series.begin(), series.end(), [](const DicomSeries & first, const DicomSeries & second) {
-    const auto key = [](const DicomSeries & one) {
-      const DicomSlice & slice = one.slices.front();
+    const auto key = [](const DicomSeries & keyed) {
+      const DicomSlice & slice = keyed.slices.front();
       return std::make_tuple(std::atoi(slice.seriesNumber.c_str()),
                              slice.seriesUID,
-                             -static_cast<std::int64_t>(one.slices.size()),
-                             one.kind,
+                             -static_cast<std::int64_t>(keyed.slices.size()),
+                             keyed.kind,
                              slice.file->format.columns,
                              slice.file->format.rows,
                              AxesOf(slice));
@@ -285,9 +283,9 @@ Summarize(const std::vector<DicomSeries> & series, std::size_t chosen)
   {
     const DicomSlice & slice = series[i].slices.front();
     std::set<std::filesystem::path> files;
-    for (const DicomSlice & one : series[i].slices)
+    for (const DicomSlice & other : series[i].slices)
     {
-      files.insert(one.file->path);
+      files.insert(other.file->path);
     }
     SeriesSummary summary;
     summary.id = series[i].id;

@@ -1,12 +1,9 @@
 #include "rhombicDicomSlice.h"
 
-#include "rhombicDicomCodes.h"
-#include "rhombicDicomTags.h"
-#include "rhombicTransferSyntax.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace rhombic
 {
@@ -159,26 +156,6 @@ FindRefusal(const DicomDataSet & dataSet, const DicomPixelFormat & format)
   return "";
 }
 
-/** The items of the functional groups of a frame: its own, or else those shared by all frames. */
-class FunctionalGroups
-{
-public:
-  FunctionalGroups(const DicomDataSet & dataSet, std::size_t frame)
-    : m_Shared(dataSet.GetItem(DicomTags::SharedFunctionalGroupsSequence))
-    , m_Frame(dataSet.GetItems(DicomTags::PerFrameFunctionalGroupsSequence)[frame])
-  {}
-
-  const DicomDataSet &
-  Get(DicomTag sequence) const
-  {
-    return m_Frame.Has(sequence) ? m_Frame.GetItem(sequence) : m_Shared.GetItem(sequence);
-  }
-
-private:
-  const DicomDataSet & m_Shared;
-  const DicomDataSet & m_Frame;
-};
-
 bool
 HasScaling(const DicomDataSet & dataSet)
 {
@@ -231,31 +208,36 @@ ReadPlainSlice(const DicomDataSet & dataSet, DicomSlice & slice)
 void
 ReadFrame(const DicomDataSet & dataSet, std::size_t frame, DicomSlice & slice)
 {
-  const FunctionalGroups groups(dataSet, frame);
-  const DicomDataSet & content = groups.Get(DicomTags::FrameContentSequence);
-  const auto echo = groups.Get(DicomTags::MREchoSequence).GetDouble(DicomTags::EffectiveEchoTime);
+  // The functional groups of a frame are its own, or else those that all frames share.
+  const DicomDataSet & shared = dataSet.GetItem(DicomTags::SharedFunctionalGroupsSequence);
+  const DicomDataSet & own = dataSet.GetItems(DicomTags::PerFrameFunctionalGroupsSequence)[frame];
+  const auto group = [&](DicomTag sequence) -> const DicomDataSet & {
+    return own.Has(sequence) ? own.GetItem(sequence) : shared.GetItem(sequence);
+  };
+  const DicomDataSet & content = group(DicomTags::FrameContentSequence);
+  const auto echo = group(DicomTags::MREchoSequence).GetDouble(DicomTags::EffectiveEchoTime);
   const auto times = content.GetShorts(DicomTags::TemporalPositionIndex);
   slice.frame = frame;
   const std::string stack = content.GetText(DicomTags::StackID);
-  slice.distinctions = { ImageTypeOf(groups.Get(DicomTags::MRImageFrameTypeSequence).GetText(DicomTags::FrameType) +
-                                     groups.Get(DicomTags::CTImageFrameTypeSequence).GetText(DicomTags::FrameType)),
+  slice.distinctions = { ImageTypeOf(group(DicomTags::MRImageFrameTypeSequence).GetText(DicomTags::FrameType) +
+                                     group(DicomTags::CTImageFrameTypeSequence).GetText(DicomTags::FrameType)),
                          echo ? "echo time " + std::to_string(*echo) : "",
                          times.empty() ? "" : "time " + std::to_string(times[0]),
                          stack.empty() ? "" : "stack " + NameCodeOf(stack),
                          "" };
   if (slice.kind == DicomSlice::Kind::Scan)
   {
-    const DicomDataSet & own = groups.Get(DicomTags::PixelValueTransformationSequence);
-    ReadScaling(HasScaling(own) ? own : dataSet, slice);
-    if (slice.refusal.empty() && IsEnhancedCT(dataSet) && !HasScaling(own) && !HasScaling(dataSet))
+    const DicomDataSet & values = group(DicomTags::PixelValueTransformationSequence);
+    ReadScaling(HasScaling(values) ? values : dataSet, slice);
+    if (slice.refusal.empty() && IsEnhancedCT(dataSet) && !HasScaling(values) && !HasScaling(dataSet))
     {
       slice.refusal = "it is an enhanced CT image that does not say which HU its values are";
     }
   }
   slice.plane =
-    MakeSlicePlane(groups.Get(DicomTags::PlanePositionSequence).GetDecimals(DicomTags::ImagePositionPatient),
-                   groups.Get(DicomTags::PlaneOrientationSequence).GetDecimals(DicomTags::ImageOrientationPatient),
-                   groups.Get(DicomTags::PixelMeasuresSequence).GetDecimals(DicomTags::PixelSpacing),
+    MakeSlicePlane(group(DicomTags::PlanePositionSequence).GetDecimals(DicomTags::ImagePositionPatient),
+                   group(DicomTags::PlaneOrientationSequence).GetDecimals(DicomTags::ImageOrientationPatient),
+                   group(DicomTags::PixelMeasuresSequence).GetDecimals(DicomTags::PixelSpacing),
                    slice.planeProblem);
 }
 
@@ -376,6 +358,33 @@ NameOf(const DicomSlice & slice)
 {
   return slice.file->path.filename().string() +
          (slice.file->format.frames > 1 ? " (frame " + std::to_string(slice.frame + 1) + ")" : "");
+}
+
+TransferSyntax
+FindTransferSyntax(const std::string & uid)
+{
+  static const std::map<std::string, TransferSyntax> known{
+    { "", { "little endian", PixelCodec::None, false } },
+    { "1.2.840.10008.1.2", { "implicit little endian", PixelCodec::None, false } },
+    { "1.2.840.10008.1.2.1", { "explicit little endian", PixelCodec::None, false } },
+    { "1.2.840.10008.1.2.2", { "explicit big endian", PixelCodec::None, false } },
+    { "1.2.840.10008.1.2.1.99", { "deflated explicit little endian", PixelCodec::Unsupported, false } },
+    { "1.2.840.10008.1.2.4.50", { "JPEG baseline", PixelCodec::JPEG, true } },
+    { "1.2.840.10008.1.2.4.51", { "JPEG extended", PixelCodec::JPEG, true } },
+    { "1.2.840.10008.1.2.4.57", { "JPEG lossless", PixelCodec::JPEG, false } },
+    { "1.2.840.10008.1.2.4.70", { "JPEG lossless (first-order prediction)", PixelCodec::JPEG, false } },
+    { "1.2.840.10008.1.2.4.80", { "JPEG-LS lossless", PixelCodec::JPEGLS, false } },
+    { "1.2.840.10008.1.2.4.81", { "JPEG-LS near-lossless", PixelCodec::JPEGLS, true } },
+    { "1.2.840.10008.1.2.4.90", { "JPEG 2000 lossless", PixelCodec::JPEG2000, false } },
+    { "1.2.840.10008.1.2.4.91", { "JPEG 2000", PixelCodec::JPEG2000, true } },
+    { "1.2.840.10008.1.2.4.201", { "high-throughput JPEG 2000 lossless", PixelCodec::Unsupported, false } },
+    { "1.2.840.10008.1.2.4.202", { "high-throughput JPEG 2000 lossless", PixelCodec::Unsupported, false } },
+    { "1.2.840.10008.1.2.4.203", { "high-throughput JPEG 2000", PixelCodec::Unsupported, true } },
+    { "1.2.840.10008.1.2.5", { "RLE lossless", PixelCodec::RunLength, false } },
+    { "1.2.840.10008.1.2.8.1", { "deflated frames", PixelCodec::Unsupported, false } },
+  };
+  const auto found = known.find(uid);
+  return found == known.end() ? TransferSyntax{ "unknown", PixelCodec::Unsupported, false } : found->second;
 }
 
 } // namespace rhombic

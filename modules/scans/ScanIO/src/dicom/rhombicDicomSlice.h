@@ -31,6 +31,29 @@ struct SlicePlane
 itk::Vector<double, 3>
 NormalOf(const SlicePlane & plane);
 
+/** The compression of the pixels in a DICOM transfer syntax. */
+enum class PixelCodec
+{
+  None,
+  JPEG,
+  JPEGLS,
+  JPEG2000,
+  RunLength,
+  Unsupported
+};
+
+/** A transfer syntax of DICOM (PS3.5, annex A). */
+struct TransferSyntax
+{
+  std::string name; ///< in a few words
+  PixelCodec codec = PixelCodec::Unsupported;
+  bool isLossy = false; ///< whether values may differ from the original ones
+};
+
+/** An empty UID is taken for a syntax without compression. */
+TransferSyntax
+FindTransferSyntax(const std::string & uid);
+
 /** The storage of the pixels of a DICOM file. */
 struct DicomPixelFormat
 {

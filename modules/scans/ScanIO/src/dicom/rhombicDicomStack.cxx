@@ -2,6 +2,7 @@
 
 #include "rhombicFailure.h"
 #include "rhombicVolumeRefusal.h"
+#include "rhombicVoxelGrid.h"
 #include "rhombicWording.h"
 
 #include "itkMath.h"
@@ -105,20 +106,13 @@ FindDuplicate(const std::vector<double> & steps)
   return static_cast<std::size_t>(found - steps.begin());
 }
 
-double
-ToleranceFor(double step)
-{
-  constexpr double millimetres = 0.01;
-  return std::min(millimetres, 0.1 * step);
-}
-
 std::vector<SliceBlock>
 FindBlocks(const std::vector<double> & steps)
 {
   std::vector<SliceBlock> blocks;
   for (const double step : steps)
   {
-    if (blocks.empty() || std::abs(step - blocks.back().step) > ToleranceFor(step))
+    if (blocks.empty() || std::abs(step - blocks.back().step) > EvenSliceTolerance(step))
     {
       blocks.push_back({ 0, step });
     }
@@ -175,19 +169,6 @@ FindGaps(const std::vector<double> & distances, const std::vector<double> & step
   return gaps;
 }
 
-/** The largest distance of a slice from its position on the line of equal steps from the first to the last. */
-double
-DistanceFromLine(const Slices & slices, const Vector & step)
-{
-  double largest = 0;
-  for (std::size_t i = 0; i < slices.size(); ++i)
-  {
-    const Vector actual = slices[i].plane->position - slices.front().plane->position;
-    largest = std::max(largest, (actual - step * static_cast<double>(i)).GetNorm());
-  }
-  return largest;
-}
-
 /** The sideways shift of slices for each millimetre along their normal: the median of all steps, in each coordinate. */
 Vector
 SlopeOf(const Slices & slices, const std::vector<double> & steps, const Vector & normal)
@@ -228,7 +209,7 @@ RequireLine(const Slices & slices, const std::vector<double> & steps)
   {
     const Vector step = slices[i + 1].plane->position - slices[i].plane->position;
     const double jump = (step - (normal + slope) * steps[i]).GetNorm();
-    if (jump > pixel + ToleranceFor(steps[i]))
+    if (jump > pixel + EvenSliceTolerance(steps[i]))
     {
       Refuse(slices,
              NamesOf(slices[i], slices[i + 1]) + " are shifted sideways by " + FormatNumber(jump, 4) +
@@ -364,10 +345,13 @@ StackSlices(std::vector<DicomSlice> & slices, const ScanReadOptions & options)
   stack.report.blocks = FindBlocks(steps);
   stack.report.gaps = FindGaps(distances, steps);
 
-  const SlicePlane & first = *slices.front().plane;
-  const Vector step = (slices.back().plane->position - first.position) / static_cast<double>(steps.size());
-  const double offLine = DistanceFromLine(slices, step);
-  const bool isEven = offLine <= ToleranceFor(MedianOf(steps));
+  std::vector<itk::Point<double, 3>> origins;
+  for (const DicomSlice & slice : slices)
+  {
+    origins.push_back(slice.plane->position);
+  }
+  const double offLine = DistanceFromEvenSlices(origins);
+  const bool isEven = offLine <= EvenSliceTolerance(MedianOf(steps));
   if (!isEven && !stack.report.gaps.empty())
   {
     stack.notes.push_back(AcceptGaps(slices, distances, stack.report.gaps, options));
@@ -380,16 +364,12 @@ StackSlices(std::vector<DicomSlice> & slices, const ScanReadOptions & options)
   {
     stack.notes.push_back(AcceptTilt(slices, stack.report.tiltDegrees, options));
   }
-  for (const DicomSlice & slice : slices)
-  {
-    if (!isEven)
-    {
-      stack.sliceOrigins.push_back(slice.plane->position);
-    }
-  }
+  const SlicePlane & first = *slices.front().plane;
+  const Vector step = (origins.back() - origins.front()) / static_cast<double>(steps.size());
   const itk::Size<3> size{ { slices.front().file->format.columns, slices.front().file->format.rows, slices.size() } };
   const Vector axes[3] = { first.columnStep, first.rowStep, step };
   stack.geometry = MakeGeometry(size, first.position, axes);
+  stack.sliceOrigins = isEven ? std::vector<itk::Point<double, 3>>() : std::move(origins);
   return stack;
 }
 

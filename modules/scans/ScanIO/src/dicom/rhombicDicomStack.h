@@ -4,7 +4,10 @@
 #include "rhombicDicomSlice.h"
 #include "rhombicScanReader.h"
 #include "rhombicVolumeGeometry.h"
+#include "rhombicVoxelDecoder.h"
 
+#include <cstdint>
+#include <map>
 #include <vector>
 
 namespace rhombic
@@ -36,6 +39,38 @@ StackSlices(std::vector<DicomSlice> & slices, const ScanReadOptions & options);
 /** Whether two slices are at the same position along their normal, within a hundredth of the median step or 1e-6 mm. */
 bool
 HaveDuplicates(const std::vector<DicomSlice> & slices);
+
+/** The rescaled values of a stack of slices. */
+struct DicomPixels
+{
+  ScanImage image; ///< unset when files failed
+  std::optional<double> paddingValue;
+  std::size_t numberOfPaddingSamples = 0;
+  std::map<std::filesystem::path, std::string> failures; ///< a sentence for each unreadable file
+};
+
+/** The volume of slices without voxels, in the pixel type that ReadDicomPixels() tries first. Values beyond int16
+ * become uint16 or int32. */
+ScanImage
+NewDicomImage(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry);
+
+/** Reads slices in their order into one volume; their files must have no pixelDamage. Uncompressed pixels are read
+ * here, the others by the options' decoder, which must be set, in as many files at once as it has workers. Padding is
+ * replaced by the lowest other value. It is kept when there is only one other value or padding is the next value below
+ * the others: then it is the background of a mask or label map. Throws Failure(Memory) when the volume takes more
+ * memory than the options allow. */
+DicomPixels
+ReadDicomPixels(const std::vector<DicomSlice> & slices,
+                const VolumeGeometry & geometry,
+                const ScanReadOptions & options);
+
+/** Opens the frames of a DICOM segmentation of type BINARY or LABELMAP (PS3.3, A.51 and A.91) as one label map: fills
+ * image, labels and notes of \a scan. Voxels of no segment are 0; where segments overlap, the later frame counts.
+ * Slices without a frame are empty, as in the standard: the distances of frames must be whole multiples of the smallest
+ * one, or of the step that SpacingBetweenSlices and SliceThickness agree on. Throws Failure: Unreadable, Geometry, and
+ * Memory when the label map takes more than \a maximumMemory bytes (see ScanReadOptions). */
+UnreadScan
+OpenDicomSegmentation(const std::vector<DicomSlice> & frames, std::uintmax_t maximumMemory, Scan scan);
 
 } // namespace rhombic
 

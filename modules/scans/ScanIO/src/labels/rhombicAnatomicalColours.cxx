@@ -1,10 +1,8 @@
-#include "rhombicAnatomicalColours.h"
+#include "rhombicLabelTable.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string_view>
-#include <vector>
 
 namespace rhombic
 {

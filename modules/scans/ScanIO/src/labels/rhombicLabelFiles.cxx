@@ -1,11 +1,10 @@
-#include "rhombicLabelFiles.h"
+#include "rhombicScanFormats.h"
 
 #include "rhombicDicomHeader.h"
 #include "rhombicFailure.h"
-#include "rhombicFolderFiles.h"
+#include "rhombicFiles.h"
 #include "rhombicLabelMap.h"
-#include "rhombicLabelUnion.h"
-#include "rhombicVolumeFormat.h"
+#include "rhombicLabelLayers.h"
 #include "rhombicVolumeGeometry.h"
 #include "rhombicWording.h"
 
@@ -65,7 +64,7 @@ WithoutPath(std::string note, const std::string & path)
 void
 ReadLabelFiles(const std::vector<fs::path> & files, const ScanReadOptions & options, Scan & scan)
 {
-  ScanReadOptions one = options;
+  ScanReadOptions mapOptions = options;
   LabelUnion labels(GeometryOf(scan.image), options.maximumMemory);
   std::vector<std::string> empty;
   std::map<std::string, std::vector<std::string>> notes; // by their text without the file's path
@@ -73,11 +72,11 @@ ReadLabelFiles(const std::vector<fs::path> & files, const ScanReadOptions & opti
   {
     if (options.progress)
     {
-      one.progress = [&, n](double done) {
+      mapOptions.progress = [&, n](double done) {
         options.progress((static_cast<double>(n) + done) / static_cast<double>(files.size()));
       };
     }
-    const Scan map = ReadVoxels(OpenScan(files[n], one));
+    const Scan map = ReadVoxels(OpenScan(files[n], mapOptions));
     LabelTable table = FindNames(map, files[n]);
     if (table.empty() && !LooksLikeLabelMap(map))
     {
@@ -148,15 +147,15 @@ FindMasks(const fs::path & folder, bool followsLinks)
 UnreadScan
 OpenLabelFiles(const std::vector<fs::path> & files, const ScanReadOptions & options)
 {
-  ScanReadOptions one = options;
-  one.series.clear();
-  one.frame.reset();
+  ScanReadOptions mapOptions = options;
+  mapOptions.series.clear();
+  mapOptions.frame.reset();
   Scan scan;
   std::set<fs::path> paths;
   bool isOriented = true;
   for (const fs::path & file : files)
   {
-    const Scan header = OpenScan(file, one).scan;
+    const Scan header = OpenScan(file, mapOptions).scan;
     if (paths.empty())
     {
       scan = header;
@@ -171,7 +170,7 @@ OpenLabelFiles(const std::vector<fs::path> & files, const ScanReadOptions & opti
   scan.isOriented = isOriented;
   scan.files.assign(paths.begin(), paths.end());
   scan.choice = Count(files.size(), "mask or label map", "masks and label maps") + " as one segmentation";
-  return { scan, [=](Scan & read) { ReadLabelFiles(files, one, read); } };
+  return { scan, [=](Scan & read) { ReadLabelFiles(files, mapOptions, read); } };
 }
 
 } // namespace rhombic

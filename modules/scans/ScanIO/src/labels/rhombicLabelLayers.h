@@ -1,14 +1,18 @@
 #ifndef rhombicLabelLayers_h
 #define rhombicLabelLayers_h
 
+#include "rhombicLabelTable.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicScan.h"
+#include "rhombicWording.h"
 
-#include "detail/itkHugePages.h"
+#include "itkRecyclingMemory.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace rhombic
@@ -63,8 +67,8 @@ public:
     });
   }
 
-  /** Sets Scan::image and Scan::furtherLayers. Returns the number of voxels that have several labels. */
-  std::size_t
+  /** Sets Scan::image and Scan::furtherLayers, and adds a note if voxels have several labels. */
+  void
   Take(Scan & scan)
   {
     if (m_Layers.empty())
@@ -84,7 +88,12 @@ public:
     }
     scan.image = m_Layers.front();
     scan.furtherLayers.assign(m_Layers.begin() + 1, m_Layers.end());
-    return shared;
+    if (shared > 0)
+    {
+      scan.notes.push_back(Count(shared, "voxel belongs", "voxels belong") +
+                           " to more than one label; labels are whole, in " + std::to_string(m_Layers.size()) +
+                           " layers.");
+    }
   }
 
 private:
@@ -128,9 +137,36 @@ private:
   std::vector<typename ImageType::Pointer> m_Layers;
 };
 
-/** A note about voxels that have several labels. */
-std::string
-DescribeLayers(std::size_t sharedVoxels, const Scan & scan);
+/** \class LabelUnion
+ * \brief Joins label maps of one grid into one, of layers where labels overlap.
+ *
+ * A label keeps its value, from 1 to 65,535, if no label before it has the same; otherwise it gets the number after the
+ * largest one so far. */
+class LabelUnion
+{
+public:
+  /** As LabelLayers. */
+  LabelUnion(const itk::ImageBase<3> & grid, std::uintmax_t maximumMemory)
+    : m_Layers(grid, maximumMemory)
+  {}
+
+  /** Adds a label map, whose labels are called as \a table says. \a maskName is the name of the label of a mask (see
+   * IsMask()) if the table lacks it; its value 255 then counts as 1. Returns whether there was any label. Throws
+   * Failure: Unreadable for values that are no whole numbers and for more than 4096 labels, Memory. */
+  bool
+  Add(const ScanImage & map, const LabelTable & table, const std::optional<std::string> & maskName = {});
+
+  /** Sets image, layers and labels of a scan, and adds a note about labels that overlap. */
+  void
+  Take(Scan & scan);
+
+private:
+  std::uint16_t
+  NumberFor(std::int32_t value) const;
+
+  LabelLayers<std::uint16_t> m_Layers;
+  std::map<std::uint16_t, Label> m_Labels;
+};
 
 } // namespace rhombic
 

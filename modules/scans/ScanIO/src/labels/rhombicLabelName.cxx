@@ -1,7 +1,5 @@
 #include "rhombicLabelTable.h"
 
-#include <algorithm>
-
 namespace rhombic
 {
 namespace

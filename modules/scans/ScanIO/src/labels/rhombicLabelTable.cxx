@@ -1,7 +1,7 @@
 #include "rhombicLabelTable.h"
 
 #include "rhombicLabelTableFormats.h"
-#include "rhombicTextFile.h"
+#include "rhombicFiles.h"
 #include "rhombicWording.h"
 
 namespace fs = std::filesystem;
@@ -39,9 +39,9 @@ ParseIfLabelTable(std::string_view text, const std::string & source, TableChoice
     case LabelTableFormat::ITKSNAP:
       return ParseITKSNAPTable(lines, source);
     case LabelTableFormat::SlicerText:
-      return ParseSlicerTable(lines, source);
+      return ParseNamedTable(lines, source, false);
     case LabelTableFormat::FreeSurfer:
-      return ParseFreeSurferTable(lines, source);
+      return ParseNamedTable(lines, source, true);
     case LabelTableFormat::Columns:
       return ParseColumnTable(lines, source);
     case LabelTableFormat::ValueAndName:

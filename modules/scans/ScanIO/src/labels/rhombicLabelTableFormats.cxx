@@ -1,16 +1,14 @@
 #include "rhombicLabelTableFormats.h"
 
-#include "rhombicAnatomicalColours.h"
 #include "rhombicWording.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
-#include <map>
-#include <optional>
+#include <limits>
+#include <set>
 #include <utility>
-
-#include <nlohmann/json.hpp>
 
 namespace rhombic
 {
@@ -105,12 +103,6 @@ private:
   std::map<std::string, std::size_t> m_Columns; ///< by name in lower case
   std::size_t m_NumberOfColumns = 0;
 };
-
-std::vector<TextLine>
-WithoutHeader(const std::vector<TextLine> & lines)
-{
-  return { lines.begin() + 1, lines.end() };
-}
 
 std::array<std::uint8_t, 3>
 HexColour(std::string_view text, const TablePlace & place)
@@ -220,6 +212,31 @@ LooksLikeValueAndName(const TextLine & line)
          (words.size() < 4 || !std::all_of(words.end() - 2, words.end(), IsNumber));
 }
 
+constexpr std::string_view Prefix = "Segment";
+using KeyValues = std::map<std::string, std::string>;
+
+/** The numbers of segments, as text, from keys like Segment12_Name. */
+std::set<std::string>
+SegmentNumbers(const KeyValues & keyValues)
+{
+  std::set<std::string> numbers;
+  for (auto pair = keyValues.lower_bound(std::string(Prefix)); pair != keyValues.end(); ++pair)
+  {
+    const std::string & key = pair->first;
+    if (key.compare(0, Prefix.size(), Prefix) != 0)
+    {
+      break;
+    }
+    const std::size_t end = key.find_first_not_of("0123456789", Prefix.size());
+    const std::string ending = end == std::string::npos ? "" : key.substr(end);
+    if (end > Prefix.size() && (ending == "_ID" || ending == "_Name" || ending == "_LabelValue"))
+    {
+      numbers.insert(key.substr(Prefix.size(), end - Prefix.size()));
+    }
+  }
+  return numbers;
+}
+
 } // namespace
 
 LabelTableFormat
@@ -306,21 +323,11 @@ ParseITKSNAPTable(const std::vector<TextLine> & lines, const std::string & sourc
 }
 
 LabelTable
-ParseSlicerTable(const std::vector<TextLine> & lines, const std::string & source)
+ParseNamedTable(const std::vector<TextLine> & lines, const std::string & source, bool isTransparency)
 {
-  return CollectRows(lines, source, [](std::string_view line, const TablePlace & place) {
+  return CollectRows(lines, source, [isTransparency](std::string_view line, const TablePlace & place) {
     Label label = ParseNamedRow(line, place);
-    label.isVisible = label.opacity > 0;
-    return label;
-  });
-}
-
-LabelTable
-ParseFreeSurferTable(const std::vector<TextLine> & lines, const std::string & source)
-{
-  return CollectRows(lines, source, [](std::string_view line, const TablePlace & place) {
-    Label label = ParseNamedRow(line, place);
-    label.opacity = 1 - label.opacity;
+    label.opacity = isTransparency ? 1 - label.opacity : label.opacity;
     label.isVisible = label.opacity > 0;
     return label;
   });
@@ -331,7 +338,7 @@ ParseColumnTable(const std::vector<TextLine> & lines, const std::string & source
 {
   const std::optional<LabelColumns> columns = FindLabelColumns(lines.front().text);
   const ColumnTable table(lines, columns.value().separator, source);
-  return CollectRows(WithoutHeader(lines), source, [&](std::string_view line, const TablePlace & place) {
+  return CollectRows({ lines.begin() + 1, lines.end() }, source, [&](std::string_view line, const TablePlace & place) {
     const std::vector<std::string> row = table.ReadRow(line, place);
     const std::string red = table.Get(row, "color_r");
     const std::string green = table.Get(row, "color_g");
@@ -393,6 +400,49 @@ ParseDatasetJSON(std::string_view json, const std::string & source)
     {
       RefuseTable({ source }, "its label " + Quoted(key) + " has no whole number; correct it");
     }
+  }
+  return collector.Take();
+}
+
+bool
+HasSegments(const KeyValues & keyValues)
+{
+  return !SegmentNumbers(keyValues).empty();
+}
+
+LabelTable
+LabelsOfSegments(const KeyValues & keyValues, const std::string & source, int layer)
+{
+  LabelCollector collector;
+  for (const std::string & number : SegmentNumbers(keyValues))
+  {
+    const std::string segment = std::string(Prefix) + number;
+    const std::string name = source + ", " + segment;
+    const TablePlace place{ name };
+    const auto get = [&keyValues, &segment](const char * field) {
+      const auto found = keyValues.find(segment + field);
+      return found == keyValues.end() ? std::string() : std::string(Trim(found->second));
+    };
+
+    // Before 3D Slicer 4.11 every segment was in a layer of its own.
+    const bool isOld = get("_LabelValue").empty() && get("_Layer").empty();
+    const std::string layerText = isOld ? number : get("_Layer").empty() ? "0" : get("_Layer");
+    if (WholeNumber(layerText, 0, std::numeric_limits<std::int32_t>::max(), "its layer", place) != layer)
+    {
+      continue;
+    }
+    Label label;
+    label.value = isOld ? 1 : LabelValue(get("_LabelValue"), place);
+    label.name = SanitizeLabelName(get("_Name"), label.value);
+    const std::string colourText = get("_Color");
+    const std::vector<std::string_view> colour = SplitWords(colourText);
+    if (colour.size() != 3 && !colour.empty())
+    {
+      RefuseTable(place, "its colour is " + Quoted(colourText) + ", not three numbers from 0 to 1; correct it");
+    }
+    label.colour =
+      colour.empty() ? AnatomicalColour(label.name, label.value) : UnitColour(colour[0], colour[1], colour[2], place);
+    collector.Add(std::move(label), place);
   }
   return collector.Take();
 }

@@ -1,4 +1,4 @@
-#include "rhombicLabelText.h"
+#include "rhombicLabelTableFormats.h"
 
 #include "rhombicFailure.h"
 #include "rhombicWording.h"

@@ -2,7 +2,7 @@
 
 #include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
-#include "rhombicNRRDHeader.h"
+#include "rhombicTextHeader.h"
 #include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"
 

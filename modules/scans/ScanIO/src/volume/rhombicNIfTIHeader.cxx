@@ -1,6 +1,7 @@
 #include "rhombicNIfTIHeader.h"
 
 #include "rhombicCompressedFile.h"
+#include "rhombicFiles.h"
 #include "rhombicVolumeRefusal.h"
 
 #include <string>

@@ -1,33 +1,14 @@
 #ifndef rhombicNIfTIHeader_h
 #define rhombicNIfTIHeader_h
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <optional>
-#include <string_view>
 
 namespace rhombic
 {
-
-/** A number at an offset in the bytes of a file; \a isSwapped: in the other byte order than this machine's. */
-template <typename TNumber>
-TNumber
-NumberAt(std::string_view bytes, std::size_t offset, bool isSwapped)
-{
-  char copy[sizeof(TNumber)];
-  std::memcpy(copy, bytes.data() + offset, sizeof(TNumber));
-  if (isSwapped)
-  {
-    std::reverse(copy, copy + sizeof(TNumber));
-  }
-  TNumber number;
-  std::memcpy(&number, copy, sizeof(TNumber));
-  return number;
-}
 
 /** The fields of a NIfTI-1 or NIfTI-2 header that are used, as stored. */
 struct NIfTIHeader

@@ -1,6 +1,5 @@
-#include "rhombicNRRDVolume.h"
+#include "rhombicStoredVolume.h"
 
-#include "rhombicNRRDHeader.h"
 #include "rhombicTextHeader.h"
 #include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"
@@ -23,12 +22,11 @@ namespace
 StoredType
 TypeOf(const NRRDHeader & header, const fs::path & path)
 {
-  static const std::map<std::string, StoredType> types{
-    { "int8", StoredType::Int8 },     { "uint8", StoredType::UInt8 },   { "int16", StoredType::Int16 },
-    { "uint16", StoredType::UInt16 }, { "int32", StoredType::Int32 },   { "uint32", StoredType::UInt32 },
-    { "int64", StoredType::Int64 },   { "uint64", StoredType::UInt64 }, { "float", StoredType::Float },
-    { "double", StoredType::Double }
-  };
+  static const std::map<std::string, StoredType> types{ { "int8", std::int8_t() },   { "uint8", std::uint8_t() },
+                                                        { "int16", std::int16_t() }, { "uint16", std::uint16_t() },
+                                                        { "int32", std::int32_t() }, { "uint32", std::uint32_t() },
+                                                        { "int64", std::int64_t() }, { "uint64", std::uint64_t() },
+                                                        { "float", float() },        { "double", double() } };
   const std::string name = header.Get("type");
   const auto found = types.find(CanonicalNRRDType(name));
   if (found == types.end())

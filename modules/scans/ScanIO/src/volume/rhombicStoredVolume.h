@@ -1,6 +1,7 @@
 #ifndef rhombicStoredVolume_h
 #define rhombicStoredVolume_h
 
+#include "rhombicScanReader.h"
 #include "rhombicVolumeGeometry.h"
 #include "rhombicVolumePixels.h"
 
@@ -26,7 +27,7 @@ struct StoredVoxels
 /** The content of a NIfTI, NRRD or MetaImage header. */
 struct StoredVolume
 {
-  StoredType type = StoredType::UInt8;
+  StoredType type;
   VolumeGeometry geometry;
   std::string matrix; ///< the header's field of the geometry's axes
   std::uintmax_t numberOfFrames = 1;
@@ -45,6 +46,38 @@ RequireVoxels(const std::vector<std::uintmax_t> & sizes,
               bool areAtEnd,
               const std::filesystem::path & header,
               StoredVolume & volume);
+
+/** The product of sizes; nothing when it exceeds 2^60. */
+std::optional<std::uintmax_t>
+ProductOf(const std::vector<std::uintmax_t> & sizes);
+
+/** Sets Scan::frame, the volume of a file to read, and Scan::numberOfFrames. Throws Failure: Unreadable when there are
+ * several volumes without a choice, unless the options accept the first; Usage when there is no such volume. */
+void
+ChooseFrame(std::uintmax_t numberOfFrames,
+            const ScanReadOptions & options,
+            const std::filesystem::path & path,
+            Scan & scan);
+
+/** \name Headers of files
+ * Check the header's numbers and the length of the voxels, but do not unpack compressed voxels. A fourth axis is taken
+ * as several volumes. Throw Failure: Unreadable, naming what is wrong or not supported, Geometry. */
+///@{
+
+/** A NIfTI-1 or NIfTI-2 file, or a pair of .hdr and .img by the name of either. Also checks the geometry, and describes
+ * it in \a scan. */
+StoredVolume
+ReadNIfTIVolume(const std::filesystem::path & path, const ScanReadOptions & options, Scan & scan);
+
+/** A NRRD file: .nrrd, or .nhdr with its data file. The fourth axis is the first or the last one. */
+StoredVolume
+ReadNRRDVolume(const std::filesystem::path & path);
+
+/** A MetaImage file: .mha, or .mhd with its data file. */
+StoredVolume
+ReadMetaImageVolume(const std::filesystem::path & path);
+
+///@}
 
 } // namespace rhombic
 

@@ -4,6 +4,7 @@
 #include "rhombicWording.h"
 
 #include <algorithm>
+#include <fstream>
 #include <limits>
 
 namespace fs = std::filesystem;
@@ -34,7 +35,62 @@ Parse(std::string text)
   return numbers;
 }
 
+constexpr std::size_t LargestHeader = std::size_t(1) << 24;
+
+/** Undoes "\n" and "\\". */
+std::string
+Unescaped(const std::string & text)
+{
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i)
+  {
+    const bool isEscape = text[i] == '\\' && i + 1 < text.size() && (text[i + 1] == 'n' || text[i + 1] == '\\');
+    result.push_back(!isEscape ? text[i] : text[++i] == 'n' ? '\n' : '\\');
+  }
+  return result;
+}
+
 } // namespace
+
+std::string
+TextHeader::Get(const std::vector<std::string> & names) const
+{
+  for (const std::string & name : names)
+  {
+    if (const auto found = fields.find(name); found != fields.end())
+    {
+      return found->second;
+    }
+  }
+  return "";
+}
+
+std::string
+TextHeader::GetValue(const std::string & key) const
+{
+  const auto found = keyValues.find(key);
+  return found == keyValues.end() ? "" : found->second;
+}
+
+bool
+HeaderLines::Read(std::string & line)
+{
+  line.clear();
+  for (char letter = 0; m_File.get(letter);)
+  {
+    if (++m_Size > m_Longest)
+    {
+      return false;
+    }
+    if (letter == '\n')
+    {
+      line.resize(line.size() - (!line.empty() && line.back() == '\r' ? 1 : 0));
+      return true;
+    }
+    line.push_back(letter);
+  }
+  return !line.empty();
+}
 
 std::optional<std::vector<double>>
 NumbersOf(const std::string & text)
@@ -103,6 +159,83 @@ DetachedFile(const fs::path & header, const std::string & name)
                  "its voxels should be in " + path.string() + ", which is missing; put the two files into one folder");
   }
   return path;
+}
+
+NRRDHeader
+ReadNRRDHeader(const fs::path & path)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::string magic(8, '\0');
+  file.read(magic.data(), static_cast<std::streamsize>(magic.size()));
+  if (!file || magic.compare(0, 7, "NRRD000") != 0 || magic[7] < '1' || magic[7] > '6')
+  {
+    RefuseVolume(path, "its content is not NRRD, as its name says; check where it came from");
+  }
+  NRRDHeader header;
+  HeaderLines lines(file, LargestHeader - magic.size());
+  std::string line;
+  lines.Read(line);
+  while (lines.Read(line) && !line.empty())
+  {
+    const std::size_t colon = line.find(':');
+    if (line.front() == '#' || colon == std::string::npos)
+    {
+      continue;
+    }
+    if (line.compare(colon, 2, ":=") == 0)
+    {
+      header.keyValues[Unescaped(line.substr(0, colon))] = Unescaped(line.substr(colon + 2));
+      continue;
+    }
+    std::string name = LowerCase(line.substr(0, colon));
+    name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
+    if (!header.fields.emplace(name, Trim(line.substr(colon + 1))).second)
+    {
+      RefuseVolume(path, "its header has the field '" + name + "' twice; export it again from its source");
+    }
+    if (name == "datafile" && header.Get(name).compare(0, 4, "LIST") == 0)
+    {
+      break; // names of files follow
+    }
+  }
+  header.size = magic.size() + lines.GetSize();
+  if (header.size > LargestHeader)
+  {
+    RefuseVolume(path, "its header has no end within 16 MiB; check where it came from");
+  }
+  return header;
+}
+
+std::map<std::string, std::string>
+ReadNRRDKeyValues(const fs::path & path)
+{
+  return ReadNRRDHeader(path).keyValues;
+}
+
+std::string
+CanonicalNRRDType(const std::string & name)
+{
+  static const std::vector<std::vector<std::string>> types{
+    { "int8", "int8_t", "signed char" },
+    { "uint8", "uint8_t", "uchar", "unsigned char" },
+    { "int16", "int16_t", "short", "short int", "signed short", "signed short int" },
+    { "uint16", "uint16_t", "ushort", "unsigned short", "unsigned short int" },
+    { "int32", "int32_t", "int", "signed int" },
+    { "uint32", "uint32_t", "uint", "unsigned int" },
+    { "int64", "int64_t", "longlong", "long long", "long long int", "signed long long", "signed long long int" },
+    { "uint64", "uint64_t", "ulonglong", "unsigned long long", "unsigned long long int" },
+    { "float" },
+    { "double" },
+  };
+  const std::string lowerCase = LowerCase(name);
+  for (const auto & names : types)
+  {
+    if (std::find(names.begin(), names.end(), lowerCase) != names.end())
+    {
+      return names.front();
+    }
+  }
+  return {};
 }
 
 } // namespace rhombic

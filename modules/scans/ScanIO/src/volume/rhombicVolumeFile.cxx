@@ -1,17 +1,11 @@
-#include "rhombicVolumeFile.h"
+#include "rhombicScanFormats.h"
 
 #include "rhombicCompressedFile.h"
 #include "rhombicLabelTableFormats.h"
-#include "rhombicLabelUnion.h"
+#include "rhombicLabelLayers.h"
 #include "rhombicMemoryBudget.h"
-#include "rhombicMetaImageHeader.h"
-#include "rhombicNIfTIFile.h"
-#include "rhombicNRRDHeader.h"
-#include "rhombicNRRDVolume.h"
-#include "rhombicVolumeFormat.h"
-#include "rhombicVolumeFrame.h"
-#include "rhombicVolumeGeometry.h"
-#include "rhombicVolumePixels.h"
+#include "rhombicTextHeader.h"
+#include "rhombicStoredVolume.h"
 #include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"
 
@@ -21,7 +15,6 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <vector>
 
 namespace fs = std::filesystem;
 
@@ -49,8 +42,8 @@ ReadInterleaved(ByteStream & stream,
   std::vector<std::byte> groups(std::max<std::size_t>(1, (1 << 20) / groupSize) * groupSize);
   for (std::byte * const end = buffer + size; buffer != end;)
   {
-    const std::size_t left = static_cast<std::size_t>(end - buffer) / voxelSize * groupSize;
-    const std::size_t count = stream.Read(groups.data(), std::min(groups.size(), left));
+    const std::size_t missing = static_cast<std::size_t>(end - buffer) / voxelSize * groupSize;
+    const std::size_t count = stream.Read(groups.data(), std::min(groups.size(), missing));
     if (count % groupSize != 0 || count == 0)
     {
       return false;
@@ -92,8 +85,8 @@ ReadStoredVoxels(const StoredVolume & volume, std::uintmax_t frame, const ScanRe
     }
   };
   ScanImage image = ReadVolumePixels(volume.type, volume.scaling, volume.geometry, read);
-  const std::uintmax_t framesLeft = volume.areFramesInterleaved ? 0 : volume.numberOfFrames - frame - 1;
-  if (voxels.isDeflated && !stream.EndsAfter(framesLeft * frameSize))
+  const std::uintmax_t framesBehind = volume.areFramesInterleaved ? 0 : volume.numberOfFrames - frame - 1;
+  if (voxels.isDeflated && !stream.EndsAfter(framesBehind * frameSize))
   {
     RefuseVolume(voxels.path,
                  "its compressed content is damaged, cut off, or goes on behind the voxels that its header announces; "
@@ -166,10 +159,23 @@ ReadLayers(const StoredVolume & volume,
 
 } // namespace
 
-bool
-IsVolumeFileName(const fs::path & path)
+std::string
+VolumeExtension(const fs::path & path)
 {
-  return !VolumeFormatOf(path).empty();
+  const fs::path lower(LowerCase(path.filename().string()));
+  return lower.extension() == ".gz" ? lower.stem().extension().string() + ".gz" : lower.extension().string();
+}
+
+std::string
+VolumeFormatOf(const fs::path & path)
+{
+  static const std::map<std::string, std::string> formats{ { ".nii", "NIfTI" },     { ".nii.gz", "NIfTI" },
+                                                           { ".hdr", "NIfTI" },     { ".hdr.gz", "NIfTI" },
+                                                           { ".img", "NIfTI" },     { ".img.gz", "NIfTI" },
+                                                           { ".nrrd", "NRRD" },     { ".nhdr", "NRRD" },
+                                                           { ".mha", "MetaImage" }, { ".mhd", "MetaImage" } };
+  const auto found = formats.find(VolumeExtension(path));
+  return found == formats.end() ? "" : found->second;
 }
 
 UnreadScan

@@ -1,6 +1,5 @@
 #include "rhombicVolumePixels.h"
 
-#include "rhombicFailure.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -14,37 +13,6 @@ namespace
 {
 
 constexpr std::size_t ChunkVoxels = 1 << 18;
-
-/** Calls \a use with a value of the C++ type of \a type. */
-template <typename TUse>
-auto
-WithType(StoredType type, const TUse & use)
-{
-  switch (type)
-  {
-    case StoredType::UInt8:
-      return use(std::uint8_t());
-    case StoredType::Int8:
-      return use(std::int8_t());
-    case StoredType::UInt16:
-      return use(std::uint16_t());
-    case StoredType::Int16:
-      return use(std::int16_t());
-    case StoredType::UInt32:
-      return use(std::uint32_t());
-    case StoredType::Int32:
-      return use(std::int32_t());
-    case StoredType::UInt64:
-      return use(std::uint64_t());
-    case StoredType::Int64:
-      return use(std::int64_t());
-    case StoredType::Float:
-      return use(float());
-    case StoredType::Double:
-      return use(double());
-  }
-  throw Failure(FailureKind::Internal, "A volume has a pixel type that is none; report this.");
-}
 
 template <typename TStored>
 constexpr bool IsWide = std::is_integral_v<TStored> && (sizeof(TStored) > 4 || std::is_same_v<TStored, std::uint32_t>);
@@ -100,6 +68,15 @@ ReadConverted(const VolumeGeometry & geometry, const VoxelSource & source, const
   return image;
 }
 
+/** Converts values to the pixels of an image from the \a first on. */
+template <typename TStored, typename TPixel>
+void
+Convert(const TStored * values, std::size_t count, itk::Image<TPixel, 3> & image, std::size_t first)
+{
+  std::transform(
+    values, values + count, image.GetBufferPointer() + first, [](TStored value) { return static_cast<TPixel>(value); });
+}
+
 /** For integers wider than any pixel type of ScanImage: int32 if all values fit, else float. */
 template <typename TStored>
 ScanImage
@@ -116,23 +93,10 @@ ReadWide(const VolumeGeometry & geometry, const VoxelSource & source)
     if (!floats && !std::all_of(values, values + count, fits))
     {
       floats = NewImage<float>(geometry);
-      const std::int32_t * const begin = integers->GetBufferPointer();
-      std::transform(
-        begin, begin + first, floats->GetBufferPointer(), [](std::int32_t value) { return static_cast<float>(value); });
+      Convert(integers->GetBufferPointer(), first, *floats, 0);
       integers = nullptr;
     }
-    if (floats)
-    {
-      std::transform(values, values + count, floats->GetBufferPointer() + first, [](TStored value) {
-        return static_cast<float>(value);
-      });
-    }
-    else
-    {
-      std::transform(values, values + count, integers->GetBufferPointer() + first, [](TStored value) {
-        return static_cast<std::int32_t>(value);
-      });
-    }
+    floats ? Convert(values, count, *floats, first) : Convert(values, count, *integers, first);
   });
   return floats ? ScanImage(floats) : ScanImage(integers);
 }
@@ -142,7 +106,7 @@ ReadWide(const VolumeGeometry & geometry, const VoxelSource & source)
 std::size_t
 SizeOf(StoredType type)
 {
-  return WithType(type, [](auto stored) { return sizeof(stored); });
+  return std::visit([](auto stored) { return sizeof(stored); }, type);
 }
 
 std::string
@@ -158,19 +122,20 @@ DescribeScaling(const std::optional<ValueScaling> & scaling)
 std::uintmax_t
 MemoryOfPixels(StoredType type, bool isScaled, std::uintmax_t numberOfVoxels)
 {
-  const std::size_t bytes = WithType(type, [isScaled](auto stored) {
+  const auto bytesOf = [isScaled](auto stored) {
     using Stored = decltype(stored);
     return isScaled ? sizeof(float) : IsWide<Stored> ? sizeof(std::int32_t) + sizeof(float) : sizeof(PixelFor<Stored>);
-  });
-  return numberOfVoxels * bytes;
+  };
+  return numberOfVoxels * std::visit(bytesOf, type);
 }
 
 ScanImage
 NewVolumeImage(StoredType type, bool isScaled, const VolumeGeometry & geometry)
 {
-  return WithType(type, [&](auto stored) -> ScanImage {
+  const auto newFrame = [&](auto stored) {
     return isScaled ? ScanImage(NewFrame<float>(geometry)) : ScanImage(NewFrame<PixelFor<decltype(stored)>>(geometry));
-  });
+  };
+  return std::visit(newFrame, type);
 }
 
 void
@@ -188,7 +153,7 @@ ReadVolumePixels(StoredType type,
                  const VolumeGeometry & geometry,
                  const VoxelSource & source)
 {
-  return WithType(type, [&](auto stored) -> ScanImage {
+  const auto read = [&](auto stored) -> ScanImage {
     using Stored = decltype(stored);
     using Pixel = PixelFor<Stored>;
     if (scaling)
@@ -209,7 +174,8 @@ ReadVolumePixels(StoredType type,
     {
       return ReadConverted<Stored, Pixel>(geometry, source, [](Stored value) { return static_cast<Pixel>(value); });
     }
-  });
+  };
+  return std::visit(read, type);
 }
 
 } // namespace rhombic

@@ -9,24 +9,22 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <variant>
 
 namespace rhombic
 {
 
-/** The type of the numbers in a file. */
-enum class StoredType
-{
-  UInt8,
-  Int8,
-  UInt16,
-  Int16,
-  UInt32,
-  Int32,
-  UInt64,
-  Int64,
-  Float,
-  Double
-};
+/** The type of the numbers in a file: any value of that type. */
+using StoredType = std::variant<std::uint8_t,
+                                std::int8_t,
+                                std::uint16_t,
+                                std::int16_t,
+                                std::uint32_t,
+                                std::int32_t,
+                                std::uint64_t,
+                                std::int64_t,
+                                float,
+                                double>;
 
 /** Bytes of a voxel in the file. */
 std::size_t

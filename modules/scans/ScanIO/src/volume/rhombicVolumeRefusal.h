@@ -1,6 +1,8 @@
 #ifndef rhombicVolumeRefusal_h
 #define rhombicVolumeRefusal_h
 
+#include "rhombicFailure.h"
+
 #include <filesystem>
 #include <string>
 
@@ -8,12 +10,18 @@ namespace rhombic
 {
 
 /** Throws Failure(Unreadable): "Cannot read PATH: WHY." */
-[[noreturn]] void
-RefuseVolume(const std::filesystem::path & path, const std::string & why);
+[[noreturn]] inline void
+RefuseVolume(const std::filesystem::path & path, const std::string & why)
+{
+  throw Failure(FailureKind::Unreadable, "Cannot read " + path.string() + ": " + why + ".");
+}
 
 /** Throws Failure(Geometry): "Cannot place PATH in the patient: WHY." */
-[[noreturn]] void
-RefuseGeometry(const std::filesystem::path & path, const std::string & why);
+[[noreturn]] inline void
+RefuseGeometry(const std::filesystem::path & path, const std::string & why)
+{
+  throw Failure(FailureKind::Geometry, "Cannot place " + path.string() + " in the patient: " + why + ".");
+}
 
 } // namespace rhombic
 

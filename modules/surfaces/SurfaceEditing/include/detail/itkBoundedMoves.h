@@ -3,7 +3,6 @@
 
 #include "detail/itkPositionArithmetic.h"
 #include "rhombicForEachBlock.h"
-#include "rhombicStagedProgress.h"
 #include "detail/itkPointStrata.h"
 #include "itkTriangleSurfaceSmoothing.h"
 

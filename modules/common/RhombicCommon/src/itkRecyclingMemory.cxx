@@ -1,4 +1,4 @@
-#include "detail/itkHugePages.h"
+#include "itkRecyclingMemory.h"
 
 #ifdef __linux__
 #include <sys/mman.h>

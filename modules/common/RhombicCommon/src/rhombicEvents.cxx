@@ -1,4 +1,6 @@
-#include "rhombicObserveProgress.h"
+#include "rhombicEvents.h"
+
+#include "itkProcessObject.h"
 
 namespace rhombic
 {

@@ -1,22 +1,13 @@
-#include "rhombicLabelUnion.h"
+#include "rhombicLabelLayers.h"
 
-#include "rhombicAnatomicalColours.h"
 #include "rhombicFailure.h"
 #include "rhombicLabelMap.h"
-#include "rhombicWording.h"
 
 #include <algorithm>
 #include <limits>
 
 namespace rhombic
 {
-
-std::string
-DescribeLayers(std::size_t sharedVoxels, const Scan & scan)
-{
-  return Count(sharedVoxels, "voxel belongs", "voxels belong") + " to more than one label; labels are whole, in " +
-         std::to_string(1 + scan.furtherLayers.size()) + " layers.";
-}
 
 std::uint16_t
 LabelUnion::NumberFor(std::int32_t value) const
@@ -88,11 +79,7 @@ LabelUnion::Add(const ScanImage & map, const LabelTable & table, const std::opti
 void
 LabelUnion::Take(Scan & scan)
 {
-  const std::size_t shared = m_Layers.Take(scan);
-  if (shared > 0)
-  {
-    scan.notes.push_back(DescribeLayers(shared, scan));
-  }
+  m_Layers.Take(scan);
   scan.labels.clear();
   for (const auto & [number, label] : m_Labels)
   {

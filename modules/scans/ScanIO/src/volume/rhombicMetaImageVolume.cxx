@@ -1,4 +1,4 @@
-#include "rhombicMetaImageHeader.h"
+#include "rhombicStoredVolume.h"
 
 #include "rhombicTextHeader.h"
 #include "rhombicVolumeRefusal.h"
@@ -6,13 +6,9 @@
 
 #include "itkByteSwapper.h"
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <initializer_list>
 #include <map>
-#include <sstream>
-#include <string>
 
 namespace fs = std::filesystem;
 
@@ -21,54 +17,24 @@ namespace rhombic
 namespace
 {
 
-struct MetaImageHeader
+bool
+IsTrue(const TextHeader & header, const char * field)
 {
-  std::map<std::string, std::string> fields;
-  std::uintmax_t size = 0; ///< bytes up to the end of the line of ElementDataFile
+  const std::string value = header.Get(field);
+  return !value.empty() && (value.front() == 'T' || value.front() == 't' || value.front() == '1');
+}
 
-  /** The value of the first of the keys that exists; empty when none does. */
-  std::string
-  Get(std::initializer_list<const char *> keys) const
-  {
-    for (const char * const key : keys)
-    {
-      if (const auto found = fields.find(key); found != fields.end())
-      {
-        return found->second;
-      }
-    }
-    return "";
-  }
-
-  std::string
-  Get(const char * key) const
-  {
-    return this->Get({ key });
-  }
-
-  bool
-  IsTrue(const char * key) const
-  {
-    const std::string value = this->Get(key);
-    return !value.empty() && (value.front() == 'T' || value.front() == 't' || value.front() == '1');
-  }
-};
-
-MetaImageHeader
+/** The lines up to that of ElementDataFile. */
+TextHeader
 ReadHeader(const fs::path & path)
 {
-  constexpr std::size_t largestHeader = std::size_t(1) << 20;
+  constexpr std::uintmax_t largestHeader = std::uintmax_t(1) << 20;
   std::ifstream file(path, std::ios::binary);
-  std::string beginning(largestHeader, '\0');
-  file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-  beginning.resize(static_cast<std::size_t>(file.gcount()));
-
-  MetaImageHeader header;
-  std::istringstream lines(beginning);
+  HeaderLines lines(file, largestHeader);
+  TextHeader header;
   std::string line;
-  while (header.fields.count("ElementDataFile") == 0 && std::getline(lines, line))
+  while (header.fields.count("ElementDataFile") == 0 && lines.Read(line))
   {
-    header.size += line.size() + 1;
     const std::size_t equals = line.find('=');
     if (equals != std::string::npos)
     {
@@ -79,19 +45,18 @@ ReadHeader(const fs::path & path)
   {
     RefuseVolume(path, "its content is not MetaImage, as its name says; check where it came from");
   }
+  header.size = lines.GetSize();
   return header;
 }
 
 StoredType
-TypeOf(const MetaImageHeader & header, const fs::path & path)
+TypeOf(const TextHeader & header, const fs::path & path)
 {
   static const std::map<std::string, StoredType> types{
-    { "MET_CHAR", StoredType::Int8 },       { "MET_UCHAR", StoredType::UInt8 },
-    { "MET_SHORT", StoredType::Int16 },     { "MET_USHORT", StoredType::UInt16 },
-    { "MET_INT", StoredType::Int32 },       { "MET_UINT", StoredType::UInt32 },
-    { "MET_LONG", StoredType::Int32 },      { "MET_ULONG", StoredType::UInt32 },
-    { "MET_LONG_LONG", StoredType::Int64 }, { "MET_ULONG_LONG", StoredType::UInt64 },
-    { "MET_FLOAT", StoredType::Float },     { "MET_DOUBLE", StoredType::Double },
+    { "MET_CHAR", std::int8_t() },         { "MET_UCHAR", std::uint8_t() },  { "MET_SHORT", std::int16_t() },
+    { "MET_USHORT", std::uint16_t() },     { "MET_INT", std::int32_t() },    { "MET_UINT", std::uint32_t() },
+    { "MET_LONG", std::int32_t() },        { "MET_ULONG", std::uint32_t() }, { "MET_LONG_LONG", std::int64_t() },
+    { "MET_ULONG_LONG", std::uint64_t() }, { "MET_FLOAT", float() },         { "MET_DOUBLE", double() },
   };
   const std::string channels = header.Get("ElementNumberOfChannels");
   if (!channels.empty() && channels != "1")
@@ -110,22 +75,18 @@ TypeOf(const MetaImageHeader & header, const fs::path & path)
 
 /** The \a count numbers of a field, or none without the field. */
 std::vector<double>
-PositionOf(const MetaImageHeader & header,
-           std::initializer_list<const char *> keys,
-           std::size_t count,
-           const fs::path & path)
+PositionOf(const TextHeader & header, const std::vector<std::string> & keys, std::size_t count, const fs::path & path)
 {
   const auto numbers = NumbersOf(header.Get(keys));
   if (!numbers || (!numbers->empty() && numbers->size() != count))
   {
-    RefuseGeometry(path,
-                   std::string("its header's ") + *keys.begin() + " can't be read; export it again from its source");
+    RefuseGeometry(path, "its header's " + keys.front() + " can't be read; export it again from its source");
   }
   return *numbers;
 }
 
 double
-MillimetresPerUnit(const MetaImageHeader & header, const fs::path & path)
+MillimetresPerUnit(const TextHeader & header, const fs::path & path)
 {
   static const std::map<std::string, double> units{ { "", 1 }, { "?", 1 }, { "mm", 1 }, { "um", 1e-3 }, { "cm", 10 } };
   const auto found = units.find(header.Get("DistanceUnits"));
@@ -138,7 +99,7 @@ MillimetresPerUnit(const MetaImageHeader & header, const fs::path & path)
 
 /** Fills the geometry, matrix, isOriented and note. The rows of the matrix are the axes, as in ITK. */
 void
-Place(const MetaImageHeader & header,
+Place(const TextHeader & header,
       const std::vector<std::uintmax_t> & sizes,
       const fs::path & path,
       StoredVolume & volume)
@@ -168,7 +129,7 @@ Place(const MetaImageHeader & header,
 }
 
 std::optional<ValueScaling>
-ScalingOf(const MetaImageHeader & header, const fs::path & path)
+ScalingOf(const TextHeader & header, const fs::path & path)
 {
   const auto slope = NumbersOf(header.Get("ElementToIntensityFunctionSlope"));
   const auto offset = NumbersOf(header.Get("ElementToIntensityFunctionOffset"));
@@ -185,12 +146,12 @@ ScalingOf(const MetaImageHeader & header, const fs::path & path)
 }
 
 bool
-IsBigEndian(const MetaImageHeader & header, const fs::path & path)
+IsBigEndian(const TextHeader & header, const fs::path & path)
 {
   const bool hasBoth =
     header.fields.count("BinaryDataByteOrderMSB") > 0 && header.fields.count("ElementByteOrderMSB") > 0;
-  const bool binaryData = header.IsTrue("BinaryDataByteOrderMSB");
-  const bool element = header.IsTrue("ElementByteOrderMSB");
+  const bool binaryData = IsTrue(header, "BinaryDataByteOrderMSB");
+  const bool element = IsTrue(header, "ElementByteOrderMSB");
   if (hasBoth && binaryData != element)
   {
     RefuseVolume(path, "its header contradicts itself about the byte order; export it again from its source");
@@ -200,7 +161,7 @@ IsBigEndian(const MetaImageHeader & header, const fs::path & path)
 
 /** Finds the voxels, and checks that their file is long enough. */
 void
-FindVoxels(const MetaImageHeader & header,
+FindVoxels(const TextHeader & header,
            const std::vector<std::uintmax_t> & sizes,
            const fs::path & path,
            StoredVolume & volume)
@@ -225,16 +186,16 @@ FindVoxels(const MetaImageHeader & header,
 StoredVolume
 ReadMetaImageVolume(const fs::path & path)
 {
-  const MetaImageHeader header = ReadHeader(path);
+  const TextHeader header = ReadHeader(path);
   const std::vector<std::uintmax_t> sizes = AxisSizes(header.Get("NDims"), header.Get("DimSize"), path);
   StoredVolume volume;
   volume.type = TypeOf(header, path);
   volume.scaling = ScalingOf(header, path);
-  if (!header.Get("BinaryData").empty() && !header.IsTrue("BinaryData"))
+  if (!header.Get("BinaryData").empty() && !IsTrue(header, "BinaryData"))
   {
     RefuseVolume(path, "its voxels are text, which is not supported; write it with BinaryData = True");
   }
-  volume.encoding = header.IsTrue("CompressedData") ? "zlib" : "raw";
+  volume.encoding = IsTrue(header, "CompressedData") ? "zlib" : "raw";
   volume.numberOfFrames = sizes.size() == 4 ? sizes[3] : 1;
   Place(header, sizes, path, volume);
   FindVoxels(header, sizes, path, volume);
