@@ -1,6 +1,7 @@
 #include "rhombicConsole.h"
 
 #include "rhombicWording.h"
+#include "rhombicOptionNames.h"
 
 #include <algorithm>
 
@@ -53,7 +54,7 @@ void
 Console::Note(const std::string & line)
 {
   this->Finish();
-  spdlog::info("{}", Printable(line));
+  spdlog::info("{}", Printable(NameOptions(line)));
 }
 
 void

@@ -1,6 +1,7 @@
 #include "rhombicUsageError.h"
 
 #include "rhombicWording.h"
+#include "rhombicOptionNames.h"
 
 #include <algorithm>
 #include <new>
@@ -140,7 +141,11 @@ FailureOfException()
   }
   catch (const Failure & failure)
   {
-    return failure;
+    return { failure.GetKind(),
+             NameOptions(failure.GetDescription()),
+             failure.GetFile(),
+             failure.GetLine(),
+             failure.GetLocation() };
   }
   catch (const itk::MemoryAllocationError &)
   {

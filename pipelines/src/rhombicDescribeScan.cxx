@@ -3,6 +3,7 @@
 #include "rhombicScanReader.h"
 #include "rhombicFailure.h"
 #include "rhombicLabelDoubts.h"
+#include "rhombicOptionNames.h"
 #include "rhombicSourceLoading.h"
 #include "rhombicWording.h"
 
@@ -106,6 +107,10 @@ ScanDescription
 DescribeSeries(const ScanSource & source, const LabelMapSource & labels)
 {
   SeriesList list = ListSeries(source.path, source.read);
+  for (SeriesSummary & series : list.series)
+  {
+    series.problem = NameOptions(series.problem);
+  }
   const auto chosen =
     std::find_if(list.series.begin(), list.series.end(), [](const SeriesSummary & series) { return series.chosen; });
   const bool isListed = list.series.size() > 1 && source.read.series.empty() && labels.paths.empty();

@@ -2,6 +2,7 @@
 
 #include "rhombicAuditReport.h"
 #include "rhombicMeasureTable.h"
+#include "rhombicOptionNames.h"
 #include "rhombicWording.h"
 
 #include <sstream>
@@ -159,7 +160,7 @@ ReportMeshedSurface(const MeshedSurface & surface)
   }
   if (!surface.parts.warning.empty())
   {
-    report["warnings"] = { surface.parts.warning };
+    report["warnings"] = { NameOptions(surface.parts.warning) };
   }
   AddStep("smoothing", surface.refinement.smoothing, report);
   AddStep("untangling", surface.refinement.untangling, report);

@@ -59,4 +59,8 @@ while read -r place; do
   say "a source folder of another module is taken: $place"
 done < <(grep -rnE 'RHOMBIC_SOURCE_FOLDERS|(modules|pipelines)/[A-Za-z/]*src\b' --include=CMakeLists.txt --include='*.cmake' modules pipelines apps |
            grep -v '^modules/RhombicModule.cmake' || true)
+
+while read -r place; do
+  say "a sentence of a module names an option, which users of ITK do not have; name the setting (pipelines/src/rhombicOptionNames.cxx): $place"
+done < <(grep -rnE '"([^"]* )?--[a-z]' --include='*.h' --include='*.hxx' --include='*.cxx' modules | grep -vE '^[^:]*:[0-9]*:\s*(//|\*)' || true)
 exit $((mistakes > 0))

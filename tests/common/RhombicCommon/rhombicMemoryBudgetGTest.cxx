@@ -23,7 +23,7 @@ TEST(MemoryBudget, MoreThanAllowedIsRefusedInWords)
     EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Memory);
     EXPECT_STREQ(failure.GetDescription(),
                  "Reading a.nii would need 2.5 GiB, more than the 2.0 GiB that are allowed; allow more with "
-                 "--max-memory 3G, or crop the scan.");
+                 "maximumMemory = 3G, or crop the scan.");
   }
 }
 

@@ -261,7 +261,7 @@ TEST_F(DicomSegmentation, MemoryIsAskedFor)
   MakeSegmentation({ { "0" }, { "1" }, { "900" } }).Write(m_Path);
   rhombic::ScanReadOptions options;
   options.maximumMemory = 901 * Pixels;
-  EXPECT_EQ(KindOfReading(m_Path, "--max-memory", options), FailureKind::Memory);
+  EXPECT_EQ(KindOfReading(m_Path, "maximumMemory", options), FailureKind::Memory);
   options.maximumMemory += 1000;
   EXPECT_NO_THROW(ReadScan(m_Path, options));
   MakeSegmentation({ { "0" }, { "1" }, { "90000" } }).Write(m_Path);

@@ -182,7 +182,7 @@ TEST_F(NIfTIFile, HugeClaimsAreRefusedBeforeAllocating)
 
   ScanReadOptions options;
   options.maximumMemory = 20;
-  EXPECT_EQ(this->KindOf(NIfTITestFile(), "--max-memory", options), FailureKind::Memory);
+  EXPECT_EQ(this->KindOf(NIfTITestFile(), "maximumMemory", options), FailureKind::Memory);
   options.maximumMemory = 24;
   EXPECT_NO_THROW(this->Read(NIfTITestFile(), options));
 }
@@ -213,7 +213,7 @@ TEST_F(NIfTIFile, FramesOfSeries)
     EXPECT_EQ(KindOfReading(m_Folder / "cut.nii", "cut off", Frame(0)), FailureKind::Unreadable);
   }
   EXPECT_NO_THROW(this->Read(NIfTITestFile(), Frame(0)));
-  EXPECT_EQ(this->KindOf(NIfTITestFile(), "--frame", Frame(1)), FailureKind::Usage);
+  EXPECT_EQ(this->KindOf(NIfTITestFile(), "ScanReadOptions::frame", Frame(1)), FailureKind::Usage);
 }
 
 TEST_F(NIfTIFile, ShearIsKeptOrRefused)

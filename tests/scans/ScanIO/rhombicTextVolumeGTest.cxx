@@ -297,7 +297,7 @@ TEST_F(TextVolume, LayersAndFramesOfNRRD)
   const auto & upper = *std::get<itk::Image<std::uint16_t, 3>::Pointer>(both.furtherLayers[0]);
   EXPECT_EQ(std::string(lower.GetBufferPointer(), lower.GetBufferPointer() + 8), "abcdefgh");
   EXPECT_EQ(std::string(upper.GetBufferPointer(), upper.GetBufferPointer() + 8), "ABCDEFGH");
-  EXPECT_EQ(KindOfReading(layers, "--frame", Frame(2)), FailureKind::Usage);
+  EXPECT_EQ(KindOfReading(layers, "ScanReadOptions::frame", Frame(2)), FailureKind::Usage);
   EXPECT_EQ(TextOf(ReadScan(layers, Frame(0))), "abcdefgh");
   const auto second = ReadScan(layers, Frame(1));
   EXPECT_EQ(TextOf(second), "ABCDEFGH");
@@ -389,7 +389,7 @@ TEST_F(TextVolume, MemoryIsLimited)
 {
   ScanReadOptions options;
   options.maximumMemory = 7;
-  EXPECT_EQ(KindOfReading(this->WriteNRRD(Raw + "space: LPS\n" + Directions), "--max-memory", options),
+  EXPECT_EQ(KindOfReading(this->WriteNRRD(Raw + "space: LPS\n" + Directions), "maximumMemory", options),
             FailureKind::Memory);
 }
 

@@ -44,7 +44,7 @@ RequireMemory(std::uintmax_t bytes, std::uintmax_t limit, const std::string & wh
     const auto gibibytes = static_cast<std::uintmax_t>(std::ceil(std::ldexp(static_cast<double>(bytes), -30)));
     throw Failure(FailureKind::Memory,
                   what + " would need " + DescribeBytes(bytes) + ", more than the " + DescribeBytes(allowed) +
-                    " that are allowed; allow more with --max-memory " + std::to_string(gibibytes) + "G" +
+                    " that are allowed; allow more with maximumMemory = " + std::to_string(gibibytes) + "G" +
                     (advice.empty() ? "" : ", or " + advice) + ".");
   }
 }

@@ -402,8 +402,8 @@ NoteRemoval(const TableRemoval & removal, const Events & events)
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text << "removed " << std::lround(total) << " ml around the patient: " << Count(removal.objects.size(), "object")
-       << " (table, holder, sheets) and " << Count(removal.numberOfSpecks, "speck") << "; --keep-table keeps them"
-       << DescribeKept(removal);
+       << " (table, holder, sheets) and " << Count(removal.numberOfSpecks, "speck")
+       << "; leave out RemoveTable() to keep them" << DescribeKept(removal);
   events.Note(text.str());
 }
 

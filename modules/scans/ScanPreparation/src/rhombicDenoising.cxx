@@ -41,7 +41,7 @@ ToReal(const itk::Image<TPixel, 3> & image)
   {
     throw Failure(FailureKind::Unreadable,
                   "The scan has values that are not finite, which edge-preserving smoothing would spread; use "
-                  "--denoise gaussian, which leaves them out.");
+                  "Denoising::Kind::Gaussian, which leaves them out.");
   }
   std::transform(begin, end, real->GetBufferPointer(), [](TPixel value) { return static_cast<float>(value); });
   return real;
@@ -87,7 +87,7 @@ FindSteps(double sigma, const RealImage::SpacingType & spacing)
     throw Failure(FailureKind::Usage,
                   "Edge-preserving smoothing over " + std::to_string(sigma) + " mm would take " +
                     std::to_string(static_cast<std::uintmax_t>(std::min(count, 1e18))) +
-                    " steps at this scan's spacing; use a smaller sigma, or --denoise gaussian.");
+                    " steps at this scan's spacing; use a smaller sigma, or Denoising::Kind::Gaussian.");
   }
   return { static_cast<unsigned int>(count), time / count };
 }
@@ -142,14 +142,14 @@ CheckDenoising(const Denoising & denoising)
 {
   if (denoising.kind != Denoising::Kind::None && !IsPositive(denoising.sigma))
   {
-    throw Failure(FailureKind::Usage,
-                  "The sigma of --denoise must be a positive number of mm; try gaussian:0.7 or edges:0.7,60.");
+    throw Failure(FailureKind::Usage, "Denoising::sigma must be a positive number of mm; try 0.7.");
   }
   if (denoising.kind == Denoising::Kind::EdgePreserving && !IsPositive(denoising.edge))
   {
-    throw Failure(FailureKind::Usage,
-                  "--denoise edges needs the least gradient of an edge, in the scan's units per mm: a positive number "
-                  "after sigma, as in edges:0.7,60.");
+    throw Failure(
+      FailureKind::Usage,
+      "Denoising::edge, the least gradient of an edge in the scan's units per mm, must be a positive number; "
+      "try 60.");
   }
 }
 
@@ -168,7 +168,7 @@ DenoiseScan(const ScanImage & image, const Denoising & denoising, std::uintmax_t
       RequireMemory(samples * (2 * sizeof(float) + sizeof(PixelType)),
                     maximumMemory,
                     "Edge-preserving smoothing",
-                    "use --denoise gaussian");
+                    "use Denoising::Kind::Gaussian");
       const RealImage::Pointer smooth = KeepEdges(ToReal(*input), denoising, events);
       return FromReal<PixelType>(*smooth);
     },
@@ -189,8 +189,8 @@ DenoiseLattice(const FCCVolume & volume,
   if (denoising.kind == Denoising::Kind::EdgePreserving)
   {
     throw Failure(FailureKind::Usage,
-                  "Edge-preserving smoothing works on a scan, before it gets onto the lattice; use --denoise gaussian "
-                  "for a lattice volume.");
+                  "Edge-preserving smoothing works on a scan, before it gets onto the lattice; use "
+                  "Denoising::Kind::Gaussian for a lattice volume.");
   }
   return std::visit(
     [&](const auto & input) -> FCCVolume {
@@ -198,7 +198,7 @@ DenoiseLattice(const FCCVolume & volume,
       RequireMemory(input->GetBufferedRegion().GetNumberOfPixels() * sizeof(typename ImageType::PixelType),
                     maximumMemory,
                     "Smoothing",
-                    "leave out --denoise");
+                    "leave out Denoising");
       const auto filter = itk::FCCGaussianImageFilter<ImageType>::New();
       filter->SetInput(input);
       filter->SetSigma(denoising.sigma);
@@ -209,7 +209,7 @@ DenoiseLattice(const FCCVolume & volume,
       }
       catch (const itk::ExceptionObject & error)
       {
-        throw Failure(FailureKind::Usage, DescribeError(error) + " (--denoise).");
+        throw Failure(FailureKind::Usage, DescribeError(error) + " (Denoising::sigma).");
       }
       filter->Update();
       const typename ImageType::Pointer output = filter->GetOutput();

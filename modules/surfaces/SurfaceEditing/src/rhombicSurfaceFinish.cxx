@@ -37,10 +37,11 @@ DescribeFilling(const itk::RemovedShells & filled, double volumeBefore, const st
 {
   const double growth = -filled.volume / volumeBefore;
   constexpr double notable = 0.01;
-  return name + ": --fill removed " + DescribeShells(filled) + " inside the surface and added " +
+  return name + ": SurfaceFinish::fillsCavities removed " + DescribeShells(filled) + " inside the surface and added " +
          FormatMillilitres(-filled.volume / CubicMillimetresPerMl) + " (" + (growth < 0.0 ? "" : "+") +
          FormatFixed(100.0 * growth, 1) + " %)" +
-         (growth > notable ? "; the volume is no longer that of " + name + " alone, leave out --fill to measure it"
+         (growth > notable ? "; the volume is no longer that of " + name +
+                               " alone, leave out SurfaceFinish::fillsCavities to measure it"
                            : "");
 }
 
@@ -72,7 +73,8 @@ WarnOfLostParts(const itk::RemovedShells & removed, double volumeBefore)
   constexpr double notable = 0.05;
   const double share = removed.volume / volumeBefore;
   return share >= notable ? "only the largest part is kept, which leaves out " + FormatFixed(100.0 * share, 1) +
-                              " % of the volume; --min-volume in place of --largest removes specks only"
+                              " % of the volume; SurfaceFinish::minimumVolume in place of "
+                              "SurfaceFinish::keepsLargestPart removes specks only"
                           : "";
 }
 
@@ -168,13 +170,16 @@ CheckSurfaceFinish(const SurfaceFinish & finish)
     }
   };
   require(finish.minimumVolume >= 0.0 && std::isfinite(finish.minimumVolume),
-          "The smallest volume of a part must be 0 ml or more; write --min-volume 0.5 for half a millilitre.");
-  require(finish.smoothing >= 0.0 && finish.smoothing <= 1.0,
-          "Smoothing moves points by 0 to 1 spacings of the lattice; write --smooth 0.3, for example.");
+          "The smallest volume of a part must be 0 ml or more; write SurfaceFinish::minimumVolume = 0.5 for half a "
+          "millilitre.");
+  require(
+    finish.smoothing >= 0.0 && finish.smoothing <= 1.0,
+    "Smoothing moves points by 0 to 1 spacings of the lattice; write SurfaceFinish::smoothing = 0.3, for example.");
   require(!finish.maximumError || (*finish.maximumError > 0.0 && std::isfinite(*finish.maximumError)),
-          "The largest error of simplification must be above 0; write --max-error 0.2 for 0.2 mm.");
-  require(finish.share > 0.0 && finish.share <= 1.0,
-          "The share of triangles to keep must be above 0 and at most 100 %; write --max-triangles 10%.");
+          "The largest error of simplification must be above 0; write SurfaceFinish::maximumError = 0.2 for 0.2 mm.");
+  require(
+    finish.share > 0.0 && finish.share <= 1.0,
+    "The share of triangles to keep must be above 0 and at most 100 %; write SurfaceFinish::share = 0.1, for example.");
 }
 
 PartRemoval

@@ -109,8 +109,8 @@ CheckCapture(const DicomCapture & capture)
   {
     throw Failure(FailureKind::Usage,
                   "Cannot write " + capture.path.string() + ": " +
-                    (hasAlpha ? "DICOM pictures are not transparent; choose another --style."
-                              : "DICOM files hold less than 4 GB of pixels; choose a smaller --size or fewer views."));
+                    (hasAlpha ? "DICOM pictures are not transparent; choose pictures without transparency."
+                              : "DICOM files hold less than 4 GB of pixels; choose smaller or fewer pictures."));
   }
 }
 
@@ -213,10 +213,11 @@ DicomStudy::DicomStudy(const fs::path & scan, const ScanReadOptions & options)
   const Scan opened = OpenScan(scan, options).scan;
   if (opened.format != "DICOM")
   {
-    throw Failure(FailureKind::Usage,
-                  scan.string() + " is " + opened.format +
-                    ", which has no study that DICOM pictures could belong to; leave out --dicom-sc, or name the "
-                    "folder of the DICOM scan.");
+    throw Failure(
+      FailureKind::Usage,
+      scan.string() + " is " + opened.format +
+        ", which has no study that DICOM pictures could belong to; leave out the DICOM pictures, or name the "
+        "folder of the DICOM scan.");
   }
   std::set<DicomTag> wanted{ StudyInstanceUID, DicomTags::SeriesInstanceUID };
   wanted.insert(std::begin(NeededTags), std::end(NeededTags));
@@ -232,9 +233,10 @@ DicomStudy::DicomStudy(const fs::path & scan, const ScanReadOptions & options)
   }
   if (m_Values[StudyInstanceUID].empty())
   {
-    throw Failure(FailureKind::Unreadable,
-                  "The files in " + scan.string() +
-                    " name no study (StudyInstanceUID) that DICOM pictures could belong to; leave out --dicom-sc.");
+    throw Failure(
+      FailureKind::Unreadable,
+      "The files in " + scan.string() +
+        " name no study (StudyInstanceUID) that DICOM pictures could belong to; leave out the DICOM pictures.");
   }
 }
 

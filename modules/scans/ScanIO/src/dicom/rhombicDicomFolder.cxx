@@ -42,8 +42,8 @@ RefuseFolder(const fs::path & folder, const FolderFiles & files, const Scan & sc
   }
   else if (files.symbolicLinks > 0)
   {
-    why =
-      "it holds symbolic links, which are not followed, and no DICOM images; have them followed with --follow-links";
+    why = "it holds symbolic links, which are not followed, and no DICOM images; have them followed with "
+          "ScanReadOptions::followsLinks";
   }
   else if (files.paths.empty())
   {

@@ -264,8 +264,8 @@ ChooseSeries(const std::vector<DicomSeries> & series, const std::string & wanted
   if (!choice)
   {
     throw Failure(FailureKind::Usage,
-                  "There is more than one volume in " + folder.string() + "; choose one with --series and an id from " +
-                    EnumerateSeries(series) + ".");
+                  "There is more than one volume in " + folder.string() +
+                    "; choose one with ScanReadOptions::series and an id from " + EnumerateSeries(series) + ".");
   }
   const DicomSlice & slice = series[choice->index].slices.front();
   if (!slice.refusal.empty())

@@ -272,7 +272,7 @@ AcceptGaps(const Slices & slices,
     Refuse(slices,
            description + (gaps.size() > 1 ? ", the first between " : ", between ") +
              NamesAround(slices, distances, gaps.front()),
-           "find the missing files, or take values across the gap with --on-gap=interpolate");
+           "find the missing files, or take values across the gap with ScanReadOptions::onGap");
   }
   return "Values are interpolated where slices are missing: " + description + ".";
 }
@@ -290,7 +290,7 @@ AcceptUnevenSteps(const Slices & slices,
   {
     Refuse(slices,
            description,
-           "leave out --on-irregular=error, or in a program call reader->AcceptUnevenOn() and "
+           "accept ScanReadOptions::onUneven, in ITK pipelines by reader->AcceptUnevenOn() and "
            "lattice->SetScan(reader->GetScan()), to have them resampled from their true positions");
   }
   return "The slices are resampled from their true positions, because " + description + ".";
@@ -304,7 +304,7 @@ AcceptTilt(const Slices & slices, double degrees, const ScanReadOptions & option
     "they are sheared by " + FormatNumber(degrees, 4) + " degrees against their normal, as a tilted CT gantry does";
   if (options.onTilted == Policy::Refuse)
   {
-    Refuse(slices, description, "leave out --on-irregular=error to have them resampled from their true positions");
+    Refuse(slices, description, "accept ScanReadOptions::onTilted to have them resampled from their true positions");
   }
   return "The slices are resampled from their true positions: " + description + ".";
 }

@@ -280,7 +280,7 @@ FindLabels(const Scan & scan, const LabelMapSource & source)
   {
     throw Failure(FailureKind::Unreadable,
                   "Cannot take " + source.GetFirstPath().string() +
-                    " for a label map: its values look like intensities; if it is one, give a --label-table.");
+                    " for a label map: its values look like intensities; if it is one, give a LabelMapSource::table.");
   }
   const bool isFile = source.paths.size() == 1 && !VolumeFormatOf(source.paths.front()).empty();
   table = isFile ? FindDatasetTable(source.paths.front()).value_or(LabelTable()) : table;

@@ -74,7 +74,7 @@ VoxelsFile(const fs::path & path, const NIfTIHeader & header, const ScanReadOpti
   {
     RefuseVolume(path,
                  "it is an Analyze 7.5 file or a damaged NIfTI file (its magic word is missing), whose orientation is "
-                 "unknown; convert it to NIfTI, or have it read with --analyze");
+                 "unknown; convert it to NIfTI, or have it read with ScanReadOptions::acceptsAnalyze");
   }
   if ((header.kind == NIfTIHeader::Kind::SingleFile) == isNamedAsPair)
   {

@@ -63,14 +63,14 @@ ChooseFrame(std::uintmax_t numberOfFrames,
   if (!options.frame && numberOfFrames > 1 && options.onSeveralFrames == ScanReadOptions::Policy::Refuse)
   {
     RefuseVolume(path,
-                 "it holds " + std::to_string(numberOfFrames) + " volumes; choose one with --frame, from 0 to " +
-                   std::to_string(numberOfFrames - 1));
+                 "it holds " + std::to_string(numberOfFrames) +
+                   " volumes; choose one with ScanReadOptions::frame, from 0 to " + std::to_string(numberOfFrames - 1));
   }
   if (options.frame && *options.frame >= numberOfFrames)
   {
     throw Failure(FailureKind::Usage,
                   "Cannot read volume " + std::to_string(*options.frame) + " of " + path.string() + ": it holds " +
-                    std::to_string(numberOfFrames) + ", counted from 0; choose another with --frame.");
+                    std::to_string(numberOfFrames) + ", counted from 0; choose another with ScanReadOptions::frame.");
   }
   scan.numberOfFrames = numberOfFrames;
   scan.frame = options.frame.value_or(0);
