@@ -2,7 +2,6 @@
 
 #include "rhombicFailure.h"
 #include "rhombicMemoryBudget.h"
-#include "rhombicWords.h"
 
 #include <cerrno>
 #include <cstring>

@@ -1,12 +1,8 @@
 #include "rhombicSurfaceIO.h"
 
-#include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
 #include "rhombicInProcessDecoder.h"
-#include "rhombicInputFile.h"
-#include "rhombicOutputFile.h"
 #include "rhombicSurfaceFormats.h"
-#include "rhombicWords.h"
 
 #include "detail/itkPositionArithmetic.h"
 

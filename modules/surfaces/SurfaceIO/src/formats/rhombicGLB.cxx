@@ -1,5 +1,4 @@
 #include "rhombicFailure.h"
-#include "rhombicSurfaceAssembler.h"
 #include "rhombicSurfaceFormats.h"
 #include "itkMatrix.h"
 #include "itkPointBox.h"
@@ -453,7 +452,7 @@ private:
   ReadMesh(const Json & node, const Transform & transform)
   {
     const Json & mesh = this->Item("meshes", this->Whole(node, "mesh"));
-    const std::string name = node.value("name", mesh.value("name", NameFromFile(m_File)));
+    const std::string name = node.value("name", mesh.value("name", m_File.GetStem()));
     for (const Json & primitive : mesh.at("primitives"))
     {
       const std::uint64_t mode = primitive.contains("mode") ? this->Whole(primitive, "mode") : glb::Triangles;

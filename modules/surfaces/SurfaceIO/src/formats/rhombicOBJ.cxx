@@ -1,6 +1,4 @@
-#include "rhombicSurfaceAssembler.h"
 #include "rhombicSurfaceFormats.h"
-#include "rhombicWords.h"
 
 #include <algorithm>
 #include <charconv>
@@ -91,13 +89,8 @@ constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t Several = None - 1;
 constexpr const char * NoTriple = "three numbers are needed here; the file is damaged, so export it again";
 
-struct Material
-{
-  Colour colour = SceneSurface().colour;
-  double opacity = 1.0;
-};
-
-using Materials = std::map<std::string, Material, std::less<>>;
+/** Surfaces of which only colour and opacity are set, by the names of materials. */
+using Materials = std::map<std::string, SceneSurface, std::less<>>;
 
 double
 ParseUnit(std::string_view word)
@@ -117,7 +110,7 @@ ReadMaterials(const std::filesystem::path & path, Materials & materials)
   }
   const InputFile file(path);
   InputStream stream(file);
-  Material * material = nullptr;
+  SceneSurface * material = nullptr;
   std::string_view line;
   while (stream.TakeLine(line))
   {
@@ -347,7 +340,7 @@ private:
       {
         const auto named =
           std::find_if(m_Key.begin(), m_Key.end(), [](const std::string & name) { return !name.empty(); });
-        m_Parts.push_back({ named == m_Key.end() ? NameFromFile(m_File) : *named, m_Key[2], {} });
+        m_Parts.push_back({ named == m_Key.end() ? m_File.GetStem() : *named, m_Key[2], {} });
       }
       m_Part = &m_Parts[found->second];
     }
@@ -398,8 +391,10 @@ private:
     }
     TurnFrom(m_Space, *surface);
     const auto found = m_Materials.find(part.material);
-    const Material material = found == m_Materials.end() ? Material() : found->second;
-    return { part.name, surface.GetPointer(), material.colour, material.opacity };
+    SceneSurface item = found == m_Materials.end() ? SceneSurface() : found->second;
+    item.name = part.name;
+    item.surface = surface;
+    return item;
   }
 
   const InputFile & m_File;

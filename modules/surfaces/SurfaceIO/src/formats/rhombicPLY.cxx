@@ -1,6 +1,4 @@
-#include "rhombicSurfaceAssembler.h"
 #include "rhombicSurfaceFormats.h"
-#include "rhombicWords.h"
 
 #include <nlohmann/json.hpp>
 
@@ -8,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <optional>
 
 namespace rhombic
@@ -47,32 +46,13 @@ MakeHeader(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, b
          "\nproperty list uchar uint vertex_indices\nend_header\n";
 }
 
-/** The types of numbers. */
-enum class NumberType
-{
-  Int8,
-  UInt8,
-  Int16,
-  UInt16,
-  Int32,
-  UInt32,
-  Float32,
-  Float64
-};
-
-std::size_t
-SizeOf(NumberType type)
-{
-  constexpr std::size_t sizes[]{ 1, 1, 2, 2, 4, 4, 4, 8 };
-  return sizes[static_cast<std::size_t>(type)];
-}
-
-template <typename TNumber, typename TTakeBytes>
+/** Takes the next number of a binary file. */
+template <typename TNumber>
 double
-TakeNumberAs(bool isBigEndian, const TTakeBytes & takeBytes)
+TakeBinary(InputStream & stream, bool isBigEndian)
 {
   std::array<char, sizeof(TNumber)> bytes;
-  takeBytes(bytes.data(), bytes.size());
+  stream.Take(bytes.data(), bytes.size());
   if (isBigEndian)
   {
     std::reverse(bytes.begin(), bytes.end());
@@ -82,31 +62,28 @@ TakeNumberAs(bool isBigEndian, const TTakeBytes & takeBytes)
   return static_cast<double>(number);
 }
 
-/** Decodes the next number; \a takeBytes(to, size) gets its bytes. */
-template <typename TTakeBytes>
-double
-TakeNumber(NumberType type, bool isBigEndian, const TTakeBytes & takeBytes)
+/** A type of numbers. */
+struct NumberType
 {
-  switch (type)
-  {
-    case NumberType::Int8:
-      return TakeNumberAs<std::int8_t>(isBigEndian, takeBytes);
-    case NumberType::UInt8:
-      return TakeNumberAs<std::uint8_t>(isBigEndian, takeBytes);
-    case NumberType::Int16:
-      return TakeNumberAs<std::int16_t>(isBigEndian, takeBytes);
-    case NumberType::UInt16:
-      return TakeNumberAs<std::uint16_t>(isBigEndian, takeBytes);
-    case NumberType::Int32:
-      return TakeNumberAs<std::int32_t>(isBigEndian, takeBytes);
-    case NumberType::UInt32:
-      return TakeNumberAs<std::uint32_t>(isBigEndian, takeBytes);
-    case NumberType::Float32:
-      return TakeNumberAs<float>(isBigEndian, takeBytes);
-    default:
-      return TakeNumberAs<double>(isBigEndian, takeBytes);
-  }
+  std::string_view name;
+  std::string_view nameWithSize; ///< in later files
+  std::size_t size;              ///< bytes
+  double (*takeBinary)(InputStream & stream, bool isBigEndian);
+};
+
+template <typename TNumber>
+constexpr NumberType
+MakeType(std::string_view name, std::string_view nameWithSize)
+{
+  return { name, nameWithSize, sizeof(TNumber), TakeBinary<TNumber> };
 }
+
+constexpr NumberType NumberTypes[]{
+  MakeType<std::int8_t>("char", "int8"),    MakeType<std::uint8_t>("uchar", "uint8"),
+  MakeType<std::int16_t>("short", "int16"), MakeType<std::uint16_t>("ushort", "uint16"),
+  MakeType<std::int32_t>("int", "int32"),   MakeType<std::uint32_t>("uint", "uint32"),
+  MakeType<float>("float", "float32"),      MakeType<double>("double", "float64"),
+};
 
 enum class Encoding
 {
@@ -118,8 +95,8 @@ enum class Encoding
 struct Property
 {
   std::string name;
-  NumberType type = NumberType::Float32;
-  std::optional<NumberType> count; ///< type of the count, if the property is a list
+  const NumberType * type = nullptr;  ///< one of NumberTypes
+  const NumberType * count = nullptr; ///< type of the count, if the property is a list
 };
 
 struct Element
@@ -127,6 +104,14 @@ struct Element
   std::string name;
   std::uintmax_t count = 0;
   std::vector<Property> properties;
+};
+
+/** A surface's name, colour and opacity, and the number of its points and faces in a file. */
+struct SurfacePart
+{
+  SceneSurface look; ///< name, colour and opacity; its surface is null
+  std::uintmax_t points = 0;
+  std::uintmax_t faces = 0;
 };
 
 struct Header
@@ -137,24 +122,14 @@ struct Header
   std::vector<Element> elements;
 };
 
-NumberType
+const NumberType *
 ParseType(std::string_view word, const InputStream & stream)
 {
-  struct Name
+  for (const NumberType & type : NumberTypes)
   {
-    std::string_view name;
-    std::string_view nameWithSize;
-    NumberType type;
-  };
-  constexpr Name names[]{ { "char", "int8", NumberType::Int8 },        { "uchar", "uint8", NumberType::UInt8 },
-                          { "short", "int16", NumberType::Int16 },     { "ushort", "uint16", NumberType::UInt16 },
-                          { "int", "int32", NumberType::Int32 },       { "uint", "uint32", NumberType::UInt32 },
-                          { "float", "float32", NumberType::Float32 }, { "double", "float64", NumberType::Float64 } };
-  for (const Name & known : names)
-  {
-    if (word == known.name || word == known.nameWithSize)
+    if (word == type.name || word == type.nameWithSize)
     {
-      return known.type;
+      return &type;
     }
   }
   stream.RefuseLine("PLY has no such type of number");
@@ -322,19 +297,15 @@ public:
   }
 
   double
-  Take(NumberType type)
+  Take(const NumberType & type)
   {
-    if (m_Encoding == Encoding::Text)
-    {
-      return this->TakeText();
-    }
-    return TakeNumber(
-      type, m_Encoding == Encoding::BigEndian, [this](char * to, std::size_t size) { m_Stream.Take(to, size); });
+    return m_Encoding == Encoding::Text ? this->TakeText()
+                                        : type.takeBinary(m_Stream, m_Encoding == Encoding::BigEndian);
   }
 
   /** Takes a count or index; throws Failure(Unreadable) for any other number. */
   std::uint64_t
-  TakeWhole(NumberType type)
+  TakeWhole(const NumberType & type)
   {
     const double value = this->Take(type);
     if (!(value >= 0 && value <= UINT32_MAX && value == std::floor(value)))
@@ -374,7 +345,7 @@ using Slots = std::array<double, SlotNames.size()>;
 std::size_t
 SlotOf(const Property & property)
 {
-  return property.count
+  return property.count != nullptr
            ? SlotNames.size()
            : static_cast<std::size_t>(std::find(SlotNames.begin(), SlotNames.end(), property.name) - SlotNames.begin());
 }
@@ -393,7 +364,7 @@ HasSlots(const Element & vertex, std::size_t first, std::size_t count)
 bool
 IsIndexList(const Property & property)
 {
-  return property.count && (property.name == "vertex_indices" || property.name == "vertex_index");
+  return property.count != nullptr && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
 /** A lower bound for the bytes of an element. */
@@ -403,7 +374,7 @@ SmallestSize(const Element & element, Encoding encoding)
   std::uintmax_t size = 0;
   for (const Property & property : element.properties)
   {
-    size += encoding == Encoding::Text ? 2 : SizeOf(property.count.value_or(property.type));
+    size += encoding == Encoding::Text ? 2 : (property.count != nullptr ? property.count : property.type)->size;
   }
   return size;
 }
@@ -436,12 +407,160 @@ CheckElements(const Header & header, const InputFile & file, std::uintmax_t rest
 void
 SkipProperty(const Property & property, Values & values)
 {
-  const std::uint64_t count = property.count ? values.TakeWhole(*property.count) : 1;
+  const std::uint64_t count = property.count != nullptr ? values.TakeWhole(*property.count) : 1;
   for (std::uint64_t n = 0; n < count; ++n)
   {
-    values.Take(property.type);
+    values.Take(*property.type);
   }
 }
+
+/** Whether the parts add up to all points and faces; written so that nothing overflows. */
+bool
+AddUp(const std::vector<SurfacePart> & parts, std::uintmax_t points, std::uintmax_t faces)
+{
+  for (const SurfacePart & part : parts)
+  {
+    if (part.points > points || part.faces > faces)
+    {
+      return false;
+    }
+    points -= part.points;
+    faces -= part.faces;
+  }
+  return points == 0 && faces == 0;
+}
+
+/** \class SurfaceAssembler
+ * \brief Distributes the points and faces of a file to its surfaces, which follow each other in the file. */
+class SurfaceAssembler
+{
+public:
+  /** \a points and \a faces are the totals of the file, which the caller has compared with the file's size; a point
+   * takes 24 bytes, a face 12. If \a parts do not add up to these totals, another program has changed the file, and
+   * everything becomes one surface named after the file. Throws Failure(Memory), Failure(Unreadable). */
+  SurfaceAssembler(const InputFile & file,
+                   std::vector<SurfacePart> parts,
+                   std::uintmax_t points,
+                   std::uintmax_t faces,
+                   bool haveNormals)
+    : m_File(file)
+    , m_IsDivided(!parts.empty() && AddUp(parts, points, faces))
+  {
+    if (points >= std::numeric_limits<std::uint32_t>::max())
+    {
+      file.Refuse("it has more points than 32-bit indices reach; divide it");
+    }
+    file.RequireMemoryToRead(24 * points + 12 * faces);
+    if (!m_IsDivided)
+    {
+      parts.assign(1, SurfacePart{});
+      parts[0].look.name = file.GetStem();
+      parts[0].points = points;
+      parts[0].faces = faces;
+    }
+    std::uintmax_t firstPoint = 0;
+    for (SurfacePart & part : parts)
+    {
+      auto surface = itk::TriangleSurface::New();
+      surface->GetPoints().reserve(part.points);
+      surface->GetNormals().reserve(haveNormals ? part.points : 0);
+      surface->GetTriangles().reserve(part.faces);
+      firstPoint += part.points;
+      m_Surfaces.push_back({ std::move(part), surface, firstPoint - part.points });
+    }
+  }
+
+  void
+  AddPoint(const itk::TriangleSurface::PointType & point)
+  {
+    while (m_Surfaces[m_PointSurface].surface->GetPoints().size() == m_Surfaces[m_PointSurface].part.points)
+    {
+      ++m_PointSurface;
+    }
+    m_Surfaces[m_PointSurface].surface->GetPoints().push_back(point);
+  }
+
+  void
+  AddNormal(const itk::TriangleSurface::NormalType & normal)
+  {
+    while (m_Surfaces[m_NormalSurface].surface->GetNormals().size() == m_Surfaces[m_NormalSurface].part.points)
+    {
+      ++m_NormalSurface;
+    }
+    m_Surfaces[m_NormalSurface].surface->GetNormals().push_back(normal);
+  }
+
+  /** Adds a face by its points' indices in the file; more than three corners make a fan. Throws Failure(Unreadable) for
+   * fewer, and for a point that does not belong to the face's surface. */
+  void
+  AddFace(const std::vector<std::uint64_t> & corners)
+  {
+    while (m_Faces == m_Surfaces[m_FaceSurface].part.faces)
+    {
+      ++m_FaceSurface;
+      m_Faces = 0;
+    }
+    ++m_Faces;
+    const Assembled & assembled = m_Surfaces[m_FaceSurface];
+    if (corners.size() < 3)
+    {
+      m_File.Refuse("a face has fewer than three corners; export triangles");
+    }
+    for (const std::uint64_t corner : corners)
+    {
+      if (corner < assembled.firstPoint || corner - assembled.firstPoint >= assembled.part.points)
+      {
+        m_File.RefuseDamaged("a face has a corner at point " + std::to_string(corner) +
+                             ", which its surface does not have");
+      }
+    }
+    const auto local = [&](std::size_t n) { return static_cast<std::uint32_t>(corners[n] - assembled.firstPoint); };
+    for (std::size_t n = 2; n < corners.size(); ++n)
+    {
+      assembled.surface->GetTriangles().push_back({ local(0), local(n - 1), local(n) });
+    }
+  }
+
+  /** Sets colour and opacity, if the file has a single surface without a description. */
+  void
+  SetLook(const Colour & colour, double opacity)
+  {
+    if (!m_IsDivided)
+    {
+      m_Surfaces[0].part.look.colour = colour;
+      m_Surfaces[0].part.look.opacity = opacity;
+    }
+  }
+
+  std::vector<SceneSurface>
+  Take(SurfaceFileSpace space)
+  {
+    std::vector<SceneSurface> surfaces;
+    for (Assembled & assembled : m_Surfaces)
+    {
+      TurnFrom(space, *assembled.surface);
+      surfaces.push_back(std::move(assembled.part.look));
+      surfaces.back().surface = assembled.surface;
+    }
+    return surfaces;
+  }
+
+private:
+  struct Assembled
+  {
+    SurfacePart part;
+    itk::TriangleSurface::Pointer surface;
+    std::uintmax_t firstPoint = 0;
+  };
+
+  const InputFile & m_File;
+  std::vector<Assembled> m_Surfaces;
+  bool m_IsDivided;
+  std::size_t m_PointSurface = 0;  ///< index of the surface that gets the next point
+  std::size_t m_NormalSurface = 0; ///< index of the surface that gets the next normal
+  std::size_t m_FaceSurface = 0;   ///< index of the surface that gets the next face
+  std::uintmax_t m_Faces = 0;      ///< number of faces this surface has
+};
 
 /** The colour and opacity of all points, if they are the same. */
 class CommonLook
@@ -464,7 +583,7 @@ public:
         std::find_if(vertex.properties.begin(), vertex.properties.end(), [](const Property & property) {
           return property.name == SlotNames[FirstColour];
         });
-      const double largest = colour->type == NumberType::UInt8 ? 255 : 1;
+      const double largest = colour->type->name == "uchar" ? 255 : 1;
       const auto unit = [&](std::size_t slot) { return ToUnit((*m_First)[slot] / largest); };
       assembler.SetLook({ unit(FirstColour), unit(FirstColour + 1), unit(FirstColour + 2) },
                         HasSlots(vertex, Alpha, 1) ? unit(Alpha) : 1.0);
@@ -489,7 +608,7 @@ ReadVertices(const Element & vertex, Values & values, SurfaceAssembler & assembl
     {
       if (const std::size_t slot = SlotOf(property); slot < slots.size())
       {
-        slots[slot] = values.Take(property.type);
+        slots[slot] = values.Take(*property.type);
       }
       else
       {
@@ -530,7 +649,7 @@ ReadElements(const Element & element, Values & values, SurfaceAssembler * assemb
       corners.clear();
       for (std::uint64_t rest = values.TakeWhole(*property.count); rest > 0; --rest)
       {
-        corners.push_back(values.TakeWhole(property.type));
+        corners.push_back(values.TakeWhole(*property.type));
       }
       assembler->AddFace(corners);
     }

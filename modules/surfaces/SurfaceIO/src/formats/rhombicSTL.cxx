@@ -1,7 +1,5 @@
 #include "detail/rhombicPointWelder.h"
-#include "rhombicSurfaceAssembler.h"
 #include "rhombicSurfaceFormats.h"
-#include "rhombicWords.h"
 #include "detail/itkPositionArithmetic.h"
 
 #include <algorithm>
@@ -64,7 +62,7 @@ ReadBinary(const InputFile & file)
   }
   TurnFrom(SaysRAS(header) ? SurfaceFileSpace::RAS : SurfaceFileSpace::LPS, *surface);
   SceneSurface read;
-  read.name = NameFromFile(file);
+  read.name = file.GetStem();
   read.surface = surface;
   return { read };
 }
@@ -112,7 +110,7 @@ ReadText(const InputFile & file)
     {
       TurnFrom(space, *solid->surface);
       SceneSurface & read = surfaces.emplace_back();
-      read.name = solid->name.empty() ? NameFromFile(file) : solid->name;
+      read.name = solid->name.empty() ? file.GetStem() : solid->name;
       read.surface = solid->surface;
       solid.reset();
     }
