@@ -2,7 +2,10 @@
 #define itkCartesianToFCCImageFilter_h
 
 #include "detail/itkCartesianToFCCRows.h"
+#include "detail/itkProduceOutput.h"
+#include "detail/itkRowArithmetic.h"
 #include "itkFCCImage.h"
+#include "itkFCCResamplingChecks.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
 #include "itkSeparableTaps.h"
@@ -10,6 +13,9 @@
 #include "itkWorkProgress.h"
 #include "rhombicPixelTypes.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -129,17 +135,27 @@ public:
    * whose slices are unevenly spaced or shifted against each other: one for each slice, in order along the slices'
    * normal. Default empty: those of the scan, or else they follow from the input's origin, spacing and direction. */
   void
-  SetSliceOrigins(const SliceOriginsType & sliceOrigins);
-  const SliceOriginsType &
-  GetSliceOrigins() const
+  SetSliceOrigins(const SliceOriginsType & sliceOrigins)
   {
-    return m_SliceOrigins;
+    if (m_SliceOrigins != sliceOrigins)
+    {
+      m_SliceOrigins = sliceOrigins;
+      this->Modified();
+    }
   }
+  itkGetConstReferenceMacro(SliceOrigins, SliceOriginsType);
 
   /** Value of output samples beside a slanted input. Default none: the lowest value of the input, for which the filter
    * requests the whole of a slanted input. NaN is not a lowest value. */
   void
-  SetOutsideValue(const std::optional<OutputPixelType> & outsideValue);
+  SetOutsideValue(const std::optional<OutputPixelType> & outsideValue)
+  {
+    if (m_OutsideValue != outsideValue)
+    {
+      m_OutsideValue = outsideValue;
+      this->Modified();
+    }
+  }
   itkGetConstReferenceMacro(OutsideValue, std::optional<OutputPixelType>);
 
 protected:
@@ -147,39 +163,217 @@ protected:
   ~CartesianToFCCImageFilter() override = default;
 
   void
-  PrintSelf(std::ostream & os, Indent indent) const override;
+  PrintSelf(std::ostream & os, Indent indent) const override
+  {
+    Superclass::PrintSelf(os, indent);
+    os << indent << "Density: " << m_Density << std::endl;
+    os << indent << "OutputSpacing: " << m_OutputSpacing << std::endl;
+    os << indent << "Kernel: " << m_Kernel << std::endl;
+    os << indent << "SliceOrigins: ";
+    PrintSliceOrigins(os, m_SliceOrigins);
+    os << std::endl << indent << "SliceOrigins of the scan: ";
+    PrintSliceOrigins(os, m_Scan.origins);
+    os << std::endl << indent << "OutsideValue: ";
+    if (m_OutsideValue)
+    {
+      os << static_cast<typename NumericTraits<OutputPixelType>::PrintType>(*m_OutsideValue) << std::endl;
+    }
+    else
+    {
+      os << "(lowest of the input)" << std::endl;
+    }
+  }
 
   void
-  VerifyPreconditions() ITKv5_CONST override;
+  VerifyPreconditions() ITKv5_CONST override
+  {
+    Superclass::VerifyPreconditions();
+    if (!(m_Density > 0.0) || !std::isfinite(m_Density))
+    {
+      itkExceptionMacro("Density must be a positive number of output samples per input sample, not "
+                        << m_Density << "; the default is " << FCCLattice::DefaultDensity << ".");
+    }
+    if (m_Kernel > SeparableKernel::Lanczos4)
+    {
+      itkExceptionMacro("There is no Kernel number " << static_cast<int>(m_Kernel)
+                                                     << "; use Linear, CubicBSpline or Lanczos4.");
+    }
+    if (!IsFCCSpacingOrUnset(m_OutputSpacing))
+    {
+      itkExceptionMacro("OutputSpacing must be positive along each axis, not "
+                        << m_OutputSpacing << "; set it to zero along all of them to derive it from Density.");
+    }
+  }
 
   void
-  GenerateOutputInformation() override;
+  GenerateOutputInformation() override
+  {
+    const TInputImage * const input = this->GetInput();
+    TOutputImage * const output = this->GetOutput();
+    const auto & region = input->GetLargestPossibleRegion();
+    if (region.GetNumberOfPixels() == 0)
+    {
+      itkExceptionMacro("The input has no samples; its size is " << region.GetSize() << ".");
+    }
+
+    std::optional<SliceStack> stack;
+    SpacingType inputSpacing = input->GetSpacing();
+    SpacingType lengths;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      lengths[axis] = static_cast<double>(region.GetSize(axis));
+    }
+    if (this->IsSlanted())
+    {
+      stack.emplace(*input, this->FindSliceOrigins());
+      inputSpacing = stack->GetPitch();
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        lengths[axis] = (stack->GetHighest()[axis] - stack->GetLowest()[axis]) / inputSpacing[axis];
+      }
+    }
+
+    const double scale = std::cbrt(1.0 / (FCCLattice::CellVolume * m_Density));
+    std::array<double, 3> counts{};
+    SpacingType spacing;
+    SpacingType first; // from the middle of the input's first sample to the lattice point (0, 0, 0), in samples
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      constexpr double tolerance = 1e-9; // relative to a sample, against rounding
+      spacing[axis] = m_OutputSpacing[axis] > 0.0 ? m_OutputSpacing[axis] : scale * inputSpacing[axis];
+      const double step = spacing[axis] / inputSpacing[axis];
+      const double units = lengths[axis] / step;
+      // Along x a row's samples are two units apart and the rows of the other parity are shifted by one, so that
+      // covering the input with both takes one unit more.
+      const double samples = axis == 0 ? (units + 1.0) / 2.0 : units;
+      counts[axis] = std::max(1.0, std::ceil(samples - tolerance));
+      const double span = axis == 0 ? 2.0 * counts[axis] - 1.0 : counts[axis] - 1.0;
+      first[axis] = (lengths[axis] - 1.0 - span * step) / 2.0;
+    }
+    if (!IsFCCSizeCountable(counts))
+    {
+      itkExceptionMacro("The lattice would have " << counts[0] << " x " << counts[1] << " x " << counts[2]
+                                                  << " samples; use a larger OutputSpacing or a smaller Density.");
+    }
+    OutputImageRegionType outputRegion;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      outputRegion.SetSize(axis, static_cast<SizeValueType>(counts[axis]));
+    }
+    output->SetLargestPossibleRegion(outputRegion);
+    output->SetSpacing(spacing);
+    if (stack)
+    {
+      output->SetDirection(stack->GetDirection());
+      SpacingType frame = stack->GetLowest();
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        frame[axis] += (0.5 + first[axis]) * inputSpacing[axis];
+      }
+      output->SetOrigin(stack->TransformFrameToPoint(frame));
+    }
+    else
+    {
+      output->SetDirection(input->GetDirection());
+      ContinuousIndex<double, 3> index;
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        index[axis] = static_cast<double>(region.GetIndex(axis)) + first[axis];
+      }
+      output->SetOrigin(input->template TransformContinuousIndexToPhysicalPoint<double>(index));
+    }
+    output->SetNumberOfComponentsPerPixel(1);
+  }
 
   void
-  GenerateInputRequestedRegion() override;
+  GenerateInputRequestedRegion() override
+  {
+    Superclass::GenerateInputRequestedRegion();
+    auto * const input = const_cast<TInputImage *>(this->GetInput());
+    const OutputImageRegionType & requested = this->GetOutput()->GetRequestedRegion();
+    InputImageRegionType needed = input->GetLargestPossibleRegion();
+    if (requested.GetNumberOfPixels() > 0 && (m_OutsideValue || !this->IsSlanted()))
+    {
+      needed = this->MakeRows().FindNeededSamples(requested);
+    }
+    input->SetRequestedRegion(needed);
+  }
 
   void
-  GenerateData() override;
+  GenerateData() override
+  {
+    this->AllocateOutputs();
+    const OutputPixelType outsideValue = this->IsSlanted() ? this->FindOutsideValue() : OutputPixelType{};
+    ProduceOutput(*this, AllDivided, [=](const OutputImageRegionType & region, WorkProgress::Share & progress) {
+      this->Resample(region, outsideValue, progress);
+    });
+  }
 
 private:
   /** The positions that were set, or else those of the scan; empty where they follow from the input's geometry. */
   SliceOriginsType
-  FindSliceOrigins() const;
+  FindSliceOrigins() const
+  {
+    return m_SliceOrigins.empty() ? itk::FindSliceOrigins(*this->GetInput(), m_Scan) : m_SliceOrigins;
+  }
 
   /** Whether the samples are those of a SliceStack rather than of perpendicular axes. */
   bool
-  IsSlanted() const;
+  IsSlanted() const
+  {
+    return !this->FindSliceOrigins().empty() || !AreAxesPerpendicular(this->GetInput()->GetDirection());
+  }
 
   /** The value that was set, or else the lowest of the input. */
   OutputPixelType
-  FindOutsideValue();
+  FindOutsideValue()
+  {
+    if (m_OutsideValue)
+    {
+      return *m_OutsideValue;
+    }
+    const TInputImage & input = *this->GetInput();
+    if (m_LowestValueTime != input.GetMTime())
+    {
+      VerifyInputSamples(*this, input, input.GetLargestPossibleRegion());
+      const InputPixelType * const begin = input.GetBufferPointer();
+      const InputPixelType * const end = begin + input.GetBufferedRegion().GetNumberOfPixels();
+      auto lowest = std::numeric_limits<InputPixelType>::max();
+      std::for_each(begin, end, [&lowest](InputPixelType value) { lowest = value < lowest ? value : lowest; });
+      m_LowestValue = RoundAndClamp<OutputPixelType>(static_cast<double>(lowest));
+      m_LowestValueTime = input.GetMTime();
+    }
+    return m_LowestValue;
+  }
 
   void
-  Resample(const OutputImageRegionType & region, OutputPixelType outsideValue, WorkProgress::Share & progress);
+  Resample(const OutputImageRegionType & region, OutputPixelType outsideValue, WorkProgress::Share & progress)
+  {
+    const TInputImage * const input = this->GetInput();
+    TOutputImage * const output = this->GetOutput();
+    const auto load = [&](const Index<3> & start, SizeValueType length, float * row) {
+      const auto * const samples = input->GetBufferPointer() + input->ComputeOffset(start);
+      RowArithmetic::ConvertFrom(samples, length, row);
+    };
+    const auto store = [&](const Index<3> & start, SizeValueType length, const float * values) {
+      const Index<3> rowStart{ { region.GetIndex(0), start[1], start[2] } };
+      OutputPixelType * const row = output->GetBufferPointer() + output->ComputeOffset(rowStart);
+      OutputPixelType * const begin = row + (start[0] - rowStart[0]);
+      std::fill(row, begin, outsideValue);
+      RowArithmetic::RoundTo(values, length, begin);
+      std::fill(begin + length, row + region.GetSize(0), outsideValue);
+      progress.Completed(region.GetSize(0));
+    };
+
+    this->MakeRows().Resample(region, load, store);
+  }
 
   /** The kernel, from the input's geometry to the output's. */
   CartesianToFCCRows
-  MakeRows() const;
+  MakeRows() const
+  {
+    return { *this->GetInput(), *this->GetOutput(), m_Kernel, this->FindSliceOrigins() };
+  }
 
   double m_Density{ FCCLattice::DefaultDensity };
   SpacingType m_OutputSpacing{ 0.0 };
@@ -191,16 +385,9 @@ private:
   SeparableKernel m_Kernel{ SeparableKernel::CubicBSpline };
 };
 
-} // namespace itk
-
-#ifndef ITK_MANUAL_INSTANTIATION
-#include "itkCartesianToFCCImageFilter.hxx"
-#endif
-
 // Compiled once, in the library, for the pixel types of scans.
-namespace itk
-{
 RHOMBIC_INSTANTIATE(extern template class CartesianToFCCImageFilter, rhombic::CartesianImage);
+
 } // namespace itk
 
 #endif

@@ -214,12 +214,9 @@ private:
   bool m_Antialiasing{ true };
 };
 
-} // namespace itk
-
 // Compiled once, in the library, for the pixel types of scans.
-namespace itk
-{
 RHOMBIC_INSTANTIATE(extern template class CartesianToNestedFCCImageFilter, rhombic::CartesianImage);
+
 } // namespace itk
 
 #endif

@@ -264,12 +264,9 @@ private:
   double m_Sigma{ 0.0 };
 };
 
-} // namespace itk
-
 // Compiled once, in the library, for the pixel types of scans.
-namespace itk
-{
 RHOMBIC_INSTANTIATE(extern template class FCCGaussianImageFilter, FCCImage);
+
 } // namespace itk
 
 #endif

@@ -244,12 +244,9 @@ private:
   OutputPixelType m_DefaultPixelValue{};
 };
 
-} // namespace itk
-
 // Compiled once, in the library, for the pixel types of scans.
-namespace itk
-{
 RHOMBIC_INSTANTIATE(extern template class FCCToCartesianImageFilter, FCCImage);
+
 } // namespace itk
 
 #endif

@@ -46,10 +46,6 @@ private:
   SeparableTaps
   MakeTaps(unsigned int axis, const RegionType & sites, IndexValueType parity = 0) const;
 
-  /** Where the sites lie in the stack of a slanted volume. */
-  SliceStackPlanes
-  MakePlanes(const RegionType & sites) const;
-
   const ImageBase<3> & m_Volume;
   const ImageBase<3> & m_Lattice;
   SeparableKernel m_Kernel;

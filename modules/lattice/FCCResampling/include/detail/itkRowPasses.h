@@ -2,9 +2,7 @@
 #define itkRowPasses_h
 
 #include "detail/itkFCCGaussianTaps.h"
-#include "detail/itkSliceStackPlanes.h"
 #include "itkImageRegion.h"
-#include "itkSeparableTaps.h"
 
 #include <functional>
 
@@ -21,30 +19,6 @@ using LoadRow = std::function<void(const Index<3> & start, SizeValueType length,
 
 /** Takes the values of \a length samples of the output, from \a start on along x. Called once for each row. */
 using StoreRow = std::function<void(const Index<3> & start, SizeValueType length, const float * values)>;
-
-/** Resamples from perpendicular axes: along y, z and x in turn.
- *
- * \param xTaps of the sites of even and of odd rows
- * \param region of the lattice, not empty
- * \param load is asked for samples counted from the input's first one */
-void
-ResampleRows(const SeparableTaps (&xTaps)[2],
-             const SeparableTaps & yTaps,
-             const SeparableTaps & zTaps,
-             const ImageRegion<3> & region,
-             const LoadRow & load,
-             const StoreRow & store);
-
-/** Resamples a slice stack: along z, y and x in turn. Of each row, only the sites in the stack are stored; a row
- * without any is stored with a length of 0.
- *
- * \param region of the lattice, not empty: that of \a planes
- * \param load is asked for samples counted from the stack's first one */
-void
-ResampleStackRows(const SliceStackPlanes & planes,
-                  const ImageRegion<3> & region,
-                  const LoadRow & load,
-                  const StoreRow & store);
 
 /** Smooths an FCC image with a Gaussian: along y, z and x in turn. Sites outside the image are mirrored.
  *
