@@ -1,13 +1,18 @@
 #ifndef itkFCCIsosurfaceFilter_h
 #define itkFCCIsosurfaceFilter_h
 
+#include "detail/itkForEachSlab.h"
 #include "itkFCCImage.h"
+#include "itkFCCRowKernels.h"
 #include "itkFCCSurfaceExtractor.h"
+#include "itkInputSamples.h"
 #include "itkProcessObject.h"
 #include "itkRecyclingMemory.h"
 #include "itkWorkProgress.h"
 #include "rhombicPixelTypes.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -272,15 +277,75 @@ protected:
   }
 
   void
-  GenerateData() override;
+  GenerateData() override
+  {
+    m_WorkProgress.emplace(*this, WholeProgress);
+    m_UsedFraction = this->ComputeFraction();
+    const std::vector<FCCSigns> signs = this->Classify(FCCSurfaceExtractor::GetMargin(m_Mode, m_Closed));
+    const std::size_t atOnce = this->IsInMemory() ? 1 : signs.size(); // saves memory, or else passes over the input
+    for (std::size_t first = 0; first < signs.size(); first += atOnce)
+    {
+      this->Extract(signs, first, first + atOnce);
+    }
+    m_WorkProgress->Finish();
+  }
 
 private:
   /** MinimumFraction, or more where a point and the edge's end would have the same position in float32. */
   double
-  ComputeFraction() const;
+  ComputeFraction() const
+  {
+    const InputImageType * const image = this->GetInput();
+    const auto & region = this->GetRegion();
+    double farthest = 0.0; // coordinate of the extent's corners
+    for (unsigned int corner = 0; corner < 8; ++corner)
+    {
+      std::array<double, 3> coordinates{};
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        const double index =
+          static_cast<double>((corner >> axis & 1) != 0 ? region.GetUpperIndex()[axis] + 1 : region.GetIndex(axis) - 1);
+        coordinates[axis] = axis == 0 ? 2.0 * index : index;
+      }
+      const auto point = image->template TransformLatticeToPhysicalPoint<double>(coordinates);
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        farthest = std::max(farthest, std::abs(point[axis]));
+      }
+    }
+    const auto & spacing = image->GetSpacing();
+    const double shortestEdge = std::sqrt(2.0) * std::min({ spacing[0], spacing[1], spacing[2] });
+    constexpr double steps = 8.0; // float32 steps between two points, so that rounding keeps them apart
+    const double resolution = farthest * static_cast<double>(std::numeric_limits<float>::epsilon());
+    const double fraction = std::max(MinimumFraction, steps * resolution / shortestEdge);
+    if (!(fraction <= 0.25))
+    {
+      itkExceptionMacro("The image's edges of " << shortestEdge
+                                                << " mm are too short to be told apart in 32-bit positions " << farthest
+                                                << " mm from the origin; move the origin nearer.");
+    }
+    return fraction;
+  }
 
   FCCFrame
-  MakeFrame() const;
+  MakeFrame() const
+  {
+    const InputImageType * const image = this->GetInput();
+    FCCFrame frame;
+    frame.outwardSign = m_InsideIsBelow ? 1.0 : -1.0;
+    const auto & direction = image->GetDirection();
+    const auto & inverse = image->GetInverseDirection();
+    for (unsigned int row = 0; row < 3; ++row)
+    {
+      frame.origin[row] = image->GetOrigin()[row];
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        frame.matrix[row][axis] = direction[row][axis] * image->GetSpacing()[axis];
+        frame.gradientToWorld[row][axis] = inverse[axis][row] / image->GetSpacing()[axis];
+      }
+    }
+    return frame;
+  }
 
   const ImageRegion<3> &
   GetRegion() const
@@ -306,18 +371,134 @@ private:
 
   /** The input and an isovalue, as extractors see them. Its readers read the input's buffer when they are called. */
   FCCScalarField
-  MakeField(double isovalue, RecyclingMemory & scratch) const;
+  MakeField(double isovalue, RecyclingMemory & scratch) const
+  {
+    const InputImageType * const image = this->GetInput();
+    const SizeValueType width = this->GetRegion().GetSize(0);
+    const auto readRow = [this, image, width, isovalue](SizeValueType j, SizeValueType k, float * values) {
+      m_WorkProgress->CheckAbort(); // slabs take long
+      FCCRowKernels::Subtract(GetRow(*image, j, k), width, isovalue, values);
+    };
+    return { this->GetRegion(), this->MakeFrame(), m_InsideIsBelow, m_Closed, m_UsedFraction, readRow, &scratch };
+  }
 
   /** The signs for each isovalue, with a layer of sites outside around the image if \a margin is 1. */
   std::vector<FCCSigns>
-  Classify(SizeValueType margin);
+  Classify(SizeValueType margin)
+  {
+    const InputImageType * const image = this->GetInput();
+    const auto & region = this->GetRegion();
+    const auto shift = static_cast<IndexValueType>(margin);
+    std::vector<FCCSigns> signs;
+    signs.reserve(m_Isovalues.size());
+    while (signs.size() < m_Isovalues.size())
+    {
+      signs.emplace_back(region.GetSize(0) + 2 * margin,
+                         region.GetSize(1) + 2 * margin,
+                         region.GetSize(2) + 2 * margin,
+                         FCCLattice::Parity(region.GetIndex(1) - shift, region.GetIndex(2) - shift));
+    }
+    std::atomic<SizeValueType> undefined{ 0 };
+    this->ForEachLoadedSlab(region.GetSize(2), 0, 0.05f, [&](SizeValueType begin, SizeValueType end) {
+      SizeValueType undefinedInSlab = 0;
+      for (SizeValueType k = begin; k < end; ++k)
+      {
+        m_WorkProgress->CheckAbort();
+        for (SizeValueType j = 0; j < region.GetSize(1); ++j)
+        {
+          const PixelType * const values = GetRow(*image, j, k);
+          if constexpr (std::is_floating_point_v<PixelType>)
+          {
+            for (SizeValueType i = 0; i < region.GetSize(0); ++i)
+            {
+              undefinedInSlab += values[i] != values[i] ? 1 : 0;
+            }
+          }
+          for (std::size_t n = 0; n < signs.size(); ++n)
+          {
+            FCCSigns::WordType * const row = signs[n].GetRow(j + margin, k + margin);
+            FCCRowKernels::Classify(values, region.GetSize(0), m_Isovalues[n], m_InsideIsBelow, row);
+            if (margin > 0)
+            {
+              FCCBits::MoveUp(row, signs[n].GetNumberOfWords());
+            }
+          }
+        }
+      }
+      undefined += undefinedInSlab;
+    });
+    m_NumberOfUndefinedSamples = undefined;
+    return signs;
+  }
 
   /** Makes the surfaces of the isovalues \a first to \a last - 1 in the same passes over the input. */
   void
-  Extract(const std::vector<FCCSigns> & signs, std::size_t first, std::size_t last);
+  Extract(const std::vector<FCCSigns> & signs, std::size_t first, std::size_t last)
+  {
+    RecyclingMemory scratch;
+    std::vector<std::unique_ptr<FCCSurfaceExtractor>> extractors;
+    for (std::size_t n = first; n < last; ++n)
+    {
+      extractors.push_back(FCCSurfaceExtractor::Make(m_Mode, signs[n], this->MakeField(m_Isovalues[n], scratch)));
+    }
+    constexpr SizeValueType around = FCCSurfaceExtractor::PlanesAround;
+    const SizeValueType planes = signs.front().GetDepth();
+    const float share = 0.95f * static_cast<float>(last - first) / static_cast<float>(signs.size());
+
+    const auto count = [&](SizeValueType begin, SizeValueType end) {
+      for (const auto & extractor : extractors)
+      {
+        m_WorkProgress->CheckAbort();
+        extractor->Count(begin, end);
+      }
+    };
+    const bool countReadsSamples = extractors.front()->CountReadsSamples(); // and then there is more to resolve
+    const float shareOfCount = countReadsSamples ? 0.35f * share : 0.2f * share;
+    const float shareOfResolve = countReadsSamples ? 0.35f * share : 0.0f;
+    countReadsSamples ? this->ForEachLoadedSlab(planes, around, shareOfCount, count)
+                      : this->ForEachSlab({ 0, planes }, shareOfCount, count, { 1, MostPlanes });
+
+    for (std::size_t n = first; n < last; ++n)
+    {
+      FCCSurfaceExtractor & extractor = *extractors[n - first];
+      this->Resolve(extractor, shareOfResolve / static_cast<float>(last - first));
+      this->Allocate(*this->GetOutput(n), extractor.GetNumberOfPoints(), extractor.GetMostTriangles());
+    }
+    scratch.ReleaseSpare(); // filling needs blocks of other sizes
+    this->ForEachLoadedSlab(
+      planes, around, share - shareOfCount - shareOfResolve, [&](SizeValueType begin, SizeValueType end) {
+        for (std::size_t n = first; n < last; ++n)
+        {
+          extractors[n - first]->Fill(begin, end, *this->GetOutput(n));
+        }
+      });
+    for (std::size_t n = first; n < last; ++n)
+    {
+      TriangleSurface & surface = *this->GetOutput(n);
+      extractors[n - first]->Finish(surface);
+      if (!m_Closed)
+      {
+        surface.RemoveUnusedPoints(); // on edges of no cell, at the ragged ends of rows
+      }
+      surface.Modified();
+    }
+  }
 
   void
-  Allocate(TriangleSurface & surface, SizeValueType points, SizeValueType triangles) const;
+  Allocate(TriangleSurface & surface, SizeValueType points, SizeValueType triangles) const
+  {
+    if (points > std::numeric_limits<std::uint32_t>::max())
+    {
+      itkExceptionMacro("The surface would have "
+                        << points
+                        << " points, more than 32-bit indices reach; resample at a lower density, or "
+                           "extract from a smaller region.");
+    }
+    surface.Initialize();
+    surface.GetPoints().resize(points);
+    surface.GetNormals().resize(m_ComputeNormals ? points : 0);
+    surface.GetTriangles().resize(triangles);
+  }
 
   /** The units of progress of the whole update. */
   static constexpr SizeValueType WholeProgress = SizeValueType{ 1 } << 30;
@@ -329,7 +510,23 @@ private:
   }
 
   void
-  Resolve(FCCSurfaceExtractor & extractor, float share);
+  Resolve(FCCSurfaceExtractor & extractor, float share)
+  {
+    const SizeValueType last = m_WorkProgress->GetCompleted() + AmountOf(share);
+    FCCSurfaceExtractor::Workers workers;
+    workers.forEach = [this, share](SizeValueType count, float part, const std::function<void(SizeValueType)> & work) {
+      const auto forEach = [&work](SizeValueType begin, SizeValueType end) {
+        for (SizeValueType n = begin; n < end; ++n)
+        {
+          work(n);
+        }
+      };
+      this->ForEachSlab({ 0, count }, part * share, forEach, { 1, 1 });
+    };
+    workers.checkAbort = [this] { m_WorkProgress->CheckAbort(); };
+    extractor.Resolve(workers);
+    m_WorkProgress->Completed(last - std::min(last, m_WorkProgress->GetCompleted())); // the work was estimated
+  }
 
   /** Planes from \a begin to \a end - 1. */
   struct Planes
@@ -340,21 +537,75 @@ private:
 
   /** The part of the image's \a planes, or of the planes of its signs, that is streamed together with plane \a k. */
   Planes
-  FindDivision(SizeValueType planes, SizeValueType k) const;
+  FindDivision(SizeValueType planes, SizeValueType k) const
+  {
+    const SizeValueType depth = std::max<SizeValueType>(1, this->GetRegion().GetSize(2));
+    const auto divisions = std::min<SizeValueType>(m_NumberOfStreamDivisions, depth);
+    const SizeValueType n = ((k + 1) * divisions - 1) / std::max<SizeValueType>(1, planes);
+    return { n * planes / divisions, (n + 1) * planes / divisions };
+  }
 
   /** The image's samples in a division of \a planes and \a around it. */
   ImageRegion<3>
-  RegionOf(const Planes & division, SizeValueType planes, SizeValueType around) const;
+  RegionOf(const Planes & division, SizeValueType planes, SizeValueType around) const
+  {
+    ImageRegion<3> region = this->GetRegion();
+    const SizeValueType depth = region.GetSize(2);
+    const SizeValueType margin = (planes - depth) / 2; // planes of signs beyond the image on either side
+    const SizeValueType before = margin + around;
+    const SizeValueType begin = division.begin - std::min(before, division.begin);
+    const SizeValueType end = std::min(division.end + around - std::min(margin, division.end + around), depth);
+    region.SetIndex(2, region.GetIndex(2) + static_cast<IndexValueType>(begin));
+    region.SetSize(2, end - begin);
+    return region;
+  }
 
   /** Brings the input's samples of a region into its buffer. */
   void
-  Load(const ImageRegion<3> & region);
+  Load(const ImageRegion<3> & region)
+  {
+    auto * const image = const_cast<InputImageType *>(this->GetInput());
+    if (!image->GetBufferedRegion().IsInside(region) && image->GetSource() != nullptr)
+    {
+      if (m_ReleasesInput)
+      {
+        image->ReleaseData();
+      }
+      image->SetRequestedRegion(region);
+      const AbortForwarding forwarding(*this, *image);
+      try
+      {
+        image->PropagateRequestedRegion();
+        image->UpdateOutputData();
+        m_WorkProgress->CheckAbort(); // some filters upstream, as StreamingImageFilter, end without an exception
+      }
+      catch (...)
+      {
+        image->ReleaseData(); // so that the next update does not take the unfinished data for finished ones
+        throw;
+      }
+    }
+    VerifyInputSamples(*this, *image, region);
+  }
 
   /** Loads one division of \a planes after the other, with the planes \a around it, and works at each as ForEachSlab()
    * does. */
   template <typename TWork>
   void
-  ForEachLoadedSlab(SizeValueType planes, SizeValueType around, float share, const TWork & work);
+  ForEachLoadedSlab(SizeValueType planes, SizeValueType around, float share, const TWork & work)
+  {
+    for (SizeValueType begin = 0; begin < planes;)
+    {
+      const Planes division = this->FindDivision(planes, begin);
+      m_WorkProgress->CheckAbort();
+      this->Load(this->RegionOf(division, planes, around));
+      const SizeValueType count = division.end - begin;
+      const SizeValueType least = around > 0 && !this->IsInMemory() ? LeastPlanesOfSlab : 1;
+      this->ForEachSlab(
+        division, share * static_cast<float>(count) / static_cast<float>(planes), work, { least, MostPlanes });
+      begin = division.end;
+    }
+  }
 
   /** How many planes each thread works at in one go, see itk::ForEachSlab(). */
   struct PlanesInOneGo
@@ -371,7 +622,16 @@ private:
   /** Calls \a work(begin, end) for slabs of planes, by several threads, and reports its share of the progress. */
   template <typename TWork>
   void
-  ForEachSlab(const Planes & planes, float share, const TWork & work, const PlanesInOneGo & inOneGo);
+  ForEachSlab(const Planes & planes, float share, const TWork & work, const PlanesInOneGo & inOneGo)
+  {
+    const SizeValueType count = planes.end - planes.begin;
+    const SizeValueType amount = AmountOf(share);
+    itk::ForEachSlab(*this, count, inOneGo.least, inOneGo.most, [&](SizeValueType begin, SizeValueType end) {
+      m_WorkProgress->CheckAbort();
+      work(planes.begin + begin, planes.begin + end);
+      m_WorkProgress->Completed(amount * end / count - amount * begin / count);
+    });
+  }
 
   std::vector<double> m_Isovalues{ 0.0 };
   FCCIsosurfaceMode m_Mode{ FCCIsosurfaceMode::Lean };
@@ -385,16 +645,9 @@ private:
   std::optional<WorkProgress> m_WorkProgress;
 };
 
-} // namespace itk
-
-#ifndef ITK_MANUAL_INSTANTIATION
-#include "itkFCCIsosurfaceFilter.hxx"
-#endif
-
 // Compiled once, in the library, for the pixel types of scans.
-namespace itk
-{
 RHOMBIC_INSTANTIATE(extern template class FCCIsosurfaceFilter, FCCImage);
+
 } // namespace itk
 
 #endif
