@@ -13,7 +13,7 @@ namespace itk
 /** \class TriangleTree
  * \brief A binary tree of boxes around the triangles of a surface: nearest points, ray crossings, overlapping boxes.
  *
- * The triangles are sorted along a curve through the cells of a fine grid (see SortAlongCurve()). Each node divides its
+ * The triangles are sorted along a curve through the cells of a fine grid. Each node divides its
  * part of the curve where that passes into the other half of a box, down to leaves of at most four triangles. Built in
  * nearly linear time on several threads, the same for any number of them; memory about 25 bytes per triangle, 50 while
  * it is built.
@@ -30,27 +30,14 @@ public:
   using PositionType = std::array<double, 3>;
   using Box = PointBox;
 
-  /** The smallest box around two boxes. */
-  static Box
-  Union(const Box & a, const Box & b)
-  {
-    Box both;
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      both.lowest[axis] = std::min(a.lowest[axis], b.lowest[axis]);
-      both.highest[axis] = std::max(a.highest[axis], b.highest[axis]);
-    }
-    return both;
-  }
-
   /** The smallest box around a triangle. */
   static Box
   BoxOf(const TriangleSurface::PointsContainer & points, const TriangleSurface::TriangleType & triangle)
   {
-    const PointType & a = points[triangle[0]];
-    const PointType & b = points[triangle[1]];
-    const PointType & c = points[triangle[2]];
-    return Union({ a, a }, Union({ b, b }, { c, c }));
+    Box box{ points[triangle[0]], points[triangle[0]] };
+    box.Add(points[triangle[1]]);
+    box.Add(points[triangle[2]]);
+    return box;
   }
 
   /** The point of the surface nearest to a position. */

@@ -1,7 +1,5 @@
 #include "rhombicWallAudit.h"
 
-#include "rhombicJoinedSurfaces.h"
-
 #include <algorithm>
 #include <array>
 #include <set>

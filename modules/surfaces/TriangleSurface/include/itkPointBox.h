@@ -16,15 +16,22 @@ struct PointBox
   PointType lowest;
   PointType highest;
 
+  /** Enlarges the box so that it holds another box. */
+  void
+  Add(const PointBox & other)
+  {
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      lowest[axis] = std::min(lowest[axis], other.lowest[axis]);
+      highest[axis] = std::max(highest[axis], other.highest[axis]);
+    }
+  }
+
   /** Enlarges the box so that it holds a point. */
   void
   Add(const PointType & point)
   {
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      lowest[axis] = std::min(lowest[axis], point[axis]);
-      highest[axis] = std::max(highest[axis], point[axis]);
-    }
+    this->Add(PointBox{ point, point });
   }
 
   /** Whether the boxes have a point in common; boxes that touch do. */

@@ -1,4 +1,3 @@
-#include "rhombicJoinedSurfaces.h"
 #include "rhombicSurfaceFormats.h"
 
 #include <algorithm>

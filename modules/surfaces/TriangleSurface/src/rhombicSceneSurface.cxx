@@ -1,4 +1,4 @@
-#include "rhombicJoinedSurfaces.h"
+#include "rhombicSceneSurface.h"
 
 #include "detail/rhombicPointWelder.h"
 
