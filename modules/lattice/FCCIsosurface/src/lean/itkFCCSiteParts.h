@@ -2,7 +2,7 @@
 #define itkFCCSiteParts_h
 
 #include "itkFCCSigns.h"
-#include "itkFCCSiteStar.h"
+#include "itkFCCCells.h"
 
 #include <memory>
 

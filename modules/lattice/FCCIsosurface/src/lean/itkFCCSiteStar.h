@@ -43,6 +43,13 @@ struct FCCSiteStar
     std::uint8_t edges[16][4] = {};          ///< the edges of the polygons' crossings
   };
 
+  /** The surface in the star of a certain site. */
+  struct Pattern
+  {
+    std::uint16_t inside; ///< the sites inside
+    std::uint64_t starts; ///< the edges with a crossing that is nearer to their first end; of cut edges only
+  };
+
   Edge edges[Edges] = {};
   std::uint64_t edgesAt[Sites] = {}; ///< the edges at each site
   Tetrahedron tetrahedra[Tetrahedra] = {};

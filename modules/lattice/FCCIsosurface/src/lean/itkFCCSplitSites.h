@@ -1,8 +1,11 @@
 #ifndef itkFCCSplitSites_h
 #define itkFCCSplitSites_h
 
-#include "itkFCCSiteDivision.h"
+#include "itkFCCNearerEnds.h"
+#include "itkFCCSiteParts.h"
+#include "itkFCCSiteStar.h"
 
+#include <array>
 #include <mutex>
 
 namespace itk
@@ -62,7 +65,7 @@ private:
   struct SuspectedSite
   {
     std::uint32_t number; ///< in the plane
-    FCCStarReader::Star star;
+    FCCSiteStar::Pattern star;
   };
 
   struct DividedSite
