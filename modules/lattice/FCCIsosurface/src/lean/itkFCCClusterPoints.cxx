@@ -6,7 +6,17 @@
 
 namespace itk
 {
-class FCCClusterPoints::Row
+namespace
+{
+
+using SiteType = FCCLattice::SiteType;
+
+/** How far a vertex moves from its crossings' mean to the surface, in units of the distance of nearest neighbours. */
+constexpr float FarthestOfWhole = 0.5f;
+constexpr float FarthestOfPart = 0.25f; ///< for the parts of a split site, so that they stay apart
+
+/** The field around the sites of one row in the image. */
+class Row
 {
 public:
   /** \param withFarGradients whether the field has the gradients of the planes on either side, too */
@@ -119,7 +129,8 @@ private:
   Neighbor m_Neighbors[FCCCells::Directions];
 };
 
-class FCCClusterPoints::Output
+/** Vertices that are placed batch by batch, in order. */
+class Output
 {
 public:
   Output(const FCCFrame & frame,
@@ -245,139 +256,163 @@ private:
   std::uint8_t * m_AreOutside;
 };
 
-void
-FCCClusterPoints::Place(const FCCSigns & signs,
-                        const FCCClusterPlane & plane,
-                        SizeValueType k,
-                        const FCCFieldPlanes & field,
-                        TriangleSurface::PointType * points,
-                        TriangleSurface::NormalType * normals,
-                        std::uint8_t * areOutside) const
+/** Places the vertices of one plane. */
+class PlanePlacement
 {
-  SiteType origin = m_EdgePoints.SiteOf(0, 0, k);
-  origin[0] -= field.GetParity(0, k);
-  Output output(m_Frame, origin, points, normals, areOutside);
-  output.SetLimits(0.0f, FarthestOfWhole);
-  this->PlaceWholeSites(signs, plane, k, field, output);
-  output.SetLimits(static_cast<float>(m_MinimumFraction), FarthestOfPart);
-  this->PlaceSplitSites(plane, k, field, output);
-}
+public:
+  PlanePlacement(const FCCScalarField & scalars,
+                 const FCCClusterPlane & plane,
+                 SizeValueType k,
+                 const FCCFieldPlanes & field,
+                 Output & output)
+    : m_Frame(scalars.frame)
+    , m_EdgePoints(scalars, true, 1)
+    , m_Plane(plane)
+    , m_K(k)
+    , m_Field(field)
+    , m_Output(output)
+  {}
 
-void
-FCCClusterPoints::PlaceWholeSites(const FCCSigns & signs,
-                                  const FCCClusterPlane & plane,
-                                  SizeValueType k,
-                                  const FCCFieldPlanes & field,
-                                  Output & output) const
-{
-  Row row(field, output.HasNormals());
-  for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
+  /** \param height number of rows of the plane */
+  void
+  PlaceWholeSites(SizeValueType height)
   {
-    const bool isRealRow = field.IsReal(1, j) && field.IsReal(2, k);
-    plane.ForEachWholeSite(j, [&](SizeValueType i, unsigned int crossings) {
-      if (isRealRow && field.IsReal(0, i))
-      {
-        row.GoTo(j, k);
-        output.AddCluster(row, i, crossings);
-      }
-      else
-      {
-        this->PlaceOnBorder(m_EdgePoints.SiteOf(i, j, k), crossings, output);
-      }
-    });
-  }
-  output.Flush();
-}
-
-void
-FCCClusterPoints::PlaceSplitSites(const FCCClusterPlane & plane,
-                                  SizeValueType k,
-                                  const FCCFieldPlanes & field,
-                                  Output & output) const
-{
-  // Points on edges are placed batch by batch, too, out of order.
-  FCCEdgeBatch single{};
-  Output::Vertex singleVertices[FCCEdgeBatch::Capacity];
-  const auto placeSingle = [&] {
-    TriangleSurface::PointType points[FCCEdgeBatch::Capacity];
-    TriangleSurface::NormalType normals[FCCEdgeBatch::Capacity];
-    const SizeValueType count = single.count;
-    m_EdgePoints.PlaceBatch(single, points, output.HasNormals() ? normals : nullptr);
-    for (SizeValueType n = 0; n < count; ++n)
+    Row row(m_Field, m_Output.HasNormals());
+    for (SizeValueType j = 0; j < height; ++j)
     {
-      singleVertices[n].Set(points[n], normals[n]);
-    }
-  };
-  Row row(field, output.HasNormals());
-  for (const FCCClusterPlane::SplitSite & site : plane.GetSplitSites())
-  {
-    const SizeValueType i = site.i;
-    const SizeValueType j = site.j;
-    const bool isReal = field.IsReal(0, i) && field.IsReal(1, j) && field.IsReal(2, k);
-    site.parts.ForEachVertex([&](unsigned int crossings) {
-      const bool isSingle = (crossings & (crossings - 1)) == 0;
-      if (isSingle)
-      {
-        const auto direction = static_cast<unsigned int>(__builtin_ctz(crossings));
-        output.Skip(singleVertices[single.count], !isReal);
-        m_EdgePoints.Gather({ i, j, k }, FCCCells::StepOf(direction), field, output.HasNormals(), single);
-        if (single.count == FCCEdgeBatch::Capacity)
+      const bool isRealRow = m_Field.IsReal(1, j) && m_Field.IsReal(2, m_K);
+      m_Plane.ForEachWholeSite(j, [&](SizeValueType i, unsigned int crossings) {
+        if (isRealRow && m_Field.IsReal(0, i))
         {
-          placeSingle();
+          row.GoTo(j, m_K);
+          m_Output.AddCluster(row, i, crossings);
         }
-      }
-      else if (isReal)
-      {
-        row.GoTo(j, k);
-        output.AddCluster(row, i, crossings);
-      }
-      else
-      {
-        this->PlaceOnBorder(m_EdgePoints.SiteOf(i, j, k), crossings, output);
-      }
-    });
+        else
+        {
+          this->PlaceOnBorder(m_EdgePoints.SiteOf(i, j, m_K), crossings);
+        }
+      });
+    }
+    m_Output.Flush();
   }
-  output.Flush();
-  placeSingle();
-}
+
+  void
+  PlaceSplitSites()
+  {
+    // Points on edges are placed batch by batch, too, out of order.
+    FCCEdgeBatch single{};
+    Output::Vertex singleVertices[FCCEdgeBatch::Capacity];
+    const auto placeSingle = [&] {
+      TriangleSurface::PointType points[FCCEdgeBatch::Capacity];
+      TriangleSurface::NormalType normals[FCCEdgeBatch::Capacity];
+      const SizeValueType count = single.count;
+      m_EdgePoints.PlaceBatch(single, points, m_Output.HasNormals() ? normals : nullptr);
+      for (SizeValueType n = 0; n < count; ++n)
+      {
+        singleVertices[n].Set(points[n], normals[n]);
+      }
+    };
+    Row row(m_Field, m_Output.HasNormals());
+    for (const FCCClusterPlane::SplitSite & site : m_Plane.GetSplitSites())
+    {
+      const SizeValueType i = site.i;
+      const SizeValueType j = site.j;
+      const bool isReal = m_Field.IsReal(0, i) && m_Field.IsReal(1, j) && m_Field.IsReal(2, m_K);
+      site.parts.ForEachVertex([&](unsigned int crossings) {
+        const bool isSingle = (crossings & (crossings - 1)) == 0;
+        if (isSingle)
+        {
+          const auto direction = static_cast<unsigned int>(__builtin_ctz(crossings));
+          m_Output.Skip(singleVertices[single.count], !isReal);
+          m_EdgePoints.Gather({ i, j, m_K }, FCCCells::StepOf(direction), m_Field, m_Output.HasNormals(), single);
+          if (single.count == FCCEdgeBatch::Capacity)
+          {
+            placeSingle();
+          }
+        }
+        else if (isReal)
+        {
+          row.GoTo(j, m_K);
+          m_Output.AddCluster(row, i, crossings);
+        }
+        else
+        {
+          this->PlaceOnBorder(m_EdgePoints.SiteOf(i, j, m_K), crossings);
+        }
+      });
+    }
+    m_Output.Flush();
+    placeSingle();
+  }
+
+private:
+  void
+  PlaceOnBorder(const SiteType & site, unsigned int crossings)
+  {
+    std::array<double, 3> sum{};
+    double count = 0.0;
+    for (; crossings != 0; crossings &= crossings - 1)
+    {
+      const SiteType step = FCCCells::StepOf(static_cast<unsigned int>(__builtin_ctz(crossings)));
+      const SiteType end = FCCStep::Add(site, step);
+      const double fraction = m_EdgePoints.GetExtent().FractionToBorder(end, FCCStep::Multiply(-1, step));
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        sum[axis] += static_cast<double>(end[axis]) - fraction * static_cast<double>(step[axis]);
+      }
+      count += 1.0;
+    }
+    TriangleSurface::PointType point;
+    TriangleSurface::NormalType normal;
+    const auto direction = m_EdgePoints.GetExtent().DirectionTo(site);
+    double squared = 0.0;
+    std::array<double, 3> outwards{};
+    for (unsigned int row = 0; row < 3; ++row)
+    {
+      double world = m_Frame.origin[row];
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        world += m_Frame.matrix[row][axis] * sum[axis] / count;
+        outwards[row] += m_Frame.gradientToWorld[row][axis] * direction[axis];
+      }
+      point[row] = static_cast<float>(world);
+      squared += outwards[row] * outwards[row];
+    }
+    for (unsigned int row = 0; row < 3; ++row)
+    {
+      normal[row] = static_cast<float>(outwards[row] / std::sqrt(squared));
+    }
+    m_Output.AddOutside(point, normal);
+  }
+
+  const FCCFrame & m_Frame;
+  FCCEdgePoints m_EdgePoints;
+  const FCCClusterPlane & m_Plane;
+  SizeValueType m_K;
+  const FCCFieldPlanes & m_Field;
+  Output & m_Output;
+};
+
+} // namespace
 
 void
-FCCClusterPoints::PlaceOnBorder(const SiteType & site, unsigned int crossings, Output & output) const
+PlaceVertices(const FCCScalarField & scalars,
+              const FCCSigns & signs,
+              const FCCClusterPlane & plane,
+              SizeValueType k,
+              const FCCFieldPlanes & field,
+              TriangleSurface::PointType * points,
+              TriangleSurface::NormalType * normals,
+              std::uint8_t * areOutside)
 {
-  std::array<double, 3> sum{};
-  double count = 0.0;
-  for (; crossings != 0; crossings &= crossings - 1)
-  {
-    const SiteType step = FCCCells::StepOf(static_cast<unsigned int>(__builtin_ctz(crossings)));
-    const SiteType end = FCCStep::Add(site, step);
-    const double fraction = m_EdgePoints.GetExtent().FractionToBorder(end, FCCStep::Multiply(-1, step));
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      sum[axis] += static_cast<double>(end[axis]) - fraction * static_cast<double>(step[axis]);
-    }
-    count += 1.0;
-  }
-  TriangleSurface::PointType point;
-  TriangleSurface::NormalType normal;
-  const auto direction = m_EdgePoints.GetExtent().DirectionTo(site);
-  double squared = 0.0;
-  std::array<double, 3> outwards{};
-  for (unsigned int row = 0; row < 3; ++row)
-  {
-    double world = m_Frame.origin[row];
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      world += m_Frame.matrix[row][axis] * sum[axis] / count;
-      outwards[row] += m_Frame.gradientToWorld[row][axis] * direction[axis];
-    }
-    point[row] = static_cast<float>(world);
-    squared += outwards[row] * outwards[row];
-  }
-  for (unsigned int row = 0; row < 3; ++row)
-  {
-    normal[row] = static_cast<float>(outwards[row] / std::sqrt(squared));
-  }
-  output.AddOutside(point, normal);
+  SiteType origin = FCCEdgePoints(scalars, true, 1).SiteOf(0, 0, k);
+  origin[0] -= field.GetParity(0, k);
+  Output output(scalars.frame, origin, points, normals, areOutside);
+  PlanePlacement placement(scalars, plane, k, field, output);
+  output.SetLimits(0.0f, FarthestOfWhole);
+  placement.PlaceWholeSites(signs.GetHeight());
+  output.SetLimits(static_cast<float>(scalars.minimumFraction), FarthestOfPart);
+  placement.PlaceSplitSites();
 }
 
 } // namespace itk

@@ -157,7 +157,6 @@ FCCLeanExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface &
   const auto findNearerEnds = [this](SizeValueType k, FCCNearerEnds & nearerEnds) {
     nearerEnds.Unpack(k, m_NearerEnds[k]);
   };
-  const FCCClusterPoints clusterPoints(m_Field);
   const bool reversed = m_Field.frame.IsLeftHanded();
   const SizeValueType around = surface.HasNormals() ? 1 : 0; // planes whose gradients are needed
   if (begin > 0)
@@ -174,13 +173,14 @@ FCCLeanExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface &
     {
       field.LoadGradients(near);
     }
-    clusterPoints.Place(m_Signs,
-                        planes.Get(k),
-                        k,
-                        field,
-                        surface.GetPoints().data() + m_FirstPoint[k],
-                        surface.HasNormals() ? surface.GetNormals().data() + m_FirstPoint[k] : nullptr,
-                        m_Field.closed ? nullptr : m_AreOutside.data() + m_FirstPoint[k]);
+    PlaceVertices(m_Field,
+                  m_Signs,
+                  planes.Get(k),
+                  k,
+                  field,
+                  surface.GetPoints().data() + m_FirstPoint[k],
+                  surface.HasNormals() ? surface.GetNormals().data() + m_FirstPoint[k] : nullptr,
+                  m_Field.closed ? nullptr : m_AreOutside.data() + m_FirstPoint[k]);
     if (k + 1 < m_Signs.GetDepth())
     {
       filled += FillLeanTriangles({ m_Signs, k, planes.Get(k), planes.Get(k + 1) }, reversed, triangles + filled);

@@ -3,7 +3,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "itkFCCLeanTables.h"
+#include "itkFCCLeanMarching.h"
 
 #include <algorithm>
 #include <type_traits>

@@ -20,7 +20,18 @@ class FCCSiteParts
 {
 public:
   FCCSiteParts() = default;
-  FCCSiteParts(unsigned int crossings, unsigned int single);
+  FCCSiteParts(unsigned int crossings, unsigned int single)
+    : m_Crossings(static_cast<std::uint16_t>(crossings))
+    , m_Single(static_cast<std::uint16_t>(single))
+  {
+    this->ForEachVertex([this](unsigned int directions) {
+      for (; directions != 0; directions &= directions - 1)
+      {
+        m_Vertices |= std::uint64_t{ m_NumberOfVertices } << (BitsOfVertex * __builtin_ctz(directions));
+      }
+      ++m_NumberOfVertices;
+    });
+  }
 
   unsigned int
   GetSingle() const
@@ -100,15 +111,41 @@ public:
 
   /** The parts of all split sites of a row, ascending. */
   const std::vector<FCCSiteParts> &
-  GetParts(SizeValueType j, SizeValueType k) const;
+  GetParts(SizeValueType j, SizeValueType k) const
+  {
+    static const std::vector<FCCSiteParts> none;
+    const auto & row = m_Rows[k * m_Height + j];
+    return row ? row->parts : none;
+  }
 
   /** The parts of a split site. */
   const FCCSiteParts &
-  GetParts(SizeValueType i, SizeValueType j, SizeValueType k) const;
+  GetParts(SizeValueType i, SizeValueType j, SizeValueType k) const
+  {
+    const Row & row = *m_Rows[k * m_Height + j];
+    return row.parts[CountBefore(row.bits, i)];
+  }
 
   /** Splits a site, or divides it anew. Returns whether it had not been split. */
   bool
-  Set(SizeValueType i, SizeValueType j, SizeValueType k, const FCCSiteParts & parts);
+  Set(SizeValueType i, SizeValueType j, SizeValueType k, const FCCSiteParts & parts)
+  {
+    auto & row = m_Rows[k * m_Height + j];
+    if (!row)
+    {
+      row = std::make_unique<Row>();
+      row->bits.resize(m_Zeros.size());
+    }
+    const auto place = row->parts.begin() + static_cast<std::ptrdiff_t>(CountBefore(row->bits, i));
+    if (FCCBits::Test(row->bits.data(), i))
+    {
+      *place = parts;
+      return false;
+    }
+    row->parts.insert(place, parts);
+    row->bits[i / FCCBits::WordBits] |= WordType{ 1 } << (i % FCCBits::WordBits);
+    return true;
+  }
 
 private:
   struct Row
@@ -117,8 +154,18 @@ private:
     std::vector<FCCSiteParts> parts; ///< by set bit, ascending
   };
 
+  /** How many bits are set before bit \a i. */
   static SizeValueType
-  CountBefore(const std::vector<WordType> & bits, SizeValueType i);
+  CountBefore(const std::vector<WordType> & bits, SizeValueType i)
+  {
+    const SizeValueType last = i / FCCBits::WordBits;
+    SizeValueType count = FCCBits::CountBefore(bits[last], i);
+    for (SizeValueType word = 0; word < last; ++word)
+    {
+      count += FCCBits::Count(bits[word]);
+    }
+    return count;
+  }
 
   SizeValueType m_Height;
   std::vector<std::unique_ptr<Row>> m_Rows;
