@@ -1,4 +1,4 @@
-#include "itkFCCCellKinds.h"
+#include "itkFCCCellCases.h"
 
 #include <gtest/gtest.h>
 

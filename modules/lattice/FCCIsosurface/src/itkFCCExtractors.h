@@ -11,7 +11,7 @@ namespace itk
 std::unique_ptr<FCCSurfaceExtractor>
 MakeFCCTetrahedraExtractor(const FCCSigns & signs, const FCCScalarField & field, bool cubic);
 
-/** The ways to fill space with whole cells of the lattice: see itkFCCCellKinds.h. */
+/** The ways to fill space with whole cells of the lattice: see itkFCCCellCases.h. */
 enum class FCCCellScheme : unsigned char
 {
   Octahedra,

@@ -1,4 +1,4 @@
-#include "itkFCCCellKinds.h"
+#include "itkFCCCellCases.h"
 #include "itkFCCEdgeExtractor.h"
 #include "itkFCCExtractors.h"
 
@@ -227,12 +227,12 @@ FCCCellExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface &
     this->FindBetween(begin - 1, between[0]);
   }
   this->Find(begin, inPlane[1]);
-  FCCEdgePointFiller filler = this->MakeFiller();
+  FCCFieldPlanes field(m_Signs, m_Field, PlanesOfGradients);
   for (SizeValueType k = begin; k < end; ++k)
   {
     this->FindBetween(k, between[1]);
     this->Find(k + 1, inPlane[2]);
-    filler.Fill(k, inPlane[1], between[1], surface);
+    this->FillPoints(k, inPlane[1], between[1], field, surface);
     FillCellTriangles(m_Signs,
                       m_Scheme,
                       k,

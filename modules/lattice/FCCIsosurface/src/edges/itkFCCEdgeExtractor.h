@@ -3,6 +3,8 @@
 
 #include "itkFCCEdgePoints.h"
 
+#include <algorithm>
+
 namespace itk
 {
 
@@ -65,10 +67,37 @@ protected:
     between.Find(k, static_cast<std::uint32_t>(m_FirstPoint[k] + m_InPlane[k]));
   }
 
-  FCCEdgePointFiller
-  MakeFiller() const
+  /** Planes of the field's gradients that FillPoints() needs. */
+  static constexpr SizeValueType PlanesOfGradients = 2;
+
+  /** Fills the points on the cut edges that plane \a k of the signs stores, and their normals if the surface has any.
+   * \a field is that of the planes, in ascending order. */
+  void
+  FillPoints(SizeValueType k,
+             const FCCCutEdges & inPlane,
+             const FCCCutEdges & between,
+             FCCFieldPlanes & field,
+             TriangleSurface & surface) const
   {
-    return FCCEdgePointFiller(m_Signs, m_Field, m_EdgePoints);
+    const bool hasNormals = surface.HasNormals();
+    const SizeValueType toField = m_Field.closed ? 0 : 1; // from a plane of the signs to that of the field
+    for (SizeValueType end = k; end < std::min(k + 2, m_Signs.GetDepth()); ++end) // the planes of the edges' ends
+    {
+      field.LoadValuesAround(end + toField);
+      if (hasNormals)
+      {
+        field.LoadGradients(end + toField);
+      }
+    }
+    for (const FCCCutEdges * const edges : { &inPlane, &between })
+    {
+      m_EdgePoints.Place(m_Signs,
+                         *edges,
+                         k,
+                         field,
+                         surface.GetPoints().data() + edges->GetFirstId(),
+                         hasNormals ? surface.GetNormals().data() + edges->GetFirstId() : nullptr);
+    }
   }
 
   TriangleSurface::TriangleType *

@@ -245,38 +245,4 @@ FCCEdgePoints::GatherBorder(const SiteType & site,
   }
 }
 
-FCCEdgePointFiller::FCCEdgePointFiller(const FCCSigns & signs,
-                                       const FCCScalarField & field,
-                                       const FCCEdgePoints & edgePoints)
-  : m_Signs(signs)
-  , m_EdgePoints(edgePoints)
-  , m_ToField(field.closed ? 0 : 1)
-  , m_Field(signs, field, 2)
-{}
-
-void
-FCCEdgePointFiller::Fill(SizeValueType k,
-                         const FCCCutEdges & inPlane,
-                         const FCCCutEdges & between,
-                         TriangleSurface & surface)
-{
-  for (SizeValueType end = k; end < std::min(k + 2, m_Signs.GetDepth()); ++end) // the planes of the edges' ends
-  {
-    m_Field.LoadValuesAround(end + m_ToField);
-    if (surface.HasNormals())
-    {
-      m_Field.LoadGradients(end + m_ToField);
-    }
-  }
-  for (const FCCCutEdges * const edges : { &inPlane, &between })
-  {
-    m_EdgePoints.Place(m_Signs,
-                       *edges,
-                       k,
-                       m_Field,
-                       surface.GetPoints().data() + edges->GetFirstId(),
-                       surface.HasNormals() ? surface.GetNormals().data() + edges->GetFirstId() : nullptr);
-  }
-}
-
 } // namespace itk

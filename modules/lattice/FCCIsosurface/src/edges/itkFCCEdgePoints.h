@@ -127,28 +127,6 @@ private:
   SizeValueType m_Margin;
 };
 
-/** \class FCCEdgePointFiller
- * \brief Fills the points and normals of a surface, plane by plane, from the edges that the planes' sites store.
- *
- * Ask for planes in ascending order.
- */
-class FCCEdgePointFiller
-{
-public:
-  FCCEdgePointFiller(const FCCSigns & signs, const FCCScalarField & field, const FCCEdgePoints & edgePoints);
-
-  /** Fills the points on some edges stored by plane \a k of the signs. The surface must have its size; normals are left
-   * out where the surface has no normals. */
-  void
-  Fill(SizeValueType k, const FCCCutEdges & inPlane, const FCCCutEdges & between, TriangleSurface & surface);
-
-private:
-  const FCCSigns & m_Signs;
-  const FCCEdgePoints & m_EdgePoints;
-  SizeValueType m_ToField; ///< from a plane of the signs to that of the field
-  FCCFieldPlanes m_Field;
-};
-
 } // namespace itk
 
 #endif

@@ -1,8 +1,7 @@
 #ifndef itkFCCSiteStar_h
 #define itkFCCSiteStar_h
 
-#include "itkFCCCells.h"
-#include "itkFCCTetrahedronPolygon.h"
+#include "itkFCCMarchingCases.h"
 
 namespace itk
 {

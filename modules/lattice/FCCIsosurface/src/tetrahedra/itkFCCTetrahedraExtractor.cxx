@@ -230,7 +230,7 @@ void
 FCCTetrahedraExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface)
 {
   const bool reversed = m_Field.frame.IsLeftHanded();
-  FCCEdgePointFiller filler = this->MakeFiller();
+  FCCFieldPlanes field(m_Signs, m_Field, PlanesOfGradients);
   FCCCutEdges lower = this->MakeCutEdges(FCCStoredEdges::Group::InPlane);
   FCCCutEdges upper = this->MakeCutEdges(FCCStoredEdges::Group::InPlane);
   FCCCutEdges between = this->MakeCutEdges(FCCStoredEdges::Group::Between);
@@ -239,7 +239,7 @@ FCCTetrahedraExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSur
   {
     this->FindBetween(k, between);
     this->Find(k + 1, upper);
-    filler.Fill(k, lower, between, surface);
+    this->FillPoints(k, lower, between, field, surface);
     if (k + 1 < m_Signs.GetDepth())
     {
       HWY_DYNAMIC_DISPATCH(FillColumns)
