@@ -2,10 +2,6 @@
 #include "itkFCCEdgeExtractor.h"
 #include "itkFCCExtractors.h"
 
-#include <algorithm>
-#include <iterator>
-#include <utility>
-
 namespace itk
 {
 namespace
@@ -91,19 +87,12 @@ private:
   IndexValueType m_Shift[FCCCell::MaximumCorners];
 };
 
-/** The cut edges that the cells of *layer* k share, the cells whose anchors are in plane k. */
-struct LayerEdges
-{
-  const FCCCutEdges * inPlane[3]; ///< cut edges within the planes k - 1, k and k + 1
-  const FCCCutEdges * between[2]; ///< cut edges between the planes k - 1 and k, and k and k + 1
-};
-
 /** Finds the vertex ids of the cells of one kind whose anchors are in one row. */
 template <typename TKind>
 class CellRowIds
 {
 public:
-  CellRowIds(const FCCSigns & signs, SizeValueType j, SizeValueType k, const LayerEdges & edges)
+  CellRowIds(const FCCSigns & signs, SizeValueType j, SizeValueType k, const FCCLayerEdges & edges)
   {
     for (unsigned int edge = 0; edge < TKind::Cell.numberOfEdges; ++edge)
     {
@@ -131,43 +120,6 @@ private:
   IndexValueType m_Shift[FCCCell::MaximumEdges];
 };
 
-/** A row of sites outside. */
-std::vector<WordType>
-MakeEmptyRow(const FCCSigns & signs)
-{
-  return std::vector<WordType>(signs.GetNumberOfWords() + 1, 0);
-}
-
-/** The triangles of layer \a k: as many as FCCCellExtractor::CountTriangles() says; \a reversed turns them all over.
- * Cut edges of planes beyond the box are not looked at. */
-void
-FillCellTriangles(const FCCSigns & signs,
-                  FCCCellScheme scheme,
-                  SizeValueType k,
-                  const LayerEdges & edges,
-                  bool closed,
-                  bool reversed,
-                  TriangleSurface::TriangleType * triangles)
-{
-  const unsigned int second = reversed ? 2 : 1;
-  const unsigned int third = reversed ? 1 : 2;
-  const std::vector<WordType> nothing = MakeEmptyRow(signs);
-  ForEachKind(scheme, [&](auto kind) {
-    for (SizeValueType j = 0; j < signs.GetHeight(); ++j)
-    {
-      const CellRow<decltype(kind)> cells(signs, j, k, closed ? nothing.data() : nullptr);
-      const CellRowIds<decltype(kind)> ids(signs, j, k, edges);
-      cells.ForEachCutCell([&](SizeValueType i, const auto & found) {
-        for (unsigned int n = 0; n < found.triangles; ++n)
-        {
-          const auto & corners = found.edges[n];
-          *triangles++ = { ids.GetId(corners[0], i), ids.GetId(corners[second], i), ids.GetId(corners[third], i) };
-        }
-      });
-    }
-  });
-}
-
 /** The types of the edges of a scheme's cells, as bits. */
 std::uint8_t
 EdgeTypesOf(FCCCellScheme scheme)
@@ -177,73 +129,62 @@ EdgeTypesOf(FCCCellScheme scheme)
   return static_cast<std::uint8_t>(types);
 }
 
+/** A *layer* k is the cells whose anchors are in plane k. */
 class FCCCellExtractor : public FCCEdgeExtractor
 {
 public:
   FCCCellExtractor(const FCCSigns & signs, const FCCScalarField & field, FCCCellScheme scheme)
-    : FCCEdgeExtractor(signs, field, EdgeTypesOf(scheme), false)
+    : FCCEdgeExtractor(signs, field, EdgeTypesOf(scheme), false, true)
     , m_Scheme(scheme)
   {}
 
-  void
-  Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface) override;
-
 protected:
   SizeValueType
-  CountTriangles(SizeValueType k) const override;
+  CountTriangles(SizeValueType k) const override
+  {
+    SizeValueType triangles = 0;
+    this->ForEachRow(k, [&triangles](SizeValueType, const auto & cells, auto) {
+      cells.ForEachCutCell([&triangles](SizeValueType, const auto & found) { triangles += found.triangles; });
+    });
+    return triangles;
+  }
+
+  /** Cut edges of planes beyond the box are not looked at. */
+  void
+  FillTriangles(SizeValueType k, const FCCLayerEdges & edges, TriangleSurface::TriangleType * triangles) const override
+  {
+    const bool reversed = m_Field.frame.IsLeftHanded();
+    const unsigned int second = reversed ? 2 : 1;
+    const unsigned int third = reversed ? 1 : 2;
+    this->ForEachRow(k, [&](SizeValueType j, const auto & cells, auto kind) {
+      const CellRowIds<decltype(kind)> ids(m_Signs, j, k, edges);
+      cells.ForEachCutCell([&](SizeValueType i, const auto & found) {
+        for (unsigned int n = 0; n < found.triangles; ++n)
+        {
+          const auto & corners = found.edges[n];
+          *triangles++ = { ids.GetId(corners[0], i), ids.GetId(corners[second], i), ids.GetId(corners[third], i) };
+        }
+      });
+    });
+  }
 
 private:
+  /** Calls use(j, CellRow, kind) for the rows of layer \a k, kind by kind. */
+  template <typename TUse>
+  void
+  ForEachRow(SizeValueType k, const TUse & use) const
+  {
+    const std::vector<WordType> nothing(m_Signs.GetNumberOfWords() + 1, 0); // a row of sites outside
+    ForEachKind(m_Scheme, [&](auto kind) {
+      for (SizeValueType j = 0; j < m_Signs.GetHeight(); ++j)
+      {
+        use(j, CellRow<decltype(kind)>(m_Signs, j, k, m_Field.closed ? nothing.data() : nullptr), kind);
+      }
+    });
+  }
+
   FCCCellScheme m_Scheme;
 };
-
-SizeValueType
-FCCCellExtractor::CountTriangles(SizeValueType k) const
-{
-  const std::vector<WordType> nothing = MakeEmptyRow(m_Signs);
-  SizeValueType triangles = 0;
-  ForEachKind(m_Scheme, [&](auto kind) {
-    for (SizeValueType j = 0; j < m_Signs.GetHeight(); ++j)
-    {
-      const CellRow<decltype(kind)> cells(m_Signs, j, k, m_Field.closed ? nothing.data() : nullptr);
-      cells.ForEachCutCell([&triangles](SizeValueType, const auto & found) { triangles += found.triangles; });
-    }
-  });
-  return triangles;
-}
-
-void
-FCCCellExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface)
-{
-  using Group = FCCStoredEdges::Group;
-  const bool reversed = m_Field.frame.IsLeftHanded();
-  // Cut edges of the planes before, at and after a layer; before the first plane there are none.
-  FCCCutEdges inPlane[3] = { this->MakeCutEdges(Group::InPlane),
-                             this->MakeCutEdges(Group::InPlane),
-                             this->MakeCutEdges(Group::InPlane) };
-  FCCCutEdges between[2] = { this->MakeCutEdges(Group::Between), this->MakeCutEdges(Group::Between) };
-  if (begin > 0)
-  {
-    this->Find(begin - 1, inPlane[0]);
-    this->FindBetween(begin - 1, between[0]);
-  }
-  this->Find(begin, inPlane[1]);
-  FCCFieldPlanes field(m_Signs, m_Field, PlanesOfGradients);
-  for (SizeValueType k = begin; k < end; ++k)
-  {
-    this->FindBetween(k, between[1]);
-    this->Find(k + 1, inPlane[2]);
-    this->FillPoints(k, inPlane[1], between[1], field, surface);
-    FillCellTriangles(m_Signs,
-                      m_Scheme,
-                      k,
-                      { { &inPlane[0], &inPlane[1], &inPlane[2] }, { &between[0], &between[1] } },
-                      m_Field.closed,
-                      reversed,
-                      this->GetTriangles(k, surface));
-    std::rotate(std::begin(inPlane), std::begin(inPlane) + 1, std::end(inPlane));
-    std::swap(between[0], between[1]);
-  }
-}
 
 } // namespace
 

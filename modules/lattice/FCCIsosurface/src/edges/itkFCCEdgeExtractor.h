@@ -4,12 +4,21 @@
 #include "itkFCCEdgePoints.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace itk
 {
 
+/** The cut edges around plane k that have points. */
+struct FCCLayerEdges
+{
+  const FCCCutEdges * inPlane[3]; ///< cut edges within the planes k - 1, k and k + 1
+  const FCCCutEdges * between[2]; ///< cut edges between the planes k - 1 and k, and k and k + 1
+};
+
 /** \class FCCEdgeExtractor
- * \brief What the extractors that put one point on each cut edge have in common: counting and numbering.
+ * \brief What the extractors that put one point on each cut edge have in common: counting, numbering and points.
+ * Derived classes count and fill the triangles, plane by plane.
  *
  * Signs alone say which edges are cut and which triangles there are; samples are read to place the points.
  */
@@ -27,18 +36,51 @@ public:
   {
     for (SizeValueType k = begin; k < end; ++k)
     {
-      m_InPlane[k] = FCCCutEdges::Count(m_Signs, FCCStoredEdges::Group::InPlane, k, m_Types);
-      m_FirstPoint[k] = m_InPlane[k] + FCCCutEdges::Count(m_Signs, FCCStoredEdges::Group::Between, k, m_Types);
+      m_InPlane[k] = FCCCutEdges::Count(m_Signs, Group::InPlane, k, m_Types);
+      m_FirstPoint[k] = m_InPlane[k] + FCCCutEdges::Count(m_Signs, Group::Between, k, m_Types);
       m_FirstTriangle[k] = this->CountTriangles(k);
+    }
+  }
+
+  void
+  Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface) override
+  {
+    FCCFieldPlanes field(m_Signs, m_Field, 2);
+    const auto make = [this](Group group) { return FCCCutEdges(m_Signs, group, m_Types, m_Field.scratch); };
+    // Cut edges of the planes before, at and after plane k; before the first plane there are none.
+    FCCCutEdges inPlane[3] = { make(Group::InPlane), make(Group::InPlane), make(Group::InPlane) };
+    FCCCutEdges between[2] = { make(Group::Between), make(Group::Between) };
+    if (begin > 0 && m_UsesPlaneBefore)
+    {
+      this->Find(begin - 1, inPlane[0]);
+      this->FindBetween(begin - 1, between[0]);
+    }
+    this->Find(begin, inPlane[1]);
+    for (SizeValueType k = begin; k < end; ++k)
+    {
+      this->FindBetween(k, between[1]);
+      this->Find(k + 1, inPlane[2]);
+      this->FillPoints(k, inPlane[1], between[1], field, surface);
+      this->FillTriangles(k,
+                          { { &inPlane[0], &inPlane[1], &inPlane[2] }, { &between[0], &between[1] } },
+                          surface.GetTriangles().data() + m_FirstTriangle[k]);
+      std::rotate(std::begin(inPlane), std::begin(inPlane) + 1, std::end(inPlane));
+      std::swap(between[0], between[1]);
     }
   }
 
 protected:
   /** \param types of edges that have points: bits, as FCCStoredEdges has them
-   *  \param cubic see FCCEdgePoints */
-  FCCEdgeExtractor(const FCCSigns & signs, const FCCScalarField & field, std::uint8_t types, bool cubic)
+   *  \param cubic see FCCEdgePoints
+   *  \param usesPlaneBefore whether FillTriangles() reads the cut edges of plane k - 1 */
+  FCCEdgeExtractor(const FCCSigns & signs,
+                   const FCCScalarField & field,
+                   std::uint8_t types,
+                   bool cubic,
+                   bool usesPlaneBefore)
     : FCCSurfaceExtractor(signs, field)
     , m_Types(types)
+    , m_UsesPlaneBefore(usesPlaneBefore)
     , m_EdgePoints(field, cubic, field.closed ? 1 : 0)
     , m_InPlane(signs.GetDepth())
   {}
@@ -47,11 +89,12 @@ protected:
   virtual SizeValueType
   CountTriangles(SizeValueType k) const = 0;
 
-  FCCCutEdges
-  MakeCutEdges(FCCStoredEdges::Group group) const
-  {
-    return FCCCutEdges(m_Signs, group, m_Types, m_Field.scratch);
-  }
+  /** Writes these triangles. */
+  virtual void
+  FillTriangles(SizeValueType k, const FCCLayerEdges & edges, TriangleSurface::TriangleType * triangles) const = 0;
+
+private:
+  using Group = FCCStoredEdges::Group;
 
   /** Finds the cut edges of plane \a k, with the ids of their points. Planes past the last have no edges. */
   void
@@ -66,9 +109,6 @@ protected:
   {
     between.Find(k, static_cast<std::uint32_t>(m_FirstPoint[k] + m_InPlane[k]));
   }
-
-  /** Planes of the field's gradients that FillPoints() needs. */
-  static constexpr SizeValueType PlanesOfGradients = 2;
 
   /** Fills the points on the cut edges that plane \a k of the signs stores, and their normals if the surface has any.
    * \a field is that of the planes, in ascending order. */
@@ -100,14 +140,8 @@ protected:
     }
   }
 
-  TriangleSurface::TriangleType *
-  GetTriangles(SizeValueType k, TriangleSurface & surface) const
-  {
-    return surface.GetTriangles().data() + m_FirstTriangle[k];
-  }
-
-private:
   std::uint8_t m_Types;
+  bool m_UsesPlaneBefore;
   FCCEdgePoints m_EdgePoints;
   std::vector<SizeValueType> m_InPlane; ///< by plane: points on edges within the plane, which come first
 };

@@ -7,8 +7,6 @@
 #include "itkFCCExtractors.h"
 #include "itkFCCMarchingCases.h"
 
-#include <utility>
-
 HWY_BEFORE_NAMESPACE();
 namespace itk
 {
@@ -212,11 +210,8 @@ class FCCTetrahedraExtractor : public FCCEdgeExtractor
 {
 public:
   FCCTetrahedraExtractor(const FCCSigns & signs, const FCCScalarField & field, bool cubic)
-    : FCCEdgeExtractor(signs, field, FCCStoredEdges::AllTypes, cubic)
+    : FCCEdgeExtractor(signs, field, FCCStoredEdges::AllTypes, cubic, false)
   {}
-
-  void
-  Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface) override;
 
 protected:
   SizeValueType
@@ -224,30 +219,17 @@ protected:
   {
     return k + 1 < m_Signs.GetDepth() ? HWY_DYNAMIC_DISPATCH(CountColumns)(m_Signs, k) : 0;
   }
-};
 
-void
-FCCTetrahedraExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface)
-{
-  const bool reversed = m_Field.frame.IsLeftHanded();
-  FCCFieldPlanes field(m_Signs, m_Field, PlanesOfGradients);
-  FCCCutEdges lower = this->MakeCutEdges(FCCStoredEdges::Group::InPlane);
-  FCCCutEdges upper = this->MakeCutEdges(FCCStoredEdges::Group::InPlane);
-  FCCCutEdges between = this->MakeCutEdges(FCCStoredEdges::Group::Between);
-  this->Find(begin, lower);
-  for (SizeValueType k = begin; k < end; ++k)
+  void
+  FillTriangles(SizeValueType k, const FCCLayerEdges & edges, TriangleSurface::TriangleType * triangles) const override
   {
-    this->FindBetween(k, between);
-    this->Find(k + 1, upper);
-    this->FillPoints(k, lower, between, field, surface);
     if (k + 1 < m_Signs.GetDepth())
     {
       HWY_DYNAMIC_DISPATCH(FillColumns)
-      (m_Signs, k, lower, upper, between, reversed, this->GetTriangles(k, surface));
+      (m_Signs, k, *edges.inPlane[1], *edges.inPlane[2], *edges.between[1], m_Field.frame.IsLeftHanded(), triangles);
     }
-    std::swap(lower, upper);
   }
-}
+};
 
 } // namespace
 
