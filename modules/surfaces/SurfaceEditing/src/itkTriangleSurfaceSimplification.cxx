@@ -565,7 +565,7 @@ private:
             near[corner] = tree.FindClosestPoint(corners[corner]).triangle;
           }
         }
-        isBad[id] |= IsWithinDistance(corners, tree, m_MaximumError, near) ? 0 : 1;
+        isBad[id] |= TriangleProximity(corners, tree, m_MaximumError).IsNearSurface(near) ? 0 : 1;
       }
     });
   }
@@ -586,9 +586,9 @@ private:
       {
         const CornersType corners = CornersOf(original, triangles[id]);
         const TriangleTree & tree = state.Get(m_Original->sheets[id]);
-        m_IsCovered[id] =
-          (near[0] == near[1] && near[1] == near[2]) || IsNearOneTriangle(corners, tree, m_MaximumError, near);
-        isUncovered[id] = !m_IsCovered[id] && !IsWithinDistance(corners, tree, m_MaximumError, near);
+        const TriangleProximity proximity(corners, tree, m_MaximumError);
+        m_IsCovered[id] = (near[0] == near[1] && near[1] == near[2]) || proximity.IsNearOneOf(near);
+        isUncovered[id] = !m_IsCovered[id] && !proximity.IsNearSurface(near);
       }
     });
     for (TriangleId id = 0; id < triangles.size(); ++id)

@@ -43,6 +43,9 @@ constexpr int TriangleFan = 6;
 constexpr std::array<double, 16> FromLPS{ 0.001, 0, 0, 0, 0, 0, -0.001, 0, 0, 0.001, 0, 0, 0, 0, 0, 1 };
 constexpr std::array<double, 16> FromRAS{ -0.001, 0, 0, 0, 0, 0, 0.001, 0, 0, 0.001, 0, 0, 0, 0, 0, 1 };
 
+/** The inverse of FromLPS. */
+constexpr std::array<double, 16> ToLPS{ 1000, 0, 0, 0, 0, 0, 1000, 0, 0, -1000, 0, 0, 0, 0, 0, 1 };
+
 } // namespace glb
 
 using OrderedJson = nlohmann::ordered_json;
@@ -112,8 +115,7 @@ private:
     primitive["attributes"]["POSITION"] = this->AddPositions(surface);
     if (surface.HasNormals())
     {
-      primitive["attributes"]["NORMAL"] =
-        this->AddAccessor(glb::Float, "VEC3", surface.GetNumberOfPoints(), sizeof(PointType), glb::ArrayBuffer);
+      primitive["attributes"]["NORMAL"] = this->AddVectors(surface.GetNumberOfPoints());
     }
     primitive["indices"] = this->AddAccessor(
       glb::UnsignedInt, "SCALAR", 3 * surface.GetNumberOfTriangles(), sizeof(std::uint32_t), glb::ElementArrayBuffer);
@@ -141,8 +143,7 @@ private:
   std::size_t
   AddPositions(const itk::TriangleSurface & surface)
   {
-    const std::size_t accessor =
-      this->AddAccessor(glb::Float, "VEC3", surface.GetNumberOfPoints(), sizeof(PointType), glb::ArrayBuffer);
+    const std::size_t accessor = this->AddVectors(surface.GetNumberOfPoints());
     const PointType first = Turned(surface.GetPoints().front(), m_Space);
     itk::PointBox box{ first, first };
     for (const PointType & point : surface.GetPoints())
@@ -152,6 +153,12 @@ private:
     m_Json["accessors"][accessor]["min"] = box.lowest;
     m_Json["accessors"][accessor]["max"] = box.highest;
     return accessor;
+  }
+
+  std::size_t
+  AddVectors(std::uint64_t count)
+  {
+    return this->AddAccessor(glb::Float, "VEC3", count, sizeof(PointType), glb::ArrayBuffer);
   }
 
   std::size_t
@@ -221,18 +228,6 @@ FromColumns(const std::array<double, 16> & columns)
     }
     transform.offset[row] = columns[12 + row];
   }
-  return transform;
-}
-
-/** From glTF's metres with y up to LPS millimetres: the inverse of glb::FromLPS. */
-Transform
-ToLPS()
-{
-  Transform transform;
-  transform.linear.Fill(0);
-  transform.linear(0, 0) = 1000;
-  transform.linear(1, 2) = -1000;
-  transform.linear(2, 1) = 1000;
   return transform;
 }
 
@@ -337,7 +332,7 @@ public:
     this->CheckExtensions();
     for (const std::uint64_t node : this->RootNodes())
     {
-      this->ReadNode(node, ToLPS(), 0);
+      this->ReadNode(node, FromColumns(glb::ToLPS), 0);
     }
     return std::move(m_Surfaces);
   }
@@ -395,7 +390,7 @@ private:
   {
     if (m_Json.contains("scenes"))
     {
-      const std::uint64_t scene = m_Json.contains("scene") ? this->Whole(m_Json, "scene") : 0;
+      const std::uint64_t scene = this->WholeOr(0, m_Json, "scene");
       std::vector<std::uint64_t> roots;
       for (const Json & node : this->Item("scenes", scene).value("nodes", Json::array()))
       {
@@ -455,7 +450,7 @@ private:
     const std::string name = node.value("name", mesh.value("name", m_File.GetStem()));
     for (const Json & primitive : mesh.at("primitives"))
     {
-      const std::uint64_t mode = primitive.contains("mode") ? this->Whole(primitive, "mode") : glb::Triangles;
+      const std::uint64_t mode = this->WholeOr(glb::Triangles, primitive, "mode");
       if (mode == glb::Triangles || mode == glb::TriangleStrip || mode == glb::TriangleFan)
       {
         SceneSurface item = this->ReadLook(primitive);
@@ -581,10 +576,10 @@ private:
                              : accessor.componentType == glb::UnsignedShort ? 2
                                                                             : 4;
     const std::uint64_t elementSize = (type == "VEC3" ? 3 : 1) * accessor.componentSize;
-    accessor.stride = view.contains("byteStride") ? this->Whole(view, "byteStride") : elementSize;
+    accessor.stride = this->WholeOr(elementSize, view, "byteStride");
 
-    const std::uint64_t viewBegin = this->WholeOr0(view, "byteOffset"), viewSize = this->Whole(view, "byteLength");
-    const std::uint64_t offset = this->WholeOr0(json, "byteOffset");
+    const std::uint64_t viewBegin = this->WholeOr(0, view, "byteOffset"), viewSize = this->Whole(view, "byteLength");
+    const std::uint64_t offset = this->WholeOr(0, json, "byteOffset");
     const bool fits =
       accessor.stride >= elementSize && accessor.stride <= 252 &&
       accessor.count <= std::numeric_limits<std::uint32_t>::max() && viewBegin <= m_BufferSize &&
@@ -698,9 +693,9 @@ private:
   }
 
   std::uint64_t
-  WholeOr0(const Json & json, const char * name) const
+  WholeOr(std::uint64_t otherwise, const Json & json, const char * name) const
   {
-    return json.contains(name) ? this->Whole(json, name) : 0;
+    return json.contains(name) ? this->Whole(json, name) : otherwise;
   }
 
   const InputFile & m_File;
