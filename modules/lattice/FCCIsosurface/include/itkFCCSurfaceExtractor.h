@@ -98,7 +98,10 @@ public:
 
   /** Whether Count() reads samples; otherwise the signs are enough. */
   virtual bool
-  CountReadsSamples() const = 0;
+  CountReadsSamples() const
+  {
+    return false;
+  }
 
   /** Counts the points and triangles of planes. */
   virtual void

@@ -36,22 +36,42 @@ public:
 
   using Superclass::SetInput;
   void
-  SetInput(const TriangleSurface * surface);
+  SetInput(const TriangleSurface * surface)
+  {
+    this->ProcessObject::SetNthInput(0, const_cast<TriangleSurface *>(surface));
+  }
   const TriangleSurface *
-  GetInput() const;
+  GetInput() const
+  {
+    return itkDynamicCastInDebugMode<const TriangleSurface *>(this->GetPrimaryInput());
+  }
 
   TriangleSurface *
-  GetOutput();
+  GetOutput()
+  {
+    return itkDynamicCastInDebugMode<TriangleSurface *>(this->GetPrimaryOutput());
+  }
   const TriangleSurface *
-  GetOutput() const;
+  GetOutput() const
+  {
+    return itkDynamicCastInDebugMode<const TriangleSurface *>(this->GetPrimaryOutput());
+  }
 
 protected:
-  TriangleSurfaceToTriangleSurfaceFilter();
+  TriangleSurfaceToTriangleSurfaceFilter()
+  {
+    this->SetNumberOfRequiredInputs(1);
+    this->SetNumberOfRequiredOutputs(1);
+    this->ProcessObject::SetNthOutput(0, this->MakeOutput(0));
+  }
   ~TriangleSurfaceToTriangleSurfaceFilter() override = default;
 
   using Superclass::MakeOutput;
   DataObject::Pointer
-  MakeOutput(DataObjectPointerArraySizeType index) override;
+  MakeOutput(DataObjectPointerArraySizeType) override
+  {
+    return TriangleSurface::New().GetPointer();
+  }
 
   void
   GenerateData() override;

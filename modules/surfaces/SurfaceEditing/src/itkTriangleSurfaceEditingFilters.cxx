@@ -10,43 +10,6 @@
 namespace itk
 {
 
-TriangleSurfaceToTriangleSurfaceFilter::TriangleSurfaceToTriangleSurfaceFilter()
-{
-  this->SetNumberOfRequiredInputs(1);
-  this->SetNumberOfRequiredOutputs(1);
-  this->ProcessObject::SetNthOutput(0, this->MakeOutput(0));
-}
-
-void
-TriangleSurfaceToTriangleSurfaceFilter::SetInput(const TriangleSurface * surface)
-{
-  this->ProcessObject::SetNthInput(0, const_cast<TriangleSurface *>(surface));
-}
-
-const TriangleSurface *
-TriangleSurfaceToTriangleSurfaceFilter::GetInput() const
-{
-  return itkDynamicCastInDebugMode<const TriangleSurface *>(this->GetPrimaryInput());
-}
-
-TriangleSurface *
-TriangleSurfaceToTriangleSurfaceFilter::GetOutput()
-{
-  return itkDynamicCastInDebugMode<TriangleSurface *>(this->GetPrimaryOutput());
-}
-
-const TriangleSurface *
-TriangleSurfaceToTriangleSurfaceFilter::GetOutput() const
-{
-  return itkDynamicCastInDebugMode<const TriangleSurface *>(this->GetPrimaryOutput());
-}
-
-DataObject::Pointer
-TriangleSurfaceToTriangleSurfaceFilter::MakeOutput(DataObjectPointerArraySizeType)
-{
-  return TriangleSurface::New().GetPointer();
-}
-
 void
 TriangleSurfaceToTriangleSurfaceFilter::GenerateData()
 {

@@ -210,19 +210,13 @@ public:
     {
       m_Limits = { original->surface, &original->trianglesOfPoints, ShareForWitnesses * m_MaximumError };
       m_NearPoints.resize(surface.GetNumberOfPoints());
-      for (TriangleId id = 0; id < surface.GetNumberOfTriangles(); ++id)
-      {
-        for (const PointId point : surface.GetTriangles()[id])
-        {
-          m_NearPoints[point] = id;
-        }
-      }
       m_WitnessTriangles.resize(original->surface->GetNumberOfPoints());
       for (TriangleId id = 0; id < surface.GetNumberOfTriangles(); ++id)
       {
-        for (const PointId point : original->surface->GetTriangles()[id])
+        for (unsigned int corner = 0; corner < 3; ++corner)
         {
-          m_WitnessTriangles[point] = id;
+          m_NearPoints[surface.GetTriangles()[id][corner]] = id;
+          m_WitnessTriangles[original->surface->GetTriangles()[id][corner]] = id;
         }
       }
       m_IsCovered.assign(surface.GetNumberOfTriangles(), 1);

@@ -25,12 +25,6 @@ struct FCCLayerEdges
 class FCCEdgeExtractor : public FCCSurfaceExtractor
 {
 public:
-  bool
-  CountReadsSamples() const override
-  {
-    return false;
-  }
-
   void
   Count(SizeValueType begin, SizeValueType end) override
   {
