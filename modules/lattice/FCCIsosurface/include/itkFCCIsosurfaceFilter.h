@@ -581,7 +581,7 @@ private:
       }
       catch (...)
       {
-        image->ReleaseData(); // so that the next update does not take the unfinished data for finished ones
+        image->ReleaseData(); // so that the next update does not reuse unfinished data
         throw;
       }
     }

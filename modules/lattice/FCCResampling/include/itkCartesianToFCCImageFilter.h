@@ -36,7 +36,7 @@ namespace itk
  * is constant along the axis. There is no low-pass filter: at densities far below the default, smooth the input first.
  *
  * Values between samples come from a separable kernel (see SeparableTaps), the cubic B-spline with its prefilter by
- * default, because linear interpolation blurs away what the lattice gains. B-splines overshoot at edges; integer
+ * default, because linear interpolation blurs away the gain of the lattice. B-splines overshoot at edges; integer
  * outputs are rounded and clamped to the range of their type. Arithmetic is in float32, which is exact for 16-bit
  * pixels and good for 7 digits of wider ones. An input sample that is not finite makes all outputs within the kernel's
  * reach, up to 5 samples along each axis, not a number: replace such samples before.

@@ -22,7 +22,7 @@ namespace itk
  * grid.
  *
  * The output has half as many samples as the input, its direction, and its spacing. Lattice coordinates (x, y, z),
- * whose sum is even (see FCCLattice), count the input's samples from its first one, whatever its start index; so
+ * whose sum is even (see FCCLattice), count the input's samples from its first sample, whatever its start index; so
  * nothing is interpolated, in contrast to CartesianToFCCImageFilter. Beyond the ends the input is continued by its
  * mirror image about the first and last sample. Where its size along x is odd, that makes the last sample of the rows
  * of parity 1.

@@ -18,7 +18,7 @@ namespace itk
  * axis, y in the plane of the slices, on the side of the second axis, and z along their normal, on the side of the last
  * slice.
  *
- * Slices and samples are counted from the first one of the image's largest possible region, whatever its start index.
+ * Slices and samples are counted from the first of the image's largest possible region, whatever its start index.
  *
  * \ingroup FCCResampling
  */

@@ -17,7 +17,7 @@ namespace
  *
  * \param xTaps of the sites of even and of odd rows
  * \param region of the lattice, not empty
- * \param load is asked for samples counted from the input's first one */
+ * \param load is asked for samples counted from the input's first sample */
 void
 ResampleRows(const SeparableTaps (&xTaps)[2],
              const SeparableTaps & yTaps,
@@ -100,7 +100,7 @@ HeightsOf(const ImageRegion<3> & region, double origin, double spacing)
   return heights;
 }
 
-/** Whether a position along an axis, in samples from the first one, lies in one of the axis' \a length voxels. */
+/** Whether a position along an axis, in samples from the first sample, lies in one of the axis' \a length voxels. */
 bool
 IsInsideVoxels(double position, SizeValueType length)
 {
@@ -128,7 +128,8 @@ SetRange(const SeparableTaps & taps, SizeValueType numberOfPositions, unsigned i
  *
  * The lattice's axes are the stack's frame. A plane of constant z is blended from slices, row by row; in that blend
  * rows and columns of samples start at the plane's own origin. Planes and rows of sites are counted from the region's
- * first ones, samples from the stack's first one. Positions depend on a site's index alone, not on the region. */
+ * first plane and row, samples from the stack's first sample. Positions depend on a site's index alone, not on the
+ * region. */
 class SliceStackPlanes
 {
 public:
@@ -209,7 +210,7 @@ public:
   /** \param k plane
    *  \param row position in rows of samples
    *  \param parity of the row of sites
-   *  \param xFirst sample that is the first one of the rows to interpolate */
+   *  \param xFirst first sample of the rows to interpolate */
   SiteRow
   MakeSiteRow(SizeValueType k, double row, IndexValueType parity, SizeValueType xFirst) const
   {
@@ -281,7 +282,7 @@ private:
  * without any is stored with a length of 0.
  *
  * \param region of the lattice, not empty: that of \a planes
- * \param load is asked for samples counted from the stack's first one */
+ * \param load is asked for samples counted from the stack's first sample */
 void
 ResampleStackRows(const SliceStackPlanes & planes,
                   const ImageRegion<3> & region,

@@ -74,7 +74,7 @@ Solve(std::array<std::array<double, VSize>, VSize> matrix, std::array<std::array
  * Uncut, the coefficient of knot k has the frequency response e^{i w k} / B(w), B(w) = (2 + cos w) / 3. Each column is
  * the sequence of ten that comes closest to that in least squares over |w| <= pi, weighted with (1 - (w / pi)^2)^3 for
  * the low frequencies that images mostly have, among those with its moments of degree 0 to 3. The moments make the
- * kernel exact for cubics. Where the uncut kernel is a unit impulse, at the samples, the cut one is, too, so that it
+ * kernel exact for cubics. Where the uncut kernel is a unit impulse, at the samples, the cut kernel is, too, so that it
  * interpolates and is continuous. */
 std::array<std::array<double, Knots>, CubicTaps>
 CutPrefilter()
@@ -117,7 +117,7 @@ CutPrefilter()
   }
   for (std::size_t knot = 0; knot < Knots; ++knot)
   {
-    // 1 / B(w) = 1 + w^2 / 6 + ...: second moment -1/3 about the knot, no odd ones.
+    // 1 / B(w) = 1 + w^2 / 6 + ...: second moment -1/3 about the knot, no odd moments.
     const double k = knotAt(knot);
     sides[CubicTaps][knot] = 1.0;
     sides[CubicTaps + 1][knot] = k;
@@ -211,17 +211,17 @@ NaturalSplineWeights(const std::vector<double> & samples,
                      double position)
 {
   const double * const x = samples.data() + first;
-  const std::size_t left = n - first;
-  const double step = x[left + 1] - x[left];
-  const double b = (position - x[left]) / step;
+  const std::size_t lower = n - first;
+  const double step = x[lower + 1] - x[lower];
+  const double b = (position - x[lower]) / step;
   const double a = 1.0 - b;
   std::vector<double> weights(count);
-  weights[left] = a;
-  weights[left + 1] = b;
+  weights[lower] = a;
+  weights[lower + 1] = b;
 
   std::vector<double> sides(count);
-  sides[left] = (a * a * a - a) * step * step / 6.0;
-  sides[left + 1] = (b * b * b - b) * step * step / 6.0;
+  sides[lower] = (a * a * a - a) * step * step / 6.0;
+  sides[lower + 1] = (b * b * b - b) * step * step / 6.0;
   std::vector<double> pivots(count);
   for (std::size_t k = 1; k + 1 < count; ++k)
   {
@@ -311,11 +311,11 @@ SeparableTaps::SeparableTaps(SeparableKernel kernel,
     const auto most = static_cast<OffsetValueType>(samples.size() - m_NumberOfTaps);
     m_First[n] = static_cast<SizeValueType>(std::clamp<OffsetValueType>(sample - before, 0, most));
 
-    const auto left = static_cast<std::size_t>(sample);
-    const bool isLinear = IsAbrupt(samples, left);
+    const auto lower = static_cast<std::size_t>(sample);
+    const bool isLinear = IsAbrupt(samples, lower);
     const auto window =
-      NaturalSplineWeights(samples, isLinear ? left : m_First[n], isLinear ? 2 : m_NumberOfTaps, left, position);
-    const std::size_t start = isLinear ? left - m_First[n] : 0;
+      NaturalSplineWeights(samples, isLinear ? lower : m_First[n], isLinear ? 2 : m_NumberOfTaps, lower, position);
+    const std::size_t start = isLinear ? lower - m_First[n] : 0;
     std::transform(window.begin(), window.end(), weights + start, [](double w) { return static_cast<float>(w); });
   }
 }

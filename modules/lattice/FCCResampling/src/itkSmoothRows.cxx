@@ -171,7 +171,7 @@ private:
                  });
   }
 
-  /** Rows and planes are numbered from the image's first one. */
+  /** Rows and planes are numbered from the image's first row or plane. */
   SizeValueType
   NumberOf(unsigned int axis, IndexValueType index) const
   {

@@ -69,7 +69,7 @@ public:
   /** Results of the last update's other steps. */
   itkGetConstReferenceMacro(Refinement, rhombic::Refinement);
 
-  /** Lines about the last update: what was removed, how far points moved, what failed. */
+  /** Lines about the last update: removed shells, moves of points, failures. */
   itkGetConstReferenceMacro(Notes, std::vector<std::string>);
 
 protected:

@@ -66,7 +66,7 @@ struct TriangleSurfaceSimplificationReport
  * triangles than the target.
  *
  * \a report receives the share of the triangles to remove that are removed; at an error without a target their number
- * is not known before, and the share may end far below 1. What it throws leaves the surface unfit for use.
+ * is not known before, and the share may end far below 1. Its exceptions leave the surface unfit for use.
  *
  * Throws ExceptionObject as Verify() of the settings does, and if the surface has non-manifold or misoriented edges,
  * non-manifold points or degenerate triangles. */

@@ -43,7 +43,7 @@ struct TriangleSurfaceSmoothingReport
  * start, until triangles only meet where they met at the start. So there are no new self-intersections.
  *
  * Time nearly linear; memory about 120 bytes per triangle while it runs. The same bytes for any number of threads.
- * \a report receives the share of the work that is done; what it throws leaves the surface partly smoothed.
+ * \a report receives the share of the work that is done; its exceptions leave the surface partly smoothed.
  * Throws ExceptionObject as Verify() of the settings does. */
 TriangleSurfaceSmoothingReport
 SmoothTriangleSurface(TriangleSurface & surface,

@@ -32,8 +32,8 @@ TriangleSurfaceUntanglingReport
 UntangleTriangleSurface(TriangleSurface & surface, double maximumMove);
 
 /** The same with a tree of the surface, which is refitted if points move. Triangles cross only where \a candidates say,
- * if there are any, and are only searched there. \a report receives the share of the work that is done; what it throws
- * leaves the surface partly untangled. */
+ * if there are any, and are only searched there. \a report receives the share of the work that is done; its exceptions
+ * leave the surface partly untangled. */
 TriangleSurfaceUntanglingReport
 UntangleTriangleSurface(TriangleSurface & surface,
                         TriangleTree & tree,

@@ -39,8 +39,8 @@ struct SurfaceFinish
   }
 };
 
-/** One finish of two: removes and fills all that either does, with the larger limits of the two. Simplification is that
- * of \a second if it simplifies, else that of \a first. */
+/** A finish with the removals of both finishes and the larger limits of the two. Simplification is that of \a second if
+ * it simplifies, else that of \a first. */
 SurfaceFinish
 CombineFinish(const SurfaceFinish & first, const SurfaceFinish & second);
 
@@ -63,8 +63,8 @@ struct PartRemoval
   }
 };
 
-/** Fills cavities and removes solids of a surface. Notes list what was filled and removed, with volumes, and
- * give the warning.
+/** Fills cavities and removes solids of a surface. Notes list the filled cavities and removed solids, with volumes,
+ * and give the warning.
  * \param name of the surface, for messages */
 PartRemoval
 RemoveParts(itk::TriangleSurface & surface,
@@ -130,8 +130,8 @@ RefineBy(const RefinementFunctions & functions,
 
 /** Untangles a surface, smooths it, simplifies it, and turns shells that face the wrong way, each where it may be
  * needed. Untangling moves points by one spacing of the lattice at most, where triangles pass through each other.
- * Smoothing and simplification add no such triangles. Notes give the results, and how many triangles untangling has
- * left that pass through others.
+ * Smoothing and simplification add no such triangles. Notes give the results, and how many triangles pass
+ * through others after untangling.
  *
  * \param spacing of the lattice in mm (see MeanSpacingOf())
  * \param name of the surface, for progress and messages

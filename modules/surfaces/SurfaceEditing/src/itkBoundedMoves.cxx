@@ -146,7 +146,7 @@ BoundedMoves::PutBackToStart(const std::vector<std::uint32_t> & triangles)
 void
 BoundedMoves::PutBackMeeting(rhombic::StagedProgress & progress, double stageEnd)
 {
-  const TriangleTree tree(m_Surface); // of triangles that have since been put back it does not know where they are
+  const TriangleTree tree(m_Surface); // keeps the places that triangles had before they are put back
   std::set<std::uint32_t> putBack;
   auto meeting = FindCrossingTriangles(tree, m_Fans, TriangleContact::Touching, &progress, stageEnd);
   while (!meeting.empty())

@@ -22,7 +22,7 @@ struct SurfacePart
   std::vector<Witness> witnesses;
 };
 
-/** What is known of each point of a surface. */
+/** Data of each point of a surface. */
 struct SurfacePoints
 {
   std::vector<Stratum> strata;
@@ -76,7 +76,7 @@ struct MovedPoint
 /** A part after its edges have collapsed. */
 struct CollapsedPart
 {
-  SurfacePart part;                   ///< first the triangles that have not changed, then the new ones
+  SurfacePart part;                   ///< first the triangles that have not changed, then the new triangles
   std::vector<std::uint32_t> ids;     ///< for each triangle, its index before
   std::vector<std::uint16_t> changes; ///< for each triangle, how often a corner of it moved
   std::vector<MovedPoint> movedPoints;

@@ -15,7 +15,7 @@ namespace itk
  * distance by at least the distance from the centre to the farthest corner. Pieces are no longer cut when their longest
  * side is below a quarter of that of the triangle and of the nearest triangle of the surface: then the corners must be
  * near and the centre within 0.9 times the distance. So the answer yes is proven except between these points, no
- * farther than 0.1 of that side from one of them. */
+ * farther than 0.1 of that side from one of these points. */
 class TriangleProximity
 {
 public:

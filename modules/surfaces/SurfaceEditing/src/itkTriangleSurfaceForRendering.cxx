@@ -23,7 +23,7 @@ constexpr double AngleOfAll = 8.0;  // degrees
 constexpr double RatioOfNone = 0.6;
 constexpr double RatioOfAll = 0.9;
 
-/** What is averaged over the neighbourhood of a point. */
+/** Quantities that are averaged over the neighbourhood of a point. */
 struct NormalSample
 {
   PositionType normal{};     ///< of the surface, times area

@@ -38,7 +38,7 @@ constexpr std::array<double, 3> Cuts{ 0.5, 0.36, 0.64 };
 
 constexpr double Aim = 0.995;                 // share of the target, since some triangles are put back
 constexpr double FirstError = 1.0 / 8.0;      // in mean sides of triangles, doubled with each step
-constexpr double SmallestShareLeft = 0.4;     // by one step, so that the borders between patches do not differ by much
+constexpr double SmallestShareKept = 0.4;     // by one step, so that the borders between patches do not differ by much
 constexpr double SmallestShareRemoved = 0.05; // of the triangles, in a worthwhile step that is far from the target
 constexpr double ShareForWitnesses = 0.9; // relative to maximumError, to keep the surface between witnesses within it
 constexpr unsigned int MostRounds = 32;   // rounds of putting triangles back; the second half puts back whole patches
@@ -267,8 +267,8 @@ private:
     const auto triangles = static_cast<double>(m_State.GetNumberOfTriangles());
     const auto all = static_cast<double>(trianglesBefore);
     const auto target = static_cast<double>(m_Target);
-    const std::size_t checks = m_Original != nullptr ? 3 : 1; // contacts; strays and what is uncovered
-    m_Progress.Begin((all - std::max(target, SmallestShareLeft * triangles)) / (all - target),
+    const std::size_t checks = m_Original != nullptr ? 3 : 1; // contacts; strays and uncovered triangles
+    m_Progress.Begin((all - std::max(target, SmallestShareKept * triangles)) / (all - target),
                      (1 + checks) * m_State.GetNumberOfTriangles());
   }
 
@@ -380,7 +380,7 @@ private:
       }
     }
     const auto before = static_cast<double>(m_Before->GetNumberOfTriangles());
-    const double target = std::max(Aim * static_cast<double>(m_Target), SmallestShareLeft * before);
+    const double target = std::max(Aim * static_cast<double>(m_Target), SmallestShareKept * before);
     if (static_cast<double>(removed) <= before - target)
     {
       return;
@@ -395,15 +395,15 @@ private:
     const double limit = errors[enough];
     const auto isLess = [](const EdgeToCollapse & edge, double error) { return edge.error < error; };
     const auto isMore = [](double error, const EdgeToCollapse & edge) { return error < edge.error; };
-    auto left = static_cast<std::ptrdiff_t>(enough) -
-                std::count_if(errors.begin(), errors.end(), [limit](double error) { return error < limit; });
+    auto remaining = static_cast<std::ptrdiff_t>(enough) -
+                     std::count_if(errors.begin(), errors.end(), [limit](double error) { return error < limit; });
     std::vector<PatchId> changed;
     for (PatchId id = 0; id < m_Patches.size(); ++id)
     {
       auto & edges = m_Patches[id].log.edges;
       const auto first = std::lower_bound(edges.begin(), edges.end(), limit, isLess);
-      const auto taken = std::min(left, std::upper_bound(first, edges.end(), limit, isMore) - first);
-      left -= taken;
+      const auto taken = std::min(remaining, std::upper_bound(first, edges.end(), limit, isMore) - first);
+      remaining -= taken;
       if (first + taken != edges.end())
       {
         edges.erase(first + taken, edges.end());
@@ -443,7 +443,7 @@ private:
     return false;
   }
 
-  /** Makes the state of what is left of the patches. */
+  /** Makes the state of the remaining triangles of the patches. */
   void
   JoinPatches()
   {
@@ -490,7 +490,7 @@ private:
     }
   }
 
-  /** Finds the new triangles that can't stay, for what has changed since the last check, or for everything. */
+  /** Finds the new triangles that can't stay: where triangles have changed since the last check, or everywhere. */
   Flags
   FindBad(bool checksAll)
   {

@@ -79,9 +79,9 @@ InputFile::Refuse(const std::string & why) const
 }
 
 void
-InputFile::RefuseDamaged(const std::string & what) const
+InputFile::RefuseDamaged(const std::string & flaw) const
 {
-  this->Refuse(what + "; the file is damaged, so export it again");
+  this->Refuse(flaw + "; the file is damaged, so export it again");
 }
 
 void

@@ -66,9 +66,9 @@ public:
   [[noreturn]] void
   Refuse(const std::string & why) const;
 
-  /** Throws Failure(Unreadable): "Cannot read PATH: WHAT; the file is damaged, so export it again." */
+  /** Throws Failure(Unreadable): "Cannot read PATH: FLAW; the file is damaged, so export it again." */
   [[noreturn]] void
-  RefuseDamaged(const std::string & what) const;
+  RefuseDamaged(const std::string & flaw) const;
 
   /** Throws Failure(Memory) if reading the file takes more \a bytes than half of what is free. */
   void
@@ -98,7 +98,7 @@ public:
     return m_File;
   }
 
-  /** Bytes that are left. */
+  /** Bytes that have not been taken. */
   std::uintmax_t
   GetRest() const
   {

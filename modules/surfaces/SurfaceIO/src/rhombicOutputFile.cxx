@@ -57,7 +57,7 @@ OutputFile::Digest::Add(const char * bytes, std::size_t count)
 }
 
 bool
-OutputFile::HoldsWhatWasAppended() const
+OutputFile::HoldsAppendedBytes() const
 {
   std::ifstream file(m_Path, std::ios::binary);
   std::vector<char> block(BlockSize);

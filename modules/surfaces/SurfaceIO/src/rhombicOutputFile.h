@@ -52,10 +52,10 @@ public:
   void
   Close();
 
-  /** Whether the file, closed and read again, holds what was appended: by its size and the CRC-32 of its bytes. Throws
+  /** Whether the file, closed and read again, holds the appended bytes: by its size and the CRC-32 of its bytes. Throws
    * Failure(Output) if it can't be read. */
   bool
-  HoldsWhatWasAppended() const;
+  HoldsAppendedBytes() const;
 
 private:
   static constexpr std::size_t BlockSize = std::size_t{ 1 } << 20;
@@ -80,7 +80,7 @@ private:
   std::filesystem::path m_Target;
   int m_Descriptor;
   std::vector<char> m_Block;
-  Digest m_Digest; ///< of what was written
+  Digest m_Digest; ///< of the bytes that are written
 };
 
 } // namespace rhombic

@@ -133,7 +133,7 @@ WithFileNames(std::vector<SceneSurface> surfaces)
   return surfaces;
 }
 
-/** Stages a file that \a write fills. Throws Failure(Output) if the file does not hold what was appended. */
+/** Stages a file that \a write fills. Throws Failure(Output) if the file does not hold the appended bytes. */
 template <typename TWrite>
 void
 StageFile(const fs::path & path, StagedFiles & staged, const TWrite & write)
@@ -142,7 +142,7 @@ StageFile(const fs::path & path, StagedFiles & staged, const TWrite & write)
   OutputFile output(file.GetTemporaryPath(), path);
   write(output);
   output.Close();
-  if (!output.HoldsWhatWasAppended())
+  if (!output.HoldsAppendedBytes())
   {
     FailToWrite(path, "it is not the same when it is read back; check the disk");
   }

@@ -40,7 +40,7 @@ struct TriangleSurfaceAudit
     return topology.IsWatertight() && topology.duplicateTriangles == 0 && volume > 0.0 && shells.misfacing == 0;
   }
 
-  /** Watertight, with at least one triangle tested and none that crosses another. Triangles may touch. */
+  /** Watertight, with at least one triangle tested and no triangle that crosses another. Triangles may touch. */
   bool
   BoundsSolid() const
   {

@@ -31,7 +31,8 @@ using VisitInteriorSamples =
  * share no sample. The result is undefined where the surface is open.
  *
  * Calls \a visit for the runs of each plane in order, and for several planes at once on several threads. Time and
- * memory are proportional to the triangles and the planes that each of them crosses. Throws what \a visit throws. */
+ * memory are proportional to the triangles and the planes that each of them crosses. Exceptions of \a visit are passed
+ * on. */
 void
 FindTriangleSurfaceInteriorSamples(const TriangleSurface & surface,
                                    const SamplePlanes & planes,

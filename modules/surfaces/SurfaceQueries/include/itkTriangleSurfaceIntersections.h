@@ -48,7 +48,7 @@ FindTriangleSurfaceSelfIntersections(const TriangleTree & tree,
 
 /** The ids of the triangles that cross others or are duplicates, ascending. Tests all triangles.
  * \param fans the triangles at the points of the tree's surface
- * \param least Touching to find those that only touch others, too
+ * \param least Touching to find triangles that only touch others, too
  * \param progress if not null, its next stage is the search
  * \param stageEnd share of the whole that is done after the stage */
 std::vector<std::uint32_t>
@@ -58,7 +58,7 @@ FindCrossingTriangles(const TriangleTree & tree,
                       rhombic::StagedProgress * progress = nullptr,
                       double stageEnd = 1.0);
 
-/** The same for those of \a candidates that cross any others, and these others. */
+/** The same for the triangles of \a candidates that cross any others, and for these others. */
 std::vector<std::uint32_t>
 FindCrossingTriangles(const TriangleTree & tree,
                       const std::vector<std::uint32_t> & candidates,
@@ -72,8 +72,8 @@ double
 FindLongestRoundedEdge(const TriangleSurface & surface, double smallestSpacing, double largestSpacing);
 
 /** \class CrossingCandidates
- * \brief Which triangles of a surface may cross others: those that have a point in common with the other, those at the
- * two ends of a short edge, and those of a list. */
+ * \brief Which triangles of a surface may cross others: triangles that have a point in common with the other triangle,
+ * triangles at the two ends of a short edge, and the triangles of a list. */
 struct CrossingCandidates
 {
   double longestEdge = 0.0;               ///< in mm, see FindLongestRoundedEdge()

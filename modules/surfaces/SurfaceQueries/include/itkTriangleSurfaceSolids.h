@@ -52,7 +52,7 @@ KeepLargestTriangleSurfaceSolid(TriangleSurface & surface);
 RemovedShells
 RemoveSmallTriangleSurfaceSolids(TriangleSurface & surface, double minimumVolume);
 
-/** Removes every component that lies inside another one: cavities and everything in them. */
+/** Removes every component that lies inside another component: cavities and all components in them. */
 RemovedShells
 FillTriangleSurfaceCavities(TriangleSurface & surface);
 

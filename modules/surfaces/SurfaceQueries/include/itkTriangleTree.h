@@ -237,8 +237,8 @@ private:
     return { 0, 0, this->GetNumberOfLeaves() };
   }
 
-  /** Calls \a visit(node) depth first, left children before right ones, for the root and the children of all nodes for
-   * which it returns true. */
+  /** Calls \a visit(node) depth first, left children before right children, for the root and the children of all nodes
+   * for which it returns true. */
   template <typename TVisitor>
   void
   VisitNodes(const TVisitor & visit) const

@@ -116,7 +116,7 @@ void
 SortByBuckets(CurvePlaces & places)
 {
   const std::size_t blocks = (places.size() + TrianglesOfBlock - 1) / TrianglesOfBlock;
-  std::vector<std::array<std::uint32_t, NumberOfBuckets>> next(blocks); // counts, then where the next one goes
+  std::vector<std::array<std::uint32_t, NumberOfBuckets>> next(blocks); // counts, then the place of the next triangle
   rhombic::ForEachBlock(places.size(), TrianglesOfBlock, [&](std::size_t begin, std::size_t end) {
     auto & counts = next[begin / TrianglesOfBlock];
     for (std::size_t n = begin; n < end; ++n)
@@ -229,7 +229,7 @@ AllTriangles(const TriangleSurface & surface)
 
 /** \class TriangleTree::Builder
  * \brief Builds the nodes of a tree from triangles along a curve: parts of the curve that are whole subtrees on several
- * threads, then what is above them. */
+ * threads, then the nodes above them. */
 class TriangleTree::Builder
 {
 public:
@@ -482,7 +482,7 @@ TriangleTree::ImproveClosestPoint(const PositionType & position, std::uint32_t t
 }
 
 /** The ray crosses the triangle if the shifted point is inside the triangle as seen along z, and is behind a triangle
- * that faces up or in front of one that faces down. */
+ * that faces up or in front of a triangle that faces down. */
 int
 TriangleTree::CountTurns(const PointType & point, std::uint32_t triangle) const
 {

@@ -84,7 +84,7 @@ public:
     return m_Triangles.Get();
   }
 
-  /** The arrays themselves, to hold on to: what they point to stays as it is, whatever happens to the surface. */
+  /** The arrays themselves, to hold on to: they stay as they are, whatever happens to the surface. */
   std::shared_ptr<const PointsContainer>
   SharePoints() const
   {

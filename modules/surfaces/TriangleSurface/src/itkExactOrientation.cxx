@@ -133,9 +133,9 @@ OrientationAlongAxis(const MeshPoint & a, const MeshPoint & b, const MeshPoint &
 {
   const unsigned int u = (axis + 1) % 3;
   const unsigned int v = (axis + 2) % 3;
-  const double left = (double(b[u]) - a[u]) * (double(c[v]) - a[v]);
-  const double right = (double(b[v]) - a[v]) * (double(c[u]) - a[u]);
-  const int sign = FilteredSign(left - right, std::abs(left) + std::abs(right), BoundInPlane);
+  const double positive = (double(b[u]) - a[u]) * (double(c[v]) - a[v]);
+  const double negative = (double(b[v]) - a[v]) * (double(c[u]) - a[u]);
+  const int sign = FilteredSign(positive - negative, std::abs(positive) + std::abs(negative), BoundInPlane);
   if (sign != Uncertain)
   {
     return sign;

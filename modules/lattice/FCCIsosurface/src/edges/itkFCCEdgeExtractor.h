@@ -17,8 +17,8 @@ struct FCCLayerEdges
 };
 
 /** \class FCCEdgeExtractor
- * \brief What the extractors that put one point on each cut edge have in common: counting, numbering and points.
- * Derived classes count and fill the triangles, plane by plane.
+ * \brief Base of the extractors that put one point on each cut edge: counts, numbers and fills the points. Derived
+ * classes count and fill the triangles, plane by plane.
  *
  * Signs alone say which edges are cut and which triangles there are; samples are read to place the points.
  */

@@ -205,9 +205,9 @@ FCCFieldPlanes::ExtrapolateRow(const float * near, const float * far, IndexValue
   };
   for (IndexValueType i = 0; i <= last; ++i)
   {
-    const float left = nearAt(i + parity - 1);
-    const float right = nearAt(i + parity);
-    row[i] = far != nullptr ? (left + right) - far[i] : 0.5f * (left + right);
+    const float before = nearAt(i + parity - 1);
+    const float after = nearAt(i + parity);
+    row[i] = far != nullptr ? (before + after) - far[i] : 0.5f * (before + after);
   }
 }
 

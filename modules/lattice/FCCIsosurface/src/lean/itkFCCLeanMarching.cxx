@@ -51,7 +51,7 @@ struct LeanColumn
 };
 
 /** The steps of one kind. \tparam Shift 1 when the next pair's index is one more than this pair's, else 0. All loops
- * over its tables unroll, so that no loop is left. */
+ * over its tables unroll, so that no loop remains. */
 template <unsigned int Kind, unsigned int Shift>
 struct LeanSteps
 {
@@ -149,7 +149,7 @@ struct LeanSteps
   /** The triangles of a group of words. */
   struct Triangles
   {
-    Group wholes[Cases::Tetrahedra][4]; ///< between whole sites, by the corner left out
+    Group wholes[Cases::Tetrahedra][4]; ///< between whole sites, by the omitted corner
     Group mixed[Cases::Tetrahedra];     ///< tetrahedra with crossings of split sites, which have no others
   };
 
@@ -167,7 +167,7 @@ struct LeanSteps
     }
   }
 
-  /** Calls use(tetrahedron, corner left out, steps, first word) for the triangles between whole sites of some steps,
+  /** Calls use(tetrahedron, omitted corner, steps, first word) for the triangles between whole sites of some steps,
    * and with \a WithMixed, useMixed(tetrahedron, steps, first word) for tetrahedra with crossings of split sites. The
    * tetrahedron and the corner are constants. */
   template <bool WithMixed, typename TUse, typename TMixed>
@@ -290,16 +290,16 @@ private:
         betweenWholes = hn::AndNot(anySplit, crossed);
       }
 #pragma GCC unroll 4
-      for (unsigned int leftOut = 0; leftOut < 4; ++leftOut)
+      for (unsigned int omitted = 0; omitted < 4; ++omitted)
       {
-        // The corner left out has no crossing, or all four corners have a crossing and the corner left out is outside.
-        const auto & corners = Tables.triangles[tetrahedron][leftOut].corners;
+        // The omitted corner has no crossing, or all four corners have a crossing and the omitted corner is outside.
+        const auto & corners = Tables.triangles[tetrahedron][omitted].corners;
         const Words spanned =
           hn::And(hasCrossing[corners[0]], hn::And(hasCrossing[corners[1]], hasCrossing[corners[2]]));
-        const Words excluded = hn::And(hasCrossing[leftOut], inside[sites[leftOut]]);
+        const Words excluded = hn::And(hasCrossing[omitted], inside[sites[omitted]]);
         hn::Store(hn::AndNot(excluded, hn::And(spanned, betweenWholes)),
                   tag,
-                  triangles.wholes[tetrahedron][leftOut].words + place);
+                  triangles.wholes[tetrahedron][omitted].words + place);
       }
     }
   }
@@ -355,9 +355,9 @@ CountColumnUse(const LeanColumn & column, SizeValueType words, FCCTriangleUse::C
   TSteps::template ForEachTriangle<false>(
     column,
     words,
-    [&](auto tetrahedron, auto leftOut, const auto & steps, SizeValueType first) HWY_ATTR {
+    [&](auto tetrahedron, auto omitted, const auto & steps, SizeValueType first) HWY_ATTR {
       constexpr FCCLeanTables::Triangle triangle =
-        TSteps::Tables.triangles[decltype(tetrahedron)::value][decltype(leftOut)::value];
+        TSteps::Tables.triangles[decltype(tetrahedron)::value][decltype(omitted)::value];
       const auto usesOf = [&](unsigned int n) {
         const unsigned int site = Cases::TetrahedronSites[tetrahedron][triangle.corners[n]];
         return uses[TSteps::RowOf(site)] + TSteps::IndexOf(site, 0);
@@ -449,15 +449,15 @@ FillLeanTriangles(const FCCLeanLayer & layer, bool reversed, TriangleSurface::Tr
     Steps::template ForEachTriangle<true>(
       column,
       layer.signs.GetNumberOfWords(),
-      [&](auto tetrahedron, auto leftOut, const auto & group, SizeValueType first) HWY_ATTR {
+      [&](auto tetrahedron, auto omitted, const auto & group, SizeValueType first) HWY_ATTR {
         constexpr const auto & sites = Cases::TetrahedronSites[decltype(tetrahedron)::value];
         constexpr const auto & corners =
-          Steps::Tables.triangles[decltype(tetrahedron)::value][decltype(leftOut)::value].corners;
+          Steps::Tables.triangles[decltype(tetrahedron)::value][decltype(omitted)::value].corners;
         Steps::ForEachStep(group, first, layer.signs.GetNumberOfWords(), [&](SizeValueType i) HWY_ATTR {
           const std::uint32_t a = Steps::template VertexOf<sites[corners[0]]>(column, i);
           const std::uint32_t b = Steps::template VertexOf<sites[corners[1]]>(column, i);
           const std::uint32_t c = Steps::template VertexOf<sites[corners[2]]>(column, i);
-          const bool turned = Steps::IsInside(column, sites[leftOut], i) != reversed;
+          const bool turned = Steps::IsInside(column, sites[omitted], i) != reversed;
           *next++ = { a, turned ? c : b, turned ? b : c };
         });
       },

@@ -12,7 +12,7 @@ namespace itk
 
 /** \file
  * The triangles of mode `lean`. Every crossing has moved to its nearer end (FCCNearerEnds), so a tetrahedron's triangle
- * keeps its area when its three corners have moved to three sites. What is left of a tetrahedron depends on which of
+ * keeps its area when its three corners have moved to three sites. What remains of a tetrahedron depends on which of
  * its sites have a crossing of its edges: three such sites span one triangle, four span two, and fewer none. Each of
  * four sites has one crossing of a quadrilateral, which FCCTetrahedronPolygon::FindFirstCorner() cuts from a site
  * inside to a site inside. For whole sites that is logic on bits: 64 steps of a column in one word. */
@@ -89,13 +89,13 @@ struct FCCLeanTables
   /** The triangle of three corners of a tetrahedron. */
   struct Triangle
   {
-    std::uint8_t corners[3] = {};           ///< counter-clockwise seen from outside when the corner left out is outside
+    std::uint8_t corners[3] = {};           ///< counter-clockwise seen from outside when the omitted corner is outside
     FCCTriangleUse::CountsType use[3] = {}; ///< counts that it adds at these corners
   };
 
   std::uint8_t edges[Cases::Tetrahedra][4][4] = {};           ///< between two corners of a tetrahedron
   FCCTetrahedronPolygon polygons[Cases::Tetrahedra][16] = {}; ///< by the corners inside
-  Triangle triangles[Cases::Tetrahedra][4] = {};              ///< by the corner left out
+  Triangle triangles[Cases::Tetrahedra][4] = {};              ///< by the omitted corner
 
   static constexpr FCCLeanTables
   Of(unsigned int kind)
@@ -123,18 +123,18 @@ struct FCCLeanTables
 
 private:
   static constexpr Triangle
-  MakeTriangle(unsigned int kind, const std::uint8_t (&sites)[4], unsigned int leftOut)
+  MakeTriangle(unsigned int kind, const std::uint8_t (&sites)[4], unsigned int omitted)
   {
     Triangle triangle;
     auto & corners = triangle.corners;
     for (std::uint8_t corner = 0, n = 0; corner < 4; ++corner)
     {
-      if (corner != leftOut)
+      if (corner != omitted)
       {
         corners[n++] = corner;
       }
     }
-    if (Cases::Orientation(kind, sites[corners[0]], sites[corners[1]], sites[corners[2]], sites[leftOut]) < 0)
+    if (Cases::Orientation(kind, sites[corners[0]], sites[corners[1]], sites[corners[2]], sites[omitted]) < 0)
     {
       const std::uint8_t second = corners[1];
       corners[1] = corners[2];

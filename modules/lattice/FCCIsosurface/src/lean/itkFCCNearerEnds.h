@@ -32,7 +32,7 @@ public:
   void
   Find(SizeValueType k, const FCCFieldPlanes & field, bool insideIsBelow);
 
-  /** The nearer ends without what the signs tell: a byte for each eight edges of which any is cut. */
+  /** The nearer ends without the cut edges, which the signs tell: a byte for each eight edges of which any is cut. */
   using Packed = std::vector<std::uint8_t>;
 
   Packed

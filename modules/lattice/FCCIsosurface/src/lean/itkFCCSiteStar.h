@@ -102,7 +102,7 @@ private:
     }
   }
 
-  /** The tetrahedron of a type of which one of its sites is the center. */
+  /** The tetrahedron of a type with one of its sites at the center. */
   constexpr void
   FindTetrahedron(const FCCCells::Simplex & type, unsigned int center, Tetrahedron & tetrahedron) const
   {

@@ -14,7 +14,7 @@ namespace itk
  *
  * A site at (x, y, z) from the middle gets the weight g0(x) g1(y) g2(z), where x + y + z is even. Each factor is a
  * sampled Gaussian, exp(-n^2 / 2q), cut off beyond four standard deviations. Its q is not the variance asked for but
- * the one that makes the *second moments of the weights on the lattice* equal to it: a sampled Gaussian's own moments
+ * the value that makes the *second moments of the weights on the lattice* equal to it: a sampled Gaussian's own moments
  * are wrong where the standard deviation is under about 0.7 units, and the points that are no sites are missing. With a
  * factor's sums
  *

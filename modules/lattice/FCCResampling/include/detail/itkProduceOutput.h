@@ -14,7 +14,7 @@ namespace itk
 constexpr unsigned int AllDivided = 3;
 
 /** GenerateData() of this module's filters, after AllocateOutputs(). Checks the input's samples, divides the requested
- * region among threads, calls work(region, progress) for each part, and throws what \a work throws.
+ * region among threads, calls work(region, progress) for each part, and passes exceptions of \a work on.
  *
  * \param undivided axis along which the region is not divided, or AllDivided */
 template <typename TFilter, typename TWork>

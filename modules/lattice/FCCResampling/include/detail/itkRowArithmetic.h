@@ -84,7 +84,7 @@ class RowTaps
 public:
   /** \param taps of positions that do not decrease
    *  \param numberOfPositions how many of them, at least one
-   *  \param origin sample of the axis that is the first one of the rows to interpolate */
+   *  \param origin sample of the axis at which the rows to interpolate begin */
   RowTaps(const SeparableTaps & taps, SizeValueType numberOfPositions, SizeValueType origin);
 
   SizeValueType
@@ -93,7 +93,7 @@ public:
     return m_NumberOfTaps;
   }
 
-  /** Number of positions rounded up to Granule; the additional ones have weights of zero. */
+  /** Number of positions rounded up to Granule; the additional positions have weights of zero. */
   SizeValueType
   GetPaddedLength() const
   {

@@ -11,8 +11,8 @@ namespace itk
 
 /** \file
  * The loops of the resampling filters: passes over whole rows along one axis after the other. Nothing here depends on
- * pixel types: each function gets its input rows as float from one function and gives its output rows to another one.
- * Any part of an output has the same bytes whether it is made alone or with the rest. */
+ * pixel types: each function gets its input rows as float from one function and gives its output rows to another
+ * function. Any part of an output has the same bytes whether it is made alone or with the rest. */
 
 /** Writes \a length samples of the input, from \a start on along x, to \a row as float. */
 using LoadRow = std::function<void(const Index<3> & start, SizeValueType length, float * row)>;
@@ -40,7 +40,7 @@ constexpr IndexValueType HalfBandReach = 3;
  *
  * \param size of the input
  * \param region of the nested lattice, not empty
- * \param load is asked for samples counted from the input's first one */
+ * \param load is asked for samples counted from the input's first sample */
 void
 FilterHalfBandRows(const Size<3> & size, const ImageRegion<3> & region, const LoadRow & load, const StoreRow & store);
 

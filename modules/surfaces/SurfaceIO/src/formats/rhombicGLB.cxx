@@ -371,7 +371,7 @@ private:
     }
   }
 
-  /** Refuses required extensions, which may change what the numbers mean, except those of materials. */
+  /** Refuses required extensions, which may change the meaning of numbers, except those of materials. */
   void
   CheckExtensions() const
   {
