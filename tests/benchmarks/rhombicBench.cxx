@@ -57,7 +57,7 @@ MakeInput(const Options & options)
   input.density = options.density;
   if (options.scan.empty())
   {
-    input.volume = SampleOnGrid<std::int16_t>(GyroidField(options.size / 3.0), options.size, 1.0, 1000.0);
+    input.volume = SampleOnGrid<std::int16_t>(MakeGyroidField(options.size / 3.0), options.size, 1.0, 1000.0);
     input.isovalue = 0.5;
   }
   else

@@ -251,11 +251,11 @@ PrintFineScans()
 {
   constexpr unsigned int size = 40;
   TextTable table({ "field", "mode", "gradients", "smoothed" });
-  const SphereField sphere({ 19.3, 19.6, 19.8 }, 13.0);
-  const TorusField torus({ 19.3, 19.6, 19.8 }, { 0.3, -0.2, 0.4 }, 10.8, 5.0);
-  const BandLimitedField quarter(0.25, 1);
-  const BandLimitedField half(0.5, 1);
-  const BandLimitedField threeQuarters(0.75, 1);
+  const ReferenceField sphere = MakeSphereField({ 19.3, 19.6, 19.8 }, 13.0);
+  const ReferenceField torus = MakeTorusField({ 19.3, 19.6, 19.8 }, { 0.3, -0.2, 0.4 }, 10.8, 5.0);
+  const ReferenceField quarter = MakeBandLimitedField(0.25, 1);
+  const ReferenceField half = MakeBandLimitedField(0.5, 1);
+  const ReferenceField threeQuarters = MakeBandLimitedField(0.75, 1);
   const std::pair<const char *, const ReferenceField *> fields[] = { { "sphere", &sphere },
                                                                      { "torus", &torus },
                                                                      { "waves 0.25", &quarter },

@@ -1,12 +1,9 @@
 #include "rhombicExperimentRun.h"
 
-#include "rhombicBodyField.h"
 #include "rhombicComparedMethod.h"
 #include "rhombicFailure.h"
-#include "rhombicFieldSampling.h"
 #include "rhombicScanPart.h"
 #include "rhombicShapeFields.h"
-#include "rhombicSilhouetteField.h"
 #include "rhombicSurfaceErrors.h"
 #include "rhombicWording.h"
 
@@ -18,7 +15,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <memory>
 #include <random>
 
 namespace rhombic
@@ -29,7 +25,7 @@ namespace
 /** A field, where it is sampled, and its true surface. */
 struct FieldCase
 {
-  std::unique_ptr<ReferenceField> field;
+  ReferenceField field;
   FieldBox box{};
   double spacing = 1.0;                ///< h, or an estimate of it
   bool isClosed = true;                ///< whether the surface lies within the box
@@ -50,12 +46,12 @@ AddShape(bool isSphere, unsigned int size, std::uint64_t seed, FieldCase & made)
   const Vector3 center{ half + uniform(), half + uniform(), half + uniform() };
   if (isSphere)
   {
-    made.field = std::make_unique<SphereField>(center, 0.325 * size);
+    made.field = MakeSphereField(center, 0.325 * size);
     made.truth = MakeBisectedSphere(center, 0.325 * size, bisections);
     return;
   }
   const Vector3 axis{ uniform(), uniform(), uniform() };
-  made.field = std::make_unique<TorusField>(center, axis, 0.27 * size, 0.125 * size);
+  made.field = MakeTorusField(center, axis, 0.27 * size, 0.125 * size);
 }
 
 /** The seed shifts the object against the lattice, by up to about its spacing. */
@@ -94,7 +90,7 @@ MakeSilhouettes(const FieldRequest & request, std::uint64_t seed)
   };
   std::for_each(made.truth->GetPoints().begin(), made.truth->GetPoints().end(), turn);
   std::for_each(made.gap.begin(), made.gap.end(), [&](GapPoint & p) { turn(p.point); });
-  made.field = std::make_unique<SilhouetteField>(*made.truth, request.pixels);
+  made.field = MakeSilhouetteField(*made.truth, request.pixels);
   const auto bounds = made.truth->GetBounds();
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
@@ -147,18 +143,17 @@ MakeFieldCase(const FieldRequest & request, std::uint64_t seed)
   }
   else if (request.kind == "gyroid")
   {
-    made.field = std::make_unique<GyroidField>(edge / 3.0);
+    made.field = MakeGyroidField(edge / 3.0);
   }
   else if (request.kind == "waves")
   {
-    made.field = std::make_unique<BandLimitedField>(request.bandLimit, seed);
+    made.field = MakeBandLimitedField(request.bandLimit, seed);
   }
   else if (request.kind == "marschner-lobb" || request.kind == "corner")
   {
     made.box = { { -1.0, -1.0, -1.0 }, { 1.0, 1.0, 1.0 } };
     made.spacing = 2.0 / edge;
-    made.field = request.kind == "corner" ? std::unique_ptr<ReferenceField>(std::make_unique<CornerField>(0.513))
-                                          : std::make_unique<MarschnerLobbField>();
+    made.field = request.kind == "corner" ? MakeCornerField(0.513) : MakeMarschnerLobbField();
   }
   else
   {
@@ -311,18 +306,18 @@ RunSeed(const Experiment & experiment, std::uint64_t seed, unsigned int repeats,
   const FieldCase fieldCase = MakeFieldCase(experiment.field, seed);
   const double spacing = std::cbrt(1.0 / DensityOf(experiment.rows.front(), fieldCase));
   const auto truth =
-    fieldCase.truth ? fieldCase.truth : MakeTrueSurface(*fieldCase.field, fieldCase.box, spacing / truthPerSpacing);
+    fieldCase.truth ? fieldCase.truth : MakeTrueSurface(fieldCase.field, fieldCase.box, spacing / truthPerSpacing);
   const itk::TriangleTree tree(*truth);
   const Judge judge{ *truth,
-                     fieldCase.isObject ? NearestOnMesh(tree) : NearestOnField(*fieldCase.field, spacing),
+                     fieldCase.isObject ? NearestOnMesh(tree) : NearestOnField(fieldCase.field, spacing),
                      JudgedBox(fieldCase, spacing),
                      fieldCase.gap };
-  const InterpolatedField resampled(SampleBox(*fieldCase.field, fieldCase.box, spacing));
+  const ReferenceField resampled = MakeInterpolatedField(SampleBox(fieldCase.field, fieldCase.box, spacing));
 
   std::vector<PreparedMethod> prepared;
   for (const ComparedRow & row : experiment.rows)
   {
-    const ReferenceField & field = row.isResampled ? static_cast<const ReferenceField &>(resampled) : *fieldCase.field;
+    const ReferenceField & field = row.isResampled ? resampled : fieldCase.field;
     prepared.push_back(GetComparedMethod(row.method).prepare(field, fieldCase.box, DensityOf(row, fieldCase)));
   }
   const auto seconds = MedianTimes(prepared, repeats);

@@ -1,9 +1,9 @@
 #include "rhombicScanPart.h"
 
 #include "rhombicFailure.h"
-#include "rhombicFieldSampling.h"
 #include "rhombicPatientAxes.h"
 #include "rhombicScanReader.h"
+#include "rhombicShapeFields.h"
 
 #include "itkRegionOfInterestImageFilter.h"
 #include "itkSmoothingRecursiveGaussianImageFilter.h"
@@ -98,7 +98,7 @@ ReadScanPart(const ScanPartRequest & request)
   std::transform(values, values + volume->GetBufferedRegion().GetNumberOfPixels(), values, [&request](float value) {
     return static_cast<float>(value - request.isovalue);
   });
-  return { std::make_unique<InterpolatedField>(volume), box };
+  return { MakeInterpolatedField(volume), box };
 }
 
 } // namespace rhombic

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <filesystem>
-#include <memory>
 
 namespace rhombic
 {
@@ -23,7 +22,7 @@ struct ScanPartRequest
 /** A field and the box in which it is known, in mm along the scan's axes, in the order of the patient's. */
 struct ScanPart
 {
-  std::unique_ptr<ReferenceField> field;
+  ReferenceField field;
   FieldBox box{};
 };
 

@@ -1,10 +1,8 @@
-#include "rhombicBodyField.h"
 #include "rhombicCartesianSurfaces.h"
 #include "rhombicComparedMethod.h"
 #include "rhombicFailure.h"
 #include "rhombicFieldSampling.h"
 #include "rhombicShapeFields.h"
-#include "rhombicSilhouetteField.h"
 #include "rhombicSurfaceErrors.h"
 #include "rhombicSurfaceToPolyData.h"
 #include "rhombicExtractSurface.h"
@@ -177,7 +175,7 @@ TEST(SurfaceErrors, NormalPenaltyTakesTheNearestPoint)
 
 TEST(ComparedMethods, MakeClosedSurfacesOfTheRightVolume)
 {
-  const SphereField sphere({ 9.7, 10.2, 10.1 }, 7.0);
+  const ReferenceField sphere = MakeSphereField({ 9.7, 10.2, 10.1 }, 7.0);
   for (const ComparedMethod & method : GetComparedMethods())
   {
     const PreparedMethod prepared = method.prepare(sphere, cube, 1.0);
@@ -198,7 +196,7 @@ TEST(ComparedMethods, HaveTheSamplesAskedFor)
   for (const ComparedMethod & method : GetComparedMethods())
   {
     const double density = DensityOfSamples(method, cube, 6912);
-    const SphereField sphere({ 10, 10, 10 }, 7.0);
+    const ReferenceField sphere = MakeSphereField({ 10, 10, 10 }, 7.0);
     EXPECT_NEAR(method.prepare(sphere, cube, density).samples, 6912.0, 600.0) << method.name; // all sides grow at once
   }
 }
@@ -206,7 +204,7 @@ TEST(ComparedMethods, HaveTheSamplesAskedFor)
 TEST(CartesianSurfaces, TetrahedraHaveTheirTrianglesPerArea)
 {
   // Means over directions, at one sample per unit of volume: edges owned by a site, by their mean projected length.
-  const SphereField sphere({ 10.1, 9.9, 10.3 }, 8.5);
+  const ReferenceField sphere = MakeSphereField({ 10.1, 9.9, 10.3 }, 8.5);
   const double area = 4.0 * pi * 8.5 * 8.5;
   const auto perArea = [&](const char * name) {
     const auto prepared = GetComparedMethod(name).prepare(sphere, cube, 1.0);
@@ -219,17 +217,10 @@ TEST(CartesianSurfaces, TetrahedraHaveTheirTrianglesPerArea)
 
 TEST(CartesianSurfaces, TetrahedraMatchLinearFieldsExactly)
 {
-  class PlaneField : public ReferenceField
-  {
-  public:
-    double
-    Evaluate(const Vector3 & p, Vector3 & gradient) const override
-    {
-      gradient = { -0.3, -0.5, -0.7 };
-      return 15.1 - 0.3 * p[0] - 0.5 * p[1] - 0.7 * p[2];
-    }
-  };
-  const PlaneField plane;
+  const ReferenceField plane([](const Vector3 & p, Vector3 & gradient) {
+    gradient = { -0.3, -0.5, -0.7 };
+    return 15.1 - 0.3 * p[0] - 0.5 * p[1] - 0.7 * p[2];
+  });
   for (const char * name :
        { "marching-tetrahedra", "bcc-tetrahedra", "marching-cubes-cubic", "marching-tetrahedra-cubic" })
   {
@@ -241,20 +232,14 @@ TEST(CartesianSurfaces, TetrahedraMatchLinearFieldsExactly)
 
 TEST(CartesianSurfaces, CubicPointsAreExactOnCubics)
 {
-  class CubicField : public ReferenceField
-  {
-  public:
-    double
-    Evaluate(const Vector3 & p, Vector3 & gradient) const override
-    {
-      const double z = p[2] - 10.3;
-      gradient = { 0.0, 0.0, -1.0 - 0.3 * z * z };
-      return -z - 0.1 * z * z * z;
-    }
-  };
+  const ReferenceField cubic([](const Vector3 & p, Vector3 & gradient) {
+    const double z = p[2] - 10.3;
+    gradient = { 0.0, 0.0, -1.0 - 0.3 * z * z };
+    return -z - 0.1 * z * z * z;
+  });
   for (const char * name : { "marching-cubes-cubic", "marching-tetrahedra-cubic" })
   {
-    const auto surface = GetComparedMethod(name).prepare(CubicField(), cube, 1.0).extract();
+    const auto surface = GetComparedMethod(name).prepare(cubic, cube, 1.0).extract();
     double sum = 0.0;
     for (const auto & point : surface->GetPoints())
     {
@@ -269,9 +254,9 @@ TEST(CartesianSurfaces, CubicPointsAreExactOnCubics)
 
 TEST(InterpolatedField, PassesThroughTheSamples)
 {
-  const SphereField sphere({ 4.1, 4.2, 4.4 }, 3.0);
+  const ReferenceField sphere = MakeSphereField({ 4.1, 4.2, 4.4 }, 3.0);
   const auto volume = SampleOnGrid<float>(sphere, 9, 1.0);
-  const InterpolatedField field(volume);
+  const ReferenceField field = MakeInterpolatedField(volume);
   EXPECT_NEAR(field.Evaluate({ 2, 3, 5 }), sphere.Evaluate({ 2, 3, 5 }), 1e-5);
   Vector3 gradient;
   Vector3 expected;
@@ -282,7 +267,7 @@ TEST(InterpolatedField, PassesThroughTheSamples)
 TEST(SilhouetteField, OfABallIsTheBall)
 {
   const auto ball = MakeBisectedSphere({ 0, 0, 0 }, 1.0, 5);
-  const SilhouetteField field(*ball, 200);
+  const ReferenceField field = MakeSilhouetteField(*ball, 200);
   EXPECT_EQ(field.Evaluate({ 0.0, 0.0, 0.0 }), 0.5);
   EXPECT_EQ(field.Evaluate({ 0.7, 0.6, 0.0 }), 0.5);
   EXPECT_EQ(field.Evaluate({ 0.7, 0.8, 0.0 }), -0.5);
@@ -302,7 +287,7 @@ TEST(SilhouetteField, OfABallIsTheBall)
 
 TEST(BodyField, IsClosedAndHasExactGradients)
 {
-  for (const BodyField & body : { MakeHand(), MakeQuadruped() })
+  for (const ReferenceField & body : { MakeHand(), MakeQuadruped() })
   {
     const auto surface = MakeTrueSurface(body, { { -1.3, -0.7, -0.4 }, { 1.3, 0.7, 2.2 } }, 0.02);
     const auto topology = itk::ComputeTriangleSurfaceTopology(*surface);
@@ -326,7 +311,7 @@ TEST(BodyField, IsClosedAndHasExactGradients)
 
 TEST(BodyField, GapBetweenFingersOfTheHandWidens)
 {
-  const BodyField hand = MakeHand();
+  const ReferenceField hand = MakeHand();
   const auto points = PointsInGapOfHand();
   EXPECT_LT(points.front().width, 0.01);
   EXPECT_NEAR(points.back().width, 0.1, 0.01);
@@ -348,8 +333,10 @@ TEST(SurfaceErrors, AreThoseOfVTK)
   std::uniform_real_distribution<double> coordinate(-0.3, 0.3);
   for (unsigned int run = 0; run < 10; ++run)
   {
-    const SphereField sphere({ 10.0 + coordinate(random), 10.0 + coordinate(random), 10.0 }, 6.0 + coordinate(random));
-    const TorusField torus({ 10.0, 10.0, 10.0 }, { coordinate(random), 0.2, coordinate(random) }, 5.0, 2.0);
+    const ReferenceField sphere =
+      MakeSphereField({ 10.0 + coordinate(random), 10.0 + coordinate(random), 10.0 }, 6.0 + coordinate(random));
+    const ReferenceField torus =
+      MakeTorusField({ 10.0, 10.0, 10.0 }, { coordinate(random), 0.2, coordinate(random) }, 5.0, 2.0);
     const auto a = GetComparedMethod("flying-edges").prepare(sphere, cube, 1.0).extract();
     const auto b = GetComparedMethod("lean").prepare(torus, cube, 1.0).extract();
     const itk::TriangleTree treeOfA(*a);

@@ -23,11 +23,7 @@ SampleOnLattice(const ReferenceField & field, double edge, double density, doubl
   using ImageType = itk::FCCImage<TPixel>;
   const double spacing = std::cbrt(1.0 / (itk::FCCLattice::CellVolume * density));
   const auto rows = static_cast<itk::SizeValueType>(std::ceil(edge / spacing)) + 1;
-  const auto image = ImageType::New();
-  image->SetRegions(typename ImageType::SizeType{ { rows / 2 + 1, rows, rows } });
-  image->SetSpacing(typename ImageType::SpacingType(spacing));
-  SampleField(field, scale, image.GetPointer());
-  return image;
+  return SampleField<ImageType>(field, { { rows / 2 + 1, rows, rows } }, spacing, {}, scale);
 }
 
 void
@@ -56,7 +52,7 @@ ExpectGradientMatchesDifferences(const ReferenceField & field)
 
 TEST(SphereField, IsTheSignedDistance)
 {
-  const SphereField sphere({ 1.0, 2.0, 3.0 }, 5.0);
+  const ReferenceField sphere = MakeSphereField({ 1.0, 2.0, 3.0 }, 5.0);
   EXPECT_DOUBLE_EQ(sphere.Evaluate({ 1.0, 2.0, 3.0 }), 5.0);
   EXPECT_DOUBLE_EQ(sphere.Evaluate({ 1.0, 8.0, 3.0 }), -1.0);
   ExpectGradientMatchesDifferences(sphere);
@@ -64,23 +60,23 @@ TEST(SphereField, IsTheSignedDistance)
 
 TEST(TorusField, IsTheSignedDistance)
 {
-  const TorusField torus({ 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 }, 6.0, 2.0);
+  const ReferenceField torus = MakeTorusField({ 0.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 }, 6.0, 2.0);
   EXPECT_DOUBLE_EQ(torus.Evaluate({ 6.0, 0.0, 0.0 }), 2.0);
   EXPECT_DOUBLE_EQ(torus.Evaluate({ 0.0, 6.0, 2.5 }), -0.5);
   EXPECT_DOUBLE_EQ(torus.Evaluate({ 0.0, 9.0, 0.0 }), -1.0);
-  ExpectGradientMatchesDifferences(TorusField({ 0.3, -0.2, 0.1 }, { 1.0, 2.0, -1.0 }, 6.0, 2.0));
+  ExpectGradientMatchesDifferences(MakeTorusField({ 0.3, -0.2, 0.1 }, { 1.0, 2.0, -1.0 }, 6.0, 2.0));
 }
 
 TEST(GyroidField, RepeatsAndHasItsGradient)
 {
-  const GyroidField gyroid(12.0);
+  const ReferenceField gyroid = MakeGyroidField(12.0);
   EXPECT_NEAR(gyroid.Evaluate({ 1.0, 2.0, 3.0 }), gyroid.Evaluate({ 13.0, -10.0, 27.0 }), 1e-12);
   ExpectGradientMatchesDifferences(gyroid);
 }
 
 TEST(MarschnerLobbField, HasItsGradientAndValues)
 {
-  const MarschnerLobbField field;
+  const ReferenceField field = MakeMarschnerLobbField();
   EXPECT_DOUBLE_EQ(field.Evaluate({ 0.0, 0.0, 1.0 }), 0.25 * 2.0 / 2.5 - 0.5); // cos(12 pi) is 1
   EXPECT_DOUBLE_EQ(field.Evaluate({ 0.0, 0.0, -1.0 }), 0.5);
   for (const double x : { 0.1, 0.33, 0.9 })
@@ -96,7 +92,7 @@ TEST(MarschnerLobbField, HasItsGradientAndValues)
 
 TEST(CornerField, IsThreePlanes)
 {
-  const CornerField field(0.5);
+  const ReferenceField field = MakeCornerField(0.5);
   EXPECT_EQ(field.Evaluate({ 0.5, -1.0, 0.3 }), 0.0);
   EXPECT_EQ(field.Evaluate({ 0.1, 0.2, 0.75 }), -0.25);
   ExpectGradientMatchesDifferences(field);
@@ -104,14 +100,14 @@ TEST(CornerField, IsThreePlanes)
 
 TEST(BandLimitedField, HasItsGradient)
 {
-  ExpectGradientMatchesDifferences(BandLimitedField(0.75, 3));
+  ExpectGradientMatchesDifferences(MakeBandLimitedField(0.75, 3));
 }
 
 TEST(BandLimitedField, IsTheSameForTheSameSeedOnly)
 {
   const Vector3 point{ 1.0, 2.0, 3.0 };
-  EXPECT_EQ(BandLimitedField(0.5, 3).Evaluate(point), BandLimitedField(0.5, 3).Evaluate(point));
-  EXPECT_NE(BandLimitedField(0.5, 3).Evaluate(point), BandLimitedField(0.5, 4).Evaluate(point));
+  EXPECT_EQ(MakeBandLimitedField(0.5, 3).Evaluate(point), MakeBandLimitedField(0.5, 3).Evaluate(point));
+  EXPECT_NE(MakeBandLimitedField(0.5, 3).Evaluate(point), MakeBandLimitedField(0.5, 4).Evaluate(point));
 }
 
 TEST(BandLimitedField, HasMeanZeroAndVarianceOne)
@@ -121,7 +117,7 @@ TEST(BandLimitedField, HasMeanZeroAndVarianceOne)
   unsigned int count = 0;
   for (unsigned int seed = 0; seed < 20; ++seed)
   {
-    const BandLimitedField field(0.5, seed);
+    const ReferenceField field = MakeBandLimitedField(0.5, seed);
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> coordinate(0.0, 200.0);
     for (unsigned int i = 0; i < 1000; ++i, ++count)
@@ -142,7 +138,7 @@ TEST(BandLimitedField, HasNothingBeyondItsLimit)
   constexpr double limit = 0.5;
   constexpr unsigned int length = 512;
   constexpr double pi = 3.141592653589793;
-  const BandLimitedField field(limit, 11);
+  const ReferenceField field = MakeBandLimitedField(limit, 11);
   const auto powerAt = [&](double frequency) {
     double real = 0.0;
     double imaginary = 0.0;
@@ -169,7 +165,7 @@ TEST(BandLimitedField, HasNothingBeyondItsLimit)
 
 TEST(FieldSampling, GridAndLatticeHoldTheFieldAtTheirPoints)
 {
-  const BandLimitedField field(0.5, 3);
+  const ReferenceField field = MakeBandLimitedField(0.5, 3);
   const auto grid = SampleOnGrid<float>(field, 6, 1.5);
   EXPECT_FLOAT_EQ(grid->GetPixel({ { 2, 3, 5 } }), static_cast<float>(field.Evaluate({ 3.0, 4.5, 7.5 })));
 
@@ -183,7 +179,7 @@ TEST(FieldSampling, GridAndLatticeHoldTheFieldAtTheirPoints)
 
 TEST(FieldSampling, IntegersAreScaledAndRounded)
 {
-  const SphereField sphere({ 0.0, 0.0, 0.0 }, 5.0);
+  const ReferenceField sphere = MakeSphereField({ 0.0, 0.0, 0.0 }, 5.0);
   const auto grid = SampleOnGrid<std::int16_t>(sphere, 3, 1.0, 10.0);
   EXPECT_EQ(grid->GetPixel({ { 1, 1, 0 } }), 36); // 50 - 14.14
 }

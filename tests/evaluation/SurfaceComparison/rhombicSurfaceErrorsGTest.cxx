@@ -81,7 +81,7 @@ MakeSphere(double radius, unsigned int cuts)
 
 TEST(FieldProjection, FindsTheNearestPointOfShapes)
 {
-  const TorusField torus({ 0, 0, 0 }, { 0, 0, 1 }, 10.0, 4.0);
+  const ReferenceField torus = MakeTorusField({ 0, 0, 0 }, { 0, 0, 1 }, 10.0, 4.0);
   const FieldProjection outside = ProjectOntoField(torus, { 0.0, 10.0, 4.7 });
   EXPECT_TRUE(outside.isResolved);
   EXPECT_NEAR(outside.distance, 0.7, 1e-9);
@@ -92,7 +92,7 @@ TEST(FieldProjection, FindsTheNearestPointOfShapes)
 
 TEST(FieldProjection, EndsOnTheSurfaceStraightBelowThePoint)
 {
-  const BandLimitedField field(0.75, 5);
+  const ReferenceField field = MakeBandLimitedField(0.75, 5);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> coordinate(0.0, 40.0);
   unsigned int resolved = 0;
@@ -123,21 +123,21 @@ TEST(FieldProjection, EndsOnTheSurfaceStraightBelowThePoint)
 
 TEST(FieldProjection, FindsTheSurfaceFromWhereThereIsNoGradient)
 {
-  const FieldProjection projection = ProjectOntoField(SphereField({ 0, 0, 0 }, 2.0), { 0, 0, 0 });
+  const FieldProjection projection = ProjectOntoField(MakeSphereField({ 0, 0, 0 }, 2.0), { 0, 0, 0 });
   EXPECT_TRUE(projection.isResolved);
   EXPECT_NEAR(projection.distance, 2.0, 1e-3);
 }
 
 TEST(FieldProjection, SaysWhereNoSurfaceIsNear)
 {
-  const FieldProjection projection = ProjectOntoField(SphereField({ 0, 0, 0 }, 4.0), { 0, 0, 0 });
+  const FieldProjection projection = ProjectOntoField(MakeSphereField({ 0, 0, 0 }, 4.0), { 0, 0, 0 });
   EXPECT_FALSE(projection.isResolved);
   EXPECT_EQ(projection.distance, 3.0);
 }
 
 TEST(FieldProjection, IsNeverFartherThanTheSurfaceAlongAnyAxis)
 {
-  const BandLimitedField field(0.75, 8);
+  const ReferenceField field = MakeBandLimitedField(0.75, 8);
   std::mt19937 random(8);
   std::uniform_real_distribution<double> coordinate(0.0, 40.0);
   for (unsigned int i = 0; i < 500; ++i)
@@ -155,7 +155,7 @@ TEST(FieldProjection, IsNeverFartherThanTheSurfaceAlongAnyAxis)
 
 TEST(SurfaceErrors, OfAFineSphereThatIsTooLarge)
 {
-  const SphereField sphere({ 0, 0, 0 }, 1.0);
+  const ReferenceField sphere = MakeSphereField({ 0, 0, 0 }, 1.0);
   const auto surface = MakeSphere(1.01, 6);
   const SurfaceErrors errors = ComputeSurfaceErrors(*surface, NearestOnField(sphere, everywhere.unit), everywhere);
   EXPECT_EQ(errors.triangles, 8U * 4096U);
@@ -173,7 +173,7 @@ TEST(SurfaceErrors, OfAFineSphereThatIsTooLarge)
 
 TEST(SurfaceErrors, AreInTheUnitAsked)
 {
-  const SphereField sphere({ 0, 0, 0 }, 1.0);
+  const ReferenceField sphere = MakeSphereField({ 0, 0, 0 }, 1.0);
   SurfaceErrorSettings settings = everywhere;
   settings.unit = 0.5;
   const auto surface = MakeSphere(1.01, 5);
@@ -184,7 +184,7 @@ TEST(SurfaceErrors, AreInTheUnitAsked)
 
 TEST(SurfaceErrors, CountTheTrianglesInTheBoxOnly)
 {
-  const SphereField sphere({ 0, 0, 0 }, 1.0);
+  const ReferenceField sphere = MakeSphereField({ 0, 0, 0 }, 1.0);
   SurfaceErrorSettings upperHalf = everywhere;
   upperHalf.lower[2] = 0.0;
   EXPECT_EQ(ComputeSurfaceErrors(*MakeSphere(1.0, 3), NearestOnField(sphere, upperHalf.unit), upperHalf).triangles,
@@ -195,7 +195,7 @@ TEST(SurfaceErrors, CountTheTrianglesInTheBoxOnly)
 
 TEST(SurfaceErrors, SeeNormalsThatPointInwards)
 {
-  const SphereField sphere({ 0, 0, 0 }, 1.0);
+  const ReferenceField sphere = MakeSphereField({ 0, 0, 0 }, 1.0);
   const auto surface = MakeSphere(1.0, 5);
   for (auto & triangle : surface->GetTriangles())
   {
@@ -210,16 +210,10 @@ TEST(SurfaceErrors, SeeNormalsThatPointInwards)
 TEST(SurfaceErrors, NinetyNinePercentOfTheAreaIsNearer)
 {
   // A square of 1000 strips; all lie on the surface but 20, which are half a unit above it.
-  class PlaneField : public ReferenceField
-  {
-  public:
-    double
-    Evaluate(const Vector3 & point, Vector3 & gradient) const override
-    {
-      gradient = { 0.0, 0.0, -1.0 };
-      return -point[2];
-    }
-  };
+  const ReferenceField plane([](const Vector3 & point, Vector3 & gradient) {
+    gradient = { 0.0, 0.0, -1.0 };
+    return -point[2];
+  });
   const auto surface = itk::TriangleSurface::New();
   for (unsigned int i = 0; i < 1000; ++i)
   {
@@ -229,8 +223,7 @@ TEST(SurfaceErrors, NinetyNinePercentOfTheAreaIsNearer)
     surface->GetPoints().insert(surface->GetPoints().end(), { { x, 0.0F, z }, { x + 1.0F, 0.0F, z }, { x, 1.0F, z } });
     surface->GetTriangles().push_back({ first, first + 1, first + 2 });
   }
-  const SurfaceErrors errors =
-    ComputeSurfaceErrors(*surface, NearestOnField(PlaneField(), everywhere.unit), everywhere);
+  const SurfaceErrors errors = ComputeSurfaceErrors(*surface, NearestOnField(plane, everywhere.unit), everywhere);
   EXPECT_NEAR(errors.meanDistance, 0.01, 1e-9);
   EXPECT_NEAR(errors.rmsDistance, std::sqrt(0.005), 1e-9);
   EXPECT_NEAR(errors.distance99, 0.5, 1e-9);
@@ -240,7 +233,7 @@ TEST(SurfaceErrors, NinetyNinePercentOfTheAreaIsNearer)
 
 TEST(VTKIsosurface, LooksOutsideWhereValuesAreLower)
 {
-  const SphereField sphere({ 9.3, 9.4, 9.6 }, 6.0);
+  const ReferenceField sphere = MakeSphereField({ 9.3, 9.4, 9.6 }, 6.0);
   const auto grid = SampleOnGrid<float>(sphere, 20, 1.0);
   const auto volume = ShareWithVTK(grid.GetPointer());
   for (const VTKExtractor extractor : { VTKExtractor::FlyingEdges, VTKExtractor::MarchingCubes })

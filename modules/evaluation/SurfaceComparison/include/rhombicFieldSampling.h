@@ -5,7 +5,6 @@
 #include "rhombicForEachBlock.h"
 #include "itkImage.h"
 #include "itkImageRegionIteratorWithIndex.h"
-#include "itkBSplineInterpolateImageFunction.h"
 
 #include <cmath>
 #include <limits>
@@ -13,19 +12,26 @@
 namespace rhombic
 {
 
-/** Allocates an image, whose region and geometry are set, and fills it with scale * field at each sample's position.
- * Integer pixels are rounded, not clamped: choose a scale that fits. Works with itk::Image and itk::FCCImage, on
- * several threads (itk::MultiThreaderBase). */
+/** An image of \a size samples, \a spacing apart, from \a origin on, that holds scale * field at each sample's
+ * position. Integer pixels are rounded, not clamped: choose a scale that fits. Works with itk::Image and itk::FCCImage,
+ * on several threads (itk::MultiThreaderBase). */
 template <typename TImage>
-void
-SampleField(const ReferenceField & field, double scale, TImage * image)
+typename TImage::Pointer
+SampleField(const ReferenceField & field,
+            const typename TImage::SizeType & size,
+            double spacing,
+            const Vector3 & origin = {},
+            double scale = 1.0)
 {
   using PixelType = typename TImage::PixelType;
+  const auto image = TImage::New();
+  image->SetRegions(size);
+  image->SetSpacing(typename TImage::SpacingType(spacing));
+  image->SetOrigin(origin.data());
   image->Allocate();
-  const auto & region = image->GetBufferedRegion();
-  ForEachBlock(region.GetSize(2), 1, [&](std::size_t begin, std::size_t end) {
-    auto planes = region;
-    planes.SetIndex(2, region.GetIndex(2) + static_cast<itk::IndexValueType>(begin));
+  ForEachBlock(size[2], 1, [&](std::size_t begin, std::size_t end) {
+    auto planes = image->GetBufferedRegion();
+    planes.SetIndex(2, static_cast<itk::IndexValueType>(begin));
     planes.SetSize(2, end - begin);
     typename TImage::PointType point;
     for (itk::ImageRegionIteratorWithIndex<TImage> it(image, planes); !it.IsAtEnd(); ++it)
@@ -35,6 +41,7 @@ SampleField(const ReferenceField & field, double scale, TImage * image)
       it.Set(static_cast<PixelType>(std::numeric_limits<PixelType>::is_integer ? std::round(value) : value));
     }
   });
+  return image;
 }
 
 /** Samples a field on a Cartesian grid of \a count samples along each axis, \a spacing apart, the first one at the
@@ -43,43 +50,8 @@ template <typename TPixel>
 typename itk::Image<TPixel, 3>::Pointer
 SampleOnGrid(const ReferenceField & field, itk::SizeValueType count, double spacing, double scale = 1.0)
 {
-  using ImageType = itk::Image<TPixel, 3>;
-  const auto image = ImageType::New();
-  image->SetRegions(typename ImageType::SizeType{ { count, count, count } });
-  image->SetSpacing(typename ImageType::SpacingType(spacing));
-  SampleField(field, scale, image.GetPointer());
-  return image;
+  return SampleField<itk::Image<TPixel, 3>>(field, { { count, count, count } }, spacing, {}, scale);
 }
-
-/** \class InterpolatedField
- * \brief The cubic B-spline through the samples of a volume, mirrored at its border. */
-class InterpolatedField : public ReferenceField
-{
-public:
-  explicit InterpolatedField(const itk::Image<float, 3> * volume)
-    : m_Spline(SplineType::New())
-  {
-    m_Spline->SetSplineOrder(3);
-    m_Spline->SetInputImage(volume);
-  }
-
-  using ReferenceField::Evaluate;
-
-  double
-  Evaluate(const Vector3 & point, Vector3 & gradient) const override
-  {
-    SplineType::OutputType value;
-    SplineType::CovariantVectorType derivative;
-    const double coordinates[3]{ point[0], point[1], point[2] };
-    m_Spline->EvaluateValueAndDerivative(itk::Point<double, 3>(coordinates), value, derivative);
-    gradient = { derivative[0], derivative[1], derivative[2] };
-    return value;
-  }
-
-private:
-  using SplineType = itk::BSplineInterpolateImageFunction<itk::Image<float, 3>, double, double>;
-  SplineType::Pointer m_Spline;
-};
 
 } // namespace rhombic
 

@@ -3,6 +3,8 @@
 
 #include "rhombicVector3.h"
 
+#include <functional>
+
 namespace rhombic
 {
 
@@ -15,19 +17,31 @@ namespace rhombic
 class ReferenceField
 {
 public:
-  virtual ~ReferenceField() = default;
+  /** Returns the value at a point and sets the gradient there. Called by several threads at once. */
+  using Function = std::function<double(const Vector3 & point, Vector3 & gradient)>;
+
+  /** \param function an empty one makes a field that is to be assigned before its first use */
+  explicit ReferenceField(Function function = {})
+    : m_Function(std::move(function))
+  {}
 
   /** The value and the gradient at a point. */
-  virtual double
-  Evaluate(const Vector3 & point, Vector3 & gradient) const = 0;
+  double
+  Evaluate(const Vector3 & point, Vector3 & gradient) const
+  {
+    return m_Function(point, gradient);
+  }
 
   /** The value at a point. */
   double
   Evaluate(const Vector3 & point) const
   {
     Vector3 gradient;
-    return this->Evaluate(point, gradient);
+    return m_Function(point, gradient);
   }
+
+private:
+  Function m_Function;
 };
 
 /** \class FieldProjection

@@ -44,7 +44,7 @@ struct SurfaceErrors
 /** Finds the point of the true surface that is nearest to another point. Called by several threads at once. */
 using FindNearest = std::function<FieldProjection(const Vector3 &)>;
 
-/** The nearest points of a field's surface. \a field must outlive the result. \param unit as in ProjectOntoField() */
+/** The nearest points of a field's surface. \param unit as in ProjectOntoField() */
 FindNearest
 NearestOnField(const ReferenceField & field, double unit);
 

@@ -16,6 +16,8 @@ namespace HWY_NAMESPACE
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+constexpr std::size_t WaveBatch = 8; // the largest number of waves that a processor computes at once
+
 /** sin(2 pi t) for |t| <= 1/4, by its Taylor series up to t^15. */
 template <typename TTag, typename TVector>
 HWY_ATTR TVector
@@ -43,7 +45,7 @@ SineOfTurn(TTag tag, TVector t)
 HWY_ATTR std::array<double, 4>
 SumWaves(const std::array<const double *, 4> & waves, std::size_t count, const Vector3 & point)
 {
-  const hn::CappedTag<double, BandLimitedField::WaveBatch> tag;
+  const hn::CappedTag<double, WaveBatch> tag;
   const auto pointX = hn::Set(tag, point[0]);
   const auto pointY = hn::Set(tag, point[1]);
   const auto pointZ = hn::Set(tag, point[2]);
@@ -94,12 +96,14 @@ Uniform(std::mt19937_64 & random)
 
 } // namespace
 
-BandLimitedField::BandLimitedField(double bandLimit, std::uint64_t seed, unsigned int numberOfWaves)
+ReferenceField
+MakeBandLimitedField(double bandLimit, std::uint64_t seed, unsigned int numberOfWaves)
 {
+  using HWY_NAMESPACE::WaveBatch;
   const std::size_t count = (numberOfWaves + WaveBatch - 1) / WaveBatch * WaveBatch;
-  m_Amplitude = std::sqrt(2.0 / static_cast<double>(count));
   std::mt19937_64 random(seed);
   const double radius = bandLimit / 2.0;
+  std::array<std::vector<double>, 4> waves; // waves per unit along each axis, and phases in waves
   for (std::size_t i = 0; i < count; ++i)
   {
     Vector3 k;
@@ -109,22 +113,21 @@ BandLimitedField::BandLimitedField(double bandLimit, std::uint64_t seed, unsigne
       {
         component = 2.0 * Uniform(random) - 1.0;
       }
-    } while (k[0] * k[0] + k[1] * k[1] + k[2] * k[2] > 1.0);
-    m_X.push_back(radius * k[0]);
-    m_Y.push_back(radius * k[1]);
-    m_Z.push_back(radius * k[2]);
-    m_Phases.push_back(Uniform(random));
+    } while (Dot(k, k) > 1.0);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      waves[axis].push_back(radius * k[axis]);
+    }
+    waves[3].push_back(Uniform(random));
   }
-}
-
-double
-BandLimitedField::Evaluate(const Vector3 & point, Vector3 & gradient) const
-{
-  constexpr double twoPi = 6.283185307179586;
-  const auto [cosine, sineX, sineY, sineZ] =
-    HWY_DYNAMIC_DISPATCH(SumWaves)({ m_X.data(), m_Y.data(), m_Z.data(), m_Phases.data() }, m_X.size(), point);
-  gradient = Scaled({ sineX, sineY, sineZ }, -twoPi * m_Amplitude);
-  return m_Amplitude * cosine;
+  const double amplitude = std::sqrt(2.0 / static_cast<double>(count));
+  return ReferenceField([waves = std::move(waves), amplitude](const Vector3 & point, Vector3 & gradient) {
+    constexpr double twoPi = 6.283185307179586;
+    const auto [cosine, sineX, sineY, sineZ] = HWY_DYNAMIC_DISPATCH(SumWaves)(
+      { waves[0].data(), waves[1].data(), waves[2].data(), waves[3].data() }, waves[0].size(), point);
+    gradient = Scaled({ sineX, sineY, sineZ }, -twoPi * amplitude);
+    return amplitude * cosine;
+  });
 }
 
 } // namespace rhombic

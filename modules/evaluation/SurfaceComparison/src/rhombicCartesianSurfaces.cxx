@@ -1,8 +1,9 @@
 #include "rhombicCartesianSurfaces.h"
 
-#include "rhombicFieldSampling.h"
-
 #include "rhombicForEachBlock.h"
+#include "rhombicShapeFields.h"
+
+#include "itkImageRegionConstIteratorWithIndex.h"
 
 #include <cmath>
 #include <unordered_map>
@@ -125,7 +126,7 @@ void
 MovePointsToCubics(const VolumeType * volume, itk::TriangleSurface & surface)
 {
   constexpr itk::SizeValueType blockSize = 1024;
-  const InterpolatedField spline(volume);
+  const ReferenceField spline = MakeInterpolatedField(volume);
   auto & points = surface.GetPoints();
   auto & normals = surface.GetNormals();
   normals.resize(points.size());

@@ -32,21 +32,6 @@ StepsAlong(const FieldBox & box, double step)
   return steps;
 }
 
-template <typename TImage>
-typename TImage::Pointer
-Sample(const ReferenceField & field,
-       const FieldBox & box,
-       double spacing,
-       const std::array<itk::SizeValueType, 3> & size)
-{
-  const auto image = TImage::New();
-  image->SetRegions(typename TImage::SizeType{ { size[0], size[1], size[2] } });
-  image->SetSpacing(typename TImage::SpacingType(spacing));
-  image->SetOrigin(box.lower.data());
-  SampleField(field, 1.0, image.GetPointer());
-  return image;
-}
-
 ComparedMethod
 OnCartesian(const std::string & name, itk::TriangleSurface::Pointer (*extract)(const VolumeType *))
 {
@@ -64,7 +49,7 @@ OnFCC(ExtractionMode mode)
             const double spacing = std::cbrt(1.0 / (itk::FCCLattice::CellVolume * density));
             const auto steps = StepsAlong(box, spacing);
             const LatticeType::Pointer lattice =
-              Sample<LatticeType>(field, box, spacing, { steps[0] / 2 + 1, steps[1] + 1, steps[2] + 1 });
+              SampleField<LatticeType>(field, { { steps[0] / 2 + 1, steps[1] + 1, steps[2] + 1 } }, spacing, box.lower);
             return PreparedMethod{ lattice->GetBufferedRegion().GetNumberOfPixels(),
                                    [lattice, mode] { return ExtractSurface(lattice.GetPointer(), 0.0, mode, true); } };
           } };
@@ -116,7 +101,7 @@ VolumeType::Pointer
 SampleBox(const ReferenceField & field, const FieldBox & box, double spacing)
 {
   const auto steps = StepsAlong(box, spacing);
-  return Sample<VolumeType>(field, box, spacing, { steps[0] + 1, steps[1] + 1, steps[2] + 1 });
+  return SampleField<VolumeType>(field, { { steps[0] + 1, steps[1] + 1, steps[2] + 1 } }, spacing, box.lower);
 }
 
 const std::vector<ComparedMethod> &
@@ -157,22 +142,14 @@ GetComparedMethod(const std::string & name)
 double
 DensityOfSamples(const ComparedMethod & method, const FieldBox & box, double samples)
 {
-  class NoField : public ReferenceField
-  {
-  public:
-    double
-    Evaluate(const Vector3 &, Vector3 &) const override
-    {
-      return 0.0;
-    }
-  };
+  const ReferenceField zero([](const Vector3 &, Vector3 &) { return 0.0; });
   double volume = 1.0;
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
     volume *= box.upper[axis] - box.lower[axis];
   }
   const auto excess = [&](double density) {
-    return static_cast<double>(method.prepare(NoField(), box, density).samples) - samples;
+    return static_cast<double>(method.prepare(zero, box, density).samples) - samples;
   };
   constexpr unsigned int steps = 30;
   double low = 0.3 * samples / volume; // lattices that cover a box have more samples than this

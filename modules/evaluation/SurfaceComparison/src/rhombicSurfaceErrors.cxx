@@ -233,7 +233,7 @@ SumNormals(const itk::TriangleSurface & surface)
 FindNearest
 NearestOnField(const ReferenceField & field, double unit)
 {
-  return [&field, unit](const Vector3 & point) { return ProjectOntoField(field, point, unit); };
+  return [field, unit](const Vector3 & point) { return ProjectOntoField(field, point, unit); };
 }
 
 FindNearest
