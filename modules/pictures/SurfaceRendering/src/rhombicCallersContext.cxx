@@ -5,8 +5,10 @@
 
 namespace rhombic
 {
+namespace
+{
 
-struct CallersContext::State
+struct CallersContext
 {
   EGLenum api = eglQueryAPI();
   EGLContext context = eglGetCurrentContext();
@@ -18,28 +20,32 @@ struct CallersContext::State
   Display * glxDisplay = glXGetCurrentDisplay();
   GLXDrawable drawDrawable = glXGetCurrentDrawable();
   GLXDrawable readDrawable = glXGetCurrentReadDrawable();
+
+  ~CallersContext()
+  {
+    if (context != EGL_NO_CONTEXT)
+    {
+      eglMakeCurrent(display, drawSurface, readSurface, context);
+    }
+    eglBindAPI(api);
+    if (glxContext != nullptr)
+    {
+      glXMakeContextCurrent(glxDisplay, drawDrawable, readDrawable, glxContext);
+    }
+  }
 };
 
-CallersContext::CallersContext()
-  : m_State(std::make_unique<State>())
-{
-  if (m_State->glxContext != nullptr)
-  {
-    glXMakeContextCurrent(m_State->glxDisplay, None, None, nullptr);
-  }
-}
+} // namespace
 
-CallersContext::~CallersContext()
+std::shared_ptr<const void>
+KeepCallersContext()
 {
-  if (m_State->context != EGL_NO_CONTEXT)
+  auto caller = std::make_shared<const CallersContext>();
+  if (caller->glxContext != nullptr)
   {
-    eglMakeCurrent(m_State->display, m_State->drawSurface, m_State->readSurface, m_State->context);
+    glXMakeContextCurrent(caller->glxDisplay, None, None, nullptr);
   }
-  eglBindAPI(m_State->api);
-  if (m_State->glxContext != nullptr)
-  {
-    glXMakeContextCurrent(m_State->glxDisplay, m_State->drawDrawable, m_State->readDrawable, m_State->glxContext);
-  }
+  return caller;
 }
 
 } // namespace rhombic

@@ -174,7 +174,7 @@ DescribedGLContext
 CreateAndDescribe(const Backend & backend)
 {
   DescribedGLContext result{ backend.create(), {} };
-  const CurrentGLContext current(*result.context);
+  const auto current = result.context->MakeCurrent();
   result.description = DescribeCurrentContext();
   return result;
 }
@@ -218,7 +218,7 @@ GLContext::~GLContext()
   eglDestroySurface(m_Display, m_Surface);
 }
 
-void
+std::shared_ptr<const void>
 GLContext::MakeCurrent()
 {
   // The choice between OpenGL and OpenGL ES is a state of each thread.
@@ -226,12 +226,9 @@ GLContext::MakeCurrent()
   {
     FailCall("eglMakeCurrent");
   }
-}
-
-void
-GLContext::Release()
-{
-  eglMakeCurrent(m_Display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  return { m_Context, [display = m_Display](const void *) {
+            eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+          } };
 }
 
 DescribedGLContext

@@ -9,24 +9,10 @@
 namespace rhombic
 {
 
-/** \class CallersContext
- * \brief Keeps what is current for OpenGL on this thread, of EGL or GLX, and makes it current again when destroyed.
- *
- * Meanwhile nothing of GLX is current, so that a context of EGL can be. */
-class CallersContext
-{
-public:
-  CallersContext();
-  ~CallersContext();
-
-  CallersContext(const CallersContext &) = delete;
-  CallersContext &
-  operator=(const CallersContext &) = delete;
-
-private:
-  struct State;
-  std::unique_ptr<const State> m_State;
-};
+/** Keeps what is current for OpenGL on this thread, of EGL or GLX, and makes it current again when the result is
+ * destroyed. Meanwhile nothing of GLX is current, so that a context of EGL can be. */
+std::shared_ptr<const void>
+KeepCallersContext();
 
 /** \class GLContext
  * \brief An OpenGL 3.2 core context of EGL, without a window. */
@@ -43,41 +29,15 @@ public:
   GLContext &
   operator=(const GLContext &) = delete;
 
-  /** Makes this the context of OpenGL calls on this thread. Throws Failure(Display). */
-  void
+  /** Makes this the context of OpenGL calls on this thread, until the result is destroyed: then the thread has none.
+   * Throws Failure(Display). */
+  std::shared_ptr<const void>
   MakeCurrent();
-
-  /** Leaves this thread without a context. */
-  void
-  Release();
 
 private:
   EGLHandle m_Display;
   EGLHandle m_Surface = nullptr;
   EGLHandle m_Context = nullptr;
-};
-
-/** \class CurrentGLContext
- * \brief Keeps a context current on this thread during the lifetime of this object. */
-class CurrentGLContext
-{
-public:
-  explicit CurrentGLContext(GLContext & context)
-    : m_Context(context)
-  {
-    m_Context.MakeCurrent();
-  }
-  ~CurrentGLContext()
-  {
-    m_Context.Release();
-  }
-
-  CurrentGLContext(const CurrentGLContext &) = delete;
-  CurrentGLContext &
-  operator=(const CurrentGLContext &) = delete;
-
-private:
-  GLContext & m_Context;
 };
 
 /** A context, and a line with its backend, renderer and OpenGL version. */

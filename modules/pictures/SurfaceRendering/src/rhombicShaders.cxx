@@ -7,29 +7,6 @@ namespace rhombic
 namespace
 {
 
-std::string
-Define(const std::string & name, int value)
-{
-  return "#define " + name + ' ' + std::to_string(value) + '\n';
-}
-
-/** The first lines of every program. VTK replaces the comments. */
-const std::string Head = "//VTK::System::Dec\n";
-const std::string FragmentHead = Head + "//VTK::Output::Dec\n";
-
-std::string
-Defines(const SurfaceProgram & program)
-{
-  return Define("SMOOTH", program.isSmooth) + Define("TRANSLUCENT", program.isTranslucent) +
-         Define("PLANE", program.isPlane) + Define("CUTS", program.cuts);
-}
-
-std::string
-TileDefines()
-{
-  return Define("SIDE", OpenTiles::Side) + Define("CLOSED", OpenTiles::Closed);
-}
-
 constexpr const char * SurfaceVertex = R"(
 in vec3 point;
 #if SMOOTH
@@ -160,7 +137,18 @@ void main()
 }
 )";
 
-constexpr const char * LayerFragment = R"(
+ShaderDefines
+DefinesOf(const SurfaceProgram & program)
+{
+  return { { "SMOOTH", program.isSmooth },
+           { "TRANSLUCENT", program.isTranslucent },
+           { "PLANE", program.isPlane },
+           { "CUTS", program.cuts } };
+}
+
+} // namespace
+
+const char * const LayerFragment = R"(
 uniform sampler2D layer;
 
 void main()
@@ -170,14 +158,14 @@ void main()
 }
 )";
 
-constexpr const char * WholeTargetVertex = R"(
+const char * const WholeTargetVertex = R"(
 void main()
 {
   gl_Position = vec4(float(gl_VertexID % 2) * 4.0 - 1.0, float(gl_VertexID / 2) * 4.0 - 1.0, 0.0, 1.0);
 }
 )";
 
-constexpr const char * OpenTilesVertex = R"(
+const char * const OpenTilesVertex = R"(
 uniform sampler2D tiles;
 uniform ivec2 size; // of the target in samples
 
@@ -193,7 +181,7 @@ void main()
 }
 )";
 
-constexpr const char * NoLayerFragment = R"(
+const char * const NoLayerFragment = R"(
 uniform sampler2D depths;
 
 void main()
@@ -203,7 +191,7 @@ void main()
 }
 )";
 
-constexpr const char * OpenTileFragment = R"(
+const char * const OpenTileFragment = R"(
 uniform sampler2D depths;
 uniform sampler2D layerDepths;
 uniform sampler2D tiles; // before this layer
@@ -230,7 +218,7 @@ void main()
 }
 )";
 
-constexpr const char * ReliefFragment = R"(
+const char * const ReliefFragment = R"(
 uniform sampler2D depths;
 uniform sampler2D colours;
 uniform vec3 depthRule; // offset, factor and spread of Camera
@@ -244,7 +232,7 @@ void main()
 }
 )";
 
-constexpr const char * ShadeFragment = R"(
+const char * const ShadeFragment = R"(
 uniform sampler2D relief;
 uniform vec2 pixelRule; // a pixel's size at depth 0 and the spread of Camera
 uniform float reach;    // largest distance of what takes light away
@@ -332,7 +320,7 @@ void main()
 }
 )";
 
-constexpr const char * PixelFragment = R"(
+const char * const PixelFragment = R"(
 uniform sampler2D colours;
 uniform vec4 background; // multiplied by alpha
 #if LAYERS
@@ -401,68 +389,34 @@ void main()
 }
 )";
 
-} // namespace
+std::string
+VertexShader(const std::string & text, const ShaderDefines & defines)
+{
+  std::string shader = "//VTK::System::Dec\n"; // VTK replaces the comment
+  for (const auto & [name, value] : defines)
+  {
+    shader += "#define " + name + ' ' + std::to_string(value) + '\n';
+  }
+  shader += "#define SIDE " + std::to_string(OpenTiles::Side) + "\n#define CLOSED " + std::to_string(OpenTiles::Closed);
+  return shader + text;
+}
+
+std::string
+FragmentShader(const std::string & text, const ShaderDefines & defines)
+{
+  return VertexShader("\n//VTK::Output::Dec\n" + text, defines);
+}
 
 std::string
 SurfaceVertexShader(const SurfaceProgram & program)
 {
-  return Head + Defines(program) + SurfaceVertex;
+  return VertexShader(SurfaceVertex, DefinesOf(program));
 }
 
 std::string
 SurfaceFragmentShader(const SurfaceProgram & program)
 {
-  return FragmentHead + Defines(program) + (program.isPlane ? PlaneFragment : std::string(Light) + SurfaceFragment);
-}
-
-std::string
-WholeTargetVertexShader()
-{
-  return Head + WholeTargetVertex;
-}
-
-std::string
-NoLayerFragmentShader()
-{
-  return FragmentHead + NoLayerFragment;
-}
-
-std::string
-LayerFragmentShader()
-{
-  return FragmentHead + LayerFragment;
-}
-
-std::string
-OpenTilesVertexShader()
-{
-  return Head + TileDefines() + OpenTilesVertex;
-}
-
-std::string
-OpenTileFragmentShader()
-{
-  return FragmentHead + TileDefines() + OpenTileFragment;
-}
-
-std::string
-ReliefFragmentShader(int samples)
-{
-  return FragmentHead + Define("SAMPLES", samples) + ReliefFragment;
-}
-
-std::string
-ShadeFragmentShader(bool hasOcclusion, bool hasOutlines, int pairs)
-{
-  return FragmentHead + Define("OCCLUSION", hasOcclusion) + Define("OUTLINES", hasOutlines) + Define("PAIRS", pairs) +
-         ShadeFragment;
-}
-
-std::string
-PixelFragmentShader(int samples, bool hasRelief, bool hasLayers)
-{
-  return FragmentHead + Define("SAMPLES", samples) + Define("RELIEF", hasRelief) + Define("LAYERS", hasLayers) +
-         PixelFragment;
+  return FragmentShader(program.isPlane ? PlaneFragment : std::string(Light) + SurfaceFragment, DefinesOf(program));
 }
 
 } // namespace rhombic

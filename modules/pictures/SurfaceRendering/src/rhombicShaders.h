@@ -2,6 +2,8 @@
 #define rhombicShaders_h
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace rhombic
 {
@@ -29,41 +31,44 @@ SurfaceVertexShader(const SurfaceProgram & program);
 std::string
 SurfaceFragmentShader(const SurfaceProgram & program);
 
+/** Names of the preprocessor in a program, and their values. */
+using ShaderDefines = std::vector<std::pair<std::string, int>>;
+
+/** The whole program of one of the texts below. */
+std::string
+VertexShader(const std::string & text, const ShaderDefines & defines = {});
+std::string
+FragmentShader(const std::string & text, const ShaderDefines & defines = {});
+
 /** A triangle from three vertices without attributes that covers the whole target. */
-std::string
-WholeTargetVertexShader();
-
-/** A translucent layer without anything, that ends where opaque surfaces are. */
-std::string
-NoLayerFragmentShader();
-
-/** Adds a translucent layer under those before: multiplied by alpha, to be blended. */
-std::string
-LayerFragmentShader();
+extern const char * const WholeTargetVertex;
 
 /** Two triangles over each open tile of OpenTiles, from six vertices without attributes. */
-std::string
-OpenTilesVertexShader();
+extern const char * const OpenTilesVertex;
+
+/** A translucent layer without anything, that ends where opaque surfaces are. */
+extern const char * const NoLayerFragment;
+
+/** Adds a translucent layer under those before: multiplied by alpha, to be blended. */
+extern const char * const LayerFragment;
 
 /** For each tile, the smallest depth of a layer where it is in front of opaque surfaces and the background. */
-std::string
-OpenTileFragmentShader();
+extern const char * const OpenTileFragment;
 
-/** The depth and the surface's number of one sample of each pixel. */
-std::string
-ReliefFragmentShader(int samples);
+/** The depth and the surface's number of one sample of each pixel, which has SAMPLES along each side. */
+extern const char * const ReliefFragment;
 
-/** Red: the share of light that the surroundings take from each pixel; green: how much it is part of an outline.
+/** Red: the share of light that the surroundings take from each pixel, if OCCLUSION; green: how much it is part of an
+ * outline, if OUTLINES.
  *
- * For light, the share of a ball's volume in front of a plane that surfaces take up, from pairs of opposite points, as
+ * For light, the share of a ball's volume in front of a plane that surfaces take up, from PAIRS of opposite points, as
  * in B. J. Loos and P.-P. Sloan, "Volumetric Obscurance", I3D 2010. A plane takes up nothing, however it is inclined.
  */
-std::string
-ShadeFragmentShader(bool hasOcclusion, bool hasOutlines, int pairs);
+extern const char * const ShadeFragment;
 
-/** The mean of a pixel's samples, with translucent layers over opaque surfaces over the background. */
-std::string
-PixelFragmentShader(int samples, bool hasRelief, bool hasLayers);
+/** The mean of a pixel's samples, with translucent layers, if LAYERS, over opaque surfaces, with shades if RELIEF, over
+ * the background. */
+extern const char * const PixelFragment;
 
 } // namespace rhombic
 

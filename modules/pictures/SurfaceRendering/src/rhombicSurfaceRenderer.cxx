@@ -6,13 +6,16 @@
 #include "rhombicSceneBuffers.h"
 #include "rhombicSceneCheck.h"
 #include "rhombicViewPasses.h"
-#include "vtkRhombicMessages.h"
 
 #include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkLogger.h>
 #include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
 
 #include <mutex>
 #include <new>
+#include <sstream>
+#include <thread>
 
 #include <vtk_glew.h>
 
@@ -39,7 +42,7 @@ private:
   }
 
   const std::lock_guard<std::mutex> m_Lock;
-  const CallersContext m_Caller;
+  const std::shared_ptr<const void> m_Caller = KeepCallersContext();
 };
 
 /** A window for a context without a display. */
@@ -70,23 +73,81 @@ public:
 
 vtkStandardNewMacro(Window);
 
-void
-CheckErrors(const vtkRhombicMessages::Scope & messages)
+/** VTK's message window while a renderer works. Messages of other threads go to the window before it. */
+class MessageWindow : public vtkOutputWindow
 {
-  const GLenum error = glGetError();
-  if (error == GL_OUT_OF_MEMORY)
+public:
+  static MessageWindow *
+  New();
+
+  void
+  DisplayText(const char * text) override
   {
-    throw std::bad_alloc();
+    if (std::this_thread::get_id() != m_Thread)
+    {
+      m_Previous->DisplayText(text);
+    }
+    else if (this->GetCurrentMessageType() == MESSAGE_TYPE_ERROR && m_FirstError.empty())
+    {
+      // VTK writes "ERROR: In <file>, line <n>\n<class> (<address>): <message>\n\n".
+      std::istringstream lines(text);
+      std::getline(lines, m_FirstError);
+      std::getline(lines, m_FirstError);
+      const auto start = m_FirstError.find("): ");
+      m_FirstError.erase(0, start == std::string::npos ? 0 : start + 3);
+    }
   }
-  if (error != GL_NO_ERROR || !messages.GetFirstError().empty())
+
+  const vtkSmartPointer<vtkOutputWindow> m_Previous = vtkOutputWindow::GetInstance();
+  const std::thread::id m_Thread = std::this_thread::get_id();
+  std::string m_FirstError; ///< without file, line and class; empty if there is none
+};
+
+vtkStandardNewMacro(MessageWindow);
+
+/** \class CaughtMessages
+ * \brief Catches the messages of VTK on this thread during the lifetime of this object. VTK's log of errors on the
+ * terminal is off for all threads meanwhile. */
+class CaughtMessages
+{
+public:
+  CaughtMessages()
   {
-    throw Failure(
-      FailureKind::Display,
-      "Drawing failed: " +
-        (messages.GetFirstError().empty() ? "OpenGL error " + std::to_string(error) : messages.GetFirstError()) +
-        "; try a smaller picture (rhombic doctor lists the ways to draw on this machine).");
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+    vtkOutputWindow::SetInstance(m_Window);
   }
-}
+  ~CaughtMessages()
+  {
+    vtkOutputWindow::SetInstance(m_Window->m_Previous);
+    vtkLogger::SetStderrVerbosity(m_PreviousVerbosity);
+  }
+
+  CaughtMessages(const CaughtMessages &) = delete;
+  CaughtMessages &
+  operator=(const CaughtMessages &) = delete;
+
+  /** Throws std::bad_alloc, or Failure(Display), if OpenGL or VTK has reported an error. */
+  void
+  CheckErrors() const
+  {
+    const GLenum error = glGetError();
+    if (error == GL_OUT_OF_MEMORY)
+    {
+      throw std::bad_alloc();
+    }
+    const std::string & message = m_Window->m_FirstError;
+    if (error != GL_NO_ERROR || !message.empty())
+    {
+      throw Failure(FailureKind::Display,
+                    "Drawing failed: " + (message.empty() ? "OpenGL error " + std::to_string(error) : message) +
+                      "; try a smaller picture (rhombic doctor lists the ways to draw on this machine).");
+    }
+  }
+
+private:
+  const vtkLogger::Verbosity m_PreviousVerbosity = vtkLogger::GetCurrentVerbosityCutoff();
+  const vtkSmartPointer<MessageWindow> m_Window = vtkSmartPointer<MessageWindow>::New();
+};
 
 /** \class Canvas
  * \brief An OpenGL context with an offscreen window. Mesa frees the textures of a picture only when the context is
@@ -95,11 +156,11 @@ class Canvas
 {
 public:
   explicit Canvas(RenderBackend backend)
-    : m_Context(CreateGLContext(backend))
+    : context(CreateGLContext(backend))
   {
-    const CurrentGLContext current(*m_Context.context);
-    const vtkRhombicMessages::Scope messages;
-    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &m_LargestSide);
+    const auto current = context.context->MakeCurrent();
+    const CaughtMessages messages;
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largestSide);
     m_Window = vtkSmartPointer<Window>::New();
     m_Window->SetReadyForRendering(true);
     m_Window->SetIsCurrent(true);
@@ -121,8 +182,8 @@ public:
   {
     try
     {
-      const CurrentGLContext current(*m_Context.context);
-      const vtkRhombicMessages::Scope messages;
+      const auto current = context.context->MakeCurrent();
+      const CaughtMessages messages;
       m_Window->Finalize();
       m_Window = nullptr;
     }
@@ -139,8 +200,8 @@ public:
   std::vector<RenderedView>
   Draw(const Scene & scene, const RenderSettings & settings, const std::vector<Camera> & cameras)
   {
-    const CurrentGLContext current(*m_Context.context);
-    const vtkRhombicMessages::Scope messages;
+    const auto current = context.context->MakeCurrent();
+    const CaughtMessages messages;
     SceneBuffers buffers(scene, settings, m_Window);
     ViewPasses passes(scene, settings, m_Window);
     std::vector<RenderedView> rendered;
@@ -148,27 +209,16 @@ public:
     {
       rendered.push_back(
         { passes.Draw(buffers, camera), settings.perspective ? std::nullopt : std::optional(camera.ToProjection()) });
-      CheckErrors(messages);
+      messages.CheckErrors();
     }
     return rendered;
   }
 
-  const std::string &
-  GetDescription() const
-  {
-    return m_Context.description;
-  }
-
-  int
-  GetLargestSide() const
-  {
-    return m_LargestSide;
-  }
+  const DescribedGLContext context;
+  int largestSide = 0; ///< samples
 
 private:
-  DescribedGLContext m_Context;
   vtkSmartPointer<Window> m_Window;
-  int m_LargestSide = 0;
 };
 
 } // namespace
@@ -176,18 +226,17 @@ private:
 struct SurfaceRenderer::Implementation
 {
   RenderBackend backend;
-  std::unique_ptr<Canvas> canvas; ///< for the first picture
   std::string description;
-  int largestSide; ///< samples
+  int largestSide;                ///< samples
+  std::unique_ptr<Canvas> canvas; ///< for the first picture
 };
 
 SurfaceRenderer::SurfaceRenderer(RenderBackend backend)
 {
   const Turn turn;
   auto canvas = std::make_unique<Canvas>(backend);
-  const std::string description = canvas->GetDescription();
-  const int largestSide = canvas->GetLargestSide();
-  m_Implementation.reset(new Implementation{ backend, std::move(canvas), description, largestSide });
+  m_Implementation.reset(
+    new Implementation{ backend, canvas->context.description, canvas->largestSide, std::move(canvas) });
 }
 
 SurfaceRenderer::~SurfaceRenderer()

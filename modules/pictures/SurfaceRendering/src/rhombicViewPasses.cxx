@@ -223,7 +223,7 @@ void
 ViewPasses::Run(const std::string & fragmentShader, const std::vector<Input> & inputs, const TSetUniforms & setUniforms)
 {
   vtkShaderProgram * const program =
-    m_Window->GetShaderCache()->ReadyShaderProgram(WholeTargetVertexShader().c_str(), fragmentShader.c_str(), "");
+    m_Window->GetShaderCache()->ReadyShaderProgram(VertexShader(WholeTargetVertex).c_str(), fragmentShader.c_str(), "");
   if (!program)
   {
     return; // VTK has reported an error
@@ -236,7 +236,7 @@ void
 ViewPasses::RunInOpenTiles(const std::string & fragmentShader, const Input & input)
 {
   vtkShaderProgram * const program =
-    m_Window->GetShaderCache()->ReadyShaderProgram(OpenTilesVertexShader().c_str(), fragmentShader.c_str(), "");
+    m_Window->GetShaderCache()->ReadyShaderProgram(VertexShader(OpenTilesVertex).c_str(), fragmentShader.c_str(), "");
   if (!program)
   {
     return; // VTK has reported an error
@@ -280,7 +280,7 @@ ViewPasses::DrawRelief(const Camera & camera)
   const std::array<float, 3> depthRule{ static_cast<float>(camera.DepthOffset()),
                                         static_cast<float>(camera.DepthFactor()),
                                         static_cast<float>(camera.spread) };
-  Run(ReliefFragmentShader(m_Settings.samples),
+  Run(FragmentShader(ReliefFragment, { { "SAMPLES", m_Settings.samples } }),
       { { "depths", m_Depths }, { "colours", m_Colours } },
       [&](vtkShaderProgram * program) { program->SetUniform3f("depthRule", depthRule.data()); });
 }
@@ -294,16 +294,17 @@ ViewPasses::DrawShades(const Camera & camera)
   const double line = std::round(std::min(m_Width, m_Height) / PixelsPerOutlineWidth);
   const auto pairs = OcclusionPairs();
   const int numberOfPairs = 2 * PairsOfOneSize;
-  Run(ShadeFragmentShader(m_Settings.ambientOcclusion, m_Settings.silhouettes, numberOfPairs),
-      { { "relief", m_Relief } },
-      [&](vtkShaderProgram * program) {
-        program->SetUniform2f("pixelRule", pixelRule.data());
-        program->SetUniformf("reach", m_Lengths.reach);
-        program->SetUniformf("detail", m_Lengths.detail);
-        program->SetUniformf("jump", std::max(static_cast<float>(OutlineJump) * side, 2.0f * m_Lengths.detail));
-        program->SetUniformi("line", std::max(static_cast<int>(line), 1));
-        program->SetUniform4fv("pairs", numberOfPairs, pairs.data());
-      });
+  const ShaderDefines defines{ { "OCCLUSION", m_Settings.ambientOcclusion },
+                               { "OUTLINES", m_Settings.silhouettes },
+                               { "PAIRS", numberOfPairs } };
+  Run(FragmentShader(ShadeFragment, defines), { { "relief", m_Relief } }, [&](vtkShaderProgram * program) {
+    program->SetUniform2f("pixelRule", pixelRule.data());
+    program->SetUniformf("reach", m_Lengths.reach);
+    program->SetUniformf("detail", m_Lengths.detail);
+    program->SetUniformf("jump", std::max(static_cast<float>(OutlineJump) * side, 2.0f * m_Lengths.detail));
+    program->SetUniformi("line", std::max(static_cast<int>(line), 1));
+    program->SetUniform4fv("pairs", numberOfPairs, pairs.data());
+  });
 }
 
 void
@@ -320,7 +321,7 @@ ViewPasses::DrawLayers(SceneBuffers & scene, const Camera & camera)
   {
     SetTarget(m_Layer, m_LayerDepths);
     state->vtkglDepthFunc(GL_ALWAYS);
-    RunInOpenTiles(NoLayerFragmentShader(), { "depths", m_Depths });
+    RunInOpenTiles(FragmentShader(NoLayerFragment), { "depths", m_Depths });
     state->vtkglDepthFunc(GL_LESS);
     m_DepthsBefore->Activate();
     scene.DrawTranslucent(camera, m_DepthsBefore, open);
@@ -328,7 +329,7 @@ ViewPasses::DrawLayers(SceneBuffers & scene, const Camera & camera)
     SetTarget(m_Layers);
     state->SetEnumState(GL_BLEND, true);
     state->vtkglBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
-    RunInOpenTiles(LayerFragmentShader(), { "layer", m_Layer });
+    RunInOpenTiles(FragmentShader(LayerFragment), { "layer", m_Layer });
     open = FindOpenTiles();
     std::swap(m_LayerDepths, m_DepthsBefore);
     std::swap(m_Tiles, m_TilesBefore);
@@ -339,7 +340,7 @@ OpenTiles
 ViewPasses::FindOpenTiles()
 {
   SetTarget(m_Tiles);
-  Run(OpenTileFragmentShader(),
+  Run(FragmentShader(OpenTileFragment),
       { { "depths", m_Depths }, { "layerDepths", m_LayerDepths }, { "tiles", m_TilesBefore } },
       [](vtkShaderProgram *) {});
   OpenTiles open;
@@ -374,8 +375,11 @@ ViewPasses::DrawPixels()
     background = { static_cast<float>(colour[0]), static_cast<float>(colour[1]), static_cast<float>(colour[2]), 1.0f };
   }
   const bool isPaper = m_Settings.style != PictureStyle::Clinic;
+  const ShaderDefines defines{ { "SAMPLES", m_Settings.samples },
+                               { "RELIEF", HasShades() },
+                               { "LAYERS", m_IsTranslucent } };
   const std::array<float, 2> strengths{ isPaper ? 1.0f : 1.3f, isPaper ? 0.8f : 0.7f };
-  Run(PixelFragmentShader(m_Settings.samples, HasShades(), m_IsTranslucent), inputs, [&](vtkShaderProgram * program) {
+  Run(FragmentShader(PixelFragment, defines), inputs, [&](vtkShaderProgram * program) {
     program->SetUniform4f("background", background.data());
     if (HasShades())
     {
