@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace itk
 {
@@ -22,19 +23,6 @@ SetOf(LabelTopology::LabelType label, const std::array<LabelTopology::LabelType,
     set |= neighbors[n] == label ? 1u << n : 0u;
   }
   return set;
-}
-
-/** The elements of all rows. */
-template <typename TElement>
-std::vector<TElement>
-Join(const std::vector<std::vector<TElement>> & rows)
-{
-  std::vector<TElement> all;
-  for (const auto & row : rows)
-  {
-    all.insert(all.end(), row.begin(), row.end());
-  }
-  return all;
 }
 
 template <typename TChange>
@@ -103,7 +91,7 @@ void
 LabelTopology::Give(SizeValueType site, LabelType label)
 {
   const SizeValueType width = m_Labels.GetLargestPossibleRegion().GetSize(0);
-  LabelType & own = m_Labels.GetBufferPointer()[site];
+  LabelType & own = this->LabelOf(site);
   for (const LabelType each : { own, label })
   {
     if (label != own && this->FindWeight(site, each) == nullptr)
@@ -128,56 +116,90 @@ LabelTopology::SortWeights()
   m_UnsortedRows.clear();
 }
 
-void
-LabelTopology::Grant(std::vector<Claim> claims)
+template <typename TVisit>
+std::vector<LabelTopology::Change>
+LabelTopology::CollectChanges(const TVisit & visit)
 {
-  std::stable_sort(claims.begin(), claims.end(), [](const Claim & a, const Claim & b) { return a.site < b.site; });
-  for (auto begin = claims.begin(), end = begin; begin != claims.end(); begin = end)
+  const SizeValueType width = m_Labels.GetLargestPossibleRegion().GetSize(0);
+  std::vector<std::vector<Change>> found(m_Weights.GetNumberOfRows());
+  rhombic::ForEachInBlocks(
+    found.size(), 64, [&](std::size_t row) { visit(m_Weights.GetRow(row), row * width, found[row]); });
+  std::vector<Change> all;
+  for (const auto & changes : found)
   {
-    const LabelType own = m_Labels.GetBufferPointer()[begin->site];
-    const auto strengthOf = [&](const Claim & claim) {
-      const float strength =
-        claim.label == own ? std::numeric_limits<float>::max() : this->GetWeight(claim.site, claim.label);
-      return std::make_pair(claim.label != 0, strength);
-    };
-    end = std::find_if(begin, claims.end(), [&](const Claim & claim) { return claim.site != begin->site; });
-    const Claim & best =
-      *std::max_element(begin, end, [&](const Claim & a, const Claim & b) { return strengthOf(a) < strengthOf(b); });
-    this->Give(best.site, best.label);
-    m_IsHeld[best.site] = best.isHeld;
+    all.insert(all.end(), changes.begin(), changes.end());
   }
-  this->SortWeights();
-  this->AddOffsets({});
-  this->LowerRaised();
-  this->SeparateGroups();
-  this->PlaceLost();
-  this->AddOffsets({});
+  return all;
 }
 
 template <typename TTest>
 std::vector<LabelTopology::Change>
-LabelTopology::FindWeights(const TTest & test) const
+LabelTopology::FindWeights(const TTest & test)
 {
-  const SizeValueType width = m_Labels.GetLargestPossibleRegion().GetSize(0);
-  std::vector<std::vector<Change>> found(m_Weights.GetNumberOfRows());
-  rhombic::ForEachInBlocks(found.size(), 64, [&](std::size_t row) {
-    for (const FCCLabelWeights::Entry & entry : m_Weights.GetRow(row))
+  return this->CollectChanges([&test](const auto & entries, SizeValueType firstSite, std::vector<Change> & found) {
+    for (const FCCLabelWeights::Entry & entry : entries)
     {
-      const SizeValueType site = row * width + entry.i;
-      if (test(site, entry))
+      if (test(firstSite + entry.i, entry.label))
       {
-        found[row].push_back({ site, entry.label, entry.weight });
+        found.push_back({ firstSite + entry.i, entry.label, entry.weight });
       }
     }
   });
-  return Join(found);
+}
+
+std::vector<LabelTopology::Change>
+LabelTopology::FindChanges(std::vector<double> offsets)
+{
+  offsets.resize(std::numeric_limits<LabelType>::max() + std::size_t{ 1 });
+  return this->CollectChanges([&](auto & entries, SizeValueType firstSite, std::vector<Change> & found) {
+    for (auto begin = entries.begin(), end = begin; begin != entries.end(); begin = end)
+    {
+      // The weights of one site: the weight of its label, if stored, is to be exceeded.
+      const SizeValueType site = firstSite + begin->i;
+      float own = std::numeric_limits<float>::max();
+      auto strongest = begin;
+      for (; end != entries.end() && end->i == begin->i; ++end)
+      {
+        end->weight += static_cast<float>(offsets[end->label]);
+        own = end->label == this->LabelOf(site) ? end->weight : own;
+        strongest = end->weight > strongest->weight ? end : strongest;
+      }
+      if (strongest->weight > own)
+      {
+        found.push_back({ site, strongest->label, strongest->weight - own });
+      }
+    }
+  });
+}
+
+bool
+LabelTopology::IsAllowed(const Change & change) const
+{
+  const NeighborsType neighbors = this->FindNeighbors(change.site);
+  return !m_IsLocked[change.site] && !this->MeetsGroup(change.label, neighbors) &&
+         FCCCells::IsDisk(SetOf(m_Labels.GetBufferPointer()[change.site], neighbors)) &&
+         FCCCells::IsDisk(SetOf(change.label, neighbors));
+}
+
+void
+LabelTopology::MakeChanges(std::vector<Change> & changes)
+{
+  SortByGain(changes);
+  ChangeEach(changes, [this](const Change & change) {
+    const bool isAllowed = this->IsAllowed(change);
+    if (isAllowed)
+    {
+      this->LabelOf(change.site) = change.label;
+    }
+    return isAllowed;
+  });
 }
 
 LabelTopology::Change
 LabelTopology::FindReplacement(SizeValueType site)
 {
   const NeighborsType neighbors = this->FindNeighbors(site);
-  const LabelType label = m_Labels.GetBufferPointer()[site];
+  const LabelType label = this->LabelOf(site);
   const float * const own = this->FindWeight(site, label);
   Change replacement{ site, 0, this->GetWeight(site, 0) };
   for (const LabelType other : neighbors)
@@ -195,12 +217,10 @@ LabelTopology::FindReplacement(SizeValueType site)
 void
 LabelTopology::SeparateGroups()
 {
-  const LabelType * const labels = m_Labels.GetBufferPointer();
-  const auto meets = [this, labels](SizeValueType site, const FCCLabelWeights::Entry & entry) {
-    return entry.label == labels[site] && this->MeetsGroup(entry.label, this->FindNeighbors(site));
-  };
   std::vector<Change> meetings;
-  for (const Change & meeting : this->FindWeights(meets))
+  for (const Change & meeting : this->FindWeights([this](SizeValueType site, LabelType label) {
+         return label == this->LabelOf(site) && this->MeetsGroup(label, this->FindNeighbors(site));
+       }))
   {
     meetings.push_back(this->FindReplacement(meeting.site));
   }
@@ -208,12 +228,13 @@ LabelTopology::SeparateGroups()
   for (const bool canBeAlone : { false, true })
   {
     ChangeEach(meetings, [&](const Change & meeting) {
+      const LabelType own = this->LabelOf(meeting.site);
       const NeighborsType neighbors = this->FindNeighbors(meeting.site);
-      if (!this->MeetsGroup(labels[meeting.site], neighbors))
+      if (!this->MeetsGroup(own, neighbors))
       {
         return true;
       }
-      const unsigned int same = SetOf(labels[meeting.site], neighbors);
+      const unsigned int same = SetOf(own, neighbors);
       const bool canChange = FCCCells::IsDisk(same) || (canBeAlone && same == 0);
       if (canChange)
       {
@@ -226,22 +247,20 @@ LabelTopology::SeparateGroups()
 }
 
 void
-LabelTopology::PlaceLost()
+LabelTopology::PlaceLostLabels()
 {
-  const LabelType * const labels = m_Labels.GetBufferPointer();
   std::vector<bool> hasSites(std::numeric_limits<LabelType>::max() + std::size_t{ 1 });
   hasSites[0] = true;
   for (SizeValueType site = 0; site < m_Labels.GetLargestPossibleRegion().GetNumberOfPixels(); ++site)
   {
-    hasSites[labels[site]] = true;
+    hasSites[this->LabelOf(site)] = true;
   }
-  std::vector<Change> places = this->FindWeights(
-    [&hasSites](SizeValueType, const FCCLabelWeights::Entry & entry) { return !hasSites[entry.label]; });
+  std::vector<Change> places = this->FindWeights([&](SizeValueType, LabelType label) { return !hasSites[label]; });
   SortByGain(places);
   for (const Change & place : places)
   {
     const NeighborsType neighbors = this->FindNeighbors(place.site);
-    const LabelType own = labels[place.site];
+    const LabelType own = this->LabelOf(place.site);
     if (!hasSites[place.label] && (own == 0 || FCCCells::IsDisk(SetOf(own, neighbors))) &&
         !this->MeetsGroup(place.label, neighbors))
     {
@@ -252,65 +271,12 @@ LabelTopology::PlaceLost()
   this->SortWeights();
 }
 
-std::vector<LabelTopology::Change>
-LabelTopology::FindOutweighed(std::vector<double> offsets)
-{
-  const SizeValueType width = m_Labels.GetLargestPossibleRegion().GetSize(0);
-  std::vector<std::vector<Change>> found(m_Weights.GetNumberOfRows());
-  offsets.resize(std::numeric_limits<LabelType>::max() + std::size_t{ 1 });
-  rhombic::ForEachInBlocks(found.size(), 64, [&](std::size_t row) {
-    FCCLabelWeights::RowType & entries = m_Weights.GetRow(row);
-    for (auto begin = entries.begin(), end = begin; begin != entries.end(); begin = end)
-    {
-      // The weights of one site: the weight of its label, if stored, is to be exceeded.
-      const SizeValueType site = row * width + begin->i;
-      const LabelType label = m_Labels.GetBufferPointer()[site];
-      float own = std::numeric_limits<float>::max();
-      auto strongest = begin;
-      for (; end != entries.end() && end->i == begin->i; ++end)
-      {
-        end->weight += static_cast<float>(offsets[end->label]);
-        own = end->label == label ? end->weight : own;
-        strongest = end->weight > strongest->weight ? end : strongest;
-      }
-      if (strongest->weight > own)
-      {
-        found[row].push_back({ site, strongest->label, strongest->weight - own });
-      }
-    }
-  });
-  return Join(found);
-}
-
-bool
-LabelTopology::CanChange(const Change & change) const
-{
-  const NeighborsType neighbors = this->FindNeighbors(change.site);
-  return !m_IsHeld[change.site] && !this->MeetsGroup(change.label, neighbors) &&
-         FCCCells::IsDisk(SetOf(m_Labels.GetBufferPointer()[change.site], neighbors)) &&
-         FCCCells::IsDisk(SetOf(change.label, neighbors));
-}
-
-void
-LabelTopology::MakeChanges(std::vector<Change> & changes)
-{
-  SortByGain(changes);
-  ChangeEach(changes, [this](const Change & change) {
-    const bool canChange = this->CanChange(change);
-    if (canChange)
-    {
-      m_Labels.GetBufferPointer()[change.site] = change.label;
-    }
-    return canChange;
-  });
-}
-
 void
 LabelTopology::LowerRaised()
 {
   for (const Change & raised : m_Raised)
   {
-    *this->FindWeight(raised.site, m_Labels.GetBufferPointer()[raised.site]) -= raised.gain;
+    *this->FindWeight(raised.site, this->LabelOf(raised.site)) -= raised.gain;
   }
   m_Raised.clear();
 }
@@ -319,13 +285,41 @@ void
 LabelTopology::AddOffsets(std::vector<double> offsets)
 {
   this->LowerRaised();
-  m_Raised = this->FindOutweighed(offsets);
+  m_Raised = this->FindChanges(std::move(offsets));
   this->MakeChanges(m_Raised);
-  for (Change & change : m_Raised)
+  for (Change & raised : m_Raised)
   {
-    change.gain += RaisedMargin;
-    *this->FindWeight(change.site, m_Labels.GetBufferPointer()[change.site]) += change.gain;
+    raised.gain += RaisedMargin;
+    *this->FindWeight(raised.site, this->LabelOf(raised.site)) += raised.gain;
   }
+}
+
+void
+LabelTopology::Assign(std::vector<Candidate> candidates)
+{
+  std::stable_sort(
+    candidates.begin(), candidates.end(), [](const Candidate & a, const Candidate & b) { return a.site < b.site; });
+  for (auto begin = candidates.begin(), end = begin; begin != candidates.end(); begin = end)
+  {
+    const auto strengthOf = [&](const Candidate & candidate) {
+      const float strength = candidate.label == this->LabelOf(candidate.site)
+                               ? std::numeric_limits<float>::max()
+                               : this->GetWeight(candidate.site, candidate.label);
+      return std::make_pair(candidate.label != 0, strength);
+    };
+    end =
+      std::find_if(begin, candidates.end(), [&](const Candidate & candidate) { return candidate.site != begin->site; });
+    const Candidate & best = *std::max_element(
+      begin, end, [&](const Candidate & a, const Candidate & b) { return strengthOf(a) < strengthOf(b); });
+    this->Give(best.site, best.label);
+    m_IsLocked[best.site] = best.isLocked;
+  }
+  this->SortWeights();
+  this->AddOffsets({});
+  this->LowerRaised();
+  this->SeparateGroups();
+  this->PlaceLostLabels();
+  this->AddOffsets({});
 }
 
 } // namespace itk

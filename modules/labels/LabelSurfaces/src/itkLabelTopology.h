@@ -11,16 +11,18 @@ namespace itk
 {
 
 /** \class LabelTopology
- * \brief The labels of the sites of a lattice, by their weights and by the claims of thin parts.
+ * \brief Assigns labels to the sites of a lattice, by their weights and so that thin parts stay whole.
  *
- * A thin part claims the sites that its middle passes, even if another label has a larger weight there. Then each such
- * site goes back to the label of largest weight if that leaves the topology of both labels as it is: if the neighbours
- * of either label are a disk in the site's link (see FCCCells). Offsets that are added to the weights of a label change
- * the labels of sites under the same condition. Labels of one group are kept apart, so that they can be merged later:
- * no edge of the lattice's tetrahedra joins two labels of a group. Where an edge does, the site whose label has the
- * least advantage in weight gets the label of a neighbour or the background 0, if its neighbours of its own label are a
- * disk, or it has no such neighbour. Labels that have no site then get the site where their weight is largest, if the
- * label of that site can spare it.
+ * First the candidates of thin parts get their sites, which the middle of a part passes, even if another label has a
+ * larger weight there. Then each such site goes back to the label of largest weight if that leaves the topology of both
+ * labels as it is: if the neighbours of either label are a disk in the site's link (see FCCCells). Locked candidates
+ * keep their sites. Offsets that are added to the weights of a label change the labels of sites under the same
+ * condition.
+ *
+ * Labels of one group are kept apart, so that they can be merged later: no edge of the lattice's tetrahedra joins two
+ * labels of a group. Where an edge does, the site whose label has the least advantage in weight gets the label of a
+ * neighbour or the background 0, if its neighbours of its own label are a disk, or it has no such neighbour. Labels
+ * that have no site then get the site where their weight is largest, if the label of that site can spare it.
  *
  * Where another label has a larger weight than the label of a site in the end, the weight of the site's label is raised
  * above it. */
@@ -37,20 +39,21 @@ public:
     : m_Labels(labels)
     , m_Weights(weights)
     , m_Groups(groups)
-    , m_IsHeld(labels.GetLargestPossibleRegion().GetNumberOfPixels())
+    , m_IsLocked(labels.GetLargestPossibleRegion().GetNumberOfPixels())
   {}
 
-  /** A label's claim of a site; it is held if it must not go back. */
-  struct Claim
+  /** A site that a thin part of a label passes. */
+  struct Candidate
   {
     SizeValueType site; ///< offset in the buffer
     LabelType label;
-    bool isHeld;
+    bool isLocked; ///< whether the site must not go to another label
   };
 
-  /** Gives each claimed site to the label that claims it; of several, to the label of largest weight, and to 0 last. */
+  /** Gives sites to the labels that are candidates for them; of several, to the label of largest weight, and to 0 last.
+   * Then changes labels as the class comment says. */
   void
-  Grant(std::vector<Claim> claims);
+  Assign(std::vector<Candidate> candidates);
 
   /** Adds an offset to all weights of each label.
    * \param offsets by label; 0 for labels past the end */
@@ -69,6 +72,13 @@ private:
     float gain;
   };
 
+  LabelType &
+  LabelOf(SizeValueType site)
+  {
+    return m_Labels.GetBufferPointer()[site];
+  }
+
+  /** The stored weight of a label at a site, or null. */
   float *
   FindWeight(SizeValueType site, LabelType label);
 
@@ -91,10 +101,27 @@ private:
   void
   SortWeights();
 
-  /** The labels and their weights for which test(site, entry) is true, in the order of the sites. */
+  /** The changes that visit(entries of a row, offset of its first site, changes) adds for each row, row by row. */
+  template <typename TVisit>
+  std::vector<Change>
+  CollectChanges(const TVisit & visit);
+
+  /** The labels and their weights for which test(site, label) is true, in the order of the sites. */
   template <typename TTest>
   std::vector<Change>
-  FindWeights(const TTest & test) const;
+  FindWeights(const TTest & test);
+
+  /** Adds offsets to the weights, and finds the changes after which each site has the label of largest weight. */
+  std::vector<Change>
+  FindChanges(std::vector<double> offsets);
+
+  /** Whether a change keeps the topology of both labels, and the labels of groups apart. */
+  bool
+  IsAllowed(const Change & change) const;
+
+  /** Makes the changes that are allowed, and removes them from the list. */
+  void
+  MakeChanges(std::vector<Change> & changes);
 
   /** The label that a site is to get when its own label meets another label of its group: the label of a neighbour with
    * the largest weight, or 0. */
@@ -107,27 +134,16 @@ private:
 
   /** Gives a site to each label that has weights but no site. */
   void
-  PlaceLost();
-
-  /** Adds the offsets. Returns the sites whose labels do not have the largest weight, with the labels that have it. */
-  std::vector<Change>
-  FindOutweighed(std::vector<double> offsets);
-
-  /** Makes the changes that keep the topology; leaves the others in the list. */
-  void
-  MakeChanges(std::vector<Change> & changes);
+  PlaceLostLabels();
 
   /** Undoes the raising of weights. */
   void
   LowerRaised();
 
-  bool
-  CanChange(const Change & change) const;
-
   LatticeType & m_Labels;
   FCCLabelWeights & m_Weights;
   const std::vector<LabelType> & m_Groups;
-  std::vector<bool> m_IsHeld;
+  std::vector<bool> m_IsLocked;
   std::vector<Change> m_Raised; ///< sites whose label's weight was raised, and by how much
   std::vector<SizeValueType> m_UnsortedRows;
 };

@@ -363,7 +363,7 @@ ResampleField(const CartesianToFCCRows & rows,
 }
 
 /** Finds a label's candidates: the sites that its thin parts pass. Candidates of protected voxels are locked. */
-std::vector<LabelTopology::Claim>
+std::vector<LabelTopology::Candidate>
 FindCandidates(const RefinedMap & map, const AntiAliasMaskImageFilter & field, LabelType label, const Lattice & labels)
 {
   const MaskImage & mask = *field.GetInput();
@@ -376,7 +376,7 @@ FindCandidates(const RefinedMap & map, const AntiAliasMaskImageFilter & field, L
     locked.push_back(FCCLattice::NearestSite(place(mask.ComputeIndex(static_cast<OffsetValueType>(voxel)))));
   }
   std::sort(locked.begin(), locked.end());
-  std::vector<LabelTopology::Claim> candidates;
+  std::vector<LabelTopology::Candidate> candidates;
   for (const FCCLattice::SiteType & site : FindThinPartSites(mask, map.GetMapRegion(), field.GetThinVoxels(), place))
   {
     const Index<3> index = FCCLattice::IndexOf(site);
@@ -397,7 +397,7 @@ struct LabelInBox
   ImageRegion<3> sites;  ///< near the label
   ImageRegion<3> voxels; ///< of the refined map, on which the weights at the sites depend
   FieldLattice::Pointer weights;
-  std::vector<LabelTopology::Claim> candidates;
+  std::vector<LabelTopology::Candidate> candidates;
 };
 
 /** Computes the volumes of the voxels of each label in mm^3. */
@@ -558,7 +558,7 @@ LabelsToFCCFilter::GenerateData()
   labels->Allocate();
   const auto weights = FCCLabelWeights::New();
   StrongestLabels strongest(*labels, *weights);
-  std::vector<LabelTopology::Claim> candidates;
+  std::vector<LabelTopology::Candidate> candidates;
   for (auto begin = boxes.begin(), end = begin; begin != boxes.end();)
   {
     // Labels are made side by side while their boxes have together no more voxels than that of 0, the first.
@@ -585,7 +585,7 @@ LabelsToFCCFilter::GenerateData()
   }
   strongest.SortWeights();
   LabelTopology topology(*labels, *weights, m_Groups);
-  topology.Grant(std::move(candidates));
+  topology.Assign(std::move(candidates));
   m_VoxelVolumes = ComputeVoxelVolumes(image, origins);
   KeepVolumes(m_VoxelVolumes, map.GetVoxelEdge(), *labels, *weights, topology);
   this->GetOutput()->Graft(labels);
