@@ -1,12 +1,13 @@
 #include "itkLabelWallsEditing.h"
 
 #include "detail/itkBoundedMoves.h"
-#include "itkLabelWallAreas.h"
+#include "itkLabelVolumes.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <utility>
+#include <numeric>
 
 namespace itk
 {
@@ -16,28 +17,6 @@ namespace
 constexpr unsigned int MostCorrections = 16;
 constexpr double SmallestLayer = 1e-3;  // to correct a volume by, of the largest move
 constexpr double ShareForVolumes = 0.1; // of the largest error of simplification
-
-/** The layers that labels lack to their volumes. Returns whether any is thicker than \a least and has become clearly
- * thinner. */
-bool
-FindLayers(const LabelWalls & walls, const std::vector<double> & wanted, double least, std::vector<double> & layers)
-{
-  std::vector<double> lacking = walls.ComputeVolumes();
-  std::transform(lacking.begin(), lacking.end(), wanted.begin(), lacking.begin(), [](double volume, double want) {
-    return want - volume;
-  });
-  const std::vector<double> found =
-    LabelWallAreas(walls).FindLayers(std::move(lacking), [](std::size_t, double layer) { return layer; });
-  bool isAnyLacking = false;
-  layers.resize(found.size(), std::numeric_limits<double>::infinity());
-  for (std::size_t label = 0; label < found.size(); ++label)
-  {
-    const double size = std::abs(found[label]);
-    isAnyLacking = isAnyLacking || (size > least && size < 0.9 * std::abs(layers[label]));
-    layers[label] = found[label];
-  }
-  return isAnyLacking;
-}
 
 /** Moves walls along their normals until each label has its volume, or points are as far as they may go. Fixed points
  * stay. This is one stage of the progress. */
@@ -51,10 +30,19 @@ RestoreVolumes(const LabelWalls & walls,
                double stageEnd)
 {
   progress.Begin(stageEnd, MostCorrections * walls.GetNumberOfPoints());
-  std::vector<double> layers; // mm, by label
-  const double least = SmallestLayer * moves.GetMaximumMove();
-  for (unsigned int n = 0; n < MostCorrections && FindLayers(walls, wanted, least, layers); ++n)
+  LabelVolumes volumes(wanted);
+  std::vector<double> last(wanted.size(), std::numeric_limits<double>::infinity());
+  const auto isMovable = [least = SmallestLayer * moves.GetMaximumMove()](double layer, double before) {
+    return std::abs(layer) > least && std::abs(layer) < 0.9 * std::abs(before); // clearly thinner than before
+  };
+  for (unsigned int n = 0; n < MostCorrections; ++n)
   {
+    const std::vector<double> & layers = volumes.FindLayers(walls);
+    if (!std::inner_product(layers.begin(), layers.end(), last.begin(), false, std::logical_or<>(), isMovable))
+    {
+      break;
+    }
+    last = layers;
     moves.Step(
       [&](SizeValueType point) {
         PositionType way{};

@@ -19,7 +19,7 @@ namespace itk
  * largest weight. As a site has one label, there is no gap and no overlap.
  *
  * Then a constant is added to the weights of each label, so that its walls enclose the volume of its voxels. The
- * constants of all labels follow together from the areas of the walls (LabelWallAreas), as what one label gains its
+ * constants of all labels follow together from the areas of the walls (LabelVolumes), as what one label gains its
  * neighbours lose. Walls move by at most a voxel for it, which only the smallest labels need, and no label changes its
  * topology.
  *

@@ -6,12 +6,12 @@
 #include "itkFCCLabelSurfaceFilter.h"
 #include "itkInputSamples.h"
 #include "itkLabelTopology.h"
-#include "itkLabelWallAreas.h"
+#include "itkLabelVolumes.h"
 #include "itkLabelsOnLattice.h"
 #include "itkMath.h"
 #include "itkWorkProgress.h"
 #include "rhombicLabelNumbers.h"
-#include "rhombicScan.h"
+#include "rhombicVoxelGrid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +38,7 @@ using FieldImage = Image<float, 3>;
 using FieldLattice = FCCImage<float>;
 
 constexpr unsigned int MostVolumeCorrections = 6;
-constexpr double SteepestSlope = 3.0;     // of volumes, times that from the area
-constexpr double SettledOffset = 0.008;   // of weights: layers of 0.004 voxels
+constexpr double SettledOffset = 0.06;    // of weights, 0.03 voxels: the next would be about 0.004 voxels
 constexpr double FarthestOffset = 2.0;    // of weights; twice as far as walls move, in voxels
 constexpr IndexValueType Margin = 2;      // voxels around the map
 constexpr IndexValueType LabelMargin = 4; // voxels around a label in which it has weights
@@ -88,14 +87,6 @@ public:
   GetMapRegion() const
   {
     return m_MapRegion;
-  }
-
-  /** The edge of a cube of a refined voxel's volume, in mm. */
-  double
-  GetVoxelEdge() const
-  {
-    const auto & spacing = m_Grid->GetSpacing();
-    return std::cbrt(spacing[0] * spacing[1] * spacing[2]);
   }
 
   /** Positions of the first voxels of the grid's slices; empty for slices at even steps. */
@@ -404,16 +395,11 @@ struct LabelInBox
 std::vector<double>
 ComputeVoxelVolumes(const LabelImage & map, const SliceOrigins & origins)
 {
-  rhombic::Scan scan;
-  const auto grid = LabelImage::New();
-  grid->CopyInformation(&map);
-  scan.image = grid;
-  scan.sliceOrigins = origins;
   const SizeValueType voxelsOfSlice =
     map.GetLargestPossibleRegion().GetSize(0) * map.GetLargestPossibleRegion().GetSize(1);
   const LabelType * slice = map.GetBufferPointer();
   std::vector<double> volumes(1);
-  for (const double voxelVolume : rhombic::VoxelVolumes(scan))
+  for (const double voxelVolume : rhombic::VoxelVolumesOf(map, origins))
   {
     std::map<LabelType, SizeValueType> counts;
     rhombic::ForEachRun(slice, voxelsOfSlice, [&](LabelType label, SizeValueType begin, SizeValueType end) {
@@ -429,8 +415,7 @@ ComputeVoxelVolumes(const LabelImage & map, const SliceOrigins & origins)
   return volumes;
 }
 
-/** Moves the walls of all labels so that these have the volumes of their voxels. Labels grow by layers that follow from
- * the walls' areas; what they gained by the last layers, compared with what the areas say, corrects the next ones. */
+/** Adds offsets to the weights of labels, so that their walls enclose the volumes of their voxels. */
 void
 KeepVolumes(const std::vector<double> & voxelVolumes,
             double voxelEdge,
@@ -438,11 +423,9 @@ KeepVolumes(const std::vector<double> & voxelVolumes,
             const FCCLabelWeights & weights,
             LabelTopology & topology)
 {
-  // An offset of a weight moves a wall half as far, in voxels.
-  const double layerOfOffset = 0.5 * voxelEdge;
-  std::vector<double> offsets(voxelVolumes.size()); // of all rounds together
-  std::vector<double> layers(voxelVolumes.size());  // of the last round
-  std::vector<double> roots(voxelVolumes.size());   // cube roots of volumes, which are nearly linear in the layers
+  const double layerOfOffset = 0.5 * voxelEdge; // an offset of a weight moves a wall half as far, in voxels
+  LabelVolumes volumes(voxelVolumes);
+  std::vector<double> offsets(voxelVolumes.size());
   bool isSettled = false;
   for (unsigned int n = 0; n < MostVolumeCorrections && !isSettled; ++n)
   {
@@ -450,32 +433,17 @@ KeepVolumes(const std::vector<double> & voxelVolumes,
     filter->SetInput(&labels);
     filter->SetWeights(&weights);
     filter->Update();
-    const LabelWallAreas areas(*filter->GetOutput());
-    std::vector<double> volumes = filter->GetOutput()->ComputeVolumes();
-    std::vector<double> gains = areas.FindGains(layers);
-    volumes.resize(voxelVolumes.size());
-    gains.resize(voxelVolumes.size());
-    for (std::size_t label = 1; label < gains.size(); ++label)
-    {
-      const double root = std::cbrt(std::max(0.0, volumes[label]));
-      const double slope = 3.0 * root * root;
-      const double ratio = gains[label] != 0.0 ? slope * (root - roots[label]) / gains[label] : 1.0;
-      gains[label] =
-        slope * (std::cbrt(voxelVolumes[label]) - root) / std::clamp(ratio, 1.0 / SteepestSlope, SteepestSlope);
-      roots[label] = root;
-    }
-    layers = areas.FindLayers(std::move(gains), [&](std::size_t label, double layer) {
-      const double offset = label < offsets.size() ? offsets[label] : 0.0;
-      return layerOfOffset * std::clamp(layer / layerOfOffset, -FarthestOffset - offset, FarthestOffset - offset);
+    std::vector<double> steps = volumes.FindLayers(*filter->GetOutput(), [&](std::size_t label, double layer) {
+      const double offset = std::clamp(offsets[label] + layer / layerOfOffset, -FarthestOffset, FarthestOffset);
+      return layerOfOffset * (offset - offsets[label]);
     });
-    layers.resize(offsets.size());
-    std::vector<double> steps(offsets.size());
+    isSettled = true;
     for (std::size_t label = 1; label < offsets.size(); ++label)
     {
-      steps[label] = layers[label] / layerOfOffset;
+      steps[label] /= layerOfOffset;
       offsets[label] += steps[label];
+      isSettled = isSettled && std::abs(steps[label]) < SettledOffset;
     }
-    isSettled = std::all_of(steps.begin(), steps.end(), [](double step) { return std::abs(step) < SettledOffset; });
     topology.AddOffsets(std::move(steps));
   }
 }
@@ -587,7 +555,7 @@ LabelsToFCCFilter::GenerateData()
   LabelTopology topology(*labels, *weights, m_Groups);
   topology.Assign(std::move(candidates));
   m_VoxelVolumes = ComputeVoxelVolumes(image, origins);
-  KeepVolumes(m_VoxelVolumes, map.GetVoxelEdge(), *labels, *weights, topology);
+  KeepVolumes(m_VoxelVolumes, rhombic::MeanSpacingOf(map.GetGrid()), *labels, *weights, topology);
   this->GetOutput()->Graft(labels);
   this->GetWeights()->Swap(*weights);
   progress.Finish();

@@ -4,6 +4,7 @@
 #include "rhombicLabelNumbers.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicEvents.h"
+#include "rhombicVoxelGrid.h"
 #include "rhombicWording.h"
 
 #include "detail/itkPositionArithmetic.h"
@@ -96,14 +97,6 @@ CropSliceOrigins(const Scan & scan, const itk::ImageRegion<3> & box)
   return origins;
 }
 
-/** The edge of a cube of a voxel's volume, in mm. */
-double
-VoxelEdge(const itk::ImageBase<3> & image)
-{
-  const auto & spacing = image.GetSpacing();
-  return std::cbrt(spacing[0] * spacing[1] * spacing[2]);
-}
-
 /** Bytes for labels and fields, for weights, and for walls. */
 template <typename TFilter>
 std::uintmax_t
@@ -166,7 +159,7 @@ WallsOfVoxels(const LabelImage & numbers,
                 "use a coarser lattice, or crop the label map");
   ObserveProgress(*toLattice, "extracting labels", events);
   toLattice->Update();
-  itk::LabelWalls::Pointer walls = ExtractWalls(*toLattice, VoxelEdge(numbers), toLattice->GetVoxelVolumes());
+  itk::LabelWalls::Pointer walls = ExtractWalls(*toLattice, MeanSpacingOf(numbers), toLattice->GetVoxelVolumes());
   walls->MergeLabels(pieces.labels);
   return walls;
 }
@@ -205,7 +198,7 @@ WallsOfProbabilities(const LabelMap & map,
     "use a coarser lattice, or crop the volumes of probabilities");
   ObserveProgress(*toLattice, "extracting labels", events);
   toLattice->Update();
-  itk::LabelWalls::Pointer walls = ExtractWalls(*toLattice, VoxelEdge(*map.probabilities.front()), {});
+  itk::LabelWalls::Pointer walls = ExtractWalls(*toLattice, MeanSpacingOf(*map.probabilities.front()), {});
   std::vector<std::uint16_t> chosen(map.probabilities.size() + 1);
   for (std::size_t n = 0; n < labels.size(); ++n)
   {
