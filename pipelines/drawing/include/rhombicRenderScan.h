@@ -2,10 +2,11 @@
 #define rhombicRenderScan_h
 
 #include "rhombicEvents.h"
-#include "rhombicPictureSource.h"
 #include "rhombicPlaneRequest.h"
+#include "rhombicScanSource.h"
 #include "rhombicScene.h"
 #include "rhombicSidecar.h"
+#include "rhombicSurfaceFinish.h"
 
 #include <filesystem>
 #include <optional>
@@ -15,8 +16,18 @@
 namespace rhombic
 {
 
+/** \class PictureSource
+ * \brief The source of pictures: surfaces of a scan, or surface files. */
+struct PictureSource
+{
+  ScanSource scan; ///< if there are surface files, only its decoder has an effect
+  SurfaceSelection surfaces;
+  SurfaceFinish finish;                            ///< of each surface; combined with that of its preset
+  std::vector<std::filesystem::path> surfaceFiles; ///< files that ReadSurfaces() reads
+};
+
 /** \class AnnotationSettings
- * \brief What is written over pictures. */
+ * \brief Letters, lines and texts over pictures. */
 struct AnnotationSettings
 {
   bool letters = true;   ///< the anatomical directions at the edges
@@ -37,28 +48,35 @@ struct SliceSettings
   std::size_t lightbox = 0; ///< so many slices evenly along each plane's axis in one picture, instead of one slice
 };
 
-/** \class RenderScanSettings
- * \brief From a scan or surface files to pictures. */
-struct RenderScanSettings
+/** \class PictureSettings
+ * \brief The settings that pictures and pages share. */
+struct PictureSettings
 {
   PictureSource source;
+  std::vector<PlaneRequest> slices; ///< pictures of slices; of a page up to 3, and without any: axial, coronal and
+                                    ///< sagittal through the middle of the surfaces
+  SliceSettings slice;
+  bool writesDicom = false;        ///< also writes each picture or page as DICOM, .dcm in place of the extension (see
+                                   ///< DicomStudy); a turntable is one file
+  std::filesystem::path thumbnail; ///< the first picture or page, small, as .jpg; not of a .pdf; empty: none
+  Provenance provenance;
+};
+
+/** \class RenderScanSettings
+ * \brief From a scan or surface files to pictures. */
+struct RenderScanSettings : PictureSettings
+{
   RenderSettings render;            ///< its memory is the source's, its margins those of the annotations
   std::vector<View> views{ {} };    ///< of the surfaces
   std::string focus;                ///< pattern of the surfaces that the picture is fitted to; empty: all
   std::vector<CutRequest> cuts;     ///< at most 6; cut faces have the scan's greys
   std::vector<std::string> uncut;   ///< patterns of surfaces that are not cut
   std::vector<PlaneRequest> planes; ///< slices that stand in the scene
-  std::vector<PlaneRequest> slices; ///< pictures of slices
-  SliceSettings slice;
   AnnotationSettings annotations;
   std::size_t turntable = 0;     ///< number of views around the patient, instead of the views; 0: none
   std::size_t onlyPicture = 0;   ///< the number, from 1, of the only one of views and slices to draw; 0: all
   std::filesystem::path picture; ///< with more than one, a view's or plane's name is added to the stem; a turntable is
                                  ///< one .gif, or numbered pictures
-  bool writesDicom = false; ///< also writes the pictures as DICOM, .dcm in place of the extension (see DicomStudy);
-                            ///< a turntable is one file
-  std::filesystem::path thumbnail; ///< the first picture, small, as .jpg; empty: none
-  Provenance provenance;
 };
 
 /** Checks what can be checked without reading or writing anything. Returns the files that RenderScan() writes. Throws
@@ -77,23 +95,17 @@ RenderScan(const RenderScanSettings & settings,
 
 /** \class RenderSheetSettings
  * \brief From a scan or surface files to a page. */
-struct RenderSheetSettings
+struct RenderSheetSettings : PictureSettings
 {
-  PictureSource source;
   std::vector<View> views{ StandardViews()[0],
                            StandardViews()[2],
                            StandardViews()[1],
                            StandardViews()[3] }; ///< up to 4
-  std::vector<PlaneRequest> slices; ///< up to 3; none: axial, coronal and sagittal through the middle of the surfaces
-  SliceSettings slice;
-  PictureStyle style = PictureStyle::Paper; ///< Clinic makes a dark page
+  PictureStyle style = PictureStyle::Paper;      ///< Clinic makes a dark page
   std::string title;
   bool isLandscape = false;
-  double pixelsPerInch = 200.0;    ///< 36 to 600
-  std::filesystem::path page;      ///< .png or .jpg for one page; .tif or .pdf for all
-  bool writesDicom = false;        ///< also writes each page as DICOM, .dcm in place of the extension (see DicomStudy)
-  std::filesystem::path thumbnail; ///< the first page, small, as .jpg; not of a .pdf; empty: none
-  Provenance provenance;
+  double pixelsPerInch = 200.0; ///< 36 to 600
+  std::filesystem::path page;   ///< .png or .jpg for one page; .tif or .pdf for all
 };
 
 /** Checks as CheckRenderScan() does. Returns the files of the first page. */

@@ -43,15 +43,20 @@ Shrink(const Picture & picture, int side)
 
 } // namespace
 
-std::vector<fs::path>
-DicomPathsOf(const std::vector<fs::path> & pictures)
+fs::path
+WithPart(const fs::path & path, const std::string & part)
 {
-  std::vector<fs::path> paths = pictures;
-  for (fs::path & path : paths)
+  return path.parent_path() / (path.stem().string() + "-" + part + path.extension().string());
+}
+
+std::vector<fs::path>
+DicomPathsOf(const PictureSettings & settings, std::vector<fs::path> pictures)
+{
+  for (fs::path & path : pictures)
   {
     path.replace_extension(".dcm");
   }
-  return paths;
+  return settings.writesDicom ? pictures : std::vector<fs::path>();
 }
 
 std::optional<DicomStudy>
@@ -76,16 +81,27 @@ OpenStudy(const PictureSource & source, const std::vector<fs::path> & dicomPaths
 }
 
 void
-StageDicom(const DicomStudy & study,
-           const std::vector<Picture> & pictures,
-           const std::vector<fs::path> & paths,
-           double secondsPerFrame,
-           const std::string & software,
-           const Events & events,
-           StagedFiles & staged)
+StageFilesBeside(const std::vector<Picture> & pictures,
+                 const PictureSettings & settings,
+                 const std::optional<DicomStudy> & study,
+                 const std::vector<fs::path> & dicomPaths,
+                 double secondsPerFrame,
+                 const Events & events,
+                 StagedFiles & staged,
+                 std::vector<MadeFile> & outputs)
 {
+  constexpr int side = 320; // pixels
+  if (!pictures.empty() && !settings.thumbnail.empty())
+  {
+    StagePicture(Shrink(pictures.front(), side), settings.thumbnail, staged, {});
+    outputs.push_back({ settings.thumbnail, "thumbnail", Report::array(), false });
+  }
+  if (!study)
+  {
+    return;
+  }
   std::vector<DicomCapture> captures;
-  for (const fs::path & path : paths)
+  for (const fs::path & path : dicomPaths)
   {
     captures.push_back({ path, {}, secondsPerFrame });
   }
@@ -93,22 +109,9 @@ StageDicom(const DicomStudy & study,
   {
     captures[std::min(n, captures.size() - 1)].frames.push_back(&pictures[n]);
   }
-  study.Stage(captures, software, staged);
+  study->Stage(captures, settings.provenance.software, staged);
+  AddOutputs(dicomPaths, "dicom", outputs);
   events.Note("the DICOM files hold the patient's name and the other tags of the scan's patient and study");
-}
-
-void
-StageThumbnail(const std::vector<Picture> & pictures,
-               const std::filesystem::path & path,
-               StagedFiles & staged,
-               std::vector<MadeFile> & outputs)
-{
-  constexpr int side = 320; // pixels
-  if (!pictures.empty() && !path.empty())
-  {
-    StagePicture(Shrink(pictures.front(), side), path, staged, {});
-    outputs.push_back({ path, "thumbnail", Report::array(), false });
-  }
 }
 
 } // namespace rhombic

@@ -2,6 +2,7 @@
 
 #include "rhombicScanReader.h"
 #include "rhombicFailure.h"
+#include "rhombicGreyWindow.h"
 #include "rhombicMeasureTable.h"
 #include "rhombicSourceSurfaces.h"
 #include "rhombicSurfaceIO.h"
@@ -19,9 +20,6 @@ namespace rhombic
 {
 namespace
 {
-
-/** A number of spacings that slices of a scene without a grid have along their longest side. */
-constexpr double SpacingsOfSurfaces = 512.0;
 
 /** "512 x 512 x 138 voxels of 0.7 x 0.7 x 2 mm", with the words between size and spacing. */
 std::string
@@ -45,12 +43,6 @@ AddSurface(MeshedSurface & surface, PictureScene & scene)
   scene.surfaces.push_back(surface.scene);
   scene.rows.push_back(row);
   scene.report["surfaces"].push_back(ReportMeshedSurface(surface));
-}
-
-std::string
-DescribeThreshold(const SurfaceRequest & request)
-{
-  return request.name + (request.insideIsBelow ? " below " : " from ") + FormatNumber(request.isovalue.value());
 }
 
 /** Lines about the scan and the lattice, for a page. */
@@ -89,13 +81,9 @@ AddFacts(const LoadedSource & loaded, const PictureSource & source, PictureScene
 SliceBox
 BoxOfSurfaces(const std::vector<SceneSurface> & surfaces)
 {
+  constexpr double spacings = 512.0; // along the longest side
   const LPSBox box = BoxAround(surfaces);
-  double longest = 1.0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    longest = std::max(longest, box.highest[axis] - box.lowest[axis]);
-  }
-  const double spacing = longest / SpacingsOfSurfaces;
+  const double spacing = std::max(1.0, LongestSideOf(box)) / spacings;
   return BoxOf(box.lowest, box.highest, { spacing, spacing, spacing });
 }
 
@@ -106,9 +94,10 @@ AddSurfaces(std::vector<MeshedSurface> & surfaces, bool hasThresholds, PictureSc
   std::vector<std::string> thresholds;
   for (MeshedSurface & surface : surfaces)
   {
-    if (surface.request)
+    if (const auto & request = surface.request)
     {
-      thresholds.push_back(DescribeThreshold(*surface.request));
+      thresholds.push_back(request->name + (request->insideIsBelow ? " below " : " from ") +
+                           FormatNumber(request->isovalue.value()));
     }
     AddSurface(surface, scene);
   }
@@ -246,6 +235,21 @@ SurfacesNamed(const std::vector<SceneSurface> & surfaces, const std::string & pa
   return found;
 }
 
+Vector3
+CentreOf(const LPSBox & box)
+{
+  return { 0.5 * (box.lowest[0] + box.highest[0]),
+           0.5 * (box.lowest[1] + box.highest[1]),
+           0.5 * (box.lowest[2] + box.highest[2]) };
+}
+
+double
+LongestSideOf(const LPSBox & box)
+{
+  return std::max(
+    { box.highest[0] - box.lowest[0], box.highest[1] - box.lowest[1], box.highest[2] - box.lowest[2], 0.0 });
+}
+
 void
 NeedPlaces(const std::vector<PlaneRequest> & requests, SceneRules & rules)
 {
@@ -263,10 +267,7 @@ FindPlace(const PlaneRequest & request, const PictureScene & scene)
 {
   if (request.place.empty())
   {
-    const LPSBox box = BoxAround(scene.surfaces);
-    return { 0.5 * (box.lowest[0] + box.highest[0]),
-             0.5 * (box.lowest[1] + box.highest[1]),
-             0.5 * (box.lowest[2] + box.highest[2]) };
+    return CentreOf(BoxAround(scene.surfaces));
   }
   if (const auto position = ToNumber<double>(request.place); position && std::isfinite(*position))
   {

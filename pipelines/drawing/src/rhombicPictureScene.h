@@ -1,13 +1,8 @@
 #ifndef rhombicPictureScene_h
 #define rhombicPictureScene_h
 
-#include "rhombicAnnotations.h"
-#include "rhombicEvents.h"
-#include "rhombicGreyWindow.h"
-#include "rhombicPictureSource.h"
-#include "rhombicPlaneRequest.h"
-#include "rhombicScanReport.h"
-#include "rhombicScene.h"
+#include "rhombicRenderScan.h"
+#include "rhombicSheet.h"
 
 #include <optional>
 #include <string>
@@ -40,6 +35,14 @@ MakePictureScene(const PictureSource & source,
                  bool keepsScan,
                  const Events & events);
 
+/** The centre of a box. */
+Vector3
+CentreOf(const LPSBox & box);
+
+/** The length of the longest side of a box. */
+double
+LongestSideOf(const LPSBox & box);
+
 /** Adds the names of surfaces that planes go through to the needed names. */
 void
 NeedPlaces(const std::vector<PlaneRequest> & requests, SceneRules & rules);
@@ -52,6 +55,25 @@ FindPlace(const PlaneRequest & request, const PictureScene & scene);
 /** The surfaces whose names fit a pattern. Throws Failure(Usage), suggesting the nearest name, when there are none. */
 std::vector<SceneSurface>
 SurfacesNamed(const std::vector<SceneSurface> & surfaces, const std::string & pattern);
+
+/** Cuts a scene: adds clip planes, and in each of them the greys of the scan inside the surfaces that are cut, in their
+ * colours where there is no scan. Throws Failure(Usage) for a plane that does not meet the scene. */
+void
+AddCuts(const RenderScanSettings & settings, const PictureScene & source, Scene & scene);
+
+/** Adds slices that stand in the scene. */
+void
+AddPlanes(const RenderScanSettings & settings, const PictureScene & source, Scene & scene);
+
+/** A slice of the scan in greys, black without a scan, and the curves along which it cuts the surfaces, in their
+ * colours, fitted into so many pixels. */
+SheetPicture
+DrawOutlinedSlice(const PictureScene & scene,
+                  const PlaneRequest & request,
+                  const Vector3 & point,
+                  const SliceSettings & settings,
+                  int width,
+                  int height);
 
 } // namespace rhombic
 

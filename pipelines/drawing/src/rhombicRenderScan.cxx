@@ -6,7 +6,6 @@
 #include "rhombicMemoryBudget.h"
 #include "rhombicPictureFiles.h"
 #include "rhombicPictureScene.h"
-#include "rhombicScenePlanes.h"
 #include "rhombicSourceLoading.h"
 #include "rhombicSurfaceRenderer.h"
 #include "rhombicWording.h"
@@ -31,13 +30,6 @@ IsGif(const fs::path & path)
   return LowerCase(path.extension().string()) == ".gif";
 }
 
-/** The picture's path with a part added to its stem. */
-fs::path
-WithPart(const fs::path & picture, const std::string & part)
-{
-  return picture.parent_path() / (picture.stem().string() + "-" + part + picture.extension().string());
-}
-
 /** Fit for a file's name: axial-liver, axial-slice40, axial-12.5mm, axial-minus12.5mm. */
 std::string
 NameOf(const PlaneRequest & request)
@@ -52,13 +44,6 @@ NameOf(const PlaneRequest & request)
     place = "slice" + place.substr(1);
   }
   return NameOf(request.plane) + (place.empty() ? "" : "-" + FileStemOf(place));
-}
-
-/** Whether a picture is drawn, by its number from 0 among views and slices. */
-bool
-IsDrawn(const RenderScanSettings & settings, std::size_t picture)
-{
-  return settings.turntable > 0 || settings.onlyPicture == 0 || settings.onlyPicture == picture + 1;
 }
 
 /** One path for each picture, all different: with their names if there are several. */
@@ -117,25 +102,8 @@ PlanPictures(const RenderScanSettings & settings)
 std::vector<fs::path>
 PlanDicom(const RenderScanSettings & settings)
 {
-  if (!settings.writesDicom)
-  {
-    return {};
-  }
-  return DicomPathsOf(settings.turntable > 0 ? std::vector<fs::path>{ settings.picture } : PlanPictures(settings));
-}
-
-/** Whether an isosurface is translucent. Labels are not known before they are read; the renderer checks them again. */
-bool
-IsTranslucent(const std::vector<SurfaceRequest> & requests)
-{
-  return std::any_of(
-    requests.begin(), requests.end(), [](const SurfaceRequest & request) { return request.opacity < 1.0; });
-}
-
-bool
-NeedsScan(const RenderScanSettings & settings)
-{
-  return !settings.cuts.empty() || !settings.planes.empty() || !settings.slices.empty();
+  return DicomPathsOf(settings,
+                      settings.turntable > 0 ? std::vector<fs::path>{ settings.picture } : PlanPictures(settings));
 }
 
 Annotations
@@ -171,40 +139,22 @@ TurntableViews(std::size_t count)
   return views;
 }
 
-/** The margins that annotations need, so far as they leave room for the scene: small pictures have them over it. */
-Margins
-LimitedMargins(const Annotations & annotations, int width, int height, const ViewFrame & frame)
-{
-  Margins margins = MarginsOf(annotations, width, height, frame);
-  const auto limit = [](double & margin, double largest) { margin = std::min(margin, largest); };
-  limit(margins.left, 0.2 * width);
-  limit(margins.right, 0.45 * width);
-  limit(margins.top, 0.2 * height);
-  limit(margins.bottom, 0.2 * height);
-  return margins;
-}
+constexpr double Margins::*Sides[] = { &Margins::left, &Margins::right, &Margins::top, &Margins::bottom };
 
+/** For each side, the margin that leaves room for the annotations in all of the pictures, and room for the scene: small
+ * pictures have annotations over it. No margin is below that of \a least. */
 Margins
-Larger(const Margins & a, const Margins & b)
+LargestMargins(const Annotations & annotations, const std::vector<Projection> & pictures, const Margins & least)
 {
-  return { std::max(a.left, b.left), std::max(a.right, b.right), std::max(a.top, b.top), std::max(a.bottom, b.bottom) };
-}
-
-bool
-IsNear(const Margins & a, const Margins & b, double tolerance)
-{
-  return std::abs(a.left - b.left) <= tolerance && std::abs(a.right - b.right) <= tolerance &&
-         std::abs(a.top - b.top) <= tolerance && std::abs(a.bottom - b.bottom) <= tolerance;
-}
-
-/** The margins that leave room for the annotations in all of the pictures. */
-Margins
-LargestMargins(const Annotations & annotations, const std::vector<Projection> & pictures)
-{
-  Margins largest{ 0.0, 0.0, 0.0, 0.0 };
+  Margins largest = least;
   for (const Projection & picture : pictures)
   {
-    largest = Larger(largest, LimitedMargins(annotations, picture.width, picture.height, picture.frame));
+    const Margins needed = MarginsOf(annotations, picture.width, picture.height, picture.frame);
+    const Margins limits{ 0.2 * picture.width, 0.45 * picture.width, 0.2 * picture.height, 0.2 * picture.height };
+    for (const auto side : Sides)
+    {
+      largest.*side = std::max(largest.*side, std::min(needed.*side, limits.*side));
+    }
   }
   return largest;
 }
@@ -225,11 +175,8 @@ FitToScene(const RenderScanSettings & settings,
   }
   if (settings.turntable > 0)
   {
-    const LPSBox box = render.extent ? *render.extent : BoxAround(source.surfaces);
     render.sameScale = true;
-    render.centre = Vector3{ 0.5 * (box.lowest[0] + box.highest[0]),
-                             0.5 * (box.lowest[1] + box.highest[1]),
-                             0.5 * (box.lowest[2] + box.highest[2]) };
+    render.centre = CentreOf(render.extent ? *render.extent : BoxAround(source.surfaces));
   }
   const int width = render.width > 0 ? render.width : LongerSide;
   const int height = render.height > 0 ? render.height : LongerSide;
@@ -241,16 +188,19 @@ FitToScene(const RenderScanSettings & settings,
     planned[n].frame = views[n].frame;
   }
   // Mostly two rounds. Should a legend change its columns to and fro, the wider margins of all further rounds count.
+  constexpr Margins none{ 0.0, 0.0, 0.0, 0.0 };
   constexpr int freeRounds = 4;
   constexpr int mostRounds = 8;
   for (int n = 0; n < mostRounds; ++n)
   {
-    const Margins last = render.margins.value_or(Margins{ 0.0, 0.0, 0.0, 0.0 });
-    const Margins next = LargestMargins(annotations, planned);
-    render.margins = n < freeRounds ? next : Larger(last, next);
+    const Margins last = render.margins.value_or(none);
+    render.margins = LargestMargins(annotations, planned, n < freeRounds ? none : last);
     planned = SurfaceRenderer::Plan(scene, render, views);
     constexpr double tolerance = 0.5; // pixels
-    if (n > 0 && IsNear(last, *render.margins, tolerance))
+    const bool isNear = std::all_of(std::begin(Sides), std::end(Sides), [&](double Margins::*side) {
+      return std::abs(last.*side - (*render.margins).*side) <= tolerance;
+    });
+    if (n > 0 && isNear)
     {
       break;
     }
@@ -267,7 +217,7 @@ FitToScene(const RenderScanSettings & settings,
       frame.width = render.width;
       frame.height = render.height;
     }
-    render.margins = LargestMargins(annotations, planned);
+    render.margins = LargestMargins(annotations, planned, none);
   }
   return render;
 }
@@ -288,7 +238,6 @@ DrawViews(const RenderScanSettings & settings, const PictureScene & source, Surf
   {
     views = { views[settings.onlyPicture - 1] };
   }
-  render.maximumMemory = settings.source.scan.lattice.maximumMemory;
   std::vector<Picture> pictures;
   std::vector<RenderedView> drawn = renderer.Render(scene, render, views);
   for (std::size_t n = 0; n < drawn.size(); ++n)
@@ -483,30 +432,32 @@ CheckRenderScan(const RenderScanSettings & settings)
 }
 
 std::vector<MadeFile>
-RenderScan(const RenderScanSettings & settings, const Events & events, std::optional<SourceVolume> volume)
+RenderScan(const RenderScanSettings & given, const Events & events, std::optional<SourceVolume> volume)
 {
+  RenderScanSettings settings = given;
+  settings.render.maximumMemory = given.source.scan.lattice.maximumMemory;
   CheckOutputs(CheckRenderScan(settings), settings.source.scan, settings.source.surfaces);
   const std::vector<fs::path> paths = PlanPictures(settings);
   const std::vector<fs::path> dicomPaths = PlanDicom(settings);
   const std::optional<DicomStudy> study = OpenStudy(settings.source, dicomPaths);
-  bool drawsViews = settings.turntable > 0;
-  for (std::size_t n = 0; n < settings.views.size(); ++n)
-  {
-    drawsViews = drawsViews || IsDrawn(settings, n);
-  }
+  const RenderSettings & render = settings.render;
+  const bool drawsAll = settings.turntable > 0 || settings.onlyPicture == 0;
+  const bool drawsViews =
+    drawsAll ? settings.turntable > 0 || !settings.views.empty() : settings.onlyPicture <= settings.views.size();
   std::optional<SurfaceRenderer> renderer;
-  RenderSettings render = settings.render;
-  render.maximumMemory = settings.source.scan.lattice.maximumMemory;
   if (drawsViews)
   {
-    renderer.emplace().CheckSettings(render, IsTranslucent(settings.source.surfaces.requests));
+    const auto & requests = settings.source.surfaces.requests; // the renderer checks labels, which are not known yet
+    const auto isTranslucent = [](const SurfaceRequest & request) { return request.opacity < 1.0; };
+    renderer.emplace().CheckSettings(render, std::any_of(requests.begin(), requests.end(), isTranslucent));
   }
   const auto sideOf = [](int side) { return static_cast<std::uintmax_t>(side > 0 ? side : LongerSide); };
   RequireMemory(sideOf(render.width) * sideOf(render.height) * 4 * std::max(settings.turntable, paths.size()),
                 render.maximumMemory,
                 "All pictures together",
                 "choose a smaller --size, or fewer of them");
-  const PictureScene scene = MakePictureScene(SourceOf(settings), std::move(volume), NeedsScan(settings), events);
+  const bool needsScan = !settings.cuts.empty() || !settings.planes.empty() || !settings.slices.empty();
+  const PictureScene scene = MakePictureScene(SourceOf(settings), std::move(volume), needsScan, events);
   events.Progress("rendering", 0.0);
   std::vector<Picture> pictures;
   if (drawsViews)
@@ -515,24 +466,18 @@ RenderScan(const RenderScanSettings & settings, const Events & events, std::opti
   }
   for (std::size_t n = 0; n < settings.slices.size(); ++n)
   {
-    if (!IsDrawn(settings, settings.views.size() + n))
-    {
-      continue;
-    }
     const PlaneRequest & request = settings.slices[n];
-    pictures.push_back(settings.slice.lightbox > 0
-                         ? DrawLightbox(settings, scene, request)
-                         : DrawSliceWithOutlines(settings, scene, request, FindPlace(request, scene)));
+    if (drawsAll || settings.onlyPicture == settings.views.size() + n + 1)
+    {
+      pictures.push_back(settings.slice.lightbox > 0
+                           ? DrawLightbox(settings, scene, request)
+                           : DrawSliceWithOutlines(settings, scene, request, FindPlace(request, scene)));
+    }
   }
   StagedFiles staged;
   const double secondsPerFrame = SecondsPerTurn / static_cast<double>(pictures.size());
   std::vector<MadeFile> outputs = StagePictures(pictures, paths, secondsPerFrame, settings, scene.report, staged);
-  StageThumbnail(pictures, settings.thumbnail, staged, outputs);
-  if (study)
-  {
-    StageDicom(*study, pictures, dicomPaths, secondsPerFrame, settings.provenance.software, events, staged);
-    AddOutputs(dicomPaths, "dicom", outputs);
-  }
+  StageFilesBeside(pictures, settings, study, dicomPaths, secondsPerFrame, events, staged, outputs);
   staged.Commit();
   events.Progress("rendering", 1.0);
   return outputs;

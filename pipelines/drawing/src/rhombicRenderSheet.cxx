@@ -3,7 +3,6 @@
 #include "rhombicMemoryBudget.h"
 #include "rhombicPictureFiles.h"
 #include "rhombicPictureScene.h"
-#include "rhombicScenePlanes.h"
 #include "rhombicSourceLoading.h"
 #include "rhombicSurfaceRenderer.h"
 #include "rhombicWording.h"
@@ -125,7 +124,7 @@ PathsOfPages(const fs::path & path, std::size_t pages)
   std::vector<fs::path> paths{ path };
   for (std::size_t n = 2; n <= pages; ++n)
   {
-    paths.push_back(path.parent_path() / (path.stem().string() + "-" + std::to_string(n) + path.extension().string()));
+    paths.push_back(WithPart(path, std::to_string(n)));
   }
   return paths;
 }
@@ -200,10 +199,8 @@ CheckRenderSheet(const RenderSheetSettings & settings)
     CheckSelection(selection);
   }
   std::vector<fs::path> outputs = WithSidecars({ settings.page }, settings.provenance);
-  if (settings.writesDicom)
-  {
-    outputs.push_back(DicomPathsOf({ settings.page }).front());
-  }
+  const std::vector<fs::path> dicomPaths = DicomPathsOf(settings, { settings.page });
+  outputs.insert(outputs.end(), dicomPaths.begin(), dicomPaths.end());
   return outputs;
 }
 
@@ -211,8 +208,7 @@ std::vector<MadeFile>
 RenderSheet(const RenderSheetSettings & settings, const Events & events, std::optional<SourceVolume> volume)
 {
   const std::vector<fs::path> planned = CheckRenderSheet(settings);
-  const auto study = OpenStudy(
-    settings.source, settings.writesDicom ? std::vector<fs::path>{ planned.back() } : std::vector<fs::path>());
+  const std::optional<DicomStudy> study = OpenStudy(settings.source, DicomPathsOf(settings, { settings.page }));
   CheckOutputs(planned, settings.source.scan, settings.source.surfaces);
   SurfaceRenderer renderer;
   const std::vector<PlaneRequest> planes = PlanesOf(settings);
@@ -241,13 +237,8 @@ RenderSheet(const RenderSheetSettings & settings, const Events & events, std::op
   std::vector<MadeFile> outputs{ MakeOutput(paths.front(), "page", scene.report) };
   AddSidecars(settings.provenance, outputs);
   AddOutputs({ paths.begin() + 1, paths.end() }, "page", outputs);
-  StageThumbnail(pages, settings.thumbnail, staged, outputs);
-  if (study)
-  {
-    const auto dicomPaths = DicomPathsOf(PathsOfPages(settings.page, pages.size()));
-    StageDicom(*study, pages, dicomPaths, 0.0, settings.provenance.software, events, staged);
-    AddOutputs(dicomPaths, "dicom", outputs);
-  }
+  const std::vector<fs::path> dicomPaths = DicomPathsOf(settings, PathsOfPages(settings.page, pages.size()));
+  StageFilesBeside(pages, settings, study, dicomPaths, 0.0, events, staged, outputs);
   staged.Commit();
   events.Progress("drawing the page", 1.0);
   return outputs;

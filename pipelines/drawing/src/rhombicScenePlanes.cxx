@@ -1,4 +1,4 @@
-#include "rhombicScenePlanes.h"
+#include "rhombicPictureScene.h"
 
 #include "rhombicFailure.h"
 #include "rhombicSlicePicture.h"
@@ -19,13 +19,7 @@ constexpr double PixelsOfCap = 1500.0; // along the longer side of the scene
 Projection
 PlaneThrough(const Vector3 & point, SlicePlane plane, const PictureScene & source)
 {
-  const LPSBox box = BoxAround(source.surfaces);
-  double longest = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    longest = std::max(longest, box.highest[axis] - box.lowest[axis]);
-  }
-  return SliceThrough(point, source.box, FrameOf(plane), longest / PixelsOfCap);
+  return SliceThrough(point, source.box, FrameOf(plane), LongestSideOf(BoxAround(source.surfaces)) / PixelsOfCap);
 }
 
 Picture
