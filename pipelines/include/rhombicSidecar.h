@@ -32,20 +32,12 @@ struct MadeFile
   bool isMain = true;                ///< whether a user looks for the file; others, as reports, lie beside those
 };
 
-/** An output with the measures of the surfaces in its report. */
-MadeFile
-MakeOutput(const std::filesystem::path & path, const std::string & kind, const Report & report);
-
 /** Adds files without surfaces of their own. */
 void
 AddOutputs(const std::vector<std::filesystem::path> & paths,
            const std::string & kind,
            std::vector<MadeFile> & outputs,
            bool areMain = true);
-
-/** Adds the report beside each of the outputs, if any are written. */
-void
-AddSidecars(const Provenance & provenance, std::vector<MadeFile> & outputs);
 
 /** The path of an output's report: the output's name and ".json". */
 std::filesystem::path
@@ -55,13 +47,15 @@ SidecarOf(const std::filesystem::path & output);
 std::vector<std::filesystem::path>
 WithSidecars(std::vector<std::filesystem::path> outputs, const Provenance & provenance);
 
-/** Writes the sidecar of an output, if any are written, to appear with all others of \a staged. Throws
- * Failure(Output). */
+/** Adds an output with the measures of the surfaces in its report, and, if sidecars are written, its sidecar, which is
+ * written to appear with all others of \a staged. Throws Failure(Output). */
 void
-StageSidecar(const std::filesystem::path & output,
-             const Provenance & provenance,
-             const Report & report,
-             StagedFiles & staged);
+AddOutput(const std::filesystem::path & path,
+          const std::string & kind,
+          const Provenance & provenance,
+          const Report & report,
+          StagedFiles & staged,
+          std::vector<MadeFile> & outputs);
 
 /** Writes a text file, to appear with all others of \a staged. Throws Failure(Output).
  * \param permissions unknown: those of new files */

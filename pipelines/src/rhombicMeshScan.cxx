@@ -127,13 +127,13 @@ MeshScan(const MeshScanSettings & settings, const Events & events, std::optional
   CheckOutputs(OutputsOf(PathsOf(settings.mesh, surfaces), settings), settings.source, settings.surfaces);
   making.Finish(surfaces);
 
-  const FileInspection inspection(settings, loaded.scan, events);
+  const FileInspection inspection{ settings, loaded.scan, events };
   const std::vector<fs::path> paths = PathsOf(settings.mesh, surfaces);
   const std::size_t perFile = HasFileForEach(settings.mesh) ? 1 : surfaces.size();
   CheckSurfacePath(paths.front(), perFile);
-  if (inspection.NeedsAudit() && surfaces.back().label)
+  if ((settings.audits || settings.requiresWatertight) && surfaces.back().label)
   {
-    if (const auto walls = inspection.AuditTogether(surfaces))
+    if (const auto walls = AuditTogether(inspection, surfaces))
     {
       sourceReport["walls"] = *walls;
     }
@@ -143,18 +143,14 @@ MeshScan(const MeshScanSettings & settings, const Events & events, std::optional
   for (std::size_t n = 0; n < paths.size(); ++n)
   {
     events.Progress("writing and measuring", static_cast<double>(n) / static_cast<double>(paths.size()));
-    outputs.push_back(inspection.Stage(paths[n], surfaces.data() + n * perFile, perFile, sourceReport, staged));
-  }
-  AddSidecars(settings.provenance, outputs);
-  for (const fs::path & path : paths)
-  {
-    const std::vector<fs::path> files = SurfaceFilesOf(path);
+    StageInspected(inspection, paths[n], surfaces.data() + n * perFile, perFile, sourceReport, staged, outputs);
+    const std::vector<fs::path> files = SurfaceFilesOf(paths[n]);
     AddOutputs({ files.begin() + 1, files.end() }, "mesh", outputs, false);
   }
   if (!settings.measures.empty())
   {
     StageMeasureTable(surfaces, settings.measures, staged);
-    outputs.push_back({ settings.measures, "table", Report::array(), false });
+    AddOutputs({ settings.measures }, "table", outputs, false);
   }
   staged.Commit();
   events.Progress("writing and measuring", 1.0);

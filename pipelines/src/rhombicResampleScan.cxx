@@ -11,27 +11,21 @@ namespace rhombic
 namespace
 {
 
+/** Writes the lattice of a scan; returns its report. */
 Report
-ReportInput(const ResampleScanSettings & settings, const std::vector<std::filesystem::path> & files)
-{
-  return settings.source.isHashed ? Report{ { "input", ReportFiles(files) } } : Report::object();
-}
-
-void
 StageLattice(const Scan & scan, const ResampleScanSettings & settings, const Events & events, StagedFiles & staged)
 {
-  const FCCVolume volume =
-    ScanToLattice(OrderAlongPatient(scan, settings.source.lattice.maximumMemory), settings.source.lattice, events);
+  const LatticeSettings & lattice = settings.source.lattice;
+  const FCCVolume volume = ScanToLattice(OrderAlongPatient(scan, lattice.maximumMemory), lattice, events);
   events.Progress("writing", 0.0);
   StageFCCImage(volume, settings.volume, staged);
-  Report report = ReportInput(settings, scan.files);
-  report["scan"] = ReportWithoutNames(scan, settings.source.path);
-  report["denoising"] = ReportDenoising(settings.source.lattice.denoising);
-  report["lattice"] = ReportLattice(volume);
-  StageSidecar(settings.volume, settings.provenance, report, staged);
+  return { { "scan", ReportWithoutNames(scan, settings.source.path) },
+           { "denoising", ReportDenoising(lattice.denoising) },
+           { "lattice", ReportLattice(volume) } };
 }
 
-void
+/** Writes the grid of a lattice volume; returns its report. */
+Report
 StageGrid(const FCCVolume & volume, const ResampleScanSettings & settings, const Events & events, StagedFiles & staged)
 {
   const LatticeSettings & lattice = settings.source.lattice;
@@ -39,10 +33,7 @@ StageGrid(const FCCVolume & volume, const ResampleScanSettings & settings, const
   const ScanImage image = LatticeToScan(denoised, lattice.spacing, events);
   events.Progress("writing", 0.0);
   StageScan(image, settings.volume, staged);
-  Report report = ReportInput(settings, { settings.source.path });
-  report["denoising"] = ReportDenoising(lattice.denoising);
-  report["lattice"] = ReportLattice(denoised);
-  StageSidecar(settings.volume, settings.provenance, report, staged);
+  return { { "denoising", ReportDenoising(lattice.denoising) }, { "lattice", ReportLattice(denoised) } };
 }
 
 /** Throws Failure(Usage) for an extension that the kind of volume can't be written with. */
@@ -75,19 +66,19 @@ ResampleScan(const ResampleScanSettings & settings, const Events & events)
   CheckVolumePath(settings);
   CheckOutputs(CheckResampleScan(settings), settings.source);
   const SourceVolume volume = LoadVolume(settings.source, events);
+  const auto * const scan = std::get_if<Scan>(&volume);
   StagedFiles staged;
-  if (const auto * const scan = std::get_if<Scan>(&volume))
+  Report report = Report::object();
+  if (settings.source.isHashed)
   {
-    StageLattice(*scan, settings, events, staged);
+    report["input"] = ReportFiles(scan != nullptr ? scan->files : std::vector{ settings.source.path });
   }
-  else
-  {
-    StageGrid(std::get<FCCVolume>(volume), settings, events, staged);
-  }
+  report.update(scan != nullptr ? StageLattice(*scan, settings, events, staged)
+                                : StageGrid(std::get<FCCVolume>(volume), settings, events, staged));
+  std::vector<MadeFile> outputs;
+  AddOutput(settings.volume, "volume", settings.provenance, report, staged, outputs);
   staged.Commit();
   events.Progress("writing", 1.0);
-  std::vector<MadeFile> outputs{ { settings.volume, "volume" } };
-  AddSidecars(settings.provenance, outputs);
   return outputs;
 }
 

@@ -5,17 +5,6 @@
 namespace rhombic
 {
 
-MadeFile
-MakeOutput(const std::filesystem::path & path, const std::string & kind, const Report & report)
-{
-  MadeFile output{ path, kind };
-  for (const Report & surface : report.value("surfaces", Report::array()))
-  {
-    output.measures.push_back(surface["measures"]);
-  }
-  return output;
-}
-
 void
 AddOutputs(const std::vector<std::filesystem::path> & paths,
            const std::string & kind,
@@ -25,16 +14,6 @@ AddOutputs(const std::vector<std::filesystem::path> & paths,
   for (const std::filesystem::path & path : paths)
   {
     outputs.push_back({ path, kind, Report::array(), areMain });
-  }
-}
-
-void
-AddSidecars(const Provenance & provenance, std::vector<MadeFile> & outputs)
-{
-  const std::size_t count = provenance.writesSidecars ? outputs.size() : 0;
-  for (std::size_t n = 0; n < count; ++n)
-  {
-    outputs.push_back({ SidecarOf(outputs[n].path), "report", Report::array(), false });
   }
 }
 
@@ -56,21 +35,28 @@ WithSidecars(std::vector<std::filesystem::path> outputs, const Provenance & prov
 }
 
 void
-StageSidecar(const std::filesystem::path & output,
-             const Provenance & provenance,
-             const Report & report,
-             StagedFiles & staged)
+AddOutput(const std::filesystem::path & path,
+          const std::string & kind,
+          const Provenance & provenance,
+          const Report & report,
+          StagedFiles & staged,
+          std::vector<MadeFile> & outputs)
 {
-  if (!provenance.writesSidecars)
+  MadeFile & output = outputs.emplace_back(MadeFile{ path, kind });
+  for (const Report & surface : report.value("surfaces", Report::array()))
   {
-    return;
+    output.measures.push_back(surface["measures"]);
   }
-  Report whole{ { "output", output.filename().string() },
-                { "software", provenance.software },
-                { "command", provenance.command },
-                { "settings", provenance.settings } };
-  whole.update(report);
-  StageText(ToJson(whole) + '\n', SidecarOf(output), staged);
+  if (provenance.writesSidecars)
+  {
+    Report sidecar{ { "output", path.filename().string() },
+                    { "software", provenance.software },
+                    { "command", provenance.command },
+                    { "settings", provenance.settings } };
+    sidecar.update(report);
+    StageText(ToJson(sidecar) + '\n', SidecarOf(path), staged);
+    AddOutputs({ SidecarOf(path) }, "report", outputs, false);
+  }
 }
 
 void

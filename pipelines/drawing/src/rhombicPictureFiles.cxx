@@ -94,7 +94,7 @@ StageFilesBeside(const std::vector<Picture> & pictures,
   if (!pictures.empty() && !settings.thumbnail.empty())
   {
     StagePicture(Shrink(pictures.front(), side), settings.thumbnail, staged, {});
-    outputs.push_back({ settings.thumbnail, "thumbnail", Report::array(), false });
+    AddOutputs({ settings.thumbnail }, "thumbnail", outputs, false);
   }
   if (!study)
   {

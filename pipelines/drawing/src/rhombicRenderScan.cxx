@@ -393,10 +393,8 @@ StagePictures(const std::vector<Picture> & pictures,
     {
       report["picture"] = n + 1;
     }
-    StageSidecar(paths[n], settings.provenance, report, staged);
-    outputs.push_back(MakeOutput(paths[n], "picture", report));
+    AddOutput(paths[n], "picture", settings.provenance, report, staged, outputs);
   }
-  AddSidecars(settings.provenance, outputs);
   return outputs;
 }
 

@@ -233,9 +233,8 @@ RenderSheet(const RenderSheetSettings & settings, const Events & events, std::op
   StagedFiles staged;
   const std::vector<Picture> pages = study || !IsPdf(settings.page) ? DrawSheet(sheet) : std::vector<Picture>();
   const std::vector<fs::path> paths = StageSheet(sheet, pages, settings, staged);
-  StageSidecar(settings.page, settings.provenance, scene.report, staged);
-  std::vector<MadeFile> outputs{ MakeOutput(paths.front(), "page", scene.report) };
-  AddSidecars(settings.provenance, outputs);
+  std::vector<MadeFile> outputs;
+  AddOutput(settings.page, "page", settings.provenance, scene.report, staged, outputs);
   AddOutputs({ paths.begin() + 1, paths.end() }, "page", outputs);
   const std::vector<fs::path> dicomPaths = DicomPathsOf(settings, PathsOfPages(settings.page, pages.size()));
   StageFilesBeside(pages, settings, study, dicomPaths, 0.0, events, staged, outputs);
