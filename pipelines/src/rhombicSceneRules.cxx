@@ -7,60 +7,36 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <string_view>
 
 namespace rhombic
 {
 namespace
 {
 
-/** The patterns of each group's names. */
-const std::map<std::string, std::vector<std::string>> &
-Groups()
+/** A group of names: their patterns, with blanks between them. */
+struct NameGroup
 {
-  static const std::map<std::string, std::vector<std::string>> groups{
-    { "group:bones",
-      { "*bone*",    "rib*",      "*costa*",  "*vertebra*", "sternum*",    "sacrum*", "skull*",      "*clavicula*",
-        "*scapula*", "*humerus*", "*femur*",  "hip_*",      "*pelvis*",    "mandib*", "*tibia*",     "*fibula*",
-        "*radius*",  "*ulna*",    "patella*", "carpal*",    "metacarpal*", "tarsal*", "metatarsal*", "phalanges*" } },
-    { "group:vessels",
-      { "*aorta*", "*artery*", "*vein*", "*vena*", "*vessel*", "*trunk*", "*carotid*", "*subclavian*", "iliac_*" } },
-    { "group:lungs", { "lung*", "*lung", "*lobe*", "trachea*", "bronch*" } },
-    { "group:heart", { "heart*", "*atrium*", "*atrial*", "*myocardium*", "heart_ventricle*" } },
-    { "group:brain",
-      { "*brain*",
-        "*cerebr*",
-        "*cerebell*",
-        "*cortex*",
-        "*thalamus*",
-        "*caudate*",
-        "*putamen*",
-        "*pallidum*",
-        "*hippocampus*",
-        "*amygdala*",
-        "*ventricle*" } },
-    { "group:muscles", { "*muscle*", "gluteus*", "iliopsoas*", "autochthon*", "quadriceps*", "thigh*", "sartorius*" } },
-    { "group:organs",
-      { "liver*",
-        "spleen*",
-        "pancreas*",
-        "*kidney*",
-        "stomach*",
-        "gallbladder*",
-        "*adrenal*",
-        "*bladder*",
-        "prostate*",
-        "colon*",
-        "duodenum*",
-        "small_bowel*",
-        "esophagus*",
-        "*thyroid*",
-        "heart*",
-        "lung*",
-        "brain*" } }
-  };
-  return groups;
-}
+  const char * name;
+  const char * patterns;
+};
+
+constexpr NameGroup Groups[] = {
+  { "group:bones",
+    "*bone* rib* *costa* *vertebra* sternum* sacrum* skull* *clavicula* *scapula* *humerus* *femur* hip_* "
+    "*pelvis* mandib* *tibia* *fibula* *radius* *ulna* patella* carpal* metacarpal* tarsal* metatarsal* "
+    "phalanges*" },
+  { "group:brain",
+    "*brain* *cerebr* *cerebell* *cortex* *thalamus* *caudate* *putamen* *pallidum* *hippocampus* *amygdala* "
+    "*ventricle*" },
+  { "group:heart", "heart* *atrium* *atrial* *myocardium* heart_ventricle*" },
+  { "group:lungs", "lung* *lung *lobe* trachea* bronch*" },
+  { "group:muscles", "*muscle* gluteus* iliopsoas* autochthon* quadriceps* thigh* sartorius*" },
+  { "group:organs",
+    "liver* spleen* pancreas* *kidney* stomach* gallbladder* *adrenal* *bladder* prostate* colon* duodenum* "
+    "small_bowel* esophagus* *thyroid* heart* lung* brain*" },
+  { "group:vessels", "*aorta* *artery* *vein* *vena* *vessel* *trunk* *carotid* *subclavian* iliac_*" },
+};
 
 std::vector<std::string>
 NamesOf(const std::vector<SurfaceRequest> & requests, const LabelMap * labels)
@@ -98,12 +74,6 @@ FitsAny(const std::vector<std::string> & patterns, const std::string & name)
 {
   return std::any_of(
     patterns.begin(), patterns.end(), [&name](const std::string & pattern) { return FitsPattern(pattern, name); });
-}
-
-bool
-IsShown(const SceneRules & rules, const std::string & name)
-{
-  return (rules.only.empty() || FitsAny(rules.only, name)) && !FitsAny(rules.hidden, name);
 }
 
 void
@@ -144,17 +114,18 @@ FitsPattern(const std::string & pattern, const std::string & name)
   {
     return MatchesPattern(pattern, name);
   }
-  const auto group = Groups().find(LowerCase(pattern));
-  if (group == Groups().end())
+  std::vector<std::string> names;
+  for (const auto & [group, patterns] : Groups)
   {
-    std::vector<std::string> names;
-    for (const auto & known : Groups())
+    if (group == LowerCase(pattern))
     {
-      names.push_back(known.first);
+      const std::vector<std::string_view> words = SplitWords(patterns);
+      return std::any_of(
+        words.begin(), words.end(), [&name](std::string_view word) { return MatchesPattern(word, name); });
     }
-    throw Failure(FailureKind::Usage, DescribeUnknown("group", pattern, names, "use " + Enumerate(names)));
+    names.push_back(group);
   }
-  return FitsAny(group->second, name);
+  throw Failure(FailureKind::Usage, DescribeUnknown("group", pattern, names, "use " + Enumerate(names)));
 }
 
 SceneRule
@@ -219,7 +190,9 @@ ApplySceneRules(const SceneRules & rules, std::vector<SurfaceRequest> & requests
   {
     ColourLabels(*labels, rules.colours); // all of them, so that colours do not depend on what is shown
   }
-  const auto isHidden = [&rules](const auto & name) { return !IsShown(rules, name); };
+  const auto isHidden = [&rules](const std::string & name) {
+    return (!rules.only.empty() && !FitsAny(rules.only, name)) || FitsAny(rules.hidden, name);
+  };
   requests.erase(std::remove_if(requests.begin(),
                                 requests.end(),
                                 [&](const SurfaceRequest & request) { return isHidden(request.name); }),
