@@ -1,4 +1,4 @@
-#include "rhombicAuditReport.h"
+#include "rhombicSurfaceReport.h"
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
 #include "rhombicSurfaceIO.h"

@@ -3,6 +3,10 @@
 
 #include "rhombicSourceSurfaces.h"
 #include "rhombicScanReport.h"
+#include "rhombicWallAudit.h"
+
+#include <string>
+#include <vector>
 
 namespace rhombic
 {
@@ -16,6 +20,26 @@ ReportSource(const LoadedSource & loaded, const ScanSource & source);
  */
 Report
 ReportMeshedSurface(const MeshedSurface & surface);
+
+/** An audit as JSON; units are in the keys. */
+Report
+ReportAudit(const itk::TriangleSurfaceAudit & audit);
+
+/** An audit in a line each for shape, defects, self-intersections and quality of triangles. */
+std::vector<std::string>
+DescribeAudit(const itk::TriangleSurfaceAudit & audit);
+
+/** The defects that keep a surface from being watertight, as "3 boundary edges"; empty when it is. */
+std::string
+DescribeLeaks(const itk::TriangleSurfaceAudit & audit);
+
+/** An audit of walls as JSON. */
+Report
+ReportWalls(const WallAudit & audit);
+
+/** An audit of walls in one line. */
+std::string
+DescribeWalls(const WallAudit & audit);
 
 } // namespace rhombic
 

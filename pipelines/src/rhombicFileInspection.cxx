@@ -1,6 +1,5 @@
 #include "rhombicFileInspection.h"
 
-#include "rhombicAuditReport.h"
 #include "rhombicFailure.h"
 #include "rhombicForEachBlock.h"
 #include "rhombicMeasureTable.h"
