@@ -57,10 +57,6 @@ ParseThreshold(const std::string & text, SurfaceRequest & request);
 std::optional<double>
 ParseOpacity(const std::string & text);
 
-/** Whether a look, "matte" or "glossy", is glossy; nothing for other texts. */
-std::optional<bool>
-ParseGloss(const std::string & text);
-
 /** A surface written as name=threshold[,colour[,opacity]]. A surface without a colour gets the \a number-th of a
  * palette. Throws Failure(Usage). */
 SurfaceRequest

@@ -3,16 +3,23 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace rhombic
 {
 
-/** What is wrong with the keys of a node, as "has the unknown key 'vew' in line 7 (did you mean view?)". Empty when it
- * is a map and has no other keys than those of \a known. */
-std::string
-DescribeKeys(const YAML::Node & map, const std::vector<std::string> & known);
+/** A mistake in a YAML file, as "has no outputs". The reader of the file makes a sentence of it. */
+class YAMLMistake : public std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
+/** Throws YAMLMistake for a node that is no map, and for a key that \a known does not have, as "has the unknown key
+ * 'vew' in line 7 (did you mean view?)". */
+void
+RefuseOtherKeys(const YAML::Node & map, const std::vector<std::string> & known);
 
 } // namespace rhombic
 

@@ -18,26 +18,9 @@ namespace rhombic
 namespace
 {
 
-[[noreturn]] void
-FailToParse(const std::string & source, const std::string & why)
-{
-  throw Failure(FailureKind::Unreadable,
-                "The preset " + source + " " + why + "; compare it with those in pipelines/presets.");
-}
-
-void
-RefuseUnknownKeys(const YAML::Node & map, const std::vector<std::string> & known, const std::string & source)
-{
-  const std::string mistake = DescribeKeys(map, known);
-  if (!mistake.empty())
-  {
-    FailToParse(source, mistake);
-  }
-}
-
 /** The position of a key's value in a list of words; 0 when the key is missing. */
 std::size_t
-FindWord(const YAML::Node & value, const std::vector<std::string> & words, const std::string & source)
+FindWord(const YAML::Node & value, const std::vector<std::string> & words)
 {
   const auto found = value ? std::find(words.begin(), words.end(), value.as<std::string>()) : words.begin();
   if (found == words.end())
@@ -46,62 +29,57 @@ FindWord(const YAML::Node & value, const std::vector<std::string> & words, const
     std::transform(words.begin(), words.end(), std::back_inserter(quoted), [](const std::string & word) {
       return "'" + word + "'";
     });
-    FailToParse(source, "has '" + value.as<std::string>() + "' where " + Enumerate(quoted) + " is expected");
+    throw YAMLMistake("has '" + value.as<std::string>() + "' where " + Enumerate(quoted) + " is expected");
   }
   return static_cast<std::size_t>(found - words.begin());
 }
 
 double
-ReadOpacity(const YAML::Node & node, const std::string & source)
+ReadOpacity(const YAML::Node & node)
 {
   const auto opacity = ParseOpacity(node.as<std::string>());
   if (!opacity)
   {
-    FailToParse(source, "has an opacity that is not above 0 and at most 1");
+    throw YAMLMistake("has an opacity that is not above 0 and at most 1");
   }
   return *opacity;
 }
 
+/** Whether a look is glossy. */
 bool
-ReadGloss(const YAML::Node & node, const std::string & source)
+ReadGloss(const YAML::Node & node)
 {
-  const auto gloss = ParseGloss(node.as<std::string>());
-  if (!gloss)
-  {
-    FailToParse(source, "has '" + node.as<std::string>() + "' where 'matte' or 'glossy' is expected");
-  }
-  return *gloss;
+  return FindWord(node, { "matte", "glossy" }) == 1;
 }
 
 SurfaceRequest
-ParseSurface(const YAML::Node & node, const std::string & source)
+ParseSurface(const YAML::Node & node)
 {
-  RefuseUnknownKeys(
+  RefuseOtherKeys(
     node,
-    { "name", "isovalue", "side", "parts", "colour", "opacity", "min-volume", "largest", "fill", "smooth", "look" },
-    source);
+    { "name", "isovalue", "side", "parts", "colour", "opacity", "min-volume", "largest", "fill", "smooth", "look" });
   for (const char * key : { "name", "isovalue" })
   {
     if (!node[key])
     {
-      FailToParse(source, "has a surface without " + std::string(key));
+      throw YAMLMistake("has a surface without " + std::string(key));
     }
   }
   SurfaceRequest request;
   request.name = node["name"].as<std::string>();
   if (!ParseThreshold(node["isovalue"].as<std::string>(), request) || request.insideIsBelow)
   {
-    FailToParse(source, "has an isovalue that is neither a finite number nor otsu, otsu-low, otsu-lowest or otsu-high");
+    throw YAMLMistake("has an isovalue that is neither a finite number nor otsu, otsu-low, otsu-lowest or otsu-high");
   }
-  request.insideIsBelow = FindWord(node["side"], { "above", "below" }, source) == 1;
+  request.insideIsBelow = FindWord(node["side"], { "above", "below" }) == 1;
   using Parts = SurfaceRequest::Parts;
   constexpr std::array<Parts, 3> parts{ Parts::All, Parts::Enclosed, Parts::Outermost };
-  request.parts = parts[FindWord(node["parts"], { "all", "enclosed", "outermost" }, source)];
+  request.parts = parts[FindWord(node["parts"], { "all", "enclosed", "outermost" })];
   if (node["colour"])
   {
     request.colour = ParseColour(node["colour"].as<std::string>());
   }
-  request.opacity = node["opacity"] ? ReadOpacity(node["opacity"], source) : 1.0;
+  request.opacity = node["opacity"] ? ReadOpacity(node["opacity"]) : 1.0;
   request.finish.minimumVolume = node["min-volume"].as<double>(0.0);
   request.finish.keepsLargestPart = node["largest"].as<bool>(false);
   request.finish.fillsCavities = node["fill"].as<bool>(false);
@@ -111,12 +89,12 @@ ParseSurface(const YAML::Node & node, const std::string & source)
 }
 
 SceneRule
-ParseRule(const YAML::Node & node, const std::string & source)
+ParseRule(const YAML::Node & node)
 {
-  RefuseUnknownKeys(node, { "match", "colour", "opacity", "look" }, source);
+  RefuseOtherKeys(node, { "match", "colour", "opacity", "look" });
   if (!node["match"])
   {
-    FailToParse(source, "has a rule without match");
+    throw YAMLMistake("has a rule without match");
   }
   SceneRule rule;
   rule.pattern = node["match"].as<std::string>();
@@ -127,26 +105,13 @@ ParseRule(const YAML::Node & node, const std::string & source)
   }
   if (node["opacity"])
   {
-    rule.opacity = ReadOpacity(node["opacity"], source);
+    rule.opacity = ReadOpacity(node["opacity"]);
   }
   if (node["look"])
   {
-    rule.isGlossy = ReadGloss(node["look"], source);
+    rule.isGlossy = ReadGloss(node["look"]);
   }
   return rule;
-}
-
-bool
-IsYamlPath(const std::string & text)
-{
-  const auto extension = fs::path(text).extension();
-  return extension == ".yaml" || extension == ".yml";
-}
-
-Preset
-ReadPreset(const fs::path & path)
-{
-  return ParsePreset(ReadTextFile(path, "preset file"), path.string());
 }
 
 } // namespace
@@ -154,44 +119,48 @@ ReadPreset(const fs::path & path)
 Preset
 ParsePreset(const std::string & yaml, const std::string & source)
 {
+  const auto failure = [&source](const std::string & why) {
+    return Failure(FailureKind::Unreadable,
+                   "The preset " + source + " " + why + "; compare it with those in pipelines/presets.");
+  };
   try
   {
     const YAML::Node root = YAML::Load(yaml);
-    RefuseUnknownKeys(root, { "name", "description", "denoise", "removes", "surfaces", "rules" }, source);
+    RefuseOtherKeys(root, { "name", "description", "denoise", "removes", "surfaces", "rules" });
     Preset preset;
     preset.name = root["name"].as<std::string>();
     preset.description = root["description"].as<std::string>("");
     preset.denoising = ParseDenoising(root["denoise"].as<std::string>("none"));
-    preset.removesTable = FindWord(root["removes"], { "nothing", "table" }, source) == 1;
+    preset.removesTable = FindWord(root["removes"], { "nothing", "table" }) == 1;
     for (const auto & node : root["surfaces"])
     {
-      preset.surfaces.push_back(ParseSurface(node, source));
+      preset.surfaces.push_back(ParseSurface(node));
       if (node["look"])
       {
-        preset.rules.push_back({ preset.surfaces.back().name, {}, {}, ReadGloss(node["look"], source) });
+        preset.rules.push_back({ preset.surfaces.back().name, {}, {}, ReadGloss(node["look"]) });
       }
     }
     for (const auto & node : root["rules"])
     {
-      preset.rules.push_back(ParseRule(node, source));
+      preset.rules.push_back(ParseRule(node));
     }
     if (preset.surfaces.empty())
     {
-      FailToParse(source, "has no surfaces");
+      throw YAMLMistake("has no surfaces");
     }
     return preset;
   }
-  catch (const Failure & failure)
+  catch (const YAMLMistake & mistake)
   {
-    if (failure.GetKind() == FailureKind::Unreadable)
-    {
-      throw;
-    }
-    FailToParse(source, "has a mistake: " + DescribeError(failure));
+    throw failure(mistake.what());
+  }
+  catch (const Failure & mistake)
+  {
+    throw failure("has a mistake: " + DescribeError(mistake));
   }
   catch (const YAML::Exception & error)
   {
-    FailToParse(source, "is not valid (line " + std::to_string(error.mark.line + 1) + ": " + error.msg + ")");
+    throw failure("is not valid (line " + std::to_string(error.mark.line + 1) + ": " + error.msg + ")");
   }
 }
 
@@ -212,9 +181,10 @@ GetPresets()
 Preset
 FindPreset(const std::string & nameOrPath)
 {
-  if (IsYamlPath(nameOrPath))
+  const fs::path extension = fs::path(nameOrPath).extension();
+  if (extension == ".yaml" || extension == ".yml")
   {
-    return ReadPreset(nameOrPath);
+    return ParsePreset(ReadTextFile(nameOrPath, "preset file"), nameOrPath);
   }
   std::vector<std::string> names;
   for (const Preset & preset : GetPresets())

@@ -157,8 +157,8 @@ ParseSceneRule(const std::string & text)
   }
   if (fields.size() > 2)
   {
-    rule.isGlossy = ParseGloss(fields[2]);
-    if (!rule.isGlossy)
+    rule.isGlossy = fields[2] == "glossy";
+    if (!*rule.isGlossy && fields[2] != "matte")
     {
       throw Failure(FailureKind::Usage, "'" + fields[2] + "' in '" + text + "' is no look; write matte or glossy.");
     }

@@ -53,12 +53,6 @@ ParseOpacity(const std::string & text)
   return opacity && *opacity > 0.0 && *opacity <= 1.0 ? opacity : std::nullopt;
 }
 
-std::optional<bool>
-ParseGloss(const std::string & text)
-{
-  return text == "glossy" || text == "matte" ? std::optional(text == "glossy") : std::nullopt;
-}
-
 SurfaceRequest
 ParseSurfaceRequest(const std::string & text, std::size_t number)
 {

@@ -7,12 +7,12 @@
 namespace rhombic
 {
 
-std::string
-DescribeKeys(const YAML::Node & map, const std::vector<std::string> & known)
+void
+RefuseOtherKeys(const YAML::Node & map, const std::vector<std::string> & known)
 {
   if (!map.IsMap())
   {
-    return "is not made of keys and values in line " + std::to_string(map.Mark().line + 1);
+    throw YAMLMistake("is not made of keys and values in line " + std::to_string(map.Mark().line + 1));
   }
   for (const auto & entry : map)
   {
@@ -20,11 +20,10 @@ DescribeKeys(const YAML::Node & map, const std::vector<std::string> & known)
     if (std::find(known.begin(), known.end(), key) == known.end())
     {
       const std::string nearest = NearestName(key, known);
-      return "has the unknown key '" + key + "' in line " + std::to_string(entry.first.Mark().line + 1) +
-             (nearest.empty() ? "" : " (did you mean " + nearest + "?)");
+      throw YAMLMistake("has the unknown key '" + key + "' in line " + std::to_string(entry.first.Mark().line + 1) +
+                        (nearest.empty() ? "" : " (did you mean " + nearest + "?)"));
     }
   }
-  return "";
 }
 
 } // namespace rhombic

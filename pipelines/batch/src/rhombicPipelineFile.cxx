@@ -34,13 +34,6 @@ constexpr OutputKind OutputKinds[] = { { "page", "render" },
                                        { "mesh", "mesh" },
                                        { "volume", "resample" } };
 
-[[noreturn]] void
-FailInPipeline(const std::string & source, const std::string & why)
-{
-  throw Failure(FailureKind::Usage,
-                "The pipeline " + source + " " + why + "; see the guide's chapter on many scans for an example.");
-}
-
 std::string
 LineOf(const YAML::Node & node)
 {
@@ -87,8 +80,7 @@ class PipelineParser
 {
 public:
   PipelineParser(const fs::path & path, const CommandSyntax & syntax)
-    : m_Source(path.string())
-    , m_Folder(path.empty() ? fs::path() : fs::absolute(path).parent_path())
+    : m_Folder(path.empty() ? fs::path() : fs::absolute(path).parent_path())
     , m_Syntax(syntax)
   {}
 
@@ -96,7 +88,7 @@ public:
   Parse(const std::string & text)
   {
     const YAML::Node root = YAML::Load(text);
-    this->CheckKeysOf(root, { "description", "options", "outputs" });
+    RefuseOtherKeys(root, { "description", "options", "outputs" });
     Pipeline pipeline;
     if (root["options"])
     {
@@ -109,28 +101,18 @@ public:
       const auto isSame = [&name](const PipelineStep & step) { return step.output == name; };
       if (std::count_if(pipeline.steps.begin(), pipeline.steps.end(), isSame) > 1)
       {
-        FailInPipeline(m_Source, "has a second output " + name + " " + LineOf(output));
+        throw YAMLMistake("has a second output " + name + " " + LineOf(output));
       }
     }
     if (pipeline.steps.empty())
     {
-      FailInPipeline(m_Source, "has no outputs");
+      throw YAMLMistake("has no outputs");
     }
     pipeline.hash = HashText(m_Identity);
     return pipeline;
   }
 
 private:
-  void
-  CheckKeysOf(const YAML::Node & map, const std::vector<std::string> & known) const
-  {
-    const std::string mistake = DescribeKeys(map, known);
-    if (!mistake.empty())
-    {
-      FailInPipeline(m_Source, mistake);
-    }
-  }
-
   void
   CheckCommonOptions(const YAML::Node & options) const
   {
@@ -142,7 +124,7 @@ private:
         known.push_back(setting.name);
       }
     }
-    this->CheckKeysOf(options, known);
+    RefuseOtherKeys(options, known);
   }
 
   PipelineStep
@@ -157,7 +139,7 @@ private:
     }
     if (kind == nullptr)
     {
-      FailInPipeline(m_Source, "has an output without " + Enumerate(keys) + " " + LineOf(node));
+      throw YAMLMistake("has an output without " + Enumerate(keys) + " " + LineOf(node));
     }
     PipelineStep step;
     step.line = static_cast<std::size_t>(node.Mark().line) + 1;
@@ -166,7 +148,7 @@ private:
     step.output = node[kind->key].as<std::string>();
     if (step.output.empty() || step.output[0] == '.' || step.output.find('/') != std::string::npos)
     {
-      FailInPipeline(m_Source, "has '" + step.output + "' where the name of a file is expected, " + LineOf(node));
+      throw YAMLMistake("has '" + step.output + "' where the name of a file is expected, " + LineOf(node));
     }
     const std::vector<CommandSyntax::Setting> settings = m_Syntax.settingsOf(step.command);
     std::vector<std::string> known{ kind->key };
@@ -174,7 +156,7 @@ private:
     {
       known.push_back(setting.name);
     }
-    this->CheckKeysOf(node, known);
+    RefuseOtherKeys(node, known);
 
     step.settings = step.kind == "page" ? Report{ { "sheet", true } } : Report::object();
     for (const CommandSyntax::Setting & setting : settings)
@@ -202,7 +184,7 @@ private:
     const auto text = value.as<std::string>();
     if (text != "true" && text != "false")
     {
-      FailInPipeline(m_Source, "has '" + text + "' where true or false is expected, " + LineOf(value));
+      throw YAMLMistake("has '" + text + "' where true or false is expected, " + LineOf(value));
     }
     return text == "true";
   }
@@ -264,8 +246,8 @@ private:
     }
     catch (const Failure & failure)
     {
-      FailInPipeline(
-        m_Source, "has a mistake in the output in line " + std::to_string(step.line) + ": " + DescribeError(failure));
+      throw YAMLMistake("has a mistake in the output in line " + std::to_string(step.line) + ": " +
+                        DescribeError(failure));
     }
   }
 
@@ -290,7 +272,6 @@ private:
     }
   }
 
-  std::string m_Source;
   fs::path m_Folder;
   const CommandSyntax & m_Syntax;
   std::string m_Identity;                     ///< all that determines the outputs
@@ -312,26 +293,28 @@ Joined(const Report & first, const Report & second)
   return all;
 }
 
-std::string
-ReadPipelineText(const fs::path & path)
-{
-  return path.empty() ? defaultPipeline : ReadTextFile(path, "pipeline file");
-}
-
 } // namespace
 
 Pipeline
 ReadPipeline(const fs::path & path, const CommandSyntax & syntax)
 {
-  const std::string text = ReadPipelineText(path);
+  const std::string text = path.empty() ? defaultPipeline : ReadTextFile(path, "pipeline file");
+  const auto failure = [&path](const std::string & why) {
+    return Failure(FailureKind::Usage,
+                   "The pipeline " + path.string() + " " + why +
+                     "; see the guide's chapter on many scans for an example.");
+  };
   try
   {
     return PipelineParser(path, syntax).Parse(text);
   }
+  catch (const YAMLMistake & mistake)
+  {
+    throw failure(mistake.what());
+  }
   catch (const YAML::Exception & error)
   {
-    FailInPipeline(path.string(),
-                   "is not valid in line " + std::to_string(error.mark.line + 1) + " (" + error.msg + ")");
+    throw failure("is not valid in line " + std::to_string(error.mark.line + 1) + " (" + error.msg + ")");
   }
 }
 
