@@ -3,7 +3,6 @@
 #include "rhombicDescribeScan.h"
 #include "rhombicFailure.h"
 #include "rhombicNamedValues.h"
-#include "rhombicSourceLoading.h"
 
 namespace rhombic
 {

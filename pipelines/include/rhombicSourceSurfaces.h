@@ -3,7 +3,7 @@
 
 #include "rhombicLabelSurfaces.h"
 #include "rhombicLatticeToSurfaces.h"
-#include "rhombicSourceLoading.h"
+#include "rhombicScanSource.h"
 #include "rhombicSurfaceDeviation.h"
 #include "rhombicSurfaceFinish.h"
 #include "rhombicSurfaceMeasures.h"

@@ -4,7 +4,6 @@
 #include "rhombicFailure.h"
 #include "rhombicLabelDoubts.h"
 #include "rhombicOptionNames.h"
-#include "rhombicSourceLoading.h"
 #include "rhombicWording.h"
 
 #include <algorithm>

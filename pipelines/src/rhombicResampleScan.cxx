@@ -4,7 +4,6 @@
 #include "rhombicPatientAxes.h"
 #include "rhombicScanReport.h"
 #include "rhombicScanWriter.h"
-#include "rhombicSourceLoading.h"
 
 namespace rhombic
 {

@@ -1,6 +1,5 @@
 #include "../scans/ScanIO/rhombicDicomTestFile.h"
 #include "rhombicDescribeScan.h"
-#include "rhombicSourceLoading.h"
 #include "rhombicTemporaryFolder.h"
 
 #include <gtest/gtest.h>

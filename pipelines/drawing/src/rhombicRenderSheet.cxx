@@ -3,7 +3,6 @@
 #include "rhombicMemoryBudget.h"
 #include "rhombicPictureFiles.h"
 #include "rhombicPictureScene.h"
-#include "rhombicSourceLoading.h"
 #include "rhombicSurfaceRenderer.h"
 #include "rhombicWording.h"
 

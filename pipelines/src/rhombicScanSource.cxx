@@ -1,4 +1,4 @@
-#include "rhombicSourceLoading.h"
+#include "rhombicScanSource.h"
 
 #include "itkNativeScanFileReader.h"
 #include "rhombicAtomicFile.h"
@@ -39,29 +39,6 @@ NoteAll(const std::vector<std::string> & notes, const Events & events, const std
   {
     events.Note(before + note);
   }
-}
-
-Scan
-LoadScan(const ScanSource & source, const Events & events)
-{
-  Scan scan = ReadScan(source, events);
-  events.Note(DescribeGrid(scan));
-  NoteAll(scan.notes, events);
-  NoteAll(scan.fileNotes, events);
-  return scan;
-}
-
-/** Size and position of a scan's samples without their values; null when it is slanted. */
-itk::ImageBase<3>::Pointer
-GridOf(const Scan & scan)
-{
-  if (IsSlanted(scan))
-  {
-    return nullptr;
-  }
-  const auto grid = itk::ImageBase<3>::New();
-  grid->CopyInformation(&GeometryOf(scan.image));
-  return grid;
 }
 
 [[noreturn]] void
@@ -197,19 +174,12 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   loaded.requests = ResolveRequests(requests, scan.image);
   const Scan ordered = OrderAlongPatient(scan, source.lattice.maximumMemory);
   loaded.lattice = ScanToLattice(ordered, source.lattice, events);
-  loaded.grid = GridOf(ordered);
-  return loaded;
-}
-
-/** Throws Failure(Usage) for an output that is an input. */
-void
-CheckInput(const fs::path & output, const fs::path & input)
-{
-  std::error_code error;
-  if (fs::equivalent(output, input, error))
+  if (!IsSlanted(ordered))
   {
-    throw Failure(FailureKind::Usage, "The output " + output.string() + " is the input itself; give it another name.");
+    loaded.grid = itk::ImageBase<3>::New();
+    loaded.grid->CopyInformation(&GeometryOf(ordered.image));
   }
+  return loaded;
 }
 
 } // namespace
@@ -238,7 +208,11 @@ LoadVolume(const ScanSource & source, const Events & events)
   {
     return ReadFCCImage(source.path);
   }
-  return LoadScan(source, events);
+  Scan scan = ReadScan(source, events);
+  events.Note(DescribeGrid(scan));
+  NoteAll(scan.notes, events);
+  NoteAll(scan.fileNotes, events);
+  return scan;
 }
 
 void
@@ -282,23 +256,27 @@ CheckSelection(const SurfaceSelection & selection)
 void
 CheckOutputs(const std::vector<fs::path> & outputs, const ScanSource & source, const SurfaceSelection & selection)
 {
+  std::vector<fs::path> inputs{ source.path };
+  if (selection.labels)
+  {
+    const LabelMapSource & labels = selection.labels->source;
+    inputs.push_back(labels.table);
+    inputs.insert(inputs.end(), labels.paths.begin(), labels.paths.end());
+    inputs.insert(inputs.end(), labels.probabilities.begin(), labels.probabilities.end());
+  }
   std::set<fs::path> seen;
   for (const fs::path & output : outputs)
   {
-    CheckInput(output, source.path);
-    if (selection.labels)
+    std::error_code ignored;
+    for (const fs::path & input : inputs)
     {
-      CheckInput(output, selection.labels->source.table);
-      for (const auto * const inputs : { &selection.labels->source.paths, &selection.labels->source.probabilities })
+      if (fs::equivalent(output, input, ignored))
       {
-        for (const fs::path & path : *inputs)
-        {
-          CheckInput(output, path);
-        }
+        throw Failure(FailureKind::Usage,
+                      "The output " + output.string() + " is the input itself; give it another name.");
       }
     }
     const AtomicFile probe(output);
-    std::error_code ignored;
     if (!seen.insert(fs::weakly_canonical(fs::absolute(output), ignored)).second)
     {
       throw Failure(FailureKind::Usage,
