@@ -1,8 +1,5 @@
-#include "rhombicComparison.h"
 
-#include "rhombicComparisonPictures.h"
-#include "rhombicComparisonReport.h"
-#include "rhombicExperimentRun.h"
+#include "rhombicComparisonSteps.h"
 #include "rhombicFailure.h"
 #include "rhombicPictureIO.h"
 #include "rhombicSidecar.h"

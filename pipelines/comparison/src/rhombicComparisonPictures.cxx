@@ -1,7 +1,5 @@
-#include "rhombicComparisonPictures.h"
+#include "rhombicComparisonSteps.h"
 
-#include "rhombicComparedMethod.h"
-#include "rhombicComparisonReport.h"
 #include "rhombicSurfaceRenderer.h"
 #include "rhombicWording.h"
 

@@ -1,6 +1,5 @@
-#include "rhombicComparisonReport.h"
+#include "rhombicComparisonSteps.h"
 
-#include "rhombicComparedMethod.h"
 #include "rhombicFailure.h"
 #include "rhombicWording.h"
 

@@ -1,4 +1,4 @@
-#include "rhombicComparisonPictures.h"
+#include "rhombicComparisonSteps.h"
 
 #include "rhombicView.h"
 
