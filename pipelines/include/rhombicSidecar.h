@@ -32,6 +32,16 @@ struct MadeFile
   bool isMain = true;                ///< whether a user looks for the file; others, as reports, lie beside those
 };
 
+/** \class OutputFiles
+ * \brief The files of a command, which appear together when they are committed. The provenance must outlive the object.
+ */
+struct OutputFiles
+{
+  const Provenance & provenance;
+  StagedFiles staged{};
+  std::vector<MadeFile> made{};
+};
+
 /** Adds files without surfaces of their own. */
 void
 AddOutputs(const std::vector<std::filesystem::path> & paths,
@@ -47,15 +57,10 @@ SidecarOf(const std::filesystem::path & output);
 std::vector<std::filesystem::path>
 WithSidecars(std::vector<std::filesystem::path> outputs, const Provenance & provenance);
 
-/** Adds an output with the measures of the surfaces in its report, and, if sidecars are written, its sidecar, which is
- * written to appear with all others of \a staged. Throws Failure(Output). */
+/** Adds an output with the measures of the surfaces in its report, and, if sidecars are written, its sidecar. Throws
+ * Failure(Output). */
 void
-AddOutput(const std::filesystem::path & path,
-          const std::string & kind,
-          const Provenance & provenance,
-          const Report & report,
-          StagedFiles & staged,
-          std::vector<MadeFile> & outputs);
+AddOutput(const std::filesystem::path & path, const std::string & kind, const Report & report, OutputFiles & outputs);
 
 /** Writes a text file, to appear with all others of \a staged. Throws Failure(Output).
  * \param permissions unknown: those of new files */

@@ -168,8 +168,7 @@ StageInspected(const FileInspection & inspection,
                MeshedSurface * begin,
                std::size_t count,
                const Report & sourceReport,
-               StagedFiles & staged,
-               std::vector<MadeFile> & outputs)
+               OutputFiles & outputs)
 {
   std::vector<SceneSurface> scene;
   std::transform(begin, begin + count, std::back_inserter(scene), [](const auto & surface) { return surface.scene; });
@@ -178,7 +177,7 @@ StageInspected(const FileInspection & inspection,
   ForEachOnThreads(2, [&](std::size_t task) {
     if (task == 0)
     {
-      StageSurfaces(scene, path, staged, file);
+      StageSurfaces(scene, path, outputs.staged, file);
     }
     else
     {
@@ -202,7 +201,7 @@ StageInspected(const FileInspection & inspection,
     }
     report["surfaces"].push_back(ReportMeshedSurface(begin[n]));
   }
-  AddOutput(path, "mesh", inspection.settings.provenance, report, staged, outputs);
+  AddOutput(path, "mesh", report, outputs);
 }
 
 std::optional<Report>

@@ -19,18 +19,16 @@ struct FileInspection
   const Events & events;
 };
 
-/** Writes \a count surfaces from \a begin on as one file with its sidecar, to appear with all others of \a staged; sets
- * their measures, deviation and audit; and adds both files to the outputs. Throws Failure, NotWatertight for a surface
- * that has to be watertight and is not.
- * \param sourceReport the sidecar's part about the source */
+/** Writes \a count surfaces from \a begin on as one file with its sidecar, and sets their measures, deviation and
+ * audit. Throws Failure, NotWatertight for a surface that has to be watertight and is not. \param sourceReport the
+ * sidecar's part about the source */
 void
 StageInspected(const FileInspection & inspection,
                const std::filesystem::path & path,
                MeshedSurface * begin,
                std::size_t count,
                const Report & sourceReport,
-               StagedFiles & staged,
-               std::vector<MadeFile> & outputs);
+               OutputFiles & outputs);
 
 /** Notes the audit of the walls that labels share, and returns its report; nothing if they share none. Throws
  * Failure(NotWatertight) as StageInspected() does. */

@@ -138,23 +138,22 @@ MeshScan(const MeshScanSettings & settings, const Events & events, std::optional
       sourceReport["walls"] = *walls;
     }
   }
-  StagedFiles staged;
-  std::vector<MadeFile> outputs;
+  OutputFiles outputs{ settings.provenance };
   for (std::size_t n = 0; n < paths.size(); ++n)
   {
     events.Progress("writing and measuring", static_cast<double>(n) / static_cast<double>(paths.size()));
-    StageInspected(inspection, paths[n], surfaces.data() + n * perFile, perFile, sourceReport, staged, outputs);
+    StageInspected(inspection, paths[n], surfaces.data() + n * perFile, perFile, sourceReport, outputs);
     const std::vector<fs::path> files = SurfaceFilesOf(paths[n]);
-    AddOutputs({ files.begin() + 1, files.end() }, "mesh", outputs, false);
+    AddOutputs({ files.begin() + 1, files.end() }, "mesh", outputs.made, false);
   }
   if (!settings.measures.empty())
   {
-    StageMeasureTable(surfaces, settings.measures, staged);
-    AddOutputs({ settings.measures }, "table", outputs, false);
+    StageMeasureTable(surfaces, settings.measures, outputs.staged);
+    AddOutputs({ settings.measures }, "table", outputs.made, false);
   }
-  staged.Commit();
+  outputs.staged.Commit();
   events.Progress("writing and measuring", 1.0);
-  return outputs;
+  return outputs.made;
 }
 
 } // namespace rhombic

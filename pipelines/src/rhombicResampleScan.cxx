@@ -66,19 +66,18 @@ ResampleScan(const ResampleScanSettings & settings, const Events & events)
   CheckOutputs(CheckResampleScan(settings), settings.source);
   const SourceVolume volume = LoadVolume(settings.source, events);
   const auto * const scan = std::get_if<Scan>(&volume);
-  StagedFiles staged;
+  OutputFiles outputs{ settings.provenance };
   Report report = Report::object();
   if (settings.source.isHashed)
   {
     report["input"] = ReportFiles(scan != nullptr ? scan->files : std::vector{ settings.source.path });
   }
-  report.update(scan != nullptr ? StageLattice(*scan, settings, events, staged)
-                                : StageGrid(std::get<FCCVolume>(volume), settings, events, staged));
-  std::vector<MadeFile> outputs;
-  AddOutput(settings.volume, "volume", settings.provenance, report, staged, outputs);
-  staged.Commit();
+  report.update(scan != nullptr ? StageLattice(*scan, settings, events, outputs.staged)
+                                : StageGrid(std::get<FCCVolume>(volume), settings, events, outputs.staged));
+  AddOutput(settings.volume, "volume", report, outputs);
+  outputs.staged.Commit();
   events.Progress("writing", 1.0);
-  return outputs;
+  return outputs.made;
 }
 
 } // namespace rhombic

@@ -35,14 +35,10 @@ WithSidecars(std::vector<std::filesystem::path> outputs, const Provenance & prov
 }
 
 void
-AddOutput(const std::filesystem::path & path,
-          const std::string & kind,
-          const Provenance & provenance,
-          const Report & report,
-          StagedFiles & staged,
-          std::vector<MadeFile> & outputs)
+AddOutput(const std::filesystem::path & path, const std::string & kind, const Report & report, OutputFiles & outputs)
 {
-  MadeFile & output = outputs.emplace_back(MadeFile{ path, kind });
+  const Provenance & provenance = outputs.provenance;
+  MadeFile & output = outputs.made.emplace_back(MadeFile{ path, kind });
   for (const Report & surface : report.value("surfaces", Report::array()))
   {
     output.measures.push_back(surface["measures"]);
@@ -54,8 +50,8 @@ AddOutput(const std::filesystem::path & path,
                     { "command", provenance.command },
                     { "settings", provenance.settings } };
     sidecar.update(report);
-    StageText(ToJson(sidecar) + '\n', SidecarOf(path), staged);
-    AddOutputs({ SidecarOf(path) }, "report", outputs, false);
+    StageText(ToJson(sidecar) + '\n', SidecarOf(path), outputs.staged);
+    AddOutputs({ SidecarOf(path) }, "report", outputs.made, false);
   }
 }
 

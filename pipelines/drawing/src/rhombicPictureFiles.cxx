@@ -87,14 +87,13 @@ StageFilesBeside(const std::vector<Picture> & pictures,
                  const std::vector<fs::path> & dicomPaths,
                  double secondsPerFrame,
                  const Events & events,
-                 StagedFiles & staged,
-                 std::vector<MadeFile> & outputs)
+                 OutputFiles & outputs)
 {
   constexpr int side = 320; // pixels
   if (!pictures.empty() && !settings.thumbnail.empty())
   {
-    StagePicture(Shrink(pictures.front(), side), settings.thumbnail, staged, {});
-    AddOutputs({ settings.thumbnail }, "thumbnail", outputs, false);
+    StagePicture(Shrink(pictures.front(), side), settings.thumbnail, outputs.staged, {});
+    AddOutputs({ settings.thumbnail }, "thumbnail", outputs.made, false);
   }
   if (!study)
   {
@@ -109,8 +108,8 @@ StageFilesBeside(const std::vector<Picture> & pictures,
   {
     captures[std::min(n, captures.size() - 1)].frames.push_back(&pictures[n]);
   }
-  study->Stage(captures, settings.provenance.software, staged);
-  AddOutputs(dicomPaths, "dicom", outputs);
+  study->Stage(captures, settings.provenance.software, outputs.staged);
+  AddOutputs(dicomPaths, "dicom", outputs.made);
   events.Note("the DICOM files hold the patient's name and the other tags of the scan's patient and study");
 }
 

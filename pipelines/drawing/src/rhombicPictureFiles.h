@@ -30,8 +30,7 @@ std::optional<DicomStudy>
 OpenStudy(const PictureSource & source, const std::vector<std::filesystem::path> & dicomPaths);
 
 /** Writes the thumbnail, the first picture with at most 320 pixels a side, made of means of blocks; and, if there is a
- * study, each picture as a DICOM file, or with one path all as the frames of one file. Adds both to the outputs. Throws
- * Failure. */
+ * study, each picture as a DICOM file, or with one path all as the frames of one file. Throws Failure. */
 void
 StageFilesBeside(const std::vector<Picture> & pictures,
                  const PictureSettings & settings,
@@ -39,8 +38,7 @@ StageFilesBeside(const std::vector<Picture> & pictures,
                  const std::vector<std::filesystem::path> & dicomPaths,
                  double secondsPerFrame,
                  const Events & events,
-                 StagedFiles & staged,
-                 std::vector<MadeFile> & outputs);
+                 OutputFiles & outputs);
 
 } // namespace rhombic
 

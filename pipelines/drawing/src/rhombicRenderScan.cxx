@@ -364,27 +364,26 @@ CheckSlices(const RenderScanSettings & settings)
 }
 
 /** Writes the pictures, or the one file of a turntable, with their reports. */
-std::vector<MadeFile>
+void
 StagePictures(const std::vector<Picture> & pictures,
               const std::vector<fs::path> & paths,
               double secondsPerFrame,
               const RenderScanSettings & settings,
               const Report & sceneReport,
-              StagedFiles & staged)
+              OutputFiles & outputs)
 {
   const PictureMetadata metadata{ settings.provenance.software, settings.provenance.command };
   if (settings.turntable > 0 && IsGif(settings.picture))
   {
-    StageAnimation(pictures, secondsPerFrame, paths.front(), staged);
+    StageAnimation(pictures, secondsPerFrame, paths.front(), outputs.staged);
   }
   else
   {
     for (std::size_t n = 0; n < pictures.size(); ++n)
     {
-      StagePicture(pictures[n], paths[n], staged, metadata);
+      StagePicture(pictures[n], paths[n], outputs.staged, metadata);
     }
   }
-  std::vector<MadeFile> outputs;
   for (std::size_t n = 0; n < paths.size(); ++n)
   {
     Report report = sceneReport;
@@ -392,9 +391,8 @@ StagePictures(const std::vector<Picture> & pictures,
     {
       report["picture"] = n + 1;
     }
-    AddOutput(paths[n], "picture", settings.provenance, report, staged, outputs);
+    AddOutput(paths[n], "picture", report, outputs);
   }
-  return outputs;
 }
 
 } // namespace
@@ -471,13 +469,13 @@ RenderScan(const RenderScanSettings & given, const Events & events, std::optiona
                            : DrawSliceWithOutlines(settings, scene, request, FindPlace(request, scene)));
     }
   }
-  StagedFiles staged;
+  OutputFiles outputs{ settings.provenance };
   const double secondsPerFrame = SecondsPerTurn / static_cast<double>(pictures.size());
-  std::vector<MadeFile> outputs = StagePictures(pictures, paths, secondsPerFrame, settings, scene.report, staged);
-  StageFilesBeside(pictures, settings, study, dicomPaths, secondsPerFrame, events, staged, outputs);
-  staged.Commit();
+  StagePictures(pictures, paths, secondsPerFrame, settings, scene.report, outputs);
+  StageFilesBeside(pictures, settings, study, dicomPaths, secondsPerFrame, events, outputs);
+  outputs.staged.Commit();
   events.Progress("rendering", 1.0);
-  return outputs;
+  return outputs.made;
 }
 
 } // namespace rhombic

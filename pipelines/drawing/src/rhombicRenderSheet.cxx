@@ -229,17 +229,16 @@ RenderSheet(const RenderSheetSettings & settings, const Events & events, std::op
                                         static_cast<int>(std::lround(places.slices[n].width)),
                                         static_cast<int>(std::lround(places.slices[n].height)));
   }
-  StagedFiles staged;
+  OutputFiles outputs{ settings.provenance };
   const std::vector<Picture> pages = study || !IsPdf(settings.page) ? DrawSheet(sheet) : std::vector<Picture>();
-  const std::vector<fs::path> paths = StageSheet(sheet, pages, settings, staged);
-  std::vector<MadeFile> outputs;
-  AddOutput(settings.page, "page", settings.provenance, scene.report, staged, outputs);
-  AddOutputs({ paths.begin() + 1, paths.end() }, "page", outputs);
+  const std::vector<fs::path> paths = StageSheet(sheet, pages, settings, outputs.staged);
+  AddOutput(settings.page, "page", scene.report, outputs);
+  AddOutputs({ paths.begin() + 1, paths.end() }, "page", outputs.made);
   const std::vector<fs::path> dicomPaths = DicomPathsOf(settings, PathsOfPages(settings.page, pages.size()));
-  StageFilesBeside(pages, settings, study, dicomPaths, 0.0, events, staged, outputs);
-  staged.Commit();
+  StageFilesBeside(pages, settings, study, dicomPaths, 0.0, events, outputs);
+  outputs.staged.Commit();
   events.Progress("drawing the page", 1.0);
-  return outputs;
+  return outputs.made;
 }
 
 } // namespace rhombic
