@@ -13,17 +13,20 @@ namespace rhombic
 namespace
 {
 
+// Isovalues of CTs in HU. Raw numbers of an uncalibrated CT don't go below 0.
+constexpr double NearAir = -900.0;
+constexpr double Skin = -300.5;
+constexpr double Bone = 250.5;
+
 /** Suggested thresholds for a modality, which is empty when it is unknown. */
 std::vector<SuggestedThreshold>
 SuggestThresholds(const std::string & modality, const Intensities & intensities)
 {
   std::vector<SuggestedThreshold> suggestions{ { "foreground (Otsu)", intensities.otsu } };
-  constexpr double nearAir = -900.0; // raw numbers of an uncalibrated CT don't go below 0
-  if ((modality == "CT" || modality.empty()) && intensities.lowest < nearAir)
+  if ((modality == "CT" || modality.empty()) && intensities.lowest < NearAir)
   {
-    for (const SuggestedThreshold & organ : { SuggestedThreshold{ "skin", -300.5 },
-                                              SuggestedThreshold{ "lungs, below", -500.5 },
-                                              SuggestedThreshold{ "bone", 250.5 } })
+    for (const SuggestedThreshold & organ :
+         { SuggestedThreshold{ "skin", Skin }, { "lungs, below", -500.5 }, { "bone", Bone } })
     {
       if (organ.isovalue > intensities.lowest && organ.isovalue <= intensities.highest)
       {
@@ -65,16 +68,6 @@ DescribeLabels(const Scan & scan,
 }
 
 ScanDescription
-DescribeLattice(const ScanSource & source)
-{
-  ScanDescription description;
-  const FCCVolume & volume = description.volume.emplace<FCCVolume>(ReadFCCImage(source.path));
-  description.intensities = ComputeIntensities(volume);
-  description.thresholds = SuggestThresholds("other", description.intensities);
-  return description;
-}
-
-ScanDescription
 DescribeVolume(const ScanSource & source, const LabelMapSource & labels)
 {
   ScanDescription description;
@@ -87,17 +80,6 @@ DescribeVolume(const ScanSource & source, const LabelMapSource & labels)
   Append(scan.notes, description);
   DescribeLabels(scan, source, labels, description);
   Append(scan.fileNotes, description);
-  return description;
-}
-
-ScanDescription
-DescribeList(const SeriesList & list)
-{
-  ScanDescription description;
-  description.filesConsidered = list.filesConsidered;
-  description.filesSkipped = list.filesSkipped;
-  Append(list.notes, description);
-  Append(list.fileNotes, description);
   return description;
 }
 
@@ -132,7 +114,11 @@ DescribeSeries(const ScanSource & source, const LabelMapSource & labels)
   }
   if (!description)
   {
-    description = DescribeList(list);
+    description.emplace();
+    description->filesConsidered = list.filesConsidered;
+    description->filesSkipped = list.filesSkipped;
+    Append(list.notes, *description);
+    Append(list.fileNotes, *description);
   }
   description->series = std::move(list.series);
   return std::move(*description);
@@ -142,14 +128,11 @@ DescribeSeries(const ScanSource & source, const LabelMapSource & labels)
 PresetChoice
 ChooseForCT(const Scan & scan, const Intensities & intensities)
 {
-  constexpr double nearAir = -900.0;
   constexpr double belowFat = -200.0; // CTs of the inside of a body have no air
-  constexpr double skin = -300.5;
-  constexpr double bone = 250.5;
   const bool isNamed = scan.modality == "CT";
-  const bool hasAir = intensities.lowest < nearAir;
-  const bool hasSkin = hasAir && intensities.highest >= skin;
-  const bool hasBone = intensities.highest >= bone;
+  const bool hasAir = intensities.lowest < NearAir;
+  const bool hasSkin = hasAir && intensities.highest >= Skin;
+  const bool hasBone = intensities.highest >= Bone;
   const std::string range = FormatNumber(intensities.lowest) + " to " + FormatNumber(intensities.highest);
   if (isNamed && intensities.lowest >= belowFat)
   {
@@ -214,7 +197,11 @@ DescribeScan(const ScanSource & source, const LabelMapSource & labels)
 {
   if (IsFCCImageFile(source.path))
   {
-    return DescribeLattice(source);
+    ScanDescription description;
+    const FCCVolume & volume = description.volume.emplace<FCCVolume>(ReadFCCImage(source.path));
+    description.intensities = ComputeIntensities(volume);
+    description.thresholds = SuggestThresholds("other", description.intensities);
+    return description;
   }
   ScanSource first = source;
   first.read.onSeveralFrames = ScanReadOptions::Policy::Accept;

@@ -63,18 +63,12 @@ struct Isosurfaces
 
 /** \class IsosurfaceExtraction
  * \brief Extracts isosurfaces of volumes that lie on the same lattice. */
-class IsosurfaceExtraction
+struct IsosurfaceExtraction
 {
-public:
-  IsosurfaceExtraction(itk::FCCIsosurfaceMode mode,
-                       const Events & events,
-                       const itk::ImageBase<3> * grid,
-                       bool computesNormals)
-    : m_Mode(mode)
-    , m_Events(events)
-    , m_Grid(grid)
-    , m_ComputesNormals(computesNormals)
-  {}
+  itk::FCCIsosurfaceMode mode;
+  const Events & events;
+  const itk::ImageBase<3> * grid;
+  bool computesNormals;
 
   /** One surface for each request, in their order; null for outermost parts. */
   Isosurfaces
@@ -86,7 +80,7 @@ public:
     {
       std::visit([&](const auto & image) { this->ExtractSide(*image, requests, insideIsBelow, extracted); }, volume);
     }
-    if (m_Grid != nullptr)
+    if (grid != nullptr)
     {
       const auto cornerOf = [&volume](bool isHigh) {
         return std::visit([isHigh](const auto & image) { return FindFCCOuterCorner(*image, isHigh); }, volume);
@@ -95,7 +89,7 @@ public:
       {
         if (surface)
         {
-          MoveFCCWallsToBorder(*surface, *m_Grid, cornerOf(false), cornerOf(true));
+          MoveFCCWallsToBorder(*surface, *grid, cornerOf(false), cornerOf(true));
         }
       }
     }
@@ -108,7 +102,7 @@ public:
                        const SurfaceRequest & request,
                        itk::TriangleSurface::Pointer & surface) const
   {
-    m_Events.Progress("separating " + request.name + " from air around the body", 0.0);
+    events.Progress("separating " + request.name + " from air around the body", 0.0);
     return KeepEnclosedParts(surface, volume, request.GetThreshold(), [&](const FCCVolume & cut) {
       return this->Extract(cut, { request }).surfaces.front();
     });
@@ -118,14 +112,13 @@ public:
   itk::TriangleSurface::Pointer
   ExtractOutline(const FCCVolume & volume, SurfaceRequest request) const
   {
-    m_Events.Progress("filling the body for " + request.name, 0.0);
+    events.Progress("filling the body for " + request.name, 0.0);
     request.parts = SurfaceRequest::Parts::All;
     const auto surface = this->Extract(FillBody(volume, request.isovalue.value()), { request }).surfaces.front();
     FillTriangleSurfaceCavities(*surface);
     return surface;
   }
 
-private:
   /** Extracts the surfaces of those requests that are on one side of their isovalues, but for outermost parts. */
   template <typename TImage>
   void
@@ -151,12 +144,12 @@ private:
       return;
     }
     const auto filter = itk::FCCIsosurfaceFilter<TImage>::New();
-    ObserveProgress(*filter, "extracting " + names, m_Events);
+    ObserveProgress(*filter, "extracting " + names, events);
     filter->SetInput(&image);
     filter->SetIsovalues(isovalues);
-    filter->SetMode(m_Mode);
+    filter->SetMode(mode);
     filter->SetInsideIsBelow(insideIsBelow);
-    filter->SetComputeNormals(m_ComputesNormals);
+    filter->SetComputeNormals(computesNormals);
     filter->Update();
     for (std::size_t n = 0; n < chosen.size(); ++n)
     {
@@ -165,11 +158,6 @@ private:
     }
     extracted.undefinedSamples = std::max(extracted.undefinedSamples, filter->GetNumberOfUndefinedSamples());
   }
-
-  itk::FCCIsosurfaceMode m_Mode;
-  const Events & m_Events;
-  const itk::ImageBase<3> * m_Grid;
-  bool m_ComputesNormals;
 };
 
 } // namespace
@@ -195,7 +183,7 @@ LatticeToSurfaces(const FCCVolume & volume,
                     "The outermost parts of " + request.name + " are of values above the threshold, not below it.");
     }
   }
-  const IsosurfaceExtraction extraction(mode, events, grid, computesNormals);
+  const IsosurfaceExtraction extraction{ mode, events, grid, computesNormals };
   Isosurfaces extracted = extraction.Extract(volume, requests);
   if (extracted.undefinedSamples > 0)
   {

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <iomanip>
 #include <iterator>
 #include <sstream>
 
@@ -51,30 +52,11 @@ FindMeasure(const Surface & surface)
 }
 
 Report
-FindKind(const Surface & surface)
-{
-  return surface.request ? "isosurface" : surface.label ? "label" : "file";
-}
-
-Report
 FindMode(const Surface & surface)
 {
   std::ostringstream mode;
   mode << surface.mode;
   return surface.request ? Report(mode.str()) : Report();
-}
-
-Report
-FindSide(const Surface & surface)
-{
-  return surface.request ? Report(surface.request->insideIsBelow ? "below" : "above") : Report();
-}
-
-Report
-FindReference(const Surface & surface)
-{
-  const bool isKnown = surface.measures.GetVolumeError().has_value();
-  return isKnown ? Report(surface.measures.isosurface ? "isosurface" : "voxels") : Report();
 }
 
 template <double IsosurfaceVolume::*Member>
@@ -171,7 +153,12 @@ constexpr MeasureColumn Columns[] = {
     "Identifies the surface as finished: a hash of its name and triangles.",
     [](const Surface & s) { return Report(s.identity); } },
   { "surface", "", "The surface's name.", [](const Surface & s) { return Report(s.scene.name); } },
-  { "kind", "", "isosurface, label, or file: where the surface comes from.", FindKind },
+  { "kind",
+    "",
+    "isosurface, label, or file: where the surface comes from.",
+    [](const Surface & s) {
+      return Report(s.request ? "isosurface" : s.label ? "label" : "file");
+    } },
   { "label_value",
     "",
     "The label's number in the label map.",
@@ -180,7 +167,10 @@ constexpr MeasureColumn Columns[] = {
     "unit of the scan's values (HU for CT)",
     "The threshold of an isosurface.",
     [](const Surface & s) { return s.request ? FiniteOrNull(s.request->isovalue) : Report(); } },
-  { "inside", "", "above or below: the side of the threshold that is inside.", FindSide },
+  { "inside",
+    "",
+    "above or below: the side of the threshold that is inside.",
+    [](const Surface & s) { return s.request ? Report(s.request->insideIsBelow ? "below" : "above") : Report(); } },
   { "mode", "", "How an isosurface is put through the lattice's cells.", FindMode },
   { "volume_ml",
     "mL",
@@ -205,7 +195,12 @@ constexpr MeasureColumn Columns[] = {
     "%",
     "By how much volume_ml is above its reference.",
     [](const Surface & s) { return FiniteOrNull(s.measures.GetVolumeError()); } },
-  { "volume_error_reference", "", "isosurface or voxels: the reference of volume_error_percent.", FindReference },
+  { "volume_error_reference",
+    "",
+    "isosurface or voxels: the reference of volume_error_percent.",
+    [](const Surface & s) {
+      return s.measures.GetVolumeError() ? Report(s.measures.isosurface ? "isosurface" : "voxels") : Report();
+    } },
   { "area_mm2",
     "mm^2",
     "The area of the finished surface.",
@@ -278,46 +273,34 @@ constexpr MeasureColumn Columns[] = {
     FindDeviation<&SurfaceDeviation::bias> },
 };
 
-/** Text in quotes, in which quotes are doubled (RFC 4180). */
-std::string
-Quote(const std::string & text)
-{
-  std::string field = "\"";
-  for (const char letter : text)
-  {
-    field += letter == '"' ? "\"\"" : std::string(1, letter);
-  }
-  return field + '"';
-}
-
+/** Texts are in quotes, in which quotes are doubled (RFC 4180). */
 std::string
 ToCSV(const std::vector<MeshedSurface> & surfaces)
 {
-  std::string text;
-  for (const MeasureColumn & column : GetMeasureColumns())
+  std::ostringstream text;
+  for (const MeasureColumn & column : Columns)
   {
-    text += (text.empty() ? "" : ",") + std::string(column.name);
+    text << (&column == Columns ? "" : ",") << column.name;
   }
-  text += "\r\n";
+  text << "\r\n";
   for (const MeshedSurface & surface : surfaces)
   {
-    std::string line;
-    for (const MeasureColumn & column : GetMeasureColumns())
+    for (const MeasureColumn & column : Columns)
     {
       const Report value = column.find(surface);
-      line += (line.empty() ? "" : ",") + (value.is_string() ? Quote(value.get<std::string>()) : ToField(value));
+      text << (&column == Columns ? "" : ",");
+      if (value.is_string())
+      {
+        text << std::quoted(value.get<std::string>(), '"', '"');
+      }
+      else
+      {
+        text << ToField(value);
+      }
     }
-    text += line + "\r\n";
+    text << "\r\n";
   }
-  return text;
-}
-
-std::string
-ToJsonTable(const std::vector<MeshedSurface> & surfaces)
-{
-  Report table = Report::array();
-  std::transform(surfaces.begin(), surfaces.end(), std::back_inserter(table), ReportMeshedSurface);
-  return ToJson(table) + '\n';
+  return text.str();
 }
 
 } // namespace
@@ -425,7 +408,9 @@ void
 StageMeasureTable(const std::vector<MeshedSurface> & surfaces, const fs::path & path, StagedFiles & staged)
 {
   CheckMeasureTablePath(path);
-  StageText(path.extension() == ".csv" ? ToCSV(surfaces) : ToJsonTable(surfaces), path, staged);
+  Report table = Report::array();
+  std::transform(surfaces.begin(), surfaces.end(), std::back_inserter(table), ReportMeshedSurface);
+  StageText(path.extension() == ".csv" ? ToCSV(surfaces) : ToJson(table) + '\n', path, staged);
 }
 
 } // namespace rhombic

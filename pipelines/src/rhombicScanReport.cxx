@@ -56,27 +56,24 @@ ReportStack(const StackReport & stack)
 }
 
 Report
-ReportSeries(const SeriesSummary & series)
-{
-  Report report{ { "number", series.number },     { "id", series.id },     { "seriesNumber", series.seriesNumber },
-                 { "modality", series.modality }, { "kind", series.kind }, { "files", series.numberOfFiles },
-                 { "size", series.size } };
-  if (series.spacing[0] > 0.0)
-  {
-    report["spacing"] = series.spacing;
-  }
-  report["problem"] = series.problem;
-  report["chosen"] = series.chosen;
-  return report;
-}
-
-Report
-ReportSeriesOf(const std::vector<SeriesSummary> & series)
+ReportSeries(const std::vector<SeriesSummary> & all)
 {
   Report report = Report::array();
-  for (const SeriesSummary & summary : series)
+  for (const SeriesSummary & series : all)
   {
-    report.push_back(ReportSeries(summary));
+    report.push_back({ { "number", series.number },
+                       { "id", series.id },
+                       { "seriesNumber", series.seriesNumber },
+                       { "modality", series.modality },
+                       { "kind", series.kind },
+                       { "files", series.numberOfFiles },
+                       { "size", series.size } });
+    if (series.spacing[0] > 0.0)
+    {
+      report.back()["spacing"] = series.spacing;
+    }
+    report.back()["problem"] = series.problem;
+    report.back()["chosen"] = series.chosen;
   }
   return report;
 }
@@ -86,21 +83,11 @@ template <typename TDescription>
 void
 ReportFolder(const TDescription & description, Report & report)
 {
-  report["series"] = ReportSeriesOf(description.series);
+  report["series"] = ReportSeries(description.series);
   report["choice"] = description.choice;
   report["filesConsidered"] = description.filesConsidered;
   report["filesSkipped"] = description.filesSkipped.empty() ? Report::object() : Report(description.filesSkipped);
   report["notes"] = description.notes;
-}
-
-void
-ReportIntensities(const ScanDescription & description, Report & report)
-{
-  report["range"] = { description.intensities.lowest, description.intensities.highest };
-  for (const SuggestedThreshold & threshold : description.thresholds)
-  {
-    report["suggestedThresholds"].push_back({ { "surface", threshold.surface }, { "isovalue", threshold.isovalue } });
-  }
 }
 
 /** Format, geometry, series, and what the reader had to assume or repair. */
@@ -252,14 +239,18 @@ ReportDescription(const ScanDescription & description)
   if (const auto * const scan = std::get_if<Scan>(&description.volume))
   {
     report = ReportScan(*scan);
-    report["series"] = ReportSeriesOf(description.series);
+    report["series"] = ReportSeries(description.series);
     report["notes"] = description.notes;
   }
   else
   {
     report = ReportLattice(std::get<FCCVolume>(description.volume));
   }
-  ReportIntensities(description, report);
+  report["range"] = { description.intensities.lowest, description.intensities.highest };
+  for (const SuggestedThreshold & threshold : description.thresholds)
+  {
+    report["suggestedThresholds"].push_back({ { "surface", threshold.surface }, { "isovalue", threshold.isovalue } });
+  }
   if (description.labels)
   {
     report["labels"] = ReportLabels(*description.labels);

@@ -44,17 +44,6 @@ EstimateIsosurface(const LoadedSource & loaded,
   return estimate.uncertainty < 0.5 * estimate.volume ? std::optional(estimate) : std::nullopt;
 }
 
-/** How the surfaces of a selection's labels are made. */
-LabelSurfaceSettings
-LabelSettingsOf(const LatticeSettings & lattice, const SurfaceSelection & selection)
-{
-  LabelSurfaceSettings settings;
-  settings.labels = selection.labels->labels;
-  settings.density = lattice.density;
-  settings.maximumMemory = lattice.maximumMemory;
-  return settings;
-}
-
 } // namespace
 
 std::vector<MeshedSurface>
@@ -99,13 +88,15 @@ void
 SourceSurfaces::AddLabels(const LoadedSource & loaded, std::vector<MeshedSurface> & surfaces) const
 {
   const bool isForFiles = m_Use == SurfaceUse::Files;
-  if (isForFiles && m_Source.lattice.denoising.kind != Denoising::Kind::None)
+  const LatticeSettings & lattice = m_Source.lattice;
+  if (isForFiles && lattice.denoising.kind != Denoising::Kind::None)
   {
     m_Events.Note("labels have no noise: --denoise is not for them");
   }
   SurfaceFinish smoothing;
   smoothing.smoothing = m_Finish.smoothing;
-  LabelMesh mesh = LabelsToWalls(*loaded.labels, LabelSettingsOf(m_Source.lattice, m_Selection), m_Events);
+  LabelMesh mesh =
+    LabelsToWalls(*loaded.labels, { m_Selection.labels->labels, lattice.density, lattice.maximumMemory }, m_Events);
   const bool isMeasured = isForFiles || smoothing.smoothing == 0.0; // else the surfaces would be extracted for it alone
   std::vector<std::optional<ExtractedSize>> extracted(mesh.labels.size());
   if (isMeasured)
