@@ -1,4 +1,4 @@
-#include "rhombicBatchStatistics.h"
+#include "rhombicRunBatch.h"
 #include "rhombicFailure.h"
 #include "rhombicProgram.h"
 #include "rhombicWording.h"

@@ -1,4 +1,3 @@
-#include "rhombicBatchStatistics.h"
 #include "rhombicCommandLine.h"
 #include "rhombicCommandSyntax.h"
 #include "rhombicFailure.h"

@@ -59,26 +59,14 @@ filter();
 std::string
 Escape(const std::string & text)
 {
+  static const std::map<char, std::string> entities{
+    { '&', "&amp;" }, { '<', "&lt;" }, { '>', "&gt;" }, { '"', "&quot;" }
+  };
   std::string escaped;
   for (const char letter : text)
   {
-    switch (letter)
-    {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += letter;
-    }
+    const auto entity = entities.find(letter);
+    escaped += entity != entities.end() ? entity->second : std::string(1, letter);
   }
   return escaped;
 }

@@ -11,18 +11,6 @@ namespace rhombic
 namespace
 {
 
-/** A line of a table. */
-std::string
-ToLine(const std::vector<std::string> & fields)
-{
-  std::string line;
-  for (const std::string & field : fields)
-  {
-    line += (&field == &fields.front() ? "" : "\t") + field;
-  }
-  return line + '\n';
-}
-
 /** A value as a field of a table; empty without one. */
 std::string
 FieldOf(const Report & record, const std::string & key)
@@ -60,6 +48,8 @@ MakeResultTable(const std::vector<Report> & cases)
   return table;
 }
 
+constexpr char caseDescription[] = "The case's name.";
+
 /** A line for each surface of each case. */
 std::string
 MakeMeasureTable(const std::vector<Report> & cases)
@@ -83,17 +73,6 @@ MakeMeasureTable(const std::vector<Report> & cases)
     }
   }
   return table;
-}
-
-constexpr char caseDescription[] = "The case's name.";
-
-Report
-DescribeMeasureTable()
-{
-  Report columns;
-  DescribeColumn("case", "", caseDescription, columns);
-  columns.update(DescribeMeasures());
-  return columns;
 }
 
 /** A line for each file of each case. */
@@ -139,14 +118,14 @@ std::string
 MakeManifest(const std::vector<BatchCase> & cases)
 {
   std::string table = "case\tscan\tlabels\toptions\n";
-  for (const BatchCase & one : cases)
+  for (const BatchCase & batchCase : cases)
   {
     std::string options;
-    for (const std::string & option : one.options)
+    for (const std::string & option : batchCase.options)
     {
       options += (options.empty() ? "" : " ") + option;
     }
-    table += ToLine({ one.name, one.scan.string(), one.labels.string(), options });
+    table += ToLine({ batchCase.name, batchCase.scan.string(), batchCase.labels.string(), options });
   }
   return table;
 }
@@ -164,14 +143,28 @@ ListOf(const Report & record, const std::string & key)
   return list;
 }
 
+std::string
+ToLine(const std::vector<std::string> & fields)
+{
+  std::string line;
+  for (const std::string & field : fields)
+  {
+    line += (&field == &fields.front() ? "" : "\t") + field;
+  }
+  return line + '\n';
+}
+
 void
 WriteResults(const std::vector<Report> & cases, const std::vector<BatchCase> * manifest, const fs::path & folder)
 {
+  Report measureColumns;
+  DescribeColumn("case", "", caseDescription, measureColumns);
+  measureColumns.update(DescribeMeasures());
   StagedFiles staged;
   StageText(MakeResultTable(cases), folder / "results.tsv", staged);
   StageText(ToJson(cases) + '\n', folder / "results.json", staged);
   StageText(MakeMeasureTable(cases), folder / "measures.tsv", staged);
-  StageText(ToJson(DescribeMeasureTable()) + '\n', folder / "measures.json", staged);
+  StageText(ToJson(measureColumns) + '\n', folder / "measures.json", staged);
   StageText(MakeOutputTable(cases), folder / "outputs.tsv", staged);
   StageText(ToJson(DescribeOutputTable()) + '\n', folder / "outputs.json", staged);
   StageText(MakeIndexPage(cases), folder / "index.html", staged);

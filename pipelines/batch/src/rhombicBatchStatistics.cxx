@@ -1,5 +1,6 @@
-#include "rhombicBatchStatistics.h"
+#include "rhombicRunBatch.h"
 
+#include "rhombicBatchResults.h"
 #include "rhombicFailure.h"
 #include "rhombicMeasureTable.h"
 #include "rhombicSidecar.h"
@@ -20,6 +21,7 @@ namespace
 {
 
 using Row = std::vector<std::string>;
+using Key = std::pair<std::string, std::string>;
 
 /** The value of a measure in one case. */
 struct CaseValue
@@ -105,15 +107,15 @@ ReadTable(const fs::path & path, const Row & needed)
 }
 
 /** The rows of surfaces of one name that the same outputs have in all cases, by these outputs and the name. */
-std::map<std::pair<std::string, std::string>, std::set<std::size_t>>
+std::map<Key, std::set<std::size_t>>
 GroupSurfaces(const Table & measures, const Table & outputs)
 {
-  std::map<std::pair<std::string, std::string>, std::size_t> rowOf; // by case and identity
+  std::map<Key, std::size_t> rowOf; // by case and identity
   for (std::size_t n = 0; n < measures.rows.size(); ++n)
   {
     rowOf[{ measures.rows[n][measures.Find("case")], measures.rows[n][measures.Find("surface_id")] }] = n;
   }
-  std::map<std::pair<std::string, std::string>, std::set<std::size_t>> ofOutputs; // by output and name
+  std::map<Key, std::set<std::size_t>> ofOutputs; // by output and name
   for (const Row & file : outputs.rows)
   {
     for (const std::string & identity : Split(file[outputs.Find("surface_ids")], ","))
@@ -126,14 +128,14 @@ GroupSurfaces(const Table & measures, const Table & outputs)
       }
     }
   }
-  std::map<std::set<std::size_t>, std::pair<std::string, std::string>> merged; // by the rows
+  std::map<std::set<std::size_t>, Key> merged; // by the rows
   for (const auto & [key, rows] : ofOutputs)
   {
     auto & [names, surface] = merged[rows];
     names += (names.empty() ? "" : ",") + key.first;
     surface = key.second;
   }
-  std::map<std::pair<std::string, std::string>, std::set<std::size_t>> groups;
+  std::map<Key, std::set<std::size_t>> groups;
   for (const auto & [rows, key] : merged)
   {
     groups[key] = rows;
@@ -147,9 +149,9 @@ Summarize(const std::vector<CaseValue> & measure)
   constexpr double mostDeviations = 3.5;
   constexpr std::size_t fewest = 5;
   std::vector<double> values;
-  for (const CaseValue & one : measure)
+  for (const CaseValue & caseValue : measure)
   {
-    values.push_back(one.value);
+    values.push_back(caseValue.value);
   }
   std::sort(values.begin(), values.end());
   const double median = Quantile(values, 0.5);
@@ -160,11 +162,11 @@ Summarize(const std::vector<CaseValue> & measure)
     row.push_back(FormatNumber(Quantile(values, share)));
   }
   std::string apart;
-  for (const CaseValue & one : measure)
+  for (const CaseValue & caseValue : measure)
   {
-    if (values.size() >= fewest && std::abs(one.value - median) > limit)
+    if (values.size() >= fewest && std::abs(caseValue.value - median) > limit)
     {
-      apart += (apart.empty() ? "" : ", ") + one.name + " (" + FormatNumber(one.value) + ")";
+      apart += (apart.empty() ? "" : ", ") + caseValue.name + " (" + FormatNumber(caseValue.value) + ")";
     }
   }
   row.push_back(apart);
@@ -232,11 +234,7 @@ WriteBatchStatistics(const fs::path & folder)
   std::string table;
   for (const Row & row : rows)
   {
-    for (const std::string & field : row)
-    {
-      table += (&field == &row.front() ? "" : "\t") + field;
-    }
-    table += '\n';
+    table += ToLine(row);
   }
   StagedFiles staged;
   StageText(table, folder / "statistics.tsv", staged);
