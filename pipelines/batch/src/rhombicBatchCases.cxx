@@ -76,52 +76,43 @@ StemOf(const fs::path & volume)
   return text.substr(0, text.size() - VolumeExtension(volume).size());
 }
 
-/** All files that belong to a scan or label map: a folder's, or a header's and those of the same stem beside it. */
+/** The name of a volume's file without its extensions: "b" for "a/b.nii.gz". */
+std::string
+StemNameOf(const fs::path & volume)
+{
+  return fs::path(StemOf(volume)).filename().string();
+}
+
+/** Adds all files that belong to a scan or label map: a folder's, or a header's and those of the same stem beside it.
+ */
 void
 AddFiles(const fs::path & path, std::vector<fs::path> & files)
 {
-  const auto add = [&files](const auto & entry) {
+  static const std::set<std::string> inParts{ ".hdr", ".hdr.gz", ".img", ".img.gz", ".nhdr", ".mhd" };
+  constexpr auto options = fs::directory_options::skip_permission_denied;
+  const auto add = [&files](const fs::directory_entry & entry) {
     if (entry.is_regular_file())
     {
       files.push_back(entry.path());
     }
   };
-  constexpr auto options = fs::directory_options::skip_permission_denied;
   if (fs::is_directory(path))
   {
-    for (const auto & entry : fs::recursive_directory_iterator(path, options))
-    {
-      add(entry);
-    }
-    return;
+    std::for_each(fs::recursive_directory_iterator(path, options), {}, add);
   }
-  const std::string extension = VolumeExtension(path);
-  if (extension != ".hdr" && extension != ".hdr.gz" && extension != ".img" && extension != ".img.gz" &&
-      extension != ".nhdr" && extension != ".mhd")
+  else if (inParts.count(VolumeExtension(path)) == 0)
   {
     files.push_back(path);
-    return;
   }
-  for (const auto & entry : fs::directory_iterator(path.parent_path(), options))
+  else
   {
-    if (entry.path().string().rfind(StemOf(path) + ".", 0) == 0)
-    {
-      add(entry);
-    }
+    std::for_each(fs::directory_iterator(path.parent_path(), options), {}, [&](const fs::directory_entry & entry) {
+      if (entry.path().string().rfind(StemOf(path) + ".", 0) == 0)
+      {
+        add(entry);
+      }
+    });
   }
-}
-
-/** Fills BatchCase::files. */
-void
-FindFiles(BatchCase & found)
-{
-  AddFiles(found.scan, found.files);
-  if (!found.labels.empty())
-  {
-    AddFiles(found.labels, found.files);
-  }
-  std::sort(found.files.begin(), found.files.end());
-  found.files.erase(std::unique(found.files.begin(), found.files.end()), found.files.end());
 }
 
 /** A text whose letters may be in the name of any file. */
@@ -196,8 +187,8 @@ private:
   AddVolume(const fs::path & file)
   {
     const std::string extension = VolumeExtension(file);
-    const bool isSecondOfPair = extension == ".img" || extension == ".img.gz";
-    if (!isSecondOfPair || (!fs::exists(StemOf(file) + ".hdr") && !fs::exists(StemOf(file) + ".hdr.gz")))
+    const bool isImage = extension == ".img" || extension == ".img.gz"; // a case is named by the header
+    if (!isImage || (!fs::exists(StemOf(file) + ".hdr") && !fs::exists(StemOf(file) + ".hdr.gz")))
     {
       this->Add(file, "");
     }
@@ -222,17 +213,19 @@ private:
       this->Add(folder, "");
       return;
     }
-    const auto isSingleSlice = [](const SeriesSummary & one) { return one.size[2] < 2 && !one.problem.empty(); };
+    const auto isSingleSlice = [](const SeriesSummary & summary) {
+      return summary.size[2] < 2 && !summary.problem.empty();
+    };
     const bool hasVolumes = !std::all_of(series.begin(), series.end(), isSingleSlice);
-    for (const SeriesSummary & one : series)
+    for (const SeriesSummary & summary : series)
     {
-      if (hasVolumes && isSingleSlice(one))
+      if (hasVolumes && isSingleSlice(summary))
       {
         ++m_NumberOfSingleSlices;
       }
       else
       {
-        this->Add(folder, one.id);
+        this->Add(folder, summary.id);
       }
     }
   }
@@ -264,14 +257,14 @@ private:
 std::string
 EntitiesOf(const fs::path & volume)
 {
-  const std::string stem = fs::path(StemOf(volume)).filename().string();
+  const std::string stem = StemNameOf(volume);
   return stem.substr(0, stem.rfind('_'));
 }
 
 std::string
 SuffixOf(const fs::path & volume)
 {
-  const std::string stem = fs::path(StemOf(volume)).filename().string();
+  const std::string stem = StemNameOf(volume);
   return stem.substr(stem.rfind('_') + 1);
 }
 
@@ -308,9 +301,9 @@ FindInBIDS(const fs::path & root, const fs::path & excluded)
     {
       continue;
     }
-    BatchCase one;
-    one.name = ToFileName(fs::path(StemOf(volume)).filename().string());
-    one.scan = volume;
+    BatchCase batchCase;
+    batchCase.name = ToFileName(StemNameOf(volume));
+    batchCase.scan = volume;
     std::vector<fs::path> labels;
     const std::string entities = EntitiesOf(volume);
     std::copy_if(volumes.begin(), volumes.end(), std::back_inserter(labels), [&entities](const fs::path & other) {
@@ -318,14 +311,14 @@ FindInBIDS(const fs::path & root, const fs::path & excluded)
     });
     if (labels.size() == 1)
     {
-      one.labels = labels.front();
+      batchCase.labels = labels.front();
     }
     else if (labels.size() > 1)
     {
-      found.notes.push_back(one.name + " has " + Count(labels.size(), "label map") +
+      found.notes.push_back(batchCase.name + " has " + Count(labels.size(), "label map") +
                             ", and none is used; choose in a manifest, which --dry-run writes");
     }
-    found.cases.push_back(one);
+    found.cases.push_back(batchCase);
   }
   return found;
 }
@@ -397,25 +390,27 @@ ReadManifest(const fs::path & manifest)
       columns.begin(), columns.end(), fields.begin(), std::inserter(row, row.end()), [](auto & a, auto & b) {
         return std::make_pair(a, b);
       });
-    BatchCase one;
-    one.name = row["case"];
-    if (one.name.empty() || one.name[0] == '.' || one.name[0] == '-' || one.name != ToFileName(one.name))
+    BatchCase batchCase;
+    batchCase.name = row["case"];
+    if (batchCase.name.empty() || batchCase.name[0] == '.' || batchCase.name[0] == '-' ||
+        batchCase.name != ToFileName(batchCase.name))
     {
-      FailInManifest(manifest, line, "'" + one.name + "' is no name of a case: letters, digits, . _ and - are allowed");
+      FailInManifest(
+        manifest, line, "'" + batchCase.name + "' is no name of a case: letters, digits, . _ and - are allowed");
     }
-    const auto isSame = [&one](const BatchCase & other) { return other.name == one.name; };
+    const auto isSame = [&batchCase](const BatchCase & other) { return other.name == batchCase.name; };
     if (std::any_of(found.cases.begin(), found.cases.end(), isSame))
     {
-      FailInManifest(manifest, line, "there is a case " + one.name + " before");
+      FailInManifest(manifest, line, "there is a case " + batchCase.name + " before");
     }
     const fs::path folder = manifest.parent_path();
-    one.scan = (folder / row["scan"]).lexically_normal();
-    one.labels = row["labels"].empty() ? fs::path() : (folder / row["labels"]).lexically_normal();
+    batchCase.scan = (folder / row["scan"]).lexically_normal();
+    batchCase.labels = row["labels"].empty() ? fs::path() : (folder / row["labels"]).lexically_normal();
     for (const std::string_view word : SplitWords(row["options"]))
     {
-      one.options.emplace_back(word);
+      batchCase.options.emplace_back(word);
     }
-    found.cases.push_back(one);
+    found.cases.push_back(batchCase);
   }
   return found;
 }
@@ -425,7 +420,11 @@ void
 Choose(const std::vector<std::string> & only, std::vector<BatchCase> & cases)
 {
   std::vector<std::string> names;
-  std::transform(cases.begin(), cases.end(), std::back_inserter(names), [](const auto & one) { return one.name; });
+  for (const BatchCase & found : cases)
+  {
+    names.push_back(found.name);
+  }
+  std::set<std::string> chosen;
   for (const std::string & wanted : only)
   {
     const auto isWanted = [&wanted](const std::string & name) { return MatchesPattern(wanted, name); };
@@ -433,11 +432,9 @@ Choose(const std::vector<std::string> & only, std::vector<BatchCase> & cases)
     {
       throw Failure(FailureKind::Usage, DescribeUnknown("case", wanted, names, "--dry-run lists all of them"));
     }
+    std::copy_if(names.begin(), names.end(), std::inserter(chosen, chosen.end()), isWanted);
   }
-  const auto isOther = [&only](const BatchCase & one) {
-    return std::none_of(
-      only.begin(), only.end(), [&one](const std::string & wanted) { return MatchesPattern(wanted, one.name); });
-  };
+  const auto isOther = [&chosen](const BatchCase & found) { return chosen.count(found.name) == 0; };
   cases.erase(std::remove_if(cases.begin(), cases.end(), isOther), cases.end());
 }
 
@@ -445,25 +442,21 @@ Choose(const std::vector<std::string> & only, std::vector<BatchCase> & cases)
 void
 LeaveOutUnlistable(CaseCollection & found)
 {
-  std::vector<BatchCase> listable;
-  for (const BatchCase & one : found.cases)
+  const auto isListable = [](const BatchCase & batchCase) {
+    return (batchCase.scan.string() + batchCase.labels.string()).find_first_of("\t\r\n") == std::string::npos;
+  };
+  const auto end = std::stable_partition(found.cases.begin(), found.cases.end(), isListable);
+  for (auto leftOut = end; leftOut != found.cases.end(); ++leftOut)
   {
-    if ((one.scan.string() + one.labels.string()).find_first_of("\t\r\n") == std::string::npos)
-    {
-      listable.push_back(one);
-    }
-    else
-    {
-      found.notes.push_back(one.name +
-                            " left out: the path of its scan or labels has a tab or line break, which the table of "
-                            "cases cannot hold; rename the file or folder");
-    }
+    found.notes.push_back(leftOut->name +
+                          " left out: the path of its scan or labels has a tab or line break, which the table of "
+                          "cases cannot hold; rename the file or folder");
   }
-  if (listable.empty())
+  if (end == found.cases.begin())
   {
     throw Failure(FailureKind::Usage, "Case " + found.notes.back() + ".");
   }
-  found.cases = listable;
+  found.cases.erase(end, found.cases.end());
 }
 
 } // namespace
@@ -510,9 +503,9 @@ FindCases(const fs::path & path, const CaseSearch & given)
   }
   else if (!fs::is_directory(collection))
   {
-    BatchCase & only = found.cases.emplace_back();
-    only.name = search.namesFromPaths ? ToFileName(fs::path(StemOf(collection)).filename()) : "case";
-    only.scan = collection;
+    BatchCase & batchCase = found.cases.emplace_back();
+    batchCase.name = search.namesFromPaths ? ToFileName(StemNameOf(collection)) : "case";
+    batchCase.scan = collection;
   }
   else
   {
@@ -525,11 +518,11 @@ FindCases(const fs::path & path, const CaseSearch & given)
                     "; name a folder of scans, a BIDS dataset, or a manifest with lines below its head.");
   }
   std::set<std::string> names;
-  for (BatchCase & one : found.cases)
+  for (BatchCase & batchCase : found.cases)
   {
-    for (unsigned int n = 2; !names.insert(one.name).second; ++n)
+    for (unsigned int n = 2; !names.insert(batchCase.name).second; ++n)
     {
-      one.name += "-" + std::to_string(n);
+      batchCase.name += "-" + std::to_string(n);
     }
   }
   LeaveOutUnlistable(found);
@@ -537,12 +530,18 @@ FindCases(const fs::path & path, const CaseSearch & given)
   {
     Choose(search.only, found.cases);
   }
-  for (BatchCase & one : found.cases)
+  for (BatchCase & batchCase : found.cases)
   {
-    one.folder = one.name;
-    if (fs::exists(one.scan) && (one.labels.empty() || fs::exists(one.labels)))
+    batchCase.folder = batchCase.name;
+    if (fs::exists(batchCase.scan) && (batchCase.labels.empty() || fs::exists(batchCase.labels)))
     {
-      FindFiles(one);
+      AddFiles(batchCase.scan, batchCase.files);
+      if (!batchCase.labels.empty())
+      {
+        AddFiles(batchCase.labels, batchCase.files);
+      }
+      std::sort(batchCase.files.begin(), batchCase.files.end());
+      batchCase.files.erase(std::unique(batchCase.files.begin(), batchCase.files.end()), batchCase.files.end());
     }
   }
   return found;
