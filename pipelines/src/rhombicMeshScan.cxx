@@ -1,11 +1,16 @@
 #include "rhombicMeshScan.h"
 
 #include "rhombicFailure.h"
-#include "rhombicFileInspection.h"
+#include "rhombicForEachBlock.h"
 #include "rhombicMeasureTable.h"
+#include "rhombicSourceSurfaces.h"
 #include "rhombicSurfaceReport.h"
+#include "rhombicWording.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -95,6 +100,236 @@ CheckNumberOfSurfaces(const LoadedSource & loaded, const MeshScanSettings & sett
     fewest += areAllKept ? static_cast<std::size_t>(shown) : 1;
   }
   CheckSurfacePath(settings.mesh, HasFileForEach(settings.mesh) ? 1 : fewest);
+}
+
+/** What surface files are inspected by. */
+struct FileInspection
+{
+  const MeshScanSettings & settings;
+  const std::optional<Scan> & scan;
+  const Events & events;
+};
+
+constexpr double NotablePercent = 1.0; // smaller differences of volumes are not mentioned
+
+/** The steps of finishing that may have changed the volume of parts. */
+std::string
+NameSteps(const SurfaceFinish & finish)
+{
+  if (finish.smoothing > 0.0)
+  {
+    return finish.Simplifies() ? "smoothing and simplification" : "smoothing";
+  }
+  return finish.Simplifies() ? "simplification" : "untangling";
+}
+
+[[noreturn]] void
+RefuseToWrite(const std::string & why)
+{
+  throw Failure(FailureKind::NotWatertight,
+                why + ", so nothing was written; leave out --require-watertight to have it all the same.");
+}
+
+/** Sets the surface's sizes, measures and deviation. For any thread. */
+void
+Measure(const FileInspection & inspection, MeshedSurface & surface)
+{
+  MeasureFinished(inspection.scan ? &*inspection.scan : nullptr, surface);
+  surface.measures.isosurface = surface.parts.IsNothing() ? surface.isosurface : std::nullopt;
+  if (inspection.scan && surface.request)
+  {
+    constexpr std::size_t quick = 50'000; // the mean's standard error is below 0.5 % of the spread
+    constexpr std::size_t thorough = 10'000'000;
+    surface.deviation = ComputeDeviation(*surface.scene.surface,
+                                         *inspection.scan,
+                                         inspection.settings.source.lattice.kernel,
+                                         surface.request->GetThreshold(),
+                                         inspection.settings.audits ? thorough : quick);
+  }
+}
+
+/** Notes how finishing changed the volume of the kept parts. */
+void
+NoteFinish(const FileInspection & inspection, const MeshedSurface & surface)
+{
+  const double before = surface.GetVolumeOfKeptParts();
+  const double after = surface.measures.volume;
+  const double change = PercentChange(before, after);
+  if (std::abs(change) > NotablePercent)
+  {
+    inspection.events.Note(surface.scene.name + ": " + NameSteps(inspection.settings.finish) +
+                           " changed the volume by " + (change > 0.0 ? "+" : "") + FormatFixed(change, 1) +
+                           " %, from " + FormatFixed(before / CubicMillimetresPerMl, 1) + " to " +
+                           FormatMillilitres(after / CubicMillimetresPerMl));
+  }
+}
+
+/** Advice to use a denser lattice; empty where no option makes it denser, or it would be very large. */
+std::string
+AdviseDensity(const FileInspection & inspection)
+{
+  constexpr double mostDense = 8.0;
+  const LatticeSettings & lattice = inspection.settings.source.lattice;
+  const bool isSpacingGiven = lattice.spacing != LatticeSettings().spacing;
+  if (!inspection.scan || lattice.nested || isSpacingGiven || lattice.density > mostDense)
+  {
+    return "";
+  }
+  return "; try --density " + std::to_string(std::lround(std::ceil(2.0 * lattice.density)));
+}
+
+/** Notes by how much the surface's volume was off after extraction, if by more than the uncertainty. */
+void
+NoteThinParts(const FileInspection & inspection, const MeshedSurface & surface)
+{
+  if (surface.isosurface)
+  {
+    const double error = 100.0 * surface.isosurface->GetErrorOf(surface.extracted->volume);
+    if (std::abs(error) > NotablePercent + 100.0 * surface.isosurface->GetRelativeUncertainty())
+    {
+      inspection.events.Note(surface.scene.name +
+                             ": parts are thinner than the lattice's spacing, so the surface encloses " +
+                             DescribeDifference(error) + " than the isosurface" + AdviseDensity(inspection));
+    }
+  }
+  else if (surface.request && surface.measures.voxelVolume)
+  {
+    const double difference = PercentChange(*surface.measures.voxelVolume, surface.measures.volume);
+    if (std::abs(difference) > NotablePercent)
+    {
+      inspection.events.Note(surface.scene.name + ": the volume is " + FormatFixed(std::abs(difference), 1) + " % " +
+                             (difference < 0.0 ? "below" : "above") +
+                             " that of the scan's voxels on this side of the threshold");
+    }
+  }
+}
+
+/** Notes the distance from the scan's isosurface, and the share of points that have none near. */
+void
+NoteDeviation(const FileInspection & inspection, const MeshedSurface & surface)
+{
+  using Parts = SurfaceRequest::Parts;
+  const SurfaceDeviation & deviation = *surface.deviation;
+  std::string note = surface.scene.name + ": from the scan's isosurface ";
+  note += deviation.IsKnown() ? FormatNumber(deviation.mean, 2) + " mm on average, 95 % within " +
+                                  FormatNumber(deviation.percentile95, 2) + " mm, all within " +
+                                  FormatNumber(deviation.maximum, 2) + " mm"
+                              : "at an unknown distance: it has no isosurface near this surface";
+  const double percent = 100.0 * static_cast<double>(deviation.unresolved) /
+                         static_cast<double>(std::max<std::size_t>(1, deviation.samples));
+  if (percent > NotablePercent)
+  {
+    const Parts parts = surface.request->parts;
+    note += "; " + FormatFixed(percent, 1) + " % of the measured points have no isosurface within two voxels" +
+            (parts == Parts::Outermost  ? " (an outline also runs across filled hollows)"
+             : parts == Parts::Enclosed ? " (the surface also runs where air around the body was cut off)"
+                                        : "");
+  }
+  inspection.events.Note(note);
+}
+
+itk::TriangleSurfaceAuditSettings
+AuditSettingsOf(const FileInspection & inspection)
+{
+  itk::TriangleSurfaceAuditSettings settings;
+  settings.testsIntersections = inspection.settings.audits;
+  return settings;
+}
+
+/** Sets and notes the audit of a surface.
+ * \param stored the surface as the file holds it */
+void
+Audit(const FileInspection & inspection, const itk::TriangleSurface & stored, MeshedSurface & surface)
+{
+  const std::string & name = surface.scene.name;
+  inspection.events.Progress("auditing " + name, 0.0);
+  surface.audit = AuditTriangleSurface(stored, AuditSettingsOf(inspection));
+  for (const std::string & line : DescribeAudit(*surface.audit))
+  {
+    inspection.events.Note(name + ": " + line);
+  }
+  if (inspection.settings.requiresWatertight && !surface.audit->IsWatertight())
+  {
+    RefuseToWrite("The surface " + name + " is not watertight (" + DescribeLeaks(*surface.audit) + ")");
+  }
+}
+
+/** Writes \a count surfaces from \a begin on as one file with its sidecar, and sets their measures, deviation and
+ * audit. Throws Failure, NotWatertight for a surface that has to be watertight and is not. \param sourceReport the
+ * sidecar's part about the source */
+void
+StageInspected(const FileInspection & inspection,
+               const std::filesystem::path & path,
+               MeshedSurface * begin,
+               std::size_t count,
+               const Report & sourceReport,
+               OutputFiles & outputs)
+{
+  std::vector<SceneSurface> scene;
+  std::transform(begin, begin + count, std::back_inserter(scene), [](const auto & surface) { return surface.scene; });
+  SurfaceFileSettings file;
+  file.space = inspection.settings.space;
+  ForEachOnThreads(2, [&](std::size_t task) {
+    if (task == 0)
+    {
+      StageSurfaces(scene, path, outputs.staged, file);
+    }
+    else
+    {
+      std::for_each(begin, begin + count, [&](MeshedSurface & surface) { Measure(inspection, surface); });
+    }
+  });
+  Report report = sourceReport;
+  report["surfaces"] = Report::array();
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    inspection.events.Note(SummarizeMeasures(begin[n]));
+    NoteFinish(inspection, begin[n]);
+    NoteThinParts(inspection, begin[n]);
+    if (begin[n].deviation)
+    {
+      NoteDeviation(inspection, begin[n]);
+    }
+    if (inspection.settings.audits || inspection.settings.requiresWatertight)
+    {
+      Audit(inspection, *SurfaceAsStored(*scene[n].surface, path), begin[n]);
+    }
+    report["surfaces"].push_back(ReportMeshedSurface(begin[n]));
+  }
+  AddOutput(path, "mesh", report, outputs);
+}
+
+/** Notes the audit of the walls that labels share, and returns its report; nothing if they share none. Throws
+ * Failure(NotWatertight) as StageInspected() does. */
+std::optional<Report>
+AuditTogether(const FileInspection & inspection, const std::vector<MeshedSurface> & surfaces)
+{
+  std::map<std::size_t, std::vector<SceneSurface>> layers; // whose labels do not overlap
+  for (const MeshedSurface & surface : surfaces)
+  {
+    if (surface.label)
+    {
+      layers[surface.label->layer].push_back(surface.scene);
+    }
+  }
+  inspection.events.Progress("auditing walls", 0.0);
+  WallAudit audit;
+  for (const auto & [layer, scene] : layers)
+  {
+    audit.Add(AuditWalls(scene, AuditSettingsOf(inspection)));
+  }
+  if (audit.sharedTriangles == 0)
+  {
+    return std::nullopt;
+  }
+  inspection.events.Note((layers.size() > 1 ? "all surfaces together, in " + std::to_string(layers.size()) + " layers: "
+                                            : "all surfaces together: ") +
+                         DescribeWalls(audit));
+  if (inspection.settings.requiresWatertight && !audit.IsClosed())
+  {
+    RefuseToWrite("The walls that surfaces share have flaws (" + DescribeWalls(audit) + ")");
+  }
+  return ReportWalls(audit);
 }
 
 } // namespace

@@ -9,8 +9,6 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <random>
 
 namespace rhombic
 {
