@@ -1,5 +1,6 @@
 #include "rhombicBatchResults.h"
 
+#include "rhombicIndexPage.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -10,51 +11,6 @@ namespace rhombic
 {
 namespace
 {
-
-constexpr char head[] = R"html(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width">
-<title>Rhombic: results of a batch</title>
-<style>
-body { font: 15px/1.4 sans-serif; margin: 1.5em; color: #222; background: #fff; }
-h1 { font-size: 1.3em; }
-form { position: sticky; top: 0; background: #fff; padding: .6em 0; border-bottom: 1px solid #ccc; }
-label { margin-right: 1em; }
-table { border-collapse: collapse; width: 100%; }
-td, th { text-align: left; vertical-align: top; padding: .5em .8em .5em 0; border-bottom: 1px solid #ddd; }
-td { overflow-wrap: anywhere; }
-td div { max-height: 150px; min-width: 12em; overflow: auto; }
-td.number, th.number { text-align: right; }
-img { height: 150px; display: block; }
-.done { color: #17692b; } .failed { color: #a01818; } .not { color: #666; }
-[hidden] { display: none; }
-small { color: #555; }
-</style>
-</head>
-<body>
-)html";
-
-constexpr char script[] = R"html(<script>
-const form = document.querySelector('form'), rows = [...document.querySelectorAll('tbody tr')];
-function filter() {
-  const words = form.text.value.toLowerCase().split(/\s+/);
-  let shown = 0;
-  for (const row of rows) {
-    const text = row.textContent.toLowerCase();
-    row.hidden = !form[row.dataset.status].checked || !words.every(word => text.includes(word));
-    shown += !row.hidden;
-  }
-  document.querySelector('output').textContent = shown + ' of ' + rows.length + ' shown';
-}
-form.addEventListener('input', filter);
-form.addEventListener('submit', event => event.preventDefault());
-filter();
-</script>
-</body>
-</html>
-)html";
 
 std::string
 Escape(const std::string & text)
@@ -71,7 +27,7 @@ Escape(const std::string & text)
   return escaped;
 }
 
-/** A relative link. Names of files may have characters that mean something in one. */
+/** A relative link, with escapes for characters of names that links give a meaning. */
 std::string
 LinkTo(const std::string & folder, const std::string & file)
 {
@@ -151,15 +107,18 @@ MakeIndexPage(const std::vector<Report> & cases)
     return "<label><input type=\"checkbox\" name=\"" + name + "\" checked> " + status + " (" +
            std::to_string(counts[status]) + ")</label>";
   };
-  return head +
-         ("<h1>" + Count(cases.size(), "case") + "</h1>\n<p><a href=\"results.tsv\">results.tsv</a> " +
-          "<a href=\"results.json\">results.json</a> <a href=\"measures.tsv\">measures.tsv</a> " +
-          "<a href=\"outputs.tsv\">outputs.tsv</a></p>\n<form>") +
-         box("done", "done") + box("failed", "failed") + box("not run", "not") +
-         "<input type=\"search\" name=\"text\" placeholder=\"words\" aria-label=\"words\"> <output></output></form>\n"
-         "<table>\n<thead><tr><th></th><th>case</th><th>status</th><th>volumes</th><th>outputs</th>"
-         "<th class=\"number\">seconds</th><th class=\"number\">peak MiB</th></tr></thead>\n<tbody>\n" +
-         rows + "</tbody>\n</table>\n" + script;
+  const std::string body =
+    "<h1>" + Count(cases.size(), "case") + "</h1>\n<p><a href=\"results.tsv\">results.tsv</a> " +
+    "<a href=\"results.json\">results.json</a> <a href=\"measures.tsv\">measures.tsv</a> " +
+    "<a href=\"outputs.tsv\">outputs.tsv</a></p>\n<form>" + box("done", "done") + box("failed", "failed") +
+    box("not run", "not") +
+    "<input type=\"search\" name=\"text\" placeholder=\"words\" aria-label=\"words\"> <output></output></form>\n"
+    "<table>\n<thead><tr><th></th><th>case</th><th>status</th><th>volumes</th><th>outputs</th>"
+    "<th class=\"number\">seconds</th><th class=\"number\">peak MiB</th></tr></thead>\n<tbody>\n" +
+    rows + "</tbody>\n</table>\n";
+  const std::string place = "<!-- cases -->\n";
+  std::string page = IndexPage;
+  return page.replace(page.find(place), place.size(), body);
 }
 
 } // namespace rhombic
