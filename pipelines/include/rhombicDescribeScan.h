@@ -13,16 +13,14 @@
 namespace rhombic
 {
 
-/** \class SuggestedThreshold
- * \brief A suggested isovalue, and the tissue that it shows. */
+/** A suggested isovalue, and the tissue that it shows. */
 struct SuggestedThreshold
 {
   std::string surface; ///< the tissue, such as "bone"
   double isovalue;
 };
 
-/** \class ScanDescription
- * \brief The content of a file or folder. */
+/** The content of a file or folder. */
 struct ScanDescription
 {
   /** The volume that was read; none where a folder has several series of which none was chosen or could be read. */
@@ -57,8 +55,7 @@ struct ScanDescription
 ScanDescription
 DescribeScan(const ScanSource & source, const LabelMapSource & labels);
 
-/** \class PresetChoice
- * \brief The preset that "auto" stands for. */
+/** The preset that "auto" stands for. */
 struct PresetChoice
 {
   std::string preset; ///< its name; empty for none

@@ -14,8 +14,7 @@
 namespace rhombic
 {
 
-/** \class ExtractedSurface
- * \brief An isosurface of a lattice volume. */
+/** An isosurface of a lattice volume. */
 struct ExtractedSurface : SceneSurface
 {
   std::optional<EnclosedParts> enclosed; ///< for SurfaceRequest::Parts::Enclosed

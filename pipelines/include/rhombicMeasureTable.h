@@ -16,8 +16,7 @@ namespace rhombic
  * What is measured of surfaces as they are finished: one list of columns, from which reports, tables and sentences take
  * names, units and values. */
 
-/** \class MeasureColumn
- * \brief One thing that is known of a surface. */
+/** One thing that is known of a surface. */
 struct MeasureColumn
 {
   const char * name;        ///< in snake_case, with the unit at its end

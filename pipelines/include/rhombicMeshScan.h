@@ -14,8 +14,7 @@
 namespace rhombic
 {
 
-/** \class MeshScanSettings
- * \brief From a scan to surface files. */
+/** From a scan to surface files. */
 struct MeshScanSettings
 {
   ScanSource source;

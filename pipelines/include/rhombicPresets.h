@@ -12,8 +12,7 @@
 namespace rhombic
 {
 
-/** \class Preset
- * \brief A named list of surfaces for a kind of scan, and how they are made and drawn. */
+/** A named list of surfaces for a kind of scan, and how they are made and drawn. */
 struct Preset
 {
   std::string name;

@@ -11,8 +11,7 @@
 namespace rhombic
 {
 
-/** \class ResampleScanSettings
- * \brief From a scan to a lattice volume, or from a lattice volume to a Cartesian one. */
+/** From a scan to a lattice volume, or from a lattice volume to a Cartesian one. */
 struct ResampleScanSettings
 {
   ScanSource source;

@@ -21,8 +21,7 @@
 namespace rhombic
 {
 
-/** \class ScanSource
- * \brief The file or folder of a scan, and how the scan gets onto the lattice. Copies share the decoder. */
+/** The file or folder of a scan, and how the scan gets onto the lattice. Copies share the decoder. */
 struct ScanSource
 {
   std::filesystem::path path; ///< a scan, or a lattice volume that WriteFCCImage() wrote
@@ -39,16 +38,14 @@ struct ScanSource
 /** What a source holds: a volume on a Cartesian grid, or on the lattice. */
 using SourceVolume = std::variant<Scan, FCCVolume>;
 
-/** \class LabelSelection
- * \brief The labels that become surfaces. */
+/** The labels that become surfaces. */
 struct LabelSelection
 {
   LabelMapSource source;           ///< without a path the scan itself is the label map
   std::vector<std::string> labels; ///< names with wildcards, or values; empty: all that the label table does not hide
 };
 
-/** \class SurfaceSelection
- * \brief The surfaces that are made of a scan: isosurfaces, labels, or both. */
+/** The surfaces that are made of a scan: isosurfaces, labels, or both. */
 struct SurfaceSelection
 {
   std::vector<SurfaceRequest> requests;
@@ -69,8 +66,7 @@ ReadScan(const ScanSource & source, const Events & events);
 SourceVolume
 LoadVolume(const ScanSource & source, const Events & events);
 
-/** \class LoadedSource
- * \brief The lattice volume that surfaces are extracted from, and the scan behind it. */
+/** The lattice volume that surfaces are extracted from, and the scan behind it. */
 struct LoadedSource
 {
   std::optional<Scan> scan;                 ///< none when the source is a lattice volume or a label map

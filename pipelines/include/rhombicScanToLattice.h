@@ -17,8 +17,7 @@
 namespace rhombic
 {
 
-/** \class LatticeSettings
- * \brief The lattice that a scan is resampled onto. A volume that is on a lattice already is only denoised. */
+/** The lattice that a scan is resampled onto. A volume that is on a lattice already is only denoised. */
 struct LatticeSettings
 {
   double density = itk::FCCLattice::DefaultDensity; ///< lattice sites per sample of the scan

@@ -28,8 +28,7 @@ struct SceneRule
   std::optional<bool> isGlossy;  ///< see SceneSurface
 };
 
-/** \class SceneRules
- * \brief Which surfaces are shown, and in which colours. */
+/** Which surfaces are shown, and in which colours. */
 struct SceneRules
 {
   std::vector<std::string> only;   ///< patterns of those that are shown; empty: all

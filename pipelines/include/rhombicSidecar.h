@@ -11,8 +11,7 @@
 namespace rhombic
 {
 
-/** \class Provenance
- * \brief Program and command that made an output, for its sidecar and its metadata. Nothing here is about the patient,
+/** Program and command that made an output, for its sidecar and its metadata. Nothing here is about the patient,
  * and nothing that has no effect on the output. */
 struct Provenance
 {
@@ -22,8 +21,7 @@ struct Provenance
   bool writesSidecars = true;
 };
 
-/** \class MadeFile
- * \brief A file that a command makes. */
+/** A file that a command makes. */
 struct MadeFile
 {
   std::filesystem::path path;
@@ -32,8 +30,7 @@ struct MadeFile
   bool isMain = true;                ///< whether a user looks for the file; others, as reports, lie beside those
 };
 
-/** \class OutputFiles
- * \brief The files of a command, which appear together when they are committed. The provenance must outlive the object.
+/** The files of a command, which appear together when they are committed. The provenance must outlive the object.
  */
 struct OutputFiles
 {

@@ -25,8 +25,7 @@ struct ExtractedSize
   itk::SizeValueType triangles = 0;
 };
 
-/** \class MeshedSurface
- * \brief A surface on its way from a scan to a file or picture, and the results of each step. */
+/** A surface on its way from a scan to a file or picture, and the results of each step. */
 struct MeshedSurface
 {
   SceneSurface scene;
@@ -64,8 +63,7 @@ enum class SurfaceUse
   Pictures ///< surfaces are smoothed, and their normals last; that takes less time
 };
 
-/** \class SourceSurfaces
- * \brief Makes the surfaces of a source in two steps, between which the source's volumes can be dropped.
+/** Makes the surfaces of a source in two steps, between which the source's volumes can be dropped.
  *
  * All arguments of the constructor must outlive the object. */
 class SourceSurfaces

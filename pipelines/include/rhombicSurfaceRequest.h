@@ -14,8 +14,7 @@
 namespace rhombic
 {
 
-/** \class SurfaceRequest
- * \brief An isosurface to extract, and how to draw it. */
+/** An isosurface to extract, and how to draw it. */
 struct SurfaceRequest
 {
   /** Which connected parts are kept. */

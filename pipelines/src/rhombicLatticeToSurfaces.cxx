@@ -61,8 +61,7 @@ struct Isosurfaces
   itk::SizeValueType undefinedSamples = 0; ///< samples of the volume that are not a number
 };
 
-/** \class IsosurfaceExtraction
- * \brief Extracts isosurfaces of volumes that lie on the same lattice. */
+/** Extracts isosurfaces of volumes that lie on the same lattice. */
 struct IsosurfaceExtraction
 {
   itk::FCCIsosurfaceMode mode;

@@ -12,8 +12,7 @@
 namespace rhombic
 {
 
-/** \class BatchCase
- * \brief One scan of a collection. */
+/** One scan of a collection. */
 struct BatchCase
 {
   std::string name;
@@ -29,8 +28,7 @@ struct BatchCase
   GetSize() const;
 };
 
-/** \class CaseSearch
- * \brief How the cases of a collection are found and named. */
+/** How the cases of a collection are found and named. */
 struct CaseSearch
 {
   /** Names of cases in a tree of folders are made from their paths, which may name patients. Otherwise they are made
@@ -41,8 +39,7 @@ struct CaseSearch
   std::vector<std::string> only;  ///< names of the cases to choose, with wildcards; empty: all
 };
 
-/** \class CaseCollection
- * \brief The cases of a collection, and notes on what was left out. */
+/** The cases of a collection, and notes on what was left out. */
 struct CaseCollection
 {
   std::vector<BatchCase> cases; ///< in the order of their paths, or of the manifest; names are different

@@ -12,8 +12,7 @@
 namespace rhombic
 {
 
-/** \class PipelineStep
- * \brief One output of each case, and the command of `rhombic` that makes it. */
+/** One output of each case, and the command of `rhombic` that makes it. */
 struct PipelineStep
 {
   std::string output;             ///< name of the file
@@ -25,16 +24,14 @@ struct PipelineStep
   std::size_t line = 0;           ///< in the pipeline file, from 1
 };
 
-/** \class Pipeline
- * \brief What is made of each case. */
+/** The outputs of each case. */
 struct Pipeline
 {
   std::vector<PipelineStep> steps;
   std::string hash; ///< of the steps, and of the files that they name
 };
 
-/** \class CommandSyntax
- * \brief The settings of `rhombic`'s commands. */
+/** The settings of `rhombic`'s commands. */
 struct CommandSyntax
 {
   /** A setting that a pipeline file may hold. */

@@ -15,8 +15,7 @@
 namespace rhombic
 {
 
-/** \class BatchSettings
- * \brief What RunBatch() does, and within which limits. */
+/** The cases and outputs of RunBatch(), and its limits. */
 struct BatchSettings
 {
   std::vector<BatchCase> cases;
@@ -52,8 +51,7 @@ enum class CaseState
 std::string
 NameOf(CaseState state);
 
-/** \class CasePlan
- * \brief The state of a case, and what it took, or is estimated to take. */
+/** The state of a case, and what it took, or is estimated to take. */
 struct CasePlan
 {
   CaseState state = CaseState::Missing;
@@ -67,8 +65,7 @@ struct CasePlan
 std::vector<CasePlan>
 PlanBatch(const BatchSettings & settings);
 
-/** \class BatchSummary
- * \brief Numbers of cases after a run. */
+/** Numbers of cases after a run. */
 struct BatchSummary
 {
   std::size_t done = 0; ///< by this run or an earlier one

@@ -17,8 +17,7 @@ using CaseRecords = std::map<std::string, Report>;
 CaseRecords
 ReadJournal(const std::filesystem::path & folder);
 
-/** \class BatchJournal
- * \brief The file journal.jsonl in the folder of outputs: one line of JSON for each case that ended, with "case" as its
+/** The file journal.jsonl in the folder of outputs: one line of JSON for each case that ended, with "case" as its
  * name. Lines are only added, and are on the disk before Add() returns.
  *
  * The journal locks cases: as long as it is open, no other one can be opened for them, on all machines that share the

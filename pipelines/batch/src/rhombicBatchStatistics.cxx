@@ -57,8 +57,7 @@ EstimateDeviation(const std::vector<double> & values, double median)
   return middle > 0.0 ? 1.4826 * middle : 1.2533 * sum / static_cast<double>(values.size());
 }
 
-/** \class Table
- * \brief A table of tab-separated fields. */
+/** A table of tab-separated fields. */
 struct Table
 {
   Row columns;

@@ -21,8 +21,7 @@ constexpr char StagePrefix[] = ".stage-";
 std::string
 HashOptions(const BatchCase & batchCase, const Pipeline & pipeline);
 
-/** \class CaseRun
- * \brief Runs the steps of one case, one child process after the other. A step that fails keeps no other from running,
+/** Runs the steps of one case, one child process after the other. A step that fails keeps no other from running,
  * but for one that takes too long. */
 class CaseRun
 {

@@ -172,8 +172,7 @@ Summarize(const BatchSettings & settings, const CaseRecords & records)
   return summary;
 }
 
-/** \class BatchRun
- * \brief Runs the cases, several at a time. */
+/** Runs the cases, several at a time. */
 class BatchRun
 {
 public:

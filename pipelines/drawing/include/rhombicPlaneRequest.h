@@ -9,8 +9,7 @@
 namespace rhombic
 {
 
-/** \class PlaneRequest
- * \brief A plane at right angles to an axis of the patient, through a place that is known once there are surfaces. */
+/** A plane at right angles to an axis of the patient, through a place that is known once there are surfaces. */
 struct PlaneRequest
 {
   SlicePlane plane = SlicePlane::Axial;
@@ -18,8 +17,7 @@ struct PlaneRequest
                      ///< scene; else the centroid of the surfaces whose names fit this pattern (see FitsPattern())
 };
 
-/** \class CutRequest
- * \brief A plane, and the side of it that is removed. */
+/** A plane, and the side of it that is removed. */
 struct CutRequest
 {
   PlaneRequest plane;

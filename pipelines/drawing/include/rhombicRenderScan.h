@@ -16,8 +16,7 @@
 namespace rhombic
 {
 
-/** \class PictureSource
- * \brief The source of pictures: surfaces of a scan, or surface files. */
+/** The source of pictures: surfaces of a scan, or surface files. */
 struct PictureSource
 {
   ScanSource scan; ///< if there are surface files, only its decoder has an effect
@@ -26,8 +25,7 @@ struct PictureSource
   std::vector<std::filesystem::path> surfaceFiles; ///< files that ReadSurfaces() reads
 };
 
-/** \class AnnotationSettings
- * \brief Letters, lines and texts over pictures. */
+/** Letters, lines and texts over pictures. */
 struct AnnotationSettings
 {
   bool letters = true;   ///< the anatomical directions at the edges
@@ -38,8 +36,7 @@ struct AnnotationSettings
   bool footnote = false; ///< thresholds, lattice and version, below the picture
 };
 
-/** \class SliceSettings
- * \brief How slices of the scan are drawn. */
+/** How slices of the scan are drawn. */
 struct SliceSettings
 {
   std::string window = "auto"; ///< as WindowFromText() takes it
@@ -48,8 +45,7 @@ struct SliceSettings
   std::size_t lightbox = 0; ///< so many slices evenly along each plane's axis in one picture, instead of one slice
 };
 
-/** \class PictureSettings
- * \brief The settings that pictures and pages share. */
+/** The settings that pictures and pages share. */
 struct PictureSettings
 {
   PictureSource source;
@@ -62,8 +58,7 @@ struct PictureSettings
   Provenance provenance;
 };
 
-/** \class RenderScanSettings
- * \brief From a scan or surface files to pictures. */
+/** From a scan or surface files to pictures. */
 struct RenderScanSettings : PictureSettings
 {
   RenderSettings render;            ///< its memory is the source's, its margins those of the annotations
@@ -93,8 +88,7 @@ RenderScan(const RenderScanSettings & settings,
            const Events & events,
            std::optional<SourceVolume> volume = std::nullopt);
 
-/** \class RenderSheetSettings
- * \brief From a scan or surface files to a page. */
+/** From a scan or surface files to a page. */
 struct RenderSheetSettings : PictureSettings
 {
   std::vector<View> views{ StandardViews()[0],

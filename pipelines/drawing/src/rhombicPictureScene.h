@@ -11,8 +11,7 @@
 namespace rhombic
 {
 
-/** \class PictureScene
- * \brief The surfaces that pictures show, and what else is known of them. */
+/** The surfaces that pictures show, and what else is known of them. */
 struct PictureScene
 {
   std::vector<SceneSurface> surfaces;
