@@ -10,10 +10,7 @@
 #include "rhombicVTPToPLY.h"
 #include "rhombicWording.h"
 
-#include "itkTriangleSurfaceMeasures.h"
-
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace rhombic
@@ -248,53 +245,6 @@ LongestSideOf(const LPSBox & box)
 {
   return std::max(
     { box.highest[0] - box.lowest[0], box.highest[1] - box.lowest[1], box.highest[2] - box.lowest[2], 0.0 });
-}
-
-void
-NeedPlaces(const std::vector<PlaneRequest> & requests, SceneRules & rules)
-{
-  for (const PlaneRequest & request : requests)
-  {
-    if (!request.place.empty() && request.place[0] != '#' && !ToNumber<double>(request.place))
-    {
-      rules.needed.push_back(request.place);
-    }
-  }
-}
-
-Vector3
-FindPlace(const PlaneRequest & request, const PictureScene & scene)
-{
-  if (request.place.empty())
-  {
-    return CentreOf(BoxAround(scene.surfaces));
-  }
-  if (const auto position = ToNumber<double>(request.place); position && std::isfinite(*position))
-  {
-    RequireInside(request.plane, *position, scene.box);
-    return PointAtPosition(scene.box, request.plane, *position);
-  }
-  if (request.place[0] == '#')
-  {
-    if (!scene.scan)
-    {
-      throw Failure(FailureKind::Usage, "Slices are counted in scans, and this source is none; give a position in mm.");
-    }
-    return PointAtIndex(*scene.scan, request.plane, ToNumber<std::size_t>(request.place.substr(1)).value());
-  }
-  Vector3 sum{};
-  double volume = 0.0;
-  for (const SceneSurface & surface : SurfacesNamed(scene.surfaces, request.place))
-  {
-    const auto centroid = ComputeTriangleSurfaceCentroid(*surface.surface);
-    const double share = std::abs(ComputeTriangleSurfaceVolume(*surface.surface));
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      sum[axis] += share * centroid[axis];
-    }
-    volume += share;
-  }
-  return { sum[0] / volume, sum[1] / volume, sum[2] / volume };
 }
 
 } // namespace rhombic

@@ -1,7 +1,9 @@
-#include "rhombicPlaneRequest.h"
+#include "rhombicPictureScene.h"
 
 #include "rhombicFailure.h"
 #include "rhombicWording.h"
+
+#include "itkTriangleSurfaceMeasures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +11,10 @@
 namespace rhombic
 {
 
+namespace
+{
+
+/** Throws Failure(Usage) for a position in LPS mm that is not in the box. */
 void
 RequireInside(SlicePlane plane, double position, const SliceBox & box)
 {
@@ -28,6 +34,8 @@ RequireInside(SlicePlane plane, double position, const SliceBox & box)
                     FormatNumber(highest, 5) + " mm; choose a place in between.");
   }
 }
+
+} // namespace
 
 void
 CheckPlaces(const std::vector<PlaneRequest> & requests, const Scan & scan)
@@ -88,6 +96,53 @@ ParseCutRequest(const std::string & text)
                 "The cut '" + text +
                   "' is not understood; write x>12, y<-30 or z>100 (mm in LPS) for what is "
                   "removed, or a plane, as coronal=liver.");
+}
+
+void
+NeedPlaces(const std::vector<PlaneRequest> & requests, SceneRules & rules)
+{
+  for (const PlaneRequest & request : requests)
+  {
+    if (!request.place.empty() && request.place[0] != '#' && !ToNumber<double>(request.place))
+    {
+      rules.needed.push_back(request.place);
+    }
+  }
+}
+
+Vector3
+FindPlace(const PlaneRequest & request, const PictureScene & scene)
+{
+  if (request.place.empty())
+  {
+    return CentreOf(BoxAround(scene.surfaces));
+  }
+  if (const auto position = ToNumber<double>(request.place); position && std::isfinite(*position))
+  {
+    RequireInside(request.plane, *position, scene.box);
+    return PointAtPosition(scene.box, request.plane, *position);
+  }
+  if (request.place[0] == '#')
+  {
+    if (!scene.scan)
+    {
+      throw Failure(FailureKind::Usage, "Slices are counted in scans, and this source is none; give a position in mm.");
+    }
+    return PointAtIndex(*scene.scan, request.plane, ToNumber<std::size_t>(request.place.substr(1)).value());
+  }
+  Vector3 sum{};
+  double volume = 0.0;
+  for (const SceneSurface & surface : SurfacesNamed(scene.surfaces, request.place))
+  {
+    const auto centroid = ComputeTriangleSurfaceCentroid(*surface.surface);
+    const double share = std::abs(ComputeTriangleSurfaceVolume(*surface.surface));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      sum[axis] += share * centroid[axis];
+    }
+    volume += share;
+  }
+  return { sum[0] / volume, sum[1] / volume, sum[2] / volume };
 }
 
 } // namespace rhombic

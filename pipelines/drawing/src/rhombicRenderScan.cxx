@@ -45,56 +45,49 @@ NameOf(const PlaneRequest & request)
   return NameOf(request.plane) + (place.empty() ? "" : "-" + FileStemOf(place));
 }
 
-/** One path for each picture, all different: with their names if there are several. */
-std::vector<fs::path>
-PathsOf(const fs::path & picture, const std::vector<std::string> & names)
-{
-  std::vector<fs::path> paths;
-  for (const std::string & name : names)
-  {
-    paths.push_back(names.size() == 1 ? picture : WithPart(picture, name));
-  }
-  return paths;
-}
-
-/** Names of a turntable's frames: 001, 002, ... */
-std::vector<std::string>
-NumbersOf(std::size_t count)
-{
-  const std::size_t digits = std::max<std::size_t>(3, std::to_string(count).size());
-  std::vector<std::string> names;
-  for (std::size_t n = 1; n <= count; ++n)
-  {
-    const std::string number = std::to_string(n);
-    names.push_back(std::string(digits - number.size(), '0') + number);
-  }
-  return names;
-}
-
+/** One path for each picture, with the picture's name if there are several; one path for an animation. */
 std::vector<fs::path>
 PlanPictures(const RenderScanSettings & settings)
 {
+  std::vector<std::string> names;
   if (settings.turntable > 0)
   {
-    return IsGif(settings.picture) ? std::vector<fs::path>{ settings.picture }
-                                   : PathsOf(settings.picture, NumbersOf(settings.turntable));
+    const std::size_t digits = std::max<std::size_t>(3, std::to_string(settings.turntable).size());
+    for (std::size_t n = 1; n <= settings.turntable; ++n) // 001, 002, ...
+    {
+      const std::string number = std::to_string(n);
+      names.push_back(std::string(digits - number.size(), '0') + number);
+    }
   }
-  std::vector<std::string> names;
-  for (const View & view : settings.views)
+  else
   {
-    names.push_back(view.name);
+    for (const View & view : settings.views)
+    {
+      names.push_back(view.name);
+    }
+    for (const PlaneRequest & slice : settings.slices)
+    {
+      names.push_back(NameOf(slice));
+    }
+    if (settings.onlyPicture > names.size())
+    {
+      throw Failure(FailureKind::Usage,
+                    "There is no picture " + std::to_string(settings.onlyPicture) + " among " +
+                      std::to_string(names.size()) + " views and slices.");
+    }
   }
-  for (const PlaneRequest & slice : settings.slices)
+  const bool isAnimation = settings.turntable > 0 && IsGif(settings.picture);
+  const bool isOne = settings.turntable == 0 && settings.onlyPicture > 0;
+  if (names.size() == 1 || isAnimation || isOne)
   {
-    names.push_back(NameOf(slice));
+    return { settings.picture };
   }
-  if (settings.onlyPicture > names.size())
+  std::vector<fs::path> paths;
+  for (const std::string & name : names)
   {
-    throw Failure(FailureKind::Usage,
-                  "There is no picture " + std::to_string(settings.onlyPicture) + " among " +
-                    std::to_string(names.size()) + " views and slices" + ".");
+    paths.push_back(WithPart(settings.picture, name));
   }
-  return settings.onlyPicture > 0 ? std::vector<fs::path>{ settings.picture } : PathsOf(settings.picture, names);
+  return paths;
 }
 
 /** The DICOM files beside the pictures, if any are written. */

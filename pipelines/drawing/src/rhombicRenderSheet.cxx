@@ -48,22 +48,30 @@ TitleOf(const PictureScene & scene)
   return names.size() <= few ? Enumerate(names, "and") : Count(names.size(), "structure");
 }
 
+/** A sheet that has the pictures' numbers only. */
+Sheet
+EmptySheet(const RenderSheetSettings & settings, std::size_t slices)
+{
+  Sheet sheet;
+  sheet.views.resize(settings.views.size());
+  sheet.slices.resize(slices);
+  sheet.isLandscape = settings.isLandscape;
+  sheet.pixelsPerInch = settings.pixelsPerInch;
+  return sheet;
+}
+
 /** A sheet without its pictures. */
 Sheet
 PlanSheet(const RenderSheetSettings & settings, const PictureScene & scene, std::size_t slices)
 {
-  Sheet sheet;
+  Sheet sheet = EmptySheet(settings, slices);
   sheet.title = settings.title.empty() ? TitleOf(scene) : settings.title;
-  sheet.views.resize(settings.views.size());
-  sheet.slices.resize(slices);
   sheet.viewAspect = AspectOf(scene);
   sheet.rows = scene.rows;
   sheet.meanUnit = scene.unit;
   sheet.provenance = scene.facts;
   sheet.provenance.push_back("made by: " + settings.provenance.software);
   sheet.letters = scene.isOriented;
-  sheet.isLandscape = settings.isLandscape;
-  sheet.pixelsPerInch = settings.pixelsPerInch;
   sheet.isDark = settings.style == PictureStyle::Clinic;
   for (std::size_t n = 0; n < sheet.views.size(); ++n)
   {
@@ -160,12 +168,7 @@ StageSheet(const Sheet & sheet,
 void
 CheckMemory(const RenderSheetSettings & settings, std::size_t slices, const SurfaceRenderer & renderer)
 {
-  Sheet sheet;
-  sheet.views.resize(settings.views.size());
-  sheet.slices.resize(slices);
-  sheet.isLandscape = settings.isLandscape;
-  sheet.pixelsPerInch = settings.pixelsPerInch;
-  const SheetPlaces places = PlacesOn(sheet);
+  const SheetPlaces places = PlacesOn(EmptySheet(settings, slices));
   RenderSettings render;
   render.maximumMemory = settings.source.scan.lattice.maximumMemory;
   constexpr std::uintmax_t bytesPerPixel = 12; // drawing, picture, and its rows as they are written

@@ -22,13 +22,6 @@ PlaneThrough(const Vector3 & point, SlicePlane plane, const PictureScene & sourc
   return SliceThrough(point, source.box, FrameOf(plane), LongestSideOf(BoxAround(source.surfaces)) / PixelsOfCap);
 }
 
-Picture
-DrawGreys(const PictureScene & source, const Projection & plane, const std::string & window)
-{
-  return source.scan ? DrawSlice(*source.scan, plane, WindowFromText(window, *source.scan))
-                     : Picture(plane.width, plane.height);
-}
-
 std::vector<std::string>
 NamesOfCutSurfaces(const RenderScanSettings & settings, const PictureScene & source)
 {
@@ -151,7 +144,10 @@ AddCuts(const RenderScanSettings & settings, const PictureScene & source, Scene 
         cut.back().tint = source.scan && surface.opacity < 1.0 ? 0.0 : cut.back().tint;
       }
     }
-    Picture cap = DrawCap(DrawGreys(source, projection, settings.slice.window), cut);
+    const Picture greys = source.scan
+                            ? DrawSlice(*source.scan, projection, WindowFromText(settings.slice.window, *source.scan))
+                            : Picture(projection.width, projection.height);
+    Picture cap = DrawCap(greys, cut);
     ClearWhereCut(projection, scene.cuts, n, cap);
     scene.planes.push_back({ std::move(cap), projection });
   }
