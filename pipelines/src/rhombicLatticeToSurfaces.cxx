@@ -16,21 +16,6 @@ namespace rhombic
 namespace
 {
 
-/** Throws Failure(Empty) for a surface without triangles. */
-void
-RequireTriangles(const ExtractedSurface & surface, double isovalue)
-{
-  if (surface.surface->GetNumberOfTriangles() == 0)
-  {
-    throw Failure(FailureKind::Empty,
-                  "Nothing can be extracted for " + surface.name + " at " + FormatNumber(isovalue) +
-                    (surface.enclosed ? " that lies in the body (" + FormatMillilitres(surface.enclosed->aroundBody) +
-                                          " around it are left out)"
-                                      : "") +
-                    "; try another threshold (rhombic info suggests some).");
-  }
-}
-
 void
 NoteParts(const std::string & name, const EnclosedParts & parts, const Events & events)
 {
@@ -206,8 +191,16 @@ LatticeToSurfaces(const FCCVolume & volume,
       surface = extraction.ExtractOutline(volume, request);
       events.Note(request.name + ": the outline of the body, with lungs and other air inside filled");
     }
+    if (surface->GetNumberOfTriangles() == 0)
+    {
+      throw Failure(
+        FailureKind::Empty,
+        "Nothing can be extracted for " + request.name + " at " + FormatNumber(*request.isovalue) +
+          (enclosed ? " that lies in the body (" + FormatMillilitres(enclosed->aroundBody) + " around it are left out)"
+                    : "") +
+          "; try another threshold (rhombic info suggests some).");
+    }
     surfaces.push_back({ { request.name, surface.GetPointer(), request.colour, request.opacity }, enclosed });
-    RequireTriangles(surfaces.back(), *request.isovalue);
     events.Note(request.name + ": " + Count(surface->GetNumberOfTriangles(), "triangle"));
   }
   return surfaces;

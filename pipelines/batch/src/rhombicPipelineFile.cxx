@@ -92,7 +92,12 @@ public:
     Pipeline pipeline;
     if (root["options"])
     {
-      this->CheckCommonOptions(root["options"]);
+      std::vector<std::string> known;
+      for (const OutputKind & kind : OutputKinds)
+      {
+        this->AddNames(kind, known);
+      }
+      RefuseOtherKeys(root["options"], known);
     }
     for (const auto & output : root["outputs"])
     {
@@ -113,18 +118,14 @@ public:
   }
 
 private:
+  /** Adds the names of the settings that outputs of a kind may have. */
   void
-  CheckCommonOptions(const YAML::Node & options) const
+  AddNames(const OutputKind & kind, std::vector<std::string> & names) const
   {
-    std::vector<std::string> known;
-    for (const OutputKind & kind : OutputKinds)
+    for (const CommandSyntax::Setting & setting : m_Syntax.settingsOf(kind.command))
     {
-      for (const CommandSyntax::Setting & setting : m_Syntax.settingsOf(kind.command))
-      {
-        known.push_back(setting.name);
-      }
+      names.push_back(setting.name);
     }
-    RefuseOtherKeys(options, known);
   }
 
   PipelineStep
@@ -152,10 +153,7 @@ private:
     }
     const std::vector<CommandSyntax::Setting> settings = m_Syntax.settingsOf(step.command);
     std::vector<std::string> known{ kind->key };
-    for (const CommandSyntax::Setting & setting : settings)
-    {
-      known.push_back(setting.name);
-    }
+    this->AddNames(*kind, known);
     RefuseOtherKeys(node, known);
 
     step.settings = step.kind == "page" ? Report{ { "sheet", true } } : Report::object();
