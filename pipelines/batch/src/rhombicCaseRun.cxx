@@ -25,12 +25,6 @@ namespace
 constexpr char requestFile[] = ".request";
 constexpr char resultFile[] = ".result";
 
-double
-SecondsSince(std::chrono::steady_clock::time_point start)
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 /** What a command wrote to standard output; an empty object if it was killed. */
 Report
 ReadResult(const fs::path & path)
@@ -104,18 +98,6 @@ WithoutNames(std::string sentence, const BatchCase & batchCase, const fs::path &
   return sentence;
 }
 
-/** All that is in a folder. */
-std::vector<fs::path>
-FindFiles(const fs::path & folder)
-{
-  std::vector<fs::path> files;
-  for (const auto & entry : fs::directory_iterator(folder))
-  {
-    files.push_back(entry.path());
-  }
-  return files;
-}
-
 /** Adds measures of an output's surfaces to those of the case: surfaces that outputs share are there once, with what is
  * known of any of them. Measures that know the volume of the isosurface tell the volume's error and its reference.
  * Returns the surfaces' identities. */
@@ -146,6 +128,18 @@ AddMeasures(const Report & rows, Report & measures)
 }
 
 } // namespace
+
+double
+SecondsSince(std::chrono::steady_clock::time_point start)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::vector<fs::path>
+ListEntries(const fs::path & folder)
+{
+  return std::vector<fs::path>(fs::directory_iterator(folder), fs::directory_iterator());
+}
 
 std::string
 HashOptions(const BatchCase & batchCase, const Pipeline & pipeline)
@@ -282,7 +276,7 @@ CaseRun::TakeStep()
     output["output"] = step.output;
     m_Made.emplace(output["name"].get<std::string>(), output);
   }
-  for (const fs::path & file : FindFiles(m_Stage))
+  for (const fs::path & file : ListEntries(m_Stage))
   {
     if (m_Made.count(file.filename().string()) == 0)
     {

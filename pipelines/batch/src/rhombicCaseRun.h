@@ -17,6 +17,13 @@ namespace rhombic
 /** The folder in which a case's outputs are made; folders of this prefix are left from killed runs. */
 constexpr char StagePrefix[] = ".stage-";
 
+double
+SecondsSince(std::chrono::steady_clock::time_point start);
+
+/** All that is in a folder, in no order. */
+std::vector<std::filesystem::path>
+ListEntries(const std::filesystem::path & folder);
+
 /** A hash of all options that a case's outputs depend on. */
 std::string
 HashOptions(const BatchCase & batchCase, const Pipeline & pipeline);

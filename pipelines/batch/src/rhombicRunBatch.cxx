@@ -197,7 +197,7 @@ public:
     {
       while (m_Running.size() < m_Settings.jobs && m_Next < m_Queue.size())
       {
-        m_Running.push_back(this->Start(*m_Queue[m_Next++]));
+        m_Running.push_back(this->Start(*m_Queue[m_Next++].second));
       }
       this->ReportProgress();
       this->Wait();
@@ -211,23 +211,16 @@ public:
   }
 
 private:
-  using Clock = std::chrono::steady_clock;
-
   /** Removes what killed runs have left. */
   void
   RemoveStages() const
   {
-    std::vector<fs::path> stages;
-    for (const auto & entry : fs::directory_iterator(m_Settings.output))
+    for (const fs::path & entry : ListEntries(m_Settings.output))
     {
-      if (entry.path().filename().string().rfind(StagePrefix, 0) == 0)
+      if (entry.filename().string().rfind(StagePrefix, 0) == 0)
       {
-        stages.push_back(entry.path());
+        fs::remove_all(entry);
       }
-    }
-    for (const fs::path & stage : stages)
-    {
-      fs::remove_all(stage);
     }
   }
 
@@ -235,8 +228,6 @@ private:
   void
   Plan()
   {
-    std::vector<std::pair<std::uintmax_t, const BatchCase *>> queue;
-    std::size_t done = 0;
     for (const BatchCase & batchCase : m_Settings.cases)
     {
       Report moved;
@@ -246,20 +237,13 @@ private:
       {
         m_Journal.Add(moved);
       }
-      if (state == CaseState::Done)
+      if (state != CaseState::Done)
       {
-        ++done;
-      }
-      else
-      {
-        queue.emplace_back(batchCase.GetSize(), &batchCase);
+        m_Queue.emplace_back(batchCase.GetSize(), &batchCase);
       }
     }
-    std::stable_sort(queue.begin(), queue.end(), [](const auto & a, const auto & b) { return a.first > b.first; });
-    for (const auto & one : queue)
-    {
-      m_Queue.push_back(one.second);
-    }
+    std::stable_sort(m_Queue.begin(), m_Queue.end(), [](const auto & a, const auto & b) { return a.first > b.first; });
+    const std::size_t done = m_Settings.cases.size() - m_Queue.size();
     m_Events.Note(Count(m_Settings.cases.size(), "case") + ", " + std::to_string(done) + " done before, " +
                   std::to_string(m_Queue.size()) + " to run, " + std::to_string(m_Settings.jobs) + " at a time, " +
                   Count(m_Settings.threads, "thread") + " and at most " + DescribeBytes(m_Settings.maximumMemory) +
@@ -321,7 +305,7 @@ private:
   void
   ReportProgress() const
   {
-    const double seconds = std::chrono::duration<double>(Clock::now() - m_Start).count();
+    const double seconds = SecondsSince(m_Start);
     const double share = static_cast<double>(m_Ended) / static_cast<double>(m_Queue.size());
     m_Events.Progress("cases: " + std::to_string(m_Ended) + " of " + std::to_string(m_Queue.size()) +
                         (m_Failed > 0 ? ", " + std::to_string(m_Failed) + " failed" : "") +
@@ -332,13 +316,13 @@ private:
   BatchSettings m_Settings;
   const Events & m_Events;
   BatchJournal m_Journal;
-  std::vector<const BatchCase *> m_Queue;
-  std::size_t m_Next = 0; ///< in the queue
+  std::vector<std::pair<std::uintmax_t, const BatchCase *>> m_Queue; ///< with the sizes of the cases
+  std::size_t m_Next = 0;                                            ///< in the queue
   std::vector<std::unique_ptr<CaseRun>> m_Running;
   std::map<std::string, std::shared_future<std::string>> m_InputHashes; ///< by the states of the files
   std::size_t m_Ended = 0;
   std::size_t m_Failed = 0; ///< of those that ended in this run
-  Clock::time_point m_Start = Clock::now();
+  std::chrono::steady_clock::time_point m_Start = std::chrono::steady_clock::now();
 };
 
 } // namespace

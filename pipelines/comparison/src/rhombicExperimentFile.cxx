@@ -141,12 +141,12 @@ ReadComparisonRequest(const std::filesystem::path & path, const std::filesystem:
     }
     for (const auto & node : map.Get("claims"))
     {
-      Map claim(node);
-      request.claims.emplace_back();
-      claim.Get("claim", request.claims.back().claim);
-      claim.Get("measured", request.claims.back().measured);
-      claim.Get("verdict", request.claims.back().verdict);
-      claim.RefuseOthers();
+      Map values(node);
+      Claim & claim = request.claims.emplace_back();
+      values.Get("claim", claim.claim);
+      values.Get("measured", claim.measured);
+      values.Get("verdict", claim.verdict);
+      values.RefuseOthers();
     }
     map.Get("shared"); // rows that experiments refer to
     map.RefuseOthers();
