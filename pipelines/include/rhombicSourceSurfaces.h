@@ -33,6 +33,8 @@ struct MeshedSurface
   std::optional<SurfaceRequest> request; ///< for isosurfaces
   itk::FCCIsosurfaceMode mode{};         ///< for isosurfaces
   std::optional<EnclosedParts> enclosed; ///< for isosurfaces of enclosed parts
+  itk::ImageBase<3>::Pointer lattice;    ///< for isosurfaces: position of the lattice, without values
+  itk::ImageBase<3>::Pointer grid;       ///< for isosurfaces: see LoadedSource
   std::optional<LabelSurface> label;     ///< for labels; its scene is empty
 
   std::optional<ExtractedSize> extracted;     ///< for surfaces of scans
@@ -63,56 +65,30 @@ enum class SurfaceUse
   Pictures ///< surfaces are smoothed, and their normals last; that takes less time
 };
 
-/** Makes the surfaces of a source in two steps, between which the source's volumes can be dropped.
- *
- * All arguments of the constructor must outlive the object. */
-class SourceSurfaces
+/** How the surfaces of a source are made. All references must outlive the object. */
+struct SurfaceMaking
 {
-public:
-  /** \param finish of each surface; combined with that of its request */
-  SourceSurfaces(const ScanSource & source,
-                 const SurfaceSelection & selection,
-                 const SurfaceFinish & finish,
-                 SurfaceUse use,
-                 const Events & events)
-    : m_Source(source)
-    , m_Selection(selection)
-    , m_Finish(finish)
-    , m_Use(use)
-    , m_Events(events)
-  {}
-
-  /** Extracts isosurfaces and labels, in this order. Walls between labels are refined here, once for both sides.
-   * Throws Failure.
-   *
-   * \param computesNormals whether isosurfaces get normals; labels always do */
-  std::vector<MeshedSurface>
-  Extract(const LoadedSource & loaded, bool computesNormals = true);
-
-  /** Removes parts of a surface, and refines or smooths it. Returns whether anything is left; notes say if not. */
-  bool
-  Finish(MeshedSurface & surface) const;
-
-  /** Finishes surfaces, and drops surfaces without triangles. Throws Failure(Empty) if no surface is left. */
-  void
-  Finish(std::vector<MeshedSurface> & surfaces) const;
-
-private:
-  void
-  AddIsosurfaces(const LoadedSource & loaded, bool computesNormals, std::vector<MeshedSurface> & surfaces);
-  void
-  AddLabels(const LoadedSource & loaded, std::vector<MeshedSurface> & surfaces) const;
-  std::optional<itk::CrossingCandidates>
-  FindCandidates(const itk::TriangleSurface & surface) const;
-
-  const ScanSource & m_Source;
-  const SurfaceSelection & m_Selection;
-  const SurfaceFinish & m_Finish;
-  SurfaceUse m_Use;
-  const Events & m_Events;
-  itk::ImageBase<3>::Pointer m_Lattice; ///< position of the lattice, without values; null without isosurfaces
-  itk::ImageBase<3>::Pointer m_Grid;    ///< see LoadedSource
+  const ScanSource & source;
+  const SurfaceSelection & selection;
+  const SurfaceFinish & finish; ///< of each surface; combined with that of its request
+  SurfaceUse use;
+  const Events & events;
 };
+
+/** Extracts isosurfaces and labels, in this order. Walls between labels are refined here, once for both sides. The
+ * source's volumes can be dropped afterwards. Throws Failure.
+ *
+ * \param computesNormals whether isosurfaces get normals; labels always do */
+std::vector<MeshedSurface>
+ExtractSource(const SurfaceMaking & making, const LoadedSource & loaded, bool computesNormals = true);
+
+/** Removes parts of a surface, and refines or smooths it. Returns whether anything is left; notes say if not. */
+bool
+FinishSurface(const SurfaceMaking & making, MeshedSurface & surface);
+
+/** Finishes surfaces, and drops surfaces without triangles. Throws Failure(Empty) if no surface is left. */
+void
+FinishSurfaces(const SurfaceMaking & making, std::vector<MeshedSurface> & surfaces);
 
 } // namespace rhombic
 

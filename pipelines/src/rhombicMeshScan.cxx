@@ -356,11 +356,11 @@ MeshScan(const MeshScanSettings & settings, const Events & events, std::optional
   LoadedSource loaded = LoadSource(settings.source, settings.surfaces, std::move(volume), events);
   CheckNumberOfSurfaces(loaded, settings);
   Report sourceReport = ReportSource(loaded, settings.source);
-  SourceSurfaces making(settings.source, settings.surfaces, settings.finish, SurfaceUse::Files, events);
-  std::vector<MeshedSurface> surfaces = making.Extract(loaded, StoresNormals(settings.mesh));
+  const SurfaceMaking making{ settings.source, settings.surfaces, settings.finish, SurfaceUse::Files, events };
+  std::vector<MeshedSurface> surfaces = ExtractSource(making, loaded, StoresNormals(settings.mesh));
   loaded.DropVolumes();
   CheckOutputs(OutputsOf(PathsOf(settings.mesh, surfaces), settings), settings.source, settings.surfaces);
-  making.Finish(surfaces);
+  FinishSurfaces(making, surfaces);
 
   const FileInspection inspection{ settings, loaded.scan, events };
   const std::vector<fs::path> paths = PathsOf(settings.mesh, surfaces);

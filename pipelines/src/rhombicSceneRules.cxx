@@ -39,19 +39,16 @@ constexpr NameGroup Groups[] = {
 };
 
 std::vector<std::string>
-NamesOf(const std::vector<SurfaceRequest> & requests, const LabelMap * labels)
+NamesOf(const std::vector<SurfaceRequest> & requests, const std::vector<LabelSummary> & labels)
 {
   std::vector<std::string> names;
   for (const SurfaceRequest & request : requests)
   {
     names.push_back(request.name);
   }
-  if (labels != nullptr)
+  for (const LabelSummary & summary : labels)
   {
-    for (const LabelSummary & summary : labels->labels)
-    {
-      names.push_back(summary.label.name);
-    }
+    names.push_back(summary.label.name);
   }
   return names;
 }
@@ -176,8 +173,10 @@ IsGlossy(const std::vector<SceneRule> & rules, const std::string & name)
 }
 
 void
-ApplySceneRules(const SceneRules & rules, std::vector<SurfaceRequest> & requests, LabelMap * labels)
+ApplySceneRules(const SceneRules & rules, std::vector<SurfaceRequest> & requests, LabelMap * map)
 {
+  std::vector<LabelSummary> none;
+  std::vector<LabelSummary> & labels = map != nullptr ? map->labels : none;
   const std::vector<std::string> names = NamesOf(requests, labels);
   for (const auto * const patterns : { &rules.only, &rules.hidden })
   {
@@ -186,25 +185,18 @@ ApplySceneRules(const SceneRules & rules, std::vector<SurfaceRequest> & requests
       RequireFit(pattern, names);
     }
   }
-  if (labels != nullptr)
+  if (map != nullptr)
   {
-    ColourLabels(*labels, rules.colours); // all of them, so that colours do not depend on what is shown
+    ColourLabels(*map, rules.colours); // all of them, so that colours do not depend on what is shown
   }
   const auto isHidden = [&rules](const std::string & name) {
     return (!rules.only.empty() && !FitsAny(rules.only, name)) || FitsAny(rules.hidden, name);
   };
-  requests.erase(std::remove_if(requests.begin(),
-                                requests.end(),
-                                [&](const SurfaceRequest & request) { return isHidden(request.name); }),
-                 requests.end());
-  if (labels != nullptr)
-  {
-    auto & list = labels->labels;
-    list.erase(std::remove_if(
-                 list.begin(), list.end(), [&](const LabelSummary & summary) { return isHidden(summary.label.name); }),
-               list.end());
-  }
-  if (!names.empty() && requests.empty() && (labels == nullptr || labels->labels.empty()))
+  const auto isHiddenRequest = [&](const SurfaceRequest & request) { return isHidden(request.name); };
+  const auto isHiddenLabel = [&](const LabelSummary & summary) { return isHidden(summary.label.name); };
+  requests.erase(std::remove_if(requests.begin(), requests.end(), isHiddenRequest), requests.end());
+  labels.erase(std::remove_if(labels.begin(), labels.end(), isHiddenLabel), labels.end());
+  if (!names.empty() && requests.empty() && labels.empty())
   {
     throw Failure(FailureKind::Usage, "No surface is left to show after --only and --hide; leave one of them out.");
   }
@@ -212,9 +204,9 @@ ApplySceneRules(const SceneRules & rules, std::vector<SurfaceRequest> & requests
   {
     RequireFit(pattern, NamesOf(requests, labels));
   }
-  if (labels != nullptr && rules.opensEnclosing)
+  if (map != nullptr && rules.opensEnclosing)
   {
-    OpenEnclosing(*labels);
+    OpenEnclosing(*map);
   }
   for (const SceneRule & rule : rules.rules)
   {
@@ -225,11 +217,11 @@ ApplySceneRules(const SceneRules & rules, std::vector<SurfaceRequest> & requests
         ApplyRule(rule, request);
       }
     }
-    for (std::size_t n = 0; labels != nullptr && n < labels->labels.size(); ++n)
+    for (LabelSummary & summary : labels)
     {
-      if (FitsPattern(rule.pattern, labels->labels[n].label.name))
+      if (FitsPattern(rule.pattern, summary.label.name))
       {
-        ApplyRule(rule, labels->labels[n].label);
+        ApplyRule(rule, summary.label);
       }
     }
   }

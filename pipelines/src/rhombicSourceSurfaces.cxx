@@ -44,59 +44,46 @@ EstimateIsosurface(const LoadedSource & loaded,
   return estimate.uncertainty < 0.5 * estimate.volume ? std::optional(estimate) : std::nullopt;
 }
 
-} // namespace
-
-std::vector<MeshedSurface>
-SourceSurfaces::Extract(const LoadedSource & loaded, bool computesNormals)
-{
-  std::vector<MeshedSurface> surfaces;
-  if (!loaded.requests.empty())
-  {
-    this->AddIsosurfaces(loaded, computesNormals, surfaces);
-  }
-  if (loaded.labels)
-  {
-    this->AddLabels(loaded, surfaces);
-  }
-  return surfaces;
-}
-
 void
-SourceSurfaces::AddIsosurfaces(const LoadedSource & loaded, bool computesNormals, std::vector<MeshedSurface> & surfaces)
+AddIsosurfaces(const SurfaceMaking & making,
+               const LoadedSource & loaded,
+               bool computesNormals,
+               std::vector<MeshedSurface> & surfaces)
 {
-  m_Grid = loaded.grid;
-  m_Lattice = itk::ImageBase<3>::New();
-  std::visit([this](const auto & image) { m_Lattice->CopyInformation(image); }, loaded.lattice);
-  auto extracted =
-    LatticeToSurfaces(loaded.lattice, loaded.requests, m_Selection.mode, m_Events, loaded.grid, computesNormals);
+  const auto lattice = itk::ImageBase<3>::New();
+  std::visit([&lattice](const auto & image) { lattice->CopyInformation(image); }, loaded.lattice);
+  auto extracted = LatticeToSurfaces(
+    loaded.lattice, loaded.requests, making.selection.mode, making.events, loaded.grid, computesNormals);
   for (std::size_t n = 0; n < extracted.size(); ++n)
   {
     MeshedSurface & surface = surfaces.emplace_back();
     surface.enclosed = extracted[n].enclosed;
     surface.scene = std::move(extracted[n]);
     surface.request = loaded.requests[n];
-    surface.mode = m_Selection.mode;
+    surface.mode = making.selection.mode;
+    surface.lattice = lattice;
+    surface.grid = loaded.grid;
     surface.extracted = MeasureExtracted(*surface.scene.surface);
-    if (m_Use == SurfaceUse::Files)
+    if (making.use == SurfaceUse::Files)
     {
-      surface.isosurface = EstimateIsosurface(loaded, *surface.request, surface.extracted->area, m_Source.lattice);
+      surface.isosurface = EstimateIsosurface(loaded, *surface.request, surface.extracted->area, making.source.lattice);
     }
   }
 }
 
 void
-SourceSurfaces::AddLabels(const LoadedSource & loaded, std::vector<MeshedSurface> & surfaces) const
+AddLabels(const SurfaceMaking & making, const LoadedSource & loaded, std::vector<MeshedSurface> & surfaces)
 {
-  const bool isForFiles = m_Use == SurfaceUse::Files;
-  const LatticeSettings & lattice = m_Source.lattice;
+  const bool isForFiles = making.use == SurfaceUse::Files;
+  const LatticeSettings & lattice = making.source.lattice;
   if (isForFiles && lattice.denoising.kind != Denoising::Kind::None)
   {
-    m_Events.Note("labels have no noise: --denoise is not for them");
+    making.events.Note("labels have no noise: --denoise is not for them");
   }
   SurfaceFinish smoothing;
-  smoothing.smoothing = m_Finish.smoothing;
-  LabelMesh mesh =
-    LabelsToWalls(*loaded.labels, { m_Selection.labels->labels, lattice.density, lattice.maximumMemory }, m_Events);
+  smoothing.smoothing = making.finish.smoothing;
+  LabelMesh mesh = LabelsToWalls(
+    *loaded.labels, { making.selection.labels->labels, lattice.density, lattice.maximumMemory }, making.events);
   const bool isMeasured = isForFiles || smoothing.smoothing == 0.0; // else the surfaces would be extracted for it alone
   std::vector<std::optional<ExtractedSize>> extracted(mesh.labels.size());
   if (isMeasured)
@@ -107,7 +94,8 @@ SourceSurfaces::AddLabels(const LoadedSource & loaded, std::vector<MeshedSurface
     });
   }
   const double spacing = MeanSpacingOf(GeometryOf(loaded.labels->scan.image));
-  const std::vector<Refinement> refinements = RefineWalls(mesh, isForFiles ? m_Finish : smoothing, spacing, m_Events);
+  const std::vector<Refinement> refinements =
+    RefineWalls(mesh, isForFiles ? making.finish : smoothing, spacing, making.events);
   if (!isMeasured || refinements.front().smoothing || refinements.front().simplification)
   {
     ExtractSurfaces(mesh);
@@ -122,32 +110,72 @@ SourceSurfaces::AddLabels(const LoadedSource & loaded, std::vector<MeshedSurface
   }
 }
 
+/** The triangles of an isosurface that may cross; nothing if all may. In modes Tetrahedra and Fine points lie on the
+ * edges of tetrahedra, but for those near the walls, which were moved. */
+std::optional<itk::CrossingCandidates>
+FindCandidates(const MeshedSurface & surface)
+{
+  using Mode = itk::FCCIsosurfaceMode;
+  if (surface.mode != Mode::Tetrahedra && surface.mode != Mode::Fine)
+  {
+    return std::nullopt;
+  }
+  constexpr double widthOfTetrahedron = 2.0; // spacings
+  const auto & spacing = surface.lattice->GetSpacing();
+  const auto [smallest, largest] = std::minmax_element(spacing.Begin(), spacing.End());
+  itk::CrossingCandidates candidates;
+  candidates.longestEdge = itk::FindLongestRoundedEdge(*surface.scene.surface, *smallest, *largest);
+  if (surface.grid)
+  {
+    candidates.triangles =
+      itk::FindTrianglesNearFCCWalls(*surface.scene.surface, *surface.grid, 1.5 * widthOfTetrahedron * *largest);
+  }
+  return candidates;
+}
+
+} // namespace
+
+std::vector<MeshedSurface>
+ExtractSource(const SurfaceMaking & making, const LoadedSource & loaded, bool computesNormals)
+{
+  std::vector<MeshedSurface> surfaces;
+  if (!loaded.requests.empty())
+  {
+    AddIsosurfaces(making, loaded, computesNormals, surfaces);
+  }
+  if (loaded.labels)
+  {
+    AddLabels(making, loaded, surfaces);
+  }
+  return surfaces;
+}
+
 bool
-SourceSurfaces::Finish(MeshedSurface & surface) const
+FinishSurface(const SurfaceMaking & making, MeshedSurface & surface)
 {
   const std::string & name = surface.scene.name;
-  const SurfaceFinish finish = surface.request ? CombineFinish(surface.request->finish, m_Finish) : m_Finish;
+  const SurfaceFinish finish = surface.request ? CombineFinish(surface.request->finish, making.finish) : making.finish;
   const auto finished = itk::TriangleSurface::New();
   finished->Graft(surface.scene.surface);
   surface.scene.surface = finished;
   finished->GetTriangles().shrink_to_fit(); // extraction may leave room for more
-  surface.parts = RemoveParts(*finished, finish, name, m_Events);
+  surface.parts = RemoveParts(*finished, finish, name, making.events);
   if (finished->GetNumberOfTriangles() == 0)
   {
-    m_Events.Note(name + ": left out, as all its parts are below --min-volume");
+    making.events.Note(name + ": left out, as all its parts are below --min-volume");
     return false;
   }
-  if (m_Use == SurfaceUse::Files && surface.request)
+  if (making.use == SurfaceUse::Files && surface.request)
   {
     surface.refinement =
-      RefineSurface(*finished, finish, MeanSpacingOf(*m_Lattice), name, m_Events, this->FindCandidates(*finished));
+      RefineSurface(*finished, finish, MeanSpacingOf(*surface.lattice), name, making.events, FindCandidates(surface));
   }
-  if (m_Use == SurfaceUse::Pictures)
+  if (making.use == SurfaceUse::Pictures)
   {
     if (surface.request && finish.smoothing > 0.0)
     {
       itk::TriangleSurfaceSmoothingSettings settings;
-      settings.maximumMove = finish.smoothing * MeanSpacingOf(*m_Lattice);
+      settings.maximumMove = finish.smoothing * MeanSpacingOf(*surface.lattice);
       SmoothTriangleSurface(*finished, settings);
     }
     itk::SmoothTriangleSurfaceNormals(*finished);
@@ -156,12 +184,12 @@ SourceSurfaces::Finish(MeshedSurface & surface) const
 }
 
 void
-SourceSurfaces::Finish(std::vector<MeshedSurface> & surfaces) const
+FinishSurfaces(const SurfaceMaking & making, std::vector<MeshedSurface> & surfaces)
 {
   std::vector<MeshedSurface> finished;
   for (MeshedSurface & surface : surfaces)
   {
-    if (this->Finish(surface))
+    if (FinishSurface(making, surface))
     {
       finished.push_back(std::move(surface));
     }
@@ -171,28 +199,6 @@ SourceSurfaces::Finish(std::vector<MeshedSurface> & surfaces) const
   {
     throw Failure(FailureKind::Empty, "Nothing is left: all parts are below --min-volume; lower it.");
   }
-}
-
-/** The triangles of an isosurface that may cross; nothing if all may. In modes Tetrahedra and Fine points lie on the
- * edges of tetrahedra, but for those near the walls, which were moved. */
-std::optional<itk::CrossingCandidates>
-SourceSurfaces::FindCandidates(const itk::TriangleSurface & surface) const
-{
-  using Mode = itk::FCCIsosurfaceMode;
-  if (m_Selection.mode != Mode::Tetrahedra && m_Selection.mode != Mode::Fine)
-  {
-    return std::nullopt;
-  }
-  constexpr double widthOfTetrahedron = 2.0; // spacings
-  const auto & spacing = m_Lattice->GetSpacing();
-  const auto [smallest, largest] = std::minmax_element(spacing.Begin(), spacing.End());
-  itk::CrossingCandidates candidates;
-  candidates.longestEdge = itk::FindLongestRoundedEdge(surface, *smallest, *largest);
-  if (m_Grid)
-  {
-    candidates.triangles = itk::FindTrianglesNearFCCWalls(surface, *m_Grid, 1.5 * widthOfTetrahedron * *largest);
-  }
-  return candidates;
 }
 
 } // namespace rhombic

@@ -123,15 +123,15 @@ MakeSceneOfScan(const PictureSource & source, std::optional<SourceVolume> volume
     scene.unit = IsInHounsfieldUnits(*scene.scan) ? "HU" : ReadDicomExamination(*scene.scan).units;
   }
   loaded.scan.reset(); // frees memory for the surfaces
-  SourceSurfaces making(source.scan, source.surfaces, source.finish, SurfaceUse::Pictures, events);
-  std::vector<MeshedSurface> surfaces = making.Extract(loaded);
+  const SurfaceMaking making{ source.scan, source.surfaces, source.finish, SurfaceUse::Pictures, events };
+  std::vector<MeshedSurface> surfaces = ExtractSource(making, loaded);
   std::optional<Scan> greys; // of a lattice volume, whose samples are no voxels: nothing is measured in them
   if (isLattice && keepsScan)
   {
     greys.emplace().image = LatticeToScan(loaded.lattice, {}, events);
   }
   loaded.DropVolumes();
-  making.Finish(surfaces);
+  FinishSurfaces(making, surfaces);
   AddSurfaces(surfaces, !loaded.requests.empty(), scene);
   if (greys)
   {
@@ -150,7 +150,7 @@ MakeSceneOfFiles(const PictureSource & source, const Events & events)
     throw Failure(FailureKind::Usage,
                   "--smooth is in spacings of the lattice, and surface files have none; leave it out.");
   }
-  const SourceSurfaces making(source.scan, source.surfaces, source.finish, SurfaceUse::Pictures, events);
+  const SurfaceMaking making{ source.scan, source.surfaces, source.finish, SurfaceUse::Pictures, events };
   PictureScene scene;
   scene.report["surfaces"] = Report::array();
   std::vector<SceneSurface> read;
@@ -181,7 +181,7 @@ MakeSceneOfFiles(const PictureSource & source, const Events & events)
     ++name;
     MeshedSurface shown;
     shown.scene = surface;
-    if (making.Finish(shown))
+    if (FinishSurface(making, shown))
     {
       AddSurface(shown, scene);
     }
