@@ -1,8 +1,11 @@
 #ifndef rhombicYAMLKeys_h
 #define rhombicYAMLKeys_h
 
+#include "rhombicWording.h"
+
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -18,8 +21,24 @@ class YAMLMistake : public std::runtime_error
 
 /** Throws YAMLMistake for a node that is no map, and for a key that \a known does not have, as "has the unknown key
  * 'vew' in line 7 (did you mean view?)". */
-void
-RefuseOtherKeys(const YAML::Node & map, const std::vector<std::string> & known);
+inline void
+RefuseOtherKeys(const YAML::Node & map, const std::vector<std::string> & known)
+{
+  if (!map.IsMap())
+  {
+    throw YAMLMistake("is not made of keys and values in line " + std::to_string(map.Mark().line + 1));
+  }
+  for (const auto & entry : map)
+  {
+    const auto key = entry.first.as<std::string>();
+    if (std::find(known.begin(), known.end(), key) == known.end())
+    {
+      const std::string nearest = NearestName(key, known);
+      throw YAMLMistake("has the unknown key '" + key + "' in line " + std::to_string(entry.first.Mark().line + 1) +
+                        (nearest.empty() ? "" : " (did you mean " + nearest + "?)"));
+    }
+  }
+}
 
 } // namespace rhombic
 

@@ -33,11 +33,6 @@ WriteResults(const std::vector<Report> & cases,
              const std::vector<BatchCase> * manifest,
              const std::filesystem::path & folder);
 
-/** The page of WriteResults(): a table of all cases with thumbnails and links, which a script on the page filters. It
- * needs nothing beside the folder. */
-std::string
-MakeIndexPage(const std::vector<Report> & cases);
-
 } // namespace rhombic
 
 #endif

@@ -1,4 +1,4 @@
-#include "rhombicPictureFiles.h"
+#include "rhombicPictureSteps.h"
 
 #include "rhombicFailure.h"
 

@@ -1,4 +1,4 @@
-#include "rhombicPictureScene.h"
+#include "rhombicPictureSteps.h"
 
 #include "rhombicFailure.h"
 #include "rhombicWording.h"

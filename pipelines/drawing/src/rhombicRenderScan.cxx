@@ -4,8 +4,7 @@
 #include "rhombicGreyWindow.h"
 #include "rhombicLightbox.h"
 #include "rhombicMemoryBudget.h"
-#include "rhombicPictureFiles.h"
-#include "rhombicPictureScene.h"
+#include "rhombicPictureSteps.h"
 #include "rhombicSurfaceRenderer.h"
 #include "rhombicWording.h"
 
@@ -119,18 +118,6 @@ AnnotationsOf(const RenderScanSettings & settings, const PictureScene & scene, c
   return annotations;
 }
 
-/** Views around the patient that all have the same scale and centre. */
-std::vector<View>
-TurntableViews(std::size_t count)
-{
-  std::vector<View> views;
-  for (std::size_t n = 0; n < count; ++n)
-  {
-    views.push_back(ObliqueView(360.0 * static_cast<double>(n) / static_cast<double>(count), 0.0));
-  }
-  return views;
-}
-
 constexpr double Margins::*Sides[] = { &Margins::left, &Margins::right, &Margins::top, &Margins::bottom };
 
 /** For each side, the margin that leaves room for the annotations in all of the pictures, and room for the scene: small
@@ -220,7 +207,11 @@ DrawViews(const RenderScanSettings & settings, const PictureScene & source, Surf
   const bool isTransparent = settings.render.style == PictureStyle::Transparent;
   const Annotations annotations =
     AnnotationsOf(settings, source, { BackgroundOf(settings.render), isTransparent ? 0.0 : 1.0 });
-  std::vector<View> views = settings.turntable > 0 ? TurntableViews(settings.turntable) : settings.views;
+  std::vector<View> views = settings.turntable > 0 ? std::vector<View>() : settings.views;
+  for (std::size_t n = 0; n < settings.turntable; ++n)
+  {
+    views.push_back(ObliqueView(360.0 * static_cast<double>(n) / static_cast<double>(settings.turntable), 0.0));
+  }
   Scene scene;
   scene.surfaces = source.surfaces;
   AddCuts(settings, source, scene);

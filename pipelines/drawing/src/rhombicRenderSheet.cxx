@@ -1,8 +1,7 @@
 #include "rhombicFailure.h"
 #include "rhombicGreyWindow.h"
 #include "rhombicMemoryBudget.h"
-#include "rhombicPictureFiles.h"
-#include "rhombicPictureScene.h"
+#include "rhombicPictureSteps.h"
 #include "rhombicSurfaceRenderer.h"
 #include "rhombicWording.h"
 

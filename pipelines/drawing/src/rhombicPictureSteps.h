@@ -1,15 +1,22 @@
-#ifndef rhombicPictureScene_h
-#define rhombicPictureScene_h
+#ifndef rhombicPictureSteps_h
+#define rhombicPictureSteps_h
 
+#include "rhombicDicomCapture.h"
+#include "rhombicPictureIO.h"
 #include "rhombicRenderScan.h"
 #include "rhombicSheet.h"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace rhombic
 {
+
+/** \file
+ * The steps of RenderScan() and RenderSheet(): a scene is made, places of planes are found, planes drawn, and files
+ * written beside pictures and pages. */
 
 /** The surfaces that pictures show, and what else is known of them. */
 struct PictureScene
@@ -73,6 +80,30 @@ DrawOutlinedSlice(const PictureScene & scene,
                   const SliceSettings & settings,
                   int width,
                   int height);
+
+/** A path with a part added to its stem. */
+std::filesystem::path
+WithPart(const std::filesystem::path & path, const std::string & part);
+
+/** The DICOM files beside pictures, if any are written: with .dcm in place of their extensions. */
+std::vector<std::filesystem::path>
+DicomPathsOf(const PictureSettings & settings, std::vector<std::filesystem::path> pictures);
+
+/** The study that DICOM files are added to; nothing without any. Throws Failure as DicomStudy does, and Usage for
+ * surface files, and for a path in the scan's own folder. */
+std::optional<DicomStudy>
+OpenStudy(const PictureSource & source, const std::vector<std::filesystem::path> & dicomPaths);
+
+/** Writes the thumbnail, the first picture with at most 320 pixels a side, made of means of blocks; and, if there is a
+ * study, each picture as a DICOM file, or with one path all as the frames of one file. Throws Failure. */
+void
+StageFilesBeside(const std::vector<Picture> & pictures,
+                 const PictureSettings & settings,
+                 const std::optional<DicomStudy> & study,
+                 const std::vector<std::filesystem::path> & dicomPaths,
+                 double secondsPerFrame,
+                 const Events & events,
+                 OutputFiles & outputs);
 
 } // namespace rhombic
 
