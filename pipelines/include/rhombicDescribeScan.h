@@ -31,9 +31,9 @@ struct ScanDescription
   std::optional<std::vector<LabelSummary>> labels; ///< labels of the volume, or of the label map named for it
   std::vector<SeriesSummary> series;               ///< all series in the folder, with their spacings; DICOM only
   std::string choice;                              ///< why the series that was read was chosen
-  std::size_t filesConsidered = 0;                 ///< as Scan::filesConsidered, and so is the next one
-  std::map<std::string, std::size_t> filesSkipped;
-  std::vector<std::string> notes; ///< notes on the scan, the label map and single files
+  std::size_t filesConsidered = 0;                 ///< as Scan::filesConsidered
+  std::map<std::string, std::size_t> filesSkipped; ///< as Scan::filesSkipped
+  std::vector<std::string> notes;                  ///< notes on the scan, the label map and single files
 
   bool
   HasVolume() const
@@ -46,8 +46,9 @@ struct ScanDescription
   IsUnreadable() const;
 };
 
-/** Reads a scan, and lists the series beside it. Of several series, none of which is named, it describes the one that
- * itk::NativeScanFileReader would choose, or their list alone. Files of several volumes are described by their first.
+/** Reads a scan, and lists the series beside it. Of several series, none of which is named, it describes the series
+ * that itk::NativeScanFileReader would choose, or their list alone. Files of several volumes are described by their
+ * first.
  *
  * \param labels the scan's label map, or an empty path for none; its table is used if the scan itself is a label map
  *

@@ -27,8 +27,8 @@ struct ExtractedSurface : SceneSurface
  * \param grid the grid of the scan that the volume was made from; null for slanted scans
  * \param computesNormals whether points get normals, as in itk::FCCIsosurfaceFilter
  *
- * Throws Failure: Usage for a request without an isovalue (see ResolveIsovalues()) and for outermost parts below one;
- * Empty for a surface without triangles. */
+ * Throws Failure: Usage for a request without an isovalue (see ResolveIsovalues()) and for outermost parts below an
+ * isovalue; Empty for a surface without triangles. */
 std::vector<ExtractedSurface>
 LatticeToSurfaces(const FCCVolume & volume,
                   const std::vector<SurfaceRequest> & requests,

@@ -13,10 +13,10 @@ namespace rhombic
 {
 
 /** \file
- * What is measured of surfaces as they are finished: one list of columns, from which reports, tables and sentences take
- * names, units and values. */
+ * Measures of finished surfaces: a list of columns, from which reports, tables and sentences take names, units and
+ * values. */
 
-/** One thing that is known of a surface. */
+/** A measure or fact of a surface. */
 struct MeasureColumn
 {
   const char * name;        ///< in snake_case, with the unit at its end
@@ -43,7 +43,7 @@ MeasureExtracted(const itk::TriangleSurface & surface);
 void
 MeasureFinished(const Scan * scan, MeshedSurface & surface);
 
-/** What is known of a surface, by column. */
+/** The known values of a surface, by column. */
 Report
 ReportMeasures(const MeshedSurface & surface);
 

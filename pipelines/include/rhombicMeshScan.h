@@ -20,7 +20,7 @@ struct MeshScanSettings
   ScanSource source;
   SurfaceSelection surfaces;
   SurfaceFinish finish;
-  std::filesystem::path mesh; ///< one file for all surfaces, or one for each if the name holds {name}
+  std::filesystem::path mesh; ///< a file for all surfaces, or a file for each if the name holds {name}
   SurfaceFileSpace space = SurfaceFileSpace::LPS;
   std::filesystem::path measures; ///< table of measures: .csv, or .json with more; empty: none
   bool audits = false;            ///< also tests for self-intersections, and measures the deviation everywhere
@@ -28,10 +28,10 @@ struct MeshScanSettings
   Provenance provenance;
 };
 
-/** What stands for the name of a surface in the name of a file. */
+/** The place of a surface's name in the name of a file. */
 constexpr char NamePlaceholder[] = "{name}";
 
-/** Checks what can be checked without reading or writing anything. Returns the files that MeshScan() writes; names of
+/** Checks the settings, without reading or writing anything. Returns the files that MeshScan() writes; names of
  * surfaces, which are not known yet, are NamePlaceholder. Throws Failure(Usage). */
 std::vector<std::filesystem::path>
 CheckMeshScan(const MeshScanSettings & settings);

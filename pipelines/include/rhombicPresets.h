@@ -27,7 +27,7 @@ struct Preset
 const std::vector<Preset> &
 GetPresets();
 
-/** The built-in preset of a name, or the one in a YAML file. Throws Failure: Usage for an unknown
+/** The built-in preset of a name, or the preset in a YAML file. Throws Failure: Usage for an unknown
  * name, suggesting the nearest; NotFound and Unreadable for files. */
 Preset
 FindPreset(const std::string & nameOrPath);

@@ -11,7 +11,7 @@
 namespace rhombic
 {
 
-/** From a scan to a lattice volume, or from a lattice volume to a Cartesian one. */
+/** From a scan to a lattice volume, or from a lattice volume to a Cartesian volume. */
 struct ResampleScanSettings
 {
   ScanSource source;
@@ -19,7 +19,7 @@ struct ResampleScanSettings
   Provenance provenance;
 };
 
-/** Checks what can be checked without reading or writing anything. Returns the files that ResampleScan() writes. Throws
+/** Checks the settings, without reading or writing anything. Returns the files that ResampleScan() writes. Throws
  * Failure(Usage). */
 std::vector<std::filesystem::path>
 CheckResampleScan(const ResampleScanSettings & settings);

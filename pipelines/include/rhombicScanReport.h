@@ -20,7 +20,7 @@ namespace rhombic
 /** JSON that keeps the order in which it was written. */
 using Report = nlohmann::ordered_json;
 
-/** Format, geometry, series, and what the reader had to assume or repair, for outputs: notes don't name the scan's
+/** Format, geometry, series, assumptions and repairs of the reader, for outputs: notes don't name the scan's
  * file, whose name may be the patient's. */
 Report
 ReportWithoutNames(const Scan & scan, const std::filesystem::path & path);

@@ -27,7 +27,7 @@ struct ScanSource
   std::filesystem::path path; ///< a scan, or a lattice volume that WriteFCCImage() wrote
   ScanReadOptions read;
   LatticeSettings lattice; ///< for lattice volumes, only the denoising has an effect
-  /** Called with what the headers tell, before the voxels of a scan are read; may be empty, and may throw. */
+  /** Called with the facts of the headers, before the voxels of a scan are read; may be empty, and may throw. */
   std::function<void(const Scan & scan)> check;
 
   bool isHashed = false; ///< whether reports hold a digest of the files that were read
@@ -35,7 +35,7 @@ struct ScanSource
   std::string presetChoice; ///< which preset "auto" stands for, and why; empty if it was not asked for
 };
 
-/** What a source holds: a volume on a Cartesian grid, or on the lattice. */
+/** The volume of a source: on a Cartesian grid, or on the lattice. */
 using SourceVolume = std::variant<Scan, FCCVolume>;
 
 /** The labels that become surfaces. */

@@ -14,9 +14,9 @@ namespace rhombic
 /** \file
  * Which surfaces are shown, and in which colours, by patterns of their names.
  *
- * A pattern is a name with `*` for any characters and `?` for one, in upper or lower case, or the name of a group:
- * group:bones, group:vessels, group:lungs, group:heart, group:brain, group:muscles or group:organs, as TotalSegmentator
- * and FreeSurfer name them.
+ * A pattern is a name with `*` for any characters and `?` for any character, in upper or lower case, or the name of a
+ * group: group:bones, group:vessels, group:lungs, group:heart, group:brain, group:muscles or group:organs, as
+ * TotalSegmentator and FreeSurfer name them.
  */
 
 /** Colour, opacity and look of the surfaces whose names fit a pattern. */

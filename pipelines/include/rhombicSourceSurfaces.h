@@ -58,7 +58,7 @@ struct MeshedSurface
   }
 };
 
-/** What surfaces are made for. */
+/** The purpose of surfaces. */
 enum class SurfaceUse
 {
   Files,   ///< isosurfaces are untangled, smoothed and simplified (RefineSurface()), walls of labels by RefineWalls()

@@ -40,7 +40,7 @@ InsertName(std::string file, const std::string & name)
   return file;
 }
 
-/** The files' paths, one for each surface or one for all; no two are the same. */
+/** The files' paths, all different: a path for each surface, or a path for all. */
 std::vector<fs::path>
 PathsOf(const fs::path & mesh, const std::vector<MeshedSurface> & surfaces)
 {
@@ -102,7 +102,7 @@ CheckNumberOfSurfaces(const LoadedSource & loaded, const MeshScanSettings & sett
   CheckSurfacePath(settings.mesh, HasFileForEach(settings.mesh) ? 1 : fewest);
 }
 
-/** What surface files are inspected by. */
+/** The data that surface files are inspected with. */
 struct FileInspection
 {
   const MeshScanSettings & settings;

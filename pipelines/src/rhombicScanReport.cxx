@@ -90,7 +90,7 @@ ReportFolder(const TDescription & description, Report & report)
   report["notes"] = description.notes;
 }
 
-/** Format, geometry, series, and what the reader had to assume or repair. */
+/** Format, geometry, series, assumptions and repairs of the reader. */
 Report
 ReportScan(const Scan & scan)
 {

@@ -98,7 +98,7 @@ TreatTable(Scan & scan, const std::optional<bool> & removesTable, const Events &
   return {};
 }
 
-/** The requests with their isovalues. Otsu's threshold is computed only if one of them needs it. */
+/** The requests with their isovalues. Otsu's threshold is computed only if a request needs it. */
 template <typename TVolume>
 std::vector<SurfaceRequest>
 ResolveRequests(const std::vector<SurfaceRequest> & requests, const TVolume & volume)

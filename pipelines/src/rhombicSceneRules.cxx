@@ -187,7 +187,7 @@ ApplySceneRules(const SceneRules & rules, std::vector<SurfaceRequest> & requests
   }
   if (map != nullptr)
   {
-    ColourLabels(*map, rules.colours); // all of them, so that colours do not depend on what is shown
+    ColourLabels(*map, rules.colours); // all labels, so that colours do not depend on the shown labels
   }
   const auto isHidden = [&rules](const std::string & name) {
     return (!rules.only.empty() && !FitsAny(rules.only, name)) || FitsAny(rules.hidden, name);

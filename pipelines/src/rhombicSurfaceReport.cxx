@@ -95,7 +95,7 @@ ToReport(const SurfaceDeviation & deviation)
            { "unresolved", deviation.unresolved } };
 }
 
-/** Adds the result of a step, if there is one. */
+/** Adds the result of a step, if the step has a result. */
 template <typename TResult>
 void
 AddStep(const char * key, const std::optional<TResult> & result, Report & report)

@@ -39,7 +39,7 @@ struct CaseSearch
   std::vector<std::string> only;  ///< names of the cases to choose, with wildcards; empty: all
 };
 
-/** The cases of a collection, and notes on what was left out. */
+/** The cases of a collection, and notes on left out files. */
 struct CaseCollection
 {
   std::vector<BatchCase> cases; ///< in the order of their paths, or of the manifest; names are different
@@ -53,7 +53,7 @@ IsBIDS(const std::filesystem::path & folder);
 /** The cases of
  * - a manifest (.tsv): columns case, scan, and perhaps labels and options, with paths relative to the manifest;
  * - a BIDS dataset (see IsBIDS()): each volume in a folder anat, with its label map (..._dseg) from there or from the
- *   derivatives, if there is one;
+ *   derivatives, if a label map is there;
  * - any other folder: each DICOM series and each volume file in it and in its subfolders, but for hidden ones,
  *   symbolic links, and series of a single slice beside others;
  * - a single volume file.

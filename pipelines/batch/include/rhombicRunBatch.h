@@ -38,7 +38,7 @@ struct BatchSettings
   std::function<bool()> isStopped;
 };
 
-/** What there is of a case before a run. */
+/** The state of a case before a run. */
 enum class CaseState
 {
   Missing, ///< it never ended, or its outputs are gone
@@ -51,7 +51,7 @@ enum class CaseState
 std::string
 NameOf(CaseState state);
 
-/** The state of a case, and what it took, or is estimated to take. */
+/** The state of a case, with its time and memory, or estimates of both. */
 struct CasePlan
 {
   CaseState state = CaseState::Missing;
@@ -68,7 +68,7 @@ PlanBatch(const BatchSettings & settings);
 /** Numbers of cases after a run. */
 struct BatchSummary
 {
-  std::size_t done = 0; ///< by this run or an earlier one
+  std::size_t done = 0; ///< by this or an earlier run
   std::size_t failed = 0;
   std::size_t notRun = 0;
   bool isStopped = false;
@@ -79,8 +79,8 @@ struct BatchSummary
  * outputs.tsv with the descriptions of their columns (.json), cases.tsv, index.html.
  *
  * A case's folder appears when its last step has ended, with the outputs of all steps that succeeded; the case has
- * failed if one did not. The folder is removed before the case runs again. A run that was killed is continued by the
- * next one; both together write the same outputs as a single run, for any number of jobs. Paths and names of input
+ * failed if any step did not. The folder is removed before the case runs again. A run that was killed is continued by
+ * the next run; both together write the same outputs as a single run, for any number of jobs. Paths and names of input
  * files are in cases.tsv alone, which only its owner may read, and patients' names only in DICOM files that the
  * pipeline asks for, which a note says.
  *
@@ -92,7 +92,7 @@ struct BatchSummary
 BatchSummary
 RunBatch(const BatchSettings & settings, const Events & events);
 
-/** Writes the tables and the index of what the journal holds so far, also beside runs. Throws Failure(Output). */
+/** Writes the tables and the index of the cases in the journal so far, also beside runs. Throws Failure(Output). */
 BatchSummary
 WriteBatchTables(const BatchSettings & settings);
 

@@ -194,7 +194,7 @@ private:
     }
   }
 
-  /** A folder of slices is one case for each series, or one that ends with the reason for which it can't be read.
+  /** A folder of slices is a case for each series, or a case that ends with the reason for which it can't be read.
    * Single slices beside volumes, as localizers, are no cases. */
   void
   AddSeries(const fs::path & folder)

@@ -20,8 +20,8 @@ ReadJournal(const std::filesystem::path & folder);
 /** The file journal.jsonl in the folder of outputs: one line of JSON for each case that ended, with "case" as its
  * name. Lines are only added, and are on the disk before Add() returns.
  *
- * The journal locks cases: as long as it is open, no other one can be opened for them, on all machines that share the
- * folder. The locks go with the process. */
+ * The journal locks cases: as long as the journal is open, no other journal can be opened for them, on all machines
+ * that share the folder. The locks go with the process. */
 class BatchJournal
 {
 public:

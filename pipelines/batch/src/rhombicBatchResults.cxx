@@ -16,7 +16,7 @@ namespace rhombic
 namespace
 {
 
-/** A value as a field of a table; empty without one. */
+/** A value as a field of a table; empty without a value. */
 std::string
 FieldOf(const Report & record, const std::string & key)
 {

@@ -71,7 +71,7 @@ struct Table
 };
 
 /** Reads a table of a batch. Lines of other lengths than the first are left out. Throws Failure: NotFound; Unreadable
- * without one of the columns. */
+ * without a needed column. */
 Table
 ReadTable(const fs::path & path, const Row & needed)
 {

@@ -25,7 +25,7 @@ namespace
 constexpr char requestFile[] = ".request";
 constexpr char resultFile[] = ".result";
 
-/** What a command wrote to standard output; an empty object if it was killed. */
+/** The result that a command wrote to standard output; an empty object if the command was killed. */
 Report
 ReadResult(const fs::path & path)
 {
@@ -63,8 +63,7 @@ WithoutFolder(std::string sentence, const fs::path & folder)
   return sentence;
 }
 
-/** A sentence in which nothing of the names of a case's files is left, as they may name the patient. Names of one to
- * five digits stay. */
+/** A sentence without the names of a case's files, which may name the patient. Names of up to five digits stay. */
 std::string
 WithoutNames(std::string sentence, const BatchCase & batchCase, const fs::path & stage)
 {
@@ -244,7 +243,7 @@ CaseRun::Continue()
   return true;
 }
 
-/** Takes what an ended child has left. */
+/** Takes the result and the files of an ended child. */
 void
 CaseRun::TakeStep()
 {
@@ -280,7 +279,7 @@ CaseRun::TakeStep()
   {
     if (m_Made.count(file.filename().string()) == 0)
     {
-      fs::remove_all(file); // what a killed child has left
+      fs::remove_all(file); // a killed child has left it
     }
   }
 }
@@ -298,7 +297,7 @@ CaseRun::Fail(int code, const std::string & cause)
   }
 }
 
-/** Moves what was made into the case's folder. */
+/** Moves the stage's files into the case's folder. */
 void
 CaseRun::KeepOutputs()
 {

@@ -28,12 +28,12 @@ ListEntries(const std::filesystem::path & folder);
 std::string
 HashOptions(const BatchCase & batchCase, const Pipeline & pipeline);
 
-/** Runs the steps of one case, one child process after the other. A step that fails keeps no other from running,
- * but for one that takes too long. */
+/** Runs the steps of one case, one child process after the other. Steps run after a failed step, but not after
+ * a step that takes too long. */
 class CaseRun
 {
 public:
-  /** Removes what there is of the case and starts its first step. \a inputHash is that of the case's files. */
+  /** Removes the case's stage and folder, and starts the first step. \a inputHash is the hash of the case's files. */
   CaseRun(const BatchCase & batchCase, const BatchSettings & settings, std::shared_future<std::string> inputHash);
 
   /** Removes the stage. */
@@ -50,7 +50,7 @@ public:
     return m_Child->GetDescriptor();
   }
 
-  /** Starts the next step if one has ended. True when the case has ended, with its folder in place if any step
+  /** Starts the next step if a step has ended. True when the case has ended, with its folder in place if any step
    * succeeded. */
   bool
   Continue();
@@ -89,7 +89,7 @@ private:
   std::size_t m_Step = 0;
   std::unique_ptr<ChildProcess> m_Child;
   bool m_IsTooLong = false;
-  std::map<std::string, Report> m_Made; ///< what is made, by the names of files
+  std::map<std::string, Report> m_Made; ///< outputs, by the names of files
   Clock::time_point m_Start = Clock::now();
   Clock::time_point m_ChildStart;
   std::shared_future<std::string> m_InputHash;

@@ -40,8 +40,8 @@ LineOf(const YAML::Node & node)
   return "in line " + std::to_string(node.Mark().line + 1);
 }
 
-/** What stands before the first and behind the last placeholder of a file's name; both are the whole name if there is
- * none. */
+/** The parts of a file's name before the first and behind the last placeholder; both are the whole name without a
+ * placeholder. */
 struct NameEnds
 {
   explicit NameEnds(const std::string & name)
@@ -59,9 +59,9 @@ struct NameEnds
 bool
 MayBeSame(const std::string & first, const std::string & second)
 {
-  const NameEnds one(first);
-  const NameEnds other(second);
-  if (!one.hasPlaceholder && !other.hasPlaceholder)
+  const NameEnds a(first);
+  const NameEnds b(second);
+  if (!a.hasPlaceholder && !b.hasPlaceholder)
   {
     return first == second;
   }
@@ -72,10 +72,10 @@ MayBeSame(const std::string & first, const std::string & second)
     const auto common = std::min(name.end.size(), pattern.end.size());
     return pattern.hasPlaceholder && name.end.substr(name.end.size() - common) == pattern.end;
   };
-  return (beginsAs(one, other) || beginsAs(other, one)) && (endsAs(one, other) || endsAs(other, one));
+  return (beginsAs(a, b) || beginsAs(b, a)) && (endsAs(a, b) || endsAs(b, a));
 }
 
-/** Reads one pipeline file. */
+/** Reads a pipeline file. */
 class PipelineParser
 {
 public:
@@ -159,7 +159,7 @@ private:
     step.settings = step.kind == "page" ? Report{ { "sheet", true } } : Report::object();
     for (const CommandSyntax::Setting & setting : settings)
     {
-      const YAML::Node own = node[setting.name]; // replaces the common one
+      const YAML::Node own = node[setting.name]; // replaces the common value
       const YAML::Node value = own || !common ? own : common[setting.name];
       if (setting.name == "labels")
       {

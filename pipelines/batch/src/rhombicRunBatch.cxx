@@ -93,7 +93,7 @@ CountVoxels(const BatchCase & batchCase)
   }
 }
 
-/** What a case takes on two cores, roughly: most have less than twice of it. */
+/** Rough time and memory of a case on two cores: most cases need less than twice as much. */
 CasePlan
 Estimate(const BatchCase & batchCase, const Pipeline & pipeline)
 {
@@ -211,7 +211,7 @@ public:
   }
 
 private:
-  /** Removes what killed runs have left. */
+  /** Removes the stages that killed runs have left. */
   void
   RemoveStages() const
   {

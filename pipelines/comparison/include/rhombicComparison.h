@@ -12,7 +12,7 @@
 namespace rhombic
 {
 
-/** What is sampled. */
+/** A field to sample. */
 struct FieldRequest
 {
   std::string kind;           ///< sphere, torus, gyroid, waves, marschner-lobb, corner, silhouettes or scan
@@ -28,7 +28,7 @@ struct FieldRequest
   std::array<double, 3> center{ 0.5, 0.5, 0.5 }; ///< of scan: of the part that is taken, in fractions of the whole
 };
 
-/** A method at one number of samples. */
+/** A method and a number of samples. */
 struct ComparedRow
 {
   std::string method;                    ///< name of a ComparedMethod
@@ -47,7 +47,7 @@ struct Experiment
   std::string text; ///< after the table; see ComparisonRequest
   FieldRequest field;
   unsigned int seeds = 1;         ///< fields, or positions of the field on the lattice, over which figures are means
-  std::vector<ComparedRow> rows;  ///< the first one is the reference of all ratios
+  std::vector<ComparedRow> rows;  ///< the first row is the reference of all ratios
   std::vector<std::string> views; ///< of the pictures, as ViewFromText() takes them
   bool hasPlot = false;           ///< of errors against samples and triangles, and against times
 };
@@ -71,7 +71,7 @@ struct ComparisonRequest
   bool hasLattices = false; ///< whether lattices and their cells are drawn
 };
 
-/** Reads a file of experiments. Throws Failure: NotFound, or Unreadable with what is wrong in it.
+/** Reads a file of experiments. Throws Failure: NotFound, or Unreadable, with the mistake.
  * \param scans the folder in which scans are; empty: the file's own */
 ComparisonRequest
 ReadComparisonRequest(const std::filesystem::path & path, const std::filesystem::path & scans = {});
@@ -93,7 +93,7 @@ struct ExperimentResult
 struct ComparisonSettings
 {
   std::filesystem::path output; ///< a folder; made if it is missing
-  std::string only;             ///< name of the one experiment that is run, without claims; empty: all
+  std::string only;             ///< name of the only experiment that is run, without claims; empty: all
   unsigned int repeats = 5;     ///< runs of each method, in turn, of which the median time is taken
   bool hasPictures = true;
 };

@@ -35,7 +35,7 @@ StagePlots(const ExperimentResult & result,
   StagePng(png, folder / (name + ".png"), staged);
 }
 
-/** Draws what an experiment asks for. */
+/** Draws the plots and pictures of an experiment. */
 std::vector<PagePicture>
 StagePictures(const ExperimentRun & run, const std::filesystem::path & folder, StagedFiles & staged)
 {

@@ -80,7 +80,7 @@ DrawColourBar(Drawing & drawing, double range, double top)
   }
 }
 
-/** The ends of a logarithmic axis around values: powers of ten, or 2 or 5 times them. */
+/** The ends of a logarithmic axis, a quarter beyond the values. */
 std::pair<double, double>
 AxisRange(const std::vector<double> & values)
 {

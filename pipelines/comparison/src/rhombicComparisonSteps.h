@@ -24,7 +24,7 @@ struct FieldCase
   FieldBox box{};
   double spacing = 1.0;                ///< h, or an estimate of it
   bool isClosed = true;                ///< whether the surface lies within the box
-  itk::TriangleSurface::Pointer truth; ///< if there is a better one than MakeTrueSurface()
+  itk::TriangleSurface::Pointer truth; ///< if a better surface than MakeTrueSurface() is known
   std::vector<GapPoint> gap;           ///< points between close parts of an object
   bool isObject = false;               ///< whether it counts in place of the field's surface
 };

@@ -15,7 +15,7 @@ namespace rhombic
 namespace
 {
 
-/** What a row has in common with all others of its field. */
+/** The measures of errors that all rows of a field share. */
 struct Judge
 {
   const itk::TriangleSurface & truth;
@@ -35,8 +35,8 @@ AddTopology(const itk::TriangleSurface & surface, Figures & figures)
     static_cast<double>(topology.nonManifoldEdges + topology.nonManifoldPoints + topology.degenerateTriangles);
 }
 
-/** The width up to which a gap is closed; of one that is open in some narrower places, the sum of the closed ranges of
- * widths. */
+/** The width up to which a gap is closed; of a gap that is open in some narrower places, the sum of the closed ranges
+ * of widths. */
 double
 ClosedWidth(const std::vector<GapPoint> & points, const itk::TriangleTree & tree)
 {

@@ -160,7 +160,7 @@ Append(Shapes & shapes, const Shapes & more, const Vector3 & shift = {})
   }
 }
 
-/** Seven cubes, and the dodecahedron between the corners of the middle one and the centres of the others. */
+/** Seven cubes, and the dodecahedron between the corners of the middle cube and the centres of the others. */
 Shapes
 MakingOfDodecahedron()
 {

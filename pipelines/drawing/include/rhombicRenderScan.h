@@ -98,12 +98,12 @@ struct RenderScanSettings : PictureSettings
   std::vector<PlaneRequest> planes; ///< slices that stand in the scene
   AnnotationSettings annotations;
   std::size_t turntable = 0;     ///< number of views around the patient, instead of the views; 0: none
-  std::size_t onlyPicture = 0;   ///< the number, from 1, of the only one of views and slices to draw; 0: all
+  std::size_t onlyPicture = 0;   ///< the number, from 1, of the only view or slice to draw; 0: all
   std::filesystem::path picture; ///< with more than one, a view's or plane's name is added to the stem; a turntable is
                                  ///< one .gif, or numbered pictures
 };
 
-/** Checks what can be checked without reading or writing anything. Returns the files that RenderScan() writes. Throws
+/** Checks the settings, without reading or writing anything. Returns the files that RenderScan() writes. Throws
  * Failure(Usage). */
 std::vector<std::filesystem::path>
 CheckRenderScan(const RenderScanSettings & settings);

@@ -18,7 +18,7 @@ namespace rhombic
  * The steps of RenderScan() and RenderSheet(): a scene is made, places of planes are found, planes drawn, and files
  * written beside pictures and pages. */
 
-/** The surfaces that pictures show, and what else is known of them. */
+/** The surfaces that pictures show, with their scan, volumes and report. */
 struct PictureScene
 {
   std::vector<SceneSurface> surfaces;
@@ -53,7 +53,8 @@ LongestSideOf(const LPSBox & box);
 void
 NeedPlaces(const std::vector<PlaneRequest> & requests, SceneRules & rules);
 
-/** The point of a plane. Throws Failure(Usage) for a place that no surface's name fits, and for one outside the scene.
+/** The point of a plane. Throws Failure(Usage) for a place that no surface's name fits, and for a place outside the
+ * scene.
  */
 Vector3
 FindPlace(const PlaneRequest & request, const PictureScene & scene);
