@@ -44,10 +44,6 @@ StagePicture(const Picture & picture,
              StagedFiles & staged,
              const PictureMetadata & metadata);
 
-/** CheckPicturePath() for StagePages(). */
-void
-CheckPagesPath(const std::filesystem::path & path, int channels = 3);
-
 /** Writes one or more pictures of any sizes as the pages of a .tif or .tiff file. */
 void
 StagePages(const std::vector<Picture> & pages,

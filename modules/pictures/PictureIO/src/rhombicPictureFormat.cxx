@@ -16,12 +16,11 @@ const std::vector<std::pair<std::string, PictureFormat>> &
 KnownFormats()
 {
   using U = PictureUse;
-  constexpr auto bytes = OIIO::TypeDesc::UINT8;
-  static const PictureFormat png{ "png", bytes, "zip", false, true, false, true, { U::Single } };
-  static const PictureFormat jpeg{ "jpeg", bytes, "jpeg", false, false, false, false, { U::Single } };
-  static const PictureFormat tiff{ "tiff", bytes, "zip", false, true, true, true, { U::Single, U::Pages } };
-  static const PictureFormat exr{ "openexr", OIIO::TypeDesc::HALF, "zip", true, true, false, true, { U::Single } };
-  static const PictureFormat gif{ "gif", bytes, "none", false, false, true, false, { U::Animation } };
+  static const PictureFormat png{ "png", "zip", false, true, false, true, { U::Single } };
+  static const PictureFormat jpeg{ "jpeg", "jpeg", false, false, false, false, { U::Single } };
+  static const PictureFormat tiff{ "tiff", "zip", false, true, true, true, { U::Single, U::Pages } };
+  static const PictureFormat exr{ "openexr", "zip", true, true, false, true, { U::Single } };
+  static const PictureFormat gif{ "gif", "none", false, false, true, false, { U::Animation } };
   static const std::vector<std::pair<std::string, PictureFormat>> formats{ { ".png", png },   { ".jpg", jpeg },
                                                                            { ".jpeg", jpeg }, { ".tif", tiff },
                                                                            { ".tiff", tiff }, { ".exr", exr },

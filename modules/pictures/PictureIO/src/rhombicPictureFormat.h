@@ -1,8 +1,6 @@
 #ifndef rhombicPictureFormat_h
 #define rhombicPictureFormat_h
 
-#include <OpenImageIO/imageio.h>
-
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -21,12 +19,11 @@ enum class PictureUse
 /** Properties of a file format. */
 struct PictureFormat
 {
-  std::string name;         ///< in OpenImageIO
-  OIIO::TypeDesc component; ///< type of the stored components
-  std::string compression;
-  bool isLinear;   ///< stores linear light instead of sRGB
-  bool isLossless; ///< an 8-bit picture that is read back is the same
-  bool needsFile;  ///< OpenImageIO can't encode the format in memory
+  std::string name;        ///< in OpenImageIO
+  std::string compression; ///< in OpenImageIO
+  bool isLinear;           ///< stores linear light as half floats instead of bytes of sRGB
+  bool isLossless;         ///< an 8-bit picture that is read back is the same
+  bool needsFile;          ///< OpenImageIO can't encode the format in memory
   bool hasAlpha;
   std::vector<PictureUse> uses;
 };
