@@ -124,7 +124,6 @@ Run(CommandLine & commandLine, const std::vector<std::string> & words, bool isRe
 int
 main(int argc, char ** argv)
 {
-  StartDrawingProgram(argv);
   setenv("EGL_LOG_LEVEL", "fatal", 0); // Mesa would warn of missing drivers beside our own sentence
   RemoveTemporaryFilesOnSignals();
   RaiseFileLimit();

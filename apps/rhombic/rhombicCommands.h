@@ -62,21 +62,6 @@ NoteOutputs(const std::string & word, const std::vector<MadeFile> & outputs, Con
 CommandRun
 AddPipelineOption(CommandSettings & command, const CommandRun & otherwise);
 
-/** Makes those outputs of a pipeline file that a command makes, with the same bytes as rhombic batch. All are checked
- * before the first is made; one that fails then keeps no other from being made. In the program that draws only. Throws
- * Failure, of the kind of the first failure. */
-void
-RunPipeline(const std::string & file, const CommandContext & context);
-
-/** Replaces this process by the program that draws, if this one can't and \a arguments (as of main()) name a command
- * that does, a pipeline, or the audit of a VTP file. Otherwise it returns. */
-void
-StartDrawingProgram(char ** arguments);
-
-/** What converts VTP files for ReadSurfaces(), by VTK; null in the program that can't draw. */
-VoxelRequest::Function
-GetVTPConverter();
-
 } // namespace rhombic
 
 #endif

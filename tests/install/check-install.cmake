@@ -104,5 +104,6 @@ endforeach()
 
 run("${WORK}/prefix/bin/rhombic" --version)
 run("${WORK}/prefix/bin/rhombic" -q mesh "${SCAN}" -t 375.5 -o "${WORK}/bone.stl")
+run("${WORK}/prefix/bin/rhombic" -q render "${WORK}/bone.stl" --size 100 -o "${WORK}/bone.png") # finds rhombic-pictures.so
 file(SHA256 "${WORK}/bone.stl" mesh)
 message("rhombic: ${mesh}")

@@ -47,6 +47,7 @@ foreach(page rhombic ${commands})
   endif()
 endforeach()
 run("${WORK}/rhombic/usr/bin/rhombic" -q mesh "${SCAN}" -t 375.5 -o "${WORK}/bone.stl")
+run("${WORK}/rhombic/usr/bin/rhombic" -q render "${WORK}/bone.stl" --size 100 -o "${WORK}/bone.png") # finds rhombic-pictures.so
 check_cluster_files("${WORK}/rhombic/usr")
 
 unpack(librhombic-dev)

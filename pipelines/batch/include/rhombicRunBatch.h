@@ -24,15 +24,14 @@ struct BatchSettings
   bool isPart = false;
   bool writesCasesTable = true; ///< cases.tsv, which names the cases' files
   Pipeline pipeline;
-  std::filesystem::path output;         ///< a folder: new, empty, or of an earlier run
-  std::filesystem::path program;        ///< `rhombic`
-  std::string requestOption;            ///< its argument when standard input holds its command
-  std::filesystem::path drawingProgram; ///< for `render`: the one that `rhombic` would start
-  std::string software;                 ///< name and version
-  unsigned int jobs = 1;                ///< cases at the same time
-  unsigned int threads = 1;             ///< of each case
-  std::uintmax_t maximumMemory = 0;     ///< of each process, in bytes
-  double maximumSeconds = 3600.0;       ///< of each case
+  std::filesystem::path output;     ///< a folder: new, empty, or of an earlier run
+  std::filesystem::path program;    ///< `rhombic`
+  std::string requestOption;        ///< its argument when standard input holds its command
+  std::string software;             ///< name and version
+  unsigned int jobs = 1;            ///< cases at the same time
+  unsigned int threads = 1;         ///< of each case
+  std::uintmax_t maximumMemory = 0; ///< of each process, in bytes
+  double maximumSeconds = 3600.0;   ///< of each case
 
   /** Asked several times a second: true ends the run. May be empty. */
   std::function<bool()> isStopped;

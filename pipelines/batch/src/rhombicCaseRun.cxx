@@ -203,12 +203,11 @@ CaseRun::StartStep()
   }
   std::ofstream(m_Stage / requestFile) << request.dump();
   m_ChildStart = Clock::now();
-  m_Child = std::make_unique<ChildProcess>(
-    std::vector<std::string>{ (step.command == "render" ? m_Settings.drawingProgram : m_Settings.program).string(),
-                              m_Settings.requestOption },
-    m_Stage / requestFile,
-    m_Stage / resultFile,
-    m_Settings.maximumMemory);
+  m_Child =
+    std::make_unique<ChildProcess>(std::vector<std::string>{ m_Settings.program.string(), m_Settings.requestOption },
+                                   m_Stage / requestFile,
+                                   m_Stage / resultFile,
+                                   m_Settings.maximumMemory);
 }
 
 bool

@@ -612,18 +612,6 @@ AddTables(RenderOptions & options, CommandSettings & command)
 
 } // namespace
 
-void
-StartDrawingProgram(char **)
-{
-  // This is the drawing program.
-}
-
-VoxelRequest::Function
-GetVTPConverter()
-{
-  return ConvertVTPToPLY;
-}
-
 CommandRun
 AddRenderCommand(CommandSettings & command)
 {

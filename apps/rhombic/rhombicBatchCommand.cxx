@@ -121,8 +121,7 @@ GetSettings(const BatchOptions & options, const Events & events)
   settings.isPart = !options.only.empty();
   settings.writesCasesTable = !options.hasNoCasesTable;
   settings.output = options.output;
-  settings.drawingProgram = std::filesystem::read_symlink("/proc/self/exe");
-  settings.program = (settings.drawingProgram.parent_path() / RHOMBIC_PROGRAM).lexically_normal();
+  settings.program = std::filesystem::read_symlink("/proc/self/exe");
   settings.requestOption = RequestOption;
   settings.software = "Rhombic " RHOMBIC_VERSION;
   settings.maximumSeconds = options.maximumSeconds;

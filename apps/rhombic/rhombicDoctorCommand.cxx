@@ -1,7 +1,7 @@
+#include "detail/rhombicPictureCodec.h"
 #include "rhombicCommandLine.h"
 #include "rhombicFailure.h"
 #include "rhombicMemoryBudget.h"
-#include "rhombicPictureIO.h"
 #include "rhombicSurfaceRenderer.h"
 
 #include "itkMultiThreaderBase.h"
@@ -44,6 +44,7 @@ Doctor()
     std::cout << "display      " << probe.name << ": " << (probe.usable ? "works, " : "no, ") << probe.detail << '\n';
   }
   std::cout << "rendering    works: " << TryToRender() << '\n';
+  GetPictureCodec(); // throws if pictures can't be written
 }
 
 } // namespace
