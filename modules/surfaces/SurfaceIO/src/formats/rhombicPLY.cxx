@@ -281,6 +281,7 @@ public:
   void
   BeginElement()
   {
+    m_Line = {};
     while (m_Encoding == Encoding::Text && Trim(m_Line).empty())
     {
       if (!m_Stream.TakeLine(m_Line))
@@ -288,12 +289,6 @@ public:
         m_Stream.RefuseLine("the file ends early; copy or export it again");
       }
     }
-  }
-
-  void
-  EndElement()
-  {
-    m_Line = {};
   }
 
   double
@@ -615,7 +610,6 @@ ReadVertices(const Element & vertex, Values & values, SurfaceAssembler & assembl
         SkipProperty(property, values);
       }
     }
-    values.EndElement();
     const auto triple = [&slots](std::size_t first) {
       return itk::TriangleSurface::PointType{ static_cast<float>(slots[first]),
                                               static_cast<float>(slots[first + 1]),
@@ -653,7 +647,6 @@ ReadElements(const Element & element, Values & values, SurfaceAssembler * assemb
       }
       assembler->AddFace(corners);
     }
-    values.EndElement();
   }
 }
 
