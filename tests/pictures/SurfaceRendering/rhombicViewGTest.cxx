@@ -75,13 +75,13 @@ TEST(View, NamesAreReadBack)
 {
   for (const View & view : rhombic::StandardViews())
   {
-    EXPECT_EQ(ViewFromText(view.name), view);
-    EXPECT_EQ(ViewFromText(view.name.substr(0, 3)), view);
-    EXPECT_EQ(ViewFromText(view.name.substr(0, 1)), view);
+    EXPECT_EQ(ViewFromText(view.name).name, view.name);
+    EXPECT_EQ(ViewFromText(view.name.substr(0, 3)).name, view.name);
+    EXPECT_EQ(ViewFromText(view.name.substr(0, 1)).name, view.name);
   }
-  EXPECT_EQ(ViewFromText("Anterior"), View());
-  EXPECT_EQ(ViewFromText("H"), ViewFromText("superior"));
-  EXPECT_EQ(ViewFromText("f"), ViewFromText("inferior"));
+  EXPECT_EQ(ViewFromText("Anterior").name, View().name);
+  EXPECT_EQ(ViewFromText("H").name, "superior");
+  EXPECT_EQ(ViewFromText("f").name, "inferior");
 }
 
 TEST(View, ObliqueViewsMeetTheStandardOnesAtRightAngles)

@@ -20,18 +20,6 @@ struct View
   ViewFrame frame{ { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 0 } };
 };
 
-/** Views are the same when their names are. */
-inline bool
-operator==(const View & a, const View & b)
-{
-  return a.name == b.name;
-}
-inline bool
-operator!=(const View & a, const View & b)
-{
-  return !(a == b);
-}
-
 /** Anterior, posterior, left, right, superior and inferior: the side of the patient that is seen. The head is up in the
  * first four. In the superior and inferior views the front of the body is up; the inferior view has the usual
  * orientation of axial slices. */

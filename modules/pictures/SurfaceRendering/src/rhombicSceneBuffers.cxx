@@ -234,11 +234,11 @@ SceneBuffers::DrawCells(const Batch & batch, const Camera & camera, const OpenTi
   std::array<std::vector<const TriangleCell *>, 64> slabs;
   for (const TriangleCell & cell : batch.cells)
   {
-    const Footprint footprint = FootprintOf(cell.box, camera);
+    const itk::PointBox footprint = FootprintOf(cell.box, camera);
     if (open.MayShow(footprint))
     {
       const auto last = static_cast<float>(slabs.size() - 1);
-      slabs[static_cast<std::size_t>(std::clamp(footprint.nearest, 0.0f, 1.0f) * last)].push_back(&cell);
+      slabs[static_cast<std::size_t>(std::clamp(footprint.lowest[2], 0.0f, 1.0f) * last)].push_back(&cell);
     }
   }
   std::vector<GLsizei> counts;

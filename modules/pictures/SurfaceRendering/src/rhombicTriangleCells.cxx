@@ -115,12 +115,12 @@ SortIntoCells(const itk::TriangleSurface * surface)
   return ordered;
 }
 
-Footprint
+itk::PointBox
 FootprintOf(const itk::PointBox & box, const Camera & camera)
 {
   constexpr float slack = 1e-4f;
   const auto matrix = camera.Matrix();
-  Footprint footprint{ 2.0f, -1.0f, 2.0f, -1.0f, 1.0f, 0.0f };
+  itk::PointBox footprint{ { 2.0f, 2.0f, 1.0f }, { -1.0f, -1.0f, -slack } };
   for (unsigned int corner = 0; corner < 8; ++corner)
   {
     std::array<float, 4> clip{ matrix[12], matrix[13], matrix[14], matrix[15] };
@@ -134,32 +134,32 @@ FootprintOf(const itk::PointBox & box, const Camera & camera)
     }
     if (clip[3] <= 0.0f) // beside or behind the viewer
     {
-      return {};
+      return { { 0.0f, 0.0f, 0.0f }, { 1.0f, 1.0f, 1.0f } };
     }
-    footprint.left = std::min(footprint.left, 0.5f + 0.5f * clip[0] / clip[3] - slack);
-    footprint.right = std::max(footprint.right, 0.5f + 0.5f * clip[0] / clip[3] + slack);
-    footprint.bottom = std::min(footprint.bottom, 0.5f + 0.5f * clip[1] / clip[3] - slack);
-    footprint.top = std::max(footprint.top, 0.5f + 0.5f * clip[1] / clip[3] + slack);
-    footprint.nearest = std::min(footprint.nearest, 0.5f + 0.5f * clip[2] / clip[3]);
-    footprint.farthest = std::max(footprint.farthest, 0.5f + 0.5f * clip[2] / clip[3] + slack);
+    footprint.Add(
+      { 0.5f + 0.5f * clip[0] / clip[3], 0.5f + 0.5f * clip[1] / clip[3], 0.5f + 0.5f * clip[2] / clip[3] });
   }
-  return footprint;
+  const auto & [left, bottom, nearest] = footprint.lowest;
+  const auto & [right, top, farthest] = footprint.highest;
+  return { { left - slack, bottom - slack, nearest }, { right + slack, top + slack, farthest + slack } };
 }
 
 bool
-OpenTiles::MayShow(const Footprint & footprint) const
+OpenTiles::MayShow(const itk::PointBox & footprint) const
 {
-  if (footprint.right < 0.0f || footprint.left > 1.0f || footprint.top < 0.0f || footprint.bottom > 1.0f)
+  const auto & [left, bottom, nearest] = footprint.lowest;
+  const auto & [right, top, farthest] = footprint.highest;
+  if (right < 0.0f || left > 1.0f || top < 0.0f || bottom > 1.0f)
   {
     return false;
   }
-  const int lastColumn = TileAt(footprint.right * width, columns);
-  const int lastRow = TileAt(footprint.top * height, rows);
-  for (int row = TileAt(footprint.bottom * height, rows); row <= lastRow; ++row)
+  const int lastColumn = TileAt(right * width, columns);
+  const int lastRow = TileAt(top * height, rows);
+  for (int row = TileAt(bottom * height, rows); row <= lastRow; ++row)
   {
-    for (int column = TileAt(footprint.left * width, columns); column <= lastColumn; ++column)
+    for (int column = TileAt(left * width, columns); column <= lastColumn; ++column)
     {
-      if (depths[static_cast<std::size_t>(row * columns + column)] < footprint.farthest)
+      if (depths[static_cast<std::size_t>(row * columns + column)] < farthest)
       {
         return true;
       }

@@ -31,19 +31,9 @@ struct TriangleCells
 TriangleCells
 SortIntoCells(const itk::TriangleSurface * surface);
 
-/** The part of a picture, 0 to 1 from the bottom left, that a box may cover, and its depths as OpenGL stores
- * them. */
-struct Footprint
-{
-  float left = 0.0f;
-  float right = 1.0f;
-  float bottom = 0.0f;
-  float top = 1.0f;
-  float nearest = 0.0f;
-  float farthest = 1.0f;
-};
-
-Footprint
+/** The part of a picture, 0 to 1 from the left and from the bottom, that a box may cover, and its depths as OpenGL
+ * stores them. */
+itk::PointBox
 FootprintOf(const itk::PointBox & box, const Camera & camera);
 
 /** \class OpenTiles
@@ -61,7 +51,7 @@ struct OpenTiles
   std::vector<float> depths{ 0.0f }; ///< from the bottom left; Closed where nothing more can be seen
 
   bool
-  MayShow(const Footprint & footprint) const;
+  MayShow(const itk::PointBox & footprint) const;
 
   bool
   AllAreClosed() const;
