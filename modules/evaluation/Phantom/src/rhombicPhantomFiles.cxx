@@ -3,6 +3,7 @@
 #include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
 #include "rhombicScanWriter.h"
+#include "rhombicWording.h"
 
 #include "gdcmWriter.h"
 
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <fstream>
 #include <iomanip>
-#include <locale>
 #include <sstream>
 #include <system_error>
 #include <vector>
@@ -64,16 +64,12 @@ WriteBytes(const fs::path & path, const std::string & bytes)
 std::string
 Decimals(std::initializer_list<double> values)
 {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::setprecision(10);
-  const char * separator = "";
+  std::string text;
   for (const double value : values)
   {
-    text << separator << value;
-    separator = "\\";
+    text += (text.empty() ? "" : "\\") + FormatNumber(value, 10);
   }
-  return text.str();
+  return text;
 }
 
 /** The little-endian bytes of words. */
@@ -217,15 +213,13 @@ ColourOf(const PhantomOrgan & organ)
 std::string
 MakeOrganTable()
 {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << "name,label,hounsfield,volume_ml,colour\n" << std::fixed;
+  std::string text = "name,label,hounsfield,volume_ml,colour\n";
   for (const PhantomOrgan & organ : PhantomOrgans())
   {
-    text << organ.name << ',' << organ.label << ',' << std::setprecision(0) << organ.hounsfield << ','
-         << std::setprecision(3) << organ.volume / 1000.0 << ',' << ColourOf(organ) << '\n';
+    text += organ.name + ',' + std::to_string(organ.label) + ',' + FormatFixed(organ.hounsfield, 0) + ',' +
+            FormatFixed(organ.volume / CubicMillimetresPerMl, 3) + ',' + ColourOf(organ) + '\n';
   }
-  return text.str();
+  return text;
 }
 
 /** The table of labels in the layout of BIDS. */

@@ -12,11 +12,11 @@ namespace
 
 constexpr double AirHounsfield = -1000.0;
 
-/** The organs, without their volumes. */
+/** The organs. The volume of each solid is added to its organ's and taken from that of the organ around it. */
 std::vector<PhantomOrgan>
-ListOrgans()
+MakeOrgans()
 {
-  return {
+  std::vector<PhantomOrgan> organs{
     { "skin", PhantomSkin, 30, 0, { 0.89f, 0.71f, 0.59f } },
     { "fat", PhantomFat, -100, 0, { 0.94f, 0.85f, 0.52f } },
     { "muscle", PhantomMuscle, 50, 0, { 0.69f, 0.30f, 0.26f } },
@@ -41,13 +41,6 @@ ListOrgans()
     { "bowel", PhantomBowel, 15, 0, { 0.82f, 0.68f, 0.50f } },
     { "marker", PhantomMarker, 2000, 0, { 0.30f, 0.62f, 0.35f } },
   };
-}
-
-/** Adds the volume of each solid to its organ's, and takes it from that of the organ around it. */
-std::vector<PhantomOrgan>
-MakeOrgans()
-{
-  std::vector<PhantomOrgan> organs = ListOrgans();
   const auto volumeOf = [&organs](int label) -> double & { return organs[static_cast<std::size_t>(label) - 1].volume; };
   const auto & parts = PhantomParts();
   for (const auto & part : parts)

@@ -1,13 +1,12 @@
 #include "rhombicPhantom.h"
 
 #include "rhombicFailure.h"
-#include "rhombicPhantomAnatomy.h"
-
 #include "rhombicForEachBlock.h"
+#include "rhombicPhantomAnatomy.h"
+#include "rhombicWording.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 // The images are made in slabs: all samples with one x, y fastest. A part is added to a slab line by line, along its
 // own axis, y or z.
@@ -73,10 +72,9 @@ MakeGrid(const PhantomSettings & settings)
   constexpr double most = 10.0;
   if (!(settings.spacing >= least && settings.spacing <= most))
   {
-    std::ostringstream text;
-    text << "The phantom can't be sampled every " << settings.spacing << " mm; give a spacing from " << least << " to "
-         << most << " mm.";
-    throw Failure(FailureKind::Usage, text.str());
+    throw Failure(FailureKind::Usage,
+                  "The phantom can't be sampled every " + FormatNumber(settings.spacing) + " mm; give a spacing from " +
+                    FormatNumber(least) + " to " + FormatNumber(most) + " mm.");
   }
   // An average over two spacings makes linear interpolation between samples exact for planes; beyond 4 mm it would lose
   // the ribs.
