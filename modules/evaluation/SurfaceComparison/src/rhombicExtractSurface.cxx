@@ -4,18 +4,16 @@
 #include "rhombicWording.h"
 #include "rhombicFailure.h"
 
+#include <vtkAOSDataArrayTemplate.h>
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
-#include <vtkDataArray.h>
-#include <vtkFloatArray.h>
 #include <vtkFlyingEdges3D.h>
 #include <vtkMarchingCubes.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkShortArray.h>
 
+#include <algorithm>
 #include <sstream>
-#include <type_traits>
 
 namespace rhombic
 {
@@ -80,16 +78,13 @@ template <typename TPixel>
 vtkSmartPointer<vtkImageData>
 ShareWithVTK(const itk::Image<TPixel, 3> * image)
 {
-  static_assert(std::is_same_v<TPixel, std::int16_t> || std::is_same_v<TPixel, float>, "No VTK array for this type");
-  using ArrayType = std::conditional_t<std::is_same_v<TPixel, float>, vtkFloatArray, vtkShortArray>;
   constexpr int doNotFree = 1;
-
   const auto & size = image->GetBufferedRegion().GetSize();
   auto volume = vtkSmartPointer<vtkImageData>::New();
   volume->SetDimensions(static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2]));
   volume->SetSpacing(image->GetSpacing().GetDataPointer());
   volume->SetOrigin(image->GetOrigin().GetDataPointer());
-  const vtkNew<ArrayType> pixels;
+  const vtkNew<vtkAOSDataArrayTemplate<TPixel>> pixels;
   pixels->SetArray(const_cast<TPixel *>(image->GetBufferPointer()),
                    static_cast<vtkIdType>(image->GetBufferedRegion().GetNumberOfPixels()),
                    doNotFree);
@@ -112,24 +107,24 @@ ExtractWithVTK(VTKExtractor extractor, vtkImageData * volume, double isovalue, b
 itk::TriangleSurface::Pointer
 PolyDataToSurface(vtkPolyData * mesh)
 {
-  const auto toArray = [](const double tuple[3]) {
-    return std::array<float, 3>{ static_cast<float>(tuple[0]),
-                                 static_cast<float>(tuple[1]),
-                                 static_cast<float>(tuple[2]) };
-  };
   auto surface = itk::TriangleSurface::New();
-  surface->GetPoints().reserve(static_cast<std::size_t>(mesh->GetNumberOfPoints()));
-  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+  const auto copy = [](vtkDataArray * tuples, auto & copies) {
+    copies.resize(static_cast<std::size_t>(tuples->GetNumberOfTuples()));
+    for (vtkIdType i = 0; i < tuples->GetNumberOfTuples(); ++i)
+    {
+      const double * const tuple = tuples->GetTuple3(i);
+      std::transform(tuple, tuple + 3, copies[static_cast<std::size_t>(i)].begin(), [](double value) {
+        return static_cast<float>(value);
+      });
+    }
+  };
+  if (mesh->GetPoints())
   {
-    surface->GetPoints().push_back(toArray(mesh->GetPoint(i)));
+    copy(mesh->GetPoints()->GetData(), surface->GetPoints());
   }
   if (vtkDataArray * const normals = mesh->GetPointData()->GetNormals())
   {
-    surface->GetNormals().reserve(static_cast<std::size_t>(normals->GetNumberOfTuples()));
-    for (vtkIdType i = 0; i < normals->GetNumberOfTuples(); ++i)
-    {
-      surface->GetNormals().push_back(toArray(normals->GetTuple3(i)));
-    }
+    copy(normals, surface->GetNormals());
   }
   surface->GetTriangles().reserve(static_cast<std::size_t>(mesh->GetNumberOfPolys()));
   const auto cells = vtk::TakeSmartPointer(mesh->GetPolys()->NewIterator());
