@@ -39,10 +39,10 @@ TEST(GreyWindow, TheEndsAreBlackAndWhite)
 TEST(GreyWindow, PresetsAndNumbersAreReadAndOthersRefused)
 {
   const rhombic::Scan scan = MakeMR();
-  for (const auto & preset : rhombic::WindowPresets())
+  for (const auto & [name, preset] : rhombic::WindowPresets())
   {
-    EXPECT_GT(preset.window.width, 0.0);
-    EXPECT_EQ(WindowFromText(preset.name, scan).centre, preset.window.centre);
+    EXPECT_GT(preset.width, 0.0);
+    EXPECT_EQ(WindowFromText(name, scan).centre, preset.centre);
   }
   const GreyWindow liver = rhombic::WindowFromText("Liver", scan); // soft tissue, unlike that of some programs
   EXPECT_LE(liver.width, 250.0);

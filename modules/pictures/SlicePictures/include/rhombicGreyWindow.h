@@ -4,9 +4,9 @@
 #include "rhombicScan.h"
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace rhombic
 {
@@ -30,16 +30,8 @@ struct GreyWindow
   }
 };
 
-/** \class NamedWindow
- * \brief A window for one kind of tissue in HU. */
-struct NamedWindow
-{
-  std::string name;
-  GreyWindow window;
-};
-
-/** Usual windows for CT, by name: abdomen, bone, brain, ... */
-const std::vector<NamedWindow> &
+/** Usual windows for tissues in HU, for CT, by name: abdomen, bone, brain, ... */
+const std::map<std::string, GreyWindow> &
 WindowPresets();
 
 /** The window of a text as WindowFromText() takes it, before there is a scan; nothing for "auto". Throws
@@ -57,9 +49,8 @@ WindowFromText(const std::string & text, const Scan & scan);
 bool
 IsInHounsfieldUnits(const Scan & scan);
 
-/** For scans in HU "soft-tissue". For other scans from the
- * 1st to the 99th percentile of the values above the lowest value, which may stand for no data. About 260 thousand
- * values are taken, at equal distances. */
+/** For scans in HU "soft-tissue". For other scans from the 1st to the 99th percentile of the values above the lowest
+ * value, which may stand for no data. About 260 thousand values are taken, at equal distances. */
 GreyWindow
 AutomaticWindow(const Scan & scan);
 

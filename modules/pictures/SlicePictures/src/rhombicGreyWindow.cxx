@@ -17,14 +17,8 @@ constexpr const char * SoftTissue = "soft-tissue";
 const GreyWindow *
 FindPreset(const std::string & name)
 {
-  for (const NamedWindow & preset : WindowPresets())
-  {
-    if (preset.name == LowerCase(name))
-    {
-      return &preset.window;
-    }
-  }
-  return nullptr;
+  const auto found = WindowPresets().find(LowerCase(name));
+  return found == WindowPresets().end() ? nullptr : &found->second;
 }
 
 /** Up to about 260 thousand finite values of a scan, at equal distances in memory. */
@@ -60,10 +54,10 @@ Percentile(std::vector<double> & values, double share)
 
 } // namespace
 
-const std::vector<NamedWindow> &
+const std::map<std::string, GreyWindow> &
 WindowPresets()
 {
-  static const std::vector<NamedWindow> presets{
+  static const std::map<std::string, GreyWindow> presets{
     { "abdomen", { 350, 50 } },     { "bone", { 2000, 300 } },          { "brain", { 80, 40 } },
     { "emphysema", { 500, -850 } }, { "larynx", { 180, 80 } },          { "liver", { 150, 30 } },
     { "lung", { 1600, -600 } },     { "lung-hard", { 1000, -600 } },    { "mediastinum", { 350, 25 } },
@@ -97,9 +91,9 @@ ParseWindow(const std::string & text)
                   "'" + text + "' is no window; give its width, above 0, and its centre, such as 350/50.");
   }
   std::vector<std::string> names{ "auto" };
-  for (const NamedWindow & preset : WindowPresets())
+  for (const auto & [name, window] : WindowPresets())
   {
-    names.push_back(preset.name);
+    names.push_back(name);
   }
   throw Failure(FailureKind::Usage,
                 DescribeUnknown("window", text, names, "use width and centre, such as 350/50, or " + Enumerate(names)));

@@ -13,7 +13,8 @@ namespace rhombic
 namespace
 {
 
-constexpr std::array<SlicePlane, 3> AllPlanes{ SlicePlane::Axial, SlicePlane::Coronal, SlicePlane::Sagittal };
+/** In the order of SlicePlane. */
+const std::vector<std::string> PlaneNames{ "axial", "coronal", "sagittal" };
 
 Vector3
 MiddleOf(const SliceBox & box)
@@ -102,22 +103,18 @@ AxisOf(SlicePlane plane)
 std::string
 NameOf(SlicePlane plane)
 {
-  return plane == SlicePlane::Axial ? "axial" : plane == SlicePlane::Coronal ? "coronal" : "sagittal";
+  return PlaneNames[static_cast<std::size_t>(plane)];
 }
 
 SlicePlane
 SlicePlaneFromName(const std::string & name)
 {
-  std::vector<std::string> names;
-  for (const SlicePlane plane : AllPlanes)
+  const auto found = std::find(PlaneNames.begin(), PlaneNames.end(), LowerCase(name));
+  if (found == PlaneNames.end())
   {
-    names.push_back(NameOf(plane));
-    if (names.back() == LowerCase(name))
-    {
-      return plane;
-    }
+    throw Failure(FailureKind::Usage, DescribeUnknown("slice plane", name, PlaneNames, "use " + Enumerate(PlaneNames)));
   }
-  throw Failure(FailureKind::Usage, DescribeUnknown("slice plane", name, names, "use " + Enumerate(names)));
+  return static_cast<SlicePlane>(found - PlaneNames.begin());
 }
 
 ViewFrame
