@@ -114,8 +114,6 @@ public:
 
   int
   GetWidth() const;
-  int
-  GetHeight() const;
 
   /** Draws one line of text. \a baseline is on the line under its capital letters, at its left end, middle or right
    * end. Control characters become blanks. */

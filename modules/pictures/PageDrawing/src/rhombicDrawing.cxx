@@ -52,9 +52,9 @@ CheckSize(int width, int height)
   }
 }
 
-/** Whether a font is installed. Pango lists the names that stand for a default font even if there is none. */
-bool
-HasFonts()
+/** Pango lists the names that stand for a default font even if no font is installed. */
+void
+CheckFonts()
 {
   PangoFontFamily ** families = nullptr;
   int count = 0;
@@ -64,13 +64,7 @@ HasFonts()
     return name != "Sans" && name != "Serif" && name != "Monospace" && name != "System-ui";
   });
   g_free(families);
-  return hasFonts;
-}
-
-void
-CheckFonts()
-{
-  if (!HasFonts())
+  if (!hasFonts)
   {
     throw Failure(FailureKind::Display,
                   "Cannot draw text: no font is installed; install one, on Debian with apt install fonts-dejavu-core.");
@@ -192,20 +186,13 @@ SetFont(PangoLayout * layout, double size, bool isBold)
   pango_font_description_free(font);
 }
 
-double
-LayoutWidth(PangoLayout * layout)
+/** Width and height in pixels. */
+Rectangle
+ExtentsOf(const Layout & layout)
 {
   PangoRectangle extents;
-  pango_layout_get_extents(layout, nullptr, &extents);
-  return static_cast<double>(extents.width) / PANGO_SCALE;
-}
-
-double
-LayoutHeight(PangoLayout * layout)
-{
-  PangoRectangle extents;
-  pango_layout_get_extents(layout, nullptr, &extents);
-  return static_cast<double>(extents.height) / PANGO_SCALE;
+  pango_layout_get_extents(layout.get(), nullptr, &extents);
+  return { 0.0, 0.0, pango_units_to_double(extents.width), pango_units_to_double(extents.height) };
 }
 
 Layout
@@ -226,7 +213,7 @@ Layout
 NewLine(cairo_t * context, const std::string & text, const TextStyle & style)
 {
   Layout layout = NewLayout(context, text, style);
-  const double width = LayoutWidth(layout.get());
+  const double width = ExtentsOf(layout).width;
   if (style.largestWidth > 0.0 && width > style.largestWidth)
   {
     const double shrinking = std::max(0.995 * style.largestWidth / width, SmallestShrinking); // widths are rounded
@@ -252,22 +239,29 @@ SetInk(cairo_t * context, const Ink & ink)
   cairo_set_source_rgba(context, ink.colour[0], ink.colour[1], ink.colour[2], ink.opacity);
 }
 
+/** The height of a layout above its first baseline. */
+double
+AscentOf(const Layout & layout)
+{
+  return pango_units_to_double(pango_layout_get_baseline(layout.get()));
+}
+
 /** Draws a layout whose first baseline begins at a position. */
 void
-ShowLayout(cairo_t * context, PangoLayout * layout, const PicturePosition & baseline, const TextStyle & style)
+ShowLayout(cairo_t * context, const Layout & layout, const PicturePosition & baseline, const TextStyle & style)
 {
-  const double ascent = static_cast<double>(pango_layout_get_baseline(layout)) / PANGO_SCALE;
+  const double ascent = AscentOf(layout);
   if (style.halo.opacity > 0.0)
   {
     cairo_move_to(context, baseline.x, baseline.y - ascent);
-    pango_cairo_layout_path(context, layout);
+    pango_cairo_layout_path(context, layout.get());
     SetInk(context, style.halo);
     cairo_set_line_width(context, 2.0 * TextHaloWidth * style.size);
     cairo_stroke(context);
   }
   cairo_move_to(context, baseline.x, baseline.y - ascent);
   SetInk(context, style.ink);
-  pango_cairo_show_layout(context, layout);
+  pango_cairo_show_layout(context, layout.get());
   cairo_new_path(context);
 }
 
@@ -401,19 +395,13 @@ Drawing::GetWidth() const
   return m_Surface->width;
 }
 
-int
-Drawing::GetHeight() const
-{
-  return m_Surface->height;
-}
-
 void
 Drawing::Text(const std::string & text, const PicturePosition & baseline, const TextStyle & style)
 {
   cairo_t * const context = m_Surface->context.get();
   const Layout layout = NewLine(context, text, style);
   const double share = style.alignment == Alignment::Left ? 0.0 : style.alignment == Alignment::Centre ? 0.5 : 1.0;
-  ShowLayout(context, layout.get(), { baseline.x - share * LayoutWidth(layout.get()), baseline.y }, style);
+  ShowLayout(context, layout, { baseline.x - share * ExtentsOf(layout).width, baseline.y }, style);
 }
 
 void
@@ -425,7 +413,7 @@ Drawing::TextAbout(const std::string & text, const PicturePosition & middle, con
 double
 Drawing::WidthOf(const std::string & text, const TextStyle & style) const
 {
-  return LayoutWidth(NewLine(m_Surface->context.get(), text, style).get());
+  return ExtentsOf(NewLine(m_Surface->context.get(), text, style)).width;
 }
 
 double
@@ -433,15 +421,14 @@ Drawing::Paragraph(const std::string & text, const PicturePosition & topLeft, do
 {
   cairo_t * const context = m_Surface->context.get();
   const Layout layout = NewParagraph(context, text, width, style);
-  const double ascent = static_cast<double>(pango_layout_get_baseline(layout.get())) / PANGO_SCALE;
-  ShowLayout(context, layout.get(), { topLeft.x, topLeft.y + ascent }, style);
-  return LayoutHeight(layout.get());
+  ShowLayout(context, layout, { topLeft.x, topLeft.y + AscentOf(layout) }, style);
+  return ExtentsOf(layout).height;
 }
 
 double
 Drawing::HeightOf(const std::string & text, double width, const TextStyle & style) const
 {
-  return LayoutHeight(NewParagraph(m_Surface->context.get(), text, width, style).get());
+  return ExtentsOf(NewParagraph(m_Surface->context.get(), text, width, style)).height;
 }
 
 void

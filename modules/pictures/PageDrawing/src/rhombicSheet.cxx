@@ -10,43 +10,10 @@ namespace rhombic
 namespace
 {
 
-/** The inks and text sizes of a sheet, in pixels. */
-struct SheetStyle
-{
-  Ink paper;
-  Ink ink;
-  Ink grey;
-  Ink hairline;
-  double point = 0.0; ///< 1/72 inch
-  double thin = 0.0;  ///< width of hairlines
-
-  TextStyle
-  Text(double points, const Ink & colour) const
-  {
-    TextStyle style;
-    style.size = points * point;
-    style.ink = colour;
-    return style;
-  }
-};
-
 Ink
 Grey(double brightness)
 {
   return { { brightness, brightness, brightness }, 1.0 };
-}
-
-SheetStyle
-StyleOf(const Sheet & s)
-{
-  SheetStyle style;
-  style.paper = PaperOf(s);
-  style.ink = InkOn(style.paper);
-  style.grey = s.isDark ? Grey(0.62) : Grey(0.42);
-  style.hairline = s.isDark ? Grey(0.27) : Grey(0.82);
-  style.point = s.pixelsPerInch / 72.0;
-  style.thin = 0.5 * style.point;
-  return style;
 }
 
 /** Draws the pages of a sheet, in the order of its functions. */
@@ -56,7 +23,6 @@ public:
   SheetPainter(const Sheet & sheet, Drawing & drawing)
     : m_Sheet(sheet)
     , m_Plan(PlanSheet(sheet))
-    , m_Style(StyleOf(sheet))
     , m_Drawing(drawing)
   {}
 
@@ -81,6 +47,16 @@ public:
   }
 
 private:
+  /** A text whose size is given in points. */
+  TextStyle
+  TextOf(double points, const Ink & ink) const
+  {
+    TextStyle style;
+    style.size = points * m_Point;
+    style.ink = ink;
+    return style;
+  }
+
   double
   Millimetres(double length) const
   {
@@ -91,7 +67,7 @@ private:
   Rule(double left, double right, double y, const Ink & ink)
   {
     LineStyle style;
-    style.width = m_Style.thin;
+    style.width = 0.5 * m_Point;
     style.ink = ink;
     m_Drawing.Line({ { left, y }, { right, y } }, style);
   }
@@ -102,21 +78,21 @@ private:
   {
     const Rectangle & content = m_Plan.content;
     const double width = m_Plan.places.width;
-    m_Drawing.Fill({ 0.0, 0.0, width, static_cast<double>(m_Plan.places.height) }, m_Style.paper);
-    TextStyle subtitle = m_Style.Text(8.5, m_Style.grey);
+    m_Drawing.Fill({ 0.0, 0.0, width, static_cast<double>(m_Plan.places.height) }, m_Paper);
+    TextStyle subtitle = TextOf(8.5, m_Grey);
     subtitle.alignment = Alignment::Right;
     subtitle.largestWidth = 0.45 * content.width;
     const double used = m_Sheet.subtitle.empty() ? 0.0 : m_Drawing.WidthOf(m_Sheet.subtitle, subtitle) + Millimetres(6);
-    TextStyle title = m_Style.Text(page == 1 ? 16.0 : 11.0, m_Style.ink);
+    TextStyle title = TextOf(page == 1 ? 16.0 : 11.0, m_Ink);
     title.bold = true;
     title.largestWidth = content.width - used;
     const double baseline = content.top - Millimetres(7.0);
     m_Drawing.Text(m_Sheet.title + (page > 1 ? " (continued)" : ""), { content.left, baseline }, title);
     m_Drawing.Text(m_Sheet.subtitle, { content.Right(), baseline }, subtitle);
-    Rule(content.left, content.Right(), content.top - Millimetres(3.8), m_Style.ink);
+    Rule(content.left, content.Right(), content.top - Millimetres(3.8), m_Ink);
     if (m_Pages > 1)
     {
-      TextStyle number = m_Style.Text(7.0, m_Style.grey);
+      TextStyle number = TextOf(7.0, m_Grey);
       number.alignment = Alignment::Right;
       m_Drawing.Text(std::to_string(page) + " / " + std::to_string(m_Pages),
                      { content.Right(), content.Bottom() + Millimetres(6.5) },
@@ -155,19 +131,19 @@ private:
     annotations.figure = false;
     annotations.outlines = picture.outlines;
     annotations.background = picture.background;
-    annotations.textSize = 7.0 * m_Style.point;
+    annotations.textSize = 7.0 * m_Point;
     DrawAnnotations(m_Drawing, fitted, picture.projection, annotations);
   }
 
   void
   DrawCaption(const SheetPicture & picture, const Rectangle & place)
   {
-    TextStyle style = m_Style.Text(7.5, m_Style.ink);
+    TextStyle style = TextOf(7.5, m_Ink);
     style.largestWidth = place.width;
     const double baseline = place.Bottom() + Millimetres(3.6);
     m_Drawing.Text(picture.caption, { place.left, baseline }, style);
     const double used = m_Drawing.WidthOf(picture.caption, style) + Millimetres(2.0);
-    style = m_Style.Text(7.5, m_Style.grey);
+    style = TextOf(7.5, m_Grey);
     style.largestWidth = std::max(1.0, place.width - used);
     m_Drawing.Text(picture.position, { place.left + used, baseline }, style);
   }
@@ -230,18 +206,18 @@ private:
   void
   DrawTableHeading(const Rectangle & place)
   {
-    const TextStyle style = m_Style.Text(6.5, m_Style.grey);
+    const TextStyle style = TextOf(6.5, m_Grey);
     const double middle = place.top + 0.4 * Millimetres(sheet::HeadingHeight);
     m_Drawing.TextAbout("structure", { place.left, middle }, style);
     DrawFigures(FiguresOf(nullptr), place, middle, style);
-    Rule(place.left, place.Right(), place.top + Millimetres(sheet::HeadingHeight), m_Style.grey);
+    Rule(place.left, place.Right(), place.top + Millimetres(sheet::HeadingHeight), m_Grey);
   }
 
   void
   DrawTableRow(const LegendRow & row, const Rectangle & place)
   {
     const double size = m_Plan.tableText;
-    TextStyle style = m_Style.Text(1.0, m_Style.ink);
+    TextStyle style = TextOf(1.0, m_Ink);
     style.size = size;
     const double middle = place.top + 0.5 * m_Plan.rowPitch;
     const double swatch = 0.95 * size;
@@ -251,7 +227,7 @@ private:
     const double left = place.left + 1.6 * size;
     style.largestWidth = place.Right() - static_cast<double>(figures.size()) * Millimetres(sheet::FigureColumn) - left;
     m_Drawing.TextAbout(row.name, { left, middle }, style);
-    Rule(place.left, place.Right(), place.top + m_Plan.rowPitch, m_Style.hairline);
+    Rule(place.left, place.Right(), place.top + m_Plan.rowPitch, m_Hairline);
   }
 
   /** Lines of a grey name and a value, in columns. */
@@ -265,8 +241,8 @@ private:
     }
     const Rectangle & area = m_Plan.provenance;
     const double heading = Millimetres(sheet::HeadingHeight);
-    m_Drawing.TextAbout("scan and method", { area.left, area.top + 0.4 * heading }, m_Style.Text(6.5, m_Style.grey));
-    Rule(area.left, area.Right(), area.top + heading, m_Style.grey);
+    m_Drawing.TextAbout("scan and method", { area.left, area.top + 0.4 * heading }, TextOf(6.5, m_Grey));
+    Rule(area.left, area.Right(), area.top + heading, m_Grey);
     const double columnWidth = area.width / 2.0 - Millimetres(sheet::Gap);
     const double width = m_Plan.provenanceRows < lines.size() ? columnWidth : area.width;
     PicturePosition topLeft{ area.left, area.top + heading + Millimetres(sheet::ProvenanceSpace) };
@@ -286,16 +262,20 @@ private:
   {
     const auto [name, value] = SplitProvenance(line);
     const double indent = name.empty() ? 0.0 : Millimetres(sheet::ProvenanceIndent);
-    TextStyle style = m_Style.Text(1.0, m_Style.grey);
+    TextStyle style = TextOf(1.0, m_Grey);
     style.size = Millimetres(sheet::ProvenanceText);
     m_Drawing.Paragraph(name, topLeft, indent, style);
-    style.ink = m_Style.ink;
+    style.ink = m_Ink;
     m_Drawing.Paragraph(value, { topLeft.x + indent, topLeft.y }, width - indent, style);
   }
 
   const Sheet & m_Sheet;
   const SheetPlan m_Plan;
-  const SheetStyle m_Style;
+  const Ink m_Paper = PaperOf(m_Sheet);
+  const Ink m_Ink = InkOn(m_Paper);
+  const Ink m_Grey = m_Sheet.isDark ? Grey(0.62) : Grey(0.42);
+  const Ink m_Hairline = m_Sheet.isDark ? Grey(0.27) : Grey(0.82);
+  const double m_Point = m_Sheet.pixelsPerInch / 72.0; ///< 1/72 inch, in pixels
   Drawing & m_Drawing;
   std::size_t m_Pages = 1;
 };
