@@ -79,7 +79,7 @@ void
 CheckMeasureTablePath(const std::filesystem::path & path);
 
 /** Writes the measures of surfaces, to appear with all others of \a staged: as .csv a line for each surface, with "n/a"
- * for what is not known; as .json all of ReportMeshedSurface(). Throws Failure: Usage for another extension, Output. */
+ * for what is not known; as .json all of ReportMeshedSurface(). Throws Failure(Output). */
 void
 StageMeasureTable(const std::vector<MeshedSurface> & surfaces,
                   const std::filesystem::path & path,

@@ -407,7 +407,6 @@ CheckMeasureTablePath(const fs::path & path)
 void
 StageMeasureTable(const std::vector<MeshedSurface> & surfaces, const fs::path & path, StagedFiles & staged)
 {
-  CheckMeasureTablePath(path);
   Report table = Report::array();
   std::transform(surfaces.begin(), surfaces.end(), std::back_inserter(table), ReportMeshedSurface);
   StageText(path.extension() == ".csv" ? ToCSV(surfaces) : ToJson(table) + '\n', path, staged);

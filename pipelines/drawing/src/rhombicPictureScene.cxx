@@ -31,14 +31,13 @@ void
 AddSurface(MeshedSurface & surface, PictureScene & scene)
 {
   MeasureFinished(scene.scan ? &*scene.scan : nullptr, surface);
-  LegendRow row;
-  row.name = surface.scene.name;
-  row.colour = surface.scene.colour;
-  row.volume = surface.measures.volume / CubicMillimetresPerMl;
-  row.area = surface.measures.area / 100.0;
-  row.mean = surface.measures.meanValue;
+  const SurfaceMeasures & measures = surface.measures;
   scene.surfaces.push_back(surface.scene);
-  scene.rows.push_back(row);
+  scene.rows.push_back({ surface.scene.name,
+                         surface.scene.colour,
+                         measures.volume / CubicMillimetresPerMl,
+                         measures.area / 100.0,
+                         measures.meanValue });
   scene.report["surfaces"].push_back(ReportMeshedSurface(surface));
 }
 

@@ -139,9 +139,8 @@ AddCuts(const RenderScanSettings & settings, const PictureScene & source, Scene 
     {
       if (std::find(names.begin(), names.end(), surface.name) != names.end())
       {
-        constexpr double tint = 0.25;
-        cut.push_back({ CutSurface(*surface.surface, projection), surface.colour, source.scan ? tint : 1.0 });
-        cut.back().tint = source.scan && surface.opacity < 1.0 ? 0.0 : cut.back().tint;
+        const double tint = !source.scan ? 1.0 : surface.opacity < 1.0 ? 0.0 : 0.25;
+        cut.push_back({ CutSurface(*surface.surface, projection), surface.colour, tint });
       }
     }
     const Picture greys = source.scan
