@@ -181,7 +181,7 @@ MeasureExtraction(const BenchInput & input, const BenchSettings & settings)
     for (const bool normals : { true, false })
     {
       const auto reference = ExtractWithVTK(extractor, volume, input.isovalue, normals);
-      for (const ExtractionMode mode : GetExtractionModes())
+      for (const ExtractionMode mode : ExtractionModes)
       {
         const auto surface = ExtractSurface(lattice.GetPointer(), input.isovalue, mode, normals);
         BenchResult result;
@@ -273,7 +273,7 @@ MeasurePipeline(const BenchInput & input, const BenchSettings & settings)
 {
   std::vector<BenchResult> results;
   const auto volume = ShareWithVTK(input.volume.GetPointer());
-  for (const ExtractionMode mode : GetExtractionModes())
+  for (const ExtractionMode mode : ExtractionModes)
   {
     const auto work = [&] {
       const auto lattice = Resample(input, itk::SeparableKernel::CubicBSpline);
@@ -297,7 +297,7 @@ MeasureFloor(const BenchInput & input, const BenchSettings & settings)
 {
   std::vector<BenchResult> results;
   const auto lattice = Resample(input, itk::SeparableKernel::CubicBSpline);
-  for (const ExtractionMode mode : GetExtractionModes())
+  for (const ExtractionMode mode : ExtractionModes)
   {
     const auto surface = ExtractSurface(lattice.GetPointer(), input.isovalue, mode, true);
     volatile double sum = 0.0;
@@ -349,7 +349,7 @@ MeasureMemory(const BenchInput & input, const BenchSettings & settings)
     [](const auto & mesh) { return MeshMemory(mesh); });
 
   const auto lattice = Resample(input, itk::SeparableKernel::CubicBSpline);
-  for (const ExtractionMode mode : GetExtractionModes())
+  for (const ExtractionMode mode : ExtractionModes)
   {
     measure(
       WithNormals(NameOf(mode), true),

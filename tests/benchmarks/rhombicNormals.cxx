@@ -221,7 +221,7 @@ PrintCoarseScans()
   for (const int samples : { 1, 8 })
   {
     TextTable table({ "mode", "gradients", "smoothed" });
-    for (const ExtractionMode mode : GetExtractionModes())
+    for (const ExtractionMode mode : ExtractionModes)
     {
       std::mt19937 random(1);
       std::vector<Angle> before;
@@ -264,7 +264,7 @@ PrintFineScans()
   for (const auto & [name, field] : fields)
   {
     const auto lattice = ToLattice(SampleOnGrid<float>(*field, size, 1.0));
-    for (const ExtractionMode mode : GetExtractionModes())
+    for (const ExtractionMode mode : ExtractionModes)
     {
       const auto surface = ExtractSurface(lattice.GetPointer(), 0.0, mode, true, true);
       const auto angle = [&] {

@@ -10,9 +10,9 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 namespace rhombic
 {
@@ -20,8 +20,11 @@ namespace rhombic
 using ExtractionMode = itk::FCCIsosurfaceMode;
 
 /** All modes. */
-const std::vector<ExtractionMode> &
-GetExtractionModes();
+constexpr std::array<ExtractionMode, 5> ExtractionModes{ ExtractionMode::Tetrahedra,
+                                                         ExtractionMode::Octahedra,
+                                                         ExtractionMode::Parallelepipeds,
+                                                         ExtractionMode::Fine,
+                                                         ExtractionMode::Lean };
 
 /** "tetrahedra", ... */
 std::string

@@ -36,17 +36,6 @@ Extract(vtkImageData * volume, double isovalue, bool normals)
 
 } // namespace
 
-const std::vector<ExtractionMode> &
-GetExtractionModes()
-{
-  static const std::vector<ExtractionMode> modes{ ExtractionMode::Tetrahedra,
-                                                  ExtractionMode::Octahedra,
-                                                  ExtractionMode::Parallelepipeds,
-                                                  ExtractionMode::Fine,
-                                                  ExtractionMode::Lean };
-  return modes;
-}
-
 std::string
 NameOf(ExtractionMode mode)
 {

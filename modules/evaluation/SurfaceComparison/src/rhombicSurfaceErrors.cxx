@@ -29,12 +29,6 @@ using itk::CornersType;
 using itk::ToPosition;
 
 Vector3
-Middle(const Vector3 & a, const Vector3 & b)
-{
-  return { (a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0, (a[2] + b[2]) / 2.0 };
-}
-
-Vector3
 Centroid(const CornersType & corners)
 {
   const auto & [a, b, c] = corners;
@@ -130,9 +124,9 @@ JudgeTriangles(std::vector<JudgedTriangle> & triangles, const FindNearest & find
     JudgedTriangle & triangle = triangles[n];
     const auto & [a, b, c] = triangle.corners;
     triangle.quality = itk::ComputeTriangleQuality(a, b, c);
-    triangle.sides[0] = findNearest(Middle(a, b));
-    triangle.sides[1] = findNearest(Middle(b, c));
-    triangle.sides[2] = findNearest(Middle(c, a));
+    triangle.sides[0] = findNearest(Scaled(Add(a, b), 0.5));
+    triangle.sides[1] = findNearest(Scaled(Add(b, c), 0.5));
+    triangle.sides[2] = findNearest(Scaled(Add(c, a), 0.5));
     triangle.centroid = findNearest(Centroid(triangle.corners));
     triangle.facetNormalError = Angle(AreaVector(triangle.corners), triangle.centroid.normal);
   });
