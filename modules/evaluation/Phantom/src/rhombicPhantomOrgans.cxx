@@ -12,7 +12,7 @@ namespace
 
 constexpr double AirHounsfield = -1000.0;
 
-/** The organs. The volume of each solid is added to its organ's and taken from that of the organ around it. */
+/** The organs. The volume of each solid counts for its organ, and not for the organ around the solid. */
 std::vector<PhantomOrgan>
 MakeOrgans()
 {

@@ -182,7 +182,7 @@ LabelSolid(const Grid & grid, long x, const PhantomSolid & solid, int label, std
   }
 }
 
-/** The value of a part minus that of the part around it. */
+/** The value of a part minus the value of the part around it. */
 double
 ContrastOf(const PhantomPart & part)
 {

@@ -14,7 +14,7 @@ namespace rhombic
 {
 
 /** \file
- * Surfaces at 0 that VTK does not make. Samples that are not below 0 are inside; surfaces end at the border. */
+ * Surfaces at 0 by methods that VTK lacks. Samples that are not below 0 are inside; surfaces end at the border. */
 
 /** The faces between voxels inside and outside, two triangles each: G. Herman, H. Liu, "Three-dimensional display of
  * human organs from computed tomograms" (1979). Voxels that touch in an edge or a corner share its points. */

@@ -24,7 +24,7 @@ struct FieldBox
 itk::Image<float, 3>::Pointer
 SampleBox(const ReferenceField & field, const FieldBox & box, double spacing);
 
-/** A method's samples, and what makes their surface at 0. */
+/** The number of a method's samples, and the function that makes their surface at 0. */
 struct PreparedMethod
 {
   itk::SizeValueType samples = 0;

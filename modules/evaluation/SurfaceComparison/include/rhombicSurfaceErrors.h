@@ -62,9 +62,9 @@ ComputeSurfaceErrors(const itk::TriangleSurface & surface,
                      const FindNearest & findNearest,
                      const SurfaceErrorSettings & settings);
 
-/** The distances from the points of \a surface to the nearest ones of another, each weighted by a third of the area of
- * its judged triangles: with the true surface first, how far it is from a mesh. Sets the area and the distances only.
- */
+/** The distances from the points of \a surface to the nearest points of another surface. The weight of a point is a
+ * third of the area of its judged triangles. With the true surface as \a surface, the distances tell how far a mesh is
+ * from all parts of the true surface. Sets the area and the distances only. */
 SurfaceErrors
 ComputePointDistances(const itk::TriangleSurface & surface,
                       const FindNearest & findNearest,

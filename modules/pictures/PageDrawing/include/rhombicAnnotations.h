@@ -28,7 +28,7 @@ struct ColouredOutline
   bool isClosed = true;
 };
 
-/** What is drawn over a picture. */
+/** The letters, bars and lines that are drawn over a picture. */
 struct Annotations
 {
   bool letters = true;           ///< the anatomical directions at the four edges
@@ -48,7 +48,7 @@ Margins
 MarginsOf(const Annotations & annotations, int width, int height, const ViewFrame & frame);
 
 /** Draws the annotations of a picture that \a projection describes and that lies at \a place. Text keeps its size
- * down to half of it where the legend is long; rows beyond that are counted in its last line. */
+ * down to half of the size where the legend is long; the legend's last line counts further rows. */
 void
 DrawAnnotations(Drawing & drawing,
                 const Rectangle & place,

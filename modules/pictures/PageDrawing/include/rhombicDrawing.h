@@ -63,8 +63,9 @@ struct TextStyle
   Ink halo{ {}, 0.0 }; ///< around the letters, for contrast with any background
   bool bold = false;
   Alignment alignment = Alignment::Left;
-  double largestWidth =
-    0.0; ///< pixels: wider text is set smaller, to three quarters, then shortened in the middle; 0: none
+
+  /** In pixels: wider text is set smaller, to three quarters, then shortened in the middle; 0: no limit. */
+  double largestWidth = 0.0;
 };
 
 /** How a line looks. */
@@ -99,7 +100,8 @@ public:
    * pixels, Memory when there is too little, Display when there is no font. */
   Drawing(int width, int height);
 
-  /** Begins the first page of a PDF, on which \a pixelsPerInch pixels make an inch. Throws as the other does. */
+  /** Begins the first page of a PDF, on which \a pixelsPerInch pixels make an inch. Throws as the constructor for
+   * pictures does. */
   Drawing(int width, int height, double pixelsPerInch, const PdfProperties & properties);
 
   /** A drawing that becomes an SVG file of one page. An id in the file counts the drawings of the process. Throws as
@@ -132,7 +134,7 @@ public:
   double
   Paragraph(const std::string & text, const PicturePosition & topLeft, double width, const TextStyle & style);
 
-  /** The height in pixels of such a text. */
+  /** The height in pixels of a text that Paragraph() draws. */
   double
   HeightOf(const std::string & text, double width, const TextStyle & style) const;
 

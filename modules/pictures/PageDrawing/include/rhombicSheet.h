@@ -21,8 +21,7 @@ struct SheetPicture
 };
 
 /** \class Sheet
- * \brief What a reader wants of a segmentation on A4 pages: views, slices, a table of surfaces and where they come
- * from.
+ * \brief A4 pages about a segmentation: views, slices, a table of surfaces, and lines about their origin.
  *
  * A table that is too long for the first page goes on in columns of further pages. */
 struct Sheet
@@ -51,8 +50,8 @@ struct SheetPlaces
   std::vector<Rectangle> slices;
 };
 
-/** The places of Sheet::views and slices, which depend on everything in the sheet but the pictures: fill the rest in,
- * then draw each picture as large as its place, or a multiple of it. */
+/** The places of Sheet::views and Sheet::slices. All members of the sheet but the pictures' pixels decide about the
+ * places: set these members first, then draw each picture as large as its place, or a multiple of that size. */
 SheetPlaces
 PlacesOn(const Sheet & sheet);
 

@@ -37,7 +37,7 @@ StyleOn(const Ink & background, double size)
   return style;
 }
 
-/** A legend's text size, columns and what of it is shown. */
+/** A legend's text size and columns, and the number of its rows that are shown. */
 struct LegendLayout
 {
   double size = 0.0;
@@ -111,7 +111,7 @@ struct Arrangement
   double titleHeight = 0.0;
   double footnoteHeight = 0.0;
   double letterWidth = 0.0; ///< of the wider of left and right
-  Rectangle scene;          ///< what the annotations leave free
+  Rectangle scene;          ///< the part of the picture without annotations
   Rectangle legendArea;
   LegendLayout legend;
 };

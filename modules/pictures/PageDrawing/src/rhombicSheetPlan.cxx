@@ -80,7 +80,7 @@ SceneWidthIn(double width, double height, double aspect)
   return std::min(width - 2.0 * RoomForLetters, (height - 2.0 * RoomForLetters) / aspect);
 }
 
-/** The views, in one row or two, in an area of which they take what they need. Returns their bottom edge. */
+/** Places the views in one row or two at the top of an area. Returns the bottom edge of the views and captions. */
 double
 PlaceViews(const Sheet & s, const Rectangle & area, std::vector<Rectangle> & places)
 {

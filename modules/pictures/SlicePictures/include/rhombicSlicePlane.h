@@ -48,7 +48,8 @@ ViewFrame
 FrameOf(SlicePlane plane, SliceConvention convention = SliceConvention::Radiological);
 
 /** \class SliceBox
- * \brief What slices show: a box around a scan or a part of it, whose perpendicular sides may have any directions. */
+ * \brief The box that slices show, around a scan or a part of a scan. The perpendicular sides may have any directions.
+ */
 struct SliceBox
 {
   Vector3 corner;               ///< in LPS mm

@@ -12,9 +12,9 @@ namespace
 
 /** The share of each pixel's area inside curves, for the rows of a picture that the curves reach.
  *
- * Each side of a curve adds its height within a pixel's row, with the sign of its direction, to all pixels on its
- * right, and to its own pixel the part on its right. The sum is the winding number, averaged over the pixel. What sides
- * add is stored as differences to the pixel on the left. */
+ * A side of a curve adds its height within a row, with the sign of its direction, to all pixels of the row on the
+ * side's right, and a part of the height to the pixel that the side crosses. The sum over all sides is the winding
+ * number, averaged over the pixel. Sums are stored as differences to the pixel on the left. */
 class Coverage
 {
 public:

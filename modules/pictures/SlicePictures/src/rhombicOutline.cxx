@@ -194,8 +194,7 @@ CutSurface(const itk::TriangleSurface & surface, const Projection & plane)
   }
   std::vector<bool> isTraced(lines.size(), false);
   std::vector<Outline> outlines;
-  for (const bool isClosed :
-       { false, true }) // first the curves that begin on an open edge; the lines that are left form closed curves
+  for (const bool isClosed : { false, true }) // curves that begin on an open edge first, then closed curves
   {
     for (std::size_t line = 0; line < lines.size(); ++line)
     {

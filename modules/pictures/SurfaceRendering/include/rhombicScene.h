@@ -15,12 +15,12 @@ namespace rhombic
 {
 
 /** \class ClipPlane
- * \brief Removes what lies on one side of a plane. */
+ * \brief Removes the part of a scene on one side of a plane. */
 struct ClipPlane
 {
   Vector3 point;                     ///< in the plane, LPS mm
   Vector3 normal;                    ///< points to the side that is removed; any length
-  std::vector<std::string> surfaces; ///< names of those that are cut; empty: all
+  std::vector<std::string> surfaces; ///< names of the surfaces that are cut; empty: all surfaces
 };
 
 /** \class ScenePlane
@@ -33,10 +33,10 @@ struct ScenePlane
 };
 
 /** \class Scene
- * \brief What is drawn. */
+ * \brief Surfaces, cuts and pictures that are drawn together. */
 struct Scene
 {
-  std::vector<SceneSurface> surfaces; ///< where several are in one place, the first is seen
+  std::vector<SceneSurface> surfaces; ///< of several surfaces in one place, the first is seen
   std::vector<ClipPlane> cuts;        ///< at most 6
   std::vector<ScenePlane> planes;
 };
@@ -48,8 +48,8 @@ struct LPSBox
   Vector3 highest;
 };
 
-/** The box around the points of surfaces; those without triangles do not count. Throws Failure(Empty) when none has
- * one.
+/** The box around the points of surfaces; surfaces without triangles do not count. Throws Failure(Empty) when no
+ * surface has a triangle.
  *
  * As RenderSettings::extent, together with sameScale, it keeps the scene in place in the frames of a turntable. */
 LPSBox
@@ -74,7 +74,7 @@ struct RenderSettings
   std::optional<Margins> margins; ///< pixels that the scene leaves free; by default 0.02 of the picture's shorter side
 
   bool perspective = false;        ///< parallel projection otherwise, in which sizes can be compared
-  std::optional<LPSBox> extent;    ///< what fits between the margins; by default all surfaces and planes
+  std::optional<LPSBox> extent;    ///< the box that fits between the margins; by default all surfaces and planes
   std::optional<Vector3> centre;   ///< the LPS point between the margins; by default the middle of the extent
   double zoom = 1.0;               ///< above 1 enlarges
   std::optional<double> pixelSize; ///< in mm, instead of the size that fits; for parallel projection

@@ -49,7 +49,7 @@ public:
   SurfaceRenderer &
   operator=(const SurfaceRenderer &) = delete;
 
-  /** Draws a scene from each view; the triangles are uploaded once. Surfaces without triangles are skipped, those
+  /** Draws a scene from each view; the triangles are uploaded once. Surfaces without triangles are skipped, surfaces
    * without normals are drawn faceted. Of translucent surfaces only the near walls are drawn, more opaque at their
    * outlines. Translucent surfaces and planes are sorted by depth in each sample, up to 16 behind each other.
    *

@@ -145,11 +145,11 @@ Inner(int side, double margin, double otherMargin)
 }
 
 /** \class Fit
- * \brief A view's camera on its way: parallel, before the settings' zoom and centre. */
+ * \brief How a view fits in parallel projection, before the settings' zoom and centre. */
 struct Fit
 {
-  SceneExtent extent; ///< of what is fitted
-  double pixelSize;   ///< at which it fits
+  SceneExtent extent; ///< of the settings' box or the whole scene
+  double pixelSize;   ///< at which the extent fits
 };
 
 /** The pixel size at which the extent fits between the margins of sides that are given, or of the default side when
@@ -209,7 +209,7 @@ SetPerspective(const Scene & scene, const RenderSettings & settings, const Margi
   PlaceCentre(settings, fitted, depth, camera);
 }
 
-/** Depths of everything, which need not be fitted. */
+/** Sets the depths between which the whole scene lies, also the parts outside the settings' box. */
 void
 SetDepths(const Scene & scene, Camera & camera)
 {

@@ -9,8 +9,8 @@
 namespace rhombic
 {
 
-/** Keeps what is current for OpenGL on this thread, of EGL or GLX, and makes it current again when the result is
- * destroyed. Meanwhile nothing of GLX is current, so that a context of EGL can be. */
+/** Keeps the context of EGL or GLX that is current on this thread, and makes the context current again when the result
+ * is destroyed. Meanwhile no context of GLX is current, so that a context of EGL can be. */
 std::shared_ptr<const void>
 KeepCallersContext();
 

@@ -235,7 +235,7 @@ void main()
 const char * const ShadeFragment = R"(
 uniform sampler2D relief;
 uniform vec2 pixelRule; // a pixel's size at depth 0 and the spread of Camera
-uniform float reach;    // largest distance of what takes light away
+uniform float reach;    // largest distance of surfaces that take light away
 uniform float detail;   // pits up to this depth take no light away
 uniform float jump;     // smallest step of depth that is an outline
 uniform int line;       // width of an outline in pixels

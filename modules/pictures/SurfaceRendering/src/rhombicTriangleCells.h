@@ -26,8 +26,8 @@ struct TriangleCells
   std::vector<TriangleCell> cells; ///< none is empty
 };
 
-/** Orders triangles so that those near to each other follow each other, some hundreds in each cell. Then parts of the
- * surface can be drawn alone, and OpenGL uses points again that it has just transformed. */
+/** Orders triangles by cells of some hundreds, so that neighbours follow each other. Then parts of the surface can be
+ * drawn alone, and OpenGL uses points again that were just transformed. */
 TriangleCells
 SortIntoCells(const itk::TriangleSurface * surface);
 
@@ -37,8 +37,8 @@ itk::PointBox
 FootprintOf(const itk::PointBox & box, const Camera & camera);
 
 /** \class OpenTiles
- * \brief The depth in each square part of a picture behind which something can still be seen, so that cells of
- * triangles that can't be seen are not drawn. */
+ * \brief The depth in each square part of a picture behind which something can still be seen, so that hidden
+ * cells of triangles are not drawn. */
 struct OpenTiles
 {
   static constexpr int Side = 16; ///< samples of a tile's width and height

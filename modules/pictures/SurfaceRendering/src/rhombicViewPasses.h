@@ -13,7 +13,7 @@ namespace rhombic
  * dark when it is enlarged. */
 struct OcclusionLengths
 {
-  float reach = 0.0f;  ///< largest distance of what takes light away
+  float reach = 0.0f;  ///< largest distance of surfaces that take light away
   float detail = 0.0f; ///< pits up to this depth stay bright, as those between the steps of coarsely sampled surfaces
 };
 
@@ -29,7 +29,7 @@ class ViewPasses
 public:
   ViewPasses(const Scene & scene, const RenderSettings & settings, vtkOpenGLRenderWindow * window);
 
-  /** Opaque surfaces; what their surroundings take from their light; translucent layers; the mean of the samples. */
+  /** Draws opaque surfaces, their shades, translucent layers, and the mean of the samples. */
   Picture
   Draw(SceneBuffers & scene, const Camera & camera);
 
