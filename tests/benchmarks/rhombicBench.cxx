@@ -9,6 +9,8 @@
 #include "rhombicShapeFields.h"
 #include "rhombicTextTable.h"
 
+#include "itkFCCLattice.h"
+
 #include <algorithm>
 #include <iostream>
 #include <set>
