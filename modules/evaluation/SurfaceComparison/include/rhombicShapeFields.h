@@ -45,16 +45,15 @@ MakeCornerField(double level);
  *
  *   sqrt(2 / n) sum cos(2 pi (k . p + phase)),
  *
- * over n waves, whose wave vectors k are evenly distributed in a ball and whose phases are random. Its mean is 0 and
- * its variance 1, and with many waves its values are nearly Gaussian; the surface at 0 halves space. The same numbers
- * give the same field on every machine, up to rounding. The method is that of M. Shinozuka, "Simulation of multivariate
- * and multidimensional random processes", J. Acoust. Soc. Am. 49 (1971).
+ * over n = 96 waves, whose wave vectors k are evenly distributed in a ball and whose phases are random. Its mean is 0
+ * and its variance 1, and with many waves its values are nearly Gaussian; the surface at 0 halves space. The same
+ * numbers give the same field on every machine, up to rounding. The method is that of M. Shinozuka, "Simulation of
+ * multivariate and multidimensional random processes", J. Acoust. Soc. Am. 49 (1971).
  * \param bandLimit length of the longest wave vector, in fractions of the Nyquist frequency of a Cartesian grid of
  * spacing 1, which is half a wave per unit
- * \param seed of the random numbers
- * \param numberOfWaves rounded up to a multiple of 8 */
+ * \param seed of the random numbers */
 ReferenceField
-MakeBandLimitedField(double bandLimit, std::uint64_t seed, unsigned int numberOfWaves = 96);
+MakeBandLimitedField(double bandLimit, std::uint64_t seed);
 
 /** The cubic B-spline through the samples of a volume, mirrored at its border. */
 ReferenceField

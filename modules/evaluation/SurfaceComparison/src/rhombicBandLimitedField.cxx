@@ -97,10 +97,10 @@ Uniform(std::mt19937_64 & random)
 } // namespace
 
 ReferenceField
-MakeBandLimitedField(double bandLimit, std::uint64_t seed, unsigned int numberOfWaves)
+MakeBandLimitedField(double bandLimit, std::uint64_t seed)
 {
-  using HWY_NAMESPACE::WaveBatch;
-  const std::size_t count = (numberOfWaves + WaveBatch - 1) / WaveBatch * WaveBatch;
+  constexpr std::size_t count = 96;
+  static_assert(count % HWY_NAMESPACE::WaveBatch == 0);
   std::mt19937_64 random(seed);
   const double radius = bandLimit / 2.0;
   std::array<std::vector<double>, 4> waves; // waves per unit along each axis, and phases in waves

@@ -29,8 +29,8 @@ public:
   void
   DrawOpaque(const Camera & camera);
 
-  /** Draws the parts of translucent surfaces and planes that are behind a depth. \param open where a layer can be seen
-   */
+  /** Draws the parts of translucent surfaces and planes that are behind a depth.
+   * \param open where a layer can be seen */
   void
   DrawTranslucent(const Camera & camera, vtkTextureObject * depthBefore, const OpenTiles & open);
 
