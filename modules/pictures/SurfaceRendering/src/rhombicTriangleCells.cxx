@@ -136,8 +136,8 @@ FootprintOf(const itk::PointBox & box, const Camera & camera)
     {
       return { { 0.0f, 0.0f, 0.0f }, { 1.0f, 1.0f, 1.0f } };
     }
-    footprint.Add(
-      { 0.5f + 0.5f * clip[0] / clip[3], 0.5f + 0.5f * clip[1] / clip[3], 0.5f + 0.5f * clip[2] / clip[3] });
+    footprint.Add(itk::PointBox::PointType{
+      0.5f + 0.5f * clip[0] / clip[3], 0.5f + 0.5f * clip[1] / clip[3], 0.5f + 0.5f * clip[2] / clip[3] });
   }
   const auto & [left, bottom, nearest] = footprint.lowest;
   const auto & [right, top, farthest] = footprint.highest;
