@@ -9,8 +9,6 @@
 namespace itk
 {
 
-class FCCLabelBox;
-
 /** \class FCCLabelSurfaceFilter
  * \brief The walls between the labels of an FCC image, as one mesh: no gaps, no overlaps.
  *
@@ -106,18 +104,6 @@ protected:
 
   void
   GenerateData() override;
-
-private:
-  /** Numbers of points and triangles, of a plane or before it. */
-  struct Counts
-  {
-    SizeValueType points = 0;
-    SizeValueType triangles = 0;
-  };
-
-  /** Writes the points and triangles of the planes from \a begin to \a end - 1. */
-  void
-  Fill(const FCCLabelBox & box, SizeValueType begin, SizeValueType end, const std::vector<Counts> & before);
 };
 
 } // namespace itk

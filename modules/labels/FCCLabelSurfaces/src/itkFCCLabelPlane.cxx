@@ -15,6 +15,37 @@ FCCLabelBox::HasSimplices(SizeValueType j, SizeValueType k, unsigned int type) c
   return isIn;
 }
 
+FCCLabelBox::LabelType
+FCCLabelBox::GetLabel(const Index<3> & site) const
+{
+  SizeValueType row = 0;
+  return this->FindImageRow(site, row)
+           ? m_Image.GetBufferPointer()[row * m_Region.GetSize(0) + static_cast<SizeValueType>(site[0] - 1)]
+           : 0;
+}
+
+double
+FCCLabelBox::GetWeight(const Index<3> & site, LabelType label) const
+{
+  SizeValueType row = 0;
+  const float * const weight = m_Weights != nullptr && this->FindImageRow(site, row)
+                                 ? m_Weights->Find(row, static_cast<std::uint32_t>(site[0] - 1), label)
+                                 : nullptr;
+  const float limit = this->GetLabel(site) == label ? FCCLabelWeights::Limit : -FCCLabelWeights::Limit;
+  return weight != nullptr ? *weight : limit;
+}
+
+TriangleSurface::PointType
+FCCLabelBox::GetPoint(const Index<3> & index, const PositionType & steps) const
+{
+  const Index<3> & first = m_Region.GetIndex();
+  const FCCLattice::SiteType site =
+    FCCLattice::SiteOf({ { first[0] + index[0] - 1, first[1] + index[1] - 1, first[2] + index[2] - 1 } });
+  const auto point = m_Image.TransformLatticeToPhysicalPoint<double>(
+    Add({ static_cast<double>(site[0]), static_cast<double>(site[1]), static_cast<double>(site[2]) }, steps));
+  return ToPoint({ point[0], point[1], point[2] });
+}
+
 FCCLabelBox::Plane::Plane(const FCCLabelBox & box, SizeValueType k)
   : m_Stride(box.GetNumberOfWords() * FCCBits::WordBits + 2)
   , m_Labels(box.GetHeight() * m_Stride)
@@ -24,8 +55,8 @@ FCCLabelBox::Plane::Plane(const FCCLabelBox & box, SizeValueType k)
     SizeValueType row = 0;
     if (box.FindImageRow(j, k, row))
     {
-      const SizeValueType width = box.m_ImageSize[0];
-      std::copy_n(box.m_Labels + row * width, width, m_Labels.data() + j * m_Stride + 2);
+      const SizeValueType width = box.m_Region.GetSize(0);
+      std::copy_n(box.m_Image.GetBufferPointer() + row * width, width, m_Labels.data() + j * m_Stride + 2);
     }
   }
 }
@@ -80,7 +111,7 @@ FCCLabelPlane::FindFacesAndTetrahedra(const FCCLabelPlane & next)
       {
         if (FCCCells::SizeOf(set) == 2)
         {
-          const FCCLabelPart cut(m_Box, *this, next, j, type, set);
+          const FCCLabelPart cut = this->GetPart(next, j, type, set);
           for (SizeValueType word = 0; word < m_Box.GetNumberOfWords(); ++word)
           {
             bits[word] &= cut.GetBits(word);
@@ -91,18 +122,14 @@ FCCLabelPlane::FindFacesAndTetrahedra(const FCCLabelPlane & next)
   }
 }
 
-FCCLabelPart::FCCLabelPart(const FCCLabelBox & box,
-                           const FCCLabelPlane & plane,
-                           const FCCLabelPlane & next,
-                           SizeValueType j,
-                           unsigned int type,
-                           unsigned int set)
+FCCLabelPart
+FCCLabelPlane::GetPart(const FCCLabelPlane & next, SizeValueType j, unsigned int type, unsigned int set) const
 {
   const FCCCells::Simplex & simplex = FCCCells::Simplices[type];
   const FCCCells::Part & part = simplex.parts[set];
   const FCCLattice::SiteType & step = simplex.steps[part.site];
-  row = (step[2] == 0 ? plane : next).GetRow(j + static_cast<SizeValueType>(step[1]), part.type);
-  shift = FCCLattice::OffsetOf(step, box.GetParity(j, plane.GetPlane()))[0];
+  return { (step[2] == 0 ? *this : next).GetRow(j + static_cast<SizeValueType>(step[1]), part.type),
+           FCCLattice::OffsetOf(step, m_Box.GetParity(j, m_K))[0] };
 }
 
 } // namespace itk

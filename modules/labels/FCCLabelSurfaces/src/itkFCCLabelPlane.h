@@ -2,7 +2,10 @@
 #define itkFCCLabelPlane_h
 
 #include "detail/itkFCCBitRows.h"
+#include "detail/itkPositionArithmetic.h"
+#include "itkFCCImage.h"
 #include "itkFCCLabelCells.h"
+#include "itkFCCLabelWeights.h"
 
 #include <vector>
 
@@ -10,39 +13,39 @@ namespace itk
 {
 
 /** \class FCCLabelBox
- * \brief The box of sites whose labels are compared: the image and a layer of outside around it.
+ * \brief The box of sites whose labels are compared: the image and a layer of outside around it, in which all weights
+ * are those of outside.
  *
- * Reads labels a plane at a time, in rows with a spare site at either end, so that the label at one step is always in
- * memory. */
+ * Indices are counted from the box's first site. */
 class FCCLabelBox
 {
 public:
-  using LabelType = std::uint16_t;
-  using SizeType = std::array<SizeValueType, 3>;
+  using LabelType = FCCLabelWeights::LabelType;
+  using ImageType = FCCImage<LabelType>;
 
-  /** \param labels of the image, rows along x
-   * \param parity of the image's first row */
-  FCCLabelBox(const LabelType * labels, const SizeType & size, IndexValueType parity)
-    : m_Labels(labels)
-    , m_ImageSize(size)
-    , m_Parity(parity)
+  /** \param weights may be null */
+  FCCLabelBox(const ImageType & image, const FCCLabelWeights * weights)
+    : m_Image(image)
+    , m_Weights(weights)
+    , m_Region(image.GetLargestPossibleRegion())
   {}
 
   SizeValueType
   GetWidth() const
   {
-    return m_ImageSize[0] + 2;
+    return m_Region.GetSize(0) + 2;
   }
   SizeValueType
   GetHeight() const
   {
-    return m_ImageSize[1] + 2;
+    return m_Region.GetSize(1) + 2;
   }
   SizeValueType
   GetDepth() const
   {
-    return m_ImageSize[2] + 2;
+    return m_Region.GetSize(2) + 2;
   }
+
   /** Whether the simplices of a type that a row stores are in the box's rows. */
   bool
   HasSimplices(SizeValueType j, SizeValueType k, unsigned int type) const;
@@ -58,16 +61,29 @@ public:
   IndexValueType
   GetParity(SizeValueType j, SizeValueType k) const
   {
-    return (m_Parity + static_cast<IndexValueType>(j + k)) & 1;
+    return FCCLattice::Parity(m_Region.GetIndex(1) + static_cast<IndexValueType>(j),
+                              m_Region.GetIndex(2) + static_cast<IndexValueType>(k));
   }
 
-  /** The row of the image that a row of the box is; false for the layer around it. */
-  bool
-  FindImageRow(SizeValueType j, SizeValueType k, SizeValueType & row) const
+  /** The index of the site at a step from the site at an index. */
+  Index<3>
+  Step(const Index<3> & from, const FCCLattice::SiteType & step) const
   {
-    row = (k - 1) * m_ImageSize[1] + j - 1;
-    return j >= 1 && k >= 1 && j <= m_ImageSize[1] && k <= m_ImageSize[2];
+    return from + FCCLattice::OffsetOf(
+                    step, this->GetParity(static_cast<SizeValueType>(from[1]), static_cast<SizeValueType>(from[2])));
   }
+
+  /** The label of a site; 0 outside of the image. */
+  LabelType
+  GetLabel(const Index<3> & site) const;
+
+  /** The weight of a label at a site, stored or not (see FCCLabelWeights). */
+  double
+  GetWeight(const Index<3> & site, LabelType label) const;
+
+  /** The point in the world at some lattice steps from the site at an index. */
+  TriangleSurface::PointType
+  GetPoint(const Index<3> & index, const PositionType & steps) const;
 
   /** Labels of a plane; labels past the box are 0. */
   class Plane
@@ -88,9 +104,46 @@ public:
   };
 
 private:
-  const LabelType * m_Labels;
-  SizeType m_ImageSize;
-  IndexValueType m_Parity;
+  /** The row of the image that a row of the box is; false for the layer around it. */
+  bool
+  FindImageRow(SizeValueType j, SizeValueType k, SizeValueType & row) const
+  {
+    row = (k - 1) * m_Region.GetSize(1) + j - 1;
+    return j >= 1 && k >= 1 && j <= m_Region.GetSize(1) && k <= m_Region.GetSize(2);
+  }
+
+  /** The row of the image that a site is in; false for the layer around it. */
+  bool
+  FindImageRow(const Index<3> & site, SizeValueType & row) const
+  {
+    return site[0] >= 1 && static_cast<SizeValueType>(site[0]) <= m_Region.GetSize(0) &&
+           this->FindImageRow(static_cast<SizeValueType>(site[1]), static_cast<SizeValueType>(site[2]), row);
+  }
+
+  const ImageType & m_Image;
+  const FCCLabelWeights * m_Weights;
+  ImageRegion<3> m_Region;
+};
+
+/** \class FCCLabelPart
+ * \brief The points of a part of the simplices of one type that a row of sites stores. */
+struct FCCLabelPart
+{
+  FCCNumberedBits::Row row;
+  IndexValueType shift; ///< from the simplex's lowest site to the part's, in indices
+
+  std::uint32_t
+  GetNumber(SizeValueType i) const
+  {
+    return row.GetNumber(i + static_cast<SizeValueType>(shift));
+  }
+
+  /** The simplices of one word whose part has a point. */
+  FCCBits::WordType
+  GetBits(SizeValueType word) const
+  {
+    return FCCBits::Shifted(row.bits, word, shift);
+  }
 };
 
 /** \class FCCLabelPlane
@@ -101,9 +154,6 @@ private:
 class FCCLabelPlane
 {
 public:
-  using Row = FCCNumberedBits::Row;
-  using WordType = FCCBits::WordType;
-
   explicit FCCLabelPlane(const FCCLabelBox & box);
 
   /** Finds the cut edges that plane \a k stores. */
@@ -127,54 +177,34 @@ public:
     m_Bits.Number(first);
   }
 
+  const FCCLabelBox &
+  GetBox() const
+  {
+    return m_Box;
+  }
+
   SizeValueType
   GetPlane() const
   {
     return m_K;
   }
 
-  Row
+  FCCNumberedBits::Row
   GetRow(SizeValueType j, unsigned int type) const
   {
     return m_Bits.GetNumberedRow(j * FCCCells::Types + type);
   }
 
+  /** A part of the simplices of some type that the j-th row stores.
+   * \param next the next plane
+   * \param set sites of the part, bit n for the n-th of the simplex */
+  FCCLabelPart
+  GetPart(const FCCLabelPlane & next, SizeValueType j, unsigned int type, unsigned int set) const;
+
 private:
   const FCCLabelBox & m_Box;
   SizeValueType m_K{ 0 };
   FCCNumberedBits m_Bits;
-};
-
-/** \class FCCLabelPart
- * \brief The points of a part of the simplices of one type that a row of sites stores. */
-struct FCCLabelPart
-{
-  FCCLabelPlane::Row row;
-  IndexValueType shift; ///< from the simplex's lowest site to the part's, in indices
-
-  /** The row is the j-th of a plane.
-   * \param next the next plane
-   * \param type of the simplices
-   * \param set sites of the part, bit n for the n-th of the simplex */
-  FCCLabelPart(const FCCLabelBox & box,
-               const FCCLabelPlane & plane,
-               const FCCLabelPlane & next,
-               SizeValueType j,
-               unsigned int type,
-               unsigned int set);
-
-  std::uint32_t
-  GetNumber(SizeValueType i) const
-  {
-    return row.GetNumber(i + static_cast<SizeValueType>(shift));
-  }
-
-  /** The simplices of one word whose part has a point. */
-  FCCLabelPlane::WordType
-  GetBits(SizeValueType word) const
-  {
-    return FCCBits::Shifted(row.bits, word, shift);
-  }
 };
 
 } // namespace itk

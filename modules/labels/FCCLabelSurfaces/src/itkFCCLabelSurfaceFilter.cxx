@@ -2,14 +2,14 @@
 
 #include "detail/itkForEachSlab.h"
 #include "itkFCCLabelPlane.h"
-#include "itkFCCLabelTie.h"
 #include "itkInputSamples.h"
 #include "itkWorkProgress.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
-#include <optional>
+#include <utility>
 
 namespace itk
 {
@@ -71,17 +71,14 @@ private:
 class TetrahedraRow
 {
 public:
-  TetrahedraRow(const FCCLabelBox & box,
-                const FCCLabelPlane & plane,
-                const FCCLabelPlane & next,
-                SizeValueType j,
-                unsigned int type)
+  TetrahedraRow(const FCCLabelPlane & plane, const FCCLabelPlane & next, SizeValueType j, unsigned int type)
+    : m_Words(plane.GetBox().GetNumberOfWords())
   {
     for (unsigned int set = 1; set < 16; ++set)
     {
       if (FCCCells::SizeOf(set) >= 2)
       {
-        m_Parts[set].emplace(box, plane, next, j, type, set);
+        m_Parts[set] = plane.GetPart(next, j, type, set);
       }
     }
   }
@@ -89,9 +86,9 @@ public:
   /** Calls use(i, found) for the tetrahedra that walls pass, in the case \a found. */
   template <typename TUse>
   void
-  ForEach(SizeValueType words, const TUse & use) const
+  ForEach(const TUse & use) const
   {
-    for (SizeValueType word = 0; word < words; ++word)
+    for (SizeValueType word = 0; word < m_Words; ++word)
     {
       WordType cut[6];
       WordType active = 0;
@@ -99,7 +96,7 @@ public:
       {
         for (unsigned int b = a + 1; b < 4; ++b)
         {
-          const WordType bits = m_Parts[1u << a | 1u << b]->GetBits(word);
+          const WordType bits = m_Parts[1u << a | 1u << b].GetBits(word);
           cut[Cells::EdgeBetween(a, b)] = bits;
           active |= bits;
         }
@@ -118,154 +115,140 @@ public:
   std::uint32_t
   GetNumber(unsigned int set, SizeValueType i) const
   {
-    return m_Parts[set]->GetNumber(i);
+    return m_Parts[set].GetNumber(i);
   }
 
 private:
-  std::optional<FCCLabelPart> m_Parts[16];
+  SizeValueType m_Words;
+  FCCLabelPart m_Parts[16]{}; ///< by the set of their sites, from two sites on
 };
 
 /** Calls use(row, j, type) for the rows of tetrahedra that a plane stores. */
 template <typename TUse>
 void
-ForEachTetrahedraRow(const FCCLabelBox & box, const FCCLabelPlane & plane, const FCCLabelPlane & next, const TUse & use)
+ForEachTetrahedraRow(const FCCLabelPlane & plane, const FCCLabelPlane & next, const TUse & use)
 {
+  const FCCLabelBox & box = plane.GetBox();
   for (SizeValueType j = 0; j < box.GetHeight(); ++j)
   {
     for (unsigned int type = FCCCells::FirstTetrahedron; type < FCCCells::Types; ++type)
     {
       if (box.HasSimplices(j, plane.GetPlane(), type))
       {
-        use(TetrahedraRow(box, plane, next, j, type), j, type);
+        use(TetrahedraRow(plane, next, j, type), j, type);
       }
     }
   }
 }
 
 SizeValueType
-CountTriangles(const FCCLabelBox & box, const FCCLabelPlane & plane, const FCCLabelPlane & next)
+CountTriangles(const FCCLabelPlane & plane, const FCCLabelPlane & next)
 {
   SizeValueType count = 0;
-  ForEachTetrahedraRow(box, plane, next, [&](const TetrahedraRow & row, SizeValueType, unsigned int) {
-    row.ForEach(box.GetNumberOfWords(), [&](SizeValueType, const Cells::Case & found) { count += found.size; });
+  ForEachTetrahedraRow(plane, next, [&](const TetrahedraRow & row, SizeValueType, unsigned int) {
+    row.ForEach([&](SizeValueType, const Cells::Case & found) { count += found.size; });
   });
   return count;
 }
 
-/** Labels and weights at sites of the box. */
-class SiteReader
+using Coordinates = std::array<double, 4>;
+
+/** Solves the rows a x = b of \a size equations, each row being a and b, by elimination with pivots. Returns whether
+ * there is one solution. */
+bool
+Solve(double (&rows)[4][5], unsigned int size, Coordinates & solution)
 {
-public:
-  SiteReader(const FCCLabelBox & box,
-             const FCCLabelSurfaceFilter::InputImageType & image,
-             const FCCLabelWeights * weights)
-    : m_Box(box)
-    , m_Image(image)
-    , m_Weights(weights)
-  {}
-
-  FCCLabelBox::LabelType
-  GetLabel(const Index<3> & site) const
+  constexpr double singular = 1e-9; // weights are float32 of the size of 1
+  for (unsigned int column = 0; column < size; ++column)
   {
-    SizeValueType row = 0;
-    return this->FindRow(site, row)
-             ? m_Image.GetBufferPointer()[row * this->GetWidth() + static_cast<SizeValueType>(site[0] - 1)]
-             : 0;
+    unsigned int pivot = column;
+    for (unsigned int row = column + 1; row < size; ++row)
+    {
+      pivot = std::abs(rows[row][column]) > std::abs(rows[pivot][column]) ? row : pivot;
+    }
+    if (!(std::abs(rows[pivot][column]) > singular))
+    {
+      return false;
+    }
+    std::swap(rows[pivot], rows[column]);
+    for (unsigned int row = 0; row < size; ++row)
+    {
+      const double factor = row == column ? 0.0 : rows[row][column] / rows[column][column];
+      for (unsigned int n = column; factor != 0.0 && n <= size; ++n)
+      {
+        rows[row][n] -= factor * rows[column][n];
+      }
+    }
   }
-
-  double
-  GetWeight(const Index<3> & site, FCCLabelBox::LabelType label) const
+  for (unsigned int n = 0; n < size; ++n)
   {
-    SizeValueType row = 0;
-    const float * const weight = m_Weights != nullptr && this->FindRow(site, row)
-                                   ? m_Weights->Find(row, static_cast<std::uint32_t>(site[0] - 1), label)
-                                   : nullptr;
-    const auto limit = static_cast<double>(FCCLabelWeights::Limit);
-    return weight != nullptr ? static_cast<double>(*weight) : this->GetLabel(site) == label ? limit : -limit;
+    solution[n] = rows[n][size] / rows[n][n];
   }
+  return true;
+}
 
-private:
-  SizeValueType
-  GetWidth() const
-  {
-    return m_Box.GetWidth() - 2;
-  }
-
-  bool
-  FindRow(const Index<3> & site, SizeValueType & row) const
-  {
-    return site[0] >= 1 && static_cast<SizeValueType>(site[0]) <= this->GetWidth() &&
-           m_Box.FindImageRow(static_cast<SizeValueType>(site[1]), static_cast<SizeValueType>(site[2]), row);
-  }
-
-  const FCCLabelBox & m_Box;
-  const FCCLabelSurfaceFilter::InputImageType & m_Image;
-  const FCCLabelWeights * m_Weights;
-};
-
-/** Where the indices of the box lie in the world. */
-class BoxFrame
+/** Barycentric coordinates of the point of a simplex where the weights of its sites' labels are equal. Where the
+ * weights, which are linear, tie outside of the simplex, the point is moved towards the simplex's middle until each
+ * coordinate is at least MinimumFraction. The middle if they tie nowhere.
+ *
+ * \param size sites of the simplex: 2, 3 or 4
+ * \param weights by site and label: [site][n] is the weight at a site of the label of the n-th site */
+Coordinates
+FindTie(unsigned int size, const double (&weights)[4][4])
 {
-public:
-  BoxFrame(const FCCLabelBox & box, const FCCLabelSurfaceFilter::InputImageType & image)
-    : m_Box(box)
-    , m_Image(image)
-    , m_First(image.GetLargestPossibleRegion().GetIndex())
-  {}
-
-  /** The index in the box of the site at a step from the site at an index. */
-  Index<3>
-  Step(const Index<3> & from, const FCCLattice::SiteType & step) const
+  constexpr double least = FCCLabelSurfaceFilter::MinimumFraction;
+  const unsigned int last = size - 1;
+  double rows[4][5] = {};
+  for (unsigned int site = 0; site < size; ++site)
   {
-    return from + FCCLattice::OffsetOf(
-                    step, m_Box.GetParity(static_cast<SizeValueType>(from[1]), static_cast<SizeValueType>(from[2])));
+    for (unsigned int label = 0; label < last; ++label)
+    {
+      rows[label][site] = weights[site][label] - weights[site][last];
+    }
+    rows[last][site] = 1.0;
   }
-
-  /** The point at some lattice steps from the site at an index of the box. */
-  TriangleSurface::PointType
-  GetPoint(const Index<3> & index, const std::array<double, 3> & steps) const
+  rows[last][size] = 1.0;
+  const double middle = 1.0 / size;
+  Coordinates found{};
+  Coordinates point{};
+  if (!Solve(rows, size, found))
   {
-    const Index<3> inImage{ { m_First[0] + index[0] - 1, m_First[1] + index[1] - 1, m_First[2] + index[2] - 1 } };
-    const FCCLattice::SiteType site = FCCLattice::SiteOf(inImage);
-    const auto point = m_Image.TransformLatticeToPhysicalPoint<double>({ static_cast<double>(site[0]) + steps[0],
-                                                                         static_cast<double>(site[1]) + steps[1],
-                                                                         static_cast<double>(site[2]) + steps[2] });
-    return { static_cast<float>(point[0]), static_cast<float>(point[1]), static_cast<float>(point[2]) };
+    std::fill_n(point.begin(), size, middle);
+    return point;
   }
-
-  bool
-  IsLeftHanded() const
+  double scale = 1.0; // of the way from the middle
+  for (unsigned int n = 0; n < size; ++n)
   {
-    return vnl_determinant(m_Image.GetDirection().GetVnlMatrix()) < 0.0;
+    scale = found[n] < least ? std::min(scale, (middle - least) / (middle - found[n])) : scale;
   }
-
-private:
-  const FCCLabelBox & m_Box;
-  const FCCLabelSurfaceFilter::InputImageType & m_Image;
-  Index<3> m_First;
-};
+  for (unsigned int n = 0; n < size; ++n)
+  {
+    point[n] = middle + scale * (found[n] - middle);
+  }
+  return point;
+}
 
 /** The point of a simplex of some type at the site of an index. */
 TriangleSurface::PointType
-PlacePoint(const SiteReader & reader, const BoxFrame & frame, const Index<3> & index, unsigned int type)
+PlacePoint(const FCCLabelBox & box, const Index<3> & index, unsigned int type)
 {
   const FCCCells::Simplex & simplex = FCCCells::Simplices[type];
   Index<3> sites[4];
   for (unsigned int n = 0; n < simplex.size; ++n)
   {
-    sites[n] = frame.Step(index, simplex.steps[n]);
+    sites[n] = box.Step(index, simplex.steps[n]);
   }
   double weights[4][4] = {};
   for (unsigned int n = 0; n < simplex.size; ++n)
   {
-    const auto label = reader.GetLabel(sites[n]);
+    const auto label = box.GetLabel(sites[n]);
     for (unsigned int site = 0; site < simplex.size; ++site)
     {
-      weights[site][n] = reader.GetWeight(sites[site], label);
+      weights[site][n] = box.GetWeight(sites[site], label);
     }
   }
-  const auto coordinates = FindFCCLabelTie(simplex.size, weights, FCCLabelSurfaceFilter::MinimumFraction);
-  std::array<double, 3> steps{};
+  const Coordinates coordinates = FindTie(simplex.size, weights);
+  PositionType steps{};
   for (unsigned int n = 0; n < simplex.size; ++n)
   {
     for (unsigned int axis = 0; axis < 3; ++axis)
@@ -273,7 +256,7 @@ PlacePoint(const SiteReader & reader, const BoxFrame & frame, const Index<3> & i
       steps[axis] += coordinates[n] * static_cast<double>(simplex.steps[n][axis]);
     }
   }
-  return frame.GetPoint(index, steps);
+  return box.GetPoint(index, steps);
 }
 
 Index<3>
@@ -283,40 +266,35 @@ BoxIndex(SizeValueType i, SizeValueType j, SizeValueType k)
 }
 
 void
-FillPoints(const FCCLabelBox & box,
-           const FCCLabelPlane & plane,
-           const SiteReader & reader,
-           const BoxFrame & frame,
-           TriangleSurface::PointType * points)
+FillPoints(const FCCLabelPlane & plane, TriangleSurface::PointType * points)
 {
+  const FCCLabelBox & box = plane.GetBox();
   for (SizeValueType j = 0; j < box.GetHeight(); ++j)
   {
     for (unsigned int type = 0; type < FCCCells::Types; ++type)
     {
       FCCBits::ForEach(plane.GetRow(j, type).bits, box.GetNumberOfWords(), [&](SizeValueType i) {
-        *points++ = PlacePoint(reader, frame, BoxIndex(i, j, plane.GetPlane()), type);
+        *points++ = PlacePoint(box, BoxIndex(i, j, plane.GetPlane()), type);
       });
     }
   }
 }
 
 void
-FillTriangles(const FCCLabelBox & box,
-              const FCCLabelPlane & plane,
+FillTriangles(const FCCLabelPlane & plane,
               const FCCLabelPlane & next,
-              const SiteReader & reader,
-              const BoxFrame & frame,
+              bool isLeftHanded,
               TriangleSurface::TriangleType * triangles,
               LabelWalls::LabelPairType * pairs)
 {
-  const bool isLeftHanded = frame.IsLeftHanded();
-  ForEachTetrahedraRow(box, plane, next, [&](const TetrahedraRow & row, SizeValueType j, unsigned int type) {
+  const FCCLabelBox & box = plane.GetBox();
+  ForEachTetrahedraRow(plane, next, [&](const TetrahedraRow & row, SizeValueType j, unsigned int type) {
     const FCCCells::Simplex & simplex = FCCCells::Simplices[type];
-    row.ForEach(box.GetNumberOfWords(), [&](SizeValueType i, const Cells::Case & found) {
+    row.ForEach([&](SizeValueType i, const Cells::Case & found) {
       LabelWalls::LabelType labels[4];
       for (unsigned int n = 0; n < 4; ++n)
       {
-        labels[n] = reader.GetLabel(frame.Step(BoxIndex(i, j, plane.GetPlane()), simplex.steps[n]));
+        labels[n] = box.GetLabel(box.Step(BoxIndex(i, j, plane.GetPlane()), simplex.steps[n]));
       }
       for (unsigned int n = 0; n < found.size; ++n)
       {
@@ -333,33 +311,14 @@ FillTriangles(const FCCLabelBox & box,
   });
 }
 
-} // namespace
-
-void
-FCCLabelSurfaceFilter::Fill(const FCCLabelBox & box,
-                            SizeValueType begin,
-                            SizeValueType end,
-                            const std::vector<Counts> & before)
+/** Numbers of points and triangles, of a plane or before it. */
+struct Counts
 {
-  const SiteReader reader(box, *this->GetInput(), this->GetWeights());
-  const BoxFrame frame(box, *this->GetInput());
-  LabelWalls & walls = *this->GetOutput();
-  PlaneWindow window(box, begin);
-  for (SizeValueType k = begin; k < end; ++k)
-  {
-    window.Get(0).Number(static_cast<std::uint32_t>(before[k].points));
-    window.Get(1).Number(static_cast<std::uint32_t>(before[k + 1].points));
-    FillPoints(box, window.Get(0), reader, frame, walls.GetPoints().data() + before[k].points);
-    FillTriangles(box,
-                  window.Get(0),
-                  window.Get(1),
-                  reader,
-                  frame,
-                  walls.GetTriangles().data() + before[k].triangles,
-                  walls.GetTriangleLabels().data() + before[k].triangles);
-    window.Advance();
-  }
-}
+  SizeValueType points = 0;
+  SizeValueType triangles = 0;
+};
+
+} // namespace
 
 void
 FCCLabelSurfaceFilter::GenerateData()
@@ -377,25 +336,24 @@ FCCLabelSurfaceFilter::GenerateData()
     itkExceptionMacro("There are weights of " << this->GetWeights()->GetNumberOfRows() << " rows, but the image has "
                                               << rows << "; the weights must be those of the same image.");
   }
-  const FCCLabelBox box(image.GetBufferPointer(),
-                        { region.GetSize(0), region.GetSize(1), region.GetSize(2) },
-                        FCCLattice::Parity(region.GetIndex(1), region.GetIndex(2)));
+  const FCCLabelBox box(image, this->GetWeights());
+  const bool isLeftHanded = vnl_determinant(image.GetDirection().GetVnlMatrix()) < 0.0;
   WorkProgress progress(*this, 2 * box.GetDepth());
-  const auto forEachSlab = [&](const auto & work) {
+  const auto forEachPlane = [&](const auto & work) { // calls work(k, window of the planes from k on)
     ForEachSlab(*this, box.GetDepth(), 1, 64, [&](SizeValueType begin, SizeValueType end) {
       progress.CheckAbort();
-      work(begin, end);
+      PlaneWindow window(box, begin);
+      for (SizeValueType k = begin; k < end; ++k)
+      {
+        work(k, window);
+        window.Advance();
+      }
       progress.Completed(end - begin);
     });
   };
   std::vector<Counts> before(box.GetDepth() + 1); // first the counts of plane k at k + 1
-  forEachSlab([&](SizeValueType begin, SizeValueType end) {
-    PlaneWindow window(box, begin);
-    for (SizeValueType k = begin; k < end; ++k)
-    {
-      before[k + 1] = { window.Get(0).Count(), CountTriangles(box, window.Get(0), window.Get(1)) };
-      window.Advance();
-    }
+  forEachPlane([&](SizeValueType k, PlaneWindow & window) {
+    before[k + 1] = { window.Get(0).Count(), CountTriangles(window.Get(0), window.Get(1)) };
   });
   for (SizeValueType k = 0; k < box.GetDepth(); ++k)
   {
@@ -412,7 +370,16 @@ FCCLabelSurfaceFilter::GenerateData()
   walls.GetPoints().resize(before.back().points);
   walls.GetTriangles().resize(before.back().triangles);
   walls.GetTriangleLabels().resize(before.back().triangles);
-  forEachSlab([&](SizeValueType begin, SizeValueType end) { this->Fill(box, begin, end, before); });
+  forEachPlane([&](SizeValueType k, PlaneWindow & window) {
+    window.Get(0).Number(static_cast<std::uint32_t>(before[k].points));
+    window.Get(1).Number(static_cast<std::uint32_t>(before[k + 1].points));
+    FillPoints(window.Get(0), walls.GetPoints().data() + before[k].points);
+    FillTriangles(window.Get(0),
+                  window.Get(1),
+                  isLeftHanded,
+                  walls.GetTriangles().data() + before[k].triangles,
+                  walls.GetTriangleLabels().data() + before[k].triangles);
+  });
   progress.Finish();
 }
 
