@@ -33,8 +33,9 @@ RelaxLabelWalls(LabelWalls & walls,
  *
  * Points on the curves where walls meet collapse along these, and points where curves meet stay, so that the surface of
  * each label keeps its topology. Distances are checked wall by wall: each wall, in both directions, against the same
- * wall before. A tenth of maximumError is kept for moving walls at the end, so that labels keep their volumes; if
- * maximumError is infinite, volumes are not restored. Reports and throws as SimplifyTriangleSurface() does. */
+ * wall before. A tenth of maximumError is kept for RelaxLabelWalls() without iterations at the end, so that labels keep
+ * their volumes; if maximumError is infinite, volumes are not restored. Reports and throws as SimplifyTriangleSurface()
+ * does. */
 TriangleSurfaceSimplificationReport
 SimplifyLabelWalls(LabelWalls & walls,
                    const TriangleSurfaceSimplificationSettings & settings,

@@ -117,13 +117,10 @@ SimplifyLabelWalls(LabelWalls & walls,
   std::transform(sheets.begin(), sheets.end(), labels.begin(), [&pairs](std::uint32_t sheet) { return pairs[sheet]; });
   if (std::isfinite(settings.maximumError))
   {
-    const TrianglesOfPoints fans(walls);
-    BoundedMoves moves(walls, fans, ShareForVolumes * settings.maximumError);
-    const PointStrata strata = FindStrata(walls, fans);
-    rhombic::StagedProgress progress(reportFrom(1.0 - shareOfVolumes, shareOfVolumes));
-    RestoreVolumes(walls, volumes, fans, strata, moves, progress, 0.5);
-    moves.PutBackMeeting(progress, 1.0);
-    moves.Finish(strata);
+    TriangleSurfaceSmoothingSettings volumesOnly;
+    volumesOnly.iterations = 0;
+    volumesOnly.maximumMove = ShareForVolumes * settings.maximumError;
+    RelaxLabelWalls(walls, volumesOnly, volumes, reportFrom(1.0 - shareOfVolumes, shareOfVolumes));
   }
   walls.Modified();
   return result;
