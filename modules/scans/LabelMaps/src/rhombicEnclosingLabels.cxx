@@ -20,30 +20,7 @@ struct Encounters
 {
   std::map<std::int32_t, std::size_t> rays;
   std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> before; ///< by the label in front and the one behind
-
-  /** \param labels of a ray, in the order in which it meets them first */
-  void
-  Add(const std::vector<std::int32_t> & labels)
-  {
-    for (std::size_t behind = 0; behind < labels.size(); ++behind)
-    {
-      ++rays[labels[behind]];
-      for (std::size_t front = 0; front < behind; ++front)
-      {
-        ++before[{ labels[front], labels[behind] }];
-      }
-    }
-  }
 };
-
-void
-AddUnlessThere(std::int32_t label, std::vector<std::int32_t> & labels)
-{
-  if (std::find(labels.begin(), labels.end(), label) == labels.end())
-  {
-    labels.push_back(label);
-  }
-}
 
 /** Voxels [begin, end) of a ray that have one label. */
 struct Run
@@ -86,12 +63,23 @@ AddRuns(const TImage & image,
   }
 }
 
+/** Counts a ray that meets runs in their order. */
 void
-AddLabels(const std::vector<Run> & runs, Encounters & encounters)
+AddRay(const std::vector<Run> & runs, Encounters & encounters)
 {
-  std::vector<std::int32_t> labels;
-  std::for_each(runs.begin(), runs.end(), [&labels](const Run & run) { AddUnlessThere(run.label, labels); });
-  encounters.Add(labels);
+  std::vector<std::int32_t> labels; // in the order in which the ray meets them first
+  for (const Run & run : runs)
+  {
+    if (std::find(labels.begin(), labels.end(), run.label) == labels.end())
+    {
+      ++encounters.rays[run.label];
+      for (const std::int32_t front : labels)
+      {
+        ++encounters.before[{ front, run.label }];
+      }
+      labels.push_back(run.label);
+    }
+  }
 }
 
 /** Follows rays along an axis, in both directions. Where labels of several layers begin at one voxel, the first layer
@@ -122,9 +110,9 @@ FollowRays(const std::vector<ScanImage> & layers,
           layer);
       }
       std::stable_sort(runs.begin(), runs.end(), [](const Run & a, const Run & b) { return a.begin < b.begin; });
-      AddLabels(runs, encounters);
+      AddRay(runs, encounters);
       std::stable_sort(runs.begin(), runs.end(), [](const Run & a, const Run & b) { return a.end > b.end; });
-      AddLabels(runs, encounters);
+      AddRay(runs, encounters);
     }
   }
 }

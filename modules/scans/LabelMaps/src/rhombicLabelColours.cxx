@@ -22,24 +22,11 @@ using TouchingLabels = std::map<std::int32_t, std::set<std::int32_t>>;
 /** Smallest distance, in OKLab, of the colours of labels that touch. */
 constexpr double NotableDistance = 0.045;
 
-/** Pairs of values that are not 0. */
-using LabelPairs = std::set<std::pair<std::int32_t, std::int32_t>>;
-
-/** The values of a layer that share a face of a voxel with each other. */
-template <typename TImage>
+/** Calls add(value, other value) for the voxels of a layer that share a face. */
+template <typename TImage, typename TAdd>
 void
-AddTouching(const TImage & image, LabelPairs & pairs)
+AddTouching(const TImage & image, const TAdd & add)
 {
-  std::pair<std::int32_t, std::int32_t> last{ 0, 0 }; // neighbours in a row mostly repeat it
-  const auto add = [&](auto first, auto second) {
-    const std::pair<std::int32_t, std::int32_t> pair{ static_cast<std::int32_t>(first),
-                                                      static_cast<std::int32_t>(second) };
-    if (pair.first != pair.second && pair.first != 0 && pair.second != 0 && pair != last)
-    {
-      pairs.insert(pair);
-      last = pair;
-    }
-  };
   const auto & size = image.GetBufferedRegion().GetSize();
   const auto * const voxels = image.GetBufferPointer();
   const std::size_t row = size[0];
@@ -68,44 +55,40 @@ AddTouching(const TImage & image, LabelPairs & pairs)
   }
 }
 
-/** The values of two layers that share a voxel. */
-template <typename TImage, typename TOtherImage>
-void
-AddOverlapping(const TImage & image, const TOtherImage & other, LabelPairs & pairs)
-{
-  std::pair<std::int32_t, std::int32_t> last{ 0, 0 };
-  const std::size_t voxels = image.GetBufferedRegion().GetNumberOfPixels();
-  for (std::size_t n = 0; n < voxels; ++n)
-  {
-    const std::pair<std::int32_t, std::int32_t> pair{ static_cast<std::int32_t>(image.GetBufferPointer()[n]),
-                                                      static_cast<std::int32_t>(other.GetBufferPointer()[n]) };
-    if (pair.first != 0 && pair.second != 0 && pair != last)
-    {
-      pairs.insert(pair);
-      last = pair;
-    }
-  }
-}
-
 /** The values that touch or overlap each other, without the background. */
 TouchingLabels
 FindTouchingLabels(const Scan & scan)
 {
   const std::vector<ScanImage> layers = LayersOf(scan);
-  LabelPairs pairs;
+  std::set<std::pair<std::int32_t, std::int32_t>> pairs;
+  std::pair<std::int32_t, std::int32_t> last{ 0, 0 }; // neighbours in a row mostly repeat it
+  const auto add = [&pairs, &last](auto first, auto second) {
+    const std::pair pair{ static_cast<std::int32_t>(first), static_cast<std::int32_t>(second) };
+    if (pair.first != pair.second && pair.first != 0 && pair.second != 0 && pair != last)
+    {
+      pairs.insert(pair);
+      last = pair;
+    }
+  };
   for (std::size_t n = 0; n < layers.size(); ++n)
   {
-    std::visit([&pairs](const auto & image) { AddTouching(*image, pairs); }, layers[n]);
+    std::visit([&add](const auto & image) { AddTouching(*image, add); }, layers[n]);
     for (std::size_t other = 0; other < n; ++other)
     {
-      std::visit([&pairs](const auto & a, const auto & b) { AddOverlapping(*a, *b, pairs); }, layers[n], layers[other]);
+      const auto addOverlapping = [&add](const auto & a, const auto & b) {
+        for (std::size_t voxel = 0; voxel < a->GetBufferedRegion().GetNumberOfPixels(); ++voxel)
+        {
+          add(a->GetBufferPointer()[voxel], b->GetBufferPointer()[voxel]);
+        }
+      };
+      std::visit(addOverlapping, layers[n], layers[other]);
     }
   }
   TouchingLabels touching;
-  for (const auto & pair : pairs)
+  for (const auto & [first, second] : pairs)
   {
-    touching[pair.first].insert(pair.second);
-    touching[pair.second].insert(pair.first);
+    touching[first].insert(second);
+    touching[second].insert(first);
   }
   return touching;
 }

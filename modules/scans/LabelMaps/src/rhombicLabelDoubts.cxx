@@ -2,6 +2,8 @@
 
 #include "rhombicWording.h"
 
+#include "itkBoundingBox.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -80,14 +82,6 @@ TakeVoxels(const ScanImage & labels)
     labels);
 }
 
-/** The index in a grid of the voxel that a point is in; nothing outside the grid. */
-std::optional<itk::Index<3>>
-FindVoxel(const itk::ImageBase<3> & grid, const PointType & point)
-{
-  itk::Index<3> index;
-  return grid.TransformPhysicalPointToIndex(point, index) ? std::optional(index) : std::nullopt;
-}
-
 /** The scan's values at voxels of a map, with the voxels' labels; voxels outside the scan are left out. */
 struct LabelledValues
 {
@@ -119,9 +113,10 @@ ValuesAt(const Scan & scan,
         }
         PointType point;
         map.TransformIndexToPhysicalPoint(index, point);
-        const auto inScan = FindVoxel(grid, point + shift);
-        const double value =
-          inScan ? static_cast<double>(image->GetPixel(*inScan)) : std::numeric_limits<double>::quiet_NaN();
+        itk::Index<3> inScan;
+        const double value = grid.TransformPhysicalPointToIndex(point + shift, inScan)
+                               ? static_cast<double>(image->GetPixel(inScan))
+                               : std::numeric_limits<double>::quiet_NaN();
         if (std::isfinite(value))
         {
           found.labels.push_back(voxel.value);
@@ -162,54 +157,38 @@ struct Fit
   }
 };
 
-/** \class LabelFit
- * \brief How well labels part a scan's values, which are taken by their ranks. */
-class LabelFit
+double
+ShareBetween(const std::map<std::int32_t, Sums> & labels)
 {
-public:
-  /** \param reference values that the ranks are taken from */
-  explicit LabelFit(std::vector<double> reference)
-    : m_Sorted(std::move(reference))
+  Sums all;
+  double between = 0.0;
+  for (const auto & [value, sums] : labels)
   {
-    std::sort(m_Sorted.begin(), m_Sorted.end());
+    all.count += sums.count;
+    all.sum += sums.sum;
+    all.squares += sums.squares;
+    between += sums.sum * sums.sum / sums.count;
   }
+  const double square = all.count > 0.0 ? all.sum * all.sum / all.count : 0.0;
+  return all.squares > square ? (between - square) / (all.squares - square) : 0.0;
+}
 
-  Fit
-  Evaluate(const LabelledValues & values) const
+/** How well labels part a scan's values, which are taken by their ranks among sorted values. */
+Fit
+FindFit(const std::vector<double> & sorted, const LabelledValues & values)
+{
+  std::map<std::int32_t, Sums> labels;
+  for (std::size_t n = 0; n < values.values.size(); ++n)
   {
-    std::map<std::int32_t, Sums> labels;
-    for (std::size_t n = 0; n < values.values.size(); ++n)
-    {
-      const auto range = std::equal_range(m_Sorted.begin(), m_Sorted.end(), values.values[n]);
-      labels[values.labels[n]].Add(
-        static_cast<double>((range.first - m_Sorted.begin()) + (range.second - m_Sorted.begin())));
-    }
-    Fit fit;
-    fit.withBackground = ShareBetween(labels);
-    labels.erase(0);
-    fit.ofLabels = ShareBetween(labels);
-    return fit;
+    const auto range = std::equal_range(sorted.begin(), sorted.end(), values.values[n]);
+    labels[values.labels[n]].Add(static_cast<double>((range.first - sorted.begin()) + (range.second - sorted.begin())));
   }
-
-private:
-  static double
-  ShareBetween(const std::map<std::int32_t, Sums> & labels)
-  {
-    Sums all;
-    double between = 0.0;
-    for (const auto & [value, sums] : labels)
-    {
-      all.count += sums.count;
-      all.sum += sums.sum;
-      all.squares += sums.squares;
-      between += sums.sum * sums.sum / sums.count;
-    }
-    const double square = all.count > 0.0 ? all.sum * all.sum / all.count : 0.0;
-    return all.squares > square ? (between - square) / (all.squares - square) : 0.0;
-  }
-
-  std::vector<double> m_Sorted;
-};
+  Fit fit;
+  fit.withBackground = ShareBetween(labels);
+  labels.erase(0);
+  fit.ofLabels = ShareBetween(labels);
+  return fit;
+}
 
 /** A way to move a label map. */
 struct Move
@@ -273,14 +252,15 @@ FindBetterPlace(const Scan & scan,
   {
     return std::nullopt;
   }
-  const LabelFit labelFit(values.values);
-  const Fit fit = labelFit.Evaluate(values);
+  std::vector<double> sorted = values.values;
+  std::sort(sorted.begin(), sorted.end());
+  const Fit fit = FindFit(sorted, values);
   std::optional<Move> best;
   double bestProduct = muchBetter * fit.GetProduct();
   for (const Move & move : ListMoves(GeometryOf(map.scan.image)))
   {
     const LabelledValues moved = ValuesAt(scan, GeometryOf(map.scan.image), voxels, move.mirrors, move.shift);
-    const Fit movedFit = labelFit.Evaluate(moved);
+    const Fit movedFit = FindFit(sorted, moved);
     const bool isEnough =
       static_cast<double>(moved.values.size()) >= fewestInScan * static_cast<double>(values.values.size());
     if (isEnough && movedFit.GetProduct() > bestProduct && movedFit.withBackground > fit.withBackground &&
@@ -365,8 +345,8 @@ VolumeOf(const itk::ImageBase<3> & grid)
 std::pair<PointType, PointType>
 FindBox(const itk::ImageBase<3> & grid)
 {
-  const auto region = grid.GetLargestPossibleRegion();
-  std::pair<PointType, PointType> box;
+  const auto & region = grid.GetLargestPossibleRegion();
+  const auto corners = itk::BoundingBox<>::PointsContainer::New();
   for (unsigned int corner = 0; corner < 8; ++corner)
   {
     itk::Index<3> index = region.GetIndex();
@@ -374,15 +354,11 @@ FindBox(const itk::ImageBase<3> & grid)
     {
       index[axis] = (corner >> axis & 1u) != 0 ? region.GetUpperIndex()[axis] : index[axis];
     }
-    PointType point;
-    grid.TransformIndexToPhysicalPoint(index, point);
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      box.first[axis] = corner == 0 ? point[axis] : std::min(box.first[axis], point[axis]);
-      box.second[axis] = corner == 0 ? point[axis] : std::max(box.second[axis], point[axis]);
-    }
+    corners->InsertElement(corner, grid.TransformIndexToPhysicalPoint<double>(index));
   }
-  return box;
+  const auto box = itk::BoundingBox<>::New();
+  box->SetPoints(corners);
+  return { box->GetMinimum(), box->GetMaximum() };
 }
 
 /** \param inScan share of the map's voxels that are in the scan */
