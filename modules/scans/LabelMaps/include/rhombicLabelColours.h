@@ -9,8 +9,8 @@ namespace rhombic
 /** Where the colours of labels come from. */
 enum class LabelColours
 {
-  Anatomy,    ///< of names that are known, those of anatomical illustrations; of others, those of the label table
-  Table,      ///< those of the label table
+  Anatomy,    ///< for known names the colours of anatomical illustrations; for others the colours of the label table
+  Table,      ///< the colours of the label table
   ColourBlind ///< eight colours that colour-blind people tell apart (Okabe and Ito), and lighter and darker ones
 };
 

@@ -143,11 +143,7 @@ MakeDifferent(const ByteColour & colour, const std::vector<ByteColour> & others)
   for (const double fraction : { 0.0, 0.12, -0.12, 0.22, -0.22, 0.32, -0.32, 0.45, -0.45, 0.6 })
   {
     const ByteColour changed = Lighten(colour, fraction);
-    const double distance = SmallestDistance(changed, others);
-    if (distance >= NotableDistance)
-    {
-      return changed;
-    }
+    const double distance = std::min(NotableDistance, SmallestDistance(changed, others)); // more is no better
     if (distance > bestDistance)
     {
       best = changed;
