@@ -13,8 +13,7 @@ namespace itk
 {
 
 /** \class FCCLabelBox
- * \brief The box of sites whose labels are compared: the image and a layer of outside around it, in which all weights
- * are those of outside.
+ * \brief The box of sites whose labels are compared: the image and a layer of outside around the image.
  *
  * Indices are counted from the box's first site. */
 class FCCLabelBox
