@@ -47,7 +47,7 @@ constexpr SizeValueType LargestSpur = 2;
 constexpr SizeValueType SmallestSheet = 16;
 constexpr unsigned int Passes = Wide.corrections + Medium.corrections + Fine.corrections + 5;
 
-/** What the voxels of a voxel's class around it make of it. */
+/** The form of the part of its class that a voxel belongs to. */
 enum class VoxelForm : std::uint8_t
 {
   Thick,     ///< in a 2 x 2 x 2 block of its class
@@ -67,82 +67,12 @@ ClampedIndex(SizeValueType index, SizeValueType reach, SizeValueType length)
   return index < reach ? 0 : std::min(index - reach, length - 1);
 }
 
-/** The neighbours of voxels through faces, edges and corners: 26. */
-struct VoxelGrid
-{
-  using Coordinates = std::array<OffsetValueType, 3>;
-
-  std::array<SizeValueType, 3> size;
-
-  Coordinates
-  CoordinatesOf(SizeValueType voxel) const
-  {
-    const SizeValueType row = voxel / size[0];
-    return { static_cast<OffsetValueType>(voxel % size[0]),
-             static_cast<OffsetValueType>(row % size[1]),
-             static_cast<OffsetValueType>(row / size[1]) };
-  }
-
-  SizeValueType
-  OffsetOf(const Coordinates & voxel) const
-  {
-    return (static_cast<SizeValueType>(voxel[2]) * size[1] + static_cast<SizeValueType>(voxel[1])) * size[0] +
-           static_cast<SizeValueType>(voxel[0]);
-  }
-
-  bool
-  Holds(const Coordinates & voxel) const
-  {
-    bool isIn = true;
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      isIn = isIn && voxel[axis] >= 0 && voxel[axis] < static_cast<OffsetValueType>(size[axis]);
-    }
-    return isIn;
-  }
-
-  /** Calls visit(coordinates) for each neighbour in the image. */
-  template <typename TVisit>
-  void
-  ForEachNeighbor(const Coordinates & voxel, const TVisit & visit) const
-  {
-    for (OffsetValueType n = 0; n < 27; ++n)
-    {
-      const Coordinates neighbor{ voxel[0] + n % 3 - 1, voxel[1] + n / 3 % 3 - 1, voxel[2] + n / 9 - 1 };
-      if (neighbor != voxel && this->Holds(neighbor))
-      {
-        visit(neighbor);
-      }
-    }
-  }
-
-  /** Whether a few voxels, at least one, are one connected piece. */
-  bool
-  AreConnected(std::vector<SizeValueType> voxels) const
-  {
-    if (voxels.empty())
-    {
-      return false;
-    }
-    auto reached = voxels.begin() + 1; // end of the voxels connected with the first
-    for (auto from = voxels.begin(); from != reached; ++from)
-    {
-      const Coordinates here = this->CoordinatesOf(*from);
-      reached = std::partition(reached, voxels.end(), [&](SizeValueType voxel) {
-        const Coordinates there = this->CoordinatesOf(voxel);
-        return std::abs(here[0] - there[0]) <= 1 && std::abs(here[1] - there[1]) <= 1 &&
-               std::abs(here[2] - there[2]) <= 1;
-      });
-    }
-    return reached == voxels.end();
-  }
-};
-
 /** The mask and its field, and the threads of the filter: what all passes work with. */
 struct MaskWork
 {
   AntiAliasMaskImageFilter & filter;
   WorkProgress & progress;
+  const AntiAliasMaskImageFilter::OutputImageType & image; ///< of the field
   std::array<SizeValueType, 3> size;
   const std::uint8_t * mask;
   float * field;
@@ -167,27 +97,45 @@ struct MaskWork
     return this->IsInside(voxel) ? field[voxel] : -field[voxel];
   }
 
+  Index<3>
+  IndexOf(SizeValueType voxel) const
+  {
+    return image.ComputeIndex(static_cast<OffsetValueType>(voxel));
+  }
+
+  SizeValueType
+  OffsetOf(const Index<3> & index) const
+  {
+    return static_cast<SizeValueType>(image.ComputeOffset(index));
+  }
+
+  /** Calls use(index) for each neighbour of a voxel through faces, edges and corners, in the image. */
+  template <typename TUse>
+  void
+  ForEachNeighbor(const Index<3> & voxel, const TUse & use) const
+  {
+    for (OffsetValueType n = 0; n < 27; ++n)
+    {
+      const Index<3> neighbor = voxel + Offset<3>{ { n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1 } };
+      if (neighbor != voxel && image.GetBufferedRegion().IsInside(neighbor))
+      {
+        use(neighbor);
+      }
+    }
+  }
+
   /** Whether a voxel is a sample of the shape along one axis. */
   bool
-  IsSample(unsigned int axis, SizeValueType index) const
+  IsSample(unsigned int axis, IndexValueType index) const
   {
-    const IndexValueType first = filter.GetOutput()->GetBufferedRegion().GetIndex(axis);
-    return (first + static_cast<IndexValueType>(index)) % static_cast<IndexValueType>(filter.GetSamplePeriod()[axis]) ==
-           0;
+    return index % static_cast<IndexValueType>(filter.GetSamplePeriod()[axis]) == 0;
   }
 
   bool
   IsSample(SizeValueType voxel) const
   {
-    return this->IsSample(0, voxel % size[0]) && this->IsSample(1, voxel / size[0] % size[1]) &&
-           this->IsSample(2, voxel / size[0] / size[1]);
-  }
-
-  /** Calls use(n) for each n below \a count on the filter's threads. */
-  void
-  ForEach(SizeValueType count, const std::function<void(SizeValueType)> & use) const
-  {
-    progress.ForEach(count, use);
+    const Index<3> index = this->IndexOf(voxel);
+    return this->IsSample(0, index[0]) && this->IsSample(1, index[1]) && this->IsSample(2, index[2]);
   }
 
   /** Calls use(row) for each row, plane by plane on the filter's threads. */
@@ -195,7 +143,7 @@ struct MaskWork
   void
   ForEachRow(const TUse & use) const
   {
-    this->ForEach(size[2], [&](SizeValueType z) {
+    progress.ForEach(size[2], [&](SizeValueType z) {
       for (SizeValueType row = z * size[1]; row < (z + 1) * size[1]; ++row)
       {
         use(row);
@@ -262,7 +210,7 @@ InverseSlope(double sigma)
 /** Writes the values of a row to be smoothed. */
 using RowReader = std::function<void(SizeValueType row, float * values)>;
 
-/** Takes the smoothed values of a part of a row; values[x] is that of voxel x. */
+/** Takes the smoothed values of a part of a row; values[x] is the value of voxel x. */
 using RowWriter = std::function<void(SizeValueType row, SizeValueType begin, SizeValueType end, const float * values)>;
 
 /** Smooths rows along y or z at the voxels of a band.
@@ -306,7 +254,7 @@ Smooth(const MaskWork & work, double sigma, const VoxelBand & band, const RowRea
   const VoxelBand smoothedInRow = smoothedInPlane.Widened({ 0, reach, 0 });
 
   // Along x and y, plane by plane.
-  work.ForEach(depth, [&](SizeValueType z) {
+  work.progress.ForEach(depth, [&](SizeValueType z) {
     std::vector<float> extended(stride + 2 * reach);
     std::vector<float> plane(height * stride);
     std::vector<const float *> terms(weights.size());
@@ -332,7 +280,7 @@ Smooth(const MaskWork & work, double sigma, const VoxelBand & band, const RowRea
   });
 
   // Along z, for each y.
-  work.ForEach(height, [&](SizeValueType y) {
+  work.progress.ForEach(height, [&](SizeValueType y) {
     std::vector<float> rows(depth * stride);
     for (SizeValueType z = 0; z < depth; ++z)
     {
@@ -401,9 +349,10 @@ FindSamples(const MaskWork & work, unsigned int axis, double sigma)
   const std::vector<float> weights = GaussianWeights(sigma);
   const SizeValueType length = work.size[axis];
   AxisSamples samples{ std::vector<float>(length), std::vector<float>(length) };
+  const IndexValueType first = work.image.GetBufferedRegion().GetIndex(axis);
   for (SizeValueType n = 0; n < length; ++n)
   {
-    samples.isSample[n] = work.IsSample(axis, n) ? 1.0f : 0.0f;
+    samples.isSample[n] = work.IsSample(axis, first + static_cast<IndexValueType>(n)) ? 1.0f : 0.0f;
   }
   for (SizeValueType n = 0; n < length; ++n)
   {
@@ -417,7 +366,7 @@ FindSamples(const MaskWork & work, unsigned int axis, double sigma)
   return samples;
 }
 
-/** Makes the field in a band whose smoothed coverage of the samples is that of the mask. */
+/** Makes the field in a band so that its coverage of the samples, smoothed, is the smoothed mask. */
 void
 MatchLocalVolumes(const MaskWork & work, const Scale & scale, const VoxelBand & band, float * field)
 {
@@ -552,7 +501,6 @@ template <typename TTest, typename TUse>
 void
 ForEachPart(const MaskWork & work, const TTest & isMember, const TUse & use)
 {
-  const VoxelGrid grid{ work.size };
   VoxelSet isSeen(work.GetNumberOfVoxels());
   for (SizeValueType first = 0; first < isSeen.size(); ++first)
   {
@@ -566,8 +514,8 @@ ForEachPart(const MaskWork & work, const TTest & isMember, const TUse & use)
     for (SizeValueType n = 0; n < part.size(); ++n)
     {
       work.CheckAbortAt(n);
-      grid.ForEachNeighbor(grid.CoordinatesOf(part[n]), [&](const VoxelGrid::Coordinates & coordinates) {
-        const SizeValueType neighbor = grid.OffsetOf(coordinates);
+      work.ForEachNeighbor(work.IndexOf(part[n]), [&](const Index<3> & index) {
+        const SizeValueType neighbor = work.OffsetOf(index);
         if (isMember(neighbor) && isSeen[neighbor] == 0 && work.IsInside(first) == work.IsInside(neighbor))
         {
           isSeen[neighbor] = 1;
@@ -579,24 +527,38 @@ ForEachPart(const MaskWork & work, const TTest & isMember, const TUse & use)
   }
 }
 
+/** Whether a few voxels are one piece, connected through faces, edges and corners. */
+bool
+AreConnected(std::vector<Index<3>> voxels)
+{
+  auto reached = voxels.begin() + 1; // end of the voxels connected with the first
+  for (auto from = voxels.begin(); from != reached; ++from)
+  {
+    reached = std::partition(reached, voxels.end(), [here = *from](const Index<3> & there) {
+      const Offset<3> way = there - here;
+      return std::abs(way[0]) <= 1 && std::abs(way[1]) <= 1 && std::abs(way[2]) <= 1;
+    });
+  }
+  return reached == voxels.end();
+}
+
 /** Whether a part sticks out of other voxels of its class, and connects them with nothing. */
 template <typename TTest>
 bool
 IsSpur(const MaskWork & work, const std::vector<SizeValueType> & part, const TTest & isMember)
 {
-  const VoxelGrid grid{ work.size };
-  std::vector<SizeValueType> base; // voxels that the part sticks out of
+  std::vector<Index<3>> base; // voxels that the part sticks out of
   for (const SizeValueType voxel : part)
   {
-    grid.ForEachNeighbor(grid.CoordinatesOf(voxel), [&](const VoxelGrid::Coordinates & coordinates) {
-      const SizeValueType neighbor = grid.OffsetOf(coordinates);
+    work.ForEachNeighbor(work.IndexOf(voxel), [&](const Index<3> & index) {
+      const SizeValueType neighbor = work.OffsetOf(index);
       if (!isMember(neighbor) && work.IsInside(voxel) == work.IsInside(neighbor))
       {
-        base.push_back(neighbor);
+        base.push_back(index);
       }
     });
   }
-  return grid.AreConnected(base);
+  return !base.empty() && AreConnected(base);
 }
 
 /** Finds the forms of the voxels in a band; all others are thick. */
@@ -645,12 +607,10 @@ KeepProtected(const MaskWork & work, const std::vector<VoxelForm> & forms, Voxel
 void
 PutTubes(const MaskWork & work, const VoxelSet & isProtected, bool isInside)
 {
-  using Voxel = VoxelGrid::Coordinates;
-  const VoxelGrid grid{ work.size };
   const float side = isInside ? 1.0f : -1.0f;
-  const auto raise = [&](const Voxel & coordinates, float depth) {
+  const auto raise = [&](const Index<3> & index, float depth) {
     constexpr float barely = 0.02f; // no voxel changes sides
-    const SizeValueType voxel = grid.OffsetOf(coordinates);
+    const SizeValueType voxel = work.OffsetOf(index);
     const bool isOwn = work.IsInside(voxel) == isInside;
     work.field[voxel] = side * std::max(side * work.field[voxel], isOwn ? depth : std::min(depth, -barely));
   };
@@ -661,16 +621,16 @@ PutTubes(const MaskWork & work, const VoxelSet & isProtected, bool isInside)
     {
       continue;
     }
-    const Voxel voxel = grid.CoordinatesOf(n);
+    const Index<3> voxel = work.IndexOf(n);
     raise(voxel, TubeRadius);
-    grid.ForEachNeighbor(voxel, [&](const Voxel & neighbor) {
+    work.ForEachNeighbor(voxel, [&](const Index<3> & neighbor) {
       float steps = 0.0f;
       for (unsigned int axis = 0; axis < 3; ++axis)
       {
         steps += neighbor[axis] != voxel[axis] ? 1.0f : 0.0f;
       }
       raise(neighbor, TubeRadius - std::sqrt(steps));
-      if (steps < 2.0f || work.IsInside(grid.OffsetOf(neighbor)) != isInside)
+      if (steps < 2.0f || work.IsInside(work.OffsetOf(neighbor)) != isInside)
       {
         return;
       }
@@ -678,9 +638,9 @@ PutTubes(const MaskWork & work, const VoxelSet & isProtected, bool isInside)
       const float distance = steps == 2.0f ? std::sqrt(1.0f / 2.0f) : std::sqrt(2.0f / 3.0f);
       for (unsigned int corner = 0; corner < 8; ++corner)
       {
-        raise({ ((corner & 1) != 0 ? neighbor : voxel)[0],
-                ((corner & 2) != 0 ? neighbor : voxel)[1],
-                ((corner & 4) != 0 ? neighbor : voxel)[2] },
+        raise({ { ((corner & 1) != 0 ? neighbor : voxel)[0],
+                  ((corner & 2) != 0 ? neighbor : voxel)[1],
+                  ((corner & 4) != 0 ? neighbor : voxel)[2] } },
               TubeRadius - distance);
       }
     });
@@ -754,6 +714,7 @@ AntiAliasMaskImageFilter::GenerateData()
   WorkProgress progress(*this, Passes * (size[1] + size[2]));
   const MaskWork work{ *this,
                        progress,
+                       *this->GetOutput(),
                        { size[0], size[1], size[2] },
                        this->GetInput()->GetBufferPointer(),
                        this->GetOutput()->GetBufferPointer(),

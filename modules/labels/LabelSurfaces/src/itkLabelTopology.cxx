@@ -11,7 +11,7 @@ namespace itk
 namespace
 {
 
-constexpr float RaisedMargin = 0.2f; // by which the weight of a site's label exceeds others after it was raised
+constexpr float RaisedMargin = 0.2f; // by which a raised weight exceeds the largest other weight of the site
 
 /** The neighbours that have a label, as bits of their directions. */
 unsigned int
@@ -98,7 +98,7 @@ LabelTopology::Give(SizeValueType site, LabelType label)
     {
       const float weight = each == own ? FCCLabelWeights::Limit : -FCCLabelWeights::Limit;
       m_Weights.Add(site / width, { static_cast<std::uint16_t>(site % width), each, weight });
-      m_UnsortedRows.push_back(site / width);
+      m_UnsortedRows.insert(site / width);
     }
   }
   own = label;
@@ -107,8 +107,6 @@ LabelTopology::Give(SizeValueType site, LabelType label)
 void
 LabelTopology::SortWeights()
 {
-  std::sort(m_UnsortedRows.begin(), m_UnsortedRows.end());
-  m_UnsortedRows.erase(std::unique(m_UnsortedRows.begin(), m_UnsortedRows.end()), m_UnsortedRows.end());
   for (const SizeValueType row : m_UnsortedRows)
   {
     m_Weights.SortRow(row);

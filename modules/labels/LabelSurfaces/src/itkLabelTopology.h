@@ -5,6 +5,7 @@
 #include "itkFCCImage.h"
 #include "itkFCCLabelWeights.h"
 
+#include <set>
 #include <vector>
 
 namespace itk
@@ -145,7 +146,7 @@ private:
   const std::vector<LabelType> & m_Groups;
   std::vector<bool> m_IsLocked;
   std::vector<Change> m_Raised; ///< sites whose label's weight was raised, and by how much
-  std::vector<SizeValueType> m_UnsortedRows;
+  std::set<SizeValueType> m_UnsortedRows;
 };
 
 } // namespace itk

@@ -2,6 +2,7 @@
 
 #include "detail/itkCartesianToFCCRows.h"
 #include "itkAntiAliasMaskImageFilter.h"
+#include "itkBoundingBox.h"
 #include "itkCartesianToFCCImageFilter.h"
 #include "itkFCCLabelSurfaceFilter.h"
 #include "itkInputSamples.h"
@@ -190,33 +191,31 @@ MakeLattice(const RefinedMap & map, double density)
   return lattice;
 }
 
-/** Finds the bounding box of each label of the map with a margin, in refined voxels; for 0 that of all others. */
+/** Finds the bounding box of each label of the map with a margin, in refined voxels; for 0 the box of all others. */
 std::map<LabelType, ImageRegion<3>>
 FindBoxes(const LabelImage & labels, const RefinedMap & map)
 {
   std::map<LabelType, std::pair<Index<3>, Index<3>>> corners;
-  const auto add = [&corners](LabelType label, const Index<3> & index) {
-    auto & [low, high] = corners.try_emplace(label, index, index).first->second;
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      low[axis] = std::min(low[axis], index[axis]);
-      high[axis] = std::max(high[axis], index[axis]);
-    }
-  };
   const auto & size = labels.GetLargestPossibleRegion().GetSize();
   for (SizeValueType row = 0; row < size[1] * size[2]; ++row)
   {
     const LabelType * const voxels = labels.GetBufferPointer() + row * size[0];
+    const auto y = static_cast<IndexValueType>(row % size[1]);
+    const auto z = static_cast<IndexValueType>(row / size[1]);
     rhombic::ForEachRun(voxels, size[0], [&](LabelType label, SizeValueType begin, SizeValueType end) {
-      for (const SizeValueType x : { begin, end - 1 })
+      if (label == 0)
       {
-        const Index<3> index{ { static_cast<IndexValueType>(x),
-                                static_cast<IndexValueType>(row % size[1]),
-                                static_cast<IndexValueType>(row / size[1]) } };
-        if (label != 0)
+        return;
+      }
+      const Index<3> first{ { static_cast<IndexValueType>(begin), y, z } };
+      const Index<3> last{ { static_cast<IndexValueType>(end) - 1, y, z } };
+      for (const LabelType each : { label, LabelType{ 0 } })
+      {
+        auto & [low, high] = corners.try_emplace(each, first, last).first->second;
+        for (unsigned int axis = 0; axis < 3; ++axis)
         {
-          add(label, index);
-          add(0, index);
+          low[axis] = std::min(low[axis], first[axis]);
+          high[axis] = std::max(high[axis], last[axis]);
         }
       }
     });
@@ -242,31 +241,26 @@ FindBoxes(const LabelImage & labels, const RefinedMap & map)
 ImageRegion<3>
 FindSites(const RefinedMap & map, const FieldLattice & lattice, const ImageRegion<3> & voxels)
 {
-  std::array<double, 3> low;
-  std::array<double, 3> high;
-  low.fill(std::numeric_limits<double>::max());
-  high.fill(std::numeric_limits<double>::lowest());
   const Index<3> & first = voxels.GetIndex();
   const Index<3> last = voxels.GetUpperIndex();
+  const auto corners = BoundingBox<>::PointsContainer::New();
   for (IndexValueType z = first[2]; z <= last[2]; ++z) // slices may be shifted against each other
   {
     for (unsigned int corner = 0; corner < 4; ++corner)
     {
       const Index<3> voxel{ { (corner & 1) != 0 ? last[0] : first[0], (corner & 2) != 0 ? last[1] : first[1], z } };
       const auto point = lattice.TransformPhysicalPointToLattice(map.GetPosition(voxel));
-      for (unsigned int axis = 0; axis < 3; ++axis)
-      {
-        low[axis] = std::min(low[axis], point[axis]);
-        high[axis] = std::max(high[axis], point[axis]);
-      }
+      corners->InsertElement(corners->Size(), Point<double, 3>(point));
     }
   }
+  const auto box = BoundingBox<>::New();
+  box->SetPoints(corners);
   ImageRegion<3> sites;
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
     const double step = axis == 0 ? 2.0 : 1.0;
-    const auto begin = Math::Floor<IndexValueType>((low[axis] - 1.0) / step);
-    const auto end = Math::Ceil<IndexValueType>((high[axis] + 1.0) / step) + 1;
+    const auto begin = Math::Floor<IndexValueType>((box->GetMinimum()[axis] - 1.0) / step);
+    const auto end = Math::Ceil<IndexValueType>((box->GetMaximum()[axis] + 1.0) / step) + 1;
     sites.SetIndex(axis, begin);
     sites.SetSize(axis, static_cast<SizeValueType>(end - begin));
   }
@@ -381,7 +375,7 @@ FindCandidates(const RefinedMap & map, const AntiAliasMaskImageFilter & field, L
   return candidates;
 }
 
-/** A label in its box, and what it brings onto the lattice. */
+/** A label with its box, and with its weights and candidates on the lattice. */
 struct LabelInBox
 {
   LabelType label;
@@ -519,7 +513,7 @@ LabelsToFCCFilter::GenerateData()
   }
   WorkProgress progress(*this, boxes.size() + 1);
 
-  // Not the outputs: as inputs of a filter, these would ask for an update of this one.
+  // Not the outputs: as inputs of the filter of walls, outputs would ask for an update of this filter.
   const auto labels = LatticeType::New();
   labels->CopyInformation(lattice);
   labels->SetRegions(lattice->GetLargestPossibleRegion());
@@ -529,7 +523,7 @@ LabelsToFCCFilter::GenerateData()
   std::vector<LabelTopology::Candidate> candidates;
   for (auto begin = boxes.begin(), end = begin; begin != boxes.end();)
   {
-    // Labels are made side by side while their boxes have together no more voxels than that of 0, the first.
+    // Labels are made side by side while their boxes have together no more voxels than the box of label 0, the first.
     SizeValueType voxels = begin->voxels.GetNumberOfPixels();
     end = std::find_if(begin + 1, boxes.end(), [&](const LabelInBox & box) {
       voxels += box.voxels.GetNumberOfPixels();

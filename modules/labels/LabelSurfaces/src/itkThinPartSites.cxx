@@ -1,5 +1,7 @@
 #include "itkLabelsOnLattice.h"
 
+#include "detail/itkPositionArithmetic.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -9,49 +11,36 @@ namespace itk
 namespace
 {
 
-using Position = std::array<double, 3>;
-
 constexpr double Inside = 1.0 + 1e-9; // of d p for the Voronoi cell's faces, d being the nearest neighbours
 
-double
-Dot(const FCCLattice::SiteType & step, const Position & point)
+PositionType
+PositionOf(const FCCLattice::SiteType & site)
 {
-  double sum = 0.0;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    sum += static_cast<double>(step[axis]) * point[axis];
-  }
-  return sum;
+  return { static_cast<double>(site[0]), static_cast<double>(site[1]), static_cast<double>(site[2]) };
 }
 
 /** Whether a convex polygon meets the Voronoi cell of the site 0: whether a part of it is within all of the cell's
  * faces. */
 bool
-MeetsCell(std::vector<Position> polygon)
+MeetsCell(std::vector<PositionType> polygon)
 {
-  std::vector<Position> rest;
+  std::vector<PositionType> rest;
   for (const FCCLattice::SiteType & face : FCCLattice::NearestNeighbors)
   {
     rest.clear();
     for (std::size_t n = 0; n < polygon.size(); ++n)
     {
-      const Position & here = polygon[n];
-      const Position & there = polygon[(n + 1) % polygon.size()];
-      const double from = Dot(face, here) - Inside;
-      const double to = Dot(face, there) - Inside;
+      const PositionType & here = polygon[n];
+      const PositionType & there = polygon[(n + 1) % polygon.size()];
+      const double from = Dot(PositionOf(face), here) - Inside;
+      const double to = Dot(PositionOf(face), there) - Inside;
       if (from <= 0.0)
       {
         rest.push_back(here);
       }
       if ((from < 0.0 && to > 0.0) || (from > 0.0 && to < 0.0))
       {
-        const double share = from / (from - to);
-        Position cut;
-        for (unsigned int axis = 0; axis < 3; ++axis)
-        {
-          cut[axis] = here[axis] + share * (there[axis] - here[axis]);
-        }
-        rest.push_back(cut);
+        rest.push_back(Mix(here, there, from / (from - to)));
       }
     }
     polygon.swap(rest);
@@ -65,19 +54,19 @@ MeetsCell(std::vector<Position> polygon)
 
 /** The faces of the Voronoi cell of the site 0 beyond which a point is, a bit for each. */
 unsigned int
-FacesBefore(const Position & point)
+FacesBefore(const PositionType & point)
 {
   unsigned int faces = 0;
   for (unsigned int n = 0; n < FCCLattice::NearestNeighbors.size(); ++n)
   {
-    faces |= Dot(FCCLattice::NearestNeighbors[n], point) > Inside ? 1u << n : 0u;
+    faces |= Dot(PositionOf(FCCLattice::NearestNeighbors[n]), point) > Inside ? 1u << n : 0u;
   }
   return faces;
 }
 
 /** Whether the convex hull of a few points meets the Voronoi cell of the site 0: one of the points' triangles does. */
 bool
-HullMeetsCell(const std::vector<Position> & points)
+HullMeetsCell(const std::vector<PositionType> & points)
 {
   std::array<unsigned int, 8> faces;
   std::transform(points.begin(), points.end(), faces.begin(), FacesBefore);
@@ -112,18 +101,20 @@ HullMeetsCell(const std::vector<Position> & points)
 
 /** Adds the sites whose cells meet the convex hull of a few points. */
 void
-AddSites(const std::vector<Position> & points, std::vector<FCCLattice::SiteType> & sites)
+AddSites(const std::vector<PositionType> & points, std::vector<FCCLattice::SiteType> & sites)
 {
   FCCLattice::SiteType low;
   FCCLattice::SiteType high;
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    const auto [least, most] = std::minmax_element(
-      points.begin(), points.end(), [axis](const Position & a, const Position & b) { return a[axis] < b[axis]; });
+    const auto [least, most] =
+      std::minmax_element(points.begin(), points.end(), [axis](const PositionType & a, const PositionType & b) {
+        return a[axis] < b[axis];
+      });
     low[axis] = static_cast<IndexValueType>(std::ceil((*least)[axis] - Inside));
     high[axis] = static_cast<IndexValueType>(std::floor((*most)[axis] + Inside));
   }
-  std::vector<Position> moved(points.size());
+  std::vector<PositionType> moved(points.size());
   FCCLattice::SiteType site;
   for (site[2] = low[2]; site[2] <= high[2]; ++site[2])
   {
@@ -135,13 +126,9 @@ AddSites(const std::vector<Position> & points, std::vector<FCCLattice::SiteType>
         {
           continue;
         }
-        for (std::size_t n = 0; n < points.size(); ++n)
-        {
-          for (unsigned int axis = 0; axis < 3; ++axis)
-          {
-            moved[n][axis] = points[n][axis] - static_cast<double>(site[axis]);
-          }
-        }
+        std::transform(points.begin(), points.end(), moved.begin(), [&site](const PositionType & point) {
+          return Subtract(point, PositionOf(site));
+        });
         if (HullMeetsCell(moved))
         {
           sites.push_back(site);
@@ -157,7 +144,7 @@ std::vector<FCCLattice::SiteType>
 FindThinPartSites(const Image<std::uint8_t, 3> & mask,
                   const ImageRegion<3> & region,
                   const std::vector<SizeValueType> & thin,
-                  const std::function<Position(const Index<3> &)> & placeVoxel)
+                  const std::function<PositionType(const Index<3> &)> & placeVoxel)
 {
   const auto isThin = [&](const Index<3> & voxel) {
     const auto offset = static_cast<SizeValueType>(mask.ComputeOffset(voxel));
@@ -166,7 +153,7 @@ FindThinPartSites(const Image<std::uint8_t, 3> & mask,
   ImageRegion<3> inside = mask.GetBufferedRegion();
   inside.Crop(region);
   std::vector<FCCLattice::SiteType> sites;
-  std::vector<Position> points;
+  std::vector<PositionType> points;
   for (const SizeValueType offset : thin)
   {
     const Index<3> voxel = mask.ComputeIndex(static_cast<OffsetValueType>(offset));

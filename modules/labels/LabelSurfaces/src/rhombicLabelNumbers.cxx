@@ -44,7 +44,7 @@ FindValues(const std::vector<LabelSummary> & labels, const std::string & nameOrV
   return exact.empty() ? fitting : exact;
 }
 
-/** The values of labels, and at their place in the list, from 1, their numbers. */
+/** The number of a value: its place in the ascending list, from 1; 0 for a value that the list does not have. */
 template <typename TPixel>
 std::uint16_t
 NumberOf(TPixel value, const std::vector<std::int32_t> & values)
@@ -132,25 +132,17 @@ JoinRows(std::vector<Run> & runs,
 void
 JoinRuns(std::vector<Run> & runs, const std::vector<std::size_t> & firstOfRow, std::size_t height, bool byFace)
 {
-  const std::uint32_t reach = byFace ? 0 : 1;
+  constexpr std::ptrdiff_t steps[][2] = { { -1, 0 }, { 0, -1 }, { -1, -1 }, { 1, -1 } }; // in y and z; two to faces
+  const auto rows = static_cast<std::ptrdiff_t>(height);
   for (std::size_t row = 0; row + 1 < firstOfRow.size(); ++row)
   {
-    const std::size_t y = row % height;
-    if (y > 0)
+    for (unsigned int n = 0; n < (byFace ? 2 : 4); ++n)
     {
-      JoinRows(runs, firstOfRow, row, row - 1, reach);
-    }
-    if (row >= height)
-    {
-      const std::size_t before = row - height; // in the slice before
-      JoinRows(runs, firstOfRow, row, before, reach);
-      if (!byFace && y > 0)
+      const std::ptrdiff_t y = static_cast<std::ptrdiff_t>(row) % rows + steps[n][0];
+      const std::ptrdiff_t other = static_cast<std::ptrdiff_t>(row) + steps[n][0] + steps[n][1] * rows;
+      if (y >= 0 && y < rows && other >= 0)
       {
-        JoinRows(runs, firstOfRow, row, before - 1, reach);
-      }
-      if (!byFace && y + 1 < height)
-      {
-        JoinRows(runs, firstOfRow, row, before + 1, reach);
+        JoinRows(runs, firstOfRow, row, static_cast<std::size_t>(other), byFace ? 0 : 1);
       }
     }
   }

@@ -15,10 +15,10 @@ namespace rhombic
 {
 
 /** \file
- * From the labels of a map to numbers of those that get surfaces, and of their pieces. */
+ * Numbers of the labels that get surfaces, and of the pieces of labels. */
 
-/** The labels of the map that are wanted, or those that its table shows if none are named. Throws Failure: Usage for
- * names that fit none, Empty when there is none to show. */
+/** The labels of the map that are wanted, or the labels that its table shows if none are named. Throws Failure: Usage
+ * for names that fit none, Empty when there is none to show. */
 std::vector<LabelSummary>
 ChooseLabels(const LabelMap & map, const std::vector<std::string> & wanted);
 

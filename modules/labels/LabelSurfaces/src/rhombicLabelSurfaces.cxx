@@ -74,29 +74,6 @@ Crop(const LabelImage & image, const itk::ImageRegion<3> & box)
   return filter->GetOutput();
 }
 
-/** The slice origins of a part of the scan's grid. */
-std::vector<itk::Point<double, 3>>
-CropSliceOrigins(const Scan & scan, const itk::ImageRegion<3> & box)
-{
-  if (scan.sliceOrigins.empty())
-  {
-    return {};
-  }
-  const auto & grid = GeometryOf(scan.image);
-  const auto begin = grid.GetLargestPossibleRegion().GetIndex();
-  itk::Index<3> inPlane = box.GetIndex();
-  inPlane[2] = begin[2];
-  const auto shift =
-    grid.TransformIndexToPhysicalPoint<double>(inPlane) - grid.TransformIndexToPhysicalPoint<double>(begin);
-  const auto first = scan.sliceOrigins.begin() + (box.GetIndex(2) - begin[2]);
-  std::vector<itk::Point<double, 3>> origins;
-  std::transform(first,
-                 first + static_cast<std::ptrdiff_t>(box.GetSize(2)),
-                 std::back_inserter(origins),
-                 [&shift](const auto & origin) { return origin + shift; });
-  return origins;
-}
-
 /** Bytes for labels and fields, for weights, and for walls. */
 template <typename TFilter>
 std::uintmax_t
@@ -140,18 +117,18 @@ ExtractWalls(TFilter & toLattice, double voxel, const std::vector<double> & volu
 }
 
 /** The walls between labels by their voxels.
- * \param numbers of the labels' pieces, which keep their volumes as labels do */
+ * \param numbers of the labels' pieces, which keep their volumes as labels do: a part of the scan's grid */
 itk::LabelWalls::Pointer
 WallsOfVoxels(const LabelImage & numbers,
               const LabelPieces & pieces,
-              const std::vector<itk::Point<double, 3>> & sliceOrigins,
+              const Scan & scan,
               const LabelSurfaceSettings & settings,
               const Events & events)
 {
   const auto toLattice = itk::LabelsToFCCFilter::New();
   toLattice->SetInput(&numbers);
   toLattice->SetDensity(settings.density);
-  toLattice->SetSliceOrigins(sliceOrigins);
+  toLattice->SetScan(scan);
   toLattice->SetGroups(pieces.labels);
   RequireMemory(EstimateMemory(numbers, *toLattice, settings.density),
                 settings.maximumMemory,
@@ -224,12 +201,8 @@ SetNormals(itk::TriangleSurface & surface)
   for (const itk::PositionType & sum : sums)
   {
     const double length = itk::Length(sum);
-    itk::TriangleSurface::NormalType normal{ { 0.0f, 0.0f, 1.0f } };
-    for (unsigned int axis = 0; axis < 3 && length > 0.0; ++axis)
-    {
-      normal[axis] = static_cast<float>(sum[axis] / length);
-    }
-    surface.GetNormals().push_back(normal);
+    const itk::PositionType normal{ sum[0] / length, sum[1] / length, sum[2] / length };
+    surface.GetNormals().push_back(itk::ToPoint(length > 0.0 ? normal : itk::PositionType{ 0.0, 0.0, 1.0 }));
   }
 }
 
@@ -276,9 +249,8 @@ AddLayer(const LabelMap & map,
   box.Crop(numbers->GetBufferedRegion());
   numbers = Crop(*numbers, box);
   const LabelPieces pieces = NumberPieces(*numbers, labels.size() + 1);
-  mesh.walls.push_back(map.probabilities.empty()
-                         ? WallsOfVoxels(*numbers, pieces, CropSliceOrigins(map.scan, box), settings, events)
-                         : WallsOfProbabilities(map, *numbers, labels, settings, events));
+  mesh.walls.push_back(map.probabilities.empty() ? WallsOfVoxels(*numbers, pieces, map.scan, settings, events)
+                                                 : WallsOfProbabilities(map, *numbers, labels, settings, events));
   MeasureLabels(pieces, mesh.walls.size() - 1, mesh);
 }
 
