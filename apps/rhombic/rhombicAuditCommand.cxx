@@ -138,12 +138,12 @@ AddAuditCommand(CommandSettings & command)
     { "--require-watertight", // of scripts from before this was always required
       &AuditOptions::requiresWatertight,
       "",
-      Hidden() },
+      Hidden },
     { "--max-tested",
       &AuditOptions::maximumTested,
       "triangles tested for self-intersections; of larger surfaces, so many evenly chosen ones; 0: none",
       Checked(CLI::NonNegativeNumber),
-      ShowingDefault() },
+      ShowingDefault },
   };
   const auto options = std::make_shared<AuditOptions>();
   command.Add(table, *options);

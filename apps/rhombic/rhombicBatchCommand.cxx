@@ -243,12 +243,12 @@ RunTable()
     { "--max-memory",
       &BatchOptions::maximumMemory,
       "most memory of a case, as 8G (default: 90 % of what is free, shared by the jobs)",
-      InBytes() },
+      InBytes },
     { "--max-time",
       &BatchOptions::maximumSeconds,
       "most seconds of a case",
       Checked(CLI::PositiveNumber),
-      ShowingDefault() },
+      ShowingDefault },
     { "--no-cases-table",
       &BatchOptions::hasNoCasesTable,
       "leave out cases.tsv, which tells the paths of the cases' scans, to its owner alone" },
@@ -308,21 +308,21 @@ AddBIDSCommand(CommandSettings & command)
     std::vector<std::string> participants;
   };
   static const SettingsTable<BIDSOptions> table{
-    { "BIDS_DIR", &BIDSOptions::batch, &BatchOptions::collection, "a BIDS dataset", Required() },
+    { "BIDS_DIR", &BIDSOptions::batch, &BatchOptions::collection, "a BIDS dataset", Required },
     { "OUT_DIR",
       &BIDSOptions::batch,
       &BatchOptions::output,
       "the folder of the derivative: new, empty, or to go on with",
-      Required() },
+      Required },
     { "LEVEL",
       &BIDSOptions::level,
       "participant: runs the volumes in anat; group: writes the tables and the index of what is done so far",
-      Required(),
+      Required,
       Checked(CLI::IsMember({ "participant", "group" })) },
     { "--participant-label,--participant_label",
       &BIDSOptions::participants,
       "run these participants only, with or without sub-, also beside other such runs; writes no tables",
-      SeveralBehindOneName() },
+      SeveralBehindOneName },
   };
   const auto options = std::make_shared<BIDSOptions>();
   options->batch.isBIDS = true;

@@ -24,11 +24,7 @@ AddCompareCommand(CommandSettings & command)
 {
   static const SettingsTable<CompareOptions> table{
     { "EXPERIMENTS", &CompareOptions::experiments, "a file of experiments, as pipelines/comparison/paper.yaml" },
-    { "-o,--output",
-      &CompareOptions::output,
-      "folder for tables and pictures",
-      Required(),
-      OfKind(SettingKind::Output) },
+    { "-o,--output", &CompareOptions::output, "folder for tables and pictures", Required, OfKind(SettingKind::Output) },
     { "--only", &CompareOptions::settings, &ComparisonSettings::only, "run this experiment alone" },
     { "--scans",
       &CompareOptions::scans,
@@ -40,7 +36,7 @@ AddCompareCommand(CommandSettings & command)
       &ComparisonSettings::repeats,
       "runs of each method, of which the median time is taken",
       Checked(CLI::Range(1u, 1000u)),
-      ShowingDefault() },
+      ShowingDefault },
     { "--no-pictures", &CompareOptions::hasNoPictures, "tables only" },
   };
   const auto options = std::make_shared<CompareOptions>();

@@ -69,7 +69,7 @@ AddComparePicturesCommand(CommandSettings & command)
       &ComparePicturesOptions::tolerance,
       "largest difference of a red, green, blue or alpha value, 0 to 255",
       Checked(CLI::Range(0.0, 255.0)),
-      ShowingDefault() },
+      ShowingDefault },
     { "--json", &ComparePicturesOptions::isJson, "the differences as JSON" },
   };
   const auto options = std::make_shared<ComparePicturesOptions>();

@@ -1,6 +1,5 @@
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
-#include "rhombicNamedValues.h"
 #include "rhombicMeshScan.h"
 #include "rhombicScanOptions.h"
 #include "rhombicSurfaceOptions.h"
@@ -131,7 +130,7 @@ AddMeshCommand(CommandSettings & command)
       &MeshOptions::mesh,
       "the mesh: " + GetSurfaceFileExtensions() + "; a file for each surface if its name holds {name}",
       OfKind(SettingKind::Output) },
-    { "--space", &MeshOptions::space, "axes of the file: lps or ras, in mm", ShowingDefault() },
+    { "--space", &MeshOptions::space, "axes of the file: lps or ras, in mm", ShowingDefault },
   };
   static const SettingsTable<MeshOptions> checks{
     { "--max-error",

@@ -32,7 +32,7 @@ AddPhantomCommand(CommandSettings & command)
 {
   static const SettingsTable<PhantomOptions> table{
     { "-o,--output", &PhantomOptions::folder, "a folder that is new or empty", OfKind(SettingKind::Output) },
-    { "--spacing", &PhantomOptions::settings, &PhantomSettings::spacing, "voxel size in mm", ShowingDefault() },
+    { "--spacing", &PhantomOptions::settings, &PhantomSettings::spacing, "voxel size in mm", ShowingDefault },
   };
   const auto options = std::make_shared<PhantomOptions>();
   command.Add(table, *options);

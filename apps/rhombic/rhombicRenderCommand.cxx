@@ -3,7 +3,6 @@
 #include "rhombicPresets.h"
 #include "rhombicRenderScan.h"
 #include "rhombicScanOptions.h"
-#include "rhombicNamedValues.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicSurfaceOptions.h"
 #include "rhombicFiles.h"
@@ -510,7 +509,7 @@ PictureTable()
       &RenderOptions::pixelsPerInch,
       "pixels per inch of a page",
       Checked(CLI::Range(36.0, 600.0)),
-      ShowingDefault(),
+      ShowingDefault,
       Needs({ "--sheet" }) },
     { "--turntable",
       &RenderOptions::turntable,
@@ -539,7 +538,7 @@ PictureTable()
     { "--uncut",
       &RenderOptions::uncut,
       "surfaces that are not cut, by name as --only",
-      SplitAtCommas(),
+      SplitAtCommas,
       Needs({ "--cut" }) },
     { "--show-slice", &RenderOptions::planes, "a slice that stands in the scene, named as for --slice; repeatable" },
   };
@@ -560,7 +559,7 @@ LookTable()
     { "--window",
       &RenderOptions::window,
       "greys of slices: a name, as bone, lung or brain, width/centre as 350/50, or auto",
-      ShowingDefault() },
+      ShowingDefault },
     { "--neurological", &RenderOptions::isNeurological, "slices with the patient's left on the left" },
     { "--no-outlines", &RenderOptions::hasNoOutlines, "slices without the surfaces' outlines" },
     { "--annotate",
@@ -568,8 +567,8 @@ LookTable()
       "what is written over pictures: letters (of directions), scale, legend (of two surfaces or more), figure, "
       "footnote; "
       "or none",
-      SplitAtCommas(),
-      ShowingDefault() },
+      SplitAtCommas,
+      ShowingDefault },
     { "--no-letters", &RenderOptions::hasNoLetters, "leave out the orientation letters at the edges" },
     { "--title", &RenderOptions::title, "a line above the picture, or the page's title" },
     { "--from",
@@ -579,11 +578,11 @@ LookTable()
     { "--picture", // for --from: which one of several to draw, from 1
       &RenderOptions::onlyPicture,
       "",
-      Hidden() },
+      Hidden },
     { "--thumbnail", // for batches: the first picture, small
       &RenderOptions::thumbnail,
       "",
-      Hidden(),
+      Hidden,
       OfKind(SettingKind::Output) },
     { "--list-presets", &RenderOptions::listsPresets, "list the presets and stop", OfKind(SettingKind::Run) },
   };

@@ -1,7 +1,6 @@
 #include "rhombicScanOptions.h"
 
 #include "rhombicFailure.h"
-#include "rhombicNamedValues.h"
 
 #include <map>
 
@@ -57,16 +56,16 @@ ScanOptions::SourceTable()
     { "--on-irregular",
       &ScanOptions::onIrregular,
       "tilted, sheared or unevenly spaced scans: resample from their true positions, or error",
-      ShowingDefault() },
+      ShowingDefault },
     { "--on-gap",
       &ScanOptions::onGap,
       "missing or damaged slices: error, or interpolate across the gap",
-      ShowingDefault() },
+      ShowingDefault },
     { "--max-memory",
       &ScanOptions::maximumMemory,
       "most memory for a volume, and then for a picture, as 8G or 500M (default: half of what is free)",
       DefaultsTo("RHOMBIC_MAX_MEMORY"),
-      InBytes(),
+      InBytes,
       OfKind(SettingKind::Run) },
     { "--analyze", &ScanOptions::acceptsAnalyze, "read Analyze 7.5 files, in which left and right are not defined" },
     { "--follow-links", &ScanOptions::followsLinks, "follow symbolic links in folders" },
@@ -81,16 +80,16 @@ ScanOptions::LatticeTable()
     { "--density",
       &ScanOptions::density,
       "lattice sites per sample of the scan (this and the next three: without effect when SCAN is a lattice volume)",
-      ShowingDefault() },
+      ShowingDefault },
     { "--spacing",
       &ScanOptions::spacing,
       "lattice spacing in mm, one number or x,y,z, instead of a density",
-      SplitAtCommas(),
+      SplitAtCommas,
       Checked(CLI::PositiveNumber) },
     { "--kernel",
       &ScanOptions::kernel,
       "how values between samples are computed: cubic (B-spline), linear or lanczos",
-      ShowingDefault() },
+      ShowingDefault },
     { "--nested",
       &ScanOptions::isNested,
       "instead: every other sample of the scan, without interpolation, after a half-band filter; density 0.5",

@@ -1,8 +1,5 @@
 #include "rhombicSettings.h"
 
-#include "rhombicFailure.h"
-#include "rhombicWording.h"
-
 #include <algorithm>
 #include <cctype>
 #include <iterator>
@@ -92,115 +89,58 @@ IsRecorded(SettingKind kind)
 SettingTrait
 OfKind(SettingKind kind)
 {
-  return [kind](SettingTraits & traits) { traits.kind = kind; };
+  return [kind](SettingRow & row) { row.kind = kind; };
 }
 
 SettingTrait
 Checked(const CLI::Validator & check)
 {
-  return [check](SettingTraits & traits) { traits.checks.push_back(check); };
+  return [check](SettingRow & row) { row.option->check(check); };
 }
 
 SettingTrait
 Excludes(std::vector<std::string> names)
 {
-  return [names](SettingTraits & traits) { traits.excludes = names; };
+  return [names](SettingRow & row) { row.excludes = names; };
 }
 
 SettingTrait
 Needs(std::vector<std::string> names)
 {
-  return [names](SettingTraits & traits) { traits.needs = names; };
+  return [names](SettingRow & row) { row.needs = names; };
 }
 
 SettingTrait
-DefaultsTo(std::string environment)
+DefaultsTo(const std::string & environment)
 {
-  return [environment](SettingTraits & traits) { traits.environment = environment; };
-}
-
-SettingTrait
-InBytes()
-{
-  return [](SettingTraits & traits) { traits.isInBytes = true; };
-}
-
-SettingTrait
-SeveralBehindOneName()
-{
-  return [](SettingTraits & traits) { traits.hasSeveralBehindOneName = true; };
-}
-
-SettingTrait
-SplitAtCommas()
-{
-  return [](SettingTraits & traits) { traits.isSplitAtCommas = true; };
-}
-
-SettingTrait
-ShowingDefault()
-{
-  return [](SettingTraits & traits) { traits.showsDefault = true; };
-}
-
-SettingTrait
-Hidden()
-{
-  return [](SettingTraits & traits) { traits.isHidden = true; };
-}
-
-SettingTrait
-Required()
-{
-  return [](SettingTraits & traits) { traits.isRequired = true; };
+  return [environment](SettingRow & row) { row.option->envname(environment); };
 }
 
 void
-CommandSettings::AddRow(CLI::Option * option, const SettingTraits & traits)
+CommandSettings::AddRow(CLI::Option * option, bool isNumber, const std::vector<SettingTrait> & traits)
 {
   const bool isNamedByPlace = option->get_lnames().empty();
-  for (const CLI::Validator & check : traits.checks)
-  {
-    option->check(check);
-  }
-  if (traits.isInBytes)
-  {
-    option->transform(CLI::AsSizeValue(false));
-  }
-  if (traits.isSplitAtCommas)
-  {
-    option->delimiter(',');
-  }
-  if (option->get_items_expected_max() > 1 && !isNamedByPlace && !traits.hasSeveralBehindOneName)
+  if (option->get_items_expected_max() > 1 && !isNamedByPlace)
   {
     option->allow_extra_args(false);
   }
-  if (traits.showsDefault)
+  m_Rows.push_back({ isNamedByPlace ? LowerCase(option->get_name()) : option->get_lnames().front(), option, isNumber });
+  for (const SettingTrait & trait : traits)
   {
-    option->capture_default_str();
+    trait(m_Rows.back());
   }
-  if (traits.isHidden)
-  {
-    option->group("");
-  }
-  if (!traits.environment.empty())
-  {
-    option->envname(traits.environment);
-  }
-  option->required(traits.isRequired);
-  m_Rows.push_back({ isNamedByPlace ? LowerCase(option->get_name()) : option->get_lnames().front(), option, traits });
 }
 
 void
 CommandSettings::Relate()
 {
-  for (const Row & row : m_Rows)
+  for (const SettingRow & row : m_Rows)
   {
-    for (const std::string & name : row.traits.excludes)
+    for (const std::string & name : row.excludes)
     {
       row.option->excludes(m_Parser.get_option(name));
     }
-    for (const std::string & name : row.traits.needs)
+    for (const std::string & name : row.needs)
     {
       row.option->needs(m_Parser.get_option(name));
     }
@@ -211,7 +151,7 @@ Report
 CommandSettings::Get() const
 {
   Report settings = Report::object();
-  for (const Row & row : m_Rows)
+  for (const SettingRow & row : m_Rows)
   {
     if (row.option->count() == 0)
     {
@@ -225,7 +165,7 @@ CommandSettings::Get() const
     }
     for (const std::string & text : row.option->results())
     {
-      value.push_back(ToValue(text, row.traits.isNumber));
+      value.push_back(ToValue(text, row.isNumber));
     }
     if (row.option->get_items_expected_max() == 1)
     {
@@ -240,9 +180,9 @@ CommandSettings::GetRecorded() const
 {
   const Report given = this->Get();
   Report recorded = Report::object();
-  for (const Row & row : m_Rows)
+  for (const SettingRow & row : m_Rows)
   {
-    const SettingKind kind = row.traits.kind;
+    const SettingKind kind = row.kind;
     if (!given.contains(row.key) || !IsRecorded(kind))
     {
       continue;
@@ -264,7 +204,7 @@ CommandSettings::GetRecordedCommand() const
   const Report recorded = this->GetRecorded();
   std::string places;
   std::string options;
-  for (const Row & row : m_Rows)
+  for (const SettingRow & row : m_Rows)
   {
     if (!recorded.contains(row.key))
     {
@@ -289,11 +229,13 @@ void
 CommandSettings::Set(const Report & settings)
 {
   std::vector<std::string> known;
-  std::transform(m_Rows.begin(), m_Rows.end(), std::back_inserter(known), [](const Row & row) { return row.key; });
+  std::transform(
+    m_Rows.begin(), m_Rows.end(), std::back_inserter(known), [](const SettingRow & row) { return row.key; });
   std::vector<CLI::ConfigItem> items;
   for (const auto & [key, value] : settings.items())
   {
-    const auto row = std::find_if(m_Rows.begin(), m_Rows.end(), [&key = key](const Row & r) { return r.key == key; });
+    const auto row =
+      std::find_if(m_Rows.begin(), m_Rows.end(), [&key = key](const SettingRow & r) { return r.key == key; });
     if (row == m_Rows.end())
     {
       throw Failure(FailureKind::Usage,
@@ -317,9 +259,9 @@ CommandSettings::Set(const Report & settings)
 void
 CommandSettings::SetRecorded(Report settings)
 {
-  for (const Row & row : m_Rows)
+  for (const SettingRow & row : m_Rows)
   {
-    if (row.traits.kind == SettingKind::Source)
+    if (row.kind == SettingKind::Source)
     {
       settings.erase(row.key);
     }
@@ -331,11 +273,11 @@ std::vector<std::pair<std::string, SettingKind>>
 CommandSettings::GetNames() const
 {
   std::vector<std::pair<std::string, SettingKind>> names;
-  for (const Row & row : m_Rows)
+  for (const SettingRow & row : m_Rows)
   {
-    if (!row.option->get_lnames().empty() && !row.traits.isHidden)
+    if (!row.option->get_lnames().empty() && !row.option->get_group().empty())
     {
-      names.emplace_back(row.key, row.traits.kind);
+      names.emplace_back(row.key, row.kind);
     }
   }
   return names;

@@ -1,7 +1,9 @@
 #ifndef rhombicSettings_h
 #define rhombicSettings_h
 
+#include "rhombicFailure.h"
 #include "rhombicScanReport.h"
+#include "rhombicWording.h"
 
 #include <CLI/CLI.hpp>
 
@@ -25,65 +27,58 @@ enum class SettingKind
   Run        ///< how the command runs, as its memory, with the same outputs: reports leave it out
 };
 
-/** \class SettingTraits
- * \brief What a row of a table of settings says beyond name, member and help text. */
-struct SettingTraits
+/** \class SettingRow
+ * \brief A setting of a command: its option, and what reports and JSON hold of it. */
+struct SettingRow
 {
+  std::string key; ///< in JSON
+  CLI::Option * option;
+  bool isNumber;
   SettingKind kind = SettingKind::Value;
-  std::vector<CLI::Validator> checks;   ///< of each value
-  std::vector<std::string> excludes;    ///< names of settings, with dashes, that do not go with this one
-  std::vector<std::string> needs;       ///< names of settings, with dashes, without which this one has no effect
-  std::string environment;              ///< the variable of the environment that is the default
-  bool isInBytes = false;               ///< may have a unit, as 8G
-  bool hasSeveralBehindOneName = false; ///< of a list: "--option A B"; otherwise the name is repeated
-  bool isSplitAtCommas = false;         ///< of a list: "--option A,B"
-  bool showsDefault = false;            ///< in the help text
-  bool isHidden = false;                ///< from the help text
-  bool isRequired = false;
-  bool isNumber = false;
+  std::vector<std::string> excludes{}; ///< names of settings, with dashes, that do not go with this one
+  std::vector<std::string> needs{};    ///< names of settings, with dashes, without which this one has no effect
 };
 
-/** Sets a trait of a row; each function below returns one. */
-using SettingTrait = std::function<void(SettingTraits &)>;
+/** What a row of a table of settings says beyond name, member and help text: one of those that follow. */
+using SettingTrait = std::function<void(SettingRow &)>;
+
+inline const auto InBytes = [](SettingRow & row) { row.option->transform(CLI::AsSizeValue(false)); }; ///< or as 8G
+inline const auto SplitAtCommas = [](SettingRow & row) { row.option->delimiter(','); };            ///< "--option A,B"
+inline const auto SeveralBehindOneName = [](SettingRow & row) { row.option->allow_extra_args(); }; ///< "--option A B"
+inline const auto ShowingDefault = [](SettingRow & row) { row.option->capture_default_str(); };    ///< in the help text
+inline const auto Hidden = [](SettingRow & row) { row.option->group(""); }; ///< from the help text
+inline const auto Required = [](SettingRow & row) { row.option->required(); };
 
 SettingTrait
 OfKind(SettingKind kind);
+
+/** \param check of each value */
 SettingTrait
 Checked(const CLI::Validator & check);
 SettingTrait
 Excludes(std::vector<std::string> names);
 SettingTrait
 Needs(std::vector<std::string> names);
+
+/** \param environment the variable of the environment that is the default */
 SettingTrait
-DefaultsTo(std::string environment);
-SettingTrait
-InBytes();
-SettingTrait
-SeveralBehindOneName();
-SettingTrait
-SplitAtCommas();
-SettingTrait
-ShowingDefault();
-SettingTrait
-Hidden();
-SettingTrait
-Required();
+DefaultsTo(const std::string & environment);
 
 /** \class Setting
  * \brief A row of a table of settings: names, member and help text, and traits if any.
  *
  * Names are those of CLI11: "-o,--output", or "SCAN" for a setting that is named by its place. Members are texts,
- * numbers, optional numbers and lists; a bool is set by its name alone. Defaults are the members' own. */
+ * numbers, optional numbers and lists; a bool is set by its name alone. Defaults are the members' own. The name of a
+ * list is repeated for each value, unless a trait says otherwise. */
 template <typename TSettings>
-class Setting
+struct Setting
 {
-public:
   template <typename TMember, typename... TTraits>
-  Setting(const std::string & names, TMember TSettings::*member, const std::string & help, TTraits... traits)
-    : m_AddTo([=](CLI::App & parser, TSettings & settings) { return AddOption(parser, names, settings.*member, help); })
-  {
-    this->SetTraits<TMember>(traits...);
-  }
+  Setting(const std::string & names, TMember TSettings::*member, const std::string & help, TTraits... traits_)
+    : addTo([=](CLI::App & parser, TSettings & settings) { return AddOption(parser, names, settings.*member, help); })
+    , isNumber(IsNumber<TMember>)
+    , traits{ traits_... }
+  {}
 
   /** A member of a member. */
   template <typename TPart, typename TMember, typename... TTraits>
@@ -91,26 +86,22 @@ public:
           TPart TSettings::*part,
           TMember TPart::*member,
           const std::string & help,
-          TTraits... traits)
-    : m_AddTo(
+          TTraits... traits_)
+    : addTo(
         [=](CLI::App & parser, TSettings & settings) { return AddOption(parser, names, settings.*part.*member, help); })
-  {
-    this->SetTraits<TMember>(traits...);
-  }
+    , isNumber(IsNumber<TMember>)
+    , traits{ traits_... }
+  {}
 
-  CLI::Option *
-  AddTo(CLI::App & parser, TSettings & settings) const
-  {
-    return m_AddTo(parser, settings);
-  }
-
-  const SettingTraits &
-  GetTraits() const
-  {
-    return m_Traits;
-  }
+  std::function<CLI::Option *(CLI::App &, TSettings &)> addTo;
+  bool isNumber;
+  std::vector<SettingTrait> traits;
 
 private:
+  template <typename TMember>
+  static constexpr bool IsNumber = !std::is_same_v<TMember, bool> && !std::is_same_v<TMember, std::string> &&
+                                   !std::is_same_v<TMember, std::vector<std::string>>;
+
   template <typename TMember>
   static CLI::Option *
   AddOption(CLI::App & parser, const std::string & names, TMember & member, const std::string & help)
@@ -124,18 +115,6 @@ private:
       return parser.add_option(names, member, help);
     }
   }
-
-  template <typename TMember, typename... TTraits>
-  void
-  SetTraits(TTraits... traits)
-  {
-    m_Traits.isNumber = !std::is_same_v<TMember, bool> && !std::is_same_v<TMember, std::string> &&
-                        !std::is_same_v<TMember, std::vector<std::string>>;
-    (traits(m_Traits), ...);
-  }
-
-  std::function<CLI::Option *(CLI::App &, TSettings &)> m_AddTo;
-  SettingTraits m_Traits;
 };
 
 template <typename TSettings>
@@ -163,7 +142,7 @@ public:
   {
     for (const Setting<TSettings> & row : table)
     {
-      this->AddRow(row.AddTo(m_Parser, settings), row.GetTraits());
+      this->AddRow(row.addTo(m_Parser, settings), row.isNumber, row.traits);
     }
   }
 
@@ -205,19 +184,34 @@ public:
   GetNames() const;
 
 private:
-  struct Row
-  {
-    std::string key; ///< in JSON
-    CLI::Option * option;
-    SettingTraits traits;
-  };
-
   void
-  AddRow(CLI::Option * option, const SettingTraits & traits);
+  AddRow(CLI::Option * option, bool isNumber, const std::vector<SettingTrait> & traits);
 
   CLI::App & m_Parser;
-  std::vector<Row> m_Rows;
+  std::vector<SettingRow> m_Rows;
 };
+
+/** The words that a setting takes, in the order in which messages list them, and their values. */
+template <typename TValue>
+using NamedValues = std::vector<std::pair<std::string, TValue>>;
+
+/** The value of a word. Throws Failure(Usage) for other words, with the nearest word and all of them.
+ * \param what a noun for the value, as "mode" */
+template <typename TValue>
+TValue
+FindNamed(const std::string & what, const std::string & word, const NamedValues<TValue> & values)
+{
+  std::vector<std::string> names;
+  for (const auto & [name, value] : values)
+  {
+    if (name == word)
+    {
+      return value;
+    }
+    names.push_back(name);
+  }
+  throw Failure(FailureKind::Usage, DescribeUnknown(what, word, names, "use " + Enumerate(names)));
+}
 
 } // namespace rhombic
 

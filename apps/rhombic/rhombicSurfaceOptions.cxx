@@ -2,7 +2,6 @@
 
 #include "rhombicDescribeScan.h"
 #include "rhombicFailure.h"
-#include "rhombicNamedValues.h"
 
 namespace rhombic
 {
@@ -66,7 +65,7 @@ SurfaceOptions::Table()
     { "--unnamed-mask", // batches set it, as the names of their files may be the patients'
       &SurfaceOptions::leavesMaskUnnamed,
       "do not call the label of a mask as its file",
-      Hidden() },
+      Hidden },
     { "--label",
       &SurfaceOptions::chosenLabels,
       "one of the labels, by name (with * and ?) or value, and how to draw it: liver, 'rib*', liver=#994736,0.5; "
@@ -75,11 +74,11 @@ SurfaceOptions::Table()
       &SurfaceOptions::only,
       "the surfaces and labels to show, by name with * and ?, or by group (group:bones, group:vessels, group:lungs, "
       "group:heart, group:brain, group:muscles, group:organs): 'liver,kidney*'; repeatable",
-      SplitAtCommas() },
+      SplitAtCommas },
     { "--hide",
       &SurfaceOptions::hidden,
       "surfaces and labels that are left out, as --only names them; repeatable",
-      SplitAtCommas() },
+      SplitAtCommas },
     { "--draw",
       &SurfaceOptions::looks,
       "colour, opacity and look (matte or glossy) of surfaces and labels by name or group: 'skin=,0.3', "
@@ -89,7 +88,7 @@ SurfaceOptions::Table()
       "colours of labels: anatomy (for names that are known), file (those of the label table) or safe (for "
       "colour-blind "
       "people)",
-      ShowingDefault() },
+      ShowingDefault },
     { "--remove-table",
       &SurfaceOptions::removesTable,
       "set table, head holder and sheets around the patient of a CT to air, as the ct- presets do" },
@@ -101,7 +100,7 @@ SurfaceOptions::Table()
       &SurfaceOptions::mode,
       "triangles: lean (a third to half as many as tetrahedra; on smooth surfaces well-shaped and as close as marching "
       "cubes), fine (closest to the truth), tetrahedra, octahedra or parallelepipeds",
-      ShowingDefault() },
+      ShowingDefault },
   };
   return table;
 }
