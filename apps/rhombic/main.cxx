@@ -1,8 +1,6 @@
 #include "rhombicAtomicFile.h"
 #include "rhombicCommandLine.h"
-#include "rhombicFailure.h"
 #include "rhombicIsolatedDecoder.h"
-#include "rhombicUsageError.h"
 
 #include "itkMultiThreaderBase.h"
 

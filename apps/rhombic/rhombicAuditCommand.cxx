@@ -147,14 +147,13 @@ AddAuditCommand(CommandSettings & command)
   };
   const auto options = std::make_shared<AuditOptions>();
   command.Add(table, *options);
-  return [options](const CommandContext & context) {
+  return WithoutOutputs([options](const CommandContext & context) {
     if (options->files.empty())
     {
       throw Failure(FailureKind::Usage, "No surface is named; name a file (" + GetSurfaceFileExtensions() + ").");
     }
     Auditor(*options, context).Run();
-    return std::vector<MadeFile>();
-  };
+  });
 }
 
 } // namespace rhombic

@@ -1,6 +1,4 @@
 #include "rhombicCommandLine.h"
-#include "rhombicCommandSyntax.h"
-#include "rhombicFailure.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicRunBatch.h"
 #include "rhombicSidecar.h"
@@ -292,10 +290,7 @@ AddBatchCommand(CommandSettings & command)
   command.Add(folders, *options);
   command.Add(RunTable(), *options);
   command.Add(choice, *options);
-  return [options](const CommandContext & context) {
-    Batch(*options, context);
-    return std::vector<MadeFile>();
-  };
+  return WithoutOutputs([options](const CommandContext & context) { Batch(*options, context); });
 }
 
 CommandRun
@@ -328,7 +323,7 @@ AddBIDSCommand(CommandSettings & command)
   options->batch.isBIDS = true;
   command.Add(table, *options);
   command.Add(RunTable(), options->batch);
-  return [options](const CommandContext & context) {
+  return WithoutOutputs([options](const CommandContext & context) {
     BatchOptions & batch = options->batch;
     if (!IsBIDS(batch.collection))
     {
@@ -347,8 +342,7 @@ AddBIDSCommand(CommandSettings & command)
       batch.only.push_back((label.rfind("sub-", 0) == 0 ? "" : "sub-") + label + "_*");
     }
     Batch(batch, context);
-    return std::vector<MadeFile>();
-  };
+  });
 }
 
 } // namespace rhombic

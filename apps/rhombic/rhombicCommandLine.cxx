@@ -1,14 +1,9 @@
 #include "rhombicCommandLine.h"
 
-#include "rhombicFailure.h"
-#include "rhombicUsageError.h"
-
 #include "itkVersion.h"
 
 #include <OpenImageIO/oiioversion.h>
 #include <vtkVersionMacros.h>
-
-#include <algorithm>
 
 namespace rhombic
 {
@@ -66,6 +61,13 @@ ProgramTable()
   return table;
 }
 
+/** Settings of which pipelines or batches give the values themselves, or that change no output. */
+bool
+IsOfPipeline(const std::string & name, SettingKind kind)
+{
+  return kind == SettingKind::Run || name == "output" || name == "sheet";
+}
+
 } // namespace
 
 CommandLine::CommandLine()
@@ -82,9 +84,9 @@ CommandLine::CommandLine()
   {
     CLI::App * const parser = m_Parser.add_subcommand(entry.name, entry.description);
     parser->footer(exitCodes);
-    m_Commands.push_back(std::make_unique<Command>(*parser));
-    m_Commands.back()->run = entry.add(m_Commands.back()->settings);
-    m_Commands.back()->settings.Relate();
+    Command & command = m_Commands.try_emplace(entry.name, *parser).first->second;
+    command.run = entry.add(command.settings);
+    command.settings.Relate();
   }
 }
 
@@ -94,7 +96,7 @@ CommandLine::Parse(const std::vector<std::string> & words)
   try
   {
     m_Parser.parse(std::vector<std::string>(words.rbegin(), words.rend()));
-    return this->Get(m_Parser.get_subcommands().front()->get_name());
+    return m_Commands.at(m_Parser.get_subcommands().front()->get_name());
   }
   catch (const CLI::Success &)
   {
@@ -110,7 +112,7 @@ CommandLine::Parse(const std::vector<std::string> & words)
 Command &
 CommandLine::Set(const std::string & command, const Report & settings)
 {
-  Command & chosen = this->Get(command);
+  Command & chosen = m_Commands.at(command);
   try
   {
     chosen.settings.Set(settings);
@@ -122,12 +124,39 @@ CommandLine::Set(const std::string & command, const Report & settings)
   return chosen;
 }
 
-Command &
-CommandLine::Get(const std::string & command)
+CommandSyntax
+GetCommandSyntax()
 {
-  return **std::find_if(m_Commands.begin(), m_Commands.end(), [&command](const auto & known) {
-    return known->settings.GetCommand() == command;
-  });
+  CommandSyntax syntax;
+  syntax.settingsOf = [](const std::string & command) {
+    CommandLine commandLine;
+    std::vector<CommandSyntax::Setting> settings;
+    for (const auto & [name, kind] : commandLine.Get(command).settings.GetNames())
+    {
+      if (!IsOfPipeline(name, kind))
+      {
+        settings.push_back({ name, kind == SettingKind::InputFile, kind == SettingKind::Output });
+      }
+    }
+    return settings;
+  };
+  syntax.check = [](const std::string & command, const Report & settings) {
+    CommandLine commandLine;
+    std::vector<std::filesystem::path> files;
+    Command & checked = commandLine.Set(command, settings);
+    for (const MadeFile & output : checked.run({ nullptr, nullptr, &checked.settings, true }))
+    {
+      files.push_back(output.path);
+    }
+    return files;
+  };
+  syntax.parse = [](const std::string & command, const std::vector<std::string> & options) {
+    std::vector<std::string> words{ command };
+    words.insert(words.end(), options.begin(), options.end());
+    CommandLine commandLine;
+    return commandLine.Parse(words).settings.Get();
+  };
+  return syntax;
 }
 
 std::string

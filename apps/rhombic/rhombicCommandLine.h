@@ -2,11 +2,13 @@
 #define rhombicCommandLine_h
 
 #include "rhombicCommands.h"
+#include "rhombicFailure.h"
+#include "rhombicPipelineFile.h"
 #include "rhombicSettings.h"
 
 #include <CLI/CLI.hpp>
 
-#include <memory>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -57,7 +59,10 @@ public:
 
   /** A command without settings. */
   Command &
-  Get(const std::string & command);
+  Get(const std::string & command)
+  {
+    return m_Commands.at(command);
+  }
 
   const ProgramOptions &
   GetOptions() const
@@ -76,13 +81,27 @@ private:
   CLI::App m_Parser;
   CommandSettings m_Program;
   ProgramOptions m_Options;
-  std::vector<std::unique_ptr<Command>> m_Commands;
+  std::map<std::string, Command> m_Commands;
 };
 
 /** The only argument of the program when standard input holds its command: {"command": "mesh", "settings": {...},
  * "threads": 2}, with settings as CommandSettings has them. Standard output then holds {"outputs": [{"name":
  * "bone.stl", "kind": "mesh", "measures": [...]}]}, or {"failure": sentence}. */
 constexpr char RequestOption[] = "--request";
+
+/** The settings of the commands render, mesh and resample, for pipeline files. */
+CommandSyntax
+GetCommandSyntax();
+
+/** A sentence about settings that \a program refused with \a error. It names the command or option, the nearest one if
+ * it is unknown, and the help that lists all.
+ * \param command whose settings they are; the program if none is named */
+std::string
+DescribeUsageError(const CLI::App & program, const CLI::App & command, const CLI::ParseError & error);
+
+/** The failure, with its exit code, of the exception that is being handled. */
+Failure
+FailureOfException();
 
 /** Versions of the program and its libraries, a line each. */
 std::string

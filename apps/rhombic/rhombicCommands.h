@@ -30,6 +30,16 @@ struct CommandContext
  */
 using CommandRun = std::function<std::vector<MadeFile>(const CommandContext &)>;
 
+/** What runs a command that returns no files. */
+inline CommandRun
+WithoutOutputs(const std::function<void(const CommandContext &)> & run)
+{
+  return [run](const CommandContext & context) {
+    run(context);
+    return std::vector<MadeFile>();
+  };
+}
+
 /** Each adds its settings and returns what to run. */
 CommandRun
 AddInfoCommand(CommandSettings & command);

@@ -41,13 +41,12 @@ AddCompareCommand(CommandSettings & command)
   };
   const auto options = std::make_shared<CompareOptions>();
   command.Add(table, *options);
-  return [options](const CommandContext & context) {
+  return WithoutOutputs([options](const CommandContext & context) {
     options->settings.output = options->output;
     options->settings.hasPictures = !options->hasNoPictures;
     RunComparison(
       ReadComparisonRequest(options->experiments, options->scans), options->settings, context.console->MakeEvents());
-    return std::vector<MadeFile>();
-  };
+  });
 }
 
 } // namespace rhombic

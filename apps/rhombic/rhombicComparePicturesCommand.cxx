@@ -74,10 +74,7 @@ AddComparePicturesCommand(CommandSettings & command)
   };
   const auto options = std::make_shared<ComparePicturesOptions>();
   command.Add(table, *options);
-  return [options](const CommandContext &) {
-    Compare(*options);
-    return std::vector<MadeFile>();
-  };
+  return WithoutOutputs([options](const CommandContext &) { Compare(*options); });
 }
 
 } // namespace rhombic

@@ -52,10 +52,7 @@ Doctor()
 CommandRun
 AddDoctorCommand(CommandSettings &)
 {
-  return [](const CommandContext &) {
-    Doctor();
-    return std::vector<MadeFile>();
-  };
+  return WithoutOutputs([](const CommandContext &) { Doctor(); });
 }
 
 } // namespace rhombic

@@ -217,10 +217,7 @@ AddInfoCommand(CommandSettings & command)
   const auto options = std::make_shared<InfoOptions>();
   command.Add(ScanOptions::SourceTable(), options->scan);
   command.Add(table, *options);
-  return [options](const CommandContext & context) {
-    Info(*options, context);
-    return std::vector<MadeFile>();
-  };
+  return WithoutOutputs([options](const CommandContext & context) { Info(*options, context); });
 }
 
 } // namespace rhombic

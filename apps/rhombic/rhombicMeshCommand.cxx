@@ -4,7 +4,6 @@
 #include "rhombicScanOptions.h"
 #include "rhombicSurfaceOptions.h"
 
-#include <charconv>
 #include <cmath>
 
 namespace rhombic
@@ -34,12 +33,9 @@ ParseTriangles(const std::string & text, SurfaceFinish & finish)
   {
     return;
   }
-  const char * const end = text.data() + text.size();
-  double number = 0.0;
-  const auto parsed = std::from_chars(text.data(), end, number);
-  const bool isShare = std::string(parsed.ptr, end) == "%";
-  if (parsed.ec != std::errc() || (parsed.ptr != end && !isShare) || !(number > 0.0) || number > 4e9 ||
-      (isShare ? number > 100.0 : number != std::floor(number)))
+  const bool isShare = text.back() == '%';
+  const double number = ToNumber<double>(text.substr(0, text.size() - (isShare ? 1 : 0))).value_or(0.0);
+  if (!(number > 0.0) || number > 4e9 || (isShare ? number > 100.0 : number != std::floor(number)))
   {
     throw Failure(FailureKind::Usage,
                   "'" + text + "' is no number of triangles; write --max-triangles 200000, or 10% of what there are.");
@@ -52,14 +48,6 @@ ParseTriangles(const std::string & text, SurfaceFinish & finish)
   {
     finish.maximumTriangles = static_cast<std::size_t>(number);
   }
-}
-
-SurfaceFileSpace
-ParseSpace(const std::string & text)
-{
-  static const NamedValues<SurfaceFileSpace> spaces{ { "lps", SurfaceFileSpace::LPS },
-                                                     { "ras", SurfaceFileSpace::RAS } };
-  return FindNamed("space", text, spaces);
 }
 
 SurfaceSelection
@@ -90,7 +78,8 @@ Mesh(const MeshOptions & options, const CommandContext & context)
   }
   settings.source = options.scan.GetSource(context.decoder);
   settings.mesh = options.mesh;
-  settings.space = ParseSpace(options.space);
+  settings.space = FindNamed<SurfaceFileSpace>(
+    "space", options.space, { { "lps", SurfaceFileSpace::LPS }, { "ras", SurfaceFileSpace::RAS } });
   settings.finish = options.finish;
   ParseTriangles(options.maximumTriangles, settings.finish);
   settings.measures = options.measures;

@@ -36,10 +36,7 @@ AddPhantomCommand(CommandSettings & command)
   };
   const auto options = std::make_shared<PhantomOptions>();
   command.Add(table, *options);
-  return [options](const CommandContext & context) {
-    MakePhantom(*options, context);
-    return std::vector<MadeFile>();
-  };
+  return WithoutOutputs([options](const CommandContext & context) { MakePhantom(*options, context); });
 }
 
 } // namespace rhombic

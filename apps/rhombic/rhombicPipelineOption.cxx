@@ -1,8 +1,5 @@
 #include "rhombicCommandLine.h"
-#include "rhombicCommandSyntax.h"
-#include "rhombicFailure.h"
 #include "rhombicScanOptions.h"
-#include "rhombicUsageError.h"
 #include "rhombicWording.h"
 
 #include <algorithm>

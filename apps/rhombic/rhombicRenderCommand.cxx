@@ -10,7 +10,6 @@
 #include "rhombicWording.h"
 
 #include <algorithm>
-#include <charconv>
 #include <iostream>
 #include <optional>
 
@@ -103,17 +102,12 @@ ParseSize(const std::string & text, RenderSettings & render)
   {
     return;
   }
-  const char * const end = text.data() + text.size();
-  auto parsed = std::from_chars(text.data(), end, render.width);
-  render.height = render.width;
-  if (parsed.ec == std::errc() && parsed.ptr != end && *parsed.ptr == 'x')
-  {
-    parsed = std::from_chars(parsed.ptr + 1, end, render.height);
-  }
+  const std::vector<std::string> sides = Split(text, "x");
+  render.width = ToNumber<int>(sides.front()).value_or(-1);
+  render.height = ToNumber<int>(sides.back()).value_or(-1);
   constexpr int smallest = 32; // on which there is room for a letter
   const auto isSide = [](int side) { return side == 0 || side >= smallest; };
-  if (parsed.ec != std::errc() || parsed.ptr != end || !isSide(render.width) || !isSide(render.height) ||
-      render.width + render.height == 0)
+  if (sides.size() > 2 || !isSide(render.width) || !isSide(render.height) || render.width + render.height == 0)
   {
     throw Failure(FailureKind::Usage,
                   "'" + text +
@@ -147,12 +141,13 @@ ParseViews(const RenderOptions & options)
 }
 
 PictureStyle
-ParseStyle(const std::string & text)
+ParseStyle(const std::string & text, const std::string & usual)
 {
-  static const NamedValues<PictureStyle> styles{ { "clinic", PictureStyle::Clinic },
-                                                 { "paper", PictureStyle::Paper },
-                                                 { "transparent", PictureStyle::Transparent } };
-  return FindNamed("style", text, styles);
+  return FindNamed<PictureStyle>("style",
+                                 text.empty() ? usual : text,
+                                 { { "clinic", PictureStyle::Clinic },
+                                   { "paper", PictureStyle::Paper },
+                                   { "transparent", PictureStyle::Transparent } });
 }
 
 AnnotationSettings
@@ -273,7 +268,7 @@ RenderPage(const RenderOptions & options, const CommandContext & context)
   }
   settings.slices = ParseAll(options.slices, ParsePlaneRequest);
   settings.slice = GetSliceSettings(options);
-  settings.style = options.style.empty() ? PictureStyle::Paper : ParseStyle(options.style);
+  settings.style = ParseStyle(options.style, "paper");
   if (settings.style == PictureStyle::Transparent)
   {
     throw Failure(FailureKind::Usage, "Pages are not transparent; use --style paper or clinic.");
@@ -311,7 +306,7 @@ RenderPictures(const RenderOptions & options, const CommandContext & context)
   settings.onlyPicture = options.onlyPicture;
   settings.focus = options.focus;
   ParseSize(options.size, settings.render);
-  settings.render.style = options.style.empty() ? PictureStyle::Clinic : ParseStyle(options.style);
+  settings.render.style = ParseStyle(options.style, "clinic");
   settings.writesDicom = options.writesDicom;
   if (settings.writesDicom && settings.render.style == PictureStyle::Transparent)
   {

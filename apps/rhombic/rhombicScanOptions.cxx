@@ -31,7 +31,7 @@ ScanReadOptions::Policy
 ParsePolicy(const std::string & option, const std::string & text, const std::string & accept)
 {
   using Policy = ScanReadOptions::Policy;
-  return FindNamed(option, text, NamedValues<Policy>{ { accept, Policy::Accept }, { "error", Policy::Refuse } });
+  return FindNamed<Policy>(option, text, { { accept, Policy::Accept }, { "error", Policy::Refuse } });
 }
 
 } // namespace
@@ -124,9 +124,6 @@ ScanOptions::GetProvenance(const CommandSettings & command) const
 ScanSource
 ScanOptions::GetSource(VoxelDecoder * decoder) const
 {
-  static const NamedValues<itk::SeparableKernel> kernels{ { "cubic", itk::SeparableKernel::CubicBSpline },
-                                                          { "linear", itk::SeparableKernel::Linear },
-                                                          { "lanczos", itk::SeparableKernel::Lanczos4 } };
   if (scan.empty())
   {
     throw Failure(FailureKind::Usage, "No scan is given; name a DICOM folder or a volume file (see --help).");
@@ -145,7 +142,11 @@ ScanOptions::GetSource(VoxelDecoder * decoder) const
   source.read.decoder = decoder;
   source.lattice.density = density;
   source.lattice.spacing = ToSpacing(spacing);
-  source.lattice.kernel = FindNamed("kernel", kernel, kernels);
+  source.lattice.kernel = FindNamed<itk::SeparableKernel>("kernel",
+                                                          kernel,
+                                                          { { "cubic", itk::SeparableKernel::CubicBSpline },
+                                                            { "linear", itk::SeparableKernel::Linear },
+                                                            { "lanczos", itk::SeparableKernel::Lanczos4 } });
   source.lattice.denoising = denoising.empty() ? Denoising() : ParseDenoising(denoising);
   source.lattice.nested = isNested;
   source.lattice.maximumMemory = source.read.maximumMemory;

@@ -5,32 +5,6 @@
 
 namespace rhombic
 {
-namespace
-{
-
-itk::FCCIsosurfaceMode
-ParseMode(const std::string & text)
-{
-  using Mode = itk::FCCIsosurfaceMode;
-  static const NamedValues<Mode> modes{ { "lean", Mode::Lean },
-                                        { "fine", Mode::Fine },
-                                        { "tetrahedra", Mode::Tetrahedra },
-                                        { "octahedra", Mode::Octahedra },
-                                        { "parallelepipeds", Mode::Parallelepipeds } };
-  return FindNamed("mode", text, modes);
-}
-
-LabelColours
-ParseLabelColours(const std::string & text)
-{
-  static const NamedValues<LabelColours> colours{ { "anatomy", LabelColours::Anatomy },
-                                                  { "file", LabelColours::Table },
-                                                  { "safe", LabelColours::ColourBlind } };
-  return FindNamed("colours", text, colours);
-}
-
-} // namespace
-
 const SettingsTable<SurfaceOptions> &
 SurfaceOptions::Table()
 {
@@ -130,7 +104,14 @@ SurfaceSelection
 SurfaceOptions::GetSelection(const Preset & chosen, const std::optional<SurfaceRequest> & further) const
 {
   SurfaceSelection selection;
-  selection.mode = ParseMode(mode);
+  using Mode = itk::FCCIsosurfaceMode;
+  selection.mode = FindNamed<Mode>("mode",
+                                   mode,
+                                   { { "lean", Mode::Lean },
+                                     { "fine", Mode::Fine },
+                                     { "tetrahedra", Mode::Tetrahedra },
+                                     { "octahedra", Mode::Octahedra },
+                                     { "parallelepipeds", Mode::Parallelepipeds } });
   selection.requests = chosen.surfaces;
   selection.rules.rules = chosen.rules;
   selection.lacksPreset = preset == "auto" && chosen.surfaces.empty();
@@ -179,7 +160,10 @@ SurfaceOptions::GetRules(std::vector<SceneRule> before) const
   SceneRules all;
   all.only = only;
   all.hidden = hidden;
-  all.colours = ParseLabelColours(labelColours);
+  all.colours = FindNamed<LabelColours>(
+    "colours",
+    labelColours,
+    { { "anatomy", LabelColours::Anatomy }, { "file", LabelColours::Table }, { "safe", LabelColours::ColourBlind } });
   all.rules = std::move(before);
   for (const std::string & text : looks)
   {

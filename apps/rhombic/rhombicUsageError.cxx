@@ -1,4 +1,4 @@
-#include "rhombicUsageError.h"
+#include "rhombicCommandLine.h"
 
 #include "rhombicWording.h"
 #include "rhombicOptionNames.h"
