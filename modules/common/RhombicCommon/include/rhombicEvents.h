@@ -1,13 +1,10 @@
 #ifndef rhombicEvents_h
 #define rhombicEvents_h
 
+#include "itkProcessObject.h"
+
 #include <functional>
 #include <string>
-
-namespace itk
-{
-class ProcessObject;
-}
 
 namespace rhombic
 {
@@ -48,8 +45,13 @@ struct Events
 
 /** Reports a filter's progress to Events::progress as that of \a step. \a events must outlive the filter's work. Thread
  * safety: that of itk::Object::AddObserver(). */
-void
-ObserveProgress(itk::ProcessObject & filter, const std::string & step, const Events & events);
+inline void
+ObserveProgress(itk::ProcessObject & filter, const std::string & step, const Events & events)
+{
+  filter.AddObserver(itk::ProgressEvent(), [&filter, step, &events](const itk::EventObject &) {
+    events.Progress(step, static_cast<double>(filter.GetProgress()));
+  });
+}
 
 } // namespace rhombic
 
