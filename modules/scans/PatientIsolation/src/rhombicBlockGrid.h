@@ -153,6 +153,19 @@ MaskOfParts(const Components & components, const TFunction & isIn)
   return MakeMask(*components.labels, [&](std::size_t offset) { return isLabelIn[labels[offset]]; });
 }
 
+/** The mask of the components of which a block, by its index and offset, isSeed(index, offset). */
+template <typename TFunction>
+MaskImage::Pointer
+MaskOfPartsWith(const Components & components, const TFunction & isSeed)
+{
+  std::vector<bool> hasSeed(components.parts.size(), false);
+  const std::uint32_t * const labels = components.labels->GetBufferPointer();
+  ForEachIndex(components.labels->GetBufferedRegion().GetSize(), [&](const itk::Index<3> & index, std::size_t offset) {
+    hasSeed[labels[offset]] = hasSeed[labels[offset]] || (labels[offset] != 0 && isSeed(index, offset));
+  });
+  return MaskOfParts(components, [&](std::size_t label) { return hasSeed[label]; });
+}
+
 /** \file
  * From the samples of an image to blocks of them, and back by interpolation. Blocks at the far sides may have fewer
  * samples than others. */

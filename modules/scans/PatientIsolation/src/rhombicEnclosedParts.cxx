@@ -85,13 +85,10 @@ MakeInsideMask(const LatticeBlocks & blocks, const Threshold & threshold)
 MaskImage::Pointer
 FindPartsAtSides(const MaskImage & mask, unsigned int longAxis, bool takesSides)
 {
-  const Components components = FindMaskComponents(mask, false);
-  const std::uint32_t * const labels = components.labels->GetBufferPointer();
   const auto & size = mask.GetBufferedRegion().GetSize();
   constexpr double room = ballRadius + 0.5 * gridBlockWidth; // to the centre of the nearest block outside the mask
   const auto depth = DistanceTo(*Complement(mask), 2.0 * room);
-  std::vector<bool> isFound(components.parts.size(), false);
-  ForEachIndex(size, [&](const itk::Index<3> & index, std::size_t offset) {
+  return MaskOfPartsWith(FindMaskComponents(mask, false), [&](const itk::Index<3> & index, std::size_t offset) {
     unsigned int sides = 0;
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
@@ -99,12 +96,8 @@ FindPartsAtSides(const MaskImage & mask, unsigned int longAxis, bool takesSides)
       sides += axis != longAxis && (index[axis] == 0 || index[axis] == last) ? 1 : 0;
     }
     const bool hasRoom = takesSides && static_cast<double>(depth->GetBufferPointer()[offset]) > room;
-    if (sides == 2 || (sides == 1 && hasRoom))
-    {
-      isFound[labels[offset]] = true;
-    }
+    return sides == 2 || (sides == 1 && hasRoom);
   });
-  return MaskOfParts(components, [&](std::size_t label) { return isFound[label]; });
 }
 
 /** The limit, in HU, below which values may be air around the body. It is higher for scans whose lowest values are

@@ -30,19 +30,6 @@ Add(const MaskImage & mask, MaskImage & sum)
   std::transform(begin, end, sum.GetBufferPointer(), sum.GetBufferPointer(), std::bit_or<>());
 }
 
-/** The connected parts that hold a block of the seeds. */
-MaskImage::Pointer
-PartsWithSeeds(const Components & components, const MaskImage & seeds)
-{
-  std::vector<bool> hasSeed(components.parts.size(), false);
-  const std::uint32_t * const labels = components.labels->GetBufferPointer();
-  for (std::size_t offset = 0; offset < seeds.GetBufferedRegion().GetNumberOfPixels(); ++offset)
-  {
-    hasSeed[labels[offset]] = hasSeed[labels[offset]] || seeds.GetBufferPointer()[offset] != 0;
-  }
-  return MaskOfParts(components, [&](std::size_t label) { return hasSeed[label]; });
-}
-
 /** Separate parts of the tissue with a core that may be a hand or another thin limb: short ones of soft tissue. */
 MaskImage::Pointer
 FindHands(const CoarseScan & coarse, const MaskImage & tissue, const MaskImage & cores)
@@ -108,7 +95,10 @@ FindBody(const CoarseScan & coarse, const MaskImage & tissue)
     });
   };
   const auto cores = deeperThan(coreDepth);
-  const auto body = PartsWithSeeds(FindMaskComponents(*cores, false), *deeperThan(bodyDepth));
+  const auto deepest = deeperThan(bodyDepth);
+  const auto body = MaskOfPartsWith(FindMaskComponents(*cores, false), [&](const itk::Index<3> &, std::size_t offset) {
+    return deepest->GetBufferPointer()[offset] != 0;
+  });
   if (!HasBorder(*body))
   {
     return nullptr;

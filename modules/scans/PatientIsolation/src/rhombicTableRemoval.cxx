@@ -10,7 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <sstream>
 #include <type_traits>
 
 namespace rhombic
@@ -399,12 +398,10 @@ void
 NoteRemoval(const TableRemoval & removal, const Events & events)
 {
   const double total = SumOfVolumes(removal.objects) + removal.millilitresOfSpecks;
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << "removed " << std::lround(total) << " ml around the patient: " << Count(removal.objects.size(), "object")
-       << " (table, holder, sheets) and " << Count(removal.numberOfSpecks, "speck")
-       << "; leave out RemoveTable() to keep them" << DescribeKept(removal);
-  events.Note(text.str());
+  events.Note("removed " + std::to_string(std::lround(total)) +
+              " ml around the patient: " + Count(removal.objects.size(), "object") + " (table, holder, sheets) and " +
+              Count(removal.numberOfSpecks, "speck") + "; leave out RemoveTable() to keep them" +
+              DescribeKept(removal));
 }
 
 } // namespace
@@ -429,7 +426,6 @@ RemoveTable(Scan & scan, const Events & events)
     events.Note(removal.notes.back());
     return removal;
   }
-  removal.airValue = airValue;
   const auto objects = MakeMask(*outside, [&, isOutside = outside->GetBufferPointer()](std::size_t offset) {
     return isOutside[offset] != 0 &&
            (tissue->GetBufferPointer()[offset] != 0 || (occupancy[offset] != 0 && !IsNear(*patient.all, offset)));
@@ -440,6 +436,7 @@ RemoveTable(Scan & scan, const Events & events)
   if (!removal.objects.empty())
   {
     const Cut cut = FindCut(coarse, patient, *outside, *objects);
+    removal.airValue = airValue;
     std::visit([&](const auto & image) { DrawSkin(*image, coarse.shape, cut, removal.airValue); }, scan.image);
     NoteRemoval(removal, events);
   }
@@ -447,7 +444,6 @@ RemoveTable(Scan & scan, const Events & events)
   {
     removal.numberOfSpecks = 0;
     removal.millilitresOfSpecks = 0.0;
-    removal.airValue = 0.0;
     removal.notes.push_back("nothing was removed: no object of 1 ml or more was told from the patient" +
                             DescribeKept(removal));
     events.Note(removal.notes.back());
