@@ -26,41 +26,35 @@ IsPositive(double number)
   return number > 0.0 && std::isfinite(number);
 }
 
+/** An image of the same grid, with the values that \a convert makes of the image's. */
+template <typename TOutput, typename TInput, typename TConvert>
+typename TOutput::Pointer
+Converted(const TInput & image, const TConvert & convert)
+{
+  const auto output = TOutput::New();
+  output->CopyInformation(&image);
+  output->SetRegions(image.GetBufferedRegion());
+  output->Allocate();
+  const auto * const begin = image.GetBufferPointer();
+  std::transform(begin, begin + image.GetBufferedRegion().GetNumberOfPixels(), output->GetBufferPointer(), convert);
+  return output;
+}
+
 /** Throws Failure(Unreadable) for values that are not finite. */
 template <typename TPixel>
 RealImage::Pointer
 ToReal(const itk::Image<TPixel, 3> & image)
 {
-  const auto real = RealImage::New();
-  real->CopyInformation(&image);
-  real->SetRegions(image.GetBufferedRegion());
-  real->Allocate();
-  const TPixel * const begin = image.GetBufferPointer();
-  const TPixel * const end = begin + image.GetBufferedRegion().GetNumberOfPixels();
-  if (std::is_floating_point_v<TPixel> && !std::all_of(begin, end, [](TPixel value) { return std::isfinite(value); }))
-  {
-    throw Failure(FailureKind::Unreadable,
-                  "The scan has values that are not finite, which edge-preserving smoothing would spread; use "
-                  "Denoising::Kind::Gaussian, which leaves them out.");
-  }
-  std::transform(begin, end, real->GetBufferPointer(), [](TPixel value) { return static_cast<float>(value); });
-  return real;
-}
-
-template <typename TPixel>
-typename itk::Image<TPixel, 3>::Pointer
-FromReal(const RealImage & real)
-{
-  const auto image = itk::Image<TPixel, 3>::New();
-  image->CopyInformation(&real);
-  image->SetRegions(real.GetBufferedRegion());
-  image->Allocate();
-  const float * const begin = real.GetBufferPointer();
-  std::transform(begin,
-                 begin + real.GetBufferedRegion().GetNumberOfPixels(),
-                 image->GetBufferPointer(),
-                 [](float value) { return itk::RoundAndClamp<TPixel>(value); });
-  return image;
+  return Converted<RealImage>(image, [](TPixel sample) {
+    const auto value = static_cast<float>(sample);
+    if (std::is_floating_point_v<TPixel> && !std::isfinite(value))
+    {
+      throw Failure(FailureKind::Unreadable,
+                    "The scan has values that are not finite, which edge-preserving smoothing would spread; use "
+                    "Denoising::Kind::Gaussian, which leaves them out.");
+    }
+    return value;
+  });
 }
 
 /** The steps of ITK's explicit scheme: short enough to be stable, and as many as smooth regions without edges by sigma.
@@ -170,7 +164,8 @@ DenoiseScan(const ScanImage & image, const Denoising & denoising, std::uintmax_t
                     "Edge-preserving smoothing",
                     "use Denoising::Kind::Gaussian");
       const RealImage::Pointer smooth = KeepEdges(ToReal(*input), denoising, events);
-      return FromReal<PixelType>(*smooth);
+      return Converted<itk::Image<PixelType, 3>>(*smooth,
+                                                 [](float value) { return itk::RoundAndClamp<PixelType>(value); });
     },
     image);
 }
