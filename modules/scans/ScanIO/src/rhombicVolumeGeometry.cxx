@@ -49,24 +49,20 @@ CheckGeometry(const VolumeGeometry & geometry,
 {
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    if (!std::isfinite(geometry.origin[axis]) || !std::isfinite(geometry.spacing[axis]))
-    {
-      RefuseGeometry(path, "its " + matrix + " holds numbers that are not finite; export it again from its source");
-    }
+    RefuseGeometryIf(!std::isfinite(geometry.origin[axis]) || !std::isfinite(geometry.spacing[axis]),
+                     path,
+                     "its " + matrix + " holds numbers that are not finite; export it again from its source");
     constexpr double smallest = 1e-9, largest = 1e9; // mm
-    if (geometry.spacing[axis] < smallest || geometry.spacing[axis] > largest)
-    {
-      RefuseGeometry(path,
+    RefuseGeometryIf(geometry.spacing[axis] < smallest || geometry.spacing[axis] > largest,
+                     path,
                      "its voxels have no proper size along axis " + std::to_string(axis) + " (" + matrix +
                        "); export it again from its source");
-    }
   }
   constexpr double smallestVolume = 1e-3; // volume that three unit axes must span at least
   const double volume = AxisOf(geometry, 0) * itk::CrossProduct(AxisOf(geometry, 1), AxisOf(geometry, 2));
-  if (std::abs(volume) < smallestVolume)
-  {
-    RefuseGeometry(path, "its axes lie in one plane (the " + matrix + " is singular); export it again from its source");
-  }
+  RefuseGeometryIf(std::abs(volume) < smallestVolume,
+                   path,
+                   "its axes lie in one plane (the " + matrix + " is singular); export it again from its source");
 
   double largestCosine = 0;
   for (unsigned int axis = 0; axis < 3; ++axis)
@@ -78,12 +74,10 @@ CheckGeometry(const VolumeGeometry & geometry,
   {
     const std::string degrees =
       FormatNumber(std::asin(std::min(1.0, largestCosine)) * 180 / itk::Math::pi, 3) + " degrees";
-    if (onSheared == ScanReadOptions::Policy::Refuse)
-    {
-      RefuseGeometry(path,
+    RefuseGeometryIf(onSheared == ScanReadOptions::Policy::Refuse,
+                     path,
                      "its " + matrix + " is sheared: its axes are " + degrees +
                        " from perpendicular; accept sheared volumes, or resample it to perpendicular axes first");
-    }
     notes.push_back(path.string() + " is sheared: the axes of its " + matrix + " are " + degrees +
                     " from perpendicular.");
   }

@@ -292,18 +292,13 @@ std::vector<DicomSlice>
 ReadFile(const fs::path & path)
 {
   std::vector<DicomSlice> slices = ReadDicomSlices(path);
-  if (slices.empty())
-  {
-    RefuseVolume(path, "it is neither DICOM nor named like NIfTI, NRRD or MetaImage; check where it came from");
-  }
-  if (!slices.front().refusal.empty())
-  {
-    RefuseVolume(path, slices.front().refusal + "; give a folder of plain CT, MR or PET slices");
-  }
-  if (!slices.front().file->pixelDamage.empty())
-  {
-    RefuseVolume(path, slices.front().file->pixelDamage + "; copy it again from its source");
-  }
+  RefuseVolumeIf(
+    slices.empty(), path, "it is neither DICOM nor named like NIfTI, NRRD or MetaImage; check where it came from");
+  RefuseVolumeIf(
+    !slices.front().refusal.empty(), path, slices.front().refusal + "; give a folder of plain CT, MR or PET slices");
+  RefuseVolumeIf(!slices.front().file->pixelDamage.empty(),
+                 path,
+                 slices.front().file->pixelDamage + "; copy it again from its source");
   if (slices.size() == 1 && slices.front().kind == DicomSlice::Kind::Scan)
   {
     throw Failure(FailureKind::Geometry,

@@ -268,10 +268,8 @@ ChooseSeries(const std::vector<DicomSeries> & series, const std::string & wanted
                     "; choose one with ScanReadOptions::series and an id from " + EnumerateSeries(series) + ".");
   }
   const DicomSlice & slice = series[choice->index].slices.front();
-  if (!slice.refusal.empty())
-  {
-    RefuseVolume(slice.file->path, slice.refusal + "; give a series of plain CT, MR or PET slices");
-  }
+  RefuseVolumeIf(
+    !slice.refusal.empty(), slice.file->path, slice.refusal + "; give a series of plain CT, MR or PET slices");
   return *choice;
 }
 

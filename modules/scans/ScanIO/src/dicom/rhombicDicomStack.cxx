@@ -44,10 +44,7 @@ RequirePlanes(const Slices & slices)
 {
   for (const DicomSlice & slice : slices)
   {
-    if (!slice.plane)
-    {
-      RefuseGeometry(slice.file->path, slice.planeProblem + "; export the series again from its source");
-    }
+    RefuseGeometryIf(!slice.plane, slice.file->path, slice.planeProblem + "; export the series again from its source");
   }
   if (slices.size() < 2)
   {

@@ -165,10 +165,9 @@ ToNumbers(const std::string & text, std::size_t count, const fs::path & path)
     numbers.clear();
     break;
   }
-  if (numbers.size() != count)
-  {
-    RefuseVolume(path, "its header has '" + text + "' where " + std::to_string(count) + " numbers are expected");
-  }
+  RefuseVolumeIf(numbers.size() != count,
+                 path,
+                 "its header has '" + text + "' where " + std::to_string(count) + " numbers are expected");
   return numbers;
 }
 
@@ -191,10 +190,7 @@ ReadPlacement(const NRRDHeader & header, const fs::path & path)
     }
   }
   const std::string defect = DefectOf(placement);
-  if (!defect.empty())
-  {
-    RefuseVolume(path, "its " + defect);
-  }
+  RefuseVolumeIf(!defect.empty(), path, "its " + defect);
   return placement;
 }
 
@@ -208,17 +204,12 @@ CheckSize(const std::vector<std::uint64_t> & sizes,
   std::uint64_t bytes = bytesPerSample;
   for (const std::uint64_t size : sizes)
   {
-    if (size == 0 || bytes > available / size)
-    {
-      RefuseVolume(path,
+    RefuseVolumeIf(size == 0 || bytes > available / size,
+                   path,
                    "its header promises more samples than the file holds; it may have been cut off, so copy it again");
-    }
     bytes *= size;
   }
-  if (bytes != available)
-  {
-    RefuseVolume(path, "it holds more data than its header says");
-  }
+  RefuseVolumeIf(bytes != available, path, "it holds more data than its header says");
 }
 
 template <typename TPixel>
@@ -239,10 +230,7 @@ ReadSamples(const NRRDHeader & header, const fs::path & path)
   std::ifstream stream(path, std::ios::binary);
   stream.seekg(static_cast<std::streamoff>(header.size));
   stream.read(reinterpret_cast<char *>(image->GetBufferPointer()), static_cast<std::streamsize>(available));
-  if (!stream)
-  {
-    RefuseVolume(path, "reading its samples failed");
-  }
+  RefuseVolumeIf(!stream, path, "reading its samples failed");
   return image;
 }
 
@@ -255,11 +243,9 @@ ReadSamplesOfAny(PixelTypeList<TPixels...>, const NRRDHeader & header, const fs:
   FCCVolume volume;
   const bool isKnown =
     ((type == PixelTypeName<TPixels>() && (volume = ReadSamples<TPixels>(header, path), true)) || ...);
-  if (!isKnown)
-  {
-    RefuseVolume(path,
+  RefuseVolumeIf(!isKnown,
+                 path,
                  "its sample type '" + header.Get("type") + "' is not " + Enumerate({ PixelTypeName<TPixels>()... }));
-  }
   return volume;
 }
 
@@ -306,16 +292,13 @@ ReadFCCImage(const fs::path & path)
   {
     throw Failure(FailureKind::NotFound, "There is no file " + path.string() + "; check the path.");
   }
-  if (!IsFCCImageFile(path))
-  {
-    RefuseVolume(path, "it is not a volume on the face-centered cubic lattice; give it as a scan instead");
-  }
+  RefuseVolumeIf(
+    !IsFCCImageFile(path), path, "it is not a volume on the face-centered cubic lattice; give it as a scan instead");
   const NRRDHeader header = ReadNRRDHeader(path);
-  if (LowerCase(header.Get("encoding")) != "raw" || header.Get("dimension") != "3" ||
-      (LowerCase(header.Get("endian")) != "little" && CanonicalNRRDType(header.Get("type")) != "uint8"))
-  {
-    RefuseVolume(path, "only raw, little-endian, three-dimensional lattice volumes are supported");
-  }
+  RefuseVolumeIf(LowerCase(header.Get("encoding")) != "raw" || header.Get("dimension") != "3" ||
+                   (LowerCase(header.Get("endian")) != "little" && CanonicalNRRDType(header.Get("type")) != "uint8"),
+                 path,
+                 "only raw, little-endian, three-dimensional lattice volumes are supported");
   return ReadSamplesOfAny(PixelTypes(), header, path);
 }
 

@@ -41,10 +41,9 @@ ReadHeader(const fs::path & path)
       header.fields[std::string(Trim(line.substr(0, equals)))] = Trim(line.substr(equals + 1));
     }
   }
-  if (header.Get("ElementDataFile").empty())
-  {
-    RefuseVolume(path, "its content is not MetaImage, as its name says; check where it came from");
-  }
+  RefuseVolumeIf(header.Get("ElementDataFile").empty(),
+                 path,
+                 "its content is not MetaImage, as its name says; check where it came from");
   header.size = lines.GetSize();
   return header;
 }
@@ -59,17 +58,14 @@ TypeOf(const TextHeader & header, const fs::path & path)
     { "MET_ULONG_LONG", std::uint64_t() }, { "MET_FLOAT", float() },         { "MET_DOUBLE", double() },
   };
   const std::string channels = header.Get("ElementNumberOfChannels");
-  if (!channels.empty() && channels != "1")
-  {
-    RefuseVolume(path, "its voxels are " + channels + " numbers each, not single numbers; extract one component first");
-  }
+  RefuseVolumeIf(!channels.empty() && channels != "1",
+                 path,
+                 "its voxels are " + channels + " numbers each, not single numbers; extract one component first");
   const auto found = types.find(header.Get("ElementType"));
-  if (found == types.end())
-  {
-    RefuseVolume(path,
+  RefuseVolumeIf(found == types.end(),
+                 path,
                  "its pixel type '" + header.Get("ElementType") +
                    "' is not supported; convert it to integers or floats first");
-  }
   return found->second;
 }
 
@@ -90,10 +86,8 @@ MillimetresPerUnit(const TextHeader & header, const fs::path & path)
 {
   static const std::map<std::string, double> units{ { "", 1 }, { "?", 1 }, { "mm", 1 }, { "um", 1e-3 }, { "cm", 10 } };
   const auto found = units.find(header.Get("DistanceUnits"));
-  if (found == units.end())
-  {
-    RefuseGeometry(path, "its DistanceUnits are " + header.Get("DistanceUnits") + "; write it in mm");
-  }
+  RefuseGeometryIf(
+    found == units.end(), path, "its DistanceUnits are " + header.Get("DistanceUnits") + "; write it in mm");
   return found->second;
 }
 
@@ -136,12 +130,11 @@ ScalingOf(const TextHeader & header, const fs::path & path)
   ValueScaling scaling;
   scaling.slope = slope && slope->size() == 1 ? slope->front() : 1;
   scaling.intercept = offset && offset->size() == 1 ? offset->front() : 0;
-  if (!slope || !offset || !std::isfinite(scaling.slope) || !std::isfinite(scaling.intercept) || scaling.slope == 0)
-  {
-    RefuseVolume(path,
+  RefuseVolumeIf(!slope || !offset || !std::isfinite(scaling.slope) || !std::isfinite(scaling.intercept) ||
+                   scaling.slope == 0,
+                 path,
                  "its scaling of values (ElementToIntensityFunctionSlope, ElementToIntensityFunctionOffset) makes "
                  "no sense; export it again from its source");
-  }
   return scaling.slope == 1 && scaling.intercept == 0 ? std::nullopt : std::make_optional(scaling);
 }
 
@@ -152,10 +145,9 @@ IsBigEndian(const TextHeader & header, const fs::path & path)
     header.fields.count("BinaryDataByteOrderMSB") > 0 && header.fields.count("ElementByteOrderMSB") > 0;
   const bool binaryData = IsTrue(header, "BinaryDataByteOrderMSB");
   const bool element = IsTrue(header, "ElementByteOrderMSB");
-  if (hasBoth && binaryData != element)
-  {
-    RefuseVolume(path, "its header contradicts itself about the byte order; export it again from its source");
-  }
+  RefuseVolumeIf(hasBoth && binaryData != element,
+                 path,
+                 "its header contradicts itself about the byte order; export it again from its source");
   return binaryData || element;
 }
 
@@ -191,10 +183,9 @@ ReadMetaImageVolume(const fs::path & path)
   StoredVolume volume;
   volume.type = TypeOf(header, path);
   volume.scaling = ScalingOf(header, path);
-  if (!header.Get("BinaryData").empty() && !IsTrue(header, "BinaryData"))
-  {
-    RefuseVolume(path, "its voxels are text, which is not supported; write it with BinaryData = True");
-  }
+  RefuseVolumeIf(!header.Get("BinaryData").empty() && !IsTrue(header, "BinaryData"),
+                 path,
+                 "its voxels are text, which is not supported; write it with BinaryData = True");
   volume.encoding = IsTrue(header, "CompressedData") ? "zlib" : "raw";
   volume.numberOfFrames = sizes.size() == 4 ? sizes[3] : 1;
   Place(header, sizes, path, volume);

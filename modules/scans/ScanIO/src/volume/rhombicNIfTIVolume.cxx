@@ -58,10 +58,9 @@ HeaderFile(const fs::path & path)
     return path;
   }
   const fs::path header = Partner(path, ".hdr", ".hdr.gz");
-  if (header.empty())
-  {
-    RefuseVolume(path, "its header should be in an .hdr file beside it, which is missing; put the two into one folder");
-  }
+  RefuseVolumeIf(header.empty(),
+                 path,
+                 "its header should be in an .hdr file beside it, which is missing; put the two into one folder");
   return header;
 }
 
@@ -70,27 +69,23 @@ fs::path
 VoxelsFile(const fs::path & path, const NIfTIHeader & header, const ScanReadOptions & options)
 {
   const bool isNamedAsPair = IsOneOf(VolumeExtension(path), ".hdr", ".hdr.gz");
-  if (header.kind == NIfTIHeader::Kind::Analyze && !(options.acceptsAnalyze && isNamedAsPair && header.version == 1))
-  {
-    RefuseVolume(path,
+  RefuseVolumeIf(header.kind == NIfTIHeader::Kind::Analyze &&
+                   !(options.acceptsAnalyze && isNamedAsPair && header.version == 1),
+                 path,
                  "it is an Analyze 7.5 file or a damaged NIfTI file (its magic word is missing), whose orientation is "
                  "unknown; convert it to NIfTI, or have it read with ScanReadOptions::acceptsAnalyze");
-  }
-  if ((header.kind == NIfTIHeader::Kind::SingleFile) == isNamedAsPair)
-  {
-    RefuseVolume(path,
+  RefuseVolumeIf((header.kind == NIfTIHeader::Kind::SingleFile) == isNamedAsPair,
+                 path,
                  isNamedAsPair ? "its header says that the voxels follow in the same file; rename it to .nii"
                                : "its header says that the voxels are in an .img file; rename it to .hdr");
-  }
   if (!isNamedAsPair)
   {
     return path;
   }
   const fs::path voxels = Partner(path, ".img", ".img.gz");
-  if (voxels.empty())
-  {
-    RefuseVolume(path, "its voxels should be in an .img file beside it, which is missing; put the two into one folder");
-  }
+  RefuseVolumeIf(voxels.empty(),
+                 path,
+                 "its voxels should be in an .img file beside it, which is missing; put the two into one folder");
   return voxels;
 }
 
@@ -99,21 +94,18 @@ std::array<std::uintmax_t, 4>
 SizesOf(const NIfTIHeader & header, const fs::path & path)
 {
   const std::int64_t count = header.dimensions[0];
-  if (count < 3 || count > 7)
-  {
-    RefuseVolume(
-      path, "it has " + std::to_string(count) + (count == 1 ? " dimension" : " dimensions") + "; a volume has three");
-  }
+  RefuseVolumeIf(count < 3 || count > 7,
+                 path,
+                 "it has " + std::to_string(count) + (count == 1 ? " dimension" : " dimensions") +
+                   "; a volume has three");
   std::vector<std::uintmax_t> frames;
   for (std::size_t i = 1; i <= static_cast<std::size_t>(count); ++i)
   {
     const std::int64_t size = header.dimensions[i];
-    if (size < 1)
-    {
-      RefuseVolume(path,
+    RefuseVolumeIf(size < 1,
+                   path,
                    "its size along axis " + std::to_string(i - 1) + " is " + std::to_string(size) +
                      "; export it again from its source");
-    }
     if (i > 3)
     {
       frames.push_back(static_cast<std::uintmax_t>(size));
@@ -149,16 +141,13 @@ TypeOf(const NIfTIHeader & header, const fs::path & path)
     RefuseVolume(path, "its voxels are " + found->second + "; convert them to integers or floats first");
   }
   const auto found = types.find(header.datatype);
-  if (found == types.end())
-  {
-    RefuseVolume(path, "its pixel type (datatype " + datatype + ") is unknown; export it again from its source");
-  }
-  if (header.bits != static_cast<int>(8 * SizeOf(found->second)))
-  {
-    RefuseVolume(path,
+  RefuseVolumeIf(found == types.end(),
+                 path,
+                 "its pixel type (datatype " + datatype + ") is unknown; export it again from its source");
+  RefuseVolumeIf(header.bits != static_cast<int>(8 * SizeOf(found->second)),
+                 path,
                  "its header contradicts itself about the bits of a voxel (datatype " + datatype + ", bitpix " +
                    std::to_string(header.bits) + "); export it again from its source");
-  }
   return found->second;
 }
 
@@ -168,12 +157,10 @@ RefuseVectors(const NIfTIHeader & header, const fs::path & path)
   const int intent = header.intent;
   const bool isMatrixToQuaternion = intent >= 1004 && intent <= 1010;
   const bool isColour = intent == 2003 || intent == 2004;
-  if (isMatrixToQuaternion || isColour)
-  {
-    RefuseVolume(path,
+  RefuseVolumeIf(isMatrixToQuaternion || isColour,
+                 path,
                  "its voxels are vectors, matrices or colours (intent " + std::to_string(intent) +
                    "); extract one component first");
-  }
 }
 
 /** The scaling of values; nothing for a slope of 0 or NaN, which means no scaling, and for slope 1 and intercept 0. */
@@ -183,10 +170,9 @@ ScalingOf(const NIfTIHeader & header, const fs::path & path)
   const double slope = header.slope;
   const double intercept = header.intercept;
   const bool isScaled = slope != 0 && !std::isnan(slope);
-  if (std::isinf(slope) || std::isinf(intercept) || (isScaled && std::isnan(intercept)))
-  {
-    RefuseVolume(path, "its scaling of values (scl_slope, scl_inter) makes no sense; export it again from its source");
-  }
+  RefuseVolumeIf(std::isinf(slope) || std::isinf(intercept) || (isScaled && std::isnan(intercept)),
+                 path,
+                 "its scaling of values (scl_slope, scl_inter) makes no sense; export it again from its source");
   if (!isScaled || (slope == 1 && intercept == 0))
   {
     return std::nullopt;
@@ -199,13 +185,11 @@ VoxelsOffset(const NIfTIHeader & header, const fs::path & path)
 {
   const double smallest = header.kind != NIfTIHeader::Kind::SingleFile ? 0 : header.version == 1 ? 352 : 544;
   constexpr double largest = 1e15;
-  if (!(header.voxelsOffset >= smallest && header.voxelsOffset <= largest) ||
-      header.voxelsOffset != std::floor(header.voxelsOffset))
-  {
-    RefuseVolume(path,
+  RefuseVolumeIf(!(header.voxelsOffset >= smallest && header.voxelsOffset <= largest) ||
+                   header.voxelsOffset != std::floor(header.voxelsOffset),
+                 path,
                  "its header says that the voxels begin where they can't (vox_offset); export it again from its "
                  "source");
-  }
   return static_cast<std::uintmax_t>(header.voxelsOffset);
 }
 
@@ -254,10 +238,9 @@ Qform(const NIfTIHeader & header, const fs::path & path)
   auto [b, c, d] = header.quaternion;
   const double squares = b * b + c * c + d * d;
   constexpr double tolerance = 1e-3;
-  if (!std::isfinite(squares) || !std::isfinite(header.pixdim[0]) || squares > 1 + tolerance)
-  {
-    RefuseGeometry(path, "its qform holds a quaternion that is no rotation; export it again from its source");
-  }
+  RefuseGeometryIf(!std::isfinite(squares) || !std::isfinite(header.pixdim[0]) || squares > 1 + tolerance,
+                   path,
+                   "its qform holds a quaternion that is no rotation; export it again from its source");
   const bool isHalfTurn = 1 - squares < 1e-7; // the tolerance of nifti1_io.c
   const double norm = isHalfTurn ? std::sqrt(squares) : 1.0;
   b /= norm;
@@ -377,10 +360,8 @@ PlaceNIfTIVolume(const NIfTIHeader & header,
   else if (hasSform && hasQform)
   {
     const double distance = CornerDistance(affine, Qform(header, path), size);
-    if (!std::isfinite(distance))
-    {
-      RefuseGeometry(path, "its qform holds numbers that are not finite; export it again from its source");
-    }
+    RefuseGeometryIf(
+      !std::isfinite(distance), path, "its qform holds numbers that are not finite; export it again from its source");
     report.disagreement = distance * millimetresPerUnit;
     constexpr double tolerance = 1e-2; // relative to a voxel: quaternions are rounded
     if (distance > tolerance * SmallestStep(affine))

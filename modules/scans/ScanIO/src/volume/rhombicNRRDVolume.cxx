@@ -29,10 +29,9 @@ TypeOf(const NRRDHeader & header, const fs::path & path)
                                                         { "float", float() },        { "double", double() } };
   const std::string name = header.Get("type");
   const auto found = types.find(CanonicalNRRDType(name));
-  if (found == types.end())
-  {
-    RefuseVolume(path, "its pixel type '" + name + "' is not supported; convert it to integers or floats first");
-  }
+  RefuseVolumeIf(found == types.end(),
+                 path,
+                 "its pixel type '" + name + "' is not supported; convert it to integers or floats first");
   return found->second;
 }
 
@@ -62,10 +61,9 @@ DirectionsOf(const NRRDHeader & header, std::size_t dimension, const fs::path & 
     }
     position = end + 1;
   }
-  if (!directions.empty() && directions.size() != dimension)
-  {
-    RefuseGeometry(path, "its header has a wrong number of 'space directions'; export it again from its source");
-  }
+  RefuseGeometryIf(!directions.empty() && directions.size() != dimension,
+                   path,
+                   "its header has a wrong number of 'space directions'; export it again from its source");
   return directions;
 }
 
@@ -76,10 +74,9 @@ KindsOf(const NRRDHeader & header, std::size_t dimension, const fs::path & path)
   const std::string text = LowerCase(header.Get("kinds"));
   const auto words = SplitWords(text);
   std::vector<std::string> kinds(words.begin(), words.end());
-  if (!kinds.empty() && kinds.size() != dimension)
-  {
-    RefuseVolume(path, "its header has a wrong number of 'kinds'; export it again from its source");
-  }
+  RefuseVolumeIf(!kinds.empty() && kinds.size() != dimension,
+                 path,
+                 "its header has a wrong number of 'kinds'; export it again from its source");
   kinds.resize(dimension, "domain");
   std::replace_if(
     kinds.begin(), kinds.end(), [](const std::string & kind) { return kind == "???" || kind == "none"; }, "domain");
@@ -117,16 +114,14 @@ FrameAxis(const std::vector<std::string> & kinds,
                      "); extract one component first");
     }
   }
-  if (candidates.size() > dimension - 3)
-  {
-    RefuseVolume(
-      path, "only " + std::to_string(dimension - candidates.size()) + " of its axes lie in space; it is no volume");
-  }
+  RefuseVolumeIf(candidates.size() > dimension - 3,
+                 path,
+                 "only " + std::to_string(dimension - candidates.size()) +
+                   " of its axes lie in space; it is no volume");
   const std::size_t frameAxis = candidates.empty() ? 3 : candidates.front();
-  if (frameAxis == 1 || frameAxis == 2)
-  {
-    RefuseVolume(path, "the axis of its volumes lies between the others, which is not supported; permute it first");
-  }
+  RefuseVolumeIf(frameAxis == 1 || frameAxis == 2,
+                 path,
+                 "the axis of its volumes lies between the others, which is not supported; permute it first");
   if (!directions.empty() && frameAxis < dimension && directions[frameAxis].empty() && kinds[frameAxis] != "list")
   {
     RefuseVolume(path,
@@ -166,10 +161,8 @@ MillimetresPerUnit(const NRRDHeader & header, const fs::path & path)
   const std::string unit(words.empty() ? "" : words.front());
   const bool areSame = words.size() < 3 || (words[1] == unit && words[2] == unit);
   const auto found = units.find(unit);
-  if (found == units.end() || !areSame)
-  {
-    RefuseGeometry(path, "its 'space units' are " + std::string(Trim(text)) + "; write it in mm");
-  }
+  RefuseGeometryIf(
+    found == units.end() || !areSame, path, "its 'space units' are " + std::string(Trim(text)) + "; write it in mm");
   return found->second;
 }
 
@@ -191,18 +184,15 @@ Place(const NRRDHeader & header,
   if (directions.empty())
   {
     const auto spacings = NumbersOf(header.Get("spacings"));
-    if (!spacings || (!spacings->empty() && spacings->size() != sizes.size()))
-    {
-      RefuseGeometry(path, "its header's 'spacings' can't be read; export it again from its source");
-    }
+    RefuseGeometryIf(!spacings || (!spacings->empty() && spacings->size() != sizes.size()),
+                     path,
+                     "its header's 'spacings' can't be read; export it again from its source");
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
       steps[axis].Fill(0);
       steps[axis][axis] = spacings->empty() ? 1 : (*spacings)[firstAxis + axis] * unit;
-      if (steps[axis][axis] < 0)
-      {
-        RefuseGeometry(path, "its header's 'spacings' are negative; export it again from its source");
-      }
+      RefuseGeometryIf(
+        steps[axis][axis] < 0, path, "its header's 'spacings' are negative; export it again from its source");
     }
     volume.geometry = MakeGeometry(size, origin, steps);
     volume.matrix = "spacings";
@@ -218,10 +208,9 @@ Place(const NRRDHeader & header,
     return vector[row] * unit * (signs && row < 2 ? (*signs)[row] : 1.0);
   };
   const auto spaceOrigin = NumbersOf(header.Get("spaceorigin"));
-  if (!spaceOrigin || (!spaceOrigin->empty() && spaceOrigin->size() < 3))
-  {
-    RefuseGeometry(path, "its header's 'space origin' can't be read; export it again from its source");
-  }
+  RefuseGeometryIf(!spaceOrigin || (!spaceOrigin->empty() && spaceOrigin->size() < 3),
+                   path,
+                   "its header's 'space origin' can't be read; export it again from its source");
   for (unsigned int row = 0; row < 3; ++row)
   {
     origin[row] = spaceOrigin->empty() ? 0.0 : coordinate(*spaceOrigin, row);
@@ -242,10 +231,9 @@ std::string
 EncodingOf(const NRRDHeader & header, const fs::path & path)
 {
   const std::string name = LowerCase(header.Get("encoding"));
-  if (name != "raw" && name != "gz" && name != "gzip")
-  {
-    RefuseVolume(path, "its encoding '" + name + "' is not supported; write it as raw or gzip");
-  }
+  RefuseVolumeIf(name != "raw" && name != "gz" && name != "gzip",
+                 path,
+                 "its encoding '" + name + "' is not supported; write it as raw or gzip");
   return name == "raw" ? name : "gzip";
 }
 
@@ -273,16 +261,14 @@ FindVoxels(const NRRDHeader & header,
   const std::string name = header.Get("datafile");
   const fs::path file = name.empty() ? path : DetachedFile(path, name);
   const std::string endian = LowerCase(header.Get("endian"));
-  if (SizeOf(volume.type) > 1 && endian != "little" && endian != "big")
-  {
-    RefuseVolume(path, "its header does not say in which byte order its voxels are; export it again from its source");
-  }
+  RefuseVolumeIf(SizeOf(volume.type) > 1 && endian != "little" && endian != "big",
+                 path,
+                 "its header does not say in which byte order its voxels are; export it again from its source");
   const auto lineSkip = CountsOf(header.Get("lineskip"));
   const auto byteSkip = SkipOf(header.Get("byteskip"), isDeflated);
-  if (!lineSkip || lineSkip->size() > 1 || !byteSkip)
-  {
-    RefuseVolume(path, "its header's 'line skip' or 'byte skip' makes no sense; export it again from its source");
-  }
+  RefuseVolumeIf(!lineSkip || lineSkip->size() > 1 || !byteSkip,
+                 path,
+                 "its header's 'line skip' or 'byte skip' makes no sense; export it again from its source");
   volume.voxels.path = file;
   volume.voxels.isDeflated = isDeflated;
   volume.voxels.isSwapped = (endian == "big") == itk::ByteSwapper<int>::SystemIsLittleEndian();
@@ -297,12 +283,10 @@ StoredVolume
 ReadNRRDVolume(const fs::path & path)
 {
   const NRRDHeader header = ReadNRRDHeader(path);
-  if (header.IsLattice())
-  {
-    RefuseVolume(path,
+  RefuseVolumeIf(header.IsLattice(),
+                 path,
                  "it is a volume on the face-centered cubic lattice, not a scan of voxels; give the scan it was made "
                  "from");
-  }
   const std::vector<std::uintmax_t> sizes = AxisSizes(header.Get("dimension"), header.Get("sizes"), path);
   const auto directions = DirectionsOf(header, sizes.size(), path);
   const auto kinds = KindsOf(header, sizes.size(), path);

@@ -60,12 +60,10 @@ ChooseFrame(std::uintmax_t numberOfFrames,
             const std::filesystem::path & path,
             Scan & scan)
 {
-  if (!options.frame && numberOfFrames > 1 && options.onSeveralFrames == ScanReadOptions::Policy::Refuse)
-  {
-    RefuseVolume(path,
+  RefuseVolumeIf(!options.frame && numberOfFrames > 1 && options.onSeveralFrames == ScanReadOptions::Policy::Refuse,
+                 path,
                  "it holds " + std::to_string(numberOfFrames) +
                    " volumes; choose one with ScanReadOptions::frame, from 0 to " + std::to_string(numberOfFrames - 1));
-  }
   if (options.frame && *options.frame >= numberOfFrames)
   {
     throw Failure(FailureKind::Usage,

@@ -122,42 +122,32 @@ AxisSizes(const std::string & dimensionText, const std::string & sizesText, cons
 {
   const auto dimension = CountsOf(dimensionText);
   const auto sizes = CountsOf(sizesText);
-  if (!dimension || dimension->size() != 1 || !sizes || sizes->size() != dimension->front() ||
-      std::count(sizes->begin(), sizes->end(), 0) > 0)
-  {
-    RefuseVolume(path, "its header contradicts itself about its dimensions; export it again from its source");
-  }
-  if (sizes->size() < 3)
-  {
-    RefuseVolume(path, "it is a flat picture of " + Count(sizes->size(), "dimension") + ", not a volume");
-  }
-  if (sizes->size() > 4)
-  {
-    RefuseVolume(path, "it has " + std::to_string(sizes->size()) + " dimensions; extract one volume first");
-  }
+  RefuseVolumeIf(!dimension || dimension->size() != 1 || !sizes || sizes->size() != dimension->front() ||
+                   std::count(sizes->begin(), sizes->end(), 0) > 0,
+                 path,
+                 "its header contradicts itself about its dimensions; export it again from its source");
+  RefuseVolumeIf(
+    sizes->size() < 3, path, "it is a flat picture of " + Count(sizes->size(), "dimension") + ", not a volume");
+  RefuseVolumeIf(
+    sizes->size() > 4, path, "it has " + std::to_string(sizes->size()) + " dimensions; extract one volume first");
   return *sizes;
 }
 
 fs::path
 DetachedFile(const fs::path & header, const std::string & name)
 {
-  if (name.compare(0, 4, "LIST") == 0 || name.find('%') != std::string::npos)
-  {
-    RefuseVolume(header, "its voxels are spread over several files, which is not supported; write it as one file");
-  }
+  RefuseVolumeIf(name.compare(0, 4, "LIST") == 0 || name.find('%') != std::string::npos,
+                 header,
+                 "its voxels are spread over several files, which is not supported; write it as one file");
   const fs::path relative(name);
-  if (relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end())
-  {
-    RefuseVolume(header,
+  RefuseVolumeIf(relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end(),
+                 header,
                  "its header leads to a file outside of its folder, " + name + "; put the two files into one folder");
-  }
   const fs::path path = header.parent_path() / relative;
   std::error_code error;
-  if (!fs::is_regular_file(path, error))
-  {
-    RefuseVolume(header,
+  RefuseVolumeIf(!fs::is_regular_file(path, error),
+                 header,
                  "its voxels should be in " + path.string() + ", which is missing; put the two files into one folder");
-  }
   return path;
 }
 
@@ -167,10 +157,9 @@ ReadNRRDHeader(const fs::path & path)
   std::ifstream file(path, std::ios::binary);
   std::string magic(8, '\0');
   file.read(magic.data(), static_cast<std::streamsize>(magic.size()));
-  if (!file || magic.compare(0, 7, "NRRD000") != 0 || magic[7] < '1' || magic[7] > '6')
-  {
-    RefuseVolume(path, "its content is not NRRD, as its name says; check where it came from");
-  }
+  RefuseVolumeIf(!file || magic.compare(0, 7, "NRRD000") != 0 || magic[7] < '1' || magic[7] > '6',
+                 path,
+                 "its content is not NRRD, as its name says; check where it came from");
   NRRDHeader header;
   HeaderLines lines(file, LargestHeader - magic.size());
   std::string line;
@@ -189,20 +178,16 @@ ReadNRRDHeader(const fs::path & path)
     }
     std::string name = LowerCase(line.substr(0, colon));
     name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
-    if (!header.fields.emplace(name, Trim(line.substr(colon + 1))).second)
-    {
-      RefuseVolume(path, "its header has the field '" + name + "' twice; export it again from its source");
-    }
+    RefuseVolumeIf(!header.fields.emplace(name, Trim(line.substr(colon + 1))).second,
+                   path,
+                   "its header has the field '" + name + "' twice; export it again from its source");
     if (name == "datafile" && header.Get(name).compare(0, 4, "LIST") == 0)
     {
       break; // names of files follow
     }
   }
   header.size = magic.size() + lines.GetSize();
-  if (header.size > LargestHeader)
-  {
-    RefuseVolume(path, "its header has no end within 16 MiB; check where it came from");
-  }
+  RefuseVolumeIf(header.size > LargestHeader, path, "its header has no end within 16 MiB; check where it came from");
   return header;
 }
 

@@ -70,10 +70,7 @@ ReadStoredVoxels(const StoredVolume & volume, std::uintmax_t frame, const ScanRe
     const bool isRead = volume.areFramesInterleaved
                           ? ReadInterleaved(stream, buffer, size, voxelSize, frame, volume.numberOfFrames)
                           : stream.Read(buffer, size) == size;
-    if (!isRead)
-    {
-      RefuseVolume(voxels.path, "its voxels are damaged or cut off; copy it again");
-    }
+    RefuseVolumeIf(!isRead, voxels.path, "its voxels are damaged or cut off; copy it again");
     if (voxels.isSwapped)
     {
       SwapBytes(buffer, size, voxelSize);
@@ -86,12 +83,10 @@ ReadStoredVoxels(const StoredVolume & volume, std::uintmax_t frame, const ScanRe
   };
   ScanImage image = ReadVolumePixels(volume.type, volume.scaling, volume.geometry, read);
   const std::uintmax_t framesBehind = volume.areFramesInterleaved ? 0 : volume.numberOfFrames - frame - 1;
-  if (voxels.isDeflated && !stream.EndsAfter(framesBehind * frameSize))
-  {
-    RefuseVolume(voxels.path,
+  RefuseVolumeIf(voxels.isDeflated && !stream.EndsAfter(framesBehind * frameSize),
+                 voxels.path,
                  "its compressed content is damaged, cut off, or goes on behind the voxels that its header announces; "
                  "copy or export it again");
-  }
   return image;
 }
 
@@ -128,10 +123,8 @@ ReplaceNotFinite(const ScanImage & image, const fs::path & path)
     count += isFinite ? 0 : 1;
     lowest = isFinite ? std::min(lowest, *value) : lowest;
   }
-  if (!std::isfinite(lowest))
-  {
-    RefuseVolume(path, "none of its values is a finite number; export it again from its source");
-  }
+  RefuseVolumeIf(
+    !std::isfinite(lowest), path, "none of its values is a finite number; export it again from its source");
   if (count > 0)
   {
     std::replace_if(
