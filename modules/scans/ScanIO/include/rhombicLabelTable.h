@@ -80,6 +80,10 @@ StemOfVolume(const std::filesystem::path & volumePath);
 std::string
 SanitizeLabelName(std::string_view name, std::int32_t value);
 
+/** A label with a name as SanitizeLabelName() leaves it, and the colour of that name. */
+Label
+NamedLabel(std::int32_t value, std::string_view name);
+
 /** A label's name, safe as the beginning of a file's name: 1 to 100 of A-Z, a-z, 0-9, '.', '_' and '-', not beginning
  * with '.' or '-'. "label" when nothing is left. Different names may give the same stem. */
 std::string

@@ -61,11 +61,10 @@ ReadLabels(const DicomDataSet & dataSet, const DicomImageFile & file)
   LabelTable labels;
   for (const DicomDataSet & segment : dataSet.GetItems(DicomTags::SegmentSequence))
   {
-    Label label;
-    label.value = segment.GetShort(DicomTags::SegmentNumber).value_or(0);
-    label.name = SanitizeLabelName(segment.GetText(DicomTags::SegmentLabel), label.value);
+    Label label =
+      NamedLabel(segment.GetShort(DicomTags::SegmentNumber).value_or(0), segment.GetText(DicomTags::SegmentLabel));
     const auto lab = segment.GetShorts(DicomTags::RecommendedDisplayCIELabValue);
-    label.colour = lab.size() == 3 ? ColourOf(lab) : AnatomicalColour(label.name, label.value);
+    label.colour = lab.size() == 3 ? ColourOf(lab) : label.colour;
     labels.push_back(label);
   }
   const auto isBefore = [](const Label & first, const Label & second) { return first.value < second.value; };

@@ -140,11 +140,9 @@ private:
   {
     const TablePlace place = this->Place();
     const bool hasColour = m_Attributes.count("Red") + m_Attributes.count("Green") + m_Attributes.count("Blue") > 0;
-    Label label;
-    label.value = LabelValue(m_Attributes["Key"], place);
-    label.name = SanitizeLabelName(m_Name, label.value);
-    label.colour = hasColour ? UnitColour(m_Attributes["Red"], m_Attributes["Green"], m_Attributes["Blue"], place)
-                             : AnatomicalColour(label.name, label.value);
+    Label label = NamedLabel(LabelValue(m_Attributes["Key"], place), m_Name);
+    label.colour =
+      hasColour ? UnitColour(m_Attributes["Red"], m_Attributes["Green"], m_Attributes["Blue"], place) : label.colour;
     label.opacity = m_Attributes.count("Alpha") > 0 ? RealNumber(m_Attributes["Alpha"], 0, 1, "alpha", place) : 1;
     label.isVisible = label.opacity > 0;
     m_Labels.Add(std::move(label), place);

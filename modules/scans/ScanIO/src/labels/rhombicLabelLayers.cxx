@@ -41,11 +41,7 @@ LabelUnion::Add(const ScanImage & map, const LabelTable & table, const std::opti
     const std::uint16_t number = this->NumberFor(isMask && label.value == 255 ? 1 : label.value);
     numbers[label.value] = number;
     label.value = number;
-    if (!isNamed)
-    {
-      label.name = SanitizeLabelName(isMask ? *maskName : "", number);
-      label.colour = AnatomicalColour(isMask ? label.name : "", number);
-    }
+    label = isNamed ? label : NamedLabel(number, isMask ? *maskName : "");
     constexpr std::size_t most = 4096;
     if (m_Labels.insert({ number, label }); m_Labels.size() > most)
     {

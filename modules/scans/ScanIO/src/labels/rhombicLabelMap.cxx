@@ -125,16 +125,6 @@ FindLabel(const LabelTable & table, std::int32_t value)
   return found != table.end() && found->value == value ? &*found : nullptr;
 }
 
-Label
-UnnamedLabel(std::int32_t value)
-{
-  Label label;
-  label.value = value;
-  label.name = SanitizeLabelName("", value);
-  label.colour = AnatomicalColour("", value);
-  return label;
-}
-
 /** The first voxels that are not 0, and those behind the last, along each axis. */
 struct LabelBox
 {
@@ -223,7 +213,7 @@ SummarizeLabels(const Scan & scan, const LabelTable & table)
     if (value != 0)
     {
       const Label * const label = FindLabel(table, value);
-      summaries.push_back({ label != nullptr ? *label : UnnamedLabel(value),
+      summaries.push_back({ label != nullptr ? *label : NamedLabel(value, ""),
                             count.numberOfVoxels,
                             count.volume / CubicMillimetresPerMl });
     }

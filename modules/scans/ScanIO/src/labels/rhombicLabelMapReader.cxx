@@ -42,15 +42,6 @@ FindTable(const Scan & scan, const LabelMapSource & source)
   return FindLabelTable(source.paths.front()).value_or(LabelTable());
 }
 
-/** Calls the label of a mask as its file. */
-void
-NameMask(const fs::path & path, std::vector<LabelSummary> & labels)
-{
-  Label & label = labels.front().label;
-  label.name = SanitizeLabelName(StemOfVolume(path), label.value);
-  label.colour = AnatomicalColour(label.name, label.value);
-}
-
 /** The label map, or all of them as one. */
 UnreadScan
 OpenLabels(const std::vector<fs::path> & paths, const ScanReadOptions & options)
@@ -287,7 +278,8 @@ FindLabels(const Scan & scan, const LabelMapSource & source)
   std::vector<LabelSummary> labels = SummarizeLabels(scan, table);
   if (isFile && source.namesMask && table.empty() && IsMask(labels))
   {
-    NameMask(source.paths.front(), labels);
+    Label & label = labels.front().label;
+    label = NamedLabel(label.value, StemOfVolume(source.paths.front()));
   }
   return labels;
 }

@@ -102,6 +102,16 @@ SanitizeLabelName(std::string_view name, std::int32_t value)
   return clean.empty() ? "label " + std::to_string(value) : clean;
 }
 
+Label
+NamedLabel(std::int32_t value, std::string_view name)
+{
+  Label label;
+  label.value = value;
+  label.name = SanitizeLabelName(name, value);
+  label.colour = AnatomicalColour(label.name, value);
+  return label;
+}
+
 std::string
 FileStemOf(std::string_view name)
 {

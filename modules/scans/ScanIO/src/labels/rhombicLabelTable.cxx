@@ -11,47 +11,20 @@ namespace rhombic
 namespace
 {
 
-/** How a file became a label table: by a user who named it, or by its own name. */
-enum class TableChoice
-{
-  Named,
-  Found
-};
-
-/** The labels of a text; nothing when it is no label table. A text that was found is none if it may as well be notes,
- * or the description of another data set. */
+/** The label table in the first of the files that is one. */
 std::optional<LabelTable>
-ParseIfLabelTable(std::string_view text, const std::string & source, TableChoice choice)
+FindAmong(const std::vector<fs::path> & files)
 {
-  if (text.size() > LongestLabelTable)
+  for (const fs::path & file : files)
   {
-    return std::nullopt;
-  }
-  text = WithoutByteOrderMark(text, source);
-  const std::vector<TextLine> lines = LinesOfTable(text, source);
-  const LabelTableFormat format = RecogniseLabelTable(text, lines, source);
-  if (choice == TableChoice::Found && !IsSurelyLabelTable(format, text, lines))
-  {
-    return std::nullopt;
-  }
-  switch (format)
-  {
-    case LabelTableFormat::ITKSNAP:
-      return ParseITKSNAPTable(lines, source);
-    case LabelTableFormat::SlicerText:
-      return ParseNamedTable(lines, source, false);
-    case LabelTableFormat::FreeSurfer:
-      return ParseNamedTable(lines, source, true);
-    case LabelTableFormat::Columns:
-      return ParseColumnTable(lines, source);
-    case LabelTableFormat::ValueAndName:
-      return ParseValuesAndNames(lines, source);
-    case LabelTableFormat::DatasetJSON:
-      return ParseDatasetJSON(text, source);
-    case LabelTableFormat::SlicerProcedural:
-      RefuseTable({ source }, "its colours are those of a scale, not of labels; choose a table of labels");
-    case LabelTableFormat::None:
-      break;
+    if (fs::is_regular_file(file))
+    {
+      const std::string text = ReadTextFile(file, "label table", LongestLabelTable);
+      if (auto table = ParseIfLabelTable(text, file.string(), TableChoice::Found))
+      {
+        return table;
+      }
+    }
   }
   return std::nullopt;
 }
@@ -105,38 +78,19 @@ FindLabelTable(const fs::path & volumePath)
       return table;
     }
   }
+  std::vector<fs::path> sideCars;
   for (const char * const sideCarExtension : { ".ctbl", ".csv", ".tsv", ".label", ".txt" })
   {
-    const fs::path sideCar = volumePath.parent_path() / (StemOfVolume(volumePath) + sideCarExtension);
-    if (fs::is_regular_file(sideCar))
-    {
-      if (auto table = ParseIfLabelTable(
-            ReadTextFile(sideCar, "label table", LongestLabelTable), sideCar.string(), TableChoice::Found))
-      {
-        return table;
-      }
-    }
+    sideCars.push_back(volumePath.parent_path() / (StemOfVolume(volumePath) + sideCarExtension));
   }
-  return std::nullopt;
+  return FindAmong(sideCars);
 }
 
 std::optional<LabelTable>
 FindDatasetTable(const fs::path & volumePath)
 {
   const fs::path folder = fs::absolute(volumePath).parent_path();
-  for (const fs::path & place : { folder, folder.parent_path() })
-  {
-    const fs::path dataset = place / "dataset.json";
-    if (fs::is_regular_file(dataset))
-    {
-      if (auto table = ParseIfLabelTable(
-            ReadTextFile(dataset, "label table", LongestLabelTable), dataset.string(), TableChoice::Found))
-      {
-        return table;
-      }
-    }
-  }
-  return std::nullopt;
+  return FindAmong({ folder / "dataset.json", folder.parent_path() / "dataset.json" });
 }
 
 } // namespace rhombic

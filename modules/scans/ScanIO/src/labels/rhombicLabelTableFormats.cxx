@@ -1,5 +1,6 @@
 #include "rhombicLabelTableFormats.h"
 
+#include "rhombicFiles.h"
 #include "rhombicWording.h"
 
 #include <nlohmann/json.hpp>
@@ -14,6 +15,82 @@ namespace rhombic
 {
 namespace
 {
+
+/** A line of a label table. */
+struct TextLine
+{
+  std::string_view text;  ///< without spaces at its ends
+  std::size_t number = 0; ///< from 1
+};
+
+/** The lines of a text that are neither blank nor begin with '#'. Throws for more than 100,000 lines. */
+std::vector<TextLine>
+LinesOfTable(std::string_view text, const std::string & source)
+{
+  constexpr std::size_t mostLines = 100'000;
+  std::vector<TextLine> lines;
+  for (std::size_t number = 1; !text.empty(); ++number)
+  {
+    if (number > mostLines)
+    {
+      RefuseTable({ source }, "it has more than 100,000 lines, too many for a label table; check that it is one");
+    }
+    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    const std::string_view line = Trim(text.substr(0, end));
+    if (!line.empty() && line.front() != '#')
+    {
+      lines.push_back({ line, number });
+    }
+    const bool isPair = text.substr(end, 2) == "\r\n";
+    text.remove_prefix(std::min(end + (isPair ? 2 : 1), text.size()));
+  }
+  return lines;
+}
+
+/** The fields of a line between separators, trimmed. Fields in double quotes may hold separators and doubled quotes.
+ * Throws when a quote is not closed. */
+std::vector<std::string>
+FieldsOf(std::string_view line, char separator, const TablePlace & place)
+{
+  std::vector<std::string> fields(1);
+  bool isInQuotes = false;
+  for (std::size_t i = 0; i < line.size(); ++i)
+  {
+    const char letter = line[i];
+    const bool isDoubled = isInQuotes && letter == '"' && i + 1 < line.size() && line[i + 1] == '"';
+    if (letter == '"' && !isDoubled)
+    {
+      isInQuotes = !isInQuotes;
+    }
+    else if (letter == separator && !isInQuotes)
+    {
+      fields.emplace_back();
+    }
+    else
+    {
+      fields.back() += letter;
+      i += isDoubled ? 1 : 0;
+    }
+  }
+  if (isInQuotes)
+  {
+    RefuseTable(place, "a quoted text does not end in this line; close the quotes");
+  }
+  for (std::string & field : fields)
+  {
+    field = Trim(field);
+  }
+  return fields;
+}
+
+/** A colour from red, green and blue from 0 to 255. */
+std::array<std::uint8_t, 3>
+ByteColour(std::string_view red, std::string_view green, std::string_view blue, const TablePlace & place)
+{
+  return { static_cast<std::uint8_t>(WholeNumber(red, 0, 255, "red", place)),
+           static_cast<std::uint8_t>(WholeNumber(green, 0, 255, "green", place)),
+           static_cast<std::uint8_t>(WholeNumber(blue, 0, 255, "blue", place)) };
+}
 
 /** The table of the labels that \a parseRow returns for each line. */
 template <typename TParseRow>
@@ -52,9 +129,7 @@ ParseNamedRow(std::string_view line, const TablePlace & place)
   const auto * const nameEnd = numbers[-1].data() + numbers[-1].size();
   const std::string_view name(nameBegin, static_cast<std::size_t>(nameEnd - nameBegin));
 
-  Label label;
-  label.value = LabelValue(words[0], place);
-  label.name = SanitizeLabelName(WithoutQuotes(name), label.value);
+  Label label = NamedLabel(LabelValue(words[0], place), WithoutQuotes(name));
   label.colour = ByteColour(numbers[0], numbers[1], numbers[2], place);
   label.opacity = WholeNumber(numbers[3], 0, 255, "alpha", place) / 255.0;
   return label;
@@ -147,17 +222,6 @@ IsAlphaAlwaysZero(const std::vector<TextLine> & lines)
     lines.begin(), lines.end(), [](const TextLine & line) { return SplitWords(line.text).back() == "0"; });
 }
 
-/** A label with the colour of its name. */
-Label
-NamedLabel(std::int32_t value, std::string_view name)
-{
-  Label label;
-  label.value = value;
-  label.name = SanitizeLabelName(name, value);
-  label.colour = AnatomicalColour(label.name, value);
-  return label;
-}
-
 /** The separator of a header's columns, and the name of the column of values in lower case. */
 struct LabelColumns
 {
@@ -212,93 +276,7 @@ LooksLikeValueAndName(const TextLine & line)
          (words.size() < 4 || !std::all_of(words.end() - 2, words.end(), IsNumber));
 }
 
-constexpr std::string_view Prefix = "Segment";
-using KeyValues = std::map<std::string, std::string>;
-
-/** The numbers of segments, as text, from keys like Segment12_Name. */
-std::set<std::string>
-SegmentNumbers(const KeyValues & keyValues)
-{
-  std::set<std::string> numbers;
-  for (auto pair = keyValues.lower_bound(std::string(Prefix)); pair != keyValues.end(); ++pair)
-  {
-    const std::string & key = pair->first;
-    if (key.compare(0, Prefix.size(), Prefix) != 0)
-    {
-      break;
-    }
-    const std::size_t end = key.find_first_not_of("0123456789", Prefix.size());
-    const std::string ending = end == std::string::npos ? "" : key.substr(end);
-    if (end > Prefix.size() && (ending == "_ID" || ending == "_Name" || ending == "_LabelValue"))
-    {
-      numbers.insert(key.substr(Prefix.size(), end - Prefix.size()));
-    }
-  }
-  return numbers;
-}
-
-} // namespace
-
-LabelTableFormat
-RecogniseLabelTable(std::string_view text, const std::vector<TextLine> & lines, const std::string & source)
-{
-  if (lines.empty() || text.find('\0') != std::string_view::npos)
-  {
-    return LabelTableFormat::None;
-  }
-  const std::string_view first = lines.front().text;
-  if (first.front() == '{' && text.find("\"labels\"") != std::string_view::npos)
-  {
-    return LabelTableFormat::DatasetJSON;
-  }
-  if (FindLabelColumns(first))
-  {
-    return LabelTableFormat::Columns;
-  }
-
-  constexpr std::size_t longestBeginning = 4096;
-  const std::string beginning = LowerCase(text.substr(0, longestBeginning));
-  const auto says = [&beginning](const char * words) { return beginning.find(words) != std::string::npos; };
-  if (says("itk-snap label description") || LooksLikeITKSNAPRow(first))
-  {
-    return LabelTableFormat::ITKSNAP;
-  }
-  if (says("# color procedural file"))
-  {
-    return LabelTableFormat::SlicerProcedural;
-  }
-  if (says("# color table file") || LowerCase(std::filesystem::path(source).extension().string()) == ".ctbl")
-  {
-    return LabelTableFormat::SlicerText;
-  }
-  if (says("#no. label name") || says("# freesurfer"))
-  {
-    return LabelTableFormat::FreeSurfer;
-  }
-  if (LooksLikeNamedRow(first))
-  {
-    return IsAlphaAlwaysZero(lines) ? LabelTableFormat::FreeSurfer : LabelTableFormat::SlicerText;
-  }
-  return std::all_of(lines.begin(), lines.end(), LooksLikeValueAndName) ? LabelTableFormat::ValueAndName
-                                                                        : LabelTableFormat::None;
-}
-
-bool
-IsSurelyLabelTable(LabelTableFormat format, std::string_view text, const std::vector<TextLine> & lines)
-{
-  if (format == LabelTableFormat::Columns)
-  {
-    const std::string column = FindLabelColumns(lines.front().text).value().value;
-    return column == "labelvalue" || column == "index";
-  }
-  if (format == LabelTableFormat::DatasetJSON)
-  {
-    const auto labels = LabelsOfDataset(text);
-    return labels.is_object() && std::none_of(labels.begin(), labels.end(), IsRegion);
-  }
-  return format != LabelTableFormat::ValueAndName;
-}
-
+/** Parses all lines as rows `IDX R G B A VIS MSH "LABEL"`. A label is visible if VIS and MSH are set. */
 LabelTable
 ParseITKSNAPTable(const std::vector<TextLine> & lines, const std::string & source)
 {
@@ -310,9 +288,7 @@ ParseITKSNAPTable(const std::vector<TextLine> & lines, const std::string & sourc
     {
       RefuseTable(place, "it is not like `1 255 0 0 1 1 1 \"liver\"`; write it like this");
     }
-    Label label;
-    label.value = LabelValue(words[0], place);
-    label.name = SanitizeLabelName(WithoutQuotes(name), label.value);
+    Label label = NamedLabel(LabelValue(words[0], place), WithoutQuotes(name));
     label.colour = ByteColour(words[1], words[2], words[3], place);
     label.opacity = RealNumber(words[4], 0, 1, "the opacity", place);
     const bool isShown = WholeNumber(words[5], 0, 1, "the visibility", place) == 1;
@@ -322,6 +298,8 @@ ParseITKSNAPTable(const std::vector<TextLine> & lines, const std::string & sourc
   });
 }
 
+/** Parses all lines as rows `index name r g b a`; a is the opacity from 0 to 255 (3D Slicer), or the transparency
+ * (FreeSurfer). */
 LabelTable
 ParseNamedTable(const std::vector<TextLine> & lines, const std::string & source, bool isTransparency)
 {
@@ -333,11 +311,12 @@ ParseNamedTable(const std::vector<TextLine> & lines, const std::string & source,
   });
 }
 
+/** Parses a header and rows with at least a value (LabelValue, index, label or value) and a name; Color_R, _G and _B,
+ * and Color_A (opacity), or color (#rrggbb) may be missing. */
 LabelTable
-ParseColumnTable(const std::vector<TextLine> & lines, const std::string & source)
+ParseColumnTable(const std::vector<TextLine> & lines, const LabelColumns & columns, const std::string & source)
 {
-  const std::optional<LabelColumns> columns = FindLabelColumns(lines.front().text);
-  const ColumnTable table(lines, columns.value().separator, source);
+  const ColumnTable table(lines, columns.separator, source);
   return CollectRows({ lines.begin() + 1, lines.end() }, source, [&](std::string_view line, const TablePlace & place) {
     const std::vector<std::string> row = table.ReadRow(line, place);
     const std::string red = table.Get(row, "color_r");
@@ -346,18 +325,17 @@ ParseColumnTable(const std::vector<TextLine> & lines, const std::string & source
     const std::string alpha = table.Get(row, "color_a");
     const std::string colour = table.Get(row, "color");
 
-    Label label;
-    label.value = LabelValue(table.Get(row, columns->value), place);
-    label.name = SanitizeLabelName(table.Get(row, "name"), label.value);
+    Label label = NamedLabel(LabelValue(table.Get(row, columns.value), place), table.Get(row, "name"));
     label.colour = !red.empty() || !green.empty() || !blue.empty() ? ByteColour(red, green, blue, place)
                    : !colour.empty() && colour != "n/a"            ? HexColour(colour, place)
-                                                                   : AnatomicalColour(label.name, label.value);
+                                                                   : label.colour;
     label.opacity = alpha.empty() ? 1 : WholeNumber(alpha, 0, 255, "alpha", place) / 255.0;
     label.isVisible = label.opacity > 0;
     return label;
   });
 }
 
+/** Parses all lines as rows `value name`. */
 LabelTable
 ParseValuesAndNames(const std::vector<TextLine> & lines, const std::string & source)
 {
@@ -367,10 +345,11 @@ ParseValuesAndNames(const std::vector<TextLine> & lines, const std::string & sou
   });
 }
 
+/** Parses the labels of nnU-Net's dataset.json: names with values, or, as before version 2, values with names. Throws
+ * for labels that are regions of several values. */
 LabelTable
-ParseDatasetJSON(std::string_view json, const std::string & source)
+ParseDatasetJSON(const nlohmann::json & labels, const std::string & source)
 {
-  const nlohmann::json labels = LabelsOfDataset(json);
   if (!labels.is_object())
   {
     RefuseTable({ source }, "it has no object \"labels\", as a dataset.json of nnU-Net has; check that it is one");
@@ -404,6 +383,83 @@ ParseDatasetJSON(std::string_view json, const std::string & source)
   return collector.Take();
 }
 
+constexpr std::string_view Prefix = "Segment";
+using KeyValues = std::map<std::string, std::string>;
+
+/** The numbers of segments, as text, from keys like Segment12_Name. */
+std::set<std::string>
+SegmentNumbers(const KeyValues & keyValues)
+{
+  std::set<std::string> numbers;
+  for (auto pair = keyValues.lower_bound(std::string(Prefix)); pair != keyValues.end(); ++pair)
+  {
+    const std::string & key = pair->first;
+    if (key.compare(0, Prefix.size(), Prefix) != 0)
+    {
+      break;
+    }
+    const std::size_t end = key.find_first_not_of("0123456789", Prefix.size());
+    const std::string ending = end == std::string::npos ? "" : key.substr(end);
+    if (end > Prefix.size() && (ending == "_ID" || ending == "_Name" || ending == "_LabelValue"))
+    {
+      numbers.insert(key.substr(Prefix.size(), end - Prefix.size()));
+    }
+  }
+  return numbers;
+}
+
+} // namespace
+
+std::optional<LabelTable>
+ParseIfLabelTable(std::string_view text, const std::string & source, TableChoice choice)
+{
+  if (text.size() > LongestLabelTable)
+  {
+    return std::nullopt;
+  }
+  text = WithoutByteOrderMark(text, source);
+  const std::vector<TextLine> lines = LinesOfTable(text, source);
+  if (lines.empty() || text.find('\0') != std::string_view::npos)
+  {
+    return std::nullopt;
+  }
+  const bool isNamed = choice == TableChoice::Named;
+  const std::string_view first = lines.front().text;
+  if (first.front() == '{' && text.find("\"labels\"") != std::string_view::npos)
+  {
+    const auto labels = LabelsOfDataset(text);
+    const bool isSure = labels.is_object() && std::none_of(labels.begin(), labels.end(), IsRegion);
+    return isNamed || isSure ? std::make_optional(ParseDatasetJSON(labels, source)) : std::nullopt;
+  }
+  if (const auto columns = FindLabelColumns(first))
+  {
+    const bool isSure = columns->value == "labelvalue" || columns->value == "index";
+    return isNamed || isSure ? std::make_optional(ParseColumnTable(lines, *columns, source)) : std::nullopt;
+  }
+
+  constexpr std::size_t longestBeginning = 4096;
+  const std::string beginning = LowerCase(text.substr(0, longestBeginning));
+  const auto says = [&beginning](const char * words) { return beginning.find(words) != std::string::npos; };
+  if (says("itk-snap label description") || LooksLikeITKSNAPRow(first))
+  {
+    return ParseITKSNAPTable(lines, source);
+  }
+  if (says("# color procedural file"))
+  {
+    RefuseTable({ source }, "its colours are those of a scale, not of labels; choose a table of labels");
+  }
+  const bool isSlicer =
+    says("# color table file") || LowerCase(std::filesystem::path(source).extension().string()) == ".ctbl";
+  const bool isFreeSurfer = says("#no. label name") || says("# freesurfer");
+  if (isSlicer || isFreeSurfer || LooksLikeNamedRow(first))
+  {
+    return ParseNamedTable(lines, source, !isSlicer && (isFreeSurfer || IsAlphaAlwaysZero(lines)));
+  }
+  return isNamed && std::all_of(lines.begin(), lines.end(), LooksLikeValueAndName)
+           ? std::make_optional(ParseValuesAndNames(lines, source))
+           : std::nullopt;
+}
+
 bool
 HasSegments(const KeyValues & keyValues)
 {
@@ -431,17 +487,14 @@ LabelsOfSegments(const KeyValues & keyValues, const std::string & source, int la
     {
       continue;
     }
-    Label label;
-    label.value = isOld ? 1 : LabelValue(get("_LabelValue"), place);
-    label.name = SanitizeLabelName(get("_Name"), label.value);
+    Label label = NamedLabel(isOld ? 1 : LabelValue(get("_LabelValue"), place), get("_Name"));
     const std::string colourText = get("_Color");
     const std::vector<std::string_view> colour = SplitWords(colourText);
     if (colour.size() != 3 && !colour.empty())
     {
       RefuseTable(place, "its colour is " + Quoted(colourText) + ", not three numbers from 0 to 1; correct it");
     }
-    label.colour =
-      colour.empty() ? AnatomicalColour(label.name, label.value) : UnitColour(colour[0], colour[1], colour[2], place);
+    label.colour = colour.empty() ? label.colour : UnitColour(colour[0], colour[1], colour[2], place);
     collector.Add(std::move(label), place);
   }
   return collector.Take();

@@ -18,13 +18,6 @@ namespace rhombic
 
 constexpr std::size_t LongestLabelTable = std::size_t{ 1 } << 20; ///< bytes; longer label tables are refused
 
-/** A line of a label table. */
-struct TextLine
-{
-  std::string_view text;  ///< without spaces at its ends
-  std::size_t number = 0; ///< from 1
-};
-
 /** The source of a line, for messages: "Cannot read SOURCE, line 3: ..." */
 struct TablePlace
 {
@@ -40,16 +33,6 @@ RefuseTable(const TablePlace & place, const std::string & why);
 std::string
 Quoted(std::string_view text);
 
-/** The lines of a text that are neither blank nor begin with '#'. Throws for more than
- * 100,000 lines. */
-std::vector<TextLine>
-LinesOfTable(std::string_view text, const std::string & source);
-
-/** The fields of a line between separators, trimmed. Fields in double quotes may hold separators and doubled quotes.
- * Throws when a quote is not closed. */
-std::vector<std::string>
-FieldsOf(std::string_view line, char separator, const TablePlace & place);
-
 /** A whole number in a range. Throws Failure otherwise; \a what is its name in the message. */
 std::int32_t
 WholeNumber(std::string_view text, std::int32_t lowest, std::int32_t highest, const char * what, const TablePlace &);
@@ -61,10 +44,6 @@ RealNumber(std::string_view text, double lowest, double highest, const char * wh
 /** The value of a label: any 32-bit integer. */
 std::int32_t
 LabelValue(std::string_view text, const TablePlace &);
-
-/** A colour from red, green and blue from 0 to 255. */
-std::array<std::uint8_t, 3>
-ByteColour(std::string_view red, std::string_view green, std::string_view blue, const TablePlace &);
 
 /** A colour from red, green and blue from 0 to 1. */
 std::array<std::uint8_t, 3>
@@ -90,51 +69,19 @@ private:
   std::map<std::int32_t, Entry> m_Entries;
 };
 
-/** The formats of label tables. */
-enum class LabelTableFormat
+/** How a file became a label table: by a user who named it, or by its own name. */
+enum class TableChoice
 {
-  None,
-  ITKSNAP,
-  SlicerText,
-  SlicerProcedural, ///< colours of a scale, not of labels: refused
-  FreeSurfer,
-  Columns,      ///< with a header: 3D Slicer's .csv, BIDS, and others
-  ValueAndName, ///< lines as `1 liver`
-  DatasetJSON   ///< nnU-Net
+  Named,
+  Found
 };
 
-/** Recognises a text's format by its comments, its header or its first row, and by the extension of \a source where
- * these are ambiguous. \a lines are those of LinesOfTable(). */
-LabelTableFormat
-RecogniseLabelTable(std::string_view text, const std::vector<TextLine> & lines, const std::string & source);
-
-/** Whether a text of that format is a table of labels and nothing else: not lines of a number and words, nor columns
- * called "value" or "label" and "name", which may be notes or measures, nor a dataset.json of other tasks. */
-bool
-IsSurelyLabelTable(LabelTableFormat format, std::string_view text, const std::vector<TextLine> & lines);
-
-/** Parses all lines as rows `IDX R G B A VIS MSH "LABEL"`. A label is visible if VIS and MSH are set. */
-LabelTable
-ParseITKSNAPTable(const std::vector<TextLine> & lines, const std::string & source);
-
-/** Parses all lines as rows `index name r g b a`; a is the opacity from 0 to 255 (3D Slicer), or the transparency
- * (FreeSurfer). */
-LabelTable
-ParseNamedTable(const std::vector<TextLine> & lines, const std::string & source, bool isTransparency);
-
-/** Parses a header and rows with at least a value (LabelValue, index, label or value) and a name; Color_R, _G and _B,
- * and Color_A (opacity), or color (#rrggbb) may be missing. The separator is the header's. */
-LabelTable
-ParseColumnTable(const std::vector<TextLine> & lines, const std::string & source);
-
-/** Parses all lines as rows `value name`. */
-LabelTable
-ParseValuesAndNames(const std::vector<TextLine> & lines, const std::string & source);
-
-/** Parses the labels of nnU-Net's dataset.json: names with values, or, as before version 2, values with names. Throws
- * for labels that are regions of several values. */
-LabelTable
-ParseDatasetJSON(std::string_view json, const std::string & source);
+/** The labels of a text; nothing when it is no label table (see ParseLabelTable()). A text that was found is none
+ * either if it may as well be notes, measures, or the description of another data set: lines of a number and words,
+ * columns called "value" or "label" and "name", a dataset.json of other tasks. Throws Failure(Unreadable) for a table
+ * with mistakes. */
+std::optional<LabelTable>
+ParseIfLabelTable(std::string_view text, const std::string & source, TableChoice choice);
 
 /** The segments of one \a layer of a 3D Slicer segmentation (.seg.nrrd), from the key/value pairs of its NRRD header
  * (Segment0_Name, Segment0_LabelValue, ...); each layer numbers its segments independently. Empty when there are none.
