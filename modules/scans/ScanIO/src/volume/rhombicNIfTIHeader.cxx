@@ -16,102 +16,56 @@ namespace
 constexpr std::int32_t Size1 = 348;
 constexpr std::int32_t Size2 = 540;
 
-/** The numbers of a header of either byte order. */
-class HeaderBytes
+/** Where the fields of a version of the header are: bytes from its beginning. */
+struct FieldOffsets
 {
-public:
-  HeaderBytes(const std::string & bytes, bool isSwapped)
-    : m_Bytes(bytes)
-    , m_IsSwapped(isSwapped)
-  {}
-
-  template <typename TValue>
-  TValue
-  Get(std::size_t offset) const
-  {
-    return NumberAt<TValue>(m_Bytes, offset, m_IsSwapped);
-  }
-
-  template <typename TValue, typename TArray>
-  void
-  GetAll(std::size_t offset, TArray & values) const
-  {
-    for (std::size_t i = 0; i < values.size(); ++i)
-    {
-      values[i] = this->Get<TValue>(offset + i * sizeof(TValue));
-    }
-  }
-
-  bool
-  Has(std::size_t offset, const std::string & text) const
-  {
-    return m_Bytes.compare(offset, text.size(), text) == 0;
-  }
-
-private:
-  const std::string m_Bytes;
-  const bool m_IsSwapped;
+  std::size_t magic, dimensions, intent, datatype, bits, pixdim, voxelsOffset, slope, intercept, units, qformCode;
+  std::size_t sformCode, quaternion, qformOffset, sform;
 };
 
-NIfTIHeader::Kind
-KindOf(const HeaderBytes & bytes, std::size_t offset, char version)
+constexpr FieldOffsets Offsets1{ 344, 40, 68, 70, 72, 76, 108, 112, 116, 123, 252, 254, 256, 268, 280 }; // nifti1.h
+constexpr FieldOffsets Offsets2{ 4, 16, 504, 12, 14, 104, 168, 176, 184, 500, 344, 348, 352, 376, 400 }; // nifti2.h
+
+template <typename TValue, typename TArray>
+void
+GetAll(std::string_view bytes, std::size_t offset, bool isSwapped, TArray & values)
 {
-  using namespace std::string_literals;
-  return bytes.Has(offset, "n+"s + version + '\0')   ? NIfTIHeader::Kind::SingleFile
-         : bytes.Has(offset, "ni"s + version + '\0') ? NIfTIHeader::Kind::Pair
-                                                     : NIfTIHeader::Kind::Analyze;
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    values[i] = NumberAt<TValue>(bytes, offset + i * sizeof(TValue), isSwapped);
+  }
 }
 
-/** Parses a header with the offsets of nifti1.h. */
+/** Parses a header whose dimensions, voxels' offset, real numbers, codes and units are of the given types. */
+template <typename TDimension, typename TOffset, typename TReal, typename TCode, typename TUnits>
 NIfTIHeader
-ParseVersion1(const HeaderBytes & bytes)
+ParseHeader(std::string_view bytes, const FieldOffsets & at, int version, bool isSwapped)
 {
+  const std::string ending = std::to_string(version) + '\0';
+  const std::string_view magic = bytes.substr(at.magic, 4);
   NIfTIHeader header;
-  header.kind = KindOf(bytes, 344, '1');
-  bytes.GetAll<std::int16_t>(40, header.dimensions);
-  header.intent = bytes.Get<std::int16_t>(68);
-  header.datatype = bytes.Get<std::int16_t>(70);
-  header.bits = bytes.Get<std::int16_t>(72);
-  bytes.GetAll<float>(76, header.pixdim);
-  header.voxelsOffset = bytes.Get<float>(108);
-  header.slope = bytes.Get<float>(112);
-  header.intercept = bytes.Get<float>(116);
-  header.units = bytes.Get<std::uint8_t>(123);
-  header.qformCode = bytes.Get<std::int16_t>(252);
-  header.sformCode = bytes.Get<std::int16_t>(254);
-  bytes.GetAll<float>(256, header.quaternion);
-  bytes.GetAll<float>(268, header.qformOffset);
+  header.version = version;
+  header.isSwapped = isSwapped;
+  header.kind = magic == "n+" + ending   ? NIfTIHeader::Kind::SingleFile
+                : magic == "ni" + ending ? NIfTIHeader::Kind::Pair
+                                         : NIfTIHeader::Kind::Analyze;
+  GetAll<TDimension>(bytes, at.dimensions, isSwapped, header.dimensions);
+  header.intent = NumberAt<TCode>(bytes, at.intent, isSwapped);
+  header.datatype = NumberAt<std::int16_t>(bytes, at.datatype, isSwapped);
+  header.bits = NumberAt<std::int16_t>(bytes, at.bits, isSwapped);
+  GetAll<TReal>(bytes, at.pixdim, isSwapped, header.pixdim);
+  header.voxelsOffset = static_cast<double>(NumberAt<TOffset>(bytes, at.voxelsOffset, isSwapped));
+  header.slope = NumberAt<TReal>(bytes, at.slope, isSwapped);
+  header.intercept = NumberAt<TReal>(bytes, at.intercept, isSwapped);
+  header.units = NumberAt<TUnits>(bytes, at.units, isSwapped);
+  header.qformCode = NumberAt<TCode>(bytes, at.qformCode, isSwapped);
+  header.sformCode = NumberAt<TCode>(bytes, at.sformCode, isSwapped);
+  GetAll<TReal>(bytes, at.quaternion, isSwapped, header.quaternion);
+  GetAll<TReal>(bytes, at.qformOffset, isSwapped, header.qformOffset);
   for (std::size_t row = 0; row < 3; ++row)
   {
-    bytes.GetAll<float>(280 + 16 * row, header.sform[row]);
+    GetAll<TReal>(bytes, at.sform + 4 * row * sizeof(TReal), isSwapped, header.sform[row]);
   }
-  return header;
-}
-
-/** Parses a header with the offsets of nifti2.h. */
-NIfTIHeader
-ParseVersion2(const HeaderBytes & bytes)
-{
-  NIfTIHeader header;
-  header.version = 2;
-  header.kind = KindOf(bytes, 4, '2');
-  header.datatype = bytes.Get<std::int16_t>(12);
-  header.bits = bytes.Get<std::int16_t>(14);
-  bytes.GetAll<std::int64_t>(16, header.dimensions);
-  bytes.GetAll<double>(104, header.pixdim);
-  header.voxelsOffset = static_cast<double>(bytes.Get<std::int64_t>(168));
-  header.slope = bytes.Get<double>(176);
-  header.intercept = bytes.Get<double>(184);
-  header.qformCode = bytes.Get<std::int32_t>(344);
-  header.sformCode = bytes.Get<std::int32_t>(348);
-  bytes.GetAll<double>(352, header.quaternion);
-  bytes.GetAll<double>(376, header.qformOffset);
-  for (std::size_t row = 0; row < 3; ++row)
-  {
-    bytes.GetAll<double>(400 + 32 * row, header.sform[row]);
-  }
-  header.units = bytes.Get<std::int32_t>(500);
-  header.intent = bytes.Get<std::int32_t>(504);
   return header;
 }
 
@@ -125,13 +79,15 @@ FindNIfTIHeader(const fs::path & path)
 
   for (const bool isSwapped : { false, true })
   {
-    const HeaderBytes bytes(content, isSwapped);
-    const std::int32_t size = content.size() >= sizeof(std::int32_t) ? bytes.Get<std::int32_t>(0) : 0;
+    const auto size = content.size() >= sizeof(std::int32_t) ? NumberAt<std::int32_t>(content, 0, isSwapped) : 0;
     if ((size == Size1 || size == Size2) && content.size() >= static_cast<std::size_t>(size))
     {
-      NIfTIHeader header = size == Size1 ? ParseVersion1(bytes) : ParseVersion2(bytes);
+      using Integer = std::int32_t;
+      NIfTIHeader header =
+        size == Size1
+          ? ParseHeader<std::int16_t, float, float, std::int16_t, std::uint8_t>(content, Offsets1, 1, isSwapped)
+          : ParseHeader<std::int64_t, std::int64_t, double, Integer, Integer>(content, Offsets2, 2, isSwapped);
       header.size = static_cast<std::size_t>(size);
-      header.isSwapped = isSwapped;
       return header;
     }
   }
