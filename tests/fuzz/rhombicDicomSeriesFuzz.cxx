@@ -1,4 +1,3 @@
-#include "rhombicDicomSeries.h"
 #include "rhombicDicomStack.h"
 #include "rhombicFailure.h"
 #include "rhombicFuzzBytes.h"

@@ -1,12 +1,11 @@
 #include "rhombicScanFormats.h"
 
 #include "rhombicDicomHeader.h"
-#include "rhombicDicomSeries.h"
 #include "rhombicDicomSlice.h"
 #include "rhombicDicomStack.h"
 #include "rhombicFailure.h"
 #include "rhombicFiles.h"
-#include "rhombicVolumePixels.h"
+#include "rhombicStoredVolume.h"
 #include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"
 

@@ -1,7 +1,6 @@
-#include "rhombicDicomSeries.h"
+#include "rhombicDicomStack.h"
 
 #include "rhombicDicomHeader.h"
-#include "rhombicDicomStack.h"
 #include "rhombicFailure.h"
 #include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"

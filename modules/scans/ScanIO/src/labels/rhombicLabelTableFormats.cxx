@@ -135,50 +135,6 @@ ParseNamedRow(std::string_view line, const TablePlace & place)
   return label;
 }
 
-/** A table with a header that names its columns. */
-class ColumnTable
-{
-public:
-  ColumnTable(const std::vector<TextLine> & lines, char separator, const std::string & source)
-    : m_Separator(separator)
-  {
-    const TablePlace place{ source, lines.front().number };
-    const std::vector<std::string> names = FieldsOf(lines.front().text, separator, place);
-    for (std::size_t column = 0; column < names.size(); ++column)
-    {
-      m_Columns.insert({ LowerCase(names[column]), column });
-    }
-    m_NumberOfColumns = names.size();
-  }
-
-  /** The fields of a row by column; a row may end early. */
-  std::vector<std::string>
-  ReadRow(std::string_view line, const TablePlace & place) const
-  {
-    const std::vector<std::string> fields = FieldsOf(line, m_Separator, place);
-    if (fields.size() > m_NumberOfColumns)
-    {
-      RefuseTable(place,
-                  "it has " + std::to_string(fields.size()) + " fields, more than the header's " +
-                    std::to_string(m_NumberOfColumns) + "; put texts with separators in double quotes");
-    }
-    return fields;
-  }
-
-  /** A field of a row; empty when the table or the row lacks the column. */
-  std::string
-  Get(const std::vector<std::string> & row, const std::string & column) const
-  {
-    const auto found = m_Columns.find(column);
-    return found == m_Columns.end() || found->second >= row.size() ? "" : row[found->second];
-  }
-
-private:
-  char m_Separator;
-  std::map<std::string, std::size_t> m_Columns; ///< by name in lower case
-  std::size_t m_NumberOfColumns = 0;
-};
-
 std::array<std::uint8_t, 3>
 HexColour(std::string_view text, const TablePlace & place)
 {
@@ -222,10 +178,11 @@ IsAlphaAlwaysZero(const std::vector<TextLine> & lines)
     lines.begin(), lines.end(), [](const TextLine & line) { return SplitWords(line.text).back() == "0"; });
 }
 
-/** The separator of a header's columns, and the name of the column of values in lower case. */
+/** The separator of a header's columns, their names in lower case, and that of the column of values. */
 struct LabelColumns
 {
   char separator;
+  std::vector<std::string> names;
   std::string value;
 };
 
@@ -245,7 +202,7 @@ FindLabelColumns(std::string_view header)
     {
       if (std::count(names.begin(), names.end(), value) > 0 && std::count(names.begin(), names.end(), "name") > 0)
       {
-        return LabelColumns{ separator, value };
+        return LabelColumns{ separator, names, value };
       }
     }
   }
@@ -316,16 +273,26 @@ ParseNamedTable(const std::vector<TextLine> & lines, const std::string & source,
 LabelTable
 ParseColumnTable(const std::vector<TextLine> & lines, const LabelColumns & columns, const std::string & source)
 {
-  const ColumnTable table(lines, columns.separator, source);
   return CollectRows({ lines.begin() + 1, lines.end() }, source, [&](std::string_view line, const TablePlace & place) {
-    const std::vector<std::string> row = table.ReadRow(line, place);
-    const std::string red = table.Get(row, "color_r");
-    const std::string green = table.Get(row, "color_g");
-    const std::string blue = table.Get(row, "color_b");
-    const std::string alpha = table.Get(row, "color_a");
-    const std::string colour = table.Get(row, "color");
+    const std::vector<std::string> fields = FieldsOf(line, columns.separator, place);
+    if (fields.size() > columns.names.size())
+    {
+      RefuseTable(place,
+                  "it has " + std::to_string(fields.size()) + " fields, more than the header's " +
+                    std::to_string(columns.names.size()) + "; put texts with separators in double quotes");
+    }
+    // The table may lack the column, and a row may end early.
+    const auto get = [&](const std::string & name) {
+      const auto column = std::find(columns.names.begin(), columns.names.end(), name) - columns.names.begin();
+      return static_cast<std::size_t>(column) < fields.size() ? fields[static_cast<std::size_t>(column)] : "";
+    };
+    const std::string red = get("color_r");
+    const std::string green = get("color_g");
+    const std::string blue = get("color_b");
+    const std::string alpha = get("color_a");
+    const std::string colour = get("color");
 
-    Label label = NamedLabel(LabelValue(table.Get(row, columns.value), place), table.Get(row, "name"));
+    Label label = NamedLabel(LabelValue(get(columns.value), place), get("name"));
     label.colour = !red.empty() || !green.empty() || !blue.empty() ? ByteColour(red, green, blue, place)
                    : !colour.empty() && colour != "n/a"            ? HexColour(colour, place)
                                                                    : label.colour;

@@ -1,10 +1,10 @@
 #include "rhombicLabelTableFormats.h"
 
+#include "rhombicColour.h"
 #include "rhombicFailure.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace rhombic
@@ -66,10 +66,9 @@ LabelValue(std::string_view text, const TablePlace & place)
 std::array<std::uint8_t, 3>
 UnitColour(std::string_view red, std::string_view green, std::string_view blue, const TablePlace & place)
 {
-  const auto component = [&place](std::string_view text, const char * what) {
-    return static_cast<std::uint8_t>(std::lround(255 * RealNumber(text, 0, 1, what, place)));
-  };
-  return { component(red, "red"), component(green, "green"), component(blue, "blue") };
+  return ToBytes({ RealNumber(red, 0, 1, "red", place),
+                   RealNumber(green, 0, 1, "green", place),
+                   RealNumber(blue, 0, 1, "blue", place) });
 }
 
 void

@@ -2,6 +2,7 @@
 
 #include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
+#include "rhombicStoredVolume.h"
 #include "rhombicTextHeader.h"
 #include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"
@@ -194,24 +195,6 @@ ReadPlacement(const NRRDHeader & header, const fs::path & path)
   return placement;
 }
 
-/** Throws Failure(Unreadable) unless the bytes after the header are as many as the samples need. */
-void
-CheckSize(const std::vector<std::uint64_t> & sizes,
-          std::size_t bytesPerSample,
-          std::uint64_t available,
-          const fs::path & path)
-{
-  std::uint64_t bytes = bytesPerSample;
-  for (const std::uint64_t size : sizes)
-  {
-    RefuseVolumeIf(size == 0 || bytes > available / size,
-                   path,
-                   "its header promises more samples than the file holds; it may have been cut off, so copy it again");
-    bytes *= size;
-  }
-  RefuseVolumeIf(bytes != available, path, "it holds more data than its header says");
-}
-
 template <typename TPixel>
 FCCVolume
 ReadSamples(const NRRDHeader & header, const fs::path & path)
@@ -219,7 +202,11 @@ ReadSamples(const NRRDHeader & header, const fs::path & path)
   const auto sizes = ToNumbers<std::uint64_t>(header.Get("sizes"), 3, path);
   const Placement placement = ReadPlacement(header, path);
   const std::uint64_t available = fs::file_size(path) - header.size;
-  CheckSize(sizes, sizeof(TPixel), available, path);
+  const std::uintmax_t needed = ProductOf({ sizes[0], sizes[1], sizes[2], sizeof(TPixel) }).value_or(0);
+  RefuseVolumeIf(needed == 0 || needed > available,
+                 path,
+                 "its header promises more samples than the file holds; it may have been cut off, so copy it again");
+  RefuseVolumeIf(needed < available, path, "it holds more data than its header says");
 
   auto image = itk::FCCImage<TPixel>::New();
   image->SetRegions(itk::ImageRegion<3>(placement.start, { { sizes[0], sizes[1], sizes[2] } }));

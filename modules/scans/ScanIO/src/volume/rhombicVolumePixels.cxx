@@ -1,4 +1,4 @@
-#include "rhombicVolumePixels.h"
+#include "rhombicStoredVolume.h"
 
 #include "rhombicWording.h"
 
