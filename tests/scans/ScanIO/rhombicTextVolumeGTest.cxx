@@ -361,8 +361,8 @@ TEST_F(TextVolume, KeyValuesOfNRRD)
   const auto path = this->WriteNRRD(Raw + "# a comment\nSegment0_Name:=Liver: left\nnote:=two\\nlines \\\\ slash\n");
   const std::map<std::string, std::string> expected{ { "Segment0_Name", "Liver: left" },
                                                      { "note", "two\nlines \\ slash" } };
-  EXPECT_EQ(rhombic::ReadNRRDKeyValues(path), expected);
-  EXPECT_THROW(rhombic::ReadNRRDKeyValues(WriteBytes(m_Folder / "b.nrrd", "NRRD0005\n" + std::string(1 << 25, 'x'))),
+  EXPECT_EQ(rhombic::ReadNRRDHeader(path).keyValues, expected);
+  EXPECT_THROW(rhombic::ReadNRRDHeader(WriteBytes(m_Folder / "b.nrrd", "NRRD0005\n" + std::string(1 << 25, 'x'))),
                rhombic::Failure);
 }
 

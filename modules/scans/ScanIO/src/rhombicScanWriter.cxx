@@ -45,22 +45,20 @@ HasSameGeometry(const itk::ImageBase<3> & a, const itk::ImageBase<3> & b)
 {
   constexpr double coordinateTolerance = 1e-3; // mm
   constexpr double directionTolerance = 1e-5;
+  const auto isNear = [](double first, double second, double tolerance) {
+    return std::abs(first - second) < tolerance;
+  };
+  bool isSame = a.GetLargestPossibleRegion().GetSize() == b.GetLargestPossibleRegion().GetSize();
   for (unsigned int row = 0; row < 3; ++row)
   {
-    if (!(std::abs(a.GetOrigin()[row] - b.GetOrigin()[row]) < coordinateTolerance) ||
-        !(std::abs(a.GetSpacing()[row] / b.GetSpacing()[row] - 1.0) < directionTolerance))
-    {
-      return false;
-    }
+    isSame = isSame && isNear(a.GetOrigin()[row], b.GetOrigin()[row], coordinateTolerance) &&
+             isNear(a.GetSpacing()[row] / b.GetSpacing()[row], 1.0, directionTolerance);
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      if (!(std::abs(a.GetDirection()[row][axis] - b.GetDirection()[row][axis]) < directionTolerance))
-      {
-        return false;
-      }
+      isSame = isSame && isNear(a.GetDirection()[row][axis], b.GetDirection()[row][axis], directionTolerance);
     }
   }
-  return a.GetLargestPossibleRegion().GetSize() == b.GetLargestPossibleRegion().GetSize();
+  return isSame;
 }
 
 template <typename TImage>

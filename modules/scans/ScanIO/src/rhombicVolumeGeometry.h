@@ -20,6 +20,12 @@ struct VolumeGeometry
   itk::Point<double, 3> origin{};
   itk::Vector<double, 3> spacing{};
   itk::Matrix<double, 3, 3> direction{}; ///< columns are the unit vectors along columns, rows and slices
+
+  std::size_t
+  GetNumberOfVoxels() const
+  {
+    return size[0] * size[1] * size[2];
+  }
 };
 
 /** The geometry of a volume whose voxel (i, j, k) is at origin + i step_0 + j step_1 + k step_2. */

@@ -111,11 +111,7 @@ IsSameStep(double first, double second)
 double
 RefineStep(const std::vector<double> & places, double guess)
 {
-  std::vector<double> steps;
-  for (std::size_t n = 1; n < places.size(); ++n)
-  {
-    steps.push_back(places[n] - places[n - 1]);
-  }
+  std::vector<double> steps = StepsOf(places);
   std::sort(steps.begin(), steps.end());
   double step = guess;
   double length = 0;
@@ -190,11 +186,8 @@ FindSlices(const std::vector<double> & places, const SliceTags & tags, const Dic
     }
     return { places.front(), tags.spacing, 1, {} };
   }
-  double smallest = places.back() - places.front();
-  for (std::size_t n = 1; n < places.size(); ++n)
-  {
-    smallest = std::min(smallest, places[n] - places[n - 1]);
-  }
+  const std::vector<double> steps = StepsOf(places);
+  const double smallest = *std::min_element(steps.begin(), steps.end());
   const auto fit = [&places](double step) { return step > 0 ? FitSlices(places, step) : std::nullopt; };
   const bool doTagsAgree = tags.spacing > 0 && IsSameStep(tags.spacing, tags.thickness);
   auto slices = fit(doTagsAgree ? tags.spacing : smallest);

@@ -262,19 +262,13 @@ MakeSlicePlane(const std::vector<double> & position,
   constexpr double smallest = 1e-6;
   const auto isPlace = [](double number) { return std::abs(number) <= farthest; };
   const auto isStep = [](double number) { return number >= smallest && number <= farthest; };
-  if (position.size() != 3 || !std::all_of(position.begin(), position.end(), isPlace))
+  const bool isPlaced = position.size() == 3 && std::all_of(position.begin(), position.end(), isPlace);
+  const bool isSpaced = spacing.size() == 2 && isStep(spacing[0]) && isStep(spacing[1]);
+  if (!isPlaced || orientation.size() != 6 || !isSpaced)
   {
-    problem = "it has no usable ImagePositionPatient";
-    return {};
-  }
-  if (orientation.size() != 6)
-  {
-    problem = "it has no usable ImageOrientationPatient";
-    return {};
-  }
-  if (spacing.size() != 2 || !isStep(spacing[0]) || !isStep(spacing[1]))
-  {
-    problem = "it has no usable PixelSpacing";
+    problem = std::string("it has no usable ") + (!isPlaced                 ? "ImagePositionPatient"
+                                                  : orientation.size() != 6 ? "ImageOrientationPatient"
+                                                                            : "PixelSpacing");
     return {};
   }
   itk::Vector<double, 3> alongRow(orientation.data());

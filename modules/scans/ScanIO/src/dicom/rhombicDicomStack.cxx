@@ -72,17 +72,6 @@ SortAlongNormal(Slices & slices)
   return distances;
 }
 
-std::vector<double>
-StepsOf(const std::vector<double> & distances)
-{
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < distances.size(); ++i)
-  {
-    steps.push_back(distances[i] - distances[i - 1]);
-  }
-  return steps;
-}
-
 double
 MedianOf(std::vector<double> steps)
 {
@@ -307,6 +296,17 @@ AcceptTilt(const Slices & slices, double degrees, const ScanReadOptions & option
 }
 
 } // namespace
+
+std::vector<double>
+StepsOf(const std::vector<double> & distances)
+{
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < distances.size(); ++i)
+  {
+    steps.push_back(distances[i] - distances[i - 1]);
+  }
+  return steps;
+}
 
 bool
 HaveDuplicates(const std::vector<DicomSlice> & slices)

@@ -75,6 +75,10 @@ struct DicomStack
 DicomStack
 StackSlices(std::vector<DicomSlice> & slices, const ScanReadOptions & options);
 
+/** The differences of adjacent numbers. */
+std::vector<double>
+StepsOf(const std::vector<double> & distances);
+
 /** Whether two slices are at the same position along their normal, within a hundredth of the median step or 1e-6 mm. */
 bool
 HaveDuplicates(const std::vector<DicomSlice> & slices);

@@ -34,9 +34,20 @@ public:
       throw std::bad_alloc();
     }
     XML_SetUserData(m_Parser.get(), this);
-    XML_SetElementHandler(m_Parser.get(), &CaretReader::OnStart, &CaretReader::OnEnd);
-    XML_SetCharacterDataHandler(m_Parser.get(), &CaretReader::OnText);
-    XML_SetStartDoctypeDeclHandler(m_Parser.get(), &CaretReader::OnDocumentType);
+    XML_SetElementHandler(
+      m_Parser.get(),
+      [](void * self, const char * name, const char ** attributes) {
+        Guard(self, [&](CaretReader & reader) { reader.OnStart(name, attributes); });
+      },
+      [](void * self, const char * name) { Guard(self, [&](CaretReader & reader) { reader.OnEnd(name); }); });
+    XML_SetCharacterDataHandler(m_Parser.get(), [](void * self, const char * text, int size) {
+      Guard(self, [&](CaretReader & reader) { reader.m_Name.append(text, static_cast<std::size_t>(size)); });
+    });
+    XML_SetStartDoctypeDeclHandler(m_Parser.get(), [](void * self, const char *, const char *, const char *, int) {
+      Guard(self, [](CaretReader & reader) {
+        RefuseTable(reader.Place(), "its XML declares a document type, which label tables do not need; remove it");
+      });
+    });
   }
 
   LabelTable
@@ -64,75 +75,43 @@ private:
   }
 
   template <typename TAction>
-  void
-  Guard(const TAction & action)
+  static void
+  Guard(void * self, const TAction & action)
   {
+    auto & reader = *static_cast<CaretReader *>(self);
     try
     {
-      action();
+      action(reader);
     }
     catch (...)
     {
-      m_Exception = m_Exception ? m_Exception : std::current_exception();
-      XML_StopParser(m_Parser.get(), XML_FALSE);
+      reader.m_Exception = reader.m_Exception ? reader.m_Exception : std::current_exception();
+      XML_StopParser(reader.m_Parser.get(), XML_FALSE);
     }
   }
 
-  static void
-  OnStart(void * self, const char * name, const char ** attributes)
+  void
+  OnStart(std::string_view name, const char ** attributes)
   {
-    auto & reader = *static_cast<CaretReader *>(self);
-    reader.Guard([&] {
-      if (std::string_view(name) == "LabelTable")
-      {
-        reader.m_IsInTable = true;
-      }
-      reader.m_IsInLabel = reader.m_IsInTable && std::string_view(name) == "Label";
-      if (reader.m_IsInLabel)
-      {
-        reader.m_Attributes.clear();
-        reader.m_Name.clear();
-        for (; attributes[0] != nullptr; attributes += 2)
-        {
-          reader.m_Attributes[attributes[0]] = attributes[1];
-        }
-      }
-    });
+    m_IsInTable = m_IsInTable || name == "LabelTable";
+    m_IsInLabel = m_IsInTable && name == "Label";
+    m_Attributes.clear();
+    m_Name.clear();
+    for (; m_IsInLabel && attributes[0] != nullptr; attributes += 2)
+    {
+      m_Attributes[attributes[0]] = attributes[1];
+    }
   }
 
-  static void
-  OnText(void * self, const char * text, int size)
+  void
+  OnEnd(std::string_view name)
   {
-    auto & reader = *static_cast<CaretReader *>(self);
-    reader.Guard([&] {
-      if (reader.m_IsInLabel)
-      {
-        reader.m_Name.append(text, static_cast<std::size_t>(size));
-      }
-    });
-  }
-
-  static void
-  OnEnd(void * self, const char * name)
-  {
-    auto & reader = *static_cast<CaretReader *>(self);
-    reader.Guard([&] {
-      if (reader.m_IsInLabel)
-      {
-        reader.AddLabel();
-      }
-      reader.m_IsInLabel = false;
-      reader.m_IsInTable = reader.m_IsInTable && std::string_view(name) != "LabelTable";
-    });
-  }
-
-  static void
-  OnDocumentType(void * self, const char *, const char *, const char *, int)
-  {
-    auto & reader = *static_cast<CaretReader *>(self);
-    reader.Guard([&] {
-      RefuseTable(reader.Place(), "its XML declares a document type, which label tables do not need; remove it");
-    });
+    if (m_IsInLabel)
+    {
+      this->AddLabel();
+    }
+    m_IsInLabel = false;
+    m_IsInTable = m_IsInTable && name != "LabelTable";
   }
 
   void

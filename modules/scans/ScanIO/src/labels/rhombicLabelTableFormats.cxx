@@ -113,28 +113,6 @@ WithoutQuotes(std::string_view text)
   return isQuoted ? text.substr(1, text.size() - 2) : text;
 }
 
-/** A row `value name red green blue alpha`; the name may have spaces, and alpha is taken as the opacity. */
-Label
-ParseNamedRow(std::string_view line, const TablePlace & place)
-{
-  const std::vector<std::string_view> words = SplitWords(line);
-  if (words.size() < 6)
-  {
-    RefuseTable(place,
-                "it has " + std::to_string(words.size()) +
-                  " words, not a value, a name, red, green, blue and alpha; add what is missing");
-  }
-  const auto * const numbers = &words[words.size() - 4];
-  const auto * const nameBegin = words[1].data();
-  const auto * const nameEnd = numbers[-1].data() + numbers[-1].size();
-  const std::string_view name(nameBegin, static_cast<std::size_t>(nameEnd - nameBegin));
-
-  Label label = NamedLabel(LabelValue(words[0], place), WithoutQuotes(name));
-  label.colour = ByteColour(numbers[0], numbers[1], numbers[2], place);
-  label.opacity = WholeNumber(numbers[3], 0, 255, "alpha", place) / 255.0;
-  return label;
-}
-
 std::array<std::uint8_t, 3>
 HexColour(std::string_view text, const TablePlace & place)
 {
@@ -255,14 +233,28 @@ ParseITKSNAPTable(const std::vector<TextLine> & lines, const std::string & sourc
   });
 }
 
-/** Parses all lines as rows `index name r g b a`; a is the opacity from 0 to 255 (3D Slicer), or the transparency
- * (FreeSurfer). */
+/** Parses all lines as rows `index name r g b a`; the name may have spaces, and a is the opacity from 0 to 255 (3D
+ * Slicer), or the transparency (FreeSurfer). */
 LabelTable
 ParseNamedTable(const std::vector<TextLine> & lines, const std::string & source, bool isTransparency)
 {
   return CollectRows(lines, source, [isTransparency](std::string_view line, const TablePlace & place) {
-    Label label = ParseNamedRow(line, place);
-    label.opacity = isTransparency ? 1 - label.opacity : label.opacity;
+    const std::vector<std::string_view> words = SplitWords(line);
+    if (words.size() < 6)
+    {
+      RefuseTable(place,
+                  "it has " + std::to_string(words.size()) +
+                    " words, not a value, a name, red, green, blue and alpha; add what is missing");
+    }
+    const auto * const numbers = &words[words.size() - 4];
+    const auto * const nameBegin = words[1].data();
+    const auto * const nameEnd = numbers[-1].data() + numbers[-1].size();
+    const std::string_view name(nameBegin, static_cast<std::size_t>(nameEnd - nameBegin));
+
+    Label label = NamedLabel(LabelValue(words[0], place), WithoutQuotes(name));
+    label.colour = ByteColour(numbers[0], numbers[1], numbers[2], place);
+    const double alpha = WholeNumber(numbers[3], 0, 255, "alpha", place) / 255.0;
+    label.opacity = isTransparency ? 1 - alpha : alpha;
     label.isVisible = label.opacity > 0;
     return label;
   });

@@ -2,7 +2,6 @@
 
 #include "rhombicCompressedFile.h"
 #include "rhombicFiles.h"
-#include "rhombicVolumeRefusal.h"
 
 #include <string>
 
@@ -92,16 +91,6 @@ FindNIfTIHeader(const fs::path & path)
     }
   }
   return std::nullopt;
-}
-
-NIfTIHeader
-ReadNIfTIHeader(const fs::path & path)
-{
-  if (const auto header = FindNIfTIHeader(path))
-  {
-    return *header;
-  }
-  RefuseVolume(path, "its content is not NIfTI, as its name says; check where it came from");
 }
 
 } // namespace rhombic

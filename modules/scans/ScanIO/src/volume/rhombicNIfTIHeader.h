@@ -45,10 +45,6 @@ struct NIfTIHeader
 std::optional<NIfTIHeader>
 FindNIfTIHeader(const std::filesystem::path & path);
 
-/** FindNIfTIHeader(). Throws Failure(Unreadable) when there is none. */
-NIfTIHeader
-ReadNIfTIHeader(const std::filesystem::path & path);
-
 } // namespace rhombic
 
 #endif

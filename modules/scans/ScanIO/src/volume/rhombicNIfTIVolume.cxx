@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
+#include <initializer_list>
 #include <map>
 
 namespace fs = std::filesystem;
@@ -17,47 +17,40 @@ namespace rhombic
 namespace
 {
 
-/** The file beside \a path with one of two extensions, in upper or lower case; an empty path when there is none. */
+/** The file beside \a path with the first possible extension; an empty path when there is none. */
 fs::path
-Partner(const fs::path & path, const std::string & extension, const std::string & compressedExtension)
+Partner(const fs::path & path, std::initializer_list<const char *> extensions)
 {
   const std::string name = path.filename().string();
   const std::string stem = name.substr(0, name.size() - VolumeExtension(path).size());
-  for (std::string end : { extension, compressedExtension })
+  for (const char * const extension : extensions)
   {
-    for (const bool isUpperCase : { false, true })
+    const fs::path partner = path.parent_path() / (stem + extension);
+    std::error_code error;
+    if (fs::is_regular_file(partner, error))
     {
-      if (isUpperCase)
-      {
-        std::transform(end.begin(), end.end(), end.begin(), [](unsigned char letter) {
-          return static_cast<char>(std::toupper(letter));
-        });
-      }
-      const fs::path partner = path.parent_path() / (stem + end);
-      std::error_code error;
-      if (fs::is_regular_file(partner, error))
-      {
-        return partner;
-      }
+      return partner;
     }
   }
   return {};
 }
 
+/** Whether the extension is that of a part of a pair of files, \a part, or of its compressed form. */
 bool
-IsOneOf(const std::string & extension, const char * first, const char * second)
+IsNamedAs(const fs::path & path, const std::string & part)
 {
-  return extension == first || extension == second;
+  const std::string extension = VolumeExtension(path);
+  return extension == part || extension == part + ".gz";
 }
 
 fs::path
 HeaderFile(const fs::path & path)
 {
-  if (!IsOneOf(VolumeExtension(path), ".img", ".img.gz"))
+  if (!IsNamedAs(path, ".img"))
   {
     return path;
   }
-  const fs::path header = Partner(path, ".hdr", ".hdr.gz");
+  const fs::path header = Partner(path, { ".hdr", ".HDR", ".hdr.gz", ".HDR.GZ" });
   RefuseVolumeIf(header.empty(),
                  path,
                  "its header should be in an .hdr file beside it, which is missing; put the two into one folder");
@@ -68,7 +61,7 @@ HeaderFile(const fs::path & path)
 fs::path
 VoxelsFile(const fs::path & path, const NIfTIHeader & header, const ScanReadOptions & options)
 {
-  const bool isNamedAsPair = IsOneOf(VolumeExtension(path), ".hdr", ".hdr.gz");
+  const bool isNamedAsPair = IsNamedAs(path, ".hdr");
   RefuseVolumeIf(header.kind == NIfTIHeader::Kind::Analyze &&
                    !(options.acceptsAnalyze && isNamedAsPair && header.version == 1),
                  path,
@@ -82,7 +75,7 @@ VoxelsFile(const fs::path & path, const NIfTIHeader & header, const ScanReadOpti
   {
     return path;
   }
-  const fs::path voxels = Partner(path, ".img", ".img.gz");
+  const fs::path voxels = Partner(path, { ".img", ".IMG", ".img.gz", ".IMG.GZ" });
   RefuseVolumeIf(voxels.empty(),
                  path,
                  "its voxels should be in an .img file beside it, which is missing; put the two into one folder");
@@ -295,12 +288,6 @@ CornerDistance(const Affine & first, const Affine & second, const itk::Size<3> &
   return largest;
 }
 
-double
-SmallestStep(const Affine & affine)
-{
-  return std::min({ affine[0].GetNorm(), affine[1].GetNorm(), affine[2].GetNorm() });
-}
-
 bool
 HasSteps(const Affine & affine, const NIfTIHeader & header)
 {
@@ -364,7 +351,7 @@ PlaceNIfTIVolume(const NIfTIHeader & header,
       !std::isfinite(distance), path, "its qform holds numbers that are not finite; export it again from its source");
     report.disagreement = distance * millimetresPerUnit;
     constexpr double tolerance = 1e-2; // relative to a voxel: quaternions are rounded
-    if (distance > tolerance * SmallestStep(affine))
+    if (distance > tolerance * std::min({ affine[0].GetNorm(), affine[1].GetNorm(), affine[2].GetNorm() }))
     {
       scan.notes.push_back(path.string() + " gives two positions in the patient, up to " +
                            std::to_string(report.disagreement) + " mm apart; its sform was used, not its qform.");
@@ -385,7 +372,12 @@ StoredVolume
 ReadNIfTIVolume(const fs::path & path, const ScanReadOptions & options, Scan & scan)
 {
   const fs::path headerFile = HeaderFile(path);
-  const NIfTIHeader header = ReadNIfTIHeader(headerFile);
+  const auto found = FindNIfTIHeader(headerFile);
+  if (!found)
+  {
+    RefuseVolume(headerFile, "its content is not NIfTI, as its name says; check where it came from");
+  }
+  const NIfTIHeader & header = *found;
   const bool isAnalyze = header.kind == NIfTIHeader::Kind::Analyze;
   StoredVolume volume;
   volume.voxels.path = VoxelsFile(headerFile, header, options);

@@ -191,12 +191,6 @@ ReadNRRDHeader(const fs::path & path)
   return header;
 }
 
-std::map<std::string, std::string>
-ReadNRRDKeyValues(const fs::path & path)
-{
-  return ReadNRRDHeader(path).keyValues;
-}
-
 std::string
 CanonicalNRRDType(const std::string & name)
 {

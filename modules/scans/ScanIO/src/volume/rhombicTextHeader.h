@@ -104,10 +104,6 @@ struct NRRDHeader : TextHeader
 NRRDHeader
 ReadNRRDHeader(const std::filesystem::path & path);
 
-/** The key/value pairs of a NRRD file, as Slicer describes segments. Throws as ReadNRRDHeader(). */
-std::map<std::string, std::string>
-ReadNRRDKeyValues(const std::filesystem::path & path);
-
 /** The name that Rhombic uses for a NRRD sample type: int8, uint8 and so on to uint64, float or double. \a name is any
  * of the names that the NRRD format has for the type, such as "signed short int", in upper or lower case. Empty for
  * other names, "block" among them. */

@@ -23,12 +23,6 @@ namespace rhombic
 namespace
 {
 
-std::size_t
-NumberOfVoxels(const VolumeGeometry & geometry)
-{
-  return geometry.size[0] * geometry.size[1] * geometry.size[2];
-}
-
 /** Sets Scan::frame, the volume of a file to read, and Scan::numberOfFrames. Throws Failure: Unreadable when there are
  * several volumes without a choice, unless the options accept the first; Usage when there is no such volume. */
 void
@@ -84,7 +78,7 @@ ReadStoredVoxels(const StoredVolume & volume, std::uintmax_t frame, const ScanRe
 {
   const StoredVoxels & voxels = volume.voxels;
   const std::size_t voxelSize = SizeOf(volume.type);
-  const std::size_t frameSize = NumberOfVoxels(volume.geometry) * voxelSize;
+  const std::size_t frameSize = volume.geometry.GetNumberOfVoxels() * voxelSize;
   ByteStream stream(voxels.path, voxels.offset, voxels.isDeflated);
   stream.Skip(voxels.skip + (volume.areFramesInterleaved ? 0 : frame * frameSize));
   std::size_t done = 0;
@@ -244,7 +238,7 @@ OpenVolumeFile(const fs::path & path, const ScanReadOptions & options)
   Scan scan;
   scan.format = VolumeFormatOf(path);
   const StoredVolume volume = ReadHeader(path, options, scan);
-  const auto segments = scan.format == "NRRD" ? ReadNRRDKeyValues(path) : std::map<std::string, std::string>();
+  const auto segments = scan.format == "NRRD" ? ReadNRRDHeader(path).keyValues : TextHeader::Texts();
   const bool isLayered = volume.numberOfFrames > 1 && !options.frame && HasSegments(segments);
   if (!isLayered)
   {
@@ -264,10 +258,10 @@ OpenVolumeFile(const fs::path & path, const ScanReadOptions & options)
   }
   return { scan, [=](Scan & read) {
             const std::uintmax_t group = volume.areFramesInterleaved ? volume.numberOfFrames * SizeOf(volume.type) : 0;
-            RequireMemory(group +
-                            MemoryOfPixels(volume.type, volume.scaling.has_value(), NumberOfVoxels(volume.geometry)),
-                          options.maximumMemory,
-                          "Reading " + path.string());
+            RequireMemory(
+              group + MemoryOfPixels(volume.type, volume.scaling.has_value(), volume.geometry.GetNumberOfVoxels()),
+              options.maximumMemory,
+              "Reading " + path.string());
             if (isLayered)
             {
               ReadLayers(volume, segments, path, options, read);

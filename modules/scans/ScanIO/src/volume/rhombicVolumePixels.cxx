@@ -31,7 +31,7 @@ template <typename TStored, typename TUse>
 void
 ForEachChunk(const VolumeGeometry & geometry, const VoxelSource & source, const TUse & use)
 {
-  const std::size_t total = geometry.size[0] * geometry.size[1] * geometry.size[2];
+  const std::size_t total = geometry.GetNumberOfVoxels();
   std::vector<TStored> chunk(std::min(total, ChunkVoxels));
   for (std::size_t first = 0; first < total; first += chunk.size())
   {
