@@ -1,6 +1,6 @@
 #include "rhombicScan.h"
 
-#include "rhombicFailure.h"
+#include "rhombicVolumeRefusal.h"
 #include "rhombicVoxelGrid.h"
 #include "rhombicWording.h"
 
@@ -68,13 +68,10 @@ IsSlanted(const Scan & scan)
 itk::SlicePlacement
 PlacementOf(const Scan & scan)
 {
-  if (ComponentTypeOf(scan.image) == itk::IOComponentEnum::UNKNOWNCOMPONENTTYPE)
-  {
-    throw Failure(
-      FailureKind::Usage,
-      "The places of a scan's slices are not known before it is read; call UpdateOutputInformation() of its "
-      "reader first.");
-  }
+  FailIf(ComponentTypeOf(scan.image) == itk::IOComponentEnum::UNKNOWNCOMPONENTTYPE,
+         FailureKind::Usage,
+         "The places of a scan's slices are not known before it is read; call UpdateOutputInformation() of its "
+         "reader first.");
   if (scan.sliceOrigins.empty())
   {
     return {};

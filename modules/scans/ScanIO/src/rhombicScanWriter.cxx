@@ -1,6 +1,6 @@
 #include "rhombicScanWriter.h"
 
-#include "rhombicFailure.h"
+#include "rhombicVolumeRefusal.h"
 #include "rhombicScanReader.h"
 
 #include "itkImageFileWriter.h"
@@ -117,11 +117,9 @@ StageScan(const ScanImage & image, const fs::path & path, StagedFiles & staged)
       {
         isComplete = false; // the file is cut off
       }
-      if (!isComplete)
-      {
-        throw Failure(FailureKind::Output,
-                      "Cannot write " + path.string() + ": the file does not hold the same volume; is the disk full?");
-      }
+      FailIf(!isComplete,
+             FailureKind::Output,
+             "Cannot write " + path.string() + ": the file does not hold the same volume; is the disk full?");
     },
     image);
   constexpr std::uintmax_t smallestHeader = 64;

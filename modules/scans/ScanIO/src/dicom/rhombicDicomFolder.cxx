@@ -197,11 +197,9 @@ LeaveOut(const FileFailures & failures, std::vector<DicomSlice> slices, const Sc
   const std::size_t others = failures.size() - 1;
   const auto failed = [&failures](const DicomSlice & slice) { return failures.count(slice.file->path) != 0; };
   slices.erase(std::remove_if(slices.begin(), slices.end(), failed), slices.end());
-  if (options.onGap == ScanReadOptions::Policy::Refuse || slices.size() < 2)
-  {
-    throw Failure(FailureKind::Unreadable,
-                  failures.begin()->second + (others == 0 ? "" : " (And " + Count(others, "more file") + ".)"));
-  }
+  FailIf(options.onGap == ScanReadOptions::Policy::Refuse || slices.size() < 2,
+         FailureKind::Unreadable,
+         failures.begin()->second + (others == 0 ? "" : " (And " + Count(others, "more file") + ".)"));
   scan.notes.push_back("The slices of " + Count(failures.size(), "damaged file") + " were left out.");
   for (const auto & [path, failure] : failures)
   {
@@ -298,12 +296,10 @@ ReadFile(const fs::path & path)
   RefuseVolumeIf(!slices.front().file->pixelDamage.empty(),
                  path,
                  slices.front().file->pixelDamage + "; copy it again from its source");
-  if (slices.size() == 1 && slices.front().kind == DicomSlice::Kind::Scan)
-  {
-    throw Failure(FailureKind::Geometry,
-                  "Cannot read " + path.string() +
-                    ": it is a single slice, which is no volume; give the folder of the whole series.");
-  }
+  FailIf(slices.size() == 1 && slices.front().kind == DicomSlice::Kind::Scan,
+         FailureKind::Geometry,
+         "Cannot read " + path.string() +
+           ": it is a single slice, which is no volume; give the folder of the whole series.");
   return slices;
 }
 

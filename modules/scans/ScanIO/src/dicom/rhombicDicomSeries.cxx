@@ -168,13 +168,10 @@ FindWanted(const std::vector<DicomSeries> & series, const std::string & wanted, 
       found.insert(i);
     }
   }
-  if (found.size() != 1)
-  {
-    throw Failure(FailureKind::Usage,
-                  std::string(found.empty() ? "No series" : "More than one series") + " in " + folder.string() +
-                    " has this id, UID, number or position in the list; choose by id from " + EnumerateSeries(series) +
-                    ".");
-  }
+  FailIf(found.size() != 1,
+         FailureKind::Usage,
+         std::string(found.empty() ? "No series" : "More than one series") + " in " + folder.string() +
+           " has this id, UID, number or position in the list; choose by id from " + EnumerateSeries(series) + ".");
   return *found.begin();
 }
 

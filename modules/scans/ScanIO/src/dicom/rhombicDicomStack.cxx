@@ -46,12 +46,10 @@ RequirePlanes(const Slices & slices)
   {
     RefuseGeometryIf(!slice.plane, slice.file->path, slice.planeProblem + "; export the series again from its source");
   }
-  if (slices.size() < 2)
-  {
-    throw Failure(FailureKind::Geometry,
-                  "There is only one slice, " + slices.front().file->path.string() +
-                    ", in the series, and one slice is no volume; give the folder of the whole series.");
-  }
+  FailIf(slices.size() < 2,
+         FailureKind::Geometry,
+         "There is only one slice, " + slices.front().file->path.string() +
+           ", in the series, and one slice is no volume; give the folder of the whole series.");
 }
 
 /** Sorts by the distance along the normal, and returns the distances. */

@@ -1,11 +1,11 @@
 #include "rhombicScanFormats.h"
 
 #include "rhombicDicomHeader.h"
-#include "rhombicFailure.h"
 #include "rhombicFiles.h"
 #include "rhombicLabelMap.h"
 #include "rhombicLabelLayers.h"
 #include "rhombicVolumeGeometry.h"
+#include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -35,14 +35,12 @@ void
 CheckGrid(const Scan & scan, const fs::path & path, const Scan & first, const fs::path & firstPath)
 {
   const bool isUneven = !scan.sliceOrigins.empty();
-  if (isUneven || !AreSameGrids(GeometryOf(scan.image), GeometryOf(first.image)))
-  {
-    throw Failure(FailureKind::Geometry,
-                  "Cannot take " + firstPath.string() + " and " + path.string() + " for one segmentation: " +
-                    (isUneven ? "the slices of " + path.filename().string() + " are unevenly spaced"
-                              : "their voxels are not in the same places") +
-                    "; resample both to one grid.");
-  }
+  FailIf(isUneven || !AreSameGrids(GeometryOf(scan.image), GeometryOf(first.image)),
+         FailureKind::Geometry,
+         "Cannot take " + firstPath.string() + " and " + path.string() + " for one segmentation: " +
+           (isUneven ? "the slices of " + path.filename().string() + " are unevenly spaced"
+                     : "their voxels are not in the same places") +
+           "; resample both to one grid.");
 }
 
 /** The names of a file's labels; not those of a dataset, which has one table for all masks. */
@@ -78,13 +76,11 @@ ReadLabelFiles(const std::vector<fs::path> & files, const ScanReadOptions & opti
     }
     const Scan map = ReadVoxels(OpenScan(files[n], mapOptions));
     LabelTable table = FindNames(map, files[n]);
-    if (table.empty() && !LooksLikeLabelMap(map))
-    {
-      throw Failure(FailureKind::Unreadable,
-                    "Cannot take " + files[n].string() +
-                      " for a mask or label map: its values look like intensities; name the file itself if it is the "
-                      "scan, and put masks into a folder of their own.");
-    }
+    FailIf(table.empty() && !LooksLikeLabelMap(map),
+           FailureKind::Unreadable,
+           "Cannot take " + files[n].string() +
+             " for a mask or label map: its values look like intensities; name the file itself if it is the "
+             "scan, and put masks into a folder of their own.");
     const std::string name = StemOfVolume(files[n]);
     if (table.empty() && SummarizeLabels(map, {}).size() > 1)
     {

@@ -1,6 +1,6 @@
 #include "rhombicLabelMap.h"
 
-#include "rhombicFailure.h"
+#include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -251,12 +251,10 @@ RequireOverlap(const Scan & scan,
 {
   const double overlap =
     OverlapOfRegion(GeometryOf(labels.image), RegionOfLabels(LayersOf(labels)), GeometryOf(scan.image));
-  if (overlap == 0)
-  {
-    throw Failure(FailureKind::Geometry,
-                  "The labels of " + labelsPath.string() + " lie nowhere in " + scanPath.string() +
-                    "; check that both are of the same patient and examination.");
-  }
+  FailIf(overlap == 0,
+         FailureKind::Geometry,
+         "The labels of " + labelsPath.string() + " lie nowhere in " + scanPath.string() +
+           "; check that both are of the same patient and examination.");
   constexpr double enough = 0.99;
   if (overlap >= enough)
   {

@@ -1,10 +1,10 @@
 #include "rhombicLabelMap.h"
 
-#include "rhombicFailure.h"
 #include "rhombicForEachBlock.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicScanFormats.h"
 #include "rhombicVolumeGeometry.h"
+#include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"
 
 #include "itkCastImageFilter.h"
@@ -26,13 +26,11 @@ FindTable(const Scan & scan, const LabelMapSource & source)
 {
   if (!source.table.empty())
   {
-    if (source.paths.size() > 1 || (scan.format != "DICOM" && fs::is_directory(source.GetFirstPath())))
-    {
-      throw Failure(FailureKind::Usage,
-                    "The label table " + source.table.string() +
-                      " can't name the labels of several files, which are called as their files and numbered in their "
-                      "order; leave it out, or make one label map of them.");
-    }
+    FailIf(source.paths.size() > 1 || (scan.format != "DICOM" && fs::is_directory(source.GetFirstPath())),
+           FailureKind::Usage,
+           "The label table " + source.table.string() +
+             " can't name the labels of several files, which are called as their files and numbered in their "
+             "order; leave it out, or make one label map of them.");
     return ReadLabelTable(source.table);
   }
   if (!scan.labels.empty() || scan.format == "DICOM" || source.paths.size() != 1)
@@ -88,10 +86,9 @@ FindVolumes(const std::vector<fs::path> & paths, ScanReadOptions options)
     const auto voxels = static_cast<double>(GeometryOf(scan.image).GetLargestPossibleRegion().GetNumberOfPixels());
     largest = std::max(largest, 6.0 * voxels);
     bytes += voxels * static_cast<double>(scan.numberOfFrames * sizeof(float));
-    if (scan.numberOfFrames > most - volumes.size())
-    {
-      throw Failure(FailureKind::Usage, "There can be 4096 volumes of probabilities; name fewer.");
-    }
+    FailIf(scan.numberOfFrames > most - volumes.size(),
+           FailureKind::Usage,
+           "There can be 4096 volumes of probabilities; name fewer.");
     for (std::size_t frame = 0; frame < scan.numberOfFrames; ++frame)
     {
       volumes.push_back({ path, frame });
@@ -108,13 +105,11 @@ void
 CheckGrid(const Scan & scan, const Scan & first, const fs::path & path)
 {
   const bool isUneven = !scan.sliceOrigins.empty();
-  if (isUneven || !AreSameGrids(GeometryOf(scan.image), GeometryOf(first.image)))
-  {
-    throw Failure(FailureKind::Geometry,
-                  "Cannot use the probabilities in " + path.string() + ": " +
-                    (isUneven ? "its slices are unevenly spaced" : "its voxels are not those of the first volume") +
-                    "; resample all volumes to one grid.");
-  }
+  FailIf(isUneven || !AreSameGrids(GeometryOf(scan.image), GeometryOf(first.image)),
+         FailureKind::Geometry,
+         "Cannot use the probabilities in " + path.string() + ": " +
+           (isUneven ? "its slices are unevenly spaced" : "its voxels are not those of the first volume") +
+           "; resample all volumes to one grid.");
 }
 
 /** The voxels as float, in memory of their own. */
@@ -267,12 +262,10 @@ FindLabels(const Scan & scan, const LabelMapSource & source)
   {
     return SummarizeLabels(scan, table);
   }
-  if (!LooksLikeLabelMap(scan))
-  {
-    throw Failure(FailureKind::Unreadable,
-                  "Cannot take " + source.GetFirstPath().string() +
-                    " for a label map: its values look like intensities; if it is one, give a LabelMapSource::table.");
-  }
+  FailIf(!LooksLikeLabelMap(scan),
+         FailureKind::Unreadable,
+         "Cannot take " + source.GetFirstPath().string() +
+           " for a label map: its values look like intensities; if it is one, give a LabelMapSource::table.");
   const bool isFile = source.paths.size() == 1 && !VolumeFormatOf(source.paths.front()).empty();
   table = isFile ? FindDatasetTable(source.paths.front()).value_or(LabelTable()) : table;
   std::vector<LabelSummary> labels = SummarizeLabels(scan, table);

@@ -275,10 +275,9 @@ FCCVolume
 ReadFCCImage(const fs::path & path)
 {
   std::error_code error;
-  if (!fs::is_regular_file(path, error))
-  {
-    throw Failure(FailureKind::NotFound, "There is no file " + path.string() + "; check the path.");
-  }
+  FailIf(!fs::is_regular_file(path, error),
+         FailureKind::NotFound,
+         "There is no file " + path.string() + "; check the path.");
   RefuseVolumeIf(
     !IsFCCImageFile(path), path, "it is not a volume on the face-centered cubic lattice; give it as a scan instead");
   const NRRDHeader header = ReadNRRDHeader(path);

@@ -31,18 +31,17 @@ ChooseFrame(std::uintmax_t numberOfFrames,
             const std::filesystem::path & path,
             Scan & scan)
 {
+  const std::size_t frame = options.frame.value_or(0);
   RefuseVolumeIf(!options.frame && numberOfFrames > 1 && options.onSeveralFrames == ScanReadOptions::Policy::Refuse,
                  path,
                  "it holds " + std::to_string(numberOfFrames) +
                    " volumes; choose one with ScanReadOptions::frame, from 0 to " + std::to_string(numberOfFrames - 1));
-  if (options.frame && *options.frame >= numberOfFrames)
-  {
-    throw Failure(FailureKind::Usage,
-                  "Cannot read volume " + std::to_string(*options.frame) + " of " + path.string() + ": it holds " +
-                    std::to_string(numberOfFrames) + ", counted from 0; choose another with ScanReadOptions::frame.");
-  }
+  FailIf(options.frame && frame >= numberOfFrames,
+         FailureKind::Usage,
+         "Cannot read volume " + std::to_string(frame) + " of " + path.string() + ": it holds " +
+           std::to_string(numberOfFrames) + ", counted from 0; choose another with ScanReadOptions::frame.");
   scan.numberOfFrames = numberOfFrames;
-  scan.frame = options.frame.value_or(0);
+  scan.frame = frame;
 }
 
 /** Reads the values of one frame from groups of a value for each frame. False at the end of the stream. */

@@ -9,6 +9,16 @@
 namespace rhombic
 {
 
+/** Throws Failure when a condition is true. */
+inline void
+FailIf(bool isFailure, FailureKind kind, const std::string & message)
+{
+  if (isFailure)
+  {
+    throw Failure(kind, message);
+  }
+}
+
 /** Throws Failure(Unreadable): "Cannot read PATH: WHY." */
 [[noreturn]] inline void
 RefuseVolume(const std::filesystem::path & path, const std::string & why)
