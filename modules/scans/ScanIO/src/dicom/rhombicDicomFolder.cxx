@@ -97,30 +97,32 @@ CollectSlices(const FolderFiles & files, Scan & scan)
   scan.filesConsidered = files.paths.size() + files.symbolicLinks + files.others;
   std::vector<DicomSlice> slices;
   std::vector<std::string> damaged;
+  const auto leaveOut = [&](const fs::path & path, const char * reason, const char * damage) {
+    ++scan.filesSkipped[reason];
+    if (damage != nullptr)
+    {
+      damaged.push_back(path.filename().string() + damage);
+    }
+  };
   for (const fs::path & path : files.paths)
   {
     const auto found = ReadDicomSlices(path);
     if (found.empty())
     {
-      ++scan.filesSkipped[IsReadable(path) ? "not DICOM" : "not readable"];
-      if (!IsReadable(path))
-      {
-        damaged.push_back(path.filename().string() + " can't be opened");
-      }
+      IsReadable(path) ? leaveOut(path, "not DICOM", nullptr) : leaveOut(path, "not readable", " can't be opened");
     }
-    else if (found.front().kind == DicomSlice::Kind::NoImage)
+    else if (found.front().kind != DicomSlice::Kind::NoImage)
     {
-      const bool isDamaged =
-        !found.front().file->pixelDamage.empty() && found.front().refusal == found.front().file->pixelDamage;
-      ++scan.filesSkipped[isDamaged ? "damaged" : "DICOM without image (reports, plans, DICOMDIR)"];
-      if (isDamaged)
-      {
-        damaged.push_back(path.filename().string() + " is damaged");
-      }
+      slices.insert(slices.end(), found.begin(), found.end());
+    }
+    else if (const std::string & damage = found.front().file->pixelDamage;
+             !damage.empty() && found.front().refusal == damage)
+    {
+      leaveOut(path, "damaged", " is damaged");
     }
     else
     {
-      slices.insert(slices.end(), found.begin(), found.end());
+      leaveOut(path, "DICOM without image (reports, plans, DICOMDIR)", nullptr);
     }
   }
   if (!damaged.empty())

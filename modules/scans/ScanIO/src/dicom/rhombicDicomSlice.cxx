@@ -10,29 +10,11 @@ namespace rhombic
 namespace
 {
 
-/** The kind of an object, by its SOP class, that is refused; empty for the others. */
-std::string
-SpecialClass(const std::string & uid)
-{
-  static const std::map<std::string, std::string> classes{
-    { "1.2.840.10008.5.1.4.1.1.30", "a parametric map" },
-    { "1.2.840.10008.5.1.4.1.1.481.2", "a radiotherapy dose (RTDOSE)" },
-  };
-  const auto found = classes.find(uid);
-  return found == classes.end() ? "" : found->second;
-}
-
 bool
 IsSegmentation(const DicomDataSet & dataSet)
 {
   const std::string uid = dataSet.GetText(DicomTags::SOPClassUID);
   return uid == "1.2.840.10008.5.1.4.1.1.66.4" || uid == "1.2.840.10008.5.1.4.1.1.66.7";
-}
-
-bool
-IsEnhancedCT(const DicomDataSet & dataSet)
-{
-  return dataSet.GetText(DicomTags::SOPClassUID) == "1.2.840.10008.5.1.4.1.1.2.1";
 }
 
 /** The digits and dots of a unique identifier. */
@@ -117,13 +99,17 @@ FindPixelDamage(const DicomHeader & header, const DicomPixelFormat & format)
 std::string
 FindRefusal(const DicomDataSet & dataSet, const DicomPixelFormat & format)
 {
-  const std::string special = SpecialClass(dataSet.GetText(DicomTags::SOPClassUID));
+  const std::string kind = dataSet.GetText(DicomTags::SOPClassUID);
   const std::string photometric = dataSet.GetText(DicomTags::PhotometricInterpretation);
   const auto samples = dataSet.GetShort(DicomTags::SamplesPerPixel).value_or(0);
   const TransferSyntax syntax = FindTransferSyntax(format.transferSyntax);
-  if (!special.empty())
+  if (kind == "1.2.840.10008.5.1.4.1.1.30")
   {
-    return "it is " + special;
+    return "it is a parametric map";
+  }
+  if (kind == "1.2.840.10008.5.1.4.1.1.481.2")
+  {
+    return "it is a radiotherapy dose (RTDOSE)";
   }
   if (syntax.codec == PixelCodec::Unsupported)
   {
@@ -229,7 +215,8 @@ ReadFrame(const DicomDataSet & dataSet, std::size_t frame, DicomSlice & slice)
   {
     const DicomDataSet & values = group(DicomTags::PixelValueTransformationSequence);
     ReadScaling(HasScaling(values) ? values : dataSet, slice);
-    if (slice.refusal.empty() && IsEnhancedCT(dataSet) && !HasScaling(values) && !HasScaling(dataSet))
+    const bool isEnhancedCT = dataSet.GetText(DicomTags::SOPClassUID) == "1.2.840.10008.5.1.4.1.1.2.1";
+    if (slice.refusal.empty() && isEnhancedCT && !HasScaling(values) && !HasScaling(dataSet))
     {
       slice.refusal = "it is an enhanced CT image that does not say which HU its values are";
     }

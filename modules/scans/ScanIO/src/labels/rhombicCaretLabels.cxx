@@ -139,26 +139,20 @@ private:
 
 constexpr std::size_t LongestExtensions = std::size_t{ 1 } << 24; // bytes, of all together
 
-/** The first bytes of a file, or all if there are fewer. */
-std::string
-ReadBeginning(const fs::path & path, std::size_t size)
-{
-  std::string bytes(size, '\0');
-  bytes.resize(ByteStream(path, 0, IsGzip(path)).Read(bytes.data(), size));
-  return bytes;
-}
-
 /** All bytes before the voxels: the header and its extensions. Empty when there is no room for label tables. */
 std::string
 ReadUpToVoxels(const fs::path & path, const NIfTIHeader & header)
 {
-  if (header.kind == NIfTIHeader::Kind::Pair || header.voxelsOffset == 0)
-  {
-    return ReadBeginning(path, LongestExtensions);
-  }
+  const bool areInOtherFile = header.kind == NIfTIHeader::Kind::Pair || header.voxelsOffset == 0;
   const bool isInRange = header.voxelsOffset >= static_cast<double>(header.size) &&
                          header.voxelsOffset <= static_cast<double>(LongestExtensions);
-  return isInRange ? ReadBeginning(path, static_cast<std::size_t>(header.voxelsOffset)) : "";
+  if (!areInOtherFile && !isInRange)
+  {
+    return "";
+  }
+  std::string bytes(areInOtherFile ? LongestExtensions : static_cast<std::size_t>(header.voxelsOffset), '\0');
+  bytes.resize(ByteStream(path, 0, IsGzip(path)).Read(bytes.data(), bytes.size()));
+  return bytes;
 }
 
 } // namespace
