@@ -2,10 +2,10 @@
 
 #include "rhombicColour.h"
 #include "rhombicDicomHeader.h"
-#include "rhombicFailure.h"
 #include "rhombicLabelLayers.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicStoredBytes.h"
+#include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -24,10 +24,10 @@ using Frames = std::vector<DicomSlice>;
 using Bytes = std::vector<std::byte>;
 using Vector = itk::Vector<double, 3>;
 
-[[noreturn]] void
-Refuse(const DicomImageFile & file, FailureKind kind, const std::string & why)
+void
+RefuseIf(bool isRefused, const DicomImageFile & file, FailureKind kind, const std::string & why)
 {
-  throw Failure(kind, "Cannot read " + file.path.string() + ": " + why + "; export the segmentation again.");
+  FailIf(isRefused, kind, "Cannot read " + file.path.string() + ": " + why + "; export the segmentation again.");
 }
 
 /** The inverse of the function f of CIE L*a*b*, which gives a component of CIE XYZ relative to white. */
@@ -70,10 +70,10 @@ ReadLabels(const DicomDataSet & dataSet, const DicomImageFile & file)
   const auto isBefore = [](const Label & first, const Label & second) { return first.value < second.value; };
   const auto isSame = [](const Label & first, const Label & second) { return first.value == second.value; };
   std::sort(labels.begin(), labels.end(), isBefore);
-  if (labels.empty() || std::adjacent_find(labels.begin(), labels.end(), isSame) != labels.end())
-  {
-    Refuse(file, FailureKind::Unreadable, "it is a DICOM segmentation (SEG) whose list of segments is damaged");
-  }
+  RefuseIf(labels.empty() || std::adjacent_find(labels.begin(), labels.end(), isSame) != labels.end(),
+           file,
+           FailureKind::Unreadable,
+           "it is a DICOM segmentation (SEG) whose list of segments is damaged");
   return labels;
 }
 
@@ -180,10 +180,8 @@ FindSlices(const std::vector<double> & places, const SliceTags & tags, const Dic
 {
   if (places.size() == 1)
   {
-    if (!(tags.spacing > 0))
-    {
-      Refuse(file, FailureKind::Geometry, "it has frames in one plane only, and no SpacingBetweenSlices");
-    }
+    RefuseIf(
+      !(tags.spacing > 0), file, FailureKind::Geometry, "it has frames in one plane only, and no SpacingBetweenSlices");
     return { places.front(), tags.spacing, 1, {} };
   }
   const std::vector<double> steps = StepsOf(places);
@@ -195,17 +193,14 @@ FindSlices(const std::vector<double> & places, const SliceTags & tags, const Dic
   {
     slices = fit(doTagsAgree ? smallest : tags.spacing);
   }
-  if (!slices)
+  RefuseIf(!slices, file, FailureKind::Geometry, "the places of its frames have no common distance");
+  if (tags.spacing > 0 && !IsSameStep(slices.value().step, tags.spacing))
   {
-    Refuse(file, FailureKind::Geometry, "the places of its frames have no common distance");
-  }
-  if (tags.spacing > 0 && !IsSameStep(slices->step, tags.spacing))
-  {
-    scan.notes.push_back("Slices are " + FormatNumber(slices->step, 4) +
+    scan.notes.push_back("Slices are " + FormatNumber(slices.value().step, 4) +
                          " mm apart by the positions of their frames; " + "SpacingBetweenSlices is " +
                          FormatNumber(tags.spacing, 4) + " mm.");
   }
-  return *slices;
+  return slices.value();
 }
 
 SliceTags
@@ -227,10 +222,8 @@ DistancesOf(const Frames & frames)
   const DicomImageFile & file = *frames.front().file;
   for (const DicomSlice & frame : frames)
   {
-    if (!frame.plane)
-    {
-      Refuse(file, FailureKind::Geometry, "the place of a frame is not known, because " + frame.planeProblem);
-    }
+    RefuseIf(
+      !frame.plane, file, FailureKind::Geometry, "the place of a frame is not known, because " + frame.planeProblem);
   }
   const SlicePlane & plane = *frames.front().plane;
   const Vector normal = NormalOf(plane);
@@ -239,11 +232,11 @@ DistancesOf(const Frames & frames)
   {
     distances.push_back((frame.plane->position - plane.position) * normal);
     const Vector sideways = frame.plane->position - plane.position - normal * distances.back();
-    if (sideways.GetNorm() > 0.01 || (frame.plane->columnStep - plane.columnStep).GetNorm() > 1e-4 ||
-        (frame.plane->rowStep - plane.rowStep).GetNorm() > 1e-4)
-    {
-      Refuse(file, FailureKind::Geometry, "its frames do not lie behind each other");
-    }
+    RefuseIf(sideways.GetNorm() > 0.01 || (frame.plane->columnStep - plane.columnStep).GetNorm() > 1e-4 ||
+               (frame.plane->rowStep - plane.rowStep).GetNorm() > 1e-4,
+             file,
+             FailureKind::Geometry,
+             "its frames do not lie behind each other");
   }
   return distances;
 }
@@ -258,13 +251,11 @@ PlaceFrames(const Frames & frames, const SliceTags & tags, Scan & scan)
   EvenSlices slices = FindSlices(places, tags, file, scan);
   // Bounds the memory that a small file with distant frames can request.
   const std::size_t mostSlices = std::max<std::size_t>(1024, 64 * places.size());
-  if (slices.count > mostSlices)
-  {
-    Refuse(file,
+  RefuseIf(slices.count > mostSlices,
+           file,
            FailureKind::Geometry,
            "it has frames in " + std::to_string(places.size()) + " of " + Count(slices.count, "slice") +
              " only, which is too few to be true");
-  }
   for (const double distance : distances)
   {
     slices.sliceOfFrame.push_back(
@@ -312,11 +303,10 @@ SegmentsOfFrames(const DicomDataSet & dataSet, const LabelTable & labels, const 
     const std::uint32_t segment =
       owner.GetItem(DicomTags::SegmentIdentificationSequence).GetShort(DicomTags::ReferencedSegmentNumber).value_or(0);
     const auto isIt = [segment](const Label & label) { return label.value == static_cast<std::int32_t>(segment); };
-    if (std::none_of(labels.begin(), labels.end(), isIt))
-    {
-      Refuse(
-        file, FailureKind::Unreadable, "a frame belongs to segment " + std::to_string(segment) + ", which it lacks");
-    }
+    RefuseIf(std::none_of(labels.begin(), labels.end(), isIt),
+             file,
+             FailureKind::Unreadable,
+             "a frame belongs to segment " + std::to_string(segment) + ", which it lacks");
     segments.push_back(segment);
   }
   return segments;
@@ -387,17 +377,12 @@ IsBinary(const DicomDataSet & dataSet, const DicomImageFile & file)
   const std::string type = dataSet.GetText(DicomTags::SegmentationType);
   const bool isBinary = type == "BINARY" && file.format.bitsAllocated == 1;
   const bool isLabelMap = type == "LABELMAP" && (file.format.bitsAllocated == 8 || file.format.bitsAllocated == 16);
-  if ((!isBinary && !isLabelMap) || file.format.isEncapsulated)
-  {
-    Refuse(
-      file,
-      FailureKind::Unreadable,
-      "it is a DICOM segmentation (SEG) of a type that is not supported; BINARY and LABELMAP without compression are");
-  }
-  if (!file.pixelDamage.empty())
-  {
-    Refuse(file, FailureKind::Unreadable, file.pixelDamage);
-  }
+  RefuseIf(
+    (!isBinary && !isLabelMap) || file.format.isEncapsulated,
+    file,
+    FailureKind::Unreadable,
+    "it is a DICOM segmentation (SEG) of a type that is not supported; BINARY and LABELMAP without compression are");
+  RefuseIf(!file.pixelDamage.empty(), file, FailureKind::Unreadable, file.pixelDamage);
   return isBinary;
 }
 
