@@ -1,5 +1,7 @@
 #include "itkFCCLabelPlane.h"
 
+#include <algorithm>
+
 namespace itk
 {
 

@@ -17,7 +17,6 @@
 #include "itkTriangleSurfaceMeasures.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
