@@ -75,6 +75,24 @@ function(_rhombic_add_header_test name headers)
   target_compile_options(${name}HeaderTest PRIVATE -O0)
 endfunction()
 
+# rhombic_add_helper(<name> [INTERNAL] FOR <module> SOURCES <sources...> LINKS <as DEPENDS in itk-module.cmake...>)
+#
+# A program that SandboxRun starts for a module, installed unless it is internal. It links only what its sources need: it
+# must start fast.
+function(rhombic_add_helper name)
+  cmake_parse_arguments(helper "INTERNAL" "FOR" "SOURCES;LINKS" ${ARGN})
+  add_executable(${name} ${helper_SOURCES})
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF
+    RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_LIBEXECDIR}/rhombic")
+  target_link_options(${name} PRIVATE LINKER:--as-needed)
+  target_link_libraries(${name} PRIVATE Sandbox RhombicOptions)
+  _rhombic_link(${name} PRIVATE ${helper_LINKS})
+  add_dependencies(${helper_FOR} ${name})
+  if(NOT helper_INTERNAL)
+    install(TARGETS ${name} RUNTIME DESTINATION "${CMAKE_INSTALL_LIBEXECDIR}/rhombic" COMPONENT program)
+  endif()
+endfunction()
+
 function(_rhombic_install name folder)
   file(GLOB headers CONFIGURE_DEPENDS "${folder}/include/*.h" "${folder}/include/*.hxx")
   file(GLOB detail_headers CONFIGURE_DEPENDS "${folder}/include/detail/*.h")

@@ -20,8 +20,9 @@ foreach(pair ITK/libinsighttoolkit5-dev VTK/libvtk9-dev OpenImageIO/libopenimage
   set(${package}_DEBIAN_PACKAGE
       "${debian_package} (>= ${version}~), ${debian_package} (<< ${CMAKE_MATCH_1}.${next}~)")
 endforeach()
+set(HELPER_FOLDER "${CMAKE_INSTALL_LIBEXECDIR}/rhombic")
 configure_package_config_file(modules/RhombicConfig.cmake.in "${PROJECT_BINARY_DIR}/RhombicConfig.cmake"
-                              INSTALL_DESTINATION "${RHOMBIC_PACKAGE_FOLDER}"
+                              INSTALL_DESTINATION "${RHOMBIC_PACKAGE_FOLDER}" PATH_VARS HELPER_FOLDER
                               NO_CHECK_REQUIRED_COMPONENTS_MACRO NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/RhombicConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/RhombicConfig.cmake" "${PROJECT_BINARY_DIR}/RhombicConfigVersion.cmake"
@@ -74,8 +75,8 @@ set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "${method}\nThis package has the command li
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME ${development_package})
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "${ITK_DEBIAN_PACKAGE}" libhwy-dev libmeshoptimizer-dev nlohmann-json3-dev zlib1g-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS # the program's package has the helpers that readers start
+    "rhombic (= ${PROJECT_VERSION})" "${ITK_DEBIAN_PACKAGE}" libhwy-dev libmeshoptimizer-dev nlohmann-json3-dev zlib1g-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS # for the components of rendering, pictures and pipelines alone
     "${VTK_DEBIAN_PACKAGE}" "${OpenImageIO_DEBIAN_PACKAGE}" libegl-dev libpango1.0-dev libyaml-cpp-dev openimageio-tools)
 list(JOIN CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)

@@ -1,10 +1,11 @@
 #include "rhombicAtomicFile.h"
 #include "rhombicCommandLine.h"
-#include "rhombicIsolatedDecoder.h"
+#include "rhombicFailure.h"
 
 #include "itkMultiThreaderBase.h"
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <iostream>
 #include <mutex>
@@ -12,7 +13,9 @@
 #include <thread>
 #include <vector>
 
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace
 {
@@ -60,7 +63,8 @@ RequireThreads()
 }
 
 /** What another process of this program asks for, as JSON on standard input: {"command": "mesh", "settings": {...},
- * "threads": 2}. Throws Failure(Usage). */
+ * "threads": 2, "parent": 1234}. This process ends with its parent, at once if that is not the process that is named.
+ * Throws Failure(Usage). */
 Report
 ReadRequest()
 {
@@ -68,6 +72,11 @@ ReadRequest()
   if (!request.is_object() || !request.contains("command") || !request.contains("settings"))
   {
     throw Failure(FailureKind::Usage, "Standard input holds no command with its settings.");
+  }
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (request.value("parent", getppid()) != getppid())
+  {
+    std::_Exit(static_cast<int>(FailureKind::Internal));
   }
   return request;
 }
@@ -102,9 +111,8 @@ Run(CommandLine & commandLine, const std::vector<std::string> & words, bool isRe
     itk::MultiThreaderBase::SetGlobalMaximumNumberOfThreads(threads);
     itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
   }
-  IsolatedDecoder decoder(threads); // before there are more threads
   RequireThreads();
-  const std::vector<MadeFile> outputs = command.run({ &console, &decoder, &command.settings });
+  const std::vector<MadeFile> outputs = command.run({ &console, &command.settings });
   console.NoteStepTimes();
   console.Finish();
   if (isRequested)

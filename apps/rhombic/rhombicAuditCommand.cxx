@@ -2,7 +2,6 @@
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
 #include "rhombicSurfaceIO.h"
-#include "rhombicVTPToPLY.h"
 #include "rhombicWording.h"
 
 #include <iostream>
@@ -41,7 +40,7 @@ public:
     for (const std::string & file : m_Options.files)
     {
       m_Events.Progress("reading", 0.0);
-      for (const SceneSurface & surface : ReadSurfaces(file, { ConvertVTPToPLY, m_Context.decoder }))
+      for (const SceneSurface & surface : ReadSurfaces(file))
       {
         this->AuditOne(surface);
         surfaces.push_back(surface);

@@ -144,7 +144,7 @@ GetCommandSyntax()
     CommandLine commandLine;
     std::vector<std::filesystem::path> files;
     Command & checked = commandLine.Set(command, settings);
-    for (const MadeFile & output : checked.run({ nullptr, nullptr, &checked.settings, true }))
+    for (const MadeFile & output : checked.run({ nullptr, &checked.settings, true }))
     {
       files.push_back(output.path);
     }

@@ -4,7 +4,6 @@
 #include "rhombicConsole.h"
 #include "rhombicSettings.h"
 #include "rhombicSidecar.h"
-#include "rhombicVoxelDecoder.h"
 
 #include <filesystem>
 #include <functional>
@@ -18,11 +17,10 @@ namespace rhombic
 struct CommandContext
 {
   Console * console;
-  VoxelDecoder * decoder;     ///< unpacks the voxels of all input files
   CommandSettings * settings; ///< of the command
 
   /** Whether the command only checks what it can without reading or writing anything, and returns the files that it
-   * would write, without kinds and measures; console and decoder are not used. For render, mesh and resample. */
+   * would write, without kinds and measures; the console is not used. For render, mesh and resample. */
   bool onlyChecks = false;
 };
 

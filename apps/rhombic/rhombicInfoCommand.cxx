@@ -178,9 +178,9 @@ Print(const ScanDescription & description)
 }
 
 void
-Info(const InfoOptions & options, const CommandContext & context)
+Info(const InfoOptions & options)
 {
-  const ScanSource source = options.scan.GetSource(context.decoder);
+  const ScanSource source = options.scan.GetSource();
   const ScanDescription description =
     DescribeScan(source, { { options.labels.begin(), options.labels.end() }, options.labelTable });
   if (options.isJson)
@@ -217,7 +217,7 @@ AddInfoCommand(CommandSettings & command)
   const auto options = std::make_shared<InfoOptions>();
   command.Add(ScanOptions::SourceTable(), options->scan);
   command.Add(table, *options);
-  return WithoutOutputs([options](const CommandContext & context) { Info(*options, context); });
+  return WithoutOutputs([options](const CommandContext &) { Info(*options); });
 }
 
 } // namespace rhombic

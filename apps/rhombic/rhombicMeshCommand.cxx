@@ -76,7 +76,7 @@ Mesh(const MeshOptions & options, const CommandContext & context)
   {
     throw Failure(FailureKind::Usage, "No file is named; give one with -o, for example -o bone.stl.");
   }
-  settings.source = options.scan.GetSource(context.decoder);
+  settings.source = options.scan.GetSource();
   settings.mesh = options.mesh;
   settings.space = FindNamed<SurfaceFileSpace>(
     "space", options.space, { { "lps", SurfaceFileSpace::LPS }, { "ras", SurfaceFileSpace::RAS } });

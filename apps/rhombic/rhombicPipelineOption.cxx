@@ -117,7 +117,7 @@ RunPipeline(const std::string & file, const CommandContext & context)
     {
       CommandLine commandLine;
       Command & step = commandLine.Set(command, steps[n]);
-      step.run({ context.console, context.decoder, &step.settings });
+      step.run({ context.console, &step.settings });
     }
     catch (const std::exception &)
     {

@@ -6,7 +6,6 @@
 #include "rhombicSurfaceIO.h"
 #include "rhombicSurfaceOptions.h"
 #include "rhombicFiles.h"
-#include "rhombicVTPToPLY.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -191,10 +190,10 @@ IsSurfaceFile(const std::filesystem::path & path)
 
 /** The source, without the preset that auto chooses: FinishSource() reads the scan for it. */
 PictureSource
-GetPictureSource(const RenderOptions & options, const CommandContext & context)
+GetPictureSource(const RenderOptions & options)
 {
   PictureSource source;
-  source.scan = options.scan.GetSource(context.decoder);
+  source.scan = options.scan.GetSource();
   source.finish = options.finish;
   CheckSurfaceFinish(source.finish);
   const bool isOfFiles = IsSurfaceFile(source.scan.path);
@@ -260,7 +259,7 @@ std::vector<MadeFile>
 RenderPage(const RenderOptions & options, const CommandContext & context)
 {
   RenderSheetSettings settings;
-  settings.source = GetPictureSource(options, context);
+  settings.source = GetPictureSource(options);
   settings.page = options.picture;
   if (!options.views.empty())
   {
@@ -294,7 +293,7 @@ std::vector<MadeFile>
 RenderPictures(const RenderOptions & options, const CommandContext & context)
 {
   RenderScanSettings settings;
-  settings.source = GetPictureSource(options, context);
+  settings.source = GetPictureSource(options);
   settings.picture = options.picture;
   settings.views = ParseViews(options);
   settings.slices = ParseAll(options.slices, ParsePlaneRequest);

@@ -18,7 +18,7 @@ std::vector<MadeFile>
 Resample(const ResampleOptions & options, const CommandContext & context)
 {
   ResampleScanSettings settings;
-  settings.source = options.scan.GetSource(context.decoder);
+  settings.source = options.scan.GetSource();
   if (options.volume.empty())
   {
     throw Failure(FailureKind::Usage, "No output is named; give one with -o, for example -o scan.fcc.nrrd.");

@@ -122,7 +122,7 @@ ScanOptions::GetProvenance(const CommandSettings & command) const
 }
 
 ScanSource
-ScanOptions::GetSource(VoxelDecoder * decoder) const
+ScanOptions::GetSource() const
 {
   if (scan.empty())
   {
@@ -139,7 +139,6 @@ ScanOptions::GetSource(VoxelDecoder * decoder) const
   source.read.maximumMemory = maximumMemory;
   source.read.acceptsAnalyze = acceptsAnalyze;
   source.read.followsLinks = followsLinks;
-  source.read.decoder = decoder;
   source.lattice.density = density;
   source.lattice.spacing = ToSpacing(spacing);
   source.lattice.kernel = FindNamed<itk::SeparableKernel>("kernel",

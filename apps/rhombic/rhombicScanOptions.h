@@ -49,9 +49,9 @@ struct ScanOptions
   Provenance
   GetProvenance(const CommandSettings & command) const;
 
-  /** The source, to be read with \a decoder. Throws Failure(Usage). */
+  /** The source. Throws Failure(Usage). */
   ScanSource
-  GetSource(VoxelDecoder * decoder) const;
+  GetSource() const;
 
   /** Denoises the source as the preset asks for, unless \a denoising is given. */
   void

@@ -21,7 +21,7 @@
 namespace rhombic
 {
 
-/** The file or folder of a scan, and how the scan gets onto the lattice. Copies share the decoder. */
+/** The file or folder of a scan, and how the scan gets onto the lattice. */
 struct ScanSource
 {
   std::filesystem::path path; ///< a scan, or a lattice volume that WriteFCCImage() wrote

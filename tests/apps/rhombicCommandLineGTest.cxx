@@ -242,6 +242,19 @@ INSTANTIATE_TEST_SUITE_P(All, CommandLineErrors, testing::ValuesIn(errorCases), 
   return std::string(error.param.name);
 });
 
+TEST(CommandLine, RequestsEndWithTheProcessThatMakesThem)
+{
+  const TemporaryFolder folder;
+  const auto request = [&folder](const std::string & parent) {
+    return RunShell("rhombic --request <<< '{\"command\": \"info\", \"parent\": '" + parent +
+                      "', \"settings\": {\"scan\": \"" + phantomNifti + "\"}}'",
+                    folder.Path());
+  };
+  EXPECT_EQ(request("$$").exitCode, 0) << request("$$").output;
+  EXPECT_EQ(request("1").exitCode, 1);
+  EXPECT_EQ(request("1").output, "");
+}
+
 TEST(CommandLine, HelpAndVersionGoToStandardOutput)
 {
   const TemporaryFolder folder;

@@ -1,7 +1,6 @@
 #include "rhombicNIfTITestFile.h"
 #include "rhombicProgram.h"
 #include "rhombicSurfaceIO.h"
-#include "rhombicVTPToPLY.h"
 
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
@@ -40,7 +39,7 @@ protected:
   std::vector<rhombic::SceneSurface>
   Read(const std::string & file) const
   {
-    return rhombic::ReadSurfaces(m_Folder.Path() / file, { rhombic::ConvertVTPToPLY });
+    return rhombic::ReadSurfaces(m_Folder.Path() / file);
   }
 
   nlohmann::json

@@ -2,7 +2,6 @@
 
 #include "itkScanFileReader.h"
 #include "rhombicFailure.h"
-#include "rhombicIsolatedDecoder.h"
 
 #include "itkGDCMImageIO.h"
 #include "itkGDCMSeriesFileNames.h"
@@ -29,11 +28,10 @@ ReadWithITK(const std::vector<std::string> & names)
 }
 
 VolumeType::Pointer
-ReadWithRhombic(const std::string & path, VoxelDecoder & decoder)
+ReadWithRhombic(const std::string & path)
 {
   const auto reader = itk::ScanFileReader<VolumeType>::New();
   reader->SetFileName(path);
-  reader->SetDecoder(&decoder);
   reader->Update();
   return reader->GetOutput();
 }
@@ -60,8 +58,7 @@ MeasureReading(const std::string & path, const BenchSettings & settings)
   search->SetInputDirectory(path);
   const std::vector<std::string> names = search->GetInputFileNames();
 
-  IsolatedDecoder decoder(settings.threads);
-  if (!AreSame(*ReadWithITK(names), *ReadWithRhombic(path, decoder)))
+  if (!AreSame(*ReadWithITK(names), *ReadWithRhombic(path)))
   {
     throw Failure(FailureKind::Internal, "Two readers of " + path + " do not agree; the times mean nothing.");
   }
@@ -71,7 +68,7 @@ MeasureReading(const std::string & path, const BenchSettings & settings)
   result.reference = "itk::ImageSeriesReader";
   result.threads = settings.threads;
   result.times = TimePairs(
-    settings.repeats, [&] { return ReadWithITK(names); }, [&] { return ReadWithRhombic(path, decoder); });
+    settings.repeats, [&] { return ReadWithITK(names); }, [&] { return ReadWithRhombic(path); });
   result.target = settings.threads > 1 ? std::optional<double>(1.5) : std::nullopt;
   return { result };
 }

@@ -56,7 +56,11 @@ foreach(library libinsighttoolkit5-dev libvtk9-dev libopenimageio-dev)
     message(FATAL_ERROR "librhombic-dev does not ask for the version of ${library} that it was built with: ${needed}")
   endif()
 endforeach()
+if(NOT needed MATCHES "rhombic \\(= [0-9.]+\\)")
+  message(FATAL_ERROR "librhombic-dev does not ask for the helpers of its version: ${needed}")
+endif()
 string(REGEX MATCHALL "[a-z][a-z0-9.+-]+" names "${needed}")
+list(REMOVE_ITEM names rhombic)
 run(dpkg-query --show ${names}) # fails if one is not the name of a package that the build has
 if(NOT EXISTS "${WORK}/librhombic-dev/usr/lib/${MULTIARCH}/cmake/Rhombic/RhombicConfig.cmake")
   message(FATAL_ERROR "librhombic-dev has no RhombicConfig.cmake where Debian's libraries are: configure with "

@@ -13,3 +13,9 @@ foreach(line IN LISTS lines)
 endforeach()
 file(CONFIGURE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/ScanIO/rhombicAnatomicalColourRules.inc" CONTENT "${rules}" @ONLY)
 target_include_directories(ScanIO PRIVATE "${CMAKE_CURRENT_BINARY_DIR}/ScanIO")
+
+rhombic_add_helper(rhombic-unpack-dicom FOR ScanIO LINKS FCCLattice ITKGDCM nlohmann_json::nlohmann_json
+                   SOURCES "${folder}/helper/rhombicUnpackDicom.cxx" "${folder}/src/dicom/rhombicCompressedFrame.cxx")
+target_include_directories(rhombic-unpack-dicom PRIVATE "${folder}/src/dicom")
+
+rhombic_add_helper(rhombic-unpack-gzip FOR ScanIO SOURCES "${folder}/helper/rhombicUnpackGzip.cxx" LINKS ZLIB::ZLIB)

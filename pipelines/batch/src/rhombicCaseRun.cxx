@@ -190,7 +190,7 @@ CaseRun::StartStep()
 {
   const PipelineStep & step = m_Settings.pipeline.steps[m_Step];
   const auto options = m_Case.settings.find(step.command);
-  Report request{ { "command", step.command }, { "threads", m_Settings.threads } };
+  Report request{ { "command", step.command }, { "threads", m_Settings.threads }, { "parent", getpid() } };
   Report & settings = request["settings"];
   settings = GetSettings(step, m_Case, options == m_Case.settings.end() ? Report::object() : options->second, m_Stage);
   if (!settings.contains("max-memory"))
@@ -203,11 +203,12 @@ CaseRun::StartStep()
   }
   std::ofstream(m_Stage / requestFile) << request.dump();
   m_ChildStart = Clock::now();
-  m_Child =
-    std::make_unique<ChildProcess>(std::vector<std::string>{ m_Settings.program.string(), m_Settings.requestOption },
-                                   m_Stage / requestFile,
-                                   m_Stage / resultFile,
-                                   m_Settings.maximumMemory);
+  ChildSettings child;
+  child.arguments = { m_Settings.program.string(), m_Settings.requestOption };
+  child.input = m_Stage / requestFile;
+  child.output = m_Stage / resultFile;
+  child.memory = m_Settings.maximumMemory;
+  m_Child = std::make_unique<ChildProcess>(child);
 }
 
 bool

@@ -19,7 +19,7 @@ namespace rhombic
 /** The source of pictures: surfaces of a scan, or surface files. */
 struct PictureSource
 {
-  ScanSource scan; ///< if there are surface files, only its decoder has an effect
+  ScanSource scan; ///< without effect if there are surface files
   SurfaceSelection surfaces;
   SurfaceFinish finish;                            ///< of each surface; combined with that of its preset
   std::vector<std::filesystem::path> surfaceFiles; ///< files that ReadSurfaces() reads

@@ -7,7 +7,6 @@
 #include "rhombicSourceSurfaces.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicSurfaceReport.h"
-#include "rhombicVTPToPLY.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -157,7 +156,7 @@ MakeSceneOfFiles(const PictureSource & source, const Events & events)
   for (const auto & path : source.surfaceFiles)
   {
     events.Progress("reading", static_cast<double>(read.size()) / static_cast<double>(source.surfaceFiles.size()));
-    for (const SceneSurface & surface : ReadSurfaces(path, { ConvertVTPToPLY, source.scan.read.decoder }))
+    for (const SceneSurface & surface : ReadSurfaces(path))
     {
       SurfaceRequest name;
       name.name = surface.name;

@@ -1,6 +1,5 @@
 #include "rhombicSurfaceIO.h"
 #include "rhombicTemporaryFolder.h"
-#include "rhombicVTPToPLY.h"
 #include "rhombicWallAudit.h"
 
 #include "itkExampleLabelWalls.h"
@@ -32,7 +31,7 @@ ExpectSoundFile(const itk::FCCLabelSurfaceFilter::InputImageType * labels, const
   const auto walls = itk::example::MakeWalls(labels);
   const auto written = SurfacesOf(*walls);
   rhombic::WriteSurfaces(written, path);
-  const auto read = rhombic::ReadSurfaces(path, { rhombic::ConvertVTPToPLY });
+  const auto read = rhombic::ReadSurfaces(path);
   ASSERT_EQ(read.size(), written.size());
   std::size_t triangles = 0;
   for (std::size_t n = 0; n < read.size(); ++n)

@@ -5,7 +5,6 @@
 #include "itkScanFileReader.h"
 #include "itkSlicePlacement.h"
 #include "rhombicDicomTestFile.h"
-#include "rhombicIsolatedDecoder.h"
 #include "rhombicNIfTITestFile.h"
 #include "rhombicScanTest.h"
 #include "rhombicScanWriter.h"
@@ -111,8 +110,7 @@ ExpectBasicObject(const char * name)
   EXPECT_STREQ(reader->GetNameOfClass(), name);
   const itk::LightObject::Pointer another = reader->CreateAnother();
   EXPECT_NE(dynamic_cast<TReader *>(another.GetPointer()), nullptr);
-  for (const char * const line :
-       { "FileName: ", "Series: ", "AcceptGaps: 0", "AcceptTilted: 1", "AcceptUneven: 0", "Decoder: 0" })
+  for (const char * const line : { "FileName: ", "Series: ", "AcceptGaps: 0", "AcceptTilted: 1", "AcceptUneven: 0" })
   {
     EXPECT_NE(Printed(*reader).find(line), std::string::npos) << line;
   }
@@ -132,13 +130,13 @@ TEST_F(ScanFileReader, IsABasicObjectOfITK)
 TEST_F(ScanFileReader, IsModifiedByChangesOnly)
 {
   const auto reader = itk::LabelMapFileReader<ImageType>::New();
-  rhombic::IsolatedDecoder decoder(1);
-  const std::vector<std::function<void()>> changes{
-    [&] { reader->SetFileName("scan"); },  [&] { reader->SetSeries("2"); },
-    [&] { reader->SetFrame(3); },          [&] { reader->AcceptGapsOn(); },
-    [&] { reader->AcceptTiltedOff(); },    [&] { reader->AcceptUnevenOn(); },
-    [&] { reader->SetDecoder(&decoder); }, [&] { reader->SetLabelTableFileName("table"); }
-  };
+  const std::vector<std::function<void()>> changes{ [&] { reader->SetFileName("scan"); },
+                                                    [&] { reader->SetSeries("2"); },
+                                                    [&] { reader->SetFrame(3); },
+                                                    [&] { reader->AcceptGapsOn(); },
+                                                    [&] { reader->AcceptTiltedOff(); },
+                                                    [&] { reader->AcceptUnevenOn(); },
+                                                    [&] { reader->SetLabelTableFileName("table"); } };
   for (const auto & change : changes)
   {
     const auto before = reader->GetMTime();
@@ -154,7 +152,6 @@ TEST_F(ScanFileReader, IsModifiedByChangesOnly)
   EXPECT_TRUE(reader->GetAcceptGaps());
   EXPECT_FALSE(reader->GetAcceptTilted());
   EXPECT_TRUE(reader->GetAcceptUneven());
-  EXPECT_EQ(reader->GetDecoder(), &decoder);
   EXPECT_STREQ(reader->GetLabelTableFileName(), "table");
 }
 
@@ -213,10 +210,8 @@ TEST_F(ScanFileReader, IsTheSameInEachFormatAndForAnyNumberOfThreads)
   {
     for (const unsigned int units : { 1u, 2u, 3u, 8u })
     {
-      rhombic::IsolatedDecoder decoder(units);
       const auto reader = MakeReader(path);
       reader->SetNumberOfWorkUnits(units);
-      reader->SetDecoder(&decoder);
       reader->Update();
       bytes.insert(BytesOf(*reader->GetOutput()));
     }

@@ -1,4 +1,3 @@
-#include "rhombicIsolatedDecoder.h"
 #include "rhombicScanTable.h"
 
 #include <sys/resource.h>
@@ -101,7 +100,6 @@ protected:
     {
       GTEST_SKIP() << m_Files << " is not there";
     }
-    m_Options.decoder = &m_Decoder;
   }
 
   Reading
@@ -111,7 +109,6 @@ protected:
     return rhombictest::Read(rhombictest::MakePair(m_Files / name, m_Folder / name, isSagittal ? 0 : 2), m_Options);
   }
 
-  rhombic::IsolatedDecoder m_Decoder{ 2 };
   rhombic::ScanReadOptions m_Options = rhombic::AcceptUneven();
   fs::path m_Files;
 };

@@ -2,7 +2,6 @@
 #define rhombicScanTable_h
 
 #include "rhombicScanTest.h"
-#include "rhombicVoxelDecoder.h"
 
 #include <cstdlib>
 #include <fstream>

@@ -1,6 +1,5 @@
 // Files of other programs: of VTK's writers, and made by hand.
 
-#include "rhombicIsolatedDecoder.h"
 #include "rhombicSurfaceTest.h"
 
 #include "itkTriangleSurfaceMeasures.h"
@@ -27,7 +26,7 @@ protected:
   Read(const std::string & name, const std::string & bytes)
   {
     WriteBytes(m_Folder / name, bytes);
-    return rhombic::ReadSurfaces(m_Folder / name, { rhombic::ConvertVTPToPLY, &m_Decoder });
+    return rhombic::ReadSurfaces(m_Folder / name);
   }
 
   rhombic::FailureKind
@@ -35,9 +34,6 @@ protected:
   {
     return KindOf([&] { this->Read(name, bytes); }, why);
   }
-
-private:
-  rhombic::IsolatedDecoder m_Decoder{ 1 };
 };
 
 /** Reads our STL file with VTK, writes it with one of VTK's writers, and reads that file. */
@@ -344,13 +340,6 @@ TEST_F(SurfaceFilesOfOthers, DamagedFilesGetASentence)
     }
   }
   EXPECT_EQ(KindOf([&] { ReadSurfaces(m_Folder / "file.xyz"); }, ".glb"), Kind::Usage);
-}
-
-TEST_F(SurfaceFilesOfOthers, VTPFilesAreRefusedByProgramsThatDoNotLoadVTK)
-{
-  rhombic::WriteSurfaces({ { "sphere", MakeSphere(2) } }, m_Folder / "a.vtp");
-  EXPECT_EQ(KindOf([&] { rhombic::ReadSurfaces(m_Folder / "a.vtp"); }, "no reader of VTP"),
-            rhombic::FailureKind::Unreadable);
 }
 
 TEST_F(SurfaceFilesOfOthers, IndicesOutOfRangeAreRefused)

@@ -4,7 +4,6 @@
 #include "rhombicFailure.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicTemporaryFolder.h"
-#include "rhombicVTPToPLY.h"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +24,7 @@ using rhombic::SurfaceFileSpace;
 inline std::vector<SceneSurface>
 ReadSurfaces(const fs::path & path)
 {
-  return rhombic::ReadSurfaces(path, { rhombic::ConvertVTPToPLY });
+  return rhombic::ReadSurfaces(path);
 }
 
 /** A sphere of 8 * 4^levels triangles, facing outwards: a subdivided octahedron. */

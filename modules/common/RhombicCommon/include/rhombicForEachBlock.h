@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <thread>
 
 namespace rhombic
@@ -69,13 +68,12 @@ private:
  * further call begins, and the first exception is thrown. Unlike MultiThreaderBase, it never waits for a pool thread
  * that has not started yet, so jobs of the pool may call it without a deadlock. Thread safety: \a work is called on
  * several threads at once, and any number of threads may call this.
- * \param report receives the share of calls that have ended, after each call on this thread; may be empty
- * \param mostThreads a lower limit of the number of threads */
+ * \param report receives the share of calls that have ended, after each call on this thread, and 1 at the end; may be
+ * empty */
 void
 ForEachOnThreads(std::size_t count,
                  const std::function<void(std::size_t)> & work,
-                 const ProgressFunction & report = {},
-                 std::size_t mostThreads = std::numeric_limits<std::size_t>::max());
+                 const ProgressFunction & report = {});
 
 /** Calls \a work(begin, end) for [0, size) cut into blocks of \a blockSize, as ForEachOnThreads() does. */
 template <typename TWork>

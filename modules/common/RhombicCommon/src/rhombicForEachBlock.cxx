@@ -68,14 +68,10 @@ private:
 } // namespace
 
 void
-ForEachOnThreads(std::size_t count,
-                 const std::function<void(std::size_t)> & work,
-                 const ProgressFunction & report,
-                 std::size_t mostThreads)
+ForEachOnThreads(std::size_t count, const std::function<void(std::size_t)> & work, const ProgressFunction & report)
 {
   const auto shared = std::make_shared<SharedWork>(count, work);
-  const std::size_t threads =
-    std::min<std::size_t>({ count, itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads(), mostThreads });
+  const std::size_t threads = std::min<std::size_t>(count, itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads());
   try
   {
     for (std::size_t helper = 1; helper < threads; ++helper)
@@ -87,6 +83,10 @@ ForEachOnThreads(std::size_t count,
   {}
   shared->Help(report);
   shared->Join();
+  if (report)
+  {
+    report(1.0);
+  }
 }
 
 } // namespace rhombic

@@ -52,7 +52,7 @@ namespace itk
  * Overridden pipeline methods: GenerateOutputInformation() (reads the headers), EnlargeOutputRequestedRegion() (the
  * whole volume), GenerateData() (reads the voxels).
  *
- * Thread safety: that of any process object. While one runs, warnings of ITK and GDCM are off for the whole process.
+ * Thread safety: that of any process object.
  *
  * \ingroup ScanIO
  */

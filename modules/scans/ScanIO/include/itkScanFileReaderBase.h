@@ -15,6 +15,9 @@ namespace itk
 /** \class ScanFileReaderBase
  * \brief What the readers of scans have in common: what is read, and how.
  *
+ * Voxels that only a library can unpack are unpacked in child processes with limits, so that damaged files can't end
+ * this process; their program must be installed (see rhombic::SandboxRun).
+ *
  * \tparam TSource the process object that a reader is: ImageSource<TOutputImage> or ProcessObject
  *
  * Overridden pipeline methods: GenerateOutputInformation() (reads the headers).
@@ -113,19 +116,6 @@ public:
   }
   itkBooleanMacro(AcceptUneven);
 
-  /** Runs the libraries that unpack compressed voxels, which damaged files can crash. Default null: in this process. A
-   * rhombic::IsolatedDecoder runs them in child processes; make it at the beginning of main(). Not owned. */
-  void
-  SetDecoder(rhombic::VoxelDecoder * decoder)
-  {
-    this->Assign(m_Options.decoder, decoder);
-  }
-  rhombic::VoxelDecoder *
-  GetDecoder() const
-  {
-    return m_Options.decoder;
-  }
-
   /** All of these choices and some more at once. Its progress is not called: observe ProgressEvent. */
   void
   SetOptions(const OptionsType & options)
@@ -170,7 +160,6 @@ protected:
     os << indent << "AcceptGaps: " << this->GetAcceptGaps() << std::endl;
     os << indent << "AcceptTilted: " << this->GetAcceptTilted() << std::endl;
     os << indent << "AcceptUneven: " << this->GetAcceptUneven() << std::endl;
-    os << indent << "Decoder: " << m_Options.decoder << std::endl;
   }
 
   void

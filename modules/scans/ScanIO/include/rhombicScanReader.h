@@ -13,12 +13,8 @@
 namespace rhombic
 {
 
-class VoxelDecoder;
-
 /** \class ScanReadOptions
- * \brief Choices of a series or volume, irregular input to accept, and limits.
- *
- * Copies share the decoder. */
+ * \brief Choices of a series or volume, irregular input to accept, and limits. */
 struct ScanReadOptions
 {
   /** How to treat irregular input. */
@@ -57,9 +53,6 @@ struct ScanReadOptions
   /** The largest memory of the volume in bytes; 0, the default: half of the free memory. */
   std::uintmax_t maximumMemory = 0;
 
-  /** Runs the libraries that unpack voxels, which damaged files can crash; null: in this process. Not owned. */
-  VoxelDecoder * decoder = nullptr;
-
   /** Called on the calling thread with the progress of reading the voxels, from 0 to 1; may be empty. */
   std::function<void(double)> progress;
 };
@@ -93,14 +86,13 @@ struct UnreadScan
  * oriented.
  *
  * Every length in a header is checked against the file's size, and the memory for the voxels against the limit before
- * it is allocated. Voxels that only a library can unpack go through ScanReadOptions::decoder; without one, damaged
- * files may end the process inside GDCM or ITK.
+ * it is allocated. What only a library can unpack is unpacked in child processes with limits (SandboxRun), so that
+ * damaged files can't end the process.
  *
  * Throws Failure: NotFound (no such path, or no scan in the folder), Usage (no such series or frame, or more than one
  * to choose from), Unreadable (damaged, or colour, vectors, no image...), Geometry, Memory.
  *
- * Several threads may share a decoder, which must outlive the result. While these functions run, warnings of ITK and
- * GDCM are off for the whole process. */
+ * Thread safe. */
 UnreadScan
 OpenScan(const std::filesystem::path & path, const ScanReadOptions & options = {});
 

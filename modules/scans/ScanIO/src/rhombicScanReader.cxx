@@ -1,8 +1,6 @@
 #include "rhombicScanReader.h"
 
 #include "rhombicFailure.h"
-#include "rhombicInProcessDecoder.h"
-#include "rhombicQuietLibraries.h"
 #include "rhombicScanFormats.h"
 #include "rhombicVolumeRefusal.h"
 
@@ -59,7 +57,6 @@ template <typename TRead>
 auto
 ReadOrFail(const fs::path & path, const TRead & read)
 {
-  const QuietLibraries quiet;
   const auto outOfMemory = [&path] {
     return Failure(FailureKind::Memory,
                    "Cannot read " + path.string() + ": it does not fit into memory; free some or crop the scan.");
@@ -95,10 +92,7 @@ ReadOrFail(const fs::path & path, const TRead & read)
 UnreadScan
 OpenScan(const fs::path & path, const ScanReadOptions & options)
 {
-  static InProcessDecoder inProcess;
-  ScanReadOptions used = options;
-  used.decoder = options.decoder != nullptr ? options.decoder : &inProcess;
-  UnreadScan file = ReadOrFail(path, [&path, &used] { return Open(path, used); });
+  UnreadScan file = ReadOrFail(path, [&path, &options] { return Open(path, options); });
   file.readVoxels = [path, readVoxels = file.readVoxels](Scan & scan) { ReadOrFail(path, [&] { readVoxels(scan); }); };
   return file;
 }

@@ -3,7 +3,6 @@
 
 #include "rhombicAtomicFile.h"
 #include "rhombicSceneSurface.h"
-#include "rhombicVoxelDecoder.h"
 
 #include <filesystem>
 #include <string>
@@ -83,13 +82,6 @@ StageSurfaces(const std::vector<SceneSurface> & surfaces,
               StagedFiles & staged,
               const SurfaceFileSettings & settings = {});
 
-/** How VTP files are read: by VTK, which only programs load that read such files. */
-struct VTPReading
-{
-  VoxelRequest::Function convert = nullptr; ///< ConvertVTPToPLY() of SurfaceVTK; null: VTP files are refused
-  VoxelDecoder * decoder = nullptr; ///< runs \a convert; null: in this process, which damaged files may then end
-};
-
 /** Reads surfaces in LPS millimetres from a file of one of these formats, written by this or other programs, binary or
  * text. Coordinates of files that declare RAS are converted. The transforms of a GLB's nodes are applied, and its
  * metres and y-up undone; numbers in other formats are taken for millimetres.
@@ -100,10 +92,10 @@ struct VTPReading
  * points has several. Textures, lines, animations and the like are ignored.
  *
  * Throws Failure(NotFound), Failure(Usage) for another extension, Failure(Unreadable) for damaged files, files without
- * triangles and unsupported parts of the formats, and Failure(Memory) before it needs more than half of the free
- * memory. */
+ * triangles and unsupported parts of the formats, Failure(Memory) before it needs more than half of the free memory,
+ * and Failure(Internal) when the program is not installed that reads VTP files (SandboxRun). */
 std::vector<SceneSurface>
-ReadSurfaces(const std::filesystem::path & path, const VTPReading & vtp = {});
+ReadSurfaces(const std::filesystem::path & path);
 
 } // namespace rhombic
 

@@ -1,7 +1,9 @@
 #include "rhombicSurfaceIO.h"
 
 #include "rhombicFailure.h"
-#include "rhombicInProcessDecoder.h"
+#include "rhombicInputFile.h"
+#include "rhombicOutputFile.h"
+#include "rhombicSandbox.h"
 #include "rhombicSurfaceFormats.h"
 
 #include "detail/itkPositionArithmetic.h"
@@ -19,19 +21,33 @@ namespace rhombic
 namespace
 {
 
+/** VTK makes a PLY file of it in a child process, which is checked as any PLY file. */
+std::vector<SceneSurface>
+ReadVTP(const InputFile & file)
+{
+  file.RequireMemoryToRead(6 * file.GetSize()); // for VTK, which copies the file twice, and whose indices have 64 bits
+  constexpr std::size_t smallest = 64 << 20;
+  constexpr std::size_t ratio = 16; // larger than that of a polygon's corners stored as bytes
+  SandboxRun run({ "rhombic-unpack-vtp", file.GetPath(), {}, smallest + ratio * file.GetSize() });
+  const auto ply = run.Next();
+  auto surfaces = ReadPLY(InputFile(file.GetPath(), ply.value().data, ply.value().size));
+  run.Next(); // nothing; the child is kept for other files
+  return surfaces;
+}
+
 struct SurfaceFormat
 {
   const char * extension;
   bool holdsSeveral; ///< can hold several surfaces
   bool hasMaterials; ///< has materials in a second file
   void (*write)(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
-  std::vector<SceneSurface> (*read)(const InputFile & file); ///< null: VTK reads it
+  std::vector<SceneSurface> (*read)(const InputFile & file);
 };
 
 constexpr std::array<SurfaceFormat, 5> SurfaceFormats{ { { ".stl", false, false, WriteSTL, ReadSTL },
                                                          { ".ply", true, false, WritePLY, ReadPLY },
                                                          { ".obj", true, true, WriteOBJ, ReadOBJ },
-                                                         { ".vtp", true, false, WriteVTP, nullptr },
+                                                         { ".vtp", true, false, WriteVTP, ReadVTP },
                                                          { ".glb", true, false, WriteGLB, ReadGLB } } };
 
 template <typename TPredicate>
@@ -155,23 +171,6 @@ MaterialsOf(const fs::path & path)
   return fs::path(path).replace_extension(".mtl");
 }
 
-/** VTK makes a PLY file of a VTP file in memory, which is checked as any PLY file. */
-std::vector<SceneSurface>
-ReadVTP(const InputFile & file, const VTPReading & vtp)
-{
-  if (vtp.convert == nullptr)
-  {
-    file.Refuse("this program has no reader of VTP files; export it as PLY");
-  }
-  file.RequireMemoryToRead(4 * file.GetSize()); // for VTK, whose indices have 64 bits
-  constexpr std::size_t smallest = 64 << 20;
-  constexpr std::size_t ratio = 16; // larger than that of a polygon's corners stored as bytes
-  InProcessDecoder inProcess;
-  VoxelDecoder & decoder = vtp.decoder == nullptr ? inProcess : *vtp.decoder;
-  const auto ply = decoder.Decode({ vtp.convert, file.GetPath(), smallest + ratio * file.GetSize() });
-  return ReadPLY(InputFile(file.GetPath(), ply->GetData(), ply->GetSize()));
-}
-
 } // namespace
 
 std::string
@@ -250,11 +249,11 @@ WriteSurfaces(const std::vector<SceneSurface> & surfaces, const fs::path & path,
 }
 
 std::vector<SceneSurface>
-ReadSurfaces(const fs::path & path, const VTPReading & vtp)
+ReadSurfaces(const fs::path & path)
 {
   const SurfaceFormat & format = FormatOf(path, "read");
   const InputFile file(path);
-  std::vector<SceneSurface> surfaces = format.read == nullptr ? ReadVTP(file, vtp) : format.read(file);
+  std::vector<SceneSurface> surfaces = format.read(file);
   const auto isEmpty = [](const SceneSurface & item) { return item.surface->GetNumberOfTriangles() == 0; };
   surfaces.erase(std::remove_if(surfaces.begin(), surfaces.end(), isEmpty), surfaces.end());
   if (surfaces.empty())

@@ -1,7 +1,5 @@
 #include "rhombicCompressedFrame.h"
 
-#include "rhombicWording.h"
-
 #include <algorithm>
 #include <cstdint>
 
@@ -96,8 +94,9 @@ FindPictureDamage(std::string_view stream, const StreamPicture & picture, const 
   if (picture.components != 1 || picture.bits == 0 || picture.bits > format.bitsAllocated ||
       needsTwoBytes != (format.bitsAllocated > 8 && format.bitsStored > 8))
   {
-    return "its compressed pixels have " + Count(picture.components, "component") + " of " +
-           std::to_string(picture.bits) + " bits, its header says one of " + std::to_string(format.bitsStored);
+    return "its compressed pixels have " + std::to_string(picture.components) +
+           (picture.components == 1 ? " component of " : " components of ") + std::to_string(picture.bits) +
+           " bits, its header says one of " + std::to_string(format.bitsStored);
   }
   return HasEndMarker(stream) ? "" : "its compressed pixels are cut off";
 }

@@ -3,7 +3,6 @@
 #include "rhombicDicomHeader.h"
 #include "rhombicFiles.h"
 #include "rhombicFailure.h"
-#include "rhombicQuietLibraries.h"
 #include "rhombicWording.h"
 
 #include <gdcmDicts.h>
@@ -156,7 +155,6 @@ DescribeImage(const DicomCapture & capture, std::size_t number, const std::strin
 std::string
 EncodeHeader(const gdcm::DataSet & dataSet, std::uintmax_t pixels)
 {
-  const QuietLibraries quiet;
   std::ostringstream stream; // in memory: GDCM ends the process when a disk is full
   gdcm::Writer writer;
   writer.GetFile().GetHeader().SetDataSetTransferSyntax(gdcm::TransferSyntax::ExplicitVRLittleEndian);

@@ -1,11 +1,13 @@
 #include "rhombicDicomStack.h"
 
-#include "rhombicDicomDecoding.h"
+#include "rhombicDicomFrames.h"
 #include "rhombicFailure.h"
+#include "rhombicForEachBlock.h"
 #include "rhombicMemoryBudget.h"
+#include "rhombicSandbox.h"
 #include "rhombicStoredBytes.h"
 
-#include "rhombicForEachBlock.h"
+#include "itkMultiThreaderBase.h"
 
 #include <algorithm>
 #include <atomic>
@@ -179,16 +181,28 @@ Rescale(const DicomSlice & slice, const std::byte * stored, TPixel * pixels)
 /** Calls `take(index, stored)` for each slice of a file: its index in the stack, and its stored pixels. */
 template <typename TTake>
 void
-ForEachFrame(const FileSlices & fileSlices, const std::vector<DicomSlice> & slices, VoxelDecoder & decoder, TTake take)
+ForEachFrame(const FileSlices & fileSlices, const std::vector<DicomSlice> & slices, TTake take)
 {
   const DicomImageFile & file = *fileSlices.file;
   const std::size_t frameBytes = file.format.FrameBytes();
   if (file.format.isEncapsulated)
   {
-    const auto buffer = decoder.Decode({ DecodeDicomFile, file.path, frameBytes * file.format.frames });
-    for (const std::size_t index : fileSlices.indices)
+    SandboxRun run({ DicomHelper, file.path, nlohmann::json(file).dump(), frameBytes });
+    for (std::size_t frame = 0; frame <= file.format.frames; ++frame) // nothing comes after the last one
     {
-      take(index, buffer->GetData() + slices[index].frame * frameBytes);
+      const auto stored = run.Next();
+      if (stored.has_value() != (frame < file.format.frames) || (stored && stored->size != frameBytes))
+      {
+        throw Failure(FailureKind::Internal,
+                      "Cannot read " + file.path.string() + ": it was not unpacked to its number of frames.");
+      }
+      for (const std::size_t index : fileSlices.indices)
+      {
+        if (slices[index].frame == frame)
+        {
+          take(index, stored->data);
+        }
+      }
     }
     return;
   }
@@ -255,18 +269,20 @@ ReplacePadding(const std::vector<SliceValues> & values,
 }
 
 /** The memory for reading, in bytes: the volume, a bit for each pixel of slices with padding, and the data of each
- * worker. A compressed file is in memory as a whole, and unpacked twice: by the decoder's library, and in the memory
- * shared with this process. */
+ * thread. A compressed file is in memory as a whole, and its frames are unpacked twice: one by the helper's library,
+ * and up to two in the memory shared with this process. */
 template <typename TPixel>
 std::uintmax_t
-MemoryToRead(const std::vector<DicomSlice> & slices, const std::vector<FileSlices> & files, std::size_t workers)
+MemoryToRead(const std::vector<DicomSlice> & slices, const std::vector<FileSlices> & files)
 {
+  const std::size_t threads = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
   std::uintmax_t bytes = 0;
   std::uintmax_t largest = 0;
   for (const FileSlices & fileSlices : files)
   {
     const DicomPixelFormat & format = fileSlices.file->format;
-    const std::uintmax_t held = format.isEncapsulated ? 2 * format.frames + 1 : 1;
+    const std::uintmax_t unpacked = format.frames > 1 ? 3 : 2;
+    const std::uintmax_t held = format.isEncapsulated ? format.frames + unpacked : 1;
     largest = std::max(largest, held * format.FrameBytes());
   }
   for (const DicomSlice & slice : slices)
@@ -275,7 +291,7 @@ MemoryToRead(const std::vector<DicomSlice> & slices, const std::vector<FileSlice
     const std::uintmax_t pixels = std::uintmax_t{ format.columns } * format.rows;
     bytes += pixels * sizeof(TPixel) + (format.padding ? pixels / 8 : 0);
   }
-  return bytes + largest * std::min(workers, files.size());
+  return bytes + largest * std::min(threads, files.size());
 }
 
 /** Reads the volume with a pixel type; nothing when a value is beyond an integer type. */
@@ -283,9 +299,8 @@ template <typename TPixel>
 std::optional<DicomPixels>
 ReadAs(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry, const ScanReadOptions & options)
 {
-  VoxelDecoder & decoder = *options.decoder;
   const std::vector<FileSlices> files = GroupByFile(slices);
-  RequireMemory(MemoryToRead<TPixel>(slices, files, decoder.GetNumberOfWorkers()),
+  RequireMemory(MemoryToRead<TPixel>(slices, files),
                 options.maximumMemory,
                 "Reading " + slices.front().file->path.parent_path().string());
   const auto image = NewImage<TPixel>(geometry);
@@ -301,7 +316,7 @@ ReadAs(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry, 
     }
     try
     {
-      ForEachFrame(files[n], slices, decoder, [&](std::size_t index, const std::byte * stored) {
+      ForEachFrame(files[n], slices, [&](std::size_t index, const std::byte * stored) {
         values[index] = Rescale(slices[index], stored, image->GetBufferPointer() + index * sliceSize);
         if (!FitsInto<TPixel>(values[index]))
         {
@@ -319,7 +334,7 @@ ReadAs(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry, 
       result.failures.emplace(files[n].file->path, failure.GetDescription());
     }
   };
-  ForEachOnThreads(files.size(), readFile, options.progress, decoder.GetNumberOfWorkers());
+  ForEachOnThreads(files.size(), readFile, options.progress);
   if (!result.failures.empty())
   {
     return result;

@@ -392,8 +392,7 @@ UnreadScan
 OpenDicomSegmentation(const std::vector<DicomSlice> & frames, std::uintmax_t maximumMemory, Scan scan)
 {
   const DicomImageFile & file = *frames.front().file;
-  const auto header = ReadDicomHeader(file.path);
-  const DicomDataSet & dataSet = header.value().dataSet;
+  const DicomDataSet & dataSet = *file.segmentation;
   const bool isBinary = IsBinary(dataSet, file);
   const EvenSlices slices = PlaceFrames(frames, ReadSliceTags(dataSet), scan);
   scan.labels = ReadLabels(dataSet, file);

@@ -306,7 +306,11 @@ ReadDicomSlices(const std::filesystem::path & path)
                                              : header->damage;
     return { slice };
   }
-  slice.kind = IsSegmentation(dataSet) ? DicomSlice::Kind::Segmentation : DicomSlice::Kind::Scan;
+  if (IsSegmentation(dataSet))
+  {
+    slice.kind = DicomSlice::Kind::Segmentation;
+    file->segmentation = std::make_shared<DicomDataSet>(dataSet);
+  }
   slice.refusal = FindRefusal(dataSet, file->format);
 
   const std::size_t frames = dataSet.GetItems(DicomTags::PerFrameFunctionalGroupsSequence).size();

@@ -96,7 +96,8 @@ struct DicomImageFile
   DicomPixelFormat format;
   ByteRange pixels;
   std::vector<ByteRange> fragments;
-  std::string pixelDamage; ///< "it ..." when the pixels are not all there
+  std::string pixelDamage;                          ///< "it ..." when the pixels are not all there
+  std::shared_ptr<const DicomDataSet> segmentation; ///< all elements that are kept, of a SEG; null for other files
 };
 
 /** One frame of a DICOM file, from its header. */

@@ -4,7 +4,6 @@
 #include "rhombicDicomSlice.h"
 #include "rhombicScanReader.h"
 #include "rhombicVolumeGeometry.h"
-#include "rhombicVoxelDecoder.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -98,10 +97,10 @@ ScanImage
 NewDicomImage(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry);
 
 /** Reads slices in their order into one volume; their files must have no pixelDamage. Uncompressed pixels are read
- * here, the others by the options' decoder, which must be set, in as many files at once as it has workers. Padding is
- * replaced by the lowest other value. It is kept when there is only one other value or padding is the next value below
- * the others: then it is the background of a mask or label map. Throws Failure(Memory) when the volume takes more
- * memory than the options allow. */
+ * here, the others by child processes, as many files at once as there are threads. Padding is replaced by the lowest
+ * other value. It is kept when there is only one other value or padding is the next value below the others: then it is
+ * the background of a mask or label map. Throws Failure(Memory) when the volume takes more memory than the options
+ * allow. */
 DicomPixels
 ReadDicomPixels(const std::vector<DicomSlice> & slices,
                 const VolumeGeometry & geometry,

@@ -1,82 +1,43 @@
 #include "rhombicCompressedFile.h"
 
+#include "rhombicSandbox.h"
 #include "rhombicVolumeRefusal.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <new>
-#include <vector>
-
-#include <zlib.h>
+#include <string>
 
 namespace fs = std::filesystem;
 
 namespace rhombic
 {
-namespace
-{
-
-std::uintmax_t
-PassOver(ByteStream & stream, std::uintmax_t size)
-{
-  std::vector<char> passed(std::min<std::uintmax_t>(size, 1 << 18));
-  std::uintmax_t total = 0;
-  while (total < size)
-  {
-    const std::size_t count = stream.Read(passed.data(), std::min<std::uintmax_t>(passed.size(), size - total));
-    if (count == 0)
-    {
-      break;
-    }
-    total += count;
-  }
-  return total;
-}
-
-bool
-IsGzipMagic(const void * bytes)
-{
-  return std::memcmp(bytes, "\x1f\x8b", 2) == 0;
-}
-
-} // namespace
 
 bool
 IsGzip(const fs::path & path)
 {
   char beginning[2] = {};
-  return ByteStream(path, 0, false).Read(beginning, 2) == 2 && IsGzipMagic(beginning);
+  return ByteStream(path, 0, false).Read(beginning, 2) == 2 && std::memcmp(beginning, "\x1f\x8b", 2) == 0;
 }
 
 ByteStream::ByteStream(const fs::path & path, std::uintmax_t offset, bool isDeflated)
-  : m_File(path, std::ios::binary)
 {
+  if (isDeflated)
+  {
+    constexpr std::size_t pieceSize = 1 << 20;
+    m_Inflation =
+      std::make_unique<SandboxRun>(SandboxJob{ "rhombic-unpack-gzip", path, std::to_string(offset), pieceSize });
+    return;
+  }
+  m_File.open(path, std::ios::binary);
   if (!m_File)
   {
     RefuseVolume(path, std::string(std::strerror(errno)) + "; check that it is there and yours");
   }
   m_File.seekg(static_cast<std::streamoff>(offset));
-  if (isDeflated)
-  {
-    m_Packed.resize(1 << 17);
-    m_Inflation.reset(new z_stream{});
-    m_Inflation->next_in = m_Packed.data();
-    constexpr int zlibOrGzip = 15 + 32; // zlib's window bits, and 32 for either header
-    if (inflateInit2(m_Inflation.get(), zlibOrGzip) != Z_OK)
-    {
-      throw std::bad_alloc();
-    }
-  }
 }
 
-ByteStream::~ByteStream()
-{
-  if (m_Inflation)
-  {
-    inflateEnd(m_Inflation.get());
-  }
-}
+ByteStream::~ByteStream() = default;
 
 std::size_t
 ByteStream::Read(void * buffer, std::size_t size)
@@ -86,36 +47,32 @@ ByteStream::Read(void * buffer, std::size_t size)
     m_File.read(static_cast<char *>(buffer), static_cast<std::streamsize>(size));
     return static_cast<std::size_t>(m_File.gcount());
   }
-  constexpr std::size_t largest = 1 << 30; // zlib counts in unsigned int
-  std::size_t total = 0;
-  while (total < size && m_State == Z_OK && this->Provide(1))
-  {
-    const auto room = static_cast<uInt>(std::min(largest, size - total));
-    m_Inflation->next_out = static_cast<Bytef *>(buffer) + total;
-    m_Inflation->avail_out = room;
-    m_State = inflate(m_Inflation.get(), Z_NO_FLUSH);
-    total += room - m_Inflation->avail_out;
-    if (m_State == Z_STREAM_END && this->Provide(2) && IsGzipMagic(m_Inflation->next_in))
-    {
-      m_State = inflateReset(m_Inflation.get());
-    }
-  }
-  return total;
+  return this->Take(static_cast<std::byte *>(buffer), size);
 }
 
-bool
-ByteStream::Provide(std::size_t count)
+std::uintmax_t
+ByteStream::Take(std::byte * buffer, std::uintmax_t size)
 {
-  z_stream & inflation = *m_Inflation;
-  if (inflation.avail_in < count)
+  std::uintmax_t left = size;
+  while (left > 0 && m_HasMore)
   {
-    std::copy_n(inflation.next_in, inflation.avail_in, m_Packed.begin());
-    inflation.next_in = m_Packed.data();
-    m_File.read(reinterpret_cast<char *>(m_Packed.data()) + inflation.avail_in,
-                static_cast<std::streamsize>(m_Packed.size() - inflation.avail_in));
-    inflation.avail_in += static_cast<uInt>(m_File.gcount());
+    const auto count = static_cast<std::size_t>(std::min<std::uintmax_t>(left, m_Piece.size));
+    buffer = buffer != nullptr ? std::copy_n(m_Piece.data, count, buffer) : nullptr;
+    m_Piece = { m_Piece.data + count, m_Piece.size - count };
+    left -= count;
+    if (m_Piece.size == 0)
+    {
+      const auto piece = m_Inflation->Next();
+      m_HasMore = piece && piece->size > 0;
+      m_IsComplete = piece && piece->size == 0;
+      m_Piece = piece.value_or(SandboxPiece{});
+      if (m_IsComplete)
+      {
+        m_Inflation->Next(); // nothing; the child is kept for other files
+      }
+    }
   }
-  return inflation.avail_in >= count;
+  return size - left;
 }
 
 void
@@ -123,7 +80,7 @@ ByteStream::Skip(std::uintmax_t size)
 {
   if (m_Inflation)
   {
-    PassOver(*this, size);
+    this->Take(nullptr, size);
   }
   else
   {
@@ -134,8 +91,7 @@ ByteStream::Skip(std::uintmax_t size)
 bool
 ByteStream::EndsAfter(std::uintmax_t size)
 {
-  const std::uintmax_t left = PassOver(*this, size + LongestTail);
-  return left >= size && m_State == Z_STREAM_END;
+  return this->Take(nullptr, size + LongestTail) >= size && m_IsComplete;
 }
 
 } // namespace rhombic

@@ -1,14 +1,13 @@
 #ifndef rhombicCompressedFile_h
 #define rhombicCompressedFile_h
 
+#include "rhombicSandbox.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <vector>
-
-struct z_stream_s;
 
 namespace rhombic
 {
@@ -23,8 +22,9 @@ constexpr std::uintmax_t LongestTail = 1 << 20;
 /** The largest ratio of deflate. */
 constexpr std::uintmax_t LargestRatio = 1032;
 
-/** Bytes of a file from an offset on, as they are or unpacked by zlib: a zlib stream, or gzip streams one after the
- * other. The constructor throws Failure(Unreadable) when the file can't be opened. */
+/** Bytes of a file from an offset on, as they are or unpacked by zlib in a child process: a zlib stream, or gzip
+ * streams one after the other. The constructor throws Failure(Unreadable) when the file can't be opened, all functions
+ * as SandboxRun does. */
 class ByteStream
 {
 public:
@@ -43,20 +43,22 @@ public:
   void
   Skip(std::uintmax_t size);
 
-  /** Whether exactly \a size bytes are left, and at most LongestTail more; for compressed streams, whether their end is
-   * there and their checksum right. */
+  /** For compressed streams: whether \a size bytes are left, and less than LongestTail more, their end is there and
+   * their checksum right. */
   bool
   EndsAfter(std::uintmax_t size);
 
 private:
-  /** Whether there are \a count packed bytes, at most m_Packed.size(), to unpack. */
-  bool
-  Provide(std::size_t count);
+  /** Copies the next unpacked bytes to \a buffer unless it is null. Returns their number: \a size, or fewer at the end
+   * of the stream or where it is damaged. */
+  std::uintmax_t
+  Take(std::byte * buffer, std::uintmax_t size);
 
-  std::ifstream m_File;
-  std::vector<unsigned char> m_Packed;
-  std::unique_ptr<z_stream_s> m_Inflation; ///< null for bytes that are not compressed
-  int m_State = 0;
+  std::ifstream m_File;                    ///< of bytes that are not compressed
+  std::unique_ptr<SandboxRun> m_Inflation; ///< null for them
+  SandboxPiece m_Piece{};                  ///< unpacked bytes that were not taken
+  bool m_HasMore = true;                   ///< whether there may be more of them
+  bool m_IsComplete = false;               ///< whether the end of the stream was reached
 };
 
 } // namespace rhombic

@@ -1,6 +1,7 @@
-#include "rhombicVTPToPLY.h"
+// rhombic-unpack-vtp: makes binary PLY files of VTP files by VTK, which damaged files can crash: points, their normals,
+// polygons, and the names and colours of surfaces that WriteSurfaces() stores.
 
-#include "rhombicFailure.h"
+#include "rhombicSandboxChild.h"
 
 #include <nlohmann/json.hpp>
 
@@ -23,6 +24,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -30,8 +32,6 @@ namespace rhombic
 {
 namespace
 {
-
-namespace fs = std::filesystem;
 
 /** \class MessageCollector
  * \brief Keeps the first error or warning of VTK, which would be printed. */
@@ -67,15 +67,14 @@ vtkStandardNewMacro(MessageCollector);
 
 /** Reads the file. Any message of VTK is a failure, as VTK goes on after errors. */
 vtkSmartPointer<vtkPolyData>
-ReadPolyData(const fs::path & path)
+ReadPolyData(const SandboxInput & input)
 {
   vtkNew<MessageCollector> messages;
-  const vtkSmartPointer<vtkOutputWindow> before = vtkOutputWindow::GetInstance();
   vtkOutputWindow::SetInstance(messages);
   vtkNew<vtkXMLPolyDataReader> reader;
-  reader->SetFileName(path.c_str());
+  reader->ReadFromInputStringOn();
+  reader->SetInputString({ reinterpret_cast<const char *>(input.file), input.size });
   reader->Update();
-  vtkOutputWindow::SetInstance(before);
   const vtkSmartPointer<vtkPolyData> polyData = reader->GetOutput();
   std::string why = messages->GetFirst();
   if (why.empty() && (reader->GetErrorCode() != 0 || !polyData->GetPolys()->IsValid()))
@@ -84,8 +83,7 @@ ReadPolyData(const fs::path & path)
   }
   if (!why.empty())
   {
-    throw Failure(FailureKind::Unreadable,
-                  "Cannot read " + path.string() + ": " + why + "; the file is damaged, so export it again.");
+    throw SandboxRefusal(why + "; the file is damaged, so export it again");
   }
   return polyData;
 }
@@ -178,9 +176,8 @@ DescribeSurfaces(vtkPolyData & polyData)
 class LimitedBytes
 {
 public:
-  LimitedBytes(const fs::path & path, std::byte * bytes, std::size_t size)
-    : m_Path(path)
-    , m_Next(bytes)
+  LimitedBytes(std::byte * bytes, std::size_t size)
+    : m_Next(bytes)
     , m_Left(size)
   {}
 
@@ -195,8 +192,7 @@ public:
   {
     if (size > m_Left)
     {
-      throw Failure(FailureKind::Unreadable,
-                    "Cannot read " + m_Path.string() + ": it unpacks to many times its size; export it uncompressed.");
+      throw SandboxRefusal("it unpacks to many times its size; export it uncompressed");
     }
     std::copy_n(static_cast<const std::byte *>(from), size, m_Next);
     m_Next += size;
@@ -204,7 +200,6 @@ public:
   }
 
 private:
-  const fs::path & m_Path;
   std::byte * m_Next;
   std::size_t m_Left;
 };
@@ -355,32 +350,46 @@ AppendLabels(vtkPolyData & polyData, vtkDataArray & boundaryLabels, LimitedBytes
   }
 }
 
-} // namespace
-
-std::size_t
-ConvertVTPToPLY(const fs::path & path, std::byte * bytes, std::size_t size)
+void
+AppendSurfaces(vtkPolyData & polyData, LimitedBytes & ply)
 {
-  const vtkSmartPointer<vtkPolyData> polyData = ReadPolyData(path);
-  LimitedBytes ply(path, bytes, size);
-  if (vtkDataArray * const labels = FindBoundaryLabels(*polyData))
-  {
-    AppendLabels(*polyData, *labels, ply);
-    return size - ply.GetLeft();
-  }
-  vtkDataArray * normals = polyData->GetPointData()->GetNormals();
+  vtkDataArray * normals = polyData.GetPointData()->GetNormals();
   if (normals != nullptr &&
-      (normals->GetNumberOfComponents() != 3 || normals->GetNumberOfTuples() != polyData->GetNumberOfPoints()))
+      (normals->GetNumberOfComponents() != 3 || normals->GetNumberOfTuples() != polyData.GetNumberOfPoints()))
   {
     normals = nullptr;
   }
-  const std::string header = MakeHeader(DescribeSpace(*polyData) + DescribeSurfaces(*polyData),
-                                        static_cast<std::size_t>(polyData->GetNumberOfPoints()),
+  const std::string header = MakeHeader(DescribeSpace(polyData) + DescribeSurfaces(polyData),
+                                        static_cast<std::size_t>(polyData.GetNumberOfPoints()),
                                         normals != nullptr,
-                                        static_cast<std::size_t>(polyData->GetNumberOfPolys()));
+                                        static_cast<std::size_t>(polyData.GetNumberOfPolys()));
   ply.Append(header.data(), header.size());
-  AppendPoints(*polyData, normals, ply);
-  AppendPolygons(*polyData->GetPolys(), ply);
-  return size - ply.GetLeft();
+  AppendPoints(polyData, normals, ply);
+  AppendPolygons(*polyData.GetPolys(), ply);
 }
 
+/** Makes the PLY file as one piece. */
+void
+UnpackVTP(const SandboxInput & input, SandboxOutput & output)
+{
+  const vtkSmartPointer<vtkPolyData> polyData = ReadPolyData(input);
+  LimitedBytes ply(output.GetBuffer(), output.GetSize());
+  if (vtkDataArray * const labels = FindBoundaryLabels(*polyData))
+  {
+    AppendLabels(*polyData, *labels, ply);
+  }
+  else
+  {
+    AppendSurfaces(*polyData, ply);
+  }
+  output.Deliver(output.GetSize() - ply.GetLeft());
+}
+
+} // namespace
 } // namespace rhombic
+
+int
+main(int argc, char ** argv)
+{
+  return rhombic::RunSandboxChild(argc, argv, rhombic::UnpackVTP);
+}
