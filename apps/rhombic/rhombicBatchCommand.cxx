@@ -68,13 +68,6 @@ ParseOptions(std::vector<BatchCase> & cases, const Pipeline & pipeline)
   }
 }
 
-/** "sub-01/anat/sub-01_T1w", below the folder of a derivative. */
-std::filesystem::path
-FolderInBIDS(const BatchCase & one, const std::filesystem::path & dataset)
-{
-  return one.scan.parent_path().lexically_relative(std::filesystem::canonical(dataset)) / one.name;
-}
-
 /** Makes a folder of outputs a BIDS derivative. */
 void
 DescribeDataset(const std::filesystem::path & folder)
@@ -112,9 +105,13 @@ GetSettings(const BatchOptions & options, const Events & events)
   }
   ParseOptions(collection.cases, settings.pipeline);
   settings.cases = std::move(collection.cases);
-  for (BatchCase & one : settings.cases)
+  for (BatchCase & batchCase : settings.cases)
   {
-    one.folder = options.isBIDS ? FolderInBIDS(one, options.collection) : one.folder;
+    if (options.isBIDS) // as sub-01/anat/sub-01_T1w
+    {
+      const auto dataset = std::filesystem::canonical(options.collection);
+      batchCase.folder = batchCase.scan.parent_path().lexically_relative(dataset) / batchCase.name;
+    }
   }
   settings.isPart = !options.only.empty();
   settings.writesCasesTable = !options.hasNoCasesTable;

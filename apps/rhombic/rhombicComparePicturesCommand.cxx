@@ -4,8 +4,6 @@
 #include "rhombicPictureIO.h"
 #include "rhombicWording.h"
 
-#include <nlohmann/json.hpp>
-
 #include <cmath>
 #include <iostream>
 
@@ -37,11 +35,11 @@ Compare(const ComparePicturesOptions & options)
   const long largest = std::lround(difference.maxError * LevelsOfComponent);
   if (options.isJson)
   {
-    const nlohmann::ordered_json report{ { "meanDifference", mean },
-                                         { "largestDifference", largest },
-                                         { "pixelsAboveTolerance", difference.differingPixels },
-                                         { "toleranceOf255", options.tolerance } };
-    std::cout << report.dump(2) << '\n';
+    const Report report{ { "meanDifference", mean },
+                         { "largestDifference", largest },
+                         { "pixelsAboveTolerance", difference.differingPixels },
+                         { "toleranceOf255", options.tolerance } };
+    std::cout << ToJson(report) << '\n';
   }
   else
   {

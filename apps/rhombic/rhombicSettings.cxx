@@ -63,58 +63,13 @@ Placeholder(const std::string & key, std::size_t position)
   return name + (position > 0 ? std::to_string(position + 1) : "");
 }
 
-/** The value that reports hold. */
-std::string
-Recorded(const std::string & text, SettingKind kind, const std::string & key, std::size_t position)
-{
-  return kind == SettingKind::Source      ? Placeholder(key, position)
-         : kind == SettingKind::InputFile ? std::filesystem::path(text).filename().string()
-                                          : text;
-}
-
 bool
 IsFlag(const CLI::Option & option)
 {
   return option.get_items_expected_max() == 0;
 }
 
-bool
-IsRecorded(SettingKind kind)
-{
-  return kind != SettingKind::Output && kind != SettingKind::Run;
-}
-
 } // namespace
-
-SettingTrait
-OfKind(SettingKind kind)
-{
-  return [kind](SettingRow & row) { row.kind = kind; };
-}
-
-SettingTrait
-Checked(const CLI::Validator & check)
-{
-  return [check](SettingRow & row) { row.option->check(check); };
-}
-
-SettingTrait
-Excludes(std::vector<std::string> names)
-{
-  return [names](SettingRow & row) { row.excludes = names; };
-}
-
-SettingTrait
-Needs(std::vector<std::string> names)
-{
-  return [names](SettingRow & row) { row.needs = names; };
-}
-
-SettingTrait
-DefaultsTo(const std::string & environment)
-{
-  return [environment](SettingRow & row) { row.option->envname(environment); };
-}
 
 void
 CommandSettings::AddRow(CLI::Option * option, bool isNumber, const std::vector<SettingTrait> & traits)
@@ -182,17 +137,29 @@ CommandSettings::GetRecorded() const
   Report recorded = Report::object();
   for (const SettingRow & row : m_Rows)
   {
-    const SettingKind kind = row.kind;
-    if (!given.contains(row.key) || !IsRecorded(kind))
+    if (!given.contains(row.key) || row.kind == SettingKind::Output || row.kind == SettingKind::Run)
     {
       continue;
     }
-    recorded[row.key] = given[row.key];
-    const bool isHidden = kind == SettingKind::Source || kind == SettingKind::InputFile;
-    const std::vector<std::string> texts = isHidden ? ToTexts(given[row.key]) : std::vector<std::string>();
-    for (std::size_t n = 0; n < texts.size(); ++n)
+    std::size_t position = 0;
+    const auto hide = [&row, &position](Report & value) {
+      if (row.kind == SettingKind::Source)
+      {
+        value = Placeholder(row.key, position++);
+      }
+      else if (row.kind == SettingKind::InputFile)
+      {
+        value = std::filesystem::path(value.get<std::string>()).filename().string();
+      }
+    };
+    Report & value = recorded[row.key] = given[row.key];
+    if (value.is_array())
     {
-      (given[row.key].is_array() ? recorded[row.key][n] : recorded[row.key]) = Recorded(texts[n], kind, row.key, n);
+      std::for_each(value.begin(), value.end(), hide);
+    }
+    else
+    {
+      hide(value);
     }
   }
   return recorded;

@@ -49,20 +49,23 @@ inline const auto ShowingDefault = [](SettingRow & row) { row.option->capture_de
 inline const auto Hidden = [](SettingRow & row) { row.option->group(""); }; ///< from the help text
 inline const auto Required = [](SettingRow & row) { row.option->required(); };
 
-SettingTrait
-OfKind(SettingKind kind);
+inline const auto OfKind = [](SettingKind kind) { return [kind](SettingRow & row) { row.kind = kind; }; };
 
-/** \param check of each value */
-SettingTrait
-Checked(const CLI::Validator & check);
-SettingTrait
-Excludes(std::vector<std::string> names);
-SettingTrait
-Needs(std::vector<std::string> names);
+/** A check of each value. */
+inline const auto Checked = [](const CLI::Validator & check) {
+  return [check](SettingRow & row) { row.option->check(check); };
+};
+inline const auto Excludes = [](const std::vector<std::string> & names) {
+  return [names](SettingRow & row) { row.excludes = names; };
+};
+inline const auto Needs = [](const std::vector<std::string> & names) {
+  return [names](SettingRow & row) { row.needs = names; };
+};
 
-/** \param environment the variable of the environment that is the default */
-SettingTrait
-DefaultsTo(const std::string & environment);
+/** The variable of the environment that is the default. */
+inline const auto DefaultsTo = [](const std::string & variable) {
+  return [variable](SettingRow & row) { row.option->envname(variable); };
+};
 
 /** \class Setting
  * \brief A row of a table of settings: names, member and help text, and traits if any.
