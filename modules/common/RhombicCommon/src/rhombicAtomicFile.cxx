@@ -74,13 +74,6 @@ ReplaceListed(const char * before, const char * after)
   }
 }
 
-/** The beginning of the names of a target's temporary files: short, whatever the length of the target's name. */
-std::string
-TemporaryPrefix(const fs::path & target)
-{
-  return ".tmp-" + HashText(target.filename().string()) + "-";
-}
-
 /** Locks a file until its descriptor is closed. False when another process has locked it. */
 bool
 Lock(int descriptor)
@@ -169,7 +162,7 @@ AtomicFile::AtomicFile(const fs::path & target)
   }
 
   // A file of that name may be left from a killed process that had the same number.
-  const std::string prefix = TemporaryPrefix(target);
+  const std::string prefix = ".tmp-" + HashText(target.filename().string()) + "-"; // short, whatever the name's length
   RemoveAbandoned(folder, prefix);
   static std::atomic<unsigned> counter{ 0 };
   do
