@@ -17,6 +17,9 @@ namespace rhombic
 namespace
 {
 
+using PointType = itk::Point<double, 3>;
+using VectorType = PointType::VectorType;
+
 constexpr itk::SizeValueType MostTaps = 10; // of one axis, see itk::SeparableTaps
 
 /** Weights of the samples around each point of a list. */
@@ -80,8 +83,6 @@ IsWellInside(double position, itk::SizeValueType length)
 class ScanField
 {
 public:
-  using PointType = itk::Point<double, 3>;
-
   ScanField(const Scan & scan, itk::SeparableKernel kernel)
     : m_Scan(scan)
     , m_Kernel(kernel)
@@ -101,10 +102,12 @@ public:
   }
 
   /** Values at points in LPS mm. NaN outside the scan and less than half a voxel inside the outermost samples, where
-   * walls close surfaces. */
+   * walls close surfaces.
+   * \param other a kernel in place of the field's */
   std::vector<float>
-  Evaluate(const std::vector<PointType> & points, itk::SeparableKernel kernel) const
+  Evaluate(const std::vector<PointType> & points, std::optional<itk::SeparableKernel> other = std::nullopt) const
   {
+    const itk::SeparableKernel kernel = other.value_or(m_Kernel);
     const FieldTaps taps = m_Stack ? this->MakeStackTaps(points, kernel) : this->MakeGridTaps(points, kernel);
     std::vector<float> values(points.size(), std::numeric_limits<float>::quiet_NaN());
     std::visit(
@@ -121,12 +124,6 @@ public:
       },
       m_Scan.image);
     return values;
-  }
-
-  std::vector<float>
-  Evaluate(const std::vector<PointType> & points) const
-  {
-    return this->Evaluate(points, m_Kernel);
   }
 
 private:
@@ -188,9 +185,6 @@ private:
   itk::SeparableKernel m_Kernel;
   std::optional<itk::SliceStack> m_Stack; ///< for slanted scans
 };
-
-using PointType = ScanField::PointType;
-using VectorType = PointType::VectorType;
 
 constexpr float Outside = std::numeric_limits<float>::quiet_NaN();   // outside the scan, or next to its border
 constexpr float Unresolved = std::numeric_limits<float>::infinity(); // without an isosurface near
