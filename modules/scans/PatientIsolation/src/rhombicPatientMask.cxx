@@ -172,8 +172,7 @@ RemoveColumns(const CoarseScan & coarse, const MaskImage & thin)
 itk::Point<double, 3>
 CoarseScan::PointOf(const itk::Index<3> & index) const
 {
-  itk::Point<double, 3> point;
-  occupancy->TransformIndexToPhysicalPoint(index, point);
+  const auto point = occupancy->TransformIndexToPhysicalPoint<double>(index);
   return sliceOffsets.empty() ? point : point + sliceOffsets[static_cast<std::size_t>(index[2])];
 }
 

@@ -50,10 +50,8 @@ MakeBlocks(const Scan & scan)
     blocks[axis] = (geometry.GetLargestPossibleRegion().GetSize(axis) + coarse.shape[axis] - 1) / coarse.shape[axis];
     spacing[axis] *= static_cast<double>(samples);
   }
-  itk::Point<double, 3> origin;
-  geometry.TransformContinuousIndexToPhysicalPoint(first, origin);
   coarse.occupancy = MaskImage::New();
-  coarse.occupancy->SetOrigin(origin);
+  coarse.occupancy->SetOrigin(geometry.TransformContinuousIndexToPhysicalPoint<double>(first));
   coarse.occupancy->SetSpacing(spacing);
   coarse.occupancy->SetDirection(geometry.GetDirection());
   coarse.occupancy->SetRegions(blocks);
@@ -62,9 +60,9 @@ MakeBlocks(const Scan & scan)
   coarse.mean = MakeLike<itk::Image<std::int16_t, 3>>(*coarse.occupancy);
   for (std::size_t slice = 0; slice < scan.sliceOrigins.size(); ++slice)
   {
-    itk::Point<double, 3> even;
-    geometry.TransformIndexToPhysicalPoint({ { 0, 0, static_cast<itk::IndexValueType>(slice) } }, even);
-    coarse.sliceOffsets.push_back(scan.sliceOrigins[slice] - even);
+    const itk::Index<3> firstOfSlice{ { 0, 0, static_cast<itk::IndexValueType>(slice) } };
+    coarse.sliceOffsets.push_back(scan.sliceOrigins[slice] -
+                                  geometry.TransformIndexToPhysicalPoint<double>(firstOfSlice));
   }
   return coarse;
 }

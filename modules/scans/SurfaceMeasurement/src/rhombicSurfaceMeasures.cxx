@@ -21,13 +21,7 @@ PlanesOf(const Scan & scan)
   const itk::ImageBase<3> & grid = GeometryOf(scan.image);
   const auto & region = grid.GetLargestPossibleRegion();
   const auto pointAt = [&](itk::IndexValueType column, itk::IndexValueType row, itk::IndexValueType slice) {
-    auto index = region.GetIndex();
-    index[0] += column;
-    index[1] += row;
-    index[2] += slice;
-    itk::Point<double, 3> point;
-    grid.TransformIndexToPhysicalPoint(index, point);
-    return point;
+    return grid.TransformIndexToPhysicalPoint<double>(region.GetIndex() + itk::Offset<3>{ { column, row, slice } });
   };
   itk::SamplePlanes planes;
   planes.columnStep = pointAt(1, 0, 0) - pointAt(0, 0, 0);
