@@ -16,10 +16,10 @@ namespace rhombic
 namespace
 {
 
-[[noreturn]] void
-FailToWrite(const fs::path & path, const std::string & why)
+void
+FailToWriteIf(bool isFailure, const fs::path & path, const std::string & why)
 {
-  throw Failure(FailureKind::Output, "Cannot write " + path.string() + ": " + why + ".");
+  FailIf(isFailure, FailureKind::Output, "Cannot write " + path.string() + ": " + why + ".");
 }
 
 /** The geometry of a lattice volume and the index of its first sample. */
@@ -63,30 +63,19 @@ template <typename TImage>
 void
 VerifyImage(const TImage * image, const fs::path & path)
 {
-  if (image == nullptr)
-  {
-    FailToWrite(path, "there is no image, but a null pointer; give an image that is filled");
-  }
+  FailToWriteIf(image == nullptr, path, "there is no image, but a null pointer; give an image that is filled");
   const auto & region = image->GetBufferedRegion();
-  if (region != image->GetLargestPossibleRegion())
-  {
-    FailToWrite(path, "not all samples of the image are in its buffer; update the whole of it first");
-  }
-  if (region.GetNumberOfPixels() == 0)
-  {
-    FailToWrite(path, "the image has no samples; give one of at least one sample");
-  }
+  FailToWriteIf(region != image->GetLargestPossibleRegion(),
+                path,
+                "not all samples of the image are in its buffer; update the whole of it first");
+  FailToWriteIf(region.GetNumberOfPixels() == 0, path, "the image has no samples; give one of at least one sample");
   const auto * const pixels = image->GetPixelContainer();
-  if (pixels == nullptr || pixels->Size() < region.GetNumberOfPixels())
-  {
-    FailToWrite(path, "the image's samples were never allocated; call its Allocate() and fill it first");
-  }
+  FailToWriteIf(pixels == nullptr || pixels->Size() < region.GetNumberOfPixels(),
+                path,
+                "the image's samples were never allocated; call its Allocate() and fill it first");
   const std::string defect =
     DefectOf({ image->GetSpacing(), image->GetOrigin(), image->GetDirection(), region.GetIndex() });
-  if (!defect.empty())
-  {
-    FailToWrite(path, "the image's " + defect + "; set its geometry anew");
-  }
+  FailToWriteIf(!defect.empty(), path, "the image's " + defect + "; set its geometry anew");
 }
 
 std::string
@@ -253,10 +242,7 @@ StageFCCImage(const FCCVolume & volume, const fs::path & path, StagedFiles & sta
       stream << header;
       stream.write(reinterpret_cast<const char *>(image->GetBufferPointer()), static_cast<std::streamsize>(bytes));
       stream.close();
-      if (!stream)
-      {
-        FailToWrite(path, "writing failed; is the disk full?");
-      }
+      FailToWriteIf(!stream, path, "writing failed; is the disk full?");
       size = header.size() + bytes;
     },
     volume);
