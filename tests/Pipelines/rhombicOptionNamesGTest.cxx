@@ -44,7 +44,7 @@ TEST(OptionNames, AreThoseOfFailuresOfModules)
 {
   using rhombic::Denoising;
   const auto denoise = [](double sigma, double edge) {
-    return SentenceOf([&] { CheckDenoising({ Denoising::Kind::EdgePreserving, sigma, edge }); });
+    return SentenceOf([&] { rhombic::CheckDenoising({ Denoising::Kind::EdgePreserving, sigma, edge }); });
   };
   EXPECT_EQ(denoise(-1.0, 60.0),
             "The sigma of --denoise must be a positive number of mm; try gaussian:0.7 or edges:0.7,60.");
