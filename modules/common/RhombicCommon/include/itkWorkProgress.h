@@ -102,6 +102,8 @@ public:
       throw aborted;
     }
   }
+
+  /** The same for the filter whose progress this is. */
   void
   CheckAbort() const
   {

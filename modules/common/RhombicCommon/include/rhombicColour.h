@@ -26,6 +26,7 @@ ToByte(double value)
   return static_cast<std::uint8_t>(std::lround(255 * ToUnit(value)));
 }
 
+/** The components as ToByte() makes them. */
 inline std::array<std::uint8_t, 3>
 ToBytes(const Colour & colour)
 {

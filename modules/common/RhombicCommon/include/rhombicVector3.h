@@ -13,18 +13,21 @@ namespace rhombic
 /** A point, in LPS mm where nothing else is said, or a direction. */
 using Vector3 = std::array<double, 3>;
 
+/** a + b */
 inline Vector3
 Add(const Vector3 & a, const Vector3 & b)
 {
   return { a[0] + b[0], a[1] + b[1], a[2] + b[2] };
 }
 
+/** a - b */
 inline Vector3
 Subtract(const Vector3 & a, const Vector3 & b)
 {
   return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
 }
 
+/** factor * a */
 inline Vector3
 Scaled(const Vector3 & a, double factor)
 {
@@ -45,24 +48,28 @@ Mix(const Vector3 & a, const Vector3 & b, double share)
   return Along(a, Subtract(b, a), share);
 }
 
+/** The scalar product. */
 inline double
 Dot(const Vector3 & a, const Vector3 & b)
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/** The vector product a x b. */
 inline Vector3
 Cross(const Vector3 & a, const Vector3 & b)
 {
   return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
 }
 
+/** The Euclidean length. */
 inline double
 Length(const Vector3 & a)
 {
   return std::sqrt(Dot(a, a));
 }
 
+/** The square of the distance of two points. */
 inline double
 SquaredDistance(const Vector3 & a, const Vector3 & b)
 {
@@ -70,6 +77,7 @@ SquaredDistance(const Vector3 & a, const Vector3 & b)
   return Dot(difference, difference);
 }
 
+/** The distance of two points. */
 inline double
 Distance(const Vector3 & a, const Vector3 & b)
 {

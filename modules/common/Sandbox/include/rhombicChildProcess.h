@@ -54,6 +54,7 @@ public:
   void
   Wait();
 
+  /** Ends the process at once, by SIGKILL. */
   void
   Kill();
 
