@@ -179,9 +179,8 @@ public:
   {
     const FileDescriptor file = OpenFile(job.path);
     const FileDescriptor slot = MakeSlot(std::max(2 * SizeInSlot(job.pieceSize), job.arguments.size()));
-    m_Slot.reset(); // the old one takes no memory any more
-    m_Slot.emplace(slot.Get(), PROT_READ | PROT_WRITE);
-    std::memcpy(m_Slot->GetData(), job.arguments.data(), job.arguments.size());
+    m_Slot = MapFile(slot.Get(), PROT_READ | PROT_WRITE);
+    std::memcpy(m_Slot.data.get(), job.arguments.data(), job.arguments.size());
     SandboxMessage message;
     message.size = job.pieceSize;
     message.arguments = job.arguments.size();
@@ -212,15 +211,15 @@ public:
     m_IsLate = ready == 0;
     const auto received = m_IsLate ? std::nullopt : ReceiveMessage(m_Socket.Get());
     const bool isSense = received && received->kind >= SandboxMessage::Kind::Piece &&
-                         received->offset <= m_Slot->GetSize() &&
-                         received->size <= std::min(m_Slot->GetSize() - received->offset, job.pieceSize);
+                         received->kind <= SandboxMessage::Kind::OutOfMemory && received->offset <= m_Slot.size &&
+                         received->size <= std::min(m_Slot.size - received->offset, job.pieceSize);
     return isSense ? std::optional<SandboxMessage>(*received) : std::nullopt;
   }
 
   SandboxPiece
   GetPiece(const SandboxMessage & message) const
   {
-    return { m_Slot->GetData() + message.offset, message.size };
+    return { m_Slot.data.get() + message.offset, message.size };
   }
 
   /** Ends the helper, and throws the reason for its last message or its silence. */
@@ -260,8 +259,8 @@ public:
 private:
   std::optional<ChildProcess> m_Process;
   FileDescriptor m_Socket;
-  std::optional<MappedMemory> m_Slot; ///< for the arguments, then for two pieces
-  bool m_IsLate = false;              ///< whether the last message did not come in time
+  MappedMemory m_Slot;   ///< for the arguments, then for two pieces
+  bool m_IsLate = false; ///< whether the last message did not come in time
 };
 
 namespace

@@ -153,12 +153,12 @@ Unpack(const ReceivedMessage & start, SandboxFunction function)
   SandboxMessage answer{ SandboxMessage::Kind::Done };
   try
   {
-    const MappedMemory file(start.file.Get(), PROT_READ);
-    const MappedMemory slot(start.slot.Get(), PROT_READ | PROT_WRITE);
-    const std::string arguments(reinterpret_cast<const char *>(slot.GetData()), start.arguments);
+    const MappedMemory file = MapFile(start.file.Get(), PROT_READ);
+    const MappedMemory slot = MapFile(start.slot.Get(), PROT_READ | PROT_WRITE);
+    const std::string arguments(reinterpret_cast<const char *>(slot.data.get()), start.arguments);
     LimitMemory(start.memory);
-    SandboxOutput output(slot.GetData(), start.size, start.seconds);
-    function({ file.GetData(), file.GetSize(), arguments }, output);
+    SandboxOutput output(slot.data.get(), start.size, start.seconds);
+    function({ file.data.get(), file.size, arguments }, output);
   }
   catch (const SandboxRefusal & refusal)
   {

@@ -34,26 +34,19 @@ struct Packet
 
 } // namespace
 
-MappedMemory::MappedMemory(int descriptor, int protection)
+MappedMemory
+MapFile(int descriptor, int protection)
 {
   struct stat status
   {};
   fstat(descriptor, &status);
-  m_Size = static_cast<std::size_t>(status.st_size);
-  void * const address = m_Size > 0 ? mmap(nullptr, m_Size, protection, MAP_SHARED, descriptor, 0) : nullptr;
+  const auto size = static_cast<std::size_t>(status.st_size);
+  void * const address = size > 0 ? mmap(nullptr, size, protection, MAP_SHARED, descriptor, 0) : nullptr;
   if (address == MAP_FAILED)
   {
     throw std::bad_alloc();
   }
-  m_Data = static_cast<std::byte *>(address);
-}
-
-MappedMemory::~MappedMemory()
-{
-  if (m_Data != nullptr)
-  {
-    munmap(m_Data, m_Size);
-  }
+  return { { static_cast<std::byte *>(address), [size](std::byte * data) { munmap(data, size); } }, size };
 }
 
 void

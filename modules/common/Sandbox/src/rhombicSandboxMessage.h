@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -44,35 +45,16 @@ private:
   int m_Descriptor;
 };
 
-/** \class MappedMemory
- * \brief The bytes of an open file, in memory that is shared with whoever else has it. */
-class MappedMemory
+/** The bytes of an open file, in memory that is shared with whoever else has it. */
+struct MappedMemory
 {
-public:
-  /** \param protection as of mmap(). Throws std::bad_alloc. */
-  MappedMemory(int descriptor, int protection);
-  ~MappedMemory();
-  MappedMemory(const MappedMemory &) = delete;
-  MappedMemory &
-  operator=(const MappedMemory &) = delete;
-
-  /** Null for an empty file. */
-  std::byte *
-  GetData() const
-  {
-    return m_Data;
-  }
-
-  std::size_t
-  GetSize() const
-  {
-    return m_Size;
-  }
-
-private:
-  std::size_t m_Size;
-  std::byte * m_Data = nullptr;
+  std::shared_ptr<std::byte> data; ///< null for an empty file
+  std::size_t size = 0;
 };
+
+/** \param protection as of mmap(). Throws std::bad_alloc. */
+MappedMemory
+MapFile(int descriptor, int protection);
 
 /** What a program and its child say to each other. */
 struct SandboxMessage
