@@ -178,15 +178,16 @@ public:
   Start(const SandboxJob & job)
   {
     const FileDescriptor file = OpenFile(job.path);
-    const FileDescriptor slot = MakeSlot(std::max(2 * SizeInSlot(job.pieceSize), job.arguments.size()));
-    m_Slot = MapFile(slot.Get(), PROT_READ | PROT_WRITE);
+    const std::size_t size = std::max(2 * SizeInSlot(job.pieceSize), job.arguments.size());
+    const FileDescriptor newSlot(m_Slot.size < size ? MakeSlot(size) : FileDescriptor());
+    m_Slot = m_Slot.size < size ? MapFile(newSlot.Get(), PROT_READ | PROT_WRITE) : m_Slot;
     std::memcpy(m_Slot.data.get(), job.arguments.data(), job.arguments.size());
     SandboxMessage message;
     message.size = job.pieceSize;
     message.arguments = job.arguments.size();
     message.memory = job.limits.memory + 4 * std::uint64_t{ job.pieceSize };
     message.seconds = SecondsOf(job);
-    SendMessage(m_Socket.Get(), message, file.Get(), slot.Get());
+    SendMessage(m_Socket.Get(), message, file.Get(), newSlot.Get());
   }
 
   /** Lets the helper write in the place of the last piece. */
@@ -214,6 +215,14 @@ public:
                          received->kind <= SandboxMessage::Kind::OutOfMemory && received->offset <= m_Slot.size &&
                          received->size <= std::min(m_Slot.size - received->offset, job.pieceSize);
     return isSense ? std::optional<SandboxMessage>(*received) : std::nullopt;
+  }
+
+  /** Whether its memory is small enough to wait for another file. */
+  bool
+  IsWorthKeeping() const
+  {
+    constexpr std::size_t largest = 64 << 20;
+    return m_Slot.size <= largest;
   }
 
   SandboxPiece
@@ -341,7 +350,10 @@ SandboxRun::Next()
   {
     process->Fail(m_Job, message);
   }
-  GiveBackHelper(m_Job.helper, std::move(process));
+  if (process->IsWorthKeeping())
+  {
+    GiveBackHelper(m_Job.helper, std::move(process));
+  }
   return {};
 }
 

@@ -146,15 +146,16 @@ Refusal(const std::string & why)
   return answer;
 }
 
-/** Unpacks a file. Returns the last message about it. */
+/** Unpacks a file into \a slot, or into the one that comes with the file and takes its place. Returns the last message
+ * about the file. */
 SandboxMessage
-Unpack(const ReceivedMessage & start, SandboxFunction function)
+Unpack(const ReceivedMessage & start, SandboxFunction function, MappedMemory & slot)
 {
   SandboxMessage answer{ SandboxMessage::Kind::Done };
   try
   {
     const MappedMemory file = MapFile(start.file.Get(), PROT_READ);
-    const MappedMemory slot = MapFile(start.slot.Get(), PROT_READ | PROT_WRITE);
+    slot = start.slot.Get() < 0 ? slot : MapFile(start.slot.Get(), PROT_READ | PROT_WRITE);
     const std::string arguments(reinterpret_cast<const char *>(slot.data.get()), start.arguments);
     LimitMemory(start.memory);
     SandboxOutput output(slot.data.get(), start.size, start.seconds);
@@ -218,6 +219,7 @@ RunSandboxChild(int argc, char ** argv, SandboxFunction function)
     return SandboxCannotRun;
   }
   PrepareProcess();
+  MappedMemory slot;
   SandboxMessage answer{ SandboxMessage::Kind::Done };
   while (answer.kind == SandboxMessage::Kind::Done)
   {
@@ -228,7 +230,7 @@ RunSandboxChild(int argc, char ** argv, SandboxFunction function)
     }
     if (received->kind == SandboxMessage::Kind::Start) // others are about the previous file
     {
-      answer = Unpack(*received, function);
+      answer = Unpack(*received, function, slot);
       SendMessage(STDIN_FILENO, answer);
     }
   }

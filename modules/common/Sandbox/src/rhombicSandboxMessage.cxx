@@ -1,5 +1,6 @@
 #include "rhombicSandboxMessage.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <new>
@@ -54,18 +55,15 @@ SendMessage(int socket, const SandboxMessage & message, int file, int slot)
 {
   SandboxMessage sent = message;
   Packet packet(sent);
-  if (file >= 0)
+  const Descriptors descriptors{ file, slot };
+  const std::size_t size = (file < 0 ? 0 : slot < 0 ? 1 : 2) * sizeof(int);
+  packet.header.msg_controllen = size > 0 ? CMSG_SPACE(size) : 0;
+  if (cmsghdr * const rights = CMSG_FIRSTHDR(&packet.header))
   {
-    const Descriptors descriptors{ file, slot };
-    cmsghdr * const rights = CMSG_FIRSTHDR(&packet.header);
     rights->cmsg_level = SOL_SOCKET;
     rights->cmsg_type = SCM_RIGHTS;
-    rights->cmsg_len = CMSG_LEN(sizeof(descriptors));
-    std::memcpy(CMSG_DATA(rights), descriptors.data(), sizeof(descriptors));
-  }
-  else
-  {
-    packet.header.msg_controllen = 0;
+    rights->cmsg_len = CMSG_LEN(size);
+    std::memcpy(CMSG_DATA(rights), descriptors.data(), size);
   }
   while (sendmsg(socket, &packet.header, MSG_NOSIGNAL) < 0 && errno == EINTR)
   {}
@@ -82,10 +80,10 @@ ReceiveMessage(int socket)
     count = recvmsg(socket, &packet.header, MSG_CMSG_CLOEXEC);
   } while (count < 0 && errno == EINTR);
   const cmsghdr * const rights = count > 0 ? CMSG_FIRSTHDR(&packet.header) : nullptr;
-  if (rights != nullptr && rights->cmsg_type == SCM_RIGHTS && rights->cmsg_len == CMSG_LEN(sizeof(Descriptors)))
+  if (rights != nullptr && rights->cmsg_type == SCM_RIGHTS)
   {
-    Descriptors descriptors{};
-    std::memcpy(descriptors.data(), CMSG_DATA(rights), sizeof(descriptors));
+    Descriptors descriptors{ -1, -1 };
+    std::memcpy(descriptors.data(), CMSG_DATA(rights), std::min(sizeof(descriptors), rights->cmsg_len - CMSG_LEN(0)));
     received.file = FileDescriptor(descriptors[0]);
     received.slot = FileDescriptor(descriptors[1]);
   }

@@ -32,7 +32,10 @@ public:
   }
   ~FileDescriptor()
   {
-    close(m_Descriptor); // no effect if it is negative
+    if (m_Descriptor >= 0)
+    {
+      close(m_Descriptor);
+    }
   }
 
   int
@@ -84,7 +87,7 @@ struct SandboxMessage
 struct ReceivedMessage : SandboxMessage
 {
   FileDescriptor file; ///< Start
-  FileDescriptor slot; ///< Start
+  FileDescriptor slot; ///< Start; none if the slot is still that of the file before
 };
 
 /** The size of the place of a piece in the slot, which has two of them: they are aligned for any number. */

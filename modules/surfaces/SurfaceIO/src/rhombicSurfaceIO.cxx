@@ -30,9 +30,7 @@ ReadVTP(const InputFile & file)
   constexpr std::size_t ratio = 16; // larger than that of a polygon's corners stored as bytes
   SandboxRun run({ "rhombic-unpack-vtp", file.GetPath(), {}, smallest + ratio * file.GetSize() });
   const auto ply = run.Next();
-  auto surfaces = ReadPLY(InputFile(file.GetPath(), ply.value().data, ply.value().size));
-  run.Next(); // nothing; the child is kept for other files
-  return surfaces;
+  return ReadPLY(InputFile(file.GetPath(), ply.value().data, ply.value().size));
 }
 
 struct SurfaceFormat

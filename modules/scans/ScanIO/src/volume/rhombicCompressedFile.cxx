@@ -24,7 +24,7 @@ ByteStream::ByteStream(const fs::path & path, std::uintmax_t offset, bool isDefl
 {
   if (isDeflated)
   {
-    constexpr std::size_t pieceSize = 1 << 20;
+    constexpr std::size_t pieceSize = 1 << 18;
     m_Inflation =
       std::make_unique<SandboxRun>(SandboxJob{ "rhombic-unpack-gzip", path, std::to_string(offset), pieceSize });
     return;
