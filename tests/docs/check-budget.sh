@@ -63,4 +63,13 @@ done < <(grep -rnE 'RHOMBIC_SOURCE_FOLDERS|(modules|pipelines)/[A-Za-z/]*src\b' 
 while read -r place; do
   say "a sentence of a module names an option, which users of ITK do not have; name the setting (pipelines/src/rhombicOptionNames.cxx): $place"
 done < <(grep -rnE '"([^"]* )?--[a-z]' --include='*.h' --include='*.hxx' --include='*.cxx' modules | grep -vE '^[^:]*:[0-9]*:\s*(//|\*)' || true)
+
+# Sentences and the table of options agree, setting by setting: a setting that one of them renames is found here.
+settings_in() {
+  grep -rhoE '"[^"]*(ScanReadOptions|LabelMapSource|Denoising|SurfaceFinish)::[A-Za-z:]+' "$@" --include='*.h' --include='*.hxx' --include='*.cxx' |
+    grep -oE '[A-Za-z]+::[A-Za-z:]+$' | sort -u
+}
+while read -r setting; do
+  say "$setting stands only in sentences of modules or only in pipelines/src/rhombicOptionNames.cxx"
+done < <(comm -3 <(settings_in modules) <(settings_in pipelines/src/rhombicOptionNames.cxx) | tr -d '\t')
 exit $((mistakes > 0))
