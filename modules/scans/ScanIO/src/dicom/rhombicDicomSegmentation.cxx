@@ -265,7 +265,7 @@ PlaceFrames(const Frames & frames, const SliceTags & tags, Scan & scan)
 }
 
 VolumeGeometry
-GeometryOf(const EvenSlices & slices, const DicomSlice & frame)
+GeometryOfFrames(const EvenSlices & slices, const DicomSlice & frame)
 {
   const SlicePlane & plane = *frame.plane;
   const Vector normal = NormalOf(plane);
@@ -399,7 +399,7 @@ OpenDicomSegmentation(const std::vector<DicomSlice> & frames, std::uintmax_t max
   const bool fitsByte = scan.labels.back().value <= std::numeric_limits<std::uint8_t>::max();
   const bool takesByte = isBinary ? fitsByte : file.format.bitsAllocated == 8;
   const auto segments = isBinary ? SegmentsOfFrames(dataSet, scan.labels, file) : std::vector<std::uint32_t>();
-  const VolumeGeometry geometry = GeometryOf(slices, frames.front());
+  const VolumeGeometry geometry = GeometryOfFrames(slices, frames.front());
   scan.image = takesByte ? ScanImage(NewFrame<std::uint8_t>(geometry)) : ScanImage(NewFrame<std::uint16_t>(geometry));
 
   return { scan, [=](Scan & read) {
