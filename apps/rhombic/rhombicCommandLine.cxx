@@ -1,4 +1,5 @@
 #include "rhombicCommandLine.h"
+#include "rhombicLoadLibrary.h"
 
 #include "itkVersion.h"
 
@@ -19,16 +20,16 @@ struct CommandEntry
 
 constexpr CommandEntry entries[] = {
   { "info", "What is in a scan: series, geometry, values, thresholds worth trying", AddInfoCommand },
-  { "render", "Pictures of a scan's surfaces", AddRenderCommand },
+  { "render", "Pictures of a scan's surfaces", AddOnDemandCommand },
   { "mesh", "A scan's surface as a file", AddMeshCommand },
   { "batch", "Pictures, pages and meshes of many scans", AddBatchCommand },
   { "bids", "The same of a BIDS dataset, as a BIDS App", AddBIDSCommand },
-  { "compare-pictures", "Whether two pictures are the same, within a tolerance", AddComparePicturesCommand },
+  { "compare-pictures", "Whether two pictures are the same, within a tolerance", AddOnDemandCommand },
   { "audit", "Whether a surface file is closed, oriented and free of defects", AddAuditCommand },
   { "resample", "A scan on the face-centered cubic lattice, and back", AddResampleCommand },
-  { "compare", "Lattices and methods compared, as in the paper: tables, plots, pictures", AddCompareCommand },
-  { "phantom", "The analytic test scan, with organs of known volume", AddPhantomCommand },
-  { "doctor", "What works on this machine", AddDoctorCommand },
+  { "compare", "Lattices and methods compared, as in the paper: tables, plots, pictures", AddOnDemandCommand },
+  { "phantom", "The analytic test scan, with organs of known volume", AddOnDemandCommand },
+  { "doctor", "What works on this machine", AddOnDemandCommand },
 };
 
 constexpr char exitCodes[] = "Exit codes:\n"
@@ -70,6 +71,16 @@ IsOfPipeline(const std::string & name, SettingKind kind)
 
 } // namespace
 
+void
+Command::AddSettings()
+{
+  if (!run)
+  {
+    run = add(settings);
+    settings.Relate();
+  }
+}
+
 CommandLine::CommandLine()
   : m_Parser(std::string("Rhombic: ") + RHOMBIC_DESCRIPTION, "rhombic")
   , m_Program(m_Parser)
@@ -84,9 +95,8 @@ CommandLine::CommandLine()
   {
     CLI::App * const parser = m_Parser.add_subcommand(entry.name, entry.description);
     parser->footer(exitCodes);
-    Command & command = m_Commands.try_emplace(entry.name, *parser).first->second;
-    command.run = entry.add(command.settings);
-    command.settings.Relate();
+    Command & command = m_Commands.try_emplace(entry.name, *parser, entry.add).first->second;
+    parser->preparse_callback([&command](std::size_t) { command.AddSettings(); });
   }
 }
 
@@ -110,9 +120,21 @@ CommandLine::Parse(const std::vector<std::string> & words)
 }
 
 Command &
+CommandLine::Get(const std::string & command)
+{
+  const auto found = m_Commands.find(command);
+  if (found == m_Commands.end())
+  {
+    throw Failure(FailureKind::Usage, "There is no command '" + command + "'.");
+  }
+  found->second.AddSettings();
+  return found->second;
+}
+
+Command &
 CommandLine::Set(const std::string & command, const Report & settings)
 {
-  Command & chosen = m_Commands.at(command);
+  Command & chosen = this->Get(command);
   try
   {
     chosen.settings.Set(settings);
@@ -122,6 +144,17 @@ CommandLine::Set(const std::string & command, const Report & settings)
     throw Failure(FailureKind::Usage, DescribeUsageError(m_Parser, *m_Parser.get_subcommand(command), error));
   }
   return chosen;
+}
+
+CommandRun
+AddOnDemandCommand(CommandSettings & command)
+{
+  using Function = void (*)(CommandSettings &, CommandRun &);
+  const auto add = reinterpret_cast<Function>(FindInLibrary(
+    "rhombic-on-demand.so", "rhombicAddOnDemandCommand", ("runs rhombic " + command.GetCommand()).c_str()));
+  CommandRun run;
+  add(command, run);
+  return run;
 }
 
 CommandSyntax

@@ -16,15 +16,23 @@ namespace rhombic
 {
 
 /** \class Command
- * \brief A command with its settings. */
+ * \brief A command with its settings, which are added when the command is chosen. */
 struct Command
 {
-  explicit Command(CLI::App & parser)
+  using AddFunction = CommandRun (*)(CommandSettings &);
+
+  Command(CLI::App & parser, AddFunction addSettings)
     : settings(parser)
+    , add(addSettings)
   {}
 
+  /** Adds the settings, unless they are there. */
+  void
+  AddSettings();
+
   CommandSettings settings;
-  CommandRun run; ///< holds what the settings set
+  CommandRun run; ///< holds what the settings set; empty before AddSettings()
+  AddFunction add;
 };
 
 /** \class ProgramOptions
@@ -57,12 +65,9 @@ public:
   Command &
   Set(const std::string & command, const Report & settings);
 
-  /** A command without settings. */
+  /** A command of which no setting is given. Throws Failure(Usage) if there is none of that name. */
   Command &
-  Get(const std::string & command)
-  {
-    return m_Commands.at(command);
-  }
+  Get(const std::string & command);
 
   const ProgramOptions &
   GetOptions() const

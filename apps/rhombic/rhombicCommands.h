@@ -42,8 +42,6 @@ WithoutOutputs(const std::function<void(const CommandContext &)> & run)
 CommandRun
 AddInfoCommand(CommandSettings & command);
 CommandRun
-AddRenderCommand(CommandSettings & command);
-CommandRun
 AddBatchCommand(CommandSettings & command);
 CommandRun
 AddBIDSCommand(CommandSettings & command);
@@ -53,12 +51,19 @@ CommandRun
 AddAuditCommand(CommandSettings & command);
 CommandRun
 AddResampleCommand(CommandSettings & command);
+
+/** The same for the commands in the folder on-demand. They are in a library that AddOnDemandCommand() loads, as their
+ * own libraries (VTK, Pango, GDCM) take five times as long to load as the rest of the program. */
 CommandRun
-AddPhantomCommand(CommandSettings & command);
+AddOnDemandCommand(CommandSettings & command);
+CommandRun
+AddRenderCommand(CommandSettings & command);
+CommandRun
+AddComparePicturesCommand(CommandSettings & command);
 CommandRun
 AddCompareCommand(CommandSettings & command);
 CommandRun
-AddComparePicturesCommand(CommandSettings & command);
+AddPhantomCommand(CommandSettings & command);
 CommandRun
 AddDoctorCommand(CommandSettings & command);
 
