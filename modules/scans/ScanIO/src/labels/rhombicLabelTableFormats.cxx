@@ -275,8 +275,9 @@ ParseColumnTable(const std::vector<TextLine> & lines, const LabelColumns & colum
     }
     // The table may lack the column, and a row may end early.
     const auto get = [&](const std::string & name) {
-      const auto column = std::find(columns.names.begin(), columns.names.end(), name) - columns.names.begin();
-      return static_cast<std::size_t>(column) < fields.size() ? fields[static_cast<std::size_t>(column)] : "";
+      const auto end = columns.names.begin() + static_cast<std::ptrdiff_t>(fields.size());
+      const auto column = std::find(columns.names.begin(), end, name);
+      return column != end ? fields[static_cast<std::size_t>(column - columns.names.begin())] : "";
     };
     const std::string red = get("color_r");
     const std::string green = get("color_g");
