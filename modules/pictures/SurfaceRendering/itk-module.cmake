@@ -1,4 +1,4 @@
 itk_module(SurfaceRendering
-  DEPENDS RhombicCommon TriangleSurface
-  PRIVATE_DEPENDS VTK::RenderingCore VTK::RenderingOpenGL2 OpenGL::EGL OpenGL::GL
+  DEPENDS RhombicCommon TriangleSurface VTK::RenderingCore VTK::RenderingOpenGL2
+  PRIVATE_DEPENDS OpenGL::EGL OpenGL::GL
   DESCRIPTION "Surfaces drawn offscreen, without an X server, in anatomical views.")

@@ -1,6 +1,7 @@
 #ifndef rhombicSurfaceRenderer_h
 #define rhombicSurfaceRenderer_h
 
+#include "rhombicRenderBackend.h"
 #include "rhombicScene.h"
 
 #include <cstdint>
@@ -10,24 +11,6 @@
 
 namespace rhombic
 {
-
-/** Where the OpenGL context of a renderer comes from. */
-enum class RenderBackend
-{
-  Automatic,  ///< the first backend in the order below that works
-  Device,     ///< a graphics card, through EGL, without a display
-  Surfaceless ///< Mesa through EGL, without a display: software, or a card with a Mesa driver
-};
-
-/** \class BackendProbe
- * \brief Whether a backend works on this machine. */
-struct BackendProbe
-{
-  RenderBackend backend;
-  std::string name;
-  bool usable;
-  std::string detail; ///< renderer and OpenGL version if usable, otherwise the reason why not
-};
 
 /** \class SurfaceRenderer
  * \brief Draws surfaces, without a window and without an X server.

@@ -2,13 +2,13 @@
 
 #include "rhombicCameraFit.h"
 #include "rhombicFailure.h"
-#include "rhombicGLContext.h"
 #include "rhombicSceneBuffers.h"
 #include "rhombicSceneCheck.h"
 #include "rhombicViewPasses.h"
+#include "vtkRhombicHeadlessRenderWindow.h"
 
-#include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkLogger.h>
+#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 
@@ -25,53 +25,13 @@ namespace
 {
 
 /** Held while a renderer works: all renderers of the process share VTK's message window and GLEW's table of functions.
- * Then the caller's OpenGL context is current again. */
-class Turn
+ */
+std::lock_guard<std::mutex>
+TakeTurn()
 {
-public:
-  Turn()
-    : m_Lock(Mutex())
-  {}
-
-private:
-  static std::mutex &
-  Mutex()
-  {
-    static std::mutex mutex;
-    return mutex;
-  }
-
-  const std::lock_guard<std::mutex> m_Lock;
-  const std::shared_ptr<const void> m_Caller = KeepCallersContext();
-};
-
-/** A window for a context without a display. */
-class Window : public vtkGenericOpenGLRenderWindow
-{
-public:
-  static Window *
-  New();
-
-  bool
-  IsInitialized() const
-  {
-    return this->Initialized;
-  }
-
-  /** GLEW looks up OpenGL's functions for VTK. Without a display it finds all but those of GLX, which nobody calls
-   * here, and reports an error. Where the caller's program has called GLEW, its table stays as it is. */
-  void
-  OpenGLInitContext() override
-  {
-    const GLenum result = GLEW_VERSION_3_2 ? GLEW_OK : glewInit();
-    this->GlewInitValid =
-      result == GLEW_OK || result == GLEW_ERROR_NO_GLX_DISPLAY || result == GLEW_ERROR_GLX_VERSION_11_ONLY;
-    this->Initialized = this->GlewInitValid;
-    this->ContextCreationTime.Modified();
-  }
-};
-
-vtkStandardNewMacro(Window);
+  static std::mutex mutex;
+  return std::lock_guard<std::mutex>(mutex);
+}
 
 /** VTK's message window while a renderer works. Messages of other threads go to the window before it. */
 class MessageWindow : public vtkOutputWindow
@@ -149,48 +109,34 @@ private:
   const vtkSmartPointer<MessageWindow> m_Window = vtkSmartPointer<MessageWindow>::New();
 };
 
+/** Makes the context of a window current until the result is destroyed: then the caller's context is current again. */
+std::shared_ptr<const void>
+MakeCurrent(vtkOpenGLRenderWindow * window)
+{
+  window->PushContext();
+  return std::shared_ptr<vtkOpenGLRenderWindow>(window, [](auto * pushed) { pushed->PopContext(); });
+}
+
 /** \class Canvas
- * \brief An OpenGL context with an offscreen window. Mesa frees the textures of a picture only when the context is
- * destroyed. */
+ * \brief An offscreen window. Mesa frees the textures of a picture only when the window's context is destroyed. */
 class Canvas
 {
 public:
   explicit Canvas(RenderBackend backend)
-    : context(CreateGLContext(backend))
   {
-    const auto current = context.context->MakeCurrent();
-    const CaughtMessages messages;
-    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largestSide);
-    m_Window = vtkSmartPointer<Window>::New();
-    m_Window->SetReadyForRendering(true);
-    m_Window->SetIsCurrent(true);
-    m_Window->SetSupportsOpenGL(1);
-    m_Window->SetUseOffScreenBuffers(true);
-    m_Window->SetShowWindow(false);
-    m_Window->SwapBuffersOff();
-    m_Window->OpenGLInit();
-    if (!m_Window->IsInitialized())
+    m_Window->SetBackend(backend);
+    if (!m_Window->SupportsOpenGL())
     {
-      throw Failure(
-        FailureKind::Display,
-        "GLEW finds no functions of OpenGL; install the Debian package libgl1 (rhombic doctor lists the ways "
-        "to draw on this machine).");
+      throw Failure(FailureKind::Display, m_Window->GetOpenGLSupportMessage());
     }
+    const auto current = MakeCurrent(m_Window);
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largestSide);
   }
 
   ~Canvas()
   {
-    try
-    {
-      const auto current = context.context->MakeCurrent();
-      const CaughtMessages messages;
-      m_Window->Finalize();
-      m_Window = nullptr;
-    }
-    catch (const Failure &)
-    {
-      // The context does not work any more, so its memory on the graphics card is gone.
-    }
+    const CaughtMessages messages;
+    m_Window->Finalize();
   }
 
   Canvas(const Canvas &) = delete;
@@ -200,8 +146,9 @@ public:
   std::vector<RenderedView>
   Draw(const Scene & scene, const RenderSettings & settings, const std::vector<Camera> & cameras)
   {
-    const auto current = context.context->MakeCurrent();
     const CaughtMessages messages;
+    const auto current = MakeCurrent(m_Window);
+    messages.CheckErrors();
     SceneBuffers buffers(scene, settings, m_Window);
     ViewPasses passes(scene, settings, m_Window);
     std::vector<RenderedView> rendered;
@@ -214,11 +161,17 @@ public:
     return rendered;
   }
 
-  const DescribedGLContext context;
+  /** Backend, renderer and OpenGL version. */
+  std::string
+  GetDescription() const
+  {
+    return m_Window->GetOpenGLSupportMessage();
+  }
+
   int largestSide = 0; ///< samples
 
 private:
-  vtkSmartPointer<Window> m_Window;
+  const vtkNew<vtkRhombicHeadlessRenderWindow> m_Window;
 };
 
 } // namespace
@@ -233,22 +186,22 @@ struct SurfaceRenderer::Implementation
 
 SurfaceRenderer::SurfaceRenderer(RenderBackend backend)
 {
-  const Turn turn;
+  const auto turn = TakeTurn();
   auto canvas = std::make_unique<Canvas>(backend);
   m_Implementation.reset(
-    new Implementation{ backend, canvas->context.description, canvas->largestSide, std::move(canvas) });
+    new Implementation{ backend, canvas->GetDescription(), canvas->largestSide, std::move(canvas) });
 }
 
 SurfaceRenderer::~SurfaceRenderer()
 {
-  const Turn turn;
+  const auto turn = TakeTurn();
   m_Implementation.reset();
 }
 
 std::vector<RenderedView>
 SurfaceRenderer::Render(const Scene & scene, const RenderSettings & settings, const std::vector<View> & views)
 {
-  const Turn turn;
+  const auto turn = TakeTurn();
   try
   {
     const Scene drawable = DrawableScene(scene);
@@ -310,8 +263,8 @@ SurfaceRenderer::GetBackendDescription() const
 std::vector<BackendProbe>
 SurfaceRenderer::ProbeBackends()
 {
-  const Turn turn;
-  return ProbeGLContexts();
+  const auto turn = TakeTurn();
+  return vtkRhombicHeadlessRenderWindow::ProbeBackends();
 }
 
 } // namespace rhombic

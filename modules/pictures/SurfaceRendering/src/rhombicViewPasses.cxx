@@ -213,6 +213,7 @@ ViewPasses::SetTarget(vtkTextureObject * colour, vtkTextureObject * depth)
   state->SetEnumState(GL_DEPTH_TEST, depth != nullptr);
   state->SetEnumState(GL_BLEND, false);
   state->SetEnumState(GL_CULL_FACE, false);
+  state->SetEnumState(GL_SCISSOR_TEST, false);
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDepthFunc(GL_LESS);
   state->vtkglClearColor(0.0f, 0.0f, 0.0f, 0.0f);
