@@ -14,7 +14,8 @@ packages=(
   libcli11-dev libyaml-cpp-dev nlohmann-json3-dev libspdlog-dev zlib1g-dev libhwy-dev libmeshoptimizer-dev
 )
 if [ "${1-}" = tests ]; then
-  packages+=(chromium libgtest-dev dcm2niix dcmtk dicom3tools f3d doxygen dpkg-dev file help2man poppler-utils)
+  packages+=(chromium libgtest-dev dcm2niix dcmtk dicom3tools f3d doxygen dpkg-dev file help2man poppler-utils
+             xauth xvfb)
 fi
 
 missing=()

@@ -1,4 +1,6 @@
+#include "rhombicStockScenes.h"
 #include "rhombicTestScenes.h"
+#include "vtkRhombicHeadlessRenderWindow.h"
 
 #include <gtest/gtest.h>
 
@@ -173,6 +175,53 @@ TEST(GuestWindow, DoesNotChangeThePictureOfARenderer)
   SurfaceRenderer beside;
   EXPECT_EQ(Draw(beside, scene, Small()).pixels, expected.pixels);
   window->Finalize();
+}
+
+TEST(GuestWindow, IsCurrentAgainAfterAHeadlessWindow)
+{
+  const GuestContext context;
+  const Current current;
+  vtkNew<GuestWindow> guest;
+  guest->Show();
+  const auto before = guest->Read();
+  {
+    vtkNew<vtkRhombicHeadlessRenderWindow> window;
+    EXPECT_EQ(window->SupportsOpenGL(), 1);
+    EXPECT_TRUE(Current() == current) << "after SupportsOpenGL()";
+    window->PushContext();
+    EXPECT_TRUE(window->IsCurrent());
+    DrawStockScene(window, StockScenes[0]);
+    window->PopContext();
+    EXPECT_TRUE(Current() == current) << "after PopContext()";
+    EXPECT_EQ(guest->Read(), before);
+    vtkRhombicHeadlessRenderWindow::ProbeBackends();
+    EXPECT_TRUE(Current() == current) << "after ProbeBackends()";
+    window->Finalize();
+    EXPECT_TRUE(Current() == current) << "after Finalize()";
+    window->PushContext();
+    window->PopContext();
+    window->SupportsOpenGL();
+  }
+  EXPECT_TRUE(Current() == current) << "after the destructor";
+  guest->Render();
+  EXPECT_EQ(guest->Read(), before);
+  guest->Finalize();
+}
+
+TEST(GuestWindow, MayBeAHeadlessWindowThatIsCurrent)
+{
+  vtkNew<vtkRhombicHeadlessRenderWindow> window;
+  DrawStockScene(window, StockScenes[0]);
+  ASSERT_TRUE(window->IsCurrent());
+  const Current current;
+  SurfaceRenderer renderer;
+  const std::vector<SceneSurface> scene{ Item(Sphere({ 0, 0, 0 }, 40), Green, 0.5) };
+  const Picture picture = Draw(renderer, scene, Small());
+  EXPECT_TRUE(Current() == current);
+  window->Render();
+  EXPECT_EQ(Draw(renderer, scene, Small()).pixels, picture.pixels);
+  window->Finalize();
+  EXPECT_EQ(Draw(renderer, scene, Small()).pixels, picture.pixels);
 }
 
 TEST(GuestWindow, KeepsItsChoiceOfOpenGLES)
