@@ -42,14 +42,14 @@ main(int argc, char * argv[])
 {
   if (argc != 3)
   {
-    std::cerr << "Usage: rhombic-stock-scenes <headless|x> <folder>\n";
+    std::cerr << "Usage: rhombic-stock-scenes <headless|x|x-beside-headless> <folder>\n";
     return 2;
   }
-  const bool isHeadless = std::string(argv[1]) == "headless";
+  const std::string mode = argv[1];
   for (const StockScene & scene : StockScenes)
   {
     vtkSmartPointer<vtkRenderWindow> window;
-    if (isHeadless)
+    if (mode == "headless")
     {
       window = vtkSmartPointer<vtkRhombicHeadlessRenderWindow>::New();
     }
@@ -59,6 +59,14 @@ main(int argc, char * argv[])
       window->SetOffScreenRendering(1);
     }
     DrawStockScene(window, scene);
+    if (mode == "x-beside-headless")
+    {
+      vtkNew<vtkRhombicHeadlessRenderWindow> other;
+      other->PushContext();
+      DrawStockScene(other, scene);
+      other->PopContext();
+      window->Render();
+    }
     if (!Write(window, std::string(argv[2]) + "/" + scene.name + ".raw"))
     {
       std::cerr << scene.name << " can't be read or written\n";
