@@ -20,10 +20,10 @@
  * an error of VTK (vtkCommand::ErrorEvent) and draws nothing; methods that read pixels return VTK_ERROR.
  *
  * Current context: as in other windows of VTK, Render(), Initialize(), MakeCurrent() and methods that read pixels make
- * the window's OpenGL context current on the thread, in place of any other context of EGL or GLX, and it stays so. After
- * SupportsOpenGL(), ProbeBackends(), PopContext(), Finalize() and the destructor, the context is current that was
- * current before. Where other contexts are used on the same thread, as those of VTK's windows of GLX, call PushContext()
- * and PopContext() around the use of this window, or ReleaseCurrent() after it.
+ * the window's OpenGL context current on the thread, in place of any other context of EGL or GLX, and it stays so.
+ * After SupportsOpenGL(), ProbeBackends(), PopContext(), Finalize() and the destructor, the context is current that was
+ * current before. Where other contexts are used on the same thread, as those of VTK's windows of GLX, call
+ * PushContext() and PopContext() around the use of this window, or ReleaseCurrent() after it.
  *
  * Thread safety: VTK's functions of OpenGL are one table in a process, so use one window at a time. A window may be
  * used by one thread after the other, if each calls ReleaseCurrent() at its end. */
