@@ -227,39 +227,6 @@ SetDepths(const Scene & scene, Camera & camera)
 
 } // namespace
 
-double
-Camera::DepthFactor() const
-{
-  return (2.0 + spread * (farthest + nearest)) / (farthest - nearest);
-}
-
-double
-Camera::DepthOffset() const
-{
-  return -(1.0 + spread * nearest) - DepthFactor() * nearest;
-}
-
-std::array<float, 16>
-Camera::Matrix() const
-{
-  std::array<float, 16> matrix{};
-  const double x = 2.0 / (width * pixelSize);
-  const double y = 2.0 / (height * pixelSize);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const double w = spread * frame.look[axis];
-    matrix[4 * axis] = static_cast<float>(x * frame.right[axis] + 2.0 * rightward / width * w);
-    matrix[4 * axis + 1] = static_cast<float>(y * frame.up[axis] + 2.0 * upward / height * w);
-    matrix[4 * axis + 2] = static_cast<float>(DepthFactor() * frame.look[axis]);
-    matrix[4 * axis + 3] = static_cast<float>(w);
-  }
-  matrix[12] = static_cast<float>(2.0 * rightward / width);
-  matrix[13] = static_cast<float>(2.0 * upward / height);
-  matrix[14] = static_cast<float>(DepthOffset());
-  matrix[15] = 1.0f;
-  return matrix;
-}
-
 Projection
 Camera::ToProjection() const
 {

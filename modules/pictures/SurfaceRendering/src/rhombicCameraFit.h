@@ -3,7 +3,6 @@
 
 #include "rhombicScene.h"
 
-#include <array>
 #include <vector>
 
 namespace rhombic
@@ -27,17 +26,6 @@ struct Camera
 
   double nearest = -1.0; ///< depths between which everything lies
   double farthest = 1.0;
-
-  /** The depth of a point is (ndc - depthOffset) / (depthFactor - ndc * spread), where ndc is its normalised device
-   * coordinate, -1 to 1. */
-  double
-  DepthFactor() const;
-  double
-  DepthOffset() const;
-
-  /** From points relative to the centre to OpenGL's clip space; column by column. */
-  std::array<float, 16>
-  Matrix() const;
 
   /** For parallel projection. */
   Projection

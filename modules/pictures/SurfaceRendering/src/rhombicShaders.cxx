@@ -12,13 +12,21 @@ in vec3 point;
 #if SMOOTH
 in vec3 normal;
 out vec3 direction;
-#else
-out vec3 position;
 #endif
+#if PICTURE
+in vec2 place;
+out vec2 texturePlace;
+#endif
+#if COLOURS
+in vec4 pointColour;
+out vec4 mappedColour;
+#endif
+out vec3 position;
 uniform vec3 centre;
 uniform mat4 clipFromCentred;
+uniform mat4 viewFromCentred;
 uniform float backward; // moves depths, so that of two surfaces in one place the first is seen
-uniform mat3 viewFromPatient; // x right, y up, z towards the viewer
+uniform mat3 viewFromNormal; // x right, y up, z towards the viewer
 #if CUTS
 uniform vec4 cuts[CUTS];
 out float gl_ClipDistance[CUTS];
@@ -29,12 +37,15 @@ void main()
   vec3 centred = point - centre;
   gl_Position = clipFromCentred * vec4(centred, 1.0);
   gl_Position.z += backward * gl_Position.w;
-#if PLANE
-  direction = normal;
-#elif SMOOTH
-  direction = viewFromPatient * normal;
-#else
-  position = viewFromPatient * centred;
+  position = (viewFromCentred * vec4(centred, 1.0)).xyz;
+#if PICTURE
+  texturePlace = place;
+#endif
+#if SMOOTH
+  direction = viewFromNormal * normal;
+#endif
+#if COLOURS
+  mappedColour = pointColour;
 #endif
 #if CUTS
   for (int n = 0; n < CUTS; ++n)
@@ -45,7 +56,7 @@ void main()
 }
 )";
 
-constexpr const char * Light = R"(
+constexpr const char * LitByOwnLight = R"(
 uniform vec4 light; // strength of key, fill, sky and rim
 uniform vec2 shine; // strength of wide and narrow highlights
 
@@ -69,10 +80,11 @@ vec3 Lit(vec3 colour, vec3 normal)
 constexpr const char * SurfaceFragment = R"(
 #if SMOOTH
 in vec3 direction;
-#else
-in vec3 position;
 #endif
-uniform vec4 colour; // opaque: alpha is the surface's number
+#if COLOURS
+in vec4 mappedColour;
+#endif
+uniform vec4 colours[2]; // of fronts and backs; opaque: alpha is the surface's number
 #if TRANSLUCENT
 uniform sampler2D depthBefore;
 #endif
@@ -85,28 +97,91 @@ void main()
     discard;
   }
 #endif
+  int side = gl_FrontFacing ? 0 : 1;
 #if SMOOTH
   vec3 normal = normalize(direction);
+  normal = gl_FrontFacing ? normal : -normal;
 #else
   vec3 normal = normalize(cross(dFdx(position), dFdy(position)));
   normal = normal.z < 0.0 ? -normal : normal;
 #endif
+  vec4 colour = colours[side];
+#if COLOURS
+  colour.rgb = mappedColour.rgb;
+#if TRANSLUCENT
+  colour.a *= mappedColour.a;
+#endif
+#endif
+#if LIGHTS
+  gl_FragData[0] = vec4(LitByRenderer(colour.rgb, normal, side), colour.a);
+#else
 #if TRANSLUCENT
   // Light passes 1 / cos(angle) times as much of a thin wall. So a translucent skin is clear where it faces the
   // viewer, and its outline is visible.
-  float alpha = 1.0 - pow(1.0 - colour.a, 1.0 / max(abs(normal.z), 0.15));
-  gl_FragData[0] = vec4(Lit(colour.rgb, normal), alpha);
-#else
-#if SMOOTH
-  normal = gl_FrontFacing ? normal : -normal;
+  colour.a = 1.0 - pow(1.0 - colour.a, 1.0 / max(abs(normal.z), 0.15));
 #endif
   gl_FragData[0] = vec4(Lit(gl_FrontFacing ? colour.rgb : 0.85 * colour.rgb, normal), colour.a);
 #endif
 }
 )";
 
-constexpr const char * PlaneFragment = R"(
-in vec3 direction; // position in the picture
+/** Lights surfaces as vtkOpenGLPolyDataMapper does. */
+std::string
+RendererLight(const RendererLights & lights)
+{
+  std::string sum;
+  for (int n = 0; n < lights.count; ++n)
+  {
+    const std::string number = std::to_string(n);
+    const std::string direction = "lightDirectionVC" + number;
+    if (lights.complexity < 3)
+    {
+      sum += "  AddLight(lightColor" + number + ", " + (lights.complexity == 1 ? "vec3(0.0, 0.0, -1.0)" : direction) +
+             ", normal, side, diffuse, specular);\n";
+      continue;
+    }
+    sum += "  if (lightPositional" + number + " == 0)\n  {\n    AddLight(lightColor" + number + ", " + direction +
+           ", normal, side, diffuse, specular);\n  }\n  else\n  {\n    vec3 way = position - lightPositionVC" + number +
+           ";\n    float apart = length(way);\n    way /= apart;\n    float share = 1.0 / dot(lightAttenuation" +
+           number + ", vec3(1.0, apart, apart * apart));\n    if (lightConeAngle" + number +
+           " <= 90.0)\n    {\n      float inCone = dot(way, " + direction +
+           ");\n      share = inCone >= cos(radians(lightConeAngle" + number +
+           ")) ? share * pow(inCone, lightExponent" + number + ") : 0.0;\n    }\n    AddLight(share * lightColor" +
+           number + ", way, normal, side, diffuse, specular);\n  }\n";
+  }
+  const std::string uniforms = R"(
+uniform vec3 ambients[2]; // strengths of fronts and backs, and next
+uniform vec3 diffuses[2];
+uniform vec4 speculars[2]; // alpha: the power
+uniform bool ambientIsMapped; // multiplies the colour; otherwise the ambient strength has its colour
+uniform bool isLit;
+
+void AddLight(vec3 strength, vec3 way, vec3 normal, int side, inout vec3 diffuse, inout vec3 specular)
+{
+  float facing = max(0.0, dot(normal, -way));
+  diffuse += facing * strength;
+)";
+  const std::string highlight = lights.complexity == 1
+                                  ? "  specular += pow(facing, speculars[side].a) * strength;\n}\n"
+                                  : "  float mirrored = max(0.0, dot(reflect(way, normal), normalize(-position)));\n"
+                                    "  specular += sign(facing) * pow(mirrored, speculars[side].a) * strength;\n}\n";
+  return lights.declarations + uniforms + highlight + R"(
+vec3 LitByRenderer(vec3 colour, vec3 normal, int side)
+{
+  vec3 diffuse = vec3(0.0);
+  vec3 specular = vec3(0.0);
+)" + sum +
+         R"(
+  vec3 ambient = ambients[side] * (ambientIsMapped ? colour : vec3(1.0));
+  return isLit ? ambient + diffuse * diffuses[side] * colour + specular * speculars[side].rgb
+               : ambient + diffuses[side] * colour;
+}
+)";
+}
+
+constexpr const char * PictureFragment = R"(
+in vec2 texturePlace;
+uniform float opacity;
 uniform sampler2D picture;
 uniform sampler2D depthBefore;
 
@@ -123,7 +198,7 @@ void main()
   {
     discard;
   }
-  vec2 position = direction.xy - 0.5;
+  vec2 position = texturePlace * vec2(textureSize(picture, 0)) - 0.5;
   ivec2 at = ivec2(floor(position));
   vec2 share = position - vec2(at);
   vec4 mean = mix(mix(Texel(at), Texel(at + ivec2(1, 0)), share.x),
@@ -133,7 +208,7 @@ void main()
   {
     discard;
   }
-  gl_FragData[0] = vec4(mean.rgb / mean.a, mean.a);
+  gl_FragData[0] = vec4(mean.rgb / mean.a, opacity * mean.a);
 }
 )";
 
@@ -142,7 +217,9 @@ DefinesOf(const SurfaceProgram & program)
 {
   return { { "SMOOTH", program.isSmooth },
            { "TRANSLUCENT", program.isTranslucent },
-           { "PLANE", program.isPlane },
+           { "PICTURE", program.isPicture },
+           { "COLOURS", program.hasColours },
+           { "LIGHTS", program.light == SurfaceLight::Renderer },
            { "CUTS", program.cuts } };
 }
 
@@ -187,7 +264,24 @@ uniform sampler2D depths;
 void main()
 {
   gl_FragData[0] = vec4(0.0);
-  gl_FragDepth = texelFetch(depths, ivec2(gl_FragCoord.xy), 0).r;
+  gl_FragDepth = texelFetch(depths, ivec2(gl_FragCoord.xy) / SAMPLES, 0).r;
+}
+)";
+
+const char * const ChangedFragment = R"(
+uniform sampler2D depthsNow;
+uniform sampler2D depthsWritten;
+
+void main()
+{
+  ivec2 at = ivec2(gl_FragCoord.xy) / SAMPLES;
+  float depth = texelFetch(depthsNow, at, 0).r;
+  if (depth == texelFetch(depthsWritten, at, 0).r)
+  {
+    discard;
+  }
+  gl_FragData[0] = vec4(0.0);
+  gl_FragDepth = depth;
 }
 )";
 
@@ -322,7 +416,16 @@ void main()
 
 const char * const PixelFragment = R"(
 uniform sampler2D colours;
-uniform vec4 background; // multiplied by alpha
+uniform sampler2D behind;
+uniform ivec2 origin; // of the viewport
+#if DEPTHS
+uniform sampler2D depths;
+#endif
+#if CHANGED
+uniform sampler2D now;
+uniform sampler2D depthsNow;
+uniform sampler2D depthsWritten;
+#endif
 #if LAYERS
 uniform sampler2D layers;
 #endif
@@ -365,11 +468,15 @@ vec2 Shade(ivec2 at)
 
 void main()
 {
-  ivec2 at = ivec2(gl_FragCoord.xy);
+  ivec2 at = ivec2(gl_FragCoord.xy) - origin;
   float bright = 1.0;
 #if RELIEF
   vec2 shade = Shade(at);
   bright = shade.x * shade.y;
+#endif
+  vec4 background = texelFetch(behind, at, 0);
+#if CHANGED
+  background = texelFetch(depthsNow, at, 0).r == texelFetch(depthsWritten, at, 0).r ? background : texelFetch(now, at, 0);
 #endif
   vec4 sum = vec4(0.0);
   for (int y = 0; y < SAMPLES; ++y)
@@ -385,7 +492,13 @@ void main()
       sum += colour;
     }
   }
-  gl_FragData[0] = vec4(sum.a > 0.0 ? sum.rgb / sum.a : vec3(0.0), sum.a / float(SAMPLES * SAMPLES));
+#if STRAIGHT
+  sum.rgb *= sum.a > 0.0 ? float(SAMPLES * SAMPLES) / sum.a : 0.0;
+#endif
+  gl_FragData[0] = sum / float(SAMPLES * SAMPLES);
+#if DEPTHS
+  gl_FragDepth = texelFetch(depths, at * SAMPLES + SAMPLES / 2, 0).r;
+#endif
 }
 )";
 
@@ -414,9 +527,11 @@ SurfaceVertexShader(const SurfaceProgram & program)
 }
 
 std::string
-SurfaceFragmentShader(const SurfaceProgram & program)
+SurfaceFragmentShader(const SurfaceProgram & program, const RendererLights & lights)
 {
-  return FragmentShader(program.isPlane ? PlaneFragment : std::string(Light) + SurfaceFragment, DefinesOf(program));
+  const std::string light = program.light == SurfaceLight::Own ? LitByOwnLight : RendererLight(lights);
+  return FragmentShader(program.isPicture ? PictureFragment : "in vec3 position;\n" + light + SurfaceFragment,
+                        DefinesOf(program));
 }
 
 } // namespace rhombic

@@ -14,13 +14,30 @@ namespace rhombic
  *
  * Software renderers run these programs on the processor, where a sample's program decides how long a picture takes. */
 
+/** How surfaces are lit. */
+enum class SurfaceLight
+{
+  Own,     ///< a key, a fill, a sky's and a rim's light that go with the camera
+  Renderer ///< the lights of the renderer, as VTK lights surfaces
+};
+
+/** The lights of a renderer, as vtkOpenGLRenderer gives them to programs. */
+struct RendererLights
+{
+  std::string declarations; ///< of their uniforms
+  int complexity = 0;       ///< 0: none; 1: one headlight; 2: directions; 3: positions too
+  int count = 0;
+};
+
 /** How triangles are drawn. */
 struct SurfaceProgram
 {
   bool isSmooth = true;       ///< with the normals of points; faceted otherwise
   bool isTranslucent = false; ///< one layer of peeling
-  bool isPlane = false;       ///< a ScenePlane; the normals of points are positions in its picture
-  int cuts = 0;               ///< number of clip planes
+  bool isPicture = false;     ///< an unlit picture, with the points' positions in it
+  bool hasColours = false;    ///< of points
+  SurfaceLight light = SurfaceLight::Own;
+  int cuts = 0; ///< number of clip planes
 };
 
 std::string
@@ -29,7 +46,7 @@ SurfaceVertexShader(const SurfaceProgram & program);
 /** The colour of a sample. Opaque: its alpha is the surface's number. Translucent: straight alpha; only samples behind
  * the layer before. */
 std::string
-SurfaceFragmentShader(const SurfaceProgram & program);
+SurfaceFragmentShader(const SurfaceProgram & program, const RendererLights & lights);
 
 /** Names of the preprocessor in a program, and their values. */
 using ShaderDefines = std::vector<std::pair<std::string, int>>;
@@ -46,8 +63,13 @@ extern const char * const WholeTargetVertex;
 /** Two triangles over each open tile of OpenTiles, from six vertices without attributes. */
 extern const char * const OpenTilesVertex;
 
-/** A translucent layer without anything, that ends where opaque surfaces are. */
+/** A translucent layer without anything, that ends where opaque surfaces are: at depths of pixels or samples, which are
+ * SAMPLES for each depth along each side. */
 extern const char * const NoLayerFragment;
+
+/** Where the depths of pixels have changed since they were written, samples without a surface at the depth that is
+ * there now. */
+extern const char * const ChangedFragment;
 
 /** Adds a translucent layer under those before: multiplied by alpha, to be blended. */
 extern const char * const LayerFragment;
@@ -67,7 +89,8 @@ extern const char * const ReliefFragment;
 extern const char * const ShadeFragment;
 
 /** The mean of a pixel's samples, with translucent layers, if LAYERS, over opaque surfaces, with shades if RELIEF, over
- * the background. */
+ * what is behind, or, if CHANGED, over what is there now where depths have changed. If DEPTHS, the depth of the sample
+ * of ReliefFragment. Multiplied by alpha, as what is behind, unless STRAIGHT. */
 extern const char * const PixelFragment;
 
 } // namespace rhombic

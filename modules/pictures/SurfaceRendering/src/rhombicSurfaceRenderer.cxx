@@ -2,16 +2,18 @@
 
 #include "rhombicCameraFit.h"
 #include "rhombicFailure.h"
-#include "rhombicSceneBuffers.h"
+#include "rhombicSceneActors.h"
 #include "rhombicSceneCheck.h"
-#include "rhombicViewPasses.h"
 #include "vtkRhombicHeadlessRenderWindow.h"
 
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
 #include <mutex>
 #include <new>
 #include <sstream>
@@ -125,6 +127,9 @@ public:
   explicit Canvas(RenderBackend backend)
   {
     m_Window->SetBackend(backend);
+    m_Window->SetMultiSamples(0); // the passes have samples of their own
+    m_Window->SetAlphaBitPlanes(1);
+    m_Window->SwapBuffersOff();
     if (!m_Window->SupportsOpenGL())
     {
       throw Failure(FailureKind::Display, m_Window->GetOpenGLSupportMessage());
@@ -149,15 +154,19 @@ public:
     const CaughtMessages messages;
     const auto current = MakeCurrent(m_Window);
     messages.CheckErrors();
-    SceneBuffers buffers(scene, settings, m_Window);
-    ViewPasses passes(scene, settings, m_Window);
+    const auto renderer = MakeRenderer(scene, settings);
+    m_Window->AddRenderer(renderer);
     std::vector<RenderedView> rendered;
     for (const Camera & camera : cameras)
     {
+      m_Window->SetSize(camera.width, camera.height);
+      SetCamera(camera, renderer);
+      m_Window->Render();
       rendered.push_back(
-        { passes.Draw(buffers, camera), settings.perspective ? std::nullopt : std::optional(camera.ToProjection()) });
+        { ReadPicture(settings), settings.perspective ? std::nullopt : std::optional(camera.ToProjection()) });
       messages.CheckErrors();
     }
+    m_Window->RemoveRenderer(renderer);
     return rendered;
   }
 
@@ -171,6 +180,32 @@ public:
   int largestSide = 0; ///< samples
 
 private:
+  Picture
+  ReadPicture(const RenderSettings & settings)
+  {
+    const bool hasAlpha = settings.style == PictureStyle::Transparent;
+    const int width = m_Window->GetSize()[0];
+    const int height = m_Window->GetSize()[1];
+    const vtkNew<vtkUnsignedCharArray> pixels;
+    if (hasAlpha)
+    {
+      m_Window->GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, pixels);
+    }
+    else
+    {
+      m_Window->GetPixelData(0, 0, width - 1, height - 1, 0, pixels, 0);
+    }
+    Picture picture(width, height, hasAlpha ? 4 : 3);
+    const std::size_t rowBytes = picture.pixels.size() / static_cast<std::size_t>(height);
+    for (int row = 0; row < height; ++row) // VTK's begin at the bottom
+    {
+      std::copy_n(pixels->GetPointer(static_cast<vtkIdType>(rowBytes) * (height - 1 - row)),
+                  rowBytes,
+                  picture.pixels.begin() + static_cast<std::ptrdiff_t>(rowBytes) * row);
+    }
+    return picture;
+  }
+
   const vtkNew<vtkRhombicHeadlessRenderWindow> m_Window;
 };
 

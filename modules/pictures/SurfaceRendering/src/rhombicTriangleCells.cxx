@@ -8,28 +8,28 @@ namespace rhombic
 namespace
 {
 
-constexpr double TrianglesPerCell = 500.0; // about, of a surface that is not folded much
+constexpr double TrianglesPerCell = 500.0; // about, of an actor that is not folded much
 
-/** A grid of cubes over a surface. A triangle belongs to the cube with its first point. */
+/** A grid of cubes over an actor. A triangle belongs to the cube with its first point. */
 class CellGrid
 {
 public:
-  explicit CellGrid(const itk::TriangleSurface * surface)
-    : m_Surface(surface)
+  explicit CellGrid(const ActorTriangles & actor)
+    : m_Points(actor.points)
+    , m_Lowest(actor.box.lowest)
   {
-    const auto bounds = surface->GetBounds();
-    double longest = 0.0;
+    float longest = 0.0f;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      m_Lowest[axis] = static_cast<float>(bounds[2 * axis]);
-      longest = std::max(longest, bounds[2 * axis + 1] - bounds[2 * axis]);
+      longest = std::max(longest, actor.box.highest[axis] - m_Lowest[axis]);
     }
-    const double cells = std::sqrt(static_cast<double>(surface->GetNumberOfTriangles()) / TrianglesPerCell);
-    m_CellsPerMillimetre = static_cast<float>(longest > 0.0 ? std::clamp(cells, 1.0, 100.0) / longest : 0.0);
+    const double cells =
+      std::clamp(std::sqrt(static_cast<double>(actor.triangles.size) / TrianglesPerCell), 1.0, 100.0);
+    const bool hasExtent = longest > 0.0f && std::isfinite(longest);
+    m_CellsPerLength = hasExtent ? static_cast<float>(cells / static_cast<double>(longest)) : 0.0f;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      m_Size[axis] = 1 + static_cast<std::size_t>((static_cast<float>(bounds[2 * axis + 1]) - m_Lowest[axis]) *
-                                                  m_CellsPerMillimetre);
+      m_Size[axis] = 1 + static_cast<std::size_t>((actor.box.highest[axis] - m_Lowest[axis]) * m_CellsPerLength);
     }
   }
 
@@ -40,35 +40,34 @@ public:
   }
 
   std::size_t
-  CellOf(const itk::TriangleSurface::TriangleType & triangle) const
+  CellOf(const TriangleOfActor & triangle) const
   {
-    const auto & point = m_Surface->GetPoints()[triangle[0]];
+    const PointOfActor & point = m_Points[triangle[0]];
     std::size_t cell = 0;
     for (std::size_t axis = 3; axis-- > 0;)
     {
-      cell = cell * m_Size[axis] + static_cast<std::size_t>((point[axis] - m_Lowest[axis]) * m_CellsPerMillimetre);
+      cell = cell * m_Size[axis] + static_cast<std::size_t>((point[axis] - m_Lowest[axis]) * m_CellsPerLength);
     }
     return cell;
   }
 
 private:
-  const itk::TriangleSurface * m_Surface;
-  std::array<float, 3> m_Lowest{};
-  float m_CellsPerMillimetre = 0.0f;
+  ArrayView<PointOfActor> m_Points;
+  PointOfActor m_Lowest;
+  float m_CellsPerLength = 0.0f;
   std::array<std::size_t, 3> m_Size{};
 };
 
 TriangleCell
-MakeCell(const itk::TriangleSurface * surface, const TriangleCells & ordered, std::size_t first, std::size_t end)
+MakeCell(const ActorTriangles & actor, const TriangleCells & ordered, std::size_t first, std::size_t end)
 {
-  const auto & points = surface->GetPoints();
-  const auto & start = points[ordered.triangles[first][0]];
+  const PointOfActor & start = actor.points[ordered.triangles[first][0]];
   TriangleCell cell{ { start, start }, first, end - first };
   for (std::size_t n = first; n < end; ++n)
   {
     for (const auto index : ordered.triangles[n])
     {
-      cell.box.Add(points[index]);
+      cell.box.Add(actor.points[index]);
     }
   }
   return cell;
@@ -84,11 +83,15 @@ TileAt(double position, int count)
 } // namespace
 
 TriangleCells
-SortIntoCells(const itk::TriangleSurface * surface)
+SortIntoCells(const ActorTriangles & actor)
 {
-  const CellGrid grid(surface);
+  if (actor.triangles.size == 0)
+  {
+    return {};
+  }
+  const CellGrid grid(actor);
   std::vector<std::size_t> places(grid.NumberOfCells() + 1, 0);
-  for (const auto & triangle : surface->GetTriangles())
+  for (const auto & triangle : actor.triangles)
   {
     ++places[grid.CellOf(triangle) + 1];
   }
@@ -97,8 +100,8 @@ SortIntoCells(const itk::TriangleSurface * surface)
     places[n] += places[n - 1];
   }
   TriangleCells ordered;
-  ordered.triangles.resize(surface->GetNumberOfTriangles());
-  for (const auto & triangle : surface->GetTriangles())
+  ordered.triangles.resize(actor.triangles.size);
+  for (const auto & triangle : actor.triangles)
   {
     ordered.triangles[places[grid.CellOf(triangle)]++] = triangle;
   }
@@ -108,7 +111,7 @@ SortIntoCells(const itk::TriangleSurface * surface)
   {
     if (end > first)
     {
-      ordered.cells.push_back(MakeCell(surface, ordered, first, end));
+      ordered.cells.push_back(MakeCell(actor, ordered, first, end));
       first = end;
     }
   }
@@ -116,10 +119,10 @@ SortIntoCells(const itk::TriangleSurface * surface)
 }
 
 itk::PointBox
-FootprintOf(const itk::PointBox & box, const Camera & camera)
+FootprintOf(const itk::PointBox & box, const ActorMatrices & matrices)
 {
   constexpr float slack = 1e-4f;
-  const auto matrix = camera.Matrix();
+  const auto & matrix = matrices.clipFromCentred;
   itk::PointBox footprint{ { 2.0f, 2.0f, 1.0f }, { -1.0f, -1.0f, -slack } };
   for (unsigned int corner = 0; corner < 8; ++corner)
   {
@@ -129,7 +132,7 @@ FootprintOf(const itk::PointBox & box, const Camera & camera)
       const float coordinate = (corner >> axis & 1U) != 0 ? box.highest[axis] : box.lowest[axis];
       for (std::size_t row = 0; row < 4; ++row)
       {
-        clip[row] += matrix[4 * axis + row] * (coordinate - static_cast<float>(camera.centre[axis]));
+        clip[row] += matrix[4 * axis + row] * (coordinate - matrices.centre[axis]);
       }
     }
     if (clip[3] <= 0.0f) // beside or behind the viewer

@@ -2,8 +2,8 @@
 #define rhombicTriangleCells_h
 
 #include "itkPointBox.h"
-#include "itkTriangleSurface.h"
-#include "rhombicCameraFit.h"
+#include "rhombicActorTriangles.h"
+#include "rhombicCameraMatrices.h"
 
 #include <array>
 #include <vector>
@@ -19,22 +19,22 @@ struct TriangleCell
   std::size_t numberOfTriangles;
 };
 
-/** The triangles of a surface, ordered by cells of a grid. */
+/** The triangles of an actor, ordered by cells of a grid. */
 struct TriangleCells
 {
-  std::vector<itk::TriangleSurface::TriangleType> triangles;
+  std::vector<TriangleOfActor> triangles;
   std::vector<TriangleCell> cells; ///< none is empty
 };
 
-/** Orders triangles by cells of some hundreds, so that neighbours follow each other. Then parts of the surface can be
+/** Orders triangles by cells of some hundreds, so that neighbours follow each other. Then parts of the actor can be
  * drawn alone, and OpenGL uses points again that were just transformed. */
 TriangleCells
-SortIntoCells(const itk::TriangleSurface * surface);
+SortIntoCells(const ActorTriangles & actor);
 
 /** The part of a picture, 0 to 1 from the left and from the bottom, that a box may cover, and its depths as OpenGL
  * stores them. */
 itk::PointBox
-FootprintOf(const itk::PointBox & box, const Camera & camera);
+FootprintOf(const itk::PointBox & box, const ActorMatrices & matrices);
 
 /** \class OpenTiles
  * \brief The depth in each square part of a picture behind which something can still be seen, so that hidden

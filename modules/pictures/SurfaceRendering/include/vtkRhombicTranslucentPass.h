@@ -1,0 +1,67 @@
+#ifndef vtkRhombicTranslucentPass_h
+#define vtkRhombicTranslucentPass_h
+
+#include <vtkRenderPass.h>
+
+class vtkRhombicOpaquePass;
+
+/**
+ * @class vtkRhombicTranslucentPass
+ * @brief Draws translucent surfaces, sorted by depth in each sample, up to 16 behind each other.
+ *
+ * This pass draws translucent actors of the kinds that vtkRhombicOpaquePass draws, and unlit translucent actors with a
+ * texture of bytes, as pictures that stand in the scene. The surfaces are hidden by everything opaque that the
+ * framebuffer holds in front of them, whoever has drawn it. All other translucent props are drawn by OtherPass, after
+ * the surfaces, so they lie over them. A volume inside a translucent surface can't be ordered: draw it with
+ * vtkVolumetricPass afterwards, and it lies over the surface.
+ *
+ * With lights of the renderer, surfaces are blended as VTK blends them. With the lights that go with the camera, only
+ * the near walls of surfaces are drawn, and they are more opaque where they are seen from the side.
+ *
+ * @sa vtkRhombicOpaquePass vtkRhombicSurfacePass
+ */
+class vtkRhombicTranslucentPass : public vtkRenderPass
+{
+public:
+  static vtkRhombicTranslucentPass *
+  New();
+  vtkTypeMacro(vtkRhombicTranslucentPass, vtkRenderPass);
+  void
+  PrintSelf(ostream & os, vtkIndent indent) override;
+
+  void
+  Render(const vtkRenderState * state) override;
+
+  void
+  ReleaseGraphicsResources(vtkWindow * window) override;
+
+  ///@{
+  /** The pass that gives lights and samples. If it has drawn opaque surfaces before, in the same picture, their edges
+   * behind translucent surfaces are as smooth as without these. By default a pass with default settings that
+   * draws nothing. Must not be null. */
+  void
+  SetOpaquePass(vtkRhombicOpaquePass * pass);
+  vtkGetObjectMacro(OpaquePass, vtkRhombicOpaquePass);
+  ///@}
+
+  ///@{
+  /** Draws the translucent props that this pass does not draw; a vtkTranslucentPass by default. May be null. */
+  void
+  SetOtherPass(vtkRenderPass * pass);
+  vtkGetObjectMacro(OtherPass, vtkRenderPass);
+  ///@}
+
+protected:
+  vtkRhombicTranslucentPass();
+  ~vtkRhombicTranslucentPass() override;
+
+  vtkRhombicOpaquePass * OpaquePass = nullptr;
+  vtkRenderPass * OtherPass = nullptr;
+
+private:
+  vtkRhombicTranslucentPass(const vtkRhombicTranslucentPass &) = delete;
+  void
+  operator=(const vtkRhombicTranslucentPass &) = delete;
+};
+
+#endif

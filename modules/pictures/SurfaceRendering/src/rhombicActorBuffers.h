@@ -1,0 +1,137 @@
+#ifndef rhombicActorBuffers_h
+#define rhombicActorBuffers_h
+
+#include "rhombicCameraMatrices.h"
+#include "rhombicShaders.h"
+#include "rhombicTriangleCells.h"
+
+#include <vtkOpenGLBufferObject.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLVertexArrayObject.h>
+#include <vtkShaderProgram.h>
+#include <vtkSmartPointer.h>
+#include <vtkTextureObject.h>
+
+#include <map>
+#include <memory>
+#include <tuple>
+#include <vector>
+
+class vtkOpenGLRenderer;
+
+namespace rhombic
+{
+
+/** Strengths of the surfaces' own light. */
+struct OwnLight
+{
+  std::array<float, 4> strengths{};   ///< of key, fill, sky and rim
+  std::array<float, 2> matteShine{};  ///< of wide and narrow highlights, of an actor without specular light
+  std::array<float, 2> glossyShine{}; ///< of an actor whose specular strength is 1
+};
+
+/** \class ActorLook
+ * \brief How actors are lit in one picture. */
+struct ActorLook
+{
+  SurfaceLight light = SurfaceLight::Own;
+  OwnLight own;
+  RendererLights lights;
+  vtkOpenGLRenderer * renderer = nullptr;
+};
+
+/** \class ActorBuffers
+ * \brief The triangles of actors in the memory of OpenGL. They are uploaded anew when the actor's polydata, its colours
+ * or its interpolation have changed. */
+class ActorBuffers
+{
+public:
+  /** The actors of one picture, in the order of the renderer: of several in one place, the first is seen. Uploads what
+   * has changed, and forgets actors that the renderer has no more. */
+  void
+  SetActors(const std::vector<vtkActor *> & actors, const CameraMatrices & camera, const ActorLook & look);
+
+  /** The number of actors that are translucent, or of those that are not. */
+  int
+  NumberOf(bool translucent) const;
+
+  /** Draws the opaque actors. */
+  void
+  DrawOpaque();
+
+  /** Draws the parts of translucent actors that are behind a depth.
+   * \param open where a layer can be seen */
+  void
+  DrawTranslucent(vtkTextureObject * depthBefore, const OpenTiles & open);
+
+  /** The mean length of the actors' edges, 0 without triangles, and the mean side of the box around the actors, in the
+   * unit of the scene. Pictures do not count. */
+  double
+  MeanEdge() const;
+  double
+  MeanSide() const;
+
+  /** Frees everything; the context is current. */
+  void
+  Release();
+
+private:
+  /** The triangles of one actor. */
+  struct Buffers
+  {
+    vtkMTimeType time = 0;                              ///< when what was uploaded had changed
+    vtkSmartPointer<vtkOpenGLBufferObject> points;      ///< and next
+    vtkSmartPointer<vtkOpenGLBufferObject> normals;     ///< none when faceted
+    vtkSmartPointer<vtkOpenGLBufferObject> colours;     ///< none without scalars
+    vtkSmartPointer<vtkOpenGLBufferObject> places;      ///< none without a texture
+    vtkSmartPointer<vtkOpenGLBufferObject> indices;     ///< of the triangles' points
+    vtkSmartPointer<vtkOpenGLVertexArrayObject> arrays; ///< for the program
+    vtkShaderProgram * program = nullptr;               ///< of the arrays
+    vtkSmartPointer<vtkTextureObject> picture;
+    std::vector<TriangleCell> cells;
+    bool areClosed = false;
+    double meanEdge = 0.0; ///< length
+    double triangles = 0.0;
+    bool isUsed = false; ///< in this picture
+  };
+
+  /** An actor in one picture. */
+  struct Drawing
+  {
+    vtkActor * actor;
+    Buffers * buffers;
+    ActorMatrices matrices;
+    SurfaceProgram program;
+    std::size_t number;
+    bool hidesBacks; ///< backs of triangles can't be seen or are not shown
+    bool hidesFronts;
+  };
+
+  Buffers &
+  Upload(vtkActor * actor);
+  Drawing
+  Describe(vtkActor * actor, Buffers & buffers, std::size_t number, const CameraMatrices & camera) const;
+  void
+  ForgetUnusedActors();
+  vtkShaderProgram *
+  ReadyProgram(const SurfaceProgram & program);
+  static void
+  BindArrays(const Drawing & drawing, vtkShaderProgram * program);
+  void
+  Draw(const Drawing & drawing, vtkTextureObject * depthBefore, const OpenTiles & open);
+  void
+  SetUniforms(const Drawing & drawing, vtkTextureObject * depthBefore, vtkShaderProgram * program) const;
+  static void
+  DrawCells(const Drawing & drawing, const OpenTiles & open);
+
+  std::map<vtkActor *, Buffers> m_Buffers;
+  std::vector<Drawing> m_Drawings;
+  std::map<std::tuple<bool, bool, bool, bool, SurfaceLight, int>, vtkSmartPointer<vtkShaderProgram>> m_Programs;
+  std::string m_LightsOfPrograms;
+  ActorLook m_Look;
+  vtkOpenGLRenderWindow * m_Window = nullptr;
+};
+
+} // namespace rhombic
+
+#endif
